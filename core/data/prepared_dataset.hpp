@@ -1,0 +1,52 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "data/samples.hpp"
+#include "vessel/motion.hpp"
+#include "vessel/propellers.hpp"
+
+namespace telltale {
+
+/// One instant of the common sampling grid.
+struct PreparedRow {
+  double time_s = 0.0;
+  Eta eta;                 ///< body origin, smoothed; psi unwrapped along a stretch
+  Nu nu;                   ///< body velocity from eta
+  PropellerCommand delta;  ///< command effective over [t, t + h), filtered as the preset says
+  PropellerRegion region = PropellerRegion::kFF;  ///< of the commands as they were sent
+};
+
+/// Rows [begin, end) of a dataset.
+struct RowRange {
+  std::size_t begin = 0;
+  std::size_t end = 0;
+  std::size_t size() const { return end - begin; }
+};
+
+/// Where {n} is anchored.
+struct FrameOrigin {
+  double latitude_deg = 0.0;
+  double longitude_deg = 0.0;
+};
+
+/// A recording turned into what regressions need: synchronised rows at one sampling period.
+///
+/// stretches: gap-free runs of rows, ascending and disjoint; consecutive rows of a stretch are
+/// exactly sampling_period_s apart. Free runs live inside a stretch.
+/// segments: stretches cut further at each change of propeller region and at the longest segment the
+/// options allow; they are the independent units of the bootstrap.
+struct PreparedDataset {
+  double sampling_period_s = 0.0;
+  FrameOrigin origin;
+  std::vector<PreparedRow> rows;
+  std::vector<RowRange> stretches;
+  std::vector<RowRange> segments;
+  RejectCounts rejected;
+
+  double StartTime() const { return rows.empty() ? 0.0 : rows.front().time_s; }
+  double EndTime() const { return rows.empty() ? 0.0 : rows.back().time_s; }
+};
+
+}  // namespace telltale

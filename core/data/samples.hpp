@@ -1,0 +1,82 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <string_view>
+#include <vector>
+
+namespace telltale {
+
+/// One GNSS position of the antenna. Time in seconds of the boat's clock (any epoch).
+struct GnssFix {
+  double time_s = 0.0;
+  double latitude_deg = 0.0;   ///< [-90, 90]
+  double longitude_deg = 0.0;  ///< [-180, 180]
+};
+
+/// One true heading, clockwise from north, any wrap.
+struct HeadingSample {
+  double time_s = 0.0;
+  double heading_deg = 0.0;  ///< [-360, 720]
+};
+
+/// The pulse widths sent to both thrusters (port = left).
+struct ThrusterSample {
+  double time_s = 0.0;
+  double port_us = 0.0;       ///< [500, 2500]
+  double starboard_us = 0.0;  ///< [500, 2500]
+};
+
+enum class Channel { kGnss, kHeading, kThrusters };
+
+inline constexpr std::array kChannels = {Channel::kGnss, Channel::kHeading, Channel::kThrusters};
+
+/// Why a sample was set aside.
+enum class RejectReason {
+  kNotFinite,    ///< NaN or infinity in a field
+  kOutOfRange,   ///< a finite value outside the field's range
+  kDuplicate,    ///< same time as a sample already held
+  kOutOfOrder,   ///< older than the newest by more than the tolerance
+  kClockJump,    ///< time leapt ahead or back by more than the jump limit
+  kStuckSensor,  ///< a reading repeated bit for bit longer than a live sensor would
+};
+
+inline constexpr std::array kRejectReasons = {
+    RejectReason::kNotFinite,  RejectReason::kOutOfRange, RejectReason::kDuplicate,
+    RejectReason::kOutOfOrder, RejectReason::kClockJump,  RejectReason::kStuckSensor};
+
+std::string_view Name(Channel channel);
+std::string_view Name(RejectReason reason);
+
+/// Rejected samples by channel and reason.
+class RejectCounts {
+ public:
+  void Count(Channel channel, RejectReason reason) { ++At(channel, reason); }
+  void Count(Channel channel, RejectReason reason, std::uint64_t n) { At(channel, reason) += n; }
+  std::uint64_t Of(Channel channel, RejectReason reason) const {
+    return counts_[Slot(channel, reason)];
+  }
+  std::uint64_t Of(RejectReason reason) const;
+  std::uint64_t Total() const;
+  void Add(const RejectCounts& other);
+
+ private:
+  static std::size_t Slot(Channel channel, RejectReason reason) {
+    return static_cast<std::size_t>(channel) * kRejectReasons.size() +
+           static_cast<std::size_t>(reason);
+  }
+  std::uint64_t& At(Channel channel, RejectReason reason) { return counts_[Slot(channel, reason)]; }
+
+  std::array<std::uint64_t, kChannels.size() * kRejectReasons.size()> counts_{};
+};
+
+/// An immutable copy of what a window or a log holds, each channel in order of time, no duplicates.
+struct Recording {
+  std::vector<GnssFix> gnss;
+  std::vector<HeadingSample> heading;
+  std::vector<ThrusterSample> thrusters;
+  RejectCounts rejected;
+};
+
+}  // namespace telltale

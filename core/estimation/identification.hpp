@@ -1,0 +1,90 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "data/samples.hpp"
+#include "result.hpp"
+#include "vessel/structure.hpp"
+#include "vessel/vessel_model.hpp"
+
+namespace telltale {
+
+enum class Estimator { kUnknown, kOneStep, kWeakIv, kOutputError };
+
+std::string_view Name(Estimator estimator);
+
+/// kEstimated: estimate and bounds come from the data.
+/// kNotExcited: the data never moved this regressor; estimate 0, standard error and bounds infinite.
+/// kCollinear: the data move it only together with others; its bounds are honest but it should be
+/// read with its partners, which a refusal names.
+enum class CoefficientStatus { kUnknown, kEstimated, kNotExcited, kCollinear };
+
+std::string_view Name(CoefficientStatus status);
+
+struct Interval {
+  double level = 0.0;
+  double lower = 0.0;
+  double upper = 0.0;
+};
+
+/// One coefficient with its bounds, continuous-time SI.
+struct Coefficient {
+  Equation equation = Equation::kUnknown;
+  std::string regressor;
+  std::string symbol;
+  double estimate = 0.0;
+  double standard_error = 0.0;
+  Interval interval;
+  std::string unit;
+  CoefficientStatus status = CoefficientStatus::kUnknown;
+};
+
+/// What the identification rests on.
+struct WindowSummary {
+  double start_s = 0.0;
+  double end_s = 0.0;
+  std::size_t samples = 0;   ///< prepared rows
+  std::size_t segments = 0;
+  RejectCounts rejected;
+};
+
+/// How it was made, enough to make it again.
+struct Provenance {
+  std::string preset;               ///< of the data preparation
+  std::string bounds_basis;         ///< what standard errors and intervals rest on, in words
+  std::size_t bootstrap_replicates = 0;
+  std::size_t bootstrap_failures = 0;  ///< replicates that could not be solved
+  std::uint64_t seed = 0;
+  std::string software_version;
+};
+
+/// A boat's model with bounds: the outcome that is published.
+/// Shapes: coefficients in the order surge, sway, yaw and, within each, of Regressors(); an equation
+/// that was refused has no coefficients and a refusal. covariance is square over all coefficients;
+/// a NOT_EXCITED coefficient has infinite variance and zero covariances.
+struct Identification {
+  std::string vehicle_id;
+  Structure structure = Structure::kUnknown;
+  Parameterization parameterization = Parameterization::kUnknown;
+  Estimator estimator = Estimator::kUnknown;
+  double sampling_period_s = 0.0;
+  std::vector<Coefficient> coefficients;
+  Eigen::MatrixXd covariance;
+  std::optional<Coefficient> thruster_time_constant;
+  WindowSummary window;
+  std::vector<Refusal> refusals;
+  Provenance provenance;
+
+  bool Has(Equation equation) const;
+};
+
+/// The numbers without the bounds, ready to simulate.
+/// Refuses when: an equation was refused, since a free run needs all three.
+Result<VesselModel> ModelOf(const Identification& identification);
+
+}  // namespace telltale

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string_view>
+
+#include "data/preparation.hpp"
+#include "data/samples.hpp"
+#include "estimation/identification.hpp"
+#include "estimation/regression_problem.hpp"
+#include "result.hpp"
+#include "vessel/vehicle.hpp"
+
+namespace telltale {
+
+/// Called as an identification advances: what is being done, and how far it is in [0, 1].
+using Progress = std::function<void(std::string_view stage, double fraction)>;
+
+struct IdentifyOptions {
+  PrepareOptions prepare;
+  RegressionOptions regression;
+  Estimator estimator = Estimator::kOneStep;
+  double interval_level = 0.95;                ///< (0.5, 0.999]
+  std::size_t bootstrap_replicates = 1000;     ///< 0 (off) or [100, 100000]
+  std::uint64_t seed = 1;
+  std::size_t threads = 1;                     ///< [1, 256]; never changes the result
+
+  /// The first field out of its range, as a refusal naming field, value and range.
+  std::optional<Refusal> Validate() const;
+};
+
+/// Recording -> Identification: prepare, build the regressions, assess excitation, estimate, quantify.
+/// Refuses when: the recording cannot be prepared, or not one equation can be answered. An equation
+/// that alone cannot be answered is left out and its refusal listed in the result.
+Result<Identification> Identify(const Recording& recording, const Vehicle& vehicle,
+                                const IdentifyOptions& options, const Progress& progress = {});
+
+}  // namespace telltale

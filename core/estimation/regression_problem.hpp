@@ -1,0 +1,47 @@
+#pragma once
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "data/prepared_dataset.hpp"
+#include "vessel/structure.hpp"
+
+namespace telltale {
+
+/// The regression of one equation: y = Phi theta + noise.
+/// Shapes: phi n x p, y n; clusters are ranges of rows of phi, one per segment that gave any.
+/// Units: y in m/s^2 or rad/s^2, so theta is continuous-time SI.
+struct EquationProblem {
+  Equation equation = Equation::kUnknown;
+  std::span<const Regressor> regressors;
+  Eigen::MatrixXd phi;
+  Eigen::VectorXd y;
+  std::vector<RowRange> clusters;
+};
+
+/// The three regressions of the static structure, surge, sway, yaw.
+struct RegressionProblem {
+  Structure structure = Structure::kUnknown;
+  Parameterization parameterization = Parameterization::kUnknown;
+  double sampling_period_s = 0.0;
+  std::array<EquationProblem, 3> equations;
+};
+
+/// Which model is fitted to which rows.
+/// Paper parameterization: surge on FF alone, sway and yaw on FF, FR and RF, as in the paper. Propeller
+/// parameterization: every equation on FF, FR and RF, which it describes consistently.
+struct RegressionOptions {
+  Structure structure = Structure::kStaticQuadratic;
+  Parameterization parameterization = Parameterization::kPropeller;
+  bool include_reverse = false;  ///< take RR rows too
+};
+
+/// PreparedDataset -> RegressionProblem: y(k) = (nu(k+1) - nu(k)) / h on Phi(nu(k), delta(k)),
+/// pairs never straddling a gap. docs/model.md (13).
+/// Source: the paper, Propositions 1 and 2.
+RegressionProblem BuildRegression(const PreparedDataset& dataset, const RegressionOptions& options);
+
+}  // namespace telltale

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <cstdint>
+#include <limits>
+
+namespace telltale {
+
+/// Model: SplitMix64, a counter hashed to 64 bits; cheap to seed, so every replicate, twin or sensor
+/// owns an engine of its own and results do not depend on how work is spread over threads.
+/// Source: Steele, Lea, Flood, "Fast splittable pseudorandom number generators", OOPSLA 2014.
+class RandomEngine {
+ public:
+  using result_type = std::uint64_t;
+
+  explicit RandomEngine(std::uint64_t seed) : state_(seed) {}
+
+  /// The engine of item `index` in a family: independent of how many items come before it.
+  static RandomEngine Stream(std::uint64_t seed, std::uint64_t index) {
+    return RandomEngine(RandomEngine(seed ^ Mix(index + 1))());
+  }
+
+  static constexpr result_type min() { return 0; }
+  static constexpr result_type max() { return std::numeric_limits<result_type>::max(); }
+
+  result_type operator()() {
+    state_ += 0x9e3779b97f4a7c15ULL;
+    return Mix(state_);
+  }
+
+ private:
+  static constexpr std::uint64_t Mix(std::uint64_t z) {
+    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ULL;
+    z = (z ^ (z >> 27)) * 0x94d049bb133111ebULL;
+    return z ^ (z >> 31);
+  }
+
+  std::uint64_t state_;
+};
+
+}  // namespace telltale

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "data/samples.hpp"
+#include "vessel/motion.hpp"
+#include "vessel/propellers.hpp"
+#include "vessel/vessel_model.hpp"
+
+namespace telltale {
+
+/// State of a simulated boat.
+struct VesselState {
+  Eta eta;
+  Nu nu;
+};
+
+/// Advances a boat by `step_s` under a held command. kForwardEuler models take exactly
+/// nu + step nu_dot (step must then be their sampling period); kContinuous ones a Runge-Kutta step
+/// of order four. The pose follows the mean of the two velocities and headings (trapezoid).
+VesselState Advance(const VesselModel& model, const VesselState& state,
+                    const PropellerCommand& delta, double step_s);
+
+/// A held command that starts at time_s.
+struct TimedCommand {
+  double time_s = 0.0;
+  PropellerCommand delta;
+};
+
+struct TimedState {
+  double time_s = 0.0;
+  VesselState state;
+  PropellerCommand delta;
+};
+
+/// States at every multiple of `step_s` from the first command to `end_s`, commands held in between.
+std::vector<TimedState> Simulate(const VesselModel& model, const VesselState& initial,
+                                 const std::vector<TimedCommand>& commands, double end_s,
+                                 double step_s);
+
+}  // namespace telltale

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "simulation/simulator.hpp"
+#include "vessel/vehicle.hpp"
+#include "vessel/vessel_model.hpp"
+
+namespace telltale {
+
+/// The paper's table of the static second-order model, as printed: discrete-time, coefficient times
+/// h = 0.2 s. Seven numbers for surge, thirteen each for sway and yaw, in the paper's order.
+struct PaperStaticTable {
+  std::array<double, 7> surge;
+  std::array<double, 13> sway;
+  std::array<double, 13> yaw;
+};
+extern const PaperStaticTable kYellowfishStaticTable;
+inline constexpr double kYellowfishSamplingPeriodS = 0.2;
+
+/// The paper's own discrete model, in the paper's parameterization.
+VesselModel YellowfishPaperModel();
+
+/// The twin: the paper's table read as a continuous boat whose propellers are consistent in all four
+/// regions (parameterization kPropeller). The table leaves open what a propeller gives in reverse in
+/// surge and which of two meanings mean*diff has; docs/model.md says how the twin fills that in.
+VesselModel YellowfishTwin();
+
+/// Geometry and channels of the paper's boat.
+Vehicle YellowfishVehicle();
+
+}  // namespace telltale

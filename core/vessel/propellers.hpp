@@ -1,0 +1,43 @@
+#pragma once
+
+#include <array>
+#include <string_view>
+
+namespace telltale {
+
+/// How one thruster's pulse width maps to the normalised command delta.
+/// Units: microseconds. Assumes: full_forward and full_reverse lie on opposite sides of neutral; a
+/// reversed channel simply has full_forward_us below neutral_us.
+struct PwmChannel {
+  double neutral_us = 1500.0;
+  double full_forward_us = 1900.0;
+  double full_reverse_us = 1100.0;
+
+  /// delta in [-1, 1], positive forward, clipped at full command; piecewise linear about neutral.
+  double Normalise(double pulse_us) const;
+
+  /// The pulse width that Normalise maps to `delta`, for delta in [-1, 1].
+  double PulseWidth(double delta) const;
+};
+
+/// Normalised commands of the two propellers, each in [-1, 1], positive forward.
+struct PropellerCommand {
+  double port = 0.0;
+  double starboard = 0.0;
+
+  double Mean() const { return 0.5 * (port + starboard); }
+  double Difference() const { return port - starboard; }
+};
+
+/// Which way the propellers turn, port first: F forward (delta >= 0), R reverse (delta < 0).
+enum class PropellerRegion { kFF, kFR, kRF, kRR };
+
+inline constexpr std::array kPropellerRegions = {PropellerRegion::kFF, PropellerRegion::kFR,
+                                                 PropellerRegion::kRF, PropellerRegion::kRR};
+
+PropellerRegion RegionOf(const PropellerCommand& command);
+
+/// "FF", "FR", "RF" or "RR".
+std::string_view Name(PropellerRegion region);
+
+}  // namespace telltale

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <array>
+#include <span>
+#include <string_view>
+
+#include "vessel/motion.hpp"
+#include "vessel/propellers.hpp"
+
+namespace telltale {
+
+enum class Equation { kUnknown, kSurge, kSway, kYaw };
+
+inline constexpr std::array kEquations = {Equation::kSurge, Equation::kSway, Equation::kYaw};
+
+/// Position of an equation in arrays ordered surge, sway, yaw.
+std::size_t IndexOf(Equation equation);
+
+/// How thrust follows the command: at once, or through a first-order lag.
+enum class Structure { kUnknown, kStaticQuadratic, kFirstOrderDynamic };
+
+/// How the propeller part is written. kPaper follows the paper's mean and difference regressors;
+/// kPropeller sums over the two propellers and is consistent in all four regions.
+enum class Parameterization { kUnknown, kPropeller, kPaper };
+
+/// One column of a regression: its name in published files, the coefficient's symbol, its SI unit.
+struct Regressor {
+  std::string_view name;
+  std::string_view symbol;
+  std::string_view unit;
+  bool is_propeller = false;
+};
+
+/// Model: nu_dot_j = Phi_j(nu, delta) theta_j for j in {surge, sway, yaw}, linear in theta_j
+/// (docs/model.md (10)..(12)). This is the list of the columns of Phi_j, body regressors first.
+std::span<const Regressor> Regressors(Equation equation, Parameterization parameterization);
+
+/// Writes the row Phi_j(nu, delta), one value per entry of Regressors(). `row` must be that long.
+void FillRow(Equation equation, Parameterization parameterization, const Nu& nu,
+             const PropellerCommand& delta, std::span<double> row);
+
+/// The propeller part of the row alone; the body part is left as it is.
+void FillPropellerPart(Equation equation, Parameterization parameterization,
+                       const PropellerCommand& delta, std::span<double> row);
+
+std::string_view Name(Equation equation);
+std::string_view Name(Structure structure);
+std::string_view Name(Parameterization parameterization);
+
+}  // namespace telltale

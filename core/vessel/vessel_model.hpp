@@ -1,0 +1,34 @@
+#pragma once
+
+#include <array>
+#include <optional>
+
+#include <Eigen/Core>
+
+#include "vessel/motion.hpp"
+#include "vessel/propellers.hpp"
+#include "vessel/structure.hpp"
+
+namespace telltale {
+
+/// How a model's coefficients turn into the next state.
+/// kForwardEuler: nu(k+1) = nu(k) + h nu_dot(k), the paper's discrete model, which is what one-step
+/// least squares fits; kContinuous: nu_dot integrated accurately.
+enum class Discretisation { kUnknown, kForwardEuler, kContinuous };
+
+/// A boat's model with numbers in it: what simulation and validation need, without any bound.
+/// Model: nu_dot_j = Phi_j(nu, delta) theta_j, docs/model.md (10)..(12).
+/// Shapes and units: theta[j] has one SI coefficient per entry of Regressors(j).
+struct VesselModel {
+  Structure structure = Structure::kUnknown;
+  Parameterization parameterization = Parameterization::kUnknown;
+  Discretisation discretisation = Discretisation::kUnknown;
+  double sampling_period_s = 0.0;  ///< h of the discrete model
+  std::array<Eigen::VectorXd, 3> theta;  ///< surge, sway, yaw
+  std::optional<double> thruster_time_constant_s;  ///< first-order dynamic structure only
+
+  /// nu_dot at a state, the propellers delivering the static thrust of `delta`.
+  NuDot Acceleration(const Nu& nu, const PropellerCommand& delta) const;
+};
+
+}  // namespace telltale

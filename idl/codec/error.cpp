@@ -1,0 +1,9 @@
+#include "codec/error.hpp"
+
+namespace telltale {
+
+std::string CodecError::Message() const {
+  return field + " = " + (value.empty() ? "(unset)" : value) + ": " + allowed;
+}
+
+}  // namespace telltale

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <string>
+
+#include <tl/expected.hpp>
+
+namespace telltale {
+
+/// A wire, file or configuration error: which field, the value it had, and what is allowed.
+struct CodecError {
+  std::string field;
+  std::string value;
+  std::string allowed;
+
+  /// "field = value: allowed ...", for a person.
+  std::string Message() const;
+};
+
+template <class T>
+using Decoded = tl::expected<T, CodecError>;
+
+}  // namespace telltale
