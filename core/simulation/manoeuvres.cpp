@@ -111,7 +111,7 @@ std::vector<TimedCommand> SampleMission(std::uint64_t seed) {
       {
           SurgeStaircase(0.2, 1.0, 5, 6.0),         //  54 s
           Zigzag(0.5, 0.4, 3, 5.0),                 //  30 s
-          SurgeSteps(0.1, 1.0, 5, 3.0),             //  30 s
+          SurgeSteps(0.4, 1.0, 5, 3.0),             //  30 s
           Circle(0.4, 0.4, 12.0),                   //  12 s
           Circle(0.4, -0.4, 12.0),                  //  12 s
           random(kAhead, 1.0, 3.0, 80.0, 0),        //  80 s
@@ -123,9 +123,11 @@ std::vector<TimedCommand> SampleMission(std::uint64_t seed) {
           Circle(0.7, 0.5, 12.0),                   //  12 s
           Circle(0.7, -0.5, 12.0),                  //  12 s
           Spins(0.5, 8.0),                          //  16 s
-          random(kAhead, 3.0, 8.0, 80.0, 3),        //  80 s
+          SurgeSteps(0.0, 0.5, 7, 2.0),             //  28 s
+          SurgeSteps(0.4, 0.8, 6, 2.0),             //  24 s
+          random(kAhead, 3.0, 8.0, 28.0, 3),        //  28 s
           random(kAstern, 1.0, 3.0, 12.0, 4),       //  12 s
-          SurgeSteps(0.0, 0.9, 4, 4.0),             //  32 s
+          SurgeSteps(0.0, 1.0, 8, 2.0),             //  32 s
           random(kToStarboard, 2.0, 5.0, 20.0, 5),  //  20 s
           random(kToPort, 2.0, 5.0, 20.0, 6),       //  20 s
           random(kAhead, 1.0, 2.0, 40.0, 7),        //  40 s
