@@ -335,6 +335,15 @@ void Append(PreparedDataset& dataset, const std::vector<PreparedRow>& rows,
 
 }  // namespace
 
+std::string_view Name(Preset preset) {
+  switch (preset) {
+    case Preset::kUnknown: return "UNKNOWN";
+    case Preset::kPaper: return "PAPER";
+    case Preset::kRobust: return "ROBUST";
+  }
+  return "";
+}
+
 PrepareOptions PrepareOptions::Paper() {
   PrepareOptions options;
   options.preset = Preset::kPaper;
