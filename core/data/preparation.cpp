@@ -347,6 +347,7 @@ std::string_view Name(Preset preset) {
 PrepareOptions PrepareOptions::Paper() {
   PrepareOptions options;
   options.preset = Preset::kPaper;
+  options.smoothing_half_width = 5;  // the paper does not say
   return options;
 }
 
