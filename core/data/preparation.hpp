@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <string_view>
 
 #include "data/prepared_dataset.hpp"
 #include "data/samples.hpp"
@@ -15,6 +16,9 @@ namespace telltale {
 /// kRobust: positions and headings interpolated between their neighbours, PWM held and averaged over
 /// the interval it acts in, then one and the same Savitzky-Golay kernel on everything.
 enum class Preset { kUnknown, kPaper, kRobust };
+
+/// "PAPER" or "ROBUST".
+std::string_view Name(Preset preset);
 
 struct PrepareOptions {
   Preset preset = Preset::kRobust;

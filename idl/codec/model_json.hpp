@@ -4,7 +4,7 @@
 #include <string_view>
 
 #include "codec/error.hpp"
-#include "estimation/identification.hpp"
+#include "identification/identification.hpp"
 #include "proto/model.pb.h"
 
 namespace telltale {

@@ -2,7 +2,7 @@
 
 #include <limits>
 
-#include "estimation/identification.hpp"
+#include "identification/identification.hpp"
 
 namespace telltale {
 
