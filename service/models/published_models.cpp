@@ -44,13 +44,21 @@ std::optional<StoredModel> PublishedModels::Latest(std::string_view vehicle_id) 
   return found->second;
 }
 
-void PublishedModels::Announce(const PublishedModel& model) {
-  // A full history is no loss: the model is on disk, and the writer keeps it for late joiners.
-  if (!writer_.Write(Encode(model))) {
-    spdlog::warn("a stalled client held up revision {} of {}", model.revision,
-                 model.identification.vehicle_id);
+void PublishedModels::PublishHeldUp() {
+  const std::lock_guard lock(mutex_);
+  for (const std::string& vehicle_id : std::exchange(held_up_, {})) {
+    Announce(latest_.find(vehicle_id)->second.model);
   }
-  spdlog::info("published revision {} of {}", model.revision, model.identification.vehicle_id);
+}
+
+void PublishedModels::Announce(const PublishedModel& model) {
+  const std::string& vehicle_id = model.identification.vehicle_id;
+  if (writer_.Write(Encode(model))) {
+    spdlog::info("published revision {} of {}", model.revision, vehicle_id);
+  } else {
+    held_up_.insert(vehicle_id);
+    spdlog::warn("a stalled client held up revision {} of {}", model.revision, vehicle_id);
+  }
 }
 
 }  // namespace telltale

@@ -3,6 +3,7 @@
 #include <map>
 #include <mutex>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 
@@ -26,16 +27,20 @@ class PublishedModels {
 
   std::optional<StoredModel> Latest(std::string_view vehicle_id) const;
 
+  /// Tries again to publish what a stalled client held up.
+  void PublishHeldUp();
+
   /// Keeps the exclusive ownership of the fleet's models; call from the loop whose hanging must end it.
   void AssertLiveliness() { writer_.AssertLiveliness(); }
 
  private:
-  void Announce(const PublishedModel& model);
+  void Announce(const PublishedModel& model);  ///< the caller holds mutex_, once others can have it
 
   mutable std::mutex mutex_;
   ModelStore store_;
   Writer<telltale_wire_Model> writer_;
   std::map<std::string, StoredModel, std::less<>> latest_;
+  std::set<std::string> held_up_;
 };
 
 }  // namespace telltale
