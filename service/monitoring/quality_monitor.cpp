@@ -1,6 +1,7 @@
 #include "monitoring/quality_monitor.hpp"
 
 #include <exception>
+#include <utility>
 
 #include <spdlog/spdlog.h>
 
@@ -98,8 +99,12 @@ Quality QualityMonitor::Assess(VehicleWindow& window, Memory& memory, double ela
 
 void QualityMonitor::Evaluate(VehicleWindow& window, const WindowState& state,
                               const StoredModel& model, Memory& memory) {
-  const bool same_model = memory.evaluated_revision == model.model.revision;
-  if (!model.reference_error || (same_model && state.end_s < memory.evaluated_to_s + kNewDataS)) {
+  const std::uint64_t revision = model.model.revision;
+  if (!model.reference_error) return;
+  if (std::exchange(memory.evaluated_revision, revision) != revision) {
+    memory.prediction_error.reset();
+    memory.drift = 0.0;
+  } else if (state.end_s < memory.evaluated_to_s + kNewDataS) {
     return;
   }
   memory.evaluated_to_s = state.end_s;
@@ -107,12 +112,9 @@ void QualityMonitor::Evaluate(VehicleWindow& window, const WindowState& state,
                                          window.vehicle(), model.model.identification);
   if (!error) return;
   const double relative = RelativeError(*error, *model.reference_error);
-  if (same_model && memory.prediction_error) {
+  if (memory.prediction_error) {
     memory.drift += kDriftWeight * (relative - *memory.prediction_error - memory.drift);
-  } else {
-    memory.drift = 0.0;
   }
-  memory.evaluated_revision = model.model.revision;
   memory.prediction_error = relative;
 }
 
