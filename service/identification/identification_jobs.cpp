@@ -72,6 +72,7 @@ IdentificationJobs::~IdentificationJobs() {
   }
   changed_.notify_all();
   for (std::thread& worker : workers_) worker.join();
+  for (const IdentifyRequest& request : queue_) answers_.Send(Failed(request, Stopping().what()));
 }
 
 void IdentificationJobs::Submit(IdentifyRequest request) {
