@@ -46,7 +46,7 @@ struct PreparedDataset {
   std::vector<RowRange> stretches;
   std::vector<RowRange> segments;
   RejectCounts rejected;
-  Nu nu_noise;  ///< one sigma of the noise left in each nu, judged by what smoothing took out
+  Nu nu_noise;  ///< one sigma that white sensor noise, judged by WhiteNoise, leaves in each nu
 
   double StartTime() const { return rows.empty() ? 0.0 : rows.front().time_s; }
   double EndTime() const { return rows.empty() ? 0.0 : rows.back().time_s; }
