@@ -383,9 +383,19 @@ void PoolNoise(PreparedDataset& dataset, const Nu& of_stretch) {
 
 }  // namespace
 
+std::string_view Name(Preset preset) {
+  switch (preset) {
+    case Preset::kUnknown: return "UNKNOWN";
+    case Preset::kPaper: return "PAPER";
+    case Preset::kRobust: return "ROBUST";
+  }
+  return "";
+}
+
 PrepareOptions PrepareOptions::Paper() {
   PrepareOptions options;
   options.preset = Preset::kPaper;
+  options.smoothing_half_width = 5;  // the paper does not say
   return options;
 }
 

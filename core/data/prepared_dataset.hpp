@@ -13,10 +13,17 @@ namespace telltale {
 /// One instant of the common sampling grid.
 struct PreparedRow {
   double time_s = 0.0;
-  Eta eta;                 ///< body origin, smoothed; psi unwrapped along a stretch
-  Nu nu;                   ///< body velocity from eta
-  PropellerCommand delta;  ///< command effective over [t, t + h), filtered as the preset says
-  PropellerRegion region = PropellerRegion::kFF;  ///< of the commands as they were sent
+  Eta eta;  ///< body origin, as the preset filters it; psi unwrapped along a stretch
+  Nu nu;    ///< body velocity
+
+  /// The command behind nu(k+1) - nu(k): that over [t, t + h), filtered as the preset says. A
+  /// robust row within half a window of a switch mixes the commands before and after, forward and
+  /// reverse alike, exactly as its nu does, and may overshoot [-1, 1] where the nu overshoots.
+  PropellerCommand delta;
+
+  /// In force for most of [t, t + h), of the commands as they were sent; near a switch the filtered
+  /// delta may have another sign.
+  PropellerRegion region = PropellerRegion::kFF;
 };
 
 /// Rows [begin, end) of a dataset.
