@@ -403,15 +403,6 @@ PrepareOptions PrepareOptions::Robust() {
   return {};
 }
 
-std::string_view Name(Preset preset) {
-  switch (preset) {
-    case Preset::kPaper: return "PAPER";
-    case Preset::kRobust: return "ROBUST";
-    case Preset::kUnknown: break;
-  }
-  return "UNKNOWN";
-}
-
 std::optional<Refusal> PrepareOptions::Validate() const {
   const std::string_view subject = "data preparation";
   const auto half_width = static_cast<double>(smoothing_half_width);
