@@ -41,7 +41,7 @@ void AddIdentify(CLI::App& telltale) {
           "telemetry logs: folders with gnss.csv, heading.csv and thrusters.csv. Several are "
           "put one after the other; one that does not follow the last within a day is "
           "shifted to start 120 s after it")
-      ->type_name("DIR...")
+      ->type_name("DIR")
       ->required()
       ->check(CLI::ExistingPath.description(""));
   command.add_option("--vehicle", arguments->vehicle_file, "vehicle file (text format)")
