@@ -99,7 +99,8 @@ TEST_F(Daemon, GivesALateJoinerTheLastModel) {
   ReplaySimulation();
   ASSERT_EQ(Start({"identify", "--vehicle-id", kVehicleId})->Wait(), 0);
   ASSERT_EQ(Start({"identify", "--vehicle-id", kVehicleId, "--seed", "2"})->Wait(), 0);
-  const auto watch = Start({"watch", "--vehicle-id", kVehicleId, "--count", "1", "--timeout", "20"});
+  const auto watch =
+      Start({"watch", "--vehicle-id", kVehicleId, "--count", "1", "--timeout", "20"});
   EXPECT_EQ(watch->Wait(), 0) << watch->output();
   EXPECT_THAT(watch->output(), HasSubstr("revision 2"));
 }
@@ -192,8 +193,8 @@ TEST_F(Daemon, CountsWhatItSetsAsideByReason) {
   thrusters.Write(spaced);
 
   const auto quality = AwaitQuality(kVehicleId, [](const Quality& q) {
-    return CountOf(q, "thrusters", "OUT_OF_RANGE") == 1 && CountOf(q, "heading", "NOT_FINITE") == 1 &&
-           q.accepted == 2;
+    return CountOf(q, "thrusters", "OUT_OF_RANGE") == 1 &&
+           CountOf(q, "heading", "NOT_FINITE") == 1 && q.accepted == 2;
   });
   ASSERT_TRUE(quality);
   EXPECT_EQ(CountOf(*quality, "gnss", "NOT_FINITE"), 1u);

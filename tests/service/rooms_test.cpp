@@ -30,7 +30,9 @@ TEST(SequenceGaps, CountsWhatIsMissingBetweenSamples) {
   EXPECT_EQ(Gaps({1, 2, 6, 7, 9}).lost(), 4u);
 }
 
-TEST(SequenceGaps, BeginsWhereverItJoins) { EXPECT_EQ(Gaps({500, 501}).lost(), 0u); }
+TEST(SequenceGaps, BeginsWhereverItJoins) {
+  EXPECT_EQ(Gaps({500, 501}).lost(), 0u);
+}
 
 TEST(SequenceGaps, TakesABoatThatStartsAnewForThat) {
   EXPECT_EQ(Gaps({7, 8, 1, 2, 4}).lost(), 1u);

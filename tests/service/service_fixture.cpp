@@ -18,7 +18,9 @@ constexpr double kHoldS = 2.0;
 constexpr double kStepS = 0.02;
 
 /// Uniform in [-1, 1].
-double Draw(RandomEngine& random) { return static_cast<double>(random() >> 11) * 0x1p-52 - 1.0; }
+double Draw(RandomEngine& random) {
+  return static_cast<double>(random() >> 11) * 0x1p-52 - 1.0;
+}
 
 }  // namespace
 
@@ -41,12 +43,12 @@ ServiceTest::ServiceTest() {
   Vehicle vehicle = YellowfishVehicle();
   vehicle.vehicle_id = kVehicleId;
   folder_.Write("vehicle.textproto", PrintVehicle(vehicle));
-  config_file_ = folder_.Write(
-      "daemon.textproto", "domain: " + std::to_string(domain_.id()) +
-                              "\nvehicle_files: \"vehicle.textproto\"\nstate_directory: \"" +
-                              (folder_.Path() / "state").string() +
-                              "\"\nidentification { bootstrap_replicates: 100 }\n"
-                              "quality_period_s: 0.1\n");
+  config_file_ = folder_.Write("daemon.textproto",
+                               "domain: " + std::to_string(domain_.id()) +
+                                   "\nvehicle_files: \"vehicle.textproto\"\nstate_directory: \"" +
+                                   (folder_.Path() / "state").string() +
+                                   "\"\nidentification { bootstrap_replicates: 100 }\n"
+                                   "quality_period_s: 0.1\n");
 }
 
 std::unique_ptr<Process> ServiceTest::StartDaemon() const {
@@ -65,8 +67,7 @@ std::unique_ptr<Process> ServiceTest::Start(std::vector<std::string> arguments) 
 void ServiceTest::ReplaySimulation() const {
   const auto log = folder_.Path() / "log";
   WriteTelemetryLog(log, SimulatedRecording());
-  const auto replay =
-      Start({"replay", "--log", log, "--vehicle-id", kVehicleId, "--speed", "60"});
+  const auto replay = Start({"replay", "--log", log, "--vehicle-id", kVehicleId, "--speed", "60"});
   EXPECT_EQ(replay->Wait(), 0) << replay->output();
 }
 
