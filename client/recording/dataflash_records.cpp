@@ -241,26 +241,32 @@ void DataFlashFraming::Define(DataFlashBytes definition) {
   consumer_.Define(*known);
 }
 
+bool DataFlashFraming::IsCutByTheEnd(DataFlashBytes rest) const {
+  if (rest.size() == 1) return rest[0] == kHead1;
+  if (!StartsWithHeader(rest)) return false;
+  if (rest.size() < kHeaderLength) return true;
+  const bool holds_another = FindHeader(rest, 1) + 1 < rest.size();
+  return formats_[rest[2]] && rest.size() < formats_[rest[2]]->length && !holds_another;
+}
+
 std::size_t DataFlashFraming::PassOverDamage(DataFlashBytes rest) {
-  CountDamage(rest);
+  std::size_t passed = rest.size();
+  if (IsCutByTheEnd(rest)) {
+    damage_.truncated_bytes = rest.size();
+  } else {
+    CountDamage(rest);
+    passed = FindHeader(rest, 1);
+  }
   in_damage_ = true;
-  const std::size_t passed = FindHeader(rest, 1);
   damage_.skipped_bytes += passed;
   return passed;
 }
 
 void DataFlashFraming::CountDamage(DataFlashBytes rest) {
-  const bool complete_header = StartsWithHeader(rest) && rest.size() >= kHeaderLength;
-  const bool cut_header =
-      rest.size() < kHeaderLength && rest[0] == kHead1 && (rest.size() == 1 || rest[1] == kHead2);
-  const bool cut_record = complete_header && formats_[rest[2]] &&
-                          rest.size() < formats_[rest[2]]->length &&
-                          FindHeader(rest, 1) == rest.size();
-  if (cut_header || cut_record) {
-    damage_.truncated_bytes = rest.size();
-  } else if (complete_header && !formats_[rest[2]]) {
+  const bool has_header = StartsWithHeader(rest) && rest.size() >= kHeaderLength;
+  if (has_header && !formats_[rest[2]]) {
     ++damage_.undefined_records;
-  } else if (complete_header || !in_damage_) {
+  } else if (has_header || !in_damage_) {
     ++damage_.corrupt_records;
   }
 }

@@ -91,6 +91,7 @@ class DataFlashFraming {
 
  private:
   bool IsWholeRecord(DataFlashBytes rest) const;
+  bool IsCutByTheEnd(DataFlashBytes rest) const;
   void Deliver(DataFlashBytes record);
   void Define(DataFlashBytes definition);
   std::size_t PassOverDamage(DataFlashBytes rest);
