@@ -12,7 +12,8 @@
 namespace telltale {
 
 /// The regression of one equation: y = Phi theta + noise.
-/// Shapes: phi n x p, y n; clusters are ranges of rows of phi, one per segment that gave any.
+/// Shapes: phi n x p, y n. clusters[s] is the range of rows of phi that segment s of the dataset gave,
+/// possibly empty: the same index means the same segment in all three equations.
 /// Units: y in m/s^2 or rad/s^2, so theta is continuous-time SI.
 struct EquationProblem {
   Equation equation = Equation::kUnknown;

@@ -15,8 +15,8 @@ struct SensorOptions {
   double gnss_period_s = 0.2;
   double heading_period_s = 0.02;
   double thruster_period_s = 0.1;
-  double position_noise_m = 0.01;     ///< one sigma per axis
-  double heading_noise_deg = 0.2;     ///< one sigma
+  double position_noise_m = 0.01;  ///< one sigma per axis
+  double heading_noise_deg = 0.2;  ///< one sigma
   FrameOrigin origin{37.4205, -5.9944};
   std::uint64_t seed = 1;
 };

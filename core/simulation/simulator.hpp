@@ -19,6 +19,7 @@ struct VesselState {
 /// Advances a boat by `step_s` under a held command. kForwardEuler models take exactly
 /// nu + step nu_dot (step must then be their sampling period); kContinuous ones a Runge-Kutta step
 /// of order four. The pose follows the mean of the two velocities and headings (trapezoid).
+/// Requires: the static structure and a named discretisation.
 VesselState Advance(const VesselModel& model, const VesselState& state,
                     const PropellerCommand& delta, double step_s);
 
@@ -34,7 +35,9 @@ struct TimedState {
   PropellerCommand delta;
 };
 
-/// States at every multiple of `step_s` from the first command to `end_s`, commands held in between.
+/// States at every multiple of `step_s` from the first command to `end_s`. Each step runs under the
+/// command that is newest at its start.
+/// Requires: commands in order of time, at least one; end_s not before the first.
 std::vector<TimedState> Simulate(const VesselModel& model, const VesselState& initial,
                                  const std::vector<TimedCommand>& commands, double end_s,
                                  double step_s);

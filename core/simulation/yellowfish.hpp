@@ -22,9 +22,10 @@ inline constexpr double kYellowfishSamplingPeriodS = 0.2;
 /// The paper's own discrete model, in the paper's parameterization.
 VesselModel YellowfishPaperModel();
 
-/// The twin: the paper's table read as a continuous boat whose propellers are consistent in all four
-/// regions (parameterization kPropeller). The table leaves open what a propeller gives in reverse in
-/// surge and which of two meanings mean*diff has; docs/model.md says how the twin fills that in.
+/// The twin: the paper's table read as a continuous boat whose propellers are consistent in all
+/// four regions (parameterization kPropeller). The table leaves open what a propeller gives in
+/// reverse in surge and which of two meanings mean*diff has; docs/model.md says how the twin fills
+/// that in.
 VesselModel YellowfishTwin();
 
 /// Geometry and channels of the paper's boat.

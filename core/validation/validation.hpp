@@ -11,19 +11,25 @@
 namespace telltale {
 
 /// One-step score of one velocity, the paper's R2 and MAE, beside the R2 of predicting no change.
+/// Any R2 is NaN when the measured velocity never changes.
 struct OneStepScore {
   double r2 = 0.0;
-  double mae = 0.0;            ///< m/s or rad/s
+  double mae = 0.0;  ///< m/s or rad/s
   double persistence_r2 = 0.0;
 };
 
-/// Free-run score of one velocity over one horizon.
+/// Free-run score of one velocity over one horizon, over all instants after the first of all
+/// windows. A model that blows up within a window scores infinite errors. The noise floor is
+/// PreparedDataset::nu_noise: the errors compare with measured velocities that are themselves
+/// uncertain by that much, so a perfect model cannot be seen to do better. It counts neither the
+/// uncertain start of a window nor what smoothing does to true transients, so a perfect model may
+/// well do a little worse.
 struct FreeRunScore {
-  double rmse = 0.0;              ///< m/s or rad/s, over all instants of all windows
+  double rmse = 0.0;  ///< m/s or rad/s
   double mae = 0.0;
   double r2 = 0.0;
   double persistence_rmse = 0.0;  ///< holding the initial velocity
-  double noise_floor = 0.0;       ///< RMS of what smoothing removes: no model can be seen to do better
+  double noise_floor = 0.0;       ///< one sigma of the measured velocity
 };
 
 struct FreeRunScores {
@@ -44,8 +50,10 @@ struct Metrics {
 
 /// PreparedDataset x model -> scores. One-step: nu(k+1) from the measured nu(k). Free run:
 /// non-overlapping windows inside stretches, started from the measured state, fed only commands.
-/// docs/model.md (16)..(18). Source: the paper's R2 and MAE equations.
-/// Refuses when: the dataset has no pair of rows. A horizon that fits no window has windows = 0.
+/// Each run steps the model as the model is discretised (Advance); windows share no compared
+/// instant. docs/model.md (16)..(18). Source: the paper's R2 and MAE equations. Refuses when: the
+/// dataset has no pair of rows, a discrete model's sampling period is not the data's, a horizon is
+/// out of range. A horizon that fits no window has windows = 0.
 Result<Metrics> Validate(const PreparedDataset& dataset, const VesselModel& model,
                          const ValidationOptions& options);
 

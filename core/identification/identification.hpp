@@ -9,6 +9,7 @@
 
 #include "data/samples.hpp"
 #include "result.hpp"
+#include "uncertainty/interval.hpp"
 #include "vessel/structure.hpp"
 #include "vessel/vessel_model.hpp"
 
@@ -25,12 +26,6 @@ std::string_view Name(Estimator estimator);
 enum class CoefficientStatus { kUnknown, kEstimated, kNotExcited, kCollinear };
 
 std::string_view Name(CoefficientStatus status);
-
-struct Interval {
-  double level = 0.0;
-  double lower = 0.0;
-  double upper = 0.0;
-};
 
 /// One coefficient with its bounds, continuous-time SI.
 struct Coefficient {

@@ -3,12 +3,14 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <string>
 #include <string_view>
 
 #include "data/preparation.hpp"
 #include "data/samples.hpp"
-#include "estimation/identification.hpp"
+#include "estimation/excitation.hpp"
 #include "estimation/regression_problem.hpp"
+#include "identification/identification.hpp"
 #include "result.hpp"
 #include "vessel/vehicle.hpp"
 
@@ -20,6 +22,7 @@ using Progress = std::function<void(std::string_view stage, double fraction)>;
 struct IdentifyOptions {
   PrepareOptions prepare;
   RegressionOptions regression;
+  ExcitationLimits excitation;
   Estimator estimator = Estimator::kOneStep;
   double interval_level = 0.95;                ///< (0.5, 0.999]
   std::size_t bootstrap_replicates = 1000;     ///< 0 (off) or [100, 100000]
@@ -34,6 +37,10 @@ struct IdentifyOptions {
 /// Refuses when: the recording cannot be prepared, or not one equation can be answered. An equation
 /// that alone cannot be answered is left out and its refusal listed in the result.
 Result<Identification> Identify(const Recording& recording, const Vehicle& vehicle,
+                                const IdentifyOptions& options, const Progress& progress = {});
+
+/// The same from data that are prepared already.
+Result<Identification> Identify(const PreparedDataset& dataset, const std::string& vehicle_id,
                                 const IdentifyOptions& options, const Progress& progress = {});
 
 }  // namespace telltale

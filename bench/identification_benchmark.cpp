@@ -1,0 +1,90 @@
+// One identification, piece by piece, at the paper's size: 16,000 rows of 13 regressors, one thread.
+
+#include <benchmark/benchmark.h>
+
+#include "estimation/one_step.hpp"
+#include "identification/identify.hpp"
+#include "simulation/manoeuvres.hpp"
+#include "simulation/sensors.hpp"
+#include "simulation/yellowfish.hpp"
+#include "uncertainty/segment_bootstrap.hpp"
+
+namespace telltale {
+namespace {
+
+constexpr double kDurationS = 3200.0;  // 16,000 rows at 5 Hz
+
+Recording RecordTwin() {
+  std::vector<TimedCommand> commands;
+  for (std::uint64_t part = 0; commands.empty() || commands.back().time_s < kDurationS; ++part) {
+    const double start_s = commands.empty() ? 0.0 : commands.back().time_s + 1.0;
+    for (TimedCommand command : SampleMission(part + 1)) {
+      command.time_s += start_s;
+      commands.push_back(command);
+    }
+  }
+  return Measure(Simulate(YellowfishTwin(), {}, commands, kDurationS, 0.02), YellowfishVehicle(), {});
+}
+
+const Recording& TwinRecording() {
+  static const Recording recording = RecordTwin();
+  return recording;
+}
+
+const PreparedDataset& TwinDataset() {
+  static const PreparedDataset dataset =
+      Prepare(TwinRecording(), YellowfishVehicle(), PrepareOptions::Robust()).value();
+  return dataset;
+}
+
+/// Yaw alone, 13 regressors; the rows the regions leave out are what keeps it just under 16,000.
+EquationProblem YawProblem() { return BuildRegression(TwinDataset(), {}).equations[2]; }
+
+void PrepareRecording(benchmark::State& state) {
+  const Vehicle vehicle = YellowfishVehicle();
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(Prepare(TwinRecording(), vehicle, PrepareOptions::Robust()));
+  }
+  state.counters["rows"] = static_cast<double>(TwinDataset().rows.size());
+}
+BENCHMARK(PrepareRecording)->Unit(benchmark::kMillisecond);
+
+void EstimateWithCovariance(benchmark::State& state) {
+  const EquationProblem yaw = YawProblem();
+  for (auto _ : state) {
+    const EquationEstimate estimate = EstimateOneStep(*Assess(yaw, {}));
+    benchmark::DoNotOptimize(
+        Eigen::MatrixXd(estimate.residual_variance * estimate.basis * estimate.basis.transpose()));
+  }
+  state.counters["rows"] = static_cast<double>(yaw.y.size());
+  state.counters["columns"] = static_cast<double>(yaw.phi.cols());
+}
+BENCHMARK(EstimateWithCovariance)->Unit(benchmark::kMillisecond);
+
+void BootstrapYaw(benchmark::State& state) {
+  RegressionProblem problem;
+  problem.equations[0].clusters = YawProblem().clusters;
+  problem.equations[2] = YawProblem();
+  std::array<std::optional<EquationEstimate>, 3> estimates;
+  estimates[2] = EstimateOneStep(*Assess(problem.equations[2], {}));
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(BootstrapSegments(problem, estimates, {1000, 1, 1}));
+  }
+  state.counters["rows"] = static_cast<double>(problem.equations[2].y.size());
+  state.counters["segments"] = static_cast<double>(problem.equations[0].clusters.size());
+}
+BENCHMARK(BootstrapYaw)->Unit(benchmark::kMillisecond);
+
+void PrepareAndIdentify(benchmark::State& state) {
+  const Vehicle vehicle = YellowfishVehicle();
+  IdentifyOptions options;
+  options.bootstrap_replicates = static_cast<std::size_t>(state.range(0));
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(Identify(TwinRecording(), vehicle, options));
+  }
+}
+BENCHMARK(PrepareAndIdentify)->ArgName("replicates")->Arg(0)->Arg(1000)->Unit(
+    benchmark::kMillisecond);
+
+}  // namespace
+}  // namespace telltale

@@ -1,0 +1,192 @@
+#include "estimation/excitation.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <numeric>
+
+#include <Eigen/SVD>
+
+#include "contract.hpp"
+
+namespace telltale {
+namespace {
+
+// A thrust term is at work in a row when it is the term of a command of at least this size.
+constexpr double kActiveCommand = 0.05;
+// Two columns share a near dependency when it carries more than this share of their variance.
+constexpr double kVarianceShare = 0.5;
+
+std::string Number(double value) {
+  char text[32];
+  std::snprintf(text, sizeof(text), "%.3g", value);
+  return text;
+}
+
+Eigen::Index ColumnOf(const EquationProblem& problem, std::string_view name) {
+  const auto found = std::find_if(problem.regressors.begin(), problem.regressors.end(),
+                                  [&](const Regressor& r) { return r.name == name; });
+  return found == problem.regressors.end() ? -1 : found - problem.regressors.begin();
+}
+
+double Spread(const Eigen::VectorXd& x) {
+  return std::sqrt((x.array() - x.mean()).square().mean());
+}
+
+/// Mean command for surge, port minus starboard for sway and yaw, read back from the thrust columns.
+Eigen::VectorXd CommandOf(const EquationProblem& problem) {
+  const bool surge = problem.equation == Equation::kSurge;
+  const Eigen::Index forward = ColumnOf(problem, "f:d");
+  if (forward >= 0) {
+    const Eigen::VectorXd sum =
+        problem.phi.col(forward) + problem.phi.col(ColumnOf(problem, "r:d"));
+    return surge ? Eigen::VectorXd(0.5 * sum) : sum;
+  }
+  if (surge) return problem.phi.col(ColumnOf(problem, "mean"));
+  return 2.0 * problem.phi.col(ColumnOf(problem, "diff/2"));
+}
+
+std::optional<Refusal> RefuseShort(const EquationProblem& problem, const ExcitationLimits& limits) {
+  const double needed =
+      limits.rows_per_coefficient * static_cast<double>(problem.regressors.size());
+  const auto rows = static_cast<double>(problem.phi.rows());
+  if (rows >= needed) return std::nullopt;
+  return Refusal{std::string(Name(problem.equation)),
+                 "only " + Number(rows) + " usable rows, " + Number(needed) + " are needed",
+                 "record for longer with the propellers in the regions this equation uses"};
+}
+
+std::optional<Refusal> RefuseStill(const EquationProblem& problem, const ExcitationLimits& limits) {
+  const bool surge = problem.equation == Equation::kSurge;
+  const double motion = Spread(problem.phi.col(ColumnOf(problem, surge ? "u" : "r")));
+  const double least = surge ? limits.surge_speed_spread_mps : limits.yaw_rate_spread_radps;
+  const std::string what = surge ? "surge speed varies by only " : "yaw rate varies by only ";
+  const std::string unit = surge ? " m/s" : " rad/s";
+  const std::string advice = surge
+                                 ? "add straight runs that step between low and high command"
+                                 : "add zigzags at two speeds, circles both ways and a spin";
+  if (motion < least) {
+    return Refusal{std::string(Name(problem.equation)),
+                   what + Number(motion) + unit + " (standard deviation), " + Number(least) + unit +
+                       " are needed",
+                   advice};
+  }
+  const double command = Spread(CommandOf(problem));
+  if (command >= limits.command_spread) return std::nullopt;
+  return Refusal{std::string(Name(problem.equation)),
+                 std::string(surge ? "the mean command" : "the command difference") +
+                     " varies by only " + Number(command) + " of full command, " +
+                     Number(limits.command_spread) + " are needed",
+                 advice};
+}
+
+/// A thrust column is excited by rows in which its propeller works, a body column by any motion.
+bool IsExcited(const EquationProblem& problem, std::size_t column, const ExcitationLimits& limits) {
+  const auto values = problem.phi.col(static_cast<Eigen::Index>(column)).array().abs();
+  const Regressor& regressor = problem.regressors[column];
+  if (!regressor.is_propeller) return values.maxCoeff() > 1e-9;
+  const bool quadratic = regressor.name.find("^2") != std::string_view::npos;
+  const double active = quadratic ? kActiveCommand * kActiveCommand : kActiveCommand;
+  return static_cast<std::size_t>((values > active).count()) >= limits.fewest_active_rows;
+}
+
+Eigen::MatrixXd SelectScaled(const EquationProblem& problem, const Excitation& excitation) {
+  Eigen::MatrixXd scaled(problem.phi.rows(), excitation.column_norms.size());
+  for (Eigen::Index j = 0; j < scaled.cols(); ++j) {
+    const auto column = static_cast<Eigen::Index>(excitation.excited[static_cast<std::size_t>(j)]);
+    scaled.col(j) = problem.phi.col(column) / excitation.column_norms[j];
+  }
+  return scaled;
+}
+
+/// Belsley: in the dependency of singular value k, column j takes part with the share of its
+/// variance that this singular value causes.
+std::vector<CollinearGroup> FindCollinear(const Excitation& excitation, double limit) {
+  const Eigen::VectorXd& s = excitation.singular_values;
+  const Eigen::VectorXd floored = s.cwiseMax(s[0] * std::numeric_limits<double>::epsilon());
+  const Eigen::MatrixXd shares = (excitation.right_singular_vectors.array().rowwise() /
+                                  floored.transpose().array())
+                                     .square();
+  const Eigen::VectorXd variances = shares.rowwise().sum();
+  std::vector<CollinearGroup> groups;
+  for (Eigen::Index k = 0; k < s.size(); ++k) {
+    CollinearGroup group;
+    group.condition_index = s[0] / floored[k];
+    if (group.condition_index < limit) continue;
+    for (Eigen::Index j = 0; j < s.size(); ++j) {
+      if (shares(j, k) / variances[j] > kVarianceShare) {
+        group.columns.push_back(excitation.excited[static_cast<std::size_t>(j)]);
+      }
+    }
+    if (group.columns.size() > 1) groups.push_back(group);
+  }
+  return groups;
+}
+
+std::optional<Refusal> OutOfRange(const char* field, double value, double low, double high) {
+  if (value >= low && value <= high) return std::nullopt;
+  return Refusal{std::string("excitation.") + field, "is " + Number(value),
+                 "choose a value in [" + Number(low) + ", " + Number(high) + "]"};
+}
+
+}  // namespace
+
+std::optional<Refusal> ExcitationLimits::Validate() const {
+  const std::array checks = {
+      OutOfRange("rows_per_coefficient", rows_per_coefficient, 2.0, 1000.0),
+      OutOfRange("surge_speed_spread_mps", surge_speed_spread_mps, 0.0, 10.0),
+      OutOfRange("yaw_rate_spread_radps", yaw_rate_spread_radps, 0.0, 3.0),
+      OutOfRange("command_spread", command_spread, 0.0, 1.0),
+      OutOfRange("fewest_active_rows", static_cast<double>(fewest_active_rows), 1.0, 1e4),
+      OutOfRange("collinear_condition_index", collinear_condition_index, 10.0, 1e6)};
+  for (const auto& refusal : checks) {
+    if (refusal) return refusal;
+  }
+  return std::nullopt;
+}
+
+Result<Excitation> Assess(const EquationProblem& problem, const ExcitationLimits& limits) {
+  Require(problem.equation != Equation::kUnknown, "a named equation");
+  if (const auto refusal = RefuseShort(problem, limits)) return tl::unexpected(*refusal);
+  if (const auto refusal = RefuseStill(problem, limits)) return tl::unexpected(*refusal);
+
+  Excitation excitation;
+  excitation.equation = problem.equation;
+  for (std::size_t column = 0; column < problem.regressors.size(); ++column) {
+    if (IsExcited(problem, column, limits)) excitation.excited.push_back(column);
+  }
+  excitation.column_norms.resize(static_cast<Eigen::Index>(excitation.excited.size()));
+  for (std::size_t j = 0; j < excitation.excited.size(); ++j) {
+    excitation.column_norms[static_cast<Eigen::Index>(j)] =
+        problem.phi.col(static_cast<Eigen::Index>(excitation.excited[j])).norm();
+  }
+  excitation.factor = Triangularise(SelectScaled(problem, excitation), problem.y);
+
+  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(excitation.factor.R,
+                                               Eigen::ComputeFullU | Eigen::ComputeFullV);
+  excitation.singular_values = svd.singularValues();
+  excitation.left_singular_vectors = svd.matrixU();
+  excitation.right_singular_vectors = svd.matrixV();
+  const double smallest = excitation.singular_values[0] * std::numeric_limits<double>::epsilon() *
+                          static_cast<double>(problem.phi.rows());
+  excitation.rank = (excitation.singular_values.array() > smallest).count();
+  excitation.collinear = FindCollinear(excitation, limits.collinear_condition_index);
+  return excitation;
+}
+
+Refusal Explain(const CollinearGroup& group, const EquationProblem& problem) {
+  std::string names;
+  bool thrust = false;
+  for (const std::size_t column : group.columns) {
+    names += (names.empty() ? "" : ", ") + std::string(problem.regressors[column].name);
+    thrust = thrust || problem.regressors[column].is_propeller;
+  }
+  return {std::string(Name(problem.equation)) + " " + names,
+          "these cannot be told apart: the data move them together (condition index " +
+              Number(group.condition_index) + ")",
+          thrust ? "add steps of the command between small and full, in each direction of turning"
+                 : "add zigzags and circles at two or more speeds"};
+}
+
+}  // namespace telltale

@@ -1,0 +1,94 @@
+#include "estimation/regression_problem.hpp"
+
+#include <algorithm>
+
+#include "contract.hpp"
+
+namespace telltale {
+namespace {
+
+/// Surge in the paper's parameterization has one thrust curve, the forward one, so it holds in FF alone.
+bool Enters(PropellerRegion region, Equation equation, const RegressionOptions& options) {
+  if (region == PropellerRegion::kRR) return options.include_reverse;
+  const bool forward_only =
+      equation == Equation::kSurge && options.parameterization == Parameterization::kPaper;
+  return !forward_only || region == PropellerRegion::kFF;
+}
+
+double Component(const Nu& nu, Equation equation) {
+  switch (equation) {
+    case Equation::kSurge: return nu.u;
+    case Equation::kSway: return nu.v;
+    default: return nu.r;
+  }
+}
+
+/// Indices k of a segment whose successor k + 1 belongs to the same gap-free stretch.
+RowRange PairsOf(const RowRange& segment, const std::vector<RowRange>& stretches) {
+  for (const RowRange& stretch : stretches) {
+    if (segment.begin >= stretch.begin && segment.end <= stretch.end) {
+      return {segment.begin, std::min(segment.end, stretch.end - 1)};
+    }
+  }
+  throw ContractViolation("BuildRegression: requires every segment inside a stretch");
+}
+
+std::size_t CountRows(const PreparedDataset& dataset, Equation equation,
+                      const RegressionOptions& options) {
+  std::size_t count = 0;
+  for (const RowRange& segment : dataset.segments) {
+    const RowRange pairs = PairsOf(segment, dataset.stretches);
+    for (std::size_t k = pairs.begin; k < pairs.end; ++k) {
+      count += Enters(dataset.rows[k].region, equation, options) ? 1 : 0;
+    }
+  }
+  return count;
+}
+
+EquationProblem BuildEquation(const PreparedDataset& dataset, Equation equation,
+                              const RegressionOptions& options) {
+  EquationProblem problem;
+  problem.equation = equation;
+  problem.regressors = Regressors(equation, options.parameterization);
+  const auto rows = static_cast<Eigen::Index>(CountRows(dataset, equation, options));
+  const auto columns = static_cast<Eigen::Index>(problem.regressors.size());
+  // Filled row by row, kept row-major for that reason while it is built.
+  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> phi(rows, columns);
+  problem.y.resize(rows);
+  Eigen::Index row = 0;
+  for (const RowRange& segment : dataset.segments) {
+    const auto first = static_cast<std::size_t>(row);
+    const RowRange pairs = PairsOf(segment, dataset.stretches);
+    for (std::size_t k = pairs.begin; k < pairs.end; ++k) {
+      const PreparedRow& now = dataset.rows[k];
+      if (!Enters(now.region, equation, options)) continue;
+      FillRow(equation, options.parameterization, now.nu, now.delta,
+              {phi.row(row).data(), problem.regressors.size()});
+      problem.y[row] =
+          (Component(dataset.rows[k + 1].nu, equation) - Component(now.nu, equation)) /
+          dataset.sampling_period_s;
+      ++row;
+    }
+    problem.clusters.push_back({first, static_cast<std::size_t>(row)});
+  }
+  problem.phi = phi;
+  return problem;
+}
+
+}  // namespace
+
+RegressionProblem BuildRegression(const PreparedDataset& dataset,
+                                  const RegressionOptions& options) {
+  Require(options.structure == Structure::kStaticQuadratic, "the static structure");
+  Require(dataset.sampling_period_s > 0.0, "a positive sampling period");
+  RegressionProblem problem;
+  problem.structure = options.structure;
+  problem.parameterization = options.parameterization;
+  problem.sampling_period_s = dataset.sampling_period_s;
+  for (const Equation equation : kEquations) {
+    problem.equations[IndexOf(equation)] = BuildEquation(dataset, equation, options);
+  }
+  return problem;
+}
+
+}  // namespace telltale

@@ -1,0 +1,61 @@
+#include "identification/identification.hpp"
+
+#include <algorithm>
+
+namespace telltale {
+
+std::string_view Name(Estimator estimator) {
+  switch (estimator) {
+    case Estimator::kOneStep: return "ONE_STEP";
+    case Estimator::kWeakIv: return "WEAK_IV";
+    case Estimator::kOutputError: return "OUTPUT_ERROR";
+    case Estimator::kUnknown: break;
+  }
+  return "UNKNOWN";
+}
+
+std::string_view Name(CoefficientStatus status) {
+  switch (status) {
+    case CoefficientStatus::kEstimated: return "ESTIMATED";
+    case CoefficientStatus::kNotExcited: return "NOT_EXCITED";
+    case CoefficientStatus::kCollinear: return "COLLINEAR";
+    case CoefficientStatus::kUnknown: break;
+  }
+  return "UNKNOWN";
+}
+
+bool Identification::Has(Equation equation) const {
+  return std::any_of(coefficients.begin(), coefficients.end(),
+                     [&](const Coefficient& c) { return c.equation == equation; });
+}
+
+Result<VesselModel> ModelOf(const Identification& identification) {
+  VesselModel model;
+  model.structure = identification.structure;
+  model.parameterization = identification.parameterization;
+  // One-step least squares fits the discrete model itself; only that model reproduces its data.
+  model.discretisation = identification.estimator == Estimator::kOneStep
+                             ? Discretisation::kForwardEuler
+                             : Discretisation::kContinuous;
+  model.sampling_period_s = identification.sampling_period_s;
+  for (const Equation equation : kEquations) {
+    if (!identification.Has(equation)) {
+      return Refuse("free run",
+                    "the model has no " + std::string(Name(equation)) + " equation",
+                    "identify from data that excite it; its refusal says how");
+    }
+    const auto regressors = Regressors(equation, identification.parameterization);
+    Eigen::VectorXd& theta = model.theta[IndexOf(equation)];
+    theta.resize(static_cast<Eigen::Index>(regressors.size()));
+    Eigen::Index next = 0;
+    for (const Coefficient& coefficient : identification.coefficients) {
+      if (coefficient.equation == equation) theta[next++] = coefficient.estimate;
+    }
+  }
+  if (identification.thruster_time_constant) {
+    model.thruster_time_constant_s = identification.thruster_time_constant->estimate;
+  }
+  return model;
+}
+
+}  // namespace telltale

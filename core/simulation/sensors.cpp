@@ -1,0 +1,118 @@
+#include "simulation/sensors.hpp"
+
+#include <cmath>
+#include <numbers>
+
+#include <GeographicLib/LocalCartesian.hpp>
+#include <boost/random/normal_distribution.hpp>
+
+#include "contract.hpp"
+#include "random.hpp"
+
+namespace telltale {
+namespace {
+
+constexpr double kDegreesPerRadian = 180.0 / std::numbers::pi;
+constexpr double kSameInstantS = 1e-6;
+
+// Seeded white noise of one sensor axis, independent of every other axis.
+class WhiteNoise {
+ public:
+  WhiteNoise(std::uint64_t seed, std::uint64_t axis, double sigma)
+      : engine_(RandomEngine::Stream(seed, axis)), sigma_(sigma) {}
+
+  double operator()() { return sigma_ * normal_(engine_); }
+
+ private:
+  RandomEngine engine_;
+  boost::random::normal_distribution<double> normal_;
+  double sigma_;
+};
+
+double Between(double a, double b, double fraction) {
+  return a + fraction * (b - a);
+}
+
+Eta Between(const Eta& a, const Eta& b, double fraction) {
+  return {Between(a.x_m, b.x_m, fraction), Between(a.y_m, b.y_m, fraction),
+          Between(a.psi_rad, b.psi_rad, fraction)};
+}
+
+// Calls sense(time, pose, command) at every period along the track.
+template <class Sense>
+void Sample(const std::vector<TimedState>& track, double period_s, Sense sense) {
+  Require(period_s > 0.0, "a positive sensor period");
+  if (track.empty()) return;
+  const double start_s = track.front().time_s;
+  const double span_s = track.back().time_s - start_s + kSameInstantS;
+  std::size_t at = 0;
+  for (std::size_t k = 0; static_cast<double>(k) * period_s <= span_s; ++k) {
+    const double time_s = start_s + static_cast<double>(k) * period_s;
+    while (at + 1 < track.size() && track[at + 1].time_s <= time_s + kSameInstantS) ++at;
+    const TimedState& before = track[at];
+    const TimedState& after = track[std::min(at + 1, track.size() - 1)];
+    const double gap_s = after.time_s - before.time_s;
+    const double fraction = gap_s > 0.0 ? (time_s - before.time_s) / gap_s : 0.0;
+    sense(time_s, Between(before.state.eta, after.state.eta, fraction), before.delta);
+  }
+}
+
+double Wrap360(double angle_deg) {
+  const double wrapped = angle_deg - 360.0 * std::floor(angle_deg / 360.0);
+  return wrapped < 360.0 ? wrapped : 0.0;
+}
+
+std::vector<GnssFix> MeasurePositions(const std::vector<TimedState>& track, const LeverArm& antenna,
+                                      const SensorOptions& options) {
+  const GeographicLib::LocalCartesian frame(options.origin.latitude_deg,
+                                            options.origin.longitude_deg);
+  WhiteNoise north_noise(options.seed, 0, options.position_noise_m);
+  WhiteNoise east_noise(options.seed, 1, options.position_noise_m);
+  std::vector<GnssFix> fixes;
+  Sample(track, options.gnss_period_s, [&](double time_s, const Eta& eta, const PropellerCommand&) {
+    const double c = std::cos(eta.psi_rad);
+    const double s = std::sin(eta.psi_rad);
+    const double north = eta.x_m + c * antenna.forward_m - s * antenna.starboard_m + north_noise();
+    const double east = eta.y_m + s * antenna.forward_m + c * antenna.starboard_m + east_noise();
+    double latitude = 0.0;
+    double longitude = 0.0;
+    double height = 0.0;
+    frame.Reverse(east, north, 0.0, latitude, longitude, height);
+    fixes.push_back({time_s, latitude, longitude});
+  });
+  return fixes;
+}
+
+std::vector<HeadingSample> MeasureHeadings(const std::vector<TimedState>& track,
+                                           const SensorOptions& options) {
+  WhiteNoise noise_deg(options.seed, 2, options.heading_noise_deg);
+  std::vector<HeadingSample> headings;
+  Sample(track, options.heading_period_s,
+         [&](double time_s, const Eta& eta, const PropellerCommand&) {
+           headings.push_back({time_s, Wrap360(eta.psi_rad * kDegreesPerRadian + noise_deg())});
+         });
+  return headings;
+}
+
+std::vector<ThrusterSample> MeasureCommands(const std::vector<TimedState>& track,
+                                            const Vehicle& vehicle, double period_s) {
+  std::vector<ThrusterSample> samples;
+  Sample(track, period_s, [&](double time_s, const Eta&, const PropellerCommand& delta) {
+    samples.push_back({time_s, std::round(vehicle.port.PulseWidth(delta.port)),
+                       std::round(vehicle.starboard.PulseWidth(delta.starboard))});
+  });
+  return samples;
+}
+
+}  // namespace
+
+Recording Measure(const std::vector<TimedState>& track, const Vehicle& vehicle,
+                  const SensorOptions& options) {
+  Recording recording;
+  recording.gnss = MeasurePositions(track, vehicle.gnss_antenna, options);
+  recording.heading = MeasureHeadings(track, options);
+  recording.thrusters = MeasureCommands(track, vehicle, options.thruster_period_s);
+  return recording;
+}
+
+}  // namespace telltale

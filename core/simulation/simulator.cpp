@@ -1,0 +1,82 @@
+#include "simulation/simulator.hpp"
+
+#include <cmath>
+
+#include "contract.hpp"
+
+namespace telltale {
+namespace {
+
+// Command times and steps come from decimal logs: a command this close ahead of a step belongs to
+// it.
+constexpr double kSameInstantS = 1e-6;
+
+Nu Along(const Nu& nu, const NuDot& slope, double step_s) {
+  return {nu.u + step_s * slope.u, nu.v + step_s * slope.v, nu.r + step_s * slope.r};
+}
+
+Nu RungeKutta(const VesselModel& model, const Nu& nu, const PropellerCommand& delta, double h) {
+  const NuDot k1 = model.Acceleration(nu, delta);
+  const NuDot k2 = model.Acceleration(Along(nu, k1, h / 2), delta);
+  const NuDot k3 = model.Acceleration(Along(nu, k2, h / 2), delta);
+  const NuDot k4 = model.Acceleration(Along(nu, k3, h), delta);
+  const NuDot mean{(k1.u + 2 * k2.u + 2 * k3.u + k4.u) / 6, (k1.v + 2 * k2.v + 2 * k3.v + k4.v) / 6,
+                   (k1.r + 2 * k2.r + 2 * k3.r + k4.r) / 6};
+  return Along(nu, mean, h);
+}
+
+Nu NextVelocity(const VesselModel& model, const Nu& nu, const PropellerCommand& delta,
+                double step_s) {
+  Require(model.structure == Structure::kStaticQuadratic,
+          "a static structure: a lagging thruster has a state of its own");
+  Require(step_s > 0.0, "a positive step");
+  if (model.discretisation == Discretisation::kContinuous) {
+    return RungeKutta(model, nu, delta, step_s);
+  }
+  Require(model.discretisation == Discretisation::kForwardEuler, "a named discretisation");
+  Require(std::abs(step_s - model.sampling_period_s) <= kSameInstantS,
+          "a discrete model stepped by its own sampling period");
+  return Along(nu, model.Acceleration(nu, delta), step_s);
+}
+
+Eta NextPose(const Eta& eta, const Nu& before, const Nu& after, double step_s) {
+  const double psi_rad = eta.psi_rad + step_s * (before.r + after.r) / 2;
+  const Nu mean{(before.u + after.u) / 2, (before.v + after.v) / 2, (before.r + after.r) / 2};
+  const Eigen::Vector3d slope = EtaDot((eta.psi_rad + psi_rad) / 2, mean);
+  return {eta.x_m + step_s * slope.x(), eta.y_m + step_s * slope.y(), psi_rad};
+}
+
+}  // namespace
+
+VesselState Advance(const VesselModel& model, const VesselState& state,
+                    const PropellerCommand& delta, double step_s) {
+  const Nu nu = NextVelocity(model, state.nu, delta, step_s);
+  return {NextPose(state.eta, state.nu, nu, step_s), nu};
+}
+
+std::vector<TimedState> Simulate(const VesselModel& model, const VesselState& initial,
+                                 const std::vector<TimedCommand>& commands, double end_s,
+                                 double step_s) {
+  Require(!commands.empty(), "at least one command");
+  Require(step_s > 0.0, "a positive step");
+  const double start_s = commands.front().time_s;
+  Require(end_s >= start_s, "an end that is not before the first command");
+
+  const auto steps = static_cast<std::size_t>((end_s - start_s + kSameInstantS) / step_s);
+  std::vector<TimedState> track;
+  track.reserve(steps + 1);
+  VesselState state = initial;
+  auto held = commands.begin();
+  for (std::size_t k = 0; k <= steps; ++k) {
+    const double time_s = start_s + static_cast<double>(k) * step_s;
+    while (held + 1 != commands.end() && (held + 1)->time_s <= time_s + kSameInstantS) {
+      Require((held + 1)->time_s >= held->time_s, "commands in order of time");
+      ++held;
+    }
+    track.push_back({time_s, state, held->delta});
+    state = Advance(model, state, held->delta, step_s);
+  }
+  return track;
+}
+
+}  // namespace telltale

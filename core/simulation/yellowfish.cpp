@@ -1,0 +1,89 @@
+#include "simulation/yellowfish.hpp"
+
+namespace telltale {
+
+const PaperStaticTable kYellowfishStaticTable = {
+    .surge = {-0.0616, 0.0272, -0.0098, 0.0072, -0.0001, -0.0145, 0.1403},
+    .sway = {-0.0214, -0.0714, -0.0334, -0.0123, -0.0400, 0.0329, 0.0407, 0.0334, -0.0018, 0.0092,
+             -0.0381, -0.0032, -0.0505},
+    .yaw = {0.0424, -0.1168, 0.0369, -0.0077, -0.0310, -0.0931, 0.0882, -0.1505, 0.0055, -0.0872,
+            -0.0743, 0.0814, 0.3206},
+};
+
+namespace {
+
+// One propeller's thrust curve as it enters an equation: a delta^2 + b delta, forward and reverse.
+struct ThrustCurve {
+  double a_f = 0.0;
+  double b_f = 0.0;
+  double a_r = 0.0;
+  double b_r = 0.0;
+};
+
+template <std::size_t N>
+Eigen::VectorXd PerSecond(const std::array<double, N>& discrete) {
+  return Eigen::Map<const Eigen::VectorXd>(discrete.data(), N) / kYellowfishSamplingPeriodS;
+}
+
+Eigen::VectorXd Join(const Eigen::VectorXd& body, const ThrustCurve& thrust) {
+  Eigen::VectorXd theta(body.size() + 4);
+  theta << body, thrust.a_f, thrust.b_f, thrust.a_r, thrust.b_r;
+  return theta;
+}
+
+// The table's last four numbers in the FR meaning: a_f - a_r, a_f + a_r, b_f - b_r, b_f + b_r.
+ThrustCurve TurningThrust(const Eigen::VectorXd& table) {
+  const Eigen::Vector4d x = table.tail<4>();
+  return {(x[1] + x[0]) / 2, (x[3] + x[2]) / 2, (x[1] - x[0]) / 2, (x[3] - x[2]) / 2};
+}
+
+// The table gives surge thrust forward only: 2 a_f and 2 b_f. Reverse is the forward curve mirrored
+// and weakened, T(-delta) = -ratio T(delta).
+ThrustCurve SurgeThrust(const Eigen::VectorXd& table, double reverse_ratio) {
+  const double a_f = table[5] / 2;
+  const double b_f = table[6] / 2;
+  return {a_f, b_f, -reverse_ratio * a_f, reverse_ratio * b_f};
+}
+
+VesselModel StaticModel(Parameterization parameterization, Discretisation discretisation) {
+  VesselModel model;
+  model.structure = Structure::kStaticQuadratic;
+  model.parameterization = parameterization;
+  model.discretisation = discretisation;
+  model.sampling_period_s = kYellowfishSamplingPeriodS;
+  return model;
+}
+
+}  // namespace
+
+VesselModel YellowfishPaperModel() {
+  VesselModel model = StaticModel(Parameterization::kPaper, Discretisation::kForwardEuler);
+  model.theta = {PerSecond(kYellowfishStaticTable.surge), PerSecond(kYellowfishStaticTable.sway),
+                 PerSecond(kYellowfishStaticTable.yaw)};
+  return model;
+}
+
+VesselModel YellowfishTwin() {
+  const Eigen::VectorXd surge = PerSecond(kYellowfishStaticTable.surge);
+  const Eigen::VectorXd sway = PerSecond(kYellowfishStaticTable.sway);
+  const Eigen::VectorXd yaw = PerSecond(kYellowfishStaticTable.yaw);
+  const ThrustCurve yaw_thrust = TurningThrust(yaw);
+  const double reverse_ratio = yaw_thrust.b_r / yaw_thrust.b_f;
+
+  VesselModel model = StaticModel(Parameterization::kPropeller, Discretisation::kContinuous);
+  model.theta = {Join(surge.head<5>(), SurgeThrust(surge, reverse_ratio)),
+                 Join(sway.head<9>(), TurningThrust(sway)), Join(yaw.head<9>(), yaw_thrust)};
+  return model;
+}
+
+Vehicle YellowfishVehicle() {
+  Vehicle vehicle;
+  vehicle.vehicle_id = "yellowfish";
+  vehicle.propeller_separation_m = 0.8;
+  vehicle.port = {1500.0, 1900.0, 1100.0};
+  vehicle.starboard = {1500.0, 1900.0, 1100.0};
+  vehicle.gnss_antenna = {-0.3, 0.0};
+  return vehicle;
+}
+
+}  // namespace telltale

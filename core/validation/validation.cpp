@@ -1,0 +1,179 @@
+#include "validation/validation.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <string>
+
+#include "simulation/simulator.hpp"
+
+namespace telltale {
+namespace {
+
+constexpr double kLongestHorizonS = 600.0;
+// Sampling periods come from decimal logs: closer than this is equal.
+constexpr double kSamePeriodS = 1e-6;
+
+using Velocity = std::array<double, 3>;
+
+Velocity ToArray(const Nu& nu) {
+  return {nu.u, nu.v, nu.r};
+}
+
+VesselState Measured(const PreparedRow& row) {
+  return {row.eta, row.nu};
+}
+
+// A free run that has blown up errs by infinity, not by something unspeakable.
+double ErrorOf(double truth, double predicted) {
+  const double error = truth - predicted;
+  return std::isnan(error) ? std::numeric_limits<double>::infinity() : error;
+}
+
+// Sums over pairs of a true and a predicted velocity.
+class ErrorSums {
+ public:
+  void Add(double truth, double predicted) {
+    const double error = ErrorOf(truth, predicted);
+    squared_error_ += error * error;
+    absolute_error_ += std::abs(error);
+    // Welford's update: the spread of a slow drift about a large mean survives rounding.
+    count_ += 1.0;
+    const double from_old_mean = truth - mean_;
+    mean_ += from_old_mean / count_;
+    squared_spread_ += from_old_mean * (truth - mean_);
+  }
+
+  double R2() const {
+    if (squared_spread_ <= 0.0) return std::numeric_limits<double>::quiet_NaN();
+    return 1.0 - squared_error_ / squared_spread_;
+  }
+  double Mae() const { return absolute_error_ / count_; }
+  double Rmse() const { return std::sqrt(squared_error_ / count_); }
+
+ private:
+  double count_ = 0.0;
+  double mean_ = 0.0;
+  double squared_spread_ = 0.0;
+  double squared_error_ = 0.0;
+  double absolute_error_ = 0.0;
+};
+
+using SumsByVelocity = std::array<ErrorSums, 3>;
+
+void Add(SumsByVelocity& sums, const Nu& truth, const Nu& predicted) {
+  const Velocity nu = ToArray(truth);
+  const Velocity nu_hat = ToArray(predicted);
+  for (std::size_t j = 0; j < sums.size(); ++j) sums[j].Add(nu[j], nu_hat[j]);
+}
+
+std::array<OneStepScore, 3> ScoreOneStep(const PreparedDataset& dataset, const VesselModel& model) {
+  SumsByVelocity of_model;
+  SumsByVelocity of_persistence;
+  for (const RowRange& stretch : dataset.stretches) {
+    for (std::size_t k = stretch.begin; k + 1 < stretch.end; ++k) {
+      const PreparedRow& now = dataset.rows[k];
+      const Nu& next = dataset.rows[k + 1].nu;
+      Add(of_model, next, Advance(model, Measured(now), now.delta, dataset.sampling_period_s).nu);
+      Add(of_persistence, next, now.nu);
+    }
+  }
+  std::array<OneStepScore, 3> scores;
+  for (std::size_t j = 0; j < scores.size(); ++j) {
+    scores[j] = {of_model[j].R2(), of_model[j].Mae(), of_persistence[j].R2()};
+  }
+  return scores;
+}
+
+// Everything the free runs of one horizon have summed up.
+struct FreeRunSums {
+  SumsByVelocity of_model;
+  SumsByVelocity of_persistence;
+  double squared_distance_m2 = 0.0;
+  std::size_t windows = 0;
+};
+
+double SquaredDistance(const Eta& a, const Eta& b) {
+  const double north = ErrorOf(a.x_m, b.x_m);
+  const double east = ErrorOf(a.y_m, b.y_m);
+  return north * north + east * east;
+}
+
+void RunFreely(const PreparedDataset& dataset, const VesselModel& model, std::size_t first,
+               std::size_t steps, FreeRunSums& sums) {
+  const auto& rows = dataset.rows;
+  VesselState state = Measured(rows[first]);
+  for (std::size_t k = first; k < first + steps; ++k) {
+    state = Advance(model, state, rows[k].delta, dataset.sampling_period_s);
+    Add(sums.of_model, rows[k + 1].nu, state.nu);
+    Add(sums.of_persistence, rows[k + 1].nu, rows[first].nu);
+  }
+  sums.squared_distance_m2 += SquaredDistance(rows[first + steps].eta, state.eta);
+  ++sums.windows;
+}
+
+FreeRunScores ScoreFreeRuns(const PreparedDataset& dataset, const VesselModel& model,
+                            double horizon_s) {
+  const auto steps = static_cast<std::size_t>(std::lround(horizon_s / dataset.sampling_period_s));
+  FreeRunSums sums;
+  for (const RowRange& stretch : dataset.stretches) {
+    for (std::size_t k = stretch.begin; k + steps < stretch.end; k += steps) {
+      RunFreely(dataset, model, k, steps, sums);
+    }
+  }
+
+  FreeRunScores scores;
+  scores.horizon_s = horizon_s;
+  scores.windows = sums.windows;
+  if (sums.windows == 0) return scores;
+  const Velocity noise = ToArray(dataset.nu_noise);
+  for (std::size_t j = 0; j < scores.velocity.size(); ++j) {
+    scores.velocity[j] = {sums.of_model[j].Rmse(), sums.of_model[j].Mae(), sums.of_model[j].R2(),
+                          sums.of_persistence[j].Rmse(), noise[j]};
+  }
+  scores.position_rmse_m = std::sqrt(sums.squared_distance_m2 / static_cast<double>(sums.windows));
+  return scores;
+}
+
+std::optional<Refusal> Unanswerable(const PreparedDataset& dataset, const VesselModel& model,
+                                    const ValidationOptions& options) {
+  const bool has_pair = std::any_of(dataset.stretches.begin(), dataset.stretches.end(),
+                                    [](const RowRange& stretch) { return stretch.size() >= 2; });
+  if (!has_pair) {
+    return Refusal{"validation", "no two consecutive rows without a gap between them",
+                   "record at least a few seconds of position, heading and thruster commands"};
+  }
+  const double h = dataset.sampling_period_s;
+  if (model.discretisation == Discretisation::kForwardEuler &&
+      std::abs(model.sampling_period_s - h) > kSamePeriodS) {
+    return Refusal{"sampling_period_s",
+                   "the model is discrete with " + std::to_string(model.sampling_period_s) +
+                       " s, the data are sampled every " + std::to_string(h) + " s",
+                   "prepare the data at the model's sampling period"};
+  }
+  for (const double horizon_s : options.horizons_s) {
+    if (horizon_s >= 2.0 * h - kSamePeriodS && horizon_s <= kLongestHorizonS) continue;
+    return Refusal{"horizons_s", std::to_string(horizon_s) + " s is out of range",
+                   "choose horizons from two sampling periods (" + std::to_string(2.0 * h) +
+                       " s) to " + std::to_string(kLongestHorizonS) + " s"};
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+Result<Metrics> Validate(const PreparedDataset& dataset, const VesselModel& model,
+                         const ValidationOptions& options) {
+  if (auto refusal = Unanswerable(dataset, model, options)) {
+    return tl::unexpected<Refusal>(*std::move(refusal));
+  }
+  Metrics metrics;
+  metrics.one_step = ScoreOneStep(dataset, model);
+  for (const double horizon_s : options.horizons_s) {
+    metrics.free_run.push_back(ScoreFreeRuns(dataset, model, horizon_s));
+  }
+  return metrics;
+}
+
+}  // namespace telltale

@@ -1,0 +1,59 @@
+#!/usr/bin/env bash
+# cmake/check-layers passes on this project and fails, with file, line and rule, on each wrong include.
+set -euo pipefail
+root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
+check=$root/cmake/check-layers
+sandbox=$(mktemp -d)
+trap 'rm -rf "$sandbox"' EXIT
+
+fail() { echo "FAILED: $1" >&2; exit 1; }
+
+# A small house with one header a layer.
+build_house() {
+  rm -rf "${sandbox:?}"/*
+  mkdir -p "$sandbox"/{core/data,idl/codec,client/bus,service/ingest,tests/support,bench}
+  echo '#include <vector>' > "$sandbox/core/data/window.hpp"
+  echo '#include "data/window.hpp"' > "$sandbox/idl/codec/wire.hpp"
+  printf '#include "codec/wire.hpp"\n#include <dds/dds.h>\n' > "$sandbox/client/bus/reader.hpp"
+  echo '#include "bus/reader.hpp"' > "$sandbox/service/ingest/ingest.hpp"
+  echo '#include "data/window.hpp"' > "$sandbox/tests/support/matchers.hpp"
+}
+
+# rejects FILE INCLUDE RULE: adding the include as the file's second line is found out.
+rejects() {
+  build_house
+  mkdir -p "$(dirname "$sandbox/$1")"
+  printf '#pragma once\n#include %s\n' "$2" > "$sandbox/$1"
+  local output status=0
+  output=$("$check" "$sandbox" 2>&1) || status=$?
+  ((status == 1)) || fail "$1 including $2 should be refused; exit $status, said: $output"
+  grep -qF "$1:2: " <<< "$output" || fail "$1 including $2: no file and line in: $output"
+  grep -qF "$3" <<< "$output" || fail "$1 including $2: rule '$3' is not in: $output"
+}
+
+"$check" "$root" || fail "this project breaks its own line"
+build_house
+"$check" "$sandbox" > /dev/null || fail "a house in order was refused"
+
+rejects core/data/bad.hpp '"codec/wire.hpp"' 'core may not see idl'
+rejects core/data/bad.cpp '<bus/reader.hpp>' 'core may not see client'
+rejects core/data/bad.hpp '"proto/model.pb.h"' 'core may not see idl'
+rejects core/data/bad.hpp '"telltale.h"' 'core may not see idl'
+rejects core/bad.cpp '<dds/dds.h>' 'core knows no DDS'
+rejects core/bad.cpp '<google/protobuf/message.h>' 'core knows no Protobuf'
+rejects core/bad.cpp '<spdlog/spdlog.h>' 'core writes no log'
+rejects core/bad.cpp '<fstream>' 'core knows no files'
+rejects core/bad.cpp '<filesystem>' 'core knows no files'
+rejects core/bad.cpp '<chrono>' 'core knows no clock'
+rejects core/bad.hpp '<ceres/ceres.h>' "Ceres stays inside core's .cpp files"
+rejects core/bad.cpp '"support/matchers.hpp"' 'core may not see tests'
+rejects core/bad.cpp '"../idl/codec/wire.hpp"' "relative to the layer's folder"
+rejects core/bad.cpp '"nowhere.hpp"' 'no such header'
+rejects idl/codec/bad.hpp '"bus/reader.hpp"' 'idl may not see client'
+rejects idl/codec/bad.hpp '"ingest/ingest.hpp"' 'idl may not see service'
+rejects client/bus/bad.hpp '"ingest/ingest.hpp"' 'client may not see service'
+rejects client/bus/bad.hpp '<SQLiteCpp/SQLiteCpp.h>' "the model store is the service's"
+rejects service/ingest/bad.cpp '<dds/dds.h>' 'DDS is handled in client/bus'
+rejects service/ingest/bad.cpp '"support/matchers.hpp"' 'service may not see tests'
+
+echo "check-layers finds every wrong include"

@@ -1,0 +1,178 @@
+#include "identification/identify.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <boost/random/normal_distribution.hpp>
+#include <gtest/gtest.h>
+
+#include "simulation/yellowfish.hpp"
+#include "support/discrete_boat.hpp"
+
+namespace telltale {
+namespace {
+
+constexpr auto kFF = PropellerRegion::kFF;
+constexpr auto kFR = PropellerRegion::kFR;
+constexpr auto kRF = PropellerRegion::kRF;
+
+PreparedDataset Boat(const std::vector<PropellerRegion>& regions, double noise_mps = 0.0) {
+  PreparedDataset dataset =
+      testing::DriveDiscrete(YellowfishTwin(), testing::RandomCommands(3000, regions, 7), 50);
+  RandomEngine engine(1);
+  boost::random::normal_distribution<double> noise(0.0, 1.0);
+  for (PreparedRow& row : dataset.rows) {
+    row.nu.u += noise_mps * noise(engine);
+    row.nu.v += noise_mps * noise(engine);
+    row.nu.r += noise_mps * noise(engine);
+  }
+  return dataset;
+}
+
+IdentifyOptions Quick() {
+  IdentifyOptions options;
+  options.bootstrap_replicates = 200;
+  return options;
+}
+
+bool Refuses(const Identification& identification, const std::string& subject) {
+  return std::any_of(identification.refusals.begin(), identification.refusals.end(),
+                     [&](const Refusal& r) { return r.subject == subject; });
+}
+
+TEST(Identify, WritesEveryCoefficientInOrderWithBounds) {
+  const auto result = Identify(Boat({kFF, kFR, kRF}, 1e-4), "boat", Quick());
+  ASSERT_TRUE(result.has_value());
+  const std::size_t expected = 9 + 13 + 13;
+  ASSERT_EQ(result->coefficients.size(), expected);
+  EXPECT_EQ(result->covariance.rows(), static_cast<Eigen::Index>(expected));
+  EXPECT_TRUE(result->covariance.isApprox(result->covariance.transpose()));
+  std::size_t next = 0;
+  for (const Equation equation : kEquations) {
+    for (const Regressor& regressor : Regressors(equation, Parameterization::kPropeller)) {
+      const Coefficient& c = result->coefficients[next];
+      EXPECT_EQ(c.equation, equation);
+      EXPECT_EQ(c.regressor, regressor.name);
+      EXPECT_EQ(c.status, CoefficientStatus::kEstimated) << c.regressor;
+      EXPECT_LE(c.interval.lower, c.estimate);
+      EXPECT_GE(c.interval.upper, c.estimate);
+      const auto place = static_cast<Eigen::Index>(next);
+      EXPECT_DOUBLE_EQ(c.standard_error, std::sqrt(result->covariance(place, place)));
+      ++next;
+    }
+  }
+}
+
+/// Known truth: noise of 1e-4 m/s on velocities 0.2 s apart leaves the thrust coefficients right.
+TEST(Identify, RecoversTheTwin) {
+  const VesselModel truth = YellowfishTwin();
+  const auto result = Identify(Boat({kFF, kFR, kRF}, 1e-4), "boat", Quick());
+  ASSERT_TRUE(result.has_value());
+  for (const Coefficient& c : result->coefficients) {
+    if (c.regressor != "f:d") continue;
+    const Eigen::VectorXd& theta = truth.theta[IndexOf(c.equation)];
+    const double expected = theta[theta.size() - 3];
+    EXPECT_NEAR(c.estimate, expected, 0.02 * std::abs(expected)) << Name(c.equation);
+  }
+}
+
+TEST(Identify, RefusesSwayAndYawOfAStraightRunAndAnswersSurge) {
+  PreparedDataset dataset = Boat({kFF});
+  for (PreparedRow& row : dataset.rows) {
+    row.delta.starboard = row.delta.port;
+    row.nu.v = 0.0;
+    row.nu.r = 0.0;
+  }
+  for (std::size_t k = 0; k + 1 < dataset.rows.size(); ++k) {
+    const NuDot nu_dot = YellowfishTwin().Acceleration(dataset.rows[k].nu, dataset.rows[k].delta);
+    dataset.rows[k + 1].nu.u = dataset.rows[k].nu.u + 0.2 * nu_dot.u;
+  }
+  const auto result = Identify(dataset, "boat", Quick());
+  ASSERT_TRUE(result.has_value());
+  EXPECT_TRUE(result->Has(Equation::kSurge));
+  EXPECT_FALSE(result->Has(Equation::kSway));
+  EXPECT_FALSE(result->Has(Equation::kYaw));
+  EXPECT_TRUE(Refuses(*result, "SWAY"));
+  EXPECT_TRUE(Refuses(*result, "YAW"));
+  for (const Refusal& refusal : result->refusals) {
+    EXPECT_FALSE(refusal.reason.empty());
+    EXPECT_FALSE(refusal.advice.empty());
+  }
+  EXPECT_FALSE(ModelOf(*result).has_value());
+}
+
+/// A propeller that never reversed: its reverse coefficients are unknown and say so.
+TEST(Identify, MarksUnmovedPropellersAsNotExcited) {
+  const auto result = Identify(Boat({kFF}, 1e-3), "boat", Quick());
+  ASSERT_TRUE(result.has_value());
+  for (const Coefficient& c : result->coefficients) {
+    const bool reverse = c.regressor.starts_with("r:");
+    EXPECT_EQ(c.status == CoefficientStatus::kNotExcited, reverse) << c.regressor;
+    if (!reverse) continue;
+    EXPECT_EQ(c.estimate, 0.0);
+    EXPECT_TRUE(std::isinf(c.standard_error));
+    EXPECT_TRUE(std::isinf(c.interval.lower) && std::isinf(c.interval.upper));
+  }
+}
+
+TEST(Identify, RefusesABoatThatNeverMoved) {
+  PreparedDataset dataset = Boat({kFF});
+  for (PreparedRow& row : dataset.rows) {
+    row.nu = {};
+    row.delta = {};
+  }
+  const auto result = Identify(dataset, "boat", Quick());
+  ASSERT_FALSE(result.has_value());
+  EXPECT_EQ(result.error().subject, "model");
+  EXPECT_NE(result.error().reason.find("SURGE"), std::string::npos);
+}
+
+TEST(Identify, RefusesTooShortARecording) {
+  PreparedDataset dataset = Boat({kFF, kFR, kRF});
+  dataset.rows.resize(60);
+  dataset.stretches = {{0, 60}};
+  dataset.segments = {{0, 60}};
+  const auto result = Identify(dataset, "boat", Quick());
+  ASSERT_FALSE(result.has_value());
+  EXPECT_NE(result.error().reason.find("usable rows"), std::string::npos);
+}
+
+TEST(Identify, WithoutBootstrapBoundsRestOnResiduals) {
+  IdentifyOptions options;
+  options.bootstrap_replicates = 0;
+  const auto result = Identify(Boat({kFF, kFR, kRF}, 1e-3), "boat", options);
+  ASSERT_TRUE(result.has_value());
+  EXPECT_NE(result->provenance.bounds_basis.find("residual"), std::string::npos);
+  for (const Coefficient& c : result->coefficients) EXPECT_GT(c.standard_error, 0.0);
+}
+
+TEST(Identify, WarnsWhenBoundsRestOnFewSegments) {
+  PreparedDataset dataset = Boat({kFF, kFR, kRF}, 1e-3);
+  dataset.segments = {{0, 1000}, {1000, 2000}, {2000, 3000}};
+  const auto result = Identify(dataset, "boat", Quick());
+  ASSERT_TRUE(result.has_value());
+  EXPECT_TRUE(Refuses(*result, "bounds"));
+}
+
+TEST(IdentifyOptions, NameTheFieldTheValueAndTheRange) {
+  IdentifyOptions options;
+  options.bootstrap_replicates = 7;
+  const auto refusal = options.Validate();
+  ASSERT_TRUE(refusal.has_value());
+  EXPECT_EQ(refusal->subject, "bootstrap_replicates");
+  EXPECT_NE(refusal->reason.find("7"), std::string::npos);
+  EXPECT_NE(refusal->advice.find("[100, 100000]"), std::string::npos);
+
+  options = {};
+  options.interval_level = 95.0;
+  EXPECT_EQ(options.Validate()->subject, "interval_level");
+  options = {};
+  options.threads = 0;
+  EXPECT_EQ(options.Validate()->subject, "threads");
+  options = {};
+  options.excitation.command_spread = std::nan("");
+  EXPECT_EQ(options.Validate()->subject, "excitation.command_spread");
+}
+
+}  // namespace
+}  // namespace telltale
