@@ -38,7 +38,7 @@ struct Reading {
 /// Pulse widths of all channels at one time; NaN where the firmware logs fewer.
 struct Pulses {
   double time_s = 0.0;
-  std::array<float, kLoggedChannels> us;
+  std::array<float, kLoggedChannels> us{};
 };
 
 using Parameters = std::map<std::string, double, std::less<>>;
@@ -348,7 +348,8 @@ std::optional<Refusal> OutOfRange(const char* field, std::optional<int> value, i
 Refusal LacksFix(const DataFlashReport& report, const std::string& read) {
   if (!report.gps_fixes.empty()) {
     std::string have;
-    for (const auto& [instance, fixes] : report.gps_fixes) have += " " + std::to_string(instance);
+    for (const auto& [instance, fixes] : report.gps_fixes)
+      have.append(" ").append(std::to_string(instance));
     return {"gnss", "the GPS instance asked for has no fix" + read, "ask for one of:" + have};
   }
   if (report.gps_without_fix > 0) {

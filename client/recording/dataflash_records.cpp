@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <utility>
 
 namespace telltale {
 namespace {
@@ -98,26 +99,26 @@ bool IsName(std::string_view name) {
          std::all_of(name.begin(), name.end(), [](unsigned char c) { return c > ' ' && c < 0x7F; });
 }
 
-/// The columns, or nothing when format, labels and length do not agree.
-std::optional<std::vector<DataFlashColumn>> LayOut(std::string_view formats,
-                                                   std::string_view labels, std::size_t length) {
+/// The columns; none when format, labels and length do not agree.
+std::vector<DataFlashColumn> LayOut(std::string_view formats, std::string_view labels,
+                                    std::size_t length) {
   const std::vector<std::string> names = SplitLabels(labels);
-  if (names.size() != formats.size()) return std::nullopt;
+  if (names.size() != formats.size()) return {};
   std::vector<DataFlashColumn> columns;
   std::size_t offset = kHeaderLength;
   for (std::size_t i = 0; i < formats.size(); ++i) {
     const std::size_t width = WidthOf(formats[i]);
-    if (width == 0) return std::nullopt;
+    if (width == 0) return {};
     columns.push_back({names[i], formats[i], offset});
     offset += width;
   }
-  if (offset != length) return std::nullopt;
+  if (offset != length) return {};
   return columns;
 }
 
 DataFlashFormat FmtItself() {
   return {kFmtType, kFmtLength, "FMT",
-          *LayOut("BBnNZ", "Type,Length,Name,Format,Columns", kFmtLength)};
+          LayOut("BBnNZ", "Type,Length,Name,Format,Columns", kFmtLength)};
 }
 
 }  // namespace
@@ -178,7 +179,7 @@ std::size_t DataFlashFraming::Consume(DataFlashBytes bytes, bool last) {
   while (done < bytes.size() && (last || bytes.size() - done >= kLookAhead)) {
     const DataFlashBytes rest = bytes.subspan(done);
     if (IsWholeRecord(rest)) {
-      const std::size_t length = formats_[rest[2]]->length;
+      const std::size_t length = formats_[rest[2]].length;
       Deliver(rest.first(length));
       done += length;
     } else {
@@ -191,14 +192,14 @@ std::size_t DataFlashFraming::Consume(DataFlashBytes bytes, bool last) {
 std::map<std::string, std::uint64_t> DataFlashFraming::RecordsByName() const {
   std::map<std::string, std::uint64_t> by_name = superseded_records_;
   for (std::size_t type = 0; type < records_.size(); ++type) {
-    if (records_[type] > 0) by_name[formats_[type]->name] += records_[type];
+    if (records_[type] > 0) by_name[formats_[type].name] += records_[type];
   }
   return by_name;
 }
 
 bool DataFlashFraming::IsWholeRecord(DataFlashBytes rest) const {
-  if (!StartsWithHeader(rest) || rest.size() < kHeaderLength || !formats_[rest[2]]) return false;
-  const std::size_t length = formats_[rest[2]]->length;
+  if (!StartsWithHeader(rest) || rest.size() < kHeaderLength || !IsDefined(rest[2])) return false;
+  const std::size_t length = formats_[rest[2]].length;
   if (rest.size() < length) return false;
   const DataFlashBytes next = rest.subspan(length);
   if (next.empty()) return true;
@@ -210,7 +211,7 @@ void DataFlashFraming::Deliver(DataFlashBytes record) {
   const std::uint8_t type = record[2];
   ++records_[type];
   if (type == kFmtType) Define(record);
-  consumer_.Take(*formats_[type], record);
+  consumer_.Take(formats_[type], record);
 }
 
 void DataFlashFraming::Define(DataFlashBytes definition) {
@@ -218,27 +219,26 @@ void DataFlashFraming::Define(DataFlashBytes definition) {
                          definition[kFmtLengthAt],
                          std::string(TextAt(definition, kFmtNameAt, 4)),
                          {}};
-  const auto columns = LayOut(TextAt(definition, kFmtFormatAt, 16),
-                              TextAt(definition, kFmtColumnsAt, 64), format.length);
-  std::optional<DataFlashFormat>& known = formats_[format.type];
-  if (columns) format.columns = *columns;
-  const bool is_sound = columns && IsName(format.name);
+  format.columns = LayOut(TextAt(definition, kFmtFormatAt, 16),
+                          TextAt(definition, kFmtColumnsAt, 64), format.length);
+  DataFlashFormat& known = formats_[format.type];
+  const bool is_sound = !format.columns.empty() && IsName(format.name);
   const bool changes_fmt = format.type == kFmtType && format != known;
   if (!is_sound || changes_fmt) {
     ++damage_.malformed_definitions;
     // Its length may still be right, which is enough to pass over records of this type.
-    if (known || format.length < kHeaderLength) return;
+    if (IsDefined(format.type) || format.length < kHeaderLength) return;
     format.name = "type " + std::to_string(format.type);
     format.columns.clear();
   }
   if (known == format) return;
-  if (known) {
+  if (IsDefined(format.type)) {
     ++damage_.redefinitions;
-    if (records_[format.type] > 0) superseded_records_[known->name] += records_[format.type];
+    if (records_[format.type] > 0) superseded_records_[known.name] += records_[format.type];
     records_[format.type] = 0;
   }
   known = std::move(format);
-  consumer_.Define(*known);
+  consumer_.Define(known);
 }
 
 bool DataFlashFraming::IsCutByTheEnd(DataFlashBytes rest) const {
@@ -246,7 +246,7 @@ bool DataFlashFraming::IsCutByTheEnd(DataFlashBytes rest) const {
   if (!StartsWithHeader(rest)) return false;
   if (rest.size() < kHeaderLength) return true;
   const bool holds_another = FindHeader(rest, 1) + 1 < rest.size();
-  return formats_[rest[2]] && rest.size() < formats_[rest[2]]->length && !holds_another;
+  return IsDefined(rest[2]) && rest.size() < formats_[rest[2]].length && !holds_another;
 }
 
 std::size_t DataFlashFraming::PassOverDamage(DataFlashBytes rest) {
@@ -264,7 +264,7 @@ std::size_t DataFlashFraming::PassOverDamage(DataFlashBytes rest) {
 
 void DataFlashFraming::CountDamage(DataFlashBytes rest) {
   const bool has_header = StartsWithHeader(rest) && rest.size() >= kHeaderLength;
-  if (has_header && !formats_[rest[2]]) {
+  if (has_header && !IsDefined(rest[2])) {
     ++damage_.undefined_records;
   } else if (has_header || !in_damage_) {
     ++damage_.corrupt_records;

@@ -4,7 +4,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <map>
-#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -90,6 +89,7 @@ class DataFlashFraming {
   std::map<std::string, std::uint64_t> RecordsByName() const;
 
  private:
+  bool IsDefined(std::uint8_t type) const { return formats_[type].length > 0; }
   bool IsWholeRecord(DataFlashBytes rest) const;
   bool IsCutByTheEnd(DataFlashBytes rest) const;
   void Deliver(DataFlashBytes record);
@@ -98,7 +98,7 @@ class DataFlashFraming {
   void CountDamage(DataFlashBytes rest);
 
   DataFlashConsumer& consumer_;
-  std::array<std::optional<DataFlashFormat>, 256> formats_;
+  std::array<DataFlashFormat, 256> formats_;  ///< length 0: not defined
   std::array<std::uint64_t, 256> records_{};  ///< of the present definition of a type
   std::map<std::string, std::uint64_t> superseded_records_;  ///< of definitions since replaced
   DataFlashDamage damage_;
