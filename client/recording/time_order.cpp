@@ -4,12 +4,12 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <tuple>
+#include <span>
 
 namespace telltale {
 namespace {
 
-constexpr double kEpochStepS = 60.0;
+constexpr double kClockStepS = 60.0;
 constexpr std::size_t kNeighbours = 2;  // to each side: two wrong times in a row are seen through
 
 /// Where a sample goes: epochs one after the other, and by time inside each.
@@ -19,15 +19,16 @@ struct Place {
   auto operator<=>(const Place&) const = default;
 };
 
-double MedianAround(const std::vector<double>& times, std::size_t i) {
-  std::array<double, 2 * kNeighbours + 1> around;
+// A sample's own time, unless it disturbs the order around it and lies far from its neighbours.
+double PlacedTime(const std::vector<double>& times, std::size_t i) {
   const std::size_t begin = i < kNeighbours ? 0 : i - kNeighbours;
   const std::size_t end = std::min(i + kNeighbours + 1, times.size());
-  const auto last = std::copy(times.begin() + static_cast<std::ptrdiff_t>(begin),
-                              times.begin() + static_cast<std::ptrdiff_t>(end), around.begin());
-  const auto middle = around.begin() + (last - around.begin()) / 2;
-  std::nth_element(around.begin(), middle, last);
-  return *middle;
+  const std::span around(times.data() + begin, end - begin);
+  if (std::is_sorted(around.begin(), around.end())) return times[i];
+  std::vector<double> sorted(around.begin(), around.end());
+  std::sort(sorted.begin(), sorted.end());
+  const double median_s = sorted[sorted.size() / 2];
+  return std::abs(times[i] - median_s) <= kClockStepS ? times[i] : median_s;
 }
 
 template <class Sample>
@@ -49,8 +50,8 @@ std::vector<Place> PlacesOf(const std::vector<Sample>& samples) {
   places.reserve(times.size());
   Place place;
   for (std::size_t i = 0; i < times.size(); ++i) {
-    const double time_s = MedianAround(times, i);
-    const bool set_back = i > 0 && time_s < place.time_s - kEpochStepS;
+    const double time_s = PlacedTime(times, i);
+    const bool set_back = i > 0 && time_s < place.time_s - kClockStepS;
     place = {place.epoch + (set_back ? 1 : 0), time_s};
     places.push_back(place);
   }
