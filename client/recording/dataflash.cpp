@@ -479,7 +479,7 @@ Result<DataFlashLog> ReadDataFlash(const std::filesystem::path& file,
 
   DataFlashLog log = Conclude(gathering, framing, total, options);
   if (auto refusal = log.Lacks()) {
-    refusal->subject = file.string() + ": " + refusal->subject;
+    refusal->subject = file.string() + " " + refusal->subject;
     return tl::unexpected(*std::move(refusal));
   }
   return log;

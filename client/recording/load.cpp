@@ -41,7 +41,7 @@ Result<LoadedRecording> LoadRecording(const std::filesystem::path& path,
   auto admitted = Admit(log->samples);
   if (!admitted) {
     Refusal refusal = std::move(admitted).error();
-    refusal.subject = path.string() + ": " + refusal.subject;
+    refusal.subject = path.string() + " " + refusal.subject;
     return tl::unexpected(std::move(refusal));
   }
   return LoadedRecording{std::move(admitted->recording), admitted->forgotten, log->malformed,

@@ -112,7 +112,7 @@ TEST_F(Loading, RefusalsNameThePath) {
   off.Gps(1, 0, 3, 1, 1).Att(1, 1).Rcou(1, 0, 0, 0);
   const auto unusable = LoadRecording(Save(off));
   ASSERT_FALSE(unusable);
-  EXPECT_THAT(unusable.error().subject, HasSubstr("log.BIN: thrusters"));
+  EXPECT_THAT(unusable.error().subject, HasSubstr("log.BIN thrusters"));
   EXPECT_THAT(unusable.error().reason, HasSubstr("OUT_OF_RANGE"));
 }
 
