@@ -41,5 +41,8 @@ int main(int argc, char** argv) {
   telltale::AddIdentify(app);
   telltale::AddValidate(app);
   telltale::AddSimulate(app);
+  telltale::AddReplay(app);
+  telltale::AddWatch(app);
+  telltale::AddMonitor(app);
   return static_cast<int>(telltale::Run(app, argc, argv));
 }
