@@ -16,7 +16,9 @@ class TelemetryPublisher {
  public:
   TelemetryPublisher(const Participant& participant, std::string vehicle_id);
 
-  /// False when within `timeout` nobody was there to receive all three channels.
+  /// False when within `timeout` nobody was there to receive all three channels. Where somebody is,
+  /// it waits a moment more for them to learn of this side: what is sent before they do is lost,
+  /// and nothing tells.
   bool WaitForReaders(std::chrono::nanoseconds timeout) const;
 
   void Publish(const GnssFix& fix);
