@@ -8,7 +8,8 @@
 namespace telltale {
 namespace {
 
-// Both sides of a match learn of it within milliseconds of each other; a busy machine takes longer.
+// Both sides of a match learn of its coming and going within milliseconds; a busy machine takes
+// longer.
 constexpr auto kSettling = std::chrono::milliseconds(200);
 
 }  // namespace
@@ -19,6 +20,12 @@ TelemetryPublisher::TelemetryPublisher(const Participant& participant, std::stri
       gnss_writer_(participant),
       heading_writer_(participant),
       thruster_writer_(participant) {}
+
+TelemetryPublisher::~TelemetryPublisher() {
+  if (Published() == 0) return;
+  Flush();
+  std::this_thread::sleep_for(kSettling);
+}
 
 bool TelemetryPublisher::WaitForReaders(std::chrono::nanoseconds timeout) const {
   if (!WaitForMatch(participant_, {gnss_writer_, heading_writer_, thruster_writer_}, timeout)) {
