@@ -62,7 +62,7 @@ EquationProblem BuildEquation(const PreparedDataset& dataset, Equation equation,
     for (std::size_t k = pairs.begin; k < pairs.end; ++k) {
       const PreparedRow& now = dataset.rows[k];
       if (!Enters(now.region, equation, options)) continue;
-      FillRow(equation, options.parameterization, now.nu, now.delta,
+      FillRow(equation, options.parameterization, now.nu, options.dead_zone.Apply(now.delta),
               {phi.row(row).data(), problem.regressors.size()});
       problem.y[row] =
           (Component(dataset.rows[k + 1].nu, equation) - Component(now.nu, equation)) /

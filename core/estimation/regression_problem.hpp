@@ -38,6 +38,7 @@ struct RegressionOptions {
   Structure structure = Structure::kStaticQuadratic;
   Parameterization parameterization = Parameterization::kPropeller;
   bool include_reverse = false;  ///< take RR rows too
+  DeadZone dead_zone;            ///< applied to every command before its regressors are formed
 };
 
 /// PreparedDataset -> RegressionProblem: y(k) = (nu(k+1) - nu(k)) / h on Phi(nu(k), delta(k)),

@@ -29,6 +29,18 @@ struct PropellerCommand {
   double Difference() const { return port - starboard; }
 };
 
+/// Commands between the two limits give no thrust; beyond them thrust counts from the limit.
+/// Assumes: reverse <= 0 <= forward, both well inside [-1, 1]. Zeros mean no dead zone.
+/// Source: the paper, remark on the T200's dead zone; docs/model.md (7).
+struct DeadZone {
+  double forward = 0.0;
+  double reverse = 0.0;
+
+  /// The command as the thrust curve sees it.
+  double Apply(double delta) const;
+  PropellerCommand Apply(const PropellerCommand& delta) const;
+};
+
 /// Which way the propellers turn, port first: F forward (delta >= 0), R reverse (delta < 0).
 enum class PropellerRegion { kFF, kFR, kRF, kRR };
 
