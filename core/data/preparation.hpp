@@ -13,8 +13,8 @@ namespace telltale {
 /// How the three channels are brought onto one grid.
 /// kPaper: causal spline extrapolation from the newest past samples (cubic position, 8th-degree
 /// heading, cubic PWM), velocities by differentiation, then Savitzky-Golay on the velocities.
-/// kRobust: positions and headings interpolated between their neighbours, PWM held and averaged over
-/// the interval it acts in, then one and the same Savitzky-Golay kernel on everything.
+/// kRobust: positions and headings interpolated between their neighbours, PWM held and averaged
+/// over the interval it acts in, then one and the same Savitzky-Golay kernel on everything.
 enum class Preset { kUnknown, kPaper, kRobust };
 
 /// "PAPER" or "ROBUST".
@@ -22,12 +22,13 @@ std::string_view Name(Preset preset);
 
 struct PrepareOptions {
   Preset preset = Preset::kRobust;
-  std::optional<double> sampling_period_s;  ///< [0.02, 2]; unset: the median GNSS period
-  std::size_t smoothing_half_width = 5;     ///< Savitzky-Golay rows to each side, [2, 50]
-  std::size_t smoothing_degree = 3;         ///< [1, 5], below 2 * half width + 1
-  double longest_gap_s = 1.0;               ///< a longer silence of any channel ends a stretch, [0.1, 60]
-  double shortest_stretch_s = 5.0;          ///< shorter stretches are dropped, [1, 600]
-  double longest_segment_s = 20.0;          ///< segments are cut at this length, [2, 600]
+  std::optional<double> sampling_period_s =
+      std::nullopt;                      ///< [0.02, 2]; unset: the median GNSS period
+  std::size_t smoothing_half_width = 5;  ///< Savitzky-Golay rows to each side, [2, 50]
+  std::size_t smoothing_degree = 3;      ///< [1, 5], below 2 * half width + 1
+  double longest_gap_s = 1.0;       ///< a longer silence of any channel ends a stretch, [0.1, 60]
+  double shortest_stretch_s = 5.0;  ///< shorter stretches are dropped, [1, 600]
+  double longest_segment_s = 20.0;  ///< segments are cut at this length, [2, 600]
 
   static PrepareOptions Paper();
   static PrepareOptions Robust();

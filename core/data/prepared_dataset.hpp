@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "data/north_east.hpp"
 #include "data/samples.hpp"
 #include "vessel/motion.hpp"
 #include "vessel/propellers.hpp"
@@ -25,18 +26,12 @@ struct RowRange {
   std::size_t size() const { return end - begin; }
 };
 
-/// Where {n} is anchored.
-struct FrameOrigin {
-  double latitude_deg = 0.0;
-  double longitude_deg = 0.0;
-};
-
 /// A recording turned into what regressions need: synchronised rows at one sampling period.
 ///
 /// stretches: gap-free runs of rows, ascending and disjoint; consecutive rows of a stretch are
 /// exactly sampling_period_s apart. Free runs live inside a stretch.
-/// segments: stretches cut further at each change of propeller region and at the longest segment the
-/// options allow; they are the independent units of the bootstrap.
+/// segments: stretches cut further at each change of propeller region and at the longest segment
+/// the options allow; they are the independent units of the bootstrap.
 struct PreparedDataset {
   double sampling_period_s = 0.0;
   FrameOrigin origin;

@@ -39,12 +39,12 @@ enum class RejectReason {
   kDuplicate,    ///< same time as a sample already held
   kOutOfOrder,   ///< older than the newest by more than the tolerance
   kClockJump,    ///< time leapt ahead or back by more than the jump limit
-  kStuckSensor,  ///< a reading repeated bit for bit longer than a live sensor would
+  kStuckSensor,  ///< a reading repeated bit for bit while the commands changed
 };
 
-inline constexpr std::array kRejectReasons = {
-    RejectReason::kNotFinite,  RejectReason::kOutOfRange, RejectReason::kDuplicate,
-    RejectReason::kOutOfOrder, RejectReason::kClockJump,  RejectReason::kStuckSensor};
+inline constexpr std::array kRejectReasons = {RejectReason::kNotFinite, RejectReason::kOutOfRange,
+                                              RejectReason::kDuplicate, RejectReason::kOutOfOrder,
+                                              RejectReason::kClockJump, RejectReason::kStuckSensor};
 
 std::string_view Name(Channel channel);
 std::string_view Name(RejectReason reason);

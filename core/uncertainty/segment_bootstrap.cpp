@@ -1,9 +1,11 @@
 #include "uncertainty/segment_bootstrap.hpp"
 
+#include <algorithm>
 #include <vector>
 
 #include <Eigen/Cholesky>
 #include <boost/random/uniform_int_distribution.hpp>
+#include <oneapi/tbb/info.h>
 #include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/task_arena.h>
 
@@ -109,7 +111,8 @@ BootstrapReplicates BootstrapSegments(
     }
     solved[i] = all ? 1 : 0;
   };
-  oneapi::tbb::task_arena arena(static_cast<int>(options.threads));
+  oneapi::tbb::task_arena arena(
+      std::min(static_cast<int>(options.threads), oneapi::tbb::info::default_concurrency()));
   arena.execute([&] {
     oneapi::tbb::parallel_for(std::size_t{0}, options.replicates, replicate);
   });

@@ -46,10 +46,10 @@ MISSING="libeigen3-dev libtbb-dev" run
 [[ $(sed -n 2p "$CALLS") == *"install --yes --no-install-recommends libeigen3-dev libtbb-dev" ]] ||
   fail "two missing, but it called $(cat "$CALLS")"
 
-MISSING="clang-tidy-14" run
+MISSING="clang-tidy-16" run
 [[ ! -s $CALLS ]] || fail "a CI package was installed without --ci"
-MISSING="clang-tidy-14" run --ci
-grep -q 'install .* clang-tidy-14$' "$CALLS" || fail "--ci did not install clang-tidy-14"
+MISSING="clang-tidy-16" run --ci
+grep -q 'install .* clang-tidy-16$' "$CALLS" || fail "--ci did not install clang-tidy-16"
 
 run --no-such-option
 ((status == 2)) || fail "an unknown option should exit 2, not $status"

@@ -1,0 +1,75 @@
+#include "bus/endpoint.hpp"
+
+#include <algorithm>
+#include <string>
+
+#include "bus/error.hpp"
+#include "bus/wait_set.hpp"
+
+namespace telltale {
+namespace {
+
+/// Lets wait sets see connections come and go on an endpoint, for as long as it lives.
+class MatchStatusEnabled {
+ public:
+  explicit MatchStatusEnabled(const Endpoint& endpoint) : handle_(endpoint.handle()) {
+    Checked(dds_get_status_mask(handle_, &before_), "reading a status mask");
+    Checked(dds_set_status_mask(handle_, before_ | endpoint.match_status()),
+            "setting a status mask");
+  }
+  MatchStatusEnabled(MatchStatusEnabled&& other) noexcept
+      : handle_(std::exchange(other.handle_, 0)), before_(other.before_) {}
+  MatchStatusEnabled& operator=(MatchStatusEnabled&&) = delete;
+  ~MatchStatusEnabled() {
+    if (handle_ > 0) dds_set_status_mask(handle_, before_);
+  }
+
+ private:
+  dds_entity_t handle_;
+  std::uint32_t before_ = 0;
+};
+
+}  // namespace
+
+Endpoint::Endpoint(const Participant& participant, Kind kind, const dds_topic_descriptor_t& type,
+                   const char* topic, const dds_qos_t* qos)
+    : kind_(kind),
+      topic_(Checked(dds_create_topic(participant.handle(), &type, topic, nullptr, nullptr),
+                     std::string("creating topic ") + topic)),
+      end_(kind == Kind::kReader
+               ? Checked(dds_create_reader(participant.handle(), topic_.handle(), qos, nullptr),
+                         std::string("creating a reader of ") + topic)
+               : Checked(dds_create_writer(participant.handle(), topic_.handle(), qos, nullptr),
+                         std::string("creating a writer of ") + topic)) {}
+
+std::uint32_t Endpoint::Matched() const {
+  if (kind_ == Kind::kReader) {
+    dds_subscription_matched_status_t status;
+    Checked(dds_get_subscription_matched_status(handle(), &status), "asking a reader's matches");
+    return status.current_count;
+  }
+  dds_publication_matched_status_t status;
+  Checked(dds_get_publication_matched_status(handle(), &status), "asking a writer's matches");
+  return status.current_count;
+}
+
+bool WaitForMatch(const Participant& participant,
+                  const std::vector<std::reference_wrapper<const Endpoint>>& endpoints,
+                  std::chrono::nanoseconds timeout) {
+  const auto deadline = std::chrono::steady_clock::now() + timeout;
+  WaitSet waiting(participant);
+  std::vector<MatchStatusEnabled> enabled;
+  for (const Endpoint& endpoint : endpoints) {
+    enabled.emplace_back(endpoint);
+    waiting.Attach(endpoint, [] {});
+  }
+  const auto matched = [](const Endpoint& endpoint) { return endpoint.Matched() > 0; };
+  while (!std::ranges::all_of(endpoints, matched)) {
+    const auto left = deadline - std::chrono::steady_clock::now();
+    if (left <= left.zero()) return false;
+    waiting.Wait(left);
+  }
+  return true;
+}
+
+}  // namespace telltale

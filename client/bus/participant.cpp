@@ -1,0 +1,13 @@
+#include "bus/participant.hpp"
+
+#include <string>
+
+#include "bus/error.hpp"
+
+namespace telltale {
+
+Participant::Participant(std::uint32_t domain)
+    : entity_(Checked(dds_create_participant(domain, nullptr, nullptr),
+                      "joining DDS domain " + std::to_string(domain))) {}
+
+}  // namespace telltale

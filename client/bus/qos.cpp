@@ -1,0 +1,36 @@
+#include "bus/qos.hpp"
+
+namespace telltale {
+namespace {
+
+constexpr dds_duration_t kLongestWriteBlock = DDS_MSECS(100);
+constexpr std::int32_t kHistoryDepth = 64;
+
+Qos MakeQos(dds_reliability_kind_t reliability, std::int32_t depth) {
+  Qos qos(dds_create_qos());
+  dds_qset_reliability(qos.get(), reliability, kLongestWriteBlock);
+  dds_qset_history(qos.get(), DDS_HISTORY_KEEP_LAST, depth);
+  dds_qset_durability(qos.get(), DDS_DURABILITY_VOLATILE);
+  return qos;
+}
+
+}  // namespace
+
+Qos TelemetryQos() { return MakeQos(DDS_RELIABILITY_BEST_EFFORT, kHistoryDepth); }
+
+Qos ExchangeQos() { return MakeQos(DDS_RELIABILITY_RELIABLE, kHistoryDepth); }
+
+Qos ModelQos() {
+  Qos qos = MakeQos(DDS_RELIABILITY_RELIABLE, 1);
+  dds_qset_durability(qos.get(), DDS_DURABILITY_TRANSIENT_LOCAL);
+  dds_qset_durability_service(qos.get(), 0, DDS_HISTORY_KEEP_LAST, 1, DDS_LENGTH_UNLIMITED,
+                              DDS_LENGTH_UNLIMITED, DDS_LENGTH_UNLIMITED);
+  dds_qset_ownership(qos.get(), DDS_OWNERSHIP_EXCLUSIVE);
+  dds_qset_liveliness(qos.get(), DDS_LIVELINESS_MANUAL_BY_TOPIC, kModelLease);
+  dds_qset_writer_data_lifecycle(qos.get(), false);
+  return qos;
+}
+
+Qos QualityQos() { return MakeQos(DDS_RELIABILITY_BEST_EFFORT, 1); }
+
+}  // namespace telltale

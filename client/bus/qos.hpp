@@ -1,0 +1,34 @@
+#pragma once
+
+#include <memory>
+
+#include <dds/dds.h>
+
+namespace telltale {
+
+struct QosDeleter {
+  void operator()(dds_qos_t* qos) const { dds_delete_qos(qos); }
+};
+using Qos = std::unique_ptr<dds_qos_t, QosDeleter>;
+
+/// The contracts of the topics, one function each, the same for readers and writers.
+
+/// Best effort, volatile, keep last 64 per vehicle: a reader of this matches any writer, and a stalled
+/// reader can hold up no boat.
+Qos TelemetryQos();
+
+/// Reliable, volatile, keep last 64 per vehicle. A write gives up after 100 ms: one stalled client
+/// must not keep the daemon from the others, and a client that missed something asks again.
+Qos ExchangeQos();
+
+/// Reliable, transient local, keep last 1, exclusive ownership. Liveliness is asserted by hand within
+/// kModelLease, so that a daemon that hangs loses its vehicles to a standby as one that died does.
+/// A writer's end does not dispose of its models.
+Qos ModelQos();
+
+/// Best effort, volatile, keep last 1 per vehicle.
+Qos QualityQos();
+
+inline constexpr dds_duration_t kModelLease = DDS_SECS(5);
+
+}  // namespace telltale

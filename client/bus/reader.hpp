@@ -1,0 +1,69 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+
+#include "bus/endpoint.hpp"
+#include "bus/error.hpp"
+#include "bus/topics.hpp"
+
+namespace telltale {
+
+/// Receives samples of one wire type under its topic's contract. Use from one thread at a time, and
+/// never inside a DDS listener.
+template <class Wire>
+class Reader : public Endpoint {
+ public:
+  explicit Reader(const Participant& participant)
+      : Endpoint(participant, Kind::kReader, Descriptor<Wire>(), kContract<Wire>.topic,
+                 kContract<Wire>.qos().get()) {
+    Checked(dds_set_status_mask(handle(), DDS_DATA_AVAILABLE_STATUS), "setting a status mask");
+  }
+
+  /// Hands all samples that have arrived to `receive(const Wire&)` and forgets them; returns how many
+  /// there were. Notices without data (a writer gone, an instance disposed) are passed over. A sample
+  /// is only lent: what `receive` wants to keep it copies.
+  template <class Receive>
+  std::size_t Take(Receive receive) {
+    std::size_t received = 0;
+    for (;;) {
+      Loan loan(handle());
+      for (std::size_t i = 0; i < loan.size(); ++i) {
+        if (!loan.valid(i)) continue;
+        receive(loan[i]);
+        ++received;
+      }
+      if (loan.size() < kBatch) return received;
+    }
+  }
+
+ private:
+  static constexpr std::size_t kBatch = 256;  // one at a time falls behind a fast writer
+
+  /// A batch of samples borrowed from the reader, given back however this ends.
+  class Loan {
+   public:
+    explicit Loan(dds_entity_t reader)
+        : reader_(reader),
+          size_(static_cast<std::size_t>(
+              Checked(dds_take(reader, samples_.data(), infos_.data(), kBatch, kBatch),
+                      "taking samples"))) {}
+    Loan(const Loan&) = delete;
+    Loan& operator=(const Loan&) = delete;
+    ~Loan() {
+      if (size_ > 0) dds_return_loan(reader_, samples_.data(), static_cast<std::int32_t>(size_));
+    }
+
+    std::size_t size() const { return size_; }
+    bool valid(std::size_t i) const { return infos_[i].valid_data; }
+    const Wire& operator[](std::size_t i) const { return *static_cast<const Wire*>(samples_[i]); }
+
+   private:
+    dds_entity_t reader_;
+    std::array<void*, kBatch> samples_{};
+    std::array<dds_sample_info_t, kBatch> infos_;
+    std::size_t size_;
+  };
+};
+
+}  // namespace telltale

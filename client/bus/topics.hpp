@@ -1,0 +1,40 @@
+#pragma once
+
+#include "bus/qos.hpp"
+#include "codec/wire_sample.hpp"
+
+namespace telltale {
+
+/// What a topic promises: its name and its quality of service.
+struct Contract {
+  const char* topic;
+  Qos (*qos)();
+};
+
+/// The contract under which a wire type travels. Every type has exactly one topic.
+template <class Wire>
+inline constexpr Contract kContract{};
+
+template <>
+inline constexpr Contract kContract<telltale_wire_GnssFix>{"telltale/telemetry/gnss", TelemetryQos};
+template <>
+inline constexpr Contract kContract<telltale_wire_Heading>{"telltale/telemetry/heading",
+                                                           TelemetryQos};
+template <>
+inline constexpr Contract kContract<telltale_wire_Thrusters>{"telltale/telemetry/thrusters",
+                                                             TelemetryQos};
+template <>
+inline constexpr Contract kContract<telltale_wire_IdentifyRequest>{"telltale/identify/request",
+                                                                   ExchangeQos};
+template <>
+inline constexpr Contract kContract<telltale_wire_IdentifyProgress>{"telltale/identify/progress",
+                                                                    ExchangeQos};
+template <>
+inline constexpr Contract kContract<telltale_wire_IdentifyReply>{"telltale/identify/reply",
+                                                                 ExchangeQos};
+template <>
+inline constexpr Contract kContract<telltale_wire_Model>{"telltale/model", ModelQos};
+template <>
+inline constexpr Contract kContract<telltale_wire_Quality>{"telltale/quality", QualityQos};
+
+}  // namespace telltale

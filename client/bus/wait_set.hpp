@@ -1,0 +1,41 @@
+#pragma once
+
+#include <chrono>
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include "bus/endpoint.hpp"
+#include "bus/participant.hpp"
+
+namespace telltale {
+
+/// One thread's waiting place: sleeps until an attached endpoint has news, then runs its handler on
+/// the waiting thread. Work belongs here, never in a DDS listener, where it deadlocks.
+/// Only Wake may be called from other threads.
+class WaitSet {
+ public:
+  explicit WaitSet(const Participant& participant);
+
+  /// The endpoint must stay until it is detached or the wait set is gone.
+  void Attach(const Endpoint& endpoint, std::function<void()> when_news);
+  void Detach(const Endpoint& endpoint);
+
+  /// Runs the handlers of all that has news. False when nothing had within `timeout`, or on Wake.
+  bool Wait(std::chrono::nanoseconds timeout);
+
+  /// Ends the present or the next Wait early.
+  void Wake();
+
+ private:
+  struct Attachment {
+    dds_entity_t endpoint;
+    std::function<void()> when_news;
+  };
+
+  Entity guard_;
+  Entity wait_set_;  // after the guard attached to it, so that it goes first
+  std::vector<std::unique_ptr<Attachment>> attachments_;
+};
+
+}  // namespace telltale

@@ -1,0 +1,41 @@
+#pragma once
+
+#include "bus/endpoint.hpp"
+#include "bus/error.hpp"
+#include "bus/topics.hpp"
+#include "codec/wire_sample.hpp"
+
+namespace telltale {
+
+/// Publishes samples of one wire type under its topic's contract. Safe to use from several threads.
+template <class Wire>
+class Writer : public Endpoint {
+ public:
+  explicit Writer(const Participant& participant)
+      : Endpoint(participant, Kind::kWriter, Descriptor<Wire>(), kContract<Wire>.topic,
+                 kContract<Wire>.qos().get()) {}
+
+  /// False when a stalled reader left no room within the contract's longest block.
+  bool Write(const Wire& sample) {
+    const dds_return_t result = dds_write(handle(), &sample);
+    if (result == DDS_RETCODE_TIMEOUT) return false;
+    Checked(result, std::string("writing to ") + kContract<Wire>.topic);
+    return true;
+  }
+  bool Write(const WireSample<Wire>& sample) { return Write(*sample); }
+
+  /// Sends what batched writes have gathered.
+  void Flush() { dds_write_flush(handle()); }
+
+  /// Says that the loop this is called from is still at work.
+  void AssertLiveliness() {
+    Checked(dds_assert_liveliness(handle()),
+            std::string("asserting liveliness on ") + kContract<Wire>.topic);
+  }
+};
+
+/// Gathers the small samples of every writer in this process into large packets, each sent when full
+/// or on Flush. Takes effect for writers made afterwards.
+inline void BatchWrites() { dds_write_set_batch(true); }
+
+}  // namespace telltale

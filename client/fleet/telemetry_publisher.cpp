@@ -1,0 +1,38 @@
+#include "fleet/telemetry_publisher.hpp"
+
+#include <utility>
+
+#include "codec/wire.hpp"
+
+namespace telltale {
+
+TelemetryPublisher::TelemetryPublisher(const Participant& participant, std::string vehicle_id)
+    : participant_(participant),
+      vehicle_id_(std::move(vehicle_id)),
+      gnss_writer_(participant),
+      heading_writer_(participant),
+      thruster_writer_(participant) {}
+
+bool TelemetryPublisher::WaitForReaders(std::chrono::nanoseconds timeout) const {
+  return WaitForMatch(participant_, {gnss_writer_, heading_writer_, thruster_writer_}, timeout);
+}
+
+void TelemetryPublisher::Publish(const GnssFix& fix) {
+  gnss_writer_.Write(Encode(Telemetry<GnssFix>{vehicle_id_, ++fixes_, fix}));
+}
+
+void TelemetryPublisher::Publish(const HeadingSample& heading) {
+  heading_writer_.Write(Encode(Telemetry<HeadingSample>{vehicle_id_, ++headings_, heading}));
+}
+
+void TelemetryPublisher::Publish(const ThrusterSample& thrusters) {
+  thruster_writer_.Write(Encode(Telemetry<ThrusterSample>{vehicle_id_, ++thrusters_, thrusters}));
+}
+
+void TelemetryPublisher::Flush() {
+  gnss_writer_.Flush();
+  heading_writer_.Flush();
+  thruster_writer_.Flush();
+}
+
+}  // namespace telltale

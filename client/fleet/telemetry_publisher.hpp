@@ -1,0 +1,42 @@
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <string>
+
+#include "bus/participant.hpp"
+#include "bus/writer.hpp"
+#include "codec/messages.hpp"
+
+namespace telltale {
+
+/// One vehicle's telemetry going out. Each channel counts its samples from 1, so that receivers see
+/// what they missed. Requires: a vehicle id of 1..64 letters, digits, '.', '_' or '-'.
+class TelemetryPublisher {
+ public:
+  TelemetryPublisher(const Participant& participant, std::string vehicle_id);
+
+  /// False when within `timeout` nobody was there to receive all three channels.
+  bool WaitForReaders(std::chrono::nanoseconds timeout) const;
+
+  void Publish(const GnssFix& fix);
+  void Publish(const HeadingSample& heading);
+  void Publish(const ThrusterSample& thrusters);
+
+  /// Sends what BatchWrites() has held together.
+  void Flush();
+
+  std::uint64_t Published() const { return fixes_ + headings_ + thrusters_; }
+
+ private:
+  const Participant& participant_;
+  std::string vehicle_id_;
+  Writer<telltale_wire_GnssFix> gnss_writer_;
+  Writer<telltale_wire_Heading> heading_writer_;
+  Writer<telltale_wire_Thrusters> thruster_writer_;
+  std::uint64_t fixes_ = 0;
+  std::uint64_t headings_ = 0;
+  std::uint64_t thrusters_ = 0;
+};
+
+}  // namespace telltale

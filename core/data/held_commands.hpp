@@ -1,0 +1,45 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "data/samples.hpp"
+#include "vessel/propellers.hpp"
+#include "vessel/vehicle.hpp"
+
+namespace telltale {
+
+/// The normalised commands as the propellers got them: each held from its time until the next.
+/// Beyond the ends the first and last are held. At least one sample.
+class HeldCommands {
+ public:
+  HeldCommands(std::span<const ThrusterSample> samples, const Vehicle& vehicle);
+
+  PropellerCommand At(double t) const;
+
+  /// Mean over [from, to], weighted by time. Requires: from < to.
+  PropellerCommand Mean(double from, double to) const;
+
+  /// Mean weighted by a triangle about `t` that vanishes at t - half_width and t + half_width. It
+  /// is what drives the difference between the mean velocities of the intervals before and after
+  /// `t`.
+  PropellerCommand TriangularMean(double t, double half_width) const;
+
+  /// The region in force for most of [from, to]; the earliest of equals. Requires: from < to.
+  PropellerRegion MajorityRegion(double from, double to) const;
+
+  const std::vector<double>& Times() const { return times_s_; }
+  const std::vector<PropellerCommand>& Commands() const { return commands_; }
+
+ private:
+  std::size_t IndexAt(double t) const;
+
+  // Calls visit(command, start, end) for each held piece of [from, to].
+  template <class Visit>
+  void ForEachPiece(double from, double to, Visit visit) const;
+
+  std::vector<double> times_s_;
+  std::vector<PropellerCommand> commands_;
+};
+
+}  // namespace telltale

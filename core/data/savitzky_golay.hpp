@@ -1,0 +1,64 @@
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include <Eigen/Core>
+
+namespace telltale {
+
+/// Savitzky-Golay filter: least-squares polynomial over a window of 2 half_width + 1 equally spaced
+/// values, its value and slope taken anywhere in the window, so that the ends of a series are
+/// filtered by the first or last full window instead of being dropped. Weights are made once.
+///
+/// Exact on polynomials up to `degree`. Slopes are per sample; divide by the period for rates.
+/// Source: Savitzky and Golay, Analytical Chemistry 36 (1964); Gorry, Analytical Chemistry 62
+/// (1990) for the ends.
+class SavitzkyGolay {
+ public:
+  /// Requires: half_width >= 1, degree < 2 half_width + 1.
+  SavitzkyGolay(std::size_t half_width, std::size_t degree);
+
+  std::size_t WindowLength() const { return static_cast<std::size_t>(value_.cols()); }
+
+  /// First row of the window that filters row `row` of a series of `length` rows.
+  std::size_t WindowStart(std::size_t row, std::size_t length) const;
+
+  /// Weights of the value and of the slope at `position` in the window, [0, WindowLength()).
+  Eigen::RowVectorXd ValueWeights(std::size_t position) const {
+    return value_.row(Index(position));
+  }
+  Eigen::RowVectorXd SlopeWeights(std::size_t position) const {
+    return slope_.row(Index(position));
+  }
+
+  /// The slope written on the increments between neighbours instead of on the values: the weight of
+  /// the increment from `interval` to interval + 1, in [0, WindowLength() - 1); they sum to one.
+  /// They say how a filtered velocity sees the mean velocity of each interval, which is what
+  /// whatever drives the velocity has to be filtered with.
+  double IncrementWeight(std::size_t position, std::size_t interval) const {
+    return increment_(Index(position), Index(interval));
+  }
+
+  /// Filtered values; the series must be at least WindowLength() long.
+  std::vector<double> Smooth(std::span<const double> series) const;
+
+  /// Filtered slope at every row, per sample.
+  std::vector<double> Slope(std::span<const double> series) const;
+
+  /// Filtered slope at every row of a series known by its increments; one row more than increments.
+  std::vector<double> SlopeOfIncrements(std::span<const double> increments) const;
+
+ private:
+  Eigen::Index Index(std::size_t position) const { return static_cast<Eigen::Index>(position); }
+  std::vector<double> Apply(const Eigen::MatrixXd& weights, std::span<const double> series,
+                            std::size_t rows) const;
+
+  std::size_t half_width_;
+  Eigen::MatrixXd value_;      // one row of weights per position in the window
+  Eigen::MatrixXd slope_;      // likewise
+  Eigen::MatrixXd increment_;  // likewise, one column fewer
+};
+
+}  // namespace telltale

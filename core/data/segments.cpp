@@ -1,0 +1,70 @@
+#include "data/segments.hpp"
+
+#include <algorithm>
+
+#include "contract.hpp"
+#include "data/time_series.hpp"
+
+namespace telltale {
+namespace {
+
+struct Run {
+  double start_s;
+  double end_s;
+  RowRange samples;
+};
+
+template <class Sample>
+std::vector<Run> FindRuns(const std::vector<Sample>& samples, double longest_gap_s) {
+  std::vector<Run> runs;
+  std::size_t begin = 0;
+  for (std::size_t i = 1; i <= samples.size(); ++i) {
+    const bool unbroken = i < samples.size() && samples[i].time_s - samples[i - 1].time_s <=
+                                                    longest_gap_s + kSameInstantS;
+    if (unbroken) continue;
+    runs.push_back({samples[begin].time_s, samples[i - 1].time_s, {begin, i}});
+    begin = i;
+  }
+  return runs;
+}
+
+}  // namespace
+
+std::vector<Stretch> FindStretches(const Recording& recording, double longest_gap_s) {
+  if (recording.gnss.empty() || recording.heading.empty() || recording.thrusters.empty()) return {};
+  const std::array<std::vector<Run>, kChannels.size()> runs = {
+      FindRuns(recording.gnss, longest_gap_s), FindRuns(recording.heading, longest_gap_s),
+      FindRuns(recording.thrusters, longest_gap_s)};
+
+  std::vector<Stretch> stretches;
+  std::array<std::size_t, kChannels.size()> at{};
+  while (at[0] < runs[0].size() && at[1] < runs[1].size() && at[2] < runs[2].size()) {
+    const Run& gnss = runs[0][at[0]];
+    const Run& heading = runs[1][at[1]];
+    const Run& thrusters = runs[2][at[2]];
+    const double start = std::max({gnss.start_s, heading.start_s, thrusters.start_s});
+    const std::array ends = {gnss.end_s, heading.end_s, thrusters.end_s};
+    const auto first_to_end = std::min_element(ends.begin(), ends.end());
+    if (start < *first_to_end) {
+      stretches.push_back(
+          {start, *first_to_end, {gnss.samples, heading.samples, thrusters.samples}});
+    }
+    ++at[static_cast<std::size_t>(first_to_end - ends.begin())];
+  }
+  return stretches;
+}
+
+std::vector<RowRange> CutSegments(std::span<const PreparedRow> rows, const RowRange& stretch,
+                                  std::size_t longest) {
+  Require(longest > 0, "segments of at least one row");
+  std::vector<RowRange> segments;
+  for (std::size_t row = stretch.begin; row < stretch.end; ++row) {
+    const bool opens = row == stretch.begin || rows[row].region != rows[row - 1].region ||
+                       segments.back().size() == longest;
+    if (opens) segments.push_back({row, row});
+    segments.back().end = row + 1;
+  }
+  return segments;
+}
+
+}  // namespace telltale

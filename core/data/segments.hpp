@@ -1,0 +1,32 @@
+#pragma once
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "data/prepared_dataset.hpp"
+#include "data/samples.hpp"
+
+namespace telltale {
+
+/// A span of time in which no channel is silent for long.
+struct Stretch {
+  double start_s = 0.0;
+  double end_s = 0.0;
+  /// The samples of each channel's own unbroken run around the stretch, in the order of kChannels:
+  /// what may be interpolated from without crossing a gap.
+  std::array<RowRange, kChannels.size()> samples;
+
+  const RowRange& Of(Channel channel) const { return samples[static_cast<std::size_t>(channel)]; }
+};
+
+/// Cuts a recording where a channel is silent for more than `longest_gap_s`, and where not all
+/// three are present. Cost: linear in the samples.
+std::vector<Stretch> FindStretches(const Recording& recording, double longest_gap_s);
+
+/// Cuts `stretch` of `rows` at each change of region and so that no segment has more than
+/// `longest` rows. The segments partition the stretch.
+std::vector<RowRange> CutSegments(std::span<const PreparedRow> rows, const RowRange& stretch,
+                                  std::size_t longest);
+
+}  // namespace telltale

@@ -1,0 +1,101 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "data/preparation.hpp"
+#include "data/samples.hpp"
+#include "identification/identification.hpp"
+#include "result.hpp"
+
+namespace telltale {
+
+/// One telemetry sample as it travels: whose it is and its place in that channel's stream, which is
+/// how a receiver sees loss. vehicle_id borrows from the wire struct or from the caller.
+template <class Sample>
+struct Telemetry {
+  std::string_view vehicle_id;
+  std::uint64_t sequence_number = 0;
+  Sample sample;
+};
+
+/// An identification that has been given its place in the vehicle's history.
+struct PublishedModel {
+  Identification identification;
+  std::uint64_t revision = 0;     ///< from 1, counts up by one per vehicle
+  double published_unix_s = 0.0;
+};
+
+/// Asks the daemon to identify a vehicle from its window. What is left unknown or unset is the
+/// daemon's to choose.
+struct IdentifyRequest {
+  std::string correlation_id;  ///< 1..64 characters as in vehicle ids; the same id is answered once
+  std::string vehicle_id;
+  Structure structure = Structure::kUnknown;
+  Parameterization parameterization = Parameterization::kUnknown;
+  Estimator estimator = Estimator::kUnknown;
+  Preset preset = Preset::kUnknown;
+  std::optional<std::uint32_t> bootstrap_replicates;  ///< 0 or [100, 100000]
+  std::uint64_t seed = 1;
+};
+
+struct IdentifyProgress {
+  std::string correlation_id;
+  std::string vehicle_id;
+  std::string stage;
+  double fraction = 0.0;  ///< [0, 1]
+};
+
+/// kPublished: a model, also on telltale/model. kRefused: the window cannot answer. kFailed: anything
+/// else, in words.
+enum class IdentifyOutcome { kUnknown, kPublished, kRefused, kFailed };
+
+std::string_view Name(IdentifyOutcome outcome);
+
+struct IdentifyReply {
+  std::string correlation_id;
+  std::string vehicle_id;
+  IdentifyOutcome outcome = IdentifyOutcome::kUnknown;
+  std::string message;                  ///< what failed; empty otherwise
+  std::vector<Refusal> refusals;        ///< why, when refused
+  std::optional<PublishedModel> model;  ///< when published
+  double elapsed_s = 0.0;
+};
+
+/// Rejected samples as a monitor shows them. Reasons are RejectReason names and those of a sample
+/// that never reached a window.
+struct RejectEntry {
+  std::string channel;
+  std::string reason;
+  std::uint64_t count = 0;
+
+  bool operator==(const RejectEntry&) const = default;
+};
+
+/// Stands for a vehicle id where samples name no vehicle that the daemon serves. It cannot be one.
+inline constexpr std::string_view kUnattributed = "*";
+
+/// How well a vehicle's telemetry and model are doing.
+struct Quality {
+  std::string vehicle_id;  ///< or kUnattributed
+  std::uint64_t sequence_number = 0;
+  double window_s = 0.0;     ///< time span held
+  double window_fill = 0.0;  ///< share of the configured span, [0, 1]
+  double gnss_rate_hz = 0.0;
+  double heading_rate_hz = 0.0;
+  double thrusters_rate_hz = 0.0;
+  std::uint64_t lost = 0;  ///< gaps in the sequence numbers, all channels
+  std::uint64_t accepted = 0;
+  std::vector<RejectEntry> rejected;
+  std::optional<std::uint64_t> model_revision;
+  double model_age_s = 0.0;
+  double prediction_error = 0.0;  ///< free-run error over 5 s now, in units of that when identified
+  double drift = 0.0;             ///< running change of prediction_error per evaluation
+};
+
+std::vector<RejectEntry> Entries(const RejectCounts& counts);
+
+}  // namespace telltale

@@ -1,0 +1,533 @@
+#include "codec/wire.hpp"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <cstring>
+#include <initializer_list>
+#include <limits>
+
+#include "contract.hpp"
+
+namespace telltale {
+namespace {
+
+constexpr std::string_view kIdentifierRule = "allowed are 1..64 letters, digits, '.', '_' or '-'";
+constexpr std::size_t kIdentifierBound = 64;
+
+// ---- core -> wire -------------------------------------------------------------------------------
+
+template <std::size_t n>
+void Put(char (&target)[n], std::string_view text) {
+  Require(text.size() < n, "an identifier that fits its bounded string");
+  std::copy(text.begin(), text.end(), target);
+  target[text.size()] = '\0';
+}
+
+void Put(char*& target, std::string_view text) {
+  target = dds_string_alloc(text.size());
+  std::copy(text.begin(), text.end(), target);
+  target[text.size()] = '\0';
+}
+
+void PutIdentifier(auto& target, std::string_view text) {
+  Require(IsIdentifier(text), "1..64 letters, digits, '.', '_' or '-' in an identifier");
+  Put(target, text);
+}
+
+/// Gives a wire sequence `items.size()` elements and fills each with `fill(element, item)`.
+template <class Sequence, class Items, class Fill>
+void PutSequence(Sequence& sequence, const Items& items, Fill fill) {
+  if (items.size() == 0) return;
+  using Element = std::remove_pointer_t<decltype(sequence._buffer)>;
+  sequence._buffer = static_cast<Element*>(dds_alloc(items.size() * sizeof(Element)));
+  sequence._length = sequence._maximum = static_cast<std::uint32_t>(items.size());
+  sequence._release = true;
+  Element* element = sequence._buffer;
+  for (const auto& item : items) fill(*element++, item);
+}
+
+void Fill(telltale_wire_Refusal& wire, const Refusal& refusal) {
+  Put(wire.subject, refusal.subject);
+  Put(wire.reason, refusal.reason);
+  Put(wire.advice, refusal.advice);
+}
+
+void Fill(telltale_wire_RejectCount& wire, const RejectEntry& entry) {
+  Put(wire.channel, entry.channel);
+  Put(wire.reason, entry.reason);
+  wire.count = entry.count;
+}
+
+void Fill(telltale_wire_Coefficient& wire, const Coefficient& coefficient) {
+  Put(wire.equation, Name(coefficient.equation));
+  Put(wire.regressor, coefficient.regressor);
+  Put(wire.symbol, coefficient.symbol);
+  wire.estimate = coefficient.estimate;
+  wire.standard_error = coefficient.standard_error;
+  wire.bounds = {coefficient.interval.level, coefficient.interval.lower,
+                 coefficient.interval.upper};
+  Put(wire.unit, coefficient.unit);
+  Put(wire.status, Name(coefficient.status));
+}
+
+void Fill(telltale_wire_Model& wire, const PublishedModel& model);
+
+constexpr auto kFill = [](auto& wire, const auto& item) { Fill(wire, item); };
+
+std::vector<double> RowMajor(const Eigen::MatrixXd& matrix) {
+  std::vector<double> values;
+  values.reserve(static_cast<std::size_t>(matrix.size()));
+  for (Eigen::Index row = 0; row < matrix.rows(); ++row) {
+    for (Eigen::Index column = 0; column < matrix.cols(); ++column) {
+      values.push_back(matrix(row, column));
+    }
+  }
+  return values;
+}
+
+void Fill(telltale_wire_Model& wire, const PublishedModel& model) {
+  const Identification& identification = model.identification;
+  PutIdentifier(wire.vehicle_id, identification.vehicle_id);
+  wire.revision = model.revision;
+  wire.published_unix_s = model.published_unix_s;
+  Put(wire.structure, Name(identification.structure));
+  Put(wire.parameterization, Name(identification.parameterization));
+  Put(wire.estimator, Name(identification.estimator));
+  wire.sampling_period_s = identification.sampling_period_s;
+  PutSequence(wire.coefficients, identification.coefficients, kFill);
+  PutSequence(wire.covariance, RowMajor(identification.covariance),
+              [](double& element, double value) { element = value; });
+  if (const auto& constant = identification.thruster_time_constant) {
+    PutSequence(wire.thruster_time_constant, std::initializer_list<Coefficient>{*constant}, kFill);
+  }
+  wire.window_start_s = identification.window.start_s;
+  wire.window_end_s = identification.window.end_s;
+  wire.window_samples = identification.window.samples;
+  wire.window_segments = identification.window.segments;
+  PutSequence(wire.rejected, Entries(identification.window.rejected), kFill);
+  PutSequence(wire.refusals, identification.refusals, kFill);
+  const Provenance& provenance = identification.provenance;
+  Put(wire.preset, provenance.preset);
+  Put(wire.bounds_basis, provenance.bounds_basis);
+  wire.bootstrap_replicates = provenance.bootstrap_replicates;
+  wire.bootstrap_failures = provenance.bootstrap_failures;
+  wire.seed = provenance.seed;
+  Put(wire.software_version, provenance.software_version);
+}
+
+// ---- wire -> core -------------------------------------------------------------------------------
+
+/// Unwinds the decoding of a message at its first fault; never leaves this file.
+struct Malformed {
+  CodecError error;
+};
+
+[[noreturn]] void Reject(std::string field, std::string value, std::string allowed) {
+  throw Malformed{{std::move(field), std::move(value), std::move(allowed)}};
+}
+
+template <class Read>
+auto Guarded(Read read) -> Decoded<decltype(read())> {
+  try {
+    return read();
+  } catch (Malformed& malformed) {
+    return tl::unexpected(std::move(malformed.error));
+  }
+}
+
+/// What a bounded string holds up to its terminator, or to its end where there is none.
+template <std::size_t n>
+std::string_view View(const char (&text)[n]) {
+  return {text, strnlen(text, n)};
+}
+
+/// A string that an older writer did not send is null.
+std::string_view View(const char* text) {
+  return text == nullptr ? std::string_view() : std::string_view(text);
+}
+
+CodecError IdentifierError(std::string field, std::string_view value) {
+  std::string shown;
+  for (const char c : value.substr(0, kIdentifierBound)) {
+    shown += c >= ' ' && c <= '~' ? c : '?';
+  }
+  if (value.size() > kIdentifierBound) shown += "... (too long or not terminated)";
+  return {std::move(field), std::move(shown), std::string(kIdentifierRule)};
+}
+
+std::string ReadIdentifier(std::string field, const auto& text) {
+  const std::string_view view = View(text);
+  if (!IsIdentifier(view)) throw Malformed{IdentifierError(std::move(field), view)};
+  return std::string(view);
+}
+
+std::string Text(double value) {
+  std::array<char, 32> buffer;
+  const auto end = std::to_chars(buffer.begin(), buffer.end(), value).ptr;
+  return {buffer.begin(), end};
+}
+
+double ReadWithin(std::string field, double value, double lowest, double highest) {
+  if (value >= lowest && value <= highest) return value;
+  Reject(std::move(field), Text(value), "allowed are " + Text(lowest) + " to " + Text(highest));
+}
+
+constexpr double kLargest = std::numeric_limits<double>::max();
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+/// The enumerator of that name among `allowed`.
+template <class Enum>
+Enum ReadName(std::string field, std::string_view name, std::initializer_list<Enum> allowed) {
+  for (const Enum candidate : allowed) {
+    if (Name(candidate) == name) return candidate;
+  }
+  std::string names = "allowed are";
+  for (const Enum candidate : allowed) names.append(" ").append(Name(candidate));
+  Reject(std::move(field), std::string(name), std::move(names));
+}
+
+/// As ReadName, an empty name being the unknown enumerator.
+template <class Enum>
+Enum ReadOptionalName(std::string field, std::string_view name,
+                      std::initializer_list<Enum> allowed) {
+  return name.empty() ? Enum::kUnknown : ReadName(std::move(field), name, allowed);
+}
+
+constexpr std::initializer_list<Equation> kAllEquations = {Equation::kSurge, Equation::kSway,
+                                                           Equation::kYaw};
+constexpr std::initializer_list<Structure> kStructures = {Structure::kStaticQuadratic,
+                                                          Structure::kFirstOrderDynamic};
+constexpr std::initializer_list<Parameterization> kParameterizations = {
+    Parameterization::kPropeller, Parameterization::kPaper};
+constexpr std::initializer_list<Estimator> kEstimators = {
+    Estimator::kOneStep, Estimator::kWeakIv, Estimator::kOutputError};
+constexpr std::initializer_list<CoefficientStatus> kStatuses = {CoefficientStatus::kEstimated,
+                                                                CoefficientStatus::kNotExcited,
+                                                                CoefficientStatus::kCollinear};
+constexpr std::initializer_list<Preset> kPresets = {Preset::kRobust, Preset::kPaper};
+constexpr std::initializer_list<IdentifyOutcome> kOutcomes = {
+    IdentifyOutcome::kPublished, IdentifyOutcome::kRefused, IdentifyOutcome::kFailed};
+
+template <class Sequence, class Read>
+auto ReadSequence(const std::string& field, const Sequence& sequence, Read read) {
+  std::vector<decltype(read(field, sequence._buffer[0]))> items;
+  items.reserve(sequence._length);
+  for (std::uint32_t i = 0; i < sequence._length; ++i) {
+    items.push_back(read(field + "[" + std::to_string(i) + "]", sequence._buffer[i]));
+  }
+  return items;
+}
+
+Refusal ReadRefusal(const std::string&, const telltale_wire_Refusal& wire) {
+  return {std::string(View(wire.subject)), std::string(View(wire.reason)),
+          std::string(View(wire.advice))};
+}
+
+RejectEntry ReadRejectEntry(const std::string&, const telltale_wire_RejectCount& wire) {
+  return {std::string(View(wire.channel)), std::string(View(wire.reason)), wire.count};
+}
+
+RejectCounts ReadRejectCounts(const dds_sequence_telltale_wire_RejectCount& sequence) {
+  RejectCounts counts;
+  for (std::uint32_t i = 0; i < sequence._length; ++i) {
+    const auto& wire = sequence._buffer[i];
+    const std::string field = "rejected[" + std::to_string(i) + "]";
+    const auto channel = ReadName(field + ".channel", View(wire.channel),
+                                  {Channel::kGnss, Channel::kHeading, Channel::kThrusters});
+    const auto reason =
+        ReadName(field + ".reason", View(wire.reason),
+                 {RejectReason::kNotFinite, RejectReason::kOutOfRange, RejectReason::kDuplicate,
+                  RejectReason::kOutOfOrder, RejectReason::kClockJump, RejectReason::kStuckSensor});
+    counts.Count(channel, reason, wire.count);
+  }
+  return counts;
+}
+
+Coefficient ReadCoefficient(const std::string& field, const telltale_wire_Coefficient& wire) {
+  Coefficient coefficient;
+  coefficient.equation =
+      ReadOptionalName(field + ".equation",
+                       View(wire.equation) == Name(Equation::kUnknown) ? "" : View(wire.equation),
+                       kAllEquations);
+  coefficient.regressor = View(wire.regressor);
+  coefficient.symbol = View(wire.symbol);
+  coefficient.estimate = ReadWithin(field + ".estimate", wire.estimate, -kLargest, kLargest);
+  coefficient.standard_error =
+      ReadWithin(field + ".standard_error", wire.standard_error, 0.0, kInfinity);
+  coefficient.interval.level = ReadWithin(field + ".bounds.level", wire.bounds.level, 0.0, 1.0);
+  coefficient.interval.lower =
+      ReadWithin(field + ".bounds.lower", wire.bounds.lower, -kInfinity, kInfinity);
+  coefficient.interval.upper =
+      ReadWithin(field + ".bounds.upper", wire.bounds.upper, wire.bounds.lower, kInfinity);
+  coefficient.unit = View(wire.unit);
+  coefficient.status = ReadName(field + ".status", View(wire.status), kStatuses);
+  return coefficient;
+}
+
+Eigen::MatrixXd ReadCovariance(const dds_sequence_double& wire, std::size_t coefficients) {
+  if (wire._length != coefficients * coefficients) {
+    Reject("covariance", std::to_string(wire._length) + " numbers",
+           "allowed are " + std::to_string(coefficients * coefficients) +
+               ", the square of the number of coefficients");
+  }
+  const auto n = static_cast<Eigen::Index>(coefficients);
+  Eigen::MatrixXd covariance(n, n);
+  for (Eigen::Index row = 0; row < n; ++row) {
+    for (Eigen::Index column = 0; column < n; ++column) {
+      covariance(row, column) =
+          ReadWithin("covariance", wire._buffer[row * n + column], -kInfinity, kInfinity);
+    }
+  }
+  return covariance;
+}
+
+PublishedModel ReadModel(const telltale_wire_Model& wire) {
+  PublishedModel model;
+  model.revision = wire.revision;
+  model.published_unix_s = ReadWithin("published_unix_s", wire.published_unix_s, 0.0, kLargest);
+  Identification& identification = model.identification;
+  identification.vehicle_id = ReadIdentifier("vehicle_id", wire.vehicle_id);
+  identification.structure = ReadName("structure", View(wire.structure), kStructures);
+  identification.parameterization =
+      ReadName("parameterization", View(wire.parameterization), kParameterizations);
+  identification.estimator = ReadName("estimator", View(wire.estimator), kEstimators);
+  identification.sampling_period_s =
+      ReadWithin("sampling_period_s", wire.sampling_period_s, 1e-6, 1e6);
+  identification.coefficients = ReadSequence("coefficients", wire.coefficients, ReadCoefficient);
+  identification.covariance = ReadCovariance(wire.covariance, identification.coefficients.size());
+  if (wire.thruster_time_constant._length > 1) {
+    Reject("thruster_time_constant", std::to_string(wire.thruster_time_constant._length) + " items",
+           "allowed are none or one");
+  }
+  for (Coefficient& constant :
+       ReadSequence("thruster_time_constant", wire.thruster_time_constant, ReadCoefficient)) {
+    identification.thruster_time_constant = std::move(constant);
+  }
+  identification.window.start_s =
+      ReadWithin("window_start_s", wire.window_start_s, -kLargest, kLargest);
+  identification.window.end_s =
+      ReadWithin("window_end_s", wire.window_end_s, wire.window_start_s, kLargest);
+  identification.window.samples = wire.window_samples;
+  identification.window.segments = wire.window_segments;
+  identification.window.rejected = ReadRejectCounts(wire.rejected);
+  identification.refusals = ReadSequence("refusals", wire.refusals, ReadRefusal);
+  identification.provenance.preset = View(wire.preset);
+  identification.provenance.bounds_basis = View(wire.bounds_basis);
+  identification.provenance.bootstrap_replicates = wire.bootstrap_replicates;
+  identification.provenance.bootstrap_failures = wire.bootstrap_failures;
+  identification.provenance.seed = wire.seed;
+  identification.provenance.software_version = View(wire.software_version);
+  return model;
+}
+
+/// The common part of the three telemetry types: no exception and no allocation on the way of a
+/// sound sample.
+template <class Sample, class Wire>
+Decoded<Telemetry<Sample>> DecodeTelemetry(const Wire& wire, const Sample& sample) {
+  const std::string_view vehicle_id = View(wire.vehicle_id);
+  if (!IsIdentifier(vehicle_id)) {
+    return tl::unexpected(IdentifierError("vehicle_id", vehicle_id));
+  }
+  return Telemetry<Sample>{vehicle_id, wire.sequence_number, sample};
+}
+
+}  // namespace
+
+bool IsIdentifier(std::string_view text) {
+  const auto allowed = [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '.' ||
+           c == '_' || c == '-';
+  };
+  return !text.empty() && text.size() <= kIdentifierBound && std::ranges::all_of(text, allowed);
+}
+
+telltale_wire_GnssFix Encode(const Telemetry<GnssFix>& fix) {
+  telltale_wire_GnssFix wire{};
+  PutIdentifier(wire.vehicle_id, fix.vehicle_id);
+  wire.sequence_number = fix.sequence_number;
+  wire.time_s = fix.sample.time_s;
+  wire.latitude_deg = fix.sample.latitude_deg;
+  wire.longitude_deg = fix.sample.longitude_deg;
+  return wire;
+}
+
+telltale_wire_Heading Encode(const Telemetry<HeadingSample>& heading) {
+  telltale_wire_Heading wire{};
+  PutIdentifier(wire.vehicle_id, heading.vehicle_id);
+  wire.sequence_number = heading.sequence_number;
+  wire.time_s = heading.sample.time_s;
+  wire.heading_deg = heading.sample.heading_deg;
+  return wire;
+}
+
+telltale_wire_Thrusters Encode(const Telemetry<ThrusterSample>& thrusters) {
+  telltale_wire_Thrusters wire{};
+  PutIdentifier(wire.vehicle_id, thrusters.vehicle_id);
+  wire.sequence_number = thrusters.sequence_number;
+  wire.time_s = thrusters.sample.time_s;
+  wire.left_us = thrusters.sample.port_us;
+  wire.right_us = thrusters.sample.starboard_us;
+  return wire;
+}
+
+WireSample<telltale_wire_Model> Encode(const PublishedModel& model) {
+  WireSample<telltale_wire_Model> wire;
+  Fill(*wire, model);
+  return wire;
+}
+
+WireSample<telltale_wire_IdentifyRequest> Encode(const IdentifyRequest& request) {
+  const auto name = [](auto value) {
+    return value == decltype(value)::kUnknown ? std::string_view() : Name(value);
+  };
+  WireSample<telltale_wire_IdentifyRequest> wire;
+  PutIdentifier(wire->correlation_id, request.correlation_id);
+  PutIdentifier(wire->vehicle_id, request.vehicle_id);
+  Put(wire->structure, name(request.structure));
+  Put(wire->parameterization, name(request.parameterization));
+  Put(wire->estimator, name(request.estimator));
+  Put(wire->preset, name(request.preset));
+  wire->bootstrap_given = request.bootstrap_replicates.has_value();
+  wire->bootstrap_replicates = request.bootstrap_replicates.value_or(0);
+  wire->seed = request.seed;
+  return wire;
+}
+
+WireSample<telltale_wire_IdentifyProgress> Encode(const IdentifyProgress& progress) {
+  WireSample<telltale_wire_IdentifyProgress> wire;
+  PutIdentifier(wire->correlation_id, progress.correlation_id);
+  PutIdentifier(wire->vehicle_id, progress.vehicle_id);
+  Put(wire->stage, progress.stage);
+  wire->fraction = progress.fraction;
+  return wire;
+}
+
+WireSample<telltale_wire_IdentifyReply> Encode(const IdentifyReply& reply) {
+  WireSample<telltale_wire_IdentifyReply> wire;
+  PutIdentifier(wire->correlation_id, reply.correlation_id);
+  PutIdentifier(wire->vehicle_id, reply.vehicle_id);
+  Put(wire->outcome, Name(reply.outcome));
+  Put(wire->message, reply.message);
+  PutSequence(wire->refusals, reply.refusals, kFill);
+  if (reply.model) {
+    wire->revision = reply.model->revision;
+    PutSequence(wire->model, std::initializer_list<PublishedModel>{*reply.model}, kFill);
+  }
+  wire->elapsed_s = reply.elapsed_s;
+  return wire;
+}
+
+WireSample<telltale_wire_Quality> Encode(const Quality& quality) {
+  WireSample<telltale_wire_Quality> wire;
+  if (quality.vehicle_id == kUnattributed) {
+    Put(wire->vehicle_id, kUnattributed);
+  } else {
+    PutIdentifier(wire->vehicle_id, quality.vehicle_id);
+  }
+  wire->sequence_number = quality.sequence_number;
+  wire->window_s = quality.window_s;
+  wire->window_fill = quality.window_fill;
+  wire->gnss_rate_hz = quality.gnss_rate_hz;
+  wire->heading_rate_hz = quality.heading_rate_hz;
+  wire->thrusters_rate_hz = quality.thrusters_rate_hz;
+  wire->lost = quality.lost;
+  wire->accepted = quality.accepted;
+  PutSequence(wire->rejected, quality.rejected, kFill);
+  wire->has_model = quality.model_revision.has_value();
+  wire->model_revision = quality.model_revision.value_or(0);
+  wire->model_age_s = quality.model_age_s;
+  wire->prediction_error = quality.prediction_error;
+  wire->drift = quality.drift;
+  return wire;
+}
+
+Decoded<Telemetry<GnssFix>> Decode(const telltale_wire_GnssFix& wire) {
+  return DecodeTelemetry(wire, GnssFix{wire.time_s, wire.latitude_deg, wire.longitude_deg});
+}
+
+Decoded<Telemetry<HeadingSample>> Decode(const telltale_wire_Heading& wire) {
+  return DecodeTelemetry(wire, HeadingSample{wire.time_s, wire.heading_deg});
+}
+
+Decoded<Telemetry<ThrusterSample>> Decode(const telltale_wire_Thrusters& wire) {
+  return DecodeTelemetry(wire, ThrusterSample{wire.time_s, wire.left_us, wire.right_us});
+}
+
+Decoded<PublishedModel> Decode(const telltale_wire_Model& wire) {
+  return Guarded([&] { return ReadModel(wire); });
+}
+
+Decoded<IdentifyRequest> Decode(const telltale_wire_IdentifyRequest& wire) {
+  return Guarded([&] {
+    IdentifyRequest request;
+    request.correlation_id = ReadIdentifier("correlation_id", wire.correlation_id);
+    request.vehicle_id = ReadIdentifier("vehicle_id", wire.vehicle_id);
+    request.structure = ReadOptionalName("structure", View(wire.structure), kStructures);
+    request.parameterization =
+        ReadOptionalName("parameterization", View(wire.parameterization), kParameterizations);
+    request.estimator = ReadOptionalName("estimator", View(wire.estimator), kEstimators);
+    request.preset = ReadOptionalName("preset", View(wire.preset), kPresets);
+    if (wire.bootstrap_given) request.bootstrap_replicates = wire.bootstrap_replicates;
+    request.seed = wire.seed;
+    return request;
+  });
+}
+
+Decoded<IdentifyProgress> Decode(const telltale_wire_IdentifyProgress& wire) {
+  return Guarded([&] {
+    IdentifyProgress progress;
+    progress.correlation_id = ReadIdentifier("correlation_id", wire.correlation_id);
+    progress.vehicle_id = ReadIdentifier("vehicle_id", wire.vehicle_id);
+    progress.stage = View(wire.stage);
+    progress.fraction = ReadWithin("fraction", wire.fraction, 0.0, 1.0);
+    return progress;
+  });
+}
+
+Decoded<IdentifyReply> Decode(const telltale_wire_IdentifyReply& wire) {
+  return Guarded([&] {
+    IdentifyReply reply;
+    reply.correlation_id = ReadIdentifier("correlation_id", wire.correlation_id);
+    reply.vehicle_id = ReadIdentifier("vehicle_id", wire.vehicle_id);
+    reply.outcome = ReadName("outcome", View(wire.outcome), kOutcomes);
+    reply.message = View(wire.message);
+    reply.refusals = ReadSequence("refusals", wire.refusals, ReadRefusal);
+    const bool published = reply.outcome == IdentifyOutcome::kPublished;
+    if (wire.model._length != (published ? 1u : 0u)) {
+      Reject("model", std::to_string(wire.model._length) + " items",
+             published ? "allowed is one when published" : "allowed is none unless published");
+    }
+    if (published) reply.model = ReadModel(wire.model._buffer[0]);
+    reply.elapsed_s = ReadWithin("elapsed_s", wire.elapsed_s, 0.0, kLargest);
+    return reply;
+  });
+}
+
+Decoded<Quality> Decode(const telltale_wire_Quality& wire) {
+  return Guarded([&] {
+    Quality quality;
+    quality.vehicle_id = View(wire.vehicle_id) == kUnattributed
+                             ? std::string(kUnattributed)
+                             : ReadIdentifier("vehicle_id", wire.vehicle_id);
+    quality.sequence_number = wire.sequence_number;
+    quality.window_s = ReadWithin("window_s", wire.window_s, 0.0, kLargest);
+    quality.window_fill = ReadWithin("window_fill", wire.window_fill, 0.0, 1.0);
+    quality.gnss_rate_hz = ReadWithin("gnss_rate_hz", wire.gnss_rate_hz, 0.0, kLargest);
+    quality.heading_rate_hz = ReadWithin("heading_rate_hz", wire.heading_rate_hz, 0.0, kLargest);
+    quality.thrusters_rate_hz =
+        ReadWithin("thrusters_rate_hz", wire.thrusters_rate_hz, 0.0, kLargest);
+    quality.lost = wire.lost;
+    quality.accepted = wire.accepted;
+    quality.rejected = ReadSequence("rejected", wire.rejected, ReadRejectEntry);
+    if (wire.has_model) quality.model_revision = wire.model_revision;
+    quality.model_age_s = ReadWithin("model_age_s", wire.model_age_s, -kLargest, kLargest);
+    quality.prediction_error =
+        ReadWithin("prediction_error", wire.prediction_error, 0.0, kLargest);
+    quality.drift = ReadWithin("drift", wire.drift, -kLargest, kLargest);
+    return quality;
+  });
+}
+
+}  // namespace telltale

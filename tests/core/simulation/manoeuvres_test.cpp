@@ -1,0 +1,120 @@
+#include "simulation/manoeuvres.hpp"
+
+#include <cmath>
+#include <map>
+
+#include <gtest/gtest.h>
+#include <Eigen/SVD>
+
+#include "simulation/yellowfish.hpp"
+
+namespace telltale {
+namespace {
+
+double Duration(const Manoeuvre& manoeuvre) {
+  double sum_s = 0.0;
+  for (const HeldCommand& held : manoeuvre) sum_s += held.duration_s;
+  return sum_s;
+}
+
+TEST(Manoeuvres, StaircaseGoesUpAndDownOnce) {
+  const Manoeuvre staircase = SurgeStaircase(0.2, 0.8, 4, 5.0);
+  const double expected[] = {0.2, 0.4, 0.6, 0.8, 0.6, 0.4, 0.2};
+  ASSERT_EQ(staircase.size(), std::size(expected));
+  for (std::size_t i = 0; i < staircase.size(); ++i) {
+    EXPECT_NEAR(staircase[i].delta.port, expected[i], 1e-15);
+    EXPECT_EQ(staircase[i].delta.starboard, staircase[i].delta.port);
+    EXPECT_EQ(staircase[i].duration_s, 5.0);
+  }
+}
+
+TEST(Manoeuvres, ZigzagAndCircleKeepMeanAndDifference) {
+  const Manoeuvre zigzag = Zigzag(0.5, 0.4, 2, 3.0);
+  ASSERT_EQ(zigzag.size(), 4u);
+  for (std::size_t i = 0; i < zigzag.size(); ++i) {
+    EXPECT_NEAR(zigzag[i].delta.Mean(), 0.5, 1e-15);
+    EXPECT_NEAR(zigzag[i].delta.Difference(), i % 2 == 0 ? 0.4 : -0.4, 1e-15);
+  }
+  EXPECT_NEAR(Circle(0.6, -0.2, 9.0).front().delta.Difference(), -0.2, 1e-15);
+}
+
+TEST(Manoeuvres, SpinsGoThroughBothMixedRegions) {
+  const Manoeuvre spins = Spins(0.4, 6.0);
+  EXPECT_EQ(RegionOf(spins[0].delta), PropellerRegion::kFR);
+  EXPECT_EQ(RegionOf(spins[1].delta), PropellerRegion::kRF);
+}
+
+TEST(Manoeuvres, RandomStepsStayInTheirBoxAndLastAsLongAsTold) {
+  const CommandRange range{{0.1, -0.8}, {0.9, -0.2}};
+  const Manoeuvre steps = RandomSteps(range, 1.0, 3.0, 100.0, 7);
+  EXPECT_NEAR(Duration(steps), 100.0, 1e-9);
+  for (std::size_t i = 0; i < steps.size(); ++i) {
+    EXPECT_GE(steps[i].delta.port, 0.1 - 1e-12);
+    EXPECT_LE(steps[i].delta.port, 0.9 + 1e-12);
+    EXPECT_GE(steps[i].delta.starboard, -0.8 - 1e-12);
+    EXPECT_LE(steps[i].delta.starboard, -0.2 + 1e-12);
+    EXPECT_LE(steps[i].duration_s, 3.0 + 1e-12);
+    const bool cut_short = i + 1 == steps.size();
+    EXPECT_GE(steps[i].duration_s, cut_short ? 0.0 : 1.0 - 1e-12);
+  }
+}
+
+TEST(Manoeuvres, RandomStepsFollowTheirSeed) {
+  const CommandRange range{{0.0, 0.0}, {1.0, 1.0}};
+  const Manoeuvre one = RandomSteps(range, 1.0, 3.0, 60.0, 1);
+  const Manoeuvre same = RandomSteps(range, 1.0, 3.0, 60.0, 1);
+  const Manoeuvre other = RandomSteps(range, 1.0, 3.0, 60.0, 2);
+  ASSERT_EQ(one.size(), same.size());
+  bool differs = one.size() != other.size();
+  for (std::size_t i = 0; i < one.size(); ++i) {
+    EXPECT_EQ(one[i].delta.port, same[i].delta.port);
+    EXPECT_EQ(one[i].duration_s, same[i].duration_s);
+    differs = differs || one[i].delta.port != other[i].delta.port;
+  }
+  EXPECT_TRUE(differs);
+}
+
+TEST(Manoeuvres, ScheduleStartsEachCommandWhenTheLastOneEnds) {
+  const auto commands = Schedule({Coast(2.0), SurgeSteps(0.1, 0.9, 1, 3.0), Coast(1.0)}, 100.0);
+  const double expected[] = {100.0, 102.0, 105.0, 108.0};
+  ASSERT_EQ(commands.size(), std::size(expected));
+  for (std::size_t i = 0; i < commands.size(); ++i) EXPECT_EQ(commands[i].time_s, expected[i]);
+  EXPECT_EQ(commands[2].delta.port, 0.9);
+}
+
+TEST(SampleMission, SpendsEnoughTimeInEveryRegion) {
+  const auto commands = SampleMission(1);
+  std::map<PropellerRegion, double> seconds;
+  for (std::size_t i = 0; i < commands.size(); ++i) {
+    const double end_s = i + 1 < commands.size() ? commands[i + 1].time_s : kSampleMissionDurationS;
+    ASSERT_GT(end_s, commands[i].time_s);
+    ASSERT_LE(std::abs(commands[i].delta.port), 1.0 + 1e-12);
+    ASSERT_LE(std::abs(commands[i].delta.starboard), 1.0 + 1e-12);
+    seconds[RegionOf(commands[i].delta)] += end_s - commands[i].time_s;
+  }
+  EXPECT_GT(seconds[PropellerRegion::kFF], 300.0);
+  EXPECT_GT(seconds[PropellerRegion::kFR], 60.0);
+  EXPECT_GT(seconds[PropellerRegion::kRF], 60.0);
+  EXPECT_GT(seconds[PropellerRegion::kRR], 10.0);
+}
+
+TEST(SampleMission, TellsEveryCoefficientOfTheTwinApart) {
+  // Columns scaled to unit length, one row a fifth of a second. A condition number of c lets a
+  // relative error of e in the data grow to c e in the worst combination of coefficients.
+  const auto track = Simulate(YellowfishTwin(), {}, SampleMission(1), kSampleMissionDurationS, 0.2);
+  for (const Equation equation : kEquations) {
+    const auto columns = Regressors(equation, Parameterization::kPropeller).size();
+    Eigen::MatrixXd phi(track.size(), columns);
+    std::vector<double> row(columns);
+    for (std::size_t k = 0; k < track.size(); ++k) {
+      FillRow(equation, Parameterization::kPropeller, track[k].state.nu, track[k].delta, row);
+      phi.row(k) = Eigen::Map<const Eigen::RowVectorXd>(row.data(), columns);
+    }
+    phi.colwise().normalize();
+    const Eigen::VectorXd singular = phi.jacobiSvd().singularValues();
+    EXPECT_LT(singular[0] / singular[singular.size() - 1], 60.0) << Name(equation);
+  }
+}
+
+}  // namespace
+}  // namespace telltale
