@@ -129,26 +129,13 @@ void FillTurning(Equation equation, const Nu& now, const Nu& before, const Thrus
   std::copy_n(thrust.turning.begin(), 4, row.begin() + 17);
 }
 
-double Component(const Nu& nu, Equation equation) {
-  switch (equation) {
-    case Equation::kSurge: return nu.u;
-    case Equation::kSway: return nu.v;
-    default: return nu.r;
-  }
-}
-
-bool Enters(PropellerRegion region, Equation equation, bool include_reverse) {
-  if (region == PropellerRegion::kRR) return include_reverse;
-  return equation != Equation::kSurge || region == PropellerRegion::kFF;
-}
-
 /// Positions k with k-1, k and k+1 in one stretch and the command at k-1 in a region that enters.
 std::vector<std::size_t> UsableInstants(const PreparedDataset& dataset, Equation equation,
-                                        bool include_reverse) {
+                                        const RegressionOptions& options) {
   std::vector<std::size_t> instants;
   for (const RowRange& stretch : dataset.stretches) {
     for (std::size_t k = stretch.begin + 1; k + 1 < stretch.end; ++k) {
-      if (Enters(dataset.rows[k - 1].region, equation, include_reverse)) instants.push_back(k);
+      if (Enters(dataset.rows[k - 1].region, equation, options)) instants.push_back(k);
     }
   }
   return instants;
@@ -193,7 +180,9 @@ void FillRedundantRow(Equation equation, const Nu& now, const Nu& before,
 Result<Eigen::VectorXd> EstimateRedundant(const PreparedDataset& dataset, Equation equation,
                                           const RegressionOptions& options) {
   const std::size_t columns = RedundantRegressors(equation).size();
-  const auto instants = UsableInstants(dataset, equation, options.include_reverse);
+  RegressionOptions paper = options;
+  paper.parameterization = Parameterization::kPaper;
+  const auto instants = UsableInstants(dataset, equation, paper);
   if (instants.size() < 10 * columns) {
     return Refuse(std::string(Name(equation)) + " redundant",
                   "only " + std::to_string(instants.size()) + " usable rows, " +
@@ -210,7 +199,7 @@ Result<Eigen::VectorXd> EstimateRedundant(const PreparedDataset& dataset, Equati
     const PreparedRow& before = dataset.rows[k - 1];
     FillRedundantRow(equation, now.nu, before.nu, options.dead_zone.Apply(before.delta),
                      {A.row(i).data(), columns});
-    b[i] = Component(dataset.rows[k + 1].nu, equation) - Component(now.nu, equation);
+    b[i] = ComponentOf(dataset.rows[k + 1].nu, equation) - ComponentOf(now.nu, equation);
   }
   const Eigen::VectorXd norms = A.colwise().norm().transpose();
   const double least = std::numeric_limits<double>::min();

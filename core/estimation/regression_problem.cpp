@@ -7,22 +7,6 @@
 namespace telltale {
 namespace {
 
-/// Surge in the paper's parameterization has one thrust curve, the forward one, so it holds in FF alone.
-bool Enters(PropellerRegion region, Equation equation, const RegressionOptions& options) {
-  if (region == PropellerRegion::kRR) return options.include_reverse;
-  const bool forward_only =
-      equation == Equation::kSurge && options.parameterization == Parameterization::kPaper;
-  return !forward_only || region == PropellerRegion::kFF;
-}
-
-double Component(const Nu& nu, Equation equation) {
-  switch (equation) {
-    case Equation::kSurge: return nu.u;
-    case Equation::kSway: return nu.v;
-    default: return nu.r;
-  }
-}
-
 /// Indices k of a segment whose successor k + 1 belongs to the same gap-free stretch.
 RowRange PairsOf(const RowRange& segment, const std::vector<RowRange>& stretches) {
   for (const RowRange& stretch : stretches) {
@@ -65,7 +49,7 @@ EquationProblem BuildEquation(const PreparedDataset& dataset, Equation equation,
       FillRow(equation, options.parameterization, now.nu, options.dead_zone.Apply(now.delta),
               {phi.row(row).data(), problem.regressors.size()});
       problem.y[row] =
-          (Component(dataset.rows[k + 1].nu, equation) - Component(now.nu, equation)) /
+          (ComponentOf(dataset.rows[k + 1].nu, equation) - ComponentOf(now.nu, equation)) /
           dataset.sampling_period_s;
       ++row;
     }
@@ -76,6 +60,14 @@ EquationProblem BuildEquation(const PreparedDataset& dataset, Equation equation,
 }
 
 }  // namespace
+
+/// Surge in the paper's parameterization has one thrust curve, the forward one, so it holds in FF alone.
+bool Enters(PropellerRegion region, Equation equation, const RegressionOptions& options) {
+  if (region == PropellerRegion::kRR) return options.include_reverse;
+  const bool forward_only =
+      equation == Equation::kSurge && options.parameterization == Parameterization::kPaper;
+  return !forward_only || region == PropellerRegion::kFF;
+}
 
 RegressionProblem BuildRegression(const PreparedDataset& dataset,
                                   const RegressionOptions& options) {

@@ -41,6 +41,9 @@ struct RegressionOptions {
   DeadZone dead_zone;            ///< applied to every command before its regressors are formed
 };
 
+/// Whether rows under a command of this region enter this equation.
+bool Enters(PropellerRegion region, Equation equation, const RegressionOptions& options);
+
 /// PreparedDataset -> RegressionProblem: y(k) = (nu(k+1) - nu(k)) / h on Phi(nu(k), delta(k)),
 /// pairs never straddling a gap. docs/model.md (13).
 /// Source: the paper, Propositions 1 and 2.

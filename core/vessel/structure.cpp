@@ -132,6 +132,16 @@ std::size_t IndexOf(Equation equation) {
   return static_cast<std::size_t>(equation) - 1;
 }
 
+double ComponentOf(const Nu& nu, Equation equation) {
+  switch (equation) {
+    case Equation::kSurge: return nu.u;
+    case Equation::kSway: return nu.v;
+    case Equation::kYaw: return nu.r;
+    case Equation::kUnknown: break;
+  }
+  throw ContractViolation("ComponentOf: requires a named equation");
+}
+
 std::span<const Regressor> Regressors(Equation equation, Parameterization parameterization) {
   Require(parameterization != Parameterization::kUnknown, "a named parameterization");
   const bool paper = parameterization == Parameterization::kPaper;

@@ -16,6 +16,9 @@ inline constexpr std::array kEquations = {Equation::kSurge, Equation::kSway, Equ
 /// Position of an equation in arrays ordered surge, sway, yaw.
 std::size_t IndexOf(Equation equation);
 
+/// The velocity that an equation is about: u, v or r.
+double ComponentOf(const Nu& nu, Equation equation);
+
 /// How thrust follows the command: at once, or through a first-order lag.
 enum class Structure { kUnknown, kStaticQuadratic, kFirstOrderDynamic };
 
