@@ -12,6 +12,7 @@
 #include "data/savitzky_golay.hpp"
 #include "data/segments.hpp"
 #include "data/time_series.hpp"
+#include "data/white_noise.hpp"
 #include "range.hpp"
 
 namespace telltale {
@@ -209,12 +210,18 @@ std::vector<PreparedRow> PrepareAsPaper(const Signals& signals, const Grid& grid
   return rows;
 }
 
-// A sensor faster than twice the grid is averaged about each grid point, a slower one interpolated.
-std::vector<double> OntoGrid(const TimeSeries& series, const Grid& grid) {
+double SamplesPerRow(const TimeSeries& series, const Grid& grid) {
   const double span = series.times_s.back() - series.times_s.front();
-  const double samples_per_row =
-      static_cast<double>(series.times_s.size() - 1) * grid.period_s / span;
-  if (samples_per_row > 1.9) {
+  return static_cast<double>(series.times_s.size() - 1) * grid.period_s / span;
+}
+
+// A sensor faster than twice the grid is averaged about each grid point, a slower one interpolated.
+bool IsAveraged(const TimeSeries& series, const Grid& grid) {
+  return SamplesPerRow(series, grid) > 1.9;
+}
+
+std::vector<double> OntoGrid(const TimeSeries& series, const Grid& grid) {
+  if (IsAveraged(series, grid)) {
     return grid.Map([&](double t) { return series.MeanAbout(t, grid.period_s); });
   }
   return grid.Map([&](double t) { return series.Interpolate(t); });
@@ -300,6 +307,36 @@ std::vector<PreparedRow> PrepareStretch(const Signals& signals, const Grid& grid
                                           : PrepareRobustly(signals, grid, vehicle, filter);
 }
 
+// The norm of the weights with which the values about a row make its slope, per row.
+double SlopeNorm(const SavitzkyGolay& filter, const PrepareOptions& options) {
+  const std::size_t centre = options.smoothing_half_width;
+  if (options.preset == Preset::kRobust) return filter.SlopeWeights(centre).norm();
+  // Central differences, then smoothed: value j enters the slopes at j - 1 and j + 1.
+  const Eigen::RowVectorXd smooth = filter.ValueWeights(centre);
+  Eigen::RowVectorXd slope = Eigen::RowVectorXd::Zero(smooth.size() + 2);
+  slope.tail(smooth.size()) += smooth / 2.0;
+  slope.head(smooth.size()) -= smooth / 2.0;
+  return slope.norm();
+}
+
+// One sigma of white noise on a signal, as it stands on the grid.
+double NoiseOnGrid(const TimeSeries& series, const Grid& grid, const PrepareOptions& options) {
+  const double noise = WhiteNoise(series);
+  const bool averaged = options.preset == Preset::kRobust && IsAveraged(series, grid);
+  return averaged ? noise / std::sqrt(SamplesPerRow(series, grid)) : noise;
+}
+
+// Positions are turned into the body frame, so u and v share the noise of north and east alike.
+Nu NoiseInVelocity(const Signals& signals, const Grid& grid, const PrepareOptions& options) {
+  const SavitzkyGolay filter(options.smoothing_half_width, options.smoothing_degree);
+  const double gain = SlopeNorm(filter, options) / grid.period_s;
+  const double position_m = std::hypot(NoiseOnGrid(signals.north_m, grid, options),
+                                       NoiseOnGrid(signals.east_m, grid, options)) /
+                            std::sqrt(2.0);
+  const double psi_rad = NoiseOnGrid(signals.psi_rad, grid, options);
+  return {gain * position_m, gain * position_m, gain * psi_rad};
+}
+
 std::optional<Refusal> MissingChannel(const Recording& recording) {
   const auto missing = [](Channel channel) {
     const std::string name(Name(channel));
@@ -333,25 +370,37 @@ void Append(PreparedDataset& dataset, const std::vector<PreparedRow>& rows,
   dataset.segments.insert(dataset.segments.end(), segments.begin(), segments.end());
 }
 
+// Root mean square over stretches, each with the weight of its rows; call after Append.
+void PoolNoise(PreparedDataset& dataset, const Nu& of_stretch) {
+  const double share = static_cast<double>(dataset.stretches.back().size()) /
+                       static_cast<double>(dataset.rows.size());
+  for (const auto velocity : {&Nu::u, &Nu::v, &Nu::r}) {
+    const double so_far = dataset.nu_noise.*velocity;
+    const double here = of_stretch.*velocity;
+    dataset.nu_noise.*velocity = std::sqrt((1.0 - share) * so_far * so_far + share * here * here);
+  }
+}
+
 }  // namespace
+
+std::string_view Name(Preset preset) {
+  switch (preset) {
+    case Preset::kUnknown: return "UNKNOWN";
+    case Preset::kPaper: return "PAPER";
+    case Preset::kRobust: return "ROBUST";
+  }
+  return "";
+}
 
 PrepareOptions PrepareOptions::Paper() {
   PrepareOptions options;
   options.preset = Preset::kPaper;
+  options.smoothing_half_width = 5;  // the paper does not say
   return options;
 }
 
 PrepareOptions PrepareOptions::Robust() {
   return {};
-}
-
-std::string_view Name(Preset preset) {
-  switch (preset) {
-    case Preset::kPaper: return "PAPER";
-    case Preset::kRobust: return "ROBUST";
-    case Preset::kUnknown: break;
-  }
-  return "UNKNOWN";
 }
 
 std::optional<Refusal> PrepareOptions::Validate() const {
@@ -396,6 +445,7 @@ Result<PreparedDataset> Prepare(const Recording& recording, const Vehicle& vehic
     if (!LongEnough(grid, options)) continue;
     const Signals signals = ReadSignals(recording, stretch, vehicle, frame);
     Append(dataset, PrepareStretch(signals, grid, vehicle, options), options);
+    PoolNoise(dataset, NoiseInVelocity(signals, grid, options));
   }
   if (dataset.stretches.empty()) {
     return tl::unexpected(NoStretch(options, dataset.sampling_period_s, longest_found_s));

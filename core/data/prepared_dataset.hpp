@@ -13,10 +13,17 @@ namespace telltale {
 /// One instant of the common sampling grid.
 struct PreparedRow {
   double time_s = 0.0;
-  Eta eta;                 ///< body origin, smoothed; psi unwrapped along a stretch
-  Nu nu;                   ///< body velocity from eta
-  PropellerCommand delta;  ///< command effective over [t, t + h), filtered as the preset says
-  PropellerRegion region = PropellerRegion::kFF;  ///< of the commands as they were sent
+  Eta eta;  ///< body origin, as the preset filters it; psi unwrapped along a stretch
+  Nu nu;    ///< body velocity
+
+  /// The command behind nu(k+1) - nu(k): that over [t, t + h), filtered as the preset says. A
+  /// robust row within half a window of a switch mixes the commands before and after, forward and
+  /// reverse alike, exactly as its nu does, and may overshoot [-1, 1] where the nu overshoots.
+  PropellerCommand delta;
+
+  /// In force for most of [t, t + h), of the commands as they were sent; near a switch the filtered
+  /// delta may have another sign.
+  PropellerRegion region = PropellerRegion::kFF;
 };
 
 /// Rows [begin, end) of a dataset.
@@ -39,7 +46,7 @@ struct PreparedDataset {
   std::vector<RowRange> stretches;
   std::vector<RowRange> segments;
   RejectCounts rejected;
-  Nu nu_noise;  ///< one sigma of the noise left in each nu, judged by what smoothing took out
+  Nu nu_noise;  ///< one sigma that white sensor noise, judged by WhiteNoise, leaves in each nu
 
   double StartTime() const { return rows.empty() ? 0.0 : rows.front().time_s; }
   double EndTime() const { return rows.empty() ? 0.0 : rows.back().time_s; }

@@ -1,12 +1,13 @@
 #include "simulation/sensors.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
-#include <GeographicLib/LocalCartesian.hpp>
 #include <boost/random/normal_distribution.hpp>
 
 #include "contract.hpp"
+#include "data/north_east.hpp"
 #include "random.hpp"
 
 namespace telltale {
@@ -16,9 +17,9 @@ constexpr double kDegreesPerRadian = 180.0 / std::numbers::pi;
 constexpr double kSameInstantS = 1e-6;
 
 // Seeded white noise of one sensor axis, independent of every other axis.
-class WhiteNoise {
+class NoiseSource {
  public:
-  WhiteNoise(std::uint64_t seed, std::uint64_t axis, double sigma)
+  NoiseSource(std::uint64_t seed, std::uint64_t axis, double sigma)
       : engine_(RandomEngine::Stream(seed, axis)), sigma_(sigma) {}
 
   double operator()() { return sigma_ * normal_(engine_); }
@@ -64,28 +65,24 @@ double Wrap360(double angle_deg) {
 
 std::vector<GnssFix> MeasurePositions(const std::vector<TimedState>& track, const LeverArm& antenna,
                                       const SensorOptions& options) {
-  const GeographicLib::LocalCartesian frame(options.origin.latitude_deg,
-                                            options.origin.longitude_deg);
-  WhiteNoise north_noise(options.seed, 0, options.position_noise_m);
-  WhiteNoise east_noise(options.seed, 1, options.position_noise_m);
+  const NorthEastFrame frame(options.origin);
+  NoiseSource north_noise(options.seed, 0, options.position_noise_m);
+  NoiseSource east_noise(options.seed, 1, options.position_noise_m);
   std::vector<GnssFix> fixes;
   Sample(track, options.gnss_period_s, [&](double time_s, const Eta& eta, const PropellerCommand&) {
     const double c = std::cos(eta.psi_rad);
     const double s = std::sin(eta.psi_rad);
     const double north = eta.x_m + c * antenna.forward_m - s * antenna.starboard_m + north_noise();
     const double east = eta.y_m + s * antenna.forward_m + c * antenna.starboard_m + east_noise();
-    double latitude = 0.0;
-    double longitude = 0.0;
-    double height = 0.0;
-    frame.Reverse(east, north, 0.0, latitude, longitude, height);
-    fixes.push_back({time_s, latitude, longitude});
+    const GeographicPosition fix = frame.Inverse({north, east});
+    fixes.push_back({time_s, fix.latitude_deg, fix.longitude_deg});
   });
   return fixes;
 }
 
 std::vector<HeadingSample> MeasureHeadings(const std::vector<TimedState>& track,
                                            const SensorOptions& options) {
-  WhiteNoise noise_deg(options.seed, 2, options.heading_noise_deg);
+  NoiseSource noise_deg(options.seed, 2, options.heading_noise_deg);
   std::vector<HeadingSample> headings;
   Sample(track, options.heading_period_s,
          [&](double time_s, const Eta& eta, const PropellerCommand&) {

@@ -79,7 +79,7 @@ VesselModel YellowfishTwin() {
 Vehicle YellowfishVehicle() {
   Vehicle vehicle;
   vehicle.vehicle_id = "yellowfish";
-  vehicle.propeller_separation_m = 0.8;
+  vehicle.propeller_separation_m = 0.7;
   vehicle.port = {1500.0, 1900.0, 1100.0};
   vehicle.starboard = {1500.0, 1900.0, 1100.0};
   vehicle.gnss_antenna = {-0.3, 0.0};

@@ -20,10 +20,9 @@ struct OneStepScore {
 
 /// Free-run score of one velocity over one horizon, over all instants after the first of all
 /// windows. A model that blows up within a window scores infinite errors. The noise floor is
-/// PreparedDataset::nu_noise: the errors compare with measured velocities that are themselves
-/// uncertain by that much, so a perfect model cannot be seen to do better. It counts neither the
-/// uncertain start of a window nor what smoothing does to true transients, so a perfect model may
-/// well do a little worse.
+/// PreparedDataset::nu_noise: measured velocities are themselves uncertain by that much, so errors
+/// against them cannot be seen to be smaller. It is a lower bound: noise slower than white, the
+/// uncertain start of a window and what smoothing does to true transients come on top.
 struct FreeRunScore {
   double rmse = 0.0;  ///< m/s or rad/s
   double mae = 0.0;

@@ -3,7 +3,8 @@
 namespace telltale {
 
 std::string CodecError::Message() const {
-  return field + " = " + (value.empty() ? "(unset)" : value) + ": " + allowed;
+  const std::string place = where.empty() ? "" : where + ": ";
+  return place + field + " = " + (value.empty() ? "(unset)" : value) + ": " + allowed;
 }
 
 }  // namespace telltale

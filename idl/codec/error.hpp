@@ -11,8 +11,9 @@ struct CodecError {
   std::string field;
   std::string value;
   std::string allowed;
+  std::string where = {};  ///< "file:line" or "file" where the source is a text, else empty
 
-  /// "field = value: allowed ...", for a person.
+  /// "where: field = value: allowed ...", for a person.
   std::string Message() const;
 };
 

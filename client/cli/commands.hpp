@@ -1,0 +1,13 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+namespace telltale {
+
+/// Each adds one subcommand, which runs when the command line is parsed and throws what outcome.hpp
+/// names, or any other exception for a failure, where it does not succeed.
+void AddIdentify(CLI::App& telltale);
+void AddValidate(CLI::App& telltale);
+void AddSimulate(CLI::App& telltale);
+
+}  // namespace telltale

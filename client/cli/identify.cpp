@@ -1,0 +1,58 @@
+#include "identification/identify.hpp"
+
+#include <memory>
+
+#include "cli/commands.hpp"
+#include "cli/identify_arguments.hpp"
+#include "cli/inputs.hpp"
+#include "cli/model_table.hpp"
+#include "cli/outcome.hpp"
+#include "cli/progress_line.hpp"
+#include "codec/model_json.hpp"
+
+namespace telltale {
+namespace {
+
+void IdentifyLogs(const IdentifyArguments& arguments) {
+  const IdentifyOptions options = arguments.Options();
+  const Vehicle vehicle = LoadVehicle(arguments.vehicle_file);
+  const Identification model = [&] {
+    ProgressLine line;
+    line.Update("reading logs", 0.0);
+    const Recording recording = LoadRecording(arguments.logs);
+    return OrThrow(Identify(
+        recording, vehicle, options,
+        [&line](std::string_view stage, double fraction) { line.Update(stage, fraction); }));
+  }();
+  arguments.output.Write(PrintModelJson(model), [&] {
+    return ModelTable(model) + (arguments.discrete ? '\n' + DiscreteTable(model) : "");
+  });
+}
+
+}  // namespace
+
+void AddIdentify(CLI::App& telltale) {
+  const auto arguments = std::make_shared<IdentifyArguments>();
+  CLI::App& command =
+      *telltale.add_subcommand("identify", "Identifies a vehicle's model, with bounds, from logs");
+  command
+      .add_option(
+          "--log", arguments->logs,
+          "telemetry logs: folders with gnss.csv, heading.csv and thrusters.csv. Several are "
+          "put one after the other; one that does not follow the last within a day is "
+          "shifted to start 120 s after it")
+      ->type_name("DIR...")
+      ->required()
+      ->check(CLI::ExistingPath.description(""));
+  command.add_option("--vehicle", arguments->vehicle_file, "vehicle file (text format)")
+      ->type_name("FILE")
+      ->required()
+      ->check(CLI::ExistingFile.description(""));
+  arguments->AddOptionsTo(command);
+  command.footer(
+      "Coefficients are continuous-time, SI.\n"
+      "Example: telltale identify --log run1 --log run2 --vehicle boat.textproto --out model.json");
+  command.callback([arguments] { IdentifyLogs(*arguments); });
+}
+
+}  // namespace telltale

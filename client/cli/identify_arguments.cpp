@@ -1,0 +1,87 @@
+#include "cli/identify_arguments.hpp"
+
+#include <algorithm>
+#include <thread>
+
+#include "cli/inputs.hpp"
+#include "cli/outcome.hpp"
+
+namespace telltale {
+namespace {
+
+constexpr unsigned kMostThreads = 256;
+
+std::size_t DefaultThreads() {
+  return std::clamp(std::thread::hardware_concurrency(), 1u, kMostThreads);
+}
+
+void RequireAvailable(const char* option, const std::optional<std::string>& given,
+                      const std::string& available) {
+  if (!given || *given == available) return;
+  throw UsageError(std::string(option) + ' ' + *given +
+                   " is not available in this version; available: " + available);
+}
+
+}  // namespace
+
+void IdentifyArguments::AddOptionsTo(CLI::App& command) {
+  command
+      .add_option("--structure", structure,
+                  "how thrust follows the command: static (default); dynamic is not available yet")
+      ->type_name("NAME")
+      ->check(CLI::IsMember({"static", "dynamic"}).description(""));
+  command
+      .add_option(
+          "--parameterization", parameterization,
+          "of the propellers: propeller (default), consistent in all four regions, or paper")
+      ->type_name("NAME")
+      ->check(CLI::IsMember({"propeller", "paper"}).description(""));
+  command
+      .add_option("--estimator", estimator,
+                  "one-step (default); weak-iv and output-error are not available yet")
+      ->type_name("NAME")
+      ->check(CLI::IsMember({"one-step", "weak-iv", "output-error"}).description(""));
+  command.add_option("--preset", preset, "of the data preparation: robust (default) or paper")
+      ->type_name("NAME")
+      ->check(CLI::IsMember({"robust", "paper"}).description(""));
+  command
+      .add_option("--sampling-period", sampling_period_s,
+                  "of the model, seconds, [0.02, 2] (default: the median GNSS period)")
+      ->type_name("S");
+  command
+      .add_option("--bootstrap", bootstrap_replicates,
+                  "replicates behind the bounds, [100, 100000], 0 for bounds from residuals "
+                  "(default 1000)")
+      ->type_name("N");
+  command.add_option("--level", interval_level, "of the bounds, [0.5, 0.999] (default 0.95)")
+      ->type_name("P");
+  command.add_option("--seed", seed, "of the bootstrap; the same seed gives the same bits")
+      ->type_name("N")
+      ->capture_default_str();
+  command
+      .add_option("--threads", threads,
+                  "[1, 256] (default: all of the machine); never changes the result")
+      ->type_name("N");
+  command.add_flag("--discrete", discrete,
+                   "also print the coefficients times the sampling period, as in the paper");
+  output.AddTo(command, "model.json");
+}
+
+IdentifyOptions IdentifyArguments::Options() const {
+  RequireAvailable("--structure", structure, "static");
+  RequireAvailable("--estimator", estimator, "one-step");
+  IdentifyOptions options;
+  if (preset) options.prepare = PrepareOptionsOf(PresetNamed(*preset));
+  if (sampling_period_s) options.prepare.sampling_period_s = sampling_period_s;
+  if (parameterization == "paper") options.regression.parameterization = Parameterization::kPaper;
+  if (bootstrap_replicates) options.bootstrap_replicates = *bootstrap_replicates;
+  if (interval_level) options.interval_level = *interval_level;
+  options.seed = seed;
+  options.threads = threads.value_or(DefaultThreads());
+  if (const auto refusal = options.Validate()) {
+    throw UsageError(refusal->subject + ": " + refusal->reason + "; " + refusal->advice);
+  }
+  return options;
+}
+
+}  // namespace telltale

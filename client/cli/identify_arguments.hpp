@@ -1,0 +1,39 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+
+#include "cli/output.hpp"
+#include "identification/identify.hpp"
+
+namespace telltale {
+
+/// What `telltale identify` was asked. Options left unset take the default of whoever identifies.
+struct IdentifyArguments {
+  std::vector<std::filesystem::path> logs;
+  std::filesystem::path vehicle_file;
+  std::optional<std::string> structure;         ///< static
+  std::optional<std::string> parameterization;  ///< propeller, paper
+  std::optional<std::string> estimator;         ///< one-step
+  std::optional<std::string> preset;            ///< robust, paper
+  std::optional<double> sampling_period_s;
+  std::optional<std::uint32_t> bootstrap_replicates;
+  std::optional<double> interval_level;
+  std::uint64_t seed = 1;
+  std::optional<std::size_t> threads;
+  bool discrete = false;
+  OutputOptions output;
+
+  /// The options that say how to identify and how to answer, but not whom.
+  void AddOptionsTo(CLI::App& command);
+
+  /// Throws: UsageError for what this version cannot do, or a value out of its range.
+  IdentifyOptions Options() const;
+};
+
+}  // namespace telltale

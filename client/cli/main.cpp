@@ -1,0 +1,42 @@
+#include <iostream>
+
+#include <CLI/CLI.hpp>
+
+#include "cli/commands.hpp"
+#include "cli/outcome.hpp"
+
+namespace telltale {
+namespace {
+
+ExitCode Run(CLI::App& app, int argc, char** argv) {
+  try {
+    app.parse(argc, argv);
+    return ExitCode::kSuccess;
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? ExitCode::kSuccess : ExitCode::kUsage;
+  } catch (const UsageError& error) {
+    std::cerr << "telltale: " << error.what() << '\n';
+    return ExitCode::kUsage;
+  } catch (const RefusedError& error) {
+    std::cerr << "telltale: the data cannot answer\n" << Explained(error.Answer());
+    return ExitCode::kRefused;
+  } catch (const std::exception& error) {
+    std::cerr << "telltale: " << error.what() << '\n';
+    return ExitCode::kFailure;
+  }
+}
+
+}  // namespace
+}  // namespace telltale
+
+int main(int argc, char** argv) {
+  CLI::App app(
+      "Identifies how autonomous surface vehicles answer to their thrusters, with bounds.");
+  app.name("telltale");
+  app.require_subcommand(1);
+  app.footer("Exit codes: 0 success, 1 failure, 2 usage error, 3 the data cannot answer.");
+  telltale::AddIdentify(app);
+  telltale::AddValidate(app);
+  telltale::AddSimulate(app);
+  return static_cast<int>(telltale::Run(app, argc, argv));
+}

@@ -1,0 +1,13 @@
+#pragma once
+
+#include <string>
+
+#include "validation/validation.hpp"
+
+namespace telltale {
+
+/// Scores for people: one step beside predicting no change, free run beside holding the velocity
+/// and beside the noise floor, per horizon.
+std::string MetricsTable(const Metrics& metrics);
+
+}  // namespace telltale

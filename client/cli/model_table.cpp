@@ -1,0 +1,149 @@
+#include "cli/model_table.hpp"
+
+#include <cctype>
+
+#include "cli/outcome.hpp"
+#include "cli/table.hpp"
+
+namespace telltale {
+namespace {
+
+// "ONE_STEP" -> "one step"
+std::string InWords(std::string_view name) {
+  std::string words;
+  for (const char c : name) {
+    words += c == '_' ? ' ' : static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  }
+  return words;
+}
+
+std::string BoundsTitle(const Identification& identification) {
+  if (identification.coefficients.empty()) return "bounds";
+  return Significant(100.0 * identification.coefficients.front().interval.level, 3) + " % bounds";
+}
+
+std::string BoundsText(const Interval& interval, double scale) {
+  return '[' + Significant(scale * interval.lower) + ", " + Significant(scale * interval.upper) +
+         ']';
+}
+
+std::string Heading(Equation equation) {
+  switch (equation) {
+    case Equation::kSurge: return "SURGE  du/dt";
+    case Equation::kSway: return "SWAY   dv/dt";
+    case Equation::kYaw: return "YAW    dr/dt";
+    case Equation::kUnknown: break;
+  }
+  return "";
+}
+
+std::string Title(const Identification& model) {
+  return model.vehicle_id + ": " + InWords(Name(model.structure)) + ", " +
+         InWords(Name(model.parameterization)) + " parameterization, " +
+         InWords(Name(model.estimator)) + ", h = " + Significant(model.sampling_period_s) + " s\n";
+}
+
+/// Rows of all equations there are, grouped; `cells` makes a row of a coefficient.
+template <class Cells>
+std::string Grouped(const Identification& model, std::vector<Column> columns, Cells cells) {
+  Table table(std::move(columns));
+  for (const Equation equation : kEquations) {
+    bool headed = false;
+    for (const Coefficient& coefficient : model.coefficients) {
+      if (coefficient.equation != equation) continue;
+      if (!headed) table.AddHeading(Heading(equation));
+      headed = true;
+      table.AddRow(cells(coefficient));
+    }
+  }
+  return table.Render();
+}
+
+std::string Coefficients(const Identification& model) {
+  return Grouped(model,
+                 {{"regressor", Align::kLeft},
+                  {"symbol", Align::kLeft},
+                  {"estimate", Align::kRight},
+                  {"std. error", Align::kRight},
+                  {BoundsTitle(model), Align::kRight},
+                  {"unit", Align::kLeft},
+                  {"status", Align::kLeft}},
+                 [](const Coefficient& c) -> std::vector<std::string> {
+                   return {c.regressor,
+                           c.symbol,
+                           Significant(c.estimate),
+                           Significant(c.standard_error, 3),
+                           BoundsText(c.interval, 1.0),
+                           c.unit,
+                           InWords(Name(c.status))};
+                 });
+}
+
+std::string TimeConstant(const Identification& model) {
+  if (!model.thruster_time_constant) return "";
+  const Coefficient& c = *model.thruster_time_constant;
+  return "thruster time constant " + Significant(c.estimate) + " s, std. error " +
+         Significant(c.standard_error, 3) + ", " + BoundsText(c.interval, 1.0) + '\n';
+}
+
+std::string Refusals(const Identification& model) {
+  if (model.refusals.empty()) return "";
+  std::string text = "\nRefused or to be read with care\n";
+  for (const Refusal& refusal : model.refusals) text += Explained(refusal);
+  return text;
+}
+
+std::string WindowText(const WindowSummary& window) {
+  return Wrapped("Window: " + Fixed(window.start_s, 1) + " s to " + Fixed(window.end_s, 1) +
+                 " s, " + std::to_string(window.samples) + " rows in " +
+                 std::to_string(window.segments) + " segments; set aside " +
+                 RejectedText(window.rejected) + ".");
+}
+
+std::string BoundsBasis(const Provenance& provenance) {
+  std::string text = "Bounds rest on: " + provenance.bounds_basis;
+  if (provenance.bootstrap_replicates > 0) {
+    text += "; " + std::to_string(provenance.bootstrap_replicates) + " replicates, " +
+            std::to_string(provenance.bootstrap_failures) + " of them unsolved, seed " +
+            std::to_string(provenance.seed);
+  }
+  return Wrapped(text + ".");
+}
+
+}  // namespace
+
+std::string RejectedText(const RejectCounts& rejected) {
+  std::string text;
+  for (const Channel channel : kChannels) {
+    for (const RejectReason reason : kRejectReasons) {
+      const auto count = rejected.Of(channel, reason);
+      if (count == 0) continue;
+      text.append(text.empty() ? "" : ", ").append(Name(channel)).append(" ");
+      text.append(std::to_string(count)).append(" ").append(Name(reason));
+    }
+  }
+  return text.empty() ? "nothing" : text;
+}
+
+std::string ModelTable(const Identification& identification) {
+  return Title(identification) + Coefficients(identification) + TimeConstant(identification) +
+         Refusals(identification) + '\n' + WindowText(identification.window) +
+         BoundsBasis(identification.provenance);
+}
+
+std::string DiscreteTable(const Identification& identification) {
+  const double h = identification.sampling_period_s;
+  return "Coefficients times h = " + Significant(h) + " s\n" +
+         Grouped(identification,
+                 {{"regressor", Align::kLeft},
+                  {"symbol", Align::kLeft},
+                  {"estimate h", Align::kRight},
+                  {"std. error h", Align::kRight},
+                  {BoundsTitle(identification), Align::kRight}},
+                 [h](const Coefficient& c) -> std::vector<std::string> {
+                   return {c.regressor, c.symbol, Significant(h * c.estimate),
+                           Significant(h * c.standard_error, 3), BoundsText(c.interval, h)};
+                 });
+}
+
+}  // namespace telltale

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <chrono>
+#include <condition_variable>
+#include <mutex>
+#include <string>
+#include <string_view>
+#include <thread>
+
+namespace telltale {
+
+/// One line on standard error that tells what is being done and for how long, redrawn in place. It
+/// appears after two seconds and only on a terminal, and is gone when the object is. Thread safe.
+class ProgressLine {
+ public:
+  ProgressLine();
+  ~ProgressLine();
+  ProgressLine(const ProgressLine&) = delete;
+  ProgressLine& operator=(const ProgressLine&) = delete;
+
+  void Update(std::string_view stage, double fraction);
+
+ private:
+  void Draw(const std::stop_token& stop);
+
+  std::chrono::steady_clock::time_point begun_ = std::chrono::steady_clock::now();
+  std::mutex mutex_;
+  std::condition_variable_any changed_;
+  std::string stage_;
+  double fraction_ = 0.0;
+  std::jthread drawer_;
+};
+
+}  // namespace telltale

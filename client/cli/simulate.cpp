@@ -1,0 +1,148 @@
+#include <cmath>
+#include <cstdint>
+#include <filesystem>
+#include <iostream>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cli/commands.hpp"
+#include "cli/inputs.hpp"
+#include "cli/model_table.hpp"
+#include "cli/outcome.hpp"
+#include "cli/table.hpp"
+#include "recording/telemetry_log.hpp"
+#include "simulation/sensors.hpp"
+#include "simulation/simulator.hpp"
+
+namespace telltale {
+namespace {
+
+struct SimulateArguments {
+  std::filesystem::path model_file;
+  std::filesystem::path vehicle_file;
+  std::filesystem::path commands_file;
+  std::filesystem::path out;
+  std::optional<double> step_s;
+  SensorOptions sensors;
+};
+
+std::vector<TimedCommand> LoadCommands(const std::filesystem::path& file, const Vehicle& vehicle) {
+  const CommandLog log = OrThrow(ReadCommands(file));
+  if (log.malformed.count + log.rejected.Total() > 0) {
+    std::cerr << "note: " << file.string() << ": " << log.malformed.count
+              << " malformed rows skipped, set aside " << RejectedText(log.rejected) << '\n';
+  }
+  std::vector<TimedCommand> commands;
+  for (const ThrusterSample& sample : log.commands) {
+    commands.push_back({sample.time_s, vehicle.Normalise(sample.port_us, sample.starboard_us)});
+  }
+  return commands;
+}
+
+// As it was identified, or integrated accurately at a step of the caller's.
+VesselModel Discretised(VesselModel model, const std::optional<double>& step_s) {
+  if (step_s) model.discretisation = Discretisation::kContinuous;
+  return model;
+}
+
+bool IsFinite(const VesselState& state) {
+  return std::isfinite(state.nu.u) && std::isfinite(state.nu.v) && std::isfinite(state.nu.r) &&
+         std::isfinite(state.eta.x_m) && std::isfinite(state.eta.y_m) &&
+         std::isfinite(state.eta.psi_rad);
+}
+
+// A boat beyond this has left what any of these vessels can do, and soon the numbers too.
+bool IsPlausible(const VesselState& state) {
+  constexpr double kFastestMps = 100.0;
+  constexpr double kFastestRadps = 100.0;
+  return IsFinite(state) && std::hypot(state.nu.u, state.nu.v) < kFastestMps &&
+         std::abs(state.nu.r) < kFastestRadps;
+}
+
+void RefuseRunaway(const std::vector<TimedState>& track) {
+  for (const TimedState& instant : track) {
+    if (IsPlausible(instant.state)) continue;
+    throw RefusedError({"simulation",
+                        "the velocity grows without bound from " + Fixed(instant.time_s, 1) +
+                            " s on: this model is not stable under these commands",
+                        "stay within the commands that made the model, or try a smaller --step"});
+  }
+}
+
+void SimulateLog(const SimulateArguments& arguments) {
+  const Vehicle vehicle = LoadVehicle(arguments.vehicle_file);
+  const Identification identification = LoadModel(arguments.model_file);
+  NoteOtherVehicle(identification, vehicle);
+  const VesselModel model = Discretised(OrThrow(ModelOf(identification)), arguments.step_s);
+  const auto commands = LoadCommands(arguments.commands_file, vehicle);
+  const double step_s = arguments.step_s.value_or(model.sampling_period_s);
+  const auto track = Simulate(model, {}, commands, commands.back().time_s, step_s);
+  RefuseRunaway(track);
+  const Recording recording = Measure(track, vehicle, arguments.sensors);
+  WriteTelemetryLog(arguments.out, recording);
+  const VesselState& last = track.back().state;
+  std::cout << arguments.out.string() << ": "
+            << Fixed(track.back().time_s - track.front().time_s, 1) << " s, "
+            << recording.gnss.size() << " fixes, " << recording.heading.size() << " headings, "
+            << recording.thrusters.size() << " commands; ends at " << Fixed(last.eta.x_m, 1)
+            << " m north, " << Fixed(last.eta.y_m, 1) << " m east, "
+            << Fixed(std::hypot(last.nu.u, last.nu.v), 2) << " m/s\n";
+}
+
+}  // namespace
+
+void AddSimulate(CLI::App& telltale) {
+  const auto arguments = std::make_shared<SimulateArguments>();
+  CLI::App& command = *telltale.add_subcommand(
+      "simulate", "Drives a model open loop and writes what the boat's sensors would have logged");
+  command.add_option("--model", arguments->model_file, "model.json, as identify writes it")
+      ->type_name("FILE")
+      ->required()
+      ->check(CLI::ExistingFile.description(""));
+  command.add_option("--vehicle", arguments->vehicle_file, "vehicle file (text format)")
+      ->type_name("FILE")
+      ->required()
+      ->check(CLI::ExistingFile.description(""));
+  command
+      .add_option(
+          "--commands", arguments->commands_file,
+          "thrusters.csv: time_s,left_us,right_us; the run lasts from its first to its last "
+          "row, starting from rest and heading north")
+      ->type_name("FILE")
+      ->required()
+      ->check(CLI::ExistingFile.description(""));
+  command.add_option("--out", arguments->out, "folder for the telemetry log, made if need be")
+      ->type_name("DIR")
+      ->required();
+  command
+      .add_option(
+          "--step", arguments->step_s,
+          "integrate with this step, seconds, [0.001, 1] (default: the discrete model as it "
+          "was identified)")
+      ->type_name("S")
+      ->check(CLI::Range(0.001, 1.0).description(""));
+  command
+      .add_option("--noise-position", arguments->sensors.position_noise_m,
+                  "one sigma per axis, metres, [0, 100]")
+      ->type_name("M")
+      ->capture_default_str()
+      ->check(CLI::Range(0.0, 100.0).description(""));
+  command
+      .add_option("--noise-heading", arguments->sensors.heading_noise_deg,
+                  "one sigma, degrees, [0, 90]")
+      ->type_name("DEG")
+      ->capture_default_str()
+      ->check(CLI::Range(0.0, 90.0).description(""));
+  command.add_option("--seed", arguments->sensors.seed, "of the sensor noise")
+      ->type_name("N")
+      ->capture_default_str();
+  command.footer(
+      "Sensors as in the paper: GNSS at 5 Hz, heading at 50 Hz, thrusters at 10 Hz.\n"
+      "Example: telltale simulate --model model.json --vehicle boat.textproto "
+      "--commands thrusters.csv --out simulated");
+  command.callback([arguments] { SimulateLog(*arguments); });
+}
+
+}  // namespace telltale

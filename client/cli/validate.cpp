@@ -1,0 +1,126 @@
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cli/commands.hpp"
+#include "cli/inputs.hpp"
+#include "cli/metrics_table.hpp"
+#include "cli/outcome.hpp"
+#include "cli/output.hpp"
+#include "cli/progress_line.hpp"
+#include "cli/table.hpp"
+#include "codec/metrics_json.hpp"
+#include "validation/validation.hpp"
+
+namespace telltale {
+namespace {
+
+struct ValidateArguments {
+  std::vector<std::filesystem::path> logs;
+  std::filesystem::path vehicle_file;
+  std::filesystem::path model_file;
+  std::optional<std::string> preset;
+  ValidationOptions options;
+  OutputOptions output;
+};
+
+// The model's own preparation, unless another is asked for: scores then mean what its fit meant.
+PrepareOptions Preparation(const ValidateArguments& arguments, const Identification& model) {
+  const bool paper = arguments.preset ? arguments.preset == "paper"
+                                      : model.provenance.preset == Name(Preset::kPaper);
+  PrepareOptions options = PrepareOptionsOf(paper ? Preset::kPaper : Preset::kRobust);
+  options.sampling_period_s = model.sampling_period_s;
+  return options;
+}
+
+std::string NotExcitedText(const Identification& model) {
+  std::string names;
+  for (const Coefficient& coefficient : model.coefficients) {
+    if (coefficient.status != CoefficientStatus::kNotExcited) continue;
+    names.append(names.empty() ? "" : ", ").append(Name(coefficient.equation)).append(" ");
+    names.append(coefficient.regressor);
+  }
+  if (names.empty()) return "";
+  return Wrapped("Not excited when the model was made, so zero in it: " + names + ".");
+}
+
+// Clocks may begin anew at every start of a boat, so this is what times can tell and no more.
+std::string OverlapText(const Identification& model, const PreparedDataset& dataset) {
+  const double start_s = std::max(dataset.StartTime(), model.window.start_s);
+  const double end_s = std::min(dataset.EndTime(), model.window.end_s);
+  if (end_s <= start_s) {
+    return Wrapped("By its clock this log is not among the data that made the model.");
+  }
+  return Wrapped("By its clock " + Fixed(end_s - start_s, 0) + " s of this log's " +
+                 Fixed(dataset.EndTime() - dataset.StartTime(), 0) +
+                 " s lie in the window that made the model: these may be scores on the model's own "
+                 "data.");
+}
+
+std::string ScoredText(const PreparedDataset& dataset) {
+  return Wrapped("Scored on " + std::to_string(dataset.rows.size()) + " rows in " +
+                 std::to_string(dataset.stretches.size()) + " stretches without gaps.");
+}
+
+void ValidateModel(const ValidateArguments& arguments) {
+  const Vehicle vehicle = LoadVehicle(arguments.vehicle_file);
+  const Identification model = LoadModel(arguments.model_file);
+  NoteOtherVehicle(model, vehicle);
+  const VesselModel vessel = OrThrow(ModelOf(model));
+  ProgressLine line;
+  line.Update("reading logs", 0.0);
+  const Recording recording = LoadRecording(arguments.logs);
+  line.Update("preparing data", 0.2);
+  const PreparedDataset dataset =
+      OrThrow(Prepare(recording, vehicle, Preparation(arguments, model)));
+  line.Update("scoring", 0.5);
+  const Metrics metrics = OrThrow(Validate(dataset, vessel, arguments.options));
+  arguments.output.Write(PrintMetricsJson(metrics), [&] {
+    return MetricsTable(metrics) + '\n' + ScoredText(dataset) + NotExcitedText(model) +
+           OverlapText(model, dataset);
+  });
+}
+
+}  // namespace
+
+void AddValidate(CLI::App& telltale) {
+  const auto arguments = std::make_shared<ValidateArguments>();
+  CLI::App& command =
+      *telltale.add_subcommand("validate", "Scores a model on a log: one step ahead and free run");
+  command
+      .add_option("--log", arguments->logs,
+                  "telemetry logs, best such that did not make the model; folders with gnss.csv, "
+                  "heading.csv and thrusters.csv")
+      ->type_name("DIR...")
+      ->required()
+      ->check(CLI::ExistingPath.description(""));
+  command.add_option("--vehicle", arguments->vehicle_file, "vehicle file (text format)")
+      ->type_name("FILE")
+      ->required()
+      ->check(CLI::ExistingFile.description(""));
+  command.add_option("--model", arguments->model_file, "model.json, as identify writes it")
+      ->type_name("FILE")
+      ->required()
+      ->check(CLI::ExistingFile.description(""));
+  command
+      .add_option("--horizon", arguments->options.horizons_s,
+                  "lengths of free runs, seconds, at least two sampling periods, at most 600 "
+                  "(default 1 5 10)")
+      ->type_name("S...")
+      ->check(CLI::Range(0.0, 600.0).description(""));
+  command
+      .add_option("--preset", arguments->preset,
+                  "of the data preparation: robust or paper (default: the model's own)")
+      ->type_name("NAME")
+      ->check(CLI::IsMember({"robust", "paper"}).description(""));
+  arguments->output.AddTo(command, "metrics.json");
+  command.footer(
+      "Errors are in m/s and rad/s, positions in metres.\n"
+      "Example: telltale validate --log run2 --vehicle boat.textproto --model model.json");
+  command.callback([arguments] { ValidateModel(*arguments); });
+}
+
+}  // namespace telltale

@@ -1,0 +1,67 @@
+#include <cstdint>
+#include <exception>
+#include <filesystem>
+#include <iostream>
+
+#include <CLI/CLI.hpp>
+
+#include "recording/telemetry_log.hpp"
+#include "simulation/manoeuvres.hpp"
+#include "simulation/sensors.hpp"
+#include "simulation/yellowfish.hpp"
+
+namespace telltale {
+namespace {
+
+struct Voyage {
+  std::filesystem::path out;
+  double duration_s = kSampleMissionDurationS;
+  std::uint64_t seed = 1;
+  SensorOptions sensors;
+};
+
+void Record(const Voyage& voyage) {
+  constexpr double kStepS = 0.01;
+  const auto track =
+      Simulate(YellowfishTwin(), {}, SampleMission(voyage.seed), voyage.duration_s, kStepS);
+  SensorOptions sensors = voyage.sensors;
+  sensors.seed = voyage.seed;
+  WriteTelemetryLog(voyage.out, Measure(track, YellowfishVehicle(), sensors));
+}
+
+int Main(int argc, char** argv) {
+  CLI::App app("Records what the sensors of the simulated Yellowfish report on a sample mission.");
+  Voyage voyage;
+  app.add_option("--out", voyage.out, "Folder the telemetry log is written to")->required();
+  app.add_option("--duration", voyage.duration_s, "Seconds, from the start of the mission")
+      ->check(CLI::Range(10.0, kSampleMissionDurationS))
+      ->capture_default_str();
+  app.add_option("--seed", voyage.seed, "Of the mission's random steps and the sensors' noise")
+      ->capture_default_str();
+  app.add_option("--position-noise", voyage.sensors.position_noise_m, "One sigma per axis, m")
+      ->check(CLI::Range(0.0, 10.0))
+      ->capture_default_str();
+  app.add_option("--heading-noise", voyage.sensors.heading_noise_deg, "One sigma, degrees")
+      ->check(CLI::Range(0.0, 45.0))
+      ->capture_default_str();
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    constexpr int kUsageError = 2;
+    return app.exit(error) == 0 ? 0 : kUsageError;
+  }
+  Record(voyage);
+  return 0;
+}
+
+}  // namespace
+}  // namespace telltale
+
+int main(int argc, char** argv) {
+  try {
+    return telltale::Main(argc, argv);
+  } catch (const std::exception& error) {
+    std::cerr << "telltale_twin: " << error.what() << '\n';
+    return 1;
+  }
+}

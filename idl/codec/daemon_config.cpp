@@ -1,0 +1,110 @@
+#include "codec/daemon_config.hpp"
+
+#include <algorithm>
+#include <array>
+#include <set>
+
+#include "codec/field_reader.hpp"
+#include "codec/text_message.hpp"
+#include "codec/vehicle_file.hpp"
+#include "proto/daemon.pb.h"
+
+namespace telltale {
+namespace {
+
+constexpr std::array<std::string_view, 5> kLogLevels = {"trace", "debug", "info", "warn", "error"};
+constexpr std::uint32_t kFewestReplicates = 100;  // fewer cannot place a 95 % bound
+
+WindowLimits ReadWindow(FieldReader reader) {
+  constexpr std::uint32_t kMiB = 1u << 20;
+  WindowLimits limits;
+  limits.duration_s = reader.Number("duration_s", {10.0, 86400.0}, limits.duration_s);
+  const auto default_mib = static_cast<std::uint32_t>(limits.memory_bytes / kMiB);
+  limits.memory_bytes = std::size_t{reader.Count("memory_mib", {1.0, 65536.0}, default_mib)} * kMiB;
+  limits.reorder_tolerance_s =
+      reader.Number("reorder_tolerance_s", {0.0, 10.0}, limits.reorder_tolerance_s);
+  limits.clock_jump_s = reader.Number("clock_jump_s", {1.0, 86400.0}, limits.clock_jump_s);
+  limits.stuck_after_s = reader.Number("stuck_after_s", {1.0, 600.0}, limits.stuck_after_s);
+  return limits;
+}
+
+IdentificationSettings ReadIdentification(FieldReader reader) {
+  IdentificationSettings settings;
+  settings.workers = reader.Count("workers", {1.0, 64.0}, settings.workers);
+  settings.bootstrap_replicates =
+      reader.Count("bootstrap_replicates", {0.0, 100000.0}, settings.bootstrap_replicates);
+  if (settings.bootstrap_replicates > 0 && settings.bootstrap_replicates < kFewestReplicates) {
+    reader.Fail("bootstrap_replicates", std::to_string(settings.bootstrap_replicates),
+                "0 or a number in [100, 100000]");
+  }
+  settings.interval_level = reader.Number("interval_level", {0.5, 0.999}, settings.interval_level);
+  settings.queue_limit = reader.Count("queue_limit", {1.0, 10000.0}, settings.queue_limit);
+  return settings;
+}
+
+std::vector<Vehicle> ReadVehicles(FieldReader& reader) {
+  std::vector<Vehicle> vehicles;
+  std::set<std::string> seen;
+  for (FieldReader& item : reader.Repeated("vehicles")) {
+    vehicles.push_back(ReadVehicle(item));
+    const std::string& id = vehicles.back().vehicle_id;
+    if (!seen.insert(id).second) item.Fail("vehicle_id", '"' + id + '"', "an id given only once");
+  }
+  return vehicles;
+}
+
+std::vector<std::string> ReadVehicleFiles(FieldReader& reader, const proto::DaemonConfig& message) {
+  for (int i = 0; i < message.vehicle_files_size(); ++i) {
+    if (message.vehicle_files(i).empty()) {
+      reader.FailItem("vehicle_files", i, "\"\"", "the path of a vehicle file");
+    }
+  }
+  return {message.vehicle_files().begin(), message.vehicle_files().end()};
+}
+
+std::string ReadLogLevel(FieldReader& reader, const std::string& fallback) {
+  const std::string level = reader.Text("log_level", fallback);
+  if (std::find(kLogLevels.begin(), kLogLevels.end(), level) == kLogLevels.end()) {
+    reader.Fail("log_level", '"' + level + '"', "one of trace, debug, info, warn, error");
+  }
+  return level;
+}
+
+DaemonConfig ReadConfig(FieldReader reader, const proto::DaemonConfig& message) {
+  DaemonConfig config;
+  config.domain = reader.Count("domain", {0.0, 101.0}, config.domain);
+  config.vehicles = ReadVehicles(reader);
+  config.vehicle_files = ReadVehicleFiles(reader, message);
+  config.state_directory = reader.Text("state_directory", config.state_directory);
+  if (config.state_directory.empty()) reader.Fail("state_directory", "\"\"", "a folder");
+  config.window = ReadWindow(reader.Optional("window"));
+  config.identification = ReadIdentification(reader.Optional("identification"));
+  config.quality_period_s =
+      reader.Number("quality_period_s", {0.1, 3600.0}, config.quality_period_s);
+  config.log_level = ReadLogLevel(reader, config.log_level);
+  return config;
+}
+
+}  // namespace
+
+Decoded<DaemonConfig> ParseDaemonConfig(std::string_view text, const std::string& file) {
+  proto::DaemonConfig message;
+  google::protobuf::TextFormat::ParseInfoTree lines;
+  std::optional<CodecError> fault = ParseTextMessage(text, file, message, lines);
+  if (fault) return tl::unexpected(*fault);
+  const FieldSource source{file, FieldSource::Names::kProto, &lines};
+  DaemonConfig config = ReadConfig(FieldReader(message, source, fault), message);
+  if (fault) return tl::unexpected(*fault);
+  return config;
+}
+
+std::optional<CodecError> DuplicateVehicle(std::span<const Vehicle> vehicles) {
+  std::set<std::string_view> seen;
+  for (const Vehicle& vehicle : vehicles) {
+    if (seen.insert(vehicle.vehicle_id).second) continue;
+    return CodecError{"vehicle_id", '"' + vehicle.vehicle_id + '"', "an id given only once"};
+  }
+  return std::nullopt;
+}
+
+}  // namespace telltale

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "codec/error.hpp"
+#include "data/window.hpp"
+#include "vessel/vehicle.hpp"
+
+namespace telltale {
+
+/// How the daemon identifies.
+struct IdentificationSettings {
+  std::uint32_t workers = 1;                  ///< [1, 64]
+  std::uint32_t bootstrap_replicates = 1000;  ///< 0 or [100, 100000]
+  double interval_level = 0.95;               ///< [0.5, 0.999]
+  std::uint32_t queue_limit = 1024;           ///< [1, 10000]
+};
+
+/// Configuration of telltaled; defaults and ranges are those of proto/daemon.proto.
+struct DaemonConfig {
+  std::uint32_t domain = 0;  ///< [0, 101]
+  std::vector<Vehicle> vehicles;
+  std::vector<std::string> vehicle_files;  ///< as written; who opens them resolves them
+  std::string state_directory = "/var/lib/telltale";
+  WindowLimits window;
+  IdentificationSettings identification;
+  double quality_period_s = 1.0;   ///< [0.1, 3600]
+  std::string log_level = "info";  ///< trace, debug, info, warn, error
+};
+
+/// Text format -> DaemonConfig. `file` is only what errors call the text.
+/// Refuses: unknown fields, values out of range, a wrong vehicle, a vehicle id given twice. The
+/// vehicles of vehicle_files are not read here; add them and ask DuplicateVehicle again.
+Decoded<DaemonConfig> ParseDaemonConfig(std::string_view text,
+                                        const std::string& file = "configuration");
+
+/// The first vehicle whose id an earlier one has.
+std::optional<CodecError> DuplicateVehicle(std::span<const Vehicle> vehicles);
+
+}  // namespace telltale

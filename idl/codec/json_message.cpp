@@ -1,0 +1,84 @@
+#include "codec/json_message.hpp"
+
+#include <cctype>
+#include <regex>
+
+#include <google/protobuf/descriptor.h>
+#include <google/protobuf/util/json_util.h>
+
+#include "contract.hpp"
+
+namespace telltale {
+namespace {
+
+using google::protobuf::DescriptorPool;
+using google::protobuf::EnumDescriptor;
+
+std::string ValueNames(const EnumDescriptor& type) {
+  std::string names;
+  for (int i = 0; i < type.value_count(); ++i) {
+    if (type.value(i)->number() == 0) continue;  // zero means "not done"
+    names += (names.empty() ? "one of " : ", ") + type.value(i)->name();
+  }
+  return names;
+}
+
+// Protobuf calls types "TYPE_UINT32" or "type.googleapis.com/package.Enum".
+std::string AllowedFor(const std::string& type) {
+  const std::string name = type.substr(type.rfind('/') + 1);
+  const EnumDescriptor* values = DescriptorPool::generated_pool()->FindEnumTypeByName(name);
+  if (values) return ValueNames(*values);
+  if (name == "TYPE_DOUBLE") return "a number";
+  if (name == "TYPE_UINT32") return "a whole number in [0, 4294967295]";
+  if (name == "TYPE_UINT64") return "a whole number in [0, 18446744073709551615]";
+  return "a value of type " + name;
+}
+
+// Protobuf names the fields as the .proto does: "one_step.r2" is "oneStep.r2" in JSON.
+std::string JsonPath(const std::string& path) {
+  std::string json;
+  for (std::size_t i = 0; i < path.size(); ++i) {
+    const bool capital = path[i] == '_' && i + 1 < path.size();
+    json += capital ? static_cast<char>(std::toupper(path[++i])) : path[i];
+  }
+  return json;
+}
+
+// Protobuf tells faults of JSON only in words: "(path): invalid value V for type T",
+// "(path) name: Cannot find field.", or what is wrong with the syntax, then an excerpt.
+CodecError ErrorOf(const std::string& message, const std::string& file) {
+  static const std::regex kWrongValue(R"(\((.*)\): invalid value ([^]*) for type (.*))");
+  static const std::regex kUnknownField(R"((?:\((.*)\) )?(.*): Cannot find field\.)");
+  std::smatch match;
+  if (std::regex_match(message, match, kWrongValue)) {
+    return {JsonPath(match[1]), match[2], AllowedFor(match[3]), file};
+  }
+  if (std::regex_match(message, match, kUnknownField)) {
+    const std::string path = match[1].length() > 0 ? match[1].str() + "." : "";
+    return {JsonPath(path) + match[2].str(), "(given)", "no such field", file};
+  }
+  const std::string first_line = message.substr(0, message.find('\n'));
+  return {"(text)", "(not JSON of this kind)", first_line, file};
+}
+
+}  // namespace
+
+std::string PrintJsonMessage(const google::protobuf::Message& message) {
+  google::protobuf::util::JsonPrintOptions options;
+  options.add_whitespace = true;
+  options.always_print_primitive_fields = true;
+  std::string text;
+  const auto status = google::protobuf::util::MessageToJsonString(message, &text, options);
+  Require(status.ok(), "a message whose strings are UTF-8");
+  return text;
+}
+
+std::optional<CodecError> ParseJsonMessage(std::string_view text, const std::string& file,
+                                           google::protobuf::Message& message) {
+  const auto status =
+      google::protobuf::util::JsonStringToMessage({text.data(), text.size()}, &message);
+  if (status.ok()) return std::nullopt;
+  return ErrorOf(std::string(status.message()), file);
+}
+
+}  // namespace telltale

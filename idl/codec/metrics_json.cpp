@@ -1,0 +1,80 @@
+#include "codec/metrics_json.hpp"
+
+#include <algorithm>
+#include <limits>
+
+#include "codec/json_message.hpp"
+
+namespace telltale {
+namespace {
+
+void Write(const OneStepScore& score, proto::OneStepScore& message) {
+  message.set_r2(score.r2);
+  message.set_mae(score.mae);
+  message.set_persistence_r2(score.persistence_r2);
+}
+
+void Write(const FreeRunScore& score, proto::FreeRunScore& message) {
+  message.set_rmse(score.rmse);
+  message.set_mae(score.mae);
+  message.set_r2(score.r2);
+  message.set_persistence_rmse(score.persistence_rmse);
+  message.set_noise_floor(score.noise_floor);
+}
+
+void Write(const FreeRunScores& scores, proto::Metrics::FreeRun& message) {
+  constexpr std::size_t kMost = std::numeric_limits<std::uint32_t>::max();
+  message.set_horizon_s(scores.horizon_s);
+  Write(scores.velocity[0], *message.mutable_surge());
+  Write(scores.velocity[1], *message.mutable_sway());
+  Write(scores.velocity[2], *message.mutable_yaw());
+  message.set_position_rmse_m(scores.position_rmse_m);
+  message.set_windows(static_cast<std::uint32_t>(std::min(scores.windows, kMost)));
+}
+
+OneStepScore ScoreOf(const proto::OneStepScore& message) {
+  return {message.r2(), message.mae(), message.persistence_r2()};
+}
+
+FreeRunScore ScoreOf(const proto::FreeRunScore& message) {
+  return {message.rmse(), message.mae(), message.r2(), message.persistence_rmse(),
+          message.noise_floor()};
+}
+
+FreeRunScores ScoresOf(const proto::Metrics::FreeRun& message) {
+  return {message.horizon_s(),
+          {ScoreOf(message.surge()), ScoreOf(message.sway()), ScoreOf(message.yaw())},
+          message.position_rmse_m(),
+          message.windows()};
+}
+
+}  // namespace
+
+proto::Metrics ToProto(const Metrics& metrics) {
+  proto::Metrics message;
+  Write(metrics.one_step[0], *message.mutable_one_step()->mutable_surge());
+  Write(metrics.one_step[1], *message.mutable_one_step()->mutable_sway());
+  Write(metrics.one_step[2], *message.mutable_one_step()->mutable_yaw());
+  for (const FreeRunScores& scores : metrics.free_run) Write(scores, *message.add_free_run());
+  return message;
+}
+
+Metrics MetricsOf(const proto::Metrics& message) {
+  Metrics metrics;
+  metrics.one_step = {ScoreOf(message.one_step().surge()), ScoreOf(message.one_step().sway()),
+                      ScoreOf(message.one_step().yaw())};
+  for (const auto& scores : message.free_run()) metrics.free_run.push_back(ScoresOf(scores));
+  return metrics;
+}
+
+std::string PrintMetricsJson(const Metrics& metrics) {
+  return PrintJsonMessage(ToProto(metrics));
+}
+
+Decoded<Metrics> ParseMetricsJson(std::string_view text, const std::string& file) {
+  proto::Metrics message;
+  if (const auto fault = ParseJsonMessage(text, file, message)) return tl::unexpected(*fault);
+  return MetricsOf(message);
+}
+
+}  // namespace telltale

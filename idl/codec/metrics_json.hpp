@@ -1,0 +1,21 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "codec/error.hpp"
+#include "proto/metrics.pb.h"
+#include "validation/validation.hpp"
+
+namespace telltale {
+
+proto::Metrics ToProto(const Metrics& metrics);
+Metrics MetricsOf(const proto::Metrics& message);
+
+/// metrics.json. A score the data cannot give is NaN, which stands there as "NaN".
+std::string PrintMetricsJson(const Metrics& metrics);
+
+/// Refuses: text that is not metrics.json, with unknown fields or values of the wrong type.
+Decoded<Metrics> ParseMetricsJson(std::string_view text, const std::string& file = "metrics");
+
+}  // namespace telltale

@@ -1,0 +1,342 @@
+#include "codec/model_json.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <utility>
+
+#include "codec/field_reader.hpp"
+#include "codec/json_message.hpp"
+#include "codec/vehicle_file.hpp"
+
+namespace telltale {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kLargest = std::numeric_limits<double>::max();
+constexpr FieldRange kFinite{-kLargest, kLargest};
+constexpr FieldRange kNotNan{-kInfinity, kInfinity};
+constexpr FieldRange kNotNegative{0.0, kInfinity};
+constexpr FieldRange kSamplingPeriod{0.001, 10.0};
+
+// Core and Protobuf enumerations have the same order, unknown first; tests hold them to it.
+template <class To, class From>
+To Same(From value) {
+  return static_cast<To>(static_cast<int>(value));
+}
+
+std::uint32_t Saturated(std::uint64_t count) {
+  return static_cast<std::uint32_t>(
+      std::min<std::uint64_t>(count, std::numeric_limits<std::uint32_t>::max()));
+}
+
+// ---- to Protobuf --------------------------------------------------------------------------
+
+void Write(const Coefficient& coefficient, proto::Coefficient& message) {
+  message.set_equation(Same<proto::Equation>(coefficient.equation));
+  message.set_regressor(coefficient.regressor);
+  message.set_symbol(coefficient.symbol);
+  message.set_estimate(coefficient.estimate);
+  message.set_standard_error(coefficient.standard_error);
+  message.mutable_interval()->set_level(coefficient.interval.level);
+  message.mutable_interval()->set_lower(coefficient.interval.lower);
+  message.mutable_interval()->set_upper(coefficient.interval.upper);
+  message.set_unit(coefficient.unit);
+  message.set_status(Same<proto::CoefficientStatus>(coefficient.status));
+}
+
+void Write(const RejectCounts& rejected, proto::WindowSummary& message) {
+  for (const Channel channel : kChannels) {
+    for (const RejectReason reason : kRejectReasons) {
+      const std::uint64_t count = rejected.Of(channel, reason);
+      if (count == 0) continue;
+      proto::RejectCount& entry = *message.add_rejected();
+      entry.set_channel(std::string(Name(channel)));
+      entry.set_reason(std::string(Name(reason)));
+      entry.set_count(Saturated(count));
+    }
+  }
+}
+
+void Write(const WindowSummary& window, proto::WindowSummary& message) {
+  message.set_start_s(window.start_s);
+  message.set_end_s(window.end_s);
+  message.set_samples(Saturated(window.samples));
+  message.set_segments(Saturated(window.segments));
+  Write(window.rejected, message);
+}
+
+void Write(const Refusal& refusal, proto::Refusal& message) {
+  message.set_subject(refusal.subject);
+  message.set_reason(refusal.reason);
+  message.set_advice(refusal.advice);
+}
+
+void Write(const Provenance& provenance, proto::Provenance& message) {
+  message.set_preset(provenance.preset);
+  message.set_bounds_basis(provenance.bounds_basis);
+  message.set_bootstrap_replicates(Saturated(provenance.bootstrap_replicates));
+  message.set_bootstrap_failures(Saturated(provenance.bootstrap_failures));
+  message.set_seed(provenance.seed);
+  message.set_software_version(provenance.software_version);
+}
+
+// ---- from Protobuf ------------------------------------------------------------------------
+
+template <class Core, class Proto>
+Core ReadEnum(FieldReader& reader, const char* field, Proto value, const std::string& allowed) {
+  const int last =
+      static_cast<int>(google::protobuf::GetEnumDescriptor<Proto>()->value_count() - 1);
+  const int number = static_cast<int>(value);
+  if (number < 1 || number > last)
+    reader.Fail(field, number == 0 ? "" : std::to_string(number), allowed);
+  return Same<Core>(value);
+}
+
+Interval ReadInterval(FieldReader reader) {
+  const Interval interval{reader.Number("level", {0.0, 1.0, true}), reader.Number("lower", kNotNan),
+                          reader.Number("upper", kNotNan)};
+  if (interval.lower > interval.upper) {
+    reader.Fail("lower", NumberText(interval.lower),
+                "not above upper = " + NumberText(interval.upper));
+  }
+  return interval;
+}
+
+Coefficient ReadCoefficient(FieldReader reader, const proto::Coefficient& message) {
+  Coefficient coefficient;
+  coefficient.equation = Same<Equation>(message.equation());
+  coefficient.regressor = message.regressor();
+  coefficient.symbol = message.symbol();
+  coefficient.estimate = reader.Number("estimate", kFinite);
+  coefficient.standard_error = reader.Number("standard_error", kNotNegative);
+  coefficient.interval = ReadInterval(reader.Required("interval"));
+  coefficient.unit = message.unit();
+  coefficient.status = ReadEnum<CoefficientStatus>(reader, "status", message.status(),
+                                                   "one of ESTIMATED, NOT_EXCITED, COLLINEAR");
+  return coefficient;
+}
+
+std::string Quoted(std::string_view text) {
+  return '"' + std::string(text) + '"';
+}
+
+void Expect(FieldReader& reader, const char* field, const std::string& value,
+            std::string_view expected) {
+  if (value != expected) reader.Fail(field, Quoted(value), Quoted(expected));
+}
+
+// Whether a coefficient stands where the structure of the equation wants it.
+void CheckPlace(FieldReader& reader, const Coefficient& coefficient, Equation equation,
+                const Regressor& regressor) {
+  if (coefficient.equation != equation) {
+    reader.Fail("equation", std::string(Name(coefficient.equation)),
+                std::string(Name(equation)) + ", whose regressor " + Quoted(regressor.name) +
+                    " is still missing");
+  }
+  Expect(reader, "regressor", coefficient.regressor, regressor.name);
+  Expect(reader, "symbol", coefficient.symbol, regressor.symbol);
+  Expect(reader, "unit", coefficient.unit, regressor.unit);
+}
+
+// An equation is there whole or not at all; `next` is the coefficient to be placed.
+void CheckEquation(FieldReader& reader, const std::vector<Coefficient>& coefficients,
+                   Equation equation, Parameterization parameterization, std::size_t& next) {
+  if (next == coefficients.size() || coefficients[next].equation != equation) return;
+  for (const Regressor& regressor : Regressors(equation, parameterization)) {
+    if (next == coefficients.size()) {
+      return reader.Fail(
+          "coefficients", std::to_string(coefficients.size()) + " entries",
+          std::string(Name(equation)) + " goes on with regressor " + Quoted(regressor.name));
+    }
+    FieldReader item = reader.Item("coefficients", static_cast<int>(next));
+    CheckPlace(item, coefficients[next++], equation, regressor);
+  }
+}
+
+void CheckOrder(FieldReader& reader, const std::vector<Coefficient>& coefficients,
+                Parameterization parameterization) {
+  if (coefficients.empty()) reader.Fail("coefficients", "(none)", "at least one equation");
+  std::size_t next = 0;
+  for (const Equation equation : kEquations) {
+    CheckEquation(reader, coefficients, equation, parameterization, next);
+  }
+  if (next < coefficients.size()) {
+    reader.Item("coefficients", static_cast<int>(next))
+        .Fail("equation", std::string(Name(coefficients[next].equation)),
+              "SURGE, SWAY, YAW in this order, each at most once");
+  }
+}
+
+bool Symmetric(double a, double b, double variance_a, double variance_b) {
+  constexpr double kRounding = 1e-9;  // far above what printing 17 digits loses
+  return std::abs(a - b) <= kRounding * std::sqrt(variance_a * variance_b) || a == b;
+}
+
+Eigen::MatrixXd ReadCovariance(FieldReader& reader, const proto::Model& model) {
+  const int n = model.coefficients_size();
+  if (model.covariance_size() != n * n) {
+    reader.Fail("covariance", std::to_string(model.covariance_size()) + " numbers",
+                std::to_string(n * n) + ", the square of " + std::to_string(n) + " coefficients");
+    return {};
+  }
+  Eigen::MatrixXd covariance(n, n);
+  for (int i = 0; i < n * n; ++i) {
+    const bool variance = i / n == i % n;
+    const FieldRange range = variance ? kNotNegative : kFinite;
+    covariance(i / n, i % n) = model.covariance(i);
+    if (range.Contains(model.covariance(i))) continue;
+    reader.FailItem("covariance", i, NumberText(model.covariance(i)), range.Text());
+  }
+  for (int row = 0; row < n; ++row) {
+    for (int column = 0; column < row; ++column) {
+      const double mirrored = covariance(column, row);
+      if (Symmetric(covariance(row, column), mirrored, covariance(row, row),
+                    covariance(column, column))) {
+        continue;
+      }
+      reader.FailItem("covariance", row * n + column, NumberText(covariance(row, column)),
+                      "a symmetric matrix, so " + NumberText(mirrored));
+    }
+  }
+  return covariance;
+}
+
+std::optional<Coefficient> ReadTimeConstant(FieldReader& reader, const proto::Model& model,
+                                            Structure structure) {
+  const bool dynamic = structure == Structure::kFirstOrderDynamic;
+  if (model.has_thruster_time_constant_s() != dynamic) {
+    reader.Fail("thruster_time_constant_s", dynamic ? "" : "(given)",
+                "given for FIRST_ORDER_DYNAMIC and for nothing else");
+  }
+  if (!dynamic) return std::nullopt;
+  FieldReader item = reader.Optional("thruster_time_constant_s");
+  item.Number("estimate", {0.0, kLargest, true});
+  return ReadCoefficient(item, model.thruster_time_constant_s());
+}
+
+template <class Value, std::size_t N>
+Value ReadName(FieldReader& reader, const char* field, const std::string& name,
+               const std::array<Value, N>& values) {
+  std::string allowed;
+  for (const Value value : values) {
+    if (Name(value) == name) return value;
+    allowed += (allowed.empty() ? "one of " : ", ") + std::string(Name(value));
+  }
+  reader.Fail(field, Quoted(name), allowed);
+  return values.front();
+}
+
+WindowSummary ReadWindow(FieldReader reader, const proto::WindowSummary& message) {
+  WindowSummary window;
+  window.start_s = reader.Number("start_s", kFinite);
+  window.end_s = reader.Number("end_s", kFinite);
+  if (window.start_s > window.end_s) {
+    reader.Fail("start_s", NumberText(window.start_s),
+                "not after endS = " + NumberText(window.end_s));
+  }
+  window.samples = message.samples();
+  window.segments = message.segments();
+  for (int i = 0; i < message.rejected_size(); ++i) {
+    FieldReader item = reader.Item("rejected", i);
+    const proto::RejectCount& entry = message.rejected(i);
+    const Channel channel = ReadName(item, "channel", entry.channel(), kChannels);
+    const RejectReason reason = ReadName(item, "reason", entry.reason(), kRejectReasons);
+    window.rejected.Count(channel, reason, entry.count());
+  }
+  return window;
+}
+
+std::vector<Refusal> ReadRefusals(const proto::Model& model) {
+  std::vector<Refusal> refusals;
+  for (const proto::Refusal& refusal : model.refusals()) {
+    refusals.push_back({refusal.subject(), refusal.reason(), refusal.advice()});
+  }
+  return refusals;
+}
+
+Provenance ReadProvenance(const proto::Provenance& message) {
+  Provenance provenance;
+  provenance.preset = message.preset();
+  provenance.bounds_basis = message.bounds_basis();
+  provenance.bootstrap_replicates = message.bootstrap_replicates();
+  provenance.bootstrap_failures = message.bootstrap_failures();
+  provenance.seed = message.seed();
+  provenance.software_version = message.software_version();
+  return provenance;
+}
+
+Identification ReadModel(FieldReader reader, const proto::Model& model) {
+  Identification result;
+  result.vehicle_id = model.vehicle_id();
+  if (!IsVehicleId(result.vehicle_id)) {
+    reader.Fail("vehicle_id", Quoted(result.vehicle_id), std::string(kVehicleIdAllowed));
+  }
+  result.structure = ReadEnum<Structure>(reader, "structure", model.structure(),
+                                         "one of STATIC_QUADRATIC, FIRST_ORDER_DYNAMIC");
+  result.parameterization = ReadEnum<Parameterization>(
+      reader, "parameterization", model.parameterization(), "one of PROPELLER, PAPER");
+  result.estimator = ReadEnum<Estimator>(reader, "estimator", model.estimator(),
+                                         "one of ONE_STEP, WEAK_IV, OUTPUT_ERROR");
+  result.sampling_period_s = reader.Number("sampling_period_s", kSamplingPeriod);
+  for (int i = 0; i < model.coefficients_size(); ++i) {
+    result.coefficients.push_back(
+        ReadCoefficient(reader.Item("coefficients", i), model.coefficients(i)));
+  }
+  result.covariance = ReadCovariance(reader, model);
+  result.thruster_time_constant = ReadTimeConstant(reader, model, result.structure);
+  result.window = ReadWindow(reader.Optional("window"), model.window());
+  result.refusals = ReadRefusals(model);
+  result.provenance = ReadProvenance(model.provenance());
+  return result;
+}
+
+}  // namespace
+
+proto::Model ToProto(const Identification& identification) {
+  proto::Model model;
+  model.set_vehicle_id(identification.vehicle_id);
+  model.set_structure(Same<proto::Structure>(identification.structure));
+  model.set_parameterization(Same<proto::Parameterization>(identification.parameterization));
+  model.set_estimator(Same<proto::Estimator>(identification.estimator));
+  model.set_sampling_period_s(identification.sampling_period_s);
+  for (const Coefficient& coefficient : identification.coefficients) {
+    Write(coefficient, *model.add_coefficients());
+  }
+  const Eigen::MatrixXd& covariance = identification.covariance;
+  for (Eigen::Index row = 0; row < covariance.rows(); ++row) {
+    for (Eigen::Index column = 0; column < covariance.cols(); ++column) {
+      model.add_covariance(covariance(row, column));
+    }
+  }
+  if (identification.thruster_time_constant) {
+    Write(*identification.thruster_time_constant, *model.mutable_thruster_time_constant_s());
+  }
+  Write(identification.window, *model.mutable_window());
+  for (const Refusal& refusal : identification.refusals) Write(refusal, *model.add_refusals());
+  Write(identification.provenance, *model.mutable_provenance());
+  return model;
+}
+
+Decoded<Identification> IdentificationOf(const proto::Model& model, const std::string& file) {
+  const FieldSource source{file, FieldSource::Names::kJson, nullptr};
+  std::optional<CodecError> fault;
+  FieldReader reader(model, source, fault);
+  Identification identification = ReadModel(reader, model);
+  if (!fault) CheckOrder(reader, identification.coefficients, identification.parameterization);
+  if (fault) return tl::unexpected(*fault);
+  return identification;
+}
+
+std::string PrintModelJson(const Identification& identification) {
+  return PrintJsonMessage(ToProto(identification));
+}
+
+Decoded<Identification> ParseModelJson(std::string_view text, const std::string& file) {
+  proto::Model model;
+  if (const auto fault = ParseJsonMessage(text, file, model)) return tl::unexpected(*fault);
+  return IdentificationOf(model, file);
+}
+
+}  // namespace telltale

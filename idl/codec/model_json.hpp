@@ -1,0 +1,29 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "codec/error.hpp"
+#include "identification/identification.hpp"
+#include "proto/model.pb.h"
+
+namespace telltale {
+
+/// Identification -> the message that rests in model.json. Revision and time of publication stay
+/// zero: who publishes sets them. Counts beyond 32 bits saturate.
+proto::Model ToProto(const Identification& identification);
+
+/// The way back. Names of fields in errors are those of model.json; `file` is what they call the
+/// text. Refuses: an unset structure, parameterization, estimator or status; an equation whose
+/// coefficients are not those of Regressors() in that order, with their symbols and units; numbers
+/// that are NaN, an infinite estimate, a negative standard error, bounds the wrong way round; a
+/// covariance that is not n^2 long, has a negative variance or is not symmetric; a thruster time
+/// constant without the dynamic structure or the reverse; unknown channels and reject reasons.
+Decoded<Identification> IdentificationOf(const proto::Model& model,
+                                         const std::string& file = "model");
+
+/// model.json.
+std::string PrintModelJson(const Identification& identification);
+Decoded<Identification> ParseModelJson(std::string_view text, const std::string& file = "model");
+
+}  // namespace telltale

@@ -1,0 +1,35 @@
+#include "configuration.hpp"
+
+#include "codec/vehicle_file.hpp"
+#include "recording/files.hpp"
+
+namespace telltale {
+namespace {
+
+Decoded<std::string> Read(const std::filesystem::path& file, std::string field) {
+  auto text = ReadFile(file);
+  if (text) return std::move(*text);
+  return tl::unexpected(
+      CodecError{std::move(field), file.string(), text.error().reason + "; " + text.error().advice});
+}
+
+}  // namespace
+
+Decoded<DaemonConfig> LoadConfiguration(const std::filesystem::path& file) {
+  const auto text = Read(file, "config");
+  if (!text) return tl::unexpected(text.error());
+  auto config = ParseDaemonConfig(*text, file.string());
+  if (!config) return config;
+  for (const std::string& named : config->vehicle_files) {
+    const auto vehicle_file = file.parent_path() / named;
+    const auto vehicle_text = Read(vehicle_file, "vehicle_files");
+    if (!vehicle_text) return tl::unexpected(vehicle_text.error());
+    auto vehicle = ParseVehicle(*vehicle_text, vehicle_file.string());
+    if (!vehicle) return tl::unexpected(vehicle.error());
+    config->vehicles.push_back(std::move(*vehicle));
+  }
+  if (auto twice = DuplicateVehicle(config->vehicles)) return tl::unexpected(std::move(*twice));
+  return config;
+}
+
+}  // namespace telltale

@@ -1,0 +1,19 @@
+#include "daemon.hpp"
+
+#include <utility>
+
+namespace telltale {
+
+Daemon::Daemon(const DaemonConfig& config, std::function<void(const std::exception&)> failed)
+    : participant_(config.domain),
+      fleet_(config.vehicles, config.window),
+      models_(participant_, ModelStore(config.state_directory), fleet_),
+      answers_(participant_),
+      jobs_(fleet_, models_, answers_, config.identification),
+      quality_(participant_, fleet_, models_, config.quality_period_s),
+      ingest_(participant_, fleet_,
+              {.identify = [this](IdentifyRequest request) { jobs_.Submit(std::move(request)); },
+               .beat = [this] { models_.AssertLiveliness(); },
+               .failed = std::move(failed)}) {}
+
+}  // namespace telltale

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <functional>
+
+#include "bus/participant.hpp"
+#include "codec/daemon_config.hpp"
+#include "identification/answers.hpp"
+#include "identification/identification_jobs.hpp"
+#include "ingest/fleet.hpp"
+#include "ingest/ingest.hpp"
+#include "models/published_models.hpp"
+#include "monitoring/quality_monitor.hpp"
+
+namespace telltale {
+
+/// The daemon at work, from construction to destruction. Throws when the domain cannot be joined or
+/// the state directory not be used.
+class Daemon {
+ public:
+  /// `failed` is called, from another thread, when telemetry can no longer be taken in.
+  Daemon(const DaemonConfig& config, std::function<void(const std::exception&)> failed);
+
+ private:
+  // In the order of what stands on what: telemetry stops first, the bus is left last.
+  Participant participant_;
+  Fleet fleet_;
+  PublishedModels models_;
+  Answers answers_;
+  IdentificationJobs jobs_;
+  QualityMonitor quality_;
+  Ingest ingest_;
+};
+
+}  // namespace telltale

@@ -1,0 +1,23 @@
+#pragma once
+
+#include "bus/participant.hpp"
+#include "bus/writer.hpp"
+#include "codec/messages.hpp"
+
+namespace telltale {
+
+/// What goes back to those who asked for an identification. Safe to use from several threads; never
+/// blocks for longer than the contract's 100 ms, and a client that missed something asks again.
+class Answers {
+ public:
+  explicit Answers(const Participant& participant);
+
+  void Send(const IdentifyProgress& progress);
+  void Send(const IdentifyReply& reply);
+
+ private:
+  Writer<telltale_wire_IdentifyProgress> progress_writer_;
+  Writer<telltale_wire_IdentifyReply> reply_writer_;
+};
+
+}  // namespace telltale

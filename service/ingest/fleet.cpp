@@ -1,0 +1,52 @@
+#include "ingest/fleet.hpp"
+
+#include <algorithm>
+
+namespace telltale {
+
+std::string_view Name(StrayReason reason) {
+  switch (reason) {
+    case StrayReason::kMalformedId: return "MALFORMED_VEHICLE_ID";
+    case StrayReason::kUnknownVehicle: return "UNKNOWN_VEHICLE";
+  }
+  return "";
+}
+
+Fleet::Fleet(const std::vector<Vehicle>& vehicles, const WindowLimits& limits) {
+  for (const Vehicle& vehicle : vehicles) {
+    windows_.emplace(vehicle.vehicle_id, std::make_unique<VehicleWindow>(vehicle, limits));
+  }
+}
+
+VehicleWindow* Fleet::Find(std::string_view vehicle_id) const {
+  const auto found = windows_.find(vehicle_id);
+  return found == windows_.end() ? nullptr : found->second.get();
+}
+
+std::string Fleet::Served() const {
+  std::string names;
+  for (const auto& [vehicle_id, window] : windows_) {
+    if (!names.empty()) names += ", ";
+    names += vehicle_id;
+  }
+  return names.empty() ? "none" : names;
+}
+
+void Fleet::CountStray(std::string_view channel, StrayReason reason) {
+  const std::lock_guard lock(strays_mutex_);
+  const auto found = std::ranges::find_if(strays_, [&](const RejectEntry& entry) {
+    return entry.channel == channel && entry.reason == Name(reason);
+  });
+  if (found == strays_.end()) {
+    strays_.push_back({std::string(channel), std::string(Name(reason)), 1});
+  } else {
+    ++found->count;
+  }
+}
+
+std::vector<RejectEntry> Fleet::Strays() const {
+  const std::lock_guard lock(strays_mutex_);
+  return strays_;
+}
+
+}  // namespace telltale

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "codec/messages.hpp"
+#include "data/window.hpp"
+#include "ingest/vehicle_window.hpp"
+#include "vessel/vehicle.hpp"
+
+namespace telltale {
+
+/// Why a sample reached no window.
+enum class StrayReason { kMalformedId, kUnknownVehicle };
+
+std::string_view Name(StrayReason reason);
+
+/// The vehicles this daemon serves, fixed for its life, and what arrived for none of them.
+class Fleet {
+ public:
+  using Windows = std::map<std::string, std::unique_ptr<VehicleWindow>, std::less<>>;
+
+  Fleet(const std::vector<Vehicle>& vehicles, const WindowLimits& limits);
+
+  /// The vehicle's window, or null when it is not served here.
+  VehicleWindow* Find(std::string_view vehicle_id) const;
+  const Windows& windows() const { return windows_; }
+
+  /// "a, b and c": the vehicles served, for a person.
+  std::string Served() const;
+
+  void CountStray(std::string_view channel, StrayReason reason);
+  std::vector<RejectEntry> Strays() const;
+
+ private:
+  Windows windows_;
+  mutable std::mutex strays_mutex_;
+  std::vector<RejectEntry> strays_;
+};
+
+}  // namespace telltale

@@ -1,0 +1,99 @@
+#include "ingest/ingest.hpp"
+
+#include <chrono>
+#include <utility>
+
+#include <spdlog/spdlog.h>
+
+#include "codec/wire.hpp"
+
+namespace telltale {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr auto kBeat = std::chrono::seconds(1);
+
+// Boats send several samples a second, and a client that waits for an answer asks again every second.
+constexpr auto kLongestSilence = std::chrono::seconds(30);
+
+}  // namespace
+
+Ingest::Ingest(const Participant& participant, Fleet& fleet, Handlers handlers)
+    : fleet_(fleet),
+      handlers_(std::move(handlers)),
+      complaints_(5, std::chrono::seconds(10)),
+      news_(participant),
+      gnss_(participant, news_, [this](const auto& wire) { Route(Channel::kGnss, wire); },
+            kLongestSilence),
+      heading_(participant, news_, [this](const auto& wire) { Route(Channel::kHeading, wire); },
+               kLongestSilence),
+      thrusters_(participant, news_, [this](const auto& wire) { Route(Channel::kThrusters, wire); },
+                 kLongestSilence),
+      requests_(participant, news_, [this](const auto& wire) { Submit(wire); }, kLongestSilence),
+      thread_([this] { Run(); }) {}
+
+Ingest::~Ingest() {
+  stopping_ = true;
+  news_.Wake();
+  thread_.join();
+}
+
+void Ingest::Run() {
+  try {
+    auto next_beat = Clock::now();
+    while (!stopping_) {
+      if (Clock::now() >= next_beat) {
+        next_beat = Clock::now() + kBeat;
+        Beat();
+      }
+      news_.Wait(next_beat - Clock::now());
+    }
+  } catch (const std::exception& error) {
+    handlers_.failed(error);
+  }
+}
+
+void Ingest::Beat() {
+  handlers_.beat();
+  const auto now = Clock::now();
+  const auto tend = [now](auto& reader, const char* what) {
+    if (reader.Tend(now)) spdlog::warn("{} connected but silent, reader made anew", what);
+  };
+  tend(gnss_, "gnss");
+  tend(heading_, "heading");
+  tend(thrusters_, "thrusters");
+  tend(requests_, "identify requests");
+}
+
+template <class Wire>
+void Ingest::Route(Channel channel, const Wire& wire) {
+  const auto telemetry = Decode(wire);
+  if (!telemetry) {
+    Stray(channel, StrayReason::kMalformedId, telemetry.error().value);
+  } else if (VehicleWindow* window = fleet_.Find(telemetry->vehicle_id)) {
+    window->Add(telemetry->sequence_number, telemetry->sample);
+  } else {
+    Stray(channel, StrayReason::kUnknownVehicle, telemetry->vehicle_id);
+  }
+}
+
+void Ingest::Stray(Channel channel, StrayReason reason, std::string_view detail) {
+  fleet_.CountStray(Name(channel), reason);
+  if (const auto held_back = complaints_.Admit(Clock::now())) {
+    spdlog::warn("{} sample set aside: {} '{}' ({} more not shown)", Name(channel), Name(reason),
+                 detail, *held_back);
+  }
+}
+
+void Ingest::Submit(const telltale_wire_IdentifyRequest& wire) {
+  auto request = Decode(wire);
+  if (request) {
+    handlers_.identify(std::move(*request));
+  } else if (const auto held_back = complaints_.Admit(Clock::now())) {
+    spdlog::warn("request set aside: {} ({} more not shown)", request.error().Message(),
+                 *held_back);
+  }
+}
+
+}  // namespace telltale

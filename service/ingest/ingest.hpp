@@ -1,0 +1,53 @@
+#pragma once
+
+#include <atomic>
+#include <exception>
+#include <functional>
+#include <string_view>
+#include <thread>
+
+#include "bus/log_sink.hpp"
+#include "bus/participant.hpp"
+#include "bus/wait_set.hpp"
+#include "bus/watched_reader.hpp"
+#include "codec/messages.hpp"
+#include "ingest/fleet.hpp"
+
+namespace telltale {
+
+/// The one thread that takes from the bus: telemetry into the vehicles' windows, requests to whoever
+/// answers them. It never estimates, and never waits for those who do.
+class Ingest {
+ public:
+  struct Handlers {
+    std::function<void(IdentifyRequest)> identify;  ///< must return at once
+    std::function<void()> beat;                     ///< every second while the loop is at work
+    std::function<void(const std::exception&)> failed;  ///< the loop has ended; nothing comes in
+  };
+
+  Ingest(const Participant& participant, Fleet& fleet, Handlers handlers);
+  Ingest(const Ingest&) = delete;
+  Ingest& operator=(const Ingest&) = delete;
+  ~Ingest();  ///< ends the thread
+
+ private:
+  void Run();
+  void Beat();
+  template <class Wire>
+  void Route(Channel channel, const Wire& wire);
+  void Stray(Channel channel, StrayReason reason, std::string_view detail);
+  void Submit(const telltale_wire_IdentifyRequest& wire);
+
+  Fleet& fleet_;
+  Handlers handlers_;
+  RateLimit complaints_;
+  WaitSet news_;  // before the readers attached to it, so that it goes last
+  WatchedReader<telltale_wire_GnssFix> gnss_;
+  WatchedReader<telltale_wire_Heading> heading_;
+  WatchedReader<telltale_wire_Thrusters> thrusters_;
+  WatchedReader<telltale_wire_IdentifyRequest> requests_;
+  std::atomic<bool> stopping_ = false;
+  std::thread thread_;
+};
+
+}  // namespace telltale

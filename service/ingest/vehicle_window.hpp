@@ -1,0 +1,62 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <mutex>
+#include <variant>
+#include <vector>
+
+#include "data/samples.hpp"
+#include "data/window.hpp"
+#include "ingest/sequence_gaps.hpp"
+#include "vessel/vehicle.hpp"
+
+namespace telltale {
+
+/// What a vehicle's window holds and what became of the samples that were meant for it.
+struct WindowState {
+  double start_s = 0.0;  ///< oldest and newest held, of the boat's clock
+  double end_s = 0.0;
+  double fill = 0.0;                               ///< share of the configured span, [0, 1]
+  std::array<std::uint64_t, kChannels.size()> arrived{};  ///< gnss, heading, thrusters
+  std::uint64_t accepted = 0;
+  std::uint64_t lost = 0;
+  RejectCounts rejected;
+};
+
+/// The sliding window of one vehicle, shared by the thread that fills it and those that read it.
+/// Filling never waits for a reader: what arrives while a snapshot is being copied waits in an inbox.
+class VehicleWindow {
+ public:
+  VehicleWindow(Vehicle vehicle, const WindowLimits& limits);
+
+  const Vehicle& vehicle() const { return vehicle_; }
+
+  void Add(std::uint64_t sequence_number, const GnssFix& fix);
+  void Add(std::uint64_t sequence_number, const HeadingSample& heading);
+  void Add(std::uint64_t sequence_number, const ThrusterSample& thrusters);
+
+  Recording Snapshot();
+  WindowState State();
+
+ private:
+  using Sample = std::variant<GnssFix, HeadingSample, ThrusterSample>;
+
+  void Add(Channel channel, std::uint64_t sequence_number, const Sample& sample);
+  void EmptyInbox();  ///< into the window; the caller holds window_mutex_
+
+  const Vehicle vehicle_;
+  const WindowLimits limits_;
+
+  std::mutex inbox_mutex_;
+  std::vector<Sample> inbox_;
+  std::array<SequenceGaps, kChannels.size()> gaps_;
+  std::array<std::uint64_t, kChannels.size()> arrived_{};
+
+  std::mutex window_mutex_;
+  std::vector<Sample> emptied_;
+  Window window_;
+  std::uint64_t accepted_ = 0;
+};
+
+}  // namespace telltale

@@ -1,0 +1,86 @@
+#include <atomic>
+#include <csignal>
+#include <string>
+
+#include <pthread.h>
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <spdlog/sinks/stdout_color_sinks.h>
+#include <spdlog/spdlog.h>
+
+#include "bus/log_sink.hpp"
+#include "configuration.hpp"
+#include "daemon.hpp"
+
+namespace telltale {
+namespace {
+
+constexpr int kFailure = 1;
+constexpr int kUsageError = 2;
+
+/// SIGINT and SIGTERM, taken by no thread but the one that waits for them here.
+class StopSignals {
+ public:
+  StopSignals() {
+    sigemptyset(&signals_);
+    sigaddset(&signals_, SIGINT);
+    sigaddset(&signals_, SIGTERM);
+    pthread_sigmask(SIG_BLOCK, &signals_, nullptr);
+  }
+
+  void Wait() const {
+    int signal = 0;
+    sigwait(&signals_, &signal);
+  }
+
+ private:
+  sigset_t signals_;
+};
+
+int Serve(const DaemonConfig& config, const StopSignals& signals) {
+  const BusLog bus_log(spdlog::default_logger());
+  std::atomic<bool> healthy = true;
+  const Daemon daemon(config, [&](const std::exception& error) {
+    spdlog::critical("no longer taking in telemetry: {}", error.what());
+    healthy = false;
+    kill(getpid(), SIGTERM);
+  });
+  spdlog::info("serving {} vehicles on domain {}, models kept in {}", config.vehicles.size(),
+               config.domain, config.state_directory);
+  signals.Wait();
+  spdlog::info("stopping");
+  return healthy ? 0 : kFailure;
+}
+
+int Main(int argc, char** argv) {
+  CLI::App app{"Identifies a fleet's vehicles from their telemetry over DDS.", "telltaled"};
+  std::string config_file;
+  app.add_option("--config", config_file, "configuration, Protobuf text format")->required();
+  app.set_version_flag("--version", "telltaled " TELLTALE_VERSION);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : kUsageError;
+  }
+
+  spdlog::set_default_logger(spdlog::stderr_color_mt("telltaled"));
+  const auto config = LoadConfiguration(config_file);
+  if (!config) {
+    spdlog::critical("{}", config.error().Message());
+    return kUsageError;
+  }
+  spdlog::set_level(spdlog::level::from_str(config->log_level));
+  const StopSignals signals;
+  try {
+    return Serve(*config, signals);
+  } catch (const std::exception& error) {
+    spdlog::critical("{}", error.what());
+    return kFailure;
+  }
+}
+
+}  // namespace
+}  // namespace telltale
+
+int main(int argc, char** argv) { return telltale::Main(argc, argv); }

@@ -1,0 +1,101 @@
+#include "models/model_store.hpp"
+
+#include <SQLiteCpp/SQLiteCpp.h>
+#include <spdlog/spdlog.h>
+
+#include "codec/model_json.hpp"
+
+namespace telltale {
+namespace {
+
+constexpr int kSchemaVersion = 1;
+
+std::unique_ptr<SQLite::Database> Open(const std::filesystem::path& directory) {
+  std::filesystem::create_directories(directory);
+  auto database = std::make_unique<SQLite::Database>(
+      directory / "models.sqlite", SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE);
+  database->setBusyTimeout(5000);
+  database->exec("PRAGMA journal_mode = WAL");
+  database->exec("PRAGMA synchronous = FULL");
+  const int version = database->execAndGet("PRAGMA user_version").getInt();
+  if (version > kSchemaVersion) {
+    throw SQLite::Exception("models.sqlite has schema version " + std::to_string(version) +
+                            ", this program knows up to " + std::to_string(kSchemaVersion));
+  }
+  database->exec(
+      "CREATE TABLE IF NOT EXISTS models ("
+      "  vehicle_id TEXT NOT NULL, revision INTEGER NOT NULL, published_unix_s REAL NOT NULL,"
+      "  model BLOB NOT NULL,"  // proto/model.proto, serialised
+      "  reference_error_u REAL, reference_error_v REAL, reference_error_r REAL,"
+      "  PRIMARY KEY (vehicle_id, revision)) WITHOUT ROWID");
+  database->exec("PRAGMA user_version = " + std::to_string(kSchemaVersion));
+  return database;
+}
+
+std::optional<StoredModel> ReadRow(SQLite::Statement& row) {
+  proto::Model message;
+  const SQLite::Column blob = row.getColumn("model");
+  if (!message.ParseFromArray(blob.getBlob(), blob.getBytes())) {
+    spdlog::error("models.sqlite: revision {} of {} is not a model",
+                  row.getColumn("revision").getInt64(), row.getColumn("vehicle_id").getString());
+    return std::nullopt;
+  }
+  auto identification = IdentificationOf(message, "models.sqlite");
+  if (!identification) {
+    spdlog::error("{}", identification.error().Message());
+    return std::nullopt;
+  }
+  StoredModel stored;
+  stored.model = {std::move(*identification),
+                  static_cast<std::uint64_t>(row.getColumn("revision").getInt64()),
+                  row.getColumn("published_unix_s").getDouble()};
+  if (!row.getColumn("reference_error_u").isNull()) {
+    stored.reference_error = {row.getColumn("reference_error_u").getDouble(),
+                              row.getColumn("reference_error_v").getDouble(),
+                              row.getColumn("reference_error_r").getDouble()};
+  }
+  return stored;
+}
+
+}  // namespace
+
+ModelStore::ModelStore(const std::filesystem::path& directory) : database_(Open(directory)) {}
+ModelStore::~ModelStore() = default;
+ModelStore::ModelStore(ModelStore&&) noexcept = default;
+ModelStore& ModelStore::operator=(ModelStore&&) noexcept = default;
+
+StoredModel ModelStore::Save(const Identification& identification, double published_unix_s,
+                             const std::optional<FreeRunError>& reference_error) {
+  SQLite::Transaction transaction(*database_, SQLite::TransactionBehavior::IMMEDIATE);
+  SQLite::Statement next(*database_,
+                         "SELECT COALESCE(MAX(revision), 0) + 1 FROM models WHERE vehicle_id = ?");
+  next.bind(1, identification.vehicle_id);
+  next.executeStep();
+  const std::int64_t revision = next.getColumn(0).getInt64();
+
+  const std::string blob = ToProto(identification).SerializeAsString();
+  SQLite::Statement insert(*database_, "INSERT INTO models VALUES (?, ?, ?, ?, ?, ?, ?)");
+  insert.bind(1, identification.vehicle_id);
+  insert.bind(2, revision);
+  insert.bind(3, published_unix_s);
+  insert.bind(4, blob.data(), static_cast<int>(blob.size()));
+  if (reference_error) {
+    for (int i = 0; i < 3; ++i) insert.bind(5 + i, (*reference_error)[i]);
+  }
+  insert.exec();
+  transaction.commit();
+  return {{identification, static_cast<std::uint64_t>(revision), published_unix_s},
+          reference_error};
+}
+
+std::optional<StoredModel> ModelStore::Latest(std::string_view vehicle_id) const {
+  SQLite::Statement rows(*database_,
+                         "SELECT * FROM models WHERE vehicle_id = ? ORDER BY revision DESC");
+  rows.bind(1, std::string(vehicle_id));
+  while (rows.executeStep()) {
+    if (auto stored = ReadRow(rows)) return stored;
+  }
+  return std::nullopt;
+}
+
+}  // namespace telltale

@@ -1,0 +1,64 @@
+#include "models/published_models.hpp"
+
+#include <chrono>
+#include <utility>
+
+#include <spdlog/spdlog.h>
+
+#include "codec/wire.hpp"
+
+namespace telltale {
+namespace {
+
+double UnixNow() {
+  const auto now = std::chrono::system_clock::now().time_since_epoch();
+  return std::chrono::duration<double>(now).count();
+}
+
+}  // namespace
+
+PublishedModels::PublishedModels(const Participant& participant, ModelStore store,
+                                 const Fleet& fleet)
+    : store_(std::move(store)), writer_(participant) {
+  for (const auto& [vehicle_id, window] : fleet.windows()) {
+    auto stored = store_.Latest(vehicle_id);
+    if (!stored) continue;
+    Announce(stored->model);
+    latest_.emplace(vehicle_id, std::move(*stored));
+  }
+}
+
+PublishedModel PublishedModels::Publish(const Identification& identification,
+                                        const std::optional<FreeRunError>& reference_error) {
+  const std::lock_guard lock(mutex_);
+  const StoredModel stored = store_.Save(identification, UnixNow(), reference_error);
+  latest_.insert_or_assign(identification.vehicle_id, stored);
+  Announce(stored.model);
+  return stored.model;
+}
+
+std::optional<StoredModel> PublishedModels::Latest(std::string_view vehicle_id) const {
+  const std::lock_guard lock(mutex_);
+  const auto found = latest_.find(vehicle_id);
+  if (found == latest_.end()) return std::nullopt;
+  return found->second;
+}
+
+void PublishedModels::PublishHeldUp() {
+  const std::lock_guard lock(mutex_);
+  for (const std::string& vehicle_id : std::exchange(held_up_, {})) {
+    Announce(latest_.find(vehicle_id)->second.model);
+  }
+}
+
+void PublishedModels::Announce(const PublishedModel& model) {
+  const std::string& vehicle_id = model.identification.vehicle_id;
+  if (writer_.Write(Encode(model))) {
+    spdlog::info("published revision {} of {}", model.revision, vehicle_id);
+  } else {
+    held_up_.insert(vehicle_id);
+    spdlog::warn("a stalled client held up revision {} of {}", model.revision, vehicle_id);
+  }
+}
+
+}  // namespace telltale

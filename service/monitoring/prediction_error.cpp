@@ -1,0 +1,63 @@
+#include "monitoring/prediction_error.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "data/preparation.hpp"
+#include "validation/validation.hpp"
+
+namespace telltale {
+namespace {
+
+constexpr double kHorizonS = 5.0;
+
+template <class Sample>
+std::vector<Sample> Since(const std::vector<Sample>& samples, double time_s) {
+  const auto first = std::ranges::lower_bound(samples, time_s, {}, &Sample::time_s);
+  return {first, samples.end()};
+}
+
+double EndTime(const Recording& recording) {
+  double end_s = 0.0;
+  if (!recording.gnss.empty()) end_s = std::max(end_s, recording.gnss.back().time_s);
+  if (!recording.heading.empty()) end_s = std::max(end_s, recording.heading.back().time_s);
+  if (!recording.thrusters.empty()) end_s = std::max(end_s, recording.thrusters.back().time_s);
+  return end_s;
+}
+
+}  // namespace
+
+std::optional<FreeRunError> MeasureFreeRunError(const Recording& recording, const Vehicle& vehicle,
+                                                const Identification& identification) {
+  const auto model = ModelOf(identification);
+  if (!model) return std::nullopt;
+  PrepareOptions options;
+  options.sampling_period_s = identification.sampling_period_s;
+  const auto dataset = Prepare(recording, vehicle, options);
+  if (!dataset) return std::nullopt;
+  const auto metrics = Validate(*dataset, *model, {.horizons_s = {kHorizonS}});
+  if (!metrics || metrics->free_run.empty() || metrics->free_run.front().windows == 0) {
+    return std::nullopt;
+  }
+  FreeRunError error;
+  std::ranges::transform(metrics->free_run.front().velocity, error.begin(), &FreeRunScore::rmse);
+  const bool finite = std::ranges::all_of(error, [](double e) { return std::isfinite(e); });
+  return finite ? std::optional(error) : std::nullopt;
+}
+
+double RelativeError(const FreeRunError& now, const FreeRunError& reference) {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < now.size(); ++i) {
+    const double ratio = now[i] / std::max(reference[i], 1e-9);
+    sum += ratio * ratio;
+  }
+  return std::sqrt(sum / static_cast<double>(now.size()));
+}
+
+Recording Latest(const Recording& recording, double duration_s) {
+  const double since_s = EndTime(recording) - duration_s;
+  return {Since(recording.gnss, since_s), Since(recording.heading, since_s),
+          Since(recording.thrusters, since_s), recording.rejected};
+}
+
+}  // namespace telltale

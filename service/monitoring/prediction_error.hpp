@@ -1,0 +1,23 @@
+#pragma once
+
+#include <optional>
+
+#include "data/samples.hpp"
+#include "identification/identification.hpp"
+#include "models/model_store.hpp"
+#include "vessel/vehicle.hpp"
+
+namespace telltale {
+
+/// RMS free-run error of the model over 5 s windows of a recording, per velocity. Nothing when the
+/// model lacks an equation or the recording holds no 5 s without a gap.
+std::optional<FreeRunError> MeasureFreeRunError(const Recording& recording, const Vehicle& vehicle,
+                                                const Identification& identification);
+
+/// `now` in units of `reference`: the root mean square over the three velocities of their ratios.
+double RelativeError(const FreeRunError& now, const FreeRunError& reference);
+
+/// The last `duration_s` of a recording.
+Recording Latest(const Recording& recording, double duration_s);
+
+}  // namespace telltale

@@ -1,0 +1,121 @@
+#include "monitoring/quality_monitor.hpp"
+
+#include <exception>
+#include <utility>
+
+#include <spdlog/spdlog.h>
+
+#include "codec/wire.hpp"
+#include "monitoring/prediction_error.hpp"
+
+namespace telltale {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr double kEvaluatedSpanS = 60.0;
+constexpr double kNewDataS = 5.0;     // one more free-run window has to fit before evaluating again
+constexpr double kDriftWeight = 0.1;  // of the newest change, so that drift remembers about ten
+
+double UnixNow() {
+  return std::chrono::duration<double>(std::chrono::system_clock::now().time_since_epoch()).count();
+}
+
+double Rate(Channel channel, const WindowState& now, const WindowState& before, double elapsed_s) {
+  const auto i = static_cast<std::size_t>(channel);
+  return static_cast<double>(now.arrived[i] - before.arrived[i]) / elapsed_s;
+}
+
+}  // namespace
+
+QualityMonitor::QualityMonitor(const Participant& participant, Fleet& fleet,
+                               PublishedModels& models, double period_s)
+    : fleet_(fleet),
+      models_(models),
+      period_(period_s),
+      writer_(participant),
+      thread_([this] { Run(); }) {}
+
+QualityMonitor::~QualityMonitor() {
+  {
+    const std::lock_guard lock(mutex_);
+    stopping_ = true;
+  }
+  stop_.notify_all();
+  thread_.join();
+}
+
+void QualityMonitor::Run() {
+  auto last = Clock::now();
+  std::unique_lock lock(mutex_);
+  while (!stop_.wait_for(lock, period_, [this] { return stopping_; })) {
+    lock.unlock();
+    const auto now = Clock::now();
+    try {
+      PublishAll(std::chrono::duration<double>(now - last).count());
+      models_.PublishHeldUp();
+    } catch (const std::exception& error) {
+      spdlog::error("monitoring: {}", error.what());
+    }
+    last = now;
+    lock.lock();
+  }
+}
+
+void QualityMonitor::PublishAll(double elapsed_s) {
+  for (const auto& [vehicle_id, window] : fleet_.windows()) {
+    writer_.Write(Encode(Assess(*window, memories_[vehicle_id], elapsed_s)));
+  }
+  Quality strays;
+  strays.vehicle_id = kUnattributed;
+  strays.sequence_number = ++strays_published_;
+  strays.rejected = fleet_.Strays();
+  writer_.Write(Encode(strays));
+}
+
+Quality QualityMonitor::Assess(VehicleWindow& window, Memory& memory, double elapsed_s) {
+  const WindowState state = window.State();
+  Quality quality;
+  quality.vehicle_id = window.vehicle().vehicle_id;
+  quality.sequence_number = ++memory.published;
+  quality.window_s = state.end_s - state.start_s;
+  quality.window_fill = state.fill;
+  quality.gnss_rate_hz = Rate(Channel::kGnss, state, memory.window, elapsed_s);
+  quality.heading_rate_hz = Rate(Channel::kHeading, state, memory.window, elapsed_s);
+  quality.thrusters_rate_hz = Rate(Channel::kThrusters, state, memory.window, elapsed_s);
+  quality.lost = state.lost;
+  quality.accepted = state.accepted;
+  quality.rejected = Entries(state.rejected);
+  memory.window = state;
+  if (const auto latest = models_.Latest(quality.vehicle_id)) {
+    Evaluate(window, state, *latest, memory);
+    quality.model_revision = latest->model.revision;
+    quality.model_age_s = UnixNow() - latest->model.published_unix_s;
+    quality.prediction_error = memory.prediction_error.value_or(0.0);
+    quality.drift = memory.drift;
+  }
+  return quality;
+}
+
+void QualityMonitor::Evaluate(VehicleWindow& window, const WindowState& state,
+                              const StoredModel& model, Memory& memory) {
+  const std::uint64_t revision = model.model.revision;
+  if (!model.reference_error) return;
+  if (std::exchange(memory.evaluated_revision, revision) != revision) {
+    memory.prediction_error.reset();
+    memory.drift = 0.0;
+  } else if (state.end_s < memory.evaluated_to_s + kNewDataS) {
+    return;
+  }
+  memory.evaluated_to_s = state.end_s;
+  const auto error = MeasureFreeRunError(Latest(window.Snapshot(), kEvaluatedSpanS),
+                                         window.vehicle(), model.model.identification);
+  if (!error) return;
+  const double relative = RelativeError(*error, *model.reference_error);
+  if (memory.prediction_error) {
+    memory.drift += kDriftWeight * (relative - *memory.prediction_error - memory.drift);
+  }
+  memory.prediction_error = relative;
+}
+
+}  // namespace telltale

@@ -1,0 +1,58 @@
+#pragma once
+
+#include <chrono>
+#include <condition_variable>
+#include <cstdint>
+#include <map>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <thread>
+
+#include "bus/participant.hpp"
+#include "bus/writer.hpp"
+#include "codec/messages.hpp"
+#include "ingest/fleet.hpp"
+#include "models/published_models.hpp"
+
+namespace telltale {
+
+/// Publishes the quality of every vehicle's telemetry and model each period, on a thread of its own.
+class QualityMonitor {
+ public:
+  QualityMonitor(const Participant& participant, Fleet& fleet, PublishedModels& models,
+                 double period_s);
+  QualityMonitor(const QualityMonitor&) = delete;
+  QualityMonitor& operator=(const QualityMonitor&) = delete;
+  ~QualityMonitor();  ///< ends the thread
+
+ private:
+  /// What has to be remembered of a vehicle from one period to the next.
+  struct Memory {
+    std::uint64_t published = 0;
+    WindowState window;
+    double evaluated_to_s = 0.0;           ///< boat time of the newest sample evaluated
+    std::uint64_t evaluated_revision = 0;  ///< of the model evaluated
+    std::optional<double> prediction_error;
+    double drift = 0.0;
+  };
+
+  void Run();
+  void PublishAll(double elapsed_s);
+  Quality Assess(VehicleWindow& window, Memory& memory, double elapsed_s);
+  void Evaluate(VehicleWindow& window, const WindowState& state, const StoredModel& model,
+                Memory& memory);
+
+  Fleet& fleet_;
+  PublishedModels& models_;
+  const std::chrono::duration<double> period_;
+  Writer<telltale_wire_Quality> writer_;
+  std::map<std::string, Memory> memories_;
+  std::uint64_t strays_published_ = 0;
+  std::mutex mutex_;
+  std::condition_variable stop_;
+  bool stopping_ = false;
+  std::thread thread_;
+};
+
+}  // namespace telltale

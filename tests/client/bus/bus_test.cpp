@@ -1,0 +1,181 @@
+#include <chrono>
+#include <map>
+#include <memory>
+#include <optional>
+#include <thread>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "bus/error.hpp"
+#include "bus/log_sink.hpp"
+#include "bus/participant.hpp"
+#include "bus/reader.hpp"
+#include "bus/wait_set.hpp"
+#include "bus/watched_reader.hpp"
+#include "bus/writer.hpp"
+#include "codec/wire.hpp"
+#include "support/identifications.hpp"
+#include "support/loopback_domain.hpp"
+
+namespace telltale {
+namespace {
+
+using namespace std::chrono_literals;
+
+/// Waits on a wait set until `done`; false when that does not come about in ten seconds.
+template <class Done>
+bool WaitUntil(WaitSet& wait_set, Done done) {
+  const auto deadline = std::chrono::steady_clock::now() + 10s;
+  while (!done()) {
+    if (std::chrono::steady_clock::now() > deadline) return false;
+    wait_set.Wait(100ms);
+  }
+  return true;
+}
+
+class Bus : public testing::Test {
+ protected:
+  LoopbackDomain domain_;
+  Participant here_{domain_.id()};
+};
+
+PublishedModel ModelOfRevision(std::uint64_t revision, const std::string& vehicle_id = "boat-1") {
+  PublishedModel model{MadeUpIdentification(), revision, 1.0};
+  model.identification.vehicle_id = vehicle_id;
+  return model;
+}
+
+TEST_F(Bus, HandsOverEverySampleOfABurstInOrder) {
+  Reader<telltale_wire_GnssFix> reader(here_);
+  Writer<telltale_wire_GnssFix> writer(here_);
+  ASSERT_TRUE(WaitForMatch(here_, {reader, writer}, 10s));
+  for (std::uint64_t i = 1; i <= 64; ++i) {
+    writer.Write(Encode(Telemetry<GnssFix>{"boat-1", i, {}}));
+  }
+  std::vector<std::uint64_t> received;
+  WaitSet news(here_);
+  news.Attach(reader, [&] {
+    reader.Take([&](const auto& wire) { received.push_back(wire.sequence_number); });
+  });
+  ASSERT_TRUE(WaitUntil(news, [&] { return received.size() >= 64; }));
+  for (std::size_t i = 0; i < received.size(); ++i) EXPECT_EQ(received[i], i + 1);
+}
+
+TEST_F(Bus, TakesMoreThanOneBatch) {
+  Reader<telltale_wire_GnssFix> reader(here_);
+  Writer<telltale_wire_GnssFix> writer(here_);
+  ASSERT_TRUE(WaitForMatch(here_, {reader, writer}, 10s));
+  std::map<std::string, std::uint64_t> received;
+  for (std::uint64_t i = 1; i <= 60; ++i) {
+    for (int boat = 0; boat < 10; ++boat) {
+      writer.Write(Encode(Telemetry<GnssFix>{"boat-" + std::to_string(boat), i, {}}));
+    }
+  }
+  WaitSet news(here_);
+  std::size_t total = 0;
+  news.Attach(reader, [&] { total += reader.Take([&](const auto& w) { ++received[w.vehicle_id]; }); });
+  ASSERT_TRUE(WaitUntil(news, [&] { return total >= 600; }));
+  EXPECT_EQ(received.size(), 10u);
+  for (const auto& [boat, count] : received) EXPECT_EQ(count, 60u) << boat;
+}
+
+TEST_F(Bus, PassesOverTheNoticeThatAWriterIsGone) {
+  Reader<telltale_wire_Model> reader(here_);
+  std::optional<Writer<telltale_wire_Model>> writer(here_);
+  ASSERT_TRUE(WaitForMatch(here_, {reader, *writer}, 10s));
+  writer->Write(Encode(ModelOfRevision(1)));
+  WaitSet news(here_);
+  int notices = 0;
+  int models = 0;
+  news.Attach(reader, [&] {
+    ++notices;
+    models += static_cast<int>(reader.Take([](const auto&) {}));
+  });
+  ASSERT_TRUE(WaitUntil(news, [&] { return models == 1; }));
+  const int before = notices;
+  writer.reset();
+  ASSERT_TRUE(WaitUntil(news, [&] { return notices > before; }));
+  EXPECT_EQ(models, 1);
+}
+
+TEST_F(Bus, GivesALateJoinerTheLastModelOfEachVehicle) {
+  Writer<telltale_wire_Model> writer(here_);
+  for (std::uint64_t revision = 1; revision <= 3; ++revision) {
+    writer.Write(Encode(ModelOfRevision(revision, "boat-1")));
+    writer.Write(Encode(ModelOfRevision(10 * revision, "boat-2")));
+  }
+  Reader<telltale_wire_Model> reader(here_);
+  std::map<std::string, std::vector<std::uint64_t>> received;
+  WaitSet news(here_);
+  news.Attach(reader, [&] {
+    reader.Take([&](const auto& wire) { received[wire.vehicle_id].push_back(wire.revision); });
+  });
+  ASSERT_TRUE(WaitUntil(news, [&] { return received.size() == 2; }));
+  EXPECT_THAT(received["boat-1"], testing::ElementsAre(3));
+  EXPECT_THAT(received["boat-2"], testing::ElementsAre(30));
+}
+
+TEST_F(Bus, SaysWhenNobodyIsThere) {
+  Writer<telltale_wire_GnssFix> writer(here_);
+  EXPECT_FALSE(WaitForMatch(here_, {writer}, 50ms));
+  EXPECT_EQ(writer.Matched(), 0u);
+}
+
+TEST_F(Bus, ABestEffortReaderMatchesAReliableWriter) {
+  Reader<telltale_wire_GnssFix> reader(here_);
+  Qos reliable(dds_create_qos());
+  dds_qset_reliability(reliable.get(), DDS_RELIABILITY_RELIABLE, DDS_MSECS(100));
+  const Entity topic(dds_create_topic(here_.handle(), &Descriptor<telltale_wire_GnssFix>(),
+                                      kContract<telltale_wire_GnssFix>.topic, nullptr, nullptr));
+  const Entity writer(dds_create_writer(here_.handle(), topic.handle(), reliable.get(), nullptr));
+  EXPECT_TRUE(WaitForMatch(here_, {reader}, 10s));
+}
+
+TEST_F(Bus, WakesAWaitingThread) {
+  WaitSet news(here_);
+  std::jthread waker([&] { news.Wake(); });
+  EXPECT_FALSE(news.Wait(10min));
+}
+
+TEST_F(Bus, MakesASilentReaderAnewAndHearsAgain) {
+  WaitSet news(here_);
+  int heard = 0;
+  WatchedReader<telltale_wire_GnssFix> reader(
+      here_, news, [&](const auto&) { ++heard; }, 60s);
+  const auto now = std::chrono::steady_clock::now();
+  EXPECT_FALSE(reader.Tend(now + 10min)) << "nobody is connected, so silence is right";
+  Writer<telltale_wire_GnssFix> writer(here_);
+  ASSERT_TRUE(WaitForMatch(here_, {writer}, 10s));
+  EXPECT_FALSE(reader.Tend(now + 10min + 59s));
+  EXPECT_TRUE(reader.Tend(now + 20min));
+  ASSERT_TRUE(WaitForMatch(here_, {writer}, 10s));
+  writer.Write(Encode(Telemetry<GnssFix>{"boat-1", 1, {}}));
+  EXPECT_TRUE(WaitUntil(news, [&] { return heard == 1; }));
+}
+
+TEST(BusError, SaysWhatWasTriedAndWhyItFailed) {
+  try {
+    Checked(DDS_RETCODE_BAD_PARAMETER, "creating a reader");
+    FAIL();
+  } catch (const BusError& error) {
+    EXPECT_EQ(error.code(), DDS_RETCODE_BAD_PARAMETER);
+    EXPECT_EQ(std::string(error.what()),
+              std::string("creating a reader: ") + dds_strretcode(DDS_RETCODE_BAD_PARAMETER));
+  }
+}
+
+TEST(RateLimit, HoldsBackAndSaysHowMany) {
+  RateLimit limit(2, 10s);
+  const RateLimit::TimePoint start{};
+  EXPECT_EQ(limit.Admit(start), 0u);
+  EXPECT_EQ(limit.Admit(start + 1s), 0u);
+  EXPECT_FALSE(limit.Admit(start + 2s));
+  EXPECT_FALSE(limit.Admit(start + 9s));
+  EXPECT_EQ(limit.Admit(start + 10s), 2u);
+  EXPECT_EQ(limit.Admit(start + 11s), 0u);
+}
+
+}  // namespace
+}  // namespace telltale

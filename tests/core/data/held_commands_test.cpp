@@ -1,0 +1,46 @@
+#include "data/held_commands.hpp"
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+namespace telltale {
+namespace {
+
+// Port +1 from 0 s, -1 from 1 s, 0 from 3 s; starboard half ahead throughout.
+const std::vector<ThrusterSample> kSamples = {{0, 1900, 1700}, {1, 1100, 1700}, {3, 1500, 1700}};
+
+TEST(HeldCommands, HoldsEachUntilTheNextAndTheLastForEver) {
+  const HeldCommands commands(kSamples, Vehicle{});
+  EXPECT_EQ(commands.At(-5.0).port, 1.0);
+  EXPECT_EQ(commands.At(0.99).port, 1.0);
+  EXPECT_EQ(commands.At(1.0).port, -1.0);
+  EXPECT_EQ(commands.At(99.0).port, 0.0);
+  EXPECT_EQ(commands.At(99.0).starboard, 0.5);
+}
+
+TEST(HeldCommands, MeansAreWeightedByTime) {
+  const HeldCommands commands(kSamples, Vehicle{});
+  EXPECT_DOUBLE_EQ(commands.Mean(0.5, 1.5).port, 0.0);
+  EXPECT_DOUBLE_EQ(commands.Mean(0.75, 1.75).port, -0.5);
+  EXPECT_DOUBLE_EQ(commands.Mean(2.0, 4.0).port, -0.5);
+  EXPECT_DOUBLE_EQ(commands.Mean(0.1, 7.3).starboard, 0.5);
+}
+
+TEST(HeldCommands, TriangularMeanWeighsTheMiddleMost) {
+  const HeldCommands commands(kSamples, Vehicle{});
+  EXPECT_NEAR(commands.TriangularMean(1.0, 0.5).port, 0.0, 1e-15);
+  // Up to the switch at half the half width before the centre: 1/8 of the triangle's area.
+  EXPECT_NEAR(commands.TriangularMean(1.5, 1.0).port, 0.125 - 0.875, 1e-15);
+  EXPECT_NEAR(commands.TriangularMean(1.5, 1.0).starboard, 0.5, 1e-15);
+}
+
+TEST(HeldCommands, RegionIsThatInForceForMostOfTheTime) {
+  const HeldCommands commands(kSamples, Vehicle{});
+  EXPECT_EQ(commands.MajorityRegion(0.0, 1.4), PropellerRegion::kFF);
+  EXPECT_EQ(commands.MajorityRegion(0.8, 1.4), PropellerRegion::kRF);
+  EXPECT_EQ(commands.MajorityRegion(0.5, 1.5), PropellerRegion::kFF) << "the earlier of equals";
+}
+
+}  // namespace
+}  // namespace telltale

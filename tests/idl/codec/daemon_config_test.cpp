@@ -1,0 +1,130 @@
+#include "codec/daemon_config.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace telltale {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+std::string VehicleNamed(const std::string& id) {
+  return "vehicles { vehicle_id: \"" + id +
+         "\" propeller_separation_m: 0.5 "
+         "port { neutral_us: 1500 full_forward_us: 1900 full_reverse_us: 1100 } "
+         "starboard { neutral_us: 1500 full_forward_us: 1900 full_reverse_us: 1100 } }\n";
+}
+
+TEST(DaemonConfig, AnEmptyFileMeansTheDefaultsOfTheSchema) {
+  const auto config = ParseDaemonConfig("");
+  ASSERT_TRUE(config) << config.error().Message();
+  EXPECT_EQ(config->domain, 0u);
+  EXPECT_TRUE(config->vehicles.empty());
+  EXPECT_TRUE(config->vehicle_files.empty());
+  EXPECT_EQ(config->state_directory, "/var/lib/telltale");
+  EXPECT_EQ(config->window.duration_s, 1200.0);
+  EXPECT_EQ(config->window.memory_bytes, std::size_t{64} << 20);
+  EXPECT_EQ(config->window.reorder_tolerance_s, 0.5);
+  EXPECT_EQ(config->window.clock_jump_s, 60.0);
+  EXPECT_EQ(config->window.stuck_after_s, 5.0);
+  EXPECT_EQ(config->identification.workers, 1u);
+  EXPECT_EQ(config->identification.bootstrap_replicates, 1000u);
+  EXPECT_EQ(config->identification.interval_level, 0.95);
+  EXPECT_EQ(config->identification.queue_limit, 1024u);
+  EXPECT_EQ(config->quality_period_s, 1.0);
+  EXPECT_EQ(config->log_level, "info");
+}
+
+TEST(DaemonConfig, ReadsEveryField) {
+  const auto config = ParseDaemonConfig(
+      "domain: 42\n" + VehicleNamed("a") + VehicleNamed("b") +
+      "vehicle_files: \"c.textproto\" vehicle_files: \"d.textproto\"\n"
+      "state_directory: \"/tmp/state\"\n"
+      "window { duration_s: 600 memory_mib: 2 reorder_tolerance_s: 0 clock_jump_s: 5 "
+      "stuck_after_s: 9 }\n"
+      "identification { workers: 3 bootstrap_replicates: 0 interval_level: 0.9 queue_limit: 7 }\n"
+      "quality_period_s: 0.5 log_level: \"debug\"\n");
+  ASSERT_TRUE(config) << config.error().Message();
+  EXPECT_EQ(config->domain, 42u);
+  ASSERT_EQ(config->vehicles.size(), 2u);
+  EXPECT_EQ(config->vehicles[1].vehicle_id, "b");
+  EXPECT_THAT(config->vehicle_files, ElementsAre("c.textproto", "d.textproto"));
+  EXPECT_EQ(config->state_directory, "/tmp/state");
+  EXPECT_EQ(config->window.duration_s, 600.0);
+  EXPECT_EQ(config->window.memory_bytes, std::size_t{2} << 20);
+  EXPECT_EQ(config->window.reorder_tolerance_s, 0.0);
+  EXPECT_EQ(config->window.clock_jump_s, 5.0);
+  EXPECT_EQ(config->window.stuck_after_s, 9.0);
+  EXPECT_EQ(config->identification.workers, 3u);
+  EXPECT_EQ(config->identification.bootstrap_replicates, 0u);
+  EXPECT_EQ(config->identification.interval_level, 0.9);
+  EXPECT_EQ(config->identification.queue_limit, 7u);
+  EXPECT_EQ(config->quality_period_s, 0.5);
+  EXPECT_EQ(config->log_level, "debug");
+}
+
+struct Fault {
+  std::string text, field, value, allowed;
+};
+
+class WrongConfig : public testing::TestWithParam<Fault> {};
+
+TEST_P(WrongConfig, IsRefusedNamingFieldValueRangeAndLine) {
+  const Fault& fault = GetParam();
+  const auto config = ParseDaemonConfig("# first line\n" + fault.text, "d.textproto");
+  ASSERT_FALSE(config);
+  EXPECT_EQ(config.error().field, fault.field);
+  EXPECT_EQ(config.error().value, fault.value);
+  EXPECT_THAT(config.error().allowed, HasSubstr(fault.allowed));
+  EXPECT_EQ(config.error().where, "d.textproto:2");
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    DaemonConfig, WrongConfig,
+    testing::Values(
+        Fault{"domain: 102", "domain", "102", "[0, 101]"},
+        Fault{"domain: -1", "domain", "-1", "integer"}, Fault{"domian: 1", "domian", "1", "domain"},
+        Fault{"state_directory: \"\"", "state_directory", "\"\"", "folder"},
+        Fault{"vehicle_files: \"\"", "vehicle_files[0]", "\"\"", "path"},
+        Fault{"window { duration_s: 9 }", "window.duration_s", "9", "[10, 86400]"},
+        Fault{"window { duration_s: nan }", "window.duration_s", "nan", "[10, 86400]"},
+        Fault{"window { memory_mib: 0 }", "window.memory_mib", "0", "[1, 65536]"},
+        Fault{"window { reorder_tolerance_s: -0.1 }", "window.reorder_tolerance_s", "-0.1",
+              "[0, 10]"},
+        Fault{"window { clock_jump_s: 0 }", "window.clock_jump_s", "0", "[1, 86400]"},
+        Fault{"window { stuck_after_s: 601 }", "window.stuck_after_s", "601", "[1, 600]"},
+        Fault{"identification { workers: 65 }", "identification.workers", "65", "[1, 64]"},
+        Fault{"identification { bootstrap_replicates: 99 }", "identification.bootstrap_replicates",
+              "99", "0 or a number in [100, 100000]"},
+        Fault{"identification { bootstrap_replicates: 100001 }",
+              "identification.bootstrap_replicates", "100001", "100000]"},
+        Fault{"identification { interval_level: 1 }", "identification.interval_level", "1",
+              "[0.5, 0.999]"},
+        Fault{"identification { queue_limit: 0 }", "identification.queue_limit", "0", "[1, 10000]"},
+        Fault{"quality_period_s: 0.01", "quality_period_s", "0.01", "[0.1, 3600]"},
+        Fault{"log_level: \"loud\"", "log_level", "\"loud\"", "trace, debug, info, warn, error"},
+        Fault{"vehicles { vehicle_id: \"a\" }", "vehicles[0].propeller_separation_m", "",
+              "required"}));
+
+TEST(DaemonConfig, TheSameVehicleTwiceIsRefusedWhereItComesAgain) {
+  const auto config =
+      ParseDaemonConfig(VehicleNamed("a") + VehicleNamed("b") + VehicleNamed("a"), "d.textproto");
+  ASSERT_FALSE(config);
+  EXPECT_EQ(config.error().field, "vehicles[2].vehicle_id");
+  EXPECT_EQ(config.error().value, "\"a\"");
+  EXPECT_EQ(config.error().where, "d.textproto:3");
+}
+
+TEST(DaemonConfig, DuplicatesAcrossFilesCanBeAskedFor) {
+  std::vector<Vehicle> vehicles(2);
+  vehicles[0].vehicle_id = "a";
+  vehicles[1].vehicle_id = "b";
+  EXPECT_FALSE(DuplicateVehicle(vehicles));
+  vehicles.push_back(vehicles.front());
+  ASSERT_TRUE(DuplicateVehicle(vehicles));
+  EXPECT_EQ(DuplicateVehicle(vehicles)->value, "\"a\"");
+}
+
+}  // namespace
+}  // namespace telltale

@@ -1,0 +1,248 @@
+#include "codec/model_json.hpp"
+
+#include <algorithm>
+#include <functional>
+#include <limits>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "support/identifications.hpp"
+
+namespace telltale {
+namespace {
+
+using testing::HasSubstr;
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+void ExpectSame(const Coefficient& a, const Coefficient& b) {
+  EXPECT_EQ(a.equation, b.equation);
+  EXPECT_EQ(a.regressor, b.regressor);
+  EXPECT_EQ(a.symbol, b.symbol);
+  EXPECT_EQ(a.estimate, b.estimate);
+  EXPECT_EQ(a.standard_error, b.standard_error);
+  EXPECT_EQ(a.interval.level, b.interval.level);
+  EXPECT_EQ(a.interval.lower, b.interval.lower);
+  EXPECT_EQ(a.interval.upper, b.interval.upper);
+  EXPECT_EQ(a.unit, b.unit);
+  EXPECT_EQ(a.status, b.status);
+}
+
+void ExpectSame(const WindowSummary& a, const WindowSummary& b) {
+  EXPECT_EQ(a.start_s, b.start_s);
+  EXPECT_EQ(a.end_s, b.end_s);
+  EXPECT_EQ(a.samples, b.samples);
+  EXPECT_EQ(a.segments, b.segments);
+  for (const Channel channel : kChannels) {
+    for (const RejectReason reason : kRejectReasons) {
+      EXPECT_EQ(a.rejected.Of(channel, reason), b.rejected.Of(channel, reason));
+    }
+  }
+}
+
+void ExpectSame(const Provenance& a, const Provenance& b) {
+  EXPECT_EQ(a.preset, b.preset);
+  EXPECT_EQ(a.bounds_basis, b.bounds_basis);
+  EXPECT_EQ(a.bootstrap_replicates, b.bootstrap_replicates);
+  EXPECT_EQ(a.bootstrap_failures, b.bootstrap_failures);
+  EXPECT_EQ(a.seed, b.seed);
+  EXPECT_EQ(a.software_version, b.software_version);
+}
+
+void ExpectSame(const Identification& a, const Identification& b) {
+  EXPECT_EQ(a.vehicle_id, b.vehicle_id);
+  EXPECT_EQ(a.structure, b.structure);
+  EXPECT_EQ(a.parameterization, b.parameterization);
+  EXPECT_EQ(a.estimator, b.estimator);
+  EXPECT_EQ(a.sampling_period_s, b.sampling_period_s);
+  ASSERT_EQ(a.coefficients.size(), b.coefficients.size());
+  for (std::size_t i = 0; i < a.coefficients.size(); ++i) {
+    ExpectSame(a.coefficients[i], b.coefficients[i]);
+  }
+  EXPECT_EQ(a.covariance, b.covariance);
+  ASSERT_EQ(a.thruster_time_constant.has_value(), b.thruster_time_constant.has_value());
+  if (a.thruster_time_constant) ExpectSame(*a.thruster_time_constant, *b.thruster_time_constant);
+  ExpectSame(a.window, b.window);
+  EXPECT_EQ(a.refusals, b.refusals);
+  ExpectSame(a.provenance, b.provenance);
+}
+
+void ExpectReadsBack(const Identification& identification) {
+  const auto again = ParseModelJson(PrintModelJson(identification));
+  ASSERT_TRUE(again) << again.error().Message();
+  ExpectSame(*again, identification);
+}
+
+Coefficient MadeUpTimeConstant() {
+  return {Equation::kUnknown,           "", "T", 0.25, 0.01, {0.95, 0.23, 0.27}, "s",
+          CoefficientStatus::kEstimated};
+}
+
+TEST(ModelJson, PrintedAndReadAgainIsTheSameToTheLastBit) {
+  ExpectReadsBack(MadeUpIdentification(Parameterization::kPropeller));
+  ExpectReadsBack(MadeUpIdentification(Parameterization::kPaper));
+}
+
+TEST(ModelJson, AnEquationMayBeMissingWhole) {
+  Identification partial = MadeUpIdentification();
+  std::erase_if(partial.coefficients, [](const auto& c) { return c.equation == Equation::kSway; });
+  const auto n = static_cast<Eigen::Index>(partial.coefficients.size());
+  partial.covariance = Eigen::MatrixXd::Identity(n, n);
+  ExpectReadsBack(partial);
+}
+
+TEST(ModelJson, TheTimeConstantGoesWithTheDynamicStructure) {
+  Identification dynamic = MadeUpIdentification();
+  dynamic.structure = Structure::kFirstOrderDynamic;
+  dynamic.thruster_time_constant = MadeUpTimeConstant();
+  ExpectReadsBack(dynamic);
+}
+
+TEST(ModelJson, UsesTheNamesOfTheInterface) {
+  const std::string json = PrintModelJson(MadeUpIdentification());
+  for (const char* text :
+       {"\"vehicleId\": \"made-up.1\"", "\"structure\": \"STATIC_QUADRATIC\"",
+        "\"parameterization\": \"PROPELLER\"", "\"estimator\": \"ONE_STEP\"",
+        "\"samplingPeriodS\": 0.2", "\"equation\": \"SURGE\"", "\"regressor\": \"u|u|\"",
+        "\"symbol\": \"Pu11\"", "\"standardError\": \"Infinity\"", "\"lower\": \"-Infinity\"",
+        "\"unit\": \"1/m\"", "\"status\": \"NOT_EXCITED\"", "\"startS\": 1700000000.125",
+        "\"samples\": 3003", "\"channel\": \"gnss\"", "\"reason\": \"DUPLICATE\"", "\"count\": 7",
+        "\"advice\": \"add a zigzag at two speeds\"", "\"seed\": \"18446744073709551615\""}) {
+    EXPECT_THAT(json, HasSubstr(text));
+  }
+}
+
+// The codec casts between the enumerations, so their order must agree.
+TEST(ModelJson, EnumerationsHaveTheSameNamesInProtobuf) {
+  for (const Equation value : kEquations) {
+    EXPECT_EQ(proto::Equation_Name(static_cast<int>(value)), Name(value));
+  }
+  for (const Structure value : {Structure::kStaticQuadratic, Structure::kFirstOrderDynamic}) {
+    EXPECT_EQ(proto::Structure_Name(static_cast<int>(value)), Name(value));
+  }
+  for (const Parameterization value : {Parameterization::kPropeller, Parameterization::kPaper}) {
+    EXPECT_EQ(proto::Parameterization_Name(static_cast<int>(value)), Name(value));
+  }
+  EXPECT_EQ(static_cast<int>(Estimator::kOneStep), proto::ONE_STEP);
+  EXPECT_EQ(static_cast<int>(Estimator::kWeakIv), proto::WEAK_IV);
+  EXPECT_EQ(static_cast<int>(Estimator::kOutputError), proto::OUTPUT_ERROR);
+  EXPECT_EQ(static_cast<int>(CoefficientStatus::kEstimated), proto::ESTIMATED);
+  EXPECT_EQ(static_cast<int>(CoefficientStatus::kNotExcited), proto::NOT_EXCITED);
+  EXPECT_EQ(static_cast<int>(CoefficientStatus::kCollinear), proto::COLLINEAR);
+}
+
+struct Fault {
+  std::function<void(proto::Model&)> spoil;
+  std::string field, value, allowed;
+};
+
+class WrongModel : public testing::TestWithParam<Fault> {};
+
+TEST_P(WrongModel, IsRefusedNamingFieldValueAndWhatIsAllowed) {
+  const Fault& fault = GetParam();
+  proto::Model model = ToProto(MadeUpIdentification());
+  fault.spoil(model);
+  const auto identification = IdentificationOf(model, "model.json");
+  ASSERT_FALSE(identification);
+  EXPECT_EQ(identification.error().field, fault.field);
+  EXPECT_EQ(identification.error().value, fault.value);
+  EXPECT_THAT(identification.error().allowed, HasSubstr(fault.allowed));
+  EXPECT_EQ(identification.error().where, "model.json");
+}
+
+using M = proto::Model;
+
+INSTANTIATE_TEST_SUITE_P(
+    ModelJson, WrongModel,
+    testing::Values(
+        Fault{[](M& m) { m.set_vehicle_id("a b"); }, "vehicleId", "\"a b\"", "letters"},
+        Fault{[](M& m) { m.clear_structure(); }, "structure", "", "STATIC_QUADRATIC"},
+        Fault{[](M& m) { m.set_structure(static_cast<proto::Structure>(9)); }, "structure", "9",
+              "STATIC_QUADRATIC"},
+        Fault{[](M& m) { m.clear_parameterization(); }, "parameterization", "", "PAPER"},
+        Fault{[](M& m) { m.clear_estimator(); }, "estimator", "", "ONE_STEP"},
+        Fault{[](M& m) { m.set_sampling_period_s(0.0); }, "samplingPeriodS", "0", "[0.001, 10]"},
+        Fault{[](M& m) { m.clear_coefficients(), m.clear_covariance(); }, "coefficients", "(none)",
+              "at least one equation"},
+        Fault{[](M& m) { m.mutable_coefficients(3)->set_regressor("u^7"); },
+              "coefficients[3].regressor", "\"u^7\"", "\"u\""},
+        Fault{[](M& m) { m.mutable_coefficients(3)->set_symbol("X"); }, "coefficients[3].symbol",
+              "\"X\"", "\"Ru1\""},
+        Fault{[](M& m) { m.mutable_coefficients(3)->set_unit("1/h"); }, "coefficients[3].unit",
+              "\"1/h\"", "\"1/s\""},
+        Fault{[](M& m) { m.mutable_coefficients()->SwapElements(0, 3); },
+              "coefficients[0].regressor", "\"u\"", "\"u|u|\""},
+        Fault{[](M& m) { m.mutable_coefficients()->SwapElements(0, 9); },
+              "coefficients[1].equation", "SURGE", "SWAY, whose regressor"},
+        Fault{[](M& m) {
+                auto& all = *m.mutable_coefficients();
+                std::rotate(all.pointer_begin(), all.pointer_begin() + 9, all.pointer_end());
+              },
+              "coefficients[26].equation", "SURGE", "in this order"},
+        Fault{[](M& m) { m.mutable_coefficients(0)->set_equation(proto::UNKNOWN_EQUATION); },
+              "coefficients[0].equation", "UNKNOWN", "SURGE"},
+        Fault{[](M& m) { m.mutable_coefficients(4)->set_estimate(kNan); },
+              "coefficients[4].estimate", "nan", "number"},
+        Fault{[](M& m) { m.mutable_coefficients(4)->set_estimate(kInfinity); },
+              "coefficients[4].estimate", "inf", "number"},
+        Fault{[](M& m) { m.mutable_coefficients(4)->set_standard_error(-1); },
+              "coefficients[4].standardError", "-1", "[0, inf]"},
+        Fault{[](M& m) { m.mutable_coefficients(4)->clear_interval(); }, "coefficients[4].interval",
+              "", "required"},
+        Fault{[](M& m) { m.mutable_coefficients(4)->mutable_interval()->set_level(1.5); },
+              "coefficients[4].interval.level", "1.5", "(0, 1]"},
+        Fault{[](M& m) { m.mutable_coefficients(4)->mutable_interval()->set_lower(9); },
+              "coefficients[4].interval.lower", "9", "not above upper"},
+        Fault{[](M& m) { m.mutable_coefficients(4)->mutable_interval()->set_upper(kNan); },
+              "coefficients[4].interval.upper", "nan", "number"},
+        Fault{[](M& m) { m.mutable_coefficients(4)->clear_status(); }, "coefficients[4].status", "",
+              "NOT_EXCITED"},
+        Fault{[](M& m) { m.mutable_covariance()->RemoveLast(); }, "covariance", "1224 numbers",
+              "1225"},
+        Fault{[](M& m) { m.set_covariance(1, kNan); }, "covariance[1]", "nan", "number"},
+        Fault{[](M& m) { m.set_covariance(0, -1.0); }, "covariance[0]", "-1", "[0, inf]"},
+        Fault{[](M& m) { m.set_covariance(70, 5.0); }, "covariance[70]", "5", "symmetric"},
+        Fault{[](M& m) { m.mutable_thruster_time_constant_s()->set_estimate(1.0); },
+              "thrusterTimeConstantS", "(given)", "FIRST_ORDER_DYNAMIC"},
+        Fault{[](M& m) { m.set_structure(proto::FIRST_ORDER_DYNAMIC); }, "thrusterTimeConstantS",
+              "", "FIRST_ORDER_DYNAMIC"},
+        Fault{[](M& m) { m.mutable_window()->set_end_s(1.0); }, "window.startS", "1700000000.125",
+              "not after endS = 1"},
+        Fault{[](M& m) { m.mutable_window()->set_start_s(kNan); }, "window.startS", "nan",
+              "number"},
+        Fault{[](M& m) { m.mutable_window()->mutable_rejected(0)->set_channel("sonar"); },
+              "window.rejected[0].channel", "\"sonar\"", "gnss, heading, thrusters"},
+        Fault{[](M& m) { m.mutable_window()->mutable_rejected(1)->set_reason("UGLY"); },
+              "window.rejected[1].reason", "\"UGLY\"", "NOT_FINITE"}));
+
+TEST(ModelJson, AnEquationThatEndsEarlyIsRefused) {
+  proto::Model model = ToProto(MadeUpIdentification());
+  model.mutable_coefficients()->RemoveLast();
+  model.mutable_covariance()->Truncate(34 * 34);
+  model.mutable_covariance()->Resize(34 * 34, 0.0);
+  for (int i = 0; i < 34 * 34; ++i) model.set_covariance(i, 0.0);
+  const auto identification = IdentificationOf(model);
+  ASSERT_FALSE(identification);
+  EXPECT_EQ(identification.error().field, "coefficients");
+  EXPECT_THAT(identification.error().allowed, HasSubstr("\"r:d\""));
+}
+
+TEST(ModelJson, TextThatIsNotAModelIsRefusedWithWhatIsWrong) {
+  const auto fault = [](const char* text) { return ParseModelJson(text, "m.json").error(); };
+  EXPECT_EQ(fault("{\"foo\": 1}").field, "foo");
+  EXPECT_EQ(fault("{\"coefficients\": [{\"foo\": 1}]}").field, "coefficients[0].foo");
+  EXPECT_EQ(fault("{\"structure\": \"CUBIC\"}").field, "structure");
+  EXPECT_EQ(fault("{\"structure\": \"CUBIC\"}").value, "\"CUBIC\"");
+  EXPECT_EQ(fault("{\"structure\": \"CUBIC\"}").allowed,
+            "one of STATIC_QUADRATIC, FIRST_ORDER_DYNAMIC");
+  EXPECT_EQ(fault("{\"samplingPeriodS\": \"soon\"}").allowed, "a number");
+  EXPECT_EQ(fault("{\"window\": {\"samples\": -3}}").field, "window.samples");
+  for (const char* text : {"", "{", "[1]", "null", "{\"covariance\": [1e999]}", "\xff"}) {
+    EXPECT_EQ(fault(text).where, "m.json") << text;
+  }
+}
+
+}  // namespace
+}  // namespace telltale

@@ -1,0 +1,295 @@
+#include "codec/wire.hpp"
+
+#include <cmath>
+#include <cstring>
+#include <functional>
+#include <limits>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "contract.hpp"
+#include "support/identifications.hpp"
+
+namespace telltale {
+namespace {
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+
+PublishedModel MadeUpModel() { return {MadeUpIdentification(), 7, 1700000700.5}; }
+
+void ExpectSame(const Coefficient& a, const Coefficient& b) {
+  EXPECT_EQ(a.equation, b.equation);
+  EXPECT_EQ(a.regressor, b.regressor);
+  EXPECT_EQ(a.symbol, b.symbol);
+  EXPECT_EQ(a.estimate, b.estimate);
+  EXPECT_EQ(a.standard_error, b.standard_error);
+  EXPECT_EQ(a.interval.level, b.interval.level);
+  EXPECT_EQ(a.interval.lower, b.interval.lower);
+  EXPECT_EQ(a.interval.upper, b.interval.upper);
+  EXPECT_EQ(a.unit, b.unit);
+  EXPECT_EQ(a.status, b.status);
+}
+
+void ExpectSame(const PublishedModel& a, const PublishedModel& b) {
+  EXPECT_EQ(a.revision, b.revision);
+  EXPECT_EQ(a.published_unix_s, b.published_unix_s);
+  const Identification& x = a.identification;
+  const Identification& y = b.identification;
+  EXPECT_EQ(x.vehicle_id, y.vehicle_id);
+  EXPECT_EQ(x.structure, y.structure);
+  EXPECT_EQ(x.parameterization, y.parameterization);
+  EXPECT_EQ(x.estimator, y.estimator);
+  EXPECT_EQ(x.sampling_period_s, y.sampling_period_s);
+  ASSERT_EQ(x.coefficients.size(), y.coefficients.size());
+  for (std::size_t i = 0; i < x.coefficients.size(); ++i) {
+    ExpectSame(x.coefficients[i], y.coefficients[i]);
+  }
+  EXPECT_EQ(x.covariance, y.covariance);
+  EXPECT_EQ(x.window.start_s, y.window.start_s);
+  EXPECT_EQ(x.window.end_s, y.window.end_s);
+  EXPECT_EQ(x.window.samples, y.window.samples);
+  EXPECT_EQ(x.window.segments, y.window.segments);
+  EXPECT_EQ(Entries(x.window.rejected), Entries(y.window.rejected));
+  EXPECT_EQ(x.refusals, y.refusals);
+  EXPECT_EQ(x.provenance.preset, y.provenance.preset);
+  EXPECT_EQ(x.provenance.bounds_basis, y.provenance.bounds_basis);
+  EXPECT_EQ(x.provenance.bootstrap_replicates, y.provenance.bootstrap_replicates);
+  EXPECT_EQ(x.provenance.bootstrap_failures, y.provenance.bootstrap_failures);
+  EXPECT_EQ(x.provenance.seed, y.provenance.seed);
+  EXPECT_EQ(x.provenance.software_version, y.provenance.software_version);
+}
+
+TEST(WireTelemetry, ArrivesAsItWasSent) {
+  const auto gnss = Decode(Encode(Telemetry<GnssFix>{"boat-1", 41, {1.5, -33.25, 151.125}}));
+  ASSERT_TRUE(gnss);
+  EXPECT_EQ(gnss->sequence_number, 41u);
+  EXPECT_EQ(gnss->sample.time_s, 1.5);
+  EXPECT_EQ(gnss->sample.latitude_deg, -33.25);
+  EXPECT_EQ(gnss->sample.longitude_deg, 151.125);
+
+  const auto heading = Decode(Encode(Telemetry<HeadingSample>{"boat-1", 42, {2.5, 359.75}}));
+  ASSERT_TRUE(heading);
+  EXPECT_EQ(heading->sample.heading_deg, 359.75);
+
+  const auto thrusters =
+      Decode(Encode(Telemetry<ThrusterSample>{"boat-1", 43, {3.5, 1900.0, 1100.0}}));
+  ASSERT_TRUE(thrusters);
+  EXPECT_EQ(thrusters->sample.port_us, 1900.0);
+  EXPECT_EQ(thrusters->sample.starboard_us, 1100.0);
+}
+
+TEST(WireTelemetry, PortIsLeftOnTheWire) {
+  const auto wire = Encode(Telemetry<ThrusterSample>{"boat-1", 1, {0.0, 1900.0, 1100.0}});
+  EXPECT_EQ(wire.left_us, 1900.0);
+  EXPECT_EQ(wire.right_us, 1100.0);
+}
+
+TEST(WireTelemetry, LeavesNumbersToTheWindow) {
+  const auto decoded = Decode(Encode(Telemetry<GnssFix>{"boat-1", 1, {kNan, 1e9, 0.0}}));
+  ASSERT_TRUE(decoded);
+  EXPECT_TRUE(std::isnan(decoded->sample.time_s));
+}
+
+TEST(WireTelemetry, RefusesAVehicleIdThatIsNotTerminated) {
+  auto wire = Encode(Telemetry<GnssFix>{"boat-1", 1, {}});
+  std::memset(wire.vehicle_id, 'x', sizeof wire.vehicle_id);
+  const auto decoded = Decode(wire);
+  ASSERT_FALSE(decoded);
+  EXPECT_EQ(decoded.error().field, "vehicle_id");
+  EXPECT_THAT(decoded.error().value, testing::HasSubstr("not terminated"));
+}
+
+TEST(WireTelemetry, RefusesCharactersThatNoVehicleIdHas) {
+  for (const char* id : {"", "two words", "semi;colon", "new\nline", "\xc3\xbc", "../up", "*"}) {
+    auto wire = Encode(Telemetry<HeadingSample>{"boat-1", 1, {}});
+    std::strcpy(wire.vehicle_id, id);
+    EXPECT_FALSE(Decode(wire)) << id;
+  }
+}
+
+TEST(WireTelemetry, TakesTheLongestVehicleId) {
+  const std::string longest(64, 'b');
+  const auto wire = Encode(Telemetry<GnssFix>{longest, 1, {}});
+  const auto decoded = Decode(wire);
+  ASSERT_TRUE(decoded);
+  EXPECT_EQ(decoded->vehicle_id, longest);
+}
+
+TEST(WireTelemetry, SendingAWrongVehicleIdIsABrokenContract) {
+  EXPECT_THROW(Encode(Telemetry<GnssFix>{"two words", 1, {}}), ContractViolation);
+  EXPECT_THROW(Encode(Telemetry<GnssFix>{std::string(65, 'b'), 1, {}}), ContractViolation);
+}
+
+TEST(WireModel, ArrivesAsItWasSent) {
+  const PublishedModel sent = MadeUpModel();
+  const auto received = Decode(*Encode(sent));
+  ASSERT_TRUE(received) << received.error().Message();
+  ExpectSame(*received, sent);
+}
+
+TEST(WireModel, CarriesTheThrusterTimeConstant) {
+  PublishedModel sent = MadeUpModel();
+  sent.identification.structure = Structure::kFirstOrderDynamic;
+  Coefficient constant = sent.identification.coefficients.front();
+  constant.equation = Equation::kUnknown;
+  constant.symbol = "T";
+  constant.unit = "s";
+  sent.identification.thruster_time_constant = constant;
+  const auto received = Decode(*Encode(sent));
+  ASSERT_TRUE(received) << received.error().Message();
+  ASSERT_TRUE(received->identification.thruster_time_constant);
+  ExpectSame(*received->identification.thruster_time_constant, constant);
+}
+
+struct Spoilt {
+  const char* field;
+  std::function<void(telltale_wire_Model&)> spoil;
+};
+
+void Replace(char*& text, const char* other) {
+  dds_string_free(text);
+  text = other == nullptr ? nullptr : dds_string_dup(other);
+}
+
+TEST(WireModel, NamesTheFieldThatIsWrong) {
+  const std::vector<Spoilt> cases = {
+      {"vehicle_id", [](auto& m) { std::memset(m.vehicle_id, 'x', sizeof m.vehicle_id); }},
+      {"structure", [](auto& m) { Replace(m.structure, "CUBIC"); }},
+      {"structure", [](auto& m) { Replace(m.structure, nullptr); }},
+      {"parameterization", [](auto& m) { Replace(m.parameterization, "UNKNOWN"); }},
+      {"estimator", [](auto& m) { Replace(m.estimator, "GUESS"); }},
+      {"sampling_period_s", [](auto& m) { m.sampling_period_s = 0.0; }},
+      {"sampling_period_s", [](auto& m) { m.sampling_period_s = kNan; }},
+      {"coefficients[3].equation",
+       [](auto& m) { Replace(m.coefficients._buffer[3].equation, "HEAVE"); }},
+      {"coefficients[3].status", [](auto& m) { Replace(m.coefficients._buffer[3].status, ""); }},
+      {"coefficients[3].estimate", [](auto& m) { m.coefficients._buffer[3].estimate = kNan; }},
+      {"coefficients[3].standard_error",
+       [](auto& m) { m.coefficients._buffer[3].standard_error = -1.0; }},
+      {"coefficients[3].bounds.level",
+       [](auto& m) { m.coefficients._buffer[3].bounds.level = 1.5; }},
+      {"coefficients[3].bounds.upper",
+       [](auto& m) { m.coefficients._buffer[3].bounds.upper = -1e6; }},
+      {"covariance", [](auto& m) { m.covariance._length -= 1; }},
+      {"covariance", [](auto& m) { m.covariance._buffer[5] = kNan; }},
+      {"window_end_s", [](auto& m) { m.window_end_s = m.window_start_s - 1.0; }},
+      {"rejected[0].reason", [](auto& m) { Replace(m.rejected._buffer[0].reason, "BORED"); }},
+      {"rejected[0].channel", [](auto& m) { Replace(m.rejected._buffer[0].channel, "sonar"); }},
+      {"published_unix_s", [](auto& m) { m.published_unix_s = kNan; }},
+  };
+  for (const Spoilt& spoilt : cases) {
+    auto wire = Encode(MadeUpModel());
+    spoilt.spoil(*wire);
+    const auto decoded = Decode(*wire);
+    ASSERT_FALSE(decoded) << spoilt.field;
+    EXPECT_EQ(decoded.error().field, spoilt.field);
+    EXPECT_FALSE(decoded.error().allowed.empty());
+  }
+}
+
+TEST(WireExchange, RequestArrivesAsItWasSent) {
+  IdentifyRequest sent;
+  sent.correlation_id = "abc-1";
+  sent.vehicle_id = "boat-1";
+  sent.parameterization = Parameterization::kPaper;
+  sent.preset = Preset::kPaper;
+  sent.bootstrap_replicates = 0;
+  sent.seed = 99;
+  const auto received = Decode(*Encode(sent));
+  ASSERT_TRUE(received) << received.error().Message();
+  EXPECT_EQ(received->correlation_id, sent.correlation_id);
+  EXPECT_EQ(received->vehicle_id, sent.vehicle_id);
+  EXPECT_EQ(received->structure, Structure::kUnknown);
+  EXPECT_EQ(received->parameterization, Parameterization::kPaper);
+  EXPECT_EQ(received->estimator, Estimator::kUnknown);
+  EXPECT_EQ(received->preset, Preset::kPaper);
+  EXPECT_EQ(received->bootstrap_replicates, 0u);
+  EXPECT_EQ(received->seed, 99u);
+}
+
+TEST(WireExchange, RequestRefusesUnknownChoicesAndIdentifiers) {
+  IdentifyRequest sent;
+  sent.correlation_id = "abc-1";
+  sent.vehicle_id = "boat-1";
+  auto wire = Encode(sent);
+  Replace(wire->estimator, "GUESS");
+  EXPECT_EQ(Decode(*wire).error().field, "estimator");
+  wire = Encode(sent);
+  Replace(wire->correlation_id, std::string(65, 'c').c_str());
+  EXPECT_EQ(Decode(*wire).error().field, "correlation_id");
+  wire = Encode(sent);
+  Replace(wire->correlation_id, nullptr);
+  EXPECT_EQ(Decode(*wire).error().field, "correlation_id");
+}
+
+TEST(WireExchange, ReplyCarriesModelOrRefusals) {
+  IdentifyReply published;
+  published.correlation_id = "abc-1";
+  published.vehicle_id = "boat-1";
+  published.outcome = IdentifyOutcome::kPublished;
+  published.model = MadeUpModel();
+  published.elapsed_s = 1.25;
+  const auto received = Decode(*Encode(published));
+  ASSERT_TRUE(received) << received.error().Message();
+  ASSERT_TRUE(received->model);
+  ExpectSame(*received->model, *published.model);
+  EXPECT_EQ(received->elapsed_s, 1.25);
+
+  IdentifyReply refused = published;
+  refused.outcome = IdentifyOutcome::kRefused;
+  refused.model.reset();
+  refused.refusals = {{"window", "is empty", "send telemetry"}};
+  const auto second = Decode(*Encode(refused));
+  ASSERT_TRUE(second) << second.error().Message();
+  EXPECT_EQ(second->outcome, IdentifyOutcome::kRefused);
+  EXPECT_EQ(second->refusals, refused.refusals);
+  EXPECT_FALSE(second->model);
+}
+
+TEST(WireExchange, ReplyMustHoldAModelWhenPublishedAndOnlyThen) {
+  IdentifyReply reply;
+  reply.correlation_id = "abc-1";
+  reply.vehicle_id = "boat-1";
+  reply.outcome = IdentifyOutcome::kPublished;
+  EXPECT_EQ(Decode(*Encode(reply)).error().field, "model");
+  reply.outcome = IdentifyOutcome::kFailed;
+  reply.model = MadeUpModel();
+  EXPECT_EQ(Decode(*Encode(reply)).error().field, "model");
+}
+
+TEST(WireExchange, ProgressStaysBetweenNoneAndAll) {
+  auto wire = Encode(IdentifyProgress{"abc-1", "boat-1", "bootstrap", 0.5});
+  EXPECT_EQ(Decode(*wire)->fraction, 0.5);
+  wire->fraction = 1.5;
+  EXPECT_EQ(Decode(*wire).error().field, "fraction");
+}
+
+TEST(WireQuality, ArrivesAsItWasSent) {
+  Quality sent;
+  sent.vehicle_id = "boat-1";
+  sent.window_fill = 0.5;
+  sent.lost = 3;
+  sent.rejected = {{"gnss", "NOT_FINITE", 4}};
+  sent.model_revision = 2;
+  sent.drift = -0.25;
+  const auto received = Decode(*Encode(sent));
+  ASSERT_TRUE(received) << received.error().Message();
+  EXPECT_EQ(received->vehicle_id, "boat-1");
+  EXPECT_EQ(received->window_fill, 0.5);
+  EXPECT_EQ(received->lost, 3u);
+  EXPECT_EQ(received->rejected, sent.rejected);
+  EXPECT_EQ(received->model_revision, 2u);
+  EXPECT_EQ(received->drift, -0.25);
+}
+
+TEST(WireQuality, SpeaksOfSamplesThatNameNoVehicle) {
+  Quality sent;
+  sent.vehicle_id = kUnattributed;
+  const auto received = Decode(*Encode(sent));
+  ASSERT_TRUE(received) << received.error().Message();
+  EXPECT_EQ(received->vehicle_id, kUnattributed);
+}
+
+}  // namespace
+}  // namespace telltale

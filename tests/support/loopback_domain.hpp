@@ -1,0 +1,39 @@
+#pragma once
+
+#include <unistd.h>
+
+#include <cstdint>
+#include <cstdlib>
+#include <filesystem>
+#include <functional>
+#include <string>
+
+#include <gtest/gtest.h>
+
+namespace telltale {
+
+/// A DDS domain of the running test's own, for this process and those it starts: loopback only, and a
+/// discovery tag that keeps tests that happen to use the same domain apart.
+class LoopbackDomain {
+ public:
+  LoopbackDomain() {
+    const auto* test = testing::UnitTest::GetInstance()->current_test_info();
+    const std::string name = std::string(test->test_suite_name()) + "." + test->name();
+    id_ = static_cast<std::uint32_t>(std::hash<std::string>()(name) % 101) + 1;
+    const std::string configuration =
+        "<CycloneDDS><Domain><General><Interfaces><NetworkInterface name=\"lo\"/></Interfaces>"
+        "<AllowMulticast>false</AllowMulticast></General><Discovery><Tag>" +
+        name + "." + std::to_string(getpid()) +
+        "</Tag><ParticipantIndex>auto</ParticipantIndex>"
+        "<MaxAutoParticipantIndex>30</MaxAutoParticipantIndex>"
+        "<Peers><Peer address=\"127.0.0.1\"/></Peers></Discovery></Domain></CycloneDDS>";
+    setenv("CYCLONEDDS_URI", configuration.c_str(), 1);
+  }
+
+  std::uint32_t id() const { return id_; }
+
+ private:
+  std::uint32_t id_;
+};
+
+}  // namespace telltale
