@@ -16,16 +16,6 @@ namespace {
 // alpha stays this far inside (0, 1): at 5 Hz that is lags from 0.02 s to half an hour.
 constexpr double kLeastAlpha = 1e-4;
 
-/// The rows [begin, end) of k for which the command at k-1 lies in `segment` and k+1 in its stretch.
-RowRange InstantsOf(const RowRange& segment, const std::vector<RowRange>& stretches) {
-  for (const RowRange& stretch : stretches) {
-    if (segment.begin < stretch.begin || segment.end > stretch.end) continue;
-    const std::size_t end = std::min(segment.end + 1, stretch.end - 1);
-    return {std::min(segment.begin + 1, end), end};
-  }
-  throw ContractViolation("BuildLagged: requires every segment inside a stretch");
-}
-
 LaggedEquation BuildLaggedEquation(const PreparedDataset& dataset, Equation equation,
                                    const RegressionOptions& options) {
   LaggedEquation lagged;
@@ -34,7 +24,7 @@ LaggedEquation BuildLaggedEquation(const PreparedDataset& dataset, Equation equa
   std::vector<std::size_t> instants;
   for (const RowRange& segment : dataset.segments) {
     const std::size_t first = instants.size();
-    const RowRange range = InstantsOf(segment, dataset.stretches);
+    const RowRange range = InstantsAfter(segment, dataset.stretches);
     for (std::size_t k = range.begin; k < range.end; ++k) {
       if (Enters(dataset.rows[k - 1].region, equation, options)) instants.push_back(k);
     }
@@ -50,6 +40,7 @@ LaggedEquation BuildLaggedEquation(const PreparedDataset& dataset, Equation equa
   lagged.thrust.resize(rows, static_cast<Eigen::Index>(propeller));
   lagged.step_now.resize(rows);
   lagged.step_before.resize(rows);
+  lagged.nu.resize(rows);
   const double h = dataset.sampling_period_s;
   for (Eigen::Index i = 0; i < rows; ++i) {
     const std::size_t k = instants[static_cast<std::size_t>(i)];
@@ -63,6 +54,7 @@ LaggedEquation BuildLaggedEquation(const PreparedDataset& dataset, Equation equa
       lagged.thrust(i, static_cast<Eigen::Index>(j)) = thrust.Of(equation)[j];
     }
     const double here = ComponentOf(row.nu, equation);
+    lagged.nu[i] = here;
     lagged.step_now[i] = (ComponentOf(dataset.rows[k + 1].nu, equation) - here) / h;
     lagged.step_before[i] = (here - ComponentOf(last.nu, equation)) / h;
   }
@@ -321,6 +313,7 @@ EquationProblem LaggedEquation::WithoutLag() const {
   problem.phi.resize(now.rows(), now.cols() + thrust.cols());
   problem.phi << now, thrust;
   problem.y = step_now;
+  problem.nu = nu;
   problem.clusters = clusters;
   return problem;
 }

@@ -25,6 +25,7 @@ struct LaggedEquation {
   Eigen::MatrixXd thrust;
   Eigen::VectorXd step_now;
   Eigen::VectorXd step_before;
+  Eigen::VectorXd nu;  ///< the equation's velocity at k
   std::vector<RowRange> clusters;  ///< one per segment of the dataset, possibly empty
 
   /// The rows for thrusters that follow at once (alpha = 0): a static problem of the same columns, which

@@ -129,18 +129,6 @@ void FillTurning(Equation equation, const Nu& now, const Nu& before, const Thrus
   std::copy_n(thrust.turning.begin(), 4, row.begin() + 17);
 }
 
-/// Positions k with k-1, k and k+1 in one stretch and the command at k-1 in a region that enters.
-std::vector<std::size_t> UsableInstants(const PreparedDataset& dataset, Equation equation,
-                                        const RegressionOptions& options) {
-  std::vector<std::size_t> instants;
-  for (const RowRange& stretch : dataset.stretches) {
-    for (std::size_t k = stretch.begin + 1; k + 1 < stretch.end; ++k) {
-      if (Enters(dataset.rows[k - 1].region, equation, options)) instants.push_back(k);
-    }
-  }
-  return instants;
-}
-
 std::array<std::complex<double>, 2> Roots(double first, double second) {
   const std::complex<double> root =
       std::sqrt(std::complex<double>((1.0 + first) * (1.0 + first) + 4.0 * second));
@@ -177,37 +165,57 @@ void FillRedundantRow(Equation equation, const Nu& now, const Nu& before,
   }
 }
 
-Result<Eigen::VectorXd> EstimateRedundant(const PreparedDataset& dataset, Equation equation,
-                                          const RegressionOptions& options) {
-  const std::size_t columns = RedundantRegressors(equation).size();
+EquationProblem BuildRedundant(const PreparedDataset& dataset, Equation equation,
+                               const RegressionOptions& options) {
   RegressionOptions paper = options;
   paper.parameterization = Parameterization::kPaper;
-  const auto instants = UsableInstants(dataset, equation, paper);
-  if (instants.size() < 10 * columns) {
-    return Refuse(std::string(Name(equation)) + " redundant",
-                  "only " + std::to_string(instants.size()) + " usable rows, " +
-                      std::to_string(10 * columns) + " are needed",
-                  "record for longer in the regions this equation uses");
+  const std::size_t columns = RedundantRegressors(equation).size();
+  const double h = dataset.sampling_period_s;
+  EquationProblem problem;
+  problem.equation = equation;
+  std::vector<std::size_t> instants;
+  for (const RowRange& segment : dataset.segments) {
+    const std::size_t first = instants.size();
+    const RowRange range = InstantsAfter(segment, dataset.stretches);
+    for (std::size_t k = range.begin; k < range.end; ++k) {
+      if (Enters(dataset.rows[k - 1].region, equation, paper)) instants.push_back(k);
+    }
+    problem.clusters.push_back({first, instants.size()});
   }
   const auto rows = static_cast<Eigen::Index>(instants.size());
-  const auto width = static_cast<Eigen::Index>(columns);
-  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> A(rows, width);
-  Eigen::VectorXd b(rows);
+  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> A(
+      rows, static_cast<Eigen::Index>(columns));
+  problem.y.resize(rows);
+  problem.nu.resize(rows);
   for (Eigen::Index i = 0; i < rows; ++i) {
     const std::size_t k = instants[static_cast<std::size_t>(i)];
     const PreparedRow& now = dataset.rows[k];
     const PreparedRow& before = dataset.rows[k - 1];
     FillRedundantRow(equation, now.nu, before.nu, options.dead_zone.Apply(before.delta),
                      {A.row(i).data(), columns});
-    b[i] = ComponentOf(dataset.rows[k + 1].nu, equation) - ComponentOf(now.nu, equation);
+    problem.nu[i] = ComponentOf(now.nu, equation);
+    problem.y[i] = (ComponentOf(dataset.rows[k + 1].nu, equation) - problem.nu[i]) / h;
   }
-  const Eigen::VectorXd norms = A.colwise().norm().transpose();
-  const double least = std::numeric_limits<double>::min();
-  const Eigen::MatrixXd scaled = A * norms.cwiseMax(least).cwiseInverse().asDiagonal();
-  const TriangularFactor factor = Triangularise(scaled, b);
+  problem.phi = A / h;
+  return problem;
+}
+
+Result<Eigen::VectorXd> EstimateRedundant(const EquationProblem& problem) {
+  const std::string subject = std::string(Name(problem.equation)) + " redundant";
+  const Eigen::Index columns = problem.phi.cols();
+  if (problem.phi.rows() < 10 * columns) {
+    return Refuse(subject,
+                  "only " + std::to_string(problem.phi.rows()) + " usable rows, " +
+                      std::to_string(10 * columns) + " are needed",
+                  "record for longer in the regions this equation uses");
+  }
+  const Eigen::VectorXd norms = problem.phi.colwise().norm().transpose().cwiseMax(
+      std::numeric_limits<double>::min());
+  const TriangularFactor factor =
+      Triangularise(problem.phi * norms.cwiseInverse().asDiagonal(), problem.y);
   const Eigen::JacobiSVD<Eigen::MatrixXd> svd(factor.R, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  if (svd.rank() < width) {
-    return Refuse(std::string(Name(equation)) + " redundant",
+  if (svd.rank() < columns) {
+    return Refuse(subject,
                   "only " + std::to_string(svd.rank()) + " of " + std::to_string(columns) +
                       " columns can be told apart",
                   "use the consistent estimate, which has one value per physical coefficient");

@@ -29,11 +29,16 @@ std::span<const RedundantRegressor> RedundantRegressors(Equation equation);
 void FillRedundantRow(Equation equation, const Nu& now, const Nu& before,
                       const PropellerCommand& delta_before, std::span<double> row);
 
-/// X of one equation by least squares, discrete-time as in the paper's table; rows as the paper takes
-/// them (surge FF; sway and yaw FF, FR, RF, by the command at k-1).
+/// PreparedDataset -> the redundant regression of one equation, y = (nu(k+1) - nu(k)) / h on A / h, so
+/// that its coefficients are X, discrete-time as in the paper's table. Rows as the paper takes them
+/// (surge FF; sway and yaw FF, FR, RF, by the command at k-1). `regressors` stays empty: the columns are
+/// RedundantRegressors().
+EquationProblem BuildRedundant(const PreparedDataset& dataset, Equation equation,
+                               const RegressionOptions& options);
+
+/// X of one equation by least squares.
 /// Refuses when: fewer rows than ten a column, or columns that cannot be told apart.
-Result<Eigen::VectorXd> EstimateRedundant(const PreparedDataset& dataset, Equation equation,
-                                          const RegressionOptions& options);
+Result<Eigen::VectorXd> EstimateRedundant(const EquationProblem& problem);
 
 /// What the redundant coefficients say of alpha.
 struct RedundantAlpha {
