@@ -9,8 +9,8 @@ namespace {
 Decoded<std::string> Read(const std::filesystem::path& file, std::string field) {
   auto text = ReadFile(file);
   if (text) return std::move(*text);
-  return tl::unexpected(
-      CodecError{std::move(field), file.string(), text.error().reason + "; " + text.error().advice});
+  return tl::unexpected(CodecError{std::move(field), file.string(),
+                                   text.error().reason + "; " + text.error().advice});
 }
 
 }  // namespace

@@ -5,9 +5,9 @@
 #include <pthread.h>
 #include <unistd.h>
 
-#include <CLI/CLI.hpp>
 #include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
+#include <CLI/CLI.hpp>
 
 #include "bus/log_sink.hpp"
 #include "configuration.hpp"
@@ -83,4 +83,6 @@ int Main(int argc, char** argv) {
 }  // namespace
 }  // namespace telltale
 
-int main(int argc, char** argv) { return telltale::Main(argc, argv); }
+int main(int argc, char** argv) {
+  return telltale::Main(argc, argv);
+}

@@ -17,8 +17,8 @@ class RateLimit {
   RateLimit(std::uint64_t limit, std::chrono::nanoseconds period)
       : limit_(limit), period_(period) {}
 
-  /// Nothing when the event is to be held back, else how many were held back since the last that was
-  /// let through.
+  /// Nothing when the event is to be held back, else how many were held back since the last that
+  /// was let through.
   std::optional<std::uint64_t> Admit(TimePoint now);
 
  private:

@@ -6,7 +6,8 @@
 
 namespace telltale {
 
-inline constexpr std::uint32_t kHighestDomain = 101;  ///< the last whose ports are not ephemeral ones
+inline constexpr std::uint32_t kHighestDomain =
+    101;  ///< the last whose ports are not ephemeral ones
 
 /// This process's presence in a DDS domain. Transport and discovery follow CYCLONEDDS_URI.
 /// Throws BusError when the domain cannot be joined.

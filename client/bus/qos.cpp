@@ -16,9 +16,13 @@ Qos MakeQos(dds_reliability_kind_t reliability, std::int32_t depth) {
 
 }  // namespace
 
-Qos TelemetryQos() { return MakeQos(DDS_RELIABILITY_BEST_EFFORT, kHistoryDepth); }
+Qos TelemetryQos() {
+  return MakeQos(DDS_RELIABILITY_BEST_EFFORT, kHistoryDepth);
+}
 
-Qos ExchangeQos() { return MakeQos(DDS_RELIABILITY_RELIABLE, kHistoryDepth); }
+Qos ExchangeQos() {
+  return MakeQos(DDS_RELIABILITY_RELIABLE, kHistoryDepth);
+}
 
 Qos ModelQos() {
   Qos qos = MakeQos(DDS_RELIABILITY_RELIABLE, 1);
@@ -31,6 +35,8 @@ Qos ModelQos() {
   return qos;
 }
 
-Qos QualityQos() { return MakeQos(DDS_RELIABILITY_BEST_EFFORT, 1); }
+Qos QualityQos() {
+  return MakeQos(DDS_RELIABILITY_BEST_EFFORT, 1);
+}
 
 }  // namespace telltale

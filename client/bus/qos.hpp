@@ -13,17 +13,17 @@ using Qos = std::unique_ptr<dds_qos_t, QosDeleter>;
 
 /// The contracts of the topics, one function each, the same for readers and writers.
 
-/// Best effort, volatile, keep last 64 per vehicle: a reader of this matches any writer, and a stalled
-/// reader can hold up no boat.
+/// Best effort, volatile, keep last 64 per vehicle: a reader of this matches any writer, and a
+/// stalled reader can hold up no boat.
 Qos TelemetryQos();
 
 /// Reliable, volatile, keep last 64 per vehicle. A write gives up after 100 ms: one stalled client
 /// must not keep the daemon from the others, and a client that missed something asks again.
 Qos ExchangeQos();
 
-/// Reliable, transient local, keep last 1, exclusive ownership. Liveliness is asserted by hand within
-/// kModelLease, so that a daemon that hangs loses its vehicles to a standby as one that died does.
-/// A writer's end does not dispose of its models.
+/// Reliable, transient local, keep last 1, exclusive ownership. Liveliness is asserted by hand
+/// within kModelLease, so that a daemon that hangs loses its vehicles to a standby as one that died
+/// does. A writer's end does not dispose of its models.
 Qos ModelQos();
 
 /// Best effort, volatile, keep last 1 per vehicle.

@@ -20,9 +20,9 @@ class Reader : public Endpoint {
     Checked(dds_set_status_mask(handle(), DDS_DATA_AVAILABLE_STATUS), "setting a status mask");
   }
 
-  /// Hands all samples that have arrived to `receive(const Wire&)` and forgets them; returns how many
-  /// there were. Notices without data (a writer gone, an instance disposed) are passed over. A sample
-  /// is only lent: what `receive` wants to keep it copies.
+  /// Hands all samples that have arrived to `receive(const Wire&)` and forgets them; returns how
+  /// many there were. Notices without data (a writer gone, an instance disposed) are passed over. A
+  /// sample is only lent: what `receive` wants to keep it copies.
   template <class Receive>
   std::size_t Take(Receive receive) {
     std::size_t received = 0;

@@ -8,9 +8,11 @@
 namespace telltale {
 
 WaitSet::WaitSet(const Participant& participant)
-    : guard_(Checked(dds_create_guardcondition(participant.handle()), "creating a guard condition")),
+    : guard_(
+          Checked(dds_create_guardcondition(participant.handle()), "creating a guard condition")),
       wait_set_(Checked(dds_create_waitset(participant.handle()), "creating a wait set")) {
-  Checked(dds_waitset_attach(wait_set_.handle(), guard_.handle(), 0), "attaching a guard condition");
+  Checked(dds_waitset_attach(wait_set_.handle(), guard_.handle(), 0),
+          "attaching a guard condition");
 }
 
 void WaitSet::Attach(const Endpoint& endpoint, std::function<void()> when_news) {
@@ -23,9 +25,8 @@ void WaitSet::Attach(const Endpoint& endpoint, std::function<void()> when_news) 
 
 void WaitSet::Detach(const Endpoint& endpoint) {
   Checked(dds_waitset_detach(wait_set_.handle(), endpoint.handle()), "detaching from a wait set");
-  std::erase_if(attachments_, [&](const auto& attachment) {
-    return attachment->endpoint == endpoint.handle();
-  });
+  std::erase_if(attachments_,
+                [&](const auto& attachment) { return attachment->endpoint == endpoint.handle(); });
 }
 
 bool WaitSet::Wait(std::chrono::nanoseconds timeout) {

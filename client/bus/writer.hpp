@@ -34,8 +34,10 @@ class Writer : public Endpoint {
   }
 };
 
-/// Gathers the small samples of every writer in this process into large packets, each sent when full
-/// or on Flush. Takes effect for writers made afterwards.
-inline void BatchWrites() { dds_write_set_batch(true); }
+/// Gathers the small samples of every writer in this process into large packets, each sent when
+/// full or on Flush. Takes effect for writers made afterwards.
+inline void BatchWrites() {
+  dds_write_set_batch(true);
+}
 
 }  // namespace telltale

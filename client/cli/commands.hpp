@@ -9,5 +9,8 @@ namespace telltale {
 void AddIdentify(CLI::App& telltale);
 void AddValidate(CLI::App& telltale);
 void AddSimulate(CLI::App& telltale);
+void AddReplay(CLI::App& telltale);
+void AddWatch(CLI::App& telltale);
+void AddMonitor(CLI::App& telltale);
 
 }  // namespace telltale

@@ -4,7 +4,9 @@
 
 #include "cli/commands.hpp"
 #include "cli/identify_arguments.hpp"
+#include "cli/identify_live.hpp"
 #include "cli/inputs.hpp"
+#include "cli/live_options.hpp"
 #include "cli/model_table.hpp"
 #include "cli/outcome.hpp"
 #include "cli/progress_line.hpp"
@@ -33,26 +35,37 @@ void IdentifyLogs(const IdentifyArguments& arguments) {
 
 void AddIdentify(CLI::App& telltale) {
   const auto arguments = std::make_shared<IdentifyArguments>();
-  CLI::App& command =
-      *telltale.add_subcommand("identify", "Identifies a vehicle's model, with bounds, from logs");
-  command
-      .add_option(
-          "--log", arguments->logs,
-          "telemetry logs: folders with gnss.csv, heading.csv and thrusters.csv. Several are "
-          "put one after the other; one that does not follow the last within a day is "
-          "shifted to start 120 s after it")
-      ->type_name("DIR...")
-      ->required()
-      ->check(CLI::ExistingPath.description(""));
-  command.add_option("--vehicle", arguments->vehicle_file, "vehicle file (text format)")
-      ->type_name("FILE")
-      ->required()
-      ->check(CLI::ExistingFile.description(""));
+  const auto vehicle_id = std::make_shared<std::string>();
+  const auto live = std::make_shared<LiveOptions>();
+  CLI::App& command = *telltale.add_subcommand(
+      "identify",
+      "Identifies a vehicle's model, with bounds, from logs or from the daemon's window");
+  auto* const whom = command.add_option_group("from", "logs, or a vehicle the daemon follows");
+  whom->require_option(1);
+  auto* const logs =
+      whom->add_option(
+              "--log", arguments->logs,
+              "telemetry logs: folders with gnss.csv, heading.csv and thrusters.csv. Several are "
+              "put one after the other; one that does not follow the last within a day is "
+              "shifted to start 120 s after it")
+          ->type_name("DIR")
+          ->check(CLI::ExistingPath.description(""));
+  auto* const vehicle =
+      command.add_option("--vehicle", arguments->vehicle_file, "vehicle file (text format)")
+          ->type_name("FILE")
+          ->check(CLI::ExistingFile.description(""));
+  vehicle->needs(logs);
+  logs->needs(vehicle);
+  AddVehicleId(*whom, *vehicle_id);
   arguments->AddOptionsTo(command);
+  live->AddTo(command, 120.0, "with --vehicle-id: how long to wait for the answer");
   command.footer(
       "Coefficients are continuous-time, SI.\n"
-      "Example: telltale identify --log run1 --log run2 --vehicle boat.textproto --out model.json");
-  command.callback([arguments] { IdentifyLogs(*arguments); });
+      "Example: telltale identify --log run1 --log run2 --vehicle boat.textproto --out model.json\n"
+      "         telltale identify --vehicle-id boat-1");
+  command.callback([arguments, vehicle_id, live] {
+    vehicle_id->empty() ? IdentifyLogs(*arguments) : IdentifyLive(*vehicle_id, *arguments, *live);
+  });
 }
 
 }  // namespace telltale

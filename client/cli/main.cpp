@@ -1,8 +1,10 @@
 #include <iostream>
+#include <memory>
 
 #include <CLI/CLI.hpp>
 
 #include "cli/commands.hpp"
+#include "cli/help.hpp"
 #include "cli/outcome.hpp"
 
 namespace telltale {
@@ -33,10 +35,14 @@ int main(int argc, char** argv) {
   CLI::App app(
       "Identifies how autonomous surface vehicles answer to their thrusters, with bounds.");
   app.name("telltale");
+  app.formatter(std::make_shared<telltale::HelpFormatter>());
   app.require_subcommand(1);
   app.footer("Exit codes: 0 success, 1 failure, 2 usage error, 3 the data cannot answer.");
   telltale::AddIdentify(app);
   telltale::AddValidate(app);
   telltale::AddSimulate(app);
+  telltale::AddReplay(app);
+  telltale::AddWatch(app);
+  telltale::AddMonitor(app);
   return static_cast<int>(telltale::Run(app, argc, argv));
 }

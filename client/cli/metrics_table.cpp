@@ -1,5 +1,9 @@
 #include "cli/metrics_table.hpp"
 
+#include <algorithm>
+#include <string>
+#include <vector>
+
 #include "cli/table.hpp"
 #include "vessel/structure.hpp"
 
@@ -29,11 +33,32 @@ std::string OneStepTable(const Metrics& metrics) {
   return table.Render();
 }
 
+// Beyond this a velocity is no longer a boat's: the model ran away, and how far says nothing.
+bool Diverges(const FreeRunScore& score) {
+  constexpr double kFastest = 100.0;  // m/s or rad/s
+  return !(score.rmse < kFastest);
+}
+
+bool Diverges(const FreeRunScores& scores) {
+  return std::any_of(scores.velocity.begin(), scores.velocity.end(),
+                     [](const FreeRunScore& score) { return Diverges(score); });
+}
+
+std::vector<std::string> Row(Equation equation, const FreeRunScore& score) {
+  const std::string persistence = Significant(score.persistence_rmse, 3);
+  const std::string floor = Significant(score.noise_floor, 3);
+  if (Diverges(score)) return {VelocityText(equation), "diverges", persistence, floor, "–", "–"};
+  return {VelocityText(equation),    Significant(score.rmse, 3), persistence, floor,
+          Significant(score.mae, 3), Fixed(score.r2, 3)};
+}
+
 std::string HorizonText(const FreeRunScores& scores) {
-  const std::string horizon = Significant(scores.horizon_s, 3) + " s: ";
+  const std::string horizon = Plain(scores.horizon_s) + " s: ";
   if (scores.windows == 0) return horizon + "no stretch without gaps is this long";
-  return horizon + std::to_string(scores.windows) + " windows, position off by " +
-         Significant(scores.position_rmse_m, 3) + " m RMS at the end";
+  const std::string windows = horizon + Counted(scores.windows, "window", "windows");
+  if (Diverges(scores)) return windows + ", in some of which the model runs away";
+  return windows + ", position off by " + Significant(scores.position_rmse_m, 3) +
+         " m RMS at the end";
 }
 
 std::string FreeRunTable(const Metrics& metrics) {
@@ -47,10 +72,7 @@ std::string FreeRunTable(const Metrics& metrics) {
     table.AddHeading(HorizonText(scores));
     if (scores.windows == 0) continue;
     for (const Equation equation : kEquations) {
-      const FreeRunScore& score = scores.velocity[IndexOf(equation)];
-      table.AddRow({VelocityText(equation), Significant(score.rmse, 3),
-                    Significant(score.persistence_rmse, 3), Significant(score.noise_floor, 3),
-                    Significant(score.mae, 3), Fixed(score.r2, 3)});
+      table.AddRow(Row(equation, scores.velocity[IndexOf(equation)]));
     }
   }
   return table.Render();

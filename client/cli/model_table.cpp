@@ -19,7 +19,7 @@ std::string InWords(std::string_view name) {
 
 std::string BoundsTitle(const Identification& identification) {
   if (identification.coefficients.empty()) return "bounds";
-  return Significant(100.0 * identification.coefficients.front().interval.level, 3) + " % bounds";
+  return Plain(100.0 * identification.coefficients.front().interval.level) + " % bounds";
 }
 
 std::string BoundsText(const Interval& interval, double scale) {
@@ -40,7 +40,7 @@ std::string Heading(Equation equation) {
 std::string Title(const Identification& model) {
   return model.vehicle_id + ": " + InWords(Name(model.structure)) + ", " +
          InWords(Name(model.parameterization)) + " parameterization, " +
-         InWords(Name(model.estimator)) + ", h = " + Significant(model.sampling_period_s) + " s\n";
+         InWords(Name(model.estimator)) + ", h = " + Plain(model.sampling_period_s) + " s\n";
 }
 
 /// Rows of all equations there are, grouped; `cells` makes a row of a coefficient.
@@ -95,8 +95,8 @@ std::string Refusals(const Identification& model) {
 
 std::string WindowText(const WindowSummary& window) {
   return Wrapped("Window: " + Fixed(window.start_s, 1) + " s to " + Fixed(window.end_s, 1) +
-                 " s, " + std::to_string(window.samples) + " rows in " +
-                 std::to_string(window.segments) + " segments; set aside " +
+                 " s, " + Counted(window.samples, "row", "rows") + " in " +
+                 Counted(window.segments, "segment", "segments") + "; set aside " +
                  RejectedText(window.rejected) + ".");
 }
 
@@ -133,7 +133,7 @@ std::string ModelTable(const Identification& identification) {
 
 std::string DiscreteTable(const Identification& identification) {
   const double h = identification.sampling_period_s;
-  return "Coefficients times h = " + Significant(h) + " s\n" +
+  return "Coefficients times h = " + Plain(h) + " s\n" +
          Grouped(identification,
                  {{"regressor", Align::kLeft},
                   {"symbol", Align::kLeft},

@@ -97,13 +97,20 @@ std::string Fixed(double value, int decimals) {
   return std::isfinite(value) ? Formatted("%.*f", decimals, value) : Significant(value);
 }
 
-std::string Wrapped(std::string_view text, std::string_view indent) {
+std::string Plain(double value) {
+  return std::isfinite(value) ? Formatted("%.*g", 6, value) : Significant(value);
+}
+
+std::string Counted(std::size_t count, const std::string& one, const std::string& many) {
+  return std::to_string(count) + ' ' + (count == 1 ? one : many);
+}
+
+std::string Wrapped(std::string_view text, std::string_view indent, std::size_t columns) {
   std::istringstream words{std::string(text)};
   std::string wrapped;
   std::string line;
   for (std::string word; words >> word;) {
-    const bool fits =
-        DisplayWidth(indent) + DisplayWidth(line) + 1 + DisplayWidth(word) <= kTerminalColumns;
+    const bool fits = DisplayWidth(indent) + DisplayWidth(line) + 1 + DisplayWidth(word) <= columns;
     if (!line.empty() && !fits) {
       wrapped.append(indent).append(line).append("\n");
       line.clear();

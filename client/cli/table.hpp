@@ -52,7 +52,14 @@ std::string Significant(double value, int digits = 4);
 /// The number with `decimals` decimals, as for times and shares.
 std::string Fixed(double value, int decimals);
 
-/// Words broken into lines of at most kTerminalColumns, each begun with `indent`.
-std::string Wrapped(std::string_view text, std::string_view indent = "");
+/// Up to six significant digits and no more zeros than needed, as for numbers a person chose.
+std::string Plain(double value);
+
+/// "1 stretch", "3 stretches".
+std::string Counted(std::size_t count, const std::string& one, const std::string& many);
+
+/// Words broken into lines of at most `columns`, each begun with `indent` and ended by a line feed.
+std::string Wrapped(std::string_view text, std::string_view indent = "",
+                    std::size_t columns = kTerminalColumns);
 
 }  // namespace telltale

@@ -61,8 +61,8 @@ std::string OverlapText(const Identification& model, const PreparedDataset& data
 }
 
 std::string ScoredText(const PreparedDataset& dataset) {
-  return Wrapped("Scored on " + std::to_string(dataset.rows.size()) + " rows in " +
-                 std::to_string(dataset.stretches.size()) + " stretches without gaps.");
+  return Wrapped("Scored on " + Counted(dataset.rows.size(), "row", "rows") + " in " +
+                 Counted(dataset.stretches.size(), "stretch", "stretches") + " without gaps.");
 }
 
 void ValidateModel(const ValidateArguments& arguments) {
@@ -94,7 +94,7 @@ void AddValidate(CLI::App& telltale) {
       .add_option("--log", arguments->logs,
                   "telemetry logs, best such that did not make the model; folders with gnss.csv, "
                   "heading.csv and thrusters.csv")
-      ->type_name("DIR...")
+      ->type_name("DIR")
       ->required()
       ->check(CLI::ExistingPath.description(""));
   command.add_option("--vehicle", arguments->vehicle_file, "vehicle file (text format)")
@@ -109,7 +109,7 @@ void AddValidate(CLI::App& telltale) {
       .add_option("--horizon", arguments->options.horizons_s,
                   "lengths of free runs, seconds, at least two sampling periods, at most 600 "
                   "(default 1 5 10)")
-      ->type_name("S...")
+      ->type_name("S")
       ->check(CLI::Range(0.0, 600.0).description(""));
   command
       .add_option("--preset", arguments->preset,

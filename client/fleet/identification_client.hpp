@@ -14,8 +14,8 @@
 
 namespace telltale {
 
-/// How asking the daemon ended. kNoDaemon: nobody on this domain takes requests. kTimedOut: there is
-/// a daemon, but no reply came. The rest is the daemon's own answer.
+/// How asking the daemon ended. kNoDaemon: nobody on this domain takes requests. kTimedOut: there
+/// is a daemon, but no reply came. The rest is the daemon's own answer.
 enum class ExchangeOutcome { kUnknown, kNoDaemon, kTimedOut, kRefused, kFailed, kPublished };
 
 struct IdentifyAnswer {
@@ -26,14 +26,15 @@ struct IdentifyAnswer {
 struct ExchangeTiming {
   std::chrono::nanoseconds match = std::chrono::seconds(5);    ///< to find a daemon
   std::chrono::nanoseconds reply = std::chrono::seconds(120);  ///< from the request to its reply
-  std::chrono::nanoseconds retry = std::chrono::seconds(1);    ///< silence after which it asks again
+  std::chrono::nanoseconds retry = std::chrono::seconds(1);  ///< silence after which it asks again
 };
 
 /// A correlation id nobody else will choose.
 std::string NewCorrelationId();
 
-/// Asks the daemon for identifications. A request is sent once this client's ends are connected, and
-/// again under the same correlation id while the daemon is silent; the daemon answers an id once.
+/// Asks the daemon for identifications. A request is sent once this client's ends are connected,
+/// and again under the same correlation id while the daemon is silent; the daemon answers an id
+/// once.
 class IdentificationClient {
  public:
   explicit IdentificationClient(const Participant& participant);

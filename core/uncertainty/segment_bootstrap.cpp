@@ -1,15 +1,12 @@
 #include "uncertainty/segment_bootstrap.hpp"
 
-#include <algorithm>
 #include <vector>
 
 #include <Eigen/Cholesky>
 #include <boost/random/uniform_int_distribution.hpp>
-#include <oneapi/tbb/info.h>
-#include <oneapi/tbb/parallel_for.h>
-#include <oneapi/tbb/task_arena.h>
 
 #include "contract.hpp"
+#include "parallel.hpp"
 #include "random.hpp"
 
 namespace telltale {
@@ -97,11 +94,7 @@ BootstrapReplicates BootstrapSegments(const std::vector<ClusteredFit>& fits,
     }
     solved[i] = all ? 1 : 0;
   };
-  oneapi::tbb::task_arena arena(
-      std::min(static_cast<int>(options.threads), oneapi::tbb::info::default_concurrency()));
-  arena.execute([&] {
-    oneapi::tbb::parallel_for(std::size_t{0}, options.replicates, replicate);
-  });
+  ForEachIndex(options.replicates, options.threads, replicate);
 
   BootstrapReplicates replicates;
   Eigen::Index kept = 0;

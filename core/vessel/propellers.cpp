@@ -30,8 +30,8 @@ PropellerCommand DeadZone::Apply(const PropellerCommand& delta) const {
 }
 
 PropellerRegion RegionOf(const PropellerCommand& command) {
-  const bool port_forward = command.port >= 0.0;
-  const bool starboard_forward = command.starboard >= 0.0;
+  const bool port_forward = command.port >= -kIdleCommand;
+  const bool starboard_forward = command.starboard >= -kIdleCommand;
   if (port_forward) return starboard_forward ? PropellerRegion::kFF : PropellerRegion::kFR;
   return starboard_forward ? PropellerRegion::kRF : PropellerRegion::kRR;
 }

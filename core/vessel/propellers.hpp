@@ -41,7 +41,11 @@ struct DeadZone {
   PropellerCommand Apply(const PropellerCommand& delta) const;
 };
 
-/// Which way the propellers turn, port first: F forward (delta >= 0), R reverse (delta < 0).
+/// A command this close to neutral turns no propeller: a neutral stated a few microseconds off must not
+/// make a resting boat look as if one side ran in reverse.
+inline constexpr double kIdleCommand = 0.01;
+
+/// Which way the propellers turn, port first: R reverse (delta < -kIdleCommand), F forward or idle.
 enum class PropellerRegion { kFF, kFR, kRF, kRR };
 
 inline constexpr std::array kPropellerRegions = {PropellerRegion::kFF, PropellerRegion::kFR,

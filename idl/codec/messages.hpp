@@ -25,7 +25,7 @@ struct Telemetry {
 /// An identification that has been given its place in the vehicle's history.
 struct PublishedModel {
   Identification identification;
-  std::uint64_t revision = 0;     ///< from 1, counts up by one per vehicle
+  std::uint64_t revision = 0;  ///< from 1, counts up by one per vehicle
   double published_unix_s = 0.0;
 };
 
@@ -49,8 +49,8 @@ struct IdentifyProgress {
   double fraction = 0.0;  ///< [0, 1]
 };
 
-/// kPublished: a model, also on telltale/model. kRefused: the window cannot answer. kFailed: anything
-/// else, in words.
+/// kPublished: a model, also on telltale/model. kRefused: the window cannot answer. kFailed:
+/// anything else, in words.
 enum class IdentifyOutcome { kUnknown, kPublished, kRefused, kFailed };
 
 std::string_view Name(IdentifyOutcome outcome);

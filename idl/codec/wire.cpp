@@ -8,12 +8,12 @@
 #include <initializer_list>
 #include <limits>
 
+#include "codec/vehicle_file.hpp"
 #include "contract.hpp"
 
 namespace telltale {
 namespace {
 
-constexpr std::string_view kIdentifierRule = "allowed are 1..64 letters, digits, '.', '_' or '-'";
 constexpr std::size_t kIdentifierBound = 64;
 
 // ---- core -> wire -------------------------------------------------------------------------------
@@ -32,7 +32,7 @@ void Put(char*& target, std::string_view text) {
 }
 
 void PutIdentifier(auto& target, std::string_view text) {
-  Require(IsIdentifier(text), "1..64 letters, digits, '.', '_' or '-' in an identifier");
+  Require(IsVehicleId(text), "a vehicle or correlation id of letters, digits, '.', '_' and '-'");
   Put(target, text);
 }
 
@@ -154,12 +154,12 @@ CodecError IdentifierError(std::string field, std::string_view value) {
     shown += c >= ' ' && c <= '~' ? c : '?';
   }
   if (value.size() > kIdentifierBound) shown += "... (too long or not terminated)";
-  return {std::move(field), std::move(shown), std::string(kIdentifierRule)};
+  return {std::move(field), std::move(shown), std::string(kVehicleIdAllowed)};
 }
 
 std::string ReadIdentifier(std::string field, const auto& text) {
   const std::string_view view = View(text);
-  if (!IsIdentifier(view)) throw Malformed{IdentifierError(std::move(field), view)};
+  if (!IsVehicleId(view)) throw Malformed{IdentifierError(std::move(field), view)};
   return std::string(view);
 }
 
@@ -171,7 +171,7 @@ std::string Text(double value) {
 
 double ReadWithin(std::string field, double value, double lowest, double highest) {
   if (value >= lowest && value <= highest) return value;
-  Reject(std::move(field), Text(value), "allowed are " + Text(lowest) + " to " + Text(highest));
+  Reject(std::move(field), Text(value), "[" + Text(lowest) + ", " + Text(highest) + "]");
 }
 
 constexpr double kLargest = std::numeric_limits<double>::max();
@@ -183,8 +183,10 @@ Enum ReadName(std::string field, std::string_view name, std::initializer_list<En
   for (const Enum candidate : allowed) {
     if (Name(candidate) == name) return candidate;
   }
-  std::string names = "allowed are";
-  for (const Enum candidate : allowed) names.append(" ").append(Name(candidate));
+  std::string names;
+  for (const Enum candidate : allowed) {
+    names.append(names.empty() ? "one of " : ", ").append(Name(candidate));
+  }
   Reject(std::move(field), std::string(name), std::move(names));
 }
 
@@ -201,11 +203,10 @@ constexpr std::initializer_list<Structure> kStructures = {Structure::kStaticQuad
                                                           Structure::kFirstOrderDynamic};
 constexpr std::initializer_list<Parameterization> kParameterizations = {
     Parameterization::kPropeller, Parameterization::kPaper};
-constexpr std::initializer_list<Estimator> kEstimators = {
-    Estimator::kOneStep, Estimator::kWeakIv, Estimator::kOutputError};
-constexpr std::initializer_list<CoefficientStatus> kStatuses = {CoefficientStatus::kEstimated,
-                                                                CoefficientStatus::kNotExcited,
-                                                                CoefficientStatus::kCollinear};
+constexpr std::initializer_list<Estimator> kEstimators = {Estimator::kOneStep, Estimator::kWeakIv,
+                                                          Estimator::kOutputError};
+constexpr std::initializer_list<CoefficientStatus> kStatuses = {
+    CoefficientStatus::kEstimated, CoefficientStatus::kNotExcited, CoefficientStatus::kCollinear};
 constexpr std::initializer_list<Preset> kPresets = {Preset::kRobust, Preset::kPaper};
 constexpr std::initializer_list<IdentifyOutcome> kOutcomes = {
     IdentifyOutcome::kPublished, IdentifyOutcome::kRefused, IdentifyOutcome::kFailed};
@@ -247,10 +248,9 @@ RejectCounts ReadRejectCounts(const dds_sequence_telltale_wire_RejectCount& sequ
 
 Coefficient ReadCoefficient(const std::string& field, const telltale_wire_Coefficient& wire) {
   Coefficient coefficient;
-  coefficient.equation =
-      ReadOptionalName(field + ".equation",
-                       View(wire.equation) == Name(Equation::kUnknown) ? "" : View(wire.equation),
-                       kAllEquations);
+  coefficient.equation = ReadOptionalName(
+      field + ".equation",
+      View(wire.equation) == Name(Equation::kUnknown) ? "" : View(wire.equation), kAllEquations);
   coefficient.regressor = View(wire.regressor);
   coefficient.symbol = View(wire.symbol);
   coefficient.estimate = ReadWithin(field + ".estimate", wire.estimate, -kLargest, kLargest);
@@ -268,9 +268,9 @@ Coefficient ReadCoefficient(const std::string& field, const telltale_wire_Coeffi
 
 Eigen::MatrixXd ReadCovariance(const dds_sequence_double& wire, std::size_t coefficients) {
   if (wire._length != coefficients * coefficients) {
-    Reject("covariance", std::to_string(wire._length) + " numbers",
-           "allowed are " + std::to_string(coefficients * coefficients) +
-               ", the square of the number of coefficients");
+    Reject(
+        "covariance", std::to_string(wire._length) + " numbers",
+        std::to_string(coefficients * coefficients) + ", the square of the number of coefficients");
   }
   const auto n = static_cast<Eigen::Index>(coefficients);
   Eigen::MatrixXd covariance(n, n);
@@ -299,7 +299,7 @@ PublishedModel ReadModel(const telltale_wire_Model& wire) {
   identification.covariance = ReadCovariance(wire.covariance, identification.coefficients.size());
   if (wire.thruster_time_constant._length > 1) {
     Reject("thruster_time_constant", std::to_string(wire.thruster_time_constant._length) + " items",
-           "allowed are none or one");
+           "none or one");
   }
   for (Coefficient& constant :
        ReadSequence("thruster_time_constant", wire.thruster_time_constant, ReadCoefficient)) {
@@ -327,21 +327,13 @@ PublishedModel ReadModel(const telltale_wire_Model& wire) {
 template <class Sample, class Wire>
 Decoded<Telemetry<Sample>> DecodeTelemetry(const Wire& wire, const Sample& sample) {
   const std::string_view vehicle_id = View(wire.vehicle_id);
-  if (!IsIdentifier(vehicle_id)) {
+  if (!IsVehicleId(vehicle_id)) {
     return tl::unexpected(IdentifierError("vehicle_id", vehicle_id));
   }
   return Telemetry<Sample>{vehicle_id, wire.sequence_number, sample};
 }
 
 }  // namespace
-
-bool IsIdentifier(std::string_view text) {
-  const auto allowed = [](char c) {
-    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '.' ||
-           c == '_' || c == '-';
-  };
-  return !text.empty() && text.size() <= kIdentifierBound && std::ranges::all_of(text, allowed);
-}
 
 telltale_wire_GnssFix Encode(const Telemetry<GnssFix>& fix) {
   telltale_wire_GnssFix wire{};
@@ -497,7 +489,7 @@ Decoded<IdentifyReply> Decode(const telltale_wire_IdentifyReply& wire) {
     const bool published = reply.outcome == IdentifyOutcome::kPublished;
     if (wire.model._length != (published ? 1u : 0u)) {
       Reject("model", std::to_string(wire.model._length) + " items",
-             published ? "allowed is one when published" : "allowed is none unless published");
+             published ? "one when published" : "none unless published");
     }
     if (published) reply.model = ReadModel(wire.model._buffer[0]);
     reply.elapsed_s = ReadWithin("elapsed_s", wire.elapsed_s, 0.0, kLargest);
@@ -523,8 +515,7 @@ Decoded<Quality> Decode(const telltale_wire_Quality& wire) {
     quality.rejected = ReadSequence("rejected", wire.rejected, ReadRejectEntry);
     if (wire.has_model) quality.model_revision = wire.model_revision;
     quality.model_age_s = ReadWithin("model_age_s", wire.model_age_s, -kLargest, kLargest);
-    quality.prediction_error =
-        ReadWithin("prediction_error", wire.prediction_error, 0.0, kLargest);
+    quality.prediction_error = ReadWithin("prediction_error", wire.prediction_error, 0.0, kLargest);
     quality.drift = ReadWithin("drift", wire.drift, -kLargest, kLargest);
     return quality;
   });

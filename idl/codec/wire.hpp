@@ -11,13 +11,10 @@ namespace telltale {
 /// The sole gate between what moves on the bus and what the rest of the program works with.
 ///
 /// Decode trusts nothing that came off the wire: strings must end within their bound, identifiers
-/// hold only letters, digits, '.', '_' and '-', enumerations are among their names, sizes agree and
-/// numbers of a model are no NaN. Numbers of telemetry are left to the window, which counts what it
-/// sets aside by reason. Encode requires what Decode demands of identifiers (a broken contract
-/// otherwise, since every caller has checked them).
-
-/// 1..64 letters, digits, '.', '_' or '-'.
-bool IsIdentifier(std::string_view text);
+/// (of vehicles and correlations) must satisfy IsVehicleId, enumerations are among their names,
+/// sizes agree and numbers of a model are no NaN. Numbers of telemetry are left to the window,
+/// which counts what it sets aside by reason. Encode requires what Decode demands of identifiers (a
+/// broken contract otherwise, since every caller has checked them).
 
 telltale_wire_GnssFix Encode(const Telemetry<GnssFix>& fix);
 telltale_wire_Heading Encode(const Telemetry<HeadingSample>& heading);

@@ -46,8 +46,8 @@ inline const dds_topic_descriptor_t& Descriptor<telltale_wire_Quality>() {
   return telltale_wire_Quality_desc;
 }
 
-/// Owns one generated C struct and everything it points to: strings and sequences are allocated with
-/// dds_alloc and dds_string_dup, and go when it goes.
+/// Owns one generated C struct and everything it points to: strings and sequences are allocated
+/// with dds_alloc and dds_string_dup, and go when it goes.
 template <class Wire>
 class WireSample {
  public:

@@ -9,7 +9,9 @@ namespace telltale {
 Answers::Answers(const Participant& participant)
     : progress_writer_(participant), reply_writer_(participant) {}
 
-void Answers::Send(const IdentifyProgress& progress) { progress_writer_.Write(Encode(progress)); }
+void Answers::Send(const IdentifyProgress& progress) {
+  progress_writer_.Write(Encode(progress));
+}
 
 void Answers::Send(const IdentifyReply& reply) {
   if (!reply_writer_.Write(Encode(reply))) {

@@ -154,9 +154,9 @@ IdentifyReply IdentificationJobs::IdentifyAndPublish(const IdentifyRequest& requ
   }
   VehicleWindow& window = *fleet_.Find(request.vehicle_id);
   const Recording recording = window.Snapshot();
-  const auto identification = Identify(
-      recording, window.vehicle(), options,
-      [&](std::string_view stage, double fraction) { Report(request, stage, fraction); });
+  const auto identification =
+      Identify(recording, window.vehicle(), options,
+               [&](std::string_view stage, double fraction) { Report(request, stage, fraction); });
   if (!identification) {
     IdentifyReply reply = ReplyTo(request, IdentifyOutcome::kRefused);
     reply.refusals.push_back(identification.error());
@@ -164,8 +164,8 @@ IdentifyReply IdentificationJobs::IdentifyAndPublish(const IdentifyRequest& requ
   }
   Report(request, "publish", 1.0);
   IdentifyReply reply = ReplyTo(request, IdentifyOutcome::kPublished);
-  reply.model = models_.Publish(
-      *identification, MeasureFreeRunError(recording, window.vehicle(), *identification));
+  reply.model = models_.Publish(*identification,
+                                MeasureFreeRunError(recording, window.vehicle(), *identification));
   return reply;
 }
 

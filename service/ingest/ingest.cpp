@@ -14,7 +14,8 @@ using Clock = std::chrono::steady_clock;
 
 constexpr auto kBeat = std::chrono::seconds(1);
 
-// Boats send several samples a second, and a client that waits for an answer asks again every second.
+// Boats send several samples a second, and a client that waits for an answer asks again every
+// second.
 constexpr auto kLongestSilence = std::chrono::seconds(30);
 
 }  // namespace
@@ -24,13 +25,17 @@ Ingest::Ingest(const Participant& participant, Fleet& fleet, Handlers handlers)
       handlers_(std::move(handlers)),
       complaints_(5, std::chrono::seconds(10)),
       news_(participant),
-      gnss_(participant, news_, [this](const auto& wire) { Route(Channel::kGnss, wire); },
-            kLongestSilence),
-      heading_(participant, news_, [this](const auto& wire) { Route(Channel::kHeading, wire); },
-               kLongestSilence),
-      thrusters_(participant, news_, [this](const auto& wire) { Route(Channel::kThrusters, wire); },
-                 kLongestSilence),
-      requests_(participant, news_, [this](const auto& wire) { Submit(wire); }, kLongestSilence),
+      gnss_(
+          participant, news_, [this](const auto& wire) { Route(Channel::kGnss, wire); },
+          kLongestSilence),
+      heading_(
+          participant, news_, [this](const auto& wire) { Route(Channel::kHeading, wire); },
+          kLongestSilence),
+      thrusters_(
+          participant, news_, [this](const auto& wire) { Route(Channel::kThrusters, wire); },
+          kLongestSilence),
+      requests_(
+          participant, news_, [this](const auto& wire) { Submit(wire); }, kLongestSilence),
       thread_([this] { Run(); }) {}
 
 Ingest::~Ingest() {

@@ -15,13 +15,13 @@
 
 namespace telltale {
 
-/// The one thread that takes from the bus: telemetry into the vehicles' windows, requests to whoever
-/// answers them. It never estimates, and never waits for those who do.
+/// The one thread that takes from the bus: telemetry into the vehicles' windows, requests to
+/// whoever answers them. It never estimates, and never waits for those who do.
 class Ingest {
  public:
   struct Handlers {
-    std::function<void(IdentifyRequest)> identify;  ///< must return at once
-    std::function<void()> beat;                     ///< every second while the loop is at work
+    std::function<void(IdentifyRequest)> identify;      ///< must return at once
+    std::function<void()> beat;                         ///< every second while the loop is at work
     std::function<void(const std::exception&)> failed;  ///< the loop has ended; nothing comes in
   };
 

@@ -18,7 +18,8 @@ class SequenceGaps {
   std::uint64_t lost() const { return lost_; }
 
  private:
-  static constexpr std::uint64_t kLargestGap = 1'000'000;  // hours of silence; anything more is no count
+  static constexpr std::uint64_t kLargestGap =
+      1'000'000;  // hours of silence; anything more is no count
 
   std::uint64_t last_ = 0;
   std::uint64_t lost_ = 0;

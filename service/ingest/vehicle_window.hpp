@@ -17,7 +17,7 @@ namespace telltale {
 struct WindowState {
   double start_s = 0.0;  ///< oldest and newest held, of the boat's clock
   double end_s = 0.0;
-  double fill = 0.0;                               ///< share of the configured span, [0, 1]
+  double fill = 0.0;                                      ///< share of the configured span, [0, 1]
   std::array<std::uint64_t, kChannels.size()> arrived{};  ///< gnss, heading, thrusters
   std::uint64_t accepted = 0;
   std::uint64_t lost = 0;
@@ -25,7 +25,8 @@ struct WindowState {
 };
 
 /// The sliding window of one vehicle, shared by the thread that fills it and those that read it.
-/// Filling never waits for a reader: what arrives while a snapshot is being copied waits in an inbox.
+/// Filling never waits for a reader: what arrives while a snapshot is being copied waits in an
+/// inbox.
 class VehicleWindow {
  public:
   VehicleWindow(Vehicle vehicle, const WindowLimits& limits);

@@ -12,8 +12,8 @@ constexpr int kSchemaVersion = 1;
 
 std::unique_ptr<SQLite::Database> Open(const std::filesystem::path& directory) {
   std::filesystem::create_directories(directory);
-  auto database = std::make_unique<SQLite::Database>(
-      directory / "models.sqlite", SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE);
+  auto database = std::make_unique<SQLite::Database>(directory / "models.sqlite",
+                                                     SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE);
   database->setBusyTimeout(5000);
   database->exec("PRAGMA journal_mode = WAL");
   database->exec("PRAGMA synchronous = FULL");

@@ -14,8 +14,8 @@
 
 namespace telltale {
 
-/// The models of the fleet, on disk and on the bus: what is published has been saved before, and the
-/// newest model of every vehicle is published again at start. Safe to use from several threads.
+/// The models of the fleet, on disk and on the bus: what is published has been saved before, and
+/// the newest model of every vehicle is published again at start. Safe to use from several threads.
 class PublishedModels {
  public:
   PublishedModels(const Participant& participant, ModelStore store, const Fleet& fleet);
@@ -30,7 +30,8 @@ class PublishedModels {
   /// Tries again to publish what a stalled client held up.
   void PublishHeldUp();
 
-  /// Keeps the exclusive ownership of the fleet's models; call from the loop whose hanging must end it.
+  /// Keeps the exclusive ownership of the fleet's models; call from the loop whose hanging must end
+  /// it.
   void AssertLiveliness() { writer_.AssertLiveliness(); }
 
  private:

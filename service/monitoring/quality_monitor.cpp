@@ -30,11 +30,9 @@ double Rate(Channel channel, const WindowState& now, const WindowState& before, 
 
 QualityMonitor::QualityMonitor(const Participant& participant, Fleet& fleet,
                                PublishedModels& models, double period_s)
-    : fleet_(fleet),
-      models_(models),
-      period_(period_s),
-      writer_(participant),
-      thread_([this] { Run(); }) {}
+    : fleet_(fleet), models_(models), period_(period_s), writer_(participant), thread_([this] {
+        Run();
+      }) {}
 
 QualityMonitor::~QualityMonitor() {
   {

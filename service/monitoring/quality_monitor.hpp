@@ -17,7 +17,8 @@
 
 namespace telltale {
 
-/// Publishes the quality of every vehicle's telemetry and model each period, on a thread of its own.
+/// Publishes the quality of every vehicle's telemetry and model each period, on a thread of its
+/// own.
 class QualityMonitor {
  public:
   QualityMonitor(const Participant& participant, Fleet& fleet, PublishedModels& models,

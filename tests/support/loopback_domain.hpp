@@ -12,8 +12,8 @@
 
 namespace telltale {
 
-/// A DDS domain of the running test's own, for this process and those it starts: loopback only, and a
-/// discovery tag that keeps tests that happen to use the same domain apart.
+/// A DDS domain of the running test's own, for this process and those it starts: loopback only, and
+/// a discovery tag that keeps tests that happen to use the same domain apart.
 class LoopbackDomain {
  public:
   LoopbackDomain() {

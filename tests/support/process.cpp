@@ -85,6 +85,8 @@ std::optional<int> Process::Wait(std::chrono::seconds timeout) {
   return WIFEXITED(status) ? std::optional(WEXITSTATUS(status)) : std::nullopt;
 }
 
-void Process::Signal(int signal) const { kill(pid_, signal); }
+void Process::Signal(int signal) const {
+  kill(pid_, signal);
+}
 
 }  // namespace telltale

@@ -75,7 +75,8 @@ TEST_F(Bus, TakesMoreThanOneBatch) {
   }
   WaitSet news(here_);
   std::size_t total = 0;
-  news.Attach(reader, [&] { total += reader.Take([&](const auto& w) { ++received[w.vehicle_id]; }); });
+  news.Attach(reader,
+              [&] { total += reader.Take([&](const auto& w) { ++received[w.vehicle_id]; }); });
   ASSERT_TRUE(WaitUntil(news, [&] { return total >= 600; }));
   EXPECT_EQ(received.size(), 10u);
   for (const auto& [boat, count] : received) EXPECT_EQ(count, 60u) << boat;

@@ -16,7 +16,9 @@ namespace {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
-PublishedModel MadeUpModel() { return {MadeUpIdentification(), 7, 1700000700.5}; }
+PublishedModel MadeUpModel() {
+  return {MadeUpIdentification(), 7, 1700000700.5};
+}
 
 void ExpectSame(const Coefficient& a, const Coefficient& b) {
   EXPECT_EQ(a.equation, b.equation);

@@ -1,0 +1,74 @@
+#include "cli/identify_live.hpp"
+
+#include <iostream>
+
+#include "bus/participant.hpp"
+#include "cli/inputs.hpp"
+#include "cli/model_table.hpp"
+#include "cli/outcome.hpp"
+#include "cli/progress_line.hpp"
+#include "cli/published_model.hpp"
+#include "cli/table.hpp"
+#include "fleet/identification_client.hpp"
+
+namespace telltale {
+namespace {
+
+IdentifyRequest RequestOf(const std::string& vehicle_id, const IdentifyArguments& arguments) {
+  const IdentifyOptions options = arguments.Options();
+  if (arguments.sampling_period_s || arguments.interval_level || arguments.threads) {
+    throw UsageError(
+        "--sampling-period, --level and --threads are the daemon's to choose; leave them out with "
+        "--vehicle-id");
+  }
+  IdentifyRequest request;
+  request.correlation_id = NewCorrelationId();
+  request.vehicle_id = vehicle_id;
+  if (arguments.parameterization) request.parameterization = options.regression.parameterization;
+  if (arguments.preset) request.preset = PresetNamed(*arguments.preset);
+  request.bootstrap_replicates = arguments.bootstrap_replicates;
+  request.seed = arguments.seed;
+  return request;
+}
+
+IdentifyAnswer Ask(const IdentifyRequest& request, const LiveOptions& live) {
+  const Participant participant(live.domain);
+  IdentificationClient client(participant);
+  ExchangeTiming timing;
+  timing.match = std::min(timing.match, live.Timeout());
+  timing.reply = live.Timeout();
+  ProgressLine line;
+  line.Update("asking the daemon", 0.0);
+  return client.Identify(request, timing, [&line](const IdentifyProgress& progress) {
+    line.Update(progress.stage, progress.fraction);
+  });
+}
+
+}  // namespace
+
+void IdentifyLive(const std::string& vehicle_id, const IdentifyArguments& arguments,
+                  const LiveOptions& live) {
+  const IdentifyAnswer answer = Ask(RequestOf(vehicle_id, arguments), live);
+  switch (answer.outcome) {
+    case ExchangeOutcome::kPublished: break;
+    case ExchangeOutcome::kRefused:
+      throw RefusedError(answer.reply->refusals.empty() ? Refusal{vehicle_id, "was refused", ""}
+                                                        : answer.reply->refusals.front());
+    case ExchangeOutcome::kNoDaemon:
+      throw std::runtime_error("no daemon answers: " + NobodyThereAdvice(live.domain));
+    case ExchangeOutcome::kTimedOut:
+      throw std::runtime_error("the daemon is there but did not answer within " +
+                               Fixed(live.timeout_s, 0) +
+                               " s: look at its log, or raise --timeout");
+    case ExchangeOutcome::kFailed:
+    case ExchangeOutcome::kUnknown: throw std::runtime_error(answer.reply->message);
+  }
+  const PublishedModel& model = *answer.reply->model;
+  arguments.output.Write(PrintModelJson(model), [&] {
+    return vehicle_id + ", revision " + std::to_string(model.revision) + "\n\n" +
+           ModelTable(model.identification) +
+           (arguments.discrete ? '\n' + DiscreteTable(model.identification) : "");
+  });
+}
+
+}  // namespace telltale

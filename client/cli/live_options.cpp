@@ -1,0 +1,35 @@
+#include "cli/live_options.hpp"
+
+#include "bus/participant.hpp"
+#include "codec/vehicle_file.hpp"
+
+namespace telltale {
+
+void LiveOptions::AddTo(CLI::App& command, double default_timeout_s,
+                        const std::string& timeout_help) {
+  timeout_s = default_timeout_s;
+  command.add_option("--domain", domain, "DDS domain")
+      ->envname("TELLTALE_DOMAIN")
+      ->check(CLI::Range(0u, kHighestDomain))
+      ->capture_default_str();
+  command.add_option("--timeout", timeout_s, timeout_help)
+      ->type_name("S")
+      ->check(CLI::Range(0.0, 1e6))
+      ->capture_default_str();
+}
+
+CLI::Option* AddVehicleId(CLI::App& command, std::string& vehicle_id) {
+  const auto check = [](const std::string& text) {
+    return IsVehicleId(text) ? std::string() : "must be " + std::string(kVehicleIdAllowed);
+  };
+  return command.add_option("--vehicle-id", vehicle_id, "the vehicle")
+      ->type_name("ID")
+      ->check(CLI::Validator(check, ""));
+}
+
+std::string NobodyThereAdvice(std::uint32_t domain) {
+  return "is telltaled running on domain " + std::to_string(domain) +
+         " (--domain, TELLTALE_DOMAIN), and do both sides use the same CYCLONEDDS_URI?";
+}
+
+}  // namespace telltale

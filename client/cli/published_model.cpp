@@ -1,0 +1,15 @@
+#include "cli/published_model.hpp"
+
+#include "codec/json_message.hpp"
+#include "codec/model_json.hpp"
+
+namespace telltale {
+
+std::string PrintModelJson(const PublishedModel& model) {
+  proto::Model message = ToProto(model.identification);
+  message.mutable_provenance()->set_revision(model.revision);
+  message.mutable_provenance()->set_published_unix_s(model.published_unix_s);
+  return PrintJsonMessage(message);
+}
+
+}  // namespace telltale

@@ -1,0 +1,122 @@
+#include <algorithm>
+#include <chrono>
+#include <filesystem>
+#include <iostream>
+#include <limits>
+#include <memory>
+#include <thread>
+
+#include "bus/participant.hpp"
+#include "bus/writer.hpp"
+#include "cli/commands.hpp"
+#include "cli/live_options.hpp"
+#include "cli/outcome.hpp"
+#include "cli/progress_line.hpp"
+#include "cli/table.hpp"
+#include "fleet/telemetry_publisher.hpp"
+#include "recording/telemetry_log.hpp"
+
+namespace telltale {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+using Seconds = std::chrono::duration<double>;
+
+// Samples leave in bursts this far apart: few packets, and few samples for a receiver to miss.
+constexpr auto kBurst = std::chrono::milliseconds(5);
+
+// A recording may have been switched off for hours; nobody wants to wait that long.
+constexpr double kLongestSilenceS = 60.0;
+
+struct ReplayArguments {
+  std::filesystem::path log;
+  std::string vehicle_id;
+  double speed = 1.0;
+  LiveOptions live;
+};
+
+/// When samples are due, in seconds of the recording since its beginning: never backwards, and no
+/// silence longer than kLongestSilenceS.
+class Schedule {
+ public:
+  double Due(double time_s) {
+    if (!(time_s > newest_s_)) return due_s_;  // a wrong time, NaN included, is due at once
+    due_s_ += begun_ ? std::min(time_s - newest_s_, kLongestSilenceS) : 0.0;
+    newest_s_ = time_s;
+    begun_ = true;
+    return due_s_;
+  }
+
+ private:
+  bool begun_ = false;
+  double newest_s_ = -std::numeric_limits<double>::infinity();
+  double due_s_ = 0.0;
+};
+
+/// Publishes the samples at their times; returns how many seconds of recording went by.
+double Publish(const std::vector<RawSample>& samples, double speed, TelemetryPublisher& publisher) {
+  ProgressLine line;
+  Schedule schedule;
+  double due_s = 0.0;
+  const auto start = Clock::now();
+  auto burst_end = start;
+  for (const RawSample& sample : samples) {
+    due_s = schedule.Due(TimeOf(sample));
+    const auto due = start + std::chrono::ceil<Clock::duration>(Seconds(due_s / speed));
+    if (due > burst_end) {
+      publisher.Flush();
+      line.Update("replaying",
+                  static_cast<double>(publisher.Published()) / static_cast<double>(samples.size()));
+      std::this_thread::sleep_until(due);
+      burst_end = std::max(due, Clock::now()) + kBurst;
+    }
+    std::visit([&](const auto& s) { publisher.Publish(s); }, sample);
+  }
+  publisher.Flush();
+  return due_s;
+}
+
+void Replay(const ReplayArguments& arguments) {
+  const TelemetryLog log = OrThrow(ReadTelemetryLog(arguments.log));
+  const Participant participant(arguments.live.domain);
+  BatchWrites();
+  TelemetryPublisher publisher(participant, arguments.vehicle_id);
+  if (!publisher.WaitForReaders(arguments.live.Timeout())) {
+    throw std::runtime_error("nobody takes telemetry on domain " +
+                             std::to_string(arguments.live.domain) + ": " +
+                             NobodyThereAdvice(arguments.live.domain));
+  }
+  const auto start = Clock::now();
+  const double recorded_s = Publish(log.samples, arguments.speed, publisher);
+  const double elapsed_s = Seconds(Clock::now() - start).count();
+  std::cout << "replayed " << publisher.Published() << " samples as " << arguments.vehicle_id
+            << ": " << Fixed(recorded_s, 1) << " s of recording in " << Fixed(elapsed_s, 1)
+            << " s, " << Fixed(static_cast<double>(publisher.Published()) / elapsed_s, 0)
+            << " samples/s\n";
+}
+
+}  // namespace
+
+void AddReplay(CLI::App& telltale) {
+  const auto arguments = std::make_shared<ReplayArguments>();
+  CLI::App& command =
+      *telltale.add_subcommand("replay", "Publishes a recording as a vehicle's live telemetry");
+  command.add_option("--log", arguments->log, "telemetry log to publish")
+      ->type_name("DIR")
+      ->required()
+      ->check(CLI::ExistingPath.description(""));
+  AddVehicleId(command, arguments->vehicle_id)->required();
+  command.add_option("--speed", arguments->speed, "times as fast as it was recorded")
+      ->type_name("X")
+      ->check(CLI::Range(1e-3, 1e6))
+      ->capture_default_str();
+  arguments->live.AddTo(command, 10.0, "how long to wait for somebody to receive it");
+  command.footer(
+      "Samples go out as recorded, wrong ones too: the receiver judges them. Silences longer than "
+      "a\n"
+      "minute are cut to a minute.\n"
+      "Example: telltale replay --log run1 --vehicle-id boat-1 --speed 50");
+  command.callback([arguments] { Replay(*arguments); });
+}
+
+}  // namespace telltale

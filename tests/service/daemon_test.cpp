@@ -1,0 +1,291 @@
+#include <signal.h>
+
+#include <chrono>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <optional>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "bus/reader.hpp"
+#include "bus/wait_set.hpp"
+#include "bus/writer.hpp"
+#include "codec/model_json.hpp"
+#include "codec/wire.hpp"
+#include "fleet/identification_client.hpp"
+#include "fleet/subscriber.hpp"
+#include "fleet/telemetry_publisher.hpp"
+#include "recording/files.hpp"
+#include "recording/telemetry_log.hpp"
+#include "service/service_fixture.hpp"
+#include "simulation/yellowfish.hpp"
+
+namespace telltale {
+namespace {
+
+using namespace std::chrono_literals;
+using testing::HasSubstr;
+
+using Daemon = ServiceTest;
+
+double SurgeThrustAtFullAhead(const std::vector<double>& theta) {
+  const auto regressors = Regressors(Equation::kSurge, Parameterization::kPropeller);
+  double thrust = 0.0;
+  for (std::size_t i = 0; i < regressors.size(); ++i) {
+    if (regressors[i].name == "f:d^2" || regressors[i].name == "f:d") thrust += theta[i];
+  }
+  return thrust;
+}
+
+TEST_F(Daemon, TurnsReplayedTelemetryIntoAModelWithBounds) {
+  const auto daemon = StartDaemon();
+  ReplaySimulation();
+  const auto file = folder_.Path() / "model.json";
+  const auto identify = Start({"identify", "--vehicle-id", kVehicleId, "--out", file});
+  ASSERT_EQ(identify->Wait(), 0) << identify->output();
+  EXPECT_THAT(identify->output(), HasSubstr("revision 1"));
+
+  const auto text = ReadFile(file);
+  ASSERT_TRUE(text);
+  const auto model = ParseModelJson(*text);
+  ASSERT_TRUE(model) << model.error().Message();
+  EXPECT_EQ(model->vehicle_id, kVehicleId);
+  std::vector<double> estimated;
+  for (const Coefficient& coefficient : model->coefficients) {
+    EXPECT_LE(coefficient.interval.lower, coefficient.interval.upper);
+    if (coefficient.equation == Equation::kSurge) estimated.push_back(coefficient.estimate);
+  }
+  const VesselModel twin = YellowfishTwin();
+  const Eigen::VectorXd& theta = twin.theta[0];
+  const double truth = SurgeThrustAtFullAhead({theta.begin(), theta.end()});
+  // One-step least squares attenuates; 25 % is what the demonstration promises.
+  EXPECT_NEAR(SurgeThrustAtFullAhead(estimated), truth, 0.25 * std::abs(truth));
+}
+
+TEST_F(Daemon, AccountsForEverySample) {
+  const auto daemon = StartDaemon();
+  ReplaySimulation();
+  const std::uint64_t sent = SizeOf(SimulatedRecording());
+  std::uint64_t accounted = 0;
+  const auto quality = AwaitQuality(kVehicleId, [&](const Quality& q) {
+    accounted = q.accepted + q.lost;
+    for (const RejectEntry& entry : q.rejected) accounted += entry.count;
+    return accounted == sent;
+  });
+  ASSERT_TRUE(quality) << accounted << " of " << sent;
+  EXPECT_NEAR(quality->window_s, 120.0, 1.0);
+  EXPECT_NEAR(quality->window_fill, 0.1, 0.001);
+  EXPECT_FALSE(quality->model_revision);
+}
+
+TEST_F(Daemon, ReportsTheModelAndHowWellItPredicts) {
+  const auto daemon = StartDaemon();
+  ReplaySimulation();
+  ASSERT_EQ(Start({"identify", "--vehicle-id", kVehicleId})->Wait(), 0);
+  const auto quality =
+      AwaitQuality(kVehicleId, [](const Quality& q) { return q.prediction_error > 0.0; });
+  ASSERT_TRUE(quality);
+  EXPECT_EQ(quality->model_revision, 1u);
+  // The last minute was half of what made the model: it cannot be much worse there than overall.
+  EXPECT_LT(quality->prediction_error, 2.0);
+  const auto monitor = Start({"monitor", "--once"});
+  EXPECT_EQ(monitor->Wait(), 0);
+  EXPECT_THAT(monitor->output(), HasSubstr(kVehicleId));
+}
+
+TEST_F(Daemon, GivesALateJoinerTheLastModel) {
+  const auto daemon = StartDaemon();
+  ReplaySimulation();
+  ASSERT_EQ(Start({"identify", "--vehicle-id", kVehicleId})->Wait(), 0);
+  ASSERT_EQ(Start({"identify", "--vehicle-id", kVehicleId, "--seed", "2"})->Wait(), 0);
+  const auto watch =
+      Start({"watch", "--vehicle-id", kVehicleId, "--count", "1", "--timeout", "20"});
+  EXPECT_EQ(watch->Wait(), 0) << watch->output();
+  EXPECT_THAT(watch->output(), HasSubstr("revision 2"));
+}
+
+TEST_F(Daemon, KeepsModelsThroughBeingKilled) {
+  auto daemon = StartDaemon();
+  ReplaySimulation();
+  ASSERT_EQ(Start({"identify", "--vehicle-id", kVehicleId})->Wait(), 0);
+  daemon->Signal(SIGKILL);
+  daemon->Wait();
+
+  daemon = StartDaemon();
+  const auto watch = Start({"watch", "--all", "--count", "1", "--timeout", "20"});
+  EXPECT_EQ(watch->Wait(), 0) << watch->output();
+  EXPECT_THAT(watch->output(), HasSubstr("revision 1"));
+  ReplaySimulation();
+  const auto identify = Start({"identify", "--vehicle-id", kVehicleId});
+  EXPECT_EQ(identify->Wait(), 0) << identify->output();
+  EXPECT_THAT(identify->output(), HasSubstr("revision 2"));
+}
+
+TEST_F(Daemon, SaysWhichVehiclesItServesWhenAskedForAnother) {
+  const auto daemon = StartDaemon();
+  const auto identify = Start({"identify", "--vehicle-id", "nobody"});
+  EXPECT_EQ(identify->Wait(), 1);
+  EXPECT_THAT(identify->output(), HasSubstr("'nobody' is not served here; served: yellowfish"));
+}
+
+TEST_F(Daemon, RefusesAnEmptyWindowWithAdvice) {
+  const auto daemon = StartDaemon();
+  const auto identify = Start({"identify", "--vehicle-id", kVehicleId});
+  EXPECT_EQ(identify->Wait(), 3);
+  EXPECT_THAT(identify->output(), HasSubstr("the data cannot answer"));
+}
+
+TEST_F(Daemon, IsMissedWhenItIsNotThere) {
+  const auto identify = Start({"identify", "--vehicle-id", kVehicleId, "--timeout", "0.2"});
+  EXPECT_EQ(identify->Wait(), 1);
+  EXPECT_THAT(identify->output(), HasSubstr("is telltaled running on domain"));
+
+  WriteTelemetryLog(folder_.Path() / "log", SimulatedRecording());
+  const auto replay = Start(
+      {"replay", "--log", folder_.Path() / "log", "--vehicle-id", kVehicleId, "--timeout", "0.2"});
+  EXPECT_EQ(replay->Wait(), 1);
+  EXPECT_THAT(replay->output(), HasSubstr("nobody takes telemetry"));
+
+  const auto monitor = Start({"monitor", "--once", "--timeout", "0.2"});
+  EXPECT_EQ(monitor->Wait(), 1);
+  const auto watch = Start({"watch", "--all", "--count", "1", "--timeout", "0.2"});
+  EXPECT_EQ(watch->Wait(), 1);
+}
+
+TEST_F(Daemon, AnswersLateOnceItIsAwakeAgain) {
+  const auto daemon = StartDaemon();
+  const Participant participant(domain_.id());
+  IdentificationClient client(participant);
+  ExchangeTiming timing{.match = 20s, .reply = 20s, .retry = 100ms};
+  ASSERT_EQ(client.Identify(Request("first"), timing).outcome, ExchangeOutcome::kRefused);
+
+  daemon->Signal(SIGSTOP);
+  timing.reply = 500ms;
+  EXPECT_EQ(client.Identify(Request("second"), timing).outcome, ExchangeOutcome::kTimedOut);
+  daemon->Signal(SIGCONT);
+  timing.reply = 20s;
+  EXPECT_EQ(client.Identify(Request("second"), timing).outcome, ExchangeOutcome::kRefused);
+}
+
+TEST_F(Daemon, CountsWhatItSetsAsideByReason) {
+  const auto daemon = StartDaemon();
+  const Participant participant(domain_.id());
+  Writer<telltale_wire_GnssFix> gnss(participant);
+  Writer<telltale_wire_Heading> heading(participant);
+  Writer<telltale_wire_Thrusters> thrusters(participant);
+  // The daemon hears each of these writers some time after it has matched them here.
+  bool heard = false;
+  QualitySubscriber qualities(
+      participant,
+      [&](const Quality& q) {
+        heard |= q.gnss_rate_hz > 0.0 && q.heading_rate_hz > 0.0 && q.thrusters_rate_hz > 0.0;
+      },
+      [](const CodecError&) {});
+  std::uint64_t n = 0;
+  while (!heard && n < 500) {
+    const double time_s = 1e-3 * static_cast<double>(++n);
+    gnss.Write(Encode(Telemetry<GnssFix>{kVehicleId, n, {time_s, 37.0 + time_s, -6.0}}));
+    heading.Write(Encode(Telemetry<HeadingSample>{kVehicleId, n, {time_s, time_s}}));
+    thrusters.Write(Encode(Telemetry<ThrusterSample>{kVehicleId, n, {time_s, 1500.0, 1500.0}}));
+    qualities.Wait(50ms);
+  }
+  ASSERT_TRUE(heard);
+
+  constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+  gnss.Write(Encode(Telemetry<GnssFix>{kVehicleId, n + 1, {1.0, 37.0, -6.0}}));
+  gnss.Write(Encode(Telemetry<GnssFix>{kVehicleId, n + 2, {2.0, kNan, -6.0}}));
+  gnss.Write(Encode(Telemetry<GnssFix>{kVehicleId, n + 3, {3.0, 91.0, -6.0}}));
+  gnss.Write(Encode(Telemetry<GnssFix>{kVehicleId, n + 4, {1.0, 37.0, -6.0}}));
+  gnss.Write(Encode(Telemetry<GnssFix>{kVehicleId, n + 8, {4.0, 37.5, -6.0}}));
+  heading.Write(Encode(Telemetry<HeadingSample>{kVehicleId, n + 1, {kNan, 90.0}}));
+  heading.Write(Encode(Telemetry<HeadingSample>{"stranger", 1, {1.0, 90.0}}));
+  thrusters.Write(Encode(Telemetry<ThrusterSample>{kVehicleId, n + 1, {1.0, 1500.0, 9000.0}}));
+  // What cannot even be read ends in Cyclone DDS, which tells the log and gives us nothing to
+  // count.
+  auto unterminated = Encode(Telemetry<ThrusterSample>{kVehicleId, 0, {1.0, 1500.0, 1500.0}});
+  std::memset(unterminated.vehicle_id, 'x', sizeof unterminated.vehicle_id);
+  thrusters.Write(unterminated);
+  auto spaced = Encode(Telemetry<ThrusterSample>{kVehicleId, 1, {1.0, 1500.0, 1500.0}});
+  std::strcpy(spaced.vehicle_id, "two words");
+  thrusters.Write(spaced);
+
+  const auto quality = AwaitQuality(kVehicleId, [](const Quality& q) {
+    return CountOf(q, "thrusters", "OUT_OF_RANGE") == 1 &&
+           CountOf(q, "heading", "NOT_FINITE") == 1 && q.lost == 3;
+  });
+  ASSERT_TRUE(quality);
+  EXPECT_EQ(CountOf(*quality, "gnss", "NOT_FINITE"), 1u);
+  EXPECT_EQ(CountOf(*quality, "gnss", "OUT_OF_RANGE"), 1u);
+  EXPECT_EQ(CountOf(*quality, "gnss", "DUPLICATE"), 1u);
+  const auto strays = AwaitQuality(std::string(kUnattributed), [](const Quality& q) {
+    return CountOf(q, "thrusters", "MALFORMED_VEHICLE_ID") == 1;
+  });
+  ASSERT_TRUE(strays);
+  EXPECT_EQ(CountOf(*strays, "heading", "UNKNOWN_VEHICLE"), 1u);
+  EXPECT_TRUE(daemon->WaitForOutput("deserialization telltale/telemetry/thrusters"));
+}
+
+TEST_F(Daemon, AnswersACorrelationIdOnce) {
+  const auto daemon = StartDaemon();
+  ReplaySimulation();
+  const Participant participant(domain_.id());
+  IdentificationClient client(participant);
+  const ExchangeTiming timing{.match = 20s, .reply = 60s, .retry = 1s};
+  const auto first = client.Identify(Request("the-same"), timing);
+  const auto again = client.Identify(Request("the-same"), timing);
+  const auto other = client.Identify(Request("another"), timing);
+  ASSERT_EQ(first.outcome, ExchangeOutcome::kPublished);
+  ASSERT_EQ(again.outcome, ExchangeOutcome::kPublished);
+  ASSERT_EQ(other.outcome, ExchangeOutcome::kPublished);
+  EXPECT_EQ(first.reply->model->revision, 1u);
+  EXPECT_EQ(again.reply->model->revision, 1u);
+  EXPECT_EQ(other.reply->model->revision, 2u);
+}
+
+TEST_F(Daemon, FailsARequestItCannotTakeAndGoesOn) {
+  const auto daemon = StartDaemon();
+  const Participant participant(domain_.id());
+  IdentificationClient client(participant);
+  const ExchangeTiming timing{.match = 20s, .reply = 20s, .retry = 1s};
+  IdentifyRequest wrong = Request("too-few-replicates");
+  wrong.bootstrap_replicates = 7;
+  const auto answer = client.Identify(wrong, timing);
+  ASSERT_EQ(answer.outcome, ExchangeOutcome::kFailed);
+  EXPECT_THAT(answer.reply->message, HasSubstr("bootstrap_replicates"));
+  EXPECT_EQ(client.Identify(Request("sound"), timing).outcome, ExchangeOutcome::kRefused);
+}
+
+TEST_F(Daemon, StopsCleanlyWhenTold) {
+  for (const int signal : {SIGTERM, SIGINT}) {
+    const auto daemon = StartDaemon();
+    daemon->Signal(signal);
+    EXPECT_EQ(daemon->Wait(), 0) << daemon->output();
+  }
+}
+
+TEST_F(Daemon, RefusesAWrongConfigurationNamingTheField) {
+  const auto wrong = folder_.Write("wrong.textproto", "domain: 500\n");
+  Process daemon({TELLTALED, "--config", wrong});
+  EXPECT_EQ(daemon.Wait(), 2);
+  EXPECT_THAT(daemon.output(), HasSubstr("domain"));
+  EXPECT_THAT(daemon.output(), HasSubstr("500"));
+
+  Process missing({TELLTALED, "--config", folder_.Path() / "nowhere.textproto"});
+  EXPECT_EQ(missing.Wait(), 2);
+  Process without({TELLTALED});
+  EXPECT_EQ(without.Wait(), 2);
+  Process help({TELLTALED, "--help"});
+  EXPECT_EQ(help.Wait(), 0);
+}
+
+TEST_F(Daemon, FailsWhereItCannotKeepModels) {
+  folder_.Write("state", "a file where a folder is needed");
+  Process daemon({TELLTALED, "--config", config_file_});
+  EXPECT_EQ(daemon.Wait(), 1);
+  EXPECT_THAT(daemon.output(), HasSubstr("state"));
+}
+
+}  // namespace
+}  // namespace telltale

@@ -1,0 +1,172 @@
+// The rooms of the service one by one, without the bus.
+#include <cmath>
+#include <thread>
+
+#include <SQLiteCpp/SQLiteCpp.h>
+#include <gtest/gtest.h>
+
+#include "codec/model_json.hpp"
+#include "identification/identification_jobs.hpp"
+#include "ingest/fleet.hpp"
+#include "ingest/sequence_gaps.hpp"
+#include "ingest/vehicle_window.hpp"
+#include "models/model_store.hpp"
+#include "monitoring/prediction_error.hpp"
+#include "simulation/yellowfish.hpp"
+#include "support/identifications.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace telltale {
+namespace {
+
+SequenceGaps Gaps(std::initializer_list<std::uint64_t> sequence_numbers) {
+  SequenceGaps gaps;
+  for (const auto number : sequence_numbers) gaps.Note(number);
+  return gaps;
+}
+
+TEST(SequenceGaps, CountsWhatIsMissingBetweenSamples) {
+  EXPECT_EQ(Gaps({1, 2, 3}).lost(), 0u);
+  EXPECT_EQ(Gaps({1, 2, 6, 7, 9}).lost(), 4u);
+}
+
+TEST(SequenceGaps, BeginsWhereverItJoins) {
+  EXPECT_EQ(Gaps({500, 501}).lost(), 0u);
+}
+
+TEST(SequenceGaps, TakesABoatThatStartsAnewForThat) {
+  EXPECT_EQ(Gaps({7, 8, 1, 2, 4}).lost(), 1u);
+  EXPECT_EQ(Gaps({1, 2, std::uint64_t{1} << 60}).lost(), 0u);
+}
+
+TEST(VehicleWindow, CountsArrivalsAdmissionsAndLoss) {
+  VehicleWindow window(YellowfishVehicle(), WindowLimits());
+  window.Add(1, GnssFix{0.0, 37.0, -6.0});
+  window.Add(4, GnssFix{60.0, 37.1, -6.0});
+  window.Add(1, HeadingSample{30.0, std::nan("")});
+  const WindowState state = window.State();
+  EXPECT_EQ(state.arrived[0], 2u);
+  EXPECT_EQ(state.arrived[1], 1u);
+  EXPECT_EQ(state.accepted, 2u);
+  EXPECT_EQ(state.lost, 2u);
+  EXPECT_EQ(state.rejected.Of(Channel::kHeading, RejectReason::kNotFinite), 1u);
+  EXPECT_DOUBLE_EQ(state.fill, 60.0 / WindowLimits().duration_s);
+  EXPECT_EQ(window.Snapshot().gnss.size(), 2u);
+}
+
+TEST(VehicleWindow, LosesNothingBetweenThreads) {
+  VehicleWindow window(YellowfishVehicle(), WindowLimits());
+  constexpr std::uint64_t kSamples = 20000;
+  std::jthread reader([&](const std::stop_token& stop) {
+    while (!stop.stop_requested()) window.Snapshot();
+  });
+  for (std::uint64_t i = 1; i <= kSamples; ++i) {
+    const double time_s = 0.01 * static_cast<double>(i);
+    window.Add(i, HeadingSample{time_s, std::fmod(time_s, 360.0)});
+  }
+  reader.request_stop();
+  reader.join();
+  EXPECT_EQ(window.State().accepted, kSamples);
+  EXPECT_EQ(window.State().lost, 0u);
+}
+
+TEST(Fleet, FindsItsVehiclesAndCountsTheRest) {
+  Vehicle one = YellowfishVehicle();
+  one.vehicle_id = "one";
+  Fleet fleet({one}, WindowLimits());
+  ASSERT_NE(fleet.Find("one"), nullptr);
+  EXPECT_EQ(fleet.Find("one")->vehicle().vehicle_id, "one");
+  EXPECT_EQ(fleet.Find("two"), nullptr);
+  fleet.CountStray("gnss", StrayReason::kUnknownVehicle);
+  fleet.CountStray("gnss", StrayReason::kUnknownVehicle);
+  EXPECT_EQ(fleet.Strays(), (std::vector<RejectEntry>{{"gnss", "UNKNOWN_VEHICLE", 2}}));
+}
+
+class ModelStoreTest : public testing::Test {
+ protected:
+  TemporaryFolder folder_;
+  Identification model_ = MadeUpIdentification();
+};
+
+TEST_F(ModelStoreTest, CountsRevisionsPerVehicleAcrossReopening) {
+  {
+    ModelStore store(folder_.Path());
+    EXPECT_EQ(store.Save(model_, 1.0, std::nullopt).model.revision, 1u);
+    EXPECT_EQ(store.Save(model_, 2.0, std::nullopt).model.revision, 2u);
+  }
+  ModelStore store(folder_.Path());
+  EXPECT_EQ(store.Save(model_, 3.0, std::nullopt).model.revision, 3u);
+  model_.vehicle_id = "another";
+  EXPECT_EQ(store.Save(model_, 4.0, std::nullopt).model.revision, 1u);
+}
+
+TEST_F(ModelStoreTest, GivesBackTheNewestAsItWasSaved) {
+  ModelStore(folder_.Path()).Save(model_, 12.5, FreeRunError{0.1, 0.2, 0.3});
+  const auto latest = ModelStore(folder_.Path()).Latest(model_.vehicle_id);
+  ASSERT_TRUE(latest);
+  EXPECT_EQ(latest->model.revision, 1u);
+  EXPECT_EQ(latest->model.published_unix_s, 12.5);
+  EXPECT_EQ(latest->reference_error, (FreeRunError{0.1, 0.2, 0.3}));
+  EXPECT_EQ(PrintModelJson(latest->model.identification), PrintModelJson(model_));
+}
+
+TEST_F(ModelStoreTest, HasNothingOfAVehicleItNeverSaw) {
+  EXPECT_FALSE(ModelStore(folder_.Path()).Latest("stranger"));
+}
+
+TEST_F(ModelStoreTest, FallsBackOnTheNewestThatCanBeRead) {
+  ModelStore store(folder_.Path());
+  store.Save(model_, 1.0, std::nullopt);
+  store.Save(model_, 2.0, std::nullopt);
+  SQLite::Database(folder_.Path() / "models.sqlite", SQLite::OPEN_READWRITE)
+      .exec("UPDATE models SET model = x'ff00ff' WHERE revision = 2");
+  ASSERT_TRUE(store.Latest(model_.vehicle_id));
+  EXPECT_EQ(store.Latest(model_.vehicle_id)->model.revision, 1u);
+  EXPECT_EQ(store.Save(model_, 3.0, std::nullopt).model.revision, 3u);
+}
+
+TEST_F(ModelStoreTest, RefusesAStoreOfALaterProgram) {
+  { ModelStore store(folder_.Path()); }
+  SQLite::Database(folder_.Path() / "models.sqlite", SQLite::OPEN_READWRITE)
+      .exec("PRAGMA user_version = 99");
+  EXPECT_THROW(ModelStore(folder_.Path()), SQLite::Exception);
+}
+
+TEST(PredictionError, IsOneWhereNothingChangedAndScalesWithTheError) {
+  const FreeRunError reference{0.1, 0.2, 0.3};
+  EXPECT_DOUBLE_EQ(RelativeError(reference, reference), 1.0);
+  EXPECT_DOUBLE_EQ(RelativeError({0.3, 0.6, 0.9}, reference), 3.0);
+  EXPECT_DOUBLE_EQ(RelativeError({0.2, 0.2, 0.3}, reference), std::sqrt(2.0));
+}
+
+TEST(PredictionError, LooksAtTheLastMinute) {
+  Recording recording;
+  for (int i = 0; i <= 100; ++i) recording.gnss.push_back({1.0 * i, 0.0, 0.0});
+  EXPECT_EQ(Latest(recording, 60.0).gnss.front().time_s, 40.0);
+  EXPECT_EQ(Latest(recording, 600.0).gnss.size(), 101u);
+  EXPECT_TRUE(Latest(Recording(), 60.0).gnss.empty());
+}
+
+TEST(IdentificationOptions, AreTheRequestsWishesOverTheDaemonsDefaults) {
+  IdentificationSettings settings;
+  settings.bootstrap_replicates = 300;
+  settings.interval_level = 0.9;
+  IdentifyRequest request;
+  request.seed = 5;
+  IdentifyOptions options = OptionsOf(request, settings);
+  EXPECT_EQ(options.bootstrap_replicates, 300u);
+  EXPECT_EQ(options.interval_level, 0.9);
+  EXPECT_EQ(options.prepare.preset, Preset::kRobust);
+  EXPECT_EQ(options.regression.parameterization, Parameterization::kPropeller);
+  EXPECT_EQ(options.seed, 5u);
+  request.bootstrap_replicates = 0;
+  request.preset = Preset::kPaper;
+  request.parameterization = Parameterization::kPaper;
+  options = OptionsOf(request, settings);
+  EXPECT_EQ(options.bootstrap_replicates, 0u);
+  EXPECT_EQ(options.prepare.preset, Preset::kPaper);
+  EXPECT_EQ(options.regression.parameterization, Parameterization::kPaper);
+}
+
+}  // namespace
+}  // namespace telltale

@@ -1,0 +1,106 @@
+#include "service/service_fixture.hpp"
+
+#include <chrono>
+
+#include "codec/vehicle_file.hpp"
+#include "fleet/subscriber.hpp"
+#include "random.hpp"
+#include "recording/telemetry_log.hpp"
+#include "simulation/sensors.hpp"
+#include "simulation/simulator.hpp"
+#include "simulation/yellowfish.hpp"
+
+namespace telltale {
+namespace {
+
+constexpr double kDurationS = 120.0;
+constexpr double kHoldS = 2.0;
+constexpr double kStepS = 0.02;
+
+/// Uniform in [-1, 1].
+double Draw(RandomEngine& random) {
+  return static_cast<double>(random() >> 11) * 0x1p-52 - 1.0;
+}
+
+}  // namespace
+
+Recording SimulatedRecording() {
+  RandomEngine random(20);
+  std::vector<TimedCommand> commands;
+  for (double time_s = 0.0; time_s < kDurationS; time_s += kHoldS) {
+    const double port = Draw(random);
+    commands.push_back({time_s, {port, Draw(random)}});
+  }
+  return Measure(Simulate(YellowfishTwin(), {}, commands, kDurationS, kStepS), YellowfishVehicle(),
+                 SensorOptions());
+}
+
+std::size_t SizeOf(const Recording& recording) {
+  return recording.gnss.size() + recording.heading.size() + recording.thrusters.size();
+}
+
+ServiceTest::ServiceTest() {
+  Vehicle vehicle = YellowfishVehicle();
+  vehicle.vehicle_id = kVehicleId;
+  folder_.Write("vehicle.textproto", PrintVehicle(vehicle));
+  config_file_ = folder_.Write("daemon.textproto",
+                               "domain: " + std::to_string(domain_.id()) +
+                                   "\nvehicle_files: \"vehicle.textproto\"\nstate_directory: \"" +
+                                   (folder_.Path() / "state").string() +
+                                   "\"\nidentification { bootstrap_replicates: 100 }\n"
+                                   "quality_period_s: 0.1\n");
+}
+
+std::unique_ptr<Process> ServiceTest::StartDaemon() const {
+  auto daemon =
+      std::make_unique<Process>(std::vector<std::string>{TELLTALED, "--config", config_file_});
+  EXPECT_TRUE(daemon->WaitForOutput("serving 1 vehicles")) << daemon->output();
+  return daemon;
+}
+
+std::unique_ptr<Process> ServiceTest::Start(std::vector<std::string> arguments) const {
+  arguments.insert(arguments.begin(), TELLTALE);
+  arguments.insert(arguments.end(), {"--domain", std::to_string(domain_.id())});
+  return std::make_unique<Process>(arguments);
+}
+
+void ServiceTest::ReplaySimulation() const {
+  const auto log = folder_.Path() / "log";
+  WriteTelemetryLog(log, SimulatedRecording());
+  const auto replay = Start({"replay", "--log", log, "--vehicle-id", kVehicleId, "--speed", "60"});
+  EXPECT_EQ(replay->Wait(), 0) << replay->output();
+}
+
+IdentifyRequest ServiceTest::Request(const std::string& correlation_id) const {
+  IdentifyRequest request;
+  request.correlation_id = correlation_id;
+  request.vehicle_id = kVehicleId;
+  return request;
+}
+
+std::optional<Quality> ServiceTest::AwaitQuality(
+    const std::string& vehicle_id, const std::function<bool(const Quality&)>& as_expected) const {
+  const Participant participant(domain_.id());
+  std::optional<Quality> found;
+  QualitySubscriber qualities(
+      participant,
+      [&](const Quality& quality) {
+        if (quality.vehicle_id == vehicle_id && as_expected(quality)) found = quality;
+      },
+      [](const CodecError& error) { ADD_FAILURE() << error.Message(); });
+  const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(20);
+  while (!found && std::chrono::steady_clock::now() < deadline) {
+    qualities.Wait(std::chrono::seconds(1));
+  }
+  return found;
+}
+
+std::uint64_t CountOf(const Quality& quality, const std::string& channel,
+                      const std::string& reason) {
+  for (const RejectEntry& entry : quality.rejected) {
+    if (entry.channel == channel && entry.reason == reason) return entry.count;
+  }
+  return 0;
+}
+
+}  // namespace telltale
