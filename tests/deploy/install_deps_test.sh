@@ -40,10 +40,10 @@ run
 [[ $output == *"packages are there"* ]] || fail "all there, but it does not say so: $output"
 [[ ! -s $CALLS ]] || fail "all there, yet it called $(cat "$CALLS")"
 
-MISSING="libeigen3-dev libtbb-dev" run
+MISSING="libeigen3-dev libspdlog-dev" run
 ((status == 0)) || fail "two missing: exit $status: $output"
 [[ $(sed -n 1p "$CALLS") == *" update" ]] || fail "the package lists were not updated first"
-[[ $(sed -n 2p "$CALLS") == *"install --yes --no-install-recommends libeigen3-dev libtbb-dev" ]] ||
+[[ $(sed -n 2p "$CALLS") == *"install --yes --no-install-recommends libeigen3-dev libspdlog-dev" ]] ||
   fail "two missing, but it called $(cat "$CALLS")"
 
 MISSING="clang-tidy-16" run
