@@ -57,6 +57,7 @@ void IdentifyArguments::AddOptionsTo(CLI::App& command) {
       ->type_name("P");
   command.add_option("--seed", seed, "of the bootstrap; the same seed gives the same bits")
       ->type_name("N")
+      ->check(CLI::NonNegativeNumber.description(""))
       ->capture_default_str();
   command
       .add_option("--threads", threads,

@@ -19,6 +19,11 @@ struct PaperStaticTable {
 extern const PaperStaticTable kYellowfishStaticTable;
 inline constexpr double kYellowfishSamplingPeriodS = 0.2;
 
+/// The paper's table of the first-order dynamic model, as printed: the redundant coefficients of surge
+/// (11), sway and yaw (21 each) in the appendix's order. The table's third column is headed X_v,dyn a
+/// second time; it is yaw's.
+std::array<Eigen::VectorXd, 3> YellowfishDynamicTable();
+
 /// The paper's own discrete model, in the paper's parameterization.
 VesselModel YellowfishPaperModel();
 

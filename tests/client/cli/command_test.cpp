@@ -1,0 +1,339 @@
+#include <algorithm>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "codec/metrics_json.hpp"
+#include "codec/model_json.hpp"
+#include "codec/vehicle_file.hpp"
+#include "recording/telemetry_log.hpp"
+#include "simulation/manoeuvres.hpp"
+#include "simulation/sensors.hpp"
+#include "simulation/yellowfish.hpp"
+#include "support/identifications.hpp"
+#include "support/run_command.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace telltale {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::Not;
+
+constexpr int kSuccess = 0;
+constexpr int kFailure = 1;
+constexpr int kUsage = 2;
+constexpr int kRefused = 3;
+
+/// A folder with the vehicle file and a ten-minute log of the Yellowfish twin.
+class CommandTest : public testing::Test {
+ protected:
+  CommandTest() {
+    folder.Write("boat.textproto", PrintVehicle(YellowfishVehicle()));
+    WriteTelemetryLog(Path("log"), Measured(0.0));
+  }
+
+  static Recording Measured(double start_s) {
+    auto commands = SampleMission(1);
+    for (TimedCommand& command : commands) command.time_s += start_s;
+    const double end_s = start_s + kSampleMissionDurationS;
+    const auto track = Simulate(YellowfishTwin(), {}, commands, end_s, 0.02);
+    return Measure(track, YellowfishVehicle(), {});
+  }
+
+  std::string Path(const std::string& name) const { return (folder.Path() / name).string(); }
+
+  static CommandOutcome Telltale(std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), TELLTALE_COMMAND);
+    return RunCommand(arguments);
+  }
+
+  /// Few replicates unless `more` says how many: these tests are not about the bounds.
+  CommandOutcome Identify(std::vector<std::string> more) const {
+    if (std::find(more.begin(), more.end(), "--bootstrap") == more.end()) {
+      more.insert(more.end(), {"--bootstrap", "100"});
+    }
+    std::vector<std::string> arguments = {"identify", "--log", Path("log"), "--vehicle",
+                                          Path("boat.textproto")};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return Telltale(arguments);
+  }
+
+  CommandOutcome Validate(std::vector<std::string> more) const {
+    std::vector<std::string> arguments = {
+        "validate", "--log",           Path("log"), "--vehicle", Path("boat.textproto"),
+        "--model",  Path("model.json")};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return Telltale(arguments);
+  }
+
+  CommandOutcome Simulated(std::vector<std::string> more) const {
+    std::vector<std::string> arguments = {"simulate",
+                                          "--model",
+                                          Path("model.json"),
+                                          "--vehicle",
+                                          Path("boat.textproto"),
+                                          "--commands",
+                                          Path("log/thrusters.csv")};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return Telltale(arguments);
+  }
+
+  void MakeModel() const { ASSERT_EQ(Identify({"--out", Path("model.json")}).exit_code, kSuccess); }
+
+  TemporaryFolder folder;
+};
+
+// ---- usage -----------------------------------------------------------------------------------
+
+TEST_F(CommandTest, HelpIsNoError) {
+  for (const char* subcommand : {"identify", "validate", "simulate"}) {
+    const CommandOutcome outcome = Telltale({subcommand, "--help"});
+    EXPECT_EQ(outcome.exit_code, kSuccess);
+    EXPECT_THAT(outcome.out, AllOf(HasSubstr("--vehicle FILE"), HasSubstr("Example: telltale")));
+    EXPECT_THAT(outcome.err, IsEmpty());
+  }
+  EXPECT_THAT(Telltale({"--help"}).out, HasSubstr("Exit codes"));
+}
+
+TEST_F(CommandTest, WrongCommandLinesAreUsageErrors) {
+  const std::string log = Path("log");
+  const std::string boat = Path("boat.textproto");
+  for (const std::vector<std::string>& arguments : std::vector<std::vector<std::string>>{
+           {},
+           {"identfy"},
+           {"identify"},
+           {"identify", "--log", log},
+           {"identify", "--vehicle", boat},
+           {"identify", "--log", Path("nowhere"), "--vehicle", boat},
+           {"identify", "--log", log, "--vehicle", Path("nowhere")},
+           {"identify", "--log", log, "--vehicle", boat, "--colour", "red"},
+           {"validate", "--log", log, "--vehicle", boat},
+           {"validate", "--log", log, "--vehicle", boat, "--model", Path("nowhere")},
+           {"simulate", "--out", Path("s")}}) {
+    const CommandOutcome outcome = Telltale(arguments);
+    EXPECT_EQ(outcome.exit_code, kUsage) << testing::PrintToString(arguments);
+    EXPECT_THAT(outcome.err, Not(IsEmpty()));
+    EXPECT_THAT(outcome.out, IsEmpty());
+  }
+}
+
+TEST_F(CommandTest, OptionsOutOfRangeAreUsageErrorsThatNameTheRange) {
+  const auto expect = [this](const std::vector<std::string>& more, const char* named) {
+    const CommandOutcome outcome = Identify(more);
+    EXPECT_EQ(outcome.exit_code, kUsage) << testing::PrintToString(more);
+    EXPECT_THAT(outcome.err, HasSubstr(named));
+  };
+  expect({"--bootstrap", "50"}, "100000");
+  expect({"--bootstrap", "-1"}, "--bootstrap");
+  expect({"--bootstrap", "many"}, "--bootstrap");
+  expect({"--level", "0.2"}, "[0.5, 0.999]");
+  expect({"--level", "nan"}, "[0.5, 0.999]");
+  expect({"--threads", "0"}, "[1, 256]");
+  expect({"--sampling-period", "5"}, "sampling_period_s");
+  expect({"--preset", "best"}, "robust");
+  expect({"--parameterization", "cubic"}, "propeller");
+  expect({"--seed", "-3"}, "--seed");
+}
+
+TEST_F(CommandTest, WhatIsNotAvailableYetIsSaidWithWhatIs) {
+  for (const auto& [option, value, available] :
+       {std::array{"--estimator", "weak-iv", "available: one-step"},
+        std::array{"--estimator", "output-error", "available: one-step"},
+        std::array{"--structure", "dynamic", "available: static"}}) {
+    const CommandOutcome outcome = Identify({option, value});
+    EXPECT_EQ(outcome.exit_code, kUsage);
+    EXPECT_THAT(outcome.err, AllOf(HasSubstr(value), HasSubstr("not available in this version"),
+                                   HasSubstr(available)));
+  }
+}
+
+// ---- identify --------------------------------------------------------------------------------
+
+TEST_F(CommandTest, IdentifyPrintsATableAndWritesTheModel) {
+  const CommandOutcome outcome = Identify({"--out", Path("model.json")});
+  EXPECT_EQ(outcome.exit_code, kSuccess) << outcome.err;
+  EXPECT_THAT(outcome.err, IsEmpty());
+  EXPECT_THAT(outcome.out, AllOf(HasSubstr("yellowfish"), HasSubstr("SURGE"), HasSubstr("W11af"),
+                                 HasSubstr("95 % bounds"), HasSubstr("Bounds rest on")));
+  const auto model = ParseModelJson(TextOfFile(Path("model.json")));
+  ASSERT_TRUE(model) << model.error().Message();
+  EXPECT_EQ(model->vehicle_id, "yellowfish");
+  EXPECT_TRUE(ModelOf(*model));
+}
+
+TEST_F(CommandTest, IdentifyPrintsTheSameJsonItWrites) {
+  const CommandOutcome outcome = Identify({"--json", "--out", Path("model.json")});
+  EXPECT_EQ(outcome.exit_code, kSuccess) << outcome.err;
+  EXPECT_EQ(outcome.out, TextOfFile(Path("model.json")));
+}
+
+TEST_F(CommandTest, ThreadsDoNotChangeTheModelAndTheSeedDoes) {
+  const std::string one = Identify({"--json", "--threads", "1"}).out;
+  EXPECT_EQ(Identify({"--json", "--threads", "2"}).out, one);
+  EXPECT_NE(Identify({"--json", "--seed", "2"}).out, one);
+}
+
+TEST_F(CommandTest, IdentifyTakesThePapersOptions) {
+  const CommandOutcome outcome = Identify(
+      {"--preset", "paper", "--parameterization", "paper", "--level", "0.9", "--discrete"});
+  EXPECT_EQ(outcome.exit_code, kSuccess) << outcome.err;
+  EXPECT_THAT(outcome.out, AllOf(HasSubstr("mean^2+diff^2/4"), HasSubstr("90 % bounds"),
+                                 HasSubstr("Coefficients times h = 0.2 s")));
+}
+
+TEST_F(CommandTest, SeveralLogsAreOneAfterTheOther) {
+  WriteTelemetryLog(Path("second"), Measured(0.0));
+  const CommandOutcome outcome = Identify({"--log", Path("second"), "--json"});
+  EXPECT_EQ(outcome.exit_code, kSuccess) << outcome.err;
+  const auto model = ParseModelJson(outcome.out);
+  ASSERT_TRUE(model) << model.error().Message();
+  EXPECT_GT(model->window.end_s - model->window.start_s, 2.0 * kSampleMissionDurationS);
+  EXPECT_EQ(model->window.rejected.Total(), 0u);
+}
+
+TEST_F(CommandTest, MalformedRowsAreNotedWithTheirLines) {
+  const std::string gnss = TextOfFile(Path("log/gnss.csv"));
+  folder.Write("log/gnss.csv", gnss + "600.5,oops,1\n");
+  const CommandOutcome outcome = Identify({});
+  EXPECT_EQ(outcome.exit_code, kSuccess);
+  const auto line = std::count(gnss.begin(), gnss.end(), '\n') + 1;
+  EXPECT_THAT(outcome.err, AllOf(HasSubstr("gnss.csv: 1 malformed rows skipped"),
+                                 HasSubstr("line " + std::to_string(line))));
+}
+
+TEST_F(CommandTest, ALogWithoutAFileIsRefusedWithReasonAndAdvice) {
+  std::filesystem::remove(Path("log/heading.csv"));
+  const CommandOutcome outcome = Identify({"--out", Path("model.json")});
+  EXPECT_EQ(outcome.exit_code, kRefused);
+  EXPECT_THAT(outcome.err, AllOf(HasSubstr("heading.csv: is missing"), HasSubstr("-> ")));
+  EXPECT_FALSE(std::filesystem::exists(Path("model.json")));
+}
+
+TEST_F(CommandTest, AnEmptyOrShortLogIsRefused) {
+  folder.Write("log/gnss.csv", "");
+  EXPECT_EQ(Identify({}).exit_code, kRefused);
+  folder.Write("log/gnss.csv", "time_s,latitude_deg,longitude_deg\n0,1,1\n0.2,1,1\n");
+  const CommandOutcome outcome = Identify({});
+  EXPECT_EQ(outcome.exit_code, kRefused);
+  EXPECT_THAT(outcome.err, HasSubstr("-> "));
+}
+
+TEST_F(CommandTest, AWrongVehicleFileFailsNamingFieldAndLine) {
+  folder.Write("boat.textproto", "vehicle_id: \"b\"\npropeller_separation_m: 900\n");
+  const CommandOutcome outcome = Identify({});
+  EXPECT_EQ(outcome.exit_code, kFailure);
+  EXPECT_THAT(outcome.err,
+              HasSubstr("boat.textproto:2: propeller_separation_m = 900: a number in [0.05, 50]"));
+}
+
+TEST_F(CommandTest, AModelThatCannotBeWrittenFails) {
+  const CommandOutcome outcome = Identify({"--out", Path("nowhere/model.json")});
+  EXPECT_EQ(outcome.exit_code, kFailure);
+  EXPECT_THAT(outcome.err, HasSubstr("nowhere/model.json"));
+}
+
+// ---- validate --------------------------------------------------------------------------------
+
+TEST_F(CommandTest, ValidateScoresTheModelBesidePersistence) {
+  MakeModel();
+  const CommandOutcome outcome = Validate({"--out", Path("metrics.json")});
+  EXPECT_EQ(outcome.exit_code, kSuccess) << outcome.err;
+  EXPECT_THAT(outcome.out, AllOf(HasSubstr("persistence"), HasSubstr("noise floor"),
+                                 HasSubstr("1 s:"), HasSubstr("5 s:"), HasSubstr("10 s:")));
+  const auto metrics = ParseMetricsJson(TextOfFile(Path("metrics.json")));
+  ASSERT_TRUE(metrics) << metrics.error().Message();
+  EXPECT_EQ(metrics->free_run.size(), 3u);
+}
+
+TEST_F(CommandTest, ValidateTakesHorizons) {
+  MakeModel();
+  const CommandOutcome outcome = Validate({"--horizon", "2", "--horizon", "3", "--json"});
+  const auto metrics = ParseMetricsJson(outcome.out);
+  ASSERT_TRUE(metrics) << metrics.error().Message();
+  ASSERT_EQ(metrics->free_run.size(), 2u);
+  EXPECT_EQ(metrics->free_run[1].horizon_s, 3.0);
+  EXPECT_EQ(Validate({"--horizon", "-1"}).exit_code, kUsage);
+  EXPECT_EQ(Validate({"--horizon", "601"}).exit_code, kUsage);
+}
+
+TEST_F(CommandTest, ValidateSaysWhetherTheLogMadeTheModel) {
+  MakeModel();
+  EXPECT_THAT(Validate({}).out, HasSubstr("these may be scores on"));
+  WriteTelemetryLog(Path("log"), Measured(5000.0));
+  EXPECT_THAT(Validate({}).out, HasSubstr("not among the data that made the model"));
+}
+
+TEST_F(CommandTest, ValidateRefusesAModelThatLacksAnEquation) {
+  Identification partial = MadeUpIdentification();
+  std::erase_if(partial.coefficients, [](const auto& c) { return c.equation == Equation::kSway; });
+  const auto n = static_cast<Eigen::Index>(partial.coefficients.size());
+  partial.covariance = Eigen::MatrixXd::Identity(n, n);
+  folder.Write("model.json", PrintModelJson(partial));
+  const CommandOutcome outcome = Validate({});
+  EXPECT_EQ(outcome.exit_code, kRefused);
+  EXPECT_THAT(outcome.err, HasSubstr("-> "));
+}
+
+TEST_F(CommandTest, AWrongModelFileFailsNamingTheField) {
+  folder.Write("model.json", "{\"structure\": \"CUBIC\"}");
+  const CommandOutcome outcome = Validate({});
+  EXPECT_EQ(outcome.exit_code, kFailure);
+  EXPECT_THAT(outcome.err, AllOf(HasSubstr("structure"), HasSubstr("CUBIC")));
+}
+
+TEST_F(CommandTest, AModelOfAnotherVehicleIsNoted) {
+  folder.Write("model.json", PrintModelJson(MadeUpIdentification()));
+  EXPECT_THAT(Validate({}).err, HasSubstr("the model is of made-up.1"));
+}
+
+// ---- simulate --------------------------------------------------------------------------------
+
+TEST_F(CommandTest, SimulateWritesALogOfTheSameCommands) {
+  MakeModel();
+  const CommandOutcome outcome = Simulated({"--out", Path("simulated")});
+  EXPECT_EQ(outcome.exit_code, kSuccess) << outcome.err;
+  const auto given = ReadTelemetryLog(Path("log"));
+  const auto made = ReadTelemetryLog(Path("simulated"));
+  ASSERT_TRUE(made) << made.error().reason;
+  EXPECT_EQ(TextOfFile(Path("simulated/thrusters.csv")), TextOfFile(Path("log/thrusters.csv")));
+  EXPECT_EQ(TimeOf(made->samples.back()), TimeOf(given->samples.back()));
+}
+
+TEST_F(CommandTest, TheSameSeedSimulatesTheSameLog) {
+  MakeModel();
+  const auto gnss = [this](const char* seed, const char* out) {
+    EXPECT_EQ(Simulated({"--seed", seed, "--out", Path(out)}).exit_code, kSuccess);
+    return TextOfFile(folder.Path() / out / "gnss.csv");
+  };
+  const std::string first = gnss("7", "a");
+  EXPECT_EQ(gnss("7", "b"), first);
+  EXPECT_NE(gnss("8", "c"), first);
+}
+
+TEST_F(CommandTest, SimulateRefusesAModelThatRunsAway) {
+  Identification unstable = MadeUpIdentification();
+  unstable.coefficients[0].estimate = 50.0;  // u|u| that drives instead of damping
+  unstable.coefficients[4].estimate = 1.0;   // and a push to begin with
+  folder.Write("model.json", PrintModelJson(unstable));
+  const CommandOutcome outcome = Simulated({"--out", Path("simulated")});
+  EXPECT_EQ(outcome.exit_code, kRefused);
+  EXPECT_THAT(outcome.err, AllOf(HasSubstr("grows without bound"), HasSubstr("-> ")));
+  EXPECT_FALSE(std::filesystem::exists(Path("simulated")));
+}
+
+TEST_F(CommandTest, SimulateChecksItsInputs) {
+  MakeModel();
+  EXPECT_EQ(Simulated({"--out", Path("s"), "--step", "0"}).exit_code, kUsage);
+  EXPECT_EQ(Simulated({"--out", Path("s"), "--noise-position", "-1"}).exit_code, kUsage);
+  EXPECT_EQ(Simulated({"--out", Path("s"), "--noise-heading", "91"}).exit_code, kUsage);
+  EXPECT_EQ(Simulated({"--out", Path("s"), "--seed", "-1"}).exit_code, kUsage);
+  EXPECT_EQ(Simulated({"--out", Path("boat.textproto")}).exit_code, kFailure);
+  folder.Write("log/thrusters.csv", "time_s,left_us,right_us\n0,9999,1500\n");
+  EXPECT_EQ(Simulated({"--out", Path("s")}).exit_code, kRefused);
+}
+
+}  // namespace
+}  // namespace telltale

@@ -1,0 +1,124 @@
+#include "cli/model_table.hpp"
+
+#include <algorithm>
+#include <sstream>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "cli/metrics_table.hpp"
+#include "cli/table.hpp"
+#include "support/identifications.hpp"
+
+namespace telltale {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+
+void ExpectNoLineBeyondTheTerminal(const std::string& text) {
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);) {
+    EXPECT_LE(DisplayWidth(line), kTerminalColumns) << line;
+  }
+}
+
+// The widest numbers that four significant digits can make.
+Identification WithWideNumbers(Parameterization parameterization) {
+  Identification wide = MadeUpIdentification(parameterization);
+  for (Coefficient& coefficient : wide.coefficients) {
+    coefficient.estimate = -1.234e-05;
+    coefficient.standard_error = 1.23e-05;
+    coefficient.interval = {0.95, -1.234e-05, -1.234e-06};
+    coefficient.status = CoefficientStatus::kNotExcited;
+  }
+  return wide;
+}
+
+TEST(ModelTable, FitsATerminal) {
+  for (const auto parameterization : {Parameterization::kPropeller, Parameterization::kPaper}) {
+    ExpectNoLineBeyondTheTerminal(ModelTable(MadeUpIdentification(parameterization)));
+    ExpectNoLineBeyondTheTerminal(DiscreteTable(MadeUpIdentification(parameterization)));
+    ExpectNoLineBeyondTheTerminal(DiscreteTable(WithWideNumbers(parameterization)));
+  }
+  ExpectNoLineBeyondTheTerminal(ModelTable(WithWideNumbers(Parameterization::kPropeller)));
+}
+
+TEST(ModelTable, TellsEverythingTheModelRestsOn) {
+  const std::string table = ModelTable(MadeUpIdentification());
+  for (const char* text : {"made-up.1",
+                           "static quadratic",
+                           "h = 0.2 s",
+                           "95 % bounds",
+                           "SURGE",
+                           "SWAY",
+                           "YAW",
+                           "Pu11",
+                           "-0.3333",
+                           "1/(m s)",
+                           "not excited",
+                           "[-∞, ∞]",
+                           "sway: v and v|v| move together",
+                           "add a zigzag at two speeds",
+                           "3003 rows in 41 segments",
+                           "gnss 7 DUPLICATE",
+                           "thrusters 2 NOT_FINITE",
+                           "a cluster bootstrap over segments",
+                           "1000 replicates",
+                           "3 of them unsolved"}) {
+    EXPECT_THAT(table, HasSubstr(text));
+  }
+}
+
+TEST(ModelTable, ARefusedEquationHasNoHeading) {
+  Identification partial = MadeUpIdentification();
+  std::erase_if(partial.coefficients, [](const auto& c) { return c.equation == Equation::kSway; });
+  EXPECT_THAT(ModelTable(partial), Not(HasSubstr("SWAY")));
+}
+
+TEST(DiscreteTable, HoldsTheCoefficientsTimesThePeriod) {
+  Identification model = MadeUpIdentification();
+  model.coefficients[0].estimate = -1.5;  // times 0.2
+  EXPECT_THAT(DiscreteTable(model), HasSubstr("-0.3000"));
+}
+
+Metrics MadeUpMetrics() {
+  Metrics metrics;
+  metrics.one_step.fill({0.99, 0.0123, 0.95});
+  FreeRunScores scores;
+  scores.horizon_s = 5.0;
+  scores.velocity.fill({0.0456, 0.03, 0.9, 0.0789, 0.0012});
+  scores.position_rmse_m = 0.321;
+  scores.windows = 7;
+  metrics.free_run.push_back(scores);
+  return metrics;
+}
+
+TEST(MetricsTable, PutsPersistenceAndTheNoiseFloorBesideTheModel) {
+  const std::string table = MetricsTable(MadeUpMetrics());
+  ExpectNoLineBeyondTheTerminal(table);
+  for (const char* text : {"R2 of persistence", "0.9500", "0.0123", "5 s: 7 windows", "0.0456",
+                           "0.0789", "0.00120", "0.321 m"}) {
+    EXPECT_THAT(table, HasSubstr(text));
+  }
+}
+
+TEST(MetricsTable, SaysWhereTheModelRunsAway) {
+  Metrics metrics = MadeUpMetrics();
+  metrics.free_run[0].velocity[0].rmse = 1e80;
+  metrics.free_run[0].velocity[1].rmse = std::numeric_limits<double>::quiet_NaN();
+  const std::string table = MetricsTable(metrics);
+  ExpectNoLineBeyondTheTerminal(table);
+  EXPECT_THAT(table, HasSubstr("runs away"));
+  EXPECT_THAT(table, HasSubstr("diverges"));
+  EXPECT_THAT(table, Not(HasSubstr("e+80")));
+}
+
+TEST(MetricsTable, SaysWhereNoWindowFits) {
+  Metrics metrics = MadeUpMetrics();
+  metrics.free_run[0].windows = 0;
+  EXPECT_THAT(MetricsTable(metrics), HasSubstr("no stretch without gaps is this long"));
+}
+
+}  // namespace
+}  // namespace telltale
