@@ -220,9 +220,10 @@ double StandardDeviation(const Compressed& compressed, double alpha) {
   return std::max(std::sqrt(SquaresGiven(compressed, alpha) / freedom), floor);
 }
 
-double SolveJointly(const std::vector<Compressed>& equations, double start_alpha,
-                    std::vector<Eigen::VectorXd>& theta) {
+/// One joint solve, each equation weighted by what it leaves at `start_alpha`.
+double SolveWeighted(const std::vector<Compressed>& equations, double start_alpha) {
   double alpha = start_alpha;
+  std::vector<Eigen::VectorXd> theta;
   ceres::Problem joint;  // owns its cost functions
   for (std::size_t i = 0; i < equations.size(); ++i) {
     theta.push_back(SolveGiven(equations[i], start_alpha));
@@ -240,17 +241,29 @@ double SolveJointly(const std::vector<Compressed>& equations, double start_alpha
   options.logging_type = ceres::SILENT;
   ceres::Solver::Summary summary;
   ceres::Solve(options, &joint, &summary);
-  // For the final alpha the rest is linear; solving it so removes what the iterations left.
-  for (std::size_t i = 0; i < equations.size(); ++i) theta[i] = SolveGiven(equations[i], alpha);
+  return alpha;
+}
+
+/// Repeats the joint solve until the weights belong to the alpha they lead to.
+double SolveJointly(const std::vector<Compressed>& equations, double start_alpha) {
+  constexpr int kMostRounds = 20;
+  constexpr double kSettled = 1e-12;
+  double alpha = start_alpha;
+  for (int round = 0; round < kMostRounds; ++round) {
+    const double next = SolveWeighted(equations, alpha);
+    const bool settled = std::abs(next - alpha) < kSettled;
+    alpha = next;
+    if (settled) break;
+  }
   return alpha;
 }
 
 EquationEstimate WriteEstimate(const Excitation& excitation, const Compressed& compressed,
-                               double alpha, const Eigen::VectorXd& theta) {
+                               double alpha) {
   EquationEstimate estimate;
   estimate.equation = excitation.equation;
   estimate.columns = excitation.excited;
-  estimate.theta = theta;
+  estimate.theta = SolveGiven(compressed, alpha);  // linear, so nothing of the iterations is left in it
   estimate.estimable.assign(excitation.excited.size(), true);
   estimate.degrees_of_freedom =
       static_cast<double>(compressed.rows - compressed.Coefficients() - 1);
@@ -341,13 +354,12 @@ LaggedEstimate EstimateLagged(const LaggedProblem& problem,
   Require(!answered.which.empty(), "at least one answered equation");
 
   LaggedEstimate estimate;
-  std::vector<Eigen::VectorXd> theta;
-  estimate.alpha = SolveJointly(answered.compressed, BestGridAlpha(answered.compressed), theta);
+  estimate.alpha = SolveJointly(answered.compressed, BestGridAlpha(answered.compressed));
   estimate.time_constant_s = -problem.sampling_period_s / std::log(estimate.alpha);
   for (std::size_t i = 0; i < answered.which.size(); ++i) {
     const std::size_t j = answered.which[i];
     estimate.equations[j] =
-        WriteEstimate(*excitations[j], answered.compressed[i], estimate.alpha, theta[i]);
+        WriteEstimate(*excitations[j], answered.compressed[i], estimate.alpha);
   }
   StackRows(problem, answered, estimate);
   return estimate;
