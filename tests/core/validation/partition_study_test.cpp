@@ -65,16 +65,18 @@ TEST(StudyPartitions, RunsFreelyBySegmentsAlone) {
   }
 }
 
-/// White noise e on nu enters y = nu(k+1) - nu(k) twice; the one-step error of a good model is then
-/// e sqrt(2), whose mean absolute value is e 2 / sqrt(pi) = 1.128 e.
+/// White noise of sigma on nu enters nu(k+1) - nu(k) twice. A fit that leaves both errs by sigma sqrt(2), a
+/// mean absolute error of 2 / sqrt(pi) sigma = 1.128 sigma; one that attenuates until it predicts the noise of
+/// nu(k) away errs by sigma, sqrt(2 / pi) sigma = 0.798 sigma. Every fit lies between the two.
 TEST(StudyPartitions, ReportsTheErrorThatNoiseLeaves) {
   const double noise = 0.01;
   const auto scores =
       StudyPartitions(Boat(DiscreteTwin(), noise), Options(PartitionMethod::kBySegments));
   ASSERT_TRUE(scores.has_value());
   for (const PartitionScores& s : *scores) {
-    // Attenuation lets a fit trade a little of it against the regressors: 10 % is room for that.
-    EXPECT_NEAR(s.mae.mean, 1.128 * noise, 0.1 * 1.128 * noise);
+    // 3 % for the scatter of 900 validation rows.
+    EXPECT_GT(s.mae.mean, 0.97 * 0.798 * noise);
+    EXPECT_LT(s.mae.mean, 1.03 * 1.128 * noise);
     EXPECT_GT(s.mae.standard_deviation, 0.0);
   }
 }
@@ -119,7 +121,7 @@ TEST(StudyPartitions, RefusesTooFewSegmentsAndWrongShares) {
   options.training_share = 0.8;
   options.validation_share = 0.3;
   ASSERT_TRUE(options.Validate().has_value());
-  EXPECT_EQ(options.Validate()->subject, "partition.validation_share");
+  EXPECT_NE(options.Validate()->reason.find("validation_share"), std::string::npos);
 }
 
 }  // namespace
