@@ -62,16 +62,13 @@ void EstimateWithCovariance(benchmark::State& state) {
 BENCHMARK(EstimateWithCovariance)->Unit(benchmark::kMillisecond);
 
 void BootstrapYaw(benchmark::State& state) {
-  RegressionProblem problem;
-  problem.equations[0].clusters = YawProblem().clusters;
-  problem.equations[2] = YawProblem();
-  std::array<std::optional<EquationEstimate>, 3> estimates;
-  estimates[2] = EstimateOneStep(*Assess(problem.equations[2], {}));
+  const EquationProblem yaw = YawProblem();
+  const std::vector<ClusteredFit> fits = {FitOf(yaw, EstimateOneStep(*Assess(yaw, {})))};
   for (auto _ : state) {
-    benchmark::DoNotOptimize(BootstrapSegments(problem, estimates, {1000, 1, 1}));
+    benchmark::DoNotOptimize(BootstrapSegments(fits, {1000, 1, 1}));
   }
-  state.counters["rows"] = static_cast<double>(problem.equations[2].y.size());
-  state.counters["segments"] = static_cast<double>(problem.equations[0].clusters.size());
+  state.counters["rows"] = static_cast<double>(yaw.y.size());
+  state.counters["segments"] = static_cast<double>(yaw.clusters.size());
 }
 BENCHMARK(BootstrapYaw)->Unit(benchmark::kMillisecond);
 

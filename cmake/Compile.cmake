@@ -29,4 +29,11 @@ function(telltale_layer name)
   add_library(telltale_${name} STATIC ${sources})
   target_include_directories(telltale_${name} PUBLIC ${CMAKE_CURRENT_SOURCE_DIR})
   target_link_libraries(telltale_${name} PUBLIC ${ARG_LINKS} PRIVATE telltale_compile)
+  telltale_precompile(telltale_${name})
+endfunction()
+
+# Parsing Eigen takes longer than compiling most files here: it is read once a target.
+function(telltale_precompile target)
+  target_precompile_headers(${target} PRIVATE <Eigen/Dense> <optional> <string> <vector>
+                            <tl/expected.hpp> ${ARGN})
 endfunction()

@@ -8,6 +8,7 @@
 #include "codec/vehicle_file.hpp"
 #include "contract.hpp"
 #include "recording/files.hpp"
+#include "recording/load.hpp"
 #include "recording/telemetry_log.hpp"
 
 namespace telltale {
@@ -27,23 +28,20 @@ void NoteMalformed(const std::filesystem::path& file, const MalformedRows& malfo
   std::cerr << '\n';
 }
 
-Recording LoadLog(const std::filesystem::path& folder) {
-  const TelemetryLog log = OrThrow(ReadTelemetryLog(folder));
+Recording LoadLog(const std::filesystem::path& path) {
+  LoadedRecording loaded = OrThrow(LoadRecording(path));
+  if (loaded.dataflash) {
+    std::cerr << "note: " << path.string() << ": " << loaded.dataflash->report.Summary() << '\n';
+  }
   for (const Channel channel : kChannels) {
-    NoteMalformed(folder / (std::string(Name(channel)) + ".csv"),
-                  log.malformed[static_cast<std::size_t>(channel)]);
+    NoteMalformed(path / (std::string(Name(channel)) + ".csv"),
+                  loaded.malformed[static_cast<std::size_t>(channel)]);
   }
-  auto admitted = Admit(log.samples);
-  if (!admitted) {
-    Refusal refusal = admitted.error();
-    refusal.subject = folder.string() + " " + refusal.subject;
-    throw RefusedError(refusal);
-  }
-  if (admitted->forgotten > 0) {
-    std::cerr << "note: " << folder.string() << ": " << admitted->forgotten
+  if (loaded.forgotten > 0) {
+    std::cerr << "note: " << path.string() << ": " << loaded.forgotten
               << " samples left out, older than a day or before the clock was set back\n";
   }
-  return std::move(admitted->recording);
+  return std::move(loaded.recording);
 }
 
 }  // namespace

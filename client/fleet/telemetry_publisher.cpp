@@ -1,10 +1,18 @@
 #include "fleet/telemetry_publisher.hpp"
 
+#include <thread>
 #include <utility>
 
 #include "codec/wire.hpp"
 
 namespace telltale {
+namespace {
+
+// Both sides of a match learn of its coming and going within milliseconds; a busy machine takes
+// longer.
+constexpr auto kSettling = std::chrono::milliseconds(200);
+
+}  // namespace
 
 TelemetryPublisher::TelemetryPublisher(const Participant& participant, std::string vehicle_id)
     : participant_(participant),
@@ -13,8 +21,18 @@ TelemetryPublisher::TelemetryPublisher(const Participant& participant, std::stri
       heading_writer_(participant),
       thruster_writer_(participant) {}
 
+TelemetryPublisher::~TelemetryPublisher() {
+  if (Published() == 0) return;
+  Flush();
+  std::this_thread::sleep_for(kSettling);
+}
+
 bool TelemetryPublisher::WaitForReaders(std::chrono::nanoseconds timeout) const {
-  return WaitForMatch(participant_, {gnss_writer_, heading_writer_, thruster_writer_}, timeout);
+  if (!WaitForMatch(participant_, {gnss_writer_, heading_writer_, thruster_writer_}, timeout)) {
+    return false;
+  }
+  std::this_thread::sleep_for(kSettling);
+  return true;
 }
 
 void TelemetryPublisher::Publish(const GnssFix& fix) {

@@ -15,8 +15,16 @@ namespace telltale {
 class TelemetryPublisher {
  public:
   TelemetryPublisher(const Participant& participant, std::string vehicle_id);
+  TelemetryPublisher(const TelemetryPublisher&) = delete;
+  TelemetryPublisher& operator=(const TelemetryPublisher&) = delete;
 
-  /// False when within `timeout` nobody was there to receive all three channels.
+  /// Sends what is left and leaves a moment later: a receiver that hears of the leave-taking drops
+  /// what has not reached it yet.
+  ~TelemetryPublisher();
+
+  /// False when within `timeout` nobody was there to receive all three channels. Where somebody is,
+  /// it waits a moment more for them to learn of this side: what is sent before they do is lost,
+  /// and nothing tells.
   bool WaitForReaders(std::chrono::nanoseconds timeout) const;
 
   void Publish(const GnssFix& fix);

@@ -7,30 +7,17 @@
 namespace telltale {
 namespace {
 
-/// Surge in the paper's parameterization has one thrust curve, the forward one, so it holds in FF alone.
-bool Enters(PropellerRegion region, Equation equation, const RegressionOptions& options) {
-  if (region == PropellerRegion::kRR) return options.include_reverse;
-  const bool forward_only =
-      equation == Equation::kSurge && options.parameterization == Parameterization::kPaper;
-  return !forward_only || region == PropellerRegion::kFF;
-}
-
-double Component(const Nu& nu, Equation equation) {
-  switch (equation) {
-    case Equation::kSurge: return nu.u;
-    case Equation::kSway: return nu.v;
-    default: return nu.r;
-  }
+const RowRange& StretchOf(const RowRange& segment, const std::vector<RowRange>& stretches) {
+  const auto found = std::find_if(stretches.begin(), stretches.end(), [&](const RowRange& s) {
+    return segment.begin >= s.begin && segment.end <= s.end;
+  });
+  Require(found != stretches.end(), "every segment inside a stretch");
+  return *found;
 }
 
 /// Indices k of a segment whose successor k + 1 belongs to the same gap-free stretch.
 RowRange PairsOf(const RowRange& segment, const std::vector<RowRange>& stretches) {
-  for (const RowRange& stretch : stretches) {
-    if (segment.begin >= stretch.begin && segment.end <= stretch.end) {
-      return {segment.begin, std::min(segment.end, stretch.end - 1)};
-    }
-  }
-  throw ContractViolation("BuildRegression: requires every segment inside a stretch");
+  return {segment.begin, std::min(segment.end, StretchOf(segment, stretches).end - 1)};
 }
 
 std::size_t CountRows(const PreparedDataset& dataset, Equation equation,
@@ -55,6 +42,7 @@ EquationProblem BuildEquation(const PreparedDataset& dataset, Equation equation,
   // Filled row by row, kept row-major for that reason while it is built.
   Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> phi(rows, columns);
   problem.y.resize(rows);
+  problem.nu.resize(rows);
   Eigen::Index row = 0;
   for (const RowRange& segment : dataset.segments) {
     const auto first = static_cast<std::size_t>(row);
@@ -62,10 +50,11 @@ EquationProblem BuildEquation(const PreparedDataset& dataset, Equation equation,
     for (std::size_t k = pairs.begin; k < pairs.end; ++k) {
       const PreparedRow& now = dataset.rows[k];
       if (!Enters(now.region, equation, options)) continue;
-      FillRow(equation, options.parameterization, now.nu, now.delta,
+      FillRow(equation, options.parameterization, now.nu, options.dead_zone.Apply(now.delta),
               {phi.row(row).data(), problem.regressors.size()});
+      problem.nu[row] = ComponentOf(now.nu, equation);
       problem.y[row] =
-          (Component(dataset.rows[k + 1].nu, equation) - Component(now.nu, equation)) /
+          (ComponentOf(dataset.rows[k + 1].nu, equation) - ComponentOf(now.nu, equation)) /
           dataset.sampling_period_s;
       ++row;
     }
@@ -76,6 +65,19 @@ EquationProblem BuildEquation(const PreparedDataset& dataset, Equation equation,
 }
 
 }  // namespace
+
+/// Surge in the paper's parameterization has one thrust curve, the forward one, so it holds in FF alone.
+bool Enters(PropellerRegion region, Equation equation, const RegressionOptions& options) {
+  if (region == PropellerRegion::kRR) return options.include_reverse;
+  const bool forward_only =
+      equation == Equation::kSurge && options.parameterization == Parameterization::kPaper;
+  return !forward_only || region == PropellerRegion::kFF;
+}
+
+RowRange InstantsAfter(const RowRange& segment, const std::vector<RowRange>& stretches) {
+  const std::size_t end = std::min(segment.end + 1, StretchOf(segment, stretches).end - 1);
+  return {std::min(segment.begin + 1, end), end};
+}
 
 RegressionProblem BuildRegression(const PreparedDataset& dataset,
                                   const RegressionOptions& options) {

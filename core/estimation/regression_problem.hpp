@@ -12,7 +12,7 @@
 namespace telltale {
 
 /// The regression of one equation: y = Phi theta + noise.
-/// Shapes: phi n x p, y n. clusters[s] is the range of rows of phi that segment s of the dataset gave,
+/// Shapes: phi n x p, y n, nu n (the equation's velocity at instant k). clusters[s] is the range of rows of phi that segment s of the dataset gave,
 /// possibly empty: the same index means the same segment in all three equations.
 /// Units: y in m/s^2 or rad/s^2, so theta is continuous-time SI.
 struct EquationProblem {
@@ -20,6 +20,7 @@ struct EquationProblem {
   std::span<const Regressor> regressors;
   Eigen::MatrixXd phi;
   Eigen::VectorXd y;
+  Eigen::VectorXd nu;
   std::vector<RowRange> clusters;
 };
 
@@ -38,7 +39,15 @@ struct RegressionOptions {
   Structure structure = Structure::kStaticQuadratic;
   Parameterization parameterization = Parameterization::kPropeller;
   bool include_reverse = false;  ///< take RR rows too
+  DeadZone dead_zone;            ///< applied to every command before its regressors are formed
 };
+
+/// Whether rows under a command of this region enter this equation.
+bool Enters(PropellerRegion region, Equation equation, const RegressionOptions& options);
+
+/// Instants k of the regressions that look one command back: the command at k-1 lies in `segment`, and
+/// k-1, k and k+1 in its stretch.
+RowRange InstantsAfter(const RowRange& segment, const std::vector<RowRange>& stretches);
 
 /// PreparedDataset -> RegressionProblem: y(k) = (nu(k+1) - nu(k)) / h on Phi(nu(k), delta(k)),
 /// pairs never straddling a gap. docs/model.md (13).

@@ -38,6 +38,7 @@ Result<VesselModel> ModelOf(const Identification& identification) {
                              ? Discretisation::kForwardEuler
                              : Discretisation::kContinuous;
   model.sampling_period_s = identification.sampling_period_s;
+  model.dead_zone = identification.dead_zone;
   for (const Equation equation : kEquations) {
     if (!identification.Has(equation)) {
       return Refuse("free run",

@@ -68,6 +68,7 @@ struct Identification {
   Parameterization parameterization = Parameterization::kUnknown;
   Estimator estimator = Estimator::kUnknown;
   double sampling_period_s = 0.0;
+  DeadZone dead_zone;
   std::vector<Coefficient> coefficients;
   Eigen::MatrixXd covariance;
   std::optional<Coefficient> thruster_time_constant;

@@ -5,7 +5,9 @@
 #include <cmath>
 #include <limits>
 
+#include "estimation/lagged_regression.hpp"
 #include "estimation/one_step.hpp"
+#include "uncertainty/clustered_fit.hpp"
 #include "uncertainty/segment_bootstrap.hpp"
 
 namespace telltale {
@@ -16,63 +18,105 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 // With fewer independent segments than this a bootstrap over them says little.
 constexpr std::size_t kFewestSegments = 8;
 
-/// Everything known about the three equations before coefficients are written down.
+/// Everything known about the equations before coefficients are written down.
+/// fits hold the bounds; theta of answered equation j begins at place first[j] of the stacked fits.
 struct Answers {
   std::array<std::optional<Excitation>, 3> excitations;
   std::array<std::optional<EquationEstimate>, 3> estimates;
+  std::array<Eigen::Index, 3> first{};
+  std::vector<ClusteredFit> fits;
+  std::optional<LaggedEstimate> lag;
   std::vector<Refusal> refusals;
 
   bool Any() const {
-    return std::any_of(estimates.begin(), estimates.end(), [](const auto& e) { return e; });
+    return std::any_of(excitations.begin(), excitations.end(), [](const auto& e) { return e; });
   }
 };
 
-/// Bounds of the coefficients of all estimates, stacked in the order of the bootstrap.
+/// Bounds of all stacked coefficients.
 struct Bounds {
   Eigen::MatrixXd covariance;
   std::vector<Interval> intervals;
+  std::vector<bool> estimable;
 };
 
-Answers Answer(const RegressionProblem& problem, const ExcitationLimits& limits) {
+void AssessEquation(const EquationProblem& regression, const ExcitationLimits& limits,
+                    Answers& answers) {
+  const auto excitation = Assess(regression, limits);
+  if (!excitation) {
+    answers.refusals.push_back(excitation.error());
+    return;
+  }
+  for (const CollinearGroup& group : excitation->collinear) {
+    answers.refusals.push_back(Explain(group, regression));
+  }
+  answers.excitations[IndexOf(regression.equation)] = *excitation;
+}
+
+Answers AnswerStatic(const PreparedDataset& dataset, const IdentifyOptions& options) {
+  const RegressionProblem problem = BuildRegression(dataset, options.regression);
   Answers answers;
-  for (const Equation equation : kEquations) {
-    const EquationProblem& regression = problem.equations[IndexOf(equation)];
-    const auto excitation = Assess(regression, limits);
-    if (!excitation) {
-      answers.refusals.push_back(excitation.error());
-      continue;
-    }
-    for (const CollinearGroup& group : excitation->collinear) {
-      answers.refusals.push_back(Explain(group, regression));
-    }
-    answers.estimates[IndexOf(equation)] = EstimateOneStep(*excitation);
-    answers.excitations[IndexOf(equation)] = *excitation;
+  Eigen::Index next = 0;
+  for (std::size_t j = 0; j < problem.equations.size(); ++j) {
+    AssessEquation(problem.equations[j], options.excitation, answers);
+    if (!answers.excitations[j]) continue;
+    answers.estimates[j] = EstimateOneStep(*answers.excitations[j]);
+    answers.fits.push_back(FitOf(problem.equations[j], *answers.estimates[j]));
+    answers.first[j] = next;
+    next += answers.estimates[j]->theta.size();
   }
   return answers;
 }
 
-Bounds ResidualBounds(const Answers& answers, double level) {
-  Eigen::Index size = 0;
-  for (const auto& estimate : answers.estimates) size += estimate ? estimate->theta.size() : 0;
+Answers AnswerDynamic(const PreparedDataset& dataset, const IdentifyOptions& options) {
+  const LaggedProblem problem = BuildLagged(dataset, options.regression);
+  Answers answers;
+  for (const LaggedEquation& equation : problem.equations) {
+    AssessEquation(equation.WithoutLag(), options.excitation, answers);
+  }
+  if (!answers.Any()) return answers;
+  answers.lag = EstimateLagged(problem, answers.excitations);
+  answers.estimates = answers.lag->equations;
+  answers.fits.push_back(FitOf(*answers.lag));
+  Eigen::Index next = 1;  // alpha comes first
+  for (std::size_t j = 0; j < answers.estimates.size(); ++j) {
+    if (!answers.estimates[j]) continue;
+    answers.first[j] = next;
+    next += answers.estimates[j]->theta.size();
+  }
+  return answers;
+}
+
+Bounds BoundsFor(const std::vector<ClusteredFit>& fits) {
   Bounds bounds;
+  Eigen::Index size = 0;
+  for (const ClusteredFit& fit : fits) {
+    size += fit.theta.size();
+    bounds.estimable.insert(bounds.estimable.end(), fit.estimable.begin(), fit.estimable.end());
+  }
   bounds.covariance = Eigen::MatrixXd::Zero(size, size);
+  return bounds;
+}
+
+Bounds ResidualBounds(const std::vector<ClusteredFit>& fits, double level) {
+  Bounds bounds = BoundsFor(fits);
   Eigen::Index first = 0;
-  for (const auto& estimate : answers.estimates) {
-    if (!estimate) continue;
-    const Eigen::Index p = estimate->theta.size();
+  for (const ClusteredFit& fit : fits) {
+    const Eigen::Index p = fit.theta.size();
     auto block = bounds.covariance.block(first, first, p, p);
-    block = estimate->residual_variance * estimate->basis * estimate->basis.transpose();
+    block = ResidualCovariance(fit);
     for (Eigen::Index j = 0; j < p; ++j) {
-      bounds.intervals.push_back(StudentInterval(estimate->theta[j], std::sqrt(block(j, j)),
-                                                 estimate->degrees_of_freedom, level));
+      bounds.intervals.push_back(StudentInterval(fit.theta[j], std::sqrt(block(j, j)),
+                                                 fit.degrees_of_freedom, level));
     }
     first += p;
   }
   return bounds;
 }
 
-Bounds ReplicateBounds(const BootstrapReplicates& replicates, double level) {
-  Bounds bounds;
+Bounds ReplicateBounds(const std::vector<ClusteredFit>& fits, const BootstrapReplicates& replicates,
+                       double level) {
+  Bounds bounds = BoundsFor(fits);
   bounds.covariance = Covariance(replicates);
   for (Eigen::Index j = 0; j < replicates.theta.rows(); ++j) {
     const Eigen::VectorXd row = replicates.theta.row(j);
@@ -82,18 +126,14 @@ Bounds ReplicateBounds(const BootstrapReplicates& replicates, double level) {
   return bounds;
 }
 
-std::size_t SegmentsWithRows(const EquationProblem& problem) {
-  return static_cast<std::size_t>(std::count_if(problem.clusters.begin(), problem.clusters.end(),
+std::size_t SegmentsWithRows(const ClusteredFit& fit) {
+  return static_cast<std::size_t>(std::count_if(fit.clusters.begin(), fit.clusters.end(),
                                                 [](const RowRange& c) { return c.size() > 0; }));
 }
 
-std::optional<Refusal> WarnOfFewSegments(const RegressionProblem& problem, const Answers& answers) {
-  std::size_t fewest = problem.equations[0].clusters.size();
-  for (const EquationProblem& equation : problem.equations) {
-    if (answers.estimates[IndexOf(equation.equation)]) {
-      fewest = std::min(fewest, SegmentsWithRows(equation));
-    }
-  }
+std::optional<Refusal> WarnOfFewSegments(const std::vector<ClusteredFit>& fits) {
+  std::size_t fewest = std::numeric_limits<std::size_t>::max();
+  for (const ClusteredFit& fit : fits) fewest = std::min(fewest, SegmentsWithRows(fit));
   if (fewest >= kFewestSegments) return std::nullopt;
   return Refusal{"bounds",
                  "rest on only " + std::to_string(fewest) + " independent segments, " +
@@ -119,50 +159,47 @@ bool IsCollinear(const Excitation& excitation, std::size_t column) {
   });
 }
 
-Coefficient Unanswered(Equation equation, const Regressor& regressor, CoefficientStatus status,
-                       double estimate, double level) {
+/// A coefficient as long as nothing is known of it.
+Coefficient Unanswered(Equation equation, const Regressor& regressor, double level) {
   Coefficient coefficient;
   coefficient.equation = equation;
   coefficient.regressor = regressor.name;
   coefficient.symbol = regressor.symbol;
   coefficient.unit = regressor.unit;
-  coefficient.status = status;
-  coefficient.estimate = estimate;
+  coefficient.status = CoefficientStatus::kNotExcited;
   coefficient.standard_error = kInfinity;
   coefficient.interval = Unbounded(level);
   return coefficient;
 }
 
-/// Writes one equation's coefficients, and where each stands in the stacked bounds (-1: nowhere).
-void WriteEquation(const EquationProblem& problem, const EquationEstimate& estimate,
-                   const Excitation& excitation, const Bounds& bounds, Eigen::Index first,
-                   double level, std::vector<Coefficient>& coefficients,
-                   std::vector<Eigen::Index>& places) {
-  for (std::size_t column = 0; column < problem.regressors.size(); ++column) {
-    const Regressor& regressor = problem.regressors[column];
+/// Writes the coefficients of answered equation j, and where each stands in the stacked bounds (-1:
+/// nowhere).
+void WriteEquation(std::size_t j, const Answers& answers, const Bounds& bounds,
+                   Identification& identification, std::vector<Eigen::Index>& places) {
+  const Excitation& excitation = *answers.excitations[j];
+  const EquationEstimate& estimate = *answers.estimates[j];
+  const double level = bounds.intervals.front().level;
+  const auto regressors = Regressors(excitation.equation, identification.parameterization);
+  for (std::size_t column = 0; column < regressors.size(); ++column) {
+    Coefficient coefficient = Unanswered(excitation.equation, regressors[column], level);
+    Eigen::Index place = -1;
     const auto found = std::find(estimate.columns.begin(), estimate.columns.end(), column);
-    if (found == estimate.columns.end()) {
-      coefficients.push_back(Unanswered(problem.equation, regressor,
-                                        CoefficientStatus::kNotExcited, 0.0, level));
-      places.push_back(-1);
-      continue;
+    if (found != estimate.columns.end()) {
+      const Eigen::Index position = found - estimate.columns.begin();
+      place = answers.first[j] + position;
+      coefficient.estimate = estimate.theta[position];
+      coefficient.status = IsCollinear(excitation, column) ? CoefficientStatus::kCollinear
+                                                           : CoefficientStatus::kEstimated;
+      if (bounds.estimable[static_cast<std::size_t>(place)]) {
+        coefficient.standard_error = std::sqrt(bounds.covariance(place, place));
+        coefficient.interval = bounds.intervals[static_cast<std::size_t>(place)];
+      } else {
+        coefficient.status = CoefficientStatus::kCollinear;
+        place = -1;
+      }
     }
-    const auto j = found - estimate.columns.begin();
-    if (!estimate.estimable[static_cast<std::size_t>(j)]) {
-      coefficients.push_back(Unanswered(problem.equation, regressor, CoefficientStatus::kCollinear,
-                                        estimate.theta[j], level));
-      places.push_back(-1);
-      continue;
-    }
-    Coefficient coefficient = Unanswered(
-        problem.equation, regressor,
-        IsCollinear(excitation, column) ? CoefficientStatus::kCollinear
-                                        : CoefficientStatus::kEstimated,
-        estimate.theta[j], level);
-    coefficient.standard_error = std::sqrt(bounds.covariance(first + j, first + j));
-    coefficient.interval = bounds.intervals[static_cast<std::size_t>(first + j)];
-    coefficients.push_back(coefficient);
-    places.push_back(first + j);
+    identification.coefficients.push_back(coefficient);
+    places.push_back(place);
   }
 }
 
@@ -184,17 +221,35 @@ Eigen::MatrixXd SpreadCovariance(const Eigen::MatrixXd& stacked,
   return covariance;
 }
 
-void WriteCoefficients(const RegressionProblem& problem, const Answers& answers,
-                       const Bounds& bounds, double level, Identification& identification) {
+void WriteCoefficients(const Answers& answers, const Bounds& bounds,
+                       Identification& identification) {
   std::vector<Eigen::Index> places;
-  Eigen::Index first = 0;
   for (std::size_t j = 0; j < answers.estimates.size(); ++j) {
-    if (!answers.estimates[j]) continue;
-    WriteEquation(problem.equations[j], *answers.estimates[j], *answers.excitations[j], bounds,
-                  first, level, identification.coefficients, places);
-    first += answers.estimates[j]->theta.size();
+    if (answers.estimates[j]) WriteEquation(j, answers, bounds, identification, places);
   }
   identification.covariance = SpreadCovariance(bounds.covariance, places);
+}
+
+/// -h / ln(alpha): no lag at all where alpha is not above zero, an endless one where it reaches one.
+double TimeConstant(double alpha, double h) {
+  if (alpha <= 0.0) return 0.0;
+  if (alpha >= 1.0) return kInfinity;
+  return -h / std::log(alpha);
+}
+
+/// The time constant is a monotone function of alpha, so alpha's bounds carry over; its standard error
+/// is the first-order one, d tau / d alpha = h / (alpha ln^2 alpha).
+Coefficient WriteTimeConstant(const LaggedEstimate& lag, const Bounds& bounds, double h) {
+  const Interval& alpha = bounds.intervals.front();
+  Coefficient coefficient;
+  coefficient.symbol = "tau";
+  coefficient.unit = "s";
+  coefficient.status = CoefficientStatus::kEstimated;
+  coefficient.estimate = lag.time_constant_s;
+  coefficient.standard_error = std::sqrt(bounds.covariance(0, 0)) * h /
+                               (lag.alpha * std::pow(std::log(lag.alpha), 2));
+  coefficient.interval = {alpha.level, TimeConstant(alpha.lower, h), TimeConstant(alpha.upper, h)};
+  return coefficient;
 }
 
 WindowSummary Summarise(const PreparedDataset& dataset) {
@@ -221,9 +276,8 @@ std::optional<Refusal> OptionRefusal(const char* field, const std::string& value
 std::optional<Refusal> IdentifyOptions::Validate() const {
   if (auto refusal = prepare.Validate()) return refusal;
   if (auto refusal = excitation.Validate()) return refusal;
-  if (regression.structure != Structure::kStaticQuadratic) {
-    return Refusal{"structure", "is " + std::string(Name(regression.structure)),
-                   "choose STATIC_QUADRATIC"};
+  if (regression.structure == Structure::kUnknown) {
+    return Refusal{"structure", "is unset", "choose STATIC_QUADRATIC or FIRST_ORDER_DYNAMIC"};
   }
   if (regression.parameterization == Parameterization::kUnknown) {
     return Refusal{"parameterization", "is unset", "choose PROPELLER or PAPER"};
@@ -260,10 +314,9 @@ Result<Identification> Identify(const PreparedDataset& dataset, const std::strin
   const auto report = [&](std::string_view stage, double fraction) {
     if (progress) progress(stage, fraction);
   };
-  report("building regressions", 0.3);
-  const RegressionProblem problem = BuildRegression(dataset, options.regression);
-  report("estimating", 0.4);
-  Answers answers = Answer(problem, options.excitation);
+  report("estimating", 0.3);
+  const bool dynamic = options.regression.structure == Structure::kFirstOrderDynamic;
+  Answers answers = dynamic ? AnswerDynamic(dataset, options) : AnswerStatic(dataset, options);
   if (!answers.Any()) return tl::unexpected(NothingAnswered(answers.refusals));
 
   Identification identification;
@@ -271,32 +324,36 @@ Result<Identification> Identify(const PreparedDataset& dataset, const std::strin
   if (options.bootstrap_replicates > 0) {
     report("bootstrapping", 0.5);
     const BootstrapReplicates replicates = BootstrapSegments(
-        problem, answers.estimates,
-        {options.bootstrap_replicates, options.seed, options.threads});
+        answers.fits, {options.bootstrap_replicates, options.seed, options.threads});
     if (replicates.theta.cols() < 2) {
       return Refuse("bounds", "no bootstrap replicate could be solved",
                     "record for longer, or ask for bounds from residuals with 0 replicates");
     }
-    bounds = ReplicateBounds(replicates, options.interval_level);
+    if (auto warning = WarnOfFewSegments(answers.fits)) answers.refusals.push_back(*warning);
+    if (auto warning = WarnOfFailures(replicates)) answers.refusals.push_back(*warning);
     identification.provenance.bootstrap_failures = replicates.failures;
     identification.provenance.bounds_basis =
         "segment bootstrap, percentile intervals; attenuation of one-step least squares by noisy "
         "velocities is not covered";
-    if (auto warning = WarnOfFewSegments(problem, answers)) answers.refusals.push_back(*warning);
-    if (auto warning = WarnOfFailures(replicates)) answers.refusals.push_back(*warning);
+    bounds = ReplicateBounds(answers.fits, replicates, options.interval_level);
   } else {
-    bounds = ResidualBounds(answers, options.interval_level);
+    bounds = ResidualBounds(answers.fits, options.interval_level);
     identification.provenance.bounds_basis =
         "residual covariance, white residuals assumed; too narrow where residuals are coloured or "
         "velocities noisy";
   }
 
   identification.vehicle_id = vehicle_id;
-  identification.structure = problem.structure;
-  identification.parameterization = problem.parameterization;
+  identification.structure = options.regression.structure;
+  identification.parameterization = options.regression.parameterization;
   identification.estimator = options.estimator;
-  identification.sampling_period_s = problem.sampling_period_s;
-  WriteCoefficients(problem, answers, bounds, options.interval_level, identification);
+  identification.sampling_period_s = dataset.sampling_period_s;
+  identification.dead_zone = options.regression.dead_zone;
+  WriteCoefficients(answers, bounds, identification);
+  if (answers.lag) {
+    identification.thruster_time_constant =
+        WriteTimeConstant(*answers.lag, bounds, dataset.sampling_period_s);
+  }
   identification.window = Summarise(dataset);
   identification.refusals = std::move(answers.refusals);
   identification.provenance.preset = Name(options.prepare.preset);

@@ -15,28 +15,32 @@ Nu Along(const Nu& nu, const NuDot& slope, double step_s) {
   return {nu.u + step_s * slope.u, nu.v + step_s * slope.v, nu.r + step_s * slope.r};
 }
 
-Nu RungeKutta(const VesselModel& model, const Nu& nu, const PropellerCommand& delta, double h) {
-  const NuDot k1 = model.Acceleration(nu, delta);
-  const NuDot k2 = model.Acceleration(Along(nu, k1, h / 2), delta);
-  const NuDot k3 = model.Acceleration(Along(nu, k2, h / 2), delta);
-  const NuDot k4 = model.Acceleration(Along(nu, k3, h), delta);
+Nu RungeKutta(const VesselModel& model, const VesselState& state, const PropellerCommand& delta,
+               double h) {
+  const Nu& nu = state.nu;
+  const ThrustRegressors start = model.ThrustAfter(state.thrust, delta, 0.0);
+  const ThrustRegressors middle = model.ThrustAfter(state.thrust, delta, h / 2);
+  const ThrustRegressors end = model.ThrustAfter(state.thrust, delta, h);
+  const NuDot k1 = model.AccelerationUnder(start, nu);
+  const NuDot k2 = model.AccelerationUnder(middle, Along(nu, k1, h / 2));
+  const NuDot k3 = model.AccelerationUnder(middle, Along(nu, k2, h / 2));
+  const NuDot k4 = model.AccelerationUnder(end, Along(nu, k3, h));
   const NuDot mean{(k1.u + 2 * k2.u + 2 * k3.u + k4.u) / 6, (k1.v + 2 * k2.v + 2 * k3.v + k4.v) / 6,
                    (k1.r + 2 * k2.r + 2 * k3.r + k4.r) / 6};
   return Along(nu, mean, h);
 }
 
-Nu NextVelocity(const VesselModel& model, const Nu& nu, const PropellerCommand& delta,
+Nu NextVelocity(const VesselModel& model, const VesselState& state, const PropellerCommand& delta,
                 double step_s) {
-  Require(model.structure == Structure::kStaticQuadratic,
-          "a static structure: a lagging thruster has a state of its own");
   Require(step_s > 0.0, "a positive step");
   if (model.discretisation == Discretisation::kContinuous) {
-    return RungeKutta(model, nu, delta, step_s);
+    return RungeKutta(model, state, delta, step_s);
   }
   Require(model.discretisation == Discretisation::kForwardEuler, "a named discretisation");
   Require(std::abs(step_s - model.sampling_period_s) <= kSameInstantS,
           "a discrete model stepped by its own sampling period");
-  return Along(nu, model.Acceleration(nu, delta), step_s);
+  const ThrustRegressors now = model.ThrustAfter(state.thrust, delta, 0.0);
+  return Along(state.nu, model.AccelerationUnder(now, state.nu), step_s);
 }
 
 Eta NextPose(const Eta& eta, const Nu& before, const Nu& after, double step_s) {
@@ -50,8 +54,9 @@ Eta NextPose(const Eta& eta, const Nu& before, const Nu& after, double step_s) {
 
 VesselState Advance(const VesselModel& model, const VesselState& state,
                     const PropellerCommand& delta, double step_s) {
-  const Nu nu = NextVelocity(model, state.nu, delta, step_s);
-  return {NextPose(state.eta, state.nu, nu, step_s), nu};
+  const Nu nu = NextVelocity(model, state, delta, step_s);
+  return {NextPose(state.eta, state.nu, nu, step_s), nu,
+          model.ThrustAfter(state.thrust, delta, step_s)};
 }
 
 std::vector<TimedState> Simulate(const VesselModel& model, const VesselState& initial,

@@ -14,6 +14,7 @@ namespace telltale {
 struct VesselState {
   Eta eta;
   Nu nu;
+  ThrustRegressors thrust = {};  ///< what the thrusters deliver now; of no account in the static structure
 };
 
 /// Advances a boat by `step_s` under a held command. kForwardEuler models take exactly

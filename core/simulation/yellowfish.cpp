@@ -1,5 +1,7 @@
 #include "simulation/yellowfish.hpp"
 
+#include <cmath>
+
 namespace telltale {
 
 const PaperStaticTable kYellowfishStaticTable = {
@@ -56,6 +58,18 @@ VesselModel StaticModel(Parameterization parameterization, Discretisation discre
 
 }  // namespace
 
+std::array<Eigen::VectorXd, 3> YellowfishDynamicTable() {
+  std::array<Eigen::VectorXd, 3> table = {Eigen::VectorXd(11), Eigen::VectorXd(21),
+                                          Eigen::VectorXd(21)};
+  table[0] << 0.8062, 0.0893, -0.1095, -0.0341, -0.7725, -0.1395, 0.1622, 0.0301, 0.0016, -0.0106,
+      0.0611;
+  table[1] << 0.6904, -0.0091, 0.0237, -0.0261, -0.0005, 0.4328, 0.3075, -0.6978, -0.1285, -0.0085,
+      -0.0494, 0.0081, 0.0004, -0.4353, -0.3078, 0.1478, -0.0007, -0.007, -0.007, 0.0101, -0.0214;
+  table[2] << 0.9886, 0.0577, 0.1845, -0.0190, -0.0054, 0.0667, -0.0020, -0.2723, -1.0430, -0.1305,
+      -0.2120, -0.0059, 0.0577, -0.1116, 0.0358, 0.3419, -0.0013, -0.0422, -0.0385, 0.0394, 0.0168;
+  return table;
+}
+
 VesselModel YellowfishPaperModel() {
   VesselModel model = StaticModel(Parameterization::kPaper, Discretisation::kForwardEuler);
   model.theta = {PerSecond(kYellowfishStaticTable.surge), PerSecond(kYellowfishStaticTable.sway),
@@ -73,6 +87,17 @@ VesselModel YellowfishTwin() {
   VesselModel model = StaticModel(Parameterization::kPropeller, Discretisation::kContinuous);
   model.theta = {Join(surge.head<5>(), SurgeThrust(surge, reverse_ratio)),
                  Join(sway.head<9>(), TurningThrust(sway)), Join(yaw.head<9>(), yaw_thrust)};
+  return model;
+}
+
+VesselModel YellowfishLaggingTwin() {
+  // alpha^2 - (1 + X1) alpha - X5 = 0, its root below one.
+  const Eigen::VectorXd surge = YellowfishDynamicTable()[0];
+  const double half = (1.0 + surge[0]) / 2;
+  const double alpha = half - std::sqrt(half * half + surge[4]);
+  VesselModel model = YellowfishTwin();
+  model.structure = Structure::kFirstOrderDynamic;
+  model.thruster_time_constant_s = -kYellowfishSamplingPeriodS / std::log(alpha);
   return model;
 }
 

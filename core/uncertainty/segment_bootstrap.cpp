@@ -21,33 +21,20 @@ struct SegmentGrams {
   Eigen::Index r = 0;
 };
 
-Eigen::MatrixXd ExcitedColumns(const EquationProblem& problem, const EquationEstimate& estimate) {
-  Eigen::MatrixXd phi(problem.phi.rows(), static_cast<Eigen::Index>(estimate.columns.size()));
-  for (std::size_t j = 0; j < estimate.columns.size(); ++j) {
-    phi.col(static_cast<Eigen::Index>(j)) =
-        problem.phi.col(static_cast<Eigen::Index>(estimate.columns[j]));
-  }
-  return phi;
-}
-
-SegmentGrams FormGrams(const EquationProblem& problem, const EquationEstimate& estimate) {
-  const Eigen::MatrixXd phi = ExcitedColumns(problem, estimate);
-  const Eigen::VectorXd residual = problem.y - phi * estimate.theta;
-  const Eigen::MatrixXd W = phi * estimate.basis;
-
+SegmentGrams FormGrams(const ClusteredFit& fit) {
   SegmentGrams grams;
-  grams.basis = estimate.basis;
-  grams.theta = estimate.theta;
-  grams.r = W.cols();
+  grams.basis = fit.basis;
+  grams.theta = fit.theta;
+  grams.r = fit.W.cols();
   const Eigen::Index r = grams.r;
-  grams.packed.resize(r * r + r, static_cast<Eigen::Index>(problem.clusters.size()));
-  for (std::size_t s = 0; s < problem.clusters.size(); ++s) {
-    const auto first = static_cast<Eigen::Index>(problem.clusters[s].begin);
-    const auto count = static_cast<Eigen::Index>(problem.clusters[s].size());
-    const auto rows = W.middleRows(first, count);
+  grams.packed.resize(r * r + r, static_cast<Eigen::Index>(fit.clusters.size()));
+  for (std::size_t s = 0; s < fit.clusters.size(); ++s) {
+    const auto first = static_cast<Eigen::Index>(fit.clusters[s].begin);
+    const auto count = static_cast<Eigen::Index>(fit.clusters[s].size());
+    const auto rows = fit.W.middleRows(first, count);
     auto column = grams.packed.col(static_cast<Eigen::Index>(s));
     Eigen::Map<Eigen::MatrixXd>(column.data(), r, r).noalias() = rows.transpose() * rows;
-    column.tail(r).noalias() = rows.transpose() * residual.segment(first, count);
+    column.tail(r).noalias() = rows.transpose() * fit.residual.segment(first, count);
   }
   return grams;
 }
@@ -78,18 +65,17 @@ bool SolveReplicate(const SegmentGrams& grams, const Eigen::VectorXd& multiplici
 
 }  // namespace
 
-BootstrapReplicates BootstrapSegments(
-    const RegressionProblem& problem,
-    const std::array<std::optional<EquationEstimate>, 3>& estimates,
-    const BootstrapOptions& options) {
-  const std::size_t segments = problem.equations[0].clusters.size();
+BootstrapReplicates BootstrapSegments(const std::vector<ClusteredFit>& fits,
+                                      const BootstrapOptions& options) {
+  Require(!fits.empty(), "at least one fit");
+  const std::size_t segments = fits.front().clusters.size();
   Require(segments > 0, "at least one segment");
   std::vector<SegmentGrams> equations;
   Eigen::Index coefficients = 0;
-  for (std::size_t j = 0; j < estimates.size(); ++j) {
-    if (!estimates[j]) continue;
-    equations.push_back(FormGrams(problem.equations[j], *estimates[j]));
-    coefficients += estimates[j]->theta.size();
+  for (const ClusteredFit& fit : fits) {
+    Require(fit.clusters.size() == segments, "the same segments in every fit");
+    equations.push_back(FormGrams(fit));
+    coefficients += fit.theta.size();
   }
 
   const auto draws = static_cast<Eigen::Index>(options.replicates);

@@ -21,8 +21,25 @@ Velocity ToArray(const Nu& nu) {
   return {nu.u, nu.v, nu.r};
 }
 
-VesselState Measured(const PreparedRow& row) {
-  return {row.eta, row.nu};
+// What the thrusters deliver at the start of each row. A stretch is taken to begin in steady thrust; a
+// wrong guess decays with the thruster's time constant.
+using ThrustHistory = std::vector<ThrustRegressors>;
+
+ThrustHistory FollowThrust(const PreparedDataset& dataset, const VesselModel& model) {
+  ThrustHistory history(dataset.rows.size());
+  for (const RowRange& stretch : dataset.stretches) {
+    if (stretch.size() == 0) continue;
+    history[stretch.begin] = model.SteadyThrust(dataset.rows[stretch.begin].delta);
+    for (std::size_t k = stretch.begin; k + 1 < stretch.end; ++k) {
+      history[k + 1] =
+          model.ThrustAfter(history[k], dataset.rows[k].delta, dataset.sampling_period_s);
+    }
+  }
+  return history;
+}
+
+VesselState Measured(const PreparedRow& row, const ThrustRegressors& thrust) {
+  return {row.eta, row.nu, thrust};
 }
 
 // A free run that has blown up errs by infinity, not by something unspeakable.
@@ -68,14 +85,15 @@ void Add(SumsByVelocity& sums, const Nu& truth, const Nu& predicted) {
   for (std::size_t j = 0; j < sums.size(); ++j) sums[j].Add(nu[j], nu_hat[j]);
 }
 
-std::array<OneStepScore, 3> ScoreOneStep(const PreparedDataset& dataset, const VesselModel& model) {
+std::array<OneStepScore, 3> ScoreOneStep(const PreparedDataset& dataset, const VesselModel& model,
+                                         const ThrustHistory& thrust) {
   SumsByVelocity of_model;
   SumsByVelocity of_persistence;
   for (const RowRange& stretch : dataset.stretches) {
     for (std::size_t k = stretch.begin; k + 1 < stretch.end; ++k) {
       const PreparedRow& now = dataset.rows[k];
       const Nu& next = dataset.rows[k + 1].nu;
-      Add(of_model, next, Advance(model, Measured(now), now.delta, dataset.sampling_period_s).nu);
+      Add(of_model, next, Advance(model, Measured(now, thrust[k]), now.delta, dataset.sampling_period_s).nu);
       Add(of_persistence, next, now.nu);
     }
   }
@@ -100,10 +118,11 @@ double SquaredDistance(const Eta& a, const Eta& b) {
   return north * north + east * east;
 }
 
-void RunFreely(const PreparedDataset& dataset, const VesselModel& model, std::size_t first,
-               std::size_t steps, FreeRunSums& sums) {
+void RunFreely(const PreparedDataset& dataset, const VesselModel& model,
+               const ThrustHistory& thrust, std::size_t first, std::size_t steps,
+               FreeRunSums& sums) {
   const auto& rows = dataset.rows;
-  VesselState state = Measured(rows[first]);
+  VesselState state = Measured(rows[first], thrust[first]);
   for (std::size_t k = first; k < first + steps; ++k) {
     state = Advance(model, state, rows[k].delta, dataset.sampling_period_s);
     Add(sums.of_model, rows[k + 1].nu, state.nu);
@@ -114,12 +133,12 @@ void RunFreely(const PreparedDataset& dataset, const VesselModel& model, std::si
 }
 
 FreeRunScores ScoreFreeRuns(const PreparedDataset& dataset, const VesselModel& model,
-                            double horizon_s) {
+                            const ThrustHistory& thrust, double horizon_s) {
   const auto steps = static_cast<std::size_t>(std::lround(horizon_s / dataset.sampling_period_s));
   FreeRunSums sums;
   for (const RowRange& stretch : dataset.stretches) {
     for (std::size_t k = stretch.begin; k + steps < stretch.end; k += steps) {
-      RunFreely(dataset, model, k, steps, sums);
+      RunFreely(dataset, model, thrust, k, steps, sums);
     }
   }
 
@@ -169,9 +188,10 @@ Result<Metrics> Validate(const PreparedDataset& dataset, const VesselModel& mode
     return tl::unexpected<Refusal>(*std::move(refusal));
   }
   Metrics metrics;
-  metrics.one_step = ScoreOneStep(dataset, model);
+  const ThrustHistory thrust = FollowThrust(dataset, model);
+  metrics.one_step = ScoreOneStep(dataset, model, thrust);
   for (const double horizon_s : options.horizons_s) {
-    metrics.free_run.push_back(ScoreFreeRuns(dataset, model, horizon_s));
+    metrics.free_run.push_back(ScoreFreeRuns(dataset, model, thrust, horizon_s));
   }
   return metrics;
 }

@@ -19,9 +19,19 @@ double PwmChannel::PulseWidth(double delta) const {
   return neutral_us + std::abs(delta) * (full_us - neutral_us);
 }
 
+double DeadZone::Apply(double delta) const {
+  if (delta >= forward) return delta - forward;
+  if (delta <= reverse) return delta - reverse;
+  return 0.0;
+}
+
+PropellerCommand DeadZone::Apply(const PropellerCommand& delta) const {
+  return {Apply(delta.port), Apply(delta.starboard)};
+}
+
 PropellerRegion RegionOf(const PropellerCommand& command) {
-  const bool port_forward = command.port >= 0.0;
-  const bool starboard_forward = command.starboard >= 0.0;
+  const bool port_forward = command.port >= -kIdleCommand;
+  const bool starboard_forward = command.starboard >= -kIdleCommand;
   if (port_forward) return starboard_forward ? PropellerRegion::kFF : PropellerRegion::kFR;
   return starboard_forward ? PropellerRegion::kRF : PropellerRegion::kRR;
 }

@@ -29,7 +29,23 @@ struct PropellerCommand {
   double Difference() const { return port - starboard; }
 };
 
-/// Which way the propellers turn, port first: F forward (delta >= 0), R reverse (delta < 0).
+/// Commands between the two limits give no thrust; beyond them thrust counts from the limit.
+/// Assumes: reverse <= 0 <= forward, both well inside [-1, 1]. Zeros mean no dead zone.
+/// Source: the paper, remark on the T200's dead zone; docs/model.md (7).
+struct DeadZone {
+  double forward = 0.0;
+  double reverse = 0.0;
+
+  /// The command as the thrust curve sees it.
+  double Apply(double delta) const;
+  PropellerCommand Apply(const PropellerCommand& delta) const;
+};
+
+/// A command this close to neutral turns no propeller: a neutral stated a few microseconds off must not
+/// make a resting boat look as if one side ran in reverse.
+inline constexpr double kIdleCommand = 0.01;
+
+/// Which way the propellers turn, port first: R reverse (delta < -kIdleCommand), F forward or idle.
 enum class PropellerRegion { kFF, kFR, kRF, kRR };
 
 inline constexpr std::array kPropellerRegions = {PropellerRegion::kFF, PropellerRegion::kFR,

@@ -1,5 +1,6 @@
 #include "vessel/structure.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "contract.hpp"
@@ -97,7 +98,6 @@ void AddPropeller(double delta, double side, std::span<double> part) {
 }
 
 void FillPropellers(double starboard_side, const PropellerCommand& delta, std::span<double> part) {
-  part[0] = part[1] = part[2] = part[3] = 0.0;
   AddPropeller(delta.port, 1.0, part);
   AddPropeller(delta.starboard, starboard_side, part);
 }
@@ -110,25 +110,19 @@ double DifferenceSign(PropellerRegion region) {
   return 0.0;
 }
 
-void FillPaperTurning(const PropellerCommand& delta, std::span<double> part) {
+ThrustRegressors PaperThrust(const PropellerCommand& delta) {
   const double mean = delta.Mean();
   const double diff = delta.Difference();
+  const double square = mean * mean + diff * diff / 4.0;
   const double sign = DifferenceSign(RegionOf(delta));
-  part[0] = sign * (mean * mean + diff * diff / 4.0);
-  part[1] = mean * diff;
-  part[2] = sign * mean;
-  part[3] = diff / 2.0;
+  return {{square, mean}, {sign * square, mean * diff, sign * mean, diff / 2.0}};
 }
 
-void FillPaperSurge(const PropellerCommand& delta, std::span<double> part) {
-  const double mean = delta.Mean();
-  const double diff = delta.Difference();
-  part[0] = mean * mean + diff * diff / 4.0;
-  part[1] = mean;
-}
-
-std::size_t BodyTerms(Equation equation) {
-  return equation == Equation::kSurge ? kSurgeBody.size() : kSwayBody.size();
+ThrustRegressors PropellerThrust(const PropellerCommand& delta) {
+  ThrustRegressors thrust;
+  FillPropellers(1.0, delta, thrust.surge);
+  FillPropellers(-1.0, delta, thrust.turning);
+  return thrust;
 }
 
 }  // namespace
@@ -136,6 +130,16 @@ std::size_t BodyTerms(Equation equation) {
 std::size_t IndexOf(Equation equation) {
   Require(equation != Equation::kUnknown, "a named equation");
   return static_cast<std::size_t>(equation) - 1;
+}
+
+double ComponentOf(const Nu& nu, Equation equation) {
+  switch (equation) {
+    case Equation::kSurge: return nu.u;
+    case Equation::kSway: return nu.v;
+    case Equation::kYaw: return nu.r;
+    case Equation::kUnknown: break;
+  }
+  throw ContractViolation("ComponentOf: requires a named equation");
 }
 
 std::span<const Regressor> Regressors(Equation equation, Parameterization parameterization) {
@@ -153,27 +157,33 @@ std::span<const Regressor> Regressors(Equation equation, Parameterization parame
   throw ContractViolation("Regressors: requires a named equation");
 }
 
-void FillRow(Equation equation, Parameterization parameterization, const Nu& nu,
-             const PropellerCommand& delta, std::span<double> row) {
+std::size_t BodyRegressors(Equation equation) {
+  return equation == Equation::kSurge ? kSurgeBody.size() : kSwayBody.size();
+}
+
+ThrustRegressors ThrustOf(Parameterization parameterization, const PropellerCommand& delta) {
+  return parameterization == Parameterization::kPaper ? PaperThrust(delta)
+                                                      : PropellerThrust(delta);
+}
+
+void FillBody(Equation equation, const Nu& nu, std::span<double> row) {
   if (equation == Equation::kSurge) {
     FillSurgeBody(nu, row);
   } else {
     FillSwayYawBody(nu, row);
   }
-  FillPropellerPart(equation, parameterization, delta, row);
 }
 
-void FillPropellerPart(Equation equation, Parameterization parameterization,
-                       const PropellerCommand& delta, std::span<double> row) {
-  const auto part = row.subspan(BodyTerms(equation));
-  const bool surge = equation == Equation::kSurge;
-  if (parameterization == Parameterization::kPropeller) {
-    FillPropellers(surge ? 1.0 : -1.0, delta, part);
-  } else if (surge) {
-    FillPaperSurge(delta, part);
-  } else {
-    FillPaperTurning(delta, part);
-  }
+void FillRow(Equation equation, const Nu& nu, const ThrustRegressors& thrust,
+             std::span<double> row) {
+  FillBody(equation, nu, row);
+  const auto part = row.subspan(BodyRegressors(equation));
+  std::copy_n(thrust.Of(equation).begin(), part.size(), part.begin());
+}
+
+void FillRow(Equation equation, Parameterization parameterization, const Nu& nu,
+             const PropellerCommand& delta, std::span<double> row) {
+  FillRow(equation, nu, ThrustOf(parameterization, delta), row);
 }
 
 std::string_view Name(Equation equation) {

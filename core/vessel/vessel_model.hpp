@@ -25,9 +25,21 @@ struct VesselModel {
   Discretisation discretisation = Discretisation::kUnknown;
   double sampling_period_s = 0.0;  ///< h of the discrete model
   std::array<Eigen::VectorXd, 3> theta;  ///< surge, sway, yaw
+  DeadZone dead_zone;
   std::optional<double> thruster_time_constant_s;  ///< first-order dynamic structure only
 
-  /// nu_dot at a state, the propellers delivering the static thrust of `delta`.
+  /// The propeller regressors that a command held for ever leads to.
+  ThrustRegressors SteadyThrust(const PropellerCommand& delta) const;
+
+  /// The propeller regressors `elapsed_s` after `delta` was applied to thrusters that stood at `thrust`:
+  /// at once the steady ones in the static structure, an exponential approach in the dynamic one.
+  ThrustRegressors ThrustAfter(const ThrustRegressors& thrust, const PropellerCommand& delta,
+                               double elapsed_s) const;
+
+  /// nu_dot at a velocity under given propeller regressors.
+  NuDot AccelerationUnder(const ThrustRegressors& thrust, const Nu& nu) const;
+
+  /// nu_dot with the propellers delivering the steady thrust of `delta`.
   NuDot Acceleration(const Nu& nu, const PropellerCommand& delta) const;
 };
 

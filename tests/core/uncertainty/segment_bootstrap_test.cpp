@@ -30,6 +30,12 @@ RegressionProblem NoisyProblem(double sigma, std::uint64_t seed) {
   return problem;
 }
 
+std::vector<ClusteredFit> FitsOf(const RegressionProblem& problem, const Estimates& estimates) {
+  std::vector<ClusteredFit> fits;
+  for (std::size_t j = 0; j < 3; ++j) fits.push_back(FitOf(problem.equations[j], *estimates[j]));
+  return fits;
+}
+
 Estimates EstimateAll(const RegressionProblem& problem) {
   Estimates estimates;
   for (std::size_t j = 0; j < 3; ++j) {
@@ -41,9 +47,9 @@ Estimates EstimateAll(const RegressionProblem& problem) {
 TEST(SegmentBootstrap, GivesTheSameBitsForAnyThreadCount) {
   const auto problem = NoisyProblem(0.1, 1);
   const auto estimates = EstimateAll(problem);
-  const auto one = BootstrapSegments(problem, estimates, {500, 42, 1});
+  const auto one = BootstrapSegments(FitsOf(problem, estimates), {500, 42, 1});
   for (const std::size_t threads : {2u, 3u, 8u}) {
-    const auto many = BootstrapSegments(problem, estimates, {500, 42, threads});
+    const auto many = BootstrapSegments(FitsOf(problem, estimates), {500, 42, threads});
     EXPECT_TRUE((one.theta.array() == many.theta.array()).all());
   }
 }
@@ -51,8 +57,8 @@ TEST(SegmentBootstrap, GivesTheSameBitsForAnyThreadCount) {
 TEST(SegmentBootstrap, SeedsDiffer) {
   const auto problem = NoisyProblem(0.1, 1);
   const auto estimates = EstimateAll(problem);
-  const auto one = BootstrapSegments(problem, estimates, {100, 1, 1});
-  const auto two = BootstrapSegments(problem, estimates, {100, 2, 1});
+  const auto one = BootstrapSegments(FitsOf(problem, estimates), {100, 1, 1});
+  const auto two = BootstrapSegments(FitsOf(problem, estimates), {100, 2, 1});
   EXPECT_FALSE((one.theta.array() == two.theta.array()).any());
 }
 
@@ -60,7 +66,7 @@ TEST(SegmentBootstrap, SeedsDiffer) {
 TEST(SegmentBootstrap, ReplicateIsTheFitOfTheDrawnRows) {
   const auto problem = NoisyProblem(0.1, 1);
   const auto estimates = EstimateAll(problem);
-  const auto fast = BootstrapSegments(problem, estimates, {100, 9, 2});
+  const auto fast = BootstrapSegments(FitsOf(problem, estimates), {100, 9, 2});
   ASSERT_EQ(fast.failures, 0u);
 
   const std::size_t segments = problem.equations[0].clusters.size();
@@ -101,7 +107,7 @@ TEST(SegmentBootstrap, AgreesWithResidualCovarianceUnderWhiteNoise) {
   const auto problem = NoisyProblem(0.1, 3);
   const auto estimates = EstimateAll(problem);
   const Eigen::MatrixXd covariance =
-      Covariance(BootstrapSegments(problem, estimates, {2000, 5, 2}));
+      Covariance(BootstrapSegments(FitsOf(problem, estimates), {2000, 5, 2}));
   double log_ratio = 0.0;
   Eigen::Index place = 0;
   for (const auto& estimate : estimates) {
@@ -124,7 +130,7 @@ TEST(SegmentBootstrap, CountsDrawsThatCannotBeSolved) {
   const auto problem =
       BuildRegression(testing::DriveDiscrete(YellowfishTwin(), commands, kSegmentRows), {});
   const auto estimates = EstimateAll(problem);
-  const auto replicates = BootstrapSegments(problem, estimates, {1000, 1, 1});
+  const auto replicates = BootstrapSegments(FitsOf(problem, estimates), {1000, 1, 1});
   // P(one of 20 segments is never drawn) = 0.95^20 = 0.358; four sigmas of 1000 draws are 0.061.
   EXPECT_NEAR(static_cast<double>(replicates.failures) / 1000.0, 0.358, 0.061);
   EXPECT_EQ(static_cast<std::size_t>(replicates.theta.cols()) + replicates.failures, 1000u);

@@ -42,5 +42,11 @@ TEST(PropellerRegion, FollowsTheSignOfEachCommand) {
   EXPECT_EQ(RegionOf({-0.3, -0.2}), PropellerRegion::kRR);
 }
 
+/// A BlueBoat idles at 1510 us under a neutral of 1511 us: nothing turns in reverse.
+TEST(PropellerRegion, CountsAnIdlePropellerAsForward) {
+  EXPECT_EQ(RegionOf({-0.0025, 0.0025}), PropellerRegion::kFF);
+  EXPECT_EQ(RegionOf({-0.02, 0.02}), PropellerRegion::kRF);
+}
+
 }  // namespace
 }  // namespace telltale

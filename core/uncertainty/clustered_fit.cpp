@@ -1,0 +1,84 @@
+#include "uncertainty/clustered_fit.hpp"
+
+#include <limits>
+
+#include <Eigen/SVD>
+
+#include "estimation/triangular_factor.hpp"
+
+namespace telltale {
+namespace {
+
+// A coefficient belongs to an undetermined direction when it makes up more than this of it.
+constexpr double kUndeterminedShare = 1e-6;
+
+Eigen::MatrixXd ExcitedColumns(const EquationProblem& problem, const EquationEstimate& estimate) {
+  Eigen::MatrixXd phi(problem.phi.rows(), static_cast<Eigen::Index>(estimate.columns.size()));
+  for (std::size_t j = 0; j < estimate.columns.size(); ++j) {
+    phi.col(static_cast<Eigen::Index>(j)) =
+        problem.phi.col(static_cast<Eigen::Index>(estimate.columns[j]));
+  }
+  return phi;
+}
+
+Eigen::VectorXd Stack(const LaggedEstimate& estimate) {
+  Eigen::VectorXd theta(estimate.jacobian.cols());
+  theta[0] = estimate.alpha;
+  Eigen::Index next = 1;
+  for (const auto& equation : estimate.equations) {
+    if (!equation) continue;
+    theta.segment(next, equation->theta.size()) = equation->theta;
+    next += equation->theta.size();
+  }
+  return theta;
+}
+
+}  // namespace
+
+ClusteredFit FitOf(const EquationProblem& problem, const EquationEstimate& estimate) {
+  const Eigen::MatrixXd phi = ExcitedColumns(problem, estimate);
+  ClusteredFit fit;
+  fit.W = phi * estimate.basis;
+  fit.residual = problem.y - phi * estimate.theta;
+  fit.theta = estimate.theta;
+  fit.basis = estimate.basis;
+  fit.estimable = estimate.estimable;
+  fit.residual_variance = estimate.residual_variance;
+  fit.degrees_of_freedom = estimate.degrees_of_freedom;
+  fit.clusters = problem.clusters;
+  return fit;
+}
+
+ClusteredFit FitOf(const LaggedEstimate& estimate) {
+  const Eigen::VectorXd norms = estimate.jacobian.colwise().norm().transpose().cwiseMax(
+      std::numeric_limits<double>::min());
+  const TriangularFactor factor = Triangularise(
+      estimate.jacobian * norms.cwiseInverse().asDiagonal(), estimate.residual);
+  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(factor.R, Eigen::ComputeFullV);
+  const Eigen::VectorXd& s = svd.singularValues();
+  const double smallest = s[0] * std::numeric_limits<double>::epsilon() *
+                          static_cast<double>(estimate.jacobian.rows());
+  const Eigen::Index rank = (s.array() > smallest).count();
+  const Eigen::Index p = norms.size();
+
+  ClusteredFit fit;
+  fit.basis = norms.cwiseInverse().asDiagonal() * svd.matrixV().leftCols(rank) *
+              s.head(rank).cwiseInverse().asDiagonal();
+  fit.W = estimate.jacobian * fit.basis;
+  fit.residual = estimate.residual;
+  fit.theta = Stack(estimate);
+  for (Eigen::Index j = 0; j < p; ++j) {
+    fit.estimable.push_back(svd.matrixV().row(j).tail(p - rank).squaredNorm() <
+                            kUndeterminedShare);
+  }
+  fit.degrees_of_freedom = static_cast<double>(estimate.jacobian.rows() - rank);
+  fit.residual_variance = estimate.residual.squaredNorm() / fit.degrees_of_freedom;
+  fit.clusters = estimate.clusters;
+  return fit;
+}
+
+Eigen::MatrixXd ResidualCovariance(const ClusteredFit& fit) {
+  return fit.residual_variance * fit.basis * fit.basis.transpose();
+}
+
+}  // namespace telltale

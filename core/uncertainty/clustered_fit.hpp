@@ -1,0 +1,39 @@
+#pragma once
+
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "data/prepared_dataset.hpp"
+#include "estimation/lagged_regression.hpp"
+#include "estimation/one_step.hpp"
+#include "estimation/regression_problem.hpp"
+
+namespace telltale {
+
+/// A least-squares fit whose rows come in segments, linear or linearised about its solution: all that
+/// bounds are made from.
+/// Shapes: W n x r has orthonormal columns, W = Phi basis with basis p x r; residual n; theta, estimable p.
+/// clusters[s] is the range of rows that segment s gave, possibly empty.
+struct ClusteredFit {
+  Eigen::MatrixXd W;
+  Eigen::VectorXd residual;
+  Eigen::VectorXd theta;
+  Eigen::MatrixXd basis;
+  std::vector<bool> estimable;  ///< false where theta_j is a part of an undetermined direction
+  double residual_variance = 0.0;
+  double degrees_of_freedom = 0.0;
+  std::vector<RowRange> clusters;
+};
+
+/// The fit of one equation of the static structure; theta are its excited coefficients.
+ClusteredFit FitOf(const EquationProblem& problem, const EquationEstimate& estimate);
+
+/// The joint fit of the dynamic structure, linearised: theta are alpha and then the excited coefficients
+/// of the answered equations.
+ClusteredFit FitOf(const LaggedEstimate& estimate);
+
+/// sigma^2 (Phi'Phi)^-1, what white residuals would mean for theta.
+Eigen::MatrixXd ResidualCovariance(const ClusteredFit& fit);
+
+}  // namespace telltale
