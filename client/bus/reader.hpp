@@ -61,7 +61,7 @@ class Reader : public Endpoint {
    private:
     dds_entity_t reader_;
     std::array<void*, kBatch> samples_{};
-    std::array<dds_sample_info_t, kBatch> infos_;
+    std::array<dds_sample_info_t, kBatch> infos_{};
     std::size_t size_;
   };
 };

@@ -30,7 +30,7 @@ void WaitSet::Detach(const Endpoint& endpoint) {
 }
 
 bool WaitSet::Wait(std::chrono::nanoseconds timeout) {
-  std::array<dds_attach_t, 32> triggered;
+  std::array<dds_attach_t, 32> triggered{};
   const auto count = Checked(
       dds_waitset_wait(wait_set_.handle(), triggered.data(), triggered.size(), timeout.count()),
       "waiting");

@@ -12,7 +12,7 @@ constexpr std::size_t kLongestRow = 16;
 double RowTimesTheta(const VesselModel& model, Equation equation, const Nu& nu,
                      const ThrustRegressors& thrust) {
   const Eigen::VectorXd& theta = model.theta[IndexOf(equation)];
-  std::array<double, kLongestRow> row;
+  std::array<double, kLongestRow> row{};
   const auto size = Regressors(equation, model.parameterization).size();
   Require(static_cast<std::size_t>(theta.size()) == size, "theta as long as its regressors");
   FillRow(equation, nu, thrust, std::span(row).first(size));

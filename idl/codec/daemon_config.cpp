@@ -63,7 +63,7 @@ std::vector<std::string> ReadVehicleFiles(FieldReader& reader, const proto::Daem
 }
 
 std::string ReadLogLevel(FieldReader& reader, const std::string& fallback) {
-  const std::string level = reader.Text("log_level", fallback);
+  std::string level = reader.Text("log_level", fallback);
   if (std::find(kLogLevels.begin(), kLogLevels.end(), level) == kLogLevels.end()) {
     reader.Fail("log_level", '"' + level + '"', "one of trace, debug, info, warn, error");
   }

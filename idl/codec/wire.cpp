@@ -164,7 +164,7 @@ std::string ReadIdentifier(std::string field, const auto& text) {
 }
 
 std::string Text(double value) {
-  std::array<char, 32> buffer;
+  std::array<char, 32> buffer{};
   const auto end = std::to_chars(buffer.begin(), buffer.end(), value).ptr;
   return {buffer.begin(), end};
 }
