@@ -136,13 +136,18 @@ TEST_F(CommandTest, OptionsOutOfRangeAreUsageErrorsThatNameTheRange) {
   expect({"--preset", "best"}, "robust");
   expect({"--parameterization", "cubic"}, "propeller");
   expect({"--seed", "-3"}, "--seed");
+  expect({"--structure", "cubic"}, "dynamic");
+  expect({"--dead-zone", "0.05"}, "two limits");
+  expect({"--dead-zone", "0.05,wide"}, "wide");
+  expect({"--dead-zone", "0.31,0"}, "[0, 0.3]");
+  expect({"--dead-zone", "0.1,0.1"}, "[-0.3, 0]");
+  expect({"--dead-zone", "nan,0"}, "[0, 0.3]");
 }
 
 TEST_F(CommandTest, WhatIsNotAvailableYetIsSaidWithWhatIs) {
   for (const auto& [option, value, available] :
        {std::array{"--estimator", "weak-iv", "available: one-step"},
-        std::array{"--estimator", "output-error", "available: one-step"},
-        std::array{"--structure", "dynamic", "available: static"}}) {
+        std::array{"--estimator", "output-error", "available: one-step"}}) {
     const CommandOutcome outcome = Identify({option, value});
     EXPECT_EQ(outcome.exit_code, kUsage);
     EXPECT_THAT(outcome.err, AllOf(HasSubstr(value), HasSubstr("not available in this version"),
@@ -182,6 +187,22 @@ TEST_F(CommandTest, IdentifyTakesThePapersOptions) {
   EXPECT_EQ(outcome.exit_code, kSuccess) << outcome.err;
   EXPECT_THAT(outcome.out, AllOf(HasSubstr("mean^2+diff^2/4"), HasSubstr("90 % bounds"),
                                  HasSubstr("Coefficients times h = 0.2 s")));
+}
+
+TEST_F(CommandTest, ADynamicModelIsIdentifiedValidatedAndSimulated) {
+  const CommandOutcome outcome = Identify({"--structure", "dynamic", "--dead-zone", "0.05,-0.06",
+                                           "--discrete", "--out", Path("model.json")});
+  EXPECT_EQ(outcome.exit_code, kSuccess) << outcome.err;
+  EXPECT_THAT(outcome.out,
+              AllOf(HasSubstr("thruster time constant"), HasSubstr("dead zone: no thrust from"),
+                    HasSubstr("alpha = exp(-h / tau)")));
+  const auto model = ParseModelJson(TextOfFile(Path("model.json")));
+  ASSERT_TRUE(model) << model.error().Message();
+  EXPECT_EQ(model->structure, Structure::kFirstOrderDynamic);
+  EXPECT_EQ(model->dead_zone, (DeadZone{0.05, -0.06}));
+  EXPECT_EQ(Validate({}).exit_code, kSuccess);
+  EXPECT_EQ(Simulated({"--out", Path("simulated")}).exit_code, kSuccess);
+  EXPECT_EQ(Simulated({"--out", Path("finer"), "--step", "0.02"}).exit_code, kSuccess);
 }
 
 TEST_F(CommandTest, SeveralLogsAreOneAfterTheOther) {
