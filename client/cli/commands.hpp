@@ -12,5 +12,6 @@ void AddSimulate(CLI::App& telltale);
 void AddReplay(CLI::App& telltale);
 void AddWatch(CLI::App& telltale);
 void AddMonitor(CLI::App& telltale);
+void AddStudy(CLI::App& telltale);
 
 }  // namespace telltale

@@ -44,5 +44,6 @@ int main(int argc, char** argv) {
   telltale::AddReplay(app);
   telltale::AddWatch(app);
   telltale::AddMonitor(app);
+  telltale::AddStudy(app);
   return static_cast<int>(telltale::Run(app, argc, argv));
 }

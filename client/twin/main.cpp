@@ -2,11 +2,13 @@
 #include <exception>
 #include <filesystem>
 #include <iostream>
+#include <string>
 
 #include <CLI/CLI.hpp>
 
 #include "recording/telemetry_log.hpp"
 #include "simulation/manoeuvres.hpp"
+#include "simulation/paper_mission.hpp"
 #include "simulation/sensors.hpp"
 #include "simulation/yellowfish.hpp"
 
@@ -15,25 +17,42 @@ namespace {
 
 struct Voyage {
   std::filesystem::path out;
+  std::string mission = "sample";
+  std::string structure = "static";
   double duration_s = kSampleMissionDurationS;
   std::uint64_t seed = 1;
   SensorOptions sensors;
 };
 
-void Record(const Voyage& voyage) {
-  constexpr double kStepS = 0.01;
-  const auto track =
-      Simulate(YellowfishTwin(), {}, SampleMission(voyage.seed), voyage.duration_s, kStepS);
+Recording Sail(const Voyage& voyage) {
+  const VesselModel twin =
+      voyage.structure == "dynamic" ? YellowfishLaggingTwin() : YellowfishTwin();
   SensorOptions sensors = voyage.sensors;
   sensors.seed = voyage.seed;
-  WriteTelemetryLog(voyage.out, Measure(track, YellowfishVehicle(), sensors));
+  if (voyage.mission == "paper") return RecordPaperMission(twin, sensors, voyage.seed);
+  constexpr double kStepS = 0.01;
+  const auto commands = SampleMission(voyage.seed);
+  const VesselState start{{}, {}, twin.SteadyThrust(commands.front().delta)};
+  return Measure(Simulate(twin, start, commands, voyage.duration_s, kStepS), YellowfishVehicle(),
+                 sensors);
+}
+
+void Record(const Voyage& voyage) {
+  WriteTelemetryLog(voyage.out, Sail(voyage));
 }
 
 int Main(int argc, char** argv) {
   CLI::App app("Records what the sensors of the simulated Yellowfish report on a sample mission.");
   Voyage voyage;
   app.add_option("--out", voyage.out, "Folder the telemetry log is written to")->required();
-  app.add_option("--duration", voyage.duration_s, "Seconds, from the start of the mission")
+  app.add_option("--mission", voyage.mission,
+                 "sample (ten minutes), or paper (127 segments, 16,025 points, 53.4 minutes)")
+      ->check(CLI::IsMember({"sample", "paper"}))
+      ->capture_default_str();
+  app.add_option("--structure", voyage.structure, "Of the thrusters: static, or dynamic (they lag)")
+      ->check(CLI::IsMember({"static", "dynamic"}))
+      ->capture_default_str();
+  app.add_option("--duration", voyage.duration_s, "Seconds of the sample mission, from its start")
       ->check(CLI::Range(10.0, kSampleMissionDurationS))
       ->capture_default_str();
   app.add_option("--seed", voyage.seed, "Of the mission's random steps and the sensors' noise")

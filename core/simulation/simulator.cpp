@@ -21,10 +21,10 @@ Nu RungeKutta(const VesselModel& model, const VesselState& state, const Propelle
   const ThrustRegressors start = model.ThrustAfter(state.thrust, delta, 0.0);
   const ThrustRegressors middle = model.ThrustAfter(state.thrust, delta, h / 2);
   const ThrustRegressors end = model.ThrustAfter(state.thrust, delta, h);
-  const NuDot k1 = model.Acceleration(nu, start);
-  const NuDot k2 = model.Acceleration(Along(nu, k1, h / 2), middle);
-  const NuDot k3 = model.Acceleration(Along(nu, k2, h / 2), middle);
-  const NuDot k4 = model.Acceleration(Along(nu, k3, h), end);
+  const NuDot k1 = model.AccelerationUnder(start, nu);
+  const NuDot k2 = model.AccelerationUnder(middle, Along(nu, k1, h / 2));
+  const NuDot k3 = model.AccelerationUnder(middle, Along(nu, k2, h / 2));
+  const NuDot k4 = model.AccelerationUnder(end, Along(nu, k3, h));
   const NuDot mean{(k1.u + 2 * k2.u + 2 * k3.u + k4.u) / 6, (k1.v + 2 * k2.v + 2 * k3.v + k4.v) / 6,
                    (k1.r + 2 * k2.r + 2 * k3.r + k4.r) / 6};
   return Along(nu, mean, h);
@@ -40,7 +40,7 @@ Nu NextVelocity(const VesselModel& model, const VesselState& state, const Propel
   Require(std::abs(step_s - model.sampling_period_s) <= kSameInstantS,
           "a discrete model stepped by its own sampling period");
   const ThrustRegressors now = model.ThrustAfter(state.thrust, delta, 0.0);
-  return Along(state.nu, model.Acceleration(state.nu, now), step_s);
+  return Along(state.nu, model.AccelerationUnder(now, state.nu), step_s);
 }
 
 Eta NextPose(const Eta& eta, const Nu& before, const Nu& after, double step_s) {

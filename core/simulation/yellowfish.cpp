@@ -1,5 +1,7 @@
 #include "simulation/yellowfish.hpp"
 
+#include <cmath>
+
 namespace telltale {
 
 const PaperStaticTable kYellowfishStaticTable = {
@@ -85,6 +87,17 @@ VesselModel YellowfishTwin() {
   VesselModel model = StaticModel(Parameterization::kPropeller, Discretisation::kContinuous);
   model.theta = {Join(surge.head<5>(), SurgeThrust(surge, reverse_ratio)),
                  Join(sway.head<9>(), TurningThrust(sway)), Join(yaw.head<9>(), yaw_thrust)};
+  return model;
+}
+
+VesselModel YellowfishLaggingTwin() {
+  // alpha^2 - (1 + X1) alpha - X5 = 0, its root below one.
+  const Eigen::VectorXd surge = YellowfishDynamicTable()[0];
+  const double half = (1.0 + surge[0]) / 2;
+  const double alpha = half - std::sqrt(half * half + surge[4]);
+  VesselModel model = YellowfishTwin();
+  model.structure = Structure::kFirstOrderDynamic;
+  model.thruster_time_constant_s = -kYellowfishSamplingPeriodS / std::log(alpha);
   return model;
 }
 

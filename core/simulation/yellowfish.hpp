@@ -33,6 +33,11 @@ VesselModel YellowfishPaperModel();
 /// that in.
 VesselModel YellowfishTwin();
 
+/// The twin with thrusters that lag: alpha of the first-order model from the surge column of the paper's
+/// dynamic table, the one equation pair with a single root in (0, 1); the boat is the static table's. The
+/// dynamic table itself, read as a recursion, diverges within seconds (docs/model.md).
+VesselModel YellowfishLaggingTwin();
+
 /// Geometry and channels of the paper's boat.
 Vehicle YellowfishVehicle();
 

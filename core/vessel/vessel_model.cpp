@@ -43,14 +43,14 @@ ThrustRegressors VesselModel::ThrustAfter(const ThrustRegressors& thrust,
   return next;
 }
 
-NuDot VesselModel::Acceleration(const Nu& nu, const ThrustRegressors& thrust) const {
+NuDot VesselModel::AccelerationUnder(const ThrustRegressors& thrust, const Nu& nu) const {
   return {RowTimesTheta(*this, Equation::kSurge, nu, thrust),
           RowTimesTheta(*this, Equation::kSway, nu, thrust),
           RowTimesTheta(*this, Equation::kYaw, nu, thrust)};
 }
 
 NuDot VesselModel::Acceleration(const Nu& nu, const PropellerCommand& delta) const {
-  return Acceleration(nu, SteadyThrust(delta));
+  return AccelerationUnder(SteadyThrust(delta), nu);
 }
 
 }  // namespace telltale

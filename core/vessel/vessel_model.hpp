@@ -37,7 +37,7 @@ struct VesselModel {
                                double elapsed_s) const;
 
   /// nu_dot at a velocity under given propeller regressors.
-  NuDot Acceleration(const Nu& nu, const ThrustRegressors& thrust) const;
+  NuDot AccelerationUnder(const ThrustRegressors& thrust, const Nu& nu) const;
 
   /// nu_dot with the propellers delivering the steady thrust of `delta`.
   NuDot Acceleration(const Nu& nu, const PropellerCommand& delta) const;

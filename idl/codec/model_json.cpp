@@ -301,6 +301,18 @@ Identification ReadModel(FieldReader reader, const proto::Model& model) {
 
 }  // namespace
 
+proto::Coefficient ToProto(const Coefficient& coefficient) {
+  proto::Coefficient message;
+  Write(coefficient, message);
+  return message;
+}
+
+proto::Refusal ToProto(const Refusal& refusal) {
+  proto::Refusal message;
+  Write(refusal, message);
+  return message;
+}
+
 proto::Model ToProto(const Identification& identification) {
   proto::Model model;
   model.set_vehicle_id(identification.vehicle_id);

@@ -13,6 +13,10 @@ namespace telltale {
 /// zero: who publishes sets them. Counts beyond 32 bits saturate.
 proto::Model ToProto(const Identification& identification);
 
+/// The parts other messages share.
+proto::Coefficient ToProto(const Coefficient& coefficient);
+proto::Refusal ToProto(const Refusal& refusal);
+
 /// The way back. Names of fields in errors are those of model.json; `file` is what they call the
 /// text. Refuses: an unset structure, parameterization, estimator or status; an equation whose
 /// coefficients are not those of Regressors() in that order, with their symbols and units; numbers

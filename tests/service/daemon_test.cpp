@@ -161,10 +161,10 @@ TEST_F(Daemon, AnswersLateOnceItIsAwakeAgain) {
   ExchangeTiming timing{.match = 20s, .reply = 20s, .retry = 100ms};
   ASSERT_EQ(client.Identify(Request("first"), timing).outcome, ExchangeOutcome::kRefused);
 
-  daemon->Signal(SIGSTOP);
+  daemon->Suspend();
   timing.reply = 500ms;
   EXPECT_EQ(client.Identify(Request("second"), timing).outcome, ExchangeOutcome::kTimedOut);
-  daemon->Signal(SIGCONT);
+  daemon->Resume();
   timing.reply = 20s;
   EXPECT_EQ(client.Identify(Request("second"), timing).outcome, ExchangeOutcome::kRefused);
 }

@@ -89,4 +89,13 @@ void Process::Signal(int signal) const {
   kill(pid_, signal);
 }
 
+void Process::Suspend() const {
+  Signal(SIGSTOP);
+  waitpid(pid_, nullptr, WUNTRACED);
+}
+
+void Process::Resume() const {
+  Signal(SIGCONT);
+}
+
 }  // namespace telltale

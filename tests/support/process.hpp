@@ -29,6 +29,10 @@ class Process {
 
   void Signal(int signal) const;
 
+  /// Stops the program where it is; it does nothing more once this returns.
+  void Suspend() const;
+  void Resume() const;
+
   /// All it has written to standard output and error so far.
   const std::string& output() const { return output_; }
 

@@ -1,0 +1,94 @@
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "cli/commands.hpp"
+#include "cli/inputs.hpp"
+#include "cli/outcome.hpp"
+#include "cli/output.hpp"
+#include "cli/progress_line.hpp"
+#include "cli/study_table.hpp"
+#include "codec/study_json.hpp"
+#include "validation/study.hpp"
+
+namespace telltale {
+namespace {
+
+struct StudyArguments {
+  std::vector<std::filesystem::path> logs;
+  std::filesystem::path vehicle_file;
+  std::string preset = "robust";
+  std::optional<double> sampling_period_s;
+  StudyOptions options;
+  OutputOptions output;
+};
+
+std::string Text(const Study& study) {
+  std::string text = StudyTable(study);
+  for (const Refusal& refusal : study.refusals) text += '\n' + Explained(refusal);
+  return text;
+}
+
+void RunStudy(const StudyArguments& arguments) {
+  const Vehicle vehicle = LoadVehicle(arguments.vehicle_file);
+  ProgressLine line;
+  line.Update("reading logs", 0.0);
+  const Recording recording = LoadRecording(arguments.logs);
+  PrepareOptions prepare = PrepareOptionsOf(PresetNamed(arguments.preset));
+  prepare.sampling_period_s = arguments.sampling_period_s;
+  const PreparedDataset dataset = OrThrow(Prepare(recording, vehicle, prepare));
+  StudyOptions options = arguments.options;
+  options.threads = std::max(1u, std::thread::hardware_concurrency());
+  const Study study =
+      OrThrow(StudyRecording(dataset, options, [&](std::string_view stage, double fraction) {
+        line.Update(std::string(stage), fraction);
+      }));
+  arguments.output.Write(PrintStudyJson(study), [&] { return Text(study); });
+}
+
+}  // namespace
+
+void AddStudy(CLI::App& telltale) {
+  const auto arguments = std::make_shared<StudyArguments>();
+  CLI::App& command = *telltale.add_subcommand(
+      "study", "Reruns the paper's experiments: partitions, training shares, coefficient tables");
+  command
+      .add_option("--log", arguments->logs,
+                  "telemetry logs; folders with gnss.csv, heading.csv and thrusters.csv")
+      ->type_name("DIR")
+      ->required()
+      ->check(CLI::ExistingPath.description(""));
+  command.add_option("--vehicle", arguments->vehicle_file, "vehicle file (text format)")
+      ->type_name("FILE")
+      ->required()
+      ->check(CLI::ExistingFile.description(""));
+  command.add_option("--preset", arguments->preset, "of the data preparation: robust or paper")
+      ->type_name("NAME")
+      ->check(CLI::IsMember({"robust", "paper"}).description(""))
+      ->capture_default_str();
+  command
+      .add_option("--sampling-period", arguments->sampling_period_s,
+                  "seconds, [0.02, 2] (default: the median GNSS period)")
+      ->type_name("S");
+  command
+      .add_option("--repeats", arguments->options.repeats,
+                  "random partitions behind each mean, [1, 1000]")
+      ->type_name("N")
+      ->check(CLI::Range(1, 1000).description(""))
+      ->capture_default_str();
+  command.add_option("--seed", arguments->options.seed, "of the partitions and the bootstrap")
+      ->type_name("N")
+      ->check(CLI::NonNegativeNumber.description(""))
+      ->capture_default_str();
+  arguments->output.AddTo(command, "study.json");
+  command.footer(
+      "MAE and RMSE are in m/s and rad/s; columns headed `paper` are the published figures.\n"
+      "Example: telltale study --log run1 --log run2 --vehicle boat.textproto");
+  command.callback([arguments] { RunStudy(*arguments); });
+}
+
+}  // namespace telltale
