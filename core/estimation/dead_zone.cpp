@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
+#include <map>
 #include <optional>
 #include <span>
 #include <vector>
@@ -187,25 +187,24 @@ Widths Refine(const DeadZoneSearch& search, Widths best, double misfit) {
   return best;
 }
 
-/// The rise of the profile of one limit over the grid.
-double Contrast(const Grid& grid, double Widths::*width, double least) {
-  double highest = least;
-  for (std::size_t i = 0; i < kGridPoints; ++i) {
-    double profile = std::numeric_limits<double>::infinity();
-    const double here = std::min(static_cast<double>(i) * kGridStep, kWidestDeadZone);
-    for (std::size_t k = 0; k < grid.points.size(); ++k) {
-      if (grid.points[k].*width == here) profile = std::min(profile, grid.misfits[k]);
-    }
-    highest = std::max(highest, profile);
+/// The span of the profile of one limit over the grid: least and highest alike are of the grid, so
+/// that its coarseness in the other limit is no contrast.
+double Contrast(const Grid& grid, double Widths::*width) {
+  std::map<double, double> profile;
+  for (std::size_t k = 0; k < grid.points.size(); ++k) {
+    const auto place = profile.try_emplace(grid.points[k].*width, grid.misfits[k]).first;
+    place->second = std::min(place->second, grid.misfits[k]);
   }
-  return highest - least;
+  const auto [least, highest] =
+      std::minmax_element(profile.begin(), profile.end(),
+                          [](const auto& a, const auto& b) { return a.second < b.second; });
+  return highest->second - least->second;
 }
 
-DeadZoneLimit LimitOf(const Grid& grid, double Widths::*width, const Widths& best, double least,
-                      double sign) {
+DeadZoneLimit LimitOf(const Grid& grid, double Widths::*width, const Widths& best, double sign) {
   DeadZoneLimit limit;
   limit.estimate = best.*width > 0.0 ? sign * (best.*width) : 0.0;
-  limit.contrast = Contrast(grid, width, least);
+  limit.contrast = Contrast(grid, width);
   limit.determined = limit.contrast > kLeastContrast && best.*width < kWidestDeadZone - kFinestStep;
   return limit;
 }
@@ -220,10 +219,9 @@ Result<DeadZoneEstimate> EstimateDeadZone(const PreparedDataset& dataset,
   const Grid grid = SearchGrid(search);
   const std::size_t start = grid.Best();
   const Widths best = Refine(search, grid.points[start], grid.misfits[start]);
-  const double least = search.Misfit(best);
   DeadZoneEstimate estimate;
-  estimate.forward = LimitOf(grid, &Widths::forward, best, least, 1.0);
-  estimate.reverse = LimitOf(grid, &Widths::reverse, best, least, -1.0);
+  estimate.forward = LimitOf(grid, &Widths::forward, best, 1.0);
+  estimate.reverse = LimitOf(grid, &Widths::reverse, best, -1.0);
   return estimate;
 }
 

@@ -89,7 +89,7 @@ class CommandTest : public testing::Test {
 // ---- usage -----------------------------------------------------------------------------------
 
 TEST_F(CommandTest, HelpIsNoError) {
-  for (const char* subcommand : {"identify", "validate", "simulate"}) {
+  for (const char* subcommand : {"identify", "validate", "simulate", "export"}) {
     const CommandOutcome outcome = Telltale({subcommand, "--help"});
     EXPECT_EQ(outcome.exit_code, kSuccess);
     EXPECT_THAT(outcome.out, AllOf(HasSubstr("--vehicle FILE"), HasSubstr("Example: telltale")));
@@ -354,6 +354,75 @@ TEST_F(CommandTest, SimulateChecksItsInputs) {
   EXPECT_EQ(Simulated({"--out", Path("boat.textproto")}).exit_code, kFailure);
   folder.Write("log/thrusters.csv", "time_s,left_us,right_us\n0,9999,1500\n");
   EXPECT_EQ(Simulated({"--out", Path("s")}).exit_code, kRefused);
+}
+
+// ---- export ----------------------------------------------------------------------------------
+
+class ExportTest : public CommandTest {
+ protected:
+  ExportTest() {
+    Identification model = MadeUpIdentification();
+    model.vehicle_id = "yellowfish";
+    folder.Write("model.json", PrintModelJson(model));
+    Vehicle vehicle = YellowfishVehicle();
+    vehicle.mass_kg.reset();
+    folder.Write("massless.textproto", PrintVehicle(vehicle));
+  }
+
+  CommandOutcome Export(const std::string& vehicle, std::vector<std::string> more) const {
+    std::vector<std::string> arguments = {"export", "--model", Path("model.json"), "--vehicle",
+                                          Path(vehicle)};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return Telltale(arguments);
+  }
+};
+
+TEST_F(ExportTest, WritesAFileOrIntoAFolder) {
+  const std::string boat = "massless.textproto";
+  EXPECT_EQ(Export(boat, {"--format", "mss", "--out", Path("boat.json")}).exit_code, kSuccess);
+  EXPECT_THAT(TextOfFile(Path("boat.json")), HasSubstr("notIdentifiable"));
+  EXPECT_EQ(Export(boat, {"--format", "mss", "--out", folder.Path().string()}).exit_code, kSuccess);
+  EXPECT_EQ(TextOfFile(Path("mss.json")), TextOfFile(Path("boat.json")));
+}
+
+TEST_F(ExportTest, TheSameSeedDrawsTheSameBits) {
+  const auto draws = [this](const char* seed, const char* out) {
+    const CommandOutcome outcome =
+        Export("massless.textproto",
+               {"--format", "mss", "--draws", "20", "--seed", seed, "--out", Path(out)});
+    EXPECT_EQ(outcome.exit_code, kSuccess) << outcome.err;
+    EXPECT_THAT(outcome.err, HasSubstr("SURGE vr is not drawn"));
+    EXPECT_THAT(TextOfFile(folder.Path() / out / "draws.json"), HasSubstr("notDrawn"));
+    return TextOfFile(folder.Path() / out / "draws.csv");
+  };
+  const std::string first = draws("7", "a");
+  EXPECT_EQ(std::count(first.begin(), first.end(), '\n'), 21);
+  EXPECT_EQ(draws("7", "b"), first);
+  EXPECT_NE(draws("8", "c"), first);
+}
+
+TEST_F(ExportTest, VrxWithoutAMassIsRefusedAndLeavesNothing) {
+  const CommandOutcome outcome =
+      Export("massless.textproto", {"--format", "vrx", "--draws", "5", "--out", Path("exported")});
+  EXPECT_EQ(outcome.exit_code, kRefused);
+  EXPECT_THAT(outcome.err, AllOf(HasSubstr("mass_kg"), HasSubstr("-> weigh the boat")));
+  EXPECT_FALSE(std::filesystem::exists(Path("exported")));
+}
+
+TEST_F(ExportTest, ChecksItsInputs) {
+  const std::string boat = "massless.textproto";
+  const std::string out = Path("x");
+  for (const std::vector<std::string>& more :
+       std::vector<std::vector<std::string>>{{"--out", out},
+                                             {"--format", "mss"},
+                                             {"--format", "csv", "--out", out},
+                                             {"--format", "mss", "--draws", "0", "--out", out},
+                                             {"--format", "mss", "--draws", "many", "--out", out},
+                                             {"--format", "mss", "--seed", "1", "--out", out}}) {
+    EXPECT_EQ(Export(boat, more).exit_code, kUsage) << testing::PrintToString(more);
+  }
+  EXPECT_EQ(Export(boat, {"--format", "mss", "--out", Path("nowhere/x")}).exit_code, kFailure);
+  EXPECT_FALSE(std::filesystem::exists(out));
 }
 
 }  // namespace

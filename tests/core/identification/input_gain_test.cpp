@@ -243,7 +243,7 @@ TEST_P(Disturbance, IsTheBodyPartOfTheModelThatMadeTheData) {
   const auto samples = ReconstructDisturbance(dataset, model);
   ASSERT_EQ(samples.size(), dataset.rows.size() - 1);
   for (std::size_t k = 0; k < samples.size(); ++k) {
-    const NuDot body = model.Acceleration(dataset.rows[k].nu, ThrustRegressors{});
+    const NuDot body = model.AccelerationUnder({}, dataset.rows[k].nu);
     EXPECT_EQ(samples[k].time_s, dataset.rows[k].time_s);
     EXPECT_NEAR(samples[k].sigma.u, body.u, 1e-11);
     EXPECT_NEAR(samples[k].sigma.v, body.v, 1e-11);
