@@ -168,9 +168,9 @@ Result<std::string> PrintVrx(const Identification& identification, const Vehicle
   text += Comment(
       "Identified with h = " + Text(identification.sampling_period_s) +
       " s; a simulator with finer steps differs by about h / 2 times the boat's fastest rate.");
-  text += Comment(
-      "No place here (N and N m per unit of the regressor): " + LeftOut(identification, *inertia) +
-      ". Heave, roll and pitch drag are not identified; set them yourself.");
+  text += Comment("No place here (N and N m per unit of the regressor, y to starboard): " +
+                  LeftOut(identification, *inertia) +
+                  ". Heave, roll and pitch drag are not identified; set them yourself.");
   text += Thrust(identification, *inertia);
   text +=
       "<plugin filename=\"libSimpleHydrodynamics.so\" name=\"vrx::SimpleHydrodynamics\">\n"

@@ -205,6 +205,16 @@ TEST_F(CommandTest, ADynamicModelIsIdentifiedValidatedAndSimulated) {
   EXPECT_EQ(Simulated({"--out", Path("finer"), "--step", "0.02"}).exit_code, kSuccess);
 }
 
+// The sample mission hardly passes neutral, so all that is sure is that both limits are settled or
+// refused.
+TEST_F(CommandTest, IdentifySeeksTheDeadZone) {
+  const CommandOutcome outcome = Identify({"--dead-zone", "identify", "--json"});
+  EXPECT_EQ(outcome.exit_code, kSuccess) << outcome.err;
+  const auto model = ParseModelJson(outcome.out);
+  ASSERT_TRUE(model) << model.error().Message();
+  EXPECT_THAT(model->provenance.bounds_basis, HasSubstr("limits of the dead zone"));
+}
+
 TEST_F(CommandTest, SeveralLogsAreOneAfterTheOther) {
   WriteTelemetryLog(Path("second"), Measured(0.0));
   const CommandOutcome outcome = Identify({"--log", Path("second"), "--json"});
