@@ -1,6 +1,7 @@
 #include "cli/identify_arguments.hpp"
 
 #include <algorithm>
+#include <charconv>
 #include <thread>
 
 #include "cli/inputs.hpp"
@@ -15,6 +16,22 @@ std::size_t DefaultThreads() {
   return std::clamp(std::thread::hardware_concurrency(), 1u, kMostThreads);
 }
 
+double Number(const std::string& text) {
+  double value = 0.0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error == std::errc() && end == text.data() + text.size()) return value;
+  throw UsageError("--dead-zone: \"" + text +
+                   "\" is no number; give two as in 0.05,-0.06, or identify");
+}
+
+DeadZone DeadZoneNamed(const std::string& text) {
+  const std::size_t comma = text.find(',');
+  if (comma == std::string::npos) {
+    throw UsageError("--dead-zone " + text + ": give two limits as in 0.05,-0.06, or identify");
+  }
+  return {Number(text.substr(0, comma)), Number(text.substr(comma + 1))};
+}
+
 void RequireAvailable(const char* option, const std::optional<std::string>& given,
                       const std::string& available) {
   if (!given || *given == available) return;
@@ -26,10 +43,17 @@ void RequireAvailable(const char* option, const std::optional<std::string>& give
 
 void IdentifyArguments::AddOptionsTo(CLI::App& command) {
   command
-      .add_option("--structure", structure,
-                  "how thrust follows the command: static (default); dynamic is not available yet")
+      .add_option(
+          "--structure", structure,
+          "how thrust follows the command: static (default), at once, or dynamic, through a "
+          "first-order lag")
       ->type_name("NAME")
       ->check(CLI::IsMember({"static", "dynamic"}).description(""));
+  command
+      .add_option("--dead-zone", dead_zone,
+                  "commands that give no thrust: two limits in shares of full command, the forward "
+                  "one in [0, 0.3] and the reverse one in [-0.3, 0], or identify (default 0,0)")
+      ->type_name("FORWARD,REVERSE");
   command
       .add_option(
           "--parameterization", parameterization,
@@ -69,12 +93,17 @@ void IdentifyArguments::AddOptionsTo(CLI::App& command) {
 }
 
 IdentifyOptions IdentifyArguments::Options() const {
-  RequireAvailable("--structure", structure, "static");
   RequireAvailable("--estimator", estimator, "one-step");
   IdentifyOptions options;
   if (preset) options.prepare = PrepareOptionsOf(PresetNamed(*preset));
   if (sampling_period_s) options.prepare.sampling_period_s = sampling_period_s;
   if (parameterization == "paper") options.regression.parameterization = Parameterization::kPaper;
+  if (structure == "dynamic") options.regression.structure = Structure::kFirstOrderDynamic;
+  if (dead_zone == "identify") {
+    options.dead_zone_source = DeadZoneSource::kIdentified;
+  } else if (dead_zone) {
+    options.regression.dead_zone = DeadZoneNamed(*dead_zone);
+  }
   if (bootstrap_replicates) options.bootstrap_replicates = *bootstrap_replicates;
   if (interval_level) options.interval_level = *interval_level;
   options.seed = seed;

@@ -17,8 +17,9 @@ namespace telltale {
 struct IdentifyArguments {
   std::vector<std::filesystem::path> logs;
   std::filesystem::path vehicle_file;
-  std::optional<std::string> structure;         ///< static
+  std::optional<std::string> structure;         ///< static, dynamic
   std::optional<std::string> parameterization;  ///< propeller, paper
+  std::optional<std::string> dead_zone;         ///< identify, or FORWARD,REVERSE
   std::optional<std::string> estimator;         ///< one-step
   std::optional<std::string> preset;            ///< robust, paper
   std::optional<double> sampling_period_s;

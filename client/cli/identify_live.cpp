@@ -24,6 +24,11 @@ IdentifyRequest RequestOf(const std::string& vehicle_id, const IdentifyArguments
   IdentifyRequest request;
   request.correlation_id = NewCorrelationId();
   request.vehicle_id = vehicle_id;
+  if (arguments.structure) request.structure = options.regression.structure;
+  if (arguments.dead_zone) {
+    request.dead_zone_source = options.dead_zone_source;
+    request.dead_zone = options.regression.dead_zone;
+  }
   if (arguments.parameterization) request.parameterization = options.regression.parameterization;
   if (arguments.preset) request.preset = PresetNamed(*arguments.preset);
   request.bootstrap_replicates = arguments.bootstrap_replicates;

@@ -41,6 +41,7 @@ int main(int argc, char** argv) {
   telltale::AddIdentify(app);
   telltale::AddValidate(app);
   telltale::AddSimulate(app);
+  telltale::AddExport(app);
   telltale::AddReplay(app);
   telltale::AddWatch(app);
   telltale::AddMonitor(app);

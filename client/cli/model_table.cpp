@@ -1,6 +1,7 @@
 #include "cli/model_table.hpp"
 
 #include <cctype>
+#include <cmath>
 
 #include "cli/outcome.hpp"
 #include "cli/table.hpp"
@@ -17,9 +18,13 @@ std::string InWords(std::string_view name) {
   return words;
 }
 
+std::string Percent(double level) {
+  return Plain(100.0 * level) + " %";
+}
+
 std::string BoundsTitle(const Identification& identification) {
   if (identification.coefficients.empty()) return "bounds";
-  return Plain(100.0 * identification.coefficients.front().interval.level) + " % bounds";
+  return Percent(identification.coefficients.front().interval.level) + " bounds";
 }
 
 std::string BoundsText(const Interval& interval, double scale) {
@@ -83,7 +88,26 @@ std::string TimeConstant(const Identification& model) {
   if (!model.thruster_time_constant) return "";
   const Coefficient& c = *model.thruster_time_constant;
   return "thruster time constant " + Significant(c.estimate) + " s, std. error " +
-         Significant(c.standard_error, 3) + ", " + BoundsText(c.interval, 1.0) + '\n';
+         Significant(c.standard_error, 3) + ", " + Percent(c.interval.level) + " bounds " +
+         BoundsText(c.interval, 1.0) + '\n';
+}
+
+std::string DeadZoneText(const DeadZone& limits) {
+  if (limits == DeadZone{}) return "";
+  return "dead zone: no thrust from " + Significant(limits.reverse) + " to " +
+         Significant(limits.forward) + " of full command\n";
+}
+
+/// alpha = exp(-h / tau), a rising function of tau, so the bounds carry over.
+std::string Alpha(const Identification& model) {
+  if (!model.thruster_time_constant) return "";
+  const Coefficient& tau = *model.thruster_time_constant;
+  const auto alpha = [h = model.sampling_period_s](double time_constant_s) {
+    return time_constant_s > 0.0 ? std::exp(-h / time_constant_s) : 0.0;
+  };
+  return "alpha = exp(-h / tau) = " + Significant(alpha(tau.estimate)) + ", " +
+         Percent(tau.interval.level) + " bounds [" + Significant(alpha(tau.interval.lower)) + ", " +
+         Significant(alpha(tau.interval.upper)) + "]; beta = 1 - alpha\n";
 }
 
 std::string Refusals(const Identification& model) {
@@ -127,8 +151,8 @@ std::string RejectedText(const RejectCounts& rejected) {
 
 std::string ModelTable(const Identification& identification) {
   return Title(identification) + Coefficients(identification) + TimeConstant(identification) +
-         Refusals(identification) + '\n' + WindowText(identification.window) +
-         BoundsBasis(identification.provenance);
+         DeadZoneText(identification.dead_zone) + Refusals(identification) + '\n' +
+         WindowText(identification.window) + BoundsBasis(identification.provenance);
 }
 
 std::string DiscreteTable(const Identification& identification) {
@@ -143,7 +167,8 @@ std::string DiscreteTable(const Identification& identification) {
                  [h](const Coefficient& c) -> std::vector<std::string> {
                    return {c.regressor, c.symbol, Significant(h * c.estimate),
                            Significant(h * c.standard_error, 3), BoundsText(c.interval, h)};
-                 });
+                 }) +
+         Alpha(identification);
 }
 
 }  // namespace telltale

@@ -10,7 +10,7 @@ namespace telltale {
 /// it, then the window it rests on, what was set aside there, and what the bounds rest on.
 std::string ModelTable(const Identification& identification);
 
-/// The coefficients times the sampling period, as the paper's tables hold them.
+/// The coefficients times the sampling period, as the paper's tables hold them, and alpha.
 std::string DiscreteTable(const Identification& identification);
 
 /// "gnss 7 DUPLICATE, thrusters 2 NOT_FINITE", or "nothing".

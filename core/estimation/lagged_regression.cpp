@@ -9,6 +9,7 @@
 
 #include "contract.hpp"
 #include "estimation/triangular_factor.hpp"
+#include "vessel/thruster_lag.hpp"
 
 namespace telltale {
 namespace {
@@ -19,211 +20,193 @@ constexpr double kLeastAlpha = 1e-4;
 // Initial thrust that has decayed to this share of itself is no longer worth a direction of its own.
 constexpr double kForgotten = 1e-6;
 
-LaggedEquation BuildLaggedEquation(const PreparedDataset& dataset, Equation equation,
-                                   const RegressionOptions& options) {
-  LaggedEquation lagged;
-  lagged.equation = equation;
-  lagged.regressors = Regressors(equation, options.parameterization);
-  for (const RowRange& segment : dataset.segments) {
-    const std::size_t first = lagged.instants.size();
-    const RowRange range = InstantsAfter(segment, dataset.stretches);
-    for (std::size_t k = range.begin; k < range.end; ++k) {
-      if (Enters(dataset.rows[k - 1].region, equation, options)) lagged.instants.push_back(k);
-    }
-    lagged.clusters.push_back({first, lagged.instants.size()});
-  }
-  for (const RowRange& stretch : dataset.stretches) {
-    const auto at = [&](std::size_t row) {
-      return static_cast<std::size_t>(
-          std::lower_bound(lagged.instants.begin(), lagged.instants.end(), row) -
-          lagged.instants.begin());
-    };
-    lagged.stretches.push_back({at(stretch.begin), at(stretch.end)});
-  }
-
-  const auto rows = static_cast<Eigen::Index>(lagged.instants.size());
-  const std::size_t body = BodyRegressors(equation);
-  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> phi(
-      rows, static_cast<Eigen::Index>(body));
-  lagged.y.resize(rows);
-  lagged.nu.resize(rows);
-  for (Eigen::Index i = 0; i < rows; ++i) {
-    const std::size_t k = lagged.instants[static_cast<std::size_t>(i)];
-    FillBody(equation, dataset.rows[k].nu, {phi.row(i).data(), body});
-    lagged.nu[i] = ComponentOf(dataset.rows[k].nu, equation);
-    lagged.y[i] = (ComponentOf(dataset.rows[k + 1].nu, equation) - lagged.nu[i]) /
-                  dataset.sampling_period_s;
-  }
-  lagged.body = phi;
-  return lagged;
-}
-
-/// The propeller regressors after the lag, and how they change with alpha, at every row of the dataset:
-/// T(k+1) = alpha T(k) + (1 - alpha) commanded(k), each stretch begun in its commanded thrust.
+/// The propeller regressors averaged over each row's interval, and how they change with alpha. Each
+/// stretch begins in its commanded thrust.
 struct LaggedThrust {
-  std::vector<ThrustRegressors> value;
+  std::vector<ThrustRegressors> mean;
   std::vector<ThrustRegressors> slope;
 };
 
 LaggedThrust FollowThrust(const LaggedProblem& problem, double alpha) {
+  const double share = MeanLagShare(alpha);
+  const double share_slope = MeanLagShareSlope(alpha);
   LaggedThrust lagged{problem.commanded, std::vector<ThrustRegressors>(problem.commanded.size())};
-  const auto follow = [&](auto part) {
-    for (const RowRange& stretch : problem.stretches) {
-      for (std::size_t k = stretch.begin; k + 1 < stretch.end; ++k) {
-        for (std::size_t i = 0; i < 4; ++i) {
-          const double now = (lagged.value[k].*part)[i];
-          const double commanded = (problem.commanded[k].*part)[i];
-          (lagged.value[k + 1].*part)[i] = alpha * now + (1.0 - alpha) * commanded;
-          (lagged.slope[k + 1].*part)[i] = now - commanded + alpha * (lagged.slope[k].*part)[i];
-        }
-      }
+  const auto follow = [&](auto part, std::size_t i, const RowRange& stretch) {
+    // Thrust lags its command by `behind`, which decays while the command is held.
+    double behind = 0.0;
+    double behind_slope = 0.0;
+    for (std::size_t k = stretch.begin; k < stretch.end; ++k) {
+      const double commanded = (problem.commanded[k].*part)[i];
+      (lagged.mean[k].*part)[i] = commanded + share * behind;
+      (lagged.slope[k].*part)[i] = share * behind_slope + share_slope * behind;
+      if (k + 1 == stretch.end) break;
+      const double change = commanded - (problem.commanded[k + 1].*part)[i];
+      behind_slope = behind + alpha * behind_slope;
+      behind = alpha * behind + change;
     }
   };
-  follow(&ThrustRegressors::surge);
-  follow(&ThrustRegressors::turning);
+  for (const RowRange& stretch : problem.stretches) {
+    for (std::size_t i = 0; i < 4; ++i) {
+      follow(&ThrustRegressors::surge, i, stretch);
+      follow(&ThrustRegressors::turning, i, stretch);
+    }
+  }
   return lagged;
 }
 
 /// One answered equation at one alpha, its unknown initial thrusts projected out: y = phi theta + e, and
-/// the change of phi theta with alpha.
+/// slope, how the propeller columns of phi change with alpha.
 struct Projected {
   Eigen::MatrixXd phi;
+  Eigen::MatrixXd slope;
   Eigen::VectorXd y;
-  Eigen::MatrixXd thrust_slope;  ///< d phi / d alpha of the propeller columns
-  Eigen::Index body = 0;
-  double projected_directions = 0.0;
+  double directions_out = 0.0;
 };
 
+/// Rows of the problem that lie in each stretch of the dataset.
+std::vector<RowRange> RowsOfStretches(const EquationProblem& equation,
+                                      const std::vector<RowRange>& stretches) {
+  const auto& instants = equation.instants;
+  const auto at = [&](std::size_t row) {
+    return static_cast<std::size_t>(std::lower_bound(instants.begin(), instants.end(), row) -
+                                    instants.begin());
+  };
+  std::vector<RowRange> rows;
+  for (const RowRange& stretch : stretches) rows.push_back({at(stretch.begin), at(stretch.end)});
+  return rows;
+}
+
 /// Takes alpha^m out of the rows of each stretch, where m counts rows from its start.
-void ProjectInitialThrust(const LaggedProblem& problem, const LaggedEquation& lagged, double alpha,
-                          Projected& at) {
-  for (std::size_t s = 0; s < lagged.stretches.size(); ++s) {
-    const auto begin = static_cast<Eigen::Index>(lagged.stretches[s].begin);
-    const auto count = static_cast<Eigen::Index>(lagged.stretches[s].size());
+void ProjectInitialThrust(const LaggedProblem& problem, const EquationProblem& equation,
+                          double alpha, Projected& at) {
+  const auto rows_of = RowsOfStretches(equation, problem.stretches);
+  for (std::size_t s = 0; s < rows_of.size(); ++s) {
+    const auto begin = static_cast<Eigen::Index>(rows_of[s].begin);
+    // Beyond these rows the start is forgotten and the direction is zero.
+    const auto remembered = static_cast<std::size_t>(std::log(kForgotten) / std::log(alpha)) + 1;
+    const std::size_t last = problem.stretches[s].begin + remembered;
+    Eigen::Index count = 0;
+    while (count < static_cast<Eigen::Index>(rows_of[s].size()) &&
+           equation.instants[static_cast<std::size_t>(begin + count)] < last) {
+      ++count;
+    }
     if (count == 0) continue;
     Eigen::VectorXd decay(count);
     for (Eigen::Index i = 0; i < count; ++i) {
-      const std::size_t k = lagged.instants[static_cast<std::size_t>(begin + i)];
+      const std::size_t k = equation.instants[static_cast<std::size_t>(begin + i)];
       decay[i] = std::pow(alpha, static_cast<double>(k - problem.stretches[s].begin));
     }
-    const double norm = decay.norm();
-    // Rows that begin long after the stretch does no longer remember how it began.
-    if (norm < kForgotten) continue;
-    decay /= norm;
+    decay.normalize();
     const auto project = [&](auto rows) { rows -= decay * (decay.transpose() * rows).eval(); };
     project(at.phi.middleRows(begin, count));
-    project(at.thrust_slope.middleRows(begin, count));
+    project(at.slope.middleRows(begin, count));
     project(at.y.segment(begin, count));
-    at.projected_directions += 1.0;
+    at.directions_out += 1.0;
   }
 }
 
-Eigen::MatrixXd Select(const Eigen::MatrixXd& all, const std::vector<Eigen::Index>& columns) {
-  Eigen::MatrixXd selected(all.rows(), static_cast<Eigen::Index>(columns.size()));
-  for (std::size_t j = 0; j < columns.size(); ++j) {
-    selected.col(static_cast<Eigen::Index>(j)) = all.col(columns[j]);
-  }
-  return selected;
-}
-
-/// Splits excited columns into those of the body and those of the propellers, the latter counted from 0.
-struct ExcitedParts {
-  std::vector<Eigen::Index> body;
-  std::vector<Eigen::Index> propeller;
-};
-
-ExcitedParts Split(const std::vector<std::size_t>& excited, Equation equation) {
-  ExcitedParts parts;
-  const std::size_t body = BodyRegressors(equation);
-  for (const std::size_t column : excited) {
-    if (column < body) {
-      parts.body.push_back(static_cast<Eigen::Index>(column));
-    } else {
-      parts.propeller.push_back(static_cast<Eigen::Index>(column - body));
-    }
-  }
-  return parts;
-}
-
-Projected ProjectAt(const LaggedProblem& problem, const LaggedEquation& lagged,
-                    const ExcitedParts& parts, const LaggedThrust& thrust, double alpha) {
+Projected ProjectAt(const LaggedProblem& problem, const EquationProblem& equation,
+                    const std::vector<std::size_t>& excited, const LaggedThrust& thrust,
+                    double alpha) {
+  const std::size_t body = BodyRegressors(equation.equation);
+  const auto first_thrust = std::lower_bound(excited.begin(), excited.end(), body);
+  const auto propellers = excited.end() - first_thrust;
+  const auto bodies = first_thrust - excited.begin();
   Projected at;
-  const auto rows = static_cast<Eigen::Index>(lagged.instants.size());
-  const auto propeller = static_cast<Eigen::Index>(parts.propeller.size());
-  at.body = static_cast<Eigen::Index>(parts.body.size());
-  at.phi.resize(rows, at.body + propeller);
-  at.phi.leftCols(at.body) = Select(lagged.body, parts.body);
-  at.thrust_slope.resize(rows, propeller);
-  for (Eigen::Index i = 0; i < rows; ++i) {
-    const std::size_t k = lagged.instants[static_cast<std::size_t>(i)];
-    for (Eigen::Index j = 0; j < propeller; ++j) {
-      const auto term = static_cast<std::size_t>(parts.propeller[static_cast<std::size_t>(j)]);
-      at.phi(i, at.body + j) = thrust.value[k].Of(lagged.equation)[term];
-      at.thrust_slope(i, j) = thrust.slope[k].Of(lagged.equation)[term];
+  at.phi.resize(equation.phi.rows(), bodies + propellers);
+  at.slope.resize(equation.phi.rows(), propellers);
+  for (Eigen::Index j = 0; j < bodies; ++j) {
+    at.phi.col(j) =
+        equation.phi.col(static_cast<Eigen::Index>(excited[static_cast<std::size_t>(j)]));
+  }
+  for (Eigen::Index j = 0; j < propellers; ++j) {
+    const std::size_t term = *(first_thrust + j) - body;
+    for (Eigen::Index i = 0; i < at.phi.rows(); ++i) {
+      const std::size_t k = equation.instants[static_cast<std::size_t>(i)];
+      at.phi(i, bodies + j) = thrust.mean[k].Of(equation.equation)[term];
+      at.slope(i, j) = thrust.slope[k].Of(equation.equation)[term];
     }
   }
-  at.y = lagged.y;
-  ProjectInitialThrust(problem, lagged, alpha, at);
+  at.y = equation.y;
+  ProjectInitialThrust(problem, equation, alpha, at);
   return at;
 }
 
-/// What the joint solve works on: the answered equations, in order.
-struct Answered {
-  std::vector<std::size_t> which;
-  std::vector<ExcitedParts> parts;
-};
-
-/// One equation solved at one alpha. by_alpha is how phi theta changes with alpha at that theta.
+/// One equation solved at one alpha. Rows are rotated so that few remain: cost and its Kaufman derivative
+/// keep their lengths and angles, which is all that a Gauss-Newton step looks at.
 struct Solved {
-  Projected at;
   Eigen::VectorXd theta;
-  Eigen::VectorXd residual;
-  Eigen::VectorXd by_alpha;
+  Eigen::VectorXd residual;    ///< rotated
+  Eigen::VectorXd derivative;  ///< of the residual by alpha, rotated alike
   double variance = 0.0;
   double degrees_of_freedom = 0.0;
 };
 
-Eigen::VectorXd LeastSquares(const Eigen::MatrixXd& phi, const Eigen::VectorXd& y) {
+Solved Solve(const Projected& at) {
+  const Eigen::Index p = at.phi.cols();
+  const Eigen::Index q = at.slope.cols();
   const Eigen::VectorXd norms =
-      phi.colwise().norm().transpose().cwiseMax(std::numeric_limits<double>::min());
-  const TriangularFactor factor = Triangularise(phi * norms.cwiseInverse().asDiagonal(), y);
-  return factor.R.completeOrthogonalDecomposition().solve(factor.z).cwiseQuotient(norms);
+      at.phi.colwise().norm().transpose().cwiseMax(std::numeric_limits<double>::min());
+  Eigen::MatrixXd both(at.phi.rows(), p + q);
+  both << at.phi * norms.cwiseInverse().asDiagonal(), at.slope;
+  const TriangularFactor factor = Triangularise(both, at.y);
+
+  Solved solved;
+  const auto decomposition = factor.R.topLeftCorner(p, p).completeOrthogonalDecomposition();
+  solved.theta = decomposition.solve(factor.z.head(p)).cwiseQuotient(norms);
+  // What the first p rows leave (nothing, unless columns depend on each other), then the rest of the triangle.
+  const Eigen::VectorXd by_alpha = factor.R.rightCols(q) * solved.theta.tail(q);
+  const auto left_over = [&](const Eigen::VectorXd& rows) {
+    const Eigen::MatrixXd corner = factor.R.topLeftCorner(p, p);
+    Eigen::VectorXd rest = rows;
+    rest.head(p) -= corner * decomposition.solve(rows.head(p));
+    return rest;
+  };
+  solved.residual.resize(p + q + 1);
+  solved.residual << left_over(factor.z), factor.rho;
+  solved.derivative.resize(p + q + 1);
+  solved.derivative << -left_over(by_alpha), 0.0;
+  solved.degrees_of_freedom = static_cast<double>(at.y.size() - p) - at.directions_out - 1.0;
+  // Data made by the model itself leave nothing; a floor keeps the weights finite.
+  const double floor = 1e-12 * at.y.norm();
+  solved.variance =
+      std::max(solved.residual.squaredNorm(), floor * floor) / solved.degrees_of_freedom;
+  return solved;
 }
 
-Solved SolveEquation(const LaggedProblem& problem, const Answered& answered, std::size_t i,
-                     const LaggedThrust& thrust, double alpha) {
-  Solved solved;
-  solved.at = ProjectAt(problem, problem.equations[answered.which[i]], answered.parts[i], thrust,
-                        alpha);
-  solved.theta = LeastSquares(solved.at.phi, solved.at.y);
-  solved.residual = solved.at.y - solved.at.phi * solved.theta;
-  solved.by_alpha =
-      solved.at.thrust_slope * solved.theta.tail(solved.at.thrust_slope.cols());
-  solved.degrees_of_freedom = static_cast<double>(solved.at.y.size() - solved.theta.size()) -
-                              solved.at.projected_directions - 1.0;
-  // Data made by the model itself leave nothing; a floor keeps the weights finite.
-  const double floor = 1e-12 * solved.at.y.norm();
-  solved.variance = std::max(solved.residual.squaredNorm() / solved.degrees_of_freedom,
-                             floor * floor);
-  return solved;
+/// The equations to answer, in order, and the columns of each that the data move.
+struct Answered {
+  std::vector<std::size_t> which;
+  std::vector<std::vector<std::size_t>> excited;
+};
+
+std::vector<Projected> ProjectAll(const LaggedProblem& problem, const Answered& answered,
+                                  double alpha) {
+  const LaggedThrust thrust = FollowThrust(problem, alpha);
+  std::vector<Projected> projected;
+  for (std::size_t i = 0; i < answered.which.size(); ++i) {
+    projected.push_back(ProjectAt(problem, problem.at_once.equations[answered.which[i]],
+                                  answered.excited[i], thrust, alpha));
+  }
+  return projected;
 }
 
 std::vector<Solved> SolveAll(const LaggedProblem& problem, const Answered& answered, double alpha) {
-  const LaggedThrust thrust = FollowThrust(problem, alpha);
   std::vector<Solved> solved;
-  for (std::size_t i = 0; i < answered.which.size(); ++i) {
-    solved.push_back(SolveEquation(problem, answered, i, thrust, alpha));
-  }
+  for (const Projected& at : ProjectAll(problem, answered, alpha)) solved.push_back(Solve(at));
   return solved;
 }
 
-/// The residual of all equations as a function of alpha alone.
+/// What all equations leave, weighted, as a function of alpha alone.
 class LagCost : public ceres::CostFunction {
  public:
-  LagCost(const LaggedProblem& problem, const Answered& answered, std::vector<double> weights)
-      : problem_(problem), answered_(answered), weights_(std::move(weights)) {
+  LagCost(const LaggedProblem& problem, const Answered& answered, const std::vector<Solved>& start)
+      : problem_(problem), answered_(answered) {
     Eigen::Index rows = 0;
-    for (const std::size_t j : answered.which) rows += problem.equations[j].y.size();
+    for (const Solved& equation : start) {
+      weights_.push_back(1.0 / std::sqrt(equation.variance));
+      rows += equation.residual.size();
+    }
     set_num_residuals(static_cast<int>(rows));
     mutable_parameter_block_sizes()->push_back(1);
   }
@@ -233,14 +216,11 @@ class LagCost : public ceres::CostFunction {
     const std::vector<Solved> solved = SolveAll(problem_, answered_, parameters[0][0]);
     Eigen::Index first = 0;
     for (std::size_t i = 0; i < solved.size(); ++i) {
-      const Solved& equation = solved[i];
-      const Eigen::Index rows = equation.residual.size();
-      Eigen::Map<Eigen::VectorXd>(residuals + first, rows) = weights_[i] * equation.residual;
+      const Eigen::Index rows = solved[i].residual.size();
+      Eigen::Map<Eigen::VectorXd>(residuals + first, rows) = weights_[i] * solved[i].residual;
       if (jacobians != nullptr && jacobians[0] != nullptr) {
-        // Kaufman: the change of phi theta with alpha, less what theta would absorb of it.
         Eigen::Map<Eigen::VectorXd>(jacobians[0] + first, rows) =
-            -weights_[i] * (equation.by_alpha -
-                            equation.at.phi * LeastSquares(equation.at.phi, equation.by_alpha));
+            weights_[i] * solved[i].derivative;
       }
       first += rows;
     }
@@ -253,17 +233,8 @@ class LagCost : public ceres::CostFunction {
   std::vector<double> weights_;
 };
 
-std::vector<double> WeightsAt(const LaggedProblem& problem, const Answered& answered,
-                              double alpha) {
-  std::vector<double> weights;
-  for (const Solved& equation : SolveAll(problem, answered, alpha)) {
-    weights.push_back(1.0 / std::sqrt(equation.variance));
-  }
-  return weights;
-}
-
-/// Lags from a quarter of a period to 32 periods, each twice the one before; the one that leaves least,
-/// by the sum over the equations of the logarithm of the residual variance.
+/// Lags from a quarter of a period to 32 periods, each twice the one before: the one that leaves least, by
+/// the sum over the equations of the logarithm of the residual variance.
 double BestGridAlpha(const LaggedProblem& problem, const Answered& answered) {
   double best = 0.5;
   double least = std::numeric_limits<double>::infinity();
@@ -286,7 +257,7 @@ double SolveWeighted(const LaggedProblem& problem, const Answered& answered, dou
   double alpha = start_alpha;
   ceres::Problem joint;  // owns its cost function
   joint.AddResidualBlock(
-      new LagCost(problem, answered, WeightsAt(problem, answered, start_alpha)), nullptr, &alpha);
+      new LagCost(problem, answered, SolveAll(problem, answered, start_alpha)), nullptr, &alpha);
   joint.SetParameterLowerBound(&alpha, 0, kLeastAlpha);
   joint.SetParameterUpperBound(&alpha, 0, 1.0 - kLeastAlpha);
   ceres::Solver::Options options;
@@ -304,7 +275,7 @@ double SolveWeighted(const LaggedProblem& problem, const Answered& answered, dou
 /// Repeats the solve until the weights belong to the alpha they lead to.
 double SolveAlpha(const LaggedProblem& problem, const Answered& answered) {
   constexpr int kMostRounds = 5;
-  constexpr double kSettled = 1e-9;
+  constexpr double kSettled = 1e-7;
   double alpha = BestGridAlpha(problem, answered);
   for (int round = 0; round < kMostRounds; ++round) {
     const double next = SolveWeighted(problem, answered, alpha);
@@ -326,32 +297,42 @@ EquationEstimate WriteEstimate(const Excitation& excitation, const Solved& solve
   return estimate;
 }
 
+/// One equation's weighted rows, before they are grouped by segment.
+struct WeightedRows {
+  Eigen::VectorXd by_alpha;
+  Eigen::MatrixXd phi;
+  Eigen::VectorXd residual;
+};
+
+WeightedRows Weigh(const Projected& at, const EquationEstimate& estimate) {
+  const double weight = 1.0 / std::sqrt(estimate.residual_variance);
+  return {weight * (at.slope * estimate.theta.tail(at.slope.cols())), weight * at.phi,
+          weight * (at.y - at.phi * estimate.theta)};
+}
+
 /// Fills the joint Jacobian and residual, rows grouped by segment.
 void StackRows(const LaggedProblem& problem, const Answered& answered,
-               const std::vector<Solved>& solved, LaggedEstimate& estimate) {
+               const std::vector<WeightedRows>& equations, LaggedEstimate& estimate) {
   Eigen::Index rows = 0;
   Eigen::Index columns = 1;
-  for (const Solved& equation : solved) {
-    rows += equation.residual.size();
-    columns += equation.theta.size();
+  for (const WeightedRows& equation : equations) {
+    rows += equation.phi.rows();
+    columns += equation.phi.cols();
   }
   estimate.jacobian = Eigen::MatrixXd::Zero(rows, columns);
   estimate.residual.resize(rows);
   Eigen::Index row = 0;
-  for (std::size_t s = 0; s < problem.equations[0].clusters.size(); ++s) {
+  for (std::size_t s = 0; s < problem.at_once.equations[0].clusters.size(); ++s) {
     const auto first_row = static_cast<std::size_t>(row);
     Eigen::Index column = 1;
-    for (std::size_t i = 0; i < solved.size(); ++i) {
-      const RowRange& cluster = problem.equations[answered.which[i]].clusters[s];
+    for (std::size_t i = 0; i < equations.size(); ++i) {
+      const RowRange& cluster = problem.at_once.equations[answered.which[i]].clusters[s];
       const auto begin = static_cast<Eigen::Index>(cluster.begin);
       const auto count = static_cast<Eigen::Index>(cluster.size());
-      const double weight = 1.0 / std::sqrt(solved[i].variance);
-      const Eigen::Index p = solved[i].theta.size();
-      estimate.jacobian.block(row, 0, count, 1) =
-          weight * solved[i].by_alpha.segment(begin, count);
-      estimate.jacobian.block(row, column, count, p) =
-          weight * solved[i].at.phi.middleRows(begin, count);
-      estimate.residual.segment(row, count) = weight * solved[i].residual.segment(begin, count);
+      const Eigen::Index p = equations[i].phi.cols();
+      estimate.jacobian.block(row, 0, count, 1) = equations[i].by_alpha.segment(begin, count);
+      estimate.jacobian.block(row, column, count, p) = equations[i].phi.middleRows(begin, count);
+      estimate.residual.segment(row, count) = equations[i].residual.segment(begin, count);
       row += count;
       column += p;
     }
@@ -361,39 +342,15 @@ void StackRows(const LaggedProblem& problem, const Answered& answered,
 
 }  // namespace
 
-EquationProblem LaggedProblem::WithoutLag(Equation equation) const {
-  const LaggedEquation& lagged = equations[IndexOf(equation)];
-  const auto rows = static_cast<Eigen::Index>(lagged.instants.size());
-  const Eigen::Index body = lagged.body.cols();
-  EquationProblem problem;
-  problem.equation = equation;
-  problem.regressors = lagged.regressors;
-  problem.phi.resize(rows, static_cast<Eigen::Index>(lagged.regressors.size()));
-  problem.phi.leftCols(body) = lagged.body;
-  for (Eigen::Index i = 0; i < rows; ++i) {
-    const std::size_t k = lagged.instants[static_cast<std::size_t>(i)];
-    for (Eigen::Index j = body; j < problem.phi.cols(); ++j) {
-      problem.phi(i, j) = commanded[k - 1].Of(equation)[static_cast<std::size_t>(j - body)];
-    }
-  }
-  problem.y = lagged.y;
-  problem.nu = lagged.nu;
-  problem.clusters = lagged.clusters;
-  return problem;
-}
-
 LaggedProblem BuildLagged(const PreparedDataset& dataset, const RegressionOptions& options) {
-  Require(dataset.sampling_period_s > 0.0, "a positive sampling period");
+  RegressionOptions at_once = options;
+  at_once.structure = Structure::kStaticQuadratic;
   LaggedProblem problem;
-  problem.parameterization = options.parameterization;
-  problem.sampling_period_s = dataset.sampling_period_s;
+  problem.at_once = BuildRegression(dataset, at_once);
   problem.stretches = dataset.stretches;
   for (const PreparedRow& row : dataset.rows) {
     problem.commanded.push_back(
         ThrustOf(options.parameterization, options.dead_zone.Apply(row.delta)));
-  }
-  for (const Equation equation : kEquations) {
-    problem.equations[IndexOf(equation)] = BuildLaggedEquation(dataset, equation, options);
   }
   return problem;
 }
@@ -404,19 +361,21 @@ LaggedEstimate EstimateLagged(const LaggedProblem& problem,
   for (std::size_t j = 0; j < excitations.size(); ++j) {
     if (!excitations[j]) continue;
     answered.which.push_back(j);
-    answered.parts.push_back(Split(excitations[j]->excited, problem.equations[j].equation));
+    answered.excited.push_back(excitations[j]->excited);
   }
   Require(!answered.which.empty(), "at least one answered equation");
 
   LaggedEstimate estimate;
   estimate.alpha = SolveAlpha(problem, answered);
-  estimate.time_constant_s = -problem.sampling_period_s / std::log(estimate.alpha);
-  const std::vector<Solved> solved = SolveAll(problem, answered, estimate.alpha);
-  for (std::size_t i = 0; i < solved.size(); ++i) {
+  estimate.time_constant_s = -problem.at_once.sampling_period_s / std::log(estimate.alpha);
+  std::vector<WeightedRows> rows;
+  const std::vector<Projected> projected = ProjectAll(problem, answered, estimate.alpha);
+  for (std::size_t i = 0; i < projected.size(); ++i) {
     const std::size_t j = answered.which[i];
-    estimate.equations[j] = WriteEstimate(*excitations[j], solved[i]);
+    estimate.equations[j] = WriteEstimate(*excitations[j], Solve(projected[i]));
+    rows.push_back(Weigh(projected[i], *estimate.equations[j]));
   }
-  StackRows(problem, answered, solved, estimate);
+  StackRows(problem, answered, rows, estimate);
   return estimate;
 }
 

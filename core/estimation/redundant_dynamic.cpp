@@ -182,6 +182,7 @@ EquationProblem BuildRedundant(const PreparedDataset& dataset, Equation equation
     }
     problem.clusters.push_back({first, instants.size()});
   }
+  problem.instants = instants;
   const auto rows = static_cast<Eigen::Index>(instants.size());
   Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> A(
       rows, static_cast<Eigen::Index>(columns));

@@ -53,6 +53,7 @@ EquationProblem BuildEquation(const PreparedDataset& dataset, Equation equation,
       FillRow(equation, options.parameterization, now.nu, options.dead_zone.Apply(now.delta),
               {phi.row(row).data(), problem.regressors.size()});
       problem.nu[row] = ComponentOf(now.nu, equation);
+      problem.instants.push_back(k);
       problem.y[row] =
           (ComponentOf(dataset.rows[k + 1].nu, equation) - ComponentOf(now.nu, equation)) /
           dataset.sampling_period_s;

@@ -21,6 +21,7 @@ struct EquationProblem {
   Eigen::MatrixXd phi;
   Eigen::VectorXd y;
   Eigen::VectorXd nu;
+  std::vector<std::size_t> instants;  ///< the dataset's row of each row
   std::vector<RowRange> clusters;
 };
 
@@ -45,7 +46,7 @@ struct RegressionOptions {
 /// Whether rows under a command of this region enter this equation.
 bool Enters(PropellerRegion region, Equation equation, const RegressionOptions& options);
 
-/// Instants k of the regressions that look one command back: the command at k-1 lies in `segment`, and
+/// Instants k of a regression that looks one command back: the command at k-1 lies in `segment`, and
 /// k-1, k and k+1 in its stretch.
 RowRange InstantsAfter(const RowRange& segment, const std::vector<RowRange>& stretches);
 

@@ -5,8 +5,10 @@
 #include <cmath>
 #include <limits>
 
+#include "estimation/dead_zone.hpp"
 #include "estimation/lagged_regression.hpp"
 #include "estimation/one_step.hpp"
+#include "range.hpp"
 #include "uncertainty/clustered_fit.hpp"
 #include "uncertainty/segment_bootstrap.hpp"
 
@@ -53,12 +55,42 @@ void AssessEquation(const EquationProblem& regression, const ExcitationLimits& l
   answers.excitations[IndexOf(regression.equation)] = *excitation;
 }
 
-Answers AnswerStatic(const PreparedDataset& dataset, const IdentifyOptions& options) {
-  const RegressionProblem problem = BuildRegression(dataset, options.regression);
+Refusal CannotTell(const char* side, const DeadZoneLimit& limit, double kept) {
+  const std::string reason = limit.contrast > kLeastContrast
+                                 ? "the best value lies at the edge of the allowed range, so it "
+                                   "stands for something else"
+                                 : "the data cannot tell: every value allowed explains them alike";
+  return {"dead zone, " + std::string(side), reason + "; " + std::to_string(kept) + " is kept",
+          "record commands that pass slowly through neutral on this side, or give the limit"};
+}
+
+/// What the data say of the dead zone; a limit they say nothing of stays as given, with a refusal.
+DeadZone IdentifyDeadZone(const PreparedDataset& dataset, const IdentifyOptions& options,
+                          std::vector<Refusal>& refusals) {
+  DeadZone limits = options.regression.dead_zone;
+  const auto estimate =
+      EstimateDeadZone(dataset, options.regression, options.excitation, options.threads);
+  if (!estimate) return limits;  // the equations are refused next, for the same reason
+  if (estimate->forward.determined) {
+    limits.forward = estimate->forward.estimate;
+  } else {
+    refusals.push_back(CannotTell("forward", estimate->forward, limits.forward));
+  }
+  if (estimate->reverse.determined) {
+    limits.reverse = estimate->reverse.estimate;
+  } else {
+    refusals.push_back(CannotTell("reverse", estimate->reverse, limits.reverse));
+  }
+  return limits;
+}
+
+Answers AnswerStatic(const PreparedDataset& dataset, const RegressionOptions& regression,
+                     const ExcitationLimits& limits) {
+  const RegressionProblem problem = BuildRegression(dataset, regression);
   Answers answers;
   Eigen::Index next = 0;
   for (std::size_t j = 0; j < problem.equations.size(); ++j) {
-    AssessEquation(problem.equations[j], options.excitation, answers);
+    AssessEquation(problem.equations[j], limits, answers);
     if (!answers.excitations[j]) continue;
     answers.estimates[j] = EstimateOneStep(*answers.excitations[j]);
     answers.fits.push_back(FitOf(problem.equations[j], *answers.estimates[j]));
@@ -68,11 +100,12 @@ Answers AnswerStatic(const PreparedDataset& dataset, const IdentifyOptions& opti
   return answers;
 }
 
-Answers AnswerDynamic(const PreparedDataset& dataset, const IdentifyOptions& options) {
-  const LaggedProblem problem = BuildLagged(dataset, options.regression);
+Answers AnswerDynamic(const PreparedDataset& dataset, const RegressionOptions& regression,
+                      const ExcitationLimits& limits) {
+  const LaggedProblem problem = BuildLagged(dataset, regression);
   Answers answers;
-  for (const Equation equation : kEquations) {
-    AssessEquation(problem.WithoutLag(equation), options.excitation, answers);
+  for (const EquationProblem& equation : problem.at_once.equations) {
+    AssessEquation(equation, limits, answers);
   }
   if (!answers.Any()) return answers;
   answers.lag = EstimateLagged(problem, answers.excitations);
@@ -106,8 +139,8 @@ Bounds ResidualBounds(const std::vector<ClusteredFit>& fits, double level) {
     auto block = bounds.covariance.block(first, first, p, p);
     block = ResidualCovariance(fit);
     for (Eigen::Index j = 0; j < p; ++j) {
-      bounds.intervals.push_back(StudentInterval(fit.theta[j], std::sqrt(block(j, j)),
-                                                 fit.degrees_of_freedom, level));
+      bounds.intervals.push_back(
+          StudentInterval(fit.theta[j], std::sqrt(block(j, j)), fit.degrees_of_freedom, level));
     }
     first += p;
   }
@@ -230,15 +263,16 @@ void WriteCoefficients(const Answers& answers, const Bounds& bounds,
   identification.covariance = SpreadCovariance(bounds.covariance, places);
 }
 
-/// -h / ln(alpha): no lag at all where alpha is not above zero, an endless one where it reaches one.
+/// -h / ln(alpha): no lag at all where alpha is not above zero, an endless one where it reaches
+/// one.
 double TimeConstant(double alpha, double h) {
   if (alpha <= 0.0) return 0.0;
   if (alpha >= 1.0) return kInfinity;
   return -h / std::log(alpha);
 }
 
-/// The time constant is a monotone function of alpha, so alpha's bounds carry over; its standard error
-/// is the first-order one, d tau / d alpha = h / (alpha ln^2 alpha).
+/// The time constant is a monotone function of alpha, so alpha's bounds carry over; its standard
+/// error is the first-order one, d tau / d alpha = h / (alpha ln^2 alpha).
 Coefficient WriteTimeConstant(const LaggedEstimate& lag, const Bounds& bounds, double h) {
   const Interval& alpha = bounds.intervals.front();
   Coefficient coefficient;
@@ -246,8 +280,8 @@ Coefficient WriteTimeConstant(const LaggedEstimate& lag, const Bounds& bounds, d
   coefficient.unit = "s";
   coefficient.status = CoefficientStatus::kEstimated;
   coefficient.estimate = lag.time_constant_s;
-  coefficient.standard_error = std::sqrt(bounds.covariance(0, 0)) * h /
-                               (lag.alpha * std::pow(std::log(lag.alpha), 2));
+  coefficient.standard_error =
+      std::sqrt(bounds.covariance(0, 0)) * h / (lag.alpha * std::pow(std::log(lag.alpha), 2));
   coefficient.interval = {alpha.level, TimeConstant(alpha.lower, h), TimeConstant(alpha.upper, h)};
   return coefficient;
 }
@@ -271,7 +305,23 @@ std::optional<Refusal> OptionRefusal(const char* field, const std::string& value
   return Refusal{field, "is " + value, std::string("choose a value in ") + allowed};
 }
 
+std::optional<Refusal> LimitRefusal(const DeadZone& limits) {
+  if (auto refusal = OutOfRange("dead_zone", "forward", limits.forward, 0.0, kWidestDeadZone)) {
+    return refusal;
+  }
+  return OutOfRange("dead_zone", "reverse", limits.reverse, -kWidestDeadZone, 0.0);
+}
+
 }  // namespace
+
+std::string_view Name(DeadZoneSource source) {
+  switch (source) {
+    case DeadZoneSource::kGiven: return "GIVEN";
+    case DeadZoneSource::kIdentified: return "IDENTIFIED";
+    case DeadZoneSource::kUnknown: break;
+  }
+  return "UNKNOWN";
+}
 
 std::optional<Refusal> IdentifyOptions::Validate() const {
   if (auto refusal = prepare.Validate()) return refusal;
@@ -282,14 +332,17 @@ std::optional<Refusal> IdentifyOptions::Validate() const {
   if (regression.parameterization == Parameterization::kUnknown) {
     return Refusal{"parameterization", "is unset", "choose PROPELLER or PAPER"};
   }
+  if (dead_zone_source == DeadZoneSource::kUnknown) {
+    return Refusal{"dead_zone_source", "is unset", "choose GIVEN or IDENTIFIED"};
+  }
+  if (auto refusal = LimitRefusal(regression.dead_zone)) return refusal;
   if (estimator != Estimator::kOneStep) {
     return Refusal{"estimator", "is " + std::string(Name(estimator)), "choose ONE_STEP"};
   }
   if (!(interval_level >= 0.5 && interval_level <= 0.999)) {
     return OptionRefusal("interval_level", std::to_string(interval_level), "[0.5, 0.999]");
   }
-  if (bootstrap_replicates != 0 &&
-      (bootstrap_replicates < 100 || bootstrap_replicates > 100000)) {
+  if (bootstrap_replicates != 0 && (bootstrap_replicates < 100 || bootstrap_replicates > 100000)) {
     return OptionRefusal("bootstrap_replicates", std::to_string(bootstrap_replicates),
                          "[100, 100000], or 0 for none");
   }
@@ -314,10 +367,20 @@ Result<Identification> Identify(const PreparedDataset& dataset, const std::strin
   const auto report = [&](std::string_view stage, double fraction) {
     if (progress) progress(stage, fraction);
   };
+  const bool seek_dead_zone = options.dead_zone_source == DeadZoneSource::kIdentified;
+  RegressionOptions regression = options.regression;
+  std::vector<Refusal> dead_zone_refusals;
+  if (seek_dead_zone) {
+    report("identifying the dead zone", 0.1);
+    regression.dead_zone = IdentifyDeadZone(dataset, options, dead_zone_refusals);
+  }
   report("estimating", 0.3);
-  const bool dynamic = options.regression.structure == Structure::kFirstOrderDynamic;
-  Answers answers = dynamic ? AnswerDynamic(dataset, options) : AnswerStatic(dataset, options);
+  const bool dynamic = regression.structure == Structure::kFirstOrderDynamic;
+  Answers answers = dynamic ? AnswerDynamic(dataset, regression, options.excitation)
+                            : AnswerStatic(dataset, regression, options.excitation);
   if (!answers.Any()) return tl::unexpected(NothingAnswered(answers.refusals));
+  answers.refusals.insert(answers.refusals.end(), dead_zone_refusals.begin(),
+                          dead_zone_refusals.end());
 
   Identification identification;
   Bounds bounds;
@@ -343,12 +406,16 @@ Result<Identification> Identify(const PreparedDataset& dataset, const std::strin
         "velocities noisy";
   }
 
+  if (seek_dead_zone) {
+    identification.provenance.bounds_basis +=
+        "; identified limits of the dead zone are taken as known";
+  }
   identification.vehicle_id = vehicle_id;
   identification.structure = options.regression.structure;
   identification.parameterization = options.regression.parameterization;
   identification.estimator = options.estimator;
   identification.sampling_period_s = dataset.sampling_period_s;
-  identification.dead_zone = options.regression.dead_zone;
+  identification.dead_zone = regression.dead_zone;
   WriteCoefficients(answers, bounds, identification);
   if (answers.lag) {
     identification.thruster_time_constant =

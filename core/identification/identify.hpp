@@ -19,9 +19,16 @@ namespace telltale {
 /// Called as an identification advances: what is being done, and how far it is in [0, 1].
 using Progress = std::function<void(std::string_view stage, double fraction)>;
 
+/// Where the limits of the dead zone come from. kGiven: regression.dead_zone as it stands.
+/// kIdentified: from the data, EstimateDeadZone(); limits the data cannot tell keep what is given.
+enum class DeadZoneSource { kUnknown, kGiven, kIdentified };
+
+std::string_view Name(DeadZoneSource source);
+
 struct IdentifyOptions {
   PrepareOptions prepare;
   RegressionOptions regression;
+  DeadZoneSource dead_zone_source = DeadZoneSource::kGiven;
   ExcitationLimits excitation;
   Estimator estimator = Estimator::kOneStep;
   double interval_level = 0.95;                ///< (0.5, 0.999]

@@ -39,8 +39,8 @@ Nu NextVelocity(const VesselModel& model, const VesselState& state, const Propel
   Require(model.discretisation == Discretisation::kForwardEuler, "a named discretisation");
   Require(std::abs(step_s - model.sampling_period_s) <= kSameInstantS,
           "a discrete model stepped by its own sampling period");
-  const ThrustRegressors now = model.ThrustAfter(state.thrust, delta, 0.0);
-  return Along(state.nu, model.AccelerationUnder(now, state.nu), step_s);
+  const ThrustRegressors mean = model.MeanThrust(state.thrust, delta, step_s);
+  return Along(state.nu, model.AccelerationUnder(mean, state.nu), step_s);
 }
 
 Eta NextPose(const Eta& eta, const Nu& before, const Nu& after, double step_s) {

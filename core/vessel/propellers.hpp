@@ -29,8 +29,11 @@ struct PropellerCommand {
   double Difference() const { return port - starboard; }
 };
 
+/// No thruster worth driving rests over more of its command than this.
+inline constexpr double kWidestDeadZone = 0.3;
+
 /// Commands between the two limits give no thrust; beyond them thrust counts from the limit.
-/// Assumes: reverse <= 0 <= forward, both well inside [-1, 1]. Zeros mean no dead zone.
+/// Assumes: -kWidestDeadZone <= reverse <= 0 <= forward <= kWidestDeadZone. Zeros mean no dead zone.
 /// Source: the paper, remark on the T200's dead zone; docs/model.md (7).
 struct DeadZone {
   double forward = 0.0;
@@ -39,6 +42,8 @@ struct DeadZone {
   /// The command as the thrust curve sees it.
   double Apply(double delta) const;
   PropellerCommand Apply(const PropellerCommand& delta) const;
+
+  bool operator==(const DeadZone&) const = default;
 };
 
 /// A command this close to neutral turns no propeller: a neutral stated a few microseconds off must not

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "contract.hpp"
+#include "vessel/thruster_lag.hpp"
 
 namespace telltale {
 namespace {
@@ -19,9 +20,23 @@ double RowTimesTheta(const VesselModel& model, Equation equation, const Nu& nu,
   return Eigen::Map<const Eigen::VectorXd>(row.data(), theta.size()).dot(theta);
 }
 
-double Decay(double elapsed_s, double time_constant_s) {
-  Require(time_constant_s > 0.0, "a positive thruster time constant");
-  return std::exp(-elapsed_s / time_constant_s);
+/// exp(-t / tau), zero in the static structure.
+double RemainingLag(const VesselModel& model, double elapsed_s) {
+  if (model.structure == Structure::kStaticQuadratic) return 0.0;
+  Require(model.thruster_time_constant_s && *model.thruster_time_constant_s > 0.0,
+          "a positive thruster time constant in the dynamic structure");
+  return std::exp(-elapsed_s / *model.thruster_time_constant_s);
+}
+
+/// `steady`, but for the share `remaining` of what `thrust` is behind it.
+ThrustRegressors Approach(const ThrustRegressors& thrust, const ThrustRegressors& steady,
+                          double remaining) {
+  ThrustRegressors next = steady;
+  for (std::size_t i = 0; i < next.surge.size(); ++i) {
+    next.surge[i] += remaining * (thrust.surge[i] - steady.surge[i]);
+    next.turning[i] += remaining * (thrust.turning[i] - steady.turning[i]);
+  }
+  return next;
 }
 
 }  // namespace
@@ -32,15 +47,12 @@ ThrustRegressors VesselModel::SteadyThrust(const PropellerCommand& delta) const 
 
 ThrustRegressors VesselModel::ThrustAfter(const ThrustRegressors& thrust,
                                           const PropellerCommand& delta, double elapsed_s) const {
-  ThrustRegressors next = SteadyThrust(delta);
-  if (structure == Structure::kStaticQuadratic) return next;
-  Require(thruster_time_constant_s.has_value(), "a time constant in the dynamic structure");
-  const double remaining = Decay(elapsed_s, *thruster_time_constant_s);
-  for (std::size_t i = 0; i < next.surge.size(); ++i) {
-    next.surge[i] += remaining * (thrust.surge[i] - next.surge[i]);
-    next.turning[i] += remaining * (thrust.turning[i] - next.turning[i]);
-  }
-  return next;
+  return Approach(thrust, SteadyThrust(delta), RemainingLag(*this, elapsed_s));
+}
+
+ThrustRegressors VesselModel::MeanThrust(const ThrustRegressors& thrust,
+                                         const PropellerCommand& delta, double elapsed_s) const {
+  return Approach(thrust, SteadyThrust(delta), MeanLagShare(RemainingLag(*this, elapsed_s)));
 }
 
 NuDot VesselModel::AccelerationUnder(const ThrustRegressors& thrust, const Nu& nu) const {

@@ -36,6 +36,10 @@ struct VesselModel {
   ThrustRegressors ThrustAfter(const ThrustRegressors& thrust, const PropellerCommand& delta,
                                double elapsed_s) const;
 
+  /// Their mean while `delta` is held for `elapsed_s`: what a forward Euler step of that length feels.
+  ThrustRegressors MeanThrust(const ThrustRegressors& thrust, const PropellerCommand& delta,
+                              double elapsed_s) const;
+
   /// nu_dot at a velocity under given propeller regressors.
   NuDot AccelerationUnder(const ThrustRegressors& thrust, const Nu& nu) const;
 

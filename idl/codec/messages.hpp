@@ -8,7 +8,7 @@
 
 #include "data/preparation.hpp"
 #include "data/samples.hpp"
-#include "identification/identification.hpp"
+#include "identification/identify.hpp"
 #include "result.hpp"
 
 namespace telltale {
@@ -40,6 +40,8 @@ struct IdentifyRequest {
   Preset preset = Preset::kUnknown;
   std::optional<std::uint32_t> bootstrap_replicates;  ///< 0 or [100, 100000]
   std::uint64_t seed = 1;
+  DeadZoneSource dead_zone_source = DeadZoneSource::kUnknown;
+  DeadZone dead_zone;  ///< when given
 };
 
 struct IdentifyProgress {

@@ -19,6 +19,8 @@ constexpr FieldRange kFinite{-kLargest, kLargest};
 constexpr FieldRange kNotNan{-kInfinity, kInfinity};
 constexpr FieldRange kNotNegative{0.0, kInfinity};
 constexpr FieldRange kSamplingPeriod{0.001, 10.0};
+constexpr FieldRange kForwardLimit{0.0, kWidestDeadZone};
+constexpr FieldRange kReverseLimit{-kWidestDeadZone, 0.0};
 
 // Core and Protobuf enumerations have the same order, unknown first; tests hold them to it.
 template <class To, class From>
@@ -203,6 +205,10 @@ Eigen::MatrixXd ReadCovariance(FieldReader& reader, const proto::Model& model) {
   return covariance;
 }
 
+DeadZone ReadDeadZone(FieldReader reader) {
+  return {reader.Number("forward", kForwardLimit), reader.Number("reverse", kReverseLimit)};
+}
+
 std::optional<Coefficient> ReadTimeConstant(FieldReader& reader, const proto::Model& model,
                                             Structure structure) {
   const bool dynamic = structure == Structure::kFirstOrderDynamic;
@@ -284,6 +290,7 @@ Identification ReadModel(FieldReader reader, const proto::Model& model) {
     result.coefficients.push_back(
         ReadCoefficient(reader.Item("coefficients", i), model.coefficients(i)));
   }
+  result.dead_zone = ReadDeadZone(reader.Optional("dead_zone"));
   result.covariance = ReadCovariance(reader, model);
   result.thruster_time_constant = ReadTimeConstant(reader, model, result.structure);
   result.window = ReadWindow(reader.Optional("window"), model.window());
@@ -311,6 +318,8 @@ proto::Model ToProto(const Identification& identification) {
   model.set_vehicle_id(identification.vehicle_id);
   model.set_structure(Same<proto::Structure>(identification.structure));
   model.set_parameterization(Same<proto::Parameterization>(identification.parameterization));
+  model.mutable_dead_zone()->set_forward(identification.dead_zone.forward);
+  model.mutable_dead_zone()->set_reverse(identification.dead_zone.reverse);
   model.set_estimator(Same<proto::Estimator>(identification.estimator));
   model.set_sampling_period_s(identification.sampling_period_s);
   for (const Coefficient& coefficient : identification.coefficients) {

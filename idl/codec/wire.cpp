@@ -115,6 +115,8 @@ void Fill(telltale_wire_Model& wire, const PublishedModel& model) {
   wire.bootstrap_failures = provenance.bootstrap_failures;
   wire.seed = provenance.seed;
   Put(wire.software_version, provenance.software_version);
+  wire.dead_zone_forward = identification.dead_zone.forward;
+  wire.dead_zone_reverse = identification.dead_zone.reverse;
 }
 
 // ---- wire -> core -------------------------------------------------------------------------------
@@ -205,6 +207,8 @@ constexpr std::initializer_list<Parameterization> kParameterizations = {
     Parameterization::kPropeller, Parameterization::kPaper};
 constexpr std::initializer_list<Estimator> kEstimators = {Estimator::kOneStep, Estimator::kWeakIv,
                                                           Estimator::kOutputError};
+constexpr std::initializer_list<DeadZoneSource> kDeadZoneSources = {DeadZoneSource::kGiven,
+                                                                    DeadZoneSource::kIdentified};
 constexpr std::initializer_list<CoefficientStatus> kStatuses = {
     CoefficientStatus::kEstimated, CoefficientStatus::kNotExcited, CoefficientStatus::kCollinear};
 constexpr std::initializer_list<Preset> kPresets = {Preset::kRobust, Preset::kPaper};
@@ -283,6 +287,26 @@ Eigen::MatrixXd ReadCovariance(const dds_sequence_double& wire, std::size_t coef
   return covariance;
 }
 
+DeadZone ReadDeadZone(double forward, double reverse) {
+  return {ReadWithin("dead_zone_forward", forward, 0.0, kWidestDeadZone),
+          ReadWithin("dead_zone_reverse", reverse, -kWidestDeadZone, 0.0)};
+}
+
+/// There for the dynamic structure and for nothing else.
+std::optional<Coefficient> ReadTimeConstant(const telltale_wire_Model& wire, Structure structure) {
+  const bool dynamic = structure == Structure::kFirstOrderDynamic;
+  const auto& constants = wire.thruster_time_constant;
+  if (constants._length != (dynamic ? 1u : 0u)) {
+    Reject("thruster_time_constant", std::to_string(constants._length) + " items",
+           "one for FIRST_ORDER_DYNAMIC, none otherwise");
+  }
+  if (!dynamic) return std::nullopt;
+  const std::string field = "thruster_time_constant[0]";
+  ReadWithin(field + ".estimate", constants._buffer[0].estimate, std::numeric_limits<double>::min(),
+             kLargest);
+  return ReadCoefficient(field, constants._buffer[0]);
+}
+
 PublishedModel ReadModel(const telltale_wire_Model& wire) {
   PublishedModel model;
   model.revision = wire.revision;
@@ -297,14 +321,8 @@ PublishedModel ReadModel(const telltale_wire_Model& wire) {
       ReadWithin("sampling_period_s", wire.sampling_period_s, 1e-6, 1e6);
   identification.coefficients = ReadSequence("coefficients", wire.coefficients, ReadCoefficient);
   identification.covariance = ReadCovariance(wire.covariance, identification.coefficients.size());
-  if (wire.thruster_time_constant._length > 1) {
-    Reject("thruster_time_constant", std::to_string(wire.thruster_time_constant._length) + " items",
-           "none or one");
-  }
-  for (Coefficient& constant :
-       ReadSequence("thruster_time_constant", wire.thruster_time_constant, ReadCoefficient)) {
-    identification.thruster_time_constant = std::move(constant);
-  }
+  identification.thruster_time_constant = ReadTimeConstant(wire, identification.structure);
+  identification.dead_zone = ReadDeadZone(wire.dead_zone_forward, wire.dead_zone_reverse);
   identification.window.start_s =
       ReadWithin("window_start_s", wire.window_start_s, -kLargest, kLargest);
   identification.window.end_s =
@@ -384,6 +402,9 @@ WireSample<telltale_wire_IdentifyRequest> Encode(const IdentifyRequest& request)
   wire->bootstrap_given = request.bootstrap_replicates.has_value();
   wire->bootstrap_replicates = request.bootstrap_replicates.value_or(0);
   wire->seed = request.seed;
+  Put(wire->dead_zone, name(request.dead_zone_source));
+  wire->dead_zone_forward = request.dead_zone.forward;
+  wire->dead_zone_reverse = request.dead_zone.reverse;
   return wire;
 }
 
@@ -463,6 +484,9 @@ Decoded<IdentifyRequest> Decode(const telltale_wire_IdentifyRequest& wire) {
     request.preset = ReadOptionalName("preset", View(wire.preset), kPresets);
     if (wire.bootstrap_given) request.bootstrap_replicates = wire.bootstrap_replicates;
     request.seed = wire.seed;
+    request.dead_zone_source =
+        ReadOptionalName("dead_zone", View(wire.dead_zone), kDeadZoneSources);
+    request.dead_zone = ReadDeadZone(wire.dead_zone_forward, wire.dead_zone_reverse);
     return request;
   });
 }

@@ -49,6 +49,10 @@ IdentifyOptions OptionsOf(const IdentifyRequest& request, const IdentificationSe
     options.regression.parameterization = request.parameterization;
   }
   if (request.estimator != Estimator::kUnknown) options.estimator = request.estimator;
+  if (request.dead_zone_source != DeadZoneSource::kUnknown) {
+    options.dead_zone_source = request.dead_zone_source;
+    options.regression.dead_zone = request.dead_zone;
+  }
   options.interval_level = settings.interval_level;
   options.bootstrap_replicates =
       request.bootstrap_replicates.value_or(settings.bootstrap_replicates);

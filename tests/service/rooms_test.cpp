@@ -166,6 +166,12 @@ TEST(IdentificationOptions, AreTheRequestsWishesOverTheDaemonsDefaults) {
   EXPECT_EQ(options.bootstrap_replicates, 0u);
   EXPECT_EQ(options.prepare.preset, Preset::kPaper);
   EXPECT_EQ(options.regression.parameterization, Parameterization::kPaper);
+  EXPECT_EQ(options.dead_zone_source, DeadZoneSource::kGiven);
+  request.structure = Structure::kFirstOrderDynamic;
+  request.dead_zone_source = DeadZoneSource::kIdentified;
+  options = OptionsOf(request, settings);
+  EXPECT_EQ(options.regression.structure, Structure::kFirstOrderDynamic);
+  EXPECT_EQ(options.dead_zone_source, DeadZoneSource::kIdentified);
 }
 
 }  // namespace

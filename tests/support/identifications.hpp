@@ -45,6 +45,7 @@ inline Identification MadeUpIdentification(
   made.covariance.col(1).setZero();
   made.covariance(1, 1) = kInfinity;
   made.covariance = made.covariance.selfadjointView<Eigen::Lower>();
+  made.dead_zone = {0.05, -0.0625};
   made.window.start_s = 1700000000.125;
   made.window.end_s = 1700000600.625;
   made.window.samples = 3003;
@@ -54,6 +55,16 @@ inline Identification MadeUpIdentification(
   made.refusals.push_back({"sway", "v and v|v| move together", "add a zigzag at two speeds"});
   made.provenance = {"ROBUST", "a cluster bootstrap over segments",       1000,
                      3,        std::numeric_limits<std::uint64_t>::max(), "0.1.0"};
+  return made;
+}
+
+/// The same with lagging thrusters.
+inline Identification MadeUpDynamicIdentification() {
+  Identification made = MadeUpIdentification();
+  made.structure = Structure::kFirstOrderDynamic;
+  made.thruster_time_constant =
+      Coefficient{Equation::kUnknown,           "", "tau", 0.25, 0.0125, {0.95, 0.23, 0.27}, "s",
+                  CoefficientStatus::kEstimated};
   return made;
 }
 

@@ -89,7 +89,7 @@ class CommandTest : public testing::Test {
 // ---- usage -----------------------------------------------------------------------------------
 
 TEST_F(CommandTest, HelpIsNoError) {
-  for (const char* subcommand : {"identify", "validate", "simulate"}) {
+  for (const char* subcommand : {"identify", "validate", "simulate", "export"}) {
     const CommandOutcome outcome = Telltale({subcommand, "--help"});
     EXPECT_EQ(outcome.exit_code, kSuccess);
     EXPECT_THAT(outcome.out, AllOf(HasSubstr("--vehicle FILE"), HasSubstr("Example: telltale")));
@@ -136,13 +136,18 @@ TEST_F(CommandTest, OptionsOutOfRangeAreUsageErrorsThatNameTheRange) {
   expect({"--preset", "best"}, "robust");
   expect({"--parameterization", "cubic"}, "propeller");
   expect({"--seed", "-3"}, "--seed");
+  expect({"--structure", "cubic"}, "dynamic");
+  expect({"--dead-zone", "0.05"}, "two limits");
+  expect({"--dead-zone", "0.05,wide"}, "wide");
+  expect({"--dead-zone", "0.31,0"}, "[0, 0.3]");
+  expect({"--dead-zone", "0.1,0.1"}, "[-0.3, 0]");
+  expect({"--dead-zone", "nan,0"}, "[0, 0.3]");
 }
 
 TEST_F(CommandTest, WhatIsNotAvailableYetIsSaidWithWhatIs) {
   for (const auto& [option, value, available] :
        {std::array{"--estimator", "weak-iv", "available: one-step"},
-        std::array{"--estimator", "output-error", "available: one-step"},
-        std::array{"--structure", "dynamic", "available: static"}}) {
+        std::array{"--estimator", "output-error", "available: one-step"}}) {
     const CommandOutcome outcome = Identify({option, value});
     EXPECT_EQ(outcome.exit_code, kUsage);
     EXPECT_THAT(outcome.err, AllOf(HasSubstr(value), HasSubstr("not available in this version"),
@@ -182,6 +187,32 @@ TEST_F(CommandTest, IdentifyTakesThePapersOptions) {
   EXPECT_EQ(outcome.exit_code, kSuccess) << outcome.err;
   EXPECT_THAT(outcome.out, AllOf(HasSubstr("mean^2+diff^2/4"), HasSubstr("90 % bounds"),
                                  HasSubstr("Coefficients times h = 0.2 s")));
+}
+
+TEST_F(CommandTest, ADynamicModelIsIdentifiedValidatedAndSimulated) {
+  const CommandOutcome outcome = Identify({"--structure", "dynamic", "--dead-zone", "0.05,-0.06",
+                                           "--discrete", "--out", Path("model.json")});
+  EXPECT_EQ(outcome.exit_code, kSuccess) << outcome.err;
+  EXPECT_THAT(outcome.out,
+              AllOf(HasSubstr("thruster time constant"), HasSubstr("dead zone: no thrust from"),
+                    HasSubstr("alpha = exp(-h / tau)")));
+  const auto model = ParseModelJson(TextOfFile(Path("model.json")));
+  ASSERT_TRUE(model) << model.error().Message();
+  EXPECT_EQ(model->structure, Structure::kFirstOrderDynamic);
+  EXPECT_EQ(model->dead_zone, (DeadZone{0.05, -0.06}));
+  EXPECT_EQ(Validate({}).exit_code, kSuccess);
+  EXPECT_EQ(Simulated({"--out", Path("simulated")}).exit_code, kSuccess);
+  EXPECT_EQ(Simulated({"--out", Path("finer"), "--step", "0.02"}).exit_code, kSuccess);
+}
+
+// The sample mission hardly passes neutral, so all that is sure is that both limits are settled or
+// refused.
+TEST_F(CommandTest, IdentifySeeksTheDeadZone) {
+  const CommandOutcome outcome = Identify({"--dead-zone", "identify", "--json"});
+  EXPECT_EQ(outcome.exit_code, kSuccess) << outcome.err;
+  const auto model = ParseModelJson(outcome.out);
+  ASSERT_TRUE(model) << model.error().Message();
+  EXPECT_THAT(model->provenance.bounds_basis, HasSubstr("limits of the dead zone"));
 }
 
 TEST_F(CommandTest, SeveralLogsAreOneAfterTheOther) {
@@ -333,6 +364,75 @@ TEST_F(CommandTest, SimulateChecksItsInputs) {
   EXPECT_EQ(Simulated({"--out", Path("boat.textproto")}).exit_code, kFailure);
   folder.Write("log/thrusters.csv", "time_s,left_us,right_us\n0,9999,1500\n");
   EXPECT_EQ(Simulated({"--out", Path("s")}).exit_code, kRefused);
+}
+
+// ---- export ----------------------------------------------------------------------------------
+
+class ExportTest : public CommandTest {
+ protected:
+  ExportTest() {
+    Identification model = MadeUpIdentification();
+    model.vehicle_id = "yellowfish";
+    folder.Write("model.json", PrintModelJson(model));
+    Vehicle vehicle = YellowfishVehicle();
+    vehicle.mass_kg.reset();
+    folder.Write("massless.textproto", PrintVehicle(vehicle));
+  }
+
+  CommandOutcome Export(const std::string& vehicle, std::vector<std::string> more) const {
+    std::vector<std::string> arguments = {"export", "--model", Path("model.json"), "--vehicle",
+                                          Path(vehicle)};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return Telltale(arguments);
+  }
+};
+
+TEST_F(ExportTest, WritesAFileOrIntoAFolder) {
+  const std::string boat = "massless.textproto";
+  EXPECT_EQ(Export(boat, {"--format", "mss", "--out", Path("boat.json")}).exit_code, kSuccess);
+  EXPECT_THAT(TextOfFile(Path("boat.json")), HasSubstr("notIdentifiable"));
+  EXPECT_EQ(Export(boat, {"--format", "mss", "--out", folder.Path().string()}).exit_code, kSuccess);
+  EXPECT_EQ(TextOfFile(Path("mss.json")), TextOfFile(Path("boat.json")));
+}
+
+TEST_F(ExportTest, TheSameSeedDrawsTheSameBits) {
+  const auto draws = [this](const char* seed, const char* out) {
+    const CommandOutcome outcome =
+        Export("massless.textproto",
+               {"--format", "mss", "--draws", "20", "--seed", seed, "--out", Path(out)});
+    EXPECT_EQ(outcome.exit_code, kSuccess) << outcome.err;
+    EXPECT_THAT(outcome.err, HasSubstr("SURGE vr is not drawn"));
+    EXPECT_THAT(TextOfFile(folder.Path() / out / "draws.json"), HasSubstr("notDrawn"));
+    return TextOfFile(folder.Path() / out / "draws.csv");
+  };
+  const std::string first = draws("7", "a");
+  EXPECT_EQ(std::count(first.begin(), first.end(), '\n'), 21);
+  EXPECT_EQ(draws("7", "b"), first);
+  EXPECT_NE(draws("8", "c"), first);
+}
+
+TEST_F(ExportTest, VrxWithoutAMassIsRefusedAndLeavesNothing) {
+  const CommandOutcome outcome =
+      Export("massless.textproto", {"--format", "vrx", "--draws", "5", "--out", Path("exported")});
+  EXPECT_EQ(outcome.exit_code, kRefused);
+  EXPECT_THAT(outcome.err, AllOf(HasSubstr("mass_kg"), HasSubstr("-> weigh the boat")));
+  EXPECT_FALSE(std::filesystem::exists(Path("exported")));
+}
+
+TEST_F(ExportTest, ChecksItsInputs) {
+  const std::string boat = "massless.textproto";
+  const std::string out = Path("x");
+  for (const std::vector<std::string>& more :
+       std::vector<std::vector<std::string>>{{"--out", out},
+                                             {"--format", "mss"},
+                                             {"--format", "csv", "--out", out},
+                                             {"--format", "mss", "--draws", "0", "--out", out},
+                                             {"--format", "mss", "--draws", "many", "--out", out},
+                                             {"--format", "mss", "--seed", "1", "--out", out}}) {
+    EXPECT_EQ(Export(boat, more).exit_code, kUsage) << testing::PrintToString(more);
+  }
+  EXPECT_EQ(Export(boat, {"--format", "mss", "--out", Path("nowhere/x")}).exit_code, kFailure);
+  EXPECT_FALSE(std::filesystem::exists(out));
 }
 
 }  // namespace

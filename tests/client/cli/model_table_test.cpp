@@ -70,6 +70,18 @@ TEST(ModelTable, TellsEverythingTheModelRestsOn) {
   }
 }
 
+TEST(ModelTable, ShowsTheLagWithItsBoundsAndTheDeadZone) {
+  const std::string table = ModelTable(MadeUpDynamicIdentification());
+  ExpectNoLineBeyondTheTerminal(table);
+  EXPECT_THAT(table, HasSubstr("first order dynamic"));
+  EXPECT_THAT(table, HasSubstr("thruster time constant 0.2500 s, std. error 0.0125, 95 % bounds "
+                               "[0.2300, 0.2700]"));
+  EXPECT_THAT(table, HasSubstr("no thrust from -0.06250 to 0.05000 of full command"));
+  Identification none = MadeUpIdentification();
+  none.dead_zone = {};
+  EXPECT_THAT(ModelTable(none), Not(HasSubstr("dead zone")));
+}
+
 TEST(ModelTable, ARefusedEquationHasNoHeading) {
   Identification partial = MadeUpIdentification();
   std::erase_if(partial.coefficients, [](const auto& c) { return c.equation == Equation::kSway; });
@@ -80,6 +92,15 @@ TEST(DiscreteTable, HoldsTheCoefficientsTimesThePeriod) {
   Identification model = MadeUpIdentification();
   model.coefficients[0].estimate = -1.5;  // times 0.2
   EXPECT_THAT(DiscreteTable(model), HasSubstr("-0.3000"));
+}
+
+// exp(-0.2 / 0.25) = 0.449329, and the bounds of tau carried over: exp(-0.2 / 0.23), exp(-0.2 /
+// 0.27).
+TEST(DiscreteTable, HoldsAlpha) {
+  const std::string table = DiscreteTable(MadeUpDynamicIdentification());
+  ExpectNoLineBeyondTheTerminal(table);
+  EXPECT_THAT(table, HasSubstr("alpha = exp(-h / tau) = 0.4493, 95 % bounds [0.4191, 0.4768]"));
+  EXPECT_THAT(DiscreteTable(MadeUpIdentification()), Not(HasSubstr("alpha")));
 }
 
 Metrics MadeUpMetrics() {

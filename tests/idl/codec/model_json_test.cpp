@@ -61,6 +61,7 @@ void ExpectSame(const Identification& a, const Identification& b) {
   for (std::size_t i = 0; i < a.coefficients.size(); ++i) {
     ExpectSame(a.coefficients[i], b.coefficients[i]);
   }
+  EXPECT_EQ(a.dead_zone, b.dead_zone);
   EXPECT_EQ(a.covariance, b.covariance);
   ASSERT_EQ(a.thruster_time_constant.has_value(), b.thruster_time_constant.has_value());
   if (a.thruster_time_constant) ExpectSame(*a.thruster_time_constant, *b.thruster_time_constant);
@@ -98,6 +99,27 @@ TEST(ModelJson, TheTimeConstantGoesWithTheDynamicStructure) {
   dynamic.structure = Structure::kFirstOrderDynamic;
   dynamic.thruster_time_constant = MadeUpTimeConstant();
   ExpectReadsBack(dynamic);
+}
+
+TEST(ModelJson, AnOlderFileHasNoDeadZone) {
+  proto::Model model = ToProto(MadeUpIdentification());
+  model.clear_dead_zone();
+  const auto read = IdentificationOf(model);
+  ASSERT_TRUE(read) << read.error().Message();
+  EXPECT_EQ(read->dead_zone, DeadZone{});
+}
+
+TEST(ModelJson, RefusesADeadZoneOutOfItsRange) {
+  for (const auto& [forward, reverse, field] :
+       {std::tuple{0.31, 0.0, "deadZone.forward"}, std::tuple{-0.01, 0.0, "deadZone.forward"},
+        std::tuple{0.0, 0.01, "deadZone.reverse"}, std::tuple{0.0, kNan, "deadZone.reverse"}}) {
+    proto::Model model = ToProto(MadeUpIdentification());
+    model.mutable_dead_zone()->set_forward(forward);
+    model.mutable_dead_zone()->set_reverse(reverse);
+    const auto read = IdentificationOf(model);
+    ASSERT_FALSE(read) << field;
+    EXPECT_EQ(read.error().field, field);
+  }
 }
 
 TEST(ModelJson, UsesTheNamesOfTheInterface) {

@@ -47,6 +47,7 @@ void ExpectSame(const PublishedModel& a, const PublishedModel& b) {
   for (std::size_t i = 0; i < x.coefficients.size(); ++i) {
     ExpectSame(x.coefficients[i], y.coefficients[i]);
   }
+  EXPECT_EQ(x.dead_zone, y.dead_zone);
   EXPECT_EQ(x.covariance, y.covariance);
   EXPECT_EQ(x.window.start_s, y.window.start_s);
   EXPECT_EQ(x.window.end_s, y.window.end_s);
@@ -131,17 +132,24 @@ TEST(WireModel, ArrivesAsItWasSent) {
 }
 
 TEST(WireModel, CarriesTheThrusterTimeConstant) {
-  PublishedModel sent = MadeUpModel();
-  sent.identification.structure = Structure::kFirstOrderDynamic;
-  Coefficient constant = sent.identification.coefficients.front();
-  constant.equation = Equation::kUnknown;
-  constant.symbol = "T";
-  constant.unit = "s";
-  sent.identification.thruster_time_constant = constant;
+  const PublishedModel sent{MadeUpDynamicIdentification(), 8, 1700000700.5};
   const auto received = Decode(*Encode(sent));
   ASSERT_TRUE(received) << received.error().Message();
+  ExpectSame(*received, sent);
   ASSERT_TRUE(received->identification.thruster_time_constant);
-  ExpectSame(*received->identification.thruster_time_constant, constant);
+  ExpectSame(*received->identification.thruster_time_constant,
+             *sent.identification.thruster_time_constant);
+}
+
+TEST(WireModel, TheTimeConstantGoesWithTheDynamicStructure) {
+  PublishedModel sent{MadeUpDynamicIdentification(), 8, 1700000700.5};
+  sent.identification.thruster_time_constant->estimate = 0.0;
+  EXPECT_EQ(Decode(*Encode(sent)).error().field, "thruster_time_constant[0].estimate");
+  sent.identification.thruster_time_constant.reset();
+  EXPECT_EQ(Decode(*Encode(sent)).error().field, "thruster_time_constant");
+  sent = {MadeUpDynamicIdentification(), 8, 1700000700.5};
+  sent.identification.structure = Structure::kStaticQuadratic;
+  EXPECT_EQ(Decode(*Encode(sent)).error().field, "thruster_time_constant");
 }
 
 struct Spoilt {
@@ -175,6 +183,8 @@ TEST(WireModel, NamesTheFieldThatIsWrong) {
        [](auto& m) { m.coefficients._buffer[3].bounds.upper = -1e6; }},
       {"covariance", [](auto& m) { m.covariance._length -= 1; }},
       {"covariance", [](auto& m) { m.covariance._buffer[5] = kNan; }},
+      {"dead_zone_forward", [](auto& m) { m.dead_zone_forward = 0.31; }},
+      {"dead_zone_reverse", [](auto& m) { m.dead_zone_reverse = kNan; }},
       {"window_end_s", [](auto& m) { m.window_end_s = m.window_start_s - 1.0; }},
       {"rejected[0].reason", [](auto& m) { Replace(m.rejected._buffer[0].reason, "BORED"); }},
       {"rejected[0].channel", [](auto& m) { Replace(m.rejected._buffer[0].channel, "sonar"); }},
@@ -198,6 +208,8 @@ TEST(WireExchange, RequestArrivesAsItWasSent) {
   sent.preset = Preset::kPaper;
   sent.bootstrap_replicates = 0;
   sent.seed = 99;
+  sent.dead_zone_source = DeadZoneSource::kGiven;
+  sent.dead_zone = {0.05, -0.0625};
   const auto received = Decode(*Encode(sent));
   ASSERT_TRUE(received) << received.error().Message();
   EXPECT_EQ(received->correlation_id, sent.correlation_id);
@@ -208,6 +220,8 @@ TEST(WireExchange, RequestArrivesAsItWasSent) {
   EXPECT_EQ(received->preset, Preset::kPaper);
   EXPECT_EQ(received->bootstrap_replicates, 0u);
   EXPECT_EQ(received->seed, 99u);
+  EXPECT_EQ(received->dead_zone_source, DeadZoneSource::kGiven);
+  EXPECT_EQ(received->dead_zone, sent.dead_zone);
 }
 
 TEST(WireExchange, RequestRefusesUnknownChoicesAndIdentifiers) {
@@ -217,6 +231,12 @@ TEST(WireExchange, RequestRefusesUnknownChoicesAndIdentifiers) {
   auto wire = Encode(sent);
   Replace(wire->estimator, "GUESS");
   EXPECT_EQ(Decode(*wire).error().field, "estimator");
+  wire = Encode(sent);
+  Replace(wire->dead_zone, "PERHAPS");
+  EXPECT_EQ(Decode(*wire).error().field, "dead_zone");
+  wire = Encode(sent);
+  wire->dead_zone_forward = -0.1;
+  EXPECT_EQ(Decode(*wire).error().field, "dead_zone_forward");
   wire = Encode(sent);
   Replace(wire->correlation_id, std::string(65, 'c').c_str());
   EXPECT_EQ(Decode(*wire).error().field, "correlation_id");

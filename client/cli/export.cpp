@@ -1,0 +1,122 @@
+#include <cstdint>
+#include <filesystem>
+#include <iostream>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "cli/commands.hpp"
+#include "cli/inputs.hpp"
+#include "cli/outcome.hpp"
+#include "exchange/draws.hpp"
+#include "exchange/mss.hpp"
+#include "exchange/vrx.hpp"
+#include "recording/files.hpp"
+
+namespace telltale {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct ExportArguments {
+  fs::path model_file;
+  fs::path vehicle_file;
+  std::string format;
+  std::optional<std::size_t> draws;
+  std::uint64_t seed = 1;
+  fs::path out;
+
+  const char* FileName() const { return format == "mss" ? "mss.json" : "vrx.sdf"; }
+};
+
+std::string Formatted(const ExportArguments& arguments, const Identification& model,
+                      const Vehicle& vehicle) {
+  return arguments.format == "mss" ? PrintMss(model, vehicle) : OrThrow(PrintVrx(model, vehicle));
+}
+
+void Write(const fs::path& file, const std::string& text) {
+  WriteFile(file, text);
+  std::cout << file.string() << '\n';
+}
+
+void NoteDraws(const PosteriorDraws& draws) {
+  for (const std::string& name : draws.not_drawn) {
+    std::cerr << "note: " << name << " is not drawn: the data do not say how it varies\n";
+  }
+  if (draws.clipped > 0.0) {
+    std::cerr << "note: the covariance has a negative eigenvalue, " << draws.clipped
+              << " of the largest, taken as zero\n";
+  }
+}
+
+void WriteDraws(const ExportArguments& arguments, const Identification& model,
+                const PosteriorDraws& draws) {
+  NoteDraws(draws);
+  Write(arguments.out / "draws.json", PrintDrawsJson(model, draws, arguments.seed));
+  Write(arguments.out / "draws.csv", PrintDrawsCsv(model, draws));
+}
+
+// Nothing is written before everything that can be refused has been answered.
+void ExportModel(const ExportArguments& arguments) {
+  const Vehicle vehicle = LoadVehicle(arguments.vehicle_file);
+  const Identification model = LoadModel(arguments.model_file);
+  NoteOtherVehicle(model, vehicle);
+  const std::string text = Formatted(arguments, model, vehicle);
+  std::optional<PosteriorDraws> draws;
+  if (arguments.draws) draws = OrThrow(DrawFromPosterior(model, *arguments.draws, arguments.seed));
+  if (draws) fs::create_directories(arguments.out);
+  const bool into_folder = fs::is_directory(arguments.out);
+  Write(into_folder ? arguments.out / arguments.FileName() : arguments.out, text);
+  if (draws) WriteDraws(arguments, model, *draws);
+}
+
+}  // namespace
+
+void AddExport(CLI::App& telltale) {
+  const auto arguments = std::make_shared<ExportArguments>();
+  CLI::App& command = *telltale.add_subcommand(
+      "export", "Writes a model for other simulators, and draws of it for domain randomisation");
+  command.add_option("--model", arguments->model_file, "model.json, as identify writes it")
+      ->type_name("FILE")
+      ->required()
+      ->check(CLI::ExistingFile.description(""));
+  command
+      .add_option("--vehicle", arguments->vehicle_file,
+                  "vehicle file (text format); vrx needs its mass_kg")
+      ->type_name("FILE")
+      ->required()
+      ->check(CLI::ExistingFile.description(""));
+  command
+      .add_option(
+          "--format", arguments->format,
+          "mss: M^-1-normalised coefficients for Fossen's MSS and Python Vehicle Simulator; "
+          "vrx: a hydrodynamics plugin for Gazebo")
+      ->type_name("NAME")
+      ->required()
+      ->check(CLI::IsMember({"mss", "vrx"}).description(""));
+  auto* const draws =
+      command
+          .add_option(
+              "--draws", arguments->draws,
+              "also this many joint draws of the coefficients, [1, 100000], as draws.json and "
+              "draws.csv; --out is then a folder")
+          ->type_name("N")
+          ->check(CLI::Range(1, 100000).description(""));
+  command.add_option("--seed", arguments->seed, "of the draws; the same seed gives the same bits")
+      ->type_name("N")
+      ->check(CLI::NonNegativeNumber.description(""))
+      ->capture_default_str()
+      ->needs(draws);
+  command
+      .add_option("--out", arguments->out,
+                  "file to write, or a folder, into which mss.json or vrx.sdf goes")
+      ->type_name("DIR|FILE")
+      ->required();
+  command.footer(
+      "What telemetry can and cannot tell of a boat is said in what is written.\n"
+      "Example: telltale export --model model.json --vehicle boat.textproto --format mss "
+      "--draws 200 --out exported");
+  command.callback([arguments] { ExportModel(*arguments); });
+}
+
+}  // namespace telltale

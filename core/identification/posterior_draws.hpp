@@ -1,0 +1,37 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "identification/identification.hpp"
+#include "result.hpp"
+
+namespace telltale {
+
+/// Boats that the data could have come from: joint draws of the coefficients from N(theta,
+/// covariance). Shapes: theta is (coefficients) x (draws), in the order of
+/// Identification::coefficients; time_constant_s one per draw in the dynamic structure, else empty.
+struct PosteriorDraws {
+  Eigen::MatrixXd theta;
+  std::vector<double> time_constant_s;
+  /// Held at their estimate in every draw because their variance is infinite (zero where
+  /// NOT_EXCITED): "SURGE vr", or "thruster time constant".
+  std::vector<std::string> not_drawn;
+  /// The most negative eigenvalue of the correlation matrix, set to zero, as a share of the
+  /// largest; 0 where the covariance is one.
+  double clipped = 0.0;
+};
+
+/// Method: the symmetric square root of the correlation matrix by eigenvalues, negative ones set to
+/// zero, so that a covariance of fewer replicates than coefficients does no harm and no unit
+/// matters. The time constant is drawn log-normally with its relative standard error, apart from
+/// the coefficients, since an Identification holds no covariance between them. Determinism: draw i
+/// has a random engine of its own; more draws with the same seed begin with the same ones. Refuses
+/// when: no coefficient has a finite variance. Requires: count >= 1.
+Result<PosteriorDraws> DrawFromPosterior(const Identification& identification, std::size_t count,
+                                         std::uint64_t seed);
+
+}  // namespace telltale

@@ -1,0 +1,98 @@
+#include "identification/posterior_draws.hpp"
+
+#include <cmath>
+#include <limits>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "support/identifications.hpp"
+
+namespace telltale {
+namespace {
+
+using testing::ElementsAre;
+
+/// Sample mean and covariance are the model's within Monte-Carlo error: of 40000 draws, 0.5 % of a
+/// deviation at one sigma for a mean and 0.7 % of the deviations' product for a covariance.
+TEST(DrawFromPosterior, HasTheModelsMeanAndCovariance) {
+  const Identification model = MadeUpIdentification();
+  constexpr Eigen::Index kDraws = 40000;
+  const auto draws = DrawFromPosterior(model, kDraws, 5);
+  ASSERT_TRUE(draws.has_value());
+  const Eigen::VectorXd mean = draws->theta.rowwise().mean();
+  const Eigen::MatrixXd centred = draws->theta.colwise() - mean;
+  const Eigen::MatrixXd sample = centred * centred.transpose() / (kDraws - 1);
+  for (Eigen::Index i = 0; i < sample.rows(); ++i) {
+    if (i == 1) continue;  // not excited
+    const double si = std::sqrt(model.covariance(i, i));
+    EXPECT_NEAR(mean[i], model.coefficients[static_cast<std::size_t>(i)].estimate, 0.025 * si);
+    for (Eigen::Index j = 0; j < sample.cols(); ++j) {
+      if (j == 1) continue;
+      const double sj = std::sqrt(model.covariance(j, j));
+      EXPECT_NEAR(sample(i, j), model.covariance(i, j), 0.035 * si * sj) << i << ' ' << j;
+    }
+  }
+}
+
+TEST(DrawFromPosterior, LeavesWhatIsNotExcitedAtZeroAndNamesIt) {
+  const auto draws = DrawFromPosterior(MadeUpIdentification(), 50, 5);
+  ASSERT_TRUE(draws.has_value());
+  EXPECT_TRUE(draws->theta.row(1).isZero(0.0));
+  EXPECT_THAT(draws->not_drawn, ElementsAre("SURGE vr"));
+  EXPECT_EQ(draws->clipped, 0.0);
+}
+
+TEST(DrawFromPosterior, IsTheSeedsAlone) {
+  const Identification model = MadeUpDynamicIdentification();
+  const auto some = DrawFromPosterior(model, 10, 5);
+  const auto more = DrawFromPosterior(model, 20, 5);
+  EXPECT_EQ(some->theta, more->theta.leftCols(10));
+  EXPECT_EQ(some->time_constant_s.back(), more->time_constant_s[9]);
+  EXPECT_NE(some->theta, DrawFromPosterior(model, 10, 6)->theta);
+}
+
+/// Correlations 0.9, 0.9 and -0.9 are no covariance: eigenvalues 1.9, 1.9 and -0.8.
+TEST(DrawFromPosterior, ClipsWhatIsNoCovarianceAndSaysSo) {
+  Identification model = MadeUpIdentification();
+  const auto n = model.covariance.rows();
+  model.covariance = Eigen::MatrixXd::Identity(n, n);
+  const auto set = [&](Eigen::Index i, Eigen::Index j, double value) {
+    model.covariance(i, j) = model.covariance(j, i) = value;
+  };
+  set(0, 2, 0.9);
+  set(0, 3, 0.9);
+  set(2, 3, -0.9);
+  const auto draws = DrawFromPosterior(model, 10, 5);
+  ASSERT_TRUE(draws.has_value());
+  EXPECT_NEAR(draws->clipped, 0.8 / 1.9, 1e-12);
+  EXPECT_TRUE(draws->theta.allFinite());
+}
+
+/// ln tau has the relative standard error 0.05 as its deviation; 4000 draws hold that to 1.1 %.
+TEST(DrawFromPosterior, DrawsAPositiveTimeConstant) {
+  const auto draws = DrawFromPosterior(MadeUpDynamicIdentification(), 4000, 5);
+  ASSERT_EQ(draws->time_constant_s.size(), 4000u);
+  double squares = 0.0;
+  for (const double tau : draws->time_constant_s) squares += std::pow(std::log(tau / 0.25), 2);
+  EXPECT_NEAR(std::sqrt(squares / 4000.0), 0.05, 0.0025);
+}
+
+TEST(DrawFromPosterior, ATimeConstantThatIsHardlyKnownIsNotDrawn) {
+  Identification model = MadeUpDynamicIdentification();
+  model.thruster_time_constant->standard_error = std::numeric_limits<double>::infinity();
+  const auto draws = DrawFromPosterior(model, 3, 5);
+  EXPECT_THAT(draws->time_constant_s, ElementsAre(0.25, 0.25, 0.25));
+  EXPECT_THAT(draws->not_drawn, ElementsAre("SURGE vr", "thruster time constant"));
+}
+
+TEST(DrawFromPosterior, RefusesAModelWithoutAnyBound) {
+  Identification model = MadeUpIdentification();
+  model.covariance.diagonal().setConstant(std::numeric_limits<double>::infinity());
+  const auto draws = DrawFromPosterior(model, 3, 5);
+  ASSERT_FALSE(draws.has_value());
+  EXPECT_EQ(draws.error().subject, "draws");
+}
+
+}  // namespace
+}  // namespace telltale
