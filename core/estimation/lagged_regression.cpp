@@ -14,22 +14,22 @@
 namespace telltale {
 namespace {
 
-// alpha stays this far inside (0, 1): at 5 Hz that is lags from 0.02 s to half an hour.
-constexpr double kLeastAlpha = 1e-4;
+// Lags in sampling periods. Below the least a lag cannot be told from none, nor above the longest from a
+// thrust that never arrives.
+constexpr double kLeastLag = 1e-3;
+constexpr double kLongestLag = 1e4;
 
 // Initial thrust that has decayed to this share of itself is no longer worth a direction of its own.
-constexpr double kForgotten = 1e-6;
+constexpr double kForgotten = 1e-12;
 
-/// The propeller regressors averaged over each row's interval, and how they change with alpha. Each
+/// The propeller regressors averaged over each row's interval, and how they change with the lag. Each
 /// stretch begins in its commanded thrust.
 struct LaggedThrust {
   std::vector<ThrustRegressors> mean;
   std::vector<ThrustRegressors> slope;
 };
 
-LaggedThrust FollowThrust(const LaggedProblem& problem, double alpha) {
-  const double share = MeanLagShare(alpha);
-  const double share_slope = MeanLagShareSlope(alpha);
+LaggedThrust FollowThrust(const LaggedProblem& problem, const LagPerPeriod& lag) {
   LaggedThrust lagged{problem.commanded, std::vector<ThrustRegressors>(problem.commanded.size())};
   const auto follow = [&](auto part, std::size_t i, const RowRange& stretch) {
     // Thrust lags its command by `behind`, which decays while the command is held.
@@ -37,12 +37,12 @@ LaggedThrust FollowThrust(const LaggedProblem& problem, double alpha) {
     double behind_slope = 0.0;
     for (std::size_t k = stretch.begin; k < stretch.end; ++k) {
       const double commanded = (problem.commanded[k].*part)[i];
-      (lagged.mean[k].*part)[i] = commanded + share * behind;
-      (lagged.slope[k].*part)[i] = share * behind_slope + share_slope * behind;
+      (lagged.mean[k].*part)[i] = commanded + lag.mean * behind;
+      (lagged.slope[k].*part)[i] = lag.mean * behind_slope + lag.mean_slope * behind;
       if (k + 1 == stretch.end) break;
       const double change = commanded - (problem.commanded[k + 1].*part)[i];
-      behind_slope = behind + alpha * behind_slope;
-      behind = alpha * behind + change;
+      behind_slope = lag.remaining * behind_slope + lag.remaining_slope * behind;
+      behind = lag.remaining * behind + change;
     }
   };
   for (const RowRange& stretch : problem.stretches) {
@@ -54,8 +54,8 @@ LaggedThrust FollowThrust(const LaggedProblem& problem, double alpha) {
   return lagged;
 }
 
-/// One answered equation at one alpha, its unknown initial thrusts projected out: y = phi theta + e, and
-/// slope, how the propeller columns of phi change with alpha.
+/// One answered equation at one lag, its unknown initial thrusts projected out: y = phi theta + e, and
+/// slope, how the propeller columns of phi change with the lag.
 struct Projected {
   Eigen::MatrixXd phi;
   Eigen::MatrixXd slope;
@@ -76,14 +76,15 @@ std::vector<RowRange> RowsOfStretches(const EquationProblem& equation,
   return rows;
 }
 
-/// Takes alpha^m out of the rows of each stretch, where m counts rows from its start.
+/// Takes alpha^m, alpha the share of a lag that remains after a period, out of the rows of each stretch, where m counts rows from its start.
 void ProjectInitialThrust(const LaggedProblem& problem, const EquationProblem& equation,
-                          double alpha, Projected& at) {
+                          const LagPerPeriod& lag, Projected& at) {
+  if (lag.remaining < kForgotten) return;
   const auto rows_of = RowsOfStretches(equation, problem.stretches);
   for (std::size_t s = 0; s < rows_of.size(); ++s) {
     const auto begin = static_cast<Eigen::Index>(rows_of[s].begin);
     // Beyond these rows the start is forgotten and the direction is zero.
-    const auto remembered = static_cast<std::size_t>(std::log(kForgotten) / std::log(alpha)) + 1;
+    const auto remembered = static_cast<std::size_t>(std::log(kForgotten) / std::log(lag.remaining)) + 1;
     const std::size_t last = problem.stretches[s].begin + remembered;
     Eigen::Index count = 0;
     while (count < static_cast<Eigen::Index>(rows_of[s].size()) &&
@@ -94,7 +95,7 @@ void ProjectInitialThrust(const LaggedProblem& problem, const EquationProblem& e
     Eigen::VectorXd decay(count);
     for (Eigen::Index i = 0; i < count; ++i) {
       const std::size_t k = equation.instants[static_cast<std::size_t>(begin + i)];
-      decay[i] = std::pow(alpha, static_cast<double>(k - problem.stretches[s].begin));
+      decay[i] = std::pow(lag.remaining, static_cast<double>(k - problem.stretches[s].begin));
     }
     decay.normalize();
     const auto project = [&](auto rows) { rows -= decay * (decay.transpose() * rows).eval(); };
@@ -107,7 +108,7 @@ void ProjectInitialThrust(const LaggedProblem& problem, const EquationProblem& e
 
 Projected ProjectAt(const LaggedProblem& problem, const EquationProblem& equation,
                     const std::vector<std::size_t>& excited, const LaggedThrust& thrust,
-                    double alpha) {
+                    const LagPerPeriod& lag) {
   const std::size_t body = BodyRegressors(equation.equation);
   const auto first_thrust = std::lower_bound(excited.begin(), excited.end(), body);
   const auto propellers = excited.end() - first_thrust;
@@ -128,16 +129,16 @@ Projected ProjectAt(const LaggedProblem& problem, const EquationProblem& equatio
     }
   }
   at.y = equation.y;
-  ProjectInitialThrust(problem, equation, alpha, at);
+  ProjectInitialThrust(problem, equation, lag, at);
   return at;
 }
 
-/// One equation solved at one alpha. Rows are rotated so that few remain: cost and its Kaufman derivative
+/// One equation solved at one lag. Rows are rotated so that few remain: cost and its Kaufman derivative
 /// keep their lengths and angles, which is all that a Gauss-Newton step looks at.
 struct Solved {
   Eigen::VectorXd theta;
   Eigen::VectorXd residual;    ///< rotated
-  Eigen::VectorXd derivative;  ///< of the residual by alpha, rotated alike
+  Eigen::VectorXd derivative;  ///< of the residual by the lag, rotated alike
   double variance = 0.0;
   double degrees_of_freedom = 0.0;
 };
@@ -155,7 +156,7 @@ Solved Solve(const Projected& at) {
   const auto decomposition = factor.R.topLeftCorner(p, p).completeOrthogonalDecomposition();
   solved.theta = decomposition.solve(factor.z.head(p)).cwiseQuotient(norms);
   // What the first p rows leave (nothing, unless columns depend on each other), then the rest of the triangle.
-  const Eigen::VectorXd by_alpha = factor.R.rightCols(q) * solved.theta.tail(q);
+  const Eigen::VectorXd by_lag = factor.R.rightCols(q) * solved.theta.tail(q);
   const auto left_over = [&](const Eigen::VectorXd& rows) {
     const Eigen::MatrixXd corner = factor.R.topLeftCorner(p, p);
     Eigen::VectorXd rest = rows;
@@ -165,7 +166,7 @@ Solved Solve(const Projected& at) {
   solved.residual.resize(p + q + 1);
   solved.residual << left_over(factor.z), factor.rho;
   solved.derivative.resize(p + q + 1);
-  solved.derivative << -left_over(by_alpha), 0.0;
+  solved.derivative << -left_over(by_lag), 0.0;
   solved.degrees_of_freedom = static_cast<double>(at.y.size() - p) - at.directions_out - 1.0;
   // Data made by the model itself leave nothing; a floor keeps the weights finite.
   const double floor = 1e-12 * at.y.norm();
@@ -181,23 +182,25 @@ struct Answered {
 };
 
 std::vector<Projected> ProjectAll(const LaggedProblem& problem, const Answered& answered,
-                                  double alpha) {
-  const LaggedThrust thrust = FollowThrust(problem, alpha);
+                                  double periods) {
+  const LagPerPeriod lag = LagOver(periods);
+  const LaggedThrust thrust = FollowThrust(problem, lag);
   std::vector<Projected> projected;
   for (std::size_t i = 0; i < answered.which.size(); ++i) {
     projected.push_back(ProjectAt(problem, problem.at_once.equations[answered.which[i]],
-                                  answered.excited[i], thrust, alpha));
+                                  answered.excited[i], thrust, lag));
   }
   return projected;
 }
 
-std::vector<Solved> SolveAll(const LaggedProblem& problem, const Answered& answered, double alpha) {
+std::vector<Solved> SolveAll(const LaggedProblem& problem, const Answered& answered,
+                             double periods) {
   std::vector<Solved> solved;
-  for (const Projected& at : ProjectAll(problem, answered, alpha)) solved.push_back(Solve(at));
+  for (const Projected& at : ProjectAll(problem, answered, periods)) solved.push_back(Solve(at));
   return solved;
 }
 
-/// What all equations leave, weighted, as a function of alpha alone.
+/// What all equations leave, weighted, as a function of the lag in periods alone.
 class LagCost : public ceres::CostFunction {
  public:
   LagCost(const LaggedProblem& problem, const Answered& answered, const std::vector<Solved>& start)
@@ -233,33 +236,32 @@ class LagCost : public ceres::CostFunction {
   std::vector<double> weights_;
 };
 
-/// Lags from a quarter of a period to 32 periods, each twice the one before: the one that leaves least, by
-/// the sum over the equations of the logarithm of the residual variance.
-double BestGridAlpha(const LaggedProblem& problem, const Answered& answered) {
-  double best = 0.5;
+/// No lag to speak of, then lags from a quarter of a period to 32 periods, each twice the one before: the one
+/// that leaves least, by the sum over the equations of the logarithm of the residual variance.
+double BestGridLag(const LaggedProblem& problem, const Answered& answered) {
+  double best = kLeastLag;
   double least = std::numeric_limits<double>::infinity();
-  for (double periods = 0.25; periods <= 32.0; periods *= 2.0) {
-    const double alpha = std::exp(-1.0 / periods);
+  for (const double periods : {kLeastLag, 0.25, 0.5, 1.0, 2.0, 4.0, 8.0, 16.0, 32.0}) {
     double misfit = 0.0;
-    for (const Solved& equation : SolveAll(problem, answered, alpha)) {
+    for (const Solved& equation : SolveAll(problem, answered, periods)) {
       misfit += std::log(equation.variance);
     }
     if (misfit < least) {
       least = misfit;
-      best = alpha;
+      best = periods;
     }
   }
   return best;
 }
 
-/// One solve for alpha, each equation weighted by what it leaves at `start_alpha`.
-double SolveWeighted(const LaggedProblem& problem, const Answered& answered, double start_alpha) {
-  double alpha = start_alpha;
+/// One solve for the lag, each equation weighted by what it leaves at `start`.
+double SolveWeighted(const LaggedProblem& problem, const Answered& answered, double start) {
+  double periods = start;
   ceres::Problem joint;  // owns its cost function
-  joint.AddResidualBlock(
-      new LagCost(problem, answered, SolveAll(problem, answered, start_alpha)), nullptr, &alpha);
-  joint.SetParameterLowerBound(&alpha, 0, kLeastAlpha);
-  joint.SetParameterUpperBound(&alpha, 0, 1.0 - kLeastAlpha);
+  joint.AddResidualBlock(new LagCost(problem, answered, SolveAll(problem, answered, start)),
+                         nullptr, &periods);
+  joint.SetParameterLowerBound(&periods, 0, kLeastLag);
+  joint.SetParameterUpperBound(&periods, 0, kLongestLag);
   ceres::Solver::Options options;
   options.linear_solver_type = ceres::DENSE_QR;
   options.max_num_iterations = 100;
@@ -269,21 +271,21 @@ double SolveWeighted(const LaggedProblem& problem, const Answered& answered, dou
   options.logging_type = ceres::SILENT;
   ceres::Solver::Summary summary;
   ceres::Solve(options, &joint, &summary);
-  return alpha;
+  return periods;
 }
 
-/// Repeats the solve until the weights belong to the alpha they lead to.
-double SolveAlpha(const LaggedProblem& problem, const Answered& answered) {
+/// Repeats the solve until the weights belong to the lag they lead to.
+double SolveLag(const LaggedProblem& problem, const Answered& answered) {
   constexpr int kMostRounds = 5;
   constexpr double kSettled = 1e-7;
-  double alpha = BestGridAlpha(problem, answered);
+  double periods = BestGridLag(problem, answered);
   for (int round = 0; round < kMostRounds; ++round) {
-    const double next = SolveWeighted(problem, answered, alpha);
-    const bool settled = std::abs(next - alpha) < kSettled;
-    alpha = next;
+    const double next = SolveWeighted(problem, answered, periods);
+    const bool settled = std::abs(next - periods) < kSettled * periods;
+    periods = next;
     if (settled) break;
   }
-  return alpha;
+  return periods;
 }
 
 EquationEstimate WriteEstimate(const Excitation& excitation, const Solved& solved) {
@@ -299,14 +301,14 @@ EquationEstimate WriteEstimate(const Excitation& excitation, const Solved& solve
 
 /// One equation's weighted rows, before they are grouped by segment.
 struct WeightedRows {
-  Eigen::VectorXd by_alpha;
+  Eigen::VectorXd by_time_constant;
   Eigen::MatrixXd phi;
   Eigen::VectorXd residual;
 };
 
-WeightedRows Weigh(const Projected& at, const EquationEstimate& estimate) {
+WeightedRows Weigh(const Projected& at, const EquationEstimate& estimate, double h) {
   const double weight = 1.0 / std::sqrt(estimate.residual_variance);
-  return {weight * (at.slope * estimate.theta.tail(at.slope.cols())), weight * at.phi,
+  return {weight / h * (at.slope * estimate.theta.tail(at.slope.cols())), weight * at.phi,
           weight * (at.y - at.phi * estimate.theta)};
 }
 
@@ -330,7 +332,7 @@ void StackRows(const LaggedProblem& problem, const Answered& answered,
       const auto begin = static_cast<Eigen::Index>(cluster.begin);
       const auto count = static_cast<Eigen::Index>(cluster.size());
       const Eigen::Index p = equations[i].phi.cols();
-      estimate.jacobian.block(row, 0, count, 1) = equations[i].by_alpha.segment(begin, count);
+      estimate.jacobian.block(row, 0, count, 1) = equations[i].by_time_constant.segment(begin, count);
       estimate.jacobian.block(row, column, count, p) = equations[i].phi.middleRows(begin, count);
       estimate.residual.segment(row, count) = equations[i].residual.segment(begin, count);
       row += count;
@@ -366,14 +368,15 @@ LaggedEstimate EstimateLagged(const LaggedProblem& problem,
   Require(!answered.which.empty(), "at least one answered equation");
 
   LaggedEstimate estimate;
-  estimate.alpha = SolveAlpha(problem, answered);
-  estimate.time_constant_s = -problem.at_once.sampling_period_s / std::log(estimate.alpha);
+  const double h = problem.at_once.sampling_period_s;
+  const double periods = SolveLag(problem, answered);
+  estimate.time_constant_s = periods * h;
   std::vector<WeightedRows> rows;
-  const std::vector<Projected> projected = ProjectAll(problem, answered, estimate.alpha);
+  const std::vector<Projected> projected = ProjectAll(problem, answered, periods);
   for (std::size_t i = 0; i < projected.size(); ++i) {
     const std::size_t j = answered.which[i];
     estimate.equations[j] = WriteEstimate(*excitations[j], Solve(projected[i]));
-    rows.push_back(Weigh(projected[i], *estimate.equations[j]));
+    rows.push_back(Weigh(projected[i], *estimate.equations[j], h));
   }
   StackRows(problem, answered, rows, estimate);
   return estimate;

@@ -28,23 +28,23 @@ struct LaggedProblem {
 /// PreparedDataset -> LaggedProblem, rows as in BuildRegression.
 LaggedProblem BuildLagged(const PreparedDataset& dataset, const RegressionOptions& options);
 
-/// One alpha for the boat and one value for each physical coefficient.
+/// One lag for the boat and one value for each physical coefficient.
 struct LaggedEstimate {
-  double alpha = 0.0;  ///< exp(-h / time constant), in (0, 1)
-  double time_constant_s = 0.0;
+  double time_constant_s = 0.0;  ///< [0.001, 10000] sampling periods; at an end the data bound it from one side
   std::array<std::optional<EquationEstimate>, 3> equations;
   /// Stacked rows of the answered equations, segment by segment, each equation divided by the standard
   /// deviation of its residuals, the unknown thrust at the start of each stretch projected out. Columns:
-  /// alpha, then the coefficients of each equation.
+  /// the time constant, then the coefficients of each equation.
   Eigen::MatrixXd jacobian;
   Eigen::VectorXd residual;
   std::vector<RowRange> clusters;
 };
 
-/// Consistent least squares over the equations that have an excitation (of problem.at_once): alpha
-/// shared, inside (0, 1), each equation weighted by its residual variance. docs/model.md (23).
-/// Method: variable projection. For a given alpha everything else is linear and solved for; what is left
-/// is a problem in alpha alone, started from the best of a grid of lags and finished by
+/// Consistent least squares over the equations that have an excitation (of problem.at_once): the lag
+/// shared, alpha = exp(-h / tau) inside (0, 1), each equation weighted by its residual variance.
+/// docs/model.md (23).
+/// Method: variable projection. For a given lag everything else is linear and solved for; what is left
+/// is a problem in the lag alone, started from the best of a grid of lags and finished by
 /// Levenberg-Marquardt (Ceres) with Kaufman's Jacobian.
 /// Assumes: as EstimateOneStep, errors in y alone.
 /// Source: Golub, Pereyra, "Separable nonlinear least squares: the variable projection method and its

@@ -111,7 +111,7 @@ Answers AnswerDynamic(const PreparedDataset& dataset, const RegressionOptions& r
   answers.lag = EstimateLagged(problem, answers.excitations);
   answers.estimates = answers.lag->equations;
   answers.fits.push_back(FitOf(*answers.lag));
-  Eigen::Index next = 1;  // alpha comes first
+  Eigen::Index next = 1;  // the time constant comes first
   for (std::size_t j = 0; j < answers.estimates.size(); ++j) {
     if (!answers.estimates[j]) continue;
     answers.first[j] = next;
@@ -263,26 +263,17 @@ void WriteCoefficients(const Answers& answers, const Bounds& bounds,
   identification.covariance = SpreadCovariance(bounds.covariance, places);
 }
 
-/// -h / ln(alpha): no lag at all where alpha is not above zero, an endless one where it reaches
-/// one.
-double TimeConstant(double alpha, double h) {
-  if (alpha <= 0.0) return 0.0;
-  if (alpha >= 1.0) return kInfinity;
-  return -h / std::log(alpha);
-}
-
-/// The time constant is a monotone function of alpha, so alpha's bounds carry over; its standard
-/// error is the first-order one, d tau / d alpha = h / (alpha ln^2 alpha).
-Coefficient WriteTimeConstant(const LaggedEstimate& lag, const Bounds& bounds, double h) {
-  const Interval& alpha = bounds.intervals.front();
+/// A time constant below zero is none.
+Coefficient WriteTimeConstant(const LaggedEstimate& lag, const Bounds& bounds) {
+  const Interval& interval = bounds.intervals.front();
   Coefficient coefficient;
   coefficient.symbol = "tau";
   coefficient.unit = "s";
   coefficient.status = CoefficientStatus::kEstimated;
   coefficient.estimate = lag.time_constant_s;
-  coefficient.standard_error =
-      std::sqrt(bounds.covariance(0, 0)) * h / (lag.alpha * std::pow(std::log(lag.alpha), 2));
-  coefficient.interval = {alpha.level, TimeConstant(alpha.lower, h), TimeConstant(alpha.upper, h)};
+  coefficient.standard_error = std::sqrt(bounds.covariance(0, 0));
+  coefficient.interval = {interval.level, std::max(interval.lower, 0.0),
+                          std::max(interval.upper, lag.time_constant_s)};
   return coefficient;
 }
 
@@ -419,7 +410,7 @@ Result<Identification> Identify(const PreparedDataset& dataset, const std::strin
   WriteCoefficients(answers, bounds, identification);
   if (answers.lag) {
     identification.thruster_time_constant =
-        WriteTimeConstant(*answers.lag, bounds, dataset.sampling_period_s);
+        WriteTimeConstant(*answers.lag, bounds);
   }
   identification.window = Summarise(dataset);
   identification.refusals = std::move(answers.refusals);

@@ -23,7 +23,7 @@ Eigen::MatrixXd ExcitedColumns(const EquationProblem& problem, const EquationEst
 
 Eigen::VectorXd Stack(const LaggedEstimate& estimate) {
   Eigen::VectorXd theta(estimate.jacobian.cols());
-  theta[0] = estimate.alpha;
+  theta[0] = estimate.time_constant_s;
   Eigen::Index next = 1;
   for (const auto& equation : estimate.equations) {
     if (!equation) continue;

@@ -29,8 +29,8 @@ struct ClusteredFit {
 /// The fit of one equation of the static structure; theta are its excited coefficients.
 ClusteredFit FitOf(const EquationProblem& problem, const EquationEstimate& estimate);
 
-/// The joint fit of the dynamic structure, linearised: theta are alpha and then the excited coefficients
-/// of the answered equations.
+/// The joint fit of the dynamic structure, linearised: theta are the time constant and then the excited
+/// coefficients of the answered equations.
 ClusteredFit FitOf(const LaggedEstimate& estimate);
 
 /// sigma^2 (Phi'Phi)^-1, what white residuals would mean for theta.

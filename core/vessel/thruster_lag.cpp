@@ -2,17 +2,20 @@
 
 #include <cmath>
 
+#include "contract.hpp"
+
 namespace telltale {
 
-double MeanLagShare(double alpha) {
-  if (alpha <= 0.0) return 0.0;
-  if (alpha >= 1.0) return 1.0;
-  return (1.0 - alpha) / -std::log(alpha);
-}
-
-double MeanLagShareSlope(double alpha) {
-  const double periods = -std::log(alpha);  // of the time constant in one sampling period
-  return ((1.0 - alpha) / alpha - periods) / (periods * periods);
+LagPerPeriod LagOver(double periods) {
+  Require(periods >= 0.0, "a lag that is not negative");
+  if (periods == 0.0) return {};
+  LagPerPeriod lag;
+  lag.remaining = std::exp(-1.0 / periods);
+  // 1 - exp(-x) keeps its digits for long lags too.
+  lag.mean = periods * -std::expm1(-1.0 / periods);
+  lag.remaining_slope = lag.remaining / (periods * periods);
+  lag.mean_slope = -std::expm1(-1.0 / periods) - lag.remaining / periods;
+  return lag;
 }
 
 }  // namespace telltale

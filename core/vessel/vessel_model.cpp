@@ -20,12 +20,13 @@ double RowTimesTheta(const VesselModel& model, Equation equation, const Nu& nu,
   return Eigen::Map<const Eigen::VectorXd>(row.data(), theta.size()).dot(theta);
 }
 
-/// exp(-t / tau), zero in the static structure.
-double RemainingLag(const VesselModel& model, double elapsed_s) {
-  if (model.structure == Structure::kStaticQuadratic) return 0.0;
+/// No lag in the static structure.
+LagPerPeriod LagOf(const VesselModel& model, double elapsed_s) {
+  if (model.structure == Structure::kStaticQuadratic) return {};
   Require(model.thruster_time_constant_s && *model.thruster_time_constant_s > 0.0,
           "a positive thruster time constant in the dynamic structure");
-  return std::exp(-elapsed_s / *model.thruster_time_constant_s);
+  if (elapsed_s == 0.0) return {1.0, 1.0, 0.0, 0.0};
+  return LagOver(*model.thruster_time_constant_s / elapsed_s);
 }
 
 /// `steady`, but for the share `remaining` of what `thrust` is behind it.
@@ -47,12 +48,12 @@ ThrustRegressors VesselModel::SteadyThrust(const PropellerCommand& delta) const 
 
 ThrustRegressors VesselModel::ThrustAfter(const ThrustRegressors& thrust,
                                           const PropellerCommand& delta, double elapsed_s) const {
-  return Approach(thrust, SteadyThrust(delta), RemainingLag(*this, elapsed_s));
+  return Approach(thrust, SteadyThrust(delta), LagOf(*this, elapsed_s).remaining);
 }
 
 ThrustRegressors VesselModel::MeanThrust(const ThrustRegressors& thrust,
                                          const PropellerCommand& delta, double elapsed_s) const {
-  return Approach(thrust, SteadyThrust(delta), MeanLagShare(RemainingLag(*this, elapsed_s)));
+  return Approach(thrust, SteadyThrust(delta), LagOf(*this, elapsed_s).mean);
 }
 
 NuDot VesselModel::AccelerationUnder(const ThrustRegressors& thrust, const Nu& nu) const {

@@ -59,9 +59,9 @@ std::unique_ptr<Process> ServiceTest::StartDaemon() const {
 }
 
 std::unique_ptr<Process> ServiceTest::Start(const std::vector<std::string>& arguments) const {
-  std::vector<std::string> command = {TELLTALE};
+  std::vector<std::string> command{TELLTALE};
   command.insert(command.end(), arguments.begin(), arguments.end());
-  command.emplace_back("--domain");
+  command.push_back("--domain");
   command.push_back(std::to_string(domain_.id()));
   return std::make_unique<Process>(command);
 }
