@@ -14,7 +14,7 @@
 #include "cli/progress_line.hpp"
 #include "cli/table.hpp"
 #include "fleet/telemetry_publisher.hpp"
-#include "recording/telemetry_log.hpp"
+#include "recording/load.hpp"
 
 namespace telltale {
 namespace {
@@ -77,7 +77,7 @@ double Publish(const std::vector<RawSample>& samples, double speed, TelemetryPub
 }
 
 void Replay(const ReplayArguments& arguments) {
-  const TelemetryLog log = OrThrow(ReadTelemetryLog(arguments.log));
+  const RawLog log = OrThrow(ReadLog(arguments.log));
   const Participant participant(arguments.live.domain);
   BatchWrites();
   TelemetryPublisher publisher(participant, arguments.vehicle_id);
@@ -102,7 +102,7 @@ void AddReplay(CLI::App& telltale) {
   CLI::App& command =
       *telltale.add_subcommand("replay", "Publishes a recording as a vehicle's live telemetry");
   command.add_option("--log", arguments->log, "telemetry log to publish")
-      ->type_name("DIR")
+      ->type_name("DIR|FILE.BIN")
       ->required()
       ->check(CLI::ExistingPath.description(""));
   AddVehicleId(command, arguments->vehicle_id)->required();

@@ -14,29 +14,33 @@
 namespace telltale {
 
 /// The rows of one equation of the first-order dynamic structure, docs/model.md (22):
-///   step_now - alpha step_before = (now - alpha before) theta_body + (1 - alpha) thrust theta_propeller + e
-/// Shapes: now, before n x (body regressors) at instants k and k-1; thrust n x (propeller regressors) of
-/// the command at k-1; step_now = (nu(k+1) - nu(k)) / h and step_before = (nu(k) - nu(k-1)) / h.
+///   y = body theta_body + T(alpha) theta_propeller + c_s alpha^m + e
+/// where T(alpha) are the propeller regressors after the thrusters' lag, followed from the start of each
+/// stretch, and c_s alpha^m is what the unknown thrust at the start of stretch s still does m rows later.
+/// Only commands pass through the lag, never a measured velocity: noise in velocities, and the memory
+/// that smoothing gives them, would otherwise be taken for lag.
+/// Shapes: body n x (body regressors), y and nu n; instants[i] is the row of the dataset.
 struct LaggedEquation {
   Equation equation = Equation::kUnknown;
   std::span<const Regressor> regressors;
-  Eigen::MatrixXd now;
-  Eigen::MatrixXd before;
-  Eigen::MatrixXd thrust;
-  Eigen::VectorXd step_now;
-  Eigen::VectorXd step_before;
-  Eigen::VectorXd nu;  ///< the equation's velocity at k
-  std::vector<RowRange> clusters;  ///< one per segment of the dataset, possibly empty
-
-  /// The rows for thrusters that follow at once (alpha = 0): a static problem of the same columns, which
-  /// is what excitation is judged on.
-  EquationProblem WithoutLag() const;
+  Eigen::MatrixXd body;
+  Eigen::VectorXd y;
+  Eigen::VectorXd nu;
+  std::vector<std::size_t> instants;
+  std::vector<RowRange> clusters;   ///< rows of each segment of the dataset, possibly none
+  std::vector<RowRange> stretches;  ///< rows of each stretch, possibly none
 };
 
 struct LaggedProblem {
   Parameterization parameterization = Parameterization::kUnknown;
   double sampling_period_s = 0.0;
   std::array<LaggedEquation, 3> equations;
+  std::vector<ThrustRegressors> commanded;   ///< of every row of the dataset, before any lag
+  std::vector<RowRange> stretches;           ///< of the dataset
+
+  /// One equation's rows for thrusters that reach the commanded thrust within a period (alpha = 0): a
+  /// static problem of the same columns, which is what excitation is judged on.
+  EquationProblem WithoutLag(Equation equation) const;
 };
 
 /// PreparedDataset -> LaggedProblem. Rows k need k-1, k and k+1 in one stretch; the region that decides
@@ -49,7 +53,8 @@ struct LaggedEstimate {
   double time_constant_s = 0.0;
   std::array<std::optional<EquationEstimate>, 3> equations;
   /// Stacked rows of the answered equations, segment by segment, each equation divided by the standard
-  /// deviation of its residuals. Columns: alpha, then the coefficients of each equation.
+  /// deviation of its residuals, the unknown thrust at the start of each stretch projected out. Columns:
+  /// alpha, then the coefficients of each equation.
   Eigen::MatrixXd jacobian;
   Eigen::VectorXd residual;
   std::vector<RowRange> clusters;
@@ -57,9 +62,12 @@ struct LaggedEstimate {
 
 /// Consistent least squares over the equations that have an excitation: alpha shared, inside (0, 1),
 /// each equation weighted by its residual variance. docs/model.md (23).
-/// Method: every equation is reduced to a triangle once; alpha starts at the best of a grid, for each value
-/// of which the rest is linear, and Levenberg-Marquardt (Ceres) finishes jointly.
-/// Assumes: as EstimateOneStep, errors in the left-hand side alone.
+/// Method: variable projection. For a given alpha everything else is linear and solved for; what is left
+/// is a problem in alpha alone, started from the best of a grid of lags and finished by
+/// Levenberg-Marquardt (Ceres) with Kaufman's Jacobian.
+/// Assumes: as EstimateOneStep, errors in y alone.
+/// Source: Golub, Pereyra, "Separable nonlinear least squares: the variable projection method and its
+/// applications", Inverse Problems 19 (2003).
 LaggedEstimate EstimateLagged(const LaggedProblem& problem,
                               const std::array<std::optional<Excitation>, 3>& excitations);
 

@@ -71,8 +71,8 @@ Answers AnswerStatic(const PreparedDataset& dataset, const IdentifyOptions& opti
 Answers AnswerDynamic(const PreparedDataset& dataset, const IdentifyOptions& options) {
   const LaggedProblem problem = BuildLagged(dataset, options.regression);
   Answers answers;
-  for (const LaggedEquation& equation : problem.equations) {
-    AssessEquation(equation.WithoutLag(), options.excitation, answers);
+  for (const Equation equation : kEquations) {
+    AssessEquation(problem.WithoutLag(equation), options.excitation, answers);
   }
   if (!answers.Any()) return answers;
   answers.lag = EstimateLagged(problem, answers.excitations);

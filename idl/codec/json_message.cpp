@@ -1,7 +1,7 @@
 #include "codec/json_message.hpp"
 
+#include <algorithm>
 #include <cctype>
-#include <regex>
 
 #include <google/protobuf/descriptor.h>
 #include <google/protobuf/util/json_util.h>
@@ -24,8 +24,8 @@ std::string ValueNames(const EnumDescriptor& type) {
 }
 
 // Protobuf calls types "TYPE_UINT32" or "type.googleapis.com/package.Enum".
-std::string AllowedFor(const std::string& type) {
-  const std::string name = type.substr(type.rfind('/') + 1);
+std::string AllowedFor(std::string_view type) {
+  const std::string name(type.substr(type.rfind('/') + 1));
   const EnumDescriptor* values = DescriptorPool::generated_pool()->FindEnumTypeByName(name);
   if (values) return ValueNames(*values);
   if (name == "TYPE_DOUBLE") return "a number";
@@ -35,7 +35,7 @@ std::string AllowedFor(const std::string& type) {
 }
 
 // Protobuf names the fields as the .proto does: "one_step.r2" is "oneStep.r2" in JSON.
-std::string JsonPath(const std::string& path) {
+std::string JsonPath(std::string_view path) {
   std::string json;
   for (std::size_t i = 0; i < path.size(); ++i) {
     const bool capital = path[i] == '_' && i + 1 < path.size();
@@ -44,20 +44,34 @@ std::string JsonPath(const std::string& path) {
   return json;
 }
 
+// Takes the "(path)" off the front of a message, if there is one.
+std::string TakePath(std::string_view& message) {
+  const auto end = message.find(')');
+  if (!message.starts_with('(') || end == std::string_view::npos) return "";
+  const std::string path = JsonPath(message.substr(1, end - 1));
+  message.remove_prefix(end + 1);
+  return path;
+}
+
 // Protobuf tells faults of JSON only in words: "(path): invalid value V for type T",
 // "(path) name: Cannot find field.", or what is wrong with the syntax, then an excerpt.
-CodecError ErrorOf(const std::string& message, const std::string& file) {
-  static const std::regex kWrongValue(R"(\((.*)\): invalid value ([^]*) for type (.*))");
-  static const std::regex kUnknownField(R"((?:\((.*)\) )?(.*): Cannot find field\.)");
-  std::smatch match;
-  if (std::regex_match(message, match, kWrongValue)) {
-    return {JsonPath(match[1]), match[2], AllowedFor(match[3]), file};
+CodecError ErrorOf(std::string_view message, const std::string& file) {
+  constexpr std::string_view kWrongValue = ": invalid value ";
+  constexpr std::string_view kForType = " for type ";
+  constexpr std::string_view kUnknownField = ": Cannot find field.";
+  const std::string_view whole = message;
+  const std::string path = TakePath(message);
+  const auto type = message.rfind(kForType);
+  if (message.starts_with(kWrongValue) && type != std::string_view::npos) {
+    const auto value = message.substr(kWrongValue.size(), type - kWrongValue.size());
+    return {path, std::string(value), AllowedFor(message.substr(type + kForType.size())), file};
   }
-  if (std::regex_match(message, match, kUnknownField)) {
-    const std::string path = match[1].length() > 0 ? match[1].str() + "." : "";
-    return {JsonPath(path) + match[2].str(), "(given)", "no such field", file};
+  if (message.ends_with(kUnknownField)) {
+    message.remove_suffix(kUnknownField.size());
+    message.remove_prefix(std::min(message.find_first_not_of(' '), message.size()));
+    return {(path.empty() ? "" : path + ".") + JsonPath(message), "(given)", "no such field", file};
   }
-  const std::string first_line = message.substr(0, message.find('\n'));
+  const std::string first_line(whole.substr(0, whole.find('\n')));
   return {"(text)", "(not JSON of this kind)", first_line, file};
 }
 
@@ -78,7 +92,7 @@ std::optional<CodecError> ParseJsonMessage(std::string_view text, const std::str
   const auto status =
       google::protobuf::util::JsonStringToMessage({text.data(), text.size()}, &message);
   if (status.ok()) return std::nullopt;
-  return ErrorOf(std::string(status.message()), file);
+  return ErrorOf({status.message().data(), status.message().size()}, file);
 }
 
 }  // namespace telltale

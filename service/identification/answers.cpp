@@ -10,12 +10,20 @@ Answers::Answers(const Participant& participant)
     : progress_writer_(participant), reply_writer_(participant) {}
 
 void Answers::Send(const IdentifyProgress& progress) {
-  progress_writer_.Write(Encode(progress));
+  Send(progress_writer_, Encode(progress), progress.correlation_id);
 }
 
 void Answers::Send(const IdentifyReply& reply) {
-  if (!reply_writer_.Write(Encode(reply))) {
-    spdlog::warn("a stalled client held up the reply to {}", reply.correlation_id);
+  Send(reply_writer_, Encode(reply), reply.correlation_id);
+}
+
+template <class Wire>
+void Answers::Send(Writer<Wire>& writer, const WireSample<Wire>& wire,
+                   const std::string& correlation_id) {
+  try {
+    if (!writer.Write(wire)) spdlog::warn("{}: held up by a stalled client", correlation_id);
+  } catch (const BusError& error) {
+    spdlog::error("{}: {}", correlation_id, error.what());
   }
 }
 

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <string>
+
 #include "bus/participant.hpp"
 #include "bus/writer.hpp"
 #include "codec/messages.hpp"
@@ -7,7 +9,8 @@
 namespace telltale {
 
 /// What goes back to those who asked for an identification. Safe to use from several threads; never
-/// blocks for longer than the contract's 100 ms, and a client that missed something asks again.
+/// blocks for longer than the contract's 100 ms and never throws: what could not be sent is logged,
+/// and a client that missed something asks again.
 class Answers {
  public:
   explicit Answers(const Participant& participant);
@@ -16,6 +19,10 @@ class Answers {
   void Send(const IdentifyReply& reply);
 
  private:
+  template <class Wire>
+  static void Send(Writer<Wire>& writer, const WireSample<Wire>& wire,
+                   const std::string& correlation_id);
+
   Writer<telltale_wire_IdentifyProgress> progress_writer_;
   Writer<telltale_wire_IdentifyReply> reply_writer_;
 };

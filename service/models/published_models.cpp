@@ -53,12 +53,17 @@ void PublishedModels::PublishHeldUp() {
 
 void PublishedModels::Announce(const PublishedModel& model) {
   const std::string& vehicle_id = model.identification.vehicle_id;
-  if (writer_.Write(Encode(model))) {
-    spdlog::info("published revision {} of {}", model.revision, vehicle_id);
-  } else {
-    held_up_.insert(vehicle_id);
+  try {
+    if (writer_.Write(Encode(model))) {
+      spdlog::info("published revision {} of {}", model.revision, vehicle_id);
+      return;
+    }
     spdlog::warn("a stalled client held up revision {} of {}", model.revision, vehicle_id);
+  } catch (const BusError& error) {
+    spdlog::error("revision {} of {} is saved but not published: {}", model.revision, vehicle_id,
+                  error.what());
   }
+  held_up_.insert(vehicle_id);
 }
 
 }  // namespace telltale

@@ -58,10 +58,12 @@ std::unique_ptr<Process> ServiceTest::StartDaemon() const {
   return daemon;
 }
 
-std::unique_ptr<Process> ServiceTest::Start(std::vector<std::string> arguments) const {
-  arguments.insert(arguments.begin(), TELLTALE);
-  arguments.insert(arguments.end(), {"--domain", std::to_string(domain_.id())});
-  return std::make_unique<Process>(arguments);
+std::unique_ptr<Process> ServiceTest::Start(const std::vector<std::string>& arguments) const {
+  std::vector<std::string> command = {TELLTALE};
+  command.insert(command.end(), arguments.begin(), arguments.end());
+  command.emplace_back("--domain");
+  command.push_back(std::to_string(domain_.id()));
+  return std::make_unique<Process>(command);
 }
 
 void ServiceTest::ReplaySimulation() const {

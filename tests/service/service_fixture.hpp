@@ -34,7 +34,7 @@ class ServiceTest : public testing::Test {
   std::unique_ptr<Process> StartDaemon() const;
 
   /// telltale with these arguments on this test's domain.
-  std::unique_ptr<Process> Start(std::vector<std::string> arguments) const;
+  std::unique_ptr<Process> Start(const std::vector<std::string>& arguments) const;
 
   /// Writes the simulated recording as a log and replays it to the end.
   void ReplaySimulation() const;

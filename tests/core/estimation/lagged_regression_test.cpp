@@ -36,7 +36,7 @@ PreparedDataset Drive(const VesselModel& model, std::size_t steps) {
 std::array<std::optional<Excitation>, 3> AssessAll(const LaggedProblem& problem) {
   std::array<std::optional<Excitation>, 3> excitations;
   for (std::size_t j = 0; j < 3; ++j) {
-    excitations[j] = *Assess(problem.equations[j].WithoutLag(), {});
+    excitations[j] = *Assess(problem.WithoutLag(kEquations[j]), {});
   }
   return excitations;
 }
@@ -90,7 +90,7 @@ TEST(BuildLagged, NeverUsesRowsAcrossAGap) {
 TEST(BuildLagged, WithoutLagIsTheStaticProblemOneCommandLate) {
   const PreparedDataset dataset = Drive(LaggingTwin(0.4), 100);
   const auto problem = BuildLagged(dataset, {});
-  const EquationProblem yaw = problem.equations[2].WithoutLag();
+  const EquationProblem yaw = problem.WithoutLag(Equation::kYaw);
   EXPECT_DOUBLE_EQ(yaw.y[0], (dataset.rows[2].nu.r - dataset.rows[1].nu.r) / 0.2);
   EXPECT_DOUBLE_EQ(yaw.phi(0, 7), dataset.rows[1].nu.r);
   const auto thrust = ThrustOf(Parameterization::kPropeller, dataset.rows[0].delta);

@@ -94,13 +94,13 @@ TEST(RecoverAlpha, FindsTheAlphaOfAConsistentSystem) {
 }
 
 /// By hand from the printed table: surge (1.8062 -+ sqrt(1.8062^2 - 4 * 0.7725)) / 2 = 1.1107, 0.6955;
-/// sway 0.9740, 0.7164; yaw has no real root, 1.9886^2 < 4 * 1.0430.
+/// sway 0.9739, 0.7165; yaw has no real root, 1.9886^2 < 4 * 1.0430.
 TEST(RecoverAlpha, SaysThatThePublishedTableDisagreesWithItself) {
   const RedundantAlpha recovered = RecoverAlpha(YellowfishDynamicTable());
   EXPECT_NEAR(recovered.roots[0][0].real(), 1.1107, 1e-4);
   EXPECT_NEAR(recovered.roots[0][1].real(), 0.6955, 1e-4);
-  EXPECT_NEAR(recovered.roots[1][0].real(), 0.9740, 1e-4);
-  EXPECT_NEAR(recovered.roots[1][1].real(), 0.7164, 1e-4);
+  EXPECT_NEAR(recovered.roots[1][0].real(), 0.9739, 1e-4);
+  EXPECT_NEAR(recovered.roots[1][1].real(), 0.7165, 1e-4);
   EXPECT_GT(std::abs(recovered.roots[2][0].imag()), 0.1);
   EXPECT_FALSE(recovered.agree);
   EXPECT_GT(recovered.residual, 0.005);

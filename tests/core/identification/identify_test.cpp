@@ -6,6 +6,7 @@
 #include <boost/random/normal_distribution.hpp>
 #include <gtest/gtest.h>
 
+#include "simulation/simulator.hpp"
 #include "simulation/yellowfish.hpp"
 #include "support/discrete_boat.hpp"
 
@@ -152,6 +153,38 @@ TEST(Identify, WarnsWhenBoundsRestOnFewSegments) {
   const auto result = Identify(dataset, "boat", Quick());
   ASSERT_TRUE(result.has_value());
   EXPECT_TRUE(Refuses(*result, "bounds"));
+}
+
+/// Lagging thrusters: one time constant with bounds around the truth, and a model that can be simulated.
+TEST(Identify, AnswersTheDynamicStructure) {
+  VesselModel truth = YellowfishTwin();
+  truth.structure = Structure::kFirstOrderDynamic;
+  truth.discretisation = Discretisation::kForwardEuler;
+  truth.thruster_time_constant_s = 0.5;
+  PreparedDataset dataset = Boat({kFF, kFR, kRF});
+  VesselState state;
+  RandomEngine engine(1);
+  boost::random::normal_distribution<double> noise(0.0, 1e-5);
+  for (PreparedRow& row : dataset.rows) {
+    row.nu = {state.nu.u + noise(engine), state.nu.v + noise(engine), state.nu.r + noise(engine)};
+    state = Advance(truth, state, row.delta, truth.sampling_period_s);
+  }
+  IdentifyOptions options = Quick();
+  options.regression.structure = Structure::kFirstOrderDynamic;
+  const auto result = Identify(dataset, "boat", options);
+  ASSERT_TRUE(result.has_value());
+  ASSERT_TRUE(result->thruster_time_constant.has_value());
+  const Coefficient& tau = *result->thruster_time_constant;
+  EXPECT_NEAR(tau.estimate, 0.5, 0.01);
+  EXPECT_GT(tau.standard_error, 0.0);
+  EXPECT_LE(tau.interval.lower, tau.estimate);
+  EXPECT_GE(tau.interval.upper, tau.estimate);
+  EXPECT_EQ(result->coefficients.size(), 35u);
+  EXPECT_EQ(result->covariance.rows(), 35);
+  const auto model = ModelOf(*result);
+  ASSERT_TRUE(model.has_value());
+  EXPECT_EQ(model->structure, Structure::kFirstOrderDynamic);
+  EXPECT_DOUBLE_EQ(*model->thruster_time_constant_s, tau.estimate);
 }
 
 TEST(IdentifyOptions, NameTheFieldTheValueAndTheRange) {

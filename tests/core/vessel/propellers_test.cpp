@@ -34,6 +34,16 @@ TEST(PwmChannel, PulseWidthUndoesNormalise) {
   }
 }
 
+TEST(DeadZone, CountsCommandsFromItsLimits) {
+  const DeadZone zone{0.07, -0.05};
+  EXPECT_DOUBLE_EQ(zone.Apply(0.5), 0.43);
+  EXPECT_DOUBLE_EQ(zone.Apply(-0.5), -0.45);
+  EXPECT_DOUBLE_EQ(zone.Apply(0.07), 0.0);
+  EXPECT_DOUBLE_EQ(zone.Apply(0.03), 0.0);
+  EXPECT_DOUBLE_EQ(zone.Apply(-0.05), 0.0);
+  EXPECT_DOUBLE_EQ(DeadZone{}.Apply(0.3), 0.3);
+}
+
 TEST(PropellerRegion, FollowsTheSignOfEachCommand) {
   EXPECT_EQ(RegionOf({0.3, 0.2}), PropellerRegion::kFF);
   EXPECT_EQ(RegionOf({0.0, 0.0}), PropellerRegion::kFF);

@@ -1,0 +1,43 @@
+#!/usr/bin/env bash
+# Every real recording ends in a model or a reasoned refusal, and every model can be scored on another
+# recording of its boat. TELLTALE_BUILT names the build folder, TELLTALE_SHARED_DATA the recordings.
+set -euo pipefail
+root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
+readonly skipped=77
+data=${TELLTALE_SHARED_DATA-$root/../shared/data}
+if [[ ! -d $data ]]; then
+  [[ ${TELLTALE_REQUIRE_SHARED_DATA-} == 1 ]] && { echo "FAILED: no recordings at $data" >&2; exit 1; }
+  echo "skipped: no recordings at $data"
+  exit $skipped
+fi
+models=$(mktemp -d)
+trap 'rm -rf "$models"' EXIT
+telltale=$TELLTALE_BUILT/client/telltale
+
+fail() { echo "FAILED: $1" >&2; cat "$models/said" >&2; exit 1; }
+
+for log in "$data"/*/*/; do
+  boat=$(basename "$(dirname "$log")")
+  name=$boat/$(basename "$log")
+  vehicle=$root/docs/vehicles/$boat.textproto
+  status=0
+  "$telltale" identify --log "$log" --vehicle "$vehicle" --out "$models/model.json" \
+    > "$models/table" 2> "$models/said" || status=$?
+  if ((status == 3)); then
+    [[ -s $models/said ]] || fail "$name is refused without a reason"
+    echo "$name: refused"
+    continue
+  fi
+  ((status == 0)) || fail "identify on $name exited $status"
+  for other in "$data/$boat"/*/; do
+    [[ $other -ef $log ]] && continue
+    status=0
+    "$telltale" validate --log "$other" --vehicle "$vehicle" --model "$models/model.json" \
+      > "$models/scores" 2> "$models/said" || status=$?
+    ((status == 0 || status == 3)) || fail "validate of $name on $other exited $status"
+    if ((status == 0)); then
+      grep -q 'of persistence' "$models/scores" || fail "no persistence beside the score of $name"
+    fi
+  done
+  echo "$name: answered"
+done
