@@ -182,7 +182,7 @@ std::vector<DisturbanceSample> ReconstructDisturbance(const PreparedDataset& dat
       const PreparedRow& row = dataset.rows[k];
       const Nu& now = row.nu;
       const Nu& next = dataset.rows[k + 1].nu;
-      const NuDot propelled = PropellerPart(model, model.ThrustAfter(thrust, row.delta, 0.0));
+      const NuDot propelled = PropellerPart(model, model.MeanThrust(thrust, row.delta, h));
       samples.push_back({row.time_s,
                          {(next.u - now.u) / h - propelled.u, (next.v - now.v) / h - propelled.v,
                           (next.r - now.r) / h - propelled.r}});
