@@ -1,4 +1,5 @@
-// One identification, piece by piece, at the paper's size: 16,000 rows of 13 regressors, one thread.
+// One identification, piece by piece, at the paper's size: 16,000 rows of 13 regressors, one
+// thread.
 
 #include <benchmark/benchmark.h>
 
@@ -23,7 +24,8 @@ Recording RecordTwin() {
       commands.push_back(command);
     }
   }
-  return Measure(Simulate(YellowfishTwin(), {}, commands, kDurationS, 0.02), YellowfishVehicle(), {});
+  return Measure(Simulate(YellowfishTwin(), {}, commands, kDurationS, 0.02), YellowfishVehicle(),
+                 {});
 }
 
 const Recording& TwinRecording() {
@@ -38,7 +40,9 @@ const PreparedDataset& TwinDataset() {
 }
 
 /// Yaw alone, 13 regressors; the rows the regions leave out are what keeps it just under 16,000.
-EquationProblem YawProblem() { return BuildRegression(TwinDataset(), {}).equations[2]; }
+EquationProblem YawProblem() {
+  return BuildRegression(TwinDataset(), {}).equations[2];
+}
 
 void PrepareRecording(benchmark::State& state) {
   const Vehicle vehicle = YellowfishVehicle();
@@ -80,8 +84,11 @@ void PrepareAndIdentify(benchmark::State& state) {
     benchmark::DoNotOptimize(Identify(TwinRecording(), vehicle, options));
   }
 }
-BENCHMARK(PrepareAndIdentify)->ArgName("replicates")->Arg(0)->Arg(1000)->Unit(
-    benchmark::kMillisecond);
+BENCHMARK(PrepareAndIdentify)
+    ->ArgName("replicates")
+    ->Arg(0)
+    ->Arg(1000)
+    ->Unit(benchmark::kMillisecond);
 
 }  // namespace
 }  // namespace telltale

@@ -5,8 +5,8 @@
 
 namespace telltale {
 
-/// Model: SplitMix64, a counter hashed to 64 bits; cheap to seed, so every replicate, twin or sensor
-/// owns an engine of its own and results do not depend on how work is spread over threads.
+/// Model: SplitMix64, a counter hashed to 64 bits; cheap to seed, so every replicate, twin or
+/// sensor owns an engine of its own and results do not depend on how work is spread over threads.
 /// Source: Steele, Lea, Flood, "Fast splittable pseudorandom number generators", OOPSLA 2014.
 class RandomEngine {
  public:

@@ -21,8 +21,7 @@ template <class T>
 using Result = tl::expected<T, Refusal>;
 
 inline tl::unexpected<Refusal> Refuse(std::string subject, std::string reason, std::string advice) {
-  return tl::unexpected<Refusal>(
-      Refusal{std::move(subject), std::move(reason), std::move(advice)});
+  return tl::unexpected<Refusal>(Refusal{std::move(subject), std::move(reason), std::move(advice)});
 }
 
 }  // namespace telltale

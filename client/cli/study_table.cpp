@@ -85,10 +85,9 @@ std::string SharesTable(const Study& study) {
       table.AddRow({j == 0 ? StructureText(entry.structure) + " " +
                                  Fixed(100.0 * entry.training_share, 0) + " %"
                            : "",
-                    kVelocities[j], Fixed(s.training_mae.mean, 4),
-                    Fixed(row->training_mae[j], 4), Fixed(s.mae.mean, 4), Fixed(row->mae[j], 4),
-                    Fixed(s.training_r2.mean, 4), Fixed(row->training_r2[j], 4),
-                    Fixed(s.r2.mean, 4), Fixed(row->r2[j], 4)});
+                    kVelocities[j], Fixed(s.training_mae.mean, 4), Fixed(row->training_mae[j], 4),
+                    Fixed(s.mae.mean, 4), Fixed(row->mae[j], 4), Fixed(s.training_r2.mean, 4),
+                    Fixed(row->training_r2[j], 4), Fixed(s.r2.mean, 4), Fixed(row->r2[j], 4)});
     }
   }
   return table.Render();
@@ -148,8 +147,9 @@ std::string AlphaText(const Study& study) {
     text += Wrapped("Alpha from the redundant coefficients, three equations together: " +
                     Fixed(alpha.alpha, 4) + " (misfit " + Significant(alpha.residual, 2) +
                     "). Roots equation by equation: " + roots + ". " +
-                    (alpha.agree ? "They agree." : "They do not agree: no one lag explains the "
-                                                   "three equations as they stand."));
+                    (alpha.agree ? "They agree."
+                                 : "They do not agree: no one lag explains the "
+                                   "three equations as they stand."));
   }
   if (study.time_constant) {
     const Coefficient& tau = *study.time_constant;

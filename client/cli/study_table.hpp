@@ -6,8 +6,8 @@
 
 namespace telltale {
 
-/// A study in the paper's layout: our figures with the published ones beside them, and the columns the
-/// paper lacks.
+/// A study in the paper's layout: our figures with the published ones beside them, and the columns
+/// the paper lacks.
 std::string StudyTable(const Study& study);
 
 }  // namespace telltale

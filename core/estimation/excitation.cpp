@@ -34,7 +34,8 @@ double Spread(const Eigen::VectorXd& x) {
   return std::sqrt((x.array() - x.mean()).square().mean());
 }
 
-/// Mean command for surge, port minus starboard for sway and yaw, read back from the thrust columns.
+/// Mean command for surge, port minus starboard for sway and yaw, read back from the thrust
+/// columns.
 Eigen::VectorXd CommandOf(const EquationProblem& problem) {
   const bool surge = problem.equation == Equation::kSurge;
   const Eigen::Index forward = ColumnOf(problem, "f:d");
@@ -63,9 +64,8 @@ std::optional<Refusal> RefuseStill(const EquationProblem& problem, const Excitat
   const double least = surge ? limits.surge_speed_spread_mps : limits.yaw_rate_spread_radps;
   const std::string what = surge ? "surge speed varies by only " : "yaw rate varies by only ";
   const std::string unit = surge ? " m/s" : " rad/s";
-  const std::string advice = surge
-                                 ? "add straight runs that step between low and high command"
-                                 : "add zigzags at two speeds, circles both ways and a spin";
+  const std::string advice = surge ? "add straight runs that step between low and high command"
+                                   : "add zigzags at two speeds, circles both ways and a spin";
   if (motion < least) {
     return Refusal{std::string(Name(problem.equation)),
                    what + Number(motion) + unit + " (standard deviation), " + Number(least) + unit +
@@ -105,9 +105,8 @@ Eigen::MatrixXd SelectScaled(const EquationProblem& problem, const Excitation& e
 std::vector<CollinearGroup> FindCollinear(const Excitation& excitation, double limit) {
   const Eigen::VectorXd& s = excitation.singular_values;
   const Eigen::VectorXd floored = s.cwiseMax(s[0] * std::numeric_limits<double>::epsilon());
-  const Eigen::MatrixXd shares = (excitation.right_singular_vectors.array().rowwise() /
-                                  floored.transpose().array())
-                                     .square();
+  const Eigen::MatrixXd shares =
+      (excitation.right_singular_vectors.array().rowwise() / floored.transpose().array()).square();
   const Eigen::VectorXd variances = shares.rowwise().sum();
   std::vector<CollinearGroup> groups;
   for (Eigen::Index k = 0; k < s.size(); ++k) {
@@ -164,7 +163,7 @@ Result<Excitation> Assess(const EquationProblem& problem, const ExcitationLimits
   excitation.factor = Triangularise(SelectScaled(problem, excitation), problem.y);
 
   const Eigen::JacobiSVD<Eigen::MatrixXd> svd(excitation.factor.R,
-                                               Eigen::ComputeFullU | Eigen::ComputeFullV);
+                                              Eigen::ComputeFullU | Eigen::ComputeFullV);
   excitation.singular_values = svd.singularValues();
   excitation.left_singular_vectors = svd.matrixU();
   excitation.right_singular_vectors = svd.matrixV();

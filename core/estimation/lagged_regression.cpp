@@ -4,8 +4,8 @@
 #include <cmath>
 #include <limits>
 
-#include <Eigen/QR>
 #include <ceres/ceres.h>
+#include <Eigen/QR>
 
 #include "contract.hpp"
 #include "estimation/triangular_factor.hpp"
@@ -14,16 +14,17 @@
 namespace telltale {
 namespace {
 
-// Lags in sampling periods. Below the least a lag cannot be told from none, nor above the longest from a
-// thrust that never arrives.
+// Lags in sampling periods. Below the least a lag cannot be told from none, nor above the longest
+// from a thrust that never arrives.
 constexpr double kLeastLag = 1e-3;
 constexpr double kLongestLag = 1e4;
 
-// Initial thrust that has decayed to this share of itself is no longer worth a direction of its own.
+// Initial thrust that has decayed to this share of itself is no longer worth a direction of its
+// own.
 constexpr double kForgotten = 1e-12;
 
-/// The propeller regressors averaged over each row's interval, and how they change with the lag. Each
-/// stretch begins in its commanded thrust.
+/// The propeller regressors averaged over each row's interval, and how they change with the lag.
+/// Each stretch begins in its commanded thrust.
 struct LaggedThrust {
   std::vector<ThrustRegressors> mean;
   std::vector<ThrustRegressors> slope;
@@ -54,8 +55,8 @@ LaggedThrust FollowThrust(const LaggedProblem& problem, const LagPerPeriod& lag)
   return lagged;
 }
 
-/// One answered equation at one lag, its unknown initial thrusts projected out: y = phi theta + e, and
-/// slope, how the propeller columns of phi change with the lag.
+/// One answered equation at one lag, its unknown initial thrusts projected out: y = phi theta + e,
+/// and slope, how the propeller columns of phi change with the lag.
 struct Projected {
   Eigen::MatrixXd phi;
   Eigen::MatrixXd slope;
@@ -76,7 +77,8 @@ std::vector<RowRange> RowsOfStretches(const EquationProblem& equation,
   return rows;
 }
 
-/// Takes alpha^m, alpha the share of a lag that remains after a period, out of the rows of each stretch, where m counts rows from its start.
+/// Takes alpha^m out of the rows of each stretch: alpha is the share of a lag that remains after a
+/// period, m counts rows from the stretch's start.
 void ProjectInitialThrust(const LaggedProblem& problem, const EquationProblem& equation,
                           const LagPerPeriod& lag, Projected& at) {
   if (lag.remaining < kForgotten) return;
@@ -84,7 +86,8 @@ void ProjectInitialThrust(const LaggedProblem& problem, const EquationProblem& e
   for (std::size_t s = 0; s < rows_of.size(); ++s) {
     const auto begin = static_cast<Eigen::Index>(rows_of[s].begin);
     // Beyond these rows the start is forgotten and the direction is zero.
-    const auto remembered = static_cast<std::size_t>(std::log(kForgotten) / std::log(lag.remaining)) + 1;
+    const auto remembered =
+        static_cast<std::size_t>(std::log(kForgotten) / std::log(lag.remaining)) + 1;
     const std::size_t last = problem.stretches[s].begin + remembered;
     Eigen::Index count = 0;
     while (count < static_cast<Eigen::Index>(rows_of[s].size()) &&
@@ -133,8 +136,8 @@ Projected ProjectAt(const LaggedProblem& problem, const EquationProblem& equatio
   return at;
 }
 
-/// One equation solved at one lag. Rows are rotated so that few remain: cost and its Kaufman derivative
-/// keep their lengths and angles, which is all that a Gauss-Newton step looks at.
+/// One equation solved at one lag. Rows are rotated so that few remain: cost and its Kaufman
+/// derivative keep their lengths and angles, which is all that a Gauss-Newton step looks at.
 struct Solved {
   Eigen::VectorXd theta;
   Eigen::VectorXd residual;    ///< rotated
@@ -155,7 +158,8 @@ Solved Solve(const Projected& at) {
   Solved solved;
   const auto decomposition = factor.R.topLeftCorner(p, p).completeOrthogonalDecomposition();
   solved.theta = decomposition.solve(factor.z.head(p)).cwiseQuotient(norms);
-  // What the first p rows leave (nothing, unless columns depend on each other), then the rest of the triangle.
+  // What the first p rows leave (nothing, unless columns depend on each other), then the rest of
+  // the triangle.
   const Eigen::VectorXd by_lag = factor.R.rightCols(q) * solved.theta.tail(q);
   const auto left_over = [&](const Eigen::VectorXd& rows) {
     const Eigen::MatrixXd corner = factor.R.topLeftCorner(p, p);
@@ -236,8 +240,9 @@ class LagCost : public ceres::CostFunction {
   std::vector<double> weights_;
 };
 
-/// No lag to speak of, then lags from a quarter of a period to 32 periods, each twice the one before: the one
-/// that leaves least, by the sum over the equations of the logarithm of the residual variance.
+/// No lag to speak of, then lags from a quarter of a period to 32 periods, each twice the one
+/// before: the one that leaves least, by the sum over the equations of the logarithm of the
+/// residual variance.
 double BestGridLag(const LaggedProblem& problem, const Answered& answered) {
   double best = kLeastLag;
   double least = std::numeric_limits<double>::infinity();
@@ -332,7 +337,8 @@ void StackRows(const LaggedProblem& problem, const Answered& answered,
       const auto begin = static_cast<Eigen::Index>(cluster.begin);
       const auto count = static_cast<Eigen::Index>(cluster.size());
       const Eigen::Index p = equations[i].phi.cols();
-      estimate.jacobian.block(row, 0, count, 1) = equations[i].by_time_constant.segment(begin, count);
+      estimate.jacobian.block(row, 0, count, 1) =
+          equations[i].by_time_constant.segment(begin, count);
       estimate.jacobian.block(row, column, count, p) = equations[i].phi.middleRows(begin, count);
       estimate.residual.segment(row, count) = equations[i].residual.segment(begin, count);
       row += count;
@@ -371,6 +377,7 @@ LaggedEstimate EstimateLagged(const LaggedProblem& problem,
   const double h = problem.at_once.sampling_period_s;
   const double periods = SolveLag(problem, answered);
   estimate.time_constant_s = periods * h;
+  estimate.no_lag_seen = periods < 1.001 * kLeastLag;
   std::vector<WeightedRows> rows;
   const std::vector<Projected> projected = ProjectAll(problem, answered, periods);
   for (std::size_t i = 0; i < projected.size(); ++i) {

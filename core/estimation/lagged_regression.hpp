@@ -14,11 +14,11 @@ namespace telltale {
 
 /// The regressions of the first-order dynamic structure, docs/model.md (22):
 ///   y(k) = body(k) theta_body + Tbar(k) theta_propeller + c_s alpha^m + e(k)
-/// where Tbar(k) are the propeller regressors after the thrusters' lag, averaged over [t_k, t_k + h) and
-/// followed from the start of stretch s, and c_s alpha^m is what the unknown thrust at that start still does
-/// m rows later. Without lag (alpha to zero) these are exactly the regressions of the static structure.
-/// Only commands pass through the lag, never a measured velocity: noise in velocities, and the memory
-/// that smoothing gives them, would otherwise be taken for lag.
+/// where Tbar(k) are the propeller regressors after the thrusters' lag, averaged over [t_k, t_k +
+/// h) and followed from the start of stretch s, and c_s alpha^m is what the unknown thrust at that
+/// start still does m rows later. Without lag (alpha to zero) these are exactly the regressions of
+/// the static structure. Only commands pass through the lag, never a measured velocity: noise in
+/// velocities, and the memory that smoothing gives them, would otherwise be taken for lag.
 struct LaggedProblem {
   RegressionProblem at_once;                ///< the same rows for thrusters without lag
   std::vector<ThrustRegressors> commanded;  ///< of every row of the dataset, before any lag
@@ -30,25 +30,24 @@ LaggedProblem BuildLagged(const PreparedDataset& dataset, const RegressionOption
 
 /// One lag for the boat and one value for each physical coefficient.
 struct LaggedEstimate {
-  double time_constant_s = 0.0;  ///< [0.001, 10000] sampling periods; at an end the data bound it from one side
+  double time_constant_s = 0.0;  ///< [0.001, 10000] sampling periods
+  bool no_lag_seen = false;      ///< it lies at the lower end: the data bound it from above alone
   std::array<std::optional<EquationEstimate>, 3> equations;
-  /// Stacked rows of the answered equations, segment by segment, each equation divided by the standard
-  /// deviation of its residuals, the unknown thrust at the start of each stretch projected out. Columns:
-  /// the time constant, then the coefficients of each equation.
+  /// Stacked rows of the answered equations, segment by segment, each equation divided by the
+  /// standard deviation of its residuals, the unknown thrust at the start of each stretch projected
+  /// out. Columns: the time constant, then the coefficients of each equation.
   Eigen::MatrixXd jacobian;
   Eigen::VectorXd residual;
   std::vector<RowRange> clusters;
 };
 
-/// Consistent least squares over the equations that have an excitation (of problem.at_once): the lag
-/// shared, alpha = exp(-h / tau) inside (0, 1), each equation weighted by its residual variance.
-/// docs/model.md (23).
-/// Method: variable projection. For a given lag everything else is linear and solved for; what is left
-/// is a problem in the lag alone, started from the best of a grid of lags and finished by
-/// Levenberg-Marquardt (Ceres) with Kaufman's Jacobian.
-/// Assumes: as EstimateOneStep, errors in y alone.
-/// Source: Golub, Pereyra, "Separable nonlinear least squares: the variable projection method and its
-/// applications", Inverse Problems 19 (2003).
+/// Consistent least squares over the equations that have an excitation (of problem.at_once): the
+/// lag shared, alpha = exp(-h / tau) inside (0, 1), each equation weighted by its residual
+/// variance. docs/model.md (23). Method: variable projection. For a given lag everything else is
+/// linear and solved for; what is left is a problem in the lag alone, started from the best of a
+/// grid of lags and finished by Levenberg-Marquardt (Ceres) with Kaufman's Jacobian. Assumes: as
+/// EstimateOneStep, errors in y alone. Source: Golub, Pereyra, "Separable nonlinear least squares:
+/// the variable projection method and its applications", Inverse Problems 19 (2003).
 LaggedEstimate EstimateLagged(const LaggedProblem& problem,
                               const std::array<std::optional<Excitation>, 3>& excitations);
 

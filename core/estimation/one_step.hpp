@@ -11,8 +11,8 @@ namespace telltale {
 
 /// The least-squares solution of one equation.
 /// Shapes: theta, estimable: one entry per excited column, in the order of Excitation::excited.
-/// estimable[j] is false when theta_j is a part of a direction the data do not determine at all; it is
-/// then the minimum-norm choice, good for predicting similar motion and for nothing else.
+/// estimable[j] is false when theta_j is a part of a direction the data do not determine at all; it
+/// is then the minimum-norm choice, good for predicting similar motion and for nothing else.
 struct EquationEstimate {
   Equation equation = Equation::kUnknown;
   std::vector<std::size_t> columns;
@@ -25,8 +25,8 @@ struct EquationEstimate {
 };
 
 /// One-step least squares by singular values of the column-scaled triangle; docs/model.md (14).
-/// Assumes: rows whose errors are in y alone. Velocities that are themselves measured break this: the
-/// estimate is attenuated, and no covariance of the residuals shows it (docs/model.md, Limits).
+/// Assumes: rows whose errors are in y alone. Velocities that are themselves measured break this:
+/// the estimate is attenuated, and no covariance of the residuals shows it (docs/model.md, Limits).
 /// Source: the paper, Propositions 1 and 2.
 EquationEstimate EstimateOneStep(const Excitation& excitation);
 

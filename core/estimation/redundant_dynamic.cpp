@@ -210,8 +210,8 @@ Result<Eigen::VectorXd> EstimateRedundant(const EquationProblem& problem) {
                       std::to_string(10 * columns) + " are needed",
                   "record for longer in the regions this equation uses");
   }
-  const Eigen::VectorXd norms = problem.phi.colwise().norm().transpose().cwiseMax(
-      std::numeric_limits<double>::min());
+  const Eigen::VectorXd norms =
+      problem.phi.colwise().norm().transpose().cwiseMax(std::numeric_limits<double>::min());
   const TriangularFactor factor =
       Triangularise(problem.phi * norms.cwiseInverse().asDiagonal(), problem.y);
   const Eigen::JacobiSVD<Eigen::MatrixXd> svd(factor.R, Eigen::ComputeFullU | Eigen::ComputeFullV);
@@ -236,7 +236,8 @@ RedundantAlpha RecoverAlpha(const std::array<Eigen::VectorXd, 3>& redundant) {
     second[j] = redundant[j][static_cast<Eigen::Index>(SecondLinearTerm(equation))];
     recovered.roots[j] = Roots(first[j], second[j]);
   }
-  // For a given alpha the best h R of each equation is known in closed form; what it leaves is this.
+  // For a given alpha the best h R of each equation is known in closed form; what it leaves is
+  // this.
   const auto misfit = [&](double alpha) {
     double sum = 0.0;
     for (std::size_t j = 0; j < 3; ++j) {
@@ -245,7 +246,8 @@ RedundantAlpha RecoverAlpha(const std::array<Eigen::VectorXd, 3>& redundant) {
     }
     return sum;
   };
-  // The misfit may have two valleys in (0, 1): the lowest of a fine grid says which to descend into.
+  // The misfit may have two valleys in (0, 1): the lowest of a fine grid says which to descend
+  // into.
   constexpr int kGrid = 1000;
   double best = 0.0;
   for (int i = 1; i < kGrid; ++i) {

@@ -67,7 +67,8 @@ EquationProblem BuildEquation(const PreparedDataset& dataset, Equation equation,
 
 }  // namespace
 
-/// Surge in the paper's parameterization has one thrust curve, the forward one, so it holds in FF alone.
+/// Surge in the paper's parameterization has one thrust curve, the forward one, so it holds in FF
+/// alone.
 bool Enters(PropellerRegion region, Equation equation, const RegressionOptions& options) {
   if (region == PropellerRegion::kRR) return options.include_reverse;
   const bool forward_only =

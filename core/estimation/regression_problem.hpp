@@ -12,9 +12,9 @@
 namespace telltale {
 
 /// The regression of one equation: y = Phi theta + noise.
-/// Shapes: phi n x p, y n, nu n (the equation's velocity at instant k). clusters[s] is the range of rows of phi that segment s of the dataset gave,
-/// possibly empty: the same index means the same segment in all three equations.
-/// Units: y in m/s^2 or rad/s^2, so theta is continuous-time SI.
+/// Shapes: phi n x p, y n, nu n (the equation's velocity at instant k). clusters[s] is the range of
+/// rows of phi that segment s of the dataset gave, possibly empty: the same index means the same
+/// segment in all three equations. Units: y in m/s^2 or rad/s^2, so theta is continuous-time SI.
 struct EquationProblem {
   Equation equation = Equation::kUnknown;
   std::span<const Regressor> regressors;
@@ -34,8 +34,8 @@ struct RegressionProblem {
 };
 
 /// Which model is fitted to which rows.
-/// Paper parameterization: surge on FF alone, sway and yaw on FF, FR and RF, as in the paper. Propeller
-/// parameterization: every equation on FF, FR and RF, which it describes consistently.
+/// Paper parameterization: surge on FF alone, sway and yaw on FF, FR and RF, as in the paper.
+/// Propeller parameterization: every equation on FF, FR and RF, which it describes consistently.
 struct RegressionOptions {
   Structure structure = Structure::kStaticQuadratic;
   Parameterization parameterization = Parameterization::kPropeller;
@@ -46,8 +46,8 @@ struct RegressionOptions {
 /// Whether rows under a command of this region enter this equation.
 bool Enters(PropellerRegion region, Equation equation, const RegressionOptions& options);
 
-/// Instants k of a regression that looks one command back: the command at k-1 lies in `segment`, and
-/// k-1, k and k+1 in its stretch.
+/// Instants k of a regression that looks one command back: the command at k-1 lies in `segment`,
+/// and k-1, k and k+1 in its stretch.
 RowRange InstantsAfter(const RowRange& segment, const std::vector<RowRange>& stretches);
 
 /// PreparedDataset -> RegressionProblem: y(k) = (nu(k+1) - nu(k)) / h on Phi(nu(k), delta(k)),

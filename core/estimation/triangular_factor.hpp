@@ -4,8 +4,8 @@
 
 namespace telltale {
 
-/// Model: the least-squares problem min |y - Phi theta| reduced to a triangle, Q'[Phi y] = [R z; 0 rho].
-/// Shapes: R p x p upper triangular, z p; rho^2 is the residual sum of squares; rows is n.
+/// Model: the least-squares problem min |y - Phi theta| reduced to a triangle, Q'[Phi y] = [R z; 0
+/// rho]. Shapes: R p x p upper triangular, z p; rho^2 is the residual sum of squares; rows is n.
 /// Unlike the normal equations this keeps the condition number of Phi unsquared.
 struct TriangularFactor {
   Eigen::MatrixXd R;
@@ -15,8 +15,8 @@ struct TriangularFactor {
 };
 
 /// Householder QR of [Phi y] in blocks of rows small enough to stay in cache.
-/// Source: Demmel, Grigori, Hoemmen, Langou, "Communication-optimal parallel and sequential QR and LU
-/// factorizations", SIAM J. Sci. Comput. 34 (2012), the sequential variant.
+/// Source: Demmel, Grigori, Hoemmen, Langou, "Communication-optimal parallel and sequential QR and
+/// LU factorizations", SIAM J. Sci. Comput. 34 (2012), the sequential variant.
 TriangularFactor Triangularise(const Eigen::Ref<const Eigen::MatrixXd>& phi,
                                const Eigen::Ref<const Eigen::VectorXd>& y);
 

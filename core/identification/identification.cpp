@@ -41,8 +41,7 @@ Result<VesselModel> ModelOf(const Identification& identification) {
   model.dead_zone = identification.dead_zone;
   for (const Equation equation : kEquations) {
     if (!identification.Has(equation)) {
-      return Refuse("free run",
-                    "the model has no " + std::string(Name(equation)) + " equation",
+      return Refuse("free run", "the model has no " + std::string(Name(equation)) + " equation",
                     "identify from data that excite it; its refusal says how");
     }
     const auto regressors = Regressors(equation, identification.parameterization);

@@ -20,9 +20,9 @@ enum class Estimator { kUnknown, kOneStep, kWeakIv, kOutputError };
 std::string_view Name(Estimator estimator);
 
 /// kEstimated: estimate and bounds come from the data.
-/// kNotExcited: the data never moved this regressor; estimate 0, standard error and bounds infinite.
-/// kCollinear: the data move it only together with others; its bounds are honest but it should be
-/// read with its partners, which a refusal names.
+/// kNotExcited: the data never moved this regressor; estimate 0, standard error and bounds
+/// infinite. kCollinear: the data move it only together with others; its bounds are honest but it
+/// should be read with its partners, which a refusal names.
 enum class CoefficientStatus { kUnknown, kEstimated, kNotExcited, kCollinear };
 
 std::string_view Name(CoefficientStatus status);
@@ -43,15 +43,15 @@ struct Coefficient {
 struct WindowSummary {
   double start_s = 0.0;
   double end_s = 0.0;
-  std::size_t samples = 0;   ///< prepared rows
+  std::size_t samples = 0;  ///< prepared rows
   std::size_t segments = 0;
   RejectCounts rejected;
 };
 
 /// How it was made, enough to make it again.
 struct Provenance {
-  std::string preset;               ///< of the data preparation
-  std::string bounds_basis;         ///< what standard errors and intervals rest on, in words
+  std::string preset;        ///< of the data preparation
+  std::string bounds_basis;  ///< what standard errors and intervals rest on, in words
   std::size_t bootstrap_replicates = 0;
   std::size_t bootstrap_failures = 0;  ///< replicates that could not be solved
   std::uint64_t seed = 0;
@@ -59,9 +59,9 @@ struct Provenance {
 };
 
 /// A boat's model with bounds: the outcome that is published.
-/// Shapes: coefficients in the order surge, sway, yaw and, within each, of Regressors(); an equation
-/// that was refused has no coefficients and a refusal. covariance is square over all coefficients;
-/// a NOT_EXCITED coefficient has infinite variance and zero covariances.
+/// Shapes: coefficients in the order surge, sway, yaw and, within each, of Regressors(); an
+/// equation that was refused has no coefficients and a refusal. covariance is square over all
+/// coefficients; a NOT_EXCITED coefficient has infinite variance and zero covariances.
 struct Identification {
   std::string vehicle_id;
   Structure structure = Structure::kUnknown;

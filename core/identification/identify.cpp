@@ -263,8 +263,10 @@ void WriteCoefficients(const Answers& answers, const Bounds& bounds,
   identification.covariance = SpreadCovariance(bounds.covariance, places);
 }
 
-/// A time constant below zero is none.
-Coefficient WriteTimeConstant(const LaggedEstimate& lag, const Bounds& bounds) {
+/// A time constant below zero is none. Where no lag is seen the replicates, linearised about that
+/// end, say nothing of how long a lag could hide; the standard error does.
+Coefficient WriteTimeConstant(const Answers& answers, const Bounds& bounds) {
+  const LaggedEstimate& lag = *answers.lag;
   const Interval& interval = bounds.intervals.front();
   Coefficient coefficient;
   coefficient.symbol = "tau";
@@ -272,8 +274,14 @@ Coefficient WriteTimeConstant(const LaggedEstimate& lag, const Bounds& bounds) {
   coefficient.status = CoefficientStatus::kEstimated;
   coefficient.estimate = lag.time_constant_s;
   coefficient.standard_error = std::sqrt(bounds.covariance(0, 0));
-  coefficient.interval = {interval.level, std::max(interval.lower, 0.0),
-                          std::max(interval.upper, lag.time_constant_s)};
+  coefficient.interval = {interval.level, std::max(interval.lower, 0.0), interval.upper};
+  if (lag.no_lag_seen) {
+    const double freedom = answers.fits.front().degrees_of_freedom;
+    coefficient.interval = {
+        interval.level, 0.0,
+        StudentInterval(lag.time_constant_s, coefficient.standard_error, freedom, interval.level)
+            .upper};
+  }
   return coefficient;
 }
 
@@ -409,8 +417,7 @@ Result<Identification> Identify(const PreparedDataset& dataset, const std::strin
   identification.dead_zone = regression.dead_zone;
   WriteCoefficients(answers, bounds, identification);
   if (answers.lag) {
-    identification.thruster_time_constant =
-        WriteTimeConstant(*answers.lag, bounds);
+    identification.thruster_time_constant = WriteTimeConstant(answers, bounds);
   }
   identification.window = Summarise(dataset);
   identification.refusals = std::move(answers.refusals);

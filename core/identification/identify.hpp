@@ -31,18 +31,18 @@ struct IdentifyOptions {
   DeadZoneSource dead_zone_source = DeadZoneSource::kGiven;
   ExcitationLimits excitation;
   Estimator estimator = Estimator::kOneStep;
-  double interval_level = 0.95;                ///< (0.5, 0.999]
-  std::size_t bootstrap_replicates = 1000;     ///< 0 (off) or [100, 100000]
+  double interval_level = 0.95;             ///< (0.5, 0.999]
+  std::size_t bootstrap_replicates = 1000;  ///< 0 (off) or [100, 100000]
   std::uint64_t seed = 1;
-  std::size_t threads = 1;                     ///< [1, 256]; never changes the result
+  std::size_t threads = 1;  ///< [1, 256]; never changes the result
 
   /// The first field out of its range, as a refusal naming field, value and range.
   std::optional<Refusal> Validate() const;
 };
 
-/// Recording -> Identification: prepare, build the regressions, assess excitation, estimate, quantify.
-/// Refuses when: the recording cannot be prepared, or not one equation can be answered. An equation
-/// that alone cannot be answered is left out and its refusal listed in the result.
+/// Recording -> Identification: prepare, build the regressions, assess excitation, estimate,
+/// quantify. Refuses when: the recording cannot be prepared, or not one equation can be answered.
+/// An equation that alone cannot be answered is left out and its refusal listed in the result.
 Result<Identification> Identify(const Recording& recording, const Vehicle& vehicle,
                                 const IdentifyOptions& options, const Progress& progress = {});
 

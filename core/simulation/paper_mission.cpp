@@ -63,8 +63,7 @@ std::vector<PaperSegment> PaperMission(std::uint64_t seed) {
     const std::size_t points = PointsOf(segment);
     const double duration_s = static_cast<double>(points) * kPointPeriodS;
     const auto own_seed = RandomEngine::Stream(seed, segment)();
-    mission.push_back(
-        {Schedule({SegmentOfKind(segment, duration_s, own_seed)}, 0.0), points});
+    mission.push_back({Schedule({SegmentOfKind(segment, duration_s, own_seed)}, 0.0), points});
   }
   return mission;
 }
@@ -76,8 +75,8 @@ Recording RecordPaperMission(const VesselModel& model, const SensorOptions& sens
   std::uint64_t index = 0;
   for (const PaperSegment& segment : PaperMission(seed)) {
     const double end_s = static_cast<double>(segment.points - 1) * kPointPeriodS;
-    const auto track = Simulate(model, SlowAhead(model, segment.commands.front()),
-                                segment.commands, end_s, kStepS);
+    const auto track = Simulate(model, SlowAhead(model, segment.commands.front()), segment.commands,
+                                end_s, kStepS);
     SensorOptions own = sensors;
     own.seed = RandomEngine::Stream(sensors.seed, index++)();
     Append(Measure(track, YellowfishVehicle(), own), offset_s, whole);

@@ -20,12 +20,12 @@ struct PaperSegment {
   std::size_t points = 0;
 };
 
-/// 127 segments as the paper describes them: forward runs at constant and at varying speed, zigzags,
-/// circles to both sides, and turns in FR and RF, more of the latter than of FF; never RR.
+/// 127 segments as the paper describes them: forward runs at constant and at varying speed,
+/// zigzags, circles to both sides, and turns in FR and RF, more of the latter than of FF; never RR.
 std::vector<PaperSegment> PaperMission(std::uint64_t seed);
 
-/// Sails every segment from a slow start ahead and measures it with the sensors of the paper's Table 1;
-/// between segments the clock leaps by ten seconds, so that they stay apart.
+/// Sails every segment from a slow start ahead and measures it with the sensors of the paper's
+/// Table 1; between segments the clock leaps by ten seconds, so that they stay apart.
 Recording RecordPaperMission(const VesselModel& model, const SensorOptions& sensors,
                              std::uint64_t seed);
 

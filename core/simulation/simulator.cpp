@@ -16,7 +16,7 @@ Nu Along(const Nu& nu, const NuDot& slope, double step_s) {
 }
 
 Nu RungeKutta(const VesselModel& model, const VesselState& state, const PropellerCommand& delta,
-               double h) {
+              double h) {
   const Nu& nu = state.nu;
   const ThrustRegressors start = model.ThrustAfter(state.thrust, delta, 0.0);
   const ThrustRegressors middle = model.ThrustAfter(state.thrust, delta, h / 2);

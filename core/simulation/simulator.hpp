@@ -14,7 +14,8 @@ namespace telltale {
 struct VesselState {
   Eta eta;
   Nu nu;
-  ThrustRegressors thrust = {};  ///< what the thrusters deliver now; of no account in the static structure
+  ThrustRegressors thrust =
+      {};  ///< what the thrusters deliver now; of no account in the static structure
 };
 
 /// Advances a boat by `step_s` under a held command. kForwardEuler models take exactly

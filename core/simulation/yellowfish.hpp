@@ -19,9 +19,9 @@ struct PaperStaticTable {
 extern const PaperStaticTable kYellowfishStaticTable;
 inline constexpr double kYellowfishSamplingPeriodS = 0.2;
 
-/// The paper's table of the first-order dynamic model, as printed: the redundant coefficients of surge
-/// (11), sway and yaw (21 each) in the appendix's order. The table's third column is headed X_v,dyn a
-/// second time; it is yaw's.
+/// The paper's table of the first-order dynamic model, as printed: the redundant coefficients of
+/// surge (11), sway and yaw (21 each) in the appendix's order. The table's third column is headed
+/// X_v,dyn a second time; it is yaw's.
 std::array<Eigen::VectorXd, 3> YellowfishDynamicTable();
 
 /// The paper's own discrete model, in the paper's parameterization.
@@ -33,9 +33,10 @@ VesselModel YellowfishPaperModel();
 /// that in.
 VesselModel YellowfishTwin();
 
-/// The twin with thrusters that lag: alpha of the first-order model from the surge column of the paper's
-/// dynamic table, the one equation pair with a single root in (0, 1); the boat is the static table's. The
-/// dynamic table itself, read as a recursion, diverges within seconds (docs/model.md).
+/// The twin with thrusters that lag: alpha of the first-order model from the surge column of the
+/// paper's dynamic table, the one equation pair with a single root in (0, 1); the boat is the
+/// static table's. The dynamic table itself, read as a recursion, diverges within seconds
+/// (docs/model.md).
 VesselModel YellowfishLaggingTwin();
 
 /// Geometry and channels of the paper's boat.

@@ -50,14 +50,14 @@ ClusteredFit FitOf(const EquationProblem& problem, const EquationEstimate& estim
 }
 
 ClusteredFit FitOf(const LaggedEstimate& estimate) {
-  const Eigen::VectorXd norms = estimate.jacobian.colwise().norm().transpose().cwiseMax(
-      std::numeric_limits<double>::min());
-  const TriangularFactor factor = Triangularise(
-      estimate.jacobian * norms.cwiseInverse().asDiagonal(), estimate.residual);
+  const Eigen::VectorXd norms =
+      estimate.jacobian.colwise().norm().transpose().cwiseMax(std::numeric_limits<double>::min());
+  const TriangularFactor factor =
+      Triangularise(estimate.jacobian * norms.cwiseInverse().asDiagonal(), estimate.residual);
   const Eigen::JacobiSVD<Eigen::MatrixXd> svd(factor.R, Eigen::ComputeFullV);
   const Eigen::VectorXd& s = svd.singularValues();
-  const double smallest = s[0] * std::numeric_limits<double>::epsilon() *
-                          static_cast<double>(estimate.jacobian.rows());
+  const double smallest =
+      s[0] * std::numeric_limits<double>::epsilon() * static_cast<double>(estimate.jacobian.rows());
   const Eigen::Index rank = (s.array() > smallest).count();
   const Eigen::Index p = norms.size();
 
@@ -68,8 +68,7 @@ ClusteredFit FitOf(const LaggedEstimate& estimate) {
   fit.residual = estimate.residual;
   fit.theta = Stack(estimate);
   for (Eigen::Index j = 0; j < p; ++j) {
-    fit.estimable.push_back(svd.matrixV().row(j).tail(p - rank).squaredNorm() <
-                            kUndeterminedShare);
+    fit.estimable.push_back(svd.matrixV().row(j).tail(p - rank).squaredNorm() < kUndeterminedShare);
   }
   fit.degrees_of_freedom = static_cast<double>(estimate.jacobian.rows() - rank);
   fit.residual_variance = estimate.residual.squaredNorm() / fit.degrees_of_freedom;

@@ -11,10 +11,10 @@
 
 namespace telltale {
 
-/// A least-squares fit whose rows come in segments, linear or linearised about its solution: all that
-/// bounds are made from.
-/// Shapes: W n x r has orthonormal columns, W = Phi basis with basis p x r; residual n; theta, estimable p.
-/// clusters[s] is the range of rows that segment s gave, possibly empty.
+/// A least-squares fit whose rows come in segments, linear or linearised about its solution: all
+/// that bounds are made from. Shapes: W n x r has orthonormal columns, W = Phi basis with basis p x
+/// r; residual n; theta, estimable p. clusters[s] is the range of rows that segment s gave,
+/// possibly empty.
 struct ClusteredFit {
   Eigen::MatrixXd W;
   Eigen::VectorXd residual;
@@ -29,8 +29,8 @@ struct ClusteredFit {
 /// The fit of one equation of the static structure; theta are its excited coefficients.
 ClusteredFit FitOf(const EquationProblem& problem, const EquationEstimate& estimate);
 
-/// The joint fit of the dynamic structure, linearised: theta are the time constant and then the excited
-/// coefficients of the answered equations.
+/// The joint fit of the dynamic structure, linearised: theta are the time constant and then the
+/// excited coefficients of the answered equations.
 ClusteredFit FitOf(const LaggedEstimate& estimate);
 
 /// sigma^2 (Phi'Phi)^-1, what white residuals would mean for theta.

@@ -24,8 +24,7 @@ double Quantile(const std::vector<double>& sorted, double share) {
 Interval StudentInterval(double estimate, double standard_error, double degrees_of_freedom,
                          double level) {
   const boost::math::students_t distribution(degrees_of_freedom);
-  const double half =
-      standard_error * boost::math::quantile(distribution, 0.5 * (1.0 + level));
+  const double half = standard_error * boost::math::quantile(distribution, 0.5 * (1.0 + level));
   return {level, estimate - half, estimate + half};
 }
 

@@ -15,9 +15,9 @@ namespace {
 /// Gram matrices and scores of one equation's segments, each Gram packed as a flat column so that a
 /// replicate's sum is one pass over contiguous memory.
 struct SegmentGrams {
-  Eigen::MatrixXd packed;   // (r * r + r) x segments: W_s'W_s, then W_s'e_s
-  Eigen::MatrixXd basis;    // p x r
-  Eigen::VectorXd theta;    // p
+  Eigen::MatrixXd packed;  // (r * r + r) x segments: W_s'W_s, then W_s'e_s
+  Eigen::MatrixXd basis;   // p x r
+  Eigen::VectorXd theta;   // p
   Eigen::Index r = 0;
 };
 
@@ -111,8 +111,7 @@ BootstrapReplicates BootstrapSegments(const std::vector<ClusteredFit>& fits,
 
 Eigen::MatrixXd Covariance(const BootstrapReplicates& replicates) {
   Require(replicates.theta.cols() > 1, "at least two replicates");
-  const Eigen::MatrixXd centred =
-      replicates.theta.colwise() - replicates.theta.rowwise().mean();
+  const Eigen::MatrixXd centred = replicates.theta.colwise() - replicates.theta.rowwise().mean();
   return centred * centred.transpose() / static_cast<double>(centred.cols() - 1);
 }
 

@@ -39,12 +39,12 @@ std::vector<std::size_t> Shuffled(std::size_t count, RandomEngine& engine) {
   return order;
 }
 
-/// Validation items come first, so that the same seed validates on the same items whatever the training
-/// share; each side takes items until it has its share of the rows.
+/// Validation items come first, so that the same seed validates on the same items whatever the
+/// training share; each side takes items until it has its share of the rows.
 Deal DealOut(const std::vector<std::size_t>& rows_of, const PartitionOptions& options,
              RandomEngine engine) {
-  const auto total = static_cast<double>(
-      std::accumulate(rows_of.begin(), rows_of.end(), std::size_t{0}));
+  const auto total =
+      static_cast<double>(std::accumulate(rows_of.begin(), rows_of.end(), std::size_t{0}));
   Deal deal;
   double validation = 0.0;
   double training = 0.0;
@@ -205,7 +205,8 @@ std::string_view Name(PartitionMethod method) {
 }
 
 std::optional<Refusal> PartitionOptions::Validate() const {
-  if (auto r = OutOfRange("partition", "repeats", static_cast<double>(repeats), 1.0, 1000.0)) return r;
+  if (auto r = OutOfRange("partition", "repeats", static_cast<double>(repeats), 1.0, 1000.0))
+    return r;
   if (auto r = OutOfRange("partition", "training_share", training_share, 0.01, 0.99)) return r;
   if (auto r = OutOfRange("partition", "validation_share", validation_share, 0.01,
                           1.0 - training_share + 1e-9)) {

@@ -12,21 +12,21 @@
 namespace telltale {
 
 /// How rows are divided into those that identify and those that validate. By points, nearly every
-/// validation row has a neighbour 0.2 s away in the training set, almost a copy of itself, so a score
-/// says little about new data; by segments it does.
+/// validation row has a neighbour 0.2 s away in the training set, almost a copy of itself, so a
+/// score says little about new data; by segments it does.
 enum class PartitionMethod { kUnknown, kBySegments, kByPoints };
 
 std::string_view Name(PartitionMethod method);
 
 struct PartitionOptions {
-  RegressionOptions regression;            ///< the dynamic structure is fitted redundantly, as the paper does
+  RegressionOptions regression;  ///< the dynamic structure is fitted redundantly, as the paper does
   PartitionMethod method = PartitionMethod::kBySegments;
-  std::size_t repeats = 20;                ///< random partitions, [1, 1000]
-  double training_share = 0.7;             ///< of the rows, (0, 1)
-  double validation_share = 0.3;           ///< of the rows, (0, 1); both together at most 1
-  double free_run_horizon_s = 5.0;         ///< [2 h, 600]
+  std::size_t repeats = 20;         ///< random partitions, [1, 1000]
+  double training_share = 0.7;      ///< of the rows, (0, 1)
+  double validation_share = 0.3;    ///< of the rows, (0, 1); both together at most 1
+  double free_run_horizon_s = 5.0;  ///< [2 h, 600]
   std::uint64_t seed = 1;
-  std::size_t threads = 1;                 ///< [1, 256]; never changes the result
+  std::size_t threads = 1;  ///< [1, 256]; never changes the result
 
   /// The first field out of its range, as a refusal naming field, value and range.
   std::optional<Refusal> Validate() const;
@@ -38,9 +38,9 @@ struct Spread {
   double standard_deviation = 0.0;
 };
 
-/// Scores of one velocity. MAE and R2 are the paper's, of nu(k+1) predicted from the measured nu(k).
-/// Free runs exist by segments alone, since points in between validation points are not given; they use
-/// the consistent estimate of the training segments.
+/// Scores of one velocity. MAE and R2 are the paper's, of nu(k+1) predicted from the measured
+/// nu(k). Free runs exist by segments alone, since points in between validation points are not
+/// given; they use the consistent estimate of the training segments.
 struct PartitionScores {
   Spread training_mae;
   Spread training_r2;
@@ -52,9 +52,9 @@ struct PartitionScores {
 };
 
 /// The paper's partition experiments, docs/model.md (24).
-/// Source: the paper, Identification Experiments: 20 random 70/30 partitions, and training shares of 70,
-/// 60 and 50 % with 30 % for validation.
-/// Refuses when: an option is out of range or there are fewer than ten segments.
+/// Source: the paper, Identification Experiments: 20 random 70/30 partitions, and training shares
+/// of 70, 60 and 50 % with 30 % for validation. Refuses when: an option is out of range or there
+/// are fewer than ten segments.
 Result<std::array<PartitionScores, 3>> StudyPartitions(const PreparedDataset& dataset,
                                                        const PartitionOptions& options);
 

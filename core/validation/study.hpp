@@ -17,9 +17,9 @@
 namespace telltale {
 
 struct StudyOptions {
-  std::size_t repeats = 20;    ///< random partitions behind each mean, [1, 1000]
+  std::size_t repeats = 20;  ///< random partitions behind each mean, [1, 1000]
   std::uint64_t seed = 1;
-  std::size_t threads = 1;     ///< [1, 256]; never changes the result
+  std::size_t threads = 1;  ///< [1, 256]; never changes the result
 };
 
 /// One structure under one way of dividing the rows.
@@ -35,7 +35,8 @@ struct StudyEntry {
 struct Study {
   std::vector<StudyEntry> partitions;  ///< both structures, both methods, 70/30
   std::vector<StudyEntry> shares;      ///< both structures by segments, training 70, 60, 50 %
-  std::array<std::optional<Eigen::VectorXd>, 3> static_table;   ///< X as the paper prints it, times h
+  std::array<std::optional<Eigen::VectorXd>, 3>
+      static_table;  ///< X as the paper prints it, times h
   std::array<std::optional<Eigen::VectorXd>, 3> dynamic_table;  ///< the redundant X
   std::optional<RedundantAlpha> redundant_alpha;
   std::optional<Coefficient> time_constant;  ///< of the consistent estimate

@@ -21,8 +21,8 @@ Velocity ToArray(const Nu& nu) {
   return {nu.u, nu.v, nu.r};
 }
 
-// What the thrusters deliver at the start of each row. A stretch is taken to begin in steady thrust; a
-// wrong guess decays with the thruster's time constant.
+// What the thrusters deliver at the start of each row. A stretch is taken to begin in steady
+// thrust; a wrong guess decays with the thruster's time constant.
 using ThrustHistory = std::vector<ThrustRegressors>;
 
 ThrustHistory FollowThrust(const PreparedDataset& dataset, const VesselModel& model) {
@@ -93,7 +93,8 @@ std::array<OneStepScore, 3> ScoreOneStep(const PreparedDataset& dataset, const V
     for (std::size_t k = stretch.begin; k + 1 < stretch.end; ++k) {
       const PreparedRow& now = dataset.rows[k];
       const Nu& next = dataset.rows[k + 1].nu;
-      Add(of_model, next, Advance(model, Measured(now, thrust[k]), now.delta, dataset.sampling_period_s).nu);
+      Add(of_model, next,
+          Advance(model, Measured(now, thrust[k]), now.delta, dataset.sampling_period_s).nu);
       Add(of_persistence, next, now.nu);
     }
   }

@@ -33,8 +33,8 @@ struct PropellerCommand {
 inline constexpr double kWidestDeadZone = 0.3;
 
 /// Commands between the two limits give no thrust; beyond them thrust counts from the limit.
-/// Assumes: -kWidestDeadZone <= reverse <= 0 <= forward <= kWidestDeadZone. Zeros mean no dead zone.
-/// Source: the paper, remark on the T200's dead zone; docs/model.md (7).
+/// Assumes: -kWidestDeadZone <= reverse <= 0 <= forward <= kWidestDeadZone. Zeros mean no dead
+/// zone. Source: the paper, remark on the T200's dead zone; docs/model.md (7).
 struct DeadZone {
   double forward = 0.0;
   double reverse = 0.0;
@@ -46,8 +46,8 @@ struct DeadZone {
   bool operator==(const DeadZone&) const = default;
 };
 
-/// A command this close to neutral turns no propeller: a neutral stated a few microseconds off must not
-/// make a resting boat look as if one side ran in reverse.
+/// A command this close to neutral turns no propeller: a neutral stated a few microseconds off must
+/// not make a resting boat look as if one side ran in reverse.
 inline constexpr double kIdleCommand = 0.01;
 
 /// Which way the propellers turn, port first: R reverse (delta < -kIdleCommand), F forward or idle.

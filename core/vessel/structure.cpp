@@ -12,9 +12,8 @@ namespace {
 // its F_u and tau_r. W stands for M^-1, so that W11 = M^-1(1,1); in sway and yaw the propeller
 // symbols carry the lever arm d/2. docs/notation.md lists every symbol.
 constexpr std::array kSurgeBody = {
-    Regressor{"u|u|", "Pu11", "1/m"}, Regressor{"vr", "2Qu23", "1"},
-    Regressor{"rr", "Qu33", "m"},     Regressor{"u", "Ru1", "1/s"},
-    Regressor{"1", "cu", "m/s^2"},
+    Regressor{"u|u|", "Pu11", "1/m"}, Regressor{"vr", "2Qu23", "1"}, Regressor{"rr", "Qu33", "m"},
+    Regressor{"u", "Ru1", "1/s"},     Regressor{"1", "cu", "m/s^2"},
 };
 constexpr std::array kSwayBody = {
     Regressor{"v|v|", "Pv22", "1/m"}, Regressor{"v|r|", "Pv23", "1"},
@@ -150,8 +149,7 @@ std::span<const Regressor> Regressors(Equation equation, Parameterization parame
       return paper ? std::span<const Regressor>(kSurgeInPaper) : kSurgeInPropeller;
     case Equation::kSway:
       return paper ? std::span<const Regressor>(kSwayInPaper) : kSwayInPropeller;
-    case Equation::kYaw:
-      return paper ? std::span<const Regressor>(kYawInPaper) : kYawInPropeller;
+    case Equation::kYaw: return paper ? std::span<const Regressor>(kYawInPaper) : kYawInPropeller;
     case Equation::kUnknown: break;
   }
   throw ContractViolation("Regressors: requires a named equation");
@@ -162,8 +160,7 @@ std::size_t BodyRegressors(Equation equation) {
 }
 
 ThrustRegressors ThrustOf(Parameterization parameterization, const PropellerCommand& delta) {
-  return parameterization == Parameterization::kPaper ? PaperThrust(delta)
-                                                      : PropellerThrust(delta);
+  return parameterization == Parameterization::kPaper ? PaperThrust(delta) : PropellerThrust(delta);
 }
 
 void FillBody(Equation equation, const Nu& nu, std::span<double> row) {

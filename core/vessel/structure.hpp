@@ -41,8 +41,8 @@ std::span<const Regressor> Regressors(Equation equation, Parameterization parame
 /// How many of Regressors() belong to the body; the propeller regressors follow them.
 std::size_t BodyRegressors(Equation equation);
 
-/// The propeller regressors of a command: of surge, and those that sway and yaw share. Unused places
-/// are zero.
+/// The propeller regressors of a command: of surge, and those that sway and yaw share. Unused
+/// places are zero.
 struct ThrustRegressors {
   std::array<double, 4> surge{};
   std::array<double, 4> turning{};

@@ -2,8 +2,8 @@
 
 namespace telltale {
 
-/// A first-order lag under a held command falls back by exp(-t / tau) of what it was behind. Everything a
-/// sampling period of length h needs to know of it, from the lag in periods, tau / h.
+/// A first-order lag under a held command falls back by exp(-t / tau) of what it was behind.
+/// Everything a sampling period of length h needs to know of it, from the lag in periods, tau / h.
 struct LagPerPeriod {
   /// Share still behind at the end of the period: exp(-h / tau), the paper's alpha.
   double remaining = 0.0;

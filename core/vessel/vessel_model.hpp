@@ -23,7 +23,7 @@ struct VesselModel {
   Structure structure = Structure::kUnknown;
   Parameterization parameterization = Parameterization::kUnknown;
   Discretisation discretisation = Discretisation::kUnknown;
-  double sampling_period_s = 0.0;  ///< h of the discrete model
+  double sampling_period_s = 0.0;        ///< h of the discrete model
   std::array<Eigen::VectorXd, 3> theta;  ///< surge, sway, yaw
   DeadZone dead_zone;
   std::optional<double> thruster_time_constant_s;  ///< first-order dynamic structure only
@@ -31,12 +31,14 @@ struct VesselModel {
   /// The propeller regressors that a command held for ever leads to.
   ThrustRegressors SteadyThrust(const PropellerCommand& delta) const;
 
-  /// The propeller regressors `elapsed_s` after `delta` was applied to thrusters that stood at `thrust`:
-  /// at once the steady ones in the static structure, an exponential approach in the dynamic one.
+  /// The propeller regressors `elapsed_s` after `delta` was applied to thrusters that stood at
+  /// `thrust`: at once the steady ones in the static structure, an exponential approach in the
+  /// dynamic one.
   ThrustRegressors ThrustAfter(const ThrustRegressors& thrust, const PropellerCommand& delta,
                                double elapsed_s) const;
 
-  /// Their mean while `delta` is held for `elapsed_s`: what a forward Euler step of that length feels.
+  /// Their mean while `delta` is held for `elapsed_s`: what a forward Euler step of that length
+  /// feels.
   ThrustRegressors MeanThrust(const ThrustRegressors& thrust, const PropellerCommand& delta,
                               double elapsed_s) const;
 

@@ -36,8 +36,8 @@ inline std::vector<PropellerCommand> RandomCommands(std::size_t steps,
   return commands;
 }
 
-/// Rows made by the discrete model itself, nu(k+1) = nu(k) + h nu_dot(k): no sensor, no smoothing. One
-/// stretch, cut into segments of `segment_rows`.
+/// Rows made by the discrete model itself, nu(k+1) = nu(k) + h nu_dot(k): no sensor, no smoothing.
+/// One stretch, cut into segments of `segment_rows`.
 inline PreparedDataset DriveDiscrete(const VesselModel& model,
                                      const std::vector<PropellerCommand>& commands,
                                      std::size_t segment_rows) {

@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include <boost/random/normal_distribution.hpp>
 #include <gtest/gtest.h>
+#include <boost/random/normal_distribution.hpp>
 
 #include "simulation/simulator.hpp"
 #include "simulation/yellowfish.hpp"
@@ -61,8 +61,8 @@ TEST_P(KnownLag, IsRecoveredWithEveryCoefficient) {
 
 INSTANTIATE_TEST_SUITE_P(Seconds, KnownLag, ::testing::Values(0.1, 0.3, 1.0, 5.0));
 
-/// The Jacobian that bounds rest on is that of the residual, checked by central differences in alpha:
-/// for fixed theta the residual is exactly linear in alpha.
+/// The Jacobian that bounds rest on is that of the residual, checked by central differences in
+/// alpha: for fixed theta the residual is exactly linear in alpha.
 TEST(EstimateLagged, JacobianIsTheDerivativeOfTheResidual) {
   PreparedDataset dataset = Drive(LaggingTwin(0.4), 1000);
   RandomEngine engine(8);
@@ -78,7 +78,8 @@ TEST(EstimateLagged, JacobianIsTheDerivativeOfTheResidual) {
   }
 }
 
-/// A boat without lag is inside the model class: the lag goes to its lower bound and the rest is right.
+/// A boat without lag is inside the model class: the lag goes to its lower bound and the rest is
+/// right.
 TEST(EstimateLagged, FindsNoLagWhereThereIsNone) {
   VesselModel truth = YellowfishTwin();
   const auto dataset = testing::DriveDiscrete(
@@ -88,14 +89,15 @@ TEST(EstimateLagged, FindsNoLagWhereThereIsNone) {
       50);
   const auto problem = BuildLagged(dataset, {});
   const LaggedEstimate estimate = EstimateLagged(problem, AssessAll(problem));
-  EXPECT_LT(estimate.time_constant_s, 0.025);
+  EXPECT_TRUE(estimate.no_lag_seen);
+  EXPECT_LT(estimate.time_constant_s, 0.001);
   for (std::size_t j = 0; j < 3; ++j) {
-    EXPECT_TRUE(estimate.equations[j]->theta.isApprox(truth.theta[j], 0.05));
+    EXPECT_TRUE(estimate.equations[j]->theta.isApprox(truth.theta[j], 1e-2));
   }
 }
 
-/// Each stretch begins in a thrust of its own that nothing tells: what it does is projected out, so a
-/// recording cut in two gives the same lag.
+/// Each stretch begins in a thrust of its own that nothing tells: what it does is projected out, so
+/// a recording cut in two gives the same lag.
 TEST(EstimateLagged, DoesNotNeedTheThrustAtTheStartOfAStretch) {
   const VesselModel truth = LaggingTwin(1.0);
   PreparedDataset dataset = Drive(truth, 4000);

@@ -40,7 +40,8 @@ TEST(OneStep, GivesThePaperTableBack) {
     ASSERT_EQ(estimate.theta.size(), truth.size()) << Name(equation.equation);
     for (Eigen::Index j = 0; j < truth.size(); ++j) {
       EXPECT_NEAR(estimate.theta[j], truth[j], 1e-9 * std::abs(truth[j]))
-          << Name(equation.equation) << " " << equation.regressors[static_cast<std::size_t>(j)].name;
+          << Name(equation.equation) << " "
+          << equation.regressors[static_cast<std::size_t>(j)].name;
     }
   }
 }
@@ -72,8 +73,7 @@ TEST(OneStep, ResidualIsOrthogonalToEveryRegressor) {
   const EquationEstimate estimate = EstimateOf(yaw);
   const Eigen::VectorXd residual = yaw.y - yaw.phi * estimate.theta;
   for (Eigen::Index j = 0; j < yaw.phi.cols(); ++j) {
-    const double cosine =
-        yaw.phi.col(j).dot(residual) / (yaw.phi.col(j).norm() * residual.norm());
+    const double cosine = yaw.phi.col(j).dot(residual) / (yaw.phi.col(j).norm() * residual.norm());
     EXPECT_NEAR(cosine, 0.0, 1e-10) << yaw.regressors[static_cast<std::size_t>(j)].name;
   }
 }
@@ -104,7 +104,8 @@ TEST(OneStep, RescalingAColumnRescalesItsCoefficientAlone) {
   const EquationEstimate after = EstimateOf(scaled);
   for (Eigen::Index j = 0; j < 13; ++j) {
     const double factor = j == 4 ? 1e-6 : 1.0;
-    EXPECT_NEAR(after.theta[j], factor * before.theta[j], 1e-9 * std::abs(factor * before.theta[j]));
+    EXPECT_NEAR(after.theta[j], factor * before.theta[j],
+                1e-9 * std::abs(factor * before.theta[j]));
   }
 }
 

@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include <boost/random/uniform_real_distribution.hpp>
 #include <gtest/gtest.h>
+#include <boost/random/uniform_real_distribution.hpp>
 
 #include "random.hpp"
 #include "simulation/yellowfish.hpp"
@@ -14,8 +14,8 @@ namespace {
 
 using Table = std::array<Eigen::VectorXd, 3>;
 
-/// Rows made by the redundant discrete model itself, nu(k+1) = nu(k) + A(k) X. Read as a recursion the
-/// printed table is unstable, so every stretch is three rows long and starts anywhere.
+/// Rows made by the redundant discrete model itself, nu(k+1) = nu(k) + A(k) X. Read as a recursion
+/// the printed table is unstable, so every stretch is three rows long and starts anywhere.
 PreparedDataset DriveRedundant(const Table& X, std::size_t stretches,
                                const std::vector<PropellerRegion>& regions) {
   PreparedDataset dataset;
@@ -93,8 +93,8 @@ TEST(RecoverAlpha, FindsTheAlphaOfAConsistentSystem) {
   EXPECT_TRUE(recovered.agree);
 }
 
-/// By hand from the printed table: surge (1.8062 -+ sqrt(1.8062^2 - 4 * 0.7725)) / 2 = 1.1107, 0.6955;
-/// sway 0.9739, 0.7165; yaw has no real root, 1.9886^2 < 4 * 1.0430.
+/// By hand from the printed table: surge (1.8062 -+ sqrt(1.8062^2 - 4 * 0.7725)) / 2 = 1.1107,
+/// 0.6955; sway 0.9739, 0.7165; yaw has no real root, 1.9886^2 < 4 * 1.0430.
 TEST(RecoverAlpha, SaysThatThePublishedTableDisagreesWithItself) {
   const RedundantAlpha recovered = RecoverAlpha(YellowfishDynamicTable());
   EXPECT_NEAR(recovered.roots[0][0].real(), 1.1107, 1e-4);

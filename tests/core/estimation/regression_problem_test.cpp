@@ -73,14 +73,14 @@ TEST(BuildRegression, RowsHoldTheRegressorsByName) {
   const EquationProblem& yaw = problem.equations[2];
   const Nu nu{2.0, 0.2, 0.4};  // of row 1, command (0.5, -0.5)
   const std::map<std::string_view, double> expected = {
-      {"v|v|", nu.v * nu.v}, {"v|r|", nu.v * nu.r}, {"r|v|", nu.r * nu.v}, {"r|r|", nu.r * nu.r},
-      {"uv", nu.u * nu.v},   {"ur", nu.u * nu.r},   {"v", nu.v},           {"r", nu.r},
-      {"1", 1.0},            {"f:d^2", 0.25},       {"f:d", 0.5},          {"r:d^2", -0.25},
+      {"v|v|", nu.v * nu.v}, {"v|r|", nu.v * nu.r}, {"r|v|", nu.r * nu.v},
+      {"r|r|", nu.r * nu.r}, {"uv", nu.u * nu.v},   {"ur", nu.u * nu.r},
+      {"v", nu.v},           {"r", nu.r},           {"1", 1.0},
+      {"f:d^2", 0.25},       {"f:d", 0.5},          {"r:d^2", -0.25},
       {"r:d", 0.5}};
   ASSERT_EQ(yaw.regressors.size(), expected.size());
   for (std::size_t j = 0; j < yaw.regressors.size(); ++j) {
-    EXPECT_DOUBLE_EQ(yaw.phi(1, static_cast<Eigen::Index>(j)),
-                     expected.at(yaw.regressors[j].name))
+    EXPECT_DOUBLE_EQ(yaw.phi(1, static_cast<Eigen::Index>(j)), expected.at(yaw.regressors[j].name))
         << yaw.regressors[j].name;
   }
 }

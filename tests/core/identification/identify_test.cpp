@@ -155,7 +155,8 @@ TEST(Identify, WarnsWhenBoundsRestOnFewSegments) {
   EXPECT_TRUE(Refuses(*result, "bounds"));
 }
 
-/// Lagging thrusters: one time constant with bounds around the truth, and a model that can be simulated.
+/// Lagging thrusters: one time constant with bounds around the truth, and a model that can be
+/// simulated.
 TEST(Identify, AnswersTheDynamicStructure) {
   VesselModel truth = YellowfishTwin();
   truth.structure = Structure::kFirstOrderDynamic;
@@ -185,6 +186,18 @@ TEST(Identify, AnswersTheDynamicStructure) {
   ASSERT_TRUE(model.has_value());
   EXPECT_EQ(model->structure, Structure::kFirstOrderDynamic);
   EXPECT_DOUBLE_EQ(*model->thruster_time_constant_s, tau.estimate);
+}
+
+/// A boat without lag: the bound from above is what its standard error says, not the end of the
+/// range.
+TEST(Identify, BoundsALagThatIsNotThereFromAbove) {
+  IdentifyOptions options = Quick();
+  options.regression.structure = Structure::kFirstOrderDynamic;
+  const auto result = Identify(Boat({kFF, kFR, kRF}, 1e-3), "boat", options);
+  ASSERT_TRUE(result.has_value());
+  const Coefficient& tau = *result->thruster_time_constant;
+  EXPECT_EQ(tau.interval.lower, 0.0);
+  EXPECT_GT(tau.interval.upper, tau.estimate + tau.standard_error);
 }
 
 TEST(IdentifyOptions, NameTheFieldTheValueAndTheRange) {

@@ -31,7 +31,7 @@ TEST(PercentileInterval, InterpolatesBetweenOrderStatistics) {
   std::vector<double> replicates;
   for (int i = 40; i >= 0; --i) replicates.push_back(i * i);
   const Interval interval = PercentileInterval(replicates, 0.95);
-  EXPECT_NEAR(interval.lower, 1.0, 1e-9);        // position 1 -> 1
+  EXPECT_NEAR(interval.lower, 1.0, 1e-9);          // position 1 -> 1
   EXPECT_NEAR(interval.upper, 39.0 * 39.0, 1e-9);  // position 39
   const Interval wide = PercentileInterval(replicates, 0.9625);
   EXPECT_NEAR(wide.lower, 0.75, 1e-9);  // position 0.75 between 0 and 1

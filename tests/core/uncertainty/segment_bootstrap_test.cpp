@@ -2,10 +2,10 @@
 
 #include <cmath>
 
-#include <boost/random/normal_distribution.hpp>
-#include <boost/random/uniform_int_distribution.hpp>
 #include <gtest/gtest.h>
 #include <Eigen/QR>
+#include <boost/random/normal_distribution.hpp>
+#include <boost/random/uniform_int_distribution.hpp>
 
 #include "simulation/yellowfish.hpp"
 #include "support/discrete_boat.hpp"
@@ -102,7 +102,8 @@ TEST(SegmentBootstrap, ReplicateIsTheFitOfTheDrawnRows) {
 }
 
 /// With white noise and many segments the bootstrap's standard errors agree with the textbook's. 60
-/// segments and 2000 replicates leave about 10 % of scatter per coefficient; their mean ratio much less.
+/// segments and 2000 replicates leave about 10 % of scatter per coefficient; their mean ratio much
+/// less.
 TEST(SegmentBootstrap, AgreesWithResidualCovarianceUnderWhiteNoise) {
   const auto problem = NoisyProblem(0.1, 3);
   const auto estimates = EstimateAll(problem);

@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include <boost/random/normal_distribution.hpp>
 #include <gtest/gtest.h>
+#include <boost/random/normal_distribution.hpp>
 
 #include "simulation/simulator.hpp"
 #include "simulation/yellowfish.hpp"
@@ -65,9 +65,10 @@ TEST(StudyPartitions, RunsFreelyBySegmentsAlone) {
   }
 }
 
-/// White noise of sigma on nu enters nu(k+1) - nu(k) twice. A fit that leaves both errs by sigma sqrt(2), a
-/// mean absolute error of 2 / sqrt(pi) sigma = 1.128 sigma; one that attenuates until it predicts the noise of
-/// nu(k) away errs by sigma, sqrt(2 / pi) sigma = 0.798 sigma. Every fit lies between the two.
+/// White noise of sigma on nu enters nu(k+1) - nu(k) twice. A fit that leaves both errs by sigma
+/// sqrt(2), a mean absolute error of 2 / sqrt(pi) sigma = 1.128 sigma; one that attenuates until it
+/// predicts the noise of nu(k) away errs by sigma, sqrt(2 / pi) sigma = 0.798 sigma. Every fit lies
+/// between the two.
 TEST(StudyPartitions, ReportsTheErrorThatNoiseLeaves) {
   const double noise = 0.01;
   const auto scores =
