@@ -225,8 +225,8 @@ Result<Eigen::VectorXd> EstimateRedundant(const EquationProblem& problem) {
 }
 
 RedundantAlpha RecoverAlpha(const std::array<Eigen::VectorXd, 3>& redundant) {
-  std::array<double, 3> first;
-  std::array<double, 3> second;
+  std::array<double, 3> first{};
+  std::array<double, 3> second{};
   RedundantAlpha recovered;
   for (const Equation equation : kEquations) {
     const std::size_t j = IndexOf(equation);
