@@ -35,7 +35,7 @@ class StopSignals {
   }
 
  private:
-  sigset_t signals_;
+  sigset_t signals_{};
 };
 
 int Serve(const DaemonConfig& config, const StopSignals& signals) {

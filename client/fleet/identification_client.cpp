@@ -27,7 +27,7 @@ std::string NewCorrelationId() {
   std::random_device random;
   std::string id;
   for (int i = 0; i < 4; ++i) {
-    std::array<char, 9> digits;
+    std::array<char, 9> digits{};
     std::snprintf(digits.data(), digits.size(), "%08x", static_cast<unsigned>(random()));
     id += digits.data();
   }
