@@ -22,8 +22,10 @@ namespace {
 using Clock = std::chrono::steady_clock;
 using Seconds = std::chrono::duration<double>;
 
-// Samples leave in bursts this far apart: few packets, and few samples for a receiver to miss.
-constexpr auto kBurst = std::chrono::milliseconds(5);
+// Samples leave in bursts: few packets. Receivers hold 64 samples of a vehicle's channel until they
+// get to read them, so a burst is kept well below that, and the next gives them time.
+constexpr std::size_t kBurstSamples = 40;
+constexpr auto kBurstSpacing = std::chrono::milliseconds(2);
 
 // A recording may have been switched off for hours; nobody wants to wait that long.
 constexpr double kLongestSilenceS = 60.0;
@@ -53,24 +55,28 @@ class Schedule {
   double due_s_ = 0.0;
 };
 
-/// Publishes the samples at their times; returns how many seconds of recording went by.
+/// Publishes the samples at their times, or as fast as receivers can be trusted to follow; returns
+/// how many seconds of recording went by.
 double Publish(const std::vector<RawSample>& samples, double speed, TelemetryPublisher& publisher) {
   ProgressLine line;
   Schedule schedule;
   double due_s = 0.0;
   const auto start = Clock::now();
-  auto burst_end = start;
+  auto burst_begin = start;
+  std::size_t burst = 0;
   for (const RawSample& sample : samples) {
     due_s = schedule.Due(TimeOf(sample));
     const auto due = start + std::chrono::ceil<Clock::duration>(Seconds(due_s / speed));
-    if (due > burst_end) {
+    if (burst == kBurstSamples || due > burst_begin + kBurstSpacing) {
       publisher.Flush();
       line.Update("replaying",
                   static_cast<double>(publisher.Published()) / static_cast<double>(samples.size()));
-      std::this_thread::sleep_until(due);
-      burst_end = std::max(due, Clock::now()) + kBurst;
+      std::this_thread::sleep_until(std::max(due, burst_begin + kBurstSpacing));
+      burst_begin = Clock::now();
+      burst = 0;
     }
     std::visit([&](const auto& s) { publisher.Publish(s); }, sample);
+    ++burst;
   }
   publisher.Flush();
   return due_s;

@@ -14,7 +14,7 @@ std::string ColumnOf(const Coefficient& coefficient) {
 }
 
 std::string Shortest(double value) {
-  std::array<char, 32> buffer;
+  std::array<char, 32> buffer{};
   const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value).ptr;
   return {buffer.data(), end};
 }

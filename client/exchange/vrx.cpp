@@ -15,7 +15,7 @@ constexpr PropellerCommand kPortFullForward{1.0, 0.0};
 constexpr PropellerCommand kPortFullReverse{-1.0, 0.0};
 
 std::string Text(double value) {
-  std::array<char, 32> buffer;
+  std::array<char, 32> buffer{};
   const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value,
                                  std::chars_format::general, 6)
                        .ptr;

@@ -9,6 +9,7 @@
 #include <Eigen/SVD>
 
 #include "contract.hpp"
+#include "range.hpp"
 
 namespace telltale {
 namespace {
@@ -123,22 +124,17 @@ std::vector<CollinearGroup> FindCollinear(const Excitation& excitation, double l
   return groups;
 }
 
-std::optional<Refusal> OutOfRange(const char* field, double value, double low, double high) {
-  if (value >= low && value <= high) return std::nullopt;
-  return Refusal{std::string("excitation.") + field, "is " + Number(value),
-                 "choose a value in [" + Number(low) + ", " + Number(high) + "]"};
-}
-
 }  // namespace
 
 std::optional<Refusal> ExcitationLimits::Validate() const {
+  const std::string_view subject = "excitation";
   const std::array checks = {
-      OutOfRange("rows_per_coefficient", rows_per_coefficient, 2.0, 1000.0),
-      OutOfRange("surge_speed_spread_mps", surge_speed_spread_mps, 0.0, 10.0),
-      OutOfRange("yaw_rate_spread_radps", yaw_rate_spread_radps, 0.0, 3.0),
-      OutOfRange("command_spread", command_spread, 0.0, 1.0),
-      OutOfRange("fewest_active_rows", static_cast<double>(fewest_active_rows), 1.0, 1e4),
-      OutOfRange("collinear_condition_index", collinear_condition_index, 10.0, 1e6)};
+      OutOfRange(subject, "rows_per_coefficient", rows_per_coefficient, 2.0, 1000.0),
+      OutOfRange(subject, "surge_speed_spread_mps", surge_speed_spread_mps, 0.0, 10.0),
+      OutOfRange(subject, "yaw_rate_spread_radps", yaw_rate_spread_radps, 0.0, 3.0),
+      OutOfRange(subject, "command_spread", command_spread, 0.0, 1.0),
+      OutOfRange(subject, "fewest_active_rows", static_cast<double>(fewest_active_rows), 1.0, 1e4),
+      OutOfRange(subject, "collinear_condition_index", collinear_condition_index, 10.0, 1e6)};
   for (const auto& refusal : checks) {
     if (refusal) return refusal;
   }

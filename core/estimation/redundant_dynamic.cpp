@@ -93,37 +93,24 @@ std::size_t SecondLinearTerm(Equation equation) {
   }
 }
 
+// The body terms of an instant stand in the order of its static regression, so that row fills
+// these; what it writes beyond them is written over next.
+
 void FillSurge(const Nu& now, const Nu& before, const ThrustRegressors& thrust,
                std::span<double> row) {
   row[0] = now.u;
-  row[1] = before.u * std::abs(before.u);
-  row[2] = before.v * before.r;
-  row[3] = before.r * before.r;
-  row[4] = before.u;
-  row[5] = now.u * std::abs(now.u);
-  row[6] = now.v * now.r;
-  row[7] = now.r * now.r;
+  FillBody(Equation::kSurge, before, row.subspan(1));
+  FillBody(Equation::kSurge, now, row.subspan(5));
   row[8] = 1.0;
   std::copy_n(thrust.surge.begin(), 2, row.begin() + 9);
-}
-
-void FillQuadratic(const Nu& nu, std::span<double> row) {
-  row[0] = nu.v * std::abs(nu.v);
-  row[1] = nu.v * std::abs(nu.r);
-  row[2] = nu.r * std::abs(nu.v);
-  row[3] = nu.r * std::abs(nu.r);
-  row[4] = nu.u * nu.v;
-  row[5] = nu.u * nu.r;
 }
 
 void FillTurning(Equation equation, const Nu& now, const Nu& before, const ThrustRegressors& thrust,
                  std::span<double> row) {
   const bool sway = equation == Equation::kSway;
   row[0] = sway ? now.v : now.r;
-  FillQuadratic(before, row.subspan(1, 6));
-  row[7] = before.v;
-  row[8] = before.r;
-  FillQuadratic(now, row.subspan(9, 6));
+  FillBody(equation, before, row.subspan(1));
+  FillBody(equation, now, row.subspan(9));
   row[15] = sway ? now.r : now.v;
   row[16] = 1.0;
   std::copy_n(thrust.turning.begin(), 4, row.begin() + 17);

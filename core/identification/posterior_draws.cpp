@@ -76,7 +76,7 @@ Result<PosteriorDraws> DrawFromPosterior(const Identification& identification, s
   std::optional<double> log_deviation;
   if (identification.thruster_time_constant) {
     log_deviation = LogDeviation(*identification.thruster_time_constant);
-    if (!log_deviation) draws.not_drawn.push_back("thruster time constant");
+    if (!log_deviation) draws.not_drawn.emplace_back("thruster time constant");
   }
   draws.theta = estimates.replicate(1, static_cast<Eigen::Index>(count));
   for (std::size_t i = 0; i < count; ++i) {

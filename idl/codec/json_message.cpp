@@ -48,7 +48,7 @@ std::string JsonPath(std::string_view path) {
 std::string TakePath(std::string_view& message) {
   const auto end = message.find(')');
   if (!message.starts_with('(') || end == std::string_view::npos) return "";
-  const std::string path = JsonPath(message.substr(1, end - 1));
+  std::string path = JsonPath(message.substr(1, end - 1));
   message.remove_prefix(end + 1);
   return path;
 }
