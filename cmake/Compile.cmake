@@ -9,6 +9,9 @@ if(NOT CMAKE_BUILD_TYPE)
 endif()
 
 if(TELLTALE_SANITIZE)
+  # What a report needs, built in two thirds of the time.
+  set(CMAKE_C_FLAGS_RELWITHDEBINFO "-O1 -g1")
+  set(CMAKE_CXX_FLAGS_RELWITHDEBINFO "-O1 -g1")
   add_compile_options(-fsanitize=${TELLTALE_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all)
   add_link_options(-fsanitize=${TELLTALE_SANITIZE})
 endif()
@@ -17,6 +20,13 @@ add_library(telltale_compile INTERFACE)
 target_compile_options(
   telltale_compile INTERFACE $<$<COMPILE_LANGUAGE:CXX>:-Wall -Wextra -Wpedantic -Wshadow -Wconversion
                              -Wno-sign-conversion -Wnon-virtual-dtor -Woverloaded-virtual -Werror>)
+
+# GCC 12 sees writes out of bounds in std::string wherever a sanitizer has cut its inlining short.
+if(TELLTALE_SANITIZE)
+  target_compile_options(
+    telltale_compile INTERFACE $<$<COMPILE_LANGUAGE:CXX>:-Wno-array-bounds -Wno-restrict
+                               -Wno-stringop-overflow -Wno-maybe-uninitialized>)
+endif()
 
 # telltale_layer(NAME core LINKS ...): a static library of every .cpp below this folder whose only own
 # include directory is this folder, so that a layer can include nothing it does not link.
