@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 
-#include "contract.hpp"
 #include "data/time_series.hpp"
 
 namespace telltale {
@@ -37,16 +36,6 @@ std::size_t HeldCommands::IndexAt(double t) const {
 
 PropellerCommand HeldCommands::At(double t) const {
   return commands_[IndexAt(t)];
-}
-
-template <class Visit>
-void HeldCommands::ForEachPiece(double from, double to, Visit visit) const {
-  Require(from < to, "an interval that is not empty");
-  for (std::size_t i = IndexAt(from); from < to; ++i) {
-    const double end = i + 1 < times_s_.size() ? std::clamp(times_s_[i + 1], from, to) : to;
-    visit(commands_[i], from, end);
-    from = end;
-  }
 }
 
 PropellerCommand HeldCommands::Mean(double from, double to) const {

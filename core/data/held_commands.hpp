@@ -1,8 +1,10 @@
 #pragma once
 
+#include <algorithm>
 #include <span>
 #include <vector>
 
+#include "contract.hpp"
 #include "data/samples.hpp"
 #include "vessel/propellers.hpp"
 #include "vessel/vehicle.hpp"
@@ -28,15 +30,22 @@ class HeldCommands {
   /// The region in force for most of [from, to]; the earliest of equals. Requires: from < to.
   PropellerRegion MajorityRegion(double from, double to) const;
 
+  /// Calls visit(command, start, end) for each held piece of [from, to]. Requires: from < to.
+  template <class Visit>
+  void ForEachPiece(double from, double to, Visit visit) const {
+    Require(from < to, "an interval that is not empty");
+    for (std::size_t i = IndexAt(from); from < to; ++i) {
+      const double end = i + 1 < times_s_.size() ? std::clamp(times_s_[i + 1], from, to) : to;
+      visit(commands_[i], from, end);
+      from = end;
+    }
+  }
+
   const std::vector<double>& Times() const { return times_s_; }
   const std::vector<PropellerCommand>& Commands() const { return commands_; }
 
  private:
   std::size_t IndexAt(double t) const;
-
-  // Calls visit(command, start, end) for each held piece of [from, to].
-  template <class Visit>
-  void ForEachPiece(double from, double to, Visit visit) const;
 
   std::vector<double> times_s_;
   std::vector<PropellerCommand> commands_;

@@ -337,6 +337,17 @@ Nu NoiseInVelocity(const Signals& signals, const Grid& grid, const PrepareOption
   return {gain * position_m, gain * position_m, gain * psi_rad};
 }
 
+std::vector<Stretch> StretchesOf(const Recording& recording, const PrepareOptions& options) {
+  std::vector<Stretch> stretches = FindStretches(recording, options.longest_gap_s);
+  if (!options.longest_stretch_s) return stretches;
+  std::vector<Stretch> parts;
+  for (const Stretch& stretch : stretches) {
+    const auto cut = CutStretch(stretch, recording, *options.longest_stretch_s);
+    parts.insert(parts.end(), cut.begin(), cut.end());
+  }
+  return parts;
+}
+
 std::optional<Refusal> MissingChannel(const Recording& recording) {
   const auto missing = [](Channel channel) {
     const std::string name(Name(channel));
@@ -368,6 +379,30 @@ void Append(PreparedDataset& dataset, const std::vector<PreparedRow>& rows,
       std::max(1.0, std::floor(options.longest_segment_s / dataset.sampling_period_s + 1e-9)));
   const auto segments = CutSegments(dataset.rows, stretch, longest);
   dataset.segments.insert(dataset.segments.end(), segments.begin(), segments.end());
+}
+
+double MeanPeriod(const TimeSeries& series) {
+  const auto& times = series.times_s;
+  return times.size() < 2 ? 0.0
+                          : (times.back() - times.front()) / static_cast<double>(times.size() - 1);
+}
+
+double PositionNoise(const Signals& signals) {
+  return std::hypot(WhiteNoise(signals.north_m), WhiteNoise(signals.east_m)) / std::sqrt(2.0);
+}
+
+// Means over stretches, each with the weight of its rows, noises by their squares; call after Append.
+void PoolSensors(PreparedDataset& dataset, const Signals& signals) {
+  const double share = static_cast<double>(dataset.stretches.back().size()) /
+                       static_cast<double>(dataset.rows.size());
+  const auto pool = [&](double& so_far, double here) { so_far += share * (here - so_far); };
+  const auto pool_square = [&](double& so_far, double here) {
+    so_far = std::sqrt((1.0 - share) * so_far * so_far + share * here * here);
+  };
+  pool(dataset.sensors.gnss_period_s, MeanPeriod(signals.north_m));
+  pool(dataset.sensors.heading_period_s, MeanPeriod(signals.psi_rad));
+  pool_square(dataset.sensors.position_noise_m, PositionNoise(signals));
+  pool_square(dataset.sensors.heading_noise_rad, WhiteNoise(signals.psi_rad));
 }
 
 // Root mean square over stretches, each with the weight of its rows; call after Append.
@@ -422,7 +457,9 @@ std::optional<Refusal> PrepareOptions::Validate() const {
   }
   if (auto r = OutOfRange(subject, "longest_gap_s", longest_gap_s, 0.1, 60.0)) return r;
   if (auto r = OutOfRange(subject, "shortest_stretch_s", shortest_stretch_s, 1.0, 600.0)) return r;
-  return OutOfRange(subject, "longest_segment_s", longest_segment_s, 2.0, 600.0);
+  if (auto r = OutOfRange(subject, "longest_segment_s", longest_segment_s, 2.0, 600.0)) return r;
+  if (!longest_stretch_s) return std::nullopt;
+  return OutOfRange(subject, "longest_stretch_s", *longest_stretch_s, 10.0, 86400.0);
 }
 
 Result<PreparedDataset> Prepare(const Recording& recording, const Vehicle& vehicle,
@@ -437,14 +474,18 @@ Result<PreparedDataset> Prepare(const Recording& recording, const Vehicle& vehic
   dataset.sampling_period_s = SamplingPeriod(recording.gnss, options);
   dataset.origin = {recording.gnss.front().latitude_deg, recording.gnss.front().longitude_deg};
   dataset.rejected = recording.rejected;
+  dataset.options = options;
+  dataset.sensors.antenna = vehicle.gnss_antenna;
   const NorthEastFrame frame(dataset.origin);
   double longest_found_s = 0.0;
-  for (const Stretch& stretch : FindStretches(recording, options.longest_gap_s)) {
+  for (const Stretch& stretch : StretchesOf(recording, options)) {
     longest_found_s = std::max(longest_found_s, stretch.end_s - stretch.start_s);
     const Grid grid = LayGrid(recording, stretch, dataset.sampling_period_s);
     if (!LongEnough(grid, options)) continue;
     const Signals signals = ReadSignals(recording, stretch, vehicle, frame);
     Append(dataset, PrepareStretch(signals, grid, vehicle, options), options);
+    dataset.commands.push_back(signals.commands);
+    PoolSensors(dataset, signals);
     PoolNoise(dataset, NoiseInVelocity(signals, grid, options));
   }
   if (dataset.stretches.empty()) {

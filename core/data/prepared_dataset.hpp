@@ -3,10 +3,13 @@
 #include <cstddef>
 #include <vector>
 
+#include "data/held_commands.hpp"
 #include "data/north_east.hpp"
+#include "data/prepare_options.hpp"
 #include "data/samples.hpp"
 #include "vessel/motion.hpp"
 #include "vessel/propellers.hpp"
+#include "vessel/vehicle.hpp"
 
 namespace telltale {
 
@@ -33,6 +36,15 @@ struct RowRange {
   std::size_t size() const { return end - begin; }
 };
 
+/// The sensors behind a dataset as its samples show them: what a simulated repeat of it needs.
+struct SensorChain {
+  double gnss_period_s = 0.0;     ///< mean over the stretches
+  double heading_period_s = 0.0;  ///< likewise
+  double position_noise_m = 0.0;  ///< one sigma per axis and fix, white, judged by WhiteNoise
+  double heading_noise_rad = 0.0;
+  LeverArm antenna;
+};
+
 /// A recording turned into what regressions need: synchronised rows at one sampling period.
 ///
 /// stretches: gap-free runs of rows, ascending and disjoint; consecutive rows of a stretch are
@@ -45,6 +57,10 @@ struct PreparedDataset {
   std::vector<PreparedRow> rows;
   std::vector<RowRange> stretches;
   std::vector<RowRange> segments;
+  /// By stretch, what the thrusters were told before and along it, as it was sent.
+  std::vector<HeldCommands> commands;
+  PrepareOptions options;  ///< how the rows were made
+  SensorChain sensors;
   RejectCounts rejected;
   Nu nu_noise;  ///< one sigma that white sensor noise, judged by WhiteNoise, leaves in each nu
 

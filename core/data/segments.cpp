@@ -1,12 +1,16 @@
 #include "data/segments.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "contract.hpp"
 #include "data/time_series.hpp"
 
 namespace telltale {
 namespace {
+
+constexpr double kFilterReachS = 5.0;
+constexpr double kThrusterMemoryS = 30.0;
 
 struct Run {
   double start_s;
@@ -26,6 +30,20 @@ std::vector<Run> FindRuns(const std::vector<Sample>& samples, double longest_gap
     begin = i;
   }
   return runs;
+}
+
+/// The samples among `range` that lie in [from_s, to_s].
+template <class Sample>
+RowRange Within(const std::vector<Sample>& samples, const RowRange& range, double from_s,
+                double to_s) {
+  const auto begin = samples.begin() + static_cast<std::ptrdiff_t>(range.begin);
+  const auto end = samples.begin() + static_cast<std::ptrdiff_t>(range.end);
+  const auto first = std::partition_point(
+      begin, end, [&](const Sample& sample) { return sample.time_s < from_s; });
+  const auto last = std::partition_point(
+      first, end, [&](const Sample& sample) { return sample.time_s <= to_s; });
+  return {static_cast<std::size_t>(first - samples.begin()),
+          static_cast<std::size_t>(last - samples.begin())};
 }
 
 }  // namespace
@@ -52,6 +70,27 @@ std::vector<Stretch> FindStretches(const Recording& recording, double longest_ga
     ++at[static_cast<std::size_t>(first_to_end - ends.begin())];
   }
   return stretches;
+}
+
+std::vector<Stretch> CutStretch(const Stretch& stretch, const Recording& recording,
+                                double longest_s) {
+  Require(longest_s > 0.0, "parts of some length");
+  const double duration_s = stretch.end_s - stretch.start_s;
+  const double parts = std::max(1.0, std::ceil(duration_s / longest_s));
+  std::vector<Stretch> cut;
+  for (double i = 0.0; i < parts; ++i) {
+    const double start_s = stretch.start_s + i * duration_s / parts;
+    const double end_s = i + 1.0 < parts ? start_s + duration_s / parts : stretch.end_s;
+    const auto within = [&](const auto& samples, Channel channel, double before_s) {
+      return Within(samples, stretch.Of(channel), start_s - before_s, end_s + kFilterReachS);
+    };
+    cut.push_back({start_s,
+                   end_s,
+                   {within(recording.gnss, Channel::kGnss, kFilterReachS),
+                    within(recording.heading, Channel::kHeading, kFilterReachS),
+                    within(recording.thrusters, Channel::kThrusters, kThrusterMemoryS)}});
+  }
+  return cut;
 }
 
 std::vector<RowRange> CutSegments(std::span<const PreparedRow> rows, const RowRange& stretch,

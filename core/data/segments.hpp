@@ -24,6 +24,11 @@ struct Stretch {
 /// three are present. Cost: linear in the samples.
 std::vector<Stretch> FindStretches(const Recording& recording, double longest_gap_s);
 
+/// Equal parts of a stretch, none longer than `longest_s`. Their samples still reach across the cuts:
+/// positions and headings far enough for any filter, commands as far back as thrusters remember.
+std::vector<Stretch> CutStretch(const Stretch& stretch, const Recording& recording,
+                                double longest_s);
+
 /// Cuts `stretch` of `rows` at each change of region and so that no segment has more than
 /// `longest` rows. The segments partition the stretch.
 std::vector<RowRange> CutSegments(std::span<const PreparedRow> rows, const RowRange& stretch,

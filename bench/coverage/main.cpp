@@ -1,0 +1,367 @@
+// Does a 95 % bound hold 95 % of the time? Prints the table of docs/coverage.md.
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <functional>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+#include <Eigen/Cholesky>
+#include <boost/math/distributions/fisher_f.hpp>
+#include <boost/math/distributions/students_t.hpp>
+
+#include "coverage/truth.hpp"
+#include "data/preparation.hpp"
+#include "estimation/excitation.hpp"
+#include "estimation/one_step.hpp"
+#include "estimation/weak_iv.hpp"
+#include "gauss_markov.hpp"
+#include "parallel.hpp"
+#include "uncertainty/clustered_fit.hpp"
+#include "uncertainty/prediction_band.hpp"
+#include "uncertainty/segment_bootstrap.hpp"
+#include "uncertainty/twin_correction.hpp"
+
+namespace telltale::coverage {
+namespace {
+
+struct Scenario {
+  std::string name;
+  Boat boat = ReferenceBoat();
+  Surroundings around;
+  Mission mission;
+  bool lagging = false;
+  double assumed_noise = 1.0;
+  double assumed_time = 1.0;
+};
+
+std::vector<Scenario> Scenarios() {
+  std::vector<Scenario> all(9);
+  all[0].name = "rtk";
+  all[1].name = "plain-gnss";
+  all[1].around.position_noise_m = 0.10;
+  all[1].around.heading_noise_deg = 0.5;
+  all[2].name = "coloured-gnss";
+  all[2].around.slow_position_error_m = 0.2;
+  all[2].around.slow_position_time_s = 20.0;
+  all[3].name = "ten-segments";
+  all[3].mission.segments = 10;
+  all[4].name = "noise-30-percent-wrong";
+  all[4].assumed_noise = 1.3;
+  all[5].name = "disturbance-time-wrong";
+  all[5].assumed_time = 0.5;
+  all[6].name = "thruster-lag";
+  all[6].boat.thruster_time_constant_s = 0.4;
+  all[6].lagging = true;
+  all[7].name = "weak-excitation";
+  all[7].mission.command_share = 0.5;
+  all[8].name = "propeller-outside-class";
+  all[8].boat.thrust_bend = 0.3;
+  return all;
+}
+
+Eigen::VectorXd TruthOf(const Scenario& scenario) {
+  std::vector<double> truth;
+  if (scenario.lagging) truth.push_back(scenario.boat.thruster_time_constant_s);
+  truth.insert(truth.end(), scenario.boat.surge.begin(), scenario.boat.surge.end());
+  truth.insert(truth.end(), scenario.boat.sway.begin(), scenario.boat.sway.end());
+  truth.insert(truth.end(), scenario.boat.yaw.begin(), scenario.boat.yaw.end());
+  return Eigen::Map<Eigen::VectorXd>(truth.data(), static_cast<Eigen::Index>(truth.size()));
+}
+
+std::vector<std::string> NamesOf(const Scenario& scenario) {
+  std::vector<std::string> names;
+  if (scenario.lagging) names.emplace_back("tau");
+  for (const Equation equation : kEquations) {
+    for (const Regressor& regressor : Regressors(equation, Parameterization::kPropeller)) {
+      names.push_back(std::string(Name(equation)) + ' ' + std::string(regressor.name));
+    }
+  }
+  return names;
+}
+
+std::array<std::vector<std::size_t>, 3> AllColumns() {
+  std::array<std::vector<std::size_t>, 3> columns;
+  for (const Equation equation : kEquations) {
+    const std::size_t count = Regressors(equation, Parameterization::kPropeller).size();
+    for (std::size_t j = 0; j < count; ++j) columns[IndexOf(equation)].push_back(j);
+  }
+  return columns;
+}
+
+/// What one repeat says of one method: which true values its bounds held.
+struct Holding {
+  std::vector<bool> coefficient;
+  Eigen::VectorXd error;
+  bool joint = false;
+  std::size_t in_band = 0;
+  std::size_t of_band = 0;
+};
+
+struct Repeat {
+  std::optional<Holding> weak;
+  std::optional<Holding> one_step;
+};
+
+PreparedDataset Prepared(const Recording& recording, std::optional<std::size_t> half_width) {
+  PrepareOptions options;
+  if (half_width) {
+    options.smoothing_half_width = *half_width;
+    options.longest_stretch_s = 60.0;
+  }
+  auto dataset = Prepare(recording, VehicleOf(), options);
+  if (!dataset) throw std::runtime_error(dataset.error().reason);
+  return *std::move(dataset);
+}
+
+Holding Held(const Eigen::VectorXd& theta, const Eigen::VectorXd& half_width,
+             const Eigen::VectorXd& truth) {
+  Holding holding{{}, theta - truth};
+  for (Eigen::Index j = 0; j < truth.size(); ++j) {
+    holding.coefficient.push_back(std::abs(holding.error[j]) <= half_width[j]);
+  }
+  return holding;
+}
+
+/// Free runs of 10 s from a known state: does the band hold the boat's velocities at 1, 5, 10 s?
+void WatchBand(const Scenario& scenario, const WeakFit& fit, const TwinCorrection& corrected,
+               std::uint64_t seed, Holding& holding) {
+  constexpr std::size_t kDraws = 400;
+  constexpr double kStepS = 0.1;
+  const TrueRun run =
+      SailTruly(scenario.boat, scenario.around, scenario.mission, 10.0, kStepS, seed);
+  const Eigen::MatrixXd root = corrected.covariance.llt().matrixL();
+  WhiteSource white(seed, 1000);
+  std::vector<VesselModel> models;
+  for (std::size_t i = 0; i < kDraws; ++i) {
+    Eigen::VectorXd z(root.rows());
+    for (double& value : z) value = white();
+    models.push_back(ModelOf(fit, corrected.theta + root * z, 0.2));
+  }
+  std::vector<TimedCommand> commands;
+  for (std::size_t i = 0; i < run.commands.size(); ++i) {
+    commands.push_back({run.command_times_s[i], {run.commands[i][0], run.commands[i][1]}});
+  }
+  VesselState start;
+  start.nu = {run.start[0], run.start[1], run.start[2]};
+  start.thrust = models.front().SteadyThrust(commands.front().delta);
+  const PredictionBand band = PredictBand(models, start, commands, corrected.disturbance, 10.0,
+                                          kStepS, 0.95, seed);
+  for (const Eigen::Index k : {9, 49, 99}) {
+    for (Eigen::Index axis = 0; axis < 3; ++axis) {
+      const double nu = run.nu[static_cast<std::size_t>(k)][static_cast<std::size_t>(axis)];
+      holding.in_band += nu >= band.lower(axis, k) && nu <= band.upper(axis, k) ? 1 : 0;
+      ++holding.of_band;
+    }
+  }
+}
+
+std::optional<Holding> TryWeakIv(const Scenario& scenario, const Recording& recording,
+                                 std::size_t twins, std::uint64_t seed) {
+  const PreparedDataset dataset =
+      Prepared(recording, SmoothingFor(Prepared(recording, std::nullopt)));
+  RegressionOptions regression;
+  if (scenario.lagging) regression.structure = Structure::kFirstOrderDynamic;
+  const WeakIvOptions options;
+  const auto columns = AllColumns();
+  const auto fit = EstimateWeakIv(dataset, regression, columns, options);
+  if (!fit) return std::nullopt;
+  const auto corrected =
+      CorrectWithTwins(dataset, regression, *fit, columns, options,
+                       {twins, seed, 1, scenario.assumed_noise, scenario.assumed_time});
+  if (!corrected) return std::nullopt;
+  const Eigen::VectorXd truth = TruthOf(scenario);
+  const auto p = static_cast<double>(truth.size());
+  const double t = boost::math::quantile(
+      boost::math::students_t(corrected->degrees_of_freedom), 0.975);
+  Holding holding =
+      Held(corrected->theta, t * corrected->covariance.diagonal().cwiseSqrt(), truth);
+  const double spare = std::max(corrected->degrees_of_freedom - p + 1.0, 5.0);
+  const double distance = holding.error.dot(
+      corrected->joint_covariance.ldlt().solve(holding.error)) / p;
+  holding.joint = distance <= boost::math::quantile(boost::math::fisher_f(p, spare), 0.95);
+  WatchBand(scenario, *fit, *corrected, seed + 1, holding);
+  return holding;
+}
+
+/// The paper's recipe, with a bootstrap over segments.
+std::optional<Holding> TryOneStep(const Scenario& scenario, const Recording& recording,
+                                  std::uint64_t seed) {
+  if (scenario.lagging) return std::nullopt;
+  const PreparedDataset dataset = Prepared(recording, std::nullopt);
+  const RegressionProblem problem = BuildRegression(dataset, {});
+  std::vector<ClusteredFit> fits;
+  for (const EquationProblem& equation : problem.equations) {
+    const auto excitation = Assess(equation, {});
+    if (!excitation) return std::nullopt;
+    fits.push_back(FitOf(equation, EstimateOneStep(*excitation)));
+  }
+  const BootstrapReplicates replicates = BootstrapSegments(fits, {400, seed, 1});
+  Eigen::VectorXd theta(TruthOf(scenario).size());
+  Eigen::Index next = 0;
+  for (const ClusteredFit& fit : fits) {
+    if (next + fit.theta.size() > theta.size()) return std::nullopt;
+    theta.segment(next, fit.theta.size()) = fit.theta;
+    next += fit.theta.size();
+  }
+  if (next != theta.size()) return std::nullopt;
+  return Held(theta, 1.96 * Covariance(replicates).diagonal().cwiseSqrt(), TruthOf(scenario));
+}
+
+std::vector<Repeat> Run(const Scenario& scenario, std::size_t repeats, std::size_t twins,
+                        std::size_t threads, std::uint64_t seed) {
+  std::vector<Repeat> all(repeats);
+  std::mutex telling;
+  std::size_t done = 0;
+  ForEachIndex(repeats, threads, [&](std::size_t i) {
+    const std::uint64_t own = RandomEngine::Stream(seed, i)();
+    const Recording recording = Sail(scenario.boat, scenario.around, scenario.mission, own);
+    all[i].weak = TryWeakIv(scenario, recording, twins, own);
+    all[i].one_step = TryOneStep(scenario, recording, own);
+    const std::lock_guard lock(telling);
+    std::fprintf(stderr, "\r%s %zu of %zu ", scenario.name.c_str(), ++done, repeats);
+  });
+  std::fprintf(stderr, "\r\033[K");
+  return all;
+}
+
+struct Tally {
+  std::size_t answered = 0;
+  double mean = 0.0;
+  double lowest = 100.0;
+  double highest = 0.0;
+  std::string lowest_name;
+  std::size_t outside = 0;  ///< coefficients not in 92..98 %
+  double bias_share = 0.0;  ///< mean |bias| over spread
+  double joint = 0.0;
+  double band = 0.0;
+};
+
+Tally Count(const std::vector<Repeat>& repeats, std::optional<Holding> Repeat::*method,
+            const std::vector<std::string>& names) {
+  Tally tally;
+  std::vector<double> held(names.size());
+  Eigen::VectorXd sum = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(names.size()));
+  Eigen::VectorXd squares = sum;
+  double in_band = 0.0;
+  double of_band = 0.0;
+  for (const Repeat& repeat : repeats) {
+    const auto& holding = repeat.*method;
+    if (!holding) continue;
+    ++tally.answered;
+    for (std::size_t j = 0; j < names.size(); ++j) held[j] += holding->coefficient[j] ? 1.0 : 0.0;
+    sum += holding->error;
+    squares += holding->error.cwiseAbs2();
+    tally.joint += holding->joint ? 1.0 : 0.0;
+    in_band += static_cast<double>(holding->in_band);
+    of_band += static_cast<double>(holding->of_band);
+  }
+  if (tally.answered == 0) return tally;
+  const auto n = static_cast<double>(tally.answered);
+  for (std::size_t j = 0; j < names.size(); ++j) {
+    const double percent = 100.0 * held[j] / n;
+    tally.mean += percent / static_cast<double>(names.size());
+    if (percent < tally.lowest) {
+      tally.lowest = percent;
+      tally.lowest_name = names[j];
+    }
+    tally.highest = std::max(tally.highest, percent);
+    tally.outside += percent < 92.0 || percent > 98.0 ? 1 : 0;
+  }
+  const Eigen::VectorXd mean = sum / n;
+  const Eigen::VectorXd sd = (squares / n - mean.cwiseAbs2()).cwiseMax(1e-30).cwiseSqrt();
+  tally.bias_share = mean.cwiseAbs().cwiseQuotient(sd).mean();
+  tally.joint *= 100.0 / n;
+  tally.band = of_band > 0.0 ? 100.0 * in_band / of_band : 0.0;
+  return tally;
+}
+
+void PrintRow(const Scenario& scenario, const std::vector<Repeat>& repeats, double seconds) {
+  const auto names = NamesOf(scenario);
+  const Tally weak = Count(repeats, &Repeat::weak, names);
+  const Tally paper = Count(repeats, &Repeat::one_step, names);
+  std::printf("| %s | %zu/%zu | %.1f | %.1f (%s) | %.1f | %zu of %zu | %.2f | %.1f | %.1f | ",
+              scenario.name.c_str(), weak.answered, repeats.size(), weak.mean, weak.lowest,
+              weak.lowest_name.c_str(), weak.highest, weak.outside, names.size(), weak.bias_share,
+              weak.joint, weak.band);
+  if (paper.answered > 0) {
+    std::printf("%.1f | %.1f", paper.mean, paper.bias_share);
+  } else {
+    std::printf("- | -");
+  }
+  std::printf(" | %.0f |\n", seconds);
+  std::fflush(stdout);
+}
+
+void PrintCoefficients(const Scenario& scenario, const std::vector<Repeat>& repeats) {
+  const auto names = NamesOf(scenario);
+  const Eigen::VectorXd truth = TruthOf(scenario);
+  std::printf("\n| %s | truth | bias | spread | held %% |\n|---|---|---|---|---|\n",
+              scenario.name.c_str());
+  for (std::size_t j = 0; j < names.size(); ++j) {
+    double n = 0.0;
+    double sum = 0.0;
+    double squares = 0.0;
+    double held = 0.0;
+    for (const Repeat& repeat : repeats) {
+      if (!repeat.weak) continue;
+      const double error = repeat.weak->error[static_cast<Eigen::Index>(j)];
+      n += 1.0;
+      sum += error;
+      squares += error * error;
+      held += repeat.weak->coefficient[j] ? 1.0 : 0.0;
+    }
+    std::printf("| %s | %.4g | %.2g | %.2g | %.1f |\n", names[j].c_str(),
+                truth[static_cast<Eigen::Index>(j)], sum / n,
+                std::sqrt(std::max(0.0, squares / n - sum * sum / n / n)), 100.0 * held / n);
+  }
+}
+
+int Main(int argc, char** argv) {
+  std::vector<std::string> wanted;
+  std::size_t repeats = 400;
+  std::size_t twins = 40;
+  std::size_t threads = std::max(1U, std::thread::hardware_concurrency());
+  std::uint64_t seed = 1;
+  bool coefficients = false;
+  CLI::App app("How often bounds of nominally 95 % hold the truth, by scenario");
+  std::vector<std::string> names;
+  for (const Scenario& scenario : Scenarios()) names.push_back(scenario.name);
+  app.add_option("--scenario", wanted, "only these (default: all)")->check(CLI::IsMember(names));
+  app.add_option("--repeats", repeats, "seeded repeats of each scenario")->capture_default_str();
+  app.add_option("--twins", twins, "behind each bias correction")->capture_default_str();
+  app.add_option("--threads", threads, "never change the result")->capture_default_str();
+  app.add_option("--seed", seed, "of the first repeat")->capture_default_str();
+  app.add_flag("--coefficients", coefficients, "also one table of coefficients a scenario");
+  CLI11_PARSE(app, argc, argv);
+
+  std::printf(
+      "| scenario | answered | mean %% | lowest %% | highest %% | outside 92..98 | bias/spread | "
+      "joint %% | band %% | one-step mean %% | one-step bias/spread | s |\n"
+      "|---|---|---|---|---|---|---|---|---|---|---|---|\n");
+  for (const Scenario& scenario : Scenarios()) {
+    if (!wanted.empty() &&
+        std::find(wanted.begin(), wanted.end(), scenario.name) == wanted.end()) {
+      continue;
+    }
+    const auto start = std::chrono::steady_clock::now();
+    const auto all = Run(scenario, repeats, twins, threads, seed);
+    const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
+    PrintRow(scenario, all, took.count());
+    if (coefficients) PrintCoefficients(scenario, all);
+  }
+  return 0;
+}
+
+}  // namespace
+}  // namespace telltale::coverage
+
+int main(int argc, char** argv) {
+  return telltale::coverage::Main(argc, argv);
+}

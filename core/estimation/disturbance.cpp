@@ -1,0 +1,130 @@
+#include "estimation/disturbance.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "data/savitzky_golay.hpp"
+
+namespace telltale {
+namespace {
+
+/// phi through the velocity filter: the weights with which accelerations enter a window's residual.
+Eigen::VectorXd SeenWeights(const PreparedDataset& dataset, const WeakProblem& problem) {
+  const SavitzkyGolay filter(dataset.options.smoothing_half_width,
+                             dataset.options.smoothing_degree);
+  const std::size_t centre = dataset.options.smoothing_half_width;
+  const std::size_t intervals = filter.WindowLength() - 1;
+  Eigen::VectorXd weights = Eigen::VectorXd::Zero(problem.phi.value.size() +
+                                                  static_cast<Eigen::Index>(intervals) - 1);
+  for (Eigen::Index i = 0; i < problem.phi.value.size(); ++i) {
+    for (std::size_t j = 0; j < intervals; ++j) {
+      weights[i + static_cast<Eigen::Index>(j)] +=
+          problem.phi.value[i] * filter.IncrementWeight(centre, j);
+    }
+  }
+  return weights;
+}
+
+/// Autocovariance by window lag of a unit Gauss-Markov process seen through `weights`.
+Eigen::VectorXd SeenAutocovariance(const Eigen::VectorXd& weights, double h, std::size_t stride,
+                                   double time_constant_s) {
+  Eigen::VectorXd products = Eigen::VectorXd::Zero(2 * weights.size() - 1);
+  const Eigen::Index middle = weights.size() - 1;
+  for (Eigen::Index a = 0; a < weights.size(); ++a) {
+    for (Eigen::Index b = 0; b < weights.size(); ++b) {
+      products[middle + a - b] += weights[a] * weights[b];
+    }
+  }
+  Eigen::VectorXd seen = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(kDisturbanceLags));
+  for (std::size_t l = 0; l < kDisturbanceLags; ++l) {
+    for (Eigen::Index d = -middle; d <= middle; ++d) {
+      const double apart_s = std::abs(static_cast<double>(d) + static_cast<double>(l * stride)) * h;
+      seen[static_cast<Eigen::Index>(l)] +=
+          products[middle + d] * std::exp(-apart_s / time_constant_s);
+    }
+  }
+  return seen;
+}
+
+struct AxisFit {
+  double sigma = 0.0;
+  double time_constant_s = 1.0;
+};
+
+AxisFit FitAxis(const Eigen::VectorXd& shown, const Eigen::VectorXd& weights, double h,
+                std::size_t stride) {
+  constexpr double kShortestS = 0.2;
+  constexpr double kLongestS = 40.0;
+  constexpr int kSteps = 30;
+  AxisFit best;
+  double least = std::numeric_limits<double>::infinity();
+  for (int i = 0; i <= kSteps; ++i) {
+    const double tau = kShortestS * std::pow(kLongestS / kShortestS, static_cast<double>(i) / kSteps);
+    const Eigen::VectorXd unit = SeenAutocovariance(weights, h, stride, tau);
+    const double variance = std::max(0.0, unit.dot(shown) / unit.squaredNorm());
+    const double misfit = (shown - variance * unit).squaredNorm();
+    if (misfit < least) {
+      least = misfit;
+      best = {std::sqrt(variance), tau};
+    }
+  }
+  return best;
+}
+
+}  // namespace
+
+Eigen::VectorXd Autocovariance(const TestFunction& phi, const WeakWindows& windows,
+                               const Eigen::VectorXd& residual) {
+  const auto& first = windows.first_rows;
+  Eigen::VectorXd sums = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(kDisturbanceLags));
+  Eigen::VectorXd counts = sums;
+  for (std::size_t k = 0; k < first.size(); ++k) {
+    for (std::size_t j = k; j < first.size(); ++j) {
+      const std::size_t apart = first[j] - first[k];
+      // Windows of another stretch start at other multiples, or far away.
+      if (apart >= kDisturbanceLags * phi.stride) break;
+      if (apart % phi.stride != 0) continue;
+      const auto lag = static_cast<Eigen::Index>(apart / phi.stride);
+      sums[lag] += residual[static_cast<Eigen::Index>(k)] * residual[static_cast<Eigen::Index>(j)];
+      counts[lag] += 1.0;
+    }
+  }
+  return sums.cwiseQuotient(counts.cwiseMax(1.0));
+}
+
+std::array<Eigen::VectorXd, 3> ResidualsOf(const WeakFit& fit, const Eigen::VectorXd& theta,
+                                           const PreparedDataset& dataset,
+                                           const WeakProblem& problem) {
+  const FilteredThrust thrust = FilterThrust(
+      dataset, problem, fit.time_constant_s ? std::optional(theta[0]) : std::nullopt);
+  const VesselModel model = ModelOf(fit, theta, dataset.sampling_period_s);
+  std::array<Eigen::VectorXd, 3> residuals;
+  for (std::size_t j = 0; j < 3; ++j) {
+    if (!fit.equations[j]) continue;
+    const WeakWindows& windows = problem.windows[j];
+    const RegressorRows rows = RowsOf(dataset, problem, thrust, kEquations[j]);
+    residuals[j] = WeighAcceleration(problem, windows, dataset, kEquations[j]) -
+                   Weigh(problem, windows, rows) * model.theta[j];
+  }
+  return residuals;
+}
+
+Disturbance EstimateDisturbance(const PreparedDataset& dataset, const WeakFit& fit,
+                                const std::array<Eigen::VectorXd, 3>& by_sensors) {
+  const WeakProblem& problem = fit.problem;
+  const Eigen::VectorXd weights = SeenWeights(dataset, problem);
+  Disturbance disturbance;
+  for (std::size_t j = 0; j < 3; ++j) {
+    if (!fit.equations[j]) continue;
+    const Eigen::VectorXd all =
+        Autocovariance(problem.phi, problem.windows[j], fit.equations[j]->residual);
+    const AxisFit axis = FitAxis(all - by_sensors[j], weights, dataset.sampling_period_s,
+                                 problem.phi.stride);
+    disturbance.sigma[static_cast<Eigen::Index>(j)] = axis.sigma;
+    disturbance.time_constant_s[static_cast<Eigen::Index>(j)] = axis.time_constant_s;
+  }
+  return disturbance;
+}
+
+}  // namespace telltale

@@ -1,0 +1,95 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "data/prepared_dataset.hpp"
+#include "estimation/regression_problem.hpp"
+#include "vessel/structure.hpp"
+
+namespace telltale {
+
+/// How the equations of motion are weighed over time. Lengths are in seconds; a test function spans
+/// at least five sampling periods to each side of its centre whatever they say.
+struct WeakFormOptions {
+  double half_support_s = 2.0;  ///< of a test function, T
+  double spacing_s = 1.0;       ///< of neighbouring test functions
+  double longest_cluster_s = 20.0;   ///< windows centred within this length count as one cluster,
+  double shortest_cluster_s = 8.0;   ///< less, down to this,
+  std::size_t wanted_clusters = 80;  ///< where that gives fewer clusters than these
+};
+
+/// A row per dataset row and a column per regressor, row-major as it is filled and weighed by rows.
+using RegressorRows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+/// The test function phi(t) = (1 - (t/T)^2)^6 and its slope on the sampling grid, with the weights
+/// of the sum that stands for the integral: both vanish with five derivatives at the ends, so the
+/// sum is as good as exact.
+struct TestFunction {
+  Eigen::VectorXd value;  ///< phi(t_i) h
+  Eigen::VectorXd slope;  ///< phi'(t_i) h
+  std::size_t stride = 1;  ///< rows between neighbouring windows
+
+  std::size_t Rows() const { return static_cast<std::size_t>(value.size()); }
+
+  static TestFunction On(double sampling_period_s, const WeakFormOptions& options);
+};
+
+/// Windows of rows on which one equation is weighed: first row of each, ascending, and by cluster.
+struct WeakWindows {
+  std::vector<std::size_t> first_rows;
+  std::vector<RowRange> clusters;
+};
+
+/// The weak form of the equations of motion, docs/model.md (30):
+///   -int phi'_k nu_j dt = int phi_k Phi_j(nu, T) dt theta_j + int phi_k d_j dt
+/// No acceleration is ever differentiated out. Windows stay inside a stretch and inside rows that
+/// enter the equation. The propeller regressors T are those of the held commands, passed through
+/// the thrusters' lag if there is one, averaged over each sampling interval and then filtered with
+/// the very kernel that made nu from positions.
+/// Requires of the dataset: the robust preset, whose kernel is one.
+struct WeakProblem {
+  Parameterization parameterization = Parameterization::kUnknown;
+  DeadZone dead_zone;
+  TestFunction phi;
+  std::array<WeakWindows, 3> windows;
+  std::size_t clusters = 0;
+};
+
+/// Rows to each side of the Savitzky-Golay filter that suit the weak form: as few as leave sway, the
+/// quietest of the velocities, no noisier than it is lively, but at least 0.8 s. The narrower the
+/// filter the less it does to products of velocities, which the weak form takes as they are.
+/// `preview`: the same recording prepared with any width.
+std::size_t SmoothingFor(const PreparedDataset& preview);
+
+/// PreparedDataset -> WeakProblem. Clusters are the same stretch of time in every equation.
+WeakProblem BuildWeakForm(const PreparedDataset& dataset, const RegressionOptions& regression,
+                          const WeakFormOptions& options);
+
+/// The propeller regressors of every row, as the velocities see them. time_constant_s unset or
+/// zero: thrust at once.
+struct FilteredThrust {
+  std::vector<ThrustRegressors> interval;  ///< mean over [t_k, t_k + h)
+  std::vector<ThrustRegressors> filtered;  ///< weighed over intervals as nu_k is over velocities
+};
+
+FilteredThrust FilterThrust(const PreparedDataset& dataset, const WeakProblem& problem,
+                            std::optional<double> time_constant_s);
+
+/// Rows Phi_j(nu_k, T_k) of one equation.
+RegressorRows RowsOf(const PreparedDataset& dataset, const WeakProblem& problem,
+                     const FilteredThrust& thrust, Equation equation);
+
+/// int phi_k x dt by window, of every column of x.
+Eigen::MatrixXd Weigh(const WeakProblem& problem, const WeakWindows& windows,
+                      const RegressorRows& rows);
+
+/// -int phi'_k nu_j dt by window.
+Eigen::VectorXd WeighAcceleration(const WeakProblem& problem, const WeakWindows& windows,
+                                  const PreparedDataset& dataset, Equation equation);
+
+}  // namespace telltale

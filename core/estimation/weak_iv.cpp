@@ -1,0 +1,440 @@
+#include "estimation/weak_iv.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/LU>
+#include <Eigen/QR>
+#include <Eigen/SVD>
+
+#include "contract.hpp"
+#include "vessel/body_dynamics.hpp"
+
+namespace telltale {
+namespace {
+
+constexpr double kLeastTimeConstantS = 0.01;
+constexpr double kLongestTimeConstantS = 20.0;
+
+/// One equation weighed: b = G theta + e.
+struct Weighed {
+  std::size_t index = 0;
+  std::vector<std::size_t> columns;
+  Eigen::MatrixXd G;
+  Eigen::VectorXd b;
+};
+
+using WeighedEquations = std::vector<Weighed>;
+using Thetas = std::vector<Eigen::VectorXd>;
+
+Eigen::MatrixXd Columns(const Eigen::MatrixXd& all, const std::vector<std::size_t>& columns) {
+  Eigen::MatrixXd chosen(all.rows(), static_cast<Eigen::Index>(columns.size()));
+  for (std::size_t j = 0; j < columns.size(); ++j) {
+    chosen.col(static_cast<Eigen::Index>(j)) = all.col(static_cast<Eigen::Index>(columns[j]));
+  }
+  return chosen;
+}
+
+Eigen::MatrixXd WeighRegressors(const PreparedDataset& dataset, const WeakProblem& problem,
+                                const FilteredThrust& thrust, const Weighed& equation) {
+  const RegressorRows rows = RowsOf(dataset, problem, thrust, kEquations[equation.index]);
+  return Columns(Weigh(problem, problem.windows[equation.index], rows), equation.columns);
+}
+
+WeighedEquations WeighAll(const PreparedDataset& dataset, const WeakProblem& problem,
+                          const FilteredThrust& thrust,
+                          const std::array<std::vector<std::size_t>, 3>& columns) {
+  WeighedEquations equations;
+  for (std::size_t j = 0; j < columns.size(); ++j) {
+    if (columns[j].empty()) continue;
+    Weighed equation{j, columns[j], {}, {}};
+    equation.G = WeighRegressors(dataset, problem, thrust, equation);
+    equation.b = WeighAcceleration(problem, problem.windows[j], dataset, kEquations[j]);
+    equations.push_back(std::move(equation));
+  }
+  return equations;
+}
+
+VesselModel ModelWith(const WeakProblem& problem, const WeighedEquations& equations,
+                      const Thetas& thetas) {
+  VesselModel model;
+  model.structure = Structure::kStaticQuadratic;  // its thrust comes lagged already
+  model.parameterization = problem.parameterization;
+  model.discretisation = Discretisation::kContinuous;
+  for (const Equation equation : kEquations) {
+    const auto size =
+        static_cast<Eigen::Index>(Regressors(equation, problem.parameterization).size());
+    model.theta[IndexOf(equation)] = Eigen::VectorXd::Zero(size);
+  }
+  for (std::size_t i = 0; i < equations.size(); ++i) {
+    for (std::size_t j = 0; j < equations[i].columns.size(); ++j) {
+      model.theta[equations[i].index][static_cast<Eigen::Index>(equations[i].columns[j])] =
+          thetas[i][static_cast<Eigen::Index>(j)];
+    }
+  }
+  return model;
+}
+
+/// How fast anything in the data goes: a simulation beyond a multiple of it has run away.
+Nu Fastest(const PreparedDataset& dataset) {
+  Nu fastest;
+  for (const PreparedRow& row : dataset.rows) {
+    fastest.u = std::max(fastest.u, std::abs(row.nu.u));
+    fastest.v = std::max(fastest.v, std::abs(row.nu.v));
+    fastest.r = std::max(fastest.r, std::abs(row.nu.r));
+  }
+  return fastest;
+}
+
+double Held(double value, double limit) {
+  return std::isfinite(value) ? std::clamp(value, -limit, limit) : 0.0;
+}
+
+/// Velocities that the model predicts from the commands, started anew from measured ones a while
+/// before each reach so that their noise is not that of the windows.
+class Instruments {
+ public:
+  Instruments(const PreparedDataset& dataset, const WeakProblem& problem, double reach_s)
+      : dataset_(dataset), problem_(problem), fastest_(Fastest(dataset)) {
+    const double h = dataset.sampling_period_s;
+    reach_ = std::max<std::size_t>(1, static_cast<std::size_t>(std::lround(reach_s / h)));
+    lead_ = problem.phi.Rows() / 2 + 1;
+  }
+
+  /// Z of every equation: windows as in G.
+  std::vector<Eigen::MatrixXd> Weigh(const WeighedEquations& equations, const Thetas& thetas,
+                                     const FilteredThrust& thrust) const {
+    const BodyDynamics dynamics(ModelWith(problem_, equations, thetas));
+    std::vector<Eigen::MatrixXd> Z;
+    for (const Weighed& equation : equations) Z.emplace_back(equation.G.rows(), equation.G.cols());
+    std::vector<Nu> nu(dataset_.rows.size());
+    for (const RowRange& stretch : dataset_.stretches) {
+      for (std::size_t begin = stretch.begin; begin < stretch.end; begin += reach_) {
+        const RowRange centres{begin, std::min(begin + reach_, stretch.end)};
+        const RowRange rows = Simulate(dynamics, thrust, stretch, centres, nu);
+        for (std::size_t i = 0; i < equations.size(); ++i) {
+          WeighCentred(equations[i], thrust, nu, centres, rows, Z[i]);
+        }
+      }
+    }
+    return Z;
+  }
+
+ private:
+  /// Fills nu over the rows that windows centred in `centres` need; returns those rows.
+  RowRange Simulate(const BodyDynamics& dynamics, const FilteredThrust& thrust,
+                    const RowRange& stretch, const RowRange& centres, std::vector<Nu>& nu) const {
+    const std::size_t half = problem_.phi.Rows() / 2;
+    const std::size_t margin = half + lead_;
+    const std::size_t start =
+        centres.begin > stretch.begin + margin ? centres.begin - margin : stretch.begin;
+    const std::size_t end = std::min(centres.end + half, stretch.end);
+    nu[start] = dataset_.rows[start].nu;
+    for (std::size_t k = start; k + 1 < end; ++k) {
+      const Nu next = dynamics.Step(dynamics.Propelled(thrust.interval[k]), nu[k],
+                                    dataset_.sampling_period_s);
+      nu[k + 1] = {Held(next.u, 2.0 * fastest_.u), Held(next.v, 2.0 * fastest_.v),
+                   Held(next.r, 2.0 * fastest_.r)};
+    }
+    return {start, end};
+  }
+
+  void WeighCentred(const Weighed& equation, const FilteredThrust& thrust,
+                    const std::vector<Nu>& nu, const RowRange& centres, const RowRange& rows,
+                    Eigen::MatrixXd& Z) const {
+    const auto& first_rows = problem_.windows[equation.index].first_rows;
+    const std::size_t half = problem_.phi.Rows() / 2;
+    const auto from = std::lower_bound(first_rows.begin(), first_rows.end(), centres.begin - std::min(centres.begin, half));
+    const Equation name = kEquations[equation.index];
+    const std::size_t columns = Regressors(name, problem_.parameterization).size();
+    RegressorRows phi(static_cast<Eigen::Index>(rows.size()), static_cast<Eigen::Index>(columns));
+    for (std::size_t k = rows.begin; k < rows.end; ++k) {
+      FillRow(name, nu[k], thrust.filtered[k],
+              {phi.row(static_cast<Eigen::Index>(k - rows.begin)).data(), columns});
+    }
+    Eigen::RowVectorXd sum(phi.cols());
+    for (auto at = from; at != first_rows.end() && *at + half < centres.end; ++at) {
+      if (*at + half < centres.begin) continue;
+      sum.noalias() = problem_.phi.value.transpose() *
+                      phi.middleRows(static_cast<Eigen::Index>(*at - rows.begin),
+                                     problem_.phi.value.size());
+      const auto window = static_cast<Eigen::Index>(at - first_rows.begin());
+      for (std::size_t j = 0; j < equation.columns.size(); ++j) {
+        Z(window, static_cast<Eigen::Index>(j)) =
+            sum[static_cast<Eigen::Index>(equation.columns[j])];
+      }
+    }
+  }
+
+  const PreparedDataset& dataset_;
+  const WeakProblem& problem_;
+  Nu fastest_;
+  std::size_t reach_ = 1;
+  std::size_t lead_ = 1;
+};
+
+Eigen::VectorXd Norms(const Eigen::MatrixXd& columns) {
+  return columns.colwise().norm().transpose().cwiseMax(std::numeric_limits<double>::min());
+}
+
+/// The solution of A x = c shrunk along directions that A hardly sees: what predicts the same motion
+/// without the wild numbers that noise leaves there. Damping is relative to unit columns.
+Eigen::VectorXd SolveDamped(const Eigen::MatrixXd& A, const Eigen::VectorXd& c,
+                            const Eigen::VectorXd& z_norms, const Eigen::VectorXd& g_norms,
+                            double damping) {
+  const Eigen::MatrixXd S =
+      z_norms.cwiseInverse().asDiagonal() * A * g_norms.cwiseInverse().asDiagonal();
+  Eigen::MatrixXd normal = S.transpose() * S;
+  normal.diagonal().array() += damping * damping;
+  const Eigen::VectorXd x =
+      normal.ldlt().solve(S.transpose() * z_norms.cwiseInverse().asDiagonal() * c);
+  return x.cwiseQuotient(g_norms);
+}
+
+/// Each equation's damped solution with its instruments.
+Thetas Damped(const WeighedEquations& equations, const std::vector<Eigen::MatrixXd>& Z,
+              double damping) {
+  Thetas thetas;
+  for (std::size_t i = 0; i < equations.size(); ++i) {
+    thetas.push_back(SolveDamped(Z[i].transpose() * equations[i].G,
+                                 Z[i].transpose() * equations[i].b, Norms(Z[i]),
+                                 Norms(equations[i].G), damping));
+  }
+  return thetas;
+}
+
+Thetas SolveLeastSquares(const WeighedEquations& equations) {
+  Thetas thetas;
+  for (const Weighed& equation : equations) {
+    thetas.push_back(equation.G.colPivHouseholderQr().solve(equation.b));
+  }
+  return thetas;
+}
+
+/// How the weighed thrust responds to the time constant, times theta: g = dG/dtau theta.
+std::vector<Eigen::VectorXd> ThrustByLag(const PreparedDataset& dataset, const WeakProblem& problem,
+                                         const WeighedEquations& equations, const Thetas& thetas,
+                                         double time_constant_s) {
+  const double apart_s = 0.02 * time_constant_s;
+  const FilteredThrust shorter = FilterThrust(dataset, problem, time_constant_s - apart_s);
+  const FilteredThrust longer = FilterThrust(dataset, problem, time_constant_s + apart_s);
+  std::vector<Eigen::VectorXd> slopes;
+  for (std::size_t i = 0; i < equations.size(); ++i) {
+    const Eigen::MatrixXd change = WeighRegressors(dataset, problem, longer, equations[i]) -
+                                   WeighRegressors(dataset, problem, shorter, equations[i]);
+    slopes.push_back(change * thetas[i] / (2.0 * apart_s));
+  }
+  return slopes;
+}
+
+/// The stacked linear system about the present estimate: unknowns are the change of the time
+/// constant, if it is sought, and the coefficients.
+struct System {
+  Eigen::MatrixXd A;           // Z'G over the stacked unknowns
+  Eigen::VectorXd c;           // Z'b
+  std::vector<Eigen::MatrixXd> Z;  // per equation, K x P
+};
+
+System Stack(const WeighedEquations& equations, const std::vector<Eigen::MatrixXd>& Z,
+             const std::vector<Eigen::VectorXd>& by_lag, const std::vector<double>& weights) {
+  const Eigen::Index lag = by_lag.empty() ? 0 : 1;
+  Eigen::Index P = lag;
+  for (const Weighed& equation : equations) P += equation.G.cols();
+  System system{Eigen::MatrixXd::Zero(P, P), Eigen::VectorXd::Zero(P), {}};
+  Eigen::Index first = lag;
+  for (std::size_t i = 0; i < equations.size(); ++i) {
+    const Eigen::Index p = equations[i].G.cols();
+    Eigen::MatrixXd wide = Eigen::MatrixXd::Zero(equations[i].G.rows(), P);
+    wide.middleCols(first, p) = Z[i];
+    if (lag > 0) wide.col(0) = weights[i] * by_lag[i];
+    Eigen::MatrixXd known = Eigen::MatrixXd::Zero(equations[i].G.rows(), P);
+    known.middleCols(first, p) = equations[i].G;
+    if (lag > 0) known.col(0) = by_lag[i];
+    system.A += wide.transpose() * known;
+    system.c += wide.transpose() * equations[i].b;
+    system.Z.push_back(std::move(wide));
+    first += p;
+  }
+  return system;
+}
+
+/// A^-1 by way of unit diagonal scaling; nothing when A says nothing of some direction.
+std::optional<Eigen::MatrixXd> Invert(const Eigen::MatrixXd& A) {
+  const Eigen::VectorXd rows = A.rowwise().norm();
+  if (!A.allFinite() || (rows.array() <= 0.0).any()) return std::nullopt;
+  const Eigen::VectorXd scale = rows.cwiseSqrt().cwiseInverse();
+  const Eigen::MatrixXd scaled = scale.asDiagonal() * A * scale.asDiagonal();
+  const Eigen::FullPivLU<Eigen::MatrixXd> lu(scaled);
+  constexpr double kSingular = 1e-12;
+  if (lu.rcond() < kSingular) return std::nullopt;
+  return scale.asDiagonal() * lu.inverse() * scale.asDiagonal();
+}
+
+std::vector<Eigen::MatrixXd> OwnInstruments(const WeighedEquations& equations) {
+  std::vector<Eigen::MatrixXd> own;
+  for (const Weighed& equation : equations) own.push_back(equation.G);
+  return own;
+}
+
+void Unstack(const Eigen::VectorXd& stacked, Eigen::Index first, Thetas& thetas) {
+  for (Eigen::VectorXd& theta : thetas) {
+    theta = stacked.segment(first, theta.size());
+    first += theta.size();
+  }
+}
+
+std::vector<double> ResidualWeights(const WeighedEquations& equations, const Thetas& thetas) {
+  std::vector<double> weights;
+  for (std::size_t i = 0; i < equations.size(); ++i) {
+    const Eigen::VectorXd e = equations[i].b - equations[i].G * thetas[i];
+    weights.push_back(static_cast<double>(e.size()) / std::max(e.squaredNorm(), 1e-300));
+  }
+  return weights;
+}
+
+double LeastSquaresMisfit(const WeighedEquations& equations) {
+  double misfit = 0.0;
+  const Thetas thetas = SolveLeastSquares(equations);
+  for (std::size_t i = 0; i < equations.size(); ++i) {
+    const Eigen::VectorXd e = equations[i].b - equations[i].G * thetas[i];
+    misfit += std::log(std::max(e.squaredNorm(), 1e-300));
+  }
+  return misfit;
+}
+
+/// The lag from which Gauss-Newton starts: the best of a grid by least squares.
+double StartingLag(const PreparedDataset& dataset, const WeakProblem& problem,
+                   const std::array<std::vector<std::size_t>, 3>& columns) {
+  double best = 0.1;
+  double least = std::numeric_limits<double>::infinity();
+  for (const double tau : {0.05, 0.1, 0.2, 0.4, 0.8, 1.6, 3.2}) {
+    const double misfit = LeastSquaresMisfit(
+        WeighAll(dataset, problem, FilterThrust(dataset, problem, tau), columns));
+    if (misfit < least) {
+      least = misfit;
+      best = tau;
+    }
+  }
+  return best;
+}
+
+WeakFit Write(const WeakProblem& problem, const WeighedEquations& equations, const System& system,
+              const Eigen::MatrixXd& bread, const Thetas& thetas, const Thetas& damped,
+              const std::optional<double>& time_constant_s) {
+  WeakFit fit;
+  fit.problem = problem;
+  fit.time_constant_s = time_constant_s;
+  fit.bread = bread;
+  fit.theta.resize(bread.rows());
+  fit.scores =
+      Eigen::MatrixXd::Zero(bread.rows(), static_cast<Eigen::Index>(problem.clusters));
+  Eigen::MatrixXd meat = Eigen::MatrixXd::Zero(bread.rows(), bread.rows());
+  Eigen::Index next = 0;
+  if (time_constant_s) fit.theta[next++] = *time_constant_s;
+  for (std::size_t i = 0; i < equations.size(); ++i) {
+    const Weighed& equation = equations[i];
+    WeakEstimate estimate{equation.columns, thetas[i], damped[i], equation.b - equation.G * thetas[i]};
+    fit.theta.segment(next, thetas[i].size()) = thetas[i];
+    next += thetas[i].size();
+    const auto& clusters = problem.windows[equation.index].clusters;
+    for (std::size_t s = 0; s < clusters.size(); ++s) {
+      const auto begin = static_cast<Eigen::Index>(clusters[s].begin);
+      const auto count = static_cast<Eigen::Index>(clusters[s].size());
+      fit.scores.col(static_cast<Eigen::Index>(s)) +=
+          system.Z[i].middleRows(begin, count).transpose() *
+          estimate.residual.segment(begin, count);
+    }
+    meat += estimate.residual.squaredNorm() / static_cast<double>(estimate.residual.size()) *
+            (system.Z[i].transpose() * system.Z[i]);
+    fit.equations[equation.index] = std::move(estimate);
+  }
+  fit.white = bread * meat * bread.transpose();
+  return fit;
+}
+
+}  // namespace
+
+std::optional<WeakFit> EstimateWeakIv(const PreparedDataset& dataset,
+                                      const RegressionOptions& regression,
+                                      const std::array<std::vector<std::size_t>, 3>& columns,
+                                      const WeakIvOptions& options) {
+  const WeakProblem problem = BuildWeakForm(dataset, regression, options.form);
+  const bool lagging = regression.structure == Structure::kFirstOrderDynamic;
+  std::optional<double> tau;
+  if (lagging) tau = StartingLag(dataset, problem, columns);
+  FilteredThrust thrust = FilterThrust(dataset, problem, tau);
+  WeighedEquations equations = WeighAll(dataset, problem, thrust, columns);
+  Require(!equations.empty(), "at least one equation with coefficients to seek");
+  for (const Weighed& equation : equations) {
+    if (equation.G.rows() <= equation.G.cols()) return std::nullopt;
+  }
+  const Instruments instruments(dataset, problem, options.instrument_reach_s);
+  Thetas damped = Damped(equations, OwnInstruments(equations), options.damping);
+  Thetas thetas = damped;
+  const int rounds = lagging ? 2 * options.iterations : options.iterations;
+  for (int round = 1;; ++round) {
+    const auto Z = instruments.Weigh(equations, damped, thrust);
+    std::vector<Eigen::VectorXd> by_lag;
+    if (lagging) by_lag = ThrustByLag(dataset, problem, equations, thetas, *tau);
+    const System system = Stack(equations, Z, by_lag, ResidualWeights(equations, thetas));
+    const auto bread = Invert(system.A);
+    if (!bread) return std::nullopt;
+    const Eigen::VectorXd solution = *bread * system.c;
+    if (lagging) {
+      const double change = std::clamp(solution[0], -0.5 * *tau, *tau);
+      tau = std::clamp(*tau + change, kLeastTimeConstantS, kLongestTimeConstantS);
+      thrust = FilterThrust(dataset, problem, tau);
+    }
+    Unstack(solution, lagging ? 1 : 0, thetas);
+    damped = Damped(equations, Z, options.damping);
+    if (lagging) equations = WeighAll(dataset, problem, thrust, columns);
+    if (round == rounds) return Write(problem, equations, system, *bread, thetas, damped, tau);
+  }
+}
+
+Eigen::VectorXd WeakFit::Damped() const {
+  Eigen::VectorXd stacked = theta;
+  Eigen::Index next = time_constant_s ? 1 : 0;
+  for (const auto& equation : equations) {
+    if (!equation) continue;
+    stacked.segment(next, equation->damped.size()) = equation->damped;
+    next += equation->damped.size();
+  }
+  return stacked;
+}
+
+VesselModel ModelOf(const WeakFit& fit, const Eigen::VectorXd& theta, double sampling_period_s) {
+  VesselModel model;
+  model.structure =
+      fit.time_constant_s ? Structure::kFirstOrderDynamic : Structure::kStaticQuadratic;
+  model.parameterization = fit.problem.parameterization;
+  model.discretisation = Discretisation::kContinuous;
+  model.sampling_period_s = sampling_period_s;
+  model.dead_zone = fit.problem.dead_zone;
+  Eigen::Index next = 0;
+  if (fit.time_constant_s) {
+    model.thruster_time_constant_s = std::max(theta[next++], kLeastTimeConstantS);
+  }
+  for (const Equation equation : kEquations) {
+    const std::size_t j = IndexOf(equation);
+    model.theta[j] = Eigen::VectorXd::Zero(
+        static_cast<Eigen::Index>(Regressors(equation, model.parameterization).size()));
+    if (!fit.equations[j]) continue;
+    for (const std::size_t column : fit.equations[j]->columns) {
+      model.theta[j][static_cast<Eigen::Index>(column)] = theta[next++];
+    }
+  }
+  return model;
+}
+
+Eigen::MatrixXd ClusterCovariance(const WeakFit& fit) {
+  const auto g = static_cast<double>(fit.scores.cols());
+  const auto p = static_cast<double>(fit.theta.size());
+  Require(g > 1.0, "at least two clusters");
+  const Eigen::MatrixXd influence = fit.bread * fit.scores;
+  const Eigen::MatrixXd clustered = g / (g - 1.0) * influence * influence.transpose();
+  const double scale = clustered.diagonal().cwiseQuotient(fit.white.diagonal()).mean();
+  return g / (p + g) * clustered + p / (p + g) * scale * fit.white;
+}
+
+}  // namespace telltale

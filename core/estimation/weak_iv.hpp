@@ -1,0 +1,67 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "data/prepared_dataset.hpp"
+#include "estimation/weak_form.hpp"
+#include "vessel/vessel_model.hpp"
+
+namespace telltale {
+
+struct WeakIvOptions {
+  WeakFormOptions form;
+  double instrument_reach_s = 10.0;  ///< simulated instruments start anew from measurements so often
+  double damping = 0.02;             ///< of what simulates the instruments, relative to unit columns
+  int iterations = 4;                ///< simulations of the instruments, each with the newest theta
+};
+
+/// One equation's share of a weak-form fit, over the windows of WeakProblem::windows.
+/// Shapes: theta p; residual, one per window.
+struct WeakEstimate {
+  std::vector<std::size_t> columns;  ///< of Regressors(), those sought
+  Eigen::VectorXd theta;
+  Eigen::VectorXd damped;  ///< theta shrunk along directions that the data hardly move
+  Eigen::VectorXd residual;
+};
+
+/// Shapes, with P the stacked unknowns (the time constant first if it is sought, then the
+/// coefficients of each answered equation): bread P x P = (Z'G)^-1, scores P x clusters with
+/// q_s = Z_s'e_s. theta - truth = bread Z'e, so Cov(theta) = bread Cov(sum q_s) bread'.
+struct WeakFit {
+  WeakProblem problem;
+  std::array<std::optional<WeakEstimate>, 3> equations;
+  std::optional<double> time_constant_s;
+  Eigen::VectorXd theta;
+  Eigen::MatrixXd bread;
+  Eigen::MatrixXd scores;
+  Eigen::MatrixXd white;  ///< P x P, Cov(theta) if residuals were white within each equation
+
+  /// The stacked unknowns with the damped coefficients in place of theta.
+  Eigen::VectorXd Damped() const;
+};
+
+/// Weak-form instrumental variables, docs/model.md (31):
+///   theta = (Z'G)^-1 Z'b
+/// with instruments Z weighed like G but from velocities simulated with the model itself, which
+/// share the commands with the boat but no noise of its sensors: least squares started from, then
+/// repeated with the newest theta. What is left of attenuation is of second order in the noise.
+/// Nothing when the instruments blow up or determine nothing.
+/// Requires: data prepared with the robust preset; columns sought per equation, empty to leave the
+/// equation out.
+std::optional<WeakFit> EstimateWeakIv(const PreparedDataset& dataset,
+                                      const RegressionOptions& regression,
+                                      const std::array<std::vector<std::size_t>, 3>& columns,
+                                      const WeakIvOptions& options);
+
+/// The model that stacked unknowns of such a fit describe; coefficients not sought are zero.
+VesselModel ModelOf(const WeakFit& fit, const Eigen::VectorXd& theta, double sampling_period_s);
+
+/// Cov(theta) from the scores of the clusters, drawn towards the shape that white residuals would
+/// give it by p / (p + g): g clusters alone leave it singular or nearly so when p is not far below g.
+Eigen::MatrixXd ClusterCovariance(const WeakFit& fit);
+
+}  // namespace telltale

@@ -1,0 +1,234 @@
+#include "simulation/dataset_twin.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "data/north_east.hpp"
+#include "data/preparation.hpp"
+#include "gauss_markov.hpp"
+#include "vessel/body_dynamics.hpp"
+
+namespace telltale {
+namespace {
+
+constexpr double kLongestStepS = 0.1;
+// Twice what a row holds at any sampling period, so that preparation averages headings as it did.
+constexpr double kHeadingsPerRow = 2.0;
+// Between stretches: longer than any gap that preparation bridges, and than commands reach back.
+constexpr double kBetweenStretchesS = 100.0;
+constexpr double kDegreesPerRadian = 180.0 / std::numbers::pi;
+
+struct Instant {
+  Eta eta;
+  Nu nu;
+};
+
+Eta NextPose(const Eta& eta, const Nu& before, const Nu& after, double step_s) {
+  const double psi_rad = eta.psi_rad + step_s * (before.r + after.r) / 2;
+  const Nu mean{(before.u + after.u) / 2, (before.v + after.v) / 2, (before.r + after.r) / 2};
+  const Eigen::Vector3d slope = EtaDot((eta.psi_rad + psi_rad) / 2, mean);
+  return {eta.x_m + step_s * slope.x(), eta.y_m + step_s * slope.y(), psi_rad};
+}
+
+/// Cubic through two instants and their slopes.
+double Hermite(double a, double a_slope, double b, double b_slope, double step_s, double share) {
+  const double s = share;
+  const double left = 1.0 - s;
+  return left * left * ((1.0 + 2.0 * s) * a + s * step_s * a_slope) +
+         s * s * ((3.0 - 2.0 * s) * b - left * step_s * b_slope);
+}
+
+/// The course of one stretch at equal steps.
+class Course {
+ public:
+  Course(double start_s, double step_s) : start_s_(start_s), step_s_(step_s) {}
+
+  void Add(const Instant& instant) { instants_.push_back(instant); }
+
+  Eta At(double time_s) const {
+    const double steps = std::max(0.0, (time_s - start_s_) / step_s_);
+    const std::size_t last = instants_.size() - 2;
+    const std::size_t before = std::min(static_cast<std::size_t>(steps), last);
+    const double share = steps - static_cast<double>(before);
+    const Instant& a = instants_[before];
+    const Instant& b = instants_[before + 1];
+    const Eigen::Vector3d a_slope = EtaDot(a.eta.psi_rad, a.nu);
+    const Eigen::Vector3d b_slope = EtaDot(b.eta.psi_rad, b.nu);
+    return {Hermite(a.eta.x_m, a_slope.x(), b.eta.x_m, b_slope.x(), step_s_, share),
+            Hermite(a.eta.y_m, a_slope.y(), b.eta.y_m, b_slope.y(), step_s_, share),
+            Hermite(a.eta.psi_rad, a_slope.z(), b.eta.psi_rad, b_slope.z(), step_s_, share)};
+  }
+
+ private:
+  double start_s_;
+  double step_s_;
+  std::vector<Instant> instants_;
+};
+
+/// A boat beyond these has left what any vessel here can do.
+bool IsPlausible(const Nu& nu) {
+  constexpr double kFastestMps = 50.0;
+  constexpr double kFastestRadps = 20.0;
+  return std::abs(nu.u) < kFastestMps && std::abs(nu.v) < kFastestMps &&
+         std::abs(nu.r) < kFastestRadps;
+}
+
+/// What stretch s of the dataset started with, and when it is sailed on the twin's clock.
+struct Voyage {
+  const PreparedDataset& dataset;
+  std::size_t stretch;
+  double start_s;
+  double shift_s;  ///< from the dataset's clock to the twin's
+
+  const PreparedRow& First() const { return dataset.rows[dataset.stretches[stretch].begin]; }
+  double Duration() const {
+    return static_cast<double>(dataset.stretches[stretch].size() - 1) * dataset.sampling_period_s;
+  }
+  const HeldCommands& Commands() const { return dataset.commands[stretch]; }
+};
+
+/// Thrusters as they stand when the voyage begins, after the commands it remembers.
+ThrustRegressors ThrustAtStart(const Voyage& voyage, const VesselModel& model) {
+  const HeldCommands& commands = voyage.Commands();
+  ThrustRegressors thrust = model.SteadyThrust(commands.Commands().front());
+  const double start_s = voyage.First().time_s;
+  if (commands.Times().front() >= start_s) return thrust;
+  commands.ForEachPiece(commands.Times().front(), start_s,
+                        [&](const PropellerCommand& delta, double from, double to) {
+                          if (to > from) thrust = model.ThrustAfter(thrust, delta, to - from);
+                        });
+  return thrust;
+}
+
+Result<Course> Sail(const Voyage& voyage, const VesselModel& model, const BodyDynamics& dynamics,
+                    double step_s, std::array<GaussMarkov, 3>& disturbance) {
+  const auto steps = static_cast<std::size_t>(std::lround(voyage.Duration() / step_s));
+  Course course(voyage.start_s, step_s);
+  Instant now{voyage.First().eta, voyage.First().nu};
+  ThrustRegressors thrust = ThrustAtStart(voyage, model);
+  course.Add(now);
+  for (std::size_t k = 0; k < steps; ++k) {
+    const double from_s = voyage.First().time_s + static_cast<double>(k) * step_s;
+    NuDot applied;
+    voyage.Commands().ForEachPiece(
+        from_s, from_s + step_s, [&](const PropellerCommand& delta, double from, double to) {
+          if (to <= from) return;
+          const double share = (to - from) / step_s;
+          const NuDot part = dynamics.Propelled(model.MeanThrust(thrust, delta, to - from));
+          thrust = model.ThrustAfter(thrust, delta, to - from);
+          applied = {applied.u + share * part.u, applied.v + share * part.v,
+                     applied.r + share * part.r};
+        });
+    applied = {applied.u + disturbance[0].Next(), applied.v + disturbance[1].Next(),
+               applied.r + disturbance[2].Next()};
+    const Nu next = dynamics.Step(applied, now.nu, step_s);
+    now = {NextPose(now.eta, now.nu, next, step_s), next};
+    if (!IsPlausible(next)) {
+      return Refuse("simulated repeat", "the model runs away under the recorded commands",
+                    "record more of the manoeuvres in which it does");
+    }
+    course.Add(now);
+  }
+  return course;
+}
+
+/// Fixes, headings and commands as sensors would give them along the way.
+class Instrumented {
+ public:
+  Instrumented(const PreparedDataset& dataset, double noise_scale, std::uint64_t seed)
+      : sensors_(dataset.sensors),
+        frame_(dataset.origin),
+        north_(seed, 0),
+        east_(seed, 1),
+        heading_(seed, 2) {
+    const double shortest_s = dataset.sampling_period_s / kHeadingsPerRow;
+    heading_period_s_ = std::max(sensors_.heading_period_s, shortest_s);
+    position_noise_m_ = noise_scale * sensors_.position_noise_m;
+    heading_noise_rad_ = noise_scale * sensors_.heading_noise_rad *
+                         std::sqrt(sensors_.heading_period_s / heading_period_s_);
+  }
+
+  void Record(const Voyage& voyage, const Course& course, Recording& recording) {
+    const double end_s = voyage.start_s + voyage.Duration() + 1e-6;
+    for (std::size_t i = 0;; ++i) {
+      const double t = voyage.start_s + static_cast<double>(i) * sensors_.gnss_period_s;
+      if (t > end_s) break;
+      recording.gnss.push_back(Fix(t, course.At(t)));
+    }
+    for (std::size_t i = 0;; ++i) {
+      const double t = voyage.start_s + static_cast<double>(i) * heading_period_s_;
+      if (t > end_s) break;
+      const double psi = course.At(t).psi_rad + heading_noise_rad_ * heading_();
+      recording.heading.push_back({t, WrapAngle(psi) * kDegreesPerRadian});
+    }
+    const HeldCommands& commands = voyage.Commands();
+    const PwmChannel pwm;
+    for (std::size_t i = 0; i < commands.Times().size(); ++i) {
+      const double t = commands.Times()[i] + voyage.shift_s;
+      if (t > end_s + 1.0) break;
+      const PropellerCommand& delta = commands.Commands()[i];
+      recording.thrusters.push_back(
+          {t, pwm.PulseWidth(delta.port), pwm.PulseWidth(delta.starboard)});
+    }
+  }
+
+ private:
+  GnssFix Fix(double t, const Eta& eta) {
+    const double c = std::cos(eta.psi_rad);
+    const double s = std::sin(eta.psi_rad);
+    const LeverArm& arm = sensors_.antenna;
+    const double north =
+        eta.x_m + c * arm.forward_m - s * arm.starboard_m + position_noise_m_ * north_();
+    const double east =
+        eta.y_m + s * arm.forward_m + c * arm.starboard_m + position_noise_m_ * east_();
+    const GeographicPosition place = frame_.Inverse({north, east});
+    return {t, place.latitude_deg, place.longitude_deg};
+  }
+
+  SensorChain sensors_;
+  NorthEastFrame frame_;
+  WhiteSource north_;
+  WhiteSource east_;
+  WhiteSource heading_;
+  double heading_period_s_ = 0.0;
+  double position_noise_m_ = 0.0;
+  double heading_noise_rad_ = 0.0;
+};
+
+Vehicle VehicleOf(const PreparedDataset& dataset) {
+  Vehicle vehicle;
+  vehicle.gnss_antenna = dataset.sensors.antenna;
+  return vehicle;
+}
+
+}  // namespace
+
+Result<PreparedDataset> SailAgain(const PreparedDataset& dataset, const VesselModel& model,
+                                  const TwinOptions& options) {
+  const double h = dataset.sampling_period_s;
+  const double step_s = h / std::ceil(h / kLongestStepS - 1e-9);
+  const BodyDynamics dynamics(model);
+  const auto axis = [&](Eigen::Index j) {
+    return GaussMarkov(options.disturbance.sigma[j], options.disturbance.time_constant_s[j], step_s,
+                       WhiteSource(options.seed, 10 + static_cast<std::uint64_t>(j)));
+  };
+  std::array<GaussMarkov, 3> disturbance = {axis(0), axis(1), axis(2)};
+  Instrumented instrumented(dataset, options.noise_scale, options.seed);
+  Recording recording;
+  double start_s = 0.0;
+  for (std::size_t s = 0; s < dataset.stretches.size(); ++s) {
+    Voyage voyage{dataset, s, start_s, 0.0};
+    voyage.shift_s = start_s - voyage.First().time_s;
+    const auto course = Sail(voyage, model, dynamics, step_s, disturbance);
+    if (!course) return tl::unexpected(course.error());
+    instrumented.Record(voyage, *course, recording);
+    start_s += voyage.Duration() + kBetweenStretchesS;
+  }
+  PrepareOptions prepare = dataset.options;
+  prepare.sampling_period_s = h;
+  prepare.longest_stretch_s.reset();
+  return Prepare(recording, VehicleOf(dataset), prepare);
+}
+
+}  // namespace telltale

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <cstdint>
+
+#include "data/prepared_dataset.hpp"
+#include "data/samples.hpp"
+#include "result.hpp"
+#include "vessel/disturbance.hpp"
+#include "vessel/vessel_model.hpp"
+
+namespace telltale {
+
+/// What a simulated repeat of a data set is made with.
+struct TwinOptions {
+  Disturbance disturbance;      ///< zero: none
+  double noise_scale = 1.0;     ///< on the dataset's sensor noise
+  std::uint64_t seed = 1;
+};
+
+/// A data set that the same boat might have given another day: every stretch of `dataset` sailed
+/// anew by `model` from where it began and under the same commands, disturbed and measured with
+/// fresh draws, and prepared by the same options.
+/// Model: nu_dot = Phi(nu, T) theta + d, d first-order Gauss-Markov per axis; Runge-Kutta at a tenth
+/// of a second; positions and headings at the dataset's own rates (headings above 10 Hz as averages
+/// with as much less noise) with white noise.
+/// Refuses when: the simulation runs away, or what it gives cannot be prepared.
+Result<PreparedDataset> SailAgain(const PreparedDataset& dataset, const VesselModel& model,
+                                  const TwinOptions& options);
+
+}  // namespace telltale

@@ -1,0 +1,81 @@
+#pragma once
+
+#include <array>
+#include <cmath>
+
+#include "vessel/motion.hpp"
+#include "vessel/structure.hpp"
+#include "vessel/vessel_model.hpp"
+
+namespace telltale {
+
+/// A model's accelerations with nothing left to look up: what simulates by the million.
+/// Model: nu_dot = body(nu) + propelled, docs/model.md (10)..(12); the same numbers as
+/// VesselModel::AccelerationUnder to rounding.
+class BodyDynamics {
+ public:
+  explicit BodyDynamics(const VesselModel& model) {
+    for (std::size_t i = 0; i < surge_.size(); ++i) surge_[i] = At(model, 0, i);
+    for (std::size_t i = 0; i < sway_.size(); ++i) sway_[i] = At(model, 1, i);
+    for (std::size_t i = 0; i < yaw_.size(); ++i) yaw_[i] = At(model, 2, i);
+    for (std::size_t j = 0; j < 3; ++j) {
+      const std::size_t body = j == 0 ? surge_.size() : sway_.size();
+      const auto size = static_cast<std::size_t>(model.theta[j].size());
+      for (std::size_t i = body; i < size; ++i) thrust_[j][i - body] = At(model, j, i);
+    }
+  }
+
+  /// nu_dot that the propellers alone would give.
+  NuDot Propelled(const ThrustRegressors& thrust) const {
+    return {Dot(thrust_[0], thrust.surge), Dot(thrust_[1], thrust.turning),
+            Dot(thrust_[2], thrust.turning)};
+  }
+
+  /// nu_dot at a velocity, `applied` being what the propellers and anything else give.
+  NuDot Under(const NuDot& applied, const Nu& nu) const {
+    const double v_abs = std::abs(nu.v);
+    const double r_abs = std::abs(nu.r);
+    const std::array<double, 9> cross = {nu.v * v_abs, nu.v * r_abs, nu.r * v_abs,
+                                         nu.r * r_abs, nu.u * nu.v,  nu.u * nu.r,
+                                         nu.v,         nu.r,         1.0};
+    const std::array<double, 5> ahead = {nu.u * std::abs(nu.u), nu.v * nu.r, nu.r * nu.r, nu.u,
+                                         1.0};
+    return {applied.u + Dot(surge_, ahead), applied.v + Dot(sway_, cross),
+            applied.r + Dot(yaw_, cross)};
+  }
+
+  /// A Runge-Kutta step of order four under what is applied throughout.
+  Nu Step(const NuDot& applied, const Nu& nu, double step_s) const {
+    const NuDot k1 = Under(applied, nu);
+    const NuDot k2 = Under(applied, Along(nu, k1, step_s / 2));
+    const NuDot k3 = Under(applied, Along(nu, k2, step_s / 2));
+    const NuDot k4 = Under(applied, Along(nu, k3, step_s));
+    return Along(nu,
+                 {(k1.u + 2 * k2.u + 2 * k3.u + k4.u) / 6, (k1.v + 2 * k2.v + 2 * k3.v + k4.v) / 6,
+                  (k1.r + 2 * k2.r + 2 * k3.r + k4.r) / 6},
+                 step_s);
+  }
+
+ private:
+  static double At(const VesselModel& model, std::size_t equation, std::size_t i) {
+    return model.theta[equation][static_cast<Eigen::Index>(i)];
+  }
+
+  template <std::size_t N>
+  static double Dot(const std::array<double, N>& a, const std::array<double, N>& b) {
+    double sum = 0.0;
+    for (std::size_t i = 0; i < N; ++i) sum += a[i] * b[i];
+    return sum;
+  }
+
+  static Nu Along(const Nu& nu, const NuDot& slope, double step_s) {
+    return {nu.u + step_s * slope.u, nu.v + step_s * slope.v, nu.r + step_s * slope.r};
+  }
+
+  std::array<double, 5> surge_;
+  std::array<double, 9> sway_;
+  std::array<double, 9> yaw_;
+  std::array<std::array<double, 4>, 3> thrust_{};
+};
+
+}  // namespace telltale
