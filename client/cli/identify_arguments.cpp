@@ -4,7 +4,6 @@
 #include <charconv>
 #include <thread>
 
-#include "cli/inputs.hpp"
 #include "cli/outcome.hpp"
 
 namespace telltale {

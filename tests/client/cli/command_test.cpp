@@ -11,7 +11,7 @@
 #include "simulation/sensors.hpp"
 #include "simulation/yellowfish.hpp"
 #include "support/identifications.hpp"
-#include "support/run_command.hpp"
+#include "support/telltale_command.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace telltale {
@@ -21,11 +21,6 @@ using testing::AllOf;
 using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::Not;
-
-constexpr int kSuccess = 0;
-constexpr int kFailure = 1;
-constexpr int kUsage = 2;
-constexpr int kRefused = 3;
 
 /// A folder with the vehicle file and a ten-minute log of the Yellowfish twin.
 class CommandTest : public testing::Test {
@@ -44,11 +39,6 @@ class CommandTest : public testing::Test {
   }
 
   std::string Path(const std::string& name) const { return (folder.Path() / name).string(); }
-
-  static CommandOutcome Telltale(std::vector<std::string> arguments) {
-    arguments.insert(arguments.begin(), TELLTALE_COMMAND);
-    return RunCommand(arguments);
-  }
 
   /// Few replicates unless `more` says how many: these tests are not about the bounds.
   CommandOutcome Identify(std::vector<std::string> more) const {

@@ -144,5 +144,16 @@ TEST(VehicleFile, AnIdHasUpTo64Characters) {
   EXPECT_FALSE(IsVehicleId("b\xc3\xa5t"));
 }
 
+TEST(VehicleIdLike, IsAlwaysAVehicleId) {
+  EXPECT_EQ(VehicleIdLike("00000042"), "00000042");
+  EXPECT_EQ(VehicleIdLike("2024-05-01 12:00"), "2024-05-01_12_00");
+  EXPECT_EQ(VehicleIdLike("b\xc3\xa5t"), "b__t");
+  EXPECT_EQ(VehicleIdLike(""), "_");
+  EXPECT_EQ(VehicleIdLike(std::string(65, 'x')), std::string(64, 'x'));
+  for (int c = 0; c < 256; ++c) {
+    EXPECT_TRUE(IsVehicleId(VehicleIdLike(std::string(1, static_cast<char>(c))))) << c;
+  }
+}
+
 }  // namespace
 }  // namespace telltale
