@@ -59,6 +59,7 @@ void IdentifyArguments::AddOptionsTo(CLI::App& command) {
           "of the propellers: propeller (default), consistent in all four regions, or paper")
       ->type_name("NAME")
       ->check(CLI::IsMember({"propeller", "paper"}).description(""));
+  AddIncludeRr(command, include_rr);
   command
       .add_option("--estimator", estimator,
                   "one-step (default); weak-iv and output-error are not available yet")
@@ -98,6 +99,7 @@ IdentifyOptions IdentifyArguments::Options() const {
   if (sampling_period_s) options.prepare.sampling_period_s = sampling_period_s;
   if (parameterization == "paper") options.regression.parameterization = Parameterization::kPaper;
   if (structure == "dynamic") options.regression.structure = Structure::kFirstOrderDynamic;
+  options.regression.include_reverse = include_rr;
   if (dead_zone == "identify") {
     options.dead_zone_source = DeadZoneSource::kIdentified;
   } else if (dead_zone) {

@@ -25,6 +25,7 @@ struct IdentifyArguments {
   std::optional<double> interval_level;
   std::uint64_t seed = 1;
   std::optional<std::size_t> threads;
+  bool include_rr = false;
   bool discrete = false;
   OutputOptions output;
 

@@ -180,6 +180,12 @@ CLI::Option* AddVehicleFile(CLI::App& command, std::filesystem::path& file) {
   return AddFile(command, "--vehicle", file, "vehicle file (text format)")->required();
 }
 
+void AddIncludeRr(CLI::App& command, bool& include_reverse) {
+  command.add_flag("--include-rr", include_reverse,
+                   "also fit rows in which both propellers turn in reverse, which the paper leaves "
+                   "out; its surge equation never takes them");
+}
+
 Vehicle LoadVehicle(const std::filesystem::path& file) {
   return OrThrow(ParseVehicle(TextOf(file), file.string()));
 }

@@ -47,6 +47,9 @@ CLI::Option* AddLog(CLI::App& command, std::filesystem::path& log, DataFlashOpti
 CLI::Option* AddModelFile(CLI::App& command, std::filesystem::path& file);
 CLI::Option* AddVehicleFile(CLI::App& command, std::filesystem::path& file);
 
+/// `--include-rr`: RegressionOptions::include_reverse.
+void AddIncludeRr(CLI::App& command, bool& include_reverse);
+
 /// A vehicle file. Throws: std::runtime_error naming file, line, field, value and range.
 Vehicle LoadVehicle(const std::filesystem::path& file);
 

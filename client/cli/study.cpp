@@ -71,6 +71,7 @@ void AddStudy(CLI::App& telltale) {
       ->type_name("N")
       ->check(CLI::NonNegativeNumber.description(""))
       ->capture_default_str();
+  AddIncludeRr(command, arguments->options.include_reverse);
   arguments->output.AddTo(command, "study.json");
   command.footer(
       "MAE and RMSE are in m/s and rad/s; columns headed `paper` are the published figures.\n"

@@ -405,6 +405,7 @@ WireSample<telltale_wire_IdentifyRequest> Encode(const IdentifyRequest& request)
   Put(wire->dead_zone, name(request.dead_zone_source));
   wire->dead_zone_forward = request.dead_zone.forward;
   wire->dead_zone_reverse = request.dead_zone.reverse;
+  wire->include_reverse = request.include_reverse;
   return wire;
 }
 
@@ -487,6 +488,7 @@ Decoded<IdentifyRequest> Decode(const telltale_wire_IdentifyRequest& wire) {
     request.dead_zone_source =
         ReadOptionalName("dead_zone", View(wire.dead_zone), kDeadZoneSources);
     request.dead_zone = ReadDeadZone(wire.dead_zone_forward, wire.dead_zone_reverse);
+    request.include_reverse = wire.include_reverse;
     return request;
   });
 }

@@ -3,9 +3,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "codec/json_message.hpp"
 #include "codec/metrics_json.hpp"
 #include "codec/model_json.hpp"
 #include "codec/vehicle_file.hpp"
+#include "proto/study.pb.h"
 #include "recording/telemetry_log.hpp"
 #include "simulation/manoeuvres.hpp"
 #include "simulation/sensors.hpp"
@@ -193,6 +195,41 @@ TEST_F(CommandTest, ADynamicModelIsIdentifiedValidatedAndSimulated) {
   EXPECT_EQ(Validate({}).exit_code, kSuccess);
   EXPECT_EQ(Simulated({"--out", Path("simulated")}).exit_code, kSuccess);
   EXPECT_EQ(Simulated({"--out", Path("finer"), "--step", "0.02"}).exit_code, kSuccess);
+}
+
+/// A boat whose propellers always turn alike shows reverse thrust in RR alone.
+TEST_F(CommandTest, ReverseRowsAreTakenOnRequest) {
+  auto commands = SampleMission(1);
+  for (TimedCommand& command : commands) command.delta.starboard = command.delta.port;
+  const auto track = Simulate(YellowfishTwin(), {}, commands, kSampleMissionDurationS, 0.02);
+  WriteTelemetryLog(Path("log"), Measure(track, YellowfishVehicle(), {}));
+  const auto surge_reverse = [this](std::vector<std::string> more) {
+    more.insert(more.end(), {"--bootstrap", "0", "--json"});
+    const auto model = ParseModelJson(Identify(more).out);
+    EXPECT_TRUE(model) << model.error().Message();
+    return model->coefficients[8];
+  };
+  EXPECT_EQ(surge_reverse({}).regressor, "r:d");
+  // Smoothed commands pass through idle, where a trace of reverse is left.
+  EXPECT_LT(surge_reverse({"--include-rr"}).standard_error, 0.5 * surge_reverse({}).standard_error);
+}
+
+TEST_F(CommandTest, StudyTakesReverseRowsOnRequestButNeverInThePapersSurge) {
+  const auto study = [this](std::vector<std::string> more) {
+    std::vector<std::string> arguments = {
+        "study",     "--log", Path("log"), "--vehicle", Path("boat.textproto"),
+        "--repeats", "1",     "--json"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    proto::Study message;
+    const auto fault = ParseJsonMessage(Telltale(arguments).out, "study", message);
+    EXPECT_FALSE(fault) << fault->Message();
+    return message.static_table();
+  };
+  const proto::CoefficientTable without = study({});
+  const proto::CoefficientTable with = study({"--include-rr"});
+  ASSERT_GT(without.surge_size(), 0);
+  EXPECT_EQ(with.surge(0), without.surge(0));
+  EXPECT_NE(with.sway(0), without.sway(0));
 }
 
 // The sample mission hardly passes neutral, so all that is sure is that both limits are settled or

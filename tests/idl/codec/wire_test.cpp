@@ -210,6 +210,7 @@ TEST(WireExchange, RequestArrivesAsItWasSent) {
   sent.seed = 99;
   sent.dead_zone_source = DeadZoneSource::kGiven;
   sent.dead_zone = {0.05, -0.0625};
+  sent.include_reverse = true;
   const auto received = Decode(*Encode(sent));
   ASSERT_TRUE(received) << received.error().Message();
   EXPECT_EQ(received->correlation_id, sent.correlation_id);
@@ -222,6 +223,14 @@ TEST(WireExchange, RequestArrivesAsItWasSent) {
   EXPECT_EQ(received->seed, 99u);
   EXPECT_EQ(received->dead_zone_source, DeadZoneSource::kGiven);
   EXPECT_EQ(received->dead_zone, sent.dead_zone);
+  EXPECT_TRUE(received->include_reverse);
+}
+
+TEST(WireExchange, RequestLeavesReverseRowsOutUnlessItSaysOtherwise) {
+  IdentifyRequest sent;
+  sent.correlation_id = "abc-1";
+  sent.vehicle_id = "boat-1";
+  EXPECT_FALSE(Decode(*Encode(sent))->include_reverse);
 }
 
 TEST(WireExchange, RequestRefusesUnknownChoicesAndIdentifiers) {
