@@ -37,9 +37,8 @@ void AddNotes(const PosteriorDraws& draws, proto::Draws& message) {
   }
   if (!draws.time_constant_s.empty()) {
     message.add_notes(
-        "The thruster time constant is drawn log-normally and apart from the coefficients: the "
-        "model "
-        "holds no covariance between them.");
+        "The thruster time constant is drawn together with the coefficients, log-normally so that "
+        "it stays positive.");
   }
 }
 

@@ -254,15 +254,6 @@ Eigen::MatrixXd SpreadCovariance(const Eigen::MatrixXd& stacked,
   return covariance;
 }
 
-void WriteCoefficients(const Answers& answers, const Bounds& bounds,
-                       Identification& identification) {
-  std::vector<Eigen::Index> places;
-  for (std::size_t j = 0; j < answers.estimates.size(); ++j) {
-    if (answers.estimates[j]) WriteEquation(j, answers, bounds, identification, places);
-  }
-  identification.covariance = SpreadCovariance(bounds.covariance, places);
-}
-
 /// A time constant below zero is none. Where no lag is seen the replicates, linearised about that
 /// end, say nothing of how long a lag could hide; the standard error does.
 Coefficient WriteTimeConstant(const Answers& answers, const Bounds& bounds) {
@@ -283,6 +274,29 @@ Coefficient WriteTimeConstant(const Answers& answers, const Bounds& bounds) {
             .upper};
   }
   return coefficient;
+}
+
+/// Of the time constant, first in the stacked bounds, with each coefficient.
+Eigen::VectorXd SpreadTimeConstantCovariance(const Eigen::MatrixXd& stacked,
+                                             const std::vector<Eigen::Index>& places) {
+  Eigen::VectorXd covariance = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(places.size()));
+  for (Eigen::Index i = 0; i < covariance.size(); ++i) {
+    const Eigen::Index place = places[static_cast<std::size_t>(i)];
+    if (place >= 0) covariance[i] = stacked(0, place);
+  }
+  return covariance;
+}
+
+void WriteCoefficients(const Answers& answers, const Bounds& bounds,
+                       Identification& identification) {
+  std::vector<Eigen::Index> places;
+  for (std::size_t j = 0; j < answers.estimates.size(); ++j) {
+    if (answers.estimates[j]) WriteEquation(j, answers, bounds, identification, places);
+  }
+  identification.covariance = SpreadCovariance(bounds.covariance, places);
+  if (!answers.lag) return;
+  identification.thruster_time_constant = WriteTimeConstant(answers, bounds);
+  identification.time_constant_covariance = SpreadTimeConstantCovariance(bounds.covariance, places);
 }
 
 WindowSummary Summarise(const PreparedDataset& dataset) {
@@ -416,9 +430,6 @@ Result<Identification> Identify(const PreparedDataset& dataset, const std::strin
   identification.sampling_period_s = dataset.sampling_period_s;
   identification.dead_zone = regression.dead_zone;
   WriteCoefficients(answers, bounds, identification);
-  if (answers.lag) {
-    identification.thruster_time_constant = WriteTimeConstant(answers, bounds);
-  }
   identification.window = Summarise(dataset);
   identification.refusals = std::move(answers.refusals);
   identification.provenance.preset = Name(options.prepare.preset);

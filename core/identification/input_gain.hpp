@@ -37,12 +37,12 @@ InputGain SteadyInputGain(const Identification& identification, const PropellerC
 
 /// The gain of lagging thrusters, advanced command by command:
 /// G(k) = alpha G(k-1) + (1 - alpha) G_steady(delta(k-1)), alpha = exp(-elapsed / tau).
-/// The bound adds to that of the coefficients what the time constant's standard error means, by the
-/// first-order sensitivity dG/dtau followed along. The two are taken to be uncorrelated, since an
-/// Identification holds no covariance between them. What the bound leaves out is the initial
-/// condition, whose share left is InitialShare(). Requires: the dynamic structure with its time
-/// constant. Source: the paper, input gain for dynamic propeller modelling. `identification` must
-/// outlive this.
+/// The bound is that of the coefficients and the time constant together, the latter by the
+/// first-order sensitivity dG/dtau followed along: with P the propeller regressors as they stand
+/// and b = dG/dtau, P Sigma P' + b b' var(tau) + P c b' + b c' P', c = time_constant_covariance.
+/// What the bound leaves out is the initial condition, whose share left is InitialShare().
+/// Requires: the dynamic structure with its time constant. Source: the paper, input gain for
+/// dynamic propeller modelling. `identification` must outlive this.
 class LaggedInputGain {
  public:
   /// Thrusters that stand where `settled_on`, held for ever, leads to.
