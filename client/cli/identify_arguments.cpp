@@ -1,9 +1,9 @@
 #include "cli/identify_arguments.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <thread>
 
+#include "cli/number_pair.hpp"
 #include "cli/outcome.hpp"
 
 namespace telltale {
@@ -15,20 +15,10 @@ std::size_t DefaultThreads() {
   return std::clamp(std::thread::hardware_concurrency(), 1u, kMostThreads);
 }
 
-double Number(const std::string& text) {
-  double value = 0.0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error == std::errc() && end == text.data() + text.size()) return value;
-  throw UsageError("--dead-zone: \"" + text +
-                   "\" is no number; give two as in 0.05,-0.06, or identify");
-}
-
 DeadZone DeadZoneNamed(const std::string& text) {
-  const std::size_t comma = text.find(',');
-  if (comma == std::string::npos) {
-    throw UsageError("--dead-zone " + text + ": give two limits as in 0.05,-0.06, or identify");
-  }
-  return {Number(text.substr(0, comma)), Number(text.substr(comma + 1))};
+  const auto [forward, reverse] =
+      NumberPair("--dead-zone", text, "two limits as in 0.05,-0.06, or identify");
+  return {forward, reverse};
 }
 
 void RequireAvailable(const char* option, const std::optional<std::string>& given,

@@ -12,6 +12,9 @@
 #include "cli/progress_line.hpp"
 #include "cli/table.hpp"
 #include "codec/metrics_json.hpp"
+#include "exchange/disturbance.hpp"
+#include "identification/input_gain.hpp"
+#include "recording/files.hpp"
 #include "validation/validation.hpp"
 
 namespace telltale {
@@ -22,6 +25,7 @@ struct ValidateArguments {
   std::filesystem::path model_file;
   std::optional<std::string> preset;
   ValidationOptions options;
+  std::filesystem::path disturbance_file;  ///< empty: none is written
   OutputOptions output;
 };
 
@@ -75,6 +79,10 @@ void ValidateModel(const ValidateArguments& arguments) {
       OrThrow(Prepare(recording, vehicle, Preparation(arguments, model)));
   line.Update("scoring", 0.5);
   const Metrics metrics = OrThrow(Validate(dataset, vessel, arguments.options));
+  if (!arguments.disturbance_file.empty()) {
+    WriteFile(arguments.disturbance_file,
+              PrintDisturbanceCsv(ReconstructDisturbance(dataset, vessel)));
+  }
   arguments.output.Write(PrintMetricsJson(metrics), [&] {
     return MetricsTable(metrics) + '\n' + ScoredText(dataset) + NotExcitedText(model) +
            OverlapText(model, dataset);
@@ -100,6 +108,11 @@ void AddValidate(CLI::App& telltale) {
                   "of the data preparation: robust or paper (default: the model's own)")
       ->type_name("NAME")
       ->check(CLI::IsMember({"robust", "paper"}).description(""));
+  command
+      .add_option("--disturbance", arguments->disturbance_file,
+                  "also write what is left of the acceleration without the propellers, over the "
+                  "logs, as time_s,sigma_u,sigma_v,sigma_r")
+      ->type_name("FILE.csv");
   arguments->output.AddTo(command, "metrics.json");
   command.footer(
       "Errors are in m/s and rad/s, positions in metres. Score on logs that did not make the "

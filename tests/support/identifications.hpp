@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -71,6 +72,30 @@ inline Identification MadeUpDynamicIdentification() {
   // A correlation of 1/2 with the first coefficient, and with the others through that one.
   made.time_constant_covariance =
       0.5 * 0.0125 / std::sqrt(made.covariance(0, 0)) * made.covariance.col(0);
+  return made;
+}
+
+/// Propeller coefficients by hand, the body's all 7 so that a wrong place shows: forward 2 d^2 + 3
+/// d, reverse -4 d^2 + 5 d in surge; half of it in sway, twice of it in yaw. Unit variances, no
+/// dead zone.
+inline Identification IdentificationByHand() {
+  Identification made = MadeUpIdentification();
+  made.dead_zone = {};
+  std::size_t next = 0;
+  for (const Equation equation : kEquations) {
+    const double share = equation == Equation::kSurge  ? 1.0
+                         : equation == Equation::kSway ? 0.5
+                                                       : 2.0;
+    const std::array<double, 4> thrust{2.0, 3.0, -4.0, 5.0};
+    const std::size_t body = BodyRegressors(equation);
+    for (std::size_t i = 0; i < body + 4; ++i, ++next) {
+      Coefficient& c = made.coefficients[next];
+      c.estimate = i < body ? 7.0 : share * thrust[i - body];
+      c.status = CoefficientStatus::kEstimated;
+    }
+  }
+  const auto n = static_cast<Eigen::Index>(made.coefficients.size());
+  made.covariance = Eigen::MatrixXd::Identity(n, n);
   return made;
 }
 

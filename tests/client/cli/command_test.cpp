@@ -7,7 +7,11 @@
 #include "codec/metrics_json.hpp"
 #include "codec/model_json.hpp"
 #include "codec/vehicle_file.hpp"
+#include "data/preparation.hpp"
+#include "identification/input_gain.hpp"
 #include "proto/study.pb.h"
+#include "recording/csv.hpp"
+#include "recording/load.hpp"
 #include "recording/telemetry_log.hpp"
 #include "simulation/manoeuvres.hpp"
 #include "simulation/sensors.hpp"
@@ -315,6 +319,31 @@ TEST_F(CommandTest, ValidateTakesHorizons) {
   EXPECT_EQ(metrics->free_run[1].horizon_s, 3.0);
   EXPECT_EQ(Validate({"--horizon", "-1"}).exit_code, kUsage);
   EXPECT_EQ(Validate({"--horizon", "601"}).exit_code, kUsage);
+}
+
+TEST_F(CommandTest, ValidateWritesTheDisturbanceOverTheLog) {
+  MakeModel();
+  const CommandOutcome outcome = Validate({"--disturbance", Path("sigma.csv")});
+  ASSERT_EQ(outcome.exit_code, kSuccess) << outcome.err;
+  std::vector<std::array<double, 4>> rows;
+  const std::array<std::string_view, 4> columns = {"time_s", "sigma_u", "sigma_v", "sigma_r"};
+  ASSERT_TRUE(ReadCsv(Path("sigma.csv"), columns, [&](std::span<const double> row) {
+    rows.push_back({row[0], row[1], row[2], row[3]});
+  }));
+
+  const auto model = ParseModelJson(TextOfFile(Path("model.json")));
+  const auto recorded = LoadRecording(std::filesystem::path(Path("log")));
+  const auto dataset = Prepare(recorded->recording, YellowfishVehicle(), PrepareOptions::Robust());
+  const auto expected = ReconstructDisturbance(*dataset, *ModelOf(*model));
+  ASSERT_EQ(rows.size(), expected.size());
+  ASSERT_GT(rows.size(), 2900u);
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    EXPECT_EQ(rows[k][0], expected[k].time_s);
+    EXPECT_EQ(rows[k][1], expected[k].sigma.u);
+    EXPECT_EQ(rows[k][2], expected[k].sigma.v);
+    EXPECT_EQ(rows[k][3], expected[k].sigma.r);
+  }
+  EXPECT_EQ(Validate({"--disturbance", Path("nowhere/sigma.csv")}).exit_code, kFailure);
 }
 
 TEST_F(CommandTest, ValidateSaysWhetherTheLogMadeTheModel) {
