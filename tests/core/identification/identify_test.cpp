@@ -259,21 +259,49 @@ TEST(Identify, BoundsALagThatIsNotThereFromAbove) {
   EXPECT_GT(tau.interval.upper, tau.estimate + tau.standard_error);
 }
 
+TEST(EstimateModel, IsTheIdentifiedModelWithoutItsBounds) {
+  const PreparedDataset dataset = Boat({kFF}, 1e-3);  // reverse is not excited
+  for (const auto structure : {Structure::kStaticQuadratic, Structure::kFirstOrderDynamic}) {
+    IdentifyOptions options;
+    options.bootstrap_replicates = 0;
+    options.regression.structure = structure;
+    options.regression.dead_zone = {0.02, -0.03};
+    const auto identified = ModelOf(*Identify(dataset, "boat", options));
+    const auto estimated = EstimateModel(dataset, options.regression);
+    ASSERT_TRUE(identified.has_value() && estimated.has_value());
+    EXPECT_EQ(estimated->theta, identified->theta);
+    EXPECT_EQ(estimated->structure, identified->structure);
+    EXPECT_EQ(estimated->parameterization, identified->parameterization);
+    EXPECT_EQ(estimated->discretisation, identified->discretisation);
+    EXPECT_EQ(estimated->sampling_period_s, identified->sampling_period_s);
+    EXPECT_EQ(estimated->dead_zone, identified->dead_zone);
+    EXPECT_EQ(estimated->thruster_time_constant_s, identified->thruster_time_constant_s);
+  }
+}
+
+TEST(EstimateModel, RefusesWhatCannotRunFreely) {
+  PreparedDataset dataset = Boat({kFF}, 1e-3);
+  for (PreparedRow& row : dataset.rows) row.delta.starboard = row.delta.port;
+  const auto model = EstimateModel(dataset, {});
+  ASSERT_FALSE(model.has_value());
+  EXPECT_EQ(model.error().subject, "SWAY");
+}
+
 TEST(IdentifyOptions, NameTheFieldTheValueAndTheRange) {
   IdentifyOptions options;
   options.bootstrap_replicates = 7;
   const auto refusal = options.Validate();
   ASSERT_TRUE(refusal.has_value());
-  EXPECT_EQ(refusal->subject, "bootstrap_replicates");
-  EXPECT_NE(refusal->reason.find("7"), std::string::npos);
+  EXPECT_EQ(refusal->subject, "identification");
+  EXPECT_NE(refusal->reason.find("bootstrap_replicates = 7"), std::string::npos);
   EXPECT_NE(refusal->advice.find("[100, 100000]"), std::string::npos);
 
   options = {};
   options.interval_level = 95.0;
-  EXPECT_EQ(options.Validate()->subject, "interval_level");
+  EXPECT_NE(options.Validate()->reason.find("interval_level = 95"), std::string::npos);
   options = {};
   options.threads = 0;
-  EXPECT_EQ(options.Validate()->subject, "threads");
+  EXPECT_NE(options.Validate()->reason.find("threads = 0"), std::string::npos);
   options = {};
   options.excitation.command_spread = std::nan("");
   EXPECT_EQ(options.Validate()->subject, "excitation");

@@ -245,12 +245,20 @@ TEST(SettlingTime, IsWhenTheInitialConditionIsGone) {
 
 // ---- disturbance -------------------------------------------------------------------------------
 
-class Disturbance : public ::testing::TestWithParam<Structure> {};
+struct Thrust {
+  Structure structure;
+};
+
+void PrintTo(const Thrust& thrust, std::ostream* out) {
+  *out << Name(thrust.structure);
+}
+
+class Disturbance : public ::testing::TestWithParam<Thrust> {};
 
 /// On rows made by the discrete model, sigma is the body part of the model at each row.
 TEST_P(Disturbance, IsTheBodyPartOfTheModelThatMadeTheData) {
   VesselModel model = YellowfishTwin();
-  model.structure = GetParam();
+  model.structure = GetParam().structure;
   model.discretisation = Discretisation::kForwardEuler;
   model.thruster_time_constant_s = 0.4;
   const auto commands =
@@ -274,8 +282,8 @@ TEST_P(Disturbance, IsTheBodyPartOfTheModelThatMadeTheData) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Structures, Disturbance,
-                         ::testing::Values(Structure::kStaticQuadratic,
-                                           Structure::kFirstOrderDynamic));
+                         ::testing::Values(Thrust{Structure::kStaticQuadratic},
+                                           Thrust{Structure::kFirstOrderDynamic}));
 
 TEST(ReconstructDisturbance, NeverStraddlesAGap) {
   const VesselModel model = YellowfishPaperModel();

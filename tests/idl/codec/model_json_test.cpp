@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "support/identifications.hpp"
+#include "support/test_name.hpp"
 
 namespace telltale {
 namespace {
@@ -117,6 +118,10 @@ struct Fault {
   std::function<void(proto::Model&)> spoil;
   std::string field, value, allowed;
 };
+
+void PrintTo(const Fault& fault, std::ostream* out) {
+  *out << AsTestName(fault.field + ' ' + fault.value + ' ' + fault.allowed);
+}
 
 class WrongModel : public testing::TestWithParam<Fault> {};
 

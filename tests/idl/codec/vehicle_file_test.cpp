@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include "support/test_name.hpp"
 
 namespace telltale {
 namespace {
@@ -66,6 +67,10 @@ struct Fault {
   std::string from, to;  // what is changed in the good file
   std::string field, value, allowed, where;
 };
+
+void PrintTo(const Fault& fault, std::ostream* out) {
+  *out << AsTestName(fault.from + " to " + fault.to);
+}
 
 class WrongVehicle : public testing::TestWithParam<Fault> {};
 
