@@ -10,6 +10,7 @@ void AddIdentify(CLI::App& telltale);
 void AddValidate(CLI::App& telltale);
 void AddSimulate(CLI::App& telltale);
 void AddExport(CLI::App& telltale);
+void AddGain(CLI::App& telltale);
 void AddReplay(CLI::App& telltale);
 void AddWatch(CLI::App& telltale);
 void AddMonitor(CLI::App& telltale);

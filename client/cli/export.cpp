@@ -76,21 +76,13 @@ void AddExport(CLI::App& telltale) {
   const auto arguments = std::make_shared<ExportArguments>();
   CLI::App& command = *telltale.add_subcommand(
       "export", "Writes a model for other simulators, and draws of it for domain randomisation");
-  command.add_option("--model", arguments->model_file, "model.json, as identify writes it")
-      ->type_name("FILE")
-      ->required()
-      ->check(CLI::ExistingFile.description(""));
-  command
-      .add_option("--vehicle", arguments->vehicle_file,
-                  "vehicle file (text format); vrx needs its mass_kg")
-      ->type_name("FILE")
-      ->required()
-      ->check(CLI::ExistingFile.description(""));
+  AddModelFile(command, arguments->model_file);
+  AddVehicleFile(command, arguments->vehicle_file);
   command
       .add_option(
           "--format", arguments->format,
           "mss: M^-1-normalised coefficients for Fossen's MSS and Python Vehicle Simulator; "
-          "vrx: a hydrodynamics plugin for Gazebo")
+          "vrx: a hydrodynamics plugin for Gazebo, which needs the vehicle's mass_kg")
       ->type_name("NAME")
       ->required()
       ->check(CLI::IsMember({"mss", "vrx"}).description(""));

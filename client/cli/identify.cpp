@@ -5,7 +5,6 @@
 #include "cli/commands.hpp"
 #include "cli/identify_arguments.hpp"
 #include "cli/identify_live.hpp"
-#include "cli/inputs.hpp"
 #include "cli/live_options.hpp"
 #include "cli/model_table.hpp"
 #include "cli/outcome.hpp"
@@ -17,13 +16,12 @@ namespace {
 
 void IdentifyLogs(const IdentifyArguments& arguments) {
   const IdentifyOptions options = arguments.Options();
-  const Vehicle vehicle = LoadVehicle(arguments.vehicle_file);
   const Identification model = [&] {
     ProgressLine line;
     line.Update("reading logs", 0.0);
-    const Recording recording = LoadRecording(arguments.logs);
+    const RecordedVehicle recorded = arguments.inputs.Load();
     return OrThrow(Identify(
-        recording, vehicle, options,
+        recorded.recording, recorded.vehicle, options,
         [&line](std::string_view stage, double fraction) { line.Update(stage, fraction); }));
   }();
   arguments.output.Write(PrintModelJson(model), [&] {
@@ -42,26 +40,14 @@ void AddIdentify(CLI::App& telltale) {
       "Identifies a vehicle's model, with bounds, from logs or from the daemon's window");
   auto* const whom = command.add_option_group("from", "logs, or a vehicle the daemon follows");
   whom->require_option(1);
-  auto* const logs =
-      whom->add_option(
-              "--log", arguments->logs,
-              "telemetry logs: folders with gnss.csv, heading.csv and thrusters.csv. Several are "
-              "put one after the other; one that does not follow the last within a day is "
-              "shifted to start 120 s after it")
-          ->type_name("DIR")
-          ->check(CLI::ExistingPath.description(""));
-  auto* const vehicle =
-      command.add_option("--vehicle", arguments->vehicle_file, "vehicle file (text format)")
-          ->type_name("FILE")
-          ->check(CLI::ExistingFile.description(""));
-  vehicle->needs(logs);
-  logs->needs(vehicle);
+  arguments->inputs.AddTo(command, *whom);
   AddVehicleId(*whom, *vehicle_id);
   arguments->AddOptionsTo(command);
   live->AddTo(command, 120.0, "with --vehicle-id: how long to wait for the answer");
   command.footer(
       "Coefficients are continuous-time, SI.\n"
       "Example: telltale identify --log run1 --log run2 --vehicle boat.textproto --out model.json\n"
+      "         telltale identify --log 00000042.BIN --out model.json\n"
       "         telltale identify --vehicle-id boat-1");
   command.callback([arguments, vehicle_id, live] {
     vehicle_id->empty() ? IdentifyLogs(*arguments) : IdentifyLive(*vehicle_id, *arguments, *live);

@@ -1,10 +1,9 @@
 #include "cli/identify_arguments.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <thread>
 
-#include "cli/inputs.hpp"
+#include "cli/number_pair.hpp"
 #include "cli/outcome.hpp"
 
 namespace telltale {
@@ -16,20 +15,10 @@ std::size_t DefaultThreads() {
   return std::clamp(std::thread::hardware_concurrency(), 1u, kMostThreads);
 }
 
-double Number(const std::string& text) {
-  double value = 0.0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error == std::errc() && end == text.data() + text.size()) return value;
-  throw UsageError("--dead-zone: \"" + text +
-                   "\" is no number; give two as in 0.05,-0.06, or identify");
-}
-
 DeadZone DeadZoneNamed(const std::string& text) {
-  const std::size_t comma = text.find(',');
-  if (comma == std::string::npos) {
-    throw UsageError("--dead-zone " + text + ": give two limits as in 0.05,-0.06, or identify");
-  }
-  return {Number(text.substr(0, comma)), Number(text.substr(comma + 1))};
+  const auto [forward, reverse] =
+      NumberPair("--dead-zone", text, "two limits as in 0.05,-0.06, or identify");
+  return {forward, reverse};
 }
 
 void RequireAvailable(const char* option, const std::optional<std::string>& given,
@@ -60,6 +49,7 @@ void IdentifyArguments::AddOptionsTo(CLI::App& command) {
           "of the propellers: propeller (default), consistent in all four regions, or paper")
       ->type_name("NAME")
       ->check(CLI::IsMember({"propeller", "paper"}).description(""));
+  AddIncludeRr(command, include_rr);
   command
       .add_option("--estimator", estimator,
                   "one-step (default); weak-iv and output-error are not available yet")
@@ -99,6 +89,7 @@ IdentifyOptions IdentifyArguments::Options() const {
   if (sampling_period_s) options.prepare.sampling_period_s = sampling_period_s;
   if (parameterization == "paper") options.regression.parameterization = Parameterization::kPaper;
   if (structure == "dynamic") options.regression.structure = Structure::kFirstOrderDynamic;
+  options.regression.include_reverse = include_rr;
   if (dead_zone == "identify") {
     options.dead_zone_source = DeadZoneSource::kIdentified;
   } else if (dead_zone) {

@@ -1,13 +1,12 @@
 #pragma once
 
 #include <cstdint>
-#include <filesystem>
 #include <optional>
 #include <string>
-#include <vector>
 
 #include <CLI/CLI.hpp>
 
+#include "cli/inputs.hpp"
 #include "cli/output.hpp"
 #include "identification/identify.hpp"
 
@@ -15,8 +14,7 @@ namespace telltale {
 
 /// What `telltale identify` was asked. Options left unset take the default of whoever identifies.
 struct IdentifyArguments {
-  std::vector<std::filesystem::path> logs;
-  std::filesystem::path vehicle_file;
+  LogInputs inputs;
   std::optional<std::string> structure;         ///< static, dynamic
   std::optional<std::string> parameterization;  ///< propeller, paper
   std::optional<std::string> dead_zone;         ///< identify, or FORWARD,REVERSE
@@ -27,6 +25,7 @@ struct IdentifyArguments {
   std::optional<double> interval_level;
   std::uint64_t seed = 1;
   std::optional<std::size_t> threads;
+  bool include_rr = false;
   bool discrete = false;
   OutputOptions output;
 

@@ -33,6 +33,7 @@ IdentifyRequest RequestOf(const std::string& vehicle_id, const IdentifyArguments
   if (arguments.preset) request.preset = PresetNamed(*arguments.preset);
   request.bootstrap_replicates = arguments.bootstrap_replicates;
   request.seed = arguments.seed;
+  request.include_reverse = arguments.include_rr;
   return request;
 }
 

@@ -42,6 +42,7 @@ int main(int argc, char** argv) {
   telltale::AddValidate(app);
   telltale::AddSimulate(app);
   telltale::AddExport(app);
+  telltale::AddGain(app);
   telltale::AddReplay(app);
   telltale::AddWatch(app);
   telltale::AddMonitor(app);

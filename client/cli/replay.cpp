@@ -9,6 +9,7 @@
 #include "bus/participant.hpp"
 #include "bus/writer.hpp"
 #include "cli/commands.hpp"
+#include "cli/inputs.hpp"
 #include "cli/live_options.hpp"
 #include "cli/outcome.hpp"
 #include "cli/progress_line.hpp"
@@ -32,6 +33,7 @@ constexpr double kLongestSilenceS = 60.0;
 
 struct ReplayArguments {
   std::filesystem::path log;
+  DataFlashOptions dataflash;
   std::string vehicle_id;
   double speed = 1.0;
   LiveOptions live;
@@ -83,7 +85,7 @@ double Publish(const std::vector<RawSample>& samples, double speed, TelemetryPub
 }
 
 void Replay(const ReplayArguments& arguments) {
-  const RawLog log = OrThrow(ReadLog(arguments.log));
+  const RawLog log = OrThrow(ReadLog(arguments.log, arguments.dataflash));
   const Participant participant(arguments.live.domain);
   BatchWrites();
   TelemetryPublisher publisher(participant, arguments.vehicle_id);
@@ -107,10 +109,7 @@ void AddReplay(CLI::App& telltale) {
   const auto arguments = std::make_shared<ReplayArguments>();
   CLI::App& command =
       *telltale.add_subcommand("replay", "Publishes a recording as a vehicle's live telemetry");
-  command.add_option("--log", arguments->log, "telemetry log to publish")
-      ->type_name("DIR|FILE.BIN")
-      ->required()
-      ->check(CLI::ExistingPath.description(""));
+  AddLog(command, arguments->log, arguments->dataflash);
   AddVehicleId(command, arguments->vehicle_id)->required();
   command.add_option("--speed", arguments->speed, "times as fast as it was recorded")
       ->type_name("X")

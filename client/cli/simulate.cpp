@@ -97,14 +97,8 @@ void AddSimulate(CLI::App& telltale) {
   const auto arguments = std::make_shared<SimulateArguments>();
   CLI::App& command = *telltale.add_subcommand(
       "simulate", "Drives a model open loop and writes what the boat's sensors would have logged");
-  command.add_option("--model", arguments->model_file, "model.json, as identify writes it")
-      ->type_name("FILE")
-      ->required()
-      ->check(CLI::ExistingFile.description(""));
-  command.add_option("--vehicle", arguments->vehicle_file, "vehicle file (text format)")
-      ->type_name("FILE")
-      ->required()
-      ->check(CLI::ExistingFile.description(""));
+  AddModelFile(command, arguments->model_file);
+  AddVehicleFile(command, arguments->vehicle_file);
   command
       .add_option(
           "--commands", arguments->commands_file,

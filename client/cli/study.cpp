@@ -1,10 +1,8 @@
 #include <algorithm>
-#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
 #include <thread>
-#include <vector>
 
 #include "cli/commands.hpp"
 #include "cli/inputs.hpp"
@@ -19,8 +17,7 @@ namespace telltale {
 namespace {
 
 struct StudyArguments {
-  std::vector<std::filesystem::path> logs;
-  std::filesystem::path vehicle_file;
+  LogInputs inputs;
   std::string preset = "robust";
   std::optional<double> sampling_period_s;
   StudyOptions options;
@@ -34,13 +31,12 @@ std::string Text(const Study& study) {
 }
 
 void RunStudy(const StudyArguments& arguments) {
-  const Vehicle vehicle = LoadVehicle(arguments.vehicle_file);
   ProgressLine line;
   line.Update("reading logs", 0.0);
-  const Recording recording = LoadRecording(arguments.logs);
+  const RecordedVehicle recorded = arguments.inputs.Load();
   PrepareOptions prepare = PrepareOptionsOf(PresetNamed(arguments.preset));
   prepare.sampling_period_s = arguments.sampling_period_s;
-  const PreparedDataset dataset = OrThrow(Prepare(recording, vehicle, prepare));
+  const PreparedDataset dataset = OrThrow(Prepare(recorded.recording, recorded.vehicle, prepare));
   StudyOptions options = arguments.options;
   options.threads = std::max(1u, std::thread::hardware_concurrency());
   const Study study =
@@ -56,16 +52,7 @@ void AddStudy(CLI::App& telltale) {
   const auto arguments = std::make_shared<StudyArguments>();
   CLI::App& command = *telltale.add_subcommand(
       "study", "Reruns the paper's experiments: partitions, training shares, coefficient tables");
-  command
-      .add_option("--log", arguments->logs,
-                  "telemetry logs; folders with gnss.csv, heading.csv and thrusters.csv")
-      ->type_name("DIR")
-      ->required()
-      ->check(CLI::ExistingPath.description(""));
-  command.add_option("--vehicle", arguments->vehicle_file, "vehicle file (text format)")
-      ->type_name("FILE")
-      ->required()
-      ->check(CLI::ExistingFile.description(""));
+  arguments->inputs.AddTo(command, command)->required();
   command.add_option("--preset", arguments->preset, "of the data preparation: robust or paper")
       ->type_name("NAME")
       ->check(CLI::IsMember({"robust", "paper"}).description(""))
@@ -84,6 +71,7 @@ void AddStudy(CLI::App& telltale) {
       ->type_name("N")
       ->check(CLI::NonNegativeNumber.description(""))
       ->capture_default_str();
+  AddIncludeRr(command, arguments->options.include_reverse);
   arguments->output.AddTo(command, "study.json");
   command.footer(
       "MAE and RMSE are in m/s and rad/s; columns headed `paper` are the published figures.\n"

@@ -3,7 +3,6 @@
 #include <memory>
 #include <optional>
 #include <string>
-#include <vector>
 
 #include "cli/commands.hpp"
 #include "cli/inputs.hpp"
@@ -13,17 +12,20 @@
 #include "cli/progress_line.hpp"
 #include "cli/table.hpp"
 #include "codec/metrics_json.hpp"
+#include "exchange/disturbance.hpp"
+#include "identification/input_gain.hpp"
+#include "recording/files.hpp"
 #include "validation/validation.hpp"
 
 namespace telltale {
 namespace {
 
 struct ValidateArguments {
-  std::vector<std::filesystem::path> logs;
-  std::filesystem::path vehicle_file;
+  LogInputs inputs;
   std::filesystem::path model_file;
   std::optional<std::string> preset;
   ValidationOptions options;
+  std::filesystem::path disturbance_file;  ///< empty: none is written
   OutputOptions output;
 };
 
@@ -66,18 +68,21 @@ std::string ScoredText(const PreparedDataset& dataset) {
 }
 
 void ValidateModel(const ValidateArguments& arguments) {
-  const Vehicle vehicle = LoadVehicle(arguments.vehicle_file);
   const Identification model = LoadModel(arguments.model_file);
-  NoteOtherVehicle(model, vehicle);
   const VesselModel vessel = OrThrow(ModelOf(model));
   ProgressLine line;
   line.Update("reading logs", 0.0);
-  const Recording recording = LoadRecording(arguments.logs);
+  const auto [recording, vehicle] = arguments.inputs.Load();
+  if (arguments.inputs.NamesVehicle()) NoteOtherVehicle(model, vehicle);
   line.Update("preparing data", 0.2);
   const PreparedDataset dataset =
       OrThrow(Prepare(recording, vehicle, Preparation(arguments, model)));
   line.Update("scoring", 0.5);
   const Metrics metrics = OrThrow(Validate(dataset, vessel, arguments.options));
+  if (!arguments.disturbance_file.empty()) {
+    WriteFile(arguments.disturbance_file,
+              PrintDisturbanceCsv(ReconstructDisturbance(dataset, vessel)));
+  }
   arguments.output.Write(PrintMetricsJson(metrics), [&] {
     return MetricsTable(metrics) + '\n' + ScoredText(dataset) + NotExcitedText(model) +
            OverlapText(model, dataset);
@@ -90,21 +95,8 @@ void AddValidate(CLI::App& telltale) {
   const auto arguments = std::make_shared<ValidateArguments>();
   CLI::App& command =
       *telltale.add_subcommand("validate", "Scores a model on a log: one step ahead and free run");
-  command
-      .add_option("--log", arguments->logs,
-                  "telemetry logs, best such that did not make the model; folders with gnss.csv, "
-                  "heading.csv and thrusters.csv")
-      ->type_name("DIR")
-      ->required()
-      ->check(CLI::ExistingPath.description(""));
-  command.add_option("--vehicle", arguments->vehicle_file, "vehicle file (text format)")
-      ->type_name("FILE")
-      ->required()
-      ->check(CLI::ExistingFile.description(""));
-  command.add_option("--model", arguments->model_file, "model.json, as identify writes it")
-      ->type_name("FILE")
-      ->required()
-      ->check(CLI::ExistingFile.description(""));
+  arguments->inputs.AddTo(command, command)->required();
+  AddModelFile(command, arguments->model_file);
   command
       .add_option("--horizon", arguments->options.horizons_s,
                   "lengths of free runs, seconds, at least two sampling periods, at most 600 "
@@ -116,9 +108,15 @@ void AddValidate(CLI::App& telltale) {
                   "of the data preparation: robust or paper (default: the model's own)")
       ->type_name("NAME")
       ->check(CLI::IsMember({"robust", "paper"}).description(""));
+  command
+      .add_option("--disturbance", arguments->disturbance_file,
+                  "also write what is left of the acceleration without the propellers, over the "
+                  "logs, as time_s,sigma_u,sigma_v,sigma_r")
+      ->type_name("FILE.csv");
   arguments->output.AddTo(command, "metrics.json");
   command.footer(
-      "Errors are in m/s and rad/s, positions in metres.\n"
+      "Errors are in m/s and rad/s, positions in metres. Score on logs that did not make the "
+      "model.\n"
       "Example: telltale validate --log run2 --vehicle boat.textproto --model model.json");
   command.callback([arguments] { ValidateModel(*arguments); });
 }

@@ -1,9 +1,7 @@
 #include "exchange/draws.hpp"
 
-#include <array>
-#include <charconv>
-
 #include "codec/json_message.hpp"
+#include "exchange/shortest.hpp"
 #include "proto/exchange.pb.h"
 
 namespace telltale {
@@ -11,12 +9,6 @@ namespace {
 
 std::string ColumnOf(const Coefficient& coefficient) {
   return std::string(Name(coefficient.equation)) + ' ' + coefficient.regressor;
-}
-
-std::string Shortest(double value) {
-  std::array<char, 32> buffer{};
-  const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value).ptr;
-  return {buffer.data(), end};
 }
 
 void AddNotes(const PosteriorDraws& draws, proto::Draws& message) {
@@ -37,9 +29,8 @@ void AddNotes(const PosteriorDraws& draws, proto::Draws& message) {
   }
   if (!draws.time_constant_s.empty()) {
     message.add_notes(
-        "The thruster time constant is drawn log-normally and apart from the coefficients: the "
-        "model "
-        "holds no covariance between them.");
+        "The thruster time constant is drawn together with the coefficients, log-normally so that "
+        "it stays positive.");
   }
 }
 

@@ -70,7 +70,7 @@ EquationProblem BuildEquation(const PreparedDataset& dataset, Equation equation,
 /// Surge in the paper's parameterization has one thrust curve, the forward one, so it holds in FF
 /// alone.
 bool Enters(PropellerRegion region, Equation equation, const RegressionOptions& options) {
-  if (region == PropellerRegion::kRR) return options.include_reverse;
+  if (region == PropellerRegion::kRR && !options.include_reverse) return false;
   const bool forward_only =
       equation == Equation::kSurge && options.parameterization == Parameterization::kPaper;
   return !forward_only || region == PropellerRegion::kFF;

@@ -34,7 +34,8 @@ struct RegressionProblem {
 };
 
 /// Which model is fitted to which rows.
-/// Paper parameterization: surge on FF alone, sway and yaw on FF, FR and RF, as in the paper.
+/// Paper parameterization: surge on FF alone (always), sway and yaw on FF, FR and RF, as in the
+/// paper.
 /// Propeller parameterization: every equation on FF, FR and RF, which it describes consistently.
 struct RegressionOptions {
   Structure structure = Structure::kStaticQuadratic;

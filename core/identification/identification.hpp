@@ -62,6 +62,8 @@ struct Provenance {
 /// Shapes: coefficients in the order surge, sway, yaw and, within each, of Regressors(); an
 /// equation that was refused has no coefficients and a refusal. covariance is square over all
 /// coefficients; a NOT_EXCITED coefficient has infinite variance and zero covariances.
+/// time_constant_covariance is that of the thruster time constant with each coefficient: empty in
+/// the static structure, zero where NOT_EXCITED.
 struct Identification {
   std::string vehicle_id;
   Structure structure = Structure::kUnknown;
@@ -72,6 +74,7 @@ struct Identification {
   std::vector<Coefficient> coefficients;
   Eigen::MatrixXd covariance;
   std::optional<Coefficient> thruster_time_constant;
+  Eigen::VectorXd time_constant_covariance;
   WindowSummary window;
   std::vector<Refusal> refusals;
   Provenance provenance;

@@ -21,12 +21,12 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr std::size_t kFewestSegments = 8;
 
 /// Everything known about the equations before coefficients are written down.
-/// fits hold the bounds; theta of answered equation j begins at place first[j] of the stacked fits.
+/// Theta of answered equation j begins at place first[j] of the stacked fits.
 struct Answers {
+  std::array<EquationProblem, 3> equations;  ///< of the static structure
   std::array<std::optional<Excitation>, 3> excitations;
   std::array<std::optional<EquationEstimate>, 3> estimates;
   std::array<Eigen::Index, 3> first{};
-  std::vector<ClusteredFit> fits;
   std::optional<LaggedEstimate> lag;
   std::vector<Refusal> refusals;
 
@@ -37,6 +37,7 @@ struct Answers {
 
 /// Bounds of all stacked coefficients.
 struct Bounds {
+  double degrees_of_freedom = 0.0;  ///< of the first fit
   Eigen::MatrixXd covariance;
   std::vector<Interval> intervals;
   std::vector<bool> estimable;
@@ -86,14 +87,13 @@ DeadZone IdentifyDeadZone(const PreparedDataset& dataset, const IdentifyOptions&
 
 Answers AnswerStatic(const PreparedDataset& dataset, const RegressionOptions& regression,
                      const ExcitationLimits& limits) {
-  const RegressionProblem problem = BuildRegression(dataset, regression);
   Answers answers;
+  answers.equations = BuildRegression(dataset, regression).equations;
   Eigen::Index next = 0;
-  for (std::size_t j = 0; j < problem.equations.size(); ++j) {
-    AssessEquation(problem.equations[j], limits, answers);
+  for (std::size_t j = 0; j < answers.equations.size(); ++j) {
+    AssessEquation(answers.equations[j], limits, answers);
     if (!answers.excitations[j]) continue;
     answers.estimates[j] = EstimateOneStep(*answers.excitations[j]);
-    answers.fits.push_back(FitOf(problem.equations[j], *answers.estimates[j]));
     answers.first[j] = next;
     next += answers.estimates[j]->theta.size();
   }
@@ -110,7 +110,6 @@ Answers AnswerDynamic(const PreparedDataset& dataset, const RegressionOptions& r
   if (!answers.Any()) return answers;
   answers.lag = EstimateLagged(problem, answers.excitations);
   answers.estimates = answers.lag->equations;
-  answers.fits.push_back(FitOf(*answers.lag));
   Eigen::Index next = 1;  // the time constant comes first
   for (std::size_t j = 0; j < answers.estimates.size(); ++j) {
     if (!answers.estimates[j]) continue;
@@ -118,6 +117,23 @@ Answers AnswerDynamic(const PreparedDataset& dataset, const RegressionOptions& r
     next += answers.estimates[j]->theta.size();
   }
   return answers;
+}
+
+Answers Answer(const PreparedDataset& dataset, const RegressionOptions& regression,
+               const ExcitationLimits& limits) {
+  return regression.structure == Structure::kFirstOrderDynamic
+             ? AnswerDynamic(dataset, regression, limits)
+             : AnswerStatic(dataset, regression, limits);
+}
+
+/// What bounds are made from.
+std::vector<ClusteredFit> FitsOf(const Answers& answers) {
+  if (answers.lag) return {FitOf(*answers.lag)};
+  std::vector<ClusteredFit> fits;
+  for (std::size_t j = 0; j < answers.estimates.size(); ++j) {
+    if (answers.estimates[j]) fits.push_back(FitOf(answers.equations[j], *answers.estimates[j]));
+  }
+  return fits;
 }
 
 Bounds BoundsFor(const std::vector<ClusteredFit>& fits) {
@@ -128,6 +144,7 @@ Bounds BoundsFor(const std::vector<ClusteredFit>& fits) {
     bounds.estimable.insert(bounds.estimable.end(), fit.estimable.begin(), fit.estimable.end());
   }
   bounds.covariance = Eigen::MatrixXd::Zero(size, size);
+  bounds.degrees_of_freedom = fits.front().degrees_of_freedom;
   return bounds;
 }
 
@@ -254,15 +271,6 @@ Eigen::MatrixXd SpreadCovariance(const Eigen::MatrixXd& stacked,
   return covariance;
 }
 
-void WriteCoefficients(const Answers& answers, const Bounds& bounds,
-                       Identification& identification) {
-  std::vector<Eigen::Index> places;
-  for (std::size_t j = 0; j < answers.estimates.size(); ++j) {
-    if (answers.estimates[j]) WriteEquation(j, answers, bounds, identification, places);
-  }
-  identification.covariance = SpreadCovariance(bounds.covariance, places);
-}
-
 /// A time constant below zero is none. Where no lag is seen the replicates, linearised about that
 /// end, say nothing of how long a lag could hide; the standard error does.
 Coefficient WriteTimeConstant(const Answers& answers, const Bounds& bounds) {
@@ -276,13 +284,35 @@ Coefficient WriteTimeConstant(const Answers& answers, const Bounds& bounds) {
   coefficient.standard_error = std::sqrt(bounds.covariance(0, 0));
   coefficient.interval = {interval.level, std::max(interval.lower, 0.0), interval.upper};
   if (lag.no_lag_seen) {
-    const double freedom = answers.fits.front().degrees_of_freedom;
-    coefficient.interval = {
-        interval.level, 0.0,
-        StudentInterval(lag.time_constant_s, coefficient.standard_error, freedom, interval.level)
-            .upper};
+    coefficient.interval = {interval.level, 0.0,
+                            StudentInterval(lag.time_constant_s, coefficient.standard_error,
+                                            bounds.degrees_of_freedom, interval.level)
+                                .upper};
   }
   return coefficient;
+}
+
+/// Of the time constant, first in the stacked bounds, with each coefficient.
+Eigen::VectorXd SpreadTimeConstantCovariance(const Eigen::MatrixXd& stacked,
+                                             const std::vector<Eigen::Index>& places) {
+  Eigen::VectorXd covariance = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(places.size()));
+  for (Eigen::Index i = 0; i < covariance.size(); ++i) {
+    const Eigen::Index place = places[static_cast<std::size_t>(i)];
+    if (place >= 0) covariance[i] = stacked(0, place);
+  }
+  return covariance;
+}
+
+void WriteCoefficients(const Answers& answers, const Bounds& bounds,
+                       Identification& identification) {
+  std::vector<Eigen::Index> places;
+  for (std::size_t j = 0; j < answers.estimates.size(); ++j) {
+    if (answers.estimates[j]) WriteEquation(j, answers, bounds, identification, places);
+  }
+  identification.covariance = SpreadCovariance(bounds.covariance, places);
+  if (!answers.lag) return;
+  identification.thruster_time_constant = WriteTimeConstant(answers, bounds);
+  identification.time_constant_covariance = SpreadTimeConstantCovariance(bounds.covariance, places);
 }
 
 WindowSummary Summarise(const PreparedDataset& dataset) {
@@ -299,9 +329,14 @@ Refusal NothingAnswered(const std::vector<Refusal>& refusals) {
           refusals.empty() ? "record for longer" : refusals.front().advice};
 }
 
-std::optional<Refusal> OptionRefusal(const char* field, const std::string& value,
-                                     const char* allowed) {
-  return Refusal{field, "is " + value, std::string("choose a value in ") + allowed};
+constexpr const char* kSubject = "identification";
+
+std::optional<Refusal> ReplicatesRefusal(std::size_t replicates) {
+  if (replicates == 0) return std::nullopt;
+  auto refusal = OutOfRange(kSubject, "bootstrap_replicates", static_cast<double>(replicates),
+                            100.0, 100000.0);
+  if (refusal) refusal->advice += ", or to 0 for none";
+  return refusal;
 }
 
 std::optional<Refusal> LimitRefusal(const DeadZone& limits) {
@@ -338,15 +373,12 @@ std::optional<Refusal> IdentifyOptions::Validate() const {
   if (estimator != Estimator::kOneStep) {
     return Refusal{"estimator", "is " + std::string(Name(estimator)), "choose ONE_STEP"};
   }
-  if (!(interval_level >= 0.5 && interval_level <= 0.999)) {
-    return OptionRefusal("interval_level", std::to_string(interval_level), "[0.5, 0.999]");
+  if (auto refusal = OutOfRange(kSubject, "interval_level", interval_level, 0.5, 0.999)) {
+    return refusal;
   }
-  if (bootstrap_replicates != 0 && (bootstrap_replicates < 100 || bootstrap_replicates > 100000)) {
-    return OptionRefusal("bootstrap_replicates", std::to_string(bootstrap_replicates),
-                         "[100, 100000], or 0 for none");
-  }
-  if (threads < 1 || threads > 256) {
-    return OptionRefusal("threads", std::to_string(threads), "[1, 256]");
+  if (auto refusal = ReplicatesRefusal(bootstrap_replicates)) return refusal;
+  if (auto refusal = OutOfRange(kSubject, "threads", static_cast<double>(threads), 1.0, 256.0)) {
+    return refusal;
   }
   return std::nullopt;
 }
@@ -374,32 +406,31 @@ Result<Identification> Identify(const PreparedDataset& dataset, const std::strin
     regression.dead_zone = IdentifyDeadZone(dataset, options, dead_zone_refusals);
   }
   report("estimating", 0.3);
-  const bool dynamic = regression.structure == Structure::kFirstOrderDynamic;
-  Answers answers = dynamic ? AnswerDynamic(dataset, regression, options.excitation)
-                            : AnswerStatic(dataset, regression, options.excitation);
+  Answers answers = Answer(dataset, regression, options.excitation);
   if (!answers.Any()) return tl::unexpected(NothingAnswered(answers.refusals));
   answers.refusals.insert(answers.refusals.end(), dead_zone_refusals.begin(),
                           dead_zone_refusals.end());
 
   Identification identification;
+  const std::vector<ClusteredFit> fits = FitsOf(answers);
   Bounds bounds;
   if (options.bootstrap_replicates > 0) {
     report("bootstrapping", 0.5);
-    const BootstrapReplicates replicates = BootstrapSegments(
-        answers.fits, {options.bootstrap_replicates, options.seed, options.threads});
+    const BootstrapReplicates replicates =
+        BootstrapSegments(fits, {options.bootstrap_replicates, options.seed, options.threads});
     if (replicates.theta.cols() < 2) {
       return Refuse("bounds", "no bootstrap replicate could be solved",
                     "record for longer, or ask for bounds from residuals with 0 replicates");
     }
-    if (auto warning = WarnOfFewSegments(answers.fits)) answers.refusals.push_back(*warning);
+    if (auto warning = WarnOfFewSegments(fits)) answers.refusals.push_back(*warning);
     if (auto warning = WarnOfFailures(replicates)) answers.refusals.push_back(*warning);
     identification.provenance.bootstrap_failures = replicates.failures;
     identification.provenance.bounds_basis =
         "segment bootstrap, percentile intervals; attenuation of one-step least squares by noisy "
         "velocities is not covered";
-    bounds = ReplicateBounds(answers.fits, replicates, options.interval_level);
+    bounds = ReplicateBounds(fits, replicates, options.interval_level);
   } else {
-    bounds = ResidualBounds(answers.fits, options.interval_level);
+    bounds = ResidualBounds(fits, options.interval_level);
     identification.provenance.bounds_basis =
         "residual covariance, white residuals assumed; too narrow where residuals are coloured or "
         "velocities noisy";
@@ -416,9 +447,6 @@ Result<Identification> Identify(const PreparedDataset& dataset, const std::strin
   identification.sampling_period_s = dataset.sampling_period_s;
   identification.dead_zone = regression.dead_zone;
   WriteCoefficients(answers, bounds, identification);
-  if (answers.lag) {
-    identification.thruster_time_constant = WriteTimeConstant(answers, bounds);
-  }
   identification.window = Summarise(dataset);
   identification.refusals = std::move(answers.refusals);
   identification.provenance.preset = Name(options.prepare.preset);
@@ -427,6 +455,31 @@ Result<Identification> Identify(const PreparedDataset& dataset, const std::strin
   identification.provenance.software_version = TELLTALE_VERSION;
   report("done", 1.0);
   return identification;
+}
+
+Result<VesselModel> EstimateModel(const PreparedDataset& dataset,
+                                  const RegressionOptions& regression,
+                                  const ExcitationLimits& limits) {
+  const Answers answers = Answer(dataset, regression, limits);
+  VesselModel model;
+  model.structure = regression.structure;
+  model.parameterization = regression.parameterization;
+  model.discretisation = Discretisation::kForwardEuler;
+  model.sampling_period_s = dataset.sampling_period_s;
+  model.dead_zone = regression.dead_zone;
+  for (const Equation equation : kEquations) {
+    const auto& estimate = answers.estimates[IndexOf(equation)];
+    if (!estimate) {
+      return Refuse(std::string(Name(equation)), "the data cannot answer this equation",
+                    answers.refusals.front().advice);
+    }
+    const auto regressors = Regressors(equation, regression.parameterization);
+    Eigen::VectorXd& theta = model.theta[IndexOf(equation)];
+    theta = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(regressors.size()));
+    theta(estimate->columns) = estimate->theta;
+  }
+  if (answers.lag) model.thruster_time_constant_s = answers.lag->time_constant_s;
+  return model;
 }
 
 }  // namespace telltale

@@ -13,6 +13,7 @@
 #include "identification/identification.hpp"
 #include "result.hpp"
 #include "vessel/vehicle.hpp"
+#include "vessel/vessel_model.hpp"
 
 namespace telltale {
 
@@ -49,5 +50,11 @@ Result<Identification> Identify(const Recording& recording, const Vehicle& vehic
 /// The same from data that are prepared already.
 Result<Identification> Identify(const PreparedDataset& dataset, const std::string& vehicle_id,
                                 const IdentifyOptions& options, const Progress& progress = {});
+
+/// ModelOf the same identification without the cost of its bounds; the dead zone is as given.
+/// Refuses when: an equation cannot be answered.
+Result<VesselModel> EstimateModel(const PreparedDataset& dataset,
+                                  const RegressionOptions& regression,
+                                  const ExcitationLimits& limits = {});
 
 }  // namespace telltale

@@ -120,6 +120,9 @@ LaggedInputGain::LaggedInputGain(const Identification& identification,
               identification.thruster_time_constant.has_value() &&
               identification.thruster_time_constant->estimate > 0.0,
           "the dynamic structure with a positive time constant");
+  Require(identification.time_constant_covariance.size() ==
+              static_cast<Eigen::Index>(identification.coefficients.size()),
+          "a covariance of the time constant with every coefficient");
   thrust_ = thrusters_.SteadyThrust(settled_on);
 }
 
@@ -153,11 +156,10 @@ InputGain LaggedInputGain::Now() const {
     }
     return now;
   }
-  for (Eigen::Index i = 0; i < 3; ++i) {
-    for (Eigen::Index j = 0; j < 3; ++j) {
-      now.covariance(i, j) += by_tau[i] * by_tau[j] * tau_error * tau_error;
-    }
-  }
+  const Eigen::Vector3d with_tau =
+      PropellerRows(*identification_, thrust_) * identification_->time_constant_covariance;
+  now.covariance += tau_error * tau_error * by_tau * by_tau.transpose() +
+                    with_tau * by_tau.transpose() + by_tau * with_tau.transpose();
   for (Eigen::Index axis = 0; axis < 3; ++axis) {
     if (!std::isfinite(now.covariance(axis, axis))) MakeUnknown(now.covariance, axis);
   }

@@ -28,7 +28,7 @@ struct InputGain {
 
 /// The gain under given propeller regressors, its bound that of the coefficients alone.
 /// Model: gain = Phi_propeller theta, covariance = Phi_propeller Sigma Phi_propeller'.
-/// docs/model.md (4).
+/// docs/model.md (25).
 InputGain GainUnder(const Identification& identification, const ThrustRegressors& thrust);
 
 /// The gain of a command whose thrust is there at once (static structure) or has settled (dynamic).
@@ -37,12 +37,12 @@ InputGain SteadyInputGain(const Identification& identification, const PropellerC
 
 /// The gain of lagging thrusters, advanced command by command:
 /// G(k) = alpha G(k-1) + (1 - alpha) G_steady(delta(k-1)), alpha = exp(-elapsed / tau).
-/// The bound adds to that of the coefficients what the time constant's standard error means, by the
-/// first-order sensitivity dG/dtau followed along. The two are taken to be uncorrelated, since an
-/// Identification holds no covariance between them. What the bound leaves out is the initial
-/// condition, whose share left is InitialShare(). Requires: the dynamic structure with its time
-/// constant. Source: the paper, input gain for dynamic propeller modelling. `identification` must
-/// outlive this.
+/// The bound is that of the coefficients and the time constant together, the latter by the
+/// first-order sensitivity dG/dtau followed along: with P the propeller regressors as they stand
+/// and b = dG/dtau, P Sigma P' + b b' var(tau) + P c b' + b c' P', c = time_constant_covariance.
+/// What the bound leaves out is the initial condition, whose share left is InitialShare().
+/// docs/model.md (26). Requires: the dynamic structure with its time constant. Source: the paper,
+/// input gain for dynamic propeller modelling. `identification` must outlive this.
 class LaggedInputGain {
  public:
   /// Thrusters that stand where `settled_on`, held for ever, leads to.
@@ -70,7 +70,7 @@ class LaggedInputGain {
 };
 
 /// Seconds until no more than `remaining` of an initial condition is left, tau ln(1 / remaining).
-/// Requires: time_constant_s >= 0, remaining in (0, 1].
+/// docs/model.md (27). Requires: time_constant_s >= 0, remaining in (0, 1].
 /// Source: the paper, the property that the influence of the initial condition vanishes.
 double SettlingTime(double time_constant_s, double remaining = 0.01);
 
@@ -82,7 +82,7 @@ struct DisturbanceSample {
 
 /// The lumped disturbance over a recording: the acceleration measured between rows k and k + 1
 /// minus what the model's propellers give at k, for each k whose successor is in the same stretch.
-/// docs/model.md (3), (4). Lagging thrusters are taken to have settled at the start of each
+/// docs/model.md (28). Lagging thrusters are taken to have settled at the start of each
 /// stretch; a wrong guess decays within SettlingTime.
 std::vector<DisturbanceSample> ReconstructDisturbance(const PreparedDataset& dataset,
                                                       const VesselModel& model);

@@ -1,8 +1,6 @@
 #include "identification/posterior_draws.hpp"
 
-#include <algorithm>
 #include <cmath>
-#include <optional>
 
 #include <Eigen/Eigenvalues>
 #include <boost/random/normal_distribution.hpp>
@@ -38,11 +36,25 @@ SquareRoot SymmetricRoot(const Eigen::MatrixXd& covariance) {
   return result;
 }
 
-/// The standard deviation of ln tau, where it can be drawn at all.
-std::optional<double> LogDeviation(const Coefficient& time_constant) {
-  const double relative = time_constant.standard_error / time_constant.estimate;
-  if (!(relative <= 1.0)) return std::nullopt;
-  return relative;
+/// Whether ln tau can be drawn: a normal law about it means something only while its deviation is
+/// moderate.
+bool CanBeDrawn(const Coefficient& time_constant) {
+  return time_constant.standard_error <= time_constant.estimate;
+}
+
+/// The covariance with ln tau as one more row and column, by the delta method: d ln tau = d tau /
+/// tau.
+Eigen::MatrixXd WithLogTimeConstant(const Eigen::MatrixXd& covariance,
+                                    const Eigen::VectorXd& with_tau,
+                                    const Coefficient& time_constant) {
+  const double tau = time_constant.estimate;
+  const Eigen::Index n = covariance.rows();
+  Eigen::MatrixXd joint(n + 1, n + 1);
+  joint.topLeftCorner(n, n) = covariance;
+  joint.topRightCorner(n, 1) = with_tau / tau;
+  joint.bottomLeftCorner(1, n) = with_tau.transpose() / tau;
+  joint(n, n) = std::pow(time_constant.standard_error / tau, 2);
+  return joint;
 }
 
 }  // namespace
@@ -53,6 +65,9 @@ Result<PosteriorDraws> DrawFromPosterior(const Identification& identification, s
   const auto size = static_cast<Eigen::Index>(identification.coefficients.size());
   Require(identification.covariance.rows() == size && identification.covariance.cols() == size,
           "a covariance over all coefficients");
+  Require(identification.time_constant_covariance.size() ==
+              (identification.thruster_time_constant ? size : 0),
+          "a covariance of the time constant, where there is one, with every coefficient");
   PosteriorDraws draws;
   Eigen::VectorXd estimates(size);
   std::vector<Eigen::Index> drawn;
@@ -70,24 +85,30 @@ Result<PosteriorDraws> DrawFromPosterior(const Identification& identification, s
     return Refuse("draws", "not one coefficient of the model has a finite variance",
                   "identify from data that excite the boat, with bounds");
   }
-  const SquareRoot square_root = SymmetricRoot(identification.covariance(drawn, drawn));
+  Eigen::MatrixXd covariance = identification.covariance(drawn, drawn);
+  const auto& time_constant = identification.thruster_time_constant;
+  const bool draws_lag = time_constant && CanBeDrawn(*time_constant);
+  if (draws_lag) {
+    covariance = WithLogTimeConstant(covariance, identification.time_constant_covariance(drawn),
+                                     *time_constant);
+  } else if (time_constant) {
+    draws.not_drawn.emplace_back("thruster time constant");
+  }
+  const SquareRoot square_root = SymmetricRoot(covariance);
   draws.clipped = square_root.clipped;
 
-  std::optional<double> log_deviation;
-  if (identification.thruster_time_constant) {
-    log_deviation = LogDeviation(*identification.thruster_time_constant);
-    if (!log_deviation) draws.not_drawn.emplace_back("thruster time constant");
-  }
   draws.theta = estimates.replicate(1, static_cast<Eigen::Index>(count));
   for (std::size_t i = 0; i < count; ++i) {
     RandomEngine engine = RandomEngine::Stream(seed, i);
     boost::random::normal_distribution<double> normal(0.0, 1.0);
-    Eigen::VectorXd whitened(static_cast<Eigen::Index>(drawn.size()));
+    Eigen::VectorXd whitened(covariance.rows());
     for (double& value : whitened) value = normal(engine);
-    draws.theta(drawn, static_cast<Eigen::Index>(i)) += square_root.root * whitened;
-    if (!identification.thruster_time_constant) continue;
-    const double tau = identification.thruster_time_constant->estimate;
-    draws.time_constant_s.push_back(tau * std::exp(log_deviation.value_or(0.0) * normal(engine)));
+    const Eigen::VectorXd shift = square_root.root * whitened;
+    draws.theta(drawn, static_cast<Eigen::Index>(i)) +=
+        shift.head(static_cast<Eigen::Index>(drawn.size()));
+    if (!time_constant) continue;
+    const double log_shift = draws_lag ? shift[shift.size() - 1] : 0.0;
+    draws.time_constant_s.push_back(time_constant->estimate * std::exp(log_shift));
   }
   return draws;
 }

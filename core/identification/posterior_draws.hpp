@@ -27,10 +27,12 @@ struct PosteriorDraws {
 
 /// Method: the symmetric square root of the correlation matrix by eigenvalues, negative ones set to
 /// zero, so that a covariance of fewer replicates than coefficients does no harm and no unit
-/// matters. The time constant is drawn log-normally with its relative standard error, apart from
-/// the coefficients, since an Identification holds no covariance between them. Determinism: draw i
-/// has a random engine of its own; more draws with the same seed begin with the same ones. Refuses
-/// when: no coefficient has a finite variance. Requires: count >= 1.
+/// matters. The time constant is drawn together with the coefficients through its logarithm, so
+/// that it stays positive: ln tau has the relative standard error and, with each coefficient, the
+/// covariance over tau (delta method). It is not drawn when its standard error exceeds its
+/// estimate. Determinism: draw i has a random engine of its own; more draws with the same seed
+/// begin with the same ones. Refuses when: no coefficient has a finite variance. Requires: count
+/// >= 1.
 Result<PosteriorDraws> DrawFromPosterior(const Identification& identification, std::size_t count,
                                          std::uint64_t seed);
 

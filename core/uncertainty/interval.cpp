@@ -5,6 +5,7 @@
 #include <limits>
 #include <vector>
 
+#include <boost/math/distributions/normal.hpp>
 #include <boost/math/distributions/students_t.hpp>
 
 #include "contract.hpp"
@@ -25,6 +26,12 @@ Interval StudentInterval(double estimate, double standard_error, double degrees_
                          double level) {
   const boost::math::students_t distribution(degrees_of_freedom);
   const double half = standard_error * boost::math::quantile(distribution, 0.5 * (1.0 + level));
+  return {level, estimate - half, estimate + half};
+}
+
+Interval NormalInterval(double estimate, double standard_error, double level) {
+  const double half =
+      standard_error * boost::math::quantile(boost::math::normal(), 0.5 * (1.0 + level));
   return {level, estimate - half, estimate + half};
 }
 

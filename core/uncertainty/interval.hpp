@@ -15,6 +15,9 @@ struct Interval {
 Interval StudentInterval(double estimate, double standard_error, double degrees_of_freedom,
                          double level);
 
+/// The same with endless degrees of freedom.
+Interval NormalInterval(double estimate, double standard_error, double level);
+
 /// The central `level` of the replicates, by linear interpolation between order statistics
 /// (Hyndman and Fan's type 7). Needs at least two replicates.
 Interval PercentileInterval(std::span<const double> replicates, double level);

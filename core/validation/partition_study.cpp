@@ -167,12 +167,7 @@ PreparedDataset Restrict(const PreparedDataset& dataset, const std::vector<std::
 
 void RunFreely(const PreparedDataset& dataset, const Deal& deal, const PartitionOptions& options,
                std::array<Sample, 3>& samples) {
-  IdentifyOptions identify;
-  identify.regression = options.regression;
-  identify.bootstrap_replicates = 0;
-  const auto identification = Identify(Restrict(dataset, deal.training), "study", identify);
-  if (!identification) return;
-  const auto model = ModelOf(*identification);
+  const auto model = EstimateModel(Restrict(dataset, deal.training), options.regression);
   if (!model) return;
   const auto metrics =
       Validate(Restrict(dataset, deal.validation), *model, {{options.free_run_horizon_s}});

@@ -5,8 +5,9 @@ namespace {
 
 constexpr std::array kStructures = {Structure::kStaticQuadratic, Structure::kFirstOrderDynamic};
 
-RegressionOptions InThePapersTerms(Structure structure) {
+RegressionOptions InThePapersTerms(Structure structure, const StudyOptions& study) {
   RegressionOptions options;
+  options.include_reverse = study.include_reverse;
   options.structure = structure;
   options.parameterization = Parameterization::kPaper;
   return options;
@@ -16,7 +17,7 @@ Result<StudyEntry> Partition(const PreparedDataset& dataset, const StudyOptions&
                              Structure structure, PartitionMethod method, double training_share,
                              std::size_t repeats) {
   PartitionOptions partition;
-  partition.regression = InThePapersTerms(structure);
+  partition.regression = InThePapersTerms(structure, options);
   partition.method = method;
   partition.training_share = training_share;
   partition.repeats = repeats;
@@ -27,9 +28,9 @@ Result<StudyEntry> Partition(const PreparedDataset& dataset, const StudyOptions&
   return StudyEntry{structure, method, training_share, repeats, *scores};
 }
 
-void FillStaticTable(const PreparedDataset& dataset, Study& study) {
+void FillStaticTable(const PreparedDataset& dataset, const StudyOptions& options, Study& study) {
   IdentifyOptions identify;
-  identify.regression = InThePapersTerms(Structure::kStaticQuadratic);
+  identify.regression = InThePapersTerms(Structure::kStaticQuadratic, options);
   identify.bootstrap_replicates = 0;
   const auto identification = Identify(dataset, "study", identify);
   if (!identification) {
@@ -51,10 +52,10 @@ void FillStaticTable(const PreparedDataset& dataset, Study& study) {
   }
 }
 
-void FillDynamicTable(const PreparedDataset& dataset, Study& study) {
-  const RegressionOptions options = InThePapersTerms(Structure::kFirstOrderDynamic);
+void FillDynamicTable(const PreparedDataset& dataset, const StudyOptions& options, Study& study) {
+  const RegressionOptions regression = InThePapersTerms(Structure::kFirstOrderDynamic, options);
   for (const Equation equation : kEquations) {
-    const auto X = EstimateRedundant(BuildRedundant(dataset, equation, options));
+    const auto X = EstimateRedundant(BuildRedundant(dataset, equation, regression));
     if (X) {
       study.dynamic_table[IndexOf(equation)] = *X;
     } else {
@@ -68,6 +69,7 @@ void FillDynamicTable(const PreparedDataset& dataset, Study& study) {
 void FillTimeConstant(const PreparedDataset& dataset, const StudyOptions& options, Study& study) {
   IdentifyOptions identify;
   identify.regression.structure = Structure::kFirstOrderDynamic;
+  identify.regression.include_reverse = options.include_reverse;
   identify.seed = options.seed;
   identify.threads = options.threads;
   const auto identification = Identify(dataset, "study", identify);
@@ -103,8 +105,8 @@ Result<Study> StudyRecording(const PreparedDataset& dataset, const StudyOptions&
     }
   }
   report("coefficient tables", 0.9);
-  FillStaticTable(dataset, study);
-  FillDynamicTable(dataset, study);
+  FillStaticTable(dataset, options, study);
+  FillDynamicTable(dataset, options, study);
   FillTimeConstant(dataset, options, study);
   report("done", 1.0);
   return study;

@@ -17,7 +17,8 @@
 namespace telltale {
 
 struct StudyOptions {
-  std::size_t repeats = 20;  ///< random partitions behind each mean, [1, 1000]
+  std::size_t repeats = 20;      ///< random partitions behind each mean, [1, 1000]
+  bool include_reverse = false;  ///< take RR rows too
   std::uint64_t seed = 1;
   std::size_t threads = 1;  ///< [1, 256]; never changes the result
 };

@@ -18,6 +18,8 @@ struct PwmChannel {
 
   /// The pulse width that Normalise maps to `delta`, for delta in [-1, 1].
   double PulseWidth(double delta) const;
+
+  bool operator==(const PwmChannel&) const = default;
 };
 
 /// Normalised commands of the two propellers, each in [-1, 1], positive forward.

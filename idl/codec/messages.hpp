@@ -41,7 +41,8 @@ struct IdentifyRequest {
   std::optional<std::uint32_t> bootstrap_replicates;  ///< 0 or [100, 100000]
   std::uint64_t seed = 1;
   DeadZoneSource dead_zone_source = DeadZoneSource::kUnknown;
-  DeadZone dead_zone;  ///< when given
+  DeadZone dead_zone;            ///< when given
+  bool include_reverse = false;  ///< fit rows of the RR region too
 };
 
 struct IdentifyProgress {

@@ -222,6 +222,26 @@ std::optional<Coefficient> ReadTimeConstant(FieldReader& reader, const proto::Mo
   return ReadCoefficient(item, model.thruster_time_constant_s());
 }
 
+/// None stands for zero: older files know of none.
+Eigen::VectorXd ReadTimeConstantCovariance(FieldReader& reader, const proto::Model& model,
+                                           Structure structure) {
+  constexpr const char* kField = "thruster_time_constant_covariance";
+  const auto& numbers = model.thruster_time_constant_covariance();
+  const int n = structure == Structure::kFirstOrderDynamic ? model.coefficients_size() : 0;
+  if (numbers.empty()) return Eigen::VectorXd::Zero(n);
+  if (numbers.size() != n) {
+    reader.Fail(kField, std::to_string(numbers.size()) + " numbers",
+                n == 0 ? "given for FIRST_ORDER_DYNAMIC and for nothing else"
+                       : std::to_string(n) + ", one for each coefficient");
+    return {};
+  }
+  for (int i = 0; i < n; ++i) {
+    if (kFinite.Contains(numbers[i])) continue;
+    reader.FailItem(kField, i, NumberText(numbers[i]), kFinite.Text());
+  }
+  return Eigen::Map<const Eigen::VectorXd>(numbers.data(), n);
+}
+
 template <class Value, std::size_t N>
 Value ReadName(FieldReader& reader, const char* field, const std::string& name,
                const std::array<Value, N>& values) {
@@ -293,6 +313,7 @@ Identification ReadModel(FieldReader reader, const proto::Model& model) {
   result.dead_zone = ReadDeadZone(reader.Optional("dead_zone"));
   result.covariance = ReadCovariance(reader, model);
   result.thruster_time_constant = ReadTimeConstant(reader, model, result.structure);
+  result.time_constant_covariance = ReadTimeConstantCovariance(reader, model, result.structure);
   result.window = ReadWindow(reader.Optional("window"), model.window());
   result.refusals = ReadRefusals(model);
   result.provenance = ReadProvenance(model.provenance());
@@ -334,6 +355,8 @@ proto::Model ToProto(const Identification& identification) {
   if (identification.thruster_time_constant) {
     Write(*identification.thruster_time_constant, *model.mutable_thruster_time_constant_s());
   }
+  const Eigen::VectorXd& with_tau = identification.time_constant_covariance;
+  model.mutable_thruster_time_constant_covariance()->Add(with_tau.begin(), with_tau.end());
   Write(identification.window, *model.mutable_window());
   for (const Refusal& refusal : identification.refusals) Write(refusal, *model.add_refusals());
   Write(identification.provenance, *model.mutable_provenance());

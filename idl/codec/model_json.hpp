@@ -22,8 +22,9 @@ proto::Refusal ToProto(const Refusal& refusal);
 /// coefficients are not those of Regressors() in that order, with their symbols and units; numbers
 /// that are NaN, an infinite estimate, a negative standard error, bounds the wrong way round; a
 /// covariance that is not n^2 long, has a negative variance or is not symmetric; a thruster time
-/// constant without the dynamic structure or the reverse; a dead zone out of its range; unknown
-/// channels and reject reasons.
+/// constant without the dynamic structure or the reverse; a covariance of it that has not one
+/// number for each coefficient (none at all, as in older files, means zero); a dead zone out of its
+/// range; unknown channels and reject reasons.
 Decoded<Identification> IdentificationOf(const proto::Model& model,
                                          const std::string& file = "model");
 

@@ -2,17 +2,23 @@
 
 #include <algorithm>
 #include <cctype>
+#include <functional>
 
 #include "codec/text_message.hpp"
 
 namespace telltale {
 namespace {
 
+constexpr std::size_t kLongestVehicleId = 64;
 constexpr FieldRange kSeparation{0.05, 50.0};
 constexpr FieldRange kNeutral{800.0, 2200.0};
 constexpr FieldRange kFullCommand{500.0, 2500.0};
 constexpr FieldRange kLeverArm{-100.0, 100.0};
 constexpr FieldRange kMass{0.0, 100000.0, true};
+
+bool IsOfVehicleId(unsigned char c) {
+  return c < 0x80 && (std::isalnum(c) || c == '.' || c == '_' || c == '-');
+}
 
 PwmChannel ReadChannel(FieldReader reader) {
   PwmChannel channel;
@@ -46,11 +52,14 @@ void WriteChannel(const PwmChannel& channel, proto::Vehicle::PwmChannel& message
 }  // namespace
 
 bool IsVehicleId(std::string_view text) {
-  constexpr std::size_t kLongest = 64;
-  return !text.empty() && text.size() <= kLongest &&
-         std::all_of(text.begin(), text.end(), [](unsigned char c) {
-           return c < 0x80 && (std::isalnum(c) || c == '.' || c == '_' || c == '-');
-         });
+  return !text.empty() && text.size() <= kLongestVehicleId &&
+         std::all_of(text.begin(), text.end(), IsOfVehicleId);
+}
+
+std::string VehicleIdLike(std::string_view text) {
+  std::string id(text.substr(0, kLongestVehicleId));
+  std::replace_if(id.begin(), id.end(), std::not_fn(IsOfVehicleId), '_');
+  return id.empty() ? "_" : id;
 }
 
 Vehicle ReadVehicle(FieldReader reader) {

@@ -29,4 +29,7 @@ inline constexpr std::string_view kVehicleIdAllowed =
     "1..64 characters of letters, digits, '.', '_', '-'";
 bool IsVehicleId(std::string_view text);
 
+/// `text` with every other character replaced by '_', cut off at the longest length; "_" for none.
+std::string VehicleIdLike(std::string_view text);
+
 }  // namespace telltale

@@ -76,6 +76,8 @@ void Fill(telltale_wire_Model& wire, const PublishedModel& model);
 
 constexpr auto kFill = [](auto& wire, const auto& item) { Fill(wire, item); };
 
+constexpr auto kCopy = [](double& element, double value) { element = value; };
+
 std::vector<double> RowMajor(const Eigen::MatrixXd& matrix) {
   std::vector<double> values;
   values.reserve(static_cast<std::size_t>(matrix.size()));
@@ -97,11 +99,12 @@ void Fill(telltale_wire_Model& wire, const PublishedModel& model) {
   Put(wire.estimator, Name(identification.estimator));
   wire.sampling_period_s = identification.sampling_period_s;
   PutSequence(wire.coefficients, identification.coefficients, kFill);
-  PutSequence(wire.covariance, RowMajor(identification.covariance),
-              [](double& element, double value) { element = value; });
+  PutSequence(wire.covariance, RowMajor(identification.covariance), kCopy);
   if (const auto& constant = identification.thruster_time_constant) {
     PutSequence(wire.thruster_time_constant, std::initializer_list<Coefficient>{*constant}, kFill);
   }
+  PutSequence(wire.thruster_time_constant_covariance, identification.time_constant_covariance,
+              kCopy);
   wire.window_start_s = identification.window.start_s;
   wire.window_end_s = identification.window.end_s;
   wire.window_samples = identification.window.samples;
@@ -307,6 +310,25 @@ std::optional<Coefficient> ReadTimeConstant(const telltale_wire_Model& wire, Str
   return ReadCoefficient(field, constants._buffer[0]);
 }
 
+/// None stands for zero: older writers know of none.
+Eigen::VectorXd ReadTimeConstantCovariance(const dds_sequence_double& wire, Structure structure,
+                                           std::size_t coefficients) {
+  const bool dynamic = structure == Structure::kFirstOrderDynamic;
+  const auto n = static_cast<Eigen::Index>(dynamic ? coefficients : 0);
+  if (wire._length == 0) return Eigen::VectorXd::Zero(n);
+  if (wire._length != n) {
+    Reject("thruster_time_constant_covariance", std::to_string(wire._length) + " numbers",
+           dynamic ? std::to_string(n) + ", one for each coefficient"
+                   : "none but for FIRST_ORDER_DYNAMIC");
+  }
+  Eigen::VectorXd covariance(n);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    covariance[i] =
+        ReadWithin("thruster_time_constant_covariance", wire._buffer[i], -kLargest, kLargest);
+  }
+  return covariance;
+}
+
 PublishedModel ReadModel(const telltale_wire_Model& wire) {
   PublishedModel model;
   model.revision = wire.revision;
@@ -322,6 +344,9 @@ PublishedModel ReadModel(const telltale_wire_Model& wire) {
   identification.coefficients = ReadSequence("coefficients", wire.coefficients, ReadCoefficient);
   identification.covariance = ReadCovariance(wire.covariance, identification.coefficients.size());
   identification.thruster_time_constant = ReadTimeConstant(wire, identification.structure);
+  identification.time_constant_covariance =
+      ReadTimeConstantCovariance(wire.thruster_time_constant_covariance, identification.structure,
+                                 identification.coefficients.size());
   identification.dead_zone = ReadDeadZone(wire.dead_zone_forward, wire.dead_zone_reverse);
   identification.window.start_s =
       ReadWithin("window_start_s", wire.window_start_s, -kLargest, kLargest);
@@ -405,6 +430,7 @@ WireSample<telltale_wire_IdentifyRequest> Encode(const IdentifyRequest& request)
   Put(wire->dead_zone, name(request.dead_zone_source));
   wire->dead_zone_forward = request.dead_zone.forward;
   wire->dead_zone_reverse = request.dead_zone.reverse;
+  wire->include_reverse = request.include_reverse;
   return wire;
 }
 
@@ -487,6 +513,7 @@ Decoded<IdentifyRequest> Decode(const telltale_wire_IdentifyRequest& wire) {
     request.dead_zone_source =
         ReadOptionalName("dead_zone", View(wire.dead_zone), kDeadZoneSources);
     request.dead_zone = ReadDeadZone(wire.dead_zone_forward, wire.dead_zone_reverse);
+    request.include_reverse = wire.include_reverse;
     return request;
   });
 }

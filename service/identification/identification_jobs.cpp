@@ -53,6 +53,7 @@ IdentifyOptions OptionsOf(const IdentifyRequest& request, const IdentificationSe
     options.dead_zone_source = request.dead_zone_source;
     options.regression.dead_zone = request.dead_zone;
   }
+  options.regression.include_reverse = request.include_reverse;
   options.interval_level = settings.interval_level;
   options.bootstrap_replicates =
       request.bootstrap_replicates.value_or(settings.bootstrap_replicates);

@@ -169,7 +169,10 @@ TEST(IdentificationOptions, AreTheRequestsWishesOverTheDaemonsDefaults) {
   EXPECT_EQ(options.dead_zone_source, DeadZoneSource::kGiven);
   request.structure = Structure::kFirstOrderDynamic;
   request.dead_zone_source = DeadZoneSource::kIdentified;
+  EXPECT_FALSE(options.regression.include_reverse);
+  request.include_reverse = true;
   options = OptionsOf(request, settings);
+  EXPECT_TRUE(options.regression.include_reverse);
   EXPECT_EQ(options.regression.structure, Structure::kFirstOrderDynamic);
   EXPECT_EQ(options.dead_zone_source, DeadZoneSource::kIdentified);
 }

@@ -1,6 +1,10 @@
 #pragma once
 
+#include <array>
+#include <cmath>
 #include <limits>
+
+#include <gtest/gtest.h>
 
 #include "identification/identification.hpp"
 
@@ -65,7 +69,90 @@ inline Identification MadeUpDynamicIdentification() {
   made.thruster_time_constant =
       Coefficient{Equation::kUnknown,           "", "tau", 0.25, 0.0125, {0.95, 0.23, 0.27}, "s",
                   CoefficientStatus::kEstimated};
+  // A correlation of 1/2 with the first coefficient, and with the others through that one.
+  made.time_constant_covariance =
+      0.5 * 0.0125 / std::sqrt(made.covariance(0, 0)) * made.covariance.col(0);
   return made;
+}
+
+/// Propeller coefficients by hand, the body's all 7 so that a wrong place shows: forward 2 d^2 + 3
+/// d, reverse -4 d^2 + 5 d in surge; half of it in sway, twice of it in yaw. Unit variances, no
+/// dead zone.
+inline Identification IdentificationByHand() {
+  Identification made = MadeUpIdentification();
+  made.dead_zone = {};
+  std::size_t next = 0;
+  for (const Equation equation : kEquations) {
+    const double share = equation == Equation::kSurge  ? 1.0
+                         : equation == Equation::kSway ? 0.5
+                                                       : 2.0;
+    const std::array<double, 4> thrust{2.0, 3.0, -4.0, 5.0};
+    const std::size_t body = BodyRegressors(equation);
+    for (std::size_t i = 0; i < body + 4; ++i, ++next) {
+      Coefficient& c = made.coefficients[next];
+      c.estimate = i < body ? 7.0 : share * thrust[i - body];
+      c.status = CoefficientStatus::kEstimated;
+    }
+  }
+  const auto n = static_cast<Eigen::Index>(made.coefficients.size());
+  made.covariance = Eigen::MatrixXd::Identity(n, n);
+  return made;
+}
+
+// ---- every number, bit for bit ------------------------------------------------------------------
+
+inline void ExpectSame(const Coefficient& a, const Coefficient& b) {
+  EXPECT_EQ(a.equation, b.equation);
+  EXPECT_EQ(a.regressor, b.regressor);
+  EXPECT_EQ(a.symbol, b.symbol);
+  EXPECT_EQ(a.estimate, b.estimate);
+  EXPECT_EQ(a.standard_error, b.standard_error);
+  EXPECT_EQ(a.interval.level, b.interval.level);
+  EXPECT_EQ(a.interval.lower, b.interval.lower);
+  EXPECT_EQ(a.interval.upper, b.interval.upper);
+  EXPECT_EQ(a.unit, b.unit);
+  EXPECT_EQ(a.status, b.status);
+}
+
+inline void ExpectSame(const WindowSummary& a, const WindowSummary& b) {
+  EXPECT_EQ(a.start_s, b.start_s);
+  EXPECT_EQ(a.end_s, b.end_s);
+  EXPECT_EQ(a.samples, b.samples);
+  EXPECT_EQ(a.segments, b.segments);
+  for (const Channel channel : kChannels) {
+    for (const RejectReason reason : kRejectReasons) {
+      EXPECT_EQ(a.rejected.Of(channel, reason), b.rejected.Of(channel, reason));
+    }
+  }
+}
+
+inline void ExpectSame(const Provenance& a, const Provenance& b) {
+  EXPECT_EQ(a.preset, b.preset);
+  EXPECT_EQ(a.bounds_basis, b.bounds_basis);
+  EXPECT_EQ(a.bootstrap_replicates, b.bootstrap_replicates);
+  EXPECT_EQ(a.bootstrap_failures, b.bootstrap_failures);
+  EXPECT_EQ(a.seed, b.seed);
+  EXPECT_EQ(a.software_version, b.software_version);
+}
+
+inline void ExpectSame(const Identification& a, const Identification& b) {
+  EXPECT_EQ(a.vehicle_id, b.vehicle_id);
+  EXPECT_EQ(a.structure, b.structure);
+  EXPECT_EQ(a.parameterization, b.parameterization);
+  EXPECT_EQ(a.estimator, b.estimator);
+  EXPECT_EQ(a.sampling_period_s, b.sampling_period_s);
+  ASSERT_EQ(a.coefficients.size(), b.coefficients.size());
+  for (std::size_t i = 0; i < a.coefficients.size(); ++i) {
+    ExpectSame(a.coefficients[i], b.coefficients[i]);
+  }
+  EXPECT_EQ(a.dead_zone, b.dead_zone);
+  EXPECT_EQ(a.covariance, b.covariance);
+  ASSERT_EQ(a.thruster_time_constant.has_value(), b.thruster_time_constant.has_value());
+  if (a.thruster_time_constant) ExpectSame(*a.thruster_time_constant, *b.thruster_time_constant);
+  EXPECT_EQ(a.time_constant_covariance, b.time_constant_covariance);
+  ExpectSame(a.window, b.window);
+  EXPECT_EQ(a.refusals, b.refusals);
+  ExpectSame(a.provenance, b.provenance);
 }
 
 }  // namespace telltale

@@ -3,15 +3,21 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "codec/json_message.hpp"
 #include "codec/metrics_json.hpp"
 #include "codec/model_json.hpp"
 #include "codec/vehicle_file.hpp"
+#include "data/preparation.hpp"
+#include "identification/input_gain.hpp"
+#include "proto/study.pb.h"
+#include "recording/csv.hpp"
+#include "recording/load.hpp"
 #include "recording/telemetry_log.hpp"
 #include "simulation/manoeuvres.hpp"
 #include "simulation/sensors.hpp"
 #include "simulation/yellowfish.hpp"
 #include "support/identifications.hpp"
-#include "support/run_command.hpp"
+#include "support/telltale_command.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace telltale {
@@ -21,11 +27,6 @@ using testing::AllOf;
 using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::Not;
-
-constexpr int kSuccess = 0;
-constexpr int kFailure = 1;
-constexpr int kUsage = 2;
-constexpr int kRefused = 3;
 
 /// A folder with the vehicle file and a ten-minute log of the Yellowfish twin.
 class CommandTest : public testing::Test {
@@ -44,11 +45,6 @@ class CommandTest : public testing::Test {
   }
 
   std::string Path(const std::string& name) const { return (folder.Path() / name).string(); }
-
-  static CommandOutcome Telltale(std::vector<std::string> arguments) {
-    arguments.insert(arguments.begin(), TELLTALE_COMMAND);
-    return RunCommand(arguments);
-  }
 
   /// Few replicates unless `more` says how many: these tests are not about the bounds.
   CommandOutcome Identify(std::vector<std::string> more) const {
@@ -205,6 +201,41 @@ TEST_F(CommandTest, ADynamicModelIsIdentifiedValidatedAndSimulated) {
   EXPECT_EQ(Simulated({"--out", Path("finer"), "--step", "0.02"}).exit_code, kSuccess);
 }
 
+/// A boat whose propellers always turn alike shows reverse thrust in RR alone.
+TEST_F(CommandTest, ReverseRowsAreTakenOnRequest) {
+  auto commands = SampleMission(1);
+  for (TimedCommand& command : commands) command.delta.starboard = command.delta.port;
+  const auto track = Simulate(YellowfishTwin(), {}, commands, kSampleMissionDurationS, 0.02);
+  WriteTelemetryLog(Path("log"), Measure(track, YellowfishVehicle(), {}));
+  const auto surge_reverse = [this](std::vector<std::string> more) {
+    more.insert(more.end(), {"--bootstrap", "0", "--json"});
+    const auto model = ParseModelJson(Identify(more).out);
+    EXPECT_TRUE(model) << model.error().Message();
+    return model->coefficients[8];
+  };
+  EXPECT_EQ(surge_reverse({}).regressor, "r:d");
+  // Smoothed commands pass through idle, where a trace of reverse is left.
+  EXPECT_LT(surge_reverse({"--include-rr"}).standard_error, 0.5 * surge_reverse({}).standard_error);
+}
+
+TEST_F(CommandTest, StudyTakesReverseRowsOnRequestButNeverInThePapersSurge) {
+  const auto study = [this](std::vector<std::string> more) {
+    std::vector<std::string> arguments = {
+        "study",     "--log", Path("log"), "--vehicle", Path("boat.textproto"),
+        "--repeats", "1",     "--json"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    proto::Study message;
+    const auto fault = ParseJsonMessage(Telltale(arguments).out, "study", message);
+    EXPECT_FALSE(fault) << fault->Message();
+    return message.static_table();
+  };
+  const proto::CoefficientTable without = study({});
+  const proto::CoefficientTable with = study({"--include-rr"});
+  ASSERT_GT(without.surge_size(), 0);
+  EXPECT_EQ(with.surge(0), without.surge(0));
+  EXPECT_NE(with.sway(0), without.sway(0));
+}
+
 // The sample mission hardly passes neutral, so all that is sure is that both limits are settled or
 // refused.
 TEST_F(CommandTest, IdentifySeeksTheDeadZone) {
@@ -288,6 +319,31 @@ TEST_F(CommandTest, ValidateTakesHorizons) {
   EXPECT_EQ(metrics->free_run[1].horizon_s, 3.0);
   EXPECT_EQ(Validate({"--horizon", "-1"}).exit_code, kUsage);
   EXPECT_EQ(Validate({"--horizon", "601"}).exit_code, kUsage);
+}
+
+TEST_F(CommandTest, ValidateWritesTheDisturbanceOverTheLog) {
+  MakeModel();
+  const CommandOutcome outcome = Validate({"--disturbance", Path("sigma.csv")});
+  ASSERT_EQ(outcome.exit_code, kSuccess) << outcome.err;
+  std::vector<std::array<double, 4>> rows;
+  const std::array<std::string_view, 4> columns = {"time_s", "sigma_u", "sigma_v", "sigma_r"};
+  ASSERT_TRUE(ReadCsv(Path("sigma.csv"), columns, [&](std::span<const double> row) {
+    rows.push_back({row[0], row[1], row[2], row[3]});
+  }));
+
+  const auto model = ParseModelJson(TextOfFile(Path("model.json")));
+  const auto recorded = LoadRecording(std::filesystem::path(Path("log")));
+  const auto dataset = Prepare(recorded->recording, YellowfishVehicle(), PrepareOptions::Robust());
+  const auto expected = ReconstructDisturbance(*dataset, *ModelOf(*model));
+  ASSERT_EQ(rows.size(), expected.size());
+  ASSERT_GT(rows.size(), 2900u);
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    EXPECT_EQ(rows[k][0], expected[k].time_s);
+    EXPECT_EQ(rows[k][1], expected[k].sigma.u);
+    EXPECT_EQ(rows[k][2], expected[k].sigma.v);
+    EXPECT_EQ(rows[k][3], expected[k].sigma.r);
+  }
+  EXPECT_EQ(Validate({"--disturbance", Path("nowhere/sigma.csv")}).exit_code, kFailure);
 }
 
 TEST_F(CommandTest, ValidateSaysWhetherTheLogMadeTheModel) {

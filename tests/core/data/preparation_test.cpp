@@ -132,16 +132,22 @@ TEST(PreparePaper, RecoversTheVelocitiesOfACircleToItsDifferencesError) {
   }
 }
 
-class EitherPreset : public ::testing::TestWithParam<Preset> {
+struct Named {
+  Preset preset;
+};
+
+void PrintTo(const Named& named, std::ostream* out) {
+  *out << Name(named.preset);
+}
+
+class EitherPreset : public ::testing::TestWithParam<Named> {
  protected:
   PrepareOptions Options() const {
-    return GetParam() == Preset::kPaper ? PrepareOptions::Paper() : PrepareOptions::Robust();
+    return GetParam().preset == Preset::kPaper ? PrepareOptions::Paper() : PrepareOptions::Robust();
   }
 };
-INSTANTIATE_TEST_SUITE_P(Presets, EitherPreset, ::testing::Values(Preset::kPaper, Preset::kRobust),
-                         [](const auto& test) {
-                           return test.param == Preset::kPaper ? "Paper" : "Robust";
-                         });
+INSTANTIATE_TEST_SUITE_P(Presets, EitherPreset,
+                         ::testing::Values(Named{Preset::kPaper}, Named{Preset::kRobust}));
 
 TEST_P(EitherPreset, RemovesTheLeverArm) {
   const LeverArm arm{0.8, -0.3};

@@ -69,12 +69,17 @@ struct Case {
   DeadZone limits;
 };
 
+void PrintTo(const Case& c, std::ostream* out) {
+  *out << Name(c.structure) << ' ' << c.limits.forward << ' ' << c.limits.reverse;
+}
+
 class KnownDeadZone : public ::testing::TestWithParam<Case> {};
 
-/// Data made by the discrete model give the limits back to the last step of the search.
+/// Data made by the discrete model give the limits back to the last step of the search, however few
+/// they are: 300 rows are twice what thirteen coefficients ask for.
 TEST_P(KnownDeadZone, IsRecovered) {
   const auto& [structure, limits] = GetParam();
-  const auto dataset = Drive(Boat(structure, limits), Commands(1200, 0.0, 0.8));
+  const auto dataset = Drive(Boat(structure, limits), Commands(300, 0.0, 0.8));
   const auto estimate = EstimateDeadZone(dataset, Fitted(structure), {}, 2);
   ASSERT_TRUE(estimate.has_value());
   EXPECT_NEAR(estimate->forward.estimate, limits.forward, 2e-5);

@@ -58,6 +58,20 @@ TEST(BuildRegression, TakesReverseRowsOnRequest) {
   EXPECT_EQ(BuildRegression(dataset, options).equations[2].y.size(), 5);
 }
 
+/// The paper's surge has the forward thrust curve alone: with two propellers in reverse it would be
+/// another one.
+TEST(BuildRegression, PaperSurgeNeverTakesReverseRows) {
+  PreparedDataset dataset = TwoStretches();
+  dataset.stretches = {{0, 6}};
+  RegressionOptions options;
+  options.parameterization = Parameterization::kPaper;
+  const auto without = BuildRegression(dataset, options);
+  options.include_reverse = true;
+  const auto with = BuildRegression(dataset, options);
+  EXPECT_EQ(with.equations[0].y.size(), without.equations[0].y.size());
+  EXPECT_EQ(with.equations[1].y.size(), without.equations[1].y.size() + 1);
+}
+
 TEST(BuildRegression, ClustersAreSegmentsAndMayBeEmpty) {
   const auto problem = BuildRegression(TwoStretches(), {});
   for (const EquationProblem& equation : problem.equations) {

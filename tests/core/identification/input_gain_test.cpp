@@ -18,42 +18,20 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// Propeller coefficients by hand, the body's all 7 so that a wrong place shows: forward 2 d^2 + 3
-/// d, reverse -4 d^2 + 5 d in surge; half of it in sway, twice of it in yaw. Unit variances, no
-/// dead zone.
-Identification ByHand() {
-  Identification made = MadeUpIdentification();
-  made.dead_zone = {};
-  std::size_t next = 0;
-  for (const Equation equation : kEquations) {
-    const double share = equation == Equation::kSurge  ? 1.0
-                         : equation == Equation::kSway ? 0.5
-                                                       : 2.0;
-    const std::array<double, 4> thrust{2.0, 3.0, -4.0, 5.0};
-    const std::size_t body = BodyRegressors(equation);
-    for (std::size_t i = 0; i < body + 4; ++i, ++next) {
-      Coefficient& c = made.coefficients[next];
-      c.estimate = i < body ? 7.0 : share * thrust[i - body];
-      c.status = CoefficientStatus::kEstimated;
-    }
-  }
-  const auto n = static_cast<Eigen::Index>(made.coefficients.size());
-  made.covariance = Eigen::MatrixXd::Identity(n, n);
-  return made;
-}
-
 Identification Lagging(double tau_s, double tau_error_s) {
-  Identification made = ByHand();
+  Identification made = IdentificationByHand();
   made.structure = Structure::kFirstOrderDynamic;
   made.thruster_time_constant = Coefficient{
       Equation::kUnknown,           "", "tau", tau_s, tau_error_s, {0.95, 0.0, 1.0}, "s",
       CoefficientStatus::kEstimated};
+  made.time_constant_covariance =
+      Eigen::VectorXd::Zero(static_cast<Eigen::Index>(made.coefficients.size()));
   return made;
 }
 
 // Port 0.5: 2 0.25 + 3 0.5 = 2. Starboard -0.2: -4 0.04 - 5 0.2 = -1.16. Sum 0.84, difference 3.16.
 TEST(SteadyInputGain, IsTheHandWorkedSumAndDifference) {
-  const InputGain gain = SteadyInputGain(ByHand(), {0.5, -0.2});
+  const InputGain gain = SteadyInputGain(IdentificationByHand(), {0.5, -0.2});
   EXPECT_NEAR(gain.gain[0], 0.84, 1e-15);
   EXPECT_NEAR(gain.gain[1], 0.5 * 3.16, 1e-15);
   EXPECT_NEAR(gain.gain[2], 2.0 * 3.16, 1e-15);
@@ -64,7 +42,7 @@ TEST(SteadyInputGain, IsTheHandWorkedSumAndDifference) {
 }
 
 TEST(SteadyInputGain, TimesThePeriodIsThePapersGain) {
-  const InputGain gain = SteadyInputGain(ByHand(), {0.5, -0.2});
+  const InputGain gain = SteadyInputGain(IdentificationByHand(), {0.5, -0.2});
   EXPECT_NEAR(gain.Times(0.2).gain[0], 0.168, 1e-15);
   EXPECT_NEAR(gain.Times(0.2).StandardErrors()[2], 0.2 * gain.StandardErrors()[2], 1e-15);
 }
@@ -85,13 +63,13 @@ TEST(SteadyInputGain, IsThePapersFormulaOnThePapersTable) {
 }
 
 TEST(SteadyInputGain, NeutralIsNoGainKnownExactly) {
-  const InputGain gain = SteadyInputGain(ByHand(), {0.0, 0.0});
+  const InputGain gain = SteadyInputGain(IdentificationByHand(), {0.0, 0.0});
   EXPECT_TRUE(gain.gain.isZero(0.0));
   EXPECT_TRUE(gain.covariance.isZero(0.0));
 }
 
 TEST(SteadyInputGain, TheDeadZoneGivesNothing) {
-  Identification made = ByHand();
+  Identification made = IdentificationByHand();
   made.dead_zone = {0.1, -0.1};
   EXPECT_TRUE(SteadyInputGain(made, {0.1, -0.1}).gain.isZero(0.0));
   EXPECT_NEAR(SteadyInputGain(made, {0.6, -0.3}).gain[0], 0.84, 1e-14);
@@ -100,7 +78,7 @@ TEST(SteadyInputGain, TheDeadZoneGivesNothing) {
 /// The propagated covariance is that of the gain over draws of the coefficients. 20000 draws: a
 /// covariance is off by 1 % of the deviations' product at one sigma, so 4 % is four sigma.
 TEST(SteadyInputGain, CovarianceIsThatOfManyDraws) {
-  Identification made = ByHand();
+  Identification made = IdentificationByHand();
   const auto n = made.covariance.rows();
   const Eigen::MatrixXd root =
       Eigen::MatrixXd::NullaryExpr(n, n, [](Eigen::Index i, Eigen::Index j) {
@@ -133,7 +111,7 @@ TEST(SteadyInputGain, CovarianceIsThatOfManyDraws) {
 }
 
 TEST(SteadyInputGain, AnUnknownCoefficientCountsOnlyWhenItIsAtWork) {
-  Identification made = ByHand();
+  Identification made = IdentificationByHand();
   const Eigen::Index reverse = 7;  // surge r:d^2
   made.covariance(reverse, reverse) = kInfinity;
   EXPECT_TRUE(std::isfinite(SteadyInputGain(made, {0.5, 0.5}).covariance(0, 0)));
@@ -143,7 +121,7 @@ TEST(SteadyInputGain, AnUnknownCoefficientCountsOnlyWhenItIsAtWork) {
 }
 
 TEST(SteadyInputGain, ARefusedEquationIsUnknown) {
-  Identification made = ByHand();
+  Identification made = IdentificationByHand();
   std::erase_if(made.coefficients, [](const auto& c) { return c.equation == Equation::kSway; });
   const auto n = static_cast<Eigen::Index>(made.coefficients.size());
   made.covariance = Eigen::MatrixXd::Identity(n, n);
@@ -204,8 +182,52 @@ TEST(LaggedInputGain, BoundHoldsTheTimeConstantsError) {
   EXPECT_TRUE((with.covariance - without.covariance).isApprox(expected, 1e-6));
 }
 
+/// Coefficients and lag vary together, the lag mostly with surge f:d. The propagated covariance is
+/// that of many draws: of 20000, 1 % of the deviations' product at one sigma, so 4 % is four sigma.
+/// Errors of 1 % of the lag leave nothing of second order to see.
+TEST(LaggedInputGain, CovarianceIsThatOfManyDrawsOfLagAndCoefficientsTogether) {
+  constexpr Eigen::Index kSurgeForward = 6;
+  const double tau_error = 0.003;
+  Identification made = Lagging(0.3, tau_error);
+  const auto n = made.covariance.rows();
+  const double error = 0.02;
+  made.covariance = error * error * Eigen::MatrixXd::Identity(n, n);
+  made.time_constant_covariance[kSurgeForward] = 0.9 * error * tau_error;
+  const auto run = [](const Identification& model) {
+    LaggedInputGain gain(model);
+    gain.Advance({0.8, -0.3}, 0.17);
+    return gain.Advance({0.9, 0.6}, 0.23);
+  };
+  const InputGain exact = run(made);
+  RandomEngine engine(12);
+  boost::random::normal_distribution<double> normal;
+  constexpr int kDraws = 20000;
+  Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
+  for (int draw = 0; draw < kDraws; ++draw) {
+    Identification drawn = made;
+    const double common = normal(engine);
+    for (Eigen::Index i = 0; i < n; ++i) {
+      drawn.coefficients[static_cast<std::size_t>(i)].estimate +=
+          error * (i == kSurgeForward ? common : normal(engine));
+    }
+    drawn.thruster_time_constant->estimate +=
+        tau_error * (0.9 * common + std::sqrt(1.0 - 0.81) * normal(engine));
+    const Eigen::Vector3d apart = run(drawn).gain - exact.gain;
+    sum += apart * apart.transpose();
+  }
+  const Eigen::Vector3d deviation = exact.StandardErrors();
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 3; ++j) {
+      EXPECT_NEAR(sum(i, j) / kDraws, exact.covariance(i, j), 0.04 * deviation[i] * deviation[j]);
+    }
+  }
+  // More thrust in steady state and a longer lag offset each other: taken apart they would add up.
+  made.time_constant_covariance.setZero();
+  EXPECT_GT(run(made).covariance(0, 0), 2.0 * exact.covariance(0, 0));
+}
+
 TEST(LaggedInputGain, NeedsTheDynamicStructure) {
-  const Identification model = ByHand();
+  const Identification model = IdentificationByHand();
   EXPECT_THROW(LaggedInputGain{model}, ContractViolation);
 }
 
@@ -223,12 +245,20 @@ TEST(SettlingTime, IsWhenTheInitialConditionIsGone) {
 
 // ---- disturbance -------------------------------------------------------------------------------
 
-class Disturbance : public ::testing::TestWithParam<Structure> {};
+struct Thrust {
+  Structure structure;
+};
+
+void PrintTo(const Thrust& thrust, std::ostream* out) {
+  *out << Name(thrust.structure);
+}
+
+class Disturbance : public ::testing::TestWithParam<Thrust> {};
 
 /// On rows made by the discrete model, sigma is the body part of the model at each row.
 TEST_P(Disturbance, IsTheBodyPartOfTheModelThatMadeTheData) {
   VesselModel model = YellowfishTwin();
-  model.structure = GetParam();
+  model.structure = GetParam().structure;
   model.discretisation = Discretisation::kForwardEuler;
   model.thruster_time_constant_s = 0.4;
   const auto commands =
@@ -252,8 +282,8 @@ TEST_P(Disturbance, IsTheBodyPartOfTheModelThatMadeTheData) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Structures, Disturbance,
-                         ::testing::Values(Structure::kStaticQuadratic,
-                                           Structure::kFirstOrderDynamic));
+                         ::testing::Values(Thrust{Structure::kStaticQuadratic},
+                                           Thrust{Structure::kFirstOrderDynamic}));
 
 TEST(ReconstructDisturbance, NeverStraddlesAGap) {
   const VesselModel model = YellowfishPaperModel();

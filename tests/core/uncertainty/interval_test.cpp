@@ -46,5 +46,16 @@ TEST(Unbounded, RulesNothingOut) {
   EXPECT_TRUE(std::isinf(Unbounded(0.95).upper));
 }
 
+// Quantiles of the normal law, from any table: 1.959964 at 0.975, 1.644854 at 0.95.
+TEST(NormalInterval, HoldsTabulatedQuantiles) {
+  const Interval wide = NormalInterval(3.0, 2.0, 0.95);
+  EXPECT_EQ(wide.level, 0.95);
+  EXPECT_NEAR(wide.lower, 3.0 - 2.0 * 1.959964, 1e-6);
+  EXPECT_NEAR(wide.upper, 3.0 + 2.0 * 1.959964, 1e-6);
+  EXPECT_NEAR(NormalInterval(0.0, 1.0, 0.9).upper, 1.644854, 1e-6);
+  EXPECT_EQ(NormalInterval(3.0, 0.0, 0.95).upper, 3.0);
+  EXPECT_TRUE(std::isinf(NormalInterval(3.0, std::numeric_limits<double>::infinity(), 0.95).lower));
+}
+
 }  // namespace
 }  // namespace telltale

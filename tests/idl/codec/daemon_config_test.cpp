@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include "support/test_name.hpp"
 
 namespace telltale {
 namespace {
@@ -67,6 +68,10 @@ TEST(DaemonConfig, ReadsEveryField) {
 struct Fault {
   std::string text, field, value, allowed;
 };
+
+void PrintTo(const Fault& fault, std::ostream* out) {
+  *out << AsTestName(fault.text);
+}
 
 class WrongConfig : public testing::TestWithParam<Fault> {};
 

@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "support/identifications.hpp"
+#include "support/test_name.hpp"
 
 namespace telltale {
 namespace {
@@ -17,68 +18,10 @@ using testing::HasSubstr;
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-void ExpectSame(const Coefficient& a, const Coefficient& b) {
-  EXPECT_EQ(a.equation, b.equation);
-  EXPECT_EQ(a.regressor, b.regressor);
-  EXPECT_EQ(a.symbol, b.symbol);
-  EXPECT_EQ(a.estimate, b.estimate);
-  EXPECT_EQ(a.standard_error, b.standard_error);
-  EXPECT_EQ(a.interval.level, b.interval.level);
-  EXPECT_EQ(a.interval.lower, b.interval.lower);
-  EXPECT_EQ(a.interval.upper, b.interval.upper);
-  EXPECT_EQ(a.unit, b.unit);
-  EXPECT_EQ(a.status, b.status);
-}
-
-void ExpectSame(const WindowSummary& a, const WindowSummary& b) {
-  EXPECT_EQ(a.start_s, b.start_s);
-  EXPECT_EQ(a.end_s, b.end_s);
-  EXPECT_EQ(a.samples, b.samples);
-  EXPECT_EQ(a.segments, b.segments);
-  for (const Channel channel : kChannels) {
-    for (const RejectReason reason : kRejectReasons) {
-      EXPECT_EQ(a.rejected.Of(channel, reason), b.rejected.Of(channel, reason));
-    }
-  }
-}
-
-void ExpectSame(const Provenance& a, const Provenance& b) {
-  EXPECT_EQ(a.preset, b.preset);
-  EXPECT_EQ(a.bounds_basis, b.bounds_basis);
-  EXPECT_EQ(a.bootstrap_replicates, b.bootstrap_replicates);
-  EXPECT_EQ(a.bootstrap_failures, b.bootstrap_failures);
-  EXPECT_EQ(a.seed, b.seed);
-  EXPECT_EQ(a.software_version, b.software_version);
-}
-
-void ExpectSame(const Identification& a, const Identification& b) {
-  EXPECT_EQ(a.vehicle_id, b.vehicle_id);
-  EXPECT_EQ(a.structure, b.structure);
-  EXPECT_EQ(a.parameterization, b.parameterization);
-  EXPECT_EQ(a.estimator, b.estimator);
-  EXPECT_EQ(a.sampling_period_s, b.sampling_period_s);
-  ASSERT_EQ(a.coefficients.size(), b.coefficients.size());
-  for (std::size_t i = 0; i < a.coefficients.size(); ++i) {
-    ExpectSame(a.coefficients[i], b.coefficients[i]);
-  }
-  EXPECT_EQ(a.dead_zone, b.dead_zone);
-  EXPECT_EQ(a.covariance, b.covariance);
-  ASSERT_EQ(a.thruster_time_constant.has_value(), b.thruster_time_constant.has_value());
-  if (a.thruster_time_constant) ExpectSame(*a.thruster_time_constant, *b.thruster_time_constant);
-  ExpectSame(a.window, b.window);
-  EXPECT_EQ(a.refusals, b.refusals);
-  ExpectSame(a.provenance, b.provenance);
-}
-
 void ExpectReadsBack(const Identification& identification) {
   const auto again = ParseModelJson(PrintModelJson(identification));
   ASSERT_TRUE(again) << again.error().Message();
   ExpectSame(*again, identification);
-}
-
-Coefficient MadeUpTimeConstant() {
-  return {Equation::kUnknown,           "", "T", 0.25, 0.01, {0.95, 0.23, 0.27}, "s",
-          CoefficientStatus::kEstimated};
 }
 
 TEST(ModelJson, PrintedAndReadAgainIsTheSameToTheLastBit) {
@@ -95,10 +38,26 @@ TEST(ModelJson, AnEquationMayBeMissingWhole) {
 }
 
 TEST(ModelJson, TheTimeConstantGoesWithTheDynamicStructure) {
-  Identification dynamic = MadeUpIdentification();
-  dynamic.structure = Structure::kFirstOrderDynamic;
-  dynamic.thruster_time_constant = MadeUpTimeConstant();
-  ExpectReadsBack(dynamic);
+  ExpectReadsBack(MadeUpDynamicIdentification());
+}
+
+TEST(ModelJson, AnOlderFileHasNoCovarianceOfTheTimeConstant) {
+  proto::Model model = ToProto(MadeUpDynamicIdentification());
+  model.clear_thruster_time_constant_covariance();
+  const auto read = IdentificationOf(model);
+  ASSERT_TRUE(read) << read.error().Message();
+  EXPECT_EQ(read->time_constant_covariance, Eigen::VectorXd::Zero(35));
+}
+
+TEST(ModelJson, TheCovarianceOfTheTimeConstantHasANumberForEachCoefficient) {
+  proto::Model model = ToProto(MadeUpDynamicIdentification());
+  model.set_thruster_time_constant_covariance(3, kNan);
+  EXPECT_EQ(IdentificationOf(model).error().field, "thrusterTimeConstantCovariance[3]");
+  model.mutable_thruster_time_constant_covariance()->RemoveLast();
+  EXPECT_EQ(IdentificationOf(model).error().field, "thrusterTimeConstantCovariance");
+  EXPECT_EQ(IdentificationOf(model).error().value, "34 numbers");
+  EXPECT_THAT(PrintModelJson(MadeUpDynamicIdentification()),
+              HasSubstr("\"thrusterTimeConstantCovariance\": ["));
 }
 
 TEST(ModelJson, AnOlderFileHasNoDeadZone) {
@@ -159,6 +118,10 @@ struct Fault {
   std::function<void(proto::Model&)> spoil;
   std::string field, value, allowed;
 };
+
+void PrintTo(const Fault& fault, std::ostream* out) {
+  *out << AsTestName(fault.field + ' ' + fault.value + ' ' + fault.allowed);
+}
 
 class WrongModel : public testing::TestWithParam<Fault> {};
 
@@ -228,6 +191,8 @@ INSTANTIATE_TEST_SUITE_P(
         Fault{[](M& m) { m.set_covariance(70, 5.0); }, "covariance[70]", "5", "symmetric"},
         Fault{[](M& m) { m.mutable_thruster_time_constant_s()->set_estimate(1.0); },
               "thrusterTimeConstantS", "(given)", "FIRST_ORDER_DYNAMIC"},
+        Fault{[](M& m) { m.add_thruster_time_constant_covariance(1.0); },
+              "thrusterTimeConstantCovariance", "1 numbers", "FIRST_ORDER_DYNAMIC"},
         Fault{[](M& m) { m.set_structure(proto::FIRST_ORDER_DYNAMIC); }, "thrusterTimeConstantS",
               "", "FIRST_ORDER_DYNAMIC"},
         Fault{[](M& m) { m.mutable_window()->set_end_s(1.0); }, "window.startS", "1700000000.125",

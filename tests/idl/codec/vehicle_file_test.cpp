@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include "support/test_name.hpp"
 
 namespace telltale {
 namespace {
@@ -66,6 +67,10 @@ struct Fault {
   std::string from, to;  // what is changed in the good file
   std::string field, value, allowed, where;
 };
+
+void PrintTo(const Fault& fault, std::ostream* out) {
+  *out << AsTestName(fault.from + " to " + fault.to);
+}
 
 class WrongVehicle : public testing::TestWithParam<Fault> {};
 
@@ -142,6 +147,17 @@ TEST(VehicleFile, AnIdHasUpTo64Characters) {
   EXPECT_TRUE(IsVehicleId(std::string(64, 'x')));
   EXPECT_FALSE(IsVehicleId(std::string(65, 'x')));
   EXPECT_FALSE(IsVehicleId("b\xc3\xa5t"));
+}
+
+TEST(VehicleIdLike, IsAlwaysAVehicleId) {
+  EXPECT_EQ(VehicleIdLike("00000042"), "00000042");
+  EXPECT_EQ(VehicleIdLike("2024-05-01 12:00"), "2024-05-01_12_00");
+  EXPECT_EQ(VehicleIdLike("b\xc3\xa5t"), "b__t");
+  EXPECT_EQ(VehicleIdLike(""), "_");
+  EXPECT_EQ(VehicleIdLike(std::string(65, 'x')), std::string(64, 'x'));
+  for (int c = 0; c < 256; ++c) {
+    EXPECT_TRUE(IsVehicleId(VehicleIdLike(std::string(1, static_cast<char>(c))))) << c;
+  }
 }
 
 }  // namespace

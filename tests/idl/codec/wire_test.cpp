@@ -20,47 +20,10 @@ PublishedModel MadeUpModel() {
   return {MadeUpIdentification(), 7, 1700000700.5};
 }
 
-void ExpectSame(const Coefficient& a, const Coefficient& b) {
-  EXPECT_EQ(a.equation, b.equation);
-  EXPECT_EQ(a.regressor, b.regressor);
-  EXPECT_EQ(a.symbol, b.symbol);
-  EXPECT_EQ(a.estimate, b.estimate);
-  EXPECT_EQ(a.standard_error, b.standard_error);
-  EXPECT_EQ(a.interval.level, b.interval.level);
-  EXPECT_EQ(a.interval.lower, b.interval.lower);
-  EXPECT_EQ(a.interval.upper, b.interval.upper);
-  EXPECT_EQ(a.unit, b.unit);
-  EXPECT_EQ(a.status, b.status);
-}
-
 void ExpectSame(const PublishedModel& a, const PublishedModel& b) {
   EXPECT_EQ(a.revision, b.revision);
   EXPECT_EQ(a.published_unix_s, b.published_unix_s);
-  const Identification& x = a.identification;
-  const Identification& y = b.identification;
-  EXPECT_EQ(x.vehicle_id, y.vehicle_id);
-  EXPECT_EQ(x.structure, y.structure);
-  EXPECT_EQ(x.parameterization, y.parameterization);
-  EXPECT_EQ(x.estimator, y.estimator);
-  EXPECT_EQ(x.sampling_period_s, y.sampling_period_s);
-  ASSERT_EQ(x.coefficients.size(), y.coefficients.size());
-  for (std::size_t i = 0; i < x.coefficients.size(); ++i) {
-    ExpectSame(x.coefficients[i], y.coefficients[i]);
-  }
-  EXPECT_EQ(x.dead_zone, y.dead_zone);
-  EXPECT_EQ(x.covariance, y.covariance);
-  EXPECT_EQ(x.window.start_s, y.window.start_s);
-  EXPECT_EQ(x.window.end_s, y.window.end_s);
-  EXPECT_EQ(x.window.samples, y.window.samples);
-  EXPECT_EQ(x.window.segments, y.window.segments);
-  EXPECT_EQ(Entries(x.window.rejected), Entries(y.window.rejected));
-  EXPECT_EQ(x.refusals, y.refusals);
-  EXPECT_EQ(x.provenance.preset, y.provenance.preset);
-  EXPECT_EQ(x.provenance.bounds_basis, y.provenance.bounds_basis);
-  EXPECT_EQ(x.provenance.bootstrap_replicates, y.provenance.bootstrap_replicates);
-  EXPECT_EQ(x.provenance.bootstrap_failures, y.provenance.bootstrap_failures);
-  EXPECT_EQ(x.provenance.seed, y.provenance.seed);
-  EXPECT_EQ(x.provenance.software_version, y.provenance.software_version);
+  ExpectSame(a.identification, b.identification);
 }
 
 TEST(WireTelemetry, ArrivesAsItWasSent) {
@@ -136,9 +99,27 @@ TEST(WireModel, CarriesTheThrusterTimeConstant) {
   const auto received = Decode(*Encode(sent));
   ASSERT_TRUE(received) << received.error().Message();
   ExpectSame(*received, sent);
-  ASSERT_TRUE(received->identification.thruster_time_constant);
-  ExpectSame(*received->identification.thruster_time_constant,
-             *sent.identification.thruster_time_constant);
+}
+
+TEST(WireModel, AnOlderWriterSendsNoCovarianceOfTheTimeConstant) {
+  PublishedModel sent{MadeUpDynamicIdentification(), 8, 1700000700.5};
+  sent.identification.time_constant_covariance.resize(0);
+  const auto received = Decode(*Encode(sent));
+  ASSERT_TRUE(received) << received.error().Message();
+  EXPECT_EQ(received->identification.time_constant_covariance, Eigen::VectorXd::Zero(35));
+}
+
+TEST(WireModel, TheCovarianceOfTheTimeConstantHasANumberForEachCoefficient) {
+  PublishedModel sent{MadeUpDynamicIdentification(), 8, 1700000700.5};
+  auto wire = Encode(sent);
+  wire->thruster_time_constant_covariance._buffer[3] = kNan;
+  EXPECT_EQ(Decode(*wire).error().field, "thruster_time_constant_covariance");
+  wire = Encode(sent);
+  wire->thruster_time_constant_covariance._length -= 1;
+  EXPECT_EQ(Decode(*wire).error().value, "34 numbers");
+  sent.identification.structure = Structure::kStaticQuadratic;
+  sent.identification.thruster_time_constant.reset();
+  EXPECT_EQ(Decode(*Encode(sent)).error().field, "thruster_time_constant_covariance");
 }
 
 TEST(WireModel, TheTimeConstantGoesWithTheDynamicStructure) {
@@ -210,6 +191,7 @@ TEST(WireExchange, RequestArrivesAsItWasSent) {
   sent.seed = 99;
   sent.dead_zone_source = DeadZoneSource::kGiven;
   sent.dead_zone = {0.05, -0.0625};
+  sent.include_reverse = true;
   const auto received = Decode(*Encode(sent));
   ASSERT_TRUE(received) << received.error().Message();
   EXPECT_EQ(received->correlation_id, sent.correlation_id);
@@ -222,6 +204,14 @@ TEST(WireExchange, RequestArrivesAsItWasSent) {
   EXPECT_EQ(received->seed, 99u);
   EXPECT_EQ(received->dead_zone_source, DeadZoneSource::kGiven);
   EXPECT_EQ(received->dead_zone, sent.dead_zone);
+  EXPECT_TRUE(received->include_reverse);
+}
+
+TEST(WireExchange, RequestLeavesReverseRowsOutUnlessItSaysOtherwise) {
+  IdentifyRequest sent;
+  sent.correlation_id = "abc-1";
+  sent.vehicle_id = "boat-1";
+  EXPECT_FALSE(Decode(*Encode(sent))->include_reverse);
 }
 
 TEST(WireExchange, RequestRefusesUnknownChoicesAndIdentifiers) {

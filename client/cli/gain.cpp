@@ -1,0 +1,127 @@
+#include <cmath>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "cli/commands.hpp"
+#include "cli/inputs.hpp"
+#include "cli/number_pair.hpp"
+#include "cli/outcome.hpp"
+#include "cli/output.hpp"
+#include "cli/table.hpp"
+#include "exchange/gains.hpp"
+
+namespace telltale {
+namespace {
+
+struct GainArguments {
+  std::filesystem::path model_file;
+  std::vector<std::string> deltas;  ///< "PORT,STARBOARD"
+  OutputOptions output;
+};
+
+/// Full ahead, half ahead, a turn to either side, FR and RF.
+constexpr std::array<PropellerCommand, 6> kCatalogue = {
+    {{1.0, 1.0}, {0.5, 0.5}, {0.8, 0.4}, {0.4, 0.8}, {0.5, -0.5}, {-0.5, 0.5}}};
+
+PropellerCommand CommandNamed(const std::string& text) {
+  const auto [port, starboard] = NumberPair("--delta", text, "two shares as in 0.5,-0.2");
+  if (std::abs(port) <= 1.0 && std::abs(starboard) <= 1.0) return {port, starboard};
+  throw UsageError("--delta " + text + ": shares of full command lie in [-1, 1]");
+}
+
+std::vector<PropellerCommand> CommandsOf(const GainArguments& arguments) {
+  if (arguments.deltas.empty()) return {kCatalogue.begin(), kCatalogue.end()};
+  std::vector<PropellerCommand> commands;
+  for (const std::string& text : arguments.deltas) commands.push_back(CommandNamed(text));
+  return commands;
+}
+
+struct Axis {
+  const char* name;
+  const char* continuous_unit;
+  const char* discrete_unit;
+};
+
+constexpr std::array<Axis, 3> kAxes = {
+    {{"surge", "m/s^2", "m/s"}, {"sway", "m/s^2", "m/s"}, {"yaw", "rad/s^2", "rad/s"}}};
+
+std::string BoundsText(const Interval& interval) {
+  return '[' + Significant(interval.lower) + ", " + Significant(interval.upper) + ']';
+}
+
+std::vector<std::string> Row(const Identification& model, const CommandGain& command,
+                             Equation equation) {
+  const Axis& axis = kAxes[IndexOf(equation)];
+  if (!model.Has(equation)) return {axis.name, "refused", "", "", "", "", ""};
+  const auto place = static_cast<Eigen::Index>(IndexOf(equation));
+  const InputGain discrete = command.gain.Times(model.sampling_period_s);
+  return {axis.name,
+          Significant(command.gain.gain[place]),
+          BoundsText(BoundsOf(model, command.gain, equation)),
+          axis.continuous_unit,
+          Significant(discrete.gain[place]),
+          BoundsText(BoundsOf(model, discrete, equation)),
+          axis.discrete_unit};
+}
+
+std::string GainTable(const Identification& model, const std::vector<CommandGain>& gains) {
+  const std::string bounds = Plain(100.0 * model.coefficients.front().interval.level) + " % bounds";
+  Table table({{"input gain", Align::kLeft},
+               {"G / h", Align::kRight},
+               {bounds, Align::kRight},
+               {"", Align::kLeft},
+               {"G", Align::kRight},
+               {bounds, Align::kRight},
+               {"", Align::kLeft}});
+  for (const CommandGain& command : gains) {
+    table.AddHeading("port " + Plain(command.delta.port) + ", starboard " +
+                     Plain(command.delta.starboard) + " (" +
+                     std::string(Name(RegionOf(command.delta))) + ')');
+    for (const Equation equation : kEquations) table.AddRow(Row(model, command, equation));
+  }
+  return table.Render();
+}
+
+std::string SettlingText(const Identification& model) {
+  if (!model.thruster_time_constant) return "";
+  const Settling settling = SettlingOf(model);
+  return Wrapped("1 % of an initial condition is left after " + Significant(settling.estimate_s) +
+                 " s, " + Plain(100.0 * settling.interval.level) + " % bounds " +
+                 BoundsText(settling.interval) + ".");
+}
+
+void TellGains(const GainArguments& arguments) {
+  const Identification model = LoadModel(arguments.model_file);
+  std::vector<CommandGain> gains;
+  for (const PropellerCommand& delta : CommandsOf(arguments)) {
+    gains.push_back({delta, SteadyInputGain(model, delta)});
+  }
+  arguments.output.Write(PrintGainsJson(model, gains), [&] {
+    std::string text = model.vehicle_id + ", h = " + Plain(model.sampling_period_s) + " s\n\n" +
+                       GainTable(model, gains) + '\n';
+    for (const std::string& note : NotesOn(model, gains)) text += Wrapped(note);
+    return text + SettlingText(model);
+  });
+}
+
+}  // namespace
+
+void AddGain(CLI::App& telltale) {
+  const auto arguments = std::make_shared<GainArguments>();
+  CLI::App& command = *telltale.add_subcommand(
+      "gain", "Tells what commands do to a boat's velocities, with bounds, and how soon");
+  AddModelFile(command, arguments->model_file);
+  command
+      .add_option("--delta", arguments->deltas,
+                  "commands, shares of full command in [-1, 1] (default: a short catalogue)")
+      ->type_name("PORT,STARBOARD");
+  arguments->output.AddTo(command, "gain.json");
+  command.footer(
+      "G is the paper's input gain, over one sampling period h; G / h is continuous-time.\n"
+      "Example: telltale gain --model model.json --delta 0.5,0.5 --delta 0.5,-0.2");
+  command.callback([arguments] { TellGains(*arguments); });
+}
+
+}  // namespace telltale
