@@ -8,7 +8,7 @@
 #include "simulation/manoeuvres.hpp"
 #include "simulation/sensors.hpp"
 #include "simulation/yellowfish.hpp"
-#include "uncertainty/segment_bootstrap.hpp"
+#include "uncertainty/bootstrap.hpp"
 
 namespace telltale {
 namespace {
@@ -65,16 +65,33 @@ void EstimateWithCovariance(benchmark::State& state) {
 }
 BENCHMARK(EstimateWithCovariance)->Unit(benchmark::kMillisecond);
 
-void BootstrapYaw(benchmark::State& state) {
+/// 1000 replicates of the twin's yaw equation, blocks as long as its data ask for.
+void BootstrapYaw(benchmark::State& state, Resampling resampling, IntervalMethod interval) {
   const EquationProblem yaw = YawProblem();
   const std::vector<ClusteredFit> fits = {FitOf(yaw, EstimateOneStep(*Assess(yaw, {})))};
+  BootstrapReplicates replicates;
   for (auto _ : state) {
-    benchmark::DoNotOptimize(BootstrapSegments(fits, {1000, 1, 1}));
+    replicates = Bootstrap(fits, {1000, 1, 1, resampling, interval});
+    benchmark::DoNotOptimize(replicates.theta.data());
   }
   state.counters["rows"] = static_cast<double>(yaw.y.size());
-  state.counters["segments"] = static_cast<double>(yaw.clusters.size());
+  state.counters["draws"] = static_cast<double>(replicates.draws);
+  state.counters["block"] = static_cast<double>(replicates.block_length);
 }
-BENCHMARK(BootstrapYaw)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(BootstrapYaw, segments, Resampling::kSegments, IntervalMethod::kPercentile)
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(BootstrapYaw, segments_studentized, Resampling::kSegments,
+                  IntervalMethod::kStudentized)
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(BootstrapYaw, segments_bca, Resampling::kSegments, IntervalMethod::kBca)
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(BootstrapYaw, blocks, Resampling::kMovingBlocks, IntervalMethod::kPercentile)
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(BootstrapYaw, blocks_studentized, Resampling::kMovingBlocks,
+                  IntervalMethod::kStudentized)
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(BootstrapYaw, blocks_bca, Resampling::kMovingBlocks, IntervalMethod::kBca)
+    ->Unit(benchmark::kMillisecond);
 
 void PrepareAndIdentify(benchmark::State& state) {
   const Vehicle vehicle = YellowfishVehicle();

@@ -23,9 +23,9 @@
 #include "estimation/weak_iv.hpp"
 #include "gauss_markov.hpp"
 #include "parallel.hpp"
+#include "uncertainty/bootstrap.hpp"
 #include "uncertainty/clustered_fit.hpp"
 #include "uncertainty/prediction_band.hpp"
-#include "uncertainty/segment_bootstrap.hpp"
 #include "uncertainty/twin_correction.hpp"
 
 namespace telltale::coverage {
@@ -202,7 +202,7 @@ std::optional<Holding> TryOneStep(const Scenario& scenario, const Recording& rec
     if (!excitation) return std::nullopt;
     fits.push_back(FitOf(equation, EstimateOneStep(*excitation)));
   }
-  const BootstrapReplicates replicates = BootstrapSegments(fits, {400, seed, 1});
+  const BootstrapReplicates replicates = Bootstrap(fits, {400, seed, 1});
   Eigen::VectorXd theta(TruthOf(scenario).size());
   Eigen::Index next = 0;
   for (const ClusteredFit& fit : fits) {

@@ -333,7 +333,9 @@ void StackRows(const LaggedProblem& problem, const Answered& answered,
     const auto first_row = static_cast<std::size_t>(row);
     Eigen::Index column = 1;
     for (std::size_t i = 0; i < equations.size(); ++i) {
-      const RowRange& cluster = problem.at_once.equations[answered.which[i]].clusters[s];
+      const EquationProblem& equation = problem.at_once.equations[answered.which[i]];
+      const RowRange& cluster = equation.clusters[s];
+      const auto instants = equation.instants.begin();
       const auto begin = static_cast<Eigen::Index>(cluster.begin);
       const auto count = static_cast<Eigen::Index>(cluster.size());
       const Eigen::Index p = equations[i].phi.cols();
@@ -341,6 +343,9 @@ void StackRows(const LaggedProblem& problem, const Answered& answered,
           equations[i].by_time_constant.segment(begin, count);
       estimate.jacobian.block(row, column, count, p) = equations[i].phi.middleRows(begin, count);
       estimate.residual.segment(row, count) = equations[i].residual.segment(begin, count);
+      estimate.instants.insert(estimate.instants.end(),
+                               instants + static_cast<std::ptrdiff_t>(cluster.begin),
+                               instants + static_cast<std::ptrdiff_t>(cluster.end));
       row += count;
       column += p;
     }

@@ -39,6 +39,7 @@ struct LaggedEstimate {
   Eigen::MatrixXd jacobian;
   Eigen::VectorXd residual;
   std::vector<RowRange> clusters;
+  std::vector<std::size_t> instants;  ///< the dataset's row of each row
 };
 
 /// Consistent least squares over the equations that have an excitation (of problem.at_once): the

@@ -4,21 +4,22 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <sstream>
 
 #include "estimation/dead_zone.hpp"
 #include "estimation/lagged_regression.hpp"
 #include "estimation/one_step.hpp"
 #include "range.hpp"
+#include "uncertainty/bootstrap.hpp"
 #include "uncertainty/clustered_fit.hpp"
-#include "uncertainty/segment_bootstrap.hpp"
 
 namespace telltale {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-// With fewer independent segments than this a bootstrap over them says little.
-constexpr std::size_t kFewestSegments = 8;
+// With fewer independent segments or blocks than this a bootstrap over them says little.
+constexpr std::size_t kFewestUnits = 8;
 
 /// Everything known about the equations before coefficients are written down.
 /// Theta of answered equation j begins at place first[j] of the stacked fits.
@@ -165,14 +166,10 @@ Bounds ResidualBounds(const std::vector<ClusteredFit>& fits, double level) {
 }
 
 Bounds ReplicateBounds(const std::vector<ClusteredFit>& fits, const BootstrapReplicates& replicates,
-                       double level) {
+                       IntervalMethod method, double level) {
   Bounds bounds = BoundsFor(fits);
   bounds.covariance = Covariance(replicates);
-  for (Eigen::Index j = 0; j < replicates.theta.rows(); ++j) {
-    const Eigen::VectorXd row = replicates.theta.row(j);
-    bounds.intervals.push_back(
-        PercentileInterval({row.data(), static_cast<std::size_t>(row.size())}, level));
-  }
+  bounds.intervals = Intervals(replicates, method, level);
   return bounds;
 }
 
@@ -181,14 +178,37 @@ std::size_t SegmentsWithRows(const ClusteredFit& fit) {
                                                 [](const RowRange& c) { return c.size() > 0; }));
 }
 
-std::optional<Refusal> WarnOfFewSegments(const std::vector<ClusteredFit>& fits) {
-  std::size_t fewest = std::numeric_limits<std::size_t>::max();
-  for (const ClusteredFit& fit : fits) fewest = std::min(fewest, SegmentsWithRows(fit));
-  if (fewest >= kFewestSegments) return std::nullopt;
+std::optional<Refusal> WarnOfFewUnits(const std::vector<ClusteredFit>& fits,
+                                      const BootstrapReplicates& replicates) {
+  const bool blocks = replicates.block_length > 0;
+  std::size_t fewest = replicates.draws;
+  if (!blocks) {
+    for (const ClusteredFit& fit : fits) fewest = std::min(fewest, SegmentsWithRows(fit));
+  }
+  if (fewest >= kFewestUnits) return std::nullopt;
   return Refusal{"bounds",
-                 "rest on only " + std::to_string(fewest) + " independent segments, " +
-                     std::to_string(kFewestSegments) + " are needed to trust them",
+                 "rest on only " + std::to_string(fewest) + " independent " +
+                     (blocks ? "blocks, " : "segments, ") + std::to_string(kFewestUnits) +
+                     " are needed to trust them",
                  "record for longer, with more changes of manoeuvre"};
+}
+
+std::string InWords(const BootstrapReplicates& replicates, double sampling_period_s) {
+  if (replicates.block_length == 0) return "segment bootstrap";
+  std::ostringstream words;
+  words << "moving-block bootstrap, blocks of " << replicates.block_length << " rows ("
+        << static_cast<double>(replicates.block_length) * sampling_period_s << " s)";
+  return words.str();
+}
+
+std::string InWords(IntervalMethod method) {
+  switch (method) {
+    case IntervalMethod::kStudentized: return "studentized intervals";
+    case IntervalMethod::kBca: return "bias-corrected and accelerated (BCa) intervals";
+    case IntervalMethod::kPercentile:
+    case IntervalMethod::kUnknown: break;
+  }
+  return "percentile intervals";
 }
 
 std::optional<Refusal> WarnOfFailures(const BootstrapReplicates& replicates) {
@@ -377,6 +397,12 @@ std::optional<Refusal> IdentifyOptions::Validate() const {
     return refusal;
   }
   if (auto refusal = ReplicatesRefusal(bootstrap_replicates)) return refusal;
+  if (resampling == Resampling::kUnknown) {
+    return Refusal{"resampling", "is unset", "choose SEGMENTS or MOVING_BLOCKS"};
+  }
+  if (interval_method == IntervalMethod::kUnknown) {
+    return Refusal{"interval_method", "is unset", "choose PERCENTILE, STUDENTIZED or BCA"};
+  }
   if (auto refusal = OutOfRange(kSubject, "threads", static_cast<double>(threads), 1.0, 256.0)) {
     return refusal;
   }
@@ -417,18 +443,21 @@ Result<Identification> Identify(const PreparedDataset& dataset, const std::strin
   if (options.bootstrap_replicates > 0) {
     report("bootstrapping", 0.5);
     const BootstrapReplicates replicates =
-        BootstrapSegments(fits, {options.bootstrap_replicates, options.seed, options.threads});
+        Bootstrap(fits, {options.bootstrap_replicates, options.seed, options.threads,
+                         options.resampling, options.interval_method});
     if (replicates.theta.cols() < 2) {
       return Refuse("bounds", "no bootstrap replicate could be solved",
                     "record for longer, or ask for bounds from residuals with 0 replicates");
     }
-    if (auto warning = WarnOfFewSegments(fits)) answers.refusals.push_back(*warning);
+    if (auto warning = WarnOfFewUnits(fits, replicates)) {
+      answers.refusals.push_back(*warning);
+    }
     if (auto warning = WarnOfFailures(replicates)) answers.refusals.push_back(*warning);
     identification.provenance.bootstrap_failures = replicates.failures;
     identification.provenance.bounds_basis =
-        "segment bootstrap, percentile intervals; attenuation of one-step least squares by noisy "
-        "velocities is not covered";
-    bounds = ReplicateBounds(fits, replicates, options.interval_level);
+        InWords(replicates, dataset.sampling_period_s) + ", " + InWords(options.interval_method) +
+        "; attenuation of one-step least squares by noisy velocities is not covered";
+    bounds = ReplicateBounds(fits, replicates, options.interval_method, options.interval_level);
   } else {
     bounds = ResidualBounds(fits, options.interval_level);
     identification.provenance.bounds_basis =

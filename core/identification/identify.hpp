@@ -12,6 +12,7 @@
 #include "estimation/regression_problem.hpp"
 #include "identification/identification.hpp"
 #include "result.hpp"
+#include "uncertainty/bootstrap.hpp"
 #include "vessel/vehicle.hpp"
 #include "vessel/vessel_model.hpp"
 
@@ -32,8 +33,10 @@ struct IdentifyOptions {
   DeadZoneSource dead_zone_source = DeadZoneSource::kGiven;
   ExcitationLimits excitation;
   Estimator estimator = Estimator::kOneStep;
-  double interval_level = 0.95;             ///< (0.5, 0.999]
-  std::size_t bootstrap_replicates = 1000;  ///< 0 (off) or [100, 100000]
+  double interval_level = 0.95;                                  ///< (0.5, 0.999]
+  std::size_t bootstrap_replicates = 1000;                       ///< 0 (off) or [100, 100000]
+  Resampling resampling = Resampling::kSegments;                 ///< what a replicate redraws
+  IntervalMethod interval_method = IntervalMethod::kPercentile;  ///< how replicates bound
   std::uint64_t seed = 1;
   std::size_t threads = 1;  ///< [1, 256]; never changes the result
 

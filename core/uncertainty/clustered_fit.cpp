@@ -46,6 +46,7 @@ ClusteredFit FitOf(const EquationProblem& problem, const EquationEstimate& estim
   fit.residual_variance = estimate.residual_variance;
   fit.degrees_of_freedom = estimate.degrees_of_freedom;
   fit.clusters = problem.clusters;
+  fit.instants = problem.instants;
   return fit;
 }
 
@@ -73,6 +74,7 @@ ClusteredFit FitOf(const LaggedEstimate& estimate) {
   fit.degrees_of_freedom = static_cast<double>(estimate.jacobian.rows() - rank);
   fit.residual_variance = estimate.residual.squaredNorm() / fit.degrees_of_freedom;
   fit.clusters = estimate.clusters;
+  fit.instants = estimate.instants;
   return fit;
 }
 

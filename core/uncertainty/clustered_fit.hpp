@@ -13,8 +13,10 @@ namespace telltale {
 
 /// A least-squares fit whose rows come in segments, linear or linearised about its solution: all
 /// that bounds are made from. Shapes: W n x r has orthonormal columns, W = Phi basis with basis p x
-/// r; residual n; theta, estimable p. clusters[s] is the range of rows that segment s gave,
-/// possibly empty.
+/// r; residual, instants n; theta, estimable p. clusters[s] is the range of rows that segment s
+/// gave, possibly empty; instants[i] is the place in time of row i, which other rows of the same
+/// instant share: consecutive rows of a gap-free stretch count up by one, and a gap skips at least
+/// one. Only moving blocks need the instants.
 struct ClusteredFit {
   Eigen::MatrixXd W;
   Eigen::VectorXd residual;
@@ -24,6 +26,7 @@ struct ClusteredFit {
   double residual_variance = 0.0;
   double degrees_of_freedom = 0.0;
   std::vector<RowRange> clusters;
+  std::vector<std::size_t> instants;
 };
 
 /// The fit of one equation of the static structure; theta are its excited coefficients.

@@ -1,11 +1,15 @@
 #include "uncertainty/interval.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
 #include <gtest/gtest.h>
+#include <Eigen/Core>
+#include <boost/random/normal_distribution.hpp>
 
 #include "contract.hpp"
+#include "random.hpp"
 
 namespace telltale {
 namespace {
@@ -39,6 +43,85 @@ TEST(PercentileInterval, InterpolatesBetweenOrderStatistics) {
 
 TEST(PercentileInterval, NeedsTwoReplicates) {
   EXPECT_THROW(PercentileInterval(std::vector<double>{1.0}, 0.95), ContractViolation);
+}
+
+/// By hand: t* = (replicate - 10) / error is -2, -1, 0, 1, 4; its median half from position 1 to 3
+/// is [-1, 1], mirrored and scaled by 0.5.
+TEST(StudentizedInterval, MirrorsTheQuantilesOfT) {
+  const std::vector<double> replicates = {8.0, 9.0, 10.0, 11.0, 12.0};
+  const std::vector<double> errors = {1.0, 1.0, 1.0, 1.0, 0.5};
+  const Interval half = StudentizedInterval(10.0, 0.5, replicates, errors, 0.5);
+  EXPECT_NEAR(half.lower, 9.5, 1e-12);
+  EXPECT_NEAR(half.upper, 10.5, 1e-12);
+  const Interval whole = StudentizedInterval(10.0, 0.5, replicates, errors, 1.0);
+  EXPECT_NEAR(whole.lower, 8.0, 1e-12);   // 10 - 4 * 0.5: the long upper tail of t reaches down
+  EXPECT_NEAR(whole.upper, 11.0, 1e-12);  // 10 + 2 * 0.5
+}
+
+std::vector<double> NormalReplicates(std::size_t count) {
+  RandomEngine engine(3);
+  boost::random::normal_distribution<double> normal(1.0, 0.2);
+  std::vector<double> replicates(count);
+  for (double& replicate : replicates) replicate = normal(engine);
+  return replicates;
+}
+
+double Median(std::vector<double> values) {
+  std::sort(values.begin(), values.end());
+  return 0.5 * (values[(values.size() - 1) / 2] + values[values.size() / 2]);
+}
+
+TEST(BcaInterval, IsThePercentileIntervalWithoutBiasAndAcceleration) {
+  const std::vector<double> replicates = NormalReplicates(2000);
+  const Interval percentile = PercentileInterval(replicates, 0.95);
+  const Interval bca = BcaInterval(Median(replicates), 0.0, replicates, 0.95);
+  EXPECT_NEAR(bca.lower, percentile.lower, 1e-9);
+  EXPECT_NEAR(bca.upper, percentile.upper, 1e-9);
+}
+
+/// A monotone change of scale carries the interval along. Interpolation between neighbours among
+/// 100,000 replicates is all that is not monotone about it.
+TEST(BcaInterval, FollowsAMonotoneChangeOfScale) {
+  const std::vector<double> replicates = NormalReplicates(100000);
+  std::vector<double> mapped = replicates;
+  for (double& value : mapped) value = std::exp(3.0 * value);
+  const Interval plain = BcaInterval(1.05, 0.1, replicates, 0.95);
+  const Interval image = BcaInterval(std::exp(3.0 * 1.05), 0.1, mapped, 0.95);
+  EXPECT_NEAR(std::log(image.lower) / 3.0, plain.lower, 1e-4);
+  EXPECT_NEAR(std::log(image.upper) / 3.0, plain.upper, 1e-4);
+  const Interval symmetric = PercentileInterval(replicates, 0.95);
+  EXPECT_GT(plain.lower, symmetric.lower + 0.05);  // both corrections move it up
+  EXPECT_GT(plain.upper, symmetric.upper + 0.05);
+}
+
+TEST(BcaInterval, StaysAmongTheReplicatesWhenTheEstimateLiesOutside) {
+  const std::vector<double> replicates = NormalReplicates(200);
+  for (const double estimate : {-100.0, 100.0}) {
+    const Interval interval = BcaInterval(estimate, 0.4, replicates, 0.95);
+    EXPECT_GE(interval.lower, *std::min_element(replicates.begin(), replicates.end()));
+    EXPECT_LE(interval.upper, *std::max_element(replicates.begin(), replicates.end()));
+    EXPECT_LE(interval.lower, interval.upper);
+  }
+}
+
+/// Efron and Tibshirani (1993), Table 14.1 and equation 14.17: the variance of the spatial test
+/// data A, 171.5, has the acceleration 0.061.
+TEST(JackknifeAcceleration, AgreesWithThePublishedExample) {
+  const std::vector<double> scores = {48, 36, 20, 29, 42, 42, 20, 42, 22, 41, 45, 14, 6,
+                                      0,  33, 28, 34, 4,  32, 24, 47, 41, 24, 26, 30, 41};
+  const auto variance = [](const std::vector<double>& x) {
+    const Eigen::Map<const Eigen::ArrayXd> values(x.data(), static_cast<Eigen::Index>(x.size()));
+    return (values - values.mean()).square().mean();
+  };
+  ASSERT_NEAR(variance(scores), 171.5, 0.05);
+  std::vector<double> left_out;
+  for (std::size_t i = 0; i < scores.size(); ++i) {
+    std::vector<double> rest = scores;
+    rest.erase(rest.begin() + static_cast<std::ptrdiff_t>(i));
+    left_out.push_back(variance(rest));
+  }
+  EXPECT_NEAR(JackknifeAcceleration(left_out), 0.061, 5e-4);
+  EXPECT_EQ(JackknifeAcceleration(std::vector<double>(5, 2.0)), 0.0);
 }
 
 TEST(Unbounded, RulesNothingOut) {
