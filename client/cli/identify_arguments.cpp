@@ -67,6 +67,17 @@ void IdentifyArguments::AddOptionsTo(CLI::App& command) {
                   "replicates behind the bounds, [100, 100000], 0 for bounds from residuals "
                   "(default 1000)")
       ->type_name("N");
+  command
+      .add_option("--bootstrap-kind", bootstrap_kind,
+                  "what a replicate redraws: segments (default), or moving-blocks as long as the "
+                  "data ask for")
+      ->type_name("NAME")
+      ->check(CLI::IsMember({"segments", "moving-blocks"}).description(""));
+  command
+      .add_option("--interval", interval,
+                  "how replicates bound: percentile (default), studentized or bca")
+      ->type_name("NAME")
+      ->check(CLI::IsMember({"percentile", "studentized", "bca"}).description(""));
   command.add_option("--level", interval_level, "of the bounds, [0.5, 0.999] (default 0.95)")
       ->type_name("P");
   command.add_option("--seed", seed, "of the bootstrap; the same seed gives the same bits")
@@ -96,6 +107,9 @@ IdentifyOptions IdentifyArguments::Options() const {
     options.regression.dead_zone = DeadZoneNamed(*dead_zone);
   }
   if (bootstrap_replicates) options.bootstrap_replicates = *bootstrap_replicates;
+  if (bootstrap_kind == "moving-blocks") options.resampling = Resampling::kMovingBlocks;
+  if (interval == "studentized") options.interval_method = IntervalMethod::kStudentized;
+  if (interval == "bca") options.interval_method = IntervalMethod::kBca;
   if (interval_level) options.interval_level = *interval_level;
   options.seed = seed;
   options.threads = threads.value_or(DefaultThreads());

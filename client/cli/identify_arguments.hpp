@@ -22,6 +22,8 @@ struct IdentifyArguments {
   std::optional<std::string> preset;            ///< robust, paper
   std::optional<double> sampling_period_s;
   std::optional<std::uint32_t> bootstrap_replicates;
+  std::optional<std::string> bootstrap_kind;  ///< segments, moving-blocks
+  std::optional<std::string> interval;        ///< percentile, studentized, bca
   std::optional<double> interval_level;
   std::uint64_t seed = 1;
   std::optional<std::size_t> threads;

@@ -32,6 +32,8 @@ IdentifyRequest RequestOf(const std::string& vehicle_id, const IdentifyArguments
   if (arguments.parameterization) request.parameterization = options.regression.parameterization;
   if (arguments.preset) request.preset = PresetNamed(*arguments.preset);
   request.bootstrap_replicates = arguments.bootstrap_replicates;
+  if (arguments.bootstrap_kind) request.resampling = options.resampling;
+  if (arguments.interval) request.interval_method = options.interval_method;
   request.seed = arguments.seed;
   request.include_reverse = arguments.include_rr;
   return request;

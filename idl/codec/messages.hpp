@@ -43,6 +43,8 @@ struct IdentifyRequest {
   DeadZoneSource dead_zone_source = DeadZoneSource::kUnknown;
   DeadZone dead_zone;            ///< when given
   bool include_reverse = false;  ///< fit rows of the RR region too
+  Resampling resampling = Resampling::kUnknown;
+  IntervalMethod interval_method = IntervalMethod::kUnknown;
 };
 
 struct IdentifyProgress {

@@ -210,6 +210,10 @@ constexpr std::initializer_list<Parameterization> kParameterizations = {
     Parameterization::kPropeller, Parameterization::kPaper};
 constexpr std::initializer_list<Estimator> kEstimators = {Estimator::kOneStep, Estimator::kWeakIv,
                                                           Estimator::kOutputError};
+constexpr std::initializer_list<Resampling> kResamplings = {Resampling::kSegments,
+                                                            Resampling::kMovingBlocks};
+constexpr std::initializer_list<IntervalMethod> kIntervalMethods = {
+    IntervalMethod::kPercentile, IntervalMethod::kStudentized, IntervalMethod::kBca};
 constexpr std::initializer_list<DeadZoneSource> kDeadZoneSources = {DeadZoneSource::kGiven,
                                                                     DeadZoneSource::kIdentified};
 constexpr std::initializer_list<CoefficientStatus> kStatuses = {
@@ -431,6 +435,8 @@ WireSample<telltale_wire_IdentifyRequest> Encode(const IdentifyRequest& request)
   wire->dead_zone_forward = request.dead_zone.forward;
   wire->dead_zone_reverse = request.dead_zone.reverse;
   wire->include_reverse = request.include_reverse;
+  Put(wire->resampling, name(request.resampling));
+  Put(wire->interval_method, name(request.interval_method));
   return wire;
 }
 
@@ -514,6 +520,9 @@ Decoded<IdentifyRequest> Decode(const telltale_wire_IdentifyRequest& wire) {
         ReadOptionalName("dead_zone", View(wire.dead_zone), kDeadZoneSources);
     request.dead_zone = ReadDeadZone(wire.dead_zone_forward, wire.dead_zone_reverse);
     request.include_reverse = wire.include_reverse;
+    request.resampling = ReadOptionalName("resampling", View(wire.resampling), kResamplings);
+    request.interval_method =
+        ReadOptionalName("interval_method", View(wire.interval_method), kIntervalMethods);
     return request;
   });
 }

@@ -57,6 +57,10 @@ IdentifyOptions OptionsOf(const IdentifyRequest& request, const IdentificationSe
   options.interval_level = settings.interval_level;
   options.bootstrap_replicates =
       request.bootstrap_replicates.value_or(settings.bootstrap_replicates);
+  if (request.resampling != Resampling::kUnknown) options.resampling = request.resampling;
+  if (request.interval_method != IntervalMethod::kUnknown) {
+    options.interval_method = request.interval_method;
+  }
   options.seed = request.seed;
   options.threads = std::max(1u, std::thread::hardware_concurrency() / settings.workers);
   return options;

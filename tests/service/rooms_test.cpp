@@ -159,11 +159,17 @@ TEST(IdentificationOptions, AreTheRequestsWishesOverTheDaemonsDefaults) {
   EXPECT_EQ(options.prepare.preset, Preset::kRobust);
   EXPECT_EQ(options.regression.parameterization, Parameterization::kPropeller);
   EXPECT_EQ(options.seed, 5u);
+  EXPECT_EQ(options.resampling, Resampling::kSegments);
+  EXPECT_EQ(options.interval_method, IntervalMethod::kPercentile);
   request.bootstrap_replicates = 0;
+  request.resampling = Resampling::kMovingBlocks;
+  request.interval_method = IntervalMethod::kStudentized;
   request.preset = Preset::kPaper;
   request.parameterization = Parameterization::kPaper;
   options = OptionsOf(request, settings);
   EXPECT_EQ(options.bootstrap_replicates, 0u);
+  EXPECT_EQ(options.resampling, Resampling::kMovingBlocks);
+  EXPECT_EQ(options.interval_method, IntervalMethod::kStudentized);
   EXPECT_EQ(options.prepare.preset, Preset::kPaper);
   EXPECT_EQ(options.regression.parameterization, Parameterization::kPaper);
   EXPECT_EQ(options.dead_zone_source, DeadZoneSource::kGiven);

@@ -125,6 +125,8 @@ TEST_F(CommandTest, OptionsOutOfRangeAreUsageErrorsThatNameTheRange) {
   expect({"--bootstrap", "50"}, "100000");
   expect({"--bootstrap", "-1"}, "--bootstrap");
   expect({"--bootstrap", "many"}, "--bootstrap");
+  expect({"--bootstrap-kind", "rows"}, "moving-blocks");
+  expect({"--interval", "bayes"}, "studentized");
   expect({"--level", "0.2"}, "[0.5, 0.999]");
   expect({"--level", "nan"}, "[0.5, 0.999]");
   expect({"--threads", "0"}, "[1, 256]");

@@ -192,6 +192,8 @@ TEST(WireExchange, RequestArrivesAsItWasSent) {
   sent.dead_zone_source = DeadZoneSource::kGiven;
   sent.dead_zone = {0.05, -0.0625};
   sent.include_reverse = true;
+  sent.resampling = Resampling::kMovingBlocks;
+  sent.interval_method = IntervalMethod::kBca;
   const auto received = Decode(*Encode(sent));
   ASSERT_TRUE(received) << received.error().Message();
   EXPECT_EQ(received->correlation_id, sent.correlation_id);
@@ -205,6 +207,14 @@ TEST(WireExchange, RequestArrivesAsItWasSent) {
   EXPECT_EQ(received->dead_zone_source, DeadZoneSource::kGiven);
   EXPECT_EQ(received->dead_zone, sent.dead_zone);
   EXPECT_TRUE(received->include_reverse);
+  EXPECT_EQ(received->resampling, Resampling::kMovingBlocks);
+  EXPECT_EQ(received->interval_method, IntervalMethod::kBca);
+  sent.resampling = Resampling::kUnknown;
+  sent.interval_method = IntervalMethod::kUnknown;
+  const auto open = Decode(*Encode(sent));
+  ASSERT_TRUE(open) << open.error().Message();
+  EXPECT_EQ(open->resampling, Resampling::kUnknown);
+  EXPECT_EQ(open->interval_method, IntervalMethod::kUnknown);
 }
 
 TEST(WireExchange, RequestLeavesReverseRowsOutUnlessItSaysOtherwise) {
@@ -224,6 +234,12 @@ TEST(WireExchange, RequestRefusesUnknownChoicesAndIdentifiers) {
   wire = Encode(sent);
   Replace(wire->dead_zone, "PERHAPS");
   EXPECT_EQ(Decode(*wire).error().field, "dead_zone");
+  wire = Encode(sent);
+  Replace(wire->resampling, "ROWS");
+  EXPECT_EQ(Decode(*wire).error().field, "resampling");
+  wire = Encode(sent);
+  Replace(wire->interval_method, "BAYES");
+  EXPECT_EQ(Decode(*wire).error().field, "interval_method");
   wire = Encode(sent);
   wire->dead_zone_forward = -0.1;
   EXPECT_EQ(Decode(*wire).error().field, "dead_zone_forward");
