@@ -66,6 +66,49 @@ double WelchDegrees(double first_share, const Estimates& first, const Estimates&
   return reciprocal > 0.0 ? 1.0 / reciprocal : kInfinity;
 }
 
+/// Directions that V spans: whitening' (d / errors) has unit covariance.
+struct Whitening {
+  Eigen::VectorXd errors;  // standard errors of d
+  Eigen::MatrixXd matrix;  // coefficients x rank, for d in units of its errors
+};
+
+Whitening Whiten(const Eigen::MatrixXd& V) {
+  Whitening whitening;
+  whitening.errors = V.diagonal().cwiseSqrt();
+  const Eigen::VectorXd inverse = whitening.errors.cwiseInverse();
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(inverse.asDiagonal() * V *
+                                                              inverse.asDiagonal());
+  const Eigen::VectorXd& values = solver.eigenvalues();  // ascending
+  const Eigen::Index rank =
+      (values.array() > kSmallestEigenvalue * values[values.size() - 1]).count();
+  whitening.matrix = solver.eigenvectors().rightCols(rank) *
+                     values.tail(rank).cwiseSqrt().cwiseInverse().asDiagonal();
+  return whitening;
+}
+
+/// Krishnamoorthy and Yu's degrees of freedom of Sigma1 + Sigma2.
+double JointDegrees(const Estimates& first, const Estimates& second, const Whitening& whitening) {
+  const Eigen::MatrixXd root = whitening.errors.cwiseInverse().asDiagonal() * whitening.matrix;
+  const double q = static_cast<double>(root.cols());
+  const double shares = Share(root.transpose() * first.covariance * root, first.segments) +
+                        Share(root.transpose() * second.covariance * root, second.segments);
+  return shares > 0.0 ? (q + q * q) / shares : kInfinity;
+}
+
+Estimates Among(const Estimates& estimates, const std::vector<Eigen::Index>& which) {
+  return {estimates.theta(which), estimates.covariance(which, which), estimates.segments};
+}
+
+/// Places in `scaled`, the largest first.
+std::vector<Eigen::Index> BySize(const Eigen::VectorXd& scaled) {
+  std::vector<Eigen::Index> order(static_cast<std::size_t>(scaled.size()));
+  std::iota(order.begin(), order.end(), Eigen::Index{0});
+  std::stable_sort(order.begin(), order.end(), [&](Eigen::Index a, Eigen::Index b) {
+    return std::abs(scaled[a]) > std::abs(scaled[b]);
+  });
+  return order;
+}
+
 }  // namespace
 
 Result<WaldTest> TestEquality(const Estimates& first, const Estimates& second) {
@@ -80,57 +123,40 @@ Result<WaldTest> TestEquality(const Estimates& first, const Estimates& second) {
     return Refuse("comparison", "no coefficient is known to both models",
                   "identify both from data that excite the same motions");
   }
-  const Eigen::VectorXd d = first.theta(shared) - second.theta(shared);
-  const Eigen::MatrixXd Sigma1 = first.covariance(shared, shared);
-  const Eigen::MatrixXd Sigma2 = second.covariance(shared, shared);
-  const Eigen::VectorXd errors = (Sigma1 + Sigma2).diagonal().cwiseSqrt();
-  if (!(errors.minCoeff() > 0.0) || !d.allFinite()) {
+  const Estimates one = Among(first, shared);
+  const Estimates other = Among(second, shared);
+  const Eigen::VectorXd d = one.theta - other.theta;
+  const Eigen::MatrixXd V = one.covariance + other.covariance;
+  if (!(V.diagonal().minCoeff() > 0.0) || !d.allFinite()) {
     return Refuse("comparison", "a coefficient known to both models has no positive variance",
                   "compare models that were identified with bounds");
   }
 
-  const Eigen::MatrixXd inverse_errors = errors.cwiseInverse().asDiagonal();
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(inverse_errors * (Sigma1 + Sigma2) *
-                                                              inverse_errors);
-  const Eigen::VectorXd& values = solver.eigenvalues();  // ascending
-  const Eigen::Index rank =
-      (values.array() > kSmallestEigenvalue * values[values.size() - 1]).count();
-  const Eigen::MatrixXd whitening = solver.eigenvectors().rightCols(rank) *
-                                    values.tail(rank).cwiseSqrt().cwiseInverse().asDiagonal();
-  const Eigen::VectorXd scaled = d.cwiseQuotient(errors);
-  const Eigen::VectorXd whitened = whitening.transpose() * scaled;
-
+  const Whitening whitening = Whiten(V);
+  const Eigen::VectorXd scaled = d.cwiseQuotient(whitening.errors);
+  const Eigen::VectorXd whitened = whitening.matrix.transpose() * scaled;
+  const double q = static_cast<double>(whitened.size());
   WaldTest test;
   test.statistic = whitened.squaredNorm();
-  test.degrees_of_freedom = static_cast<std::size_t>(rank);
-  const double q = static_cast<double>(rank);
-  const Eigen::MatrixXd root = inverse_errors * whitening;
-  const double shares = Share(root.transpose() * Sigma1 * root, first.segments) +
-                        Share(root.transpose() * Sigma2 * root, second.segments);
-  const double nu = shares > 0.0 ? (q + q * q) / shares : kInfinity;
-  test.segment_degrees_of_freedom = nu;
-  if (nu < q + 1.0) {
-    return Refuse("comparison",
-                  "segments count for " + std::to_string(static_cast<int>(nu)) +
-                      " degrees of freedom, and more than " + std::to_string(rank) +
-                      " are needed to compare as many coefficients",
-                  "record more segments, or compare fewer coefficients");
+  test.degrees_of_freedom = static_cast<std::size_t>(whitened.size());
+  test.segment_degrees_of_freedom = JointDegrees(one, other, whitening);
+  if (test.segment_degrees_of_freedom < q + 1.0) {
+    return Refuse(
+        "comparison",
+        "segments count for " + std::to_string(static_cast<int>(test.segment_degrees_of_freedom)) +
+            " degrees of freedom, and more than " + std::to_string(test.degrees_of_freedom) +
+            " are needed to compare as many coefficients",
+        "record more segments, or compare fewer coefficients");
   }
-  test.p_value = JointPValue(test.statistic, q, nu);
+  test.p_value = JointPValue(test.statistic, q, test.segment_degrees_of_freedom);
 
-  std::vector<Eigen::Index> order(shared.size());
-  std::iota(order.begin(), order.end(), Eigen::Index{0});
-  std::stable_sort(order.begin(), order.end(), [&](Eigen::Index a, Eigen::Index b) {
-    return std::abs(scaled[a]) > std::abs(scaled[b]);
-  });
+  const std::vector<Eigen::Index> order = BySize(scaled);
   for (const Eigen::Index i : order) {
-    const double first_share = Sigma1(i, i) / std::pow(errors[i], 2);
+    const double nu = WelchDegrees(one.covariance(i, i) / V(i, i), first, second);
     test.differences.push_back({static_cast<std::size_t>(shared[static_cast<std::size_t>(i)]), d[i],
-                                errors[i],
-                                SinglePValue(scaled[i], WelchDegrees(first_share, first, second))});
+                                whitening.errors[i], SinglePValue(scaled[i], nu)});
   }
-  const Eigen::VectorXd direction = whitening * whitened;
-  test.combination = direction(order);
+  test.combination = Eigen::VectorXd(whitening.matrix * whitened)(order);
   if (test.combination.norm() > 0.0) test.combination.normalize();
   return test;
 }

@@ -197,7 +197,7 @@ TEST(SlidingRegression, NamesWhatTheRowsDoNotDetermine) {
   EXPECT_NEAR(estimate->theta[0], 1.0, 5.0 * estimate->standard_error[0]);
 }
 
-TEST(SlidingRegression, RefusesToFewRows) {
+TEST(SlidingRegression, RefusesTooFewRows) {
   SlidingRegression sliding(3, {500, 5});
   EXPECT_FALSE(sliding.Estimate());
   const Eigen::Vector3d phi(1.0, 2.0, 3.0);

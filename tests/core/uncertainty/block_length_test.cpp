@@ -22,7 +22,7 @@ Eigen::VectorXd Autoregression(double rho, Eigen::Index rows, std::uint64_t seed
   return series.array() - series.mean();
 }
 
-/// Politis and White (2004), equation 6 with D = 4/3 g^2: for AR(1) sum |k| R(k) / sum R(k) is
+/// Politis and White (2004) with D = 4/3 g^2: for AR(1) sum |k| R(k) / sum R(k) is
 /// 2 rho / (1 - rho^2).
 double LengthForAutoregression(double rho, double rows) {
   return std::cbrt(1.5 * std::pow(2.0 * rho / (1.0 - rho * rho), 2) * rows);

@@ -258,8 +258,8 @@ Misses MissesOf(IntervalMethod method) {
 
 /// A skewed estimate from few segments, 5 % to be missed on either side. Percentiles are
 /// first-order correct only and miss far too often where the tail is long; BCa mends part of it and
-/// studentized intervals most. 2000 repeats leave a standard deviation of 0.5 % to each rate. Order
-/// and size of the errors: Hall, "The Bootstrap and Edgeworth Expansion" (1992), section 3.10.
+/// studentized intervals most. 2000 repeats leave a standard deviation of 0.5 % to each rate. Why:
+/// Hall, "The Bootstrap and Edgeworth Expansion" (1992), chapter 3.
 TEST(Bootstrap, StudentizedAndBcaIntervalsMendTheCoverageOfSkewedEstimates) {
   const Misses percentile = MissesOf(IntervalMethod::kPercentile);
   const Misses bca = MissesOf(IntervalMethod::kBca);

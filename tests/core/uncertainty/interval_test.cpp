@@ -104,7 +104,7 @@ TEST(BcaInterval, StaysAmongTheReplicatesWhenTheEstimateLiesOutside) {
   }
 }
 
-/// Efron and Tibshirani (1993), Table 14.1 and equation 14.17: the variance of the spatial test
+/// Efron and Tibshirani (1993), chapter 14: the variance of the spatial test
 /// data A, 171.5, has the acceleration 0.061.
 TEST(JackknifeAcceleration, AgreesWithThePublishedExample) {
   const std::vector<double> scores = {48, 36, 20, 29, 42, 42, 20, 42, 22, 41, 45, 14, 6,

@@ -95,8 +95,8 @@ double RejectionRate(double shift, bool count_segments, int repeats) {
   return rejected;
 }
 
-/// 12 and 20 segments, covariances that differ ninefold: the approximation keeps the size within a
-/// point of 5 % (Krishnamoorthy and Yu, Table 1) where chi-square rejects several times too often.
+/// 12 and 20 segments, covariances that differ ninefold: the approximation keeps the size near 5 %
+/// where chi-square rejects more than twice as often.
 TEST(WaldTest, KeepsItsSizeWithFewSegments) {
   EXPECT_NEAR(RejectionRate(0.0, true, 4000), 0.05, 0.02);
   EXPECT_GT(RejectionRate(0.0, false, 4000), 0.12);
