@@ -29,13 +29,8 @@ std::size_t SegmentsBehind(const Identification& identification) {
   return std::max<std::size_t>(identification.window.segments, 2);
 }
 
-/// The estimates of `model` in the order of `order`; what it lacks has infinite variance.
-Estimates InOrderOf(const Identification& order, const Identification& model) {
-  const auto p = static_cast<Eigen::Index>(order.coefficients.size());
-  Estimates estimates;
-  estimates.theta = Eigen::VectorXd::Zero(p);
-  estimates.covariance = Eigen::MatrixXd::Zero(p, p);
-  estimates.segments = SegmentsBehind(model);
+/// Where each coefficient of `order` stands in `model`, -1 where it does not.
+std::vector<Eigen::Index> PlacesIn(const Identification& model, const Identification& order) {
   std::vector<Eigen::Index> places;
   for (const Coefficient& wanted : order.coefficients) {
     const auto found =
@@ -44,16 +39,48 @@ Estimates InOrderOf(const Identification& order, const Identification& model) {
         });
     places.push_back(found == model.coefficients.end() ? -1 : found - model.coefficients.begin());
   }
+  return places;
+}
+
+/// Estimates of all coefficients and, in the last place, of the thruster time constant.
+struct Stacked {
+  Eigen::VectorXd theta;
+  Eigen::MatrixXd covariance;
+};
+
+Stacked Stack(const Identification& model) {
+  const auto p = static_cast<Eigen::Index>(model.coefficients.size());
+  Stacked stacked{Eigen::VectorXd::Zero(p + 1), Eigen::MatrixXd::Zero(p + 1, p + 1)};
+  for (Eigen::Index i = 0; i < p; ++i) {
+    stacked.theta[i] = model.coefficients[static_cast<std::size_t>(i)].estimate;
+  }
+  stacked.covariance.topLeftCorner(p, p) = model.covariance;
+  stacked.covariance(p, p) = std::numeric_limits<double>::infinity();
+  if (model.thruster_time_constant && model.time_constant_covariance.size() == p) {
+    stacked.theta[p] = model.thruster_time_constant->estimate;
+    stacked.covariance(p, p) = std::pow(model.thruster_time_constant->standard_error, 2);
+    stacked.covariance.row(p).head(p) = model.time_constant_covariance.transpose();
+    stacked.covariance.col(p).head(p) = model.time_constant_covariance;
+  }
+  return stacked;
+}
+
+/// The estimates of `model` in the order of `order`, the time constant last; what it lacks has
+/// infinite variance.
+Estimates InOrderOf(const Identification& order, const Identification& model) {
+  const Stacked stacked = Stack(model);
+  std::vector<Eigen::Index> places = PlacesIn(model, order);
+  places.push_back(stacked.theta.size() - 1);
+  const auto p = static_cast<Eigen::Index>(places.size());
+  Estimates estimates{Eigen::VectorXd::Zero(p), Eigen::MatrixXd::Zero(p, p), SegmentsBehind(model)};
   for (Eigen::Index i = 0; i < p; ++i) {
     const Eigen::Index from = places[static_cast<std::size_t>(i)];
-    if (from < 0) {
-      estimates.covariance(i, i) = std::numeric_limits<double>::infinity();
-      continue;
-    }
-    estimates.theta[i] = model.coefficients[static_cast<std::size_t>(from)].estimate;
+    estimates.covariance(i, i) = std::numeric_limits<double>::infinity();
+    if (from < 0) continue;
+    estimates.theta[i] = stacked.theta[from];
     for (Eigen::Index j = 0; j < p; ++j) {
       const Eigen::Index to = places[static_cast<std::size_t>(j)];
-      if (to >= 0) estimates.covariance(i, j) = model.covariance(from, to);
+      if (to >= 0) estimates.covariance(i, j) = stacked.covariance(from, to);
     }
   }
   return estimates;

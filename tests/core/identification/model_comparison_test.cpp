@@ -1,6 +1,7 @@
 #include "identification/model_comparison.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include <gtest/gtest.h>
 #include <boost/random/normal_distribution.hpp>
@@ -67,6 +68,24 @@ TEST(ModelComparison, ComparesTheEquationsBothHave) {
   ASSERT_TRUE(test);
   EXPECT_EQ(test->degrees_of_freedom, 9u);
   EXPECT_NEAR(Compare(surge_alone, whole)->statistic, test->statistic, 1e-8 * test->statistic);
+}
+
+/// A time constant five of its errors away, all else alike: it alone differs, and by that much.
+TEST(ModelComparison, ComparesTheThrusterTimeConstant) {
+  Identification first = RunOf(YellowfishTwin(), 1);
+  first.structure = Structure::kFirstOrderDynamic;
+  first.provenance.bootstrap_replicates = 0;
+  first.thruster_time_constant = Coefficient{};
+  first.thruster_time_constant->estimate = 0.5;
+  first.thruster_time_constant->standard_error = 0.01;
+  first.time_constant_covariance = Eigen::VectorXd::Zero(first.covariance.rows());
+  Identification second = first;
+  second.thruster_time_constant->estimate += 5.0 * std::sqrt(2.0) * 0.01;
+  const auto test = Compare(first, second);
+  ASSERT_TRUE(test);
+  EXPECT_EQ(test->degrees_of_freedom, 36u);
+  EXPECT_NEAR(test->statistic, 25.0, 1e-9);
+  EXPECT_EQ(test->differences[0].index, first.coefficients.size());
 }
 
 TEST(ModelComparison, RefusesModelsWhoseCoefficientsMeanDifferentThings) {
