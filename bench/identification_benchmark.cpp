@@ -95,7 +95,7 @@ BENCHMARK_CAPTURE(BootstrapYaw, blocks_bca, Resampling::kMovingBlocks, IntervalM
 
 void PrepareAndIdentify(benchmark::State& state) {
   const Vehicle vehicle = YellowfishVehicle();
-  IdentifyOptions options;
+  IdentifyOptions options = IdentifyOptions::OneStep();
   options.bootstrap_replicates = static_cast<std::size_t>(state.range(0));
   for (auto _ : state) {
     benchmark::DoNotOptimize(Identify(TwinRecording(), vehicle, options));

@@ -13,7 +13,6 @@
 
 #include <CLI/CLI.hpp>
 #include <Eigen/Cholesky>
-#include <boost/math/distributions/fisher_f.hpp>
 #include <boost/math/distributions/students_t.hpp>
 
 #include "coverage/truth.hpp"
@@ -151,8 +150,8 @@ void WatchBand(const Scenario& scenario, const WeakFit& fit, const TwinCorrectio
   VesselState start;
   start.nu = {run.start[0], run.start[1], run.start[2]};
   start.thrust = models.front().SteadyThrust(commands.front().delta);
-  const PredictionBand band = PredictBand(models, start, commands, corrected.disturbance, 10.0,
-                                          kStepS, 0.95, seed);
+  const PredictionBand band =
+      PredictBand(models, start, commands, corrected.disturbance, 10.0, kStepS, 0.95, seed);
   for (const Eigen::Index k : {9, 49, 99}) {
     for (Eigen::Index axis = 0; axis < 3; ++axis) {
       const double nu = run.nu[static_cast<std::size_t>(k)][static_cast<std::size_t>(axis)];
@@ -178,14 +177,12 @@ std::optional<Holding> TryWeakIv(const Scenario& scenario, const Recording& reco
   if (!corrected) return std::nullopt;
   const Eigen::VectorXd truth = TruthOf(scenario);
   const auto p = static_cast<double>(truth.size());
-  const double t = boost::math::quantile(
-      boost::math::students_t(corrected->degrees_of_freedom), 0.975);
-  Holding holding =
-      Held(corrected->theta, t * corrected->covariance.diagonal().cwiseSqrt(), truth);
-  const double spare = std::max(corrected->degrees_of_freedom - p + 1.0, 5.0);
-  const double distance = holding.error.dot(
-      corrected->joint_covariance.ldlt().solve(holding.error)) / p;
-  holding.joint = distance <= boost::math::quantile(boost::math::fisher_f(p, spare), 0.95);
+  const double t =
+      boost::math::quantile(boost::math::students_t(corrected->degrees_of_freedom), 0.975);
+  Holding holding = Held(corrected->theta, t * corrected->covariance.diagonal().cwiseSqrt(), truth);
+  const double distance =
+      holding.error.dot(corrected->joint_covariance.ldlt().solve(holding.error)) / p;
+  holding.joint = distance <= JointQuantile(corrected->degrees_of_freedom, p, 0.95);
   WatchBand(scenario, *fit, *corrected, seed + 1, holding);
   return holding;
 }
@@ -346,8 +343,7 @@ int Main(int argc, char** argv) {
       "joint %% | band %% | one-step mean %% | one-step bias/spread | s |\n"
       "|---|---|---|---|---|---|---|---|---|---|---|---|\n");
   for (const Scenario& scenario : Scenarios()) {
-    if (!wanted.empty() &&
-        std::find(wanted.begin(), wanted.end(), scenario.name) == wanted.end()) {
+    if (!wanted.empty() && std::find(wanted.begin(), wanted.end(), scenario.name) == wanted.end()) {
       continue;
     }
     const auto start = std::chrono::steady_clock::now();

@@ -62,8 +62,8 @@ State Slope(const Boat& boat, const State& s, const Thrusters& thrust,
   const auto& c = boat.yaw;
   State dot;
   dot.u = a[0] * s.u * au + a[1] * s.v * s.r + a[2] * s.r * s.r + a[3] * s.u + a[4] + d[0];
-  const std::array<double, 9> body = {s.v * av, s.v * ar,  s.r * av, s.r * ar, s.u * s.v,
-                                      s.u * s.r, s.v, s.r, 1.0};
+  const std::array<double, 9> body = {s.v * av,  s.v * ar, s.r * av, s.r * ar, s.u * s.v,
+                                      s.u * s.r, s.v,      s.r,      1.0};
   dot.v = d[1];
   dot.r = d[2];
   for (std::size_t i = 0; i < 9; ++i) {
@@ -84,7 +84,8 @@ State Slope(const Boat& boat, const State& s, const Thrusters& thrust,
 
 class Gaussian {
  public:
-  Gaussian(std::uint64_t seed, std::uint64_t stream) : engine_(RandomEngine::Stream(seed, stream)) {}
+  Gaussian(std::uint64_t seed, std::uint64_t stream)
+      : engine_(RandomEngine::Stream(seed, stream)) {}
   double operator()() { return normal_(engine_); }
 
  private:
@@ -255,7 +256,8 @@ Recording Sail(const Boat& boat, const Surroundings& around, const Mission& miss
     for (long k = -std::lround(kUnderWayS / kStepS); k <= steps; ++k) {
       const double t = static_cast<double>(k) * kStepS;
       if (t >= held_until_s - 1e-9) held_until_s = t + commands.Draw(port, starboard);
-      if (k >= 0 && k % 20 == 0) recording.gnss.push_back(instruments.Fix(origin_s + t, afloat.Now()));
+      if (k >= 0 && k % 20 == 0)
+        recording.gnss.push_back(instruments.Fix(origin_s + t, afloat.Now()));
       if (k >= 0 && k % 2 == 0) {
         recording.heading.push_back(instruments.Heading(origin_s + t, afloat.Now()));
       }

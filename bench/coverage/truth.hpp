@@ -45,10 +45,10 @@ Recording Sail(const Boat& boat, const Surroundings& around, const Mission& miss
 
 /// Another voyage of the same boat, seen as it was: what a prediction is held against.
 struct TrueRun {
-  std::vector<double> command_times_s;  ///< from zero, held until the next
+  std::vector<double> command_times_s;          ///< from zero, held until the next
   std::vector<std::array<double, 2>> commands;  ///< port, starboard
-  std::array<double, 3> start;  ///< u, v, r at time zero
-  std::vector<std::array<double, 3>> nu;  ///< after each step of `step_s`
+  std::array<double, 3> start;                  ///< u, v, r at time zero
+  std::vector<std::array<double, 3>> nu;        ///< after each step of `step_s`
 };
 
 /// The boat, a while under way, then watched for `duration_s`; its thrusters have settled on the

@@ -21,13 +21,6 @@ DeadZone DeadZoneNamed(const std::string& text) {
   return {forward, reverse};
 }
 
-void RequireAvailable(const char* option, const std::optional<std::string>& given,
-                      const std::string& available) {
-  if (!given || *given == available) return;
-  throw UsageError(std::string(option) + ' ' + *given +
-                   " is not available in this version; available: " + available);
-}
-
 }  // namespace
 
 void IdentifyArguments::AddOptionsTo(CLI::App& command) {
@@ -52,7 +45,8 @@ void IdentifyArguments::AddOptionsTo(CLI::App& command) {
   AddIncludeRr(command, include_rr);
   command
       .add_option("--estimator", estimator,
-                  "one-step (default); weak-iv and output-error are not available yet")
+                  "weak-iv (default), whose bounds hold; or one-step, the paper's, which --preset "
+                  "paper and options of the bootstrap ask for; output-error is not available yet")
       ->type_name("NAME")
       ->check(CLI::IsMember({"one-step", "weak-iv", "output-error"}).description(""));
   command.add_option("--preset", preset, "of the data preparation: robust (default) or paper")
@@ -63,9 +57,15 @@ void IdentifyArguments::AddOptionsTo(CLI::App& command) {
                   "of the model, seconds, [0.02, 2] (default: the median GNSS period)")
       ->type_name("S");
   command
+      .add_option(
+          "--twins", twins,
+          "simulated repeats of the data behind the bounds of weak-iv, [8, 1000], 0 for none "
+          "(default 40)")
+      ->type_name("N");
+  command
       .add_option("--bootstrap", bootstrap_replicates,
-                  "replicates behind the bounds, [100, 100000], 0 for bounds from residuals "
-                  "(default 1000)")
+                  "replicates behind the bounds of one-step, [100, 100000], 0 for bounds from "
+                  "residuals (default 1000)")
       ->type_name("N");
   command
       .add_option("--bootstrap-kind", bootstrap_kind,
@@ -80,7 +80,8 @@ void IdentifyArguments::AddOptionsTo(CLI::App& command) {
       ->check(CLI::IsMember({"percentile", "studentized", "bca"}).description(""));
   command.add_option("--level", interval_level, "of the bounds, [0.5, 0.999] (default 0.95)")
       ->type_name("P");
-  command.add_option("--seed", seed, "of the bootstrap; the same seed gives the same bits")
+  command
+      .add_option("--seed", seed, "of repeats and replicates; the same seed gives the same bits")
       ->type_name("N")
       ->check(CLI::NonNegativeNumber.description(""))
       ->capture_default_str();
@@ -93,9 +94,28 @@ void IdentifyArguments::AddOptionsTo(CLI::App& command) {
   output.AddTo(command, "model.json");
 }
 
+bool IdentifyArguments::AskForBootstrap() const {
+  return bootstrap_replicates || bootstrap_kind || interval;
+}
+
+Estimator IdentifyArguments::ChosenEstimator() const {
+  if (estimator == "output-error") {
+    throw UsageError(
+        "--estimator output-error is not available in this version; available: weak-iv, "
+        "one-step");
+  }
+  const bool one_step =
+      estimator ? *estimator == "one-step" : AskForBootstrap() || preset == "paper";
+  if (!one_step && AskForBootstrap()) {
+    throw UsageError("--bootstrap, --bootstrap-kind and --interval belong to --estimator one-step");
+  }
+  if (one_step && twins) throw UsageError("--twins belongs to --estimator weak-iv");
+  return one_step ? Estimator::kOneStep : Estimator::kWeakIv;
+}
+
 IdentifyOptions IdentifyArguments::Options() const {
-  RequireAvailable("--estimator", estimator, "one-step");
   IdentifyOptions options;
+  options.estimator = ChosenEstimator();
   if (preset) options.prepare = PrepareOptionsOf(PresetNamed(*preset));
   if (sampling_period_s) options.prepare.sampling_period_s = sampling_period_s;
   if (parameterization == "paper") options.regression.parameterization = Parameterization::kPaper;
@@ -106,6 +126,7 @@ IdentifyOptions IdentifyArguments::Options() const {
   } else if (dead_zone) {
     options.regression.dead_zone = DeadZoneNamed(*dead_zone);
   }
+  if (twins) options.twins = *twins;
   if (bootstrap_replicates) options.bootstrap_replicates = *bootstrap_replicates;
   if (bootstrap_kind == "moving-blocks") options.resampling = Resampling::kMovingBlocks;
   if (interval == "studentized") options.interval_method = IntervalMethod::kStudentized;

@@ -18,9 +18,10 @@ struct IdentifyArguments {
   std::optional<std::string> structure;         ///< static, dynamic
   std::optional<std::string> parameterization;  ///< propeller, paper
   std::optional<std::string> dead_zone;         ///< identify, or FORWARD,REVERSE
-  std::optional<std::string> estimator;         ///< one-step
+  std::optional<std::string> estimator;         ///< weak-iv, one-step
   std::optional<std::string> preset;            ///< robust, paper
   std::optional<double> sampling_period_s;
+  std::optional<std::size_t> twins;
   std::optional<std::uint32_t> bootstrap_replicates;
   std::optional<std::string> bootstrap_kind;  ///< segments, moving-blocks
   std::optional<std::string> interval;        ///< percentile, studentized, bca
@@ -36,6 +37,12 @@ struct IdentifyArguments {
 
   /// Throws: UsageError for what this version cannot do, or a value out of its range.
   IdentifyOptions Options() const;
+
+ private:
+  bool AskForBootstrap() const;
+
+  /// The one named, else what the other options ask for. Throws: UsageError where they contradict.
+  Estimator ChosenEstimator() const;
 };
 
 }  // namespace telltale

@@ -16,10 +16,11 @@ namespace {
 
 IdentifyRequest RequestOf(const std::string& vehicle_id, const IdentifyArguments& arguments) {
   const IdentifyOptions options = arguments.Options();
-  if (arguments.sampling_period_s || arguments.interval_level || arguments.threads) {
+  if (arguments.sampling_period_s || arguments.interval_level || arguments.threads ||
+      arguments.twins) {
     throw UsageError(
-        "--sampling-period, --level and --threads are the daemon's to choose; leave them out with "
-        "--vehicle-id");
+        "--sampling-period, --level, --threads and --twins are the daemon's to choose; leave them "
+        "out with --vehicle-id");
   }
   IdentifyRequest request;
   request.correlation_id = NewCorrelationId();
@@ -30,6 +31,7 @@ IdentifyRequest RequestOf(const std::string& vehicle_id, const IdentifyArguments
     request.dead_zone = options.regression.dead_zone;
   }
   if (arguments.parameterization) request.parameterization = options.regression.parameterization;
+  request.estimator = options.estimator;
   if (arguments.preset) request.preset = PresetNamed(*arguments.preset);
   request.bootstrap_replicates = arguments.bootstrap_replicates;
   if (arguments.bootstrap_kind) request.resampling = options.resampling;

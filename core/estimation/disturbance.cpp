@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <optional>
+#include <vector>
 
 #include "data/savitzky_golay.hpp"
 
@@ -15,8 +16,8 @@ Eigen::VectorXd SeenWeights(const PreparedDataset& dataset, const WeakProblem& p
                              dataset.options.smoothing_degree);
   const std::size_t centre = dataset.options.smoothing_half_width;
   const std::size_t intervals = filter.WindowLength() - 1;
-  Eigen::VectorXd weights = Eigen::VectorXd::Zero(problem.phi.value.size() +
-                                                  static_cast<Eigen::Index>(intervals) - 1);
+  Eigen::VectorXd weights =
+      Eigen::VectorXd::Zero(problem.phi.value.size() + static_cast<Eigen::Index>(intervals) - 1);
   for (Eigen::Index i = 0; i < problem.phi.value.size(); ++i) {
     for (std::size_t j = 0; j < intervals; ++j) {
       weights[i + static_cast<Eigen::Index>(j)] +=
@@ -47,29 +48,36 @@ Eigen::VectorXd SeenAutocovariance(const Eigen::VectorXd& weights, double h, std
   return seen;
 }
 
-struct AxisFit {
-  double sigma = 0.0;
-  double time_constant_s = 1.0;
-};
-
-AxisFit FitAxis(const Eigen::VectorXd& shown, const Eigen::VectorXd& weights, double h,
-                std::size_t stride) {
+/// Time constants to choose from.
+std::vector<double> TimeConstants() {
   constexpr double kShortestS = 0.2;
   constexpr double kLongestS = 40.0;
   constexpr int kSteps = 30;
-  AxisFit best;
-  double least = std::numeric_limits<double>::infinity();
+  std::vector<double> all;
   for (int i = 0; i <= kSteps; ++i) {
-    const double tau = kShortestS * std::pow(kLongestS / kShortestS, static_cast<double>(i) / kSteps);
-    const Eigen::VectorXd unit = SeenAutocovariance(weights, h, stride, tau);
-    const double variance = std::max(0.0, unit.dot(shown) / unit.squaredNorm());
-    const double misfit = (shown - variance * unit).squaredNorm();
-    if (misfit < least) {
-      least = misfit;
-      best = {std::sqrt(variance), tau};
-    }
+    all.push_back(kShortestS * std::pow(kLongestS / kShortestS, static_cast<double>(i) / kSteps));
   }
-  return best;
+  return all;
+}
+
+/// For each time constant the best variance of one axis, and what it leaves of the autocovariance
+/// shown, as a share of the residual variance squared.
+struct AxisFits {
+  Eigen::VectorXd variance;
+  Eigen::VectorXd misfit;
+};
+
+AxisFits FitAxis(const Eigen::VectorXd& shown, double residual_variance,
+                 const std::vector<Eigen::VectorXd>& units) {
+  AxisFits fits{Eigen::VectorXd(static_cast<Eigen::Index>(units.size())),
+                Eigen::VectorXd(static_cast<Eigen::Index>(units.size()))};
+  for (std::size_t i = 0; i < units.size(); ++i) {
+    const auto at = static_cast<Eigen::Index>(i);
+    fits.variance[at] = std::max(0.0, units[i].dot(shown) / units[i].squaredNorm());
+    fits.misfit[at] = (shown - fits.variance[at] * units[i]).squaredNorm() /
+                      (residual_variance * residual_variance);
+  }
+  return fits;
 }
 
 }  // namespace
@@ -96,8 +104,8 @@ Eigen::VectorXd Autocovariance(const TestFunction& phi, const WeakWindows& windo
 std::array<Eigen::VectorXd, 3> ResidualsOf(const WeakFit& fit, const Eigen::VectorXd& theta,
                                            const PreparedDataset& dataset,
                                            const WeakProblem& problem) {
-  const FilteredThrust thrust = FilterThrust(
-      dataset, problem, fit.time_constant_s ? std::optional(theta[0]) : std::nullopt);
+  const FilteredThrust thrust =
+      FilterThrust(dataset, problem, fit.time_constant_s ? std::optional(theta[0]) : std::nullopt);
   const VesselModel model = ModelOf(fit, theta, dataset.sampling_period_s);
   std::array<Eigen::VectorXd, 3> residuals;
   for (std::size_t j = 0; j < 3; ++j) {
@@ -112,17 +120,34 @@ std::array<Eigen::VectorXd, 3> ResidualsOf(const WeakFit& fit, const Eigen::Vect
 
 Disturbance EstimateDisturbance(const PreparedDataset& dataset, const WeakFit& fit,
                                 const std::array<Eigen::VectorXd, 3>& by_sensors) {
+  // An axis whose residuals are mostly noise says little of its own time constant: the other axes
+  // then speak for it, since what pushes a boat pushes all three.
+  constexpr double kSayOfOthers = 0.25;
   const WeakProblem& problem = fit.problem;
   const Eigen::VectorXd weights = SeenWeights(dataset, problem);
-  Disturbance disturbance;
+  const std::vector<double> time_constants = TimeConstants();
+  std::vector<Eigen::VectorXd> units;
+  for (const double tau : time_constants) {
+    units.push_back(
+        SeenAutocovariance(weights, dataset.sampling_period_s, problem.phi.stride, tau));
+  }
+  std::array<std::optional<AxisFits>, 3> fits;
+  Eigen::VectorXd all = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(units.size()));
   for (std::size_t j = 0; j < 3; ++j) {
     if (!fit.equations[j]) continue;
-    const Eigen::VectorXd all =
+    const Eigen::VectorXd shown =
         Autocovariance(problem.phi, problem.windows[j], fit.equations[j]->residual);
-    const AxisFit axis = FitAxis(all - by_sensors[j], weights, dataset.sampling_period_s,
-                                 problem.phi.stride);
-    disturbance.sigma[static_cast<Eigen::Index>(j)] = axis.sigma;
-    disturbance.time_constant_s[static_cast<Eigen::Index>(j)] = axis.time_constant_s;
+    fits[j] = FitAxis(shown - by_sensors[j], shown[0], units);
+    all += fits[j]->misfit;
+  }
+  Disturbance disturbance;
+  for (std::size_t j = 0; j < 3; ++j) {
+    if (!fits[j]) continue;
+    Eigen::Index best = 0;
+    (fits[j]->misfit + kSayOfOthers * (all - fits[j]->misfit)).minCoeff(&best);
+    const auto axis = static_cast<Eigen::Index>(j);
+    disturbance.sigma[axis] = std::sqrt(fits[j]->variance[best]);
+    disturbance.time_constant_s[axis] = time_constants[static_cast<std::size_t>(best)];
   }
   return disturbance;
 }

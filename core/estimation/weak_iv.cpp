@@ -90,6 +90,12 @@ double Held(double value, double limit) {
   return std::isfinite(value) ? std::clamp(value, -limit, limit) : 0.0;
 }
 
+std::array<bool, 3> Answered(const WeighedEquations& equations) {
+  std::array<bool, 3> answered{};
+  for (const Weighed& equation : equations) answered[equation.index] = true;
+  return answered;
+}
+
 /// Velocities that the model predicts from the commands, started anew from measured ones a while
 /// before each reach so that their noise is not that of the windows.
 class Instruments {
@@ -101,17 +107,19 @@ class Instruments {
     lead_ = problem.phi.Rows() / 2 + 1;
   }
 
-  /// Z of every equation: windows as in G.
+  /// Z of every equation: windows as in G. A velocity whose equation is not among them stays as
+  /// measured.
   std::vector<Eigen::MatrixXd> Weigh(const WeighedEquations& equations, const Thetas& thetas,
                                      const FilteredThrust& thrust) const {
     const BodyDynamics dynamics(ModelWith(problem_, equations, thetas));
     std::vector<Eigen::MatrixXd> Z;
     for (const Weighed& equation : equations) Z.emplace_back(equation.G.rows(), equation.G.cols());
+    const std::array<bool, 3> simulated = Answered(equations);
     std::vector<Nu> nu(dataset_.rows.size());
     for (const RowRange& stretch : dataset_.stretches) {
       for (std::size_t begin = stretch.begin; begin < stretch.end; begin += reach_) {
         const RowRange centres{begin, std::min(begin + reach_, stretch.end)};
-        const RowRange rows = Simulate(dynamics, thrust, stretch, centres, nu);
+        const RowRange rows = Simulate(dynamics, simulated, thrust, stretch, centres, nu);
         for (std::size_t i = 0; i < equations.size(); ++i) {
           WeighCentred(equations[i], thrust, nu, centres, rows, Z[i]);
         }
@@ -122,8 +130,9 @@ class Instruments {
 
  private:
   /// Fills nu over the rows that windows centred in `centres` need; returns those rows.
-  RowRange Simulate(const BodyDynamics& dynamics, const FilteredThrust& thrust,
-                    const RowRange& stretch, const RowRange& centres, std::vector<Nu>& nu) const {
+  RowRange Simulate(const BodyDynamics& dynamics, const std::array<bool, 3>& simulated,
+                    const FilteredThrust& thrust, const RowRange& stretch, const RowRange& centres,
+                    std::vector<Nu>& nu) const {
     const std::size_t half = problem_.phi.Rows() / 2;
     const std::size_t margin = half + lead_;
     const std::size_t start =
@@ -131,10 +140,12 @@ class Instruments {
     const std::size_t end = std::min(centres.end + half, stretch.end);
     nu[start] = dataset_.rows[start].nu;
     for (std::size_t k = start; k + 1 < end; ++k) {
-      const Nu next = dynamics.Step(dynamics.Propelled(thrust.interval[k]), nu[k],
-                                    dataset_.sampling_period_s);
-      nu[k + 1] = {Held(next.u, 2.0 * fastest_.u), Held(next.v, 2.0 * fastest_.v),
-                   Held(next.r, 2.0 * fastest_.r)};
+      const Nu next =
+          dynamics.Step(dynamics.Propelled(thrust.interval[k]), nu[k], dataset_.sampling_period_s);
+      const Nu& measured = dataset_.rows[k + 1].nu;
+      nu[k + 1] = {simulated[0] ? Held(next.u, 2.0 * fastest_.u) : measured.u,
+                   simulated[1] ? Held(next.v, 2.0 * fastest_.v) : measured.v,
+                   simulated[2] ? Held(next.r, 2.0 * fastest_.r) : measured.r};
     }
     return {start, end};
   }
@@ -144,7 +155,8 @@ class Instruments {
                     Eigen::MatrixXd& Z) const {
     const auto& first_rows = problem_.windows[equation.index].first_rows;
     const std::size_t half = problem_.phi.Rows() / 2;
-    const auto from = std::lower_bound(first_rows.begin(), first_rows.end(), centres.begin - std::min(centres.begin, half));
+    const auto from = std::lower_bound(first_rows.begin(), first_rows.end(),
+                                       centres.begin - std::min(centres.begin, half));
     const Equation name = kEquations[equation.index];
     const std::size_t columns = Regressors(name, problem_.parameterization).size();
     RegressorRows phi(static_cast<Eigen::Index>(rows.size()), static_cast<Eigen::Index>(columns));
@@ -155,9 +167,9 @@ class Instruments {
     Eigen::RowVectorXd sum(phi.cols());
     for (auto at = from; at != first_rows.end() && *at + half < centres.end; ++at) {
       if (*at + half < centres.begin) continue;
-      sum.noalias() = problem_.phi.value.transpose() *
-                      phi.middleRows(static_cast<Eigen::Index>(*at - rows.begin),
-                                     problem_.phi.value.size());
+      sum.noalias() =
+          problem_.phi.value.transpose() *
+          phi.middleRows(static_cast<Eigen::Index>(*at - rows.begin), problem_.phi.value.size());
       const auto window = static_cast<Eigen::Index>(at - first_rows.begin());
       for (std::size_t j = 0; j < equation.columns.size(); ++j) {
         Z(window, static_cast<Eigen::Index>(j)) =
@@ -177,8 +189,8 @@ Eigen::VectorXd Norms(const Eigen::MatrixXd& columns) {
   return columns.colwise().norm().transpose().cwiseMax(std::numeric_limits<double>::min());
 }
 
-/// The solution of A x = c shrunk along directions that A hardly sees: what predicts the same motion
-/// without the wild numbers that noise leaves there. Damping is relative to unit columns.
+/// The solution of A x = c shrunk along directions that A hardly sees: what predicts the same
+/// motion without the wild numbers that noise leaves there. Damping is relative to unit columns.
 Eigen::VectorXd SolveDamped(const Eigen::MatrixXd& A, const Eigen::VectorXd& c,
                             const Eigen::VectorXd& z_norms, const Eigen::VectorXd& g_norms,
                             double damping) {
@@ -230,8 +242,8 @@ std::vector<Eigen::VectorXd> ThrustByLag(const PreparedDataset& dataset, const W
 /// The stacked linear system about the present estimate: unknowns are the change of the time
 /// constant, if it is sought, and the coefficients.
 struct System {
-  Eigen::MatrixXd A;           // Z'G over the stacked unknowns
-  Eigen::VectorXd c;           // Z'b
+  Eigen::MatrixXd A;               // Z'G over the stacked unknowns
+  Eigen::VectorXd c;               // Z'b
   std::vector<Eigen::MatrixXd> Z;  // per equation, K x P
 };
 
@@ -326,14 +338,14 @@ WeakFit Write(const WeakProblem& problem, const WeighedEquations& equations, con
   fit.time_constant_s = time_constant_s;
   fit.bread = bread;
   fit.theta.resize(bread.rows());
-  fit.scores =
-      Eigen::MatrixXd::Zero(bread.rows(), static_cast<Eigen::Index>(problem.clusters));
+  fit.scores = Eigen::MatrixXd::Zero(bread.rows(), static_cast<Eigen::Index>(problem.clusters));
   Eigen::MatrixXd meat = Eigen::MatrixXd::Zero(bread.rows(), bread.rows());
   Eigen::Index next = 0;
   if (time_constant_s) fit.theta[next++] = *time_constant_s;
   for (std::size_t i = 0; i < equations.size(); ++i) {
     const Weighed& equation = equations[i];
-    WeakEstimate estimate{equation.columns, thetas[i], damped[i], equation.b - equation.G * thetas[i]};
+    WeakEstimate estimate{equation.columns, thetas[i], damped[i],
+                          equation.b - equation.G * thetas[i]};
     fit.theta.segment(next, thetas[i].size()) = thetas[i];
     next += thetas[i].size();
     const auto& clusters = problem.windows[equation.index].clusters;
@@ -425,6 +437,10 @@ VesselModel ModelOf(const WeakFit& fit, const Eigen::VectorXd& theta, double sam
     }
   }
   return model;
+}
+
+bool LagIsAtItsLeast(const WeakFit& fit) {
+  return fit.time_constant_s && *fit.time_constant_s < 1.5 * kLeastTimeConstantS;
 }
 
 Eigen::MatrixXd ClusterCovariance(const WeakFit& fit) {

@@ -14,9 +14,10 @@ namespace telltale {
 
 struct WeakIvOptions {
   WeakFormOptions form;
-  double instrument_reach_s = 10.0;  ///< simulated instruments start anew from measurements so often
-  double damping = 0.02;             ///< of what simulates the instruments, relative to unit columns
-  int iterations = 4;                ///< simulations of the instruments, each with the newest theta
+  double instrument_reach_s =
+      10.0;               ///< simulated instruments start anew from measurements so often
+  double damping = 0.02;  ///< of what simulates the instruments, relative to unit columns
+  int iterations = 4;     ///< simulations of the instruments, each with the newest theta
 };
 
 /// One equation's share of a weak-form fit, over the windows of WeakProblem::windows.
@@ -60,8 +61,12 @@ std::optional<WeakFit> EstimateWeakIv(const PreparedDataset& dataset,
 /// The model that stacked unknowns of such a fit describe; coefficients not sought are zero.
 VesselModel ModelOf(const WeakFit& fit, const Eigen::VectorXd& theta, double sampling_period_s);
 
+/// Whether the time constant stands at the least that is sought: no lag is seen.
+bool LagIsAtItsLeast(const WeakFit& fit);
+
 /// Cov(theta) from the scores of the clusters, drawn towards the shape that white residuals would
-/// give it by p / (p + g): g clusters alone leave it singular or nearly so when p is not far below g.
+/// give it by p / (p + g): g clusters alone leave it singular or nearly so when p is not far below
+/// g.
 Eigen::MatrixXd ClusterCovariance(const WeakFit& fit);
 
 }  // namespace telltale

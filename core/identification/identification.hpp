@@ -10,6 +10,7 @@
 #include "data/samples.hpp"
 #include "result.hpp"
 #include "uncertainty/interval.hpp"
+#include "vessel/disturbance.hpp"
 #include "vessel/structure.hpp"
 #include "vessel/vessel_model.hpp"
 
@@ -56,6 +57,8 @@ struct Provenance {
   std::size_t bootstrap_failures = 0;  ///< replicates that could not be solved
   std::uint64_t seed = 0;
   std::string software_version;
+  std::size_t twins = 0;          ///< simulated repeats that were identified again
+  std::size_t twin_failures = 0;  ///< those that could not be
 };
 
 /// A boat's model with bounds: the outcome that is published.
@@ -75,6 +78,7 @@ struct Identification {
   Eigen::MatrixXd covariance;
   std::optional<Coefficient> thruster_time_constant;
   Eigen::VectorXd time_constant_covariance;
+  std::optional<Disturbance> disturbance;  ///< what else moved the boat, where that was judged
   WindowSummary window;
   std::vector<Refusal> refusals;
   Provenance provenance;

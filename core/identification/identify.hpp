@@ -10,6 +10,7 @@
 #include "data/samples.hpp"
 #include "estimation/excitation.hpp"
 #include "estimation/regression_problem.hpp"
+#include "estimation/weak_iv.hpp"
 #include "identification/identification.hpp"
 #include "result.hpp"
 #include "uncertainty/bootstrap.hpp"
@@ -32,13 +33,18 @@ struct IdentifyOptions {
   RegressionOptions regression;
   DeadZoneSource dead_zone_source = DeadZoneSource::kGiven;
   ExcitationLimits excitation;
-  Estimator estimator = Estimator::kOneStep;
-  double interval_level = 0.95;                                  ///< (0.5, 0.999]
+  Estimator estimator = Estimator::kWeakIv;
+  WeakIvOptions weak_iv;         ///< of kWeakIv
+  std::size_t twins = 40;        ///< simulated repeats behind the bounds of kWeakIv, 0 or [8, 1000]
+  double interval_level = 0.95;  ///< (0.5, 0.999]
   std::size_t bootstrap_replicates = 1000;                       ///< 0 (off) or [100, 100000]
   Resampling resampling = Resampling::kSegments;                 ///< what a replicate redraws
   IntervalMethod interval_method = IntervalMethod::kPercentile;  ///< how replicates bound
   std::uint64_t seed = 1;
   std::size_t threads = 1;  ///< [1, 256]; never changes the result
+
+  /// The paper's estimator in place of the default.
+  static IdentifyOptions OneStep();
 
   /// The first field out of its range, as a refusal naming field, value and range.
   std::optional<Refusal> Validate() const;
@@ -50,7 +56,8 @@ struct IdentifyOptions {
 Result<Identification> Identify(const Recording& recording, const Vehicle& vehicle,
                                 const IdentifyOptions& options, const Progress& progress = {});
 
-/// The same from data that are prepared already.
+/// The same from data that are prepared already; for kWeakIv as PrepareForWeakIv does, in stretches
+/// of a minute or so and with a narrow filter.
 Result<Identification> Identify(const PreparedDataset& dataset, const std::string& vehicle_id,
                                 const IdentifyOptions& options, const Progress& progress = {});
 

@@ -66,13 +66,30 @@ class Course {
   std::vector<Instant> instants_;
 };
 
-/// A boat beyond these has left what any vessel here can do.
-bool IsPlausible(const Nu& nu) {
-  constexpr double kFastestMps = 50.0;
-  constexpr double kFastestRadps = 20.0;
-  return std::abs(nu.u) < kFastestMps && std::abs(nu.v) < kFastestMps &&
-         std::abs(nu.r) < kFastestRadps;
-}
+/// A boat this much beyond all that was measured has run away.
+class Runaway {
+ public:
+  explicit Runaway(const PreparedDataset& dataset) {
+    for (const PreparedRow& row : dataset.rows) {
+      fastest_.u = std::max(fastest_.u, std::abs(row.nu.u));
+      fastest_.v = std::max(fastest_.v, std::abs(row.nu.v));
+      fastest_.r = std::max(fastest_.r, std::abs(row.nu.r));
+    }
+  }
+
+  bool Is(const Nu& nu) const {
+    const auto within = [](double value, double fastest) {
+      return std::abs(value) < std::max(kTimes * fastest, kAtLeast);  // never for NaN
+    };
+    return !(within(nu.u, fastest_.u) && within(nu.v, fastest_.v) && within(nu.r, fastest_.r));
+  }
+
+ private:
+  static constexpr double kTimes = 3.0;
+  static constexpr double kAtLeast = 0.5;  // m/s, rad/s
+
+  Nu fastest_;
+};
 
 /// What stretch s of the dataset started with, and when it is sailed on the twin's clock.
 struct Voyage {
@@ -82,6 +99,15 @@ struct Voyage {
   double shift_s;  ///< from the dataset's clock to the twin's
 
   const PreparedRow& First() const { return dataset.rows[dataset.stretches[stretch].begin]; }
+  Nu MeasuredAt(double since_start_s) const {
+    const RowRange& rows = dataset.stretches[stretch];
+    const double at = since_start_s / dataset.sampling_period_s;
+    const std::size_t before = std::min(static_cast<std::size_t>(at), rows.size() - 2);
+    const double share = at - static_cast<double>(before);
+    const Nu& a = dataset.rows[rows.begin + before].nu;
+    const Nu& b = dataset.rows[rows.begin + before + 1].nu;
+    return {a.u + share * (b.u - a.u), a.v + share * (b.v - a.v), a.r + share * (b.r - a.r)};
+  }
   double Duration() const {
     return static_cast<double>(dataset.stretches[stretch].size() - 1) * dataset.sampling_period_s;
   }
@@ -102,7 +128,8 @@ ThrustRegressors ThrustAtStart(const Voyage& voyage, const VesselModel& model) {
 }
 
 Result<Course> Sail(const Voyage& voyage, const VesselModel& model, const BodyDynamics& dynamics,
-                    double step_s, std::array<GaussMarkov, 3>& disturbance) {
+                    const Runaway& runaway, double step_s, const std::array<bool, 3>& as_measured,
+                    std::array<GaussMarkov, 3>& disturbance) {
   const auto steps = static_cast<std::size_t>(std::lround(voyage.Duration() / step_s));
   Course course(voyage.start_s, step_s);
   Instant now{voyage.First().eta, voyage.First().nu};
@@ -122,15 +149,25 @@ Result<Course> Sail(const Voyage& voyage, const VesselModel& model, const BodyDy
         });
     applied = {applied.u + disturbance[0].Next(), applied.v + disturbance[1].Next(),
                applied.r + disturbance[2].Next()};
-    const Nu next = dynamics.Step(applied, now.nu, step_s);
+    const Nu measured = voyage.MeasuredAt(static_cast<double>(k + 1) * step_s);
+    Nu next = dynamics.Step(applied, now.nu, step_s);
+    if (as_measured[0]) next.u = measured.u;
+    if (as_measured[1]) next.v = measured.v;
+    if (as_measured[2]) next.r = measured.r;
     now = {NextPose(now.eta, now.nu, next, step_s), next};
-    if (!IsPlausible(next)) {
+    if (runaway.Is(next)) {
       return Refuse("simulated repeat", "the model runs away under the recorded commands",
                     "record more of the manoeuvres in which it does");
     }
     course.Add(now);
   }
   return course;
+}
+
+/// Share of the variance of white noise that is left of the mean of a signal joined up linearly
+/// over `samples` sampling intervals: whole weights within, halves at both ends.
+double LeftByAveraging(double samples) {
+  return samples < 2.0 ? 1.0 : (samples - 0.5) / (samples * samples);
 }
 
 /// Fixes, headings and commands as sensors would give them along the way.
@@ -145,8 +182,10 @@ class Instrumented {
     const double shortest_s = dataset.sampling_period_s / kHeadingsPerRow;
     heading_period_s_ = std::max(sensors_.heading_period_s, shortest_s);
     position_noise_m_ = noise_scale * sensors_.position_noise_m;
-    heading_noise_rad_ = noise_scale * sensors_.heading_noise_rad *
-                         std::sqrt(sensors_.heading_period_s / heading_period_s_);
+    heading_noise_rad_ =
+        noise_scale * sensors_.heading_noise_rad *
+        std::sqrt(LeftByAveraging(dataset.sampling_period_s / sensors_.heading_period_s) /
+                  LeftByAveraging(dataset.sampling_period_s / heading_period_s_));
   }
 
   void Record(const Voyage& voyage, const Course& course, Recording& recording) {
@@ -209,6 +248,7 @@ Result<PreparedDataset> SailAgain(const PreparedDataset& dataset, const VesselMo
   const double h = dataset.sampling_period_s;
   const double step_s = h / std::ceil(h / kLongestStepS - 1e-9);
   const BodyDynamics dynamics(model);
+  const Runaway runaway(dataset);
   const auto axis = [&](Eigen::Index j) {
     return GaussMarkov(options.disturbance.sigma[j], options.disturbance.time_constant_s[j], step_s,
                        WhiteSource(options.seed, 10 + static_cast<std::uint64_t>(j)));
@@ -220,7 +260,8 @@ Result<PreparedDataset> SailAgain(const PreparedDataset& dataset, const VesselMo
   for (std::size_t s = 0; s < dataset.stretches.size(); ++s) {
     Voyage voyage{dataset, s, start_s, 0.0};
     voyage.shift_s = start_s - voyage.First().time_s;
-    const auto course = Sail(voyage, model, dynamics, step_s, disturbance);
+    const auto course =
+        Sail(voyage, model, dynamics, runaway, step_s, options.as_measured, disturbance);
     if (!course) return tl::unexpected(course.error());
     instrumented.Record(voyage, *course, recording);
     start_s += voyage.Duration() + kBetweenStretchesS;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 
 #include "data/prepared_dataset.hpp"
@@ -12,18 +13,20 @@ namespace telltale {
 
 /// What a simulated repeat of a data set is made with.
 struct TwinOptions {
-  Disturbance disturbance;      ///< zero: none
-  double noise_scale = 1.0;     ///< on the dataset's sensor noise
+  Disturbance disturbance;   ///< zero: none
+  double noise_scale = 1.0;  ///< on the dataset's sensor noise
   std::uint64_t seed = 1;
+  /// Velocities (u, v, r) that the model has no equation for: they go as measured.
+  std::array<bool, 3> as_measured{};
 };
 
 /// A data set that the same boat might have given another day: every stretch of `dataset` sailed
 /// anew by `model` from where it began and under the same commands, disturbed and measured with
 /// fresh draws, and prepared by the same options.
-/// Model: nu_dot = Phi(nu, T) theta + d, d first-order Gauss-Markov per axis; Runge-Kutta at a tenth
-/// of a second; positions and headings at the dataset's own rates (headings above 10 Hz as averages
-/// with as much less noise) with white noise.
-/// Refuses when: the simulation runs away, or what it gives cannot be prepared.
+/// Model: nu_dot = Phi(nu, T) theta + d, d first-order Gauss-Markov per axis; Runge-Kutta at a
+/// tenth of a second; positions and headings at the dataset's own rates (headings above 10 Hz as
+/// averages with as much less noise) with white noise. Refuses when: the simulation runs away, or
+/// what it gives cannot be prepared.
 Result<PreparedDataset> SailAgain(const PreparedDataset& dataset, const VesselModel& model,
                                   const TwinOptions& options);
 

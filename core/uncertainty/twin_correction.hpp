@@ -15,33 +15,39 @@
 namespace telltale {
 
 struct TwinCorrectionOptions {
-  std::size_t twins = 40;  ///< [8, 1000], half of them about the first estimate
+  std::size_t twins = 40;  ///< [8, 1000]
   std::uint64_t seed = 1;
-  std::size_t threads = 1;       ///< never changes the result
-  double noise_scale = 1.0;      ///< sensor noise of the twins against what the data show
-  double time_scale = 1.0;       ///< their disturbance's time constant against what the data show
+  std::size_t threads = 1;   ///< never changes the result
+  double noise_scale = 1.0;  ///< sensor noise of the twins against what the data show
+  double time_scale = 1.0;   ///< their disturbance's time constant against what the data show
 };
 
 /// Shapes: theta and covariance over the stacked unknowns of the WeakFit.
 struct TwinCorrection {
-  Eigen::VectorXd theta;       ///< corrected for bias
+  Eigen::VectorXd theta;  ///< corrected for bias, if that can be believed
+  bool corrected = false;
+  double joint_bias = 0.0;     ///< bias' Cov^-1 bias over the unknowns: against noise, one
   Eigen::MatrixXd covariance;  ///< of the clusters, calibrated, with what few twins leave open
-  double calibration = 1.0;    ///< factor on standard errors by which the twins' own intervals hold
+  double calibration = 1.0;    ///< factor on standard errors, at least one, by which the
+                               ///< twins' own intervals hold
   Eigen::MatrixXd joint_covariance;  ///< the same, calibrated so that joint ellipsoids hold
-  double degrees_of_freedom = 0.0;  ///< of Student's t for intervals
+  double degrees_of_freedom = 0.0;   ///< of Student's t for intervals
   Disturbance disturbance;
-  std::size_t solved = 0;    ///< twins of the last round that could be estimated
-  std::size_t failures = 0;  ///< twins of both rounds that could not
+  std::size_t solved = 0;    ///< twins that could be estimated
+  std::size_t failures = 0;  ///< twins that could not
 };
 
+/// The truth lies within off' joint_covariance^-1 off <= unknowns * JointQuantile(...) with
+/// probability `level`.
+double JointQuantile(double degrees_of_freedom, double unknowns, double level);
+
 /// Bias correction and calibration by simulating the whole pipeline, docs/model.md (33):
-/// the disturbance is judged from the residuals, twins of the data set are sailed with the damped
+/// the disturbance is judged from the residuals, twins of the data set are sailed with the
 /// estimate, measured, prepared and estimated again, and what they are off by on average is taken
-/// from the estimate; the second half of the twins repeats that about the corrected one, since the
-/// bias itself moves with the coefficients. How often the twins' own intervals hold says by what
-/// the standard errors must be stretched: one factor for all coefficients, from the pooled 95 %
-/// quantile of |theta* - mean| / se*.
-/// progress is called by one thread at a time. Nothing when fewer than half of the twins of a round can be estimated.
+/// from the estimate. How often the twins' own intervals hold says by what standard errors must be
+/// stretched: one factor for all coefficients, from the pooled 95 % quantile of |theta* - mean| /
+/// se*, and half of what each coefficient's own pivots add to that. progress is called by one
+/// thread at a time. Nothing when fewer than half of the twins can be estimated.
 std::optional<TwinCorrection> CorrectWithTwins(
     const PreparedDataset& dataset, const RegressionOptions& regression, const WeakFit& fit,
     const std::array<std::vector<std::size_t>, 3>& columns, const WeakIvOptions& options,

@@ -29,7 +29,7 @@ Result<StudyEntry> Partition(const PreparedDataset& dataset, const StudyOptions&
 }
 
 void FillStaticTable(const PreparedDataset& dataset, const StudyOptions& options, Study& study) {
-  IdentifyOptions identify;
+  IdentifyOptions identify = IdentifyOptions::OneStep();
   identify.regression = InThePapersTerms(Structure::kStaticQuadratic, options);
   identify.bootstrap_replicates = 0;
   const auto identification = Identify(dataset, "study", identify);
@@ -67,7 +67,7 @@ void FillDynamicTable(const PreparedDataset& dataset, const StudyOptions& option
 }
 
 void FillTimeConstant(const PreparedDataset& dataset, const StudyOptions& options, Study& study) {
-  IdentifyOptions identify;
+  IdentifyOptions identify = IdentifyOptions::OneStep();
   identify.regression.structure = Structure::kFirstOrderDynamic;
   identify.regression.include_reverse = options.include_reverse;
   identify.seed = options.seed;

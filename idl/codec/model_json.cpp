@@ -75,6 +75,12 @@ void Write(const Refusal& refusal, proto::Refusal& message) {
   message.set_advice(refusal.advice);
 }
 
+void Write(const Disturbance& disturbance, proto::Disturbance& message) {
+  message.mutable_sigma()->Add(disturbance.sigma.begin(), disturbance.sigma.end());
+  message.mutable_time_constant_s()->Add(disturbance.time_constant_s.begin(),
+                                         disturbance.time_constant_s.end());
+}
+
 void Write(const Provenance& provenance, proto::Provenance& message) {
   message.set_preset(provenance.preset);
   message.set_bounds_basis(provenance.bounds_basis);
@@ -82,6 +88,8 @@ void Write(const Provenance& provenance, proto::Provenance& message) {
   message.set_bootstrap_failures(Saturated(provenance.bootstrap_failures));
   message.set_seed(provenance.seed);
   message.set_software_version(provenance.software_version);
+  message.set_twins(Saturated(provenance.twins));
+  message.set_twin_failures(Saturated(provenance.twin_failures));
 }
 
 // ---- from Protobuf ------------------------------------------------------------------------
@@ -290,7 +298,28 @@ Provenance ReadProvenance(const proto::Provenance& message) {
   provenance.bootstrap_failures = message.bootstrap_failures();
   provenance.seed = message.seed();
   provenance.software_version = message.software_version();
+  provenance.twins = message.twins();
+  provenance.twin_failures = message.twin_failures();
   return provenance;
+}
+
+Eigen::Vector3d ReadAxes(FieldReader& reader, const char* field,
+                         const google::protobuf::RepeatedField<double>& values, double least) {
+  if (values.size() != 3) {
+    reader.Fail(field, std::to_string(values.size()) + " numbers", "3, one for each axis");
+    return Eigen::Vector3d::Ones();
+  }
+  for (const double value : values) {
+    if (value >= least && std::isfinite(value)) continue;
+    reader.Fail(field, NumberText(value), "[" + NumberText(least) + ", inf)");
+  }
+  return {values[0], values[1], values[2]};
+}
+
+Disturbance ReadDisturbance(FieldReader reader, const proto::Disturbance& message) {
+  constexpr double kShortestS = 1e-3;
+  return {ReadAxes(reader, "sigma", message.sigma(), 0.0),
+          ReadAxes(reader, "time_constant_s", message.time_constant_s(), kShortestS)};
 }
 
 Identification ReadModel(FieldReader reader, const proto::Model& model) {
@@ -314,6 +343,9 @@ Identification ReadModel(FieldReader reader, const proto::Model& model) {
   result.covariance = ReadCovariance(reader, model);
   result.thruster_time_constant = ReadTimeConstant(reader, model, result.structure);
   result.time_constant_covariance = ReadTimeConstantCovariance(reader, model, result.structure);
+  if (model.has_disturbance()) {
+    result.disturbance = ReadDisturbance(reader.Optional("disturbance"), model.disturbance());
+  }
   result.window = ReadWindow(reader.Optional("window"), model.window());
   result.refusals = ReadRefusals(model);
   result.provenance = ReadProvenance(model.provenance());
@@ -357,6 +389,7 @@ proto::Model ToProto(const Identification& identification) {
   }
   const Eigen::VectorXd& with_tau = identification.time_constant_covariance;
   model.mutable_thruster_time_constant_covariance()->Add(with_tau.begin(), with_tau.end());
+  if (identification.disturbance) Write(*identification.disturbance, *model.mutable_disturbance());
   Write(identification.window, *model.mutable_window());
   for (const Refusal& refusal : identification.refusals) Write(refusal, *model.add_refusals());
   Write(identification.provenance, *model.mutable_provenance());

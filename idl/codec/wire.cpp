@@ -120,6 +120,12 @@ void Fill(telltale_wire_Model& wire, const PublishedModel& model) {
   Put(wire.software_version, provenance.software_version);
   wire.dead_zone_forward = identification.dead_zone.forward;
   wire.dead_zone_reverse = identification.dead_zone.reverse;
+  wire.twins = provenance.twins;
+  wire.twin_failures = provenance.twin_failures;
+  if (const auto& disturbance = identification.disturbance) {
+    PutSequence(wire.disturbance_sigma, disturbance->sigma, kCopy);
+    PutSequence(wire.disturbance_time_constant_s, disturbance->time_constant_s, kCopy);
+  }
 }
 
 // ---- wire -> core -------------------------------------------------------------------------------
@@ -333,6 +339,27 @@ Eigen::VectorXd ReadTimeConstantCovariance(const dds_sequence_double& wire, Stru
   return covariance;
 }
 
+/// (0, any]: the smallest time constant that is one.
+constexpr double kShortestS = std::numeric_limits<double>::min();
+
+Eigen::Vector3d ReadAxes(const char* field, const dds_sequence_double& values, double least) {
+  if (values._length != 3) {
+    Reject(field, std::to_string(values._length) + " numbers", "3, one for each axis, or none");
+  }
+  Eigen::Vector3d axes;
+  for (std::uint32_t i = 0; i < 3; ++i) {
+    axes[i] = ReadWithin(field, values._buffer[i], least, kLargest);
+  }
+  return axes;
+}
+
+std::optional<Disturbance> ReadDisturbance(const dds_sequence_double& sigma,
+                                           const dds_sequence_double& time_constant_s) {
+  if (sigma._length == 0 && time_constant_s._length == 0) return std::nullopt;
+  return Disturbance{ReadAxes("disturbance_sigma", sigma, 0.0),
+                     ReadAxes("disturbance_time_constant_s", time_constant_s, kShortestS)};
+}
+
 PublishedModel ReadModel(const telltale_wire_Model& wire) {
   PublishedModel model;
   model.revision = wire.revision;
@@ -366,6 +393,10 @@ PublishedModel ReadModel(const telltale_wire_Model& wire) {
   identification.provenance.bootstrap_failures = wire.bootstrap_failures;
   identification.provenance.seed = wire.seed;
   identification.provenance.software_version = View(wire.software_version);
+  identification.provenance.twins = wire.twins;
+  identification.provenance.twin_failures = wire.twin_failures;
+  identification.disturbance =
+      ReadDisturbance(wire.disturbance_sigma, wire.disturbance_time_constant_s);
   return model;
 }
 

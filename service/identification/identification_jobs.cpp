@@ -48,7 +48,11 @@ IdentifyOptions OptionsOf(const IdentifyRequest& request, const IdentificationSe
   if (request.parameterization != Parameterization::kUnknown) {
     options.regression.parameterization = request.parameterization;
   }
-  if (request.estimator != Estimator::kUnknown) options.estimator = request.estimator;
+  if (request.estimator != Estimator::kUnknown) {
+    options.estimator = request.estimator;
+  } else if (request.preset == Preset::kPaper) {
+    options.estimator = Estimator::kOneStep;  // the paper's own, and the only one for its preset
+  }
   if (request.dead_zone_source != DeadZoneSource::kUnknown) {
     options.dead_zone_source = request.dead_zone_source;
     options.regression.dead_zone = request.dead_zone;

@@ -57,6 +57,7 @@ inline Identification MadeUpIdentification(
   made.window.rejected.Count(Channel::kGnss, RejectReason::kDuplicate, 7);
   made.window.rejected.Count(Channel::kThrusters, RejectReason::kNotFinite, 2);
   made.refusals.push_back({"sway", "v and v|v| move together", "add a zigzag at two speeds"});
+  made.disturbance = Disturbance{{0.03, 0.04, 0.05}, {2.0, 3.0, 4.0}};
   made.provenance = {"ROBUST", "a cluster bootstrap over segments",       1000,
                      3,        std::numeric_limits<std::uint64_t>::max(), "0.1.0"};
   return made;
@@ -133,6 +134,8 @@ inline void ExpectSame(const Provenance& a, const Provenance& b) {
   EXPECT_EQ(a.bootstrap_failures, b.bootstrap_failures);
   EXPECT_EQ(a.seed, b.seed);
   EXPECT_EQ(a.software_version, b.software_version);
+  EXPECT_EQ(a.twins, b.twins);
+  EXPECT_EQ(a.twin_failures, b.twin_failures);
 }
 
 inline void ExpectSame(const Identification& a, const Identification& b) {
@@ -150,6 +153,11 @@ inline void ExpectSame(const Identification& a, const Identification& b) {
   ASSERT_EQ(a.thruster_time_constant.has_value(), b.thruster_time_constant.has_value());
   if (a.thruster_time_constant) ExpectSame(*a.thruster_time_constant, *b.thruster_time_constant);
   EXPECT_EQ(a.time_constant_covariance, b.time_constant_covariance);
+  ASSERT_EQ(a.disturbance.has_value(), b.disturbance.has_value());
+  if (a.disturbance) {
+    EXPECT_EQ(a.disturbance->sigma, b.disturbance->sigma);
+    EXPECT_EQ(a.disturbance->time_constant_s, b.disturbance->time_constant_s);
+  }
   ExpectSame(a.window, b.window);
   EXPECT_EQ(a.refusals, b.refusals);
   ExpectSame(a.provenance, b.provenance);

@@ -136,7 +136,7 @@ TEST(EstimateDeadZone, RefusesDataThatAnswerNoEquation) {
 TEST(IdentifyWithADeadZone, WritesTheLimitsAndWhatItCouldNotTell) {
   std::vector<PropellerCommand> commands = Commands(1500, 0.0, 0.8);
   const auto dataset = Drive(Boat(Structure::kStaticQuadratic, {0.07, -0.09}), commands, 1e-4);
-  IdentifyOptions options;
+  IdentifyOptions options = IdentifyOptions::OneStep();
   options.bootstrap_replicates = 0;
   options.dead_zone_source = DeadZoneSource::kIdentified;
   const auto all = Identify(dataset, "boat", options);
@@ -157,7 +157,7 @@ TEST(IdentifyWithADeadZone, WritesTheLimitsAndWhatItCouldNotTell) {
 }
 
 TEST(IdentifyOptions, RefuseADeadZoneOutOfItsRange) {
-  IdentifyOptions options;
+  IdentifyOptions options = IdentifyOptions::OneStep();
   options.regression.dead_zone = {0.31, 0.0};
   ASSERT_TRUE(options.Validate().has_value());
   EXPECT_NE(options.Validate()->reason.find("[0, 0.3]"), std::string::npos);

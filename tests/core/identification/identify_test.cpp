@@ -2,12 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 #include <boost/random/normal_distribution.hpp>
 
 #include "simulation/simulator.hpp"
 #include "simulation/yellowfish.hpp"
+#include "support/boats.hpp"
 #include "support/discrete_boat.hpp"
 
 namespace telltale {
@@ -31,7 +34,7 @@ PreparedDataset Boat(const std::vector<PropellerRegion>& regions, double noise_m
 }
 
 IdentifyOptions Quick() {
-  IdentifyOptions options;
+  IdentifyOptions options = IdentifyOptions::OneStep();
   options.bootstrap_replicates = 200;
   return options;
 }
@@ -139,7 +142,7 @@ TEST(Identify, RefusesTooShortARecording) {
 }
 
 TEST(Identify, WithoutBootstrapBoundsRestOnResiduals) {
-  IdentifyOptions options;
+  IdentifyOptions options = IdentifyOptions::OneStep();
   options.bootstrap_replicates = 0;
   const auto result = Identify(Boat({kFF, kFR, kRF}, 1e-3), "boat", options);
   ASSERT_TRUE(result.has_value());
@@ -244,7 +247,7 @@ TEST(Identify, KnowsHowLagAndCoefficientsErrTogether) {
   truth.thruster_time_constant_s = 0.5;
   PreparedDataset dataset =
       testing::DriveDiscrete(truth, testing::RandomCommands(600, {kFF, kFR, kRF}, 7), 50);
-  IdentifyOptions options;
+  IdentifyOptions options = IdentifyOptions::OneStep();
   options.bootstrap_replicates = 0;
   options.regression.structure = Structure::kFirstOrderDynamic;
   constexpr Eigen::Index kBoats = 100;
@@ -308,7 +311,7 @@ TEST(Identify, BoundsALagThatIsNotThereFromAbove) {
 TEST(EstimateModel, IsTheIdentifiedModelWithoutItsBounds) {
   const PreparedDataset dataset = Boat({kFF}, 1e-3);  // reverse is not excited
   for (const auto structure : {Structure::kStaticQuadratic, Structure::kFirstOrderDynamic}) {
-    IdentifyOptions options;
+    IdentifyOptions options = IdentifyOptions::OneStep();
     options.bootstrap_replicates = 0;
     options.regression.structure = structure;
     options.regression.dead_zone = {0.02, -0.03};
@@ -333,8 +336,62 @@ TEST(EstimateModel, RefusesWhatCannotRunFreely) {
   EXPECT_EQ(model.error().subject, "SWAY");
 }
 
-TEST(IdentifyOptions, NameTheFieldTheValueAndTheRange) {
+/// From a recording to bounds by the default way: every coefficient bounded, the disturbance
+/// judged.
+TEST(Identify, BoundsARecordingWithTheWeakForm) {
   IdentifyOptions options;
+  options.twins = 8;
+  std::vector<std::string> stages;
+  const Recording recording =
+      testing::SailStableBoat(testing::StableBoat(), 600.0, SensorOptions{}, 31);
+  const auto result = Identify(recording, testing::StableBoatVehicle(), options,
+                               [&](std::string_view stage, double) { stages.emplace_back(stage); });
+  ASSERT_TRUE(result.has_value());
+  EXPECT_EQ(result->estimator, Estimator::kWeakIv);
+  ASSERT_EQ(result->coefficients.size(), 35U);
+  const Eigen::VectorXd truth = testing::StableBoat().theta[0];
+  for (std::size_t i = 0; i < 35; ++i) {
+    const Coefficient& c = result->coefficients[i];
+    EXPECT_EQ(c.status, CoefficientStatus::kEstimated);
+    EXPECT_TRUE(std::isfinite(c.standard_error) && c.standard_error > 0.0) << c.regressor;
+    const auto at = static_cast<Eigen::Index>(i);
+    // Nine coefficients of a boat that is in the model class: five standard errors is never.
+    if (i < 9) {
+      EXPECT_NEAR(c.estimate, truth[at], 5.0 * c.standard_error) << c.regressor;
+    }
+  }
+  ASSERT_TRUE(result->disturbance.has_value());
+  EXPECT_EQ(result->provenance.twins + result->provenance.twin_failures, 8U);
+  EXPECT_NE(std::find(stages.begin(), stages.end(), "simulating repeats"), stages.end());
+  EXPECT_TRUE(ModelOf(*result)->discretisation == Discretisation::kContinuous);
+}
+
+TEST(Identify, WithoutTwinsTheWeakFormSaysThatBiasIsLeft) {
+  IdentifyOptions options;
+  options.twins = 0;
+  const auto result =
+      Identify(testing::SailStableBoat(testing::StableBoat(), 600.0, SensorOptions{}, 31),
+               testing::StableBoatVehicle(), options);
+  ASSERT_TRUE(result.has_value());
+  EXPECT_NE(result->provenance.bounds_basis.find("not corrected for bias"), std::string::npos);
+  EXPECT_FALSE(result->disturbance.has_value());
+}
+
+TEST(IdentifyOptions, AskForOneKernelWithTheWeakForm) {
+  IdentifyOptions options;
+  options.prepare = PrepareOptions::Paper();
+  ASSERT_TRUE(options.Validate().has_value());
+  EXPECT_EQ(options.Validate()->subject, "estimator");
+  options.estimator = Estimator::kOneStep;
+  EXPECT_FALSE(options.Validate().has_value());
+  options = {};
+  options.twins = 7;
+  ASSERT_TRUE(options.Validate().has_value());
+  EXPECT_NE(options.Validate()->advice.find("[8, 1000]"), std::string::npos);
+}
+
+TEST(IdentifyOptions, NameTheFieldTheValueAndTheRange) {
+  IdentifyOptions options = IdentifyOptions::OneStep();
   options.bootstrap_replicates = 7;
   const auto refusal = options.Validate();
   ASSERT_TRUE(refusal.has_value());

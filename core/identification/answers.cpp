@@ -1,0 +1,148 @@
+#include "identification/answers.hpp"
+
+#include <cmath>
+#include <limits>
+#include <sstream>
+
+namespace telltale {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+bool IsCollinear(const Excitation& excitation, std::size_t column) {
+  return std::any_of(excitation.collinear.begin(), excitation.collinear.end(), [&](const auto& g) {
+    return std::find(g.columns.begin(), g.columns.end(), column) != g.columns.end();
+  });
+}
+
+/// A coefficient as long as nothing is known of it.
+Coefficient Unanswered(Equation equation, const Regressor& regressor, double level) {
+  Coefficient coefficient;
+  coefficient.equation = equation;
+  coefficient.regressor = regressor.name;
+  coefficient.symbol = regressor.symbol;
+  coefficient.unit = regressor.unit;
+  coefficient.status = CoefficientStatus::kNotExcited;
+  coefficient.standard_error = kInfinity;
+  coefficient.interval = Unbounded(level);
+  return coefficient;
+}
+
+/// Writes the coefficients of answered equation j, and where each stands in the stacked bounds (-1:
+/// nowhere).
+void WriteEquation(std::size_t j, const Answers& answers, const Bounds& bounds,
+                   Identification& identification, std::vector<Eigen::Index>& places) {
+  const Excitation& excitation = *answers.excitations[j];
+  const EquationEstimate& estimate = *answers.estimates[j];
+  const double level = bounds.intervals.front().level;
+  const auto regressors = Regressors(excitation.equation, identification.parameterization);
+  for (std::size_t column = 0; column < regressors.size(); ++column) {
+    Coefficient coefficient = Unanswered(excitation.equation, regressors[column], level);
+    Eigen::Index place = -1;
+    const auto found = std::find(estimate.columns.begin(), estimate.columns.end(), column);
+    if (found != estimate.columns.end()) {
+      const Eigen::Index position = found - estimate.columns.begin();
+      place = answers.first[j] + position;
+      coefficient.estimate = estimate.theta[position];
+      coefficient.status = IsCollinear(excitation, column) ? CoefficientStatus::kCollinear
+                                                           : CoefficientStatus::kEstimated;
+      if (bounds.estimable[static_cast<std::size_t>(place)]) {
+        coefficient.standard_error = std::sqrt(bounds.covariance(place, place));
+        coefficient.interval = bounds.intervals[static_cast<std::size_t>(place)];
+      } else {
+        coefficient.status = CoefficientStatus::kCollinear;
+        place = -1;
+      }
+    }
+    identification.coefficients.push_back(coefficient);
+    places.push_back(place);
+  }
+}
+
+Eigen::MatrixXd SpreadCovariance(const Eigen::MatrixXd& stacked,
+                                 const std::vector<Eigen::Index>& places) {
+  const auto size = static_cast<Eigen::Index>(places.size());
+  Eigen::MatrixXd covariance = Eigen::MatrixXd::Zero(size, size);
+  for (Eigen::Index i = 0; i < size; ++i) {
+    const Eigen::Index from = places[static_cast<std::size_t>(i)];
+    if (from < 0) {
+      covariance(i, i) = kInfinity;
+      continue;
+    }
+    for (Eigen::Index j = 0; j < size; ++j) {
+      const Eigen::Index to = places[static_cast<std::size_t>(j)];
+      if (to >= 0) covariance(i, j) = stacked(from, to);
+    }
+  }
+  return covariance;
+}
+
+/// A time constant below zero is none. Where no lag is seen the replicates, linearised about that
+/// end, say nothing of how long a lag could hide; the standard error does.
+Coefficient WriteTimeConstant(const Answers& answers, const Bounds& bounds) {
+  const AnsweredLag& lag = *answers.lag;
+  const Interval& interval = bounds.intervals.front();
+  Coefficient coefficient;
+  coefficient.symbol = "tau";
+  coefficient.unit = "s";
+  coefficient.status = CoefficientStatus::kEstimated;
+  coefficient.estimate = lag.time_constant_s;
+  coefficient.standard_error = std::sqrt(bounds.covariance(0, 0));
+  coefficient.interval = {interval.level, std::max(interval.lower, 0.0), interval.upper};
+  if (lag.no_lag_seen) {
+    coefficient.interval = {interval.level, 0.0,
+                            StudentInterval(lag.time_constant_s, coefficient.standard_error,
+                                            bounds.degrees_of_freedom, interval.level)
+                                .upper};
+  }
+  return coefficient;
+}
+
+/// Of the time constant, first in the stacked bounds, with each coefficient.
+Eigen::VectorXd SpreadTimeConstantCovariance(const Eigen::MatrixXd& stacked,
+                                             const std::vector<Eigen::Index>& places) {
+  Eigen::VectorXd covariance = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(places.size()));
+  for (Eigen::Index i = 0; i < covariance.size(); ++i) {
+    const Eigen::Index place = places[static_cast<std::size_t>(i)];
+    if (place >= 0) covariance[i] = stacked(0, place);
+  }
+  return covariance;
+}
+
+}  // namespace
+
+void AssessEquation(const EquationProblem& regression, const ExcitationLimits& limits,
+                    Answers& answers) {
+  const auto excitation = Assess(regression, limits);
+  if (!excitation) {
+    answers.refusals.push_back(excitation.error());
+    return;
+  }
+  for (const CollinearGroup& group : excitation->collinear) {
+    answers.refusals.push_back(Explain(group, regression));
+  }
+  answers.excitations[IndexOf(regression.equation)] = *excitation;
+}
+
+Refusal NothingAnswered(const std::vector<Refusal>& refusals) {
+  std::ostringstream reasons;
+  for (const Refusal& refusal : refusals) {
+    reasons << (reasons.tellp() > 0 ? "; " : "") << refusal.subject << ": " << refusal.reason;
+  }
+  return {"model", "not one equation can be answered (" + reasons.str() + ")",
+          refusals.empty() ? "record for longer" : refusals.front().advice};
+}
+
+void WriteCoefficients(const Answers& answers, const Bounds& bounds,
+                       Identification& identification) {
+  std::vector<Eigen::Index> places;
+  for (std::size_t j = 0; j < answers.estimates.size(); ++j) {
+    if (answers.estimates[j]) WriteEquation(j, answers, bounds, identification, places);
+  }
+  identification.covariance = SpreadCovariance(bounds.covariance, places);
+  if (!answers.lag) return;
+  identification.thruster_time_constant = WriteTimeConstant(answers, bounds);
+  identification.time_constant_covariance = SpreadTimeConstantCovariance(bounds.covariance, places);
+}
+
+}  // namespace telltale

@@ -1,0 +1,212 @@
+#include "identification/one_step_answer.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <sstream>
+
+#include "estimation/lagged_regression.hpp"
+#include "estimation/one_step.hpp"
+#include "uncertainty/bootstrap.hpp"
+#include "uncertainty/clustered_fit.hpp"
+
+namespace telltale {
+namespace {
+
+// With fewer independent segments or blocks than this a bootstrap over them says little.
+constexpr std::size_t kFewestUnits = 8;
+
+/// Answers and what they were fitted to: equations of the static structure, or all three lagged.
+struct Fitted {
+  Answers answers;
+  std::array<EquationProblem, 3> equations;
+  std::optional<LaggedEstimate> lagged;
+};
+
+void PlaceFrom(Eigen::Index next, Answers& answers) {
+  for (std::size_t j = 0; j < answers.estimates.size(); ++j) {
+    if (!answers.estimates[j]) continue;
+    answers.first[j] = next;
+    next += answers.estimates[j]->theta.size();
+  }
+}
+
+Fitted FitAtOnce(const PreparedDataset& dataset, const RegressionOptions& regression,
+                 const ExcitationLimits& limits) {
+  Fitted fitted;
+  fitted.equations = BuildRegression(dataset, regression).equations;
+  Answers& answers = fitted.answers;
+  for (std::size_t j = 0; j < fitted.equations.size(); ++j) {
+    AssessEquation(fitted.equations[j], limits, answers);
+    if (answers.excitations[j]) answers.estimates[j] = EstimateOneStep(*answers.excitations[j]);
+  }
+  PlaceFrom(0, answers);
+  return fitted;
+}
+
+Fitted FitLagging(const PreparedDataset& dataset, const RegressionOptions& regression,
+                  const ExcitationLimits& limits) {
+  const LaggedProblem problem = BuildLagged(dataset, regression);
+  Fitted fitted;
+  Answers& answers = fitted.answers;
+  for (const EquationProblem& equation : problem.at_once.equations) {
+    AssessEquation(equation, limits, answers);
+  }
+  if (!answers.Any()) return fitted;
+  fitted.lagged = EstimateLagged(problem, answers.excitations);
+  answers.lag = AnsweredLag{fitted.lagged->time_constant_s, fitted.lagged->no_lag_seen};
+  answers.estimates = fitted.lagged->equations;
+  PlaceFrom(1, answers);  // the time constant comes first
+  return fitted;
+}
+
+Fitted Fit(const PreparedDataset& dataset, const RegressionOptions& regression,
+           const ExcitationLimits& limits) {
+  return regression.structure == Structure::kFirstOrderDynamic
+             ? FitLagging(dataset, regression, limits)
+             : FitAtOnce(dataset, regression, limits);
+}
+
+/// What bounds are made from.
+std::vector<ClusteredFit> FitsOf(const Fitted& fitted) {
+  if (fitted.lagged) return {FitOf(*fitted.lagged)};
+  std::vector<ClusteredFit> fits;
+  for (std::size_t j = 0; j < fitted.equations.size(); ++j) {
+    const auto& estimate = fitted.answers.estimates[j];
+    if (estimate) fits.push_back(FitOf(fitted.equations[j], *estimate));
+  }
+  return fits;
+}
+
+Bounds BoundsFor(const std::vector<ClusteredFit>& fits) {
+  Bounds bounds;
+  Eigen::Index size = 0;
+  for (const ClusteredFit& fit : fits) {
+    size += fit.theta.size();
+    bounds.estimable.insert(bounds.estimable.end(), fit.estimable.begin(), fit.estimable.end());
+  }
+  bounds.covariance = Eigen::MatrixXd::Zero(size, size);
+  bounds.degrees_of_freedom = fits.front().degrees_of_freedom;
+  return bounds;
+}
+
+Bounds ResidualBounds(const std::vector<ClusteredFit>& fits, double level) {
+  Bounds bounds = BoundsFor(fits);
+  Eigen::Index first = 0;
+  for (const ClusteredFit& fit : fits) {
+    const Eigen::Index p = fit.theta.size();
+    auto block = bounds.covariance.block(first, first, p, p);
+    block = ResidualCovariance(fit);
+    for (Eigen::Index j = 0; j < p; ++j) {
+      bounds.intervals.push_back(
+          StudentInterval(fit.theta[j], std::sqrt(block(j, j)), fit.degrees_of_freedom, level));
+    }
+    first += p;
+  }
+  return bounds;
+}
+
+Bounds ReplicateBounds(const std::vector<ClusteredFit>& fits, const BootstrapReplicates& replicates,
+                       IntervalMethod method, double level) {
+  Bounds bounds = BoundsFor(fits);
+  bounds.covariance = Covariance(replicates);
+  bounds.intervals = Intervals(replicates, method, level);
+  return bounds;
+}
+
+std::size_t SegmentsWithRows(const ClusteredFit& fit) {
+  return static_cast<std::size_t>(std::count_if(fit.clusters.begin(), fit.clusters.end(),
+                                                [](const RowRange& c) { return c.size() > 0; }));
+}
+
+std::optional<Refusal> WarnOfFewUnits(const std::vector<ClusteredFit>& fits,
+                                      const BootstrapReplicates& replicates) {
+  const bool blocks = replicates.block_length > 0;
+  std::size_t fewest = replicates.draws;
+  if (!blocks) {
+    for (const ClusteredFit& fit : fits) fewest = std::min(fewest, SegmentsWithRows(fit));
+  }
+  if (fewest >= kFewestUnits) return std::nullopt;
+  return Refusal{"bounds",
+                 "rest on only " + std::to_string(fewest) + " independent " +
+                     (blocks ? "blocks, " : "segments, ") + std::to_string(kFewestUnits) +
+                     " are needed to trust them",
+                 "record for longer, with more changes of manoeuvre"};
+}
+
+std::string InWords(const BootstrapReplicates& replicates, double sampling_period_s) {
+  if (replicates.block_length == 0) return "segment bootstrap";
+  std::ostringstream words;
+  words << "moving-block bootstrap, blocks of " << replicates.block_length << " rows ("
+        << static_cast<double>(replicates.block_length) * sampling_period_s << " s)";
+  return words.str();
+}
+
+std::string InWords(IntervalMethod method) {
+  switch (method) {
+    case IntervalMethod::kStudentized: return "studentized intervals";
+    case IntervalMethod::kBca: return "bias-corrected and accelerated (BCa) intervals";
+    case IntervalMethod::kPercentile:
+    case IntervalMethod::kUnknown: break;
+  }
+  return "percentile intervals";
+}
+
+std::optional<Refusal> WarnOfFailures(const BootstrapReplicates& replicates) {
+  const auto solved = static_cast<std::size_t>(replicates.theta.cols());
+  // Losing one draw in twenty at random still leaves a 95 % interval what it says it is.
+  if (replicates.failures * 20 <= solved) return std::nullopt;
+  return Refusal{"bounds",
+                 std::to_string(replicates.failures) + " of " +
+                     std::to_string(replicates.failures + solved) +
+                     " bootstrap draws could not be solved: some coefficient rests on a handful of "
+                     "segments",
+                 "repeat the manoeuvres that occur only once or twice"};
+}
+
+}  // namespace
+
+Answers AnswerOneStep(const PreparedDataset& dataset, const RegressionOptions& regression,
+                      const ExcitationLimits& limits) {
+  return Fit(dataset, regression, limits).answers;
+}
+
+Result<BoundedAnswers> BoundOneStep(const PreparedDataset& dataset,
+                                    const RegressionOptions& regression,
+                                    const IdentifyOptions& options, const Progress& progress) {
+  Fitted fitted = Fit(dataset, regression, options.excitation);
+  if (!fitted.answers.Any()) return tl::unexpected(NothingAnswered(fitted.answers.refusals));
+  const std::vector<ClusteredFit> fits = FitsOf(fitted);
+  BoundedAnswers bounded;
+  bounded.provenance.bootstrap_replicates = options.bootstrap_replicates;
+  if (options.bootstrap_replicates == 0) {
+    bounded.bounds = ResidualBounds(fits, options.interval_level);
+    bounded.provenance.bounds_basis =
+        "residual covariance, white residuals assumed; too narrow where residuals are coloured or "
+        "velocities noisy";
+    bounded.answers = std::move(fitted.answers);
+    return bounded;
+  }
+  if (progress) progress("bootstrapping", 0.5);
+  const BootstrapReplicates replicates =
+      Bootstrap(fits, {options.bootstrap_replicates, options.seed, options.threads,
+                       options.resampling, options.interval_method});
+  if (replicates.theta.cols() < 2) {
+    return Refuse("bounds", "no bootstrap replicate could be solved",
+                  "record for longer, or ask for bounds from residuals with 0 replicates");
+  }
+  auto& refusals = fitted.answers.refusals;
+  if (auto warning = WarnOfFewUnits(fits, replicates)) refusals.push_back(*warning);
+  if (auto warning = WarnOfFailures(replicates)) refusals.push_back(*warning);
+  bounded.provenance.bootstrap_failures = replicates.failures;
+  bounded.provenance.bounds_basis =
+      InWords(replicates, dataset.sampling_period_s) + ", " + InWords(options.interval_method) +
+      "; attenuation of one-step least squares by noisy velocities is not covered";
+  bounded.bounds =
+      ReplicateBounds(fits, replicates, options.interval_method, options.interval_level);
+  bounded.answers = std::move(fitted.answers);
+  return bounded;
+}
+
+}  // namespace telltale

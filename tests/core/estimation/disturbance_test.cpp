@@ -1,0 +1,48 @@
+#include "estimation/disturbance.hpp"
+
+#include <gtest/gtest.h>
+
+#include "data/preparation.hpp"
+#include "simulation/dataset_twin.hpp"
+#include "support/boats.hpp"
+
+namespace telltale {
+namespace {
+
+std::array<std::vector<std::size_t>, 3> AllColumns() {
+  std::array<std::vector<std::size_t>, 3> columns;
+  for (const Equation equation : kEquations) {
+    const std::size_t count = Regressors(equation, Parameterization::kPropeller).size();
+    for (std::size_t j = 0; j < count; ++j) columns[IndexOf(equation)].push_back(j);
+  }
+  return columns;
+}
+
+TEST(Disturbance, IsFoundInTheResiduals) {
+  PrepareOptions options;
+  options.smoothing_half_width = 4;
+  options.longest_stretch_s = 60.0;
+  const PreparedDataset calm =
+      *Prepare(testing::SailStableBoat(testing::StableBoat(), 3000.0, testing::NoNoise(), 21),
+               testing::StableBoatVehicle(), options);
+  Disturbance pushed;
+  pushed.sigma << 0.03, 0.04, 0.06;
+  pushed.time_constant_s << 2.0, 4.0, 3.0;
+  const auto dataset = SailAgain(calm, testing::StableBoat(), {pushed, 1.0, 5});
+  ASSERT_TRUE(dataset.has_value());
+  const auto fit = EstimateWeakIv(*dataset, {}, AllColumns(), {});
+  ASSERT_TRUE(fit.has_value());
+  std::array<Eigen::VectorXd, 3> nothing;
+  nothing.fill(Eigen::VectorXd::Zero(static_cast<Eigen::Index>(kDisturbanceLags)));
+  const Disturbance found = EstimateDisturbance(*dataset, *fit, nothing);
+  // 3000 s are some 400 correlation times: sigma is known to 5 %, its time constant to 15 %; what
+  // the coefficients take up comes on top.
+  for (Eigen::Index axis = 0; axis < 3; ++axis) {
+    EXPECT_NEAR(found.sigma[axis], pushed.sigma[axis], 0.2 * pushed.sigma[axis]);
+    EXPECT_NEAR(found.time_constant_s[axis], pushed.time_constant_s[axis],
+                0.4 * pushed.time_constant_s[axis]);
+  }
+}
+
+}  // namespace
+}  // namespace telltale

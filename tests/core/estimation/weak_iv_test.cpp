@@ -1,0 +1,97 @@
+#include "estimation/weak_iv.hpp"
+
+#include <gtest/gtest.h>
+
+#include "data/preparation.hpp"
+#include "estimation/one_step.hpp"
+#include "support/boats.hpp"
+
+namespace telltale {
+namespace {
+
+PreparedDataset Sailed(const VesselModel& model, const SensorOptions& sensors, double duration_s) {
+  PrepareOptions options;
+  options.smoothing_half_width = 4;
+  options.longest_stretch_s = 60.0;
+  return *Prepare(testing::SailStableBoat(model, duration_s, sensors, 11),
+                  testing::StableBoatVehicle(), options);
+}
+
+std::array<std::vector<std::size_t>, 3> AllColumns() {
+  std::array<std::vector<std::size_t>, 3> columns;
+  for (const Equation equation : kEquations) {
+    const std::size_t count = Regressors(equation, Parameterization::kPropeller).size();
+    for (std::size_t j = 0; j < count; ++j) columns[IndexOf(equation)].push_back(j);
+  }
+  return columns;
+}
+
+constexpr std::array<Eigen::Index, 2> kSurgeThrust = {5, 6};
+
+TEST(WeakIv, FindsTheBoatWithoutNoise) {
+  const VesselModel boat = testing::StableBoat();
+  const auto fit = EstimateWeakIv(Sailed(boat, testing::NoNoise(), 900.0), {}, AllColumns(), {});
+  ASSERT_TRUE(fit.has_value());
+  // What is left is what a filter of 1.6 s does to products of velocities.
+  for (const Eigen::Index j : {0, 1, 3, 5, 6, 7, 8}) {
+    EXPECT_NEAR(fit->equations[0]->theta[j], boat.theta[0][j], 0.04 * std::abs(boat.theta[0][j]));
+  }
+  for (const Eigen::Index j : {3, 7, 9, 10, 11, 12}) {
+    EXPECT_NEAR(fit->equations[2]->theta[j], boat.theta[2][j], 0.08 * std::abs(boat.theta[2][j]));
+  }
+}
+
+// One-step least squares attenuates at 5 cm and half a degree; instruments do not.
+TEST(WeakIv, IsFarLessAttenuatedThanOneStepLeastSquares) {
+  const VesselModel boat = testing::StableBoat();
+  SensorOptions sensors;
+  sensors.position_noise_m = 0.05;
+  sensors.heading_noise_deg = 0.5;
+  const PreparedDataset dataset = Sailed(boat, sensors, 1800.0);
+  const auto weak = EstimateWeakIv(dataset, {}, AllColumns(), {});
+  ASSERT_TRUE(weak.has_value());
+  const RegressionProblem problem = BuildRegression(dataset, {});
+  const EquationEstimate one_step = EstimateOneStep(*Assess(problem.equations[0], {}));
+  for (const Eigen::Index j : kSurgeThrust) {
+    const double truth = boat.theta[0][j];
+    const double weak_error = std::abs(weak->equations[0]->theta[j] - truth);
+    EXPECT_LT(weak_error, 0.1 * std::abs(truth));
+    EXPECT_LT(2.0 * weak_error, std::abs(one_step.theta[j] - truth)) << "coefficient " << j;
+  }
+}
+
+TEST(WeakIv, FindsTheLagOfTheThrusters) {
+  VesselModel boat = testing::StableBoat();
+  boat.structure = Structure::kFirstOrderDynamic;
+  boat.thruster_time_constant_s = 0.4;
+  RegressionOptions regression;
+  regression.structure = Structure::kFirstOrderDynamic;
+  SensorOptions sensors;
+  const auto fit = EstimateWeakIv(Sailed(boat, sensors, 900.0), regression, AllColumns(), {});
+  ASSERT_TRUE(fit.has_value());
+  EXPECT_NEAR(*fit->time_constant_s, 0.4, 0.05);
+  const VesselModel model = ModelOf(*fit, fit->theta, 0.2);
+  EXPECT_EQ(model.structure, Structure::kFirstOrderDynamic);
+  EXPECT_NEAR(model.theta[0][5], 0.45, 0.06);
+}
+
+TEST(WeakIv, LeavesOutWhatIsNotSought) {
+  auto columns = AllColumns();
+  columns[1].clear();
+  columns[0] = {0, 3, 5, 6};
+  const auto fit =
+      EstimateWeakIv(Sailed(testing::StableBoat(), testing::NoNoise(), 300.0), {}, columns, {});
+  ASSERT_TRUE(fit.has_value());
+  EXPECT_FALSE(fit->equations[1].has_value());
+  EXPECT_EQ(fit->theta.size(), 4 + 13);
+  EXPECT_EQ(ModelOf(*fit, fit->theta, 0.2).theta[0][1], 0.0);
+}
+
+TEST(WeakIv, SaysNothingOfTooFewWindows) {
+  EXPECT_FALSE(
+      EstimateWeakIv(Sailed(testing::StableBoat(), testing::NoNoise(), 12.0), {}, AllColumns(), {})
+          .has_value());
+}
+
+}  // namespace
+}  // namespace telltale

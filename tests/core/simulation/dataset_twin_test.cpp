@@ -1,0 +1,77 @@
+#include "simulation/dataset_twin.hpp"
+
+#include <gtest/gtest.h>
+
+#include "data/preparation.hpp"
+#include "support/boats.hpp"
+
+namespace telltale {
+namespace {
+
+PreparedDataset Sailed(const SensorOptions& sensors, double longest_stretch_s = 40.0) {
+  PrepareOptions options;
+  options.smoothing_half_width = 4;
+  options.longest_stretch_s = longest_stretch_s;
+  return *Prepare(testing::SailStableBoat(testing::StableBoat(), 120.0, sensors, 2),
+                  testing::StableBoatVehicle(), options);
+}
+
+TEST(DatasetTwin, WithoutNoiseOrDisturbanceSailsTheSameCourse) {
+  const PreparedDataset dataset = Sailed(testing::NoNoise());
+  const auto twin = SailAgain(dataset, testing::StableBoat(), {});
+  ASSERT_TRUE(twin.has_value());
+  ASSERT_EQ(twin->stretches.size(), dataset.stretches.size());
+  for (std::size_t s = 0; s < dataset.stretches.size(); ++s) {
+    const RowRange& before = dataset.stretches[s];
+    const RowRange& after = twin->stretches[s];
+    ASSERT_EQ(after.size(), before.size());
+    for (std::size_t k = 0; k < before.size(); ++k) {
+      // It starts from filtered velocities, which a step of the command next to the start bends.
+      const Nu& a = dataset.rows[before.begin + k].nu;
+      const Nu& b = twin->rows[after.begin + k].nu;
+      EXPECT_NEAR(a.u, b.u, 0.04);
+      EXPECT_NEAR(a.v, b.v, 0.04);
+      EXPECT_NEAR(a.r, b.r, 0.06);
+      EXPECT_EQ(dataset.rows[before.begin + k].region, twin->rows[after.begin + k].region);
+    }
+  }
+}
+
+TEST(DatasetTwin, HasTheNoiseOfTheDataset) {
+  SensorOptions sensors;
+  sensors.position_noise_m = 0.03;
+  sensors.heading_noise_deg = 0.4;
+  const PreparedDataset dataset = Sailed(sensors);
+  const auto twin = SailAgain(dataset, testing::StableBoat(), {});
+  ASSERT_TRUE(twin.has_value());
+  // Medians of some hundred differences know a sigma to about 5 %.
+  EXPECT_NEAR(twin->sensors.position_noise_m, 0.03, 0.006);
+  EXPECT_NEAR(twin->nu_noise.u, dataset.nu_noise.u, 0.2 * dataset.nu_noise.u);
+  EXPECT_NEAR(twin->nu_noise.r, dataset.nu_noise.r, 0.2 * dataset.nu_noise.r);
+}
+
+TEST(DatasetTwin, RepeatsItselfBitForBitFromASeed) {
+  const PreparedDataset dataset = Sailed(SensorOptions{});
+  TwinOptions options;
+  options.disturbance.sigma.setConstant(0.05);
+  options.disturbance.time_constant_s.setConstant(3.0);
+  const auto once = SailAgain(dataset, testing::StableBoat(), options);
+  const auto twice = SailAgain(dataset, testing::StableBoat(), options);
+  options.seed = 2;
+  const auto other = SailAgain(dataset, testing::StableBoat(), options);
+  ASSERT_TRUE(once && twice && other);
+  EXPECT_EQ(once->rows[100].nu.u, twice->rows[100].nu.u);
+  EXPECT_NE(once->rows[100].nu.u, other->rows[100].nu.u);
+}
+
+TEST(DatasetTwin, RefusesABoatThatRunsAway) {
+  VesselModel wild = testing::StableBoat();
+  wild.theta[0][0] = 3.0;
+  wild.theta[0][3] = 3.0;
+  const auto twin = SailAgain(Sailed(testing::NoNoise()), wild, {});
+  ASSERT_FALSE(twin.has_value());
+  EXPECT_EQ(twin.error().subject, "simulated repeat");
+}
+
+}  // namespace
+}  // namespace telltale

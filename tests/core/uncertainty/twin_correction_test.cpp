@@ -1,0 +1,118 @@
+#include "uncertainty/twin_correction.hpp"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+#include <boost/math/distributions/students_t.hpp>
+
+#include "coverage/truth.hpp"
+#include "data/preparation.hpp"
+#include "estimation/one_step.hpp"
+#include "parallel.hpp"
+#include "uncertainty/clustered_fit.hpp"
+
+namespace telltale {
+namespace {
+
+std::array<std::vector<std::size_t>, 3> AllColumns() {
+  std::array<std::vector<std::size_t>, 3> columns;
+  for (const Equation equation : kEquations) {
+    const std::size_t count = Regressors(equation, Parameterization::kPropeller).size();
+    for (std::size_t j = 0; j < count; ++j) columns[IndexOf(equation)].push_back(j);
+  }
+  return columns;
+}
+
+PreparedDataset Sailed(std::uint64_t seed) {
+  coverage::Mission mission;
+  mission.segments = 15;
+  const Recording recording =
+      coverage::Sail(coverage::ReferenceBoat(), coverage::Surroundings{}, mission, seed);
+  PrepareOptions options;
+  options.smoothing_half_width = 4;
+  return *Prepare(recording, coverage::VehicleOf(), options);
+}
+
+Eigen::VectorXd Truth() {
+  const coverage::Boat boat = coverage::ReferenceBoat();
+  Eigen::VectorXd truth(35);
+  for (Eigen::Index i = 0; i < 9; ++i) truth[i] = boat.surge[static_cast<std::size_t>(i)];
+  for (Eigen::Index i = 0; i < 13; ++i) {
+    truth[9 + i] = boat.sway[static_cast<std::size_t>(i)];
+    truth[22 + i] = boat.yaw[static_cast<std::size_t>(i)];
+  }
+  return truth;
+}
+
+TEST(TwinCorrection, DoesNotDependOnThreads) {
+  const PreparedDataset dataset = Sailed(1);
+  const auto fit = EstimateWeakIv(dataset, {}, AllColumns(), {});
+  ASSERT_TRUE(fit.has_value());
+  const auto one = CorrectWithTwins(dataset, {}, *fit, AllColumns(), {}, {8, 3, 1});
+  const auto two = CorrectWithTwins(dataset, {}, *fit, AllColumns(), {}, {8, 3, 2});
+  ASSERT_TRUE(one && two);
+  EXPECT_EQ(one->theta, two->theta);
+  EXPECT_EQ(one->covariance, two->covariance);
+}
+
+TEST(TwinCorrection, TellsHowFarItIs) {
+  const PreparedDataset dataset = Sailed(1);
+  const auto fit = EstimateWeakIv(dataset, {}, AllColumns(), {});
+  ASSERT_TRUE(fit.has_value());
+  std::vector<double> told;
+  CorrectWithTwins(dataset, {}, *fit, AllColumns(), {}, {8, 3, 2},
+                   [&](double fraction) { told.push_back(fraction); });
+  ASSERT_EQ(told.size(), 8U);
+  EXPECT_EQ(told.back(), 1.0);
+}
+
+// The short version of bench/coverage: the whole campaign stands in docs/coverage.md. The data come
+// from a simulator of its own, integrated twenty times finer.
+TEST(TwinCorrection, BoundsHoldTheTruthAsOftenAsTheySay) {
+  constexpr std::size_t kRepeats = 60;
+  std::vector<std::vector<bool>> held(kRepeats);
+  std::vector<std::size_t> one_step_held(kRepeats, 0);
+  const Eigen::VectorXd truth = Truth();
+  ForEachIndex(kRepeats, 2, [&](std::size_t i) {
+    const PreparedDataset dataset = Sailed(500 + i);
+    const auto fit = EstimateWeakIv(dataset, {}, AllColumns(), {});
+    if (!fit) return;
+    const auto corrected = CorrectWithTwins(dataset, {}, *fit, AllColumns(), {}, {40, i, 1});
+    if (!corrected) return;
+    const double t =
+        boost::math::quantile(boost::math::students_t(corrected->degrees_of_freedom), 0.975);
+    for (Eigen::Index j = 0; j < truth.size(); ++j) {
+      held[i].push_back(std::abs(corrected->theta[j] - truth[j]) <=
+                        t * std::sqrt(corrected->covariance(j, j)));
+    }
+    const EquationProblem surge = BuildRegression(dataset, {}).equations[0];
+    const EquationEstimate one_step = EstimateOneStep(*Assess(surge, {}));
+    const Eigen::MatrixXd covariance = ResidualCovariance(FitOf(surge, one_step));
+    for (Eigen::Index j = 0; j < one_step.theta.size(); ++j) {
+      const double off = std::abs(one_step.theta[j] - truth[j]);
+      one_step_held[i] += off <= 1.96 * std::sqrt(covariance(j, j)) ? 1 : 0;
+    }
+  });
+  double all = 0.0;
+  for (Eigen::Index j = 0; j < truth.size(); ++j) {
+    double of_this = 0.0;
+    for (const auto& repeat : held) {
+      ASSERT_EQ(repeat.size(), 35U) << "an estimate failed";
+      of_this += repeat[static_cast<std::size_t>(j)] ? 100.0 / kRepeats : 0.0;
+    }
+    // One coefficient in 60 repeats: 95 % give or take 2.8 points, and there are 35 of them.
+    EXPECT_GE(of_this, 83.0) << "coefficient " << j;
+    all += of_this / static_cast<double>(truth.size());
+  }
+  // Coefficients of one repeat err together; over 60 repeats their mean is known to about a point.
+  EXPECT_GE(all, 92.0);
+  EXPECT_LE(all, 98.0);
+  double paper = 0.0;
+  for (const std::size_t count : one_step_held) {
+    paper += 100.0 * static_cast<double>(count) / (9.0 * kRepeats);
+  }
+  EXPECT_LT(paper, 60.0);  // the recipe that this is meant to replace
+}
+
+}  // namespace
+}  // namespace telltale
