@@ -391,7 +391,8 @@ double PositionNoise(const Signals& signals) {
   return std::hypot(WhiteNoise(signals.north_m), WhiteNoise(signals.east_m)) / std::sqrt(2.0);
 }
 
-// Means over stretches, each with the weight of its rows, noises by their squares; call after Append.
+// Means over stretches, each with the weight of its rows, noises by their squares; call after
+// Append.
 void PoolSensors(PreparedDataset& dataset, const Signals& signals) {
   const double share = static_cast<double>(dataset.stretches.back().size()) /
                        static_cast<double>(dataset.rows.size());

@@ -40,8 +40,8 @@ RowRange Within(const std::vector<Sample>& samples, const RowRange& range, doubl
   const auto end = samples.begin() + static_cast<std::ptrdiff_t>(range.end);
   const auto first = std::partition_point(
       begin, end, [&](const Sample& sample) { return sample.time_s < from_s; });
-  const auto last = std::partition_point(
-      first, end, [&](const Sample& sample) { return sample.time_s <= to_s; });
+  const auto last =
+      std::partition_point(first, end, [&](const Sample& sample) { return sample.time_s <= to_s; });
   return {static_cast<std::size_t>(first - samples.begin()),
           static_cast<std::size_t>(last - samples.begin())};
 }

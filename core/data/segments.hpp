@@ -24,8 +24,9 @@ struct Stretch {
 /// three are present. Cost: linear in the samples.
 std::vector<Stretch> FindStretches(const Recording& recording, double longest_gap_s);
 
-/// Equal parts of a stretch, none longer than `longest_s`. Their samples still reach across the cuts:
-/// positions and headings far enough for any filter, commands as far back as thrusters remember.
+/// Equal parts of a stretch, none longer than `longest_s`. Their samples still reach across the
+/// cuts: positions and headings far enough for any filter, commands as far back as thrusters
+/// remember.
 std::vector<Stretch> CutStretch(const Stretch& stretch, const Recording& recording,
                                 double longest_s);
 

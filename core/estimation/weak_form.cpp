@@ -57,8 +57,8 @@ class FollowedThrust {
 
  private:
   Terms Steady(const PropellerCommand& delta) {
-    const bool same = steady_of_ && steady_of_->port == delta.port &&
-                      steady_of_->starboard == delta.starboard;
+    const bool same =
+        steady_of_ && steady_of_->port == delta.port && steady_of_->starboard == delta.starboard;
     if (!same) {
       steady_ = Flat(ThrustOf(problem_.parameterization, problem_.dead_zone.Apply(delta)));
       steady_of_ = delta;
@@ -108,7 +108,8 @@ TermSeries AsVelocitiesSee(const SavitzkyGolay& filter, const TermSeries& betwee
     const std::size_t start = filter.WindowStart(row, rows);
     Terms sum = Terms::Zero();
     for (std::size_t i = 0; i < intervals; ++i) {
-      sum += filter.IncrementWeight(row - start, i) * between.col(static_cast<Eigen::Index>(start + i));
+      sum += filter.IncrementWeight(row - start, i) *
+             between.col(static_cast<Eigen::Index>(start + i));
     }
     filtered.col(static_cast<Eigen::Index>(row)) = sum;
   }
@@ -158,8 +159,8 @@ WeakWindows WindowsOf(const PreparedDataset& dataset, Equation equation,
   for (const RowRange& stretch : dataset.stretches) {
     for (const RowRange& cluster : CutClusters(stretch, cluster_rows)) {
       const std::size_t before = windows.first_rows.size();
-      for (std::size_t first = stretch.begin + margin;
-           first + phi.Rows() + margin <= stretch.end; first += phi.stride) {
+      for (std::size_t first = stretch.begin + margin; first + phi.Rows() + margin <= stretch.end;
+           first += phi.stride) {
         const std::size_t centre = first + phi.Rows() / 2;
         if (centre < cluster.begin || centre >= cluster.end) continue;
         if (runs.All(first, phi.Rows())) windows.first_rows.push_back(first);
@@ -198,10 +199,11 @@ TestFunction TestFunction::On(double sampling_period_s, const WeakFormOptions& o
   const double h = sampling_period_s;
   const double half_rows = std::max(kLeastRows, std::round(options.half_support_s / h));
   const auto rows = static_cast<Eigen::Index>(2.0 * half_rows) - 1;  // it is zero at both ends
+  const Eigen::Index centre = rows / 2;
   const double T = half_rows * h;
   TestFunction phi{Eigen::VectorXd(rows), Eigen::VectorXd(rows), 1};
   for (Eigen::Index i = 0; i < rows; ++i) {
-    const double s = (static_cast<double>(i) - static_cast<double>(rows / 2)) * h / T;
+    const double s = static_cast<double>(i - centre) * h / T;
     const double below = 1.0 - s * s;
     phi.value[i] = h * std::pow(below, 6);
     phi.slope[i] = h * -12.0 * s / T * std::pow(below, 5);
@@ -219,9 +221,8 @@ WeakProblem BuildWeakForm(const PreparedDataset& dataset, const RegressionOption
   problem.dead_zone = regression.dead_zone;
   problem.phi = TestFunction::On(dataset.sampling_period_s, options);
   const double recorded_s = static_cast<double>(dataset.rows.size()) * dataset.sampling_period_s;
-  const double cluster_s =
-      std::clamp(recorded_s / static_cast<double>(options.wanted_clusters),
-                 options.shortest_cluster_s, options.longest_cluster_s);
+  const double cluster_s = std::clamp(recorded_s / static_cast<double>(options.wanted_clusters),
+                                      options.shortest_cluster_s, options.longest_cluster_s);
   for (const Equation equation : kEquations) {
     problem.windows[IndexOf(equation)] =
         WindowsOf(dataset, equation, regression, problem.phi, cluster_s);

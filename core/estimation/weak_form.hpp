@@ -16,8 +16,8 @@ namespace telltale {
 /// How the equations of motion are weighed over time. Lengths are in seconds; a test function spans
 /// at least five sampling periods to each side of its centre whatever they say.
 struct WeakFormOptions {
-  double half_support_s = 2.0;  ///< of a test function, T
-  double spacing_s = 1.0;       ///< of neighbouring test functions
+  double half_support_s = 2.0;       ///< of a test function, T
+  double spacing_s = 1.0;            ///< of neighbouring test functions
   double longest_cluster_s = 20.0;   ///< windows centred within this length count as one cluster,
   double shortest_cluster_s = 8.0;   ///< less, down to this,
   std::size_t wanted_clusters = 80;  ///< where that gives fewer clusters than these
@@ -30,8 +30,8 @@ using RegressorRows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eige
 /// of the sum that stands for the integral: both vanish with five derivatives at the ends, so the
 /// sum is as good as exact.
 struct TestFunction {
-  Eigen::VectorXd value;  ///< phi(t_i) h
-  Eigen::VectorXd slope;  ///< phi'(t_i) h
+  Eigen::VectorXd value;   ///< phi(t_i) h
+  Eigen::VectorXd slope;   ///< phi'(t_i) h
   std::size_t stride = 1;  ///< rows between neighbouring windows
 
   std::size_t Rows() const { return static_cast<std::size_t>(value.size()); }
@@ -60,9 +60,9 @@ struct WeakProblem {
   std::size_t clusters = 0;
 };
 
-/// Rows to each side of the Savitzky-Golay filter that suit the weak form: as few as leave sway, the
-/// quietest of the velocities, no noisier than it is lively, but at least 0.8 s. The narrower the
-/// filter the less it does to products of velocities, which the weak form takes as they are.
+/// Rows to each side of the Savitzky-Golay filter that suit the weak form: as few as leave sway,
+/// the quietest of the velocities, no noisier than it is lively, but at least 0.8 s. The narrower
+/// the filter the less it does to products of velocities, which the weak form takes as they are.
 /// `preview`: the same recording prepared with any width.
 std::size_t SmoothingFor(const PreparedDataset& preview);
 

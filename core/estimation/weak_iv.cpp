@@ -218,7 +218,7 @@ Thetas Damped(const WeighedEquations& equations, const std::vector<Eigen::Matrix
 Thetas SolveLeastSquares(const WeighedEquations& equations) {
   Thetas thetas;
   for (const Weighed& equation : equations) {
-    thetas.push_back(equation.G.colPivHouseholderQr().solve(equation.b));
+    thetas.emplace_back(equation.G.colPivHouseholderQr().solve(equation.b));
   }
   return thetas;
 }
@@ -234,7 +234,7 @@ std::vector<Eigen::VectorXd> ThrustByLag(const PreparedDataset& dataset, const W
   for (std::size_t i = 0; i < equations.size(); ++i) {
     const Eigen::MatrixXd change = WeighRegressors(dataset, problem, longer, equations[i]) -
                                    WeighRegressors(dataset, problem, shorter, equations[i]);
-    slopes.push_back(change * thetas[i] / (2.0 * apart_s));
+    slopes.emplace_back(change * thetas[i] / (2.0 * apart_s));
   }
   return slopes;
 }

@@ -103,7 +103,7 @@ Result<PreparedDataset> PrepareForWeakIv(const Recording& recording, const Vehic
                                          const PrepareOptions& options) {
   PrepareOptions chosen = options;
   const auto preview = Prepare(recording, vehicle, chosen);
-  if (!preview) return preview;
+  if (!preview) return tl::unexpected(preview.error());
   chosen.smoothing_half_width = SmoothingFor(*preview);
   chosen.longest_stretch_s = kLongestPartS;
   return Prepare(recording, vehicle, chosen);

@@ -20,10 +20,10 @@ struct PredictionBand {
   Eigen::Matrix3Xd upper;
 };
 
-/// Band of free runs over `models`, draws from a posterior, each with a disturbance of its own, from
-/// one known state under commands held as in Simulate(): the central `level` of the runs, by axis
-/// and step. Runs that blow up count as lying outside on either side in turn.
-/// Requires: at least twenty models; commands as Simulate() requires them.
+/// Band of free runs over `models`, draws from a posterior, each with a disturbance of its own,
+/// from one known state under commands held as in Simulate(): the central `level` of the runs, by
+/// axis and step. Runs that blow up count as lying outside on either side in turn. Requires: at
+/// least twenty models; commands as Simulate() requires them.
 PredictionBand PredictBand(const std::vector<VesselModel>& models, const VesselState& start,
                            const std::vector<TimedCommand>& commands,
                            const Disturbance& disturbance, double horizon_s, double step_s,

@@ -72,9 +72,9 @@ class BodyDynamics {
     return {nu.u + step_s * slope.u, nu.v + step_s * slope.v, nu.r + step_s * slope.r};
   }
 
-  std::array<double, 5> surge_;
-  std::array<double, 9> sway_;
-  std::array<double, 9> yaw_;
+  std::array<double, 5> surge_{};
+  std::array<double, 9> sway_{};
+  std::array<double, 9> yaw_{};
   std::array<std::array<double, 4>, 3> thrust_{};
 };
 
