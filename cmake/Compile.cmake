@@ -24,11 +24,11 @@ target_compile_options(
 # GCC 12 sees writes out of bounds in assignments to std::string that are none, and under a sanitizer,
 # which cuts its inlining short, variables that may not be initialised.
 target_compile_options(
-  telltale_compile INTERFACE $<$<COMPILE_LANGUAGE:CXX>:-Wno-array-bounds -Wno-restrict
+  telltale_compile INTERFACE $<$<COMPILE_LANG_AND_ID:CXX,GNU>:-Wno-array-bounds -Wno-restrict
                              -Wno-stringop-overflow>)
 if(TELLTALE_SANITIZE)
   target_compile_options(telltale_compile
-                         INTERFACE $<$<COMPILE_LANGUAGE:CXX>:-Wno-maybe-uninitialized>)
+                         INTERFACE $<$<COMPILE_LANG_AND_ID:CXX,GNU>:-Wno-maybe-uninitialized>)
 endif()
 
 # telltale_layer(NAME core LINKS ...): a static library of every .cpp below this folder whose only own
