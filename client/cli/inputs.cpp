@@ -93,7 +93,7 @@ void RequireSameRange(const char* thruster, const PwmChannel& first, const PwmCh
 /// The first log's vehicle, to which all others must agree.
 Vehicle DescribedBy(const std::vector<LoadedRecording>& loaded,
                     const std::vector<std::filesystem::path>& logs) {
-  const Vehicle vehicle = DescribedBy(loaded.front(), logs.front());
+  Vehicle vehicle = DescribedBy(loaded.front(), logs.front());
   for (std::size_t i = 1; i < loaded.size(); ++i) {
     const Vehicle other = DescribedBy(loaded[i], logs[i]);
     RequireSameRange("port", vehicle.port, other.port, logs.front(), logs[i]);
