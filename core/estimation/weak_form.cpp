@@ -216,6 +216,7 @@ WeakProblem BuildWeakForm(const PreparedDataset& dataset, const RegressionOption
                           const WeakFormOptions& options) {
   Require(dataset.options.preset == Preset::kRobust, "data prepared with one kernel");
   Require(dataset.sampling_period_s > 0.0, "a positive sampling period");
+  Require(dataset.commands.size() == dataset.stretches.size(), "the commands of every stretch");
   WeakProblem problem;
   problem.parameterization = regression.parameterization;
   problem.dead_zone = regression.dead_zone;

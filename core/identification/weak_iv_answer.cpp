@@ -118,7 +118,9 @@ Result<BoundedAnswers> BoundWeakIv(const PreparedDataset& dataset,
   if (!answers.Any()) return tl::unexpected(NothingAnswered(answers.refusals));
   const auto columns = Sought(answers);
   const auto fit = EstimateWeakIv(dataset, regression, columns, options.weak_iv);
-  if (!fit || fit->scores.cols() < 2) return tl::unexpected(InstrumentsSayNothing());
+  if (!fit || fit->scores.cols() < 2 || !ClusterCovariance(*fit).allFinite()) {
+    return tl::unexpected(InstrumentsSayNothing());
+  }
   const Eigen::Index clusters = fit->scores.cols();
   if (clusters < static_cast<Eigen::Index>(kFewestClusters)) {
     answers.refusals.push_back(WarnOfFewClusters(clusters));
@@ -131,6 +133,7 @@ Result<BoundedAnswers> BoundWeakIv(const PreparedDataset& dataset,
                          {options.twins, options.seed, options.threads}, [&](double fraction) {
                            if (progress) progress("simulating repeats", 0.4 + 0.55 * fraction);
                          });
+    if (corrected && !corrected->covariance.allFinite()) corrected.reset();
     if (!corrected) answers.refusals.push_back(NotCorrected());
   }
   if (corrected) {

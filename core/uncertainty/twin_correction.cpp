@@ -32,6 +32,12 @@ struct Sighting {
   Eigen::MatrixXd covariance;
 };
 
+/// Whether there is anything to compare: where instruments all but vanish numbers overflow.
+bool IsSound(const Sighting& sighting) {
+  return sighting.theta.allFinite() && sighting.covariance.allFinite() &&
+         (sighting.covariance.diagonal().array() > 0.0).all();
+}
+
 double Median(std::vector<double> values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::nth_element(values.begin(), middle, values.end());
@@ -201,6 +207,7 @@ class TwinRounds {
       if (twin) {
         const auto again = EstimateWeakIv(*twin, regression_, columns_, options_);
         if (again) all[i] = Sighting{again->theta, ClusterCovariance(*again)};
+        if (all[i] && !IsSound(*all[i])) all[i].reset();
       }
       Tell();
     });

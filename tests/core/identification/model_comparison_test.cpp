@@ -15,7 +15,7 @@ namespace {
 
 /// A run of the boat with noise in what drives it, which biases nothing.
 Identification RunOf(const VesselModel& model, std::uint64_t seed,
-                     const IdentifyOptions& options = {}) {
+                     const IdentifyOptions& options = IdentifyOptions::OneStep()) {
   const auto commands = testing::RandomCommands(
       6000, {PropellerRegion::kFF, PropellerRegion::kFR, PropellerRegion::kRF}, seed);
   RandomEngine engine(seed);
