@@ -85,15 +85,6 @@ std::vector<std::string> NamesOf(const Scenario& scenario) {
   return names;
 }
 
-std::array<std::vector<std::size_t>, 3> AllColumns() {
-  std::array<std::vector<std::size_t>, 3> columns;
-  for (const Equation equation : kEquations) {
-    const std::size_t count = Regressors(equation, Parameterization::kPropeller).size();
-    for (std::size_t j = 0; j < count; ++j) columns[IndexOf(equation)].push_back(j);
-  }
-  return columns;
-}
-
 /// What one repeat says of one method: which true values its bounds held.
 struct Holding {
   std::vector<bool> coefficient;
@@ -168,7 +159,7 @@ std::optional<Holding> TryWeakIv(const Scenario& scenario, const Recording& reco
   RegressionOptions regression;
   if (scenario.lagging) regression.structure = Structure::kFirstOrderDynamic;
   const WeakIvOptions options;
-  const auto columns = AllColumns();
+  const auto columns = AllColumns(Parameterization::kPropeller);
   const auto fit = EstimateWeakIv(dataset, regression, columns, options);
   if (!fit) return std::nullopt;
   const auto corrected =

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include <Eigen/LU>
 #include <Eigen/QR>
-#include <Eigen/SVD>
 
 #include "contract.hpp"
 #include "vessel/body_dynamics.hpp"
@@ -402,6 +402,16 @@ std::optional<WeakFit> EstimateWeakIv(const PreparedDataset& dataset,
     if (lagging) equations = WeighAll(dataset, problem, thrust, columns);
     if (round == rounds) return Write(problem, equations, system, *bread, thetas, damped, tau);
   }
+}
+
+std::array<std::vector<std::size_t>, 3> AllColumns(Parameterization parameterization) {
+  std::array<std::vector<std::size_t>, 3> columns;
+  for (const Equation equation : kEquations) {
+    auto& of_this = columns[IndexOf(equation)];
+    of_this.resize(Regressors(equation, parameterization).size());
+    std::iota(of_this.begin(), of_this.end(), std::size_t{0});
+  }
+  return columns;
 }
 
 Eigen::VectorXd WeakFit::Damped() const {

@@ -58,6 +58,9 @@ std::optional<WeakFit> EstimateWeakIv(const PreparedDataset& dataset,
                                       const std::array<std::vector<std::size_t>, 3>& columns,
                                       const WeakIvOptions& options);
 
+/// Every regressor of every equation: what to seek when the data move all of them.
+std::array<std::vector<std::size_t>, 3> AllColumns(Parameterization parameterization);
+
 /// The model that stacked unknowns of such a fit describe; coefficients not sought are zero.
 VesselModel ModelOf(const WeakFit& fit, const Eigen::VectorXd& theta, double sampling_period_s);
 

@@ -7,6 +7,7 @@
 #include "data/north_east.hpp"
 #include "data/preparation.hpp"
 #include "gauss_markov.hpp"
+#include "simulation/simulator.hpp"
 #include "vessel/body_dynamics.hpp"
 
 namespace telltale {
@@ -23,13 +24,6 @@ struct Instant {
   Eta eta;
   Nu nu;
 };
-
-Eta NextPose(const Eta& eta, const Nu& before, const Nu& after, double step_s) {
-  const double psi_rad = eta.psi_rad + step_s * (before.r + after.r) / 2;
-  const Nu mean{(before.u + after.u) / 2, (before.v + after.v) / 2, (before.r + after.r) / 2};
-  const Eigen::Vector3d slope = EtaDot((eta.psi_rad + psi_rad) / 2, mean);
-  return {eta.x_m + step_s * slope.x(), eta.y_m + step_s * slope.y(), psi_rad};
-}
 
 /// Cubic through two instants and their slopes.
 double Hermite(double a, double a_slope, double b, double b_slope, double step_s, double share) {

@@ -4,31 +4,15 @@
 #include <cmath>
 #include <numbers>
 
-#include <boost/random/normal_distribution.hpp>
-
 #include "contract.hpp"
 #include "data/north_east.hpp"
-#include "random.hpp"
+#include "gauss_markov.hpp"
 
 namespace telltale {
 namespace {
 
 constexpr double kDegreesPerRadian = 180.0 / std::numbers::pi;
 constexpr double kSameInstantS = 1e-6;
-
-// Seeded white noise of one sensor axis, independent of every other axis.
-class NoiseSource {
- public:
-  NoiseSource(std::uint64_t seed, std::uint64_t axis, double sigma)
-      : engine_(RandomEngine::Stream(seed, axis)), sigma_(sigma) {}
-
-  double operator()() { return sigma_ * normal_(engine_); }
-
- private:
-  RandomEngine engine_;
-  boost::random::normal_distribution<double> normal_;
-  double sigma_;
-};
 
 double Between(double a, double b, double fraction) {
   return a + fraction * (b - a);
@@ -66,14 +50,16 @@ double Wrap360(double angle_deg) {
 std::vector<GnssFix> MeasurePositions(const std::vector<TimedState>& track, const LeverArm& antenna,
                                       const SensorOptions& options) {
   const NorthEastFrame frame(options.origin);
-  NoiseSource north_noise(options.seed, 0, options.position_noise_m);
-  NoiseSource east_noise(options.seed, 1, options.position_noise_m);
+  WhiteSource north_noise(options.seed, 0);
+  WhiteSource east_noise(options.seed, 1);
   std::vector<GnssFix> fixes;
   Sample(track, options.gnss_period_s, [&](double time_s, const Eta& eta, const PropellerCommand&) {
     const double c = std::cos(eta.psi_rad);
     const double s = std::sin(eta.psi_rad);
-    const double north = eta.x_m + c * antenna.forward_m - s * antenna.starboard_m + north_noise();
-    const double east = eta.y_m + s * antenna.forward_m + c * antenna.starboard_m + east_noise();
+    const double north = eta.x_m + c * antenna.forward_m - s * antenna.starboard_m +
+                         options.position_noise_m * north_noise();
+    const double east = eta.y_m + s * antenna.forward_m + c * antenna.starboard_m +
+                        options.position_noise_m * east_noise();
     const GeographicPosition fix = frame.Inverse({north, east});
     fixes.push_back({time_s, fix.latitude_deg, fix.longitude_deg});
   });
@@ -82,11 +68,12 @@ std::vector<GnssFix> MeasurePositions(const std::vector<TimedState>& track, cons
 
 std::vector<HeadingSample> MeasureHeadings(const std::vector<TimedState>& track,
                                            const SensorOptions& options) {
-  NoiseSource noise_deg(options.seed, 2, options.heading_noise_deg);
+  WhiteSource noise(options.seed, 2);
   std::vector<HeadingSample> headings;
   Sample(track, options.heading_period_s,
          [&](double time_s, const Eta& eta, const PropellerCommand&) {
-           headings.push_back({time_s, Wrap360(eta.psi_rad * kDegreesPerRadian + noise_deg())});
+           headings.push_back({time_s, Wrap360(eta.psi_rad * kDegreesPerRadian +
+                                               options.heading_noise_deg * noise())});
          });
   return headings;
 }

@@ -43,14 +43,14 @@ Nu NextVelocity(const VesselModel& model, const VesselState& state, const Propel
   return Along(state.nu, model.AccelerationUnder(mean, state.nu), step_s);
 }
 
+}  // namespace
+
 Eta NextPose(const Eta& eta, const Nu& before, const Nu& after, double step_s) {
   const double psi_rad = eta.psi_rad + step_s * (before.r + after.r) / 2;
   const Nu mean{(before.u + after.u) / 2, (before.v + after.v) / 2, (before.r + after.r) / 2};
   const Eigen::Vector3d slope = EtaDot((eta.psi_rad + psi_rad) / 2, mean);
   return {eta.x_m + step_s * slope.x(), eta.y_m + step_s * slope.y(), psi_rad};
 }
-
-}  // namespace
 
 VesselState Advance(const VesselModel& model, const VesselState& state,
                     const PropellerCommand& delta, double step_s) {

@@ -18,6 +18,9 @@ struct VesselState {
       {};  ///< what the thrusters deliver now; of no account in the static structure
 };
 
+/// The pose `step_s` later, following the mean of the velocities and headings before and after.
+Eta NextPose(const Eta& eta, const Nu& before, const Nu& after, double step_s);
+
 /// Advances a boat by `step_s` under a held command. kForwardEuler models take exactly
 /// nu + step nu_dot (step must then be their sampling period); kContinuous ones a Runge-Kutta step
 /// of order four. The pose follows the mean of the two velocities and headings (trapezoid).

@@ -9,15 +9,6 @@
 namespace telltale {
 namespace {
 
-std::array<std::vector<std::size_t>, 3> AllColumns() {
-  std::array<std::vector<std::size_t>, 3> columns;
-  for (const Equation equation : kEquations) {
-    const std::size_t count = Regressors(equation, Parameterization::kPropeller).size();
-    for (std::size_t j = 0; j < count; ++j) columns[IndexOf(equation)].push_back(j);
-  }
-  return columns;
-}
-
 TEST(Disturbance, IsFoundInTheResiduals) {
   PrepareOptions options;
   options.smoothing_half_width = 4;
@@ -30,7 +21,7 @@ TEST(Disturbance, IsFoundInTheResiduals) {
   pushed.time_constant_s << 2.0, 4.0, 3.0;
   const auto dataset = SailAgain(calm, testing::StableBoat(), {pushed, 1.0, 5});
   ASSERT_TRUE(dataset.has_value());
-  const auto fit = EstimateWeakIv(*dataset, {}, AllColumns(), {});
+  const auto fit = EstimateWeakIv(*dataset, {}, AllColumns(Parameterization::kPropeller), {});
   ASSERT_TRUE(fit.has_value());
   std::array<Eigen::VectorXd, 3> nothing;
   nothing.fill(Eigen::VectorXd::Zero(static_cast<Eigen::Index>(kDisturbanceLags)));

@@ -17,20 +17,12 @@ PreparedDataset Sailed(const VesselModel& model, const SensorOptions& sensors, d
                   testing::StableBoatVehicle(), options);
 }
 
-std::array<std::vector<std::size_t>, 3> AllColumns() {
-  std::array<std::vector<std::size_t>, 3> columns;
-  for (const Equation equation : kEquations) {
-    const std::size_t count = Regressors(equation, Parameterization::kPropeller).size();
-    for (std::size_t j = 0; j < count; ++j) columns[IndexOf(equation)].push_back(j);
-  }
-  return columns;
-}
-
 constexpr std::array<Eigen::Index, 2> kSurgeThrust = {5, 6};
 
 TEST(WeakIv, FindsTheBoatWithoutNoise) {
   const VesselModel boat = testing::StableBoat();
-  const auto fit = EstimateWeakIv(Sailed(boat, testing::NoNoise(), 900.0), {}, AllColumns(), {});
+  const auto fit = EstimateWeakIv(Sailed(boat, testing::NoNoise(), 900.0), {},
+                                  AllColumns(Parameterization::kPropeller), {});
   ASSERT_TRUE(fit.has_value());
   // What is left is what a filter of 1.6 s does to products of velocities.
   for (const Eigen::Index j : {0, 1, 3, 5, 6, 7, 8}) {
@@ -48,7 +40,7 @@ TEST(WeakIv, IsFarLessAttenuatedThanOneStepLeastSquares) {
   sensors.position_noise_m = 0.05;
   sensors.heading_noise_deg = 0.5;
   const PreparedDataset dataset = Sailed(boat, sensors, 1800.0);
-  const auto weak = EstimateWeakIv(dataset, {}, AllColumns(), {});
+  const auto weak = EstimateWeakIv(dataset, {}, AllColumns(Parameterization::kPropeller), {});
   ASSERT_TRUE(weak.has_value());
   const RegressionProblem problem = BuildRegression(dataset, {});
   const EquationEstimate one_step = EstimateOneStep(*Assess(problem.equations[0], {}));
@@ -67,7 +59,8 @@ TEST(WeakIv, FindsTheLagOfTheThrusters) {
   RegressionOptions regression;
   regression.structure = Structure::kFirstOrderDynamic;
   SensorOptions sensors;
-  const auto fit = EstimateWeakIv(Sailed(boat, sensors, 900.0), regression, AllColumns(), {});
+  const auto fit = EstimateWeakIv(Sailed(boat, sensors, 900.0), regression,
+                                  AllColumns(Parameterization::kPropeller), {});
   ASSERT_TRUE(fit.has_value());
   EXPECT_NEAR(*fit->time_constant_s, 0.4, 0.05);
   const VesselModel model = ModelOf(*fit, fit->theta, 0.2);
@@ -76,7 +69,7 @@ TEST(WeakIv, FindsTheLagOfTheThrusters) {
 }
 
 TEST(WeakIv, LeavesOutWhatIsNotSought) {
-  auto columns = AllColumns();
+  auto columns = AllColumns(Parameterization::kPropeller);
   columns[1].clear();
   columns[0] = {0, 3, 5, 6};
   const auto fit =
@@ -88,9 +81,9 @@ TEST(WeakIv, LeavesOutWhatIsNotSought) {
 }
 
 TEST(WeakIv, SaysNothingOfTooFewWindows) {
-  EXPECT_FALSE(
-      EstimateWeakIv(Sailed(testing::StableBoat(), testing::NoNoise(), 12.0), {}, AllColumns(), {})
-          .has_value());
+  EXPECT_FALSE(EstimateWeakIv(Sailed(testing::StableBoat(), testing::NoNoise(), 12.0), {},
+                              AllColumns(Parameterization::kPropeller), {})
+                   .has_value());
 }
 
 }  // namespace

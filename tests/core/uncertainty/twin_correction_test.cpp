@@ -14,15 +14,6 @@
 namespace telltale {
 namespace {
 
-std::array<std::vector<std::size_t>, 3> AllColumns() {
-  std::array<std::vector<std::size_t>, 3> columns;
-  for (const Equation equation : kEquations) {
-    const std::size_t count = Regressors(equation, Parameterization::kPropeller).size();
-    for (std::size_t j = 0; j < count; ++j) columns[IndexOf(equation)].push_back(j);
-  }
-  return columns;
-}
-
 PreparedDataset Sailed(std::uint64_t seed) {
   coverage::Mission mission;
   mission.segments = 15;
@@ -46,10 +37,12 @@ Eigen::VectorXd Truth() {
 
 TEST(TwinCorrection, DoesNotDependOnThreads) {
   const PreparedDataset dataset = Sailed(1);
-  const auto fit = EstimateWeakIv(dataset, {}, AllColumns(), {});
+  const auto fit = EstimateWeakIv(dataset, {}, AllColumns(Parameterization::kPropeller), {});
   ASSERT_TRUE(fit.has_value());
-  const auto one = CorrectWithTwins(dataset, {}, *fit, AllColumns(), {}, {8, 3, 1});
-  const auto two = CorrectWithTwins(dataset, {}, *fit, AllColumns(), {}, {8, 3, 2});
+  const auto one =
+      CorrectWithTwins(dataset, {}, *fit, AllColumns(Parameterization::kPropeller), {}, {8, 3, 1});
+  const auto two =
+      CorrectWithTwins(dataset, {}, *fit, AllColumns(Parameterization::kPropeller), {}, {8, 3, 2});
   ASSERT_TRUE(one && two);
   EXPECT_EQ(one->theta, two->theta);
   EXPECT_EQ(one->covariance, two->covariance);
@@ -57,10 +50,10 @@ TEST(TwinCorrection, DoesNotDependOnThreads) {
 
 TEST(TwinCorrection, TellsHowFarItIs) {
   const PreparedDataset dataset = Sailed(1);
-  const auto fit = EstimateWeakIv(dataset, {}, AllColumns(), {});
+  const auto fit = EstimateWeakIv(dataset, {}, AllColumns(Parameterization::kPropeller), {});
   ASSERT_TRUE(fit.has_value());
   std::vector<double> told;
-  CorrectWithTwins(dataset, {}, *fit, AllColumns(), {}, {8, 3, 2},
+  CorrectWithTwins(dataset, {}, *fit, AllColumns(Parameterization::kPropeller), {}, {8, 3, 2},
                    [&](double fraction) { told.push_back(fraction); });
   ASSERT_EQ(told.size(), 8U);
   EXPECT_EQ(told.back(), 1.0);
@@ -75,9 +68,10 @@ TEST(TwinCorrection, BoundsHoldTheTruthAsOftenAsTheySay) {
   const Eigen::VectorXd truth = Truth();
   ForEachIndex(kRepeats, 2, [&](std::size_t i) {
     const PreparedDataset dataset = Sailed(500 + i);
-    const auto fit = EstimateWeakIv(dataset, {}, AllColumns(), {});
+    const auto fit = EstimateWeakIv(dataset, {}, AllColumns(Parameterization::kPropeller), {});
     if (!fit) return;
-    const auto corrected = CorrectWithTwins(dataset, {}, *fit, AllColumns(), {}, {40, i, 1});
+    const auto corrected = CorrectWithTwins(
+        dataset, {}, *fit, AllColumns(Parameterization::kPropeller), {}, {40, i, 1});
     if (!corrected) return;
     const double t =
         boost::math::quantile(boost::math::students_t(corrected->degrees_of_freedom), 0.975);
