@@ -42,16 +42,28 @@ function(telltale_layer name)
   add_library(telltale_${name} STATIC ${sources})
   target_include_directories(telltale_${name} PUBLIC ${CMAKE_CURRENT_SOURCE_DIR})
   target_link_libraries(telltale_${name} PUBLIC ${ARG_LINKS} PRIVATE telltale_compile)
-  telltale_precompile(telltale_${name})
 endfunction()
 
 # Parsing Eigen takes longer than compiling most files here: it is read once a target.
 function(telltale_precompile target)
   target_precompile_headers(${target} PRIVATE <Eigen/Dense> <optional> <string> <vector>
-                            <tl/expected.hpp> ${ARGN})
+                            <tl/expected.hpp>)
 endfunction()
 
 # What waits for people, or checks the rest, gains nothing from the last optimisations but their wait.
 function(telltale_optimise_lightly target)
   target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
+endfunction()
+
+# Each folder of the target becomes one compilation, so that what its files all include is read and
+# instantiated once. Not for core and idl: there touching one file should cost that file alone.
+function(telltale_compile_folders_whole target)
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
+  get_target_property(sources ${target} SOURCES)
+  foreach(source IN LISTS sources)
+    cmake_path(GET source PARENT_PATH folder)
+    cmake_path(RELATIVE_PATH folder BASE_DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR})
+    string(REPLACE "/" "_" folder "${folder}")
+    set_source_files_properties(${source} PROPERTIES UNITY_GROUP ${folder})
+  endforeach()
 endfunction()

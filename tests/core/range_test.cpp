@@ -2,12 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include "support/numbers.hpp"
+
 #include <limits>
 
 namespace telltale {
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 TEST(OutOfRange, AcceptsTheLimitsThemselves) {
   EXPECT_FALSE(OutOfRange("window", "x", 1.0, 1.0, 2.0));

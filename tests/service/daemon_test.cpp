@@ -3,7 +3,6 @@
 #include <chrono>
 #include <cmath>
 #include <cstring>
-#include <limits>
 #include <optional>
 
 #include <gmock/gmock.h>
@@ -21,6 +20,7 @@
 #include "recording/telemetry_log.hpp"
 #include "service/service_fixture.hpp"
 #include "simulation/yellowfish.hpp"
+#include "support/numbers.hpp"
 
 namespace telltale {
 namespace {
@@ -193,7 +193,6 @@ TEST_F(Daemon, CountsWhatItSetsAsideByReason) {
   }
   ASSERT_TRUE(heard);
 
-  constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
   gnss.Write(Encode(Telemetry<GnssFix>{kVehicleId, n + 1, {1.0, 37.0, -6.0}}));
   gnss.Write(Encode(Telemetry<GnssFix>{kVehicleId, n + 2, {2.0, kNan, -6.0}}));
   gnss.Write(Encode(Telemetry<GnssFix>{kVehicleId, n + 3, {3.0, 91.0, -6.0}}));

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "identification/identification.hpp"
+#include "support/numbers.hpp"
 
 namespace telltale {
 
@@ -14,7 +15,6 @@ namespace telltale {
 /// and one refusal: made up, for what carries identifications rather than computes them.
 inline Identification MadeUpIdentification(
     Parameterization parameterization = Parameterization::kPropeller) {
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
   Identification made;
   made.vehicle_id = "made-up.1";
   made.structure = Structure::kStaticQuadratic;

@@ -1,4 +1,5 @@
 #include "cli/table.hpp"
+#include "support/numbers.hpp"
 
 #include <limits>
 #include <sstream>
@@ -37,7 +38,6 @@ TEST(Significant, KeepsTheDigitsAskedFor) {
 }
 
 TEST(Significant, SaysWhereThereIsNoNumber) {
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
   EXPECT_EQ(Significant(kInfinity), "∞");
   EXPECT_EQ(Significant(-kInfinity), "-∞");
   EXPECT_EQ(Significant(std::numeric_limits<double>::quiet_NaN()), "–");

@@ -1,6 +1,5 @@
 #include "recording/time_order.hpp"
-
-#include <limits>
+#include "support/numbers.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -9,8 +8,6 @@ namespace telltale {
 namespace {
 
 using testing::ElementsAre;
-
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 std::vector<GnssFix> Gnss(std::initializer_list<double> times) {
   std::vector<GnssFix> samples;

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "contract.hpp"
+#include "support/numbers.hpp"
 
 namespace telltale {
 namespace {
@@ -17,7 +18,6 @@ namespace {
 using ::testing::HasSubstr;
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 GnssFix FixAt(double t) {
   return {t, 37.0 + std::sin(0.01 * t), -6.0};

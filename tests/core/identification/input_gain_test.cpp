@@ -12,11 +12,10 @@
 #include "simulation/yellowfish.hpp"
 #include "support/discrete_boat.hpp"
 #include "support/identifications.hpp"
+#include "support/numbers.hpp"
 
 namespace telltale {
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 Identification Lagging(double tau_s, double tau_error_s) {
   Identification made = IdentificationByHand();

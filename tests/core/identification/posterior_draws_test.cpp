@@ -11,7 +11,7 @@
 namespace telltale {
 namespace {
 
-using testing::ElementsAre;
+using ::testing::ElementsAre;
 
 /// Sample mean and covariance are the model's within Monte-Carlo error: of 40000 draws, 0.5 % of a
 /// deviation at one sigma for a mean and 0.7 % of the deviations' product for a covariance.

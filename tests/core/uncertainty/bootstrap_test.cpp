@@ -14,7 +14,7 @@
 namespace telltale {
 namespace {
 
-using Estimates = std::array<std::optional<EquationEstimate>, 3>;
+using EquationEstimates = std::array<std::optional<EquationEstimate>, 3>;
 
 constexpr std::size_t kSegmentRows = 50;
 
@@ -31,14 +31,15 @@ RegressionProblem NoisyProblem(double sigma, std::uint64_t seed) {
   return problem;
 }
 
-std::vector<ClusteredFit> FitsOf(const RegressionProblem& problem, const Estimates& estimates) {
+std::vector<ClusteredFit> FitsOf(const RegressionProblem& problem,
+                                 const EquationEstimates& estimates) {
   std::vector<ClusteredFit> fits;
   for (std::size_t j = 0; j < 3; ++j) fits.push_back(FitOf(problem.equations[j], *estimates[j]));
   return fits;
 }
 
-Estimates EstimateAll(const RegressionProblem& problem) {
-  Estimates estimates;
+EquationEstimates EstimateAll(const RegressionProblem& problem) {
+  EquationEstimates estimates;
   for (std::size_t j = 0; j < 3; ++j) {
     estimates[j] = EstimateOneStep(*Assess(problem.equations[j], {}));
   }

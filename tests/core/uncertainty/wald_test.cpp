@@ -1,7 +1,6 @@
 #include "uncertainty/wald.hpp"
 
 #include <cmath>
-#include <limits>
 
 #include <gtest/gtest.h>
 #include <Eigen/Cholesky>
@@ -9,11 +8,10 @@
 
 #include "contract.hpp"
 #include "random.hpp"
+#include "support/numbers.hpp"
 
 namespace telltale {
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 Eigen::MatrixXd Normals(Eigen::Index rows, Eigen::Index columns, RandomEngine& engine) {
   boost::random::normal_distribution<double> normal(0.0, 1.0);

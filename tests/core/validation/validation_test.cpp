@@ -1,13 +1,13 @@
 #include "validation/validation.hpp"
 
 #include <cmath>
-#include <limits>
 
 #include <gtest/gtest.h>
 
 #include "simulation/manoeuvres.hpp"
 #include "simulation/simulator.hpp"
 #include "simulation/yellowfish.hpp"
+#include "support/numbers.hpp"
 
 namespace telltale {
 namespace {
@@ -145,7 +145,6 @@ TEST(Validate, AModelThatBlowsUpErrsByInfinity) {
   explosive.theta[0][3] = -1e200;
   const auto metrics = Validate(PaperRows(60.0), explosive, {{10.0}});
   ASSERT_TRUE(metrics.has_value());
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
   EXPECT_EQ(metrics->free_run[0].velocity[0].rmse, kInfinity);
   EXPECT_EQ(metrics->free_run[0].velocity[0].r2, -kInfinity);
   EXPECT_EQ(metrics->free_run[0].position_rmse_m, kInfinity);

@@ -65,18 +65,18 @@ TEST(DaemonConfig, ReadsEveryField) {
   EXPECT_EQ(config->log_level, "debug");
 }
 
-struct Fault {
+struct ConfigFault {
   std::string text, field, value, allowed;
 };
 
-void PrintTo(const Fault& fault, std::ostream* out) {
+void PrintTo(const ConfigFault& fault, std::ostream* out) {
   *out << AsTestName(fault.text);
 }
 
-class WrongConfig : public testing::TestWithParam<Fault> {};
+class WrongConfig : public testing::TestWithParam<ConfigFault> {};
 
 TEST_P(WrongConfig, IsRefusedNamingFieldValueRangeAndLine) {
-  const Fault& fault = GetParam();
+  const ConfigFault& fault = GetParam();
   const auto config = ParseDaemonConfig("# first line\n" + fault.text, "d.textproto");
   ASSERT_FALSE(config);
   EXPECT_EQ(config.error().field, fault.field);
@@ -88,29 +88,32 @@ TEST_P(WrongConfig, IsRefusedNamingFieldValueRangeAndLine) {
 INSTANTIATE_TEST_SUITE_P(
     DaemonConfig, WrongConfig,
     testing::Values(
-        Fault{"domain: 102", "domain", "102", "[0, 101]"},
-        Fault{"domain: -1", "domain", "-1", "integer"}, Fault{"domian: 1", "domian", "1", "domain"},
-        Fault{"state_directory: \"\"", "state_directory", "\"\"", "folder"},
-        Fault{"vehicle_files: \"\"", "vehicle_files[0]", "\"\"", "path"},
-        Fault{"window { duration_s: 9 }", "window.duration_s", "9", "[10, 86400]"},
-        Fault{"window { duration_s: nan }", "window.duration_s", "nan", "[10, 86400]"},
-        Fault{"window { memory_mib: 0 }", "window.memory_mib", "0", "[1, 65536]"},
-        Fault{"window { reorder_tolerance_s: -0.1 }", "window.reorder_tolerance_s", "-0.1",
-              "[0, 10]"},
-        Fault{"window { clock_jump_s: 0 }", "window.clock_jump_s", "0", "[1, 86400]"},
-        Fault{"window { stuck_after_s: 601 }", "window.stuck_after_s", "601", "[1, 600]"},
-        Fault{"identification { workers: 65 }", "identification.workers", "65", "[1, 64]"},
-        Fault{"identification { bootstrap_replicates: 99 }", "identification.bootstrap_replicates",
-              "99", "0 or a number in [100, 100000]"},
-        Fault{"identification { bootstrap_replicates: 100001 }",
-              "identification.bootstrap_replicates", "100001", "100000]"},
-        Fault{"identification { interval_level: 1 }", "identification.interval_level", "1",
-              "[0.5, 0.999]"},
-        Fault{"identification { queue_limit: 0 }", "identification.queue_limit", "0", "[1, 10000]"},
-        Fault{"quality_period_s: 0.01", "quality_period_s", "0.01", "[0.1, 3600]"},
-        Fault{"log_level: \"loud\"", "log_level", "\"loud\"", "trace, debug, info, warn, error"},
-        Fault{"vehicles { vehicle_id: \"a\" }", "vehicles[0].propeller_separation_m", "",
-              "required"}));
+        ConfigFault{"domain: 102", "domain", "102", "[0, 101]"},
+        ConfigFault{"domain: -1", "domain", "-1", "integer"},
+        ConfigFault{"domian: 1", "domian", "1", "domain"},
+        ConfigFault{"state_directory: \"\"", "state_directory", "\"\"", "folder"},
+        ConfigFault{"vehicle_files: \"\"", "vehicle_files[0]", "\"\"", "path"},
+        ConfigFault{"window { duration_s: 9 }", "window.duration_s", "9", "[10, 86400]"},
+        ConfigFault{"window { duration_s: nan }", "window.duration_s", "nan", "[10, 86400]"},
+        ConfigFault{"window { memory_mib: 0 }", "window.memory_mib", "0", "[1, 65536]"},
+        ConfigFault{"window { reorder_tolerance_s: -0.1 }", "window.reorder_tolerance_s", "-0.1",
+                    "[0, 10]"},
+        ConfigFault{"window { clock_jump_s: 0 }", "window.clock_jump_s", "0", "[1, 86400]"},
+        ConfigFault{"window { stuck_after_s: 601 }", "window.stuck_after_s", "601", "[1, 600]"},
+        ConfigFault{"identification { workers: 65 }", "identification.workers", "65", "[1, 64]"},
+        ConfigFault{"identification { bootstrap_replicates: 99 }",
+                    "identification.bootstrap_replicates", "99", "0 or a number in [100, 100000]"},
+        ConfigFault{"identification { bootstrap_replicates: 100001 }",
+                    "identification.bootstrap_replicates", "100001", "100000]"},
+        ConfigFault{"identification { interval_level: 1 }", "identification.interval_level", "1",
+                    "[0.5, 0.999]"},
+        ConfigFault{"identification { queue_limit: 0 }", "identification.queue_limit", "0",
+                    "[1, 10000]"},
+        ConfigFault{"quality_period_s: 0.01", "quality_period_s", "0.01", "[0.1, 3600]"},
+        ConfigFault{"log_level: \"loud\"", "log_level", "\"loud\"",
+                    "trace, debug, info, warn, error"},
+        ConfigFault{"vehicles { vehicle_id: \"a\" }", "vehicles[0].propeller_separation_m", "",
+                    "required"}));
 
 TEST(DaemonConfig, TheSameVehicleTwiceIsRefusedWhereItComesAgain) {
   const auto config =

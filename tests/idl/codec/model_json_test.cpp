@@ -2,21 +2,18 @@
 
 #include <algorithm>
 #include <functional>
-#include <limits>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "support/identifications.hpp"
+#include "support/numbers.hpp"
 #include "support/test_name.hpp"
 
 namespace telltale {
 namespace {
 
 using testing::HasSubstr;
-
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 void ExpectReadsBack(const Identification& identification) {
   const auto again = ParseModelJson(PrintModelJson(identification));
@@ -114,19 +111,19 @@ TEST(ModelJson, EnumerationsHaveTheSameNamesInProtobuf) {
   EXPECT_EQ(static_cast<int>(CoefficientStatus::kCollinear), proto::COLLINEAR);
 }
 
-struct Fault {
+struct ModelFault {
   std::function<void(proto::Model&)> spoil;
   std::string field, value, allowed;
 };
 
-void PrintTo(const Fault& fault, std::ostream* out) {
+void PrintTo(const ModelFault& fault, std::ostream* out) {
   *out << AsTestName(fault.field + ' ' + fault.value + ' ' + fault.allowed);
 }
 
-class WrongModel : public testing::TestWithParam<Fault> {};
+class WrongModel : public testing::TestWithParam<ModelFault> {};
 
 TEST_P(WrongModel, IsRefusedNamingFieldValueAndWhatIsAllowed) {
-  const Fault& fault = GetParam();
+  const ModelFault& fault = GetParam();
   proto::Model model = ToProto(MadeUpIdentification());
   fault.spoil(model);
   const auto identification = IdentificationOf(model, "model.json");
@@ -142,67 +139,68 @@ using M = proto::Model;
 INSTANTIATE_TEST_SUITE_P(
     ModelJson, WrongModel,
     testing::Values(
-        Fault{[](M& m) { m.set_vehicle_id("a b"); }, "vehicleId", "\"a b\"", "letters"},
-        Fault{[](M& m) { m.clear_structure(); }, "structure", "", "STATIC_QUADRATIC"},
-        Fault{[](M& m) { m.set_structure(static_cast<proto::Structure>(9)); }, "structure", "9",
-              "STATIC_QUADRATIC"},
-        Fault{[](M& m) { m.clear_parameterization(); }, "parameterization", "", "PAPER"},
-        Fault{[](M& m) { m.clear_estimator(); }, "estimator", "", "ONE_STEP"},
-        Fault{[](M& m) { m.set_sampling_period_s(0.0); }, "samplingPeriodS", "0", "[0.001, 10]"},
-        Fault{[](M& m) { m.clear_coefficients(), m.clear_covariance(); }, "coefficients", "(none)",
-              "at least one equation"},
-        Fault{[](M& m) { m.mutable_coefficients(3)->set_regressor("u^7"); },
-              "coefficients[3].regressor", "\"u^7\"", "\"u\""},
-        Fault{[](M& m) { m.mutable_coefficients(3)->set_symbol("X"); }, "coefficients[3].symbol",
-              "\"X\"", "\"Ru1\""},
-        Fault{[](M& m) { m.mutable_coefficients(3)->set_unit("1/h"); }, "coefficients[3].unit",
-              "\"1/h\"", "\"1/s\""},
-        Fault{[](M& m) { m.mutable_coefficients()->SwapElements(0, 3); },
-              "coefficients[0].regressor", "\"u\"", "\"u|u|\""},
-        Fault{[](M& m) { m.mutable_coefficients()->SwapElements(0, 9); },
-              "coefficients[1].equation", "SURGE", "SWAY, whose regressor"},
-        Fault{[](M& m) {
-                auto& all = *m.mutable_coefficients();
-                std::rotate(all.pointer_begin(), all.pointer_begin() + 9, all.pointer_end());
-              },
-              "coefficients[26].equation", "SURGE", "in this order"},
-        Fault{[](M& m) { m.mutable_coefficients(0)->set_equation(proto::UNKNOWN_EQUATION); },
-              "coefficients[0].equation", "UNKNOWN", "SURGE"},
-        Fault{[](M& m) { m.mutable_coefficients(4)->set_estimate(kNan); },
-              "coefficients[4].estimate", "nan", "number"},
-        Fault{[](M& m) { m.mutable_coefficients(4)->set_estimate(kInfinity); },
-              "coefficients[4].estimate", "inf", "number"},
-        Fault{[](M& m) { m.mutable_coefficients(4)->set_standard_error(-1); },
-              "coefficients[4].standardError", "-1", "[0, inf]"},
-        Fault{[](M& m) { m.mutable_coefficients(4)->clear_interval(); }, "coefficients[4].interval",
-              "", "required"},
-        Fault{[](M& m) { m.mutable_coefficients(4)->mutable_interval()->set_level(1.5); },
-              "coefficients[4].interval.level", "1.5", "(0, 1]"},
-        Fault{[](M& m) { m.mutable_coefficients(4)->mutable_interval()->set_lower(9); },
-              "coefficients[4].interval.lower", "9", "not above upper"},
-        Fault{[](M& m) { m.mutable_coefficients(4)->mutable_interval()->set_upper(kNan); },
-              "coefficients[4].interval.upper", "nan", "number"},
-        Fault{[](M& m) { m.mutable_coefficients(4)->clear_status(); }, "coefficients[4].status", "",
-              "NOT_EXCITED"},
-        Fault{[](M& m) { m.mutable_covariance()->RemoveLast(); }, "covariance", "1224 numbers",
-              "1225"},
-        Fault{[](M& m) { m.set_covariance(1, kNan); }, "covariance[1]", "nan", "number"},
-        Fault{[](M& m) { m.set_covariance(0, -1.0); }, "covariance[0]", "-1", "[0, inf]"},
-        Fault{[](M& m) { m.set_covariance(70, 5.0); }, "covariance[70]", "5", "symmetric"},
-        Fault{[](M& m) { m.mutable_thruster_time_constant_s()->set_estimate(1.0); },
-              "thrusterTimeConstantS", "(given)", "FIRST_ORDER_DYNAMIC"},
-        Fault{[](M& m) { m.add_thruster_time_constant_covariance(1.0); },
-              "thrusterTimeConstantCovariance", "1 numbers", "FIRST_ORDER_DYNAMIC"},
-        Fault{[](M& m) { m.set_structure(proto::FIRST_ORDER_DYNAMIC); }, "thrusterTimeConstantS",
-              "", "FIRST_ORDER_DYNAMIC"},
-        Fault{[](M& m) { m.mutable_window()->set_end_s(1.0); }, "window.startS", "1700000000.125",
-              "not after endS = 1"},
-        Fault{[](M& m) { m.mutable_window()->set_start_s(kNan); }, "window.startS", "nan",
-              "number"},
-        Fault{[](M& m) { m.mutable_window()->mutable_rejected(0)->set_channel("sonar"); },
-              "window.rejected[0].channel", "\"sonar\"", "gnss, heading, thrusters"},
-        Fault{[](M& m) { m.mutable_window()->mutable_rejected(1)->set_reason("UGLY"); },
-              "window.rejected[1].reason", "\"UGLY\"", "NOT_FINITE"}));
+        ModelFault{[](M& m) { m.set_vehicle_id("a b"); }, "vehicleId", "\"a b\"", "letters"},
+        ModelFault{[](M& m) { m.clear_structure(); }, "structure", "", "STATIC_QUADRATIC"},
+        ModelFault{[](M& m) { m.set_structure(static_cast<proto::Structure>(9)); }, "structure",
+                   "9", "STATIC_QUADRATIC"},
+        ModelFault{[](M& m) { m.clear_parameterization(); }, "parameterization", "", "PAPER"},
+        ModelFault{[](M& m) { m.clear_estimator(); }, "estimator", "", "ONE_STEP"},
+        ModelFault{[](M& m) { m.set_sampling_period_s(0.0); }, "samplingPeriodS", "0",
+                   "[0.001, 10]"},
+        ModelFault{[](M& m) { m.clear_coefficients(), m.clear_covariance(); }, "coefficients",
+                   "(none)", "at least one equation"},
+        ModelFault{[](M& m) { m.mutable_coefficients(3)->set_regressor("u^7"); },
+                   "coefficients[3].regressor", "\"u^7\"", "\"u\""},
+        ModelFault{[](M& m) { m.mutable_coefficients(3)->set_symbol("X"); },
+                   "coefficients[3].symbol", "\"X\"", "\"Ru1\""},
+        ModelFault{[](M& m) { m.mutable_coefficients(3)->set_unit("1/h"); }, "coefficients[3].unit",
+                   "\"1/h\"", "\"1/s\""},
+        ModelFault{[](M& m) { m.mutable_coefficients()->SwapElements(0, 3); },
+                   "coefficients[0].regressor", "\"u\"", "\"u|u|\""},
+        ModelFault{[](M& m) { m.mutable_coefficients()->SwapElements(0, 9); },
+                   "coefficients[1].equation", "SURGE", "SWAY, whose regressor"},
+        ModelFault{[](M& m) {
+                     auto& all = *m.mutable_coefficients();
+                     std::rotate(all.pointer_begin(), all.pointer_begin() + 9, all.pointer_end());
+                   },
+                   "coefficients[26].equation", "SURGE", "in this order"},
+        ModelFault{[](M& m) { m.mutable_coefficients(0)->set_equation(proto::UNKNOWN_EQUATION); },
+                   "coefficients[0].equation", "UNKNOWN", "SURGE"},
+        ModelFault{[](M& m) { m.mutable_coefficients(4)->set_estimate(kNan); },
+                   "coefficients[4].estimate", "nan", "number"},
+        ModelFault{[](M& m) { m.mutable_coefficients(4)->set_estimate(kInfinity); },
+                   "coefficients[4].estimate", "inf", "number"},
+        ModelFault{[](M& m) { m.mutable_coefficients(4)->set_standard_error(-1); },
+                   "coefficients[4].standardError", "-1", "[0, inf]"},
+        ModelFault{[](M& m) { m.mutable_coefficients(4)->clear_interval(); },
+                   "coefficients[4].interval", "", "required"},
+        ModelFault{[](M& m) { m.mutable_coefficients(4)->mutable_interval()->set_level(1.5); },
+                   "coefficients[4].interval.level", "1.5", "(0, 1]"},
+        ModelFault{[](M& m) { m.mutable_coefficients(4)->mutable_interval()->set_lower(9); },
+                   "coefficients[4].interval.lower", "9", "not above upper"},
+        ModelFault{[](M& m) { m.mutable_coefficients(4)->mutable_interval()->set_upper(kNan); },
+                   "coefficients[4].interval.upper", "nan", "number"},
+        ModelFault{[](M& m) { m.mutable_coefficients(4)->clear_status(); },
+                   "coefficients[4].status", "", "NOT_EXCITED"},
+        ModelFault{[](M& m) { m.mutable_covariance()->RemoveLast(); }, "covariance", "1224 numbers",
+                   "1225"},
+        ModelFault{[](M& m) { m.set_covariance(1, kNan); }, "covariance[1]", "nan", "number"},
+        ModelFault{[](M& m) { m.set_covariance(0, -1.0); }, "covariance[0]", "-1", "[0, inf]"},
+        ModelFault{[](M& m) { m.set_covariance(70, 5.0); }, "covariance[70]", "5", "symmetric"},
+        ModelFault{[](M& m) { m.mutable_thruster_time_constant_s()->set_estimate(1.0); },
+                   "thrusterTimeConstantS", "(given)", "FIRST_ORDER_DYNAMIC"},
+        ModelFault{[](M& m) { m.add_thruster_time_constant_covariance(1.0); },
+                   "thrusterTimeConstantCovariance", "1 numbers", "FIRST_ORDER_DYNAMIC"},
+        ModelFault{[](M& m) { m.set_structure(proto::FIRST_ORDER_DYNAMIC); },
+                   "thrusterTimeConstantS", "", "FIRST_ORDER_DYNAMIC"},
+        ModelFault{[](M& m) { m.mutable_window()->set_end_s(1.0); }, "window.startS",
+                   "1700000000.125", "not after endS = 1"},
+        ModelFault{[](M& m) { m.mutable_window()->set_start_s(kNan); }, "window.startS", "nan",
+                   "number"},
+        ModelFault{[](M& m) { m.mutable_window()->mutable_rejected(0)->set_channel("sonar"); },
+                   "window.rejected[0].channel", "\"sonar\"", "gnss, heading, thrusters"},
+        ModelFault{[](M& m) { m.mutable_window()->mutable_rejected(1)->set_reason("UGLY"); },
+                   "window.rejected[1].reason", "\"UGLY\"", "NOT_FINITE"}));
 
 TEST(ModelJson, AnEquationThatEndsEarlyIsRefused) {
   proto::Model model = ToProto(MadeUpIdentification());

@@ -63,19 +63,19 @@ TEST(VehicleFile, PrintedAndReadAgainIsTheSame) {
   ExpectSame(*from_proto, vehicle);
 }
 
-struct Fault {
+struct VehicleFault {
   std::string from, to;  // what is changed in the good file
   std::string field, value, allowed, where;
 };
 
-void PrintTo(const Fault& fault, std::ostream* out) {
+void PrintTo(const VehicleFault& fault, std::ostream* out) {
   *out << AsTestName(fault.from + " to " + fault.to);
 }
 
-class WrongVehicle : public testing::TestWithParam<Fault> {};
+class WrongVehicle : public testing::TestWithParam<VehicleFault> {};
 
 TEST_P(WrongVehicle, IsRefusedNamingFieldValueRangeAndLine) {
-  const Fault& fault = GetParam();
+  const VehicleFault& fault = GetParam();
   testing::internal::CaptureStderr();
   const auto vehicle = ParseVehicle(Replaced(kGood, fault.from, fault.to), "boat.textproto");
   EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
@@ -89,53 +89,59 @@ TEST_P(WrongVehicle, IsRefusedNamingFieldValueRangeAndLine) {
 INSTANTIATE_TEST_SUITE_P(
     VehicleFile, WrongVehicle,
     testing::Values(
-        Fault{"vehicle_id: \"boat-1\"", "", "vehicle_id", "", "required", "boat.textproto"},
-        Fault{"boat-1", "", "vehicle_id", "\"\"", "1..64", "boat.textproto:1"},
-        Fault{"boat-1", "a/b", "vehicle_id", "\"a/b\"", "letters", "boat.textproto:1"},
-        Fault{"propeller_separation_m: 0.57", "", "propeller_separation_m", "", "[0.05, 50]",
-              "boat.textproto"},
-        Fault{"0.57", "0.049", "propeller_separation_m", "0.049", "[0.05, 50]", "boat.textproto:2"},
-        Fault{"0.57", "50.1", "propeller_separation_m", "50.1", "[0.05, 50]", "boat.textproto:2"},
-        Fault{"0.57", "nan", "propeller_separation_m", "nan", "[0.05, 50]", "boat.textproto:2"},
-        Fault{"0.57", "inf", "propeller_separation_m", "inf", "[0.05, 50]", "boat.textproto:2"},
-        Fault{"0.57", "\"wide\"", "propeller_separation_m", "\"wide\"", "double",
-              "boat.textproto:2"},
-        Fault{"propeller_separation_m", "propeller_seperation_m", "propeller_seperation_m", "0.57",
-              "propeller_separation_m", "boat.textproto:2"},
-        Fault{"port {", "larboard {", "larboard", "{", "port, starboard", "boat.textproto:3"},
-        Fault{"port { neutral_us: 1511", "port { neutral_ms: 1511", "neutral_ms", "1511",
-              "neutral_us, full_forward_us, full_reverse_us", "boat.textproto:3"},
-        Fault{"port { neutral_us: 1511 full_forward_us: 1911 full_reverse_us: 1111 }", "", "port",
-              "", "required", "boat.textproto"},
-        Fault{"starboard { neutral_us: 1511", "starboard {", "starboard.neutral_us", "",
-              "[800, 2200]", "boat.textproto:4"},
-        Fault{"full_forward_us: 1911", "", "port.full_forward_us", "", "[500, 2500]",
-              "boat.textproto:3"},
-        Fault{"full_reverse_us: 1111", "", "port.full_reverse_us", "", "[500, 2500]",
-              "boat.textproto:3"},
-        Fault{"neutral_us: 1511", "neutral_us: 799", "port.neutral_us", "799", "[800, 2200]",
-              "boat.textproto:3"},
-        Fault{"full_forward_us: 1911", "full_forward_us: 2501", "port.full_forward_us", "2501",
-              "[500, 2500]", "boat.textproto:3"},
-        Fault{"full_reverse_us: 1111", "full_reverse_us: 499", "port.full_reverse_us", "499",
-              "[500, 2500]", "boat.textproto:3"},
-        Fault{"full_reverse_us: 1111", "full_reverse_us: 1600", "port.full_reverse_us", "1600",
-              "other side of neutral_us = 1511", "boat.textproto:3"},
-        Fault{"full_reverse_us: 1111", "full_reverse_us: 1511", "port.full_reverse_us", "1511",
-              "other side", "boat.textproto:3"},
-        Fault{"full_forward_us: 1911", "full_forward_us: 1511", "port.full_forward_us", "1511",
-              "other than neutral_us = 1511", "boat.textproto:3"},
-        Fault{"forward_m: 0.1", "forward_m: 101", "gnss_antenna.forward_m", "101", "[-100, 100]",
-              "boat.textproto:5"},
-        Fault{"starboard_m: -0.2", "starboard_m: -101", "gnss_antenna.starboard_m", "-101",
-              "[-100, 100]", "boat.textproto:5"},
-        Fault{"mass_kg: 15.0", "mass_kg: 0", "mass_kg", "0", "(0, 100000]", "boat.textproto:6"},
-        Fault{"mass_kg: 15.0", "mass_kg: 1e6", "mass_kg", "1000000", "(0, 100000]",
-              "boat.textproto:6"},
-        Fault{"mass_kg: 15.0", "\tmass_kg:\theavy", "mass_kg", "heavy", "double",
-              "boat.textproto:6"},
-        Fault{"mass_kg: 15.0", "mass_kg: 15.0 mass_kg: 16", "mass_kg", "16", "multiple times",
-              "boat.textproto:6"}));
+        VehicleFault{"vehicle_id: \"boat-1\"", "", "vehicle_id", "", "required", "boat.textproto"},
+        VehicleFault{"boat-1", "", "vehicle_id", "\"\"", "1..64", "boat.textproto:1"},
+        VehicleFault{"boat-1", "a/b", "vehicle_id", "\"a/b\"", "letters", "boat.textproto:1"},
+        VehicleFault{"propeller_separation_m: 0.57", "", "propeller_separation_m", "", "[0.05, 50]",
+                     "boat.textproto"},
+        VehicleFault{"0.57", "0.049", "propeller_separation_m", "0.049", "[0.05, 50]",
+                     "boat.textproto:2"},
+        VehicleFault{"0.57", "50.1", "propeller_separation_m", "50.1", "[0.05, 50]",
+                     "boat.textproto:2"},
+        VehicleFault{"0.57", "nan", "propeller_separation_m", "nan", "[0.05, 50]",
+                     "boat.textproto:2"},
+        VehicleFault{"0.57", "inf", "propeller_separation_m", "inf", "[0.05, 50]",
+                     "boat.textproto:2"},
+        VehicleFault{"0.57", "\"wide\"", "propeller_separation_m", "\"wide\"", "double",
+                     "boat.textproto:2"},
+        VehicleFault{"propeller_separation_m", "propeller_seperation_m", "propeller_seperation_m",
+                     "0.57", "propeller_separation_m", "boat.textproto:2"},
+        VehicleFault{"port {", "larboard {", "larboard", "{", "port, starboard",
+                     "boat.textproto:3"},
+        VehicleFault{"port { neutral_us: 1511", "port { neutral_ms: 1511", "neutral_ms", "1511",
+                     "neutral_us, full_forward_us, full_reverse_us", "boat.textproto:3"},
+        VehicleFault{"port { neutral_us: 1511 full_forward_us: 1911 full_reverse_us: 1111 }", "",
+                     "port", "", "required", "boat.textproto"},
+        VehicleFault{"starboard { neutral_us: 1511", "starboard {", "starboard.neutral_us", "",
+                     "[800, 2200]", "boat.textproto:4"},
+        VehicleFault{"full_forward_us: 1911", "", "port.full_forward_us", "", "[500, 2500]",
+                     "boat.textproto:3"},
+        VehicleFault{"full_reverse_us: 1111", "", "port.full_reverse_us", "", "[500, 2500]",
+                     "boat.textproto:3"},
+        VehicleFault{"neutral_us: 1511", "neutral_us: 799", "port.neutral_us", "799", "[800, 2200]",
+                     "boat.textproto:3"},
+        VehicleFault{"full_forward_us: 1911", "full_forward_us: 2501", "port.full_forward_us",
+                     "2501", "[500, 2500]", "boat.textproto:3"},
+        VehicleFault{"full_reverse_us: 1111", "full_reverse_us: 499", "port.full_reverse_us", "499",
+                     "[500, 2500]", "boat.textproto:3"},
+        VehicleFault{"full_reverse_us: 1111", "full_reverse_us: 1600", "port.full_reverse_us",
+                     "1600", "other side of neutral_us = 1511", "boat.textproto:3"},
+        VehicleFault{"full_reverse_us: 1111", "full_reverse_us: 1511", "port.full_reverse_us",
+                     "1511", "other side", "boat.textproto:3"},
+        VehicleFault{"full_forward_us: 1911", "full_forward_us: 1511", "port.full_forward_us",
+                     "1511", "other than neutral_us = 1511", "boat.textproto:3"},
+        VehicleFault{"forward_m: 0.1", "forward_m: 101", "gnss_antenna.forward_m", "101",
+                     "[-100, 100]", "boat.textproto:5"},
+        VehicleFault{"starboard_m: -0.2", "starboard_m: -101", "gnss_antenna.starboard_m", "-101",
+                     "[-100, 100]", "boat.textproto:5"},
+        VehicleFault{"mass_kg: 15.0", "mass_kg: 0", "mass_kg", "0", "(0, 100000]",
+                     "boat.textproto:6"},
+        VehicleFault{"mass_kg: 15.0", "mass_kg: 1e6", "mass_kg", "1000000", "(0, 100000]",
+                     "boat.textproto:6"},
+        VehicleFault{"mass_kg: 15.0", "\tmass_kg:\theavy", "mass_kg", "heavy", "double",
+                     "boat.textproto:6"},
+        VehicleFault{"mass_kg: 15.0", "mass_kg: 15.0 mass_kg: 16", "mass_kg", "16",
+                     "multiple times", "boat.textproto:6"}));
 
 TEST(VehicleFile, TextThatIsNoVehicleIsRefused) {
   EXPECT_EQ(ParseVehicle("").error().field, "vehicle_id");

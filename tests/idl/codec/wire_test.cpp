@@ -3,18 +3,16 @@
 #include <cmath>
 #include <cstring>
 #include <functional>
-#include <limits>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "contract.hpp"
 #include "support/identifications.hpp"
+#include "support/numbers.hpp"
 
 namespace telltale {
 namespace {
-
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 PublishedModel MadeUpModel() {
   return {MadeUpIdentification(), 7, 1700000700.5};
