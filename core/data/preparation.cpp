@@ -4,6 +4,7 @@
 #include <cmath>
 #include <functional>
 #include <sstream>
+#include <utility>
 
 #include "contract.hpp"
 #include "data/heading.hpp"
@@ -21,11 +22,8 @@ namespace {
 constexpr double kShortestPeriodS = 0.02;
 constexpr double kLongestPeriodS = 2.0;
 
-/// What the sensors said along one stretch, not yet on a grid.
-struct Signals {
-  TimeSeries north_m;  ///< of the antenna
-  TimeSeries east_m;
-  TimeSeries psi_rad;  ///< unwrapped
+/// What was recorded along one stretch, not yet on a grid.
+struct Signals : RawSignals {
   HeldCommands commands;
 };
 
@@ -65,10 +63,7 @@ std::span<const Sample> Slice(const std::vector<Sample>& samples, const RowRange
 Signals ReadSignals(const Recording& recording, const Stretch& stretch, const Vehicle& vehicle,
                     const NorthEastFrame& frame) {
   Signals signals{
-      {},
-      {},
-      {},
-      HeldCommands(Slice(recording.thrusters, stretch.Of(Channel::kThrusters)), vehicle)};
+      {}, HeldCommands(Slice(recording.thrusters, stretch.Of(Channel::kThrusters)), vehicle)};
   for (const GnssFix& fix : Slice(recording.gnss, stretch.Of(Channel::kGnss))) {
     const NorthEastPosition antenna = frame.Forward({fix.latitude_deg, fix.longitude_deg});
     signals.north_m.times_s.push_back(fix.time_s);
@@ -483,11 +478,12 @@ Result<PreparedDataset> Prepare(const Recording& recording, const Vehicle& vehic
     longest_found_s = std::max(longest_found_s, stretch.end_s - stretch.start_s);
     const Grid grid = LayGrid(recording, stretch, dataset.sampling_period_s);
     if (!LongEnough(grid, options)) continue;
-    const Signals signals = ReadSignals(recording, stretch, vehicle, frame);
+    Signals signals = ReadSignals(recording, stretch, vehicle, frame);
     Append(dataset, PrepareStretch(signals, grid, vehicle, options), options);
-    dataset.commands.push_back(signals.commands);
     PoolSensors(dataset, signals);
     PoolNoise(dataset, NoiseInVelocity(signals, grid, options));
+    dataset.commands.push_back(std::move(signals.commands));
+    dataset.signals.push_back(static_cast<RawSignals&&>(signals));
   }
   if (dataset.stretches.empty()) {
     return tl::unexpected(NoStretch(options, dataset.sampling_period_s, longest_found_s));

@@ -7,6 +7,7 @@
 #include "data/north_east.hpp"
 #include "data/prepare_options.hpp"
 #include "data/samples.hpp"
+#include "data/time_series.hpp"
 #include "vessel/motion.hpp"
 #include "vessel/propellers.hpp"
 #include "vessel/vehicle.hpp"
@@ -45,6 +46,13 @@ struct SensorChain {
   LeverArm antenna;
 };
 
+/// What the sensors said along one stretch and a little beyond its ends, as it came.
+struct RawSignals {
+  TimeSeries north_m;  ///< of the antenna, in {n}
+  TimeSeries east_m;   ///< at the same times
+  TimeSeries psi_rad;  ///< unwrapped, on the same turn as the rows
+};
+
 /// A recording turned into what regressions need: synchronised rows at one sampling period.
 ///
 /// stretches: gap-free runs of rows, ascending and disjoint; consecutive rows of a stretch are
@@ -59,7 +67,8 @@ struct PreparedDataset {
   std::vector<RowRange> segments;
   /// By stretch, what the thrusters were told before and along it, as it was sent.
   std::vector<HeldCommands> commands;
-  PrepareOptions options;  ///< how the rows were made
+  std::vector<RawSignals> signals;  ///< by stretch
+  PrepareOptions options;           ///< how the rows were made
   SensorChain sensors;
   RejectCounts rejected;
   Nu nu_noise;  ///< one sigma that white sensor noise, judged by WhiteNoise, leaves in each nu
