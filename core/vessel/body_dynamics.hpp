@@ -44,6 +44,24 @@ class BodyDynamics {
             applied.r + Dot(yaw_, cross)};
   }
 
+  /// d nu_dot / d nu. |v| and |r| have no slope at zero; there it is that of neither side, zero.
+  Eigen::Matrix3d ByVelocity(const Nu& nu) const {
+    const double v_abs = std::abs(nu.v);
+    const double r_abs = std::abs(nu.r);
+    const double v_sign = SignOf(nu.v);
+    const double r_sign = SignOf(nu.r);
+    Eigen::Matrix3d slope;
+    slope.row(0) << 2.0 * surge_[0] * std::abs(nu.u) + surge_[3], surge_[1] * nu.r,
+        surge_[1] * nu.v + 2.0 * surge_[2] * nu.r;
+    for (const Eigen::Index j : {1, 2}) {
+      const std::array<double, 9>& a = j == 1 ? sway_ : yaw_;
+      slope.row(j) << a[4] * nu.v + a[5] * nu.r,
+          2.0 * a[0] * v_abs + a[1] * r_abs + a[2] * nu.r * v_sign + a[4] * nu.u + a[6],
+          a[1] * nu.v * r_sign + a[2] * v_abs + 2.0 * a[3] * r_abs + a[5] * nu.u + a[7];
+    }
+    return slope;
+  }
+
   /// A Runge-Kutta step of order four under what is applied throughout.
   Nu Step(const NuDot& applied, const Nu& nu, double step_s) const {
     const NuDot k1 = Under(applied, nu);
@@ -57,6 +75,8 @@ class BodyDynamics {
   }
 
  private:
+  static double SignOf(double value) { return value > 0.0 ? 1.0 : value < 0.0 ? -1.0 : 0.0; }
+
   static double At(const VesselModel& model, std::size_t equation, std::size_t i) {
     return model.theta[equation][static_cast<Eigen::Index>(i)];
   }
