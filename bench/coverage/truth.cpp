@@ -157,9 +157,9 @@ class Afloat {
  public:
   Afloat(const Boat& boat, const Surroundings& around, std::uint64_t seed)
       : boat_(boat),
-        lag_share_(boat.thruster_time_constant_s > 0.0
-                       ? 1.0 - std::exp(-kStepS / boat.thruster_time_constant_s)
-                       : 1.0),
+        half_step_share_(boat.thruster_time_constant_s > 0.0
+                             ? 1.0 - std::exp(-kStepS / 2.0 / boat.thruster_time_constant_s)
+                             : 1.0),
         disturbance_{Axis(around, 0, seed), Axis(around, 1, seed), Axis(around, 2, seed)} {}
 
   void Restart(double psi) {
@@ -171,8 +171,8 @@ class Afloat {
 
   /// One step of 0.01 s under these commands.
   void Step(double port, double starboard) {
-    thrust_.Follow(TermsOf(port, boat_.thrust_bend), TermsOf(starboard, boat_.thrust_bend),
-                   lag_share_);
+    // Each step is driven by the thrust at its middle.
+    Follow(port, starboard);
     const std::array<double, 3> d = {disturbance_[0].Next(), disturbance_[1].Next(),
                                      disturbance_[2].Next()};
     const State k1 = Slope(boat_, state_, thrust_, d);
@@ -180,6 +180,7 @@ class Afloat {
     const State k3 = Slope(boat_, state_ + (kStepS / 2) * k2, thrust_, d);
     const State k4 = Slope(boat_, state_ + kStepS * k3, thrust_, d);
     state_ = state_ + (kStepS / 6) * (k1 + 2.0 * k2 + 2.0 * k3 + k4);
+    Follow(port, starboard);
   }
 
   const State& Now() const { return state_; }
@@ -190,8 +191,13 @@ class Afloat {
             7 + axis};
   }
 
+  void Follow(double port, double starboard) {
+    thrust_.Follow(TermsOf(port, boat_.thrust_bend), TermsOf(starboard, boat_.thrust_bend),
+                   half_step_share_);
+  }
+
   const Boat& boat_;
-  double lag_share_;
+  double half_step_share_;
   State state_;
   Thrusters thrust_;
   std::array<Wander, 3> disturbance_;
