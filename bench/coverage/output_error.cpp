@@ -1,0 +1,204 @@
+// Does a 95 % bound from output error hold 95 % of the time, with and without disturbance? Prints
+// the table of docs/output-error.md.
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <optional>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+#include <boost/math/distributions/students_t.hpp>
+
+#include "coverage/truth.hpp"
+#include "data/preparation.hpp"
+#include "estimation/output_error.hpp"
+#include "parallel.hpp"
+#include "random.hpp"
+
+namespace telltale::coverage {
+namespace {
+
+struct Scenario {
+  std::string name;
+  Boat boat = ReferenceBoat();
+  Surroundings around;
+  Mission mission;
+};
+
+std::vector<Scenario> Scenarios() {
+  std::vector<Scenario> all(6);
+  all[0].name = "rtk-still";
+  all[1].name = "rtk";
+  all[2].name = "rtk-still-lag";
+  all[2].boat.thruster_time_constant_s = 0.4;
+  all[3].name = "plain-gnss-still";
+  all[3].around.position_noise_m = 0.10;
+  all[3].around.heading_noise_deg = 0.5;
+  all[4].name = "rtk-still-ten-segments";
+  all[4].mission.segments = 10;
+  all[5].name = "rtk-tenth";
+  for (Scenario& scenario : all) {
+    if (scenario.name.find("still") != std::string::npos) scenario.around.disturbance_sigma = {};
+  }
+  for (double& sigma : all[5].around.disturbance_sigma) sigma *= 0.1;
+  return all;
+}
+
+bool Lags(const Scenario& scenario) {
+  return scenario.boat.thruster_time_constant_s > 0.0;
+}
+
+Eigen::VectorXd TruthOf(const Scenario& scenario) {
+  std::vector<double> truth;
+  if (Lags(scenario)) truth.push_back(scenario.boat.thruster_time_constant_s);
+  truth.insert(truth.end(), scenario.boat.surge.begin(), scenario.boat.surge.end());
+  truth.insert(truth.end(), scenario.boat.sway.begin(), scenario.boat.sway.end());
+  truth.insert(truth.end(), scenario.boat.yaw.begin(), scenario.boat.yaw.end());
+  return Eigen::Map<Eigen::VectorXd>(truth.data(), static_cast<Eigen::Index>(truth.size()));
+}
+
+std::array<std::vector<std::size_t>, 3> AllColumns() {
+  std::array<std::vector<std::size_t>, 3> columns;
+  for (const Equation equation : kEquations) {
+    const std::size_t count = Regressors(equation, Parameterization::kPropeller).size();
+    for (std::size_t j = 0; j < count; ++j) columns[IndexOf(equation)].push_back(j);
+  }
+  return columns;
+}
+
+/// What one repeat says.
+struct Repeat {
+  Eigen::VectorXd error;
+  Eigen::VectorXd clustered;  ///< standard errors
+  Eigen::VectorXd naive;
+  double student = 0.0;
+  double misfit = 0.0;
+  double misspecification = 0.0;
+  double seconds = 0.0;
+};
+
+std::optional<Repeat> Try(const Scenario& scenario, const OutputErrorOptions& options,
+                          std::uint64_t seed) {
+  const Recording recording = Sail(scenario.boat, scenario.around, scenario.mission, seed);
+  const auto dataset = Prepare(recording, VehicleOf(), {});
+  if (!dataset) return std::nullopt;
+  RegressionOptions regression;
+  if (Lags(scenario)) regression.structure = Structure::kFirstOrderDynamic;
+  const VesselModel start = StartOf(*dataset, regression, AllColumns());
+  const auto from = std::chrono::steady_clock::now();
+  const auto fit = EstimateOutputError(*dataset, regression, AllColumns(), start, options);
+  const std::chrono::duration<double> took = std::chrono::steady_clock::now() - from;
+  if (!fit) return std::nullopt;
+  const boost::math::students_t student(static_cast<double>(fit->scores.cols()) - 1.0);
+  return Repeat{fit->theta - TruthOf(scenario),
+                ClusterCovariance(*fit).diagonal().cwiseSqrt(),
+                NaiveCovariance(*fit).diagonal().cwiseSqrt(),
+                boost::math::quantile(student, 0.975),
+                std::hypot(fit->position_misfit, fit->heading_misfit) / std::sqrt(2.0),
+                Misspecification(*fit),
+                took.count()};
+}
+
+/// Shares in percent of true values within bounds: mean, lowest and highest over coefficients.
+struct Held {
+  double mean = 0.0;
+  double lowest = 100.0;
+  double highest = 0.0;
+};
+
+Held Hold(const std::vector<Repeat>& repeats, Eigen::VectorXd Repeat::*standard_errors) {
+  Held held;
+  const Eigen::Index p = repeats.front().error.size();
+  for (Eigen::Index j = 0; j < p; ++j) {
+    double inside = 0.0;
+    for (const Repeat& repeat : repeats) {
+      const double half = repeat.student * (repeat.*standard_errors)[j];
+      inside += std::abs(repeat.error[j]) <= half ? 1.0 : 0.0;
+    }
+    const double percent = 100.0 * inside / static_cast<double>(repeats.size());
+    held.mean += percent / static_cast<double>(p);
+    held.lowest = std::min(held.lowest, percent);
+    held.highest = std::max(held.highest, percent);
+  }
+  return held;
+}
+
+double MeanOf(const std::vector<Repeat>& repeats, double Repeat::*value) {
+  double sum = 0.0;
+  for (const Repeat& repeat : repeats) sum += repeat.*value;
+  return sum / static_cast<double>(repeats.size());
+}
+
+void PrintRow(const std::string& name, const std::vector<Repeat>& repeats, std::size_t asked) {
+  if (repeats.empty()) {
+    std::printf("| %s | 0/%zu |\n", name.c_str(), asked);
+    return;
+  }
+  const auto n = static_cast<double>(repeats.size());
+  Eigen::VectorXd mean = Eigen::VectorXd::Zero(repeats.front().error.size());
+  Eigen::VectorXd squares = mean;
+  Eigen::VectorXd predicted = mean;
+  for (const Repeat& repeat : repeats) {
+    mean += repeat.error / n;
+    squares += repeat.error.cwiseAbs2() / n;
+    predicted += repeat.clustered / n;
+  }
+  const Eigen::VectorXd spread = (squares - mean.cwiseAbs2()).cwiseMax(1e-30).cwiseSqrt();
+  const Held clustered = Hold(repeats, &Repeat::clustered);
+  const Held naive = Hold(repeats, &Repeat::naive);
+  std::printf(
+      "| %s | %zu/%zu | %.1f | %.1f | %.1f | %.1f | %.2f | %.2f | %.2f | %.2f | %.3f | %.2f |\n",
+      name.c_str(), repeats.size(), asked, clustered.mean, clustered.lowest, clustered.highest,
+      naive.mean, mean.cwiseAbs().cwiseQuotient(spread).mean(),
+      predicted.cwiseQuotient(spread).mean(), MeanOf(repeats, &Repeat::misfit),
+      MeanOf(repeats, &Repeat::misspecification), spread.mean(), MeanOf(repeats, &Repeat::seconds));
+  std::fflush(stdout);
+}
+
+int Main(int argc, char** argv) {
+  std::vector<std::string> wanted;
+  std::size_t repeats = 60;
+  std::size_t threads = std::max(1U, std::thread::hardware_concurrency());
+  std::uint64_t seed = 1;
+  OutputErrorOptions options;
+  CLI::App app("How often bounds from output error, nominally of 95 %, hold the truth");
+  std::vector<std::string> names;
+  for (const Scenario& scenario : Scenarios()) names.push_back(scenario.name);
+  app.add_option("--scenario", wanted, "only these (default: all)")->check(CLI::IsMember(names));
+  app.add_option("--repeats", repeats, "seeded repeats of each scenario")->capture_default_str();
+  app.add_option("--threads", threads, "never change the result")->capture_default_str();
+  app.add_option("--seed", seed, "of the first repeat")->capture_default_str();
+  app.add_option("--shot", options.shots.length_s, "seconds a shot")->capture_default_str();
+  CLI11_PARSE(app, argc, argv);
+
+  std::printf(
+      "| scenario | answered | cluster: mean %% | lowest %% | highest %% | naive: mean %% | "
+      "bias/spread | predicted/spread | misfit | alarm | spread | s |\n"
+      "|---|---|---|---|---|---|---|---|---|---|---|---|\n");
+  for (const Scenario& scenario : Scenarios()) {
+    const bool asked =
+        wanted.empty() || std::find(wanted.begin(), wanted.end(), scenario.name) != wanted.end();
+    if (!asked) continue;
+    std::vector<std::optional<Repeat>> all(repeats);
+    ForEachIndex(repeats, threads, [&](std::size_t i) {
+      all[i] = Try(scenario, options, RandomEngine::Stream(seed, i)());
+    });
+    std::vector<Repeat> answered;
+    for (const auto& repeat : all) {
+      if (repeat) answered.push_back(*repeat);
+    }
+    PrintRow(scenario.name, answered, repeats);
+  }
+  return 0;
+}
+
+}  // namespace
+}  // namespace telltale::coverage
+
+int main(int argc, char** argv) {
+  return telltale::coverage::Main(argc, argv);
+}
