@@ -5,6 +5,7 @@
 #include "coverage/truth.hpp"
 #include "data/preparation.hpp"
 #include "estimation/output_error.hpp"
+#include "estimation/weak_iv.hpp"
 
 namespace telltale {
 namespace {
@@ -22,20 +23,11 @@ PreparedDataset Recorded(double time_constant_s, double disturbance) {
   return Prepare(recording, coverage::VehicleOf(), {}).value();
 }
 
-std::array<std::vector<std::size_t>, 3> AllColumns() {
-  std::array<std::vector<std::size_t>, 3> columns;
-  for (const Equation equation : kEquations) {
-    const std::size_t count = Regressors(equation, Parameterization::kPropeller).size();
-    for (std::size_t j = 0; j < count; ++j) columns[IndexOf(equation)].push_back(j);
-  }
-  return columns;
-}
-
 void Estimate(benchmark::State& state, double time_constant_s, double disturbance) {
   const PreparedDataset dataset = Recorded(time_constant_s, disturbance);
   RegressionOptions regression;
   if (time_constant_s > 0.0) regression.structure = Structure::kFirstOrderDynamic;
-  const auto columns = AllColumns();
+  const auto columns = AllColumns(Parameterization::kPropeller);
   const VesselModel start = StartOf(dataset, regression, columns);
   Eigen::Index unknowns = 0;
   std::size_t residuals = 0;

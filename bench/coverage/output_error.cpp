@@ -1,7 +1,6 @@
 // Does a 95 % bound from output error hold 95 % of the time, with and without disturbance? Prints
 // the table of docs/output-error.md.
 #include <algorithm>
-#include <array>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
@@ -16,6 +15,7 @@
 #include "coverage/truth.hpp"
 #include "data/preparation.hpp"
 #include "estimation/output_error.hpp"
+#include "estimation/weak_iv.hpp"
 #include "parallel.hpp"
 #include "random.hpp"
 
@@ -61,15 +61,6 @@ Eigen::VectorXd TruthOf(const Scenario& scenario) {
   return Eigen::Map<Eigen::VectorXd>(truth.data(), static_cast<Eigen::Index>(truth.size()));
 }
 
-std::array<std::vector<std::size_t>, 3> AllColumns() {
-  std::array<std::vector<std::size_t>, 3> columns;
-  for (const Equation equation : kEquations) {
-    const std::size_t count = Regressors(equation, Parameterization::kPropeller).size();
-    for (std::size_t j = 0; j < count; ++j) columns[IndexOf(equation)].push_back(j);
-  }
-  return columns;
-}
-
 /// What one repeat says.
 struct Repeat {
   Eigen::VectorXd error;
@@ -88,9 +79,10 @@ std::optional<Repeat> Try(const Scenario& scenario, const OutputErrorOptions& op
   if (!dataset) return std::nullopt;
   RegressionOptions regression;
   if (Lags(scenario)) regression.structure = Structure::kFirstOrderDynamic;
-  const VesselModel start = StartOf(*dataset, regression, AllColumns());
+  const auto columns = AllColumns(Parameterization::kPropeller);
+  const VesselModel start = StartOf(*dataset, regression, columns);
   const auto from = std::chrono::steady_clock::now();
-  const auto fit = EstimateOutputError(*dataset, regression, AllColumns(), start, options);
+  const auto fit = EstimateOutputError(*dataset, regression, columns, start, options);
   const std::chrono::duration<double> took = std::chrono::steady_clock::now() - from;
   if (!fit) return std::nullopt;
   const boost::math::students_t student(static_cast<double>(fit->scores.cols()) - 1.0);

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -63,15 +62,6 @@ inline SensorOptions CatamaranSensors(double noise_scale, std::uint64_t seed) {
   sensors.heading_noise_deg = 0.3 * noise_scale;
   sensors.seed = seed;
   return sensors;
-}
-
-inline std::array<std::vector<std::size_t>, 3> AllColumns(Parameterization parameterization) {
-  std::array<std::vector<std::size_t>, 3> columns;
-  for (const Equation equation : kEquations) {
-    const std::size_t count = Regressors(equation, parameterization).size();
-    for (std::size_t j = 0; j < count; ++j) columns[IndexOf(equation)].push_back(j);
-  }
-  return columns;
 }
 
 }  // namespace telltale::testing

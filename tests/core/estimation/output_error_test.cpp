@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "estimation/weak_iv.hpp"
 #include "support/catamaran.hpp"
 
 namespace telltale {
@@ -27,7 +28,7 @@ RegressionOptions Lagging(bool lagging) {
 
 Result<OutputErrorFit> Estimate(const PreparedDataset& dataset, const RegressionOptions& regression,
                                 const OutputErrorOptions& options = {}) {
-  const auto columns = testing::AllColumns(regression.parameterization);
+  const auto columns = AllColumns(regression.parameterization);
   return EstimateOutputError(dataset, regression, columns, StartOf(dataset, regression, columns),
                              options);
 }
@@ -57,7 +58,7 @@ INSTANTIATE_TEST_SUITE_P(Lags, NoNoise,
 /// A start from a boat that nothing pushes ends where the one from weak-form IV does.
 TEST(EstimateOutputError, DoesNotDependOnWhereItStarts) {
   const auto dataset = Observe(testing::CatamaranTrack(testing::Catamaran(), 200.0, 12), 1.0, 3);
-  const auto columns = testing::AllColumns(Parameterization::kPropeller);
+  const auto columns = AllColumns(Parameterization::kPropeller);
   VesselModel nothing = testing::Catamaran();
   for (Eigen::VectorXd& theta : nothing.theta) theta.setZero();
   const auto from_nothing = EstimateOutputError(dataset, {}, columns, nothing, {});

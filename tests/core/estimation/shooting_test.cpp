@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "estimation/weak_iv.hpp"
 #include "support/catamaran.hpp"
 
 namespace telltale {
@@ -28,7 +29,7 @@ Aim TakeAim(std::optional<double> time_constant_s, const SensorOptions& sensors,
   aim.unknowns = {Parameterization::kPropeller,
                   {},
                   time_constant_s.has_value(),
-                  testing::AllColumns(Parameterization::kPropeller)};
+                  AllColumns(Parameterization::kPropeller)};
   aim.plan = CutShots(aim.dataset, aim.regression, aim.unknowns, {});
   return aim;
 }
