@@ -449,14 +449,24 @@ Eigen::MatrixXd NaiveCovariance(const OutputErrorFit& fit) {
 double Misspecification(const OutputErrorFit& fit) {
   const Eigen::VectorXd clustered = ClusterCovariance(fit).diagonal();
   const Eigen::VectorXd naive = NaiveCovariance(fit).diagonal();
-  double sum = 0.0;
-  double count = 0.0;
-  for (Eigen::Index j = 0; j < naive.size(); ++j) {
-    if (!fit.separability.separable[static_cast<std::size_t>(j)]) continue;
-    sum += 0.5 * std::log(clustered[j] / naive[j]);
-    count += 1.0;
+  double worst = 0.0;
+  for (const Equation equation : kEquations) {
+    const Eigen::Index first = fit.unknowns.First(equation);
+    const auto size = static_cast<Eigen::Index>(fit.unknowns.columns[IndexOf(equation)].size());
+    double sum = 0.0;
+    double count = 0.0;
+    for (Eigen::Index j = first; j < first + size; ++j) {
+      if (!fit.separability.separable[static_cast<std::size_t>(j)]) continue;
+      sum += 0.5 * std::log(clustered[j] / naive[j]);
+      count += 1.0;
+    }
+    if (count > 0.0) worst = std::max(worst, std::exp(sum / count));
   }
-  return count > 0.0 ? std::exp(sum / count) : 0.0;
+  return worst;
+}
+
+bool LagIsAtItsLeast(const OutputErrorFit& fit) {
+  return fit.unknowns.lagging && fit.theta[0] <= 1.001 * kLeastTimeConstantS;
 }
 
 std::string NameOf(const SharedUnknowns& unknowns, std::size_t unknown) {

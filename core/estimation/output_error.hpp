@@ -88,10 +88,14 @@ Eigen::MatrixXd ClusterCovariance(const OutputErrorFit& fit);
 /// s^2 H^-1: what white residuals would mean for theta.
 Eigen::MatrixXd NaiveCovariance(const OutputErrorFit& fit);
 
-/// How far standard errors by cluster exceed naive ones: the geometric mean over the separable
-/// unknowns, zero if there are none. One where the model leaves nothing but white noise; well above
-/// it, an alarm that something else, a disturbance or a missing term, is at work.
+/// How far standard errors by cluster exceed naive ones, docs/model.md (54): the geometric mean
+/// over the separable coefficients of an equation, in the equation where it is most; zero if there
+/// are none. Near one where the model leaves nothing but white noise; well above it, an alarm that
+/// something else, a disturbance or a missing term, is at work.
 double Misspecification(const OutputErrorFit& fit);
+
+/// Whether the time constant stands at the least that is sought: no lag is seen.
+bool LagIsAtItsLeast(const OutputErrorFit& fit);
 
 /// "SURGE u|u|", "thruster time constant": the unknown at a place in theta.
 std::string NameOf(const SharedUnknowns& unknowns, std::size_t unknown);

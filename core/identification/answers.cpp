@@ -95,6 +95,10 @@ Coefficient WriteTimeConstant(const Answers& answers, const Bounds& bounds) {
                                             bounds.degrees_of_freedom, interval.level)
                                 .upper};
   }
+  if (!bounds.estimable.front()) {
+    coefficient.status = CoefficientStatus::kCollinear;
+    coefficient.interval.upper = kInfinity;
+  }
   return coefficient;
 }
 
@@ -122,6 +126,57 @@ void AssessEquation(const EquationProblem& regression, const ExcitationLimits& l
     answers.refusals.push_back(Explain(group, regression));
   }
   answers.excitations[IndexOf(regression.equation)] = *excitation;
+}
+
+Answers AssessAll(const PreparedDataset& dataset, RegressionOptions regression,
+                  const ExcitationLimits& limits) {
+  regression.structure = Structure::kStaticQuadratic;
+  Answers answers;
+  for (const EquationProblem& equation : BuildRegression(dataset, regression).equations) {
+    AssessEquation(equation, limits, answers);
+  }
+  return answers;
+}
+
+std::array<std::vector<std::size_t>, 3> Sought(const Answers& answers) {
+  std::array<std::vector<std::size_t>, 3> columns;
+  for (std::size_t j = 0; j < columns.size(); ++j) {
+    if (answers.excitations[j]) columns[j] = answers.excitations[j]->excited;
+  }
+  return columns;
+}
+
+void Place(Equation equation, const std::vector<std::size_t>& columns, const Eigen::VectorXd& theta,
+           Eigen::Index first, Answers& answers) {
+  EquationEstimate estimate;
+  estimate.equation = equation;
+  estimate.columns = columns;
+  estimate.theta = theta;
+  estimate.estimable.assign(columns.size(), true);
+  answers.first[IndexOf(equation)] = first;
+  answers.estimates[IndexOf(equation)] = std::move(estimate);
+}
+
+Bounds StudentBounds(const Eigen::VectorXd& theta, const Eigen::MatrixXd& covariance,
+                     double degrees_of_freedom, double level) {
+  Bounds bounds;
+  bounds.degrees_of_freedom = degrees_of_freedom;
+  bounds.covariance = covariance;
+  bounds.estimable.assign(static_cast<std::size_t>(theta.size()), true);
+  for (Eigen::Index j = 0; j < theta.size(); ++j) {
+    bounds.intervals.push_back(
+        StudentInterval(theta[j], std::sqrt(covariance(j, j)), degrees_of_freedom, level));
+  }
+  return bounds;
+}
+
+std::optional<Refusal> WarnOfFewClusters(Eigen::Index clusters) {
+  constexpr Eigen::Index kFewestClusters = 15;
+  if (clusters >= kFewestClusters) return std::nullopt;
+  return Refusal{"bounds",
+                 "rest on only " + std::to_string(clusters) + " independent stretches of time, " +
+                     std::to_string(kFewestClusters) + " are needed to trust them",
+                 "record for longer"};
 }
 
 Refusal NothingAnswered(const std::vector<Refusal>& refusals) {

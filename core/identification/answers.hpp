@@ -8,8 +8,10 @@
 
 #include <Eigen/Core>
 
+#include "data/prepared_dataset.hpp"
 #include "estimation/excitation.hpp"
 #include "estimation/one_step.hpp"
+#include "estimation/regression_problem.hpp"
 #include "identification/identification.hpp"
 #include "result.hpp"
 #include "uncertainty/interval.hpp"
@@ -47,6 +49,7 @@ struct Bounds {
 
 /// What an estimator makes of a dataset: answers, their bounds and what those rest on.
 struct BoundedAnswers {
+  Estimator estimator = Estimator::kUnknown;
   Answers answers;
   Bounds bounds;
   Provenance provenance;  ///< the fields that are the estimator's
@@ -56,6 +59,25 @@ struct BoundedAnswers {
 /// Can this equation be answered? Its excitation or a refusal goes into the answers.
 void AssessEquation(const EquationProblem& regression, const ExcitationLimits& limits,
                     Answers& answers);
+
+/// The same for all three; the thrusters' lag has no say in it.
+Answers AssessAll(const PreparedDataset& dataset, RegressionOptions regression,
+                  const ExcitationLimits& limits);
+
+/// By equation the columns that the data move; none where it is not answered.
+std::array<std::vector<std::size_t>, 3> Sought(const Answers& answers);
+
+/// Places the coefficients of one equation, estimated at these columns, in the answers: `first` is
+/// where they begin among the stacked unknowns.
+void Place(Equation equation, const std::vector<std::size_t>& columns, const Eigen::VectorXd& theta,
+           Eigen::Index first, Answers& answers);
+
+/// Student's t about stacked unknowns of this covariance, all of them estimable.
+Bounds StudentBounds(const Eigen::VectorXd& theta, const Eigen::MatrixXd& covariance,
+                     double degrees_of_freedom, double level);
+
+/// What to say where bounds rest on scores of fewer clusters than tell how an estimate varies.
+std::optional<Refusal> WarnOfFewClusters(Eigen::Index clusters);
 
 /// Refuses for all equations at once.
 Refusal NothingAnswered(const std::vector<Refusal>& refusals);

@@ -59,6 +59,10 @@ struct Provenance {
   std::string software_version;
   std::size_t twins = 0;          ///< simulated repeats that were identified again
   std::size_t twin_failures = 0;  ///< those that could not be
+  std::string estimator_choice;   ///< why this estimator, a sentence; empty where it was named
+  /// Standard errors by cluster over naive ones, of output error; 0 where it was not judged. Well
+  /// above one something else than the sensors keeps model and measurement apart.
+  double misspecification = 0.0;
 };
 
 /// A boat's model with bounds: the outcome that is published.

@@ -6,7 +6,9 @@
 #include "data/preparation.hpp"
 #include "estimation/dead_zone.hpp"
 #include "identification/answers.hpp"
+#include "identification/estimator_choice.hpp"
 #include "identification/one_step_answer.hpp"
+#include "identification/output_error_answer.hpp"
 #include "identification/weak_iv_answer.hpp"
 #include "range.hpp"
 
@@ -66,18 +68,34 @@ std::optional<Refusal> LimitRefusal(const DeadZone& limits) {
 
 std::optional<Refusal> EstimatorRefusal(const IdentifyOptions& options) {
   if (options.estimator == Estimator::kOneStep) return std::nullopt;
-  if (options.estimator != Estimator::kWeakIv) {
-    return Refusal{"estimator", "is " + std::string(Name(options.estimator)),
-                   "choose WEAK_IV or ONE_STEP"};
+  if (options.estimator == Estimator::kUnknown) {
+    return Refusal{"estimator", "is UNKNOWN",
+                   "choose WEAK_IV, OUTPUT_ERROR or ONE_STEP, or leave it unset"};
   }
   if (options.prepare.preset != Preset::kRobust) {
-    return Refusal{"estimator", "WEAK_IV needs motion and commands filtered by one kernel",
+    return Refusal{"estimator",
+                   "WEAK_IV, from which OUTPUT_ERROR starts, needs motion and commands filtered by "
+                   "one kernel",
                    "choose the robust preset, or ONE_STEP"};
   }
   if (options.twins == 0) return std::nullopt;
   auto refusal = OutOfRange(kSubject, "twins", static_cast<double>(options.twins), 8.0, 1000.0);
   if (refusal) refusal->advice += ", or to 0 for none";
   return refusal;
+}
+
+Result<BoundedAnswers> BoundWith(const std::optional<Estimator>& estimator,
+                                 const PreparedDataset& dataset,
+                                 const RegressionOptions& regression,
+                                 const IdentifyOptions& options, const Progress& progress) {
+  if (!estimator) return BoundByDisturbance(dataset, regression, options, progress);
+  switch (*estimator) {
+    case Estimator::kOneStep: return BoundOneStep(dataset, regression, options, progress);
+    case Estimator::kOutputError: return BoundOutputError(dataset, regression, options, progress);
+    case Estimator::kWeakIv:
+    case Estimator::kUnknown: break;
+  }
+  return BoundWeakIv(dataset, regression, options, progress);
 }
 
 }  // namespace
@@ -131,9 +149,9 @@ Result<Identification> Identify(const Recording& recording, const Vehicle& vehic
                                 const IdentifyOptions& options, const Progress& progress) {
   if (auto refusal = options.Validate()) return tl::unexpected(*refusal);
   if (progress) progress("preparing data", 0.0);
-  const auto dataset = options.estimator == Estimator::kWeakIv
-                           ? PrepareForWeakIv(recording, vehicle, options.prepare)
-                           : Prepare(recording, vehicle, options.prepare);
+  const auto dataset = options.estimator == Estimator::kOneStep
+                           ? Prepare(recording, vehicle, options.prepare)
+                           : PrepareForWeakIv(recording, vehicle, options.prepare);
   if (!dataset) return tl::unexpected(dataset.error());
   return Identify(*dataset, vehicle.vehicle_id, options, progress);
 }
@@ -152,16 +170,14 @@ Result<Identification> Identify(const PreparedDataset& dataset, const std::strin
     regression.dead_zone = IdentifyDeadZone(dataset, options, dead_zone_refusals);
   }
   report("estimating", 0.3);
-  auto bounded = options.estimator == Estimator::kWeakIv
-                     ? BoundWeakIv(dataset, regression, options, progress)
-                     : BoundOneStep(dataset, regression, options, progress);
+  auto bounded = BoundWith(options.estimator, dataset, regression, options, progress);
   if (!bounded) return tl::unexpected(bounded.error());
 
   Identification identification;
   identification.vehicle_id = vehicle_id;
   identification.structure = options.regression.structure;
   identification.parameterization = options.regression.parameterization;
-  identification.estimator = options.estimator;
+  identification.estimator = bounded->estimator;
   identification.sampling_period_s = dataset.sampling_period_s;
   identification.dead_zone = regression.dead_zone;
   WriteCoefficients(bounded->answers, bounded->bounds, identification);

@@ -33,8 +33,9 @@ struct IdentifyOptions {
   RegressionOptions regression;
   DeadZoneSource dead_zone_source = DeadZoneSource::kGiven;
   ExcitationLimits excitation;
-  Estimator estimator = Estimator::kWeakIv;
-  WeakIvOptions weak_iv;         ///< of kWeakIv
+  /// Unset: output error where the data show no disturbance, weak-form IV where they do or may.
+  std::optional<Estimator> estimator = std::nullopt;
+  WeakIvOptions weak_iv;         ///< of kWeakIv, and of what output error starts from
   std::size_t twins = 40;        ///< simulated repeats behind the bounds of kWeakIv, 0 or [8, 1000]
   double interval_level = 0.95;  ///< (0.5, 0.999]
   std::size_t bootstrap_replicates = 1000;                       ///< 0 (off) or [100, 100000]
@@ -56,8 +57,8 @@ struct IdentifyOptions {
 Result<Identification> Identify(const Recording& recording, const Vehicle& vehicle,
                                 const IdentifyOptions& options, const Progress& progress = {});
 
-/// The same from data that are prepared already; for kWeakIv as PrepareForWeakIv does, in stretches
-/// of a minute or so and with a narrow filter.
+/// The same from data that are prepared already; but for kOneStep as PrepareForWeakIv does, in
+/// stretches of a minute or so and with a narrow filter.
 Result<Identification> Identify(const PreparedDataset& dataset, const std::string& vehicle_id,
                                 const IdentifyOptions& options, const Progress& progress = {});
 

@@ -179,6 +179,7 @@ Result<BoundedAnswers> BoundOneStep(const PreparedDataset& dataset,
   if (!fitted.answers.Any()) return tl::unexpected(NothingAnswered(fitted.answers.refusals));
   const std::vector<ClusteredFit> fits = FitsOf(fitted);
   BoundedAnswers bounded;
+  bounded.estimator = Estimator::kOneStep;
   bounded.provenance.bootstrap_replicates = options.bootstrap_replicates;
   if (options.bootstrap_replicates == 0) {
     bounded.bounds = ResidualBounds(fits, options.interval_level);

@@ -1,6 +1,6 @@
 #include "identification/weak_iv_answer.hpp"
 
-#include <cmath>
+#include <algorithm>
 #include <sstream>
 
 #include "data/preparation.hpp"
@@ -12,27 +12,6 @@ namespace {
 
 constexpr double kLongestPartS = 60.0;
 
-// With fewer clusters than this their scores say little of how the estimate varies.
-constexpr std::size_t kFewestClusters = 15;
-
-Answers AssessAll(const PreparedDataset& dataset, RegressionOptions regression,
-                  const ExcitationLimits& limits) {
-  regression.structure = Structure::kStaticQuadratic;  // excitation does not depend on the lag
-  Answers answers;
-  for (const EquationProblem& equation : BuildRegression(dataset, regression).equations) {
-    AssessEquation(equation, limits, answers);
-  }
-  return answers;
-}
-
-std::array<std::vector<std::size_t>, 3> Sought(const Answers& answers) {
-  std::array<std::vector<std::size_t>, 3> columns;
-  for (std::size_t j = 0; j < columns.size(); ++j) {
-    if (answers.excitations[j]) columns[j] = answers.excitations[j]->excited;
-  }
-  return columns;
-}
-
 /// Splits the stacked unknowns into the answers they are.
 void Unstack(const WeakFit& fit, const Eigen::VectorXd& theta, Answers& answers) {
   Eigen::Index next = 0;
@@ -41,36 +20,11 @@ void Unstack(const WeakFit& fit, const Eigen::VectorXd& theta, Answers& answers)
   }
   for (std::size_t j = 0; j < fit.equations.size(); ++j) {
     if (!fit.equations[j]) continue;
-    const auto size = static_cast<Eigen::Index>(fit.equations[j]->columns.size());
-    EquationEstimate estimate;
-    estimate.equation = kEquations[j];
-    estimate.columns = fit.equations[j]->columns;
-    estimate.theta = theta.segment(next, size);
-    estimate.estimable.assign(estimate.columns.size(), true);
-    answers.first[j] = next;
-    answers.estimates[j] = std::move(estimate);
+    const std::vector<std::size_t>& columns = fit.equations[j]->columns;
+    const auto size = static_cast<Eigen::Index>(columns.size());
+    Place(kEquations[j], columns, theta.segment(next, size), next, answers);
     next += size;
   }
-}
-
-Bounds StudentBounds(const Eigen::VectorXd& theta, const Eigen::MatrixXd& covariance,
-                     double degrees_of_freedom, double level) {
-  Bounds bounds;
-  bounds.degrees_of_freedom = degrees_of_freedom;
-  bounds.covariance = covariance;
-  bounds.estimable.assign(static_cast<std::size_t>(theta.size()), true);
-  for (Eigen::Index j = 0; j < theta.size(); ++j) {
-    bounds.intervals.push_back(
-        StudentInterval(theta[j], std::sqrt(covariance(j, j)), degrees_of_freedom, level));
-  }
-  return bounds;
-}
-
-Refusal WarnOfFewClusters(Eigen::Index clusters) {
-  return {"bounds",
-          "rest on only " + std::to_string(clusters) + " independent stretches of time, " +
-              std::to_string(kFewestClusters) + " are needed to trust them",
-          "record for longer"};
 }
 
 Refusal NotCorrected() {
@@ -113,6 +67,7 @@ Result<BoundedAnswers> BoundWeakIv(const PreparedDataset& dataset,
                                    const RegressionOptions& regression,
                                    const IdentifyOptions& options, const Progress& progress) {
   BoundedAnswers bounded;
+  bounded.estimator = Estimator::kWeakIv;
   Answers& answers = bounded.answers;
   answers = AssessAll(dataset, regression, options.excitation);
   if (!answers.Any()) return tl::unexpected(NothingAnswered(answers.refusals));
@@ -122,9 +77,7 @@ Result<BoundedAnswers> BoundWeakIv(const PreparedDataset& dataset,
     return tl::unexpected(InstrumentsSayNothing());
   }
   const Eigen::Index clusters = fit->scores.cols();
-  if (clusters < static_cast<Eigen::Index>(kFewestClusters)) {
-    answers.refusals.push_back(WarnOfFewClusters(clusters));
-  }
+  if (auto warning = WarnOfFewClusters(clusters)) answers.refusals.push_back(*std::move(warning));
 
   std::optional<TwinCorrection> corrected;
   if (options.twins > 0) {

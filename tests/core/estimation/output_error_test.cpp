@@ -104,7 +104,9 @@ TEST(EstimateOutputError, StandardErrorsMatchTheScatterOfRepeats) {
   EXPECT_LT(by_cluster.maxCoeff(), 1.6);
   EXPECT_NEAR(by_cluster.log().mean(), 0.05, 0.12);
   EXPECT_NEAR(by_residuals.log().mean(), 0.0, 0.12);
-  EXPECT_NEAR(misspecification, 1.0, 0.2);
+  // The worst of three equations, each known to a tenth, and leave-one-out on the wide side.
+  EXPECT_GT(misspecification, 1.0);
+  EXPECT_LT(misspecification, 1.3);
   // No bias to speak of: the mean of 40 has standard error scatter / sqrt(40).
   EXPECT_LT((mean.cwiseQuotient(scatter) * std::sqrt(1.0 * kRepeats)).cwiseAbs().maxCoeff(), 4.0);
 }

@@ -336,10 +336,10 @@ TEST(EstimateModel, RefusesWhatCannotRunFreely) {
   EXPECT_EQ(model.error().subject, "SWAY");
 }
 
-/// From a recording to bounds by the default way: every coefficient bounded, the disturbance
-/// judged.
+/// From a recording to bounds: every coefficient bounded, the disturbance judged.
 TEST(Identify, BoundsARecordingWithTheWeakForm) {
   IdentifyOptions options;
+  options.estimator = Estimator::kWeakIv;
   options.twins = 8;
   std::vector<std::string> stages;
   const Recording recording =
@@ -368,6 +368,7 @@ TEST(Identify, BoundsARecordingWithTheWeakForm) {
 
 TEST(Identify, WithoutTwinsTheWeakFormSaysThatBiasIsLeft) {
   IdentifyOptions options;
+  options.estimator = Estimator::kWeakIv;
   options.twins = 0;
   const auto result =
       Identify(testing::SailStableBoat(testing::StableBoat(), 600.0, SensorOptions{}, 31),
@@ -382,8 +383,12 @@ TEST(IdentifyOptions, AskForOneKernelWithTheWeakForm) {
   options.prepare = PrepareOptions::Paper();
   ASSERT_TRUE(options.Validate().has_value());
   EXPECT_EQ(options.Validate()->subject, "estimator");
+  options.estimator = Estimator::kOutputError;
+  EXPECT_TRUE(options.Validate().has_value());
   options.estimator = Estimator::kOneStep;
   EXPECT_FALSE(options.Validate().has_value());
+  options.estimator = Estimator::kUnknown;
+  EXPECT_TRUE(options.Validate().has_value());
   options = {};
   options.twins = 7;
   ASSERT_TRUE(options.Validate().has_value());

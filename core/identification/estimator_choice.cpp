@@ -1,0 +1,81 @@
+#include "identification/estimator_choice.hpp"
+
+#include <sstream>
+#include <string>
+#include <utility>
+
+#include "estimation/weak_iv.hpp"
+#include "identification/output_error_answer.hpp"
+#include "identification/weak_iv_answer.hpp"
+#include "uncertainty/residual_excess.hpp"
+
+namespace telltale {
+namespace {
+
+/// Mean squares of sensor noise alone differ by less from one repeat to the next.
+constexpr double kPlainExcess = 2.0;
+
+template <class... Parts>
+std::string Sentence(const Parts&... parts) {
+  std::ostringstream words;
+  words.precision(3);
+  (words << ... << parts);
+  return words.str();
+}
+
+/// Output error's answers if its bounds can be trusted, else why not.
+tl::expected<BoundedAnswers, std::string> TrustOutputError(const PreparedDataset& dataset,
+                                                           const RegressionOptions& regression,
+                                                           const IdentifyOptions& options,
+                                                           const Progress& progress) {
+  const auto doubt = [](std::string why) { return tl::unexpected(std::move(why)); };
+  const auto weak =
+      EstimateWeakIv(dataset, regression,
+                     Sought(AssessAll(dataset, regression, options.excitation)), options.weak_iv);
+  if (!weak) return doubt("there is no first estimate from which to judge the disturbance");
+  const auto excess =
+      ResidualExcess(dataset, regression, *weak, options.weak_iv.form, options.seed);
+  if (!excess) return doubt("the first estimate runs away, so that no disturbance can be judged");
+  if (*excess > kPlainExcess) {
+    return doubt(Sentence("a disturbance shows, its residuals being ", *excess,
+                          " times what the sensors leave (above ", kPlainExcess, ')'));
+  }
+  if (progress) progress("fitting output error", 0.35);
+  auto fitted = FitOutputError(dataset, regression, options.excitation,
+                               ModelOf(*weak, weak->Damped(), dataset.sampling_period_s));
+  if (!fitted) return doubt("output error gives no answer (" + fitted.error().reason + ')');
+  if (!fitted->fit.converged) return doubt("output error does not converge");
+  if (!fitted->fit.separability.directions.empty()) {
+    return doubt("output error cannot tell all coefficients apart");
+  }
+  if (!fitted->Believable()) {
+    return doubt(
+        Sentence("output error leaves more than the sensors' noise (misspecification "
+                 "ratio ",
+                 fitted->misspecification, ", above ", kBelievedMisspecification, ')'));
+  }
+  const double ratio = fitted->misspecification;
+  BoundedAnswers bounded = BoundsOf(*std::move(fitted), options.interval_level);
+  bounded.provenance.estimator_choice = Sentence(
+      "output error, since no disturbance shows beside the sensors' noise "
+      "(misspecification ratio ",
+      ratio, ", at most ", kBelievedMisspecification, ')');
+  return bounded;
+}
+
+}  // namespace
+
+Result<BoundedAnswers> BoundByDisturbance(const PreparedDataset& dataset,
+                                          const RegressionOptions& regression,
+                                          const IdentifyOptions& options,
+                                          const Progress& progress) {
+  auto trusted = TrustOutputError(dataset, regression, options, progress);
+  if (trusted) return *std::move(trusted);
+  auto bounded = BoundWeakIv(dataset, regression, options, progress);
+  if (!bounded) return bounded;
+  bounded->provenance.estimator_choice =
+      "weak-form instrumental variables, since " + trusted.error();
+  return bounded;
+}
+
+}  // namespace telltale

@@ -1,0 +1,23 @@
+#pragma once
+
+#include "data/prepared_dataset.hpp"
+#include "estimation/regression_problem.hpp"
+#include "identification/answers.hpp"
+#include "identification/identify.hpp"
+#include "result.hpp"
+
+namespace telltale {
+
+/// Output error where its bounds hold, weak-form instrumental variables everywhere else;
+/// docs/model.md (54), (55). Two questions, the cheap one first:
+///   do the weak form's residuals exceed plainly what sensors leave? (ResidualExcess)
+///   does output error leave anything but the sensors' noise? (Misspecification)
+/// Output error is chosen on two clear noes; doubt of any kind, a fit that does not converge, an
+/// equation that cannot be answered or a direction that cannot be told apart, is answered by the
+/// weak form. The provenance says in a sentence what was chosen and why.
+/// Refuses when: BoundWeakIv does.
+Result<BoundedAnswers> BoundByDisturbance(const PreparedDataset& dataset,
+                                          const RegressionOptions& regression,
+                                          const IdentifyOptions& options, const Progress& progress);
+
+}  // namespace telltale

@@ -1,0 +1,154 @@
+#include "identification/output_error_answer.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <sstream>
+
+namespace telltale {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+Refusal NeedsAllEquations(const Refusal& unanswered) {
+  return {"output error",
+          "sails the boat by all three equations at once, but " + unanswered.subject + " " +
+              unanswered.reason,
+          unanswered.advice + ", or ask for weak-iv, which answers them one by one"};
+}
+
+/// Unknowns that something measured moves with: all but those that are a direction by themselves.
+std::vector<Eigen::Index> Seen(const OutputErrorFit& fit) {
+  std::vector<bool> seen(static_cast<std::size_t>(fit.theta.size()), true);
+  for (const InseparableDirection& direction : fit.separability.directions) {
+    if (direction.unknowns.size() == 1) seen[direction.unknowns.front()] = false;
+  }
+  if (fit.unknowns.lagging) seen.front() = true;  // a time constant is always answered
+  std::vector<Eigen::Index> places;
+  for (std::size_t j = 0; j < seen.size(); ++j) {
+    if (seen[j]) places.push_back(static_cast<Eigen::Index>(j));
+  }
+  return places;
+}
+
+/// Bounds of the unknowns at `places`; of the inseparable among them nothing is known.
+Bounds BoundsAt(const OutputErrorFit& fit, const std::vector<Eigen::Index>& places, double level) {
+  Eigen::MatrixXd covariance = ClusterCovariance(fit)(places, places);
+  const auto degrees_of_freedom = static_cast<double>(fit.scores.cols()) - 1.0;
+  Bounds bounds = StudentBounds(fit.theta(places), covariance, degrees_of_freedom, level);
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    if (fit.separability.separable[static_cast<std::size_t>(places[i])]) continue;
+    const auto at = static_cast<Eigen::Index>(i);
+    bounds.estimable[i] = false;
+    bounds.intervals[i] = Unbounded(level);
+    bounds.covariance.row(at).setZero();
+    bounds.covariance.col(at).setZero();
+    bounds.covariance(at, at) = kInfinity;
+  }
+  return bounds;
+}
+
+/// Splits the unknowns at `places` into the answers they are.
+void Unstack(const OutputErrorFit& fit, const std::vector<Eigen::Index>& places, Answers& answers) {
+  const SharedUnknowns& unknowns = fit.unknowns;
+  if (unknowns.lagging) answers.lag = AnsweredLag{fit.theta[0], LagIsAtItsLeast(fit)};
+  for (const Equation equation : kEquations) {
+    const std::vector<std::size_t>& sought = unknowns.columns[IndexOf(equation)];
+    const Eigen::Index begin = unknowns.First(equation);
+    const Eigen::Index end = begin + static_cast<Eigen::Index>(sought.size());
+    const auto first = std::lower_bound(places.begin(), places.end(), begin);
+    const auto last = std::lower_bound(first, places.end(), end);
+    const std::vector<Eigen::Index> own(first, last);
+    std::vector<std::size_t> columns;
+    for (const Eigen::Index place : own) {
+      columns.push_back(sought[static_cast<std::size_t>(place - begin)]);
+    }
+    Place(equation, columns, fit.theta(own), first - places.begin(), answers);
+  }
+}
+
+Refusal WarnOfMisspecification(double ratio) {
+  std::ostringstream reason;
+  reason.precision(2);
+  reason << "hold less often than they say: something else than the sensors keeps model and "
+            "measurement apart (standard errors by cluster "
+         << ratio << " times the naive ones, " << kBelievedMisspecification
+         << " is believed), and what it does to the estimates no covariance shows";
+  return {"bounds", reason.str(),
+          "ask for --estimator weak-iv, whose bounds hold under disturbances"};
+}
+
+Refusal WarnOfNoConvergence() {
+  return {"model", "output error was still creeping when it was stopped",
+          "record more varied manoeuvres, or ask for --estimator weak-iv"};
+}
+
+std::string InWords(const FittedOutputError& fitted) {
+  std::ostringstream words;
+  words.precision(3);
+  words << "clusters of output-error residuals (" << fitted.fit.scores.cols()
+        << "), each left out of its own fit, Student t; misspecification ratio "
+        << fitted.misspecification
+        << (fitted.Believable() ? ", so sensor noise is all there is"
+                                : ", so bias is left that these bounds do not cover");
+  return words.str();
+}
+
+}  // namespace
+
+bool FittedOutputError::Believable() const {
+  return fit.converged && misspecification > 0.0 && misspecification <= kBelievedMisspecification;
+}
+
+Result<FittedOutputError> FitOutputError(const PreparedDataset& dataset,
+                                         const RegressionOptions& regression,
+                                         const ExcitationLimits& limits,
+                                         const std::optional<VesselModel>& start) {
+  Answers answers = AssessAll(dataset, regression, limits);
+  if (!answers.Any()) return tl::unexpected(NothingAnswered(answers.refusals));
+  for (const Equation equation : kEquations) {
+    if (answers.excitations[IndexOf(equation)]) continue;
+    return tl::unexpected(NeedsAllEquations(answers.refusals.front()));
+  }
+  const auto columns = Sought(answers);
+  auto fit = EstimateOutputError(dataset, regression, columns,
+                                 start ? *start : StartOf(dataset, regression, columns), {});
+  if (!fit) return tl::unexpected(fit.error());
+  const double misspecification = Misspecification(*fit);
+  return FittedOutputError{std::move(answers), *std::move(fit), misspecification};
+}
+
+BoundedAnswers BoundsOf(FittedOutputError fitted, double interval_level) {
+  const OutputErrorFit& fit = fitted.fit;
+  const std::vector<Eigen::Index> places = Seen(fit);
+  BoundedAnswers bounded;
+  bounded.estimator = Estimator::kOutputError;
+  bounded.provenance.bounds_basis = InWords(fitted);
+  bounded.provenance.misspecification = fitted.misspecification;
+  bounded.bounds = BoundsAt(fit, places, interval_level);
+  bounded.answers = std::move(fitted.answers);
+  Unstack(fit, places, bounded.answers);
+  auto& refusals = bounded.answers.refusals;
+  for (const InseparableDirection& direction : fit.separability.directions) {
+    refusals.push_back(Explain(direction, fit.unknowns));
+  }
+  if (auto warning = WarnOfFewClusters(fit.scores.cols())) {
+    refusals.push_back(*std::move(warning));
+  }
+  if (fitted.misspecification > kBelievedMisspecification) {
+    refusals.push_back(WarnOfMisspecification(fitted.misspecification));
+  }
+  if (!fit.converged) refusals.push_back(WarnOfNoConvergence());
+  return bounded;
+}
+
+Result<BoundedAnswers> BoundOutputError(const PreparedDataset& dataset,
+                                        const RegressionOptions& regression,
+                                        const IdentifyOptions& options, const Progress& progress) {
+  if (progress) progress("fitting output error", 0.4);
+  auto fitted = FitOutputError(dataset, regression, options.excitation);
+  if (!fitted) return tl::unexpected(fitted.error());
+  return BoundsOf(*std::move(fitted), options.interval_level);
+}
+
+}  // namespace telltale

@@ -1,0 +1,43 @@
+#pragma once
+
+#include "data/prepared_dataset.hpp"
+#include "estimation/output_error.hpp"
+#include "estimation/regression_problem.hpp"
+#include "identification/answers.hpp"
+#include "identification/identify.hpp"
+#include "result.hpp"
+
+namespace telltale {
+
+/// Above this misspecification ratio bounds of output error are not believed, docs/model.md (54).
+inline constexpr double kBelievedMisspecification = 1.3;
+
+/// Output error on the columns that one-step regressions of the same rows excite.
+struct FittedOutputError {
+  Answers answers;  ///< excitations and refusals so far
+  OutputErrorFit fit;
+  double misspecification = 0.0;
+
+  /// Whether what keeps model and measurement apart is the sensors' noise alone.
+  bool Believable() const;
+};
+
+/// `start`: where to begin; the damped estimate of weak-form IV if there is none.
+/// Refuses when: an equation cannot be answered, as all three are sailed at once, or
+/// EstimateOutputError does.
+Result<FittedOutputError> FitOutputError(const PreparedDataset& dataset,
+                                         const RegressionOptions& regression,
+                                         const ExcitationLimits& limits,
+                                         const std::optional<VesselModel>& start = std::nullopt);
+
+/// Its coefficients with bounds by the cluster sandwich. One that is part of an inseparable
+/// direction is COLLINEAR and unbounded, one that nothing measured moves with NOT_EXCITED; refusals
+/// name the directions.
+BoundedAnswers BoundsOf(FittedOutputError fitted, double interval_level);
+
+/// Both at once. Refuses when: FitOutputError does.
+Result<BoundedAnswers> BoundOutputError(const PreparedDataset& dataset,
+                                        const RegressionOptions& regression,
+                                        const IdentifyOptions& options, const Progress& progress);
+
+}  // namespace telltale
