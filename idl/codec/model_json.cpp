@@ -90,6 +90,8 @@ void Write(const Provenance& provenance, proto::Provenance& message) {
   message.set_software_version(provenance.software_version);
   message.set_twins(Saturated(provenance.twins));
   message.set_twin_failures(Saturated(provenance.twin_failures));
+  message.set_estimator_choice(provenance.estimator_choice);
+  message.set_misspecification(provenance.misspecification);
 }
 
 // ---- from Protobuf ------------------------------------------------------------------------
@@ -290,7 +292,7 @@ std::vector<Refusal> ReadRefusals(const proto::Model& model) {
   return refusals;
 }
 
-Provenance ReadProvenance(const proto::Provenance& message) {
+Provenance ReadProvenance(FieldReader reader, const proto::Provenance& message) {
   Provenance provenance;
   provenance.preset = message.preset();
   provenance.bounds_basis = message.bounds_basis();
@@ -300,6 +302,8 @@ Provenance ReadProvenance(const proto::Provenance& message) {
   provenance.software_version = message.software_version();
   provenance.twins = message.twins();
   provenance.twin_failures = message.twin_failures();
+  provenance.estimator_choice = message.estimator_choice();
+  provenance.misspecification = reader.Number("misspecification", kNotNegative, 0.0);
   return provenance;
 }
 
@@ -348,7 +352,7 @@ Identification ReadModel(FieldReader reader, const proto::Model& model) {
   }
   result.window = ReadWindow(reader.Optional("window"), model.window());
   result.refusals = ReadRefusals(model);
-  result.provenance = ReadProvenance(model.provenance());
+  result.provenance = ReadProvenance(reader.Optional("provenance"), model.provenance());
   return result;
 }
 

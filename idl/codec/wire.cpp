@@ -122,6 +122,8 @@ void Fill(telltale_wire_Model& wire, const PublishedModel& model) {
   wire.dead_zone_reverse = identification.dead_zone.reverse;
   wire.twins = provenance.twins;
   wire.twin_failures = provenance.twin_failures;
+  Put(wire.estimator_choice, provenance.estimator_choice);
+  wire.misspecification = provenance.misspecification;
   if (const auto& disturbance = identification.disturbance) {
     PutSequence(wire.disturbance_sigma, disturbance->sigma, kCopy);
     PutSequence(wire.disturbance_time_constant_s, disturbance->time_constant_s, kCopy);
@@ -395,6 +397,9 @@ PublishedModel ReadModel(const telltale_wire_Model& wire) {
   identification.provenance.software_version = View(wire.software_version);
   identification.provenance.twins = wire.twins;
   identification.provenance.twin_failures = wire.twin_failures;
+  identification.provenance.estimator_choice = View(wire.estimator_choice);
+  identification.provenance.misspecification =
+      ReadWithin("misspecification", wire.misspecification, 0.0, kLargest);
   identification.disturbance =
       ReadDisturbance(wire.disturbance_sigma, wire.disturbance_time_constant_s);
   return model;

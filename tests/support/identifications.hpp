@@ -58,8 +58,14 @@ inline Identification MadeUpIdentification(
   made.window.rejected.Count(Channel::kThrusters, RejectReason::kNotFinite, 2);
   made.refusals.push_back({"sway", "v and v|v| move together", "add a zigzag at two speeds"});
   made.disturbance = Disturbance{{0.03, 0.04, 0.05}, {2.0, 3.0, 4.0}};
-  made.provenance = {"ROBUST", "a cluster bootstrap over segments",       1000,
-                     3,        std::numeric_limits<std::uint64_t>::max(), "0.1.0"};
+  made.provenance.preset = "ROBUST";
+  made.provenance.bounds_basis = "a cluster bootstrap over segments";
+  made.provenance.bootstrap_replicates = 1000;
+  made.provenance.bootstrap_failures = 3;
+  made.provenance.seed = std::numeric_limits<std::uint64_t>::max();
+  made.provenance.software_version = "0.1.0";
+  made.provenance.estimator_choice = "the boat lay in a harbour";
+  made.provenance.misspecification = 1.125;
   return made;
 }
 
@@ -136,6 +142,8 @@ inline void ExpectSame(const Provenance& a, const Provenance& b) {
   EXPECT_EQ(a.software_version, b.software_version);
   EXPECT_EQ(a.twins, b.twins);
   EXPECT_EQ(a.twin_failures, b.twin_failures);
+  EXPECT_EQ(a.estimator_choice, b.estimator_choice);
+  EXPECT_EQ(a.misspecification, b.misspecification);
 }
 
 inline void ExpectSame(const Identification& a, const Identification& b) {

@@ -78,16 +78,36 @@ TEST(ModelJson, RefusesADeadZoneOutOfItsRange) {
   }
 }
 
+TEST(ModelJson, RefusesAMisspecificationThatIsNoRatio) {
+  proto::Model model = ToProto(MadeUpIdentification());
+  model.mutable_provenance()->set_misspecification(kNan);
+  ASSERT_FALSE(IdentificationOf(model));
+  EXPECT_EQ(IdentificationOf(model).error().field, "provenance.misspecification");
+}
+
 TEST(ModelJson, UsesTheNamesOfTheInterface) {
   const std::string json = PrintModelJson(MadeUpIdentification());
-  for (const char* text :
-       {"\"vehicleId\": \"made-up.1\"", "\"structure\": \"STATIC_QUADRATIC\"",
-        "\"parameterization\": \"PROPELLER\"", "\"estimator\": \"ONE_STEP\"",
-        "\"samplingPeriodS\": 0.2", "\"equation\": \"SURGE\"", "\"regressor\": \"u|u|\"",
-        "\"symbol\": \"Pu11\"", "\"standardError\": \"Infinity\"", "\"lower\": \"-Infinity\"",
-        "\"unit\": \"1/m\"", "\"status\": \"NOT_EXCITED\"", "\"startS\": 1700000000.125",
-        "\"samples\": 3003", "\"channel\": \"gnss\"", "\"reason\": \"DUPLICATE\"", "\"count\": 7",
-        "\"advice\": \"add a zigzag at two speeds\"", "\"seed\": \"18446744073709551615\""}) {
+  for (const char* text : {"\"vehicleId\": \"made-up.1\"",
+                           "\"structure\": \"STATIC_QUADRATIC\"",
+                           "\"parameterization\": \"PROPELLER\"",
+                           "\"estimator\": \"ONE_STEP\"",
+                           "\"samplingPeriodS\": 0.2",
+                           "\"equation\": \"SURGE\"",
+                           "\"regressor\": \"u|u|\"",
+                           "\"symbol\": \"Pu11\"",
+                           "\"standardError\": \"Infinity\"",
+                           "\"lower\": \"-Infinity\"",
+                           "\"unit\": \"1/m\"",
+                           "\"status\": \"NOT_EXCITED\"",
+                           "\"startS\": 1700000000.125",
+                           "\"samples\": 3003",
+                           "\"channel\": \"gnss\"",
+                           "\"reason\": \"DUPLICATE\"",
+                           "\"count\": 7",
+                           "\"advice\": \"add a zigzag at two speeds\"",
+                           "\"seed\": \"18446744073709551615\"",
+                           "\"estimatorChoice\": \"the boat lay in a harbour\"",
+                           "\"misspecification\": 1.125"}) {
     EXPECT_THAT(json, HasSubstr(text));
   }
 }

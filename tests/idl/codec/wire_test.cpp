@@ -168,6 +168,7 @@ TEST(WireModel, NamesTheFieldThatIsWrong) {
       {"rejected[0].reason", [](auto& m) { Replace(m.rejected._buffer[0].reason, "BORED"); }},
       {"rejected[0].channel", [](auto& m) { Replace(m.rejected._buffer[0].channel, "sonar"); }},
       {"published_unix_s", [](auto& m) { m.published_unix_s = kNan; }},
+      {"misspecification", [](auto& m) { m.misspecification = -1.0; }},
   };
   for (const Spoilt& spoilt : cases) {
     auto wire = Encode(MadeUpModel());
