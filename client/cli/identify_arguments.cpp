@@ -45,10 +45,11 @@ void IdentifyArguments::AddOptionsTo(CLI::App& command) {
   AddIncludeRr(command, include_rr);
   command
       .add_option("--estimator", estimator,
-                  "weak-iv (default), whose bounds hold; or one-step, the paper's, which --preset "
-                  "paper and options of the bootstrap ask for; output-error is not available yet")
+                  "auto (default): output-error, the sharpest, where the data show no disturbance, "
+                  "else weak-iv, whose bounds hold with one; or one-step, the paper's, which "
+                  "--preset paper and options of the bootstrap ask for")
       ->type_name("NAME")
-      ->check(CLI::IsMember({"one-step", "weak-iv", "output-error"}).description(""));
+      ->check(CLI::IsMember({"auto", "one-step", "weak-iv", "output-error"}).description(""));
   command.add_option("--preset", preset, "of the data preparation: robust (default) or paper")
       ->type_name("NAME")
       ->check(CLI::IsMember({"robust", "paper"}).description(""));
@@ -98,19 +99,20 @@ bool IdentifyArguments::AskForBootstrap() const {
   return bootstrap_replicates || bootstrap_kind || interval;
 }
 
-Estimator IdentifyArguments::ChosenEstimator() const {
-  if (estimator == "output-error") {
-    throw UsageError(
-        "--estimator output-error is not available in this version; available: weak-iv, "
-        "one-step");
-  }
+std::optional<Estimator> IdentifyArguments::ChosenEstimator() const {
   const bool one_step =
       estimator ? *estimator == "one-step" : AskForBootstrap() || preset == "paper";
   if (!one_step && AskForBootstrap()) {
     throw UsageError("--bootstrap, --bootstrap-kind and --interval belong to --estimator one-step");
   }
-  if (one_step && twins) throw UsageError("--twins belongs to --estimator weak-iv");
-  return one_step ? Estimator::kOneStep : Estimator::kWeakIv;
+  const bool output_error = estimator == "output-error";
+  if ((one_step || output_error) && twins) {
+    throw UsageError("--twins belongs to --estimator weak-iv");
+  }
+  if (one_step) return Estimator::kOneStep;
+  if (output_error) return Estimator::kOutputError;
+  if (estimator == "weak-iv") return Estimator::kWeakIv;
+  return std::nullopt;
 }
 
 IdentifyOptions IdentifyArguments::Options() const {

@@ -18,7 +18,7 @@ struct IdentifyArguments {
   std::optional<std::string> structure;         ///< static, dynamic
   std::optional<std::string> parameterization;  ///< propeller, paper
   std::optional<std::string> dead_zone;         ///< identify, or FORWARD,REVERSE
-  std::optional<std::string> estimator;         ///< weak-iv, one-step
+  std::optional<std::string> estimator;         ///< auto, weak-iv, output-error, one-step
   std::optional<std::string> preset;            ///< robust, paper
   std::optional<double> sampling_period_s;
   std::optional<std::size_t> twins;
@@ -41,8 +41,9 @@ struct IdentifyArguments {
  private:
   bool AskForBootstrap() const;
 
-  /// The one named, else what the other options ask for. Throws: UsageError where they contradict.
-  Estimator ChosenEstimator() const;
+  /// The one named, else what the other options ask for; none: by the data. Throws: UsageError
+  /// where they contradict.
+  std::optional<Estimator> ChosenEstimator() const;
 };
 
 }  // namespace telltale

@@ -31,7 +31,7 @@ IdentifyRequest RequestOf(const std::string& vehicle_id, const IdentifyArguments
     request.dead_zone = options.regression.dead_zone;
   }
   if (arguments.parameterization) request.parameterization = options.regression.parameterization;
-  request.estimator = options.estimator;
+  request.estimator = options.estimator.value_or(Estimator::kUnknown);
   if (arguments.preset) request.preset = PresetNamed(*arguments.preset);
   request.bootstrap_replicates = arguments.bootstrap_replicates;
   if (arguments.bootstrap_kind) request.resampling = options.resampling;

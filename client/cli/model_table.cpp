@@ -124,6 +124,11 @@ std::string WindowText(const WindowSummary& window) {
                  RejectedText(window.rejected) + ".");
 }
 
+std::string ChoiceText(const Provenance& provenance) {
+  if (provenance.estimator_choice.empty()) return "";
+  return Wrapped("Estimator chosen: " + provenance.estimator_choice + ".");
+}
+
 std::string BoundsBasis(const Provenance& provenance) {
   std::string text = "Bounds rest on: " + provenance.bounds_basis;
   if (provenance.bootstrap_replicates > 0) {
@@ -152,7 +157,8 @@ std::string RejectedText(const RejectCounts& rejected) {
 std::string ModelTable(const Identification& identification) {
   return Title(identification) + Coefficients(identification) + TimeConstant(identification) +
          DeadZoneText(identification.dead_zone) + Refusals(identification) + '\n' +
-         WindowText(identification.window) + BoundsBasis(identification.provenance);
+         WindowText(identification.window) + ChoiceText(identification.provenance) +
+         BoundsBasis(identification.provenance);
 }
 
 std::string DiscreteTable(const Identification& identification) {

@@ -142,20 +142,43 @@ TEST_F(CommandTest, OptionsOutOfRangeAreUsageErrorsThatNameTheRange) {
   expect({"--dead-zone", "nan,0"}, "[0, 0.3]");
 }
 
-TEST_F(CommandTest, WhatIsNotAvailableYetIsSaidWithWhatIs) {
-  const CommandOutcome outcome = Identify({"--estimator", "output-error"});
-  EXPECT_EQ(outcome.exit_code, kUsage);
-  EXPECT_THAT(outcome.err, AllOf(HasSubstr("output-error is not available in this version"),
-                                 HasSubstr("available: weak-iv, one-step")));
-}
-
 TEST_F(CommandTest, OptionsOfOneEstimatorDoNotGoWithTheOther) {
   EXPECT_THAT(Identify({"--estimator", "weak-iv"}).err,
               HasSubstr("belong to --estimator one-step"));
+  EXPECT_THAT(Identify({"--estimator", "output-error"}).err,
+              HasSubstr("belong to --estimator one-step"));
   EXPECT_THAT(Identify({"--twins", "20"}).err, HasSubstr("belongs to --estimator weak-iv"));
+  EXPECT_THAT(Telltale({"identify", "--log", Path("log"), "--vehicle", Path("boat.textproto"),
+                        "--estimator", "output-error", "--twins", "20"})
+                  .err,
+              HasSubstr("belongs to --estimator weak-iv"));
 }
 
 // ---- identify --------------------------------------------------------------------------------
+
+/// The twin's sensors are all that keeps it and its model apart.
+TEST_F(CommandTest, IdentifySaysWhichEstimatorTheDataChoseAndWhy) {
+  const CommandOutcome outcome = Telltale({"identify", "--log", Path("log"), "--vehicle",
+                                           Path("boat.textproto"), "--out", Path("model.json")});
+  EXPECT_EQ(outcome.exit_code, kSuccess) << outcome.err;
+  EXPECT_THAT(outcome.out,
+              AllOf(HasSubstr(", output error, h ="),
+                    HasSubstr("Estimator chosen: output error, since no disturbance")));
+  const auto model = ParseModelJson(TextOfFile(Path("model.json")));
+  ASSERT_TRUE(model) << model.error().Message();
+  EXPECT_EQ(model->estimator, Estimator::kOutputError);
+  EXPECT_THAT(model->provenance.estimator_choice, HasSubstr("misspecification ratio"));
+  EXPECT_GT(model->provenance.misspecification, 0.5);
+}
+
+TEST_F(CommandTest, IdentifyUsesTheEstimatorThatIsNamed) {
+  const CommandOutcome outcome =
+      Telltale({"identify", "--log", Path("log"), "--vehicle", Path("boat.textproto"),
+                "--estimator", "output-error", "--json"});
+  EXPECT_EQ(outcome.exit_code, kSuccess) << outcome.err;
+  EXPECT_THAT(outcome.out, HasSubstr("\"OUTPUT_ERROR\""));
+  EXPECT_THAT(outcome.out, Not(HasSubstr("since no disturbance")));
+}
 
 TEST_F(CommandTest, IdentifyPrintsATableAndWritesTheModel) {
   const CommandOutcome outcome = Identify({"--out", Path("model.json")});
