@@ -1,4 +1,5 @@
-// Output error at the size: 16,000 rows, all 35 coefficients, one thread.
+// Output error and the weak form with instruments at the size: 16,000 rows, 13 or all 35
+// coefficients, one thread unless said.
 
 #include <benchmark/benchmark.h>
 
@@ -6,28 +7,62 @@
 #include "data/preparation.hpp"
 #include "estimation/output_error.hpp"
 #include "estimation/weak_iv.hpp"
+#include "identification/identify.hpp"
+#include "identification/weak_iv_answer.hpp"
+#include "uncertainty/twin_correction.hpp"
 
 namespace telltale {
 namespace {
 
 constexpr int kStretches = 80;  // of 40 s at 5 Hz
 
-PreparedDataset Recorded(double time_constant_s, double disturbance) {
-  coverage::Boat boat = coverage::ReferenceBoat();
-  boat.thruster_time_constant_s = time_constant_s;
-  coverage::Surroundings around;
-  for (double& sigma : around.disturbance_sigma) sigma *= disturbance;
-  coverage::Mission mission;
-  mission.segments = kStretches;
-  const Recording recording = coverage::Sail(boat, around, mission, 1);
-  return Prepare(recording, coverage::VehicleOf(), {}).value();
+using Columns = std::array<std::vector<std::size_t>, 3>;
+
+/// Thirteen coefficients that make a boat by themselves: the strongest of each equation.
+Columns Thirteen() {
+  return {{{0, 1, 5, 7}, {0, 5, 6, 9}, {3, 4, 7, 10, 12}}};
 }
 
-void Estimate(benchmark::State& state, double time_constant_s, double disturbance) {
-  const PreparedDataset dataset = Recorded(time_constant_s, disturbance);
+Columns All() {
+  return AllColumns(Parameterization::kPropeller);
+}
+
+template <std::size_t N>
+std::array<double, N> Only(const std::array<double, N>& all,
+                           const std::vector<std::size_t>& columns) {
+  std::array<double, N> kept{};
+  for (const std::size_t column : columns) kept[column] = all[column];
+  return kept;
+}
+
+/// The boat of bench/coverage with these coefficients and no others.
+coverage::Boat BoatOf(const Columns& columns) {
+  coverage::Boat boat = coverage::ReferenceBoat();
+  boat.surge = Only(boat.surge, columns[0]);
+  boat.sway = Only(boat.sway, columns[1]);
+  boat.yaw = Only(boat.yaw, columns[2]);
+  return boat;
+}
+
+Recording Recorded(const coverage::Boat& boat, double disturbed) {
+  coverage::Surroundings around;
+  for (double& sigma : around.disturbance_sigma) sigma *= disturbed;
+  coverage::Mission mission;
+  mission.segments = kStretches;
+  return coverage::Sail(boat, around, mission, 1);
+}
+
+PreparedDataset Prepared(const coverage::Boat& boat, double disturbed) {
+  return PrepareForWeakIv(Recorded(boat, disturbed), coverage::VehicleOf(), {}).value();
+}
+
+void EstimateBySailing(benchmark::State& state, const Columns& columns, double time_constant_s,
+                       double disturbed) {
+  coverage::Boat boat = BoatOf(columns);
+  boat.thruster_time_constant_s = time_constant_s;
+  const PreparedDataset dataset = Prepared(boat, disturbed);
   RegressionOptions regression;
   if (time_constant_s > 0.0) regression.structure = Structure::kFirstOrderDynamic;
-  const auto columns = AllColumns(Parameterization::kPropeller);
   const VesselModel start = StartOf(dataset, regression, columns);
   Eigen::Index unknowns = 0;
   std::size_t residuals = 0;
@@ -46,20 +81,70 @@ void Estimate(benchmark::State& state, double time_constant_s, double disturbanc
   state.counters["residuals"] = static_cast<double>(residuals);
 }
 
-void OutputError(benchmark::State& state) {
-  Estimate(state, 0.0, 0.0);
+void OutputError(benchmark::State& state, const Columns& columns) {
+  EstimateBySailing(state, columns, 0.0, 0.0);
 }
-BENCHMARK(OutputError)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(OutputError, thirteen, Thirteen())->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(OutputError, all, All())->Unit(benchmark::kMillisecond);
 
 void OutputErrorLagging(benchmark::State& state) {
-  Estimate(state, 0.4, 0.0);
+  EstimateBySailing(state, All(), 0.4, 0.0);
 }
 BENCHMARK(OutputErrorLagging)->Unit(benchmark::kMillisecond);
 
 void OutputErrorDisturbed(benchmark::State& state) {
-  Estimate(state, 0.0, 1.0);
+  EstimateBySailing(state, All(), 0.0, 1.0);
 }
 BENCHMARK(OutputErrorDisturbed)->Unit(benchmark::kMillisecond);
+
+void WeakIv(benchmark::State& state, const Columns& columns) {
+  const PreparedDataset dataset = Prepared(BoatOf(columns), 1.0);
+  for (auto _ : state) {
+    const auto fit = EstimateWeakIv(dataset, {}, columns, {});
+    benchmark::DoNotOptimize(ClusterCovariance(*fit));
+  }
+  state.counters["rows"] = static_cast<double>(dataset.rows.size());
+}
+BENCHMARK_CAPTURE(WeakIv, thirteen, Thirteen())->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(WeakIv, all, All())->Unit(benchmark::kMillisecond);
+
+/// The estimate and 40 twins of it on two threads.
+void WeakIvWithTwins(benchmark::State& state, const Columns& columns) {
+  const PreparedDataset dataset = Prepared(BoatOf(columns), 1.0);
+  for (auto _ : state) {
+    const auto fit = EstimateWeakIv(dataset, {}, columns, {});
+    benchmark::DoNotOptimize(CorrectWithTwins(dataset, {}, *fit, columns, {}, {40, 1, 2}));
+  }
+  state.counters["rows"] = static_cast<double>(dataset.rows.size());
+}
+BENCHMARK_CAPTURE(WeakIvWithTwins, thirteen, Thirteen())
+    ->Unit(benchmark::kMillisecond)
+    ->UseRealTime();
+BENCHMARK_CAPTURE(WeakIvWithTwins, all, All())->Unit(benchmark::kMillisecond)->UseRealTime();
+
+/// From raw samples to a bounded model, the estimator chosen by the data, on two threads.
+void IdentifyByTheData(benchmark::State& state, double disturbed) {
+  const Recording recording = Recorded(coverage::ReferenceBoat(), disturbed);
+  IdentifyOptions options;
+  options.threads = 2;
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(Identify(recording, coverage::VehicleOf(), options));
+  }
+}
+BENCHMARK_CAPTURE(IdentifyByTheData, still, 0.0)->Unit(benchmark::kMillisecond)->UseRealTime();
+BENCHMARK_CAPTURE(IdentifyByTheData, disturbed, 1.0)->Unit(benchmark::kMillisecond)->UseRealTime();
+
+/// One-step least squares of all three equations with covariance, from rows.
+void IdentifyOneStep(benchmark::State& state) {
+  const PreparedDataset dataset = Prepared(coverage::ReferenceBoat(), 1.0);
+  IdentifyOptions options = IdentifyOptions::OneStep();
+  options.bootstrap_replicates = 0;
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(Identify(dataset, "boat", options));
+  }
+  state.counters["rows"] = static_cast<double>(dataset.rows.size());
+}
+BENCHMARK(IdentifyOneStep)->Unit(benchmark::kMillisecond);
 
 }  // namespace
 }  // namespace telltale

@@ -1,0 +1,171 @@
+// Which estimator do the data choose, and do its bounds hold? Prints the second table of
+// docs/output-error.md.
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <optional>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+
+#include "coverage/truth.hpp"
+#include "identification/identify.hpp"
+#include "parallel.hpp"
+#include "random.hpp"
+
+namespace telltale::coverage {
+namespace {
+
+struct Scenario {
+  std::string name;
+  Boat boat = ReferenceBoat();
+  Surroundings around;
+  Mission mission;
+};
+
+Scenario Disturbed(std::string name, double share) {
+  Scenario scenario;
+  scenario.name = std::move(name);
+  for (double& sigma : scenario.around.disturbance_sigma) sigma *= share;
+  return scenario;
+}
+
+std::vector<Scenario> Scenarios() {
+  std::vector<Scenario> all = {Disturbed("still", 0.0), Disturbed("hundredth", 0.01),
+                               Disturbed("fiftieth", 0.02), Disturbed("tenth", 0.1),
+                               Disturbed("rtk", 1.0)};
+  Scenario surge = Disturbed("tenth-in-surge-alone", 0.0);
+  surge.around.disturbance_sigma[0] = 0.003;
+  Scenario ten = Disturbed("still-ten-segments", 0.0);
+  ten.mission.segments = 10;
+  Scenario ten_tenth = Disturbed("tenth-ten-segments", 0.1);
+  ten_tenth.mission.segments = 10;
+  Scenario plain = Disturbed("still-plain-gnss", 0.0);
+  plain.around.position_noise_m = 0.10;
+  plain.around.heading_noise_deg = 0.5;
+  Scenario coloured = Disturbed("still-coloured-gnss", 0.0);
+  coloured.around.slow_position_error_m = 0.2;
+  Scenario bend = Disturbed("still-propeller-outside-class", 0.0);
+  bend.boat.thrust_bend = 0.3;
+  Scenario slight = Disturbed("still-propeller-slightly-outside", 0.0);
+  slight.boat.thrust_bend = 0.02;
+  all.insert(all.end(), {surge, ten, ten_tenth, plain, coloured, bend, slight});
+  return all;
+}
+
+std::vector<double> TruthOf(const Boat& boat) {
+  std::vector<double> truth(boat.surge.begin(), boat.surge.end());
+  truth.insert(truth.end(), boat.sway.begin(), boat.sway.end());
+  truth.insert(truth.end(), boat.yaw.begin(), boat.yaw.end());
+  return truth;
+}
+
+/// Share in percent of true coefficients within bounds.
+double Held(const Identification& identification, const std::vector<double>& truth) {
+  double held = 0.0;
+  for (std::size_t j = 0; j < truth.size(); ++j) {
+    const Interval& interval = identification.coefficients.at(j).interval;
+    held += interval.lower <= truth[j] && truth[j] <= interval.upper ? 1.0 : 0.0;
+  }
+  return 100.0 * held / static_cast<double>(truth.size());
+}
+
+/// Geometric mean over the coefficients of how much wider the bounds of one are than of another.
+double Wider(const Identification& one, const Identification& other) {
+  double sum = 0.0;
+  for (std::size_t j = 0; j < one.coefficients.size(); ++j) {
+    sum += std::log(one.coefficients[j].standard_error / other.coefficients[j].standard_error);
+  }
+  return sum / static_cast<double>(one.coefficients.size());
+}
+
+struct Repeat {
+  bool output_error = false;
+  double chosen_held = 0.0;
+  double weak_held = 0.0;
+  double by_name_held = 0.0;
+  double wider = 0.0;
+  double misspecification = 0.0;
+};
+
+std::optional<Repeat> Try(const Scenario& scenario, std::uint64_t seed) {
+  const Recording recording = Sail(scenario.boat, scenario.around, scenario.mission, seed);
+  const auto truth = TruthOf(scenario.boat);
+  IdentifyOptions options;
+  options.seed = seed;
+  const auto chosen = Identify(recording, VehicleOf(), options);
+  options.estimator = Estimator::kOutputError;
+  const auto by_name = Identify(recording, VehicleOf(), options);
+  options.estimator = Estimator::kWeakIv;
+  const auto weak = Identify(recording, VehicleOf(), options);
+  if (!chosen || !by_name || !weak) return std::nullopt;
+  return Repeat{chosen->estimator == Estimator::kOutputError,
+                Held(*chosen, truth),
+                Held(*weak, truth),
+                Held(*by_name, truth),
+                Wider(*weak, *by_name),
+                by_name->provenance.misspecification};
+}
+
+double MeanOf(const std::vector<Repeat>& repeats, double Repeat::*value) {
+  double sum = 0.0;
+  for (const Repeat& repeat : repeats) sum += repeat.*value;
+  return sum / static_cast<double>(repeats.size());
+}
+
+void PrintRow(const std::string& name, const std::vector<Repeat>& repeats, std::size_t asked) {
+  if (repeats.empty()) {
+    std::printf("| %s | 0/%zu |\n", name.c_str(), asked);
+    return;
+  }
+  const auto chose = std::count_if(repeats.begin(), repeats.end(),
+                                   [](const Repeat& repeat) { return repeat.output_error; });
+  std::printf("| %s | %zu/%zu | %ld | %.1f | %.1f | %.1f | %.2f | %.2f |\n", name.c_str(),
+              repeats.size(), asked, static_cast<long>(chose),
+              MeanOf(repeats, &Repeat::chosen_held), MeanOf(repeats, &Repeat::by_name_held),
+              MeanOf(repeats, &Repeat::weak_held), std::exp(MeanOf(repeats, &Repeat::wider)),
+              MeanOf(repeats, &Repeat::misspecification));
+  std::fflush(stdout);
+}
+
+int Main(int argc, char** argv) {
+  std::vector<std::string> wanted;
+  std::size_t repeats = 24;
+  std::size_t threads = std::max(1U, std::thread::hardware_concurrency());
+  std::uint64_t seed = 1;
+  CLI::App app("Which estimator the data choose, and how often bounds of 95 % hold the truth");
+  std::vector<std::string> names;
+  for (const Scenario& scenario : Scenarios()) names.push_back(scenario.name);
+  app.add_option("--scenario", wanted, "only these (default: all)")->check(CLI::IsMember(names));
+  app.add_option("--repeats", repeats, "seeded repeats of each scenario")->capture_default_str();
+  app.add_option("--threads", threads, "never change the result")->capture_default_str();
+  app.add_option("--seed", seed, "of the first repeat")->capture_default_str();
+  CLI11_PARSE(app, argc, argv);
+
+  std::printf(
+      "| scenario | answered | output error chosen | chosen: holds %% | output error %% | "
+      "weak form %% | weak form wider by | ratio (54) |\n|---|---|---|---|---|---|---|---|\n");
+  for (const Scenario& scenario : Scenarios()) {
+    const bool asked =
+        wanted.empty() || std::find(wanted.begin(), wanted.end(), scenario.name) != wanted.end();
+    if (!asked) continue;
+    std::vector<std::optional<Repeat>> all(repeats);
+    ForEachIndex(repeats, threads,
+                 [&](std::size_t i) { all[i] = Try(scenario, RandomEngine::Stream(seed, i)()); });
+    std::vector<Repeat> answered;
+    for (const auto& repeat : all) {
+      if (repeat) answered.push_back(*repeat);
+    }
+    PrintRow(scenario.name, answered, repeats);
+  }
+  return 0;
+}
+
+}  // namespace
+}  // namespace telltale::coverage
+
+int main(int argc, char** argv) {
+  return telltale::coverage::Main(argc, argv);
+}
