@@ -5,16 +5,27 @@
 #include <limits>
 #include <sstream>
 
+#include "contract.hpp"
+
 namespace telltale {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-Refusal NeedsAllEquations(const Refusal& unanswered) {
-  return {"output error",
-          "sails the boat by all three equations at once, but " + unanswered.subject + " " +
-              unanswered.reason,
-          unanswered.advice + ", or ask for weak-iv, which answers them one by one"};
+/// Why not, if an equation cannot be answered.
+std::optional<Refusal> RefuseWithoutAllEquations(const Answers& answers) {
+  for (const Equation equation : kEquations) {
+    if (answers.excitations[IndexOf(equation)]) continue;
+    const auto why =
+        std::find_if(answers.refusals.begin(), answers.refusals.end(),
+                     [&](const Refusal& refusal) { return refusal.subject == Name(equation); });
+    Require(why != answers.refusals.end(), "a refusal of every equation that is not answered");
+    return Refusal{"output error",
+                   "it sails the boat by all three equations at once, and " + why->subject +
+                       " has none: " + why->reason,
+                   why->advice + ", or ask for weak-iv, which answers them one by one"};
+  }
+  return std::nullopt;
 }
 
 /// Unknowns that something measured moves with: all but those that are a direction by themselves.
@@ -89,7 +100,7 @@ std::string InWords(const FittedOutputError& fitted) {
   words << "clusters of output-error residuals (" << fitted.fit.scores.cols()
         << "), each left out of its own fit, Student t; misspecification ratio "
         << fitted.misspecification
-        << (fitted.Believable() ? ", so sensor noise is all there is"
+        << (fitted.Believable() ? ", so nothing but sensor noise is seen"
                                 : ", so bias is left that these bounds do not cover");
   return words.str();
 }
@@ -106,10 +117,7 @@ Result<FittedOutputError> FitOutputError(const PreparedDataset& dataset,
                                          const std::optional<VesselModel>& start) {
   Answers answers = AssessAll(dataset, regression, limits);
   if (!answers.Any()) return tl::unexpected(NothingAnswered(answers.refusals));
-  for (const Equation equation : kEquations) {
-    if (answers.excitations[IndexOf(equation)]) continue;
-    return tl::unexpected(NeedsAllEquations(answers.refusals.front()));
-  }
+  if (auto refusal = RefuseWithoutAllEquations(answers)) return tl::unexpected(*refusal);
   const auto columns = Sought(answers);
   auto fit = EstimateOutputError(dataset, regression, columns,
                                  start ? *start : StartOf(dataset, regression, columns), {});
