@@ -18,11 +18,10 @@ namespace {
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
 
-constexpr int kSegments = 15;
-
 /// What the rule makes of repeats of the boat.
 std::vector<std::optional<Identification>> Repeated(double disturbed, const coverage::Boat& boat,
                                                     std::size_t repeats, std::size_t twins) {
+  constexpr int kSegments = 15;
   std::vector<std::optional<Identification>> all(repeats);
   ForEachIndex(repeats, 2, [&](std::size_t i) {
     IdentifyOptions options;
@@ -99,7 +98,7 @@ TEST(EstimatorChoice, IsTheWeakFormForPropellersOutsideTheModelClass) {
 }
 
 TEST(EstimatorChoice, IsOverruledByName) {
-  const Recording recording = testing::SailReferenceBoat(0.0, kSegments, 701);
+  const Recording recording = testing::SailReferenceBoat(0.0, 15, 701);
   IdentifyOptions options;
   options.estimator = Estimator::kWeakIv;
   options.twins = 0;

@@ -19,16 +19,16 @@ using ::testing::Field;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-constexpr int kSegments = 15;  // ten minutes
+constexpr int kTenMinutes = 15;  // in segments
 
-IdentifyOptions OutputError() {
+IdentifyOptions ByOutputError() {
   IdentifyOptions options;
   options.estimator = Estimator::kOutputError;
   return options;
 }
 
 /// 35 coefficients, five standard errors each: never.
-void ExpectNear(const Identification& result, const std::vector<double>& truth) {
+void ExpectAllNear(const Identification& result, const std::vector<double>& truth) {
   ASSERT_EQ(result.coefficients.size(), truth.size());
   for (std::size_t i = 0; i < truth.size(); ++i) {
     const Coefficient& c = result.coefficients[i];
@@ -48,11 +48,11 @@ const Coefficient& Find(const Identification& result, Equation equation,
 }
 
 TEST(OutputErrorAnswer, BoundsTheBoatInStillWater) {
-  const auto result =
-      Identify(testing::SailReferenceBoat(0.0, kSegments, 1), coverage::VehicleOf(), OutputError());
+  const auto result = Identify(testing::SailReferenceBoat(0.0, kTenMinutes, 1),
+                               coverage::VehicleOf(), ByOutputError());
   ASSERT_TRUE(result.has_value());
   EXPECT_EQ(result->estimator, Estimator::kOutputError);
-  ExpectNear(*result, testing::CoefficientsOf(coverage::ReferenceBoat()));
+  ExpectAllNear(*result, testing::CoefficientsOf(coverage::ReferenceBoat()));
   EXPECT_LT(result->provenance.misspecification, kBelievedMisspecification);
   EXPECT_GT(result->provenance.misspecification, 0.7);
   EXPECT_THAT(result->provenance.bounds_basis, HasSubstr("misspecification ratio"));
@@ -65,12 +65,12 @@ TEST(OutputErrorAnswer, BoundsTheBoatInStillWater) {
 TEST(OutputErrorAnswer, BoundsTheThrustersLag) {
   coverage::Boat boat = coverage::ReferenceBoat();
   boat.thruster_time_constant_s = 0.4;
-  IdentifyOptions options = OutputError();
+  IdentifyOptions options = ByOutputError();
   options.regression.structure = Structure::kFirstOrderDynamic;
-  const auto result =
-      Identify(testing::SailReferenceBoat(0.0, kSegments, 2, boat), coverage::VehicleOf(), options);
+  const auto result = Identify(testing::SailReferenceBoat(0.0, kTenMinutes, 2, boat),
+                               coverage::VehicleOf(), options);
   ASSERT_TRUE(result.has_value());
-  ExpectNear(*result, testing::CoefficientsOf(boat));
+  ExpectAllNear(*result, testing::CoefficientsOf(boat));
   ASSERT_TRUE(result->thruster_time_constant.has_value());
   const Coefficient& tau = *result->thruster_time_constant;
   EXPECT_NEAR(tau.estimate, 0.4, 5.0 * tau.standard_error);
@@ -79,8 +79,8 @@ TEST(OutputErrorAnswer, BoundsTheThrustersLag) {
 }
 
 TEST(OutputErrorAnswer, SaysThatItsBoundsDoNotHoldUnderDisturbances) {
-  const auto result =
-      Identify(testing::SailReferenceBoat(1.0, kSegments, 3), coverage::VehicleOf(), OutputError());
+  const auto result = Identify(testing::SailReferenceBoat(1.0, kTenMinutes, 3),
+                               coverage::VehicleOf(), ByOutputError());
   ASSERT_TRUE(result.has_value());
   EXPECT_GT(result->provenance.misspecification, 2.0);
   EXPECT_THAT(result->provenance.bounds_basis, HasSubstr("bias is left"));
@@ -100,7 +100,7 @@ TEST(OutputErrorAnswer, NamesThrustTermsThatOneCommandCannotTellApart) {
   start.nu.u = 0.5;
   const Recording recording = Measure(Simulate(testing::StableBoat(), start, commands, 400.0, 0.02),
                                       testing::StableBoatVehicle(), SensorOptions{});
-  const auto result = Identify(recording, testing::StableBoatVehicle(), OutputError());
+  const auto result = Identify(recording, testing::StableBoatVehicle(), ByOutputError());
   ASSERT_TRUE(result.has_value());
   for (const Equation equation : kEquations) {
     for (const char* regressor : {"f:d^2", "f:d"}) {
@@ -130,7 +130,7 @@ TEST(OutputErrorAnswer, RefusesWithoutAllThreeEquations) {
   for (TimedCommand& command : commands) command.delta.starboard = command.delta.port;
   const Recording recording = Measure(Simulate(testing::StableBoat(), {}, commands, 300.0, 0.02),
                                       testing::StableBoatVehicle(), SensorOptions{});
-  const auto result = Identify(recording, testing::StableBoatVehicle(), OutputError());
+  const auto result = Identify(recording, testing::StableBoatVehicle(), ByOutputError());
   ASSERT_FALSE(result.has_value());
   EXPECT_EQ(result.error().subject, "output error");
   EXPECT_THAT(result.error().reason, HasSubstr("SWAY"));
