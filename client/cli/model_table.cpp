@@ -134,6 +134,11 @@ std::string BoundsBasis(const Provenance& provenance) {
   return Wrapped(text + ".");
 }
 
+std::string ChangeText(const Identification& model) {
+  if (!model.provenance.change) return "";
+  return '\n' + Wrapped("The model " + InWords(*model.provenance.change));
+}
+
 }  // namespace
 
 std::string RejectedText(const RejectCounts& rejected) {
@@ -151,8 +156,9 @@ std::string RejectedText(const RejectCounts& rejected) {
 
 std::string ModelTable(const Identification& identification) {
   return Title(identification) + Coefficients(identification) + TimeConstant(identification) +
-         DeadZoneText(identification.dead_zone) + Refusals(identification) + '\n' +
-         WindowText(identification.window) + BoundsBasis(identification.provenance);
+         DeadZoneText(identification.dead_zone) + Refusals(identification) +
+         ChangeText(identification) + '\n' + WindowText(identification.window) +
+         BoundsBasis(identification.provenance);
 }
 
 std::string DiscreteTable(const Identification& identification) {

@@ -8,6 +8,7 @@
 #include <Eigen/Core>
 
 #include "data/samples.hpp"
+#include "identification/model_change.hpp"
 #include "result.hpp"
 #include "uncertainty/interval.hpp"
 #include "vessel/disturbance.hpp"
@@ -59,6 +60,8 @@ struct Provenance {
   std::string software_version;
   std::size_t twins = 0;          ///< simulated repeats that were identified again
   std::size_t twin_failures = 0;  ///< those that could not be
+  std::size_t clusters = 0;  ///< independent stretches of time behind the covariance, 0: not so made
+  std::optional<ModelChange> change;  ///< against an earlier model, where there is one
 };
 
 /// A boat's model with bounds: the outcome that is published.

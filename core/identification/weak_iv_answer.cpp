@@ -122,6 +122,7 @@ Result<BoundedAnswers> BoundWeakIv(const PreparedDataset& dataset,
     return tl::unexpected(InstrumentsSayNothing());
   }
   const Eigen::Index clusters = fit->scores.cols();
+  bounded.provenance.clusters = static_cast<std::size_t>(clusters);
   if (clusters < static_cast<Eigen::Index>(kFewestClusters)) {
     answers.refusals.push_back(WarnOfFewClusters(clusters));
   }

@@ -6,6 +6,7 @@
 #include <limits>
 #include <utility>
 
+#include "codec/change_json.hpp"
 #include "codec/field_reader.hpp"
 #include "codec/json_message.hpp"
 #include "codec/vehicle_file.hpp"
@@ -90,6 +91,8 @@ void Write(const Provenance& provenance, proto::Provenance& message) {
   message.set_software_version(provenance.software_version);
   message.set_twins(Saturated(provenance.twins));
   message.set_twin_failures(Saturated(provenance.twin_failures));
+  message.set_clusters(Saturated(provenance.clusters));
+  if (provenance.change) *message.mutable_change() = ToProto(*provenance.change);
 }
 
 // ---- from Protobuf ------------------------------------------------------------------------
@@ -290,7 +293,7 @@ std::vector<Refusal> ReadRefusals(const proto::Model& model) {
   return refusals;
 }
 
-Provenance ReadProvenance(const proto::Provenance& message) {
+Provenance ReadProvenance(FieldReader reader, const proto::Provenance& message) {
   Provenance provenance;
   provenance.preset = message.preset();
   provenance.bounds_basis = message.bounds_basis();
@@ -300,6 +303,10 @@ Provenance ReadProvenance(const proto::Provenance& message) {
   provenance.software_version = message.software_version();
   provenance.twins = message.twins();
   provenance.twin_failures = message.twin_failures();
+  provenance.clusters = message.clusters();
+  if (message.has_change()) {
+    provenance.change = ReadModelChange(reader.Optional("change"), message.change());
+  }
   return provenance;
 }
 
@@ -348,7 +355,7 @@ Identification ReadModel(FieldReader reader, const proto::Model& model) {
   }
   result.window = ReadWindow(reader.Optional("window"), model.window());
   result.refusals = ReadRefusals(model);
-  result.provenance = ReadProvenance(model.provenance());
+  result.provenance = ReadProvenance(reader.Optional("provenance"), model.provenance());
   return result;
 }
 

@@ -72,6 +72,16 @@ void Fill(telltale_wire_Coefficient& wire, const Coefficient& coefficient) {
   Put(wire.status, Name(coefficient.status));
 }
 
+void Fill(telltale_wire_CoefficientChange& wire, const CoefficientChange& change) {
+  Put(wire.equation, Name(change.equation));
+  Put(wire.regressor, change.regressor);
+  Put(wire.symbol, change.symbol);
+  wire.difference = change.difference;
+  wire.standard_error = change.standard_error;
+  wire.p_value = change.p_value;
+}
+
+void Fill(telltale_wire_ModelChange& wire, const ModelChange& change);
 void Fill(telltale_wire_Model& wire, const PublishedModel& model);
 
 constexpr auto kFill = [](auto& wire, const auto& item) { Fill(wire, item); };
@@ -87,6 +97,16 @@ std::vector<double> RowMajor(const Eigen::MatrixXd& matrix) {
     }
   }
   return values;
+}
+
+void Fill(telltale_wire_ModelChange& wire, const ModelChange& change) {
+  wire.revision = change.revision;
+  Put(wire.verdict, Name(change.verdict));
+  wire.p_value = change.p_value;
+  wire.statistic = change.statistic;
+  wire.degrees_of_freedom = change.degrees_of_freedom;
+  PutSequence(wire.coefficients, change.coefficients, kFill);
+  Put(wire.reason, change.reason);
 }
 
 void Fill(telltale_wire_Model& wire, const PublishedModel& model) {
@@ -125,6 +145,10 @@ void Fill(telltale_wire_Model& wire, const PublishedModel& model) {
   if (const auto& disturbance = identification.disturbance) {
     PutSequence(wire.disturbance_sigma, disturbance->sigma, kCopy);
     PutSequence(wire.disturbance_time_constant_s, disturbance->time_constant_s, kCopy);
+  }
+  wire.clusters = provenance.clusters;
+  if (const auto& change = provenance.change) {
+    PutSequence(wire.change, std::initializer_list<ModelChange>{*change}, kFill);
   }
 }
 
@@ -224,6 +248,8 @@ constexpr std::initializer_list<DeadZoneSource> kDeadZoneSources = {DeadZoneSour
                                                                     DeadZoneSource::kIdentified};
 constexpr std::initializer_list<CoefficientStatus> kStatuses = {
     CoefficientStatus::kEstimated, CoefficientStatus::kNotExcited, CoefficientStatus::kCollinear};
+constexpr std::initializer_list<ChangeVerdict> kVerdicts = {
+    ChangeVerdict::kAlike, ChangeVerdict::kDiffers, ChangeVerdict::kCannotTell};
 constexpr std::initializer_list<Preset> kPresets = {Preset::kRobust, Preset::kPaper};
 constexpr std::initializer_list<IdentifyOutcome> kOutcomes = {
     IdentifyOutcome::kPublished, IdentifyOutcome::kRefused, IdentifyOutcome::kFailed};
@@ -360,6 +386,38 @@ std::optional<Disturbance> ReadDisturbance(const dds_sequence_double& sigma,
                      ReadAxes("disturbance_time_constant_s", time_constant_s, kShortestS)};
 }
 
+CoefficientChange ReadCoefficientChange(const std::string& field,
+                                        const telltale_wire_CoefficientChange& wire) {
+  return {ReadName(field + ".equation", View(wire.equation),
+                   {Equation::kUnknown, Equation::kSurge, Equation::kSway, Equation::kYaw}),
+          std::string(View(wire.regressor)),
+          std::string(View(wire.symbol)),
+          ReadWithin(field + ".difference", wire.difference, -kLargest, kLargest),
+          ReadWithin(field + ".standard_error", wire.standard_error,
+                     std::numeric_limits<double>::min(), kLargest),
+          ReadWithin(field + ".p_value", wire.p_value, 0.0, 1.0)};
+}
+
+ModelChange ReadModelChange(const std::string& field, const telltale_wire_ModelChange& wire) {
+  ModelChange change;
+  change.revision = wire.revision;
+  change.verdict = ReadName(field + ".verdict", View(wire.verdict), kVerdicts);
+  change.p_value = ReadWithin(field + ".p_value", wire.p_value, 0.0, 1.0);
+  change.statistic = ReadWithin(field + ".statistic", wire.statistic, 0.0, kLargest);
+  change.degrees_of_freedom = wire.degrees_of_freedom;
+  change.coefficients =
+      ReadSequence(field + ".coefficients", wire.coefficients, ReadCoefficientChange);
+  change.reason = View(wire.reason);
+  return change;
+}
+
+/// None from older writers and for a vehicle's first model.
+std::optional<ModelChange> ReadChange(const dds_sequence_telltale_wire_ModelChange& wire) {
+  if (wire._length > 1) Reject("change", std::to_string(wire._length) + " items", "none or one");
+  if (wire._length == 0) return std::nullopt;
+  return ReadModelChange("change[0]", wire._buffer[0]);
+}
+
 PublishedModel ReadModel(const telltale_wire_Model& wire) {
   PublishedModel model;
   model.revision = wire.revision;
@@ -397,6 +455,8 @@ PublishedModel ReadModel(const telltale_wire_Model& wire) {
   identification.provenance.twin_failures = wire.twin_failures;
   identification.disturbance =
       ReadDisturbance(wire.disturbance_sigma, wire.disturbance_time_constant_s);
+  identification.provenance.clusters = wire.clusters;
+  identification.provenance.change = ReadChange(wire.change);
   return model;
 }
 

@@ -11,6 +11,17 @@
 
 namespace telltale {
 
+inline ModelChange MadeUpChange() {
+  return {3,
+          ChangeVerdict::kDiffers,
+          0.0021,
+          71.5,
+          32,
+          {{Equation::kYaw, "r|r|", "Pr33", 0.051, 0.015, 0.0007},
+           {Equation::kUnknown, "", "tau", -0.2, 0.1, 0.046}},
+          ""};
+}
+
 /// A complete identification with a different number in every place, one coefficient not excited
 /// and one refusal: made up, for what carries identifications rather than computes them.
 inline Identification MadeUpIdentification(
@@ -60,6 +71,8 @@ inline Identification MadeUpIdentification(
   made.disturbance = Disturbance{{0.03, 0.04, 0.05}, {2.0, 3.0, 4.0}};
   made.provenance = {"ROBUST", "a cluster bootstrap over segments",       1000,
                      3,        std::numeric_limits<std::uint64_t>::max(), "0.1.0"};
+  made.provenance.clusters = 67;
+  made.provenance.change = MadeUpChange();
   return made;
 }
 
@@ -127,6 +140,24 @@ inline void ExpectSame(const WindowSummary& a, const WindowSummary& b) {
   }
 }
 
+inline void ExpectSame(const ModelChange& a, const ModelChange& b) {
+  EXPECT_EQ(a.revision, b.revision);
+  EXPECT_EQ(a.verdict, b.verdict);
+  EXPECT_EQ(a.p_value, b.p_value);
+  EXPECT_EQ(a.statistic, b.statistic);
+  EXPECT_EQ(a.degrees_of_freedom, b.degrees_of_freedom);
+  EXPECT_EQ(a.reason, b.reason);
+  ASSERT_EQ(a.coefficients.size(), b.coefficients.size());
+  for (std::size_t i = 0; i < a.coefficients.size(); ++i) {
+    EXPECT_EQ(a.coefficients[i].equation, b.coefficients[i].equation);
+    EXPECT_EQ(a.coefficients[i].regressor, b.coefficients[i].regressor);
+    EXPECT_EQ(a.coefficients[i].symbol, b.coefficients[i].symbol);
+    EXPECT_EQ(a.coefficients[i].difference, b.coefficients[i].difference);
+    EXPECT_EQ(a.coefficients[i].standard_error, b.coefficients[i].standard_error);
+    EXPECT_EQ(a.coefficients[i].p_value, b.coefficients[i].p_value);
+  }
+}
+
 inline void ExpectSame(const Provenance& a, const Provenance& b) {
   EXPECT_EQ(a.preset, b.preset);
   EXPECT_EQ(a.bounds_basis, b.bounds_basis);
@@ -136,6 +167,9 @@ inline void ExpectSame(const Provenance& a, const Provenance& b) {
   EXPECT_EQ(a.software_version, b.software_version);
   EXPECT_EQ(a.twins, b.twins);
   EXPECT_EQ(a.twin_failures, b.twin_failures);
+  EXPECT_EQ(a.clusters, b.clusters);
+  ASSERT_EQ(a.change.has_value(), b.change.has_value());
+  if (a.change) ExpectSame(*a.change, *b.change);
 }
 
 inline void ExpectSame(const Identification& a, const Identification& b) {
