@@ -78,6 +78,13 @@ void IdentifyArguments::AddOptionsTo(CLI::App& command) {
                   "how replicates bound: percentile (default), studentized or bca")
       ->type_name("NAME")
       ->check(CLI::IsMember({"percentile", "studentized", "bca"}).description(""));
+  command
+      .add_option("--offsets", offsets,
+                  "steady disturbance, as of wind: shared by all logs (default of one log, and of "
+                  "one-step), per-recording (default of several), or per-recording-ned: with a "
+                  "part besides that stands to the north and east while the boat turns")
+      ->type_name("NAME")
+      ->check(CLI::IsMember({"shared", "per-recording", "per-recording-ned"}).description(""));
   command.add_option("--level", interval_level, "of the bounds, [0.5, 0.999] (default 0.95)")
       ->type_name("P");
   command
@@ -113,6 +120,16 @@ Estimator IdentifyArguments::ChosenEstimator() const {
   return one_step ? Estimator::kOneStep : Estimator::kWeakIv;
 }
 
+Offsets IdentifyArguments::ChosenOffsets() const {
+  const bool several = inputs.logs.size() > 1;
+  if (!offsets && several && ChosenEstimator() == Estimator::kWeakIv) {
+    return Offsets::kPerRecording;
+  }
+  if (offsets == "per-recording") return Offsets::kPerRecording;
+  if (offsets == "per-recording-ned") return Offsets::kPerRecordingNorthEast;
+  return Offsets::kShared;
+}
+
 IdentifyOptions IdentifyArguments::Options() const {
   IdentifyOptions options;
   options.estimator = ChosenEstimator();
@@ -121,6 +138,7 @@ IdentifyOptions IdentifyArguments::Options() const {
   if (parameterization == "paper") options.regression.parameterization = Parameterization::kPaper;
   if (structure == "dynamic") options.regression.structure = Structure::kFirstOrderDynamic;
   options.regression.include_reverse = include_rr;
+  options.regression.offsets = ChosenOffsets();
   if (dead_zone == "identify") {
     options.dead_zone_source = DeadZoneSource::kIdentified;
   } else if (dead_zone) {

@@ -25,6 +25,7 @@ struct IdentifyArguments {
   std::optional<std::uint32_t> bootstrap_replicates;
   std::optional<std::string> bootstrap_kind;  ///< segments, moving-blocks
   std::optional<std::string> interval;        ///< percentile, studentized, bca
+  std::optional<std::string> offsets;         ///< shared, per-recording, per-recording-ned
   std::optional<double> interval_level;
   std::uint64_t seed = 1;
   std::optional<std::size_t> threads;
@@ -40,6 +41,7 @@ struct IdentifyArguments {
 
  private:
   bool AskForBootstrap() const;
+  Offsets ChosenOffsets() const;
 
   /// The one named, else what the other options ask for. Throws: UsageError where they contradict.
   Estimator ChosenEstimator() const;

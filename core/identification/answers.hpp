@@ -51,6 +51,7 @@ struct BoundedAnswers {
   Bounds bounds;
   Provenance provenance;  ///< the fields that are the estimator's
   std::optional<Disturbance> disturbance;
+  std::vector<RecordingOffsets> offsets;
 };
 
 /// Can this equation be answered? Its excitation or a refusal goes into the answers.

@@ -50,6 +50,15 @@ struct WindowSummary {
   RejectCounts rejected;
 };
 
+/// What pushed the boat steadily in one of several recordings, docs/model.md (70): coefficients of
+/// "1", which turns with the boat, and of "cos(psi)" and "sin(psi)", which stand to the north and
+/// east, in each equation.
+struct RecordingOffsets {
+  double start_s = 0.0;  ///< first and last prepared row
+  double end_s = 0.0;
+  std::vector<Coefficient> coefficients;
+};
+
 /// How it was made, enough to make it again.
 struct Provenance {
   std::string preset;        ///< of the data preparation
@@ -60,7 +69,8 @@ struct Provenance {
   std::string software_version;
   std::size_t twins = 0;          ///< simulated repeats that were identified again
   std::size_t twin_failures = 0;  ///< those that could not be
-  std::size_t clusters = 0;  ///< independent stretches of time behind the covariance, 0: not so made
+  std::size_t clusters =
+      0;  ///< independent stretches of time behind the covariance, 0: not so made
   std::optional<ModelChange> change;  ///< against an earlier model, where there is one
 };
 
@@ -82,6 +92,9 @@ struct Identification {
   std::optional<Coefficient> thruster_time_constant;
   Eigen::VectorXd time_constant_covariance;
   std::optional<Disturbance> disturbance;  ///< what else moved the boat, where that was judged
+  /// Where each recording has a steady disturbance of its own: these, and the coefficients of the
+  /// regressor "1" are their means.
+  std::vector<RecordingOffsets> offsets;
   WindowSummary window;
   std::vector<Refusal> refusals;
   Provenance provenance;

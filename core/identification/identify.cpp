@@ -65,7 +65,15 @@ std::optional<Refusal> LimitRefusal(const DeadZone& limits) {
 }
 
 std::optional<Refusal> EstimatorRefusal(const IdentifyOptions& options) {
-  if (options.estimator == Estimator::kOneStep) return std::nullopt;
+  if (options.regression.offsets == Offsets::kUnknown) {
+    return Refusal{"offsets", "is unset",
+                   "choose SHARED, PER_RECORDING or PER_RECORDING_NORTH_EAST"};
+  }
+  if (options.estimator == Estimator::kOneStep) {
+    if (options.regression.offsets == Offsets::kShared) return std::nullopt;
+    return Refusal{"offsets", "of each recording are not estimated by ONE_STEP",
+                   "choose WEAK_IV, or SHARED offsets"};
+  }
   if (options.estimator != Estimator::kWeakIv) {
     return Refusal{"estimator", "is " + std::string(Name(options.estimator)),
                    "choose WEAK_IV or ONE_STEP"};
@@ -166,6 +174,7 @@ Result<Identification> Identify(const PreparedDataset& dataset, const std::strin
   identification.dead_zone = regression.dead_zone;
   WriteCoefficients(bounded->answers, bounded->bounds, identification);
   identification.disturbance = bounded->disturbance;
+  identification.offsets = std::move(bounded->offsets);
   identification.window = Summarise(dataset);
   identification.refusals = std::move(bounded->answers.refusals);
   identification.refusals.insert(identification.refusals.end(), dead_zone_refusals.begin(),

@@ -1,10 +1,12 @@
 #include "identification/weak_iv_answer.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <sstream>
 
 #include "data/preparation.hpp"
 #include "estimation/weak_iv.hpp"
+#include "identification/weak_iv_publication.hpp"
 #include "uncertainty/twin_correction.hpp"
 
 namespace telltale {
@@ -14,6 +16,14 @@ constexpr double kLongestPartS = 60.0;
 
 // With fewer clusters than this their scores say little of how the estimate varies.
 constexpr std::size_t kFewestClusters = 15;
+
+Refusal HeadingHardlyVaries(std::size_t recordings) {
+  return {"steady disturbance",
+          "in " + std::to_string(recordings) +
+              " of the recordings the heading hardly varies: a part that stands to the north and "
+              "east cannot be told from one that turns with the boat, and is left out there",
+          "record courses in all directions"};
+}
 
 Answers AssessAll(const PreparedDataset& dataset, RegressionOptions regression,
                   const ExcitationLimits& limits) {
@@ -33,18 +43,33 @@ std::array<std::vector<std::size_t>, 3> Sought(const Answers& answers) {
   return columns;
 }
 
-/// Splits the stacked unknowns into the answers they are.
-void Unstack(const WeakFit& fit, const Eigen::VectorXd& theta, Answers& answers) {
+/// The columns that are sought, steady terms of each recording among them.
+std::array<std::vector<std::size_t>, 3> WithOffsets(const PreparedDataset& dataset,
+                                                    const RegressionOptions& regression,
+                                                    const WeakFormOptions& form, Answers& answers) {
+  const auto columns = Sought(answers);
+  if (regression.offsets == Offsets::kShared) return columns;
+  const std::vector<bool> varies = HeadingVaries(dataset);
+  const auto steady = std::count(varies.begin(), varies.end(), false);
+  if (regression.offsets == Offsets::kPerRecordingNorthEast && steady > 0) {
+    answers.refusals.push_back(HeadingHardlyVaries(static_cast<std::size_t>(steady)));
+  }
+  return WithSteadyTerms(dataset, BuildWeakForm(dataset, regression, form), columns, varies);
+}
+
+/// Splits the published unknowns into the answers they are.
+void Unstack(const WeakFit& fit, const WeakIvPublication& publication, const Eigen::VectorXd& theta,
+             Answers& answers) {
   Eigen::Index next = 0;
   if (fit.time_constant_s) {
     answers.lag = AnsweredLag{std::max(theta[next++], 0.0), LagIsAtItsLeast(fit)};
   }
   for (std::size_t j = 0; j < fit.equations.size(); ++j) {
     if (!fit.equations[j]) continue;
-    const auto size = static_cast<Eigen::Index>(fit.equations[j]->columns.size());
+    const auto size = static_cast<Eigen::Index>(publication.columns[j].size());
     EquationEstimate estimate;
     estimate.equation = kEquations[j];
-    estimate.columns = fit.equations[j]->columns;
+    estimate.columns = publication.columns[j];
     estimate.theta = theta.segment(next, size);
     estimate.estimable.assign(estimate.columns.size(), true);
     answers.first[j] = next;
@@ -116,7 +141,7 @@ Result<BoundedAnswers> BoundWeakIv(const PreparedDataset& dataset,
   Answers& answers = bounded.answers;
   answers = AssessAll(dataset, regression, options.excitation);
   if (!answers.Any()) return tl::unexpected(NothingAnswered(answers.refusals));
-  const auto columns = Sought(answers);
+  const auto columns = WithOffsets(dataset, regression, options.weak_iv.form, answers);
   const auto fit = EstimateWeakIv(dataset, regression, columns, options.weak_iv);
   if (!fit || fit->scores.cols() < 2 || !ClusterCovariance(*fit).allFinite()) {
     return tl::unexpected(InstrumentsSayNothing());
@@ -137,19 +162,25 @@ Result<BoundedAnswers> BoundWeakIv(const PreparedDataset& dataset,
     if (corrected && !corrected->covariance.allFinite()) corrected.reset();
     if (!corrected) answers.refusals.push_back(NotCorrected());
   }
+  const WeakIvPublication publication = PublicationOf(*fit);
+  const auto publish = [&](const Eigen::VectorXd& theta, const Eigen::MatrixXd& covariance,
+                           double degrees_of_freedom) {
+    const Eigen::VectorXd published = publication.map * theta;
+    Unstack(*fit, publication, published, answers);
+    bounded.bounds =
+        StudentBounds(published, publication.map * covariance * publication.map.transpose(),
+                      degrees_of_freedom, options.interval_level);
+    bounded.offsets = OffsetsOf(publication, published, bounded.bounds, dataset);
+  };
   if (corrected) {
-    Unstack(*fit, corrected->theta, answers);
-    bounded.bounds = StudentBounds(corrected->theta, corrected->covariance,
-                                   corrected->degrees_of_freedom, options.interval_level);
+    publish(corrected->theta, corrected->covariance, corrected->degrees_of_freedom);
     bounded.disturbance = corrected->disturbance;
     bounded.provenance.twins = corrected->solved;
     bounded.provenance.twin_failures = corrected->failures;
     bounded.provenance.bounds_basis = InWords(*corrected, clusters);
     return bounded;
   }
-  Unstack(*fit, fit->theta, answers);
-  bounded.bounds = StudentBounds(fit->theta, ClusterCovariance(*fit),
-                                 static_cast<double>(clusters - 1), options.interval_level);
+  publish(fit->theta, ClusterCovariance(*fit), static_cast<double>(clusters - 1));
   bounded.provenance.bounds_basis =
       "clusters of residuals (" + std::to_string(clusters) + "), Student t; not corrected for bias";
   return bounded;

@@ -162,7 +162,11 @@ class TwinRounds {
       const VesselModel model = ModelOf(fit_, found.theta, dataset_.sampling_period_s);
       for (std::size_t i = 0; i < kQuietTwins; ++i) {
         auto quiet = SailAgain(dataset_, model,
-                               {{}, twins_.noise_scale, SeedOf(twins_.twins + i), Unanswered()});
+                               {{},
+                                twins_.noise_scale,
+                                SeedOf(twins_.twins + i),
+                                Unanswered(),
+                                SteadyOf(fit_, found.theta)});
         if (quiet) found.quiet.push_back(*std::move(quiet));
       }
       if (found.quiet.size() == kQuietTwins) return found;
@@ -200,10 +204,11 @@ class TwinRounds {
 
   std::vector<Sighting> Sight(const Eigen::VectorXd& theta) {
     const VesselModel model = ModelOf(fit_, theta, dataset_.sampling_period_s);
+    const std::vector<SteadyDisturbance> steady = SteadyOf(fit_, theta);
     std::vector<std::optional<Sighting>> all(twins_.twins);
     ForEachIndex(all.size(), twins_.threads, [&](std::size_t i) {
-      const auto twin =
-          SailAgain(dataset_, model, {disturbance_, twins_.noise_scale, SeedOf(i), Unanswered()});
+      const auto twin = SailAgain(
+          dataset_, model, {disturbance_, twins_.noise_scale, SeedOf(i), Unanswered(), steady});
       if (twin) {
         const auto again = EstimateWeakIv(*twin, regression_, columns_, options_);
         if (again) all[i] = Sighting{again->theta, ClusterCovariance(*again)};

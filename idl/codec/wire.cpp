@@ -81,6 +81,7 @@ void Fill(telltale_wire_CoefficientChange& wire, const CoefficientChange& change
   wire.p_value = change.p_value;
 }
 
+void Fill(telltale_wire_RecordingOffsets& wire, const RecordingOffsets& offsets);
 void Fill(telltale_wire_ModelChange& wire, const ModelChange& change);
 void Fill(telltale_wire_Model& wire, const PublishedModel& model);
 
@@ -97,6 +98,12 @@ std::vector<double> RowMajor(const Eigen::MatrixXd& matrix) {
     }
   }
   return values;
+}
+
+void Fill(telltale_wire_RecordingOffsets& wire, const RecordingOffsets& offsets) {
+  wire.start_s = offsets.start_s;
+  wire.end_s = offsets.end_s;
+  PutSequence(wire.coefficients, offsets.coefficients, kFill);
 }
 
 void Fill(telltale_wire_ModelChange& wire, const ModelChange& change) {
@@ -146,6 +153,7 @@ void Fill(telltale_wire_Model& wire, const PublishedModel& model) {
     PutSequence(wire.disturbance_sigma, disturbance->sigma, kCopy);
     PutSequence(wire.disturbance_time_constant_s, disturbance->time_constant_s, kCopy);
   }
+  PutSequence(wire.offsets, identification.offsets, kFill);
   wire.clusters = provenance.clusters;
   if (const auto& change = provenance.change) {
     PutSequence(wire.change, std::initializer_list<ModelChange>{*change}, kFill);
@@ -386,6 +394,14 @@ std::optional<Disturbance> ReadDisturbance(const dds_sequence_double& sigma,
                      ReadAxes("disturbance_time_constant_s", time_constant_s, kShortestS)};
 }
 
+RecordingOffsets ReadOffsets(const std::string& field, const telltale_wire_RecordingOffsets& wire) {
+  RecordingOffsets offsets;
+  offsets.start_s = ReadWithin(field + ".start_s", wire.start_s, -kLargest, kLargest);
+  offsets.end_s = ReadWithin(field + ".end_s", wire.end_s, wire.start_s, kLargest);
+  offsets.coefficients = ReadSequence(field + ".coefficients", wire.coefficients, ReadCoefficient);
+  return offsets;
+}
+
 CoefficientChange ReadCoefficientChange(const std::string& field,
                                         const telltale_wire_CoefficientChange& wire) {
   return {ReadName(field + ".equation", View(wire.equation),
@@ -455,6 +471,7 @@ PublishedModel ReadModel(const telltale_wire_Model& wire) {
   identification.provenance.twin_failures = wire.twin_failures;
   identification.disturbance =
       ReadDisturbance(wire.disturbance_sigma, wire.disturbance_time_constant_s);
+  identification.offsets = ReadSequence("offsets", wire.offsets, ReadOffsets);
   identification.provenance.clusters = wire.clusters;
   identification.provenance.change = ReadChange(wire.change);
   return model;

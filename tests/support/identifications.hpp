@@ -61,6 +61,10 @@ inline Identification MadeUpIdentification(
   made.covariance(1, 1) = kInfinity;
   made.covariance = made.covariance.selfadjointView<Eigen::Lower>();
   made.dead_zone = {0.05, -0.0625};
+  for (const double start_s : {1700000000.125, 1700000400.5}) {
+    made.offsets.push_back({start_s, start_s + 200.125, {made.coefficients[4]}});
+    made.offsets.back().coefficients[0].regressor = "cos(psi)";
+  }
   made.window.start_s = 1700000000.125;
   made.window.end_s = 1700000600.625;
   made.window.samples = 3003;
@@ -191,6 +195,15 @@ inline void ExpectSame(const Identification& a, const Identification& b) {
   if (a.disturbance) {
     EXPECT_EQ(a.disturbance->sigma, b.disturbance->sigma);
     EXPECT_EQ(a.disturbance->time_constant_s, b.disturbance->time_constant_s);
+  }
+  ASSERT_EQ(a.offsets.size(), b.offsets.size());
+  for (std::size_t i = 0; i < a.offsets.size(); ++i) {
+    EXPECT_EQ(a.offsets[i].start_s, b.offsets[i].start_s);
+    EXPECT_EQ(a.offsets[i].end_s, b.offsets[i].end_s);
+    ASSERT_EQ(a.offsets[i].coefficients.size(), b.offsets[i].coefficients.size());
+    for (std::size_t j = 0; j < a.offsets[i].coefficients.size(); ++j) {
+      ExpectSame(a.offsets[i].coefficients[j], b.offsets[i].coefficients[j]);
+    }
   }
   ExpectSame(a.window, b.window);
   EXPECT_EQ(a.refusals, b.refusals);
