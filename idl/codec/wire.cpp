@@ -81,6 +81,15 @@ void Fill(telltale_wire_CoefficientChange& wire, const CoefficientChange& change
   wire.p_value = change.p_value;
 }
 
+void Fill(telltale_wire_IndicativeCoefficient& wire, const IndicativeCoefficient& coefficient) {
+  Put(wire.equation, Name(coefficient.equation));
+  Put(wire.regressor, coefficient.regressor);
+  Put(wire.symbol, coefficient.symbol);
+  wire.estimate = coefficient.estimate;
+  wire.standard_error = coefficient.standard_error;
+  Put(wire.unit, coefficient.unit);
+}
+
 void Fill(telltale_wire_RecordingOffsets& wire, const RecordingOffsets& offsets);
 void Fill(telltale_wire_ModelChange& wire, const ModelChange& change);
 void Fill(telltale_wire_Model& wire, const PublishedModel& model);
@@ -394,6 +403,16 @@ std::optional<Disturbance> ReadDisturbance(const dds_sequence_double& sigma,
                      ReadAxes("disturbance_time_constant_s", time_constant_s, kShortestS)};
 }
 
+IndicativeCoefficient ReadIndicative(const std::string& field,
+                                     const telltale_wire_IndicativeCoefficient& wire) {
+  return {ReadName(field + ".equation", View(wire.equation), kAllEquations),
+          std::string(View(wire.regressor)),
+          std::string(View(wire.symbol)),
+          ReadWithin(field + ".estimate", wire.estimate, -kLargest, kLargest),
+          ReadWithin(field + ".standard_error", wire.standard_error, 0.0, kLargest),
+          std::string(View(wire.unit))};
+}
+
 RecordingOffsets ReadOffsets(const std::string& field, const telltale_wire_RecordingOffsets& wire) {
   RecordingOffsets offsets;
   offsets.start_s = ReadWithin(field + ".start_s", wire.start_s, -kLargest, kLargest);
@@ -593,6 +612,8 @@ WireSample<telltale_wire_Quality> Encode(const Quality& quality) {
   wire->model_age_s = quality.model_age_s;
   wire->prediction_error = quality.prediction_error;
   wire->drift = quality.drift;
+  PutSequence(wire->indicative, quality.indicative, kFill);
+  wire->indicative_rows = quality.indicative_rows;
   return wire;
 }
 
@@ -685,6 +706,8 @@ Decoded<Quality> Decode(const telltale_wire_Quality& wire) {
     quality.model_age_s = ReadWithin("model_age_s", wire.model_age_s, -kLargest, kLargest);
     quality.prediction_error = ReadWithin("prediction_error", wire.prediction_error, 0.0, kLargest);
     quality.drift = ReadWithin("drift", wire.drift, -kLargest, kLargest);
+    quality.indicative = ReadSequence("indicative", wire.indicative, ReadIndicative);
+    quality.indicative_rows = wire.indicative_rows;
     return quality;
   });
 }

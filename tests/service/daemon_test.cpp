@@ -96,6 +96,28 @@ TEST_F(Daemon, ReportsTheModelAndHowWellItPredicts) {
   EXPECT_THAT(monitor->output(), HasSubstr(kVehicleId));
 }
 
+// Nobody has asked for a model: the live estimates come of themselves.
+TEST_F(Daemon, FollowsABoatWithIndicativeEstimates) {
+  const auto daemon = StartDaemon();
+  Replay(SimulatedRecording(testing::StableBoat(), 0.0, 300.0, 4));
+  const auto settled = [](const Quality& q) { return q.indicative_rows > 1400; };
+  const auto quality = AwaitQuality(kVehicleId, settled);
+  ASSERT_TRUE(quality);
+  EXPECT_FALSE(quality->model_revision);
+  EXPECT_EQ(quality->indicative.size(), 35u);
+  const VesselModel boat = testing::StableBoat();
+  double thrust = 0.0;
+  for (const IndicativeCoefficient& c : quality->indicative) {
+    EXPECT_GT(c.standard_error, 0.0);
+    if (c.equation == Equation::kSurge && c.regressor.starts_with("f:")) thrust += c.estimate;
+  }
+  // Indicative: one-step least squares attenuates.
+  EXPECT_NEAR(thrust, boat.theta[0][5] + boat.theta[0][6], 0.25 * 0.7);
+  const auto monitor = Start({"monitor", "--once"});
+  EXPECT_EQ(monitor->Wait(), 0);
+  EXPECT_THAT(monitor->output(), HasSubstr("±"));
+}
+
 TEST_F(Daemon, GivesALateJoinerTheLastModel) {
   const auto daemon = StartDaemon();
   ReplaySimulation();

@@ -12,13 +12,27 @@
 #include "ingest/vehicle_window.hpp"
 #include "models/model_store.hpp"
 #include "models/predecessor.hpp"
+#include "monitoring/live_feed.hpp"
 #include "monitoring/prediction_error.hpp"
 #include "simulation/yellowfish.hpp"
+#include "support/boats.hpp"
 #include "support/identifications.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace telltale {
 namespace {
+
+template <class Sample>
+std::vector<Sample> Before(const std::vector<Sample>& samples, double end_s) {
+  std::vector<Sample> before = samples;
+  std::erase_if(before, [&](const Sample& sample) { return sample.time_s > end_s; });
+  return before;
+}
+
+Recording Before(const Recording& recording, double end_s) {
+  return {Before(recording.gnss, end_s), Before(recording.heading, end_s),
+          Before(recording.thrusters, end_s), recording.rejected};
+}
 
 SequenceGaps Gaps(std::initializer_list<std::uint64_t> sequence_numbers) {
   SequenceGaps gaps;
@@ -206,6 +220,38 @@ TEST(PredictionError, LooksAtTheLastMinute) {
   EXPECT_EQ(Latest(recording, 60.0).gnss.front().time_s, 40.0);
   EXPECT_EQ(Latest(recording, 600.0).gnss.size(), 101u);
   EXPECT_TRUE(Latest(Recording(), 60.0).gnss.empty());
+}
+
+/// Rows of a whole recording taken in piece by piece are those of the recording taken at once.
+TEST(LiveFeed, TellsTheSameHoweverItIsFed) {
+  const Recording recording =
+      testing::SailStableBoat(testing::StableBoat(), 300.0, SensorOptions(), 5);
+  LiveFeed at_once;
+  at_once.TakeIn(recording, testing::StableBoatVehicle());
+  LiveFeed by_pieces;
+  for (double end_s = 10.0; end_s <= 300.0; end_s += 7.0) {
+    const Recording until = Before(recording, end_s);
+    if (by_pieces.IsDue(end_s)) by_pieces.TakeIn(until, testing::StableBoatVehicle());
+  }
+  by_pieces.TakeIn(recording, testing::StableBoatVehicle());
+  EXPECT_EQ(by_pieces.rows(), at_once.rows());
+  const auto one = at_once.Estimates();
+  const auto other = by_pieces.Estimates();
+  ASSERT_EQ(one.size(), 35u);
+  ASSERT_EQ(other.size(), 35u);
+  for (std::size_t i = 0; i < one.size(); ++i) {
+    EXPECT_NEAR(one[i].estimate, other[i].estimate, 0.01 * one[i].standard_error);
+  }
+}
+
+TEST(LiveFeed, IsDueAfterSomeSecondsOrANewClock) {
+  LiveFeed feed;
+  EXPECT_FALSE(feed.IsDue(4.0));
+  feed.TakeIn(testing::SailStableBoat(testing::StableBoat(), 60.0, SensorOptions(), 5),
+              testing::StableBoatVehicle());
+  EXPECT_FALSE(feed.IsDue(62.0));
+  EXPECT_TRUE(feed.IsDue(65.0));
+  EXPECT_TRUE(feed.IsDue(3.0));
 }
 
 TEST(IdentificationOptions, AreTheRequestsWishesOverTheDaemonsDefaults) {
