@@ -20,6 +20,8 @@ namespace telltale {
 struct AnsweredLag {
   double time_constant_s = 0.0;
   bool no_lag_seen = false;  ///< the data bound it from above alone
+  std::optional<Interval> profile =
+      std::nullopt;  ///< where it stands in for the interval of Bounds
 };
 
 /// Everything known about the equations before coefficients are written down. The stacked unknowns

@@ -10,6 +10,7 @@
 #include "estimation/one_step.hpp"
 #include "uncertainty/bootstrap.hpp"
 #include "uncertainty/clustered_fit.hpp"
+#include "uncertainty/profile_interval.hpp"
 
 namespace telltale {
 namespace {
@@ -20,6 +21,7 @@ constexpr std::size_t kFewestUnits = 8;
 /// Answers and what they were fitted to: equations of the static structure, or all three lagged.
 struct Fitted {
   Answers answers;
+  std::optional<LaggedProblem> lagging;
   std::array<EquationProblem, 3> equations;
   std::optional<LaggedEstimate> lagged;
 };
@@ -47,8 +49,9 @@ Fitted FitAtOnce(const PreparedDataset& dataset, const RegressionOptions& regres
 
 Fitted FitLagging(const PreparedDataset& dataset, const RegressionOptions& regression,
                   const ExcitationLimits& limits) {
-  const LaggedProblem problem = BuildLagged(dataset, regression);
   Fitted fitted;
+  fitted.lagging = BuildLagged(dataset, regression);
+  const LaggedProblem& problem = *fitted.lagging;
   Answers& answers = fitted.answers;
   for (const EquationProblem& equation : problem.at_once.equations) {
     AssessEquation(equation, limits, answers);
@@ -165,6 +168,29 @@ std::optional<Refusal> WarnOfFailures(const BootstrapReplicates& replicates) {
                  "repeat the manoeuvres that occur only once or twice"};
 }
 
+/// Replaces the interval of the time constant by that of its profile likelihood where the two sides
+/// of it differ badly, and says so.
+void ProfileLag(const ClusteredFit& fit, double level, Fitted& fitted, BoundedAnswers& bounded) {
+  constexpr double kBadlyLopsided = 1.25;
+  const double white = ResidualCovariance(fit)(0, 0);
+  const double variance = bounded.bounds.covariance(0, 0);
+  if (!(white > 0.0) || !std::isfinite(variance)) return;
+  // Coloured residuals make a likelihood that takes them for white as much too sharp.
+  const double sharpness = std::max(1.0, variance / white);
+  const double quantile = StudentInterval(0.0, 1.0, fit.degrees_of_freedom, level).upper;
+  const LagLimits limits = LimitsOfLag(*fitted.lagging);
+  const double estimate = fitted.lagged->time_constant_s;
+  const Interval profile = ProfileInterval(
+      [&](double tau) {
+        return LagDeviance(*fitted.lagging, fitted.answers.excitations, *fitted.lagged, tau);
+      },
+      {estimate, std::sqrt(variance), limits.shortest_s, limits.longest_s},
+      sharpness * quantile * quantile, level);
+  if (Lopsidedness(profile, estimate) < kBadlyLopsided) return;
+  fitted.answers.lag->profile = profile;
+  bounded.provenance.bounds_basis += "; the time constant's by profile likelihood, lopsided";
+}
+
 }  // namespace
 
 Answers AnswerOneStep(const PreparedDataset& dataset, const RegressionOptions& regression,
@@ -185,6 +211,7 @@ Result<BoundedAnswers> BoundOneStep(const PreparedDataset& dataset,
     bounded.provenance.bounds_basis =
         "residual covariance, white residuals assumed; too narrow where residuals are coloured or "
         "velocities noisy";
+    if (fitted.lagged) ProfileLag(fits.front(), options.interval_level, fitted, bounded);
     bounded.answers = std::move(fitted.answers);
     return bounded;
   }
@@ -205,6 +232,7 @@ Result<BoundedAnswers> BoundOneStep(const PreparedDataset& dataset,
       "; attenuation of one-step least squares by noisy velocities is not covered";
   bounded.bounds =
       ReplicateBounds(fits, replicates, options.interval_method, options.interval_level);
+  if (fitted.lagged) ProfileLag(fits.front(), options.interval_level, fitted, bounded);
   bounded.answers = std::move(fitted.answers);
   return bounded;
 }
