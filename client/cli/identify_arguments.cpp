@@ -69,10 +69,10 @@ void IdentifyArguments::AddOptionsTo(CLI::App& command) {
       ->type_name("N");
   command
       .add_option("--bootstrap-kind", bootstrap_kind,
-                  "what a replicate redraws: segments (default), or moving-blocks as long as the "
-                  "data ask for")
+                  "what a replicate redraws: segments (default), moving-blocks as long as the data "
+                  "ask for, or with parametric nothing: it simulates the data anew, which is slow")
       ->type_name("NAME")
-      ->check(CLI::IsMember({"segments", "moving-blocks"}).description(""));
+      ->check(CLI::IsMember({"segments", "moving-blocks", "parametric"}).description(""));
   command
       .add_option("--interval", interval,
                   "how replicates bound: percentile (default), studentized or bca")
@@ -147,6 +147,7 @@ IdentifyOptions IdentifyArguments::Options() const {
   if (twins) options.twins = *twins;
   if (bootstrap_replicates) options.bootstrap_replicates = *bootstrap_replicates;
   if (bootstrap_kind == "moving-blocks") options.resampling = Resampling::kMovingBlocks;
+  if (bootstrap_kind == "parametric") options.resampling = Resampling::kParametric;
   if (interval == "studentized") options.interval_method = IntervalMethod::kStudentized;
   if (interval == "bca") options.interval_method = IntervalMethod::kBca;
   if (interval_level) options.interval_level = *interval_level;

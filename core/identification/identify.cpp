@@ -124,7 +124,11 @@ std::optional<Refusal> IdentifyOptions::Validate() const {
   }
   if (auto refusal = ReplicatesRefusal(bootstrap_replicates)) return refusal;
   if (resampling == Resampling::kUnknown) {
-    return Refusal{"resampling", "is unset", "choose SEGMENTS or MOVING_BLOCKS"};
+    return Refusal{"resampling", "is unset", "choose SEGMENTS, MOVING_BLOCKS or PARAMETRIC"};
+  }
+  if (resampling == Resampling::kParametric && prepare.preset != Preset::kRobust) {
+    return Refusal{"resampling", "PARAMETRIC simulates what the robust preset has prepared",
+                   "choose the robust preset, or SEGMENTS"};
   }
   if (interval_method == IntervalMethod::kUnknown) {
     return Refusal{"interval_method", "is unset", "choose PERCENTILE, STUDENTIZED or BCA"};

@@ -120,6 +120,12 @@ class TwinRounds {
         twins_(twins),
         progress_(progress) {}
 
+  std::optional<Disturbance> DisturbanceAlone() const {
+    const auto found = FindSailable();
+    if (!found) return std::nullopt;
+    return JudgeDisturbance(*found);
+  }
+
   std::optional<TwinCorrection> Run() {
     const auto found = FindSailable();
     if (!found) return std::nullopt;
@@ -290,6 +296,15 @@ std::optional<TwinCorrection> CorrectWithTwins(
     const TwinCorrectionOptions& twins, const std::function<void(double fraction)>& progress) {
   Require(twins.twins >= 8, "at least eight twins");
   return TwinRounds(dataset, regression, fit, columns, options, twins, progress).Run();
+}
+
+std::optional<Disturbance> JudgeDisturbance(const PreparedDataset& dataset,
+                                            const RegressionOptions& regression, const WeakFit& fit,
+                                            const std::array<std::vector<std::size_t>, 3>& columns,
+                                            const WeakIvOptions& options, std::uint64_t seed) {
+  TwinCorrectionOptions twins;
+  twins.seed = seed;
+  return TwinRounds(dataset, regression, fit, columns, options, twins, {}).DisturbanceAlone();
 }
 
 }  // namespace telltale

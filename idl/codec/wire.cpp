@@ -257,8 +257,8 @@ constexpr std::initializer_list<Parameterization> kParameterizations = {
     Parameterization::kPropeller, Parameterization::kPaper};
 constexpr std::initializer_list<Estimator> kEstimators = {Estimator::kOneStep, Estimator::kWeakIv,
                                                           Estimator::kOutputError};
-constexpr std::initializer_list<Resampling> kResamplings = {Resampling::kSegments,
-                                                            Resampling::kMovingBlocks};
+constexpr std::initializer_list<Resampling> kResamplings = {
+    Resampling::kSegments, Resampling::kMovingBlocks, Resampling::kParametric};
 constexpr std::initializer_list<IntervalMethod> kIntervalMethods = {
     IntervalMethod::kPercentile, IntervalMethod::kStudentized, IntervalMethod::kBca};
 constexpr std::initializer_list<DeadZoneSource> kDeadZoneSources = {DeadZoneSource::kGiven,

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+
+#include <Eigen/Core>
+
+#include "data/prepared_dataset.hpp"
+#include "uncertainty/bootstrap.hpp"
+#include "vessel/disturbance.hpp"
+#include "vessel/vessel_model.hpp"
+
+namespace telltale {
+
+/// What an estimator makes of a data set, by white residuals.
+struct Refit {
+  Eigen::VectorXd theta;
+  Eigen::VectorXd standard_error;
+};
+
+/// Parametric bootstrap: each replicate is what the estimator makes of a simulated repeat of the
+/// data set, sailed by its own estimate with fresh disturbance and sensor noise (SailAgain) and
+/// prepared anew. Unlike redrawn rows, repeats show the bias of the estimator too; of the intervals
+/// only BCa takes it out, with an acceleration of zero, since the residuals simulated are Gaussian.
+/// Repeats that run away or of which the estimator makes nothing count as failures.
+/// Determinism: replicate i has a seed of its own, so the result does not depend on threads.
+/// Requires: `estimate_again` to be safe on several threads.
+BootstrapReplicates SimulateReplicates(
+    const PreparedDataset& dataset, const VesselModel& model, const Disturbance& disturbance,
+    const Refit& original,
+    const std::function<std::optional<Refit>(const PreparedDataset&)>& estimate_again,
+    const BootstrapOptions& options);
+
+}  // namespace telltale
