@@ -49,14 +49,13 @@ std::string InWords(const ModelChange& change) {
     case ChangeVerdict::kDiffers:
       return "differs from " + Earlier(change) + ": " + p + MostSignificant(change.coefficients) +
              "; fouling, damage or another load?";
-    case ChangeVerdict::kAlike: return "no different from " + Earlier(change) + ": " + p;
+    case ChangeVerdict::kAlike: return "is no different from " + Earlier(change) + ": " + p;
     case ChangeVerdict::kCannotTell:
-      return "whether it differs from " +
-             (change.revision > 0 ? Earlier(change) : "earlier models") +
-             " cannot be told: " + change.reason;
+      return "cannot be compared with " +
+             (change.revision > 0 ? Earlier(change) : "earlier models") + ": " + change.reason;
     case ChangeVerdict::kUnknown: break;
   }
-  return "not compared";
+  return "was not compared";
 }
 
 }  // namespace telltale

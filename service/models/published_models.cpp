@@ -21,7 +21,7 @@ void LogChange(const PublishedModel& model) {
   if (!change) return;
   const auto level =
       change->verdict == ChangeVerdict::kDiffers ? spdlog::level::warn : spdlog::level::info;
-  spdlog::log(level, "revision {} of {}: {}", model.revision, model.identification.vehicle_id,
+  spdlog::log(level, "revision {} of {} {}", model.revision, model.identification.vehicle_id,
               InWords(*change));
 }
 

@@ -1,6 +1,7 @@
 #include "monitoring/live_feed.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 
 #include "data/preparation.hpp"
@@ -43,7 +44,8 @@ void LiveFeed::TakeIn(const Recording& recording, const Vehicle& vehicle) {
 }
 
 void LiveFeed::Feed(const PreparedDataset& dataset) {
-  const std::size_t unsettled = dataset.options.smoothing_half_width;
+  // Interpolation onto the last rows of the filter reaches beyond them, to what may yet come.
+  const std::size_t unsettled = dataset.options.smoothing_half_width + 3;
   const std::size_t settled = dataset.rows.size() - std::min(unsettled, dataset.rows.size());
   for (std::size_t k = 0; k < settled; ++k) {
     const PreparedRow& row = dataset.rows[k];
@@ -62,8 +64,8 @@ std::vector<IndicativeCoefficient> LiveFeed::Estimates() const {
     if (!estimate) continue;
     const auto regressors = Regressors(equation, Parameterization::kPropeller);
     for (std::size_t i = 0; i < regressors.size(); ++i) {
-      if (!estimate->estimable[i]) continue;
       const auto place = static_cast<Eigen::Index>(i);
+      if (!estimate->estimable[i] || !std::isfinite(estimate->standard_error[place])) continue;
       all.push_back({equation, std::string(regressors[i].name), std::string(regressors[i].symbol),
                      estimate->theta[place], estimate->standard_error[place],
                      std::string(regressors[i].unit)});

@@ -27,7 +27,7 @@ namespace telltale {
 namespace {
 
 using namespace std::chrono_literals;
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
 using Daemon = ServiceTest;
 
@@ -139,7 +139,7 @@ TEST_F(Daemon, TellsWhetherABoatHasChanged) {
   ASSERT_EQ(Start({"identify", "--vehicle-id", kVehicleId})->Wait(), 0);
   const auto again = Start({"identify", "--vehicle-id", kVehicleId});
   EXPECT_EQ(again->Wait(), 0);
-  EXPECT_THAT(again->output(), HasSubstr("cannot be told"));  // it is the same window
+  EXPECT_THAT(again->output(), HasSubstr("cannot be compared"));  // it is the same window
 
   Replay(SimulatedRecording(testing::StableBoat(), kDayS, 300.0, 2));
   const auto alike = Start({"identify", "--vehicle-id", kVehicleId});
@@ -149,7 +149,7 @@ TEST_F(Daemon, TellsWhetherABoatHasChanged) {
   Replay(SimulatedRecording(worn, 2.0 * kDayS, 300.0, 3));
   const auto file = folder_.Path() / "worn.json";
   ASSERT_EQ(Start({"identify", "--vehicle-id", kVehicleId, "--out", file})->Wait(), 0);
-  EXPECT_TRUE(daemon->WaitForOutput("revision 4 of yellowfish: differs from revision 3"));
+  EXPECT_TRUE(daemon->WaitForOutput("revision 4 of yellowfish differs from revision 3"));
   const auto watch = Start({"watch", "--all", "--count", "1", "--timeout", "20"});
   EXPECT_EQ(watch->Wait(), 0) << watch->output();
   EXPECT_THAT(watch->output(), HasSubstr("differs from revision 3: p = "));

@@ -29,7 +29,7 @@ Recording SimulatedRecording();
 std::size_t SizeOf(const Recording& recording);
 
 /// Real programs on a domain and in a folder of the test's own.
-class ServiceTest : public testing::Test {
+class ServiceTest : public ::testing::Test {
  protected:
   static constexpr const char* kVehicleId = "yellowfish";
 

@@ -73,10 +73,16 @@ inline Identification MadeUpIdentification(
   made.window.rejected.Count(Channel::kThrusters, RejectReason::kNotFinite, 2);
   made.refusals.push_back({"sway", "v and v|v| move together", "add a zigzag at two speeds"});
   made.disturbance = Disturbance{{0.03, 0.04, 0.05}, {2.0, 3.0, 4.0}};
-  made.provenance = {"ROBUST", "a cluster bootstrap over segments",       1000,
-                     3,        std::numeric_limits<std::uint64_t>::max(), "0.1.0"};
-  made.provenance.clusters = 67;
-  made.provenance.change = MadeUpChange();
+  made.provenance = {"ROBUST",
+                     "a cluster bootstrap over segments",
+                     1000,
+                     3,
+                     std::numeric_limits<std::uint64_t>::max(),
+                     "0.1.0",
+                     40,
+                     2,
+                     67,
+                     MadeUpChange()};
   return made;
 }
 

@@ -87,12 +87,12 @@ TEST(ModelChange, IsToldInASentence) {
             "by -2.0 sigma; fouling, damage or another load?");
   change.verdict = ChangeVerdict::kAlike;
   change.p_value = 0.41;
-  EXPECT_EQ(InWords(change), "no different from revision 3: p = 0.41");
+  EXPECT_EQ(InWords(change), "is no different from revision 3: p = 0.41");
   change.verdict = ChangeVerdict::kCannotTell;
   change.reason = "too little";
-  EXPECT_EQ(InWords(change), "whether it differs from revision 3 cannot be told: too little");
+  EXPECT_EQ(InWords(change), "cannot be compared with revision 3: too little");
   change.revision = 0;
-  EXPECT_THAT(InWords(change), HasSubstr("from earlier models cannot be told"));
+  EXPECT_THAT(InWords(change), HasSubstr("compared with earlier models"));
 }
 
 }  // namespace
