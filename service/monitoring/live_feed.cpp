@@ -10,7 +10,7 @@
 namespace telltale {
 namespace {
 
-constexpr double kNewDataS = 5.0;
+constexpr double kWorthTakingInS = 5.0;
 // Rows before those taken in, so that filters reach both ways and a stretch is long enough.
 constexpr double kLeadS = 15.0;
 constexpr double kMostAtOnceS = 1200.0;
@@ -22,7 +22,7 @@ bool IsNewer(double time_s, double than_s, double period_s) {
 }  // namespace
 
 bool LiveFeed::IsDue(double end_s) const {
-  return end_s >= seen_to_s_ + kNewDataS || end_s < seen_to_s_;
+  return end_s >= seen_to_s_ + kWorthTakingInS || end_s < seen_to_s_;
 }
 
 void LiveFeed::TakeIn(const Recording& recording, const Vehicle& vehicle) {

@@ -11,7 +11,7 @@
 namespace telltale {
 namespace {
 
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
 /// 32 boat coefficients of unit variance known for certain, so that d'V^-1 d = sum d^2 / 2.
 Identification Known() {
