@@ -75,7 +75,8 @@ void IdentifyArguments::AddOptionsTo(CLI::App& command) {
       ->check(CLI::IsMember({"segments", "moving-blocks", "parametric"}).description(""));
   command
       .add_option("--interval", interval,
-                  "how replicates bound: percentile (default), studentized or bca")
+                  "how replicates bound: percentile (default), studentized (default of "
+                  "parametric, whose bias it takes out) or bca")
       ->type_name("NAME")
       ->check(CLI::IsMember({"percentile", "studentized", "bca"}).description(""));
   command
@@ -147,7 +148,11 @@ IdentifyOptions IdentifyArguments::Options() const {
   if (twins) options.twins = *twins;
   if (bootstrap_replicates) options.bootstrap_replicates = *bootstrap_replicates;
   if (bootstrap_kind == "moving-blocks") options.resampling = Resampling::kMovingBlocks;
-  if (bootstrap_kind == "parametric") options.resampling = Resampling::kParametric;
+  if (bootstrap_kind == "parametric") {
+    options.resampling = Resampling::kParametric;
+    options.interval_method = IntervalMethod::kStudentized;  // which alone takes the bias out
+  }
+  if (interval == "percentile") options.interval_method = IntervalMethod::kPercentile;
   if (interval == "studentized") options.interval_method = IntervalMethod::kStudentized;
   if (interval == "bca") options.interval_method = IntervalMethod::kBca;
   if (interval_level) options.interval_level = *interval_level;

@@ -305,9 +305,9 @@ Result<BoundedAnswers> BoundOneStep(const PreparedDataset& dataset,
       (parametric ? "parametric bootstrap, the data set simulated anew"
                   : InWords(replicates, dataset.sampling_period_s)) +
       ", " + InWords(options.interval_method) +
-      (parametric && options.interval_method == IntervalMethod::kBca
-           ? "; attenuation of one-step least squares by noisy velocities is taken out as far as "
-             "the repeats show it"
+      (parametric && options.interval_method == IntervalMethod::kStudentized
+           ? "; attenuation of one-step least squares by noisy velocities is taken out to first "
+             "order"
            : "; attenuation of one-step least squares by noisy velocities is not covered");
   bounded.bounds =
       ReplicateBounds(fits, replicates, options.interval_method, options.interval_level);

