@@ -157,6 +157,7 @@ class Afloat {
  public:
   Afloat(const Boat& boat, const Surroundings& around, std::uint64_t seed)
       : boat_(boat),
+        steady_(around.steady),
         half_step_share_(boat.thruster_time_constant_s > 0.0
                              ? 1.0 - std::exp(-kStepS / 2.0 / boat.thruster_time_constant_s)
                              : 1.0),
@@ -173,8 +174,9 @@ class Afloat {
   void Step(double port, double starboard) {
     // Each step is driven by the thrust at its middle.
     Follow(port, starboard);
-    const std::array<double, 3> d = {disturbance_[0].Next(), disturbance_[1].Next(),
-                                     disturbance_[2].Next()};
+    const std::array<double, 3> d = {disturbance_[0].Next() + Steady(0),
+                                     disturbance_[1].Next() + Steady(1),
+                                     disturbance_[2].Next() + Steady(2)};
     const State k1 = Slope(boat_, state_, thrust_, d);
     const State k2 = Slope(boat_, state_ + (kStepS / 2) * k1, thrust_, d);
     const State k3 = Slope(boat_, state_ + (kStepS / 2) * k2, thrust_, d);
@@ -196,7 +198,13 @@ class Afloat {
                    half_step_share_);
   }
 
+  double Steady(std::size_t axis) const {
+    const std::array<double, 3>& terms = steady_[axis];
+    return terms[0] + terms[1] * std::cos(state_.psi) + terms[2] * std::sin(state_.psi);
+  }
+
   const Boat& boat_;
+  std::array<std::array<double, 3>, 3> steady_;
   double half_step_share_;
   State state_;
   Thrusters thrust_;

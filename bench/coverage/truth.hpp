@@ -30,6 +30,8 @@ struct Surroundings {
   double heading_noise_deg = 0.3;
   double slow_position_error_m = 0.0;  ///< AR(1), on top of the white noise
   double slow_position_time_s = 20.0;
+  /// Steady accelerations of surge, sway and yaw: coefficients of 1, cos psi and sin psi.
+  std::array<std::array<double, 3>, 3> steady{};
 };
 
 struct Mission {

@@ -11,6 +11,7 @@ void AddValidate(CLI::App& telltale);
 void AddSimulate(CLI::App& telltale);
 void AddExport(CLI::App& telltale);
 void AddGain(CLI::App& telltale);
+void AddCompare(CLI::App& telltale);
 void AddReplay(CLI::App& telltale);
 void AddWatch(CLI::App& telltale);
 void AddMonitor(CLI::App& telltale);

@@ -70,15 +70,23 @@ void IdentifyArguments::AddOptionsTo(CLI::App& command) {
       ->type_name("N");
   command
       .add_option("--bootstrap-kind", bootstrap_kind,
-                  "what a replicate redraws: segments (default), or moving-blocks as long as the "
-                  "data ask for")
+                  "what a replicate redraws: segments (default), moving-blocks as long as the data "
+                  "ask for, or with parametric nothing: it simulates the data anew, which is slow")
       ->type_name("NAME")
-      ->check(CLI::IsMember({"segments", "moving-blocks"}).description(""));
+      ->check(CLI::IsMember({"segments", "moving-blocks", "parametric"}).description(""));
   command
       .add_option("--interval", interval,
-                  "how replicates bound: percentile (default), studentized or bca")
+                  "how replicates bound: percentile (default), studentized (default of "
+                  "parametric, whose bias it takes out) or bca")
       ->type_name("NAME")
       ->check(CLI::IsMember({"percentile", "studentized", "bca"}).description(""));
+  command
+      .add_option("--offsets", offsets,
+                  "steady disturbance, as of wind: shared by all logs (default of one log, and of "
+                  "one-step), per-recording (default of several), or per-recording-ned: with a "
+                  "part besides that stands to the north and east while the boat turns")
+      ->type_name("NAME")
+      ->check(CLI::IsMember({"shared", "per-recording", "per-recording-ned"}).description(""));
   command.add_option("--level", interval_level, "of the bounds, [0.5, 0.999] (default 0.95)")
       ->type_name("P");
   command
@@ -115,6 +123,16 @@ std::optional<Estimator> IdentifyArguments::ChosenEstimator() const {
   return std::nullopt;
 }
 
+Offsets IdentifyArguments::ChosenOffsets() const {
+  const bool several = inputs.logs.size() > 1;
+  if (!offsets && several && ChosenEstimator() == Estimator::kWeakIv) {
+    return Offsets::kPerRecording;
+  }
+  if (offsets == "per-recording") return Offsets::kPerRecording;
+  if (offsets == "per-recording-ned") return Offsets::kPerRecordingNorthEast;
+  return Offsets::kShared;
+}
+
 IdentifyOptions IdentifyArguments::Options() const {
   IdentifyOptions options;
   options.estimator = ChosenEstimator();
@@ -123,6 +141,7 @@ IdentifyOptions IdentifyArguments::Options() const {
   if (parameterization == "paper") options.regression.parameterization = Parameterization::kPaper;
   if (structure == "dynamic") options.regression.structure = Structure::kFirstOrderDynamic;
   options.regression.include_reverse = include_rr;
+  options.regression.offsets = ChosenOffsets();
   if (dead_zone == "identify") {
     options.dead_zone_source = DeadZoneSource::kIdentified;
   } else if (dead_zone) {
@@ -131,6 +150,11 @@ IdentifyOptions IdentifyArguments::Options() const {
   if (twins) options.twins = *twins;
   if (bootstrap_replicates) options.bootstrap_replicates = *bootstrap_replicates;
   if (bootstrap_kind == "moving-blocks") options.resampling = Resampling::kMovingBlocks;
+  if (bootstrap_kind == "parametric") {
+    options.resampling = Resampling::kParametric;
+    options.interval_method = IntervalMethod::kStudentized;  // which alone takes the bias out
+  }
+  if (interval == "percentile") options.interval_method = IntervalMethod::kPercentile;
   if (interval == "studentized") options.interval_method = IntervalMethod::kStudentized;
   if (interval == "bca") options.interval_method = IntervalMethod::kBca;
   if (interval_level) options.interval_level = *interval_level;

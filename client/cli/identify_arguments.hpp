@@ -23,8 +23,9 @@ struct IdentifyArguments {
   std::optional<double> sampling_period_s;
   std::optional<std::size_t> twins;
   std::optional<std::uint32_t> bootstrap_replicates;
-  std::optional<std::string> bootstrap_kind;  ///< segments, moving-blocks
+  std::optional<std::string> bootstrap_kind;  ///< segments, moving-blocks, parametric
   std::optional<std::string> interval;        ///< percentile, studentized, bca
+  std::optional<std::string> offsets;         ///< shared, per-recording, per-recording-ned
   std::optional<double> interval_level;
   std::uint64_t seed = 1;
   std::optional<std::size_t> threads;
@@ -40,6 +41,7 @@ struct IdentifyArguments {
 
  private:
   bool AskForBootstrap() const;
+  Offsets ChosenOffsets() const;
 
   /// The one named, else what the other options ask for; none: by the data. Throws: UsageError
   /// where they contradict.

@@ -17,10 +17,10 @@ namespace {
 IdentifyRequest RequestOf(const std::string& vehicle_id, const IdentifyArguments& arguments) {
   const IdentifyOptions options = arguments.Options();
   if (arguments.sampling_period_s || arguments.interval_level || arguments.threads ||
-      arguments.twins) {
+      arguments.twins || arguments.offsets) {
     throw UsageError(
-        "--sampling-period, --level, --threads and --twins are the daemon's to choose; leave them "
-        "out with --vehicle-id");
+        "--sampling-period, --level, --threads, --twins and --offsets are the daemon's to choose; "
+        "leave them out with --vehicle-id");
   }
   IdentifyRequest request;
   request.correlation_id = NewCorrelationId();

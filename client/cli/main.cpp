@@ -43,6 +43,7 @@ int main(int argc, char** argv) {
   telltale::AddSimulate(app);
   telltale::AddExport(app);
   telltale::AddGain(app);
+  telltale::AddCompare(app);
   telltale::AddReplay(app);
   telltale::AddWatch(app);
   telltale::AddMonitor(app);

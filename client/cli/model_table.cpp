@@ -110,6 +110,28 @@ std::string Alpha(const Identification& model) {
          Significant(alpha(tau.interval.upper)) + "]; beta = 1 - alpha\n";
 }
 
+std::string OffsetsText(const Identification& model) {
+  if (model.offsets.empty()) return "";
+  Table table({{"steady in recording"},
+               {"equation"},
+               {"regressor"},
+               {"estimate", Align::kRight},
+               {"std. error", Align::kRight},
+               {BoundsTitle(model), Align::kRight},
+               {"unit"}});
+  for (std::size_t i = 0; i < model.offsets.size(); ++i) {
+    const RecordingOffsets& offsets = model.offsets[i];
+    table.AddHeading(std::to_string(i + 1) + ", " + Fixed(offsets.start_s, 1) + " s to " +
+                     Fixed(offsets.end_s, 1) + " s");
+    for (const Coefficient& c : offsets.coefficients) {
+      table.AddRow({"", std::string(Name(c.equation)), c.regressor, Significant(c.estimate),
+                    Significant(c.standard_error, 3), BoundsText(c.interval, 1.0), c.unit});
+    }
+  }
+  return '\n' + table.Render() +
+         "Above, the coefficients of the regressor 1 are means over the recordings.\n";
+}
+
 std::string Refusals(const Identification& model) {
   if (model.refusals.empty()) return "";
   std::string text = "\nRefused or to be read with care\n";
@@ -139,6 +161,11 @@ std::string BoundsBasis(const Provenance& provenance) {
   return Wrapped(text + ".");
 }
 
+std::string ChangeText(const Identification& model) {
+  if (!model.provenance.change) return "";
+  return '\n' + Wrapped("The model " + InWords(*model.provenance.change));
+}
+
 }  // namespace
 
 std::string RejectedText(const RejectCounts& rejected) {
@@ -156,7 +183,8 @@ std::string RejectedText(const RejectCounts& rejected) {
 
 std::string ModelTable(const Identification& identification) {
   return Title(identification) + Coefficients(identification) + TimeConstant(identification) +
-         DeadZoneText(identification.dead_zone) + Refusals(identification) + '\n' +
+         DeadZoneText(identification.dead_zone) + OffsetsText(identification) +
+         Refusals(identification) + ChangeText(identification) + '\n' +
          WindowText(identification.window) + ChoiceText(identification.provenance) +
          BoundsBasis(identification.provenance);
 }

@@ -81,7 +81,9 @@ void AddMonitor(CLI::App& telltale) {
   command.footer(
       "error: free-run error over 5 s in the last minute, in units of that when the model was "
       "made;\n"
-      "drift: its running change. lost: gaps in the sequence numbers.");
+      "drift: its running change. lost: gaps in the sequence numbers.\n"
+      "~f:d: indicative, live one-step estimate of surge f:d (m/s^2) with its standard error; no "
+      "bound.");
   command.callback([arguments] { Monitor(*arguments); });
 }
 

@@ -14,6 +14,15 @@ std::string Total(const std::vector<RejectEntry>& rejected) {
   return std::to_string(total);
 }
 
+/// Live and indicative: what surge gets of forward thrust, with its error.
+std::string ForwardThrust(const Quality& quality) {
+  for (const IndicativeCoefficient& c : quality.indicative) {
+    if (c.equation != Equation::kSurge || c.regressor != "f:d") continue;
+    return Significant(c.estimate, 2) + "±" + Significant(c.standard_error, 1);
+  }
+  return "";
+}
+
 std::string Explained(const std::string& subject, const std::vector<RejectEntry>& rejected) {
   std::string text;
   for (const RejectEntry& entry : rejected) {
@@ -37,7 +46,8 @@ std::string QualityTable(const std::map<std::string, Quality>& fleet) {
                {"model", Align::kRight},
                {"age s", Align::kRight},
                {"error", Align::kRight},
-               {"drift", Align::kRight}});
+               {"drift", Align::kRight},
+               {"~f:d", Align::kRight}});
   std::string notes;
   for (const auto& [vehicle_id, quality] : fleet) {
     if (vehicle_id == kUnattributed) {
@@ -45,14 +55,14 @@ std::string QualityTable(const std::map<std::string, Quality>& fleet) {
       continue;
     }
     const bool modelled = quality.model_revision.has_value();
-    table.AddRow({vehicle_id, Fixed(quality.window_s, 0), Fixed(100.0 * quality.window_fill, 0),
-                  Fixed(quality.gnss_rate_hz, 1), Fixed(quality.heading_rate_hz, 1),
-                  Fixed(quality.thrusters_rate_hz, 1), std::to_string(quality.lost),
-                  Total(quality.rejected),
-                  modelled ? std::to_string(*quality.model_revision) : "none",
-                  modelled ? Fixed(quality.model_age_s, 0) : "",
-                  quality.prediction_error > 0.0 ? Fixed(quality.prediction_error, 2) : "",
-                  quality.prediction_error > 0.0 ? Fixed(quality.drift, 2) : ""});
+    table.AddRow(
+        {vehicle_id, Fixed(quality.window_s, 0), Fixed(100.0 * quality.window_fill, 0),
+         Fixed(quality.gnss_rate_hz, 1), Fixed(quality.heading_rate_hz, 1),
+         Fixed(quality.thrusters_rate_hz, 1), std::to_string(quality.lost), Total(quality.rejected),
+         modelled ? std::to_string(*quality.model_revision) : "none",
+         modelled ? Fixed(quality.model_age_s, 0) : "",
+         quality.prediction_error > 0.0 ? Fixed(quality.prediction_error, 2) : "",
+         quality.prediction_error > 0.0 ? Fixed(quality.drift, 2) : "", ForwardThrust(quality)});
     notes += Explained(vehicle_id, quality.rejected);
   }
   return table.Render() + notes;

@@ -167,6 +167,7 @@ Recording Concatenate(std::span<const Recording> recordings) {
     all.rejected.Add(recording.rejected);
     if (IsEmpty(recording)) continue;
     const double shift_s = IsEmpty(all) ? 0.0 : ShiftAfter(EndOf(all), StartOf(recording));
+    all.starts_s.push_back(StartOf(recording) + shift_s);
     AppendShifted(recording.gnss, shift_s, all.gnss);
     AppendShifted(recording.heading, shift_s, all.heading);
     AppendShifted(recording.thrusters, shift_s, all.thrusters);

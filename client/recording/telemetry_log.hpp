@@ -34,7 +34,7 @@ Result<AdmittedLog> Admit(std::span<const RawSample> samples);
 
 /// Recordings one after the other in one clock. A recording that starts within a day after the end
 /// of the one before, and far enough to leave a gap no preparation bridges, keeps its times; any
-/// other is shifted to start kGapBetweenLogsS after that end.
+/// other is shifted to start kGapBetweenLogsS after that end. Where each begins is kept.
 inline constexpr double kGapBetweenLogsS = 120.0;
 Recording Concatenate(std::span<const Recording> recordings);
 

@@ -412,6 +412,21 @@ void PoolNoise(PreparedDataset& dataset, const Nu& of_stretch) {
   }
 }
 
+std::size_t PlaceAmong(const std::vector<double>& starts_s, double time_s) {
+  constexpr double kRounding = 1e-6;
+  const auto after = std::upper_bound(starts_s.begin(), starts_s.end(), time_s + kRounding);
+  return static_cast<std::size_t>(after - starts_s.begin());
+}
+
+// Recordings that left no stretch do not count.
+std::vector<std::size_t> CountedAnew(const std::vector<std::size_t>& places) {
+  std::vector<std::size_t> counted(places.size(), 0);
+  for (std::size_t i = 1; i < places.size(); ++i) {
+    counted[i] = counted[i - 1] + (places[i] != places[i - 1] ? 1 : 0);
+  }
+  return counted;
+}
+
 }  // namespace
 
 std::string_view Name(Preset preset) {
@@ -474,12 +489,14 @@ Result<PreparedDataset> Prepare(const Recording& recording, const Vehicle& vehic
   dataset.sensors.antenna = vehicle.gnss_antenna;
   const NorthEastFrame frame(dataset.origin);
   double longest_found_s = 0.0;
+  std::vector<std::size_t> places;  // of each stretch among the recordings
   for (const Stretch& stretch : StretchesOf(recording, options)) {
     longest_found_s = std::max(longest_found_s, stretch.end_s - stretch.start_s);
     const Grid grid = LayGrid(recording, stretch, dataset.sampling_period_s);
     if (!LongEnough(grid, options)) continue;
     Signals signals = ReadSignals(recording, stretch, vehicle, frame);
     Append(dataset, PrepareStretch(signals, grid, vehicle, options), options);
+    places.push_back(PlaceAmong(recording.starts_s, stretch.start_s));
     PoolSensors(dataset, signals);
     PoolNoise(dataset, NoiseInVelocity(signals, grid, options));
     dataset.commands.push_back(std::move(signals.commands));
@@ -488,6 +505,7 @@ Result<PreparedDataset> Prepare(const Recording& recording, const Vehicle& vehic
   if (dataset.stretches.empty()) {
     return tl::unexpected(NoStretch(options, dataset.sampling_period_s, longest_found_s));
   }
+  dataset.recordings = CountedAnew(places);
   return dataset;
 }
 

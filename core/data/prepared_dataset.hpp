@@ -68,10 +68,18 @@ struct PreparedDataset {
   /// By stretch, what the thrusters were told before and along it, as it was sent.
   std::vector<HeldCommands> commands;
   std::vector<RawSignals> signals;  ///< by stretch
-  PrepareOptions options;           ///< how the rows were made
+  /// By stretch, which recording it was cut from, counted from 0 without a gap; empty: all from
+  /// one.
+  std::vector<std::size_t> recordings;
+  PrepareOptions options;  ///< how the rows were made
   SensorChain sensors;
   RejectCounts rejected;
   Nu nu_noise;  ///< one sigma that white sensor noise, judged by WhiteNoise, leaves in each nu
+
+  std::size_t RecordingOf(std::size_t stretch) const {
+    return recordings.empty() ? 0 : recordings[stretch];
+  }
+  std::size_t Recordings() const { return recordings.empty() ? 1 : recordings.back() + 1; }
 
   double StartTime() const { return rows.empty() ? 0.0 : rows.front().time_s; }
   double EndTime() const { return rows.empty() ? 0.0 : rows.back().time_s; }

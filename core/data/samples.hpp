@@ -77,6 +77,9 @@ struct Recording {
   std::vector<HeadingSample> heading;
   std::vector<ThrusterSample> thrusters;
   RejectCounts rejected;
+  /// Where several recordings stand one after the other, with gaps between: the time at which each
+  /// begins, ascending. Empty: it is one.
+  std::vector<double> starts_s = {};
 };
 
 }  // namespace telltale

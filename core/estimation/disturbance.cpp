@@ -106,14 +106,18 @@ std::array<Eigen::VectorXd, 3> ResidualsOf(const WeakFit& fit, const Eigen::Vect
                                            const WeakProblem& problem) {
   const FilteredThrust thrust =
       FilterThrust(dataset, problem, fit.time_constant_s ? std::optional(theta[0]) : std::nullopt);
-  const VesselModel model = ModelOf(fit, theta, dataset.sampling_period_s);
   std::array<Eigen::VectorXd, 3> residuals;
+  Eigen::Index next = fit.time_constant_s ? 1 : 0;
   for (std::size_t j = 0; j < 3; ++j) {
     if (!fit.equations[j]) continue;
     const WeakWindows& windows = problem.windows[j];
     const RegressorRows rows = RowsOf(dataset, problem, thrust, kEquations[j]);
+    Eigen::VectorXd of_columns = Eigen::VectorXd::Zero(rows.cols());
+    for (const std::size_t column : fit.equations[j]->columns) {
+      of_columns[static_cast<Eigen::Index>(column)] = theta[next++];
+    }
     residuals[j] = WeighAcceleration(problem, windows, dataset, kEquations[j]) -
-                   Weigh(problem, windows, rows) * model.theta[j];
+                   Weigh(problem, windows, rows) * of_columns;
   }
   return residuals;
 }

@@ -185,6 +185,16 @@ struct Answered {
   std::vector<std::vector<std::size_t>> excited;
 };
 
+Answered AnsweredOf(const std::array<std::optional<Excitation>, 3>& excitations) {
+  Answered answered;
+  for (std::size_t j = 0; j < excitations.size(); ++j) {
+    if (!excitations[j]) continue;
+    answered.which.push_back(j);
+    answered.excited.push_back(excitations[j]->excited);
+  }
+  return answered;
+}
+
 std::vector<Projected> ProjectAll(const LaggedProblem& problem, const Answered& answered,
                                   double periods) {
   const LagPerPeriod lag = LagOver(periods);
@@ -368,14 +378,28 @@ LaggedProblem BuildLagged(const PreparedDataset& dataset, const RegressionOption
   return problem;
 }
 
+double LagDeviance(const LaggedProblem& problem,
+                   const std::array<std::optional<Excitation>, 3>& excitations,
+                   const LaggedEstimate& estimate, double time_constant_s) {
+  const Answered answered = AnsweredOf(excitations);
+  const double periods = time_constant_s / problem.at_once.sampling_period_s;
+  double deviance = 0.0;
+  const std::vector<Solved> solved = SolveAll(problem, answered, periods);
+  for (std::size_t i = 0; i < solved.size(); ++i) {
+    const double least = estimate.equations[answered.which[i]]->residual_variance;
+    deviance += solved[i].degrees_of_freedom * std::log(solved[i].variance / least);
+  }
+  return deviance;
+}
+
+LagLimits LimitsOfLag(const LaggedProblem& problem) {
+  const double h = problem.at_once.sampling_period_s;
+  return {kLeastLag * h, kLongestLag * h};
+}
+
 LaggedEstimate EstimateLagged(const LaggedProblem& problem,
                               const std::array<std::optional<Excitation>, 3>& excitations) {
-  Answered answered;
-  for (std::size_t j = 0; j < excitations.size(); ++j) {
-    if (!excitations[j]) continue;
-    answered.which.push_back(j);
-    answered.excited.push_back(excitations[j]->excited);
-  }
+  const Answered answered = AnsweredOf(excitations);
   Require(!answered.which.empty(), "at least one answered equation");
 
   LaggedEstimate estimate;

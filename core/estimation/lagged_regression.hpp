@@ -52,4 +52,18 @@ struct LaggedEstimate {
 LaggedEstimate EstimateLagged(const LaggedProblem& problem,
                               const std::array<std::optional<Excitation>, 3>& excitations);
 
+/// Twice the logarithm of how much less likely another time constant makes the data than the
+/// estimated one, everything else fitted anew: sum over the equations of n log(s^2 / s^2 at the
+/// estimate). Residuals taken as white. docs/model.md (72).
+double LagDeviance(const LaggedProblem& problem,
+                   const std::array<std::optional<Excitation>, 3>& excitations,
+                   const LaggedEstimate& estimate, double time_constant_s);
+
+/// The time constants that EstimateLagged() seeks among.
+struct LagLimits {
+  double shortest_s = 0.0;
+  double longest_s = 0.0;
+};
+LagLimits LimitsOfLag(const LaggedProblem& problem);
+
 }  // namespace telltale

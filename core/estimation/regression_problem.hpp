@@ -7,6 +7,7 @@
 #include <Eigen/Core>
 
 #include "data/prepared_dataset.hpp"
+#include "estimation/steady_terms.hpp"
 #include "vessel/structure.hpp"
 
 namespace telltale {
@@ -42,6 +43,7 @@ struct RegressionOptions {
   Parameterization parameterization = Parameterization::kPropeller;
   bool include_reverse = false;  ///< take RR rows too
   DeadZone dead_zone;            ///< applied to every command before its regressors are formed
+  Offsets offsets = Offsets::kShared;  ///< steady disturbances; heeded by the weak form alone
 };
 
 /// Whether rows under a command of this region enter this equation.

@@ -220,6 +220,7 @@ WeakProblem BuildWeakForm(const PreparedDataset& dataset, const RegressionOption
   WeakProblem problem;
   problem.parameterization = regression.parameterization;
   problem.dead_zone = regression.dead_zone;
+  problem.steady = {regression.offsets, dataset.Recordings()};
   problem.phi = TestFunction::On(dataset.sampling_period_s, options);
   const double recorded_s = static_cast<double>(dataset.rows.size()) * dataset.sampling_period_s;
   const double cluster_s = std::clamp(recorded_s / static_cast<double>(options.wanted_clusters),
@@ -253,11 +254,16 @@ FilteredThrust FilterThrust(const PreparedDataset& dataset, const WeakProblem& p
 RegressorRows RowsOf(const PreparedDataset& dataset, const WeakProblem& problem,
                      const FilteredThrust& thrust, Equation equation) {
   const std::size_t columns = Regressors(equation, problem.parameterization).size();
+  const std::size_t steady = problem.steady.Count();
   RegressorRows rows(static_cast<Eigen::Index>(dataset.rows.size()),
-                     static_cast<Eigen::Index>(columns));
-  for (std::size_t k = 0; k < dataset.rows.size(); ++k) {
-    FillRow(equation, dataset.rows[k].nu, thrust.filtered[k],
-            {rows.row(static_cast<Eigen::Index>(k)).data(), columns});
+                     static_cast<Eigen::Index>(columns + steady));
+  for (std::size_t s = 0; s < dataset.stretches.size(); ++s) {
+    for (std::size_t k = dataset.stretches[s].begin; k < dataset.stretches[s].end; ++k) {
+      double* const row = rows.row(static_cast<Eigen::Index>(k)).data();
+      FillRow(equation, dataset.rows[k].nu, thrust.filtered[k], {row, columns});
+      problem.steady.Fill(dataset.RecordingOf(s), dataset.rows[k].eta.psi_rad,
+                          {row + columns, steady});
+    }
   }
   return rows;
 }

@@ -9,6 +9,7 @@
 
 #include "data/prepared_dataset.hpp"
 #include "estimation/regression_problem.hpp"
+#include "estimation/steady_terms.hpp"
 #include "vessel/structure.hpp"
 
 namespace telltale {
@@ -55,6 +56,7 @@ struct WeakWindows {
 struct WeakProblem {
   Parameterization parameterization = Parameterization::kUnknown;
   DeadZone dead_zone;
+  SteadyTerms steady;
   TestFunction phi;
   std::array<WeakWindows, 3> windows;
   std::size_t clusters = 0;
@@ -80,7 +82,7 @@ struct FilteredThrust {
 FilteredThrust FilterThrust(const PreparedDataset& dataset, const WeakProblem& problem,
                             std::optional<double> time_constant_s);
 
-/// Rows Phi_j(nu_k, T_k) of one equation.
+/// Rows Phi_j(nu_k, T_k) of one equation, and after them its SteadyTerms.
 RegressorRows RowsOf(const PreparedDataset& dataset, const WeakProblem& problem,
                      const FilteredThrust& thrust, Equation equation);
 

@@ -67,12 +67,37 @@ VesselModel ModelWith(const WeakProblem& problem, const WeighedEquations& equati
     model.theta[IndexOf(equation)] = Eigen::VectorXd::Zero(size);
   }
   for (std::size_t i = 0; i < equations.size(); ++i) {
+    Eigen::VectorXd& theta = model.theta[equations[i].index];
     for (std::size_t j = 0; j < equations[i].columns.size(); ++j) {
-      model.theta[equations[i].index][static_cast<Eigen::Index>(equations[i].columns[j])] =
-          thetas[i][static_cast<Eigen::Index>(j)];
+      const auto column = static_cast<Eigen::Index>(equations[i].columns[j]);
+      if (column < theta.size()) theta[column] = thetas[i][static_cast<Eigen::Index>(j)];
     }
   }
   return model;
+}
+
+/// Files one equation's steady terms under their recordings.
+void AddSteady(const WeakProblem& problem, std::size_t index,
+               const std::vector<std::size_t>& columns, const Eigen::VectorXd& theta,
+               std::vector<SteadyDisturbance>& steady) {
+  const std::size_t regressors = Regressors(kEquations[index], problem.parameterization).size();
+  for (std::size_t j = 0; j < columns.size(); ++j) {
+    if (columns[j] < regressors) continue;
+    const std::size_t place = columns[j] - regressors;
+    const std::size_t each = problem.steady.PerRecording();
+    steady[place / each].terms(static_cast<Eigen::Index>(index),
+                               static_cast<Eigen::Index>(place % each)) =
+        theta[static_cast<Eigen::Index>(j)];
+  }
+}
+
+std::vector<SteadyDisturbance> SteadyWith(const WeakProblem& problem,
+                                          const WeighedEquations& equations, const Thetas& thetas) {
+  std::vector<SteadyDisturbance> steady(problem.steady.recordings);
+  for (std::size_t i = 0; i < equations.size(); ++i) {
+    AddSteady(problem, equations[i].index, equations[i].columns, thetas[i], steady);
+  }
+  return steady;
 }
 
 /// How fast anything in the data goes: a simulation beyond a multiple of it has run away.
@@ -96,6 +121,12 @@ std::array<bool, 3> Answered(const WeighedEquations& equations) {
   return answered;
 }
 
+/// A boat as the model predicts it from the commands.
+struct Predicted {
+  Nu nu;
+  double psi_rad = 0.0;
+};
+
 /// Velocities that the model predicts from the commands, started anew from measured ones a while
 /// before each reach so that their noise is not that of the windows.
 class Instruments {
@@ -112,16 +143,20 @@ class Instruments {
   std::vector<Eigen::MatrixXd> Weigh(const WeighedEquations& equations, const Thetas& thetas,
                                      const FilteredThrust& thrust) const {
     const BodyDynamics dynamics(ModelWith(problem_, equations, thetas));
+    const std::vector<SteadyDisturbance> steady = SteadyWith(problem_, equations, thetas);
     std::vector<Eigen::MatrixXd> Z;
     for (const Weighed& equation : equations) Z.emplace_back(equation.G.rows(), equation.G.cols());
     const std::array<bool, 3> simulated = Answered(equations);
-    std::vector<Nu> nu(dataset_.rows.size());
-    for (const RowRange& stretch : dataset_.stretches) {
+    std::vector<Predicted> predicted(dataset_.rows.size());
+    for (std::size_t s = 0; s < dataset_.stretches.size(); ++s) {
+      const RowRange& stretch = dataset_.stretches[s];
+      const std::size_t recording = dataset_.RecordingOf(s);
       for (std::size_t begin = stretch.begin; begin < stretch.end; begin += reach_) {
         const RowRange centres{begin, std::min(begin + reach_, stretch.end)};
-        const RowRange rows = Simulate(dynamics, simulated, thrust, stretch, centres, nu);
+        const RowRange rows =
+            Simulate(dynamics, steady[recording], simulated, thrust, stretch, centres, predicted);
         for (std::size_t i = 0; i < equations.size(); ++i) {
-          WeighCentred(equations[i], thrust, nu, centres, rows, Z[i]);
+          WeighCentred(equations[i], recording, thrust, predicted, centres, rows, Z[i]);
         }
       }
     }
@@ -129,40 +164,50 @@ class Instruments {
   }
 
  private:
-  /// Fills nu over the rows that windows centred in `centres` need; returns those rows.
-  RowRange Simulate(const BodyDynamics& dynamics, const std::array<bool, 3>& simulated,
-                    const FilteredThrust& thrust, const RowRange& stretch, const RowRange& centres,
-                    std::vector<Nu>& nu) const {
+  /// Predicts the rows that windows centred in `centres` need; returns those rows.
+  RowRange Simulate(const BodyDynamics& dynamics, const SteadyDisturbance& steady,
+                    const std::array<bool, 3>& simulated, const FilteredThrust& thrust,
+                    const RowRange& stretch, const RowRange& centres,
+                    std::vector<Predicted>& predicted) const {
     const std::size_t half = problem_.phi.Rows() / 2;
     const std::size_t margin = half + lead_;
     const std::size_t start =
         centres.begin > stretch.begin + margin ? centres.begin - margin : stretch.begin;
     const std::size_t end = std::min(centres.end + half, stretch.end);
-    nu[start] = dataset_.rows[start].nu;
+    const double h = dataset_.sampling_period_s;
+    predicted[start] = {dataset_.rows[start].nu, dataset_.rows[start].eta.psi_rad};
     for (std::size_t k = start; k + 1 < end; ++k) {
+      const NuDot propelled = dynamics.Propelled(thrust.interval[k]);
+      const NuDot pushed = steady.At(predicted[k].psi_rad);
       const Nu next =
-          dynamics.Step(dynamics.Propelled(thrust.interval[k]), nu[k], dataset_.sampling_period_s);
+          dynamics.Step({propelled.u + pushed.u, propelled.v + pushed.v, propelled.r + pushed.r},
+                        predicted[k].nu, h);
       const Nu& measured = dataset_.rows[k + 1].nu;
-      nu[k + 1] = {simulated[0] ? Held(next.u, 2.0 * fastest_.u) : measured.u,
-                   simulated[1] ? Held(next.v, 2.0 * fastest_.v) : measured.v,
-                   simulated[2] ? Held(next.r, 2.0 * fastest_.r) : measured.r};
+      Predicted& then = predicted[k + 1];
+      then.nu = {simulated[0] ? Held(next.u, 2.0 * fastest_.u) : measured.u,
+                 simulated[1] ? Held(next.v, 2.0 * fastest_.v) : measured.v,
+                 simulated[2] ? Held(next.r, 2.0 * fastest_.r) : measured.r};
+      then.psi_rad = predicted[k].psi_rad + h * (predicted[k].nu.r + then.nu.r) / 2.0;
     }
     return {start, end};
   }
 
-  void WeighCentred(const Weighed& equation, const FilteredThrust& thrust,
-                    const std::vector<Nu>& nu, const RowRange& centres, const RowRange& rows,
-                    Eigen::MatrixXd& Z) const {
+  void WeighCentred(const Weighed& equation, std::size_t recording, const FilteredThrust& thrust,
+                    const std::vector<Predicted>& predicted, const RowRange& centres,
+                    const RowRange& rows, Eigen::MatrixXd& Z) const {
     const auto& first_rows = problem_.windows[equation.index].first_rows;
     const std::size_t half = problem_.phi.Rows() / 2;
     const auto from = std::lower_bound(first_rows.begin(), first_rows.end(),
                                        centres.begin - std::min(centres.begin, half));
     const Equation name = kEquations[equation.index];
     const std::size_t columns = Regressors(name, problem_.parameterization).size();
-    RegressorRows phi(static_cast<Eigen::Index>(rows.size()), static_cast<Eigen::Index>(columns));
+    const std::size_t steady = problem_.steady.Count();
+    RegressorRows phi(static_cast<Eigen::Index>(rows.size()),
+                      static_cast<Eigen::Index>(columns + steady));
     for (std::size_t k = rows.begin; k < rows.end; ++k) {
-      FillRow(name, nu[k], thrust.filtered[k],
-              {phi.row(static_cast<Eigen::Index>(k - rows.begin)).data(), columns});
+      double* const row = phi.row(static_cast<Eigen::Index>(k - rows.begin)).data();
+      FillRow(name, predicted[k].nu, thrust.filtered[k], {row, columns});
+      problem_.steady.Fill(recording, predicted[k].psi_rad, {row + columns, steady});
     }
     Eigen::RowVectorXd sum(phi.cols());
     for (auto at = from; at != first_rows.end() && *at + half < centres.end; ++at) {
@@ -364,6 +409,17 @@ WeakFit Write(const WeakProblem& problem, const WeighedEquations& equations, con
   return fit;
 }
 
+/// Whether each recording has a window.
+std::vector<bool> RecordingsSeen(const PreparedDataset& dataset, const WeakWindows& windows) {
+  std::vector<bool> seen(dataset.Recordings(), false);
+  std::size_t stretch = 0;
+  for (const std::size_t first : windows.first_rows) {
+    while (first >= dataset.stretches[stretch].end) ++stretch;
+    seen[dataset.RecordingOf(stretch)] = true;
+  }
+  return seen;
+}
+
 }  // namespace
 
 std::optional<WeakFit> EstimateWeakIv(const PreparedDataset& dataset,
@@ -443,10 +499,48 @@ VesselModel ModelOf(const WeakFit& fit, const Eigen::VectorXd& theta, double sam
         static_cast<Eigen::Index>(Regressors(equation, model.parameterization).size()));
     if (!fit.equations[j]) continue;
     for (const std::size_t column : fit.equations[j]->columns) {
-      model.theta[j][static_cast<Eigen::Index>(column)] = theta[next++];
+      const auto place = static_cast<Eigen::Index>(column);
+      if (place < model.theta[j].size()) model.theta[j][place] = theta[next];
+      ++next;
     }
   }
   return model;
+}
+
+std::array<std::vector<std::size_t>, 3> WithSteadyTerms(
+    const PreparedDataset& dataset, const WeakProblem& problem,
+    const std::array<std::vector<std::size_t>, 3>& columns,
+    const std::vector<bool>& heading_varies) {
+  auto all = columns;
+  const std::size_t each = problem.steady.PerRecording();
+  if (each == 0) return all;
+  for (std::size_t j = 0; j < 3; ++j) {
+    if (all[j].empty()) continue;
+    const auto regressors = Regressors(kEquations[j], problem.parameterization);
+    std::erase_if(all[j], [&](std::size_t column) { return regressors[column].name == "1"; });
+    const std::vector<bool> seen = RecordingsSeen(dataset, problem.windows[j]);
+    for (std::size_t recording = 0; recording < seen.size(); ++recording) {
+      if (!seen[recording]) continue;
+      const std::size_t terms = heading_varies[recording] ? each : 1;
+      for (std::size_t term = 0; term < terms; ++term) {
+        all[j].push_back(regressors.size() + recording * each + term);
+      }
+    }
+  }
+  return all;
+}
+
+std::vector<SteadyDisturbance> SteadyOf(const WeakFit& fit, const Eigen::VectorXd& theta) {
+  std::vector<SteadyDisturbance> steady(fit.problem.steady.recordings);
+  Eigen::Index next = fit.time_constant_s ? 1 : 0;
+  for (std::size_t j = 0; j < fit.equations.size(); ++j) {
+    if (!fit.equations[j]) continue;
+    const auto& columns = fit.equations[j]->columns;
+    const auto size = static_cast<Eigen::Index>(columns.size());
+    AddSteady(fit.problem, j, columns, theta.segment(next, size), steady);
+    next += size;
+  }
+  return steady;
 }
 
 bool LagIsAtItsLeast(const WeakFit& fit) {

@@ -8,6 +8,7 @@
 
 #include "data/prepared_dataset.hpp"
 #include "estimation/weak_form.hpp"
+#include "vessel/disturbance.hpp"
 #include "vessel/vessel_model.hpp"
 
 namespace telltale {
@@ -23,7 +24,7 @@ struct WeakIvOptions {
 /// One equation's share of a weak-form fit, over the windows of WeakProblem::windows.
 /// Shapes: theta p; residual, one per window.
 struct WeakEstimate {
-  std::vector<std::size_t> columns;  ///< of Regressors(), those sought
+  std::vector<std::size_t> columns;  ///< of Regressors() and SteadyTerms, those sought
   Eigen::VectorXd theta;
   Eigen::VectorXd damped;  ///< theta shrunk along directions that the data hardly move
   Eigen::VectorXd residual;
@@ -52,7 +53,8 @@ struct WeakFit {
 /// repeated with the newest theta. What is left of attenuation is of second order in the noise.
 /// Nothing when the instruments blow up or determine nothing.
 /// Requires: data prepared with the robust preset; columns sought per equation, empty to leave the
-/// equation out.
+/// equation out: places in Regressors() or, beyond those, in the SteadyTerms that
+/// regression.offsets asks for, which stand in for the regressor "1".
 std::optional<WeakFit> EstimateWeakIv(const PreparedDataset& dataset,
                                       const RegressionOptions& regression,
                                       const std::array<std::vector<std::size_t>, 3>& columns,
@@ -61,7 +63,19 @@ std::optional<WeakFit> EstimateWeakIv(const PreparedDataset& dataset,
 /// Every regressor of every equation: what to seek when the data move all of them.
 std::array<std::vector<std::size_t>, 3> AllColumns(Parameterization parameterization);
 
-/// The model that stacked unknowns of such a fit describe; coefficients not sought are zero.
+/// SteadyTerms in place of the regressor "1", each in every equation that has a window in its
+/// recording; those that turn with psi only where `heading_varies`. `columns` as they are without.
+std::array<std::vector<std::size_t>, 3> WithSteadyTerms(
+    const PreparedDataset& dataset, const WeakProblem& problem,
+    const std::array<std::vector<std::size_t>, 3>& columns,
+    const std::vector<bool>& heading_varies);
+
+/// The steady disturbance by recording that stacked unknowns of such a fit describe; none where the
+/// regressor "1" is shared.
+std::vector<SteadyDisturbance> SteadyOf(const WeakFit& fit, const Eigen::VectorXd& theta);
+
+/// The model that stacked unknowns of such a fit describe; coefficients not sought are zero, so
+/// where each recording has a steady disturbance of its own there is none in the model.
 VesselModel ModelOf(const WeakFit& fit, const Eigen::VectorXd& theta, double sampling_period_s);
 
 /// Whether the time constant stands at the least that is sought: no lag is seen.

@@ -89,7 +89,10 @@ Coefficient WriteTimeConstant(const Answers& answers, const Bounds& bounds) {
   coefficient.estimate = lag.time_constant_s;
   coefficient.standard_error = std::sqrt(bounds.covariance(0, 0));
   coefficient.interval = {interval.level, std::max(interval.lower, 0.0), interval.upper};
-  if (lag.no_lag_seen) {
+  if (lag.profile) {
+    coefficient.interval = {interval.level, lag.no_lag_seen ? 0.0 : lag.profile->lower,
+                            lag.profile->upper};
+  } else if (lag.no_lag_seen) {
     coefficient.interval = {interval.level, 0.0,
                             StudentInterval(lag.time_constant_s, coefficient.standard_error,
                                             bounds.degrees_of_freedom, interval.level)

@@ -22,6 +22,8 @@ namespace telltale {
 struct AnsweredLag {
   double time_constant_s = 0.0;
   bool no_lag_seen = false;  ///< the data bound it from above alone
+  std::optional<Interval> profile =
+      std::nullopt;  ///< where it stands in for the interval of Bounds
 };
 
 /// Everything known about the equations before coefficients are written down. The stacked unknowns
@@ -54,6 +56,7 @@ struct BoundedAnswers {
   Bounds bounds;
   Provenance provenance;  ///< the fields that are the estimator's
   std::optional<Disturbance> disturbance;
+  std::vector<RecordingOffsets> offsets;
 };
 
 /// Can this equation be answered? Its excitation or a refusal goes into the answers.

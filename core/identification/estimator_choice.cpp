@@ -29,6 +29,9 @@ tl::expected<BoundedAnswers, std::string> TrustOutputError(const PreparedDataset
                                                            const IdentifyOptions& options,
                                                            const Progress& progress) {
   const auto doubt = [](std::string why) { return tl::unexpected(std::move(why)); };
+  if (regression.offsets != Offsets::kShared) {
+    return doubt("only they seek a steady disturbance for each recording");
+  }
   const auto weak =
       EstimateWeakIv(dataset, regression,
                      Sought(AssessAll(dataset, regression, options.excitation)), options.weak_iv);

@@ -8,6 +8,7 @@
 #include <Eigen/Core>
 
 #include "data/samples.hpp"
+#include "identification/model_change.hpp"
 #include "result.hpp"
 #include "uncertainty/interval.hpp"
 #include "vessel/disturbance.hpp"
@@ -49,6 +50,15 @@ struct WindowSummary {
   RejectCounts rejected;
 };
 
+/// What pushed the boat steadily in one of several recordings, docs/model.md (70): coefficients of
+/// "1", which turns with the boat, and of "cos(psi)" and "sin(psi)", which stand to the north and
+/// east, in each equation.
+struct RecordingOffsets {
+  double start_s = 0.0;  ///< first and last prepared row
+  double end_s = 0.0;
+  std::vector<Coefficient> coefficients;
+};
+
 /// How it was made, enough to make it again.
 struct Provenance {
   std::string preset;        ///< of the data preparation
@@ -63,6 +73,9 @@ struct Provenance {
   /// Standard errors by cluster over naive ones, of output error; 0 where it was not judged. Well
   /// above one something else than the sensors keeps model and measurement apart.
   double misspecification = 0.0;
+  std::size_t clusters =
+      0;  ///< independent stretches of time behind the covariance, 0: not so made
+  std::optional<ModelChange> change;  ///< against an earlier model, where there is one
 };
 
 /// A boat's model with bounds: the outcome that is published.
@@ -83,6 +96,9 @@ struct Identification {
   std::optional<Coefficient> thruster_time_constant;
   Eigen::VectorXd time_constant_covariance;
   std::optional<Disturbance> disturbance;  ///< what else moved the boat, where that was judged
+  /// Where each recording has a steady disturbance of its own: these, and the coefficients of the
+  /// regressor "1" are their means.
+  std::vector<RecordingOffsets> offsets;
   WindowSummary window;
   std::vector<Refusal> refusals;
   Provenance provenance;

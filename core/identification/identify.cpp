@@ -67,6 +67,18 @@ std::optional<Refusal> LimitRefusal(const DeadZone& limits) {
 }
 
 std::optional<Refusal> EstimatorRefusal(const IdentifyOptions& options) {
+  if (options.regression.offsets == Offsets::kUnknown) {
+    return Refusal{"offsets", "is unset",
+                   "choose SHARED, PER_RECORDING or PER_RECORDING_NORTH_EAST"};
+  }
+  if (options.estimator == Estimator::kOneStep || options.estimator == Estimator::kOutputError) {
+    if (options.regression.offsets != Offsets::kShared) {
+      return Refusal{"offsets",
+                     "of each recording are not estimated by " +
+                         std::string(Name(*options.estimator)),
+                     "choose WEAK_IV, or SHARED offsets"};
+    }
+  }
   if (options.estimator == Estimator::kOneStep) return std::nullopt;
   if (options.estimator == Estimator::kUnknown) {
     return Refusal{"estimator", "is UNKNOWN",
@@ -134,7 +146,11 @@ std::optional<Refusal> IdentifyOptions::Validate() const {
   }
   if (auto refusal = ReplicatesRefusal(bootstrap_replicates)) return refusal;
   if (resampling == Resampling::kUnknown) {
-    return Refusal{"resampling", "is unset", "choose SEGMENTS or MOVING_BLOCKS"};
+    return Refusal{"resampling", "is unset", "choose SEGMENTS, MOVING_BLOCKS or PARAMETRIC"};
+  }
+  if (resampling == Resampling::kParametric && prepare.preset != Preset::kRobust) {
+    return Refusal{"resampling", "PARAMETRIC simulates what the robust preset has prepared",
+                   "choose the robust preset, or SEGMENTS"};
   }
   if (interval_method == IntervalMethod::kUnknown) {
     return Refusal{"interval_method", "is unset", "choose PERCENTILE, STUDENTIZED or BCA"};
@@ -182,6 +198,7 @@ Result<Identification> Identify(const PreparedDataset& dataset, const std::strin
   identification.dead_zone = regression.dead_zone;
   WriteCoefficients(bounded->answers, bounded->bounds, identification);
   identification.disturbance = bounded->disturbance;
+  identification.offsets = std::move(bounded->offsets);
   identification.window = Summarise(dataset);
   identification.refusals = std::move(bounded->answers.refusals);
   identification.refusals.insert(identification.refusals.end(), dead_zone_refusals.begin(),

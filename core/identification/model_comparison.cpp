@@ -5,6 +5,7 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <string_view>
 
 namespace telltale {
 namespace {
@@ -24,18 +25,25 @@ std::optional<Refusal> Unlike(const Identification& first, const Identification&
                  "identify both with the same options"};
 }
 
+// Wind and current, which are no property of the boat.
+constexpr std::string_view kSteadyDisturbance = "1";
+
 std::size_t SegmentsBehind(const Identification& identification) {
-  if (identification.provenance.bootstrap_replicates == 0) return 0;
-  return std::max<std::size_t>(identification.window.segments, 2);
+  const Provenance& provenance = identification.provenance;
+  if (provenance.clusters > 0) return std::max<std::size_t>(provenance.clusters, 2);
+  if (provenance.bootstrap_replicates == 0) return 0;
+  return std::max<std::size_t>(
+      std::min(identification.window.segments, provenance.bootstrap_replicates), 2);
 }
 
-/// Where each coefficient of `order` stands in `model`, -1 where it does not.
+/// Where each coefficient of `order` stands in `model`, -1 where it does not or is not the boat's.
 std::vector<Eigen::Index> PlacesIn(const Identification& model, const Identification& order) {
   std::vector<Eigen::Index> places;
   for (const Coefficient& wanted : order.coefficients) {
     const auto found =
         std::find_if(model.coefficients.begin(), model.coefficients.end(), [&](const auto& c) {
-          return c.equation == wanted.equation && c.regressor == wanted.regressor;
+          return c.equation == wanted.equation && c.regressor == wanted.regressor &&
+                 c.regressor != kSteadyDisturbance;
         });
     places.push_back(found == model.coefficients.end() ? -1 : found - model.coefficients.begin());
   }
@@ -91,6 +99,32 @@ Estimates InOrderOf(const Identification& order, const Identification& model) {
 Result<WaldTest> Compare(const Identification& first, const Identification& second) {
   if (auto refusal = Unlike(first, second)) return tl::unexpected(*refusal);
   return TestEquality(InOrderOf(first, first), InOrderOf(first, second));
+}
+
+bool MadeAlike(const Identification& first, const Identification& second) {
+  return !Unlike(first, second);
+}
+
+bool WindowsOverlap(const Identification& first, const Identification& second) {
+  return first.window.start_s < second.window.end_s && second.window.start_s < first.window.end_s;
+}
+
+Result<ModelChange> ChangeBetween(const Identification& earlier, const Identification& later) {
+  const auto test = Compare(later, earlier);
+  if (!test) return tl::unexpected(test.error());
+  ModelChange change;
+  change.verdict =
+      test->p_value < kSignificantChange ? ChangeVerdict::kDiffers : ChangeVerdict::kAlike;
+  change.p_value = test->p_value;
+  change.statistic = test->statistic;
+  change.degrees_of_freedom = test->degrees_of_freedom;
+  for (const CoefficientDifference& d : test->differences) {
+    const Coefficient& of = d.index < later.coefficients.size() ? later.coefficients[d.index]
+                                                                : *later.thruster_time_constant;
+    change.coefficients.push_back(
+        {of.equation, of.regressor, of.symbol, d.difference, d.standard_error, d.p_value});
+  }
+  return change;
 }
 
 }  // namespace telltale

@@ -9,12 +9,24 @@ namespace telltale {
 /// Do two models of one boat differ by more than their errors: has the hull fouled, a blade bent?
 /// TestEquality() of the coefficients both know, matched by equation and regressor, and of the
 /// thruster time constant; indices in the result are places in first.coefficients, the one past the
-/// last of them that of the time constant. Covariances count as estimated from the segments of the
-/// window where they were bootstrapped, as known where they rest on residuals.
+/// last of them that of the time constant. The regressor "1" is left out: wind and current are no
+/// property of the boat and differ from day to day. Covariances count as estimated from the
+/// clusters of their residuals, or from the segments of the window or the replicates, whichever are
+/// fewer, where they were bootstrapped; as known where they rest on white residuals.
 /// Assumes: windows that share no data. The bias both may have in common, by the noise in measured
 /// velocities, cancels only where they were recorded and prepared alike.
 /// Refuses when: structure, parameterization, estimator, sampling period or dead zone differ, since
 /// coefficients then mean different things; or as TestEquality().
 Result<WaldTest> Compare(const Identification& first, const Identification& second);
+
+/// Whether coefficients of the two mean the same: what Compare() asks first.
+bool MadeAlike(const Identification& first, const Identification& second);
+
+/// Whether, by one clock, some of the data behind one may be behind the other too.
+bool WindowsOverlap(const Identification& first, const Identification& second);
+
+/// Compare() in words and with a verdict at kSignificantChange: every coefficient both know, the
+/// most significant first. Refuses as Compare().
+Result<ModelChange> ChangeBetween(const Identification& earlier, const Identification& later);
 
 }  // namespace telltale

@@ -8,8 +8,11 @@
 
 #include "estimation/lagged_regression.hpp"
 #include "estimation/one_step.hpp"
+#include "identification/simulated_replicates.hpp"
 #include "uncertainty/bootstrap.hpp"
 #include "uncertainty/clustered_fit.hpp"
+#include "uncertainty/profile_interval.hpp"
+#include "uncertainty/twin_correction.hpp"
 
 namespace telltale {
 namespace {
@@ -20,6 +23,7 @@ constexpr std::size_t kFewestUnits = 8;
 /// Answers and what they were fitted to: equations of the static structure, or all three lagged.
 struct Fitted {
   Answers answers;
+  std::optional<LaggedProblem> lagging;
   std::array<EquationProblem, 3> equations;
   std::optional<LaggedEstimate> lagged;
 };
@@ -47,8 +51,9 @@ Fitted FitAtOnce(const PreparedDataset& dataset, const RegressionOptions& regres
 
 Fitted FitLagging(const PreparedDataset& dataset, const RegressionOptions& regression,
                   const ExcitationLimits& limits) {
-  const LaggedProblem problem = BuildLagged(dataset, regression);
   Fitted fitted;
+  fitted.lagging = BuildLagged(dataset, regression);
+  const LaggedProblem& problem = *fitted.lagging;
   Answers& answers = fitted.answers;
   for (const EquationProblem& equation : problem.at_once.equations) {
     AssessEquation(equation, limits, answers);
@@ -115,6 +120,76 @@ Bounds ReplicateBounds(const std::vector<ClusteredFit>& fits, const BootstrapRep
   return bounds;
 }
 
+/// The estimate of all stacked unknowns, its errors by white residuals.
+Refit RefitOf(const std::vector<ClusteredFit>& fits) {
+  Eigen::Index size = 0;
+  for (const ClusteredFit& fit : fits) size += fit.theta.size();
+  Refit refit{Eigen::VectorXd(size), Eigen::VectorXd(size)};
+  Eigen::Index first = 0;
+  for (const ClusteredFit& fit : fits) {
+    refit.theta.segment(first, fit.theta.size()) = fit.theta;
+    refit.standard_error.segment(first, fit.theta.size()) =
+        ResidualCovariance(fit).diagonal().cwiseSqrt();
+    first += fit.theta.size();
+  }
+  return refit;
+}
+
+bool SeekTheSame(const Answers& first, const Answers& second) {
+  for (std::size_t j = 0; j < first.estimates.size(); ++j) {
+    const auto& a = first.estimates[j];
+    const auto& b = second.estimates[j];
+    if (a.has_value() != b.has_value() || (a && a->columns != b->columns)) return false;
+  }
+  return true;
+}
+
+/// The boat of an answer; coefficients that were not sought are zero.
+VesselModel BoatOf(const Answers& answers, const RegressionOptions& regression, double h) {
+  VesselModel model;
+  model.structure = regression.structure;
+  model.parameterization = regression.parameterization;
+  model.discretisation = Discretisation::kContinuous;
+  model.sampling_period_s = h;
+  model.dead_zone = regression.dead_zone;
+  if (answers.lag) model.thruster_time_constant_s = answers.lag->time_constant_s;
+  for (const Equation equation : kEquations) {
+    Eigen::VectorXd& theta = model.theta[IndexOf(equation)];
+    const auto& estimate = answers.estimates[IndexOf(equation)];
+    theta = Eigen::VectorXd::Zero(
+        static_cast<Eigen::Index>(Regressors(equation, regression.parameterization).size()));
+    if (estimate) theta(estimate->columns) = estimate->theta;
+  }
+  return model;
+}
+
+/// What pushed the boat, by the residuals of the weak form, which noisy velocities do not swell.
+Disturbance DisturbanceBehind(const Fitted& fitted, const PreparedDataset& dataset,
+                              const RegressionOptions& regression, const IdentifyOptions& options) {
+  std::array<std::vector<std::size_t>, 3> columns;
+  for (std::size_t j = 0; j < columns.size(); ++j) {
+    if (fitted.answers.estimates[j]) columns[j] = fitted.answers.estimates[j]->columns;
+  }
+  const auto weak = EstimateWeakIv(dataset, regression, columns, options.weak_iv);
+  if (!weak) return {};
+  return JudgeDisturbance(dataset, regression, *weak, columns, options.weak_iv, options.seed)
+      .value_or(Disturbance());
+}
+
+BootstrapReplicates Simulated(const Fitted& fitted, const std::vector<ClusteredFit>& fits,
+                              const PreparedDataset& dataset, const RegressionOptions& regression,
+                              const IdentifyOptions& options, BoundedAnswers& bounded) {
+  const VesselModel boat = BoatOf(fitted.answers, regression, dataset.sampling_period_s);
+  bounded.disturbance = DisturbanceBehind(fitted, dataset, regression, options);
+  const auto again = [&](const PreparedDataset& repeat) -> std::optional<Refit> {
+    const Fitted refitted = Fit(repeat, regression, options.excitation);
+    if (!SeekTheSame(fitted.answers, refitted.answers)) return std::nullopt;
+    return RefitOf(FitsOf(refitted));
+  };
+  return SimulateReplicates(dataset, boat, *bounded.disturbance, RefitOf(fits), again,
+                            {options.bootstrap_replicates, options.seed, options.threads});
+}
+
 std::size_t SegmentsWithRows(const ClusteredFit& fit) {
   return static_cast<std::size_t>(std::count_if(fit.clusters.begin(), fit.clusters.end(),
                                                 [](const RowRange& c) { return c.size() > 0; }));
@@ -165,6 +240,29 @@ std::optional<Refusal> WarnOfFailures(const BootstrapReplicates& replicates) {
                  "repeat the manoeuvres that occur only once or twice"};
 }
 
+/// Replaces the interval of the time constant by that of its profile likelihood where the two sides
+/// of it differ badly, and says so.
+void ProfileLag(const ClusteredFit& fit, double level, Fitted& fitted, BoundedAnswers& bounded) {
+  constexpr double kBadlyLopsided = 1.25;
+  const double white = ResidualCovariance(fit)(0, 0);
+  const double variance = bounded.bounds.covariance(0, 0);
+  if (!(white > 0.0) || !std::isfinite(variance)) return;
+  // Coloured residuals make a likelihood that takes them for white as much too sharp.
+  const double sharpness = std::max(1.0, variance / white);
+  const double quantile = StudentInterval(0.0, 1.0, fit.degrees_of_freedom, level).upper;
+  const LagLimits limits = LimitsOfLag(*fitted.lagging);
+  const double estimate = fitted.lagged->time_constant_s;
+  const Interval profile = ProfileInterval(
+      [&](double tau) {
+        return LagDeviance(*fitted.lagging, fitted.answers.excitations, *fitted.lagged, tau);
+      },
+      {estimate, std::sqrt(variance), limits.shortest_s, limits.longest_s},
+      sharpness * quantile * quantile, level);
+  if (Lopsidedness(profile, estimate) < kBadlyLopsided) return;
+  fitted.answers.lag->profile = profile;
+  bounded.provenance.bounds_basis += "; the time constant's by profile likelihood, lopsided";
+}
+
 }  // namespace
 
 Answers AnswerOneStep(const PreparedDataset& dataset, const RegressionOptions& regression,
@@ -186,13 +284,16 @@ Result<BoundedAnswers> BoundOneStep(const PreparedDataset& dataset,
     bounded.provenance.bounds_basis =
         "residual covariance, white residuals assumed; too narrow where residuals are coloured or "
         "velocities noisy";
+    if (fitted.lagged) ProfileLag(fits.front(), options.interval_level, fitted, bounded);
     bounded.answers = std::move(fitted.answers);
     return bounded;
   }
   if (progress) progress("bootstrapping", 0.5);
+  const bool parametric = options.resampling == Resampling::kParametric;
   const BootstrapReplicates replicates =
-      Bootstrap(fits, {options.bootstrap_replicates, options.seed, options.threads,
-                       options.resampling, options.interval_method});
+      parametric ? Simulated(fitted, fits, dataset, regression, options, bounded)
+                 : Bootstrap(fits, {options.bootstrap_replicates, options.seed, options.threads,
+                                    options.resampling, options.interval_method});
   if (replicates.theta.cols() < 2) {
     return Refuse("bounds", "no bootstrap replicate could be solved",
                   "record for longer, or ask for bounds from residuals with 0 replicates");
@@ -202,10 +303,16 @@ Result<BoundedAnswers> BoundOneStep(const PreparedDataset& dataset,
   if (auto warning = WarnOfFailures(replicates)) refusals.push_back(*warning);
   bounded.provenance.bootstrap_failures = replicates.failures;
   bounded.provenance.bounds_basis =
-      InWords(replicates, dataset.sampling_period_s) + ", " + InWords(options.interval_method) +
-      "; attenuation of one-step least squares by noisy velocities is not covered";
+      (parametric ? "parametric bootstrap, the data set simulated anew"
+                  : InWords(replicates, dataset.sampling_period_s)) +
+      ", " + InWords(options.interval_method) +
+      (parametric && options.interval_method == IntervalMethod::kStudentized
+           ? "; attenuation of one-step least squares by noisy velocities is taken out to first "
+             "order"
+           : "; attenuation of one-step least squares by noisy velocities is not covered");
   bounded.bounds =
       ReplicateBounds(fits, replicates, options.interval_method, options.interval_level);
+  if (fitted.lagged) ProfileLag(fits.front(), options.interval_level, fitted, bounded);
   bounded.answers = std::move(fitted.answers);
   return bounded;
 }

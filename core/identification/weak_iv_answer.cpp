@@ -1,10 +1,12 @@
 #include "identification/weak_iv_answer.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <sstream>
 
 #include "data/preparation.hpp"
 #include "estimation/weak_iv.hpp"
+#include "identification/weak_iv_publication.hpp"
 #include "uncertainty/twin_correction.hpp"
 
 namespace telltale {
@@ -12,15 +14,38 @@ namespace {
 
 constexpr double kLongestPartS = 60.0;
 
-/// Splits the stacked unknowns into the answers they are.
-void Unstack(const WeakFit& fit, const Eigen::VectorXd& theta, Answers& answers) {
+Refusal HeadingHardlyVaries(std::size_t recordings) {
+  return {"steady disturbance",
+          "in " + std::to_string(recordings) +
+              " of the recordings the heading hardly varies: a part that stands to the north and "
+              "east cannot be told from one that turns with the boat, and is left out there",
+          "record courses in all directions"};
+}
+
+/// The columns that are sought, steady terms of each recording among them.
+std::array<std::vector<std::size_t>, 3> WithOffsets(const PreparedDataset& dataset,
+                                                    const RegressionOptions& regression,
+                                                    const WeakFormOptions& form, Answers& answers) {
+  const auto columns = Sought(answers);
+  if (regression.offsets == Offsets::kShared) return columns;
+  const std::vector<bool> varies = HeadingVaries(dataset);
+  const auto steady = std::count(varies.begin(), varies.end(), false);
+  if (regression.offsets == Offsets::kPerRecordingNorthEast && steady > 0) {
+    answers.refusals.push_back(HeadingHardlyVaries(static_cast<std::size_t>(steady)));
+  }
+  return WithSteadyTerms(dataset, BuildWeakForm(dataset, regression, form), columns, varies);
+}
+
+/// Splits the published unknowns into the answers they are.
+void Unstack(const WeakFit& fit, const WeakIvPublication& publication, const Eigen::VectorXd& theta,
+             Answers& answers) {
   Eigen::Index next = 0;
   if (fit.time_constant_s) {
     answers.lag = AnsweredLag{std::max(theta[next++], 0.0), LagIsAtItsLeast(fit)};
   }
   for (std::size_t j = 0; j < fit.equations.size(); ++j) {
     if (!fit.equations[j]) continue;
-    const std::vector<std::size_t>& columns = fit.equations[j]->columns;
+    const std::vector<std::size_t>& columns = publication.columns[j];
     const auto size = static_cast<Eigen::Index>(columns.size());
     Place(kEquations[j], columns, theta.segment(next, size), next, answers);
     next += size;
@@ -71,12 +96,13 @@ Result<BoundedAnswers> BoundWeakIv(const PreparedDataset& dataset,
   Answers& answers = bounded.answers;
   answers = AssessAll(dataset, regression, options.excitation);
   if (!answers.Any()) return tl::unexpected(NothingAnswered(answers.refusals));
-  const auto columns = Sought(answers);
+  const auto columns = WithOffsets(dataset, regression, options.weak_iv.form, answers);
   const auto fit = EstimateWeakIv(dataset, regression, columns, options.weak_iv);
   if (!fit || fit->scores.cols() < 2 || !ClusterCovariance(*fit).allFinite()) {
     return tl::unexpected(InstrumentsSayNothing());
   }
   const Eigen::Index clusters = fit->scores.cols();
+  bounded.provenance.clusters = static_cast<std::size_t>(clusters);
   if (auto warning = WarnOfFewClusters(clusters)) answers.refusals.push_back(*std::move(warning));
 
   std::optional<TwinCorrection> corrected;
@@ -89,19 +115,25 @@ Result<BoundedAnswers> BoundWeakIv(const PreparedDataset& dataset,
     if (corrected && !corrected->covariance.allFinite()) corrected.reset();
     if (!corrected) answers.refusals.push_back(NotCorrected());
   }
+  const WeakIvPublication publication = PublicationOf(*fit);
+  const auto publish = [&](const Eigen::VectorXd& theta, const Eigen::MatrixXd& covariance,
+                           double degrees_of_freedom) {
+    const Eigen::VectorXd published = publication.map * theta;
+    Unstack(*fit, publication, published, answers);
+    bounded.bounds =
+        StudentBounds(published, publication.map * covariance * publication.map.transpose(),
+                      degrees_of_freedom, options.interval_level);
+    bounded.offsets = OffsetsOf(publication, published, bounded.bounds, dataset);
+  };
   if (corrected) {
-    Unstack(*fit, corrected->theta, answers);
-    bounded.bounds = StudentBounds(corrected->theta, corrected->covariance,
-                                   corrected->degrees_of_freedom, options.interval_level);
+    publish(corrected->theta, corrected->covariance, corrected->degrees_of_freedom);
     bounded.disturbance = corrected->disturbance;
     bounded.provenance.twins = corrected->solved;
     bounded.provenance.twin_failures = corrected->failures;
     bounded.provenance.bounds_basis = InWords(*corrected, clusters);
     return bounded;
   }
-  Unstack(*fit, fit->theta, answers);
-  bounded.bounds = StudentBounds(fit->theta, ClusterCovariance(*fit),
-                                 static_cast<double>(clusters - 1), options.interval_level);
+  publish(fit->theta, ClusterCovariance(*fit), static_cast<double>(clusters - 1));
   bounded.provenance.bounds_basis =
       "clusters of residuals (" + std::to_string(clusters) + "), Student t; not corrected for bias";
   return bounded;

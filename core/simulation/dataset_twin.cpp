@@ -123,7 +123,7 @@ ThrustRegressors ThrustAtStart(const Voyage& voyage, const VesselModel& model) {
 
 Result<Course> Sail(const Voyage& voyage, const VesselModel& model, const BodyDynamics& dynamics,
                     const Runaway& runaway, double step_s, const std::array<bool, 3>& as_measured,
-                    std::array<GaussMarkov, 3>& disturbance) {
+                    const SteadyDisturbance& steady, std::array<GaussMarkov, 3>& disturbance) {
   const auto steps = static_cast<std::size_t>(std::lround(voyage.Duration() / step_s));
   Course course(voyage.start_s, step_s);
   Instant now{voyage.First().eta, voyage.First().nu};
@@ -141,8 +141,10 @@ Result<Course> Sail(const Voyage& voyage, const VesselModel& model, const BodyDy
           applied = {applied.u + share * part.u, applied.v + share * part.v,
                      applied.r + share * part.r};
         });
-    applied = {applied.u + disturbance[0].Next(), applied.v + disturbance[1].Next(),
-               applied.r + disturbance[2].Next()};
+    const NuDot pushed = steady.At(now.eta.psi_rad);
+    applied = {applied.u + pushed.u + disturbance[0].Next(),
+               applied.v + pushed.v + disturbance[1].Next(),
+               applied.r + pushed.r + disturbance[2].Next()};
     const Nu measured = voyage.MeasuredAt(static_cast<double>(k + 1) * step_s);
     Nu next = dynamics.Step(applied, now.nu, step_s);
     if (as_measured[0]) next.u = measured.u;
@@ -254,8 +256,11 @@ Result<PreparedDataset> SailAgain(const PreparedDataset& dataset, const VesselMo
   for (std::size_t s = 0; s < dataset.stretches.size(); ++s) {
     Voyage voyage{dataset, s, start_s, 0.0};
     voyage.shift_s = start_s - voyage.First().time_s;
+    const std::size_t of = dataset.RecordingOf(s);
+    if (s == 0 || of != dataset.RecordingOf(s - 1)) recording.starts_s.push_back(start_s);
     const auto course =
-        Sail(voyage, model, dynamics, runaway, step_s, options.as_measured, disturbance);
+        Sail(voyage, model, dynamics, runaway, step_s, options.as_measured,
+             options.steady.empty() ? SteadyDisturbance() : options.steady[of], disturbance);
     if (!course) return tl::unexpected(course.error());
     instrumented.Record(voyage, *course, recording);
     start_s += voyage.Duration() + kBetweenStretchesS;

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <vector>
 
 #include "data/prepared_dataset.hpp"
 #include "data/samples.hpp"
@@ -18,6 +19,7 @@ struct TwinOptions {
   std::uint64_t seed = 1;
   /// Velocities (u, v, r) that the model has no equation for: they go as measured.
   std::array<bool, 3> as_measured{};
+  std::vector<SteadyDisturbance> steady = {};  ///< by recording of the dataset; empty: none
 };
 
 /// A data set that the same boat might have given another day: every stretch of `dataset` sailed

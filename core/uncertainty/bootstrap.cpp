@@ -319,6 +319,7 @@ std::string_view Name(Resampling resampling) {
   switch (resampling) {
     case Resampling::kSegments: return "SEGMENTS";
     case Resampling::kMovingBlocks: return "MOVING_BLOCKS";
+    case Resampling::kParametric: return "PARAMETRIC";
     case Resampling::kUnknown: break;
   }
   return "UNKNOWN";

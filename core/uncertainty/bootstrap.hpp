@@ -13,8 +13,9 @@ namespace telltale {
 
 /// What a replicate redraws. kSegments: whole segments, which stand for independent manoeuvres.
 /// kMovingBlocks: blocks of consecutive instants, for residuals that stay coloured for far shorter
-/// than a segment lasts, or segments too few to be drawn.
-enum class Resampling { kUnknown, kSegments, kMovingBlocks };
+/// than a segment lasts, or segments too few to be drawn. kParametric: nothing; the data set is
+/// simulated anew (SimulateReplicates), which shows the bias of the estimator too.
+enum class Resampling { kUnknown, kSegments, kMovingBlocks, kParametric };
 
 std::string_view Name(Resampling resampling);
 
@@ -56,8 +57,8 @@ struct BootstrapReplicates {
 /// Cost: O(n r^2) once for a batch of some hundred replicates, and O(draws r^2 + r^3) each.
 /// Determinism: replicate i has a random engine of its own, so the result does not depend on
 /// threads.
-/// Requires: at least one fit; for segments all with the same number of clusters, at least one; for
-/// blocks the instants of all rows.
+/// Requires: segments or blocks; at least one fit; for segments all with the same number of
+/// clusters, at least one; for blocks the instants of all rows.
 /// Source: Cameron, Gelbach, Miller, "Bootstrap-based improvements for inference with clustered
 /// errors", Review of Economics and Statistics 90 (2008); Politis, Romano, "A circular
 /// block-resampling procedure for stationary data", in "Exploring the Limits of Bootstrap" (1992);

@@ -120,6 +120,12 @@ class TwinRounds {
         twins_(twins),
         progress_(progress) {}
 
+  std::optional<Disturbance> DisturbanceAlone() const {
+    const auto found = FindSailable();
+    if (!found) return std::nullopt;
+    return JudgeDisturbance(*found);
+  }
+
   std::optional<TwinCorrection> Run() {
     const auto found = FindSailable();
     if (!found) return std::nullopt;
@@ -162,7 +168,11 @@ class TwinRounds {
       const VesselModel model = ModelOf(fit_, found.theta, dataset_.sampling_period_s);
       for (std::size_t i = 0; i < kQuietTwins; ++i) {
         auto quiet = SailAgain(dataset_, model,
-                               {{}, twins_.noise_scale, SeedOf(twins_.twins + i), Unanswered()});
+                               {{},
+                                twins_.noise_scale,
+                                SeedOf(twins_.twins + i),
+                                Unanswered(),
+                                SteadyOf(fit_, found.theta)});
         if (quiet) found.quiet.push_back(*std::move(quiet));
       }
       if (found.quiet.size() == kQuietTwins) return found;
@@ -200,10 +210,11 @@ class TwinRounds {
 
   std::vector<Sighting> Sight(const Eigen::VectorXd& theta) {
     const VesselModel model = ModelOf(fit_, theta, dataset_.sampling_period_s);
+    const std::vector<SteadyDisturbance> steady = SteadyOf(fit_, theta);
     std::vector<std::optional<Sighting>> all(twins_.twins);
     ForEachIndex(all.size(), twins_.threads, [&](std::size_t i) {
-      const auto twin =
-          SailAgain(dataset_, model, {disturbance_, twins_.noise_scale, SeedOf(i), Unanswered()});
+      const auto twin = SailAgain(
+          dataset_, model, {disturbance_, twins_.noise_scale, SeedOf(i), Unanswered(), steady});
       if (twin) {
         const auto again = EstimateWeakIv(*twin, regression_, columns_, options_);
         if (again) all[i] = Sighting{again->theta, ClusterCovariance(*again)};
@@ -285,6 +296,15 @@ std::optional<TwinCorrection> CorrectWithTwins(
     const TwinCorrectionOptions& twins, const std::function<void(double fraction)>& progress) {
   Require(twins.twins >= 8, "at least eight twins");
   return TwinRounds(dataset, regression, fit, columns, options, twins, progress).Run();
+}
+
+std::optional<Disturbance> JudgeDisturbance(const PreparedDataset& dataset,
+                                            const RegressionOptions& regression, const WeakFit& fit,
+                                            const std::array<std::vector<std::size_t>, 3>& columns,
+                                            const WeakIvOptions& options, std::uint64_t seed) {
+  TwinCorrectionOptions twins;
+  twins.seed = seed;
+  return TwinRounds(dataset, regression, fit, columns, options, twins, {}).DisturbanceAlone();
 }
 
 }  // namespace telltale

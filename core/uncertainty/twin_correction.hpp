@@ -53,4 +53,11 @@ std::optional<TwinCorrection> CorrectWithTwins(
     const std::array<std::vector<std::size_t>, 3>& columns, const WeakIvOptions& options,
     const TwinCorrectionOptions& twins, const std::function<void(double fraction)>& progress = {});
 
+/// The disturbance that the residuals of a fit show beyond what sensors leave in still water, as
+/// CorrectWithTwins() judges it. Nothing when the fit cannot be sailed.
+std::optional<Disturbance> JudgeDisturbance(const PreparedDataset& dataset,
+                                            const RegressionOptions& regression, const WeakFit& fit,
+                                            const std::array<std::vector<std::size_t>, 3>& columns,
+                                            const WeakIvOptions& options, std::uint64_t seed);
+
 }  // namespace telltale

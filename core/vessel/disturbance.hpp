@@ -2,6 +2,8 @@
 
 #include <Eigen/Core>
 
+#include "vessel/motion.hpp"
+
 namespace telltale {
 
 /// What else accelerates a boat, wind gusts and waves: per axis a stationary first-order
@@ -9,6 +11,16 @@ namespace telltale {
 struct Disturbance {
   Eigen::Vector3d sigma = Eigen::Vector3d::Zero();
   Eigen::Vector3d time_constant_s = Eigen::Vector3d::Ones();
+};
+
+/// What accelerates a boat steadily: a part that turns with the boat and a part that stands in the
+/// north-east-down frame, as wind and current do to first order. docs/model.md (70).
+/// Shapes and units: rows surge, sway, yaw (m/s^2, m/s^2, rad/s^2); columns the coefficients of 1,
+/// cos psi and sin psi.
+struct SteadyDisturbance {
+  Eigen::Matrix3d terms = Eigen::Matrix3d::Zero();
+
+  NuDot At(double psi_rad) const;
 };
 
 }  // namespace telltale

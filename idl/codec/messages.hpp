@@ -83,6 +83,19 @@ struct RejectEntry {
 /// Stands for a vehicle id where samples name no vehicle that the daemon serves. It cannot be one.
 inline constexpr std::string_view kUnattributed = "*";
 
+/// A live estimate with its error bar, from one-step least squares over the newest rows. Indicative
+/// alone: it shares the attenuation of that estimator, and no multiple of its error is a bound.
+struct IndicativeCoefficient {
+  Equation equation = Equation::kUnknown;
+  std::string regressor;
+  std::string symbol;
+  double estimate = 0.0;
+  double standard_error = 0.0;
+  std::string unit;
+
+  bool operator==(const IndicativeCoefficient&) const = default;
+};
+
 /// How well a vehicle's telemetry and model are doing.
 struct Quality {
   std::string vehicle_id;  ///< or kUnattributed
@@ -99,6 +112,8 @@ struct Quality {
   double model_age_s = 0.0;
   double prediction_error = 0.0;  ///< free-run error over 5 s now, in units of that when identified
   double drift = 0.0;             ///< running change of prediction_error per evaluation
+  std::vector<IndicativeCoefficient> indicative;  ///< static structure; those that can be told
+  std::uint64_t indicative_rows = 0;              ///< prepared rows taken in so far
 };
 
 std::vector<RejectEntry> Entries(const RejectCounts& counts);

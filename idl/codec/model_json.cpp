@@ -6,6 +6,7 @@
 #include <limits>
 #include <utility>
 
+#include "codec/change_json.hpp"
 #include "codec/field_reader.hpp"
 #include "codec/json_message.hpp"
 #include "codec/vehicle_file.hpp"
@@ -81,6 +82,14 @@ void Write(const Disturbance& disturbance, proto::Disturbance& message) {
                                          disturbance.time_constant_s.end());
 }
 
+void Write(const RecordingOffsets& offsets, proto::RecordingOffsets& message) {
+  message.set_start_s(offsets.start_s);
+  message.set_end_s(offsets.end_s);
+  for (const Coefficient& coefficient : offsets.coefficients) {
+    Write(coefficient, *message.add_coefficients());
+  }
+}
+
 void Write(const Provenance& provenance, proto::Provenance& message) {
   message.set_preset(provenance.preset);
   message.set_bounds_basis(provenance.bounds_basis);
@@ -92,6 +101,8 @@ void Write(const Provenance& provenance, proto::Provenance& message) {
   message.set_twin_failures(Saturated(provenance.twin_failures));
   message.set_estimator_choice(provenance.estimator_choice);
   message.set_misspecification(provenance.misspecification);
+  message.set_clusters(Saturated(provenance.clusters));
+  if (provenance.change) *message.mutable_change() = ToProto(*provenance.change);
 }
 
 // ---- from Protobuf ------------------------------------------------------------------------
@@ -128,6 +139,17 @@ Coefficient ReadCoefficient(FieldReader reader, const proto::Coefficient& messag
   coefficient.status = ReadEnum<CoefficientStatus>(reader, "status", message.status(),
                                                    "one of ESTIMATED, NOT_EXCITED, COLLINEAR");
   return coefficient;
+}
+
+RecordingOffsets ReadOffsets(FieldReader reader, const proto::RecordingOffsets& message) {
+  RecordingOffsets offsets;
+  offsets.start_s = reader.Number("start_s", kFinite);
+  offsets.end_s = reader.Number("end_s", kFinite);
+  for (int i = 0; i < message.coefficients_size(); ++i) {
+    offsets.coefficients.push_back(
+        ReadCoefficient(reader.Item("coefficients", i), message.coefficients(i)));
+  }
+  return offsets;
 }
 
 std::string Quoted(std::string_view text) {
@@ -304,6 +326,10 @@ Provenance ReadProvenance(FieldReader reader, const proto::Provenance& message) 
   provenance.twin_failures = message.twin_failures();
   provenance.estimator_choice = message.estimator_choice();
   provenance.misspecification = reader.Number("misspecification", kNotNegative, 0.0);
+  provenance.clusters = message.clusters();
+  if (message.has_change()) {
+    provenance.change = ReadModelChange(reader.Optional("change"), message.change());
+  }
   return provenance;
 }
 
@@ -350,6 +376,9 @@ Identification ReadModel(FieldReader reader, const proto::Model& model) {
   if (model.has_disturbance()) {
     result.disturbance = ReadDisturbance(reader.Optional("disturbance"), model.disturbance());
   }
+  for (int i = 0; i < model.offsets_size(); ++i) {
+    result.offsets.push_back(ReadOffsets(reader.Item("offsets", i), model.offsets(i)));
+  }
   result.window = ReadWindow(reader.Optional("window"), model.window());
   result.refusals = ReadRefusals(model);
   result.provenance = ReadProvenance(reader.Optional("provenance"), model.provenance());
@@ -394,6 +423,9 @@ proto::Model ToProto(const Identification& identification) {
   const Eigen::VectorXd& with_tau = identification.time_constant_covariance;
   model.mutable_thruster_time_constant_covariance()->Add(with_tau.begin(), with_tau.end());
   if (identification.disturbance) Write(*identification.disturbance, *model.mutable_disturbance());
+  for (const RecordingOffsets& offsets : identification.offsets) {
+    Write(offsets, *model.add_offsets());
+  }
   Write(identification.window, *model.mutable_window());
   for (const Refusal& refusal : identification.refusals) Write(refusal, *model.add_refusals());
   Write(identification.provenance, *model.mutable_provenance());

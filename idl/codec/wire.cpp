@@ -72,6 +72,26 @@ void Fill(telltale_wire_Coefficient& wire, const Coefficient& coefficient) {
   Put(wire.status, Name(coefficient.status));
 }
 
+void Fill(telltale_wire_CoefficientChange& wire, const CoefficientChange& change) {
+  Put(wire.equation, Name(change.equation));
+  Put(wire.regressor, change.regressor);
+  Put(wire.symbol, change.symbol);
+  wire.difference = change.difference;
+  wire.standard_error = change.standard_error;
+  wire.p_value = change.p_value;
+}
+
+void Fill(telltale_wire_IndicativeCoefficient& wire, const IndicativeCoefficient& coefficient) {
+  Put(wire.equation, Name(coefficient.equation));
+  Put(wire.regressor, coefficient.regressor);
+  Put(wire.symbol, coefficient.symbol);
+  wire.estimate = coefficient.estimate;
+  wire.standard_error = coefficient.standard_error;
+  Put(wire.unit, coefficient.unit);
+}
+
+void Fill(telltale_wire_RecordingOffsets& wire, const RecordingOffsets& offsets);
+void Fill(telltale_wire_ModelChange& wire, const ModelChange& change);
 void Fill(telltale_wire_Model& wire, const PublishedModel& model);
 
 constexpr auto kFill = [](auto& wire, const auto& item) { Fill(wire, item); };
@@ -87,6 +107,22 @@ std::vector<double> RowMajor(const Eigen::MatrixXd& matrix) {
     }
   }
   return values;
+}
+
+void Fill(telltale_wire_RecordingOffsets& wire, const RecordingOffsets& offsets) {
+  wire.start_s = offsets.start_s;
+  wire.end_s = offsets.end_s;
+  PutSequence(wire.coefficients, offsets.coefficients, kFill);
+}
+
+void Fill(telltale_wire_ModelChange& wire, const ModelChange& change) {
+  wire.revision = change.revision;
+  Put(wire.verdict, Name(change.verdict));
+  wire.p_value = change.p_value;
+  wire.statistic = change.statistic;
+  wire.degrees_of_freedom = change.degrees_of_freedom;
+  PutSequence(wire.coefficients, change.coefficients, kFill);
+  Put(wire.reason, change.reason);
 }
 
 void Fill(telltale_wire_Model& wire, const PublishedModel& model) {
@@ -127,6 +163,11 @@ void Fill(telltale_wire_Model& wire, const PublishedModel& model) {
   if (const auto& disturbance = identification.disturbance) {
     PutSequence(wire.disturbance_sigma, disturbance->sigma, kCopy);
     PutSequence(wire.disturbance_time_constant_s, disturbance->time_constant_s, kCopy);
+  }
+  PutSequence(wire.offsets, identification.offsets, kFill);
+  wire.clusters = provenance.clusters;
+  if (const auto& change = provenance.change) {
+    PutSequence(wire.change, std::initializer_list<ModelChange>{*change}, kFill);
   }
 }
 
@@ -218,14 +259,16 @@ constexpr std::initializer_list<Parameterization> kParameterizations = {
     Parameterization::kPropeller, Parameterization::kPaper};
 constexpr std::initializer_list<Estimator> kEstimators = {Estimator::kOneStep, Estimator::kWeakIv,
                                                           Estimator::kOutputError};
-constexpr std::initializer_list<Resampling> kResamplings = {Resampling::kSegments,
-                                                            Resampling::kMovingBlocks};
+constexpr std::initializer_list<Resampling> kResamplings = {
+    Resampling::kSegments, Resampling::kMovingBlocks, Resampling::kParametric};
 constexpr std::initializer_list<IntervalMethod> kIntervalMethods = {
     IntervalMethod::kPercentile, IntervalMethod::kStudentized, IntervalMethod::kBca};
 constexpr std::initializer_list<DeadZoneSource> kDeadZoneSources = {DeadZoneSource::kGiven,
                                                                     DeadZoneSource::kIdentified};
 constexpr std::initializer_list<CoefficientStatus> kStatuses = {
     CoefficientStatus::kEstimated, CoefficientStatus::kNotExcited, CoefficientStatus::kCollinear};
+constexpr std::initializer_list<ChangeVerdict> kVerdicts = {
+    ChangeVerdict::kAlike, ChangeVerdict::kDiffers, ChangeVerdict::kCannotTell};
 constexpr std::initializer_list<Preset> kPresets = {Preset::kRobust, Preset::kPaper};
 constexpr std::initializer_list<IdentifyOutcome> kOutcomes = {
     IdentifyOutcome::kPublished, IdentifyOutcome::kRefused, IdentifyOutcome::kFailed};
@@ -362,6 +405,56 @@ std::optional<Disturbance> ReadDisturbance(const dds_sequence_double& sigma,
                      ReadAxes("disturbance_time_constant_s", time_constant_s, kShortestS)};
 }
 
+IndicativeCoefficient ReadIndicative(const std::string& field,
+                                     const telltale_wire_IndicativeCoefficient& wire) {
+  return {ReadName(field + ".equation", View(wire.equation), kAllEquations),
+          std::string(View(wire.regressor)),
+          std::string(View(wire.symbol)),
+          ReadWithin(field + ".estimate", wire.estimate, -kLargest, kLargest),
+          ReadWithin(field + ".standard_error", wire.standard_error, 0.0, kLargest),
+          std::string(View(wire.unit))};
+}
+
+RecordingOffsets ReadOffsets(const std::string& field, const telltale_wire_RecordingOffsets& wire) {
+  RecordingOffsets offsets;
+  offsets.start_s = ReadWithin(field + ".start_s", wire.start_s, -kLargest, kLargest);
+  offsets.end_s = ReadWithin(field + ".end_s", wire.end_s, wire.start_s, kLargest);
+  offsets.coefficients = ReadSequence(field + ".coefficients", wire.coefficients, ReadCoefficient);
+  return offsets;
+}
+
+CoefficientChange ReadCoefficientChange(const std::string& field,
+                                        const telltale_wire_CoefficientChange& wire) {
+  return {ReadName(field + ".equation", View(wire.equation),
+                   {Equation::kUnknown, Equation::kSurge, Equation::kSway, Equation::kYaw}),
+          std::string(View(wire.regressor)),
+          std::string(View(wire.symbol)),
+          ReadWithin(field + ".difference", wire.difference, -kLargest, kLargest),
+          ReadWithin(field + ".standard_error", wire.standard_error,
+                     std::numeric_limits<double>::min(), kLargest),
+          ReadWithin(field + ".p_value", wire.p_value, 0.0, 1.0)};
+}
+
+ModelChange ReadModelChange(const std::string& field, const telltale_wire_ModelChange& wire) {
+  ModelChange change;
+  change.revision = wire.revision;
+  change.verdict = ReadName(field + ".verdict", View(wire.verdict), kVerdicts);
+  change.p_value = ReadWithin(field + ".p_value", wire.p_value, 0.0, 1.0);
+  change.statistic = ReadWithin(field + ".statistic", wire.statistic, 0.0, kLargest);
+  change.degrees_of_freedom = wire.degrees_of_freedom;
+  change.coefficients =
+      ReadSequence(field + ".coefficients", wire.coefficients, ReadCoefficientChange);
+  change.reason = View(wire.reason);
+  return change;
+}
+
+/// None from older writers and for a vehicle's first model.
+std::optional<ModelChange> ReadChange(const dds_sequence_telltale_wire_ModelChange& wire) {
+  if (wire._length > 1) Reject("change", std::to_string(wire._length) + " items", "none or one");
+  if (wire._length == 0) return std::nullopt;
+  return ReadModelChange("change[0]", wire._buffer[0]);
+}
+
 PublishedModel ReadModel(const telltale_wire_Model& wire) {
   PublishedModel model;
   model.revision = wire.revision;
@@ -402,6 +495,9 @@ PublishedModel ReadModel(const telltale_wire_Model& wire) {
       ReadWithin("misspecification", wire.misspecification, 0.0, kLargest);
   identification.disturbance =
       ReadDisturbance(wire.disturbance_sigma, wire.disturbance_time_constant_s);
+  identification.offsets = ReadSequence("offsets", wire.offsets, ReadOffsets);
+  identification.provenance.clusters = wire.clusters;
+  identification.provenance.change = ReadChange(wire.change);
   return model;
 }
 
@@ -521,6 +617,8 @@ WireSample<telltale_wire_Quality> Encode(const Quality& quality) {
   wire->model_age_s = quality.model_age_s;
   wire->prediction_error = quality.prediction_error;
   wire->drift = quality.drift;
+  PutSequence(wire->indicative, quality.indicative, kFill);
+  wire->indicative_rows = quality.indicative_rows;
   return wire;
 }
 
@@ -613,6 +711,8 @@ Decoded<Quality> Decode(const telltale_wire_Quality& wire) {
     quality.model_age_s = ReadWithin("model_age_s", wire.model_age_s, -kLargest, kLargest);
     quality.prediction_error = ReadWithin("prediction_error", wire.prediction_error, 0.0, kLargest);
     quality.drift = ReadWithin("drift", wire.drift, -kLargest, kLargest);
+    quality.indicative = ReadSequence("indicative", wire.indicative, ReadIndicative);
+    quality.indicative_rows = wire.indicative_rows;
     return quality;
   });
 }

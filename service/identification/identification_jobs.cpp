@@ -62,6 +62,9 @@ IdentifyOptions OptionsOf(const IdentifyRequest& request, const IdentificationSe
   options.bootstrap_replicates =
       request.bootstrap_replicates.value_or(settings.bootstrap_replicates);
   if (request.resampling != Resampling::kUnknown) options.resampling = request.resampling;
+  if (request.resampling == Resampling::kParametric) {
+    options.interval_method = IntervalMethod::kStudentized;  // which alone takes the bias out
+  }
   if (request.interval_method != IntervalMethod::kUnknown) {
     options.interval_method = request.interval_method;
   }

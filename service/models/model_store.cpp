@@ -89,11 +89,16 @@ StoredModel ModelStore::Save(const Identification& identification, double publis
 }
 
 std::optional<StoredModel> ModelStore::Latest(std::string_view vehicle_id) const {
+  return Newest(vehicle_id, [](const StoredModel&) { return true; });
+}
+
+std::optional<StoredModel> ModelStore::Newest(
+    std::string_view vehicle_id, const std::function<bool(const StoredModel&)>& suits) const {
   SQLite::Statement rows(*database_,
                          "SELECT * FROM models WHERE vehicle_id = ? ORDER BY revision DESC");
   rows.bind(1, std::string(vehicle_id));
   while (rows.executeStep()) {
-    if (auto stored = ReadRow(rows)) return stored;
+    if (auto stored = ReadRow(rows); stored && suits(*stored)) return stored;
   }
   return std::nullopt;
 }

@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -43,6 +44,10 @@ class ModelStore {
 
   /// The vehicle's newest model that can be read, if any.
   std::optional<StoredModel> Latest(std::string_view vehicle_id) const;
+
+  /// The newest that can be read and that `suits`.
+  std::optional<StoredModel> Newest(std::string_view vehicle_id,
+                                    const std::function<bool(const StoredModel&)>& suits) const;
 
  private:
   std::unique_ptr<SQLite::Database> database_;

@@ -6,6 +6,7 @@
 #include <spdlog/spdlog.h>
 
 #include "codec/wire.hpp"
+#include "models/predecessor.hpp"
 
 namespace telltale {
 namespace {
@@ -13,6 +14,15 @@ namespace {
 double UnixNow() {
   const auto now = std::chrono::system_clock::now().time_since_epoch();
   return std::chrono::duration<double>(now).count();
+}
+
+void LogChange(const PublishedModel& model) {
+  const auto& change = model.identification.provenance.change;
+  if (!change) return;
+  const auto level =
+      change->verdict == ChangeVerdict::kDiffers ? spdlog::level::warn : spdlog::level::info;
+  spdlog::log(level, "revision {} of {} {}", model.revision, model.identification.vehicle_id,
+              InWords(*change));
 }
 
 }  // namespace
@@ -28,12 +38,14 @@ PublishedModels::PublishedModels(const Participant& participant, ModelStore stor
   }
 }
 
-PublishedModel PublishedModels::Publish(const Identification& identification,
+PublishedModel PublishedModels::Publish(Identification identification,
                                         const std::optional<FreeRunError>& reference_error) {
   const std::lock_guard lock(mutex_);
+  identification.provenance.change = ChangeSincePredecessor(store_, identification);
   const StoredModel stored = store_.Save(identification, UnixNow(), reference_error);
   latest_.insert_or_assign(identification.vehicle_id, stored);
   Announce(stored.model);
+  LogChange(stored.model);
   return stored.model;
 }
 

@@ -20,9 +20,9 @@ class PublishedModels {
  public:
   PublishedModels(const Participant& participant, ModelStore store, const Fleet& fleet);
 
-  /// Saves, then publishes. Throws SQLite::Exception where it cannot be saved; it is then not
-  /// published either.
-  PublishedModel Publish(const Identification& identification,
+  /// Compares with the vehicle's earlier models, saves, then publishes. Throws SQLite::Exception
+  /// where it cannot be saved; it is then not published either.
+  PublishedModel Publish(Identification identification,
                          const std::optional<FreeRunError>& reference_error);
 
   std::optional<StoredModel> Latest(std::string_view vehicle_id) const;

@@ -17,14 +17,6 @@ std::vector<Sample> Since(const std::vector<Sample>& samples, double time_s) {
   return {first, samples.end()};
 }
 
-double EndTime(const Recording& recording) {
-  double end_s = 0.0;
-  if (!recording.gnss.empty()) end_s = std::max(end_s, recording.gnss.back().time_s);
-  if (!recording.heading.empty()) end_s = std::max(end_s, recording.heading.back().time_s);
-  if (!recording.thrusters.empty()) end_s = std::max(end_s, recording.thrusters.back().time_s);
-  return end_s;
-}
-
 }  // namespace
 
 std::optional<FreeRunError> MeasureFreeRunError(const Recording& recording, const Vehicle& vehicle,
@@ -52,6 +44,14 @@ double RelativeError(const FreeRunError& now, const FreeRunError& reference) {
     sum += ratio * ratio;
   }
   return std::sqrt(sum / static_cast<double>(now.size()));
+}
+
+double EndTime(const Recording& recording) {
+  double end_s = 0.0;
+  if (!recording.gnss.empty()) end_s = std::max(end_s, recording.gnss.back().time_s);
+  if (!recording.heading.empty()) end_s = std::max(end_s, recording.heading.back().time_s);
+  if (!recording.thrusters.empty()) end_s = std::max(end_s, recording.thrusters.back().time_s);
+  return end_s;
 }
 
 Recording Latest(const Recording& recording, double duration_s) {

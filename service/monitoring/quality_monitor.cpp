@@ -85,6 +85,9 @@ Quality QualityMonitor::Assess(VehicleWindow& window, Memory& memory, double ela
   quality.accepted = state.accepted;
   quality.rejected = Entries(state.rejected);
   memory.window = state;
+  Follow(window, state, memory);
+  quality.indicative = memory.indicative;
+  quality.indicative_rows = memory.live.rows();
   if (const auto latest = models_.Latest(quality.vehicle_id)) {
     Evaluate(window, state, *latest, memory);
     quality.model_revision = latest->model.revision;
@@ -93,6 +96,12 @@ Quality QualityMonitor::Assess(VehicleWindow& window, Memory& memory, double ela
     quality.drift = memory.drift;
   }
   return quality;
+}
+
+void QualityMonitor::Follow(VehicleWindow& window, const WindowState& state, Memory& memory) {
+  if (state.accepted == 0 || !memory.live.IsDue(state.end_s)) return;
+  memory.live.TakeIn(window.Snapshot(), window.vehicle());
+  memory.indicative = memory.live.Estimates();
 }
 
 void QualityMonitor::Evaluate(VehicleWindow& window, const WindowState& state,

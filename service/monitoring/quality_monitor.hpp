@@ -14,6 +14,7 @@
 #include "codec/messages.hpp"
 #include "ingest/fleet.hpp"
 #include "models/published_models.hpp"
+#include "monitoring/live_feed.hpp"
 
 namespace telltale {
 
@@ -36,11 +37,14 @@ class QualityMonitor {
     std::uint64_t evaluated_revision = 0;  ///< of the model evaluated
     std::optional<double> prediction_error;
     double drift = 0.0;
+    LiveFeed live;
+    std::vector<IndicativeCoefficient> indicative;
   };
 
   void Run();
   void PublishAll(double elapsed_s);
   Quality Assess(VehicleWindow& window, Memory& memory, double elapsed_s);
+  static void Follow(VehicleWindow& window, const WindowState& state, Memory& memory);
   void Evaluate(VehicleWindow& window, const WindowState& state, const StoredModel& model,
                 Memory& memory);
 

@@ -20,13 +20,14 @@
 #include "recording/telemetry_log.hpp"
 #include "service/service_fixture.hpp"
 #include "simulation/yellowfish.hpp"
+#include "support/boats.hpp"
 #include "support/numbers.hpp"
 
 namespace telltale {
 namespace {
 
 using namespace std::chrono_literals;
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
 using Daemon = ServiceTest;
 
@@ -95,6 +96,28 @@ TEST_F(Daemon, ReportsTheModelAndHowWellItPredicts) {
   EXPECT_THAT(monitor->output(), HasSubstr(kVehicleId));
 }
 
+// Nobody has asked for a model: the live estimates come of themselves.
+TEST_F(Daemon, FollowsABoatWithIndicativeEstimates) {
+  const auto daemon = StartDaemon();
+  Replay(SimulatedRecording(testing::StableBoat(), 0.0, 300.0, 4));
+  const auto settled = [](const Quality& q) { return q.indicative_rows > 1400; };
+  const auto quality = AwaitQuality(kVehicleId, settled);
+  ASSERT_TRUE(quality);
+  EXPECT_FALSE(quality->model_revision);
+  EXPECT_EQ(quality->indicative.size(), 35u);
+  const VesselModel boat = testing::StableBoat();
+  double thrust = 0.0;
+  for (const IndicativeCoefficient& c : quality->indicative) {
+    EXPECT_GT(c.standard_error, 0.0);
+    if (c.equation == Equation::kSurge && c.regressor.starts_with("f:")) thrust += c.estimate;
+  }
+  // Indicative: one-step least squares attenuates.
+  EXPECT_NEAR(thrust, boat.theta[0][5] + boat.theta[0][6], 0.25 * 0.7);
+  const auto monitor = Start({"monitor", "--once"});
+  EXPECT_EQ(monitor->Wait(), 0);
+  EXPECT_THAT(monitor->output(), HasSubstr("±"));
+}
+
 TEST_F(Daemon, GivesALateJoinerTheLastModel) {
   const auto daemon = StartDaemon();
   ReplaySimulation();
@@ -104,6 +127,37 @@ TEST_F(Daemon, GivesALateJoinerTheLastModel) {
       Start({"watch", "--vehicle-id", kVehicleId, "--count", "1", "--timeout", "20"});
   EXPECT_EQ(watch->Wait(), 0) << watch->output();
   EXPECT_THAT(watch->output(), HasSubstr("revision 2"));
+}
+
+// Three days of one boat; on the third its propellers give a quarter less.
+TEST_F(Daemon, TellsWhetherABoatHasChanged) {
+  const auto daemon = StartDaemon();
+  constexpr double kDayS = 5000.0;  // beyond what a window holds
+  VesselModel worn = testing::StableBoat();
+  for (std::size_t j = 0; j < 3; ++j) worn.theta[j].tail(4) *= 0.75;
+  Replay(SimulatedRecording(testing::StableBoat(), 0.0, 300.0, 1));
+  ASSERT_EQ(Start({"identify", "--vehicle-id", kVehicleId})->Wait(), 0);
+  const auto again = Start({"identify", "--vehicle-id", kVehicleId});
+  EXPECT_EQ(again->Wait(), 0);
+  EXPECT_THAT(again->output(), HasSubstr("cannot be compared"));  // it is the same window
+
+  Replay(SimulatedRecording(testing::StableBoat(), kDayS, 300.0, 2));
+  const auto alike = Start({"identify", "--vehicle-id", kVehicleId});
+  EXPECT_EQ(alike->Wait(), 0);
+  EXPECT_THAT(alike->output(), HasSubstr("no different from revision 2"));
+
+  Replay(SimulatedRecording(worn, 2.0 * kDayS, 300.0, 3));
+  const auto file = folder_.Path() / "worn.json";
+  ASSERT_EQ(Start({"identify", "--vehicle-id", kVehicleId, "--out", file})->Wait(), 0);
+  EXPECT_TRUE(daemon->WaitForOutput("revision 4 of yellowfish differs from revision 3"));
+  const auto watch = Start({"watch", "--all", "--count", "1", "--timeout", "20"});
+  EXPECT_EQ(watch->Wait(), 0) << watch->output();
+  EXPECT_THAT(watch->output(), HasSubstr("differs from revision 3: p = "));
+  const auto model = ParseModelJson(*ReadFile(file));
+  ASSERT_TRUE(model) << model.error().Message();
+  ASSERT_TRUE(model->provenance.change);
+  EXPECT_EQ(model->provenance.change->verdict, ChangeVerdict::kDiffers);
+  EXPECT_THAT(model->provenance.change->coefficients[0].regressor, HasSubstr(":d"));
 }
 
 TEST_F(Daemon, KeepsModelsThroughBeingKilled) {

@@ -11,13 +11,28 @@
 #include "ingest/sequence_gaps.hpp"
 #include "ingest/vehicle_window.hpp"
 #include "models/model_store.hpp"
+#include "models/predecessor.hpp"
+#include "monitoring/live_feed.hpp"
 #include "monitoring/prediction_error.hpp"
 #include "simulation/yellowfish.hpp"
+#include "support/boats.hpp"
 #include "support/identifications.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace telltale {
 namespace {
+
+template <class Sample>
+std::vector<Sample> Before(const std::vector<Sample>& samples, double end_s) {
+  std::vector<Sample> before = samples;
+  std::erase_if(before, [&](const Sample& sample) { return sample.time_s > end_s; });
+  return before;
+}
+
+Recording Before(const Recording& recording, double end_s) {
+  return {Before(recording.gnss, end_s), Before(recording.heading, end_s),
+          Before(recording.thrusters, end_s), recording.rejected};
+}
 
 SequenceGaps Gaps(std::initializer_list<std::uint64_t> sequence_numbers) {
   SequenceGaps gaps;
@@ -82,7 +97,7 @@ TEST(Fleet, FindsItsVehiclesAndCountsTheRest) {
   EXPECT_EQ(fleet.Strays(), (std::vector<RejectEntry>{{"gnss", "UNKNOWN_VEHICLE", 2}}));
 }
 
-class ModelStoreTest : public testing::Test {
+class ModelStoreTest : public ::testing::Test {
  protected:
   TemporaryFolder folder_;
   Identification model_ = MadeUpIdentification();
@@ -132,6 +147,66 @@ TEST_F(ModelStoreTest, RefusesAStoreOfALaterProgram) {
   EXPECT_THROW(ModelStore(folder_.Path()), SQLite::Exception);
 }
 
+class PredecessorTest : public ModelStoreTest {
+ protected:
+  PredecessorTest() {
+    model_ = IdentificationByHand();
+    model_.provenance = {};
+  }
+
+  Identification Over(double start_s) {
+    model_.window.start_s = start_s;
+    model_.window.end_s = start_s + 600.0;
+    return model_;
+  }
+
+  ModelStore store_{folder_.Path()};
+};
+
+TEST_F(PredecessorTest, AFirstModelHasNone) {
+  EXPECT_FALSE(ChangeSincePredecessor(store_, Over(0.0)));
+}
+
+TEST_F(PredecessorTest, IsTheNewestThatSharesNoData) {
+  store_.Save(Over(0.0), 1.0, std::nullopt);
+  store_.Save(Over(500.0), 2.0, std::nullopt);
+  store_.Save(Over(900.0), 3.0, std::nullopt);
+  const auto change = ChangeSincePredecessor(store_, Over(1100.0));
+  ASSERT_TRUE(change);
+  EXPECT_EQ(change->revision, 2u);
+  EXPECT_EQ(change->verdict, ChangeVerdict::kAlike);
+  EXPECT_EQ(change->coefficients.size(), 5u);
+}
+
+TEST_F(PredecessorTest, ThatWasMadeAlike) {
+  store_.Save(Over(0.0), 1.0, std::nullopt);
+  model_.sampling_period_s = 1.0;
+  store_.Save(Over(1000.0), 2.0, std::nullopt);
+  model_.sampling_period_s = 0.2;
+  model_.coefficients[7].estimate += 100.0;
+  const auto change = ChangeSincePredecessor(store_, Over(2000.0));
+  EXPECT_EQ(change->revision, 1u);
+  EXPECT_EQ(change->verdict, ChangeVerdict::kDiffers);
+  EXPECT_EQ(change->coefficients[0].regressor, "r:d^2");
+}
+
+TEST_F(PredecessorTest, ItCannotBeToldFromModelsOfTheSameData) {
+  store_.Save(Over(0.0), 1.0, std::nullopt);
+  const auto change = ChangeSincePredecessor(store_, Over(599.0));
+  ASSERT_TRUE(change);
+  EXPECT_EQ(change->verdict, ChangeVerdict::kCannotTell);
+  EXPECT_EQ(change->revision, 0u);
+  EXPECT_NE(change->reason.find("share data"), std::string::npos);
+}
+
+TEST_F(PredecessorTest, ItCannotBeToldFromTooFewClusters) {
+  model_.provenance.clusters = 10;
+  store_.Save(Over(0.0), 1.0, std::nullopt);
+  const auto change = ChangeSincePredecessor(store_, Over(600.0));
+  EXPECT_EQ(change->verdict, ChangeVerdict::kCannotTell);
+  EXPECT_EQ(change->revision, 1u);
+}
+
 TEST(PredictionError, IsOneWhereNothingChangedAndScalesWithTheError) {
   const FreeRunError reference{0.1, 0.2, 0.3};
   EXPECT_DOUBLE_EQ(RelativeError(reference, reference), 1.0);
@@ -145,6 +220,39 @@ TEST(PredictionError, LooksAtTheLastMinute) {
   EXPECT_EQ(Latest(recording, 60.0).gnss.front().time_s, 40.0);
   EXPECT_EQ(Latest(recording, 600.0).gnss.size(), 101u);
   EXPECT_TRUE(Latest(Recording(), 60.0).gnss.empty());
+}
+
+/// Rows of a whole recording taken in piece by piece are those of the recording taken at once but
+/// for what interpolation makes of the ends of pieces: a hundredth of an error bar, five allowed.
+TEST(LiveFeed, TellsTheSameHoweverItIsFed) {
+  const Recording recording =
+      testing::SailStableBoat(testing::StableBoat(), 300.0, SensorOptions(), 5);
+  LiveFeed at_once;
+  at_once.TakeIn(recording, testing::StableBoatVehicle());
+  LiveFeed by_pieces;
+  for (double end_s = 10.0; end_s <= 300.0; end_s += 7.0) {
+    const Recording until = Before(recording, end_s);
+    if (by_pieces.IsDue(end_s)) by_pieces.TakeIn(until, testing::StableBoatVehicle());
+  }
+  by_pieces.TakeIn(recording, testing::StableBoatVehicle());
+  EXPECT_EQ(by_pieces.rows(), at_once.rows());
+  const auto one = at_once.Estimates();
+  const auto other = by_pieces.Estimates();
+  ASSERT_EQ(one.size(), 35u);
+  ASSERT_EQ(other.size(), 35u);
+  for (std::size_t i = 0; i < one.size(); ++i) {
+    EXPECT_NEAR(one[i].estimate, other[i].estimate, 0.05 * one[i].standard_error);
+  }
+}
+
+TEST(LiveFeed, IsDueAfterSomeSecondsOrANewClock) {
+  LiveFeed feed;
+  EXPECT_FALSE(feed.IsDue(4.0));
+  feed.TakeIn(testing::SailStableBoat(testing::StableBoat(), 60.0, SensorOptions(), 5),
+              testing::StableBoatVehicle());
+  EXPECT_FALSE(feed.IsDue(62.0));
+  EXPECT_TRUE(feed.IsDue(65.0));
+  EXPECT_TRUE(feed.IsDue(3.0));
 }
 
 TEST(IdentificationOptions, AreTheRequestsWishesOverTheDaemonsDefaults) {

@@ -24,15 +24,22 @@ double Draw(RandomEngine& random) {
 
 }  // namespace
 
-Recording SimulatedRecording() {
-  RandomEngine random(20);
+Recording SimulatedRecording(const VesselModel& boat, double start_s, double duration_s,
+                             std::uint64_t seed) {
+  RandomEngine random(seed);
   std::vector<TimedCommand> commands;
-  for (double time_s = 0.0; time_s < kDurationS; time_s += kHoldS) {
+  for (double time_s = start_s; time_s < start_s + duration_s; time_s += kHoldS) {
     const double port = Draw(random);
     commands.push_back({time_s, {port, Draw(random)}});
   }
-  return Measure(Simulate(YellowfishTwin(), {}, commands, kDurationS, kStepS), YellowfishVehicle(),
-                 SensorOptions());
+  SensorOptions sensors;
+  sensors.seed = seed;
+  return Measure(Simulate(boat, {}, commands, start_s + duration_s, kStepS), YellowfishVehicle(),
+                 sensors);
+}
+
+Recording SimulatedRecording() {
+  return SimulatedRecording(YellowfishTwin(), 0.0, kDurationS, 20);
 }
 
 std::size_t SizeOf(const Recording& recording) {
@@ -67,8 +74,12 @@ std::unique_ptr<Process> ServiceTest::Start(const std::vector<std::string>& argu
 }
 
 void ServiceTest::ReplaySimulation() const {
+  Replay(SimulatedRecording());
+}
+
+void ServiceTest::Replay(const Recording& recording) const {
   const auto log = folder_.Path() / "log";
-  WriteTelemetryLog(log, SimulatedRecording());
+  WriteTelemetryLog(log, recording);
   const auto replay = Start({"replay", "--log", log, "--vehicle-id", kVehicleId, "--speed", "60"});
   EXPECT_EQ(replay->Wait(), 0) << replay->output();
 }

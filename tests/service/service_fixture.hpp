@@ -15,16 +15,21 @@
 #include "support/loopback_domain.hpp"
 #include "support/process.hpp"
 #include "support/temporary_folder.hpp"
+#include "vessel/vessel_model.hpp"
 
 namespace telltale {
 
-/// Two minutes of the simulated Yellowfish under random steps in all four regions.
+/// A boat under random steps in all four regions, from `start_s` of its clock.
+Recording SimulatedRecording(const VesselModel& boat, double start_s, double duration_s,
+                             std::uint64_t seed);
+
+/// Two minutes of the simulated Yellowfish.
 Recording SimulatedRecording();
 
 std::size_t SizeOf(const Recording& recording);
 
 /// Real programs on a domain and in a folder of the test's own.
-class ServiceTest : public testing::Test {
+class ServiceTest : public ::testing::Test {
  protected:
   static constexpr const char* kVehicleId = "yellowfish";
 
@@ -38,6 +43,9 @@ class ServiceTest : public testing::Test {
 
   /// Writes the simulated recording as a log and replays it to the end.
   void ReplaySimulation() const;
+
+  /// The same with any recording.
+  void Replay(const Recording& recording) const;
 
   IdentifyRequest Request(const std::string& correlation_id) const;
 

@@ -11,6 +11,17 @@
 
 namespace telltale {
 
+inline ModelChange MadeUpChange() {
+  return {3,
+          ChangeVerdict::kDiffers,
+          0.0021,
+          71.5,
+          32,
+          {{Equation::kYaw, "r|r|", "Pr33", 0.051, 0.015, 0.0007},
+           {Equation::kUnknown, "", "tau", -0.2, 0.1, 0.046}},
+          ""};
+}
+
 /// A complete identification with a different number in every place, one coefficient not excited
 /// and one refusal: made up, for what carries identifications rather than computes them.
 inline Identification MadeUpIdentification(
@@ -50,6 +61,10 @@ inline Identification MadeUpIdentification(
   made.covariance(1, 1) = kInfinity;
   made.covariance = made.covariance.selfadjointView<Eigen::Lower>();
   made.dead_zone = {0.05, -0.0625};
+  for (const double start_s : {1700000000.125, 1700000400.5}) {
+    made.offsets.push_back({start_s, start_s + 200.125, {made.coefficients[4]}});
+    made.offsets.back().coefficients[0].regressor = "cos(psi)";
+  }
   made.window.start_s = 1700000000.125;
   made.window.end_s = 1700000600.625;
   made.window.samples = 3003;
@@ -64,8 +79,12 @@ inline Identification MadeUpIdentification(
   made.provenance.bootstrap_failures = 3;
   made.provenance.seed = std::numeric_limits<std::uint64_t>::max();
   made.provenance.software_version = "0.1.0";
+  made.provenance.twins = 40;
+  made.provenance.twin_failures = 2;
   made.provenance.estimator_choice = "the boat lay in a harbour";
   made.provenance.misspecification = 1.125;
+  made.provenance.clusters = 67;
+  made.provenance.change = MadeUpChange();
   return made;
 }
 
@@ -133,6 +152,24 @@ inline void ExpectSame(const WindowSummary& a, const WindowSummary& b) {
   }
 }
 
+inline void ExpectSame(const ModelChange& a, const ModelChange& b) {
+  EXPECT_EQ(a.revision, b.revision);
+  EXPECT_EQ(a.verdict, b.verdict);
+  EXPECT_EQ(a.p_value, b.p_value);
+  EXPECT_EQ(a.statistic, b.statistic);
+  EXPECT_EQ(a.degrees_of_freedom, b.degrees_of_freedom);
+  EXPECT_EQ(a.reason, b.reason);
+  ASSERT_EQ(a.coefficients.size(), b.coefficients.size());
+  for (std::size_t i = 0; i < a.coefficients.size(); ++i) {
+    EXPECT_EQ(a.coefficients[i].equation, b.coefficients[i].equation);
+    EXPECT_EQ(a.coefficients[i].regressor, b.coefficients[i].regressor);
+    EXPECT_EQ(a.coefficients[i].symbol, b.coefficients[i].symbol);
+    EXPECT_EQ(a.coefficients[i].difference, b.coefficients[i].difference);
+    EXPECT_EQ(a.coefficients[i].standard_error, b.coefficients[i].standard_error);
+    EXPECT_EQ(a.coefficients[i].p_value, b.coefficients[i].p_value);
+  }
+}
+
 inline void ExpectSame(const Provenance& a, const Provenance& b) {
   EXPECT_EQ(a.preset, b.preset);
   EXPECT_EQ(a.bounds_basis, b.bounds_basis);
@@ -144,6 +181,9 @@ inline void ExpectSame(const Provenance& a, const Provenance& b) {
   EXPECT_EQ(a.twin_failures, b.twin_failures);
   EXPECT_EQ(a.estimator_choice, b.estimator_choice);
   EXPECT_EQ(a.misspecification, b.misspecification);
+  EXPECT_EQ(a.clusters, b.clusters);
+  ASSERT_EQ(a.change.has_value(), b.change.has_value());
+  if (a.change) ExpectSame(*a.change, *b.change);
 }
 
 inline void ExpectSame(const Identification& a, const Identification& b) {
@@ -165,6 +205,15 @@ inline void ExpectSame(const Identification& a, const Identification& b) {
   if (a.disturbance) {
     EXPECT_EQ(a.disturbance->sigma, b.disturbance->sigma);
     EXPECT_EQ(a.disturbance->time_constant_s, b.disturbance->time_constant_s);
+  }
+  ASSERT_EQ(a.offsets.size(), b.offsets.size());
+  for (std::size_t i = 0; i < a.offsets.size(); ++i) {
+    EXPECT_EQ(a.offsets[i].start_s, b.offsets[i].start_s);
+    EXPECT_EQ(a.offsets[i].end_s, b.offsets[i].end_s);
+    ASSERT_EQ(a.offsets[i].coefficients.size(), b.offsets[i].coefficients.size());
+    for (std::size_t j = 0; j < a.offsets[i].coefficients.size(); ++j) {
+      ExpectSame(a.offsets[i].coefficients[j], b.offsets[i].coefficients[j]);
+    }
   }
   ExpectSame(a.window, b.window);
   EXPECT_EQ(a.refusals, b.refusals);

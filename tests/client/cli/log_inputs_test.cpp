@@ -194,5 +194,29 @@ TEST_F(LogInputsTest, OptionsOfDataFlashLogsAreChecked) {
   EXPECT_EQ(Telltale({"identify", "--vehicle-id", "b", "--gps-instance", "1"}).exit_code, kUsage);
 }
 
+TEST_F(LogInputsTest, SeveralLogsHaveASteadyDisturbanceEachUnlessToldOtherwise) {
+  WriteTelemetryLog(Path("one"), Measured(0.0));
+  WriteTelemetryLog(Path("two"), Measured(1000.0));
+  folder.Write("boat.textproto", PrintVehicle(Boat()));
+  const auto identify = [&](std::vector<std::string> more) {
+    std::vector<std::string> arguments = {"identify",  "--log",     Path("one"),           "--log",
+                                          Path("two"), "--vehicle", Path("boat.textproto")};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return Telltale(arguments);
+  };
+  const CommandOutcome own = identify({"--twins", "0", "--json"});
+  ASSERT_EQ(own.exit_code, kSuccess) << own.err;
+  EXPECT_EQ(ParseModelJson(own.out)->offsets.size(), 2u);
+  const CommandOutcome shared = identify({"--twins", "0", "--json", "--offsets", "shared"});
+  EXPECT_TRUE(ParseModelJson(shared.out)->offsets.empty());
+  const CommandOutcome table = identify({"--twins", "0", "--offsets", "per-recording-ned"});
+  EXPECT_THAT(table.out, AllOf(HasSubstr("steady in recording"), HasSubstr("cos(psi)")));
+  const CommandOutcome one_step = identify({"--bootstrap", "0", "--offsets", "per-recording"});
+  EXPECT_EQ(one_step.exit_code, kUsage);
+  EXPECT_THAT(one_step.err, HasSubstr("not estimated by ONE_STEP"));
+  EXPECT_EQ(Telltale({"identify", "--vehicle-id", "boat-7", "--offsets", "shared"}).exit_code,
+            kUsage);
+}
+
 }  // namespace
 }  // namespace telltale

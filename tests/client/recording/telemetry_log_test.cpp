@@ -259,6 +259,12 @@ TEST(Concatenate, ShiftsALogThatOverlapsPrecedesOrIsFarAway) {
   }
 }
 
+TEST(Concatenate, KeepsWhereEachLogBegins) {
+  const std::vector<Recording> recordings = {Starting(1000.0), Starting(1500.0), Starting(0.0)};
+  EXPECT_EQ(Concatenate(recordings).starts_s,
+            (std::vector<double>{1000.0, 1500.0, 1502.0 + kGapBetweenLogsS}));
+}
+
 TEST(Concatenate, AddsUpWhatWasRejected) {
   std::vector<Recording> recordings = {Starting(0.0), Starting(0.0)};
   recordings[0].rejected.Count(Channel::kGnss, RejectReason::kDuplicate, 2);

@@ -107,5 +107,44 @@ TEST(EstimateLagged, DoesNotNeedTheThrustAtTheStartOfAStretch) {
   EXPECT_NEAR(EstimateLagged(problem, AssessAll(problem)).time_constant_s, 1.0, 1e-5);
 }
 
+/// The boat pushed about by white noise, so that (22) holds with white residuals.
+PreparedDataset DrivePushed(const VesselModel& model, std::size_t steps, std::uint64_t seed) {
+  RandomEngine engine(seed);
+  boost::random::normal_distribution<double> push(0.0, 0.02);
+  const auto commands = testing::RandomCommands(
+      steps, {PropellerRegion::kFF, PropellerRegion::kFR, PropellerRegion::kRF}, seed);
+  PreparedDataset dataset = testing::DriveDiscrete(model, commands, 50);
+  VesselState state;
+  const double h = model.sampling_period_s;
+  for (PreparedRow& row : dataset.rows) {
+    row.nu = state.nu;
+    state = Advance(model, state, row.delta, h);
+    state.nu = {state.nu.u + h * push(engine), state.nu.v + h * push(engine),
+                state.nu.r + h * push(engine)};
+  }
+  return dataset;
+}
+
+/// Wilks: at the truth the deviance is chi-square with one degree of freedom. Of 60, its mean is
+/// known to 0.18, and 3 are expected above 3.84, hardly ever more than 9.
+TEST(LagDeviance, IsChiSquareAtTheTruth) {
+  constexpr double kTruth = 0.15;
+  const VesselModel boat = LaggingTwin(kTruth);
+  double mean = 0.0;
+  int above = 0;
+  for (std::uint64_t seed = 1; seed <= 60; ++seed) {
+    const auto problem = BuildLagged(DrivePushed(boat, 600, seed), {});
+    const auto excitations = AssessAll(problem);
+    const LaggedEstimate estimate = EstimateLagged(problem, excitations);
+    EXPECT_NEAR(LagDeviance(problem, excitations, estimate, estimate.time_constant_s), 0.0, 1e-6);
+    const double deviance = LagDeviance(problem, excitations, estimate, kTruth);
+    EXPECT_GE(deviance, -0.01);  // the weights of the estimate have settled to some digits only
+    mean += deviance / 60.0;
+    above += deviance > 3.8415 ? 1 : 0;
+  }
+  EXPECT_NEAR(mean, 1.0, 0.6);
+  EXPECT_LE(above, 9);
+}
+
 }  // namespace
 }  // namespace telltale

@@ -252,10 +252,10 @@ void PrintTo(const Thrust& thrust, std::ostream* out) {
   *out << Name(thrust.structure);
 }
 
-class Disturbance : public ::testing::TestWithParam<Thrust> {};
+class Reconstructed : public ::testing::TestWithParam<Thrust> {};
 
 /// On rows made by the discrete model, sigma is the body part of the model at each row.
-TEST_P(Disturbance, IsTheBodyPartOfTheModelThatMadeTheData) {
+TEST_P(Reconstructed, IsTheBodyPartOfTheModelThatMadeTheData) {
   VesselModel model = YellowfishTwin();
   model.structure = GetParam().structure;
   model.discretisation = Discretisation::kForwardEuler;
@@ -280,7 +280,7 @@ TEST_P(Disturbance, IsTheBodyPartOfTheModelThatMadeTheData) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Structures, Disturbance,
+INSTANTIATE_TEST_SUITE_P(Structures, Reconstructed,
                          ::testing::Values(Thrust{Structure::kStaticQuadratic},
                                            Thrust{Structure::kFirstOrderDynamic}));
 

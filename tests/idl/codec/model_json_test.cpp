@@ -129,6 +129,10 @@ TEST(ModelJson, EnumerationsHaveTheSameNamesInProtobuf) {
   EXPECT_EQ(static_cast<int>(CoefficientStatus::kEstimated), proto::ESTIMATED);
   EXPECT_EQ(static_cast<int>(CoefficientStatus::kNotExcited), proto::NOT_EXCITED);
   EXPECT_EQ(static_cast<int>(CoefficientStatus::kCollinear), proto::COLLINEAR);
+  for (const auto value :
+       {ChangeVerdict::kAlike, ChangeVerdict::kDiffers, ChangeVerdict::kCannotTell}) {
+    EXPECT_EQ(proto::ChangeVerdict_Name(static_cast<int>(value)), Name(value));
+  }
 }
 
 struct ModelFault {
@@ -213,6 +217,16 @@ INSTANTIATE_TEST_SUITE_P(
                    "thrusterTimeConstantCovariance", "1 numbers", "FIRST_ORDER_DYNAMIC"},
         ModelFault{[](M& m) { m.set_structure(proto::FIRST_ORDER_DYNAMIC); },
                    "thrusterTimeConstantS", "", "FIRST_ORDER_DYNAMIC"},
+        ModelFault{[](M& m) { m.mutable_provenance()->mutable_change()->clear_verdict(); },
+                   "provenance.change.verdict", "", "DIFFERS"},
+        ModelFault{[](M& m) { m.mutable_provenance()->mutable_change()->set_p_value(1.5); },
+                   "provenance.change.pValue", "1.5", "[0, 1]"},
+        ModelFault{
+            [](M& m) {
+              m.mutable_provenance()->mutable_change()->mutable_coefficients(1)->set_standard_error(
+                  0.0);
+            },
+            "provenance.change.coefficients[1].standardError", "0", "(0,"},
         ModelFault{[](M& m) { m.mutable_window()->set_end_s(1.0); }, "window.startS",
                    "1700000000.125", "not after endS = 1"},
         ModelFault{[](M& m) { m.mutable_window()->set_start_s(kNan); }, "window.startS", "nan",

@@ -1,0 +1,79 @@
+#include "estimation/steady_terms.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/Eigenvalues>
+
+#include "contract.hpp"
+
+namespace telltale {
+namespace {
+
+// The least variance of cos psi and sin psi in any direction: that of a course that swings by 25
+// degrees to either side.
+constexpr double kLeastVariance = 0.01;
+
+}  // namespace
+
+std::string_view Name(Offsets offsets) {
+  switch (offsets) {
+    case Offsets::kShared: return "SHARED";
+    case Offsets::kPerRecording: return "PER_RECORDING";
+    case Offsets::kPerRecordingNorthEast: return "PER_RECORDING_NORTH_EAST";
+    case Offsets::kUnknown: break;
+  }
+  return "UNKNOWN";
+}
+
+std::size_t SteadyTerms::PerRecording() const {
+  switch (offsets) {
+    case Offsets::kPerRecording: return 1;
+    case Offsets::kPerRecordingNorthEast: return 3;
+    case Offsets::kShared:
+    case Offsets::kUnknown: break;
+  }
+  return 0;
+}
+
+void SteadyTerms::Fill(std::size_t recording, double psi_rad, std::span<double> row) const {
+  std::fill(row.begin(), row.end(), 0.0);
+  const std::size_t terms = PerRecording();
+  if (terms == 0) return;
+  const auto own = row.subspan(recording * terms, terms);
+  own[0] = 1.0;
+  if (terms == 1) return;
+  own[1] = std::cos(psi_rad);
+  own[2] = std::sin(psi_rad);
+}
+
+std::string_view SteadyTermName(std::size_t term) {
+  constexpr std::array<std::string_view, 3> kNames = {"1", "cos(psi)", "sin(psi)"};
+  Require(term < kNames.size(), "a steady term");
+  return kNames[term];
+}
+
+std::vector<bool> HeadingVaries(const PreparedDataset& dataset) {
+  std::vector<bool> varies;
+  for (std::size_t recording = 0; recording < dataset.Recordings(); ++recording) {
+    double n = 0.0;
+    Eigen::Vector2d sum = Eigen::Vector2d::Zero();
+    Eigen::Matrix2d squares = Eigen::Matrix2d::Zero();
+    for (std::size_t s = 0; s < dataset.stretches.size(); ++s) {
+      if (dataset.RecordingOf(s) != recording) continue;
+      for (std::size_t k = dataset.stretches[s].begin; k < dataset.stretches[s].end; ++k) {
+        const double psi = dataset.rows[k].eta.psi_rad;
+        const Eigen::Vector2d heading(std::cos(psi), std::sin(psi));
+        n += 1.0;
+        sum += heading;
+        squares += heading * heading.transpose();
+      }
+    }
+    const Eigen::Matrix2d covariance = squares / n - sum / n * (sum / n).transpose();
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> solver(covariance);
+    varies.push_back(solver.eigenvalues()[0] > kLeastVariance);
+  }
+  return varies;
+}
+
+}  // namespace telltale

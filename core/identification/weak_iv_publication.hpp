@@ -1,0 +1,40 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "data/prepared_dataset.hpp"
+#include "estimation/weak_iv.hpp"
+#include "identification/answers.hpp"
+#include "identification/identification.hpp"
+
+namespace telltale {
+
+/// How the unknowns of a weak-form fit become those that are published: the same, but where each
+/// recording has steady terms of its own the regressor "1" gets the mean of their constants, and
+/// the terms themselves follow after all coefficients.
+/// Shapes: map published x sought; columns places in Regressors().
+struct WeakIvPublication {
+  struct Term {
+    Equation equation = Equation::kUnknown;
+    std::size_t recording = 0;
+    std::size_t term = 0;    ///< as in SteadyTermName()
+    Eigen::Index place = 0;  ///< among the published unknowns
+  };
+
+  Eigen::MatrixXd map;
+  std::array<std::vector<std::size_t>, 3> columns;
+  std::vector<Term> terms;
+};
+
+WeakIvPublication PublicationOf(const WeakFit& fit);
+
+/// The steady disturbance of each recording with its bounds; none where it is shared.
+std::vector<RecordingOffsets> OffsetsOf(const WeakIvPublication& publication,
+                                        const Eigen::VectorXd& published, const Bounds& bounds,
+                                        const PreparedDataset& dataset);
+
+}  // namespace telltale

@@ -1,0 +1,45 @@
+#include "models/predecessor.hpp"
+
+#include <utility>
+
+namespace telltale {
+namespace {
+
+constexpr std::size_t kReported = 5;
+constexpr std::size_t kLookedBack = 200;  // models; each is some ten kilobytes to read
+
+ModelChange CannotTell(std::uint64_t revision, std::string reason) {
+  ModelChange change;
+  change.revision = revision;
+  change.verdict = ChangeVerdict::kCannotTell;
+  change.reason = std::move(reason);
+  return change;
+}
+
+}  // namespace
+
+std::optional<ModelChange> ChangeSincePredecessor(const ModelStore& store,
+                                                  const Identification& identification) {
+  std::size_t seen = 0;
+  std::size_t overlapping = 0;
+  const auto predecessor = store.Newest(identification.vehicle_id, [&](const StoredModel& stored) {
+    if (++seen > kLookedBack) return true;
+    const bool overlaps = WindowsOverlap(stored.model.identification, identification);
+    overlapping += overlaps ? 1 : 0;
+    return !overlaps && MadeAlike(stored.model.identification, identification);
+  });
+  if (seen == 0) return std::nullopt;
+  if (!predecessor || seen > kLookedBack) {
+    return CannotTell(0, overlapping > 0
+                             ? "all that were made with the same options share data with it"
+                             : "none was made with the same options");
+  }
+  const std::uint64_t revision = predecessor->model.revision;
+  auto change = ChangeBetween(predecessor->model.identification, identification);
+  if (!change) return CannotTell(revision, change.error().reason);
+  change->revision = revision;
+  if (change->coefficients.size() > kReported) change->coefficients.resize(kReported);
+  return *std::move(change);
+}
+
+}  // namespace telltale

@@ -1,0 +1,85 @@
+#include <cmath>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "codec/json_message.hpp"
+#include "codec/model_json.hpp"
+#include "support/identifications.hpp"
+#include "support/telltale_command.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace telltale {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+class CompareTest : public testing::Test {
+ protected:
+  CompareTest() {
+    earlier.provenance = {};
+    later = earlier;
+    later.window.start_s = earlier.window.end_s + 100.0;
+    later.window.end_s = later.window.start_s + 600.0;
+  }
+
+  CommandOutcome Compare(std::vector<std::string> more = {}) const {
+    std::vector<std::string> arguments = {
+        "compare", "--model", folder.Write("a.json", PrintModelJson(earlier)).string(), "--model",
+        folder.Write("b.json", PrintModelJson(later)).string()};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return Telltale(arguments);
+  }
+
+  TemporaryFolder folder;
+  Identification earlier = IdentificationByHand();
+  Identification later;
+};
+
+TEST_F(CompareTest, FindsNoDifferenceWhereThereIsNone) {
+  const CommandOutcome outcome = Compare();
+  EXPECT_EQ(outcome.exit_code, kSuccess) << outcome.err;
+  EXPECT_THAT(outcome.out, HasSubstr("no different from the other model: p = 1"));
+  EXPECT_THAT(outcome.err, IsEmpty());
+}
+
+// Ten standard errors of the difference in one coefficient: chi-square 100 over 32.
+TEST_F(CompareTest, NamesTheCoefficientThatDiffers) {
+  later.coefficients[6].estimate += 10.0 * std::sqrt(2.0);
+  const CommandOutcome outcome = Compare({"--json"});
+  ASSERT_EQ(outcome.exit_code, kSuccess) << outcome.err;
+  proto::ModelChange change;
+  ASSERT_FALSE(ParseJsonMessage(outcome.out, "change", change));
+  EXPECT_EQ(change.verdict(), proto::DIFFERS);
+  EXPECT_NEAR(change.statistic(), 100.0, 1e-9);
+  EXPECT_EQ(change.degrees_of_freedom(), 32u);
+  ASSERT_EQ(change.coefficients_size(), 32);
+  EXPECT_EQ(change.coefficients(0).regressor(), "f:d");
+  EXPECT_THAT(Compare().out, AllOf(HasSubstr("differs from the other model"),
+                                   HasSubstr("SURGE f:d by +10.0 sigma")));
+}
+
+TEST_F(CompareTest, RefusesModelsMadeWithOtherOptions) {
+  later.sampling_period_s = 0.5;
+  const CommandOutcome outcome = Compare();
+  EXPECT_EQ(outcome.exit_code, kRefused);
+  EXPECT_THAT(outcome.err, HasSubstr("the models differ in sampling period"));
+}
+
+TEST_F(CompareTest, WarnsOfWindowsThatOverlap) {
+  later.window = earlier.window;
+  const CommandOutcome outcome = Compare();
+  EXPECT_EQ(outcome.exit_code, kSuccess);
+  EXPECT_THAT(outcome.err, HasSubstr("overlap"));
+}
+
+TEST_F(CompareTest, WantsTwoModels) {
+  const std::string file = folder.Write("a.json", PrintModelJson(earlier)).string();
+  EXPECT_EQ(Telltale({"compare", "--model", file}).exit_code, kUsage);
+  EXPECT_EQ(Telltale({"compare"}).exit_code, kUsage);
+}
+
+}  // namespace
+}  // namespace telltale
