@@ -1,9 +1,11 @@
 #include "identification/weak_iv_answer.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <sstream>
 
 #include "data/preparation.hpp"
+#include "estimation/separable_columns.hpp"
 #include "estimation/weak_iv.hpp"
 #include "uncertainty/twin_correction.hpp"
 
@@ -33,6 +35,41 @@ std::array<std::vector<std::size_t>, 3> Sought(const Answers& answers) {
   return columns;
 }
 
+bool Names(const std::vector<Refusal>& refusals, const Refusal& named) {
+  return std::any_of(refusals.begin(), refusals.end(),
+                     [&](const Refusal& refusal) { return refusal.subject == named.subject; });
+}
+
+/// Makes known what had to be cut apart before anything could be estimated.
+void TellGroups(const SeparableColumns& separable, Parameterization parameterization,
+                Answers& answers) {
+  for (const Equation equation : kEquations) {
+    EquationProblem names;
+    names.equation = equation;
+    names.regressors = Regressors(equation, parameterization);
+    for (const CollinearGroup& group : separable.groups[IndexOf(equation)]) {
+      const Refusal refusal = Explain(group, names);
+      answers.excitations[IndexOf(equation)]->collinear.push_back(group);
+      if (!Names(answers.refusals, refusal)) answers.refusals.push_back(refusal);
+    }
+  }
+}
+
+/// No coefficient of a dependency that was cut has bounds.
+void Unbound(const SeparableColumns& separable, const Answers& answers, Bounds& bounds) {
+  for (std::size_t j = 0; j < separable.groups.size(); ++j) {
+    for (const CollinearGroup& group : separable.groups[j]) {
+      for (const std::size_t column : group.columns) {
+        const auto& sought = answers.estimates[j]->columns;
+        const auto found = std::find(sought.begin(), sought.end(), column);
+        if (found == sought.end()) continue;
+        const auto place = static_cast<std::size_t>(answers.first[j] + (found - sought.begin()));
+        bounds.estimable[place] = false;
+      }
+    }
+  }
+}
+
 /// Splits the stacked unknowns into the answers they are.
 void Unstack(const WeakFit& fit, const Eigen::VectorXd& theta, Answers& answers) {
   Eigen::Index next = 0;
@@ -50,6 +87,14 @@ void Unstack(const WeakFit& fit, const Eigen::VectorXd& theta, Answers& answers)
     answers.first[j] = next;
     answers.estimates[j] = std::move(estimate);
     next += size;
+  }
+}
+
+void CountWindows(const WeakFit& fit, Answers& answers) {
+  for (std::size_t j = 0; j < fit.equations.size(); ++j) {
+    if (!fit.equations[j]) continue;
+    answers.sizes[j] = SizeOf(fit.equations[j]->residual, fit.problem.windows[j].first_rows,
+                              fit.problem.phi.stride);
   }
 }
 
@@ -116,11 +161,15 @@ Result<BoundedAnswers> BoundWeakIv(const PreparedDataset& dataset,
   Answers& answers = bounded.answers;
   answers = AssessAll(dataset, regression, options.excitation);
   if (!answers.Any()) return tl::unexpected(NothingAnswered(answers.refusals));
-  const auto columns = Sought(answers);
+  const SeparableColumns separable =
+      Separate(dataset, regression, Sought(answers), options.weak_iv.form);
+  TellGroups(separable, regression.parameterization, answers);
+  const auto& columns = separable.kept;
   const auto fit = EstimateWeakIv(dataset, regression, columns, options.weak_iv);
   if (!fit || fit->scores.cols() < 2 || !ClusterCovariance(*fit).allFinite()) {
     return tl::unexpected(InstrumentsSayNothing());
   }
+  CountWindows(*fit, answers);
   const Eigen::Index clusters = fit->scores.cols();
   if (clusters < static_cast<Eigen::Index>(kFewestClusters)) {
     answers.refusals.push_back(WarnOfFewClusters(clusters));
@@ -140,6 +189,7 @@ Result<BoundedAnswers> BoundWeakIv(const PreparedDataset& dataset,
     Unstack(*fit, corrected->theta, answers);
     bounded.bounds = StudentBounds(corrected->theta, corrected->covariance,
                                    corrected->degrees_of_freedom, options.interval_level);
+    Unbound(separable, answers, bounded.bounds);
     bounded.disturbance = corrected->disturbance;
     bounded.provenance.twins = corrected->solved;
     bounded.provenance.twin_failures = corrected->failures;
@@ -149,6 +199,7 @@ Result<BoundedAnswers> BoundWeakIv(const PreparedDataset& dataset,
   Unstack(*fit, fit->theta, answers);
   bounded.bounds = StudentBounds(fit->theta, ClusterCovariance(*fit),
                                  static_cast<double>(clusters - 1), options.interval_level);
+  Unbound(separable, answers, bounded.bounds);
   bounded.provenance.bounds_basis =
       "clusters of residuals (" + std::to_string(clusters) + "), Student t; not corrected for bias";
   return bounded;
