@@ -3,6 +3,7 @@
 #include <cctype>
 #include <cmath>
 
+#include "cli/evidence_table.hpp"
 #include "cli/outcome.hpp"
 #include "cli/table.hpp"
 
@@ -110,6 +111,11 @@ std::string Alpha(const Identification& model) {
          Significant(alpha(tau.interval.upper)) + "]; beta = 1 - alpha\n";
 }
 
+/// A part of its own, if there is anything in it.
+std::string Apart(const std::string& text) {
+  return text.empty() ? "" : '\n' + text;
+}
+
 std::string Refusals(const Identification& model) {
   if (model.refusals.empty()) return "";
   std::string text = "\nRefused or to be read with care\n";
@@ -151,7 +157,8 @@ std::string RejectedText(const RejectCounts& rejected) {
 
 std::string ModelTable(const Identification& identification) {
   return Title(identification) + Coefficients(identification) + TimeConstant(identification) +
-         DeadZoneText(identification.dead_zone) + Refusals(identification) + '\n' +
+         DeadZoneText(identification.dead_zone) + Refusals(identification) +
+         Apart(ExcitationTable(identification)) + Apart(CertificateTable(identification)) + '\n' +
          WindowText(identification.window) + BoundsBasis(identification.provenance);
 }
 
