@@ -43,7 +43,9 @@ void AddIdentify(CLI::App& telltale) {
   arguments->inputs.AddTo(command, *whom);
   AddVehicleId(*whom, *vehicle_id);
   arguments->AddOptionsTo(command);
-  live->AddTo(command, 120.0, "with --vehicle-id: how long to wait for the answer");
+  live->AddTo(command, 120.0,
+              "with --vehicle-id: how long to wait for the answer, and as long again for every "
+              "ten repeats of a certificate");
   command.footer(
       "Coefficients are continuous-time, SI.\n"
       "Example: telltale identify --log run1 --log run2 --vehicle boat.textproto --out model.json\n"

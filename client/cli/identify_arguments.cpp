@@ -87,6 +87,11 @@ void IdentifyArguments::AddOptionsTo(CLI::App& command) {
                   "part besides that stands to the north and east while the boat turns")
       ->type_name("NAME")
       ->check(CLI::IsMember({"shared", "per-recording", "per-recording-ned"}).description(""));
+  command
+      .add_option("--certify", certificate_twins,
+                  "measure how often the bounds hold on so many simulated repeats of the data, "
+                  "[10, 1000]; each takes as long as the identification itself")
+      ->type_name("N");
   command.add_option("--level", interval_level, "of the bounds, [0.5, 0.999] (default 0.95)")
       ->type_name("P");
   command
@@ -158,6 +163,7 @@ IdentifyOptions IdentifyArguments::Options() const {
   if (interval == "studentized") options.interval_method = IntervalMethod::kStudentized;
   if (interval == "bca") options.interval_method = IntervalMethod::kBca;
   if (interval_level) options.interval_level = *interval_level;
+  options.certificate_twins = certificate_twins;
   options.seed = seed;
   options.threads = threads.value_or(DefaultThreads());
   if (const auto refusal = options.Validate()) {

@@ -29,6 +29,7 @@ struct IdentifyArguments {
   std::optional<double> interval_level;
   std::uint64_t seed = 1;
   std::optional<std::size_t> threads;
+  std::uint32_t certificate_twins = 0;
   bool include_rr = false;
   bool discrete = false;
   OutputOptions output;

@@ -14,6 +14,8 @@
 namespace telltale {
 namespace {
 
+constexpr std::uint32_t kRepeatsPerTimeout = 10;
+
 IdentifyRequest RequestOf(const std::string& vehicle_id, const IdentifyArguments& arguments) {
   const IdentifyOptions options = arguments.Options();
   if (arguments.sampling_period_s || arguments.interval_level || arguments.threads ||
@@ -38,6 +40,7 @@ IdentifyRequest RequestOf(const std::string& vehicle_id, const IdentifyArguments
   if (arguments.interval) request.interval_method = options.interval_method;
   request.seed = arguments.seed;
   request.include_reverse = arguments.include_rr;
+  request.certificate_twins = arguments.certificate_twins;
   return request;
 }
 
@@ -46,7 +49,8 @@ IdentifyAnswer Ask(const IdentifyRequest& request, const LiveOptions& live) {
   IdentificationClient client(participant);
   ExchangeTiming timing;
   timing.match = std::min(timing.match, live.Timeout());
-  timing.reply = live.Timeout();
+  // A repeat costs as much as the identification, and the daemon sails several at a time.
+  timing.reply = live.Timeout() * (1 + request.certificate_twins / kRepeatsPerTimeout);
   ProgressLine line;
   line.Update("asking the daemon", 0.0);
   return client.Identify(request, timing, [&line](const IdentifyProgress& progress) {

@@ -3,6 +3,7 @@
 #include <cctype>
 #include <cmath>
 
+#include "cli/evidence_table.hpp"
 #include "cli/outcome.hpp"
 #include "cli/table.hpp"
 
@@ -132,6 +133,11 @@ std::string OffsetsText(const Identification& model) {
          "Above, the coefficients of the regressor 1 are means over the recordings.\n";
 }
 
+/// A part of its own, if there is anything in it.
+std::string Apart(const std::string& text) {
+  return text.empty() ? "" : '\n' + text;
+}
+
 std::string Refusals(const Identification& model) {
   if (model.refusals.empty()) return "";
   std::string text = "\nRefused or to be read with care\n";
@@ -184,7 +190,8 @@ std::string RejectedText(const RejectCounts& rejected) {
 std::string ModelTable(const Identification& identification) {
   return Title(identification) + Coefficients(identification) + TimeConstant(identification) +
          DeadZoneText(identification.dead_zone) + OffsetsText(identification) +
-         Refusals(identification) + ChangeText(identification) + '\n' +
+         Refusals(identification) + ChangeText(identification) +
+         Apart(ExcitationTable(identification)) + Apart(CertificateTable(identification)) + '\n' +
          WindowText(identification.window) + ChoiceText(identification.provenance) +
          BoundsBasis(identification.provenance);
 }

@@ -38,6 +38,7 @@ void WriteEquation(std::size_t j, const Answers& answers, const Bounds& bounds,
   const auto regressors = Regressors(excitation.equation, identification.parameterization);
   for (std::size_t column = 0; column < regressors.size(); ++column) {
     Coefficient coefficient = Unanswered(excitation.equation, regressors[column], level);
+    if (IsCollinear(excitation, column)) coefficient.status = CoefficientStatus::kCollinear;
     Eigen::Index place = -1;
     const auto found = std::find(estimate.columns.begin(), estimate.columns.end(), column);
     if (found != estimate.columns.end()) {
@@ -189,6 +190,25 @@ Refusal NothingAnswered(const std::vector<Refusal>& refusals) {
   }
   return {"model", "not one equation can be answered (" + reasons.str() + ")",
           refusals.empty() ? "record for longer" : refusals.front().advice};
+}
+
+SampleSize SizeOf(const Eigen::VectorXd& residual, std::span<const std::size_t> places,
+                  std::size_t stride) {
+  const double apart = RowsPerIndependentRow(residual, RunsOf(places, stride));
+  return {places.size(), static_cast<double>(places.size()) / apart};
+}
+
+std::vector<ExcitationSummary> Summarise(const Answers& answers,
+                                         Parameterization parameterization) {
+  std::vector<ExcitationSummary> summaries;
+  for (std::size_t j = 0; j < answers.excitations.size(); ++j) {
+    if (!answers.excitations[j]) continue;
+    summaries.push_back(
+        Summarise(*answers.excitations[j], Regressors(kEquations[j], parameterization).size()));
+    summaries.back().rows = answers.sizes[j].rows;
+    summaries.back().effective_rows = answers.sizes[j].effective_rows;
+  }
+  return summaries;
 }
 
 void WriteCoefficients(const Answers& answers, const Bounds& bounds,

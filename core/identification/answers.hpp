@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -26,6 +27,12 @@ struct AnsweredLag {
       std::nullopt;  ///< where it stands in for the interval of Bounds
 };
 
+/// Rows, or windows, behind an equation's estimate.
+struct SampleSize {
+  std::size_t rows = 0;
+  double effective_rows = 0.0;
+};
+
 /// Everything known about the equations before coefficients are written down. The stacked unknowns
 /// are the time constant, if there is a lag, and then the coefficients of each answered equation,
 /// which begin at first[j].
@@ -33,6 +40,7 @@ struct Answers {
   std::array<std::optional<Excitation>, 3> excitations;
   std::array<std::optional<EquationEstimate>, 3> estimates;
   std::array<Eigen::Index, 3> first{};
+  std::array<SampleSize, 3> sizes{};
   std::optional<AnsweredLag> lag;
   std::vector<Refusal> refusals;
 
@@ -84,6 +92,13 @@ std::optional<Refusal> WarnOfFewClusters(Eigen::Index clusters);
 
 /// Refuses for all equations at once.
 Refusal NothingAnswered(const std::vector<Refusal>& refusals);
+
+/// The sample size behind residuals whose places in time follow each other at `stride`.
+SampleSize SizeOf(const Eigen::VectorXd& residual, std::span<const std::size_t> places,
+                  std::size_t stride);
+
+/// What the data show of each answered equation.
+std::vector<ExcitationSummary> Summarise(const Answers& answers, Parameterization parameterization);
 
 /// Coefficients, covariance and time constant, in the order and with the places of Identification.
 void WriteCoefficients(const Answers& answers, const Bounds& bounds,

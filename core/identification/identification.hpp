@@ -8,8 +8,10 @@
 #include <Eigen/Core>
 
 #include "data/samples.hpp"
+#include "estimation/excitation_summary.hpp"
 #include "identification/model_change.hpp"
 #include "result.hpp"
+#include "uncertainty/coverage_certificate.hpp"
 #include "uncertainty/interval.hpp"
 #include "vessel/disturbance.hpp"
 #include "vessel/structure.hpp"
@@ -78,6 +80,25 @@ struct Provenance {
   std::optional<ModelChange> change;  ///< against an earlier model, where there is one
 };
 
+/// What a manoeuvre is expected to do to the bounds of one coefficient.
+struct ExpectedBounds {
+  Equation equation = Equation::kUnknown;
+  std::string regressor;
+  std::string unit;
+  double estimate = 0.0;
+  double half_width = 0.0;           ///< of the interval now; infinite where not known
+  double expected_half_width = 0.0;  ///< once the manoeuvre is in the data too; likewise
+};
+
+/// A manoeuvre that would tell more of the coefficients the data leave open.
+struct ManoeuvreAdvice {
+  std::string manoeuvre;
+  std::string how;
+  double duration_s = 0.0;
+  double expected_nats = 0.0;            ///< information about those coefficients, (66)
+  std::vector<ExpectedBounds> expected;  ///< of those coefficients, most shrunk first
+};
+
 /// A boat's model with bounds: the outcome that is published.
 /// Shapes: coefficients in the order surge, sway, yaw and, within each, of Regressors(); an
 /// equation that was refused has no coefficients and a refusal. covariance is square over all
@@ -102,6 +123,9 @@ struct Identification {
   WindowSummary window;
   std::vector<Refusal> refusals;
   Provenance provenance;
+  std::vector<ExcitationSummary> excitation;  ///< of the answered equations, in their order
+  std::vector<ManoeuvreAdvice> advice;        ///< best first; none where nothing is left open
+  std::optional<CoverageCertificate> certificate;
 
   bool Has(Equation equation) const;
 };

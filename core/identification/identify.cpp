@@ -2,10 +2,13 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "data/preparation.hpp"
 #include "estimation/dead_zone.hpp"
+#include "identification/advice.hpp"
 #include "identification/answers.hpp"
+#include "identification/certify.hpp"
 #include "identification/estimator_choice.hpp"
 #include "identification/one_step_answer.hpp"
 #include "identification/output_error_answer.hpp"
@@ -59,6 +62,32 @@ std::optional<Refusal> ReplicatesRefusal(std::size_t replicates) {
   return refusal;
 }
 
+std::optional<Refusal> CertificateRefusal(std::size_t twins) {
+  if (twins == 0) return std::nullopt;
+  auto refusal =
+      OutOfRange(kSubject, "certificate_twins", static_cast<double>(twins), 10.0, 1000.0);
+  if (refusal) refusal->advice += ", or to 0 for none";
+  return refusal;
+}
+
+Nu FastestOf(const PreparedDataset& dataset) {
+  Nu fastest;
+  for (const PreparedRow& row : dataset.rows) {
+    fastest.u = std::max(fastest.u, std::abs(row.nu.u));
+    fastest.v = std::max(fastest.v, std::abs(row.nu.v));
+    fastest.r = std::max(fastest.r, std::abs(row.nu.r));
+  }
+  return fastest;
+}
+
+/// Part of a longer work: fractions between `from` and `to`.
+Progress Within(const Progress& progress, double from, double to) {
+  if (!progress) return {};
+  return [&progress, from, to](std::string_view stage, double fraction) {
+    progress(stage, from + (to - from) * fraction);
+  };
+}
+
 std::optional<Refusal> LimitRefusal(const DeadZone& limits) {
   if (auto refusal = OutOfRange("dead_zone", "forward", limits.forward, 0.0, kWidestDeadZone)) {
     return refusal;
@@ -73,10 +102,10 @@ std::optional<Refusal> EstimatorRefusal(const IdentifyOptions& options) {
   }
   if (options.estimator == Estimator::kOneStep || options.estimator == Estimator::kOutputError) {
     if (options.regression.offsets != Offsets::kShared) {
-      return Refusal{"offsets",
-                     "of each recording are not estimated by " +
-                         std::string(Name(*options.estimator)),
-                     "choose WEAK_IV, or SHARED offsets"};
+      return Refusal{
+          "offsets",
+          "of each recording are not estimated by " + std::string(Name(*options.estimator)),
+          "choose WEAK_IV, or SHARED offsets"};
     }
   }
   if (options.estimator == Estimator::kOneStep) return std::nullopt;
@@ -145,6 +174,7 @@ std::optional<Refusal> IdentifyOptions::Validate() const {
     return refusal;
   }
   if (auto refusal = ReplicatesRefusal(bootstrap_replicates)) return refusal;
+  if (auto refusal = CertificateRefusal(certificate_twins)) return refusal;
   if (resampling == Resampling::kUnknown) {
     return Refusal{"resampling", "is unset", "choose SEGMENTS, MOVING_BLOCKS or PARAMETRIC"};
   }
@@ -164,12 +194,24 @@ std::optional<Refusal> IdentifyOptions::Validate() const {
 Result<Identification> Identify(const Recording& recording, const Vehicle& vehicle,
                                 const IdentifyOptions& options, const Progress& progress) {
   if (auto refusal = options.Validate()) return tl::unexpected(*refusal);
+  // The identification itself is as much work as one repeat of the certificate.
+  const double share = 1.0 / (1.0 + static_cast<double>(options.certificate_twins));
   if (progress) progress("preparing data", 0.0);
   const auto dataset = options.estimator == Estimator::kOneStep
                            ? Prepare(recording, vehicle, options.prepare)
                            : PrepareForWeakIv(recording, vehicle, options.prepare);
   if (!dataset) return tl::unexpected(dataset.error());
-  return Identify(*dataset, vehicle.vehicle_id, options, progress);
+  auto identification =
+      Identify(*dataset, vehicle.vehicle_id, options, Within(progress, 0.0, share));
+  if (!identification || options.certificate_twins == 0) return identification;
+  auto certificate =
+      Certify(recording, vehicle, *identification, options, Within(progress, share, 1.0));
+  if (certificate) {
+    identification->certificate = *std::move(certificate);
+  } else {
+    identification->refusals.push_back(certificate.error());
+  }
+  return identification;
 }
 
 Result<Identification> Identify(const PreparedDataset& dataset, const std::string& vehicle_id,
@@ -204,6 +246,10 @@ Result<Identification> Identify(const PreparedDataset& dataset, const std::strin
   identification.refusals.insert(identification.refusals.end(), dead_zone_refusals.begin(),
                                  dead_zone_refusals.end());
   identification.provenance = std::move(bounded->provenance);
+  identification.excitation = Summarise(bounded->answers, options.regression.parameterization);
+  if (options.advise) {
+    Advise({bounded->answers.excitations, regression, FastestOf(dataset)}, identification);
+  }
   if (seek_dead_zone) {
     identification.provenance.bounds_basis +=
         "; identified limits of the dead zone are taken as known";

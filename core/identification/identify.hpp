@@ -43,6 +43,10 @@ struct IdentifyOptions {
   IntervalMethod interval_method = IntervalMethod::kPercentile;  ///< how replicates bound
   std::uint64_t seed = 1;
   std::size_t threads = 1;  ///< [1, 256]; never changes the result
+  bool advise = true;       ///< work out which manoeuvres would tell what the data leave open
+  /// Simulated repeats on which the bounds are measured, 0 (none) or [10, 1000]; each costs as much
+  /// as the identification itself.
+  std::size_t certificate_twins = 0;
 
   /// The paper's estimator in place of the default.
   static IdentifyOptions OneStep();
@@ -53,12 +57,14 @@ struct IdentifyOptions {
 
 /// Recording -> Identification: prepare, build the regressions, assess excitation, estimate,
 /// quantify. Refuses when: the recording cannot be prepared, or not one equation can be answered.
-/// An equation that alone cannot be answered is left out and its refusal listed in the result.
+/// An equation that alone cannot be answered is left out and its refusal listed in the result, as
+/// is that of a certificate.
 Result<Identification> Identify(const Recording& recording, const Vehicle& vehicle,
                                 const IdentifyOptions& options, const Progress& progress = {});
 
 /// The same from data that are prepared already; but for kOneStep as PrepareForWeakIv does, in
-/// stretches of a minute or so and with a narrow filter.
+/// stretches of a minute or so and with a narrow filter. There is no certificate, which takes a
+/// recording.
 Result<Identification> Identify(const PreparedDataset& dataset, const std::string& vehicle_id,
                                 const IdentifyOptions& options, const Progress& progress = {});
 

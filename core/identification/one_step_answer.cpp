@@ -190,6 +190,23 @@ BootstrapReplicates Simulated(const Fitted& fitted, const std::vector<ClusteredF
                             {options.bootstrap_replicates, options.seed, options.threads});
 }
 
+/// The equations of the dynamic structure are fitted as one, so their residuals hang together
+/// alike.
+void CountRows(const std::vector<ClusteredFit>& fits, Fitted& fitted) {
+  std::size_t next = 0;
+  for (std::size_t j = 0; j < fitted.answers.estimates.size(); ++j) {
+    if (!fitted.answers.estimates[j]) continue;
+    const ClusteredFit& fit = fits[fitted.lagged ? 0 : next++];
+    SampleSize& size = fitted.answers.sizes[j];
+    size = SizeOf(fit.residual, fit.instants, 1);
+    if (!fitted.lagged) continue;
+    const double share = static_cast<double>(fitted.answers.excitations[j]->factor.rows) /
+                         static_cast<double>(size.rows);
+    size.rows = static_cast<std::size_t>(fitted.answers.excitations[j]->factor.rows);
+    size.effective_rows *= share;
+  }
+}
+
 std::size_t SegmentsWithRows(const ClusteredFit& fit) {
   return static_cast<std::size_t>(std::count_if(fit.clusters.begin(), fit.clusters.end(),
                                                 [](const RowRange& c) { return c.size() > 0; }));
@@ -276,6 +293,7 @@ Result<BoundedAnswers> BoundOneStep(const PreparedDataset& dataset,
   Fitted fitted = Fit(dataset, regression, options.excitation);
   if (!fitted.answers.Any()) return tl::unexpected(NothingAnswered(fitted.answers.refusals));
   const std::vector<ClusteredFit> fits = FitsOf(fitted);
+  CountRows(fits, fitted);
   BoundedAnswers bounded;
   bounded.estimator = Estimator::kOneStep;
   bounded.provenance.bootstrap_replicates = options.bootstrap_replicates;

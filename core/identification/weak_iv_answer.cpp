@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "data/preparation.hpp"
+#include "estimation/separable_columns.hpp"
 #include "estimation/weak_iv.hpp"
 #include "identification/weak_iv_publication.hpp"
 #include "uncertainty/twin_correction.hpp"
@@ -23,17 +24,52 @@ Refusal HeadingHardlyVaries(std::size_t recordings) {
 }
 
 /// The columns that are sought, steady terms of each recording among them.
-std::array<std::vector<std::size_t>, 3> WithOffsets(const PreparedDataset& dataset,
-                                                    const RegressionOptions& regression,
-                                                    const WeakFormOptions& form, Answers& answers) {
-  const auto columns = Sought(answers);
+std::array<std::vector<std::size_t>, 3> WithOffsets(
+    const PreparedDataset& dataset, const RegressionOptions& regression,
+    const std::array<std::vector<std::size_t>, 3>& columns, const WeakFormOptions& form,
+    std::vector<Refusal>& refusals) {
   if (regression.offsets == Offsets::kShared) return columns;
   const std::vector<bool> varies = HeadingVaries(dataset);
   const auto steady = std::count(varies.begin(), varies.end(), false);
   if (regression.offsets == Offsets::kPerRecordingNorthEast && steady > 0) {
-    answers.refusals.push_back(HeadingHardlyVaries(static_cast<std::size_t>(steady)));
+    refusals.push_back(HeadingHardlyVaries(static_cast<std::size_t>(steady)));
   }
   return WithSteadyTerms(dataset, BuildWeakForm(dataset, regression, form), columns, varies);
+}
+
+bool Names(const std::vector<Refusal>& refusals, const Refusal& named) {
+  return std::any_of(refusals.begin(), refusals.end(),
+                     [&](const Refusal& refusal) { return refusal.subject == named.subject; });
+}
+
+/// Makes known what had to be cut apart before anything could be estimated.
+void TellGroups(const SeparableColumns& separable, Parameterization parameterization,
+                Answers& answers) {
+  for (const Equation equation : kEquations) {
+    EquationProblem names;
+    names.equation = equation;
+    names.regressors = Regressors(equation, parameterization);
+    for (const CollinearGroup& group : separable.groups[IndexOf(equation)]) {
+      const Refusal refusal = Explain(group, names);
+      answers.excitations[IndexOf(equation)]->collinear.push_back(group);
+      if (!Names(answers.refusals, refusal)) answers.refusals.push_back(refusal);
+    }
+  }
+}
+
+/// No coefficient of a dependency that was cut has bounds.
+void Unbound(const SeparableColumns& separable, const Answers& answers, Bounds& bounds) {
+  for (std::size_t j = 0; j < separable.groups.size(); ++j) {
+    for (const CollinearGroup& group : separable.groups[j]) {
+      for (const std::size_t column : group.columns) {
+        const auto& sought = answers.estimates[j]->columns;
+        const auto found = std::find(sought.begin(), sought.end(), column);
+        if (found == sought.end()) continue;
+        const auto place = static_cast<std::size_t>(answers.first[j] + (found - sought.begin()));
+        bounds.estimable[place] = false;
+      }
+    }
+  }
 }
 
 /// Splits the published unknowns into the answers they are.
@@ -49,6 +85,14 @@ void Unstack(const WeakFit& fit, const WeakIvPublication& publication, const Eig
     const auto size = static_cast<Eigen::Index>(columns.size());
     Place(kEquations[j], columns, theta.segment(next, size), next, answers);
     next += size;
+  }
+}
+
+void CountWindows(const WeakFit& fit, Answers& answers) {
+  for (std::size_t j = 0; j < fit.equations.size(); ++j) {
+    if (!fit.equations[j]) continue;
+    answers.sizes[j] = SizeOf(fit.equations[j]->residual, fit.problem.windows[j].first_rows,
+                              fit.problem.phi.stride);
   }
 }
 
@@ -96,11 +140,16 @@ Result<BoundedAnswers> BoundWeakIv(const PreparedDataset& dataset,
   Answers& answers = bounded.answers;
   answers = AssessAll(dataset, regression, options.excitation);
   if (!answers.Any()) return tl::unexpected(NothingAnswered(answers.refusals));
-  const auto columns = WithOffsets(dataset, regression, options.weak_iv.form, answers);
+  const SeparableColumns separable =
+      Separate(dataset, regression, Sought(answers), options.weak_iv.form);
+  TellGroups(separable, regression.parameterization, answers);
+  const auto columns =
+      WithOffsets(dataset, regression, separable.kept, options.weak_iv.form, answers.refusals);
   const auto fit = EstimateWeakIv(dataset, regression, columns, options.weak_iv);
   if (!fit || fit->scores.cols() < 2 || !ClusterCovariance(*fit).allFinite()) {
     return tl::unexpected(InstrumentsSayNothing());
   }
+  CountWindows(*fit, answers);
   const Eigen::Index clusters = fit->scores.cols();
   bounded.provenance.clusters = static_cast<std::size_t>(clusters);
   if (auto warning = WarnOfFewClusters(clusters)) answers.refusals.push_back(*std::move(warning));
@@ -123,6 +172,7 @@ Result<BoundedAnswers> BoundWeakIv(const PreparedDataset& dataset,
     bounded.bounds =
         StudentBounds(published, publication.map * covariance * publication.map.transpose(),
                       degrees_of_freedom, options.interval_level);
+    Unbound(separable, answers, bounded.bounds);
     bounded.offsets = OffsetsOf(publication, published, bounded.bounds, dataset);
   };
   if (corrected) {

@@ -239,7 +239,7 @@ Vehicle VehicleOf(const PreparedDataset& dataset) {
 
 }  // namespace
 
-Result<PreparedDataset> SailAgain(const PreparedDataset& dataset, const VesselModel& model,
+Result<TwinRecording> RecordAgain(const PreparedDataset& dataset, const VesselModel& model,
                                   const TwinOptions& options) {
   const double h = dataset.sampling_period_s;
   const double step_s = h / std::ceil(h / kLongestStepS - 1e-9);
@@ -251,7 +251,7 @@ Result<PreparedDataset> SailAgain(const PreparedDataset& dataset, const VesselMo
   };
   std::array<GaussMarkov, 3> disturbance = {axis(0), axis(1), axis(2)};
   Instrumented instrumented(dataset, options.noise_scale, options.seed);
-  Recording recording;
+  TwinRecording twin{{}, VehicleOf(dataset)};
   double start_s = 0.0;
   for (std::size_t s = 0; s < dataset.stretches.size(); ++s) {
     Voyage voyage{dataset, s, start_s, 0.0};
@@ -262,13 +262,20 @@ Result<PreparedDataset> SailAgain(const PreparedDataset& dataset, const VesselMo
         Sail(voyage, model, dynamics, runaway, step_s, options.as_measured,
              options.steady.empty() ? SteadyDisturbance() : options.steady[of], disturbance);
     if (!course) return tl::unexpected(course.error());
-    instrumented.Record(voyage, *course, recording);
+    instrumented.Record(voyage, *course, twin.recording);
     start_s += voyage.Duration() + kBetweenStretchesS;
   }
+  return twin;
+}
+
+Result<PreparedDataset> SailAgain(const PreparedDataset& dataset, const VesselModel& model,
+                                  const TwinOptions& options) {
+  const auto twin = RecordAgain(dataset, model, options);
+  if (!twin) return tl::unexpected(twin.error());
   PrepareOptions prepare = dataset.options;
-  prepare.sampling_period_s = h;
+  prepare.sampling_period_s = dataset.sampling_period_s;
   prepare.longest_stretch_s.reset();
-  return Prepare(recording, VehicleOf(dataset), prepare);
+  return Prepare(twin->recording, twin->vehicle, prepare);
 }
 
 }  // namespace telltale

@@ -8,6 +8,7 @@
 #include "data/samples.hpp"
 #include "result.hpp"
 #include "vessel/disturbance.hpp"
+#include "vessel/vehicle.hpp"
 #include "vessel/vessel_model.hpp"
 
 namespace telltale {
@@ -30,6 +31,17 @@ struct TwinOptions {
 /// averages with as much less noise) with white noise. Refuses when: the simulation runs away, or
 /// what it gives cannot be prepared.
 Result<PreparedDataset> SailAgain(const PreparedDataset& dataset, const VesselModel& model,
+                                  const TwinOptions& options);
+
+/// A simulated repeat as it comes from the sensors, before any preparation.
+struct TwinRecording {
+  Recording recording;
+  Vehicle vehicle;  ///< whose sensors and pulse widths these are
+};
+
+/// The same before preparation, for who chooses how to prepare.
+/// Refuses when: the simulation runs away.
+Result<TwinRecording> RecordAgain(const PreparedDataset& dataset, const VesselModel& model,
                                   const TwinOptions& options);
 
 }  // namespace telltale

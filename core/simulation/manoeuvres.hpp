@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string_view>
 #include <vector>
 
 #include "simulation/simulator.hpp"
@@ -36,6 +37,16 @@ Manoeuvre Spins(double delta, double hold_s);
 /// Both propellers stopped.
 Manoeuvre Coast(double duration_s);
 
+/// One command after the other from a turn to port to one to starboard and back, each held: the
+/// spiral test, in which a boat without a stable straight course shows it.
+Manoeuvre Spiral(double mean, double widest_difference, int levels, double hold_s);
+
+/// One manoeuvre after the other.
+Manoeuvre Joined(const std::vector<Manoeuvre>& manoeuvres);
+
+/// A manoeuvre over and over, broken off after `duration_s`. Requires: it takes time.
+Manoeuvre Repeated(const Manoeuvre& manoeuvre, double duration_s);
+
 /// A box of commands: each propeller's range.
 struct CommandRange {
   PropellerCommand low;
@@ -50,6 +61,20 @@ Manoeuvre RandomSteps(const CommandRange& range, double shortest_s, double longe
 
 /// Manoeuvres one after the other from time `start_s`.
 std::vector<TimedCommand> Schedule(const std::vector<Manoeuvre>& manoeuvres, double start_s);
+
+/// A manoeuvre an operator can be advised to sail: what to call it, and how it goes, commands in
+/// shares of full command.
+struct CatalogueManoeuvre {
+  std::string_view name;
+  std::string_view how;
+  Manoeuvre manoeuvre;
+};
+
+inline constexpr double kCatalogueDurationS = 120.0;
+
+/// What is known to excite boats, two minutes each: along the course, turning ahead, turning on the
+/// spot, without thrust, and at random.
+const std::vector<CatalogueManoeuvre>& ManoeuvreCatalogue();
 
 inline constexpr double kSampleMissionDurationS = 600.0;
 

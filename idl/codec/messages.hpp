@@ -45,6 +45,7 @@ struct IdentifyRequest {
   bool include_reverse = false;  ///< fit rows of the RR region too
   Resampling resampling = Resampling::kUnknown;
   IntervalMethod interval_method = IntervalMethod::kUnknown;
+  std::uint32_t certificate_twins = 0;  ///< 0 (none) or [10, 1000]
 };
 
 struct IdentifyProgress {

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "codec/change_json.hpp"
+#include "codec/evidence_json.hpp"
 #include "codec/field_reader.hpp"
 #include "codec/json_message.hpp"
 #include "codec/vehicle_file.hpp"
@@ -429,6 +430,7 @@ proto::Model ToProto(const Identification& identification) {
   Write(identification.window, *model.mutable_window());
   for (const Refusal& refusal : identification.refusals) Write(refusal, *model.add_refusals());
   Write(identification.provenance, *model.mutable_provenance());
+  WriteEvidence(identification, model);
   return model;
 }
 
@@ -438,6 +440,7 @@ Decoded<Identification> IdentificationOf(const proto::Model& model, const std::s
   FieldReader reader(model, source, fault);
   Identification identification = ReadModel(reader, model);
   if (!fault) CheckOrder(reader, identification.coefficients, identification.parameterization);
+  if (!fault) ReadEvidence(reader, model, identification);
   if (fault) return tl::unexpected(*fault);
   return identification;
 }

@@ -92,11 +92,70 @@ void Fill(telltale_wire_IndicativeCoefficient& wire, const IndicativeCoefficient
 
 void Fill(telltale_wire_RecordingOffsets& wire, const RecordingOffsets& offsets);
 void Fill(telltale_wire_ModelChange& wire, const ModelChange& change);
+
+void Fill(telltale_wire_ExpectedBounds& wire, const ExpectedBounds& expected) {
+  Put(wire.equation, Name(expected.equation));
+  Put(wire.regressor, expected.regressor);
+  Put(wire.unit, expected.unit);
+  wire.estimate = expected.estimate;
+  wire.half_width = expected.half_width;
+  wire.expected_half_width = expected.expected_half_width;
+}
+
+void Fill(telltale_wire_ManoeuvreAdvice& wire, const ManoeuvreAdvice& advice);
+
+void Fill(telltale_wire_CoefficientCoverage& wire, const CoefficientCoverage& coverage) {
+  wire = {coverage.tally.held, coverage.tally.of, coverage.bias};
+}
+
+void Fill(telltale_wire_CoverageCertificate& wire, const CoverageCertificate& certificate);
+
 void Fill(telltale_wire_Model& wire, const PublishedModel& model);
 
 constexpr auto kFill = [](auto& wire, const auto& item) { Fill(wire, item); };
 
 constexpr auto kCopy = [](double& element, double value) { element = value; };
+
+void Fill(telltale_wire_ManoeuvreAdvice& wire, const ManoeuvreAdvice& advice) {
+  Put(wire.manoeuvre, advice.manoeuvre);
+  Put(wire.how, advice.how);
+  wire.duration_s = advice.duration_s;
+  wire.expected_nats = advice.expected_nats;
+  PutSequence(wire.expected, advice.expected, kFill);
+}
+
+void Fill(telltale_wire_CoverageCertificate& wire, const CoverageCertificate& certificate) {
+  wire.asked = certificate.asked;
+  wire.answered = certificate.answered;
+  wire.seed = certificate.seed;
+  wire.level = certificate.level;
+  PutSequence(wire.coefficients, certificate.coefficients, kFill);
+  if (const auto& lag = certificate.thruster_time_constant) {
+    PutSequence(wire.thruster_time_constant, std::initializer_list<CoefficientCoverage>{*lag},
+                kFill);
+  }
+  wire.joint_held = certificate.joint.held;
+  wire.joint_total = certificate.joint.of;
+  wire.mean_coverage = certificate.mean_coverage;
+  wire.mean_coverage_error = certificate.mean_coverage_error;
+  wire.about_published_model = certificate.about_published_model;
+}
+
+/// Regressors go by name: their places depend on the parameterization.
+void Fill(telltale_wire_Excitation& wire, const ExcitationSummary& summary,
+          Parameterization parameterization) {
+  const auto regressors = Regressors(summary.equation, parameterization);
+  Put(wire.equation, Name(summary.equation));
+  wire.condition = summary.condition;
+  PutSequence(wire.variance_inflation, summary.variance_inflation, kCopy);
+  PutSequence(wire.least_separable, summary.least_separable,
+              [&](telltale_wire_CombinationTerm& term, const CombinationTerm& item) {
+                Put(term.regressor, regressors[item.regressor].name);
+                term.weight = item.weight;
+              });
+  wire.rows = summary.rows;
+  wire.effective_rows = summary.effective_rows;
+}
 
 std::vector<double> RowMajor(const Eigen::MatrixXd& matrix) {
   std::vector<double> values;
@@ -168,6 +227,14 @@ void Fill(telltale_wire_Model& wire, const PublishedModel& model) {
   wire.clusters = provenance.clusters;
   if (const auto& change = provenance.change) {
     PutSequence(wire.change, std::initializer_list<ModelChange>{*change}, kFill);
+  }
+  PutSequence(wire.excitation, identification.excitation,
+              [&](telltale_wire_Excitation& element, const ExcitationSummary& summary) {
+                Fill(element, summary, identification.parameterization);
+              });
+  PutSequence(wire.advice, identification.advice, kFill);
+  if (const auto& certificate = identification.certificate) {
+    PutSequence(wire.certificate, std::initializer_list<CoverageCertificate>{*certificate}, kFill);
   }
 }
 
@@ -455,6 +522,106 @@ std::optional<ModelChange> ReadChange(const dds_sequence_telltale_wire_ModelChan
   return ReadModelChange("change[0]", wire._buffer[0]);
 }
 
+ExcitationSummary ReadExcitation(const std::string& field, const telltale_wire_Excitation& wire,
+                                 Parameterization parameterization) {
+  ExcitationSummary summary;
+  summary.equation = ReadName(field + ".equation", View(wire.equation), kAllEquations);
+  const auto regressors = Regressors(summary.equation, parameterization);
+  summary.condition = ReadWithin(field + ".condition", wire.condition, 1.0, kInfinity);
+  if (wire.variance_inflation._length != regressors.size()) {
+    Reject(field + ".variance_inflation",
+           std::to_string(wire.variance_inflation._length) + " numbers",
+           std::to_string(regressors.size()) + ", one for each regressor");
+  }
+  summary.variance_inflation = ReadSequence(field + ".variance_inflation", wire.variance_inflation,
+                                            [](const std::string& name, double factor) {
+                                              return ReadWithin(name, factor, 0.0, kInfinity);
+                                            });
+  summary.least_separable =
+      ReadSequence(field + ".least_separable", wire.least_separable,
+                   [&](const std::string& name, const telltale_wire_CombinationTerm& term) {
+                     const auto found = std::find_if(
+                         regressors.begin(), regressors.end(),
+                         [&](const Regressor& r) { return r.name == View(term.regressor); });
+                     if (found == regressors.end()) {
+                       Reject(name + ".regressor", std::string(View(term.regressor)),
+                              "a regressor of this equation");
+                     }
+                     return CombinationTerm{static_cast<std::size_t>(found - regressors.begin()),
+                                            ReadWithin(name + ".weight", term.weight, -1.0, 1.0)};
+                   });
+  summary.rows = wire.rows;
+  summary.effective_rows =
+      ReadWithin(field + ".effective_rows", wire.effective_rows, 0.0, kLargest);
+  return summary;
+}
+
+ExpectedBounds ReadExpectedBounds(const std::string& field,
+                                  const telltale_wire_ExpectedBounds& wire) {
+  ExpectedBounds expected;
+  expected.equation = ReadName(field + ".equation", View(wire.equation), kAllEquations);
+  expected.regressor = View(wire.regressor);
+  expected.unit = View(wire.unit);
+  expected.estimate = ReadWithin(field + ".estimate", wire.estimate, -kLargest, kLargest);
+  expected.half_width = ReadWithin(field + ".half_width", wire.half_width, 0.0, kInfinity);
+  expected.expected_half_width =
+      ReadWithin(field + ".expected_half_width", wire.expected_half_width, 0.0, kInfinity);
+  return expected;
+}
+
+ManoeuvreAdvice ReadAdvice(const std::string& field, const telltale_wire_ManoeuvreAdvice& wire) {
+  ManoeuvreAdvice advice;
+  advice.manoeuvre = View(wire.manoeuvre);
+  advice.how = View(wire.how);
+  advice.duration_s = ReadWithin(field + ".duration_s", wire.duration_s, 0.0, kLargest);
+  advice.expected_nats =
+      ReadWithin(field + ".expected_nats", wire.expected_nats, -kLargest, kLargest);
+  advice.expected = ReadSequence(field + ".expected", wire.expected, ReadExpectedBounds);
+  return advice;
+}
+
+Tally ReadTally(const std::string& field, std::uint64_t held, std::uint64_t total) {
+  if (held > total) {
+    Reject(field, std::to_string(held), "not above the total of " + std::to_string(total));
+  }
+  return {held, total};
+}
+
+CoefficientCoverage ReadCoverage(const std::string& field,
+                                 const telltale_wire_CoefficientCoverage& wire) {
+  return {ReadTally(field + ".held", wire.held, wire.total),
+          ReadWithin(field + ".bias", wire.bias, -kLargest, kLargest)};
+}
+
+std::optional<CoverageCertificate> ReadCertificate(
+    const dds_sequence_telltale_wire_CoverageCertificate& certificates,
+    const Identification& identification) {
+  if (certificates._length == 0) return std::nullopt;
+  const std::string field = "certificate[0]";
+  const telltale_wire_CoverageCertificate& wire = certificates._buffer[0];
+  CoverageCertificate certificate;
+  const Tally answered = ReadTally(field + ".answered", wire.answered, wire.asked);
+  certificate.asked = answered.of;
+  certificate.answered = answered.held;
+  certificate.seed = wire.seed;
+  certificate.level = ReadWithin(field + ".level", wire.level, 0.0, 1.0);
+  certificate.coefficients = ReadSequence(field + ".coefficients", wire.coefficients, ReadCoverage);
+  if (certificate.coefficients.size() != identification.coefficients.size()) {
+    Reject(field + ".coefficients", std::to_string(certificate.coefficients.size()) + " items",
+           std::to_string(identification.coefficients.size()) + ", one for each coefficient");
+  }
+  if (wire.thruster_time_constant._length > 0) {
+    certificate.thruster_time_constant =
+        ReadCoverage(field + ".thruster_time_constant", wire.thruster_time_constant._buffer[0]);
+  }
+  certificate.joint = ReadTally(field + ".joint_held", wire.joint_held, wire.joint_total);
+  certificate.mean_coverage = ReadWithin(field + ".mean_coverage", wire.mean_coverage, 0.0, 1.0);
+  certificate.mean_coverage_error =
+      ReadWithin(field + ".mean_coverage_error", wire.mean_coverage_error, 0.0, kLargest);
+  certificate.about_published_model = wire.about_published_model;
+  return certificate;
+}
+
 PublishedModel ReadModel(const telltale_wire_Model& wire) {
   PublishedModel model;
   model.revision = wire.revision;
@@ -498,6 +665,13 @@ PublishedModel ReadModel(const telltale_wire_Model& wire) {
   identification.offsets = ReadSequence("offsets", wire.offsets, ReadOffsets);
   identification.provenance.clusters = wire.clusters;
   identification.provenance.change = ReadChange(wire.change);
+  identification.excitation =
+      ReadSequence("excitation", wire.excitation,
+                   [&](const std::string& field, const telltale_wire_Excitation& element) {
+                     return ReadExcitation(field, element, identification.parameterization);
+                   });
+  identification.advice = ReadSequence("advice", wire.advice, ReadAdvice);
+  identification.certificate = ReadCertificate(wire.certificate, identification);
   return model;
 }
 
@@ -569,6 +743,7 @@ WireSample<telltale_wire_IdentifyRequest> Encode(const IdentifyRequest& request)
   wire->include_reverse = request.include_reverse;
   Put(wire->resampling, name(request.resampling));
   Put(wire->interval_method, name(request.interval_method));
+  wire->certificate_twins = request.certificate_twins;
   return wire;
 }
 
@@ -657,6 +832,7 @@ Decoded<IdentifyRequest> Decode(const telltale_wire_IdentifyRequest& wire) {
     request.resampling = ReadOptionalName("resampling", View(wire.resampling), kResamplings);
     request.interval_method =
         ReadOptionalName("interval_method", View(wire.interval_method), kIntervalMethods);
+    request.certificate_twins = wire.certificate_twins;
     return request;
   });
 }

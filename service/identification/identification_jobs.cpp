@@ -68,6 +68,7 @@ IdentifyOptions OptionsOf(const IdentifyRequest& request, const IdentificationSe
   if (request.interval_method != IntervalMethod::kUnknown) {
     options.interval_method = request.interval_method;
   }
+  options.certificate_twins = request.certificate_twins;
   options.seed = request.seed;
   options.threads = std::max(1u, std::thread::hardware_concurrency() / settings.workers);
   return options;

@@ -44,6 +44,38 @@ TEST(Manoeuvres, SpinsGoThroughBothMixedRegions) {
   EXPECT_EQ(RegionOf(spins[1].delta), PropellerRegion::kRF);
 }
 
+TEST(Manoeuvres, SpiralGoesFromOneTurnToTheOtherAndBack) {
+  const Manoeuvre spiral = Spiral(0.5, 0.6, 3, 9.0);
+  const double expected[] = {-0.6, 0.0, 0.6, 0.0, -0.6};
+  ASSERT_EQ(spiral.size(), std::size(expected));
+  for (std::size_t i = 0; i < spiral.size(); ++i) {
+    EXPECT_NEAR(spiral[i].delta.Difference(), expected[i], 1e-15);
+    EXPECT_NEAR(spiral[i].delta.Mean(), 0.5, 1e-15);
+  }
+}
+
+TEST(Manoeuvres, RepeatedIsBrokenOffOnTime) {
+  const Manoeuvre repeated = Repeated(SurgeSteps(0.2, 0.9, 1, 4.0), 30.0);
+  ASSERT_EQ(repeated.size(), 8u);
+  EXPECT_EQ(repeated.back().duration_s, 2.0);
+  EXPECT_EQ(repeated.back().delta.port, 0.9);
+  EXPECT_NEAR(Duration(repeated), 30.0, 1e-12);
+}
+
+TEST(Manoeuvres, TheCatalogueHoldsWhatABoatCanDo) {
+  std::map<std::string_view, int> names;
+  for (const CatalogueManoeuvre& entry : ManoeuvreCatalogue()) {
+    EXPECT_EQ(++names[entry.name], 1) << entry.name;
+    EXPECT_FALSE(entry.how.empty());
+    EXPECT_NEAR(Duration(entry.manoeuvre), kCatalogueDurationS, 1e-9) << entry.name;
+    for (const HeldCommand& held : entry.manoeuvre) {
+      EXPECT_LE(std::abs(held.delta.port), 1.0 + 1e-12) << entry.name;
+      EXPECT_LE(std::abs(held.delta.starboard), 1.0 + 1e-12) << entry.name;
+      EXPECT_GT(held.duration_s, 0.0) << entry.name;
+    }
+  }
+}
+
 TEST(Manoeuvres, RandomStepsStayInTheirBoxAndLastAsLongAsTold) {
   const CommandRange range{{0.1, -0.8}, {0.9, -0.2}};
   const Manoeuvre steps = RandomSteps(range, 1.0, 3.0, 100.0, 7);

@@ -1,0 +1,141 @@
+#include "cli/evidence_table.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "cli/table.hpp"
+#include "identification/advice.hpp"
+
+namespace telltale {
+namespace {
+
+constexpr std::size_t kAdvised = 2;
+
+/// "v|v| - 0.9 v": the largest weights of coefficients times the norms of their columns.
+std::string Combination(const ExcitationSummary& summary, Parameterization parameterization) {
+  constexpr std::size_t kShown = 3;
+  const auto regressors = Regressors(summary.equation, parameterization);
+  std::vector<CombinationTerm> terms = summary.least_separable;
+  std::stable_sort(terms.begin(), terms.end(), [](const auto& a, const auto& b) {
+    return std::abs(a.weight) > std::abs(b.weight);
+  });
+  terms.resize(std::min(terms.size(), kShown));
+  std::string text;
+  for (const CombinationTerm& term : terms) {
+    const double size = std::abs(term.weight);
+    const bool minus = term.weight < 0.0;
+    text += text.empty() ? (minus ? "-" : "") : (minus ? " - " : " + ");
+    if (size < 0.995) text += Fixed(size, 1) + ' ';
+    text += regressors[term.regressor].name;
+  }
+  return terms.size() < summary.least_separable.size() ? text + " ..." : text;
+}
+
+/// The largest, and whose it is; coefficients that were never moved have none.
+std::string LargestInflation(const ExcitationSummary& summary, Parameterization parameterization) {
+  const auto regressors = Regressors(summary.equation, parameterization);
+  std::size_t largest = regressors.size();
+  for (std::size_t j = 0; j < regressors.size(); ++j) {
+    if (!std::isfinite(summary.variance_inflation[j])) continue;
+    const bool first = largest == regressors.size();
+    if (first || summary.variance_inflation[j] > summary.variance_inflation[largest]) largest = j;
+  }
+  if (largest == regressors.size()) return "∞";
+  return Significant(summary.variance_inflation[largest], 3) + " of " +
+         std::string(regressors[largest].name);
+}
+
+std::string Advice(const Identification& identification) {
+  std::string text;
+  std::size_t told = 0;
+  for (const ManoeuvreAdvice& advice : identification.advice) {
+    if (told == kAdvised) break;
+    const std::string words = InWords(advice);
+    if (words.empty()) continue;
+    text += Wrapped(words, "  ") + Wrapped("-> " + advice.how, "     ");
+    ++told;
+  }
+  return text.empty() ? "" : "\nWhat would tell more, by simulation\n" + text;
+}
+
+std::string PercentOf(double share) {
+  return Fixed(100.0 * share, 1);
+}
+
+std::vector<std::string> Cells(const std::string& name, const CoefficientCoverage& coverage) {
+  const Interval bounds = coverage.Bounds();
+  return {name, std::to_string(coverage.tally.held) + " of " + std::to_string(coverage.tally.of),
+          PercentOf(coverage.tally.Share()),
+          '[' + PercentOf(bounds.lower) + ", " + PercentOf(bounds.upper) + ']',
+          Fixed(coverage.bias, 2)};
+}
+
+std::string Together(const CoverageCertificate& certificate) {
+  std::string text = "All bounds: " + PercentOf(certificate.mean_coverage) + " % held, +-" +
+                     PercentOf(certificate.mean_coverage_error) + " (one sigma)";
+  if (certificate.joint.of > 0) {
+    const Interval joint = BinomialInterval(certificate.joint, kCoverageLevel);
+    text += "; the ellipsoid of all coefficients: " + PercentOf(certificate.joint.Share()) +
+            " %, between " + PercentOf(joint.lower) + " and " + PercentOf(joint.upper);
+  }
+  return Wrapped(text + ".");
+}
+
+std::string Conditions(const CoverageCertificate& certificate) {
+  std::string text = std::to_string(certificate.answered) + " of " +
+                     std::to_string(certificate.asked) + " simulated repeats of these data, seed " +
+                     std::to_string(certificate.seed) +
+                     ", could be identified. This is how bounds fare if the model is true; it says "
+                     "nothing of what the model leaves out.";
+  if (!certificate.about_published_model) {
+    text += " The boat that was sailed is a tamer one than published, which runs away.";
+  }
+  return Wrapped(text);
+}
+
+}  // namespace
+
+std::string ExcitationTable(const Identification& identification) {
+  if (identification.excitation.empty()) return "";
+  const bool weak = identification.estimator == Estimator::kWeakIv;
+  Table table({{"excitation", Align::kLeft},
+               {"condition", Align::kRight},
+               {"largest variance inflation", Align::kRight},
+               {weak ? "windows" : "rows", Align::kRight},
+               {"worth", Align::kRight},
+               {"least told apart", Align::kLeft}});
+  for (const ExcitationSummary& summary : identification.excitation) {
+    table.AddRow({std::string(Name(summary.equation)), Significant(summary.condition, 3),
+                  LargestInflation(summary, identification.parameterization),
+                  std::to_string(summary.rows), Fixed(summary.effective_rows, 0),
+                  Combination(summary, identification.parameterization)});
+  }
+  return table.Render() + Advice(identification);
+}
+
+std::string CertificateTable(const Identification& identification) {
+  if (!identification.certificate) return "";
+  const CoverageCertificate& certificate = *identification.certificate;
+  Table table({{"certificate", Align::kLeft},
+               {"bounds held", Align::kRight},
+               {"%", Align::kRight},
+               {"known to lie in", Align::kRight},
+               {"bias in std. errors", Align::kRight}});
+  for (const Equation equation : kEquations) {
+    if (!identification.Has(equation)) continue;
+    table.AddHeading(std::string(Name(equation)));
+    for (std::size_t i = 0; i < certificate.coefficients.size(); ++i) {
+      const Coefficient& c = identification.coefficients[i];
+      if (c.equation == equation) {
+        table.AddRow(Cells(c.regressor, certificate.coefficients[i]));
+      }
+    }
+  }
+  if (certificate.thruster_time_constant) {
+    table.AddHeading("THRUSTERS");
+    table.AddRow(Cells("tau", *certificate.thruster_time_constant));
+  }
+  return table.Render() + Together(certificate) + Conditions(certificate);
+}
+
+}  // namespace telltale

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "data/prepared_dataset.hpp"
+#include "estimation/excitation.hpp"
+#include "vessel/structure.hpp"
+
+namespace telltale {
+
+/// A coefficient's part in a combination of coefficients, each scaled by the norm of its column, so
+/// that weights compare whatever the units; the largest weight of a combination is one.
+struct CombinationTerm {
+  std::size_t regressor = 0;  ///< position in Regressors()
+  double weight = 0.0;
+
+  bool operator==(const CombinationTerm&) const = default;
+};
+
+/// How far the data tell one equation's coefficients apart, and on how much they rest.
+struct ExcitationSummary {
+  Equation equation = Equation::kUnknown;
+  double condition = 1.0;  ///< largest over smallest singular value of the unit-scaled columns
+  /// One for each of Regressors(), docs/model.md (62): how many times the variance of a coefficient
+  /// exceeds what it were if no other column looked like its own. Infinite where not excited.
+  std::vector<double> variance_inflation;
+  std::vector<CombinationTerm> least_separable;  ///< what the data determine worst, (63)
+  std::size_t rows = 0;         ///< rows, or windows of the weak form, behind the estimate
+  double effective_rows = 0.0;  ///< as many independent ones would say as much, (64)
+};
+
+/// The numbers that excitation alone decides; rows are left at zero.
+ExcitationSummary Summarise(const Excitation& excitation, std::size_t regressors);
+
+/// How many neighbouring residuals say as much as one independent residual, at least one: 1 + 2 sum
+/// of their autocorrelations, as long as pairs of them stay positive. docs/model.md (64).
+/// `runs`: gap-free runs of residuals. Source: Geyer, "Practical Markov chain Monte Carlo",
+/// Statistical Science 7 (1992), the initial positive sequence.
+double RowsPerIndependentRow(const Eigen::VectorXd& residual, std::span<const RowRange> runs);
+
+/// Runs of items whose places follow each other at `stride`.
+std::vector<RowRange> RunsOf(std::span<const std::size_t> places, std::size_t stride);
+
+}  // namespace telltale

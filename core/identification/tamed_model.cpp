@@ -1,0 +1,70 @@
+#include "identification/tamed_model.hpp"
+
+#include <cmath>
+#include <vector>
+
+#include <Eigen/Cholesky>
+
+namespace telltale {
+namespace {
+
+Eigen::VectorXd EstimatesOf(const Identification& identification) {
+  Eigen::VectorXd theta(static_cast<Eigen::Index>(identification.coefficients.size()));
+  Eigen::Index next = 0;
+  for (const Coefficient& c : identification.coefficients) theta[next++] = c.estimate;
+  return theta;
+}
+
+/// Those that are known to some extent and not zero anyway.
+std::vector<Eigen::Index> Drawn(const Identification& identification,
+                                const Eigen::VectorXd& theta) {
+  std::vector<Eigen::Index> drawn;
+  for (Eigen::Index j = 0; j < theta.size(); ++j) {
+    if (std::isfinite(identification.covariance(j, j)) && theta[j] != 0.0) drawn.push_back(j);
+  }
+  return drawn;
+}
+
+/// With coefficients in units of their believed size: theta' = (I + Sigma)^-1 theta.
+Eigen::VectorXd TamedEstimates(const Identification& identification, double trust) {
+  Eigen::VectorXd theta = EstimatesOf(identification);
+  if (std::isinf(trust)) return theta;
+  const std::vector<Eigen::Index> drawn = Drawn(identification, theta);
+  if (drawn.empty()) return theta;
+  const Eigen::VectorXd sizes = trust * theta(drawn).cwiseAbs();
+  const Eigen::VectorXd units = sizes.cwiseInverse();
+  Eigen::MatrixXd sum =
+      units.asDiagonal() * identification.covariance(drawn, drawn) * units.asDiagonal();
+  sum.diagonal().array() += 1.0;
+  const Eigen::VectorXd scaled = units.cwiseProduct(theta(drawn));
+  theta(drawn) = sizes.cwiseProduct(sum.ldlt().solve(scaled));
+  return theta;
+}
+
+}  // namespace
+
+VesselModel TamedModel(const Identification& identification, double trust) {
+  const Eigen::VectorXd theta = TamedEstimates(identification, trust);
+  VesselModel model;
+  model.structure = identification.structure;
+  model.parameterization = identification.parameterization;
+  model.discretisation = Discretisation::kContinuous;
+  model.sampling_period_s = identification.sampling_period_s;
+  model.dead_zone = identification.dead_zone;
+  if (identification.thruster_time_constant) {
+    model.thruster_time_constant_s = identification.thruster_time_constant->estimate;
+  }
+  Eigen::Index next = 0;
+  for (const Equation equation : kEquations) {
+    const auto size =
+        static_cast<Eigen::Index>(Regressors(equation, model.parameterization).size());
+    Eigen::VectorXd& of_this = model.theta[IndexOf(equation)];
+    of_this = Eigen::VectorXd::Zero(size);
+    if (!identification.Has(equation)) continue;
+    of_this = theta.segment(next, size);
+    next += size;
+  }
+  return model;
+}
+
+}  // namespace telltale

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <array>
+#include <limits>
+
+#include "identification/identification.hpp"
+#include "vessel/vessel_model.hpp"
+
+namespace telltale {
+
+/// Estimates believed as they are.
+inline constexpr double kAsPublished = std::numeric_limits<double>::infinity();
+
+/// How large coefficients are believed to be, in units of their estimates, tried in turn until a
+/// model can be sailed.
+inline constexpr std::array kTrusts = {1.0, 0.3, 0.1};
+
+/// An identified model that can be simulated, docs/model.md (61): coefficients are drawn towards
+/// zero along what the data hardly determine, theta' = P (P + Sigma)^-1 theta with P = diag((trust
+/// theta)^2), and stay where the data are sure. It is a continuous boat; coefficients that are not
+/// known, or whose equation was refused, are zero.
+VesselModel TamedModel(const Identification& identification, double trust);
+
+}  // namespace telltale

@@ -1,0 +1,17 @@
+#pragma once
+
+#include "codec/field_reader.hpp"
+#include "identification/identification.hpp"
+#include "proto/model.pb.h"
+
+namespace telltale {
+
+/// The parts of model.json that say how far the model can be trusted and what would tell more:
+/// excitation, advice and the certificate.
+void WriteEvidence(const Identification& identification, proto::Model& message);
+
+/// Reads them into an identification whose equations, parameterization and coefficients are read
+/// already; the first fault is the reader's.
+void ReadEvidence(FieldReader& reader, const proto::Model& message, Identification& identification);
+
+}  // namespace telltale

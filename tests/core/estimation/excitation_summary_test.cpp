@@ -1,0 +1,113 @@
+#include "estimation/excitation_summary.hpp"
+
+#include <cmath>
+#include <numeric>
+
+#include <gtest/gtest.h>
+#include <Eigen/LU>
+#include <boost/random/normal_distribution.hpp>
+
+#include "random.hpp"
+#include "simulation/yellowfish.hpp"
+#include "support/discrete_boat.hpp"
+
+namespace telltale {
+namespace {
+
+EquationProblem SurgeIn(const std::vector<PropellerRegion>& regions) {
+  return BuildRegression(testing::DriveDiscrete(YellowfishTwin(),
+                                                testing::RandomCommands(3000, regions, 7), 50),
+                         {})
+      .equations[0];
+}
+
+/// By definition: ||x_j||^2 [(Phi'Phi)^-1]_jj, the normal equations solved outright.
+TEST(ExcitationSummary, VarianceInflationIsThatOfTheNormalEquations) {
+  const EquationProblem surge =
+      SurgeIn({PropellerRegion::kFF, PropellerRegion::kFR, PropellerRegion::kRF});
+  const ExcitationSummary summary = Summarise(*Assess(surge, {}), surge.regressors.size());
+  const Eigen::MatrixXd gram = surge.phi.transpose() * surge.phi;
+  const Eigen::MatrixXd inverse = gram.inverse();
+  for (Eigen::Index j = 0; j < gram.cols(); ++j) {
+    const double expected = gram(j, j) * inverse(j, j);
+    const double inflation = summary.variance_inflation[static_cast<std::size_t>(j)];
+    EXPECT_NEAR(inflation, expected, 1e-6 * expected);
+    EXPECT_GE(inflation, 1.0 - 1e-12);
+  }
+}
+
+/// Another unit for a column rescales its coefficient and changes no verdict.
+TEST(ExcitationSummary, DoesNotDependOnUnits) {
+  EquationProblem surge =
+      SurgeIn({PropellerRegion::kFF, PropellerRegion::kFR, PropellerRegion::kRF});
+  const ExcitationSummary before = Summarise(*Assess(surge, {}), surge.regressors.size());
+  surge.phi.col(0) *= 1e4;
+  surge.phi.col(2) *= 1e-3;
+  const ExcitationSummary after = Summarise(*Assess(surge, {}), surge.regressors.size());
+  EXPECT_NEAR(after.condition, before.condition, 1e-6 * before.condition);
+  for (std::size_t j = 0; j < before.variance_inflation.size(); ++j) {
+    EXPECT_NEAR(after.variance_inflation[j], before.variance_inflation[j],
+                1e-6 * before.variance_inflation[j]);
+  }
+}
+
+TEST(ExcitationSummary, NamesWhatCannotBeToldApart) {
+  EquationProblem surge =
+      SurgeIn({PropellerRegion::kFF, PropellerRegion::kFR, PropellerRegion::kRF});
+  surge.phi.col(2) = 3.0 * surge.phi.col(1) + 1e-4 * surge.phi.col(2);
+  const ExcitationSummary summary = Summarise(*Assess(surge, {}), surge.regressors.size());
+  EXPECT_GT(summary.condition, 100.0);
+  ASSERT_EQ(summary.least_separable.size(), 2u);
+  EXPECT_EQ(summary.least_separable[0].regressor, 1u);
+  EXPECT_EQ(summary.least_separable[1].regressor, 2u);
+  // Columns of unit length are alike, so it is the difference of their coefficients that is open.
+  EXPECT_NEAR(summary.least_separable[0].weight, -summary.least_separable[1].weight, 0.05);
+}
+
+TEST(ExcitationSummary, AnUnmovedColumnHasNoBoundedVariance) {
+  const EquationProblem surge = SurgeIn({PropellerRegion::kFF});
+  const ExcitationSummary summary = Summarise(*Assess(surge, {}), surge.regressors.size());
+  for (std::size_t j = 0; j < surge.regressors.size(); ++j) {
+    EXPECT_EQ(std::isinf(summary.variance_inflation[j]),
+              surge.regressors[j].name.starts_with("r:"));
+  }
+}
+
+/// x(k) = f x(k - 1) + white: n values say as much of the mean as n (1 - f) / (1 + f) independent
+/// ones. 40,000 draws know that to a few per cent.
+TEST(RowsPerIndependentRow, IsThatOfAnAutoregressiveProcess) {
+  for (const double f : {0.0, 0.5, 0.8}) {
+    RandomEngine engine(3);
+    boost::random::normal_distribution<double> white(0.0, 1.0);
+    Eigen::VectorXd x(40000);
+    x[0] = white(engine);
+    for (Eigen::Index k = 1; k < x.size(); ++k) x[k] = f * x[k - 1] + white(engine);
+    const std::vector<RowRange> one_run = {{0, 40000}};
+    const double expected = (1.0 + f) / (1.0 - f);
+    EXPECT_NEAR(RowsPerIndependentRow(x, one_run), expected, 0.08 * expected) << f;
+    // Cut into runs the same process looks the same.
+    std::vector<RowRange> runs;
+    for (std::size_t k = 0; k < 40000; k += 200) runs.push_back({k, k + 200});
+    EXPECT_NEAR(RowsPerIndependentRow(x, runs), expected, 0.1 * expected) << f;
+  }
+}
+
+TEST(RowsPerIndependentRow, NeverPromisesMoreThanThereAre) {
+  Eigen::VectorXd x(1000);
+  for (Eigen::Index k = 0; k < x.size(); ++k) x[k] = k % 2 == 0 ? 1.0 : -1.0;
+  const std::vector<RowRange> run = {{0, 1000}};
+  EXPECT_EQ(RowsPerIndependentRow(x, run), 1.0);
+  EXPECT_EQ(RowsPerIndependentRow(Eigen::VectorXd::Zero(1000), run), 1.0);
+}
+
+TEST(RunsOf, CutsWhereAPlaceIsMissing) {
+  const std::vector<std::size_t> places = {4, 9, 14, 20, 25, 40};
+  const auto runs = RunsOf(places, 5);
+  ASSERT_EQ(runs.size(), 3u);
+  EXPECT_EQ(runs[0].end, 3u);
+  EXPECT_EQ(runs[1].size(), 2u);
+  EXPECT_EQ(runs[2].begin, 5u);
+}
+
+}  // namespace
+}  // namespace telltale
