@@ -107,7 +107,8 @@ std::string ExcitationTable(const Identification& identification) {
   for (const ExcitationSummary& summary : identification.excitation) {
     table.AddRow({std::string(Name(summary.equation)), Significant(summary.condition, 3),
                   LargestInflation(summary, identification.parameterization),
-                  std::to_string(summary.rows), Fixed(summary.effective_rows, 0),
+                  summary.rows > 0 ? std::to_string(summary.rows) : "–",
+                  summary.rows > 0 ? Fixed(summary.effective_rows, 0) : "–",
                   Combination(summary, identification.parameterization)});
   }
   return table.Render() + Advice(identification);

@@ -130,9 +130,8 @@ std::optional<Estimator> IdentifyArguments::ChosenEstimator() const {
 
 Offsets IdentifyArguments::ChosenOffsets() const {
   const bool several = inputs.logs.size() > 1;
-  if (!offsets && several && ChosenEstimator() == Estimator::kWeakIv) {
-    return Offsets::kPerRecording;
-  }
+  const bool seeks_them = ChosenEstimator().value_or(Estimator::kWeakIv) == Estimator::kWeakIv;
+  if (!offsets && several && seeks_them) return Offsets::kPerRecording;
   if (offsets == "per-recording") return Offsets::kPerRecording;
   if (offsets == "per-recording-ned") return Offsets::kPerRecordingNorthEast;
   return Offsets::kShared;

@@ -29,7 +29,7 @@ struct ExcitationSummary {
   /// exceeds what it were if no other column looked like its own. Infinite where not excited.
   std::vector<double> variance_inflation;
   std::vector<CombinationTerm> least_separable;  ///< what the data determine worst, (63)
-  std::size_t rows = 0;         ///< rows, or windows of the weak form, behind the estimate
+  std::size_t rows = 0;         ///< or windows of the weak form; 0: not counted, as of output error
   double effective_rows = 0.0;  ///< as many independent ones would say as much, (64)
 };
 

@@ -257,7 +257,7 @@ Result<TwinRecording> RecordAgain(const PreparedDataset& dataset, const VesselMo
     Voyage voyage{dataset, s, start_s, 0.0};
     voyage.shift_s = start_s - voyage.First().time_s;
     const std::size_t of = dataset.RecordingOf(s);
-    if (s == 0 || of != dataset.RecordingOf(s - 1)) recording.starts_s.push_back(start_s);
+    if (s == 0 || of != dataset.RecordingOf(s - 1)) twin.recording.starts_s.push_back(start_s);
     const auto course =
         Sail(voyage, model, dynamics, runaway, step_s, options.as_measured,
              options.steady.empty() ? SteadyDisturbance() : options.steady[of], disturbance);

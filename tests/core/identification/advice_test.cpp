@@ -38,6 +38,7 @@ Manoeuvre FromCatalogue(std::string_view name) {
 
 Identification IdentifiedFrom(const std::vector<Manoeuvre>& manoeuvres) {
   IdentifyOptions options;
+  options.estimator = Estimator::kWeakIv;  // bounds of two estimators cannot be compared
   options.twins = 0;
   const auto identification =
       Identify(SailedThrough(manoeuvres), testing::StableBoatVehicle(), options);
