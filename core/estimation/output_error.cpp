@@ -17,7 +17,6 @@
 namespace telltale {
 namespace {
 
-constexpr double kLeastTimeConstantS = 0.01;
 constexpr double kLongestTimeConstantS = 20.0;
 constexpr double kRoughly = 1e-4;  // relative changes of the sum at which to stop
 constexpr double kClosely = 1e-9;

@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kLongestStepS = 0.2;
 constexpr double kThrusterMemoryS = 30.0;
-constexpr double kLeastTimeConstantS = 1e-3;
+constexpr double kShortestLagS = 1e-3;
 constexpr std::size_t kFewestFixes = 4;
 constexpr std::size_t kFewestHeadings = 3;
 
@@ -450,7 +450,7 @@ VesselModel SharedUnknowns::ModelWith(const Eigen::VectorXd& theta,
   model.discretisation = Discretisation::kContinuous;
   model.sampling_period_s = sampling_period_s;
   model.dead_zone = dead_zone;
-  if (lagging) model.thruster_time_constant_s = std::max(theta[0], kLeastTimeConstantS);
+  if (lagging) model.thruster_time_constant_s = std::max(theta[0], kShortestLagS);
   for (const Equation equation : kEquations) {
     const std::size_t j = IndexOf(equation);
     model.theta[j] = Eigen::VectorXd::Zero(
@@ -466,7 +466,7 @@ VesselModel SharedUnknowns::ModelWith(const Eigen::VectorXd& theta,
 Eigen::VectorXd SharedUnknowns::In(const VesselModel& model) const {
   Require(model.parameterization == parameterization, "a model of the same parameterization");
   Eigen::VectorXd theta(Size());
-  if (lagging) theta[0] = model.thruster_time_constant_s.value_or(kLeastTimeConstantS);
+  if (lagging) theta[0] = model.thruster_time_constant_s.value_or(kShortestLagS);
   for (const Equation equation : kEquations) {
     const std::size_t j = IndexOf(equation);
     Eigen::Index next = First(equation);
@@ -516,7 +516,7 @@ std::optional<Miss> Shoot(const ShotPlan& plan, const Shot& shot, const SharedUn
                           const Yardstick& yardstick, bool with_derivatives) {
   const VariedDynamics dynamics(unknowns, theta, with_derivatives);
   std::optional<double> time_constant_s;
-  if (unknowns.lagging) time_constant_s = std::max(theta[0], kLeastTimeConstantS);
+  if (unknowns.lagging) time_constant_s = std::max(theta[0], kShortestLagS);
   FollowingThrusters thrusters(shot, time_constant_s);
   MissWriter writer(plan, shot, unknowns, yardstick, with_derivatives);
   writer.StartAt(start);

@@ -13,7 +13,6 @@
 namespace telltale {
 namespace {
 
-constexpr double kLeastTimeConstantS = 0.01;
 constexpr double kLongestTimeConstantS = 20.0;
 
 /// One equation weighed: b = G theta + e.
@@ -389,7 +388,7 @@ WeakFit Write(const WeakProblem& problem, const WeighedEquations& equations, con
   if (time_constant_s) fit.theta[next++] = *time_constant_s;
   for (std::size_t i = 0; i < equations.size(); ++i) {
     const Weighed& equation = equations[i];
-    WeakEstimate estimate{equation.columns, thetas[i], damped[i],
+    WeakEstimate estimate{equation.columns, thetas[i], damped[i], Norms(equation.G),
                           equation.b - equation.G * thetas[i]};
     fit.theta.segment(next, thetas[i].size()) = thetas[i];
     next += thetas[i].size();
@@ -418,6 +417,28 @@ std::vector<bool> RecordingsSeen(const PreparedDataset& dataset, const WeakWindo
     seen[dataset.RecordingOf(stretch)] = true;
   }
   return seen;
+}
+
+/// Of the columns of G in the order of the stacked unknowns; a time constant moves nothing by
+/// itself.
+Eigen::VectorXd StackedSizes(const WeakFit& fit) {
+  Eigen::VectorXd sizes = Eigen::VectorXd::Zero(fit.theta.size());
+  Eigen::Index next = fit.time_constant_s ? 1 : 0;
+  for (const auto& equation : fit.equations) {
+    if (!equation) continue;
+    sizes.segment(next, equation->sizes.size()) = equation->sizes;
+    next += equation->sizes.size();
+  }
+  return sizes;
+}
+
+/// How prior forces of mean square 1 / weight draw an estimate: off it goes gain times its forces.
+Eigen::MatrixXd Gain(const Eigen::MatrixXd& covariance, const Eigen::VectorXd& sizes,
+                     double weight) {
+  Eigen::MatrixXd normal = weight * (sizes.asDiagonal() * covariance * sizes.asDiagonal());
+  normal.diagonal().array() += 1.0;
+  const Eigen::MatrixXd moved = sizes.asDiagonal() * covariance;
+  return weight * normal.ldlt().solve(moved).transpose();
 }
 
 }  // namespace
@@ -479,6 +500,29 @@ Eigen::VectorXd WeakFit::Damped() const {
     next += equation->damped.size();
   }
   return stacked;
+}
+
+PlausibleBoats PlausibleAbout(const WeakFit& fit, double reach) {
+  const Eigen::MatrixXd covariance = ClusterCovariance(fit);
+  const Eigen::VectorXd sizes = StackedSizes(fit);
+  const Eigen::VectorXd forces = sizes.cwiseProduct(fit.theta);
+  const auto P = static_cast<double>(fit.theta.size());
+  const double mean_square = covariance.diagonal().dot(sizes.cwiseAbs2()) / P;
+  const auto distance = [&](const Eigen::MatrixXd& gain, double weight) {
+    const Eigen::VectorXd off = gain * forces;
+    // Cov^-1 off = weight sizes (forces - sizes off)
+    return weight * off.cwiseProduct(sizes).dot(forces - sizes.cwiseProduct(off)) / P;
+  };
+  double lightest = -12.0;
+  double heaviest = 12.0;
+  Eigen::MatrixXd gain;
+  for (int halving = 0; halving < 40; ++halving) {
+    const double middle = 0.5 * (lightest + heaviest);
+    const double weight = std::pow(10.0, middle) / mean_square;
+    gain = Gain(covariance, sizes, weight);
+    (distance(gain, weight) > reach ? heaviest : lightest) = middle;
+  }
+  return {fit.theta - gain * forces, covariance - gain * sizes.asDiagonal() * covariance};
 }
 
 VesselModel ModelOf(const WeakFit& fit, const Eigen::VectorXd& theta, double sampling_period_s) {

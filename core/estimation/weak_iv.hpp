@@ -13,6 +13,8 @@
 
 namespace telltale {
 
+constexpr double kLeastTimeConstantS = 0.01;  ///< that is sought
+
 struct WeakIvOptions {
   WeakFormOptions form;
   double instrument_reach_s =
@@ -27,6 +29,7 @@ struct WeakEstimate {
   std::vector<std::size_t> columns;  ///< of Regressors() and SteadyTerms, those sought
   Eigen::VectorXd theta;
   Eigen::VectorXd damped;  ///< theta shrunk along directions that the data hardly move
+  Eigen::VectorXd sizes;   ///< of the columns of G: what a unit of each coefficient moves
   Eigen::VectorXd residual;
 };
 
@@ -73,6 +76,19 @@ std::array<std::vector<std::size_t>, 3> WithSteadyTerms(
 /// The steady disturbance by recording that stacked unknowns of such a fit describe; none where the
 /// regressor "1" is shared.
 std::vector<SteadyDisturbance> SteadyOf(const WeakFit& fit, const Eigen::VectorXd& theta);
+
+/// Boats that may well have given the data.
+struct PlausibleBoats {
+  Eigen::VectorXd middle;      ///< stacked unknowns
+  Eigen::MatrixXd covariance;  ///< about the middle
+};
+
+/// Boats that may well have given the data, docs/model.md (34): as normal prior forces of one size
+/// see the estimate, that size chosen such that the middle lies where
+///   (theta - middle)' Cov^-1 (theta - middle) = reach P
+/// while the truth is expected at a reach of one. The estimate itself is wild where regressors are
+/// nearly alike, the truth hardly ever is.
+PlausibleBoats PlausibleAbout(const WeakFit& fit, double reach);
 
 /// The model that stacked unknowns of such a fit describe; coefficients not sought are zero, so
 /// where each recording has a steady disturbance of its own there is none in the model.

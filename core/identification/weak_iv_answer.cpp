@@ -113,10 +113,8 @@ Refusal InstrumentsSayNothing() {
 std::string InWords(const TwinCorrection& corrected, Eigen::Index clusters) {
   std::ostringstream words;
   words.precision(3);
-  words << "clusters of residuals (" << clusters << "), bias "
-        << (corrected.corrected ? "taken out" : "counted as an uncertainty")
-        << " and bounds stretched by " << corrected.calibration << " after " << corrected.solved
-        << " simulated repeats of this data set, Student t";
+  words << "clusters of residuals (" << clusters << "), bias taken out and bounds sized by "
+        << corrected.solved << " simulated repeats of this data set, Student t";
   return words.str();
 }
 

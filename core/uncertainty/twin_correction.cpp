@@ -6,9 +6,10 @@
 #include <numeric>
 
 #include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
 #include <boost/math/distributions/fisher_f.hpp>
-#include <boost/math/distributions/normal.hpp>
 #include <boost/math/distributions/students_t.hpp>
+#include <boost/random/normal_distribution.hpp>
 
 #include "contract.hpp"
 #include "estimation/disturbance.hpp"
@@ -21,20 +22,19 @@ namespace {
 
 constexpr double kCalibratedAt = 0.95;
 constexpr std::size_t kQuietTwins = 2;
-// A bias that is jointly larger than the noise hangs on directions that the data hardly determine.
-constexpr double kBelievedJointBias = 1.0;
-constexpr double kWildPivot =
-    4.0;  // standard errors; where instruments are weak one may be any size
+// Of the expected distance of the truth from the estimate: how plain the boats are that are
+// sailed. Plainer ones are less wild than the truth may be, and tell of another bias.
+constexpr double kReaches[] = {0.1, 0.5, 2.0, 8.0};
 
-/// What one twin gave.
+/// How far one twin's estimate was off, in whitened coordinates.
 struct Sighting {
-  Eigen::VectorXd theta;
+  Eigen::VectorXd error;
   Eigen::MatrixXd covariance;
 };
 
 /// Whether there is anything to compare: where instruments all but vanish numbers overflow.
 bool IsSound(const Sighting& sighting) {
-  return sighting.theta.allFinite() && sighting.covariance.allFinite() &&
+  return sighting.error.allFinite() && sighting.covariance.allFinite() &&
          (sighting.covariance.diagonal().array() > 0.0).all();
 }
 
@@ -55,17 +55,16 @@ double MedianSize(std::vector<double> values, double about) {
   return Median(std::move(values));
 }
 
-/// Weights of the twins, below one for those that lie wildly apart from the rest in any
-/// coefficient: where instruments are weak a single twin can be off by any amount. A twin is
-/// weighed as a whole, since coefficients err together: drawn in one by one they would no longer
-/// fit each other.
+/// Weights of the twins, below one for those that lie wildly apart from the rest in any direction:
+/// where instruments are weak a single twin can be off by any amount. A twin is weighed as a whole,
+/// since coefficients err together: drawn in one by one they would no longer fit each other.
 std::vector<double> WeighWild(const std::vector<Sighting>& sightings) {
   constexpr double kWild = 4.0;
   constexpr double kMadToSigma = 1.4826;
   std::vector<double> weights(sightings.size(), 1.0);
-  for (Eigen::Index j = 0; j < sightings.front().theta.size(); ++j) {
+  for (Eigen::Index j = 0; j < sightings.front().error.size(); ++j) {
     std::vector<double> values;
-    for (const Sighting& s : sightings) values.push_back(s.theta[j]);
+    for (const Sighting& s : sightings) values.push_back(s.error[j]);
     const double middle = Median(values);
     const double reach = kWild * kMadToSigma * MedianSize(values, middle);
     for (std::size_t i = 0; i < values.size(); ++i) {
@@ -85,40 +84,63 @@ struct Spread {
 Spread SpreadOf(const std::vector<Sighting>& sightings) {
   const std::vector<double> weights = WeighWild(sightings);
   const double n = std::accumulate(weights.begin(), weights.end(), 0.0);
-  const Eigen::Index p = sightings.front().theta.size();
+  const Eigen::Index p = sightings.front().error.size();
   Spread spread{Eigen::VectorXd::Zero(p), Eigen::VectorXd::Zero(p)};
   for (std::size_t i = 0; i < weights.size(); ++i) {
-    spread.mean += weights[i] / n * sightings[i].theta;
+    spread.mean += weights[i] / n * sightings[i].error;
   }
   for (std::size_t i = 0; i < weights.size(); ++i) {
-    spread.sd += weights[i] / (n - 1.0) * (sightings[i].theta - spread.mean).cwiseAbs2();
+    spread.sd += weights[i] / (n - 1.0) * (sightings[i].error - spread.mean).cwiseAbs2();
   }
   spread.sd = spread.sd.cwiseSqrt();
   return spread;
 }
 
-/// The quantile of few positive values, by way of the middle and the spread of their logarithms.
+/// What the next value stays below with probability `share`, after few positive ones: by way of the
+/// middle and the spread of their logarithms, known no better than so few tell.
 double LogNormalQuantile(std::vector<double> values, double share) {
   constexpr double kMadToSigma = 1.4826;
+  const auto n = static_cast<double>(values.size());
   for (double& value : values) value = std::log(value);
   const double middle = Median(values);
   const double sigma = kMadToSigma * MedianSize(values, middle);
-  return std::exp(middle + sigma * boost::math::quantile(boost::math::normal(), share));
+  const boost::math::students_t student(n - 1.0);
+  return std::exp(middle +
+                  sigma * std::sqrt(1.0 + 1.0 / n) * boost::math::quantile(student, share));
 }
 
-class TwinRounds {
+/// Coordinates in which errors are uncorrelated and of size one: x = map z. The axes are those of
+/// the correlations, so that units make no difference.
+struct Whitening {
+  explicit Whitening(const Eigen::MatrixXd& covariance) {
+    const Eigen::VectorXd sizes = covariance.diagonal().cwiseMax(kSmallest).cwiseSqrt();
+    const Eigen::MatrixXd correlation =
+        sizes.cwiseInverse().asDiagonal() * covariance * sizes.cwiseInverse().asDiagonal();
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> axes(correlation);
+    const Eigen::VectorXd lengths = axes.eigenvalues().cwiseMax(kSmallest).cwiseSqrt();
+    map = sizes.asDiagonal() * axes.eigenvectors() * lengths.asDiagonal();
+    inverse = lengths.cwiseInverse().asDiagonal() * axes.eigenvectors().transpose() *
+              sizes.cwiseInverse().asDiagonal();
+  }
+
+  static constexpr double kSmallest = 1e-14;
+  Eigen::MatrixXd map;
+  Eigen::MatrixXd inverse;
+};
+
+class TwinFleet {
  public:
-  TwinRounds(const PreparedDataset& dataset, const RegressionOptions& regression,
-             const WeakFit& fit, const std::array<std::vector<std::size_t>, 3>& columns,
-             const WeakIvOptions& options, const TwinCorrectionOptions& twins,
-             const std::function<void(double)>& progress)
+  TwinFleet(const PreparedDataset& dataset, const RegressionOptions& regression, const WeakFit& fit,
+            const std::array<std::vector<std::size_t>, 3>& columns, const WeakIvOptions& options,
+            const TwinCorrectionOptions& twins, const std::function<void(double)>& progress)
       : dataset_(dataset),
         regression_(regression),
         fit_(fit),
         columns_(columns),
         options_(options),
         twins_(twins),
-        progress_(progress) {}
+        progress_(progress),
+        white_(ClusterCovariance(fit)) {}
 
   std::optional<Disturbance> DisturbanceAlone() const {
     const auto found = FindSailable();
@@ -127,57 +149,56 @@ class TwinRounds {
   }
 
   std::optional<TwinCorrection> Run() {
-    const auto found = FindSailable();
-    if (!found) return std::nullopt;
-    const Eigen::VectorXd& start = found->theta;
+    const auto sailable = FindSailable();
+    if (!sailable) return std::nullopt;
     TwinCorrection correction;
-    correction.disturbance = JudgeDisturbance(*found);
+    correction.disturbance = JudgeDisturbance(*sailable);
     disturbance_ = correction.disturbance;
     disturbance_.time_constant_s *= twins_.time_scale;
-    const auto sightings = Sight(start);
+    const auto sightings = Sight(sailable->boats);
     if (2 * sightings.size() < twins_.twins) return std::nullopt;
     const Spread spread = SpreadOf(sightings);
-    const Eigen::VectorXd bias = spread.mean - start;
-    correction.joint_bias = JointSize(bias);
-    correction.corrected = correction.joint_bias <= kBelievedJointBias;
-    correction.theta = correction.corrected ? fit_.theta - bias : fit_.theta;
+    correction.theta = fit_.theta - white_.map * spread.mean;
+    correction.joint_bias = spread.mean.squaredNorm() / static_cast<double>(spread.mean.size());
     correction.solved = sightings.size();
     correction.failures = twins_.twins - sightings.size();
     correction.degrees_of_freedom = static_cast<double>(fit_.scores.cols()) - 1.0;
     Calibrate(sightings, spread, correction);
-    if (!correction.corrected) {
-      correction.covariance += bias * bias.transpose();
-      correction.joint_covariance += bias * bias.transpose();
-    }
     return correction;
   }
 
  private:
-  /// Unknowns that can be sailed, and what they give in still water.
+  /// Boats that can be sailed, and what the middle one gives in still water.
   struct Sailable {
-    Eigen::VectorXd theta;
+    PlausibleBoats boats;
     std::vector<PreparedDataset> quiet;
   };
 
-  /// The estimate, or as much of it as needed moved towards the damped one until it does not run
-  /// away: where the data say little its numbers may be wild.
+  /// Plausible boats, as much plainer than the estimate as it takes not to run away; in the end the
+  /// damped one alone.
   std::optional<Sailable> FindSailable() const {
-    const Eigen::VectorXd damped = fit_.Damped();
-    for (const double share : {1.0, 0.5, 0.25, 0.0}) {
-      Sailable found{damped + share * (fit_.theta - damped), {}};
-      const VesselModel model = ModelOf(fit_, found.theta, dataset_.sampling_period_s);
-      for (std::size_t i = 0; i < kQuietTwins; ++i) {
-        auto quiet = SailAgain(dataset_, model,
-                               {{},
-                                twins_.noise_scale,
-                                SeedOf(twins_.twins + i),
-                                Unanswered(),
-                                SteadyOf(fit_, found.theta)});
-        if (quiet) found.quiet.push_back(*std::move(quiet));
-      }
-      if (found.quiet.size() == kQuietTwins) return found;
+    for (const double reach : kReaches) {
+      auto found = SailQuietly(PlausibleAbout(fit_, reach));
+      if (found) return found;
     }
-    return std::nullopt;
+    const Eigen::Index P = fit_.theta.size();
+    return SailQuietly({fit_.Damped(), Eigen::MatrixXd::Zero(P, P)});
+  }
+
+  std::optional<Sailable> SailQuietly(const PlausibleBoats& boats) const {
+    Sailable found{boats, {}};
+    for (std::size_t i = 0; i < kQuietTwins; ++i) {
+      auto quiet = Sail(boats.middle, {}, SeedOf(twins_.twins + i));
+      if (!quiet) return std::nullopt;
+      found.quiet.push_back(*std::move(quiet));
+    }
+    return found;
+  }
+
+  Result<PreparedDataset> Sail(const Eigen::VectorXd& theta, const Disturbance& disturbance,
+                               std::uint64_t seed) const {
+    return SailAgain(dataset_, ModelOf(fit_, theta, dataset_.sampling_period_s),
+                     {disturbance, twins_.noise_scale, seed, Unanswered(), SteadyOf(fit_, theta)});
   }
 
   /// What the residuals show beyond what sensors alone leave in still water.
@@ -186,7 +207,7 @@ class TwinRounds {
     by_sensors.fill(Eigen::VectorXd::Zero(static_cast<Eigen::Index>(kDisturbanceLags)));
     for (const PreparedDataset& quiet : sailable.quiet) {
       const WeakProblem problem = BuildWeakForm(quiet, regression_, options_.form);
-      const auto residuals = ResidualsOf(fit_, sailable.theta, quiet, problem);
+      const auto residuals = ResidualsOf(fit_, sailable.boats.middle, quiet, problem);
       for (std::size_t j = 0; j < 3; ++j) {
         if (residuals[j].size() == 0) continue;
         by_sensors[j] += Autocovariance(problem.phi, problem.windows[j], residuals[j]) /
@@ -196,30 +217,23 @@ class TwinRounds {
     return EstimateDisturbance(dataset_, fit_, by_sensors);
   }
 
-  /// Of a vector of unknowns, against the covariance of the fit: near one for what noise alone
-  /// does.
-  double JointSize(const Eigen::VectorXd& off) const {
-    return off.dot(ClusterCovariance(fit_).ldlt().solve(off)) / static_cast<double>(off.size());
-  }
-
   std::array<bool, 3> Unanswered() const {
     return {!fit_.equations[0], !fit_.equations[1], !fit_.equations[2]};
   }
 
   std::uint64_t SeedOf(std::size_t twin) const { return RandomEngine::Stream(twins_.seed, twin)(); }
 
-  std::vector<Sighting> Sight(const Eigen::VectorXd& theta) {
-    const VesselModel model = ModelOf(fit_, theta, dataset_.sampling_period_s);
-    const std::vector<SteadyDisturbance> steady = SteadyOf(fit_, theta);
+  /// Twins are different boats, each as plausible as the next: what the bias owes to coefficients
+  /// that the data leave open then shows as scatter.
+  std::vector<Sighting> Sight(const PlausibleBoats& boats) {
+    const Whitening plausible(boats.covariance);
     std::vector<std::optional<Sighting>> all(twins_.twins);
     ForEachIndex(all.size(), twins_.threads, [&](std::size_t i) {
-      const auto twin = SailAgain(
-          dataset_, model, {disturbance_, twins_.noise_scale, SeedOf(i), Unanswered(), steady});
-      if (twin) {
-        const auto again = EstimateWeakIv(*twin, regression_, columns_, options_);
-        if (again) all[i] = Sighting{again->theta, ClusterCovariance(*again)};
-        if (all[i] && !IsSound(*all[i])) all[i].reset();
-      }
+      RandomEngine engine(SeedOf(i));
+      boost::random::normal_distribution<double> normal;
+      Eigen::VectorXd off(boats.middle.size());
+      for (double& value : off) value = normal(engine);
+      all[i] = SightOne(boats.middle, plausible.map * off, engine());
       Tell();
     });
     std::vector<Sighting> seen;
@@ -229,41 +243,57 @@ class TwinRounds {
     return seen;
   }
 
+  /// The boat `off` the middle, or as near to the middle as it takes not to run away.
+  std::optional<Sighting> SightOne(const Eigen::VectorXd& middle, const Eigen::VectorXd& off,
+                                   std::uint64_t seed) const {
+    for (const double share : {1.0, 0.5, 0.25, 0.0}) {
+      Eigen::VectorXd truth = middle + share * off;
+      if (fit_.time_constant_s) truth[0] = std::max(truth[0], kLeastTimeConstantS);
+      const auto twin = Sail(truth, disturbance_, seed);
+      if (!twin) continue;
+      const auto again = EstimateWeakIv(*twin, regression_, columns_, options_);
+      if (!again) continue;
+      Sighting sighting{white_.inverse * (again->theta - truth),
+                        white_.inverse * ClusterCovariance(*again) * white_.inverse.transpose()};
+      if (IsSound(sighting)) return sighting;
+    }
+    return std::nullopt;
+  }
+
   void Tell() {
     const std::lock_guard lock(telling_);
     ++done_;
     if (progress_) progress_(static_cast<double>(done_) / static_cast<double>(twins_.twins));
   }
 
+  /// The twins' errors give each whitened direction its size, and tell how much further intervals
+  /// and ellipsoids that each twin makes from its own clusters, sized alike, have to reach.
   void Calibrate(const std::vector<Sighting>& sightings, const Spread& spread,
                  TwinCorrection& correction) const {
     const auto n = static_cast<double>(sightings.size());
     const auto p = static_cast<double>(correction.theta.size());
-    // The mean was fitted to these very twins.
-    const double widened = std::sqrt(n / (n - 1.0));
+    const double widened = std::sqrt(n / (n - 1.0));  // the mean was fitted to these very twins
     std::vector<double> pivots;
-    Eigen::VectorXd squares = Eigen::VectorXd::Zero(correction.theta.size());
     std::vector<double> joint;
     for (const Sighting& s : sightings) {
-      const Eigen::VectorXd off = widened * (s.theta - spread.mean);
-      const Eigen::VectorXd pivot = off.cwiseQuotient(s.covariance.diagonal().cwiseSqrt());
+      const Eigen::VectorXd off = widened * (s.error - spread.mean);
+      const Eigen::MatrixXd own = spread.sd.asDiagonal() * s.covariance * spread.sd.asDiagonal();
+      const Eigen::VectorXd sizes =
+          (white_.map * own * white_.map.transpose()).diagonal().cwiseSqrt();
+      const Eigen::VectorXd pivot = (white_.map * off).cwiseQuotient(sizes);
       for (const double value : pivot) pivots.push_back(std::abs(value));
-      squares += pivot.cwiseAbs().cwiseMin(kWildPivot).cwiseAbs2() / n;
-      joint.push_back(off.dot(s.covariance.ldlt().solve(off)) / p);
+      joint.push_back(off.dot(own.ldlt().solve(off)) / p);
     }
     const boost::math::students_t student(correction.degrees_of_freedom);
     // Never below one: twins know only what they were told of the boat.
     correction.calibration =
         std::max(1.0, Quantile(pivots, kCalibratedAt) /
                           boost::math::quantile(student, 0.5 * (1.0 + kCalibratedAt)));
-    // A few dozen twins know one coefficient's own factor to a tenth, so it is believed half.
-    const Eigen::VectorXd own = (squares / squares.mean()).array().pow(0.25);
-    const Eigen::VectorXd factor = correction.calibration * own;
-    const Eigen::MatrixXd covariance = ClusterCovariance(fit_);
-    correction.covariance = factor.asDiagonal() * covariance * factor.asDiagonal();
-    correction.covariance.diagonal() += spread.sd.cwiseAbs2() / n;
     // The mean of few twins errs along the very directions in which single twins do.
-    correction.joint_covariance = (1.0 + 1.0 / n) * LogNormalQuantile(joint, kCalibratedAt) /
+    const Eigen::MatrixXd scaled = std::sqrt(1.0 + 1.0 / n) * white_.map * spread.sd.asDiagonal();
+    const Eigen::MatrixXd covariance = scaled * scaled.transpose();
+    correction.covariance = correction.calibration * correction.calibration * covariance;
+    correction.joint_covariance = LogNormalQuantile(joint, kCalibratedAt) /
                                   JointQuantile(correction.degrees_of_freedom, p, kCalibratedAt) *
                                   covariance;
   }
@@ -275,6 +305,7 @@ class TwinRounds {
   const WeakIvOptions& options_;
   const TwinCorrectionOptions& twins_;
   const std::function<void(double)>& progress_;
+  Whitening white_;
   Disturbance disturbance_;
   std::mutex telling_;
   std::size_t done_ = 0;
@@ -295,7 +326,7 @@ std::optional<TwinCorrection> CorrectWithTwins(
     const std::array<std::vector<std::size_t>, 3>& columns, const WeakIvOptions& options,
     const TwinCorrectionOptions& twins, const std::function<void(double fraction)>& progress) {
   Require(twins.twins >= 8, "at least eight twins");
-  return TwinRounds(dataset, regression, fit, columns, options, twins, progress).Run();
+  return TwinFleet(dataset, regression, fit, columns, options, twins, progress).Run();
 }
 
 std::optional<Disturbance> JudgeDisturbance(const PreparedDataset& dataset,
@@ -304,7 +335,7 @@ std::optional<Disturbance> JudgeDisturbance(const PreparedDataset& dataset,
                                             const WeakIvOptions& options, std::uint64_t seed) {
   TwinCorrectionOptions twins;
   twins.seed = seed;
-  return TwinRounds(dataset, regression, fit, columns, options, twins, {}).DisturbanceAlone();
+  return TwinFleet(dataset, regression, fit, columns, options, twins, {}).DisturbanceAlone();
 }
 
 }  // namespace telltale

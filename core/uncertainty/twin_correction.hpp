@@ -24,11 +24,10 @@ struct TwinCorrectionOptions {
 
 /// Shapes: theta and covariance over the stacked unknowns of the WeakFit.
 struct TwinCorrection {
-  Eigen::VectorXd theta;  ///< corrected for bias, if that can be believed
-  bool corrected = false;
+  Eigen::VectorXd theta;       ///< corrected for bias
   double joint_bias = 0.0;     ///< bias' Cov^-1 bias over the unknowns: against noise, one
-  Eigen::MatrixXd covariance;  ///< of the clusters, calibrated, with what few twins leave open
-  double calibration = 1.0;    ///< factor on standard errors, at least one, by which the
+  Eigen::MatrixXd covariance;  ///< as the twins scattered, with what few of them leave open
+  double calibration = 1.0;    ///< factor on standard errors in it, at least one, by which the
                                ///< twins' own intervals hold
   Eigen::MatrixXd joint_covariance;  ///< the same, calibrated so that joint ellipsoids hold
   double degrees_of_freedom = 0.0;   ///< of Student's t for intervals
@@ -41,13 +40,13 @@ struct TwinCorrection {
 /// probability `level`.
 double JointQuantile(double degrees_of_freedom, double unknowns, double level);
 
-/// Bias correction and calibration by simulating the whole pipeline, docs/model.md (33):
-/// the disturbance is judged from the residuals, twins of the data set are sailed with the
-/// estimate, measured, prepared and estimated again, and what they are off by on average is taken
-/// from the estimate. How often the twins' own intervals hold says by what standard errors must be
-/// stretched: one factor for all coefficients, from the pooled 95 % quantile of |theta* - mean| /
-/// se*, and half of what each coefficient's own pivots add to that. progress is called by one
-/// thread at a time. Nothing when fewer than half of the twins can be estimated.
+/// Bias correction and calibration by simulating the whole pipeline, docs/model.md (33), (34): the
+/// disturbance is judged from the residuals; twins of the data set, each another boat as plausible
+/// as the next, are sailed, measured, prepared and estimated again. What they are off by on average
+/// is taken from the estimate, how they scatter about that sizes each direction of the clusters'
+/// covariance, and how often intervals made like that hold says by what one factor they have to be
+/// stretched. progress is called by one thread at a time. Nothing when fewer than half of the twins
+/// can be estimated.
 std::optional<TwinCorrection> CorrectWithTwins(
     const PreparedDataset& dataset, const RegressionOptions& regression, const WeakFit& fit,
     const std::array<std::vector<std::size_t>, 3>& columns, const WeakIvOptions& options,
