@@ -58,6 +58,9 @@ endfunction()
 # Each folder of the target becomes one compilation, so that what its files all include is read and
 # instantiated once. Not for core and idl: there touching one file should cost that file alone.
 function(telltale_compile_folders_whole target)
+  if(NOT TELLTALE_WHOLE_FOLDERS)
+    return()
+  endif()
   set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
   get_target_property(sources ${target} SOURCES)
   foreach(source IN LISTS sources)
