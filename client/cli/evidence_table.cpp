@@ -98,18 +98,26 @@ std::string Conditions(const CoverageCertificate& certificate) {
 std::string ExcitationTable(const Identification& identification) {
   if (identification.excitation.empty()) return "";
   const bool weak = identification.estimator == Estimator::kWeakIv;
-  Table table({{"excitation", Align::kLeft},
-               {"condition", Align::kRight},
-               {"largest variance inflation", Align::kRight},
-               {weak ? "windows" : "rows", Align::kRight},
-               {"worth", Align::kRight},
-               {"least told apart", Align::kLeft}});
+  const bool counted = identification.excitation.front().rows > 0;
+  std::vector<Column> columns = {{"excitation", Align::kLeft},
+                                 {"condition", Align::kRight},
+                                 {"largest variance inflation", Align::kRight}};
+  if (counted) {
+    columns.push_back({weak ? "windows" : "rows", Align::kRight});
+    columns.push_back({"worth", Align::kRight});
+  }
+  columns.push_back({"least told apart", Align::kLeft});
+  Table table(columns);
   for (const ExcitationSummary& summary : identification.excitation) {
-    table.AddRow({std::string(Name(summary.equation)), Significant(summary.condition, 3),
-                  LargestInflation(summary, identification.parameterization),
-                  summary.rows > 0 ? std::to_string(summary.rows) : "–",
-                  summary.rows > 0 ? Fixed(summary.effective_rows, 0) : "–",
-                  Combination(summary, identification.parameterization)});
+    std::vector<std::string> cells = {std::string(Name(summary.equation)),
+                                      Significant(summary.condition, 3),
+                                      LargestInflation(summary, identification.parameterization)};
+    if (counted) {
+      cells.push_back(std::to_string(summary.rows));
+      cells.push_back(Fixed(summary.effective_rows, 0));
+    }
+    cells.push_back(Combination(summary, identification.parameterization));
+    table.AddRow(std::move(cells));
   }
   return table.Render() + Advice(identification);
 }
