@@ -22,13 +22,14 @@ target_compile_options(
                              -Wno-sign-conversion -Wnon-virtual-dtor -Woverloaded-virtual -Werror>)
 
 # GCC 12 sees writes out of bounds in assignments to std::string that are none, and under a sanitizer,
-# which cuts its inlining short, variables that may not be initialised.
+# which cuts its inlining short, variables that may not be initialised and pointers used after free.
 target_compile_options(
   telltale_compile INTERFACE $<$<COMPILE_LANG_AND_ID:CXX,GNU>:-Wno-array-bounds -Wno-restrict
                              -Wno-stringop-overflow>)
 if(TELLTALE_SANITIZE)
   target_compile_options(telltale_compile
-                         INTERFACE $<$<COMPILE_LANG_AND_ID:CXX,GNU>:-Wno-maybe-uninitialized>)
+                         INTERFACE $<$<COMPILE_LANG_AND_ID:CXX,GNU>:-Wno-maybe-uninitialized
+                                                                        -Wno-use-after-free>)
 endif()
 
 # telltale_layer(NAME core LINKS ...): a static library of every .cpp below this folder whose only own
