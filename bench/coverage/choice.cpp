@@ -5,25 +5,13 @@
 #include <cstdio>
 #include <optional>
 #include <string>
-#include <thread>
 #include <vector>
 
-#include <CLI/CLI.hpp>
-
-#include "coverage/truth.hpp"
+#include "coverage/campaign.hpp"
 #include "identification/identify.hpp"
-#include "parallel.hpp"
-#include "random.hpp"
 
 namespace telltale::coverage {
 namespace {
-
-struct Scenario {
-  std::string name;
-  Boat boat = ReferenceBoat();
-  Surroundings around;
-  Mission mission;
-};
 
 Scenario Disturbed(std::string name, double share) {
   Scenario scenario;
@@ -55,13 +43,6 @@ std::vector<Scenario> Scenarios() {
   return all;
 }
 
-std::vector<double> TruthOf(const Boat& boat) {
-  std::vector<double> truth(boat.surge.begin(), boat.surge.end());
-  truth.insert(truth.end(), boat.sway.begin(), boat.sway.end());
-  truth.insert(truth.end(), boat.yaw.begin(), boat.yaw.end());
-  return truth;
-}
-
 /// Share in percent of true coefficients within bounds.
 double Held(const Identification& identification, const std::vector<double>& truth) {
   double held = 0.0;
@@ -91,8 +72,8 @@ struct Repeat {
 };
 
 std::optional<Repeat> Try(const Scenario& scenario, std::uint64_t seed) {
-  const Recording recording = Sail(scenario.boat, scenario.around, scenario.mission, seed);
-  const auto truth = TruthOf(scenario.boat);
+  const Recording recording = Sail(scenario, seed);
+  const auto truth = CoefficientsOf(scenario.boat);
   IdentifyOptions options;
   options.seed = seed;
   const auto chosen = Identify(recording, VehicleOf(), options);
@@ -107,12 +88,6 @@ std::optional<Repeat> Try(const Scenario& scenario, std::uint64_t seed) {
                 Held(*by_name, truth),
                 Wider(*weak, *by_name),
                 by_name->provenance.misspecification};
-}
-
-double MeanOf(const std::vector<Repeat>& repeats, double Repeat::*value) {
-  double sum = 0.0;
-  for (const Repeat& repeat : repeats) sum += repeat.*value;
-  return sum / static_cast<double>(repeats.size());
 }
 
 void PrintRow(const std::string& name, const std::vector<Repeat>& repeats, std::size_t asked) {
@@ -131,34 +106,19 @@ void PrintRow(const std::string& name, const std::vector<Repeat>& repeats, std::
 }
 
 int Main(int argc, char** argv) {
-  std::vector<std::string> wanted;
-  std::size_t repeats = 24;
-  std::size_t threads = std::max(1U, std::thread::hardware_concurrency());
-  std::uint64_t seed = 1;
+  Campaign campaign;
+  campaign.repeats = 24;
   CLI::App app("Which estimator the data choose, and how often bounds of 95 % hold the truth");
-  std::vector<std::string> names;
-  for (const Scenario& scenario : Scenarios()) names.push_back(scenario.name);
-  app.add_option("--scenario", wanted, "only these (default: all)")->check(CLI::IsMember(names));
-  app.add_option("--repeats", repeats, "seeded repeats of each scenario")->capture_default_str();
-  app.add_option("--threads", threads, "never change the result")->capture_default_str();
-  app.add_option("--seed", seed, "of the first repeat")->capture_default_str();
+  campaign.AddOptionsTo(app, Scenarios());
   CLI11_PARSE(app, argc, argv);
 
   std::printf(
       "| scenario | answered | output error chosen | chosen: holds %% | output error %% | "
       "weak form %% | weak form wider by | ratio (54) |\n|---|---|---|---|---|---|---|---|\n");
   for (const Scenario& scenario : Scenarios()) {
-    const bool asked =
-        wanted.empty() || std::find(wanted.begin(), wanted.end(), scenario.name) != wanted.end();
-    if (!asked) continue;
-    std::vector<std::optional<Repeat>> all(repeats);
-    ForEachIndex(repeats, threads,
-                 [&](std::size_t i) { all[i] = Try(scenario, RandomEngine::Stream(seed, i)()); });
-    std::vector<Repeat> answered;
-    for (const auto& repeat : all) {
-      if (repeat) answered.push_back(*repeat);
-    }
-    PrintRow(scenario.name, answered, repeats);
+    if (!campaign.Wants(scenario.name)) continue;
+    const auto repeats = campaign.Repeat([&](std::uint64_t seed) { return Try(scenario, seed); });
+    PrintRow(scenario.name, Answered(repeats), campaign.repeats);
   }
   return 0;
 }

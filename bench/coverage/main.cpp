@@ -8,20 +8,17 @@
 #include <mutex>
 #include <optional>
 #include <string>
-#include <thread>
 #include <vector>
 
-#include <CLI/CLI.hpp>
 #include <Eigen/Cholesky>
 #include <boost/math/distributions/students_t.hpp>
 
-#include "coverage/truth.hpp"
+#include "coverage/campaign.hpp"
 #include "data/preparation.hpp"
 #include "estimation/excitation.hpp"
 #include "estimation/one_step.hpp"
 #include "estimation/weak_iv.hpp"
 #include "gauss_markov.hpp"
-#include "parallel.hpp"
 #include "uncertainty/bootstrap.hpp"
 #include "uncertainty/clustered_fit.hpp"
 #include "uncertainty/prediction_band.hpp"
@@ -30,18 +27,14 @@
 namespace telltale::coverage {
 namespace {
 
-struct Scenario {
-  std::string name;
-  Boat boat = ReferenceBoat();
-  Surroundings around;
-  Mission mission;
-  bool lagging = false;
+/// What the twins are told besides.
+struct Told : Scenario {
   double assumed_noise = 1.0;
   double assumed_time = 1.0;
 };
 
-std::vector<Scenario> Scenarios() {
-  std::vector<Scenario> all(9);
+std::vector<Told> Scenarios() {
+  std::vector<Told> all(9);
   all[0].name = "rtk";
   all[1].name = "plain-gnss";
   all[1].around.position_noise_m = 0.10;
@@ -57,7 +50,6 @@ std::vector<Scenario> Scenarios() {
   all[5].assumed_time = 0.5;
   all[6].name = "thruster-lag";
   all[6].boat.thruster_time_constant_s = 0.4;
-  all[6].lagging = true;
   all[7].name = "weak-excitation";
   all[7].mission.command_share = 0.5;
   all[8].name = "propeller-outside-class";
@@ -65,18 +57,9 @@ std::vector<Scenario> Scenarios() {
   return all;
 }
 
-Eigen::VectorXd TruthOf(const Scenario& scenario) {
-  std::vector<double> truth;
-  if (scenario.lagging) truth.push_back(scenario.boat.thruster_time_constant_s);
-  truth.insert(truth.end(), scenario.boat.surge.begin(), scenario.boat.surge.end());
-  truth.insert(truth.end(), scenario.boat.sway.begin(), scenario.boat.sway.end());
-  truth.insert(truth.end(), scenario.boat.yaw.begin(), scenario.boat.yaw.end());
-  return Eigen::Map<Eigen::VectorXd>(truth.data(), static_cast<Eigen::Index>(truth.size()));
-}
-
 std::vector<std::string> NamesOf(const Scenario& scenario) {
   std::vector<std::string> names;
-  if (scenario.lagging) names.emplace_back("tau");
+  if (scenario.Lags()) names.emplace_back("tau");
   for (const Equation equation : kEquations) {
     for (const Regressor& regressor : Regressors(equation, Parameterization::kPropeller)) {
       names.push_back(std::string(Name(equation)) + ' ' + std::string(regressor.name));
@@ -152,12 +135,12 @@ void WatchBand(const Scenario& scenario, const WeakFit& fit, const TwinCorrectio
   }
 }
 
-std::optional<Holding> TryWeakIv(const Scenario& scenario, const Recording& recording,
+std::optional<Holding> TryWeakIv(const Told& scenario, const Recording& recording,
                                  std::size_t twins, std::uint64_t seed) {
   const PreparedDataset dataset =
       Prepared(recording, SmoothingFor(Prepared(recording, std::nullopt)));
   RegressionOptions regression;
-  if (scenario.lagging) regression.structure = Structure::kFirstOrderDynamic;
+  if (scenario.Lags()) regression.structure = Structure::kFirstOrderDynamic;
   const WeakIvOptions options;
   const auto columns = AllColumns(Parameterization::kPropeller);
   const auto fit = EstimateWeakIv(dataset, regression, columns, options);
@@ -181,7 +164,7 @@ std::optional<Holding> TryWeakIv(const Scenario& scenario, const Recording& reco
 /// The paper's recipe, with a bootstrap over segments.
 std::optional<Holding> TryOneStep(const Scenario& scenario, const Recording& recording,
                                   std::uint64_t seed) {
-  if (scenario.lagging) return std::nullopt;
+  if (scenario.Lags()) return std::nullopt;
   const PreparedDataset dataset = Prepared(recording, std::nullopt);
   const RegressionProblem problem = BuildRegression(dataset, {});
   std::vector<ClusteredFit> fits;
@@ -202,18 +185,16 @@ std::optional<Holding> TryOneStep(const Scenario& scenario, const Recording& rec
   return Held(theta, 1.96 * Covariance(replicates).diagonal().cwiseSqrt(), TruthOf(scenario));
 }
 
-std::vector<Repeat> Run(const Scenario& scenario, std::size_t repeats, std::size_t twins,
-                        std::size_t threads, std::uint64_t seed) {
-  std::vector<Repeat> all(repeats);
+std::vector<Repeat> Run(const Told& scenario, const Campaign& campaign, std::size_t twins) {
   std::mutex telling;
   std::size_t done = 0;
-  ForEachIndex(repeats, threads, [&](std::size_t i) {
-    const std::uint64_t own = RandomEngine::Stream(seed, i)();
-    const Recording recording = Sail(scenario.boat, scenario.around, scenario.mission, own);
-    all[i].weak = TryWeakIv(scenario, recording, twins, own);
-    all[i].one_step = TryOneStep(scenario, recording, own);
+  auto all = campaign.Repeat([&](std::uint64_t seed) {
+    const Recording recording = Sail(scenario, seed);
+    Repeat repeat{TryWeakIv(scenario, recording, twins, seed),
+                  TryOneStep(scenario, recording, seed)};
     const std::lock_guard lock(telling);
-    std::fprintf(stderr, "\r%s %zu of %zu ", scenario.name.c_str(), ++done, repeats);
+    std::fprintf(stderr, "\r%s %zu of %zu ", scenario.name.c_str(), ++done, campaign.repeats);
+    return repeat;
   });
   std::fprintf(stderr, "\r\033[K");
   return all;
@@ -312,20 +293,13 @@ void PrintCoefficients(const Scenario& scenario, const std::vector<Repeat>& repe
 }
 
 int Main(int argc, char** argv) {
-  std::vector<std::string> wanted;
-  std::size_t repeats = 400;
+  Campaign campaign;
+  campaign.repeats = 400;
   std::size_t twins = 40;
-  std::size_t threads = std::max(1U, std::thread::hardware_concurrency());
-  std::uint64_t seed = 1;
   bool coefficients = false;
   CLI::App app("How often bounds of nominally 95 % hold the truth, by scenario");
-  std::vector<std::string> names;
-  for (const Scenario& scenario : Scenarios()) names.push_back(scenario.name);
-  app.add_option("--scenario", wanted, "only these (default: all)")->check(CLI::IsMember(names));
-  app.add_option("--repeats", repeats, "seeded repeats of each scenario")->capture_default_str();
+  campaign.AddOptionsTo(app, Scenarios());
   app.add_option("--twins", twins, "behind each bias correction")->capture_default_str();
-  app.add_option("--threads", threads, "never change the result")->capture_default_str();
-  app.add_option("--seed", seed, "of the first repeat")->capture_default_str();
   app.add_flag("--coefficients", coefficients, "also one table of coefficients a scenario");
   CLI11_PARSE(app, argc, argv);
 
@@ -333,12 +307,10 @@ int Main(int argc, char** argv) {
       "| scenario | answered | mean %% | lowest %% | highest %% | outside 92..98 | bias/spread | "
       "joint %% | band %% | one-step mean %% | one-step bias/spread | s |\n"
       "|---|---|---|---|---|---|---|---|---|---|---|---|\n");
-  for (const Scenario& scenario : Scenarios()) {
-    if (!wanted.empty() && std::find(wanted.begin(), wanted.end(), scenario.name) == wanted.end()) {
-      continue;
-    }
+  for (const Told& scenario : Scenarios()) {
+    if (!campaign.Wants(scenario.name)) continue;
     const auto start = std::chrono::steady_clock::now();
-    const auto all = Run(scenario, repeats, twins, threads, seed);
+    const auto all = Run(scenario, campaign, twins);
     const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
     PrintRow(scenario, all, took.count());
     if (coefficients) PrintCoefficients(scenario, all);

@@ -6,28 +6,17 @@
 #include <cstdio>
 #include <optional>
 #include <string>
-#include <thread>
 #include <vector>
 
-#include <CLI/CLI.hpp>
 #include <boost/math/distributions/students_t.hpp>
 
-#include "coverage/truth.hpp"
+#include "coverage/campaign.hpp"
 #include "data/preparation.hpp"
 #include "estimation/output_error.hpp"
 #include "estimation/weak_iv.hpp"
-#include "parallel.hpp"
-#include "random.hpp"
 
 namespace telltale::coverage {
 namespace {
-
-struct Scenario {
-  std::string name;
-  Boat boat = ReferenceBoat();
-  Surroundings around;
-  Mission mission;
-};
 
 std::vector<Scenario> Scenarios() {
   std::vector<Scenario> all(6);
@@ -48,19 +37,6 @@ std::vector<Scenario> Scenarios() {
   return all;
 }
 
-bool Lags(const Scenario& scenario) {
-  return scenario.boat.thruster_time_constant_s > 0.0;
-}
-
-Eigen::VectorXd TruthOf(const Scenario& scenario) {
-  std::vector<double> truth;
-  if (Lags(scenario)) truth.push_back(scenario.boat.thruster_time_constant_s);
-  truth.insert(truth.end(), scenario.boat.surge.begin(), scenario.boat.surge.end());
-  truth.insert(truth.end(), scenario.boat.sway.begin(), scenario.boat.sway.end());
-  truth.insert(truth.end(), scenario.boat.yaw.begin(), scenario.boat.yaw.end());
-  return Eigen::Map<Eigen::VectorXd>(truth.data(), static_cast<Eigen::Index>(truth.size()));
-}
-
 /// What one repeat says.
 struct Repeat {
   Eigen::VectorXd error;
@@ -74,11 +50,11 @@ struct Repeat {
 
 std::optional<Repeat> Try(const Scenario& scenario, const OutputErrorOptions& options,
                           std::uint64_t seed) {
-  const Recording recording = Sail(scenario.boat, scenario.around, scenario.mission, seed);
+  const Recording recording = Sail(scenario, seed);
   const auto dataset = Prepare(recording, VehicleOf(), {});
   if (!dataset) return std::nullopt;
   RegressionOptions regression;
-  if (Lags(scenario)) regression.structure = Structure::kFirstOrderDynamic;
+  if (scenario.Lags()) regression.structure = Structure::kFirstOrderDynamic;
   const auto columns = AllColumns(Parameterization::kPropeller);
   const VesselModel start = StartOf(*dataset, regression, columns);
   const auto from = std::chrono::steady_clock::now();
@@ -119,12 +95,6 @@ Held Hold(const std::vector<Repeat>& repeats, Eigen::VectorXd Repeat::*standard_
   return held;
 }
 
-double MeanOf(const std::vector<Repeat>& repeats, double Repeat::*value) {
-  double sum = 0.0;
-  for (const Repeat& repeat : repeats) sum += repeat.*value;
-  return sum / static_cast<double>(repeats.size());
-}
-
 void PrintRow(const std::string& name, const std::vector<Repeat>& repeats, std::size_t asked) {
   if (repeats.empty()) {
     std::printf("| %s | 0/%zu |\n", name.c_str(), asked);
@@ -152,18 +122,11 @@ void PrintRow(const std::string& name, const std::vector<Repeat>& repeats, std::
 }
 
 int Main(int argc, char** argv) {
-  std::vector<std::string> wanted;
-  std::size_t repeats = 60;
-  std::size_t threads = std::max(1U, std::thread::hardware_concurrency());
-  std::uint64_t seed = 1;
+  Campaign campaign;
+  campaign.repeats = 60;
   OutputErrorOptions options;
   CLI::App app("How often bounds from output error, nominally of 95 %, hold the truth");
-  std::vector<std::string> names;
-  for (const Scenario& scenario : Scenarios()) names.push_back(scenario.name);
-  app.add_option("--scenario", wanted, "only these (default: all)")->check(CLI::IsMember(names));
-  app.add_option("--repeats", repeats, "seeded repeats of each scenario")->capture_default_str();
-  app.add_option("--threads", threads, "never change the result")->capture_default_str();
-  app.add_option("--seed", seed, "of the first repeat")->capture_default_str();
+  campaign.AddOptionsTo(app, Scenarios());
   app.add_option("--shot", options.shots.length_s, "seconds a shot")->capture_default_str();
   CLI11_PARSE(app, argc, argv);
 
@@ -172,18 +135,10 @@ int Main(int argc, char** argv) {
       "bias/spread | predicted/spread | misfit | alarm | spread | s |\n"
       "|---|---|---|---|---|---|---|---|---|---|---|---|\n");
   for (const Scenario& scenario : Scenarios()) {
-    const bool asked =
-        wanted.empty() || std::find(wanted.begin(), wanted.end(), scenario.name) != wanted.end();
-    if (!asked) continue;
-    std::vector<std::optional<Repeat>> all(repeats);
-    ForEachIndex(repeats, threads, [&](std::size_t i) {
-      all[i] = Try(scenario, options, RandomEngine::Stream(seed, i)());
-    });
-    std::vector<Repeat> answered;
-    for (const auto& repeat : all) {
-      if (repeat) answered.push_back(*repeat);
-    }
-    PrintRow(scenario.name, answered, repeats);
+    if (!campaign.Wants(scenario.name)) continue;
+    const auto repeats =
+        campaign.Repeat([&](std::uint64_t seed) { return Try(scenario, options, seed); });
+    PrintRow(scenario.name, Answered(repeats), campaign.repeats);
   }
   return 0;
 }

@@ -134,6 +134,13 @@ class Commands {
 
 }  // namespace
 
+std::vector<double> CoefficientsOf(const Boat& boat) {
+  std::vector<double> all(boat.surge.begin(), boat.surge.end());
+  all.insert(all.end(), boat.sway.begin(), boat.sway.end());
+  all.insert(all.end(), boat.yaw.begin(), boat.yaw.end());
+  return all;
+}
+
 Boat ReferenceBoat() {
   return {{-0.35, 0.9, 0.05, -0.25, 0.01, 0.45, 0.25, -0.3, 0.2},
           {-0.8, -0.2, 0.1, 0.05, -0.2, -0.6, -0.6, 0.05, 0.005, 0.02, 0.03, -0.02, 0.02},

@@ -19,6 +19,9 @@ struct Boat {
   double thrust_bend = 0.0;  ///< share of cubic thrust that no quadratic has
 };
 
+/// Its coefficients in the order in which an identification lists them.
+std::vector<double> CoefficientsOf(const Boat& boat);
+
 /// A stable 1.2 m catamaran with two thrusters, in SI units.
 Boat ReferenceBoat();
 

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <vector>
 
 #include "coverage/truth.hpp"
 
@@ -16,14 +15,6 @@ inline Recording SailReferenceBoat(double disturbed, int segments, std::uint64_t
   coverage::Mission mission;
   mission.segments = segments;
   return coverage::Sail(boat, around, mission, seed);
-}
-
-/// Its coefficients in the order in which an identification lists them.
-inline std::vector<double> CoefficientsOf(const coverage::Boat& boat) {
-  std::vector<double> all(boat.surge.begin(), boat.surge.end());
-  all.insert(all.end(), boat.sway.begin(), boat.sway.end());
-  all.insert(all.end(), boat.yaw.begin(), boat.yaw.end());
-  return all;
 }
 
 }  // namespace telltale::testing

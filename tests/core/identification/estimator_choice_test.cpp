@@ -35,7 +35,7 @@ std::vector<std::optional<Identification>> Repeated(double disturbed, const cove
 
 /// Share in percent of true coefficients within bounds.
 double Held(const std::vector<std::optional<Identification>>& repeats) {
-  const std::vector<double> truth = testing::CoefficientsOf(coverage::ReferenceBoat());
+  const std::vector<double> truth = coverage::CoefficientsOf(coverage::ReferenceBoat());
   double held = 0.0;
   double of = 0.0;
   for (const auto& repeat : repeats) {

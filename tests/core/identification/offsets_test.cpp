@@ -52,22 +52,13 @@ Identification IdentifiedWith(Offsets offsets, const Recording& recording, std::
   return Identify(recording, coverage::VehicleOf(), options).value();
 }
 
-/// Of the regressors that are the boat's own, in the order of the coefficients.
-std::vector<double> Truth() {
-  const coverage::Boat boat = coverage::ReferenceBoat();
-  std::vector<double> truth(boat.surge.begin(), boat.surge.end());
-  truth.insert(truth.end(), boat.sway.begin(), boat.sway.end());
-  truth.insert(truth.end(), boat.yaw.begin(), boat.yaw.end());
-  return truth;
-}
-
 struct Score {
   double held = 0.0;   ///< share of the boat's own coefficients whose bounds hold the truth
   double error = 0.0;  ///< root mean square of errors in surge thrust, relative
 };
 
 Score ScoreOf(const Identification& identification) {
-  const std::vector<double> truth = Truth();
+  const std::vector<double> truth = coverage::CoefficientsOf(coverage::ReferenceBoat());
   Score score;
   double counted = 0.0;
   for (std::size_t i = 0; i < truth.size(); ++i) {

@@ -52,7 +52,7 @@ TEST(OutputErrorAnswer, BoundsTheBoatInStillWater) {
                                coverage::VehicleOf(), ByOutputError());
   ASSERT_TRUE(result.has_value());
   EXPECT_EQ(result->estimator, Estimator::kOutputError);
-  ExpectAllNear(*result, testing::CoefficientsOf(coverage::ReferenceBoat()));
+  ExpectAllNear(*result, coverage::CoefficientsOf(coverage::ReferenceBoat()));
   EXPECT_LT(result->provenance.misspecification, kBelievedMisspecification);
   EXPECT_GT(result->provenance.misspecification, 0.7);
   EXPECT_THAT(result->provenance.bounds_basis, HasSubstr("misspecification ratio"));
@@ -70,7 +70,7 @@ TEST(OutputErrorAnswer, BoundsTheThrustersLag) {
   const auto result = Identify(testing::SailReferenceBoat(0.0, kTenMinutes, 2, boat),
                                coverage::VehicleOf(), options);
   ASSERT_TRUE(result.has_value());
-  ExpectAllNear(*result, testing::CoefficientsOf(boat));
+  ExpectAllNear(*result, coverage::CoefficientsOf(boat));
   ASSERT_TRUE(result->thruster_time_constant.has_value());
   const Coefficient& tau = *result->thruster_time_constant;
   EXPECT_NEAR(tau.estimate, 0.4, 5.0 * tau.standard_error);

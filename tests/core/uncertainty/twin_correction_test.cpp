@@ -27,14 +27,8 @@ PreparedDataset Sailed(std::uint64_t seed) {
 }
 
 Eigen::VectorXd Truth() {
-  const coverage::Boat boat = coverage::ReferenceBoat();
-  Eigen::VectorXd truth(35);
-  for (Eigen::Index i = 0; i < 9; ++i) truth[i] = boat.surge[static_cast<std::size_t>(i)];
-  for (Eigen::Index i = 0; i < 13; ++i) {
-    truth[9 + i] = boat.sway[static_cast<std::size_t>(i)];
-    truth[22 + i] = boat.yaw[static_cast<std::size_t>(i)];
-  }
-  return truth;
+  const std::vector<double> truth = coverage::CoefficientsOf(coverage::ReferenceBoat());
+  return Eigen::Map<const Eigen::VectorXd>(truth.data(), static_cast<Eigen::Index>(truth.size()));
 }
 
 TEST(TwinCorrection, DoesNotDependOnThreads) {

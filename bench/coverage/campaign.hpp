@@ -1,0 +1,90 @@
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+#include <Eigen/Core>
+
+#include "coverage/truth.hpp"
+#include "parallel.hpp"
+#include "random.hpp"
+
+namespace telltale::coverage {
+
+/// A boat, what surrounds it and what it does.
+struct Scenario {
+  std::string name;
+  Boat boat = ReferenceBoat();
+  Surroundings around;
+  Mission mission;
+
+  bool Lags() const { return boat.thruster_time_constant_s > 0.0; }
+};
+
+/// The stacked unknowns of an estimate: the time constant first, if the boat has one.
+inline Eigen::VectorXd TruthOf(const Scenario& scenario) {
+  std::vector<double> truth = CoefficientsOf(scenario.boat);
+  if (scenario.Lags()) truth.insert(truth.begin(), scenario.boat.thruster_time_constant_s);
+  return Eigen::Map<Eigen::VectorXd>(truth.data(), static_cast<Eigen::Index>(truth.size()));
+}
+
+inline Recording Sail(const Scenario& scenario, std::uint64_t seed) {
+  return Sail(scenario.boat, scenario.around, scenario.mission, seed);
+}
+
+/// Which scenarios are repeated, how often and from which seed; the options of every program here.
+struct Campaign {
+  std::vector<std::string> wanted;
+  std::size_t repeats = 0;
+  std::size_t threads = std::max(1U, std::thread::hardware_concurrency());
+  std::uint64_t seed = 1;
+
+  template <class Scenarios>
+  void AddOptionsTo(CLI::App& app, const Scenarios& scenarios) {
+    std::vector<std::string> names;
+    for (const auto& scenario : scenarios) names.push_back(scenario.name);
+    app.add_option("--scenario", wanted, "only these (default: all)")->check(CLI::IsMember(names));
+    app.add_option("--repeats", repeats, "seeded repeats of each scenario")->capture_default_str();
+    app.add_option("--threads", threads, "never change the result")->capture_default_str();
+    app.add_option("--seed", seed, "of the first repeat")->capture_default_str();
+  }
+
+  bool Wants(const std::string& name) const {
+    return wanted.empty() || std::find(wanted.begin(), wanted.end(), name) != wanted.end();
+  }
+
+  /// What attempt(seed of the repeat) gives, by repeat; attempts run beside each other.
+  template <class Attempt>
+  auto Repeat(const Attempt& attempt) const {
+    std::vector<decltype(attempt(seed))> all(repeats);
+    ForEachIndex(repeats, threads,
+                 [&](std::size_t i) { all[i] = attempt(RandomEngine::Stream(seed, i)()); });
+    return all;
+  }
+};
+
+/// Those that there are.
+template <class Value>
+std::vector<Value> Answered(std::vector<std::optional<Value>> all) {
+  std::vector<Value> answered;
+  for (auto& value : all) {
+    if (value) answered.push_back(*std::move(value));
+  }
+  return answered;
+}
+
+/// Of one figure over the repeats.
+template <class Value>
+double MeanOf(const std::vector<Value>& repeats, double Value::*figure) {
+  double sum = 0.0;
+  for (const Value& repeat : repeats) sum += repeat.*figure;
+  return sum / static_cast<double>(repeats.size());
+}
+
+}  // namespace telltale::coverage
