@@ -14,6 +14,7 @@
 #include "data/segments.hpp"
 #include "data/time_series.hpp"
 #include "data/white_noise.hpp"
+#include "median.hpp"
 #include "range.hpp"
 
 namespace telltale {
@@ -82,10 +83,7 @@ double MedianPeriod(const std::vector<GnssFix>& fixes) {
   for (std::size_t i = 1; i < fixes.size(); ++i) {
     periods.push_back(fixes[i].time_s - fixes[i - 1].time_s);
   }
-  if (periods.empty()) return kLongestPeriodS;
-  const auto middle = periods.begin() + static_cast<std::ptrdiff_t>(periods.size() / 2);
-  std::nth_element(periods.begin(), middle, periods.end());
-  return *middle;
+  return periods.empty() ? kLongestPeriodS : Median(std::move(periods));
 }
 
 // Rounded to 10 ms, so that jitter of the stamps does not show in the period.

@@ -85,4 +85,8 @@ struct PreparedDataset {
   double EndTime() const { return rows.empty() ? 0.0 : rows.back().time_s; }
 };
 
+/// The largest absolute velocities among the rows: beyond a multiple of them a simulation has run
+/// away.
+Nu FastestOf(const PreparedDataset& dataset);
+
 }  // namespace telltale

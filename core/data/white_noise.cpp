@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <vector>
+#include "median.hpp"
 
 namespace telltale {
 namespace {
@@ -35,9 +36,7 @@ double WhiteNoise(const TimeSeries& series) {
   for (std::size_t i = 0; i < sizes.size(); ++i) {
     sizes[i] = std::abs(ScaledDifference(&series.times_s[i], &series.values[i]));
   }
-  const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
-  std::nth_element(sizes.begin(), middle, sizes.end());
-  return *middle / kMedianSizeOfStandardNormal;
+  return Median(std::move(sizes)) / kMedianSizeOfStandardNormal;
 }
 
 }  // namespace telltale

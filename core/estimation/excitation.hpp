@@ -11,6 +11,9 @@
 
 namespace telltale {
 
+/// A coefficient belongs to an undetermined direction when it makes up more than this of it.
+constexpr double kUndeterminedShare = 1e-6;
+
 /// What the data must show before an equation is answered at all. The defaults suit boats of 0.5 to
 /// 5 m; all of them are amplitudes an operator can read off a plot.
 struct ExcitationLimits {

@@ -3,13 +3,6 @@
 #include <cmath>
 
 namespace telltale {
-namespace {
-
-// A coefficient belongs to an undetermined direction when it makes up more than this of it.
-constexpr double kUndeterminedShare = 1e-6;
-
-}  // namespace
-
 EquationEstimate EstimateOneStep(const Excitation& excitation) {
   const Eigen::Index p = excitation.column_norms.size();
   const Eigen::Index rank = excitation.rank;

@@ -12,6 +12,7 @@
 
 #include "contract.hpp"
 #include "estimation/weak_iv.hpp"
+#include "median.hpp"
 #include "range.hpp"
 
 namespace telltale {
@@ -122,11 +123,9 @@ class LeashCost : public ceres::CostFunction {
   const Leash& leash_;
 };
 
-double Median(std::vector<double> values) {
-  if (values.empty()) return 0.0;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
+/// How many times their usual size values are by their median, at least once.
+double TimesUsual(std::vector<double> values, double usual_median) {
+  return values.empty() ? 1.0 : std::max(1.0, Median(std::move(values)) / usual_median);
 }
 
 /// Theta and the states in which the shots start, moving together towards the least sum.
@@ -163,8 +162,8 @@ class Solution {
     ForEachResidual([&](const auto& residual) {
       (residual.size() == 2 ? distances : sizes).push_back(residual.norm());
     });
-    return {std::max(1.0, Median(std::move(distances)) / kMedianDistance),
-            std::max(1.0, Median(std::move(sizes)) / kMedianSize), knee_};
+    return {TimesUsual(std::move(distances), kMedianDistance),
+            TimesUsual(std::move(sizes), kMedianSize), knee_};
   }
 
   std::size_t CountPast(const Yardstick& yardstick) const {

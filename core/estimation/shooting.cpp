@@ -444,17 +444,13 @@ Eigen::Index SharedUnknowns::First(Equation equation) const {
 VesselModel SharedUnknowns::ModelWith(const Eigen::VectorXd& theta,
                                       double sampling_period_s) const {
   Require(theta.size() == Size(), "as many values as unknowns");
-  VesselModel model;
-  model.structure = lagging ? Structure::kFirstOrderDynamic : Structure::kStaticQuadratic;
-  model.parameterization = parameterization;
-  model.discretisation = Discretisation::kContinuous;
-  model.sampling_period_s = sampling_period_s;
+  VesselModel model =
+      VesselModel::OfZeros(lagging ? Structure::kFirstOrderDynamic : Structure::kStaticQuadratic,
+                           parameterization, Discretisation::kContinuous, sampling_period_s);
   model.dead_zone = dead_zone;
   if (lagging) model.thruster_time_constant_s = std::max(theta[0], kShortestLagS);
   for (const Equation equation : kEquations) {
     const std::size_t j = IndexOf(equation);
-    model.theta[j] = Eigen::VectorXd::Zero(
-        static_cast<Eigen::Index>(Regressors(equation, parameterization).size()));
     Eigen::Index next = First(equation);
     for (const std::size_t column : columns[j]) {
       model.theta[j][static_cast<Eigen::Index>(column)] = theta[next++];

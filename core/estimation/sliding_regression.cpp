@@ -8,6 +8,7 @@
 #include <Eigen/Eigenvalues>
 
 #include "contract.hpp"
+#include "estimation/excitation.hpp"
 #include "range.hpp"
 
 namespace telltale {
@@ -15,8 +16,6 @@ namespace {
 
 // Of the scaled Gram matrix: the square of the largest condition of Phi that counts as determined.
 constexpr double kSmallestEigenvalue = 1e-10;
-// A coefficient belongs to an undetermined direction when it makes up more than this of it.
-constexpr double kUndeterminedShare = 1e-6;
 
 /// Pseudo-inverse of a Gram matrix, judged with its columns scaled to unit norm.
 struct Inverse {

@@ -26,18 +26,10 @@ struct Weighed {
 using WeighedEquations = std::vector<Weighed>;
 using Thetas = std::vector<Eigen::VectorXd>;
 
-Eigen::MatrixXd Columns(const Eigen::MatrixXd& all, const std::vector<std::size_t>& columns) {
-  Eigen::MatrixXd chosen(all.rows(), static_cast<Eigen::Index>(columns.size()));
-  for (std::size_t j = 0; j < columns.size(); ++j) {
-    chosen.col(static_cast<Eigen::Index>(j)) = all.col(static_cast<Eigen::Index>(columns[j]));
-  }
-  return chosen;
-}
-
 Eigen::MatrixXd WeighRegressors(const PreparedDataset& dataset, const WeakProblem& problem,
                                 const FilteredThrust& thrust, const Weighed& equation) {
   const RegressorRows rows = RowsOf(dataset, problem, thrust, kEquations[equation.index]);
-  return Columns(Weigh(problem, problem.windows[equation.index], rows), equation.columns);
+  return Weigh(problem, problem.windows[equation.index], rows)(Eigen::all, equation.columns);
 }
 
 WeighedEquations WeighAll(const PreparedDataset& dataset, const WeakProblem& problem,
@@ -56,15 +48,9 @@ WeighedEquations WeighAll(const PreparedDataset& dataset, const WeakProblem& pro
 
 VesselModel ModelWith(const WeakProblem& problem, const WeighedEquations& equations,
                       const Thetas& thetas) {
-  VesselModel model;
-  model.structure = Structure::kStaticQuadratic;  // its thrust comes lagged already
-  model.parameterization = problem.parameterization;
-  model.discretisation = Discretisation::kContinuous;
-  for (const Equation equation : kEquations) {
-    const auto size =
-        static_cast<Eigen::Index>(Regressors(equation, problem.parameterization).size());
-    model.theta[IndexOf(equation)] = Eigen::VectorXd::Zero(size);
-  }
+  // Static, since its thrust comes lagged already.
+  VesselModel model = VesselModel::OfZeros(Structure::kStaticQuadratic, problem.parameterization,
+                                           Discretisation::kContinuous);
   for (std::size_t i = 0; i < equations.size(); ++i) {
     Eigen::VectorXd& theta = model.theta[equations[i].index];
     for (std::size_t j = 0; j < equations[i].columns.size(); ++j) {
@@ -99,17 +85,6 @@ std::vector<SteadyDisturbance> SteadyWith(const WeakProblem& problem,
   return steady;
 }
 
-/// How fast anything in the data goes: a simulation beyond a multiple of it has run away.
-Nu Fastest(const PreparedDataset& dataset) {
-  Nu fastest;
-  for (const PreparedRow& row : dataset.rows) {
-    fastest.u = std::max(fastest.u, std::abs(row.nu.u));
-    fastest.v = std::max(fastest.v, std::abs(row.nu.v));
-    fastest.r = std::max(fastest.r, std::abs(row.nu.r));
-  }
-  return fastest;
-}
-
 double Held(double value, double limit) {
   return std::isfinite(value) ? std::clamp(value, -limit, limit) : 0.0;
 }
@@ -131,7 +106,7 @@ struct Predicted {
 class Instruments {
  public:
   Instruments(const PreparedDataset& dataset, const WeakProblem& problem, double reach_s)
-      : dataset_(dataset), problem_(problem), fastest_(Fastest(dataset)) {
+      : dataset_(dataset), problem_(problem), fastest_(FastestOf(dataset)) {
     const double h = dataset.sampling_period_s;
     reach_ = std::max<std::size_t>(1, static_cast<std::size_t>(std::lround(reach_s / h)));
     lead_ = problem.phi.Rows() / 2 + 1;
@@ -526,12 +501,9 @@ PlausibleBoats PlausibleAbout(const WeakFit& fit, double reach) {
 }
 
 VesselModel ModelOf(const WeakFit& fit, const Eigen::VectorXd& theta, double sampling_period_s) {
-  VesselModel model;
-  model.structure =
-      fit.time_constant_s ? Structure::kFirstOrderDynamic : Structure::kStaticQuadratic;
-  model.parameterization = fit.problem.parameterization;
-  model.discretisation = Discretisation::kContinuous;
-  model.sampling_period_s = sampling_period_s;
+  VesselModel model = VesselModel::OfZeros(
+      fit.time_constant_s ? Structure::kFirstOrderDynamic : Structure::kStaticQuadratic,
+      fit.problem.parameterization, Discretisation::kContinuous, sampling_period_s);
   model.dead_zone = fit.problem.dead_zone;
   Eigen::Index next = 0;
   if (fit.time_constant_s) {
@@ -539,8 +511,6 @@ VesselModel ModelOf(const WeakFit& fit, const Eigen::VectorXd& theta, double sam
   }
   for (const Equation equation : kEquations) {
     const std::size_t j = IndexOf(equation);
-    model.theta[j] = Eigen::VectorXd::Zero(
-        static_cast<Eigen::Index>(Regressors(equation, model.parameterization).size()));
     if (!fit.equations[j]) continue;
     for (const std::size_t column : fit.equations[j]->columns) {
       const auto place = static_cast<Eigen::Index>(column);

@@ -11,6 +11,7 @@
 #include <Eigen/Eigenvalues>
 
 #include "identification/tamed_model.hpp"
+#include "median.hpp"
 #include "simulation/manoeuvres.hpp"
 #include "simulation/simulator.hpp"
 
@@ -22,12 +23,6 @@ constexpr double kWideShare = 0.25;     // of the estimate,
 constexpr double kMaterialShare = 0.1;  // and of the accelerations that manoeuvres make
 // A manoeuvre that leaves more than this of an interval is not worth naming for it.
 constexpr double kLeft = 0.8;
-
-double Median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 /// Phi'Phi of all regressors from the triangle of the excited ones; zero for the others.
 Eigen::MatrixXd GramOf(const Excitation& excitation, std::size_t regressors) {
@@ -41,7 +36,6 @@ Eigen::MatrixXd GramOf(const Excitation& excitation, std::size_t regressors) {
 /// The diagonal of information^-1, infinite along what it does not determine. Independent of units.
 Eigen::VectorXd Variances(const Eigen::MatrixXd& information) {
   constexpr double kUndetermined = 1e-12;
-  constexpr double kUndeterminedShare = 1e-6;
   const Eigen::VectorXd units = information.diagonal().cwiseSqrt();
   const Eigen::VectorXd inverse = units.unaryExpr([](double u) { return u > 0.0 ? 1.0 / u : 0.0; });
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(inverse.asDiagonal() * information *

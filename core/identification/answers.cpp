@@ -211,6 +211,19 @@ std::vector<ExcitationSummary> Summarise(const Answers& answers,
   return summaries;
 }
 
+VesselModel ModelOf(const Answers& answers, const RegressionOptions& regression,
+                    Discretisation discretisation, double sampling_period_s) {
+  VesselModel model = VesselModel::OfZeros(regression.structure, regression.parameterization,
+                                           discretisation, sampling_period_s);
+  model.dead_zone = regression.dead_zone;
+  if (answers.lag) model.thruster_time_constant_s = answers.lag->time_constant_s;
+  for (const Equation equation : kEquations) {
+    const auto& estimate = answers.estimates[IndexOf(equation)];
+    if (estimate) model.theta[IndexOf(equation)](estimate->columns) = estimate->theta;
+  }
+  return model;
+}
+
 void WriteCoefficients(const Answers& answers, const Bounds& bounds,
                        Identification& identification) {
   std::vector<Eigen::Index> places;

@@ -100,6 +100,10 @@ SampleSize SizeOf(const Eigen::VectorXd& residual, std::span<const std::size_t> 
 /// What the data show of each answered equation.
 std::vector<ExcitationSummary> Summarise(const Answers& answers, Parameterization parameterization);
 
+/// The boat of the answers; coefficients that were not sought are zero.
+VesselModel ModelOf(const Answers& answers, const RegressionOptions& regression,
+                    Discretisation discretisation, double sampling_period_s);
+
 /// Coefficients, covariance and time constant, in the order and with the places of Identification.
 void WriteCoefficients(const Answers& answers, const Bounds& bounds,
                        Identification& identification);

@@ -70,16 +70,6 @@ std::optional<Refusal> CertificateRefusal(std::size_t twins) {
   return refusal;
 }
 
-Nu FastestOf(const PreparedDataset& dataset) {
-  Nu fastest;
-  for (const PreparedRow& row : dataset.rows) {
-    fastest.u = std::max(fastest.u, std::abs(row.nu.u));
-    fastest.v = std::max(fastest.v, std::abs(row.nu.v));
-    fastest.r = std::max(fastest.r, std::abs(row.nu.r));
-  }
-  return fastest;
-}
-
 /// Part of a longer work: fractions between `from` and `to`.
 Progress Within(const Progress& progress, double from, double to) {
   if (!progress) return {};
@@ -265,25 +255,12 @@ Result<VesselModel> EstimateModel(const PreparedDataset& dataset,
                                   const RegressionOptions& regression,
                                   const ExcitationLimits& limits) {
   const Answers answers = AnswerOneStep(dataset, regression, limits);
-  VesselModel model;
-  model.structure = regression.structure;
-  model.parameterization = regression.parameterization;
-  model.discretisation = Discretisation::kForwardEuler;
-  model.sampling_period_s = dataset.sampling_period_s;
-  model.dead_zone = regression.dead_zone;
   for (const Equation equation : kEquations) {
-    const auto& estimate = answers.estimates[IndexOf(equation)];
-    if (!estimate) {
-      return Refuse(std::string(Name(equation)), "the data cannot answer this equation",
-                    answers.refusals.front().advice);
-    }
-    const auto regressors = Regressors(equation, regression.parameterization);
-    Eigen::VectorXd& theta = model.theta[IndexOf(equation)];
-    theta = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(regressors.size()));
-    theta(estimate->columns) = estimate->theta;
+    if (answers.estimates[IndexOf(equation)]) continue;
+    return Refuse(std::string(Name(equation)), "the data cannot answer this equation",
+                  answers.refusals.front().advice);
   }
-  if (answers.lag) model.thruster_time_constant_s = answers.lag->time_constant_s;
-  return model;
+  return ModelOf(answers, regression, Discretisation::kForwardEuler, dataset.sampling_period_s);
 }
 
 }  // namespace telltale

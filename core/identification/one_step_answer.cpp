@@ -144,25 +144,6 @@ bool SeekTheSame(const Answers& first, const Answers& second) {
   return true;
 }
 
-/// The boat of an answer; coefficients that were not sought are zero.
-VesselModel BoatOf(const Answers& answers, const RegressionOptions& regression, double h) {
-  VesselModel model;
-  model.structure = regression.structure;
-  model.parameterization = regression.parameterization;
-  model.discretisation = Discretisation::kContinuous;
-  model.sampling_period_s = h;
-  model.dead_zone = regression.dead_zone;
-  if (answers.lag) model.thruster_time_constant_s = answers.lag->time_constant_s;
-  for (const Equation equation : kEquations) {
-    Eigen::VectorXd& theta = model.theta[IndexOf(equation)];
-    const auto& estimate = answers.estimates[IndexOf(equation)];
-    theta = Eigen::VectorXd::Zero(
-        static_cast<Eigen::Index>(Regressors(equation, regression.parameterization).size()));
-    if (estimate) theta(estimate->columns) = estimate->theta;
-  }
-  return model;
-}
-
 /// What pushed the boat, by the residuals of the weak form, which noisy velocities do not swell.
 Disturbance DisturbanceBehind(const Fitted& fitted, const PreparedDataset& dataset,
                               const RegressionOptions& regression, const IdentifyOptions& options) {
@@ -179,7 +160,8 @@ Disturbance DisturbanceBehind(const Fitted& fitted, const PreparedDataset& datas
 BootstrapReplicates Simulated(const Fitted& fitted, const std::vector<ClusteredFit>& fits,
                               const PreparedDataset& dataset, const RegressionOptions& regression,
                               const IdentifyOptions& options, BoundedAnswers& bounded) {
-  const VesselModel boat = BoatOf(fitted.answers, regression, dataset.sampling_period_s);
+  const VesselModel boat =
+      ModelOf(fitted.answers, regression, Discretisation::kContinuous, dataset.sampling_period_s);
   bounded.disturbance = DisturbanceBehind(fitted, dataset, regression, options);
   const auto again = [&](const PreparedDataset& repeat) -> std::optional<Refit> {
     const Fitted refitted = Fit(repeat, regression, options.excitation);

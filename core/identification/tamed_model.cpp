@@ -45,24 +45,19 @@ Eigen::VectorXd TamedEstimates(const Identification& identification, double trus
 
 VesselModel TamedModel(const Identification& identification, double trust) {
   const Eigen::VectorXd theta = TamedEstimates(identification, trust);
-  VesselModel model;
-  model.structure = identification.structure;
-  model.parameterization = identification.parameterization;
-  model.discretisation = Discretisation::kContinuous;
-  model.sampling_period_s = identification.sampling_period_s;
+  VesselModel model =
+      VesselModel::OfZeros(identification.structure, identification.parameterization,
+                           Discretisation::kContinuous, identification.sampling_period_s);
   model.dead_zone = identification.dead_zone;
   if (identification.thruster_time_constant) {
     model.thruster_time_constant_s = identification.thruster_time_constant->estimate;
   }
   Eigen::Index next = 0;
   for (const Equation equation : kEquations) {
-    const auto size =
-        static_cast<Eigen::Index>(Regressors(equation, model.parameterization).size());
-    Eigen::VectorXd& of_this = model.theta[IndexOf(equation)];
-    of_this = Eigen::VectorXd::Zero(size);
     if (!identification.Has(equation)) continue;
-    of_this = theta.segment(next, size);
-    next += size;
+    Eigen::VectorXd& of_this = model.theta[IndexOf(equation)];
+    of_this = theta.segment(next, of_this.size());
+    next += of_this.size();
   }
   return model;
 }

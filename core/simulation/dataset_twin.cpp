@@ -14,6 +14,8 @@ namespace telltale {
 namespace {
 
 constexpr double kLongestStepS = 0.1;
+// The sensors draw from the streams before it.
+constexpr std::uint64_t kFirstPushStream = 10;
 // Twice what a row holds at any sampling period, so that preparation averages headings as it did.
 constexpr double kHeadingsPerRow = 2.0;
 // Between stretches: longer than any gap that preparation bridges, and than commands reach back.
@@ -63,13 +65,7 @@ class Course {
 /// A boat this much beyond all that was measured has run away.
 class Runaway {
  public:
-  explicit Runaway(const PreparedDataset& dataset) {
-    for (const PreparedRow& row : dataset.rows) {
-      fastest_.u = std::max(fastest_.u, std::abs(row.nu.u));
-      fastest_.v = std::max(fastest_.v, std::abs(row.nu.v));
-      fastest_.r = std::max(fastest_.r, std::abs(row.nu.r));
-    }
-  }
+  explicit Runaway(const PreparedDataset& dataset) : fastest_(FastestOf(dataset)) {}
 
   bool Is(const Nu& nu) const {
     const auto within = [](double value, double fastest) {
@@ -245,11 +241,7 @@ Result<TwinRecording> RecordAgain(const PreparedDataset& dataset, const VesselMo
   const double step_s = h / std::ceil(h / kLongestStepS - 1e-9);
   const BodyDynamics dynamics(model);
   const Runaway runaway(dataset);
-  const auto axis = [&](Eigen::Index j) {
-    return GaussMarkov(options.disturbance.sigma[j], options.disturbance.time_constant_s[j], step_s,
-                       WhiteSource(options.seed, 10 + static_cast<std::uint64_t>(j)));
-  };
-  std::array<GaussMarkov, 3> disturbance = {axis(0), axis(1), axis(2)};
+  auto disturbance = DrawAxes(options.disturbance, step_s, options.seed, kFirstPushStream);
   Instrumented instrumented(dataset, options.noise_scale, options.seed);
   TwinRecording twin{{}, VehicleOf(dataset)};
   double start_s = 0.0;

@@ -4,22 +4,11 @@
 
 #include <Eigen/SVD>
 
+#include "estimation/excitation.hpp"
 #include "estimation/triangular_factor.hpp"
 
 namespace telltale {
 namespace {
-
-// A coefficient belongs to an undetermined direction when it makes up more than this of it.
-constexpr double kUndeterminedShare = 1e-6;
-
-Eigen::MatrixXd ExcitedColumns(const EquationProblem& problem, const EquationEstimate& estimate) {
-  Eigen::MatrixXd phi(problem.phi.rows(), static_cast<Eigen::Index>(estimate.columns.size()));
-  for (std::size_t j = 0; j < estimate.columns.size(); ++j) {
-    phi.col(static_cast<Eigen::Index>(j)) =
-        problem.phi.col(static_cast<Eigen::Index>(estimate.columns[j]));
-  }
-  return phi;
-}
 
 Eigen::VectorXd Stack(const LaggedEstimate& estimate) {
   Eigen::VectorXd theta(estimate.jacobian.cols());
@@ -36,7 +25,7 @@ Eigen::VectorXd Stack(const LaggedEstimate& estimate) {
 }  // namespace
 
 ClusteredFit FitOf(const EquationProblem& problem, const EquationEstimate& estimate) {
-  const Eigen::MatrixXd phi = ExcitedColumns(problem, estimate);
+  const Eigen::MatrixXd phi = problem.phi(Eigen::all, estimate.columns);
   ClusteredFit fit;
   fit.W = phi * estimate.basis;
   fit.residual = problem.y - phi * estimate.theta;

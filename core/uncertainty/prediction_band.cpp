@@ -12,21 +12,12 @@
 namespace telltale {
 namespace {
 
-std::array<GaussMarkov, 3> DrawDisturbance(const Disturbance& disturbance, double step_s,
-                                           std::uint64_t seed) {
-  const auto axis = [&](Eigen::Index j) {
-    return GaussMarkov(disturbance.sigma[j], disturbance.time_constant_s[j], step_s,
-                       WhiteSource(seed, static_cast<std::uint64_t>(j)));
-  };
-  return {axis(0), axis(1), axis(2)};
-}
-
 /// Velocities after each step; infinite from where a run blows up.
 Eigen::Matrix3Xd Run(const VesselModel& model, const VesselState& start,
                      const std::vector<TimedCommand>& commands, const Disturbance& disturbance,
                      std::size_t steps, double step_s, std::uint64_t seed, double beyond) {
   const BodyDynamics dynamics(model);
-  auto pushed = DrawDisturbance(disturbance, step_s, seed);
+  auto pushed = DrawAxes(disturbance, step_s, seed, 0);
   Eigen::Matrix3Xd run = Eigen::Matrix3Xd::Constant(3, static_cast<Eigen::Index>(steps), beyond);
   Nu nu = start.nu;
   ThrustRegressors thrust = start.thrust;

@@ -13,6 +13,7 @@
 
 #include "contract.hpp"
 #include "estimation/disturbance.hpp"
+#include "median.hpp"
 #include "parallel.hpp"
 #include "random.hpp"
 #include "simulation/dataset_twin.hpp"
@@ -36,12 +37,6 @@ struct Sighting {
 bool IsSound(const Sighting& sighting) {
   return sighting.error.allFinite() && sighting.covariance.allFinite() &&
          (sighting.covariance.diagonal().array() > 0.0).all();
-}
-
-double Median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 double Quantile(std::vector<double> values, double share) {
@@ -159,7 +154,6 @@ class TwinFleet {
     if (2 * sightings.size() < twins_.twins) return std::nullopt;
     const Spread spread = SpreadOf(sightings);
     correction.theta = fit_.theta - white_.map * spread.mean;
-    correction.joint_bias = spread.mean.squaredNorm() / static_cast<double>(spread.mean.size());
     correction.solved = sightings.size();
     correction.failures = twins_.twins - sightings.size();
     correction.degrees_of_freedom = static_cast<double>(fit_.scores.cols()) - 1.0;
@@ -286,13 +280,13 @@ class TwinFleet {
     }
     const boost::math::students_t student(correction.degrees_of_freedom);
     // Never below one: twins know only what they were told of the boat.
-    correction.calibration =
+    const double stretch =
         std::max(1.0, Quantile(pivots, kCalibratedAt) /
                           boost::math::quantile(student, 0.5 * (1.0 + kCalibratedAt)));
     // The mean of few twins errs along the very directions in which single twins do.
     const Eigen::MatrixXd scaled = std::sqrt(1.0 + 1.0 / n) * white_.map * spread.sd.asDiagonal();
     const Eigen::MatrixXd covariance = scaled * scaled.transpose();
-    correction.covariance = correction.calibration * correction.calibration * covariance;
+    correction.covariance = stretch * stretch * covariance;
     correction.joint_covariance = LogNormalQuantile(joint, kCalibratedAt) /
                                   JointQuantile(correction.degrees_of_freedom, p, kCalibratedAt) *
                                   covariance;

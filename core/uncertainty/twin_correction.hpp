@@ -24,11 +24,8 @@ struct TwinCorrectionOptions {
 
 /// Shapes: theta and covariance over the stacked unknowns of the WeakFit.
 struct TwinCorrection {
-  Eigen::VectorXd theta;       ///< corrected for bias
-  double joint_bias = 0.0;     ///< bias' Cov^-1 bias over the unknowns: against noise, one
-  Eigen::MatrixXd covariance;  ///< as the twins scattered, with what few of them leave open
-  double calibration = 1.0;    ///< factor on standard errors in it, at least one, by which the
-                               ///< twins' own intervals hold
+  Eigen::VectorXd theta;             ///< corrected for bias
+  Eigen::MatrixXd covariance;        ///< as the twins scattered, with what few of them leave open
   Eigen::MatrixXd joint_covariance;  ///< the same, calibrated so that joint ellipsoids hold
   double degrees_of_freedom = 0.0;   ///< of Student's t for intervals
   Disturbance disturbance;

@@ -4,6 +4,15 @@
 
 namespace telltale {
 
+std::array<GaussMarkov, 3> DrawAxes(const Disturbance& disturbance, double step_s,
+                                    std::uint64_t seed, std::uint64_t first_stream) {
+  const auto axis = [&](Eigen::Index j) {
+    return GaussMarkov(disturbance.sigma[j], disturbance.time_constant_s[j], step_s,
+                       WhiteSource(seed, first_stream + static_cast<std::uint64_t>(j)));
+  };
+  return {axis(0), axis(1), axis(2)};
+}
+
 NuDot SteadyDisturbance::At(double psi_rad) const {
   const Eigen::Vector3d rate = terms * Eigen::Vector3d(1.0, std::cos(psi_rad), std::sin(psi_rad));
   return {rate[0], rate[1], rate[2]};

@@ -1,7 +1,11 @@
 #pragma once
 
+#include <array>
+#include <cstdint>
+
 #include <Eigen/Core>
 
+#include "gauss_markov.hpp"
 #include "vessel/motion.hpp"
 
 namespace telltale {
@@ -12,6 +16,11 @@ struct Disturbance {
   Eigen::Vector3d sigma = Eigen::Vector3d::Zero();
   Eigen::Vector3d time_constant_s = Eigen::Vector3d::Ones();
 };
+
+/// Draws of a disturbance, one process an axis: streams first_stream to first_stream + 2 of the
+/// seed. Requires: step_s > 0.
+std::array<GaussMarkov, 3> DrawAxes(const Disturbance& disturbance, double step_s,
+                                    std::uint64_t seed, std::uint64_t first_stream);
 
 /// What accelerates a boat steadily: a part that turns with the boat and a part that stands in the
 /// north-east-down frame, as wind and current do to first order. docs/model.md (70).

@@ -42,6 +42,20 @@ ThrustRegressors Approach(const ThrustRegressors& thrust, const ThrustRegressors
 
 }  // namespace
 
+VesselModel VesselModel::OfZeros(Structure structure, Parameterization parameterization,
+                                 Discretisation discretisation, double sampling_period_s) {
+  VesselModel model;
+  model.structure = structure;
+  model.parameterization = parameterization;
+  model.discretisation = discretisation;
+  model.sampling_period_s = sampling_period_s;
+  for (const Equation equation : kEquations) {
+    const auto size = static_cast<Eigen::Index>(Regressors(equation, parameterization).size());
+    model.theta[IndexOf(equation)] = Eigen::VectorXd::Zero(size);
+  }
+  return model;
+}
+
 ThrustRegressors VesselModel::SteadyThrust(const PropellerCommand& delta) const {
   return ThrustOf(parameterization, dead_zone.Apply(delta));
 }

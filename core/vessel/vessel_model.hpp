@@ -28,6 +28,10 @@ struct VesselModel {
   DeadZone dead_zone;
   std::optional<double> thruster_time_constant_s;  ///< first-order dynamic structure only
 
+  /// A model whose coefficients are all zero, to be filled in.
+  static VesselModel OfZeros(Structure structure, Parameterization parameterization,
+                             Discretisation discretisation, double sampling_period_s = 0.0);
+
   /// The propeller regressors that a command held for ever leads to.
   ThrustRegressors SteadyThrust(const PropellerCommand& delta) const;
 
