@@ -10,7 +10,6 @@
 #include <string>
 #include <vector>
 
-#include <Eigen/Cholesky>
 #include <boost/math/distributions/students_t.hpp>
 
 #include "coverage/campaign.hpp"
@@ -19,6 +18,7 @@
 #include "estimation/one_step.hpp"
 #include "estimation/weak_iv.hpp"
 #include "gauss_markov.hpp"
+#include "linear_algebra/decompositions.hpp"
 #include "uncertainty/bootstrap.hpp"
 #include "uncertainty/clustered_fit.hpp"
 #include "uncertainty/prediction_band.hpp"

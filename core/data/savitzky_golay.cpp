@@ -2,9 +2,8 @@
 
 #include <algorithm>
 
-#include <Eigen/QR>
-
 #include "contract.hpp"
+#include "linear_algebra/decompositions.hpp"
 
 namespace telltale {
 namespace {

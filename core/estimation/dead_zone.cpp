@@ -8,10 +8,9 @@
 #include <span>
 #include <vector>
 
-#include <Eigen/QR>
-
 #include "estimation/lagged_regression.hpp"
 #include "estimation/triangular_factor.hpp"
+#include "linear_algebra/decompositions.hpp"
 #include "parallel.hpp"
 
 namespace telltale {

@@ -6,9 +6,8 @@
 #include <limits>
 #include <numeric>
 
-#include <Eigen/SVD>
-
 #include "contract.hpp"
+#include "linear_algebra/decompositions.hpp"
 #include "range.hpp"
 
 namespace telltale {

@@ -5,10 +5,10 @@
 #include <limits>
 
 #include <ceres/ceres.h>
-#include <Eigen/QR>
 
 #include "contract.hpp"
 #include "estimation/triangular_factor.hpp"
+#include "linear_algebra/decompositions.hpp"
 #include "vessel/thruster_lag.hpp"
 
 namespace telltale {
@@ -156,15 +156,17 @@ Solved Solve(const Projected& at) {
   const TriangularFactor factor = Triangularise(both, at.y);
 
   Solved solved;
-  const auto decomposition = factor.R.topLeftCorner(p, p).completeOrthogonalDecomposition();
-  solved.theta = decomposition.solve(factor.z.head(p)).cwiseQuotient(norms);
+  const Eigen::MatrixXd corner = factor.R.topLeftCorner(p, p);
+  const Eigen::VectorXd right = factor.z.head(p);
+  const auto decomposition = corner.completeOrthogonalDecomposition();
+  solved.theta = decomposition.solve(right).cwiseQuotient(norms);
   // What the first p rows leave (nothing, unless columns depend on each other), then the rest of
   // the triangle.
   const Eigen::VectorXd by_lag = factor.R.rightCols(q) * solved.theta.tail(q);
   const auto left_over = [&](const Eigen::VectorXd& rows) {
-    const Eigen::MatrixXd corner = factor.R.topLeftCorner(p, p);
     Eigen::VectorXd rest = rows;
-    rest.head(p) -= corner * decomposition.solve(rows.head(p));
+    const Eigen::VectorXd head = rows.head(p);
+    rest.head(p) -= corner * decomposition.solve(head);
     return rest;
   };
   solved.residual.resize(p + q + 1);

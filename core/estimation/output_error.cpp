@@ -7,11 +7,10 @@
 #include <optional>
 
 #include <ceres/ceres.h>
-#include <Eigen/Cholesky>
-#include <Eigen/QR>
 
 #include "contract.hpp"
 #include "estimation/weak_iv.hpp"
+#include "linear_algebra/decompositions.hpp"
 #include "median.hpp"
 #include "range.hpp"
 
@@ -435,7 +434,8 @@ Eigen::MatrixXd ClusterCovariance(const OutputErrorFit& fit) {
     Eigen::MatrixXd left = (kLeastLeft - 1.0) * root.transpose() *
                            fit.cluster_information[static_cast<std::size_t>(s)] * root;
     left.diagonal().array() += 1.0;
-    influence.col(s) = root * left.llt().solve(root.transpose() * fit.scores.col(s));
+    const Eigen::VectorXd right = root.transpose() * fit.scores.col(s);
+    influence.col(s) = root * left.llt().solve(right);
   }
   return (g - 1.0) / g * influence * influence.transpose();
 }

@@ -6,11 +6,11 @@
 #include <string>
 #include <vector>
 
-#include <Eigen/SVD>
 #include <boost/math/tools/minima.hpp>
 
 #include "contract.hpp"
 #include "estimation/triangular_factor.hpp"
+#include "linear_algebra/decompositions.hpp"
 
 namespace telltale {
 namespace {

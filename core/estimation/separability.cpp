@@ -4,9 +4,8 @@
 #include <cmath>
 #include <limits>
 
-#include <Eigen/Eigenvalues>
-
 #include "contract.hpp"
+#include "linear_algebra/decompositions.hpp"
 
 namespace telltale {
 namespace {

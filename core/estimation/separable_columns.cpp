@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <limits>
 
-#include <Eigen/SVD>
+#include "linear_algebra/decompositions.hpp"
 
 namespace telltale {
 namespace {

@@ -5,10 +5,9 @@
 #include <cmath>
 #include <limits>
 
-#include <Eigen/Eigenvalues>
-
 #include "contract.hpp"
 #include "estimation/excitation.hpp"
+#include "linear_algebra/decompositions.hpp"
 #include "range.hpp"
 
 namespace telltale {
@@ -27,8 +26,8 @@ struct Inverse {
 Inverse Invert(const Eigen::MatrixXd& gram) {
   const Eigen::VectorXd norms = gram.diagonal().cwiseMax(0.0).cwiseSqrt();
   const Eigen::VectorXd scale = norms.unaryExpr([](double s) { return s > 0.0 ? 1.0 / s : 0.0; });
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(scale.asDiagonal() * gram *
-                                                              scale.asDiagonal());
+  const Eigen::MatrixXd scaled = scale.asDiagonal() * gram * scale.asDiagonal();
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(scaled);
   const Eigen::VectorXd& values = solver.eigenvalues();  // ascending
   Inverse inverse;
   const double smallest = kSmallestEigenvalue * values[values.size() - 1];

@@ -3,9 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include <Eigen/Eigenvalues>
-
 #include "contract.hpp"
+#include "linear_algebra/decompositions.hpp"
 
 namespace telltale {
 namespace {
@@ -69,8 +68,8 @@ std::vector<bool> HeadingVaries(const PreparedDataset& dataset) {
         squares += heading * heading.transpose();
       }
     }
-    const Eigen::Matrix2d covariance = squares / n - sum / n * (sum / n).transpose();
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> solver(covariance);
+    const Eigen::MatrixXd covariance = squares / n - sum / n * (sum / n).transpose();
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(covariance);
     varies.push_back(solver.eigenvalues()[0] > kLeastVariance);
   }
   return varies;

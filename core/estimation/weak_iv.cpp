@@ -4,10 +4,8 @@
 #include <cmath>
 #include <numeric>
 
-#include <Eigen/LU>
-#include <Eigen/QR>
-
 #include "contract.hpp"
+#include "linear_algebra/decompositions.hpp"
 #include "vessel/body_dynamics.hpp"
 
 namespace telltale {
@@ -217,9 +215,8 @@ Eigen::VectorXd SolveDamped(const Eigen::MatrixXd& A, const Eigen::VectorXd& c,
       z_norms.cwiseInverse().asDiagonal() * A * g_norms.cwiseInverse().asDiagonal();
   Eigen::MatrixXd normal = S.transpose() * S;
   normal.diagonal().array() += damping * damping;
-  const Eigen::VectorXd x =
-      normal.ldlt().solve(S.transpose() * z_norms.cwiseInverse().asDiagonal() * c);
-  return x.cwiseQuotient(g_norms);
+  const Eigen::VectorXd right = S.transpose() * z_norms.cwiseInverse().asDiagonal() * c;
+  return normal.ldlt().solve(right).cwiseQuotient(g_norms);
 }
 
 /// Each equation's damped solution with its instruments.

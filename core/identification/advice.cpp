@@ -7,10 +7,8 @@
 #include <numeric>
 #include <utility>
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
-
 #include "identification/tamed_model.hpp"
+#include "linear_algebra/decompositions.hpp"
 #include "median.hpp"
 #include "simulation/manoeuvres.hpp"
 #include "simulation/simulator.hpp"
@@ -38,8 +36,8 @@ Eigen::VectorXd Variances(const Eigen::MatrixXd& information) {
   constexpr double kUndetermined = 1e-12;
   const Eigen::VectorXd units = information.diagonal().cwiseSqrt();
   const Eigen::VectorXd inverse = units.unaryExpr([](double u) { return u > 0.0 ? 1.0 / u : 0.0; });
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(inverse.asDiagonal() * information *
-                                                             inverse.asDiagonal());
+  const Eigen::MatrixXd scaled = inverse.asDiagonal() * information * inverse.asDiagonal();
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(scaled);
   const double largest = eigen.eigenvalues().maxCoeff();
   Eigen::VectorXd variances = Eigen::VectorXd::Zero(units.size());
   for (Eigen::Index k = 0; k < units.size(); ++k) {
@@ -62,8 +60,8 @@ Eigen::VectorXd Variances(const Eigen::MatrixXd& information) {
 double LogVolume(const Eigen::MatrixXd& information, const std::vector<Eigen::Index>& chosen) {
   const Eigen::VectorXd inverse = information.diagonal().cwiseSqrt().cwiseInverse();
   const Eigen::MatrixXd scaled = inverse.asDiagonal() * information * inverse.asDiagonal();
-  const Eigen::MatrixXd covariance =
-      scaled.ldlt().solve(Eigen::MatrixXd::Identity(scaled.rows(), scaled.cols()));
+  const Eigen::MatrixXd unit = Eigen::MatrixXd::Identity(scaled.rows(), scaled.cols());
+  const Eigen::MatrixXd covariance = scaled.ldlt().solve(unit);
   const Eigen::VectorXd pivots =
       Eigen::MatrixXd(covariance(chosen, chosen)).ldlt().vectorD().cwiseMax(1e-300);
   return pivots.array().log().sum() + 2.0 * inverse(chosen).array().log().sum();

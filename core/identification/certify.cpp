@@ -6,12 +6,12 @@
 #include <optional>
 #include <vector>
 
-#include <Eigen/Cholesky>
 #include <boost/math/distributions/chi_squared.hpp>
 
 #include "estimation/separable_columns.hpp"
 #include "identification/tamed_model.hpp"
 #include "identification/weak_iv_answer.hpp"
+#include "linear_algebra/decompositions.hpp"
 #include "parallel.hpp"
 #include "random.hpp"
 #include "simulation/dataset_twin.hpp"
@@ -255,9 +255,10 @@ class Certification {
     if (places.empty()) return std::nullopt;
     const Eigen::MatrixXd covariance = repeat.covariance(places, places);
     const Eigen::VectorXd scale = covariance.diagonal().cwiseSqrt().cwiseInverse();
-    const Eigen::LLT<Eigen::MatrixXd> llt(scale.asDiagonal() * covariance * scale.asDiagonal());
+    const Eigen::MatrixXd correlation = scale.asDiagonal() * covariance * scale.asDiagonal();
+    const Eigen::LLT<Eigen::MatrixXd> llt(correlation);
     if (llt.info() != Eigen::Success) return std::nullopt;
-    const auto z =
+    const Eigen::VectorXd z =
         Eigen::Map<const Eigen::VectorXd>(off.data(), static_cast<Eigen::Index>(off.size()));
     const boost::math::chi_squared law(static_cast<double>(off.size()));
     return z.dot(llt.solve(z)) <= boost::math::quantile(law, options_.interval_level);

@@ -2,10 +2,10 @@
 
 #include <cmath>
 
-#include <Eigen/Eigenvalues>
 #include <boost/random/normal_distribution.hpp>
 
 #include "contract.hpp"
+#include "linear_algebra/decompositions.hpp"
 #include "random.hpp"
 
 namespace telltale {

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <vector>
 
-#include <Eigen/Cholesky>
+#include "linear_algebra/decompositions.hpp"
 
 namespace telltale {
 namespace {

@@ -2,10 +2,9 @@
 
 #include <limits>
 
-#include <Eigen/SVD>
-
 #include "estimation/excitation.hpp"
 #include "estimation/triangular_factor.hpp"
+#include "linear_algebra/decompositions.hpp"
 
 namespace telltale {
 namespace {

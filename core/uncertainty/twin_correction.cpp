@@ -5,14 +5,13 @@
 #include <mutex>
 #include <numeric>
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <boost/math/distributions/fisher_f.hpp>
 #include <boost/math/distributions/students_t.hpp>
 #include <boost/random/normal_distribution.hpp>
 
 #include "contract.hpp"
 #include "estimation/disturbance.hpp"
+#include "linear_algebra/decompositions.hpp"
 #include "median.hpp"
 #include "parallel.hpp"
 #include "random.hpp"

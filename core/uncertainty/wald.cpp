@@ -6,13 +6,13 @@
 #include <numeric>
 #include <string>
 
-#include <Eigen/Eigenvalues>
 #include <boost/math/distributions/chi_squared.hpp>
 #include <boost/math/distributions/fisher_f.hpp>
 #include <boost/math/distributions/normal.hpp>
 #include <boost/math/distributions/students_t.hpp>
 
 #include "contract.hpp"
+#include "linear_algebra/decompositions.hpp"
 
 namespace telltale {
 namespace {
@@ -76,8 +76,8 @@ Whitening Whiten(const Eigen::MatrixXd& V) {
   Whitening whitening;
   whitening.errors = V.diagonal().cwiseSqrt();
   const Eigen::VectorXd inverse = whitening.errors.cwiseInverse();
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(inverse.asDiagonal() * V *
-                                                              inverse.asDiagonal());
+  const Eigen::MatrixXd correlation = inverse.asDiagonal() * V * inverse.asDiagonal();
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(correlation);
   const Eigen::VectorXd& values = solver.eigenvalues();  // ascending
   const Eigen::Index rank =
       (values.array() > kSmallestEigenvalue * values[values.size() - 1]).count();

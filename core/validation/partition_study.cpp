@@ -7,12 +7,12 @@
 #include <string>
 #include <vector>
 
-#include <Eigen/SVD>
 #include <boost/random/uniform_int_distribution.hpp>
 
 #include "estimation/redundant_dynamic.hpp"
 #include "estimation/triangular_factor.hpp"
 #include "identification/identify.hpp"
+#include "linear_algebra/decompositions.hpp"
 #include "parallel.hpp"
 #include "random.hpp"
 #include "range.hpp"

@@ -4,10 +4,10 @@
 #include <deque>
 
 #include <gtest/gtest.h>
-#include <Eigen/Dense>
 #include <boost/random/normal_distribution.hpp>
 
 #include "contract.hpp"
+#include "linear_algebra/decompositions.hpp"
 #include "random.hpp"
 
 namespace telltale {

@@ -4,8 +4,8 @@
 #include <map>
 
 #include <gtest/gtest.h>
-#include <Eigen/SVD>
 
+#include "linear_algebra/decompositions.hpp"
 #include "simulation/yellowfish.hpp"
 
 namespace telltale {

@@ -3,10 +3,10 @@
 #include <cmath>
 
 #include <gtest/gtest.h>
-#include <Eigen/QR>
 #include <boost/random/exponential_distribution.hpp>
 #include <boost/random/normal_distribution.hpp>
 
+#include "linear_algebra/decompositions.hpp"
 #include "simulation/yellowfish.hpp"
 #include "support/discrete_boat.hpp"
 #include "uncertainty/timeline.hpp"

@@ -3,9 +3,9 @@
 #include <vector>
 
 #include <gtest/gtest.h>
-#include <Eigen/Dense>
 #include <boost/random/normal_distribution.hpp>
 
+#include "linear_algebra/decompositions.hpp"
 #include "random.hpp"
 
 namespace telltale {

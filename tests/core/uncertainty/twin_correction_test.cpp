@@ -4,12 +4,12 @@
 #include <cmath>
 
 #include <gtest/gtest.h>
-#include <Eigen/Cholesky>
 #include <boost/math/distributions/students_t.hpp>
 
 #include "coverage/truth.hpp"
 #include "data/preparation.hpp"
 #include "estimation/one_step.hpp"
+#include "linear_algebra/decompositions.hpp"
 #include "parallel.hpp"
 #include "uncertainty/clustered_fit.hpp"
 

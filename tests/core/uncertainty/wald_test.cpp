@@ -3,10 +3,10 @@
 #include <cmath>
 
 #include <gtest/gtest.h>
-#include <Eigen/Cholesky>
 #include <boost/random/normal_distribution.hpp>
 
 #include "contract.hpp"
+#include "linear_algebra/decompositions.hpp"
 #include "random.hpp"
 #include "support/numbers.hpp"
 

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+#include <Eigen/QR>
+#include <Eigen/SVD>
+
+// Eigen's decompositions of matrices of any size, compiled once, in decompositions.cpp: each takes
+// seconds in every file that compiles its own. Include this rather than Eigen's headers and hand
+// over matrices and vectors: an expression is a type of its own and would be compiled anew.
+namespace Eigen {
+
+extern template JacobiSVD<MatrixXd>& JacobiSVD<MatrixXd>::compute(const MatrixXd&, unsigned);
+extern template void SVDBase<JacobiSVD<MatrixXd>>::_solve_impl(const VectorXd&, VectorXd&) const;
+
+extern template SelfAdjointEigenSolver<MatrixXd>& SelfAdjointEigenSolver<MatrixXd>::compute(
+    const EigenBase<MatrixXd>&, int);
+
+extern template void CompleteOrthogonalDecomposition<MatrixXd>::computeInPlace();
+extern template void CompleteOrthogonalDecomposition<MatrixXd>::_solve_impl(const VectorXd&,
+                                                                            VectorXd&) const;
+extern template void CompleteOrthogonalDecomposition<MatrixXd>::_solve_impl(
+    const MatrixXd::IdentityReturnType&, MatrixXd&) const;
+
+extern template void ColPivHouseholderQR<MatrixXd>::computeInPlace();
+extern template void ColPivHouseholderQR<MatrixXd>::_solve_impl(const VectorXd&, VectorXd&) const;
+
+extern template LDLT<MatrixXd>& LDLT<MatrixXd>::compute(const EigenBase<MatrixXd>&);
+extern template void LDLT<MatrixXd>::_solve_impl(const VectorXd&, VectorXd&) const;
+extern template void LDLT<MatrixXd>::_solve_impl(const MatrixXd&, MatrixXd&) const;
+
+extern template LLT<MatrixXd>& LLT<MatrixXd>::compute(const EigenBase<MatrixXd>&);
+extern template void LLT<MatrixXd>::_solve_impl(const VectorXd&, VectorXd&) const;
+
+}  // namespace Eigen
