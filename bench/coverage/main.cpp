@@ -10,8 +10,6 @@
 #include <string>
 #include <vector>
 
-#include <boost/math/distributions/students_t.hpp>
-
 #include "coverage/campaign.hpp"
 #include "data/preparation.hpp"
 #include "estimation/excitation.hpp"
@@ -21,6 +19,7 @@
 #include "linear_algebra/decompositions.hpp"
 #include "uncertainty/bootstrap.hpp"
 #include "uncertainty/clustered_fit.hpp"
+#include "uncertainty/laws.hpp"
 #include "uncertainty/prediction_band.hpp"
 #include "uncertainty/twin_correction.hpp"
 
@@ -151,8 +150,7 @@ std::optional<Holding> TryWeakIv(const Told& scenario, const Recording& recordin
   if (!corrected) return std::nullopt;
   const Eigen::VectorXd truth = TruthOf(scenario);
   const auto p = static_cast<double>(truth.size());
-  const double t =
-      boost::math::quantile(boost::math::students_t(corrected->degrees_of_freedom), 0.975);
+  const double t = StudentQuantile(corrected->degrees_of_freedom, 0.975);
   Holding holding = Held(corrected->theta, t * corrected->covariance.diagonal().cwiseSqrt(), truth);
   const double distance =
       holding.error.dot(corrected->joint_covariance.ldlt().solve(holding.error)) / p;

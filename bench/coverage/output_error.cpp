@@ -8,12 +8,11 @@
 #include <string>
 #include <vector>
 
-#include <boost/math/distributions/students_t.hpp>
-
 #include "coverage/campaign.hpp"
 #include "data/preparation.hpp"
 #include "estimation/output_error.hpp"
 #include "estimation/weak_iv.hpp"
+#include "uncertainty/laws.hpp"
 
 namespace telltale::coverage {
 namespace {
@@ -61,11 +60,10 @@ std::optional<Repeat> Try(const Scenario& scenario, const OutputErrorOptions& op
   const auto fit = EstimateOutputError(*dataset, regression, columns, start, options);
   const std::chrono::duration<double> took = std::chrono::steady_clock::now() - from;
   if (!fit) return std::nullopt;
-  const boost::math::students_t student(static_cast<double>(fit->scores.cols()) - 1.0);
   return Repeat{fit->theta - TruthOf(scenario),
                 ClusterCovariance(*fit).diagonal().cwiseSqrt(),
                 NaiveCovariance(*fit).diagonal().cwiseSqrt(),
-                boost::math::quantile(student, 0.975),
+                StudentQuantile(static_cast<double>(fit->scores.cols()) - 1.0, 0.975),
                 std::hypot(fit->position_misfit, fit->heading_misfit) / std::sqrt(2.0),
                 Misspecification(*fit),
                 took.count()};

@@ -6,8 +6,6 @@
 #include <optional>
 #include <vector>
 
-#include <boost/math/distributions/chi_squared.hpp>
-
 #include "estimation/separable_columns.hpp"
 #include "identification/tamed_model.hpp"
 #include "identification/weak_iv_answer.hpp"
@@ -15,6 +13,7 @@
 #include "parallel.hpp"
 #include "random.hpp"
 #include "simulation/dataset_twin.hpp"
+#include "uncertainty/laws.hpp"
 #include "uncertainty/twin_correction.hpp"
 
 namespace telltale {
@@ -260,8 +259,8 @@ class Certification {
     if (llt.info() != Eigen::Success) return std::nullopt;
     const Eigen::VectorXd z =
         Eigen::Map<const Eigen::VectorXd>(off.data(), static_cast<Eigen::Index>(off.size()));
-    const boost::math::chi_squared law(static_cast<double>(off.size()));
-    return z.dot(llt.solve(z)) <= boost::math::quantile(law, options_.interval_level);
+    return z.dot(llt.solve(z)) <=
+           ChiSquaredQuantile(static_cast<double>(off.size()), options_.interval_level);
   }
 
   static void WriteMean(const std::vector<Tally>& by_repeat, CoverageCertificate& certificate) {

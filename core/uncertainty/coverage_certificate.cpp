@@ -1,8 +1,7 @@
 #include "uncertainty/coverage_certificate.hpp"
 
-#include <boost/math/distributions/binomial.hpp>
-
 #include "contract.hpp"
+#include "uncertainty/laws.hpp"
 
 namespace telltale {
 
@@ -19,12 +18,11 @@ Interval BinomialInterval(const Tally& tally, double level) {
   Require(tally.held <= tally.of, "no more held than there were");
   Require(level > 0.0 && level < 1.0, "a level between 0 and 1");
   if (tally.of == 0) return {level, 0.0, 1.0};
-  using Binomial = boost::math::binomial_distribution<double>;
   const auto trials = static_cast<double>(tally.of);
   const auto successes = static_cast<double>(tally.held);
   const double tail = 0.5 * (1.0 - level);
-  return {level, Binomial::find_lower_bound_on_p(trials, successes, tail),
-          Binomial::find_upper_bound_on_p(trials, successes, tail)};
+  return {level, BinomialLowerBound(trials, successes, tail),
+          BinomialUpperBound(trials, successes, tail)};
 }
 
 Interval CoefficientCoverage::Bounds() const {

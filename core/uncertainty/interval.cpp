@@ -6,10 +6,8 @@
 #include <numeric>
 #include <vector>
 
-#include <boost/math/distributions/normal.hpp>
-#include <boost/math/distributions/students_t.hpp>
-
 #include "contract.hpp"
+#include "uncertainty/laws.hpp"
 
 namespace telltale {
 namespace {
@@ -36,16 +34,15 @@ double MedianBias(double estimate, const std::vector<double>& sorted) {
   const double below =
       static_cast<double>(from - sorted.begin()) + 0.5 * static_cast<double>(to - from);
   const double share = std::clamp(below, 0.5, count - 0.5) / count;
-  return boost::math::quantile(boost::math::normal(), share);
+  return NormalQuantile(share);
 }
 
 /// Which share of the replicates stands where a normal, unaccelerated distribution has `share`.
 double CorrectedShare(double share, double bias, double acceleration) {
-  const boost::math::normal normal;
-  const double deviate = bias + boost::math::quantile(normal, share);
+  const double deviate = bias + NormalQuantile(share);
   const double stretch = 1.0 - acceleration * deviate;
   if (stretch <= 0.0) return deviate > 0.0 ? 1.0 : 0.0;
-  return boost::math::cdf(normal, bias + deviate / stretch);
+  return NormalShareBelow(bias + deviate / stretch);
 }
 
 }  // namespace
@@ -62,14 +59,12 @@ std::string_view Name(IntervalMethod method) {
 
 Interval StudentInterval(double estimate, double standard_error, double degrees_of_freedom,
                          double level) {
-  const boost::math::students_t distribution(degrees_of_freedom);
-  const double half = standard_error * boost::math::quantile(distribution, 0.5 * (1.0 + level));
+  const double half = standard_error * StudentQuantile(degrees_of_freedom, 0.5 * (1.0 + level));
   return {level, estimate - half, estimate + half};
 }
 
 Interval NormalInterval(double estimate, double standard_error, double level) {
-  const double half =
-      standard_error * boost::math::quantile(boost::math::normal(), 0.5 * (1.0 + level));
+  const double half = standard_error * NormalQuantile(0.5 * (1.0 + level));
   return {level, estimate - half, estimate + half};
 }
 

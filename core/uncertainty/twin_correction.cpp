@@ -5,8 +5,6 @@
 #include <mutex>
 #include <numeric>
 
-#include <boost/math/distributions/fisher_f.hpp>
-#include <boost/math/distributions/students_t.hpp>
 #include <boost/random/normal_distribution.hpp>
 
 #include "contract.hpp"
@@ -16,6 +14,7 @@
 #include "parallel.hpp"
 #include "random.hpp"
 #include "simulation/dataset_twin.hpp"
+#include "uncertainty/laws.hpp"
 
 namespace telltale {
 namespace {
@@ -98,9 +97,7 @@ double LogNormalQuantile(std::vector<double> values, double share) {
   for (double& value : values) value = std::log(value);
   const double middle = Median(values);
   const double sigma = kMadToSigma * MedianSize(values, middle);
-  const boost::math::students_t student(n - 1.0);
-  return std::exp(middle +
-                  sigma * std::sqrt(1.0 + 1.0 / n) * boost::math::quantile(student, share));
+  return std::exp(middle + sigma * std::sqrt(1.0 + 1.0 / n) * StudentQuantile(n - 1.0, share));
 }
 
 /// Coordinates in which errors are uncorrelated and of size one: x = map z. The axes are those of
@@ -277,11 +274,10 @@ class TwinFleet {
       for (const double value : pivot) pivots.push_back(std::abs(value));
       joint.push_back(off.dot(own.ldlt().solve(off)) / p);
     }
-    const boost::math::students_t student(correction.degrees_of_freedom);
     // Never below one: twins know only what they were told of the boat.
-    const double stretch =
-        std::max(1.0, Quantile(pivots, kCalibratedAt) /
-                          boost::math::quantile(student, 0.5 * (1.0 + kCalibratedAt)));
+    const double stretch = std::max(
+        1.0, Quantile(pivots, kCalibratedAt) /
+                 StudentQuantile(correction.degrees_of_freedom, 0.5 * (1.0 + kCalibratedAt)));
     // The mean of few twins errs along the very directions in which single twins do.
     const Eigen::MatrixXd scaled = std::sqrt(1.0 + 1.0 / n) * white_.map * spread.sd.asDiagonal();
     const Eigen::MatrixXd covariance = scaled * scaled.transpose();
@@ -311,7 +307,7 @@ double JointQuantile(double degrees_of_freedom, double unknowns, double level) {
   // not.
   constexpr double kFewestSpare = 5.0;
   const double spare = std::max(degrees_of_freedom - unknowns + 1.0, kFewestSpare);
-  return boost::math::quantile(boost::math::fisher_f(unknowns, spare), level);
+  return FisherQuantile(unknowns, spare, level);
 }
 
 std::optional<TwinCorrection> CorrectWithTwins(

@@ -6,13 +6,9 @@
 #include <numeric>
 #include <string>
 
-#include <boost/math/distributions/chi_squared.hpp>
-#include <boost/math/distributions/fisher_f.hpp>
-#include <boost/math/distributions/normal.hpp>
-#include <boost/math/distributions/students_t.hpp>
-
 #include "contract.hpp"
 #include "linear_algebra/decompositions.hpp"
+#include "uncertainty/laws.hpp"
 
 namespace telltale {
 namespace {
@@ -39,20 +35,14 @@ double Share(const Eigen::MatrixXd& whitened, std::size_t segments) {
 }
 
 double JointPValue(double statistic, double q, double nu) {
-  if (std::isinf(nu)) {
-    return boost::math::cdf(boost::math::complement(boost::math::chi_squared(q), statistic));
-  }
-  const boost::math::fisher_f law(q, nu - q + 1.0);
-  return boost::math::cdf(boost::math::complement(law, statistic * (nu - q + 1.0) / (nu * q)));
+  if (std::isinf(nu)) return ChiSquaredTail(q, statistic);
+  return FisherTail(q, nu - q + 1.0, statistic * (nu - q + 1.0) / (nu * q));
 }
 
 /// The two-sided law of one scaled difference, nu by Welch and Satterthwaite.
 double SinglePValue(double scaled, double nu) {
-  if (std::isinf(nu)) {
-    return 2.0 * boost::math::cdf(boost::math::complement(boost::math::normal(), std::abs(scaled)));
-  }
-  return 2.0 *
-         boost::math::cdf(boost::math::complement(boost::math::students_t(nu), std::abs(scaled)));
+  if (std::isinf(nu)) return 2.0 * NormalTail(std::abs(scaled));
+  return 2.0 * StudentTail(nu, std::abs(scaled));
 }
 
 double WelchDegrees(double first_share, const Estimates& first, const Estimates& second) {

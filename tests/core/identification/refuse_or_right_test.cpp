@@ -6,13 +6,13 @@
 #include <vector>
 
 #include <gtest/gtest.h>
-#include <boost/math/distributions/students_t.hpp>
 
 #include "identification/identify.hpp"
 #include "parallel.hpp"
 #include "simulation/manoeuvres.hpp"
 #include "simulation/sensors.hpp"
 #include "support/boats.hpp"
+#include "uncertainty/laws.hpp"
 
 namespace telltale {
 namespace {
@@ -97,10 +97,9 @@ double HalfWidthOf(const Coefficient& coefficient) {
 /// eight seconds leave.
 double SoundMultiple(const Identification& identification, std::size_t comparisons) {
   const double clusters = (identification.window.end_s - identification.window.start_s) / 8.0;
-  const boost::math::students_t student(std::floor(clusters) - 1.0);
+  const double degrees_of_freedom = std::floor(clusters) - 1.0;
   const double tail = 0.5 * 0.01 / static_cast<double>(comparisons);
-  return boost::math::quantile(boost::math::complement(student, tail)) /
-         boost::math::quantile(student, 0.975);
+  return -StudentQuantile(degrees_of_freedom, tail) / StudentQuantile(degrees_of_freedom, 0.975);
 }
 
 bool WasRefused(const Identification* identification, const Coefficient& coefficient) {

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include <gtest/gtest.h>
-#include <boost/math/distributions/students_t.hpp>
 
 #include "coverage/truth.hpp"
 #include "data/preparation.hpp"
@@ -12,6 +11,7 @@
 #include "linear_algebra/decompositions.hpp"
 #include "parallel.hpp"
 #include "uncertainty/clustered_fit.hpp"
+#include "uncertainty/laws.hpp"
 
 namespace telltale {
 namespace {
@@ -70,8 +70,7 @@ TEST(TwinCorrection, BoundsHoldTheTruthAsOftenAsTheySay) {
     const auto corrected = CorrectWithTwins(
         dataset, {}, *fit, AllColumns(Parameterization::kPropeller), {}, {40, i, 1});
     if (!corrected) return;
-    const double t =
-        boost::math::quantile(boost::math::students_t(corrected->degrees_of_freedom), 0.975);
+    const double t = StudentQuantile(corrected->degrees_of_freedom, 0.975);
     for (Eigen::Index j = 0; j < truth.size(); ++j) {
       held[i].push_back(std::abs(corrected->theta[j] - truth[j]) <=
                         t * std::sqrt(corrected->covariance(j, j)));
