@@ -45,10 +45,15 @@ function(telltale_layer name)
   target_link_libraries(telltale_${name} PUBLIC ${ARG_LINKS} PRIVATE telltale_compile)
 endfunction()
 
-# Parsing Eigen takes longer than compiling most files here: it is read once a target.
+# Parsing Eigen takes longer than compiling most files here: it is read once, for core, which must be
+# compiled as the target is, optimisation included.
 function(telltale_precompile target)
-  target_precompile_headers(${target} PRIVATE <Eigen/Dense> <optional> <string> <vector>
-                            <tl/expected.hpp>)
+  if(target STREQUAL telltale_core)
+    target_precompile_headers(telltale_core PRIVATE <Eigen/Dense> <optional> <string> <vector>
+                              <tl/expected.hpp>)
+  else()
+    target_precompile_headers(${target} REUSE_FROM telltale_core)
+  endif()
 endfunction()
 
 # What waits for people, or checks the rest, gains nothing from the last optimisations but their wait.
