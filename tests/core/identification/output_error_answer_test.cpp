@@ -117,7 +117,7 @@ TEST(OutputErrorAnswer, NamesThrustTermsThatOneCommandCannotTellApart) {
     // What can be told apart from it is.
     const double sum = kCommand * kCommand * Find(*result, equation, "f:d^2").estimate +
                        kCommand * Find(*result, equation, "f:d").estimate;
-    const Eigen::VectorXd& truth = testing::StableBoat().theta[IndexOf(equation)];
+    const Eigen::VectorXd truth = testing::StableBoat().theta[IndexOf(equation)];
     const Eigen::Index at = equation == Equation::kSurge ? 5 : 9;
     EXPECT_NEAR(sum, kCommand * kCommand * truth[at] + kCommand * truth[at + 1], 0.02);
   }
