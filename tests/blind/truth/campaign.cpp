@@ -1,0 +1,221 @@
+#include "campaign.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <stdexcept>
+#include <utility>
+
+#include "effects.hpp"
+#include "recording.hpp"
+#include "seal.hpp"
+
+namespace blind {
+namespace {
+
+constexpr int kTrainLogs = 3;
+constexpr int kReferenceLogs = 4;
+constexpr int kHealthyCases = 30;
+constexpr std::array<double, 3> kSizes{0.5, 1.0, 2.0};
+constexpr std::array<double, 2> kOutsideSizes{1.0, 2.0};
+
+using Pair = std::pair<const char*, const char*>;
+
+constexpr std::array<Pair, 12> kDevelopmentPairs{{{"wind", "thruster_imbalance"},
+                                                  {"current", "thrust_gain"},
+                                                  {"heading_bias", "hull_fouling"},
+                                                  {"thruster_lag", "payload"},
+                                                  {"thruster_delay", "current"},
+                                                  {"antenna_lever_arm", "thruster_dead_zone"},
+                                                  {"waves", "thruster_imbalance"},
+                                                  {"thrust_sag", "wind"},
+                                                  {"crossflow_drag", "thruster_misalignment"},
+                                                  {"gnss_latency", "thrust_gain"},
+                                                  {"body_bias", "thruster_lag"},
+                                                  {"thruster_saturation", "heading_bias"}}};
+
+constexpr std::array<Pair, 12> kHeldOutPairs{{{"current", "thruster_imbalance"},
+                                              {"wind", "hull_fouling"},
+                                              {"heading_bias", "thruster_lag"},
+                                              {"thruster_delay", "payload"},
+                                              {"antenna_lever_arm", "thruster_imbalance"},
+                                              {"waves", "thrust_gain"},
+                                              {"thrust_inflow_loss", "current"},
+                                              {"body_bias", "gnss_latency"},
+                                              {"added_mass_coupling", "thruster_dead_zone"},
+                                              {"crossflow_drag", "thruster_delay"},
+                                              {"thrust_sag", "heading_bias"},
+                                              {"thruster_saturation", "wind"}}};
+
+Dice Yard(Set set, std::uint64_t seed) {
+  return Dice(seed).For(set == Set::kDevelopment ? "development" : "held-out");
+}
+
+void AddSingles(std::vector<Case>& cases, Dice& dice) {
+  for (const Effect& effect : Effects()) {
+    if (!effect.in_library) continue;
+    for (const double size : kSizes) {
+      for (const double sign : effect.has_sign ? std::vector{-1.0, 1.0} : std::vector{1.0}) {
+        cases.push_back({"single", {{effect.name, size * dice.Uniform(0.9, 1.1), sign}}});
+      }
+    }
+  }
+}
+
+void AddOutside(std::vector<Case>& cases, Dice& dice) {
+  for (const Effect& effect : Effects()) {
+    if (effect.in_library) continue;
+    for (const double size : kOutsideSizes) {
+      cases.push_back({"outside", {{effect.name, size * dice.Uniform(0.9, 1.1), 1.0}}});
+    }
+  }
+}
+
+void AddPairs(std::vector<Case>& cases, Set set, Dice& dice) {
+  for (const Pair& pair : set == Set::kDevelopment ? kDevelopmentPairs : kHeldOutPairs) {
+    cases.push_back({"pair",
+                     {{pair.first, dice.Uniform(0.9, 1.6), dice.Sign()},
+                      {pair.second, dice.Uniform(0.9, 1.6), dice.Sign()}}});
+  }
+}
+
+std::string Numbered(const char* format, std::size_t number) {
+  std::array<char, 48> text{};
+  std::snprintf(text.data(), text.size(), format, number);
+  return text.data();
+}
+
+std::string InQuotes(const std::string& text) {
+  return '"' + text + '"';
+}
+
+std::string Number(double value) {
+  std::array<char, 32> text{};
+  std::snprintf(text.data(), text.size(), "%.6g", value);
+  return text.data();
+}
+
+std::string EffectLabel(const AppliedEffect& applied, const std::vector<Parameter>& parameters) {
+  std::string label = "{\"effect\":" + InQuotes(applied.effect) +
+                      ",\"size\":" + Number(applied.size) + ",\"sign\":" + Number(applied.sign) +
+                      ",\"parameters\":[";
+  for (std::size_t at = 0; at < parameters.size(); ++at) {
+    label += (at == 0 ? "" : ",");
+    label += "{\"name\":" + InQuotes(parameters[at].name) +
+             ",\"value\":" + Number(parameters[at].value) +
+             ",\"unit\":" + InQuotes(parameters[at].unit) + "}";
+  }
+  return label + "]}";
+}
+
+/// The day's scenario with and without the case's effects, and its label.
+std::pair<Voyage, std::string> Prepared(const Case& asked, const Hull& hull, double onset_s,
+                                        double duration_s, const Dice& dice) {
+  const Scenario healthy{.hull = hull, .weather = LightDay(dice.For("weather")), .faults = {}};
+  Voyage voyage{healthy, healthy, onset_s, duration_s};
+  std::string label = "{\"kind\":" + InQuotes(asked.kind) + ",\"hull\":" + InQuotes(hull.name) +
+                      ",\"onset_s\":" + Number(onset_s) + ",\"effects\":[";
+  for (std::size_t at = 0; at < asked.effects.size(); ++at) {
+    const AppliedEffect& applied = asked.effects[at];
+    Dice draws = dice.For("effect", at);
+    const auto parameters =
+        EffectNamed(applied.effect).apply(voyage.after, applied.size, applied.sign, draws);
+    label += (at == 0 ? "" : ",") + EffectLabel(applied, parameters);
+  }
+  return {voyage, label + "]}"};
+}
+
+void Record(const Voyage& voyage, Set set, const Dice& dice, const std::filesystem::path& folder) {
+  Mission mission = DrawnMission(set, voyage.duration_s, dice.For("mission"));
+  const Track track = Sail(voyage, std::move(mission), dice.For("voyage"));
+  WriteRecording(track, voyage, dice.For("sensors"), folder);
+}
+
+void WriteHealthy(const CampaignOptions& options, const Hull& hull, const Dice& dice,
+                  const std::filesystem::path& folder) {
+  const auto [voyage, label] = Prepared({"healthy", {}}, hull, 0.0, options.duration_s, dice);
+  Record(voyage, options.set, dice, folder);
+}
+
+}  // namespace
+
+std::vector<Case> PlannedCases(Set set, std::uint64_t seed, std::size_t repeats) {
+  Dice dice = Yard(set, seed).For("plan");
+  const std::size_t hulls = Fleet(set, seed).size();
+  std::vector<Case> cases;
+  for (std::size_t repeat = 0; repeat < repeats; ++repeat) {
+    for (int healthy = 0; healthy < kHealthyCases; ++healthy) cases.push_back({"healthy", {}});
+    AddSingles(cases, dice);
+    AddPairs(cases, set, dice);
+    AddOutside(cases, dice);
+  }
+  // Hulls are dealt out within the kinds, so that each hull meets about as many of each.
+  std::size_t hull = dice.Below(hulls);
+  for (std::size_t at = 0; at < cases.size(); ++at) {
+    if (at % hulls == 0) hull = dice.Below(hulls);
+    cases[at].hull = (hull + at) % hulls;
+    cases[at].day = at;
+  }
+  dice.Shuffle(cases);
+  return cases;
+}
+
+void WriteCampaign(const CampaignOptions& options, const std::filesystem::path& folder,
+                   const Progress& progress) {
+  const Dice yard = Yard(options.set, options.seed);
+  const std::vector<Hull> fleet = Fleet(options.set, options.seed);
+  std::vector<Case> cases = PlannedCases(options.set, options.seed, options.repeats);
+  if (options.most_cases && *options.most_cases < cases.size()) {
+    cases.resize(*options.most_cases);
+  }
+  const std::size_t all = fleet.size() * (kTrainLogs + kReferenceLogs) + cases.size();
+  std::size_t done = 0;
+  for (const Hull& hull : fleet) {
+    const std::filesystem::path home = folder / "hulls" / hull.name;
+    WriteFile(home / "vehicle.textproto", VehicleFile(hull));
+    const Dice days = yard.For(hull.name);
+    for (std::size_t day = 1; day <= kTrainLogs; ++day) {
+      progress(done++, all);
+      WriteHealthy(options, hull, days.For("train", day), home / Numbered("train-%zu", day));
+    }
+    for (std::size_t day = 1; day <= kReferenceLogs; ++day) {
+      progress(done++, all);
+      WriteHealthy(options, hull, days.For("reference", day),
+                   home / Numbered("reference-%zu", day));
+    }
+  }
+  for (std::size_t number = 1; number <= cases.size(); ++number) {
+    progress(done++, all);
+    const Case& asked = cases[number - 1];
+    const std::string name = Numbered("%03zu", number);
+    const Hull& hull = fleet[asked.hull];
+    const Dice dice = yard.For("case", asked.day);
+    const auto [voyage, label] = Prepared(asked, hull, 0.0, options.duration_s, dice);
+    Record(voyage, options.set, dice, folder / "cases" / name / "log");
+    WriteFile(folder / "cases" / name / "hull", hull.name + "\n");
+    WriteFile(folder / "labels" / (name + ".sealed"), Sealed(label, name));
+  }
+  progress(done, all);
+}
+
+std::string WriteSingleCase(const SingleCaseOptions& options, const std::filesystem::path& folder) {
+  const std::vector<Hull> fleet = Fleet(options.set, options.seed);
+  const auto hull = std::find_if(fleet.begin(), fleet.end(), [&](const Hull& candidate) {
+    return options.hull.empty() || candidate.name == options.hull;
+  });
+  if (hull == fleet.end()) {
+    std::string known;
+    for (const Hull& candidate : fleet) known += " " + candidate.name;
+    throw std::invalid_argument("no hull " + options.hull + " in this set; there are" + known);
+  }
+  const Dice dice = Yard(options.set, options.seed).For("single case");
+  const Case asked{options.effects.empty() ? "healthy" : "single", options.effects};
+  const auto [voyage, label] = Prepared(asked, *hull, options.onset_s, options.duration_s, dice);
+  Record(voyage, options.set, dice, folder / "log");
+  WriteFile(folder / "hull", hull->name + "\n");
+  WriteFile(folder / "vehicle.textproto", VehicleFile(*hull));
+  WriteFile(folder / "label.sealed", Sealed(label, "single"));
+  return label;
+}
+
+}  // namespace blind

@@ -1,0 +1,59 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "hull.hpp"
+
+namespace blind {
+
+struct AppliedEffect {
+  std::string effect;
+  double size = 1.0;  // times typical
+  double sign = 1.0;
+};
+
+/// One recording to be diagnosed.
+struct Case {
+  std::string kind;  // healthy, single, pair or outside (the library)
+  std::vector<AppliedEffect> effects;
+  std::size_t hull = 0;
+  std::uint64_t day = 0;  // of no two cases alike
+};
+
+/// All cases of a set in the order of their numbers, which is drawn.
+std::vector<Case> PlannedCases(Set set, std::uint64_t seed, std::size_t repeats);
+
+struct CampaignOptions {
+  Set set = Set::kDevelopment;
+  std::uint64_t seed = 1;
+  std::size_t repeats = 1;
+  std::optional<std::size_t> most_cases;
+  double duration_s = 600.0;
+};
+
+/// Called before each recording with how many there are and are done.
+using Progress = std::function<void(std::size_t done, std::size_t all)>;
+
+/// Writes hulls/, cases/ and labels/ below `folder`.
+void WriteCampaign(const CampaignOptions& options, const std::filesystem::path& folder,
+                   const Progress& progress);
+
+struct SingleCaseOptions {
+  Set set = Set::kDevelopment;
+  std::uint64_t seed = 1;
+  std::string hull;  // empty: the first
+  std::vector<AppliedEffect> effects;
+  double onset_s = 0.0;
+  double duration_s = 600.0;
+};
+
+/// Writes log/, hull, vehicle.textproto and label.sealed (sealed as "single") below `folder`;
+/// returns the label. Throws std::invalid_argument for an unknown hull or effect.
+std::string WriteSingleCase(const SingleCaseOptions& options, const std::filesystem::path& folder);
+
+}  // namespace blind

@@ -1,0 +1,210 @@
+#include "effects.hpp"
+
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+
+namespace blind {
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180.0;
+using Parameters = std::vector<Parameter>;
+
+double Degrees(double radians) {
+  return radians / kDegree;
+}
+
+Parameters Wind(Scenario& scenario, double size, double, Dice& dice) {
+  Weather& day = scenario.weather;
+  day.wind_mps = 5.0 * std::sqrt(size);  // force, not speed, goes with the size
+  day.wind_towards = dice.Angle();
+  day.gust_share = 0.15;
+  return {{"speed", day.wind_mps, "m/s"}, {"towards", Degrees(day.wind_towards), "deg"}};
+}
+
+Parameters Current(Scenario& scenario, double size, double, Dice& dice) {
+  Weather& day = scenario.weather;
+  day.current_mps = 0.2 * size;
+  day.current_towards = dice.Angle();
+  return {{"speed", day.current_mps, "m/s"}, {"towards", Degrees(day.current_towards), "deg"}};
+}
+
+Parameters Waves(Scenario& scenario, double size, double, Dice& dice) {
+  Weather& day = scenario.weather;
+  day.wave_force_n = 10.0 * size;
+  day.wave_period_s = dice.Uniform(1.6, 2.6);
+  day.wave_towards = dice.Angle();
+  return {{"force", day.wave_force_n, "N"},
+          {"period", day.wave_period_s, "s"},
+          {"towards", Degrees(day.wave_towards), "deg"}};
+}
+
+Parameters BodyBias(Scenario& scenario, double size, double sign, Dice& dice) {
+  Faults& faults = scenario.faults;
+  const double direction = dice.Uniform(-75.0, 75.0) * kDegree;  // the sign turns it round
+  faults.body_x_n = sign * 2.0 * size * std::cos(direction);
+  faults.body_y_n = sign * 2.0 * size * std::sin(direction);
+  faults.body_n_nm = size * dice.Sign() * dice.Uniform(0.3, 0.7);
+  return {{"X", faults.body_x_n, "N"}, {"Y", faults.body_y_n, "N"}, {"N", faults.body_n_nm, "N m"}};
+}
+
+Parameters DeadZone(Scenario& scenario, double size, double, Dice&) {
+  scenario.faults.dead_zone_widening_us = 24.0 * size;
+  return {{"widening", scenario.faults.dead_zone_widening_us, "us"}};
+}
+
+Parameters Lag(Scenario& scenario, double size, double, Dice&) {
+  scenario.faults.extra_lag_s = 0.25 * size;
+  return {{"added time constant", scenario.faults.extra_lag_s, "s"}};
+}
+
+Parameters Delay(Scenario& scenario, double size, double, Dice&) {
+  scenario.faults.command_delay_s = 0.2 * size;
+  return {{"delay", scenario.faults.command_delay_s, "s"}};
+}
+
+Parameters Imbalance(Scenario& scenario, double size, double sign, Dice&) {
+  const double lost = 0.2 * size;
+  (sign > 0.0 ? scenario.faults.port_share : scenario.faults.starboard_share) = 1.0 - lost;
+  return {{sign > 0.0 ? "port lost" : "starboard lost", lost, ""}};
+}
+
+Parameters Saturation(Scenario& scenario, double size, double, Dice&) {
+  scenario.faults.command_limit = 1.0 - 0.25 * size;
+  return {{"limit", scenario.faults.command_limit, ""}};
+}
+
+Parameters Misalignment(Scenario& scenario, double size, double sign, Dice&) {
+  scenario.faults.misalignment_rad = sign * 2.0 * size * kDegree;
+  return {{"angle", sign * 2.0 * size, "deg"}};
+}
+
+Parameters Gain(Scenario& scenario, double size, double sign, Dice&) {
+  scenario.faults.thrust_share = 1.0 - sign * 0.1 * size;
+  return {{"lost", sign * 0.1 * size, ""}};
+}
+
+Parameters Sag(Scenario& scenario, double size, double, Dice&) {
+  scenario.faults.sag = 0.14 * size;
+  return {{"lost at the end", scenario.faults.sag, ""}};
+}
+
+Parameters InflowLoss(Scenario& scenario, double size, double, Dice&) {
+  scenario.faults.extra_inflow_loss = 0.17 * size;
+  return {{"lost at 1.8 m/s", scenario.faults.extra_inflow_loss, ""}};
+}
+
+Parameters Payload(Scenario& scenario, double size, double, Dice& dice) {
+  scenario.faults.payload_kg = 0.2 * size * scenario.hull.mass_kg;
+  scenario.faults.payload_x_m = dice.Sign() * dice.Uniform(0.05, 0.3);
+  return {{"mass", scenario.faults.payload_kg, "kg"}, {"x", scenario.faults.payload_x_m, "m"}};
+}
+
+Parameters Fouling(Scenario& scenario, double size, double, Dice&) {
+  scenario.faults.fouling = 1.0 + 0.25 * size;
+  return {{"friction times", scenario.faults.fouling, ""}};
+}
+
+Parameters Crossflow(Scenario& scenario, double size, double, Dice&) {
+  scenario.faults.crossflow = 1.0 + 0.5 * size;
+  return {{"drag times", scenario.faults.crossflow, ""}};
+}
+
+Parameters Munk(Scenario& scenario, double size, double sign, Dice&) {
+  scenario.faults.munk = sign * 0.5 * size;
+  return {{"moment gained", scenario.faults.munk, ""}};
+}
+
+Parameters HeadingBias(Scenario& scenario, double size, double sign, Dice&) {
+  scenario.faults.heading_bias_rad = sign * 3.0 * size * kDegree;
+  return {{"bias", sign * 3.0 * size, "deg"}};
+}
+
+Parameters LeverArm(Scenario& scenario, double size, double sign, Dice& dice) {
+  Faults& faults = scenario.faults;
+  const double direction = dice.Uniform(-60.0, 60.0) * kDegree;  // fore or aft rather than abeam
+  faults.antenna_forward_m = sign * 0.3 * size * std::cos(direction);
+  faults.antenna_starboard_m = sign * 0.3 * size * std::sin(direction);
+  return {{"forward", faults.antenna_forward_m, "m"},
+          {"starboard", faults.antenna_starboard_m, "m"}};
+}
+
+Parameters Latency(Scenario& scenario, double size, double, Dice&) {
+  scenario.faults.gnss_latency_s = 0.2 * size;
+  return {{"latency", scenario.faults.gnss_latency_s, "s"}};
+}
+
+Parameters Shear(Scenario& scenario, double size, double, Dice&) {
+  scenario.faults.shear_mps = 0.25 * size;
+  return {{"amplitude", scenario.faults.shear_mps, "m/s"}};
+}
+
+Parameters Wash(Scenario& scenario, double size, double, Dice&) {
+  scenario.faults.wash_force_n = 25.0 * size;
+  return {{"force", scenario.faults.wash_force_n, "N"}};
+}
+
+Parameters CompassWander(Scenario& scenario, double size, double, Dice&) {
+  scenario.faults.compass_wander_rad = 4.0 * size * kDegree;
+  return {{"standard deviation", 4.0 * size, "deg"}};
+}
+
+Parameters TowedObject(Scenario& scenario, double size, double, Dice&) {
+  scenario.faults.tow_kg = 12.0 * size;
+  return {{"mass", scenario.faults.tow_kg, "kg"}};
+}
+
+Parameters Weed(Scenario& scenario, double size, double, Dice&) {
+  scenario.faults.weed_share = 0.15 * size;
+  return {{"share of time", scenario.faults.weed_share, ""}};
+}
+
+Parameters Shallows(Scenario& scenario, double size, double, Dice&) {
+  scenario.faults.shoal_drag = 0.6 * size;
+  return {{"drag gained", scenario.faults.shoal_drag, ""}};
+}
+
+}  // namespace
+
+const std::vector<Effect>& Effects() {
+  static const std::vector<Effect> effects{
+      {"wind", false, true, Wind},
+      {"current", false, true, Current},
+      {"waves", false, true, Waves},
+      {"body_bias", true, true, BodyBias},
+      {"thruster_dead_zone", false, true, DeadZone},
+      {"thruster_lag", false, true, Lag},
+      {"thruster_delay", false, true, Delay},
+      {"thruster_imbalance", true, true, Imbalance},
+      {"thruster_saturation", false, true, Saturation},
+      {"thruster_misalignment", true, true, Misalignment},
+      {"thrust_gain", true, true, Gain},
+      {"thrust_sag", false, true, Sag},
+      {"thrust_inflow_loss", false, true, InflowLoss},
+      {"payload", false, true, Payload},
+      {"hull_fouling", false, true, Fouling},
+      {"crossflow_drag", false, true, Crossflow},
+      {"added_mass_coupling", true, true, Munk},
+      {"heading_bias", true, true, HeadingBias},
+      {"antenna_lever_arm", true, true, LeverArm},
+      {"gnss_latency", false, true, Latency},
+      {"current_shear", false, false, Shear},
+      {"ship_wash", false, false, Wash},
+      {"compass_wander", false, false, CompassWander},
+      {"towed_object", false, false, TowedObject},
+      {"propeller_weed", false, false, Weed},
+      {"shallow_water", false, false, Shallows},
+  };
+  return effects;
+}
+
+const Effect& EffectNamed(const std::string& name) {
+  std::string known;
+  for (const Effect& effect : Effects()) {
+    if (effect.name == name) return effect;
+    known += (known.empty() ? "" : ", ") + effect.name;
+  }
+  throw std::invalid_argument("no effect " + name + "; there are " + known);
+}
+
+}  // namespace blind

@@ -1,0 +1,121 @@
+#include "recording.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <fstream>
+#include <numbers>
+#include <stdexcept>
+#include <string>
+
+namespace blind {
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180.0;
+constexpr int kStepsPerFix = 40;      // 5 Hz
+constexpr int kStepsPerHeading = 10;  // 20 Hz
+
+/// North and east metres to degrees around a point of the Baltic, on WGS 84.
+class Chart {
+ public:
+  Chart() {
+    constexpr double kEquatorRadiusM = 6378137.0, kEccentricitySquared = 6.69437999014e-3;
+    const double sine = std::sin(kLatitudeDeg * kDegree);
+    const double w = 1.0 - kEccentricitySquared * sine * sine;
+    north_m_per_deg_ = kDegree * kEquatorRadiusM * (1.0 - kEccentricitySquared) / std::pow(w, 1.5);
+    east_m_per_deg_ = kDegree * kEquatorRadiusM / std::sqrt(w) * std::cos(kLatitudeDeg * kDegree);
+  }
+  double LatitudeDeg(double north_m) const { return kLatitudeDeg + north_m / north_m_per_deg_; }
+  double LongitudeDeg(double east_m) const { return kLongitudeDeg + east_m / east_m_per_deg_; }
+
+ private:
+  static constexpr double kLatitudeDeg = 54.41;
+  static constexpr double kLongitudeDeg = 10.22;
+  double north_m_per_deg_;
+  double east_m_per_deg_;
+};
+
+template <typename... Numbers>
+void AppendLine(std::string& text, const char* format, Numbers... numbers) {
+  std::array<char, 96> line{};
+  std::snprintf(line.data(), line.size(), format, numbers...);
+  text += line.data();
+}
+
+const Faults& FaultsAt(const Voyage& voyage, double time_s) {
+  return (time_s >= voyage.onset_s ? voyage.after : voyage.before).faults;
+}
+
+std::string Fixes(const Track& track, const Voyage& voyage, Dice dice) {
+  const Chart chart;
+  const double memory_s = dice.Uniform(20.0, 40.0);
+  GaussMarkov north_drift(0.015, memory_s, dice.For("north"));
+  GaussMarkov east_drift(0.015, memory_s, dice.For("east"));
+  std::string text = "time_s,latitude_deg,longitude_deg\n";
+  for (int step = 0; step < static_cast<int>(track.states.size()); step += kStepsPerFix) {
+    const double time = step * kStepS;
+    const Faults& faults = FaultsAt(voyage, time);
+    const int late = static_cast<int>(std::lround(faults.gnss_latency_s / kStepS));
+    const State& boat = track.states[static_cast<std::size_t>(std::max(0, step - late))];
+    const Hull& hull = voyage.before.hull;
+    const double forward = hull.antenna_forward_m + faults.antenna_forward_m;
+    const double starboard = hull.antenna_starboard_m + faults.antenna_starboard_m;
+    const double c = std::cos(boat.heading_rad), s = std::sin(boat.heading_rad);
+    const double north = boat.north_m + c * forward - s * starboard + dice.Normal(0.01) +
+                         north_drift.Step(kStepsPerFix * kStepS);
+    const double east = boat.east_m + s * forward + c * starboard + dice.Normal(0.01) +
+                        east_drift.Step(kStepsPerFix * kStepS);
+    AppendLine(text, "%.1f,%.10f,%.10f\n", time, chart.LatitudeDeg(north),
+               chart.LongitudeDeg(east));
+  }
+  return text;
+}
+
+std::string Headings(const Track& track, const Voyage& voyage, Dice dice) {
+  constexpr double kWanderTimeS = 25.0;
+  GaussMarkov drift(0.15 * kDegree, dice.Uniform(20.0, 40.0), dice.For("drift"));
+  GaussMarkov wander(1.0, kWanderTimeS, dice.For("wander"));
+  std::string text = "time_s,heading_deg\n";
+  for (int step = 0; step < static_cast<int>(track.states.size()); step += kStepsPerHeading) {
+    const double time = step * kStepS;
+    const Faults& faults = FaultsAt(voyage, time);
+    const double shown = track.states[static_cast<std::size_t>(step)].heading_rad +
+                         faults.heading_bias_rad + dice.Normal(0.2 * kDegree) +
+                         drift.Step(kStepsPerHeading * kStepS) +
+                         faults.compass_wander_rad * wander.Step(kStepsPerHeading * kStepS);
+    double degrees = std::fmod(shown / kDegree, 360.0);
+    if (degrees < 0.0) degrees += 360.0;
+    AppendLine(text, "%.2f,%.4f\n", time, degrees);
+  }
+  return text;
+}
+
+std::string Commands(const Track& track) {
+  std::string text = "time_s,left_us,right_us\n";
+  for (std::size_t at = 0; at < track.commands.size(); ++at) {
+    AppendLine(text, "%.1f,%.0f,%.0f\n", static_cast<double>(at) * kStepsPerCommand * kStepS,
+               track.commands[at].port_us, track.commands[at].starboard_us);
+  }
+  return text;
+}
+
+}  // namespace
+
+void WriteFile(const std::filesystem::path& file, const std::string& content) {
+  std::error_code error;
+  std::filesystem::create_directories(file.parent_path(), error);
+  std::ofstream stream(file, std::ios::binary | std::ios::trunc);
+  stream << content;
+  stream.close();
+  if (!stream) throw std::runtime_error("cannot write " + file.string());
+}
+
+void WriteRecording(const Track& track, const Voyage& voyage, Dice dice,
+                    const std::filesystem::path& folder) {
+  WriteFile(folder / "gnss.csv", Fixes(track, voyage, dice.For("fixes")));
+  WriteFile(folder / "heading.csv", Headings(track, voyage, dice.For("headings")));
+  WriteFile(folder / "thrusters.csv", Commands(track));
+}
+
+}  // namespace blind

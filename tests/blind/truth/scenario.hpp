@@ -1,0 +1,64 @@
+#pragma once
+
+#include "hull.hpp"
+
+namespace blind {
+
+/// The day: directions are where wind, current and waves go to, radians clockwise from north.
+struct Weather {
+  double wind_mps = 0.0;
+  double wind_towards = 0.0;
+  double gust_share = 0.15;  // standard deviation over mean
+  double gust_time_s = 8.0;
+  double current_mps = 0.0;
+  double current_towards = 0.0;
+  double current_wander_mps = 0.0;
+  double wave_force_n = 0.0;  // amplitude of the regular sea of the same energy
+  double wave_period_s = 2.0;
+  double wave_towards = 0.0;
+};
+
+/// A healthy day: light air, hardly a current, ripples.
+Weather LightDay(Dice dice);
+
+/// All that can be wrong with boat or sensors; as it stands nothing is.
+struct Faults {
+  double dead_zone_widening_us = 0.0;
+  double extra_lag_s = 0.0;
+  double command_delay_s = 0.0;
+  double port_share = 1.0;
+  double starboard_share = 1.0;
+  double command_limit = 1.0;     // share of full command
+  double misalignment_rad = 0.0;  // of both thrusters, to starboard
+  double thrust_share = 1.0;
+  double sag = 0.0;  // thrust lost by the end of a usual mission
+  double extra_inflow_loss = 0.0;
+  double payload_kg = 0.0;
+  double payload_x_m = 0.0;
+  double fouling = 1.0;
+  double crossflow = 1.0;
+  double munk = 0.0;  // share by which the Munk moment is larger
+  double body_x_n = 0.0;
+  double body_y_n = 0.0;
+  double body_n_nm = 0.0;
+
+  double heading_bias_rad = 0.0;
+  double antenna_forward_m = 0.0;
+  double antenna_starboard_m = 0.0;
+  double gnss_latency_s = 0.0;
+
+  double shear_mps = 0.0;  // current that varies with place
+  double wash_force_n = 0.0;
+  double compass_wander_rad = 0.0;
+  double tow_kg = 0.0;
+  double weed_share = 0.0;  // of the time that one thruster is fouled
+  double shoal_drag = 0.0;  // drag gained where it is shallow, as a share
+};
+
+struct Scenario {
+  Hull hull;
+  Weather weather;
+  Faults faults;
+};
+
+}  // namespace blind
