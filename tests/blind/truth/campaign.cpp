@@ -13,8 +13,9 @@
 namespace blind {
 namespace {
 
-constexpr int kTrainLogs = 3;
-constexpr int kReferenceLogs = 4;
+constexpr std::size_t kTrainLogs = 3;
+constexpr std::size_t kReferenceLogs = 4;
+constexpr std::size_t kDaysBefore = 10;  // of the hulls' own logs; then a case a day
 constexpr int kHealthyCases = 30;
 constexpr std::array<double, 3> kSizes{0.5, 1.0, 2.0};
 constexpr std::array<double, 2> kOutsideSizes{1.0, 2.0};
@@ -125,16 +126,17 @@ std::pair<Voyage, std::string> Prepared(const Case& asked, const Hull& hull, dou
   return {voyage, label + "]}"};
 }
 
-void Record(const Voyage& voyage, Set set, const Dice& dice, const std::filesystem::path& folder) {
+void Record(const Voyage& voyage, Set set, std::size_t day, const Dice& dice,
+            const std::filesystem::path& folder) {
   Mission mission = DrawnMission(set, voyage.duration_s, dice.For("mission"));
   const Track track = Sail(voyage, std::move(mission), dice.For("voyage"));
-  WriteRecording(track, voyage, dice.For("sensors"), folder);
+  WriteRecording(track, voyage, day, dice.For("sensors"), folder);
 }
 
-void WriteHealthy(const CampaignOptions& options, const Hull& hull, const Dice& dice,
-                  const std::filesystem::path& folder) {
+void WriteHealthy(const CampaignOptions& options, const Hull& hull, std::size_t day,
+                  const Dice& dice, const std::filesystem::path& folder) {
   const auto [voyage, label] = Prepared({"healthy", {}}, hull, 0.0, options.duration_s, dice);
-  Record(voyage, options.set, dice, folder);
+  Record(voyage, options.set, day, dice, folder);
 }
 
 }  // namespace
@@ -176,11 +178,11 @@ void WriteCampaign(const CampaignOptions& options, const std::filesystem::path& 
     const Dice days = yard.For(hull.name);
     for (std::size_t day = 1; day <= kTrainLogs; ++day) {
       progress(done++, all);
-      WriteHealthy(options, hull, days.For("train", day), home / Numbered("train-%zu", day));
+      WriteHealthy(options, hull, day, days.For("train", day), home / Numbered("train-%zu", day));
     }
     for (std::size_t day = 1; day <= kReferenceLogs; ++day) {
       progress(done++, all);
-      WriteHealthy(options, hull, days.For("reference", day),
+      WriteHealthy(options, hull, kTrainLogs + day, days.For("reference", day),
                    home / Numbered("reference-%zu", day));
     }
   }
@@ -191,7 +193,7 @@ void WriteCampaign(const CampaignOptions& options, const std::filesystem::path& 
     const Hull& hull = fleet[asked.hull];
     const Dice dice = yard.For("case", asked.day);
     const auto [voyage, label] = Prepared(asked, hull, 0.0, options.duration_s, dice);
-    Record(voyage, options.set, dice, folder / "cases" / name / "log");
+    Record(voyage, options.set, kDaysBefore + number, dice, folder / "cases" / name / "log");
     WriteFile(folder / "cases" / name / "hull", hull.name + "\n");
     WriteFile(folder / "labels" / (name + ".sealed"), Sealed(label, name));
   }
@@ -211,7 +213,7 @@ std::string WriteSingleCase(const SingleCaseOptions& options, const std::filesys
   const Dice dice = Yard(options.set, options.seed).For("single case");
   const Case asked{options.effects.empty() ? "healthy" : "single", options.effects};
   const auto [voyage, label] = Prepared(asked, *hull, options.onset_s, options.duration_s, dice);
-  Record(voyage, options.set, dice, folder / "log");
+  Record(voyage, options.set, kDaysBefore, dice, folder / "log");
   WriteFile(folder / "hull", hull->name + "\n");
   WriteFile(folder / "vehicle.textproto", VehicleFile(*hull));
   WriteFile(folder / "label.sealed", Sealed(label, "single"));

@@ -1,5 +1,6 @@
 #include "hull.hpp"
 
+#include <cmath>
 #include <cstdio>
 
 namespace blind {
@@ -18,21 +19,22 @@ Hull Drawn(const std::string& name, Dice dice) {
   hull.inertia_z_kgm2 =
       hull.mass_kg * (radius_of_gyration_m * radius_of_gyration_m + hull.x_g_m * hull.x_g_m);
   hull.added_surge_kg = hull.mass_kg * dice.Uniform(0.05, 0.10);
-  hull.added_sway_kg = hull.mass_kg * dice.Uniform(0.55, 0.85);
+  hull.added_sway_kg = hull.mass_kg * dice.Uniform(0.45, 0.70);
   hull.added_coupling_kgm = hull.added_sway_kg * dice.Uniform(-0.05, 0.05);
   hull.added_yaw_kgm2 = hull.added_sway_kg * dice.Uniform(0.10, 0.15);
 
+  // Heavier boats float deeper.
   const double wetted = hull.mass_kg / 35.0;
   hull.surge_linear = dice.Uniform(5.0, 9.0);
   hull.surge_quadratic = dice.Uniform(0.8, 1.1) * (9.0 + 10.0 * wetted);
   hull.surge_cubic = dice.Uniform(0.8, 2.2);
-  hull.sway_linear = dice.Uniform(20.0, 32.0);
+  hull.sway_linear = wetted * dice.Uniform(7.0, 14.0);
   hull.sway_cubic = dice.Uniform(8.0, 20.0);
-  hull.yaw_linear = dice.Uniform(15.0, 21.0);
+  hull.yaw_linear = std::sqrt(wetted) * dice.Uniform(10.0, 14.0);
   hull.yaw_cubic = dice.Uniform(2.0, 5.0);
-  hull.crossflow = dice.Uniform(75.0, 115.0);
+  hull.crossflow = wetted * dice.Uniform(50.0, 80.0);
   hull.crossflow_centre = dice.Uniform(-0.15, 0.15);
-  hull.skeg_lift = dice.Uniform(26.0, 38.0);
+  hull.skeg_lift = wetted * dice.Uniform(22.0, 30.0);
   hull.skeg_x_m = dice.Uniform(-0.5, -0.4);
 
   hull.propeller_separation_m = dice.Uniform(0.6, 0.9);

@@ -47,7 +47,7 @@ const Faults& FaultsAt(const Voyage& voyage, double time_s) {
   return (time_s >= voyage.onset_s ? voyage.after : voyage.before).faults;
 }
 
-std::string Fixes(const Track& track, const Voyage& voyage, Dice dice) {
+std::string Fixes(const Track& track, const Voyage& voyage, double start_s, Dice dice) {
   const Chart chart;
   const double memory_s = dice.Uniform(20.0, 40.0);
   GaussMarkov north_drift(0.015, memory_s, dice.For("north"));
@@ -66,13 +66,13 @@ std::string Fixes(const Track& track, const Voyage& voyage, Dice dice) {
                          north_drift.Step(kStepsPerFix * kStepS);
     const double east = boat.east_m + s * forward + c * starboard + dice.Normal(0.01) +
                         east_drift.Step(kStepsPerFix * kStepS);
-    AppendLine(text, "%.1f,%.10f,%.10f\n", time, chart.LatitudeDeg(north),
+    AppendLine(text, "%.1f,%.10f,%.10f\n", start_s + time, chart.LatitudeDeg(north),
                chart.LongitudeDeg(east));
   }
   return text;
 }
 
-std::string Headings(const Track& track, const Voyage& voyage, Dice dice) {
+std::string Headings(const Track& track, const Voyage& voyage, double start_s, Dice dice) {
   constexpr double kWanderTimeS = 25.0;
   GaussMarkov drift(0.15 * kDegree, dice.Uniform(20.0, 40.0), dice.For("drift"));
   GaussMarkov wander(1.0, kWanderTimeS, dice.For("wander"));
@@ -86,15 +86,16 @@ std::string Headings(const Track& track, const Voyage& voyage, Dice dice) {
                          faults.compass_wander_rad * wander.Step(kStepsPerHeading * kStepS);
     double degrees = std::fmod(shown / kDegree, 360.0);
     if (degrees < 0.0) degrees += 360.0;
-    AppendLine(text, "%.2f,%.4f\n", time, degrees);
+    AppendLine(text, "%.2f,%.4f\n", start_s + time, degrees);
   }
   return text;
 }
 
-std::string Commands(const Track& track) {
+std::string Commands(const Track& track, double start_s) {
   std::string text = "time_s,left_us,right_us\n";
   for (std::size_t at = 0; at < track.commands.size(); ++at) {
-    AppendLine(text, "%.1f,%.0f,%.0f\n", static_cast<double>(at) * kStepsPerCommand * kStepS,
+    AppendLine(text, "%.1f,%.0f,%.0f\n",
+               start_s + static_cast<double>(at) * kStepsPerCommand * kStepS,
                track.commands[at].port_us, track.commands[at].starboard_us);
   }
   return text;
@@ -111,11 +112,14 @@ void WriteFile(const std::filesystem::path& file, const std::string& content) {
   if (!stream) throw std::runtime_error("cannot write " + file.string());
 }
 
-void WriteRecording(const Track& track, const Voyage& voyage, Dice dice,
+void WriteRecording(const Track& track, const Voyage& voyage, std::size_t day, Dice dice,
                     const std::filesystem::path& folder) {
-  WriteFile(folder / "gnss.csv", Fixes(track, voyage, dice.For("fixes")));
-  WriteFile(folder / "heading.csv", Headings(track, voyage, dice.For("headings")));
-  WriteFile(folder / "thrusters.csv", Commands(track));
+  constexpr double kFirstMorningS = 1717221600.0;
+  constexpr double kDayS = 86400.0;
+  const double start = kFirstMorningS + kDayS * static_cast<double>(day);
+  WriteFile(folder / "gnss.csv", Fixes(track, voyage, start, dice.For("fixes")));
+  WriteFile(folder / "heading.csv", Headings(track, voyage, start, dice.For("headings")));
+  WriteFile(folder / "thrusters.csv", Commands(track, start));
 }
 
 }  // namespace blind

@@ -9,7 +9,8 @@ namespace blind {
 /// What the sensors make of a track, as telemetry files: GNSS at 5 Hz with 1 cm white and 1.5 cm
 /// Gauss-Markov noise a horizontal axis, heading at 20 Hz with 0.2 and 0.15 degrees, commands at 10
 /// Hz.
-void WriteRecording(const Track& track, const Voyage& voyage, Dice dice,
+/// Stamped in seconds of the Unix epoch, on the day of that number.
+void WriteRecording(const Track& track, const Voyage& voyage, std::size_t day, Dice dice,
                     const std::filesystem::path& folder);
 
 /// Writes a file and its folders; throws std::runtime_error naming the file where that fails.
