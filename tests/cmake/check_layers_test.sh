@@ -17,6 +17,9 @@ build_house() {
   printf '#include "codec/wire.hpp"\n#include <dds/dds.h>\n' > "$sandbox/client/bus/reader.hpp"
   echo '#include "bus/reader.hpp"' > "$sandbox/service/ingest/ingest.hpp"
   echo '#include "data/window.hpp"' > "$sandbox/tests/support/matchers.hpp"
+  mkdir -p "$sandbox/tests/blind/truth"
+  echo '#include <CLI/CLI.hpp>' > "$sandbox/tests/blind/truth/dice.hpp"
+  printf '#include <cmath>\n#include "dice.hpp"\n' > "$sandbox/tests/blind/truth/dice.cpp"
 }
 
 # rejects FILE INCLUDE RULE: adding the include as the file's second line is found out.
@@ -55,5 +58,11 @@ rejects client/bus/bad.hpp '"ingest/ingest.hpp"' 'client may not see service'
 rejects client/bus/bad.hpp '<SQLiteCpp/SQLiteCpp.h>' "the model store is the service's"
 rejects service/ingest/bad.cpp '<dds/dds.h>' 'DDS is handled in client/bus'
 rejects service/ingest/bad.cpp '"support/matchers.hpp"' 'service may not see tests'
+rejects tests/blind/truth/bad.cpp '"data/window.hpp"' 'only its own folder'
+rejects tests/blind/truth/bad.cpp '"support/matchers.hpp"' 'only its own folder'
+rejects tests/blind/truth/bad.cpp '"../../support/matchers.hpp"' 'only its own folder'
+rejects tests/blind/truth/bad.cpp '<data/window.hpp>' 'nothing but the standard library'
+rejects tests/blind/truth/bad.hpp '<Eigen/Dense>' 'nothing but the standard library'
+rejects tests/blind/truth/bad.hpp '<gtest/gtest.h>' 'nothing but the standard library'
 
 echo "check-layers finds every wrong include"

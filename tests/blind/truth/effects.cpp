@@ -140,7 +140,7 @@ Parameters Shear(Scenario& scenario, double size, double, Dice&) {
 }
 
 Parameters Wash(Scenario& scenario, double size, double, Dice&) {
-  scenario.faults.wash_force_n = 25.0 * size;
+  scenario.faults.wash_force_n = 40.0 * size;
   return {{"force", scenario.faults.wash_force_n, "N"}};
 }
 
