@@ -10,7 +10,7 @@
 #include "recording.hpp"
 #include "seal.hpp"
 
-namespace blind {
+namespace blind::truth {
 namespace {
 
 constexpr std::size_t kTrainLogs = 3;
@@ -220,4 +220,4 @@ std::string WriteSingleCase(const SingleCaseOptions& options, const std::filesys
   return label;
 }
 
-}  // namespace blind
+}  // namespace blind::truth

@@ -9,7 +9,7 @@
 
 #include "hull.hpp"
 
-namespace blind {
+namespace blind::truth {
 
 struct AppliedEffect {
   std::string effect;
@@ -56,4 +56,4 @@ struct SingleCaseOptions {
 /// returns the label. Throws std::invalid_argument for an unknown hull or effect.
 std::string WriteSingleCase(const SingleCaseOptions& options, const std::filesystem::path& folder);
 
-}  // namespace blind
+}  // namespace blind::truth

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace blind {
+namespace blind::truth {
 namespace {
 
 std::uint64_t Mixed(std::uint64_t bits) {
@@ -54,4 +54,4 @@ double GaussMarkov::Step(double dt_s) {
   return value_;
 }
 
-}  // namespace blind
+}  // namespace blind::truth

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-namespace blind {
+namespace blind::truth {
 
 /// Random numbers that are the same with every compiler and standard library: SplitMix64 (Steele,
 /// Lea, Flood 2014) and Box-Muller.
@@ -50,4 +50,4 @@ class GaussMarkov {
   double value_;
 };
 
-}  // namespace blind
+}  // namespace blind::truth

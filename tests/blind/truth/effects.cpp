@@ -4,7 +4,7 @@
 #include <numbers>
 #include <stdexcept>
 
-namespace blind {
+namespace blind::truth {
 namespace {
 
 constexpr double kDegree = std::numbers::pi / 180.0;
@@ -207,4 +207,4 @@ const Effect& EffectNamed(const std::string& name) {
   throw std::invalid_argument("no effect " + name + "; there are " + known);
 }
 
-}  // namespace blind
+}  // namespace blind::truth

@@ -6,7 +6,7 @@
 #include "dice.hpp"
 #include "scenario.hpp"
 
-namespace blind {
+namespace blind::truth {
 
 struct Parameter {
   std::string name;
@@ -28,4 +28,4 @@ const std::vector<Effect>& Effects();
 /// The effect of that name; throws std::invalid_argument naming all where there is none.
 const Effect& EffectNamed(const std::string& name);
 
-}  // namespace blind
+}  // namespace blind::truth

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <cstdio>
 
-namespace blind {
+namespace blind::truth {
 namespace {
 
 constexpr std::array<const char*, 4> kDevelopmentNames{"tern", "plover", "gannet", "dunlin"};
@@ -79,4 +79,4 @@ std::string VehicleFile(const Hull& hull) {
   return text.data();
 }
 
-}  // namespace blind
+}  // namespace blind::truth

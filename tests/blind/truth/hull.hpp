@@ -7,7 +7,7 @@
 
 #include "dice.hpp"
 
-namespace blind {
+namespace blind::truth {
 
 /// A 1.3 m catamaran with two T200. Body axes: x forward, y to starboard, z down; SI throughout.
 struct Hull {
@@ -58,4 +58,4 @@ std::vector<Hull> Fleet(Set set, std::uint64_t seed);
 /// know.
 std::string VehicleFile(const Hull& hull);
 
-}  // namespace blind
+}  // namespace blind::truth

@@ -13,7 +13,7 @@ namespace {
 constexpr int kUsageError = 2;
 
 struct Arguments {
-  blind::Set set = blind::Set::kDevelopment;
+  blind::truth::Set set = blind::truth::Set::kDevelopment;
   std::string folder;
   std::uint64_t seed = 1;
   std::size_t repeats = 1;
@@ -32,9 +32,9 @@ struct Arguments {
 void AddOptions(CLI::App& app, Arguments& arguments) {
   app.add_option("--set", arguments.set, "development (default) or held-out")
       ->type_name("NAME")
-      ->transform(CLI::CheckedTransformer(
-                      std::map<std::string, blind::Set>{{"development", blind::Set::kDevelopment},
-                                                        {"held-out", blind::Set::kHeldOut}})
+      ->transform(CLI::CheckedTransformer(std::map<std::string, blind::truth::Set>{
+                                              {"development", blind::truth::Set::kDevelopment},
+                                              {"held-out", blind::truth::Set::kHeldOut}})
                       .description(""));
   app.add_option("--out", arguments.folder, "the folder to write to, made where it is missing")
       ->type_name("DIR");
@@ -76,7 +76,7 @@ void AddOptions(CLI::App& app, Arguments& arguments) {
 }
 
 void ListEffects() {
-  for (const blind::Effect& effect : blind::Effects()) {
+  for (const blind::truth::Effect& effect : blind::truth::Effects()) {
     std::cout << effect.name << (effect.has_sign ? " (either sign)" : "")
               << (effect.in_library ? "" : " (not in the library)") << '\n';
   }
@@ -88,30 +88,30 @@ void ShowProgress(std::size_t done, std::size_t all) {
 }
 
 void WriteSet(const Arguments& arguments) {
-  blind::CampaignOptions options{.set = arguments.set,
-                                 .seed = arguments.seed,
-                                 .repeats = arguments.repeats,
-                                 .most_cases = {},
-                                 .duration_s = arguments.duration_s};
+  blind::truth::CampaignOptions options{.set = arguments.set,
+                                        .seed = arguments.seed,
+                                        .repeats = arguments.repeats,
+                                        .most_cases = {},
+                                        .duration_s = arguments.duration_s};
   if (arguments.most_cases > 0) options.most_cases = arguments.most_cases;
-  blind::WriteCampaign(options, arguments.folder, ShowProgress);
+  blind::truth::WriteCampaign(options, arguments.folder, ShowProgress);
 }
 
 void WriteOne(const Arguments& arguments) {
   if (arguments.sizes.size() > std::max<std::size_t>(1, arguments.effects.size())) {
     throw std::invalid_argument("--size: there are more sizes than effects");
   }
-  blind::SingleCaseOptions options{.set = arguments.set,
-                                   .seed = arguments.seed,
-                                   .hull = arguments.hull,
-                                   .effects = {},
-                                   .onset_s = arguments.onset_s,
-                                   .duration_s = arguments.duration_s};
+  blind::truth::SingleCaseOptions options{.set = arguments.set,
+                                          .seed = arguments.seed,
+                                          .hull = arguments.hull,
+                                          .effects = {},
+                                          .onset_s = arguments.onset_s,
+                                          .duration_s = arguments.duration_s};
   for (std::size_t at = 0; at < arguments.effects.size(); ++at) {
     const double size = at < arguments.sizes.size() ? arguments.sizes[at] : 1.0;
     options.effects.push_back({arguments.effects[at], size, arguments.sign});
   }
-  const std::string label = blind::WriteSingleCase(options, arguments.folder);
+  const std::string label = blind::truth::WriteSingleCase(options, arguments.folder);
   if (arguments.unseal) std::cout << label << '\n';
 }
 

@@ -6,7 +6,7 @@
 #include <numbers>
 #include <utility>
 
-namespace blind {
+namespace blind::truth {
 namespace {
 
 constexpr double kDegree = std::numbers::pi / 180.0;
@@ -253,4 +253,4 @@ Mission DrawnMission(Set set, double duration_s, Dice dice) {
   return Mission(std::move(manoeuvres));
 }
 
-}  // namespace blind
+}  // namespace blind::truth

@@ -7,7 +7,7 @@
 #include "hull.hpp"
 #include "motion.hpp"
 
-namespace blind {
+namespace blind::truth {
 
 /// Shares of full command, [-1, 1].
 struct Command {
@@ -40,4 +40,4 @@ class Mission {
 /// braking.
 Mission DrawnMission(Set set, double duration_s, Dice dice);
 
-}  // namespace blind
+}  // namespace blind::truth

@@ -5,7 +5,7 @@
 
 #include "thruster.hpp"
 
-namespace blind {
+namespace blind::truth {
 namespace {
 
 struct Flow {  // of the water along the hull, from the boat's motion through it
@@ -203,4 +203,4 @@ double KineticEnergy(const State& state, const Scenario& scenario) {
                 (inertia.yaw + inertia.added_yaw) * r * r);
 }
 
-}  // namespace blind
+}  // namespace blind::truth

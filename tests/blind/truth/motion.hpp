@@ -3,7 +3,7 @@
 #include "scenario.hpp"
 #include "sea.hpp"
 
-namespace blind {
+namespace blind::truth {
 
 /// The boat as it moves: velocities over ground in body axes, shaft speeds in sqrt(N).
 struct State {
@@ -23,7 +23,7 @@ struct Drive {
   double starboard_us = 1500.0;
   double port_share = 1.0;  // of thrust, by battery and weed
   double starboard_share = 1.0;
-  BodyForce towline;
+  BodyForce towline = {};
 };
 
 /// Model: rigid body and added mass with their Coriolis terms, drag of two demihulls in the flow
@@ -40,4 +40,4 @@ State Stepped(const State& state, const Scenario& scenario, const Drive& drive,
 /// Kinetic energy of boat and added mass in still water, joules.
 double KineticEnergy(const State& state, const Scenario& scenario);
 
-}  // namespace blind
+}  // namespace blind::truth

@@ -9,7 +9,7 @@
 #include <stdexcept>
 #include <string>
 
-namespace blind {
+namespace blind::truth {
 namespace {
 
 constexpr double kDegree = std::numbers::pi / 180.0;
@@ -122,4 +122,4 @@ void WriteRecording(const Track& track, const Voyage& voyage, std::size_t day, D
   WriteFile(folder / "thrusters.csv", Commands(track, start));
 }
 
-}  // namespace blind
+}  // namespace blind::truth

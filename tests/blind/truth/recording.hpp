@@ -4,7 +4,7 @@
 
 #include "voyage.hpp"
 
-namespace blind {
+namespace blind::truth {
 
 /// What the sensors make of a track, as telemetry files: GNSS at 5 Hz with 1 cm white and 1.5 cm
 /// Gauss-Markov noise a horizontal axis, heading at 20 Hz with 0.2 and 0.15 degrees, commands at 10
@@ -16,4 +16,4 @@ void WriteRecording(const Track& track, const Voyage& voyage, std::size_t day, D
 /// Writes a file and its folders; throws std::runtime_error naming the file where that fails.
 void WriteFile(const std::filesystem::path& file, const std::string& content);
 
-}  // namespace blind
+}  // namespace blind::truth

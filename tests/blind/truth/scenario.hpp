@@ -2,7 +2,7 @@
 
 #include "hull.hpp"
 
-namespace blind {
+namespace blind::truth {
 
 /// The day: directions are where wind, current and waves go to, radians clockwise from north.
 struct Weather {
@@ -61,4 +61,4 @@ struct Scenario {
   Faults faults;
 };
 
-}  // namespace blind
+}  // namespace blind::truth

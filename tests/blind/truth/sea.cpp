@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace blind {
+namespace blind::truth {
 namespace {
 
 constexpr double kGravity = 9.81;
@@ -145,4 +145,4 @@ BodyForce Sea::Wash(double force_n, const Place& place, double time_s) const {
   return sum;
 }
 
-}  // namespace blind
+}  // namespace blind::truth

@@ -5,7 +5,7 @@
 
 #include "scenario.hpp"
 
-namespace blind {
+namespace blind::truth {
 
 struct Place {
   double north_m = 0.0;
@@ -25,7 +25,7 @@ struct Surroundings {
   double wind_east_mps = 0.0;
   double current_north_mps = 0.0;
   double current_east_mps = 0.0;
-  BodyForce waves;
+  BodyForce waves = {};
   double shoal = 0.0;  // drag gained, as a share
 };
 
@@ -67,4 +67,4 @@ class Sea {
   double current_east_ = 0.0;
 };
 
-}  // namespace blind
+}  // namespace blind::truth

@@ -6,7 +6,7 @@
 
 #include "dice.hpp"
 
-namespace blind {
+namespace blind::truth {
 namespace {
 
 constexpr std::string_view kMark = "sealed label 1\n";
@@ -76,4 +76,4 @@ std::string Unsealed(std::string_view sealed, std::string_view name) {
   return plain;
 }
 
-}  // namespace blind
+}  // namespace blind::truth

@@ -3,7 +3,7 @@
 #include <string>
 #include <string_view>
 
-namespace blind {
+namespace blind::truth {
 
 /// Seals a label so that neither eye nor grep reads it by accident: padded to one length,
 /// enciphered by a keyed stream, with a digest. The key stands in the source: this keeps nobody out
@@ -16,4 +16,4 @@ std::string Unsealed(std::string_view sealed, std::string_view name);
 
 inline constexpr std::size_t kSealedBytes = 2048;
 
-}  // namespace blind
+}  // namespace blind::truth

@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-namespace blind {
+namespace blind::truth {
 namespace {
 
 constexpr double kNewtonsPerKgf = 9.80665;
@@ -92,4 +92,4 @@ double InflowShare(double loss, double shaft_speed, double speed_through_water_m
   return std::clamp(1.0 - loss * advance / turning, 0.2, 1.3);
 }
 
-}  // namespace blind
+}  // namespace blind::truth

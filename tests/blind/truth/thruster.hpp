@@ -1,6 +1,6 @@
 #pragma once
 
-namespace blind {
+namespace blind::truth {
 
 inline constexpr double kNeutralUs = 1500.0;
 inline constexpr double kFullUs = 400.0;  // from neutral to either full command
@@ -20,4 +20,4 @@ double ThrustAt(double shaft_speed);
 /// full forward command and 1.8 m/s, more at lower shaft speed, the other way astern.
 double InflowShare(double loss, double shaft_speed, double speed_through_water_mps);
 
-}  // namespace blind
+}  // namespace blind::truth

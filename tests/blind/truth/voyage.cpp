@@ -5,7 +5,7 @@
 
 #include "thruster.hpp"
 
-namespace blind {
+namespace blind::truth {
 namespace {
 
 /// A body on a slack line from the stern.
@@ -106,4 +106,4 @@ Track Sail(const Voyage& voyage, Mission mission, Dice dice) {
   return track;
 }
 
-}  // namespace blind
+}  // namespace blind::truth

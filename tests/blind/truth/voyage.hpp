@@ -5,7 +5,7 @@
 #include "mission.hpp"
 #include "scenario.hpp"
 
-namespace blind {
+namespace blind::truth {
 
 inline constexpr double kStepS = 0.005;
 inline constexpr int kStepsPerCommand = 20;  // 10 Hz
@@ -31,4 +31,4 @@ struct Voyage {
 
 Track Sail(const Voyage& voyage, Mission mission, Dice dice);
 
-}  // namespace blind
+}  // namespace blind::truth

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <cstddef>
+
+#include "alter/telemetry.hpp"
+
+namespace blind::alter {
+
+/// What a compass that shows `degrees` too much would have logged, in [0, 360).
+void TurnHeading(Telemetry& telemetry, double degrees);
+
+/// What a receiver that stamps its fixes `seconds` too late would have logged: the position of
+/// then, now.
+void DelayFixes(Telemetry& telemetry, double seconds);
+
+/// What would have been logged if thrusters answered `seconds` later than they did: the same answer
+/// to commands that much earlier.
+void ShiftCommands(Telemetry& telemetry, double seconds);
+
+/// What a receiver with its antenna so far from where it was would have logged: every fix moved by
+/// (forward, starboard) turned by the heading then, which is interpolated. Fixes without a heading
+/// before and after are dropped; returns how many.
+std::size_t MoveAntenna(Telemetry& telemetry, double forward_m, double starboard_m);
+
+enum class Side { kPort, kStarboard };
+
+/// Pulse widths of one channel; reverse lies on the other side of neutral than forward.
+struct Channel {
+  double neutral_us = 1500.0;
+  double full_forward_us = 1900.0;
+  double full_reverse_us = 1100.0;
+};
+
+/// What a boat whose one side gives `lost` of its thrust away, [0, 0.9], would have had to command
+/// for the motion that was recorded. Thrust is taken as proportional to delta |delta|, delta the
+/// share of full command: delta' = delta / sqrt(1 - lost), no further than +-1. Returns how many
+/// rows were cut there.
+std::size_t Weaken(Telemetry& telemetry, Side side, double lost, const Channel& channel);
+
+}  // namespace blind::alter

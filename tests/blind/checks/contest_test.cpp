@@ -1,0 +1,94 @@
+#include "score/contest.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "seal.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace blind::score {
+namespace {
+
+using telltale::TemporaryFolder;
+
+constexpr const char* kWindCase = R"({"kind":"single","effects":[{"effect":"wind","size":1}]})";
+constexpr const char* kHealthyCase = R"({"kind":"healthy","effects":[]})";
+constexpr const char* kWindReport = R"({"verdict":"EXPLAINED","gap":{"closure":0.9},)"
+                                    R"("causes":[{"effects":["wind"],"probability":0.95}]})";
+constexpr const char* kNoGap = R"({"verdict":"NO_MATERIAL_GAP"})";
+
+/// A set of two cases, wind and healthy.
+class ContestTest : public testing::Test {
+ protected:
+  ContestTest() {
+    folder_.Write("set/cases/001/hull", "tern\n");
+    folder_.Write("set/cases/002/hull", "tern\n");
+    folder_.Write("set/labels/001.sealed", truth::Sealed(kWindCase, "001"));
+    folder_.Write("set/labels/002.sealed", truth::Sealed(kHealthyCase, "002"));
+  }
+  Contest ScoresOf(const std::string& reports, bool partial = false) const {
+    return Scores(folder_.Path() / "set", {folder_.Path() / reports}, partial);
+  }
+
+  TemporaryFolder folder_;
+};
+
+TEST_F(ContestTest, ScoresReportsAgainstTheirLabels) {
+  folder_.Write("mine/001.json", kWindReport);
+  folder_.Write("mine/001.realised.json", R"({"closure": 0.85})");
+  folder_.Write("mine/002.json", kNoGap);
+  const Contest contest = ScoresOf("mine/");
+  ASSERT_EQ(contest.contestants.size(), 1u);
+  EXPECT_EQ(contest.contestants[0].name, "mine");
+  const Figures& figures = contest.contestants[0].figures;
+  EXPECT_EQ(figures.all.top_1.hits, 1u);
+  EXPECT_EQ(figures.false_alarms.hits, 0u);
+  EXPECT_EQ(figures.false_alarms.all, 1u);
+  ASSERT_EQ(figures.closure_errors.size(), 1u);
+  EXPECT_NEAR(figures.closure_errors[0], 0.05, 1e-12);
+}
+
+TEST_F(ContestTest, OpensNoLabelWhileAReportIsMissing) {
+  folder_.Write("mine/001.json", kWindReport);
+  folder_.Write("set/labels/001.sealed", "opening this would be noticed");
+  try {
+    ScoresOf("mine");
+    FAIL() << "scored without a report";
+  } catch (const ReportsMissing& error) {
+    EXPECT_THAT(error.what(), testing::HasSubstr("1 of 2 cases have no report yet (002)"));
+  }
+}
+
+TEST_F(ContestTest, OpensNoLabelWhileAReportCannotBeRead) {
+  folder_.Write("mine/001.json", kWindReport);
+  folder_.Write("mine/002.json", "{");
+  folder_.Write("set/labels/001.sealed", "opening this would be noticed");
+  try {
+    ScoresOf("mine");
+    FAIL() << "scored an unreadable report";
+  } catch (const std::invalid_argument& error) {
+    EXPECT_THAT(error.what(), testing::EndsWith("mine/002.json: this is no JSON"));
+  }
+}
+
+TEST_F(ContestTest, ScoresSomeWhereAskedTo) {
+  folder_.Write("mine/002.json", kNoGap);
+  EXPECT_EQ(ScoresOf("mine", true).cases, 1u);
+}
+
+TEST_F(ContestTest, NamesABrokenSeal) {
+  folder_.Write("mine/001.json", kWindReport);
+  folder_.Write("mine/002.json", kNoGap);
+  folder_.Write("set/labels/002.sealed", truth::Sealed(kHealthyCase, "003"));
+  try {
+    ScoresOf("mine");
+    FAIL() << "took a label of another case";
+  } catch (const std::invalid_argument& error) {
+    EXPECT_THAT(error.what(), testing::HasSubstr("002.sealed: the seal is broken"));
+  }
+}
+
+}  // namespace
+}  // namespace blind::score

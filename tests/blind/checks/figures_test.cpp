@@ -1,0 +1,203 @@
+#include "score/figures.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <stdexcept>
+
+#include "score/tables.hpp"
+
+namespace blind::score {
+namespace {
+
+Cause Named(const EffectSet& effects, double probability, const EffectSet& like = {}) {
+  return {.effects = effects,
+          .probability = probability,
+          .indistinguishable = like,
+          .indistinguishable_sets = {}};
+}
+
+Scored Answer(const std::string& kind, const EffectSet& truth, const std::string& verdict,
+              const std::vector<Cause>& causes, double detectability = 20.0) {
+  Scored scored{.label = {kind, truth}, .report = {}};
+  scored.report.verdict = verdict;
+  scored.report.causes = causes;
+  for (const std::string& effect : truth) scored.report.detectability[effect] = detectability;
+  return scored;
+}
+
+// R 4.2: binom.test(5, 20)$conf.int and binom.test(1, 10)$conf.int; with no or only hits the bounds
+// are 1 - tail^(1/n) and tail^(1/n).
+TEST(ClopperPearson, HasTextbookBounds) {
+  EXPECT_NEAR(ClopperPearson(5, 20, 0.95).lower, 0.08657147, 1e-7);
+  EXPECT_NEAR(ClopperPearson(5, 20, 0.95).upper, 0.49104587, 1e-7);
+  EXPECT_NEAR(ClopperPearson(1, 10, 0.95).lower, 0.00252858, 1e-7);
+  EXPECT_NEAR(ClopperPearson(1, 10, 0.95).upper, 0.44501612, 1e-7);
+  EXPECT_EQ(ClopperPearson(0, 30, 0.95).lower, 0.0);
+  EXPECT_NEAR(ClopperPearson(0, 30, 0.95).upper, 1.0 - std::pow(0.025, 1.0 / 30.0), 1e-12);
+  EXPECT_NEAR(ClopperPearson(10, 10, 0.95).lower, std::pow(0.025, 1.0 / 10.0), 1e-12);
+  EXPECT_EQ(ClopperPearson(10, 10, 0.95).upper, 1.0);
+  EXPECT_NEAR(ClopperPearsonUpper(0, 30, 0.95), 1.0 - std::pow(0.05, 1.0 / 30.0), 1e-12);
+}
+
+TEST(Brier, IsTheMeanSquaredMiss) {
+  EXPECT_NEAR(Brier({{0.9, true}, {0.8, false}}), (0.01 + 0.64) / 2.0, 1e-12);
+  EXPECT_EQ(Brier({{1.0, true}, {0.0, false}}), 0.0);
+}
+
+TEST(CalibrationError, ComparesWithinBins) {
+  // One bin, 0.95 on average, half of it right.
+  EXPECT_NEAR(CalibrationError({{0.92, true}, {0.98, false}}), 0.45, 1e-12);
+  // Two bins, which do not cancel: (|0.25 - 1| + |0.75 - 0|) / 2.
+  EXPECT_NEAR(CalibrationError({{0.25, true}, {0.75, false}}), 0.75, 1e-12);
+  EXPECT_NEAR(CalibrationError({{1.0, true}, {1.0, true}}), 0.0, 1e-12);
+}
+
+TEST(Figures, CountTop1Top3AndClass) {
+  const Figures figures = FiguresOf({
+      Answer("single", {"wind"}, "EXPLAINED", {Named({"wind"}, 0.9)}),
+      Answer("single", {"wind"}, "EXPLAINED",
+             {Named({"current"}, 0.6, {"wind"}), Named({"wind"}, 0.3)}),
+      Answer("single", {"wind"}, "PARTLY_EXPLAINED",
+             {Named({"payload"}, 0.4), Named({"waves"}, 0.3), Named({"unknown"}, 0.2),
+              Named({"wind"}, 0.1)}),
+      Answer("single", {"wind"}, "NO_MATERIAL_GAP", {Named({"wind"}, 0.9)}, 3.0),
+  });
+  EXPECT_EQ(figures.all.top_1.hits, 1u);
+  EXPECT_EQ(figures.all.top_3.hits, 2u);
+  EXPECT_EQ(figures.all.class_hit.hits, 2u);
+  EXPECT_EQ(figures.all.top_1.all, 4u);
+  EXPECT_EQ(figures.detectable.top_1.all, 3u) << "one case shows 3 sigmas only";
+  EXPECT_THAT(figures.all.class_sizes, testing::ElementsAre(1.0, 2.0, 1.0));
+  EXPECT_EQ(figures.forecasts.size(), 3u) << "no gap, no forecast";
+  EXPECT_THAT(figures.effects.at("wind").called,
+              testing::ElementsAre(std::pair{"NO_MATERIAL_GAP", 1u}, std::pair{"current", 1u},
+                                   std::pair{"payload", 1u}, std::pair{"wind", 1u}));
+}
+
+TEST(Figures, CountFalseAlarms) {
+  const Figures figures = FiguresOf({
+      Answer("healthy", {}, "NO_MATERIAL_GAP", {}),
+      Answer("healthy", {}, "INSUFFICIENT_DATA", {}),
+      Answer("healthy", {}, "EXPLAINED", {Named({"wind"}, 0.7)}),
+      Answer("healthy", {}, "UNKNOWN_CAUSE", {Named({"unknown"}, 0.9)}),
+  });
+  EXPECT_EQ(figures.false_alarms.hits, 2u);
+  EXPECT_EQ(figures.false_alarms.all, 4u);
+  for (const Forecast& forecast : figures.forecasts) EXPECT_FALSE(forecast.right);
+  EXPECT_EQ(figures.forecasts.size(), 2u);
+}
+
+TEST(Figures, CountUnknownsWronglyNamed) {
+  const Figures figures = FiguresOf({
+      Answer("outside", {"ship_wash"}, "UNKNOWN_CAUSE", {Named({"unknown"}, 0.8)}),
+      Answer("outside", {"ship_wash"}, "PARTLY_EXPLAINED", {Named({"waves"}, 0.5)}),
+      Answer("outside", {"ship_wash"}, "PARTLY_EXPLAINED", {Named({"waves"}, 0.51)}),
+      Answer("outside", {"ship_wash"}, "EXPLAINED", {Named({"waves"}, 0.3)}),
+      Answer("outside", {"ship_wash"}, "NO_MATERIAL_GAP", {}),
+  });
+  EXPECT_EQ(figures.wrongly_named.hits, 2u);
+  EXPECT_EQ(figures.wrongly_named.all, 5u);
+  EXPECT_EQ(figures.outside_seen.hits, 4u);
+  ASSERT_EQ(figures.forecasts.size(), 4u);
+  EXPECT_TRUE(figures.forecasts[0].right) << "unknown is the right answer";
+  EXPECT_FALSE(figures.forecasts[1].right);
+}
+
+TEST(Figures, TakePairsUpToTheirClasses) {
+  const EffectSet truth{"thruster_lag", "wind"};
+  Cause by_sets = Named({"current", "payload"}, 0.9);
+  by_sets.indistinguishable_sets.insert(truth);
+  const Figures figures = FiguresOf({
+      Answer("pair", truth, "EXPLAINED", {Named(truth, 0.9)}),
+      Answer("pair", truth, "EXPLAINED",
+             {Named({"thruster_delay", "wind"}, 0.9, {"thruster_lag"})}),
+      Answer("pair", truth, "EXPLAINED", {by_sets}),
+      Answer("pair", truth, "EXPLAINED", {Named({"wind"}, 0.9)}),
+      Answer("pair", truth, "EXPLAINED", {Named({"thruster_lag", "wind", "waves"}, 0.9)}),
+      Answer("pair", truth, "UNKNOWN_CAUSE", {Named({"unknown"}, 0.9)}),
+  });
+  EXPECT_EQ(figures.exact_pairs.hits, 3u);
+  EXPECT_EQ(figures.half_pairs.hits, 4u);
+  EXPECT_EQ(figures.exact_pairs.all, 6u);
+}
+
+TEST(Figures, CompareClosureWhereItWasRealised) {
+  Scored first = Answer("single", {"wind"}, "EXPLAINED", {Named({"wind"}, 0.9)});
+  first.report.closure = 0.9;
+  first.report.realised = 0.8;
+  Scored second = first;
+  second.report.closure = 0.7;
+  second.report.realised.reset();
+  const Figures figures = FiguresOf({first, second});
+  ASSERT_EQ(figures.closure_errors.size(), 1u);
+  EXPECT_NEAR(figures.closure_errors[0], 0.1, 1e-12);
+  EXPECT_NEAR(Median(figures.closures), 0.8, 1e-12);
+}
+
+TEST(Median, IsTheMiddle) {
+  EXPECT_EQ(Median({3.0, 1.0, 2.0}), 2.0);
+  EXPECT_EQ(Median({4.0, 1.0, 2.0, 3.0}), 2.5);
+  EXPECT_TRUE(std::isnan(Median({})));
+}
+
+TEST(ParseReport, ReadsWhatTheInterfacesShow) {
+  const Report report = ParseReport(R"({
+    "verdict": "EXPLAINED", "gap": {"before": 3.1, "closure": 0.81},
+    "causes": [
+      {"effects": ["thruster_delay"], "probability": 0.2},
+      {"effects": ["thruster_lag"], "probability": 0.7, "indistinguishable": ["thruster_delay"]},
+      {"effects": ["unknown"], "probability": 0.1}],
+    "effects": [{"effect": "thruster_lag", "testability": "TESTABLE", "detectability": 14.5},
+                {"effect": "wind", "testability": "NOT_EXCITED"},
+                {"effect": "current", "detectability": "Infinity"}]})");
+  EXPECT_EQ(report.verdict, "EXPLAINED");
+  ASSERT_EQ(report.causes.size(), 3u);
+  EXPECT_EQ(report.causes[0].effects, EffectSet{"thruster_lag"}) << "the likeliest first";
+  EXPECT_EQ(report.causes[0].indistinguishable, EffectSet{"thruster_delay"});
+  EXPECT_EQ(report.detectability.at("thruster_lag"), 14.5);
+  EXPECT_EQ(report.detectability.at("wind"), 0.0);
+  EXPECT_TRUE(std::isinf(report.detectability.at("current")));
+  EXPECT_EQ(report.closure, 0.81);
+}
+
+TEST(ParseReport, NamesWhatIsWrong) {
+  const auto complaint = [](const char* text) -> std::string {
+    try {
+      ParseReport(text);
+    } catch (const std::invalid_argument& error) {
+      return error.what();
+    }
+    return "none";
+  };
+  EXPECT_EQ(complaint("{"), "this is no JSON");
+  EXPECT_EQ(complaint("[]"), "this is no JSON object");
+  EXPECT_EQ(complaint("{}"), "there is no verdict");
+  EXPECT_EQ(complaint(R"({"verdict": "FINE"})"), "there is no verdict FINE");
+  EXPECT_EQ(complaint(R"({"verdict": "EXPLAINED", "causes": 3})"), "causes is no list");
+  EXPECT_EQ(complaint(R"({"verdict": "EXPLAINED", "causes": [{"probability": 0.3}]})"),
+            "a cause names no effect");
+  EXPECT_EQ(
+      complaint(R"({"verdict": "EXPLAINED", "causes": [{"effects": ["x"], "probability": 3}]})"),
+      "a cause's probability is outside [0, 1]");
+  EXPECT_EQ(complaint(R"({"verdict": "EXPLAINED", "causes": [3]})"),
+            "there is no object where one should be");
+}
+
+TEST(Markdown, HasAColumnAFolderAndARowAnEffect) {
+  const std::vector<Scored> cases{Answer("healthy", {}, "NO_MATERIAL_GAP", {}),
+                                  Answer("single", {"wind"}, "EXPLAINED", {Named({"wind"}, 0.9)})};
+  const std::string text =
+      Markdown({{"ours", FiguresOf(cases)}, {"best-bic", FiguresOf(cases)}}, cases.size());
+  EXPECT_THAT(text, testing::StartsWith("| 2 cases | ours | best-bic |\n|---|---|---|\n"));
+  EXPECT_THAT(text,
+              testing::HasSubstr("| single effects: top-1 | 100.0 % (1/1) | 100.0 % (1/1) |"));
+  EXPECT_THAT(text, testing::HasSubstr("0.0 % (0/1), at most 95.0 %"));  // 1 - 0.05
+  EXPECT_THAT(text, testing::HasSubstr("| both of two effects | – | – |"));
+  EXPECT_THAT(text, testing::HasSubstr("| wind | 20.0 | 100.0 % (1/1) |"));
+  EXPECT_THAT(text, testing::HasSubstr("| NO_MATERIAL_GAP 1 |"));
+}
+
+}  // namespace
+}  // namespace blind::score

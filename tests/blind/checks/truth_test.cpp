@@ -1,0 +1,295 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <map>
+#include <set>
+#include <sstream>
+#include <string>
+
+#include "campaign.hpp"
+#include "effects.hpp"
+#include "motion.hpp"
+#include "support/run_command.hpp"
+#include "support/temporary_folder.hpp"
+#include "thruster.hpp"
+#include "voyage.hpp"
+
+namespace blind::truth {
+namespace {
+
+using telltale::TemporaryFolder;
+using telltale::TextOfFile;
+using testing::AllOf;
+using testing::Ge;
+using testing::Le;
+
+constexpr double kRounding = 1e-9;  // of a few thousand steps in double
+
+/// A boat whose two sides are alike.
+Scenario SymmetricScenario() {
+  return {.hull = {}, .weather = {}, .faults = {}};
+}
+
+State Sailed(State state, const Scenario& scenario, const Drive& drive, const Surroundings& around,
+             double duration_s) {
+  for (int step = 0; step < duration_s / kStepS; ++step) {
+    state = Stepped(state, scenario, drive, around, kStepS);
+  }
+  return state;
+}
+
+/// Every file below a folder by its path from there.
+std::map<std::string, std::string> FilesBelow(const std::filesystem::path& folder) {
+  std::map<std::string, std::string> files;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
+    if (!entry.is_regular_file()) continue;
+    files[std::filesystem::relative(entry.path(), folder).string()] = TextOfFile(entry.path());
+  }
+  return files;
+}
+
+/// The second column of a CSV file.
+std::vector<double> SecondColumn(const std::filesystem::path& file) {
+  std::istringstream text(TextOfFile(file));
+  std::vector<double> column;
+  std::string line;
+  std::getline(text, line);
+  while (std::getline(text, line)) column.push_back(std::stod(line.substr(line.find(',') + 1)));
+  return column;
+}
+
+SingleCaseOptions ShortCase(const std::vector<AppliedEffect>& effects) {
+  return {.set = Set::kDevelopment,
+          .seed = 5,
+          .hull = "",
+          .effects = effects,
+          .onset_s = 0.0,
+          .duration_s = 60.0};
+}
+
+TEST(Thruster, HasThePublishedEndPointsAndDeadZone) {
+  EXPECT_DOUBLE_EQ(BollardThrust(1900), 5.25 * 9.80665);
+  EXPECT_DOUBLE_EQ(BollardThrust(1100), -4.1 * 9.80665);
+  EXPECT_EQ(BollardThrust(1529), 0.0);
+  EXPECT_EQ(BollardThrust(1471), 0.0);
+  EXPECT_GT(BollardThrust(1530), 0.0);
+  EXPECT_LT(BollardThrust(1470), 0.0);
+}
+
+TEST(Thruster, GrowsWithThePulse) {
+  for (double pulse = 1101; pulse <= 1900; pulse += 1) {
+    EXPECT_GE(BollardThrust(pulse), BollardThrust(pulse - 1)) << pulse;
+  }
+}
+
+TEST(Thruster, LosesItsStatedShareAtReferenceSpeed) {
+  const double full = ShaftSpeed(BollardThrust(1900));
+  EXPECT_NEAR(InflowShare(0.1, full, 1.8), 0.9, 1e-5);
+  EXPECT_NEAR(InflowShare(0.1, full, 0.0), 1.0, 1e-12);
+  EXPECT_GT(InflowShare(0.1, -full, 1.8), 1.0) << "braking pushes harder";
+}
+
+TEST(Motion, LosesEnergyWithoutThrust) {
+  const Scenario scenario = SymmetricScenario();
+  Dice dice(3);
+  for (int start = 0; start < 20; ++start) {
+    State state{.surge_mps = dice.Uniform(-2, 2),
+                .sway_mps = dice.Uniform(-1, 1),
+                .yaw_radps = dice.Uniform(-2, 2)};
+    for (int step = 0; step < 2000; ++step) {
+      const double before = KineticEnergy(state, scenario);
+      state = Stepped(state, scenario, {}, {}, kStepS);
+      ASSERT_LT(KineticEnergy(state, scenario), before) << "start " << start << " step " << step;
+    }
+  }
+}
+
+TEST(Motion, IsTheSameInAMirror) {
+  const Scenario scenario = SymmetricScenario();
+  const State state{.heading_rad = 0.4, .surge_mps = 0.5, .sway_mps = 0.2, .yaw_radps = -0.3};
+  State mirrored = state;
+  mirrored.heading_rad = -state.heading_rad;
+  mirrored.sway_mps = -state.sway_mps;
+  mirrored.yaw_radps = -state.yaw_radps;
+  const Surroundings around{.wind_north_mps = 2.0,
+                            .wind_east_mps = -3.0,
+                            .current_north_mps = 0.1,
+                            .current_east_mps = 0.2,
+                            .waves = {},
+                            .shoal = 0.0};
+  Surroundings around_mirrored = around;
+  around_mirrored.wind_east_mps *= -1.0;
+  around_mirrored.current_east_mps *= -1.0;
+
+  const State end = Sailed(state, scenario, {.port_us = 1800, .starboard_us = 1350}, around, 20.0);
+  const State mirror_end =
+      Sailed(mirrored, scenario, {.port_us = 1350, .starboard_us = 1800}, around_mirrored, 20.0);
+  EXPECT_NEAR(mirror_end.north_m, end.north_m, kRounding);
+  EXPECT_NEAR(mirror_end.east_m, -end.east_m, kRounding);
+  EXPECT_NEAR(mirror_end.heading_rad, -end.heading_rad, kRounding);
+  EXPECT_NEAR(mirror_end.surge_mps, end.surge_mps, kRounding);
+  EXPECT_NEAR(mirror_end.sway_mps, -end.sway_mps, kRounding);
+  EXPECT_GT(std::abs(end.heading_rad - state.heading_rad), 1.0) << "nothing was turned";
+}
+
+TEST(Motion, IsTheSameInAirAndWaterThatMoveAlong) {
+  const Scenario scenario = SymmetricScenario();
+  const double north = 0.3, east = -0.2;
+  const Drive drive{.port_us = 1750, .starboard_us = 1620};
+  const Surroundings moving{.wind_north_mps = north,
+                            .wind_east_mps = east,
+                            .current_north_mps = north,
+                            .current_east_mps = east,
+                            .waves = {},
+                            .shoal = 0.0};
+  const State drifting{.surge_mps = north, .sway_mps = east};  // with the water, heading north
+  const State end = Sailed({}, scenario, drive, {}, 20.0);
+  const State end_moving = Sailed(drifting, scenario, drive, moving, 20.0);
+  EXPECT_NEAR(end_moving.north_m - 20.0 * north, end.north_m, kRounding);
+  EXPECT_NEAR(end_moving.east_m - 20.0 * east, end.east_m, kRounding);
+  EXPECT_NEAR(end_moving.heading_rad, end.heading_rad, kRounding);
+}
+
+TEST(Motion, TurnsToStarboardWhenPortPushesMore) {
+  const State end =
+      Sailed({}, SymmetricScenario(), {.port_us = 1700, .starboard_us = 1600}, {}, 5.0);
+  EXPECT_GT(end.heading_rad, 0.1);
+  EXPECT_GT(end.east_m, 0.0);
+}
+
+/// What is asked of a boat of this class: about 1.5 to 2 m/s and 0.6 to 1 rad/s, with some margin.
+TEST(Fleet, SailsAsBoatsOfItsClassDo) {
+  for (const Set set : {Set::kDevelopment, Set::kHeldOut}) {
+    for (const std::uint64_t seed : {1u, 2u, 3u}) {
+      for (const Hull& hull : Fleet(set, seed)) {
+        const Scenario scenario{.hull = hull, .weather = {}, .faults = {}};
+        const State ahead = Sailed({}, scenario, {.port_us = 1900, .starboard_us = 1900}, {}, 20.0);
+        EXPECT_THAT(std::hypot(ahead.surge_mps, ahead.sway_mps), AllOf(Ge(1.4), Le(2.3)))
+            << hull.name << seed;
+        const State spin = Sailed({}, scenario, {.port_us = 1740, .starboard_us = 1260}, {}, 12.0);
+        EXPECT_THAT(spin.yaw_radps, AllOf(Ge(0.4), Le(1.1))) << hull.name << seed;
+      }
+    }
+  }
+}
+
+TEST(Fleet, IsSharedByNoTwoSets) {
+  std::set<std::string> names;
+  std::set<double> masses;
+  for (const Set set : {Set::kDevelopment, Set::kHeldOut}) {
+    for (const Hull& hull : Fleet(set, 1)) {
+      EXPECT_TRUE(names.insert(hull.name).second) << hull.name;
+      EXPECT_TRUE(masses.insert(hull.mass_kg).second) << hull.name;
+    }
+  }
+  EXPECT_EQ(names.size(), 8u);
+}
+
+TEST(Plan, HoldsWhatItPromises) {
+  for (const Set set : {Set::kDevelopment, Set::kHeldOut}) {
+    std::map<std::string, std::size_t> kinds;
+    std::map<std::string, std::set<std::pair<int, int>>> singles;
+    std::set<std::uint64_t> days;
+    for (const Case& planned : PlannedCases(set, 1, 1)) {
+      ++kinds[planned.kind];
+      days.insert(planned.day);
+      if (planned.kind != "single") continue;
+      const AppliedEffect& applied = planned.effects.front();
+      singles[applied.effect].insert(
+          {static_cast<int>(std::lround(std::log2(applied.size))), applied.sign > 0 ? 1 : -1});
+    }
+    EXPECT_EQ(kinds["healthy"], 30u);
+    EXPECT_EQ(kinds["pair"], 12u);
+    EXPECT_EQ(kinds["outside"], 12u);
+    EXPECT_EQ(singles.size(), 20u);
+    for (const auto& [name, seen] : singles) {
+      EXPECT_EQ(seen.size(), EffectNamed(name).has_sign ? 6u : 3u) << name;
+    }
+    EXPECT_EQ(days.size(), PlannedCases(set, 1, 1).size()) << "two cases are the same day";
+  }
+}
+
+TEST(Plan, IsDrawnAnewForEverySeedAndSet) {
+  const auto kinds = [](Set set, std::uint64_t seed) {
+    std::string text;
+    for (const Case& planned : PlannedCases(set, seed, 1)) text += planned.kind + " ";
+    return text;
+  };
+  EXPECT_NE(kinds(Set::kDevelopment, 1), kinds(Set::kDevelopment, 2));
+  EXPECT_NE(kinds(Set::kDevelopment, 1), kinds(Set::kHeldOut, 1));
+}
+
+TEST(Campaign, WritesTheSameBytesForTheSameSeed) {
+  const TemporaryFolder folder;
+  const auto write = [&](const std::string& name, std::uint64_t seed) {
+    const CampaignOptions options{
+        .set = Set::kHeldOut, .seed = seed, .repeats = 1, .most_cases = 3, .duration_s = 12.0};
+    WriteCampaign(options, folder.Path() / name, [](std::size_t, std::size_t) {});
+    return FilesBelow(folder.Path() / name);
+  };
+  const auto files = write("one", 7);
+  EXPECT_EQ(files.size(), 4u * (1 + 7 * 3) + 3u * (3 + 1 + 1));
+  EXPECT_EQ(files, write("again", 7));
+  const auto other = write("other", 8);
+  EXPECT_NE(files.at("cases/001/log/gnss.csv"), other.at("cases/001/log/gnss.csv"));
+}
+
+TEST(SingleCase, EveryEffectShowsInTheLog) {
+  const TemporaryFolder folder;
+  const auto written = [&](const std::string& name, const std::vector<AppliedEffect>& effects) {
+    SingleCaseOptions options = ShortCase(effects);
+    options.duration_s = 150.0;  // wash and weed come and go
+    EXPECT_THAT(WriteSingleCase(options, folder.Path() / name),
+                testing::HasSubstr(effects.empty() ? "healthy" : name));
+    return FilesBelow(folder.Path() / name / "log");
+  };
+  const auto healthy = written("healthy", {});
+  for (const Effect& effect : Effects()) {
+    const auto files = written(effect.name, {{effect.name, 1.0, 1.0}});
+    EXPECT_TRUE(files.at("gnss.csv") != healthy.at("gnss.csv") ||
+                files.at("heading.csv") != healthy.at("heading.csv"))
+        << effect.name;
+  }
+}
+
+TEST(SingleCase, TurnsOnlyTheCompassByAHeadingBias) {
+  const TemporaryFolder folder;
+  WriteSingleCase(ShortCase({}), folder.Path() / "healthy");
+  WriteSingleCase(ShortCase({{"heading_bias", 2.0, -1.0}}), folder.Path() / "biased");
+  const auto healthy = SecondColumn(folder.Path() / "healthy/log/heading.csv");
+  const auto biased = SecondColumn(folder.Path() / "biased/log/heading.csv");
+  ASSERT_EQ(healthy.size(), biased.size());
+  for (std::size_t row = 0; row < healthy.size(); ++row) {
+    // Twice the typical 3 degrees, to port; headings are written to 1e-4.
+    EXPECT_NEAR(std::remainder(biased[row] - healthy[row], 360.0), -6.0, 1.1e-4) << row;
+  }
+  EXPECT_EQ(TextOfFile(folder.Path() / "healthy/log/gnss.csv"),
+            TextOfFile(folder.Path() / "biased/log/gnss.csv"));
+}
+
+TEST(SingleCase, IsHealthyUntilTheOnset) {
+  const TemporaryFolder folder;
+  WriteSingleCase(ShortCase({}), folder.Path() / "healthy");
+  SingleCaseOptions options = ShortCase({{"thruster_imbalance", 2.0, 1.0}});
+  options.onset_s = 30.0;
+  WriteSingleCase(options, folder.Path() / "late");
+  const auto healthy = SecondColumn(folder.Path() / "healthy/log/heading.csv");
+  const auto late = SecondColumn(folder.Path() / "late/log/heading.csv");
+  constexpr std::ptrdiff_t kRowsBefore = 30 * 20;
+  EXPECT_TRUE(std::equal(healthy.begin(), healthy.begin() + kRowsBefore, late.begin()));
+  EXPECT_FALSE(std::equal(healthy.begin(), healthy.end(), late.begin()));
+}
+
+TEST(SingleCase, RefusesWhatItDoesNotKnow) {
+  const TemporaryFolder folder;
+  EXPECT_THROW(WriteSingleCase(ShortCase({{"gremlins"}}), folder.Path()), std::invalid_argument);
+  SingleCaseOptions options = ShortCase({});
+  options.hull = "bounty";
+  EXPECT_THROW(WriteSingleCase(options, folder.Path()), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace blind::truth

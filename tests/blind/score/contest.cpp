@@ -1,0 +1,112 @@
+#include "score/contest.hpp"
+
+#include <algorithm>
+#include <fstream>
+#include <iterator>
+#include <string>
+
+#include "seal.hpp"
+
+namespace blind::score {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string Contents(const fs::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  if (!stream) throw std::invalid_argument("cannot read " + file.string());
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+/// What `parse` makes of the file; its complaints then name the file.
+template <typename Parse>
+auto ParsedFile(const fs::path& file, Parse parse) {
+  try {
+    return parse(Contents(file));
+  } catch (const std::invalid_argument& error) {
+    throw std::invalid_argument(file.string() + ": " + error.what());
+  }
+}
+
+std::vector<std::string> CaseNames(const fs::path& set) {
+  const fs::path cases = set / "cases";
+  if (!fs::is_directory(cases)) throw std::invalid_argument("no cases in " + cases.string());
+  std::vector<std::string> names;
+  for (const auto& entry : fs::directory_iterator(cases)) {
+    names.push_back(entry.path().filename().string());
+  }
+  std::sort(names.begin(), names.end());
+  if (names.empty()) throw std::invalid_argument("no cases in " + cases.string());
+  return names;
+}
+
+fs::path ReportFile(const fs::path& folder, const std::string& name) {
+  return folder / (name + ".json");
+}
+
+bool AllReport(const std::vector<fs::path>& folders, const std::string& name) {
+  return std::all_of(folders.begin(), folders.end(),
+                     [&](const fs::path& folder) { return fs::exists(ReportFile(folder, name)); });
+}
+
+/// The cases to score; throws where some are missing that should not.
+std::vector<std::string> Reported(const std::vector<std::string>& names,
+                                  const std::vector<fs::path>& folders, bool partial) {
+  std::vector<std::string> reported;
+  std::string missing;
+  std::size_t missing_count = 0;
+  for (const std::string& name : names) {
+    if (AllReport(folders, name)) {
+      reported.push_back(name);
+    } else if (++missing_count <= 5) {
+      missing += " " + name;
+    }
+  }
+  if (reported.empty() || (missing_count > 0 && !partial)) {
+    throw ReportsMissing(std::to_string(missing_count) + " of " + std::to_string(names.size()) +
+                         " cases have no report yet (" + missing.substr(1) +
+                         (missing_count > 5 ? " ..." : "") + "); no label was opened");
+  }
+  return reported;
+}
+
+Report ReadReport(const fs::path& folder, const std::string& name) {
+  Report report = ParsedFile(ReportFile(folder, name), ParseReport);
+  const fs::path realised = folder / (name + ".realised.json");
+  if (fs::exists(realised)) report.realised = ParsedFile(realised, ParseRealised);
+  return report;
+}
+
+Label OpenLabel(const fs::path& set, const std::string& name) {
+  return ParsedFile(set / "labels" / (name + ".sealed"), [&](const std::string& sealed) {
+    return ParseLabel(truth::Unsealed(sealed, name));
+  });
+}
+
+std::string NameOf(const fs::path& folder) {
+  const fs::path plain = folder.lexically_normal();
+  return (plain.has_filename() ? plain : plain.parent_path()).filename().string();
+}
+
+}  // namespace
+
+Contest Scores(const fs::path& set, const std::vector<fs::path>& folders, bool partial) {
+  const std::vector<std::string> names = Reported(CaseNames(set), folders, partial);
+  std::vector<std::vector<Scored>> columns(folders.size());
+  for (std::size_t column = 0; column < folders.size(); ++column) {
+    for (const std::string& name : names) {
+      columns[column].push_back({{}, ReadReport(folders[column], name)});
+    }
+  }
+  for (std::size_t row = 0; row < names.size(); ++row) {
+    const Label label = OpenLabel(set, names[row]);
+    for (auto& column : columns) column[row].label = label;
+  }
+  Contest contest{.contestants = {}, .cases = names.size()};
+  for (std::size_t column = 0; column < folders.size(); ++column) {
+    contest.contestants.push_back({NameOf(folders[column]), FiguresOf(columns[column])});
+  }
+  return contest;
+}
+
+}  // namespace blind::score

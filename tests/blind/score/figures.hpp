@@ -1,0 +1,100 @@
+#pragma once
+
+#include <cstddef>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "score/report.hpp"
+
+namespace blind::score {
+
+/// One case: what was on, what was said.
+struct Scored {
+  Label label;
+  Report report;
+};
+
+/// So many of so many.
+struct Rate {
+  std::size_t hits = 0;
+  std::size_t all = 0;
+  void Count(bool hit) {
+    hits += hit ? 1 : 0;
+    ++all;
+  }
+};
+
+struct Interval {
+  double lower;
+  double upper;
+};
+
+/// Exact two-sided bounds of a proportion (Clopper and Pearson 1934), `level` in (0, 1).
+Interval ClopperPearson(std::size_t hits, std::size_t all, double level);
+
+/// The exact one-sided upper bound.
+double ClopperPearsonUpper(std::size_t hits, std::size_t all, double level);
+
+/// A probability that was given and whether it came true.
+struct Forecast {
+  double probability;
+  bool right;
+};
+
+/// Mean squared distance of probability and outcome.
+double Brier(const std::vector<Forecast>& forecasts);
+
+/// Expected calibration error over ten equally wide bins: the mean distance between a bin's mean
+/// probability and the share that came true, by the bin's forecasts.
+double CalibrationError(const std::vector<Forecast>& forecasts);
+
+/// The likeliest cause, or nothing where the verdict says that there is no gap or too little data.
+const Cause* FirstCause(const Report& report);
+
+/// What the report calls the gap in a table: the first cause's effects, or the verdict where none.
+std::string CalledBy(const Report& report);
+
+/// The true effects are the first cause's, or each is one of them or indistinguishable from one of
+/// them, as many as they are. For a case outside the library: the first cause is unknown.
+bool ClassHit(const Scored& scored);
+
+/// How many single effects the first cause stands for.
+std::size_t ClassSize(const Cause& cause);
+
+struct Naming {
+  Rate top_1;
+  Rate top_3;
+  Rate class_hit;
+  std::vector<double> class_sizes;  // where a cause of the library was named
+};
+
+struct EffectFigures {
+  Naming naming;
+  std::vector<double> detectability;
+  std::map<std::string, std::size_t> called;  // the row of the confusion table
+};
+
+inline constexpr double kDetectable = 10.0;
+
+struct Figures {
+  Naming all;          // single effects
+  Naming detectable;   // of them those whose own report has the true effect at kDetectable or more
+  Rate false_alarms;   // healthy
+  Rate wrongly_named;  // outside the library: called EXPLAINED, or by an effect at more than 0.5
+  Rate outside_seen;   // outside the library: a gap was reported at all
+  Rate exact_pairs;    // both of two effects and no other, each up to its class
+  Rate half_pairs;     // at least one of the two
+  std::vector<Forecast> forecasts;               // of each first cause there was
+  std::vector<double> closures;                  // predicted, where a class was hit
+  std::vector<double> closure_errors;            // |predicted - realised|, where realised is known
+  std::map<std::string, EffectFigures> effects;  // by true effects, "healthy" among them
+};
+
+Figures FiguresOf(const std::vector<Scored>& cases);
+
+double Mean(const std::vector<double>& values);  // NaN of none
+double Median(std::vector<double> values);       // likewise
+
+}  // namespace blind::score

@@ -1,0 +1,72 @@
+#include <CLI/CLI.hpp>
+#include <exception>
+#include <fstream>
+#include <iostream>
+#include <stdexcept>
+#include <string>
+
+#include "score/contest.hpp"
+
+namespace {
+
+constexpr int kUsageError = 2;
+constexpr int kReportsMissing = 3;
+
+struct Arguments {
+  std::string set;
+  std::vector<std::filesystem::path> reports;
+  std::string markdown;
+  bool partial = false;
+};
+
+void AddOptions(CLI::App& app, Arguments& arguments) {
+  app.add_option("--set-dir", arguments.set, "the set, as blind_truth wrote it")
+      ->type_name("DIR")
+      ->required()
+      ->check(CLI::ExistingDirectory.description(""));
+  app.add_option("--reports", arguments.reports,
+                 "a folder of reports NNN.json, with NNN.realised.json beside them where realised "
+                 "closure is known; several for several columns")
+      ->type_name("DIR")
+      ->required()
+      ->check(CLI::ExistingDirectory.description(""));
+  app.add_option("--markdown", arguments.markdown, "also write the tables to this file")
+      ->type_name("FILE");
+  app.add_flag("--partial", arguments.partial, "score the cases that have reports");
+}
+
+void Run(const Arguments& arguments) {
+  const blind::score::Contest contest =
+      blind::score::Scores(arguments.set, arguments.reports, arguments.partial);
+  const std::string tables = blind::score::Markdown(contest.contestants, contest.cases);
+  std::cout << tables;
+  if (arguments.markdown.empty()) return;
+  std::ofstream file(arguments.markdown, std::ios::binary);
+  file << tables;
+  file.close();
+  if (!file) throw std::runtime_error("cannot write " + arguments.markdown);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app("Opens the sealed labels of a set and scores the reports on it");
+  app.footer(
+      "No label is opened unless every case has a report. What the figures mean: docs/blind.md\n"
+      "Example: blind_score --set-dir development --reports reports --reports best-bic");
+  Arguments arguments;
+  AddOptions(app, arguments);
+  try {
+    app.parse(argc, argv);
+    Run(arguments);
+    return 0;
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : kUsageError;
+  } catch (const blind::score::ReportsMissing& error) {
+    std::cerr << "blind_score: " << error.what() << '\n';
+    return kReportsMissing;
+  } catch (const std::exception& error) {
+    std::cerr << "blind_score: " << error.what() << '\n';
+    return 1;
+  }
+}

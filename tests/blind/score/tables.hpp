@@ -1,0 +1,19 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "score/figures.hpp"
+
+namespace blind::score {
+
+/// One folder of reports.
+struct Contestant {
+  std::string name;
+  Figures figures;
+};
+
+/// All figures as Markdown: one column a folder, then for each folder a row an effect.
+std::string Markdown(const std::vector<Contestant>& contestants, std::size_t cases);
+
+}  // namespace blind::score
