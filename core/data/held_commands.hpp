@@ -41,6 +41,12 @@ class HeldCommands {
     }
   }
 
+  /// Replaces each command by change(command).
+  template <class Change>
+  void ForEachCommand(Change change) {
+    for (PropellerCommand& command : commands_) command = change(command);
+  }
+
   const std::vector<double>& Times() const { return times_s_; }
   const std::vector<PropellerCommand>& Commands() const { return commands_; }
 

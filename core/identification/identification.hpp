@@ -99,6 +99,12 @@ struct ManoeuvreAdvice {
   std::vector<ExpectedBounds> expected;  ///< of those coefficients, most shrunk first
 };
 
+/// An effect that was added to a model by name, docs/adding-an-effect.md.
+struct AddedEffect {
+  std::string effect;
+  std::vector<double> values;  ///< one per parameter, in its order
+};
+
 /// A boat's model with bounds: the outcome that is published.
 /// Shapes: coefficients in the order surge, sway, yaw and, within each, of Regressors(); an
 /// equation that was refused has no coefficients and a refusal. covariance is square over all
@@ -120,6 +126,7 @@ struct Identification {
   /// Where each recording has a steady disturbance of its own: these, and the coefficients of the
   /// regressor "1" are their means.
   std::vector<RecordingOffsets> offsets;
+  std::vector<AddedEffect> effects;  ///< that act on the boat besides its coefficients
   WindowSummary window;
   std::vector<Refusal> refusals;
   Provenance provenance;

@@ -5,7 +5,10 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <vector>
 
+#include "effects/augmented_boat.hpp"
+#include "effects/sensor_chain.hpp"
 #include "simulation/simulator.hpp"
 
 namespace telltale {
@@ -133,16 +136,7 @@ void RunFreely(const PreparedDataset& dataset, const VesselModel& model,
   ++sums.windows;
 }
 
-FreeRunScores ScoreFreeRuns(const PreparedDataset& dataset, const VesselModel& model,
-                            const ThrustHistory& thrust, double horizon_s) {
-  const auto steps = static_cast<std::size_t>(std::lround(horizon_s / dataset.sampling_period_s));
-  FreeRunSums sums;
-  for (const RowRange& stretch : dataset.stretches) {
-    for (std::size_t k = stretch.begin; k + steps < stretch.end; k += steps) {
-      RunFreely(dataset, model, thrust, k, steps, sums);
-    }
-  }
-
+FreeRunScores ScoresOf(const FreeRunSums& sums, const PreparedDataset& dataset, double horizon_s) {
   FreeRunScores scores;
   scores.horizon_s = horizon_s;
   scores.windows = sums.windows;
@@ -155,6 +149,72 @@ FreeRunScores ScoreFreeRuns(const PreparedDataset& dataset, const VesselModel& m
   scores.position_rmse_m = std::sqrt(sums.squared_distance_m2 / static_cast<double>(sums.windows));
   return scores;
 }
+
+FreeRunScores ScoreFreeRuns(const PreparedDataset& dataset, const VesselModel& model,
+                            const ThrustHistory& thrust, double horizon_s) {
+  const auto steps = static_cast<std::size_t>(std::lround(horizon_s / dataset.sampling_period_s));
+  FreeRunSums sums;
+  for (const RowRange& stretch : dataset.stretches) {
+    for (std::size_t k = stretch.begin; k + steps < stretch.end; k += steps) {
+      RunFreely(dataset, model, thrust, k, steps, sums);
+    }
+  }
+
+  return ScoresOf(sums, dataset, horizon_s);
+}
+
+/// A model with effects, sailed along a dataset from measured states.
+class AugmentedSailing {
+ public:
+  AugmentedSailing(const PreparedDataset& dataset, const AugmentedModel& model)
+      : dataset_(dataset),
+        boat_(model, dataset.StartTime(), std::max(dataset.EndTime() - dataset.StartTime(), 1.0)),
+        steps_(StepsPerRow(model.model, dataset.sampling_period_s)),
+        step_s_(dataset.sampling_period_s / static_cast<double>(steps_)) {}
+
+  /// Calls visit(first row, predicted rows from it on) for every run of `rows` periods.
+  template <class Visit>
+  void RunAll(std::size_t rows, Visit visit) const {
+    for (std::size_t s = 0; s < dataset_.stretches.size(); ++s) {
+      const RowRange& stretch = dataset_.stretches[s];
+      if (stretch.size() < 2) continue;
+      const double start_s = dataset_.rows[stretch.begin].time_s;
+      const auto drives =
+          boat_.DriveAlong(dataset_.commands[s], start_s, step_s_, stretch.size() * steps_);
+      for (std::size_t k = stretch.begin; k + rows < stretch.end; k += rows) {
+        visit(k, Run(stretch, k, rows, drives));
+      }
+    }
+  }
+
+ private:
+  std::vector<PreparedRow> Run(const RowRange& stretch, std::size_t first, std::size_t rows,
+                               const std::vector<Drive>& drives) const {
+    const double from_s = dataset_.rows[first].time_s;
+    std::vector<Pose> track = {TrueStart(dataset_, stretch, from_s, boat_)};
+    for (std::size_t k = 0; k < rows * steps_; ++k) {
+      track.push_back(boat_.Advance(track.back(), drives[(first - stretch.begin) * steps_ + k],
+                                    from_s + static_cast<double>(k) * step_s_, step_s_));
+    }
+    std::vector<PreparedRow> predicted;
+    for (std::size_t k = 0; k <= rows; ++k) {
+      const Pose& now = track[k * steps_];
+      const auto late =
+          static_cast<std::size_t>(std::lround(std::max(boat_.LatencyS(), 0.0) / step_s_));
+      const Pose& past = track[k * steps_ - std::min(late, k * steps_)];
+      PreparedRow row;
+      row.eta = past.eta;
+      row.nu = MeasuredNu(now, past, dataset_.sensors.antenna, boat_);
+      predicted.push_back(row);
+    }
+    return predicted;
+  }
+
+  const PreparedDataset& dataset_;
+  AugmentedBoat boat_;
+  std::size_t steps_;
+  double step_s_;
+};
 
 std::optional<Refusal> Unanswerable(const PreparedDataset& dataset, const VesselModel& model,
                                     const ValidationOptions& options) {
@@ -193,6 +253,40 @@ Result<Metrics> Validate(const PreparedDataset& dataset, const VesselModel& mode
   metrics.one_step = ScoreOneStep(dataset, model, thrust);
   for (const double horizon_s : options.horizons_s) {
     metrics.free_run.push_back(ScoreFreeRuns(dataset, model, thrust, horizon_s));
+  }
+  return metrics;
+}
+
+Result<Metrics> Validate(const PreparedDataset& dataset, const AugmentedModel& model,
+                         const ValidationOptions& options) {
+  if (model.effects.empty()) return Validate(dataset, model.model, options);
+  if (auto refusal = Unanswerable(dataset, model.model, options)) {
+    return tl::unexpected<Refusal>(*std::move(refusal));
+  }
+  const AugmentedSailing sailing(dataset, model);
+  Metrics metrics;
+  SumsByVelocity of_model;
+  SumsByVelocity of_persistence;
+  sailing.RunAll(1, [&](std::size_t first, const std::vector<PreparedRow>& predicted) {
+    Add(of_model, dataset.rows[first + 1].nu, predicted[1].nu);
+    Add(of_persistence, dataset.rows[first + 1].nu, dataset.rows[first].nu);
+  });
+  for (std::size_t j = 0; j < metrics.one_step.size(); ++j) {
+    metrics.one_step[j] = {of_model[j].R2(), of_model[j].Mae(), of_persistence[j].R2()};
+  }
+  for (const double horizon_s : options.horizons_s) {
+    const auto steps = static_cast<std::size_t>(std::lround(horizon_s / dataset.sampling_period_s));
+    FreeRunSums sums;
+    sailing.RunAll(steps, [&](std::size_t first, const std::vector<PreparedRow>& predicted) {
+      for (std::size_t k = 1; k <= steps; ++k) {
+        Add(sums.of_model, dataset.rows[first + k].nu, predicted[k].nu);
+        Add(sums.of_persistence, dataset.rows[first + k].nu, dataset.rows[first].nu);
+      }
+      sums.squared_distance_m2 +=
+          SquaredDistance(dataset.rows[first + steps].eta, predicted[steps].eta);
+      ++sums.windows;
+    });
+    metrics.free_run.push_back(ScoresOf(sums, dataset, horizon_s));
   }
   return metrics;
 }

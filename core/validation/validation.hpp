@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "data/prepared_dataset.hpp"
+#include "effects/augmented_model.hpp"
 #include "result.hpp"
 #include "vessel/vessel_model.hpp"
 
@@ -54,6 +55,10 @@ struct Metrics {
 /// dataset has no pair of rows, a discrete model's sampling period is not the data's, a horizon is
 /// out of range. A horizon that fits no window has windows = 0.
 Result<Metrics> Validate(const PreparedDataset& dataset, const VesselModel& model,
+                         const ValidationOptions& options);
+
+/// The same of a model with effects: they act on the boat and on what its sensors say of it.
+Result<Metrics> Validate(const PreparedDataset& dataset, const AugmentedModel& model,
                          const ValidationOptions& options);
 
 }  // namespace telltale

@@ -1,0 +1,37 @@
+#include "effects/effect.hpp"
+#include "effects/library.hpp"
+#include "effects/wording.hpp"
+
+namespace telltale {
+namespace {
+
+class AddedMassCouplingEffect final : public Effect {
+ public:
+  AddedMassCouplingEffect()
+      : Effect({.name = "added_mass_coupling",
+                .title = "another Munk moment",
+                .equation = "r_dot += k u v, k = (m11 - m22) / m33",
+                .source =
+                    "Fossen 2011, chapter 6: the Munk moment in the Coriolis terms of added mass",
+                .parameters = {{"moment", "1/m^2", 1.0, -8.0, 8.0}},
+                .settled_by = "an inertial sensor",
+                .hook = Hook::kPush,
+                .habit = Habit::kInCoefficients}) {}
+
+  std::string Describe(EffectValues values) const override {
+    return "a Munk moment of " + Number(values[0], 2) + " u v more";
+  }
+
+  NuDot Push(EffectValues values, const Moment& moment) const override {
+    return {0.0, 0.0, values[0] * moment.nu_r.u * moment.nu_r.v};
+  }
+};
+
+}  // namespace
+
+const Effect& AddedMassCoupling() {
+  static const AddedMassCouplingEffect effect;
+  return effect;
+}
+
+}  // namespace telltale

@@ -1,0 +1,203 @@
+#include "effects/augmented_boat.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "contract.hpp"
+#include "simulation/simulator.hpp"
+
+namespace telltale {
+namespace {
+
+// Thrusters have forgotten what they were told so many time constants ago.
+constexpr double kMemoryInLags = 6.0;
+// Runge-Kutta's error over it, a hundred-thousandth of the change of a yaw rate that decays in a
+// third of a second, is far below what sensors see.
+constexpr double kLongestStepS = 0.2;
+constexpr double kRounding = 1e-9;
+
+NuDot Plus(const NuDot& a, const NuDot& b, double share = 1.0) {
+  return {a.u + share * b.u, a.v + share * b.v, a.r + share * b.r};
+}
+
+Nu Along(const Nu& nu, const NuDot& slope, double step_s) {
+  return {nu.u + step_s * slope.u, nu.v + step_s * slope.v, nu.r + step_s * slope.r};
+}
+
+Drive Weighed(const Drive& sum, const Drive& more, double weight) {
+  return {
+      {Plus(sum.thrust[0], more.thrust[0], weight), Plus(sum.thrust[1], more.thrust[1], weight)},
+      sum.load + weight * more.load};
+}
+
+/// One first-order lag of both sides' thrust under drives that are steady through each step.
+class LaggedThrust {
+ public:
+  LaggedThrust(double lag_s, double step_s, const Drive& first)
+      : remaining_(std::exp(-step_s / lag_s)),
+        mean_((1.0 - remaining_) * lag_s / step_s),
+        now_(first) {}
+
+  /// The mean through a step that tends to `steady`.
+  Drive Follow(const Drive& steady) {
+    const Drive behind = Weighed(now_, steady, -1.0);
+    Drive mean = Weighed(steady, behind, mean_);
+    mean.load = steady.load;
+    now_ = Weighed(steady, behind, remaining_);
+    return mean;
+  }
+
+ private:
+  double remaining_;
+  double mean_;
+  Drive now_;
+};
+
+}  // namespace
+
+std::size_t StepsPerRow(const VesselModel& model, double sampling_period_s) {
+  if (model.discretisation == Discretisation::kForwardEuler) return 1;
+  return static_cast<std::size_t>(std::ceil(sampling_period_s / kLongestStepS - kRounding));
+}
+
+AugmentedBoat::AugmentedBoat(AugmentedModel model, double start_s, double span_s)
+    : model_(std::move(model)), start_s_(start_s), span_s_(span_s) {
+  Require(span_s > 0.0, "something to sail");
+  for (const telltale::Equation equation : kEquations) {
+    const std::size_t j = IndexOf(equation);
+    const Eigen::VectorXd& theta = model_.model.theta[j];
+    const std::size_t body = BodyRegressors(equation);
+    for (std::size_t i = 0; i < static_cast<std::size_t>(theta.size()); ++i) {
+      (i < body ? hull_[j][i] : thrust_[j][i - body]) = theta[static_cast<Eigen::Index>(i)];
+    }
+  }
+  if (model_.model.thruster_time_constant_s) {
+    lags_s_.push_back(*model_.model.thruster_time_constant_s);
+  }
+  for (const auto& [effect, values] : model_.effects) {
+    Require(values.size() == effect->Parameters().size(), "one value per parameter");
+    hooked_[static_cast<std::size_t>(effect->Facts().hook)].push_back({effect, values});
+    if (const double lag_s = effect->LagS(values); lag_s > 0.0) lags_s_.push_back(lag_s);
+    delay_s_ += effect->CommandDelayS(values);
+    heading_error_rad_ += effect->HeadingErrorRad(values);
+    latency_s_ += effect->LatencyS(values);
+    const LeverArm shift = effect->AntennaShift(values);
+    antenna_shift_.forward_m += shift.forward_m;
+    antenna_shift_.starboard_m += shift.starboard_m;
+    current_ += effect->Current(values);
+  }
+}
+
+std::array<NuDot, 2> AugmentedBoat::SteadyThrust(const PropellerCommand& delta) const {
+  PropellerCommand altered = delta;
+  for (const auto& [effect, values] : Hooked(Hook::kCommand)) {
+    altered = {effect->Command(values, altered.port), effect->Command(values, altered.starboard)};
+  }
+  const auto accelerations = [&](const ThrustRegressors& thrust) {
+    std::array<double, 3> sum{};
+    for (std::size_t i = 0; i < 4; ++i) {
+      sum[0] += thrust_[0][i] * thrust.surge[i];
+      sum[1] += thrust_[1][i] * thrust.turning[i];
+      sum[2] += thrust_[2][i] * thrust.turning[i];
+    }
+    return NuDot{sum[0], sum[1], sum[2]};
+  };
+  const NuDot port = accelerations(model_.model.SteadyThrust({altered.port, 0.0}));
+  return {port, Plus(accelerations(model_.model.SteadyThrust(altered)), port, -1.0)};
+}
+
+std::vector<Drive> AugmentedBoat::DriveAlong(const HeldCommands& commands, double from_s,
+                                             double step_s, std::size_t steps) const {
+  double memory_s = 0.0;
+  for (const double lag_s : lags_s_) memory_s += kMemoryInLags * lag_s;
+  const auto before = static_cast<std::size_t>(std::ceil(memory_s / step_s));
+  const auto steady = [&](std::size_t k) {
+    const double from =
+        from_s - delay_s_ + (static_cast<double>(k) - static_cast<double>(before)) * step_s;
+    Drive mean;
+    commands.ForEachPiece(
+        from, from + step_s, [&](const PropellerCommand& delta, double begin, double end) {
+          const double load = 0.5 * (delta.port * delta.port + delta.starboard * delta.starboard);
+          mean = Weighed(mean, {SteadyThrust(delta), load}, (end - begin) / step_s);
+        });
+    return mean;
+  };
+  std::vector<LaggedThrust> lags;
+  for (const double lag_s : lags_s_) lags.emplace_back(lag_s, step_s, steady(0));
+  std::vector<Drive> drives;
+  drives.reserve(steps);
+  for (std::size_t k = 0; k < before + steps; ++k) {
+    Drive drive = steady(k);
+    for (LaggedThrust& lag : lags) drive = lag.Follow(drive);
+    if (k >= before) drives.push_back(drive);
+  }
+  return drives;
+}
+
+NuDot AugmentedBoat::Acceleration(const Nu& nu, double psi_rad, const Drive& drive,
+                                  double time_s) const {
+  Moment moment;
+  moment.time_s = time_s - start_s_;
+  moment.span_s = span_s_;
+  moment.psi_rad = psi_rad;
+  moment.load = drive.load;
+  moment.nu = nu;
+  moment.nu_r = nu;
+  NuDot nu_dot;
+  if (!current_.isZero(0.0)) {
+    const double u_c = std::cos(psi_rad) * current_[0] + std::sin(psi_rad) * current_[1];
+    const double v_c = -std::sin(psi_rad) * current_[0] + std::cos(psi_rad) * current_[1];
+    moment.nu_r = {nu.u - u_c, nu.v - v_c, nu.r};
+    nu_dot = {nu.r * v_c, -nu.r * u_c, 0.0};
+  }
+  const Nu& n = moment.nu_r;
+  const double v_abs = std::abs(n.v);
+  const double r_abs = std::abs(n.r);
+  const std::array<double, 5> ahead = {n.u * std::abs(n.u), n.v * n.r, n.r * n.r, n.u, 1.0};
+  const std::array<double, 9> cross = {
+      n.v * v_abs, n.v * r_abs, n.r * v_abs, n.r * r_abs, n.u * n.v, n.u * n.r, n.v, n.r, 1.0};
+  for (std::size_t i = 0; i < ahead.size(); ++i) {
+    moment.hull[0][i] = hull_[0][i] * ahead[i];
+    nu_dot.u += moment.hull[0][i];
+  }
+  for (std::size_t i = 0; i < cross.size(); ++i) {
+    moment.hull[1][i] = hull_[1][i] * cross[i];
+    moment.hull[2][i] = hull_[2][i] * cross[i];
+    nu_dot.v += moment.hull[1][i];
+    nu_dot.r += moment.hull[2][i];
+  }
+  moment.thrust = drive.thrust;
+  for (const auto& [effect, values] : Hooked(Hook::kThrustShare)) {
+    for (const Side side : {Side::kPort, Side::kStarboard}) {
+      const double share = effect->ThrustShare(values, side, moment);
+      NuDot& thrust = moment.thrust[side == Side::kPort ? 0 : 1];
+      thrust = {share * thrust.u, share * thrust.v, share * thrust.r};
+    }
+  }
+  nu_dot = Plus(nu_dot, moment.Thrust());
+  for (const auto& [effect, values] : Hooked(Hook::kPush)) {
+    nu_dot = Plus(nu_dot, effect->Push(values, moment));
+  }
+  return nu_dot;
+}
+
+Pose AugmentedBoat::Advance(const Pose& from, const Drive& drive, double time_s,
+                            double step_s) const {
+  const double psi = from.eta.psi_rad;
+  const NuDot k1 = Acceleration(from.nu, psi, drive, time_s);
+  if (model_.model.discretisation == Discretisation::kForwardEuler) {
+    const Nu nu = Along(from.nu, k1, step_s);
+    return {NextPose(from.eta, from.nu, nu, step_s), nu};
+  }
+  const double half = step_s / 2.0;
+  const double psi_half = psi + half * from.nu.r;
+  const NuDot k2 = Acceleration(Along(from.nu, k1, half), psi_half, drive, time_s + half);
+  const NuDot k3 = Acceleration(Along(from.nu, k2, half), psi_half, drive, time_s + half);
+  const NuDot k4 = Acceleration(Along(from.nu, k3, step_s),
+                                psi + step_s * (from.nu.r + half * k1.r), drive, time_s + step_s);
+  const Nu nu = Along(from.nu, Plus(Plus(Plus(k1, k2, 2.0), k3, 2.0), k4), step_s / 6.0);
+  return {NextPose(from.eta, from.nu, nu, step_s), nu};
+}
+
+}  // namespace telltale

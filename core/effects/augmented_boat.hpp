@@ -1,0 +1,75 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "data/held_commands.hpp"
+#include "effects/augmented_model.hpp"
+#include "vessel/motion.hpp"
+#include "vessel/vehicle.hpp"
+
+namespace telltale {
+
+/// What the propellers give through one step: mean accelerations, port first.
+struct Drive {
+  std::array<NuDot, 2> thrust;
+  double load = 0.0;  ///< mean squared command of the two
+};
+
+struct Pose {
+  Eta eta;
+  Nu nu;
+};
+
+/// How many steps a sampling period takes: one of a kForwardEuler model, else as many as are no
+/// longer than a fifth of a second.
+std::size_t StepsPerRow(const VesselModel& model, double sampling_period_s);
+
+/// A model and its effects, ready to sail.
+/// Model: nu_dot = body(nu_r) + sum over sides of share T + (r v_c, -r u_c, 0) + pushes,
+/// docs/diagnosis.md (81); T follows the commands, delayed and altered, through the model's own lag
+/// and those of the effects. kForwardEuler models step as they were made, kContinuous ones by a
+/// Runge-Kutta step of order four with the heading of the middle of the step.
+/// Requires: a model with all three equations; `span_s` > 0, the length of what is sailed, from
+/// `start_s` on the clock of the commands.
+class AugmentedBoat {
+ public:
+  AugmentedBoat(AugmentedModel model, double start_s, double span_s);
+
+  /// The drives of `steps` steps from `from_s`, thrusters having followed the commands before.
+  std::vector<Drive> DriveAlong(const HeldCommands& commands, double from_s, double step_s,
+                                std::size_t steps) const;
+
+  /// The boat `step_s` after `from` at `time_s`.
+  Pose Advance(const Pose& from, const Drive& drive, double time_s, double step_s) const;
+
+  double HeadingErrorRad() const { return heading_error_rad_; }
+  LeverArm AntennaShift() const { return antenna_shift_; }
+  double LatencyS() const { return latency_s_; }
+  const VesselModel& Model() const { return model_.model; }
+
+ private:
+  const std::vector<ModelledEffect>& Hooked(Hook hook) const {
+    return hooked_[static_cast<std::size_t>(hook)];
+  }
+  std::array<NuDot, 2> SteadyThrust(const PropellerCommand& delta) const;
+  NuDot Acceleration(const Nu& nu, double psi_rad, const Drive& drive, double time_s) const;
+
+  AugmentedModel model_;
+  std::array<std::vector<ModelledEffect>, 4> hooked_;  ///< by the hook they override
+  double start_s_;
+  double span_s_;
+  std::array<std::array<double, 9>, 3> hull_{};
+  std::array<std::array<double, 4>, 3> thrust_{};
+  std::vector<double> lags_s_;
+  double delay_s_ = 0.0;
+  double heading_error_rad_ = 0.0;
+  LeverArm antenna_shift_;
+  double latency_s_ = 0.0;
+  Eigen::Vector2d current_ = Eigen::Vector2d::Zero();
+};
+
+}  // namespace telltale

@@ -1,0 +1,61 @@
+#include "effects/augmented_simulation.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "contract.hpp"
+#include "data/held_commands.hpp"
+#include "effects/augmented_boat.hpp"
+
+namespace telltale {
+namespace {
+
+HeldCommands Held(const std::vector<TimedCommand>& commands) {
+  const Vehicle vehicle;
+  std::vector<ThrusterSample> samples;
+  for (const TimedCommand& command : commands) {
+    samples.push_back({command.time_s, vehicle.port.PulseWidth(command.delta.port),
+                       vehicle.starboard.PulseWidth(command.delta.starboard)});
+  }
+  return {samples, vehicle};
+}
+
+}  // namespace
+
+std::vector<TimedState> Simulate(const AugmentedModel& model,
+                                 const std::vector<TimedCommand>& commands, double end_s,
+                                 double step_s) {
+  Require(!commands.empty() && step_s > 0.0, "commands and a step");
+  const double start_s = commands.front().time_s;
+  Require(end_s > start_s, "an end after the first command");
+  const AugmentedBoat boat(model, start_s, end_s - start_s);
+  const HeldCommands held = Held(commands);
+  const auto steps = static_cast<std::size_t>(std::floor((end_s - start_s) / step_s + 1e-9));
+  const std::vector<Drive> drives = boat.DriveAlong(held, start_s, step_s, steps);
+  std::vector<TimedState> track;
+  Pose pose;
+  for (std::size_t k = 0; k <= steps; ++k) {
+    const double time_s = start_s + static_cast<double>(k) * step_s;
+    track.push_back({time_s, {pose.eta, pose.nu}, held.At(time_s)});
+    if (k < steps) pose = boat.Advance(pose, drives[k], time_s, step_s);
+  }
+  return track;
+}
+
+Recording Measure(const std::vector<TimedState>& track, const AugmentedModel& model,
+                  const Vehicle& vehicle, const SensorOptions& options) {
+  const AugmentedBoat boat(model, 0.0, 1.0);
+  Vehicle real = vehicle;
+  real.gnss_antenna.forward_m += boat.AntennaShift().forward_m;
+  real.gnss_antenna.starboard_m += boat.AntennaShift().starboard_m;
+  Recording recording = Measure(track, real, options);
+  const double turned_deg = boat.HeadingErrorRad() * 180.0 / std::numbers::pi;
+  for (HeadingSample& sample : recording.heading) {
+    sample.heading_deg = std::fmod(sample.heading_deg + turned_deg + 360.0, 360.0);
+  }
+  for (GnssFix& fix : recording.gnss) fix.time_s += boat.LatencyS();
+  return recording;
+}
+
+}  // namespace telltale

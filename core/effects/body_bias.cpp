@@ -1,0 +1,39 @@
+#include "effects/effect.hpp"
+#include "effects/library.hpp"
+#include "effects/wording.hpp"
+
+namespace telltale {
+namespace {
+
+class BodyBiasEffect final : public Effect {
+ public:
+  BodyBiasEffect()
+      : Effect({.name = "body_bias",
+                .title = "a steady push that turns with the boat",
+                .equation = "nu_dot += (X0, Y0, N0)",
+                .source = "Fossen 2011, chapter 8, forces constant in the body frame",
+                .parameters = {{"surge", "m/s^2", 0.05, -1.0, 1.0},
+                               {"sway", "m/s^2", 0.05, -1.0, 1.0},
+                               {"yaw", "rad/s^2", 0.05, -1.0, 1.0}},
+                .settled_by = "an anemometer and a look below the waterline",
+                .hook = Hook::kPush,
+                .habit = Habit::kInCoefficients}) {}
+
+  std::string Describe(EffectValues values) const override {
+    return "a steady push of " + Number(values[0], 3) + " m/s^2 ahead, " + Number(values[1], 3) +
+           " m/s^2 to starboard and " + Number(values[2], 3) + " rad/s^2 to starboard";
+  }
+
+  NuDot Push(EffectValues values, const Moment&) const override {
+    return {values[0], values[1], values[2]};
+  }
+};
+
+}  // namespace
+
+const Effect& BodyBias() {
+  static const BodyBiasEffect effect;
+  return effect;
+}
+
+}  // namespace telltale

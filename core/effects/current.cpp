@@ -1,0 +1,40 @@
+#include <cmath>
+
+#include "effects/effect.hpp"
+#include "effects/library.hpp"
+#include "effects/wording.hpp"
+
+namespace telltale {
+namespace {
+
+class CurrentEffect final : public Effect {
+ public:
+  CurrentEffect()
+      : Effect(
+            {.name = "current",
+             .title = "a current",
+             .equation =
+                 "nu_r = nu - R(psi)' V_c in the hull's forces, and nu_dot += (r v_c, -r u_c, 0)",
+             .source = "Fossen, Handbook of Marine Craft Hydrodynamics and Motion Control, 2011, "
+                       "chapter 8",
+             .parameters = {{"current_north", "m/s", 0.2, -2.0, 2.0},
+                            {"current_east", "m/s", 0.2, -2.0, 2.0}},
+             .settled_by = "a current meter or a log of speed through the water",
+             .habit = Habit::kPasses}) {}
+
+  std::string Describe(EffectValues values) const override {
+    return Number(std::hypot(values[0], values[1]), 2) + " m/s of current " +
+           Towards(values[0], values[1]);
+  }
+
+  Eigen::Vector2d Current(EffectValues values) const override { return {values[0], values[1]}; }
+};
+
+}  // namespace
+
+const Effect& Current() {
+  static const CurrentEffect effect;
+  return effect;
+}
+
+}  // namespace telltale

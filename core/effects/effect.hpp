@@ -1,0 +1,132 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "vessel/motion.hpp"
+#include "vessel/structure.hpp"
+#include "vessel/vehicle.hpp"
+
+namespace telltale {
+
+/// One unknown of an effect. Assumes: zero means that the effect is not there, unless it only says
+/// how the others act (a ratio), which `shapes` marks.
+struct EffectParameter {
+  std::string_view name;
+  std::string_view unit;
+  double typical = 0.0;  ///< size met in practice, > 0; of a shaping parameter, its spread
+  double lower = 0.0;    ///< range in which it is sought
+  double upper = 0.0;
+  bool shapes = false;
+  double usual = 0.0;  ///< where it is expected: zero but for a shaping parameter
+};
+
+enum class Side { kPort, kStarboard };
+
+/// What a boat goes through at one instant of a free run, as the model has it.
+struct Moment {
+  double time_s = 0.0;  ///< since the recording began
+  double span_s = 0.0;  ///< how long the recording is
+  double psi_rad = 0.0;
+  double load = 0.0;            ///< mean squared command of the two propellers
+  Nu nu;                        ///< over ground
+  Nu nu_r;                      ///< through the water
+  std::array<NuDot, 2> thrust;  ///< what each side's propeller gives, port first
+  /// Each body term of surge, sway and yaw, in the order of Regressors().
+  std::array<std::array<double, 9>, 3> hull{};
+
+  NuDot Thrust() const {
+    return {thrust[0].u + thrust[1].u, thrust[0].v + thrust[1].v, thrust[0].r + thrust[1].r};
+  }
+};
+
+/// Body accelerations in a narrow band that no free run can foretell, of random phase.
+struct BandNoise {
+  Eigen::Vector3d amplitude = Eigen::Vector3d::Zero();  ///< m/s^2, m/s^2, rad/s^2
+  double frequency_rad_s = 0.0;
+};
+
+using EffectValues = std::span<const double>;
+
+/// Which of its hooks an effect overrides among those that are called at every step.
+enum class Hook { kNone, kCommand, kThrustShare, kPush };
+
+/// Where a healthy boat's lasting share of an effect is found: in the effect itself, in the model's
+/// coefficients, or nowhere, since weather passes.
+enum class Habit { kOwn, kInCoefficients, kPasses };
+
+/// What an effect is, for people and reports.
+struct EffectFacts {
+  std::string_view name;   ///< as in report.json: "hull_fouling"
+  std::string_view title;  ///< in a sentence: "a fouled hull"
+  std::string_view equation;
+  std::string_view source;
+  std::vector<EffectParameter> parameters;
+  std::string_view settled_by;  ///< a sensor that would tell: "an anemometer"
+  Hook hook = Hook::kNone;
+  Habit habit = Habit::kOwn;
+};
+
+/// Something that moves a boat, or what its sensors say, and that the model leaves out. An effect
+/// overrides the hooks where it acts; the others leave the boat as it is. Every hook gets one value
+/// per parameter. Effects act together in the order of the chain: commands, thrust, hull and
+/// surroundings, sensors.
+class Effect {
+ public:
+  explicit Effect(EffectFacts facts) : facts_(std::move(facts)) {}
+  virtual ~Effect() = default;
+  Effect(const Effect&) = delete;
+  Effect& operator=(const Effect&) = delete;
+
+  std::string_view Name() const { return facts_.name; }
+  const EffectFacts& Facts() const { return facts_; }
+  std::span<const EffectParameter> Parameters() const { return facts_.parameters; }
+
+  /// What an operator would call it with these values: "port thruster 22 % weaker".
+  virtual std::string Describe(EffectValues values) const = 0;
+
+  /// Commands reach the thrusters so much later.
+  virtual double CommandDelayS(EffectValues) const { return 0.0; }
+  /// What a thruster makes of a command in [-1, 1]. Hook::kCommand.
+  virtual double Command(EffectValues, double delta) const { return delta; }
+  /// Thrust follows the command as if through one more first-order lag.
+  virtual double LagS(EffectValues) const { return 0.0; }
+  /// Share of its thrust that a propeller gives. Hook::kThrustShare.
+  virtual double ThrustShare(EffectValues, Side, const Moment&) const { return 1.0; }
+  /// The water's velocity north and east.
+  virtual Eigen::Vector2d Current(EffectValues) const { return Eigen::Vector2d::Zero(); }
+  /// What else accelerates the boat. Hook::kPush.
+  virtual NuDot Push(EffectValues, const Moment&) const { return {}; }
+  /// What else shakes it.
+  virtual std::optional<BandNoise> Shaking(EffectValues) const { return std::nullopt; }
+  /// Measured heading less true heading.
+  virtual double HeadingErrorRad(EffectValues) const { return 0.0; }
+  /// Where the antenna is, from where the vehicle file has it.
+  virtual LeverArm AntennaShift(EffectValues) const { return {}; }
+  /// Age of a position when it is stamped.
+  virtual double LatencyS(EffectValues) const { return 0.0; }
+
+ private:
+  EffectFacts facts_;
+};
+
+/// Every effect, in the order of core/effects/library.hpp. They live as long as the program.
+std::span<const Effect* const> EffectLibrary();
+
+/// Nothing where there is no such effect.
+const Effect* FindEffect(std::string_view name);
+
+/// An effect with numbers in it. Requires: one value per parameter.
+struct ModelledEffect {
+  const Effect* effect = nullptr;
+  std::vector<double> values;
+};
+
+}  // namespace telltale

@@ -1,0 +1,34 @@
+#include "effects/effect.hpp"
+#include "effects/library.hpp"
+#include "effects/wording.hpp"
+
+namespace telltale {
+namespace {
+
+class GnssLatencyEffect final : public Effect {
+ public:
+  GnssLatencyEffect()
+      : Effect({.name = "gnss_latency",
+                .title = "old GNSS positions",
+                .equation = "p_measured(t) = p(t - L)",
+                .source =
+                    "Latency of GNSS receivers: Skog and Haendel, Time synchronization errors "
+                    "in loosely coupled GPS-aided inertial navigation, IEEE T-ITS 12, 2011",
+                .parameters = {{"latency", "s", 0.2, -0.5, 1.5}},
+                .settled_by = "the receiver's own time stamps"}) {}
+
+  std::string Describe(EffectValues values) const override {
+    return "positions " + Number(values[0], 2) + " s old";
+  }
+
+  double LatencyS(EffectValues values) const override { return values[0]; }
+};
+
+}  // namespace
+
+const Effect& GnssLatency() {
+  static const GnssLatencyEffect effect;
+  return effect;
+}
+
+}  // namespace telltale

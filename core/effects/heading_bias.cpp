@@ -1,0 +1,35 @@
+#include <numbers>
+
+#include "effects/effect.hpp"
+#include "effects/library.hpp"
+#include "effects/wording.hpp"
+
+namespace telltale {
+namespace {
+
+class HeadingBiasEffect final : public Effect {
+ public:
+  HeadingBiasEffect()
+      : Effect({.name = "heading_bias",
+                .title = "a turned compass",
+                .equation = "psi_measured = psi + b",
+                .source = "Compass misalignment, Fossen 2011, chapter 11",
+                .parameters = {{"bias", "rad", 0.052, -0.8, 0.8}},
+                .settled_by = "a second GNSS antenna"}) {}
+
+  std::string Describe(EffectValues values) const override {
+    return "heading reads " + Number(values[0] * 180.0 / std::numbers::pi, 1) + " deg too " +
+           (values[0] < 0.0 ? "low" : "high");
+  }
+
+  double HeadingErrorRad(EffectValues values) const override { return values[0]; }
+};
+
+}  // namespace
+
+const Effect& HeadingBias() {
+  static const HeadingBiasEffect effect;
+  return effect;
+}
+
+}  // namespace telltale

@@ -1,0 +1,40 @@
+#include <algorithm>
+
+#include "effects/effect.hpp"
+#include "effects/library.hpp"
+#include "effects/wording.hpp"
+
+namespace telltale {
+namespace {
+
+class ThrustInflowLossEffect final : public Effect {
+ public:
+  ThrustInflowLossEffect()
+      : Effect({.name = "thrust_inflow_loss",
+                .title = "thrust that falls with speed",
+                .equation = "T -> (1 - k max(u_r sign(T), 0)) T",
+                .source = "Propeller in open water: thrust falls with the advance ratio, Fossen "
+                          "2011, chapter 9",
+                .parameters = {{"loss_per_speed", "s/m", 0.1, 0.0, 0.9}},
+                .settled_by = "a log of speed through the water",
+                .hook = Hook::kThrustShare}) {}
+
+  std::string Describe(EffectValues values) const override {
+    return "thrust " + Percent(values[0]) + " less for each m/s ahead";
+  }
+
+  double ThrustShare(EffectValues values, Side side, const Moment& moment) const override {
+    const double thrust = moment.thrust[side == Side::kPort ? 0 : 1].u;
+    const double inflow = thrust < 0.0 ? -moment.nu_r.u : moment.nu_r.u;
+    return std::max(1.0 - values[0] * std::max(inflow, 0.0), 0.0);
+  }
+};
+
+}  // namespace
+
+const Effect& ThrustInflowLoss() {
+  static const ThrustInflowLossEffect effect;
+  return effect;
+}
+
+}  // namespace telltale

@@ -1,0 +1,32 @@
+#include "effects/effect.hpp"
+#include "effects/library.hpp"
+#include "effects/wording.hpp"
+
+namespace telltale {
+namespace {
+
+class ThrusterDelayEffect final : public Effect {
+ public:
+  ThrusterDelayEffect()
+      : Effect({.name = "thruster_delay",
+                .title = "commands that come late",
+                .equation = "delta(t) -> delta(t - d)",
+                .source = "Dead time of a speed controller or a link, Fossen 2011, chapter 9",
+                .parameters = {{"delay", "s", 0.2, 0.0, 1.5}},
+                .settled_by = "the speed of the propellers"}) {}
+
+  std::string Describe(EffectValues values) const override {
+    return "commands reach the thrusters " + Number(values[0], 2) + " s late";
+  }
+
+  double CommandDelayS(EffectValues values) const override { return values[0]; }
+};
+
+}  // namespace
+
+const Effect& ThrusterDelay() {
+  static const ThrusterDelayEffect effect;
+  return effect;
+}
+
+}  // namespace telltale

@@ -1,0 +1,42 @@
+#include <algorithm>
+
+#include "effects/effect.hpp"
+#include "effects/library.hpp"
+#include "effects/wording.hpp"
+
+namespace telltale {
+namespace {
+
+class ThrusterImbalanceEffect final : public Effect {
+ public:
+  ThrusterImbalanceEffect()
+      : Effect(
+            {.name = "thruster_imbalance",
+             .title = "one thruster weaker than the other",
+             .equation =
+                 "T_port -> (1 - e) T_port for e > 0, T_starboard -> (1 + e) T_starboard for e < 0",
+             .source = "A chipped, fouled or misconfigured propeller: thrust goes with the fourth "
+                       "power of its diameter, Fossen 2011, chapter 9",
+             .parameters = {{"port_loss", "1", 0.2, -0.9, 0.9}},
+             .settled_by = "the current drawn by each thruster",
+             .hook = Hook::kThrustShare}) {}
+
+  std::string Describe(EffectValues values) const override {
+    return (values[0] < 0.0 ? "starboard thruster " : "port thruster ") + Percent(values[0]) +
+           " weaker";
+  }
+
+  double ThrustShare(EffectValues values, Side side, const Moment&) const override {
+    const double loss = side == Side::kPort ? values[0] : -values[0];
+    return 1.0 - std::max(loss, 0.0);
+  }
+};
+
+}  // namespace
+
+const Effect& ThrusterImbalance() {
+  static const ThrusterImbalanceEffect effect;
+  return effect;
+}
+
+}  // namespace telltale

@@ -1,0 +1,45 @@
+#include <cmath>
+#include <numbers>
+
+#include "effects/effect.hpp"
+#include "effects/library.hpp"
+#include "effects/wording.hpp"
+
+namespace telltale {
+namespace {
+
+// m11 / m22 of a small catamaran: sway answers a force with less acceleration.
+constexpr double kSwayRatio = 0.7;
+
+class ThrusterMisalignmentEffect final : public Effect {
+ public:
+  ThrusterMisalignmentEffect()
+      : Effect({.name = "thruster_misalignment",
+                .title = "thrusters that do not push straight ahead",
+                .equation =
+                    "nu_dot += X_T (cos g - 1, m sin g, -a sin g), X_T the acceleration by thrust",
+                .source = "Fossen 2011, chapter 9: azimuth angle and lever arm of a thruster",
+                .parameters = {{"angle", "rad", 0.035, -0.5, 0.5},
+                               {"lever_ratio", "1/m", 1.5, 0.5, 7.0, true, 2.7}},
+                .settled_by = "a look at how the thrusters are mounted",
+                .hook = Hook::kPush}) {}
+
+  std::string Describe(EffectValues values) const override {
+    return "thrust turned by " + Number(values[0] * 180.0 / std::numbers::pi, 1) + " deg";
+  }
+
+  NuDot Push(EffectValues values, const Moment& moment) const override {
+    const double ahead = moment.Thrust().u;
+    return {ahead * (std::cos(values[0]) - 1.0), ahead * kSwayRatio * std::sin(values[0]),
+            -ahead * values[1] * std::sin(values[0])};
+  }
+};
+
+}  // namespace
+
+const Effect& ThrusterMisalignment() {
+  static const ThrusterMisalignmentEffect effect;
+  return effect;
+}
+
+}  // namespace telltale

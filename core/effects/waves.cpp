@@ -1,0 +1,43 @@
+#include <numbers>
+
+#include "effects/effect.hpp"
+#include "effects/library.hpp"
+#include "effects/wording.hpp"
+
+namespace telltale {
+namespace {
+
+class WavesEffect final : public Effect {
+ public:
+  WavesEffect()
+      : Effect(
+            {.name = "waves",
+             .title = "waves",
+             .equation =
+                 "nu_dot += (a_x, a_y, a_n) cos(w_e t + phase), phase random from window to window",
+             .source = "Fossen 2011, chapter 8: first-order wave-induced forces about the "
+                       "encounter frequency",
+             .parameters = {{"surge_amplitude", "m/s^2", 0.2, 0.0, 3.0},
+                            {"sway_amplitude", "m/s^2", 0.2, 0.0, 3.0},
+                            {"yaw_amplitude", "rad/s^2", 0.2, 0.0, 3.0},
+                            {"encounter_frequency", "rad/s", 1.0, 0.8, 6.0, true, 2.5}},
+             .settled_by = "an inertial sensor",
+             .habit = Habit::kPasses}) {}
+
+  std::string Describe(EffectValues values) const override {
+    return "waves met every " + Number(2.0 * std::numbers::pi / values[3], 1) + " s";
+  }
+
+  std::optional<BandNoise> Shaking(EffectValues values) const override {
+    return BandNoise{{values[0], values[1], values[2]}, values[3]};
+  }
+};
+
+}  // namespace
+
+const Effect& Waves() {
+  static const WavesEffect effect;
+  return effect;
+}
+
+}  // namespace telltale

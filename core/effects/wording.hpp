@@ -1,0 +1,20 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace telltale {
+
+/// "0.35", with so many decimals.
+std::string Number(double value, int decimals);
+
+/// "22 %" of a share of 0.22, without its sign.
+std::string Percent(double share);
+
+/// "22 % more" or "22 % less".
+std::string PercentMoreOrLess(double share);
+
+/// "towards NE" of a vector north and east.
+std::string Towards(double north, double east);
+
+}  // namespace telltale

@@ -1,0 +1,176 @@
+#include "effects/augmented_boat.hpp"
+
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include <gtest/gtest.h>
+
+#include "effects/augmented_simulation.hpp"
+#include "effects/effect.hpp"
+#include "simulation/simulator.hpp"
+#include "support/boats.hpp"
+
+namespace telltale {
+namespace {
+
+constexpr double kStepS = 0.05;
+
+/// Commands from time zero on, held for ever.
+HeldCommands Held(const PropellerCommand& delta) {
+  const Vehicle vehicle;
+  const std::vector<ThrusterSample> samples = {
+      {0.0, vehicle.port.PulseWidth(delta.port), vehicle.starboard.PulseWidth(delta.starboard)}};
+  return {samples, vehicle};
+}
+
+/// A command that steps from rest at one second.
+HeldCommands Stepped(const PropellerCommand& delta) {
+  const Vehicle vehicle;
+  const std::vector<ThrusterSample> samples = {
+      {0.0, 1500.0, 1500.0},
+      {1.0, vehicle.port.PulseWidth(delta.port), vehicle.starboard.PulseWidth(delta.starboard)}};
+  return {samples, vehicle};
+}
+
+AugmentedBoat BoatWith(std::string_view name, std::vector<double> values) {
+  return {{testing::StableBoat(), {{FindEffect(name), std::move(values)}}}, 0.0, 100.0};
+}
+
+AugmentedBoat Plain() {
+  return {{testing::StableBoat(), {}}, 0.0, 100.0};
+}
+
+Drive SteadyDrive(const AugmentedBoat& boat, const PropellerCommand& delta) {
+  return boat.DriveAlong(Held(delta), 10.0, kStepS, 1).front();
+}
+
+TEST(AugmentedBoat, WithoutEffectsIsTheModel) {
+  const VesselModel model = testing::StableBoat();
+  const auto commands = testing::VariedCommands(40.0, 5);
+  const auto one = Simulate(model, {}, commands, 40.0, kStepS);
+  const auto other = Simulate(AugmentedModel{model, {}}, commands, 40.0, kStepS);
+  ASSERT_EQ(one.size(), other.size());
+  for (std::size_t k = 0; k < one.size(); ++k) {
+    // Commands here change at multiples of the step, so that both hold the same through each.
+    EXPECT_NEAR(one[k].state.nu.u, other[k].state.nu.u, 1e-9) << k;
+    EXPECT_NEAR(one[k].state.nu.r, other[k].state.nu.r, 1e-9) << k;
+    EXPECT_NEAR(one[k].state.eta.x_m, other[k].state.eta.x_m, 1e-8) << k;
+  }
+}
+
+TEST(AugmentedBoat, WeakensOneSideOnly) {
+  const PropellerCommand both{0.6, 0.6};
+  const Drive plain = SteadyDrive(Plain(), both);
+  const AugmentedBoat boat = BoatWith("thruster_imbalance", {0.25});
+  const Nu rest;
+  const Pose after = boat.Advance({{}, rest}, SteadyDrive(boat, both), 0.0, 1e-6);
+  const Pose before = Plain().Advance({{}, rest}, plain, 0.0, 1e-6);
+  // Starting from rest, a step's velocity is acceleration times step.
+  EXPECT_NEAR((after.nu.u - before.nu.u) / 1e-6, -0.25 * plain.thrust[0].u, 1e-6);
+  EXPECT_NEAR((after.nu.r - before.nu.r) / 1e-6, -0.25 * plain.thrust[0].r, 1e-6);
+}
+
+TEST(AugmentedBoat, DelaysCommands) {
+  const PropellerCommand ahead{0.5, 0.5};
+  const auto plain = Plain().DriveAlong(Stepped(ahead), 0.0, kStepS, 60);
+  const auto late = BoatWith("thruster_delay", {0.3}).DriveAlong(Stepped(ahead), 0.0, kStepS, 60);
+  for (std::size_t k = 6; k < 60; ++k) {
+    EXPECT_NEAR(late[k].thrust[0].u, plain[k - 6].thrust[0].u, 1e-9) << k;
+  }
+}
+
+// The mean over [t, t + h] of 1 - exp(-t / tau).
+TEST(AugmentedBoat, LagsByAFirstOrder) {
+  constexpr double kTau = 0.4;
+  const PropellerCommand ahead{0.5, 0.5};
+  const auto plain = Plain().DriveAlong(Stepped(ahead), 0.0, kStepS, 60);
+  const auto lagging = BoatWith("thruster_lag", {kTau}).DriveAlong(Stepped(ahead), 0.0, kStepS, 60);
+  const double steady = plain.back().thrust[0].u;
+  for (std::size_t k = 20; k < 60; ++k) {
+    const double t = static_cast<double>(k - 20) * kStepS;
+    const double mean =
+        1.0 - kTau / kStepS * (std::exp(-t / kTau) - std::exp(-(t + kStepS) / kTau));
+    EXPECT_NEAR(lagging[k].thrust[0].u, steady * mean, 1e-9) << k;
+  }
+}
+
+TEST(AugmentedBoat, GivesNoThrustInAWiderDeadZone) {
+  const AugmentedBoat boat = BoatWith("thruster_dead_zone", {0.1});
+  EXPECT_DOUBLE_EQ(SteadyDrive(boat, {0.09, -0.09}).thrust[0].u, 0.0);
+  EXPECT_DOUBLE_EQ(SteadyDrive(boat, {0.09, -0.09}).thrust[1].u, 0.0);
+  EXPECT_NEAR(SteadyDrive(boat, {0.6, 0.6}).thrust[0].u,
+              SteadyDrive(Plain(), {0.5, 0.5}).thrust[0].u, 1e-12);
+}
+
+TEST(AugmentedBoat, CutsCommandsOff) {
+  const AugmentedBoat boat = BoatWith("thruster_saturation", {0.3});
+  EXPECT_NEAR(SteadyDrive(boat, {1.0, -0.9}).thrust[0].u,
+              SteadyDrive(Plain(), {0.7, -0.7}).thrust[0].u, 1e-12);
+  EXPECT_NEAR(SteadyDrive(boat, {0.6, 0.6}).thrust[1].u,
+              SteadyDrive(Plain(), {0.6, 0.6}).thrust[1].u, 1e-12);
+}
+
+// Water that carries a boat along at its own speed does nothing to it, whatever the heading.
+TEST(AugmentedBoat, DriftsWithTheCurrent) {
+  VesselModel model = testing::StableBoat();
+  for (const std::size_t j : {0, 1, 2}) {
+    model.theta[j][j == 0 ? 4 : 8] = 0.0;  // a steady push of its own would move it
+  }
+  const AugmentedBoat boat({model, {{FindEffect("current"), {0.2, -0.1}}}}, 0.0, 100.0);
+  for (const double psi : {0.0, 0.7, 2.0, -2.5}) {
+    const Nu with_water = {std::cos(psi) * 0.2 - std::sin(psi) * 0.1,
+                           -std::sin(psi) * 0.2 - std::cos(psi) * 0.1, 0.0};
+    const Pose after = boat.Advance({{0.0, 0.0, psi}, with_water}, SteadyDrive(boat, {}), 0.0, 1.0);
+    EXPECT_NEAR(after.nu.u, with_water.u, 1e-12) << psi;
+    EXPECT_NEAR(after.nu.v, with_water.v, 1e-12) << psi;
+    EXPECT_NEAR(after.eta.x_m, 0.2, 1e-12) << psi;
+    EXPECT_NEAR(after.eta.y_m, -0.1, 1e-12) << psi;
+  }
+}
+
+// Twice the mass under the same forces: half the acceleration of thrust and drag alike.
+TEST(AugmentedBoat, AcceleratesLessWithMoreMassAboard) {
+  const AugmentedBoat boat = BoatWith("payload", {1.0, 1.0});
+  const Drive drive = SteadyDrive(Plain(), {0.8, 0.4});
+  const Nu ahead{0.7, 0.0, 0.0};
+  const Pose heavy = boat.Advance({{}, ahead}, drive, 0.0, 1e-6);
+  const Pose light = Plain().Advance({{}, ahead}, drive, 0.0, 1e-6);
+  EXPECT_NEAR((heavy.nu.u - ahead.u) / (light.nu.u - ahead.u), 0.5, 1e-6);
+  EXPECT_NEAR(heavy.nu.r / light.nu.r, 0.5, 1e-6);
+}
+
+// Mirrored: a port loss to a boat that turns to port is a starboard loss to one that turns to
+// starboard, for a boat alike on both sides.
+TEST(AugmentedBoat, KnowsNoSideFromTheOther) {
+  VesselModel model = testing::StableBoat();
+  for (const std::size_t j : {1, 2}) model.theta[j][8] = 0.0;
+  const auto sail = [&](double loss, double port, double starboard) {
+    const AugmentedModel boat{model, {{FindEffect("thruster_imbalance"), {loss}}}};
+    return Simulate(boat, {{0.0, {port, starboard}}}, 20.0, kStepS).back().state;
+  };
+  const VesselState one = sail(0.3, 0.7, 0.4);
+  const VesselState other = sail(-0.3, 0.4, 0.7);
+  EXPECT_NEAR(one.nu.u, other.nu.u, 1e-12);
+  EXPECT_NEAR(one.nu.v, -other.nu.v, 1e-12);
+  EXPECT_NEAR(one.nu.r, -other.nu.r, 1e-12);
+  EXPECT_NEAR(one.eta.y_m, -other.eta.y_m, 1e-10);
+}
+
+TEST(AugmentedMeasure, ShowsAFaultySensorChain) {
+  const VesselModel model = testing::StableBoat();
+  const auto track = Simulate(AugmentedModel{model, {}}, {{0.0, {0.5, 0.3}}}, 10.0, kStepS);
+  const Vehicle vehicle = testing::StableBoatVehicle();
+  const auto plain = Measure(track, AugmentedModel{model, {}}, vehicle, testing::NoNoise());
+  const AugmentedModel turned{model, {{FindEffect("heading_bias"), {0.1}}}};
+  const AugmentedModel late{model, {{FindEffect("gnss_latency"), {0.25}}}};
+  const auto by_turned = Measure(track, turned, vehicle, testing::NoNoise());
+  const auto by_late = Measure(track, late, vehicle, testing::NoNoise());
+  const double off = by_turned.heading[50].heading_deg - plain.heading[50].heading_deg;
+  EXPECT_NEAR(std::remainder(off, 360.0), 0.1 * 180.0 / std::numbers::pi, 1e-9);
+  EXPECT_NEAR(by_late.gnss[10].time_s - plain.gnss[10].time_s, 0.25, 1e-12);
+  EXPECT_EQ(by_late.gnss[10].latitude_deg, plain.gnss[10].latitude_deg);
+}
+
+}  // namespace
+}  // namespace telltale
