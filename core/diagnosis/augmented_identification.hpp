@@ -1,0 +1,26 @@
+#pragma once
+
+#include "diagnosis/effect_fit.hpp"
+#include "diagnosis/search.hpp"
+#include "diagnosis/uncertain_model.hpp"
+#include "effects/augmented_model.hpp"
+#include "identification/identification.hpp"
+
+namespace telltale {
+
+/// The healthy boat with the effects of a fit, coefficients identified again on the recording with
+/// them in: what their covariance and healthy days leave open follows the data.
+AugmentedModel Reidentified(const EffectFit& fit, const Evidence& evidence,
+                            const UncertainModel& model);
+
+/// The same as a model to publish: the old one's coefficients replaced, with the uncertainty that
+/// is left, and the effects named.
+Identification Augmented(const Identification& old, const AugmentedModel& boat,
+                         const EffectFit& fit, const Evidence& evidence,
+                         const UncertainModel& model);
+
+/// The model and its effects, ready to sail.
+/// Refuses when: the model lacks an equation, or names an effect that there is not.
+Result<AugmentedModel> AugmentedModelOf(const Identification& identification);
+
+}  // namespace telltale

@@ -1,0 +1,264 @@
+#include "diagnosis/effect_fit.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include <Eigen/Cholesky>
+
+namespace telltale {
+namespace {
+
+constexpr double kPriorWidth = 2.0;   // of typical sizes
+constexpr double kDerivative = 0.05;  // step in scaled values
+constexpr int kMostIterations = 12;
+constexpr double kConverged = 0.01;  // of -2 ln evidence
+constexpr double kGiveUpDamping = 1e4;
+
+/// The stacked values of effects, scaled so that priors are of order one and bounds are known.
+class Unknowns {
+ public:
+  explicit Unknowns(const std::vector<const Effect*>& effects) : effects_(effects) {
+    for (const Effect* effect : effects) {
+      for (const EffectParameter& parameter : effect->Parameters())
+        parameters_.push_back(&parameter);
+    }
+  }
+
+  Eigen::Index Size() const { return static_cast<Eigen::Index>(parameters_.size()); }
+
+  Eigen::VectorXd Scaled(const Eigen::VectorXd& values) const {
+    Eigen::VectorXd scaled(Size());
+    for (Eigen::Index i = 0; i < Size(); ++i) scaled[i] = (values[i] - At(i).usual) / At(i).typical;
+    return Clamped(scaled);
+  }
+
+  Eigen::VectorXd Clamped(Eigen::VectorXd scaled) const {
+    for (Eigen::Index i = 0; i < Size(); ++i) {
+      scaled[i] = std::clamp(scaled[i], (At(i).lower - At(i).usual) / At(i).typical,
+                             (At(i).upper - At(i).usual) / At(i).typical);
+    }
+    return scaled;
+  }
+
+  std::vector<ModelledEffect> Effects(const Eigen::VectorXd& scaled) const {
+    std::vector<ModelledEffect> modelled;
+    Eigen::Index i = 0;
+    for (const Effect* effect : effects_) {
+      ModelledEffect& one = modelled.emplace_back(ModelledEffect{effect, {}});
+      for (std::size_t j = 0; j < effect->Parameters().size(); ++j, ++i) {
+        one.values.push_back(At(i).usual + At(i).typical * scaled[i]);
+      }
+    }
+    return modelled;
+  }
+
+  Eigen::VectorXd PriorInformation() const {
+    Eigen::VectorXd information(Size());
+    for (Eigen::Index i = 0; i < Size(); ++i) {
+      information[i] = At(i).shapes ? 1.0 : 1.0 / (kPriorWidth * kPriorWidth);
+    }
+    return information;
+  }
+
+  /// Away from the nearer bound.
+  double DerivativeStep(Eigen::Index i, double scaled) const {
+    const double upper = (At(i).upper - At(i).usual) / At(i).typical;
+    return scaled + kDerivative > upper ? -kDerivative : kDerivative;
+  }
+
+  Eigen::VectorXd Sizes() const {
+    Eigen::VectorXd sizes(Size());
+    for (Eigen::Index i = 0; i < Size(); ++i) sizes[i] = At(i).typical;
+    return sizes;
+  }
+
+ private:
+  const EffectParameter& At(Eigen::Index i) const {
+    return *parameters_[static_cast<std::size_t>(i)];
+  }
+
+  std::vector<const Effect*> effects_;
+  std::vector<const EffectParameter*> parameters_;
+};
+
+struct Point {
+  Eigen::VectorXd scaled;
+  Eigen::MatrixXd errors;
+  Eigen::VectorXd seen;
+  double square = 0.0;
+  double cost = 0.0;
+};
+
+class Fitting {
+ public:
+  Fitting(const FreeRuns& runs, const AugmentedModel& boat, const Judge& judge,
+          const Unknowns& unknowns)
+      : runs_(runs), boat_(boat), judge_(judge), unknowns_(unknowns) {}
+
+  AugmentedModel With(const std::vector<ModelledEffect>& effects) const {
+    AugmentedModel with = boat_;
+    with.effects.insert(with.effects.end(), effects.begin(), effects.end());
+    return with;
+  }
+
+  Point At(const Eigen::VectorXd& scaled) const {
+    Point point;
+    point.scaled = scaled;
+    point.errors = runs_.Errors(With(unknowns_.Effects(scaled)));
+    point.seen = judge_.See(point.errors);
+    point.square = judge_.Square(point.seen);
+    point.cost = point.square + scaled.cwiseAbs2().dot(unknowns_.PriorInformation());
+    return point;
+  }
+
+  Eigen::MatrixXd Jacobian(const Point& point) const {
+    Eigen::MatrixXd jacobian(point.seen.size(), unknowns_.Size());
+    for (Eigen::Index i = 0; i < unknowns_.Size(); ++i) {
+      const double step = unknowns_.DerivativeStep(i, point.scaled[i]);
+      Eigen::VectorXd moved = point.scaled;
+      moved[i] += step;
+      jacobian.col(i) =
+          (judge_.See(runs_.Errors(With(unknowns_.Effects(moved)))) - point.seen) / step;
+    }
+    return jacobian;
+  }
+
+  Point Descend(Point point) const {
+    double damping = 1e-3;
+    for (int iteration = 0; iteration < kMostIterations; ++iteration) {
+      const Eigen::MatrixXd jacobian = Jacobian(point);
+      const Eigen::MatrixXd weighed = judge_.Weigh(jacobian);
+      const Eigen::VectorXd prior = unknowns_.PriorInformation();
+      Eigen::MatrixXd information = jacobian.transpose() * weighed;
+      information.diagonal() += prior;
+      const Eigen::VectorXd slope =
+          weighed.transpose() * point.seen + prior.cwiseProduct(point.scaled);
+      double gained = 0.0;
+      while (damping < kGiveUpDamping) {
+        Eigen::MatrixXd damped = information;
+        damped.diagonal() *= 1.0 + damping;
+        const Point next = At(unknowns_.Clamped(point.scaled - damped.ldlt().solve(slope)));
+        if (next.cost < point.cost) {
+          gained = point.cost - next.cost;
+          point = next;
+          damping = std::max(damping / 10.0, 1e-6);
+          break;
+        }
+        damping *= 10.0;
+      }
+      if (gained < kConverged) break;
+    }
+    return point;
+  }
+
+ private:
+  const FreeRuns& runs_;
+  const AugmentedModel& boat_;
+  const Judge& judge_;
+  const Unknowns& unknowns_;
+};
+
+/// What a step along an effect's slots, from none of it, promises.
+struct LinearGuess {
+  std::vector<Eigen::Index> own;  ///< its slots
+  Eigen::VectorXd sizes;          ///< in typical sizes, within the range
+  double promise = 0.0;
+};
+
+LinearGuess GuessOf(const Effect& effect, const Judge& judge, const Eigen::MatrixXd& errors,
+                    const Sensitivity& recording, const std::vector<Slot>& slots) {
+  LinearGuess guess;
+  for (std::size_t j = 0; j < slots.size(); ++j) {
+    if (slots[j].effect == &effect) guess.own.push_back(static_cast<Eigen::Index>(j));
+  }
+  const Eigen::MatrixXd seen = judge.SeeColumns(recording.by_slot(Eigen::all, guess.own));
+  const Eigen::MatrixXd weighed = judge.Weigh(seen);
+  const Eigen::VectorXd slope = weighed.transpose() * judge.See(errors);
+  Eigen::MatrixXd information = seen.transpose() * weighed;
+  information.diagonal().array() += 1.0 / (kPriorWidth * kPriorWidth);
+  guess.sizes = -information.ldlt().solve(slope);
+  for (std::size_t k = 0; k < guess.own.size(); ++k) {
+    const Slot& slot = slots[static_cast<std::size_t>(guess.own[k])];
+    const EffectParameter& parameter = effect.Parameters()[slot.parameter];
+    double& size = guess.sizes[static_cast<Eigen::Index>(k)];
+    size =
+        std::clamp(size, parameter.lower / parameter.typical, parameter.upper / parameter.typical);
+  }
+  guess.promise = -2.0 * slope.dot(guess.sizes) - guess.sizes.dot(information * guess.sizes);
+  return guess;
+}
+
+}  // namespace
+
+EffectFit FitEffects(const FreeRuns& runs, const AugmentedModel& boat, const Judge& judge,
+                     const std::vector<const Effect*>& effects,
+                     const std::vector<Eigen::VectorXd>& starts) {
+  const Unknowns unknowns(effects);
+  const Fitting fitting(runs, boat, judge, unknowns);
+  std::optional<Point> best;
+  for (const Eigen::VectorXd& start : starts) {
+    const Point found = fitting.Descend(fitting.At(unknowns.Scaled(start)));
+    if (!best || found.cost < best->cost) best = found;
+  }
+  const Eigen::MatrixXd jacobian = fitting.Jacobian(*best);
+  const Eigen::VectorXd prior = unknowns.PriorInformation();
+  Eigen::MatrixXd information = jacobian.transpose() * judge.Weigh(jacobian);
+  information.diagonal() += prior;
+  const Eigen::LLT<Eigen::MatrixXd> factor(information);
+  const double log_determinant =
+      2.0 * factor.matrixLLT().diagonal().array().log().sum() - prior.array().log().sum();
+
+  EffectFit fit;
+  fit.effects = unknowns.Effects(best->scaled);
+  const Eigen::MatrixXd scaled_covariance =
+      factor.solve(Eigen::MatrixXd::Identity(unknowns.Size(), unknowns.Size()));
+  fit.covariance =
+      unknowns.Sizes().asDiagonal() * scaled_covariance * unknowns.Sizes().asDiagonal();
+  fit.square = best->square;
+  const Eigen::MatrixXd errors = runs.Errors(boat);
+  const Eigen::VectorXd none = judge.See(errors);
+  const double complexity = best->cost - best->square + log_determinant;
+  fit.score = complexity + std::max({best->square - judge.Square(none),
+                                     best->seen.squaredNorm() - none.squaredNorm(),
+                                     judge.PlainSquare(best->errors) - judge.PlainSquare(errors)});
+  fit.errors = best->errors;
+  for (Eigen::Index i = 0; i < unknowns.Size(); ++i) {
+    fit.slot_sigmas.push_back(best->scaled[i] / std::sqrt(scaled_covariance(i, i)));
+  }
+  return fit;
+}
+
+std::vector<Eigen::VectorXd> StartsOf(const Effect& effect, const Judge& judge,
+                                      const Eigen::MatrixXd& errors, const Sensitivity& recording,
+                                      const std::vector<Slot>& slots) {
+  const LinearGuess guess = GuessOf(effect, judge, errors, recording, slots);
+  Eigen::VectorXd usual(static_cast<Eigen::Index>(effect.Parameters().size()));
+  for (Eigen::Index i = 0; i < usual.size(); ++i) {
+    usual[i] = effect.Parameters()[static_cast<std::size_t>(i)].usual;
+  }
+  std::vector<Eigen::VectorXd> starts = {usual};
+  for (std::size_t k = 0; k < guess.own.size(); ++k) {
+    const Slot& slot = slots[static_cast<std::size_t>(guess.own[k])];
+    starts[0][static_cast<Eigen::Index>(slot.parameter)] =
+        effect.Parameters()[slot.parameter].typical * guess.sizes[static_cast<Eigen::Index>(k)];
+  }
+  if (guess.own.size() != 1) return starts;
+  const Slot& slot = slots[static_cast<std::size_t>(guess.own[0])];
+  const EffectParameter& parameter = effect.Parameters()[slot.parameter];
+  for (const double size : {parameter.typical, -parameter.typical}) {
+    if (size < parameter.lower || size > parameter.upper) continue;
+    Eigen::VectorXd start = usual;
+    start[static_cast<Eigen::Index>(slot.parameter)] = size;
+    starts.push_back(start);
+  }
+  return starts;
+}
+
+double ScoreTest(const Effect& effect, const Judge& judge, const Eigen::MatrixXd& errors,
+                 const Sensitivity& recording, const std::vector<Slot>& slots) {
+  return GuessOf(effect, judge, errors, recording, slots).promise;
+}
+
+}  // namespace telltale

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "diagnosis/free_runs.hpp"
+#include "diagnosis/judge.hpp"
+#include "effects/augmented_model.hpp"
+
+namespace telltale {
+
+/// Effects fitted together to a recording's free runs.
+struct EffectFit {
+  std::vector<ModelledEffect> effects;
+  Eigen::MatrixXd covariance;  ///< of all values, stacked
+  /// -2 ln of the evidence (Laplace) less that of no effect at all, the worst of three views: with
+  /// all that may vary in health, with nothing but scatter, and by size alone. Negative where the
+  /// effects are likelier than none.
+  double score = 0.0;
+  double square = 0.0;              ///< weighed square of what is left
+  Eigen::MatrixXd errors;           ///< rows x windows, with the effects
+  std::vector<double> slot_sigmas;  ///< estimate over standard error by value
+};
+
+/// Most probable values of effects acting together, docs/diagnosis.md (88), (89): each value has a
+/// normal prior, of twice its typical size about zero, or of its spread about where it is usual.
+/// Levenberg-Marquardt from `starts`, each a stack of values, the best kept.
+/// Requires: at least one effect and one start.
+EffectFit FitEffects(const FreeRuns& runs, const AugmentedModel& boat, const Judge& judge,
+                     const std::vector<const Effect*>& effects,
+                     const std::vector<Eigen::VectorXd>& starts);
+
+/// Where to begin, given what is missed by now: the best linear guess, and both signs of the
+/// typical size where the range has them.
+std::vector<Eigen::VectorXd> StartsOf(const Effect& effect, const Judge& judge,
+                                      const Eigen::MatrixXd& errors, const Sensitivity& recording,
+                                      const std::vector<Slot>& slots);
+
+/// Twice the evidence that the linear guess promises; zero where it lies outside the range.
+double ScoreTest(const Effect& effect, const Judge& judge, const Eigen::MatrixXd& errors,
+                 const Sensitivity& recording, const std::vector<Slot>& slots);
+
+}  // namespace telltale

@@ -1,0 +1,227 @@
+#include "diagnosis/free_runs.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/Cholesky>
+
+#include "contract.hpp"
+#include "effects/augmented_boat.hpp"
+#include "effects/sensor_chain.hpp"
+
+namespace telltale {
+namespace {
+
+constexpr double kBinsPerWindow = 10.0;
+// Stamps of seconds since 1970 are exact to a fraction of a microsecond.
+constexpr double kSameBin = 1e-4;
+// Beyond this a run has left what can be compared: metres, radians.
+constexpr double kLost = 1e3;
+// Steps by which a start is varied: metres, radians, m/s, rad/s. Small against what windows show,
+// large against rounding.
+constexpr std::array kStartSteps = {1e-2, 1e-2, 1e-3, 1e-2, 1e-2, 1e-2};
+
+Pose Moved(Pose pose, const Eigen::Matrix<double, 6, 1>& by) {
+  pose.eta.x_m += by[0];
+  pose.eta.y_m += by[1];
+  pose.eta.psi_rad += by[2];
+  pose.nu.u += by[3];
+  pose.nu.v += by[4];
+  pose.nu.r += by[5];
+  return pose;
+}
+
+/// The pose at a time along poses that are step_s apart, by the parabola that fits the velocities
+/// at both ends; a straight line before the first.
+Eta PoseAt(const std::vector<Pose>& track, double since_start_s, double step_s) {
+  const double steps = since_start_s / step_s;
+  const auto last = static_cast<double>(track.size() - 2);
+  const auto k = static_cast<std::size_t>(std::clamp(std::floor(steps), 0.0, last));
+  const double share = steps - static_cast<double>(k);
+  const Pose& a = track[k];
+  const Pose& b = track[k + 1];
+  const double bow = share < 0.0 ? 0.0 : 0.5 * share * (1.0 - share) * step_s;
+  const Eigen::Vector3d faster = EtaDot(b.eta.psi_rad, b.nu) - EtaDot(a.eta.psi_rad, a.nu);
+  return {a.eta.x_m + share * (b.eta.x_m - a.eta.x_m) - bow * faster[0],
+          a.eta.y_m + share * (b.eta.y_m - a.eta.y_m) - bow * faster[1],
+          a.eta.psi_rad + share * (b.eta.psi_rad - a.eta.psi_rad) - bow * faster[2]};
+}
+
+/// The heading alone.
+double HeadingAt(const std::vector<Pose>& track, double since_start_s, double step_s) {
+  const double steps = since_start_s / step_s;
+  const auto last = static_cast<double>(track.size() - 2);
+  const auto k = static_cast<std::size_t>(std::clamp(std::floor(steps), 0.0, last));
+  const double share = steps - static_cast<double>(k);
+  const double bow = share < 0.0 ? 0.0 : 0.5 * share * (1.0 - share) * step_s;
+  return track[k].eta.psi_rad + share * (track[k + 1].eta.psi_rad - track[k].eta.psi_rad) -
+         bow * (track[k + 1].nu.r - track[k].nu.r);
+}
+
+double Limited(double error) {
+  return std::isfinite(error) ? std::clamp(error, -kLost, kLost) : kLost;
+}
+
+}  // namespace
+
+FreeRuns::FreeRuns(const PreparedDataset& dataset, const VesselModel& base, double horizon_s)
+    : dataset_(&dataset),
+      horizon_s_(horizon_s),
+      rows_(static_cast<std::size_t>(std::lround(horizon_s / dataset.sampling_period_s))),
+      steps_(StepsPerRow(base, dataset.sampling_period_s)),
+      step_s_(dataset.sampling_period_s / static_cast<double>(steps_)) {
+  Require(horizon_s > 0.0, "a horizon");
+  const double shortest_bin_s = std::max(horizon_s / kBinsPerWindow, dataset.sampling_period_s);
+  bins_ = std::max<Eigen::Index>(
+      1, static_cast<Eigen::Index>(std::floor(horizon_s / shortest_bin_s + 1e-9)));
+  for (std::size_t s = 0; s < dataset.stretches.size(); ++s) {
+    const RowRange& stretch = dataset.stretches[s];
+    for (std::size_t k = stretch.begin; k + rows_ < stretch.end; k += rows_) {
+      Window window;
+      if (Collect(s, k, window)) windows_.push_back(std::move(window));
+    }
+  }
+  const AugmentedModel alone{base, {}};
+  const Eigen::MatrixXd errors = RawErrors(alone, Offset::Zero());
+  for (Window& window : windows_) window.by_start.resize(Rows(), 6);
+  for (Eigen::Index i = 0; i < 6; ++i) {
+    Offset offset = Offset::Zero();
+    offset[i] = kStartSteps[static_cast<std::size_t>(i)];
+    const Eigen::MatrixXd moved = RawErrors(alone, offset);
+    for (std::size_t w = 0; w < windows_.size(); ++w) {
+      windows_[w].by_start.col(i) =
+          (moved.col(static_cast<Eigen::Index>(w)) - errors.col(static_cast<Eigen::Index>(w))) /
+          offset[i];
+    }
+  }
+  const double position = std::max(dataset.sensors.position_noise_m, 0.005);
+  const double heading = std::max(dataset.sensors.heading_noise_rad, 0.001);
+  for (Window& window : windows_) {
+    Eigen::VectorXd weights = window.per_bin;
+    for (Eigen::Index i = 0; i < weights.size(); ++i) {
+      weights[i] /= i % 3 == 2 ? heading * heading : position * position;
+    }
+    const Eigen::Matrix<double, 6, Eigen::Dynamic> weighed =
+        window.by_start.transpose() * weights.asDiagonal();
+    // A start that a short window leaves open stays where it was measured.
+    const Eigen::Matrix<double, 6, 6> information = weighed * window.by_start;
+    const Eigen::Matrix<double, 6, 6> held =
+        information + 1e-9 * Eigen::Matrix<double, 6, 6>(information.diagonal().asDiagonal());
+    window.start_of = held.ldlt().solve(weighed);
+  }
+}
+
+bool FreeRuns::Collect(std::size_t stretch, std::size_t first_row, Window& window) const {
+  window.stretch = stretch;
+  window.first_row = first_row;
+  window.per_bin = Eigen::VectorXd::Zero(Rows());
+  const double from = dataset_->rows[first_row].time_s;
+  const double bin_s = horizon_s_ / static_cast<double>(bins_);
+  const auto bin_of = [&](double time_s) {
+    return static_cast<Eigen::Index>(std::ceil((time_s - from) / bin_s - kSameBin)) - 1;
+  };
+  const RawSignals& raw = dataset_->signals[stretch];
+  const auto& fix_times = raw.north_m.times_s;
+  for (std::size_t i = 0; i < fix_times.size(); ++i) {
+    const Eigen::Index bin = bin_of(fix_times[i]);
+    if (bin < 0 || bin >= bins_) continue;
+    const double psi =
+        MeasuredAt(*dataset_, dataset_->stretches[stretch], fix_times[i]).eta.psi_rad;
+    window.fixes.push_back({fix_times[i], raw.north_m.values[i], raw.east_m.values[i],
+                            std::cos(psi), std::sin(psi), bin});
+    window.per_bin[3 * bin] += 1.0;
+    window.per_bin[3 * bin + 1] += 1.0;
+  }
+  const auto& heading_times = raw.psi_rad.times_s;
+  for (std::size_t i = 0; i < heading_times.size(); ++i) {
+    const Eigen::Index bin = bin_of(heading_times[i]);
+    if (bin < 0 || bin >= bins_) continue;
+    window.headings.push_back({heading_times[i], raw.psi_rad.values[i], bin});
+    window.per_bin[3 * bin + 2] += 1.0;
+  }
+  return window.per_bin.minCoeff() > 0.0;
+}
+
+template <class Visit>
+void FreeRuns::ForEachTrack(const AugmentedModel& model, const Offset& offset, Visit visit) const {
+  const double start_s = dataset_->StartTime();
+  const AugmentedBoat boat(model, start_s, std::max(dataset_->EndTime() - start_s, 1.0));
+  std::vector<Drive> drives;
+  std::vector<Pose> track;
+  std::size_t driven = dataset_->stretches.size();
+  for (std::size_t w = 0; w < windows_.size(); ++w) {
+    const Window& window = windows_[w];
+    const RowRange& stretch = dataset_->stretches[window.stretch];
+    const double stretch_start_s = dataset_->rows[stretch.begin].time_s;
+    if (driven != window.stretch) {
+      drives = boat.DriveAlong(dataset_->commands[window.stretch], stretch_start_s, step_s_,
+                               stretch.size() * steps_);
+      driven = window.stretch;
+    }
+    const double from_s = dataset_->rows[window.first_row].time_s;
+    const std::size_t first_step = (window.first_row - stretch.begin) * steps_;
+    track.assign(1, Moved(TrueStart(*dataset_, stretch, from_s, boat), offset));
+    for (std::size_t k = 0; k < rows_ * steps_; ++k) {
+      track.push_back(boat.Advance(track.back(), drives[first_step + k],
+                                   from_s + static_cast<double>(k) * step_s_, step_s_));
+    }
+    visit(w, boat, from_s, track);
+  }
+}
+
+Eigen::MatrixXd FreeRuns::RawErrors(const AugmentedModel& model, const Offset& offset) const {
+  Eigen::MatrixXd errors =
+      Eigen::MatrixXd::Zero(Rows(), static_cast<Eigen::Index>(windows_.size()));
+  ForEachTrack(
+      model, offset,
+      [&](std::size_t w, const AugmentedBoat& boat, double from_s, const std::vector<Pose>& track) {
+        const Window& window = windows_[w];
+        auto error = errors.col(static_cast<Eigen::Index>(w));
+        const double ahead = dataset_->sensors.antenna.forward_m + boat.AntennaShift().forward_m;
+        const double aside =
+            dataset_->sensors.antenna.starboard_m + boat.AntennaShift().starboard_m;
+        for (const Fix& fix : window.fixes) {
+          const Eta eta = PoseAt(track, fix.time_s - boat.LatencyS() - from_s, step_s_);
+          const Eigen::Vector2d antenna =
+              Eigen::Vector2d(eta.x_m, eta.y_m) + Turned(eta.psi_rad, ahead, aside);
+          const double north = Limited(fix.north_m - antenna[0]);
+          const double east = Limited(fix.east_m - antenna[1]);
+          error[3 * fix.bin] += fix.cos_psi * north + fix.sin_psi * east;
+          error[3 * fix.bin + 1] += -fix.sin_psi * north + fix.cos_psi * east;
+        }
+        for (const HeadingMiss& heading : window.headings) {
+          const double psi = HeadingAt(track, heading.time_s - from_s, step_s_);
+          error[3 * heading.bin + 2] += Limited(heading.psi_rad - boat.HeadingErrorRad() - psi);
+        }
+        error.array() /= window.per_bin.array();
+      });
+  return errors;
+}
+
+Eigen::MatrixXd FreeRuns::Errors(const AugmentedModel& model) const {
+  Eigen::MatrixXd errors = RawErrors(model, Offset::Zero());
+  for (std::size_t w = 0; w < windows_.size(); ++w) {
+    auto error = errors.col(static_cast<Eigen::Index>(w));
+    const Eigen::Matrix<double, 6, 1> start = windows_[w].start_of * error;
+    error -= windows_[w].by_start * start;
+  }
+  return errors;
+}
+
+FreeRuns::Circumstances FreeRuns::Of(std::size_t window) const {
+  const Window& it = windows_[window];
+  return {dataset_->rows[it.first_row].time_s, it.first_row, rows_, it.stretch};
+}
+
+std::vector<std::vector<Eigen::Vector2d>> FreeRuns::Tracks(const AugmentedModel& model) const {
+  std::vector<std::vector<Eigen::Vector2d>> tracks(windows_.size());
+  ForEachTrack(model, Offset::Zero(),
+               [&](std::size_t w, const AugmentedBoat&, double, const std::vector<Pose>& track) {
+                 for (std::size_t k = 0; k < track.size(); k += steps_) {
+                   tracks[w].emplace_back(track[k].eta.x_m, track[k].eta.y_m);
+                 }
+               });
+  return tracks;
+}
+
+}  // namespace telltale

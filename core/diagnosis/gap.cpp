@@ -1,0 +1,156 @@
+#include "diagnosis/gap.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include <boost/math/distributions/students_t.hpp>
+#include <boost/random/normal_distribution.hpp>
+
+#include "contract.hpp"
+#include "random.hpp"
+#include "uncertainty/interval.hpp"
+
+namespace telltale {
+namespace {
+
+// A window that errs by more root mean square sigmas than this counts as erring by so many.
+constexpr double kMostSigmas = 100.0;
+constexpr double kBlockS = 30.0;
+constexpr std::size_t kResamples = 1000;
+constexpr double kLevel = 0.95;
+// Of ln G^2 from one healthy day to another where a single recording cannot show it.
+constexpr double kUsualSpread = 0.25;
+// Healthy days differ by this at least, even where the few there are look alike.
+constexpr double kLeastSpread = 0.2;
+
+double SpreadWithin(const Eigen::VectorXd& gaps, const std::vector<std::size_t>& blocks) {
+  std::map<std::size_t, std::pair<double, double>> sums;
+  for (Eigen::Index w = 0; w < gaps.size(); ++w) {
+    auto& [sum, count] = sums[blocks[static_cast<std::size_t>(w)]];
+    sum += gaps[w];
+    count += 1.0;
+  }
+  if (sums.size() < 2) return 1.0;
+  const double mean = gaps.mean();
+  double square = 0.0;
+  for (const auto& [block, part] : sums) {
+    const double off = part.first - mean * part.second;
+    square += off * off;
+  }
+  return std::sqrt(square) / (mean * static_cast<double>(gaps.size()));
+}
+
+double MeanOf(const std::vector<std::array<double, 4>>& values, int channel) {
+  double sum = 0.0;
+  for (const auto& value : values) sum += value[static_cast<std::size_t>(channel)];
+  return sum / static_cast<double>(values.size());
+}
+
+}  // namespace
+
+double Floor::Squared(int channel) const {
+  return std::exp(MeanOf(log_gaps, channel));
+}
+
+double Floor::SquaredLimit(int channel) const {
+  const double days = static_cast<double>(log_gaps.size());
+  const boost::math::students_t student(std::max(days - 1.0, 2.0));
+  const double quantile = boost::math::quantile(student, kLevel);
+  return std::exp(MeanOf(log_gaps, channel) + quantile * spread[static_cast<std::size_t>(channel)] *
+                                                  std::sqrt(1.0 + 1.0 / days));
+}
+
+Floor FloorOf(const std::vector<FreeRuns>& recordings, const AugmentedModel& boat) {
+  Require(!recordings.empty(), "at least one healthy recording");
+  std::vector<Eigen::MatrixXd> errors;
+  Eigen::VectorXd square = Eigen::VectorXd::Zero(recordings.front().Rows());
+  double windows = 0.0;
+  for (const FreeRuns& runs : recordings) {
+    errors.push_back(runs.Errors(boat));
+    square += errors.back().rowwise().squaredNorm();
+    windows += static_cast<double>(runs.Windows());
+  }
+  Floor floor;
+  floor.scale = (square / windows).cwiseSqrt().cwiseMax(1e-9);
+  std::array<double, 4> within{};
+  for (std::size_t day = 0; day < recordings.size(); ++day) {
+    auto& log_gap = floor.log_gaps.emplace_back();
+    for (int channel = 0; channel <= kAllChannels; ++channel) {
+      const auto c = static_cast<std::size_t>(channel);
+      const Eigen::VectorXd gaps = SquaredGaps(errors[day], floor.scale, channel);
+      log_gap[c] = std::log(gaps.mean());
+      within[c] += SpreadWithin(gaps, BlocksOf(recordings[day]));
+    }
+  }
+  const double days = static_cast<double>(recordings.size());
+  for (int channel = 0; channel <= kAllChannels; ++channel) {
+    const auto c = static_cast<std::size_t>(channel);
+    const double mean = MeanOf(floor.log_gaps, channel);
+    double square_spread = days < 2.0 ? kUsualSpread * kUsualSpread : 0.0;
+    for (const auto& log_gap : floor.log_gaps) {
+      square_spread += (log_gap[c] - mean) * (log_gap[c] - mean) / std::max(days - 1.0, 1.0);
+    }
+    floor.spread[c] = std::max({std::sqrt(square_spread), within[c] / days, kLeastSpread});
+  }
+  return floor;
+}
+
+Eigen::VectorXd SquaredGaps(const Eigen::MatrixXd& errors, const Eigen::VectorXd& scale,
+                            int channel) {
+  const Eigen::MatrixXd squares =
+      (scale.cwiseInverse().asDiagonal() * errors).cwiseMin(1e6).cwiseMax(-1e6).cwiseAbs2();
+  Eigen::VectorXd gaps = Eigen::VectorXd::Zero(errors.cols());
+  const Eigen::Index step = channel == kAllChannels ? 1 : 3;
+  const Eigen::Index first = channel == kAllChannels ? 0 : channel;
+  for (Eigen::Index i = first; i < errors.rows(); i += step) gaps += squares.row(i).transpose();
+  gaps /= static_cast<double>(errors.rows() / step);
+  return gaps.cwiseMin(kMostSigmas * kMostSigmas);
+}
+
+std::vector<std::size_t> BlocksOf(const FreeRuns& runs) {
+  std::vector<std::size_t> blocks;
+  const double start_s = runs.Windows() > 0 ? runs.Of(0).time_s : 0.0;
+  for (std::size_t w = 0; w < runs.Windows(); ++w) {
+    blocks.push_back(static_cast<std::size_t>((runs.Of(w).time_s - start_s) / kBlockS));
+  }
+  return blocks;
+}
+
+std::optional<Closure> ClosureOf(const Eigen::VectorXd& before, const Eigen::VectorXd& after,
+                                 const std::vector<std::size_t>& blocks, const Floor& floor,
+                                 int channel, std::uint64_t seed) {
+  const double healthy = floor.Squared(channel);
+  if (before.size() == 0 || before.mean() <= floor.SquaredLimit(channel)) return std::nullopt;
+  std::map<std::size_t, std::vector<Eigen::Index>> windows_of;
+  for (Eigen::Index w = 0; w < before.size(); ++w) {
+    windows_of[blocks[static_cast<std::size_t>(w)]].push_back(w);
+  }
+  std::vector<std::array<double, 2>> sums;
+  for (const auto& [block, windows] : windows_of) {
+    sums.push_back({before(windows).sum(), after(windows).sum()});
+  }
+  RandomEngine engine(seed);
+  boost::random::normal_distribution<double> normal;
+  const double floor_spread = floor.spread[static_cast<std::size_t>(channel)] /
+                              std::sqrt(static_cast<double>(floor.log_gaps.size()));
+  const double count = static_cast<double>(before.size());
+  std::vector<double> shares;
+  for (std::size_t i = 0; i < kResamples; ++i) {
+    double b = 0.0;
+    double a = 0.0;
+    for (std::size_t k = 0; k < sums.size(); ++k) {
+      const auto& sum = sums[DrawBelow(engine, sums.size())];
+      b += sum[0] / count;
+      a += sum[1] / count;
+    }
+    const double n = healthy * std::exp(floor_spread * normal(engine));
+    if (b > n) shares.push_back((b - a) / (b - n));
+  }
+  Closure closure;
+  closure.share = (before.mean() - after.mean()) / (before.mean() - healthy);
+  closure.interval = shares.size() < 2 ? Unbounded(kLevel) : PercentileInterval(shares, kLevel);
+  return closure;
+}
+
+}  // namespace telltale

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "diagnosis/gap.hpp"
+#include "diagnosis/search.hpp"
+
+namespace telltale {
+
+/// Blocks of half a minute in turn belong to the one fold and the other: what was fitted on one is
+/// judged on the other. Both see the whole recording, its weather and what changes along it.
+inline constexpr std::size_t kFolds = 2;
+std::vector<std::size_t> FoldsOf(const FreeRuns& runs);
+
+/// An explanation fitted on each fold's windows alone.
+using FoldFits = std::array<EffectFit, kFolds>;
+FoldFits FitOnFolds(const EffectFit& fit, const Evidence& evidence);
+
+/// Errors of a model with the effects, each window's by the fit that did not see it; how much the
+/// effects that shake add to the mean square of each row comes apart.
+struct HeldOutErrors {
+  Eigen::MatrixXd errors;
+  std::array<Eigen::VectorXd, kFolds> shaken;
+};
+HeldOutErrors ErrorsHeldOut(const FoldFits& fits, const FreeRuns& runs,
+                            const AugmentedModel& model);
+
+/// SquaredGaps of held-out errors, less what shaking explains.
+Eigen::VectorXd SquaredGapsHeldOut(const HeldOutErrors& held_out, const FreeRuns& runs,
+                                   const Floor& floor, int channel);
+
+}  // namespace telltale

@@ -1,0 +1,110 @@
+#include "diagnosis/judge.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <utility>
+
+namespace telltale {
+namespace {
+
+// In standard errors of the model: as good as free.
+constexpr double kFree = 100.0;
+// A window that errs by more root mean square sigmas than this counts as erring by so many: a model
+// that has run away says that it is wrong, not how much.
+constexpr double kMostSigmas = 50.0;
+constexpr double kLooks = 6.0;  // at a boat that a window amounts to, by size alone
+
+Eigen::MatrixXd RootOf(const Eigen::MatrixXd& covariance) {
+  const Eigen::LDLT<Eigen::MatrixXd> factor(covariance);
+  const Eigen::MatrixXd root =
+      Eigen::MatrixXd(factor.matrixL()) * factor.vectorD().cwiseMax(0.0).cwiseSqrt().asDiagonal();
+  return factor.transpositionsP().transpose() * root;
+}
+
+}  // namespace
+
+Judge::Judge(const Healthy& healthy, const Sensitivity& recording, std::vector<std::size_t> windows,
+             bool free_base)
+    : windows_(std::move(windows)),
+      factor_(healthy.covariance),
+      scale_(healthy.scale),
+      kappa_(healthy.kappa) {
+  const Eigen::Index base = recording.by_base.cols();
+  const Eigen::Index slots = recording.by_slot.cols();
+  Eigen::MatrixXd covariance = healthy.boat_covariance;
+  if (free_base) covariance.diagonal().head(base).array() += kFree * kFree;
+  const Eigen::MatrixXd root = RootOf(covariance);
+  base_root_ = root.topRows(base);
+  Eigen::MatrixXd boat(recording.errors.size(), base + slots);
+  boat << recording.by_base, recording.by_slot;
+  Eigen::MatrixXd loose(recording.errors.size(), base + 2 * slots);
+  loose << boat * root, recording.by_slot * healthy.slot_sizes.asDiagonal();
+  loose_ = SeeColumns(loose);
+  weigher_.compute(Eigen::MatrixXd::Identity(loose_.cols(), loose_.cols()) +
+                   loose_.transpose() * loose_);
+}
+
+Eigen::VectorXd Judge::See(const Eigen::MatrixXd& errors) const {
+  Eigen::VectorXd seen = SeeColumns(errors.reshaped()).col(0);
+  auto windows = seen.reshaped(factor_.rows(), seen.size() / factor_.rows());
+  const double most = kMostSigmas * std::sqrt(static_cast<double>(factor_.rows()));
+  for (auto window : windows.colwise()) window *= std::min(1.0, most / window.norm());
+  return seen;
+}
+
+double Judge::PlainOfHealth() const {
+  return kappa_ * kLooks * static_cast<double>(windows_.size());
+}
+
+double Judge::PlainSquare(const Eigen::MatrixXd& errors) const {
+  const Eigen::MatrixXd scaled = scale_.cwiseInverse().asDiagonal() * errors(Eigen::all, windows_);
+  const double rows = static_cast<double>(scaled.rows());
+  const Eigen::VectorXd windows = scaled.colwise().squaredNorm() / rows;
+  return kappa_ * kLooks * windows.cwiseMin(kMostSigmas * kMostSigmas).sum();
+}
+
+Eigen::MatrixXd Judge::SeeColumns(const Eigen::MatrixXd& stacked) const {
+  const Eigen::Index rows = factor_.rows();
+  Eigen::MatrixXd seen(rows * static_cast<Eigen::Index>(windows_.size()), stacked.cols());
+  for (Eigen::Index j = 0; j < stacked.cols(); ++j) {
+    const auto all = stacked.col(j).reshaped(rows, stacked.rows() / rows);
+    Eigen::MatrixXd chosen = std::sqrt(kappa_) * all(Eigen::all, windows_);
+    factor_.matrixL().solveInPlace(chosen);
+    seen.col(j) = chosen.reshaped();
+  }
+  return seen;
+}
+
+Eigen::MatrixXd Judge::Whiten(const Eigen::MatrixXd& pattern) const {
+  const Eigen::MatrixXd half = factor_.matrixL().solve(pattern);
+  return factor_.matrixL().solve(half.transpose());
+}
+
+Eigen::MatrixXd Judge::Weigh(const Eigen::MatrixXd& seen) const {
+  return seen - loose_ * weigher_.solve(loose_.transpose() * seen);
+}
+
+Eigen::MatrixXd Judge::MomentOfUnexplained(const Eigen::VectorXd& seen) const {
+  const auto windows = static_cast<Eigen::Index>(windows_.size());
+  const Eigen::VectorXd left = Unexplained(seen);
+  const auto by_window = left.reshaped(factor_.rows(), windows);
+  return by_window * by_window.transpose() / (kappa_ * static_cast<double>(windows));
+}
+
+Judge::Recalibration Judge::Recalibrate(const Eigen::VectorXd& seen) const {
+  const Eigen::Index boat = base_root_.cols();
+  const Eigen::Index all = loose_.cols();
+  const Eigen::VectorXd loose = weigher_.solve(loose_.transpose() * seen);
+  const Eigen::MatrixXd covariance =
+      weigher_.solve(Eigen::MatrixXd::Identity(all, all)).topLeftCorner(boat, boat);
+  return {-base_root_ * loose.head(boat), base_root_ * covariance * base_root_.transpose()};
+}
+
+std::vector<std::size_t> EveryWindow(const Sensitivity& recording) {
+  std::vector<std::size_t> windows(static_cast<std::size_t>(recording.errors.cols()));
+  std::iota(windows.begin(), windows.end(), std::size_t{0});
+  return windows;
+}
+
+}  // namespace telltale

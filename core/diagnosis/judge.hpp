@@ -1,0 +1,81 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include <Eigen/Cholesky>
+#include <Eigen/Core>
+
+#include "diagnosis/healthy.hpp"
+#include "diagnosis/sensitivity.hpp"
+
+namespace telltale {
+
+/// Weighs the errors of one recording by what a healthy boat may do: scatter from window to window,
+/// coefficients off by what their covariance leaves, and every effect as large as on healthy days.
+/// Model: (y, z) = kappa y' V^-1 z with V the healthy covariance of all errors together, by the
+/// matrix inversion lemma; docs/diagnosis.md (87).
+class Judge {
+ public:
+  /// Only the given windows count. `free_base`: coefficients may follow the recording as they like.
+  Judge(const Healthy& healthy, const Sensitivity& recording, std::vector<std::size_t> windows,
+        bool free_base);
+
+  const std::vector<std::size_t>& Windows() const { return windows_; }
+  bool FreesBase() const { return frees_base_; }
+
+  /// The errors of a model (rows x all windows) as they count: whitened, of the windows that count,
+  /// none larger than a lost boat.
+  Eigen::VectorXd See(const Eigen::MatrixXd& errors) const;
+
+  /// Columns of stacked errors likewise, however large.
+  Eigen::MatrixXd SeeColumns(const Eigen::MatrixXd& stacked) const;
+
+  /// What is left of seen errors once all that may vary in health is weighed in.
+  Eigen::MatrixXd Weigh(const Eigen::MatrixXd& seen) const;
+
+  double Square(const Eigen::VectorXd& seen) const { return seen.dot(Weigh(seen).col(0)); }
+
+  /// Squares of errors (rows x all windows) in healthy scales, a window counting as two looks at
+  /// each channel: blind to patterns, and so not misled by them.
+  double PlainSquare(const Eigen::MatrixXd& errors) const;
+  double PlainOfHealth() const;  ///< what a healthy boat is expected to have of it
+
+  /// Square as a share of what a healthy boat is expected to leave: about one.
+  double Leftover(const Eigen::VectorXd& seen) const {
+    return Square(seen) / (kappa_ * static_cast<double>(seen.size()));
+  }
+
+  /// Seen errors less the most probable part of what may vary in health.
+  Eigen::VectorXd Unexplained(const Eigen::VectorXd& seen) const { return Weigh(seen).col(0); }
+
+  /// Second moment of a window's errors in what is unexplained, whitened: in health, about one.
+  Eigen::MatrixXd MomentOfUnexplained(const Eigen::VectorXd& seen) const;
+
+  /// How the coefficients most probably differ from the healthy boat's, and how certain that is.
+  /// Units: standard errors of the model.
+  struct Recalibration {
+    Eigen::VectorXd change;
+    Eigen::MatrixXd covariance;
+  };
+  Recalibration Recalibrate(const Eigen::VectorXd& seen) const;
+
+  double Kappa() const { return kappa_; }
+
+  /// L^-1 pattern L^-T of a second moment of one window's errors.
+  Eigen::MatrixXd Whiten(const Eigen::MatrixXd& pattern) const;
+
+ private:
+  std::vector<std::size_t> windows_;
+  bool frees_base_;
+  Eigen::LLT<Eigen::MatrixXd> factor_;
+  Eigen::VectorXd scale_;
+  double kappa_;
+  Eigen::MatrixXd loose_;  // as seen, one column a unit of what may vary
+  Eigen::LLT<Eigen::MatrixXd> weigher_;
+  Eigen::MatrixXd base_root_;  // rows of the coefficients in the root of the boat's covariance
+};
+
+std::vector<std::size_t> EveryWindow(const Sensitivity& recording);
+
+}  // namespace telltale

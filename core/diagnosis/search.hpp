@@ -1,0 +1,49 @@
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "diagnosis/effect_fit.hpp"
+#include "diagnosis/healthy.hpp"
+#include "diagnosis/judge.hpp"
+
+namespace telltale {
+
+/// A recording as the search sees it.
+struct Evidence {
+  const FreeRuns& runs;
+  const Healthy& healthy;
+  const Sensitivity& recording;
+  const Judge& judge;
+  const std::vector<Slot>& slots;
+  const std::vector<FreeRuns>& healthy_runs;  ///< of the recordings behind `healthy`
+};
+
+/// What explains a recording's errors, single effects by score, then the best that act together.
+struct Explanations {
+  std::vector<EffectFit> singles;   ///< every effect that was fitted, the likeliest first
+  std::vector<EffectFit> together;  ///< combinations that are worth their second or third effect,
+                                    ///< the likeliest first
+};
+
+/// Scores are in comparison with healthy days: what an effect seems to explain of those, the most
+/// of any, and half as much again, is no evidence.
+///
+/// Screens every effect by the score test, fits the most promising in full, then adds a second and
+/// a third effect where the evidence asks for it and they are of different classes; what a
+/// combination can do without is dropped again. `tell` is called with the share done.
+Explanations Search(const Evidence& evidence, std::span<const Effect* const> library,
+                    std::size_t most_effects, std::size_t threads,
+                    const std::function<void(double)>& tell);
+
+/// Half the squared distance, in nats, between what two explanations predict: below
+/// kClassDistance this recording cannot tell them apart.
+double Distance(const EffectFit& one, const EffectFit& other, const Judge& judge);
+inline constexpr double kClassDistance = 3.0;
+
+/// -2 ln of how much likelier the first is than the second has to be before it counts as found.
+inline constexpr double kWorthwhile = 100.0;
+
+}  // namespace telltale

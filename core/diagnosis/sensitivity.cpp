@@ -1,0 +1,85 @@
+#include "diagnosis/sensitivity.hpp"
+
+#include <cmath>
+
+#include "parallel.hpp"
+
+namespace telltale {
+namespace {
+
+constexpr double kNegligible = 0.02;  // of the typical size
+
+Eigen::VectorXd Stacked(const Eigen::MatrixXd& errors) {
+  return errors.reshaped();
+}
+
+}  // namespace
+
+std::vector<Slot> SlotsOf(std::span<const Effect* const> effects) {
+  std::vector<Slot> slots;
+  for (const Effect* effect : effects) {
+    const auto parameters = effect->Parameters();
+    const std::vector<double> typical(parameters.size(), 1.0);
+    if (effect->Shaking(typical)) continue;
+    for (std::size_t i = 0; i < parameters.size(); ++i) {
+      if (!parameters[i].shapes) slots.push_back({effect, i});
+    }
+  }
+  return slots;
+}
+
+ModelledEffect At(const Slot& slot, double value) {
+  ModelledEffect modelled{slot.effect, {}};
+  for (const EffectParameter& parameter : slot.effect->Parameters()) {
+    modelled.values.push_back(parameter.usual);
+  }
+  modelled.values[slot.parameter] = value;
+  return modelled;
+}
+
+std::vector<ModelledEffect> EffectsOf(const std::vector<Slot>& slots,
+                                      const Eigen::VectorXd& sizes) {
+  std::vector<ModelledEffect> effects;
+  for (std::size_t j = 0; j < slots.size(); ++j) {
+    const Slot& slot = slots[j];
+    const double value =
+        slot.effect->Parameters()[slot.parameter].typical * sizes[static_cast<Eigen::Index>(j)];
+    if (std::abs(sizes[static_cast<Eigen::Index>(j)]) < kNegligible) continue;
+    if (effects.empty() || effects.back().effect != slot.effect) {
+      effects.push_back(At(slot, value));
+    } else {
+      effects.back().values[slot.parameter] = value;
+    }
+  }
+  return effects;
+}
+
+Sensitivity SensitivityOf(const FreeRuns& runs, const AugmentedModel& boat,
+                          const UncertainModel& model, const std::vector<Slot>& slots,
+                          std::size_t threads) {
+  Sensitivity sensitivity;
+  sensitivity.errors = runs.Errors(boat);
+  const auto base = static_cast<Eigen::Index>(model.free.size());
+  const auto size = sensitivity.errors.size();
+  sensitivity.by_base.resize(size, base);
+  sensitivity.by_slot.resize(size, static_cast<Eigen::Index>(slots.size()));
+  const Eigen::VectorXd nominal = Stacked(sensitivity.errors);
+  const Eigen::VectorXd standard_errors = model.StandardErrors();
+  ForEachIndex(model.free.size() + slots.size(), threads, [&](std::size_t i) {
+    const auto column = static_cast<Eigen::Index>(i);
+    AugmentedModel changed = boat;
+    if (column < base) {
+      const auto& [equation, place] = model.free[i];
+      changed.model.theta[IndexOf(equation)][place] += standard_errors[column];
+      sensitivity.by_base.col(column) = Stacked(runs.Errors(changed)) - nominal;
+      return;
+    }
+    const Slot& slot = slots[i - static_cast<std::size_t>(base)];
+    const double typical = slot.effect->Parameters()[slot.parameter].typical;
+    changed.effects.push_back(At(slot, typical));
+    sensitivity.by_slot.col(column - base) = Stacked(runs.Errors(changed)) - nominal;
+  });
+  return sensitivity;
+}
+
+}  // namespace telltale

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "diagnosis/free_runs.hpp"
+#include "diagnosis/uncertain_model.hpp"
+#include "effects/effect.hpp"
+
+namespace telltale {
+
+/// One parameter of one effect that is zero in a healthy boat.
+struct Slot {
+  const Effect* effect = nullptr;
+  std::size_t parameter = 0;
+};
+
+/// The slots of effects that move free runs; effects that only shake have none.
+std::vector<Slot> SlotsOf(std::span<const Effect* const> effects);
+
+/// The effect with nothing but this slot at `value`, shaping parameters where they are usual.
+ModelledEffect At(const Slot& slot, double value);
+
+/// The effects that slots add up to. Shapes: typical sizes, one per slot.
+std::vector<ModelledEffect> EffectsOf(const std::vector<Slot>& slots, const Eigen::VectorXd& sizes);
+
+/// Errors of a recording and how they change with the model's coefficients, in their standard
+/// errors, and with each slot, in typical sizes. Shapes: errors rows x windows; the others one
+/// column an unknown, errors stacked window by window.
+struct Sensitivity {
+  Eigen::MatrixXd errors;
+  Eigen::MatrixXd by_base;
+  Eigen::MatrixXd by_slot;
+};
+
+/// About `boat`, whose coefficients `model` says how to change. Secants over one standard error of
+/// a coefficient and the typical size of a slot: effects with thresholds have no slope at
+/// zero.
+Sensitivity SensitivityOf(const FreeRuns& runs, const AugmentedModel& boat,
+                          const UncertainModel& model, const std::vector<Slot>& slots,
+                          std::size_t threads);
+
+}  // namespace telltale

@@ -1,0 +1,71 @@
+#include "diagnosis/sentence.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "effects/wording.hpp"
+
+namespace telltale {
+namespace {
+
+std::string WithCapital(std::string text) {
+  if (!text.empty() && text.front() >= 'a' && text.front() <= 'z') {
+    text.front() = static_cast<char>(text.front() - 'a' + 'A');
+  }
+  return text;
+}
+
+std::string WhatIsWrong(const Cause& cause) {
+  std::string all;
+  for (const CausalEffect& effect : cause.effects) {
+    all.append(all.empty() ? "" : ", and ").append(effect.sentence);
+  }
+  if (cause.indistinguishable.empty()) return all;
+  all += " (or ";
+  for (std::size_t i = 0; i < cause.indistinguishable.size(); ++i) {
+    all.append(i == 0 ? "" : ", ").append(cause.indistinguishable[i]);
+  }
+  return all + ": this recording cannot tell)";
+}
+
+std::string HowMuch(const std::optional<Closure>& closure) {
+  if (!closure) return "too little to see in the free runs' size";
+  const auto whole = [](double share) { return Number(100.0 * share, 0); };
+  return whole(closure->share) + " % [" + whole(closure->interval.lower) + ", " +
+         whole(closure->interval.upper) + "] of the gap";
+}
+
+const Cause* FirstNamed(const Diagnosis& diagnosis) {
+  const auto named = std::find_if(diagnosis.causes.begin(), diagnosis.causes.end(),
+                                  [](const Cause& cause) { return !cause.effects.empty(); });
+  return named == diagnosis.causes.end() ? nullptr : &*named;
+}
+
+}  // namespace
+
+std::string SentenceOf(const Diagnosis& diagnosis) {
+  const GapSize& gap = diagnosis.Main().all;
+  const std::string times = Number(gap.before / gap.noise_floor, 1);
+  const Cause* cause = FirstNamed(diagnosis);
+  switch (diagnosis.verdict) {
+    case Verdict::kNoMaterialGap:
+      return "No material gap: the model follows the boat as well as on healthy days (" + times +
+             " times their error).";
+    case Verdict::kInsufficientData: return "The data cannot tell whether model and boat part.";
+    case Verdict::kExplained:
+      return WithCapital(WhatIsWrong(*cause)) + ": " + HowMuch(cause->closure) +
+             "; the rest is within noise.";
+    case Verdict::kPartlyExplained:
+      return WithCapital(WhatIsWrong(*cause)) + ": " + HowMuch(cause->closure) +
+             "; the rest is unknown" +
+             (diagnosis.rest.empty() ? "" : " and sits in " + diagnosis.rest) + ".";
+    case Verdict::kUnknownCause:
+      return "Model and boat part (" + times +
+             " times the healthy error), by something the library does not hold" +
+             (diagnosis.rest.empty() ? "." : "; it sits in " + diagnosis.rest + ".");
+    case Verdict::kUnknown: break;
+  }
+  return "Not diagnosed.";
+}
+
+}  // namespace telltale

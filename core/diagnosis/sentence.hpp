@@ -1,0 +1,12 @@
+#pragma once
+
+#include <string>
+
+#include "diagnosis/diagnosis.hpp"
+
+namespace telltale {
+
+/// The answer in one sentence: what, how sure, how much of the gap.
+std::string SentenceOf(const Diagnosis& diagnosis);
+
+}  // namespace telltale

@@ -1,0 +1,17 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "diagnosis/diagnosis.hpp"
+#include "diagnosis/search.hpp"
+#include "diagnosis/uncertain_model.hpp"
+
+namespace telltale {
+
+/// What this recording would show of each effect at its typical size, docs/diagnosis.md (92): in
+/// sigmas, once the coefficients have absorbed what their uncertainty allows.
+std::vector<EffectTestability> TestabilityOf(const Evidence& evidence, const UncertainModel& model,
+                                             std::span<const Effect* const> library);
+
+}  // namespace telltale

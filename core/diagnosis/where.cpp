@@ -1,0 +1,275 @@
+#include "diagnosis/where.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <numbers>
+#include <optional>
+#include <string>
+
+#include "contract.hpp"
+#include "effects/augmented_boat.hpp"
+#include "random.hpp"
+
+namespace telltale {
+namespace {
+
+constexpr double kClusterS = 5.0;
+constexpr double kAfterStepS = 1.0;
+constexpr double kStep = 0.1;  // of full command: a change that counts as a step
+constexpr std::size_t kReplicates = 500;
+constexpr double kSignificant = 0.05;
+constexpr double kMaterialShare = 0.05;
+constexpr std::size_t kFewestClusters = 6;
+constexpr std::array kSpeedEdges = {0.5, 1.0, 1.5};
+constexpr std::array<std::string_view, 8> kPoints = {"N", "NE", "E", "SE", "S", "SW", "W", "NW"};
+
+/// One row's miss and what it went through.
+struct Miss {
+  std::array<double, 3> error{};      ///< m/s^2, m/s^2, rad/s^2
+  std::array<double, 3> predicted{};  ///< likewise, what the model does
+  std::size_t cluster = 0;
+  PropellerRegion region = PropellerRegion::kFF;
+  std::size_t speed = 0;
+  std::size_t octant = 0;
+  std::size_t third = 0;
+  bool after_step = false;
+};
+
+std::size_t SpeedBin(double speed_m_s) {
+  return static_cast<std::size_t>(
+      std::upper_bound(kSpeedEdges.begin(), kSpeedEdges.end(), speed_m_s) - kSpeedEdges.begin());
+}
+
+std::string SpeedName(std::size_t bin) {
+  const auto text = [&](double value) {
+    return std::to_string(static_cast<int>(value)) +
+           (value - std::floor(value) > 0.0 ? ".5" : ".0");
+  };
+  if (bin == 0) return "below " + text(kSpeedEdges.front()) + " m/s";
+  if (bin == kSpeedEdges.size()) return "above " + text(kSpeedEdges.back()) + " m/s";
+  return text(kSpeedEdges[bin - 1]) + " to " + text(kSpeedEdges[bin]) + " m/s";
+}
+
+bool JustStepped(const HeldCommands& commands, double time_s) {
+  const PropellerCommand now = commands.At(time_s);
+  const PropellerCommand then = commands.At(time_s - kAfterStepS);
+  return std::abs(now.port - then.port) > kStep || std::abs(now.starboard - then.starboard) > kStep;
+}
+
+std::vector<Miss> MissesOf(const PreparedDataset& dataset, const AugmentedModel& sailed) {
+  const double h = dataset.sampling_period_s;
+  const double span_s = std::max(dataset.EndTime() - dataset.StartTime(), 1.0);
+  const AugmentedBoat boat(sailed, dataset.StartTime(), span_s);
+  const std::size_t steps = StepsPerRow(sailed.model, h);
+  const double step_s = h / static_cast<double>(steps);
+  std::vector<Miss> misses;
+  for (std::size_t s = 0; s < dataset.stretches.size(); ++s) {
+    const RowRange& stretch = dataset.stretches[s];
+    if (stretch.size() < 2) continue;
+    const double from_s = dataset.rows[stretch.begin].time_s;
+    const auto drives =
+        boat.DriveAlong(dataset.commands[s], from_s, step_s, stretch.size() * steps);
+    for (std::size_t k = stretch.begin; k + 1 < stretch.end; ++k) {
+      const PreparedRow& row = dataset.rows[k];
+      Pose pose{row.eta, row.nu};
+      for (std::size_t i = 0; i < steps; ++i) {
+        pose = boat.Advance(pose, drives[(k - stretch.begin) * steps + i], row.time_s, step_s);
+      }
+      const Nu& next = dataset.rows[k + 1].nu;
+      Miss miss;
+      miss.error = {(next.u - pose.nu.u) / h, (next.v - pose.nu.v) / h, (next.r - pose.nu.r) / h};
+      miss.predicted = {(pose.nu.u - row.nu.u) / h, (pose.nu.v - row.nu.v) / h,
+                        (pose.nu.r - row.nu.r) / h};
+      const double since_s = row.time_s - dataset.StartTime();
+      miss.cluster = static_cast<std::size_t>(since_s / kClusterS);
+      miss.region = row.region;
+      miss.speed = SpeedBin(std::hypot(row.nu.u, row.nu.v));
+      const double eighths = row.eta.psi_rad / (std::numbers::pi / 4.0);
+      miss.octant = static_cast<std::size_t>(((std::lround(eighths) % 8) + 8) % 8);
+      miss.third = std::min<std::size_t>(static_cast<std::size_t>(3.0 * since_s / span_s), 2);
+      miss.after_step = JustStepped(dataset.commands[s], row.time_s);
+      misses.push_back(miss);
+    }
+  }
+  return misses;
+}
+
+/// A corner: which misses lie in it, and its name.
+struct Corner {
+  std::optional<PropellerRegion> region;
+  std::string bin;
+  std::function<bool(const Miss&)> holds;
+};
+
+std::vector<Corner> Corners() {
+  std::vector<Corner> corners;
+  corners.push_back({std::nullopt, "", [](const Miss&) { return true; }});
+  for (const PropellerRegion region : kPropellerRegions) {
+    corners.push_back({region, "", [region](const Miss& m) { return m.region == region; }});
+    for (std::size_t bin = 0; bin <= kSpeedEdges.size(); ++bin) {
+      corners.push_back({region, SpeedName(bin), [region, bin](const Miss& m) {
+                           return m.region == region && m.speed == bin;
+                         }});
+    }
+  }
+  for (std::size_t bin = 0; bin <= kSpeedEdges.size(); ++bin) {
+    corners.push_back(
+        {std::nullopt, SpeedName(bin), [bin](const Miss& m) { return m.speed == bin; }});
+  }
+  for (std::size_t point = 0; point < kPoints.size(); ++point) {
+    corners.push_back({std::nullopt, "heading " + std::string(kPoints[point]),
+                       [point](const Miss& m) { return m.octant == point; }});
+  }
+  constexpr std::array<std::string_view, 3> kThirds = {"first third", "middle third", "last third"};
+  for (std::size_t third = 0; third < kThirds.size(); ++third) {
+    corners.push_back({std::nullopt, std::string(kThirds[third]),
+                       [third](const Miss& m) { return m.third == third; }});
+  }
+  corners.push_back({std::nullopt, "after a step", [](const Miss& m) { return m.after_step; }});
+  corners.push_back({std::nullopt, "steady commands", [](const Miss& m) { return !m.after_step; }});
+  return corners;
+}
+
+struct Usual {
+  double mean = 0.0;
+  double square = 0.0;
+  double count = 0.0;
+};
+
+Usual UsualIn(const Corner& corner, const std::vector<Miss>& misses, std::size_t channel) {
+  Usual usual;
+  for (const Miss& miss : misses) {
+    if (!corner.holds(miss)) continue;
+    usual.mean += miss.error[channel];
+    usual.square += miss.error[channel] * miss.error[channel];
+    usual.count += 1.0;
+  }
+  if (usual.count > 0.0) {
+    usual.mean /= usual.count;
+    usual.square /= usual.count;
+  }
+  return usual;
+}
+
+/// A cell under test: sums of deviations from the usual, by cluster.
+struct Cell {
+  GapCell listed;
+  std::vector<double> sums;
+  double statistic = 0.0;
+};
+
+/// Theil: how much of the mean square is its mean, how much goes with the model's own output.
+GapKind KindOf(const Corner& corner, const std::vector<Miss>& misses, std::size_t channel,
+               const Usual& usual) {
+  double n = 0.0, e = 0.0, p = 0.0, ee = 0.0, pp = 0.0, ep = 0.0;
+  for (const Miss& miss : misses) {
+    if (!corner.holds(miss)) continue;
+    const double error = miss.error[channel] - usual.mean;
+    const double predicted = miss.predicted[channel];
+    n += 1.0, e += error, p += predicted;
+    ee += error * error, pp += predicted * predicted, ep += error * predicted;
+  }
+  e /= n, p /= n, ee /= n, pp /= n, ep /= n;
+  const double spread = pp - p * p;
+  const double bias = e * e;
+  const double slope = spread > 0.0 ? (ep - e * p) * (ep - e * p) / spread : 0.0;
+  const double excess = std::max(ee - usual.square + usual.mean * usual.mean, 0.0);
+  if (bias >= slope && bias > 0.3 * excess) return GapKind::kBias;
+  if (slope > 0.3 * excess) return GapKind::kSlope;
+  return bias + slope > 0.1 * excess ? GapKind::kTiming : GapKind::kNoise;
+}
+
+}  // namespace
+
+std::vector<GapCell> Localise(const PreparedDataset& recording,
+                              const std::vector<PreparedDataset>& references,
+                              const AugmentedModel& boat, std::uint64_t seed) {
+  Require(!references.empty(), "at least one reference");
+  const std::vector<Miss> misses = MissesOf(recording, boat);
+  std::vector<Miss> healthy;
+  for (const PreparedDataset& reference : references) {
+    const auto more = MissesOf(reference, boat);
+    healthy.insert(healthy.end(), more.begin(), more.end());
+  }
+  if (misses.empty() || healthy.empty()) return {};
+  const std::vector<Corner> corners = Corners();
+  std::size_t clusters = 0;
+  for (const Miss& miss : misses) clusters = std::max(clusters, miss.cluster + 1);
+
+  std::vector<Cell> cells;
+  for (std::size_t channel = 0; channel < 3; ++channel) {
+    const Usual everywhere = UsualIn(corners.front(), healthy, channel);
+    const Usual now = UsualIn(corners.front(), misses, channel);
+    const double sigma = std::sqrt(everywhere.square);
+    const double excess = (now.square - everywhere.square) * now.count;
+    for (const Corner& corner : corners) {
+      Usual usual = UsualIn(corner, healthy, channel);
+      if (usual.count < 1.0) usual = {0.0, everywhere.square, 0.0};
+      std::vector<double> sums(clusters);
+      std::vector<bool> met(clusters);
+      double count = 0.0, square = 0.0, sum = 0.0;
+      for (const Miss& miss : misses) {
+        if (!corner.holds(miss)) continue;
+        sums[miss.cluster] += miss.error[channel] - usual.mean;
+        met[miss.cluster] = true;
+        count += 1.0;
+        sum += miss.error[channel];
+        square += miss.error[channel] * miss.error[channel];
+      }
+      const auto windows = static_cast<std::size_t>(std::count(met.begin(), met.end(), true));
+      if (windows < kFewestClusters || excess <= 0.0) continue;
+      double norm = 0.0;
+      double total = 0.0;
+      for (const double part : sums) {
+        norm += part * part;
+        total += part;
+      }
+      Cell cell;
+      cell.statistic = std::abs(total) / std::sqrt(norm);
+      cell.sums = std::move(sums);
+      cell.listed.channel = kEquations[channel];
+      cell.listed.region = corner.region;
+      cell.listed.bin = corner.bin;
+      cell.listed.excess_share = std::clamp((square - count * usual.square) / excess, 0.0, 1.0);
+      cell.listed.mean = (sum / count - usual.mean) / sigma;
+      cell.listed.windows = windows;
+      cell.listed.kind = KindOf(corner, misses, channel, usual);
+      cells.push_back(std::move(cell));
+    }
+  }
+
+  RandomEngine engine(seed);
+  std::vector<double> largest;
+  std::vector<double> signs(clusters);
+  for (std::size_t i = 0; i < kReplicates; ++i) {
+    for (double& sign : signs) sign = DrawBelow(engine, 2) == 0 ? -1.0 : 1.0;
+    double most = 0.0;
+    for (const Cell& cell : cells) {
+      double norm = 0.0;
+      double total = 0.0;
+      for (std::size_t c = 0; c < clusters; ++c) {
+        total += signs[c] * cell.sums[c];
+        norm += cell.sums[c] * cell.sums[c];
+      }
+      most = std::max(most, std::abs(total) / std::sqrt(norm));
+    }
+    largest.push_back(most);
+  }
+  std::vector<GapCell> listed;
+  for (Cell& cell : cells) {
+    const auto above = std::count_if(largest.begin(), largest.end(),
+                                     [&](double most) { return most >= cell.statistic; });
+    cell.listed.p_value =
+        (1.0 + static_cast<double>(above)) / (1.0 + static_cast<double>(kReplicates));
+    if (cell.listed.p_value > kSignificant || cell.listed.excess_share < kMaterialShare) continue;
+    listed.push_back(cell.listed);
+  }
+  std::stable_sort(listed.begin(), listed.end(), [](const GapCell& a, const GapCell& b) {
+    return a.excess_share > b.excess_share;
+  });
+  return listed;
+}
+
+}  // namespace telltale
