@@ -24,11 +24,16 @@ Qos ExchangeQos() {
   return MakeQos(DDS_RELIABILITY_RELIABLE, kHistoryDepth);
 }
 
-Qos ModelQos() {
+Qos DiagnosisQos() {
   Qos qos = MakeQos(DDS_RELIABILITY_RELIABLE, 1);
   dds_qset_durability(qos.get(), DDS_DURABILITY_TRANSIENT_LOCAL);
   dds_qset_durability_service(qos.get(), 0, DDS_HISTORY_KEEP_LAST, 1, DDS_LENGTH_UNLIMITED,
                               DDS_LENGTH_UNLIMITED, DDS_LENGTH_UNLIMITED);
+  return qos;
+}
+
+Qos ModelQos() {
+  Qos qos = DiagnosisQos();
   dds_qset_ownership(qos.get(), DDS_OWNERSHIP_EXCLUSIVE);
   dds_qset_liveliness(qos.get(), DDS_LIVELINESS_MANUAL_BY_TOPIC, kModelLease);
   dds_qset_writer_data_lifecycle(qos.get(), false);

@@ -26,6 +26,9 @@ Qos ExchangeQos();
 /// does. A writer's end does not dispose of its models.
 Qos ModelQos();
 
+/// Reliable, transient local, keep last 1 per vehicle: who joins late is given the last diagnosis.
+Qos DiagnosisQos();
+
 /// Best effort, volatile, keep last 1 per vehicle.
 Qos QualityQos();
 

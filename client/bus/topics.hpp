@@ -33,6 +33,17 @@ template <>
 inline constexpr Contract kContract<telltale_wire_IdentifyReply>{"telltale/identify/reply",
                                                                  ExchangeQos};
 template <>
+inline constexpr Contract kContract<telltale_wire_DiagnoseRequest>{"telltale/diagnose/request",
+                                                                   ExchangeQos};
+template <>
+inline constexpr Contract kContract<telltale_wire_DiagnoseProgress>{"telltale/diagnose/progress",
+                                                                    ExchangeQos};
+template <>
+inline constexpr Contract kContract<telltale_wire_DiagnoseReply>{"telltale/diagnose/reply",
+                                                                 ExchangeQos};
+template <>
+inline constexpr Contract kContract<telltale_wire_Diagnosis>{"telltale/diagnosis", DiagnosisQos};
+template <>
 inline constexpr Contract kContract<telltale_wire_Model>{"telltale/model", ModelQos};
 template <>
 inline constexpr Contract kContract<telltale_wire_Quality>{"telltale/quality", QualityQos};

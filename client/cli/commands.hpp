@@ -8,6 +8,7 @@ namespace telltale {
 /// names, or any other exception for a failure, where it does not succeed.
 void AddIdentify(CLI::App& telltale);
 void AddValidate(CLI::App& telltale);
+void AddDiagnose(CLI::App& telltale);
 void AddSimulate(CLI::App& telltale);
 void AddExport(CLI::App& telltale);
 void AddGain(CLI::App& telltale);

@@ -36,7 +36,7 @@ std::string ChangeTable(const ModelChange& change) {
   return table.Render();
 }
 
-std::string Verdict(const ModelChange& change) {
+std::string VerdictLine(const ModelChange& change) {
   return Wrapped("The second " + InWords(change) + ". Together: Wald statistic " +
                  Significant(change.statistic) + " over " +
                  Counted(change.degrees_of_freedom, "combination", "combinations") +
@@ -58,7 +58,7 @@ void CompareModels(const CompareArguments& arguments) {
   }
   const ModelChange change = OrThrow(ChangeBetween(earlier, later));
   arguments.output.Write(PrintChangeJson(change),
-                         [&] { return ChangeTable(change) + '\n' + Verdict(change); });
+                         [&] { return ChangeTable(change) + '\n' + VerdictLine(change); });
 }
 
 }  // namespace

@@ -1,19 +1,11 @@
 #include "cli/identify_arguments.hpp"
 
-#include <algorithm>
-#include <thread>
-
 #include "cli/number_pair.hpp"
 #include "cli/outcome.hpp"
+#include "cli/threads.hpp"
 
 namespace telltale {
 namespace {
-
-constexpr unsigned kMostThreads = 256;
-
-std::size_t DefaultThreads() {
-  return std::clamp(std::thread::hardware_concurrency(), 1u, kMostThreads);
-}
 
 DeadZone DeadZoneNamed(const std::string& text) {
   const auto [forward, reverse] =

@@ -8,7 +8,6 @@
 #include "cli/outcome.hpp"
 #include "cli/progress_line.hpp"
 #include "cli/published_model.hpp"
-#include "cli/table.hpp"
 #include "fleet/identification_client.hpp"
 
 namespace telltale {
@@ -63,20 +62,7 @@ IdentifyAnswer Ask(const IdentifyRequest& request, const LiveOptions& live) {
 void IdentifyLive(const std::string& vehicle_id, const IdentifyArguments& arguments,
                   const LiveOptions& live) {
   const IdentifyAnswer answer = Ask(RequestOf(vehicle_id, arguments), live);
-  switch (answer.outcome) {
-    case ExchangeOutcome::kPublished: break;
-    case ExchangeOutcome::kRefused:
-      throw RefusedError(answer.reply->refusals.empty() ? Refusal{vehicle_id, "was refused", ""}
-                                                        : answer.reply->refusals.front());
-    case ExchangeOutcome::kNoDaemon:
-      throw std::runtime_error("no daemon answers: " + NobodyThereAdvice(live.domain));
-    case ExchangeOutcome::kTimedOut:
-      throw std::runtime_error("the daemon is there but did not answer within " +
-                               Fixed(live.timeout_s, 0) +
-                               " s: look at its log, or raise --timeout");
-    case ExchangeOutcome::kFailed:
-    case ExchangeOutcome::kUnknown: throw std::runtime_error(answer.reply->message);
-  }
+  RequirePublished(answer, vehicle_id, live);
   const PublishedModel& model = *answer.reply->model;
   arguments.output.Write(PrintModelJson(model), [&] {
     return vehicle_id + ", revision " + std::to_string(model.revision) + "\n\n" +

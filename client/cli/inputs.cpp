@@ -166,6 +166,10 @@ RecordedVehicle LogInputs::Load() const {
   return {Concatenate(recordings), *std::move(vehicle)};
 }
 
+Recording LoadAdmitted(const std::filesystem::path& log, const DataFlashOptions& options) {
+  return LoadLog(log, options).recording;
+}
+
 CLI::Option* AddLog(CLI::App& command, std::filesystem::path& log, DataFlashOptions& dataflash) {
   auto* const option = AddLogOption(command, log, "telemetry log: a folder or an ArduPilot file");
   AddDataFlashOptions(command, dataflash, option);

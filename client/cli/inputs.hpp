@@ -40,6 +40,10 @@ struct LogInputs {
   RecordedVehicle Load() const;
 };
 
+/// One log, admitted, with what was left out of it noted on standard error. Throws: RefusedError
+/// naming the log.
+Recording LoadAdmitted(const std::filesystem::path& log, const DataFlashOptions& options);
+
 /// `--log` of a subcommand that takes one log and no vehicle, with the options of DataFlash files.
 CLI::Option* AddLog(CLI::App& command, std::filesystem::path& log, DataFlashOptions& dataflash);
 

@@ -1,6 +1,7 @@
 #include "cli/live_options.hpp"
 
 #include "bus/participant.hpp"
+#include "cli/table.hpp"
 #include "codec/vehicle_file.hpp"
 
 namespace telltale {
@@ -25,6 +26,11 @@ CLI::Option* AddVehicleId(CLI::App& command, std::string& vehicle_id) {
   return command.add_option("--vehicle-id", vehicle_id, "the vehicle")
       ->type_name("ID")
       ->check(CLI::Validator(check, ""));
+}
+
+std::string TimedOutText(const LiveOptions& live) {
+  return "the daemon is there but did not answer within " + Fixed(live.timeout_s, 0) +
+         " s: look at its log, or raise --timeout";
 }
 
 std::string NobodyThereAdvice(std::uint32_t domain) {

@@ -6,6 +6,9 @@
 
 #include <CLI/CLI.hpp>
 
+#include "cli/outcome.hpp"
+#include "fleet/exchange.hpp"
+
 namespace telltale {
 
 /// What every subcommand that goes on the bus can be told.
@@ -24,7 +27,28 @@ struct LiveOptions {
 /// `--vehicle-id`, checked.
 CLI::Option* AddVehicleId(CLI::App& command, std::string& vehicle_id);
 
+/// What is said where the daemon is there and does not answer.
+std::string TimedOutText(const LiveOptions& live);
+
 /// What to do where nobody answers on a domain.
 std::string NobodyThereAdvice(std::uint32_t domain);
+
+/// Throws: RefusedError where the daemon refused, std::runtime_error where nobody answers or it
+/// failed.
+template <class Reply>
+void RequirePublished(const ExchangeAnswer<Reply>& answer, const std::string& vehicle_id,
+                      const LiveOptions& live) {
+  switch (answer.outcome) {
+    case ExchangeOutcome::kPublished: return;
+    case ExchangeOutcome::kRefused:
+      throw RefusedError(answer.reply->refusals.empty() ? Refusal{vehicle_id, "was refused", ""}
+                                                        : answer.reply->refusals.front());
+    case ExchangeOutcome::kNoDaemon:
+      throw std::runtime_error("no daemon answers: " + NobodyThereAdvice(live.domain));
+    case ExchangeOutcome::kTimedOut: throw std::runtime_error(TimedOutText(live));
+    case ExchangeOutcome::kFailed:
+    case ExchangeOutcome::kUnknown: throw std::runtime_error(answer.reply->message);
+  }
+}
 
 }  // namespace telltale

@@ -40,6 +40,7 @@ int main(int argc, char** argv) {
   app.footer("Exit codes: 0 success, 1 failure, 2 usage error, 3 the data cannot answer.");
   telltale::AddIdentify(app);
   telltale::AddValidate(app);
+  telltale::AddDiagnose(app);
   telltale::AddSimulate(app);
   telltale::AddExport(app);
   telltale::AddGain(app);

@@ -64,6 +64,7 @@ std::string QualityTable(const std::map<std::string, Quality>& fleet) {
          quality.prediction_error > 0.0 ? Fixed(quality.prediction_error, 2) : "",
          quality.prediction_error > 0.0 ? Fixed(quality.drift, 2) : "", ForwardThrust(quality)});
     notes += Explained(vehicle_id, quality.rejected);
+    if (!quality.proposal.empty()) notes += Wrapped(vehicle_id + ": " + quality.proposal);
   }
   return table.Render() + notes;
 }

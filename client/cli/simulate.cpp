@@ -12,6 +12,8 @@
 #include "cli/model_table.hpp"
 #include "cli/outcome.hpp"
 #include "cli/table.hpp"
+#include "diagnosis/augmented_identification.hpp"
+#include "effects/augmented_simulation.hpp"
 #include "recording/telemetry_log.hpp"
 #include "simulation/sensors.hpp"
 #include "simulation/simulator.hpp"
@@ -75,12 +77,15 @@ void SimulateLog(const SimulateArguments& arguments) {
   const Vehicle vehicle = LoadVehicle(arguments.vehicle_file);
   const Identification identification = LoadModel(arguments.model_file);
   NoteOtherVehicle(identification, vehicle);
-  const VesselModel model = Discretised(OrThrow(ModelOf(identification)), arguments.step_s);
+  AugmentedModel model = OrThrow(AugmentedModelOf(identification));
+  model.model = Discretised(std::move(model.model), arguments.step_s);
   const auto commands = LoadCommands(arguments.commands_file, vehicle);
-  const double step_s = arguments.step_s.value_or(model.sampling_period_s);
-  const auto track = Simulate(model, {}, commands, commands.back().time_s, step_s);
+  const double step_s = arguments.step_s.value_or(model.model.sampling_period_s);
+  const double end_s = commands.back().time_s;
+  const auto track = model.effects.empty() ? Simulate(model.model, {}, commands, end_s, step_s)
+                                           : Simulate(model, commands, end_s, step_s);
   RefuseRunaway(track);
-  const Recording recording = Measure(track, vehicle, arguments.sensors);
+  const Recording recording = Measure(track, model, vehicle, arguments.sensors);
   WriteTelemetryLog(arguments.out, recording);
   const VesselState& last = track.back().state;
   std::cout << arguments.out.string() << ": "

@@ -1,8 +1,6 @@
 #include "cli/table.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <cstdio>
 #include <numeric>
 #include <sstream>
 
@@ -27,12 +25,6 @@ std::string Rule(std::size_t width) {
   std::string rule;
   for (std::size_t i = 0; i < width; ++i) rule += "─";
   return rule;
-}
-
-std::string Formatted(const char* format, int precision, double value) {
-  char text[400];
-  std::snprintf(text, sizeof text, format, precision, value);
-  return text;
 }
 
 }  // namespace
@@ -83,26 +75,6 @@ std::string Table::RenderRow(const std::vector<std::string>& cells,
 std::size_t DisplayWidth(std::string_view utf8) {
   return static_cast<std::size_t>(
       std::count_if(utf8.begin(), utf8.end(), [](char byte) { return (byte & 0xc0) != 0x80; }));
-}
-
-std::string Significant(double value, int digits) {
-  if (std::isnan(value)) return "–";
-  if (std::isinf(value)) return value > 0 ? "∞" : "-∞";
-  std::string text = Formatted("%#.*g", digits, value);
-  if (text.ends_with('.')) text.pop_back();
-  return text;
-}
-
-std::string Fixed(double value, int decimals) {
-  return std::isfinite(value) ? Formatted("%.*f", decimals, value) : Significant(value);
-}
-
-std::string Plain(double value) {
-  return std::isfinite(value) ? Formatted("%.*g", 6, value) : Significant(value);
-}
-
-std::string Counted(std::size_t count, const std::string& one, const std::string& many) {
-  return std::to_string(count) + ' ' + (count == 1 ? one : many);
 }
 
 std::string Wrapped(std::string_view text, std::string_view indent, std::size_t columns) {

@@ -5,6 +5,8 @@
 #include <string_view>
 #include <vector>
 
+#include "report/numbers.hpp"
+
 namespace telltale {
 
 inline constexpr std::size_t kTerminalColumns = 100;
@@ -45,18 +47,6 @@ class Table {
 
 /// Characters of a UTF-8 text, each taken to be one column wide.
 std::size_t DisplayWidth(std::string_view utf8);
-
-/// `digits` significant digits, zeros at the end kept; "∞" where there is no bound, "–" for NaN.
-std::string Significant(double value, int digits = 4);
-
-/// The number with `decimals` decimals, as for times and shares.
-std::string Fixed(double value, int decimals);
-
-/// Up to six significant digits and no more zeros than needed, as for numbers a person chose.
-std::string Plain(double value);
-
-/// "1 stretch", "3 stretches".
-std::string Counted(std::size_t count, const std::string& one, const std::string& many);
 
 /// Words broken into lines of at most `columns`, each begun with `indent` and ended by a line feed.
 std::string Wrapped(std::string_view text, std::string_view indent = "",

@@ -12,6 +12,7 @@
 #include "cli/progress_line.hpp"
 #include "cli/table.hpp"
 #include "codec/metrics_json.hpp"
+#include "diagnosis/augmented_identification.hpp"
 #include "exchange/disturbance.hpp"
 #include "identification/input_gain.hpp"
 #include "recording/files.hpp"
@@ -78,7 +79,8 @@ void ValidateModel(const ValidateArguments& arguments) {
   const PreparedDataset dataset =
       OrThrow(Prepare(recording, vehicle, Preparation(arguments, model)));
   line.Update("scoring", 0.5);
-  const Metrics metrics = OrThrow(Validate(dataset, vessel, arguments.options));
+  const Metrics metrics =
+      OrThrow(Validate(dataset, OrThrow(AugmentedModelOf(model)), arguments.options));
   if (!arguments.disturbance_file.empty()) {
     WriteFile(arguments.disturbance_file,
               PrintDisturbanceCsv(ReconstructDisturbance(dataset, vessel)));

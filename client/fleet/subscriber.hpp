@@ -40,8 +40,9 @@ class Subscriber {
   WaitSet news_;
 };
 
-/// Published models; who joins late is given the last of each vehicle.
+/// Published models and diagnoses; who joins late is given the last of each vehicle.
 using ModelSubscriber = Subscriber<telltale_wire_Model, PublishedModel>;
+using DiagnosisSubscriber = Subscriber<telltale_wire_Diagnosis, PublishedDiagnosis>;
 using QualitySubscriber = Subscriber<telltale_wire_Quality, Quality>;
 
 }  // namespace telltale

@@ -8,6 +8,7 @@
 
 #include "data/preparation.hpp"
 #include "data/samples.hpp"
+#include "diagnosis/diagnosis.hpp"
 #include "identification/identify.hpp"
 #include "result.hpp"
 
@@ -71,6 +72,40 @@ struct IdentifyReply {
   double elapsed_s = 0.0;
 };
 
+/// A diagnosis of a vehicle's window against a published model.
+struct PublishedDiagnosis {
+  Diagnosis diagnosis;
+  std::uint64_t model_revision = 0;
+  double published_unix_s = 0.0;
+};
+
+/// Asks the daemon to diagnose a vehicle's window.
+struct DiagnoseRequest {
+  std::string correlation_id;  ///< as of an IdentifyRequest
+  std::string vehicle_id;
+  bool refit = false;
+  std::vector<std::string> without;  ///< effects to leave out
+  std::uint64_t seed = 1;
+};
+
+struct DiagnoseProgress {
+  std::string correlation_id;
+  std::string vehicle_id;
+  std::string stage;
+  double fraction = 0.0;  ///< [0, 1]
+};
+
+/// Outcomes are those of an identification; what is published is on telltale/diagnosis.
+struct DiagnoseReply {
+  std::string correlation_id;
+  std::string vehicle_id;
+  IdentifyOutcome outcome = IdentifyOutcome::kUnknown;
+  std::string message;            ///< what failed; empty otherwise
+  std::vector<Refusal> refusals;  ///< why, when refused
+  std::optional<PublishedDiagnosis> diagnosis;
+  double elapsed_s = 0.0;
+};
+
 /// Rejected samples as a monitor shows them. Reasons are RejectReason names and those of a sample
 /// that never reached a window.
 struct RejectEntry {
@@ -115,6 +150,7 @@ struct Quality {
   double drift = 0.0;             ///< running change of prediction_error per evaluation
   std::vector<IndicativeCoefficient> indicative;  ///< static structure; those that can be told
   std::uint64_t indicative_rows = 0;              ///< prepared rows taken in so far
+  std::string proposal;  ///< what to do where the model no longer fits; empty: nothing
 };
 
 std::vector<RejectEntry> Entries(const RejectCounts& counts);

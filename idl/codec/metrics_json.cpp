@@ -22,16 +22,6 @@ void Write(const FreeRunScore& score, proto::FreeRunScore& message) {
   message.set_noise_floor(score.noise_floor);
 }
 
-void Write(const FreeRunScores& scores, proto::Metrics::FreeRun& message) {
-  constexpr std::size_t kMost = std::numeric_limits<std::uint32_t>::max();
-  message.set_horizon_s(scores.horizon_s);
-  Write(scores.velocity[0], *message.mutable_surge());
-  Write(scores.velocity[1], *message.mutable_sway());
-  Write(scores.velocity[2], *message.mutable_yaw());
-  message.set_position_rmse_m(scores.position_rmse_m);
-  message.set_windows(static_cast<std::uint32_t>(std::min(scores.windows, kMost)));
-}
-
 OneStepScore ScoreOf(const proto::OneStepScore& message) {
   return {message.r2(), message.mae(), message.persistence_r2()};
 }
@@ -41,6 +31,20 @@ FreeRunScore ScoreOf(const proto::FreeRunScore& message) {
           message.noise_floor()};
 }
 
+}  // namespace
+
+proto::Metrics::FreeRun ToProto(const FreeRunScores& scores) {
+  constexpr std::size_t kMost = std::numeric_limits<std::uint32_t>::max();
+  proto::Metrics::FreeRun message;
+  message.set_horizon_s(scores.horizon_s);
+  Write(scores.velocity[0], *message.mutable_surge());
+  Write(scores.velocity[1], *message.mutable_sway());
+  Write(scores.velocity[2], *message.mutable_yaw());
+  message.set_position_rmse_m(scores.position_rmse_m);
+  message.set_windows(static_cast<std::uint32_t>(std::min(scores.windows, kMost)));
+  return message;
+}
+
 FreeRunScores ScoresOf(const proto::Metrics::FreeRun& message) {
   return {message.horizon_s(),
           {ScoreOf(message.surge()), ScoreOf(message.sway()), ScoreOf(message.yaw())},
@@ -48,14 +52,12 @@ FreeRunScores ScoresOf(const proto::Metrics::FreeRun& message) {
           message.windows()};
 }
 
-}  // namespace
-
 proto::Metrics ToProto(const Metrics& metrics) {
   proto::Metrics message;
   Write(metrics.one_step[0], *message.mutable_one_step()->mutable_surge());
   Write(metrics.one_step[1], *message.mutable_one_step()->mutable_sway());
   Write(metrics.one_step[2], *message.mutable_one_step()->mutable_yaw());
-  for (const FreeRunScores& scores : metrics.free_run) Write(scores, *message.add_free_run());
+  for (const FreeRunScores& scores : metrics.free_run) *message.add_free_run() = ToProto(scores);
   return message;
 }
 

@@ -12,6 +12,10 @@ namespace telltale {
 proto::Metrics ToProto(const Metrics& metrics);
 Metrics MetricsOf(const proto::Metrics& message);
 
+/// The scores of one horizon.
+proto::Metrics::FreeRun ToProto(const FreeRunScores& scores);
+FreeRunScores ScoresOf(const proto::Metrics::FreeRun& message);
+
 /// metrics.json. A score the data cannot give is NaN, which stands there as "NaN".
 std::string PrintMetricsJson(const Metrics& metrics);
 

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "codec/change_json.hpp"
+#include "codec/effects_json.hpp"
 #include "codec/evidence_json.hpp"
 #include "codec/field_reader.hpp"
 #include "codec/json_message.hpp"
@@ -380,6 +381,7 @@ Identification ReadModel(FieldReader reader, const proto::Model& model) {
   for (int i = 0; i < model.offsets_size(); ++i) {
     result.offsets.push_back(ReadOffsets(reader.Item("offsets", i), model.offsets(i)));
   }
+  result.effects = ReadEffects(reader, model);
   result.window = ReadWindow(reader.Optional("window"), model.window());
   result.refusals = ReadRefusals(model);
   result.provenance = ReadProvenance(reader.Optional("provenance"), model.provenance());
@@ -427,6 +429,7 @@ proto::Model ToProto(const Identification& identification) {
   for (const RecordingOffsets& offsets : identification.offsets) {
     Write(offsets, *model.add_offsets());
   }
+  WriteEffects(identification.effects, model);
   Write(identification.window, *model.mutable_window());
   for (const Refusal& refusal : identification.refusals) Write(refusal, *model.add_refusals());
   Write(identification.provenance, *model.mutable_provenance());

@@ -24,7 +24,8 @@ proto::Refusal ToProto(const Refusal& refusal);
 /// covariance that is not n^2 long, has a negative variance or is not symmetric; a thruster time
 /// constant without the dynamic structure or the reverse; a covariance of it that has not one
 /// number for each coefficient (none at all, as in older files, means zero); a dead zone out of its
-/// range; unknown channels and reject reasons.
+/// range; effects that the library lacks, or whose parameters are not its own, in its order and
+/// ranges; unknown channels and reject reasons.
 Decoded<Identification> IdentificationOf(const proto::Model& model,
                                          const std::string& file = "model");
 

@@ -8,8 +8,10 @@
 #include <initializer_list>
 #include <limits>
 
+#include "codec/report_json.hpp"
 #include "codec/vehicle_file.hpp"
 #include "contract.hpp"
+#include "effects/effect.hpp"
 
 namespace telltale {
 namespace {
@@ -92,6 +94,7 @@ void Fill(telltale_wire_IndicativeCoefficient& wire, const IndicativeCoefficient
 
 void Fill(telltale_wire_RecordingOffsets& wire, const RecordingOffsets& offsets);
 void Fill(telltale_wire_ModelChange& wire, const ModelChange& change);
+void Fill(telltale_wire_AddedEffect& wire, const AddedEffect& added);
 
 void Fill(telltale_wire_ExpectedBounds& wire, const ExpectedBounds& expected) {
   Put(wire.equation, Name(expected.equation));
@@ -184,6 +187,11 @@ void Fill(telltale_wire_ModelChange& wire, const ModelChange& change) {
   Put(wire.reason, change.reason);
 }
 
+void Fill(telltale_wire_AddedEffect& wire, const AddedEffect& added) {
+  Put(wire.effect, added.effect);
+  PutSequence(wire.values, added.values, kCopy);
+}
+
 void Fill(telltale_wire_Model& wire, const PublishedModel& model) {
   const Identification& identification = model.identification;
   PutIdentifier(wire.vehicle_id, identification.vehicle_id);
@@ -236,6 +244,16 @@ void Fill(telltale_wire_Model& wire, const PublishedModel& model) {
   if (const auto& certificate = identification.certificate) {
     PutSequence(wire.certificate, std::initializer_list<CoverageCertificate>{*certificate}, kFill);
   }
+  PutSequence(wire.effects, identification.effects, kFill);
+}
+
+void Fill(telltale_wire_Diagnosis& wire, const PublishedDiagnosis& published) {
+  PutIdentifier(wire.vehicle_id, published.diagnosis.vehicle_id);
+  wire.model_revision = published.model_revision;
+  wire.published_unix_s = published.published_unix_s;
+  Put(wire.verdict, Name(published.diagnosis.verdict));
+  Put(wire.sentence, published.diagnosis.sentence);
+  Put(wire.report, PrintReportJson(published.diagnosis));
 }
 
 // ---- wire -> core -------------------------------------------------------------------------------
@@ -622,6 +640,24 @@ std::optional<CoverageCertificate> ReadCertificate(
   return certificate;
 }
 
+AddedEffect ReadAddedEffect(const std::string& field, const telltale_wire_AddedEffect& wire) {
+  const std::string name(View(wire.effect));
+  const Effect* effect = FindEffect(name);
+  if (!effect) Reject(field + ".effect", name, "an effect of the library");
+  const auto parameters = effect->Parameters();
+  if (wire.values._length != parameters.size()) {
+    Reject(field + ".values", std::to_string(wire.values._length) + " numbers",
+           std::to_string(parameters.size()) + ", one for each parameter");
+  }
+  AddedEffect added{name, {}};
+  for (std::size_t i = 0; i < parameters.size(); ++i) {
+    added.values.push_back(ReadWithin(field + '.' + std::string(parameters[i].name),
+                                      wire.values._buffer[i], parameters[i].lower,
+                                      parameters[i].upper));
+  }
+  return added;
+}
+
 PublishedModel ReadModel(const telltale_wire_Model& wire) {
   PublishedModel model;
   model.revision = wire.revision;
@@ -672,7 +708,23 @@ PublishedModel ReadModel(const telltale_wire_Model& wire) {
                    });
   identification.advice = ReadSequence("advice", wire.advice, ReadAdvice);
   identification.certificate = ReadCertificate(wire.certificate, identification);
+  identification.effects = ReadSequence("effects", wire.effects, ReadAddedEffect);
   return model;
+}
+
+/// Verdict and sentence stand in the report too, and are for those who read no JSON.
+PublishedDiagnosis ReadDiagnosis(const telltale_wire_Diagnosis& wire) {
+  PublishedDiagnosis published;
+  auto diagnosis = ParseReportJson(View(wire.report));
+  if (!diagnosis) throw Malformed{std::move(diagnosis).error()};
+  published.diagnosis = *std::move(diagnosis);
+  if (ReadIdentifier("vehicle_id", wire.vehicle_id) != published.diagnosis.vehicle_id) {
+    Reject("vehicle_id", std::string(View(wire.vehicle_id)),
+           "the report's, " + published.diagnosis.vehicle_id);
+  }
+  published.model_revision = wire.model_revision;
+  published.published_unix_s = ReadWithin("published_unix_s", wire.published_unix_s, 0.0, kLargest);
+  return published;
 }
 
 /// The common part of the three telemetry types: no exception and no allocation on the way of a
@@ -771,6 +823,47 @@ WireSample<telltale_wire_IdentifyReply> Encode(const IdentifyReply& reply) {
   return wire;
 }
 
+WireSample<telltale_wire_Diagnosis> Encode(const PublishedDiagnosis& diagnosis) {
+  WireSample<telltale_wire_Diagnosis> wire;
+  Fill(*wire, diagnosis);
+  return wire;
+}
+
+WireSample<telltale_wire_DiagnoseRequest> Encode(const DiagnoseRequest& request) {
+  WireSample<telltale_wire_DiagnoseRequest> wire;
+  PutIdentifier(wire->correlation_id, request.correlation_id);
+  PutIdentifier(wire->vehicle_id, request.vehicle_id);
+  wire->refit = request.refit;
+  PutSequence(wire->without, request.without,
+              [](char*& element, const std::string& effect) { Put(element, effect); });
+  wire->seed = request.seed;
+  return wire;
+}
+
+WireSample<telltale_wire_DiagnoseProgress> Encode(const DiagnoseProgress& progress) {
+  WireSample<telltale_wire_DiagnoseProgress> wire;
+  PutIdentifier(wire->correlation_id, progress.correlation_id);
+  PutIdentifier(wire->vehicle_id, progress.vehicle_id);
+  Put(wire->stage, progress.stage);
+  wire->fraction = progress.fraction;
+  return wire;
+}
+
+WireSample<telltale_wire_DiagnoseReply> Encode(const DiagnoseReply& reply) {
+  WireSample<telltale_wire_DiagnoseReply> wire;
+  PutIdentifier(wire->correlation_id, reply.correlation_id);
+  PutIdentifier(wire->vehicle_id, reply.vehicle_id);
+  Put(wire->outcome, Name(reply.outcome));
+  Put(wire->message, reply.message);
+  PutSequence(wire->refusals, reply.refusals, kFill);
+  if (reply.diagnosis) {
+    PutSequence(wire->diagnosis, std::initializer_list<PublishedDiagnosis>{*reply.diagnosis},
+                [](auto& element, const PublishedDiagnosis& item) { Fill(element, item); });
+  }
+  wire->elapsed_s = reply.elapsed_s;
+  return wire;
+}
+
 WireSample<telltale_wire_Quality> Encode(const Quality& quality) {
   WireSample<telltale_wire_Quality> wire;
   if (quality.vehicle_id == kUnattributed) {
@@ -794,6 +887,7 @@ WireSample<telltale_wire_Quality> Encode(const Quality& quality) {
   wire->drift = quality.drift;
   PutSequence(wire->indicative, quality.indicative, kFill);
   wire->indicative_rows = quality.indicative_rows;
+  Put(wire->proposal, quality.proposal);
   return wire;
 }
 
@@ -867,6 +961,54 @@ Decoded<IdentifyReply> Decode(const telltale_wire_IdentifyReply& wire) {
   });
 }
 
+Decoded<PublishedDiagnosis> Decode(const telltale_wire_Diagnosis& wire) {
+  return Guarded([&] { return ReadDiagnosis(wire); });
+}
+
+Decoded<DiagnoseRequest> Decode(const telltale_wire_DiagnoseRequest& wire) {
+  return Guarded([&] {
+    DiagnoseRequest request;
+    request.correlation_id = ReadIdentifier("correlation_id", wire.correlation_id);
+    request.vehicle_id = ReadIdentifier("vehicle_id", wire.vehicle_id);
+    request.refit = wire.refit;
+    request.without = ReadSequence(
+        "without", wire.without,
+        [](const std::string&, const char* effect) { return std::string(View(effect)); });
+    request.seed = wire.seed;
+    return request;
+  });
+}
+
+Decoded<DiagnoseProgress> Decode(const telltale_wire_DiagnoseProgress& wire) {
+  return Guarded([&] {
+    DiagnoseProgress progress;
+    progress.correlation_id = ReadIdentifier("correlation_id", wire.correlation_id);
+    progress.vehicle_id = ReadIdentifier("vehicle_id", wire.vehicle_id);
+    progress.stage = View(wire.stage);
+    progress.fraction = ReadWithin("fraction", wire.fraction, 0.0, 1.0);
+    return progress;
+  });
+}
+
+Decoded<DiagnoseReply> Decode(const telltale_wire_DiagnoseReply& wire) {
+  return Guarded([&] {
+    DiagnoseReply reply;
+    reply.correlation_id = ReadIdentifier("correlation_id", wire.correlation_id);
+    reply.vehicle_id = ReadIdentifier("vehicle_id", wire.vehicle_id);
+    reply.outcome = ReadName("outcome", View(wire.outcome), kOutcomes);
+    reply.message = View(wire.message);
+    reply.refusals = ReadSequence("refusals", wire.refusals, ReadRefusal);
+    const bool published = reply.outcome == IdentifyOutcome::kPublished;
+    if (wire.diagnosis._length != (published ? 1u : 0u)) {
+      Reject("diagnosis", std::to_string(wire.diagnosis._length) + " items",
+             published ? "one when published" : "none unless published");
+    }
+    if (published) reply.diagnosis = ReadDiagnosis(wire.diagnosis._buffer[0]);
+    reply.elapsed_s = ReadWithin("elapsed_s", wire.elapsed_s, 0.0, kLargest);
+    return reply;
+  });
+}
+
 Decoded<Quality> Decode(const telltale_wire_Quality& wire) {
   return Guarded([&] {
     Quality quality;
@@ -889,6 +1031,7 @@ Decoded<Quality> Decode(const telltale_wire_Quality& wire) {
     quality.drift = ReadWithin("drift", wire.drift, -kLargest, kLargest);
     quality.indicative = ReadSequence("indicative", wire.indicative, ReadIndicative);
     quality.indicative_rows = wire.indicative_rows;
+    quality.proposal = View(wire.proposal);
     return quality;
   });
 }

@@ -23,6 +23,10 @@ WireSample<telltale_wire_Model> Encode(const PublishedModel& model);
 WireSample<telltale_wire_IdentifyRequest> Encode(const IdentifyRequest& request);
 WireSample<telltale_wire_IdentifyProgress> Encode(const IdentifyProgress& progress);
 WireSample<telltale_wire_IdentifyReply> Encode(const IdentifyReply& reply);
+WireSample<telltale_wire_Diagnosis> Encode(const PublishedDiagnosis& diagnosis);
+WireSample<telltale_wire_DiagnoseRequest> Encode(const DiagnoseRequest& request);
+WireSample<telltale_wire_DiagnoseProgress> Encode(const DiagnoseProgress& progress);
+WireSample<telltale_wire_DiagnoseReply> Encode(const DiagnoseReply& reply);
 WireSample<telltale_wire_Quality> Encode(const Quality& quality);
 
 /// The vehicle id borrows from the wire struct.
@@ -33,6 +37,10 @@ Decoded<PublishedModel> Decode(const telltale_wire_Model& wire);
 Decoded<IdentifyRequest> Decode(const telltale_wire_IdentifyRequest& wire);
 Decoded<IdentifyProgress> Decode(const telltale_wire_IdentifyProgress& wire);
 Decoded<IdentifyReply> Decode(const telltale_wire_IdentifyReply& wire);
+Decoded<PublishedDiagnosis> Decode(const telltale_wire_Diagnosis& wire);
+Decoded<DiagnoseRequest> Decode(const telltale_wire_DiagnoseRequest& wire);
+Decoded<DiagnoseProgress> Decode(const telltale_wire_DiagnoseProgress& wire);
+Decoded<DiagnoseReply> Decode(const telltale_wire_DiagnoseReply& wire);
 Decoded<Quality> Decode(const telltale_wire_Quality& wire);
 
 }  // namespace telltale

@@ -42,6 +42,22 @@ inline const dds_topic_descriptor_t& Descriptor<telltale_wire_IdentifyReply>() {
   return telltale_wire_IdentifyReply_desc;
 }
 template <>
+inline const dds_topic_descriptor_t& Descriptor<telltale_wire_Diagnosis>() {
+  return telltale_wire_Diagnosis_desc;
+}
+template <>
+inline const dds_topic_descriptor_t& Descriptor<telltale_wire_DiagnoseRequest>() {
+  return telltale_wire_DiagnoseRequest_desc;
+}
+template <>
+inline const dds_topic_descriptor_t& Descriptor<telltale_wire_DiagnoseProgress>() {
+  return telltale_wire_DiagnoseProgress_desc;
+}
+template <>
+inline const dds_topic_descriptor_t& Descriptor<telltale_wire_DiagnoseReply>() {
+  return telltale_wire_DiagnoseReply_desc;
+}
+template <>
 inline const dds_topic_descriptor_t& Descriptor<telltale_wire_Quality>() {
   return telltale_wire_Quality_desc;
 }

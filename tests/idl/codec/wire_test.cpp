@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "contract.hpp"
+#include "support/diagnoses.hpp"
 #include "support/identifications.hpp"
 #include "support/numbers.hpp"
 
@@ -290,6 +291,62 @@ TEST(WireExchange, ProgressStaysBetweenNoneAndAll) {
   EXPECT_EQ(Decode(*wire)->fraction, 0.5);
   wire->fraction = 1.5;
   EXPECT_EQ(Decode(*wire).error().field, "fraction");
+}
+
+TEST(WireDiagnosis, ArrivesAsItWasSent) {
+  const PublishedDiagnosis sent{MadeUpDiagnosis(), 7, 1700000700.5};
+  const auto wire = Encode(sent);
+  EXPECT_STREQ(wire->verdict, "PARTLY_EXPLAINED");
+  EXPECT_EQ(wire->sentence, sent.diagnosis.sentence);
+  const auto received = Decode(*wire);
+  ASSERT_TRUE(received) << received.error().Message();
+  EXPECT_EQ(received->model_revision, 7u);
+  EXPECT_EQ(received->published_unix_s, 1700000700.5);
+  ExpectSame(received->diagnosis, sent.diagnosis);
+}
+
+TEST(WireDiagnosis, RefusesAReportThatIsNoneOrOfAnotherVehicle) {
+  auto wire = Encode(PublishedDiagnosis{MadeUpDiagnosis(), 7, 1700000700.5});
+  std::strcpy(wire->vehicle_id, "another");
+  EXPECT_EQ(Decode(*wire).error().field, "vehicle_id");
+  wire->report[0] = 'x';
+  EXPECT_FALSE(Decode(*wire));
+}
+
+TEST(WireDiagnosis, RequestAndProgressArriveAsTheyWereSent) {
+  const auto request = Decode(*Encode(DiagnoseRequest{"id-1", "boat-1", true, {"wind", "x"}, 9}));
+  ASSERT_TRUE(request) << request.error().Message();
+  EXPECT_EQ(request->correlation_id, "id-1");
+  EXPECT_EQ(request->vehicle_id, "boat-1");
+  EXPECT_TRUE(request->refit);
+  EXPECT_EQ(request->without, (std::vector<std::string>{"wind", "x"}));
+  EXPECT_EQ(request->seed, 9u);
+  const auto progress = Decode(*Encode(DiagnoseProgress{"id-1", "boat-1", "searching", 0.25}));
+  ASSERT_TRUE(progress);
+  EXPECT_EQ(progress->stage, "searching");
+  EXPECT_EQ(progress->fraction, 0.25);
+}
+
+TEST(WireDiagnosis, ReplyHoldsADiagnosisWhenPublishedAndOnlyThen) {
+  DiagnoseReply sent{"id-1", "boat-1", IdentifyOutcome::kRefused, "", {{"a", "b", "c"}}, {}, 1.5};
+  const auto refused = Decode(*Encode(sent));
+  ASSERT_TRUE(refused) << refused.error().Message();
+  EXPECT_EQ(refused->refusals, sent.refusals);
+  EXPECT_EQ(refused->elapsed_s, 1.5);
+  sent.outcome = IdentifyOutcome::kPublished;
+  EXPECT_EQ(Decode(*Encode(sent)).error().field, "diagnosis");
+  sent.diagnosis = PublishedDiagnosis{MadeUpDiagnosis(), 7, 1.0};
+  const auto published = Decode(*Encode(sent));
+  ASSERT_TRUE(published) << published.error().Message();
+  ExpectSame(published->diagnosis->diagnosis, sent.diagnosis->diagnosis);
+}
+
+TEST(WireQuality, CarriesAProposal) {
+  Quality quality;
+  quality.vehicle_id = "boat-1";
+  EXPECT_EQ(Decode(*Encode(quality))->proposal, "");
+  quality.proposal = "ask why";
+  EXPECT_EQ(Decode(*Encode(quality))->proposal, "ask why");
 }
 
 TEST(WireQuality, ArrivesAsItWasSent) {

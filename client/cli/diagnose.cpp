@@ -1,0 +1,100 @@
+#include "diagnosis/diagnose.hpp"
+
+#include <iostream>
+#include <memory>
+
+#include "cli/commands.hpp"
+#include "cli/diagnose_arguments.hpp"
+#include "cli/diagnose_live.hpp"
+#include "cli/live_options.hpp"
+#include "cli/outcome.hpp"
+#include "cli/progress_line.hpp"
+#include "codec/model_json.hpp"
+#include "recording/files.hpp"
+
+namespace telltale {
+namespace {
+
+PrepareOptions PreparationFor(const Identification& model) {
+  PrepareOptions options = PrepareOptions::Robust();
+  options.sampling_period_s = model.sampling_period_s;
+  return options;
+}
+
+PreparedDataset PrepareReference(const DiagnoseArguments& arguments,
+                                 const std::filesystem::path& log, const Vehicle& vehicle,
+                                 const PrepareOptions& options) {
+  auto prepared = Prepare(LoadAdmitted(log, arguments.inputs.dataflash), vehicle, options);
+  if (prepared) return *std::move(prepared);
+  Refusal refusal = std::move(prepared).error();
+  refusal.subject = log.string() + ' ' + refusal.subject;
+  throw RefusedError(std::move(refusal));
+}
+
+/// An id that a log alone suggests is nobody's choice, so it cannot contradict the model's.
+std::string VehicleIdFor(const DiagnoseArguments& arguments, const Vehicle& vehicle,
+                         const Identification& model) {
+  return arguments.inputs.NamesVehicle() ? vehicle.vehicle_id : model.vehicle_id;
+}
+
+DiagnosedModel DiagnoseFromFiles(const DiagnoseArguments& arguments) {
+  const DiagnoseOptions options = arguments.Options();
+  const Identification model = LoadModel(arguments.model_file);
+  ProgressLine line;
+  line.Update("reading logs", 0.0);
+  const auto [recording, vehicle] = arguments.inputs.Load();
+  line.Update("preparing data", 0.0);
+  const PrepareOptions preparation = PreparationFor(model);
+  const PreparedDataset dataset = OrThrow(Prepare(recording, vehicle, preparation));
+  std::vector<PreparedDataset> references;
+  for (const auto& log : arguments.reference_logs) {
+    references.push_back(PrepareReference(arguments, log, vehicle, preparation));
+  }
+  return OrThrow(
+      Diagnose(dataset, references, model, VehicleIdFor(arguments, vehicle, model), options,
+               [&line](std::string_view stage, double fraction) { line.Update(stage, fraction); }));
+}
+
+void WriteModel(const DiagnosedModel& diagnosed, const std::filesystem::path& file) {
+  if (diagnosed.augmented) {
+    WriteFile(file, PrintModelJson(*diagnosed.augmented));
+  } else {
+    std::cerr << "note: " << file.string()
+              << " is not written, since no effect was named that would improve the model\n";
+  }
+}
+
+void DiagnoseLogs(const DiagnoseArguments& arguments) {
+  const DiagnosedModel diagnosed = DiagnoseFromFiles(arguments);
+  if (!arguments.out_model.empty()) WriteModel(diagnosed, arguments.out_model);
+  arguments.Write(diagnosed.diagnosis);
+}
+
+}  // namespace
+
+void AddDiagnose(CLI::App& telltale) {
+  const auto arguments = std::make_shared<DiagnoseArguments>();
+  const auto vehicle_id = std::make_shared<std::string>();
+  const auto live = std::make_shared<LiveOptions>();
+  CLI::App& command = *telltale.add_subcommand(
+      "diagnose",
+      "Tells where a model and a recording part, which effect parts them and how far it closes the "
+      "gap");
+  auto* const whom = command.add_option_group("from", "logs, or a vehicle the daemon follows");
+  whom->require_option(1);
+  auto* const log = arguments->inputs.AddTo(command, *whom);
+  AddVehicleId(*whom, *vehicle_id);
+  arguments->AddOptionsTo(command, log);
+  live->AddTo(command, 300.0, "with --vehicle-id: how long to wait for the answer");
+  command.footer(
+      "Give a recording that the model was not made from, of 60 s or more. Errors are in healthy "
+      "sigmas.\n"
+      "Example: telltale diagnose --log today --vehicle boat.textproto --model model.json \\\n"
+      "             --reference-log last-week --html report.html --out report.json\n"
+      "         telltale diagnose --vehicle-id boat-1");
+  command.callback([arguments, vehicle_id, live] {
+    vehicle_id->empty() ? DiagnoseLogs(*arguments) : DiagnoseLive(*vehicle_id, *arguments, *live);
+  });
+}
+
+}  // namespace telltale

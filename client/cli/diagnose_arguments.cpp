@@ -1,0 +1,79 @@
+#include "cli/diagnose_arguments.hpp"
+
+#include "cli/diagnosis_table.hpp"
+#include "cli/outcome.hpp"
+#include "cli/table.hpp"
+#include "cli/threads.hpp"
+#include "codec/report_json.hpp"
+#include "recording/files.hpp"
+#include "report/page.hpp"
+
+namespace telltale {
+namespace {
+
+std::string EffectNames() {
+  std::string names;
+  for (const Effect* effect : EffectLibrary()) {
+    names.append(names.empty() ? "" : ", ").append(effect->Name());
+  }
+  return names;
+}
+
+std::string EffectFault(const std::string& name) {
+  return FindEffect(name) ? "" : "no such effect as " + name + "; there are " + EffectNames();
+}
+
+}  // namespace
+
+void DiagnoseArguments::AddOptionsTo(CLI::App& command, CLI::Option* log) {
+  auto* const model = AddModelFile(command, model_file)->required(false)->needs(log);
+  log->needs(model);
+  command
+      .add_option("--reference-log", reference_logs,
+                  "logs of the same boat when all was well, which say how large a healthy error "
+                  "is; without any the floor is what sensor noise alone would leave")
+      ->type_name("DIR|FILE.BIN")
+      ->check(CLI::ExistingPath.description(""))
+      ->needs(log);
+  command.add_flag("--refit", refit,
+                   "let the model's coefficients follow the recording, within their bounds, so "
+                   "that only what no coefficient can imitate counts");
+  command.add_option("--without", without, "effects to leave out of those that may be the cause")
+      ->type_name("EFFECT")
+      ->check(CLI::Validator(EffectFault, ""));
+  command.add_option("--seed", seed, "of the bootstrap: the same seed gives the same report")
+      ->capture_default_str();
+  command.add_option("--threads", threads, "[1, 256], default: what the machine has")
+      ->type_name("N")
+      ->needs(log);
+  command.add_option("--html", html, "also write a page with pictures, which needs no network")
+      ->type_name("FILE.html");
+  command
+      .add_option("--out-model", out_model,
+                  "also write the model identified again with the effects that were named, which "
+                  "validate and simulate take like any other")
+      ->type_name("FILE")
+      ->needs(log);
+  output.AddTo(command, "report.json");
+}
+
+DiagnoseOptions DiagnoseArguments::Options() const {
+  DiagnoseOptions options;
+  options.refit = refit;
+  options.without = without;
+  options.seed = seed;
+  options.threads = threads.value_or(DefaultThreads());
+  if (const auto refusal = options.Validate()) {
+    throw UsageError(refusal->subject + ": " + refusal->reason + "; " + refusal->advice);
+  }
+  return options;
+}
+
+void DiagnoseArguments::Write(const Diagnosis& diagnosis, const std::string& against) const {
+  if (!html.empty()) WriteFile(html, ReportPage(diagnosis));
+  output.Write(PrintReportJson(diagnosis), [&] {
+    return DiagnosisTable(diagnosis) + (against.empty() ? "" : '\n' + Wrapped(against));
+  });
+}
+
+}  // namespace telltale

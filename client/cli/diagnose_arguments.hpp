@@ -1,0 +1,42 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+
+#include "cli/inputs.hpp"
+#include "cli/output.hpp"
+#include "diagnosis/diagnose.hpp"
+
+namespace telltale {
+
+/// What `telltale diagnose` was asked.
+struct DiagnoseArguments {
+  LogInputs inputs;
+  std::filesystem::path model_file;
+  std::vector<std::filesystem::path> reference_logs;
+  std::filesystem::path html;       ///< empty: no page
+  std::filesystem::path out_model;  ///< empty: no model
+  bool refit = false;
+  std::vector<std::string> without;
+  std::uint64_t seed = 1;
+  std::optional<std::size_t> threads;
+  OutputOptions output;
+
+  /// The options that go with `--log`, those that say how to diagnose and those that say where the
+  /// answer goes.
+  void AddOptionsTo(CLI::App& command, CLI::Option* log);
+
+  /// Throws: UsageError for a value out of its range.
+  DiagnoseOptions Options() const;
+
+  /// The page, the JSON and the table, as far as they were asked for; `against` says in the table
+  /// what the recording was held against.
+  void Write(const Diagnosis& diagnosis, const std::string& against = "") const;
+};
+
+}  // namespace telltale

@@ -1,0 +1,50 @@
+#include "cli/diagnose_live.hpp"
+
+#include <algorithm>
+
+#include "bus/participant.hpp"
+#include "cli/outcome.hpp"
+#include "cli/progress_line.hpp"
+#include "cli/table.hpp"
+#include "fleet/diagnosis_client.hpp"
+
+namespace telltale {
+namespace {
+
+DiagnoseRequest DiagnoseRequestOf(const std::string& vehicle_id,
+                                  const DiagnoseArguments& arguments) {
+  DiagnoseRequest request;
+  request.correlation_id = NewCorrelationId();
+  request.vehicle_id = vehicle_id;
+  request.refit = arguments.refit;
+  request.without = arguments.without;
+  request.seed = arguments.seed;
+  return request;
+}
+
+DiagnoseAnswer AskForDiagnosis(const DiagnoseRequest& request, const LiveOptions& live) {
+  const Participant participant(live.domain);
+  DiagnosisClient client(participant);
+  ExchangeTiming timing;
+  timing.match = std::min(timing.match, live.Timeout());
+  timing.reply = live.Timeout();
+  ProgressLine line;
+  line.Update("asking the daemon", 0.0);
+  return client.Diagnose(request, timing, [&line](const DiagnoseProgress& progress) {
+    line.Update(progress.stage, progress.fraction);
+  });
+}
+
+}  // namespace
+
+void DiagnoseLive(const std::string& vehicle_id, const DiagnoseArguments& arguments,
+                  const LiveOptions& live) {
+  const DiagnoseAnswer answer = AskForDiagnosis(DiagnoseRequestOf(vehicle_id, arguments), live);
+  RequirePublished(answer, vehicle_id, live);
+  const PublishedDiagnosis& published = *answer.reply->diagnosis;
+  arguments.Write(published.diagnosis, "Held against revision " +
+                                           std::to_string(published.model_revision) + " of " +
+                                           vehicle_id + ".");
+}
+
+}  // namespace telltale

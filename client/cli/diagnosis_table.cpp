@@ -1,0 +1,167 @@
+#include "cli/diagnosis_table.hpp"
+
+#include <algorithm>
+#include <array>
+
+#include "cli/table.hpp"
+#include "report/words.hpp"
+
+namespace telltale {
+namespace {
+
+std::string Titled(const std::string& title, const std::string& text) {
+  return text.empty() ? "" : '\n' + title + '\n' + text;
+}
+
+std::string Headline(const Diagnosis& diagnosis) {
+  std::string recording =
+      diagnosis.vehicle_id + ", " + Fixed(diagnosis.end_s - diagnosis.start_s, 0) + " s recorded.";
+  if (diagnosis.onset) recording += ' ' + OnsetText(*diagnosis.onset, diagnosis.start_s);
+  if (!diagnosis.rest.empty())
+    recording += " What stays unexplained sits in " + diagnosis.rest + '.';
+  return Wrapped(diagnosis.sentence) + '\n' +
+         Wrapped(std::string(VerdictText(diagnosis.verdict)) + ": " +
+                 std::string(VerdictMeaning(diagnosis.verdict))) +
+         Wrapped(recording) + Wrapped(FloorText(diagnosis));
+}
+
+std::vector<std::string> GapRow(std::string_view channel, const GapSize& size,
+                                const std::optional<Closure>& closure) {
+  return {"  " + std::string(channel), Fixed(size.before, 2),      Fixed(size.after, 2),
+          Fixed(size.noise_floor, 2),  Fixed(size.floor_limit, 2), ClosureText(closure)};
+}
+
+std::string GapTable(const Diagnosis& diagnosis) {
+  Table table({{"gap, in healthy sigmas", Align::kLeft},
+               {"before", Align::kRight},
+               {"after", Align::kRight},
+               {"floor", Align::kRight},
+               {"95 % of healthy", Align::kRight},
+               {"closed [95 %]", Align::kRight}});
+  for (const Gap& gap : diagnosis.gaps) {
+    table.AddHeading(Plain(gap.horizon_s) + " s: " + Counted(gap.windows, "window", "windows"));
+    if (gap.windows == 0) continue;
+    table.AddRow(GapRow("all", gap.all, gap.closure));
+    for (const Equation channel : kEquations) {
+      const std::size_t i = IndexOf(channel);
+      table.AddRow(GapRow(ChannelText(channel), gap.channels[i], gap.channel_closures[i]));
+    }
+  }
+  return table.Render();
+}
+
+std::string WhereTable(const Diagnosis& diagnosis) {
+  if (diagnosis.where.empty()) return Wrapped("Where: no corner of the data stands out.");
+  Table table({{"where", Align::kLeft},
+               {"of the excess", Align::kRight},
+               {"p", Align::kRight},
+               {"kind", Align::kLeft},
+               {"mean, sigmas", Align::kRight},
+               {"windows", Align::kRight}});
+  for (const GapCell& cell : ShownCells(diagnosis)) {
+    table.AddRow({PlaceText(cell), ShareText(cell.excess_share), Significant(cell.p_value, 2),
+                  std::string(KindText(cell.kind)), Fixed(cell.mean, 2),
+                  std::to_string(cell.windows)});
+  }
+  return table.Render() + Wrapped(MoreCellsText(diagnosis));
+}
+
+void AddEffect(Table& table, const CausalEffect& effect, bool several) {
+  std::string words = "  " + effect.sentence;
+  if (several) words += " (" + ShareText(effect.shapley_share) + " of what these close)";
+  if (!effect.sentence.empty()) table.AddHeading(words);
+  for (const ParameterEstimate& parameter : effect.parameters) {
+    table.AddRow({"    " + parameter.name, EstimateText(parameter), "", ""});
+  }
+}
+
+std::string JoinedWith(const std::vector<std::string>& names, const std::string& separator) {
+  std::string text;
+  for (const std::string& name : names) text.append(text.empty() ? "" : separator).append(name);
+  return text;
+}
+
+std::string CausesTable(const Diagnosis& diagnosis) {
+  if (diagnosis.causes.empty()) return Wrapped("Which: nothing to explain.");
+  Table table({{"which", Align::kLeft},
+               {"estimate", Align::kRight},
+               {"probability", Align::kRight},
+               {"closed [95 %]", Align::kRight}});
+  for (const Cause& cause : diagnosis.causes) {
+    const std::string closed = cause.effects.empty() ? "" : ClosureText(cause.closure);
+    table.AddRow({CauseText(cause), "", ShareText(cause.probability), closed});
+    for (const CausalEffect& effect : cause.effects) {
+      AddEffect(table, effect, cause.effects.size() > 1);
+    }
+    if (!cause.indistinguishable.empty()) {
+      table.AddHeading("  this recording cannot tell it from " +
+                       JoinedWith(cause.indistinguishable, ", "));
+    }
+  }
+  return table.Render();
+}
+
+std::string TestabilityTable(const Diagnosis& diagnosis) {
+  if (diagnosis.effects.empty()) return "";
+  Table table({{"would this recording show it", Align::kLeft},
+               {"sigmas at its typical size", Align::kRight},
+               {"", Align::kLeft}});
+  for (const EffectTestability& effect : diagnosis.effects) {
+    table.AddRow({effect.effect, Fixed(effect.detectability, 1), TestabilityText(effect)});
+  }
+  return '\n' + table.Render();
+}
+
+std::string AdviceText(const Diagnosis& diagnosis) {
+  std::string text;
+  for (const SeparationAdvice& advice : diagnosis.advice) {
+    const std::string promise = advice.promised ? ", which should settle it" : ", which may not do";
+    text += Wrapped(advice.manoeuvre + " for " + Fixed(advice.duration_s, 0) +
+                        " s would separate " + JoinedWith(advice.separates, " from ") + " by " +
+                        Fixed(advice.expected_nats, 1) + " nats" + promise,
+                    "  ");
+    if (!advice.how.empty()) text += Wrapped("-> " + advice.how, "     ");
+  }
+  return Titled("What to sail next, by simulation", text);
+}
+
+void AddScores(Table& table, const FreeRunScores& before, const FreeRunScores& after) {
+  constexpr std::array kVelocities = {"surge u, m/s", "sway v, m/s", "yaw r, rad/s"};
+  table.AddHeading(Plain(before.horizon_s) + " s: " + Counted(before.windows, "window", "windows"));
+  for (std::size_t i = 0; i < kVelocities.size(); ++i) {
+    const FreeRunScore& old = before.velocity[i];
+    table.AddRow({std::string("  ") + kVelocities[i], Significant(old.rmse, 3),
+                  Significant(after.velocity[i].rmse, 3), Significant(old.noise_floor, 3)});
+  }
+  table.AddRow({"  position, m", Significant(before.position_rmse_m, 3),
+                Significant(after.position_rmse_m, 3), ""});
+}
+
+std::string ImprovementTable(const Diagnosis& diagnosis) {
+  if (!diagnosis.improvement) return "";
+  const auto& [before, after] = *diagnosis.improvement;
+  Table table({{"free-run RMSE on held-out windows", Align::kLeft},
+               {"old model", Align::kRight},
+               {"with the effects", Align::kRight},
+               {"noise floor", Align::kRight}});
+  for (std::size_t i = 0; i < std::min(before.size(), after.size()); ++i) {
+    if (before[i].windows > 0) AddScores(table, before[i], after[i]);
+  }
+  return '\n' + table.Render();
+}
+
+std::string NotesText(const Diagnosis& diagnosis) {
+  std::string text;
+  for (const std::string& note : diagnosis.notes) text += Wrapped("- " + note, "  ");
+  return Titled("Notes", text);
+}
+
+}  // namespace
+
+std::string DiagnosisTable(const Diagnosis& diagnosis) {
+  return Headline(diagnosis) + '\n' + GapTable(diagnosis) + '\n' + WhereTable(diagnosis) + '\n' +
+         CausesTable(diagnosis) + ImprovementTable(diagnosis) + TestabilityTable(diagnosis) +
+         AdviceText(diagnosis) + NotesText(diagnosis);
+}
+
+}  // namespace telltale

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <functional>
+
+#include "bus/participant.hpp"
+#include "codec/messages.hpp"
+#include "fleet/exchange.hpp"
+
+namespace telltale {
+
+using DiagnoseAnswer = ExchangeAnswer<DiagnoseReply>;
+
+/// Asks the daemon for diagnoses of its windows.
+class DiagnosisClient {
+ public:
+  explicit DiagnosisClient(const Participant& participant) : exchange_(participant) {}
+
+  /// Blocks until the answer is there. `progress` runs on the calling thread.
+  /// Requires: identifiers of 1..64 letters, digits, '.', '_' or '-'.
+  DiagnoseAnswer Diagnose(const DiagnoseRequest& request, const ExchangeTiming& timing,
+                          const std::function<void(const DiagnoseProgress&)>& progress = {}) {
+    return exchange_.Ask<DiagnoseReply, DiagnoseProgress>(request, timing, progress);
+  }
+
+ private:
+  Exchange<telltale_wire_DiagnoseRequest, telltale_wire_DiagnoseProgress,
+           telltale_wire_DiagnoseReply>
+      exchange_;
+};
+
+}  // namespace telltale

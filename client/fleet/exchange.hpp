@@ -1,0 +1,108 @@
+#pragma once
+
+#include <algorithm>
+#include <chrono>
+#include <functional>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "bus/participant.hpp"
+#include "bus/reader.hpp"
+#include "bus/wait_set.hpp"
+#include "bus/writer.hpp"
+#include "codec/wire.hpp"
+
+namespace telltale {
+
+/// How asking the daemon ended. kNoDaemon: nobody on this domain takes requests. kTimedOut: there
+/// is a daemon, but no reply came. The rest is the daemon's own answer.
+enum class ExchangeOutcome { kUnknown, kNoDaemon, kTimedOut, kRefused, kFailed, kPublished };
+
+/// The daemon's own answer as the outcome of asking.
+ExchangeOutcome OutcomeOf(IdentifyOutcome outcome);
+
+template <class Reply>
+struct ExchangeAnswer {
+  ExchangeOutcome outcome = ExchangeOutcome::kUnknown;
+  std::optional<Reply> reply;  ///< the daemon's answer, where there is one
+};
+
+struct ExchangeTiming {
+  std::chrono::nanoseconds match = std::chrono::seconds(5);    ///< to find a daemon
+  std::chrono::nanoseconds reply = std::chrono::seconds(120);  ///< from the request to its reply
+  std::chrono::nanoseconds retry = std::chrono::seconds(1);  ///< silence after which it asks again
+};
+
+/// A correlation id nobody else will choose.
+std::string NewCorrelationId();
+
+/// Asks the daemon over one triple of topics. A request is sent once this client's ends are
+/// connected, and again under the same correlation id while the daemon is silent; the daemon
+/// answers an id once.
+template <class RequestWire, class ProgressWire, class ReplyWire>
+class Exchange {
+ public:
+  explicit Exchange(const Participant& participant)
+      : participant_(participant),
+        requests_(participant),
+        progress_(participant),
+        replies_(participant) {}
+
+  /// Blocks until the answer is there. `progress` runs on the calling thread.
+  template <class Reply, class Progress, class Request>
+  ExchangeAnswer<Reply> Ask(const Request& request, const ExchangeTiming& timing,
+                            const std::function<void(const Progress&)>& progress);
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  const Participant& participant_;
+  Writer<RequestWire> requests_;
+  Reader<ProgressWire> progress_;
+  Reader<ReplyWire> replies_;
+};
+
+template <class RequestWire, class ProgressWire, class ReplyWire>
+template <class Reply, class Progress, class Request>
+ExchangeAnswer<Reply> Exchange<RequestWire, ProgressWire, ReplyWire>::Ask(
+    const Request& request, const ExchangeTiming& timing,
+    const std::function<void(const Progress&)>& progress) {
+  const auto wire = Encode(request);
+  if (!WaitForMatch(participant_, {requests_, replies_, progress_}, timing.match)) {
+    return {ExchangeOutcome::kNoDaemon, std::nullopt};
+  }
+
+  ExchangeAnswer<Reply> answer;
+  const auto now = Clock::now();
+  const auto deadline = now + timing.reply;
+  auto next_request = now;
+  WaitSet news(participant_);
+  news.Attach(progress_, [&] {
+    progress_.Take([&](const ProgressWire& sample) {
+      const auto decoded = Decode(sample);
+      if (!decoded || decoded->correlation_id != request.correlation_id) return;
+      next_request = Clock::now() + timing.retry;
+      if (progress) progress(*decoded);
+    });
+  });
+  news.Attach(replies_, [&] {
+    replies_.Take([&](const ReplyWire& sample) {
+      auto decoded = Decode(sample);
+      if (!decoded || decoded->correlation_id != request.correlation_id) return;
+      answer = {OutcomeOf(decoded->outcome), std::move(*decoded)};
+    });
+  });
+
+  while (!answer.reply) {
+    if (Clock::now() >= deadline) return {ExchangeOutcome::kTimedOut, std::nullopt};
+    if (Clock::now() >= next_request) {
+      requests_.Write(wire);
+      next_request = Clock::now() + timing.retry;
+    }
+    news.Wait(std::min(next_request, deadline) - Clock::now());
+  }
+  return answer;
+}
+
+}  // namespace telltale

@@ -1,0 +1,97 @@
+#include <algorithm>
+
+#include "report/numbers.hpp"
+#include "report/pictures.hpp"
+#include "report/plot.hpp"
+#include "report/words.hpp"
+
+namespace telltale {
+namespace {
+
+Markup ProbabilityBar(double probability) {
+  const Axis x{0.0, 1.0, 0.0, 100.0};
+  return Element("svg",
+                 {{"class", "probability"},
+                  {"viewBox", "0 0 100 6"},
+                  {"preserveAspectRatio", "none"},
+                  {"role", "img"},
+                  {"aria-label", "probability " + ShareText(probability)}},
+                 RectangleShape({0.0, 0.0}, {100.0, 6.0}, "track") +
+                     RectangleShape({0.0, 0.0}, {x(probability), 6.0}, "ink-bar"));
+}
+
+Markup ClosureWhisker(const Closure& closure) {
+  constexpr double kWidth = 260.0;
+  constexpr double kBaseline = 14.0;
+  const double low = std::clamp(closure.interval.lower, -1.0, 0.0);
+  const double high = std::clamp(closure.interval.upper, 1.0, 1.5);
+  const Axis x{low, high, 18.0, kWidth - 26.0};
+  Markup shapes = LineShape({x(low), kBaseline}, {x(high), kBaseline}, "grid");
+  for (const double share : {0.0, 0.5, 1.0}) {
+    shapes += LineShape({x(share), kBaseline - 5.0}, {x(share), kBaseline + 5.0}, "grid");
+    shapes += LabelShape({x(share), kBaseline + 24.0}, ShareText(share), Anchor::kMiddle);
+  }
+  shapes += LineShape({x(closure.interval.lower), kBaseline},
+                      {x(closure.interval.upper), kBaseline}, "whisker");
+  shapes += CircleShape({x(closure.share), kBaseline}, 6.0, "whisker-dot");
+  return Picture({kWidth, 44.0}, "whiskers", "closes " + ClosureText(closure) + " of the gap",
+                 shapes);
+}
+
+Markup ParameterList(const CausalEffect& effect) {
+  Markup items;
+  for (const ParameterEstimate& parameter : effect.parameters) {
+    items += Element("dt", {}, JoinedName(parameter.name));
+    items += Element("dd", {}, Words(EstimateText(parameter)));
+  }
+  return items.Text().empty() ? items : Element("dl", {}, items);
+}
+
+Markup EffectPart(const CausalEffect& effect, bool several) {
+  std::string text = effect.sentence.empty() ? effect.effect : effect.sentence;
+  if (several) text += " (" + ShareText(effect.shapley_share) + " of what these close)";
+  return Styled("p", "says", Words(text)) + ParameterList(effect);
+}
+
+Markup TiedWith(const Cause& cause) {
+  if (cause.indistinguishable.empty()) return {};
+  std::string names;
+  for (const std::string& name : cause.indistinguishable) {
+    names.append(names.empty() ? "" : ", ").append(name);
+  }
+  return Styled("p", "tied", Words("This recording cannot tell it from " + names + "."));
+}
+
+Markup CauseCard(const Cause& cause) {
+  Markup card = Styled("header", "",
+                       Styled("h3", "", JoinedName(CauseText(cause))) +
+                           Styled("b", "share", Words(ShareText(cause.probability)))) +
+                ProbabilityBar(cause.probability);
+  if (cause.effects.empty()) {
+    card += Styled("p", "says", Words("Something that the library of effects lacks."));
+  }
+  for (const CausalEffect& effect : cause.effects) {
+    card += EffectPart(effect, cause.effects.size() > 1);
+  }
+  card += TiedWith(cause);
+  if (cause.closure) {
+    card += Styled("p", "soft", Words("Closes " + ClosureText(cause.closure) + " of the gap")) +
+            ClosureWhisker(*cause.closure);
+  }
+  return Styled("article", "card", card);
+}
+
+}  // namespace
+
+Markup CauseCards(const Diagnosis& diagnosis) {
+  if (diagnosis.causes.empty()) {
+    return Nothing(diagnosis.verdict == Verdict::kInsufficientData
+                       ? "The recording is too little to ask for a cause."
+                       : "There is no gap that would ask for a cause.");
+  }
+  Markup cards;
+  for (const Cause& cause : diagnosis.causes) cards += CauseCard(cause);
+  return Styled("div", "cards", cards);
+}
+
+}  // namespace telltale

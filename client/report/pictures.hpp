@@ -1,0 +1,38 @@
+#pragma once
+
+#include "diagnosis/diagnosis.hpp"
+#include "report/markup.hpp"
+
+namespace telltale {
+
+/// What a page shows of a diagnosis. Each says in words where there is nothing to show. "Before" is
+/// the model as it was given, "after" the model with the named effects, drawn only where some are.
+
+/// Whether effects are named, so that there is an after.
+bool HasAfter(const Diagnosis& diagnosis);
+
+/// Error before and after against the floor, by horizon and channel.
+Markup GapBars(const Diagnosis& diagnosis);
+
+/// Error of window after window, the floor and the onset.
+Markup ErrorOverTime(const Diagnosis& diagnosis);
+
+/// Error by propeller region and speed, as a table.
+Markup ErrorMap(const Diagnosis& diagnosis);
+
+/// Error by heading, octant by octant.
+Markup HeadingRose(const Diagnosis& diagnosis);
+
+/// Causes with probabilities, parameters and how far each closes the gap.
+Markup CauseCards(const Diagnosis& diagnosis);
+
+/// The windows that the model misses most, as sailed and as predicted.
+Markup PathPictures(const Diagnosis& diagnosis);
+
+/// What the colours and strokes of the pictures stand for; `measured` where paths are drawn.
+Markup Legend(const Diagnosis& diagnosis, bool measured);
+
+/// An empty state.
+Markup Nothing(std::string_view why);
+
+}  // namespace telltale

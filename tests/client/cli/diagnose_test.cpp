@@ -1,0 +1,159 @@
+#include <filesystem>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "cli/diagnosis_table.hpp"
+#include "codec/report_json.hpp"
+#include "codec/vehicle_file.hpp"
+#include "recording/telemetry_log.hpp"
+#include "simulation/manoeuvres.hpp"
+#include "simulation/sensors.hpp"
+#include "simulation/yellowfish.hpp"
+#include "support/diagnoses.hpp"
+#include "support/telltale_command.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace telltale {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+using testing::StartsWith;
+
+// ---- the table ------------------------------------------------------------------------------
+
+TEST(DiagnosisTable, SaysTheSentenceFirstAndThenEveryPart) {
+  const std::string table = DiagnosisTable(MadeUpDiagnosis());
+  EXPECT_THAT(table, StartsWith("Port thruster 22 ± 3 % weaker than the model"));
+  for (const char* part :
+       {"Partly explained", "400 s recorded", "205 s after the start (95 %: 195 to 220 s)",
+        "3 reference recordings", "81 % [74, 87]", "-25 % [-50, 12]", "heading, FF, 0.5 to 1.0 m/s",
+        "thruster_imbalance + thruster_lag", "port thruster 22 % weaker (75 % of what these close)",
+        "0.220 ± 0.030", "0.150 ± 0.035 s", "cannot tell it from thruster_delay", "unknown",
+        "absorbed by YAW uv", "not excited", "fast random steps for 120 s",
+        "-> full ahead for 20 s, then nothing", "- the wind was not measured"}) {
+    EXPECT_THAT(table, HasSubstr(part));
+  }
+}
+
+TEST(DiagnosisTable, SaysInWordsWhereThereIsNothing) {
+  const std::string table = DiagnosisTable(MadeUpHealthyDiagnosis());
+  for (const char* part : {"no corner of the data stands out", "nothing to explain"}) {
+    EXPECT_THAT(table, HasSubstr(part));
+  }
+  for (const char* part : {"Notes", "What to sail", "would this recording", "free-run RMSE"}) {
+    EXPECT_THAT(table, Not(HasSubstr(part)));
+  }
+}
+
+TEST(DiagnosisTable, ShowsADozenCornersAndCountsTheRest) {
+  Diagnosis made = MadeUpDiagnosis();
+  made.where.resize(15, made.where[0]);
+  EXPECT_THAT(DiagnosisTable(made), HasSubstr("3 more corners stand out"));
+  made.where.resize(12);
+  EXPECT_THAT(DiagnosisTable(made), Not(HasSubstr("more corner")));
+}
+
+// ---- the command ----------------------------------------------------------------------------
+
+/// A folder with the vehicle file, a log of the Yellowfish twin and a model of it.
+class DiagnoseTest : public testing::Test {
+ protected:
+  DiagnoseTest() {
+    folder.Write("boat.textproto", PrintVehicle(YellowfishVehicle()));
+    WriteLog("log", kSampleMissionDurationS);
+    const CommandOutcome made =
+        Telltale({"identify", "--log", Path("log"), "--vehicle", Path("boat.textproto"),
+                  "--estimator", "one-step", "--bootstrap", "0", "--out", Path("model.json")});
+    EXPECT_EQ(made.exit_code, kSuccess) << made.err;
+  }
+
+  std::string Path(const std::string& name) const { return (folder.Path() / name).string(); }
+
+  void WriteLog(const std::string& name, double duration_s) const {
+    const auto track = Simulate(YellowfishTwin(), {}, SampleMission(1), duration_s, 0.02);
+    WriteTelemetryLog(Path(name), Measure(track, YellowfishVehicle(), {}));
+  }
+
+  CommandOutcome Diagnose(const std::string& log, const std::string& vehicle,
+                          std::vector<std::string> more = {}) const {
+    std::vector<std::string> arguments = {"diagnose",    "--log",   Path(log),         "--vehicle",
+                                          Path(vehicle), "--model", Path("model.json")};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return Telltale(arguments);
+  }
+
+  TemporaryFolder folder;
+};
+
+TEST_F(DiagnoseTest, WritesTheReportAndThePageAndPrintsTheSentenceFirst) {
+  const CommandOutcome outcome =
+      Diagnose("log", "boat.textproto",
+               {"--out", Path("report.json"), "--html", Path("report.html"), "--seed", "7"});
+  ASSERT_EQ(outcome.exit_code, kSuccess) << outcome.err;
+  const auto report = ParseReportJson(TextOfFile(Path("report.json")));
+  ASSERT_TRUE(report) << report.error().Message();
+  EXPECT_EQ(report->vehicle_id, YellowfishVehicle().vehicle_id);
+  EXPECT_EQ(report->seed, 7u);
+  EXPECT_NEAR(report->end_s - report->start_s, kSampleMissionDurationS, 10.0);
+  EXPECT_THAT(outcome.out, StartsWith(report->sentence.substr(0, 40)));
+  EXPECT_THAT(TextOfFile(Path("report.html")), HasSubstr("<h1 id=\"headline\">"));
+}
+
+TEST_F(DiagnoseTest, WrongCommandLinesAreUsageErrors) {
+  const std::string log = Path("log");
+  const std::string boat = Path("boat.textproto");
+  const std::string model = Path("model.json");
+  for (const std::vector<std::string>& arguments : std::vector<std::vector<std::string>>{
+           {"diagnose"},
+           {"diagnose", "--log", log, "--vehicle", boat},
+           {"diagnose", "--vehicle", boat, "--model", model},
+           {"diagnose", "--log", log, "--model", model},
+           {"diagnose", "--log", Path("nowhere"), "--vehicle", boat, "--model", model},
+           {"diagnose", "--log", log, "--vehicle", boat, "--model", Path("nowhere")},
+           {"diagnose", "--log", log, "--vehicle", boat, "--model", model, "--reference-log",
+            Path("nowhere")},
+           {"diagnose", "--log", log, "--vehicle", boat, "--model", model, "--without",
+            "kraken"}}) {
+    const CommandOutcome outcome = Telltale(arguments);
+    EXPECT_EQ(outcome.exit_code, kUsage) << testing::PrintToString(arguments) << outcome.err;
+  }
+  EXPECT_THAT(Diagnose("log", "boat.textproto", {"--without", "kraken"}).err, HasSubstr("wind"));
+}
+
+TEST_F(DiagnoseTest, AModelOfAnotherBoatIsRefused) {
+  Vehicle other = YellowfishVehicle();
+  other.vehicle_id = "bluefish";
+  folder.Write("other.textproto", PrintVehicle(other));
+  const CommandOutcome outcome = Diagnose("log", "other.textproto");
+  EXPECT_EQ(outcome.exit_code, kRefused);
+  EXPECT_THAT(outcome.err, HasSubstr("bluefish"));
+}
+
+TEST_F(DiagnoseTest, EmptyAndShortLogsAreRefused) {
+  WriteLog("short", 45.0);
+  WriteTelemetryLog(Path("empty"), {});
+  EXPECT_EQ(Diagnose("short", "boat.textproto").exit_code, kRefused);
+  const CommandOutcome empty = Diagnose("empty", "boat.textproto");
+  EXPECT_EQ(empty.exit_code, kRefused);
+  EXPECT_THAT(empty.err, HasSubstr("empty"));
+}
+
+TEST_F(DiagnoseTest, AReferenceThatCannotBeUsedIsNamed) {
+  WriteTelemetryLog(Path("blank"), {});
+  const CommandOutcome outcome =
+      Diagnose("log", "boat.textproto", {"--reference-log", Path("blank")});
+  EXPECT_EQ(outcome.exit_code, kRefused);
+  EXPECT_THAT(outcome.err, HasSubstr("blank"));
+}
+
+TEST_F(DiagnoseTest, AModelFileThatIsNoneFailsNamingTheFault) {
+  folder.Write("model.json", "{\"vehicleId\": 3}");
+  const CommandOutcome outcome = Diagnose("log", "boat.textproto");
+  EXPECT_EQ(outcome.exit_code, kFailure);
+  EXPECT_THAT(outcome.err, HasSubstr("vehicleId"));
+}
+
+}  // namespace
+}  // namespace telltale
