@@ -4,6 +4,8 @@
 
 #include "bus/participant.hpp"
 #include "codec/daemon_config.hpp"
+#include "diagnosis/diagnosis_jobs.hpp"
+#include "diagnosis/healthy_recordings.hpp"
 #include "identification/answers.hpp"
 #include "identification/identification_jobs.hpp"
 #include "ingest/fleet.hpp"
@@ -26,7 +28,9 @@ class Daemon {
   Fleet fleet_;
   PublishedModels models_;
   Answers answers_;
+  HealthyRecordings healthy_;
   IdentificationJobs jobs_;
+  DiagnosisJobs diagnoses_;
   QualityMonitor quality_;
   Ingest ingest_;
 };

@@ -7,7 +7,10 @@
 namespace telltale {
 
 Answers::Answers(const Participant& participant)
-    : progress_writer_(participant), reply_writer_(participant) {}
+    : progress_writer_(participant),
+      reply_writer_(participant),
+      diagnose_progress_writer_(participant),
+      diagnose_reply_writer_(participant) {}
 
 void Answers::Send(const IdentifyProgress& progress) {
   Send(progress_writer_, Encode(progress), progress.correlation_id);
@@ -15,6 +18,14 @@ void Answers::Send(const IdentifyProgress& progress) {
 
 void Answers::Send(const IdentifyReply& reply) {
   Send(reply_writer_, Encode(reply), reply.correlation_id);
+}
+
+void Answers::Send(const DiagnoseProgress& progress) {
+  Send(diagnose_progress_writer_, Encode(progress), progress.correlation_id);
+}
+
+void Answers::Send(const DiagnoseReply& reply) {
+  Send(diagnose_reply_writer_, Encode(reply), reply.correlation_id);
 }
 
 template <class Wire>

@@ -8,15 +8,17 @@
 
 namespace telltale {
 
-/// What goes back to those who asked for an identification. Safe to use from several threads; never
-/// blocks for longer than the contract's 100 ms and never throws: what could not be sent is logged,
-/// and a client that missed something asks again.
+/// What goes back to those who asked for an identification or a diagnosis. Safe to use from several
+/// threads; never blocks for longer than the contract's 100 ms and never throws: what could not be
+/// sent is logged, and a client that missed something asks again.
 class Answers {
  public:
   explicit Answers(const Participant& participant);
 
   void Send(const IdentifyProgress& progress);
   void Send(const IdentifyReply& reply);
+  void Send(const DiagnoseProgress& progress);
+  void Send(const DiagnoseReply& reply);
 
  private:
   template <class Wire>
@@ -25,6 +27,8 @@ class Answers {
 
   Writer<telltale_wire_IdentifyProgress> progress_writer_;
   Writer<telltale_wire_IdentifyReply> reply_writer_;
+  Writer<telltale_wire_DiagnoseProgress> diagnose_progress_writer_;
+  Writer<telltale_wire_DiagnoseReply> diagnose_reply_writer_;
 };
 
 }  // namespace telltale

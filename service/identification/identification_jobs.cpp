@@ -1,44 +1,12 @@
 #include "identification/identification_jobs.hpp"
 
 #include <algorithm>
-#include <chrono>
-#include <exception>
+#include <thread>
 #include <utility>
-
-#include <spdlog/spdlog.h>
 
 #include "monitoring/prediction_error.hpp"
 
 namespace telltale {
-namespace {
-
-using Clock = std::chrono::steady_clock;
-
-// Replies hold models of some ten kilobytes; whoever asks again does so within seconds.
-constexpr std::size_t kRememberedReplies = 256;
-
-constexpr double kReportedStep = 0.02;
-
-/// Unwinds an identification when the daemon stops.
-struct Stopping : std::exception {
-  const char* what() const noexcept override { return "the daemon is stopping"; }
-};
-
-IdentifyReply ReplyTo(const IdentifyRequest& request, IdentifyOutcome outcome,
-                      std::string message = {}) {
-  IdentifyReply reply;
-  reply.correlation_id = request.correlation_id;
-  reply.vehicle_id = request.vehicle_id;
-  reply.outcome = outcome;
-  reply.message = std::move(message);
-  return reply;
-}
-
-IdentifyReply Failed(const IdentifyRequest& request, std::string message) {
-  return ReplyTo(request, IdentifyOutcome::kFailed, std::move(message));
-}
-
-}  // namespace
 
 IdentifyOptions OptionsOf(const IdentifyRequest& request, const IdentificationSettings& settings) {
   IdentifyOptions options;
@@ -74,140 +42,39 @@ IdentifyOptions OptionsOf(const IdentifyRequest& request, const IdentificationSe
   return options;
 }
 
-IdentificationJobs::IdentificationJobs(Fleet& fleet, PublishedModels& models, Answers& answers,
+IdentificationJobs::IdentificationJobs(const Fleet& fleet, PublishedModels& models,
+                                       HealthyRecordings& healthy, Answers& answers,
                                        const IdentificationSettings& settings)
-    : fleet_(fleet), models_(models), answers_(answers), settings_(settings) {
-  for (std::uint32_t i = 0; i < settings.workers; ++i) {
-    workers_.emplace_back([this] { Work(); });
-  }
-}
+    : fleet_(fleet),
+      models_(models),
+      healthy_(healthy),
+      settings_(settings),
+      jobs_("identification", fleet, answers, settings.workers, settings.queue_limit,
+            [this](const IdentifyRequest& request, const Progress& progress) {
+              return IdentifyAndPublish(request, progress);
+            }) {}
 
-IdentificationJobs::~IdentificationJobs() {
-  {
-    const std::lock_guard lock(mutex_);
-    stopping_ = true;
-  }
-  changed_.notify_all();
-  for (std::thread& worker : workers_) worker.join();
-  for (const IdentifyRequest& request : queue_) answers_.Send(Failed(request, Stopping().what()));
-}
-
-void IdentificationJobs::Submit(IdentifyRequest request) {
-  std::unique_lock lock(mutex_);
-  if (const auto done = finished_.find(request.correlation_id); done != finished_.end()) {
-    const IdentifyReply reply = done->second;
-    lock.unlock();
-    return answers_.Send(reply);
-  }
-  if (const auto known = unfinished_.find(request.correlation_id); known != unfinished_.end()) {
-    const IdentifyProgress progress = known->second;
-    lock.unlock();
-    return answers_.Send(progress);
-  }
-  if (fleet_.Find(request.vehicle_id) == nullptr) {
-    lock.unlock();
-    return answers_.Send(Failed(request, "vehicle '" + request.vehicle_id +
-                                             "' is not served here; served: " + fleet_.Served()));
-  }
-  if (queue_.size() >= settings_.queue_limit) {
-    lock.unlock();
-    return answers_.Send(Failed(request, std::to_string(settings_.queue_limit) +
-                                             " identifications are waiting already; ask later"));
-  }
-  const IdentifyProgress progress{request.correlation_id, request.vehicle_id, "queued", 0.0};
-  unfinished_.emplace(request.correlation_id, progress);
-  queue_.push_back(std::move(request));
-  lock.unlock();
-  changed_.notify_one();
-  answers_.Send(progress);
-}
-
-void IdentificationJobs::Work() {
-  std::unique_lock lock(mutex_);
-  for (;;) {
-    changed_.wait(lock, [this] { return stopping_ || NextRunnable() != queue_.end(); });
-    if (stopping_) return;
-    const auto next = NextRunnable();
-    const IdentifyRequest request = std::move(*next);
-    queue_.erase(next);
-    running_vehicles_.insert(request.vehicle_id);
-    lock.unlock();
-    const IdentifyReply reply = Answer(request);
-    lock.lock();
-    running_vehicles_.erase(request.vehicle_id);
-    unfinished_.erase(request.correlation_id);
-    Remember(reply);
-    lock.unlock();
-    changed_.notify_all();
-    answers_.Send(reply);
-    lock.lock();
-  }
-}
-
-IdentificationJobs::Queue::iterator IdentificationJobs::NextRunnable() {
-  return std::ranges::find_if(queue_, [this](const IdentifyRequest& request) {
-    return !running_vehicles_.contains(request.vehicle_id);
-  });
-}
-
-IdentifyReply IdentificationJobs::Answer(const IdentifyRequest& request) {
-  const auto start = Clock::now();
-  IdentifyReply reply;
-  try {
-    reply = IdentifyAndPublish(request);
-  } catch (const std::exception& error) {
-    reply = Failed(request, error.what());
-  }
-  reply.elapsed_s = std::chrono::duration<double>(Clock::now() - start).count();
-  spdlog::info("identification of {} for {}: {} in {:.3f} s {}", request.vehicle_id,
-               request.correlation_id, Name(reply.outcome), reply.elapsed_s, reply.message);
-  return reply;
-}
-
-IdentifyReply IdentificationJobs::IdentifyAndPublish(const IdentifyRequest& request) {
+IdentifyReply IdentificationJobs::IdentifyAndPublish(const IdentifyRequest& request,
+                                                     const Progress& progress) {
   const IdentifyOptions options = OptionsOf(request, settings_);
   if (const auto fault = options.Validate()) {
-    return Failed(request, fault->subject + ": " + fault->reason + "; " + fault->advice);
+    return ReplyTo<IdentifyReply>(request, IdentifyOutcome::kFailed,
+                                  fault->subject + ": " + fault->reason + "; " + fault->advice);
   }
   VehicleWindow& window = *fleet_.Find(request.vehicle_id);
   const Recording recording = window.Snapshot();
-  const auto identification =
-      Identify(recording, window.vehicle(), options,
-               [&](std::string_view stage, double fraction) { Report(request, stage, fraction); });
+  const auto identification = Identify(recording, window.vehicle(), options, progress);
   if (!identification) {
-    IdentifyReply reply = ReplyTo(request, IdentifyOutcome::kRefused);
+    auto reply = ReplyTo<IdentifyReply>(request, IdentifyOutcome::kRefused);
     reply.refusals.push_back(identification.error());
     return reply;
   }
-  Report(request, "publish", 1.0);
-  IdentifyReply reply = ReplyTo(request, IdentifyOutcome::kPublished);
+  progress("publish", 1.0);
+  auto reply = ReplyTo<IdentifyReply>(request, IdentifyOutcome::kPublished);
   reply.model = models_.Publish(*identification,
                                 MeasureFreeRunError(recording, window.vehicle(), *identification));
+  healthy_.Keep(request.vehicle_id, reply.model->revision, recording);
   return reply;
-}
-
-void IdentificationJobs::Report(const IdentifyRequest& request, std::string_view stage,
-                                double fraction) {
-  if (stopping_) throw Stopping();
-  IdentifyProgress progress;
-  {
-    const std::lock_guard lock(mutex_);
-    IdentifyProgress& last = unfinished_.find(request.correlation_id)->second;
-    if (last.stage == stage && fraction - last.fraction < kReportedStep) return;
-    last.stage = stage;
-    last.fraction = std::clamp(fraction, 0.0, 1.0);
-    progress = last;
-  }
-  answers_.Send(progress);
-}
-
-void IdentificationJobs::Remember(const IdentifyReply& reply) {
-  finished_.insert_or_assign(reply.correlation_id, reply);
-  finished_order_.push_back(reply.correlation_id);
-  if (finished_order_.size() > kRememberedReplies) {
-    finished_.erase(finished_order_.front());
-    finished_order_.pop_front();
-  }
 }
 
 }  // namespace telltale

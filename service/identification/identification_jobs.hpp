@@ -1,22 +1,14 @@
 #pragma once
 
-#include <atomic>
-#include <condition_variable>
-#include <cstddef>
-#include <deque>
-#include <map>
-#include <mutex>
-#include <optional>
-#include <set>
-#include <string>
-#include <thread>
-#include <vector>
+#include <utility>
 
 #include "codec/daemon_config.hpp"
 #include "codec/messages.hpp"
+#include "diagnosis/healthy_recordings.hpp"
 #include "identification/answers.hpp"
 #include "identification/identify.hpp"
 #include "ingest/fleet.hpp"
+#include "jobs/job_queue.hpp"
 #include "models/published_models.hpp"
 
 namespace telltale {
@@ -24,44 +16,23 @@ namespace telltale {
 /// The request's wishes, and the daemon's settings and defaults for the rest.
 IdentifyOptions OptionsOf(const IdentifyRequest& request, const IdentificationSettings& settings);
 
-/// Identifies on request, on worker threads. A bounded queue; one identification at a time for each
-/// vehicle; every correlation id is worked on once: asked again it is told how far the work is, or
-/// given its reply again. Whatever goes wrong in one identification ends in its reply.
+/// Identifies vehicles from their windows on request, and publishes their models.
 class IdentificationJobs {
  public:
-  IdentificationJobs(Fleet& fleet, PublishedModels& models, Answers& answers,
-                     const IdentificationSettings& settings);
-  IdentificationJobs(const IdentificationJobs&) = delete;
-  IdentificationJobs& operator=(const IdentificationJobs&) = delete;
-  ~IdentificationJobs();  ///< breaks off what is running and ends the workers
+  IdentificationJobs(const Fleet& fleet, PublishedModels& models, HealthyRecordings& healthy,
+                     Answers& answers, const IdentificationSettings& settings);
 
   /// Takes a request in and returns; the answer goes out through Answers.
-  void Submit(IdentifyRequest request);
+  void Submit(IdentifyRequest request) { jobs_.Submit(std::move(request)); }
 
  private:
-  using Queue = std::deque<IdentifyRequest>;
+  IdentifyReply IdentifyAndPublish(const IdentifyRequest& request, const Progress& progress);
 
-  void Work();
-  Queue::iterator NextRunnable();
-  IdentifyReply Answer(const IdentifyRequest& request);
-  IdentifyReply IdentifyAndPublish(const IdentifyRequest& request);
-  void Report(const IdentifyRequest& request, std::string_view stage, double fraction);
-  void Remember(const IdentifyReply& reply);
-
-  Fleet& fleet_;
+  const Fleet& fleet_;
   PublishedModels& models_;
-  Answers& answers_;
+  HealthyRecordings& healthy_;
   const IdentificationSettings settings_;
-
-  std::mutex mutex_;
-  std::condition_variable changed_;
-  Queue queue_;
-  std::map<std::string, IdentifyProgress> unfinished_;  ///< by correlation id, queued or running
-  std::set<std::string> running_vehicles_;
-  std::map<std::string, IdentifyReply> finished_;  ///< by correlation id, the latest few
-  std::deque<std::string> finished_order_;
-  std::atomic<bool> stopping_ = false;
-  std::vector<std::thread> workers_;
+  JobQueue<IdentifyRequest, IdentifyProgress, IdentifyReply> jobs_;  // last: its threads use these
 };
 
 }  // namespace telltale

@@ -35,7 +35,11 @@ Ingest::Ingest(const Participant& participant, Fleet& fleet, Handlers handlers)
           participant, news_, [this](const auto& wire) { Route(Channel::kThrusters, wire); },
           kLongestSilence),
       requests_(
-          participant, news_, [this](const auto& wire) { Submit(wire); }, kLongestSilence),
+          participant, news_, [this](const auto& wire) { Submit(wire, handlers_.identify); },
+          kLongestSilence),
+      diagnose_requests_(
+          participant, news_, [this](const auto& wire) { Submit(wire, handlers_.diagnose); },
+          kLongestSilence),
       thread_([this] { Run(); }) {}
 
 Ingest::~Ingest() {
@@ -69,6 +73,7 @@ void Ingest::Beat() {
   tend(heading_, "heading");
   tend(thrusters_, "thrusters");
   tend(requests_, "identify requests");
+  tend(diagnose_requests_, "diagnose requests");
 }
 
 template <class Wire>
@@ -91,10 +96,11 @@ void Ingest::Stray(Channel channel, StrayReason reason, std::string_view detail)
   }
 }
 
-void Ingest::Submit(const telltale_wire_IdentifyRequest& wire) {
+template <class Wire, class Handler>
+void Ingest::Submit(const Wire& wire, const Handler& handler) {
   auto request = Decode(wire);
   if (request) {
-    handlers_.identify(std::move(*request));
+    handler(std::move(*request));
   } else if (const auto held_back = complaints_.Admit(Clock::now())) {
     spdlog::warn("request set aside: {} ({} more not shown)", request.error().Message(),
                  *held_back);

@@ -21,6 +21,7 @@ class Ingest {
  public:
   struct Handlers {
     std::function<void(IdentifyRequest)> identify;      ///< must return at once
+    std::function<void(DiagnoseRequest)> diagnose;      ///< likewise
     std::function<void()> beat;                         ///< every second while the loop is at work
     std::function<void(const std::exception&)> failed;  ///< the loop has ended; nothing comes in
   };
@@ -36,7 +37,8 @@ class Ingest {
   template <class Wire>
   void Route(Channel channel, const Wire& wire);
   void Stray(Channel channel, StrayReason reason, std::string_view detail);
-  void Submit(const telltale_wire_IdentifyRequest& wire);
+  template <class Wire, class Handler>
+  void Submit(const Wire& wire, const Handler& handler);
 
   Fleet& fleet_;
   Handlers handlers_;
@@ -46,6 +48,7 @@ class Ingest {
   WatchedReader<telltale_wire_Heading> heading_;
   WatchedReader<telltale_wire_Thrusters> thrusters_;
   WatchedReader<telltale_wire_IdentifyRequest> requests_;
+  WatchedReader<telltale_wire_DiagnoseRequest> diagnose_requests_;
   std::atomic<bool> stopping_ = false;
   std::thread thread_;
 };

@@ -94,6 +94,7 @@ Quality QualityMonitor::Assess(VehicleWindow& window, Memory& memory, double ela
     quality.model_age_s = UnixNow() - latest->model.published_unix_s;
     quality.prediction_error = memory.prediction_error.value_or(0.0);
     quality.drift = memory.drift;
+    quality.proposal = Propose(quality, memory);
   }
   return quality;
 }
@@ -111,6 +112,7 @@ void QualityMonitor::Evaluate(VehicleWindow& window, const WindowState& state,
   if (std::exchange(memory.evaluated_revision, revision) != revision) {
     memory.prediction_error.reset();
     memory.drift = 0.0;
+    memory.drift_test = DriftTest();
   } else if (state.end_s < memory.evaluated_to_s + kNewDataS) {
     return;
   }
@@ -123,6 +125,23 @@ void QualityMonitor::Evaluate(VehicleWindow& window, const WindowState& state,
     memory.drift += kDriftWeight * (relative - *memory.prediction_error - memory.drift);
   }
   memory.prediction_error = relative;
+  memory.drift_test.Add(relative);
+}
+
+std::string QualityMonitor::Propose(const Quality& quality, Memory& memory) {
+  const bool fires = memory.drift_test.Fires();
+  std::string proposal;
+  if (fires) {
+    proposal = fmt::format(
+        "revision {} predicts {:.1f} times worse than when it was made; "
+        "telltale diagnose --vehicle-id {} asks why",
+        *quality.model_revision, quality.prediction_error, quality.vehicle_id);
+  }
+  if (fires && !std::exchange(memory.proposed, fires)) {
+    spdlog::warn("{}: {}", quality.vehicle_id, proposal);
+  }
+  memory.proposed = fires;
+  return proposal;
 }
 
 }  // namespace telltale

@@ -14,6 +14,7 @@
 #include "codec/messages.hpp"
 #include "ingest/fleet.hpp"
 #include "models/published_models.hpp"
+#include "monitoring/drift_test.hpp"
 #include "monitoring/live_feed.hpp"
 
 namespace telltale {
@@ -37,6 +38,8 @@ class QualityMonitor {
     std::uint64_t evaluated_revision = 0;  ///< of the model evaluated
     std::optional<double> prediction_error;
     double drift = 0.0;
+    DriftTest drift_test;
+    bool proposed = false;  ///< a diagnosis, by the log
     LiveFeed live;
     std::vector<IndicativeCoefficient> indicative;
   };
@@ -47,6 +50,7 @@ class QualityMonitor {
   static void Follow(VehicleWindow& window, const WindowState& state, Memory& memory);
   void Evaluate(VehicleWindow& window, const WindowState& state, const StoredModel& model,
                 Memory& memory);
+  static std::string Propose(const Quality& quality, Memory& memory);
 
   Fleet& fleet_;
   PublishedModels& models_;

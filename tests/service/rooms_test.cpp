@@ -6,12 +6,15 @@
 #include <gtest/gtest.h>
 
 #include "codec/model_json.hpp"
+#include "diagnosis/healthy_recordings.hpp"
+#include "diagnosis/live_case.hpp"
 #include "identification/identification_jobs.hpp"
 #include "ingest/fleet.hpp"
 #include "ingest/sequence_gaps.hpp"
 #include "ingest/vehicle_window.hpp"
 #include "models/model_store.hpp"
 #include "models/predecessor.hpp"
+#include "monitoring/drift_test.hpp"
 #include "monitoring/live_feed.hpp"
 #include "monitoring/prediction_error.hpp"
 #include "simulation/yellowfish.hpp"
@@ -253,6 +256,111 @@ TEST(LiveFeed, IsDueAfterSomeSecondsOrANewClock) {
   EXPECT_FALSE(feed.IsDue(62.0));
   EXPECT_TRUE(feed.IsDue(65.0));
   EXPECT_TRUE(feed.IsDue(3.0));
+}
+
+// ---- what a live diagnosis is about -------------------------------------------------------------
+
+/// A fix a second of [start_s, end_s].
+Recording FixesOf(double start_s, double end_s) {
+  Recording recording;
+  for (double t = start_s; t <= end_s; t += 1.0) recording.gnss.push_back({t, 0.0, 0.0});
+  return recording;
+}
+
+PublishedModel ModelMadeOf(double start_s, double end_s) {
+  PublishedModel model{MadeUpIdentification(), 3, 0.0};
+  model.identification.window.start_s = start_s;
+  model.identification.window.end_s = end_s;
+  return model;
+}
+
+TEST(LiveCase, IsWhatCameSinceTheModelAgainstWhatMadeIt) {
+  const auto live = CaseOf(FixesOf(0.0, 500.0), ModelMadeOf(100.0, 400.0), std::nullopt);
+  ASSERT_TRUE(live);
+  EXPECT_EQ(live->since.gnss.front().time_s, 401.0);
+  EXPECT_EQ(live->since.gnss.back().time_s, 500.0);
+  ASSERT_TRUE(live->healthy);
+  EXPECT_EQ(live->healthy->gnss.front().time_s, 100.0);
+  EXPECT_EQ(live->healthy->gnss.back().time_s, 400.0);
+  EXPECT_NE(live->basis.find("300 s behind revision 3"), std::string::npos) << live->basis;
+}
+
+TEST(LiveCase, TakesTheRecordingBehindTheModelWhereItIsAtHand) {
+  const auto live =
+      CaseOf(FixesOf(4000.0, 4500.0), ModelMadeOf(100.0, 400.0), FixesOf(100.0, 400.0));
+  ASSERT_TRUE(live);
+  EXPECT_EQ(live->since.gnss.size(), 501u);
+  ASSERT_TRUE(live->healthy);
+  EXPECT_EQ(live->healthy->gnss.size(), 301u);
+}
+
+TEST(LiveCase, SaysWhereNothingHealthyIsAtHand) {
+  const auto live = CaseOf(FixesOf(390.0, 500.0), ModelMadeOf(100.0, 400.0), std::nullopt);
+  ASSERT_TRUE(live);
+  EXPECT_FALSE(live->healthy);
+  EXPECT_NE(live->basis.find("sensor noise"), std::string::npos) << live->basis;
+}
+
+TEST(LiveCase, AWindowThatEndsBeforeTheModelsDataIsOfAnotherClock) {
+  const auto live = CaseOf(FixesOf(0.0, 100.0), ModelMadeOf(1000.0, 1400.0), std::nullopt);
+  ASSERT_TRUE(live);
+  EXPECT_EQ(live->since.gnss.size(), 101u);
+  EXPECT_FALSE(live->healthy);
+}
+
+TEST(LiveCase, IsRefusedWhereTooLittleCameSince) {
+  for (const double end_s : {400.0, 459.0}) {
+    const auto live = CaseOf(FixesOf(0.0, end_s), ModelMadeOf(100.0, 400.0), std::nullopt);
+    ASSERT_FALSE(live);
+    EXPECT_NE(live.error().reason.find("revision 3"), std::string::npos);
+  }
+  EXPECT_FALSE(CaseOf(Recording(), ModelMadeOf(100.0, 400.0), std::nullopt));
+}
+
+TEST(HealthyRecordings, KeepThatOfTheNewestRevision) {
+  HealthyRecordings healthy;
+  EXPECT_FALSE(healthy.Behind("boat", 1));
+  healthy.Keep("boat", 1, FixesOf(0.0, 9.0));
+  healthy.Keep("boat", 2, FixesOf(0.0, 99.0));
+  EXPECT_FALSE(healthy.Behind("boat", 1));
+  EXPECT_FALSE(healthy.Behind("another", 2));
+  ASSERT_TRUE(healthy.Behind("boat", 2));
+  EXPECT_EQ(healthy.Behind("boat", 2)->gnss.size(), 100u);
+}
+
+/// Evaluations, five seconds apart, until the test fires; none: not within an hour.
+std::optional<int> EvaluationsUntilDrift(double relative_error) {
+  DriftTest test;
+  for (int i = 1; i <= 720; ++i) {
+    test.Add(relative_error);
+    if (test.Fires()) return i;
+  }
+  return std::nullopt;
+}
+
+TEST(DriftTest, FiresTheSoonerTheWorseAndNeverWithinBounds) {
+  EXPECT_EQ(EvaluationsUntilDrift(3.0), 6);   // 9 / 1.5
+  EXPECT_EQ(EvaluationsUntilDrift(2.0), 18);  // 9 / 0.5
+  EXPECT_EQ(EvaluationsUntilDrift(1.5), std::nullopt);
+  EXPECT_EQ(EvaluationsUntilDrift(std::nan("")), std::nullopt);
+  EXPECT_EQ(EvaluationsUntilDrift(HUGE_VAL), 1);
+}
+
+TEST(DriftTest, OneBadMinuteIsNoDrift) {
+  DriftTest test;
+  for (int i = 0; i < 1000; ++i) {
+    test.Add(i % 12 == 0 ? 4.0 : 1.0);
+    EXPECT_FALSE(test.Fires()) << i;
+  }
+}
+
+TEST(DriftTest, EndsOnceTheErrorHasBeenSmallAgain) {
+  DriftTest test;
+  for (int i = 0; i < 100; ++i) test.Add(5.0);
+  EXPECT_TRUE(test.Fires());
+  int until = 0;
+  for (; test.Fires() && until < 100; ++until) test.Add(1.0);
+  EXPECT_EQ(until, 36);  // 18 / 0.5
 }
 
 TEST(IdentificationOptions, AreTheRequestsWishesOverTheDaemonsDefaults) {

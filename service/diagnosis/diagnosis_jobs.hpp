@@ -1,0 +1,44 @@
+#pragma once
+
+#include <utility>
+
+#include "bus/participant.hpp"
+#include "bus/writer.hpp"
+#include "codec/daemon_config.hpp"
+#include "codec/messages.hpp"
+#include "diagnosis/diagnose.hpp"
+#include "diagnosis/healthy_recordings.hpp"
+#include "identification/answers.hpp"
+#include "ingest/fleet.hpp"
+#include "jobs/job_queue.hpp"
+#include "models/published_models.hpp"
+
+namespace telltale {
+
+/// Holds what vehicles did since their newest model was made against that model, on request, one
+/// vehicle at a time, and publishes the diagnoses.
+class DiagnosisJobs {
+ public:
+  DiagnosisJobs(const Participant& participant, const Fleet& fleet, const PublishedModels& models,
+                const HealthyRecordings& healthy, Answers& answers,
+                const IdentificationSettings& settings);
+
+  /// Takes a request in and returns; the answer goes out through Answers.
+  void Submit(DiagnoseRequest request) { jobs_.Submit(std::move(request)); }
+
+ private:
+  DiagnoseReply DiagnoseAndPublish(const DiagnoseRequest& request, const Progress& progress);
+  Result<PublishedDiagnosis> DiagnoseWindow(const DiagnoseRequest& request,
+                                            const DiagnoseOptions& options,
+                                            const Progress& progress) const;
+  void Announce(const PublishedDiagnosis& diagnosis);
+
+  const Fleet& fleet_;
+  const PublishedModels& models_;
+  const HealthyRecordings& healthy_;
+  const IdentificationSettings settings_;
+  Writer<telltale_wire_Diagnosis> writer_;
+  JobQueue<DiagnoseRequest, DiagnoseProgress, DiagnoseReply> jobs_;  // last: its thread uses these
+};
+
+}  // namespace telltale

@@ -1,0 +1,127 @@
+#include <chrono>
+#include <optional>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "codec/report_json.hpp"
+#include "fleet/diagnosis_client.hpp"
+#include "fleet/subscriber.hpp"
+#include "recording/files.hpp"
+#include "service/service_fixture.hpp"
+#include "support/boats.hpp"
+
+namespace telltale {
+namespace {
+
+using namespace std::chrono_literals;
+using ::testing::Contains;
+using ::testing::HasSubstr;
+
+class LiveDiagnosis : public ServiceTest {
+ protected:
+  /// A model of the first five minutes; then two minutes in which the propellers give less.
+  void SailAndWearOut(double thrust_left) const {
+    Replay(SimulatedRecording(testing::StableBoat(), 0.0, 300.0, 1));
+    ASSERT_EQ(Start({"identify", "--vehicle-id", kVehicleId})->Wait(), 0);
+    VesselModel worn = testing::StableBoat();
+    for (std::size_t j = 0; j < 3; ++j) worn.theta[j].tail(4) *= thrust_left;
+    Replay(SimulatedRecording(worn, 301.0, 120.0, 2));
+  }
+
+  DiagnoseRequest Wanted(const std::string& correlation_id) const {
+    DiagnoseRequest request;
+    request.correlation_id = correlation_id;
+    request.vehicle_id = kVehicleId;
+    return request;
+  }
+
+  static constexpr ExchangeTiming kTiming{.match = 20s, .reply = 300s, .retry = 1s};
+};
+
+TEST_F(LiveDiagnosis, HoldsWhatCameSinceTheModelAgainstItAndPublishes) {
+  const auto daemon = StartDaemon();
+  SailAndWearOut(0.6);
+  const auto file = folder_.Path() / "report.json";
+  const auto page = folder_.Path() / "report.html";
+  const auto diagnose =
+      Start({"diagnose", "--vehicle-id", kVehicleId, "--out", file, "--html", page});
+  ASSERT_EQ(diagnose->Wait(), 0) << diagnose->output() << daemon->output();
+  EXPECT_THAT(diagnose->output(), HasSubstr("Held against revision 1 of yellowfish"));
+  const auto text = ReadFile(file);
+  ASSERT_TRUE(text);
+  const auto report = ParseReportJson(*text);
+  ASSERT_TRUE(report) << report.error().Message();
+  EXPECT_EQ(report->vehicle_id, kVehicleId);
+  EXPECT_NEAR(report->start_s, 301.0, 10.0);
+  EXPECT_NEAR(report->end_s, 421.0, 10.0);
+  EXPECT_EQ(report->floor_basis, FloorBasis::kReferenceLogs);
+  EXPECT_THAT(report->notes, Contains(HasSubstr("behind revision 1")));
+  EXPECT_TRUE(std::filesystem::exists(page));
+
+  // Who joins late is given the last diagnosis.
+  const Participant participant(domain_.id());
+  std::optional<PublishedDiagnosis> published;
+  DiagnosisSubscriber diagnoses(
+      participant, [&](const PublishedDiagnosis& diagnosis) { published = diagnosis; },
+      [](const CodecError& error) { ADD_FAILURE() << error.Message(); });
+  const auto deadline = std::chrono::steady_clock::now() + 20s;
+  while (!published && std::chrono::steady_clock::now() < deadline) diagnoses.Wait(1s);
+  ASSERT_TRUE(published);
+  EXPECT_EQ(published->model_revision, 1u);
+  EXPECT_EQ(PrintReportJson(published->diagnosis), *text);
+}
+
+TEST_F(LiveDiagnosis, AnswersACorrelationIdOnceAndTellsHowFarItIs) {
+  const auto daemon = StartDaemon();
+  SailAndWearOut(1.0);
+  const Participant participant(domain_.id());
+  DiagnosisClient client(participant);
+  std::vector<std::string> stages;
+  const auto first =
+      client.Diagnose(Wanted("the-same"), kTiming,
+                      [&](const DiagnoseProgress& progress) { stages.push_back(progress.stage); });
+  const auto again = client.Diagnose(Wanted("the-same"), kTiming);
+  ASSERT_EQ(first.outcome, ExchangeOutcome::kPublished) << daemon->output();
+  ASSERT_EQ(again.outcome, ExchangeOutcome::kPublished);
+  EXPECT_EQ(again.reply->elapsed_s, first.reply->elapsed_s);
+  EXPECT_THAT(stages, Contains("queued"));
+}
+
+TEST_F(LiveDiagnosis, IsRefusedWithoutAModelAndWithoutDataOfItsOwn) {
+  const auto daemon = StartDaemon();
+  const auto unmodelled = Start({"diagnose", "--vehicle-id", kVehicleId});
+  EXPECT_EQ(unmodelled->Wait(), 3);
+  EXPECT_THAT(unmodelled->output(), HasSubstr("identify it first"));
+  ReplaySimulation();
+  ASSERT_EQ(Start({"identify", "--vehicle-id", kVehicleId})->Wait(), 0);
+  const auto same_data = Start({"diagnose", "--vehicle-id", kVehicleId});
+  EXPECT_EQ(same_data->Wait(), 3);
+  EXPECT_THAT(same_data->output(), HasSubstr("since revision 1"));
+  const auto nobody = Start({"diagnose", "--vehicle-id", "nobody"});
+  EXPECT_EQ(nobody->Wait(), 1);
+  EXPECT_THAT(nobody->output(), HasSubstr("'nobody' is not served here; served: yellowfish"));
+}
+
+TEST_F(LiveDiagnosis, IsMissedWhereThereIsNoDaemon) {
+  const auto diagnose = Start({"diagnose", "--vehicle-id", kVehicleId, "--timeout", "0.2"});
+  EXPECT_EQ(diagnose->Wait(), 1);
+  EXPECT_THAT(diagnose->output(), HasSubstr("is telltaled running on domain"));
+}
+
+// The propellers give almost nothing any more: the model keeps predicting that they do.
+TEST_F(LiveDiagnosis, IsProposedWhereTheModelNoLongerFits) {
+  const auto daemon = StartDaemon();
+  SailAndWearOut(0.1);
+  const auto quality =
+      AwaitQuality(kVehicleId, [](const Quality& q) { return !q.proposal.empty(); });
+  ASSERT_TRUE(quality) << daemon->output();
+  EXPECT_THAT(quality->proposal, HasSubstr("telltale diagnose --vehicle-id yellowfish"));
+  EXPECT_TRUE(daemon->WaitForOutput("times worse than when it was made"));
+  const auto monitor = Start({"monitor", "--once"});
+  EXPECT_EQ(monitor->Wait(), 0);
+  EXPECT_THAT(monitor->output(), HasSubstr("telltale diagnose"));
+}
+
+}  // namespace
+}  // namespace telltale
