@@ -17,11 +17,13 @@
 #include "diagnosis/testability.hpp"
 #include "diagnosis/where.hpp"
 #include "diagnosis/wiring.hpp"
+#include "range.hpp"
 #include "simulation/dataset_twin.hpp"
 
 namespace telltale {
 namespace {
 
+constexpr std::string_view kSubject = "options";
 constexpr std::array kHorizonsS = {1.0, 5.0, 10.0};
 constexpr double kMainHorizonS = 5.0;
 constexpr std::size_t kTwins = 4;
@@ -401,13 +403,10 @@ class Diagnosing {
 }  // namespace
 
 std::optional<Refusal> DiagnoseOptions::Validate() const {
-  const auto out_of_range = [](std::string field, std::size_t value, std::string range) {
-    return Refusal{std::move(field), std::to_string(value) + " is out of range", "choose " + range};
-  };
-  if (most_effects < 1 || most_effects > 3) {
-    return out_of_range("most_effects", most_effects, "from 1 to 3");
-  }
-  if (threads < 1 || threads > 256) return out_of_range("threads", threads, "from 1 to 256");
+  auto refusal = OutOfRange(kSubject, "most_effects", static_cast<double>(most_effects), 1.0, 3.0);
+  if (refusal) return refusal;
+  refusal = OutOfRange(kSubject, "threads", static_cast<double>(threads), 1.0, 256.0);
+  if (refusal) return refusal;
   for (const std::string& name : without) {
     if (FindEffect(name) != nullptr) continue;
     std::string known;

@@ -24,6 +24,7 @@ class FreeRuns {
  public:
   /// Requires: a model with all three equations; horizon_s > 0. The dataset has to live on.
   FreeRuns(const PreparedDataset& dataset, const VesselModel& base, double horizon_s);
+  FreeRuns(const PreparedDataset&& dataset, const VesselModel& base, double horizon_s) = delete;
 
   std::size_t Windows() const { return windows_.size(); }
   Eigen::Index Rows() const { return 3 * bins_; }

@@ -104,7 +104,8 @@ Eigen::VectorXd SquaredGaps(const Eigen::MatrixXd& errors, const Eigen::VectorXd
   const Eigen::Index step = channel == kAllChannels ? 1 : 3;
   const Eigen::Index first = channel == kAllChannels ? 0 : channel;
   for (Eigen::Index i = first; i < errors.rows(); i += step) gaps += squares.row(i).transpose();
-  gaps /= static_cast<double>(errors.rows() / step);
+  const Eigen::Index looks = errors.rows() / step;
+  gaps /= static_cast<double>(looks);
   return gaps.cwiseMin(kMostSigmas * kMostSigmas);
 }
 

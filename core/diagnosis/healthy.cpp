@@ -260,7 +260,7 @@ Healthy LearnHealthy(const std::vector<FreeRuns>& recordings, const UncertainMod
       const Eigen::LLT<Eigen::MatrixXd> factor(healthy.covariance);
       std::vector<Eigen::MatrixXd> whitened;
       for (const Eigen::MatrixXd& residual : residuals) {
-        whitened.push_back(factor.matrixL().solve(residual));
+        whitened.emplace_back(factor.matrixL().solve(residual));
       }
       healthy.kappa = Kappa(whitened);
       fit.Take(sensitivities, factor, healthy.kappa);

@@ -27,6 +27,7 @@ Eigen::MatrixXd RootOf(const Eigen::MatrixXd& covariance) {
 Judge::Judge(const Healthy& healthy, const Sensitivity& recording, std::vector<std::size_t> windows,
              bool free_base)
     : windows_(std::move(windows)),
+      frees_base_(free_base),
       factor_(healthy.covariance),
       scale_(healthy.scale),
       kappa_(healthy.kappa) {
