@@ -17,15 +17,10 @@ Judge::Recalibration RecalibrationOf(const EffectFit& fit, const Evidence& evide
 
 AugmentedModel Reidentified(const EffectFit& fit, const Evidence& evidence,
                             const UncertainModel& model) {
-  AugmentedModel boat = evidence.healthy.boat;
   const Eigen::VectorXd change =
       RecalibrationOf(fit, evidence).change.cwiseProduct(model.StandardErrors());
-  for (std::size_t i = 0; i < model.free.size(); ++i) {
-    boat.model.theta[IndexOf(model.free[i].equation)][model.free[i].column] +=
-        change[static_cast<Eigen::Index>(i)];
-  }
-  boat.effects.insert(boat.effects.end(), fit.effects.begin(), fit.effects.end());
-  return boat;
+  const AugmentedModel& healthy = evidence.healthy.boat;
+  return AugmentedModel{model.Changed(healthy.model, change), healthy.effects}.With(fit.effects);
 }
 
 Identification Augmented(const Identification& old, const AugmentedModel& boat,

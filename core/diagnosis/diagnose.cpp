@@ -99,11 +99,12 @@ class Diagnosing {
     const Healthy healthy = LearnHealthy(healthy_at_[main_], model_, slots_, options_.threads);
     boat_ = healthy.boat;
     for (const std::vector<FreeRuns>& runs : healthy_at_) floors_.push_back(FloorOf(runs, boat_));
+    for (const FreeRuns& runs : runs_) errors_.push_back(runs.Errors(boat_));
     Tell("sensitivities", 0.35);
     const Sensitivity sensitivity =
         SensitivityOf(runs_[main_], healthy.boat, model_, slots_, options_.threads);
     const Judge judge(healthy, sensitivity, EveryWindow(sensitivity), options_.refit);
-    const Evidence evidence{runs_[main_], healthy, sensitivity, judge, slots_, healthy_at_[main_]};
+    const Evidence evidence{runs_[main_], healthy, sensitivity, judge, slots_};
     const Explanations explanations =
         Search(evidence, library_, options_.most_effects, options_.threads,
                [&](double share) { Tell("effects", 0.4 + 0.4 * share); });
@@ -144,38 +145,37 @@ class Diagnosing {
     return std::nullopt;
   }
 
-  Result<DiagnosedModel> Conclude(const Evidence& evidence, const Explanations& explanations) {
+  DiagnosedModel Conclude(const Evidence& evidence, const Explanations& explanations) {
     const EffectFit& best = BestOf(explanations);
     const FoldFits folds = FitOnFolds(best, evidence);
-    Remainder remainder;
-    const Eigen::VectorXd seen = evidence.judge.See(evidence.recording.errors);
-    const double none = evidence.judge.Square(seen);
-    remainder.log_before = std::log(evidence.judge.Leftover(seen));
-    remainder.log_leftover = remainder.log_before + std::log(best.square / none);
-    const auto& logs = evidence.healthy.log_leftovers;
-    remainder.healthy_mean =
-        std::accumulate(logs.begin(), logs.end(), 0.0) / static_cast<double>(logs.size());
-    Gap main = GapAt(main_, &folds);
-    if (main.closure) remainder.closure = main.closure->share;
-    const bool material =
-        IsMaterial(main.all.before * main.all.before, floors_[main_].SquaredLimit(kAllChannels),
-                   best.score, remainder);
-    Ranking ranking = Rank(explanations, evidence.judge, remainder);
+    const HeldOutErrors held = ErrorsHeldOut(folds, runs_[main_], boat_);
+    const std::optional<Closure> closure = ClosureAt(main_, held, kAllChannels);
+    const Remainder remainder = RemainderOf(best, held, evidence);
+    const Gate gate = GateAtMainHorizon(best, remainder);
+    const Ranking ranking = Rank(explanations, evidence.judge, remainder);
     DiagnosedModel diagnosed;
     Diagnosis& diagnosis = diagnosed.diagnosis;
-    diagnosis.verdict = VerdictOf(ranking, remainder, material, true);
+    diagnosis.verdict = VerdictOf(gate, ranking, closure);
     const bool named =
         diagnosis.verdict == Verdict::kExplained || diagnosis.verdict == Verdict::kPartlyExplained;
     for (std::size_t i = 0; i < runs_.size(); ++i) {
-      diagnosis.gaps.push_back(GapAt(i, named ? &folds : nullptr));
+      std::optional<HeldOutErrors> after;
+      if (named) after = i == main_ ? held : ErrorsHeldOut(folds, runs_[i], boat_);
+      diagnosis.gaps.push_back(GapAt(i, after));
     }
     diagnosis.effects = TestabilityOf(evidence, model_, library_);
-    if (material) {
+    if (gate == Gate::kMaterial) {
       Tell("where", 0.85);
       diagnosis.where = Localise(recording_, references_, boat_, options_.seed);
       diagnosis.rest = RestOf(diagnosis, best);
-      ListCauses(ranking, folds, evidence, diagnosis);
+      ListCauses(ranking, folds, closure, evidence, diagnosis);
       if (options_.advise) Advise(ranking, evidence.healthy, diagnosis);
+    }
+    if (gate == Gate::kUndecided) {
+      diagnosis.notes.emplace_back(
+          "No effect of the library explains enough of it, and weather or what the references "
+          "leave "
+          "open of the boat may account for it: record longer, or name more references.");
     }
     if (named) {
       diagnosis.onset = OnsetOf(best, evidence);
@@ -183,10 +183,30 @@ class Diagnosing {
       diagnosed.augmented = Augmented(identification_, boat, best, evidence, model_);
       diagnosis.improvement = ImprovementBy(boat);
     }
-    Draw(named ? &folds : nullptr, diagnosis);
+    Draw(named ? std::optional(held) : std::nullopt, folds.front(), diagnosis);
     Describe(diagnosis);
     Tell("done", 1.0);
     return diagnosed;
+  }
+
+  Gate GateAtMainHorizon(const EffectFit& best, const Remainder& remainder) const {
+    const Floor& floor = floors_[main_];
+    const Eigen::VectorXd gaps = SquaredGaps(errors_[main_], floor.scale, kAllChannels);
+    return GateOf(gaps.mean(), UpperBound(gaps, BlocksOf(runs_[main_]), options_.seed),
+                  floor.SquaredLimit(kAllChannels), best.score, remainder);
+  }
+
+  static Remainder RemainderOf(const EffectFit& best, const HeldOutErrors& held,
+                               const Evidence& evidence) {
+    const Judge& judge = evidence.judge;
+    const auto& logs = evidence.healthy.log_leftovers;
+    const double mean =
+        std::accumulate(logs.begin(), logs.end(), 0.0) / static_cast<double>(logs.size());
+    const bool shakes = best.effects.back().effect->Shakes();
+    return {
+        .before = judge.Leftover(judge.See(evidence.recording.errors)),
+        .after = shakes ? best.square / judge.Expected() : judge.Leftover(judge.See(held.errors)),
+        .healthy = std::exp(mean)};
   }
 
   static const EffectFit& BestOf(const Explanations& explanations) {
@@ -196,23 +216,19 @@ class Diagnosing {
                                                               : single;
   }
 
-  Gap GapAt(std::size_t horizon, const FoldFits* folds) const {
+  Gap GapAt(std::size_t horizon, const std::optional<HeldOutErrors>& after) const {
     const FreeRuns& runs = runs_[horizon];
     const Floor& floor = floors_[horizon];
-    const Eigen::MatrixXd errors = runs.Errors(boat_);
-    std::optional<HeldOutErrors> after;
-    if (folds != nullptr) after = ErrorsHeldOut(*folds, runs, boat_);
-    const auto blocks = BlocksOf(runs);
     Gap gap;
     gap.horizon_s = runs.HorizonS();
     gap.windows = runs.Windows();
     for (int channel = 0; channel <= kAllChannels; ++channel) {
-      const Eigen::VectorXd before = SquaredGaps(errors, floor.scale, channel);
+      const Eigen::VectorXd before = SquaredGaps(errors_[horizon], floor.scale, channel);
       const Eigen::VectorXd then =
           after ? SquaredGapsHeldOut(*after, runs, floor, channel) : before;
       const GapSize size = SizeOf(before, then, floor, channel);
       std::optional<Closure> closure;
-      if (after) closure = ClosureOf(before, then, blocks, floor, channel, options_.seed);
+      if (after) closure = ClosureAt(horizon, *after, channel);
       if (channel == kAllChannels) {
         gap.all = size;
         gap.closure = closure;
@@ -224,11 +240,17 @@ class Diagnosing {
     return gap;
   }
 
-  std::optional<Closure> ClosureBy(const FoldFits& folds) const {
-    return GapAt(main_, &folds).closure;
+  std::optional<Closure> ClosureAt(std::size_t horizon, const HeldOutErrors& after,
+                                   int channel) const {
+    const FreeRuns& runs = runs_[horizon];
+    const Floor& floor = floors_[horizon];
+    return ClosureOf(SquaredGaps(errors_[horizon], floor.scale, channel),
+                     SquaredGapsHeldOut(after, runs, floor, channel), BlocksOf(runs), floor,
+                     channel, options_.seed);
   }
 
-  void ListCauses(const Ranking& ranking, const FoldFits& best_folds, const Evidence& evidence,
+  void ListCauses(const Ranking& ranking, const FoldFits& best_folds,
+                  const std::optional<Closure>& best_closure, const Evidence& evidence,
                   Diagnosis& diagnosis) const {
     constexpr std::size_t kListed = 5;
     constexpr double kWorthListing = 0.001;
@@ -239,8 +261,14 @@ class Diagnosing {
       Cause& cause = diagnosis.causes.emplace_back();
       cause.probability = ranked.probability;
       cause.indistinguishable = ranked.Indistinguishable();
-      cause.effects = EffectsOf(ranked.fit, first ? &best_folds : nullptr, evidence);
-      cause.closure = ClosureBy(first ? best_folds : FitOnFolds(ranked.fit, evidence));
+      cause.effects = EffectsOf(ranked.fit);
+      if (first) {
+        if (cause.effects.size() > 1) ShareOut(best_folds, cause.effects);
+        cause.closure = best_closure;
+        continue;
+      }
+      const FoldFits folds = FitOnFolds(ranked.fit, evidence);
+      cause.closure = ClosureAt(main_, ErrorsHeldOut(folds, runs_[main_], boat_), kAllChannels);
     }
     Cause unknown;
     unknown.probability = ranking.unknown + ranking.nothing;
@@ -254,9 +282,7 @@ class Diagnosing {
     if (diagnosis.verdict == Verdict::kExplained) return "";
     std::vector<GapCell> cells = diagnosis.where;
     if (diagnosis.verdict == Verdict::kPartlyExplained) {
-      AugmentedModel with = boat_;
-      with.effects.insert(with.effects.end(), best.effects.begin(), best.effects.end());
-      cells = Localise(recording_, references_, with, options_.seed);
+      cells = Localise(recording_, references_, boat_.With(best.effects), options_.seed);
     }
     for (const GapCell& cell : cells) {
       if (!cell.region && cell.bin.empty()) continue;
@@ -279,8 +305,7 @@ class Diagnosing {
     }
   }
 
-  std::vector<CausalEffect> EffectsOf(const EffectFit& fit, const FoldFits* folds,
-                                      const Evidence& evidence) const {
+  static std::vector<CausalEffect> EffectsOf(const EffectFit& fit) {
     std::vector<CausalEffect> effects;
     Eigen::Index i = 0;
     for (const auto& [effect, values] : fit.effects) {
@@ -294,12 +319,11 @@ class Diagnosing {
                                      std::string(parameter.unit)});
       }
     }
-    if (folds != nullptr && effects.size() > 1) ShareOut(*folds, evidence, effects);
     return effects;
   }
 
   /// Shapley values: what each effect closes on average over the orders in which they may be added.
-  void ShareOut(const FoldFits& folds, const Evidence&, std::vector<CausalEffect>& effects) const {
+  void ShareOut(const FoldFits& folds, std::vector<CausalEffect>& effects) const {
     const FreeRuns& runs = runs_[main_];
     const std::size_t n = effects.size();
     std::vector<double> closed(std::size_t{1} << n);
@@ -340,20 +364,19 @@ class Diagnosing {
     return Improvement{before->free_run, after->free_run};
   }
 
-  void Draw(const FoldFits* folds, Diagnosis& diagnosis) const {
+  void Draw(const std::optional<HeldOutErrors>& held, const EffectFit& fit,
+            Diagnosis& diagnosis) const {
     const FreeRuns& runs = runs_[main_];
     const Floor& floor = floors_[main_];
-    const Eigen::MatrixXd errors = runs.Errors(boat_);
+    const Eigen::MatrixXd& errors = errors_[main_];
     const Eigen::VectorXd before = SquaredGaps(errors, floor.scale, kAllChannels);
     Eigen::VectorXd after = before;
     Eigen::MatrixXd errors_after = errors;
     AugmentedModel with = boat_;
-    if (folds != nullptr) {
-      const HeldOutErrors held = ErrorsHeldOut(*folds, runs, boat_);
-      after = SquaredGapsHeldOut(held, runs, floor, kAllChannels);
-      errors_after = held.errors;
-      with.effects.insert(with.effects.end(), folds->front().effects.begin(),
-                          folds->front().effects.end());
+    if (held) {
+      after = SquaredGapsHeldOut(*held, runs, floor, kAllChannels);
+      errors_after = held->errors;
+      with = boat_.With(fit.effects);
     }
     const auto tracks_before = runs.Tracks(boat_);
     const auto tracks_after = runs.Tracks(with);
@@ -398,6 +421,7 @@ class Diagnosing {
   std::vector<std::vector<FreeRuns>> healthy_at_;  ///< of the references, by horizon
   AugmentedModel boat_;                            ///< the model as healthy days recalibrate it
   std::vector<Floor> floors_;
+  std::vector<Eigen::MatrixXd> errors_;  ///< of the boat on the recording, by horizon
 };
 
 }  // namespace

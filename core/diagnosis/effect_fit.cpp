@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <optional>
 
 #include <Eigen/Cholesky>
@@ -15,6 +14,7 @@ constexpr double kDerivative = 0.05;  // step in scaled values
 constexpr int kMostIterations = 12;
 constexpr double kConverged = 0.01;  // of -2 ln evidence
 constexpr double kGiveUpDamping = 1e4;
+constexpr double kLeastLeft = 1e-3;  // of a square, by a guess that promises more than there is
 
 /// The stacked values of effects, scaled so that priors are of order one and bounds are known.
 class Unknowns {
@@ -97,16 +97,10 @@ class Fitting {
           const Unknowns& unknowns)
       : runs_(runs), boat_(boat), judge_(judge), unknowns_(unknowns) {}
 
-  AugmentedModel With(const std::vector<ModelledEffect>& effects) const {
-    AugmentedModel with = boat_;
-    with.effects.insert(with.effects.end(), effects.begin(), effects.end());
-    return with;
-  }
-
   Point At(const Eigen::VectorXd& scaled) const {
     Point point;
     point.scaled = scaled;
-    point.errors = runs_.Errors(With(unknowns_.Effects(scaled)));
+    point.errors = runs_.Errors(boat_.With(unknowns_.Effects(scaled)));
     point.seen = judge_.See(point.errors);
     point.square = judge_.Square(point.seen);
     point.cost = point.square + scaled.cwiseAbs2().dot(unknowns_.PriorInformation());
@@ -120,7 +114,7 @@ class Fitting {
       Eigen::VectorXd moved = point.scaled;
       moved[i] += step;
       jacobian.col(i) =
-          (judge_.See(runs_.Errors(With(unknowns_.Effects(moved)))) - point.seen) / step;
+          (judge_.See(runs_.Errors(boat_.With(unknowns_.Effects(moved)))) - point.seen) / step;
     }
     return jacobian;
   }
@@ -192,6 +186,26 @@ LinearGuess GuessOf(const Effect& effect, const Judge& judge, const Eigen::Matri
 
 }  // namespace
 
+std::vector<const Effect*> EffectFit::Effects() const {
+  std::vector<const Effect*> all;
+  for (const ModelledEffect& modelled : effects) all.push_back(modelled.effect);
+  return all;
+}
+
+std::vector<std::string> EffectFit::Names() const {
+  std::vector<std::string> names;
+  for (const ModelledEffect& modelled : effects) names.emplace_back(modelled.effect->Name());
+  return names;
+}
+
+Eigen::VectorXd EffectFit::Values() const {
+  std::vector<double> values;
+  for (const ModelledEffect& modelled : effects) {
+    values.insert(values.end(), modelled.values.begin(), modelled.values.end());
+  }
+  return Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
+}
+
 EffectFit FitEffects(const FreeRuns& runs, const AugmentedModel& boat, const Judge& judge,
                      const std::vector<const Effect*>& effects,
                      const std::vector<Eigen::VectorXd>& starts) {
@@ -204,7 +218,9 @@ EffectFit FitEffects(const FreeRuns& runs, const AugmentedModel& boat, const Jud
   }
   const Eigen::MatrixXd jacobian = fitting.Jacobian(*best);
   const Eigen::VectorXd prior = unknowns.PriorInformation();
-  Eigen::MatrixXd information = jacobian.transpose() * judge.Weigh(jacobian);
+  // Curvature of looks ln(square).
+  Eigen::MatrixXd information =
+      judge.Looks() / best->square * jacobian.transpose() * judge.Weigh(jacobian);
   information.diagonal() += prior;
   const Eigen::LLT<Eigen::MatrixXd> factor(information);
   const double log_determinant =
@@ -212,21 +228,13 @@ EffectFit FitEffects(const FreeRuns& runs, const AugmentedModel& boat, const Jud
 
   EffectFit fit;
   fit.effects = unknowns.Effects(best->scaled);
-  const Eigen::MatrixXd scaled_covariance =
-      factor.solve(Eigen::MatrixXd::Identity(unknowns.Size(), unknowns.Size()));
-  fit.covariance =
-      unknowns.Sizes().asDiagonal() * scaled_covariance * unknowns.Sizes().asDiagonal();
+  fit.covariance = unknowns.Sizes().asDiagonal() *
+                   factor.solve(Eigen::MatrixXd::Identity(unknowns.Size(), unknowns.Size())) *
+                   unknowns.Sizes().asDiagonal();
   fit.square = best->square;
-  const Eigen::MatrixXd errors = runs.Errors(boat);
-  const Eigen::VectorXd none = judge.See(errors);
-  const double complexity = best->cost - best->square + log_determinant;
-  fit.score = complexity + std::max({best->square - judge.Square(none),
-                                     best->seen.squaredNorm() - none.squaredNorm(),
-                                     judge.PlainSquare(best->errors) - judge.PlainSquare(errors)});
+  fit.score = judge.Evidence(best->square, judge.Square(judge.See(runs.Errors(boat)))) +
+              best->cost - best->square + log_determinant;
   fit.errors = best->errors;
-  for (Eigen::Index i = 0; i < unknowns.Size(); ++i) {
-    fit.slot_sigmas.push_back(best->scaled[i] / std::sqrt(scaled_covariance(i, i)));
-  }
   return fit;
 }
 
@@ -258,7 +266,9 @@ std::vector<Eigen::VectorXd> StartsOf(const Effect& effect, const Judge& judge,
 
 double ScoreTest(const Effect& effect, const Judge& judge, const Eigen::MatrixXd& errors,
                  const Sensitivity& recording, const std::vector<Slot>& slots) {
-  return GuessOf(effect, judge, errors, recording, slots).promise;
+  const double none = judge.Square(judge.See(errors));
+  const double promise = GuessOf(effect, judge, errors, recording, slots).promise;
+  return judge.Evidence(std::clamp(none - promise, kLeastLeft * none, none), none);
 }
 
 }  // namespace telltale

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <string>
 #include <vector>
 
 #include <Eigen/Core>
@@ -15,13 +16,15 @@ namespace telltale {
 struct EffectFit {
   std::vector<ModelledEffect> effects;
   Eigen::MatrixXd covariance;  ///< of all values, stacked
-  /// -2 ln of the evidence (Laplace) less that of no effect at all, the worst of three views: with
-  /// all that may vary in health, with nothing but scatter, and by size alone. Negative where the
-  /// effects are likelier than none.
+  /// -2 ln of the evidence (Laplace) less that of no effect at all. Negative where the effects are
+  /// likelier than none.
   double score = 0.0;
-  double square = 0.0;              ///< weighed square of what is left
-  Eigen::MatrixXd errors;           ///< rows x windows, with the effects
-  std::vector<double> slot_sigmas;  ///< estimate over standard error by value
+  double square = 0.0;     ///< weighed square of what is left
+  Eigen::MatrixXd errors;  ///< rows x windows, with the effects
+
+  std::vector<const Effect*> Effects() const;
+  std::vector<std::string> Names() const;
+  Eigen::VectorXd Values() const;  ///< stacked
 };
 
 /// Most probable values of effects acting together, docs/diagnosis.md (88), (89): each value has a
@@ -38,7 +41,7 @@ std::vector<Eigen::VectorXd> StartsOf(const Effect& effect, const Judge& judge,
                                       const Eigen::MatrixXd& errors, const Sensitivity& recording,
                                       const std::vector<Slot>& slots);
 
-/// Twice the evidence that the linear guess promises; zero where it lies outside the range.
+/// -2 ln of the likelihood that the linear guess promises over that of none; zero at the most.
 double ScoreTest(const Effect& effect, const Judge& judge, const Eigen::MatrixXd& errors,
                  const Sensitivity& recording, const std::vector<Slot>& slots);
 

@@ -41,6 +41,21 @@ double SpreadWithin(const Eigen::VectorXd& gaps, const std::vector<std::size_t>&
   return std::sqrt(square) / (mean * static_cast<double>(gaps.size()));
 }
 
+/// Of both values, block by block.
+std::vector<std::array<double, 2>> SumsByBlock(const Eigen::VectorXd& one,
+                                               const Eigen::VectorXd& other,
+                                               const std::vector<std::size_t>& blocks) {
+  std::map<std::size_t, std::array<double, 2>> sums;
+  for (Eigen::Index w = 0; w < one.size(); ++w) {
+    auto& sum = sums[blocks[static_cast<std::size_t>(w)]];
+    sum[0] += one[w];
+    sum[1] += other[w];
+  }
+  std::vector<std::array<double, 2>> all;
+  for (const auto& [block, sum] : sums) all.push_back(sum);
+  return all;
+}
+
 double MeanOf(const std::vector<std::array<double, 4>>& values, int channel) {
   double sum = 0.0;
   for (const auto& value : values) sum += value[static_cast<std::size_t>(channel)];
@@ -118,19 +133,27 @@ std::vector<std::size_t> BlocksOf(const FreeRuns& runs) {
   return blocks;
 }
 
+double UpperBound(const Eigen::VectorXd& squared_gaps, const std::vector<std::size_t>& blocks,
+                  std::uint64_t seed) {
+  const auto sums = SumsByBlock(squared_gaps, squared_gaps, blocks);
+  RandomEngine engine(seed);
+  std::vector<double> means;
+  for (std::size_t i = 0; i < kResamples; ++i) {
+    double sum = 0.0;
+    for (std::size_t k = 0; k < sums.size(); ++k) sum += sums[DrawBelow(engine, sums.size())][0];
+    means.push_back(sum / static_cast<double>(squared_gaps.size()));
+  }
+  const auto upper = means.begin() + static_cast<std::ptrdiff_t>(kLevel * kResamples);
+  std::nth_element(means.begin(), upper, means.end());
+  return *upper;
+}
+
 std::optional<Closure> ClosureOf(const Eigen::VectorXd& before, const Eigen::VectorXd& after,
                                  const std::vector<std::size_t>& blocks, const Floor& floor,
                                  int channel, std::uint64_t seed) {
   const double healthy = floor.Squared(channel);
   if (before.size() == 0 || before.mean() <= floor.SquaredLimit(channel)) return std::nullopt;
-  std::map<std::size_t, std::vector<Eigen::Index>> windows_of;
-  for (Eigen::Index w = 0; w < before.size(); ++w) {
-    windows_of[blocks[static_cast<std::size_t>(w)]].push_back(w);
-  }
-  std::vector<std::array<double, 2>> sums;
-  for (const auto& [block, windows] : windows_of) {
-    sums.push_back({before(windows).sum(), after(windows).sum()});
-  }
+  const auto sums = SumsByBlock(before, after, blocks);
   RandomEngine engine(seed);
   boost::random::normal_distribution<double> normal;
   const double floor_spread = floor.spread[static_cast<std::size_t>(channel)] /

@@ -39,6 +39,10 @@ Eigen::VectorXd SquaredGaps(const Eigen::MatrixXd& errors, const Eigen::VectorXd
 /// Stretches of half a minute, over which errors may vary together: windows are resampled by them.
 std::vector<std::size_t> BlocksOf(const FreeRuns& runs);
 
+/// What G^2 stays below with 95 %, by resampling blocks.
+double UpperBound(const Eigen::VectorXd& squared_gaps, const std::vector<std::size_t>& blocks,
+                  std::uint64_t seed);
+
 /// How far `after` closes the gap between `before` and the floor, with an interval by resampling
 /// blocks of windows in pairs. None where before is not above the floor's limit.
 std::optional<Closure> ClosureOf(const Eigen::VectorXd& before, const Eigen::VectorXd& after,

@@ -1,6 +1,7 @@
 #include "diagnosis/healthy.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include <Eigen/Cholesky>
@@ -11,18 +12,19 @@
 namespace telltale {
 namespace {
 
-// Of the typical size: what a healthy boat may always have of an effect, believed as if one
-// recording had shown it.
+// Of the typical size: what a healthy boat may always have of an effect, and its day of weather,
+// believed as if one recording had shown it.
 constexpr double kEverPresent = 0.1;
 constexpr double kPriorRecordings = 1.0;
+constexpr double kLasting = 0.5;      // typical sizes of what a boat may always have, to begin with
 constexpr double kModelTrust = 10.0;  // by how many of its standard errors a model may be off
 constexpr double kNever = 1e-6;
-constexpr double kOffCentre = 0.02;  // typical sizes by which the mean of days may be off
-constexpr int kHalvings = 4;
-constexpr double kLasting = 0.5;    // typical sizes of what a boat may always have, to begin with
-constexpr int kRecalibrations = 4;  // sensitivities taken, the boat changed between
-constexpr int kRounds = 2;          // of covariance and sizes in turn
-constexpr int kIterations = 25;     // of sizes
+constexpr int kRecalibrations = 8;  // at most
+constexpr double kSettled = 0.995;  // of the squares: smaller gains are not worth another round
+constexpr double kSlopeStep = 0.1;  // in typical sizes
+constexpr int kRounds = 2;          // of scatter and unknowns in turn
+constexpr int kIterations = 25;     // of unknowns and sizes in turn
+constexpr std::array kShares = {1.0, 0.7, 0.5, 0.35, 0.25, 0.12, 0.06, 0.03};  // of a step
 
 /// L^-1 applied to every window of every column, L L' the covariance of a window.
 Eigen::MatrixXd Whitened(const Eigen::LLT<Eigen::MatrixXd>& factor,
@@ -53,10 +55,12 @@ Eigen::MatrixXd SecondMoment(const std::vector<Eigen::MatrixXd>& residuals) {
 }
 
 /// (1 - rho) / (1 + rho) of whitened errors from one window to the next.
-double Kappa(const std::vector<Eigen::MatrixXd>& whitened) {
+double Kappa(const Eigen::LLT<Eigen::MatrixXd>& factor,
+             const std::vector<Eigen::MatrixXd>& recordings) {
   double product = 0.0;
   double square = 0.0;
-  for (const Eigen::MatrixXd& white : whitened) {
+  for (const Eigen::MatrixXd& errors : recordings) {
+    const Eigen::MatrixXd white = factor.matrixL().solve(errors);
     for (Eigen::Index w = 0; w + 1 < white.cols(); ++w) {
       product += white.col(w).dot(white.col(w + 1));
       square += 0.5 * (white.col(w).squaredNorm() + white.col(w + 1).squaredNorm());
@@ -67,18 +71,19 @@ double Kappa(const std::vector<Eigen::MatrixXd>& whitened) {
 }
 
 /// What is estimated from healthy recordings, as one stack of unknowns: coefficients, lasting
-/// effects, then the effects of each day. All are changes of the boat about which the sensitivities
-/// were taken, but for the effects of a day, which are taken anew.
+/// effects, then the weather of each day. All are changes of the boat about which the sensitivities
+/// were taken, but for the weather, which is taken anew.
 class HealthyFit {
  public:
   HealthyFit(const UncertainModel& model, const std::vector<Slot>& slots, std::size_t days)
       : base_(static_cast<Eigen::Index>(model.free.size())),
         slots_(static_cast<Eigen::Index>(slots.size())),
+        passing_(PassingOf(slots)),
         days_(static_cast<Eigen::Index>(days)),
         coefficients_(Eigen::VectorXd::Zero(base_)),
         lasting_(Eigen::VectorXd::Zero(slots_)),
         lasting_sizes_(Eigen::VectorXd::Constant(slots_, kLasting)),
-        day_sizes_(Eigen::VectorXd::Constant(slots_, kEverPresent)) {
+        day_sizes_(Eigen::VectorXd::Constant(Passing(), kEverPresent)) {
     base_information_ = (model.Correlation() + 1e-6 * Eigen::MatrixXd::Identity(base_, base_))
                             .llt()
                             .solve(Eigen::MatrixXd::Identity(base_, base_)) /
@@ -89,7 +94,6 @@ class HealthyFit {
       const EffectParameter& parameter = slot.effect->Parameters()[slot.parameter];
       lasting_limits_.row(j) << parameter.lower / parameter.typical,
           parameter.upper / parameter.typical;
-      passes_.push_back(slot.effect->Facts().habit == Habit::kPasses);
       if (slot.effect->Facts().habit == Habit::kOwn) continue;
       lasting_limits_.row(j).setZero();
       lasting_sizes_[j] = kNever;
@@ -99,46 +103,33 @@ class HealthyFit {
   /// Sums up what whitened recordings say.
   void Take(const std::vector<Sensitivity>& recordings, const Eigen::LLT<Eigen::MatrixXd>& factor,
             double kappa) {
-    const Eigen::Index size = Size();
-    gram_ = Eigen::MatrixXd::Zero(size, size);
-    right_ = Eigen::VectorXd::Zero(size);
+    gram_ = Eigen::MatrixXd::Zero(Size(), Size());
+    right_ = Eigen::VectorXd::Zero(Size());
     const Eigen::Index shared = base_ + slots_;
     for (Eigen::Index day = 0; day < days_; ++day) {
       const Sensitivity& recording = recordings[static_cast<std::size_t>(day)];
-      Eigen::MatrixXd phi(recording.errors.size(), shared + 1);
-      phi << recording.by_base, recording.by_slot, recording.errors.reshaped();
+      Eigen::MatrixXd phi(recording.errors.size(), shared + Passing() + 1);
+      phi << recording.by_base, recording.by_slot, recording.by_slot(Eigen::all, passing_),
+          recording.errors.reshaped();
       const Eigen::MatrixXd white = Whitened(factor, phi);
       const Eigen::MatrixXd gram = kappa * white.transpose() * white;
-      const Eigen::Index first = shared + day * slots_;
+      const Eigen::Index own = shared + day * Passing();
+      const auto last = gram.col(shared + Passing());
       gram_.topLeftCorner(shared, shared) += gram.topLeftCorner(shared, shared);
-      gram_.block(0, first, shared, slots_) = gram.block(0, base_, shared, slots_);
-      gram_.block(first, 0, slots_, shared) = gram.block(base_, 0, slots_, shared);
-      gram_.block(first, first, slots_, slots_) = gram.block(base_, base_, slots_, slots_);
-      right_.head(shared) -= gram.col(shared).head(shared);
-      right_.segment(first, slots_) = -gram.col(shared).segment(base_, slots_);
+      gram_.block(0, own, shared, Passing()) = gram.block(0, shared, shared, Passing());
+      gram_.block(own, 0, Passing(), shared) = gram.block(shared, 0, Passing(), shared);
+      gram_.block(own, own, Passing(), Passing()) =
+          gram.block(shared, shared, Passing(), Passing());
+      right_.head(shared) -= last.head(shared);
+      right_.segment(own, Passing()) = -last.segment(shared, Passing());
     }
   }
 
   /// In turn unknowns given sizes, sizes given unknowns.
   void Solve() {
-    const Eigen::Index shared = base_ + slots_;
     for (int iteration = 0; iteration < kIterations; ++iteration) {
-      Eigen::MatrixXd information = gram_;
-      Eigen::VectorXd right = right_;
-      information.topLeftCorner(base_, base_) += base_information_;
-      right.head(base_) -= base_information_ * coefficients_;
-      const Eigen::VectorXd lasting = lasting_sizes_.cwiseAbs2().cwiseInverse();
-      information.diagonal().segment(base_, slots_) += lasting;
-      right.segment(base_, slots_) -= lasting.cwiseProduct(lasting_);
-      for (Eigen::Index day = 0; day < days_; ++day) {
-        information.diagonal().segment(shared + day * slots_, slots_) +=
-            day_sizes_.cwiseAbs2().cwiseInverse();
-      }
-      CentreDays(shared, information);
-      const Eigen::LLT<Eigen::MatrixXd> solver(information);
-      unknowns_ = solver.solve(right);
-      covariance_ = solver.solve(Eigen::MatrixXd::Identity(Size(), Size()));
-      Resize(shared);
+      unknowns_ = Step();
+      Resize();
     }
   }
 
@@ -150,51 +141,75 @@ class HealthyFit {
                    .cwiseMin(lasting_limits_.col(1));
   }
 
-  /// What a recording of one day still misses by.
-  Eigen::MatrixXd Residual(const Sensitivity& recording, std::size_t day) const {
-    const Eigen::Index shared = base_ + slots_;
-    const Eigen::VectorXd slots =
-        unknowns_.segment(base_, slots_) +
-        unknowns_.segment(shared + static_cast<Eigen::Index>(day) * slots_, slots_);
+  /// What the weather of a day does to a recording's errors, to be taken away by adding this.
+  Eigen::MatrixXd Weather(const Sensitivity& recording, std::size_t day) const {
+    const Eigen::VectorXd sizes =
+        unknowns_.segment(base_ + slots_ + static_cast<Eigen::Index>(day) * Passing(), Passing());
+    return (recording.by_slot(Eigen::all, passing_) * sizes)
+        .reshaped(recording.errors.rows(), recording.errors.cols());
+  }
+
+  /// What would be left of a recording's errors if sensitivities told all.
+  Eigen::MatrixXd Promised(const Sensitivity& recording, std::size_t day) const {
     const Eigen::VectorXd left = recording.errors.reshaped() +
                                  recording.by_base * unknowns_.head(base_) +
-                                 recording.by_slot * slots;
-    return left.reshaped(recording.errors.rows(), recording.errors.cols());
+                                 recording.by_slot * unknowns_.segment(base_, slots_);
+    return left.reshaped(recording.errors.rows(), recording.errors.cols()) +
+           Weather(recording, day);
   }
 
   const Eigen::VectorXd& Coefficients() const { return coefficients_; }
   const Eigen::VectorXd& Lasting() const { return lasting_; }
-  const Eigen::VectorXd& DaySizes() const { return day_sizes_; }
+  Eigen::VectorXd DaySizes() const {
+    Eigen::VectorXd sizes = Eigen::VectorXd::Zero(slots_);
+    sizes(passing_) = day_sizes_;
+    return sizes;
+  }
   Eigen::MatrixXd BoatCovariance() const {
-    return covariance_.topLeftCorner(base_ + slots_, base_ + slots_);
+    return Information()
+        .llt()
+        .solve(Eigen::MatrixXd::Identity(Size(), Size()))
+        .topLeftCorner(base_ + slots_, base_ + slots_);
   }
 
  private:
-  Eigen::Index Size() const { return base_ + slots_ + days_ * slots_; }
-
-  // What is the same every day is the boat's, and only weather may have a mean of its own.
-  void CentreDays(Eigen::Index shared, Eigen::MatrixXd& information) const {
-    const double weight = 1.0 / (static_cast<double>(days_) * kOffCentre * kOffCentre);
-    for (Eigen::Index j = 0; j < slots_; ++j) {
-      if (passes_[static_cast<std::size_t>(j)]) continue;
-      for (Eigen::Index a = 0; a < days_; ++a) {
-        for (Eigen::Index b = 0; b < days_; ++b) {
-          information(shared + a * slots_ + j, shared + b * slots_ + j) += weight;
-        }
+  static std::vector<Eigen::Index> PassingOf(const std::vector<Slot>& slots) {
+    std::vector<Eigen::Index> passing;
+    for (std::size_t j = 0; j < slots.size(); ++j) {
+      if (slots[j].effect->Facts().habit == Habit::kPasses) {
+        passing.push_back(static_cast<Eigen::Index>(j));
       }
     }
+    return passing;
   }
 
-  // By the most probable unknowns, not by expectation: what a day's effect shares with the
-  // coefficients, which are the same every day, would otherwise keep it large for ever.
-  void Resize(Eigen::Index shared) {
+  Eigen::Index Passing() const { return static_cast<Eigen::Index>(passing_.size()); }
+  Eigen::Index Size() const { return base_ + slots_ + days_ * Passing(); }
+
+  Eigen::MatrixXd Information() const {
+    Eigen::MatrixXd information = gram_;
+    information.topLeftCorner(base_, base_) += base_information_;
+    information.diagonal().segment(base_, slots_) += lasting_sizes_.cwiseAbs2().cwiseInverse();
+    information.diagonal().tail(days_ * Passing()) +=
+        day_sizes_.cwiseAbs2().cwiseInverse().replicate(days_, 1);
+    return information;
+  }
+
+  Eigen::VectorXd Step() const {
+    Eigen::VectorXd right = right_;
+    right.head(base_) -= base_information_ * coefficients_;
+    right.segment(base_, slots_) -= lasting_.cwiseQuotient(lasting_sizes_.cwiseAbs2());
+    return Information().llt().solve(right);
+  }
+
+  // By the most probable unknowns, not by expectation: what weather shares with the coefficients,
+  // which are the same every day, would otherwise keep it large for ever.
+  void Resize() {
     const double prior = kPriorRecordings * kEverPresent * kEverPresent;
-    Eigen::VectorXd sum = Eigen::VectorXd::Constant(slots_, prior);
-    for (Eigen::Index day = 0; day < days_; ++day) {
-      const Eigen::Index first = shared + day * slots_;
-      sum += unknowns_.segment(first, slots_).cwiseAbs2();
-    }
-    day_sizes_ = (sum / (static_cast<double>(days_) + kPriorRecordings)).cwiseSqrt();
+    const auto weather = unknowns_.tail(days_ * Passing()).reshaped(Passing(), days_);
+    day_sizes_ = ((weather.rowwise().squaredNorm().array() + prior) /
+                  (static_cast<double>(days_) + kPriorRecordings))
+                     .sqrt();
     for (Eigen::Index j = 0; j < slots_; ++j) {
       if (lasting_limits_(j, 0) == lasting_limits_(j, 1)) continue;
       const double now = lasting_[j] + unknowns_[base_ + j];
@@ -204,18 +219,17 @@ class HealthyFit {
 
   Eigen::Index base_;
   Eigen::Index slots_;
+  std::vector<Eigen::Index> passing_;  // slots of weather
   Eigen::Index days_;
   Eigen::VectorXd coefficients_;
   Eigen::VectorXd lasting_;
   Eigen::VectorXd lasting_sizes_;
   Eigen::VectorXd day_sizes_;
-  std::vector<bool> passes_;  // by slot
   Eigen::MatrixXd base_information_;
   Eigen::MatrixXd lasting_limits_;
   Eigen::MatrixXd gram_;
   Eigen::VectorXd right_;
   Eigen::VectorXd unknowns_;
-  Eigen::MatrixXd covariance_;
 };
 
 Eigen::VectorXd ScaleOf(const std::vector<Sensitivity>& days) {
@@ -228,73 +242,132 @@ Eigen::VectorXd ScaleOf(const std::vector<Sensitivity>& days) {
   return (square / windows).cwiseSqrt().cwiseMax(1e-9);
 }
 
-double SquareOf(const std::vector<FreeRuns>& recordings, const AugmentedModel& boat,
-                const Eigen::LLT<Eigen::MatrixXd>& factor) {
-  double sum = 0.0;
+std::vector<Sensitivity> SensitivitiesOf(const std::vector<FreeRuns>& recordings,
+                                         const AugmentedModel& boat, const UncertainModel& model,
+                                         const std::vector<Slot>& slots, std::size_t threads,
+                                         double step) {
+  std::vector<Sensitivity> sensitivities;
   for (const FreeRuns& runs : recordings) {
-    sum += factor.matrixL().solve(runs.Errors(boat)).squaredNorm();
+    sensitivities.push_back(SensitivityOf(runs, boat, model, slots, threads, step));
   }
-  return sum;
+  return sensitivities;
 }
+
+/// A boat on its way to how it sails on healthy days.
+class Recalibrating {
+ public:
+  Recalibrating(const std::vector<FreeRuns>& recordings, const UncertainModel& model,
+                const std::vector<Slot>& slots, std::size_t threads)
+      : recordings_(recordings),
+        model_(model),
+        slots_(slots),
+        threads_(threads),
+        fit_(model, slots, recordings.size()),
+        boat_{model.model, {}} {
+    for (const FreeRuns& runs : recordings) errors_.push_back(runs.Errors(boat_));
+    covariance_ = SecondMoment(errors_);
+  }
+
+  /// Whether the boat changed for the better by enough to go on.
+  bool Improve() {
+    sensitivities_ = SensitivitiesOf(recordings_, boat_, model_, slots_, threads_, kSlopeStep);
+    // Weighed by the scatter that sensitivities promise to leave: by the present one, whatever the
+    // boat still does wrong would count as noise and stay.
+    for (int round = 0; round < kRounds; ++round) {
+      Weigh();
+      for (std::size_t day = 0; day < errors_.size(); ++day) {
+        errors_[day] = fit_.Promised(sensitivities_[day], day);
+      }
+      covariance_ = SecondMoment(errors_);
+    }
+    factor_.compute(covariance_);
+    errors_ = LessWeather(boat_);
+    const double before = Square(errors_);
+    return GoAsFarAsItHelps(before) < kSettled * before;
+  }
+
+  Healthy Learnt() {
+    covariance_ = SecondMoment(errors_);
+    Weigh();
+    Healthy healthy{.boat = boat_,
+                    .covariance = covariance_,
+                    .scale = {},
+                    .kappa = kappa_,
+                    .boat_covariance = fit_.BoatCovariance(),
+                    .day_sizes = fit_.DaySizes(),
+                    .days = SensitivitiesOf(recordings_, boat_, model_, slots_, threads_, 1.0),
+                    .log_leftovers = {}};
+    healthy.scale = ScaleOf(healthy.days);
+    for (const Sensitivity& day : healthy.days) {
+      const Judge judge(healthy, day, EveryWindow(day), false);
+      healthy.log_leftovers.push_back(std::log(judge.Leftover(judge.See(day.errors))));
+    }
+    return healthy;
+  }
+
+ private:
+  void Weigh() {
+    factor_.compute(covariance_);
+    kappa_ = Kappa(factor_, errors_);
+    fit_.Take(sensitivities_, factor_, kappa_);
+    fit_.Solve();
+  }
+
+  // Steps are longer than linear: a delay or a dead zone that is found moves much besides.
+  double GoAsFarAsItHelps(double before) {
+    const HealthyFit start = fit_;
+    double least = before;
+    for (const double share : kShares) {
+      HealthyFit tried = start;
+      tried.Accept(share);
+      const Eigen::VectorXd change = tried.Coefficients().cwiseProduct(model_.StandardErrors());
+      AugmentedModel boat{model_.Changed(model_.model, change), EffectsOf(slots_, tried.Lasting())};
+      auto left = LessWeather(boat);
+      const double square = Square(left);
+      if (square >= least) continue;
+      least = square;
+      fit_ = std::move(tried);
+      boat_ = std::move(boat);
+      errors_ = std::move(left);
+    }
+    return least;
+  }
+
+  std::vector<Eigen::MatrixXd> LessWeather(const AugmentedModel& boat) const {
+    std::vector<Eigen::MatrixXd> left;
+    for (std::size_t day = 0; day < recordings_.size(); ++day) {
+      left.push_back(recordings_[day].Errors(boat) + fit_.Weather(sensitivities_[day], day));
+    }
+    return left;
+  }
+
+  double Square(const std::vector<Eigen::MatrixXd>& errors) const {
+    double sum = 0.0;
+    for (const Eigen::MatrixXd& day : errors) sum += factor_.matrixL().solve(day).squaredNorm();
+    return sum;
+  }
+
+  const std::vector<FreeRuns>& recordings_;
+  const UncertainModel& model_;
+  const std::vector<Slot>& slots_;
+  std::size_t threads_;
+  HealthyFit fit_;
+  AugmentedModel boat_;
+  std::vector<Sensitivity> sensitivities_;
+  std::vector<Eigen::MatrixXd> errors_;  ///< about the boat, less what weather did
+  Eigen::MatrixXd covariance_;
+  Eigen::LLT<Eigen::MatrixXd> factor_;  ///< of it
+  double kappa_ = 1.0;
+};
 
 }  // namespace
 
 Healthy LearnHealthy(const std::vector<FreeRuns>& recordings, const UncertainModel& model,
                      const std::vector<Slot>& slots, std::size_t threads) {
   Require(!recordings.empty(), "at least one healthy recording");
-  Healthy healthy;
-  HealthyFit fit(model, slots, recordings.size());
-  healthy.boat = {model.model, {}};
-  std::vector<Eigen::MatrixXd> residuals;
-  std::vector<Sensitivity> sensitivities;
-  for (int recalibration = 0; recalibration < kRecalibrations; ++recalibration) {
-    sensitivities.clear();
-    for (const FreeRuns& runs : recordings) {
-      sensitivities.push_back(SensitivityOf(runs, healthy.boat, model, slots, threads));
-    }
-    if (residuals.empty()) {
-      for (const Sensitivity& day : sensitivities) residuals.push_back(day.errors);
-    }
-    for (int round = 0; round < kRounds; ++round) {
-      healthy.covariance = SecondMoment(residuals);
-      const Eigen::LLT<Eigen::MatrixXd> factor(healthy.covariance);
-      std::vector<Eigen::MatrixXd> whitened;
-      for (const Eigen::MatrixXd& residual : residuals) {
-        whitened.emplace_back(factor.matrixL().solve(residual));
-      }
-      healthy.kappa = Kappa(whitened);
-      fit.Take(sensitivities, factor, healthy.kappa);
-      fit.Solve();
-      for (std::size_t day = 0; day < residuals.size(); ++day) {
-        residuals[day] = fit.Residual(sensitivities[day], day);
-      }
-    }
-    if (recalibration + 1 == kRecalibrations) break;
-    const Eigen::LLT<Eigen::MatrixXd> factor(healthy.covariance);
-    const double now = SquareOf(recordings, healthy.boat, factor);
-    double share = 1.0;
-    for (int halving = 0; halving <= kHalvings; ++halving, share /= 2.0) {
-      HealthyFit tried = fit;
-      tried.Accept(share);
-      AugmentedModel boat{model.Changed(tried.Coefficients().cwiseProduct(model.StandardErrors())),
-                          EffectsOf(slots, tried.Lasting())};
-      if (SquareOf(recordings, boat, factor) > now) continue;
-      fit = std::move(tried);
-      healthy.boat = std::move(boat);
-      break;
-    }
-  }
-  healthy.boat_covariance = fit.BoatCovariance();
-  healthy.slot_sizes = fit.DaySizes();
-  healthy.scale = ScaleOf(sensitivities);
-  for (const Sensitivity& day : sensitivities) {
-    const Judge judge(healthy, day, EveryWindow(day), false);
-    const Eigen::VectorXd seen = judge.See(day.errors);
-    healthy.log_leftovers.push_back(std::log(judge.Leftover(seen)));
-    healthy.shaken.push_back(judge.MomentOfUnexplained(seen));
-  }
-  healthy.days = std::move(sensitivities);
-  return healthy;
+  Recalibrating recalibrating(recordings, model, slots, threads);
+  for (int round = 0; round < kRecalibrations && recalibrating.Improve(); ++round) continue;
+  return recalibrating.Learnt();
 }
 
 }  // namespace telltale

@@ -13,20 +13,18 @@ namespace telltale {
 /// How a healthy boat sails and how its free runs err, from recordings of when all was well,
 /// docs/diagnosis.md (84)..(86). The boat is the model with coefficients and lasting effects
 /// recalibrated on those recordings, so that what it always does is no finding. About it errors
-/// scatter by `covariance` from window to window; the coefficients are and lasting
-/// effects are still as uncertain, together, as `boat_covariance` says; and every effect is there a
-/// little, with another value each day, of standard deviation `slot_sizes`. Shapes: of the rows of
-/// FreeRuns::Errors; base in standard errors of the model; slots in typical sizes.
+/// scatter by `covariance` from window to window; the coefficients and lasting effects are still as
+/// uncertain, together, as `boat_covariance` says; and weather is there with another value each
+/// day, of standard deviation `day_sizes`. Shapes: of the rows of FreeRuns::Errors; base in
+/// standard errors of the model; slots in typical sizes.
 struct Healthy {
   AugmentedModel boat;
   Eigen::MatrixXd covariance;
   Eigen::VectorXd scale;            ///< root mean square of each row's error, nothing allowed for
   double kappa = 1.0;               ///< independent windows per window
   Eigen::MatrixXd boat_covariance;  ///< base, then slots
-  Eigen::VectorXd slot_sizes;
-  std::vector<Sensitivity> days;  ///< of the recordings, about `boat`
-  /// Second moment of each recording's whitened errors, as FitShaking sees them.
-  std::vector<Eigen::MatrixXd> shaken;
+  Eigen::VectorXd day_sizes;        ///< by slot; zero for what does not pass
+  std::vector<Sensitivity> days;    ///< of the recordings, about `boat`
   /// ln of what a Judge leaves of each recording, as a share of what the covariance expects.
   std::vector<double> log_leftovers;
 };

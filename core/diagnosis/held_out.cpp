@@ -1,5 +1,7 @@
 #include "diagnosis/held_out.hpp"
 
+#include <algorithm>
+
 #include "diagnosis/shaking.hpp"
 
 namespace telltale {
@@ -13,10 +15,6 @@ std::vector<std::size_t> WindowsOf(const std::vector<std::size_t>& folds, std::s
   return windows;
 }
 
-bool Shakes(const EffectFit& fit) {
-  return SlotsOf(std::span(&fit.effects.front().effect, 1)).empty();
-}
-
 }  // namespace
 
 std::vector<std::size_t> FoldsOf(const FreeRuns& runs) {
@@ -27,22 +25,11 @@ std::vector<std::size_t> FoldsOf(const FreeRuns& runs) {
 
 FoldFits FitOnFolds(const EffectFit& fit, const Evidence& evidence) {
   const auto folds = FoldsOf(evidence.runs);
-  std::vector<const Effect*> effects;
-  std::vector<double> values;
-  for (const auto& [effect, own] : fit.effects) {
-    effects.push_back(effect);
-    values.insert(values.end(), own.begin(), own.end());
-  }
-  const Eigen::VectorXd start =
-      Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
   FoldFits fits;
   for (std::size_t fold = 0; fold < kFolds; ++fold) {
     const Judge judge(evidence.healthy, evidence.recording, WindowsOf(folds, fold),
                       evidence.judge.FreesBase());
-    fits[fold] = Shakes(fit)
-                     ? FitShaking(*effects.front(), evidence.runs, evidence.healthy, judge,
-                                  evidence.recording.errors, 1)
-                     : FitEffects(evidence.runs, evidence.healthy.boat, judge, effects, {start});
+    fits[fold] = FitAgain(fit, evidence.runs, evidence.healthy.boat, judge, 1);
   }
   return fits;
 }
@@ -53,9 +40,7 @@ HeldOutErrors ErrorsHeldOut(const FoldFits& fits, const FreeRuns& runs,
   HeldOutErrors held_out;
   held_out.errors.resize(runs.Rows(), static_cast<Eigen::Index>(runs.Windows()));
   for (std::size_t fold = 0; fold < kFolds; ++fold) {
-    AugmentedModel with = model;
-    with.effects.insert(with.effects.end(), fits[fold].effects.begin(), fits[fold].effects.end());
-    const Eigen::MatrixXd errors = runs.Errors(with);
+    const Eigen::MatrixXd errors = runs.Errors(model.With(fits[fold].effects));
     for (std::size_t w = 0; w < folds.size(); ++w) {
       if (folds[w] == fold) continue;
       held_out.errors.col(static_cast<Eigen::Index>(w)) = errors.col(static_cast<Eigen::Index>(w));
@@ -68,11 +53,12 @@ HeldOutErrors ErrorsHeldOut(const FoldFits& fits, const FreeRuns& runs,
 Eigen::VectorXd SquaredGapsHeldOut(const HeldOutErrors& held_out, const FreeRuns& runs,
                                    const Floor& floor, int channel) {
   Eigen::VectorXd gaps = SquaredGaps(held_out.errors, floor.scale, channel);
+  const double there = std::max(gaps.mean() - floor.Squared(channel), 0.0);
   const auto folds = FoldsOf(runs);
   for (std::size_t fold = 0; fold < kFolds; ++fold) {
-    // As errors of one window whose squares these are.
-    const double explained =
-        SquaredGaps(held_out.shaken[fold].cwiseMax(0.0).cwiseSqrt(), floor.scale, channel)[0];
+    // As errors of one window whose squares these are; no more than there is to explain.
+    const Eigen::VectorXd shaken = held_out.shaken[fold].cwiseMax(0.0).cwiseSqrt();
+    const double explained = std::min(SquaredGaps(shaken, floor.scale, channel)[0], there);
     for (std::size_t w = 0; w < folds.size(); ++w) {
       if (folds[w] != fold) gaps[static_cast<Eigen::Index>(w)] -= explained;
     }

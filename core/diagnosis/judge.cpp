@@ -13,7 +13,6 @@ constexpr double kFree = 100.0;
 // A window that errs by more root mean square sigmas than this counts as erring by so many: a model
 // that has run away says that it is wrong, not how much.
 constexpr double kMostSigmas = 50.0;
-constexpr double kLooks = 6.0;  // at a boat that a window amounts to, by size alone
 
 Eigen::MatrixXd RootOf(const Eigen::MatrixXd& covariance) {
   const Eigen::LDLT<Eigen::MatrixXd> factor(covariance);
@@ -29,7 +28,6 @@ Judge::Judge(const Healthy& healthy, const Sensitivity& recording, std::vector<s
     : windows_(std::move(windows)),
       frees_base_(free_base),
       factor_(healthy.covariance),
-      scale_(healthy.scale),
       kappa_(healthy.kappa) {
   const Eigen::Index base = recording.by_base.cols();
   const Eigen::Index slots = recording.by_slot.cols();
@@ -39,8 +37,15 @@ Judge::Judge(const Healthy& healthy, const Sensitivity& recording, std::vector<s
   base_root_ = root.topRows(base);
   Eigen::MatrixXd boat(recording.errors.size(), base + slots);
   boat << recording.by_base, recording.by_slot;
-  Eigen::MatrixXd loose(recording.errors.size(), base + 2 * slots);
-  loose << boat * root, recording.by_slot * healthy.slot_sizes.asDiagonal();
+  std::vector<Eigen::Index> weather;
+  for (Eigen::Index j = 0; j < slots; ++j) {
+    if (healthy.day_sizes[j] > 0.0) weather.push_back(j);
+  }
+  Eigen::MatrixXd loose(recording.errors.size(), base + slots + std::ssize(weather));
+  // A day's weather is one draw of its own and counts in full, where errors count by looks.
+  const double rows_a_look = static_cast<double>(recording.errors.rows()) / kLooksAWindow;
+  loose << boat * root, recording.by_slot(Eigen::all, weather) *
+                            (healthy.day_sizes(weather) / std::sqrt(rows_a_look)).asDiagonal();
   loose_ = SeeColumns(loose);
   weigher_.compute(Eigen::MatrixXd::Identity(loose_.cols(), loose_.cols()) +
                    loose_.transpose() * loose_);
@@ -54,15 +59,20 @@ Eigen::VectorXd Judge::See(const Eigen::MatrixXd& errors) const {
   return seen;
 }
 
-double Judge::PlainOfHealth() const {
-  return kappa_ * kLooks * static_cast<double>(windows_.size());
+double Judge::Expected() const {
+  return kappa_ * static_cast<double>(windows_.size()) * static_cast<double>(factor_.rows());
 }
 
-double Judge::PlainSquare(const Eigen::MatrixXd& errors) const {
-  const Eigen::MatrixXd scaled = scale_.cwiseInverse().asDiagonal() * errors(Eigen::all, windows_);
-  const double rows = static_cast<double>(scaled.rows());
-  const Eigen::VectorXd windows = scaled.colwise().squaredNorm() / rows;
-  return kappa_ * kLooks * windows.cwiseMin(kMostSigmas * kMostSigmas).sum();
+double Judge::Looks() const {
+  return kLooksAWindow * kappa_ * static_cast<double>(windows_.size());
+}
+
+double Judge::Evidence(double square, double than) const {
+  return Looks() * std::log(square / than);
+}
+
+double Judge::Sigmas(const Eigen::VectorXd& seen) const {
+  return std::sqrt(Square(seen) * Looks() / Expected());
 }
 
 Eigen::MatrixXd Judge::SeeColumns(const Eigen::MatrixXd& stacked) const {
@@ -86,11 +96,9 @@ Eigen::MatrixXd Judge::Weigh(const Eigen::MatrixXd& seen) const {
   return seen - loose_ * weigher_.solve(loose_.transpose() * seen);
 }
 
-Eigen::MatrixXd Judge::MomentOfUnexplained(const Eigen::VectorXd& seen) const {
-  const auto windows = static_cast<Eigen::Index>(windows_.size());
-  const Eigen::VectorXd left = Unexplained(seen);
-  const auto by_window = left.reshaped(factor_.rows(), windows);
-  return by_window * by_window.transpose() / (kappa_ * static_cast<double>(windows));
+Eigen::MatrixXd Judge::UnexplainedByWindow(const Eigen::VectorXd& seen) const {
+  const Eigen::VectorXd left = Unexplained(seen) / std::sqrt(kappa_);
+  return left.reshaped(factor_.rows(), static_cast<Eigen::Index>(windows_.size()));
 }
 
 Judge::Recalibration Judge::Recalibrate(const Eigen::VectorXd& seen) const {

@@ -11,6 +11,9 @@
 
 namespace telltale {
 
+/// Independent looks at a boat that a window amounts to, docs/diagnosis.md (89).
+inline constexpr double kLooksAWindow = 0.5;
+
 /// Weighs the errors of one recording by what a healthy boat may do: scatter from window to window,
 /// coefficients off by what their covariance leaves, and every effect as large as on healthy days.
 /// Model: (y, z) = kappa y' V^-1 z with V the healthy covariance of all errors together, by the
@@ -36,21 +39,28 @@ class Judge {
 
   double Square(const Eigen::VectorXd& seen) const { return seen.dot(Weigh(seen).col(0)); }
 
-  /// Squares of errors (rows x all windows) in healthy scales, a window counting as two looks at
-  /// each channel: blind to patterns, and so not misled by them.
-  double PlainSquare(const Eigen::MatrixXd& errors) const;
-  double PlainOfHealth() const;  ///< what a healthy boat is expected to have of it
-
   /// Square as a share of what a healthy boat is expected to leave: about one.
-  double Leftover(const Eigen::VectorXd& seen) const {
-    return Square(seen) / (kappa_ * static_cast<double>(seen.size()));
-  }
+  double Leftover(const Eigen::VectorXd& seen) const { return Square(seen) / Expected(); }
+
+  /// The square that a healthy boat is expected to leave.
+  double Expected() const;
+
+  /// How many independent looks at the boat the recording amounts to: errors within a window, and
+  /// what a model leaves wrong everywhere alike, vary together.
+  double Looks() const;
+
+  /// -2 ln of how much likelier what leaves one square is than what leaves the other, if the scale
+  /// of errors is not known: looks ln(square / than); docs/diagnosis.md (89).
+  double Evidence(double square, double than) const;
+
+  /// By how many sigmas something shows, counted by looks.
+  double Sigmas(const Eigen::VectorXd& seen) const;
 
   /// Seen errors less the most probable part of what may vary in health.
   Eigen::VectorXd Unexplained(const Eigen::VectorXd& seen) const { return Weigh(seen).col(0); }
 
-  /// Second moment of a window's errors in what is unexplained, whitened: in health, about one.
-  Eigen::MatrixXd MomentOfUnexplained(const Eigen::VectorXd& seen) const;
+  /// The same by window, rows x windows, of unit variance in health.
+  Eigen::MatrixXd UnexplainedByWindow(const Eigen::VectorXd& seen) const;
 
   /// How the coefficients most probably differ from the healthy boat's, and how certain that is.
   /// Units: standard errors of the model.
@@ -69,7 +79,6 @@ class Judge {
   std::vector<std::size_t> windows_;
   bool frees_base_;
   Eigen::LLT<Eigen::MatrixXd> factor_;
-  Eigen::VectorXd scale_;
   double kappa_;
   Eigen::MatrixXd loose_;  // as seen, one column a unit of what may vary
   Eigen::LLT<Eigen::MatrixXd> weigher_;

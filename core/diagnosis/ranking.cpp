@@ -6,54 +6,42 @@
 namespace telltale {
 namespace {
 
-// Scores are tempered, exp(-S / 2T): errors are not quite as normal, nor models as exact, as
-// evidence has them. Calibrated on development cases, docs/blind.md.
-constexpr double kTemperature = 4.0;
-// A recording is called unwell for a score below the negative of this.
-constexpr double kMaterialEvidence = 100.0;
-// What an explanation leaves is as on a healthy day below the first (of ln), and no healthy
-// development case left more than the second.
-constexpr double kLikeHealth = 0.6;
+// Calibrated on development cases, docs/blind.md.
+// A recording is called unwell for a score below the negative of this,
+constexpr double kMaterialEvidence = 8.0;
+// or for what a Judge has against it, as ln of a share of what it has against healthy ones.
 constexpr double kNeverInHealth = 0.9;
-// An explanation has to take away half of what a Judge has against the recording, or else leave it
-// like a healthy one, and close the gap: at this share of both it is as doubtful as not.
-constexpr double kFullyTakenAway = 0.5;
-constexpr double kHalfDoubtedAt = 0.45;
-constexpr double kSharpness = 10.0;
-constexpr double kExplained = 0.7;
+// Times the limit: what an upper bound may be of a gap that is no more than health.
+constexpr double kEquivalent = 2.0;
+// An explanation is as doubtful as not where it leaves this share of the excess and is this far, in
+// ln, beyond healthy recordings.
+constexpr double kDoubtfulShare = 0.2;
+constexpr double kDoubtfulExcess = 1.5;
+constexpr double kSharpness = 3.0;
+constexpr double kLeastShare = 1e-3;
+constexpr double kExplained = 0.7;  // of the gap
 
 double Logistic(double x) {
   return 1.0 / (1.0 + std::exp(-x));
 }
 
-std::vector<std::string> NamesOf(const EffectFit& fit) {
-  std::vector<std::string> names;
-  for (const ModelledEffect& modelled : fit.effects) names.emplace_back(modelled.effect->Name());
-  return names;
-}
-
-/// Share of what a Judge has against the recording that an explanation takes away.
-double TakenAway(const Remainder& remainder) {
-  const double before = std::exp(remainder.log_before - remainder.healthy_mean) - 1.0;
-  const double after = std::exp(remainder.log_leftover - remainder.healthy_mean) - 1.0;
-  return before > 0.0 ? 1.0 - after / before : 1.0;
-}
-
-/// How much there is to doubt an explanation by what it leaves.
+/// Probability that it is something else, by what the likeliest explanation leaves.
 double DoubtOf(const Remainder& remainder) {
-  const bool like_health = remainder.log_leftover - remainder.healthy_mean < kLikeHealth;
-  double explained = like_health ? 1.0 : TakenAway(remainder) / kFullyTakenAway;
-  if (remainder.closure) explained = std::min(explained, *remainder.closure);
-  return Logistic(kSharpness * (kHalfDoubtedAt - explained));
+  const double excess = remainder.after - remainder.healthy;
+  if (excess <= 0.0) return 0.0;
+  const double share =
+      std::clamp(excess / std::max(remainder.before - remainder.healthy, excess), kLeastShare, 1.0);
+  const double beyond = std::log(remainder.after / remainder.healthy);
+  return Logistic(kSharpness * (std::log(share / kDoubtfulShare) + beyond - kDoubtfulExcess));
 }
 
 }  // namespace
 
 std::vector<std::string> RankedFit::Indistinguishable() const {
-  const std::vector<std::string> own = NamesOf(fit);
+  const std::vector<std::string> own = fit.Names();
   std::vector<std::string> others;
   for (const EffectFit& other : alike) {
-    for (const std::string& name : NamesOf(other)) {
+    for (const std::string& name : other.Names()) {
       const auto listed = [&](const std::vector<std::string>& names) {
         return std::find(names.begin(), names.end(), name) != names.end();
       };
@@ -69,9 +57,7 @@ Ranking Rank(const Explanations& explanations, const Judge& judge, const Remaind
   std::sort(all.begin(), all.end(),
             [](const EffectFit& a, const EffectFit& b) { return a.score < b.score; });
   const double best = std::min(all.front().score, 0.0);
-  const auto weight = [&](double score) {
-    return std::exp(-(score - best) / (2.0 * kTemperature));
-  };
+  const auto weight = [&](double score) { return std::exp(-0.5 * (score - best)); };
   Ranking ranking;
   ranking.nothing = weight(0.0);
   double total = ranking.nothing;
@@ -80,7 +66,7 @@ Ranking Rank(const Explanations& explanations, const Judge& judge, const Remaind
     total += own;
     const auto alike =
         std::find_if(ranking.fits.begin(), ranking.fits.end(), [&](const RankedFit& r) {
-          return r.fit.effects.size() == fit.effects.size() &&
+          return fit.score < -kMaterialEvidence && r.fit.effects.size() == fit.effects.size() &&
                  Distance(r.fit, fit, judge) < kClassDistance;
         });
     if (alike == ranking.fits.end()) {
@@ -97,17 +83,20 @@ Ranking Rank(const Explanations& explanations, const Judge& judge, const Remaind
   return ranking;
 }
 
-bool IsMaterial(double squared_gap, double squared_limit, double best_score,
-                const Remainder& remainder) {
-  return squared_gap > squared_limit || best_score < -kMaterialEvidence ||
-         remainder.log_before - remainder.healthy_mean > kNeverInHealth;
+Gate GateOf(double squared_gap, double upper_squared_gap, double squared_limit, double best_score,
+            const Remainder& remainder) {
+  const double beyond = std::log(remainder.before / remainder.healthy);
+  if (best_score < -kMaterialEvidence || beyond > kNeverInHealth) return Gate::kMaterial;
+  const bool small =
+      squared_gap <= squared_limit && upper_squared_gap <= kEquivalent * squared_limit;
+  return small ? Gate::kWithinHealth : Gate::kUndecided;
 }
 
-Verdict VerdictOf(const Ranking& ranking, const Remainder& remainder, bool material,
-                  bool conclusive) {
-  if (!material) return conclusive ? Verdict::kNoMaterialGap : Verdict::kInsufficientData;
+Verdict VerdictOf(Gate gate, const Ranking& ranking, const std::optional<Closure>& closure) {
+  if (gate == Gate::kWithinHealth) return Verdict::kNoMaterialGap;
+  if (gate == Gate::kUndecided) return Verdict::kInsufficientData;
   if (ranking.fits.empty() || ranking.unknown > 0.5) return Verdict::kUnknownCause;
-  if (!remainder.closure || *remainder.closure >= kExplained) return Verdict::kExplained;
+  if (!closure || closure->share >= kExplained) return Verdict::kExplained;
   return Verdict::kPartlyExplained;
 }
 

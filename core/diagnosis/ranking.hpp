@@ -25,26 +25,34 @@ struct Ranking {
   double unknown = 0.0;         ///< that it is something the library lacks
 };
 
-/// What is left once the likeliest explanation is in, as far as windows that did not take part in
-/// fitting tell.
+/// What a Judge has against a recording, as shares of what a healthy one is expected to leave,
+/// about one: without an explanation, with the likeliest, fitted to other windows than it is judged
+/// on, and of the references.
 struct Remainder {
-  double log_before = 0.0;        ///< ln of what a Judge leaves of the errors without it,
-  double log_leftover = 0.0;      ///< and with it,
-  double healthy_mean = 0.0;      ///< and of healthy recordings
-  std::optional<double> closure;  ///< held out; none where there is no gap
+  double before = 1.0;
+  double after = 1.0;
+  double healthy = 1.0;
 };
 
-/// Weighs explanations by their scores, tempered, and against something unknown by what they leave.
+/// Weighs explanations by their scores, and against something unknown by what they leave.
 /// Those that predict the same, to within kClassDistance, are one class: its likeliest member
 /// stands for all and has their probability.
 Ranking Rank(const Explanations& explanations, const Judge& judge, const Remainder& remainder);
 
-/// Whether a gap is more than health can be taken for: by size, by what explains it, or by
-/// its pattern.
-bool IsMaterial(double squared_gap, double squared_limit, double best_score,
-                const Remainder& remainder);
+/// What there is to say about a gap before looking for whose fault it is.
+enum class Gate {
+  kWithinHealth,  ///< equivalent: even its upper bound is hardly beyond what healthy days do
+  kUndecided,     ///< larger, but weather and what references leave open may account for it, or too
+                  ///< short a recording to bound it
+  kMaterial,      ///< more than health can be taken for: something explains it, or nothing does
+};
 
-Verdict VerdictOf(const Ranking& ranking, const Remainder& remainder, bool material,
-                  bool conclusive);
+/// `squared_gap` with its upper 95 % bound, `squared_limit` that 95 % of healthy recordings stay
+/// below.
+Gate GateOf(double squared_gap, double upper_squared_gap, double squared_limit, double best_score,
+            const Remainder& remainder);
+
+/// `closure`: held out; none where there is no gap.
+Verdict VerdictOf(Gate gate, const Ranking& ranking, const std::optional<Closure>& closure);
 
 }  // namespace telltale

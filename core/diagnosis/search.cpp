@@ -1,8 +1,8 @@
 #include "diagnosis/search.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
+#include <map>
 #include <mutex>
 
 #include <Eigen/Cholesky>
@@ -13,37 +13,21 @@
 namespace telltale {
 namespace {
 
-constexpr std::size_t kFittedInFull = 12;  // of the effects that the score test likes best
+constexpr std::size_t kFittedInFull = 14;  // of the effects that the score test likes best
 constexpr std::size_t kSeconds = 5;        // tried beside each promising first
 constexpr std::size_t kFirsts = 2;
-constexpr std::size_t kComparedWithHealth = 4;  // of the likeliest
 constexpr double kBeyondHealthy = 1.5;
-constexpr double kBeyondAnyHealthyDay = 600.0;  // evidence that no healthy day could feign
-// Of what an explanation takes away from the squared errors: what a part of it has to account for.
-constexpr double kMaterialShare = 0.04;
-
-std::vector<const Effect*> EffectsIn(const EffectFit& fit) {
-  std::vector<const Effect*> effects;
-  for (const ModelledEffect& modelled : fit.effects) effects.push_back(modelled.effect);
-  return effects;
-}
-
-Eigen::VectorXd ValuesIn(const EffectFit& fit) {
-  std::vector<double> values;
-  for (const ModelledEffect& modelled : fit.effects) {
-    values.insert(values.end(), modelled.values.begin(), modelled.values.end());
-  }
-  return Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
-}
 
 bool Contains(const EffectFit& fit, const Effect* effect) {
-  const auto effects = EffectsIn(fit);
+  const auto effects = fit.Effects();
   return std::find(effects.begin(), effects.end(), effect) != effects.end();
 }
 
-bool Shakes(const Effect& effect) {
-  const Effect* one = &effect;
-  return SlotsOf(std::span(&one, 1)).empty();
+/// What free runs do not tell apart by where they lead.
+std::vector<const Effect*> ShakersIn(const EffectFit& fit) {
+  std::vector<const Effect*> shakers = fit.Effects();
+  std::erase_if(shakers, [](const Effect* effect) { return !effect->Shakes(); });
+  return shakers;
 }
 
 bool Likelier(const EffectFit& a, const EffectFit& b) {
@@ -53,15 +37,16 @@ bool Likelier(const EffectFit& a, const EffectFit& b) {
 class Searching {
  public:
   Searching(const Evidence& evidence, std::span<const Effect* const> library, std::size_t threads)
-      : evidence_(evidence), library_(library), threads_(threads) {}
+      : evidence_(evidence), library_(library), threads_(threads) {
+    CompareWithHealth();
+  }
 
   std::vector<EffectFit> Singles(const std::function<void(double)>& tell) const {
     std::vector<const Effect*> moving;
     std::vector<EffectFit> fits;
     for (const Effect* effect : library_) {
-      if (Shakes(*effect)) {
-        fits.push_back(FitShaking(*effect, evidence_.runs, evidence_.healthy, evidence_.judge,
-                                  evidence_.recording.errors, threads_));
+      if (effect->Shakes()) {
+        fits.push_back(Shaken(*effect, evidence_.recording.errors));
       } else {
         moving.push_back(effect);
       }
@@ -82,37 +67,12 @@ class Searching {
     return fits;
   }
 
-  /// Takes back from the likeliest what they would explain of healthy days too.
-  void CompareWithHealth(std::vector<EffectFit>& fits) const {
-    std::vector<Judge> judges;
-    for (const Sensitivity& day : evidence_.healthy.days) {
-      judges.emplace_back(evidence_.healthy, day, EveryWindow(day), evidence_.judge.FreesBase());
-    }
-    const std::size_t compared = std::min(kComparedWithHealth, fits.size());
-    ForEachIndex(compared, threads_, [&](std::size_t i) {
-      EffectFit& fit = fits[i];
-      const Effect& effect = *fit.effects.front().effect;
-      if (fit.score > 0.0 || fit.score < -kBeyondAnyHealthyDay || Shakes(effect)) return;
-      double healthiest = 0.0;
-      for (std::size_t day = 0; day < judges.size(); ++day) {
-        const Sensitivity& recording = evidence_.healthy.days[day];
-        const auto starts =
-            StartsOf(effect, judges[day], recording.errors, recording, evidence_.slots);
-        const EffectFit healthy = FitEffects(evidence_.healthy_runs[day], evidence_.healthy.boat,
-                                             judges[day], {&effect}, {starts.front()});
-        healthiest = std::min(healthiest, healthy.score);
-      }
-      fit.score -= kBeyondHealthy * healthiest;
-    });
-    std::stable_sort(fits.begin(), fits.end(), Likelier);
-  }
-
   /// The best fits of one effect more than `first` has.
   std::vector<EffectFit> WithOneMore(const EffectFit& first,
                                      const std::vector<EffectFit>& singles) const {
     std::vector<const Effect*> others;
     for (const Effect* effect : library_) {
-      if (Contains(first, effect) || Shakes(*effect)) continue;
+      if (Contains(first, effect) || effect->Shakes()) continue;
       const auto single = std::find_if(singles.begin(), singles.end(), [&](const EffectFit& fit) {
         return fit.effects.front().effect == effect;
       });
@@ -123,31 +83,29 @@ class Searching {
     const auto ranked = ByScoreTest(others, first.errors);
     std::vector<EffectFit> fitted(std::min(kSeconds, ranked.size()));
     ForEachIndex(fitted.size(), threads_, [&](std::size_t i) {
-      std::vector<Eigen::VectorXd> starts;
-      for (const Eigen::VectorXd& start : StartsOf(*ranked[i], evidence_.judge, first.errors,
-                                                   evidence_.recording, evidence_.slots)) {
-        const Eigen::VectorXd values = ValuesIn(first);
-        Eigen::VectorXd stacked(values.size() + start.size());
-        stacked << values, start;
-        starts.push_back(stacked);
-        break;  // the linear guess: what else there is has been fitted already
-      }
-      auto effects = EffectsIn(first);
+      // The linear guess: what else there is has been fitted already.
+      const Eigen::VectorXd start =
+          StartsOf(*ranked[i], evidence_.judge, first.errors, evidence_.recording, evidence_.slots)
+              .front();
+      const Eigen::VectorXd values = first.Values();
+      Eigen::VectorXd stacked(values.size() + start.size());
+      stacked << values, start;
+      auto effects = first.Effects();
       effects.push_back(ranked[i]);
-      fitted[i] = Fit(effects, starts);
+      fitted[i] = Fit(effects, {stacked});
     });
     return fitted;
   }
 
-  /// Whether more is so much likelier than fewer, and explains so much more, as to be believed.
-  bool IsWorthwhile(const EffectFit& more, const EffectFit& fewer) const {
-    const auto square = [&](const Eigen::MatrixXd& errors) {
-      return evidence_.judge.See(errors).squaredNorm();
-    };
-    const double left = square(more.errors);
-    return more.score < fewer.score - kWorthwhile &&
-           square(fewer.errors) - left >
-               kMaterialShare * (square(evidence_.recording.errors) - left);
+  /// With what shakes the boat besides, where there is such a thing.
+  EffectFit WithShaking(const EffectFit& moving) const {
+    EffectFit best = moving;
+    for (const Effect* effect : library_) {
+      if (!effect->Shakes() || moving.effects.back().effect->Shakes()) continue;
+      const EffectFit both = Beside(moving, Shaken(*effect, moving.errors));
+      if (both.score < best.score - kWorthwhile) best = both;
+    }
+    return best;
   }
 
   /// Without what it can do without.
@@ -158,8 +116,8 @@ class Searching {
       for (std::size_t drop = 0; drop < fit.effects.size(); ++drop) {
         EffectFit fewer = fit;
         fewer.effects.erase(fewer.effects.begin() + static_cast<std::ptrdiff_t>(drop));
-        fewer = Fit(EffectsIn(fewer), {ValuesIn(fewer)});
-        if (IsWorthwhile(fit, fewer)) continue;
+        fewer = Again(fewer);
+        if (fit.score < fewer.score - kWorthwhile) continue;
         fit = fewer;
         pruned = true;
         break;
@@ -171,7 +129,35 @@ class Searching {
  private:
   EffectFit Fit(const std::vector<const Effect*>& effects,
                 const std::vector<Eigen::VectorXd>& starts) const {
-    return FitEffects(evidence_.runs, evidence_.healthy.boat, evidence_.judge, effects, starts);
+    EffectFit fit =
+        FitEffects(evidence_.runs, evidence_.healthy.boat, evidence_.judge, effects, starts);
+    for (const Effect* effect : effects) fit.score += healthy_gain_.at(effect);
+    return fit;
+  }
+
+  EffectFit Again(const EffectFit& old) const {
+    EffectFit fit =
+        FitAgain(old, evidence_.runs, evidence_.healthy.boat, evidence_.judge, threads_);
+    for (const Effect* effect : fit.Effects()) fit.score += healthy_gain_.at(effect);
+    return fit;
+  }
+
+  EffectFit Shaken(const Effect& effect, const Eigen::MatrixXd& errors) const {
+    return FitShaking(effect, evidence_.runs, evidence_.healthy.boat, evidence_.judge, errors,
+                      threads_);
+  }
+
+  void CompareWithHealth() {
+    for (const Effect* effect : library_) healthy_gain_[effect] = 0.0;
+    for (const Sensitivity& day : evidence_.healthy.days) {
+      const Judge judge(evidence_.healthy, day, EveryWindow(day), evidence_.judge.FreesBase());
+      for (auto& [effect, gain] : healthy_gain_) {
+        if (effect->Shakes()) continue;
+        const double score = ScoreTest(*effect, judge, day.errors, day, evidence_.slots);
+        const double looks = evidence_.judge.Looks() / judge.Looks();
+        gain = std::max(gain, -kBeyondHealthy * looks * score);
+      }
+    }
   }
 
   /// By how much evidence their linear guess promises, the most first.
@@ -180,7 +166,7 @@ class Searching {
     std::vector<std::pair<double, const Effect*>> scored;
     for (const Effect* effect : effects) {
       scored.emplace_back(
-          -ScoreTest(*effect, evidence_.judge, errors, evidence_.recording, evidence_.slots),
+          ScoreTest(*effect, evidence_.judge, errors, evidence_.recording, evidence_.slots),
           effect);
     }
     std::stable_sort(scored.begin(), scored.end(),
@@ -192,12 +178,16 @@ class Searching {
   const Evidence& evidence_;
   std::span<const Effect* const> library_;
   std::size_t threads_;
+  std::map<const Effect*, double> healthy_gain_;  ///< evidence that is none, by effect
 };
 
 }  // namespace
 
 double Distance(const EffectFit& one, const EffectFit& other, const Judge& judge) {
-  return 0.5 * judge.Square(judge.See(one.errors) - judge.See(other.errors));
+  if (ShakersIn(one) != ShakersIn(other)) return std::numeric_limits<double>::infinity();
+  const double apart = judge.Square(judge.See(one.errors) - judge.See(other.errors));
+  const double left = std::min(one.square, other.square);
+  return 0.5 * judge.Evidence(left + apart, left);
 }
 
 Explanations Search(const Evidence& evidence, std::span<const Effect* const> library,
@@ -206,7 +196,6 @@ Explanations Search(const Evidence& evidence, std::span<const Effect* const> lib
   const Searching searching(evidence, library, threads);
   Explanations explanations;
   explanations.singles = searching.Singles([&](double share) { tell(0.6 * share); });
-  searching.CompareWithHealth(explanations.singles);
   std::vector<EffectFit> level(
       explanations.singles.begin(),
       explanations.singles.begin() +
@@ -214,10 +203,12 @@ Explanations Search(const Evidence& evidence, std::span<const Effect* const> lib
   for (std::size_t count = 2; count <= most_effects; ++count) {
     std::vector<EffectFit> next;
     for (const EffectFit& first : level) {
-      if (Shakes(*first.effects.front().effect)) continue;
+      if (first.effects.back().effect->Shakes()) continue;
       for (EffectFit& more : searching.WithOneMore(first, explanations.singles)) {
-        if (searching.IsWorthwhile(more, first)) next.push_back(std::move(more));
+        if (more.score < first.score - kWorthwhile) next.push_back(std::move(more));
       }
+      EffectFit shaken = searching.WithShaking(first);
+      if (shaken.effects.size() == count) next.push_back(std::move(shaken));
     }
     if (next.empty()) break;
     std::sort(next.begin(), next.end(), Likelier);

@@ -18,7 +18,6 @@ struct Evidence {
   const Sensitivity& recording;
   const Judge& judge;
   const std::vector<Slot>& slots;
-  const std::vector<FreeRuns>& healthy_runs;  ///< of the recordings behind `healthy`
 };
 
 /// What explains a recording's errors, single effects by score, then the best that act together.
@@ -29,7 +28,7 @@ struct Explanations {
 };
 
 /// Scores are in comparison with healthy days: what an effect seems to explain of those, the most
-/// of any, and half as much again, is no evidence.
+/// of any, and half as much again, is taken back.
 ///
 /// Screens every effect by the score test, fits the most promising in full, then adds a second and
 /// a third effect where the evidence asks for it and they are of different classes; what a
@@ -38,12 +37,12 @@ Explanations Search(const Evidence& evidence, std::span<const Effect* const> lib
                     std::size_t most_effects, std::size_t threads,
                     const std::function<void(double)>& tell);
 
-/// Half the squared distance, in nats, between what two explanations predict: below
+/// Nats by which the better of two explanations would win if it were the truth: below
 /// kClassDistance this recording cannot tell them apart.
 double Distance(const EffectFit& one, const EffectFit& other, const Judge& judge);
 inline constexpr double kClassDistance = 3.0;
 
 /// -2 ln of how much likelier the first is than the second has to be before it counts as found.
-inline constexpr double kWorthwhile = 100.0;
+inline constexpr double kWorthwhile = 12.0;
 
 }  // namespace telltale

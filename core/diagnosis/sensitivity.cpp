@@ -13,14 +13,23 @@ Eigen::VectorXd Stacked(const Eigen::MatrixXd& errors) {
   return errors.reshaped();
 }
 
+AugmentedModel WithMore(AugmentedModel boat, const Slot& slot, double value) {
+  for (ModelledEffect& there : boat.effects) {
+    if (there.effect != slot.effect) continue;
+    there.values[slot.parameter] += value;
+    return boat;
+  }
+  boat.effects.push_back(At(slot, value));
+  return boat;
+}
+
 }  // namespace
 
 std::vector<Slot> SlotsOf(std::span<const Effect* const> effects) {
   std::vector<Slot> slots;
   for (const Effect* effect : effects) {
+    if (effect->Shakes()) continue;
     const auto parameters = effect->Parameters();
-    const std::vector<double> typical(parameters.size(), 1.0);
-    if (effect->Shaking(typical)) continue;
     for (std::size_t i = 0; i < parameters.size(); ++i) {
       if (!parameters[i].shapes) slots.push_back({effect, i});
     }
@@ -56,7 +65,7 @@ std::vector<ModelledEffect> EffectsOf(const std::vector<Slot>& slots,
 
 Sensitivity SensitivityOf(const FreeRuns& runs, const AugmentedModel& boat,
                           const UncertainModel& model, const std::vector<Slot>& slots,
-                          std::size_t threads) {
+                          std::size_t threads, double step) {
   Sensitivity sensitivity;
   sensitivity.errors = runs.Errors(boat);
   const auto base = static_cast<Eigen::Index>(model.free.size());
@@ -67,17 +76,17 @@ Sensitivity SensitivityOf(const FreeRuns& runs, const AugmentedModel& boat,
   const Eigen::VectorXd standard_errors = model.StandardErrors();
   ForEachIndex(model.free.size() + slots.size(), threads, [&](std::size_t i) {
     const auto column = static_cast<Eigen::Index>(i);
-    AugmentedModel changed = boat;
     if (column < base) {
-      const auto& [equation, place] = model.free[i];
-      changed.model.theta[IndexOf(equation)][place] += standard_errors[column];
+      const AugmentedModel changed{
+          model.Changed(boat.model, standard_errors[column] * Eigen::VectorXd::Unit(base, column)),
+          boat.effects};
       sensitivity.by_base.col(column) = Stacked(runs.Errors(changed)) - nominal;
       return;
     }
     const Slot& slot = slots[i - static_cast<std::size_t>(base)];
     const double typical = slot.effect->Parameters()[slot.parameter].typical;
-    changed.effects.push_back(At(slot, typical));
-    sensitivity.by_slot.col(column - base) = Stacked(runs.Errors(changed)) - nominal;
+    sensitivity.by_slot.col(column - base) =
+        (Stacked(runs.Errors(WithMore(boat, slot, step * typical))) - nominal) / step;
   });
   return sensitivity;
 }

@@ -37,10 +37,10 @@ struct Sensitivity {
 };
 
 /// About `boat`, whose coefficients `model` says how to change. Secants over one standard error of
-/// a coefficient and the typical size of a slot: effects with thresholds have no slope at
-/// zero.
+/// a coefficient and `step` typical sizes of a slot more than the boat has: effects with thresholds
+/// have no slope at zero.
 Sensitivity SensitivityOf(const FreeRuns& runs, const AugmentedModel& boat,
                           const UncertainModel& model, const std::vector<Slot>& slots,
-                          std::size_t threads);
+                          std::size_t threads, double step = 1.0);
 
 }  // namespace telltale

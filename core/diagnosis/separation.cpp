@@ -53,12 +53,6 @@ std::optional<PreparedDataset> Rehearsed(const CatalogueManoeuvre& manoeuvre,
   return *std::move(dataset);
 }
 
-AugmentedModel With(const AugmentedModel& boat, const EffectFit& fit) {
-  AugmentedModel with = boat;
-  with.effects.insert(with.effects.end(), fit.effects.begin(), fit.effects.end());
-  return with;
-}
-
 }  // namespace
 
 std::vector<SeparationAdvice> AdviseSeparation(const RankedFit& tied, const Healthy& healthy,
@@ -66,21 +60,21 @@ std::vector<SeparationAdvice> AdviseSeparation(const RankedFit& tied, const Heal
   std::vector<SeparationAdvice> all;
   if (tied.alike.empty()) return all;
   const Eigen::LLT<Eigen::MatrixXd> factor(healthy.covariance);
-  std::vector<std::string> separated;
-  for (const ModelledEffect& modelled : tied.fit.effects) {
-    separated.emplace_back(modelled.effect->Name());
-  }
+  std::vector<std::string> separated = tied.fit.Names();
   for (const std::string& name : tied.Indistinguishable()) separated.push_back(name);
   for (const CatalogueManoeuvre& manoeuvre : ManoeuvreCatalogue()) {
     const auto dataset = Rehearsed(manoeuvre, healthy.boat.model, sampling_period_s);
     if (!dataset) continue;
     const FreeRuns runs(*dataset, healthy.boat.model, kHorizonS);
     if (runs.Rows() != healthy.covariance.rows() || runs.Windows() == 0) continue;
-    const Eigen::MatrixXd one = runs.Errors(With(healthy.boat, tied.fit));
+    const Eigen::MatrixXd one = runs.Errors(healthy.boat.With(tied.fit.effects));
     double nats = std::numeric_limits<double>::infinity();
     for (const EffectFit& other : tied.alike) {
-      const Eigen::MatrixXd apart = one - runs.Errors(With(healthy.boat, other));
-      const double distance = 0.5 * healthy.kappa * factor.matrixL().solve(apart).squaredNorm();
+      const Eigen::MatrixXd apart = one - runs.Errors(healthy.boat.With(other.effects));
+      const double expected = static_cast<double>(apart.size());
+      const double square = factor.matrixL().solve(apart).squaredNorm();
+      const double looks = kLooksAWindow * healthy.kappa * static_cast<double>(apart.cols());
+      const double distance = 0.5 * looks * std::log1p(square / expected);
       nats = std::min(nats, distance);
     }
     if (nats < kWorthSayingNats) continue;

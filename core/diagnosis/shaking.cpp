@@ -3,26 +3,25 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
+#include <map>
 #include <numbers>
+#include <utility>
+#include <vector>
 
 #include <Eigen/Cholesky>
 
 #include "contract.hpp"
+#include "diagnosis/gap.hpp"
 #include "parallel.hpp"
 
 namespace telltale {
 namespace {
 
 constexpr std::size_t kFrequencies = 12;
-constexpr int kIterations = 60;
-// Seas differ from day to day: times what the roughest healthy day would gain is no finding yet.
-constexpr double kBeyondHealthy = 2.0;
-// And so much more, since healthy days have shaped the scatter by which they are judged: no healthy
-// development case gained as much.
-constexpr double kNeverInHealth = 300.0;
-// Waves scatter errors more than they enlarge them.
-constexpr double kSizeCounts = 5.0;
+constexpr int kIterations = 40;
+// What the best frequency gains over the ends of the range counts so many times: scatter that grew
+// in any other way gains as much at an end, and peaks nowhere between.
+constexpr double kNarrow = 20.0;
 
 /// Pushes along one axis at one frequency and phase, an acceleration of one.
 class Swing final : public Effect {
@@ -68,40 +67,32 @@ Eigen::MatrixXd PatternOf(const FreeRuns& runs, const AugmentedModel& boat,
   return pattern;
 }
 
+/// Windows whose errors scatter by I + excess.
 struct Spectrum {
   Eigen::Vector3d squares = Eigen::Vector3d::Zero();  ///< of amplitudes
-  double explained = 0.0;                             ///< of the squares of all windows
-  double gain = 0.0;                                  ///< 2 ln of the likelihood over health's
+  Eigen::VectorXd gains;  ///< by window, 2 ln of the likelihood over health's
+  double left = 0.0;      ///< squares of all windows in what they scatter by
 };
 
-/// 2 ln likelihood of windows of second moment S under I + excess, over that under I.
-double GainOf(const Eigen::MatrixXd& moment, const Eigen::MatrixXd& excess, double windows) {
-  const auto identity = Eigen::MatrixXd::Identity(moment.rows(), moment.rows());
-  const Eigen::LLT<Eigen::MatrixXd> factor(identity + excess);
-  const double log_determinant = 2.0 * factor.matrixLLT().diagonal().array().log().sum();
-  return windows * (moment.trace() - factor.solve(moment).trace() - log_determinant);
+Eigen::MatrixXd ExcessOf(const Eigen::Vector3d& squares,
+                         const std::array<Eigen::MatrixXd, 3>& patterns) {
+  return squares[0] * patterns[0] + squares[1] * patterns[1] + squares[2] * patterns[2];
 }
 
 /// Most likely squared amplitudes, by the multiplicative form of Fisher scoring that keeps them
 /// positive.
-Spectrum Fitted(const Eigen::MatrixXd& moment, const std::array<Eigen::MatrixXd, 3>& patterns,
-                double windows) {
+Spectrum Fitted(const Eigen::MatrixXd& windows, const std::array<Eigen::MatrixXd, 3>& patterns) {
+  const auto identity = Eigen::MatrixXd::Identity(windows.rows(), windows.rows());
+  const Eigen::MatrixXd moment =
+      windows * windows.transpose() / static_cast<double>(windows.cols());
   Spectrum spectrum;
   for (std::size_t j = 0; j < 3; ++j) {
     spectrum.squares[static_cast<Eigen::Index>(j)] =
         0.1 * moment.trace() / std::max(patterns[j].trace(), 1e-12);
   }
-  const auto excess = [&] {
-    Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(moment.rows(), moment.rows());
-    for (std::size_t j = 0; j < 3; ++j)
-      sum += spectrum.squares[static_cast<Eigen::Index>(j)] * patterns[j];
-    return sum;
-  };
   for (int iteration = 0; iteration < kIterations; ++iteration) {
-    const Eigen::MatrixXd inverse =
-        (Eigen::MatrixXd::Identity(moment.rows(), moment.rows()) + excess())
-            .llt()
-            .solve(Eigen::MatrixXd::Identity(moment.rows(), moment.rows()));
+    const Eigen::LLT<Eigen::MatrixXd> scatter(identity + ExcessOf(spectrum.squares, patterns));
+    const Eigen::MatrixXd inverse = scatter.solve(identity);
     const Eigen::MatrixXd seen = inverse * moment * inverse;
     for (std::size_t j = 0; j < 3; ++j) {
       const double wanted = (seen.array() * patterns[j].array()).sum();
@@ -110,47 +101,63 @@ Spectrum Fitted(const Eigen::MatrixXd& moment, const std::array<Eigen::MatrixXd,
           std::sqrt(wanted / std::max(expected, 1e-300));
     }
   }
-  // What it explains of the mean square is no more than there is to explain.
-  const double there = moment.trace() - static_cast<double>(moment.rows());
-  const double explained = excess().trace();
-  if (explained > there) spectrum.squares *= std::max(there, 0.0) / explained;
-  spectrum.gain = GainOf(moment, excess(), windows);
-  spectrum.explained = windows * excess().trace();
+  const Eigen::LLT<Eigen::MatrixXd> scatter(identity + ExcessOf(spectrum.squares, patterns));
+  const double log_determinant = 2.0 * scatter.matrixLLT().diagonal().array().log().sum();
+  const Eigen::VectorXd left = scatter.matrixL().solve(windows).colwise().squaredNorm();
+  spectrum.left = left.sum();
+  spectrum.gains = windows.colwise().squaredNorm().transpose() - left;
+  spectrum.gains.array() -= log_determinant;
   return spectrum;
+}
+
+/// The sum over windows if all were like those of a half minute that three of four surpass: what
+/// some windows show and others do not goes on only now and then.
+double LastingSum(const Eigen::VectorXd& values, const std::vector<std::size_t>& blocks) {
+  std::map<std::size_t, std::pair<double, double>> sums;
+  for (Eigen::Index w = 0; w < values.size(); ++w) {
+    auto& [sum, count] = sums[blocks[static_cast<std::size_t>(w)]];
+    sum += values[w];
+    count += 1.0;
+  }
+  std::vector<double> means;
+  for (const auto& [block, part] : sums) means.push_back(part.first / part.second);
+  const auto quarter = means.begin() + std::ssize(means) / 4;
+  std::nth_element(means.begin(), quarter, means.end());
+  return *quarter * static_cast<double>(values.size());
 }
 
 }  // namespace
 
-EffectFit FitShaking(const Effect& effect, const FreeRuns& runs, const Healthy& healthy,
+EffectFit FitShaking(const Effect& effect, const FreeRuns& runs, const AugmentedModel& boat,
                      const Judge& judge, const Eigen::MatrixXd& errors, std::size_t threads) {
   const auto parameters = effect.Parameters();
   Require(parameters.size() == 4, "three amplitudes and a frequency");
-  const Eigen::Index rows = runs.Rows();
-  const auto windows = static_cast<Eigen::Index>(judge.Windows().size());
-  const Eigen::MatrixXd moment = judge.MomentOfUnexplained(judge.See(errors));
-  const double counted = judge.Kappa() * static_cast<double>(windows);
-
-  std::array<double, kFrequencies> frequencies{};
-  for (std::size_t i = 0; i < kFrequencies; ++i) {
+  const Eigen::VectorXd seen = judge.See(errors);
+  const Eigen::MatrixXd windows = judge.UnexplainedByWindow(seen);
+  const Eigen::MatrixXd nominal = runs.Errors(boat);
+  const auto frequency = [&](std::size_t i) {
     const double share = static_cast<double>(i) / static_cast<double>(kFrequencies - 1);
-    frequencies[i] =
-        parameters[3].lower * std::pow(parameters[3].upper / parameters[3].lower, share);
-  }
+    return parameters[3].lower * std::pow(parameters[3].upper / parameters[3].lower, share);
+  };
   std::array<Spectrum, kFrequencies> spectra;
-  std::array<double, kFrequencies> usual{};  // gain on a healthy day
   ForEachIndex(kFrequencies, threads, [&](std::size_t i) {
     std::array<Eigen::MatrixXd, 3> patterns;
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      patterns[axis] = judge.Whiten(PatternOf(runs, healthy.boat, errors, axis, frequencies[i]));
+      patterns[axis] = judge.Whiten(PatternOf(runs, boat, nominal, axis, frequency(i)));
     }
-    spectra[i] = Fitted(moment, patterns, counted);
-    for (const Eigen::MatrixXd& day : healthy.shaken) {
-      usual[i] = std::max(usual[i], Fitted(day, patterns, counted).gain);
-    }
+    spectra[i] = Fitted(windows, patterns);
   });
-  const auto best = std::max_element(spectra.begin(), spectra.end(),
-                                     [](const auto& a, const auto& b) { return a.gain < b.gain; });
-  const double frequency = frequencies[static_cast<std::size_t>(best - spectra.begin())];
+  const auto gains_less = [](const Spectrum& a, const Spectrum& b) {
+    return a.gains.sum() < b.gains.sum();
+  };
+  const auto best = std::max_element(spectra.begin(), spectra.end(), gains_less);
+  const Spectrum& end = std::max(spectra.front(), spectra.back(), gains_less);
+
+  std::vector<std::size_t> blocks;
+  const std::vector<std::size_t> all_blocks = BlocksOf(runs);
+  for (const std::size_t w : judge.Windows()) blocks.push_back(all_blocks[w]);
+  const double narrow = LastingSum(best->gains - end.gains, blocks);
+  const double gain = std::clamp(kNarrow * narrow, 0.0, std::max(best->gains.sum(), 0.0));
 
   EffectFit fit;
   ModelledEffect& modelled = fit.effects.emplace_back(ModelledEffect{&effect, {}});
@@ -159,29 +166,45 @@ EffectFit FitShaking(const Effect& effect, const FreeRuns& runs, const Healthy& 
     modelled.values.push_back(
         std::clamp(std::sqrt(best->squares[j]), parameter.lower, parameter.upper));
   }
-  modelled.values.push_back(frequency);
-  // A fifth of each is what a recording of a hundred windows leaves open.
+  modelled.values.push_back(frequency(static_cast<std::size_t>(best - spectra.begin())));
+  // A root of the looks is what random waves leave open of their own size.
   fit.covariance = Eigen::MatrixXd::Zero(4, 4);
   for (Eigen::Index j = 0; j < 4; ++j) {
-    const double spread = modelled.values[static_cast<std::size_t>(j)] * std::sqrt(1.0 / counted);
-    fit.covariance(j, j) = spread * spread;
+    const double value = modelled.values[static_cast<std::size_t>(j)];
+    fit.covariance(j, j) = value * value / judge.Looks();
   }
-  const double swollen = moment.trace() / static_cast<double>(rows) - 1.0;
-  const double alike =
-      swollen > 0.0 ? GainOf(moment, swollen * Eigen::MatrixXd::Identity(rows, rows), counted)
-                    : 0.0;
-  const double cost = 4.0 * std::log(std::max(counted, 2.0));
-  const double null_square = judge.Square(judge.See(errors));
-  const double healthy_gain =
-      kNeverInHealth + kBeyondHealthy * *std::max_element(usual.begin(), usual.end());
-  // By size alone, as in FitEffects: what is there to explain beyond a healthy boat's scatter.
-  const double by_size = std::max(judge.PlainSquare(errors) - judge.PlainOfHealth(), 0.0);
-  fit.score = cost + healthy_gain -
-              std::min({best->gain, 3.0 * (best->gain - alike), kSizeCounts * by_size});
-  fit.square = null_square - best->explained;
+  const double none = judge.Square(seen);
+  fit.score = judge.Evidence(std::max(none - judge.Kappa() * gain, 0.01 * none), none) +
+              4.0 * std::log(std::max(judge.Looks(), 2.0));
+  fit.square = gain > 0.0 ? judge.Kappa() * best->left : none;
   fit.errors = errors;
-  fit.slot_sigmas.assign(4, 0.0);
   return fit;
+}
+
+EffectFit Beside(const EffectFit& moving, const EffectFit& shaking) {
+  EffectFit both = shaking;
+  both.effects.insert(both.effects.begin(), moving.effects.begin(), moving.effects.end());
+  const Eigen::Index first = moving.covariance.rows();
+  const Eigen::Index all = first + shaking.covariance.rows();
+  both.covariance = Eigen::MatrixXd::Zero(all, all);
+  both.covariance.topLeftCorner(first, first) = moving.covariance;
+  both.covariance.bottomRightCorner(all - first, all - first) = shaking.covariance;
+  both.score += moving.score;
+  return both;
+}
+
+EffectFit FitAgain(const EffectFit& fit, const FreeRuns& runs, const AugmentedModel& boat,
+                   const Judge& judge, std::size_t threads) {
+  EffectFit moving = fit;
+  std::erase_if(moving.effects, [](const auto& modelled) { return modelled.effect->Shakes(); });
+  if (!moving.effects.empty()) {
+    moving = FitEffects(runs, boat, judge, moving.Effects(), {moving.Values()});
+  }
+  if (moving.effects.size() == fit.effects.size()) return moving;
+  const bool alone = moving.effects.empty();
+  const EffectFit shaking = FitShaking(*fit.effects.back().effect, runs, boat, judge,
+                                       alone ? runs.Errors(boat) : moving.errors, threads);
+  return alone ? shaking : Beside(moving, shaking);
 }
 
 Eigen::VectorXd ShakenSquares(const EffectFit& fit, const FreeRuns& runs,
@@ -204,15 +227,14 @@ double ShakingDetectability(const Effect& effect, const FreeRuns& runs, const Au
                             const Judge& judge) {
   const auto parameters = effect.Parameters();
   const Eigen::MatrixXd nominal = runs.Errors(boat);
-  Eigen::MatrixXd excess = Eigen::MatrixXd::Zero(runs.Rows(), runs.Rows());
+  double excess = 0.0;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const double amplitude = parameters[axis].typical;
     excess += amplitude * amplitude *
-              judge.Whiten(PatternOf(runs, boat, nominal, axis, parameters[3].usual));
+              judge.Whiten(PatternOf(runs, boat, nominal, axis, parameters[3].usual)).trace();
   }
-  const auto identity = Eigen::MatrixXd::Identity(runs.Rows(), runs.Rows());
-  const double windows = judge.Kappa() * static_cast<double>(judge.Windows().size());
-  return std::sqrt(std::max(GainOf(identity + excess, excess, windows), 0.0));
+  const double rows = static_cast<double>(runs.Rows());
+  return std::sqrt(std::max(judge.Evidence(rows + excess, rows), 0.0));
 }
 
 }  // namespace telltale

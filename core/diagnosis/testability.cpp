@@ -34,6 +34,7 @@ std::string Absorber(const Evidence& evidence, const UncertainModel& model,
 std::vector<EffectTestability> TestabilityOf(const Evidence& evidence, const UncertainModel& model,
                                              std::span<const Effect* const> library) {
   std::vector<EffectTestability> all;
+  const double looks_a_row = evidence.judge.Looks() / evidence.judge.Expected();
   for (const Effect* effect : library) {
     EffectTestability& one = all.emplace_back();
     one.effect = effect->Name();
@@ -44,8 +45,9 @@ std::vector<EffectTestability> TestabilityOf(const Evidence& evidence, const Unc
       const Eigen::VectorXd seen =
           evidence.judge.SeeColumns(evidence.recording.by_slot.col(static_cast<Eigen::Index>(j)))
               .col(0);
-      alone += seen.squaredNorm();
-      one.detectability += evidence.judge.Square(seen);
+      const double sigmas = evidence.judge.Sigmas(seen);
+      alone += seen.squaredNorm() * looks_a_row;
+      one.detectability += sigmas * sigmas;
       counted += 1.0;
       if (one.absorbed_by.empty()) one.absorbed_by = Absorber(evidence, model, seen);
     }

@@ -9,8 +9,8 @@ Eigen::MatrixXd UncertainModel::Correlation() const {
   return scale.asDiagonal() * covariance * scale.asDiagonal();
 }
 
-VesselModel UncertainModel::Changed(const Eigen::VectorXd& by) const {
-  VesselModel changed = model;
+VesselModel UncertainModel::Changed(const VesselModel& about, const Eigen::VectorXd& by) const {
+  VesselModel changed = about;
   for (std::size_t i = 0; i < free.size(); ++i) {
     changed.theta[IndexOf(free[i].equation)][free[i].column] += by[static_cast<Eigen::Index>(i)];
   }

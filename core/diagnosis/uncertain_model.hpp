@@ -26,8 +26,8 @@ struct UncertainModel {
   Eigen::VectorXd StandardErrors() const { return covariance.diagonal().cwiseSqrt(); }
   Eigen::MatrixXd Correlation() const;
 
-  /// The model with its free coefficients changed by so much.
-  VesselModel Changed(const Eigen::VectorXd& by) const;
+  /// `about`, which has the same coefficients, with the free ones changed by so much.
+  VesselModel Changed(const VesselModel& about, const Eigen::VectorXd& by) const;
 };
 
 /// Coefficients without a finite standard error, which the data never moved, stay as they are.

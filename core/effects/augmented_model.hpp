@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "effects/effect.hpp"
@@ -11,6 +12,13 @@ namespace telltale {
 struct AugmentedModel {
   VesselModel model;
   std::vector<ModelledEffect> effects;  ///< none: the model alone
+
+  /// The same boat with more effects.
+  AugmentedModel With(std::span<const ModelledEffect> more) const {
+    AugmentedModel with = *this;
+    with.effects.insert(with.effects.end(), more.begin(), more.end());
+    return with;
+  }
 };
 
 }  // namespace telltale

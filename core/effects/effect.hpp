@@ -89,6 +89,11 @@ class Effect {
   const EffectFacts& Facts() const { return facts_; }
   std::span<const EffectParameter> Parameters() const { return facts_.parameters; }
 
+  /// Whether it shakes the boat at random instead of moving it in a way that free runs can follow.
+  bool Shakes() const {
+    return Shaking(std::vector<double>(facts_.parameters.size(), 1.0)).has_value();
+  }
+
   /// What an operator would call it with these values: "port thruster 22 % weaker".
   virtual std::string Describe(EffectValues values) const = 0;
 

@@ -1,6 +1,5 @@
 #include "codec/effects_json.hpp"
 
-#include <algorithm>
 #include <string>
 
 #include "contract.hpp"
@@ -83,12 +82,7 @@ std::vector<AddedEffect> ReadEffects(FieldReader& reader, const proto::Model& me
   std::vector<AddedEffect> effects;
   for (int i = 0; i < message.effects_size(); ++i) {
     FieldReader item = reader.Item("effects", i);
-    AddedEffect added = ReadEffect(item, message.effects(i));
-    const bool twice = std::any_of(effects.begin(), effects.end(), [&](const AddedEffect& other) {
-      return other.effect == added.effect;
-    });
-    if (twice) item.Fail("effect", Quoted(added.effect), "each effect at most once");
-    effects.push_back(std::move(added));
+    effects.push_back(ReadEffect(item, message.effects(i)));
   }
   return effects;
 }
