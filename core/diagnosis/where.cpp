@@ -22,6 +22,8 @@ constexpr double kStep = 0.1;  // of full command: a change that counts as a ste
 constexpr std::size_t kReplicates = 500;
 constexpr double kSignificant = 0.05;
 constexpr double kMaterialShare = 0.05;
+// A corner within a corner says more where its rows hold half as much excess again each.
+constexpr double kDenser = 1.5;
 constexpr std::size_t kFewestClusters = 6;
 constexpr std::array kSpeedEdges = {0.5, 1.0, 1.5};
 
@@ -154,9 +156,21 @@ Usual UsualIn(const Corner& corner, const std::vector<Miss>& misses, std::size_t
 /// A cell under test: sums of deviations from the usual, by cluster.
 struct Cell {
   GapCell listed;
+  double rows = 0.0;
   std::vector<double> sums;
   double statistic = 0.0;
 };
+
+/// Excess by row, as a share of all of it.
+double DensityOf(const Cell& cell) {
+  return cell.listed.excess_share / cell.rows;
+}
+
+/// A region at one speed lies within that region, and within that speed.
+bool LiesWithin(const GapCell& inner, const GapCell& outer) {
+  if (inner.channel != outer.channel || !inner.region || inner.bin.empty()) return false;
+  return outer.region ? outer.region == inner.region && outer.bin.empty() : outer.bin == inner.bin;
+}
 
 /// Theil: how much of the mean square is its mean, how much goes with the model's own output.
 GapKind KindOf(const Corner& corner, const std::vector<Miss>& misses, std::size_t channel,
@@ -227,6 +241,7 @@ std::vector<GapCell> Localise(const PreparedDataset& recording,
       Cell cell;
       cell.statistic = std::abs(total) / std::sqrt(norm);
       cell.sums = std::move(sums);
+      cell.rows = count;
       cell.listed.channel = kEquations[channel];
       cell.listed.region = corner.region;
       cell.listed.bin = corner.bin;
@@ -255,14 +270,21 @@ std::vector<GapCell> Localise(const PreparedDataset& recording,
     }
     largest.push_back(most);
   }
-  std::vector<GapCell> listed;
+  std::vector<Cell> found;
   for (Cell& cell : cells) {
     const auto above = std::count_if(largest.begin(), largest.end(),
                                      [&](double most) { return most >= cell.statistic; });
     cell.listed.p_value =
         (1.0 + static_cast<double>(above)) / (1.0 + static_cast<double>(kReplicates));
     if (cell.listed.p_value > kSignificant || cell.listed.excess_share < kMaterialShare) continue;
-    listed.push_back(cell.listed);
+    found.push_back(std::move(cell));
+  }
+  std::vector<GapCell> listed;
+  for (const Cell& cell : found) {
+    const bool echoes = std::ranges::any_of(found, [&](const Cell& wider) {
+      return LiesWithin(cell.listed, wider.listed) && DensityOf(cell) < kDenser * DensityOf(wider);
+    });
+    if (!echoes) listed.push_back(cell.listed);
   }
   std::stable_sort(listed.begin(), listed.end(), [](const GapCell& a, const GapCell& b) {
     return a.excess_share > b.excess_share;
