@@ -287,7 +287,7 @@ TEST(WireExchange, ReplyMustHoldAModelWhenPublishedAndOnlyThen) {
 }
 
 TEST(WireExchange, ProgressStaysBetweenNoneAndAll) {
-  auto wire = Encode(IdentifyProgress{"abc-1", "boat-1", "bootstrap", 0.5});
+  auto wire = Encode(IdentifyProgress{{"abc-1", "boat-1", "bootstrap", 0.5}});
   EXPECT_EQ(Decode(*wire)->fraction, 0.5);
   wire->fraction = 1.5;
   EXPECT_EQ(Decode(*wire).error().field, "fraction");
@@ -321,14 +321,14 @@ TEST(WireDiagnosis, RequestAndProgressArriveAsTheyWereSent) {
   EXPECT_TRUE(request->refit);
   EXPECT_EQ(request->without, (std::vector<std::string>{"wind", "x"}));
   EXPECT_EQ(request->seed, 9u);
-  const auto progress = Decode(*Encode(DiagnoseProgress{"id-1", "boat-1", "searching", 0.25}));
+  const auto progress = Decode(*Encode(DiagnoseProgress{{"id-1", "boat-1", "searching", 0.25}}));
   ASSERT_TRUE(progress);
   EXPECT_EQ(progress->stage, "searching");
   EXPECT_EQ(progress->fraction, 0.25);
 }
 
 TEST(WireDiagnosis, ReplyHoldsADiagnosisWhenPublishedAndOnlyThen) {
-  DiagnoseReply sent{"id-1", "boat-1", IdentifyOutcome::kRefused, "", {{"a", "b", "c"}}, {}, 1.5};
+  DiagnoseReply sent{{"id-1", "boat-1", IdentifyOutcome::kRefused, "", {{"a", "b", "c"}}, 1.5}, {}};
   const auto refused = Decode(*Encode(sent));
   ASSERT_TRUE(refused) << refused.error().Message();
   EXPECT_EQ(refused->refusals, sent.refusals);
