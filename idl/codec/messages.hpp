@@ -99,6 +99,9 @@ struct DiagnoseProgress : ExchangeProgress {};
 
 struct DiagnoseReply : ExchangeReply {
   std::optional<PublishedDiagnosis> diagnosis;  ///< when published
+  /// The model identified again with the effects that were named, where any was. It is no revision:
+  /// the vehicle's model stays what it is.
+  std::optional<Identification> augmented;
 };
 
 /// Rejected samples as a monitor shows them. Reasons are RejectReason names and those of a sample

@@ -768,6 +768,22 @@ bool HoldsItsAnswer(const char* field, const auto& answer, const ExchangeReply& 
   return published;
 }
 
+/// None where no effect was named, and from writers that know of none.
+std::optional<Identification> ReadAugmented(const dds_sequence_telltale_wire_Model& wire,
+                                            const DiagnoseReply& reply) {
+  const std::uint32_t most = reply.diagnosis ? 1 : 0;
+  if (wire._length > most) {
+    Reject("augmented", std::to_string(wire._length) + " items",
+           most > 0 ? "none or one" : "none unless published");
+  }
+  if (wire._length == 0) return std::nullopt;
+  Identification augmented = ReadModel(wire._buffer[0]).identification;
+  if (augmented.vehicle_id != reply.vehicle_id) {
+    Reject("augmented[0].vehicle_id", augmented.vehicle_id, "the reply's, " + reply.vehicle_id);
+  }
+  return augmented;
+}
+
 /// The common part of the three telemetry types: no exception and no allocation on the way of a
 /// sound sample.
 template <class Sample, class Wire>
@@ -886,6 +902,10 @@ WireSample<telltale_wire_DiagnoseReply> Encode(const DiagnoseReply& reply) {
     PutSequence(wire->diagnosis, std::initializer_list<PublishedDiagnosis>{*reply.diagnosis},
                 [](auto& element, const PublishedDiagnosis& item) { Fill(element, item); });
   }
+  if (reply.augmented) {
+    PutSequence(wire->augmented, std::initializer_list<PublishedModel>{{*reply.augmented, 0, 0.0}},
+                kFill);
+  }
   return wire;
 }
 
@@ -992,10 +1012,11 @@ Decoded<DiagnoseProgress> Decode(const telltale_wire_DiagnoseProgress& wire) {
 
 Decoded<DiagnoseReply> Decode(const telltale_wire_DiagnoseReply& wire) {
   return Guarded([&] {
-    DiagnoseReply reply{ReadReply(wire), {}};
+    DiagnoseReply reply{ReadReply(wire), {}, {}};
     if (HoldsItsAnswer("diagnosis", wire.diagnosis, reply)) {
       reply.diagnosis = ReadDiagnosis(wire.diagnosis._buffer[0]);
     }
+    reply.augmented = ReadAugmented(wire.augmented, reply);
     return reply;
   });
 }
