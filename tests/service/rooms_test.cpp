@@ -396,9 +396,9 @@ std::optional<int> EvaluationsUntilDrift(double relative_error) {
 }
 
 TEST(DriftTest, FiresTheSoonerTheWorseAndNeverWithinBounds) {
-  EXPECT_EQ(EvaluationsUntilDrift(3.0), 6);   // 9 / 1.5
-  EXPECT_EQ(EvaluationsUntilDrift(2.0), 18);  // 9 / 0.5
-  EXPECT_EQ(EvaluationsUntilDrift(1.5), std::nullopt);
+  EXPECT_EQ(EvaluationsUntilDrift(3.0), 16);  // 20 / 1.25
+  EXPECT_EQ(EvaluationsUntilDrift(2.0), 80);  // 20 / 0.25
+  EXPECT_EQ(EvaluationsUntilDrift(1.75), std::nullopt);
   EXPECT_EQ(EvaluationsUntilDrift(std::nan("")), std::nullopt);
   EXPECT_EQ(EvaluationsUntilDrift(HUGE_VAL), 1);
 }
@@ -417,7 +417,7 @@ TEST(DriftTest, EndsOnceTheErrorHasBeenSmallAgain) {
   EXPECT_TRUE(test.Fires());
   int until = 0;
   for (; test.Fires() && until < 100; ++until) test.Add(1.0);
-  EXPECT_EQ(until, 36);  // 18 / 0.5
+  EXPECT_EQ(until, 54);  // 40 / 0.75
 }
 
 TEST(IdentificationOptions, AreTheRequestsWishesOverTheDaemonsDefaults) {
