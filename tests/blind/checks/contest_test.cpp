@@ -78,6 +78,44 @@ TEST_F(ContestTest, ScoresSomeWhereAskedTo) {
   EXPECT_EQ(ScoresOf("mine", true).cases, 1u);
 }
 
+TEST_F(ContestTest, ReadsWhatIsSaidWithoutTheTrueEffect) {
+  folder_.Write("mine/001.json", kWindReport);
+  folder_.Write("mine/002.json", kNoGap);
+  folder_.Write("mine/left-out/001.json",
+                R"({"verdict":"EXPLAINED","causes":[{"effects":["current"],"probability":0.9}]})");
+  const auto singles = SingleEffects(folder_.Path() / "set", {folder_.Path() / "mine"}, false);
+  EXPECT_THAT(singles, testing::ElementsAre(testing::Pair("001", "wind")));
+  EXPECT_EQ(ScoresOf("mine").contestants[0].figures.confidently_wrong.hits, 1u);
+
+  folder_.Write("mine/left-out/001.json",
+                R"({"verdict":"NO_MATERIAL_GAP","effects":[{"effect":"wind"}]})");
+  try {
+    ScoresOf("mine");
+    FAIL() << "took a report with the true effect in the library";
+  } catch (const std::invalid_argument& error) {
+    EXPECT_THAT(error.what(), testing::EndsWith("left-out/001.json: wind was not left out"));
+  }
+}
+
+TEST_F(ContestTest, ListsNoEffectWhileAReportIsMissing) {
+  folder_.Write("mine/001.json", kWindReport);
+  EXPECT_THROW(SingleEffects(folder_.Path() / "set", {folder_.Path() / "mine"}, false),
+               ReportsMissing);
+}
+
+TEST_F(ContestTest, TakesDetectabilityFromTheFirstFolderWhereAnotherHasNone) {
+  folder_.Write(
+      "mine/001.json",
+      R"({"verdict":"NO_MATERIAL_GAP","effects":[{"effect":"wind","detectability":12}]})");
+  folder_.Write("mine/002.json", kNoGap);
+  folder_.Write("other/001.json", kWindReport);
+  folder_.Write("other/002.json", kNoGap);
+  const Contest contest =
+      Scores(folder_.Path() / "set", {folder_.Path() / "mine", folder_.Path() / "other"}, false);
+  EXPECT_EQ(contest.contestants[1].figures.detectable.top_1.hits, 1u);
+  EXPECT_EQ(contest.contestants[1].figures.detectable.top_1.all, 1u);
+}
+
 TEST_F(ContestTest, NamesABrokenSeal) {
   folder_.Write("mine/001.json", kWindReport);
   folder_.Write("mine/002.json", kNoGap);

@@ -20,7 +20,7 @@ Cause Named(const EffectSet& effects, double probability, const EffectSet& like 
 
 Scored Answer(const std::string& kind, const EffectSet& truth, const std::string& verdict,
               const std::vector<Cause>& causes, double detectability = 20.0) {
-  Scored scored{.label = {kind, truth}, .report = {}};
+  Scored scored{.label = {kind, truth}, .report = {}, .left_out = {}};
   scored.report.verdict = verdict;
   scored.report.causes = causes;
   for (const std::string& effect : truth) scored.report.detectability[effect] = detectability;
@@ -134,6 +134,27 @@ TEST(Figures, CompareClosureWhereItWasRealised) {
   ASSERT_EQ(figures.closure_errors.size(), 1u);
   EXPECT_NEAR(figures.closure_errors[0], 0.1, 1e-12);
   EXPECT_NEAR(Median(figures.closures), 0.8, 1e-12);
+}
+
+TEST(Figures, CountWrongNamesGivenWithoutTheTrueEffect) {
+  const auto left_out = [](const EffectSet& like, const std::string& verdict, const Cause& cause) {
+    Scored scored = Answer("single", {"wind"}, "EXPLAINED",
+                           {Named({"wind"}, 0.9, like), Named({"payload"}, 0.1)});
+    scored.left_out = Answer("single", {}, verdict, {cause}).report;
+    return scored;
+  };
+  const Figures figures = FiguresOf({
+      left_out({}, "EXPLAINED", Named({"current"}, 0.9)),
+      left_out({"current"}, "EXPLAINED", Named({"current"}, 0.9)),
+      left_out({}, "EXPLAINED", Named({"current"}, 0.5)),
+      left_out({}, "PARTLY_EXPLAINED", Named({"current"}, 0.9)),
+      left_out({}, "UNKNOWN_CAUSE", Named({"unknown"}, 0.9)),
+      left_out({}, "NO_MATERIAL_GAP", Named({"current"}, 0.9)),
+      Answer("single", {"wind"}, "EXPLAINED", {Named({"current"}, 0.9)}),
+  });
+  EXPECT_EQ(figures.confidently_wrong.hits, 1u);
+  EXPECT_EQ(figures.confidently_wrong.all, 5u) << "a gap has to be seen";
+  EXPECT_EQ(figures.neighbour_named.hits, 1u);
 }
 
 TEST(Median, IsTheMiddle) {

@@ -50,9 +50,37 @@ run --set development --cases 4 --jobs 2 -- --seed 7
 grep -q -- '--seed 7$' "$sandbox/calls" || fail "options after -- do not reach telltale diagnose"
 grep -q '^| 4 cases | reports |' "$sandbox/said" || fail "it does not score"
 
+# A set sailed once gets its second recordings, but never those of another set.
+run --set development --cases 4 --realised
+((status == 0)) || fail "sailing again should end in 0, not $status"
+[[ -s $set_folder/cases/004/again/gnss.csv ]] || fail "no second recording"
+rm -r "$set_folder"/cases/*/again
+run --set development --cases 4 --realised --seed 2
+((status == 1)) || fail "second recordings of another seed should end in 1, not $status"
+[[ ! -e $set_folder/cases/004/again ]] || fail "second recordings of another seed were taken"
+
+# Each single effect is left out of its own case, and only once all is reported.
+: > "$sandbox/calls"
+left=$sandbox/left
+run --set development --out "$left" --cases 8 --every 2 --leave-one-out
+((status == 0)) || fail "leaving effects out should end in 0, not $status"
+[[ -s $left/reports/003.json && ! -e $left/reports/002.json ]] || fail "--every 2 takes others"
+"$BLIND_BUILT/tests/blind/blind_score" --set-dir "$left" --reports "$left/reports" --partial \
+  --single-effects > "$sandbox/singles"
+[[ -s $sandbox/singles ]] || fail "there is no single effect among the cases"
+while read -r case effect; do
+  grep -q "cases/$case/log .*--without $effect$" "$sandbox/calls" || fail "$effect was not left out of $case"
+  [[ -s $left/reports/left-out/$case.json ]] || fail "no report without the effect of $case"
+done < "$sandbox/singles"
+(($(grep -c -- '--without' "$sandbox/calls") == $(wc -l < "$sandbox/singles"))) || fail "too much was left out"
+grep '^diagnose' "$sandbox/calls" | sed -n '1,4p' | grep -q -- '--without' &&
+  fail "an effect was left out before all was reported"
+
 run --set both
 ((status == 2)) || fail "an unknown set should exit 2, not $status"
 run --set development --jobs none
 ((status == 2)) || fail "bad jobs should exit 2, not $status"
+run --set development --every 0
+((status == 2)) || fail "every no-th case should exit 2, not $status"
 
 echo "the blind run goes on where it stopped"

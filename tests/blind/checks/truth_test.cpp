@@ -225,8 +225,12 @@ TEST(Plan, IsDrawnAnewForEverySeedAndSet) {
 TEST(Campaign, WritesTheSameBytesForTheSameSeed) {
   const TemporaryFolder folder;
   const auto write = [&](const std::string& name, std::uint64_t seed) {
-    const CampaignOptions options{
-        .set = Set::kHeldOut, .seed = seed, .repeats = 1, .most_cases = 3, .duration_s = 12.0};
+    const CampaignOptions options{.set = Set::kHeldOut,
+                                  .seed = seed,
+                                  .repeats = 1,
+                                  .most_cases = 3,
+                                  .duration_s = 12.0,
+                                  .again = false};
     WriteCampaign(options, folder.Path() / name, [](std::size_t, std::size_t) {});
     return FilesBelow(folder.Path() / name);
   };
@@ -235,6 +239,28 @@ TEST(Campaign, WritesTheSameBytesForTheSameSeed) {
   EXPECT_EQ(files, write("again", 7));
   const auto other = write("other", 8);
   EXPECT_NE(files.at("cases/001/log/gnss.csv"), other.at("cases/001/log/gnss.csv"));
+}
+
+TEST(Campaign, SailsCasesAgainWithoutChangingWhatItSailsOnce) {
+  const TemporaryFolder folder;
+  const auto write = [&](const std::string& name, bool again) {
+    const CampaignOptions options{.set = Set::kHeldOut,
+                                  .seed = 7,
+                                  .repeats = 1,
+                                  .most_cases = 2,
+                                  .duration_s = 12.0,
+                                  .again = again};
+    WriteCampaign(options, folder.Path() / name, [](std::size_t, std::size_t) {});
+    return FilesBelow(folder.Path() / name);
+  };
+  const auto once = write("once", false);
+  const auto twice = write("twice", true);
+  EXPECT_EQ(twice.size(), once.size() + 2u * 3u);
+  for (const auto& [name, content] : once) EXPECT_EQ(twice.at(name), content) << name;
+  for (const char* file : {"gnss.csv", "heading.csv", "thrusters.csv"}) {
+    EXPECT_NE(twice.at("cases/002/again/" + std::string(file)),
+              twice.at("cases/002/log/" + std::string(file)));
+  }
 }
 
 TEST(SingleCase, EveryEffectShowsInTheLog) {

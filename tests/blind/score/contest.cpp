@@ -83,30 +83,71 @@ Label OpenLabel(const fs::path& set, const std::string& name) {
   });
 }
 
+/// Throws where the report names what should not have been in the library.
+Report ReadLeftOut(const fs::path& file, const Label& label) {
+  Report report = ParsedFile(file, ParseReport);
+  for (const std::string& effect : label.effects) {
+    if (report.detectability.contains(effect)) {
+      throw std::invalid_argument(file.string() + ": " + effect + " was not left out");
+    }
+  }
+  return report;
+}
+
 std::string NameOf(const fs::path& folder) {
   const fs::path plain = folder.lexically_normal();
   return (plain.has_filename() ? plain : plain.parent_path()).filename().string();
 }
 
+/// The cases of a set and what each folder says of them.
+struct Said {
+  std::vector<std::string> names;
+  std::vector<std::vector<Scored>> columns;  // without labels yet
+};
+
+Said ReadAll(const fs::path& set, const std::vector<fs::path>& folders, bool partial) {
+  Said said{.names = Reported(CaseNames(set), folders, partial), .columns = {}};
+  for (const fs::path& folder : folders) {
+    auto& column = said.columns.emplace_back();
+    for (const std::string& name : said.names) {
+      column.push_back({.label = {}, .report = ReadReport(folder, name), .left_out = {}});
+    }
+  }
+  for (auto& column : said.columns) {
+    for (std::size_t row = 0; row < said.names.size(); ++row) {
+      auto& own = column[row].report.detectability;
+      if (own.empty()) own = said.columns.front()[row].report.detectability;
+    }
+  }
+  return said;
+}
+
 }  // namespace
 
 Contest Scores(const fs::path& set, const std::vector<fs::path>& folders, bool partial) {
-  const std::vector<std::string> names = Reported(CaseNames(set), folders, partial);
-  std::vector<std::vector<Scored>> columns(folders.size());
+  Said said = ReadAll(set, folders, partial);
+  Contest contest{.contestants = {}, .cases = said.names.size()};
   for (std::size_t column = 0; column < folders.size(); ++column) {
-    for (const std::string& name : names) {
-      columns[column].push_back({{}, ReadReport(folders[column], name)});
+    for (std::size_t row = 0; row < said.names.size(); ++row) {
+      Scored& scored = said.columns[column][row];
+      scored.label = OpenLabel(set, said.names[row]);
+      const fs::path left_out = ReportFile(folders[column] / "left-out", said.names[row]);
+      if (fs::exists(left_out)) scored.left_out = ReadLeftOut(left_out, scored.label);
     }
-  }
-  for (std::size_t row = 0; row < names.size(); ++row) {
-    const Label label = OpenLabel(set, names[row]);
-    for (auto& column : columns) column[row].label = label;
-  }
-  Contest contest{.contestants = {}, .cases = names.size()};
-  for (std::size_t column = 0; column < folders.size(); ++column) {
-    contest.contestants.push_back({NameOf(folders[column]), FiguresOf(columns[column])});
+    contest.contestants.push_back({NameOf(folders[column]), FiguresOf(said.columns[column])});
   }
   return contest;
+}
+
+std::vector<std::pair<std::string, std::string>> SingleEffects(const fs::path& set,
+                                                               const std::vector<fs::path>& folders,
+                                                               bool partial) {
+  std::vector<std::pair<std::string, std::string>> singles;
+  for (const std::string& name : ReadAll(set, folders, partial).names) {
+    const Label label = OpenLabel(set, name);
+    if (label.kind == "single") singles.emplace_back(name, *label.effects.begin());
+  }
+  return singles;
 }
 
 }  // namespace blind::score

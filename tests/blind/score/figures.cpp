@@ -81,6 +81,24 @@ void CountOutside(Figures& figures, const Scored& scored) {
   figures.outside_seen.Count(ReportsGap(scored.report));
 }
 
+/// Whether the report takes the cause for one that it cannot tell from the true effects.
+bool IsNeighbour(const Cause& cause, const Scored& scored) {
+  return std::any_of(scored.report.causes.begin(), scored.report.causes.end(),
+                     [&](const Cause& own) {
+                       return StandsFor(own, scored.label.effects) && StandsFor(own, cause.effects);
+                     });
+}
+
+void CountLeftOut(Figures& figures, const Scored& scored) {
+  if (!scored.left_out || !ReportsGap(*scored.left_out)) return;
+  const Cause* first = FirstCause(*scored.left_out);
+  const bool sure = first && !IsUnknown(*first) && first->probability > 0.5 &&
+                    scored.left_out->verdict == "EXPLAINED";
+  const bool neighbour = first && IsNeighbour(*first, scored);
+  figures.confidently_wrong.Count(sure && !neighbour);
+  figures.neighbour_named.Count(neighbour);
+}
+
 void CountByEffect(Figures& figures, const Scored& scored) {
   const bool healthy = scored.label.kind == "healthy";
   EffectFigures& own = figures.effects[healthy ? "healthy" : Joined(scored.label.effects)];
@@ -154,6 +172,7 @@ Figures FiguresOf(const std::vector<Scored>& cases) {
     if (kind == "single" && Detectability(scored) >= kDetectable) {
       CountNaming(figures.detectable, scored);
     }
+    CountLeftOut(figures, scored);
     if (kind == "pair") CountPair(figures, scored);
     if (kind == "outside") CountOutside(figures, scored);
     CountByEffect(figures, scored);

@@ -14,6 +14,7 @@ namespace blind::score {
 struct Scored {
   Label label;
   Report report;
+  std::optional<Report> left_out;  // what is said without the true effect in the library
 };
 
 /// So many of so many.
@@ -86,6 +87,8 @@ struct Figures {
   Rate outside_seen;   // outside the library: a gap was reported at all
   Rate exact_pairs;    // both of two effects and no other, each up to its class
   Rate half_pairs;     // at least one of the two
+  Rate confidently_wrong;  // true effect left out, gap seen: EXPLAINED by one unlike it, over 0.5
+  Rate neighbour_named;    // likewise, by one that the report with it cannot tell it from
   std::vector<Forecast> forecasts;               // of each first cause there was
   std::vector<double> closures;                  // predicted, where a class was hit
   std::vector<double> closure_errors;            // |predicted - realised|, where realised is known

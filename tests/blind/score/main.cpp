@@ -17,6 +17,7 @@ struct Arguments {
   std::vector<std::filesystem::path> reports;
   std::string markdown;
   bool partial = false;
+  bool single_effects = false;
 };
 
 void AddOptions(CLI::App& app, Arguments& arguments) {
@@ -24,18 +25,32 @@ void AddOptions(CLI::App& app, Arguments& arguments) {
       ->type_name("DIR")
       ->required()
       ->check(CLI::ExistingDirectory.description(""));
-  app.add_option("--reports", arguments.reports,
-                 "a folder of reports NNN.json, with NNN.realised.json beside them where realised "
-                 "closure is known; several for several columns")
+  app.add_option(
+         "--reports", arguments.reports,
+         "a folder of reports NNN.json, with NNN.realised.json beside them where realised "
+         "closure is known and left-out/NNN.json where the case was diagnosed without its true "
+         "effect; several for several columns")
       ->type_name("DIR")
       ->required()
       ->check(CLI::ExistingDirectory.description(""));
   app.add_option("--markdown", arguments.markdown, "also write the tables to this file")
       ->type_name("FILE");
   app.add_flag("--partial", arguments.partial, "score the cases that have reports");
+  app.add_flag(
+      "--single-effects", arguments.single_effects,
+      "instead of scoring list case and true effect of the single ones, for diagnosing them "
+      "again without it");
+}
+
+void ListSingleEffects(const Arguments& arguments) {
+  for (const auto& [name, effect] :
+       blind::score::SingleEffects(arguments.set, arguments.reports, arguments.partial)) {
+    std::cout << name << ' ' << effect << '\n';
+  }
 }
 
 void Run(const Arguments& arguments) {
+  if (arguments.single_effects) return ListSingleEffects(arguments);
   const blind::score::Contest contest =
       blind::score::Scores(arguments.set, arguments.reports, arguments.partial);
   const std::string tables = blind::score::Markdown(contest.contestants, contest.cases);

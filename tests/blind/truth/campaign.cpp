@@ -170,7 +170,9 @@ void WriteCampaign(const CampaignOptions& options, const std::filesystem::path& 
   if (options.most_cases && *options.most_cases < cases.size()) {
     cases.resize(*options.most_cases);
   }
-  const std::size_t all = fleet.size() * (kTrainLogs + kReferenceLogs) + cases.size();
+  const std::size_t of_each_case = options.again ? 2 : 1;
+  const std::size_t all =
+      fleet.size() * (kTrainLogs + kReferenceLogs) + of_each_case * cases.size();
   std::size_t done = 0;
   for (const Hull& hull : fleet) {
     const std::filesystem::path home = folder / "hulls" / hull.name;
@@ -194,6 +196,11 @@ void WriteCampaign(const CampaignOptions& options, const std::filesystem::path& 
     const Dice dice = yard.For("case", asked.day);
     const auto [voyage, label] = Prepared(asked, hull, 0.0, options.duration_s, dice);
     Record(voyage, options.set, kDaysBefore + number, dice, folder / "cases" / name / "log");
+    if (options.again) {
+      progress(done++, all);
+      Record(voyage, options.set, kDaysBefore + cases.size() + number, dice.For("again"),
+             folder / "cases" / name / "again");
+    }
     WriteFile(folder / "cases" / name / "hull", hull.name + "\n");
     WriteFile(folder / "labels" / (name + ".sealed"), Sealed(label, name));
   }

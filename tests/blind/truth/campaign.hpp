@@ -34,6 +34,9 @@ struct CampaignOptions {
   std::size_t repeats = 1;
   std::optional<std::size_t> most_cases;
   double duration_s = 600.0;
+  /// Each case once more beside it: hull, weather and effects as they were, another mission, other
+  /// gusts, waves and sensor noise.
+  bool again = false;
 };
 
 /// Called before each recording with how many there are and are done.

@@ -24,6 +24,7 @@ struct Arguments {
   double sign = 1.0;
   std::string hull;
   double onset_s = 0.0;
+  bool again = false;
   bool healthy = false;
   bool unseal = false;
   bool list = false;
@@ -53,6 +54,9 @@ void AddOptions(CLI::App& app, Arguments& arguments) {
   whole->add_option("--cases", arguments.most_cases, "no more than the first N cases")
       ->type_name("N")
       ->check(CLI::PositiveNumber.description(""));
+  whole->add_flag("--again", arguments.again,
+                  "also sail each case a second time: cases/NNN/again, the same but for mission, "
+                  "gusts and noise");
 
   CLI::App* single = app.add_option_group("single cases");
   single->add_option("--effect", arguments.effects, "the effect to turn on, several for several")
@@ -92,7 +96,8 @@ void WriteSet(const Arguments& arguments) {
                                         .seed = arguments.seed,
                                         .repeats = arguments.repeats,
                                         .most_cases = {},
-                                        .duration_s = arguments.duration_s};
+                                        .duration_s = arguments.duration_s,
+                                        .again = arguments.again};
   if (arguments.most_cases > 0) options.most_cases = arguments.most_cases;
   blind::truth::WriteCampaign(options, arguments.folder, ShowProgress);
 }

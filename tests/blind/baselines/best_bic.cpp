@@ -1,0 +1,130 @@
+#include "baselines/best_bic.hpp"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+
+namespace blind::baselines {
+namespace {
+
+using telltale::Effect;
+using telltale::EffectParameter;
+
+constexpr double kMostSigmas = 100.0;  // of an error: a lost boat
+constexpr double kDerivative = 0.05;   // in typical sizes
+constexpr int kMostIterations = 10;
+constexpr double kConverged = 1e-4;  // of the sum of squares
+constexpr double kMostDamping = 1e4;
+
+/// One effect's parameters, in typical sizes from where they are usual, on a recording.
+class Problem {
+ public:
+  Problem(const Ground& ground, const Effect& effect)
+      : ground_(ground), effect_(effect), whitener_(ground.healthy.covariance) {}
+
+  Eigen::Index Unknowns() const { return static_cast<Eigen::Index>(effect_.Parameters().size()); }
+
+  telltale::ModelledEffect At(const Eigen::VectorXd& sizes) const {
+    telltale::ModelledEffect modelled{&effect_, {}};
+    for (Eigen::Index i = 0; i < Unknowns(); ++i) {
+      modelled.values.push_back(Of(i).usual + Of(i).typical * sizes[i]);
+    }
+    return modelled;
+  }
+
+  Eigen::VectorXd Within(Eigen::VectorXd sizes) const {
+    for (Eigen::Index i = 0; i < Unknowns(); ++i) {
+      sizes[i] = std::clamp(sizes[i], (Of(i).lower - Of(i).usual) / Of(i).typical, Highest(i));
+    }
+    return sizes;
+  }
+
+  Eigen::VectorXd Errors(const Eigen::VectorXd& sizes) const {
+    Eigen::MatrixXd errors = ground_.runs.Errors(ground_.With({At(sizes)}));
+    whitener_.matrixL().solveInPlace(errors);
+    return errors.cwiseMax(-kMostSigmas).cwiseMin(kMostSigmas).reshaped();
+  }
+
+  Eigen::MatrixXd Jacobian(const Eigen::VectorXd& sizes, const Eigen::VectorXd& errors) const {
+    Eigen::MatrixXd jacobian(errors.size(), Unknowns());
+    for (Eigen::Index i = 0; i < Unknowns(); ++i) {
+      Eigen::VectorXd moved = sizes;
+      const double step = sizes[i] + kDerivative > Highest(i) ? -kDerivative : kDerivative;
+      moved[i] += step;
+      jacobian.col(i) = (Errors(moved) - errors) / step;
+    }
+    return jacobian;
+  }
+
+  /// Each parameter that is zero in health at its typical size, either way, and all at nothing.
+  std::vector<Eigen::VectorXd> Starts() const {
+    std::vector<Eigen::VectorXd> starts{Eigen::VectorXd::Zero(Unknowns())};
+    for (Eigen::Index i = 0; i < Unknowns(); ++i) {
+      if (Of(i).shapes) continue;
+      for (const double size : {-1.0, 1.0}) {
+        starts.push_back(Within(size * Eigen::VectorXd::Unit(Unknowns(), i)));
+      }
+    }
+    return starts;
+  }
+
+ private:
+  const EffectParameter& Of(Eigen::Index i) const {
+    return effect_.Parameters()[static_cast<std::size_t>(i)];
+  }
+  double Highest(Eigen::Index i) const { return (Of(i).upper - Of(i).usual) / Of(i).typical; }
+
+  const Ground& ground_;
+  const Effect& effect_;
+  Eigen::LLT<Eigen::MatrixXd> whitener_;
+};
+
+struct Point {
+  Eigen::VectorXd sizes;
+  Eigen::VectorXd errors;
+  double Square() const { return errors.squaredNorm(); }
+};
+
+/// Levenberg-Marquardt from the best of the starts.
+Point LeastSquares(const Problem& problem) {
+  const auto at = [&](const Eigen::VectorXd& sizes) { return Point{sizes, problem.Errors(sizes)}; };
+  Point best = at(problem.Starts().front());
+  for (const Eigen::VectorXd& start : problem.Starts()) {
+    if (Point other = at(start); other.Square() < best.Square()) best = std::move(other);
+  }
+  double damping = 1e-3;
+  for (int iteration = 0; iteration < kMostIterations; ++iteration) {
+    const Eigen::MatrixXd jacobian = problem.Jacobian(best.sizes, best.errors);
+    const Eigen::MatrixXd information = jacobian.transpose() * jacobian;
+    const Eigen::VectorXd slope = jacobian.transpose() * best.errors;
+    const double before = best.Square();
+    for (; damping < kMostDamping && best.Square() == before; damping *= 10.0) {
+      Eigen::MatrixXd damped = information;
+      damped.diagonal() += damping * (information.diagonal().array() + 1e-9).matrix();
+      Point next = at(problem.Within(best.sizes - damped.ldlt().solve(slope)));
+      if (next.Square() >= before) continue;
+      best = std::move(next);
+      damping /= 100.0;
+    }
+    if (before - best.Square() < kConverged * before) break;
+  }
+  return best;
+}
+
+}  // namespace
+
+std::vector<Answer> BestBic(const Ground& ground) {
+  std::vector<Answer> answers;
+  for (const Effect* effect : telltale::EffectLibrary()) {
+    if (telltale::SlotsOf(std::span(&effect, 1)).empty()) continue;
+    const Problem problem(ground, *effect);
+    const Point point = LeastSquares(problem);
+    const auto n = static_cast<double>(point.errors.size());
+    const double bic =
+        n * std::log(point.Square() / n) + static_cast<double>(problem.Unknowns()) * std::log(n);
+    answers.push_back({{problem.At(point.sizes)}, bic});
+  }
+  return answers;
+}
+
+}  // namespace blind::baselines

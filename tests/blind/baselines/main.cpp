@@ -1,0 +1,59 @@
+#include <CLI/CLI.hpp>
+#include <exception>
+#include <iostream>
+#include <string>
+
+#include "baselines/best_bic.hpp"
+#include "baselines/regressions.hpp"
+#include "recording/files.hpp"
+
+namespace {
+
+constexpr int kUsageError = 2;
+
+struct Arguments {
+  blind::DayFiles files;
+  std::filesystem::path out;
+  std::string name;
+};
+
+void Run(const Arguments& arguments) {
+  const blind::Days days = arguments.files.Load();
+  const blind::Ground ground(days);
+  const auto write = [&](const char* method, std::vector<blind::baselines::Answer> answers) {
+    const std::filesystem::path folder = arguments.out / method;
+    std::filesystem::create_directories(folder);
+    telltale::WriteFile(folder / (arguments.name + ".json"), ReportOf(std::move(answers), ground));
+  };
+  write("best-bic", blind::baselines::BestBic(ground));
+  write("stepwise", blind::baselines::Stepwise(ground));
+  write("sparse", blind::baselines::Sparse(ground));
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app("Names causes of a gap by simpler methods, for comparison");
+  app.footer(
+      "Writes DIR/best-bic/NAME.json, DIR/stepwise/NAME.json and DIR/sparse/NAME.json.\n"
+      "Example: blind_baselines --log cases/001/log --vehicle boat.textproto --model model.json "
+      "\\\n"
+      "             --reference-log reference-1 --reference-log reference-2 --out baselines "
+      "--name 001");
+  Arguments arguments;
+  arguments.files.AddTo(app);
+  app.add_option("--out", arguments.out, "the folder of all methods' folders")
+      ->type_name("DIR")
+      ->required();
+  app.add_option("--name", arguments.name, "of the reports")->type_name("NAME")->required();
+  try {
+    app.parse(argc, argv);
+    Run(arguments);
+    return 0;
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : kUsageError;
+  } catch (const std::exception& error) {
+    std::cerr << "blind_baselines: " << error.what() << '\n';
+    return 1;
+  }
+}

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <vector>
+
+#include "data/prepared_dataset.hpp"
+#include "diagnosis/uncertain_model.hpp"
+
+namespace blind {
+
+/// What `telltale diagnose` is given: a model, a recording, recordings of when all was well.
+struct Days {
+  telltale::UncertainModel model;
+  telltale::PreparedDataset recording;
+  std::vector<telltale::PreparedDataset> references;
+};
+
+/// The same as files, read and prepared as `telltale diagnose` does.
+struct DayFiles {
+  std::filesystem::path log;
+  std::filesystem::path vehicle;
+  std::filesystem::path model;
+  std::vector<std::filesystem::path> references;
+
+  void AddTo(CLI::App& app);
+
+  /// Throws: as the command's readers, or telltale::RefusedError where the data cannot answer.
+  Days Load() const;
+};
+
+}  // namespace blind

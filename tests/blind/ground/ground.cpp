@@ -1,0 +1,62 @@
+#include "ground/ground.hpp"
+
+#include <stdexcept>
+
+#include "diagnosis/shaking.hpp"
+
+namespace blind {
+namespace {
+
+using telltale::FreeRuns;
+
+constexpr double kHorizonS = 5.0;
+
+std::vector<FreeRuns> HealthyRuns(const Days& days) {
+  std::vector<FreeRuns> healthy;
+  for (const telltale::PreparedDataset& reference : days.references) {
+    FreeRuns runs(reference, days.model.model, kHorizonS);
+    if (runs.Windows() > 0) healthy.push_back(std::move(runs));
+  }
+  if (healthy.empty()) {
+    throw std::invalid_argument("no reference has five seconds without a gap");
+  }
+  return healthy;
+}
+
+}  // namespace
+
+Ground::Ground(const Days& given)
+    : days(given),
+      slots(telltale::SlotsOf(telltale::EffectLibrary())),
+      runs(given.recording, given.model.model, kHorizonS),
+      healthy_runs(HealthyRuns(given)),
+      healthy(telltale::LearnHealthy(healthy_runs, given.model, slots, 1)),
+      floor(telltale::FloorOf(healthy_runs, healthy.boat)) {
+  if (runs.Windows() == 0) {
+    throw std::invalid_argument("the recording has no five seconds without a gap");
+  }
+}
+
+std::optional<double> Ground::ClosureBy(const telltale::AugmentedModel& model) const {
+  const double before = SquaredGap(healthy.boat);
+  if (before <= floor.SquaredLimit(telltale::kAllChannels)) return std::nullopt;
+  return (before - SquaredGap(model)) / (before - floor.Squared(telltale::kAllChannels));
+}
+
+double Ground::SquaredGap(const telltale::AugmentedModel& model) const {
+  const auto mean = [&](const Eigen::MatrixXd& errors) {
+    return telltale::SquaredGaps(errors, floor.scale, telltale::kAllChannels).mean();
+  };
+  telltale::EffectFit fit;
+  fit.effects = model.effects;
+  const Eigen::VectorXd shaken = telltale::ShakenSquares(fit, runs, healthy.boat);
+  return mean(runs.Errors(model)) - mean(shaken.cwiseMax(0.0).cwiseSqrt());
+}
+
+telltale::AugmentedModel Ground::With(const std::vector<telltale::ModelledEffect>& effects) const {
+  telltale::AugmentedModel boat = healthy.boat;
+  boat.effects.insert(boat.effects.end(), effects.begin(), effects.end());
+  return boat;
+}
+
+}  // namespace blind
