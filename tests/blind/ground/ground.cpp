@@ -54,9 +54,7 @@ double Ground::SquaredGap(const telltale::AugmentedModel& model) const {
 }
 
 telltale::AugmentedModel Ground::With(const std::vector<telltale::ModelledEffect>& effects) const {
-  telltale::AugmentedModel boat = healthy.boat;
-  boat.effects.insert(boat.effects.end(), effects.begin(), effects.end());
-  return boat;
+  return healthy.boat.With(effects);
 }
 
 }  // namespace blind
