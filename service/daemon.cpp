@@ -9,14 +9,15 @@ Daemon::Daemon(const DaemonConfig& config, std::function<void(const std::excepti
       fleet_(config.vehicles, config.window),
       models_(participant_, ModelStore(config.state_directory), fleet_),
       answers_(participant_),
+      diagnoses_(participant_, DiagnosisStore(config.state_directory), fleet_),
       jobs_(fleet_, models_, healthy_, answers_, config.identification),
-      diagnoses_(participant_, fleet_, models_, healthy_, answers_, config.identification),
+      diagnosis_jobs_(fleet_, models_, healthy_, diagnoses_, answers_, config.identification),
       quality_(participant_, fleet_, models_, config.quality_period_s),
-      ingest_(
-          participant_, fleet_,
-          {.identify = [this](IdentifyRequest request) { jobs_.Submit(std::move(request)); },
-           .diagnose = [this](DiagnoseRequest request) { diagnoses_.Submit(std::move(request)); },
-           .beat = [this] { models_.AssertLiveliness(); },
-           .failed = std::move(failed)}) {}
+      ingest_(participant_, fleet_,
+              {.identify = [this](IdentifyRequest request) { jobs_.Submit(std::move(request)); },
+               .diagnose =
+                   [this](DiagnoseRequest request) { diagnosis_jobs_.Submit(std::move(request)); },
+               .beat = [this] { models_.AssertLiveliness(); },
+               .failed = std::move(failed)}) {}
 
 }  // namespace telltale

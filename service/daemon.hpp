@@ -6,6 +6,7 @@
 #include "codec/daemon_config.hpp"
 #include "diagnosis/diagnosis_jobs.hpp"
 #include "diagnosis/healthy_recordings.hpp"
+#include "diagnosis/published_diagnoses.hpp"
 #include "identification/answers.hpp"
 #include "identification/identification_jobs.hpp"
 #include "ingest/fleet.hpp"
@@ -29,8 +30,9 @@ class Daemon {
   PublishedModels models_;
   Answers answers_;
   HealthyRecordings healthy_;
+  PublishedDiagnoses diagnoses_;
   IdentificationJobs jobs_;
-  DiagnosisJobs diagnoses_;
+  DiagnosisJobs diagnosis_jobs_;
   QualityMonitor quality_;
   Ingest ingest_;
 };

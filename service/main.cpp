@@ -1,8 +1,9 @@
 #include <atomic>
+#include <cerrno>
 #include <csignal>
 #include <string>
 
-#include <pthread.h>
+#include <semaphore.h>
 #include <unistd.h>
 
 #include <spdlog/sinks/stdout_color_sinks.h>
@@ -19,23 +20,24 @@ namespace {
 constexpr int kFailure = 1;
 constexpr int kUsageError = 2;
 
-/// SIGINT and SIGTERM, taken by no thread but the one that waits for them here.
+sem_t told_to_stop;
+
+/// SIGINT and SIGTERM, whichever thread they come to: libraries start threads before main that
+/// block neither, so that to block them here and wait would leave them to kill the process.
 class StopSignals {
  public:
   StopSignals() {
-    sigemptyset(&signals_);
-    sigaddset(&signals_, SIGINT);
-    sigaddset(&signals_, SIGTERM);
-    pthread_sigmask(SIG_BLOCK, &signals_, nullptr);
+    sem_init(&told_to_stop, 0, 0);
+    struct sigaction action {};
+    action.sa_handler = [](int) { sem_post(&told_to_stop); };
+    action.sa_flags = SA_RESTART;
+    for (const int signal : {SIGINT, SIGTERM}) sigaction(signal, &action, nullptr);
   }
 
   void Wait() const {
-    int signal = 0;
-    sigwait(&signals_, &signal);
+    while (sem_wait(&told_to_stop) != 0 && errno == EINTR) {
+    }
   }
-
- private:
-  sigset_t signals_{};
 };
 
 int Serve(const DaemonConfig& config, const StopSignals& signals) {

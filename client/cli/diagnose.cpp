@@ -1,6 +1,5 @@
 #include "diagnosis/diagnose.hpp"
 
-#include <iostream>
 #include <memory>
 
 #include "cli/commands.hpp"
@@ -9,8 +8,6 @@
 #include "cli/live_options.hpp"
 #include "cli/outcome.hpp"
 #include "cli/progress_line.hpp"
-#include "codec/model_json.hpp"
-#include "recording/files.hpp"
 
 namespace telltale {
 namespace {
@@ -55,19 +52,9 @@ DiagnosedModel DiagnoseFromFiles(const DiagnoseArguments& arguments) {
                [&line](std::string_view stage, double fraction) { line.Update(stage, fraction); }));
 }
 
-void WriteModel(const DiagnosedModel& diagnosed, const std::filesystem::path& file) {
-  if (diagnosed.augmented) {
-    WriteFile(file, PrintModelJson(*diagnosed.augmented));
-  } else {
-    std::cerr << "note: " << file.string()
-              << " is not written, since no effect was named that would improve the model\n";
-  }
-}
-
 void DiagnoseLogs(const DiagnoseArguments& arguments) {
   const DiagnosedModel diagnosed = DiagnoseFromFiles(arguments);
-  if (!arguments.out_model.empty()) WriteModel(diagnosed, arguments.out_model);
-  arguments.Write(diagnosed.diagnosis);
+  arguments.Write(diagnosed.diagnosis, diagnosed.augmented);
 }
 
 }  // namespace

@@ -1,9 +1,12 @@
 #include "cli/diagnose_arguments.hpp"
 
+#include <iostream>
+
 #include "cli/diagnosis_table.hpp"
 #include "cli/outcome.hpp"
 #include "cli/table.hpp"
 #include "cli/threads.hpp"
+#include "codec/model_json.hpp"
 #include "codec/report_json.hpp"
 #include "recording/files.hpp"
 #include "report/page.hpp"
@@ -21,6 +24,15 @@ std::string EffectNames() {
 
 std::string EffectFault(const std::string& name) {
   return FindEffect(name) ? "" : "no such effect as " + name + "; there are " + EffectNames();
+}
+
+void WriteModel(const std::optional<Identification>& augmented, const std::filesystem::path& file) {
+  if (augmented) {
+    WriteFile(file, PrintModelJson(*augmented));
+  } else {
+    std::cerr << "note: " << file.string()
+              << " is not written, since no effect was named that would improve the model\n";
+  }
 }
 
 }  // namespace
@@ -52,8 +64,7 @@ void DiagnoseArguments::AddOptionsTo(CLI::App& command, CLI::Option* log) {
       .add_option("--out-model", out_model,
                   "also write the model identified again with the effects that were named, which "
                   "validate and simulate take like any other")
-      ->type_name("FILE")
-      ->needs(log);
+      ->type_name("FILE");
   output.AddTo(command, "report.json");
 }
 
@@ -69,7 +80,10 @@ DiagnoseOptions DiagnoseArguments::Options() const {
   return options;
 }
 
-void DiagnoseArguments::Write(const Diagnosis& diagnosis, const std::string& against) const {
+void DiagnoseArguments::Write(const Diagnosis& diagnosis,
+                              const std::optional<Identification>& augmented,
+                              const std::string& against) const {
+  if (!out_model.empty()) WriteModel(augmented, out_model);
   if (!html.empty()) WriteFile(html, ReportPage(diagnosis));
   output.Write(PrintReportJson(diagnosis), [&] {
     return DiagnosisTable(diagnosis) + (against.empty() ? "" : '\n' + Wrapped(against));

@@ -34,9 +34,11 @@ struct DiagnoseArguments {
   /// Throws: UsageError for a value out of its range.
   DiagnoseOptions Options() const;
 
-  /// The page, the JSON and the table, as far as they were asked for; `against` says in the table
-  /// what the recording was held against.
-  void Write(const Diagnosis& diagnosis, const std::string& against = "") const;
+  /// The model, the page, the JSON and the table, as far as they were asked for; `against` says in
+  /// the table what the recording was held against. Where no effect was named there is no model to
+  /// write, which a note says.
+  void Write(const Diagnosis& diagnosis, const std::optional<Identification>& augmented,
+             const std::string& against = "") const;
 };
 
 }  // namespace telltale

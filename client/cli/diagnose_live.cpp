@@ -42,9 +42,9 @@ void DiagnoseLive(const std::string& vehicle_id, const DiagnoseArguments& argume
   const DiagnoseAnswer answer = AskForDiagnosis(DiagnoseRequestOf(vehicle_id, arguments), live);
   RequirePublished(answer, vehicle_id, live);
   const PublishedDiagnosis& published = *answer.reply->diagnosis;
-  arguments.Write(published.diagnosis, "Held against revision " +
-                                           std::to_string(published.model_revision) + " of " +
-                                           vehicle_id + ".");
+  arguments.Write(published.diagnosis, answer.reply->augmented,
+                  "Held against revision " + std::to_string(published.model_revision) + " of " +
+                      vehicle_id + ".");
 }
 
 }  // namespace telltale

@@ -1,12 +1,16 @@
 #include <chrono>
+#include <functional>
 #include <iostream>
 #include <memory>
-#include <optional>
+#include <string>
+#include <utility>
 
 #include "bus/participant.hpp"
+#include "bus/wait_set.hpp"
 #include "cli/commands.hpp"
 #include "cli/live_options.hpp"
 #include "cli/model_table.hpp"
+#include "cli/published_diagnosis.hpp"
 #include "cli/published_model.hpp"
 #include "fleet/subscriber.hpp"
 
@@ -33,21 +37,41 @@ void Print(const PublishedModel& model, bool json) {
             << std::flush;
 }
 
+void Print(const PublishedDiagnosis& published, bool json) {
+  if (json) {
+    std::cout << PrintReportJson(published) << std::flush;
+    return;
+  }
+  std::cout << published.diagnosis.vehicle_id << ", revision " << published.model_revision
+            << " diagnosed: " << published.diagnosis.sentence << '\n'
+            << std::flush;
+}
+
+std::function<void(const CodecError&)> SetAside(std::string what) {
+  return [what = std::move(what)](const CodecError& error) {
+    std::cerr << "telltale: " << what << " was set aside: " << error.Message() << '\n';
+  };
+}
+
 void Watch(const WatchArguments& arguments) {
   const Participant participant(arguments.live.domain);
   std::size_t seen = 0;
   const auto enough = [&] { return arguments.count > 0 && seen >= arguments.count; };
-  ModelSubscriber models(
-      participant,
-      [&](const PublishedModel& model) {
-        if (enough()) return;
-        if (!arguments.all && model.identification.vehicle_id != arguments.vehicle_id) return;
-        Print(model, arguments.json);
-        ++seen;
-      },
-      [](const CodecError& error) {
-        std::cerr << "telltale: a model was set aside: " << error.Message() << '\n';
-      });
+  const auto show = [&](const std::string& vehicle_id, const auto& published) {
+    if (enough()) return;
+    if (!arguments.all && vehicle_id != arguments.vehicle_id) return;
+    Print(published, arguments.json);
+    ++seen;
+  };
+  WaitSet news(participant);
+  const ModelFeed models(
+      participant, news,
+      [&](const PublishedModel& model) { show(model.identification.vehicle_id, model); },
+      SetAside("a model"));
+  const DiagnosisFeed diagnoses(
+      participant, news,
+      [&](const PublishedDiagnosis& published) { show(published.diagnosis.vehicle_id, published); },
+      SetAside("a diagnosis"));
 
   const bool patient = arguments.live.timeout_s == 0.0;
   const auto deadline = Clock::now() + arguments.live.Timeout();
@@ -55,10 +79,10 @@ void Watch(const WatchArguments& arguments) {
     const auto left = deadline - Clock::now();
     if (!patient && left <= left.zero()) {
       throw std::runtime_error(
-          "only " + std::to_string(seen) + " models came in time" +
+          "only " + std::to_string(seen) + " models and diagnoses came in time" +
           (models.Connected() ? "" : ": " + NobodyThereAdvice(arguments.live.domain)));
     }
-    models.Wait(patient ? std::chrono::hours(1) : left);
+    news.Wait(patient ? std::chrono::hours(1) : left);
   }
 }
 
@@ -68,15 +92,19 @@ void AddWatch(CLI::App& telltale) {
   const auto arguments = std::make_shared<WatchArguments>();
   CLI::App& command = *telltale.add_subcommand(
       "watch",
-      "Follows published models and their bounds, beginning with the last of each vehicle");
+      "Follows published models, their bounds, and diagnoses, beginning with the last of each "
+      "vehicle");
   auto* const whom = command.add_option_group("whom");
   AddVehicleId(*whom, arguments->vehicle_id);
   whom->add_flag("--all", arguments->all, "every vehicle");
   whom->require_option(1);
-  command.add_option("--count", arguments->count, "stop after this many models, 0 for never")
+  command
+      .add_option("--count", arguments->count,
+                  "stop after this many models and diagnoses, 0 for never")
       ->type_name("N")
       ->capture_default_str();
-  command.add_flag("--json", arguments->json, "print each model as JSON");
+  command.add_flag("--json", arguments->json,
+                   "print each model and diagnosis as JSON: model.json, report.json");
   arguments->live.AddTo(command, 0.0, "give up after this long, 0 for never");
   command.footer("Example: telltale watch --all --count 1");
   command.callback([arguments] { Watch(*arguments); });

@@ -11,13 +11,14 @@
 
 namespace telltale {
 
-/// Follows one topic of the fleet. What cannot be decoded goes to `reject` with the field at fault.
+/// One topic of the fleet on a wait set that may follow others too. What cannot be decoded goes to
+/// `reject` with the field at fault. Belongs to the wait set's thread.
 template <class Wire, class Message>
-class Subscriber {
+class Feed {
  public:
-  Subscriber(const Participant& participant, std::function<void(const Message&)> receive,
-             std::function<void(const CodecError&)> reject)
-      : reader_(participant), news_(participant) {
+  Feed(const Participant& participant, WaitSet& news, std::function<void(const Message&)> receive,
+       std::function<void(const CodecError&)> reject)
+      : news_(news), reader_(participant) {
     news_.Attach(reader_, [this, receive = std::move(receive), reject = std::move(reject)] {
       reader_.Take([&](const Wire& wire) {
         const auto message = Decode(wire);
@@ -25,22 +26,40 @@ class Subscriber {
       });
     });
   }
-
-  Subscriber(const Subscriber&) = delete;
-  Subscriber& operator=(const Subscriber&) = delete;
-
-  /// Waits for news and hands it on, on this thread; false when there was none within `timeout`.
-  bool Wait(std::chrono::nanoseconds timeout) { return news_.Wait(timeout); }
+  Feed(const Feed&) = delete;
+  Feed& operator=(const Feed&) = delete;
+  ~Feed() { news_.Detach(reader_); }
 
   /// Whether anyone publishes on this topic.
   bool Connected() const { return reader_.Matched() > 0; }
 
  private:
+  WaitSet& news_;
   Reader<Wire> reader_;
+};
+
+/// Follows one topic of the fleet.
+template <class Wire, class Message>
+class Subscriber {
+ public:
+  Subscriber(const Participant& participant, std::function<void(const Message&)> receive,
+             std::function<void(const CodecError&)> reject)
+      : news_(participant), feed_(participant, news_, std::move(receive), std::move(reject)) {}
+
+  /// Waits for news and hands it on, on this thread; false when there was none within `timeout`.
+  bool Wait(std::chrono::nanoseconds timeout) { return news_.Wait(timeout); }
+
+  /// Whether anyone publishes on this topic.
+  bool Connected() const { return feed_.Connected(); }
+
+ private:
   WaitSet news_;
+  Feed<Wire, Message> feed_;
 };
 
 /// Published models and diagnoses; who joins late is given the last of each vehicle.
+using ModelFeed = Feed<telltale_wire_Model, PublishedModel>;
+using DiagnosisFeed = Feed<telltale_wire_Diagnosis, PublishedDiagnosis>;
 using ModelSubscriber = Subscriber<telltale_wire_Model, PublishedModel>;
 using DiagnosisSubscriber = Subscriber<telltale_wire_Diagnosis, PublishedDiagnosis>;
 using QualitySubscriber = Subscriber<telltale_wire_Quality, Quality>;

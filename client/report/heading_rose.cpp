@@ -6,27 +6,21 @@
 #include "report/pictures.hpp"
 #include "report/plot.hpp"
 #include "report/window_groups.hpp"
+#include "vessel/compass.hpp"
 
 namespace telltale {
 namespace {
 
-constexpr std::array kOctants = {"N", "NE", "E", "SE", "S", "SW", "W", "NW"};
 constexpr double kOctantRad = std::numbers::pi / 4.0;
 constexpr double kRoseSize = 300.0;
 constexpr double kRoseRadius = 114.0;
 
-using Rose = std::array<GroupedError, kOctants.size()>;
-
-std::size_t OctantOf(double psi_rad) {
-  const double turns = psi_rad / (2.0 * std::numbers::pi);
-  const double octant = std::round(8.0 * (turns - std::floor(turns)));
-  return static_cast<std::size_t>(octant) % kOctants.size();
-}
+using Rose = std::array<GroupedError, kCompassPoints.size()>;
 
 Rose RoseOf(const std::vector<WindowPicture>& windows) {
   Rose rose;
   for (const WindowPicture& window : windows) {
-    if (std::isfinite(window.psi_rad)) rose[OctantOf(window.psi_rad)].Add(window);
+    if (std::isfinite(window.psi_rad)) rose[NearestCompassPoint(window.psi_rad)].Add(window);
   }
   return rose;
 }
@@ -49,7 +43,7 @@ Markup Wedge(std::size_t octant, double radius, double half_width_rad, std::stri
 }
 
 std::string OctantText(std::size_t octant, const GroupedError& group, bool after) {
-  std::string text = kOctants[octant];
+  std::string text(kCompassPoints[octant]);
   if (group.Windows() == 0) return text + " not sailed";
   text += " " + Fixed(group.Before(), 1);
   return after ? text + " before, " + Fixed(group.After(), 1) + " after" : text;
@@ -73,10 +67,10 @@ Markup Rings(const Axis& radius, const std::vector<double>& ticks) {
 
 Markup RoseLabels(const Axis& radius, const std::vector<double>& ticks, const Rose& rose) {
   Markup labels;
-  for (std::size_t i = 0; i < kOctants.size(); ++i) {
+  for (std::size_t i = 0; i < kCompassPoints.size(); ++i) {
     const double angle = static_cast<double>(i) * kOctantRad;
     const Eigen::Vector2d at = OnRose(angle, kRoseRadius + 18.0);
-    labels += LabelShape({at.x(), at.y() + 5.0}, kOctants[i], Anchor::kMiddle,
+    labels += LabelShape({at.x(), at.y() + 5.0}, kCompassPoints[i], Anchor::kMiddle,
                          rose[i].Windows() == 0 ? "faint" : "strong");
   }
   for (std::size_t i = 1; i < ticks.size(); ++i) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include <Eigen/Cholesky>
 
@@ -147,7 +148,6 @@ void FreeRuns::ForEachTrack(const AugmentedModel& model, const Offset& offset, V
   const double start_s = dataset_->StartTime();
   const AugmentedBoat boat(model, start_s, std::max(dataset_->EndTime() - start_s, 1.0));
   std::vector<Drive> drives;
-  std::vector<Pose> track;
   std::size_t driven = dataset_->stretches.size();
   for (std::size_t w = 0; w < windows_.size(); ++w) {
     const Window& window = windows_[w];
@@ -160,12 +160,9 @@ void FreeRuns::ForEachTrack(const AugmentedModel& model, const Offset& offset, V
     }
     const double from_s = dataset_->rows[window.first_row].time_s;
     const std::size_t first_step = (window.first_row - stretch.begin) * steps_;
-    track.assign(1, Moved(TrueStart(*dataset_, stretch, from_s, boat), offset));
-    for (std::size_t k = 0; k < rows_ * steps_; ++k) {
-      track.push_back(boat.Advance(track.back(), drives[first_step + k],
-                                   from_s + static_cast<double>(k) * step_s_, step_s_));
-    }
-    visit(w, boat, from_s, track);
+    const Pose start = Moved(TrueStart(*dataset_, stretch, from_s, boat), offset);
+    const auto ahead = std::span(drives).subspan(first_step, rows_ * steps_);
+    visit(w, boat, from_s, boat.Sail(start, ahead, from_s, step_s_));
   }
 }
 

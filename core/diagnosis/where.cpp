@@ -4,13 +4,14 @@
 #include <array>
 #include <cmath>
 #include <functional>
-#include <numbers>
 #include <optional>
+#include <span>
 #include <string>
 
 #include "contract.hpp"
 #include "effects/augmented_boat.hpp"
 #include "random.hpp"
+#include "vessel/compass.hpp"
 
 namespace telltale {
 namespace {
@@ -21,9 +22,10 @@ constexpr double kStep = 0.1;  // of full command: a change that counts as a ste
 constexpr std::size_t kReplicates = 500;
 constexpr double kSignificant = 0.05;
 constexpr double kMaterialShare = 0.05;
+// A corner within a corner says more where its rows hold half as much excess again each.
+constexpr double kDenser = 1.5;
 constexpr std::size_t kFewestClusters = 6;
 constexpr std::array kSpeedEdges = {0.5, 1.0, 1.5};
-constexpr std::array<std::string_view, 8> kPoints = {"N", "NE", "E", "SE", "S", "SW", "W", "NW"};
 
 /// One row's miss and what it went through.
 struct Miss {
@@ -73,21 +75,19 @@ std::vector<Miss> MissesOf(const PreparedDataset& dataset, const AugmentedModel&
         boat.DriveAlong(dataset.commands[s], from_s, step_s, stretch.size() * steps);
     for (std::size_t k = stretch.begin; k + 1 < stretch.end; ++k) {
       const PreparedRow& row = dataset.rows[k];
-      Pose pose{row.eta, row.nu};
-      for (std::size_t i = 0; i < steps; ++i) {
-        pose = boat.Advance(pose, drives[(k - stretch.begin) * steps + i], row.time_s, step_s);
-      }
+      const auto ahead = std::span(drives).subspan((k - stretch.begin) * steps, steps);
+      const Nu predicted = boat.Sail({row.eta, row.nu}, ahead, row.time_s, step_s).back().nu;
       const Nu& next = dataset.rows[k + 1].nu;
       Miss miss;
-      miss.error = {(next.u - pose.nu.u) / h, (next.v - pose.nu.v) / h, (next.r - pose.nu.r) / h};
-      miss.predicted = {(pose.nu.u - row.nu.u) / h, (pose.nu.v - row.nu.v) / h,
-                        (pose.nu.r - row.nu.r) / h};
+      miss.error = {(next.u - predicted.u) / h, (next.v - predicted.v) / h,
+                    (next.r - predicted.r) / h};
+      miss.predicted = {(predicted.u - row.nu.u) / h, (predicted.v - row.nu.v) / h,
+                        (predicted.r - row.nu.r) / h};
       const double since_s = row.time_s - dataset.StartTime();
       miss.cluster = static_cast<std::size_t>(since_s / kClusterS);
       miss.region = row.region;
       miss.speed = SpeedBin(std::hypot(row.nu.u, row.nu.v));
-      const double eighths = row.eta.psi_rad / (std::numbers::pi / 4.0);
-      miss.octant = static_cast<std::size_t>(((std::lround(eighths) % 8) + 8) % 8);
+      miss.octant = NearestCompassPoint(row.eta.psi_rad);
       miss.third = std::min<std::size_t>(static_cast<std::size_t>(3.0 * since_s / span_s), 2);
       miss.after_step = JustStepped(dataset.commands[s], row.time_s);
       misses.push_back(miss);
@@ -118,8 +118,8 @@ std::vector<Corner> Corners() {
     corners.push_back(
         {std::nullopt, SpeedName(bin), [bin](const Miss& m) { return m.speed == bin; }});
   }
-  for (std::size_t point = 0; point < kPoints.size(); ++point) {
-    corners.push_back({std::nullopt, "heading " + std::string(kPoints[point]),
+  for (std::size_t point = 0; point < kCompassPoints.size(); ++point) {
+    corners.push_back({std::nullopt, "heading " + std::string(kCompassPoints[point]),
                        [point](const Miss& m) { return m.octant == point; }});
   }
   constexpr std::array<std::string_view, 3> kThirds = {"first third", "middle third", "last third"};
@@ -156,9 +156,21 @@ Usual UsualIn(const Corner& corner, const std::vector<Miss>& misses, std::size_t
 /// A cell under test: sums of deviations from the usual, by cluster.
 struct Cell {
   GapCell listed;
+  double rows = 0.0;
   std::vector<double> sums;
   double statistic = 0.0;
 };
+
+/// Excess by row, as a share of all of it.
+double DensityOf(const Cell& cell) {
+  return cell.listed.excess_share / cell.rows;
+}
+
+/// A region at one speed lies within that region, and within that speed.
+bool LiesWithin(const GapCell& inner, const GapCell& outer) {
+  if (inner.channel != outer.channel || !inner.region || inner.bin.empty()) return false;
+  return outer.region ? outer.region == inner.region && outer.bin.empty() : outer.bin == inner.bin;
+}
 
 /// Theil: how much of the mean square is its mean, how much goes with the model's own output.
 GapKind KindOf(const Corner& corner, const std::vector<Miss>& misses, std::size_t channel,
@@ -229,6 +241,7 @@ std::vector<GapCell> Localise(const PreparedDataset& recording,
       Cell cell;
       cell.statistic = std::abs(total) / std::sqrt(norm);
       cell.sums = std::move(sums);
+      cell.rows = count;
       cell.listed.channel = kEquations[channel];
       cell.listed.region = corner.region;
       cell.listed.bin = corner.bin;
@@ -257,14 +270,21 @@ std::vector<GapCell> Localise(const PreparedDataset& recording,
     }
     largest.push_back(most);
   }
-  std::vector<GapCell> listed;
+  std::vector<Cell> found;
   for (Cell& cell : cells) {
     const auto above = std::count_if(largest.begin(), largest.end(),
                                      [&](double most) { return most >= cell.statistic; });
     cell.listed.p_value =
         (1.0 + static_cast<double>(above)) / (1.0 + static_cast<double>(kReplicates));
     if (cell.listed.p_value > kSignificant || cell.listed.excess_share < kMaterialShare) continue;
-    listed.push_back(cell.listed);
+    found.push_back(std::move(cell));
+  }
+  std::vector<GapCell> listed;
+  for (const Cell& cell : found) {
+    const bool echoes = std::ranges::any_of(found, [&](const Cell& wider) {
+      return LiesWithin(cell.listed, wider.listed) && DensityOf(cell) < kDenser * DensityOf(wider);
+    });
+    if (!echoes) listed.push_back(cell.listed);
   }
   std::stable_sort(listed.begin(), listed.end(), [](const GapCell& a, const GapCell& b) {
     return a.excess_share > b.excess_share;

@@ -15,7 +15,8 @@ namespace telltale {
 /// is compared with that of the reference recordings; p-values by a wild bootstrap that turns the
 /// signs of whole windows of five seconds, against the largest of all cells (max-T). A cell is
 /// listed when its p-value is at most five per cent and it holds at least five per cent of the
-/// excess. docs/diagnosis.md (93), (94).
+/// excess; a region at one speed beside that region or speed only where its rows hold half as much
+/// excess again each. docs/diagnosis.md (93), (94).
 /// Requires: at least one reference.
 std::vector<GapCell> Localise(const PreparedDataset& recording,
                               const std::vector<PreparedDataset>& references,

@@ -6,6 +6,7 @@
 
 #include "contract.hpp"
 #include "simulation/simulator.hpp"
+#include "vessel/body_row.hpp"
 
 namespace telltale {
 namespace {
@@ -151,19 +152,14 @@ NuDot AugmentedBoat::Acceleration(const Nu& nu, double psi_rad, const Drive& dri
     moment.nu_r = {nu.u - u_c, nu.v - v_c, nu.r};
     nu_dot = {nu.r * v_c, -nu.r * u_c, 0.0};
   }
-  const Nu& n = moment.nu_r;
-  const double v_abs = std::abs(n.v);
-  const double r_abs = std::abs(n.r);
-  const std::array<double, 5> ahead = {n.u * std::abs(n.u), n.v * n.r, n.r * n.r, n.u, 1.0};
-  const std::array<double, 9> cross = {
-      n.v * v_abs, n.v * r_abs, n.r * v_abs, n.r * r_abs, n.u * n.v, n.u * n.r, n.v, n.r, 1.0};
-  for (std::size_t i = 0; i < ahead.size(); ++i) {
-    moment.hull[0][i] = hull_[0][i] * ahead[i];
+  const BodyRow row = BodyRowAt(moment.nu_r);
+  for (std::size_t i = 0; i < row.surge.size(); ++i) {
+    moment.hull[0][i] = hull_[0][i] * row.surge[i];
     nu_dot.u += moment.hull[0][i];
   }
-  for (std::size_t i = 0; i < cross.size(); ++i) {
-    moment.hull[1][i] = hull_[1][i] * cross[i];
-    moment.hull[2][i] = hull_[2][i] * cross[i];
+  for (std::size_t i = 0; i < row.turning.size(); ++i) {
+    moment.hull[1][i] = hull_[1][i] * row.turning[i];
+    moment.hull[2][i] = hull_[2][i] * row.turning[i];
     nu_dot.v += moment.hull[1][i];
     nu_dot.r += moment.hull[2][i];
   }
@@ -198,6 +194,17 @@ Pose AugmentedBoat::Advance(const Pose& from, const Drive& drive, double time_s,
                                 psi + step_s * (from.nu.r + half * k1.r), drive, time_s + step_s);
   const Nu nu = Along(from.nu, Plus(Plus(Plus(k1, k2, 2.0), k3, 2.0), k4), step_s / 6.0);
   return {NextPose(from.eta, from.nu, nu, step_s), nu};
+}
+
+std::vector<Pose> AugmentedBoat::Sail(const Pose& from, std::span<const Drive> drives,
+                                      double from_s, double step_s) const {
+  std::vector<Pose> track = {from};
+  track.reserve(drives.size() + 1);
+  for (std::size_t k = 0; k < drives.size(); ++k) {
+    track.push_back(
+        Advance(track.back(), drives[k], from_s + static_cast<double>(k) * step_s, step_s));
+  }
+  return track;
 }
 
 }  // namespace telltale

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstddef>
+#include <span>
 #include <vector>
 
 #include <Eigen/Core>
@@ -45,6 +46,10 @@ class AugmentedBoat {
 
   /// The boat `step_s` after `from` at `time_s`.
   Pose Advance(const Pose& from, const Drive& drive, double time_s, double step_s) const;
+
+  /// The boat at `from_s` and after each of the drives.
+  std::vector<Pose> Sail(const Pose& from, std::span<const Drive> drives, double from_s,
+                         double step_s) const;
 
   double HeadingErrorRad() const { return heading_error_rad_; }
   LeverArm AntennaShift() const { return antenna_shift_; }

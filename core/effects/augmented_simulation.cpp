@@ -34,11 +34,9 @@ std::vector<TimedState> Simulate(const AugmentedModel& model,
   const auto steps = static_cast<std::size_t>(std::floor((end_s - start_s) / step_s + 1e-9));
   const std::vector<Drive> drives = boat.DriveAlong(held, start_s, step_s, steps);
   std::vector<TimedState> track;
-  Pose pose;
-  for (std::size_t k = 0; k <= steps; ++k) {
-    const double time_s = start_s + static_cast<double>(k) * step_s;
+  for (const Pose& pose : boat.Sail({}, drives, start_s, step_s)) {
+    const double time_s = start_s + static_cast<double>(track.size()) * step_s;
     track.push_back({time_s, {pose.eta, pose.nu}, held.At(time_s)});
-    if (k < steps) pose = boat.Advance(pose, drives[k], time_s, step_s);
   }
   return track;
 }

@@ -3,7 +3,8 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
-#include <numbers>
+
+#include "vessel/compass.hpp"
 
 namespace telltale {
 
@@ -22,10 +23,8 @@ std::string PercentMoreOrLess(double share) {
 }
 
 std::string Towards(double north, double east) {
-  constexpr std::array<std::string_view, 8> kPoints = {"N", "NE", "E", "SE", "S", "SW", "W", "NW"};
-  const double eighths = std::atan2(east, north) / (std::numbers::pi / 4.0);
-  const auto point = static_cast<std::size_t>(std::lround(eighths) + 8) % kPoints.size();
-  return "towards " + std::string(kPoints[point]);
+  const std::size_t point = NearestCompassPoint(std::atan2(east, north));
+  return "towards " + std::string(kCompassPoints[point]);
 }
 
 }  // namespace telltale

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -191,11 +192,9 @@ class AugmentedSailing {
   std::vector<PreparedRow> Run(const RowRange& stretch, std::size_t first, std::size_t rows,
                                const std::vector<Drive>& drives) const {
     const double from_s = dataset_.rows[first].time_s;
-    std::vector<Pose> track = {TrueStart(dataset_, stretch, from_s, boat_)};
-    for (std::size_t k = 0; k < rows * steps_; ++k) {
-      track.push_back(boat_.Advance(track.back(), drives[(first - stretch.begin) * steps_ + k],
-                                    from_s + static_cast<double>(k) * step_s_, step_s_));
-    }
+    const auto ahead = std::span(drives).subspan((first - stretch.begin) * steps_, rows * steps_);
+    const std::vector<Pose> track =
+        boat_.Sail(TrueStart(dataset_, stretch, from_s, boat_), ahead, from_s, step_s_);
     std::vector<PreparedRow> predicted;
     for (std::size_t k = 0; k <= rows; ++k) {
       const Pose& now = track[k * steps_];

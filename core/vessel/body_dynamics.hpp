@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 
+#include "vessel/body_row.hpp"
 #include "vessel/motion.hpp"
 #include "vessel/structure.hpp"
 #include "vessel/vessel_model.hpp"
@@ -33,15 +34,9 @@ class BodyDynamics {
 
   /// nu_dot at a velocity, `applied` being what the propellers and anything else give.
   NuDot Under(const NuDot& applied, const Nu& nu) const {
-    const double v_abs = std::abs(nu.v);
-    const double r_abs = std::abs(nu.r);
-    const std::array<double, 9> cross = {nu.v * v_abs, nu.v * r_abs, nu.r * v_abs,
-                                         nu.r * r_abs, nu.u * nu.v,  nu.u * nu.r,
-                                         nu.v,         nu.r,         1.0};
-    const std::array<double, 5> ahead = {nu.u * std::abs(nu.u), nu.v * nu.r, nu.r * nu.r, nu.u,
-                                         1.0};
-    return {applied.u + Dot(surge_, ahead), applied.v + Dot(sway_, cross),
-            applied.r + Dot(yaw_, cross)};
+    const BodyRow row = BodyRowAt(nu);
+    return {applied.u + Dot(surge_, row.surge), applied.v + Dot(sway_, row.turning),
+            applied.r + Dot(yaw_, row.turning)};
   }
 
   /// d nu_dot / d nu. |v| and |r| have no slope at zero; there it is that of neither side, zero.

@@ -1,9 +1,9 @@
 #include "vessel/structure.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include "contract.hpp"
+#include "vessel/body_row.hpp"
 
 namespace telltale {
 namespace {
@@ -68,26 +68,6 @@ constexpr auto kYawInPropeller = Concatenate(kYawBody, kYawPropeller);
 constexpr auto kSurgeInPaper = Concatenate(kSurgeBody, kSurgePaper);
 constexpr auto kSwayInPaper = Concatenate(kSwayBody, kSwayPaper);
 constexpr auto kYawInPaper = Concatenate(kYawBody, kYawPaper);
-
-void FillSurgeBody(const Nu& nu, std::span<double> row) {
-  row[0] = nu.u * std::abs(nu.u);
-  row[1] = nu.v * nu.r;
-  row[2] = nu.r * nu.r;
-  row[3] = nu.u;
-  row[4] = 1.0;
-}
-
-void FillSwayYawBody(const Nu& nu, std::span<double> row) {
-  row[0] = nu.v * std::abs(nu.v);
-  row[1] = nu.v * std::abs(nu.r);
-  row[2] = nu.r * std::abs(nu.v);
-  row[3] = nu.r * std::abs(nu.r);
-  row[4] = nu.u * nu.v;
-  row[5] = nu.u * nu.r;
-  row[6] = nu.v;
-  row[7] = nu.r;
-  row[8] = 1.0;
-}
 
 // delta^2 and delta of one propeller, filed under forward or reverse, weighted by `side`.
 void AddPropeller(double delta, double side, std::span<double> part) {
@@ -164,10 +144,11 @@ ThrustRegressors ThrustOf(Parameterization parameterization, const PropellerComm
 }
 
 void FillBody(Equation equation, const Nu& nu, std::span<double> row) {
+  const BodyRow body = BodyRowAt(nu);
   if (equation == Equation::kSurge) {
-    FillSurgeBody(nu, row);
+    std::ranges::copy(body.surge, row.begin());
   } else {
-    FillSwayYawBody(nu, row);
+    std::ranges::copy(body.turning, row.begin());
   }
 }
 

@@ -49,27 +49,34 @@ struct IdentifyRequest {
   std::uint32_t certificate_twins = 0;  ///< 0 (none) or [10, 1000]
 };
 
-struct IdentifyProgress {
+/// How far the daemon is with a request.
+struct ExchangeProgress {
   std::string correlation_id;
   std::string vehicle_id;
   std::string stage;
   double fraction = 0.0;  ///< [0, 1]
 };
 
-/// kPublished: a model, also on telltale/model. kRefused: the window cannot answer. kFailed:
-/// anything else, in words.
+/// kPublished: what was asked for, also on its own topic. kRefused: the window cannot answer.
+/// kFailed: anything else, in words.
 enum class IdentifyOutcome { kUnknown, kPublished, kRefused, kFailed };
 
 std::string_view Name(IdentifyOutcome outcome);
 
-struct IdentifyReply {
+/// What every reply says.
+struct ExchangeReply {
   std::string correlation_id;
   std::string vehicle_id;
   IdentifyOutcome outcome = IdentifyOutcome::kUnknown;
-  std::string message;                  ///< what failed; empty otherwise
-  std::vector<Refusal> refusals;        ///< why, when refused
-  std::optional<PublishedModel> model;  ///< when published
+  std::string message;            ///< what failed; empty otherwise
+  std::vector<Refusal> refusals;  ///< why, when refused
   double elapsed_s = 0.0;
+};
+
+struct IdentifyProgress : ExchangeProgress {};
+
+struct IdentifyReply : ExchangeReply {
+  std::optional<PublishedModel> model;  ///< when published
 };
 
 /// A diagnosis of a vehicle's window against a published model.
@@ -88,22 +95,13 @@ struct DiagnoseRequest {
   std::uint64_t seed = 1;
 };
 
-struct DiagnoseProgress {
-  std::string correlation_id;
-  std::string vehicle_id;
-  std::string stage;
-  double fraction = 0.0;  ///< [0, 1]
-};
+struct DiagnoseProgress : ExchangeProgress {};
 
-/// Outcomes are those of an identification; what is published is on telltale/diagnosis.
-struct DiagnoseReply {
-  std::string correlation_id;
-  std::string vehicle_id;
-  IdentifyOutcome outcome = IdentifyOutcome::kUnknown;
-  std::string message;            ///< what failed; empty otherwise
-  std::vector<Refusal> refusals;  ///< why, when refused
-  std::optional<PublishedDiagnosis> diagnosis;
-  double elapsed_s = 0.0;
+struct DiagnoseReply : ExchangeReply {
+  std::optional<PublishedDiagnosis> diagnosis;  ///< when published
+  /// The model identified again with the effects that were named, where any was. It is no revision:
+  /// the vehicle's model stays what it is.
+  std::optional<Identification> augmented;
 };
 
 /// Rejected samples as a monitor shows them. Reasons are RejectReason names and those of a sample

@@ -256,6 +256,22 @@ void Fill(telltale_wire_Diagnosis& wire, const PublishedDiagnosis& published) {
   Put(wire.report, PrintReportJson(published.diagnosis));
 }
 
+void FillProgress(auto& wire, const ExchangeProgress& progress) {
+  PutIdentifier(wire.correlation_id, progress.correlation_id);
+  PutIdentifier(wire.vehicle_id, progress.vehicle_id);
+  Put(wire.stage, progress.stage);
+  wire.fraction = progress.fraction;
+}
+
+void FillReply(auto& wire, const ExchangeReply& reply) {
+  PutIdentifier(wire.correlation_id, reply.correlation_id);
+  PutIdentifier(wire.vehicle_id, reply.vehicle_id);
+  Put(wire.outcome, Name(reply.outcome));
+  Put(wire.message, reply.message);
+  PutSequence(wire.refusals, reply.refusals, kFill);
+  wire.elapsed_s = reply.elapsed_s;
+}
+
 // ---- wire -> core -------------------------------------------------------------------------------
 
 /// Unwinds the decoding of a message at its first fault; never leaves this file.
@@ -727,6 +743,47 @@ PublishedDiagnosis ReadDiagnosis(const telltale_wire_Diagnosis& wire) {
   return published;
 }
 
+ExchangeProgress ReadProgress(const auto& wire) {
+  return {ReadIdentifier("correlation_id", wire.correlation_id),
+          ReadIdentifier("vehicle_id", wire.vehicle_id), std::string(View(wire.stage)),
+          ReadWithin("fraction", wire.fraction, 0.0, 1.0)};
+}
+
+ExchangeReply ReadReply(const auto& wire) {
+  return {ReadIdentifier("correlation_id", wire.correlation_id),
+          ReadIdentifier("vehicle_id", wire.vehicle_id),
+          ReadName("outcome", View(wire.outcome), kOutcomes),
+          std::string(View(wire.message)),
+          ReadSequence("refusals", wire.refusals, ReadRefusal),
+          ReadWithin("elapsed_s", wire.elapsed_s, 0.0, kLargest)};
+}
+
+/// Whether there is an answer to read: one where something was published, else none.
+bool HoldsItsAnswer(const char* field, const auto& answer, const ExchangeReply& reply) {
+  const bool published = reply.outcome == IdentifyOutcome::kPublished;
+  if (answer._length != (published ? 1u : 0u)) {
+    Reject(field, std::to_string(answer._length) + " items",
+           published ? "one when published" : "none unless published");
+  }
+  return published;
+}
+
+/// None where no effect was named, and from writers that know of none.
+std::optional<Identification> ReadAugmented(const dds_sequence_telltale_wire_Model& wire,
+                                            const DiagnoseReply& reply) {
+  const std::uint32_t most = reply.diagnosis ? 1 : 0;
+  if (wire._length > most) {
+    Reject("augmented", std::to_string(wire._length) + " items",
+           most > 0 ? "none or one" : "none unless published");
+  }
+  if (wire._length == 0) return std::nullopt;
+  Identification augmented = ReadModel(wire._buffer[0]).identification;
+  if (augmented.vehicle_id != reply.vehicle_id) {
+    Reject("augmented[0].vehicle_id", augmented.vehicle_id, "the reply's, " + reply.vehicle_id);
+  }
+  return augmented;
+}
+
 /// The common part of the three telemetry types: no exception and no allocation on the way of a
 /// sound sample.
 template <class Sample, class Wire>
@@ -801,25 +858,17 @@ WireSample<telltale_wire_IdentifyRequest> Encode(const IdentifyRequest& request)
 
 WireSample<telltale_wire_IdentifyProgress> Encode(const IdentifyProgress& progress) {
   WireSample<telltale_wire_IdentifyProgress> wire;
-  PutIdentifier(wire->correlation_id, progress.correlation_id);
-  PutIdentifier(wire->vehicle_id, progress.vehicle_id);
-  Put(wire->stage, progress.stage);
-  wire->fraction = progress.fraction;
+  FillProgress(*wire, progress);
   return wire;
 }
 
 WireSample<telltale_wire_IdentifyReply> Encode(const IdentifyReply& reply) {
   WireSample<telltale_wire_IdentifyReply> wire;
-  PutIdentifier(wire->correlation_id, reply.correlation_id);
-  PutIdentifier(wire->vehicle_id, reply.vehicle_id);
-  Put(wire->outcome, Name(reply.outcome));
-  Put(wire->message, reply.message);
-  PutSequence(wire->refusals, reply.refusals, kFill);
+  FillReply(*wire, reply);
   if (reply.model) {
     wire->revision = reply.model->revision;
     PutSequence(wire->model, std::initializer_list<PublishedModel>{*reply.model}, kFill);
   }
-  wire->elapsed_s = reply.elapsed_s;
   return wire;
 }
 
@@ -842,25 +891,21 @@ WireSample<telltale_wire_DiagnoseRequest> Encode(const DiagnoseRequest& request)
 
 WireSample<telltale_wire_DiagnoseProgress> Encode(const DiagnoseProgress& progress) {
   WireSample<telltale_wire_DiagnoseProgress> wire;
-  PutIdentifier(wire->correlation_id, progress.correlation_id);
-  PutIdentifier(wire->vehicle_id, progress.vehicle_id);
-  Put(wire->stage, progress.stage);
-  wire->fraction = progress.fraction;
+  FillProgress(*wire, progress);
   return wire;
 }
 
 WireSample<telltale_wire_DiagnoseReply> Encode(const DiagnoseReply& reply) {
   WireSample<telltale_wire_DiagnoseReply> wire;
-  PutIdentifier(wire->correlation_id, reply.correlation_id);
-  PutIdentifier(wire->vehicle_id, reply.vehicle_id);
-  Put(wire->outcome, Name(reply.outcome));
-  Put(wire->message, reply.message);
-  PutSequence(wire->refusals, reply.refusals, kFill);
+  FillReply(*wire, reply);
   if (reply.diagnosis) {
     PutSequence(wire->diagnosis, std::initializer_list<PublishedDiagnosis>{*reply.diagnosis},
                 [](auto& element, const PublishedDiagnosis& item) { Fill(element, item); });
   }
-  wire->elapsed_s = reply.elapsed_s;
+  if (reply.augmented) {
+    PutSequence(wire->augmented, std::initializer_list<PublishedModel>{{*reply.augmented, 0, 0.0}},
+                kFill);
+  }
   return wire;
 }
 
@@ -932,31 +977,13 @@ Decoded<IdentifyRequest> Decode(const telltale_wire_IdentifyRequest& wire) {
 }
 
 Decoded<IdentifyProgress> Decode(const telltale_wire_IdentifyProgress& wire) {
-  return Guarded([&] {
-    IdentifyProgress progress;
-    progress.correlation_id = ReadIdentifier("correlation_id", wire.correlation_id);
-    progress.vehicle_id = ReadIdentifier("vehicle_id", wire.vehicle_id);
-    progress.stage = View(wire.stage);
-    progress.fraction = ReadWithin("fraction", wire.fraction, 0.0, 1.0);
-    return progress;
-  });
+  return Guarded([&] { return IdentifyProgress{ReadProgress(wire)}; });
 }
 
 Decoded<IdentifyReply> Decode(const telltale_wire_IdentifyReply& wire) {
   return Guarded([&] {
-    IdentifyReply reply;
-    reply.correlation_id = ReadIdentifier("correlation_id", wire.correlation_id);
-    reply.vehicle_id = ReadIdentifier("vehicle_id", wire.vehicle_id);
-    reply.outcome = ReadName("outcome", View(wire.outcome), kOutcomes);
-    reply.message = View(wire.message);
-    reply.refusals = ReadSequence("refusals", wire.refusals, ReadRefusal);
-    const bool published = reply.outcome == IdentifyOutcome::kPublished;
-    if (wire.model._length != (published ? 1u : 0u)) {
-      Reject("model", std::to_string(wire.model._length) + " items",
-             published ? "one when published" : "none unless published");
-    }
-    if (published) reply.model = ReadModel(wire.model._buffer[0]);
-    reply.elapsed_s = ReadWithin("elapsed_s", wire.elapsed_s, 0.0, kLargest);
+    IdentifyReply reply{ReadReply(wire), {}};
+    if (HoldsItsAnswer("model", wire.model, reply)) reply.model = ReadModel(wire.model._buffer[0]);
     return reply;
   });
 }
@@ -980,31 +1007,16 @@ Decoded<DiagnoseRequest> Decode(const telltale_wire_DiagnoseRequest& wire) {
 }
 
 Decoded<DiagnoseProgress> Decode(const telltale_wire_DiagnoseProgress& wire) {
-  return Guarded([&] {
-    DiagnoseProgress progress;
-    progress.correlation_id = ReadIdentifier("correlation_id", wire.correlation_id);
-    progress.vehicle_id = ReadIdentifier("vehicle_id", wire.vehicle_id);
-    progress.stage = View(wire.stage);
-    progress.fraction = ReadWithin("fraction", wire.fraction, 0.0, 1.0);
-    return progress;
-  });
+  return Guarded([&] { return DiagnoseProgress{ReadProgress(wire)}; });
 }
 
 Decoded<DiagnoseReply> Decode(const telltale_wire_DiagnoseReply& wire) {
   return Guarded([&] {
-    DiagnoseReply reply;
-    reply.correlation_id = ReadIdentifier("correlation_id", wire.correlation_id);
-    reply.vehicle_id = ReadIdentifier("vehicle_id", wire.vehicle_id);
-    reply.outcome = ReadName("outcome", View(wire.outcome), kOutcomes);
-    reply.message = View(wire.message);
-    reply.refusals = ReadSequence("refusals", wire.refusals, ReadRefusal);
-    const bool published = reply.outcome == IdentifyOutcome::kPublished;
-    if (wire.diagnosis._length != (published ? 1u : 0u)) {
-      Reject("diagnosis", std::to_string(wire.diagnosis._length) + " items",
-             published ? "one when published" : "none unless published");
+    DiagnoseReply reply{ReadReply(wire), {}, {}};
+    if (HoldsItsAnswer("diagnosis", wire.diagnosis, reply)) {
+      reply.diagnosis = ReadDiagnosis(wire.diagnosis._buffer[0]);
     }
-    if (published) reply.diagnosis = ReadDiagnosis(wire.diagnosis._buffer[0]);
-    reply.elapsed_s = ReadWithin("elapsed_s", wire.elapsed_s, 0.0, kLargest);
+    reply.augmented = ReadAugmented(wire.augmented, reply);
     return reply;
   });
 }

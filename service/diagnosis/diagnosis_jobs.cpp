@@ -3,10 +3,8 @@
 #include <algorithm>
 #include <chrono>
 #include <thread>
+#include <utility>
 
-#include <spdlog/spdlog.h>
-
-#include "codec/wire.hpp"
 #include "data/preparation.hpp"
 #include "diagnosis/diagnose.hpp"
 #include "diagnosis/live_case.hpp"
@@ -30,16 +28,27 @@ DiagnoseOptions DiagnoseOptionsOf(const DiagnoseRequest& request,
   return options;
 }
 
+Refusal Unmodelled(const std::string& vehicle_id) {
+  return {vehicle_id, "has no model yet that its window could be held against",
+          "identify it first: telltale identify --vehicle-id " + vehicle_id};
+}
+
+DiagnoseReply RefusedWith(const DiagnoseRequest& request, Refusal refusal) {
+  auto reply = ReplyTo<DiagnoseReply>(request, IdentifyOutcome::kRefused);
+  reply.refusals.push_back(std::move(refusal));
+  return reply;
+}
+
 }  // namespace
 
-DiagnosisJobs::DiagnosisJobs(const Participant& participant, const Fleet& fleet,
-                             const PublishedModels& models, const HealthyRecordings& healthy,
+DiagnosisJobs::DiagnosisJobs(const Fleet& fleet, const PublishedModels& models,
+                             const HealthyRecordings& healthy, PublishedDiagnoses& diagnoses,
                              Answers& answers, const IdentificationSettings& settings)
     : fleet_(fleet),
       models_(models),
       healthy_(healthy),
+      diagnoses_(diagnoses),
       settings_(settings),
-      writer_(participant),
       jobs_("diagnosis", fleet, answers, kDiagnosedAtOnce, settings.queue_limit,
             [this](const DiagnoseRequest& request, const Progress& progress) {
               return DiagnoseAndPublish(request, progress);
@@ -52,32 +61,25 @@ DiagnoseReply DiagnosisJobs::DiagnoseAndPublish(const DiagnoseRequest& request,
     return ReplyTo<DiagnoseReply>(request, IdentifyOutcome::kFailed,
                                   fault->subject + ": " + fault->reason + "; " + fault->advice);
   }
-  auto diagnosis = DiagnoseWindow(request, options, progress);
-  if (!diagnosis) {
-    auto reply = ReplyTo<DiagnoseReply>(request, IdentifyOutcome::kRefused);
-    reply.refusals.push_back(std::move(diagnosis).error());
-    return reply;
-  }
+  const auto stored = models_.Latest(request.vehicle_id);
+  if (!stored) return RefusedWith(request, Unmodelled(request.vehicle_id));
+  auto diagnosed = DiagnoseWindow(stored->model, options, progress);
+  if (!diagnosed) return RefusedWith(request, std::move(diagnosed).error());
   progress("publish", 1.0);
-  Announce(*diagnosis);
   auto reply = ReplyTo<DiagnoseReply>(request, IdentifyOutcome::kPublished);
-  reply.diagnosis = *std::move(diagnosis);
+  reply.diagnosis = {std::move(diagnosed->diagnosis), stored->model.revision, UnixSecondsNow()};
+  reply.augmented = std::move(diagnosed->augmented);
+  diagnoses_.Publish(*reply.diagnosis);
   return reply;
 }
 
-Result<PublishedDiagnosis> DiagnosisJobs::DiagnoseWindow(const DiagnoseRequest& request,
-                                                         const DiagnoseOptions& options,
-                                                         const Progress& progress) const {
-  const auto stored = models_.Latest(request.vehicle_id);
-  if (!stored) {
-    return Refuse(request.vehicle_id, "has no model yet that its window could be held against",
-                  "identify it first: telltale identify --vehicle-id " + request.vehicle_id);
-  }
-  const PublishedModel& model = stored->model;
-  VehicleWindow& window = *fleet_.Find(request.vehicle_id);
+Result<DiagnosedModel> DiagnosisJobs::DiagnoseWindow(const PublishedModel& model,
+                                                     const DiagnoseOptions& options,
+                                                     const Progress& progress) const {
+  const std::string& vehicle_id = model.identification.vehicle_id;
+  VehicleWindow& window = *fleet_.Find(vehicle_id);
   progress("preparing data", 0.0);
-  const auto live =
-      CaseOf(window.Snapshot(), model, healthy_.Behind(request.vehicle_id, model.revision));
+  const auto live = CaseOf(window.Snapshot(), model, healthy_.Behind(vehicle_id, model.revision));
   if (!live) return tl::unexpected(live.error());
   PrepareOptions preparation;
   preparation.sampling_period_s = model.identification.sampling_period_s;
@@ -90,22 +92,9 @@ Result<PublishedDiagnosis> DiagnosisJobs::DiagnoseWindow(const DiagnoseRequest& 
     references.push_back(*std::move(healthy));
   }
   auto diagnosed =
-      Diagnose(*since, references, model.identification, request.vehicle_id, options, progress);
-  if (!diagnosed) return tl::unexpected(std::move(diagnosed).error());
-  diagnosed->diagnosis.notes.push_back(live->basis);
-  return PublishedDiagnosis{std::move(diagnosed->diagnosis), model.revision, UnixSecondsNow()};
-}
-
-void DiagnosisJobs::Announce(const PublishedDiagnosis& diagnosis) {
-  const std::string& vehicle_id = diagnosis.diagnosis.vehicle_id;
-  spdlog::info("diagnosis of {}: {}", vehicle_id, diagnosis.diagnosis.sentence);
-  try {
-    if (!writer_.Write(Encode(diagnosis))) {
-      spdlog::warn("a stalled client held up the diagnosis of {}", vehicle_id);
-    }
-  } catch (const BusError& error) {
-    spdlog::error("the diagnosis of {} is not published: {}", vehicle_id, error.what());
-  }
+      Diagnose(*since, references, model.identification, vehicle_id, options, progress);
+  if (diagnosed) diagnosed->diagnosis.notes.push_back(live->basis);
+  return diagnosed;
 }
 
 }  // namespace telltale

@@ -2,12 +2,11 @@
 
 #include <utility>
 
-#include "bus/participant.hpp"
-#include "bus/writer.hpp"
 #include "codec/daemon_config.hpp"
 #include "codec/messages.hpp"
 #include "diagnosis/diagnose.hpp"
 #include "diagnosis/healthy_recordings.hpp"
+#include "diagnosis/published_diagnoses.hpp"
 #include "identification/answers.hpp"
 #include "ingest/fleet.hpp"
 #include "jobs/job_queue.hpp"
@@ -19,8 +18,8 @@ namespace telltale {
 /// vehicle at a time, and publishes the diagnoses.
 class DiagnosisJobs {
  public:
-  DiagnosisJobs(const Participant& participant, const Fleet& fleet, const PublishedModels& models,
-                const HealthyRecordings& healthy, Answers& answers,
+  DiagnosisJobs(const Fleet& fleet, const PublishedModels& models, const HealthyRecordings& healthy,
+                PublishedDiagnoses& diagnoses, Answers& answers,
                 const IdentificationSettings& settings);
 
   /// Takes a request in and returns; the answer goes out through Answers.
@@ -28,16 +27,14 @@ class DiagnosisJobs {
 
  private:
   DiagnoseReply DiagnoseAndPublish(const DiagnoseRequest& request, const Progress& progress);
-  Result<PublishedDiagnosis> DiagnoseWindow(const DiagnoseRequest& request,
-                                            const DiagnoseOptions& options,
-                                            const Progress& progress) const;
-  void Announce(const PublishedDiagnosis& diagnosis);
+  Result<DiagnosedModel> DiagnoseWindow(const PublishedModel& model, const DiagnoseOptions& options,
+                                        const Progress& progress) const;
 
   const Fleet& fleet_;
   const PublishedModels& models_;
   const HealthyRecordings& healthy_;
+  PublishedDiagnoses& diagnoses_;
   const IdentificationSettings settings_;
-  Writer<telltale_wire_Diagnosis> writer_;
   JobQueue<DiagnoseRequest, DiagnoseProgress, DiagnoseReply> jobs_;  // last: its thread uses these
 };
 

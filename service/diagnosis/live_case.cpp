@@ -58,7 +58,7 @@ Result<LiveCase> CaseOf(const Recording& window, const PublishedModel& model,
                    ? "the healthy error is that on the " + Seconds(DurationS(*live.healthy)) +
                          " behind " + revision + ", which was fitted to them: it is a little low"
                    : "the data behind " + revision +
-                         " are no longer held, so the floor is what sensor noise alone would leave";
+                         " are no longer held, so there is no healthy recording to compare with";
   return live;
 }
 

@@ -134,7 +134,7 @@ void JobQueue<Request, Stage, Reply>::Submit(Request request) {
     return answers_.Send(Failed(
         request, std::to_string(queue_limit_) + ' ' + what_ + "s are waiting already; ask later"));
   }
-  const Stage stage{request.correlation_id, request.vehicle_id, "queued", 0.0};
+  const Stage stage{{request.correlation_id, request.vehicle_id, "queued", 0.0}};
   unfinished_.emplace(request.correlation_id, stage);
   queue_.push_back(std::move(request));
   lock.unlock();

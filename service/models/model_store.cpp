@@ -4,33 +4,10 @@
 #include <spdlog/spdlog.h>
 
 #include "codec/model_json.hpp"
+#include "state/database.hpp"
 
 namespace telltale {
 namespace {
-
-constexpr int kSchemaVersion = 1;
-
-std::unique_ptr<SQLite::Database> Open(const std::filesystem::path& directory) {
-  std::filesystem::create_directories(directory);
-  auto database = std::make_unique<SQLite::Database>(directory / "models.sqlite",
-                                                     SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE);
-  database->setBusyTimeout(5000);
-  database->exec("PRAGMA journal_mode = WAL");
-  database->exec("PRAGMA synchronous = FULL");
-  const int version = database->execAndGet("PRAGMA user_version").getInt();
-  if (version > kSchemaVersion) {
-    throw SQLite::Exception("models.sqlite has schema version " + std::to_string(version) +
-                            ", this program knows up to " + std::to_string(kSchemaVersion));
-  }
-  database->exec(
-      "CREATE TABLE IF NOT EXISTS models ("
-      "  vehicle_id TEXT NOT NULL, revision INTEGER NOT NULL, published_unix_s REAL NOT NULL,"
-      "  model BLOB NOT NULL,"  // proto/model.proto, serialised
-      "  reference_error_u REAL, reference_error_v REAL, reference_error_r REAL,"
-      "  PRIMARY KEY (vehicle_id, revision)) WITHOUT ROWID");
-  database->exec("PRAGMA user_version = " + std::to_string(kSchemaVersion));
-  return database;
-}
 
 std::optional<StoredModel> ReadRow(SQLite::Statement& row) {
   proto::Model message;
@@ -59,7 +36,16 @@ std::optional<StoredModel> ReadRow(SQLite::Statement& row) {
 
 }  // namespace
 
-ModelStore::ModelStore(const std::filesystem::path& directory) : database_(Open(directory)) {}
+ModelStore::ModelStore(const std::filesystem::path& directory)
+    : database_(OpenDatabase(directory)) {
+  database_->exec(
+      "CREATE TABLE IF NOT EXISTS models ("
+      "  vehicle_id TEXT NOT NULL, revision INTEGER NOT NULL, published_unix_s REAL NOT NULL,"
+      "  model BLOB NOT NULL,"  // proto/model.proto, serialised
+      "  reference_error_u REAL, reference_error_v REAL, reference_error_r REAL,"
+      "  PRIMARY KEY (vehicle_id, revision)) WITHOUT ROWID");
+}
+
 ModelStore::~ModelStore() = default;
 ModelStore::ModelStore(ModelStore&&) noexcept = default;
 ModelStore& ModelStore::operator=(ModelStore&&) noexcept = default;

@@ -32,7 +32,7 @@ struct StoredModel {
 /// Not thread safe.
 class ModelStore {
  public:
-  /// Opens or creates models.sqlite in `directory`, which is made if it is not there.
+  /// In the database of `directory`, OpenDatabase().
   explicit ModelStore(const std::filesystem::path& directory);
   ~ModelStore();
   ModelStore(ModelStore&&) noexcept;

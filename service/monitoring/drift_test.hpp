@@ -3,10 +3,10 @@
 namespace telltale {
 
 /// Whether a model no longer fits: a cumulative sum of its prediction error, in units of the error
-/// when it was identified, beyond what one minute may miss more than another. It fires where the
-/// error stays large, the sooner the larger it is: after half a minute at three times the error,
-/// after one and a half at twice, and never below one and a half times. Source: E. S. Page,
-/// "Continuous inspection schemes", Biometrika 41 (1954).
+/// when it was identified, beyond what other weather may add. It fires where the error stays large,
+/// the sooner the larger it is: after two minutes at three times the error, after five or six at
+/// twice, and never below 1.75 times; how often of a healthy boat stands in docs/operations.md.
+/// Source: E. S. Page, "Continuous inspection schemes", Biometrika 41 (1954).
 class DriftTest {
  public:
   /// Takes in the error of one more evaluation, with five seconds or more of new data.

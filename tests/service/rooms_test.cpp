@@ -6,6 +6,8 @@
 #include <gtest/gtest.h>
 
 #include "codec/model_json.hpp"
+#include "codec/report_json.hpp"
+#include "diagnosis/diagnosis_store.hpp"
 #include "diagnosis/healthy_recordings.hpp"
 #include "diagnosis/live_case.hpp"
 #include "identification/identification_jobs.hpp"
@@ -19,6 +21,7 @@
 #include "monitoring/prediction_error.hpp"
 #include "simulation/yellowfish.hpp"
 #include "support/boats.hpp"
+#include "support/diagnoses.hpp"
 #include "support/identifications.hpp"
 #include "support/temporary_folder.hpp"
 
@@ -258,6 +261,60 @@ TEST(LiveFeed, IsDueAfterSomeSecondsOrANewClock) {
   EXPECT_TRUE(feed.IsDue(3.0));
 }
 
+// ---- diagnoses on disk
+// ---------------------------------------------------------------------------
+
+class DiagnosisStoreTest : public ::testing::Test {
+ protected:
+  TemporaryFolder folder_;
+  PublishedDiagnosis diagnosis_{MadeUpDiagnosis(), 7, 12.5};
+};
+
+TEST_F(DiagnosisStoreTest, GivesBackTheLastOfEachVehicleAsItWasSaved) {
+  {
+    DiagnosisStore store(folder_.Path());
+    diagnosis_.diagnosis.vehicle_id = "another";
+    store.Save(diagnosis_);
+    diagnosis_.diagnosis = MadeUpHealthyDiagnosis();
+    store.Save(diagnosis_);
+    diagnosis_ = {MadeUpDiagnosis(), 8, 13.5};
+    diagnosis_.diagnosis.vehicle_id = MadeUpHealthyDiagnosis().vehicle_id;
+    store.Save(diagnosis_);
+  }
+  const auto last = DiagnosisStore(folder_.Path()).Last(MadeUpHealthyDiagnosis().vehicle_id);
+  ASSERT_TRUE(last);
+  EXPECT_EQ(last->model_revision, 8u);
+  EXPECT_EQ(last->published_unix_s, 13.5);
+  EXPECT_EQ(PrintReportJson(last->diagnosis), PrintReportJson(diagnosis_.diagnosis));
+  const auto other = DiagnosisStore(folder_.Path()).Last("another");
+  ASSERT_TRUE(other);
+  EXPECT_EQ(other->model_revision, 7u);
+  EXPECT_FALSE(DiagnosisStore(folder_.Path()).Last("stranger"));
+}
+
+TEST_F(DiagnosisStoreTest, SharesItsDatabaseWithTheModels) {
+  ModelStore models(folder_.Path());
+  DiagnosisStore diagnoses(folder_.Path());
+  diagnoses.Save(diagnosis_);
+  const Identification model = MadeUpIdentification();
+  EXPECT_EQ(models.Save(model, 1.0, std::nullopt).model.revision, 1u);
+  EXPECT_TRUE(diagnoses.Last(diagnosis_.diagnosis.vehicle_id));
+  EXPECT_TRUE(models.Latest(model.vehicle_id));
+}
+
+TEST_F(DiagnosisStoreTest, PassesOverWhatCannotBeRead) {
+  DiagnosisStore store(folder_.Path());
+  const std::string& vehicle_id = diagnosis_.diagnosis.vehicle_id;
+  for (const char* damage : {"x'ff00ff'", "x''"}) {
+    store.Save(diagnosis_);
+    SQLite::Database(folder_.Path() / "models.sqlite", SQLite::OPEN_READWRITE)
+        .exec(std::string("UPDATE diagnoses SET report = ") + damage);
+    EXPECT_FALSE(store.Last(vehicle_id)) << damage;
+  }
+  store.Save(diagnosis_);
+  EXPECT_TRUE(store.Last(vehicle_id));
+}
+
 // ---- what a live diagnosis is about -------------------------------------------------------------
 
 /// A fix a second of [start_s, end_s].
@@ -298,7 +355,7 @@ TEST(LiveCase, SaysWhereNothingHealthyIsAtHand) {
   const auto live = CaseOf(FixesOf(390.0, 500.0), ModelMadeOf(100.0, 400.0), std::nullopt);
   ASSERT_TRUE(live);
   EXPECT_FALSE(live->healthy);
-  EXPECT_NE(live->basis.find("sensor noise"), std::string::npos) << live->basis;
+  EXPECT_NE(live->basis.find("no longer held"), std::string::npos) << live->basis;
 }
 
 TEST(LiveCase, AWindowThatEndsBeforeTheModelsDataIsOfAnotherClock) {
@@ -339,9 +396,9 @@ std::optional<int> EvaluationsUntilDrift(double relative_error) {
 }
 
 TEST(DriftTest, FiresTheSoonerTheWorseAndNeverWithinBounds) {
-  EXPECT_EQ(EvaluationsUntilDrift(3.0), 6);   // 9 / 1.5
-  EXPECT_EQ(EvaluationsUntilDrift(2.0), 18);  // 9 / 0.5
-  EXPECT_EQ(EvaluationsUntilDrift(1.5), std::nullopt);
+  EXPECT_EQ(EvaluationsUntilDrift(3.0), 16);  // 20 / 1.25
+  EXPECT_EQ(EvaluationsUntilDrift(2.0), 80);  // 20 / 0.25
+  EXPECT_EQ(EvaluationsUntilDrift(1.75), std::nullopt);
   EXPECT_EQ(EvaluationsUntilDrift(std::nan("")), std::nullopt);
   EXPECT_EQ(EvaluationsUntilDrift(HUGE_VAL), 1);
 }
@@ -360,7 +417,7 @@ TEST(DriftTest, EndsOnceTheErrorHasBeenSmallAgain) {
   EXPECT_TRUE(test.Fires());
   int until = 0;
   for (; test.Fires() && until < 100; ++until) test.Add(1.0);
-  EXPECT_EQ(until, 36);  // 18 / 0.5
+  EXPECT_EQ(until, 54);  // 40 / 0.75
 }
 
 TEST(IdentificationOptions, AreTheRequestsWishesOverTheDaemonsDefaults) {

@@ -287,7 +287,7 @@ TEST(WireExchange, ReplyMustHoldAModelWhenPublishedAndOnlyThen) {
 }
 
 TEST(WireExchange, ProgressStaysBetweenNoneAndAll) {
-  auto wire = Encode(IdentifyProgress{"abc-1", "boat-1", "bootstrap", 0.5});
+  auto wire = Encode(IdentifyProgress{{"abc-1", "boat-1", "bootstrap", 0.5}});
   EXPECT_EQ(Decode(*wire)->fraction, 0.5);
   wire->fraction = 1.5;
   EXPECT_EQ(Decode(*wire).error().field, "fraction");
@@ -321,14 +321,15 @@ TEST(WireDiagnosis, RequestAndProgressArriveAsTheyWereSent) {
   EXPECT_TRUE(request->refit);
   EXPECT_EQ(request->without, (std::vector<std::string>{"wind", "x"}));
   EXPECT_EQ(request->seed, 9u);
-  const auto progress = Decode(*Encode(DiagnoseProgress{"id-1", "boat-1", "searching", 0.25}));
+  const auto progress = Decode(*Encode(DiagnoseProgress{{"id-1", "boat-1", "searching", 0.25}}));
   ASSERT_TRUE(progress);
   EXPECT_EQ(progress->stage, "searching");
   EXPECT_EQ(progress->fraction, 0.25);
 }
 
 TEST(WireDiagnosis, ReplyHoldsADiagnosisWhenPublishedAndOnlyThen) {
-  DiagnoseReply sent{"id-1", "boat-1", IdentifyOutcome::kRefused, "", {{"a", "b", "c"}}, {}, 1.5};
+  DiagnoseReply sent{
+      {"id-1", "boat-1", IdentifyOutcome::kRefused, "", {{"a", "b", "c"}}, 1.5}, {}, {}};
   const auto refused = Decode(*Encode(sent));
   ASSERT_TRUE(refused) << refused.error().Message();
   EXPECT_EQ(refused->refusals, sent.refusals);
@@ -339,6 +340,29 @@ TEST(WireDiagnosis, ReplyHoldsADiagnosisWhenPublishedAndOnlyThen) {
   const auto published = Decode(*Encode(sent));
   ASSERT_TRUE(published) << published.error().Message();
   ExpectSame(published->diagnosis->diagnosis, sent.diagnosis->diagnosis);
+  EXPECT_FALSE(published->augmented);
+}
+
+TEST(WireDiagnosis, ReplyCarriesTheModelIdentifiedAgainWithItsEffects) {
+  DiagnoseReply sent{{"id-1", "boat-1", IdentifyOutcome::kPublished, "", {}, 1.5}, {}, {}};
+  sent.diagnosis = PublishedDiagnosis{MadeUpDiagnosis(), 7, 1.0};
+  sent.augmented = MadeUpIdentification();
+  sent.augmented->vehicle_id = "boat-1";
+  sent.augmented->effects = {{"thruster_lag", {0.25}}};
+  const auto received = Decode(*Encode(sent));
+  ASSERT_TRUE(received) << received.error().Message();
+  ASSERT_TRUE(received->augmented);
+  ExpectSame(*received->augmented, *sent.augmented);
+  ASSERT_EQ(received->augmented->effects.size(), 1u);
+  EXPECT_EQ(received->augmented->effects[0].effect, "thruster_lag");
+
+  DiagnoseReply other = sent;
+  other.augmented->vehicle_id = "boat-2";
+  EXPECT_EQ(Decode(*Encode(other)).error().field, "augmented[0].vehicle_id");
+  DiagnoseReply refused = sent;
+  refused.outcome = IdentifyOutcome::kRefused;
+  refused.diagnosis.reset();
+  EXPECT_EQ(Decode(*Encode(refused)).error().field, "augmented");
 }
 
 TEST(WireQuality, CarriesAProposal) {

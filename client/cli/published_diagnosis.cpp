@@ -1,0 +1,15 @@
+#include "cli/published_diagnosis.hpp"
+
+#include "codec/json_message.hpp"
+#include "codec/report_json.hpp"
+
+namespace telltale {
+
+std::string PrintReportJson(const PublishedDiagnosis& diagnosis) {
+  proto::Report message = ToProto(diagnosis.diagnosis);
+  message.set_model_revision(diagnosis.model_revision);
+  message.set_published_unix_s(diagnosis.published_unix_s);
+  return PrintJsonMessage(message);
+}
+
+}  // namespace telltale

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <array>
+#include <cmath>
+
+#include "vessel/motion.hpp"
+
+namespace telltale {
+
+/// The body part of the rows Phi_j(nu, .), docs/model.md (10)..(12), in the order of Regressors():
+/// that of surge, and that which sway and yaw share.
+struct BodyRow {
+  std::array<double, 5> surge;
+  std::array<double, 9> turning;
+};
+
+inline BodyRow BodyRowAt(const Nu& nu) {
+  const double v_abs = std::abs(nu.v);
+  const double r_abs = std::abs(nu.r);
+  return {{nu.u * std::abs(nu.u), nu.v * nu.r, nu.r * nu.r, nu.u, 1.0},
+          {nu.v * v_abs, nu.v * r_abs, nu.r * v_abs, nu.r * r_abs, nu.u * nu.v, nu.u * nu.r, nu.v,
+           nu.r, 1.0}};
+}
+
+}  // namespace telltale

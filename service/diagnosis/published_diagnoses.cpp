@@ -1,0 +1,36 @@
+#include "diagnosis/published_diagnoses.hpp"
+
+#include <utility>
+
+#include <spdlog/spdlog.h>
+
+#include "codec/wire.hpp"
+
+namespace telltale {
+
+PublishedDiagnoses::PublishedDiagnoses(const Participant& participant, DiagnosisStore store,
+                                       const Fleet& fleet)
+    : store_(std::move(store)), writer_(participant) {
+  for (const auto& [vehicle_id, window] : fleet.windows()) {
+    if (const auto last = store_.Last(vehicle_id)) Announce(*last);
+  }
+}
+
+void PublishedDiagnoses::Publish(const PublishedDiagnosis& diagnosis) {
+  store_.Save(diagnosis);
+  Announce(diagnosis);
+}
+
+void PublishedDiagnoses::Announce(const PublishedDiagnosis& diagnosis) {
+  const std::string& vehicle_id = diagnosis.diagnosis.vehicle_id;
+  spdlog::info("diagnosis of {}: {}", vehicle_id, diagnosis.diagnosis.sentence);
+  try {
+    if (!writer_.Write(Encode(diagnosis))) {
+      spdlog::warn("a stalled client held up the diagnosis of {}", vehicle_id);
+    }
+  } catch (const BusError& error) {
+    spdlog::error("the diagnosis of {} is saved but not published: {}", vehicle_id, error.what());
+  }
+}
+
+}  // namespace telltale
