@@ -188,3 +188,4 @@ Result<BoundedAnswers> BoundWeakIv(const PreparedDataset& dataset,
 }
 
 }  // namespace telltale
+    bounded.bounds.joint = corrected->joint;

@@ -92,6 +92,11 @@ void Fill(telltale_wire_IndicativeCoefficient& wire, const IndicativeCoefficient
   Put(wire.unit, coefficient.unit);
 }
 
+void Fill(telltale_wire_JointBounds& wire, const JointBounds& joint) {
+  wire.covariance_factor = joint.covariance_factor;
+  wire.degrees_of_freedom = joint.degrees_of_freedom;
+}
+
 void Fill(telltale_wire_RecordingOffsets& wire, const RecordingOffsets& offsets);
 void Fill(telltale_wire_ModelChange& wire, const ModelChange& change);
 void Fill(telltale_wire_AddedEffect& wire, const AddedEffect& added);
@@ -245,6 +250,10 @@ void Fill(telltale_wire_Model& wire, const PublishedModel& model) {
     PutSequence(wire.certificate, std::initializer_list<CoverageCertificate>{*certificate}, kFill);
   }
   PutSequence(wire.effects, identification.effects, kFill);
+  if (const auto& joint = identification.joint) {
+    PutSequence(wire.joint, std::initializer_list<JointBounds>{*joint}, kFill);
+    wire.joint._buffer[0].squared_radius = SquaredRadius(identification).value_or(0.0);
+  }
 }
 
 void Fill(telltale_wire_Diagnosis& wire, const PublishedDiagnosis& published) {
@@ -676,6 +685,16 @@ AddedEffect ReadAddedEffect(const std::string& field, const telltale_wire_AddedE
 
 PublishedModel ReadModel(const telltale_wire_Model& wire) {
   PublishedModel model;
+/// The radius follows from the rest.
+std::optional<JointBounds> ReadJoint(const dds_sequence_telltale_wire_JointBounds& wire) {
+  if (wire._length == 0) return std::nullopt;
+  const telltale_wire_JointBounds& joint = wire._buffer[0];
+  return JointBounds{
+      ReadWithin("joint[0].covariance_factor", joint.covariance_factor,
+                 std::numeric_limits<double>::min(), kLargest),
+      ReadWithin("joint[0].degrees_of_freedom", joint.degrees_of_freedom, 1.0, kLargest)};
+}
+
   model.revision = wire.revision;
   model.published_unix_s = ReadWithin("published_unix_s", wire.published_unix_s, 0.0, kLargest);
   Identification& identification = model.identification;
@@ -727,6 +746,7 @@ PublishedModel ReadModel(const telltale_wire_Model& wire) {
   identification.effects = ReadSequence("effects", wire.effects, ReadAddedEffect);
   return model;
 }
+  identification.joint = ReadJoint(wire.joint);
 
 /// Verdict and sentence stand in the report too, and are for those who read no JSON.
 PublishedDiagnosis ReadDiagnosis(const telltale_wire_Diagnosis& wire) {
