@@ -58,7 +58,7 @@ tl::expected<BoundedAnswers, std::string> TrustOutputError(const PreparedDataset
                  fitted->misspecification, ", above ", kBelievedMisspecification, ')'));
   }
   const double ratio = fitted->misspecification;
-  BoundedAnswers bounded = BoundsOf(*std::move(fitted), options.interval_level);
+  BoundedAnswers bounded = BoundsOf(*std::move(fitted), dataset, regression, options);
   bounded.provenance.estimator_choice = Sentence(
       "output error, since no disturbance shows beside the sensors' noise "
       "(misspecification ratio ",

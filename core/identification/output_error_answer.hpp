@@ -30,10 +30,12 @@ Result<FittedOutputError> FitOutputError(const PreparedDataset& dataset,
                                          const ExcitationLimits& limits,
                                          const std::optional<VesselModel>& start = std::nullopt);
 
-/// Its coefficients with bounds by the cluster sandwich. One that is part of an inseparable
-/// direction is COLLINEAR and unbounded, one that nothing measured moves with NOT_EXCITED; refusals
-/// name the directions.
-BoundedAnswers BoundsOf(FittedOutputError fitted, double interval_level);
+/// Its coefficients with bounds by the cluster sandwich, and by profile likelihood where that is
+/// badly lopsided and the fit believable. One that is part of an inseparable direction is COLLINEAR
+/// and unbounded, one that nothing measured moves with NOT_EXCITED; refusals name the directions.
+/// Requires: dataset and regression that were fitted.
+BoundedAnswers BoundsOf(FittedOutputError fitted, const PreparedDataset& dataset,
+                        const RegressionOptions& regression, const IdentifyOptions& options);
 
 /// Both at once. Refuses when: FitOutputError does.
 Result<BoundedAnswers> BoundOutputError(const PreparedDataset& dataset,
