@@ -184,10 +184,8 @@ bool FittedOutputError::Believable() const {
 }
 
 Result<FittedOutputError> FitOutputError(const PreparedDataset& dataset,
-                                         const RegressionOptions& regression,
-                                         const ExcitationLimits& limits,
+                                         const RegressionOptions& regression, Answers answers,
                                          const std::optional<VesselModel>& start) {
-  Answers answers = AssessAll(dataset, regression, limits);
   if (!answers.Any()) return tl::unexpected(NothingAnswered(answers.refusals));
   if (auto refusal = RefuseWithoutAllEquations(answers)) return tl::unexpected(*refusal);
   const auto columns = Sought(answers);
@@ -209,12 +207,12 @@ BoundedAnswers BoundsOf(FittedOutputError fitted, const PreparedDataset& dataset
   bounded.provenance.clusters = static_cast<std::size_t>(fit.scores.cols());
   bounded.bounds = BoundsAt(fit, places, options.interval_level);
   bounded.bounds.joint = JointOf(bounded.bounds);
+  bounded.answers = std::move(fitted.answers);
+  Unstack(fit, places, bounded.answers);
   if (fitted.Believable()) {
     ProfileLopsided(OutputErrorProfile(dataset, regression, fit, {}), fit, places, options,
                     bounded);
   }
-  bounded.answers = std::move(fitted.answers);
-  Unstack(fit, places, bounded.answers);
   auto& refusals = bounded.answers.refusals;
   for (const InseparableDirection& direction : fit.separability.directions) {
     refusals.push_back(Explain(direction, fit.unknowns));
@@ -233,7 +231,8 @@ Result<BoundedAnswers> BoundOutputError(const PreparedDataset& dataset,
                                         const RegressionOptions& regression,
                                         const IdentifyOptions& options, const Progress& progress) {
   if (progress) progress("fitting output error", 0.4);
-  auto fitted = FitOutputError(dataset, regression, options.excitation);
+  auto fitted =
+      FitOutputError(dataset, regression, AssessAll(dataset, regression, options.excitation));
   if (!fitted) return tl::unexpected(fitted.error());
   return BoundsOf(*std::move(fitted), dataset, regression, options);
 }

@@ -22,12 +22,12 @@ struct FittedOutputError {
   bool Believable() const;
 };
 
-/// `start`: where to begin; the damped estimate of weak-form IV if there is none.
+/// `answers`: of AssessAll. `start`: where to begin; the damped estimate of weak-form IV if there
+/// is none.
 /// Refuses when: an equation cannot be answered, as all three are sailed at once, or
 /// EstimateOutputError does.
 Result<FittedOutputError> FitOutputError(const PreparedDataset& dataset,
-                                         const RegressionOptions& regression,
-                                         const ExcitationLimits& limits,
+                                         const RegressionOptions& regression, Answers answers,
                                          const std::optional<VesselModel>& start = std::nullopt);
 
 /// Its coefficients with bounds by the cluster sandwich, and by profile likelihood where that is
