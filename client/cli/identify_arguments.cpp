@@ -98,9 +98,10 @@ void IdentifyArguments::AddOptionsTo(CLI::App& command) {
       ->check(CLI::IsMember({"percentile", "studentized", "bca"}).description(""));
   command
       .add_option("--offsets", offsets,
-                  "steady disturbance, as of wind: shared by all logs (default of one log, and of "
-                  "one-step), per-recording (default of several), or per-recording-ned: with a "
-                  "part besides that stands to the north and east while the boat turns")
+                  "steady disturbance, as of wind: shared by all logs (default of one log, of a "
+                  "window, and of one-step), per-recording (default of several; in a window, what "
+                  "a minute of silence parts), or per-recording-ned: with a part besides that "
+                  "stands to the north and east while the boat turns")
       ->type_name("NAME")
       ->check(CLI::IsMember({"shared", "per-recording", "per-recording-ned"}).description(""));
   command

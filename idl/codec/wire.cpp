@@ -373,6 +373,8 @@ constexpr std::initializer_list<Resampling> kResamplings = {
     Resampling::kSegments, Resampling::kMovingBlocks, Resampling::kParametric};
 constexpr std::initializer_list<IntervalMethod> kIntervalMethods = {
     IntervalMethod::kPercentile, IntervalMethod::kStudentized, IntervalMethod::kBca};
+constexpr std::initializer_list<Offsets> kAllOffsets = {Offsets::kShared, Offsets::kPerRecording,
+                                                        Offsets::kPerRecordingNorthEast};
 constexpr std::initializer_list<DeadZoneSource> kDeadZoneSources = {DeadZoneSource::kGiven,
                                                                     DeadZoneSource::kIdentified};
 constexpr std::initializer_list<CoefficientStatus> kStatuses = {
@@ -683,8 +685,6 @@ AddedEffect ReadAddedEffect(const std::string& field, const telltale_wire_AddedE
   return added;
 }
 
-PublishedModel ReadModel(const telltale_wire_Model& wire) {
-  PublishedModel model;
 /// The radius follows from the rest.
 std::optional<JointBounds> ReadJoint(const dds_sequence_telltale_wire_JointBounds& wire) {
   if (wire._length == 0) return std::nullopt;
@@ -695,6 +695,8 @@ std::optional<JointBounds> ReadJoint(const dds_sequence_telltale_wire_JointBound
       ReadWithin("joint[0].degrees_of_freedom", joint.degrees_of_freedom, 1.0, kLargest)};
 }
 
+PublishedModel ReadModel(const telltale_wire_Model& wire) {
+  PublishedModel model;
   model.revision = wire.revision;
   model.published_unix_s = ReadWithin("published_unix_s", wire.published_unix_s, 0.0, kLargest);
   Identification& identification = model.identification;
@@ -744,9 +746,9 @@ std::optional<JointBounds> ReadJoint(const dds_sequence_telltale_wire_JointBound
   identification.advice = ReadSequence("advice", wire.advice, ReadAdvice);
   identification.certificate = ReadCertificate(wire.certificate, identification);
   identification.effects = ReadSequence("effects", wire.effects, ReadAddedEffect);
+  identification.joint = ReadJoint(wire.joint);
   return model;
 }
-  identification.joint = ReadJoint(wire.joint);
 
 /// Verdict and sentence stand in the report too, and are for those who read no JSON.
 PublishedDiagnosis ReadDiagnosis(const telltale_wire_Diagnosis& wire) {
@@ -873,6 +875,7 @@ WireSample<telltale_wire_IdentifyRequest> Encode(const IdentifyRequest& request)
   Put(wire->resampling, name(request.resampling));
   Put(wire->interval_method, name(request.interval_method));
   wire->certificate_twins = request.certificate_twins;
+  Put(wire->offsets, name(request.offsets));
   return wire;
 }
 
@@ -992,6 +995,7 @@ Decoded<IdentifyRequest> Decode(const telltale_wire_IdentifyRequest& wire) {
     request.interval_method =
         ReadOptionalName("interval_method", View(wire.interval_method), kIntervalMethods);
     request.certificate_twins = wire.certificate_twins;
+    request.offsets = ReadOptionalName("offsets", View(wire.offsets), kAllOffsets);
     return request;
   });
 }

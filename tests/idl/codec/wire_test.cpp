@@ -197,6 +197,7 @@ TEST(WireExchange, RequestArrivesAsItWasSent) {
   sent.include_reverse = true;
   sent.resampling = Resampling::kMovingBlocks;
   sent.interval_method = IntervalMethod::kBca;
+  sent.offsets = Offsets::kPerRecordingNorthEast;
   const auto received = Decode(*Encode(sent));
   ASSERT_TRUE(received) << received.error().Message();
   EXPECT_EQ(received->correlation_id, sent.correlation_id);
@@ -212,12 +213,15 @@ TEST(WireExchange, RequestArrivesAsItWasSent) {
   EXPECT_TRUE(received->include_reverse);
   EXPECT_EQ(received->resampling, Resampling::kMovingBlocks);
   EXPECT_EQ(received->interval_method, IntervalMethod::kBca);
+  EXPECT_EQ(received->offsets, Offsets::kPerRecordingNorthEast);
   sent.resampling = Resampling::kUnknown;
   sent.interval_method = IntervalMethod::kUnknown;
+  sent.offsets = Offsets::kUnknown;
   const auto open = Decode(*Encode(sent));
   ASSERT_TRUE(open) << open.error().Message();
   EXPECT_EQ(open->resampling, Resampling::kUnknown);
   EXPECT_EQ(open->interval_method, IntervalMethod::kUnknown);
+  EXPECT_EQ(open->offsets, Offsets::kUnknown);
 }
 
 TEST(WireExchange, RequestLeavesReverseRowsOutUnlessItSaysOtherwise) {
@@ -243,6 +247,9 @@ TEST(WireExchange, RequestRefusesUnknownChoicesAndIdentifiers) {
   wire = Encode(sent);
   Replace(wire->interval_method, "BAYES");
   EXPECT_EQ(Decode(*wire).error().field, "interval_method");
+  wire = Encode(sent);
+  Replace(wire->offsets, "EACH");
+  EXPECT_EQ(Decode(*wire).error().field, "offsets");
   wire = Encode(sent);
   wire->dead_zone_forward = -0.1;
   EXPECT_EQ(Decode(*wire).error().field, "dead_zone_forward");
