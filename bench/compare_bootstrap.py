@@ -155,6 +155,11 @@ def main():
     bench = parser.parse_args().built / "bench/telltale_bench"
     if not bench.exists():
         skip(f"{bench} is not built; cmake --build --preset release --target telltale_bench")
+    compare(bench)
+
+
+def compare(bench):
+    """Prints the table."""
 
     def loop_of_statsmodels(A, b):
         return sm.OLS(b, A).fit().params

@@ -149,12 +149,11 @@ std::optional<Holding> TryWeakIv(const Told& scenario, const Recording& recordin
                        {twins, seed, 1, scenario.assumed_noise, scenario.assumed_time});
   if (!corrected) return std::nullopt;
   const Eigen::VectorXd truth = TruthOf(scenario);
-  const auto p = static_cast<double>(truth.size());
   const double t = StudentQuantile(corrected->degrees_of_freedom, 0.975);
   Holding holding = Held(corrected->theta, t * corrected->covariance.diagonal().cwiseSqrt(), truth);
-  const double distance =
-      holding.error.dot(corrected->joint_covariance.ldlt().solve(holding.error)) / p;
-  holding.joint = distance <= JointQuantile(corrected->degrees_of_freedom, p, 0.95);
+  const double distance = holding.error.dot(corrected->covariance.ldlt().solve(holding.error));
+  holding.joint =
+      distance <= SquaredRadius(corrected->joint, static_cast<std::size_t>(truth.size()), 0.95);
   WatchBand(scenario, *fit, *corrected, seed + 1, holding);
   return holding;
 }

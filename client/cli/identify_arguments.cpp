@@ -1,5 +1,8 @@
 #include "cli/identify_arguments.hpp"
 
+#include <string_view>
+#include <utility>
+
 #include "cli/number_pair.hpp"
 #include "cli/outcome.hpp"
 #include "cli/threads.hpp"
@@ -11,6 +14,27 @@ DeadZone DeadZoneNamed(const std::string& text) {
   const auto [forward, reverse] =
       NumberPair("--dead-zone", text, "two limits as in 0.05,-0.06, or identify");
   return {forward, reverse};
+}
+
+/// With the options that were typed in place of the fields that they set.
+std::string AsTyped(std::string text) {
+  constexpr std::pair<std::string_view, std::string_view> kTyped[] = {
+      {"certificate_twins", "--certify"},      {"twins", "--twins"},
+      {"bootstrap_replicates", "--bootstrap"}, {"sampling_period_s", "--sampling-period"},
+      {"interval_level", "--level"},           {"threads", "--threads"}};
+  for (const auto& [field, option] : kTyped) {
+    const auto sets = std::string(field) + " ";  // "FIELD = 3 must be", "set FIELD to a value"
+    if (!text.starts_with("identification: " + sets) &&
+        !text.starts_with("data preparation: " + sets)) {
+      continue;
+    }
+    for (auto at = text.find(sets); at != std::string::npos;
+         at = text.find(sets, at + option.size())) {
+      text.replace(at, field.size(), option);
+    }
+    break;
+  }
+  return text;
 }
 
 }  // namespace
@@ -74,9 +98,10 @@ void IdentifyArguments::AddOptionsTo(CLI::App& command) {
       ->check(CLI::IsMember({"percentile", "studentized", "bca"}).description(""));
   command
       .add_option("--offsets", offsets,
-                  "steady disturbance, as of wind: shared by all logs (default of one log, and of "
-                  "one-step), per-recording (default of several), or per-recording-ned: with a "
-                  "part besides that stands to the north and east while the boat turns")
+                  "steady disturbance, as of wind: shared by all logs (default of one log, of a "
+                  "window, and of one-step), per-recording (default of several; in a window, what "
+                  "a minute of silence parts), or per-recording-ned: with a part besides that "
+                  "stands to the north and east while the boat turns")
       ->type_name("NAME")
       ->check(CLI::IsMember({"shared", "per-recording", "per-recording-ned"}).description(""));
   command
@@ -158,7 +183,7 @@ IdentifyOptions IdentifyArguments::Options() const {
   options.seed = seed;
   options.threads = threads.value_or(DefaultThreads());
   if (const auto refusal = options.Validate()) {
-    throw UsageError(refusal->subject + ": " + refusal->reason + "; " + refusal->advice);
+    throw UsageError(AsTyped(refusal->subject + ": " + refusal->reason + "; " + refusal->advice));
   }
   return options;
 }

@@ -18,10 +18,10 @@ constexpr std::uint32_t kRepeatsPerTimeout = 10;
 IdentifyRequest RequestOf(const std::string& vehicle_id, const IdentifyArguments& arguments) {
   const IdentifyOptions options = arguments.Options();
   if (arguments.sampling_period_s || arguments.interval_level || arguments.threads ||
-      arguments.twins || arguments.offsets) {
+      arguments.twins) {
     throw UsageError(
-        "--sampling-period, --level, --threads, --twins and --offsets are the daemon's to choose; "
-        "leave them out with --vehicle-id");
+        "--sampling-period, --level, --threads and --twins are the daemon's to choose; leave them "
+        "out with --vehicle-id");
   }
   IdentifyRequest request;
   request.correlation_id = NewCorrelationId();
@@ -40,6 +40,7 @@ IdentifyRequest RequestOf(const std::string& vehicle_id, const IdentifyArguments
   request.seed = arguments.seed;
   request.include_reverse = arguments.include_rr;
   request.certificate_twins = arguments.certificate_twins;
+  if (arguments.offsets) request.offsets = options.regression.offsets;
   return request;
 }
 

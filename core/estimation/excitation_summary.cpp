@@ -24,9 +24,9 @@ std::vector<CombinationTerm> LeastSeparable(const Excitation& excitation) {
   return terms;
 }
 
-/// Mean product of residuals `lag` apart, over the mean square.
-double Autocorrelation(const Eigen::VectorXd& residual, std::span<const RowRange> runs,
-                       std::size_t lag) {
+/// The products of residuals `lag` apart, added up.
+double Autocovariance(const Eigen::VectorXd& residual, std::span<const RowRange> runs,
+                      std::size_t lag) {
   double sum = 0.0;
   for (const RowRange& run : runs) {
     if (run.size() <= lag) continue;
@@ -35,7 +35,7 @@ double Autocorrelation(const Eigen::VectorXd& residual, std::span<const RowRange
     sum += residual.segment(begin, count)
                .dot(residual.segment(begin + static_cast<Eigen::Index>(lag), count));
   }
-  return sum / residual.squaredNorm();
+  return sum;
 }
 
 }  // namespace
@@ -57,14 +57,15 @@ ExcitationSummary Summarise(const Excitation& excitation, std::size_t regressors
 }
 
 double RowsPerIndependentRow(const Eigen::VectorXd& residual, std::span<const RowRange> runs) {
-  if (residual.size() == 0 || residual.squaredNorm() <= 0.0) return 1.0;
+  const double squares = residual.squaredNorm();
+  if (squares <= 0.0) return 1.0;
   std::size_t longest = 0;
   for (const RowRange& run : runs) longest = std::max(longest, run.size());
   double sum = -1.0;
   double least = kInfinity;
   for (std::size_t lag = 0; lag + 1 < longest; lag += 2) {
     const double pair =
-        Autocorrelation(residual, runs, lag) + Autocorrelation(residual, runs, lag + 1);
+        (Autocovariance(residual, runs, lag) + Autocovariance(residual, runs, lag + 1)) / squares;
     if (pair <= 0.0) break;
     least = std::min(least, pair);
     sum += 2.0 * least;

@@ -3,21 +3,17 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <memory>
 #include <optional>
 
-#include <ceres/ceres.h>
-
 #include "contract.hpp"
+#include "estimation/shot_solution.hpp"
 #include "estimation/weak_iv.hpp"
 #include "linear_algebra/decompositions.hpp"
-#include "median.hpp"
 #include "range.hpp"
 
 namespace telltale {
 namespace {
 
-constexpr double kLongestTimeConstantS = 20.0;
 constexpr double kRoughly = 1e-4;  // relative changes of the sum at which to stop
 constexpr double kClosely = 1e-9;
 constexpr int kRoughIterations = 15;
@@ -27,207 +23,6 @@ std::string Number(double value) {
   std::snprintf(text, sizeof(text), "%.3g", value);
   return text;
 }
-
-/// One shot's share of the sum, as a function of theta and of the state it starts in.
-class ShotCost : public ceres::CostFunction {
- public:
-  ShotCost(const ShotPlan& plan, const Shot& shot, const SharedUnknowns& unknowns,
-           const Yardstick& yardstick)
-      : plan_(plan), shot_(shot), unknowns_(unknowns), yardstick_(yardstick) {
-    set_num_residuals(static_cast<int>(shot.Residuals()));
-    mutable_parameter_block_sizes()->push_back(static_cast<int>(unknowns.Size()));
-    mutable_parameter_block_sizes()->push_back(static_cast<int>(ShotState::SizeAtCompileTime));
-  }
-
-  bool Evaluate(const double* const* parameters, double* residuals,
-                double** jacobians) const override {
-    const Eigen::Map<const Eigen::VectorXd> theta(parameters[0], unknowns_.Size());
-    const Eigen::Map<const ShotState> start(parameters[1]);
-    const auto miss =
-        Shoot(plan_, shot_, unknowns_, theta, start, yardstick_, jacobians != nullptr);
-    if (!miss) return false;
-    std::copy_n(miss->residual.data(), miss->residual.size(), residuals);
-    if (jacobians == nullptr) return true;
-    if (jacobians[0] != nullptr) {
-      std::copy_n(miss->by_shared.data(), miss->by_shared.size(), jacobians[0]);
-    }
-    if (jacobians[1] != nullptr) {
-      std::copy_n(miss->by_start.data(), miss->by_start.size(), jacobians[1]);
-    }
-    return true;
-  }
-
- private:
-  const ShotPlan& plan_;
-  const Shot& shot_;
-  const SharedUnknowns& unknowns_;
-  const Yardstick& yardstick_;
-};
-
-/// Where theta begins and how far a coefficient may reasonably move from there: by what would take
-/// the boat through the spread of its velocities in a second. Data that tell anything overrule it
-/// by orders of magnitude; along what they do not tell it keeps theta from wandering off.
-struct Leash {
-  Eigen::VectorXd centre;
-  Eigen::VectorXd weight;  // one over that reach
-};
-
-Leash LeashOn(const PreparedDataset& dataset, const SharedUnknowns& unknowns,
-              const Eigen::VectorXd& centre) {
-  constexpr double kThroughSpreadS = 1.0;
-  Leash leash{centre, Eigen::VectorXd::Ones(centre.size())};
-  const auto n = static_cast<double>(dataset.rows.size());
-  for (const Equation equation : kEquations) {
-    const auto regressors = Regressors(equation, unknowns.parameterization);
-    Eigen::VectorXd row(static_cast<Eigen::Index>(regressors.size()));
-    Eigen::VectorXd squares = Eigen::VectorXd::Zero(row.size());
-    double sum = 0.0;
-    double square = 0.0;
-    for (const PreparedRow& at : dataset.rows) {
-      FillRow(equation, unknowns.parameterization, at.nu, unknowns.dead_zone.Apply(at.delta),
-              {row.data(), regressors.size()});
-      squares += row.cwiseAbs2() / n;
-      sum += ComponentOf(at.nu, equation) / n;
-      square += ComponentOf(at.nu, equation) * ComponentOf(at.nu, equation) / n;
-    }
-    const double spread = std::sqrt(std::max(square - sum * sum, 1e-12));
-    Eigen::Index next = unknowns.First(equation);
-    for (const std::size_t column : unknowns.columns[IndexOf(equation)]) {
-      leash.weight[next++] =
-          kThroughSpreadS * std::sqrt(squares[static_cast<Eigen::Index>(column)]) / spread;
-    }
-  }
-  return leash;
-}
-
-class LeashCost : public ceres::CostFunction {
- public:
-  explicit LeashCost(const Leash& leash) : leash_(leash) {
-    set_num_residuals(static_cast<int>(leash.centre.size()));
-    mutable_parameter_block_sizes()->push_back(static_cast<int>(leash.centre.size()));
-  }
-
-  bool Evaluate(const double* const* parameters, double* residuals,
-                double** jacobians) const override {
-    const Eigen::Index P = leash_.centre.size();
-    const Eigen::Map<const Eigen::VectorXd> theta(parameters[0], P);
-    Eigen::Map<Eigen::VectorXd>(residuals, P) = leash_.weight.cwiseProduct(theta - leash_.centre);
-    if (jacobians != nullptr && jacobians[0] != nullptr) {
-      Eigen::Map<RowMajorMatrix>(jacobians[0], P, P) = leash_.weight.asDiagonal();
-    }
-    return true;
-  }
-
- private:
-  const Leash& leash_;
-};
-
-/// How many times their usual size values are by their median, at least once.
-double TimesUsual(std::vector<double> values, double usual_median) {
-  return values.empty() ? 1.0 : std::max(1.0, Median(std::move(values)) / usual_median);
-}
-
-/// Theta and the states in which the shots start, moving together towards the least sum.
-class Solution {
- public:
-  Solution(const ShotPlan& plan, const SharedUnknowns& unknowns, const Leash& leash, double knee,
-           const Eigen::VectorXd& theta)
-      : plan_(plan), unknowns_(unknowns), leash_(leash), knee_(knee), theta_(theta) {
-    for (const Shot& shot : plan.shots) starts_.push_back(shot.guess);
-  }
-
-  const Eigen::VectorXd& Theta() const { return theta_; }
-
-  /// Whether some shot cannot be sailed to its end.
-  bool RunsAway() const {
-    for (std::size_t i = 0; i < plan_.shots.size(); ++i) {
-      if (!Sight(i, {}, false)) return true;
-    }
-    return false;
-  }
-
-  std::optional<Miss> Sight(std::size_t shot, const Yardstick& yardstick,
-                            bool with_derivatives) const {
-    return Shoot(plan_, plan_.shots[shot], unknowns_, theta_, starts_[shot], yardstick,
-                 with_derivatives);
-  }
-
-  /// The sizes that residuals have now, by their medians, never less than the sensors' noise.
-  Yardstick Measure() const {
-    constexpr double kMedianDistance = 1.1774;  // of a unit normal in the plane
-    constexpr double kMedianSize = 0.6745;      // of a unit normal
-    std::vector<double> distances;
-    std::vector<double> sizes;
-    ForEachResidual([&](const auto& residual) {
-      (residual.size() == 2 ? distances : sizes).push_back(residual.norm());
-    });
-    return {TimesUsual(std::move(distances), kMedianDistance),
-            TimesUsual(std::move(sizes), kMedianSize), knee_};
-  }
-
-  std::size_t CountPast(const Yardstick& yardstick) const {
-    std::size_t past = 0;
-    ForEachResidual([&](const auto& residual) {
-      const double size = residual.size() == 2 ? yardstick.position : yardstick.heading;
-      past += residual.norm() > yardstick.knee * size ? 1 : 0;
-    });
-    return past;
-  }
-
-  /// Moves to the least sum by this yardstick; whether it got there.
-  bool Descend(const Yardstick& yardstick, double tolerance, int iterations) {
-    ceres::Problem problem;
-    auto* order = new ceres::ParameterBlockOrdering;  // the solver's options own it
-    problem.AddParameterBlock(theta_.data(), static_cast<int>(theta_.size()));
-    order->AddElementToGroup(theta_.data(), 1);
-    if (unknowns_.lagging) {
-      problem.SetParameterLowerBound(theta_.data(), 0, kLeastTimeConstantS);
-      problem.SetParameterUpperBound(theta_.data(), 0, kLongestTimeConstantS);
-    }
-    for (std::size_t i = 0; i < plan_.shots.size(); ++i) {
-      problem.AddResidualBlock(
-          std::make_unique<ShotCost>(plan_, plan_.shots[i], unknowns_, yardstick).release(),
-          nullptr, theta_.data(), starts_[i].data());
-      order->AddElementToGroup(starts_[i].data(), 0);
-    }
-    problem.AddResidualBlock(std::make_unique<LeashCost>(leash_).release(), nullptr, theta_.data());
-    ceres::Solver::Options options;
-    options.linear_solver_type = ceres::DENSE_SCHUR;
-    options.linear_solver_ordering.reset(order);
-    options.max_num_iterations = iterations;
-    options.function_tolerance = tolerance;
-    options.parameter_tolerance = 1e-10;
-    options.logging_type = ceres::SILENT;
-    ceres::Solver::Summary summary;
-    ceres::Solve(options, &problem, &summary);
-    return summary.termination_type == ceres::CONVERGENCE;
-  }
-
- private:
-  /// Visits north-east pairs and headings one by one.
-  template <class Visit>
-  void ForEachResidual(Visit visit) const {
-    for (std::size_t i = 0; i < plan_.shots.size(); ++i) {
-      const auto miss = Sight(i, {}, false);
-      if (!miss) continue;
-      Eigen::Index row = 0;
-      for (const ShotNode& node : plan_.shots[i].nodes) {
-        if (node.fix) {
-          visit(miss->residual.segment(row, 2));
-          row += 2;
-        }
-        if (node.heading) visit(miss->residual.segment(row++, 1));
-      }
-    }
-  }
-
-  const ShotPlan& plan_;
-  const SharedUnknowns& unknowns_;
-  const Leash& leash_;
-  double knee_;
-  Eigen::VectorXd theta_;
-  std::vector<ShotState> starts_;
-};
 
 /// What a shot says of the shared unknowns once its own state has been fitted out of it: rows
 /// orthogonal to the columns of the state.
@@ -246,7 +41,7 @@ Eliminated Eliminate(const Miss& miss) {
 }
 
 OutputErrorFit Quantify(const ShotPlan& plan, const SharedUnknowns& unknowns,
-                        const Solution& solution, const Yardstick& yardstick,
+                        const ShotSolution& solution, const Yardstick& yardstick,
                         const OutputErrorOptions& options) {
   const Eigen::Index P = unknowns.Size();
   OutputErrorFit fit;
@@ -315,7 +110,7 @@ SharedUnknowns UnknownsOf(const RegressionOptions& regression,
 
 Eigen::VectorXd InBounds(const SharedUnknowns& unknowns, Eigen::VectorXd theta) {
   if (unknowns.lagging) {
-    theta[0] = std::clamp(theta[0], kLeastTimeConstantS, kLongestTimeConstantS);
+    theta[0] = std::clamp(theta[0], kLeastTimeConstantS, kLongestLagS);
   }
   return theta;
 }
@@ -335,17 +130,17 @@ class Approach {
 
   /// Straight from `theta` where that leads there soon, as it does from a good start; else by brief
   /// shots.
-  Solution From(const Eigen::VectorXd& theta) const {
-    Solution straight(plan_, unknowns_, leash_, options_.knee, theta);
+  ShotSolution From(const Eigen::VectorXd& theta) const {
+    ShotSolution straight(plan_, unknowns_, leash_, options_.knee, theta);
     if (Descend(straight)) return straight;
-    Solution roundabout(plan_, unknowns_, leash_, options_.knee, ByBriefShots(theta));
+    ShotSolution roundabout(plan_, unknowns_, leash_, options_.knee, ByBriefShots(theta));
     if (roundabout.RunsAway()) return straight;
     Descend(roundabout);
     return roundabout;
   }
 
  private:
-  bool Descend(Solution& solution) const {
+  bool Descend(ShotSolution& solution) const {
     return solution.Descend(solution.Measure(), kRoughly, kRoughIterations);
   }
 
@@ -356,10 +151,10 @@ class Approach {
     for (const double share : {0.25, 0.5}) {
       brief.length_s = share * options_.shots.length_s;
       const ShotPlan plan = CutShots(dataset_, regression_, unknowns_, brief);
-      if (Solution(plan, unknowns_, leash_, options_.knee, theta).RunsAway()) {
+      if (ShotSolution(plan, unknowns_, leash_, options_.knee, theta).RunsAway()) {
         theta = unknowns_.In(Unpushed(unknowns_));
       }
-      Solution solution(plan, unknowns_, leash_, options_.knee, theta);
+      ShotSolution solution(plan, unknowns_, leash_, options_.knee, theta);
       Descend(solution);
       theta = solution.Theta();
     }
@@ -403,7 +198,7 @@ Result<OutputErrorFit> EstimateOutputError(const PreparedDataset& dataset,
   // Far from the least sum, residuals say little of which measurement is wild: roughly there first.
   const Eigen::VectorXd begin = InBounds(unknowns, unknowns.In(start));
   const Leash leash = LeashOn(dataset, unknowns, begin);
-  Solution solution = Approach(dataset, regression, plan, unknowns, leash, options).From(begin);
+  ShotSolution solution = Approach(dataset, regression, plan, unknowns, leash, options).From(begin);
   if (solution.RunsAway()) return tl::unexpected(RefuseRunaway());
   // How far residuals reach weighs the sensors against each other, and that moves the residuals.
   solution.Descend(solution.Measure(), kRoughly, options.iterations);
@@ -411,6 +206,8 @@ Result<OutputErrorFit> EstimateOutputError(const PreparedDataset& dataset,
   const bool converged = solution.Descend(yardstick, kClosely, options.iterations);
 
   OutputErrorFit fit = Quantify(plan, unknowns, solution, yardstick, options);
+  fit.begin = begin;
+  fit.starts = solution.Starts();
   fit.converged = converged;
   return fit;
 }

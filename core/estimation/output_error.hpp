@@ -32,6 +32,8 @@ struct OutputErrorOptions {
 struct OutputErrorFit {
   SharedUnknowns unknowns;
   Eigen::VectorXd theta;
+  Eigen::VectorXd begin;          ///< where theta began, towards which a weak pull keeps it
+  std::vector<ShotState> starts;  ///< in which the shots start
   Eigen::MatrixXd information;
   Eigen::MatrixXd scores;
   std::vector<Eigen::MatrixXd> cluster_information;  ///< sum: information

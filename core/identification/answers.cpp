@@ -231,6 +231,7 @@ void WriteCoefficients(const Answers& answers, const Bounds& bounds,
     if (answers.estimates[j]) WriteEquation(j, answers, bounds, identification, places);
   }
   identification.covariance = SpreadCovariance(bounds.covariance, places);
+  identification.joint = bounds.joint;
   if (!answers.lag) return;
   identification.thruster_time_constant = WriteTimeConstant(answers, bounds);
   identification.time_constant_covariance = SpreadTimeConstantCovariance(bounds.covariance, places);

@@ -16,6 +16,7 @@
 #include "identification/identification.hpp"
 #include "result.hpp"
 #include "uncertainty/interval.hpp"
+#include "uncertainty/joint_bounds.hpp"
 
 namespace telltale {
 
@@ -55,6 +56,7 @@ struct Bounds {
   Eigen::MatrixXd covariance;
   std::vector<Interval> intervals;
   std::vector<bool> estimable;
+  std::optional<JointBounds> joint = std::nullopt;  ///< of all of them together, where known
 };
 
 /// What an estimator makes of a dataset: answers, their bounds and what those rest on.

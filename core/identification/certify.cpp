@@ -239,8 +239,9 @@ class Certification {
     return found == repeat.coefficients.end() ? nullptr : &*found;
   }
 
-  /// Whether the ellipsoid that the repeat's covariance draws at the level of its bounds holds the
-  /// truth; nothing when it bounds fewer coefficients than the identification does.
+  /// Whether the ellipsoid that the repeat publishes at the level of its bounds holds the truth; if
+  /// it makes no joint statement, the one that its covariance would draw were it known. Nothing
+  /// when it bounds fewer coefficients than the identification does.
   std::optional<bool> EllipsoidHolds(const Truth& truth, const Identification& repeat) const {
     std::vector<Eigen::Index> places;
     std::vector<double> off;
@@ -259,8 +260,10 @@ class Certification {
     if (llt.info() != Eigen::Success) return std::nullopt;
     const Eigen::VectorXd z =
         Eigen::Map<const Eigen::VectorXd>(off.data(), static_cast<Eigen::Index>(off.size()));
-    return z.dot(llt.solve(z)) <=
-           ChiSquaredQuantile(static_cast<double>(off.size()), options_.interval_level);
+    const double squared_radius =
+        repeat.joint ? SquaredRadius(*repeat.joint, off.size(), options_.interval_level)
+                     : ChiSquaredQuantile(static_cast<double>(off.size()), options_.interval_level);
+    return z.dot(llt.solve(z)) <= squared_radius;
   }
 
   static void WriteMean(const std::vector<Tally>& by_repeat, CoverageCertificate& certificate) {

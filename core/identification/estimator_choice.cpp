@@ -1,5 +1,6 @@
 #include "identification/estimator_choice.hpp"
 
+#include <optional>
 #include <sstream>
 #include <string>
 #include <utility>
@@ -27,14 +28,11 @@ std::string Sentence(const Parts&... parts) {
 tl::expected<BoundedAnswers, std::string> TrustOutputError(const PreparedDataset& dataset,
                                                            const RegressionOptions& regression,
                                                            const IdentifyOptions& options,
-                                                           const Progress& progress) {
+                                                           const Progress& progress,
+                                                           const std::optional<WeakLook>& look) {
   const auto doubt = [](std::string why) { return tl::unexpected(std::move(why)); };
-  if (regression.offsets != Offsets::kShared) {
-    return doubt("only they seek a steady disturbance for each recording");
-  }
-  const auto weak =
-      EstimateWeakIv(dataset, regression,
-                     Sought(AssessAll(dataset, regression, options.excitation)), options.weak_iv);
+  if (!look) return doubt("only they seek a steady disturbance for each recording");
+  const auto& weak = look->fit;
   if (!weak) return doubt("there is no first estimate from which to judge the disturbance");
   const auto excess =
       ResidualExcess(dataset, regression, *weak, options.weak_iv.form, options.seed);
@@ -44,7 +42,7 @@ tl::expected<BoundedAnswers, std::string> TrustOutputError(const PreparedDataset
                           " times what the sensors leave (above ", kPlainExcess, ')'));
   }
   if (progress) progress("fitting output error", 0.35);
-  auto fitted = FitOutputError(dataset, regression, options.excitation,
+  auto fitted = FitOutputError(dataset, regression, look->answers,
                                ModelOf(*weak, weak->Damped(), dataset.sampling_period_s));
   if (!fitted) return doubt("output error gives no answer (" + fitted.error().reason + ')');
   if (!fitted->fit.converged) return doubt("output error does not converge");
@@ -58,7 +56,7 @@ tl::expected<BoundedAnswers, std::string> TrustOutputError(const PreparedDataset
                  fitted->misspecification, ", above ", kBelievedMisspecification, ')'));
   }
   const double ratio = fitted->misspecification;
-  BoundedAnswers bounded = BoundsOf(*std::move(fitted), options.interval_level);
+  BoundedAnswers bounded = BoundsOf(*std::move(fitted), dataset, regression, options);
   bounded.provenance.estimator_choice = Sentence(
       "output error, since no disturbance shows beside the sensors' noise "
       "(misspecification ratio ",
@@ -72,9 +70,11 @@ Result<BoundedAnswers> BoundByDisturbance(const PreparedDataset& dataset,
                                           const RegressionOptions& regression,
                                           const IdentifyOptions& options,
                                           const Progress& progress) {
-  auto trusted = TrustOutputError(dataset, regression, options, progress);
+  std::optional<WeakLook> look;
+  if (regression.offsets == Offsets::kShared) look = LookWeakly(dataset, regression, options);
+  auto trusted = TrustOutputError(dataset, regression, options, progress, look);
   if (trusted) return *std::move(trusted);
-  auto bounded = BoundWeakIv(dataset, regression, options, progress);
+  auto bounded = BoundWeakIv(dataset, regression, options, progress, look);
   if (!bounded) return bounded;
   bounded->provenance.estimator_choice =
       "weak-form instrumental variables, since " + trusted.error();

@@ -1,6 +1,7 @@
 #include "identification/identification.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace telltale {
 
@@ -27,6 +28,19 @@ std::string_view Name(CoefficientStatus status) {
 bool Identification::Has(Equation equation) const {
   return std::any_of(coefficients.begin(), coefficients.end(),
                      [&](const Coefficient& c) { return c.equation == equation; });
+}
+
+std::size_t Identification::Bounded() const {
+  return static_cast<std::size_t>(
+      std::count_if(coefficients.begin(), coefficients.end(),
+                    [](const Coefficient& c) { return std::isfinite(c.standard_error); }));
+}
+
+std::optional<double> SquaredRadius(const Identification& identification) {
+  const std::size_t bounded = identification.Bounded();
+  if (!identification.joint || bounded == 0) return std::nullopt;
+  const double level = identification.coefficients.front().interval.level;
+  return SquaredRadius(*identification.joint, bounded, level);
 }
 
 Result<VesselModel> ModelOf(const Identification& identification) {

@@ -13,6 +13,7 @@
 #include "result.hpp"
 #include "uncertainty/coverage_certificate.hpp"
 #include "uncertainty/interval.hpp"
+#include "uncertainty/joint_bounds.hpp"
 #include "vessel/disturbance.hpp"
 #include "vessel/structure.hpp"
 #include "vessel/vessel_model.hpp"
@@ -120,6 +121,7 @@ struct Identification {
   DeadZone dead_zone;
   std::vector<Coefficient> coefficients;
   Eigen::MatrixXd covariance;
+  std::optional<JointBounds> joint;  ///< where joint statements can be made: what they take
   std::optional<Coefficient> thruster_time_constant;
   Eigen::VectorXd time_constant_covariance;
   std::optional<Disturbance> disturbance;  ///< what else moved the boat, where that was judged
@@ -135,7 +137,15 @@ struct Identification {
   std::optional<CoverageCertificate> certificate;
 
   bool Has(Equation equation) const;
+
+  /// Coefficients that are bounded at all.
+  std::size_t Bounded() const;
 };
+
+/// The squared radius of the ellipsoid of all bounded coefficients at the level of the intervals:
+///   (theta - estimate)' covariance^-1 (theta - estimate) <= radius^2
+/// over those of finite variance. Nothing where no joint statement can be made.
+std::optional<double> SquaredRadius(const Identification& identification);
 
 /// The numbers without the bounds, ready to simulate.
 /// Refuses when: an equation was refused, since a free run needs all three.

@@ -74,12 +74,12 @@ Fitted Fit(const PreparedDataset& dataset, const RegressionOptions& regression,
 }
 
 /// What bounds are made from.
-std::vector<ClusteredFit> FitsOf(const Fitted& fitted) {
+std::vector<ClusteredFit> FitsOf(const Fitted& fitted, Replicates replicates) {
   if (fitted.lagged) return {FitOf(*fitted.lagged)};
   std::vector<ClusteredFit> fits;
   for (std::size_t j = 0; j < fitted.equations.size(); ++j) {
     const auto& estimate = fitted.answers.estimates[j];
-    if (estimate) fits.push_back(FitOf(fitted.equations[j], *estimate));
+    if (estimate) fits.push_back(FitOf(fitted.equations[j], *estimate, replicates));
   }
   return fits;
 }
@@ -166,7 +166,7 @@ BootstrapReplicates Simulated(const Fitted& fitted, const std::vector<ClusteredF
   const auto again = [&](const PreparedDataset& repeat) -> std::optional<Refit> {
     const Fitted refitted = Fit(repeat, regression, options.excitation);
     if (!SeekTheSame(fitted.answers, refitted.answers)) return std::nullopt;
-    return RefitOf(FitsOf(refitted));
+    return RefitOf(FitsOf(refitted, Replicates::kNone));
   };
   return SimulateReplicates(dataset, boat, *bounded.disturbance, RefitOf(fits), again,
                             {options.bootstrap_replicates, options.seed, options.threads});
@@ -274,7 +274,8 @@ Result<BoundedAnswers> BoundOneStep(const PreparedDataset& dataset,
                                     const IdentifyOptions& options, const Progress& progress) {
   Fitted fitted = Fit(dataset, regression, options.excitation);
   if (!fitted.answers.Any()) return tl::unexpected(NothingAnswered(fitted.answers.refusals));
-  const std::vector<ClusteredFit> fits = FitsOf(fitted);
+  const std::vector<ClusteredFit> fits =
+      FitsOf(fitted, options.bootstrap_replicates > 0 ? Replicates::kDrawn : Replicates::kNone);
   CountRows(fits, fitted);
   BoundedAnswers bounded;
   bounded.estimator = Estimator::kOneStep;

@@ -6,6 +6,10 @@
 #include <sstream>
 
 #include "contract.hpp"
+#include "estimation/output_error_profile.hpp"
+#include "estimation/weak_iv.hpp"
+#include "parallel.hpp"
+#include "uncertainty/profile_interval.hpp"
 
 namespace telltale {
 namespace {
@@ -57,6 +61,74 @@ Bounds BoundsAt(const OutputErrorFit& fit, const std::vector<Eigen::Index>& plac
     bounds.covariance(at, at) = kInfinity;
   }
   return bounds;
+}
+
+/// Hotelling's law: the covariance is one of as many scores as there are clusters. Nothing where
+/// those are hardly more than unknowns.
+std::optional<JointBounds> JointOf(const Bounds& bounds) {
+  constexpr double kFewestSpare = 5.0;
+  const auto unknowns =
+      static_cast<double>(std::count(bounds.estimable.begin(), bounds.estimable.end(), true));
+  const double spare = bounds.degrees_of_freedom - unknowns + 1.0;
+  if (unknowns == 0.0 || spare < kFewestSpare) return std::nullopt;
+  return JointBounds{bounds.degrees_of_freedom / spare, bounds.degrees_of_freedom};
+}
+
+/// How far the profile of an unknown is followed, in half widths of its interval.
+constexpr double kReaches = 15.0;
+
+/// The interval of one unknown by its profile if that is badly lopsided.
+std::optional<Interval> LopsidedInterval(const OutputErrorProfile& profile,
+                                         const OutputErrorFit& fit, Eigen::Index unknown,
+                                         double variance, double quantile, double level) {
+  constexpr double kPerhapsLopsided = 1.15;
+  constexpr double kBadlyLopsided = 1.25;
+  const double reach = quantile * std::sqrt(variance);
+  if (profile.Lopsidedness(unknown, reach) < kPerhapsLopsided) return std::nullopt;
+  // A likelihood that takes residuals for white is too sharp where clusters show that they are not.
+  const double sharpness = std::max(1.0, variance / NaiveCovariance(fit)(unknown, unknown));
+  const double estimate = fit.theta[unknown];
+  ProfileSearch search{estimate, reach, estimate - kReaches * reach, estimate + kReaches * reach};
+  const bool is_lag = fit.unknowns.lagging && unknown == 0;
+  if (is_lag) {
+    search.lowest = kLeastTimeConstantS;
+    search.highest = kLongestLagS;
+  }
+  Interval interval =
+      ProfileInterval([&](double value) { return profile.Deviance(unknown, value); }, search,
+                      sharpness * quantile * quantile, level);
+  if (!is_lag && interval.lower <= search.lowest) interval.lower = -kInfinity;
+  if (!is_lag && interval.upper >= search.highest) interval.upper = kInfinity;
+  if (Lopsidedness(interval, estimate) < kBadlyLopsided) return std::nullopt;
+  return interval;
+}
+
+/// Replaces intervals by those of the profile likelihood where that is badly lopsided, and says of
+/// how many.
+void ProfileLopsided(const OutputErrorProfile& profile, const OutputErrorFit& fit,
+                     const std::vector<Eigen::Index>& places, const IdentifyOptions& options,
+                     BoundedAnswers& bounded) {
+  Bounds& bounds = bounded.bounds;
+  const double quantile =
+      StudentInterval(0.0, 1.0, bounds.degrees_of_freedom, options.interval_level).upper;
+  std::vector<std::optional<Interval>> lopsided(places.size());
+  ForEachIndex(places.size(), options.threads, [&](std::size_t i) {
+    const auto at = static_cast<Eigen::Index>(i);
+    if (!bounds.estimable[i]) return;
+    lopsided[i] = LopsidedInterval(profile, fit, places[i], bounds.covariance(at, at), quantile,
+                                   options.interval_level);
+  });
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    if (!lopsided[i]) continue;
+    bounds.intervals[i] = *lopsided[i];
+    if (fit.unknowns.lagging && places[i] == 0) bounded.answers.lag->profile = lopsided[i];
+    ++count;
+  }
+  if (count == 0) return;
+  bounded.provenance.bounds_basis += "; of " + std::to_string(count) +
+                                     (count == 1 ? " unknown" : " unknowns") +
+                                     " by profile likelihood, lopsided";
 }
 
 /// Splits the unknowns at `places` into the answers they are.
@@ -112,10 +184,8 @@ bool FittedOutputError::Believable() const {
 }
 
 Result<FittedOutputError> FitOutputError(const PreparedDataset& dataset,
-                                         const RegressionOptions& regression,
-                                         const ExcitationLimits& limits,
+                                         const RegressionOptions& regression, Answers answers,
                                          const std::optional<VesselModel>& start) {
-  Answers answers = AssessAll(dataset, regression, limits);
   if (!answers.Any()) return tl::unexpected(NothingAnswered(answers.refusals));
   if (auto refusal = RefuseWithoutAllEquations(answers)) return tl::unexpected(*refusal);
   const auto columns = Sought(answers);
@@ -126,16 +196,23 @@ Result<FittedOutputError> FitOutputError(const PreparedDataset& dataset,
   return FittedOutputError{std::move(answers), *std::move(fit), misspecification};
 }
 
-BoundedAnswers BoundsOf(FittedOutputError fitted, double interval_level) {
+BoundedAnswers BoundsOf(FittedOutputError fitted, const PreparedDataset& dataset,
+                        const RegressionOptions& regression, const IdentifyOptions& options) {
   const OutputErrorFit& fit = fitted.fit;
   const std::vector<Eigen::Index> places = Seen(fit);
   BoundedAnswers bounded;
   bounded.estimator = Estimator::kOutputError;
   bounded.provenance.bounds_basis = InWords(fitted);
   bounded.provenance.misspecification = fitted.misspecification;
-  bounded.bounds = BoundsAt(fit, places, interval_level);
+  bounded.provenance.clusters = static_cast<std::size_t>(fit.scores.cols());
+  bounded.bounds = BoundsAt(fit, places, options.interval_level);
+  bounded.bounds.joint = JointOf(bounded.bounds);
   bounded.answers = std::move(fitted.answers);
   Unstack(fit, places, bounded.answers);
+  if (fitted.Believable()) {
+    ProfileLopsided(OutputErrorProfile(dataset, regression, fit, {}), fit, places, options,
+                    bounded);
+  }
   auto& refusals = bounded.answers.refusals;
   for (const InseparableDirection& direction : fit.separability.directions) {
     refusals.push_back(Explain(direction, fit.unknowns));
@@ -154,9 +231,10 @@ Result<BoundedAnswers> BoundOutputError(const PreparedDataset& dataset,
                                         const RegressionOptions& regression,
                                         const IdentifyOptions& options, const Progress& progress) {
   if (progress) progress("fitting output error", 0.4);
-  auto fitted = FitOutputError(dataset, regression, options.excitation);
+  auto fitted =
+      FitOutputError(dataset, regression, AssessAll(dataset, regression, options.excitation));
   if (!fitted) return tl::unexpected(fitted.error());
-  return BoundsOf(*std::move(fitted), options.interval_level);
+  return BoundsOf(*std::move(fitted), dataset, regression, options);
 }
 
 }  // namespace telltale

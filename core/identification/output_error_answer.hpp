@@ -22,18 +22,20 @@ struct FittedOutputError {
   bool Believable() const;
 };
 
-/// `start`: where to begin; the damped estimate of weak-form IV if there is none.
+/// `answers`: of AssessAll. `start`: where to begin; the damped estimate of weak-form IV if there
+/// is none.
 /// Refuses when: an equation cannot be answered, as all three are sailed at once, or
 /// EstimateOutputError does.
 Result<FittedOutputError> FitOutputError(const PreparedDataset& dataset,
-                                         const RegressionOptions& regression,
-                                         const ExcitationLimits& limits,
+                                         const RegressionOptions& regression, Answers answers,
                                          const std::optional<VesselModel>& start = std::nullopt);
 
-/// Its coefficients with bounds by the cluster sandwich. One that is part of an inseparable
-/// direction is COLLINEAR and unbounded, one that nothing measured moves with NOT_EXCITED; refusals
-/// name the directions.
-BoundedAnswers BoundsOf(FittedOutputError fitted, double interval_level);
+/// Its coefficients with bounds by the cluster sandwich, and by profile likelihood where that is
+/// badly lopsided and the fit believable. One that is part of an inseparable direction is COLLINEAR
+/// and unbounded, one that nothing measured moves with NOT_EXCITED; refusals name the directions.
+/// Requires: dataset and regression that were fitted.
+BoundedAnswers BoundsOf(FittedOutputError fitted, const PreparedDataset& dataset,
+                        const RegressionOptions& regression, const IdentifyOptions& options);
 
 /// Both at once. Refuses when: FitOutputError does.
 Result<BoundedAnswers> BoundOutputError(const PreparedDataset& dataset,

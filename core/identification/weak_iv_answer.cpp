@@ -130,20 +130,33 @@ Result<PreparedDataset> PrepareForWeakIv(const Recording& recording, const Vehic
   return Prepare(recording, vehicle, chosen);
 }
 
+WeakLook LookWeakly(const PreparedDataset& dataset, const RegressionOptions& regression,
+                    const IdentifyOptions& options) {
+  WeakLook look{AssessAll(dataset, regression, options.excitation), {}, std::nullopt};
+  look.columns = Sought(look.answers);
+  if (look.answers.Any()) {
+    look.fit = EstimateWeakIv(dataset, regression, look.columns, options.weak_iv);
+  }
+  return look;
+}
+
 Result<BoundedAnswers> BoundWeakIv(const PreparedDataset& dataset,
                                    const RegressionOptions& regression,
-                                   const IdentifyOptions& options, const Progress& progress) {
+                                   const IdentifyOptions& options, const Progress& progress,
+                                   const std::optional<WeakLook>& look) {
   BoundedAnswers bounded;
   bounded.estimator = Estimator::kWeakIv;
   Answers& answers = bounded.answers;
-  answers = AssessAll(dataset, regression, options.excitation);
+  answers = look ? look->answers : AssessAll(dataset, regression, options.excitation);
   if (!answers.Any()) return tl::unexpected(NothingAnswered(answers.refusals));
   const SeparableColumns separable =
       Separate(dataset, regression, Sought(answers), options.weak_iv.form);
   TellGroups(separable, regression.parameterization, answers);
   const auto columns =
       WithOffsets(dataset, regression, separable.kept, options.weak_iv.form, answers.refusals);
-  const auto fit = EstimateWeakIv(dataset, regression, columns, options.weak_iv);
+  const auto fit = look && look->columns == columns
+                       ? look->fit
+                       : EstimateWeakIv(dataset, regression, columns, options.weak_iv);
   if (!fit || fit->scores.cols() < 2 || !ClusterCovariance(*fit).allFinite()) {
     return tl::unexpected(InstrumentsSayNothing());
   }
@@ -175,6 +188,7 @@ Result<BoundedAnswers> BoundWeakIv(const PreparedDataset& dataset,
   };
   if (corrected) {
     publish(corrected->theta, corrected->covariance, corrected->degrees_of_freedom);
+    bounded.bounds.joint = corrected->joint;
     bounded.disturbance = corrected->disturbance;
     bounded.provenance.twins = corrected->solved;
     bounded.provenance.twin_failures = corrected->failures;

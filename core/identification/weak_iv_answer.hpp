@@ -1,7 +1,13 @@
 #pragma once
 
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <vector>
+
 #include "data/prepared_dataset.hpp"
 #include "estimation/regression_problem.hpp"
+#include "estimation/weak_iv.hpp"
 #include "identification/answers.hpp"
 #include "identification/identify.hpp"
 #include "result.hpp"
@@ -14,11 +20,23 @@ namespace telltale {
 Result<PreparedDataset> PrepareForWeakIv(const Recording& recording, const Vehicle& vehicle,
                                          const PrepareOptions& options);
 
+/// What the weak form makes of a dataset before anything is cut apart, corrected or bounded.
+struct WeakLook {
+  Answers answers;  ///< excitations and refusals so far
+  std::array<std::vector<std::size_t>, 3> columns;
+  std::optional<WeakFit> fit;  ///< of all that the data move
+};
+
+WeakLook LookWeakly(const PreparedDataset& dataset, const RegressionOptions& regression,
+                    const IdentifyOptions& options);
+
 /// Weak-form instrumental variables on the equations and columns that one-step regressions of the
-/// same rows excite, corrected and calibrated by simulated twins.
+/// same rows excite, corrected and calibrated by simulated twins. A look that was had at the same
+/// data need not be had again.
 /// Refuses when: no equation can be answered, or simulated instruments say nothing of the data.
 Result<BoundedAnswers> BoundWeakIv(const PreparedDataset& dataset,
                                    const RegressionOptions& regression,
-                                   const IdentifyOptions& options, const Progress& progress);
+                                   const IdentifyOptions& options, const Progress& progress,
+                                   const std::optional<WeakLook>& look = std::nullopt);
 
 }  // namespace telltale

@@ -23,11 +23,15 @@ Eigen::VectorXd Stack(const LaggedEstimate& estimate) {
 
 }  // namespace
 
-ClusteredFit FitOf(const EquationProblem& problem, const EquationEstimate& estimate) {
-  const Eigen::MatrixXd phi = problem.phi(Eigen::all, estimate.columns);
+ClusteredFit FitOf(const EquationProblem& problem, const EquationEstimate& estimate,
+                   Replicates replicates) {
   ClusteredFit fit;
-  fit.W = phi * estimate.basis;
-  fit.residual = problem.y - phi * estimate.theta;
+  if (replicates == Replicates::kDrawn) {
+    fit.W = problem.phi(Eigen::all, estimate.columns) * estimate.basis;
+  }
+  Eigen::VectorXd theta = Eigen::VectorXd::Zero(problem.phi.cols());
+  theta(estimate.columns) = estimate.theta;
+  fit.residual = problem.y - problem.phi * theta;
   fit.theta = estimate.theta;
   fit.basis = estimate.basis;
   fit.estimable = estimate.estimable;

@@ -29,8 +29,14 @@ struct ClusteredFit {
   std::vector<std::size_t> instants;
 };
 
-/// The fit of one equation of the static structure; theta are its excited coefficients.
-ClusteredFit FitOf(const EquationProblem& problem, const EquationEstimate& estimate);
+/// Whether replicates are to be drawn from a fit: they alone need W, which is as much work as the
+/// rest.
+enum class Replicates { kNone, kDrawn };
+
+/// The fit of one equation of the static structure; theta are its excited coefficients. W is left
+/// empty where no replicates are drawn.
+ClusteredFit FitOf(const EquationProblem& problem, const EquationEstimate& estimate,
+                   Replicates replicates = Replicates::kDrawn);
 
 /// The joint fit of the dynamic structure, linearised: theta are the time constant and then the
 /// excited coefficients of the answered equations.

@@ -282,9 +282,10 @@ class TwinFleet {
     const Eigen::MatrixXd scaled = std::sqrt(1.0 + 1.0 / n) * white_.map * spread.sd.asDiagonal();
     const Eigen::MatrixXd covariance = scaled * scaled.transpose();
     correction.covariance = stretch * stretch * covariance;
-    correction.joint_covariance = LogNormalQuantile(joint, kCalibratedAt) /
-                                  JointQuantile(correction.degrees_of_freedom, p, kCalibratedAt) *
-                                  covariance;
+    correction.joint = {LogNormalQuantile(joint, kCalibratedAt) /
+                            JointQuantile(correction.degrees_of_freedom, p, kCalibratedAt) /
+                            (stretch * stretch),
+                        correction.degrees_of_freedom};
   }
 
   const PreparedDataset& dataset_;
@@ -301,14 +302,6 @@ class TwinFleet {
 };
 
 }  // namespace
-
-double JointQuantile(double degrees_of_freedom, double unknowns, double level) {
-  // Hotelling's law needs more clusters than unknowns; covariances drawn towards a full shape do
-  // not.
-  constexpr double kFewestSpare = 5.0;
-  const double spare = std::max(degrees_of_freedom - unknowns + 1.0, kFewestSpare);
-  return FisherQuantile(unknowns, spare, level);
-}
 
 std::optional<TwinCorrection> CorrectWithTwins(
     const PreparedDataset& dataset, const RegressionOptions& regression, const WeakFit& fit,

@@ -10,6 +10,7 @@
 
 #include "data/prepared_dataset.hpp"
 #include "estimation/weak_iv.hpp"
+#include "uncertainty/joint_bounds.hpp"
 #include "vessel/disturbance.hpp"
 
 namespace telltale {
@@ -24,18 +25,14 @@ struct TwinCorrectionOptions {
 
 /// Shapes: theta and covariance over the stacked unknowns of the WeakFit.
 struct TwinCorrection {
-  Eigen::VectorXd theta;             ///< corrected for bias
-  Eigen::MatrixXd covariance;        ///< as the twins scattered, with what few of them leave open
-  Eigen::MatrixXd joint_covariance;  ///< the same, calibrated so that joint ellipsoids hold
-  double degrees_of_freedom = 0.0;   ///< of Student's t for intervals
+  Eigen::VectorXd theta;            ///< corrected for bias
+  Eigen::MatrixXd covariance;       ///< as the twins scattered, with what few of them leave open
+  JointBounds joint;                ///< calibrated so that ellipsoids hold
+  double degrees_of_freedom = 0.0;  ///< of Student's t for intervals
   Disturbance disturbance;
   std::size_t solved = 0;    ///< twins that could be estimated
   std::size_t failures = 0;  ///< twins that could not
 };
-
-/// The truth lies within off' joint_covariance^-1 off <= unknowns * JointQuantile(...) with
-/// probability `level`.
-double JointQuantile(double degrees_of_freedom, double unknowns, double level);
 
 /// Bias correction and calibration by simulating the whole pipeline, docs/model.md (33), (34): the
 /// disturbance is judged from the residuals; twins of the data set, each another boat as plausible

@@ -47,6 +47,7 @@ struct IdentifyRequest {
   Resampling resampling = Resampling::kUnknown;
   IntervalMethod interval_method = IntervalMethod::kUnknown;
   std::uint32_t certificate_twins = 0;  ///< 0 (none) or [10, 1000]
+  Offsets offsets = Offsets::kUnknown;  ///< of what the window holds between long silences
 };
 
 /// How far the daemon is with a request.

@@ -354,6 +354,18 @@ Disturbance ReadDisturbance(FieldReader reader, const proto::Disturbance& messag
           ReadAxes(reader, "time_constant_s", message.time_constant_s(), kShortestS)};
 }
 
+/// The radius follows from the rest.
+JointBounds ReadJoint(FieldReader reader) {
+  return {reader.Number("covariance_factor", {0.0, kLargest, true}),
+          reader.Number("degrees_of_freedom", {1.0, kLargest})};
+}
+
+void WriteJoint(const Identification& identification, proto::JointBounds& message) {
+  message.set_covariance_factor(identification.joint->covariance_factor);
+  message.set_degrees_of_freedom(identification.joint->degrees_of_freedom);
+  message.set_squared_radius(SquaredRadius(identification).value_or(0.0));
+}
+
 Identification ReadModel(FieldReader reader, const proto::Model& model) {
   Identification result;
   result.vehicle_id = model.vehicle_id();
@@ -382,6 +394,7 @@ Identification ReadModel(FieldReader reader, const proto::Model& model) {
     result.offsets.push_back(ReadOffsets(reader.Item("offsets", i), model.offsets(i)));
   }
   result.effects = ReadEffects(reader, model);
+  if (model.has_joint()) result.joint = ReadJoint(reader.Optional("joint"));
   result.window = ReadWindow(reader.Optional("window"), model.window());
   result.refusals = ReadRefusals(model);
   result.provenance = ReadProvenance(reader.Optional("provenance"), model.provenance());
@@ -430,6 +443,7 @@ proto::Model ToProto(const Identification& identification) {
     Write(offsets, *model.add_offsets());
   }
   WriteEffects(identification.effects, model);
+  if (identification.joint) WriteJoint(identification, *model.mutable_joint());
   Write(identification.window, *model.mutable_window());
   for (const Refusal& refusal : identification.refusals) Write(refusal, *model.add_refusals());
   Write(identification.provenance, *model.mutable_provenance());

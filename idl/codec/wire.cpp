@@ -92,6 +92,11 @@ void Fill(telltale_wire_IndicativeCoefficient& wire, const IndicativeCoefficient
   Put(wire.unit, coefficient.unit);
 }
 
+void Fill(telltale_wire_JointBounds& wire, const JointBounds& joint) {
+  wire.covariance_factor = joint.covariance_factor;
+  wire.degrees_of_freedom = joint.degrees_of_freedom;
+}
+
 void Fill(telltale_wire_RecordingOffsets& wire, const RecordingOffsets& offsets);
 void Fill(telltale_wire_ModelChange& wire, const ModelChange& change);
 void Fill(telltale_wire_AddedEffect& wire, const AddedEffect& added);
@@ -245,6 +250,10 @@ void Fill(telltale_wire_Model& wire, const PublishedModel& model) {
     PutSequence(wire.certificate, std::initializer_list<CoverageCertificate>{*certificate}, kFill);
   }
   PutSequence(wire.effects, identification.effects, kFill);
+  if (const auto& joint = identification.joint) {
+    PutSequence(wire.joint, std::initializer_list<JointBounds>{*joint}, kFill);
+    wire.joint._buffer[0].squared_radius = SquaredRadius(identification).value_or(0.0);
+  }
 }
 
 void Fill(telltale_wire_Diagnosis& wire, const PublishedDiagnosis& published) {
@@ -364,6 +373,8 @@ constexpr std::initializer_list<Resampling> kResamplings = {
     Resampling::kSegments, Resampling::kMovingBlocks, Resampling::kParametric};
 constexpr std::initializer_list<IntervalMethod> kIntervalMethods = {
     IntervalMethod::kPercentile, IntervalMethod::kStudentized, IntervalMethod::kBca};
+constexpr std::initializer_list<Offsets> kAllOffsets = {Offsets::kShared, Offsets::kPerRecording,
+                                                        Offsets::kPerRecordingNorthEast};
 constexpr std::initializer_list<DeadZoneSource> kDeadZoneSources = {DeadZoneSource::kGiven,
                                                                     DeadZoneSource::kIdentified};
 constexpr std::initializer_list<CoefficientStatus> kStatuses = {
@@ -674,6 +685,16 @@ AddedEffect ReadAddedEffect(const std::string& field, const telltale_wire_AddedE
   return added;
 }
 
+/// The radius follows from the rest.
+std::optional<JointBounds> ReadJoint(const dds_sequence_telltale_wire_JointBounds& wire) {
+  if (wire._length == 0) return std::nullopt;
+  const telltale_wire_JointBounds& joint = wire._buffer[0];
+  return JointBounds{
+      ReadWithin("joint[0].covariance_factor", joint.covariance_factor,
+                 std::numeric_limits<double>::min(), kLargest),
+      ReadWithin("joint[0].degrees_of_freedom", joint.degrees_of_freedom, 1.0, kLargest)};
+}
+
 PublishedModel ReadModel(const telltale_wire_Model& wire) {
   PublishedModel model;
   model.revision = wire.revision;
@@ -725,6 +746,7 @@ PublishedModel ReadModel(const telltale_wire_Model& wire) {
   identification.advice = ReadSequence("advice", wire.advice, ReadAdvice);
   identification.certificate = ReadCertificate(wire.certificate, identification);
   identification.effects = ReadSequence("effects", wire.effects, ReadAddedEffect);
+  identification.joint = ReadJoint(wire.joint);
   return model;
 }
 
@@ -853,6 +875,7 @@ WireSample<telltale_wire_IdentifyRequest> Encode(const IdentifyRequest& request)
   Put(wire->resampling, name(request.resampling));
   Put(wire->interval_method, name(request.interval_method));
   wire->certificate_twins = request.certificate_twins;
+  Put(wire->offsets, name(request.offsets));
   return wire;
 }
 
@@ -972,6 +995,7 @@ Decoded<IdentifyRequest> Decode(const telltale_wire_IdentifyRequest& wire) {
     request.interval_method =
         ReadOptionalName("interval_method", View(wire.interval_method), kIntervalMethods);
     request.certificate_twins = wire.certificate_twins;
+    request.offsets = ReadOptionalName("offsets", View(wire.offsets), kAllOffsets);
     return request;
   });
 }

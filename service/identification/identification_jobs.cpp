@@ -4,6 +4,7 @@
 #include <thread>
 #include <utility>
 
+#include "data/recordings.hpp"
 #include "monitoring/prediction_error.hpp"
 
 namespace telltale {
@@ -37,6 +38,7 @@ IdentifyOptions OptionsOf(const IdentifyRequest& request, const IdentificationSe
     options.interval_method = request.interval_method;
   }
   options.certificate_twins = request.certificate_twins;
+  if (request.offsets != Offsets::kUnknown) options.regression.offsets = request.offsets;
   options.seed = request.seed;
   options.threads = std::max(1u, std::thread::hardware_concurrency() / settings.workers);
   return options;
@@ -62,7 +64,8 @@ IdentifyReply IdentificationJobs::IdentifyAndPublish(const IdentifyRequest& requ
                                   fault->subject + ": " + fault->reason + "; " + fault->advice);
   }
   VehicleWindow& window = *fleet_.Find(request.vehicle_id);
-  const Recording recording = window.Snapshot();
+  Recording recording = window.Snapshot();
+  recording.starts_s = StartsAfterSilence(recording, kSilenceBetweenRecordingsS);
   const auto identification = Identify(recording, window.vehicle(), options, progress);
   if (!identification) {
     auto reply = ReplyTo<IdentifyReply>(request, IdentifyOutcome::kRefused);

@@ -60,6 +60,7 @@ inline Identification MadeUpIdentification(
   made.covariance.col(1).setZero();
   made.covariance(1, 1) = kInfinity;
   made.covariance = made.covariance.selfadjointView<Eigen::Lower>();
+  made.joint = JointBounds{1.0 / 0.7, 66.0};
   made.dead_zone = {0.05, -0.0625};
   for (const double start_s : {1700000000.125, 1700000400.5}) {
     made.offsets.push_back({start_s, start_s + 200.125, {made.coefficients[4]}});
@@ -198,6 +199,7 @@ inline void ExpectSame(const Identification& a, const Identification& b) {
   }
   EXPECT_EQ(a.dead_zone, b.dead_zone);
   EXPECT_EQ(a.covariance, b.covariance);
+  EXPECT_EQ(a.joint, b.joint);
   ASSERT_EQ(a.thruster_time_constant.has_value(), b.thruster_time_constant.has_value());
   if (a.thruster_time_constant) ExpectSame(*a.thruster_time_constant, *b.thruster_time_constant);
   EXPECT_EQ(a.time_constant_covariance, b.time_constant_covariance);

@@ -130,7 +130,8 @@ TEST_F(CommandTest, OptionsOutOfRangeAreUsageErrorsThatNameTheRange) {
   expect({"--level", "0.2"}, "[0.5, 0.999]");
   expect({"--level", "nan"}, "[0.5, 0.999]");
   expect({"--threads", "0"}, "[1, 256]");
-  expect({"--sampling-period", "5"}, "sampling_period_s");
+  expect({"--sampling-period", "5"}, "--sampling-period = 5");
+  expect({"--certify", "3"}, "--certify = 3 must be within [10, 1000]; set --certify to");
   expect({"--preset", "best"}, "robust");
   expect({"--parameterization", "cubic"}, "propeller");
   expect({"--seed", "-3"}, "--seed");

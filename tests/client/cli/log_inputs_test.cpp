@@ -214,8 +214,6 @@ TEST_F(LogInputsTest, SeveralLogsHaveASteadyDisturbanceEachUnlessToldOtherwise) 
   const CommandOutcome one_step = identify({"--bootstrap", "0", "--offsets", "per-recording"});
   EXPECT_EQ(one_step.exit_code, kUsage);
   EXPECT_THAT(one_step.err, HasSubstr("not estimated by ONE_STEP"));
-  EXPECT_EQ(Telltale({"identify", "--vehicle-id", "boat-7", "--offsets", "shared"}).exit_code,
-            kUsage);
 }
 
 }  // namespace

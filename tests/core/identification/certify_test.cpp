@@ -70,6 +70,26 @@ TEST(Certify, CountsEveryIntervalOnce) {
   EXPECT_GT(certificate.mean_coverage_error, 0.0);
 }
 
+/// What twins promise of all coefficients together holds where the boat is the truth: of ten
+/// ellipsoids of 95 % seven and more, but for one time in a thousand.
+TEST(Certify, JudgesTheEllipsoidThatIsPublished) {
+  IdentifyOptions options = Certifying(0);
+  options.estimator = Estimator::kWeakIv;
+  EXPECT_FALSE(Certified(options).joint.has_value());  // nothing sizes it without twins
+  options.twins = 20;
+  options.certificate_twins = 10;
+  const Identification identification = Certified(options);
+  ASSERT_TRUE(identification.joint.has_value());
+  EXPECT_GT(identification.joint->covariance_factor, 0.0);
+  EXPECT_EQ(identification.joint->degrees_of_freedom,
+            static_cast<double>(identification.provenance.clusters) - 1.0);
+  EXPECT_NEAR(*SquaredRadius(identification),
+              SquaredRadius(*identification.joint, identification.coefficients.size(), 0.95), 1e-9);
+  ASSERT_TRUE(identification.certificate.has_value());
+  EXPECT_EQ(identification.certificate->joint.of, 10u);
+  EXPECT_GE(identification.certificate->joint.held, 7u);
+}
+
 TEST(Certify, DoesNotDependOnThreads) {
   IdentifyOptions options = Certifying(10);
   const Identification two = Certified(options);

@@ -59,6 +59,11 @@ TEST(OutputErrorAnswer, BoundsTheBoatInStillWater) {
   EXPECT_EQ(result->provenance.estimator_choice, "");  // it was named
   EXPECT_EQ(result->provenance.twins, 0U);
   EXPECT_TRUE(result->refusals.empty());
+  // Hotelling: F(35, g - 35) times 35 (g - 1) / (g - 35), g clusters.
+  ASSERT_TRUE(result->joint.has_value());
+  const auto clusters = static_cast<double>(result->provenance.clusters);
+  EXPECT_DOUBLE_EQ(result->joint->covariance_factor, (clusters - 1.0) / (clusters - 35.0));
+  EXPECT_DOUBLE_EQ(result->joint->degrees_of_freedom, clusters - 1.0);
   EXPECT_TRUE(ModelOf(*result)->discretisation == Discretisation::kContinuous);
 }
 

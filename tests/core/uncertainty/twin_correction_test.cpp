@@ -76,9 +76,8 @@ TEST(TwinCorrection, BoundsHoldTheTruthAsOftenAsTheySay) {
                         t * std::sqrt(corrected->covariance(j, j)));
     }
     const Eigen::VectorXd off = corrected->theta - truth;
-    const double distance = off.dot(corrected->joint_covariance.ldlt().solve(off));
-    ellipsoid_held[i] =
-        distance <= 35.0 * JointQuantile(corrected->degrees_of_freedom, 35.0, 0.95) ? 1 : 0;
+    const double distance = off.dot(corrected->covariance.ldlt().solve(off));
+    ellipsoid_held[i] = distance <= SquaredRadius(corrected->joint, 35, 0.95) ? 1 : 0;
     const EquationProblem surge = BuildRegression(dataset, {}).equations[0];
     const EquationEstimate one_step = EstimateOneStep(*Assess(surge, {}));
     const Eigen::MatrixXd covariance = ResidualCovariance(FitOf(surge, one_step));

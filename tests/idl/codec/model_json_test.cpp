@@ -57,6 +57,17 @@ TEST(ModelJson, TheCovarianceOfTheTimeConstantHasANumberForEachCoefficient) {
               HasSubstr("\"thrusterTimeConstantCovariance\": ["));
 }
 
+// 34 coefficients of the made-up model are bounded; F(34, 66 - 34 + 1) at 95 % is 1.7825 by
+// scipy.stats.f.ppf(0.95, 34, 33).
+TEST(ModelJson, SaysHowFarTheTruthOfAllCoefficientsMayLie) {
+  proto::Model model = ToProto(MadeUpIdentification());
+  EXPECT_NEAR(model.joint().squared_radius(), 34.0 * 1.7825 / 0.7, 0.01);
+  model.clear_joint();
+  const auto older = IdentificationOf(model);
+  ASSERT_TRUE(older) << older.error().Message();
+  EXPECT_FALSE(older->joint);
+}
+
 TEST(ModelJson, AnOlderFileHasNoDeadZone) {
   proto::Model model = ToProto(MadeUpIdentification());
   model.clear_dead_zone();
@@ -208,6 +219,10 @@ INSTANTIATE_TEST_SUITE_P(
                    "coefficients[4].status", "", "NOT_EXCITED"},
         ModelFault{[](M& m) { m.mutable_covariance()->RemoveLast(); }, "covariance", "1224 numbers",
                    "1225"},
+        ModelFault{[](M& m) { m.mutable_joint()->set_covariance_factor(0.0); },
+                   "joint.covarianceFactor", "0", "(0, "},
+        ModelFault{[](M& m) { m.mutable_joint()->set_degrees_of_freedom(kNan); },
+                   "joint.degreesOfFreedom", "nan", "[1, "},
         ModelFault{[](M& m) { m.set_covariance(1, kNan); }, "covariance[1]", "nan", "number"},
         ModelFault{[](M& m) { m.set_covariance(0, -1.0); }, "covariance[0]", "-1", "[0, inf]"},
         ModelFault{[](M& m) { m.set_covariance(70, 5.0); }, "covariance[70]", "5", "symmetric"},

@@ -163,6 +163,9 @@ TEST(WireModel, NamesTheFieldThatIsWrong) {
        [](auto& m) { m.coefficients._buffer[3].bounds.upper = -1e6; }},
       {"covariance", [](auto& m) { m.covariance._length -= 1; }},
       {"covariance", [](auto& m) { m.covariance._buffer[5] = kNan; }},
+      {"joint[0].covariance_factor", [](auto& m) { m.joint._buffer[0].covariance_factor = -1.0; }},
+      {"joint[0].degrees_of_freedom",
+       [](auto& m) { m.joint._buffer[0].degrees_of_freedom = kNan; }},
       {"dead_zone_forward", [](auto& m) { m.dead_zone_forward = 0.31; }},
       {"dead_zone_reverse", [](auto& m) { m.dead_zone_reverse = kNan; }},
       {"window_end_s", [](auto& m) { m.window_end_s = m.window_start_s - 1.0; }},
@@ -194,6 +197,7 @@ TEST(WireExchange, RequestArrivesAsItWasSent) {
   sent.include_reverse = true;
   sent.resampling = Resampling::kMovingBlocks;
   sent.interval_method = IntervalMethod::kBca;
+  sent.offsets = Offsets::kPerRecordingNorthEast;
   const auto received = Decode(*Encode(sent));
   ASSERT_TRUE(received) << received.error().Message();
   EXPECT_EQ(received->correlation_id, sent.correlation_id);
@@ -209,12 +213,15 @@ TEST(WireExchange, RequestArrivesAsItWasSent) {
   EXPECT_TRUE(received->include_reverse);
   EXPECT_EQ(received->resampling, Resampling::kMovingBlocks);
   EXPECT_EQ(received->interval_method, IntervalMethod::kBca);
+  EXPECT_EQ(received->offsets, Offsets::kPerRecordingNorthEast);
   sent.resampling = Resampling::kUnknown;
   sent.interval_method = IntervalMethod::kUnknown;
+  sent.offsets = Offsets::kUnknown;
   const auto open = Decode(*Encode(sent));
   ASSERT_TRUE(open) << open.error().Message();
   EXPECT_EQ(open->resampling, Resampling::kUnknown);
   EXPECT_EQ(open->interval_method, IntervalMethod::kUnknown);
+  EXPECT_EQ(open->offsets, Offsets::kUnknown);
 }
 
 TEST(WireExchange, RequestLeavesReverseRowsOutUnlessItSaysOtherwise) {
@@ -240,6 +247,9 @@ TEST(WireExchange, RequestRefusesUnknownChoicesAndIdentifiers) {
   wire = Encode(sent);
   Replace(wire->interval_method, "BAYES");
   EXPECT_EQ(Decode(*wire).error().field, "interval_method");
+  wire = Encode(sent);
+  Replace(wire->offsets, "EACH");
+  EXPECT_EQ(Decode(*wire).error().field, "offsets");
   wire = Encode(sent);
   wire->dead_zone_forward = -0.1;
   EXPECT_EQ(Decode(*wire).error().field, "dead_zone_forward");

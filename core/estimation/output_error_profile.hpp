@@ -1,0 +1,60 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "data/prepared_dataset.hpp"
+#include "estimation/output_error.hpp"
+#include "estimation/regression_problem.hpp"
+#include "estimation/shot_solution.hpp"
+
+namespace telltale {
+
+/// The profile likelihood of each unknown of an output-error fit, docs/model.md (56): what the sum
+/// of squares costs when that unknown is held elsewhere and all others, and the states of the
+/// shots, are fitted anew. Where the model is far from linear over the reach of a bound it rises
+/// faster on one side than on the other, and a bound of one standard error times a quantile says
+/// too much of one side and too little of the other.
+/// Assumes: dataset and fit outlive it.
+class OutputErrorProfile {
+ public:
+  /// Requires: `fit` to be what EstimateOutputError gave for the same other arguments.
+  OutputErrorProfile(const PreparedDataset& dataset, const RegressionOptions& regression,
+                     const OutputErrorFit& fit, const OutputErrorOptions& options);
+  OutputErrorProfile(const OutputErrorProfile&) = delete;
+  OutputErrorProfile& operator=(const OutputErrorProfile&) = delete;
+
+  /// How lopsided the profile is at `reach` to either side, cheaply: to third order, at some of
+  /// the shots. One if not at all; infinite where the boat runs away on the way.
+  double Lopsidedness(Eigen::Index unknown, double reach) const;
+
+  /// The rise of the sum of squares over the variance of residuals when `unknown` is held at
+  /// `value`: about ((value - estimate) / standard error)^2, the naive one, near the estimate.
+  /// More than any threshold where the boat runs away.
+  double Deviance(Eigen::Index unknown, double value) const;
+
+ private:
+  /// A shot to first order about the least sum, its state following theta.
+  struct Linear {
+    std::size_t shot = 0;
+    Eigen::VectorXd residual;
+    Eigen::MatrixXd by_theta;        ///< n x P
+    Eigen::MatrixXd start_by_theta;  ///< 6 x P
+  };
+
+  /// The others as they follow a step of this unknown, to first order.
+  Eigen::VectorXd Follow(Eigen::Index unknown, double step) const;
+
+  const OutputErrorFit& fit_;
+  ShotPlan plan_;
+  Leash leash_;
+  Yardstick yardstick_;
+  ShotSolution least_;
+  double least_sum_ = 0.0;
+  Eigen::MatrixXd naive_;
+  std::vector<Linear> sample_;
+};
+
+}  // namespace telltale
