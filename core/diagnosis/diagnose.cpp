@@ -473,11 +473,7 @@ Result<DiagnosedModel> Diagnose(const PreparedDataset& recording,
   diagnosis.floor_basis =
       references.empty() ? FloorBasis::kSensorNoise : FloorBasis::kReferenceLogs;
   diagnosis.reference_logs = references.size();
-  if (references.empty()) {
-    diagnosis.notes.emplace_back(
-        "No reference log: the floor is what sensor noise alone leaves, so weather and whatever "
-        "else varies from day to day counts as gap.");
-  } else if (references.size() < 3) {
+  if (!references.empty() && references.size() < 3) {
     diagnosis.notes.emplace_back(
         "Fewer than three reference logs: how much healthy days differ "
         "is mostly assumed.");

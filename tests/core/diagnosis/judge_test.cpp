@@ -53,5 +53,36 @@ TEST(Judge, NeverCountsMoreThanScatterAloneWould) {
   EXPECT_LE(judge.Square(seen), seen.squaredNorm());
 }
 
+// A ratio of likelihoods: nothing to tell between equals, and what is gained step by step adds up.
+TEST(Judge, WeighsEvidenceByRatiosOfSquares) {
+  const Judge judge = JudgeOf(false);
+  EXPECT_EQ(judge.Evidence(7.0, 7.0), 0.0);
+  EXPECT_LT(judge.Evidence(5.0, 7.0), 0.0);
+  EXPECT_NEAR(judge.Evidence(2.0, 5.0) + judge.Evidence(5.0, 7.0), judge.Evidence(2.0, 7.0), 1e-12);
+}
+
+// A model three standard errors off in every coefficient, and references by the boat itself.
+TEST(Healthy, RecalibratesAModelThatIsOff) {
+  UncertainModel off = UncertainModelOf(testing::KnownStableBoat()).value();
+  Eigen::VectorXd change = 3.0 * off.StandardErrors();
+  for (Eigen::Index i = 0; i < change.size(); i += 2) change[i] = -change[i];
+  off.model = off.Changed(off.model, change);
+  std::vector<PreparedDataset> days;
+  for (const std::uint64_t seed : {21, 22, 23}) {
+    days.push_back(testing::SailWithEffects({}, 240.0, 100 * seed));
+  }
+  std::vector<FreeRuns> runs;
+  for (const PreparedDataset& day : days) runs.emplace_back(day, off.model, 5.0);
+  const Healthy healthy = LearnHealthy(runs, off, SlotsOf(EffectLibrary()), 2);
+  const PreparedDataset another = testing::SailWithEffects({}, 240.0, 3100);
+  const FreeRuns sailed(another, off.model, 5.0);
+  const double truth = sailed.Errors({testing::StableBoat(), {}}).squaredNorm();
+  const double before = sailed.Errors({off.model, {}}).squaredNorm();
+  const double after = sailed.Errors(healthy.boat).squaredNorm();
+  EXPECT_GT(before, 10.0 * truth);  // or there would be nothing to mend
+  // Thirty coefficients from three recordings as long as this one cost a share of its noise.
+  EXPECT_LT(after, 1.5 * truth);
+}
+
 }  // namespace
 }  // namespace telltale

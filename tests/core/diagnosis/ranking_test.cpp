@@ -1,0 +1,94 @@
+#include "diagnosis/ranking.hpp"
+
+#include <limits>
+
+#include <gtest/gtest.h>
+
+#include "support/augmented_boats.hpp"
+
+namespace telltale {
+namespace {
+
+constexpr double kNoEvidence = 0.0;
+constexpr double kStrongEvidence = -50.0;
+const Remainder kLikeHealth{.before = 1.0, .after = 0.95, .healthy = 0.95};
+
+TEST(Gate, ClosesOnlyWhereEvenTheUpperBoundIsHealthy) {
+  EXPECT_EQ(GateOf(1.0, 1.3, 1.5, kNoEvidence, kLikeHealth), Gate::kWithinHealth);
+  // As small, but so short a recording that it could be far larger.
+  EXPECT_EQ(GateOf(1.0, 9.0, 1.5, kNoEvidence, kLikeHealth), Gate::kUndecided);
+  // Larger than healthy days, and nothing speaks for any effect.
+  EXPECT_EQ(GateOf(2.0, 2.2, 1.5, kNoEvidence, kLikeHealth), Gate::kUndecided);
+}
+
+TEST(Gate, OpensForEvidenceAndForWhatNoHealthyBoatLeaves) {
+  EXPECT_EQ(GateOf(1.0, 1.3, 1.5, kStrongEvidence, kLikeHealth), Gate::kMaterial);
+  const Remainder wild{.before = 4.0, .after = 3.9, .healthy = 0.95};
+  EXPECT_EQ(GateOf(1.0, 1.3, 1.5, kNoEvidence, wild), Gate::kMaterial);
+}
+
+TEST(Verdict, FollowsGateDoubtAndClosure) {
+  Ranking ranking;
+  ranking.fits.emplace_back();
+  const Closure most{.share = 0.9, .interval = {}};
+  const Closure half{.share = 0.5, .interval = {}};
+  EXPECT_EQ(VerdictOf(Gate::kWithinHealth, ranking, most), Verdict::kNoMaterialGap);
+  EXPECT_EQ(VerdictOf(Gate::kUndecided, ranking, most), Verdict::kInsufficientData);
+  EXPECT_EQ(VerdictOf(Gate::kMaterial, ranking, most), Verdict::kExplained);
+  EXPECT_EQ(VerdictOf(Gate::kMaterial, ranking, half), Verdict::kPartlyExplained);
+  ranking.unknown = 0.8;
+  EXPECT_EQ(VerdictOf(Gate::kMaterial, ranking, most), Verdict::kUnknownCause);
+}
+
+struct RankedBoat {
+  UncertainModel model = UncertainModelOf(testing::KnownStableBoat()).value();
+  std::vector<Slot> slots = SlotsOf(EffectLibrary());
+  PreparedDataset sailed = testing::SailWithEffects({}, 120.0, 500);
+  FreeRuns runs{sailed, model.model, 5.0};
+  Healthy healthy = LearnHealthy({runs}, model, slots, 2);
+  Sensitivity recording = SensitivityOf(runs, healthy.boat, model, slots, 2);
+  Judge judge{healthy, recording, EveryWindow(recording), false};
+
+  EffectFit Scored(const char* effect, double score) const {
+    EffectFit fit;
+    fit.effects = {{FindEffect(effect), {}}};
+    fit.score = score;
+    fit.errors = recording.errors;
+    fit.square = judge.Square(judge.See(fit.errors));
+    return fit;
+  }
+};
+
+// Two explanations that predict the same are one class with the probability of both; one that only
+// shakes predicts no path, and is none of theirs.
+TEST(Rank, PutsWhatPredictsTheSameIntoOneClass) {
+  const RankedBoat boat;
+  Explanations explanations;
+  explanations.singles = {boat.Scored("thruster_lag", -40.0), boat.Scored("thruster_delay", -38.0),
+                          boat.Scored("waves", -36.0)};
+  const Ranking ranking = Rank(explanations, boat.judge, kLikeHealth);
+  ASSERT_EQ(ranking.fits.size(), 2U);
+  EXPECT_EQ(ranking.fits[0].Indistinguishable(), std::vector<std::string>{"thruster_delay"});
+  EXPECT_EQ(ranking.fits[1].fit.Names(), std::vector<std::string>{"waves"});
+  double sum = ranking.nothing + ranking.unknown;
+  for (const RankedFit& ranked : ranking.fits) sum += ranked.probability;
+  EXPECT_NEAR(sum, 1.0, 1e-12);
+}
+
+// The more an explanation leaves, the likelier it is something else.
+TEST(Rank, DoubtsWhatLeavesMuch) {
+  const RankedBoat boat;
+  Explanations explanations;
+  explanations.singles = {boat.Scored("thruster_lag", -40.0)};
+  double less_doubt = -1.0;
+  for (const double after : {0.9, 1.5, 3.0, 8.0, 20.0}) {
+    const Ranking ranking =
+        Rank(explanations, boat.judge, {.before = 20.0, .after = after, .healthy = 1.0});
+    EXPECT_GT(ranking.unknown, less_doubt) << after;
+    less_doubt = ranking.unknown;
+  }
+  EXPECT_GT(less_doubt, 0.95);
+}
+
+}  // namespace
+}  // namespace telltale
