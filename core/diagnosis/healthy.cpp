@@ -19,6 +19,7 @@ constexpr double kPriorRecordings = 1.0;
 constexpr double kLasting = 0.5;      // typical sizes of what a boat may always have, to begin with
 constexpr double kModelTrust = 10.0;  // by how many of its standard errors a model may be off
 constexpr double kNever = 1e-6;
+constexpr double kMostOptimism = 10.0;
 constexpr int kRecalibrations = 8;  // at most
 constexpr double kSettled = 0.995;  // of the squares: smaller gains are not worth another round
 constexpr double kSlopeStep = 0.1;  // in typical sizes
@@ -242,6 +243,15 @@ Eigen::VectorXd ScaleOf(const std::vector<Sensitivity>& days) {
   return (square / windows).cwiseSqrt().cwiseMax(1e-9);
 }
 
+/// By how much more a recording that took no part in estimating the covariance leaves by it: the
+/// mean of Hotelling's T^2 over its rows, n / (n - rows - 1) with n windows.
+double OptimismOf(const std::vector<Sensitivity>& days) {
+  const auto rows = static_cast<double>(days.front().errors.rows());
+  double windows = 0.0;
+  for (const Sensitivity& day : days) windows += static_cast<double>(day.errors.cols());
+  return windows / std::max(windows - rows - 1.0, windows / kMostOptimism);
+}
+
 std::vector<Sensitivity> SensitivitiesOf(const std::vector<FreeRuns>& recordings,
                                          const AugmentedModel& boat, const UncertainModel& model,
                                          const std::vector<Slot>& slots, std::size_t threads,
@@ -298,9 +308,10 @@ class Recalibrating {
                     .days = SensitivitiesOf(recordings_, boat_, model_, slots_, threads_, 1.0),
                     .log_leftovers = {}};
     healthy.scale = ScaleOf(healthy.days);
+    const double optimism = std::log(OptimismOf(healthy.days));
     for (const Sensitivity& day : healthy.days) {
       const Judge judge(healthy, day, EveryWindow(day), false);
-      healthy.log_leftovers.push_back(std::log(judge.Leftover(judge.See(day.errors))));
+      healthy.log_leftovers.push_back(std::log(judge.Leftover(judge.See(day.errors))) + optimism);
     }
     return healthy;
   }
@@ -336,7 +347,7 @@ class Recalibrating {
   std::vector<Eigen::MatrixXd> LessWeather(const AugmentedModel& boat) const {
     std::vector<Eigen::MatrixXd> left;
     for (std::size_t day = 0; day < recordings_.size(); ++day) {
-      left.push_back(recordings_[day].Errors(boat) + fit_.Weather(sensitivities_[day], day));
+      left.emplace_back(recordings_[day].Errors(boat) + fit_.Weather(sensitivities_[day], day));
     }
     return left;
   }

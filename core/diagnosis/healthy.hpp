@@ -25,7 +25,8 @@ struct Healthy {
   Eigen::MatrixXd boat_covariance;  ///< base, then slots
   Eigen::VectorXd day_sizes;        ///< by slot; zero for what does not pass
   std::vector<Sensitivity> days;    ///< of the recordings, about `boat`
-  /// ln of what a Judge leaves of each recording, as a share of what the covariance expects.
+  /// ln of what a Judge leaves of each recording, as a share of what the covariance expects, and
+  /// would leave of one that had not taken part in learning.
   std::vector<double> log_leftovers;
 };
 
