@@ -207,7 +207,7 @@ Eigen::MatrixXd FreeRuns::Errors(const AugmentedModel& model) const {
 
 FreeRuns::Circumstances FreeRuns::Of(std::size_t window) const {
   const Window& it = windows_[window];
-  return {dataset_->rows[it.first_row].time_s, it.first_row, rows_, it.stretch};
+  return {dataset_->rows[it.first_row].time_s, it.first_row, rows_};
 }
 
 std::vector<std::vector<Eigen::Vector2d>> FreeRuns::Tracks(const AugmentedModel& model) const {

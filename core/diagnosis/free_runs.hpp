@@ -38,7 +38,6 @@ class FreeRuns {
     double time_s = 0.0;
     std::size_t first_row = 0;  ///< of the dataset
     std::size_t rows = 0;
-    std::size_t stretch = 0;
   };
   Circumstances Of(std::size_t window) const;
 

@@ -27,18 +27,6 @@ constexpr int kRounds = 2;          // of scatter and unknowns in turn
 constexpr int kIterations = 25;     // of unknowns and sizes in turn
 constexpr std::array kShares = {1.0, 0.7, 0.5, 0.35, 0.25, 0.12, 0.06, 0.03};  // of a step
 
-/// L^-1 applied to every window of every column, L L' the covariance of a window.
-Eigen::MatrixXd Whitened(const Eigen::LLT<Eigen::MatrixXd>& factor,
-                         const Eigen::MatrixXd& stacked) {
-  const Eigen::Index rows = factor.rows();
-  Eigen::MatrixXd white = stacked;
-  for (Eigen::Index j = 0; j < white.cols(); ++j) {
-    auto windows = white.col(j).reshaped(rows, stacked.rows() / rows);
-    factor.matrixL().solveInPlace(windows);
-  }
-  return white;
-}
-
 Eigen::MatrixXd SecondMoment(const std::vector<Eigen::MatrixXd>& residuals) {
   const Eigen::Index rows = residuals.front().rows();
   Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(rows, rows);
@@ -233,16 +221,6 @@ class HealthyFit {
   Eigen::VectorXd unknowns_;
 };
 
-Eigen::VectorXd ScaleOf(const std::vector<Sensitivity>& days) {
-  Eigen::VectorXd square = Eigen::VectorXd::Zero(days.front().errors.rows());
-  double windows = 0.0;
-  for (const Sensitivity& day : days) {
-    square += day.errors.rowwise().squaredNorm();
-    windows += static_cast<double>(day.errors.cols());
-  }
-  return (square / windows).cwiseSqrt().cwiseMax(1e-9);
-}
-
 /// By how much more a recording that took no part in estimating the covariance leaves by it: the
 /// mean of Hotelling's T^2 over its rows, n / (n - rows - 1) with n windows.
 double OptimismOf(const std::vector<Sensitivity>& days) {
@@ -301,13 +279,11 @@ class Recalibrating {
     Weigh();
     Healthy healthy{.boat = boat_,
                     .covariance = covariance_,
-                    .scale = {},
                     .kappa = kappa_,
                     .boat_covariance = fit_.BoatCovariance(),
                     .day_sizes = fit_.DaySizes(),
                     .days = SensitivitiesOf(recordings_, boat_, model_, slots_, threads_, 1.0),
                     .log_leftovers = {}};
-    healthy.scale = ScaleOf(healthy.days);
     const double optimism = std::log(OptimismOf(healthy.days));
     for (const Sensitivity& day : healthy.days) {
       const Judge judge(healthy, day, EveryWindow(day), false);

@@ -20,7 +20,6 @@ namespace telltale {
 struct Healthy {
   AugmentedModel boat;
   Eigen::MatrixXd covariance;
-  Eigen::VectorXd scale;            ///< root mean square of each row's error, nothing allowed for
   double kappa = 1.0;               ///< independent windows per window
   Eigen::MatrixXd boat_covariance;  ///< base, then slots
   Eigen::VectorXd day_sizes;        ///< by slot; zero for what does not pass

@@ -77,14 +77,12 @@ double Judge::Sigmas(const Eigen::VectorXd& seen) const {
 
 Eigen::MatrixXd Judge::SeeColumns(const Eigen::MatrixXd& stacked) const {
   const Eigen::Index rows = factor_.rows();
-  Eigen::MatrixXd seen(rows * static_cast<Eigen::Index>(windows_.size()), stacked.cols());
+  Eigen::MatrixXd chosen(rows * static_cast<Eigen::Index>(windows_.size()), stacked.cols());
   for (Eigen::Index j = 0; j < stacked.cols(); ++j) {
     const auto all = stacked.col(j).reshaped(rows, stacked.rows() / rows);
-    Eigen::MatrixXd chosen = std::sqrt(kappa_) * all(Eigen::all, windows_);
-    factor_.matrixL().solveInPlace(chosen);
-    seen.col(j) = chosen.reshaped();
+    chosen.col(j) = all(Eigen::all, windows_).reshaped();
   }
-  return seen;
+  return std::sqrt(kappa_) * Whitened(factor_, chosen);
 }
 
 Eigen::MatrixXd Judge::Whiten(const Eigen::MatrixXd& pattern) const {
@@ -108,6 +106,17 @@ Judge::Recalibration Judge::Recalibrate(const Eigen::VectorXd& seen) const {
   const Eigen::MatrixXd covariance =
       weigher_.solve(Eigen::MatrixXd::Identity(all, all)).topLeftCorner(boat, boat);
   return {-base_root_ * loose.head(boat), base_root_ * covariance * base_root_.transpose()};
+}
+
+Eigen::MatrixXd Whitened(const Eigen::LLT<Eigen::MatrixXd>& factor,
+                         const Eigen::MatrixXd& stacked) {
+  const Eigen::Index rows = factor.rows();
+  Eigen::MatrixXd white = stacked;
+  for (Eigen::Index j = 0; j < white.cols(); ++j) {
+    auto windows = white.col(j).reshaped(rows, stacked.rows() / rows);
+    factor.matrixL().solveInPlace(windows);
+  }
+  return white;
 }
 
 std::vector<std::size_t> EveryWindow(const Sensitivity& recording) {

@@ -85,6 +85,9 @@ class Judge {
   Eigen::MatrixXd base_root_;  // rows of the coefficients in the root of the boat's covariance
 };
 
+/// L^-1 applied to every window of every column, L L' the covariance of a window.
+Eigen::MatrixXd Whitened(const Eigen::LLT<Eigen::MatrixXd>& factor, const Eigen::MatrixXd& stacked);
+
 std::vector<std::size_t> EveryWindow(const Sensitivity& recording);
 
 }  // namespace telltale
