@@ -1,5 +1,6 @@
 #include "ground/ground.hpp"
 
+#include <algorithm>
 #include <stdexcept>
 
 #include "diagnosis/shaking.hpp"
@@ -50,7 +51,10 @@ double Ground::SquaredGap(const telltale::AugmentedModel& model) const {
   telltale::EffectFit fit;
   fit.effects = model.effects;
   const Eigen::VectorXd shaken = telltale::ShakenSquares(fit, runs, healthy.boat);
-  return mean(runs.Errors(model)) - mean(shaken.cwiseMax(0.0).cwiseSqrt());
+  const double gap = mean(runs.Errors(model));
+  // What shakes explains no more than there is to explain, as in the report.
+  const double there = std::max(gap - floor.Squared(telltale::kAllChannels), 0.0);
+  return gap - std::min(mean(shaken.cwiseMax(0.0).cwiseSqrt()), there);
 }
 
 telltale::AugmentedModel Ground::With(const std::vector<telltale::ModelledEffect>& effects) const {
