@@ -174,8 +174,7 @@ class Diagnosing {
     if (gate == Gate::kUndecided) {
       diagnosis.notes.emplace_back(
           "No effect of the library explains enough of it, and weather or what the references "
-          "leave "
-          "open of the boat may account for it: record longer, or name more references.");
+          "leave open of the boat may account for it: record longer, or name more references.");
     }
     if (named) {
       diagnosis.onset = OnsetOf(best, evidence);

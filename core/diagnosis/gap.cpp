@@ -25,35 +25,15 @@ constexpr double kUsualSpread = 0.25;
 constexpr double kLeastSpread = 0.2;
 
 double SpreadWithin(const Eigen::VectorXd& gaps, const std::vector<std::size_t>& blocks) {
-  std::map<std::size_t, std::pair<double, double>> sums;
-  for (Eigen::Index w = 0; w < gaps.size(); ++w) {
-    auto& [sum, count] = sums[blocks[static_cast<std::size_t>(w)]];
-    sum += gaps[w];
-    count += 1.0;
-  }
+  const auto sums = SumsByBlock(gaps, Eigen::VectorXd::Ones(gaps.size()), blocks);
   if (sums.size() < 2) return 1.0;
   const double mean = gaps.mean();
   double square = 0.0;
-  for (const auto& [block, part] : sums) {
-    const double off = part.first - mean * part.second;
+  for (const auto& [sum, count] : sums) {
+    const double off = sum - mean * count;
     square += off * off;
   }
   return std::sqrt(square) / (mean * static_cast<double>(gaps.size()));
-}
-
-/// Of both values, block by block.
-std::vector<std::array<double, 2>> SumsByBlock(const Eigen::VectorXd& one,
-                                               const Eigen::VectorXd& other,
-                                               const std::vector<std::size_t>& blocks) {
-  std::map<std::size_t, std::array<double, 2>> sums;
-  for (Eigen::Index w = 0; w < one.size(); ++w) {
-    auto& sum = sums[blocks[static_cast<std::size_t>(w)]];
-    sum[0] += one[w];
-    sum[1] += other[w];
-  }
-  std::vector<std::array<double, 2>> all;
-  for (const auto& [block, sum] : sums) all.push_back(sum);
-  return all;
 }
 
 double MeanOf(const std::vector<std::array<double, 4>>& values, int channel) {
@@ -131,6 +111,20 @@ std::vector<std::size_t> BlocksOf(const FreeRuns& runs) {
     blocks.push_back(static_cast<std::size_t>((runs.Of(w).time_s - start_s) / kBlockS));
   }
   return blocks;
+}
+
+std::vector<std::array<double, 2>> SumsByBlock(const Eigen::VectorXd& one,
+                                               const Eigen::VectorXd& other,
+                                               const std::vector<std::size_t>& blocks) {
+  std::map<std::size_t, std::array<double, 2>> sums;
+  for (Eigen::Index w = 0; w < one.size(); ++w) {
+    auto& sum = sums[blocks[static_cast<std::size_t>(w)]];
+    sum[0] += one[w];
+    sum[1] += other[w];
+  }
+  std::vector<std::array<double, 2>> all;
+  for (const auto& [block, sum] : sums) all.push_back(sum);
+  return all;
 }
 
 double UpperBound(const Eigen::VectorXd& squared_gaps, const std::vector<std::size_t>& blocks,

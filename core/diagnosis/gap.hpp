@@ -39,6 +39,11 @@ Eigen::VectorXd SquaredGaps(const Eigen::MatrixXd& errors, const Eigen::VectorXd
 /// Stretches of half a minute, over which errors may vary together: windows are resampled by them.
 std::vector<std::size_t> BlocksOf(const FreeRuns& runs);
 
+/// Sums of both over the windows of each block.
+std::vector<std::array<double, 2>> SumsByBlock(const Eigen::VectorXd& one,
+                                               const Eigen::VectorXd& other,
+                                               const std::vector<std::size_t>& blocks);
+
 /// What G^2 stays below with 95 %, by resampling blocks.
 double UpperBound(const Eigen::VectorXd& squared_gaps, const std::vector<std::size_t>& blocks,
                   std::uint64_t seed);

@@ -43,9 +43,8 @@ Judge::Judge(const Healthy& healthy, const Sensitivity& recording, std::vector<s
   }
   Eigen::MatrixXd loose(recording.errors.size(), base + slots + std::ssize(weather));
   // A day's weather is one draw of its own and counts in full, where errors count by looks.
-  const double rows_a_look = static_cast<double>(recording.errors.rows()) / kLooksAWindow;
   loose << boat * root, recording.by_slot(Eigen::all, weather) *
-                            (healthy.day_sizes(weather) / std::sqrt(rows_a_look)).asDiagonal();
+                            (healthy.day_sizes(weather) / std::sqrt(RowsALook())).asDiagonal();
   loose_ = SeeColumns(loose);
   weigher_.compute(Eigen::MatrixXd::Identity(loose_.cols(), loose_.cols()) +
                    loose_.transpose() * loose_);
@@ -72,7 +71,7 @@ double Judge::Evidence(double square, double than) const {
 }
 
 double Judge::Sigmas(const Eigen::VectorXd& seen) const {
-  return std::sqrt(Square(seen) * Looks() / Expected());
+  return std::sqrt(Square(seen) / RowsALook());
 }
 
 Eigen::MatrixXd Judge::SeeColumns(const Eigen::MatrixXd& stacked) const {

@@ -15,7 +15,7 @@ namespace telltale {
 inline constexpr double kLooksAWindow = 0.5;
 
 /// Weighs the errors of one recording by what a healthy boat may do: scatter from window to window,
-/// coefficients off by what their covariance leaves, and every effect as large as on healthy days.
+/// coefficients and lasting effects off by what their covariance leaves, and a day's weather.
 /// Model: (y, z) = kappa y' V^-1 z with V the healthy covariance of all errors together, by the
 /// matrix inversion lemma; docs/diagnosis.md (87).
 class Judge {
@@ -44,6 +44,9 @@ class Judge {
 
   /// The square that a healthy boat is expected to leave.
   double Expected() const;
+
+  /// Rows of errors that amount to one look.
+  double RowsALook() const { return static_cast<double>(factor_.rows()) / kLooksAWindow; }
 
   /// How many independent looks at the boat the recording amounts to: errors within a window, and
   /// what a model leaves wrong everywhere alike, vary together.

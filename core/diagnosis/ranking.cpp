@@ -6,7 +6,7 @@
 namespace telltale {
 namespace {
 
-// Calibrated on development cases, docs/blind.md.
+// Chosen on development cases, docs/blind.md.
 // A recording is called unwell for a score below the negative of this,
 constexpr double kMaterialEvidence = 8.0;
 // or for what a Judge has against it, as ln of a share of what it has against healthy ones.

@@ -129,15 +129,16 @@ class Searching {
  private:
   EffectFit Fit(const std::vector<const Effect*>& effects,
                 const std::vector<Eigen::VectorXd>& starts) const {
-    EffectFit fit =
-        FitEffects(evidence_.runs, evidence_.healthy.boat, evidence_.judge, effects, starts);
-    for (const Effect* effect : effects) fit.score += healthy_gain_.at(effect);
-    return fit;
+    return BeyondHealth(
+        FitEffects(evidence_.runs, evidence_.healthy.boat, evidence_.judge, effects, starts));
   }
 
   EffectFit Again(const EffectFit& old) const {
-    EffectFit fit =
-        FitAgain(old, evidence_.runs, evidence_.healthy.boat, evidence_.judge, threads_);
+    return BeyondHealth(
+        FitAgain(old, evidence_.runs, evidence_.healthy.boat, evidence_.judge, threads_));
+  }
+
+  EffectFit BeyondHealth(EffectFit fit) const {
     for (const Effect* effect : fit.Effects()) fit.score += healthy_gain_.at(effect);
     return fit;
   }

@@ -3,9 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <map>
 #include <numbers>
-#include <utility>
 #include <vector>
 
 #include <Eigen/Cholesky>
@@ -59,9 +57,9 @@ Eigen::MatrixXd PatternOf(const FreeRuns& runs, const AugmentedModel& boat,
   Eigen::MatrixXd pattern = Eigen::MatrixXd::Zero(nominal.rows(), nominal.rows());
   for (const double phase : {0.0, -std::numbers::pi / 2.0}) {
     const Swing swing(axis, frequency, phase);
-    AugmentedModel shaken = boat;
-    shaken.effects.push_back({&swing, {}});
-    const Eigen::MatrixXd response = (runs.Errors(shaken) - nominal) / Swing::kPush;
+    const ModelledEffect shaking{&swing, {}};
+    const Eigen::MatrixXd response =
+        (runs.Errors(boat.With({&shaking, 1})) - nominal) / Swing::kPush;
     pattern += 0.5 * response * response.transpose() / static_cast<double>(nominal.cols());
   }
   return pattern;
@@ -113,14 +111,11 @@ Spectrum Fitted(const Eigen::MatrixXd& windows, const std::array<Eigen::MatrixXd
 /// The sum over windows if all were like those of a half minute that three of four surpass: what
 /// some windows show and others do not goes on only now and then.
 double LastingSum(const Eigen::VectorXd& values, const std::vector<std::size_t>& blocks) {
-  std::map<std::size_t, std::pair<double, double>> sums;
-  for (Eigen::Index w = 0; w < values.size(); ++w) {
-    auto& [sum, count] = sums[blocks[static_cast<std::size_t>(w)]];
-    sum += values[w];
-    count += 1.0;
-  }
   std::vector<double> means;
-  for (const auto& [block, part] : sums) means.push_back(part.first / part.second);
+  for (const auto& [sum, count] :
+       SumsByBlock(values, Eigen::VectorXd::Ones(values.size()), blocks)) {
+    means.push_back(sum / count);
+  }
   const auto quarter = means.begin() + std::ssize(means) / 4;
   std::nth_element(means.begin(), quarter, means.end());
   return *quarter * static_cast<double>(values.size());

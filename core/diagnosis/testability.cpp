@@ -34,7 +34,6 @@ std::string Absorber(const Evidence& evidence, const UncertainModel& model,
 std::vector<EffectTestability> TestabilityOf(const Evidence& evidence, const UncertainModel& model,
                                              std::span<const Effect* const> library) {
   std::vector<EffectTestability> all;
-  const double looks_a_row = evidence.judge.Looks() / evidence.judge.Expected();
   for (const Effect* effect : library) {
     EffectTestability& one = all.emplace_back();
     one.effect = effect->Name();
@@ -46,7 +45,7 @@ std::vector<EffectTestability> TestabilityOf(const Evidence& evidence, const Unc
           evidence.judge.SeeColumns(evidence.recording.by_slot.col(static_cast<Eigen::Index>(j)))
               .col(0);
       const double sigmas = evidence.judge.Sigmas(seen);
-      alone += seen.squaredNorm() * looks_a_row;
+      alone += seen.squaredNorm() / evidence.judge.RowsALook();
       one.detectability += sigmas * sigmas;
       counted += 1.0;
       if (one.absorbed_by.empty()) one.absorbed_by = Absorber(evidence, model, seen);
