@@ -1,3 +1,5 @@
+#include <cmath>
+
 #include "effects/effect.hpp"
 #include "effects/library.hpp"
 #include "effects/wording.hpp"
@@ -5,15 +7,20 @@
 namespace telltale {
 namespace {
 
+constexpr double kStill = 1e-6;  // m/s: no drag, and no slope of it
+
 class HullFoulingEffect final : public Effect {
  public:
   HullFoulingEffect()
       : Effect({.name = "hull_fouling",
                 .title = "a fouled hull",
-                .equation = "X_|u|u and X_u -> (1 + k) times as large",
+                .equation =
+                    "X_|u|u and X_u -> (1 + k) times as large, and as the outer hull of a turn is "
+                    "the faster one, r_dot += k q d(X_|u|u |u| u + X_u u)/du r",
                 .source = "Schultz, Effects of coating roughness and biofouling on ship "
                           "resistance, Biofouling 23, 2007",
-                .parameters = {{"drag_gain", "1", 0.25, -0.9, 4.0}},
+                .parameters = {{"drag_gain", "1", 0.25, -0.9, 4.0},
+                               {"turning_ratio", "1", 0.5, 0.0, 2.0, true, 0.5}},
                 .settled_by = "a look below the waterline",
                 .hook = Hook::kPush,
                 .habit = Habit::kInCoefficients}) {}
@@ -23,7 +30,11 @@ class HullFoulingEffect final : public Effect {
   }
 
   NuDot Push(EffectValues values, const Moment& moment) const override {
-    return {values[0] * (moment.hull[0][0] + moment.hull[0][3]), 0.0, 0.0};
+    const double quadratic = moment.hull[0][0];
+    const double linear = moment.hull[0][3];
+    const double u = moment.nu_r.u;
+    const double slope = std::abs(u) < kStill ? 0.0 : (2.0 * quadratic + linear) / u;
+    return {values[0] * (quadratic + linear), 0.0, values[0] * values[1] * slope * moment.nu_r.r};
   }
 };
 

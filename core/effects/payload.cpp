@@ -1,4 +1,6 @@
 #include <algorithm>
+#include <array>
+#include <numeric>
 
 #include "effects/effect.hpp"
 #include "effects/library.hpp"
@@ -7,23 +9,28 @@
 namespace telltale {
 namespace {
 
-// Radius of gyration of a small catamaran, 0.3 of its length.
+// Of a small catamaran: radius of gyration, 0.3 of its length, and what the water carried along
+// makes of its mass in sway and its inertia in yaw; next to nothing in surge.
 constexpr double kGyrationM = 0.4;
+constexpr double kSwayMass = 1.5;
+constexpr double kYawInertia = 1.3;
 
 class PayloadEffect final : public Effect {
  public:
   PayloadEffect()
-      : Effect({.name = "payload",
-                .title = "more mass aboard",
-                .equation = "M = [m(1+p), m p x; m p x, m(k^2 + p x^2)] in sway and yaw, (1 + p) "
-                            "in surge, under the same forces, k = 0.4 m; Coriolis terms as they "
-                            "are",
-                .source = "Fossen 2011, chapter 3: rigid-body mass and inertia",
-                .parameters = {{"mass_gain", "1", 0.2, -0.6, 2.0},
-                               {"forward_m", "m", 0.2, -0.6, 0.6, true, 0.0}},
-                .settled_by = "a scale",
-                .hook = Hook::kPush,
-                .habit = Habit::kInCoefficients}) {}
+      : Effect(
+            {.name = "payload",
+             .title = "more mass aboard",
+             .equation = "a load p m at x forward: (1 + p) u_dot, (1 + p_v) v_dot + p_v x r_dot "
+                         "and (1 + p_r x) r_dot + p_r v_dot are the boat's own + p (v r + x r^2), "
+                         "- p_v u r, - p_r u r; p_v = p / 1.5, p_r = p x / (1.3 k^2), k = 0.4 m",
+             .source = "Fossen 2011, chapter 3: rigid-body mass, inertia and Coriolis terms of a "
+                       "point mass; chapter 6 for added mass",
+             .parameters = {{"mass_gain", "1", 0.2, -0.6, 2.0},
+                            {"forward_m", "m", 0.2, -0.6, 0.6, true, 0.0}},
+             .settled_by = "a scale",
+             .hook = Hook::kPush,
+             .habit = Habit::kInCoefficients}) {}
 
   std::string Describe(EffectValues values) const override {
     return Percent(values[0]) + (values[0] < 0.0 ? " less mass" : " more mass");
@@ -32,24 +39,24 @@ class PayloadEffect final : public Effect {
   NuDot Push(EffectValues values, const Moment& moment) const override {
     const double p = values[0];
     const double x = values[1];
+    const Nu& nu = moment.nu;
     const NuDot thrust = moment.Thrust();
     const auto& [surge, sway, yaw] = moment.hull;
-    const double surge_force = thrust.u + surge[0] + surge[3] + surge[4];
-    const double sway_force = thrust.v + Drag(sway);
-    const double yaw_moment = thrust.r + Drag(yaw);
-    // Per unit of the boat's own mass and inertia.
-    const double lever = p * x / (kGyrationM * kGyrationM);
-    const double inertia = 1.0 + lever * x;
-    const double determinant = std::max(1.0 + p + lever * x, 0.1);
-    return {surge_force / (1.0 + p) - surge_force,
-            (inertia * sway_force - p * x * yaw_moment) / determinant - sway_force,
-            ((1.0 + p) * yaw_moment - lever * sway_force) / determinant - yaw_moment};
+    const NuDot light = {thrust.u + Sum(surge), thrust.v + Sum(sway), thrust.r + Sum(yaw)};
+    // The load's share of the boat's mass and inertia, added mass included.
+    const double p_v = p / kSwayMass;
+    const double p_r = p * x / (kYawInertia * kGyrationM * kGyrationM);
+    const double side = light.v - p_v * nu.u * nu.r;
+    const double turn = light.r - p_r * nu.u * nu.r;
+    const double determinant = std::max((1.0 + p_v) * (1.0 + p_r * x) - p_v * x * p_r, 0.1);
+    return {(light.u + p * (nu.v * nu.r + x * nu.r * nu.r)) / (1.0 + p) - light.u,
+            ((1.0 + p_r * x) * side - p_v * x * turn) / determinant - light.v,
+            ((1.0 + p_v) * turn - p_r * side) / determinant - light.r};
   }
 
  private:
-  // All but the terms in uv and ur, which mass scales as it scales the left side.
-  static double Drag(const std::array<double, 9>& hull) {
-    return hull[0] + hull[1] + hull[2] + hull[3] + hull[6] + hull[7] + hull[8];
+  static double Sum(const std::array<double, 9>& hull) {
+    return std::accumulate(hull.begin(), hull.end(), 0.0);
   }
 };
 

@@ -149,7 +149,7 @@ TEST(Diagnose, MakesAModelThatSailsTheRecordingBetter) {
 
 TEST(Diagnose, DoesNotDependOnThreads) {
   const PreparedDataset recording =
-      testing::SailWithEffects({{FindEffect("hull_fouling"), {0.6}}}, 120.0, 7000);
+      testing::SailWithEffects({{FindEffect("hull_fouling"), {0.6, 0.5}}}, 120.0, 7000);
   DiagnoseOptions one;
   one.advise = false;
   DiagnoseOptions two = one;
