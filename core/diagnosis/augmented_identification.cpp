@@ -10,7 +10,8 @@ namespace telltale {
 namespace {
 
 Judge::Recalibration RecalibrationOf(const EffectFit& fit, const Evidence& evidence) {
-  return evidence.judge.Recalibrate(evidence.judge.See(fit.errors));
+  const Judge judge = fit.JudgedBy(evidence.judge);
+  return judge.Recalibrate(judge.See(fit.errors));
 }
 
 }  // namespace

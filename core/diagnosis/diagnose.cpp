@@ -198,14 +198,15 @@ class Diagnosing {
   static Remainder RemainderOf(const EffectFit& best, const HeldOutErrors& held,
                                const Evidence& evidence) {
     const Judge& judge = evidence.judge;
+    const Judge allowing = best.JudgedBy(judge);
     const auto& logs = evidence.healthy.log_leftovers;
     const double mean =
         std::accumulate(logs.begin(), logs.end(), 0.0) / static_cast<double>(logs.size());
     const bool shakes = best.effects.back().effect->Shakes();
-    return {
-        .before = judge.Leftover(judge.See(evidence.recording.errors)),
-        .after = shakes ? best.square / judge.Expected() : judge.Leftover(judge.See(held.errors)),
-        .healthy = std::exp(mean)};
+    return {.before = judge.Leftover(judge.See(evidence.recording.errors)),
+            .after = shakes ? best.square / judge.Expected()
+                            : allowing.Leftover(allowing.See(held.errors)),
+            .healthy = std::exp(mean)};
   }
 
   static const EffectFit& BestOf(const Explanations& explanations) {

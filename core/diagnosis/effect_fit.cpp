@@ -154,6 +154,67 @@ class Fitting {
   const Unknowns& unknowns_;
 };
 
+/// As FitEffects, but nothing gusts.
+EffectFit FitSteady(const FreeRuns& runs, const AugmentedModel& boat, const Judge& judge,
+                    const std::vector<const Effect*>& effects,
+                    const std::vector<Eigen::VectorXd>& starts) {
+  const Unknowns unknowns(effects);
+  const Fitting fitting(runs, boat, judge, unknowns);
+  std::optional<Point> best;
+  for (const Eigen::VectorXd& start : starts) {
+    const Point found = fitting.Descend(fitting.At(unknowns.Scaled(start)));
+    if (!best || found.cost < best->cost) best = found;
+  }
+  const Eigen::MatrixXd jacobian = fitting.Jacobian(*best);
+  const Eigen::VectorXd prior = unknowns.PriorInformation();
+  // Curvature of looks ln(square).
+  Eigen::MatrixXd information =
+      judge.Looks() / best->square * jacobian.transpose() * judge.Weigh(jacobian);
+  information.diagonal() += prior;
+  const Eigen::LLT<Eigen::MatrixXd> factor(information);
+  const double log_determinant =
+      2.0 * factor.matrixLLT().diagonal().array().log().sum() - prior.array().log().sum();
+
+  EffectFit fit;
+  fit.effects = unknowns.Effects(best->scaled);
+  fit.covariance = unknowns.Sizes().asDiagonal() *
+                   factor.solve(Eigen::MatrixXd::Identity(unknowns.Size(), unknowns.Size())) *
+                   unknowns.Sizes().asDiagonal();
+  fit.square = best->square;
+  fit.score = judge.Evidence(best->square, judge.Square(judge.See(runs.Errors(boat)))) +
+              best->cost - best->square + log_determinant;
+  fit.errors = best->errors;
+  return fit;
+}
+
+/// What gusts about the effects' means do to errors: one column a parameter that gusts, for one
+/// standard deviation of it.
+Eigen::MatrixXd GustsOf(const EffectFit& fit, const FreeRuns& runs, const AugmentedModel& boat) {
+  std::vector<Eigen::VectorXd> columns;
+  for (std::size_t i = 0; i < fit.effects.size(); ++i) {
+    const auto& [effect, values] = fit.effects[i];
+    const double gustiness = effect->Facts().gustiness;
+    if (gustiness == 0.0) continue;
+    const auto parameters = effect->Parameters();
+    double squared_length = 0.0;
+    for (std::size_t j = 0; j < values.size(); ++j) {
+      if (!parameters[j].shapes) squared_length += values[j] * values[j];
+    }
+    const double deviation = gustiness * std::sqrt(squared_length);
+    if (deviation == 0.0) continue;
+    for (std::size_t j = 0; j < values.size(); ++j) {
+      if (parameters[j].shapes) continue;
+      auto gusting = fit.effects;
+      gusting[i].values[j] += deviation;
+      columns.emplace_back((runs.Errors(boat.With(gusting)) - fit.errors).reshaped());
+    }
+  }
+  Eigen::MatrixXd gusts(fit.errors.size(), std::ssize(columns));
+  for (Eigen::Index j = 0; j < gusts.cols(); ++j)
+    gusts.col(j) = columns[static_cast<std::size_t>(j)];
+  return gusts;
+}
+
 /// What a step along an effect's slots, from none of it, promises.
 struct LinearGuess {
   std::vector<Eigen::Index> own;  ///< its slots
@@ -206,36 +267,23 @@ Eigen::VectorXd EffectFit::Values() const {
   return Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
 }
 
+Judge EffectFit::JudgedBy(const Judge& judge) const {
+  return gusts.size() == 0 ? judge : judge.Allowing(gusts);
+}
+
 EffectFit FitEffects(const FreeRuns& runs, const AugmentedModel& boat, const Judge& judge,
                      const std::vector<const Effect*>& effects,
                      const std::vector<Eigen::VectorXd>& starts) {
-  const Unknowns unknowns(effects);
-  const Fitting fitting(runs, boat, judge, unknowns);
-  std::optional<Point> best;
-  for (const Eigen::VectorXd& start : starts) {
-    const Point found = fitting.Descend(fitting.At(unknowns.Scaled(start)));
-    if (!best || found.cost < best->cost) best = found;
-  }
-  const Eigen::MatrixXd jacobian = fitting.Jacobian(*best);
-  const Eigen::VectorXd prior = unknowns.PriorInformation();
-  // Curvature of looks ln(square).
-  Eigen::MatrixXd information =
-      judge.Looks() / best->square * jacobian.transpose() * judge.Weigh(jacobian);
-  information.diagonal() += prior;
-  const Eigen::LLT<Eigen::MatrixXd> factor(information);
-  const double log_determinant =
-      2.0 * factor.matrixLLT().diagonal().array().log().sum() - prior.array().log().sum();
-
-  EffectFit fit;
-  fit.effects = unknowns.Effects(best->scaled);
-  fit.covariance = unknowns.Sizes().asDiagonal() *
-                   factor.solve(Eigen::MatrixXd::Identity(unknowns.Size(), unknowns.Size())) *
-                   unknowns.Sizes().asDiagonal();
-  fit.square = best->square;
-  fit.score = judge.Evidence(best->square, judge.Square(judge.See(runs.Errors(boat)))) +
-              best->cost - best->square + log_determinant;
-  fit.errors = best->errors;
-  return fit;
+  const EffectFit steady = FitSteady(runs, boat, judge, effects, starts);
+  const Eigen::MatrixXd gusts = GustsOf(steady, runs, boat);
+  if (gusts.size() == 0) return steady;
+  const Judge allowing = judge.Allowing(gusts);
+  EffectFit gusty = FitSteady(runs, boat, allowing, effects, {steady.Values()});
+  gusty.gusts = gusts;
+  const double none = judge.Square(judge.See(runs.Errors(boat)));
+  const double none_gusty = allowing.Square(allowing.See(runs.Errors(boat)));
+  gusty.score += allowing.Evidence(none_gusty, none) + allowing.Allowance();
+  return gusty.score < steady.score ? gusty : steady;
 }
 
 std::vector<Eigen::VectorXd> StartsOf(const Effect& effect, const Judge& judge,

@@ -21,10 +21,15 @@ struct EffectFit {
   double score = 0.0;
   double square = 0.0;     ///< weighed square of what is left
   Eigen::MatrixXd errors;  ///< rows x windows, with the effects
+  /// What gusts do to the errors, one column a standard deviation; none where nothing gusts.
+  Eigen::MatrixXd gusts;
 
   std::vector<const Effect*> Effects() const;
   std::vector<std::string> Names() const;
   Eigen::VectorXd Values() const;  ///< stacked
+
+  /// `judge`, allowing for the gusts that come with these effects.
+  Judge JudgedBy(const Judge& judge) const;
 };
 
 /// Most probable values of effects acting together, docs/diagnosis.md (88), (89): each value has a

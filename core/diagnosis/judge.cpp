@@ -5,6 +5,8 @@
 #include <numeric>
 #include <utility>
 
+#include <Eigen/Eigenvalues>
+
 namespace telltale {
 namespace {
 
@@ -13,6 +15,7 @@ constexpr double kFree = 100.0;
 // A window that errs by more root mean square sigmas than this counts as erring by so many: a model
 // that has run away says that it is wrong, not how much.
 constexpr double kMostSigmas = 50.0;
+constexpr double kNothing = 1e-12;
 
 Eigen::MatrixXd RootOf(const Eigen::MatrixXd& covariance) {
   const Eigen::LDLT<Eigen::MatrixXd> factor(covariance);
@@ -46,8 +49,42 @@ Judge::Judge(const Healthy& healthy, const Sensitivity& recording, std::vector<s
   loose << boat * root, recording.by_slot(Eigen::all, weather) *
                             (healthy.day_sizes(weather) / std::sqrt(RowsALook())).asDiagonal();
   loose_ = SeeColumns(loose);
+  WeighLoose();
+}
+
+void Judge::WeighLoose() {
   weigher_.compute(Eigen::MatrixXd::Identity(loose_.cols(), loose_.cols()) +
                    loose_.transpose() * loose_);
+}
+
+Judge Judge::Allowing(const Eigen::MatrixXd& varying) const {
+  const Eigen::Index rows = factor_.rows();
+  const Eigen::Index many = varying.cols();
+  const Eigen::MatrixXd white = SeeColumns(varying) / std::sqrt(kappa_);
+  Judge judge = *this;
+  judge.allowed_.resize(rows, many * std::ssize(windows_));
+  for (Eigen::Index w = 0; w < std::ssize(windows_); ++w) {
+    const auto window = white.middleRows(w * rows, rows);
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> axes(window.transpose() * window);
+    const Eigen::ArrayXd squares = axes.eigenvalues().array().max(kNothing);
+    const Eigen::VectorXd damped = ((1.0 - (1.0 + squares).rsqrt()) / squares).sqrt();
+    judge.allowed_.middleCols(w * many, many) = window * axes.eigenvectors() * damped.asDiagonal();
+    judge.allowance_ += kappa_ * squares.log1p().sum() / RowsALook();
+  }
+  judge.DampAllowed(judge.loose_);
+  judge.WeighLoose();
+  return judge;
+}
+
+void Judge::DampAllowed(Eigen::MatrixXd& seen) const {
+  if (allowed_.size() == 0) return;
+  const Eigen::Index rows = factor_.rows();
+  const Eigen::Index many = allowed_.cols() / std::ssize(windows_);
+  for (Eigen::Index w = 0; w < std::ssize(windows_); ++w) {
+    const auto allowed = allowed_.middleCols(w * many, many);
+    auto window = seen.middleRows(w * rows, rows);
+    window -= allowed * (allowed.transpose() * window).eval();
+  }
 }
 
 Eigen::VectorXd Judge::See(const Eigen::MatrixXd& errors) const {
@@ -81,7 +118,9 @@ Eigen::MatrixXd Judge::SeeColumns(const Eigen::MatrixXd& stacked) const {
     const auto all = stacked.col(j).reshaped(rows, stacked.rows() / rows);
     chosen.col(j) = all(Eigen::all, windows_).reshaped();
   }
-  return std::sqrt(kappa_) * Whitened(factor_, chosen);
+  Eigen::MatrixXd seen = std::sqrt(kappa_) * Whitened(factor_, chosen);
+  DampAllowed(seen);
+  return seen;
 }
 
 Eigen::MatrixXd Judge::Whiten(const Eigen::MatrixXd& pattern) const {

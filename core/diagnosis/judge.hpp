@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <vector>
 
@@ -23,6 +24,10 @@ class Judge {
   /// Only the given windows count. `free_base`: coefficients may follow the recording as they like.
   Judge(const Healthy& healthy, const Sensitivity& recording, std::vector<std::size_t> windows,
         bool free_base);
+
+  /// The same, where besides each window's errors may vary, on their own, by what the columns do to
+  /// them. Shapes: errors stacked window by window, one column a unit of what varies.
+  Judge Allowing(const Eigen::MatrixXd& varying) const;
 
   const std::vector<std::size_t>& Windows() const { return windows_; }
   bool FreesBase() const { return frees_base_; }
@@ -56,6 +61,9 @@ class Judge {
   /// of errors is not known: looks ln(square / than); docs/diagnosis.md (89).
   double Evidence(double square, double than) const;
 
+  /// What allowing for more costs: ln of how much wider it makes all windows, counted by looks.
+  double Allowance() const { return allowance_; }
+
   /// By how many sigmas something shows, counted by looks.
   double Sigmas(const Eigen::VectorXd& seen) const;
 
@@ -79,6 +87,9 @@ class Judge {
   Eigen::MatrixXd Whiten(const Eigen::MatrixXd& pattern) const;
 
  private:
+  void WeighLoose();
+  void DampAllowed(Eigen::MatrixXd& seen) const;
+
   std::vector<std::size_t> windows_;
   bool frees_base_;
   Eigen::LLT<Eigen::MatrixXd> factor_;
@@ -86,7 +97,15 @@ class Judge {
   Eigen::MatrixXd loose_;  // as seen, one column a unit of what may vary
   Eigen::LLT<Eigen::MatrixXd> weigher_;
   Eigen::MatrixXd base_root_;  // rows of the coefficients in the root of the boat's covariance
+  // Of each window what is allowed to vary, D of (I + b b')^(-1/2) = I - D D'; side by side.
+  Eigen::MatrixXd allowed_;
+  double allowance_ = 0.0;
 };
+
+/// Nats that so many looks yield against what adds this share to the square that the truth leaves.
+inline double NatsOf(double looks, double share) {
+  return 0.5 * looks * std::log1p(share);
+}
 
 /// L^-1 applied to every window of every column, L L' the covariance of a window.
 Eigen::MatrixXd Whitened(const Eigen::LLT<Eigen::MatrixXd>& factor, const Eigen::MatrixXd& stacked);

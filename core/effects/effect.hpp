@@ -72,6 +72,9 @@ struct EffectFacts {
   std::string_view settled_by;  ///< a sensor that would tell: "an anemometer"
   Hook hook = Hook::kNone;
   Habit habit = Habit::kOwn;
+  /// Scatter of those parameters that do not shape, from one free run to the next, as a share of
+  /// their length: what blows in gusts.
+  double gustiness = 0.0;
 };
 
 /// Something that moves a boat, or what its sensors say, and that the model leaves out. An effect

@@ -12,6 +12,8 @@ namespace {
 constexpr double kSurge = 0.0028;
 constexpr double kSway = 0.0040;
 constexpr double kYaw = 0.0045;
+// Scatter of the speed over its mean, low over sheltered water.
+constexpr double kTurbulence = 0.2;
 
 class WindEffect final : public Effect {
  public:
@@ -28,7 +30,8 @@ class WindEffect final : public Effect {
                                {"yaw_ratio", "1", 1.0, -3.0, 3.0, true, 0.0}},
                 .settled_by = "an anemometer",
                 .hook = Hook::kPush,
-                .habit = Habit::kPasses}) {}
+                .habit = Habit::kPasses,
+                .gustiness = kTurbulence}) {}
 
   std::string Describe(EffectValues values) const override {
     return Number(std::hypot(values[0], values[1]), 1) + " m/s of wind " +

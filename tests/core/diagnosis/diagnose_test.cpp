@@ -122,6 +122,44 @@ TEST(Diagnose, NamesWavesByTheirFrequency) {
   EXPECT_NEAR(cause.effects[0].parameters[3].estimate, Swell::kFrequency, 0.5);
 }
 
+/// Wind towards the east whose speed scatters by a fifth within half a minute.
+class Gusts final : public Effect {
+ public:
+  static constexpr double kSpeed = 8.0;
+
+  Gusts()
+      : Effect({.name = "gusts",
+                .title = "",
+                .equation = "",
+                .source = "",
+                .parameters = {},
+                .settled_by = "",
+                .hook = Hook::kPush}) {}
+  std::string Describe(EffectValues) const override { return ""; }
+  NuDot Push(EffectValues, const Moment& moment) const override {
+    const double t = moment.time_s;
+    const double speed = kSpeed * (1.0 + 0.2 * std::sin(0.21 * t) + 0.2 * std::sin(0.53 * t + 1.0));
+    const double ahead = std::sin(moment.psi_rad);
+    const double aside = std::cos(moment.psi_rad);
+    return {0.0028 * speed * speed * ahead, 0.004 * speed * speed * aside, 0.0};
+  }
+};
+
+// The mean explains part of the gap alone; what gusts leave is no reason for doubt.
+TEST(Diagnose, NamesWindInGusts) {
+  const Gusts gusts;
+  const auto diagnosed = DiagnosedWith({{&gusts, {}}});
+  ASSERT_TRUE(diagnosed.has_value());
+  ASSERT_FALSE(diagnosed->diagnosis.causes.empty());
+  const Cause& cause = FirstCause(diagnosed);
+  ASSERT_EQ(cause.effects.size(), 1U);
+  EXPECT_EQ(cause.effects[0].effect, "wind");
+  EXPECT_GT(cause.probability, 0.9);
+  const auto& parameters = cause.effects[0].parameters;
+  EXPECT_NEAR(parameters[0].estimate, 0.0, 4.0 * parameters[0].standard_error);
+  EXPECT_NEAR(parameters[1].estimate, Gusts::kSpeed, 4.0 * parameters[1].standard_error);
+}
+
 TEST(Diagnose, NamesNoWrongEffectWithoutTheRightOne) {
   DiagnoseOptions options = TwoThreads();
   options.without = {"antenna_lever_arm"};

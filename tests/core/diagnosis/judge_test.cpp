@@ -1,5 +1,7 @@
 #include "diagnosis/judge.hpp"
 
+#include <cmath>
+
 #include <gtest/gtest.h>
 
 #include "support/augmented_boats.hpp"
@@ -51,6 +53,25 @@ TEST(Judge, NeverCountsMoreThanScatterAloneWould) {
   const Eigen::VectorXd seen = judge.See(boat.recording.errors);
   EXPECT_GE(judge.Square(seen), 0.0);
   EXPECT_LE(judge.Square(seen), seen.squaredNorm());
+}
+
+// Sherman and Morrison: y' (V + b b' / kappa)^-1 y = y' V^-1 y - (y' V^-1 b)^2 / (kappa + b' V^-1
+// b), and the determinant grows by 1 + b' V^-1 b with scatter alone.
+TEST(Judge, AllowsForWhatVariesInAWindow) {
+  const JudgedBoat& boat = Judged();
+  const Judge judge(boat.healthy, boat.recording, {3}, false);
+  const Eigen::VectorXd varying = 4.0 * boat.recording.by_slot.col(0);
+  const Judge allowing = judge.Allowing(varying);
+  const Eigen::VectorXd y = judge.See(boat.recording.errors);
+  const Eigen::VectorXd b = judge.SeeColumns(varying).col(0);
+  const double by = b.dot(judge.Unexplained(y));
+  const double bb = b.dot(judge.Unexplained(b));
+  EXPECT_GT(bb, 1.0);  // or there would be nothing to allow for
+  EXPECT_NEAR(allowing.Square(allowing.See(boat.recording.errors)),
+              judge.Square(y) - by * by / (judge.Kappa() + bb), 1e-9 * judge.Square(y));
+  EXPECT_NEAR(allowing.Allowance(),
+              judge.Kappa() * std::log1p(b.squaredNorm() / judge.Kappa()) / judge.RowsALook(),
+              1e-12);
 }
 
 // A ratio of likelihoods: nothing to tell between equals, and what is gained step by step adds up.
