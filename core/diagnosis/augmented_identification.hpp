@@ -1,7 +1,7 @@
 #pragma once
 
 #include "diagnosis/effect_fit.hpp"
-#include "diagnosis/search.hpp"
+#include "diagnosis/evidence.hpp"
 #include "diagnosis/uncertain_model.hpp"
 #include "effects/augmented_model.hpp"
 #include "identification/identification.hpp"

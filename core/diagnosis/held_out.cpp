@@ -29,7 +29,7 @@ FoldFits FitOnFolds(const EffectFit& fit, const Evidence& evidence) {
   for (std::size_t fold = 0; fold < kFolds; ++fold) {
     const Judge judge(evidence.healthy, evidence.recording, WindowsOf(folds, fold),
                       evidence.judge.FreesBase());
-    fits[fold] = FitAgain(fit, evidence.runs, evidence.healthy.boat, judge, 1);
+    fits[fold] = FitAgain(fit, evidence, judge, 1);
   }
   return fits;
 }

@@ -3,7 +3,8 @@
 #include <optional>
 
 #include "diagnosis/diagnosis.hpp"
-#include "diagnosis/search.hpp"
+#include "diagnosis/effect_fit.hpp"
+#include "diagnosis/evidence.hpp"
 
 namespace telltale {
 

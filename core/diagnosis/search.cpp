@@ -134,8 +134,7 @@ class Searching {
   }
 
   EffectFit Again(const EffectFit& old) const {
-    return BeyondHealth(
-        FitAgain(old, evidence_.runs, evidence_.healthy.boat, evidence_.judge, threads_));
+    return BeyondHealth(FitAgain(old, evidence_, evidence_.judge, threads_));
   }
 
   EffectFit BeyondHealth(EffectFit fit) const {
@@ -144,8 +143,7 @@ class Searching {
   }
 
   EffectFit Shaken(const Effect& effect, const Eigen::MatrixXd& errors) const {
-    return FitShaking(effect, evidence_.runs, evidence_.healthy.boat, evidence_.judge, errors,
-                      threads_);
+    return FitShaking(effect, evidence_, evidence_.judge, errors, threads_);
   }
 
   void CompareWithHealth() {
@@ -187,8 +185,7 @@ class Searching {
 double Distance(const EffectFit& one, const EffectFit& other, const Judge& judge) {
   if (ShakersIn(one) != ShakersIn(other)) return std::numeric_limits<double>::infinity();
   const double apart = judge.Square(judge.See(one.errors) - judge.See(other.errors));
-  const double left = std::min(one.square, other.square);
-  return 0.5 * judge.Evidence(left + apart, left);
+  return NatsOf(judge.Looks(), apart / std::min(one.square, other.square));
 }
 
 Explanations Search(const Evidence& evidence, std::span<const Effect* const> library,

@@ -6,19 +6,9 @@
 #include <vector>
 
 #include "diagnosis/effect_fit.hpp"
-#include "diagnosis/healthy.hpp"
-#include "diagnosis/judge.hpp"
+#include "diagnosis/evidence.hpp"
 
 namespace telltale {
-
-/// A recording as the search sees it.
-struct Evidence {
-  const FreeRuns& runs;
-  const Healthy& healthy;
-  const Sensitivity& recording;
-  const Judge& judge;
-  const std::vector<Slot>& slots;
-};
 
 /// What explains a recording's errors, single effects by score, then the best that act together.
 struct Explanations {

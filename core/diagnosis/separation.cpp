@@ -74,8 +74,7 @@ std::vector<SeparationAdvice> AdviseSeparation(const RankedFit& tied, const Heal
       const double expected = static_cast<double>(apart.size());
       const double square = factor.matrixL().solve(apart).squaredNorm();
       const double looks = kLooksAWindow * healthy.kappa * static_cast<double>(apart.cols());
-      const double distance = 0.5 * looks * std::log1p(square / expected);
-      nats = std::min(nats, distance);
+      nats = std::min(nats, NatsOf(looks, square / expected));
     }
     if (nats < kWorthSayingNats) continue;
     all.push_back({std::string(manoeuvre.name), std::string(manoeuvre.how), separated,

@@ -1,69 +1,21 @@
 #include "diagnosis/shaking.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <numbers>
 #include <vector>
 
 #include <Eigen/Cholesky>
 
-#include "contract.hpp"
 #include "diagnosis/gap.hpp"
 #include "parallel.hpp"
 
 namespace telltale {
 namespace {
 
-constexpr std::size_t kFrequencies = 12;
 constexpr int kIterations = 40;
 // What the best frequency gains over the ends of the range counts so many times: scatter that grew
 // in any other way gains as much at an end, and peaks nowhere between.
 constexpr double kNarrow = 20.0;
-
-/// Pushes along one axis at one frequency and phase, an acceleration of one.
-class Swing final : public Effect {
- public:
-  Swing(std::size_t axis, double frequency_rad_s, double phase_rad)
-      : Effect({.name = "swing",
-                .title = "",
-                .equation = "",
-                .source = "",
-                .parameters = {},
-                .settled_by = "",
-                .hook = Hook::kPush}),
-        axis_(axis),
-        frequency_rad_s_(frequency_rad_s),
-        phase_rad_(phase_rad) {}
-
-  std::string Describe(EffectValues) const override { return ""; }
-
-  NuDot Push(EffectValues, const Moment& moment) const override {
-    const double push = kPush * std::cos(frequency_rad_s_ * moment.time_s + phase_rad_);
-    return {axis_ == 0 ? push : 0.0, axis_ == 1 ? push : 0.0, axis_ == 2 ? push : 0.0};
-  }
-
-  static constexpr double kPush = 0.05;  // small enough to stay linear
-
- private:
-  std::size_t axis_;
-  double frequency_rad_s_;
-  double phase_rad_;
-};
-
-/// Mean over windows of the outer product of errors that a unit amplitude of random phase leaves.
-Eigen::MatrixXd PatternOf(const FreeRuns& runs, const AugmentedModel& boat,
-                          const Eigen::MatrixXd& nominal, std::size_t axis, double frequency) {
-  Eigen::MatrixXd pattern = Eigen::MatrixXd::Zero(nominal.rows(), nominal.rows());
-  for (const double phase : {0.0, -std::numbers::pi / 2.0}) {
-    const Swing swing(axis, frequency, phase);
-    const ModelledEffect shaking{&swing, {}};
-    const Eigen::MatrixXd response =
-        (runs.Errors(boat.With({&shaking, 1})) - nominal) / Swing::kPush;
-    pattern += 0.5 * response * response.transpose() / static_cast<double>(nominal.cols());
-  }
-  return pattern;
-}
 
 /// Windows whose errors scatter by I + excess.
 struct Spectrum {
@@ -72,14 +24,13 @@ struct Spectrum {
   double left = 0.0;      ///< squares of all windows in what they scatter by
 };
 
-Eigen::MatrixXd ExcessOf(const Eigen::Vector3d& squares,
-                         const std::array<Eigen::MatrixXd, 3>& patterns) {
+Eigen::MatrixXd ExcessOf(const Eigen::Vector3d& squares, const SwingPatterns& patterns) {
   return squares[0] * patterns[0] + squares[1] * patterns[1] + squares[2] * patterns[2];
 }
 
 /// Most likely squared amplitudes, by the multiplicative form of Fisher scoring that keeps them
 /// positive.
-Spectrum Fitted(const Eigen::MatrixXd& windows, const std::array<Eigen::MatrixXd, 3>& patterns) {
+Spectrum Fitted(const Eigen::MatrixXd& windows, const SwingPatterns& patterns) {
   const auto identity = Eigen::MatrixXd::Identity(windows.rows(), windows.rows());
   const Eigen::MatrixXd moment =
       windows * windows.transpose() / static_cast<double>(windows.cols());
@@ -123,22 +74,16 @@ double LastingSum(const Eigen::VectorXd& values, const std::vector<std::size_t>&
 
 }  // namespace
 
-EffectFit FitShaking(const Effect& effect, const FreeRuns& runs, const AugmentedModel& boat,
-                     const Judge& judge, const Eigen::MatrixXd& errors, std::size_t threads) {
-  const auto parameters = effect.Parameters();
-  Require(parameters.size() == 4, "three amplitudes and a frequency");
+EffectFit FitShaking(const Effect& effect, const Evidence& evidence, const Judge& judge,
+                     const Eigen::MatrixXd& errors, std::size_t threads) {
   const Eigen::VectorXd seen = judge.See(errors);
   const Eigen::MatrixXd windows = judge.UnexplainedByWindow(seen);
-  const Eigen::MatrixXd nominal = runs.Errors(boat);
-  const auto frequency = [&](std::size_t i) {
-    const double share = static_cast<double>(i) / static_cast<double>(kFrequencies - 1);
-    return parameters[3].lower * std::pow(parameters[3].upper / parameters[3].lower, share);
-  };
-  std::array<Spectrum, kFrequencies> spectra;
-  ForEachIndex(kFrequencies, threads, [&](std::size_t i) {
-    std::array<Eigen::MatrixXd, 3> patterns;
+  const std::vector<Swings::Band>& bands = evidence.swings.Of(effect);
+  std::vector<Spectrum> spectra(bands.size());
+  ForEachIndex(bands.size(), threads, [&](std::size_t i) {
+    SwingPatterns patterns;
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      patterns[axis] = judge.Whiten(PatternOf(runs, boat, nominal, axis, frequency(i)));
+      patterns[axis] = judge.Whiten(bands[i].patterns[axis]);
     }
     spectra[i] = Fitted(windows, patterns);
   });
@@ -149,7 +94,7 @@ EffectFit FitShaking(const Effect& effect, const FreeRuns& runs, const Augmented
   const Spectrum& end = std::max(spectra.front(), spectra.back(), gains_less);
 
   std::vector<std::size_t> blocks;
-  const std::vector<std::size_t> all_blocks = BlocksOf(runs);
+  const std::vector<std::size_t> all_blocks = BlocksOf(evidence.runs);
   for (const std::size_t w : judge.Windows()) blocks.push_back(all_blocks[w]);
   const double narrow = LastingSum(best->gains - end.gains, blocks);
   const double gain = std::clamp(kNarrow * narrow, 0.0, std::max(best->gains.sum(), 0.0));
@@ -157,11 +102,12 @@ EffectFit FitShaking(const Effect& effect, const FreeRuns& runs, const Augmented
   EffectFit fit;
   ModelledEffect& modelled = fit.effects.emplace_back(ModelledEffect{&effect, {}});
   for (Eigen::Index j = 0; j < 3; ++j) {
-    const auto& parameter = parameters[static_cast<std::size_t>(j)];
+    const auto& parameter = effect.Parameters()[static_cast<std::size_t>(j)];
     modelled.values.push_back(
         std::clamp(std::sqrt(best->squares[j]), parameter.lower, parameter.upper));
   }
-  modelled.values.push_back(frequency(static_cast<std::size_t>(best - spectra.begin())));
+  const auto found = static_cast<std::size_t>(best - spectra.begin());
+  modelled.values.push_back(bands[found].frequency_rad_s);
   // A root of the looks is what random waves leave open of their own size.
   fit.covariance = Eigen::MatrixXd::Zero(4, 4);
   for (Eigen::Index j = 0; j < 4; ++j) {
@@ -188,48 +134,45 @@ EffectFit Beside(const EffectFit& moving, const EffectFit& shaking) {
   return both;
 }
 
-EffectFit FitAgain(const EffectFit& fit, const FreeRuns& runs, const AugmentedModel& boat,
-                   const Judge& judge, std::size_t threads) {
+EffectFit FitAgain(const EffectFit& fit, const Evidence& evidence, const Judge& judge,
+                   std::size_t threads) {
   EffectFit moving = fit;
   std::erase_if(moving.effects, [](const auto& modelled) { return modelled.effect->Shakes(); });
   if (!moving.effects.empty()) {
-    moving = FitEffects(runs, boat, judge, moving.Effects(), {moving.Values()});
+    moving = FitEffects(evidence.runs, evidence.healthy.boat, judge, moving.Effects(),
+                        {moving.Values()});
   }
   if (moving.effects.size() == fit.effects.size()) return moving;
   const bool alone = moving.effects.empty();
-  const EffectFit shaking = FitShaking(*fit.effects.back().effect, runs, boat, judge,
-                                       alone ? runs.Errors(boat) : moving.errors, threads);
+  const EffectFit shaking = FitShaking(*fit.effects.back().effect, evidence, judge,
+                                       alone ? evidence.recording.errors : moving.errors, threads);
   return alone ? shaking : Beside(moving, shaking);
 }
 
 Eigen::VectorXd ShakenSquares(const EffectFit& fit, const FreeRuns& runs,
                               const AugmentedModel& boat) {
   Eigen::VectorXd squares = Eigen::VectorXd::Zero(runs.Rows());
-  const Eigen::MatrixXd nominal = runs.Errors(boat);
   for (const auto& [effect, values] : fit.effects) {
     const auto shaking = effect->Shaking(values);
     if (!shaking) continue;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      const double amplitude = shaking->amplitude[static_cast<Eigen::Index>(axis)];
-      squares += amplitude * amplitude *
-                 PatternOf(runs, boat, nominal, axis, shaking->frequency_rad_s).diagonal();
-    }
+    const SwingPatterns patterns = SwingPatternsAt(shaking->frequency_rad_s, runs, boat);
+    const Eigen::Array3d amplitudes = shaking->amplitude;
+    squares += ExcessOf(amplitudes.square(), patterns).diagonal();
   }
   return squares;
 }
 
-double ShakingDetectability(const Effect& effect, const FreeRuns& runs, const AugmentedModel& boat,
-                            const Judge& judge) {
+double ShakingDetectability(const Effect& effect, const Evidence& evidence) {
   const auto parameters = effect.Parameters();
-  const Eigen::MatrixXd nominal = runs.Errors(boat);
+  const SwingPatterns patterns =
+      SwingPatternsAt(parameters[3].usual, evidence.runs, evidence.healthy.boat);
   double excess = 0.0;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const double amplitude = parameters[axis].typical;
-    excess += amplitude * amplitude *
-              judge.Whiten(PatternOf(runs, boat, nominal, axis, parameters[3].usual)).trace();
+    excess += amplitude * amplitude * evidence.judge.Whiten(patterns[axis]).trace();
   }
-  const double rows = static_cast<double>(runs.Rows());
-  return std::sqrt(std::max(judge.Evidence(rows + excess, rows), 0.0));
+  const auto rows = static_cast<double>(evidence.runs.Rows());
+  return std::sqrt(std::max(evidence.judge.Evidence(rows + excess, rows), 0.0));
 }
 
 }  // namespace telltale

@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 
 #include "diagnosis/effect_fit.hpp"
+#include "diagnosis/evidence.hpp"
 
 namespace telltale {
 
@@ -14,23 +15,22 @@ namespace telltale {
 /// c_j and s_j the mean response to cos and sin of the frequency; docs/diagnosis.md (90). `errors`
 /// are what is left to explain, by whatever else acts. The evidence counts as far as a frequency
 /// within the range explains more than the ends of it, throughout the recording. Requires: an
-/// effect whose parameters are three amplitudes and a frequency.
-EffectFit FitShaking(const Effect& effect, const FreeRuns& runs, const AugmentedModel& boat,
-                     const Judge& judge, const Eigen::MatrixXd& errors, std::size_t threads);
+/// effect that shakes.
+EffectFit FitShaking(const Effect& effect, const Evidence& evidence, const Judge& judge,
+                     const Eigen::MatrixXd& errors, std::size_t threads);
 
 /// Effects that move free runs and one that shakes beside them, which explains what they leave.
 EffectFit Beside(const EffectFit& moving, const EffectFit& shaking);
 
 /// Fits the effects of `fit` anew, from where they are, to the windows that a judge sees.
-EffectFit FitAgain(const EffectFit& fit, const FreeRuns& runs, const AugmentedModel& boat,
-                   const Judge& judge, std::size_t threads);
+EffectFit FitAgain(const EffectFit& fit, const Evidence& evidence, const Judge& judge,
+                   std::size_t threads);
 
 /// By how much it raises the mean square of each row's error.
 Eigen::VectorXd ShakenSquares(const EffectFit& fit, const FreeRuns& runs,
                               const AugmentedModel& boat);
 
 /// In sigmas, what windows of a healthy boat would show of the effect's typical size.
-double ShakingDetectability(const Effect& effect, const FreeRuns& runs, const AugmentedModel& boat,
-                            const Judge& judge);
+double ShakingDetectability(const Effect& effect, const Evidence& evidence);
 
 }  // namespace telltale

@@ -51,8 +51,7 @@ std::vector<EffectTestability> TestabilityOf(const Evidence& evidence, const Unc
       if (one.absorbed_by.empty()) one.absorbed_by = Absorber(evidence, model, seen);
     }
     if (counted == 0.0) {
-      one.detectability =
-          ShakingDetectability(*effect, evidence.runs, evidence.healthy.boat, evidence.judge);
+      one.detectability = ShakingDetectability(*effect, evidence);
       alone = one.detectability;
     } else {
       one.detectability = std::sqrt(one.detectability / counted);

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "diagnosis/diagnosis.hpp"
-#include "diagnosis/search.hpp"
+#include "diagnosis/evidence.hpp"
 #include "diagnosis/uncertain_model.hpp"
 
 namespace telltale {

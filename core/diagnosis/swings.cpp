@@ -1,0 +1,82 @@
+#include "diagnosis/swings.hpp"
+
+#include <cmath>
+#include <numbers>
+#include <string>
+
+#include "contract.hpp"
+#include "parallel.hpp"
+
+namespace telltale {
+namespace {
+
+constexpr std::size_t kFrequencies = 12;
+
+/// Pushes along one axis at one frequency and phase, an acceleration of one.
+class Swing final : public Effect {
+ public:
+  Swing(std::size_t axis, double frequency_rad_s, double phase_rad)
+      : Effect({.name = "swing",
+                .title = "",
+                .equation = "",
+                .source = "",
+                .parameters = {},
+                .settled_by = "",
+                .hook = Hook::kPush}),
+        axis_(axis),
+        frequency_rad_s_(frequency_rad_s),
+        phase_rad_(phase_rad) {}
+
+  std::string Describe(EffectValues) const override { return ""; }
+
+  NuDot Push(EffectValues, const Moment& moment) const override {
+    const double push = kPush * std::cos(frequency_rad_s_ * moment.time_s + phase_rad_);
+    return {axis_ == 0 ? push : 0.0, axis_ == 1 ? push : 0.0, axis_ == 2 ? push : 0.0};
+  }
+
+  static constexpr double kPush = 0.05;  // small enough to stay linear
+
+ private:
+  std::size_t axis_;
+  double frequency_rad_s_;
+  double phase_rad_;
+};
+
+}  // namespace
+
+SwingPatterns SwingPatternsAt(double frequency_rad_s, const FreeRuns& runs,
+                              const AugmentedModel& boat) {
+  const Eigen::MatrixXd nominal = runs.Errors(boat);
+  const auto windows = static_cast<double>(nominal.cols());
+  SwingPatterns patterns;
+  for (std::size_t axis = 0; axis < patterns.size(); ++axis) {
+    patterns[axis] = Eigen::MatrixXd::Zero(nominal.rows(), nominal.rows());
+    for (const double phase : {0.0, -std::numbers::pi / 2.0}) {
+      const Swing swing(axis, frequency_rad_s, phase);
+      const ModelledEffect shaking{&swing, {}};
+      const Eigen::MatrixXd response =
+          (runs.Errors(boat.With({&shaking, 1})) - nominal) / Swing::kPush;
+      patterns[axis] += 0.5 * response * response.transpose() / windows;
+    }
+  }
+  return patterns;
+}
+
+Swings::Swings(std::span<const Effect* const> library, const FreeRuns& runs,
+               const AugmentedModel& boat, std::size_t threads) {
+  for (const Effect* effect : library) {
+    if (!effect->Shakes()) continue;
+    const auto parameters = effect->Parameters();
+    Require(parameters.size() == 4, "three amplitudes and a frequency");
+    const auto [lower, upper] = std::pair(parameters[3].lower, parameters[3].upper);
+    std::vector<Band>& bands = bands_[effect];
+    bands.resize(kFrequencies);
+    ForEachIndex(kFrequencies, threads, [&](std::size_t i) {
+      const double share = static_cast<double>(i) / static_cast<double>(kFrequencies - 1);
+      bands[i].frequency_rad_s = lower * std::pow(upper / lower, share);
+      bands[i].patterns = SwingPatternsAt(bands[i].frequency_rad_s, runs, boat);
+    });
+  }
+}
+
+}  // namespace telltale

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <map>
+#include <span>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "diagnosis/free_runs.hpp"
+#include "effects/effect.hpp"
+
+namespace telltale {
+
+/// Mean over windows of the outer product of the errors that an acceleration of one frequency and
+/// random phase leaves, per squared amplitude, for each axis: surge, sway, yaw.
+using SwingPatterns = std::array<Eigen::MatrixXd, 3>;
+
+/// Model: the mean over the phases of cos and sin, from small accelerations that stay linear.
+SwingPatterns SwingPatternsAt(double frequency_rad_s, const FreeRuns& runs,
+                              const AugmentedModel& boat);
+
+/// A recording's swing patterns at a dozen frequencies over the range of each effect that shakes,
+/// in even ratios.
+class Swings {
+ public:
+  struct Band {
+    double frequency_rad_s = 0.0;
+    SwingPatterns patterns;
+  };
+
+  Swings(std::span<const Effect* const> library, const FreeRuns& runs, const AugmentedModel& boat,
+         std::size_t threads);
+
+  /// Lowest frequency first. Requires: an effect of the library that shakes.
+  const std::vector<Band>& Of(const Effect& effect) const { return bands_.at(&effect); }
+
+ private:
+  std::map<const Effect*, std::vector<Band>> bands_;
+};
+
+}  // namespace telltale
