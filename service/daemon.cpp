@@ -1,12 +1,17 @@
 #include "daemon.hpp"
 
+#include <string_view>
 #include <utility>
+
+#include <spdlog/spdlog.h>
 
 namespace telltale {
 
 Daemon::Daemon(const DaemonConfig& config, std::function<void(const std::exception&)> failed)
-    : participant_(config.domain),
-      fleet_(config.vehicles, config.window),
+    : fleet_(config.vehicles, config.window),
+      bus_log_(spdlog::default_logger(),
+               [this](std::string_view topic) { fleet_.CountUnreadable(topic); }),
+      participant_(config.domain),
       models_(participant_, ModelStore(config.state_directory), fleet_),
       answers_(participant_),
       diagnoses_(participant_, DiagnosisStore(config.state_directory), fleet_),

@@ -2,6 +2,7 @@
 
 #include <functional>
 
+#include "bus/log_sink.hpp"
 #include "bus/participant.hpp"
 #include "codec/daemon_config.hpp"
 #include "diagnosis/diagnosis_jobs.hpp"
@@ -24,9 +25,11 @@ class Daemon {
   Daemon(const DaemonConfig& config, std::function<void(const std::exception&)> failed);
 
  private:
-  // In the order of what stands on what: telemetry stops first, the bus is left last.
-  Participant participant_;
+  // In the order of what stands on what: telemetry stops first, then the bus is left, and last goes
+  // what the bus's log counts into.
   Fleet fleet_;
+  BusLog bus_log_;
+  Participant participant_;
   PublishedModels models_;
   Answers answers_;
   HealthyRecordings healthy_;

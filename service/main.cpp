@@ -10,7 +10,6 @@
 #include <spdlog/spdlog.h>
 #include <CLI/CLI.hpp>
 
-#include "bus/log_sink.hpp"
 #include "configuration.hpp"
 #include "daemon.hpp"
 
@@ -41,7 +40,6 @@ class StopSignals {
 };
 
 int Serve(const DaemonConfig& config, const StopSignals& signals) {
-  const BusLog bus_log(spdlog::default_logger());
   std::atomic<bool> healthy = true;
   const Daemon daemon(config, [&](const std::exception& error) {
     spdlog::critical("no longer taking in telemetry: {}", error.what());

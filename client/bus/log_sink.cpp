@@ -21,6 +21,17 @@ std::string_view MessageOf(const dds_log_data_t& data) {
   return message;
 }
 
+/// The topic of a sample that could not be read, from "... deserialization TOPIC/TYPE failed ...";
+/// empty where the message is about something else.
+std::string_view UnreadableTopicIn(std::string_view message) {
+  constexpr std::string_view kBefore = "deserialization ";
+  const auto found = message.find(kBefore);
+  if (found == std::string_view::npos) return {};
+  message.remove_prefix(found + kBefore.size());
+  message = message.substr(0, message.find(' '));
+  return message.substr(0, message.rfind('/'));
+}
+
 }  // namespace
 
 std::optional<std::uint64_t> RateLimit::Admit(TimePoint now) {
@@ -40,12 +51,15 @@ struct BusLog::Sink {
   std::shared_ptr<spdlog::logger> logger;
   std::mutex mutex;
   RateLimit limit{20, std::chrono::seconds(10)};
+  Unreadable unreadable;
 
   static void Write(void* self, const dds_log_data_t* data) {
     static_cast<Sink*>(self)->Write(*data);
   }
 
   void Write(const dds_log_data_t& data) {
+    const auto topic = UnreadableTopicIn(MessageOf(data));
+    if (unreadable && !topic.empty()) unreadable(topic);
     const std::lock_guard lock(mutex);
     const auto held_back = limit.Admit(std::chrono::steady_clock::now());
     if (!held_back) return;
@@ -54,8 +68,10 @@ struct BusLog::Sink {
   }
 };
 
-BusLog::BusLog(std::shared_ptr<spdlog::logger> logger) : sink_(std::make_unique<Sink>()) {
+BusLog::BusLog(std::shared_ptr<spdlog::logger> logger, Unreadable unreadable)
+    : sink_(std::make_unique<Sink>()) {
   sink_->logger = std::move(logger);
+  sink_->unreadable = std::move(unreadable);
   dds_set_log_sink(&Sink::Write, sink_.get());
 }
 

@@ -2,8 +2,10 @@
 
 #include <chrono>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
+#include <string_view>
 
 #include <spdlog/spdlog.h>
 
@@ -33,7 +35,11 @@ class RateLimit {
 /// packets it writes hundreds of thousands. Install before the first participant; one per process.
 class BusLog {
  public:
-  explicit BusLog(std::shared_ptr<spdlog::logger> logger);
+  /// Told the topic of each sample that could not be deserialised, from threads of the bus; it must
+  /// return at once. Cyclone DDS tells of such samples in its log and nowhere else.
+  using Unreadable = std::function<void(std::string_view topic)>;
+
+  explicit BusLog(std::shared_ptr<spdlog::logger> logger, Unreadable unreadable = {});
   BusLog(const BusLog&) = delete;
   BusLog& operator=(const BusLog&) = delete;
   ~BusLog();

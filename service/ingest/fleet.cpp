@@ -8,6 +8,7 @@ std::string_view Name(StrayReason reason) {
   switch (reason) {
     case StrayReason::kMalformedId: return "MALFORMED_VEHICLE_ID";
     case StrayReason::kUnknownVehicle: return "UNKNOWN_VEHICLE";
+    case StrayReason::kUnreadable: return "UNREADABLE";
   }
   return "";
 }
@@ -42,6 +43,12 @@ void Fleet::CountStray(std::string_view channel, StrayReason reason) {
   } else {
     ++found->count;
   }
+}
+
+void Fleet::CountUnreadable(std::string_view topic) {
+  constexpr std::string_view kTelemetry = "telltale/telemetry/";
+  if (!topic.starts_with(kTelemetry)) return;
+  CountStray(topic.substr(kTelemetry.size()), StrayReason::kUnreadable);
 }
 
 std::vector<RejectEntry> Fleet::Strays() const {

@@ -17,7 +17,7 @@
 namespace telltale {
 
 /// Why a sample reached no window.
-enum class StrayReason { kMalformedId, kUnknownVehicle };
+enum class StrayReason { kMalformedId, kUnknownVehicle, kUnreadable };
 
 std::string_view Name(StrayReason reason);
 
@@ -36,6 +36,8 @@ class Fleet {
   std::string Served() const;
 
   void CountStray(std::string_view channel, StrayReason reason);
+  /// What the bus could not even read: counted where the topic carries telemetry.
+  void CountUnreadable(std::string_view topic);
   std::vector<RejectEntry> Strays() const;
 
  private:
