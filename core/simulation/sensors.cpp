@@ -6,13 +6,13 @@
 
 #include "contract.hpp"
 #include "data/north_east.hpp"
+#include "data/time_series.hpp"
 #include "gauss_markov.hpp"
 
 namespace telltale {
 namespace {
 
 constexpr double kDegreesPerRadian = 180.0 / std::numbers::pi;
-constexpr double kSameInstantS = 1e-6;
 
 double Between(double a, double b, double fraction) {
   return a + fraction * (b - a);

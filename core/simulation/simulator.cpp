@@ -3,13 +3,10 @@
 #include <cmath>
 
 #include "contract.hpp"
+#include "data/time_series.hpp"
 
 namespace telltale {
 namespace {
-
-// Command times and steps come from decimal logs: a command this close ahead of a step belongs to
-// it.
-constexpr double kSameInstantS = 1e-6;
 
 Nu Along(const Nu& nu, const NuDot& slope, double step_s) {
   return {nu.u + step_s * slope.u, nu.v + step_s * slope.v, nu.r + step_s * slope.r};
