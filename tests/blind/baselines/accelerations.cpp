@@ -18,7 +18,7 @@ using telltale::PreparedDataset;
 using telltale::RowRange;
 
 constexpr double kSpanS = 1.0;
-constexpr double kRidge = 0.25;  // a prior of twice the typical size
+constexpr double kSlotRidge = 0.25;  // a prior of twice the typical size
 
 std::size_t RowsOfSpan(const PreparedDataset& dataset) {
   return static_cast<std::size_t>(std::lround(kSpanS / dataset.sampling_period_s));
@@ -172,7 +172,7 @@ class Signatures {
 Eigen::VectorXd Habit(const Ground& ground, const Eigen::Vector3d& scale,
                       const std::vector<double>& senses) {
   const auto slots = static_cast<Eigen::Index>(ground.slots.size());
-  Eigen::MatrixXd information = kRidge * Eigen::MatrixXd::Identity(slots, slots);
+  Eigen::MatrixXd information = kSlotRidge * Eigen::MatrixXd::Identity(slots, slots);
   Eigen::VectorXd slope = Eigen::VectorXd::Zero(slots);
   for (const PreparedDataset& reference : ground.days.references) {
     const Signatures signatures(ground, reference, scale);

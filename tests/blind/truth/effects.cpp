@@ -1,13 +1,13 @@
 #include "effects.hpp"
 
 #include <cmath>
-#include <numbers>
 #include <stdexcept>
+
+#include "degree.hpp"
 
 namespace blind::truth {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180.0;
 using Parameters = std::vector<Parameter>;
 
 double Degrees(double radians) {

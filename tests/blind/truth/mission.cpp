@@ -6,10 +6,10 @@
 #include <numbers>
 #include <utility>
 
+#include "degree.hpp"
+
 namespace blind::truth {
 namespace {
-
-constexpr double kDegree = std::numbers::pi / 180.0;
 
 Command MeanAndDifference(double mean, double half_difference) {
   return {std::clamp(mean + half_difference, -1.0, 1.0),

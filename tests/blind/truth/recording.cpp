@@ -5,14 +5,14 @@
 #include <cmath>
 #include <cstdio>
 #include <fstream>
-#include <numbers>
 #include <stdexcept>
 #include <string>
+
+#include "degree.hpp"
 
 namespace blind::truth {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr int kStepsPerFix = 40;      // 5 Hz
 constexpr int kStepsPerHeading = 10;  // 20 Hz
 
