@@ -21,6 +21,11 @@ target_compile_options(
   telltale_compile INTERFACE $<$<COMPILE_LANGUAGE:CXX>:-Wall -Wextra -Wpedantic -Wshadow -Wconversion
                              -Wno-sign-conversion -Wnon-virtual-dtor -Woverloaded-virtual -Werror>)
 
+# GCC frees memory twice a file, for a tenth of its time; it may take a gigabyte first.
+target_compile_options(
+  telltale_compile
+  INTERFACE $<$<COMPILE_LANG_AND_ID:CXX,GNU>:--param=ggc-min-heapsize=1048576>)
+
 # GCC 12 sees writes out of bounds in assignments to std::string that are none, and under a sanitizer,
 # which cuts its inlining short, variables that may not be initialised and pointers used after free.
 target_compile_options(
@@ -45,8 +50,8 @@ function(telltale_layer name)
   target_link_libraries(telltale_${name} PUBLIC ${ARG_LINKS} PRIVATE telltale_compile)
 endfunction()
 
-# Parsing Eigen takes longer than compiling most files here: it is read once, for core, which must be
-# compiled as the target is, optimisation included.
+# Parsing what most files include takes longer than compiling them: it is read once for core, once for
+# the programs and once for the tests, which differ in their optimisation and so cannot share.
 function(telltale_precompile target)
   if(target STREQUAL telltale_core)
     target_precompile_headers(telltale_core PRIVATE <Eigen/Dense> <optional> <string> <vector>
@@ -61,18 +66,65 @@ function(telltale_optimise_lightly target)
   target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
 endfunction()
 
-# Each folder of the target becomes one compilation, so that what its files all include is read and
-# instantiated once. Not for core and idl: there touching one file should cost that file alone.
-function(telltale_compile_folders_whole target)
-  if(NOT TELLTALE_WHOLE_FOLDERS)
-    return()
+# telltale_precompiled(NAME HEADERS ... LINKS ...): headers of the libraries linked, read once for all
+# targets that are lightly optimised and reuse them from NAME.
+function(telltale_precompiled name)
+  cmake_parse_arguments(ARG "" "" "HEADERS;LINKS" ${ARGN})
+  set(empty ${CMAKE_CURRENT_BINARY_DIR}/${name}.cpp)
+  file(CONFIGURE OUTPUT ${empty} CONTENT "")
+  add_library(${name} OBJECT ${empty})
+  target_link_libraries(${name} PRIVATE telltale_compile ${ARG_LINKS})
+  target_precompile_headers(${name} PRIVATE ${ARG_HEADERS})
+  telltale_optimise_lightly(${name})
+endfunction()
+
+# telltale_program(TARGET): one that reads a command line, or part of it; telltale_check(TARGET): tests.
+function(telltale_program target)
+  if(NOT TARGET telltale_program_headers)
+    find_package(CLI11 REQUIRED)
+    find_package(Eigen3 3.4 REQUIRED)
+    telltale_precompiled(
+      telltale_program_headers
+      HEADERS <CLI/CLI.hpp> <Eigen/Dense> <filesystem> <functional> <iostream> <map> <memory>
+              <optional> <string> <vector>
+      LINKS CLI11::CLI11 Eigen3::Eigen)
   endif()
-  set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
+  telltale_optimise_lightly(${target})
+  target_precompile_headers(${target} REUSE_FROM telltale_program_headers)
+endfunction()
+
+function(telltale_check target)
+  if(NOT TARGET telltale_check_headers)
+    find_package(Eigen3 3.4 REQUIRED)
+    find_package(GTest REQUIRED)
+    telltale_precompiled(
+      telltale_check_headers
+      HEADERS <Eigen/Dense> <gmock/gmock.h> <gtest/gtest.h> <filesystem> <functional> <map>
+              <optional> <string> <vector>
+      LINKS Eigen3::Eigen GTest::gmock GTest::gtest)
+  endif()
+  telltale_optimise_lightly(${target})
+  target_precompile_headers(${target} REUSE_FROM telltale_check_headers)
+endfunction()
+
+# Each folder of the target becomes one compilation, so that what its files all include is read and
+# instantiated once. Not for core and idl: there touching one file should cost seconds.
+function(telltale_compile_folders_whole target)
   get_target_property(sources ${target} SOURCES)
+  list(FILTER sources INCLUDE REGEX "[.]cpp$")
   foreach(source IN LISTS sources)
+    cmake_path(ABSOLUTE_PATH source)
     cmake_path(GET source PARENT_PATH folder)
     cmake_path(RELATIVE_PATH folder BASE_DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR})
     string(REPLACE "/" "_" folder "${folder}")
-    set_source_files_properties(${source} PROPERTIES UNITY_GROUP ${folder})
+    telltale_compile_together(${target} ${folder} ${source})
   endforeach()
+endfunction()
+
+# telltale_compile_together(TARGET NAME SOURCES...): these become one compilation.
+function(telltale_compile_together target name)
+  if(TELLTALE_WHOLE_FOLDERS)
+    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
+    set_source_files_properties(${ARGN} PROPERTIES UNITY_GROUP ${name})
+  endif()
 endfunction()
