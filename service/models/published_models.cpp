@@ -1,20 +1,15 @@
 #include "models/published_models.hpp"
 
-#include <chrono>
 #include <utility>
 
 #include <spdlog/spdlog.h>
 
 #include "codec/wire.hpp"
 #include "models/predecessor.hpp"
+#include "unix_now.hpp"
 
 namespace telltale {
 namespace {
-
-double UnixNow() {
-  const auto now = std::chrono::system_clock::now().time_since_epoch();
-  return std::chrono::duration<double>(now).count();
-}
 
 void LogChange(const PublishedModel& model) {
   const auto& change = model.identification.provenance.change;

@@ -7,6 +7,7 @@
 
 #include "codec/wire.hpp"
 #include "monitoring/prediction_error.hpp"
+#include "unix_now.hpp"
 
 namespace telltale {
 namespace {
@@ -16,10 +17,6 @@ using Clock = std::chrono::steady_clock;
 constexpr double kEvaluatedSpanS = 60.0;
 constexpr double kNewDataS = 5.0;     // one more free-run window has to fit before evaluating again
 constexpr double kDriftWeight = 0.1;  // of the newest change, so that drift remembers about ten
-
-double UnixNow() {
-  return std::chrono::duration<double>(std::chrono::system_clock::now().time_since_epoch()).count();
-}
 
 double Rate(Channel channel, const WindowState& now, const WindowState& before, double elapsed_s) {
   const auto i = static_cast<std::size_t>(channel);
