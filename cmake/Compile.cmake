@@ -123,7 +123,7 @@ endfunction()
 
 # telltale_compile_together(TARGET NAME SOURCES...): these become one compilation.
 function(telltale_compile_together target name)
-  if(TELLTALE_WHOLE_FOLDERS)
+  if(TELLTALE_COMPILE_TOGETHER)
     set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
     set_source_files_properties(${ARGN} PROPERTIES UNITY_GROUP ${name})
   endif()

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <optional>
 
-#include <Eigen/Cholesky>
+#include "linear_algebra/decompositions.hpp"
 
 namespace telltale {
 namespace {

@@ -4,11 +4,10 @@
 #include <cmath>
 #include <span>
 
-#include <Eigen/Cholesky>
-
 #include "contract.hpp"
 #include "effects/augmented_boat.hpp"
 #include "effects/sensor_chain.hpp"
+#include "linear_algebra/decompositions.hpp"
 
 namespace telltale {
 namespace {

@@ -4,10 +4,9 @@
 #include <array>
 #include <cmath>
 
-#include <Eigen/Cholesky>
-
 #include "contract.hpp"
 #include "diagnosis/judge.hpp"
+#include "linear_algebra/decompositions.hpp"
 
 namespace telltale {
 namespace {

@@ -5,7 +5,7 @@
 #include <numeric>
 #include <utility>
 
-#include <Eigen/Eigenvalues>
+#include "linear_algebra/decompositions.hpp"
 
 namespace telltale {
 namespace {
@@ -65,7 +65,8 @@ Judge Judge::Allowing(const Eigen::MatrixXd& varying) const {
   judge.allowed_.resize(rows, many * std::ssize(windows_));
   for (Eigen::Index w = 0; w < std::ssize(windows_); ++w) {
     const auto window = white.middleRows(w * rows, rows);
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> axes(window.transpose() * window);
+    const Eigen::MatrixXd gram = window.transpose() * window;
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> axes(gram);
     const Eigen::ArrayXd squares = axes.eigenvalues().array().max(kNothing);
     const Eigen::VectorXd damped = ((1.0 - (1.0 + squares).rsqrt()) / squares).sqrt();
     judge.allowed_.middleCols(w * many, many) = window * axes.eigenvectors() * damped.asDiagonal();

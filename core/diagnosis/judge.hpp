@@ -4,11 +4,11 @@
 #include <cstddef>
 #include <vector>
 
-#include <Eigen/Cholesky>
 #include <Eigen/Core>
 
 #include "diagnosis/healthy.hpp"
 #include "diagnosis/sensitivity.hpp"
+#include "linear_algebra/decompositions.hpp"
 
 namespace telltale {
 

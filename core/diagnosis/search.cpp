@@ -5,9 +5,8 @@
 #include <map>
 #include <mutex>
 
-#include <Eigen/Cholesky>
-
 #include "diagnosis/shaking.hpp"
+#include "linear_algebra/decompositions.hpp"
 #include "parallel.hpp"
 
 namespace telltale {

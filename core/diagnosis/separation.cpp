@@ -5,10 +5,9 @@
 #include <limits>
 #include <optional>
 
-#include <Eigen/Cholesky>
-
 #include "data/preparation.hpp"
 #include "diagnosis/free_runs.hpp"
+#include "linear_algebra/decompositions.hpp"
 #include "simulation/manoeuvres.hpp"
 #include "simulation/sensors.hpp"
 #include "simulation/simulator.hpp"

@@ -4,9 +4,8 @@
 #include <cmath>
 #include <vector>
 
-#include <Eigen/Cholesky>
-
 #include "diagnosis/gap.hpp"
+#include "linear_algebra/decompositions.hpp"
 #include "parallel.hpp"
 
 namespace telltale {
