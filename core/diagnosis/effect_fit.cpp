@@ -187,31 +187,35 @@ EffectFit FitSteady(const FreeRuns& runs, const AugmentedModel& boat, const Judg
   return fit;
 }
 
+/// Length of those values that do not shape what others do.
+double LengthOf(const ModelledEffect& modelled) {
+  double squared = 0.0;
+  for (std::size_t j = 0; j < modelled.values.size(); ++j) {
+    const double value = modelled.values[j];
+    if (!modelled.effect->Parameters()[j].shapes) squared += value * value;
+  }
+  return std::sqrt(squared);
+}
+
 /// What gusts about the effects' means do to errors: one column a parameter that gusts, for one
 /// standard deviation of it.
 Eigen::MatrixXd GustsOf(const EffectFit& fit, const FreeRuns& runs, const AugmentedModel& boat) {
   std::vector<Eigen::VectorXd> columns;
   for (std::size_t i = 0; i < fit.effects.size(); ++i) {
-    const auto& [effect, values] = fit.effects[i];
-    const double gustiness = effect->Facts().gustiness;
-    if (gustiness == 0.0) continue;
-    const auto parameters = effect->Parameters();
-    double squared_length = 0.0;
-    for (std::size_t j = 0; j < values.size(); ++j) {
-      if (!parameters[j].shapes) squared_length += values[j] * values[j];
-    }
-    const double deviation = gustiness * std::sqrt(squared_length);
+    const Effect& effect = *fit.effects[i].effect;
+    const double deviation = effect.Facts().gustiness * LengthOf(fit.effects[i]);
     if (deviation == 0.0) continue;
-    for (std::size_t j = 0; j < values.size(); ++j) {
-      if (parameters[j].shapes) continue;
+    for (std::size_t j = 0; j < effect.Parameters().size(); ++j) {
+      if (effect.Parameters()[j].shapes) continue;
       auto gusting = fit.effects;
       gusting[i].values[j] += deviation;
       columns.emplace_back((runs.Errors(boat.With(gusting)) - fit.errors).reshaped());
     }
   }
   Eigen::MatrixXd gusts(fit.errors.size(), std::ssize(columns));
-  for (Eigen::Index j = 0; j < gusts.cols(); ++j)
+  for (Eigen::Index j = 0; j < gusts.cols(); ++j) {
     gusts.col(j) = columns[static_cast<std::size_t>(j)];
+  }
   return gusts;
 }
 
@@ -274,7 +278,7 @@ Judge EffectFit::JudgedBy(const Judge& judge) const {
 EffectFit FitEffects(const FreeRuns& runs, const AugmentedModel& boat, const Judge& judge,
                      const std::vector<const Effect*>& effects,
                      const std::vector<Eigen::VectorXd>& starts) {
-  const EffectFit steady = FitSteady(runs, boat, judge, effects, starts);
+  EffectFit steady = FitSteady(runs, boat, judge, effects, starts);
   const Eigen::MatrixXd gusts = GustsOf(steady, runs, boat);
   if (gusts.size() == 0) return steady;
   const Judge allowing = judge.Allowing(gusts);
