@@ -42,8 +42,11 @@ Draws Draw(const DrawPlan& plan, std::uint64_t seed, const RowRange& batch) {
   std::partial_sum(draws.first.begin(), draws.first.end(), draws.first.begin());
   std::vector<std::uint32_t> next(draws.first.begin(), draws.first.end() - 1);
   draws.replicates.resize(drawn.size());
-  for (std::size_t k = 0; k < drawn.size(); ++k) {
-    draws.replicates[next[drawn[k]]++] = static_cast<std::uint32_t>(k / plan.draws);
+  auto unit = drawn.begin();
+  for (std::uint32_t replicate = 0; replicate < batch.size(); ++replicate) {
+    for (std::size_t draw = 0; draw < plan.draws; ++draw) {
+      draws.replicates[next[*unit++]++] = replicate;
+    }
   }
   return draws;
 }

@@ -112,7 +112,7 @@ void FieldReader::FailItem(std::string_view field, int index, std::string value,
 
 const FieldDescriptor& FieldReader::Field(std::string_view name) const {
   const FieldDescriptor* field = message_->GetDescriptor()->FindFieldByName(std::string(name));
-  Require(field != nullptr, "the name of a field of this message");
+  if (field == nullptr) throw ContractViolation("FieldReader: requires a field of this message");
   return *field;
 }
 
