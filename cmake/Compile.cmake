@@ -21,11 +21,6 @@ target_compile_options(
   telltale_compile INTERFACE $<$<COMPILE_LANGUAGE:CXX>:-Wall -Wextra -Wpedantic -Wshadow -Wconversion
                              -Wno-sign-conversion -Wnon-virtual-dtor -Woverloaded-virtual -Werror>)
 
-# GCC frees memory twice a file, for a tenth of its time; it may take a gigabyte first.
-target_compile_options(
-  telltale_compile
-  INTERFACE $<$<COMPILE_LANG_AND_ID:CXX,GNU>:--param=ggc-min-heapsize=1048576>)
-
 # GCC 12 sees writes out of bounds in assignments to std::string that are none, and under a sanitizer,
 # which cuts its inlining short, variables that may not be initialised and pointers used after free.
 target_compile_options(
