@@ -104,7 +104,7 @@ class Diagnosing {
     const Sensitivity sensitivity =
         SensitivityOf(runs_[main_], healthy.boat, model_, slots_, options_.threads);
     const Judge judge(healthy, sensitivity, EveryWindow(sensitivity), options_.refit);
-    const Swings swings(library_, runs_[main_], healthy.boat, options_.threads);
+    const Swings swings(library_, runs_[main_], healthy.boat, sensitivity.errors, options_.threads);
     const Evidence evidence{runs_[main_], healthy, sensitivity, judge, slots_, swings};
     const Explanations explanations =
         Search(evidence, library_, options_.most_effects, options_.threads,

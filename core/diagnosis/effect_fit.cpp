@@ -154,9 +154,9 @@ class Fitting {
   const Unknowns& unknowns_;
 };
 
-/// As FitEffects, but nothing gusts.
+/// As FitEffects, but nothing gusts; `none` is the square that no effect at all leaves.
 EffectFit FitSteady(const FreeRuns& runs, const AugmentedModel& boat, const Judge& judge,
-                    const std::vector<const Effect*>& effects,
+                    double none, const std::vector<const Effect*>& effects,
                     const std::vector<Eigen::VectorXd>& starts) {
   const Unknowns unknowns(effects);
   const Fitting fitting(runs, boat, judge, unknowns);
@@ -181,8 +181,7 @@ EffectFit FitSteady(const FreeRuns& runs, const AugmentedModel& boat, const Judg
                    factor.solve(Eigen::MatrixXd::Identity(unknowns.Size(), unknowns.Size())) *
                    unknowns.Sizes().asDiagonal();
   fit.square = best->square;
-  fit.score = judge.Evidence(best->square, judge.Square(judge.See(runs.Errors(boat)))) +
-              best->cost - best->square + log_determinant;
+  fit.score = judge.Evidence(best->square, none) + best->cost - best->square + log_determinant;
   fit.errors = best->errors;
   return fit;
 }
@@ -278,15 +277,14 @@ Judge EffectFit::JudgedBy(const Judge& judge) const {
 EffectFit FitEffects(const FreeRuns& runs, const AugmentedModel& boat, const Judge& judge,
                      const std::vector<const Effect*>& effects,
                      const std::vector<Eigen::VectorXd>& starts) {
-  EffectFit steady = FitSteady(runs, boat, judge, effects, starts);
+  const double none = judge.Square(judge.See(runs.Errors(boat)));
+  EffectFit steady = FitSteady(runs, boat, judge, none, effects, starts);
   const Eigen::MatrixXd gusts = GustsOf(steady, runs, boat);
   if (gusts.size() == 0) return steady;
   const Judge allowing = judge.Allowing(gusts);
-  EffectFit gusty = FitSteady(runs, boat, allowing, effects, {steady.Values()});
+  EffectFit gusty = FitSteady(runs, boat, allowing, none, effects, {steady.Values()});
   gusty.gusts = gusts;
-  const double none = judge.Square(judge.See(runs.Errors(boat)));
-  const double none_gusty = allowing.Square(allowing.See(runs.Errors(boat)));
-  gusty.score += allowing.Evidence(none_gusty, none) + allowing.Allowance();
+  gusty.score += allowing.Allowance();
   return gusty.score < steady.score ? gusty : steady;
 }
 

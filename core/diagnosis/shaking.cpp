@@ -154,7 +154,8 @@ Eigen::VectorXd ShakenSquares(const EffectFit& fit, const FreeRuns& runs,
   for (const auto& [effect, values] : fit.effects) {
     const auto shaking = effect->Shaking(values);
     if (!shaking) continue;
-    const SwingPatterns patterns = SwingPatternsAt(shaking->frequency_rad_s, runs, boat);
+    const SwingPatterns patterns =
+        SwingPatternsAt(shaking->frequency_rad_s, runs, boat, runs.Errors(boat));
     const Eigen::Array3d amplitudes = shaking->amplitude;
     squares += ExcessOf(amplitudes.square(), patterns).diagonal();
   }
@@ -163,8 +164,8 @@ Eigen::VectorXd ShakenSquares(const EffectFit& fit, const FreeRuns& runs,
 
 double ShakingDetectability(const Effect& effect, const Evidence& evidence) {
   const auto parameters = effect.Parameters();
-  const SwingPatterns patterns =
-      SwingPatternsAt(parameters[3].usual, evidence.runs, evidence.healthy.boat);
+  const SwingPatterns patterns = SwingPatternsAt(parameters[3].usual, evidence.runs,
+                                                 evidence.healthy.boat, evidence.recording.errors);
   double excess = 0.0;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const double amplitude = parameters[axis].typical;

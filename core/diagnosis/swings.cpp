@@ -45,17 +45,16 @@ class Swing final : public Effect {
 }  // namespace
 
 SwingPatterns SwingPatternsAt(double frequency_rad_s, const FreeRuns& runs,
-                              const AugmentedModel& boat) {
-  const Eigen::MatrixXd nominal = runs.Errors(boat);
-  const auto windows = static_cast<double>(nominal.cols());
+                              const AugmentedModel& boat, const Eigen::MatrixXd& errors) {
+  const auto windows = static_cast<double>(errors.cols());
   SwingPatterns patterns;
   for (std::size_t axis = 0; axis < patterns.size(); ++axis) {
-    patterns[axis] = Eigen::MatrixXd::Zero(nominal.rows(), nominal.rows());
+    patterns[axis] = Eigen::MatrixXd::Zero(errors.rows(), errors.rows());
     for (const double phase : {0.0, -std::numbers::pi / 2.0}) {
       const Swing swing(axis, frequency_rad_s, phase);
       const ModelledEffect shaking{&swing, {}};
       const Eigen::MatrixXd response =
-          (runs.Errors(boat.With({&shaking, 1})) - nominal) / Swing::kPush;
+          (runs.Errors(boat.With({&shaking, 1})) - errors) / Swing::kPush;
       patterns[axis] += 0.5 * response * response.transpose() / windows;
     }
   }
@@ -63,7 +62,7 @@ SwingPatterns SwingPatternsAt(double frequency_rad_s, const FreeRuns& runs,
 }
 
 Swings::Swings(std::span<const Effect* const> library, const FreeRuns& runs,
-               const AugmentedModel& boat, std::size_t threads) {
+               const AugmentedModel& boat, const Eigen::MatrixXd& errors, std::size_t threads) {
   for (const Effect* effect : library) {
     if (!effect->Shakes()) continue;
     const auto parameters = effect->Parameters();
@@ -74,7 +73,7 @@ Swings::Swings(std::span<const Effect* const> library, const FreeRuns& runs,
     ForEachIndex(kFrequencies, threads, [&](std::size_t i) {
       const double share = static_cast<double>(i) / static_cast<double>(kFrequencies - 1);
       bands[i].frequency_rad_s = lower * std::pow(upper / lower, share);
-      bands[i].patterns = SwingPatternsAt(bands[i].frequency_rad_s, runs, boat);
+      bands[i].patterns = SwingPatternsAt(bands[i].frequency_rad_s, runs, boat, errors);
     });
   }
 }

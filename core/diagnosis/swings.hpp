@@ -18,8 +18,9 @@ namespace telltale {
 using SwingPatterns = std::array<Eigen::MatrixXd, 3>;
 
 /// Model: the mean over the phases of cos and sin, from small accelerations that stay linear.
+/// `errors` are those of the boat itself.
 SwingPatterns SwingPatternsAt(double frequency_rad_s, const FreeRuns& runs,
-                              const AugmentedModel& boat);
+                              const AugmentedModel& boat, const Eigen::MatrixXd& errors);
 
 /// A recording's swing patterns at a dozen frequencies over the range of each effect that shakes,
 /// in even ratios.
@@ -30,8 +31,9 @@ class Swings {
     SwingPatterns patterns;
   };
 
+  /// `errors` as above.
   Swings(std::span<const Effect* const> library, const FreeRuns& runs, const AugmentedModel& boat,
-         std::size_t threads);
+         const Eigen::MatrixXd& errors, std::size_t threads);
 
   /// Lowest frequency first. Requires: an effect of the library that shakes.
   const std::vector<Band>& Of(const Effect& effect) const { return bands_.at(&effect); }

@@ -1,6 +1,7 @@
 #include "diagnosis/diagnose.hpp"
 
 #include <cmath>
+#include <string_view>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -89,14 +90,11 @@ TEST(Diagnose, NamesTwoThatActTogether) {
   EXPECT_NEAR(shared, 1.0, 1e-9);  // Shapley values share out all that is closed
 }
 
-/// A swell of one frequency, which the simulator can sail; of the library's waves it is told only
-/// how they scatter.
-class Swell final : public Effect {
+/// What pushes a boat and is no effect of the library.
+class Unlisted : public Effect {
  public:
-  static constexpr double kFrequency = 2.5;
-
-  Swell()
-      : Effect({.name = "swell",
+  explicit Unlisted(std::string_view name)
+      : Effect({.name = name,
                 .title = "",
                 .equation = "",
                 .source = "",
@@ -104,6 +102,15 @@ class Swell final : public Effect {
                 .settled_by = "",
                 .hook = Hook::kPush}) {}
   std::string Describe(EffectValues) const override { return ""; }
+};
+
+/// A swell of one frequency, which the simulator can sail; of the library's waves it is told only
+/// how they scatter.
+class Swell final : public Unlisted {
+ public:
+  static constexpr double kFrequency = 2.5;
+
+  Swell() : Unlisted("swell") {}
   NuDot Push(EffectValues, const Moment& moment) const override {
     const double phase = kFrequency * moment.time_s;
     return {0.2 * std::cos(phase), 0.2 * std::sin(phase), 0.1 * std::cos(phase + 1.0)};
@@ -123,19 +130,11 @@ TEST(Diagnose, NamesWavesByTheirFrequency) {
 }
 
 /// Wind towards the east whose speed scatters by a fifth within half a minute.
-class Gusts final : public Effect {
+class Gusts final : public Unlisted {
  public:
   static constexpr double kSpeed = 8.0;
 
-  Gusts()
-      : Effect({.name = "gusts",
-                .title = "",
-                .equation = "",
-                .source = "",
-                .parameters = {},
-                .settled_by = "",
-                .hook = Hook::kPush}) {}
-  std::string Describe(EffectValues) const override { return ""; }
+  Gusts() : Unlisted("gusts") {}
   NuDot Push(EffectValues, const Moment& moment) const override {
     const double t = moment.time_s;
     const double speed = kSpeed * (1.0 + 0.2 * std::sin(0.21 * t) + 0.2 * std::sin(0.53 * t + 1.0));
