@@ -1,22 +1,11 @@
 #include "codec/change_json.hpp"
 
-#include <limits>
-
+#include "codec/field_reader.hpp"
 #include "codec/json_message.hpp"
+#include "codec/proto_values.hpp"
 
 namespace telltale {
 namespace {
-
-constexpr double kLargest = std::numeric_limits<double>::max();
-constexpr FieldRange kFinite{-kLargest, kLargest};
-constexpr FieldRange kShare{0.0, 1.0};
-constexpr FieldRange kPositive{0.0, kLargest, true};
-
-// Core and Protobuf enumerations have the same order, unknown first; tests hold them to it.
-template <class To, class From>
-To Same(From value) {
-  return static_cast<To>(static_cast<int>(value));
-}
 
 CoefficientChange ReadCoefficientChange(FieldReader reader,
                                         const proto::CoefficientChange& message) {
@@ -28,7 +17,7 @@ CoefficientChange ReadCoefficientChange(FieldReader reader,
           message.regressor(),
           message.symbol(),
           reader.Number("difference", kFinite),
-          reader.Number("standard_error", kPositive),
+          reader.Number("standard_error", kFinitePositive),
           reader.Number("p_value", kShare)};
 }
 
@@ -63,7 +52,7 @@ ModelChange ReadModelChange(FieldReader reader, const proto::ModelChange& messag
   }
   change.verdict = Same<ChangeVerdict>(message.verdict());
   change.p_value = reader.Number("p_value", kShare);
-  change.statistic = reader.Number("statistic", {0.0, kLargest});
+  change.statistic = reader.Number("statistic", kFiniteNotNegative);
   change.degrees_of_freedom = message.degrees_of_freedom();
   change.reason = message.reason();
   for (int i = 0; i < message.coefficients_size(); ++i) {

@@ -5,24 +5,11 @@
 #include <limits>
 #include <string>
 
+#include "codec/field_reader.hpp"
+#include "codec/proto_values.hpp"
+
 namespace telltale {
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kLargest = std::numeric_limits<double>::max();
-constexpr FieldRange kFinite{-kLargest, kLargest};
-constexpr FieldRange kNotNegative{0.0, kLargest};
-constexpr FieldRange kMaybeInfinite{0.0, kInfinity};
-constexpr FieldRange kProbability{0.0, 1.0};
-
-proto::Equation Same(Equation equation) {
-  return static_cast<proto::Equation>(static_cast<int>(equation));
-}
-
-std::uint32_t Count(std::size_t count) {
-  return static_cast<std::uint32_t>(
-      std::min<std::size_t>(count, std::numeric_limits<std::uint32_t>::max()));
-}
 
 void Write(const Interval& interval, proto::Interval& message) {
   message.set_level(interval.level);
@@ -33,7 +20,7 @@ void Write(const Interval& interval, proto::Interval& message) {
 void Write(const ExcitationSummary& summary, Parameterization parameterization,
            proto::Excitation& message) {
   const auto regressors = Regressors(summary.equation, parameterization);
-  message.set_equation(Same(summary.equation));
+  message.set_equation(Same<proto::Equation>(summary.equation));
   message.set_condition(summary.condition);
   for (std::size_t j = 0; j < summary.variance_inflation.size(); ++j) {
     proto::VarianceInflation& inflation = *message.add_variance_inflation();
@@ -45,7 +32,7 @@ void Write(const ExcitationSummary& summary, Parameterization parameterization,
     term.set_regressor(std::string(regressors[item.regressor].name));
     term.set_weight(item.weight);
   }
-  message.set_rows(Count(summary.rows));
+  message.set_rows(Saturated(summary.rows));
   message.set_effective_rows(summary.effective_rows);
 }
 
@@ -56,7 +43,7 @@ void Write(const ManoeuvreAdvice& advice, proto::ManoeuvreAdvice& message) {
   message.set_expected_nats(advice.expected_nats);
   for (const ExpectedBounds& expected : advice.expected) {
     proto::ExpectedBounds& item = *message.add_expected();
-    item.set_equation(Same(expected.equation));
+    item.set_equation(Same<proto::Equation>(expected.equation));
     item.set_regressor(expected.regressor);
     item.set_unit(expected.unit);
     item.set_estimate(expected.estimate);
@@ -66,8 +53,8 @@ void Write(const ManoeuvreAdvice& advice, proto::ManoeuvreAdvice& message) {
 }
 
 void Write(const CoefficientCoverage& coverage, proto::CoefficientCoverage& message) {
-  message.set_held(Count(coverage.tally.held));
-  message.set_total(Count(coverage.tally.of));
+  message.set_held(Saturated(coverage.tally.held));
+  message.set_total(Saturated(coverage.tally.of));
   message.set_coverage(coverage.tally.Share());
   Write(coverage.Bounds(), *message.mutable_interval());
   message.set_bias_standard_errors(coverage.bias);
@@ -75,21 +62,21 @@ void Write(const CoefficientCoverage& coverage, proto::CoefficientCoverage& mess
 
 void Write(const CoverageCertificate& certificate, const Identification& identification,
            proto::CoverageCertificate& message) {
-  message.set_asked(Count(certificate.asked));
-  message.set_answered(Count(certificate.answered));
+  message.set_asked(Saturated(certificate.asked));
+  message.set_answered(Saturated(certificate.answered));
   message.set_seed(certificate.seed);
   message.set_level(certificate.level);
   for (std::size_t i = 0; i < certificate.coefficients.size(); ++i) {
     proto::CoefficientCoverage& item = *message.add_coefficients();
-    item.set_equation(Same(identification.coefficients[i].equation));
+    item.set_equation(Same<proto::Equation>(identification.coefficients[i].equation));
     item.set_regressor(identification.coefficients[i].regressor);
     Write(certificate.coefficients[i], item);
   }
   if (certificate.thruster_time_constant) {
     Write(*certificate.thruster_time_constant, *message.mutable_thruster_time_constant());
   }
-  message.set_joint_held(Count(certificate.joint.held));
-  message.set_joint_total(Count(certificate.joint.of));
+  message.set_joint_held(Saturated(certificate.joint.held));
+  message.set_joint_total(Saturated(certificate.joint.of));
   Write(BinomialInterval(certificate.joint, kCoverageLevel), *message.mutable_joint_interval());
   message.set_mean_coverage(certificate.mean_coverage);
   message.set_mean_coverage_error(certificate.mean_coverage_error);
@@ -120,12 +107,12 @@ ExcitationSummary ReadExcitation(FieldReader reader, const proto::Excitation& me
   ExcitationSummary summary;
   summary.equation = ReadEquation(reader, message.equation());
   const auto regressors = Regressors(summary.equation, parameterization);
-  summary.condition = reader.Number("condition", {1.0, kInfinity});
-  summary.variance_inflation.assign(regressors.size(), kInfinity);
+  summary.condition = reader.Number("condition", {1.0, kNotNegative.high});
+  summary.variance_inflation.assign(regressors.size(), std::numeric_limits<double>::infinity());
   for (int i = 0; i < message.variance_inflation_size(); ++i) {
     FieldReader item = reader.Item("variance_inflation", i);
     const auto at = ReadRegressor(item, message.variance_inflation(i).regressor(), regressors);
-    summary.variance_inflation[at] = item.Number("factor", kMaybeInfinite);
+    summary.variance_inflation[at] = item.Number("factor", kNotNegative);
   }
   for (int i = 0; i < message.least_separable_size(); ++i) {
     FieldReader item = reader.Item("least_separable", i);
@@ -133,7 +120,7 @@ ExcitationSummary ReadExcitation(FieldReader reader, const proto::Excitation& me
     summary.least_separable.push_back({at, item.Number("weight", {-1.0, 1.0})});
   }
   summary.rows = message.rows();
-  summary.effective_rows = reader.Number("effective_rows", kNotNegative);
+  summary.effective_rows = reader.Number("effective_rows", kFiniteNotNegative);
   return summary;
 }
 
@@ -141,15 +128,15 @@ ManoeuvreAdvice ReadAdvice(FieldReader reader, const proto::ManoeuvreAdvice& mes
   ManoeuvreAdvice advice;
   advice.manoeuvre = message.manoeuvre();
   advice.how = message.how();
-  advice.duration_s = reader.Number("duration_s", kNotNegative);
+  advice.duration_s = reader.Number("duration_s", kFiniteNotNegative);
   advice.expected_nats = reader.Number("expected_nats", kFinite);
   for (int i = 0; i < message.expected_size(); ++i) {
     FieldReader item = reader.Item("expected", i);
     const proto::ExpectedBounds& expected = message.expected(i);
     advice.expected.push_back({ReadEquation(item, expected.equation()), expected.regressor(),
                                expected.unit(), item.Number("estimate", kFinite),
-                               item.Number("half_width", kMaybeInfinite),
-                               item.Number("expected_half_width", kMaybeInfinite)});
+                               item.Number("half_width", kNotNegative),
+                               item.Number("expected_half_width", kNotNegative)});
   }
   return advice;
 }
@@ -174,7 +161,7 @@ CoverageCertificate ReadCertificate(FieldReader reader, const proto::CoverageCer
   certificate.asked = answered.of;
   certificate.answered = answered.held;
   certificate.seed = message.seed();
-  certificate.level = reader.Number("level", kProbability);
+  certificate.level = reader.Number("level", kShare);
   const std::size_t expected = identification.coefficients.size();
   if (static_cast<std::size_t>(message.coefficients_size()) != expected) {
     reader.Fail("coefficients", std::to_string(message.coefficients_size()) + " entries",
@@ -189,8 +176,8 @@ CoverageCertificate ReadCertificate(FieldReader reader, const proto::CoverageCer
         ReadCoverage(reader.Optional("thruster_time_constant"), message.thruster_time_constant());
   }
   certificate.joint = ReadTally(reader, "joint_held", message.joint_held(), message.joint_total());
-  certificate.mean_coverage = reader.Number("mean_coverage", kProbability);
-  certificate.mean_coverage_error = reader.Number("mean_coverage_error", kNotNegative);
+  certificate.mean_coverage = reader.Number("mean_coverage", kShare);
+  certificate.mean_coverage_error = reader.Number("mean_coverage_error", kFiniteNotNegative);
   certificate.about_published_model = message.about_published_model();
   return certificate;
 }

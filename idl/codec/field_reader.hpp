@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -22,6 +23,16 @@ struct FieldRange {
   bool Contains(double value) const;  ///< never true for NaN
   std::string Text() const;           ///< "a number in [low, high]"
 };
+
+/// Those that many fields share: what is not called finite may be infinite, but never NaN.
+inline constexpr double kLargest = std::numeric_limits<double>::max();
+inline constexpr FieldRange kNotNan{-std::numeric_limits<double>::infinity(),
+                                    std::numeric_limits<double>::infinity()};
+inline constexpr FieldRange kNotNegative{0.0, kNotNan.high};
+inline constexpr FieldRange kFinite{-kLargest, kLargest};
+inline constexpr FieldRange kFiniteNotNegative{0.0, kLargest};
+inline constexpr FieldRange kFinitePositive{0.0, kLargest, true};
+inline constexpr FieldRange kShare{0.0, 1.0};
 
 /// A number as messages show it, up to 15 significant digits.
 std::string NumberText(double value);

@@ -1,9 +1,7 @@
 #include "codec/metrics_json.hpp"
 
-#include <algorithm>
-#include <limits>
-
 #include "codec/json_message.hpp"
+#include "codec/proto_values.hpp"
 
 namespace telltale {
 namespace {
@@ -34,14 +32,13 @@ FreeRunScore ScoreOf(const proto::FreeRunScore& message) {
 }  // namespace
 
 proto::Metrics::FreeRun ToProto(const FreeRunScores& scores) {
-  constexpr std::size_t kMost = std::numeric_limits<std::uint32_t>::max();
   proto::Metrics::FreeRun message;
   message.set_horizon_s(scores.horizon_s);
   Write(scores.velocity[0], *message.mutable_surge());
   Write(scores.velocity[1], *message.mutable_sway());
   Write(scores.velocity[2], *message.mutable_yaw());
   message.set_position_rmse_m(scores.position_rmse_m);
-  message.set_windows(static_cast<std::uint32_t>(std::min(scores.windows, kMost)));
+  message.set_windows(Saturated(scores.windows));
   return message;
 }
 

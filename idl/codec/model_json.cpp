@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <limits>
 #include <utility>
 
 #include "codec/change_json.hpp"
@@ -11,30 +10,15 @@
 #include "codec/evidence_json.hpp"
 #include "codec/field_reader.hpp"
 #include "codec/json_message.hpp"
+#include "codec/proto_values.hpp"
 #include "codec/vehicle_file.hpp"
 
 namespace telltale {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kLargest = std::numeric_limits<double>::max();
-constexpr FieldRange kFinite{-kLargest, kLargest};
-constexpr FieldRange kNotNan{-kInfinity, kInfinity};
-constexpr FieldRange kNotNegative{0.0, kInfinity};
 constexpr FieldRange kSamplingPeriod{0.001, 10.0};
 constexpr FieldRange kForwardLimit{0.0, kWidestDeadZone};
 constexpr FieldRange kReverseLimit{-kWidestDeadZone, 0.0};
-
-// Core and Protobuf enumerations have the same order, unknown first; tests hold them to it.
-template <class To, class From>
-To Same(From value) {
-  return static_cast<To>(static_cast<int>(value));
-}
-
-std::uint32_t Saturated(std::uint64_t count) {
-  return static_cast<std::uint32_t>(
-      std::min<std::uint64_t>(count, std::numeric_limits<std::uint32_t>::max()));
-}
 
 // ---- to Protobuf --------------------------------------------------------------------------
 
@@ -252,7 +236,7 @@ std::optional<Coefficient> ReadTimeConstant(FieldReader& reader, const proto::Mo
   }
   if (!dynamic) return std::nullopt;
   FieldReader item = reader.Optional("thruster_time_constant_s");
-  item.Number("estimate", {0.0, kLargest, true});
+  item.Number("estimate", kFinitePositive);
   return ReadCoefficient(item, model.thruster_time_constant_s());
 }
 
@@ -356,7 +340,7 @@ Disturbance ReadDisturbance(FieldReader reader, const proto::Disturbance& messag
 
 /// The radius follows from the rest.
 JointBounds ReadJoint(FieldReader reader) {
-  return {reader.Number("covariance_factor", {0.0, kLargest, true}),
+  return {reader.Number("covariance_factor", kFinitePositive),
           reader.Number("degrees_of_freedom", {1.0, kLargest})};
 }
 

@@ -2,40 +2,25 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <limits>
 #include <numeric>
 
 #include "codec/field_reader.hpp"
 #include "codec/json_message.hpp"
 #include "codec/metrics_json.hpp"
+#include "codec/proto_values.hpp"
 #include "codec/vehicle_file.hpp"
 #include "contract.hpp"
 
 namespace telltale {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr FieldRange kNotNan{-kInfinity, kInfinity};
-constexpr FieldRange kNotNegative{0.0, kInfinity};
-constexpr FieldRange kProbability{0.0, 1.0};
 constexpr const char* kUnknownEffect = "unknown";
 
 using Region = proto::GapCell;
 
-// Core and Protobuf enumerations have the same order, unknown first; tests hold them to it.
-template <class To, class From>
-To Same(From value) {
-  return static_cast<To>(static_cast<int>(value));
-}
-
-std::uint32_t Count(std::size_t count) {
-  constexpr std::size_t kMost = std::numeric_limits<std::uint32_t>::max();
-  return static_cast<std::uint32_t>(std::min(count, kMost));
-}
-
 // ---- to Protobuf --------------------------------------------------------------------------
 
-proto::GapCell::PropellerRegion Same(const std::optional<PropellerRegion>& region) {
+proto::GapCell::PropellerRegion RegionOf(const std::optional<PropellerRegion>& region) {
   constexpr int kFirst = static_cast<int>(Region::FF);
   return region ? static_cast<Region::PropellerRegion>(kFirst + static_cast<int>(*region))
                 : Region::ALL;
@@ -61,7 +46,7 @@ void Write(const GapSize& size, Message& message) {
 
 void Write(const Gap& gap, proto::Gap& message) {
   message.set_horizon_s(gap.horizon_s);
-  message.set_windows(Count(gap.windows));
+  message.set_windows(Saturated(gap.windows));
   Write(gap.all, message);
   Write(gap.closure, message);
   for (const Equation equation : kEquations) {
@@ -74,13 +59,13 @@ void Write(const Gap& gap, proto::Gap& message) {
 
 void Write(const GapCell& cell, proto::GapCell& message) {
   message.set_channel(Same<proto::Equation>(cell.channel));
-  message.set_propeller_region(Same(cell.region));
+  message.set_propeller_region(RegionOf(cell.region));
   message.set_bin(cell.bin);
   message.set_excess_share(cell.excess_share);
   message.set_p_value(cell.p_value);
   message.set_kind(Same<proto::GapCell::Kind>(cell.kind));
   message.set_mean(cell.mean);
-  message.set_windows(Count(cell.windows));
+  message.set_windows(Saturated(cell.windows));
 }
 
 void Write(const CausalEffect& effect, proto::Cause& message) {
@@ -146,7 +131,7 @@ void Write(const WindowPicture& picture, proto::WindowPicture& message) {
   message.set_after(picture.after);
   message.set_psi_rad(picture.psi_rad);
   message.set_speed_m_s(picture.speed_m_s);
-  message.set_propeller_region(Same(picture.region));
+  message.set_propeller_region(RegionOf(picture.region));
   message.mutable_error_before()->Add(picture.error_before.begin(), picture.error_before.end());
   message.mutable_error_after()->Add(picture.error_after.begin(), picture.error_after.end());
 }
@@ -179,7 +164,7 @@ std::optional<PropellerRegion> ReadRegion(FieldReader& reader, Region::Propeller
 }
 
 Interval ReadInterval(FieldReader reader) {
-  return {reader.Number("level", kProbability), reader.Number("lower", kNotNan),
+  return {reader.Number("level", kShare), reader.Number("lower", kNotNan),
           reader.Number("upper", kNotNan)};
 }
 
@@ -196,7 +181,7 @@ GapSize ReadSize(FieldReader& reader) {
 
 Gap ReadGap(FieldReader reader, const proto::Gap& message) {
   Gap gap;
-  gap.horizon_s = reader.Number("horizon_s", {0.0, kInfinity, true});
+  gap.horizon_s = reader.Number("horizon_s", {0.0, kNotNegative.high, true});
   gap.windows = message.windows();
   gap.all = ReadSize(reader);
   gap.closure = ReadClosure(reader);
@@ -216,7 +201,7 @@ GapCell ReadCell(FieldReader reader, const proto::GapCell& message) {
   cell.region = ReadRegion(reader, message.propeller_region());
   cell.bin = message.bin();
   cell.excess_share = reader.Number("excess_share", kNotNan);
-  cell.p_value = reader.Number("p_value", kProbability);
+  cell.p_value = reader.Number("p_value", kShare);
   cell.kind = ReadEnum<GapKind>(reader, "kind", message.kind());
   cell.mean = reader.Number("mean", kNotNan);
   cell.windows = message.windows();
@@ -248,7 +233,7 @@ Cause ReadCause(FieldReader reader, const proto::Cause& message) {
   for (const std::string& effect : message.effects()) {
     if (effect != kUnknownEffect) cause.effects.push_back({effect, {}, "", 1.0});
   }
-  cause.probability = reader.Number("probability", kProbability);
+  cause.probability = reader.Number("probability", kShare);
   for (int i = 0; i < message.parameters_size(); ++i) {
     ReadParameter(reader.Item("parameters", i), message.parameters(i), cause);
   }
@@ -383,7 +368,7 @@ proto::Report ToProto(const Diagnosis& diagnosis) {
   report.set_verdict(Same<proto::DiagnosisVerdict>(diagnosis.verdict));
   report.set_sentence(diagnosis.sentence);
   report.set_floor_basis(Same<proto::FloorBasis>(diagnosis.floor_basis));
-  report.set_reference_logs(Count(diagnosis.reference_logs));
+  report.set_reference_logs(Saturated(diagnosis.reference_logs));
   report.set_start_s(diagnosis.start_s);
   report.set_end_s(diagnosis.end_s);
   Write(diagnosis.Main(), *report.mutable_gap());

@@ -8,6 +8,7 @@
 #include <initializer_list>
 #include <limits>
 
+#include "codec/field_reader.hpp"
 #include "codec/report_json.hpp"
 #include "codec/vehicle_file.hpp"
 #include "contract.hpp"
@@ -338,7 +339,6 @@ double ReadWithin(std::string field, double value, double lowest, double highest
   Reject(std::move(field), Text(value), "[" + Text(lowest) + ", " + Text(highest) + "]");
 }
 
-constexpr double kLargest = std::numeric_limits<double>::max();
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// The enumerator of that name among `allowed`.
