@@ -58,7 +58,7 @@ endfunction()
 
 # What waits for people, or checks the rest, gains nothing from the last optimisations but their wait.
 function(telltale_optimise_lightly target)
-  target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
+  target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-Og>)
 endfunction()
 
 # telltale_precompiled(NAME HEADERS ... LINKS ...): headers of the libraries linked, read once for all

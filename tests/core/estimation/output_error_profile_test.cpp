@@ -82,7 +82,7 @@ double ExactSum(const ShotPlan& plan, double size_m, double drag) {
     A.row(i) = rows[static_cast<std::size_t>(i)];
     z[i] = measured[static_cast<std::size_t>(i)];
   }
-  return (z - A * Eigen::HouseholderQR<Eigen::MatrixXd>(A).solve(z)).squaredNorm();
+  return (z - A * Eigen::ColPivHouseholderQR<Eigen::MatrixXd>(A).solve(z)).squaredNorm();
 }
 
 /// Where a function that rises from `inside` to `outside` reaches zero.
