@@ -10,11 +10,20 @@
 namespace telltale {
 namespace {
 
+/// CLI11 would say only that a command is missing.
+bool NamesNoCommand(const CLI::App& app, int argc, char** argv) {
+  return app.get_subcommands().empty() && argc > 1 && argv[1][0] != '-';
+}
+
 ExitCode Run(CLI::App& app, int argc, char** argv) {
   try {
     app.parse(argc, argv);
     return ExitCode::kSuccess;
   } catch (const CLI::ParseError& error) {
+    if (NamesNoCommand(app, argc, argv)) {
+      std::cerr << argv[1] << ": no such command\nRun with --help for those there are.\n";
+      return ExitCode::kUsage;
+    }
     return app.exit(error) == 0 ? ExitCode::kSuccess : ExitCode::kUsage;
   } catch (const UsageError& error) {
     std::cerr << "telltale: " << error.what() << '\n';

@@ -114,6 +114,7 @@ TEST_F(CommandTest, WrongCommandLinesAreUsageErrors) {
     EXPECT_THAT(outcome.err, Not(IsEmpty()));
     EXPECT_THAT(outcome.out, IsEmpty());
   }
+  EXPECT_THAT(Telltale({"identfy"}).err, HasSubstr("identfy: no such command"));
 }
 
 TEST_F(CommandTest, OptionsOutOfRangeAreUsageErrorsThatNameTheRange) {
