@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
+#include <numeric>
+#include <optional>
 #include <utility>
 
 #include "contract.hpp"
@@ -32,7 +35,7 @@ Drive Weighed(const Drive& sum, const Drive& more, double weight) {
       sum.load + weight * more.load};
 }
 
-/// One first-order lag of both sides' thrust under drives that are steady through each step.
+/// The first-order lag of both sides' thrust under drives that are steady through each step.
 class LaggedThrust {
  public:
   LaggedThrust(double lag_s, double step_s, const Drive& first)
@@ -55,6 +58,60 @@ class LaggedThrust {
   Drive now_;
 };
 
+// T = n abs(n) and back, each component of a side's thrust in units of its own.
+double SpeedFor(double thrust) {
+  return std::copysign(std::sqrt(std::abs(thrust)), thrust);
+}
+
+double ThrustAt(double speed) {
+  return speed * std::abs(speed);
+}
+
+/// Two shafts whose speed follows what they are told by a first order.
+class LaggingShafts {
+ public:
+  LaggingShafts(double lag_s, const std::array<NuDot, 2>& first) : lag_s_(lag_s), now_(first) {}
+
+  /// Told to give the same thrust for so long.
+  std::array<NuDot, 2> After(double time_s, const std::array<NuDot, 2>& told) const {
+    const double remaining = std::exp(-time_s / lag_s_);
+    const auto between = [&](double from, double to) {
+      const double end = SpeedFor(to);
+      return ThrustAt(end + remaining * (SpeedFor(from) - end));
+    };
+    std::array<NuDot, 2> thrust;
+    for (std::size_t side = 0; side < 2; ++side) {
+      thrust[side] = {between(now_[side].u, told[side].u), between(now_[side].v, told[side].v),
+                      between(now_[side].r, told[side].r)};
+    }
+    return thrust;
+  }
+
+  void Follow(double time_s, const std::array<NuDot, 2>& told) { now_ = After(time_s, told); }
+
+ private:
+  double lag_s_;
+  std::array<NuDot, 2> now_;  ///< what they give
+};
+
+/// What a chain of shafts gives, told the same for so long: each follows the one before.
+std::array<NuDot, 2> Given(const std::vector<LaggingShafts>& chain, double time_s,
+                           std::array<NuDot, 2> told) {
+  for (const LaggingShafts& shafts : chain) told = shafts.After(time_s, told);
+  return told;
+}
+
+void FollowAll(std::vector<LaggingShafts>& chain, double time_s, std::array<NuDot, 2> told) {
+  for (LaggingShafts& shafts : chain) {
+    shafts.Follow(time_s, told);
+    told = shafts.After(0.0, told);
+  }
+}
+
+// Gauss and Legendre's two nodes: exact for cubics of time, and thrust is a square of what decays
+// slowly.
+constexpr std::array kNodes = {0.5 - 0.5 / std::numbers::sqrt3, 0.5 + 0.5 / std::numbers::sqrt3};
+
 }  // namespace
 
 std::size_t StepsPerRow(const VesselModel& model, double sampling_period_s) {
@@ -73,13 +130,12 @@ AugmentedBoat::AugmentedBoat(AugmentedModel model, double start_s, double span_s
       (i < body ? hull_[j][i] : thrust_[j][i - body]) = theta[static_cast<Eigen::Index>(i)];
     }
   }
-  if (model_.model.thruster_time_constant_s) {
-    lags_s_.push_back(*model_.model.thruster_time_constant_s);
-  }
   for (const auto& [effect, values] : model_.effects) {
     Require(values.size() == effect->Parameters().size(), "one value per parameter");
     hooked_[static_cast<std::size_t>(effect->Facts().hook)].push_back({effect, values});
-    if (const double lag_s = effect->LagS(values); lag_s > 0.0) lags_s_.push_back(lag_s);
+    if (const double lag_s = effect->ShaftLagS(values); lag_s > 0.0) {
+      shaft_lags_s_.push_back(lag_s);
+    }
     delay_s_ += effect->CommandDelayS(values);
     heading_error_rad_ += effect->HeadingErrorRad(values);
     latency_s_ += effect->LatencyS(values);
@@ -110,27 +166,42 @@ std::array<NuDot, 2> AugmentedBoat::SteadyThrust(const PropellerCommand& delta) 
 
 std::vector<Drive> AugmentedBoat::DriveAlong(const HeldCommands& commands, double from_s,
                                              double step_s, std::size_t steps) const {
-  double memory_s = 0.0;
-  for (const double lag_s : lags_s_) memory_s += kMemoryInLags * lag_s;
-  const auto before = static_cast<std::size_t>(std::ceil(memory_s / step_s));
-  const auto steady = [&](std::size_t k) {
-    const double from =
-        from_s - delay_s_ + (static_cast<double>(k) - static_cast<double>(before)) * step_s;
+  const double thrust_lag_s = model_.model.thruster_time_constant_s.value_or(0.0);
+  const double lags_s = std::accumulate(shaft_lags_s_.begin(), shaft_lags_s_.end(), thrust_lag_s);
+  const auto before = static_cast<std::size_t>(std::ceil(kMemoryInLags * lags_s / step_s));
+  const double first_s = from_s - delay_s_ - static_cast<double>(before) * step_s;
+  std::vector<LaggingShafts> shafts;
+  for (const double lag_s : shaft_lags_s_) {
+    shafts.emplace_back(lag_s, SteadyThrust(commands.At(first_s)));
+  }
+  const auto drive_of_step = [&](std::size_t k) {
+    const double start_s = first_s + static_cast<double>(k) * step_s;
     Drive mean;
     commands.ForEachPiece(
-        from, from + step_s, [&](const PropellerCommand& delta, double begin, double end) {
+        start_s, start_s + step_s, [&](const PropellerCommand& delta, double begin, double end) {
           const double load = 0.5 * (delta.port * delta.port + delta.starboard * delta.starboard);
-          mean = Weighed(mean, {SteadyThrust(delta), load}, (end - begin) / step_s);
+          const double share = (end - begin) / step_s;
+          const std::array<NuDot, 2> told = SteadyThrust(delta);
+          if (shafts.empty()) {
+            mean = Weighed(mean, {told, load}, share);
+            return;
+          }
+          for (const double node : kNodes) {
+            mean = Weighed(mean, {Given(shafts, node * (end - begin), told), load}, 0.5 * share);
+          }
+          FollowAll(shafts, end - begin, told);
         });
     return mean;
   };
-  std::vector<LaggedThrust> lags;
-  for (const double lag_s : lags_s_) lags.emplace_back(lag_s, step_s, steady(0));
+  std::optional<LaggedThrust> lagged;
   std::vector<Drive> drives;
   drives.reserve(steps);
   for (std::size_t k = 0; k < before + steps; ++k) {
-    Drive drive = steady(k);
-    for (LaggedThrust& lag : lags) drive = lag.Follow(drive);
+    Drive drive = drive_of_step(k);
+    if (thrust_lag_s > 0.0) {
+      if (!lagged) lagged.emplace(thrust_lag_s, step_s, drive);
+      drive = lagged->Follow(drive);
+    }
     if (k >= before) drives.push_back(drive);
   }
   return drives;

@@ -31,11 +31,11 @@ std::size_t StepsPerRow(const VesselModel& model, double sampling_period_s);
 
 /// A model and its effects, ready to sail.
 /// Model: nu_dot = body(nu_r) + sum over sides of share T + (r v_c, -r u_c, 0) + pushes,
-/// docs/diagnosis.md (81); T follows the commands, delayed and altered, through the model's own lag
-/// and those of the effects. kForwardEuler models step as they were made, kContinuous ones by a
-/// Runge-Kutta step of order four with the heading of the middle of the step.
-/// Requires: a model with all three equations; `span_s` > 0, the length of what is sailed, from
-/// `start_s` on the clock of the commands.
+/// docs/diagnosis.md (81); T is of shafts that follow the commands, delayed and altered, through
+/// the effects' lags, and lags itself by the model's own. kForwardEuler models step as they were
+/// made, kContinuous ones by a Runge-Kutta step of order four with the heading of the middle of the
+/// step. Requires: a model with all three equations; `span_s` > 0, the length of what is sailed,
+/// from `start_s` on the clock of the commands.
 class AugmentedBoat {
  public:
   AugmentedBoat(AugmentedModel model, double start_s, double span_s);
@@ -69,7 +69,7 @@ class AugmentedBoat {
   double span_s_;
   std::array<std::array<double, 9>, 3> hull_{};
   std::array<std::array<double, 4>, 3> thrust_{};
-  std::vector<double> lags_s_;
+  std::vector<double> shaft_lags_s_;
   double delay_s_ = 0.0;
   double heading_error_rad_ = 0.0;
   LeverArm antenna_shift_;

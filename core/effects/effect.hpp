@@ -104,8 +104,9 @@ class Effect {
   virtual double CommandDelayS(EffectValues) const { return 0.0; }
   /// What a thruster makes of a command in [-1, 1]. Hook::kCommand.
   virtual double Command(EffectValues, double delta) const { return delta; }
-  /// Thrust follows the command as if through one more first-order lag.
-  virtual double LagS(EffectValues) const { return 0.0; }
+  /// The shafts' speed, thrust being its square, follows the command by a first order of this time
+  /// constant.
+  virtual double ShaftLagS(EffectValues) const { return 0.0; }
   /// Share of its thrust that a propeller gives. Hook::kThrustShare.
   virtual double ThrustShare(EffectValues, Side, const Moment&) const { return 1.0; }
   /// The water's velocity north and east.

@@ -10,16 +10,16 @@ class ThrusterLagEffect final : public Effect {
   ThrusterLagEffect()
       : Effect({.name = "thruster_lag",
                 .title = "thrusters that lag",
-                .equation = "tau dT/dt = T_c - T",
-                .source = "The paper, first-order dynamic propellers",
+                .equation = "tau dn/dt = n_c - n of the shafts' speed n, with T = n abs(n)",
+                .source = "Yoerger, Cooke and Slotine 1990: the shaft's speed is the state",
                 .parameters = {{"time_constant", "s", 0.2, 0.0, 2.0}},
                 .settled_by = "the speed of the propellers"}) {}
 
   std::string Describe(EffectValues values) const override {
-    return "thrust follows commands " + Number(values[0], 2) + " s more slowly";
+    return "thrusters follow commands " + Number(values[0], 2) + " s more slowly";
   }
 
-  double LagS(EffectValues values) const override { return values[0]; }
+  double ShaftLagS(EffectValues values) const override { return values[0]; }
 };
 
 }  // namespace

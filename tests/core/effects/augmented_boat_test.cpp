@@ -80,18 +80,22 @@ TEST(AugmentedBoat, DelaysCommands) {
   }
 }
 
-// The mean over [t, t + h] of 1 - exp(-t / tau).
-TEST(AugmentedBoat, LagsByAFirstOrder) {
+// T = n abs(n) with n at 1 - exp(-t / tau) of its last value; the drive is the mean through a step.
+TEST(AugmentedBoat, LagsInTheSpeedOfItsShafts) {
   constexpr double kTau = 0.4;
   const PropellerCommand ahead{0.5, 0.5};
   const auto plain = Plain().DriveAlong(Stepped(ahead), 0.0, kStepS, 60);
   const auto lagging = BoatWith("thruster_lag", {kTau}).DriveAlong(Stepped(ahead), 0.0, kStepS, 60);
-  const double steady = plain.back().thrust[0].u;
+  const NuDot steady = plain.back().thrust[0];
   for (std::size_t k = 20; k < 60; ++k) {
     const double t = static_cast<double>(k - 20) * kStepS;
-    const double mean =
-        1.0 - kTau / kStepS * (std::exp(-t / kTau) - std::exp(-(t + kStepS) / kTau));
-    EXPECT_NEAR(lagging[k].thrust[0].u, steady * mean, 1e-9) << k;
+    const auto decayed = [&](double tau) {  // mean of exp(-t / tau) through the step
+      return tau / kStepS * (std::exp(-t / tau) - std::exp(-(t + kStepS) / tau));
+    };
+    const double mean = 1.0 - 2.0 * decayed(kTau) + decayed(0.5 * kTau);
+    // Two Gauss nodes of a step of an eighth of tau leave some 1e-7 of it.
+    EXPECT_NEAR(lagging[k].thrust[0].u, steady.u * mean, 1e-6) << k;
+    EXPECT_NEAR(lagging[k].thrust[0].r, steady.r * mean, 1e-6) << k;
   }
 }
 
