@@ -13,12 +13,14 @@ constexpr double kMaterialEvidence = 8.0;
 constexpr double kNeverInHealth = 0.9;
 // Times the limit: what an upper bound may be of a gap that is no more than health.
 constexpr double kEquivalent = 2.0;
-// An explanation is as doubtful as not where it leaves this share of the excess and is this far, in
-// ln, beyond healthy recordings.
-constexpr double kDoubtfulShare = 0.2;
-constexpr double kDoubtfulExcess = 1.5;
-constexpr double kSharpness = 3.0;
-constexpr double kLeastShare = 1e-3;
+// The logarithm of the odds that it is something else: so much a unit of ln of what is left, with
+// an even chance at this much, and this much sooner for several effects together, which mend
+// between them what none of them is. By the logarithmic score, of explanations by true effects and
+// of those by others where the true one was left out, the latter a quarter of all.
+constexpr double kSharpness = 2.7;
+constexpr double kEvenAt = -0.9;
+constexpr double kSoonerTogether = 1.5;
+constexpr double kLeastShare = 0.02;
 constexpr double kExplained = 0.7;  // of the gap
 
 double Logistic(double x) {
@@ -26,13 +28,12 @@ double Logistic(double x) {
 }
 
 /// Probability that it is something else, by what the likeliest explanation leaves.
-double DoubtOf(const Remainder& remainder) {
+double DoubtOf(const Remainder& remainder, bool together) {
   const double excess = remainder.after - remainder.healthy;
-  if (excess <= 0.0) return 0.0;
-  const double share =
-      std::clamp(excess / std::max(remainder.before - remainder.healthy, excess), kLeastShare, 1.0);
-  const double beyond = std::log(remainder.after / remainder.healthy);
-  return Logistic(kSharpness * (std::log(share / kDoubtfulShare) + beyond - kDoubtfulExcess));
+  const double before = std::max(remainder.before - remainder.healthy, excess);
+  const double share = before > 0.0 ? std::max(excess / before, kLeastShare) : kLeastShare;
+  const double left = std::log(share) + std::log(remainder.after / remainder.healthy);
+  return Logistic(kSharpness * (left - kEvenAt + (together ? kSoonerTogether : 0.0)));
 }
 
 }  // namespace
@@ -76,7 +77,7 @@ Ranking Rank(const Explanations& explanations, const Judge& judge, const Remaind
     alike->probability += own;
     alike->alike.push_back(fit);
   }
-  ranking.unknown = DoubtOf(remainder);
+  ranking.unknown = DoubtOf(remainder, all.front().effects.size() > 1);
   const double known = (1.0 - ranking.unknown) / total;
   ranking.nothing *= known;
   for (RankedFit& ranked : ranking.fits) ranked.probability *= known;

@@ -14,7 +14,7 @@ namespace {
 constexpr int kIterations = 40;
 // What the best frequency gains over the ends of the range counts so many times: scatter that grew
 // in any other way gains as much at an end, and peaks nowhere between.
-constexpr double kNarrow = 20.0;
+constexpr double kNarrow = 50.0;
 
 /// Windows whose errors scatter by I + excess.
 struct Spectrum {
@@ -96,7 +96,8 @@ EffectFit FitShaking(const Effect& effect, const Evidence& evidence, const Judge
   const std::vector<std::size_t> all_blocks = BlocksOf(evidence.runs);
   for (const std::size_t w : judge.Windows()) blocks.push_back(all_blocks[w]);
   const double narrow = LastingSum(best->gains - end.gains, blocks);
-  const double gain = std::clamp(kNarrow * narrow, 0.0, std::max(best->gains.sum(), 0.0));
+  const bool lasts = LastingSum(best->gains, blocks) > 0.0;
+  const double gain = lasts ? std::clamp(kNarrow * narrow, 0.0, best->gains.sum()) : 0.0;
 
   EffectFit fit;
   ModelledEffect& modelled = fit.effects.emplace_back(ModelledEffect{&effect, {}});

@@ -106,11 +106,11 @@ class Unlisted : public Effect {
 
 /// A swell of one frequency, which the simulator can sail; of the library's waves it is told only
 /// how they scatter.
-class Swell final : public Unlisted {
+class Swell : public Unlisted {
  public:
   static constexpr double kFrequency = 2.5;
 
-  Swell() : Unlisted("swell") {}
+  explicit Swell(std::string_view name = "swell") : Unlisted(name) {}
   NuDot Push(EffectValues, const Moment& moment) const override {
     const double phase = kFrequency * moment.time_s;
     return {0.2 * std::cos(phase), 0.2 * std::sin(phase), 0.1 * std::cos(phase + 1.0)};
@@ -127,6 +127,24 @@ TEST(Diagnose, NamesWavesByTheirFrequency) {
   EXPECT_EQ(cause.effects[0].effect, "waves");
   // The grid of frequencies is 20 % wide.
   EXPECT_NEAR(cause.effects[0].parameters[3].estimate, Swell::kFrequency, 0.5);
+}
+
+/// The same in trains of 35 s, as ships pass every two minutes, and calm between.
+class Wash final : public Swell {
+ public:
+  Wash() : Swell("wash") {}
+  NuDot Push(EffectValues values, const Moment& moment) const override {
+    return std::fmod(moment.time_s, 120.0) < 35.0 ? Swell::Push(values, moment) : NuDot{};
+  }
+};
+
+TEST(Diagnose, DoesNotTakeWashForWaves) {
+  const Wash wash;
+  const auto diagnosed = DiagnosedWith({{&wash, {}}});
+  ASSERT_TRUE(diagnosed.has_value());
+  EXPECT_EQ(diagnosed->diagnosis.verdict, Verdict::kUnknownCause);
+  ASSERT_FALSE(diagnosed->diagnosis.causes.empty());
+  EXPECT_EQ(FirstCause(diagnosed).effects.size(), 0U);
 }
 
 /// Wind towards the east whose speed scatters by a fifth within half a minute.

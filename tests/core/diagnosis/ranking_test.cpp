@@ -90,5 +90,18 @@ TEST(Rank, DoubtsWhatLeavesMuch) {
   EXPECT_GT(less_doubt, 0.95);
 }
 
+// Two that mend between them what neither of them is are likelier to be mistaken than one.
+TEST(Rank, DoubtsSeveralTogetherSooner) {
+  const RankedBoat boat;
+  Explanations alone;
+  alone.singles = {boat.Scored("thruster_lag", -40.0)};
+  Explanations together = alone;
+  together.together = {boat.Scored("wind", -60.0)};
+  together.together.front().effects.push_back({FindEffect("thruster_lag"), {}});
+  const Remainder remainder{.before = 20.0, .after = 2.0, .healthy = 1.0};
+  EXPECT_GT(Rank(together, boat.judge, remainder).unknown,
+            Rank(alone, boat.judge, remainder).unknown);
+}
+
 }  // namespace
 }  // namespace telltale
