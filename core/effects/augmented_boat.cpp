@@ -5,6 +5,7 @@
 #include <numbers>
 #include <numeric>
 #include <optional>
+#include <span>
 #include <utility>
 
 #include "contract.hpp"
@@ -67,50 +68,51 @@ double ThrustAt(double speed) {
   return speed * std::abs(speed);
 }
 
-/// Two shafts whose speed follows what they are told by a first order.
+// Gauss and Legendre's two nodes, exact for cubics of time.
+constexpr std::array kNodes = {0.5 - 0.5 / std::numbers::sqrt3, 0.5 + 0.5 / std::numbers::sqrt3};
+
+/// Two shafts whose speed follows what they are told by first orders, one after the other.
 class LaggingShafts {
  public:
-  LaggingShafts(double lag_s, const std::array<NuDot, 2>& first) : lag_s_(lag_s), now_(first) {}
-
-  /// Told to give the same thrust for so long.
-  std::array<NuDot, 2> After(double time_s, const std::array<NuDot, 2>& told) const {
-    const double remaining = std::exp(-time_s / lag_s_);
-    const auto between = [&](double from, double to) {
-      const double end = SpeedFor(to);
-      return ThrustAt(end + remaining * (SpeedFor(from) - end));
-    };
-    std::array<NuDot, 2> thrust;
-    for (std::size_t side = 0; side < 2; ++side) {
-      thrust[side] = {between(now_[side].u, told[side].u), between(now_[side].v, told[side].v),
-                      between(now_[side].r, told[side].r)};
-    }
-    return thrust;
+  LaggingShafts(std::span<const double> lags_s, const SideThrust& first) {
+    for (const double lag_s : lags_s) stages_.push_back({lag_s, first});
   }
 
-  void Follow(double time_s, const std::array<NuDot, 2>& told) { now_ = After(time_s, told); }
+  /// What they give on average while they are told to give the same for so long.
+  SideThrust Follow(const SideThrust& told, double time_s) {
+    SideThrust mean;
+    for (const double node : kNodes) {
+      SideThrust given = told;
+      for (const Stage& stage : stages_) given = stage.After(node * time_s, given);
+      for (std::size_t side = 0; side < 2; ++side) mean[side] = Plus(mean[side], given[side], 0.5);
+    }
+    SideThrust given = told;
+    for (Stage& stage : stages_) given = stage.now = stage.After(time_s, given);
+    return mean;
+  }
 
  private:
-  double lag_s_;
-  std::array<NuDot, 2> now_;  ///< what they give
+  struct Stage {
+    double lag_s;
+    SideThrust now;
+
+    SideThrust After(double time_s, const SideThrust& told) const {
+      const double remaining = std::exp(-time_s / lag_s);
+      const auto between = [&](double from, double to) {
+        const double end = SpeedFor(to);
+        return ThrustAt(end + remaining * (SpeedFor(from) - end));
+      };
+      SideThrust thrust;
+      for (std::size_t side = 0; side < 2; ++side) {
+        thrust[side] = {between(now[side].u, told[side].u), between(now[side].v, told[side].v),
+                        between(now[side].r, told[side].r)};
+      }
+      return thrust;
+    }
+  };
+
+  std::vector<Stage> stages_;
 };
-
-/// What a chain of shafts gives, told the same for so long: each follows the one before.
-std::array<NuDot, 2> Given(const std::vector<LaggingShafts>& chain, double time_s,
-                           std::array<NuDot, 2> told) {
-  for (const LaggingShafts& shafts : chain) told = shafts.After(time_s, told);
-  return told;
-}
-
-void FollowAll(std::vector<LaggingShafts>& chain, double time_s, std::array<NuDot, 2> told) {
-  for (LaggingShafts& shafts : chain) {
-    shafts.Follow(time_s, told);
-    told = shafts.After(0.0, told);
-  }
-}
-
-// Gauss and Legendre's two nodes: exact for cubics of time, and thrust is a square of what decays
-// slowly.
-constexpr std::array kNodes = {0.5 - 0.5 / std::numbers::sqrt3, 0.5 + 0.5 / std::numbers::sqrt3};
 
 }  // namespace
 
@@ -146,7 +148,7 @@ AugmentedBoat::AugmentedBoat(AugmentedModel model, double start_s, double span_s
   }
 }
 
-std::array<NuDot, 2> AugmentedBoat::SteadyThrust(const PropellerCommand& delta) const {
+SideThrust AugmentedBoat::SteadyThrust(const PropellerCommand& delta) const {
   PropellerCommand altered = delta;
   for (const auto& [effect, values] : Hooked(Hook::kCommand)) {
     altered = {effect->Command(values, altered.port), effect->Command(values, altered.starboard)};
@@ -170,26 +172,15 @@ std::vector<Drive> AugmentedBoat::DriveAlong(const HeldCommands& commands, doubl
   const double lags_s = std::accumulate(shaft_lags_s_.begin(), shaft_lags_s_.end(), thrust_lag_s);
   const auto before = static_cast<std::size_t>(std::ceil(kMemoryInLags * lags_s / step_s));
   const double first_s = from_s - delay_s_ - static_cast<double>(before) * step_s;
-  std::vector<LaggingShafts> shafts;
-  for (const double lag_s : shaft_lags_s_) {
-    shafts.emplace_back(lag_s, SteadyThrust(commands.At(first_s)));
-  }
+  LaggingShafts shafts(shaft_lags_s_, SteadyThrust(commands.At(first_s)));
   const auto drive_of_step = [&](std::size_t k) {
     const double start_s = first_s + static_cast<double>(k) * step_s;
     Drive mean;
     commands.ForEachPiece(
         start_s, start_s + step_s, [&](const PropellerCommand& delta, double begin, double end) {
           const double load = 0.5 * (delta.port * delta.port + delta.starboard * delta.starboard);
-          const double share = (end - begin) / step_s;
-          const std::array<NuDot, 2> told = SteadyThrust(delta);
-          if (shafts.empty()) {
-            mean = Weighed(mean, {told, load}, share);
-            return;
-          }
-          for (const double node : kNodes) {
-            mean = Weighed(mean, {Given(shafts, node * (end - begin), told), load}, 0.5 * share);
-          }
-          FollowAll(shafts, end - begin, told);
+          const SideThrust thrust = shafts.Follow(SteadyThrust(delta), end - begin);
+          mean = Weighed(mean, {thrust, load}, (end - begin) / step_s);
         });
     return mean;
   };

@@ -14,9 +14,12 @@
 
 namespace telltale {
 
-/// What the propellers give through one step: mean accelerations, port first.
+/// What the propellers of each side give, port first.
+using SideThrust = std::array<NuDot, 2>;
+
+/// What they give through one step: mean accelerations.
 struct Drive {
-  std::array<NuDot, 2> thrust;
+  SideThrust thrust;
   double load = 0.0;  ///< mean squared command of the two
 };
 
@@ -60,7 +63,7 @@ class AugmentedBoat {
   const std::vector<ModelledEffect>& Hooked(Hook hook) const {
     return hooked_[static_cast<std::size_t>(hook)];
   }
-  std::array<NuDot, 2> SteadyThrust(const PropellerCommand& delta) const;
+  SideThrust SteadyThrust(const PropellerCommand& delta) const;
   NuDot Acceleration(const Nu& nu, double psi_rad, const Drive& drive, double time_s) const;
 
   AugmentedModel model_;
