@@ -80,6 +80,7 @@ class LaggingShafts {
 
   /// What they give on average while they are told to give the same for so long.
   SideThrust Follow(const SideThrust& told, double time_s) {
+    if (stages_.empty()) return told;
     SideThrust mean;
     for (const double node : kNodes) {
       SideThrust given = told;
