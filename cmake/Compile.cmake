@@ -45,12 +45,14 @@ function(telltale_layer name)
   target_link_libraries(telltale_${name} PUBLIC ${ARG_LINKS} PRIVATE telltale_compile)
 endfunction()
 
-# Parsing what most files include takes longer than compiling them: it is read once for core, once for
-# the programs and once for the tests, which differ in their optimisation and so cannot share.
+# Parsing what most files include takes longer than compiling them: it is read once for core and idl,
+# once for what is around them and once for the tests, which differ in their optimisation or in what
+# they include and so cannot share.
+set(telltale_products ${PROJECT_SOURCE_DIR}/core/linear_algebra/products.hpp)
 function(telltale_precompile target)
   if(target STREQUAL telltale_core)
-    target_precompile_headers(telltale_core PRIVATE <Eigen/Dense> <optional> <string> <vector>
-                              <tl/expected.hpp>)
+    target_precompile_headers(telltale_core PRIVATE ${telltale_products} <optional> <string>
+                              <vector> <tl/expected.hpp>)
   else()
     target_precompile_headers(${target} REUSE_FROM telltale_core)
   endif()
@@ -73,7 +75,8 @@ function(telltale_precompiled name)
   telltale_optimise_lightly(${name})
 endfunction()
 
-# telltale_program(TARGET): one that reads a command line, or part of it; telltale_check(TARGET): tests.
+# telltale_program(TARGET): a program or what only programs are made of, around the arithmetic;
+# telltale_check(TARGET): tests.
 function(telltale_program target)
   if(NOT TARGET telltale_program_headers)
     find_package(CLI11 REQUIRED)
@@ -94,7 +97,7 @@ function(telltale_check target)
     find_package(GTest REQUIRED)
     telltale_precompiled(
       telltale_check_headers
-      HEADERS <Eigen/Dense> <gmock/gmock.h> <gtest/gtest.h> <filesystem> <functional> <map>
+      HEADERS ${telltale_products} <gmock/gmock.h> <gtest/gtest.h> <filesystem> <functional> <map>
               <optional> <string> <vector>
       LINKS Eigen3::Eigen GTest::gmock GTest::gtest)
   endif()
@@ -114,6 +117,13 @@ function(telltale_compile_folders_whole target)
     string(REPLACE "/" "_" folder "${folder}")
     telltale_compile_together(${target} ${folder} ${source})
   endforeach()
+endfunction()
+
+# telltale_compile_whole(TARGET [PATTERN]): all its files become one compilation, or those that match.
+function(telltale_compile_whole target)
+  get_target_property(sources ${target} SOURCES)
+  list(FILTER sources INCLUDE REGEX "${ARGN}[^/]*[.]cpp$")
+  telltale_compile_together(${target} whole ${sources})
 endfunction()
 
 # telltale_compile_together(TARGET NAME SOURCES...): these become one compilation.

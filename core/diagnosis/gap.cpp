@@ -4,12 +4,12 @@
 #include <cmath>
 #include <map>
 
-#include <boost/math/distributions/students_t.hpp>
 #include <boost/random/normal_distribution.hpp>
 
 #include "contract.hpp"
 #include "random.hpp"
 #include "uncertainty/interval.hpp"
+#include "uncertainty/laws.hpp"
 
 namespace telltale {
 namespace {
@@ -50,8 +50,7 @@ double Floor::Squared(int channel) const {
 
 double Floor::SquaredLimit(int channel) const {
   const double days = static_cast<double>(log_gaps.size());
-  const boost::math::students_t student(std::max(days - 1.0, 2.0));
-  const double quantile = boost::math::quantile(student, kLevel);
+  const double quantile = StudentQuantile(std::max(days - 1.0, 2.0), kLevel);
   return std::exp(MeanOf(log_gaps, channel) + quantile * spread[static_cast<std::size_t>(channel)] *
                                                   std::sqrt(1.0 + 1.0 / days));
 }

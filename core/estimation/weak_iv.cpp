@@ -292,10 +292,11 @@ std::optional<Eigen::MatrixXd> Invert(const Eigen::MatrixXd& A) {
   if (!A.allFinite() || (rows.array() <= 0.0).any()) return std::nullopt;
   const Eigen::VectorXd scale = rows.cwiseSqrt().cwiseInverse();
   const Eigen::MatrixXd scaled = scale.asDiagonal() * A * scale.asDiagonal();
-  const Eigen::FullPivLU<Eigen::MatrixXd> lu(scaled);
-  constexpr double kSingular = 1e-12;
-  if (lu.rcond() < kSingular) return std::nullopt;
-  return scale.asDiagonal() * lu.inverse() * scale.asDiagonal();
+  Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> decomposition;
+  decomposition.setThreshold(1e-12).compute(scaled);
+  if (decomposition.rank() < A.rows()) return std::nullopt;
+  const Eigen::MatrixXd inverse = decomposition.pseudoInverse();
+  return scale.asDiagonal() * inverse * scale.asDiagonal();
 }
 
 std::vector<Eigen::MatrixXd> OwnInstruments(const WeighedEquations& equations) {

@@ -8,8 +8,6 @@
 namespace telltale {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
 /// Phi_propeller over all coefficients: row j is zero outside the propeller coefficients of
 /// equation j.
 Eigen::MatrixXd PropellerRows(const Identification& identification,
@@ -41,7 +39,7 @@ Eigen::VectorXd Estimates(const Identification& identification) {
 void MakeUnknown(Eigen::Matrix3d& covariance, Eigen::Index axis) {
   covariance.row(axis).setZero();
   covariance.col(axis).setZero();
-  covariance(axis, axis) = kInfinity;
+  covariance(axis, axis) = std::numeric_limits<double>::infinity();
 }
 
 /// rows Sigma rows', where a coefficient of infinite variance counts only if it is at work.

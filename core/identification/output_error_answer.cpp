@@ -14,7 +14,7 @@
 namespace telltale {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kUnbounded = std::numeric_limits<double>::infinity();
 
 /// Why not, if an equation cannot be answered.
 std::optional<Refusal> RefuseWithoutAllEquations(const Answers& answers) {
@@ -58,7 +58,7 @@ Bounds BoundsAt(const OutputErrorFit& fit, const std::vector<Eigen::Index>& plac
     bounds.intervals[i] = Unbounded(level);
     bounds.covariance.row(at).setZero();
     bounds.covariance.col(at).setZero();
-    bounds.covariance(at, at) = kInfinity;
+    bounds.covariance(at, at) = kUnbounded;
   }
   return bounds;
 }
@@ -97,8 +97,8 @@ std::optional<Interval> LopsidedInterval(const OutputErrorProfile& profile,
   Interval interval =
       ProfileInterval([&](double value) { return profile.Deviance(unknown, value); }, search,
                       sharpness * quantile * quantile, level);
-  if (!is_lag && interval.lower <= search.lowest) interval.lower = -kInfinity;
-  if (!is_lag && interval.upper >= search.highest) interval.upper = kInfinity;
+  if (!is_lag && interval.lower <= search.lowest) interval.lower = -kUnbounded;
+  if (!is_lag && interval.upper >= search.highest) interval.upper = kUnbounded;
   if (Lopsidedness(interval, estimate) < kBadlyLopsided) return std::nullopt;
   return interval;
 }

@@ -17,6 +17,9 @@ template void CompleteOrthogonalDecomposition<MatrixXd>::_solve_impl(
 template void ColPivHouseholderQR<MatrixXd>::computeInPlace();
 template void ColPivHouseholderQR<MatrixXd>::_solve_impl(const VectorXd&, VectorXd&) const;
 
+template void HouseholderQR<MatrixXd>::computeInPlace();
+template void HouseholderQR<MatrixXd>::_solve_impl(const MatrixXd&, MatrixXd&) const;
+
 template LDLT<MatrixXd>& LDLT<MatrixXd>::compute(const EigenBase<MatrixXd>&);
 template void LDLT<MatrixXd>::_solve_impl(const VectorXd&, VectorXd&) const;
 template void LDLT<MatrixXd>::_solve_impl(const MatrixXd&, MatrixXd&) const;

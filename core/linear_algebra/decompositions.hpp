@@ -26,6 +26,9 @@ extern template void CompleteOrthogonalDecomposition<MatrixXd>::_solve_impl(
 extern template void ColPivHouseholderQR<MatrixXd>::computeInPlace();
 extern template void ColPivHouseholderQR<MatrixXd>::_solve_impl(const VectorXd&, VectorXd&) const;
 
+extern template void HouseholderQR<MatrixXd>::computeInPlace();
+extern template void HouseholderQR<MatrixXd>::_solve_impl(const MatrixXd&, MatrixXd&) const;
+
 extern template LDLT<MatrixXd>& LDLT<MatrixXd>::compute(const EigenBase<MatrixXd>&);
 extern template void LDLT<MatrixXd>::_solve_impl(const VectorXd&, VectorXd&) const;
 extern template void LDLT<MatrixXd>::_solve_impl(const MatrixXd&, MatrixXd&) const;

@@ -8,10 +8,6 @@
 namespace telltale {
 namespace {
 
-std::string Quoted(std::string_view text) {
-  return '"' + std::string(text) + '"';
-}
-
 template <class Items>
 std::string Names(const Items& items, auto name) {
   std::string names;

@@ -32,6 +32,10 @@ std::string NumberText(double value) {
   return text;
 }
 
+std::string Quoted(std::string_view text) {
+  return '"' + std::string(text) + '"';
+}
+
 FieldReader::FieldReader(const Message& message, const FieldSource& source,
                          std::optional<CodecError>& fault)
     : message_(&message), source_(&source), fault_(&fault), lines_(source.lines) {}

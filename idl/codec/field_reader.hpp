@@ -36,6 +36,7 @@ inline constexpr FieldRange kShare{0.0, 1.0};
 
 /// A number as messages show it, up to 15 significant digits.
 std::string NumberText(double value);
+std::string Quoted(std::string_view text);
 
 /// Where a message was read from: what an error is to name.
 struct FieldSource {

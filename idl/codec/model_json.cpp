@@ -138,10 +138,6 @@ RecordingOffsets ReadOffsets(FieldReader reader, const proto::RecordingOffsets& 
   return offsets;
 }
 
-std::string Quoted(std::string_view text) {
-  return '"' + std::string(text) + '"';
-}
-
 void Expect(FieldReader& reader, const char* field, const std::string& value,
             std::string_view expected) {
   if (value != expected) reader.Fail(field, Quoted(value), Quoted(expected));

@@ -4,9 +4,9 @@
 #include <numeric>
 
 #include <gtest/gtest.h>
-#include <Eigen/LU>
 #include <boost/random/normal_distribution.hpp>
 
+#include "linear_algebra/decompositions.hpp"
 #include "random.hpp"
 #include "simulation/yellowfish.hpp"
 #include "support/discrete_boat.hpp"
@@ -27,7 +27,8 @@ TEST(ExcitationSummary, VarianceInflationIsThatOfTheNormalEquations) {
       SurgeIn({PropellerRegion::kFF, PropellerRegion::kFR, PropellerRegion::kRF});
   const ExcitationSummary summary = Summarise(*Assess(surge, {}), surge.regressors.size());
   const Eigen::MatrixXd gram = surge.phi.transpose() * surge.phi;
-  const Eigen::MatrixXd inverse = gram.inverse();
+  const Eigen::MatrixXd inverse =
+      gram.ldlt().solve(Eigen::MatrixXd(Eigen::MatrixXd::Identity(gram.rows(), gram.cols())));
   for (Eigen::Index j = 0; j < gram.cols(); ++j) {
     const double expected = gram(j, j) * inverse(j, j);
     const double inflation = summary.variance_inflation[static_cast<std::size_t>(j)];

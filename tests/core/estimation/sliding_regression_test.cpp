@@ -38,7 +38,9 @@ SlidingEstimate Direct(const std::deque<StreamRow>& rows, std::size_t lags) {
   SlidingEstimate direct;
   direct.theta = phi.colPivHouseholderQr().solve(y);
   const Eigen::VectorXd e = y - phi * direct.theta;
-  const Eigen::MatrixXd inverse = (phi.transpose() * phi).inverse();
+  const Eigen::MatrixXd gram = phi.transpose() * phi;
+  const Eigen::MatrixXd inverse =
+      gram.ldlt().solve(Eigen::MatrixXd(Eigen::MatrixXd::Identity(p, p)));
   Eigen::MatrixXd middle = Eigen::MatrixXd::Zero(p, p);
   double variance = 0.0;
   double sum = 0.0;
