@@ -10,6 +10,7 @@
 #include "identification/tamed_model.hpp"
 #include "linear_algebra/decompositions.hpp"
 #include "median.hpp"
+#include "simulation/free_run.hpp"
 #include "simulation/manoeuvres.hpp"
 #include "simulation/simulator.hpp"
 
@@ -104,17 +105,6 @@ void AssumeReverseThrust(const Identification& identification, VesselModel& mode
       theta[place(c.regressor)] = sign * theta[place(MirrorOf(c.regressor))];
     }
   }
-}
-
-Nu Limits(const Nu& fastest) {
-  constexpr double kTimes = 2.0;
-  constexpr double kAtLeast = 0.5;  // m/s, rad/s
-  return {std::max(kTimes * fastest.u, kAtLeast), std::max(kTimes * fastest.v, kAtLeast),
-          std::max(kTimes * fastest.r, kAtLeast)};
-}
-
-bool Within(const Nu& nu, const Nu& limits) {
-  return std::abs(nu.u) < limits.u && std::abs(nu.v) < limits.v && std::abs(nu.r) < limits.r;
 }
 
 /// Two significant digits, and never a power of ten for numbers people read at a glance.
@@ -219,7 +209,7 @@ std::optional<ManoeuvreAdvisor::Rehearsal> ManoeuvreAdvisor::Sail(const VesselMo
       Schedule({ManoeuvreCatalogue()[manoeuvre].manoeuvre}, 0.0);
   const std::vector<TimedState> track =
       Simulate(model, {}, commands, kCatalogueDurationS, h / static_cast<double>(steps_a_row));
-  const Nu limits = Limits(basis_.fastest);
+  const Nu limits = RunawayLimits(basis_.fastest);
   Rehearsal rehearsal{manoeuvre, {}, {}};
   for (const Equation equation : kEquations) {
     const Eigen::VectorXd& theta = model.theta[IndexOf(equation)];

@@ -10,6 +10,7 @@
 
 #include "effects/augmented_boat.hpp"
 #include "effects/sensor_chain.hpp"
+#include "simulation/free_run.hpp"
 #include "simulation/simulator.hpp"
 
 namespace telltale {
@@ -23,23 +24,6 @@ using Velocity = std::array<double, 3>;
 
 Velocity ToArray(const Nu& nu) {
   return {nu.u, nu.v, nu.r};
-}
-
-// What the thrusters deliver at the start of each row. A stretch is taken to begin in steady
-// thrust; a wrong guess decays with the thruster's time constant.
-using ThrustHistory = std::vector<ThrustRegressors>;
-
-ThrustHistory FollowThrust(const PreparedDataset& dataset, const VesselModel& model) {
-  ThrustHistory history(dataset.rows.size());
-  for (const RowRange& stretch : dataset.stretches) {
-    if (stretch.size() == 0) continue;
-    history[stretch.begin] = model.SteadyThrust(dataset.rows[stretch.begin].delta);
-    for (std::size_t k = stretch.begin; k + 1 < stretch.end; ++k) {
-      history[k + 1] =
-          model.ThrustAfter(history[k], dataset.rows[k].delta, dataset.sampling_period_s);
-    }
-  }
-  return history;
 }
 
 VesselState Measured(const PreparedRow& row, const ThrustRegressors& thrust) {
@@ -123,17 +107,14 @@ double SquaredDistance(const Eta& a, const Eta& b) {
   return north * north + east * east;
 }
 
-void RunFreely(const PreparedDataset& dataset, const VesselModel& model,
-               const ThrustHistory& thrust, std::size_t first, std::size_t steps,
-               FreeRunSums& sums) {
-  const auto& rows = dataset.rows;
-  VesselState state = Measured(rows[first], thrust[first]);
-  for (std::size_t k = first; k < first + steps; ++k) {
-    state = Advance(model, state, rows[k].delta, dataset.sampling_period_s);
-    Add(sums.of_model, rows[k + 1].nu, state.nu);
-    Add(sums.of_persistence, rows[k + 1].nu, rows[first].nu);
+void AddRun(const PreparedDataset& dataset, const std::vector<VesselState>& run, std::size_t first,
+            FreeRunSums& sums) {
+  for (std::size_t k = 1; k < run.size(); ++k) {
+    Add(sums.of_model, dataset.rows[first + k].nu, run[k].nu);
+    Add(sums.of_persistence, dataset.rows[first + k].nu, dataset.rows[first].nu);
   }
-  sums.squared_distance_m2 += SquaredDistance(rows[first + steps].eta, state.eta);
+  sums.squared_distance_m2 +=
+      SquaredDistance(dataset.rows[first + run.size() - 1].eta, run.back().eta);
   ++sums.windows;
 }
 
@@ -157,10 +138,9 @@ FreeRunScores ScoreFreeRuns(const PreparedDataset& dataset, const VesselModel& m
   FreeRunSums sums;
   for (const RowRange& stretch : dataset.stretches) {
     for (std::size_t k = stretch.begin; k + steps < stretch.end; k += steps) {
-      RunFreely(dataset, model, thrust, k, steps, sums);
+      AddRun(dataset, RunFreely(dataset, model, thrust, k, steps), k, sums);
     }
   }
-
   return ScoresOf(sums, dataset, horizon_s);
 }
 

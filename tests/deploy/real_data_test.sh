@@ -30,13 +30,18 @@ for log in "$data"/*/*/; do
   fi
   ((status == 0)) || fail "identify on $name exited $status"
   for other in "$data/$boat"/*/; do
-    [[ $other -ef $log ]] && continue
     status=0
     "$telltale" validate --log "$other" --vehicle "$vehicle" --model "$models/model.json" \
       > "$models/scores" 2> "$models/said" || status=$?
     ((status == 0 || status == 3)) || fail "validate of $name on $other exited $status"
     if ((status == 0)); then
       grep -q 'of persistence' "$models/scores" || fail "no persistence beside the score of $name"
+    fi
+    # A model that diverges where it was made has to say so itself.
+    if [[ $other -ef $log ]] && grep -q '^5 s: .*runs away' "$models/scores"; then
+      grep -q 'free run: in .* the model runs away' "$models/table" ||
+        fail "$name runs away from its own recording without a warning"
+      echo "$name: warned of"
     fi
   done
   echo "$name: answered"

@@ -49,6 +49,7 @@ TEST(Identify, WritesEveryCoefficientInOrderWithBounds) {
   ASSERT_TRUE(result.has_value());
   const std::size_t expected = 9 + 13 + 13;
   ASSERT_EQ(result->coefficients.size(), expected);
+  EXPECT_FALSE(Refuses(*result, "free run"));  // the boat's own model stays with the boat
   EXPECT_EQ(result->covariance.rows(), static_cast<Eigen::Index>(expected));
   EXPECT_TRUE(result->covariance.isApprox(result->covariance.transpose()));
   std::size_t next = 0;

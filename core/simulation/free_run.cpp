@@ -1,0 +1,65 @@
+#include "simulation/free_run.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace telltale {
+
+ThrustHistory FollowThrust(const PreparedDataset& dataset, const VesselModel& model) {
+  ThrustHistory history(dataset.rows.size());
+  for (const RowRange& stretch : dataset.stretches) {
+    if (stretch.size() == 0) continue;
+    history[stretch.begin] = model.SteadyThrust(dataset.rows[stretch.begin].delta);
+    for (std::size_t k = stretch.begin; k + 1 < stretch.end; ++k) {
+      history[k + 1] =
+          model.ThrustAfter(history[k], dataset.rows[k].delta, dataset.sampling_period_s);
+    }
+  }
+  return history;
+}
+
+std::vector<VesselState> RunFreely(const PreparedDataset& dataset, const VesselModel& model,
+                                   const ThrustHistory& thrust, std::size_t first,
+                                   std::size_t steps) {
+  const auto& rows = dataset.rows;
+  std::vector<VesselState> states = {{rows[first].eta, rows[first].nu, thrust[first]}};
+  states.reserve(steps + 1);
+  for (std::size_t k = first; k < first + steps; ++k) {
+    states.push_back(Advance(model, states.back(), rows[k].delta, dataset.sampling_period_s));
+  }
+  return states;
+}
+
+Nu RunawayLimits(const Nu& fastest) {
+  constexpr double kTimes = 2.0;
+  constexpr double kAtLeast = 0.5;  // m/s, rad/s
+  return {std::max(kTimes * fastest.u, kAtLeast), std::max(kTimes * fastest.v, kAtLeast),
+          std::max(kTimes * fastest.r, kAtLeast)};
+}
+
+bool Within(const Nu& nu, const Nu& limits) {
+  return std::abs(nu.u) < limits.u && std::abs(nu.v) < limits.v && std::abs(nu.r) < limits.r;
+}
+
+Runaways CountRunaways(const PreparedDataset& dataset, const VesselModel& model, double horizon_s) {
+  constexpr std::size_t kMost = 60;
+  const auto steps = static_cast<std::size_t>(std::lround(horizon_s / dataset.sampling_period_s));
+  std::vector<std::size_t> firsts;
+  for (const RowRange& stretch : dataset.stretches) {
+    for (std::size_t k = stretch.begin; k + steps < stretch.end; k += steps) firsts.push_back(k);
+  }
+  const ThrustHistory thrust = FollowThrust(dataset, model);
+  const Nu limits = RunawayLimits(FastestOf(dataset));
+  Runaways count;
+  for (std::size_t i = 0; i < firsts.size(); i += firsts.size() / kMost + 1) {
+    const auto states = RunFreely(dataset, model, thrust, firsts[i], steps);
+    ++count.runs;
+    if (!std::all_of(states.begin(), states.end(),
+                     [&](const VesselState& state) { return Within(state.nu, limits); })) {
+      ++count.runaways;
+    }
+  }
+  return count;
+}
+
+}  // namespace telltale

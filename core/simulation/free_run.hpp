@@ -1,0 +1,42 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "data/prepared_dataset.hpp"
+#include "simulation/simulator.hpp"
+#include "vessel/motion.hpp"
+#include "vessel/propellers.hpp"
+#include "vessel/vessel_model.hpp"
+
+namespace telltale {
+
+/// By row of a dataset, what the thrusters deliver at its start.
+using ThrustHistory = std::vector<ThrustRegressors>;
+
+/// A stretch is taken to begin in steady thrust; a wrong guess decays with the thruster's time
+/// constant.
+ThrustHistory FollowThrust(const PreparedDataset& dataset, const VesselModel& model);
+
+/// The states of a model that starts from what row `first` measured and is fed commands alone, at
+/// that row and the `steps` that follow it.
+/// Requires: steps rows after the first in its stretch.
+std::vector<VesselState> RunFreely(const PreparedDataset& dataset, const VesselModel& model,
+                                   const ThrustHistory& thrust, std::size_t first,
+                                   std::size_t steps);
+
+/// Velocities beyond which the simulation of a boat that was measured at most `fastest` has run
+/// away: twice those, and at least half a metre or radian a second; docs/model.md (18a).
+Nu RunawayLimits(const Nu& fastest);
+bool Within(const Nu& nu, const Nu& limits);
+
+/// Free runs over a dataset, and those of them that left what RunawayLimits allow.
+struct Runaways {
+  std::size_t runs = 0;
+  std::size_t runaways = 0;
+};
+
+/// Windows of `horizon_s` inside stretches, one after the other; of many, some sixty spread evenly.
+Runaways CountRunaways(const PreparedDataset& dataset, const VesselModel& model, double horizon_s);
+
+}  // namespace telltale

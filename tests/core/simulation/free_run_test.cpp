@@ -1,0 +1,91 @@
+#include "simulation/free_run.hpp"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "simulation/yellowfish.hpp"
+#include "support/discrete_boat.hpp"
+
+namespace telltale {
+namespace {
+
+constexpr double kHorizonS = 5.0;
+
+/// As DriveDiscrete steps it.
+VesselModel Discrete() {
+  VesselModel boat = YellowfishTwin();
+  boat.discretisation = Discretisation::kForwardEuler;
+  return boat;
+}
+
+PreparedDataset Sailed() {
+  return testing::DriveDiscrete(YellowfishTwin(),
+                                testing::RandomCommands(1000, {PropellerRegion::kFF}, 3), 50);
+}
+
+/// The boat that made the data is at every row where the data say it is.
+TEST(RunFreely, FollowsTheDataOfTheBoatItself) {
+  const PreparedDataset dataset = Sailed();
+  const VesselModel boat = Discrete();
+  const auto run = RunFreely(dataset, boat, FollowThrust(dataset, boat), 100, 50);
+  ASSERT_EQ(run.size(), 51u);
+  for (std::size_t k = 0; k < run.size(); ++k) {
+    EXPECT_NEAR(run[k].nu.u, dataset.rows[100 + k].nu.u, 1e-12);
+    EXPECT_NEAR(run[k].nu.r, dataset.rows[100 + k].nu.r, 1e-12);
+  }
+}
+
+/// By the definition of the lag: a constant command leaves (1 - T) e^(-t / T_c) of a step to come.
+TEST(FollowThrust, LagsByTheTimeConstant) {
+  PreparedDataset dataset = Sailed();
+  VesselModel boat = YellowfishTwin();
+  boat.structure = Structure::kFirstOrderDynamic;
+  boat.thruster_time_constant_s = 0.5;
+  dataset.rows[0].delta = {0.2, 0.2};
+  for (std::size_t k = 1; k < dataset.rows.size(); ++k) dataset.rows[k].delta = {0.6, 0.6};
+  const ThrustHistory thrust = FollowThrust(dataset, boat);
+  const double before = boat.SteadyThrust({0.2, 0.2}).surge[0];
+  const double after = boat.SteadyThrust({0.6, 0.6}).surge[0];
+  const double elapsed_s = 9.0 * dataset.sampling_period_s;
+  EXPECT_NEAR(thrust[10].surge[0], after + (before - after) * std::exp(-elapsed_s / 0.5), 1e-9);
+}
+
+TEST(CountRunaways, FindsNoneWhereTheBoatMadeTheData) {
+  const PreparedDataset dataset = Sailed();
+  const Runaways count = CountRunaways(dataset, Discrete(), kHorizonS);
+  EXPECT_GT(count.runs, 10u);
+  EXPECT_EQ(count.runaways, 0u);
+}
+
+/// With u' = + 2 u a speed grows by e^10 in five seconds.
+TEST(CountRunaways, FindsAllOfABoatThatDrivesItself) {
+  const PreparedDataset dataset = Sailed();
+  VesselModel boat = Discrete();
+  const auto regressors = Regressors(Equation::kSurge, boat.parameterization);
+  for (std::size_t i = 0; i < regressors.size(); ++i) {
+    if (regressors[i].name == "u") boat.theta[0][static_cast<Eigen::Index>(i)] = 2.0;
+  }
+  const Runaways count = CountRunaways(dataset, boat, kHorizonS);
+  EXPECT_GT(count.runs, 10u);
+  EXPECT_GE(count.runaways + 1, count.runs);  // the first starts at rest
+}
+
+/// Of hours of data some sixty runs are looked at, not thousands.
+TEST(CountRunaways, LooksAtSomeSixtyOfManyRuns) {
+  const PreparedDataset dataset = testing::DriveDiscrete(
+      YellowfishTwin(), testing::RandomCommands(20000, {PropellerRegion::kFF}, 3), 50);
+  const std::size_t runs = CountRunaways(dataset, Discrete(), kHorizonS).runs;
+  EXPECT_GT(runs, 30u);
+  EXPECT_LE(runs, 60u);
+}
+
+TEST(RunawayLimits, LeaveRoomForABoatAtRest) {
+  const Nu limits = RunawayLimits({0.0, 0.0, 0.0});
+  EXPECT_TRUE(Within({0.4, -0.4, 0.4}, limits));
+  EXPECT_FALSE(Within({0.4, -0.6, 0.4}, limits));
+  EXPECT_FALSE(Within({std::nan(""), 0.0, 0.0}, limits));
+}
+
+}  // namespace
+}  // namespace telltale
