@@ -6,6 +6,7 @@
 #include "cli/outcome.hpp"
 #include "cli/table.hpp"
 #include "cli/threads.hpp"
+#include "cli/whole_number.hpp"
 #include "codec/model_json.hpp"
 #include "codec/report_json.hpp"
 #include "recording/files.hpp"
@@ -54,9 +55,12 @@ void DiagnoseArguments::AddOptionsTo(CLI::App& command, CLI::Option* log) {
       ->type_name("EFFECT")
       ->check(CLI::Validator(EffectFault, ""));
   command.add_option("--seed", seed, "of the bootstrap: the same seed gives the same report")
+      ->type_name("N")
+      ->check(WholeNumber())
       ->capture_default_str();
   command.add_option("--threads", threads, "[1, 256], default: what the machine has")
       ->type_name("N")
+      ->check(WholeNumber())
       ->needs(log);
   command.add_option("--html", html, "also write a page with pictures, which needs no network")
       ->type_name("FILE.html");

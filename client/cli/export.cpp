@@ -8,6 +8,7 @@
 #include "cli/commands.hpp"
 #include "cli/inputs.hpp"
 #include "cli/outcome.hpp"
+#include "cli/whole_number.hpp"
 #include "exchange/draws.hpp"
 #include "exchange/mss.hpp"
 #include "exchange/vrx.hpp"
@@ -96,7 +97,7 @@ void AddExport(CLI::App& telltale) {
           ->check(CLI::Range(1, 100000).description(""));
   command.add_option("--seed", arguments->seed, "of the draws; the same seed gives the same bits")
       ->type_name("N")
-      ->check(CLI::NonNegativeNumber.description(""))
+      ->check(WholeNumber())
       ->capture_default_str()
       ->needs(draws);
   command

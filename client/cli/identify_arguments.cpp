@@ -6,6 +6,7 @@
 #include "cli/number_pair.hpp"
 #include "cli/outcome.hpp"
 #include "cli/threads.hpp"
+#include "cli/whole_number.hpp"
 
 namespace telltale {
 namespace {
@@ -78,12 +79,14 @@ void IdentifyArguments::AddOptionsTo(CLI::App& command) {
           "--twins", twins,
           "simulated repeats of the data behind the bounds of weak-iv, [8, 1000], 0 for none "
           "(default 40)")
-      ->type_name("N");
+      ->type_name("N")
+      ->check(WholeNumber());
   command
       .add_option("--bootstrap", bootstrap_replicates,
                   "replicates behind the bounds of one-step, [100, 100000], 0 for bounds from "
                   "residuals (default 1000)")
-      ->type_name("N");
+      ->type_name("N")
+      ->check(WholeNumber());
   command
       .add_option("--bootstrap-kind", bootstrap_kind,
                   "what a replicate redraws: segments (default), moving-blocks as long as the data "
@@ -108,18 +111,20 @@ void IdentifyArguments::AddOptionsTo(CLI::App& command) {
       .add_option("--certify", certificate_twins,
                   "measure how often the bounds hold on so many simulated repeats of the data, "
                   "[10, 1000]; each takes as long as the identification itself")
-      ->type_name("N");
+      ->type_name("N")
+      ->check(WholeNumber());
   command.add_option("--level", interval_level, "of the bounds, [0.5, 0.999] (default 0.95)")
       ->type_name("P");
   command
       .add_option("--seed", seed, "of repeats and replicates; the same seed gives the same bits")
       ->type_name("N")
-      ->check(CLI::NonNegativeNumber.description(""))
+      ->check(WholeNumber())
       ->capture_default_str();
   command
       .add_option("--threads", threads,
                   "[1, 256] (default: all of the machine); never changes the result")
-      ->type_name("N");
+      ->type_name("N")
+      ->check(WholeNumber());
   command.add_flag("--discrete", discrete,
                    "also print the coefficients times the sampling period, as in the paper");
   output.AddTo(command, "model.json");

@@ -12,6 +12,7 @@
 #include "cli/model_table.hpp"
 #include "cli/outcome.hpp"
 #include "cli/table.hpp"
+#include "cli/whole_number.hpp"
 #include "diagnosis/augmented_identification.hpp"
 #include "effects/augmented_simulation.hpp"
 #include "recording/telemetry_log.hpp"
@@ -136,7 +137,7 @@ void AddSimulate(CLI::App& telltale) {
       ->check(CLI::Range(0.0, 90.0).description(""));
   command.add_option("--seed", arguments->sensors.seed, "of the sensor noise")
       ->type_name("N")
-      ->check(CLI::NonNegativeNumber.description(""))
+      ->check(WholeNumber())
       ->capture_default_str();
   command.footer(
       "Sensors as in the paper: GNSS at 5 Hz, heading at 50 Hz, thrusters at 10 Hz.\n"

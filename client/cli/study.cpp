@@ -10,6 +10,7 @@
 #include "cli/output.hpp"
 #include "cli/progress_line.hpp"
 #include "cli/study_table.hpp"
+#include "cli/whole_number.hpp"
 #include "codec/study_json.hpp"
 #include "validation/study.hpp"
 
@@ -69,7 +70,7 @@ void AddStudy(CLI::App& telltale) {
       ->capture_default_str();
   command.add_option("--seed", arguments->options.seed, "of the partitions and the bootstrap")
       ->type_name("N")
-      ->check(CLI::NonNegativeNumber.description(""))
+      ->check(WholeNumber())
       ->capture_default_str();
   AddIncludeRr(command, arguments->options.include_reverse);
   arguments->output.AddTo(command, "study.json");

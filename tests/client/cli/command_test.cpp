@@ -133,6 +133,10 @@ TEST_F(CommandTest, OptionsOutOfRangeAreUsageErrorsThatNameTheRange) {
   expect({"--threads", "0"}, "[1, 256]");
   expect({"--sampling-period", "5"}, "--sampling-period = 5");
   expect({"--certify", "3"}, "--certify = 3 must be within [10, 1000]; set --certify to");
+  for (const char* counts : {"--twins", "--bootstrap", "--certify", "--seed", "--threads"}) {
+    expect({counts, "-3"}, ": -3 must be a whole number, 0 or more");
+    expect({counts, "2.5"}, ": 2.5 must be a whole number, 0 or more");
+  }
   expect({"--preset", "best"}, "robust");
   expect({"--parameterization", "cubic"}, "propeller");
   expect({"--seed", "-3"}, "--seed");
