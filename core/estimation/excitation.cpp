@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <limits>
 #include <numeric>
+#include <utility>
 
 #include "contract.hpp"
 #include "linear_algebra/decompositions.hpp"
@@ -123,6 +124,54 @@ std::vector<CollinearGroup> FindCollinear(const Excitation& excitation, double l
   return groups;
 }
 
+std::optional<Refusal> RefuseUnmoved(const EquationProblem& problem,
+                                     const ExcitationLimits& limits) {
+  if (auto refusal = RefuseShort(problem, limits)) return refusal;
+  return RefuseStill(problem, limits);
+}
+
+/// The columns that the data move.
+Excitation ExcitedOf(const EquationProblem& problem, const ExcitationLimits& limits) {
+  Excitation excitation;
+  excitation.equation = problem.equation;
+  for (std::size_t column = 0; column < problem.regressors.size(); ++column) {
+    if (IsExcited(problem, column, limits)) excitation.excited.push_back(column);
+  }
+  excitation.column_norms.resize(static_cast<Eigen::Index>(excitation.excited.size()));
+  for (std::size_t j = 0; j < excitation.excited.size(); ++j) {
+    excitation.column_norms[static_cast<Eigen::Index>(j)] =
+        problem.phi.col(static_cast<Eigen::Index>(excitation.excited[j])).norm();
+  }
+  return excitation;
+}
+
+void Decompose(TriangularFactor factor, const ExcitationLimits& limits, Excitation& excitation) {
+  excitation.factor = std::move(factor);
+  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(excitation.factor.R,
+                                              Eigen::ComputeFullU | Eigen::ComputeFullV);
+  excitation.singular_values = svd.singularValues();
+  excitation.left_singular_vectors = svd.matrixU();
+  excitation.right_singular_vectors = svd.matrixV();
+  const double smallest = excitation.singular_values[0] * std::numeric_limits<double>::epsilon() *
+                          static_cast<double>(excitation.factor.rows);
+  excitation.rank = (excitation.singular_values.array() > smallest).count();
+  excitation.collinear = FindCollinear(excitation, limits.collinear_condition_index);
+}
+
+/// Of two equations that regress alike, both worth an answer.
+std::array<Excitation, 2> AssessAlike(const EquationProblem& one, const EquationProblem& other,
+                                      const ExcitationLimits& limits) {
+  Excitation first = ExcitedOf(one, limits);
+  Eigen::MatrixXd Y(one.y.size(), 2);
+  Y << one.y, other.y;
+  std::vector<TriangularFactor> factors = TriangulariseAll(SelectScaled(one, first), Y);
+  Decompose(std::move(factors[0]), limits, first);
+  Excitation second = first;
+  second.equation = other.equation;
+  second.factor = std::move(factors[1]);
+  return {std::move(first), std::move(second)};
+}
+
 }  // namespace
 
 std::optional<Refusal> ExcitationLimits::Validate() const {
@@ -142,31 +191,20 @@ std::optional<Refusal> ExcitationLimits::Validate() const {
 
 Result<Excitation> Assess(const EquationProblem& problem, const ExcitationLimits& limits) {
   Require(problem.equation != Equation::kUnknown, "a named equation");
-  if (const auto refusal = RefuseShort(problem, limits)) return tl::unexpected(*refusal);
-  if (const auto refusal = RefuseStill(problem, limits)) return tl::unexpected(*refusal);
-
-  Excitation excitation;
-  excitation.equation = problem.equation;
-  for (std::size_t column = 0; column < problem.regressors.size(); ++column) {
-    if (IsExcited(problem, column, limits)) excitation.excited.push_back(column);
-  }
-  excitation.column_norms.resize(static_cast<Eigen::Index>(excitation.excited.size()));
-  for (std::size_t j = 0; j < excitation.excited.size(); ++j) {
-    excitation.column_norms[static_cast<Eigen::Index>(j)] =
-        problem.phi.col(static_cast<Eigen::Index>(excitation.excited[j])).norm();
-  }
-  excitation.factor = Triangularise(SelectScaled(problem, excitation), problem.y);
-
-  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(excitation.factor.R,
-                                              Eigen::ComputeFullU | Eigen::ComputeFullV);
-  excitation.singular_values = svd.singularValues();
-  excitation.left_singular_vectors = svd.matrixU();
-  excitation.right_singular_vectors = svd.matrixV();
-  const double smallest = excitation.singular_values[0] * std::numeric_limits<double>::epsilon() *
-                          static_cast<double>(problem.phi.rows());
-  excitation.rank = (excitation.singular_values.array() > smallest).count();
-  excitation.collinear = FindCollinear(excitation, limits.collinear_condition_index);
+  if (auto refusal = RefuseUnmoved(problem, limits)) return tl::unexpected(*std::move(refusal));
+  Excitation excitation = ExcitedOf(problem, limits);
+  Decompose(Triangularise(SelectScaled(problem, excitation), problem.y), limits, excitation);
   return excitation;
+}
+
+std::array<Result<Excitation>, 3> Assess(const std::array<EquationProblem, 3>& problems,
+                                         const ExcitationLimits& limits) {
+  const auto& [surge, sway, yaw] = problems;
+  if (sway.instants != yaw.instants || RefuseUnmoved(sway, limits) || RefuseUnmoved(yaw, limits)) {
+    return {Assess(surge, limits), Assess(sway, limits), Assess(yaw, limits)};
+  }
+  auto [of_sway, of_yaw] = AssessAlike(sway, yaw, limits);
+  return {Assess(surge, limits), std::move(of_sway), std::move(of_yaw)};
 }
 
 Refusal Explain(const CollinearGroup& group, const EquationProblem& problem) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <optional>
 #include <vector>
 
@@ -52,6 +53,11 @@ struct Excitation {
 /// the command hardly varies. Source: Belsley, Kuh, Welsch, "Regression Diagnostics", 1980, chapter
 /// 3 (condition indices and variance-decomposition proportions).
 Result<Excitation> Assess(const EquationProblem& problem, const ExcitationLimits& limits);
+
+/// The same of surge, sway and yaw. Sway and yaw have the same regressors: from the same rows they
+/// are decomposed once.
+std::array<Result<Excitation>, 3> Assess(const std::array<EquationProblem, 3>& problems,
+                                         const ExcitationLimits& limits);
 
 /// What a collinear group means for an operator.
 Refusal Explain(const CollinearGroup& group, const EquationProblem& problem);

@@ -38,9 +38,9 @@ EquationProblem BuildEquation(const PreparedDataset& dataset, Equation equation,
   problem.equation = equation;
   problem.regressors = Regressors(equation, options.parameterization);
   const auto rows = static_cast<Eigen::Index>(CountRows(dataset, equation, options));
-  const auto columns = static_cast<Eigen::Index>(problem.regressors.size());
-  // Filled row by row, kept row-major for that reason while it is built.
-  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> phi(rows, columns);
+  Eigen::RowVectorXd regressors(static_cast<Eigen::Index>(problem.regressors.size()));
+  problem.phi.resize(rows, regressors.size());
+  problem.instants.reserve(static_cast<std::size_t>(rows));
   problem.y.resize(rows);
   problem.nu.resize(rows);
   Eigen::Index row = 0;
@@ -51,7 +51,8 @@ EquationProblem BuildEquation(const PreparedDataset& dataset, Equation equation,
       const PreparedRow& now = dataset.rows[k];
       if (!Enters(now.region, equation, options)) continue;
       FillRow(equation, options.parameterization, now.nu, options.dead_zone.Apply(now.delta),
-              {phi.row(row).data(), problem.regressors.size()});
+              {regressors.data(), problem.regressors.size()});
+      problem.phi.row(row) = regressors;
       problem.nu[row] = ComponentOf(now.nu, equation);
       problem.instants.push_back(k);
       problem.y[row] =
@@ -61,8 +62,22 @@ EquationProblem BuildEquation(const PreparedDataset& dataset, Equation equation,
     }
     problem.clusters.push_back({first, static_cast<std::size_t>(row)});
   }
-  problem.phi = phi;
   return problem;
+}
+
+/// Yaw has the rows and the regressors of sway.
+EquationProblem YawBeside(const EquationProblem& sway, const PreparedDataset& dataset,
+                          const RegressionOptions& options) {
+  EquationProblem yaw = sway;
+  yaw.equation = Equation::kYaw;
+  yaw.regressors = Regressors(yaw.equation, options.parameterization);
+  for (std::size_t i = 0; i < yaw.instants.size(); ++i) {
+    const auto row = static_cast<Eigen::Index>(i);
+    const std::size_t k = yaw.instants[i];
+    yaw.nu[row] = dataset.rows[k].nu.r;
+    yaw.y[row] = (dataset.rows[k + 1].nu.r - yaw.nu[row]) / dataset.sampling_period_s;
+  }
+  return yaw;
 }
 
 }  // namespace
@@ -89,9 +104,10 @@ RegressionProblem BuildRegression(const PreparedDataset& dataset,
   problem.structure = options.structure;
   problem.parameterization = options.parameterization;
   problem.sampling_period_s = dataset.sampling_period_s;
-  for (const Equation equation : kEquations) {
-    problem.equations[IndexOf(equation)] = BuildEquation(dataset, equation, options);
-  }
+  auto& [surge, sway, yaw] = problem.equations;
+  surge = BuildEquation(dataset, Equation::kSurge, options);
+  sway = BuildEquation(dataset, Equation::kSway, options);
+  yaw = YawBeside(sway, dataset, options);
   return problem;
 }
 

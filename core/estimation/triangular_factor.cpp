@@ -1,7 +1,6 @@
 #include "estimation/triangular_factor.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include <Eigen/QR>
 
@@ -17,24 +16,30 @@ constexpr Eigen::Index kBlockRows = 240;
 
 TriangularFactor Triangularise(const Eigen::Ref<const Eigen::MatrixXd>& phi,
                                const Eigen::Ref<const Eigen::VectorXd>& y) {
-  Require(phi.rows() == y.size(), "as many rows in Phi as in y");
+  return TriangulariseAll(phi, y).front();
+}
+
+std::vector<TriangularFactor> TriangulariseAll(const Eigen::Ref<const Eigen::MatrixXd>& phi,
+                                               const Eigen::Ref<const Eigen::MatrixXd>& Y) {
+  Require(phi.rows() == Y.rows(), "as many rows in Phi as in y");
   const Eigen::Index p = phi.cols();
-  const Eigen::Index width = p + 1;
+  const Eigen::Index width = p + Y.cols();
   Eigen::MatrixXd stack = Eigen::MatrixXd::Zero(width + kBlockRows, width);
   for (Eigen::Index first = 0; first < phi.rows(); first += kBlockRows) {
     const Eigen::Index count = std::min(kBlockRows, phi.rows() - first);
     auto active = stack.topRows(width + count);
     active.block(width, 0, count, p) = phi.middleRows(first, count);
-    active.block(width, p, count, 1) = y.segment(first, count);
+    active.block(width, p, count, Y.cols()) = Y.middleRows(first, count);
     Eigen::HouseholderQR<Eigen::Ref<Eigen::MatrixXd>> qr(active);
     stack.topRows(width).triangularView<Eigen::StrictlyLower>().setZero();
   }
-  TriangularFactor factor;
-  factor.R = stack.topLeftCorner(p, p);
-  factor.z = stack.block(0, p, p, 1);
-  factor.rho = std::abs(stack(p, p));
-  factor.rows = phi.rows();
-  return factor;
+  std::vector<TriangularFactor> factors;
+  for (Eigen::Index j = 0; j < Y.cols(); ++j) {
+    // What Phi leaves of a later y lies along what it leaves of those before, and beside.
+    factors.push_back({stack.topLeftCorner(p, p), stack.block(0, p + j, p, 1),
+                       stack.col(p + j).segment(p, j + 1).norm(), phi.rows()});
+  }
+  return factors;
 }
 
 }  // namespace telltale

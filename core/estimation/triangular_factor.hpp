@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vector>
+
 #include <Eigen/Core>
 
 namespace telltale {
@@ -19,5 +21,9 @@ struct TriangularFactor {
 /// LU factorizations", SIAM J. Sci. Comput. 34 (2012), the sequential variant.
 TriangularFactor Triangularise(const Eigen::Ref<const Eigen::MatrixXd>& phi,
                                const Eigen::Ref<const Eigen::VectorXd>& y);
+
+/// The same for several y, columns of Y, at little more than the cost of one: one factor for each.
+std::vector<TriangularFactor> TriangulariseAll(const Eigen::Ref<const Eigen::MatrixXd>& phi,
+                                               const Eigen::Ref<const Eigen::MatrixXd>& Y);
 
 }  // namespace telltale

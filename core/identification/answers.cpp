@@ -119,26 +119,26 @@ Eigen::VectorXd SpreadTimeConstantCovariance(const Eigen::MatrixXd& stacked,
 
 }  // namespace
 
-void AssessEquation(const EquationProblem& regression, const ExcitationLimits& limits,
-                    Answers& answers) {
-  const auto excitation = Assess(regression, limits);
-  if (!excitation) {
-    answers.refusals.push_back(excitation.error());
-    return;
+void AssessEquations(const std::array<EquationProblem, 3>& regressions,
+                     const ExcitationLimits& limits, Answers& answers) {
+  auto excitations = Assess(regressions, limits);
+  for (std::size_t j = 0; j < regressions.size(); ++j) {
+    if (!excitations[j]) {
+      answers.refusals.push_back(excitations[j].error());
+      continue;
+    }
+    for (const CollinearGroup& group : excitations[j]->collinear) {
+      answers.refusals.push_back(Explain(group, regressions[j]));
+    }
+    answers.excitations[j] = *std::move(excitations[j]);
   }
-  for (const CollinearGroup& group : excitation->collinear) {
-    answers.refusals.push_back(Explain(group, regression));
-  }
-  answers.excitations[IndexOf(regression.equation)] = *excitation;
 }
 
 Answers AssessAll(const PreparedDataset& dataset, RegressionOptions regression,
                   const ExcitationLimits& limits) {
   regression.structure = Structure::kStaticQuadratic;
   Answers answers;
-  for (const EquationProblem& equation : BuildRegression(dataset, regression).equations) {
-    AssessEquation(equation, limits, answers);
-  }
+  AssessEquations(BuildRegression(dataset, regression).equations, limits, answers);
   return answers;
 }
 

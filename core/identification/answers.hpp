@@ -69,11 +69,11 @@ struct BoundedAnswers {
   std::vector<RecordingOffsets> offsets;
 };
 
-/// Can this equation be answered? Its excitation or a refusal goes into the answers.
-void AssessEquation(const EquationProblem& regression, const ExcitationLimits& limits,
-                    Answers& answers);
+/// Can these equations be answered? The excitation of each or a refusal goes into the answers.
+void AssessEquations(const std::array<EquationProblem, 3>& regressions,
+                     const ExcitationLimits& limits, Answers& answers);
 
-/// The same for all three; the thrusters' lag has no say in it.
+/// The same of a dataset; the thrusters' lag has no say in it.
 Answers AssessAll(const PreparedDataset& dataset, RegressionOptions regression,
                   const ExcitationLimits& limits);
 

@@ -41,8 +41,8 @@ Fitted FitAtOnce(const PreparedDataset& dataset, const RegressionOptions& regres
   Fitted fitted;
   fitted.equations = BuildRegression(dataset, regression).equations;
   Answers& answers = fitted.answers;
+  AssessEquations(fitted.equations, limits, answers);
   for (std::size_t j = 0; j < fitted.equations.size(); ++j) {
-    AssessEquation(fitted.equations[j], limits, answers);
     if (answers.excitations[j]) answers.estimates[j] = EstimateOneStep(*answers.excitations[j]);
   }
   PlaceFrom(0, answers);
@@ -55,9 +55,7 @@ Fitted FitLagging(const PreparedDataset& dataset, const RegressionOptions& regre
   fitted.lagging = BuildLagged(dataset, regression);
   const LaggedProblem& problem = *fitted.lagging;
   Answers& answers = fitted.answers;
-  for (const EquationProblem& equation : problem.at_once.equations) {
-    AssessEquation(equation, limits, answers);
-  }
+  AssessEquations(problem.at_once.equations, limits, answers);
   if (!answers.Any()) return fitted;
   fitted.lagged = EstimateLagged(problem, answers.excitations);
   answers.lag = AnsweredLag{fitted.lagged->time_constant_s, fitted.lagged->no_lag_seen};

@@ -7,6 +7,7 @@ namespace telltale {
 
 ThrustHistory FollowThrust(const PreparedDataset& dataset, const VesselModel& model) {
   ThrustHistory history(dataset.rows.size());
+  if (model.structure == Structure::kStaticQuadratic) return history;
   for (const RowRange& stretch : dataset.stretches) {
     if (stretch.size() == 0) continue;
     history[stretch.begin] = model.SteadyThrust(dataset.rows[stretch.begin].delta);

@@ -11,7 +11,8 @@
 
 namespace telltale {
 
-/// By row of a dataset, what the thrusters deliver at its start.
+/// By row of a dataset, what the thrusters deliver at its start: of no account, and zero, in the
+/// static structure.
 using ThrustHistory = std::vector<ThrustRegressors>;
 
 /// A stretch is taken to begin in steady thrust; a wrong guess decays with the thruster's time
