@@ -92,13 +92,20 @@ bool IsExcited(const EquationProblem& problem, std::size_t column, const Excitat
   return static_cast<std::size_t>((values > active).count()) >= limits.fewest_active_rows;
 }
 
-Eigen::MatrixXd SelectScaled(const EquationProblem& problem, const Excitation& excitation) {
-  Eigen::MatrixXd scaled(problem.phi.rows(), excitation.column_norms.size());
-  for (Eigen::Index j = 0; j < scaled.cols(); ++j) {
-    const auto column = static_cast<Eigen::Index>(excitation.excited[static_cast<std::size_t>(j)]);
-    scaled.col(j) = problem.phi.col(column) / excitation.column_norms[j];
+std::vector<std::size_t> ExcitedOf(const EquationProblem& problem, const ExcitationLimits& limits) {
+  std::vector<std::size_t> excited;
+  for (std::size_t column = 0; column < problem.regressors.size(); ++column) {
+    if (IsExcited(problem, column, limits)) excited.push_back(column);
   }
-  return scaled;
+  return excited;
+}
+
+/// Of the named columns of Phi, which are all more often than not: then nothing is copied.
+std::vector<TriangularFactor> FactorsOf(const Eigen::MatrixXd& phi,
+                                        const std::vector<std::size_t>& columns,
+                                        const Eigen::Ref<const Eigen::MatrixXd>& Y) {
+  if (columns.size() == static_cast<std::size_t>(phi.cols())) return TriangulariseAll(phi, Y);
+  return TriangulariseAll(phi(Eigen::all, columns), Y);
 }
 
 /// Belsley: in the dependency of singular value k, column j takes part with the share of its
@@ -130,23 +137,15 @@ std::optional<Refusal> RefuseUnmoved(const EquationProblem& problem,
   return RefuseStill(problem, limits);
 }
 
-/// The columns that the data move.
-Excitation ExcitedOf(const EquationProblem& problem, const ExcitationLimits& limits) {
+/// A triangle has the norms of the columns it was made from, and takes their scale as well as they.
+Excitation Decomposed(Equation equation, std::vector<std::size_t> excited, TriangularFactor factor,
+                      const ExcitationLimits& limits) {
   Excitation excitation;
-  excitation.equation = problem.equation;
-  for (std::size_t column = 0; column < problem.regressors.size(); ++column) {
-    if (IsExcited(problem, column, limits)) excitation.excited.push_back(column);
-  }
-  excitation.column_norms.resize(static_cast<Eigen::Index>(excitation.excited.size()));
-  for (std::size_t j = 0; j < excitation.excited.size(); ++j) {
-    excitation.column_norms[static_cast<Eigen::Index>(j)] =
-        problem.phi.col(static_cast<Eigen::Index>(excitation.excited[j])).norm();
-  }
-  return excitation;
-}
-
-void Decompose(TriangularFactor factor, const ExcitationLimits& limits, Excitation& excitation) {
+  excitation.equation = equation;
+  excitation.excited = std::move(excited);
   excitation.factor = std::move(factor);
+  excitation.column_norms = excitation.factor.R.colwise().norm();
+  excitation.factor.R.array().rowwise() /= excitation.column_norms.transpose().array();
   const Eigen::JacobiSVD<Eigen::MatrixXd> svd(excitation.factor.R,
                                               Eigen::ComputeFullU | Eigen::ComputeFullV);
   excitation.singular_values = svd.singularValues();
@@ -156,19 +155,21 @@ void Decompose(TriangularFactor factor, const ExcitationLimits& limits, Excitati
                           static_cast<double>(excitation.factor.rows);
   excitation.rank = (excitation.singular_values.array() > smallest).count();
   excitation.collinear = FindCollinear(excitation, limits.collinear_condition_index);
+  return excitation;
 }
 
 /// Of two equations that regress alike, both worth an answer.
 std::array<Excitation, 2> AssessAlike(const EquationProblem& one, const EquationProblem& other,
                                       const ExcitationLimits& limits) {
-  Excitation first = ExcitedOf(one, limits);
   Eigen::MatrixXd Y(one.y.size(), 2);
   Y << one.y, other.y;
-  std::vector<TriangularFactor> factors = TriangulariseAll(SelectScaled(one, first), Y);
-  Decompose(std::move(factors[0]), limits, first);
+  const std::vector<std::size_t> excited = ExcitedOf(one, limits);
+  std::vector<TriangularFactor> factors = FactorsOf(one.phi, excited, Y);
+  Excitation first = Decomposed(one.equation, excited, std::move(factors[0]), limits);
   Excitation second = first;
   second.equation = other.equation;
-  second.factor = std::move(factors[1]);
+  second.factor.z = std::move(factors[1].z);
+  second.factor.rho = factors[1].rho;
   return {std::move(first), std::move(second)};
 }
 
@@ -192,9 +193,9 @@ std::optional<Refusal> ExcitationLimits::Validate() const {
 Result<Excitation> Assess(const EquationProblem& problem, const ExcitationLimits& limits) {
   Require(problem.equation != Equation::kUnknown, "a named equation");
   if (auto refusal = RefuseUnmoved(problem, limits)) return tl::unexpected(*std::move(refusal));
-  Excitation excitation = ExcitedOf(problem, limits);
-  Decompose(Triangularise(SelectScaled(problem, excitation), problem.y), limits, excitation);
-  return excitation;
+  const std::vector<std::size_t> excited = ExcitedOf(problem, limits);
+  std::vector<TriangularFactor> factors = FactorsOf(problem.phi, excited, problem.y);
+  return Decomposed(problem.equation, excited, std::move(factors.front()), limits);
 }
 
 std::array<Result<Excitation>, 3> Assess(const std::array<EquationProblem, 3>& problems,
