@@ -42,13 +42,18 @@ bool Within(const Nu& nu, const Nu& limits) {
   return std::abs(nu.u) < limits.u && std::abs(nu.v) < limits.v && std::abs(nu.r) < limits.r;
 }
 
-Runaways CountRunaways(const PreparedDataset& dataset, const VesselModel& model, double horizon_s) {
-  constexpr std::size_t kMost = 60;
-  const auto steps = static_cast<std::size_t>(std::lround(horizon_s / dataset.sampling_period_s));
+std::vector<std::size_t> FreeRunStarts(const PreparedDataset& dataset, std::size_t steps) {
   std::vector<std::size_t> firsts;
   for (const RowRange& stretch : dataset.stretches) {
     for (std::size_t k = stretch.begin; k + steps < stretch.end; k += steps) firsts.push_back(k);
   }
+  return firsts;
+}
+
+Runaways CountRunaways(const PreparedDataset& dataset, const VesselModel& model, double horizon_s) {
+  constexpr std::size_t kMost = 60;
+  const auto steps = static_cast<std::size_t>(std::lround(horizon_s / dataset.sampling_period_s));
+  const std::vector<std::size_t> firsts = FreeRunStarts(dataset, steps);
   const ThrustHistory thrust = FollowThrust(dataset, model);
   const Nu limits = RunawayLimits(FastestOf(dataset));
   Runaways count;

@@ -26,6 +26,10 @@ std::vector<VesselState> RunFreely(const PreparedDataset& dataset, const VesselM
                                    const ThrustHistory& thrust, std::size_t first,
                                    std::size_t steps);
 
+/// The first rows of all runs of `steps` inside stretches, one after the other: each begins where
+/// the one before it ends.
+std::vector<std::size_t> FreeRunStarts(const PreparedDataset& dataset, std::size_t steps);
+
 /// Velocities beyond which the simulation of a boat that was measured at most `fastest` has run
 /// away: twice those, and at least half a metre or radian a second; docs/model.md (18a).
 Nu RunawayLimits(const Nu& fastest);
@@ -37,7 +41,7 @@ struct Runaways {
   std::size_t runaways = 0;
 };
 
-/// Windows of `horizon_s` inside stretches, one after the other; of many, some sixty spread evenly.
+/// Runs of `horizon_s` from FreeRunStarts; of many, some sixty spread evenly.
 Runaways CountRunaways(const PreparedDataset& dataset, const VesselModel& model, double horizon_s);
 
 }  // namespace telltale

@@ -107,7 +107,9 @@ double SquaredDistance(const Eta& a, const Eta& b) {
   return north * north + east * east;
 }
 
-void AddRun(const PreparedDataset& dataset, const std::vector<VesselState>& run, std::size_t first,
+/// A run is what was predicted from row `first` on: anything with a pose and a velocity.
+template <class Predicted>
+void AddRun(const PreparedDataset& dataset, const std::vector<Predicted>& run, std::size_t first,
             FreeRunSums& sums) {
   for (std::size_t k = 1; k < run.size(); ++k) {
     Add(sums.of_model, dataset.rows[first + k].nu, run[k].nu);
@@ -136,10 +138,8 @@ FreeRunScores ScoreFreeRuns(const PreparedDataset& dataset, const VesselModel& m
                             const ThrustHistory& thrust, double horizon_s) {
   const auto steps = static_cast<std::size_t>(std::lround(horizon_s / dataset.sampling_period_s));
   FreeRunSums sums;
-  for (const RowRange& stretch : dataset.stretches) {
-    for (std::size_t k = stretch.begin; k + steps < stretch.end; k += steps) {
-      AddRun(dataset, RunFreely(dataset, model, thrust, k, steps), k, sums);
-    }
+  for (const std::size_t first : FreeRunStarts(dataset, steps)) {
+    AddRun(dataset, RunFreely(dataset, model, thrust, first, steps), first, sums);
   }
   return ScoresOf(sums, dataset, horizon_s);
 }
@@ -257,13 +257,7 @@ Result<Metrics> Validate(const PreparedDataset& dataset, const AugmentedModel& m
     const auto steps = static_cast<std::size_t>(std::lround(horizon_s / dataset.sampling_period_s));
     FreeRunSums sums;
     sailing.RunAll(steps, [&](std::size_t first, const std::vector<PreparedRow>& predicted) {
-      for (std::size_t k = 1; k <= steps; ++k) {
-        Add(sums.of_model, dataset.rows[first + k].nu, predicted[k].nu);
-        Add(sums.of_persistence, dataset.rows[first + k].nu, dataset.rows[first].nu);
-      }
-      sums.squared_distance_m2 +=
-          SquaredDistance(dataset.rows[first + steps].eta, predicted[steps].eta);
-      ++sums.windows;
+      AddRun(dataset, predicted, first, sums);
     });
     metrics.free_run.push_back(ScoresOf(sums, dataset, horizon_s));
   }
