@@ -22,6 +22,14 @@ class Certificates : public ServiceTest {
     return request;
   }
 
+  /// A daemon learns of a client's ends in the order they were made, progress before replies: once
+  /// it was heard refusing, no progress is lost for want of a listener.
+  void MeetDaemon(IdentificationClient& client) const {
+    IdentifyRequest refused = Request("met");
+    refused.vehicle_id = "nobody";
+    ASSERT_EQ(client.Identify(refused, kTiming).outcome, ExchangeOutcome::kFailed);
+  }
+
   static constexpr ExchangeTiming kTiming{.match = 20s, .reply = 60s, .retry = 1s};
 };
 
@@ -30,6 +38,7 @@ TEST_F(Certificates, TravelWithThePublishedModel) {
   ReplaySimulation();
   const Participant participant(domain_.id());
   IdentificationClient client(participant);
+  MeetDaemon(client);
   std::vector<std::string> stages;
   const auto answer =
       client.Identify(Certified("certified", 10), kTiming,

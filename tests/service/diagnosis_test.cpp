@@ -173,6 +173,10 @@ TEST_F(LiveDiagnosis, AnswersACorrelationIdOnceAndTellsHowFarItIs) {
   SailAndWearOut(1.0);
   const Participant participant(domain_.id());
   DiagnosisClient client(participant);
+  // Once its refusal was heard, the daemon knows this client's reader of progress too.
+  DiagnoseRequest refused = Wanted("met");
+  refused.vehicle_id = "nobody";
+  ASSERT_EQ(client.Diagnose(refused, kTiming).outcome, ExchangeOutcome::kFailed);
   std::vector<std::string> stages;
   const auto first =
       client.Diagnose(Wanted("the-same"), kTiming,

@@ -12,6 +12,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <spdlog/spdlog.h>
 
 #include "bus/reader.hpp"
 #include "bus/wait_set.hpp"
@@ -76,6 +77,8 @@ class Jobs : public ::testing::Test {
   using Queue = JobQueue<IdentifyRequest, IdentifyProgress, IdentifyReply>;
 
   Jobs() {
+    // Who first asks makes the logger, where no sanitizer sees: ask before workers do.
+    spdlog::default_logger();
     news_.Attach(reader_, [this] { TakeReplies(); });
   }
 

@@ -25,7 +25,7 @@ class Process {
                      std::chrono::seconds timeout = std::chrono::seconds(30));
 
   /// The exit code, or nothing when it ended otherwise or is still running after `timeout`.
-  std::optional<int> Wait(std::chrono::seconds timeout = std::chrono::seconds(60));
+  std::optional<int> Wait(std::chrono::seconds timeout = std::chrono::seconds(180));
 
   void Signal(int signal) const;
 
