@@ -4,6 +4,11 @@ set(CMAKE_CXX_STANDARD_REQUIRED ON)
 set(CMAKE_CXX_EXTENSIONS OFF)
 set(CMAKE_CXX_FLAGS_RELEASE "-O3 -DNDEBUG")  # contracts are checked by Require, never by assert
 
+# Two compilers on two cores: Ninja's two more would only wait for them, and take their cache.
+cmake_host_system_information(RESULT cores QUERY NUMBER_OF_LOGICAL_CORES)
+set_property(GLOBAL PROPERTY JOB_POOLS compile=${cores})
+set(CMAKE_JOB_POOL_COMPILE compile)
+
 if(NOT CMAKE_BUILD_TYPE)
   set(CMAKE_BUILD_TYPE Release)
 endif()
@@ -17,6 +22,10 @@ if(TELLTALE_SANITIZE)
 endif()
 
 add_library(telltale_compile INTERFACE)
+# A tenth of GCC's time goes into collecting garbage while it instantiates templates; up to a gigabyte
+# may lie about.
+target_compile_options(telltale_compile
+                       INTERFACE $<$<COMPILE_LANG_AND_ID:CXX,GNU>:--param=ggc-min-heapsize=1000000>)
 target_compile_options(
   telltale_compile INTERFACE $<$<COMPILE_LANGUAGE:CXX>:-Wall -Wextra -Wpedantic -Wshadow -Wconversion
                              -Wno-sign-conversion -Wnon-virtual-dtor -Woverloaded-virtual -Werror>)
@@ -48,11 +57,11 @@ endfunction()
 # Parsing what most files include takes longer than compiling them: it is read once for core and idl,
 # once for what is around them and once for the tests, which differ in their optimisation or in what
 # they include and so cannot share.
-set(telltale_products ${PROJECT_SOURCE_DIR}/core/linear_algebra/products.hpp)
+set(telltale_linear_algebra ${PROJECT_SOURCE_DIR}/core/linear_algebra)
 function(telltale_precompile target)
   if(target STREQUAL telltale_core)
-    target_precompile_headers(telltale_core PRIVATE ${telltale_products} <optional> <string>
-                              <vector> <tl/expected.hpp>)
+    target_precompile_headers(telltale_core PRIVATE ${telltale_linear_algebra}/products.hpp <optional>
+                              <string> <vector> <tl/expected.hpp>)
   else()
     target_precompile_headers(${target} REUSE_FROM telltale_core)
   endif()
@@ -97,8 +106,9 @@ function(telltale_check target)
     find_package(GTest REQUIRED)
     telltale_precompiled(
       telltale_check_headers
-      HEADERS ${telltale_products} <gmock/gmock.h> <gtest/gtest.h> <filesystem> <functional> <map>
-              <optional> <string> <vector>
+      HEADERS ${telltale_linear_algebra}/products.hpp ${telltale_linear_algebra}/decompositions.hpp
+              <gmock/gmock.h> <gtest/gtest.h> <filesystem> <functional> <map> <optional> <string>
+              <vector>
       LINKS Eigen3::Eigen GTest::gmock GTest::gtest)
   endif()
   telltale_optimise_lightly(${target})

@@ -62,7 +62,11 @@ void ExportModel(const ExportArguments& arguments) {
   const Vehicle vehicle = LoadVehicle(arguments.vehicle_file);
   const Identification model = LoadModel(arguments.model_file);
   NoteOtherVehicle(model, vehicle);
-  const std::string text = Formatted(arguments, model, vehicle);
+  if (!model.sailed.empty()) {
+    std::cerr << "note: as estimated the model runs away; what is written is what it is sailed "
+                 "with, draws are about the estimates\n";
+  }
+  const std::string text = Formatted(arguments, AsSailed(model), vehicle);
   std::optional<PosteriorDraws> draws;
   if (arguments.draws) draws = OrThrow(DrawFromPosterior(model, *arguments.draws, arguments.seed));
   if (draws) fs::create_directories(arguments.out);

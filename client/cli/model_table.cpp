@@ -66,23 +66,30 @@ std::string Grouped(const Identification& model, std::vector<Column> columns, Ce
 }
 
 std::string Coefficients(const Identification& model) {
-  return Grouped(model,
-                 {{"regressor", Align::kLeft},
-                  {"symbol", Align::kLeft},
-                  {"estimate", Align::kRight},
-                  {"std. error", Align::kRight},
-                  {BoundsTitle(model), Align::kRight},
-                  {"unit", Align::kLeft},
-                  {"status", Align::kLeft}},
-                 [](const Coefficient& c) -> std::vector<std::string> {
-                   return {c.regressor,
-                           c.symbol,
-                           Significant(c.estimate),
-                           Significant(c.standard_error, 3),
-                           BoundsText(c.interval, 1.0),
-                           c.unit,
-                           InWords(Name(c.status))};
-                 });
+  std::vector<Column> columns = {{"regressor", Align::kLeft},
+                                 {"symbol", Align::kLeft},
+                                 {"estimate", Align::kRight},
+                                 {"std. error", Align::kRight},
+                                 {BoundsTitle(model), Align::kRight},
+                                 {"unit", Align::kLeft},
+                                 {"status", Align::kLeft}};
+  constexpr int kAfterBounds = 5;
+  const bool sailed = !model.sailed.empty();
+  if (sailed) columns.insert(columns.begin() + kAfterBounds, {"sailed with", Align::kRight});
+  return Grouped(model, std::move(columns), [&](const Coefficient& c) {
+    std::vector<std::string> cells = {c.regressor,
+                                      c.symbol,
+                                      Significant(c.estimate),
+                                      Significant(c.standard_error, 3),
+                                      BoundsText(c.interval, 1.0),
+                                      c.unit,
+                                      InWords(Name(c.status))};
+    if (sailed) {
+      const auto place = static_cast<std::size_t>(&c - model.coefficients.data());
+      cells.insert(cells.begin() + kAfterBounds, Significant(model.SailedWith(place)));
+    }
+    return cells;
+  });
 }
 
 std::string TimeConstant(const Identification& model) {

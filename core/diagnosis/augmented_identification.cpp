@@ -4,6 +4,7 @@
 #include <cmath>
 #include <string>
 
+#include "linear_algebra/covariance.hpp"
 #include "uncertainty/interval.hpp"
 
 namespace telltale {
@@ -29,8 +30,7 @@ Identification Augmented(const Identification& old, const AugmentedModel& boat,
                          const UncertainModel& model) {
   Identification augmented = old;
   const Eigen::VectorXd scale = model.StandardErrors();
-  const Eigen::MatrixXd covariance =
-      scale.asDiagonal() * RecalibrationOf(fit, evidence).covariance * scale.asDiagonal();
+  const Eigen::MatrixXd covariance = Scaled(RecalibrationOf(fit, evidence).covariance, scale);
   std::array<Eigen::Index, 3> column{};
   Eigen::Index free = 0;
   std::vector<Eigen::Index> place_of;
@@ -50,6 +50,7 @@ Identification Augmented(const Identification& old, const AugmentedModel& boat,
     ++free;
   }
   augmented.covariance(place_of, place_of) = covariance;
+  augmented.sailed.clear();  // what was sailed with is what the new estimates started from
   augmented.effects.clear();
   for (const auto& [effect, values] : boat.effects) {
     augmented.effects.push_back({std::string(effect->Name()), values});

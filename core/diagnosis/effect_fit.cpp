@@ -4,6 +4,7 @@
 #include <cmath>
 #include <optional>
 
+#include "linear_algebra/covariance.hpp"
 #include "linear_algebra/decompositions.hpp"
 
 namespace telltale {
@@ -168,8 +169,8 @@ EffectFit FitSteady(const FreeRuns& runs, const AugmentedModel& boat, const Judg
   const Eigen::MatrixXd jacobian = fitting.Jacobian(*best);
   const Eigen::VectorXd prior = unknowns.PriorInformation();
   // Curvature of looks ln(square).
-  Eigen::MatrixXd information =
-      judge.Looks() / best->square * jacobian.transpose() * judge.Weigh(jacobian);
+  const Eigen::MatrixXd seen = jacobian.transpose() * judge.Weigh(jacobian);
+  Eigen::MatrixXd information = judge.Looks() / best->square * seen;
   information.diagonal() += prior;
   const Eigen::LLT<Eigen::MatrixXd> factor(information);
   const double log_determinant =
@@ -177,9 +178,7 @@ EffectFit FitSteady(const FreeRuns& runs, const AugmentedModel& boat, const Judg
 
   EffectFit fit;
   fit.effects = unknowns.Effects(best->scaled);
-  fit.covariance = unknowns.Sizes().asDiagonal() *
-                   factor.solve(Eigen::MatrixXd::Identity(unknowns.Size(), unknowns.Size())) *
-                   unknowns.Sizes().asDiagonal();
+  fit.covariance = Scaled(Inverse(information), unknowns.Sizes());
   fit.square = best->square;
   fit.score = judge.Evidence(best->square, none) + best->cost - best->square + log_determinant;
   fit.errors = best->errors;

@@ -6,6 +6,7 @@
 
 #include "contract.hpp"
 #include "diagnosis/judge.hpp"
+#include "linear_algebra/covariance.hpp"
 #include "linear_algebra/decompositions.hpp"
 
 namespace telltale {
@@ -72,10 +73,9 @@ class HealthyFit {
         lasting_(Eigen::VectorXd::Zero(slots_)),
         lasting_sizes_(Eigen::VectorXd::Constant(slots_, kLasting)),
         day_sizes_(Eigen::VectorXd::Constant(Passing(), kEverPresent)) {
-    base_information_ = (model.Correlation() + 1e-6 * Eigen::MatrixXd::Identity(base_, base_))
-                            .llt()
-                            .solve(Eigen::MatrixXd::Identity(base_, base_)) /
-                        (kModelTrust * kModelTrust);
+    Eigen::MatrixXd correlation = model.Correlation();
+    correlation.diagonal().array() += 1e-6;
+    base_information_ = Inverse(correlation) / (kModelTrust * kModelTrust);
     lasting_limits_.resize(slots_, 2);
     for (Eigen::Index j = 0; j < slots_; ++j) {
       const Slot& slot = slots[static_cast<std::size_t>(j)];
@@ -154,10 +154,7 @@ class HealthyFit {
     return sizes;
   }
   Eigen::MatrixXd BoatCovariance() const {
-    return Information()
-        .llt()
-        .solve(Eigen::MatrixXd::Identity(Size(), Size()))
-        .topLeftCorner(base_ + slots_, base_ + slots_);
+    return Inverse(Information()).topLeftCorner(base_ + slots_, base_ + slots_);
   }
 
  private:

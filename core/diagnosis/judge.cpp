@@ -5,6 +5,7 @@
 #include <numeric>
 #include <utility>
 
+#include "linear_algebra/covariance.hpp"
 #include "linear_algebra/decompositions.hpp"
 
 namespace telltale {
@@ -53,8 +54,9 @@ Judge::Judge(const Healthy& healthy, const Sensitivity& recording, std::vector<s
 }
 
 void Judge::WeighLoose() {
-  weigher_.compute(Eigen::MatrixXd::Identity(loose_.cols(), loose_.cols()) +
-                   loose_.transpose() * loose_);
+  Eigen::MatrixXd weights = loose_.transpose() * loose_;
+  weights.diagonal().array() += 1.0;
+  weigher_.compute(weights);
 }
 
 Judge Judge::Allowing(const Eigen::MatrixXd& varying) const {
@@ -130,7 +132,9 @@ Eigen::MatrixXd Judge::Whiten(const Eigen::MatrixXd& pattern) const {
 }
 
 Eigen::MatrixXd Judge::Weigh(const Eigen::MatrixXd& seen) const {
-  return seen - loose_ * weigher_.solve(loose_.transpose() * seen);
+  const Eigen::MatrixXd along = loose_.transpose() * seen;
+  const Eigen::MatrixXd taken = weigher_.solve(along);
+  return seen - loose_ * taken;
 }
 
 Eigen::MatrixXd Judge::UnexplainedByWindow(const Eigen::VectorXd& seen) const {
@@ -140,11 +144,11 @@ Eigen::MatrixXd Judge::UnexplainedByWindow(const Eigen::VectorXd& seen) const {
 
 Judge::Recalibration Judge::Recalibrate(const Eigen::VectorXd& seen) const {
   const Eigen::Index boat = base_root_.cols();
-  const Eigen::Index all = loose_.cols();
-  const Eigen::VectorXd loose = weigher_.solve(loose_.transpose() * seen);
-  const Eigen::MatrixXd covariance =
-      weigher_.solve(Eigen::MatrixXd::Identity(all, all)).topLeftCorner(boat, boat);
-  return {-base_root_ * loose.head(boat), base_root_ * covariance * base_root_.transpose()};
+  const Eigen::VectorXd along = loose_.transpose() * seen;
+  const Eigen::VectorXd loose = weigher_.solve(along);
+  const Eigen::MatrixXd identity = Eigen::MatrixXd::Identity(loose_.cols(), loose_.cols());
+  const Eigen::MatrixXd covariance = weigher_.solve(identity).topLeftCorner(boat, boat);
+  return {-base_root_ * loose.head(boat), Mapped(base_root_, covariance)};
 }
 
 Eigen::MatrixXd Whitened(const Eigen::LLT<Eigen::MatrixXd>& factor,

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "diagnosis/gap.hpp"
+#include "linear_algebra/covariance.hpp"
 #include "linear_algebra/decompositions.hpp"
 #include "parallel.hpp"
 
@@ -30,18 +31,17 @@ Eigen::MatrixXd ExcessOf(const Eigen::Vector3d& squares, const SwingPatterns& pa
 /// Most likely squared amplitudes, by the multiplicative form of Fisher scoring that keeps them
 /// positive.
 Spectrum Fitted(const Eigen::MatrixXd& windows, const SwingPatterns& patterns) {
-  const auto identity = Eigen::MatrixXd::Identity(windows.rows(), windows.rows());
-  const Eigen::MatrixXd moment =
-      windows * windows.transpose() / static_cast<double>(windows.cols());
+  const Eigen::MatrixXd identity = Eigen::MatrixXd::Identity(windows.rows(), windows.rows());
+  const Eigen::MatrixXd moment = OfRoot(windows) / static_cast<double>(windows.cols());
   Spectrum spectrum;
   for (std::size_t j = 0; j < 3; ++j) {
     spectrum.squares[static_cast<Eigen::Index>(j)] =
         0.1 * moment.trace() / std::max(patterns[j].trace(), 1e-12);
   }
   for (int iteration = 0; iteration < kIterations; ++iteration) {
-    const Eigen::LLT<Eigen::MatrixXd> scatter(identity + ExcessOf(spectrum.squares, patterns));
-    const Eigen::MatrixXd inverse = scatter.solve(identity);
-    const Eigen::MatrixXd seen = inverse * moment * inverse;
+    const Eigen::MatrixXd scatter = identity + ExcessOf(spectrum.squares, patterns);
+    const Eigen::MatrixXd inverse = Inverse(scatter);
+    const Eigen::MatrixXd seen = Mapped(inverse, moment);
     for (std::size_t j = 0; j < 3; ++j) {
       const double wanted = (seen.array() * patterns[j].array()).sum();
       const double expected = (inverse.array() * patterns[j].array()).sum();
@@ -49,9 +49,10 @@ Spectrum Fitted(const Eigen::MatrixXd& windows, const SwingPatterns& patterns) {
           std::sqrt(wanted / std::max(expected, 1e-300));
     }
   }
-  const Eigen::LLT<Eigen::MatrixXd> scatter(identity + ExcessOf(spectrum.squares, patterns));
-  const double log_determinant = 2.0 * scatter.matrixLLT().diagonal().array().log().sum();
-  const Eigen::VectorXd left = scatter.matrixL().solve(windows).colwise().squaredNorm();
+  const Eigen::MatrixXd scatter = identity + ExcessOf(spectrum.squares, patterns);
+  const Eigen::LLT<Eigen::MatrixXd> factor(scatter);
+  const double log_determinant = 2.0 * factor.matrixLLT().diagonal().array().log().sum();
+  const Eigen::VectorXd left = factor.matrixL().solve(windows).colwise().squaredNorm();
   spectrum.left = left.sum();
   spectrum.gains = windows.colwise().squaredNorm().transpose() - left;
   spectrum.gains.array() -= log_determinant;

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "contract.hpp"
+#include "linear_algebra/covariance.hpp"
 #include "parallel.hpp"
 
 namespace telltale {
@@ -55,7 +56,7 @@ SwingPatterns SwingPatternsAt(double frequency_rad_s, const FreeRuns& runs,
       const ModelledEffect shaking{&swing, {}};
       const Eigen::MatrixXd response =
           (runs.Errors(boat.With({&shaking, 1})) - errors) / Swing::kPush;
-      patterns[axis] += 0.5 * response * response.transpose() / windows;
+      patterns[axis] += 0.5 / windows * OfRoot(response);
     }
   }
   return patterns;

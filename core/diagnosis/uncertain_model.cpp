@@ -2,11 +2,12 @@
 
 #include <cmath>
 
+#include "linear_algebra/covariance.hpp"
+
 namespace telltale {
 
 Eigen::MatrixXd UncertainModel::Correlation() const {
-  const Eigen::VectorXd scale = StandardErrors().cwiseInverse();
-  return scale.asDiagonal() * covariance * scale.asDiagonal();
+  return Scaled(covariance, StandardErrors().cwiseInverse());
 }
 
 VesselModel UncertainModel::Changed(const VesselModel& about, const Eigen::VectorXd& by) const {

@@ -1,18 +1,10 @@
 #include "effects/wording.hpp"
 
-#include <array>
 #include <cmath>
-#include <cstdio>
 
 #include "vessel/compass.hpp"
 
 namespace telltale {
-
-std::string Number(double value, int decimals) {
-  std::array<char, 64> text{};
-  std::snprintf(text.data(), text.size(), "%.*f", decimals, value);
-  return text.data();
-}
 
 std::string Percent(double share) {
   return Number(100.0 * std::abs(share), 0) + " %";

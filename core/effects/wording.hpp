@@ -1,12 +1,10 @@
 #pragma once
 
 #include <string>
-#include <string_view>
+
+#include "number.hpp"
 
 namespace telltale {
-
-/// "0.35", with so many decimals.
-std::string Number(double value, int decimals);
 
 /// "22 %" of a share of 0.22, without its sign.
 std::string Percent(double share);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "data/savitzky_golay.hpp"
+#include "estimation/residual_correlation.hpp"
 
 namespace telltale {
 namespace {
@@ -27,22 +28,33 @@ Eigen::VectorXd SeenWeights(const PreparedDataset& dataset, const WeakProblem& p
   return weights;
 }
 
-/// Autocovariance by window lag of a unit Gauss-Markov process seen through `weights`.
-Eigen::VectorXd SeenAutocovariance(const Eigen::VectorXd& weights, double h, std::size_t stride,
-                                   double time_constant_s) {
-  Eigen::VectorXd products = Eigen::VectorXd::Zero(2 * weights.size() - 1);
+/// Products of weights so many rows apart, the middle one those of a weight with itself.
+Eigen::VectorXd ProductsByLag(const Eigen::VectorXd& weights) {
   const Eigen::Index middle = weights.size() - 1;
+  Eigen::VectorXd products = Eigen::VectorXd::Zero(2 * middle + 1);
   for (Eigen::Index a = 0; a < weights.size(); ++a) {
     for (Eigen::Index b = 0; b < weights.size(); ++b) {
       products[middle + a - b] += weights[a] * weights[b];
     }
   }
-  Eigen::VectorXd seen = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(kDisturbanceLags));
-  for (std::size_t l = 0; l < kDisturbanceLags; ++l) {
+  return products;
+}
+
+/// Autocovariance by window lag of a unit Gauss-Markov process seen through weights with these
+/// products, up to the lag at which next to nothing is left of it.
+Eigen::VectorXd SeenAutocovariance(const Eigen::VectorXd& products, double h, std::size_t stride,
+                                   double time_constant_s) {
+  constexpr double kLongestInTimeConstants = 5.0;
+  const Eigen::Index middle = products.size() / 2;
+  const double window_s = h * static_cast<double>(stride);
+  const double reach_s =
+      kLongestInTimeConstants * time_constant_s + h * static_cast<double>(products.size());
+  Eigen::VectorXd seen = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(reach_s / window_s) + 1);
+  for (Eigen::Index l = 0; l < seen.size(); ++l) {
     for (Eigen::Index d = -middle; d <= middle; ++d) {
-      const double apart_s = std::abs(static_cast<double>(d) + static_cast<double>(l * stride)) * h;
-      seen[static_cast<Eigen::Index>(l)] +=
-          products[middle + d] * std::exp(-apart_s / time_constant_s);
+      const double apart_s =
+          std::abs(static_cast<double>(d) * h + static_cast<double>(l) * window_s);
+      seen[l] += products[middle + d] * std::exp(-apart_s / time_constant_s);
     }
   }
   return seen;
@@ -67,6 +79,7 @@ struct AxisFits {
   Eigen::VectorXd misfit;
 };
 
+/// units: what a disturbance of variance one shows, by time constant.
 AxisFits FitAxis(const Eigen::VectorXd& shown, double residual_variance,
                  const std::vector<Eigen::VectorXd>& units) {
   AxisFits fits{Eigen::VectorXd(static_cast<Eigen::Index>(units.size())),
@@ -81,25 +94,6 @@ AxisFits FitAxis(const Eigen::VectorXd& shown, double residual_variance,
 }
 
 }  // namespace
-
-Eigen::VectorXd Autocovariance(const TestFunction& phi, const WeakWindows& windows,
-                               const Eigen::VectorXd& residual) {
-  const auto& first = windows.first_rows;
-  Eigen::VectorXd sums = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(kDisturbanceLags));
-  Eigen::VectorXd counts = sums;
-  for (std::size_t k = 0; k < first.size(); ++k) {
-    for (std::size_t j = k; j < first.size(); ++j) {
-      const std::size_t apart = first[j] - first[k];
-      // Windows of another stretch start at other multiples, or far away.
-      if (apart >= kDisturbanceLags * phi.stride) break;
-      if (apart % phi.stride != 0) continue;
-      const auto lag = static_cast<Eigen::Index>(apart / phi.stride);
-      sums[lag] += residual[static_cast<Eigen::Index>(k)] * residual[static_cast<Eigen::Index>(j)];
-      counts[lag] += 1.0;
-    }
-  }
-  return sums.cwiseQuotient(counts.cwiseMax(1.0));
-}
 
 std::array<Eigen::VectorXd, 3> ResidualsOf(const WeakFit& fit, const Eigen::VectorXd& theta,
                                            const PreparedDataset& dataset,
@@ -128,19 +122,25 @@ Disturbance EstimateDisturbance(const PreparedDataset& dataset, const WeakFit& f
   // then speak for it, since what pushes a boat pushes all three.
   constexpr double kSayOfOthers = 0.25;
   const WeakProblem& problem = fit.problem;
-  const Eigen::VectorXd weights = SeenWeights(dataset, problem);
+  const Eigen::VectorXd products = ProductsByLag(SeenWeights(dataset, problem));
   const std::vector<double> time_constants = TimeConstants();
-  std::vector<Eigen::VectorXd> units;
+  std::vector<Eigen::VectorXd> seen;
   for (const double tau : time_constants) {
-    units.push_back(
-        SeenAutocovariance(weights, dataset.sampling_period_s, problem.phi.stride, tau));
+    seen.push_back(
+        SeenAutocovariance(products, dataset.sampling_period_s, problem.phi.stride, tau));
   }
   std::array<std::optional<AxisFits>, 3> fits;
-  Eigen::VectorXd all = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(units.size()));
+  Eigen::VectorXd all = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(seen.size()));
   for (std::size_t j = 0; j < 3; ++j) {
     if (!fit.equations[j]) continue;
-    const Eigen::VectorXd shown =
-        Autocovariance(problem.phi, problem.windows[j], fit.equations[j]->residual);
+    const WeakEstimate& estimate = *fit.equations[j];
+    const auto runs = RunsOf(problem.windows[j].first_rows, problem.phi.stride);
+    const Eigen::MatrixXd response = estimate.G * fit.BreadOf(j);
+    std::vector<Eigen::VectorXd> units;
+    for (const Eigen::VectorXd& of_tau : seen) {
+      units.push_back(LeftByFit(runs, of_tau, response, estimate.Z, kDisturbanceLags));
+    }
+    const Eigen::VectorXd shown = Autocovariance(runs, estimate.residual, kDisturbanceLags);
     fits[j] = FitAxis(shown - by_sensors[j], shown[0], units);
     all += fits[j]->misfit;
   }

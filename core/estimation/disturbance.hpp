@@ -14,19 +14,15 @@ namespace telltale {
 /// Lags of an autocovariance from which a disturbance is judged.
 inline constexpr std::size_t kDisturbanceLags = 10;
 
-/// How the residuals of one equation's windows hang together: mean products of residuals `l`
-/// windows apart, l = 0 .. kDisturbanceLags - 1.
-Eigen::VectorXd Autocovariance(const TestFunction& phi, const WeakWindows& windows,
-                               const Eigen::VectorXd& residual);
-
 /// The residuals that `theta`, stacked as in the fit, leaves in another dataset of the same boat.
 std::array<Eigen::VectorXd, 3> ResidualsOf(const WeakFit& fit, const Eigen::VectorXd& theta,
                                            const PreparedDataset& dataset,
                                            const WeakProblem& problem);
 
 /// The disturbance behind the residuals: sigma^2 and time constant whose autocovariance, seen
-/// through the filter and the test function, comes nearest to what the residuals show beyond the
-/// sensors' part. by_sensors[j]: autocovariance that sensor noise alone leaves in equation j.
+/// through the filter and the test function and less what the coefficients have taken up of it,
+/// comes nearest to what the residuals show beyond the sensors' part. by_sensors[j]: autocovariance
+/// that sensor noise alone leaves in equation j.
 Disturbance EstimateDisturbance(const PreparedDataset& dataset, const WeakFit& fit,
                                 const std::array<Eigen::VectorXd, 3>& by_sensors);
 

@@ -1,6 +1,5 @@
 #include "estimation/excitation_summary.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -24,20 +23,6 @@ std::vector<CombinationTerm> LeastSeparable(const Excitation& excitation) {
   return terms;
 }
 
-/// The products of residuals `lag` apart, added up.
-double Autocovariance(const Eigen::VectorXd& residual, std::span<const RowRange> runs,
-                      std::size_t lag) {
-  double sum = 0.0;
-  for (const RowRange& run : runs) {
-    if (run.size() <= lag) continue;
-    const auto begin = static_cast<Eigen::Index>(run.begin);
-    const auto count = static_cast<Eigen::Index>(run.size() - lag);
-    sum += residual.segment(begin, count)
-               .dot(residual.segment(begin + static_cast<Eigen::Index>(lag), count));
-  }
-  return sum;
-}
-
 }  // namespace
 
 ExcitationSummary Summarise(const Excitation& excitation, std::size_t regressors) {
@@ -54,33 +39,6 @@ ExcitationSummary Summarise(const Excitation& excitation, std::size_t regressors
   }
   if (s.size() > 1) summary.least_separable = LeastSeparable(excitation);
   return summary;
-}
-
-double RowsPerIndependentRow(const Eigen::VectorXd& residual, std::span<const RowRange> runs) {
-  const double squares = residual.squaredNorm();
-  if (squares <= 0.0) return 1.0;
-  std::size_t longest = 0;
-  for (const RowRange& run : runs) longest = std::max(longest, run.size());
-  double sum = -1.0;
-  double least = kInfinity;
-  for (std::size_t lag = 0; lag + 1 < longest; lag += 2) {
-    const double pair =
-        (Autocovariance(residual, runs, lag) + Autocovariance(residual, runs, lag + 1)) / squares;
-    if (pair <= 0.0) break;
-    least = std::min(least, pair);
-    sum += 2.0 * least;
-  }
-  return std::max(1.0, sum);
-}
-
-std::vector<RowRange> RunsOf(std::span<const std::size_t> places, std::size_t stride) {
-  std::vector<RowRange> runs;
-  for (std::size_t i = 0; i < places.size(); ++i) {
-    const bool follows = i > 0 && places[i] == places[i - 1] + stride;
-    if (!follows) runs.push_back({i, i});
-    runs.back().end = i + 1;
-  }
-  return runs;
 }
 
 }  // namespace telltale

@@ -1,12 +1,8 @@
 #pragma once
 
 #include <cstddef>
-#include <span>
 #include <vector>
 
-#include <Eigen/Core>
-
-#include "data/prepared_dataset.hpp"
 #include "estimation/excitation.hpp"
 #include "vessel/structure.hpp"
 
@@ -35,14 +31,5 @@ struct ExcitationSummary {
 
 /// The numbers that excitation alone decides; rows are left at zero.
 ExcitationSummary Summarise(const Excitation& excitation, std::size_t regressors);
-
-/// How many neighbouring residuals say as much as one independent residual, at least one: 1 + 2 sum
-/// of their autocorrelations, as long as pairs of them stay positive. docs/model.md (64).
-/// `runs`: gap-free runs of residuals. Source: Geyer, "Practical Markov chain Monte Carlo",
-/// Statistical Science 7 (1992), the initial positive sequence.
-double RowsPerIndependentRow(const Eigen::VectorXd& residual, std::span<const RowRange> runs);
-
-/// Runs of items whose places follow each other at `stride`.
-std::vector<RowRange> RunsOf(std::span<const std::size_t> places, std::size_t stride);
 
 }  // namespace telltale

@@ -8,6 +8,7 @@
 #include "contract.hpp"
 #include "estimation/shot_solution.hpp"
 #include "estimation/weak_iv.hpp"
+#include "linear_algebra/covariance.hpp"
 #include "linear_algebra/decompositions.hpp"
 #include "range.hpp"
 
@@ -223,22 +224,23 @@ Eigen::MatrixXd ClusterCovariance(const OutputErrorFit& fit) {
   // A cluster that alone tells of some direction would leave nothing of it.
   constexpr double kLeastLeft = 0.02;
   const Eigen::MatrixXd& root = fit.separability.root;
+  const Eigen::MatrixXd across = root.transpose();
   const auto g = static_cast<double>(fit.scores.cols());
   Require(g > 1.0, "at least two clusters");
   Eigen::MatrixXd influence(root.rows(), fit.scores.cols());
   for (Eigen::Index s = 0; s < fit.scores.cols(); ++s) {
     // (H - H_s)^-1 q_s = root (1 - root' H_s root)^-1 root' q_s, within what can be told apart.
-    Eigen::MatrixXd left = (kLeastLeft - 1.0) * root.transpose() *
-                           fit.cluster_information[static_cast<std::size_t>(s)] * root;
+    Eigen::MatrixXd left =
+        (kLeastLeft - 1.0) * Mapped(across, fit.cluster_information[static_cast<std::size_t>(s)]);
     left.diagonal().array() += 1.0;
-    const Eigen::VectorXd right = root.transpose() * fit.scores.col(s);
+    const Eigen::VectorXd right = across * fit.scores.col(s);
     influence.col(s) = root * left.llt().solve(right);
   }
-  return (g - 1.0) / g * influence * influence.transpose();
+  return (g - 1.0) / g * OfRoot(influence);
 }
 
 Eigen::MatrixXd NaiveCovariance(const OutputErrorFit& fit) {
-  return fit.residual_variance * fit.separability.root * fit.separability.root.transpose();
+  return fit.residual_variance * OfRoot(fit.separability.root);
 }
 
 double Misspecification(const OutputErrorFit& fit) {

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "contract.hpp"
+#include "linear_algebra/covariance.hpp"
 #include "linear_algebra/decompositions.hpp"
 
 namespace telltale {
@@ -85,7 +86,7 @@ Separability Separate(const Eigen::MatrixXd& information, const Eigen::VectorXd&
   }
   if (seen.empty()) return result;
   const Eigen::VectorXd scale = information.diagonal()(seen).cwiseSqrt().cwiseInverse();
-  const Eigen::MatrixXd scaled = scale.asDiagonal() * information(seen, seen) * scale.asDiagonal();
+  const Eigen::MatrixXd scaled = Scaled(information(seen, seen), scale);
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(scaled);
   const double largest = eigen.eigenvalues().maxCoeff();
   const Eigen::VectorXd lambda =

@@ -7,6 +7,7 @@
 
 #include "contract.hpp"
 #include "estimation/excitation.hpp"
+#include "linear_algebra/covariance.hpp"
 #include "linear_algebra/decompositions.hpp"
 #include "range.hpp"
 
@@ -17,25 +18,25 @@ namespace {
 constexpr double kSmallestEigenvalue = 1e-10;
 
 /// Pseudo-inverse of a Gram matrix, judged with its columns scaled to unit norm.
-struct Inverse {
+struct PseudoInverse {
   Eigen::MatrixXd matrix;
   std::vector<bool> estimable;
   Eigen::Index rank = 0;
 };
 
-Inverse Invert(const Eigen::MatrixXd& gram) {
+PseudoInverse Invert(const Eigen::MatrixXd& gram) {
   const Eigen::VectorXd norms = gram.diagonal().cwiseMax(0.0).cwiseSqrt();
   const Eigen::VectorXd scale = norms.unaryExpr([](double s) { return s > 0.0 ? 1.0 / s : 0.0; });
-  const Eigen::MatrixXd scaled = scale.asDiagonal() * gram * scale.asDiagonal();
+  const Eigen::MatrixXd scaled = Scaled(gram, scale);
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(scaled);
   const Eigen::VectorXd& values = solver.eigenvalues();  // ascending
-  Inverse inverse;
+  PseudoInverse inverse;
   const double smallest = kSmallestEigenvalue * values[values.size() - 1];
   inverse.rank = (values.array() > smallest).count();
   const Eigen::Index undetermined = values.size() - inverse.rank;
-  const auto V = solver.eigenvectors().rightCols(inverse.rank);
-  inverse.matrix = scale.asDiagonal() * V * values.tail(inverse.rank).cwiseInverse().asDiagonal() *
-                   V.transpose() * scale.asDiagonal();
+  const Eigen::MatrixXd root = scale.asDiagonal() * solver.eigenvectors().rightCols(inverse.rank) *
+                               values.tail(inverse.rank).cwiseSqrt().cwiseInverse().asDiagonal();
+  inverse.matrix = OfRoot(root);
   for (Eigen::Index j = 0; j < gram.rows(); ++j) {
     inverse.estimable.push_back(solver.eigenvectors().row(j).head(undetermined).squaredNorm() <
                                 kUndeterminedShare);
@@ -129,7 +130,7 @@ Result<SlidingEstimate> SlidingRegression::Estimate() const {
                       " coefficients",
                   "wait for more telemetry");
   }
-  const Inverse inverse = Invert(grams_[0].topLeftCorner(p, p));
+  const PseudoInverse inverse = Invert(grams_[0].topLeftCorner(p, p));
   SlidingEstimate estimate;
   estimate.theta = inverse.matrix * grams_[0].col(p).head(p);
   estimate.estimable = inverse.estimable;

@@ -5,6 +5,8 @@
 #include <numeric>
 
 #include "contract.hpp"
+#include "estimation/residual_correlation.hpp"
+#include "linear_algebra/covariance.hpp"
 #include "linear_algebra/decompositions.hpp"
 #include "vessel/body_dynamics.hpp"
 
@@ -255,33 +257,44 @@ std::vector<Eigen::VectorXd> ThrustByLag(const PreparedDataset& dataset, const W
   return slopes;
 }
 
+/// One equation's instruments, the time constant's first if it is sought, and where among the
+/// stacked unknowns what they tell of stands.
+struct Share {
+  std::vector<Eigen::Index> places;
+  Eigen::MatrixXd Z;
+};
+
 /// The stacked linear system about the present estimate: unknowns are the change of the time
 /// constant, if it is sought, and the coefficients.
 struct System {
-  Eigen::MatrixXd A;               // Z'G over the stacked unknowns
-  Eigen::VectorXd c;               // Z'b
-  std::vector<Eigen::MatrixXd> Z;  // per equation, K x P
+  Eigen::MatrixXd A;          // Z'G over the stacked unknowns
+  Eigen::VectorXd c;          // Z'b
+  std::vector<Share> shares;  // per equation
 };
+
+Eigen::MatrixXd Beside(const Eigen::VectorXd& first, const Eigen::MatrixXd& others) {
+  Eigen::MatrixXd all(others.rows(), 1 + others.cols());
+  all << first, others;
+  return all;
+}
 
 System Stack(const WeighedEquations& equations, const std::vector<Eigen::MatrixXd>& Z,
              const std::vector<Eigen::VectorXd>& by_lag, const std::vector<double>& weights) {
-  const Eigen::Index lag = by_lag.empty() ? 0 : 1;
-  Eigen::Index P = lag;
+  const bool lagging = !by_lag.empty();
+  Eigen::Index P = lagging ? 1 : 0;
   for (const Weighed& equation : equations) P += equation.G.cols();
   System system{Eigen::MatrixXd::Zero(P, P), Eigen::VectorXd::Zero(P), {}};
-  Eigen::Index first = lag;
+  Eigen::Index next = lagging ? 1 : 0;
   for (std::size_t i = 0; i < equations.size(); ++i) {
-    const Eigen::Index p = equations[i].G.cols();
-    Eigen::MatrixXd wide = Eigen::MatrixXd::Zero(equations[i].G.rows(), P);
-    wide.middleCols(first, p) = Z[i];
-    if (lag > 0) wide.col(0) = weights[i] * by_lag[i];
-    Eigen::MatrixXd known = Eigen::MatrixXd::Zero(equations[i].G.rows(), P);
-    known.middleCols(first, p) = equations[i].G;
-    if (lag > 0) known.col(0) = by_lag[i];
-    system.A += wide.transpose() * known;
-    system.c += wide.transpose() * equations[i].b;
-    system.Z.push_back(std::move(wide));
-    first += p;
+    const Weighed& equation = equations[i];
+    Share share;
+    if (lagging) share.places.push_back(0);
+    for (Eigen::Index j = 0; j < equation.G.cols(); ++j) share.places.push_back(next++);
+    share.Z = lagging ? Beside(weights[i] * by_lag[i], Z[i]) : Z[i];
+    system.A(share.places, share.places) +=
+        share.Z.transpose() * (lagging ? Beside(by_lag[i], equation.G) : equation.G);
+    system.c(share.places) += share.Z.transpose() * equation.b;
+    system.shares.push_back(std::move(share));
   }
   return system;
 }
@@ -291,12 +304,12 @@ std::optional<Eigen::MatrixXd> Invert(const Eigen::MatrixXd& A) {
   const Eigen::VectorXd rows = A.rowwise().norm();
   if (!A.allFinite() || (rows.array() <= 0.0).any()) return std::nullopt;
   const Eigen::VectorXd scale = rows.cwiseSqrt().cwiseInverse();
-  const Eigen::MatrixXd scaled = scale.asDiagonal() * A * scale.asDiagonal();
+  const Eigen::MatrixXd scaled = Scaled(A, scale);
   Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> decomposition;
   decomposition.setThreshold(1e-12).compute(scaled);
   if (decomposition.rank() < A.rows()) return std::nullopt;
   const Eigen::MatrixXd inverse = decomposition.pseudoInverse();
-  return scale.asDiagonal() * inverse * scale.asDiagonal();
+  return Scaled(inverse, scale);
 }
 
 std::vector<Eigen::MatrixXd> OwnInstruments(const WeighedEquations& equations) {
@@ -347,6 +360,19 @@ double StartingLag(const PreparedDataset& dataset, const WeakProblem& problem,
   return best;
 }
 
+/// Cov(Z'e) of residuals that are correlated alike all along, as they are on average.
+Eigen::MatrixXd MeatIfAlike(const WeakProblem& problem, std::size_t index,
+                            const Eigen::VectorXd& residual, const Eigen::MatrixXd& Z) {
+  constexpr std::size_t kLags = 20;
+  const auto runs = RunsOf(problem.windows[index].first_rows, problem.phi.stride);
+  Eigen::VectorXd covariance = Autocovariance(runs, residual, kLags);
+  // Bartlett's weights: chance makes of the longer lags what may be no covariance at all.
+  for (Eigen::Index l = 0; l < covariance.size(); ++l) {
+    covariance[l] *= 1.0 - static_cast<double>(l) / static_cast<double>(kLags);
+  }
+  return Z.transpose() * Correlate(runs, covariance, Z);
+}
+
 WeakFit Write(const WeakProblem& problem, const WeighedEquations& equations, const System& system,
               const Eigen::MatrixXd& bread, const Thetas& thetas, const Thetas& damped,
               const std::optional<double>& time_constant_s) {
@@ -361,23 +387,23 @@ WeakFit Write(const WeakProblem& problem, const WeighedEquations& equations, con
   if (time_constant_s) fit.theta[next++] = *time_constant_s;
   for (std::size_t i = 0; i < equations.size(); ++i) {
     const Weighed& equation = equations[i];
-    WeakEstimate estimate{equation.columns, thetas[i], damped[i], Norms(equation.G),
-                          equation.b - equation.G * thetas[i]};
-    fit.theta.segment(next, thetas[i].size()) = thetas[i];
-    next += thetas[i].size();
+    const auto& [places, Z] = system.shares[i];
+    const Eigen::Index p = thetas[i].size();
+    WeakEstimate estimate{equation.columns, thetas[i],      damped[i],
+                          equation.G,       Z.rightCols(p), equation.b - equation.G * thetas[i]};
+    fit.theta.segment(next, p) = thetas[i];
+    next += p;
     const auto& clusters = problem.windows[equation.index].clusters;
     for (std::size_t s = 0; s < clusters.size(); ++s) {
       const auto begin = static_cast<Eigen::Index>(clusters[s].begin);
       const auto count = static_cast<Eigen::Index>(clusters[s].size());
-      fit.scores.col(static_cast<Eigen::Index>(s)) +=
-          system.Z[i].middleRows(begin, count).transpose() *
-          estimate.residual.segment(begin, count);
+      fit.scores(places, static_cast<Eigen::Index>(s)) +=
+          Z.middleRows(begin, count).transpose() * estimate.residual.segment(begin, count);
     }
-    meat += estimate.residual.squaredNorm() / static_cast<double>(estimate.residual.size()) *
-            (system.Z[i].transpose() * system.Z[i]);
+    meat(places, places) += MeatIfAlike(problem, equation.index, estimate.residual, Z);
     fit.equations[equation.index] = std::move(estimate);
   }
-  fit.white = bread * meat * bread.transpose();
+  fit.alike = Mapped(bread, meat);
   return fit;
 }
 
@@ -399,8 +425,8 @@ Eigen::VectorXd StackedSizes(const WeakFit& fit) {
   Eigen::Index next = fit.time_constant_s ? 1 : 0;
   for (const auto& equation : fit.equations) {
     if (!equation) continue;
-    sizes.segment(next, equation->sizes.size()) = equation->sizes;
-    next += equation->sizes.size();
+    sizes.segment(next, equation->G.cols()) = Norms(equation->G);
+    next += equation->G.cols();
   }
   return sizes;
 }
@@ -408,7 +434,7 @@ Eigen::VectorXd StackedSizes(const WeakFit& fit) {
 /// How prior forces of mean square 1 / weight draw an estimate: off it goes gain times its forces.
 Eigen::MatrixXd Gain(const Eigen::MatrixXd& covariance, const Eigen::VectorXd& sizes,
                      double weight) {
-  Eigen::MatrixXd normal = weight * (sizes.asDiagonal() * covariance * sizes.asDiagonal());
+  Eigen::MatrixXd normal = weight * Scaled(covariance, sizes);
   normal.diagonal().array() += 1.0;
   const Eigen::MatrixXd moved = sizes.asDiagonal() * covariance;
   return weight * normal.ldlt().solve(moved).transpose();
@@ -473,6 +499,15 @@ Eigen::VectorXd WeakFit::Damped() const {
     next += equation->damped.size();
   }
   return stacked;
+}
+
+Eigen::MatrixXd WeakFit::BreadOf(std::size_t equation) const {
+  Eigen::Index first = time_constant_s ? 1 : 0;
+  for (std::size_t j = 0; j < equation; ++j) {
+    if (equations[j]) first += equations[j]->theta.size();
+  }
+  const Eigen::Index p = equations[equation]->theta.size();
+  return bread.block(first, first, p, p);
 }
 
 PlausibleBoats PlausibleAbout(const WeakFit& fit, double reach) {
@@ -564,9 +599,9 @@ Eigen::MatrixXd ClusterCovariance(const WeakFit& fit) {
   const auto p = static_cast<double>(fit.theta.size());
   Require(g > 1.0, "at least two clusters");
   const Eigen::MatrixXd influence = fit.bread * fit.scores;
-  const Eigen::MatrixXd clustered = g / (g - 1.0) * influence * influence.transpose();
-  const double scale = clustered.diagonal().cwiseQuotient(fit.white.diagonal()).mean();
-  return g / (p + g) * clustered + p / (p + g) * scale * fit.white;
+  const Eigen::MatrixXd clustered = g / (g - 1.0) * OfRoot(influence);
+  const double scale = clustered.diagonal().cwiseQuotient(fit.alike.diagonal()).mean();
+  return g / (p + g) * clustered + p / (p + g) * scale * fit.alike;
 }
 
 }  // namespace telltale

@@ -24,12 +24,13 @@ struct WeakIvOptions {
 };
 
 /// One equation's share of a weak-form fit, over the windows of WeakProblem::windows.
-/// Shapes: theta p; residual, one per window.
+/// Shapes: theta p; G and Z windows x p; residual, one per window.
 struct WeakEstimate {
   std::vector<std::size_t> columns;  ///< of Regressors() and SteadyTerms, those sought
   Eigen::VectorXd theta;
   Eigen::VectorXd damped;  ///< theta shrunk along directions that the data hardly move
-  Eigen::VectorXd sizes;   ///< of the columns of G: what a unit of each coefficient moves
+  Eigen::MatrixXd G;       ///< regressors, weighed
+  Eigen::MatrixXd Z;       ///< their instruments
   Eigen::VectorXd residual;
 };
 
@@ -43,8 +44,11 @@ struct WeakFit {
   Eigen::VectorXd theta;
   Eigen::MatrixXd bread;
   Eigen::MatrixXd scores;
-  Eigen::MatrixXd white;  ///< P x P, Cov(theta) if residuals were white within each equation
+  /// P x P, Cov(theta) if the residuals of each equation were correlated alike all along.
+  Eigen::MatrixXd alike;
 
+  /// (Z'G)^-1 of one equation: its block of bread.
+  Eigen::MatrixXd BreadOf(std::size_t equation) const;
   /// The stacked unknowns with the damped coefficients in place of theta.
   Eigen::VectorXd Damped() const;
 };
@@ -97,9 +101,9 @@ VesselModel ModelOf(const WeakFit& fit, const Eigen::VectorXd& theta, double sam
 /// Whether the time constant stands at the least that is sought: no lag is seen.
 bool LagIsAtItsLeast(const WeakFit& fit);
 
-/// Cov(theta) from the scores of the clusters, drawn towards the shape that white residuals would
-/// give it by p / (p + g): g clusters alone leave it singular or nearly so when p is not far below
-/// g.
+/// Cov(theta) from the scores of the clusters, drawn towards the shape that residuals correlated
+/// alike all along would give it by p / (p + g): g clusters alone leave it singular or nearly so
+/// when p is not far below g.
 Eigen::MatrixXd ClusterCovariance(const WeakFit& fit);
 
 }  // namespace telltale

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "identification/tamed_model.hpp"
+#include "linear_algebra/covariance.hpp"
 #include "linear_algebra/decompositions.hpp"
 #include "median.hpp"
 #include "simulation/free_run.hpp"
@@ -37,7 +38,7 @@ Eigen::VectorXd Variances(const Eigen::MatrixXd& information) {
   constexpr double kUndetermined = 1e-12;
   const Eigen::VectorXd units = information.diagonal().cwiseSqrt();
   const Eigen::VectorXd inverse = units.unaryExpr([](double u) { return u > 0.0 ? 1.0 / u : 0.0; });
-  const Eigen::MatrixXd scaled = inverse.asDiagonal() * information * inverse.asDiagonal();
+  const Eigen::MatrixXd scaled = Scaled(information, inverse);
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(scaled);
   const double largest = eigen.eigenvalues().maxCoeff();
   Eigen::VectorXd variances = Eigen::VectorXd::Zero(units.size());
@@ -60,7 +61,7 @@ Eigen::VectorXd Variances(const Eigen::MatrixXd& information) {
 /// ln det of the block of information^-1 that belongs to `chosen`.
 double LogVolume(const Eigen::MatrixXd& information, const std::vector<Eigen::Index>& chosen) {
   const Eigen::VectorXd inverse = information.diagonal().cwiseSqrt().cwiseInverse();
-  const Eigen::MatrixXd scaled = inverse.asDiagonal() * information * inverse.asDiagonal();
+  const Eigen::MatrixXd scaled = Scaled(information, inverse);
   const Eigen::MatrixXd unit = Eigen::MatrixXd::Identity(scaled.rows(), scaled.cols());
   const Eigen::MatrixXd covariance = scaled.ldlt().solve(unit);
   const Eigen::VectorXd pivots =

@@ -4,6 +4,8 @@
 #include <limits>
 #include <sstream>
 
+#include "estimation/residual_correlation.hpp"
+
 namespace telltale {
 namespace {
 

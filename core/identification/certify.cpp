@@ -9,6 +9,7 @@
 #include "estimation/separable_columns.hpp"
 #include "identification/tamed_model.hpp"
 #include "identification/weak_iv_answer.hpp"
+#include "linear_algebra/covariance.hpp"
 #include "linear_algebra/decompositions.hpp"
 #include "parallel.hpp"
 #include "random.hpp"
@@ -255,7 +256,7 @@ class Certification {
     if (places.empty()) return std::nullopt;
     const Eigen::MatrixXd covariance = repeat.covariance(places, places);
     const Eigen::VectorXd scale = covariance.diagonal().cwiseSqrt().cwiseInverse();
-    const Eigen::MatrixXd correlation = scale.asDiagonal() * covariance * scale.asDiagonal();
+    const Eigen::MatrixXd correlation = Scaled(covariance, scale);
     const Eigen::LLT<Eigen::MatrixXd> llt(correlation);
     if (llt.info() != Eigen::Success) return std::nullopt;
     const Eigen::VectorXd z =

@@ -62,14 +62,23 @@ Result<VesselModel> ModelOf(const Identification& identification) {
     Eigen::VectorXd& theta = model.theta[IndexOf(equation)];
     theta.resize(static_cast<Eigen::Index>(regressors.size()));
     Eigen::Index next = 0;
-    for (const Coefficient& coefficient : identification.coefficients) {
-      if (coefficient.equation == equation) theta[next++] = coefficient.estimate;
+    for (std::size_t i = 0; i < identification.coefficients.size(); ++i) {
+      if (identification.coefficients[i].equation != equation) continue;
+      theta[next++] = identification.SailedWith(i);
     }
   }
   if (identification.thruster_time_constant) {
     model.thruster_time_constant_s = identification.thruster_time_constant->estimate;
   }
   return model;
+}
+
+Identification AsSailed(Identification identification) {
+  for (std::size_t i = 0; i < identification.coefficients.size(); ++i) {
+    identification.coefficients[i].estimate = identification.SailedWith(i);
+  }
+  identification.sailed.clear();
+  return identification;
 }
 
 }  // namespace telltale

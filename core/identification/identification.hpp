@@ -129,6 +129,13 @@ struct Identification {
   /// regressor "1" are their means.
   std::vector<RecordingOffsets> offsets;
   std::vector<AddedEffect> effects;  ///< that act on the boat besides its coefficients
+  /// Where the estimates run away, what a simulation takes in their place, within the bounds and in
+  /// the order of the coefficients: docs/model.md (18b). Empty: the estimates.
+  std::vector<double> sailed;
+  /// What a simulation takes for the coefficient at that place.
+  double SailedWith(std::size_t place) const {
+    return sailed.empty() ? coefficients[place].estimate : sailed[place];
+  }
   WindowSummary window;
   std::vector<Refusal> refusals;
   Provenance provenance;
@@ -147,8 +154,11 @@ struct Identification {
 /// over those of finite variance. Nothing where no joint statement can be made.
 std::optional<double> SquaredRadius(const Identification& identification);
 
-/// The numbers without the bounds, ready to simulate.
+/// The numbers without the bounds, ready to simulate: `sailed` where there are such.
 /// Refuses when: an equation was refused, since a free run needs all three.
 Result<VesselModel> ModelOf(const Identification& identification);
+
+/// The same with what it is sailed with for estimates, for who knows nothing of bounds.
+Identification AsSailed(Identification identification);
 
 }  // namespace telltale

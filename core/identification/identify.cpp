@@ -12,9 +12,9 @@
 #include "identification/estimator_choice.hpp"
 #include "identification/one_step_answer.hpp"
 #include "identification/output_error_answer.hpp"
+#include "identification/sailed_model.hpp"
 #include "identification/weak_iv_answer.hpp"
 #include "range.hpp"
-#include "simulation/free_run.hpp"
 
 namespace telltale {
 namespace {
@@ -46,26 +46,6 @@ DeadZone IdentifyDeadZone(const PreparedDataset& dataset, const IdentifyOptions&
     refusals.push_back(CannotTell("reverse", estimate->reverse, limits.reverse));
   }
   return limits;
-}
-
-/// Bounds may hold about a model that nobody can sail; its table does not show that.
-std::optional<Refusal> WarnOfRunaways(const PreparedDataset& dataset,
-                                      const Identification& identification) {
-  constexpr double kHorizonS = 5.0;
-  const auto model = ModelOf(identification);
-  if (!model) return std::nullopt;
-  const Runaways count = CountRunaways(dataset, *model, kHorizonS);
-  if (count.runaways == 0) return std::nullopt;
-  const char* or_else = identification.estimator == Estimator::kOneStep
-                            ? ""
-                            : ", or see by `validate` on another recording whether the one-step "
-                              "estimator's model predicts better, without bounds that hold";
-  return Refusal{"free run",
-                 "in " + std::to_string(count.runaways) + " of " + std::to_string(count.runs) +
-                     " runs of " + std::to_string(std::lround(kHorizonS)) +
-                     " s over its own recording the model runs away: its bounds say what the data "
-                     "leave open, but it is not to be sailed",
-                 std::string("record more varied manoeuvres for longer") + or_else};
 }
 
 WindowSummary Summarise(const PreparedDataset& dataset) {
@@ -258,9 +238,7 @@ Result<Identification> Identify(const PreparedDataset& dataset, const std::strin
                                  dead_zone_refusals.end());
   identification.provenance = std::move(bounded->provenance);
   identification.excitation = Summarise(bounded->answers, options.regression.parameterization);
-  if (auto warning = WarnOfRunaways(dataset, identification)) {
-    identification.refusals.push_back(*std::move(warning));
-  }
+  SeekToSail(dataset, identification);
   if (options.advise) {
     Advise({bounded->answers.excitations, regression, FastestOf(dataset)}, identification);
   }

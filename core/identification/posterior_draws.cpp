@@ -5,6 +5,7 @@
 #include <boost/random/normal_distribution.hpp>
 
 #include "contract.hpp"
+#include "linear_algebra/covariance.hpp"
 #include "linear_algebra/decompositions.hpp"
 #include "random.hpp"
 
@@ -23,8 +24,7 @@ SquareRoot SymmetricRoot(const Eigen::MatrixXd& covariance) {
   // A coefficient that is known exactly has no correlation; dividing by one leaves its zeros alone.
   const Eigen::VectorXd deviations = covariance.diagonal().cwiseSqrt();
   const Eigen::VectorXd scale = deviations.unaryExpr([](double sd) { return sd > 0.0 ? sd : 1.0; });
-  const Eigen::MatrixXd correlation =
-      scale.cwiseInverse().asDiagonal() * covariance * scale.cwiseInverse().asDiagonal();
+  const Eigen::MatrixXd correlation = Scaled(covariance, scale.cwiseInverse());
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(correlation);
   const Eigen::VectorXd& eigenvalues = solver.eigenvalues();  // ascending
   const double largest = eigenvalues[eigenvalues.size() - 1];

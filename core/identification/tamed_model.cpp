@@ -3,6 +3,7 @@
 #include <cmath>
 #include <vector>
 
+#include "linear_algebra/covariance.hpp"
 #include "linear_algebra/decompositions.hpp"
 
 namespace telltale {
@@ -25,23 +26,22 @@ std::vector<Eigen::Index> Drawn(const Identification& identification,
   return drawn;
 }
 
-/// With coefficients in units of their believed size: theta' = (I + Sigma)^-1 theta.
+}  // namespace
+
 Eigen::VectorXd TamedEstimates(const Identification& identification, double trust) {
   Eigen::VectorXd theta = EstimatesOf(identification);
   if (std::isinf(trust)) return theta;
   const std::vector<Eigen::Index> drawn = Drawn(identification, theta);
   if (drawn.empty()) return theta;
+  // With coefficients in units of their believed size: theta' = (I + Sigma)^-1 theta.
   const Eigen::VectorXd sizes = trust * theta(drawn).cwiseAbs();
   const Eigen::VectorXd units = sizes.cwiseInverse();
-  Eigen::MatrixXd sum =
-      units.asDiagonal() * identification.covariance(drawn, drawn) * units.asDiagonal();
+  Eigen::MatrixXd sum = Scaled(identification.covariance(drawn, drawn), units);
   sum.diagonal().array() += 1.0;
   const Eigen::VectorXd scaled = units.cwiseProduct(theta(drawn));
   theta(drawn) = sizes.cwiseProduct(sum.ldlt().solve(scaled));
   return theta;
 }
-
-}  // namespace
 
 VesselModel TamedModel(const Identification& identification, double trust) {
   const Eigen::VectorXd theta = TamedEstimates(identification, trust);

@@ -3,6 +3,8 @@
 #include <array>
 #include <limits>
 
+#include <Eigen/Core>
+
 #include "identification/identification.hpp"
 #include "vessel/vessel_model.hpp"
 
@@ -15,10 +17,13 @@ inline constexpr double kAsPublished = std::numeric_limits<double>::infinity();
 /// model can be sailed.
 inline constexpr std::array kTrusts = {1.0, 0.3, 0.1};
 
-/// An identified model that can be simulated, docs/model.md (61): coefficients are drawn towards
-/// zero along what the data hardly determine, theta' = P (P + Sigma)^-1 theta with P = diag((trust
-/// theta)^2), and stay where the data are sure. It is a continuous boat; coefficients that are not
-/// known, or whose equation was refused, are zero.
+/// Coefficients that can be simulated, docs/model.md (61), in their order: drawn towards zero along
+/// what the data hardly determine, theta' = P (P + Sigma)^-1 theta with P = diag((trust theta)^2),
+/// they stay where the data are sure.
+Eigen::VectorXd TamedEstimates(const Identification& identification, double trust);
+
+/// The continuous boat that has them; coefficients that are not known, or whose equation was
+/// refused, are zero.
 VesselModel TamedModel(const Identification& identification, double trust);
 
 }  // namespace telltale

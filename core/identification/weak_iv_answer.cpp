@@ -8,6 +8,7 @@
 #include "estimation/separable_columns.hpp"
 #include "estimation/weak_iv.hpp"
 #include "identification/weak_iv_publication.hpp"
+#include "linear_algebra/covariance.hpp"
 #include "uncertainty/twin_correction.hpp"
 
 namespace telltale {
@@ -180,9 +181,8 @@ Result<BoundedAnswers> BoundWeakIv(const PreparedDataset& dataset,
                            double degrees_of_freedom) {
     const Eigen::VectorXd published = publication.map * theta;
     Unstack(*fit, publication, published, answers);
-    bounded.bounds =
-        StudentBounds(published, publication.map * covariance * publication.map.transpose(),
-                      degrees_of_freedom, options.interval_level);
+    bounded.bounds = StudentBounds(published, Mapped(publication.map, covariance),
+                                   degrees_of_freedom, options.interval_level);
     Unbound(separable, answers, bounded.bounds);
     bounded.offsets = OffsetsOf(publication, published, bounded.bounds, dataset);
   };

@@ -26,5 +26,6 @@ template void LDLT<MatrixXd>::_solve_impl(const MatrixXd&, MatrixXd&) const;
 
 template LLT<MatrixXd>& LLT<MatrixXd>::compute(const EigenBase<MatrixXd>&);
 template void LLT<MatrixXd>::_solve_impl(const VectorXd&, VectorXd&) const;
+template void LLT<MatrixXd>::_solve_impl(const MatrixXd&, MatrixXd&) const;
 
 }  // namespace Eigen

@@ -35,5 +35,6 @@ extern template void LDLT<MatrixXd>::_solve_impl(const MatrixXd&, MatrixXd&) con
 
 extern template LLT<MatrixXd>& LLT<MatrixXd>::compute(const EigenBase<MatrixXd>&);
 extern template void LLT<MatrixXd>::_solve_impl(const VectorXd&, VectorXd&) const;
+extern template void LLT<MatrixXd>::_solve_impl(const MatrixXd&, MatrixXd&) const;
 
 }  // namespace Eigen

@@ -4,6 +4,7 @@
 
 #include "estimation/excitation.hpp"
 #include "estimation/triangular_factor.hpp"
+#include "linear_algebra/covariance.hpp"
 #include "linear_algebra/decompositions.hpp"
 
 namespace telltale {
@@ -71,7 +72,7 @@ ClusteredFit FitOf(const LaggedEstimate& estimate) {
 }
 
 Eigen::MatrixXd ResidualCovariance(const ClusteredFit& fit) {
-  return fit.residual_variance * fit.basis * fit.basis.transpose();
+  return fit.residual_variance * OfRoot(fit.basis);
 }
 
 }  // namespace telltale

@@ -9,6 +9,8 @@
 
 #include "contract.hpp"
 #include "estimation/disturbance.hpp"
+#include "estimation/residual_correlation.hpp"
+#include "linear_algebra/covariance.hpp"
 #include "linear_algebra/decompositions.hpp"
 #include "median.hpp"
 #include "parallel.hpp"
@@ -100,18 +102,49 @@ double LogNormalQuantile(std::vector<double> values, double share) {
   return std::exp(middle + sigma * std::sqrt(1.0 + 1.0 / n) * StudentQuantile(n - 1.0, share));
 }
 
-/// Coordinates in which errors are uncorrelated and of size one: x = map z. The axes are those of
-/// the correlations, so that units make no difference.
+/// Unknowns that are estimated together: the time constant, the coefficients of one equation.
+struct Block {
+  Eigen::Index begin = 0;
+  Eigen::Index size = 0;
+};
+
+std::vector<Block> BlocksOf(const WeakFit& fit) {
+  std::vector<Block> blocks;
+  Eigen::Index next = 0;
+  const auto add = [&](Eigen::Index size) {
+    blocks.push_back({next, size});
+    next += size;
+  };
+  if (fit.time_constant_s) add(1);
+  for (const auto& equation : fit.equations) {
+    if (equation) add(equation->theta.size());
+  }
+  return blocks;
+}
+
+/// Coordinates in which the errors of each block are uncorrelated and of size one: x = map z. The
+/// axes are those of the correlations, so that units make no difference, and never of two blocks:
+/// one that the data hardly move would lend its size to the others.
 struct Whitening {
-  explicit Whitening(const Eigen::MatrixXd& covariance) {
+  Whitening(const Eigen::MatrixXd& covariance, const std::vector<Block>& blocks)
+      : map(Eigen::MatrixXd::Zero(covariance.rows(), covariance.cols())), inverse(map) {
     const Eigen::VectorXd sizes = covariance.diagonal().cwiseMax(kSmallest).cwiseSqrt();
-    const Eigen::MatrixXd correlation =
-        sizes.cwiseInverse().asDiagonal() * covariance * sizes.cwiseInverse().asDiagonal();
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> axes(correlation);
-    const Eigen::VectorXd lengths = axes.eigenvalues().cwiseMax(kSmallest).cwiseSqrt();
-    map = sizes.asDiagonal() * axes.eigenvectors() * lengths.asDiagonal();
-    inverse = lengths.cwiseInverse().asDiagonal() * axes.eigenvectors().transpose() *
-              sizes.cwiseInverse().asDiagonal();
+    const Eigen::MatrixXd correlation = Scaled(covariance, sizes.cwiseInverse());
+    for (const auto& [begin, size] : blocks) {
+      const Eigen::MatrixXd within = correlation.block(begin, begin, size, size);
+      const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> axes(within);
+      const Eigen::VectorXd lengths = axes.eigenvalues().cwiseMax(kSmallest).cwiseSqrt();
+      const auto of_block = sizes.segment(begin, size);
+      map.block(begin, begin, size, size) =
+          of_block.asDiagonal() * axes.eigenvectors() * lengths.asDiagonal();
+      inverse.block(begin, begin, size, size) = lengths.cwiseInverse().asDiagonal() *
+                                                axes.eigenvectors().transpose() *
+                                                of_block.cwiseInverse().asDiagonal();
+    }
+  }
+
+  Eigen::MatrixXd Of(const Eigen::MatrixXd& covariance) const {
+    return Mapped(inverse, covariance);
   }
 
   static constexpr double kSmallest = 1e-14;
@@ -131,7 +164,9 @@ class TwinFleet {
         options_(options),
         twins_(twins),
         progress_(progress),
-        white_(ClusterCovariance(fit)) {}
+        clustered_(ClusterCovariance(fit)),
+        blocks_(BlocksOf(fit)),
+        white_(clustered_, blocks_) {}
 
   std::optional<Disturbance> DisturbanceAlone() const {
     const auto found = FindSailable();
@@ -149,7 +184,7 @@ class TwinFleet {
     const auto sightings = Sight(sailable->boats);
     if (2 * sightings.size() < twins_.twins) return std::nullopt;
     const Spread spread = SpreadOf(sightings);
-    correction.theta = fit_.theta - white_.map * spread.mean;
+    correction.theta = fit_.theta - Believed(white_.map * spread.mean, sailable->boats);
     correction.solved = sightings.size();
     correction.failures = twins_.twins - sightings.size();
     correction.degrees_of_freedom = static_cast<double>(fit_.scores.cols()) - 1.0;
@@ -200,8 +235,9 @@ class TwinFleet {
       const auto residuals = ResidualsOf(fit_, sailable.boats.middle, quiet, problem);
       for (std::size_t j = 0; j < 3; ++j) {
         if (residuals[j].size() == 0) continue;
-        by_sensors[j] += Autocovariance(problem.phi, problem.windows[j], residuals[j]) /
-                         static_cast<double>(kQuietTwins);
+        const auto runs = RunsOf(problem.windows[j].first_rows, problem.phi.stride);
+        by_sensors[j] +=
+            Autocovariance(runs, residuals[j], kDisturbanceLags) / static_cast<double>(kQuietTwins);
       }
     }
     return EstimateDisturbance(dataset_, fit_, by_sensors);
@@ -216,7 +252,7 @@ class TwinFleet {
   /// Twins are different boats, each as plausible as the next: what the bias owes to coefficients
   /// that the data leave open then shows as scatter.
   std::vector<Sighting> Sight(const PlausibleBoats& boats) {
-    const Whitening plausible(boats.covariance);
+    const Whitening plausible(boats.covariance, {{0, boats.middle.size()}});
     std::vector<std::optional<Sighting>> all(twins_.twins);
     ForEachIndex(all.size(), twins_.threads, [&](std::size_t i) {
       RandomEngine engine(SeedOf(i));
@@ -244,10 +280,23 @@ class TwinFleet {
       const auto again = EstimateWeakIv(*twin, regression_, columns_, options_);
       if (!again) continue;
       Sighting sighting{white_.inverse * (again->theta - truth),
-                        white_.inverse * ClusterCovariance(*again) * white_.inverse.transpose()};
+                        white_.Of(ClusterCovariance(*again))};
       if (IsSound(sighting)) return sighting;
     }
     return std::nullopt;
+  }
+
+  /// Of a bias that the twins show, as much as the data tell which boat it is the bias of: along
+  /// what they leave open it depends on boats that are plainer or wilder than the true one.
+  Eigen::VectorXd Believed(const Eigen::VectorXd& bias, const PlausibleBoats& boats) const {
+    Eigen::VectorXd believed(bias.size());
+    for (const auto& [begin, size] : blocks_) {
+      const Eigen::MatrixXd clustered = clustered_.block(begin, begin, size, size);
+      const Eigen::VectorXd shown = bias.segment(begin, size);
+      const Eigen::VectorXd weighed = clustered.ldlt().solve(shown);
+      believed.segment(begin, size) = boats.covariance.block(begin, begin, size, size) * weighed;
+    }
+    return believed;
   }
 
   void Tell() {
@@ -262,30 +311,46 @@ class TwinFleet {
                  TwinCorrection& correction) const {
     const auto n = static_cast<double>(sightings.size());
     const auto p = static_cast<double>(correction.theta.size());
-    const double widened = std::sqrt(n / (n - 1.0));  // the mean was fitted to these very twins
-    std::vector<double> pivots;
-    std::vector<double> joint;
+    std::vector<Sighting> sized;
     for (const Sighting& s : sightings) {
-      const Eigen::VectorXd off = widened * (s.error - spread.mean);
-      const Eigen::MatrixXd own = spread.sd.asDiagonal() * s.covariance * spread.sd.asDiagonal();
-      const Eigen::VectorXd sizes =
-          (white_.map * own * white_.map.transpose()).diagonal().cwiseSqrt();
-      const Eigen::VectorXd pivot = (white_.map * off).cwiseQuotient(sizes);
-      for (const double value : pivot) pivots.push_back(std::abs(value));
-      joint.push_back(off.dot(own.ldlt().solve(off)) / p);
+      // The mean was fitted to these very twins.
+      sized.push_back(
+          {std::sqrt(n / (n - 1.0)) * (s.error - spread.mean), Scaled(s.covariance, spread.sd)});
     }
-    // Never below one: twins know only what they were told of the boat.
-    const double stretch = std::max(
-        1.0, Quantile(pivots, kCalibratedAt) /
-                 StudentQuantile(correction.degrees_of_freedom, 0.5 * (1.0 + kCalibratedAt)));
+    const Eigen::VectorXd stretch = StretchOf(sized, correction.degrees_of_freedom);
+    std::vector<double> joint;
+    for (const Sighting& s : sized) {
+      const Eigen::VectorXd off = s.error.cwiseQuotient(stretch);
+      joint.push_back(off.dot(s.covariance.ldlt().solve(off)) / p);
+    }
     // The mean of few twins errs along the very directions in which single twins do.
-    const Eigen::MatrixXd scaled = std::sqrt(1.0 + 1.0 / n) * white_.map * spread.sd.asDiagonal();
-    const Eigen::MatrixXd covariance = scaled * scaled.transpose();
-    correction.covariance = stretch * stretch * covariance;
+    const Eigen::MatrixXd scaled =
+        std::sqrt(1.0 + 1.0 / n) * (white_.map * spread.sd.cwiseProduct(stretch).asDiagonal());
+    correction.covariance = Mapped(scaled, white_.Of(clustered_));
     correction.joint = {LogNormalQuantile(joint, kCalibratedAt) /
-                            JointQuantile(correction.degrees_of_freedom, p, kCalibratedAt) /
-                            (stretch * stretch),
+                            JointQuantile(correction.degrees_of_freedom, p, kCalibratedAt),
                         correction.degrees_of_freedom};
+  }
+
+  /// By what the standard errors of each block have to be stretched for the twins' own intervals to
+  /// hold; never below one, as twins know only what they were told of the boat.
+  Eigen::VectorXd StretchOf(const std::vector<Sighting>& sized, double degrees_of_freedom) const {
+    std::vector<std::vector<double>> pivots(blocks_.size());
+    for (const Sighting& s : sized) {
+      const Eigen::VectorXd sizes = Mapped(white_.map, s.covariance).diagonal().cwiseSqrt();
+      const Eigen::VectorXd pivot = (white_.map * s.error).cwiseQuotient(sizes).cwiseAbs();
+      for (std::size_t b = 0; b < blocks_.size(); ++b) {
+        const auto of_block = pivot.segment(blocks_[b].begin, blocks_[b].size);
+        pivots[b].insert(pivots[b].end(), of_block.begin(), of_block.end());
+      }
+    }
+    const double promised = StudentQuantile(degrees_of_freedom, 0.5 * (1.0 + kCalibratedAt));
+    Eigen::VectorXd stretch(white_.map.rows());
+    for (std::size_t b = 0; b < blocks_.size(); ++b) {
+      stretch.segment(blocks_[b].begin, blocks_[b].size)
+          .setConstant(std::max(1.0, Quantile(pivots[b], kCalibratedAt) / promised));
+    }
+    return stretch;
   }
 
   const PreparedDataset& dataset_;
@@ -295,6 +360,8 @@ class TwinFleet {
   const WeakIvOptions& options_;
   const TwinCorrectionOptions& twins_;
   const std::function<void(double)>& progress_;
+  Eigen::MatrixXd clustered_;
+  std::vector<Block> blocks_;
   Whitening white_;
   Disturbance disturbance_;
   std::mutex telling_;

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "contract.hpp"
+#include "linear_algebra/covariance.hpp"
 #include "linear_algebra/decompositions.hpp"
 #include "uncertainty/laws.hpp"
 
@@ -65,8 +66,7 @@ struct Whitening {
 Whitening Whiten(const Eigen::MatrixXd& V) {
   Whitening whitening;
   whitening.errors = V.diagonal().cwiseSqrt();
-  const Eigen::VectorXd inverse = whitening.errors.cwiseInverse();
-  const Eigen::MatrixXd correlation = inverse.asDiagonal() * V * inverse.asDiagonal();
+  const Eigen::MatrixXd correlation = Scaled(V, whitening.errors.cwiseInverse());
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(correlation);
   const Eigen::VectorXd& values = solver.eigenvalues();  // ascending
   const Eigen::Index rank =
@@ -78,10 +78,11 @@ Whitening Whiten(const Eigen::MatrixXd& V) {
 
 /// Krishnamoorthy and Yu's degrees of freedom of Sigma1 + Sigma2.
 double JointDegrees(const Estimates& first, const Estimates& second, const Whitening& whitening) {
-  const Eigen::MatrixXd root = whitening.errors.cwiseInverse().asDiagonal() * whitening.matrix;
-  const double q = static_cast<double>(root.cols());
-  const double shares = Share(root.transpose() * first.covariance * root, first.segments) +
-                        Share(root.transpose() * second.covariance * root, second.segments);
+  const Eigen::MatrixXd whiten =
+      whitening.matrix.transpose() * whitening.errors.cwiseInverse().asDiagonal();
+  const double q = static_cast<double>(whiten.rows());
+  const double shares = Share(Mapped(whiten, first.covariance), first.segments) +
+                        Share(Mapped(whiten, second.covariance), second.segments);
   return shares > 0.0 ? (q + q * q) / shares : kInfinity;
 }
 

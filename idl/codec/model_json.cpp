@@ -236,6 +236,13 @@ std::optional<Coefficient> ReadTimeConstant(FieldReader& reader, const proto::Mo
   return ReadCoefficient(item, model.thruster_time_constant_s());
 }
 
+void ExpectFinite(FieldReader& reader, const char* field, const auto& numbers) {
+  for (int i = 0; i < numbers.size(); ++i) {
+    if (kFinite.Contains(numbers[i])) continue;
+    reader.FailItem(field, i, NumberText(numbers[i]), kFinite.Text());
+  }
+}
+
 /// None stands for zero: older files know of none.
 Eigen::VectorXd ReadTimeConstantCovariance(FieldReader& reader, const proto::Model& model,
                                            Structure structure) {
@@ -249,10 +256,7 @@ Eigen::VectorXd ReadTimeConstantCovariance(FieldReader& reader, const proto::Mod
                        : std::to_string(n) + ", one for each coefficient");
     return {};
   }
-  for (int i = 0; i < n; ++i) {
-    if (kFinite.Contains(numbers[i])) continue;
-    reader.FailItem(kField, i, NumberText(numbers[i]), kFinite.Text());
-  }
+  ExpectFinite(reader, kField, numbers);
   return Eigen::Map<const Eigen::VectorXd>(numbers.data(), n);
 }
 
@@ -334,6 +338,16 @@ Disturbance ReadDisturbance(FieldReader reader, const proto::Disturbance& messag
           ReadAxes(reader, "time_constant_s", message.time_constant_s(), kShortestS)};
 }
 
+std::vector<double> ReadSailed(FieldReader& reader, const proto::Model& model) {
+  const auto& numbers = model.sailed();
+  if (!numbers.empty() && numbers.size() != model.coefficients_size()) {
+    reader.Fail("sailed", std::to_string(numbers.size()) + " numbers",
+                std::to_string(model.coefficients_size()) + ", one for each coefficient, or none");
+  }
+  ExpectFinite(reader, "sailed", numbers);
+  return {numbers.begin(), numbers.end()};
+}
+
 /// The radius follows from the rest.
 JointBounds ReadJoint(FieldReader reader) {
   return {reader.Number("covariance_factor", kFinitePositive),
@@ -374,6 +388,7 @@ Identification ReadModel(FieldReader reader, const proto::Model& model) {
     result.offsets.push_back(ReadOffsets(reader.Item("offsets", i), model.offsets(i)));
   }
   result.effects = ReadEffects(reader, model);
+  result.sailed = ReadSailed(reader, model);
   if (model.has_joint()) result.joint = ReadJoint(reader.Optional("joint"));
   result.window = ReadWindow(reader.Optional("window"), model.window());
   result.refusals = ReadRefusals(model);
@@ -424,6 +439,7 @@ proto::Model ToProto(const Identification& identification) {
   }
   WriteEffects(identification.effects, model);
   if (identification.joint) WriteJoint(identification, *model.mutable_joint());
+  model.mutable_sailed()->Add(identification.sailed.begin(), identification.sailed.end());
   Write(identification.window, *model.mutable_window());
   for (const Refusal& refusal : identification.refusals) Write(refusal, *model.add_refusals());
   Write(identification.provenance, *model.mutable_provenance());

@@ -255,6 +255,7 @@ void Fill(telltale_wire_Model& wire, const PublishedModel& model) {
     PutSequence(wire.joint, std::initializer_list<JointBounds>{*joint}, kFill);
     wire.joint._buffer[0].squared_radius = SquaredRadius(identification).value_or(0.0);
   }
+  PutSequence(wire.sailed, identification.sailed, kCopy);
 }
 
 void Fill(telltale_wire_Diagnosis& wire, const PublishedDiagnosis& published) {
@@ -477,6 +478,14 @@ std::optional<Coefficient> ReadTimeConstant(const telltale_wire_Model& wire, Str
   return ReadCoefficient(field, constants._buffer[0]);
 }
 
+std::vector<double> ReadNumbers(const char* field, const dds_sequence_double& wire) {
+  std::vector<double> numbers(wire._length);
+  for (std::uint32_t i = 0; i < wire._length; ++i) {
+    numbers[i] = ReadWithin(field, wire._buffer[i], -kLargest, kLargest);
+  }
+  return numbers;
+}
+
 /// None stands for zero: older writers know of none.
 Eigen::VectorXd ReadTimeConstantCovariance(const dds_sequence_double& wire, Structure structure,
                                            std::size_t coefficients) {
@@ -488,12 +497,16 @@ Eigen::VectorXd ReadTimeConstantCovariance(const dds_sequence_double& wire, Stru
            dynamic ? std::to_string(n) + ", one for each coefficient"
                    : "none but for FIRST_ORDER_DYNAMIC");
   }
-  Eigen::VectorXd covariance(n);
-  for (Eigen::Index i = 0; i < n; ++i) {
-    covariance[i] =
-        ReadWithin("thruster_time_constant_covariance", wire._buffer[i], -kLargest, kLargest);
+  const auto covariance = ReadNumbers("thruster_time_constant_covariance", wire);
+  return Eigen::Map<const Eigen::VectorXd>(covariance.data(), n);
+}
+
+std::vector<double> ReadSailed(const dds_sequence_double& wire, std::size_t coefficients) {
+  if (wire._length != 0 && wire._length != coefficients) {
+    Reject("sailed", std::to_string(wire._length) + " numbers",
+           std::to_string(coefficients) + ", one for each coefficient, or none");
   }
-  return covariance;
+  return ReadNumbers("sailed", wire);
 }
 
 /// (0, any]: the smallest time constant that is one.
@@ -747,6 +760,7 @@ PublishedModel ReadModel(const telltale_wire_Model& wire) {
   identification.certificate = ReadCertificate(wire.certificate, identification);
   identification.effects = ReadSequence("effects", wire.effects, ReadAddedEffect);
   identification.joint = ReadJoint(wire.joint);
+  identification.sailed = ReadSailed(wire.sailed, identification.coefficients.size());
   return model;
 }
 

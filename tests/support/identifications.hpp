@@ -102,6 +102,13 @@ inline Identification MadeUpDynamicIdentification() {
   return made;
 }
 
+/// The same, sailed with half of each estimate.
+inline Identification MadeUpSailedIdentification() {
+  Identification made = MadeUpIdentification();
+  for (const Coefficient& c : made.coefficients) made.sailed.push_back(0.5 * c.estimate);
+  return made;
+}
+
 /// Propeller coefficients by hand, the body's all 7 so that a wrong place shows: forward 2 d^2 + 3
 /// d, reverse -4 d^2 + 5 d in surge; half of it in sway, twice of it in yaw. Unit variances, no
 /// dead zone.
@@ -200,6 +207,7 @@ inline void ExpectSame(const Identification& a, const Identification& b) {
   EXPECT_EQ(a.dead_zone, b.dead_zone);
   EXPECT_EQ(a.covariance, b.covariance);
   EXPECT_EQ(a.joint, b.joint);
+  EXPECT_EQ(a.sailed, b.sailed);
   ASSERT_EQ(a.thruster_time_constant.has_value(), b.thruster_time_constant.has_value());
   if (a.thruster_time_constant) ExpectSame(*a.thruster_time_constant, *b.thruster_time_constant);
   EXPECT_EQ(a.time_constant_covariance, b.time_constant_covariance);

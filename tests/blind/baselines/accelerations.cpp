@@ -1,11 +1,11 @@
 #include "baselines/accelerations.hpp"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 
 #include "effects/augmented_boat.hpp"
 #include "effects/sensor_chain.hpp"
+#include "linear_algebra/decompositions.hpp"
 
 namespace blind::baselines {
 namespace {

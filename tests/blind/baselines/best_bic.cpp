@@ -1,8 +1,9 @@
 #include "baselines/best_bic.hpp"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+
+#include "linear_algebra/decompositions.hpp"
 
 namespace blind::baselines {
 namespace {

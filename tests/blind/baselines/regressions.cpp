@@ -1,11 +1,11 @@
 #include "baselines/regressions.hpp"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <set>
 
 #include "baselines/accelerations.hpp"
+#include "linear_algebra/decompositions.hpp"
 
 namespace blind::baselines {
 namespace {
@@ -45,8 +45,8 @@ class Regression {
     const Eigen::MatrixXd signatures = accelerations_.signatures(Eigen::all, columns);
     Eigen::MatrixXd information = signatures.transpose() * signatures;
     information.diagonal().array() += ridge;
-    const Eigen::VectorXd sizes =
-        information.ldlt().solve(signatures.transpose() * accelerations_.misses);
+    const Eigen::VectorXd along = signatures.transpose() * accelerations_.misses;
+    const Eigen::VectorXd sizes = information.ldlt().solve(along);
     Fit fit{.support = support,
             .sizes = {sizes.begin(), sizes.end()},
             .square = (accelerations_.misses - signatures * sizes).squaredNorm()};

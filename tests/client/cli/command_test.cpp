@@ -484,6 +484,18 @@ TEST_F(ExportTest, WritesAFileOrIntoAFolder) {
   EXPECT_EQ(TextOfFile(Path("mss.json")), TextOfFile(Path("boat.json")));
 }
 
+TEST_F(ExportTest, WritesWhatTheModelIsSailedWithAndSaysSo) {
+  Identification model = MadeUpSailedIdentification();
+  model.vehicle_id = "yellowfish";
+  model.sailed[0] = -0.0625;
+  folder.Write("model.json", PrintModelJson(model));
+  const CommandOutcome outcome =
+      Export("massless.textproto", {"--format", "mss", "--out", Path("boat.json")});
+  EXPECT_EQ(outcome.exit_code, kSuccess);
+  EXPECT_THAT(outcome.err, HasSubstr("as estimated the model runs away"));
+  EXPECT_THAT(TextOfFile(Path("boat.json")), HasSubstr("\"estimate\": -0.0625"));
+}
+
 TEST_F(ExportTest, TheSameSeedDrawsTheSameBits) {
   const auto draws = [this](const char* seed, const char* out) {
     const CommandOutcome outcome =

@@ -44,6 +44,14 @@ TEST(ModelTable, FitsATerminal) {
   ExpectNoLineBeyondTheTerminal(ModelTable(WithWideNumbers(Parameterization::kPropeller)));
 }
 
+TEST(ModelTable, ShowsWhatTheModelIsSailedWithWhereThatIsAnother) {
+  EXPECT_THAT(ModelTable(MadeUpIdentification()), Not(HasSubstr("sailed with")));
+  const std::string table = ModelTable(MadeUpSailedIdentification());
+  ExpectNoLineBeyondTheTerminal(table);
+  EXPECT_THAT(table, HasSubstr("sailed with"));
+  EXPECT_THAT(table, HasSubstr("-0.1667"));  // half of the first estimate
+}
+
 TEST(ModelTable, TellsEverythingTheModelRestsOn) {
   const std::string table = ModelTable(MadeUpIdentification());
   for (const char* text : {"made-up.1",

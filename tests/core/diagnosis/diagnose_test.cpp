@@ -202,6 +202,24 @@ TEST(Diagnose, MakesAModelThatSailsTheRecordingBetter) {
   EXPECT_LT(now->free_run[1].velocity[0].rmse, 0.3 * old->free_run[1].velocity[0].rmse);
 }
 
+TEST(Diagnose, StartsFromWhatTheModelIsSailedWith) {
+  const PreparedDataset recording =
+      testing::SailWithEffects({{FindEffect("thrust_gain"), {0.3}}}, 120.0, 7000);
+  const Identification known = testing::KnownStableBoat();
+  Identification off = known;
+  for (Coefficient& c : off.coefficients) {
+    off.sailed.push_back(c.estimate);
+    c.estimate += 0.9 * c.standard_error;
+  }
+  const auto a = Diagnose(recording, HealthyDays(), known, "stable", TwoThreads());
+  const auto b = Diagnose(recording, HealthyDays(), off, "stable", TwoThreads());
+  ASSERT_TRUE(a.has_value() && b.has_value());
+  EXPECT_EQ(a->diagnosis.sentence, b->diagnosis.sentence);
+  ASSERT_TRUE(a->augmented.has_value() && b->augmented.has_value());
+  EXPECT_EQ(ModelOf(*a->augmented)->theta, ModelOf(*b->augmented)->theta);
+  EXPECT_EQ(b->augmented->coefficients[5].estimate, ModelOf(*b->augmented)->theta[0][5]);
+}
+
 TEST(Diagnose, DoesNotDependOnThreads) {
   const PreparedDataset recording =
       testing::SailWithEffects({{FindEffect("hull_fouling"), {0.6, 0.5}}}, 120.0, 7000);

@@ -4,10 +4,8 @@
 #include <numeric>
 
 #include <gtest/gtest.h>
-#include <boost/random/normal_distribution.hpp>
 
 #include "linear_algebra/decompositions.hpp"
-#include "random.hpp"
 #include "simulation/yellowfish.hpp"
 #include "support/discrete_boat.hpp"
 
@@ -72,42 +70,6 @@ TEST(ExcitationSummary, AnUnmovedColumnHasNoBoundedVariance) {
     EXPECT_EQ(std::isinf(summary.variance_inflation[j]),
               surge.regressors[j].name.starts_with("r:"));
   }
-}
-
-/// x(k) = f x(k - 1) + white: n values say as much of the mean as n (1 - f) / (1 + f) independent
-/// ones. 40,000 draws know that to a few per cent.
-TEST(RowsPerIndependentRow, IsThatOfAnAutoregressiveProcess) {
-  for (const double f : {0.0, 0.5, 0.8}) {
-    RandomEngine engine(3);
-    boost::random::normal_distribution<double> white(0.0, 1.0);
-    Eigen::VectorXd x(40000);
-    x[0] = white(engine);
-    for (Eigen::Index k = 1; k < x.size(); ++k) x[k] = f * x[k - 1] + white(engine);
-    const std::vector<RowRange> one_run = {{0, 40000}};
-    const double expected = (1.0 + f) / (1.0 - f);
-    EXPECT_NEAR(RowsPerIndependentRow(x, one_run), expected, 0.08 * expected) << f;
-    // Cut into runs the same process looks the same.
-    std::vector<RowRange> runs;
-    for (std::size_t k = 0; k < 40000; k += 200) runs.push_back({k, k + 200});
-    EXPECT_NEAR(RowsPerIndependentRow(x, runs), expected, 0.1 * expected) << f;
-  }
-}
-
-TEST(RowsPerIndependentRow, NeverPromisesMoreThanThereAre) {
-  Eigen::VectorXd x(1000);
-  for (Eigen::Index k = 0; k < x.size(); ++k) x[k] = k % 2 == 0 ? 1.0 : -1.0;
-  const std::vector<RowRange> run = {{0, 1000}};
-  EXPECT_EQ(RowsPerIndependentRow(x, run), 1.0);
-  EXPECT_EQ(RowsPerIndependentRow(Eigen::VectorXd::Zero(1000), run), 1.0);
-}
-
-TEST(RunsOf, CutsWhereAPlaceIsMissing) {
-  const std::vector<std::size_t> places = {4, 9, 14, 20, 25, 40};
-  const auto runs = RunsOf(places, 5);
-  ASSERT_EQ(runs.size(), 3u);
-  EXPECT_EQ(runs[0].end, 3u);
-  EXPECT_EQ(runs[1].size(), 2u);
-  EXPECT_EQ(runs[2].begin, 5u);
 }
 
 }  // namespace

@@ -89,8 +89,9 @@ TEST(OneStep, ResidualVarianceIsThatOfTheResiduals) {
 TEST(OneStep, BasisGivesTheInverseOfTheNormalMatrix) {
   const EquationProblem yaw = NoisyYaw();
   const EquationEstimate estimate = EstimateOf(yaw);
-  const Eigen::MatrixXd identity =
-      estimate.basis * estimate.basis.transpose() * (yaw.phi.transpose() * yaw.phi);
+  const Eigen::MatrixXd inverse = estimate.basis * estimate.basis.transpose();
+  const Eigen::MatrixXd normal = yaw.phi.transpose() * yaw.phi;
+  const Eigen::MatrixXd identity = inverse * normal;
   // The condition number of Phi'Phi is below 1e6 here, so 1e-9 leaves room for rounding alone.
   EXPECT_TRUE(identity.isApprox(Eigen::MatrixXd::Identity(13, 13), 1e-9));
 }

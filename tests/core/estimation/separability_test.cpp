@@ -37,7 +37,9 @@ TEST(Separate, InvertsWhatCanAllBeToldApart) {
   const Separability found = SeparateColumns(J);
   EXPECT_TRUE(found.directions.empty());
   EXPECT_THAT(found.separable, ::testing::Each(true));
-  const Eigen::MatrixXd product = found.root * found.root.transpose() * J.transpose() * J;
+  const Eigen::MatrixXd inverse = found.root * found.root.transpose();
+  const Eigen::MatrixXd information = J.transpose() * J;
+  const Eigen::MatrixXd product = inverse * information;
   EXPECT_LT((product - Eigen::MatrixXd::Identity(6, 6)).norm(), 1e-10);
 }
 

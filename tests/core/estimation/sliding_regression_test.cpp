@@ -63,7 +63,9 @@ SlidingEstimate Direct(const std::deque<StreamRow>& rows, std::size_t lags) {
   }
   const double freed = static_cast<double>(n) / static_cast<double>(n - p);
   direct.residual_variance = freed * variance;
-  direct.standard_error = (freed * inverse * middle * inverse).diagonal().cwiseSqrt();
+  const Eigen::MatrixXd filling = middle * inverse;
+  const Eigen::MatrixXd sandwich = inverse * filling;
+  direct.standard_error = (freed * sandwich.diagonal()).cwiseSqrt();
   direct.effective_rows = static_cast<double>(n) * variance / sum;
   return direct;
 }

@@ -298,11 +298,11 @@ TEST(Bootstrap, StudentizedIntervalsCoverALinearModelWithFewSegments) {
       }
       y.segment(s * kRowsEach, kRowsEach).array() += normal(engine);
     }
-    const Eigen::HouseholderQR<Eigen::MatrixXd> qr(phi);
-    fit.W = qr.householderQ() * Eigen::MatrixXd::Identity(phi.rows(), 2);
-    fit.basis = qr.matrixQR().topRows(2).triangularView<Eigen::Upper>().solve(
-        Eigen::MatrixXd::Identity(2, 2));
-    fit.theta = fit.basis * fit.W.transpose() * y;
+    const Eigen::Matrix2d normal_matrix = phi.transpose() * phi;
+    const Eigen::Matrix2d R = normal_matrix.llt().matrixU();
+    fit.basis = R.inverse();
+    fit.W = phi * fit.basis;
+    fit.theta = fit.basis * (fit.W.transpose() * y);
     fit.residual = y - phi * fit.theta;
     fit.estimable = {true, true};
     const auto replicates =
@@ -336,8 +336,8 @@ TEST(SegmentBootstrap, AgreesWithResidualCovarianceUnderWhiteNoise) {
   double log_ratio = 0.0;
   Eigen::Index place = 0;
   for (const auto& estimate : estimates) {
-    const Eigen::MatrixXd textbook =
-        estimate->residual_variance * estimate->basis * estimate->basis.transpose();
+    const Eigen::MatrixXd inverse = estimate->basis * estimate->basis.transpose();
+    const Eigen::MatrixXd textbook = estimate->residual_variance * inverse;
     for (Eigen::Index j = 0; j < textbook.rows(); ++j, ++place) {
       const double ratio = std::sqrt(covariance(place, place) / textbook(j, j));
       EXPECT_GT(ratio, 0.6);

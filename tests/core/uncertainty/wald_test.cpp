@@ -27,7 +27,8 @@ Eigen::MatrixXd Correlated(Eigen::Index p) {
   const Eigen::VectorXd scale = Eigen::VectorXd::LinSpaced(p, 0.0, -4.0).unaryExpr([](double e) {
     return std::pow(10.0, e);
   });
-  return scale.asDiagonal() * root * root.transpose() * scale.asDiagonal();
+  const Eigen::MatrixXd scaled = scale.asDiagonal() * root;
+  return scaled * scaled.transpose();
 }
 
 /// Chi-square critical values at 5 %, NIST/SEMATECH e-Handbook section 1.3.6.7.4: 3.841 for one

@@ -24,6 +24,7 @@ void ExpectReadsBack(const Identification& identification) {
 TEST(ModelJson, PrintedAndReadAgainIsTheSameToTheLastBit) {
   ExpectReadsBack(MadeUpIdentification(Parameterization::kPropeller));
   ExpectReadsBack(MadeUpIdentification(Parameterization::kPaper));
+  ExpectReadsBack(MadeUpSailedIdentification());
 }
 
 TEST(ModelJson, AnEquationMayBeMissingWhole) {
@@ -223,6 +224,11 @@ INSTANTIATE_TEST_SUITE_P(
                    "joint.covarianceFactor", "0", "(0, "},
         ModelFault{[](M& m) { m.mutable_joint()->set_degrees_of_freedom(kNan); },
                    "joint.degreesOfFreedom", "nan", "[1, "},
+        ModelFault{[](M& m) { m.add_sailed(1.0); }, "sailed", "1 numbers", "35"},
+        ModelFault{[](M& m) {
+                     while (m.sailed_size() < 35) m.add_sailed(kNan);
+                   },
+                   "sailed[0]", "nan", "number"},
         ModelFault{[](M& m) { m.set_covariance(1, kNan); }, "covariance[1]", "nan", "number"},
         ModelFault{[](M& m) { m.set_covariance(0, -1.0); }, "covariance[0]", "-1", "[0, inf]"},
         ModelFault{[](M& m) { m.set_covariance(70, 5.0); }, "covariance[70]", "5", "symmetric"},

@@ -100,6 +100,19 @@ TEST(WireModel, CarriesTheThrusterTimeConstant) {
   ExpectSame(*received, sent);
 }
 
+TEST(WireModel, CarriesWhatTheModelIsSailedWith) {
+  const PublishedModel sent{MadeUpSailedIdentification(), 8, 1700000700.5};
+  const auto received = Decode(*Encode(sent));
+  ASSERT_TRUE(received) << received.error().Message();
+  ExpectSame(*received, sent);
+  auto wire = Encode(sent);
+  wire->sailed._buffer[2] = kNan;
+  EXPECT_EQ(Decode(*wire).error().field, "sailed");
+  wire = Encode(sent);
+  wire->sailed._length -= 1;
+  EXPECT_EQ(Decode(*wire).error().value, "34 numbers");
+}
+
 TEST(WireModel, AnOlderWriterSendsNoCovarianceOfTheTimeConstant) {
   PublishedModel sent{MadeUpDynamicIdentification(), 8, 1700000700.5};
   sent.identification.time_constant_covariance.resize(0);

@@ -1,0 +1,101 @@
+#include "identification/sailed_model.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <optional>
+#include <string>
+
+#include "identification/tamed_model.hpp"
+#include "number.hpp"
+#include "simulation/free_run.hpp"
+
+namespace telltale {
+namespace {
+
+constexpr double kRunsOfS[] = {5.0, 15.0, 30.0};
+
+/// Largest distance of a coefficient from its estimate, in standard errors; nothing where one has
+/// left its bounds.
+std::optional<double> FurthestWithinBounds(const Identification& identification,
+                                           const Eigen::VectorXd& theta) {
+  double furthest = 0.0;
+  Eigen::Index next = 0;
+  for (const Coefficient& c : identification.coefficients) {
+    const double value = theta[next++];
+    if (value < c.interval.lower || value > c.interval.upper) return std::nullopt;
+    if (value == c.estimate) continue;
+    furthest = std::max(furthest, std::abs(value - c.estimate) / c.standard_error);
+  }
+  return furthest;
+}
+
+bool Sails(const PreparedDataset& dataset, const Identification& identification, double horizon_s) {
+  const auto model = ModelOf(identification);
+  if (!model) return false;
+  const Runaways count = CountRunaways(dataset, *model, horizon_s);
+  return count.runs > 0 && count.runaways == 0;
+}
+
+/// Coefficients as near to the estimates as sails for so long, and how near that is in standard
+/// errors.
+std::optional<double> DrawInUntilItSails(const PreparedDataset& dataset, double horizon_s,
+                                         Identification& identification) {
+  for (const double trust : kTrusts) {
+    const Eigen::VectorXd theta = TamedEstimates(identification, trust);
+    const auto furthest = FurthestWithinBounds(identification, theta);
+    if (!furthest) break;
+    identification.sailed.assign(theta.begin(), theta.end());
+    if (Sails(dataset, identification, horizon_s)) return furthest;
+  }
+  identification.sailed.clear();
+  return std::nullopt;
+}
+
+/// In how many of the shortest runs in which it does so at all the model runs away.
+std::optional<std::string> RunsAway(const PreparedDataset& dataset, const VesselModel& model) {
+  for (const double horizon_s : kRunsOfS) {
+    const Runaways count = CountRunaways(dataset, model, horizon_s);
+    if (count.runaways == 0) continue;
+    return "in " + std::to_string(count.runaways) + " of " + std::to_string(count.runs) +
+           " runs of " + Number(horizon_s, 0) + " s over its own recording";
+  }
+  return std::nullopt;
+}
+
+/// How the model is sailed in spite of its estimates, if it can be.
+std::optional<std::string> DrawIn(const PreparedDataset& dataset, Identification& identification) {
+  if (identification.estimator == Estimator::kOneStep) return std::nullopt;
+  for (auto horizon_s = std::rbegin(kRunsOfS); horizon_s != std::rend(kRunsOfS); ++horizon_s) {
+    const auto furthest = DrawInUntilItSails(dataset, *horizon_s, identification);
+    if (!furthest) continue;
+    return "it is sailed with coefficients drawn towards zero along what the data leave open, by " +
+           Number(*furthest, 1) + " standard errors at most, and so runs for " +
+           Number(*horizon_s, 0) + " s";
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+void SeekToSail(const PreparedDataset& dataset, Identification& identification) {
+  const auto model = ModelOf(identification);
+  if (!model) return;
+  const auto runaways = RunsAway(dataset, *model);
+  if (!runaways) return;
+  Refusal warning{"free run", *runaways + " the model runs away as estimated: ",
+                  "record more varied manoeuvres for longer"};
+  if (const auto how = DrawIn(dataset, identification)) {
+    warning.reason += *how;
+  } else {
+    warning.reason += "its bounds say what the data leave open, but it is not to be sailed";
+    if (identification.estimator != Estimator::kOneStep) {
+      warning.advice +=
+          ", or see by `validate` on another recording whether the one-step "
+          "estimator's model predicts better, without bounds that hold";
+    }
+  }
+  identification.refusals.push_back(std::move(warning));
+}
+
+}  // namespace telltale

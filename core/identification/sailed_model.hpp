@@ -1,0 +1,14 @@
+#pragma once
+
+#include "data/prepared_dataset.hpp"
+#include "identification/identification.hpp"
+
+namespace telltale {
+
+/// Bounds may hold about estimates that nobody can sail. Where free runs over the model's own
+/// recording run away, docs/model.md (18a), coefficients to sail with are sought within the bounds,
+/// (18b), and written to `sailed`; a refusal says so, or that there are none. Estimates and bounds
+/// stay as they are. The paper's one-step model is warned of and left as the paper makes it.
+void SeekToSail(const PreparedDataset& dataset, Identification& identification);
+
+}  // namespace telltale

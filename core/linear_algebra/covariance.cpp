@@ -1,0 +1,25 @@
+#include "linear_algebra/covariance.hpp"
+
+#include "linear_algebra/decompositions.hpp"
+
+namespace telltale {
+
+Eigen::MatrixXd Scaled(const Eigen::MatrixXd& V, const Eigen::VectorXd& scale) {
+  return scale.asDiagonal() * V * scale.asDiagonal();
+}
+
+Eigen::MatrixXd Mapped(const Eigen::MatrixXd& A, const Eigen::MatrixXd& V) {
+  const Eigen::MatrixXd once = A * V;
+  return once * A.transpose();
+}
+
+Eigen::MatrixXd OfRoot(const Eigen::MatrixXd& root) {
+  return root * root.transpose();
+}
+
+Eigen::MatrixXd Inverse(const Eigen::MatrixXd& V) {
+  const Eigen::MatrixXd identity = Eigen::MatrixXd::Identity(V.rows(), V.cols());
+  return V.llt().solve(identity);
+}
+
+}  // namespace telltale
