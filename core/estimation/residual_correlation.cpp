@@ -76,6 +76,18 @@ Eigen::VectorXd Autocovariance(std::span<const RowRange> runs, const Eigen::Vect
   return MeanProducts(runs, residual, residual, lags);
 }
 
+Eigen::VectorXd DefiniteAutocovariance(std::span<const RowRange> runs,
+                                       const Eigen::VectorXd& residual, std::size_t lags) {
+  const auto count = static_cast<double>(PairsApart(runs, 0));
+  Eigen::VectorXd covariance(static_cast<Eigen::Index>(lags));
+  for (std::size_t lag = 0; lag < lags; ++lag) {
+    const double weight = 1.0 - static_cast<double>(lag) / static_cast<double>(lags);
+    covariance[static_cast<Eigen::Index>(lag)] =
+        weight * SumOfProducts(runs, residual, residual, lag) / count;
+  }
+  return covariance;
+}
+
 Eigen::MatrixXd Correlate(std::span<const RowRange> runs, const Eigen::VectorXd& autocovariance,
                           const Eigen::MatrixXd& X) {
   Eigen::MatrixXd VX = Eigen::MatrixXd::Zero(X.rows(), X.cols());

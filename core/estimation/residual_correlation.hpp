@@ -27,6 +27,15 @@ double RowsPerIndependentRow(const Eigen::VectorXd& residual, std::span<const Ro
 Eigen::VectorXd Autocovariance(std::span<const RowRange> runs, const Eigen::VectorXd& residual,
                                std::size_t lags);
 
+/// Autocovariances of which Correlate makes no negative variance, however short the runs: products
+/// of residuals l apart over all residuals instead of over pairs, weighed as Bartlett did. What
+/// hangs together for long is told too weak, where means are told right on average but may be of no
+/// process at all.
+/// Source: Newey and West, "A simple, positive semi-definite, heteroskedasticity and
+/// autocorrelation consistent covariance matrix", Econometrica 55 (1987).
+Eigen::VectorXd DefiniteAutocovariance(std::span<const RowRange> runs,
+                                       const Eigen::VectorXd& residual, std::size_t lags);
+
 /// V X, V the covariance of residuals with these autocovariances: zero at longer lags and between
 /// runs. Shapes: X and the result residuals x any number of columns.
 Eigen::MatrixXd Correlate(std::span<const RowRange> runs, const Eigen::VectorXd& autocovariance,

@@ -365,12 +365,7 @@ Eigen::MatrixXd MeatIfAlike(const WeakProblem& problem, std::size_t index,
                             const Eigen::VectorXd& residual, const Eigen::MatrixXd& Z) {
   constexpr std::size_t kLags = 20;
   const auto runs = RunsOf(problem.windows[index].first_rows, problem.phi.stride);
-  Eigen::VectorXd covariance = Autocovariance(runs, residual, kLags);
-  // Bartlett's weights: chance makes of the longer lags what may be no covariance at all.
-  for (Eigen::Index l = 0; l < covariance.size(); ++l) {
-    covariance[l] *= 1.0 - static_cast<double>(l) / static_cast<double>(kLags);
-  }
-  return Z.transpose() * Correlate(runs, covariance, Z);
+  return Z.transpose() * Correlate(runs, DefiniteAutocovariance(runs, residual, kLags), Z);
 }
 
 WeakFit Write(const WeakProblem& problem, const WeighedEquations& equations, const System& system,

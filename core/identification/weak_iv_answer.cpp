@@ -173,7 +173,6 @@ Result<BoundedAnswers> BoundWeakIv(const PreparedDataset& dataset,
                          {options.twins, options.seed, options.threads}, [&](double fraction) {
                            if (progress) progress("simulating repeats", 0.4 + 0.55 * fraction);
                          });
-    if (corrected && !corrected->covariance.allFinite()) corrected.reset();
     if (!corrected) answers.refusals.push_back(NotCorrected());
   }
   const WeakIvPublication publication = PublicationOf(*fit);

@@ -39,6 +39,12 @@ bool IsSound(const Sighting& sighting) {
          (sighting.covariance.diagonal().array() > 0.0).all();
 }
 
+bool IsSound(const TwinCorrection& correction) {
+  return correction.theta.allFinite() && correction.covariance.allFinite() &&
+         (correction.covariance.diagonal().array() > 0.0).all() &&
+         std::isfinite(correction.joint.covariance_factor);
+}
+
 double Quantile(std::vector<double> values, double share) {
   const auto at = static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
   std::nth_element(values.begin(), values.begin() + at, values.end());
@@ -189,6 +195,7 @@ class TwinFleet {
     correction.failures = twins_.twins - sightings.size();
     correction.degrees_of_freedom = static_cast<double>(fit_.scores.cols()) - 1.0;
     Calibrate(sightings, spread, correction);
+    if (!IsSound(correction)) return std::nullopt;
     return correction;
   }
 

@@ -40,7 +40,7 @@ struct TwinCorrection {
 /// is taken from the estimate, how they scatter about that sizes each direction of the clusters'
 /// covariance, and how often intervals made like that hold says by what one factor they have to be
 /// stretched. progress is called by one thread at a time. Nothing when fewer than half of the twins
-/// can be estimated.
+/// can be estimated, or numbers overflow.
 std::optional<TwinCorrection> CorrectWithTwins(
     const PreparedDataset& dataset, const RegressionOptions& regression, const WeakFit& fit,
     const std::array<std::vector<std::size_t>, 3>& columns, const WeakIvOptions& options,

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <random>
 
+#include <Eigen/Eigenvalues>
+
 #include <gtest/gtest.h>
 #include <boost/random/normal_distribution.hpp>
 
@@ -93,6 +95,26 @@ TEST(ResidualCorrelation, AutocovarianceIsTheMeanProductWithinRuns) {
   const Eigen::MatrixXd products = residual * residual.transpose();
   for (Eigen::Index l = 0; l < 9; ++l) EXPECT_NEAR(found[l], MeanApart(products, l), 1e-12);
   EXPECT_EQ(found.tail(3), Eigen::VectorXd::Zero(3));  // longer than the longest run
+}
+
+double LeastVariance(const Eigen::VectorXd& autocovariance) {
+  const Eigen::MatrixXd V = DenseCovariance(autocovariance);
+  return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(V).eigenvalues()[0];
+}
+
+// What changes slowly, in runs as short as itself: means over few pairs are of no process at all.
+TEST(ResidualCorrelation, DefiniteAutocovarianceMakesNoVarianceNegative) {
+  constexpr std::size_t kLags = 12;
+  bool some_means_do = false;
+  for (unsigned seed = 1; seed <= 50; ++seed) {
+    Eigen::VectorXd residual = DrawnColumns(1, seed);
+    for (Eigen::Index k = 1; k < residual.size(); ++k) residual[k] += 0.9 * residual[k - 1];
+    const Eigen::VectorXd definite = DefiniteAutocovariance(kTwoRuns, residual, kLags);
+    EXPECT_GT(LeastVariance(definite), -1e-12 * definite[0]) << seed;
+    EXPECT_NEAR(definite[0], residual.squaredNorm() / 15.0, 1e-12 * definite[0]);
+    some_means_do |= LeastVariance(Autocovariance(kTwoRuns, residual, kLags)) < 0.0;
+  }
+  EXPECT_TRUE(some_means_do);
 }
 
 TEST(ResidualCorrelation, CorrelatingIsMultiplyingByTheCovariance) {

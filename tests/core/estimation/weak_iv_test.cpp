@@ -1,9 +1,14 @@
 #include "estimation/weak_iv.hpp"
 
+#include <Eigen/Eigenvalues>
+
 #include <gtest/gtest.h>
+#include <boost/random/uniform_real_distribution.hpp>
 
 #include "data/preparation.hpp"
 #include "estimation/one_step.hpp"
+#include "linear_algebra/covariance.hpp"
+#include "random.hpp"
 #include "support/boats.hpp"
 
 namespace telltale {
@@ -84,6 +89,46 @@ TEST(WeakIv, SaysNothingOfTooFewWindows) {
   EXPECT_FALSE(EstimateWeakIv(Sailed(testing::StableBoat(), testing::NoNoise(), 12.0), {},
                               AllColumns(Parameterization::kPropeller), {})
                    .has_value());
+}
+
+/// Two minutes of which a radio lost up to ten seconds now and then.
+PreparedDataset SailedWithGaps(std::uint64_t seed) {
+  Recording recording =
+      testing::SailStableBoat(testing::StableBoat(), 120.0, SensorOptions(), seed);
+  RandomEngine engine(seed);
+  boost::random::uniform_real_distribution<double> heard(5.0, 20.0);
+  boost::random::uniform_real_distribution<double> lost(1.5, 10.0);
+  double end_s = 0.0;
+  while (end_s < 120.0) {
+    const double begin_s = end_s + heard(engine);
+    end_s = begin_s + lost(engine);
+    const auto is_lost = [&](const auto& sample) {
+      return sample.time_s >= begin_s && sample.time_s < end_s;
+    };
+    std::erase_if(recording.gnss, is_lost);
+    std::erase_if(recording.heading, is_lost);
+    std::erase_if(recording.thrusters, is_lost);
+  }
+  PrepareOptions options;
+  options.smoothing_half_width = 4;
+  options.longest_stretch_s = 60.0;
+  return *Prepare(recording, testing::StableBoatVehicle(), options);
+}
+
+TEST(WeakIv, HasACovarianceHoweverShortAndTornTheDataAre) {
+  int answered = 0;
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    const auto fit =
+        EstimateWeakIv(SailedWithGaps(seed), {}, AllColumns(Parameterization::kPropeller), {});
+    if (!fit || fit->scores.cols() < 2) continue;
+    ++answered;
+    const Eigen::MatrixXd covariance = ClusterCovariance(*fit);
+    ASSERT_TRUE((covariance.diagonal().array() > 0.0).all()) << seed;
+    const Eigen::VectorXd sizes = covariance.diagonal().cwiseSqrt().cwiseInverse();
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> axes(Scaled(covariance, sizes));
+    EXPECT_GT(axes.eigenvalues()[0], -1e-12) << seed;
+  }
+  EXPECT_GT(answered, 10);
 }
 
 }  // namespace
