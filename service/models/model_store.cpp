@@ -1,5 +1,7 @@
 #include "models/model_store.hpp"
 
+#include <stdexcept>
+
 #include <SQLiteCpp/SQLiteCpp.h>
 #include <spdlog/spdlog.h>
 
@@ -34,6 +36,16 @@ std::optional<StoredModel> ReadRow(SQLite::Statement& row) {
   return stored;
 }
 
+/// What is kept of a model. What could not be read back would be lost with this process, and no
+/// client can read it either.
+std::string Kept(const Identification& identification) {
+  const proto::Model message = ToProto(identification);
+  if (const auto again = IdentificationOf(message, "model"); !again) {
+    throw std::runtime_error("not published, as nobody could read it: " + again.error().Message());
+  }
+  return message.SerializeAsString();
+}
+
 }  // namespace
 
 ModelStore::ModelStore(const std::filesystem::path& directory)
@@ -52,6 +64,7 @@ ModelStore& ModelStore::operator=(ModelStore&&) noexcept = default;
 
 StoredModel ModelStore::Save(const Identification& identification, double published_unix_s,
                              const std::optional<FreeRunError>& reference_error) {
+  const std::string blob = Kept(identification);
   SQLite::Transaction transaction(*database_, SQLite::TransactionBehavior::IMMEDIATE);
   SQLite::Statement next(*database_,
                          "SELECT COALESCE(MAX(revision), 0) + 1 FROM models WHERE vehicle_id = ?");
@@ -59,7 +72,6 @@ StoredModel ModelStore::Save(const Identification& identification, double publis
   next.executeStep();
   const std::int64_t revision = next.getColumn(0).getInt64();
 
-  const std::string blob = ToProto(identification).SerializeAsString();
   SQLite::Statement insert(*database_, "INSERT INTO models VALUES (?, ?, ?, ?, ?, ?, ?)");
   insert.bind(1, identification.vehicle_id);
   insert.bind(2, revision);

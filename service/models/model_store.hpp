@@ -28,8 +28,8 @@ struct StoredModel {
 };
 
 /// Keeps every published model on disk. DDS itself stores nothing beyond a process's life.
-/// Throws SQLite::Exception when the disk will not have it; what was saved before stays whole.
-/// Not thread safe.
+/// Throws SQLite::Exception when the disk will not have it, std::runtime_error naming the field
+/// when it could not be read back; what was saved before stays whole. Not thread safe.
 class ModelStore {
  public:
   /// In the database of `directory`, OpenDatabase().

@@ -3,6 +3,7 @@
 #include <thread>
 
 #include <SQLiteCpp/SQLiteCpp.h>
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "codec/model_json.hpp"
@@ -23,6 +24,7 @@
 #include "support/boats.hpp"
 #include "support/diagnoses.hpp"
 #include "support/identifications.hpp"
+#include "support/numbers.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace telltale {
@@ -144,6 +146,20 @@ TEST_F(ModelStoreTest, FallsBackOnTheNewestThatCanBeRead) {
   ASSERT_TRUE(store.Latest(model_.vehicle_id));
   EXPECT_EQ(store.Latest(model_.vehicle_id)->model.revision, 1u);
   EXPECT_EQ(store.Save(model_, 3.0, std::nullopt).model.revision, 3u);
+}
+
+TEST_F(ModelStoreTest, KeepsNothingThatNobodyCouldRead) {
+  ModelStore store(folder_.Path());
+  store.Save(model_, 1.0, std::nullopt);
+  Identification wrong = model_;
+  wrong.coefficients[3].standard_error = kNan;
+  try {
+    store.Save(wrong, 2.0, std::nullopt);
+    ADD_FAILURE() << "it was kept";
+  } catch (const std::runtime_error& error) {
+    EXPECT_THAT(error.what(), ::testing::HasSubstr("coefficients[3].standardError = nan"));
+  }
+  EXPECT_EQ(store.Save(model_, 3.0, std::nullopt).model.revision, 2u);
 }
 
 TEST_F(ModelStoreTest, RefusesAStoreOfALaterProgram) {
@@ -300,6 +316,16 @@ TEST_F(DiagnosisStoreTest, SharesItsDatabaseWithTheModels) {
   EXPECT_EQ(models.Save(model, 1.0, std::nullopt).model.revision, 1u);
   EXPECT_TRUE(diagnoses.Last(diagnosis_.diagnosis.vehicle_id));
   EXPECT_TRUE(models.Latest(model.vehicle_id));
+}
+
+TEST_F(DiagnosisStoreTest, KeepsNothingThatNobodyCouldRead) {
+  DiagnosisStore store(folder_.Path());
+  store.Save(diagnosis_);
+  PublishedDiagnosis wrong = diagnosis_;
+  wrong.model_revision = 8;
+  wrong.diagnosis.gaps.front().all.before = kNan;
+  EXPECT_THROW(store.Save(wrong), std::runtime_error);
+  EXPECT_EQ(store.Last(diagnosis_.diagnosis.vehicle_id)->model_revision, 7u);
 }
 
 TEST_F(DiagnosisStoreTest, PassesOverWhatCannotBeRead) {
