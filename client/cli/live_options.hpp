@@ -33,8 +33,8 @@ std::string TimedOutText(const LiveOptions& live);
 /// What to do where nobody answers on a domain.
 std::string NobodyThereAdvice(std::uint32_t domain);
 
-/// Throws: RefusedError where the daemon refused, std::runtime_error where nobody answers or it
-/// failed.
+/// Throws: RefusedError where the daemon refused, std::runtime_error where nobody answers, it
+/// failed or its answer cannot be read.
 template <class Reply>
 void RequirePublished(const ExchangeAnswer<Reply>& answer, const std::string& vehicle_id,
                       const LiveOptions& live) {
@@ -46,6 +46,10 @@ void RequirePublished(const ExchangeAnswer<Reply>& answer, const std::string& ve
     case ExchangeOutcome::kNoDaemon:
       throw std::runtime_error("no daemon answers: " + NobodyThereAdvice(live.domain));
     case ExchangeOutcome::kTimedOut: throw std::runtime_error(TimedOutText(live));
+    case ExchangeOutcome::kUnreadable:
+      throw std::runtime_error(
+          "the daemon's answer cannot be read: " + answer.unreadable->Message() +
+          "; are client and daemon of one version?");
     case ExchangeOutcome::kFailed:
     case ExchangeOutcome::kUnknown: throw std::runtime_error(answer.reply->message);
   }

@@ -11,13 +11,23 @@
 #include "bus/reader.hpp"
 #include "bus/wait_set.hpp"
 #include "bus/writer.hpp"
+#include "codec/error.hpp"
 #include "codec/wire.hpp"
 
 namespace telltale {
 
 /// How asking the daemon ended. kNoDaemon: nobody on this domain takes requests. kTimedOut: there
-/// is a daemon, but no reply came. The rest is the daemon's own answer.
-enum class ExchangeOutcome { kUnknown, kNoDaemon, kTimedOut, kRefused, kFailed, kPublished };
+/// is a daemon, but no reply came. kUnreadable: its reply came, with something in it that this
+/// client does not take. The rest is the daemon's own answer.
+enum class ExchangeOutcome {
+  kUnknown,
+  kNoDaemon,
+  kTimedOut,
+  kUnreadable,
+  kRefused,
+  kFailed,
+  kPublished
+};
 
 /// The daemon's own answer as the outcome of asking.
 ExchangeOutcome OutcomeOf(IdentifyOutcome outcome);
@@ -25,7 +35,8 @@ ExchangeOutcome OutcomeOf(IdentifyOutcome outcome);
 template <class Reply>
 struct ExchangeAnswer {
   ExchangeOutcome outcome = ExchangeOutcome::kUnknown;
-  std::optional<Reply> reply;  ///< the daemon's answer, where there is one
+  std::optional<Reply> reply;            ///< the daemon's answer, where it can be read
+  std::optional<CodecError> unreadable;  ///< what in it cannot be, where that is so
 };
 
 struct ExchangeTiming {
@@ -70,7 +81,7 @@ ExchangeAnswer<Reply> Exchange<RequestWire, ProgressWire, ReplyWire>::Ask(
     const std::function<void(const Progress&)>& progress) {
   const auto wire = Encode(request);
   if (!WaitForMatch(participant_, {requests_, replies_, progress_}, timing.match)) {
-    return {ExchangeOutcome::kNoDaemon, std::nullopt};
+    return {ExchangeOutcome::kNoDaemon, std::nullopt, std::nullopt};
   }
 
   ExchangeAnswer<Reply> answer;
@@ -88,14 +99,22 @@ ExchangeAnswer<Reply> Exchange<RequestWire, ProgressWire, ReplyWire>::Ask(
   });
   news.Attach(replies_, [&] {
     replies_.Take([&](const ReplyWire& sample) {
-      auto decoded = Decode(sample);
-      if (!decoded || decoded->correlation_id != request.correlation_id) return;
-      answer = {OutcomeOf(decoded->outcome), std::move(*decoded)};
+      if (sample.correlation_id == nullptr || request.correlation_id != sample.correlation_id) {
+        return;
+      }
+      if (auto decoded = Decode(sample)) {
+        answer = {OutcomeOf(decoded->outcome), std::move(*decoded), std::nullopt};
+      } else {
+        // The daemon answers an id once: to ask again would bring the same.
+        answer = {ExchangeOutcome::kUnreadable, std::nullopt, decoded.error()};
+      }
     });
   });
 
-  while (!answer.reply) {
-    if (Clock::now() >= deadline) return {ExchangeOutcome::kTimedOut, std::nullopt};
+  while (!answer.reply && !answer.unreadable) {
+    if (Clock::now() >= deadline) {
+      return {ExchangeOutcome::kTimedOut, std::nullopt, std::nullopt};
+    }
     if (Clock::now() >= next_request) {
       requests_.Write(wire);
       next_request = Clock::now() + timing.retry;
