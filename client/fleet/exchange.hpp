@@ -40,7 +40,9 @@ struct ExchangeAnswer {
 };
 
 struct ExchangeTiming {
-  std::chrono::nanoseconds match = std::chrono::seconds(5);    ///< to find a daemon
+  /// To find a daemon: participants announce themselves every eight seconds unless configured
+  /// otherwise, so that one announcement may be lost.
+  std::chrono::nanoseconds match = std::chrono::seconds(12);
   std::chrono::nanoseconds reply = std::chrono::seconds(120);  ///< from the request to its reply
   std::chrono::nanoseconds retry = std::chrono::seconds(1);  ///< silence after which it asks again
 };
