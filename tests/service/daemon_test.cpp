@@ -97,7 +97,7 @@ TEST_F(Daemon, AccountsForEverySample) {
 TEST_F(Daemon, ReportsTheModelAndHowWellItPredicts) {
   const auto daemon = StartDaemon();
   ReplaySimulation();
-  ASSERT_EQ(Start({"identify", "--vehicle-id", kVehicleId})->Wait(), 0);
+  Run({"identify", "--vehicle-id", kVehicleId});
   const auto quality =
       AwaitQuality(kVehicleId, [](const Quality& q) { return q.prediction_error > 0.0; });
   ASSERT_TRUE(quality);
@@ -136,8 +136,8 @@ TEST_F(Daemon, FollowsABoatWithIndicativeEstimates) {
 TEST_F(Daemon, GivesALateJoinerTheLastModel) {
   const auto daemon = StartDaemon();
   ReplaySimulation();
-  ASSERT_EQ(Start({"identify", "--vehicle-id", kVehicleId})->Wait(), 0);
-  ASSERT_EQ(Start({"identify", "--vehicle-id", kVehicleId, "--seed", "2"})->Wait(), 0);
+  Run({"identify", "--vehicle-id", kVehicleId});
+  Run({"identify", "--vehicle-id", kVehicleId, "--seed", "2"});
   const auto watch =
       Start({"watch", "--vehicle-id", kVehicleId, "--count", "1", "--timeout", "20"});
   EXPECT_EQ(watch->Wait(), 0) << watch->output();
@@ -151,7 +151,7 @@ TEST_F(Daemon, TellsWhetherABoatHasChanged) {
   VesselModel worn = testing::StableBoat();
   for (std::size_t j = 0; j < 3; ++j) worn.theta[j].tail(4) *= 0.75;
   Replay(SimulatedRecording(testing::StableBoat(), 0.0, 300.0, 1));
-  ASSERT_EQ(Start({"identify", "--vehicle-id", kVehicleId})->Wait(), 0);
+  Run({"identify", "--vehicle-id", kVehicleId});
   const auto again = Start({"identify", "--vehicle-id", kVehicleId});
   EXPECT_EQ(again->Wait(), 0);
   EXPECT_THAT(again->output(), HasSubstr("cannot be compared"));  // it is the same window
@@ -163,7 +163,7 @@ TEST_F(Daemon, TellsWhetherABoatHasChanged) {
 
   Replay(SimulatedRecording(worn, 2.0 * kDayS, 300.0, 3));
   const auto file = folder_.Path() / "worn.json";
-  ASSERT_EQ(Start({"identify", "--vehicle-id", kVehicleId, "--out", file})->Wait(), 0);
+  Run({"identify", "--vehicle-id", kVehicleId, "--out", file});
   EXPECT_TRUE(daemon->WaitForOutput("revision 4 of yellowfish differs from revision 3"));
   const auto watch = Start({"watch", "--all", "--count", "1", "--timeout", "20"});
   EXPECT_EQ(watch->Wait(), 0) << watch->output();
@@ -178,7 +178,7 @@ TEST_F(Daemon, TellsWhetherABoatHasChanged) {
 TEST_F(Daemon, KeepsModelsThroughBeingKilled) {
   auto daemon = StartDaemon();
   ReplaySimulation();
-  ASSERT_EQ(Start({"identify", "--vehicle-id", kVehicleId})->Wait(), 0);
+  Run({"identify", "--vehicle-id", kVehicleId});
   daemon->Signal(SIGKILL);
   daemon->Wait();
 

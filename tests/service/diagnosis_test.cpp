@@ -32,7 +32,7 @@ class LiveDiagnosis : public ServiceTest {
   /// A model of the first five minutes; then two minutes in which the propellers give less.
   void SailAndWearOut(double thrust_left) const {
     Replay(SimulatedRecording(testing::StableBoat(), 0.0, 300.0, 1));
-    ASSERT_EQ(Start({"identify", "--vehicle-id", kVehicleId, "--out", ModelFile()})->Wait(), 0);
+    Run({"identify", "--vehicle-id", kVehicleId, "--out", ModelFile()});
     Replay(SimulatedRecording(Worn(thrust_left), 301.0, 120.0, 2));
   }
 
@@ -144,7 +144,7 @@ TEST_F(LiveDiagnosis, IsFollowedByWatch) {
   const auto daemon = StartDaemon();
   const auto watch = Start({"watch", "--all", "--count", "2", "--timeout", "120"});
   SailAndWearOut(0.6);
-  ASSERT_EQ(Start({"diagnose", "--vehicle-id", kVehicleId})->Wait(), 0);
+  Run({"diagnose", "--vehicle-id", kVehicleId});
   EXPECT_EQ(watch->Wait(), 0) << watch->output();
   EXPECT_THAT(watch->output(), HasSubstr("yellowfish, revision 1\n"));
   EXPECT_THAT(watch->output(), ContainsRegex("yellowfish, revision 1 diagnosed: [^\n]*\\.\n$"));
@@ -154,7 +154,7 @@ TEST_F(LiveDiagnosis, IsPublishedAgainAfterTheDaemonWasKilled) {
   auto daemon = StartDaemon();
   SailAndWearOut(0.6);
   const auto file = folder_.Path() / "report.json";
-  ASSERT_EQ(Start({"diagnose", "--vehicle-id", kVehicleId, "--out", file})->Wait(), 0);
+  Run({"diagnose", "--vehicle-id", kVehicleId, "--out", file});
   daemon->Signal(SIGKILL);
   daemon->Wait();
   daemon = StartDaemon();
@@ -194,7 +194,7 @@ TEST_F(LiveDiagnosis, IsRefusedWithoutAModelAndWithoutDataOfItsOwn) {
   EXPECT_EQ(unmodelled->Wait(), 3);
   EXPECT_THAT(unmodelled->output(), HasSubstr("identify it first"));
   ReplaySimulation();
-  ASSERT_EQ(Start({"identify", "--vehicle-id", kVehicleId})->Wait(), 0);
+  Run({"identify", "--vehicle-id", kVehicleId});
   const auto same_data = Start({"diagnose", "--vehicle-id", kVehicleId});
   EXPECT_EQ(same_data->Wait(), 3);
   EXPECT_THAT(same_data->output(), HasSubstr("since revision 1"));

@@ -1,6 +1,7 @@
 #include "service/service_fixture.hpp"
 
 #include <chrono>
+#include <stdexcept>
 
 #include "codec/vehicle_file.hpp"
 #include "fleet/subscriber.hpp"
@@ -73,6 +74,13 @@ std::unique_ptr<Process> ServiceTest::Start(const std::vector<std::string>& argu
   return std::make_unique<Process>(command);
 }
 
+void ServiceTest::Run(const std::vector<std::string>& arguments) const {
+  const auto command = Start(arguments);
+  if (command->Wait() != 0) {
+    throw std::runtime_error(arguments.front() + " failed: " + command->output());
+  }
+}
+
 void ServiceTest::ReplaySimulation() const {
   Replay(SimulatedRecording());
 }
@@ -80,8 +88,7 @@ void ServiceTest::ReplaySimulation() const {
 void ServiceTest::Replay(const Recording& recording) const {
   const auto log = folder_.Path() / "log";
   WriteTelemetryLog(log, recording);
-  const auto replay = Start({"replay", "--log", log, "--vehicle-id", kVehicleId, "--speed", "60"});
-  EXPECT_EQ(replay->Wait(), 0) << replay->output();
+  Run({"replay", "--log", log, "--vehicle-id", kVehicleId, "--speed", "60"});
 }
 
 IdentifyRequest ServiceTest::Request(const std::string& correlation_id) const {

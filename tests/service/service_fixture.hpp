@@ -41,6 +41,10 @@ class ServiceTest : public ::testing::Test {
   /// telltale with these arguments on this test's domain.
   std::unique_ptr<Process> Start(const std::vector<std::string>& arguments) const;
 
+  /// telltale with these arguments, to the end. Throws what it wrote where it exits with another
+  /// code than 0.
+  void Run(const std::vector<std::string>& arguments) const;
+
   /// Writes the simulated recording as a log and replays it to the end.
   void ReplaySimulation() const;
 

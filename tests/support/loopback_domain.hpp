@@ -13,7 +13,8 @@
 namespace telltale {
 
 /// A DDS domain of the running test's own, for this process and those it starts: loopback only, and
-/// a discovery tag that keeps tests that happen to use the same domain apart.
+/// a discovery tag that keeps tests that happen to use the same domain apart. A busy machine loses
+/// an announcement now and then, and it is made again soon.
 class LoopbackDomain {
  public:
   LoopbackDomain() {
@@ -26,6 +27,7 @@ class LoopbackDomain {
         name + "." + std::to_string(getpid()) +
         "</Tag><ParticipantIndex>auto</ParticipantIndex>"
         "<MaxAutoParticipantIndex>30</MaxAutoParticipantIndex>"
+        "<SPDPInterval>1 s</SPDPInterval>"
         "<Peers><Peer address=\"127.0.0.1\"/></Peers></Discovery></Domain></CycloneDDS>";
     setenv("CYCLONEDDS_URI", configuration.c_str(), 1);
   }
