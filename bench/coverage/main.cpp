@@ -33,7 +33,7 @@ struct Told : Scenario {
 };
 
 std::vector<Told> Scenarios() {
-  std::vector<Told> all(9);
+  std::vector<Told> all(10);
   all[0].name = "rtk";
   all[1].name = "plain-gnss";
   all[1].around.position_noise_m = 0.10;
@@ -53,6 +53,8 @@ std::vector<Told> Scenarios() {
   all[7].mission.command_share = 0.5;
   all[8].name = "propeller-outside-class";
   all[8].boat.thrust_bend = 0.3;
+  all[9].name = "three-segments";
+  all[9].mission.segments = 3;
   return all;
 }
 
