@@ -30,7 +30,7 @@ class Certificates : public ServiceTest {
     ASSERT_EQ(client.Identify(refused, kTiming).outcome, ExchangeOutcome::kFailed);
   }
 
-  static constexpr ExchangeTiming kTiming{.match = 20s, .reply = 60s, .retry = 1s};
+  static constexpr ExchangeTiming kTiming{.match = 60s, .reply = 60s, .retry = 1s};
 };
 
 TEST_F(Certificates, TravelWithThePublishedModel) {

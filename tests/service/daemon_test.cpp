@@ -139,7 +139,7 @@ TEST_F(Daemon, GivesALateJoinerTheLastModel) {
   Run({"identify", "--vehicle-id", kVehicleId});
   Run({"identify", "--vehicle-id", kVehicleId, "--seed", "2"});
   const auto watch =
-      Start({"watch", "--vehicle-id", kVehicleId, "--count", "1", "--timeout", "20"});
+      Start({"watch", "--vehicle-id", kVehicleId, "--count", "1", "--timeout", "60"});
   EXPECT_EQ(watch->Wait(), 0) << watch->output();
   EXPECT_THAT(watch->output(), HasSubstr("revision 2"));
 }
@@ -165,7 +165,7 @@ TEST_F(Daemon, TellsWhetherABoatHasChanged) {
   const auto file = folder_.Path() / "worn.json";
   Run({"identify", "--vehicle-id", kVehicleId, "--out", file});
   EXPECT_TRUE(daemon->WaitForOutput("revision 4 of yellowfish differs from revision 3"));
-  const auto watch = Start({"watch", "--all", "--count", "1", "--timeout", "20"});
+  const auto watch = Start({"watch", "--all", "--count", "1", "--timeout", "60"});
   EXPECT_EQ(watch->Wait(), 0) << watch->output();
   EXPECT_THAT(watch->output(), HasSubstr("differs from revision 3: p = "));
   const auto model = ParseModelJson(*ReadFile(file));
@@ -183,7 +183,7 @@ TEST_F(Daemon, KeepsModelsThroughBeingKilled) {
   daemon->Wait();
 
   daemon = StartDaemon();
-  const auto watch = Start({"watch", "--all", "--count", "1", "--timeout", "20"});
+  const auto watch = Start({"watch", "--all", "--count", "1", "--timeout", "60"});
   EXPECT_EQ(watch->Wait(), 0) << watch->output();
   EXPECT_THAT(watch->output(), HasSubstr("revision 1"));
   ReplaySimulation();
@@ -227,14 +227,14 @@ TEST_F(Daemon, AnswersLateOnceItIsAwakeAgain) {
   const auto daemon = StartDaemon();
   const Participant participant(domain_.id());
   IdentificationClient client(participant);
-  ExchangeTiming timing{.match = 20s, .reply = 20s, .retry = 100ms};
+  ExchangeTiming timing{.match = 60s, .reply = 60s, .retry = 100ms};
   ASSERT_EQ(client.Identify(Request("first"), timing).outcome, ExchangeOutcome::kRefused);
 
   daemon->Suspend();
   timing.reply = 500ms;
   EXPECT_EQ(client.Identify(Request("second"), timing).outcome, ExchangeOutcome::kTimedOut);
   daemon->Resume();
-  timing.reply = 20s;
+  timing.reply = 60s;
   EXPECT_EQ(client.Identify(Request("second"), timing).outcome, ExchangeOutcome::kRefused);
 }
 
@@ -300,7 +300,7 @@ TEST_F(Daemon, AnswersACorrelationIdOnce) {
   ReplaySimulation();
   const Participant participant(domain_.id());
   IdentificationClient client(participant);
-  const ExchangeTiming timing{.match = 20s, .reply = 60s, .retry = 1s};
+  const ExchangeTiming timing{.match = 60s, .reply = 60s, .retry = 1s};
   const auto first = client.Identify(Request("the-same"), timing);
   const auto again = client.Identify(Request("the-same"), timing);
   const auto other = client.Identify(Request("another"), timing);
@@ -316,7 +316,7 @@ TEST_F(Daemon, FailsARequestItCannotTakeAndGoesOn) {
   const auto daemon = StartDaemon();
   const Participant participant(domain_.id());
   IdentificationClient client(participant);
-  const ExchangeTiming timing{.match = 20s, .reply = 20s, .retry = 1s};
+  const ExchangeTiming timing{.match = 60s, .reply = 60s, .retry = 1s};
   IdentifyRequest wrong = Request("too-few-replicates");
   wrong.bootstrap_replicates = 7;
   const auto answer = client.Identify(wrong, timing);

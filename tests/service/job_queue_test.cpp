@@ -40,15 +40,15 @@ class HeldWork {
     ++inside_;
     most_for_one_ = std::max(most_for_one_, ++inside_for_[vehicle_id]);
     changed_.notify_all();
-    changed_.wait_for(lock, 20s, [this] { return free_; });
+    changed_.wait_for(lock, 60s, [this] { return free_; });
     --inside_;
     --inside_for_[vehicle_id];
   }
 
-  /// False when fewer than `count` have come within 20 s.
+  /// False when fewer than `count` have come within a minute.
   bool AwaitInside(int count) {
     std::unique_lock lock(mutex_);
-    return changed_.wait_for(lock, 20s, [&] { return inside_ >= count; });
+    return changed_.wait_for(lock, 60s, [&] { return inside_ >= count; });
   }
 
   void LetGo() {

@@ -108,7 +108,7 @@ std::optional<Quality> ServiceTest::AwaitQuality(
         if (quality.vehicle_id == vehicle_id && as_expected(quality)) found = quality;
       },
       [](const CodecError& error) { ADD_FAILURE() << error.Message(); });
-  const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(20);
+  const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(60);
   while (!found && std::chrono::steady_clock::now() < deadline) {
     qualities.Wait(std::chrono::seconds(1));
   }

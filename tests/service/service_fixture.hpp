@@ -53,7 +53,7 @@ class ServiceTest : public ::testing::Test {
 
   IdentifyRequest Request(const std::string& correlation_id) const;
 
-  /// The first report on `vehicle_id` that is `as_expected`; empty when none is within 20 s.
+  /// The first report on `vehicle_id` that is `as_expected`; empty when none is within a minute.
   std::optional<Quality> AwaitQuality(const std::string& vehicle_id,
                                       const std::function<bool(const Quality&)>& as_expected) const;
 

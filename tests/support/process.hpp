@@ -22,7 +22,7 @@ class Process {
   /// Reads on until standard output and error together contain `text`; false when the program ended
   /// or `timeout` passed without.
   bool WaitForOutput(std::string_view text,
-                     std::chrono::seconds timeout = std::chrono::seconds(30));
+                     std::chrono::seconds timeout = std::chrono::seconds(60));
 
   /// The exit code, or nothing when it ended otherwise or is still running after `timeout`.
   std::optional<int> Wait(std::chrono::seconds timeout = std::chrono::seconds(180));
