@@ -1,6 +1,5 @@
 #include "diagnosis/diagnosis_store.hpp"
 
-#include <stdexcept>
 #include <string>
 #include <utility>
 
@@ -9,20 +8,9 @@
 
 #include "codec/report_json.hpp"
 #include "state/database.hpp"
+#include "state/kept.hpp"
 
 namespace telltale {
-namespace {
-
-/// What is kept of a diagnosis: nothing that neither the next process nor a client could read.
-std::string Kept(const Diagnosis& diagnosis) {
-  const proto::Report message = ToProto(diagnosis);
-  if (const auto again = DiagnosisOf(message, "diagnosis"); !again) {
-    throw std::runtime_error("not published, as nobody could read it: " + again.error().Message());
-  }
-  return message.SerializeAsString();
-}
-
-}  // namespace
 
 DiagnosisStore::DiagnosisStore(const std::filesystem::path& directory)
     : database_(OpenDatabase(directory)) {
@@ -38,7 +26,8 @@ DiagnosisStore::DiagnosisStore(DiagnosisStore&&) noexcept = default;
 DiagnosisStore& DiagnosisStore::operator=(DiagnosisStore&&) noexcept = default;
 
 void DiagnosisStore::Save(const PublishedDiagnosis& diagnosis) {
-  const std::string blob = Kept(diagnosis.diagnosis);
+  const proto::Report message = ToProto(diagnosis.diagnosis);
+  const std::string blob = Kept(message, DiagnosisOf(message, "diagnosis"));
   SQLite::Statement insert(*database_, "INSERT OR REPLACE INTO diagnoses VALUES (?, ?, ?, ?)");
   insert.bind(1, diagnosis.diagnosis.vehicle_id);
   insert.bind(2, static_cast<std::int64_t>(diagnosis.model_revision));

@@ -14,8 +14,8 @@ class Database;
 namespace telltale {
 
 /// Keeps the last diagnosis of every vehicle on disk, beside the models.
-/// Throws SQLite::Exception when the disk will not have it; what was saved before stays whole.
-/// Not thread safe.
+/// Throws SQLite::Exception when the disk will not have it, std::runtime_error naming the field
+/// when it could not be read back; what was saved before stays whole. Not thread safe.
 class DiagnosisStore {
  public:
   /// In the database of `directory`, OpenDatabase().

@@ -1,12 +1,11 @@
 #include "models/model_store.hpp"
 
-#include <stdexcept>
-
 #include <SQLiteCpp/SQLiteCpp.h>
 #include <spdlog/spdlog.h>
 
 #include "codec/model_json.hpp"
 #include "state/database.hpp"
+#include "state/kept.hpp"
 
 namespace telltale {
 namespace {
@@ -36,16 +35,6 @@ std::optional<StoredModel> ReadRow(SQLite::Statement& row) {
   return stored;
 }
 
-/// What is kept of a model. What could not be read back would be lost with this process, and no
-/// client can read it either.
-std::string Kept(const Identification& identification) {
-  const proto::Model message = ToProto(identification);
-  if (const auto again = IdentificationOf(message, "model"); !again) {
-    throw std::runtime_error("not published, as nobody could read it: " + again.error().Message());
-  }
-  return message.SerializeAsString();
-}
-
 }  // namespace
 
 ModelStore::ModelStore(const std::filesystem::path& directory)
@@ -64,7 +53,8 @@ ModelStore& ModelStore::operator=(ModelStore&&) noexcept = default;
 
 StoredModel ModelStore::Save(const Identification& identification, double published_unix_s,
                              const std::optional<FreeRunError>& reference_error) {
-  const std::string blob = Kept(identification);
+  const proto::Model message = ToProto(identification);
+  const std::string blob = Kept(message, IdentificationOf(message, "model"));
   SQLite::Transaction transaction(*database_, SQLite::TransactionBehavior::IMMEDIATE);
   SQLite::Statement next(*database_,
                          "SELECT COALESCE(MAX(revision), 0) + 1 FROM models WHERE vehicle_id = ?");
