@@ -100,17 +100,24 @@ TEST(WireModel, CarriesTheThrusterTimeConstant) {
   ExpectSame(*received, sent);
 }
 
+/// That a reader takes neither what is no number nor one too few in `numbers`, called `field`.
+void ExpectANumberForEachCoefficient(const PublishedModel& sent,
+                                     dds_sequence_double telltale_wire_Model::*numbers,
+                                     const std::string& field) {
+  auto wire = Encode(sent);
+  ((*wire).*numbers)._buffer[2] = kNan;
+  EXPECT_EQ(Decode(*wire).error().field, field);
+  wire = Encode(sent);
+  ((*wire).*numbers)._length -= 1;
+  EXPECT_EQ(Decode(*wire).error().value, "34 numbers");
+}
+
 TEST(WireModel, CarriesWhatTheModelIsSailedWith) {
   const PublishedModel sent{MadeUpSailedIdentification(), 8, 1700000700.5};
   const auto received = Decode(*Encode(sent));
   ASSERT_TRUE(received) << received.error().Message();
   ExpectSame(*received, sent);
-  auto wire = Encode(sent);
-  wire->sailed._buffer[2] = kNan;
-  EXPECT_EQ(Decode(*wire).error().field, "sailed");
-  wire = Encode(sent);
-  wire->sailed._length -= 1;
-  EXPECT_EQ(Decode(*wire).error().value, "34 numbers");
+  ExpectANumberForEachCoefficient(sent, &telltale_wire_Model::sailed, "sailed");
 }
 
 TEST(WireModel, AnOlderWriterSendsNoCovarianceOfTheTimeConstant) {
@@ -123,12 +130,8 @@ TEST(WireModel, AnOlderWriterSendsNoCovarianceOfTheTimeConstant) {
 
 TEST(WireModel, TheCovarianceOfTheTimeConstantHasANumberForEachCoefficient) {
   PublishedModel sent{MadeUpDynamicIdentification(), 8, 1700000700.5};
-  auto wire = Encode(sent);
-  wire->thruster_time_constant_covariance._buffer[3] = kNan;
-  EXPECT_EQ(Decode(*wire).error().field, "thruster_time_constant_covariance");
-  wire = Encode(sent);
-  wire->thruster_time_constant_covariance._length -= 1;
-  EXPECT_EQ(Decode(*wire).error().value, "34 numbers");
+  ExpectANumberForEachCoefficient(sent, &telltale_wire_Model::thruster_time_constant_covariance,
+                                  "thruster_time_constant_covariance");
   sent.identification.structure = Structure::kStaticQuadratic;
   sent.identification.thruster_time_constant.reset();
   EXPECT_EQ(Decode(*Encode(sent)).error().field, "thruster_time_constant_covariance");
