@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <optional>
 #include <string>
 
@@ -30,26 +29,37 @@ std::optional<double> FurthestWithinBounds(const Identification& identification,
   return furthest;
 }
 
-bool Sails(const PreparedDataset& dataset, const Identification& identification, double horizon_s) {
-  const auto model = ModelOf(identification);
-  if (!model) return false;
-  const Runaways count = CountRunaways(dataset, *model, horizon_s);
-  return count.runs > 0 && count.runaways == 0;
+/// The length of the longest free runs that neither run away themselves nor do shorter ones: long
+/// runs are few, and start from few states. Zero where some of the shortest run away.
+double SailsForS(const PreparedDataset& dataset, const VesselModel& model) {
+  double longest_s = 0.0;
+  for (const double horizon_s : kRunsOfS) {
+    const Runaways count = CountRunaways(dataset, model, horizon_s);
+    if (count.runaways > 0) break;
+    if (count.runs > 0) longest_s = horizon_s;
+  }
+  return longest_s;
 }
 
-/// Coefficients as near to the estimates as sails for so long, and how near that is in standard
-/// errors.
-std::optional<double> DrawInUntilItSails(const PreparedDataset& dataset, double horizon_s,
-                                         Identification& identification) {
+/// Coefficients to sail with.
+struct Drawing {
+  Eigen::VectorXd theta;
+  double furthest = 0.0;  ///< from the estimates, in standard errors
+  double sails_s = 0.0;
+};
+
+/// Those within the bounds that sail for longest, and of them the nearest to the estimates.
+std::optional<Drawing> DrawnIn(const PreparedDataset& dataset, Identification identification) {
+  std::optional<Drawing> best;
   for (const double trust : kTrusts) {
     const Eigen::VectorXd theta = TamedEstimates(identification, trust);
     const auto furthest = FurthestWithinBounds(identification, theta);
     if (!furthest) break;
     identification.sailed.assign(theta.begin(), theta.end());
-    if (Sails(dataset, identification, horizon_s)) return furthest;
+    const double sails_s = SailsForS(dataset, *ModelOf(identification));
+    if (sails_s > (best ? best->sails_s : 0.0)) best = Drawing{theta, *furthest, sails_s};
   }
-  identification.sailed.clear();
-  return std::nullopt;
+  return best;
 }
 
 /// In how many of the shortest runs in which it does so at all the model runs away.
@@ -66,14 +76,12 @@ std::optional<std::string> RunsAway(const PreparedDataset& dataset, const Vessel
 /// How the model is sailed in spite of its estimates, if it can be.
 std::optional<std::string> DrawIn(const PreparedDataset& dataset, Identification& identification) {
   if (identification.estimator == Estimator::kOneStep) return std::nullopt;
-  for (auto horizon_s = std::rbegin(kRunsOfS); horizon_s != std::rend(kRunsOfS); ++horizon_s) {
-    const auto furthest = DrawInUntilItSails(dataset, *horizon_s, identification);
-    if (!furthest) continue;
-    return "it is sailed with coefficients drawn towards zero along what the data leave open, by " +
-           Number(*furthest, 1) + " standard errors at most, and so runs for " +
-           Number(*horizon_s, 0) + " s";
-  }
-  return std::nullopt;
+  const auto drawing = DrawnIn(dataset, identification);
+  if (!drawing) return std::nullopt;
+  identification.sailed.assign(drawing->theta.begin(), drawing->theta.end());
+  return "it is sailed with coefficients drawn towards zero along what the data leave open, by " +
+         Number(drawing->furthest, 1) + " standard errors at most, and so runs for " +
+         Number(drawing->sails_s, 0) + " s";
 }
 
 }  // namespace

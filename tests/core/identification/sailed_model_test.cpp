@@ -47,7 +47,9 @@ TEST(SailedModel, StaysWithinBoundsAndDoesNotRunAway) {
     EXPECT_GE(model.sailed[i], before[i].interval.lower) << i;
     EXPECT_LE(model.sailed[i], before[i].interval.upper) << i;
   }
-  EXPECT_EQ(CountRunaways(RecordedAfloat(), *ModelOf(model), 30.0).runaways, 0U);
+  for (const double horizon_s : {5.0, 15.0, 30.0}) {
+    EXPECT_EQ(CountRunaways(RecordedAfloat(), *ModelOf(model), horizon_s).runaways, 0U);
+  }
   ASSERT_EQ(model.refusals.size(), 1U);
   EXPECT_THAT(model.refusals[0].reason, ::testing::HasSubstr("it is sailed with"));
   // 2 / (1 + 9 / (t 2)^2), by hand: 0.62, 0.077, 0.0089 for t = 1, 0.3, 0.1; drag u|u| of -0.35
