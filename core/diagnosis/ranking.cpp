@@ -14,12 +14,12 @@ constexpr double kNeverInHealth = 0.9;
 // Times the limit: what an upper bound may be of a gap that is no more than health.
 constexpr double kEquivalent = 2.0;
 // The logarithm of the odds that it is something else: so much a unit of ln of what is left, with
-// an even chance at this much, and this much sooner for several effects together, which mend
-// between them what none of them is. By the logarithmic score, of explanations by true effects and
+// an even chance at this much, and this much sooner for each further effect: several mend between
+// them what none of them is. By the logarithmic score, of explanations by true effects and
 // of those by others where the true one was left out, the latter a quarter of all.
 constexpr double kSharpness = 2.7;
 constexpr double kEvenAt = -0.9;
-constexpr double kSoonerTogether = 1.5;
+constexpr double kSoonerEach = 1.5;
 constexpr double kLeastShare = 0.02;
 constexpr double kExplained = 0.7;  // of the gap
 
@@ -27,13 +27,15 @@ double Logistic(double x) {
   return 1.0 / (1.0 + std::exp(-x));
 }
 
-/// Probability that it is something else, by what the likeliest explanation leaves.
-double DoubtOf(const Remainder& remainder, bool together) {
+/// Probability that it is something else, by what the likeliest explanation, of so many effects,
+/// leaves.
+double DoubtOf(const Remainder& remainder, std::size_t effects) {
   const double excess = remainder.after - remainder.healthy;
   const double before = std::max(remainder.before - remainder.healthy, excess);
   const double share = before > 0.0 ? std::max(excess / before, kLeastShare) : kLeastShare;
   const double left = std::log(share) + std::log(remainder.after / remainder.healthy);
-  return Logistic(kSharpness * (left - kEvenAt + (together ? kSoonerTogether : 0.0)));
+  const double sooner = kSoonerEach * static_cast<double>(effects - 1);
+  return Logistic(kSharpness * (left - kEvenAt + sooner));
 }
 
 }  // namespace
@@ -77,7 +79,7 @@ Ranking Rank(const Explanations& explanations, const Judge& judge, const Remaind
     alike->probability += own;
     alike->alike.push_back(fit);
   }
-  ranking.unknown = DoubtOf(remainder, all.front().effects.size() > 1);
+  ranking.unknown = DoubtOf(remainder, all.front().effects.size());
   const double known = (1.0 - ranking.unknown) / total;
   ranking.nothing *= known;
   for (RankedFit& ranked : ranking.fits) ranked.probability *= known;
