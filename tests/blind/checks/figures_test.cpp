@@ -1,4 +1,5 @@
 #include "score/figures.hpp"
+#include "score/confusable.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -6,6 +7,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "score/confusable.hpp"
 #include "score/tables.hpp"
 
 namespace blind::score {
@@ -145,6 +147,8 @@ TEST(Figures, CountWrongNamesGivenWithoutTheTrueEffect) {
   };
   const Figures figures = FiguresOf({
       left_out({}, "EXPLAINED", Named({"current"}, 0.9)),
+      left_out({}, "EXPLAINED", Named({"payload"}, 0.9)),
+      left_out({}, "EXPLAINED", Named({"current", "payload"}, 0.9)),
       left_out({"current"}, "EXPLAINED", Named({"current"}, 0.9)),
       left_out({}, "EXPLAINED", Named({"current"}, 0.5)),
       left_out({}, "PARTLY_EXPLAINED", Named({"current"}, 0.9)),
@@ -152,9 +156,18 @@ TEST(Figures, CountWrongNamesGivenWithoutTheTrueEffect) {
       left_out({}, "NO_MATERIAL_GAP", Named({"current"}, 0.9)),
       Answer("single", {"wind"}, "EXPLAINED", {Named({"current"}, 0.9)}),
   });
-  EXPECT_EQ(figures.confidently_wrong.hits, 1u);
-  EXPECT_EQ(figures.confidently_wrong.all, 5u) << "a gap has to be seen";
+  EXPECT_EQ(figures.confidently_wrong.hits, 3u);
+  EXPECT_EQ(figures.confidently_wrong.all, 7u) << "a gap has to be seen";
+  EXPECT_EQ(figures.stranger_named.hits, 1u) << "wind and current are known to look alike";
+  EXPECT_EQ(figures.stranger_named.all, 7u);
   EXPECT_EQ(figures.neighbour_named.hits, 1u);
+}
+
+TEST(Confusable, IsAPairWhicheverWayRound) {
+  EXPECT_TRUE(AreConfusable("thruster_lag", "thruster_delay"));
+  EXPECT_TRUE(AreConfusable("thruster_delay", "thruster_lag"));
+  EXPECT_FALSE(AreConfusable("thruster_lag", "payload"));
+  EXPECT_FALSE(AreConfusable("payload", "payload"));
 }
 
 TEST(Median, IsTheMiddle) {

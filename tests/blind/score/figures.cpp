@@ -7,6 +7,8 @@
 #include <limits>
 #include <numeric>
 
+#include "score/confusable.hpp"
+
 namespace blind::score {
 namespace {
 
@@ -89,6 +91,14 @@ bool IsNeighbour(const Cause& cause, const Scored& scored) {
                      });
 }
 
+/// Whether any effect of the cause is known to look like any of the true ones.
+bool LooksAlike(const Cause& cause, const EffectSet& truth) {
+  return std::any_of(cause.effects.begin(), cause.effects.end(), [&](const std::string& named) {
+    return std::any_of(truth.begin(), truth.end(),
+                       [&](const std::string& effect) { return AreConfusable(named, effect); });
+  });
+}
+
 void CountLeftOut(Figures& figures, const Scored& scored) {
   if (!scored.left_out || !ReportsGap(*scored.left_out)) return;
   const Cause* first = FirstCause(*scored.left_out);
@@ -96,6 +106,7 @@ void CountLeftOut(Figures& figures, const Scored& scored) {
                     scored.left_out->verdict == "EXPLAINED";
   const bool neighbour = first && IsNeighbour(*first, scored);
   figures.confidently_wrong.Count(sure && !neighbour);
+  figures.stranger_named.Count(sure && !neighbour && !LooksAlike(*first, scored.label.effects));
   figures.neighbour_named.Count(neighbour);
 }
 

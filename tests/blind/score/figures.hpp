@@ -88,6 +88,7 @@ struct Figures {
   Rate exact_pairs;    // both of two effects and no other, each up to its class
   Rate half_pairs;     // at least one of the two
   Rate confidently_wrong;  // true effect left out, gap seen: EXPLAINED by one unlike it, over 0.5
+  Rate stranger_named;     // of all that too, by nothing that is known to look like it either
   Rate neighbour_named;    // likewise, by one that the report with it cannot tell it from
   std::vector<Forecast> forecasts;               // of each first cause there was
   std::vector<double> closures;                  // predicted, where a class was hit

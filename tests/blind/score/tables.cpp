@@ -74,6 +74,8 @@ std::vector<Row> Rows() {
       {"at least one of two", [](const Figures& f) { return InWords(f.half_pairs); }},
       {"true effect left out: another named for sure (95 % bound)",
        [](const Figures& f) { return WithBound(f.confidently_wrong); }},
+      {"of them by none that is known to look like it",
+       [](const Figures& f) { return WithBound(f.stranger_named); }},
       {"true effect left out: one of its class named",
        [](const Figures& f) { return InWords(f.neighbour_named); }},
       {"Brier (forecasts)", [](const Figures& f) { return OfForecasts(Brier, f); }},
