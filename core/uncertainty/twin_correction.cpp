@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <mutex>
-#include <numeric>
 
 #include <boost/random/normal_distribution.hpp>
 
@@ -12,107 +11,24 @@
 #include "estimation/residual_correlation.hpp"
 #include "linear_algebra/covariance.hpp"
 #include "linear_algebra/decompositions.hpp"
-#include "median.hpp"
 #include "parallel.hpp"
 #include "random.hpp"
 #include "simulation/dataset_twin.hpp"
-#include "uncertainty/laws.hpp"
+#include "uncertainty/twin_calibration.hpp"
 
 namespace telltale {
 namespace {
 
-constexpr double kCalibratedAt = 0.95;
 constexpr std::size_t kQuietTwins = 2;
 // Of the expected distance of the truth from the estimate: how plain the boats are that are
 // sailed. Plainer ones are less wild than the truth may be, and tell of another bias.
 constexpr double kReaches[] = {0.1, 0.5, 2.0, 8.0};
-
-/// How far one twin's estimate was off, in whitened coordinates.
-struct Sighting {
-  Eigen::VectorXd error;
-  Eigen::MatrixXd covariance;
-};
-
-/// Whether there is anything to compare: where instruments all but vanish numbers overflow.
-bool IsSound(const Sighting& sighting) {
-  return sighting.error.allFinite() && sighting.covariance.allFinite() &&
-         (sighting.covariance.diagonal().array() > 0.0).all();
-}
 
 bool IsSound(const TwinCorrection& correction) {
   return correction.theta.allFinite() && correction.covariance.allFinite() &&
          (correction.covariance.diagonal().array() > 0.0).all() &&
          std::isfinite(correction.joint.covariance_factor);
 }
-
-double Quantile(std::vector<double> values, double share) {
-  const auto at = static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
-  std::nth_element(values.begin(), values.begin() + at, values.end());
-  return values[static_cast<std::size_t>(at)];
-}
-
-double MedianSize(std::vector<double> values, double about) {
-  for (double& value : values) value = std::abs(value - about);
-  return Median(std::move(values));
-}
-
-/// Weights of the twins, below one for those that lie wildly apart from the rest in any direction:
-/// where instruments are weak a single twin can be off by any amount. A twin is weighed as a whole,
-/// since coefficients err together: drawn in one by one they would no longer fit each other.
-std::vector<double> WeighWild(const std::vector<Sighting>& sightings) {
-  constexpr double kWild = 4.0;
-  constexpr double kMadToSigma = 1.4826;
-  std::vector<double> weights(sightings.size(), 1.0);
-  for (Eigen::Index j = 0; j < sightings.front().error.size(); ++j) {
-    std::vector<double> values;
-    for (const Sighting& s : sightings) values.push_back(s.error[j]);
-    const double middle = Median(values);
-    const double reach = kWild * kMadToSigma * MedianSize(values, middle);
-    for (std::size_t i = 0; i < values.size(); ++i) {
-      const double off = std::abs(values[i] - middle);
-      if (off > reach) weights[i] = std::min(weights[i], reach / off);
-    }
-  }
-  return weights;
-}
-
-/// Weighed mean and standard deviation of the twins.
-struct Spread {
-  Eigen::VectorXd mean;
-  Eigen::VectorXd sd;
-};
-
-Spread SpreadOf(const std::vector<Sighting>& sightings) {
-  const std::vector<double> weights = WeighWild(sightings);
-  const double n = std::accumulate(weights.begin(), weights.end(), 0.0);
-  const Eigen::Index p = sightings.front().error.size();
-  Spread spread{Eigen::VectorXd::Zero(p), Eigen::VectorXd::Zero(p)};
-  for (std::size_t i = 0; i < weights.size(); ++i) {
-    spread.mean += weights[i] / n * sightings[i].error;
-  }
-  for (std::size_t i = 0; i < weights.size(); ++i) {
-    spread.sd += weights[i] / (n - 1.0) * (sightings[i].error - spread.mean).cwiseAbs2();
-  }
-  spread.sd = spread.sd.cwiseSqrt();
-  return spread;
-}
-
-/// What the next value stays below with probability `share`, after few positive ones: by way of the
-/// middle and the spread of their logarithms, known no better than so few tell.
-double LogNormalQuantile(std::vector<double> values, double share) {
-  constexpr double kMadToSigma = 1.4826;
-  const auto n = static_cast<double>(values.size());
-  for (double& value : values) value = std::log(value);
-  const double middle = Median(values);
-  const double sigma = kMadToSigma * MedianSize(values, middle);
-  return std::exp(middle + sigma * std::sqrt(1.0 + 1.0 / n) * StudentQuantile(n - 1.0, share));
-}
-
-/// Unknowns that are estimated together: the time constant, the coefficients of one equation.
-struct Block {
-  Eigen::Index begin = 0;
-  Eigen::Index size = 0;
-};
 
 std::vector<Block> BlocksOf(const WeakFit& fit) {
   std::vector<Block> blocks;
@@ -189,12 +105,15 @@ class TwinFleet {
     disturbance_.time_constant_s *= twins_.time_scale;
     const auto sightings = Sight(sailable->boats);
     if (2 * sightings.size() < twins_.twins) return std::nullopt;
-    const Spread spread = SpreadOf(sightings);
-    correction.theta = fit_.theta - Believed(white_.map * spread.mean, sailable->boats);
     correction.solved = sightings.size();
     correction.failures = twins_.twins - sightings.size();
     correction.degrees_of_freedom = static_cast<double>(fit_.scores.cols()) - 1.0;
-    Calibrate(sightings, spread, correction);
+    const auto calibration =
+        Calibrate(sightings, white_.map, blocks_, correction.degrees_of_freedom);
+    if (!calibration) return std::nullopt;
+    correction.theta = fit_.theta - Believed(calibration->bias, sailable->boats);
+    correction.covariance = Mapped(calibration->scale, white_.Of(clustered_));
+    correction.joint = {calibration->covariance_factor, correction.degrees_of_freedom};
     if (!IsSound(correction)) return std::nullopt;
     return correction;
   }
@@ -310,54 +229,6 @@ class TwinFleet {
     const std::lock_guard lock(telling_);
     ++done_;
     if (progress_) progress_(static_cast<double>(done_) / static_cast<double>(twins_.twins));
-  }
-
-  /// The twins' errors give each whitened direction its size, and tell how much further intervals
-  /// and ellipsoids that each twin makes from its own clusters, sized alike, have to reach.
-  void Calibrate(const std::vector<Sighting>& sightings, const Spread& spread,
-                 TwinCorrection& correction) const {
-    const auto n = static_cast<double>(sightings.size());
-    const auto p = static_cast<double>(correction.theta.size());
-    std::vector<Sighting> sized;
-    for (const Sighting& s : sightings) {
-      // The mean was fitted to these very twins.
-      sized.push_back(
-          {std::sqrt(n / (n - 1.0)) * (s.error - spread.mean), Scaled(s.covariance, spread.sd)});
-    }
-    const Eigen::VectorXd stretch = StretchOf(sized, correction.degrees_of_freedom);
-    std::vector<double> joint;
-    for (const Sighting& s : sized) {
-      const Eigen::VectorXd off = s.error.cwiseQuotient(stretch);
-      joint.push_back(off.dot(s.covariance.ldlt().solve(off)) / p);
-    }
-    // The mean of few twins errs along the very directions in which single twins do.
-    const Eigen::MatrixXd scaled =
-        std::sqrt(1.0 + 1.0 / n) * (white_.map * spread.sd.cwiseProduct(stretch).asDiagonal());
-    correction.covariance = Mapped(scaled, white_.Of(clustered_));
-    correction.joint = {LogNormalQuantile(joint, kCalibratedAt) /
-                            JointQuantile(correction.degrees_of_freedom, p, kCalibratedAt),
-                        correction.degrees_of_freedom};
-  }
-
-  /// By what the standard errors of each block have to be stretched for the twins' own intervals to
-  /// hold; never below one, as twins know only what they were told of the boat.
-  Eigen::VectorXd StretchOf(const std::vector<Sighting>& sized, double degrees_of_freedom) const {
-    std::vector<std::vector<double>> pivots(blocks_.size());
-    for (const Sighting& s : sized) {
-      const Eigen::VectorXd sizes = Mapped(white_.map, s.covariance).diagonal().cwiseSqrt();
-      const Eigen::VectorXd pivot = (white_.map * s.error).cwiseQuotient(sizes).cwiseAbs();
-      for (std::size_t b = 0; b < blocks_.size(); ++b) {
-        const auto of_block = pivot.segment(blocks_[b].begin, blocks_[b].size);
-        pivots[b].insert(pivots[b].end(), of_block.begin(), of_block.end());
-      }
-    }
-    const double promised = StudentQuantile(degrees_of_freedom, 0.5 * (1.0 + kCalibratedAt));
-    Eigen::VectorXd stretch(white_.map.rows());
-    for (std::size_t b = 0; b < blocks_.size(); ++b) {
-      stretch.segment(blocks_[b].begin, blocks_[b].size)
-          .setConstant(std::max(1.0, Quantile(pivots[b], kCalibratedAt) / promised));
-    }
-    return stretch;
   }
 
   const PreparedDataset& dataset_;

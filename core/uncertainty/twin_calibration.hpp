@@ -1,0 +1,44 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include <Eigen/Core>
+
+namespace telltale {
+
+/// Unknowns that are estimated together: the time constant, the coefficients of one equation.
+struct Block {
+  Eigen::Index begin = 0;
+  Eigen::Index size = 0;
+};
+
+/// How far a twin's estimate was off the boat it was sailed with, and the covariance that it made
+/// of its own clusters. Both in one kind of coordinates: whitened ones or those of the unknowns.
+struct Sighting {
+  Eigen::VectorXd error;
+  Eigen::MatrixXd covariance;
+};
+
+/// False where instruments all but vanished and numbers overflowed.
+bool IsSound(const Sighting& sighting);
+
+/// What twins tell of an estimate and of the covariance C that clusters gave it.
+struct TwinCalibration {
+  Eigen::VectorXd bias;            ///< of the estimate, as unknowns
+  Eigen::MatrixXd scale;           ///< bounds that hold are those of scale C scale', C whitened
+  double covariance_factor = 1.0;  ///< of JointBounds
+};
+
+/// Sizes each whitened direction by the twins' scatter, and stretches the standard errors of each
+/// block, and of each unknown against its block, until intervals that each twin makes of its own
+/// clusters, sized by the other twins, hold 95 %; docs/model.md (33), (35).
+/// Assumes: the true boat stands to the twins as each of them stands to the others.
+/// Shapes: sightings whitened; unknowns = map * whitened, block by block.
+/// Requires: three sightings or more, all sound. Nothing where numbers overflow.
+std::optional<TwinCalibration> Calibrate(const std::vector<Sighting>& sightings,
+                                         const Eigen::MatrixXd& map,
+                                         const std::vector<Block>& blocks,
+                                         double degrees_of_freedom);
+
+}  // namespace telltale

@@ -1,0 +1,166 @@
+#include "uncertainty/twin_calibration.hpp"
+
+#include <cmath>
+#include <limits>
+
+#include <gtest/gtest.h>
+#include <boost/random/normal_distribution.hpp>
+
+#include "contract.hpp"
+#include "random.hpp"
+#include "uncertainty/joint_bounds.hpp"
+#include "uncertainty/laws.hpp"
+
+namespace telltale {
+namespace {
+
+constexpr Eigen::Index kUnknowns = 10;
+constexpr double kDegreesOfFreedom = 30.0;
+const std::vector<Block> kBlocks = {{0, 1}, {1, 4}, {5, 5}};
+
+/// A law of estimates that is known: a bias, another scatter along each whitened direction, and
+/// clusters that tell the covariance as well as so many normal looks do, times a wrong `size`.
+class KnownLaw {
+ public:
+  KnownLaw(double size, std::uint64_t seed) : size_(size), engine_(seed) {}
+
+  Sighting Draw() {
+    Sighting sighting{Eigen::VectorXd(kUnknowns), Eigen::MatrixXd::Zero(kUnknowns, kUnknowns)};
+    for (Eigen::Index j = 0; j < kUnknowns; ++j) {
+      sighting.error[j] = Bias(j) + Scatter(j) * normal_(engine_);
+    }
+    for (int look = 0; look < static_cast<int>(kDegreesOfFreedom); ++look) {
+      Eigen::VectorXd x(kUnknowns);
+      for (double& value : x) value = normal_(engine_);
+      sighting.covariance += size_ / kDegreesOfFreedom * x * x.transpose();
+    }
+    return sighting;
+  }
+
+  static double Bias(Eigen::Index j) { return j == 2 ? 1.0 : 0.0; }
+  static double Scatter(Eigen::Index j) { return 0.5 + 0.2 * static_cast<double>(j); }
+
+ private:
+  double size_;
+  RandomEngine engine_;
+  boost::random::normal_distribution<double> normal_;
+};
+
+/// Unknowns of a block are combinations of its whitened directions.
+Eigen::MatrixXd Map() {
+  Eigen::MatrixXd map = Eigen::MatrixXd::Zero(kUnknowns, kUnknowns);
+  for (const auto& [begin, size] : kBlocks) {
+    for (Eigen::Index i = 0; i < size; ++i) {
+      for (Eigen::Index j = 0; j <= i; ++j) map(begin + i, begin + j) = i == j ? 2.0 : 0.7;
+    }
+  }
+  return map;
+}
+
+struct Held {
+  double intervals = 0.0;  // percent
+  double ellipsoids = 0.0;
+};
+
+/// How often bounds from forty twins hold the truth, an estimate of the same law, over 400 repeats:
+/// an ellipsoid's share is known to 1.1 points, that of ten intervals together to less.
+Held HoldWhereClustersSay(double size) {
+  constexpr int kRepeats = 400;
+  const double t = StudentQuantile(kDegreesOfFreedom, 0.975);
+  Held held;
+  for (int repeat = 0; repeat < kRepeats; ++repeat) {
+    KnownLaw law(size, 7 + static_cast<std::uint64_t>(repeat));
+    std::vector<Sighting> twins;
+    for (int i = 0; i < 40; ++i) twins.push_back(law.Draw());
+    const auto calibration = Calibrate(twins, Map(), kBlocks, kDegreesOfFreedom);
+    const Sighting estimate = law.Draw();
+    const Eigen::VectorXd off = Map() * estimate.error - calibration->bias;
+    const Eigen::MatrixXd covariance =
+        calibration->scale * estimate.covariance * calibration->scale.transpose();
+    const Eigen::ArrayXd sizes = covariance.diagonal().array().sqrt();
+    const auto within = (off.array().abs() <= t * sizes).count();
+    held.intervals += 100.0 * static_cast<double>(within) / kUnknowns / kRepeats;
+    const double square = off.dot(covariance.ldlt().solve(off));
+    const JointBounds joint{calibration->covariance_factor, kDegreesOfFreedom};
+    if (square <= SquaredRadius(joint, kUnknowns, 0.95)) held.ellipsoids += 100.0 / kRepeats;
+  }
+  return held;
+}
+
+/// Three standard errors of the shares to either side of 95.
+TEST(TwinCalibration, BoundsHoldWhereTheTruthIsAnotherTwin) {
+  const Held held = HoldWhereClustersSay(1.0);
+  EXPECT_NEAR(held.intervals, 95.0, 1.5);
+  EXPECT_NEAR(held.ellipsoids, 95.0, 3.3);
+}
+
+TEST(TwinCalibration, StretchesWhatHoldsTooSeldom) {
+  const Held held = HoldWhereClustersSay(1.0 / 3.0);
+  EXPECT_NEAR(held.intervals, 95.0, 1.5);
+  EXPECT_NEAR(held.ellipsoids, 95.0, 3.3);
+}
+
+/// Intervals 1.7 times as wide as they need be would hold 99.9 %.
+TEST(TwinCalibration, DrawsInPartOfWhatHoldsTooOften) {
+  const Held held = HoldWhereClustersSay(3.0);
+  EXPECT_GT(held.intervals, 95.0);
+  EXPECT_LT(held.intervals, 99.3);
+}
+
+/// The mean of forty draws is known to their scatter over sqrt(40), four times which none of ten
+/// leaves; scatters add up as squares in a combination.
+TEST(TwinCalibration, TellsTheBias) {
+  KnownLaw law(1.0, 11);
+  std::vector<Sighting> twins;
+  for (int i = 0; i < 40; ++i) twins.push_back(law.Draw());
+  const auto calibration = Calibrate(twins, Map(), kBlocks, kDegreesOfFreedom);
+  Eigen::VectorXd bias(kUnknowns);
+  Eigen::VectorXd variances(kUnknowns);
+  for (Eigen::Index j = 0; j < kUnknowns; ++j) {
+    bias[j] = KnownLaw::Bias(j);
+    variances[j] = KnownLaw::Scatter(j) * KnownLaw::Scatter(j);
+  }
+  const Eigen::VectorXd expected = Map() * bias;
+  const Eigen::VectorXd scatter = (Map().cwiseAbs2() * variances).cwiseSqrt();
+  for (Eigen::Index j = 0; j < kUnknowns; ++j) {
+    EXPECT_NEAR(calibration->bias[j], expected[j], 4.0 * scatter[j] / std::sqrt(40.0)) << j;
+  }
+}
+
+/// One twin in forty that is a hundred times as far off as it was, weighed by some 4 in 100, adds
+/// about ten to a variance of one. Unweighed it would make scatters sixteen times as large.
+TEST(TwinCalibration, IsNotCarriedAwayByAWildTwin) {
+  KnownLaw law(1.0, 13);
+  std::vector<Sighting> twins;
+  for (int i = 0; i < 40; ++i) twins.push_back(law.Draw());
+  const auto before = Calibrate(twins, Map(), kBlocks, kDegreesOfFreedom);
+  twins[5].error *= 100.0;
+  const auto after = Calibrate(twins, Map(), kBlocks, kDegreesOfFreedom);
+  for (Eigen::Index j = 0; j < kUnknowns; ++j) {
+    EXPECT_LT(after->scale(j, j), 5.0 * before->scale(j, j)) << j;
+  }
+}
+
+TEST(TwinCalibration, IsNoneWhereNumbersOverflow) {
+  KnownLaw law(1.0, 17);
+  std::vector<Sighting> twins;
+  for (int i = 0; i < 8; ++i) twins.push_back(law.Draw());
+  for (Sighting& twin : twins) twin.error *= std::numeric_limits<double>::max() / 4.0;
+  EXPECT_FALSE(Calibrate(twins, Map(), kBlocks, kDegreesOfFreedom));
+}
+
+TEST(TwinCalibration, OfTwoTwinsIsABrokenContract) {
+  KnownLaw law(1.0, 19);
+  const std::vector<Sighting> twins = {law.Draw(), law.Draw()};
+  EXPECT_THROW(Calibrate(twins, Map(), kBlocks, kDegreesOfFreedom), ContractViolation);
+}
+
+TEST(Sighting, IsUnsoundWithoutVariances) {
+  Sighting sighting{Eigen::VectorXd::Ones(2), Eigen::MatrixXd::Identity(2, 2)};
+  EXPECT_TRUE(IsSound(sighting));
+  sighting.covariance(1, 1) = 0.0;
+  EXPECT_FALSE(IsSound(sighting));
+}
+
+}  // namespace
+}  // namespace telltale
