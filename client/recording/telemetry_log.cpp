@@ -51,9 +51,11 @@ Result<ChannelFile<Sample>> ReadChannel(const std::filesystem::path& file,
   if (!malformed) return tl::unexpected(malformed.error());
   channel.malformed = *malformed;
   if (!channel.samples.empty()) return channel;
-  const std::string unreadable = std::to_string(channel.malformed.count) + " malformed rows";
-  return Refuse(file.string(), "has no usable row, only " + unreadable,
-                "write one row of numbers per sample");
+  const std::string rows = channel.malformed.count == 0
+                               ? "has a header and no row"
+                               : "has no usable row, only " +
+                                     std::to_string(channel.malformed.count) + " malformed rows";
+  return Refuse(file.string(), rows, "write one row of numbers per sample");
 }
 
 WindowLimits RoomForADay() {

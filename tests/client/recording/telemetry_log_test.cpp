@@ -158,9 +158,9 @@ TEST_F(TelemetryLogTest, AHeaderWithoutAColumnIsRefusedSayingWhichAreNeeded) {
 
 TEST_F(TelemetryLogTest, AFileWithoutAReadableRowIsRefused) {
   folder.Write("heading.csv", "time_s,heading_deg\n");
-  EXPECT_THAT(ReadRefusal().reason, HasSubstr("no usable row"));
+  EXPECT_THAT(ReadRefusal().reason, HasSubstr("a header and no row"));
   folder.Write("heading.csv", "time_s,heading_deg\na,b\nc,d\n");
-  EXPECT_THAT(ReadRefusal().reason, HasSubstr("2 malformed rows"));
+  EXPECT_THAT(ReadRefusal().reason, HasSubstr("no usable row, only 2 malformed rows"));
 }
 
 TEST_F(TelemetryLogTest, AChannelOfWrongValuesIsRefusedWithTheReasons) {
