@@ -15,7 +15,7 @@ inline constexpr double kAsPublished = std::numeric_limits<double>::infinity();
 
 /// How large coefficients are believed to be, in units of their estimates, tried in turn until a
 /// model can be sailed.
-inline constexpr std::array kTrusts = {1.0, 0.3, 0.1};
+inline constexpr std::array kTrusts = {1.0, 0.7, 0.5, 0.35, 0.25, 0.18, 0.125};
 
 /// Coefficients that can be simulated, docs/model.md (61), in their order: drawn towards zero along
 /// what the data hardly determine, theta' = P (P + Sigma)^-1 theta with P = diag((trust theta)^2),

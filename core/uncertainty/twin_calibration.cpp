@@ -17,9 +17,10 @@ namespace {
 
 constexpr double kCalibratedAt = 0.95;
 constexpr double kMedianToSigma = 1.4826;
-constexpr double kWild = 4.0;  // standard deviations
-// Of the logarithm of a factor. Chosen on repeats of six scenarios, docs/coverage.md.
+// What is believed of the logarithm of a factor below one, and the least factor. Chosen on repeats
+// of six scenarios and on the scatter between runs of one real boat, docs/coverage.md.
 constexpr double kBelievedInPart = 0.6;
+constexpr double kLeastStretch = 0.6;
 
 double Quantile(std::vector<double> values, double share) {
   const auto at = static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
@@ -36,6 +37,7 @@ double MedianSize(std::vector<double> values, double about) {
 /// where instruments are weak a single twin can be off by any amount. A twin is weighed as a whole,
 /// since coefficients err together: drawn in one by one they would no longer fit each other.
 std::vector<double> WeighWild(const std::vector<Sighting>& sightings) {
+  constexpr double kWild = 4.0;
   std::vector<double> weights(sightings.size(), 1.0);
   for (Eigen::Index j = 0; j < sightings.front().error.size(); ++j) {
     std::vector<double> values;
@@ -109,20 +111,19 @@ Eigen::MatrixXd WithoutRow(const Eigen::MatrixXd& rows, Eigen::Index row) {
   return others;
 }
 
-/// By what standard errors have to be stretched for the intervals behind the pivots to hold: those
-/// of a block alike, and on top each against the others of its block. That a block holds too often,
-/// or one unknown of it more often than the next, is believed in part: twins know only what they
-/// were told of the boat, and forty tell a size to an eighth.
+/// By what the standard errors of each block have to be stretched for the intervals behind the
+/// pivots to hold. That they hold too often is believed in part: twins know only what they were
+/// told of the boat, and where instruments are weak many are wilder than it. Never one unknown
+/// against the next of its block: where some are hardly told apart the data know combinations of
+/// them, and those would be lost.
 Eigen::VectorXd StretchOf(const Eigen::MatrixXd& pivots, const std::vector<Block>& blocks,
                           double promised) {
   Eigen::VectorXd stretch(pivots.cols());
   for (const auto& [begin, size] : blocks) {
-    const Eigen::MatrixXd of_block = pivots.middleCols(begin, size);
-    const auto values = of_block.reshaped();
-    const double needed = Quantile({values.begin(), values.end()}, kCalibratedAt) / promised;
-    const double of_all = std::max(needed, std::pow(needed, kBelievedInPart));
-    const Eigen::ArrayXd own = of_block.cwiseMin(kWild).colwise().norm().transpose().array().log();
-    stretch.segment(begin, size) = of_all * (kBelievedInPart * (own - own.mean())).exp();
+    const auto of_block = pivots.middleCols(begin, size).reshaped();
+    const double needed = Quantile({of_block.begin(), of_block.end()}, kCalibratedAt) / promised;
+    const double in_part = std::max(std::pow(needed, kBelievedInPart), kLeastStretch);
+    stretch.segment(begin, size).setConstant(needed > 1.0 ? needed : in_part);
   }
   return stretch;
 }

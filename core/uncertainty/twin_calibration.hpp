@@ -31,8 +31,8 @@ struct TwinCalibration {
 };
 
 /// Sizes each whitened direction by the twins' scatter, and stretches the standard errors of each
-/// block, and of each unknown against its block, until intervals that each twin makes of its own
-/// clusters, sized by the other twins, hold 95 %; docs/model.md (33), (35).
+/// block until intervals that each twin makes of its own clusters, sized by the other twins, hold
+/// 95 %; docs/model.md (33), (35).
 /// Assumes: the true boat stands to the twins as each of them stands to the others.
 /// Shapes: sightings whitened; unknowns = map * whitened, block by block.
 /// Requires: three sightings or more, all sound. Nothing where numbers overflow.
