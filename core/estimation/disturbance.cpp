@@ -101,15 +101,13 @@ std::array<Eigen::VectorXd, 3> ResidualsOf(const WeakFit& fit, const Eigen::Vect
   const FilteredThrust thrust =
       FilterThrust(dataset, problem, fit.time_constant_s ? std::optional(theta[0]) : std::nullopt);
   std::array<Eigen::VectorXd, 3> residuals;
-  Eigen::Index next = fit.time_constant_s ? 1 : 0;
   for (std::size_t j = 0; j < 3; ++j) {
     if (!fit.equations[j]) continue;
     const WeakWindows& windows = problem.windows[j];
     const RegressorRows rows = RowsOf(dataset, problem, thrust, kEquations[j]);
     Eigen::VectorXd of_columns = Eigen::VectorXd::Zero(rows.cols());
-    for (const std::size_t column : fit.equations[j]->columns) {
-      of_columns[static_cast<Eigen::Index>(column)] = theta[next++];
-    }
+    const auto [begin, size] = fit.BlockOf(j);
+    of_columns(fit.equations[j]->columns) = theta.segment(begin, size);
     residuals[j] = WeighAcceleration(problem, windows, dataset, kEquations[j]) -
                    Weigh(problem, windows, rows) * of_columns;
   }
@@ -135,7 +133,8 @@ Disturbance EstimateDisturbance(const PreparedDataset& dataset, const WeakFit& f
     if (!fit.equations[j]) continue;
     const WeakEstimate& estimate = *fit.equations[j];
     const auto runs = RunsOf(problem.windows[j].first_rows, problem.phi.stride);
-    const Eigen::MatrixXd response = estimate.G * fit.BreadOf(j);
+    const auto [begin, size] = fit.BlockOf(j);
+    const Eigen::MatrixXd response = estimate.G * fit.bread.block(begin, begin, size, size);
     std::vector<Eigen::VectorXd> units;
     for (const Eigen::VectorXd& of_tau : seen) {
       units.push_back(LeftByFit(runs, of_tau, response, estimate.Z, kDisturbanceLags));

@@ -417,11 +417,10 @@ std::vector<bool> RecordingsSeen(const PreparedDataset& dataset, const WeakWindo
 /// itself.
 Eigen::VectorXd StackedSizes(const WeakFit& fit) {
   Eigen::VectorXd sizes = Eigen::VectorXd::Zero(fit.theta.size());
-  Eigen::Index next = fit.time_constant_s ? 1 : 0;
-  for (const auto& equation : fit.equations) {
-    if (!equation) continue;
-    sizes.segment(next, equation->G.cols()) = Norms(equation->G);
-    next += equation->G.cols();
+  for (std::size_t j = 0; j < fit.equations.size(); ++j) {
+    if (!fit.equations[j]) continue;
+    const auto [begin, size] = fit.BlockOf(j);
+    sizes.segment(begin, size) = Norms(fit.equations[j]->G);
   }
   return sizes;
 }
@@ -485,24 +484,31 @@ std::array<std::vector<std::size_t>, 3> AllColumns(Parameterization parameteriza
   return columns;
 }
 
-Eigen::VectorXd WeakFit::Damped() const {
-  Eigen::VectorXd stacked = theta;
-  Eigen::Index next = time_constant_s ? 1 : 0;
-  for (const auto& equation : equations) {
-    if (!equation) continue;
-    stacked.segment(next, equation->damped.size()) = equation->damped;
-    next += equation->damped.size();
+Block WeakFit::BlockOf(std::size_t equation) const {
+  Block block{time_constant_s ? 1 : 0, equations[equation]->theta.size()};
+  for (std::size_t j = 0; j < equation; ++j) {
+    if (equations[j]) block.begin += equations[j]->theta.size();
   }
-  return stacked;
+  return block;
 }
 
-Eigen::MatrixXd WeakFit::BreadOf(std::size_t equation) const {
-  Eigen::Index first = time_constant_s ? 1 : 0;
-  for (std::size_t j = 0; j < equation; ++j) {
-    if (equations[j]) first += equations[j]->theta.size();
+std::vector<Block> WeakFit::Blocks() const {
+  std::vector<Block> blocks;
+  if (time_constant_s) blocks.push_back({0, 1});
+  for (std::size_t j = 0; j < equations.size(); ++j) {
+    if (equations[j]) blocks.push_back(BlockOf(j));
   }
-  const Eigen::Index p = equations[equation]->theta.size();
-  return bread.block(first, first, p, p);
+  return blocks;
+}
+
+Eigen::VectorXd WeakFit::Damped() const {
+  Eigen::VectorXd stacked = theta;
+  for (std::size_t j = 0; j < equations.size(); ++j) {
+    if (!equations[j]) continue;
+    const auto [begin, size] = BlockOf(j);
+    stacked.segment(begin, size) = equations[j]->damped;
+  }
+  return stacked;
 }
 
 PlausibleBoats PlausibleAbout(const WeakFit& fit, double reach) {
@@ -574,13 +580,10 @@ std::array<std::vector<std::size_t>, 3> WithSteadyTerms(
 
 std::vector<SteadyDisturbance> SteadyOf(const WeakFit& fit, const Eigen::VectorXd& theta) {
   std::vector<SteadyDisturbance> steady(fit.problem.steady.recordings);
-  Eigen::Index next = fit.time_constant_s ? 1 : 0;
   for (std::size_t j = 0; j < fit.equations.size(); ++j) {
     if (!fit.equations[j]) continue;
-    const auto& columns = fit.equations[j]->columns;
-    const auto size = static_cast<Eigen::Index>(columns.size());
-    AddSteady(fit.problem, j, columns, theta.segment(next, size), steady);
-    next += size;
+    const auto [begin, size] = fit.BlockOf(j);
+    AddSteady(fit.problem, j, fit.equations[j]->columns, theta.segment(begin, size), steady);
   }
   return steady;
 }

@@ -7,6 +7,7 @@
 #include <Eigen/Core>
 
 #include "data/prepared_dataset.hpp"
+#include "estimation/block.hpp"
 #include "estimation/weak_form.hpp"
 #include "vessel/disturbance.hpp"
 #include "vessel/vessel_model.hpp"
@@ -47,8 +48,10 @@ struct WeakFit {
   /// P x P, Cov(theta) if the residuals of each equation were correlated alike all along.
   Eigen::MatrixXd alike;
 
-  /// (Z'G)^-1 of one equation: its block of bread.
-  Eigen::MatrixXd BreadOf(std::size_t equation) const;
+  /// Where the coefficients of an answered equation stand among the stacked unknowns.
+  Block BlockOf(std::size_t equation) const;
+  /// All there are: of the time constant first, if it is sought.
+  std::vector<Block> Blocks() const;
   /// The stacked unknowns with the damped coefficients in place of theta.
   Eigen::VectorXd Damped() const;
 };

@@ -5,13 +5,9 @@
 
 #include <Eigen/Core>
 
-namespace telltale {
+#include "estimation/block.hpp"
 
-/// Unknowns that are estimated together: the time constant, the coefficients of one equation.
-struct Block {
-  Eigen::Index begin = 0;
-  Eigen::Index size = 0;
-};
+namespace telltale {
 
 /// How far a twin's estimate was off the boat it was sailed with, and the covariance that it made
 /// of its own clusters. Both in one kind of coordinates: whitened ones or those of the unknowns.

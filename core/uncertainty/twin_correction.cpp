@@ -30,20 +30,6 @@ bool IsSound(const TwinCorrection& correction) {
          std::isfinite(correction.joint.covariance_factor);
 }
 
-std::vector<Block> BlocksOf(const WeakFit& fit) {
-  std::vector<Block> blocks;
-  Eigen::Index next = 0;
-  const auto add = [&](Eigen::Index size) {
-    blocks.push_back({next, size});
-    next += size;
-  };
-  if (fit.time_constant_s) add(1);
-  for (const auto& equation : fit.equations) {
-    if (equation) add(equation->theta.size());
-  }
-  return blocks;
-}
-
 /// Coordinates in which the errors of each block are uncorrelated and of size one: x = map z. The
 /// axes are those of the correlations, so that units make no difference, and never of two blocks:
 /// one that the data hardly move would lend its size to the others.
@@ -87,7 +73,7 @@ class TwinFleet {
         twins_(twins),
         progress_(progress),
         clustered_(ClusterCovariance(fit)),
-        blocks_(BlocksOf(fit)),
+        blocks_(fit.Blocks()),
         white_(clustered_, blocks_) {}
 
   std::optional<Disturbance> DisturbanceAlone() const {
