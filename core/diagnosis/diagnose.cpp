@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numeric>
 #include <utility>
 
 #include "diagnosis/augmented_identification.hpp"
@@ -11,6 +10,7 @@
 #include "diagnosis/held_out.hpp"
 #include "diagnosis/onset.hpp"
 #include "diagnosis/ranking.hpp"
+#include "diagnosis/remainder.hpp"
 #include "diagnosis/search.hpp"
 #include "diagnosis/sentence.hpp"
 #include "diagnosis/separation.hpp"
@@ -194,20 +194,6 @@ class Diagnosing {
     const Eigen::VectorXd gaps = SquaredGaps(errors_[main_], floor.scale, kAllChannels);
     return GateOf(gaps.mean(), UpperBound(gaps, BlocksOf(runs_[main_]), options_.seed),
                   floor.SquaredLimit(kAllChannels), best.score, remainder);
-  }
-
-  static Remainder RemainderOf(const EffectFit& best, const HeldOutErrors& held,
-                               const Evidence& evidence) {
-    const Judge& judge = evidence.judge;
-    const Judge allowing = best.JudgedBy(judge);
-    const auto& logs = evidence.healthy.log_leftovers;
-    const double mean =
-        std::accumulate(logs.begin(), logs.end(), 0.0) / static_cast<double>(logs.size());
-    const bool shakes = best.effects.back().effect->Shakes();
-    return {.before = judge.Leftover(judge.See(evidence.recording.errors)),
-            .after = shakes ? best.square / judge.Expected()
-                            : allowing.Leftover(allowing.See(held.errors)),
-            .healthy = std::exp(mean)};
   }
 
   static const EffectFit& BestOf(const Explanations& explanations) {

@@ -5,7 +5,11 @@
 #include "diagnosis/shaking.hpp"
 
 namespace telltale {
-namespace {
+std::vector<std::size_t> FoldsOf(const FreeRuns& runs) {
+  std::vector<std::size_t> folds = BlocksOf(runs);
+  for (std::size_t& fold : folds) fold %= kFolds;
+  return folds;
+}
 
 std::vector<std::size_t> WindowsOf(const std::vector<std::size_t>& folds, std::size_t fold) {
   std::vector<std::size_t> windows;
@@ -13,14 +17,6 @@ std::vector<std::size_t> WindowsOf(const std::vector<std::size_t>& folds, std::s
     if (folds[w] == fold) windows.push_back(w);
   }
   return windows;
-}
-
-}  // namespace
-
-std::vector<std::size_t> FoldsOf(const FreeRuns& runs) {
-  std::vector<std::size_t> folds = BlocksOf(runs);
-  for (std::size_t& fold : folds) fold %= kFolds;
-  return folds;
 }
 
 FoldFits FitOnFolds(const EffectFit& fit, const Evidence& evidence) {

@@ -17,6 +17,9 @@ namespace telltale {
 inline constexpr std::size_t kFolds = 2;
 std::vector<std::size_t> FoldsOf(const FreeRuns& runs);
 
+/// The windows of one of them.
+std::vector<std::size_t> WindowsOf(const std::vector<std::size_t>& folds, std::size_t fold);
+
 /// An explanation fitted on each fold's windows alone.
 using FoldFits = std::array<EffectFit, kFolds>;
 FoldFits FitOnFolds(const EffectFit& fit, const Evidence& evidence);

@@ -14,12 +14,14 @@ constexpr double kNeverInHealth = 0.9;
 // Times the limit: what an upper bound may be of a gap that is no more than health.
 constexpr double kEquivalent = 2.0;
 // The logarithm of the odds that it is something else: so much a unit of ln of what is left, with
-// an even chance at this much, and this much sooner for each further effect: several mend between
-// them what none of them is. By the logarithmic score, of explanations by true effects and
-// of those by others where the true one was left out, the latter a quarter of all.
-constexpr double kSharpness = 2.7;
-constexpr double kEvenAt = -0.9;
-constexpr double kSoonerEach = 1.5;
+// an even chance at this much; this much sooner for each further effect, as several mend between
+// them what none of them is, and for each unit that could be learnt from the rest. By the
+// logarithmic score, of explanations by true effects and of those by others where the true one was
+// left out, the latter a quarter of all.
+constexpr double kSharpness = 2.8;
+constexpr double kEvenAt = -0.7;
+constexpr double kSoonerEach = 1.15;
+constexpr double kSoonerLearnable = 3.6;
 constexpr double kLeastShare = 0.02;
 constexpr double kExplained = 0.7;  // of the gap
 
@@ -34,7 +36,8 @@ double DoubtOf(const Remainder& remainder, std::size_t effects) {
   const double before = std::max(remainder.before - remainder.healthy, excess);
   const double share = before > 0.0 ? std::max(excess / before, kLeastShare) : kLeastShare;
   const double left = std::log(share) + std::log(remainder.after / remainder.healthy);
-  const double sooner = kSoonerEach * static_cast<double>(effects - 1);
+  const double sooner = kSoonerEach * static_cast<double>(effects - 1) +
+                        kSoonerLearnable * std::max(remainder.learnable, 0.0);
   return Logistic(kSharpness * (left - kEvenAt + sooner));
 }
 

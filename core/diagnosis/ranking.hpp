@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "diagnosis/diagnosis.hpp"
+#include "diagnosis/remainder.hpp"
 #include "diagnosis/search.hpp"
 
 namespace telltale {
@@ -23,15 +24,6 @@ struct Ranking {
   std::vector<RankedFit> fits;  ///< most probable first
   double nothing = 0.0;         ///< probability that all is well
   double unknown = 0.0;         ///< that it is something the library lacks
-};
-
-/// What a Judge has against a recording, as shares of what a healthy one is expected to leave,
-/// about one: without an explanation, with the likeliest, fitted to other windows than it is judged
-/// on, and of the references.
-struct Remainder {
-  double before = 1.0;
-  double after = 1.0;
-  double healthy = 1.0;
 };
 
 /// Weighs explanations by their scores, and against something unknown by what they leave.

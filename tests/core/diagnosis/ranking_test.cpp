@@ -103,5 +103,19 @@ TEST(Rank, DoubtsSeveralTogetherSooner) {
             Rank(alone, boat.judge, remainder).unknown);
 }
 
+// What could be learnt from the rest is something that the explanation lacks; that nothing can be
+// learnt does not make it the likelier.
+TEST(Rank, DoubtsWhatLeavesSomethingToLearn) {
+  const RankedBoat boat;
+  Explanations explanations;
+  explanations.singles = {boat.Scored("thruster_lag", -40.0)};
+  const auto doubt = [&](double learnable) {
+    const Remainder remainder{.before = 20.0, .after = 2.0, .healthy = 1.0, .learnable = learnable};
+    return Rank(explanations, boat.judge, remainder).unknown;
+  };
+  EXPECT_GT(doubt(0.3), doubt(0.0));
+  EXPECT_EQ(doubt(-0.3), doubt(0.0));
+}
+
 }  // namespace
 }  // namespace telltale
