@@ -14,17 +14,23 @@ namespace {
 
 constexpr double kRunsOfS[] = {5.0, 15.0, 30.0};
 
-/// Largest distance of a coefficient from its estimate, in standard errors; nothing where one has
-/// left its bounds.
-std::optional<double> FurthestWithinBounds(const Identification& identification,
-                                           const Eigen::VectorXd& theta) {
+/// The nearest coefficients within their bounds.
+Eigen::VectorXd WithinBounds(const Identification& identification, Eigen::VectorXd theta) {
+  Eigen::Index next = 0;
+  for (const Coefficient& c : identification.coefficients) {
+    double& value = theta[next++];
+    value = std::clamp(value, c.interval.lower, c.interval.upper);
+  }
+  return theta;
+}
+
+/// Largest distance of a coefficient from its estimate, in standard errors.
+double Furthest(const Identification& identification, const Eigen::VectorXd& theta) {
   double furthest = 0.0;
   Eigen::Index next = 0;
   for (const Coefficient& c : identification.coefficients) {
-    const double value = theta[next++];
-    if (value < c.interval.lower || value > c.interval.upper) return std::nullopt;
-    if (value == c.estimate) continue;
-    furthest = std::max(furthest, std::abs(value - c.estimate) / c.standard_error);
+    const double off = std::abs(theta[next++] - c.estimate);
+    if (off > 0.0) furthest = std::max(furthest, off / c.standard_error);
   }
   return furthest;
 }
@@ -52,12 +58,13 @@ struct Drawing {
 std::optional<Drawing> DrawnIn(const PreparedDataset& dataset, Identification identification) {
   std::optional<Drawing> best;
   for (const double trust : kTrusts) {
-    const Eigen::VectorXd theta = TamedEstimates(identification, trust);
-    const auto furthest = FurthestWithinBounds(identification, theta);
-    if (!furthest) break;
+    const Eigen::VectorXd theta =
+        WithinBounds(identification, TamedEstimates(identification, trust));
     identification.sailed.assign(theta.begin(), theta.end());
     const double sails_s = SailsForS(dataset, *ModelOf(identification));
-    if (sails_s > (best ? best->sails_s : 0.0)) best = Drawing{theta, *furthest, sails_s};
+    if (sails_s > (best ? best->sails_s : 0.0)) {
+      best = Drawing{theta, Furthest(identification, theta), sails_s};
+    }
   }
   return best;
 }
