@@ -164,6 +164,7 @@ std::optional<TwinCalibration> Calibrate(const std::vector<Sighting>& sightings,
     const Eigen::VectorXd off =
         s.error.cwiseQuotient(StretchOf(WithoutRow(pivots, i), blocks, promised));
     squares.push_back(off.dot(s.covariance.ldlt().solve(off)) / unknowns);
+    if (!(squares.back() > 0.0)) return std::nullopt;
   }
   const Spread spread = SpreadOf(sightings, weights);
   const Eigen::VectorXd stretch = ByFew(sightings.size()) * StretchOf(pivots, blocks, promised);
