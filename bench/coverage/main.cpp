@@ -250,14 +250,22 @@ Tally Count(const std::vector<Repeat>& repeats, std::optional<Holding> Repeat::*
   return tally;
 }
 
+/// For a cell of a Markdown table, in which a bar ends the cell.
+std::string InCell(std::string name) {
+  for (std::size_t at = 0; (at = name.find('|', at)) != std::string::npos; at += 2) {
+    name.insert(at, "\\");
+  }
+  return name;
+}
+
 void PrintRow(const Scenario& scenario, const std::vector<Repeat>& repeats, double seconds) {
   const auto names = NamesOf(scenario);
   const Tally weak = Count(repeats, &Repeat::weak, names);
   const Tally paper = Count(repeats, &Repeat::one_step, names);
   std::printf("| %s | %zu/%zu | %.1f | %.1f (%s) | %.1f | %zu of %zu | %.2f | %.1f | %.1f | ",
               scenario.name.c_str(), weak.answered, repeats.size(), weak.mean, weak.lowest,
-              weak.lowest_name.c_str(), weak.highest, weak.outside, names.size(), weak.bias_share,
-              weak.joint, weak.band);
+              InCell(weak.lowest_name).c_str(), weak.highest, weak.outside, names.size(),
+              weak.bias_share, weak.joint, weak.band);
   if (paper.answered > 0) {
     std::printf("%.1f | %.1f", paper.mean, paper.bias_share);
   } else {
@@ -285,7 +293,7 @@ void PrintCoefficients(const Scenario& scenario, const std::vector<Repeat>& repe
       squares += error * error;
       held += repeat.weak->coefficient[j] ? 1.0 : 0.0;
     }
-    std::printf("| %s | %.4g | %.2g | %.2g | %.1f |\n", names[j].c_str(),
+    std::printf("| %s | %.4g | %.2g | %.2g | %.1f |\n", InCell(names[j]).c_str(),
                 truth[static_cast<Eigen::Index>(j)], sum / n,
                 std::sqrt(std::max(0.0, squares / n - sum * sum / n / n)), 100.0 * held / n);
   }
