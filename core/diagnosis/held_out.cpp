@@ -6,8 +6,11 @@
 
 namespace telltale {
 std::vector<std::size_t> FoldsOf(const FreeRuns& runs) {
-  std::vector<std::size_t> folds = BlocksOf(runs);
-  for (std::size_t& fold : folds) fold %= kFolds;
+  const std::vector<std::size_t> blocks = BlocksOf(runs);
+  std::vector<std::size_t> folds(blocks.size());
+  for (std::size_t w = 1; w < folds.size(); ++w) {
+    folds[w] = blocks[w] == blocks[w - 1] ? folds[w - 1] : (folds[w - 1] + 1) % kFolds;
+  }
   return folds;
 }
 

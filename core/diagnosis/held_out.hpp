@@ -13,7 +13,8 @@
 namespace telltale {
 
 /// Blocks of half a minute in turn belong to the one fold and the other: what was fitted on one is
-/// judged on the other. Both see the whole recording, its weather and what changes along it.
+/// judged on the other. Both see the whole recording, its weather and what changes along it. Blocks
+/// without a window take no turn, so that neither fold is empty however a recording is torn.
 inline constexpr std::size_t kFolds = 2;
 std::vector<std::size_t> FoldsOf(const FreeRuns& runs);
 

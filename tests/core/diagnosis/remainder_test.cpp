@@ -69,5 +69,20 @@ TEST_F(RemainderTest, IsNotLearnableOnARoughDay) {
   EXPECT_LT(left.learnable, 0.05);
 }
 
+/// Half a minute, silence for as long, half a minute: each half is judged by the other.
+TEST(Folds, AreBothThereHoweverARecordingIsTorn) {
+  PreparedDataset torn = testing::SailWithEffects({}, 120.0, 500);
+  const auto half_minute = static_cast<std::size_t>(30.0 / torn.sampling_period_s) + 1;
+  const std::size_t first = torn.stretches.front().begin;
+  torn.stretches = {{first, first + half_minute},
+                    {first + 2 * half_minute, first + 3 * half_minute}};
+  torn.commands.assign(2, torn.commands.front());
+  torn.signals.assign(2, torn.signals.front());
+  const UncertainModel model = UncertainModelOf(testing::KnownStableBoat()).value();
+  const FreeRuns runs(torn, model.model, 5.0);
+  const auto folds = FoldsOf(runs);
+  for (std::size_t fold = 0; fold < kFolds; ++fold) EXPECT_GE(WindowsOf(folds, fold).size(), 5U);
+}
+
 }  // namespace
 }  // namespace telltale
