@@ -5,6 +5,7 @@
 #include "diagnosis/shaking.hpp"
 
 namespace telltale {
+
 std::vector<std::size_t> FoldsOf(const FreeRuns& runs) {
   const std::vector<std::size_t> blocks = BlocksOf(runs);
   std::vector<std::size_t> folds(blocks.size());
@@ -22,13 +23,15 @@ std::vector<std::size_t> WindowsOf(const std::vector<std::size_t>& folds, std::s
   return windows;
 }
 
+Judge JudgeOfFold(const Evidence& evidence, std::size_t fold) {
+  return {evidence.healthy, evidence.recording, WindowsOf(FoldsOf(evidence.runs), fold),
+          evidence.judge.FreesBase()};
+}
+
 FoldFits FitOnFolds(const EffectFit& fit, const Evidence& evidence) {
-  const auto folds = FoldsOf(evidence.runs);
   FoldFits fits;
   for (std::size_t fold = 0; fold < kFolds; ++fold) {
-    const Judge judge(evidence.healthy, evidence.recording, WindowsOf(folds, fold),
-                      evidence.judge.FreesBase());
-    fits[fold] = FitAgain(fit, evidence, judge, 1);
+    fits[fold] = FitAgain(fit, evidence, JudgeOfFold(evidence, fold), 1);
   }
   return fits;
 }

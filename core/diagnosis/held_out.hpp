@@ -21,6 +21,9 @@ std::vector<std::size_t> FoldsOf(const FreeRuns& runs);
 /// The windows of one of them.
 std::vector<std::size_t> WindowsOf(const std::vector<std::size_t>& folds, std::size_t fold);
 
+/// Of what one fold's windows say alone.
+Judge JudgeOfFold(const Evidence& evidence, std::size_t fold);
+
 /// An explanation fitted on each fold's windows alone.
 using FoldFits = std::array<EffectFit, kFolds>;
 FoldFits FitOnFolds(const EffectFit& fit, const Evidence& evidence);

@@ -1,6 +1,7 @@
 #include "diagnosis/remainder.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numeric>
 
@@ -26,16 +27,13 @@ Eigen::VectorXd SizesIn(const Eigen::MatrixXd& errors, const Judge& judge,
 }
 
 double LearnableIn(const Eigen::MatrixXd& errors, const EffectFit& best, const Evidence& evidence) {
-  const auto judge_of = [&](std::size_t fold) {
-    return best.JudgedBy(Judge(evidence.healthy, evidence.recording,
-                               WindowsOf(FoldsOf(evidence.runs), fold),
-                               evidence.judge.FreesBase()));
-  };
+  const std::array judges = {best.JudgedBy(JudgeOfFold(evidence, 0)),
+                             best.JudgedBy(JudgeOfFold(evidence, 1))};
   double left = 0.0;
   double less = 0.0;
   for (std::size_t fold = 0; fold < kFolds; ++fold) {
-    const Eigen::VectorXd sizes = SizesIn(errors, judge_of(1 - fold), evidence.recording);
-    const Judge judge = judge_of(fold);
+    const Eigen::VectorXd sizes = SizesIn(errors, judges[1 - fold], evidence.recording);
+    const Judge& judge = judges[fold];
     const Eigen::VectorXd seen = judge.See(errors);
     left += judge.Square(seen);
     less += judge.Square(seen + judge.SeeColumns(evidence.recording.by_slot) * sizes);

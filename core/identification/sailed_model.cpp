@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <optional>
 #include <string>
 
@@ -65,6 +66,7 @@ std::optional<Drawing> DrawnIn(const PreparedDataset& dataset, Identification id
     if (sails_s > (best ? best->sails_s : 0.0)) {
       best = Drawing{theta, Furthest(identification, theta), sails_s};
     }
+    if (sails_s == *std::rbegin(kRunsOfS)) break;
   }
   return best;
 }

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <limits>
+#include <vector>
 
 #include <gtest/gtest.h>
 #include <boost/random/normal_distribution.hpp>
@@ -37,6 +38,12 @@ class KnownLaw {
     return sighting;
   }
 
+  std::vector<Sighting> Draw(int twins) {
+    std::vector<Sighting> all;
+    for (int i = 0; i < twins; ++i) all.push_back(Draw());
+    return all;
+  }
+
   static double Bias(Eigen::Index j) { return j == 2 ? 1.0 : 0.0; }
   static double Scatter(Eigen::Index j) { return 0.5 + 0.2 * static_cast<double>(j); }
 
@@ -70,8 +77,7 @@ Held HoldWhereClustersSay(double size) {
   Held held;
   for (int repeat = 0; repeat < kRepeats; ++repeat) {
     KnownLaw law(size, 7 + static_cast<std::uint64_t>(repeat));
-    std::vector<Sighting> twins;
-    for (int i = 0; i < 40; ++i) twins.push_back(law.Draw());
+    const std::vector<Sighting> twins = law.Draw(40);
     const auto calibration = Calibrate(twins, Map(), kBlocks, kDegreesOfFreedom);
     const Sighting estimate = law.Draw();
     const Eigen::VectorXd off = Map() * estimate.error - calibration->bias;
@@ -111,8 +117,7 @@ TEST(TwinCalibration, DrawsInPartOfWhatHoldsTooOften) {
 /// leaves; scatters add up as squares in a combination.
 TEST(TwinCalibration, TellsTheBias) {
   KnownLaw law(1.0, 11);
-  std::vector<Sighting> twins;
-  for (int i = 0; i < 40; ++i) twins.push_back(law.Draw());
+  const std::vector<Sighting> twins = law.Draw(40);
   const auto calibration = Calibrate(twins, Map(), kBlocks, kDegreesOfFreedom);
   Eigen::VectorXd bias(kUnknowns);
   Eigen::VectorXd variances(kUnknowns);
@@ -131,8 +136,7 @@ TEST(TwinCalibration, TellsTheBias) {
 /// about ten to a variance of one. Unweighed it would make scatters sixteen times as large.
 TEST(TwinCalibration, IsNotCarriedAwayByAWildTwin) {
   KnownLaw law(1.0, 13);
-  std::vector<Sighting> twins;
-  for (int i = 0; i < 40; ++i) twins.push_back(law.Draw());
+  std::vector<Sighting> twins = law.Draw(40);
   const auto before = Calibrate(twins, Map(), kBlocks, kDegreesOfFreedom);
   twins[5].error *= 100.0;
   const auto after = Calibrate(twins, Map(), kBlocks, kDegreesOfFreedom);
@@ -143,15 +147,14 @@ TEST(TwinCalibration, IsNotCarriedAwayByAWildTwin) {
 
 TEST(TwinCalibration, IsNoneWhereNumbersOverflow) {
   KnownLaw law(1.0, 17);
-  std::vector<Sighting> twins;
-  for (int i = 0; i < 8; ++i) twins.push_back(law.Draw());
+  std::vector<Sighting> twins = law.Draw(8);
   for (Sighting& twin : twins) twin.error *= std::numeric_limits<double>::max() / 4.0;
   EXPECT_FALSE(Calibrate(twins, Map(), kBlocks, kDegreesOfFreedom));
 }
 
 TEST(TwinCalibration, OfTwoTwinsIsABrokenContract) {
   KnownLaw law(1.0, 19);
-  const std::vector<Sighting> twins = {law.Draw(), law.Draw()};
+  const std::vector<Sighting> twins = law.Draw(2);
   EXPECT_THROW(Calibrate(twins, Map(), kBlocks, kDegreesOfFreedom), ContractViolation);
 }
 
