@@ -10,7 +10,8 @@ Eigen::MatrixXd Scaled(const Eigen::MatrixXd& V, const Eigen::VectorXd& scale) {
 
 Eigen::MatrixXd Mapped(const Eigen::MatrixXd& A, const Eigen::MatrixXd& V) {
   const Eigen::MatrixXd once = A * V;
-  return once * A.transpose();
+  const Eigen::MatrixXd mapped = once * A.transpose();
+  return 0.5 * (mapped + mapped.transpose());  // rounding alone tells them apart
 }
 
 Eigen::MatrixXd OfRoot(const Eigen::MatrixXd& root) {

@@ -8,7 +8,8 @@ namespace telltale {
 /// correlations.
 Eigen::MatrixXd Scaled(const Eigen::MatrixXd& V, const Eigen::VectorXd& scale);
 
-/// A V A': the covariance of A x where V is that of x.
+/// A V A': the covariance of A x where V is that of x. Symmetric to the last digit, since readers
+/// of a model ask that of a covariance however wild its numbers are.
 Eigen::MatrixXd Mapped(const Eigen::MatrixXd& A, const Eigen::MatrixXd& V);
 
 /// Root root': the covariance of root z where z is white.

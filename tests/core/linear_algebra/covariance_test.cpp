@@ -22,6 +22,16 @@ TEST(Covariance, IsMappedAsSumAndDifferenceAre) {
   EXPECT_EQ(Mapped(A, kV), expected);
 }
 
+TEST(Covariance, IsSymmetricHoweverWildItsNumbersAre) {
+  const Eigen::MatrixXd A =
+      (Eigen::MatrixXd(3, 3) << 1.0, 1e9 / 3.0, 0.1, 0.3, -1e-7, 7e8, 1e8 / 7.0, 0.7, 1.1)
+          .finished();
+  const Eigen::MatrixXd V =
+      (Eigen::MatrixXd(3, 3) << 0.7, 0.1, 1e-9, 0.1, 3e-10, 0.0, 1e-9, 0.0, 1e-8).finished();
+  const Eigen::MatrixXd mapped = Mapped(A, V);
+  EXPECT_EQ(mapped, mapped.transpose());
+}
+
 TEST(Covariance, OfARootIsThatOfItsColumnsTogether) {
   const Eigen::MatrixXd root = (Eigen::MatrixXd(2, 3) << 1.0, 2.0, 0.0, 0.0, 3.0, -1.0).finished();
   const Eigen::MatrixXd expected = (Eigen::MatrixXd(2, 2) << 5.0, 6.0, 6.0, 10.0).finished();
