@@ -2,11 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <optional>
 #include <string>
+#include <vector>
 
+#include "estimation/regression_problem.hpp"
 #include "identification/tamed_model.hpp"
+#include "linear_algebra/covariance.hpp"
+#include "linear_algebra/decompositions.hpp"
 #include "number.hpp"
 #include "simulation/free_run.hpp"
 
@@ -23,6 +26,38 @@ Eigen::VectorXd WithinBounds(const Identification& identification, Eigen::Vector
     value = std::clamp(value, c.interval.lower, c.interval.upper);
   }
   return theta;
+}
+
+/// off' Cov^-1 off over the coefficients that are bounded, off the estimates.
+double SquaredDistance(const Identification& identification, const Eigen::VectorXd& theta) {
+  std::vector<Eigen::Index> bounded;
+  for (Eigen::Index j = 0; j < theta.size(); ++j) {
+    if (std::isfinite(identification.covariance(j, j))) bounded.push_back(j);
+  }
+  const Eigen::MatrixXd covariance = identification.covariance(bounded, bounded);
+  const Eigen::VectorXd units = covariance.diagonal().cwiseSqrt().cwiseInverse();
+  const Eigen::VectorXd estimates = EstimatesOf(identification);
+  const Eigen::VectorXd off = units.cwiseProduct(theta(bounded) - estimates(bounded));
+  return off.dot(Scaled(covariance, units).ldlt().solve(off));
+}
+
+/// Root mean square of each coefficient's regressor over the recording.
+Eigen::VectorXd RegressorSizes(const PreparedDataset& dataset,
+                               const Identification& identification) {
+  RegressionOptions options;
+  options.parameterization = identification.parameterization;
+  options.dead_zone = identification.dead_zone;
+  options.include_reverse = true;
+  const RegressionProblem problem = BuildRegression(dataset, options);
+  Eigen::VectorXd sizes(std::ssize(identification.coefficients));
+  Eigen::Index next = 0;
+  for (const EquationProblem& equation : problem.equations) {
+    const auto rows = static_cast<double>(std::max<Eigen::Index>(1, equation.phi.rows()));
+    sizes.segment(next, equation.phi.cols()) =
+        (equation.phi.colwise().norm() / std::sqrt(rows)).transpose();
+    next += equation.phi.cols();
+  }
+  return sizes;
 }
 
 /// Largest distance of a coefficient from its estimate, in standard errors.
@@ -51,24 +86,58 @@ double SailsForS(const PreparedDataset& dataset, const VesselModel& model) {
 /// Coefficients to sail with.
 struct Drawing {
   Eigen::VectorXd theta;
-  double furthest = 0.0;  ///< from the estimates, in standard errors
   double sails_s = 0.0;
+  double miss = 0.0;
 };
 
-/// Those within the bounds that sail for longest, and of them the nearest to the estimates.
-std::optional<Drawing> DrawnIn(const PreparedDataset& dataset, Identification identification) {
+bool IsBetter(const Drawing& one, const Drawing& other) {
+  return one.sails_s > other.sails_s || (one.sails_s == other.sails_s && one.miss < other.miss);
+}
+
+/// What the coefficients are where each of them is believed to move the boat by about as much as
+/// any other, more or less.
+std::vector<Eigen::VectorXd> Candidates(const PreparedDataset& dataset,
+                                        const Identification& identification) {
+  constexpr double kMost = 4.0;  // m/s^2, rad/s^2
+  constexpr int kHalvings = 13;
+  const Eigen::VectorXd regressors = RegressorSizes(dataset, identification);
+  std::vector<Eigen::VectorXd> candidates;
+  double believed = kMost;
+  for (int halving = 0; halving <= kHalvings; ++halving, believed /= 2.0) {
+    const Eigen::VectorXd sizes =
+        (regressors.array() > 0.0).select(believed * regressors.cwiseInverse(), 0.0);
+    candidates.push_back(TamedEstimates(identification, sizes));
+  }
+  return candidates;
+}
+
+/// Those that sail for longest, and of them those that miss the recording least.
+std::optional<Drawing> BestOf(const std::vector<Eigen::VectorXd>& candidates,
+                              const PreparedDataset& dataset, Identification identification) {
   std::optional<Drawing> best;
-  for (const double trust : kTrusts) {
-    const Eigen::VectorXd theta =
-        WithinBounds(identification, TamedEstimates(identification, trust));
+  for (const Eigen::VectorXd& theta : candidates) {
     identification.sailed.assign(theta.begin(), theta.end());
-    const double sails_s = SailsForS(dataset, *ModelOf(identification));
-    if (sails_s > (best ? best->sails_s : 0.0)) {
-      best = Drawing{theta, Furthest(identification, theta), sails_s};
-    }
-    if (sails_s == *std::rbegin(kRunsOfS)) break;
+    const auto model = *ModelOf(identification);
+    const double sails_s = SailsForS(dataset, model);
+    if (sails_s <= 0.0) continue;
+    const Drawing drawing{theta, sails_s, FreeRunMiss(dataset, model, kRunsOfS[0])};
+    if (!best || IsBetter(drawing, *best)) best = drawing;
   }
   return best;
+}
+
+/// Of candidates that the ellipsoid holds; of all, held at their bounds, where there is none.
+std::optional<Drawing> DrawnIn(const PreparedDataset& dataset,
+                               const Identification& identification) {
+  std::vector<Eigen::VectorXd> candidates = Candidates(dataset, identification);
+  if (const auto squared_radius = SquaredRadius(identification)) {
+    std::erase_if(candidates, [&](const Eigen::VectorXd& theta) {
+      return SquaredDistance(identification, theta) > *squared_radius;
+    });
+  } else {
+    for (Eigen::VectorXd& theta : candidates) theta = WithinBounds(identification, theta);
+  }
+  return BestOf(candidates, dataset, identification);
 }
 
 /// In how many of the shortest runs in which it does so at all the model runs away.
@@ -89,8 +158,8 @@ std::optional<std::string> DrawIn(const PreparedDataset& dataset, Identification
   if (!drawing) return std::nullopt;
   identification.sailed.assign(drawing->theta.begin(), drawing->theta.end());
   return "it is sailed with coefficients drawn towards zero along what the data leave open, by " +
-         Number(drawing->furthest, 1) + " standard errors at most, and so runs for " +
-         Number(drawing->sails_s, 0) + " s";
+         Number(Furthest(identification, drawing->theta), 1) +
+         " standard errors at most, and so runs for " + Number(drawing->sails_s, 0) + " s";
 }
 
 }  // namespace

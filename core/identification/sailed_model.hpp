@@ -6,9 +6,10 @@
 namespace telltale {
 
 /// Bounds may hold about estimates that nobody can sail. Where free runs over the model's own
-/// recording run away, docs/model.md (18a), coefficients to sail with are sought within the bounds,
-/// (18b), and written to `sailed`; a refusal says so, or that there are none. Estimates and bounds
-/// stay as they are. The paper's one-step model is warned of and left as the paper makes it.
+/// recording run away, docs/model.md (18a), coefficients to sail with are sought that the
+/// bounds or the ellipsoid hold, (18b), and written to `sailed`; a refusal says so, or that there
+/// are none. Estimates and bounds stay as they are. The paper's one-step model is warned of and
+/// left as the paper makes it.
 void SeekToSail(const PreparedDataset& dataset, Identification& identification);
 
 }  // namespace telltale

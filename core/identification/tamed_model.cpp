@@ -9,42 +9,41 @@
 namespace telltale {
 namespace {
 
-Eigen::VectorXd EstimatesOf(const Identification& identification) {
-  Eigen::VectorXd theta(static_cast<Eigen::Index>(identification.coefficients.size()));
-  Eigen::Index next = 0;
-  for (const Coefficient& c : identification.coefficients) theta[next++] = c.estimate;
-  return theta;
-}
-
-/// Those that are known to some extent and not zero anyway.
+/// Places of those that are known to some extent and believed to be anything.
 std::vector<Eigen::Index> Drawn(const Identification& identification,
-                                const Eigen::VectorXd& theta) {
+                                const Eigen::VectorXd& sizes) {
   std::vector<Eigen::Index> drawn;
-  for (Eigen::Index j = 0; j < theta.size(); ++j) {
-    if (std::isfinite(identification.covariance(j, j)) && theta[j] != 0.0) drawn.push_back(j);
+  for (Eigen::Index j = 0; j < sizes.size(); ++j) {
+    if (std::isfinite(identification.covariance(j, j)) && sizes[j] > 0.0) drawn.push_back(j);
   }
   return drawn;
 }
 
 }  // namespace
 
-Eigen::VectorXd TamedEstimates(const Identification& identification, double trust) {
+Eigen::VectorXd EstimatesOf(const Identification& identification) {
+  Eigen::VectorXd theta(std::ssize(identification.coefficients));
+  Eigen::Index next = 0;
+  for (const Coefficient& c : identification.coefficients) theta[next++] = c.estimate;
+  return theta;
+}
+
+Eigen::VectorXd TamedEstimates(const Identification& identification, const Eigen::VectorXd& sizes) {
   Eigen::VectorXd theta = EstimatesOf(identification);
-  if (std::isinf(trust)) return theta;
-  const std::vector<Eigen::Index> drawn = Drawn(identification, theta);
+  const std::vector<Eigen::Index> drawn = Drawn(identification, sizes);
   if (drawn.empty()) return theta;
   // With coefficients in units of their believed size: theta' = (I + Sigma)^-1 theta.
-  const Eigen::VectorXd sizes = trust * theta(drawn).cwiseAbs();
-  const Eigen::VectorXd units = sizes.cwiseInverse();
+  const Eigen::VectorXd units = sizes(drawn).cwiseInverse();
   Eigen::MatrixXd sum = Scaled(identification.covariance(drawn, drawn), units);
   sum.diagonal().array() += 1.0;
   const Eigen::VectorXd scaled = units.cwiseProduct(theta(drawn));
-  theta(drawn) = sizes.cwiseProduct(sum.ldlt().solve(scaled));
+  theta(drawn) = sizes(drawn).cwiseProduct(sum.ldlt().solve(scaled));
   return theta;
 }
 
 VesselModel TamedModel(const Identification& identification, double trust) {
-  const Eigen::VectorXd theta = TamedEstimates(identification, trust);
+  Eigen::VectorXd theta = EstimatesOf(identification);
+  if (std::isfinite(trust)) theta = TamedEstimates(identification, trust * theta.cwiseAbs());
   VesselModel model =
       VesselModel::OfZeros(identification.structure, identification.parameterization,
                            Discretisation::kContinuous, identification.sampling_period_s);

@@ -17,13 +17,18 @@ inline constexpr double kAsPublished = std::numeric_limits<double>::infinity();
 /// model can be sailed.
 inline constexpr std::array kTrusts = {1.0, 0.7, 0.5, 0.35, 0.25, 0.18, 0.125};
 
-/// Coefficients that can be simulated, docs/model.md (61), in their order: drawn towards zero along
-/// what the data hardly determine, theta' = P (P + Sigma)^-1 theta with P = diag((trust theta)^2),
-/// they stay where the data are sure.
-Eigen::VectorXd TamedEstimates(const Identification& identification, double trust);
+/// Coefficients that are believed to be of these sizes before any data are seen, docs/model.md
+/// (61), in their order: drawn towards zero along what the data hardly determine,
+/// theta' = P (P + Sigma)^-1 theta with P = diag(sizes^2), they stay where the data are sure. One
+/// that is not known, or of size zero, stays as it is.
+/// Shapes: sizes, one a coefficient.
+Eigen::VectorXd TamedEstimates(const Identification& identification, const Eigen::VectorXd& sizes);
 
-/// The continuous boat that has them; coefficients that are not known, or whose equation was
-/// refused, are zero.
+/// The continuous boat whose coefficients are believed to be of `trust` times the sizes of their
+/// estimates; those that are not known, or whose equation was refused, are zero.
 VesselModel TamedModel(const Identification& identification, double trust);
+
+/// The estimates, in their order.
+Eigen::VectorXd EstimatesOf(const Identification& identification);
 
 }  // namespace telltale

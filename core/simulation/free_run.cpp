@@ -4,6 +4,22 @@
 #include <cmath>
 
 namespace telltale {
+namespace {
+
+/// Runs of `horizon_s` from FreeRunStarts; of many, some sixty spread evenly.
+template <typename Visit>  // Visit(first row, states)
+void ForSomeRuns(const PreparedDataset& dataset, const VesselModel& model, double horizon_s,
+                 const Visit& visit) {
+  constexpr std::size_t kMost = 60;
+  const auto steps = static_cast<std::size_t>(std::lround(horizon_s / dataset.sampling_period_s));
+  const std::vector<std::size_t> firsts = FreeRunStarts(dataset, steps);
+  const ThrustHistory thrust = FollowThrust(dataset, model);
+  for (std::size_t i = 0; i < firsts.size(); i += firsts.size() / kMost + 1) {
+    visit(firsts[i], RunFreely(dataset, model, thrust, firsts[i], steps));
+  }
+}
+
+}  // namespace
 
 ThrustHistory FollowThrust(const PreparedDataset& dataset, const VesselModel& model) {
   ThrustHistory history(dataset.rows.size());
@@ -51,21 +67,37 @@ std::vector<std::size_t> FreeRunStarts(const PreparedDataset& dataset, std::size
 }
 
 Runaways CountRunaways(const PreparedDataset& dataset, const VesselModel& model, double horizon_s) {
-  constexpr std::size_t kMost = 60;
-  const auto steps = static_cast<std::size_t>(std::lround(horizon_s / dataset.sampling_period_s));
-  const std::vector<std::size_t> firsts = FreeRunStarts(dataset, steps);
-  const ThrustHistory thrust = FollowThrust(dataset, model);
   const Nu limits = RunawayLimits(FastestOf(dataset));
   Runaways count;
-  for (std::size_t i = 0; i < firsts.size(); i += firsts.size() / kMost + 1) {
-    const auto states = RunFreely(dataset, model, thrust, firsts[i], steps);
+  ForSomeRuns(dataset, model, horizon_s, [&](std::size_t, const auto& states) {
     ++count.runs;
     if (!std::all_of(states.begin(), states.end(),
                      [&](const VesselState& state) { return Within(state.nu, limits); })) {
       ++count.runaways;
     }
-  }
+  });
   return count;
+}
+
+double FreeRunMiss(const PreparedDataset& dataset, const VesselModel& model, double horizon_s) {
+  constexpr double kMost = 2.0;
+  const Nu fastest = FastestOf(dataset);
+  const auto square = [&](double off, double unit) {
+    const double miss = std::abs(off) / unit;
+    return miss < kMost ? miss * miss : kMost * kMost;  // so for NaN
+  };
+  double squares = 0.0;
+  double misses = 0.0;
+  ForSomeRuns(dataset, model, horizon_s, [&](std::size_t first, const auto& states) {
+    for (std::size_t k = 1; k < states.size(); ++k) {
+      const Nu& nu = states[k].nu;
+      const Nu& measured = dataset.rows[first + k].nu;
+      squares += square(nu.u - measured.u, fastest.u) + square(nu.v - measured.v, fastest.v) +
+                 square(nu.r - measured.r, fastest.r);
+      misses += 3.0;
+    }
+  });
+  return misses > 0.0 ? std::sqrt(squares / misses) : 0.0;
 }
 
 }  // namespace telltale

@@ -44,4 +44,8 @@ struct Runaways {
 /// Runs of `horizon_s` from FreeRunStarts; of many, some sixty spread evenly.
 Runaways CountRunaways(const PreparedDataset& dataset, const VesselModel& model, double horizon_s);
 
+/// Root mean square by which the same runs miss the measured velocities: each in units of the
+/// fastest of its kind that was measured, and no miss by more than two of these.
+double FreeRunMiss(const PreparedDataset& dataset, const VesselModel& model, double horizon_s);
+
 }  // namespace telltale

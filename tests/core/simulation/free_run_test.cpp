@@ -80,6 +80,45 @@ TEST(CountRunaways, LooksAtSomeSixtyOfManyRuns) {
   EXPECT_LE(runs, 60u);
 }
 
+TEST(FreeRunMiss, IsNoneOfTheBoatThatMadeTheData) {
+  EXPECT_LT(FreeRunMiss(Sailed(), Discrete(), kHorizonS), 1e-9);
+}
+
+/// Unless it starts at rest, such a boat is soon further off than counts.
+TEST(FreeRunMiss, OfWhatRunsAwayIsFinite) {
+  VesselModel boat = Discrete();
+  boat.theta[0].setConstant(1e9);
+  boat.theta[1].setConstant(1e9);
+  boat.theta[2].setConstant(1e9);
+  const double miss = FreeRunMiss(Sailed(), boat, kHorizonS);
+  EXPECT_GT(miss, 1.5);
+  EXPECT_LE(miss, 2.0);
+}
+
+/// A boat that always lies still misses by what was measured: less than the fastest, since the mean
+/// is.
+TEST(FreeRunMiss, IsInUnitsOfTheFastestMeasured) {
+  const PreparedDataset dataset = Sailed();
+  VesselModel boat = Discrete();
+  for (Eigen::VectorXd& theta : boat.theta) theta.setZero();  // keeps its velocities
+  double squares = 0.0;
+  const Nu fastest = FastestOf(dataset);
+  const auto steps = static_cast<std::size_t>(std::lround(kHorizonS / dataset.sampling_period_s));
+  const auto starts = FreeRunStarts(dataset, steps);
+  ASSERT_LE(starts.size(), 60u);  // so that all are looked at
+  for (const std::size_t first : starts) {
+    const Nu& kept = dataset.rows[first].nu;
+    for (std::size_t k = first + 1; k <= first + steps; ++k) {
+      const Nu& nu = dataset.rows[k].nu;
+      squares += std::pow((nu.u - kept.u) / fastest.u, 2) +
+                 std::pow((nu.v - kept.v) / fastest.v, 2) +
+                 std::pow((nu.r - kept.r) / fastest.r, 2);
+    }
+  }
+  const auto misses = static_cast<double>(3 * steps * starts.size());
+  EXPECT_NEAR(FreeRunMiss(dataset, boat, kHorizonS), std::sqrt(squares / misses), 1e-12);
+}
+
 TEST(RunawayLimits, LeaveRoomForABoatAtRest) {
   const Nu limits = RunawayLimits({0.0, 0.0, 0.0});
   EXPECT_TRUE(Within({0.4, -0.4, 0.4}, limits));
