@@ -6,6 +6,7 @@
 
 #include "contract.hpp"
 #include "estimation/residual_correlation.hpp"
+#include "estimation/residual_whitening.hpp"
 #include "linear_algebra/covariance.hpp"
 #include "linear_algebra/decompositions.hpp"
 #include "vessel/body_dynamics.hpp"
@@ -14,6 +15,7 @@ namespace telltale {
 namespace {
 
 constexpr double kLongestTimeConstantS = 20.0;
+constexpr std::size_t kResidualLags = 20;  // over which residuals of windows hang together
 
 /// One equation weighed: b = G theta + e.
 struct Weighed {
@@ -242,13 +244,13 @@ Thetas SolveLeastSquares(const WeighedEquations& equations) {
 }
 
 /// How the weighed thrust responds to the time constant, times theta: g = dG/dtau theta.
-std::vector<Eigen::VectorXd> ThrustByLag(const PreparedDataset& dataset, const WeakProblem& problem,
+std::vector<Eigen::MatrixXd> ThrustByLag(const PreparedDataset& dataset, const WeakProblem& problem,
                                          const WeighedEquations& equations, const Thetas& thetas,
                                          double time_constant_s) {
   const double apart_s = 0.02 * time_constant_s;
   const FilteredThrust shorter = FilterThrust(dataset, problem, time_constant_s - apart_s);
   const FilteredThrust longer = FilterThrust(dataset, problem, time_constant_s + apart_s);
-  std::vector<Eigen::VectorXd> slopes;
+  std::vector<Eigen::MatrixXd> slopes;
   for (std::size_t i = 0; i < equations.size(); ++i) {
     const Eigen::MatrixXd change = WeighRegressors(dataset, problem, longer, equations[i]) -
                                    WeighRegressors(dataset, problem, shorter, equations[i]);
@@ -279,7 +281,7 @@ Eigen::MatrixXd Beside(const Eigen::VectorXd& first, const Eigen::MatrixXd& othe
 }
 
 System Stack(const WeighedEquations& equations, const std::vector<Eigen::MatrixXd>& Z,
-             const std::vector<Eigen::VectorXd>& by_lag, const std::vector<double>& weights) {
+             const std::vector<Eigen::MatrixXd>& by_lag, const std::vector<double>& weights) {
   const bool lagging = !by_lag.empty();
   Eigen::Index P = lagging ? 1 : 0;
   for (const Weighed& equation : equations) P += equation.G.cols();
@@ -310,6 +312,44 @@ std::optional<Eigen::MatrixXd> Invert(const Eigen::MatrixXd& A) {
   if (decomposition.rank() < A.rows()) return std::nullopt;
   const Eigen::MatrixXd inverse = decomposition.pseudoInverse();
   return Scaled(inverse, scale);
+}
+
+/// By what the coefficients leave of each equation, half of it taken for white at least: all of it
+/// only suits a boat that moves exactly as the model says. Where few windows are left for each
+/// coefficient what they show of each other is believed less.
+std::vector<ResidualWhitening> WhiteningsOf(const WeakProblem& problem,
+                                            const WeighedEquations& equations,
+                                            const Thetas& thetas) {
+  constexpr Eigen::Index kOrder = 10;
+  constexpr double kWindowsPerCoefficient = 10.0;
+  std::vector<ResidualWhitening> whitenings;
+  for (std::size_t i = 0; i < equations.size(); ++i) {
+    const auto& [index, columns, G, b] = equations[i];
+    const auto runs = RunsOf(problem.windows[index].first_rows, problem.phi.stride);
+    Eigen::VectorXd shown = DefiniteAutocovariance(runs, b - G * thetas[i], kResidualLags);
+    const double few =
+        kWindowsPerCoefficient * static_cast<double>(G.cols()) / static_cast<double>(G.rows());
+    shown.tail(shown.size() - 1) /= 2.0 + few;
+    whitenings.emplace_back(runs, shown.head(kOrder + 1));
+  }
+  return whitenings;
+}
+
+WeighedEquations Whitened(const std::vector<ResidualWhitening>& whitenings,
+                          const WeighedEquations& equations) {
+  WeighedEquations white;
+  for (std::size_t i = 0; i < equations.size(); ++i) {
+    const auto& [index, columns, G, b] = equations[i];
+    white.push_back({index, columns, whitenings[i].Whiten(G), whitenings[i].Whiten(b)});
+  }
+  return white;
+}
+
+std::vector<Eigen::MatrixXd> Whitened(const std::vector<ResidualWhitening>& whitenings,
+                                      const std::vector<Eigen::MatrixXd>& sides) {
+  std::vector<Eigen::MatrixXd> white;
+  for (std::size_t i = 0; i < sides.size(); ++i) white.push_back(whitenings[i].Whiten(sides[i]));
+  return white;
 }
 
 std::vector<Eigen::MatrixXd> OwnInstruments(const WeighedEquations& equations) {
@@ -363,12 +403,12 @@ double StartingLag(const PreparedDataset& dataset, const WeakProblem& problem,
 /// Cov(Z'e) of residuals that are correlated alike all along, as they are on average.
 Eigen::MatrixXd MeatIfAlike(const WeakProblem& problem, std::size_t index,
                             const Eigen::VectorXd& residual, const Eigen::MatrixXd& Z) {
-  constexpr std::size_t kLags = 20;
   const auto runs = RunsOf(problem.windows[index].first_rows, problem.phi.stride);
-  return Z.transpose() * Correlate(runs, DefiniteAutocovariance(runs, residual, kLags), Z);
+  return Z.transpose() * Correlate(runs, DefiniteAutocovariance(runs, residual, kResidualLags), Z);
 }
 
-WeakFit Write(const WeakProblem& problem, const WeighedEquations& equations, const System& system,
+WeakFit Write(const WeakProblem& problem, const WeighedEquations& equations,
+              const std::vector<ResidualWhitening>& whitenings, const System& system,
               const Eigen::MatrixXd& bread, const Thetas& thetas, const Thetas& damped,
               const std::optional<double>& time_constant_s) {
   WeakFit fit;
@@ -384,8 +424,13 @@ WeakFit Write(const WeakProblem& problem, const WeighedEquations& equations, con
     const Weighed& equation = equations[i];
     const auto& [places, Z] = system.shares[i];
     const Eigen::Index p = thetas[i].size();
-    WeakEstimate estimate{equation.columns, thetas[i],      damped[i],
-                          equation.G,       Z.rightCols(p), equation.b - equation.G * thetas[i]};
+    WeakEstimate estimate{equation.columns,
+                          thetas[i],
+                          damped[i],
+                          equation.G,
+                          whitenings[i].WhitenBack(Z.rightCols(p)),
+                          equation.b - equation.G * thetas[i]};
+    const Eigen::VectorXd news = whitenings[i].Whiten(estimate.residual);
     fit.theta.segment(next, p) = thetas[i];
     next += p;
     const auto& clusters = problem.windows[equation.index].clusters;
@@ -393,9 +438,9 @@ WeakFit Write(const WeakProblem& problem, const WeighedEquations& equations, con
       const auto begin = static_cast<Eigen::Index>(clusters[s].begin);
       const auto count = static_cast<Eigen::Index>(clusters[s].size());
       fit.scores(places, static_cast<Eigen::Index>(s)) +=
-          Z.middleRows(begin, count).transpose() * estimate.residual.segment(begin, count);
+          Z.middleRows(begin, count).transpose() * news.segment(begin, count);
     }
-    meat(places, places) += MeatIfAlike(problem, equation.index, estimate.residual, Z);
+    meat(places, places) += MeatIfAlike(problem, equation.index, news, Z);
     fit.equations[equation.index] = std::move(estimate);
   }
   fit.alike = Mapped(bread, meat);
@@ -456,9 +501,13 @@ std::optional<WeakFit> EstimateWeakIv(const PreparedDataset& dataset,
   const int rounds = lagging ? 2 * options.iterations : options.iterations;
   for (int round = 1;; ++round) {
     const auto Z = instruments.Weigh(equations, damped, thrust);
-    std::vector<Eigen::VectorXd> by_lag;
+    std::vector<Eigen::MatrixXd> by_lag;
     if (lagging) by_lag = ThrustByLag(dataset, problem, equations, thetas, *tau);
-    const System system = Stack(equations, Z, by_lag, ResidualWeights(equations, thetas));
+    const auto whitenings = WhiteningsOf(problem, equations, thetas);
+    const WeighedEquations white = Whitened(whitenings, equations);
+    const auto white_Z = Whitened(whitenings, Z);
+    const System system =
+        Stack(white, white_Z, Whitened(whitenings, by_lag), ResidualWeights(white, thetas));
     const auto bread = Invert(system.A);
     if (!bread) return std::nullopt;
     const Eigen::VectorXd solution = *bread * system.c;
@@ -468,9 +517,10 @@ std::optional<WeakFit> EstimateWeakIv(const PreparedDataset& dataset,
       thrust = FilterThrust(dataset, problem, tau);
     }
     Unstack(solution, lagging ? 1 : 0, thetas);
-    damped = Damped(equations, Z, options.damping);
+    damped = Damped(white, white_Z, options.damping);
     if (lagging) equations = WeighAll(dataset, problem, thrust, columns);
-    if (round == rounds) return Write(problem, equations, system, *bread, thetas, damped, tau);
+    if (round == rounds)
+      return Write(problem, equations, whitenings, system, *bread, thetas, damped, tau);
   }
 }
 

@@ -25,19 +25,21 @@ struct WeakIvOptions {
 };
 
 /// One equation's share of a weak-form fit, over the windows of WeakProblem::windows.
-/// Shapes: theta p; G and Z windows x p; residual, one per window.
+/// Shapes: theta p; G and Z windows x p; residual, one per window. With V the covariance of
+/// residuals, theta = (Z'G)^-1 Z'b.
 struct WeakEstimate {
   std::vector<std::size_t> columns;  ///< of Regressors() and SteadyTerms, those sought
   Eigen::VectorXd theta;
   Eigen::VectorXd damped;  ///< theta shrunk along directions that the data hardly move
   Eigen::MatrixXd G;       ///< regressors, weighed
-  Eigen::MatrixXd Z;       ///< their instruments
+  Eigen::MatrixXd Z;       ///< their instruments, V^-1 times what they are weighed to
   Eigen::VectorXd residual;
 };
 
 /// Shapes, with P the stacked unknowns (the time constant first if it is sought, then the
-/// coefficients of each answered equation): bread P x P = (Z'G)^-1, scores P x clusters with
-/// q_s = Z_s'e_s. theta - truth = bread Z'e, so Cov(theta) = bread Cov(sum q_s) bread'.
+/// coefficients of each answered equation): bread P x P = (Z'G)^-1, scores P x clusters, which add
+/// up to Z'e, each by what is new in its windows. theta - truth = bread Z'e, so
+/// Cov(theta) = bread Cov(sum of scores) bread'.
 struct WeakFit {
   WeakProblem problem;
   std::array<std::optional<WeakEstimate>, 3> equations;
@@ -45,7 +47,7 @@ struct WeakFit {
   Eigen::VectorXd theta;
   Eigen::MatrixXd bread;
   Eigen::MatrixXd scores;
-  /// P x P, Cov(theta) if the residuals of each equation were correlated alike all along.
+  /// P x P, Cov(theta) if what is new in the residuals of each equation were alike all along.
   Eigen::MatrixXd alike;
 
   /// Where the coefficients of an answered equation stand among the stacked unknowns.
@@ -57,10 +59,11 @@ struct WeakFit {
 };
 
 /// Weak-form instrumental variables, docs/model.md (31):
-///   theta = (Z'G)^-1 Z'b
-/// with instruments Z weighed like G but from velocities simulated with the model itself, which
-/// share the commands with the boat but no noise of its sensors: least squares started from, then
-/// repeated with the newest theta. What is left of attenuation is of second order in the noise.
+///   theta = (Z'V^-1 G)^-1 Z'V^-1 b
+/// with V what the residuals' correlations are believed to be (ResidualWhitening) and Z weighed
+/// like G but from velocities simulated with the model itself, which share the commands with the
+/// boat but no noise of its sensors: least squares started from, then repeated with the newest
+/// theta. What is left of attenuation is of second order in the noise.
 /// Nothing when the instruments blow up or determine nothing.
 /// Requires: data prepared with the robust preset; columns sought per equation, empty to leave the
 /// equation out: places in Regressors() or, beyond those, in the SteadyTerms that

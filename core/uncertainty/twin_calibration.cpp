@@ -17,10 +17,7 @@ namespace {
 
 constexpr double kCalibratedAt = 0.95;
 constexpr double kMedianToSigma = 1.4826;
-// What is believed of the logarithm of a factor below one, and the least factor. Chosen on repeats
-// of six scenarios and on the scatter between runs of one real boat, docs/coverage.md.
-constexpr double kBelievedInPart = 0.6;
-constexpr double kLeastStretch = 0.6;
+constexpr double kBelievedInPart = 0.6;  // of the logarithm of a factor below one
 
 double Quantile(std::vector<double> values, double share) {
   const auto at = static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
@@ -33,6 +30,12 @@ double MedianSize(std::vector<double> values, double about) {
   return Median(std::move(values));
 }
 
+/// The errors in standard errors of the twin's own clusters: one that knows it knows little proves
+/// nothing wild.
+Eigen::VectorXd InItsOwn(const Sighting& sighting) {
+  return sighting.error.cwiseQuotient(sighting.covariance.diagonal().cwiseSqrt());
+}
+
 /// Weights of the twins, below one for those that lie wildly apart from the rest in any direction:
 /// where instruments are weak a single twin can be off by any amount. A twin is weighed as a whole,
 /// since coefficients err together: drawn in one by one they would no longer fit each other.
@@ -41,7 +44,7 @@ std::vector<double> WeighWild(const std::vector<Sighting>& sightings) {
   std::vector<double> weights(sightings.size(), 1.0);
   for (Eigen::Index j = 0; j < sightings.front().error.size(); ++j) {
     std::vector<double> values;
-    for (const Sighting& s : sightings) values.push_back(s.error[j]);
+    for (const Sighting& s : sightings) values.push_back(InItsOwn(s)[j]);
     const double middle = Median(values);
     const double reach = kWild * kMedianToSigma * MedianSize(values, middle);
     for (std::size_t i = 0; i < values.size(); ++i) {
@@ -52,23 +55,25 @@ std::vector<double> WeighWild(const std::vector<Sighting>& sightings) {
   return weights;
 }
 
-/// Weighed mean and standard deviation of the twins.
+/// What twins err by in standard errors of their own: weighed mean, and root mean square about it.
 struct Spread {
   Eigen::VectorXd mean;
-  Eigen::VectorXd sd;
+  Eigen::VectorXd size;
 };
 
 Spread SpreadOf(const std::vector<Sighting>& sightings, const std::vector<double>& weights) {
+  constexpr double kMost = 4.0;
   const double n = std::accumulate(weights.begin(), weights.end(), 0.0);
   const Eigen::Index p = sightings.front().error.size();
   Spread spread{Eigen::VectorXd::Zero(p), Eigen::VectorXd::Zero(p)};
   for (std::size_t i = 0; i < weights.size(); ++i) {
-    spread.mean += weights[i] / n * sightings[i].error;
+    spread.mean += weights[i] / n * InItsOwn(sightings[i]);
   }
   for (std::size_t i = 0; i < weights.size(); ++i) {
-    spread.sd += weights[i] / (n - 1.0) * (sightings[i].error - spread.mean).cwiseAbs2();
+    const Eigen::VectorXd off = (InItsOwn(sightings[i]) - spread.mean).cwiseAbs();
+    spread.size += weights[i] / (n - 1.0) * off.cwiseMin(kMost).cwiseAbs2();
   }
-  spread.sd = spread.sd.cwiseSqrt();
+  spread.size = spread.size.cwiseSqrt();
   return spread;
 }
 
@@ -89,8 +94,10 @@ std::vector<Sighting> SizedByOthers(const std::vector<Sighting>& sightings,
     without[i] = 0.0;
     const Spread spread = SpreadOf(sightings, without);
     const Sighting& s = sightings[i];
-    sized.push_back({map * (s.error - spread.mean) / ByFew(sightings.size() - 1),
-                     Mapped(map, Scaled(s.covariance, spread.sd))});
+    const Eigen::VectorXd own = s.covariance.diagonal().cwiseSqrt();
+    const Eigen::VectorXd off = s.error - own.cwiseProduct(spread.mean);
+    sized.push_back(
+        {map * off / ByFew(sightings.size() - 1), Mapped(map, Scaled(s.covariance, spread.size))});
   }
   return sized;
 }
@@ -112,18 +119,17 @@ Eigen::MatrixXd WithoutRow(const Eigen::MatrixXd& rows, Eigen::Index row) {
 }
 
 /// By what the standard errors of each block have to be stretched for the intervals behind the
-/// pivots to hold. That they hold too often is believed in part: twins know only what they were
-/// told of the boat, and where instruments are weak many are wilder than it. Never one unknown
-/// against the next of its block: where some are hardly told apart the data know combinations of
-/// them, and those would be lost.
+/// pivots to hold. That they hold too often, sized as they are, is believed in part: twins know
+/// only what they were told of the boat. Never one unknown against the next of its block: where
+/// some are hardly told apart the data know combinations of them, and those would be lost.
 Eigen::VectorXd StretchOf(const Eigen::MatrixXd& pivots, const std::vector<Block>& blocks,
                           double promised) {
   Eigen::VectorXd stretch(pivots.cols());
   for (const auto& [begin, size] : blocks) {
     const auto of_block = pivots.middleCols(begin, size).reshaped();
     const double needed = Quantile({of_block.begin(), of_block.end()}, kCalibratedAt) / promised;
-    const double in_part = std::max(std::pow(needed, kBelievedInPart), kLeastStretch);
-    stretch.segment(begin, size).setConstant(needed > 1.0 ? needed : in_part);
+    stretch.segment(begin, size)
+        .setConstant(needed > 1.0 ? needed : std::pow(needed, kBelievedInPart));
   }
   return stretch;
 }
@@ -168,7 +174,7 @@ std::optional<TwinCalibration> Calibrate(const std::vector<Sighting>& sightings,
   }
   const Spread spread = SpreadOf(sightings, weights);
   const Eigen::VectorXd stretch = ByFew(sightings.size()) * StretchOf(pivots, blocks, promised);
-  return TwinCalibration{map * spread.mean, stretch.asDiagonal() * map * spread.sd.asDiagonal(),
+  return TwinCalibration{map * spread.mean, stretch.asDiagonal() * map * spread.size.asDiagonal(),
                          LogNormalQuantile(std::move(squares), kCalibratedAt) /
                              JointQuantile(degrees_of_freedom, unknowns, kCalibratedAt)};
 }

@@ -26,11 +26,12 @@ struct TwinCalibration {
   double covariance_factor = 1.0;  ///< of JointBounds
 };
 
-/// Sizes each whitened direction by the twins' scatter, and stretches the standard errors of each
-/// block until intervals that each twin makes of its own clusters, sized by the other twins, hold
-/// 95 %; docs/model.md (33), (35).
+/// Tells bias and size of each whitened direction by the twins' errors in standard errors of their
+/// own, and stretches those of each block until intervals that each twin makes of its own clusters,
+/// sized by the other twins, hold 95 %; docs/model.md (33), (35).
 /// Assumes: the true boat stands to the twins as each of them stands to the others.
-/// Shapes: sightings whitened; unknowns = map * whitened, block by block.
+/// Shapes: sightings whitened, so that clusters gave the estimate standard errors of one;
+/// unknowns = map * whitened, block by block.
 /// Requires: three sightings or more, all sound. Nothing where numbers overflow.
 std::optional<TwinCalibration> Calibrate(const std::vector<Sighting>& sightings,
                                          const Eigen::MatrixXd& map,
