@@ -57,6 +57,29 @@ TEST(SailedModel, StaysWithinBoundsAndDoesNotRunAway) {
   EXPECT_LE(model.sailed[3], 0.62);
 }
 
+TEST(SailedModel, LiesWithinTheEllipsoidWhereThereIsOne) {
+  Identification model = RunningAway(3.0);
+  model.joint = JointBounds{1.0, 60.0};
+  SeekToSail(RecordedAfloat(), model);
+  ASSERT_EQ(model.sailed.size(), 35U);
+  double distance = 0.0;
+  for (Eigen::Index i = 0; i < 35; ++i) {
+    const auto at = static_cast<std::size_t>(i);
+    const double off = model.sailed[at] - model.coefficients[at].estimate;
+    distance += off * off / model.covariance(i, i);
+  }
+  EXPECT_LE(distance, *SquaredRadius(model));
+  EXPECT_EQ(CountRunaways(RecordedAfloat(), *ModelOf(model), 30.0).runaways, 0U);
+}
+
+/// An ellipsoid so small that it holds none that sails, where the bounds of single ones would.
+TEST(SailedModel, IsNoneWhereTheEllipsoidHoldsNoneThatSails) {
+  Identification model = RunningAway(3.0);
+  model.joint = JointBounds{1e-6, 60.0};
+  SeekToSail(RecordedAfloat(), model);
+  EXPECT_TRUE(model.sailed.empty());
+}
+
 TEST(SailedModel, IsNoneWhereTheDataAreSureOfWhatRunsAway) {
   Identification model = RunningAway(0.01);
   SeekToSail(RecordedAfloat(), model);
