@@ -519,8 +519,9 @@ std::optional<WeakFit> EstimateWeakIv(const PreparedDataset& dataset,
     Unstack(solution, lagging ? 1 : 0, thetas);
     damped = Damped(white, white_Z, options.damping);
     if (lagging) equations = WeighAll(dataset, problem, thrust, columns);
-    if (round == rounds)
+    if (round == rounds) {
       return Write(problem, equations, whitenings, system, *bread, thetas, damped, tau);
+    }
   }
 }
 

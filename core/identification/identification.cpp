@@ -36,6 +36,13 @@ std::size_t Identification::Bounded() const {
                     [](const Coefficient& c) { return std::isfinite(c.standard_error); }));
 }
 
+Eigen::VectorXd Identification::Estimates() const {
+  Eigen::VectorXd theta(std::ssize(coefficients));
+  std::transform(coefficients.begin(), coefficients.end(), theta.begin(),
+                 [](const Coefficient& c) { return c.estimate; });
+  return theta;
+}
+
 std::optional<double> SquaredRadius(const Identification& identification) {
   const std::size_t bounded = identification.Bounded();
   if (!identification.joint || bounded == 0) return std::nullopt;

@@ -129,8 +129,9 @@ struct Identification {
   /// regressor "1" are their means.
   std::vector<RecordingOffsets> offsets;
   std::vector<AddedEffect> effects;  ///< that act on the boat besides its coefficients
-  /// Where the estimates run away, what a simulation takes in their place, within the bounds and in
-  /// the order of the coefficients: docs/model.md (18b). Empty: the estimates.
+  /// Where the estimates run away, what a simulation takes in their place, in the order of the
+  /// coefficients and within the ellipsoid, or the bounds where there is none: docs/model.md (18b).
+  /// Empty: the estimates.
   std::vector<double> sailed;
   /// What a simulation takes for the coefficient at that place.
   double SailedWith(std::size_t place) const {
@@ -147,6 +148,9 @@ struct Identification {
 
   /// Coefficients that are bounded at all.
   std::size_t Bounded() const;
+
+  /// In the order of the coefficients.
+  Eigen::VectorXd Estimates() const;
 };
 
 /// The squared radius of the ellipsoid of all bounded coefficients at the level of the intervals:

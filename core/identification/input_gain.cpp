@@ -28,14 +28,6 @@ Eigen::MatrixXd PropellerRows(const Identification& identification,
   return rows;
 }
 
-Eigen::VectorXd Estimates(const Identification& identification) {
-  Eigen::VectorXd theta(static_cast<Eigen::Index>(identification.coefficients.size()));
-  for (Eigen::Index i = 0; i < theta.size(); ++i) {
-    theta[i] = identification.coefficients[static_cast<std::size_t>(i)].estimate;
-  }
-  return theta;
-}
-
 void MakeUnknown(Eigen::Matrix3d& covariance, Eigen::Index axis) {
   covariance.row(axis).setZero();
   covariance.col(axis).setZero();
@@ -99,7 +91,7 @@ InputGain GainUnder(const Identification& identification, const ThrustRegressors
   Require(identification.covariance.rows() == size && identification.covariance.cols() == size,
           "a covariance over all coefficients");
   const Eigen::MatrixXd rows = PropellerRows(identification, thrust);
-  InputGain gain{rows * Estimates(identification), Propagate(rows, identification.covariance)};
+  InputGain gain{rows * identification.Estimates(), Propagate(rows, identification.covariance)};
   for (const Equation equation : kEquations) {
     if (identification.Has(equation)) continue;
     MakeUnknown(gain.covariance, static_cast<Eigen::Index>(IndexOf(equation)));

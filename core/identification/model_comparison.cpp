@@ -59,9 +59,7 @@ struct Stacked {
 Stacked Stack(const Identification& model) {
   const auto p = static_cast<Eigen::Index>(model.coefficients.size());
   Stacked stacked{Eigen::VectorXd::Zero(p + 1), Eigen::MatrixXd::Zero(p + 1, p + 1)};
-  for (Eigen::Index i = 0; i < p; ++i) {
-    stacked.theta[i] = model.coefficients[static_cast<std::size_t>(i)].estimate;
-  }
+  stacked.theta.head(p) = model.Estimates();
   stacked.covariance.topLeftCorner(p, p) = model.covariance;
   stacked.covariance(p, p) = std::numeric_limits<double>::infinity();
   if (model.thruster_time_constant && model.time_constant_covariance.size() == p) {

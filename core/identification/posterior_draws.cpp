@@ -69,11 +69,10 @@ Result<PosteriorDraws> DrawFromPosterior(const Identification& identification, s
               (identification.thruster_time_constant ? size : 0),
           "a covariance of the time constant, where there is one, with every coefficient");
   PosteriorDraws draws;
-  Eigen::VectorXd estimates(size);
+  const Eigen::VectorXd estimates = identification.Estimates();
   std::vector<Eigen::Index> drawn;
   for (Eigen::Index i = 0; i < size; ++i) {
     const Coefficient& coefficient = identification.coefficients[static_cast<std::size_t>(i)];
-    estimates[i] = coefficient.estimate;
     if (std::isfinite(identification.covariance(i, i))) {
       drawn.push_back(i);
     } else {

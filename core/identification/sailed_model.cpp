@@ -36,7 +36,7 @@ double SquaredDistance(const Identification& identification, const Eigen::Vector
   }
   const Eigen::MatrixXd covariance = identification.covariance(bounded, bounded);
   const Eigen::VectorXd units = covariance.diagonal().cwiseSqrt().cwiseInverse();
-  const Eigen::VectorXd estimates = EstimatesOf(identification);
+  const Eigen::VectorXd estimates = identification.Estimates();
   const Eigen::VectorXd off = units.cwiseProduct(theta(bounded) - estimates(bounded));
   return off.dot(Scaled(covariance, units).ldlt().solve(off));
 }
@@ -96,8 +96,8 @@ bool IsBetter(const Drawing& one, const Drawing& other) {
 
 /// What the coefficients are where each of them is believed to move the boat by about as much as
 /// any other, more or less.
-std::vector<Eigen::VectorXd> Candidates(const PreparedDataset& dataset,
-                                        const Identification& identification) {
+std::vector<Eigen::VectorXd> EverTamer(const PreparedDataset& dataset,
+                                       const Identification& identification) {
   constexpr double kMost = 4.0;  // m/s^2, rad/s^2
   constexpr int kHalvings = 13;
   const Eigen::VectorXd regressors = RegressorSizes(dataset, identification);
@@ -129,7 +129,7 @@ std::optional<Drawing> BestOf(const std::vector<Eigen::VectorXd>& candidates,
 /// Of candidates that the ellipsoid holds; of all, held at their bounds, where there is none.
 std::optional<Drawing> DrawnIn(const PreparedDataset& dataset,
                                const Identification& identification) {
-  std::vector<Eigen::VectorXd> candidates = Candidates(dataset, identification);
+  std::vector<Eigen::VectorXd> candidates = EverTamer(dataset, identification);
   if (const auto squared_radius = SquaredRadius(identification)) {
     std::erase_if(candidates, [&](const Eigen::VectorXd& theta) {
       return SquaredDistance(identification, theta) > *squared_radius;

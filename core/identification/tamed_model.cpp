@@ -21,15 +21,8 @@ std::vector<Eigen::Index> Drawn(const Identification& identification,
 
 }  // namespace
 
-Eigen::VectorXd EstimatesOf(const Identification& identification) {
-  Eigen::VectorXd theta(std::ssize(identification.coefficients));
-  Eigen::Index next = 0;
-  for (const Coefficient& c : identification.coefficients) theta[next++] = c.estimate;
-  return theta;
-}
-
 Eigen::VectorXd TamedEstimates(const Identification& identification, const Eigen::VectorXd& sizes) {
-  Eigen::VectorXd theta = EstimatesOf(identification);
+  Eigen::VectorXd theta = identification.Estimates();
   const std::vector<Eigen::Index> drawn = Drawn(identification, sizes);
   if (drawn.empty()) return theta;
   // With coefficients in units of their believed size: theta' = (I + Sigma)^-1 theta.
@@ -42,7 +35,7 @@ Eigen::VectorXd TamedEstimates(const Identification& identification, const Eigen
 }
 
 VesselModel TamedModel(const Identification& identification, double trust) {
-  Eigen::VectorXd theta = EstimatesOf(identification);
+  Eigen::VectorXd theta = identification.Estimates();
   if (std::isfinite(trust)) theta = TamedEstimates(identification, trust * theta.cwiseAbs());
   VesselModel model =
       VesselModel::OfZeros(identification.structure, identification.parameterization,

@@ -28,7 +28,4 @@ Eigen::VectorXd TamedEstimates(const Identification& identification, const Eigen
 /// estimates; those that are not known, or whose equation was refused, are zero.
 VesselModel TamedModel(const Identification& identification, double trust);
 
-/// The estimates, in their order.
-Eigen::VectorXd EstimatesOf(const Identification& identification);
-
 }  // namespace telltale

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <utility>
 
 #include "contract.hpp"
@@ -30,51 +29,47 @@ double MedianSize(std::vector<double> values, double about) {
   return Median(std::move(values));
 }
 
-/// The errors in standard errors of the twin's own clusters: one that knows it knows little proves
-/// nothing wild.
-Eigen::VectorXd InItsOwn(const Sighting& sighting) {
-  return sighting.error.cwiseQuotient(sighting.covariance.diagonal().cwiseSqrt());
+/// Twins x directions: errors in standard errors of the twin's own clusters. One that knows it
+/// knows little proves nothing wild.
+Eigen::MatrixXd InTheirOwn(const std::vector<Sighting>& sightings) {
+  Eigen::MatrixXd errors(std::ssize(sightings), sightings.front().error.size());
+  for (Eigen::Index i = 0; i < errors.rows(); ++i) {
+    const Sighting& s = sightings[static_cast<std::size_t>(i)];
+    errors.row(i) = s.error.cwiseQuotient(s.covariance.diagonal().cwiseSqrt());
+  }
+  return errors;
 }
 
 /// Weights of the twins, below one for those that lie wildly apart from the rest in any direction:
 /// where instruments are weak a single twin can be off by any amount. A twin is weighed as a whole,
 /// since coefficients err together: drawn in one by one they would no longer fit each other.
-std::vector<double> WeighWild(const std::vector<Sighting>& sightings) {
+Eigen::VectorXd WeighWild(const Eigen::MatrixXd& errors) {
   constexpr double kWild = 4.0;
-  std::vector<double> weights(sightings.size(), 1.0);
-  for (Eigen::Index j = 0; j < sightings.front().error.size(); ++j) {
-    std::vector<double> values;
-    for (const Sighting& s : sightings) values.push_back(InItsOwn(s)[j]);
+  Eigen::VectorXd weights = Eigen::VectorXd::Ones(errors.rows());
+  for (const auto direction : errors.colwise()) {
+    const std::vector<double> values(direction.begin(), direction.end());
     const double middle = Median(values);
     const double reach = kWild * kMedianToSigma * MedianSize(values, middle);
-    for (std::size_t i = 0; i < values.size(); ++i) {
-      const double off = std::abs(values[i] - middle);
+    for (Eigen::Index i = 0; i < direction.size(); ++i) {
+      const double off = std::abs(direction[i] - middle);
       if (off > reach) weights[i] = std::min(weights[i], reach / off);
     }
   }
   return weights;
 }
 
-/// What twins err by in standard errors of their own: weighed mean, and root mean square about it.
+/// Weighed mean of such errors by direction, and their root mean square about it.
 struct Spread {
   Eigen::VectorXd mean;
   Eigen::VectorXd size;
 };
 
-Spread SpreadOf(const std::vector<Sighting>& sightings, const std::vector<double>& weights) {
+Spread SpreadOf(const Eigen::MatrixXd& errors, const Eigen::VectorXd& weights) {
   constexpr double kMost = 4.0;
-  const double n = std::accumulate(weights.begin(), weights.end(), 0.0);
-  const Eigen::Index p = sightings.front().error.size();
-  Spread spread{Eigen::VectorXd::Zero(p), Eigen::VectorXd::Zero(p)};
-  for (std::size_t i = 0; i < weights.size(); ++i) {
-    spread.mean += weights[i] / n * InItsOwn(sightings[i]);
-  }
-  for (std::size_t i = 0; i < weights.size(); ++i) {
-    const Eigen::VectorXd off = (InItsOwn(sightings[i]) - spread.mean).cwiseAbs();
-    spread.size += weights[i] / (n - 1.0) * off.cwiseMin(kMost).cwiseAbs2();
-  }
-  spread.size = spread.size.cwiseSqrt();
-  return spread;
+  const double n = weights.sum();
+  const Eigen::VectorXd mean = errors.transpose() * weights / n;
+  const Eigen::MatrixXd off = (errors.rowwise() - mean.transpose()).cwiseAbs().cwiseMin(kMost);
+  return {mean, (off.cwiseAbs2().transpose() * weights / (n - 1.0)).cwiseSqrt()};
 }
 
 /// How much further a boat lies from the mean of so many twins than from where all would lie: their
@@ -86,13 +81,13 @@ double ByFew(std::size_t twins) {
 /// Each twin as the true boat stands to all of them: its error about the mean of the others and
 /// its clusters' covariance, which take their sizes from the others; as unknowns.
 std::vector<Sighting> SizedByOthers(const std::vector<Sighting>& sightings,
-                                    const std::vector<double>& weights,
+                                    const Eigen::MatrixXd& errors, const Eigen::VectorXd& weights,
                                     const Eigen::MatrixXd& map) {
   std::vector<Sighting> sized;
   for (std::size_t i = 0; i < sightings.size(); ++i) {
-    std::vector<double> without = weights;
-    without[i] = 0.0;
-    const Spread spread = SpreadOf(sightings, without);
+    Eigen::VectorXd without = weights;
+    without[static_cast<Eigen::Index>(i)] = 0.0;
+    const Spread spread = SpreadOf(errors, without);
     const Sighting& s = sightings[i];
     const Eigen::VectorXd own = s.covariance.diagonal().cwiseSqrt();
     const Eigen::VectorXd off = s.error - own.cwiseProduct(spread.mean);
@@ -158,8 +153,9 @@ std::optional<TwinCalibration> Calibrate(const std::vector<Sighting>& sightings,
                                          const std::vector<Block>& blocks,
                                          double degrees_of_freedom) {
   Require(sightings.size() >= 3, "at least three twins");
-  const std::vector<double> weights = WeighWild(sightings);
-  const std::vector<Sighting> sized = SizedByOthers(sightings, weights, map);
+  const Eigen::MatrixXd errors = InTheirOwn(sightings);
+  const Eigen::VectorXd weights = WeighWild(errors);
+  const std::vector<Sighting> sized = SizedByOthers(sightings, errors, weights, map);
   const Eigen::MatrixXd pivots = PivotsOf(sized);
   if (!pivots.allFinite()) return std::nullopt;
   const double promised = StudentQuantile(degrees_of_freedom, 0.5 * (1.0 + kCalibratedAt));
@@ -172,7 +168,7 @@ std::optional<TwinCalibration> Calibrate(const std::vector<Sighting>& sightings,
     squares.push_back(off.dot(s.covariance.ldlt().solve(off)) / unknowns);
     if (!(squares.back() > 0.0)) return std::nullopt;
   }
-  const Spread spread = SpreadOf(sightings, weights);
+  const Spread spread = SpreadOf(errors, weights);
   const Eigen::VectorXd stretch = ByFew(sightings.size()) * StretchOf(pivots, blocks, promised);
   return TwinCalibration{map * spread.mean, stretch.asDiagonal() * map * spread.size.asDiagonal(),
                          LogNormalQuantile(std::move(squares), kCalibratedAt) /
