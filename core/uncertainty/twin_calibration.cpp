@@ -16,7 +16,6 @@ namespace {
 
 constexpr double kCalibratedAt = 0.95;
 constexpr double kMedianToSigma = 1.4826;
-constexpr double kBelievedInPart = 0.6;  // of the logarithm of a factor below one
 
 double Quantile(std::vector<double> values, double share) {
   const auto at = static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
@@ -114,17 +113,15 @@ Eigen::MatrixXd WithoutRow(const Eigen::MatrixXd& rows, Eigen::Index row) {
 }
 
 /// By what the standard errors of each block have to be stretched for the intervals behind the
-/// pivots to hold. That they hold too often, sized as they are, is believed in part: twins know
-/// only what they were told of the boat. Never one unknown against the next of its block: where
-/// some are hardly told apart the data know combinations of them, and those would be lost.
+/// pivots to hold. Never one unknown against the next of its block: where some are hardly told
+/// apart the data know combinations of them, and those would be lost.
 Eigen::VectorXd StretchOf(const Eigen::MatrixXd& pivots, const std::vector<Block>& blocks,
                           double promised) {
   Eigen::VectorXd stretch(pivots.cols());
   for (const auto& [begin, size] : blocks) {
     const auto of_block = pivots.middleCols(begin, size).reshaped();
     const double needed = Quantile({of_block.begin(), of_block.end()}, kCalibratedAt) / promised;
-    stretch.segment(begin, size)
-        .setConstant(needed > 1.0 ? needed : std::pow(needed, kBelievedInPart));
+    stretch.segment(begin, size).setConstant(needed);
   }
   return stretch;
 }

@@ -181,11 +181,11 @@ class TwinFleet {
     return seen;
   }
 
-  /// The boat half of `off` off the middle, or as near to the middle as it takes not to run away:
-  /// all of it makes most twins wilder than the boat.
+  /// The boat off the middle by half the variance of `off`, or nearer as it takes not to run away:
+  /// all of it makes most twins wilder than the boat, less hides how bias depends on the boat.
   std::optional<Sighting> SightOne(const Eigen::VectorXd& middle, const Eigen::VectorXd& off,
                                    std::uint64_t seed) const {
-    for (const double share : {0.5, 0.25, 0.125, 0.0}) {
+    for (const double share : {0.7, 0.35, 0.175, 0.0}) {
       Eigen::VectorXd truth = middle + share * off;
       if (fit_.time_constant_s) truth[0] = std::max(truth[0], kLeastTimeConstantS);
       const auto twin = Sail(truth, disturbance_, seed);
