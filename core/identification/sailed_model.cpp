@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "estimation/excitation.hpp"
+#include "estimation/one_step.hpp"
 #include "estimation/regression_problem.hpp"
 #include "identification/tamed_model.hpp"
 #include "linear_algebra/covariance.hpp"
@@ -41,23 +43,42 @@ double SquaredDistance(const Identification& identification, const Eigen::Vector
   return off.dot(Scaled(covariance, units).ldlt().solve(off));
 }
 
-/// Root mean square of each coefficient's regressor over the recording.
-Eigen::VectorXd RegressorSizes(const PreparedDataset& dataset,
+RegressionProblem RegressionOf(const PreparedDataset& dataset,
                                const Identification& identification) {
   RegressionOptions options;
   options.parameterization = identification.parameterization;
   options.dead_zone = identification.dead_zone;
   options.include_reverse = true;
-  const RegressionProblem problem = BuildRegression(dataset, options);
-  Eigen::VectorXd sizes(std::ssize(identification.coefficients));
-  Eigen::Index next = 0;
+  return BuildRegression(dataset, options);
+}
+
+/// Root mean square of each coefficient's regressor over the recording.
+Eigen::VectorXd RegressorSizes(const RegressionProblem& problem) {
+  std::vector<double> sizes;
   for (const EquationProblem& equation : problem.equations) {
     const auto rows = static_cast<double>(std::max<Eigen::Index>(1, equation.phi.rows()));
-    sizes.segment(next, equation.phi.cols()) =
-        (equation.phi.colwise().norm() / std::sqrt(rows)).transpose();
-    next += equation.phi.cols();
+    for (const auto regressor : equation.phi.colwise()) {
+      sizes.push_back(regressor.norm() / std::sqrt(rows));
+    }
   }
-  return sizes;
+  return Eigen::Map<const Eigen::VectorXd>(sizes.data(), std::ssize(sizes));
+}
+
+/// What least squares from each instant to the next makes of the recording: attenuated, but seldom
+/// wild. Zero in an equation that it cannot answer.
+Eigen::VectorXd OneStepEstimates(const RegressionProblem& problem) {
+  std::vector<double> theta;
+  const auto excitations = Assess(problem.equations, {});
+  for (std::size_t j = 0; j < excitations.size(); ++j) {
+    const std::size_t first = theta.size();
+    theta.resize(first + problem.equations[j].regressors.size(), 0.0);
+    if (!excitations[j]) continue;
+    const EquationEstimate estimate = EstimateOneStep(*excitations[j]);
+    for (std::size_t k = 0; k < estimate.columns.size(); ++k) {
+      theta[first + estimate.columns[k]] = estimate.theta[static_cast<Eigen::Index>(k)];
+    }
+  }
+  return Eigen::Map<const Eigen::VectorXd>(theta.data(), std::ssize(theta));
 }
 
 /// Largest distance of a coefficient from its estimate, in standard errors.
@@ -95,18 +116,23 @@ bool IsBetter(const Drawing& one, const Drawing& other) {
 }
 
 /// What the coefficients are where each of them is believed to move the boat by about as much as
-/// any other, more or less.
+/// any other, more or less, off what one-step least squares make of it, or off nothing.
 std::vector<Eigen::VectorXd> EverTamer(const PreparedDataset& dataset,
                                        const Identification& identification) {
   constexpr double kMost = 4.0;  // m/s^2, rad/s^2
   constexpr int kHalvings = 13;
-  const Eigen::VectorXd regressors = RegressorSizes(dataset, identification);
+  const RegressionProblem problem = RegressionOf(dataset, identification);
+  const Eigen::VectorXd regressors = RegressorSizes(problem);
+  const Eigen::VectorXd one_step = OneStepEstimates(problem);
+  const Eigen::VectorXd nothing = Eigen::VectorXd::Zero(one_step.size());
   std::vector<Eigen::VectorXd> candidates;
   double believed = kMost;
   for (int halving = 0; halving <= kHalvings; ++halving, believed /= 2.0) {
     const Eigen::VectorXd sizes =
         (regressors.array() > 0.0).select(believed * regressors.cwiseInverse(), 0.0);
-    candidates.push_back(TamedEstimates(identification, sizes));
+    for (const Eigen::VectorXd& middle : {nothing, one_step}) {
+      candidates.push_back(TamedEstimates(identification, sizes, middle));
+    }
   }
   return candidates;
 }
@@ -157,7 +183,7 @@ std::optional<std::string> DrawIn(const PreparedDataset& dataset, Identification
   const auto drawing = DrawnIn(dataset, identification);
   if (!drawing) return std::nullopt;
   identification.sailed.assign(drawing->theta.begin(), drawing->theta.end());
-  return "it is sailed with coefficients drawn towards zero along what the data leave open, by " +
+  return "it is sailed with coefficients drawn in along what the data leave open, by " +
          Number(Furthest(identification, drawing->theta), 1) +
          " standard errors at most, and so runs for " + Number(drawing->sails_s, 0) + " s";
 }

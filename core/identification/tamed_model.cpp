@@ -21,22 +21,26 @@ std::vector<Eigen::Index> Drawn(const Identification& identification,
 
 }  // namespace
 
-Eigen::VectorXd TamedEstimates(const Identification& identification, const Eigen::VectorXd& sizes) {
+Eigen::VectorXd TamedEstimates(const Identification& identification, const Eigen::VectorXd& sizes,
+                               const Eigen::VectorXd& believed) {
   Eigen::VectorXd theta = identification.Estimates();
   const std::vector<Eigen::Index> drawn = Drawn(identification, sizes);
   if (drawn.empty()) return theta;
-  // With coefficients in units of their believed size: theta' = (I + Sigma)^-1 theta.
+  // With coefficients in units of their believed size: theta' = b + (I + Sigma)^-1 (theta - b).
   const Eigen::VectorXd units = sizes(drawn).cwiseInverse();
   Eigen::MatrixXd sum = Scaled(identification.covariance(drawn, drawn), units);
   sum.diagonal().array() += 1.0;
-  const Eigen::VectorXd scaled = units.cwiseProduct(theta(drawn));
-  theta(drawn) = sizes(drawn).cwiseProduct(sum.ldlt().solve(scaled));
+  const Eigen::VectorXd off = units.cwiseProduct(theta(drawn) - believed(drawn));
+  theta(drawn) = believed(drawn) + sizes(drawn).cwiseProduct(sum.ldlt().solve(off));
   return theta;
 }
 
 VesselModel TamedModel(const Identification& identification, double trust) {
   Eigen::VectorXd theta = identification.Estimates();
-  if (std::isfinite(trust)) theta = TamedEstimates(identification, trust * theta.cwiseAbs());
+  if (std::isfinite(trust)) {
+    theta = TamedEstimates(identification, trust * theta.cwiseAbs(),
+                           Eigen::VectorXd::Zero(theta.size()));
+  }
   VesselModel model =
       VesselModel::OfZeros(identification.structure, identification.parameterization,
                            Discretisation::kContinuous, identification.sampling_period_s);

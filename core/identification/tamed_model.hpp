@@ -18,11 +18,12 @@ inline constexpr double kAsPublished = std::numeric_limits<double>::infinity();
 inline constexpr std::array kTrusts = {1.0, 0.7, 0.5, 0.35, 0.25, 0.18, 0.125};
 
 /// Coefficients that are believed to be of these sizes before any data are seen, docs/model.md
-/// (61), in their order: drawn towards zero along what the data hardly determine,
-/// theta' = P (P + Sigma)^-1 theta with P = diag(sizes^2), they stay where the data are sure. One
-/// that is not known, or of size zero, stays as it is.
-/// Shapes: sizes, one a coefficient.
-Eigen::VectorXd TamedEstimates(const Identification& identification, const Eigen::VectorXd& sizes);
+/// (61), in their order, about what is believed of them: drawn towards it along what the data
+/// hardly determine, theta' = b + P (P + Sigma)^-1 (theta - b) with P = diag(sizes^2), they stay
+/// where the data are sure. One that is not known, or of size zero, stays as it is.
+/// Shapes: sizes, believed, one a coefficient.
+Eigen::VectorXd TamedEstimates(const Identification& identification, const Eigen::VectorXd& sizes,
+                               const Eigen::VectorXd& believed);
 
 /// The continuous boat whose coefficients are believed to be of `trust` times the sizes of their
 /// estimates; those that are not known, or whose equation was refused, are zero.

@@ -57,6 +57,15 @@ TEST(SailedModel, StaysWithinBoundsAndDoesNotRunAway) {
   EXPECT_LE(model.sailed[3], 0.62);
 }
 
+// Without noise least squares from one instant to the next sees the drag of -0.25 u, which no model
+// that is drawn from a push of 2 u towards nothing comes to.
+TEST(SailedModel, ComesToWhatOneStepLeastSquaresSeesOfTheRecording) {
+  Identification model = RunningAway(3.0);
+  SeekToSail(RecordedAfloat(), model);
+  ASSERT_EQ(model.sailed.size(), 35U);
+  EXPECT_NEAR(model.sailed[3], testing::StableBoat().theta[0][3], 0.1);
+}
+
 TEST(SailedModel, LiesWithinTheEllipsoidWhereThereIsOne) {
   Identification model = RunningAway(3.0);
   model.joint = JointBounds{1.0, 60.0};

@@ -36,6 +36,16 @@ TEST(TamedModel, DrawsInWhatIsHardlyKnown) {
   EXPECT_LT(TamedModel(KnownTo(2.0), 0.1).theta[0][0], 0.02);
 }
 
+/// The same about anything else: what the data say is weighed against what is believed.
+TEST(TamedModel, DrawsTowardsWhatIsBelieved) {
+  const Identification made = KnownTo(2.0);
+  const Eigen::VectorXd estimates = made.Estimates();
+  const Eigen::VectorXd believed = Eigen::VectorXd::Constant(estimates.size(), 3.0);
+  const Eigen::VectorXd tamed = TamedEstimates(made, estimates.cwiseAbs(), believed);
+  EXPECT_NEAR(tamed[0], 3.0 + (7.0 - 3.0) / 5.0, 1e-9);
+  EXPECT_TRUE(TamedEstimates(made, 1e6 * estimates.cwiseAbs(), believed).isApprox(estimates, 1e-6));
+}
+
 /// What two coefficients add up to is known, each of them is not: the sum stays.
 TEST(TamedModel, KeepsWhatTheDataAreSureOf) {
   Identification made = IdentificationByHand();
