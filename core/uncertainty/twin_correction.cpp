@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <mutex>
 
 #include <boost/random/normal_distribution.hpp>
@@ -23,6 +24,7 @@ constexpr std::size_t kQuietTwins = 2;
 // Of the expected distance of the truth from the estimate: how plain the boats are that are
 // sailed. Plainer ones are less wild than the truth may be, and tell of another bias.
 constexpr double kReaches[] = {0.1, 0.5, 2.0, 8.0};
+constexpr int kPlainnesses = static_cast<int>(std::size(kReaches)) + 1;
 
 bool IsSound(const TwinCorrection& correction) {
   return correction.theta.allFinite() && correction.covariance.allFinite() &&
@@ -77,31 +79,20 @@ class TwinFleet {
         white_(clustered_, blocks_) {}
 
   std::optional<Disturbance> DisturbanceAlone() const {
-    const auto found = FindSailable();
-    if (!found) return std::nullopt;
-    return JudgeDisturbance(*found);
+    for (int plainness = 0; plainness < kPlainnesses; ++plainness) {
+      if (const auto sailable = SailQuietly(BoatsOf(plainness))) return JudgeDisturbance(*sailable);
+    }
+    return std::nullopt;
   }
 
+  /// By boats as much plainer than the estimate as it takes for most twins not to run away.
   std::optional<TwinCorrection> Run() {
-    const auto sailable = FindSailable();
-    if (!sailable) return std::nullopt;
-    TwinCorrection correction;
-    correction.disturbance = JudgeDisturbance(*sailable);
-    disturbance_ = correction.disturbance;
-    disturbance_.time_constant_s *= twins_.time_scale;
-    const auto sightings = Sight(sailable->boats);
-    if (2 * sightings.size() < twins_.twins) return std::nullopt;
-    correction.solved = sightings.size();
-    correction.failures = twins_.twins - sightings.size();
-    correction.degrees_of_freedom = static_cast<double>(fit_.scores.cols()) - 1.0;
-    const auto calibration =
-        Calibrate(sightings, white_.map, blocks_, correction.degrees_of_freedom);
-    if (!calibration) return std::nullopt;
-    correction.theta = fit_.theta - Believed(calibration->bias, sailable->boats);
-    correction.covariance = Mapped(calibration->scale, white_.Of(clustered_));
-    correction.joint = {calibration->covariance_factor, correction.degrees_of_freedom};
-    if (!IsSound(correction)) return std::nullopt;
-    return correction;
+    for (int plainness = 0; plainness < kPlainnesses; ++plainness) {
+      const auto sailable = SailQuietly(BoatsOf(plainness));
+      if (!sailable) continue;
+      if (auto correction = CorrectBy(*sailable)) return correction;
+    }
+    return std::nullopt;
   }
 
  private:
@@ -111,15 +102,31 @@ class TwinFleet {
     std::vector<PreparedDataset> quiet;
   };
 
-  /// Plausible boats, as much plainer than the estimate as it takes not to run away; in the end the
-  /// damped one alone.
-  std::optional<Sailable> FindSailable() const {
-    for (const double reach : kReaches) {
-      auto found = SailQuietly(PlausibleAbout(fit_, reach));
-      if (found) return found;
-    }
+  /// Plausible boats, each plainer than the one before; in the end the damped one alone.
+  PlausibleBoats BoatsOf(int plainness) const {
+    if (plainness < std::ssize(kReaches)) return PlausibleAbout(fit_, kReaches[plainness]);
     const Eigen::Index P = fit_.theta.size();
-    return SailQuietly({fit_.Damped(), Eigen::MatrixXd::Zero(P, P)});
+    return {fit_.Damped(), Eigen::MatrixXd::Zero(P, P)};
+  }
+
+  std::optional<TwinCorrection> CorrectBy(const Sailable& sailable) {
+    TwinCorrection correction;
+    correction.disturbance = JudgeDisturbance(sailable);
+    disturbance_ = correction.disturbance;
+    disturbance_.time_constant_s *= twins_.time_scale;
+    const auto sightings = Sight(sailable.boats);
+    if (2 * sightings.size() < twins_.twins) return std::nullopt;
+    correction.solved = sightings.size();
+    correction.failures = twins_.twins - sightings.size();
+    correction.degrees_of_freedom = static_cast<double>(fit_.scores.cols()) - 1.0;
+    const auto calibration =
+        Calibrate(sightings, white_.map, blocks_, correction.degrees_of_freedom);
+    if (!calibration) return std::nullopt;
+    correction.theta = fit_.theta - Believed(calibration->bias, sailable.boats);
+    correction.covariance = Mapped(calibration->scale, white_.Of(clustered_));
+    correction.joint = {calibration->covariance_factor, correction.degrees_of_freedom};
+    if (!IsSound(correction)) return std::nullopt;
+    return correction;
   }
 
   std::optional<Sailable> SailQuietly(const PlausibleBoats& boats) const {
@@ -166,6 +173,7 @@ class TwinFleet {
   std::vector<Sighting> Sight(const PlausibleBoats& boats) {
     const Whitening plausible(boats.covariance, {{0, boats.middle.size()}});
     std::vector<std::optional<Sighting>> all(twins_.twins);
+    done_ = 0;
     ForEachIndex(all.size(), twins_.threads, [&](std::size_t i) {
       RandomEngine engine(SeedOf(i));
       boost::random::normal_distribution<double> normal;
@@ -212,10 +220,14 @@ class TwinFleet {
     return believed;
   }
 
+  /// Nothing of what has been told before, where it starts again.
   void Tell() {
     const std::lock_guard lock(telling_);
     ++done_;
-    if (progress_) progress_(static_cast<double>(done_) / static_cast<double>(twins_.twins));
+    const double fraction = static_cast<double>(done_) / static_cast<double>(twins_.twins);
+    if (fraction <= told_) return;
+    told_ = fraction;
+    if (progress_) progress_(fraction);
   }
 
   const PreparedDataset& dataset_;
@@ -231,6 +243,7 @@ class TwinFleet {
   Disturbance disturbance_;
   std::mutex telling_;
   std::size_t done_ = 0;
+  double told_ = 0.0;
 };
 
 }  // namespace
