@@ -64,10 +64,14 @@ WeakView SeeWeakly(const PreparedDataset& dataset, const Identification& identif
   return view;
 }
 
-/// Boats to take for the truth: the published one first, then ones drawn towards the damped one.
+/// Boats to take for the truth: the published one first, then what it is sailed with, then ones
+/// drawn towards the damped one.
 std::vector<VesselModel> Candidates(const Identification& identification, const WeakView& view) {
   const VesselModel published = TamedModel(identification, kAsPublished);
   std::vector<VesselModel> candidates = {published};
+  if (!identification.sailed.empty()) {
+    candidates.push_back(TamedModel(AsSailed(identification), kAsPublished));
+  }
   if (!view.fit) return candidates;
   const VesselModel damped =
       ModelOf(*view.fit, view.fit->Damped(), identification.sampling_period_s);
