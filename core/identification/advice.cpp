@@ -133,10 +133,12 @@ std::string InWords(const ExpectedBounds& expected) {
          width(expected.expected_half_width);
 }
 
-/// Infinite widths that become finite count most.
+/// Infinite widths that become finite count most. To a millionth, so that rounding never decides
+/// which of two that shrink alike is named first.
 double Shrink(const ExpectedBounds& expected) {
   if (std::isinf(expected.expected_half_width)) return 1.0;
-  return std::isinf(expected.half_width) ? 0.0 : expected.expected_half_width / expected.half_width;
+  if (std::isinf(expected.half_width)) return 0.0;
+  return std::round(1e6 * expected.expected_half_width / expected.half_width) / 1e6;
 }
 
 }  // namespace
