@@ -69,9 +69,7 @@ WeakView SeeWeakly(const PreparedDataset& dataset, const Identification& identif
 std::vector<VesselModel> Candidates(const Identification& identification, const WeakView& view) {
   const VesselModel published = TamedModel(identification, kAsPublished);
   std::vector<VesselModel> candidates = {published};
-  if (!identification.sailed.empty()) {
-    candidates.push_back(TamedModel(AsSailed(identification), kAsPublished));
-  }
+  if (!identification.sailed.empty()) candidates.push_back(*ModelOf(identification));
   if (!view.fit) return candidates;
   const VesselModel damped =
       ModelOf(*view.fit, view.fit->Damped(), identification.sampling_period_s);

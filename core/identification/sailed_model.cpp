@@ -1,6 +1,7 @@
 #include "identification/sailed_model.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 #include <string>
@@ -53,32 +54,33 @@ RegressionProblem RegressionOf(const PreparedDataset& dataset,
 }
 
 /// Root mean square of each coefficient's regressor over the recording.
-Eigen::VectorXd RegressorSizes(const RegressionProblem& problem) {
-  std::vector<double> sizes;
+Eigen::VectorXd RegressorSizes(const RegressionProblem& problem, Eigen::Index coefficients) {
+  Eigen::VectorXd sizes(coefficients);
+  Eigen::Index next = 0;
   for (const EquationProblem& equation : problem.equations) {
     const auto rows = static_cast<double>(std::max<Eigen::Index>(1, equation.phi.rows()));
-    for (const auto regressor : equation.phi.colwise()) {
-      sizes.push_back(regressor.norm() / std::sqrt(rows));
-    }
+    sizes.segment(next, equation.phi.cols()) =
+        (equation.phi.colwise().norm() / std::sqrt(rows)).transpose();
+    next += equation.phi.cols();
   }
-  return Eigen::Map<const Eigen::VectorXd>(sizes.data(), std::ssize(sizes));
+  return sizes;
 }
 
 /// What least squares from each instant to the next makes of the recording: attenuated, but seldom
 /// wild. Zero in an equation that it cannot answer.
-Eigen::VectorXd OneStepEstimates(const RegressionProblem& problem) {
-  std::vector<double> theta;
+Eigen::VectorXd OneStepEstimates(const RegressionProblem& problem, Eigen::Index coefficients) {
+  Eigen::VectorXd theta = Eigen::VectorXd::Zero(coefficients);
   const auto excitations = Assess(problem.equations, {});
+  Eigen::Index next = 0;
   for (std::size_t j = 0; j < excitations.size(); ++j) {
-    const std::size_t first = theta.size();
-    theta.resize(first + problem.equations[j].regressors.size(), 0.0);
-    if (!excitations[j]) continue;
-    const EquationEstimate estimate = EstimateOneStep(*excitations[j]);
-    for (std::size_t k = 0; k < estimate.columns.size(); ++k) {
-      theta[first + estimate.columns[k]] = estimate.theta[static_cast<Eigen::Index>(k)];
+    const Eigen::Index size = problem.equations[j].phi.cols();
+    if (excitations[j]) {
+      const EquationEstimate estimate = EstimateOneStep(*excitations[j]);
+      theta.segment(next, size)(estimate.columns) = estimate.theta;
     }
+    next += size;
   }
-  return Eigen::Map<const Eigen::VectorXd>(theta.data(), std::ssize(theta));
+  return theta;
 }
 
 /// Largest distance of a coefficient from its estimate, in standard errors.
@@ -122,15 +124,16 @@ std::vector<Eigen::VectorXd> EverTamer(const PreparedDataset& dataset,
   constexpr double kMost = 4.0;  // m/s^2, rad/s^2
   constexpr int kHalvings = 13;
   const RegressionProblem problem = RegressionOf(dataset, identification);
-  const Eigen::VectorXd regressors = RegressorSizes(problem);
-  const Eigen::VectorXd one_step = OneStepEstimates(problem);
-  const Eigen::VectorXd nothing = Eigen::VectorXd::Zero(one_step.size());
+  const Eigen::Index coefficients = std::ssize(identification.coefficients);
+  const Eigen::VectorXd regressors = RegressorSizes(problem, coefficients);
+  const std::array<Eigen::VectorXd, 2> middles = {Eigen::VectorXd::Zero(coefficients),
+                                                  OneStepEstimates(problem, coefficients)};
   std::vector<Eigen::VectorXd> candidates;
   double believed = kMost;
   for (int halving = 0; halving <= kHalvings; ++halving, believed /= 2.0) {
     const Eigen::VectorXd sizes =
         (regressors.array() > 0.0).select(believed * regressors.cwiseInverse(), 0.0);
-    for (const Eigen::VectorXd& middle : {nothing, one_step}) {
+    for (const Eigen::VectorXd& middle : middles) {
       candidates.push_back(TamedEstimates(identification, sizes, middle));
     }
   }

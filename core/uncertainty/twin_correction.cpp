@@ -4,6 +4,7 @@
 #include <cmath>
 #include <iterator>
 #include <mutex>
+#include <utility>
 
 #include <boost/random/normal_distribution.hpp>
 
@@ -79,20 +80,14 @@ class TwinFleet {
         white_(clustered_, blocks_) {}
 
   std::optional<Disturbance> DisturbanceAlone() const {
-    for (int plainness = 0; plainness < kPlainnesses; ++plainness) {
-      if (const auto sailable = SailQuietly(BoatsOf(plainness))) return JudgeDisturbance(*sailable);
-    }
-    return std::nullopt;
+    return BySailable([this](const Sailable& sailable) {
+      return std::optional<Disturbance>(JudgeDisturbance(sailable));
+    });
   }
 
   /// By boats as much plainer than the estimate as it takes for most twins not to run away.
   std::optional<TwinCorrection> Run() {
-    for (int plainness = 0; plainness < kPlainnesses; ++plainness) {
-      const auto sailable = SailQuietly(BoatsOf(plainness));
-      if (!sailable) continue;
-      if (auto correction = CorrectBy(*sailable)) return correction;
-    }
-    return std::nullopt;
+    return BySailable([this](const Sailable& sailable) { return CorrectBy(sailable); });
   }
 
  private:
@@ -107,6 +102,17 @@ class TwinFleet {
     if (plainness < std::ssize(kReaches)) return PlausibleAbout(fit_, kReaches[plainness]);
     const Eigen::Index P = fit_.theta.size();
     return {fit_.Damped(), Eigen::MatrixXd::Zero(P, P)};
+  }
+
+  /// What `answer` makes of the least plain boats that can be sailed and that it has an answer for.
+  template <class Answer>
+  auto BySailable(const Answer& answer) const -> decltype(answer(std::declval<const Sailable&>())) {
+    for (int plainness = 0; plainness < kPlainnesses; ++plainness) {
+      const auto sailable = SailQuietly(BoatsOf(plainness));
+      if (!sailable) continue;
+      if (auto answered = answer(*sailable)) return answered;
+    }
+    return std::nullopt;
   }
 
   std::optional<TwinCorrection> CorrectBy(const Sailable& sailable) {
