@@ -269,6 +269,19 @@ Eigen::VectorXd EffectFit::Values() const {
   return Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
 }
 
+double EffectFit::Strain() const {
+  double squares = 0.0;
+  for (const ModelledEffect& modelled : effects) {
+    const auto& parameters = modelled.effect->Parameters();
+    for (std::size_t i = 0; i < parameters.size(); ++i) {
+      if (!parameters[i].shapes) continue;
+      const double off = (modelled.values[i] - parameters[i].usual) / parameters[i].typical;
+      squares += off * off;
+    }
+  }
+  return 0.5 * squares;
+}
+
 Judge EffectFit::JudgedBy(const Judge& judge) const {
   return gusts.size() == 0 ? judge : judge.Allowing(gusts);
 }

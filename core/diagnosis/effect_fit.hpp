@@ -27,6 +27,9 @@ struct EffectFit {
   std::vector<const Effect*> Effects() const;
   std::vector<std::string> Names() const;
   Eigen::VectorXd Values() const;  ///< stacked
+  /// Half the squared distance, in spreads, of shaping values from where they are usual. Large
+  /// where effects are bent to resemble something else.
+  double Strain() const;
 
   /// `judge`, allowing for the gusts that come with these effects.
   Judge JudgedBy(const Judge& judge) const;

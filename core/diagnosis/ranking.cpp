@@ -29,16 +29,16 @@ double Logistic(double x) {
   return 1.0 / (1.0 + std::exp(-x));
 }
 
-/// Probability that it is something else, by what the likeliest explanation, of so many effects,
-/// leaves.
-double DoubtOf(const Remainder& remainder, std::size_t effects) {
+/// Probability that it is something else, by what the likeliest explanation leaves and how far it
+/// had to be bent: strain is -ln of how likely such shapes are where the explanation is right.
+double DoubtOf(const Remainder& remainder, const EffectFit& best) {
   const double excess = remainder.after - remainder.healthy;
   const double before = std::max(remainder.before - remainder.healthy, excess);
   const double share = before > 0.0 ? std::max(excess / before, kLeastShare) : kLeastShare;
   const double left = std::log(share) + std::log(remainder.after / remainder.healthy);
-  const double sooner = kSoonerEach * static_cast<double>(effects - 1) +
+  const double sooner = kSoonerEach * static_cast<double>(best.effects.size() - 1) +
                         kSoonerLearnable * std::max(remainder.learnable, 0.0);
-  return Logistic(kSharpness * (left - kEvenAt + sooner));
+  return Logistic(kSharpness * (left - kEvenAt + sooner) + best.Strain());
 }
 
 }  // namespace
@@ -82,7 +82,7 @@ Ranking Rank(const Explanations& explanations, const Judge& judge, const Remaind
     alike->probability += own;
     alike->alike.push_back(fit);
   }
-  ranking.unknown = DoubtOf(remainder, all.front().effects.size());
+  ranking.unknown = DoubtOf(remainder, all.front());
   const double known = (1.0 - ranking.unknown) / total;
   ranking.nothing *= known;
   for (RankedFit& ranked : ranking.fits) ranked.probability *= known;

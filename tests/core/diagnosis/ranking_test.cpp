@@ -40,6 +40,15 @@ TEST(Verdict, FollowsGateDoubtAndClosure) {
   EXPECT_EQ(VerdictOf(Gate::kMaterial, ranking, most), Verdict::kUnknownCause);
 }
 
+/// At its typical size, shaped as usual.
+ModelledEffect Usual(const char* name) {
+  ModelledEffect modelled{FindEffect(name), {}};
+  for (const EffectParameter& parameter : modelled.effect->Parameters()) {
+    modelled.values.push_back(parameter.shapes ? parameter.usual : parameter.typical);
+  }
+  return modelled;
+}
+
 struct RankedBoat {
   UncertainModel model = UncertainModelOf(testing::KnownStableBoat()).value();
   std::vector<Slot> slots = SlotsOf(EffectLibrary());
@@ -51,7 +60,7 @@ struct RankedBoat {
 
   EffectFit Scored(const char* effect, double score) const {
     EffectFit fit;
-    fit.effects = {{FindEffect(effect), {}}};
+    fit.effects = {Usual(effect)};
     fit.score = score;
     fit.errors = recording.errors;
     fit.square = judge.Square(judge.See(fit.errors));
@@ -97,7 +106,7 @@ TEST(Rank, DoubtsSeveralTogetherSooner) {
   alone.singles = {boat.Scored("thruster_lag", -40.0)};
   Explanations together = alone;
   together.together = {boat.Scored("wind", -60.0)};
-  together.together.front().effects.push_back({FindEffect("thruster_lag"), {}});
+  together.together.front().effects.push_back(Usual("thruster_lag"));
   const Remainder remainder{.before = 20.0, .after = 2.0, .healthy = 1.0};
   EXPECT_GT(Rank(together, boat.judge, remainder).unknown,
             Rank(alone, boat.judge, remainder).unknown);
@@ -115,6 +124,31 @@ TEST(Rank, DoubtsWhatLeavesSomethingToLearn) {
   };
   EXPECT_GT(doubt(0.3), doubt(0.0));
   EXPECT_EQ(doubt(-0.3), doubt(0.0));
+}
+
+// A load as far forward as there is boat, or twice its mass, is as much of a load: only where it
+// would have to be to explain what is seen makes it doubtful.
+TEST(Rank, DoubtsWhatHadToBeBent) {
+  const RankedBoat boat;
+  const auto doubt = [&](double mass_gain, double forward_m) {
+    Explanations explanations;
+    explanations.singles = {boat.Scored("payload", -40.0)};
+    explanations.singles.front().effects.front().values = {mass_gain, forward_m};
+    const Remainder remainder{.before = 20.0, .after = 2.0, .healthy = 1.0};
+    return Rank(explanations, boat.judge, remainder).unknown;
+  };
+  EXPECT_GT(doubt(0.2, 0.3), doubt(0.2, 0.0));
+  EXPECT_GT(doubt(0.2, -0.6), doubt(0.2, 0.3));
+  EXPECT_EQ(doubt(0.4, 0.3), doubt(0.2, 0.3));
+}
+
+TEST(EffectFit, IsStrainedByShapesInSpreads) {
+  EffectFit fit;
+  fit.effects = {Usual("payload")};
+  EXPECT_EQ(fit.Strain(), 0.0);
+  const EffectParameter& forward = fit.effects.front().effect->Parameters()[1];
+  fit.effects.front().values[1] = forward.usual + 3.0 * forward.typical;
+  EXPECT_NEAR(fit.Strain(), 4.5, 1e-12);
 }
 
 }  // namespace
