@@ -164,6 +164,12 @@ std::string ChoiceText(const Provenance& provenance) {
   return Wrapped("Estimator chosen: " + provenance.estimator_choice + ".");
 }
 
+std::string WanderText(const std::optional<Disturbance>& disturbance) {
+  if (!disturbance || disturbance->fix_wander_m == 0.0) return "";
+  return Wrapped("Fixes wander off by " + Fixed(100.0 * disturbance->fix_wander_m, 1) +
+                 " cm within a second, as the residuals show; the bounds allow for it.");
+}
+
 std::string BoundsBasis(const Provenance& provenance) {
   std::string text = "Bounds rest on: " + provenance.bounds_basis;
   if (provenance.bootstrap_replicates > 0) {
@@ -199,8 +205,8 @@ std::string ModelTable(const Identification& identification) {
          DeadZoneText(identification.dead_zone) + OffsetsText(identification) +
          Refusals(identification) + ChangeText(identification) +
          Apart(ExcitationTable(identification)) + Apart(CertificateTable(identification)) + '\n' +
-         WindowText(identification.window) + ChoiceText(identification.provenance) +
-         BoundsBasis(identification.provenance);
+         WindowText(identification.window) + WanderText(identification.disturbance) +
+         ChoiceText(identification.provenance) + BoundsBasis(identification.provenance);
 }
 
 std::string DiscreteTable(const Identification& identification) {

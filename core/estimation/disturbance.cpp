@@ -60,16 +60,22 @@ Eigen::VectorXd SeenAutocovariance(const Eigen::VectorXd& products, double h, st
   return seen;
 }
 
-/// Time constants to choose from.
-std::vector<double> TimeConstants() {
-  constexpr double kShortestS = 0.2;
-  constexpr double kLongestS = 40.0;
-  constexpr int kSteps = 30;
+/// `steps` steps of equal ratio.
+std::vector<double> Ladder(double least, double most, int steps) {
   std::vector<double> all;
-  for (int i = 0; i <= kSteps; ++i) {
-    all.push_back(kShortestS * std::pow(kLongestS / kShortestS, static_cast<double>(i) / kSteps));
+  for (int i = 0; i <= steps; ++i) {
+    all.push_back(least * std::pow(most / least, static_cast<double>(i) / steps));
   }
   return all;
+}
+
+/// What there is to choose from.
+std::vector<double> TimeConstants() {
+  return Ladder(0.2, 40.0, 30);  // s
+}
+
+std::vector<double> Wanders() {
+  return Ladder(1e-3, 1.0, 72);  // m within a second
 }
 
 /// For each time constant the best variance of one axis, and what it leaves of the autocovariance
@@ -79,18 +85,72 @@ struct AxisFits {
   Eigen::VectorXd misfit;
 };
 
-/// units: what a disturbance of variance one shows, by time constant.
-AxisFits FitAxis(const Eigen::VectorXd& shown, double residual_variance,
-                 const std::vector<Eigen::VectorXd>& units) {
-  AxisFits fits{Eigen::VectorXd(static_cast<Eigen::Index>(units.size())),
-                Eigen::VectorXd(static_cast<Eigen::Index>(units.size()))};
-  for (std::size_t i = 0; i < units.size(); ++i) {
+/// What one equation shows, in autocovariances by window lag.
+struct AxisView {
+  Eigen::VectorXd beyond_noise;
+  Eigen::VectorXd by_wander;           ///< of fixes that wander off 1 m within a second
+  std::vector<Eigen::VectorXd> units;  ///< of a disturbance of variance one, by time constant
+  double residual_variance = 0.0;
+};
+
+AxisFits FitAxis(const AxisView& view, double wander_m) {
+  const Eigen::VectorXd shown = view.beyond_noise - wander_m * wander_m * view.by_wander;
+  AxisFits fits{Eigen::VectorXd(std::ssize(view.units)), Eigen::VectorXd(std::ssize(view.units))};
+  for (std::size_t i = 0; i < view.units.size(); ++i) {
     const auto at = static_cast<Eigen::Index>(i);
-    fits.variance[at] = std::max(0.0, units[i].dot(shown) / units[i].squaredNorm());
-    fits.misfit[at] = (shown - fits.variance[at] * units[i]).squaredNorm() /
-                      (residual_variance * residual_variance);
+    const Eigen::VectorXd& unit = view.units[i];
+    fits.variance[at] = std::max(0.0, unit.dot(shown) / unit.squaredNorm());
+    fits.misfit[at] = (shown - fits.variance[at] * unit).squaredNorm() /
+                      (view.residual_variance * view.residual_variance);
   }
   return fits;
+}
+
+using Views = std::array<std::optional<AxisView>, 3>;  ///< of the equations that were answered
+
+struct Explanation {
+  Disturbance disturbance;
+  double misfit = 0.0;
+};
+
+/// The likeliest disturbance if fixes wander off by so much within a second.
+Explanation Explain(const Views& views, const std::vector<double>& time_constants,
+                    double wander_m) {
+  // An axis whose residuals are mostly noise says little of its own time constant: the other axes
+  // then speak for it, since what pushes a boat pushes all three.
+  constexpr double kSayOfOthers = 0.25;
+  std::array<std::optional<AxisFits>, 3> fits;
+  Eigen::VectorXd all = Eigen::VectorXd::Zero(std::ssize(time_constants));
+  for (std::size_t j = 0; j < views.size(); ++j) {
+    if (!views[j]) continue;
+    fits[j] = FitAxis(*views[j], wander_m);
+    all += fits[j]->misfit;
+  }
+  Explanation explanation;
+  explanation.disturbance.fix_wander_m = wander_m;
+  for (std::size_t j = 0; j < fits.size(); ++j) {
+    if (!fits[j]) continue;
+    Eigen::Index best = 0;
+    const Eigen::VectorXd misfit = fits[j]->misfit + kSayOfOthers * (all - fits[j]->misfit);
+    explanation.misfit += misfit.minCoeff(&best);
+    const auto axis = static_cast<Eigen::Index>(j);
+    explanation.disturbance.sigma[axis] = std::sqrt(fits[j]->variance[best]);
+    explanation.disturbance.time_constant_s[axis] = time_constants[static_cast<std::size_t>(best)];
+  }
+  return explanation;
+}
+
+/// Without wander, unless it explains most of what is missed: about fixes that do not wander it
+/// explains a twentieth by chance, where it shows nearly all.
+Disturbance Likeliest(const Views& views, const std::vector<double>& time_constants) {
+  constexpr double kMissedWithWander = 0.5;
+  const Explanation still = Explain(views, time_constants, 0.0);
+  Explanation best = still;
+  for (const double wander_m : Wanders()) {
+    const Explanation wandering = Explain(views, time_constants, wander_m);
+    if (wandering.misfit < best.misfit) best = wandering;
+  }
+  return best.misfit < kMissedWithWander * still.misfit ? best.disturbance : still.disturbance;
 }
 
 }  // namespace
@@ -114,11 +174,13 @@ std::array<Eigen::VectorXd, 3> ResidualsOf(const WeakFit& fit, const Eigen::Vect
   return residuals;
 }
 
+LeftBySensors::LeftBySensors() {
+  noise.fill(Eigen::VectorXd::Zero(static_cast<Eigen::Index>(kDisturbanceLags)));
+  wander = noise;
+}
+
 Disturbance EstimateDisturbance(const PreparedDataset& dataset, const WeakFit& fit,
-                                const std::array<Eigen::VectorXd, 3>& by_sensors) {
-  // An axis whose residuals are mostly noise says little of its own time constant: the other axes
-  // then speak for it, since what pushes a boat pushes all three.
-  constexpr double kSayOfOthers = 0.25;
+                                const LeftBySensors& by_sensors) {
   const WeakProblem& problem = fit.problem;
   const Eigen::VectorXd products = ProductsByLag(SeenWeights(dataset, problem));
   const std::vector<double> time_constants = TimeConstants();
@@ -127,32 +189,23 @@ Disturbance EstimateDisturbance(const PreparedDataset& dataset, const WeakFit& f
     seen.push_back(
         SeenAutocovariance(products, dataset.sampling_period_s, problem.phi.stride, tau));
   }
-  std::array<std::optional<AxisFits>, 3> fits;
-  Eigen::VectorXd all = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(seen.size()));
-  for (std::size_t j = 0; j < 3; ++j) {
+  Views views;
+  for (std::size_t j = 0; j < views.size(); ++j) {
     if (!fit.equations[j]) continue;
     const WeakEstimate& estimate = *fit.equations[j];
     const auto runs = RunsOf(problem.windows[j].first_rows, problem.phi.stride);
     const auto [begin, size] = fit.BlockOf(j);
     const Eigen::MatrixXd response = estimate.G * fit.bread.block(begin, begin, size, size);
-    std::vector<Eigen::VectorXd> units;
-    for (const Eigen::VectorXd& of_tau : seen) {
-      units.push_back(LeftByFit(runs, of_tau, response, estimate.Z, kDisturbanceLags));
-    }
     const Eigen::VectorXd shown = Autocovariance(runs, estimate.residual, kDisturbanceLags);
-    fits[j] = FitAxis(shown - by_sensors[j], shown[0], units);
-    all += fits[j]->misfit;
+    AxisView& view = views[j].emplace();
+    view.beyond_noise = shown - by_sensors.noise[j];
+    view.by_wander = by_sensors.wander[j];
+    view.residual_variance = shown[0];
+    for (const Eigen::VectorXd& of_tau : seen) {
+      view.units.push_back(LeftByFit(runs, of_tau, response, estimate.Z, kDisturbanceLags));
+    }
   }
-  Disturbance disturbance;
-  for (std::size_t j = 0; j < 3; ++j) {
-    if (!fits[j]) continue;
-    Eigen::Index best = 0;
-    (fits[j]->misfit + kSayOfOthers * (all - fits[j]->misfit)).minCoeff(&best);
-    const auto axis = static_cast<Eigen::Index>(j);
-    disturbance.sigma[axis] = std::sqrt(fits[j]->variance[best]);
-    disturbance.time_constant_s[axis] = time_constants[static_cast<std::size_t>(best)];
-  }
-  return disturbance;
+  return Likeliest(views, time_constants);
 }
 
 }  // namespace telltale

@@ -19,11 +19,20 @@ std::array<Eigen::VectorXd, 3> ResidualsOf(const WeakFit& fit, const Eigen::Vect
                                            const PreparedDataset& dataset,
                                            const WeakProblem& problem);
 
+/// What sensors alone leave in each equation: autocovariances of its residuals, kDisturbanceLags
+/// long.
+struct LeftBySensors {
+  LeftBySensors();
+
+  std::array<Eigen::VectorXd, 3> noise;   ///< by their white noise
+  std::array<Eigen::VectorXd, 3> wander;  ///< besides, by fixes that wander off 1 m within a second
+};
+
 /// The disturbance behind the residuals: sigma^2 and time constant whose autocovariance, seen
 /// through the filter and the test function and less what the coefficients have taken up of it,
-/// comes nearest to what the residuals show beyond the sensors' part. by_sensors[j]: autocovariance
-/// that sensor noise alone leaves in equation j.
+/// comes nearest to what the residuals show beyond the sensors' part. Fixes are found to wander
+/// where that explains half and more of what a disturbance alone does not.
 Disturbance EstimateDisturbance(const PreparedDataset& dataset, const WeakFit& fit,
-                                const std::array<Eigen::VectorXd, 3>& by_sensors);
+                                const LeftBySensors& by_sensors);
 
 }  // namespace telltale

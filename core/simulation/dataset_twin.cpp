@@ -16,6 +16,9 @@ namespace {
 constexpr double kLongestStepS = 0.1;
 // The sensors draw from the streams before it.
 constexpr std::uint64_t kFirstPushStream = 10;
+constexpr std::uint64_t kFirstWanderStream = 20;
+// No fix wanders off for ever. Far longer than the windows that could tell.
+constexpr double kWanderTimeConstantS = 30.0;
 // Twice what a row holds at any sampling period, so that preparation averages headings as it did.
 constexpr double kHeadingsPerRow = 2.0;
 // Between stretches: longer than any gap that preparation bridges, and than commands reach back.
@@ -162,20 +165,30 @@ double LeftByAveraging(double samples) {
   return samples < 2.0 ? 1.0 : (samples - 0.5) / (samples * samples);
 }
 
+/// What fixes that wander off by so much within a second are off by, one axis.
+GaussMarkov WanderOf(double within_a_second_m, double step_s, WhiteSource source) {
+  const double sigma_m = within_a_second_m * std::sqrt(0.5 * kWanderTimeConstantS);
+  return {sigma_m, kWanderTimeConstantS, step_s, source};
+}
+
 /// Fixes, headings and commands as sensors would give them along the way.
 class Instrumented {
  public:
-  Instrumented(const PreparedDataset& dataset, double noise_scale, std::uint64_t seed)
+  Instrumented(const PreparedDataset& dataset, const TwinOptions& options)
       : sensors_(dataset.sensors),
         frame_(dataset.origin),
-        north_(seed, 0),
-        east_(seed, 1),
-        heading_(seed, 2) {
+        north_(options.seed, 0),
+        east_(options.seed, 1),
+        heading_(options.seed, 2),
+        off_north_(WanderOf(options.disturbance.fix_wander_m, sensors_.gnss_period_s,
+                            WhiteSource(options.seed, kFirstWanderStream))),
+        off_east_(WanderOf(options.disturbance.fix_wander_m, sensors_.gnss_period_s,
+                           WhiteSource(options.seed, kFirstWanderStream + 1))) {
     const double shortest_s = dataset.sampling_period_s / kHeadingsPerRow;
     heading_period_s_ = std::max(sensors_.heading_period_s, shortest_s);
-    position_noise_m_ = noise_scale * sensors_.position_noise_m;
+    position_noise_m_ = options.noise_scale * sensors_.position_noise_m;
     heading_noise_rad_ =
-        noise_scale * sensors_.heading_noise_rad *
+        options.noise_scale * sensors_.heading_noise_rad *
         std::sqrt(LeftByAveraging(dataset.sampling_period_s / sensors_.heading_period_s) /
                   LeftByAveraging(dataset.sampling_period_s / heading_period_s_));
   }
@@ -209,10 +222,10 @@ class Instrumented {
     const double c = std::cos(eta.psi_rad);
     const double s = std::sin(eta.psi_rad);
     const LeverArm& arm = sensors_.antenna;
-    const double north =
-        eta.x_m + c * arm.forward_m - s * arm.starboard_m + position_noise_m_ * north_();
-    const double east =
-        eta.y_m + s * arm.forward_m + c * arm.starboard_m + position_noise_m_ * east_();
+    const double north = eta.x_m + c * arm.forward_m - s * arm.starboard_m +
+                         position_noise_m_ * north_() + off_north_.Next();
+    const double east = eta.y_m + s * arm.forward_m + c * arm.starboard_m +
+                        position_noise_m_ * east_() + off_east_.Next();
     const GeographicPosition place = frame_.Inverse({north, east});
     return {t, place.latitude_deg, place.longitude_deg};
   }
@@ -222,6 +235,8 @@ class Instrumented {
   WhiteSource north_;
   WhiteSource east_;
   WhiteSource heading_;
+  GaussMarkov off_north_;
+  GaussMarkov off_east_;
   double heading_period_s_ = 0.0;
   double position_noise_m_ = 0.0;
   double heading_noise_rad_ = 0.0;
@@ -242,7 +257,7 @@ Result<TwinRecording> RecordAgain(const PreparedDataset& dataset, const VesselMo
   const BodyDynamics dynamics(model);
   const Runaway runaway(dataset);
   auto disturbance = DrawAxes(options.disturbance, step_s, options.seed, kFirstPushStream);
-  Instrumented instrumented(dataset, options.noise_scale, options.seed);
+  Instrumented instrumented(dataset, options);
   TwinRecording twin{{}, VehicleOf(dataset)};
   double start_s = 0.0;
   for (std::size_t s = 0; s < dataset.stretches.size(); ++s) {

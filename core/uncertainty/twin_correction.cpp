@@ -22,6 +22,8 @@ namespace telltale {
 namespace {
 
 constexpr std::size_t kQuietTwins = 2;
+// Large beside sensor noise, so that little chance is left in what wandering fixes leave.
+constexpr double kUnitWanderM = 0.03;
 // Of the expected distance of the truth from the estimate: how plain the boats are that are
 // sailed. Plainer ones are less wild than the truth may be, and tell of another bias.
 constexpr double kReaches[] = {0.1, 0.5, 2.0, 8.0};
@@ -91,10 +93,12 @@ class TwinFleet {
   }
 
  private:
-  /// Boats that can be sailed, and what the middle one gives in still water.
+  /// Boats that can be sailed, and what the middle one gives in still water, by fixes that stay and
+  /// by fixes that wander.
   struct Sailable {
     PlausibleBoats boats;
     std::vector<PreparedDataset> quiet;
+    std::vector<PreparedDataset> wandering;
   };
 
   /// Plausible boats, each plainer than the one before; in the end the damped one alone.
@@ -136,11 +140,15 @@ class TwinFleet {
   }
 
   std::optional<Sailable> SailQuietly(const PlausibleBoats& boats) const {
-    Sailable found{boats, {}};
+    Disturbance wander;
+    wander.fix_wander_m = kUnitWanderM;
+    Sailable found{boats, {}, {}};
     for (std::size_t i = 0; i < kQuietTwins; ++i) {
       auto quiet = Sail(boats.middle, {}, SeedOf(twins_.twins + i));
-      if (!quiet) return std::nullopt;
+      auto wandering = Sail(boats.middle, wander, SeedOf(twins_.twins + i));
+      if (!quiet || !wandering) return std::nullopt;
       found.quiet.push_back(*std::move(quiet));
+      found.wandering.push_back(*std::move(wandering));
     }
     return found;
   }
@@ -153,19 +161,31 @@ class TwinFleet {
 
   /// What the residuals show beyond what sensors alone leave in still water.
   Disturbance JudgeDisturbance(const Sailable& sailable) const {
-    std::array<Eigen::VectorXd, 3> by_sensors;
-    by_sensors.fill(Eigen::VectorXd::Zero(static_cast<Eigen::Index>(kDisturbanceLags)));
-    for (const PreparedDataset& quiet : sailable.quiet) {
-      const WeakProblem problem = BuildWeakForm(quiet, regression_, options_.form);
-      const auto residuals = ResidualsOf(fit_, sailable.boats.middle, quiet, problem);
-      for (std::size_t j = 0; j < 3; ++j) {
-        if (residuals[j].size() == 0) continue;
-        const auto runs = RunsOf(problem.windows[j].first_rows, problem.phi.stride);
-        by_sensors[j] +=
-            Autocovariance(runs, residuals[j], kDisturbanceLags) / static_cast<double>(kQuietTwins);
-      }
+    LeftBySensors by_sensors;
+    by_sensors.noise = LeftBy(sailable.boats.middle, sailable.quiet);
+    by_sensors.wander = LeftBy(sailable.boats.middle, sailable.wandering);
+    for (std::size_t j = 0; j < by_sensors.wander.size(); ++j) {
+      by_sensors.wander[j] -= by_sensors.noise[j];
+      by_sensors.wander[j] /= kUnitWanderM * kUnitWanderM;
     }
     return EstimateDisturbance(dataset_, fit_, by_sensors);
+  }
+
+  /// Autocovariances of the residuals that `theta` leaves in its own twins, their mean.
+  std::array<Eigen::VectorXd, 3> LeftBy(const Eigen::VectorXd& theta,
+                                        const std::vector<PreparedDataset>& sailed) const {
+    std::array<Eigen::VectorXd, 3> left = LeftBySensors().noise;
+    for (const PreparedDataset& twin : sailed) {
+      const WeakProblem problem = BuildWeakForm(twin, regression_, options_.form);
+      const auto residuals = ResidualsOf(fit_, theta, twin, problem);
+      for (std::size_t j = 0; j < left.size(); ++j) {
+        if (residuals[j].size() == 0) continue;
+        const auto runs = RunsOf(problem.windows[j].first_rows, problem.phi.stride);
+        left[j] += Autocovariance(runs, residuals[j], kDisturbanceLags) /
+                   static_cast<double>(sailed.size());
+      }
+    }
+    return left;
   }
 
   std::array<bool, 3> Unanswered() const {

@@ -10,11 +10,15 @@
 
 namespace telltale {
 
-/// What else accelerates a boat, wind gusts and waves: per axis a stationary first-order
-/// Gauss-Markov process. Units: (m/s^2, m/s^2, rad/s^2) and seconds. Zero sigma: none.
+/// What a recording shows besides model and white noise. What else accelerates the boat, wind gusts
+/// and waves: per axis a stationary first-order Gauss-Markov process. Units: (m/s^2, m/s^2,
+/// rad/s^2) and seconds. Zero sigma: none.
 struct Disturbance {
   Eigen::Vector3d sigma = Eigen::Vector3d::Zero();
   Eigen::Vector3d time_constant_s = Eigen::Vector3d::Ones();
+  /// One sigma of what fixes wander off by within a second, north and east each; it grows with the
+  /// root of time. Seems to accelerate the boat, does not.
+  double fix_wander_m = 0.0;
 };
 
 /// Draws of a disturbance, one process an axis: streams first_stream to first_stream + 2 of the

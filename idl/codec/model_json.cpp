@@ -66,6 +66,7 @@ void Write(const Disturbance& disturbance, proto::Disturbance& message) {
   message.mutable_sigma()->Add(disturbance.sigma.begin(), disturbance.sigma.end());
   message.mutable_time_constant_s()->Add(disturbance.time_constant_s.begin(),
                                          disturbance.time_constant_s.end());
+  message.set_fix_wander_m(disturbance.fix_wander_m);
 }
 
 void Write(const RecordingOffsets& offsets, proto::RecordingOffsets& message) {
@@ -335,7 +336,8 @@ Eigen::Vector3d ReadAxes(FieldReader& reader, const char* field,
 Disturbance ReadDisturbance(FieldReader reader, const proto::Disturbance& message) {
   constexpr double kShortestS = 1e-3;
   return {ReadAxes(reader, "sigma", message.sigma(), 0.0),
-          ReadAxes(reader, "time_constant_s", message.time_constant_s(), kShortestS)};
+          ReadAxes(reader, "time_constant_s", message.time_constant_s(), kShortestS),
+          reader.Number("fix_wander_m", kNotNegative, 0.0)};
 }
 
 std::vector<double> ReadSailed(FieldReader& reader, const proto::Model& model) {

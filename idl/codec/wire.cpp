@@ -236,6 +236,7 @@ void Fill(telltale_wire_Model& wire, const PublishedModel& model) {
   if (const auto& disturbance = identification.disturbance) {
     PutSequence(wire.disturbance_sigma, disturbance->sigma, kCopy);
     PutSequence(wire.disturbance_time_constant_s, disturbance->time_constant_s, kCopy);
+    wire.fix_wander_m = disturbance->fix_wander_m;
   }
   PutSequence(wire.offsets, identification.offsets, kFill);
   wire.clusters = provenance.clusters;
@@ -524,10 +525,12 @@ Eigen::Vector3d ReadAxes(const char* field, const dds_sequence_double& values, d
 }
 
 std::optional<Disturbance> ReadDisturbance(const dds_sequence_double& sigma,
-                                           const dds_sequence_double& time_constant_s) {
+                                           const dds_sequence_double& time_constant_s,
+                                           double fix_wander_m) {
   if (sigma._length == 0 && time_constant_s._length == 0) return std::nullopt;
   return Disturbance{ReadAxes("disturbance_sigma", sigma, 0.0),
-                     ReadAxes("disturbance_time_constant_s", time_constant_s, kShortestS)};
+                     ReadAxes("disturbance_time_constant_s", time_constant_s, kShortestS),
+                     ReadWithin("fix_wander_m", fix_wander_m, 0.0, kLargest)};
 }
 
 IndicativeCoefficient ReadIndicative(const std::string& field,
@@ -747,7 +750,7 @@ PublishedModel ReadModel(const telltale_wire_Model& wire) {
   identification.provenance.misspecification =
       ReadWithin("misspecification", wire.misspecification, 0.0, kLargest);
   identification.disturbance =
-      ReadDisturbance(wire.disturbance_sigma, wire.disturbance_time_constant_s);
+      ReadDisturbance(wire.disturbance_sigma, wire.disturbance_time_constant_s, wire.fix_wander_m);
   identification.offsets = ReadSequence("offsets", wire.offsets, ReadOffsets);
   identification.provenance.clusters = wire.clusters;
   identification.provenance.change = ReadChange(wire.change);

@@ -73,7 +73,7 @@ inline Identification MadeUpIdentification(
   made.window.rejected.Count(Channel::kGnss, RejectReason::kDuplicate, 7);
   made.window.rejected.Count(Channel::kThrusters, RejectReason::kNotFinite, 2);
   made.refusals.push_back({"sway", "v and v|v| move together", "add a zigzag at two speeds"});
-  made.disturbance = Disturbance{{0.03, 0.04, 0.05}, {2.0, 3.0, 4.0}};
+  made.disturbance = Disturbance{{0.03, 0.04, 0.05}, {2.0, 3.0, 4.0}, 0.06};
   made.provenance.preset = "ROBUST";
   made.provenance.bounds_basis = "a cluster bootstrap over segments";
   made.provenance.bootstrap_replicates = 1000;
@@ -215,6 +215,7 @@ inline void ExpectSame(const Identification& a, const Identification& b) {
   if (a.disturbance) {
     EXPECT_EQ(a.disturbance->sigma, b.disturbance->sigma);
     EXPECT_EQ(a.disturbance->time_constant_s, b.disturbance->time_constant_s);
+    EXPECT_EQ(a.disturbance->fix_wander_m, b.disturbance->fix_wander_m);
   }
   ASSERT_EQ(a.offsets.size(), b.offsets.size());
   for (std::size_t i = 0; i < a.offsets.size(); ++i) {

@@ -149,5 +149,14 @@ TEST(MetricsTable, SaysWhereNoWindowFits) {
   EXPECT_THAT(MetricsTable(metrics), HasSubstr("no stretch without gaps is this long"));
 }
 
+TEST(ModelTable, SaysHowFarFixesWanderWhereTheyDo) {
+  Identification model = MadeUpIdentification();
+  EXPECT_THAT(ModelTable(model), HasSubstr("Fixes wander off by 6.0 cm within a second"));
+  model.disturbance->fix_wander_m = 0.0;
+  EXPECT_THAT(ModelTable(model), Not(HasSubstr("wander")));
+  model.disturbance.reset();
+  EXPECT_THAT(ModelTable(model), Not(HasSubstr("wander")));
+}
+
 }  // namespace
 }  // namespace telltale

@@ -23,9 +23,7 @@ TEST(Disturbance, IsFoundInTheResiduals) {
   ASSERT_TRUE(dataset.has_value());
   const auto fit = EstimateWeakIv(*dataset, {}, AllColumns(Parameterization::kPropeller), {});
   ASSERT_TRUE(fit.has_value());
-  std::array<Eigen::VectorXd, 3> nothing;
-  nothing.fill(Eigen::VectorXd::Zero(static_cast<Eigen::Index>(kDisturbanceLags)));
-  const Disturbance found = EstimateDisturbance(*dataset, *fit, nothing);
+  const Disturbance found = EstimateDisturbance(*dataset, *fit, LeftBySensors());
   // 3000 s are some 400 correlation times: sigma is known to 5 %, its time constant to 15 %; what
   // the coefficients take up comes on top.
   for (Eigen::Index axis = 0; axis < 3; ++axis) {
@@ -44,8 +42,6 @@ TEST(Disturbance, IsNotTakenForQuickerWhereDataAreFew) {
   Disturbance pushed;
   pushed.sigma << 0.03, 0.03, 0.04;
   pushed.time_constant_s.setConstant(4.0);
-  std::array<Eigen::VectorXd, 3> nothing;
-  nothing.fill(Eigen::VectorXd::Zero(static_cast<Eigen::Index>(kDisturbanceLags)));
   constexpr int kRepeats = 40;
   // sigma^2 tau is what a steady push's standard error rests on.
   Eigen::Array3d found = Eigen::Array3d::Zero();
@@ -54,7 +50,7 @@ TEST(Disturbance, IsNotTakenForQuickerWhereDataAreFew) {
     ASSERT_TRUE(dataset.has_value());
     const auto fit = EstimateWeakIv(*dataset, {}, AllColumns(Parameterization::kPropeller), {});
     ASSERT_TRUE(fit.has_value());
-    const Disturbance one = EstimateDisturbance(*dataset, *fit, nothing);
+    const Disturbance one = EstimateDisturbance(*dataset, *fit, LeftBySensors());
     found += one.sigma.array().square() * one.time_constant_s.array() / kRepeats;
   }
   const Eigen::Array3d truth = pushed.sigma.array().square() * pushed.time_constant_s.array();

@@ -1,7 +1,12 @@
 #include "simulation/dataset_twin.hpp"
 
-#include <gtest/gtest.h>
+#include <cmath>
+#include <vector>
 
+#include <gtest/gtest.h>
+#include <Eigen/Core>
+
+#include "data/north_east.hpp"
 #include "data/preparation.hpp"
 #include "support/boats.hpp"
 
@@ -48,6 +53,32 @@ TEST(DatasetTwin, HasTheNoiseOfTheDataset) {
   EXPECT_NEAR(twin->sensors.position_noise_m, 0.03, 0.006);
   EXPECT_NEAR(twin->nu_noise.u, dataset.nu_noise.u, 0.2 * dataset.nu_noise.u);
   EXPECT_NEAR(twin->nu_noise.r, dataset.nu_noise.r, 0.2 * dataset.nu_noise.r);
+}
+
+TEST(DatasetTwin, HasFixesThatWander) {
+  const PreparedDataset dataset = Sailed(testing::NoNoise());
+  TwinOptions options;
+  const auto still = RecordAgain(dataset, testing::StableBoat(), options);
+  options.disturbance.fix_wander_m = 0.05;
+  const auto wandering = RecordAgain(dataset, testing::StableBoat(), options);
+  ASSERT_TRUE(still && wandering);
+  const NorthEastFrame frame(dataset.origin);
+  std::vector<Eigen::Vector2d> off;
+  for (std::size_t i = 0; i < still->recording.gnss.size(); ++i) {
+    const auto place = [&](const TwinRecording& twin) {
+      const GnssFix& fix = twin.recording.gnss[i];
+      const NorthEastPosition at = frame.Forward({fix.latitude_deg, fix.longitude_deg});
+      return Eigen::Vector2d(at.north_m, at.east_m);
+    };
+    off.push_back(place(*wandering) - place(*still));
+  }
+  const auto a_second = static_cast<std::size_t>(std::lround(1.0 / dataset.sensors.gnss_period_s));
+  double square = 0.0;
+  for (std::size_t i = a_second; i < off.size(); ++i) {
+    square += 0.5 * (off[i] - off[i - a_second]).squaredNorm();
+  }
+  // 120 seconds, two axes: known to 5 %; three times that.
+  EXPECT_NEAR(std::sqrt(square / static_cast<double>(off.size() - a_second)), 0.05, 0.0075);
 }
 
 TEST(DatasetTwin, RepeatsItselfBitForBitFromASeed) {

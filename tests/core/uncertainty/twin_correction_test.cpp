@@ -16,11 +16,10 @@
 namespace telltale {
 namespace {
 
-PreparedDataset Sailed(std::uint64_t seed) {
+PreparedDataset Sailed(std::uint64_t seed, const coverage::Surroundings& around = {}) {
   coverage::Mission mission;
   mission.segments = 15;
-  const Recording recording =
-      coverage::Sail(coverage::ReferenceBoat(), coverage::Surroundings{}, mission, seed);
+  const Recording recording = coverage::Sail(coverage::ReferenceBoat(), around, mission, seed);
   PrepareOptions options;
   options.smoothing_half_width = 4;
   return *Prepare(recording, coverage::VehicleOf(), options);
@@ -53,6 +52,34 @@ TEST(TwinCorrection, TellsHowFarItIs) {
                    [&](double fraction) { told.push_back(fraction); });
   ASSERT_EQ(told.size(), 8U);
   EXPECT_EQ(told.back(), 1.0);
+}
+
+Disturbance Judged(const PreparedDataset& dataset) {
+  const auto columns = AllColumns(Parameterization::kPropeller);
+  const auto fit = EstimateWeakIv(dataset, {}, columns, {});
+  const auto judged = fit ? JudgeDisturbance(dataset, {}, *fit, columns, {}, 3) : std::nullopt;
+  return judged.value_or(Disturbance{});
+}
+
+TEST(TwinCorrection, TellsFixesThatWanderFromWhatPushesTheBoat) {
+  coverage::Surroundings around;
+  around.slow_position_error_m = 0.2;
+  around.slow_position_time_s = 20.0;
+  const double within_a_second_m = 0.2 * std::sqrt(2.0 * (1.0 - std::exp(-1.0 / 20.0)));
+  for (const std::uint64_t seed : {1, 2, 3}) {
+    const Disturbance wandering = Judged(Sailed(seed, around));
+    const Disturbance still = Judged(Sailed(seed));
+    // Ten minutes are 600 seconds' wanders, north and east: the size is known to 3 %, and what is
+    // taken for the boat's own way, in windows of two seconds, a few per cent more.
+    EXPECT_NEAR(wandering.fix_wander_m, within_a_second_m, 0.15 * within_a_second_m);
+    EXPECT_EQ(still.fix_wander_m, 0.0);
+    for (Eigen::Index axis = 0; axis < 3; ++axis) {
+      // Taken for a disturbance it made one five times as strong that lasts 0.2 s.
+      EXPECT_LT(wandering.sigma[axis], 2.0 * still.sigma[axis]) << axis;
+      EXPECT_GT(wandering.sigma[axis], 0.5 * still.sigma[axis]) << axis;
+      EXPECT_GT(wandering.time_constant_s[axis], 2.0) << axis;
+    }
+  }
 }
 
 // The short version of bench/coverage: the whole campaign stands in docs/coverage.md. The data come
