@@ -18,9 +18,9 @@ constexpr double kEquivalent = 2.0;
 // them what none of them is, and for each unit that could be learnt from the rest. By the
 // logarithmic score, of explanations by true effects and of those by others where the true one was
 // left out, the latter a quarter of all.
-constexpr double kSharpness = 2.8;
-constexpr double kEvenAt = -0.7;
-constexpr double kSoonerEach = 1.15;
+constexpr double kSharpness = 2.3;
+constexpr double kEvenAt = -0.4;
+constexpr double kSoonerEach = 0.7;
 constexpr double kSoonerLearnable = 3.6;
 constexpr double kLeastShare = 0.02;
 constexpr double kExplained = 0.7;  // of the gap
