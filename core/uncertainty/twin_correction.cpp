@@ -1,7 +1,9 @@
 #include "uncertainty/twin_correction.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <functional>
 #include <iterator>
 #include <mutex>
 #include <utility>
@@ -142,14 +144,18 @@ class TwinFleet {
   std::optional<Sailable> SailQuietly(const PlausibleBoats& boats) const {
     Disturbance wander;
     wander.fix_wander_m = kUnitWanderM;
-    Sailable found{boats, {}, {}};
-    for (std::size_t i = 0; i < kQuietTwins; ++i) {
-      auto quiet = Sail(boats.middle, {}, SeedOf(twins_.twins + i));
-      auto wandering = Sail(boats.middle, wander, SeedOf(twins_.twins + i));
-      if (!quiet || !wandering) return std::nullopt;
-      found.quiet.push_back(*std::move(quiet));
-      found.wandering.push_back(*std::move(wandering));
-    }
+    Sailable found{boats, std::vector<PreparedDataset>(kQuietTwins),
+                   std::vector<PreparedDataset>(kQuietTwins)};
+    std::array<bool, 2 * kQuietTwins> sailed{};
+    ForEachIndex(sailed.size(), twins_.threads, [&](std::size_t i) {
+      const bool wanders = i >= kQuietTwins;
+      const std::size_t at = i % kQuietTwins;
+      auto twin = Sail(boats.middle, wanders ? wander : Disturbance(), SeedOf(twins_.twins + at));
+      if (!twin) return;
+      (wanders ? found.wandering : found.quiet)[at] = *std::move(twin);
+      sailed[i] = true;
+    });
+    if (!std::all_of(sailed.begin(), sailed.end(), std::identity())) return std::nullopt;
     return found;
   }
 
