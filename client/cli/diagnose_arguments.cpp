@@ -32,7 +32,7 @@ void WriteModel(const std::optional<Identification>& augmented, const std::files
     WriteFile(file, PrintModelJson(*augmented));
   } else {
     std::cerr << "note: " << file.string()
-              << " is not written, since no effect was named that would improve the model\n";
+              << " is not written, since no effect is likely that would improve the model\n";
   }
 }
 
@@ -66,7 +66,7 @@ void DiagnoseArguments::AddOptionsTo(CLI::App& command, CLI::Option* log) {
       ->type_name("FILE.html");
   command
       .add_option("--out-model", out_model,
-                  "also write the model identified again with the effects that were named, which "
+                  "also write the model identified again with the likely effects, which "
                   "validate and simulate take like any other")
       ->type_name("FILE");
   output.AddTo(command, "report.json");

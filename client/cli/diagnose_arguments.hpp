@@ -35,7 +35,7 @@ struct DiagnoseArguments {
   DiagnoseOptions Options() const;
 
   /// The model, the page, the JSON and the table, as far as they were asked for; `against` says in
-  /// the table what the recording was held against. Where no effect was named there is no model to
+  /// the table what the recording was held against. Where no effect is likely there is no model to
   /// write, which a note says.
   void Write(const Diagnosis& diagnosis, const std::optional<Identification>& augmented,
              const std::string& against = "") const;

@@ -140,7 +140,7 @@ Markup ScoreRows(const FreeRunScores& before, const FreeRunScores& after) {
 
 Markup ImprovementTable(const Diagnosis& diagnosis) {
   if (!diagnosis.improvement) {
-    return Nothing("No effect was named, so no other model was identified.");
+    return Nothing("No effect is likely, so no other model was identified.");
   }
   const auto& [before, after] = *diagnosis.improvement;
   Markup rows;
@@ -155,7 +155,7 @@ Markup ImprovementTable(const Diagnosis& diagnosis) {
 
 Markup HowFar(const Diagnosis& diagnosis) {
   return Section("What the model gains",
-                 "Identified again with the named effects and scored on windows that did not take "
+                 "Identified again with the likely effects and scored on windows that did not take "
                  "part in fitting.",
                  ImprovementTable(diagnosis));
 }

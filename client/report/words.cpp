@@ -39,7 +39,7 @@ std::string_view VerdictMeaning(Verdict verdict) {
     case Verdict::kPartlyExplained:
       return "The named effect closes part of the gap; something else keeps the rest open.";
     case Verdict::kUnknownCause:
-      return "There is a gap, and no effect of the library accounts for it.";
+      return "There is a gap, and no effect of the library accounts for it for sure.";
     case Verdict::kInsufficientData: return "The recording can neither show nor rule out a gap.";
   }
   return "";

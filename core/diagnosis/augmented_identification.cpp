@@ -56,8 +56,8 @@ Identification Augmented(const Identification& old, const AugmentedModel& boat,
     augmented.effects.push_back({std::string(effect->Name()), values});
   }
   augmented.provenance.bounds_basis =
-      "windows of free runs with the named effects in the model, from the bounds of the model that "
-      "was diagnosed";
+      "windows of free runs with the likely effects in the model, from the bounds of the model "
+      "that was diagnosed";
   return augmented;
 }
 

@@ -157,11 +157,10 @@ class Diagnosing {
     DiagnosedModel diagnosed;
     Diagnosis& diagnosis = diagnosed.diagnosis;
     diagnosis.verdict = VerdictOf(gate, ranking, closure);
-    const bool named =
-        diagnosis.verdict == Verdict::kExplained || diagnosis.verdict == Verdict::kPartlyExplained;
+    const bool likely = IsLikely(gate, ranking);
     for (std::size_t i = 0; i < runs_.size(); ++i) {
       std::optional<HeldOutErrors> after;
-      if (named) after = i == main_ ? held : ErrorsHeldOut(folds, runs_[i], boat_);
+      if (likely) after = i == main_ ? held : ErrorsHeldOut(folds, runs_[i], boat_);
       diagnosis.gaps.push_back(GapAt(i, after));
     }
     diagnosis.effects = TestabilityOf(evidence, model_, library_);
@@ -177,13 +176,13 @@ class Diagnosing {
           "No effect of the library explains enough of it, and weather or what the references "
           "leave open of the boat may account for it: record longer, or name more references.");
     }
-    if (named) {
+    if (likely) {
       diagnosis.onset = OnsetOf(best, evidence);
       const AugmentedModel boat = Reidentified(best, evidence, model_);
       diagnosed.augmented = Augmented(identification_, boat, best, evidence, model_);
       diagnosis.improvement = ImprovementBy(boat);
     }
-    Draw(named ? std::optional(held) : std::nullopt, folds.front(), diagnosis);
+    Draw(likely ? std::optional(held) : std::nullopt, folds.front(), diagnosis);
     Describe(diagnosis);
     Tell("done", 1.0);
     return diagnosed;

@@ -32,7 +32,7 @@ std::string_view Name(Verdict verdict);
 /// Free-run error over windows of one length, in healthy sigmas, docs/diagnosis.md (80).
 struct GapSize {
   double before = 0.0;
-  double after = 0.0;        ///< with the named effects in the model; as before where none is named
+  double after = 0.0;        ///< with the likely effects in the model; as before without any
   double noise_floor = 0.0;  ///< of healthy boats
   double floor_limit = 0.0;  ///< which 95 % of healthy recordings stay below
 };
@@ -137,7 +137,7 @@ struct WindowPicture {
   std::vector<Eigen::Vector2d> predicted_after;
 };
 
-/// The old model and the one identified again with the named effects, by their free runs on this
+/// The old model and the one identified again with the likely effects, by their free runs on this
 /// recording's windows that did not take part in fitting.
 struct Improvement {
   std::vector<FreeRunScores> before;

@@ -18,15 +18,22 @@ constexpr double kEquivalent = 2.0;
 // them what none of them is, and for each unit that could be learnt from the rest. By the
 // logarithmic score, of explanations by true effects and of those by others where the true one was
 // left out, the latter a quarter of all.
-constexpr double kSharpness = 2.3;
-constexpr double kEvenAt = -0.4;
+constexpr double kSharpness = 2.8;
+constexpr double kEvenAt = -0.2;
 constexpr double kSoonerEach = 0.7;
-constexpr double kSoonerLearnable = 3.6;
-constexpr double kLeastShare = 0.02;
+constexpr double kSoonerLearnable = 4.0;
 constexpr double kExplained = 0.7;  // of the gap
+// Odds of nine to one: below them a cause may be likely, and is not named for sure.
+constexpr double kSure = 0.9;
 
 double Logistic(double x) {
   return 1.0 / (1.0 + std::exp(-x));
+}
+
+/// Share of the excess that an explanation may leave unseen: of the nats that speak for it, as many
+/// as do not tell two explanations apart. What little speaks for stands in for much.
+double UnseenShare(const EffectFit& best) {
+  return kClassDistance / (kClassDistance + 0.5 * std::max(-best.score, 0.0));
 }
 
 /// Probability that it is something else, by what the likeliest explanation leaves and how far it
@@ -34,7 +41,8 @@ double Logistic(double x) {
 double DoubtOf(const Remainder& remainder, const EffectFit& best) {
   const double excess = remainder.after - remainder.healthy;
   const double before = std::max(remainder.before - remainder.healthy, excess);
-  const double share = before > 0.0 ? std::max(excess / before, kLeastShare) : kLeastShare;
+  const double unseen = UnseenShare(best);
+  const double share = before > 0.0 ? std::max(excess / before, unseen) : unseen;
   const double left = std::log(share) + std::log(remainder.after / remainder.healthy);
   const double sooner = kSoonerEach * static_cast<double>(best.effects.size() - 1) +
                         kSoonerLearnable * std::max(remainder.learnable, 0.0);
@@ -98,10 +106,16 @@ Gate GateOf(double squared_gap, double upper_squared_gap, double squared_limit, 
   return small ? Gate::kWithinHealth : Gate::kUndecided;
 }
 
+bool IsLikely(Gate gate, const Ranking& ranking) {
+  return gate == Gate::kMaterial && !ranking.fits.empty() && ranking.unknown <= 0.5;
+}
+
 Verdict VerdictOf(Gate gate, const Ranking& ranking, const std::optional<Closure>& closure) {
   if (gate == Gate::kWithinHealth) return Verdict::kNoMaterialGap;
   if (gate == Gate::kUndecided) return Verdict::kInsufficientData;
-  if (ranking.fits.empty() || ranking.unknown > 0.5) return Verdict::kUnknownCause;
+  if (!IsLikely(gate, ranking) || ranking.fits.front().probability < kSure) {
+    return Verdict::kUnknownCause;
+  }
   if (!closure || closure->share >= kExplained) return Verdict::kExplained;
   return Verdict::kPartlyExplained;
 }

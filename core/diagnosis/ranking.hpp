@@ -44,6 +44,10 @@ enum class Gate {
 Gate GateOf(double squared_gap, double upper_squared_gap, double squared_limit, double best_score,
             const Remainder& remainder);
 
+/// Whether the likeliest explanation is worth following up: a better model, how far it closes.
+bool IsLikely(Gate gate, const Ranking& ranking);
+
+/// A likely cause is named for sure from odds of nine to one on; below them the cause is unknown.
 /// `closure`: held out; none where there is no gap.
 Verdict VerdictOf(Gate gate, const Ranking& ranking, const std::optional<Closure>& closure);
 

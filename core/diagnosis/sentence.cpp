@@ -41,6 +41,15 @@ const Cause* FirstNamed(const Diagnosis& diagnosis) {
   return named == diagnosis.causes.end() ? nullptr : &*named;
 }
 
+/// What the list of causes comes to where none is named for sure.
+std::string WhatMayBeWrong(const Diagnosis& diagnosis) {
+  const bool likely = !diagnosis.causes.empty() && !diagnosis.causes.front().effects.empty();
+  if (!likely) return ", by something the library does not hold";
+  const Cause& first = diagnosis.causes.front();
+  return "; most likely (" + Number(100.0 * first.probability, 0) + " %), but not for sure, " +
+         WhatIsWrong(first) + ": " + HowMuch(first.closure);
+}
+
 }  // namespace
 
 std::string SentenceOf(const Diagnosis& diagnosis) {
@@ -60,9 +69,9 @@ std::string SentenceOf(const Diagnosis& diagnosis) {
              "; the rest is unknown" +
              (diagnosis.rest.empty() ? "" : " and sits in " + diagnosis.rest) + ".";
     case Verdict::kUnknownCause:
-      return "Model and boat part (" + times +
-             " times the healthy error), by something the library does not hold" +
-             (diagnosis.rest.empty() ? "." : "; it sits in " + diagnosis.rest + ".");
+      return "Model and boat part (" + times + " times the healthy error)" +
+             WhatMayBeWrong(diagnosis) +
+             (diagnosis.rest.empty() ? "." : "; the gap sits in " + diagnosis.rest + ".");
     case Verdict::kUnknown: break;
   }
   return "Not diagnosed.";

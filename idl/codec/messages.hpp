@@ -100,7 +100,7 @@ struct DiagnoseProgress : ExchangeProgress {};
 
 struct DiagnoseReply : ExchangeReply {
   std::optional<PublishedDiagnosis> diagnosis;  ///< when published
-  /// The model identified again with the effects that were named, where any was. It is no revision:
+  /// The model identified again with the effects that are likely, where any is. It is no revision:
   /// the vehicle's model stays what it is.
   std::optional<Identification> augmented;
 };

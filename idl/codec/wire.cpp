@@ -807,7 +807,7 @@ bool HoldsItsAnswer(const char* field, const auto& answer, const ExchangeReply& 
   return published;
 }
 
-/// None where no effect was named, and from writers that know of none.
+/// None where no effect is likely, and from writers that know of none.
 std::optional<Identification> ReadAugmented(const dds_sequence_telltale_wire_Model& wire,
                                             const DiagnoseReply& reply) {
   const std::uint32_t most = reply.diagnosis ? 1 : 0;

@@ -72,7 +72,7 @@ TEST(Page, SaysInWordsWhereThereIsNothing) {
   for (const char* part :
        {"No material gap", "sensor noise alone", "No corner of the data", "no gap that would ask",
         "No windows were kept to draw over time", "No windows were kept to sort by heading",
-        "No paths were kept", "No effect was named", "No effects are tied",
+        "No paths were kept", "No effect is likely", "No effects are tied",
         "Nothing else limits the answer"}) {
     EXPECT_THAT(text, HasSubstr(part));
   }

@@ -29,15 +29,27 @@ TEST(Gate, OpensForEvidenceAndForWhatNoHealthyBoatLeaves) {
 
 TEST(Verdict, FollowsGateDoubtAndClosure) {
   Ranking ranking;
-  ranking.fits.emplace_back();
+  ranking.fits.emplace_back().probability = 0.95;
   const Closure most{.share = 0.9, .interval = {}};
   const Closure half{.share = 0.5, .interval = {}};
   EXPECT_EQ(VerdictOf(Gate::kWithinHealth, ranking, most), Verdict::kNoMaterialGap);
   EXPECT_EQ(VerdictOf(Gate::kUndecided, ranking, most), Verdict::kInsufficientData);
   EXPECT_EQ(VerdictOf(Gate::kMaterial, ranking, most), Verdict::kExplained);
   EXPECT_EQ(VerdictOf(Gate::kMaterial, ranking, half), Verdict::kPartlyExplained);
-  ranking.unknown = 0.8;
+  // Likelier than all else together, but not by nine to one.
+  ranking.fits.front().probability = 0.85;
   EXPECT_EQ(VerdictOf(Gate::kMaterial, ranking, most), Verdict::kUnknownCause);
+}
+
+TEST(Verdict, FollowsUpWhatIsLikelierThanNot) {
+  Ranking ranking;
+  EXPECT_FALSE(IsLikely(Gate::kMaterial, ranking));
+  ranking.fits.emplace_back();
+  ranking.unknown = 0.4;
+  EXPECT_TRUE(IsLikely(Gate::kMaterial, ranking));
+  EXPECT_FALSE(IsLikely(Gate::kUndecided, ranking));
+  ranking.unknown = 0.6;
+  EXPECT_FALSE(IsLikely(Gate::kMaterial, ranking));
 }
 
 /// At its typical size, shaped as usual.
@@ -97,6 +109,20 @@ TEST(Rank, DoubtsWhatLeavesMuch) {
     less_doubt = ranking.unknown;
   }
   EXPECT_GT(less_doubt, 0.95);
+}
+
+// Where little speaks for an explanation, as little is missed of what another leaves.
+TEST(Rank, DoubtsWhatLittleSpeaksFor) {
+  const RankedBoat boat;
+  const auto doubt = [&](double score) {
+    Explanations explanations;
+    explanations.singles = {boat.Scored("thruster_lag", score)};
+    const Remainder closed{.before = 2.0, .after = 1.0, .healthy = 1.0};
+    return Rank(explanations, boat.judge, closed).unknown;
+  };
+  EXPECT_GT(doubt(-10.0), doubt(-20.0));
+  EXPECT_GT(doubt(-20.0), doubt(-100.0));
+  EXPECT_LT(doubt(-100.0), 0.05);
 }
 
 // Two that mend between them what neither of them is are likelier to be mistaken than one.
