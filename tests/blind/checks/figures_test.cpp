@@ -132,10 +132,18 @@ TEST(Figures, CompareClosureWhereItWasRealised) {
   Scored second = first;
   second.report.closure = 0.7;
   second.report.realised.reset();
-  const Figures figures = FiguresOf({first, second});
-  ASSERT_EQ(figures.closure_errors.size(), 1u);
+  Scored likely = Answer("single", {"wind"}, "UNKNOWN_CAUSE", {Named({"wind"}, 0.7)});
+  likely.report.closure = 0.8;
+  likely.report.realised = 0.3;
+  const Figures figures = FiguresOf({first, second, likely});
+  ASSERT_EQ(figures.closure_errors.size(), 2u);
   EXPECT_NEAR(figures.closure_errors[0], 0.1, 1e-12);
+  EXPECT_NEAR(figures.closure_errors[1], 0.5, 1e-12);
+  ASSERT_EQ(figures.sure_closure_errors.size(), 1u);
+  EXPECT_NEAR(figures.sure_closure_errors[0], 0.1, 1e-12);
   EXPECT_NEAR(Median(figures.closures), 0.8, 1e-12);
+  EXPECT_EQ(figures.all.class_hit.hits, 3u);
+  EXPECT_EQ(figures.all.sure_hit.hits, 2u) << "likely, but not named for sure";
 }
 
 TEST(Figures, CountWrongNamesGivenWithoutTheTrueEffect) {
@@ -156,7 +164,7 @@ TEST(Figures, CountWrongNamesGivenWithoutTheTrueEffect) {
       left_out({}, "NO_MATERIAL_GAP", Named({"current"}, 0.9)),
       Answer("single", {"wind"}, "EXPLAINED", {Named({"current"}, 0.9)}),
   });
-  EXPECT_EQ(figures.confidently_wrong.hits, 3u);
+  EXPECT_EQ(figures.confidently_wrong.hits, 4u);
   EXPECT_EQ(figures.confidently_wrong.all, 7u) << "a gap has to be seen";
   EXPECT_EQ(figures.stranger_named.hits, 1u) << "wind and current are known to look alike";
   EXPECT_EQ(figures.stranger_named.all, 7u);

@@ -12,9 +12,13 @@
 namespace blind::score {
 namespace {
 
+/// Whether the verdict names a cause outright.
+bool IsSure(const Report& report) {
+  return report.verdict == "EXPLAINED" || report.verdict == "PARTLY_EXPLAINED";
+}
+
 bool ReportsGap(const Report& report) {
-  return report.verdict == "EXPLAINED" || report.verdict == "PARTLY_EXPLAINED" ||
-         report.verdict == "UNKNOWN_CAUSE";
+  return IsSure(report) || report.verdict == "UNKNOWN_CAUSE";
 }
 
 bool IsUnknown(const Cause& cause) {
@@ -60,6 +64,7 @@ void CountNaming(Naming& naming, const Scored& scored) {
   naming.top_1.Count(AmongFirst(scored.report, 1, scored.label.effects));
   naming.top_3.Count(AmongFirst(scored.report, 3, scored.label.effects));
   naming.class_hit.Count(ClassHit(scored));
+  naming.sure_hit.Count(ClassHit(scored) && IsSure(scored.report));
   const Cause* first = FirstCause(scored.report);
   if (first && !IsUnknown(*first)) {
     naming.class_sizes.push_back(static_cast<double>(ClassSize(*first)));
@@ -102,8 +107,8 @@ bool LooksAlike(const Cause& cause, const EffectSet& truth) {
 void CountLeftOut(Figures& figures, const Scored& scored) {
   if (!scored.left_out || !ReportsGap(*scored.left_out)) return;
   const Cause* first = FirstCause(*scored.left_out);
-  const bool sure = first && !IsUnknown(*first) && first->probability > 0.5 &&
-                    scored.left_out->verdict == "EXPLAINED";
+  const bool sure =
+      first && !IsUnknown(*first) && first->probability > 0.5 && IsSure(*scored.left_out);
   const bool neighbour = first && IsNeighbour(*first, scored);
   figures.confidently_wrong.Count(sure && !neighbour);
   figures.stranger_named.Count(sure && !neighbour && !LooksAlike(*first, scored.label.effects));
@@ -195,7 +200,9 @@ Figures FiguresOf(const std::vector<Scored>& cases) {
     }
     if (hit && kind != "outside" && report.closure) figures.closures.push_back(*report.closure);
     if (report.closure && report.realised) {
-      figures.closure_errors.push_back(std::abs(*report.closure - *report.realised));
+      const double error = std::abs(*report.closure - *report.realised);
+      figures.closure_errors.push_back(error);
+      if (IsSure(report)) figures.sure_closure_errors.push_back(error);
     }
   }
   return figures;

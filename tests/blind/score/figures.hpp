@@ -68,6 +68,7 @@ struct Naming {
   Rate top_1;
   Rate top_3;
   Rate class_hit;
+  Rate sure_hit;                    // of all: a class hit that the verdict names outright
   std::vector<double> class_sizes;  // where a cause of the library was named
 };
 
@@ -87,12 +88,13 @@ struct Figures {
   Rate outside_seen;   // outside the library: a gap was reported at all
   Rate exact_pairs;    // both of two effects and no other, each up to its class
   Rate half_pairs;     // at least one of the two
-  Rate confidently_wrong;  // true effect left out, gap seen: EXPLAINED by one unlike it, over 0.5
+  Rate confidently_wrong;  // true effect left out, gap seen: the verdict names one unlike it
   Rate stranger_named;     // of all that too, by nothing that is known to look like it either
   Rate neighbour_named;    // likewise, by one that the report with it cannot tell it from
   std::vector<Forecast> forecasts;               // of each first cause there was
   std::vector<double> closures;                  // predicted, where a class was hit
   std::vector<double> closure_errors;            // |predicted - realised|, where realised is known
+  std::vector<double> sure_closure_errors;       // of them where the verdict names a cause outright
   std::map<std::string, EffectFigures> effects;  // by true effects, "healthy" among them
 };
 

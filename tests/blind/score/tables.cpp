@@ -59,11 +59,14 @@ std::vector<Row> Rows() {
       {"single effects: top-1", [](const Figures& f) { return InWords(f.all.top_1); }},
       {"top-3", [](const Figures& f) { return InWords(f.all.top_3); }},
       {"class hit", [](const Figures& f) { return InWords(f.all.class_hit); }},
+      {"class hit, named for sure", [](const Figures& f) { return InWords(f.all.sure_hit); }},
       {"mean class size", [](const Figures& f) { return MeanOf(f.all.class_sizes); }},
       {"of those with d >= 10: top-1",
        [](const Figures& f) { return InWords(f.detectable.top_1); }},
       {"top-3", [](const Figures& f) { return InWords(f.detectable.top_3); }},
       {"class hit", [](const Figures& f) { return InWords(f.detectable.class_hit); }},
+      {"class hit, named for sure",
+       [](const Figures& f) { return InWords(f.detectable.sure_hit); }},
       {"mean class size", [](const Figures& f) { return MeanOf(f.detectable.class_sizes); }},
       {"false alarms on healthy (95 % bound)",
        [](const Figures& f) { return WithBound(f.false_alarms); }},
@@ -85,6 +88,8 @@ std::vector<Row> Rows() {
        [](const Figures& f) { return Formatted("%.3f", Median(f.closures)); }},
       {"mean abs(predicted - realised closure) (cases)",
        [](const Figures& f) { return CountedMean(f.closure_errors); }},
+      {"the same where the cause is named for sure",
+       [](const Figures& f) { return CountedMean(f.sure_closure_errors); }},
   };
 }
 
