@@ -5,6 +5,7 @@
 #include <cmath>
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <set>
 #include <sstream>
 #include <string>
@@ -228,6 +229,7 @@ TEST(Campaign, WritesTheSameBytesForTheSameSeed) {
     const CampaignOptions options{.set = Set::kHeldOut,
                                   .seed = seed,
                                   .repeats = 1,
+                                  .healthy_days = {},
                                   .most_cases = 3,
                                   .duration_s = 12.0,
                                   .again = false};
@@ -247,6 +249,7 @@ TEST(Campaign, SailsCasesAgainWithoutChangingWhatItSailsOnce) {
     const CampaignOptions options{.set = Set::kHeldOut,
                                   .seed = 7,
                                   .repeats = 1,
+                                  .healthy_days = {},
                                   .most_cases = 2,
                                   .duration_s = 12.0,
                                   .again = again};
@@ -261,6 +264,45 @@ TEST(Campaign, SailsCasesAgainWithoutChangingWhatItSailsOnce) {
     EXPECT_NE(twice.at("cases/002/again/" + std::string(file)),
               twice.at("cases/002/log/" + std::string(file)));
   }
+}
+
+TEST(Campaign, SailsHealthyDaysOfTheSameBoatsThatAreNoneOfTheCases) {
+  const TemporaryFolder folder;
+  const auto write = [&](const std::string& name, std::optional<std::size_t> healthy_days) {
+    const CampaignOptions options{.set = Set::kHeldOut,
+                                  .seed = 7,
+                                  .repeats = 1,
+                                  .healthy_days = healthy_days,
+                                  .most_cases = 5,
+                                  .duration_s = 12.0,
+                                  .again = false};
+    WriteCampaign(options, folder.Path() / name, [](std::size_t, std::size_t) {});
+    return FilesBelow(folder.Path() / name);
+  };
+  const auto cases = write("cases", std::nullopt);
+  const auto days = write("days", 5);
+  ASSERT_EQ(days.size(), cases.size());
+  for (const auto& [name, content] : days) {
+    if (name.starts_with("hulls/")) {
+      EXPECT_EQ(cases.at(name), content) << name;
+    }
+    if (name.ends_with("gnss.csv") && name.starts_with("cases/")) {
+      EXPECT_NE(cases.at(name), content) << name;
+    }
+  }
+}
+
+TEST(Plan, DealsOutHealthyDaysThatAreNoneOfTheCases) {
+  std::set<std::uint64_t> taken;
+  for (const Case& planned : PlannedCases(Set::kHeldOut, 1, 20)) taken.insert(planned.day);
+  std::map<std::size_t, int> by_hull;
+  for (const Case& planned : HealthyDays(Set::kHeldOut, 1, 300)) {
+    EXPECT_EQ(planned.kind, "healthy");
+    EXPECT_TRUE(taken.insert(planned.day).second) << "a day twice";
+    ++by_hull[planned.hull];
+  }
+  EXPECT_EQ(by_hull.size(), 4u);
+  for (const auto& [hull, days] : by_hull) EXPECT_EQ(days, 75) << hull;
 }
 
 TEST(SingleCase, EveryEffectShowsInTheLog) {

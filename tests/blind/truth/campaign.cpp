@@ -162,11 +162,23 @@ std::vector<Case> PlannedCases(Set set, std::uint64_t seed, std::size_t repeats)
   return cases;
 }
 
+std::vector<Case> HealthyDays(Set set, std::uint64_t seed, std::size_t days) {
+  constexpr std::uint64_t kAfterAllCases = 1'000'000;
+  const std::size_t hulls = Fleet(set, seed).size();
+  std::vector<Case> cases;
+  for (std::size_t at = 0; at < days; ++at) {
+    cases.push_back({"healthy", {}, at % hulls, kAfterAllCases + at});
+  }
+  return cases;
+}
+
 void WriteCampaign(const CampaignOptions& options, const std::filesystem::path& folder,
                    const Progress& progress) {
   const Dice yard = Yard(options.set, options.seed);
   const std::vector<Hull> fleet = Fleet(options.set, options.seed);
-  std::vector<Case> cases = PlannedCases(options.set, options.seed, options.repeats);
+  std::vector<Case> cases = options.healthy_days
+                                ? HealthyDays(options.set, options.seed, *options.healthy_days)
+                                : PlannedCases(options.set, options.seed, options.repeats);
   if (options.most_cases && *options.most_cases < cases.size()) {
     cases.resize(*options.most_cases);
   }

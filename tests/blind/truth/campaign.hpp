@@ -28,10 +28,14 @@ struct Case {
 /// All cases of a set in the order of their numbers, which is drawn.
 std::vector<Case> PlannedCases(Set set, std::uint64_t seed, std::size_t repeats);
 
+/// Days with nothing wrong, none of them one of the set's cases, dealt out over its hulls.
+std::vector<Case> HealthyDays(Set set, std::uint64_t seed, std::size_t days);
+
 struct CampaignOptions {
   Set set = Set::kDevelopment;
   std::uint64_t seed = 1;
   std::size_t repeats = 1;
+  std::optional<std::size_t> healthy_days;  ///< so many of these in place of the set's cases
   std::optional<std::size_t> most_cases;
   double duration_s = 600.0;
   /// Each case once more beside it: hull, weather and effects as they were, another mission, other

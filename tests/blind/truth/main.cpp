@@ -17,6 +17,7 @@ struct Arguments {
   std::string folder;
   std::uint64_t seed = 1;
   std::size_t repeats = 1;
+  std::size_t healthy_days = 0;
   std::size_t most_cases = 0;
   double duration_s = 600.0;
   std::vector<std::string> effects;
@@ -51,6 +52,12 @@ void AddOptions(CLI::App& app, Arguments& arguments) {
   whole->add_option("--repeats", arguments.repeats, "so many times each case, [1, 20] (default 1)")
       ->type_name("N")
       ->check(CLI::Range(1, 20).description(""));
+  whole
+      ->add_option("--healthy-days", arguments.healthy_days,
+                   "in place of the set's cases so many days with nothing wrong, [1, 1000]")
+      ->type_name("N")
+      ->check(CLI::Range(1, 1000).description(""))
+      ->excludes("--repeats");
   whole->add_option("--cases", arguments.most_cases, "no more than the first N cases")
       ->type_name("N")
       ->check(CLI::PositiveNumber.description(""));
@@ -95,9 +102,11 @@ void WriteSet(const Arguments& arguments) {
   blind::truth::CampaignOptions options{.set = arguments.set,
                                         .seed = arguments.seed,
                                         .repeats = arguments.repeats,
+                                        .healthy_days = {},
                                         .most_cases = {},
                                         .duration_s = arguments.duration_s,
                                         .again = arguments.again};
+  if (arguments.healthy_days > 0) options.healthy_days = arguments.healthy_days;
   if (arguments.most_cases > 0) options.most_cases = arguments.most_cases;
   blind::truth::WriteCampaign(options, arguments.folder, ShowProgress);
 }
