@@ -41,13 +41,17 @@ const Cause* FirstNamed(const Diagnosis& diagnosis) {
   return named == diagnosis.causes.end() ? nullptr : &*named;
 }
 
-/// What the list of causes comes to where none is named for sure.
-std::string WhatMayBeWrong(const Diagnosis& diagnosis) {
+/// Where no cause is named for sure: the likely one, if there is any.
+std::string WhatMayBeWrong(const Diagnosis& diagnosis, const std::string& times) {
   const bool likely = !diagnosis.causes.empty() && !diagnosis.causes.front().effects.empty();
-  if (!likely) return ", by something the library does not hold";
-  const Cause& first = diagnosis.causes.front();
-  return "; most likely (" + Number(100.0 * first.probability, 0) + " %), but not for sure, " +
-         WhatIsWrong(first) + ": " + HowMuch(first.closure);
+  if (likely) {
+    const Cause& first = diagnosis.causes.front();
+    return "Most likely (" + Number(100.0 * first.probability, 0) + " %), but not for sure, " +
+           WhatIsWrong(first) + ": " + HowMuch(first.closure) + ".";
+  }
+  return "Model and boat part (" + times +
+         " times the healthy error), by something the library does not hold" +
+         (diagnosis.rest.empty() ? "." : "; it sits in " + diagnosis.rest + ".");
 }
 
 }  // namespace
@@ -68,10 +72,7 @@ std::string SentenceOf(const Diagnosis& diagnosis) {
       return WithCapital(WhatIsWrong(*cause)) + ": " + HowMuch(cause->closure) +
              "; the rest is unknown" +
              (diagnosis.rest.empty() ? "" : " and sits in " + diagnosis.rest) + ".";
-    case Verdict::kUnknownCause:
-      return "Model and boat part (" + times + " times the healthy error)" +
-             WhatMayBeWrong(diagnosis) +
-             (diagnosis.rest.empty() ? "." : "; the gap sits in " + diagnosis.rest + ".");
+    case Verdict::kUnknownCause: return WhatMayBeWrong(diagnosis, times);
     case Verdict::kUnknown: break;
   }
   return "Not diagnosed.";

@@ -36,14 +36,13 @@ TEST(Sentence, NamesACauseOutrightWhereItIsSure) {
 
 TEST(Sentence, SaysHowLikelyACauseIsThatIsNotSure) {
   EXPECT_EQ(SentenceOf(LateThrust(Verdict::kUnknownCause, 0.66)),
-            "Model and boat part (2.0 times the healthy error); most likely (66 %), but not for "
-            "sure, thrust 0.15 s late: 81 % [74, 87] of the gap; the gap sits in yaw, FR.");
+            "Most likely (66 %), but not for sure, thrust 0.15 s late: 81 % [74, 87] of the gap.");
 }
 
 TEST(Sentence, NamesNothingThatIsUnlikely) {
   EXPECT_EQ(SentenceOf(LateThrust(Verdict::kUnknownCause, 0.3)),
             "Model and boat part (2.0 times the healthy error), by something the library does not "
-            "hold; the gap sits in yaw, FR.");
+            "hold; it sits in yaw, FR.");
 }
 
 }  // namespace
