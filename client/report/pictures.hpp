@@ -8,7 +8,7 @@ namespace telltale {
 /// What a page shows of a diagnosis. Each says in words where there is nothing to show. "Before" is
 /// the model as it was given, "after" the model with the likely effects, drawn only where some are.
 
-/// Whether effects are named, so that there is an after.
+/// Whether effects are likely, so that there is an after.
 bool HasAfter(const Diagnosis& diagnosis);
 
 /// Error before and after against the floor, by horizon and channel.

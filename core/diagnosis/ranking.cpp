@@ -113,9 +113,8 @@ bool IsLikely(Gate gate, const Ranking& ranking) {
 Verdict VerdictOf(Gate gate, const Ranking& ranking, const std::optional<Closure>& closure) {
   if (gate == Gate::kWithinHealth) return Verdict::kNoMaterialGap;
   if (gate == Gate::kUndecided) return Verdict::kInsufficientData;
-  if (!IsLikely(gate, ranking) || ranking.fits.front().probability < kSure) {
-    return Verdict::kUnknownCause;
-  }
+  const bool sure = !ranking.fits.empty() && ranking.fits.front().probability >= kSure;
+  if (!sure) return Verdict::kUnknownCause;
   if (!closure || closure->share >= kExplained) return Verdict::kExplained;
   return Verdict::kPartlyExplained;
 }
