@@ -228,7 +228,9 @@ struct Increments {
 
 // Turned into the body frame interval by interval, at the heading midway: a boat that turns on the
 // spot or circles keeps u and v nearly constant, while its velocity north and east swings, which no
-// low-degree polynomial over the window follows.
+// low-degree polynomial over the window follows. The heading as it was measured, not smoothed:
+// where a boat begins to turn a smoothed heading is off by what makes u look like sway, and its
+// noise is next to nothing beside that of positions.
 Increments BodyIncrements(const Path& path, std::span<const double> psi) {
   Increments increments;
   for (std::size_t row = 0; row + 1 < psi.size(); ++row) {
@@ -274,17 +276,16 @@ std::vector<PropellerCommand> SeeAsVelocityDoes(const HeldCommands& commands, co
 std::vector<PreparedRow> PrepareRobustly(const Signals& signals, const Grid& grid,
                                          const Vehicle& vehicle, const SavitzkyGolay& filter) {
   const auto raw_psi = OntoGrid(signals.psi_rad, grid);
-  const auto psi = filter.Smooth(raw_psi);
   const auto r_per_row = filter.Slope(raw_psi);
   Path path{OntoGrid(signals.north_m, grid), OntoGrid(signals.east_m, grid)};
-  RemoveLeverArm(path, psi, vehicle.gnss_antenna);
-  const Increments increments = BodyIncrements(path, psi);
+  RemoveLeverArm(path, raw_psi, vehicle.gnss_antenna);
+  const Increments increments = BodyIncrements(path, raw_psi);
   const auto u_per_row = filter.SlopeOfIncrements(increments.forward_m);
   const auto v_per_row = filter.SlopeOfIncrements(increments.starboard_m);
   const auto seen = SeeAsVelocityDoes(signals.commands, grid, filter);
 
   std::vector<PreparedRow> rows = EmptyRows(signals, grid);
-  FillPoses(rows, {filter.Smooth(path.x_m), filter.Smooth(path.y_m)}, psi);
+  FillPoses(rows, {filter.Smooth(path.x_m), filter.Smooth(path.y_m)}, filter.Smooth(raw_psi));
   for (std::size_t row = 0; row < grid.rows; ++row) {
     rows[row].nu = {u_per_row[row] / grid.period_s, v_per_row[row] / grid.period_s,
                     r_per_row[row] / grid.period_s};

@@ -119,6 +119,32 @@ TEST(PrepareRobust, RecoversAFastSpin) {
   ExpectVelocities(*dataset, {0.3, 0.0, 1.5}, 3e-3);
 }
 
+// Ahead at 1 m/s, every five seconds it begins or ends to turn: there a heading smoothed over
+// 3.2 s is off by up to 0.1 rad, which would make 0.1 m/s of sway of what is surge.
+TEST(PrepareRobust, TakesNoTurnForSway) {
+  constexpr double kTurnS = 5.0;
+  constexpr double kRate = 0.8;
+  const auto pose = [&](double t) {
+    Pose at{0.0, 0.0, 0.0};
+    for (double from = 0.0; from < t; from += kTurnS) {
+      const double lasts = std::min(kTurnS, t - from);
+      const double r = std::fmod(from, 2.0 * kTurnS) < kTurnS ? 0.0 : kRate;
+      const double psi = at.psi + r * lasts;
+      at.x += r == 0.0 ? std::cos(psi) * lasts : (std::sin(psi) - std::sin(at.psi)) / r;
+      at.y += r == 0.0 ? std::sin(psi) * lasts : (std::cos(at.psi) - std::cos(psi)) / r;
+      at.psi = psi;
+    }
+    return at;
+  };
+  PrepareOptions options;
+  options.smoothing_half_width = 8;
+  const auto dataset = Prepare(Record({.pose = pose}), VehicleWith({}), options);
+  ASSERT_TRUE(dataset);
+  for (const PreparedRow& row : dataset->rows) {
+    EXPECT_NEAR(row.nu.v, 0.0, 0.005) << row.time_s;  // a heading averaged over 0.2 s has corners
+  }
+}
+
 TEST(PreparePaper, RecoversTheVelocitiesOfACircleToItsDifferencesError) {
   const Recording recording = Record({.pose = Circle(1.2, 0.15, 0.2)});
   const auto dataset = Prepare(recording, Vehicle{}, PrepareOptions::Paper());
@@ -172,7 +198,7 @@ TEST(PrepareRobust, ALeverArmLeftInShowsAsSway) {
 
 TEST_P(EitherPreset, NorthIsNoSeam) {
   // Swings across north; the truth at t is psi = 0.3 sin(0.5 t).
-  const auto pose = [](double t) { return Pose{0.0, 0.0, 0.3 * std::sin(0.5 * t)}; };
+  const auto pose = [&](double t) { return Pose{0.0, 0.0, 0.3 * std::sin(0.5 * t)}; };
   const auto dataset = Prepare(Record({.pose = pose}), Vehicle{}, Options());
   ASSERT_TRUE(dataset);
   for (const PreparedRow& row : dataset->rows) {
