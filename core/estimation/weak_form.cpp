@@ -5,6 +5,7 @@
 
 #include "contract.hpp"
 #include "data/savitzky_golay.hpp"
+#include "vessel/body_row.hpp"
 #include "vessel/thruster_lag.hpp"
 
 namespace telltale {
@@ -260,7 +261,8 @@ RegressorRows RowsOf(const PreparedDataset& dataset, const WeakProblem& problem,
   for (std::size_t s = 0; s < dataset.stretches.size(); ++s) {
     for (std::size_t k = dataset.stretches[s].begin; k < dataset.stretches[s].end; ++k) {
       double* const row = rows.row(static_cast<Eigen::Index>(k)).data();
-      FillRow(equation, dataset.rows[k].nu, thrust.filtered[k], {row, columns});
+      FillRow(equation, BodyRowLessNoise(dataset.rows[k].nu, dataset.nu_noise), thrust.filtered[k],
+              {row, columns});
       problem.steady.Fill(dataset.RecordingOf(s), dataset.rows[k].eta.psi_rad,
                           {row + columns, steady});
     }

@@ -82,7 +82,8 @@ struct FilteredThrust {
 FilteredThrust FilterThrust(const PreparedDataset& dataset, const WeakProblem& problem,
                             std::optional<double> time_constant_s);
 
-/// Rows Phi_j(nu_k, T_k) of one equation, and after them its SteadyTerms.
+/// Rows Phi_j(nu_k, T_k) of one equation, less what noise in nu_k adds to them on average, and
+/// after them its SteadyTerms.
 RegressorRows RowsOf(const PreparedDataset& dataset, const WeakProblem& problem,
                      const FilteredThrust& thrust, Equation equation);
 

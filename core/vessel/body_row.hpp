@@ -22,4 +22,11 @@ inline BodyRow BodyRowAt(const Nu& nu) {
            nu.r, 1.0}};
 }
 
+/// BodyRowAt measured velocities less what their noise adds to it on average: what bends, |x| and
+/// x |x|, is biased by noise, E |x + e| > |x|, which no instrument mends. By
+///   2 Phi(nu) - E Phi(nu + e),
+/// of which the average over measured velocities is Phi of the true ones to first order in the
+/// bias. Assumes: errors of u, v and r normal and independent, one sigma each in `noise`.
+BodyRow BodyRowLessNoise(const Nu& nu, const Nu& noise);
+
 }  // namespace telltale

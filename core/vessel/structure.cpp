@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "contract.hpp"
-#include "vessel/body_row.hpp"
 
 namespace telltale {
 namespace {
@@ -104,6 +103,14 @@ ThrustRegressors PropellerThrust(const PropellerCommand& delta) {
   return thrust;
 }
 
+void CopyBody(Equation equation, const BodyRow& body, std::span<double> row) {
+  if (equation == Equation::kSurge) {
+    std::ranges::copy(body.surge, row.begin());
+  } else {
+    std::ranges::copy(body.turning, row.begin());
+  }
+}
+
 }  // namespace
 
 std::size_t IndexOf(Equation equation) {
@@ -144,19 +151,19 @@ ThrustRegressors ThrustOf(Parameterization parameterization, const PropellerComm
 }
 
 void FillBody(Equation equation, const Nu& nu, std::span<double> row) {
-  const BodyRow body = BodyRowAt(nu);
-  if (equation == Equation::kSurge) {
-    std::ranges::copy(body.surge, row.begin());
-  } else {
-    std::ranges::copy(body.turning, row.begin());
-  }
+  CopyBody(equation, BodyRowAt(nu), row);
+}
+
+void FillRow(Equation equation, const BodyRow& body, const ThrustRegressors& thrust,
+             std::span<double> row) {
+  CopyBody(equation, body, row);
+  const auto part = row.subspan(BodyRegressors(equation));
+  std::copy_n(thrust.Of(equation).begin(), part.size(), part.begin());
 }
 
 void FillRow(Equation equation, const Nu& nu, const ThrustRegressors& thrust,
              std::span<double> row) {
-  FillBody(equation, nu, row);
-  const auto part = row.subspan(BodyRegressors(equation));
-  std::copy_n(thrust.Of(equation).begin(), part.size(), part.begin());
+  FillRow(equation, BodyRowAt(nu), thrust, row);
 }
 
 void FillRow(Equation equation, Parameterization parameterization, const Nu& nu,

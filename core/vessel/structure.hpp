@@ -4,6 +4,7 @@
 #include <span>
 #include <string_view>
 
+#include "vessel/body_row.hpp"
 #include "vessel/motion.hpp"
 #include "vessel/propellers.hpp"
 
@@ -63,6 +64,10 @@ void FillRow(Equation equation, Parameterization parameterization, const Nu& nu,
 
 /// The same with the propeller regressors at hand, lagged ones for instance.
 void FillRow(Equation equation, const Nu& nu, const ThrustRegressors& thrust,
+             std::span<double> row);
+
+/// The same with those of the body at hand, too.
+void FillRow(Equation equation, const BodyRow& body, const ThrustRegressors& thrust,
              std::span<double> row);
 
 std::string_view Name(Equation equation);
