@@ -5,28 +5,11 @@
 #include <optional>
 #include <vector>
 
-#include "data/savitzky_golay.hpp"
+#include "estimation/instruments.hpp"
 #include "estimation/residual_correlation.hpp"
 
 namespace telltale {
 namespace {
-
-/// phi through the velocity filter: the weights with which accelerations enter a window's residual.
-Eigen::VectorXd SeenWeights(const PreparedDataset& dataset, const WeakProblem& problem) {
-  const SavitzkyGolay filter(dataset.options.smoothing_half_width,
-                             dataset.options.smoothing_degree);
-  const std::size_t centre = dataset.options.smoothing_half_width;
-  const std::size_t intervals = filter.WindowLength() - 1;
-  Eigen::VectorXd weights =
-      Eigen::VectorXd::Zero(problem.phi.value.size() + static_cast<Eigen::Index>(intervals) - 1);
-  for (Eigen::Index i = 0; i < problem.phi.value.size(); ++i) {
-    for (std::size_t j = 0; j < intervals; ++j) {
-      weights[i + static_cast<Eigen::Index>(j)] +=
-          problem.phi.value[i] * filter.IncrementWeight(centre, j);
-    }
-  }
-  return weights;
-}
 
 /// Products of weights so many rows apart, the middle one those of a weight with itself.
 Eigen::VectorXd ProductsByLag(const Eigen::VectorXd& weights) {
@@ -160,16 +143,23 @@ std::array<Eigen::VectorXd, 3> ResidualsOf(const WeakFit& fit, const Eigen::Vect
                                            const WeakProblem& problem) {
   const FilteredThrust thrust =
       FilterThrust(dataset, problem, fit.time_constant_s ? std::optional(theta[0]) : std::nullopt);
+  std::array<std::vector<std::size_t>, 3> columns;
+  for (std::size_t j = 0; j < columns.size(); ++j) {
+    if (fit.equations[j]) columns[j] = fit.equations[j]->columns;
+  }
+  const auto predicted = Instruments(dataset, problem)
+                             .Predict(ModelOf(fit, theta, dataset.sampling_period_s),
+                                      SteadyOf(fit, theta), columns, thrust);
   std::array<Eigen::VectorXd, 3> residuals;
-  for (std::size_t j = 0; j < 3; ++j) {
-    if (!fit.equations[j]) continue;
+  for (std::size_t j = 0; j < columns.size(); ++j) {
+    if (columns[j].empty()) continue;
     const WeakWindows& windows = problem.windows[j];
     const RegressorRows rows = RowsOf(dataset, problem, thrust, kEquations[j]);
-    Eigen::VectorXd of_columns = Eigen::VectorXd::Zero(rows.cols());
     const auto [begin, size] = fit.BlockOf(j);
-    of_columns(fit.equations[j]->columns) = theta.segment(begin, size);
+    const Eigen::MatrixXd G =
+        Weigh(problem, windows, rows)(Eigen::all, columns[j]) + predicted[j].lost;
     residuals[j] = WeighAcceleration(problem, windows, dataset, kEquations[j]) -
-                   Weigh(problem, windows, rows) * of_columns;
+                   G * theta.segment(begin, size);
   }
   return residuals;
 }

@@ -252,6 +252,26 @@ FilteredThrust FilterThrust(const PreparedDataset& dataset, const WeakProblem& p
   return thrust;
 }
 
+Eigen::VectorXd FilterOnIntervals(const PreparedDataset& dataset) {
+  const std::size_t centre = dataset.options.smoothing_half_width;
+  const SavitzkyGolay filter(centre, dataset.options.smoothing_degree);
+  Eigen::VectorXd weights(static_cast<Eigen::Index>(filter.WindowLength()) - 1);
+  for (Eigen::Index i = 0; i < weights.size(); ++i) {
+    weights[i] = filter.IncrementWeight(centre, static_cast<std::size_t>(i));
+  }
+  return weights;
+}
+
+Eigen::VectorXd SeenWeights(const PreparedDataset& dataset, const WeakProblem& problem) {
+  const Eigen::VectorXd filter = FilterOnIntervals(dataset);
+  const Eigen::VectorXd& phi = problem.phi.value;
+  Eigen::VectorXd weights = Eigen::VectorXd::Zero(phi.size() + filter.size() - 1);
+  for (Eigen::Index i = 0; i < phi.size(); ++i) {
+    weights.segment(i, filter.size()) += phi[i] * filter;
+  }
+  return weights;
+}
+
 RegressorRows RowsOf(const PreparedDataset& dataset, const WeakProblem& problem,
                      const FilteredThrust& thrust, Equation equation) {
   const std::size_t columns = Regressors(equation, problem.parameterization).size();

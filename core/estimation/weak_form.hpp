@@ -82,6 +82,14 @@ struct FilteredThrust {
 FilteredThrust FilterThrust(const PreparedDataset& dataset, const WeakProblem& problem,
                             std::optional<double> time_constant_s);
 
+/// The filter F of the dataset away from the ends of a stretch: the weights with which the mean
+/// velocities of the intervals about a row make its velocity.
+Eigen::VectorXd FilterOnIntervals(const PreparedDataset& dataset);
+
+/// phi through F: the weights with which accelerations, by interval, enter a window. The first is
+/// that of the interval half a filter before the window's first row.
+Eigen::VectorXd SeenWeights(const PreparedDataset& dataset, const WeakProblem& problem);
+
 /// Rows Phi_j(nu_k, T_k) of one equation, less what noise in nu_k adds to them on average, and
 /// after them its SteadyTerms.
 RegressorRows RowsOf(const PreparedDataset& dataset, const WeakProblem& problem,

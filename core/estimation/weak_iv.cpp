@@ -5,11 +5,11 @@
 #include <numeric>
 
 #include "contract.hpp"
+#include "estimation/instruments.hpp"
 #include "estimation/residual_correlation.hpp"
 #include "estimation/residual_whitening.hpp"
 #include "linear_algebra/covariance.hpp"
 #include "linear_algebra/decompositions.hpp"
-#include "vessel/body_dynamics.hpp"
 
 namespace telltale {
 namespace {
@@ -87,124 +87,20 @@ std::vector<SteadyDisturbance> SteadyWith(const WeakProblem& problem,
   return steady;
 }
 
-double Held(double value, double limit) {
-  return std::isfinite(value) ? std::clamp(value, -limit, limit) : 0.0;
+/// With what filtering before multiplying has lost of them.
+WeighedEquations Completed(const WeighedEquations& equations,
+                           const std::array<PredictedWindows, 3>& predicted) {
+  WeighedEquations completed = equations;
+  for (Weighed& equation : completed) equation.G += predicted[equation.index].lost;
+  return completed;
 }
 
-std::array<bool, 3> Answered(const WeighedEquations& equations) {
-  std::array<bool, 3> answered{};
-  for (const Weighed& equation : equations) answered[equation.index] = true;
-  return answered;
+std::vector<Eigen::MatrixXd> InstrumentsOf(const WeighedEquations& equations,
+                                           const std::array<PredictedWindows, 3>& predicted) {
+  std::vector<Eigen::MatrixXd> Z;
+  for (const Weighed& equation : equations) Z.push_back(predicted[equation.index].Z);
+  return Z;
 }
-
-/// A boat as the model predicts it from the commands.
-struct Predicted {
-  Nu nu;
-  double psi_rad = 0.0;
-};
-
-/// Velocities that the model predicts from the commands, started anew from measured ones a while
-/// before each reach so that their noise is not that of the windows.
-class Instruments {
- public:
-  Instruments(const PreparedDataset& dataset, const WeakProblem& problem, double reach_s)
-      : dataset_(dataset), problem_(problem), fastest_(FastestOf(dataset)) {
-    const double h = dataset.sampling_period_s;
-    reach_ = std::max<std::size_t>(1, static_cast<std::size_t>(std::lround(reach_s / h)));
-    lead_ = problem.phi.Rows() / 2 + 1;
-  }
-
-  /// Z of every equation: windows as in G. A velocity whose equation is not among them stays as
-  /// measured.
-  std::vector<Eigen::MatrixXd> Weigh(const WeighedEquations& equations, const Thetas& thetas,
-                                     const FilteredThrust& thrust) const {
-    const BodyDynamics dynamics(ModelWith(problem_, equations, thetas));
-    const std::vector<SteadyDisturbance> steady = SteadyWith(problem_, equations, thetas);
-    std::vector<Eigen::MatrixXd> Z;
-    for (const Weighed& equation : equations) Z.emplace_back(equation.G.rows(), equation.G.cols());
-    const std::array<bool, 3> simulated = Answered(equations);
-    std::vector<Predicted> predicted(dataset_.rows.size());
-    for (std::size_t s = 0; s < dataset_.stretches.size(); ++s) {
-      const RowRange& stretch = dataset_.stretches[s];
-      const std::size_t recording = dataset_.RecordingOf(s);
-      for (std::size_t begin = stretch.begin; begin < stretch.end; begin += reach_) {
-        const RowRange centres{begin, std::min(begin + reach_, stretch.end)};
-        const RowRange rows =
-            Simulate(dynamics, steady[recording], simulated, thrust, stretch, centres, predicted);
-        for (std::size_t i = 0; i < equations.size(); ++i) {
-          WeighCentred(equations[i], recording, thrust, predicted, centres, rows, Z[i]);
-        }
-      }
-    }
-    return Z;
-  }
-
- private:
-  /// Predicts the rows that windows centred in `centres` need; returns those rows.
-  RowRange Simulate(const BodyDynamics& dynamics, const SteadyDisturbance& steady,
-                    const std::array<bool, 3>& simulated, const FilteredThrust& thrust,
-                    const RowRange& stretch, const RowRange& centres,
-                    std::vector<Predicted>& predicted) const {
-    const std::size_t half = problem_.phi.Rows() / 2;
-    const std::size_t margin = half + lead_;
-    const std::size_t start =
-        centres.begin > stretch.begin + margin ? centres.begin - margin : stretch.begin;
-    const std::size_t end = std::min(centres.end + half, stretch.end);
-    const double h = dataset_.sampling_period_s;
-    predicted[start] = {dataset_.rows[start].nu, dataset_.rows[start].eta.psi_rad};
-    for (std::size_t k = start; k + 1 < end; ++k) {
-      const NuDot propelled = dynamics.Propelled(thrust.interval[k]);
-      const NuDot pushed = steady.At(predicted[k].psi_rad);
-      const Nu next =
-          dynamics.Step({propelled.u + pushed.u, propelled.v + pushed.v, propelled.r + pushed.r},
-                        predicted[k].nu, h);
-      const Nu& measured = dataset_.rows[k + 1].nu;
-      Predicted& then = predicted[k + 1];
-      then.nu = {simulated[0] ? Held(next.u, 2.0 * fastest_.u) : measured.u,
-                 simulated[1] ? Held(next.v, 2.0 * fastest_.v) : measured.v,
-                 simulated[2] ? Held(next.r, 2.0 * fastest_.r) : measured.r};
-      then.psi_rad = predicted[k].psi_rad + h * (predicted[k].nu.r + then.nu.r) / 2.0;
-    }
-    return {start, end};
-  }
-
-  void WeighCentred(const Weighed& equation, std::size_t recording, const FilteredThrust& thrust,
-                    const std::vector<Predicted>& predicted, const RowRange& centres,
-                    const RowRange& rows, Eigen::MatrixXd& Z) const {
-    const auto& first_rows = problem_.windows[equation.index].first_rows;
-    const std::size_t half = problem_.phi.Rows() / 2;
-    const auto from = std::lower_bound(first_rows.begin(), first_rows.end(),
-                                       centres.begin - std::min(centres.begin, half));
-    const Equation name = kEquations[equation.index];
-    const std::size_t columns = Regressors(name, problem_.parameterization).size();
-    const std::size_t steady = problem_.steady.Count();
-    RegressorRows phi(static_cast<Eigen::Index>(rows.size()),
-                      static_cast<Eigen::Index>(columns + steady));
-    for (std::size_t k = rows.begin; k < rows.end; ++k) {
-      double* const row = phi.row(static_cast<Eigen::Index>(k - rows.begin)).data();
-      FillRow(name, predicted[k].nu, thrust.filtered[k], {row, columns});
-      problem_.steady.Fill(recording, predicted[k].psi_rad, {row + columns, steady});
-    }
-    Eigen::RowVectorXd sum(phi.cols());
-    for (auto at = from; at != first_rows.end() && *at + half < centres.end; ++at) {
-      if (*at + half < centres.begin) continue;
-      sum.noalias() =
-          problem_.phi.value.transpose() *
-          phi.middleRows(static_cast<Eigen::Index>(*at - rows.begin), problem_.phi.value.size());
-      const auto window = static_cast<Eigen::Index>(at - first_rows.begin());
-      for (std::size_t j = 0; j < equation.columns.size(); ++j) {
-        Z(window, static_cast<Eigen::Index>(j)) =
-            sum[static_cast<Eigen::Index>(equation.columns[j])];
-      }
-    }
-  }
-
-  const PreparedDataset& dataset_;
-  const WeakProblem& problem_;
-  Nu fastest_;
-  std::size_t reach_ = 1;
-  std::size_t lead_ = 1;
-};
 
 Eigen::VectorXd Norms(const Eigen::MatrixXd& columns) {
   return columns.colwise().norm().transpose().cwiseMax(std::numeric_limits<double>::min());
@@ -495,17 +391,20 @@ std::optional<WeakFit> EstimateWeakIv(const PreparedDataset& dataset,
   for (const Weighed& equation : equations) {
     if (equation.G.rows() <= equation.G.cols()) return std::nullopt;
   }
-  const Instruments instruments(dataset, problem, options.instrument_reach_s);
+  const Instruments instruments(dataset, problem);
   Thetas damped = Damped(equations, OwnInstruments(equations), options.damping);
   Thetas thetas = damped;
   const int rounds = lagging ? 2 * options.iterations : options.iterations;
   for (int round = 1;; ++round) {
-    const auto Z = instruments.Weigh(equations, damped, thrust);
+    const auto predicted =
+        instruments.Predict(ModelWith(problem, equations, damped),
+                            SteadyWith(problem, equations, damped), columns, thrust);
+    const WeighedEquations completed = Completed(equations, predicted);
     std::vector<Eigen::MatrixXd> by_lag;
     if (lagging) by_lag = ThrustByLag(dataset, problem, equations, thetas, *tau);
-    const auto whitenings = WhiteningsOf(problem, equations, thetas);
-    const WeighedEquations white = Whitened(whitenings, equations);
-    const auto white_Z = Whitened(whitenings, Z);
+    const auto whitenings = WhiteningsOf(problem, completed, thetas);
+    const WeighedEquations white = Whitened(whitenings, completed);
+    const auto white_Z = Whitened(whitenings, InstrumentsOf(equations, predicted));
     const System system =
         Stack(white, white_Z, Whitened(whitenings, by_lag), ResidualWeights(white, thetas));
     const auto bread = Invert(system.A);
@@ -520,7 +419,8 @@ std::optional<WeakFit> EstimateWeakIv(const PreparedDataset& dataset,
     damped = Damped(white, white_Z, options.damping);
     if (lagging) equations = WeighAll(dataset, problem, thrust, columns);
     if (round == rounds) {
-      return Write(problem, equations, whitenings, system, *bread, thetas, damped, tau);
+      return Write(problem, Completed(equations, predicted), whitenings, system, *bread, thetas,
+                   damped, tau);
     }
   }
 }

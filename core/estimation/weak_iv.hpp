@@ -18,8 +18,6 @@ constexpr double kLeastTimeConstantS = 0.01;  ///< that is sought
 
 struct WeakIvOptions {
   WeakFormOptions form;
-  double instrument_reach_s =
-      10.0;               ///< simulated instruments start anew from measurements so often
   double damping = 0.02;  ///< of what simulates the instruments, relative to unit columns
   int iterations = 4;     ///< simulations of the instruments, each with the newest theta
 };
@@ -31,7 +29,7 @@ struct WeakEstimate {
   std::vector<std::size_t> columns;  ///< of Regressors() and SteadyTerms, those sought
   Eigen::VectorXd theta;
   Eigen::VectorXd damped;  ///< theta shrunk along directions that the data hardly move
-  Eigen::MatrixXd G;       ///< regressors, weighed
+  Eigen::MatrixXd G;       ///< regressors, weighed, with what filtering has lost of them
   Eigen::MatrixXd Z;       ///< their instruments, V^-1 times what they are weighed to
   Eigen::VectorXd residual;
 };
@@ -61,9 +59,10 @@ struct WeakFit {
 /// Weak-form instrumental variables, docs/model.md (31):
 ///   theta = (Z'V^-1 G)^-1 Z'V^-1 b
 /// with V what the residuals' correlations are believed to be (ResidualWhitening) and Z weighed
-/// like G but from velocities simulated with the model itself, which share the commands with the
-/// boat but no noise of its sensors: least squares started from, then repeated with the newest
-/// theta. What is left of attenuation is of second order in the noise.
+/// like G but from velocities simulated with the model itself (Instruments), which share the
+/// commands with the boat but no noise of its sensors: least squares started from, then repeated
+/// with the newest theta. What noise adds to G and what filtering before multiplying loses of it
+/// are made good to first order.
 /// Nothing when the instruments blow up or determine nothing.
 /// Requires: data prepared with the robust preset; columns sought per equation, empty to leave the
 /// equation out: places in Regressors() or, beyond those, in the SteadyTerms that

@@ -1,0 +1,203 @@
+#include "estimation/instruments.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+
+#include "vessel/body_row.hpp"
+
+namespace telltale {
+namespace {
+
+constexpr double kReachS = 10.0;
+
+double Held(double value, double limit) {
+  return std::isfinite(value) ? std::clamp(value, -limit, limit) : 0.0;
+}
+
+template <std::size_t Columns>
+using Rows = Eigen::Matrix<double, Eigen::Dynamic, static_cast<int>(Columns), Eigen::RowMajor>;
+
+template <class Rows>
+Rows BetweenRows(const Rows& rows) {
+  const Eigen::Index intervals = rows.rows() - 1;
+  return 0.5 * (rows.topRows(intervals) + rows.bottomRows(intervals));
+}
+
+/// What windows of products lose to filtering before they are multiplied, by window start.
+template <class Rows>
+auto LostAt(const Rows& between, const Rows& filtered, const Eigen::VectorXd& seen,
+            const Eigen::VectorXd& phi, Eigen::Index first_interval, Eigen::Index first) {
+  return (seen.transpose() * between.middleRows(first_interval, seen.size()) -
+          phi.transpose() * filtered.middleRows(first, phi.size()))
+      .eval();
+}
+
+}  // namespace
+
+/// Rows that are predicted in one go, and those of them that windows are centred in.
+struct Instruments::Part {
+  std::size_t recording;
+  RowRange rows;
+  RowRange centres;
+};
+
+/// The body regressors of a part: of the velocities, between rows, and of the filtered velocities.
+class Instruments::Bodies {
+ public:
+  Bodies(const std::vector<Instant>& predicted, const RowRange& part, const Eigen::VectorXd& kernel)
+      : filtered_surge_(Rows<5>::Zero(Count(part), 5)),
+        filtered_turning_(Rows<9>::Zero(Count(part), 9)),
+        half_width_(kernel.size() / 2) {
+    const Eigen::Index n = Count(part);
+    Rows<3> nu(n, 3);
+    Rows<5> surge(n, 5);
+    Rows<9> turning(n, 9);
+    for (Eigen::Index k = 0; k < n; ++k) {
+      const Nu& now = predicted[part.begin + static_cast<std::size_t>(k)].nu;
+      nu.row(k) << now.u, now.v, now.r;
+      Write(now, k, surge, turning);
+    }
+    surge_ = BetweenRows(surge);
+    turning_ = BetweenRows(turning);
+    const Rows<3> mean = BetweenRows(nu);
+    for (Eigen::Index k = half_width_; k + half_width_ < n; ++k) {
+      const Eigen::RowVector3d seen =
+          kernel.transpose() * mean.middleRows(k - half_width_, kernel.size());
+      Write({seen[0], seen[1], seen[2]}, k, filtered_surge_, filtered_turning_);
+    }
+  }
+
+  /// int phi (F Phi - Phi(F .)) dt of the window that begins at this row of the part.
+  Eigen::RowVectorXd LostFrom(Eigen::Index first, bool surge, const Eigen::VectorXd& seen,
+                              const Eigen::VectorXd& phi) const {
+    const Eigen::Index interval = first - half_width_;
+    if (surge) return LostAt(surge_, filtered_surge_, seen, phi, interval, first);
+    return LostAt(turning_, filtered_turning_, seen, phi, interval, first);
+  }
+
+ private:
+  static Eigen::Index Count(const RowRange& part) { return static_cast<Eigen::Index>(part.size()); }
+
+  static void Write(const Nu& nu, Eigen::Index row, Rows<5>& surge, Rows<9>& turning) {
+    const BodyRow body = BodyRowAt(nu);
+    std::ranges::copy(body.surge, surge.row(row).data());
+    std::ranges::copy(body.turning, turning.row(row).data());
+  }
+
+  Rows<5> surge_;
+  Rows<9> turning_;
+  Rows<5> filtered_surge_;
+  Rows<9> filtered_turning_;
+  Eigen::Index half_width_;
+};
+
+Instruments::Instruments(const PreparedDataset& dataset, const WeakProblem& problem)
+    : dataset_(dataset),
+      problem_(problem),
+      fastest_(FastestOf(dataset)),
+      kernel_(FilterOnIntervals(dataset)),
+      seen_(SeenWeights(dataset, problem)) {
+  const double h = dataset.sampling_period_s;
+  reach_ = std::max<std::size_t>(1, static_cast<std::size_t>(std::lround(kReachS / h)));
+  // Beyond what the windows themselves need, which the filter widens.
+  lead_ = std::max(problem.phi.Rows() / 2 + 1, dataset.options.smoothing_half_width);
+}
+
+std::array<PredictedWindows, 3> Instruments::Predict(
+    const VesselModel& model, const std::vector<SteadyDisturbance>& steady,
+    const std::array<std::vector<std::size_t>, 3>& columns, const FilteredThrust& thrust) const {
+  const BodyDynamics dynamics(model);
+  std::array<PredictedWindows, 3> all;
+  std::array<bool, 3> simulated{};
+  for (std::size_t j = 0; j < all.size(); ++j) {
+    simulated[j] = !columns[j].empty();
+    const auto windows = std::ssize(problem_.windows[j].first_rows);
+    all[j].Z.resize(windows, std::ssize(columns[j]));
+    all[j].lost = Eigen::MatrixXd::Zero(windows, std::ssize(columns[j]));
+  }
+  std::vector<Instant> predicted(dataset_.rows.size());
+  for (const Part& part : Parts()) {
+    Simulate(dynamics, steady[part.recording], simulated, thrust, part, predicted);
+    const Bodies bodies(predicted, part.rows, kernel_);
+    for (std::size_t j = 0; j < all.size(); ++j) {
+      if (simulated[j]) WeighPart(j, columns[j], thrust, predicted, part, bodies, all[j]);
+    }
+  }
+  return all;
+}
+
+std::vector<Instruments::Part> Instruments::Parts() const {
+  const std::size_t half = problem_.phi.Rows() / 2;
+  std::vector<Part> parts;
+  for (std::size_t s = 0; s < dataset_.stretches.size(); ++s) {
+    const RowRange& stretch = dataset_.stretches[s];
+    for (std::size_t begin = stretch.begin; begin < stretch.end; begin += reach_) {
+      const RowRange centres{begin, std::min(begin + reach_, stretch.end)};
+      const std::size_t before = std::min(half + lead_, begin - stretch.begin);
+      const std::size_t behind = half + dataset_.options.smoothing_half_width;
+      parts.push_back({dataset_.RecordingOf(s),
+                       {begin - before, std::min(centres.end + behind, stretch.end)},
+                       centres});
+    }
+  }
+  return parts;
+}
+
+void Instruments::Simulate(const BodyDynamics& dynamics, const SteadyDisturbance& steady,
+                           const std::array<bool, 3>& simulated, const FilteredThrust& thrust,
+                           const Part& part, std::vector<Instant>& predicted) const {
+  const double h = dataset_.sampling_period_s;
+  const PreparedRow& start = dataset_.rows[part.rows.begin];
+  predicted[part.rows.begin] = {start.nu, start.eta.psi_rad};
+  for (std::size_t k = part.rows.begin; k + 1 < part.rows.end; ++k) {
+    const NuDot propelled = dynamics.Propelled(thrust.interval[k]);
+    const NuDot pushed = steady.At(predicted[k].psi_rad);
+    const Nu next =
+        dynamics.Step({propelled.u + pushed.u, propelled.v + pushed.v, propelled.r + pushed.r},
+                      predicted[k].nu, h);
+    const Nu& measured = dataset_.rows[k + 1].nu;
+    Instant& then = predicted[k + 1];
+    then.nu = {simulated[0] ? Held(next.u, 2.0 * fastest_.u) : measured.u,
+               simulated[1] ? Held(next.v, 2.0 * fastest_.v) : measured.v,
+               simulated[2] ? Held(next.r, 2.0 * fastest_.r) : measured.r};
+    then.psi_rad = predicted[k].psi_rad + h * (predicted[k].nu.r + then.nu.r) / 2.0;
+  }
+}
+
+void Instruments::WeighPart(std::size_t equation, const std::vector<std::size_t>& columns,
+                            const FilteredThrust& thrust, const std::vector<Instant>& predicted,
+                            const Part& part, const Bodies& bodies,
+                            PredictedWindows& windows) const {
+  const auto& first_rows = problem_.windows[equation].first_rows;
+  const std::size_t half = problem_.phi.Rows() / 2;
+  const Equation name = kEquations[equation];
+  const std::size_t regressors = Regressors(name, problem_.parameterization).size();
+  const std::size_t steady = problem_.steady.Count();
+  RegressorRows phi(static_cast<Eigen::Index>(part.rows.size()),
+                    static_cast<Eigen::Index>(regressors + steady));
+  for (std::size_t k = part.rows.begin; k < part.rows.end; ++k) {
+    double* const row = phi.row(static_cast<Eigen::Index>(k - part.rows.begin)).data();
+    FillRow(name, predicted[k].nu, thrust.filtered[k], {row, regressors});
+    problem_.steady.Fill(part.recording, predicted[k].psi_rad, {row + regressors, steady});
+  }
+  const Eigen::VectorXd& weights = problem_.phi.value;
+  const std::size_t first_centred = part.centres.begin - std::min(part.centres.begin, half);
+  Eigen::RowVectorXd sum(phi.cols());
+  for (auto at = std::ranges::lower_bound(first_rows, first_centred);
+       at != first_rows.end() && *at + half < part.centres.end; ++at) {
+    if (*at + half < part.centres.begin) continue;
+    const auto first = static_cast<Eigen::Index>(*at - part.rows.begin);
+    sum.noalias() = weights.transpose() * phi.middleRows(first, weights.size());
+    const Eigen::RowVectorXd lost =
+        bodies.LostFrom(first, name == Equation::kSurge, seen_, weights);
+    const auto window = static_cast<Eigen::Index>(at - first_rows.begin());
+    for (Eigen::Index j = 0; j < std::ssize(columns); ++j) {
+      const auto column = static_cast<Eigen::Index>(columns[static_cast<std::size_t>(j)]);
+      windows.Z(window, j) = sum[column];
+      if (column < lost.size()) windows.lost(window, j) = lost[column];
+    }
+  }
+}
+
+}  // namespace telltale

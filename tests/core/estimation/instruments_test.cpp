@@ -1,0 +1,78 @@
+#include "estimation/instruments.hpp"
+
+#include <gtest/gtest.h>
+
+#include "data/preparation.hpp"
+#include "estimation/weak_iv.hpp"
+#include "support/boats.hpp"
+
+namespace telltale {
+namespace {
+
+/// Measured without noise and smoothed over twice so many rows.
+PreparedDataset Sailed(std::size_t half_width) {
+  PrepareOptions options;
+  options.smoothing_half_width = half_width;
+  options.longest_stretch_s = 60.0;
+  return *Prepare(testing::SailStableBoat(testing::StableBoat(), 600.0, testing::NoNoise(), 11),
+                  testing::StableBoatVehicle(), options);
+}
+
+/// How the true boat's equations fail on its own windows, by equation, root mean square: with
+/// regressors as measured, and with what filtering before multiplying has lost of them.
+struct Failures {
+  Eigen::Vector3d measured;
+  Eigen::Vector3d completed;
+};
+
+Failures FailuresOf(const PreparedDataset& dataset, const VesselModel& model) {
+  const WeakProblem problem = BuildWeakForm(dataset, {}, {});
+  const auto columns = AllColumns(Parameterization::kPropeller);
+  const FilteredThrust thrust = FilterThrust(dataset, problem, std::nullopt);
+  const auto predicted = Instruments(dataset, problem)
+                             .Predict(model, std::vector<SteadyDisturbance>(1), columns, thrust);
+  Failures failures;
+  for (std::size_t j = 0; j < columns.size(); ++j) {
+    const Eigen::MatrixXd G =
+        Weigh(problem, problem.windows[j], RowsOf(dataset, problem, thrust, kEquations[j]));
+    const Eigen::VectorXd b =
+        WeighAcceleration(problem, problem.windows[j], dataset, kEquations[j]);
+    const auto rms = [](const Eigen::VectorXd& e) {
+      return e.norm() / std::sqrt(static_cast<double>(e.size()));
+    };
+    const Eigen::VectorXd theta = testing::StableBoat().theta[j];
+    failures.measured[static_cast<Eigen::Index>(j)] = rms(b - G * theta);
+    failures.completed[static_cast<Eigen::Index>(j)] = rms(b - (G + predicted[j].lost) * theta);
+  }
+  return failures;
+}
+
+// What is left is that of commands written down ten times a second.
+TEST(Instruments, KnowWhatFilteringBeforeMultiplyingLoses) {
+  const Failures failures = FailuresOf(Sailed(16), testing::StableBoat());
+  EXPECT_LT(5.0 * failures.completed[1], failures.measured[1]);
+  EXPECT_LT(5.0 * failures.completed[2], failures.measured[2]);
+}
+
+// A model that is off by a fifth foretells the loss well enough to take most of it off.
+TEST(Instruments, KnowMostOfItByAModelThatIsOff) {
+  VesselModel off = testing::StableBoat();
+  for (Eigen::VectorXd& theta : off.theta) theta *= 0.8;
+  const Failures failures = FailuresOf(Sailed(16), off);
+  EXPECT_LT(2.0 * failures.completed[2], failures.measured[2]);
+}
+
+TEST(Instruments, LoseNothingOfWhatIsLinear) {
+  const PreparedDataset dataset = Sailed(10);
+  const WeakProblem problem = BuildWeakForm(dataset, {}, {});
+  const auto predicted = Instruments(dataset, problem)
+                             .Predict(testing::StableBoat(), std::vector<SteadyDisturbance>(1),
+                                      AllColumns(Parameterization::kPropeller),
+                                      FilterThrust(dataset, problem, std::nullopt));
+  for (const Eigen::Index j : {6, 7, 8, 9, 10, 11, 12}) {  // v, r, 1 and thrust
+    EXPECT_LT(predicted[1].lost.col(j).norm(), 1e-9 * predicted[1].Z.col(j).norm());
+  }
+}
+
+}  // namespace
+}  // namespace telltale
