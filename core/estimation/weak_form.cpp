@@ -175,8 +175,9 @@ WeakWindows WindowsOf(const PreparedDataset& dataset, Equation equation,
 }  // namespace
 
 std::size_t SmoothingFor(const PreparedDataset& preview) {
-  constexpr double kLeastS = 0.8;
+  constexpr double kLeastS = 1.6;
   constexpr std::size_t kMostRows = 16;
+  constexpr double kMostNoise = 0.5;
   double sum = 0.0;
   double squares = 0.0;
   for (const PreparedRow& row : preview.rows) {
@@ -191,7 +192,7 @@ std::size_t SmoothingFor(const PreparedDataset& preview) {
     const SavitzkyGolay filter(width, preview.options.smoothing_degree);
     return preview.sensors.position_noise_m / h * filter.SlopeWeights(width).norm();
   };
-  while (half_width < kMostRows && noise(half_width) > spread) ++half_width;
+  while (half_width < kMostRows && noise(half_width) > kMostNoise * spread) ++half_width;
   return half_width;
 }
 

@@ -63,8 +63,9 @@ struct WeakProblem {
 };
 
 /// Rows to each side of the Savitzky-Golay filter that suit the weak form: as few as leave sway,
-/// the quietest of the velocities, no noisier than it is lively, but at least 0.8 s. The narrower
-/// the filter the less it does to products of velocities, which the weak form takes as they are.
+/// the quietest of the velocities, half as noisy as it is lively, but at least 1.6 s. The noisier a
+/// velocity the weaker the instruments of its products; the wider the filter the more is lost of
+/// products, which is made good as far as the model foretells it.
 /// `preview`: the same recording prepared with any width.
 std::size_t SmoothingFor(const PreparedDataset& preview);
 

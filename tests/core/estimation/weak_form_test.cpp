@@ -96,7 +96,7 @@ TEST(SmoothingFor, WidensWithTheNoiseOfPositions) {
     const Recording recording = testing::SailStableBoat(testing::StableBoat(), 200.0, sensors, 5);
     return SmoothingFor(*Prepare(recording, testing::StableBoatVehicle(), {}));
   };
-  EXPECT_EQ(width(0.005), 4U);  // 0.8 s of a period of 0.2 s
+  EXPECT_EQ(width(0.005), 8U);  // 1.6 s of a period of 0.2 s
   EXPECT_GT(width(0.2), width(0.02));
 }
 
