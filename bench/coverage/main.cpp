@@ -152,7 +152,9 @@ std::optional<Holding> TryWeakIv(const Told& scenario, const Recording& recordin
   if (!corrected) return std::nullopt;
   const Eigen::VectorXd truth = TruthOf(scenario);
   const double t = StudentQuantile(corrected->degrees_of_freedom, 0.975);
-  Holding holding = Held(corrected->theta, t * corrected->covariance.diagonal().cwiseSqrt(), truth);
+  const Eigen::VectorXd standard_errors = corrected->covariance.diagonal().cwiseSqrt();
+  Holding holding =
+      Held(corrected->theta, t * corrected->interval_factors.cwiseProduct(standard_errors), truth);
   const double distance = holding.error.dot(corrected->covariance.ldlt().solve(holding.error));
   holding.joint =
       distance <= SquaredRadius(corrected->joint, static_cast<std::size_t>(truth.size()), 0.95);

@@ -165,13 +165,20 @@ void Place(Equation equation, const std::vector<std::size_t>& columns, const Eig
 
 Bounds StudentBounds(const Eigen::VectorXd& theta, const Eigen::MatrixXd& covariance,
                      double degrees_of_freedom, double level) {
+  return StudentBounds(theta, covariance, Eigen::VectorXd::Ones(theta.size()), degrees_of_freedom,
+                       level);
+}
+
+Bounds StudentBounds(const Eigen::VectorXd& theta, const Eigen::MatrixXd& covariance,
+                     const Eigen::VectorXd& interval_factors, double degrees_of_freedom,
+                     double level) {
   Bounds bounds;
   bounds.degrees_of_freedom = degrees_of_freedom;
   bounds.covariance = covariance;
   bounds.estimable.assign(static_cast<std::size_t>(theta.size()), true);
   for (Eigen::Index j = 0; j < theta.size(); ++j) {
-    bounds.intervals.push_back(
-        StudentInterval(theta[j], std::sqrt(covariance(j, j)), degrees_of_freedom, level));
+    bounds.intervals.push_back(StudentInterval(
+        theta[j], interval_factors[j] * std::sqrt(covariance(j, j)), degrees_of_freedom, level));
   }
   return bounds;
 }

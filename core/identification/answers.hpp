@@ -89,6 +89,11 @@ void Place(Equation equation, const std::vector<std::size_t>& columns, const Eig
 Bounds StudentBounds(const Eigen::VectorXd& theta, const Eigen::MatrixXd& covariance,
                      double degrees_of_freedom, double level);
 
+/// The same with intervals that are each so many times as long.
+Bounds StudentBounds(const Eigen::VectorXd& theta, const Eigen::MatrixXd& covariance,
+                     const Eigen::VectorXd& interval_factors, double degrees_of_freedom,
+                     double level);
+
 /// What to say where bounds rest on scores of fewer clusters than tell how an estimate varies.
 std::optional<Refusal> WarnOfFewClusters(Eigen::Index clusters);
 

@@ -111,6 +111,17 @@ Refusal InstrumentsSayNothing() {
           "record more varied manoeuvres for longer, or ask for the one-step estimator"};
 }
 
+/// A mean of several unknowns has an interval as long as the one that takes the longest.
+Eigen::VectorXd PublishedFactors(const WeakIvPublication& publication,
+                                 const Eigen::VectorXd& interval_factors) {
+  Eigen::VectorXd factors(publication.map.rows());
+  for (Eigen::Index i = 0; i < factors.size(); ++i) {
+    const auto takes_part = publication.map.row(i).array() != 0.0;
+    factors[i] = takes_part.select(interval_factors.transpose().array(), 0.0).maxCoeff();
+  }
+  return factors;
+}
+
 std::string InWords(const TwinCorrection& corrected, Eigen::Index clusters) {
   std::ostringstream words;
   words.precision(3);
@@ -177,16 +188,18 @@ Result<BoundedAnswers> BoundWeakIv(const PreparedDataset& dataset,
   }
   const WeakIvPublication publication = PublicationOf(*fit);
   const auto publish = [&](const Eigen::VectorXd& theta, const Eigen::MatrixXd& covariance,
-                           double degrees_of_freedom) {
+                           const Eigen::VectorXd& interval_factors, double degrees_of_freedom) {
     const Eigen::VectorXd published = publication.map * theta;
     Unstack(*fit, publication, published, answers);
     bounded.bounds = StudentBounds(published, Mapped(publication.map, covariance),
+                                   PublishedFactors(publication, interval_factors),
                                    degrees_of_freedom, options.interval_level);
     Unbound(separable, answers, bounded.bounds);
     bounded.offsets = OffsetsOf(publication, published, bounded.bounds, dataset);
   };
   if (corrected) {
-    publish(corrected->theta, corrected->covariance, corrected->degrees_of_freedom);
+    publish(corrected->theta, corrected->covariance, corrected->interval_factors,
+            corrected->degrees_of_freedom);
     bounded.bounds.joint = corrected->joint;
     bounded.disturbance = corrected->disturbance;
     bounded.provenance.twins = corrected->solved;
@@ -194,7 +207,8 @@ Result<BoundedAnswers> BoundWeakIv(const PreparedDataset& dataset,
     bounded.provenance.bounds_basis = InWords(*corrected, clusters);
     return bounded;
   }
-  publish(fit->theta, ClusterCovariance(*fit), static_cast<double>(clusters - 1));
+  publish(fit->theta, ClusterCovariance(*fit), Eigen::VectorXd::Ones(fit->theta.size()),
+          static_cast<double>(clusters - 1));
   bounded.provenance.bounds_basis =
       "clusters of residuals (" + std::to_string(clusters) + "), Student t; not corrected for bias";
   return bounded;

@@ -126,6 +126,25 @@ Eigen::VectorXd StretchOf(const Eigen::MatrixXd& pivots, const std::vector<Block
   return stretch;
 }
 
+/// The factors by which intervals of single unknowns are longer than those of stretched standard
+/// errors: of n + 1 alike, the next twin is within the k-th of n with probability k / (n + 1). With
+/// fewer than nineteen twins none of them is far enough out, and the stretch is the least.
+Eigen::VectorXd IntervalFactorsOf(const Eigen::MatrixXd& pivots, const Eigen::VectorXd& stretch,
+                                  double promised) {
+  const auto n = static_cast<double>(pivots.rows());
+  const double rank = std::ceil(kCalibratedAt * (n + 1.0));
+  Eigen::VectorXd factors(pivots.cols());
+  for (Eigen::Index j = 0; j < pivots.cols(); ++j) {
+    std::vector<double> ascending(pivots.col(j).begin(), pivots.col(j).end());
+    std::ranges::sort(ascending);
+    const double of_block = promised * stretch[j];
+    const double needed = rank <= n ? ascending[static_cast<std::size_t>(rank) - 1]
+                                    : std::max(ascending.back(), of_block);
+    factors[j] = needed / of_block;
+  }
+  return factors;
+}
+
 /// What the next value stays below with probability `share`, more than a half, after few positive
 /// ones: by way of the middle of their logarithms and how far those above it reach, known no better
 /// than so few tell.
@@ -166,8 +185,10 @@ std::optional<TwinCalibration> Calibrate(const std::vector<Sighting>& sightings,
     if (!(squares.back() > 0.0)) return std::nullopt;
   }
   const Spread spread = SpreadOf(errors, weights);
-  const Eigen::VectorXd stretch = ByFew(sightings.size()) * StretchOf(pivots, blocks, promised);
-  return TwinCalibration{map * spread.mean, stretch.asDiagonal() * map * spread.size.asDiagonal(),
+  const Eigen::VectorXd stretch = StretchOf(pivots, blocks, promised);
+  const Eigen::VectorXd sizes = ByFew(sightings.size()) * stretch;
+  return TwinCalibration{map * spread.mean, sizes.asDiagonal() * map * spread.size.asDiagonal(),
+                         IntervalFactorsOf(pivots, stretch, promised),
                          LogNormalQuantile(std::move(squares), kCalibratedAt) /
                              JointQuantile(degrees_of_freedom, unknowns, kCalibratedAt)};
 }

@@ -21,14 +21,16 @@ bool IsSound(const Sighting& sighting);
 
 /// What twins tell of an estimate and of the covariance C that clusters gave it.
 struct TwinCalibration {
-  Eigen::VectorXd bias;            ///< of the estimate, as unknowns
-  Eigen::MatrixXd scale;           ///< bounds that hold are those of scale C scale', C whitened
-  double covariance_factor = 1.0;  ///< of JointBounds
+  Eigen::VectorXd bias;              ///< of the estimate, as unknowns
+  Eigen::MatrixXd scale;             ///< covariance that holds: scale C scale', C whitened
+  Eigen::VectorXd interval_factors;  ///< by unknown, of its interval's half width beside Student's
+  double covariance_factor = 1.0;    ///< of JointBounds
 };
 
 /// Tells bias and size of each whitened direction by the twins' errors in standard errors of their
 /// own, and stretches those of each block until intervals that each twin makes of its own clusters,
-/// sized by the other twins, hold 95 %; docs/model.md (33), (35).
+/// sized by the other twins, hold 95 % over the block; each unknown's interval then is as long as
+/// holds 95 % of the twins in that unknown. docs/model.md (33), (35).
 /// Assumes: the true boat stands to the twins as each of them stands to the others.
 /// Shapes: sightings whitened, so that clusters gave the estimate standard errors of one;
 /// unknowns = map * whitened, block by block.

@@ -34,6 +34,7 @@ constexpr int kPlainnesses = static_cast<int>(std::size(kReaches)) + 1;
 bool IsSound(const TwinCorrection& correction) {
   return correction.theta.allFinite() && correction.covariance.allFinite() &&
          (correction.covariance.diagonal().array() > 0.0).all() &&
+         correction.interval_factors.allFinite() &&
          std::isfinite(correction.joint.covariance_factor);
 }
 
@@ -136,6 +137,7 @@ class TwinFleet {
     if (!calibration) return std::nullopt;
     correction.theta = fit_.theta - Believed(calibration->bias, sailable.boats);
     correction.covariance = Mapped(calibration->scale, white_.Of(clustered_));
+    correction.interval_factors = calibration->interval_factors;
     correction.joint = {calibration->covariance_factor, correction.degrees_of_freedom};
     if (!IsSound(correction)) return std::nullopt;
     return correction;

@@ -25,10 +25,11 @@ struct TwinCorrectionOptions {
 
 /// Shapes: theta and covariance over the stacked unknowns of the WeakFit.
 struct TwinCorrection {
-  Eigen::VectorXd theta;            ///< corrected for bias
-  Eigen::MatrixXd covariance;       ///< as the twins scattered, with what few of them leave open
-  JointBounds joint;                ///< calibrated so that ellipsoids hold
-  double degrees_of_freedom = 0.0;  ///< of Student's t for intervals
+  Eigen::VectorXd theta;             ///< corrected for bias
+  Eigen::MatrixXd covariance;        ///< as the twins scattered, with what few of them leave open
+  Eigen::VectorXd interval_factors;  ///< by unknown, of its interval beside Student's
+  JointBounds joint;                 ///< calibrated so that ellipsoids hold
+  double degrees_of_freedom = 0.0;   ///< of Student's t for intervals
   Disturbance disturbance;
   std::size_t solved = 0;    ///< twins that could be estimated
   std::size_t failures = 0;  ///< twins that could not
@@ -39,9 +40,10 @@ struct TwinCorrection {
 /// as the next, are sailed, measured, prepared and estimated again. What they are off by on average
 /// is taken from the estimate, how they scatter about that sizes each direction of the clusters'
 /// covariance, and how often intervals made like that hold says by what one factor they have to be
-/// stretched. Where most twins run away it starts again with plainer boats. progress is called by
-/// one thread at a time. Nothing when even of the plainest fewer than half can be estimated, or
-/// numbers overflow.
+/// stretched, together and
+/// for single intervals once more each. Where most twins run away it starts again with plainer
+/// boats. progress is called by one thread at a time. Nothing when even of the plainest fewer than
+/// half can be estimated, or numbers overflow.
 std::optional<TwinCorrection> CorrectWithTwins(
     const PreparedDataset& dataset, const RegressionOptions& regression, const WeakFit& fit,
     const std::array<std::vector<std::size_t>, 3>& columns, const WeakIvOptions& options,

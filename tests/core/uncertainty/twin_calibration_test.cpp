@@ -83,7 +83,8 @@ Held HoldWhereClustersSay(double size) {
     const Eigen::VectorXd off = Map() * estimate.error - calibration->bias;
     const Eigen::MatrixXd covariance =
         calibration->scale * estimate.covariance * calibration->scale.transpose();
-    const Eigen::ArrayXd sizes = covariance.diagonal().array().sqrt();
+    const Eigen::ArrayXd sizes =
+        calibration->interval_factors.array() * covariance.diagonal().array().sqrt();
     const auto within = (off.array().abs() <= t * sizes).count();
     held.intervals += 100.0 * static_cast<double>(within) / kUnknowns / kRepeats;
     const double square = off.dot(covariance.ldlt().solve(off));
@@ -111,6 +112,42 @@ TEST(TwinCalibration, DrawsInWhatHoldsTooOften) {
   const Held held = HoldWhereClustersSay(3.0);
   EXPECT_NEAR(held.intervals, 95.0, 1.5);
   EXPECT_NEAR(held.ellipsoids, 95.0, 3.3);
+}
+
+/// One direction errs by anything up to a limit and never beyond: what its spread and Student say
+/// lies outside all of it. Its unknown is no combination of others.
+TEST(TwinCalibration, HoldsAnUnknownOfAnotherTailToo) {
+  constexpr int kRepeats = 400;
+  constexpr Eigen::Index kUnlike = 5;
+  const double t = StudentQuantile(kDegreesOfFreedom, 0.975);
+  double by_factor = 0.0;
+  double by_student = 0.0;
+  for (int repeat = 0; repeat < kRepeats; ++repeat) {
+    KnownLaw law(1.0, 1000 + static_cast<std::uint64_t>(repeat));
+    std::vector<Sighting> all = law.Draw(41);
+    for (Sighting& sighting : all) {
+      const double drawn = sighting.error[kUnlike] / KnownLaw::Scatter(kUnlike);
+      sighting.error[kUnlike] = 1.0 - 2.0 * NormalTail(drawn);
+      sighting.covariance = Eigen::MatrixXd::Identity(kUnknowns, kUnknowns);
+    }
+    const Sighting estimate = all.back();
+    all.pop_back();
+    const auto calibration = Calibrate(all, Map(), kBlocks, kDegreesOfFreedom);
+    const double off = (Map() * estimate.error - calibration->bias)[kUnlike];
+    const Eigen::MatrixXd covariance = calibration->scale * calibration->scale.transpose();
+    const double reach = t * std::sqrt(covariance(kUnlike, kUnlike));
+    by_student += std::abs(off) <= reach ? 100.0 / kRepeats : 0.0;
+    by_factor +=
+        std::abs(off) <= calibration->interval_factors[kUnlike] * reach ? 100.0 / kRepeats : 0.0;
+  }
+  EXPECT_GT(by_student, 97.0);        // clearly more than was promised
+  EXPECT_NEAR(by_factor, 95.0, 3.3);  // three standard errors of the share
+}
+
+TEST(TwinCalibration, LetsNoIntervalShrinkByTooFewTwins) {
+  KnownLaw law(1.0, 29);
+  const auto calibration = Calibrate(law.Draw(18), Map(), kBlocks, kDegreesOfFreedom);
+  EXPECT_GE(calibration->interval_factors.minCoeff(), 1.0);
 }
 
 /// A quarter of the twins err six times as far, and their clusters say so. Scatters that did not

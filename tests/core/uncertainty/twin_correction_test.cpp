@@ -100,7 +100,8 @@ TEST(TwinCorrection, BoundsHoldTheTruthAsOftenAsTheySay) {
     const double t = StudentQuantile(corrected->degrees_of_freedom, 0.975);
     for (Eigen::Index j = 0; j < truth.size(); ++j) {
       held[i].push_back(std::abs(corrected->theta[j] - truth[j]) <=
-                        t * std::sqrt(corrected->covariance(j, j)));
+                        t * corrected->interval_factors[j] *
+                            std::sqrt(corrected->covariance(j, j)));
     }
     const Eigen::VectorXd off = corrected->theta - truth;
     const double distance = off.dot(corrected->covariance.ldlt().solve(off));
