@@ -175,7 +175,9 @@ WeakWindows WindowsOf(const PreparedDataset& dataset, Equation equation,
 }  // namespace
 
 std::size_t SmoothingFor(const PreparedDataset& preview) {
-  constexpr double kLeastS = 1.6;
+  constexpr double kLeastS = 0.8;
+  constexpr double kLeastOfLongS = 1.6;
+  constexpr double kLongS = 900.0;
   constexpr std::size_t kMostRows = 16;
   constexpr double kMostNoise = 0.5;
   double sum = 0.0;
@@ -187,7 +189,8 @@ std::size_t SmoothingFor(const PreparedDataset& preview) {
   const auto n = static_cast<double>(preview.rows.size());
   const double spread = std::sqrt(std::max(0.0, squares / n - (sum / n) * (sum / n)));
   const double h = preview.sampling_period_s;
-  auto half_width = static_cast<std::size_t>(std::max(2.0, std::round(kLeastS / h)));
+  const double least_s = n * h < kLongS ? kLeastS : kLeastOfLongS;
+  auto half_width = static_cast<std::size_t>(std::max(2.0, std::round(least_s / h)));
   const auto noise = [&](std::size_t width) {
     const SavitzkyGolay filter(width, preview.options.smoothing_degree);
     return preview.sensors.position_noise_m / h * filter.SlopeWeights(width).norm();

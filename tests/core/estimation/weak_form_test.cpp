@@ -90,14 +90,16 @@ TEST(WeakForm, KeepsWindowsInsideStretchesAndEnteringRows) {
 }
 
 TEST(SmoothingFor, WidensWithTheNoiseOfPositions) {
-  const auto width = [](double noise_m) {
+  const auto width = [](double noise_m, double duration_s) {
     SensorOptions sensors;
     sensors.position_noise_m = noise_m;
-    const Recording recording = testing::SailStableBoat(testing::StableBoat(), 200.0, sensors, 5);
+    const Recording recording =
+        testing::SailStableBoat(testing::StableBoat(), duration_s, sensors, 5);
     return SmoothingFor(*Prepare(recording, testing::StableBoatVehicle(), {}));
   };
-  EXPECT_EQ(width(0.005), 8U);  // 1.6 s of a period of 0.2 s
-  EXPECT_GT(width(0.2), width(0.02));
+  EXPECT_EQ(width(0.005, 200.0), 4U);   // 0.8 s of a period of 0.2 s
+  EXPECT_EQ(width(0.005, 1000.0), 8U);  // 1.6 s
+  EXPECT_GT(width(0.2, 200.0), width(0.02, 200.0));
 }
 
 }  // namespace
