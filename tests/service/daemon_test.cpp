@@ -153,12 +153,14 @@ TEST_F(Daemon, TellsWhetherABoatHasChanged) {
   Replay(SimulatedRecording(testing::StableBoat(), 0.0, 300.0, 1));
   Run({"identify", "--vehicle-id", kVehicleId});
   const auto again = Start({"identify", "--vehicle-id", kVehicleId});
-  EXPECT_EQ(again->Wait(), 0);
+  EXPECT_EQ(again->Wait(), 0) << again->output();
   EXPECT_THAT(again->output(), HasSubstr("cannot be compared"));  // it is the same window
 
-  Replay(SimulatedRecording(testing::StableBoat(), kDayS, 300.0, 2));
+  // The same way and the same noise a day later: which samples a busy machine loses is chance, and
+  // of two ways one pair in a hundred would rightly be told apart.
+  Replay(SimulatedRecording(testing::StableBoat(), kDayS, 300.0, 1));
   const auto alike = Start({"identify", "--vehicle-id", kVehicleId});
-  EXPECT_EQ(alike->Wait(), 0);
+  EXPECT_EQ(alike->Wait(), 0) << alike->output();
   EXPECT_THAT(alike->output(), HasSubstr("no different from revision 2"));
 
   Replay(SimulatedRecording(worn, 2.0 * kDayS, 300.0, 3));
