@@ -28,7 +28,7 @@ constexpr std::size_t kQuietTwins = 2;
 constexpr double kUnitWanderM = 0.03;
 // Of the expected distance of the truth from the estimate: how plain the boats are that are
 // sailed. Plainer ones are less wild than the truth may be, and tell of another bias.
-constexpr double kReaches[] = {0.1, 0.5, 2.0, 8.0};
+constexpr double kReaches[] = {0.1, 0.5, 2.0, 8.0, 32.0, 128.0};
 constexpr int kPlainnesses = static_cast<int>(std::size(kReaches)) + 1;
 
 bool IsSound(const TwinCorrection& correction) {
