@@ -225,10 +225,15 @@ class TwinFleet {
 
   /// The boat off the middle by half the variance of `off`, or nearer as it takes not to run away:
   /// all of it makes most twins wilder than the boat, less hides how bias depends on the boat.
+  /// Where the middle itself is pushed off, pushes that the boat, which was seen, can have had are
+  /// sought.
   std::optional<Sighting> SightOne(const Eigen::VectorXd& middle, const Eigen::VectorXd& off,
                                    std::uint64_t seed) const {
-    for (const double share : {0.7, 0.35, 0.175, 0.0}) {
-      Eigen::VectorXd truth = middle + share * off;
+    constexpr std::array<double, 8> kShares = {0.7, 0.35, 0.175, 0.0, 0.0, 0.0, 0.0, 0.0};
+    for (std::size_t i = 0; i < kShares.size(); ++i) {
+      const bool again_in_the_middle = i > 0 && kShares[i] == kShares[i - 1];
+      if (again_in_the_middle) seed = RandomEngine::Stream(seed, i)();
+      Eigen::VectorXd truth = middle + kShares[i] * off;
       if (fit_.time_constant_s) truth[0] = std::max(truth[0], kLeastTimeConstantS);
       const auto twin = Sail(truth, disturbance_, seed);
       if (!twin) continue;
