@@ -63,11 +63,11 @@ struct WeakProblem {
 };
 
 /// Rows to each side of the Savitzky-Golay filter that suit the weak form: as few as leave sway,
-/// the quietest of the velocities, half as noisy as it is lively, but at least 0.8 s, and 1.6 s from
-/// a quarter of an hour on. The noisier a velocity the weaker the instruments of its products; the
-/// wider the filter the more is lost of products, which is made good as far as the model foretells
-/// it, and of windows, which short recordings cannot spare.
-/// `preview`: the same recording prepared with any width.
+/// the quietest of the velocities, half as noisy as it is lively, but at least 0.8 s, and 1.6 s
+/// from a quarter of an hour on. The noisier a velocity the weaker the instruments of its products;
+/// the wider the filter the more is lost of products, which is made good as far as the model
+/// foretells it, and of windows, which short recordings cannot spare. `preview`: the same recording
+/// prepared with any width.
 std::size_t SmoothingFor(const PreparedDataset& preview);
 
 /// PreparedDataset -> WeakProblem. Clusters are the same stretch of time in every equation.
