@@ -18,15 +18,15 @@ double Held(double value, double limit) {
 template <std::size_t Columns>
 using Rows = Eigen::Matrix<double, Eigen::Dynamic, static_cast<int>(Columns), Eigen::RowMajor>;
 
-template <class Rows>
-Rows BetweenRows(const Rows& rows) {
+template <class Series>
+Series BetweenRows(const Series& rows) {
   const Eigen::Index intervals = rows.rows() - 1;
   return 0.5 * (rows.topRows(intervals) + rows.bottomRows(intervals));
 }
 
 /// What windows of products lose to filtering before they are multiplied, by window start.
-template <class Rows>
-auto LostAt(const Rows& between, const Rows& filtered, const Eigen::VectorXd& seen,
+template <class Series>
+auto LostAt(const Series& between, const Series& filtered, const Eigen::VectorXd& seen,
             const Eigen::VectorXd& phi, Eigen::Index first_interval, Eigen::Index first) {
   return (seen.transpose() * between.middleRows(first_interval, seen.size()) -
           phi.transpose() * filtered.middleRows(first, phi.size()))
