@@ -39,11 +39,10 @@ struct TwinCorrection {
 /// disturbance is judged from the residuals; twins of the data set, each another boat as plausible
 /// as the next, are sailed, measured, prepared and estimated again. What they are off by on average
 /// is taken from the estimate, how they scatter about that sizes each direction of the clusters'
-/// covariance, and how often intervals made like that hold says by what one factor they have to be
-/// stretched, together and
-/// for single intervals once more each. Where most twins run away it starts again with plainer
-/// boats. progress is called by one thread at a time. Nothing when even of the plainest fewer than
-/// half can be estimated, or numbers overflow.
+/// covariance, and how often intervals made like that hold says by what factor they have to be
+/// stretched: all of an equation together, and single ones once more each. Where most twins run
+/// away it starts again with plainer boats. progress is called by one thread at a time. Nothing
+/// when even of the plainest fewer than half can be estimated, or numbers overflow.
 std::optional<TwinCorrection> CorrectWithTwins(
     const PreparedDataset& dataset, const RegressionOptions& regression, const WeakFit& fit,
     const std::array<std::vector<std::size_t>, 3>& columns, const WeakIvOptions& options,
