@@ -198,7 +198,7 @@ TEST(PrepareRobust, ALeverArmLeftInShowsAsSway) {
 
 TEST_P(EitherPreset, NorthIsNoSeam) {
   // Swings across north; the truth at t is psi = 0.3 sin(0.5 t).
-  const auto pose = [&](double t) { return Pose{0.0, 0.0, 0.3 * std::sin(0.5 * t)}; };
+  const auto pose = [](double t) { return Pose{0.0, 0.0, 0.3 * std::sin(0.5 * t)}; };
   const auto dataset = Prepare(Record({.pose = pose}), Vehicle{}, Options());
   ASSERT_TRUE(dataset);
   for (const PreparedRow& row : dataset->rows) {
