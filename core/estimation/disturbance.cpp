@@ -172,7 +172,8 @@ LeftBySensors::LeftBySensors() {
 Disturbance EstimateDisturbance(const PreparedDataset& dataset, const WeakFit& fit,
                                 const LeftBySensors& by_sensors) {
   const WeakProblem& problem = fit.problem;
-  const Eigen::VectorXd products = ProductsByLag(SeenWeights(dataset, problem));
+  const Eigen::VectorXd products =
+      ProductsByLag(SeenWeights(FilterOnIntervals(dataset), problem.phi));
   const std::vector<double> time_constants = TimeConstants();
   std::vector<Eigen::VectorXd> seen;
   for (const double tau : time_constants) {

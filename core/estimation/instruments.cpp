@@ -97,7 +97,7 @@ Instruments::Instruments(const PreparedDataset& dataset, const WeakProblem& prob
       problem_(problem),
       fastest_(FastestOf(dataset)),
       kernel_(FilterOnIntervals(dataset)),
-      seen_(SeenWeights(dataset, problem)) {
+      seen_(SeenWeights(kernel_, problem.phi)) {
   const double h = dataset.sampling_period_s;
   reach_ = std::max<std::size_t>(1, static_cast<std::size_t>(std::lround(kReachS / h)));
   // Beyond what the windows themselves need, which the filter widens.

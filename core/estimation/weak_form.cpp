@@ -5,7 +5,6 @@
 
 #include "contract.hpp"
 #include "data/savitzky_golay.hpp"
-#include "vessel/body_row.hpp"
 #include "vessel/thruster_lag.hpp"
 
 namespace telltale {
@@ -235,6 +234,10 @@ WeakProblem BuildWeakForm(const PreparedDataset& dataset, const RegressionOption
         WindowsOf(dataset, equation, regression, problem.phi, cluster_s);
   }
   problem.clusters = problem.windows[0].clusters.size();
+  problem.bodies.reserve(dataset.rows.size());
+  for (const PreparedRow& row : dataset.rows) {
+    problem.bodies.push_back(BodyRowLessNoise(row.nu, dataset.nu_noise));
+  }
   return problem;
 }
 
@@ -266,12 +269,10 @@ Eigen::VectorXd FilterOnIntervals(const PreparedDataset& dataset) {
   return weights;
 }
 
-Eigen::VectorXd SeenWeights(const PreparedDataset& dataset, const WeakProblem& problem) {
-  const Eigen::VectorXd filter = FilterOnIntervals(dataset);
-  const Eigen::VectorXd& phi = problem.phi.value;
-  Eigen::VectorXd weights = Eigen::VectorXd::Zero(phi.size() + filter.size() - 1);
-  for (Eigen::Index i = 0; i < phi.size(); ++i) {
-    weights.segment(i, filter.size()) += phi[i] * filter;
+Eigen::VectorXd SeenWeights(const Eigen::VectorXd& filter, const TestFunction& phi) {
+  Eigen::VectorXd weights = Eigen::VectorXd::Zero(phi.value.size() + filter.size() - 1);
+  for (Eigen::Index i = 0; i < phi.value.size(); ++i) {
+    weights.segment(i, filter.size()) += phi.value[i] * filter;
   }
   return weights;
 }
@@ -285,8 +286,7 @@ RegressorRows RowsOf(const PreparedDataset& dataset, const WeakProblem& problem,
   for (std::size_t s = 0; s < dataset.stretches.size(); ++s) {
     for (std::size_t k = dataset.stretches[s].begin; k < dataset.stretches[s].end; ++k) {
       double* const row = rows.row(static_cast<Eigen::Index>(k)).data();
-      FillRow(equation, BodyRowLessNoise(dataset.rows[k].nu, dataset.nu_noise), thrust.filtered[k],
-              {row, columns});
+      FillRow(equation, problem.bodies[k], thrust.filtered[k], {row, columns});
       problem.steady.Fill(dataset.RecordingOf(s), dataset.rows[k].eta.psi_rad,
                           {row + columns, steady});
     }

@@ -10,6 +10,7 @@
 #include "data/prepared_dataset.hpp"
 #include "estimation/regression_problem.hpp"
 #include "estimation/steady_terms.hpp"
+#include "vessel/body_row.hpp"
 #include "vessel/structure.hpp"
 
 namespace telltale {
@@ -60,6 +61,7 @@ struct WeakProblem {
   TestFunction phi;
   std::array<WeakWindows, 3> windows;
   std::size_t clusters = 0;
+  std::vector<BodyRow> bodies;  ///< by dataset row, less what noise in nu adds on average
 };
 
 /// Rows to each side of the Savitzky-Golay filter that suit the weak form: as few as leave sway,
@@ -90,10 +92,9 @@ Eigen::VectorXd FilterOnIntervals(const PreparedDataset& dataset);
 
 /// phi through F: the weights with which accelerations, by interval, enter a window. The first is
 /// that of the interval half a filter before the window's first row.
-Eigen::VectorXd SeenWeights(const PreparedDataset& dataset, const WeakProblem& problem);
+Eigen::VectorXd SeenWeights(const Eigen::VectorXd& filter, const TestFunction& phi);
 
-/// Rows Phi_j(nu_k, T_k) of one equation, less what noise in nu_k adds to them on average, and
-/// after them its SteadyTerms.
+/// Rows Phi_j(nu_k, T_k) of one equation, of the problem's bodies, and after them its SteadyTerms.
 RegressorRows RowsOf(const PreparedDataset& dataset, const WeakProblem& problem,
                      const FilteredThrust& thrust, Equation equation);
 

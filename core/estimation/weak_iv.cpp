@@ -399,7 +399,7 @@ std::optional<WeakFit> EstimateWeakIv(const PreparedDataset& dataset,
     const auto predicted =
         instruments.Predict(ModelWith(problem, equations, damped),
                             SteadyWith(problem, equations, damped), columns, thrust);
-    const WeighedEquations completed = Completed(equations, predicted);
+    WeighedEquations completed = Completed(equations, predicted);
     std::vector<Eigen::MatrixXd> by_lag;
     if (lagging) by_lag = ThrustByLag(dataset, problem, equations, thetas, *tau);
     const auto whitenings = WhiteningsOf(problem, completed, thetas);
@@ -417,10 +417,12 @@ std::optional<WeakFit> EstimateWeakIv(const PreparedDataset& dataset,
     }
     Unstack(solution, lagging ? 1 : 0, thetas);
     damped = Damped(white, white_Z, options.damping);
-    if (lagging) equations = WeighAll(dataset, problem, thrust, columns);
+    if (lagging) {
+      equations = WeighAll(dataset, problem, thrust, columns);
+      completed = Completed(equations, predicted);
+    }
     if (round == rounds) {
-      return Write(problem, Completed(equations, predicted), whitenings, system, *bread, thetas,
-                   damped, tau);
+      return Write(problem, completed, whitenings, system, *bread, thetas, damped, tau);
     }
   }
 }
