@@ -1,5 +1,7 @@
 #include "data/north_east.hpp"
 
+#include <cmath>
+
 namespace telltale {
 
 NorthEastFrame::NorthEastFrame(const FrameOrigin& origin)
@@ -15,14 +17,16 @@ NorthEastPosition NorthEastFrame::Forward(const GeographicPosition& position) co
 
 GeographicPosition NorthEastFrame::Inverse(const NorthEastPosition& position) const {
   // How far the ellipsoid lies below the plane is not known beforehand; each pass removes the
-  // height left over, which shrinks by (d / R)^2.
-  constexpr int kPasses = 4;
+  // height left over, which shrinks by (d / R)^2. A height moves what is below it by its d / R.
+  constexpr int kMostPasses = 4;
+  constexpr double kNoHeightM = 1e-6;
   GeographicPosition on_ellipsoid;
   double up = 0.0;
-  for (int pass = 0; pass < kPasses; ++pass) {
+  for (int pass = 0; pass < kMostPasses; ++pass) {
     double height = 0.0;
     plane_.Reverse(position.east_m, position.north_m, up, on_ellipsoid.latitude_deg,
                    on_ellipsoid.longitude_deg, height);
+    if (std::abs(height) < kNoHeightM) break;
     up -= height;
   }
   return on_ellipsoid;

@@ -313,21 +313,34 @@ double SlopeNorm(const SavitzkyGolay& filter, const PrepareOptions& options) {
   return slope.norm();
 }
 
-// One sigma of white noise on a signal, as it stands on the grid.
-double NoiseOnGrid(const TimeSeries& series, const Grid& grid, const PrepareOptions& options) {
-  const double noise = WhiteNoise(series);
+/// One sigma of white noise on each signal, as it came.
+struct SignalNoise {
+  explicit SignalNoise(const Signals& signals)
+      : north_m(WhiteNoise(signals.north_m)),
+        east_m(WhiteNoise(signals.east_m)),
+        psi_rad(WhiteNoise(signals.psi_rad)) {}
+
+  double north_m;
+  double east_m;
+  double psi_rad;
+};
+
+// What is left of the noise on a signal where it stands on the grid.
+double NoiseOnGrid(double noise, const TimeSeries& series, const Grid& grid,
+                   const PrepareOptions& options) {
   const bool averaged = options.preset == Preset::kRobust && IsAveraged(series, grid);
   return averaged ? noise / std::sqrt(SamplesPerRow(series, grid)) : noise;
 }
 
 // Positions are turned into the body frame, so u and v share the noise of north and east alike.
-Nu NoiseInVelocity(const Signals& signals, const Grid& grid, const PrepareOptions& options) {
+Nu NoiseInVelocity(const SignalNoise& noise, const Signals& signals, const Grid& grid,
+                   const PrepareOptions& options) {
   const SavitzkyGolay filter(options.smoothing_half_width, options.smoothing_degree);
   const double gain = SlopeNorm(filter, options) / grid.period_s;
-  const double position_m = std::hypot(NoiseOnGrid(signals.north_m, grid, options),
-                                       NoiseOnGrid(signals.east_m, grid, options)) /
+  const double position_m = std::hypot(NoiseOnGrid(noise.north_m, signals.north_m, grid, options),
+                                       NoiseOnGrid(noise.east_m, signals.east_m, grid, options)) /
                             std::sqrt(2.0);
-  const double psi_rad = NoiseOnGrid(signals.psi_rad, grid, options);
+  const double psi_rad = NoiseOnGrid(noise.psi_rad, signals.psi_rad, grid, options);
   return {gain * position_m, gain * position_m, gain * psi_rad};
 }
 
@@ -381,13 +394,9 @@ double MeanPeriod(const TimeSeries& series) {
                           : (times.back() - times.front()) / static_cast<double>(times.size() - 1);
 }
 
-double PositionNoise(const Signals& signals) {
-  return std::hypot(WhiteNoise(signals.north_m), WhiteNoise(signals.east_m)) / std::sqrt(2.0);
-}
-
 // Means over stretches, each with the weight of its rows, noises by their squares; call after
 // Append.
-void PoolSensors(PreparedDataset& dataset, const Signals& signals) {
+void PoolSensors(PreparedDataset& dataset, const Signals& signals, const SignalNoise& noise) {
   const double share = static_cast<double>(dataset.stretches.back().size()) /
                        static_cast<double>(dataset.rows.size());
   const auto pool = [&](double& so_far, double here) { so_far += share * (here - so_far); };
@@ -396,8 +405,9 @@ void PoolSensors(PreparedDataset& dataset, const Signals& signals) {
   };
   pool(dataset.sensors.gnss_period_s, MeanPeriod(signals.north_m));
   pool(dataset.sensors.heading_period_s, MeanPeriod(signals.psi_rad));
-  pool_square(dataset.sensors.position_noise_m, PositionNoise(signals));
-  pool_square(dataset.sensors.heading_noise_rad, WhiteNoise(signals.psi_rad));
+  pool_square(dataset.sensors.position_noise_m,
+              std::hypot(noise.north_m, noise.east_m) / std::sqrt(2.0));
+  pool_square(dataset.sensors.heading_noise_rad, noise.psi_rad);
 }
 
 // Root mean square over stretches, each with the weight of its rows; call after Append.
@@ -496,8 +506,9 @@ Result<PreparedDataset> Prepare(const Recording& recording, const Vehicle& vehic
     Signals signals = ReadSignals(recording, stretch, vehicle, frame);
     Append(dataset, PrepareStretch(signals, grid, vehicle, options), options);
     places.push_back(PlaceAmong(recording.starts_s, stretch.start_s));
-    PoolSensors(dataset, signals);
-    PoolNoise(dataset, NoiseInVelocity(signals, grid, options));
+    const SignalNoise noise(signals);
+    PoolSensors(dataset, signals, noise);
+    PoolNoise(dataset, NoiseInVelocity(noise, signals, grid, options));
     dataset.commands.push_back(std::move(signals.commands));
     dataset.signals.push_back(static_cast<RawSignals&&>(signals));
   }

@@ -1,16 +1,24 @@
 #include "data/time_series.hpp"
 
 #include <algorithm>
+#include <array>
 
 #include "contract.hpp"
 
 namespace telltale {
+namespace {
+
+constexpr std::size_t kMostKnots = 16;
+
+}  // namespace
 
 double EvaluatePolynomialThrough(std::span<const double> times, std::span<const double> values,
                                  double t) {
-  std::vector<double> p(values.begin(), values.end());
-  for (std::size_t order = 1; order < p.size(); ++order) {
-    for (std::size_t i = 0; i + order < p.size(); ++i) {
+  Require(!values.empty() && values.size() <= kMostKnots, "one to sixteen points");
+  std::array<double, kMostKnots> p;  // no heap: this runs for each row of each signal
+  std::ranges::copy(values, p.begin());
+  for (std::size_t order = 1; order < values.size(); ++order) {
+    for (std::size_t i = 0; i + order < values.size(); ++i) {
       p[i] = ((times[i + order] - t) * p[i] + (t - times[i]) * p[i + 1]) /
              (times[i + order] - times[i]);
     }
@@ -41,15 +49,16 @@ double TimeSeries::Interpolate(double t) const {
   std::size_t after = right;
   while (after + 1 < times_s.size() && times_s[after] - times_s[right] < apart) ++after;
 
-  std::vector<double> knots = {times_s[left], times_s[right]};
-  std::vector<double> at_knots = {values[left], values[right]};
+  std::array<double, 4> knots = {times_s[left], times_s[right]};
+  std::array<double, 4> at_knots = {values[left], values[right]};
+  std::size_t count = 2;
   const auto add = [&](std::size_t i) {
-    knots.push_back(times_s[i]);
-    at_knots.push_back(values[i]);
+    knots[count] = times_s[i];
+    at_knots[count++] = values[i];
   };
   if (times_s[left] - times_s[before] >= apart) add(before);
   if (times_s[after] - times_s[right] >= apart) add(after);
-  return EvaluatePolynomialThrough(knots, at_knots, t);
+  return EvaluatePolynomialThrough({knots.data(), count}, {at_knots.data(), count}, t);
 }
 
 std::size_t TimeSeries::LaterThan(double t) const {

@@ -11,7 +11,7 @@ namespace telltale {
 inline constexpr double kSameInstantS = 1e-6;
 
 /// The value at `t` of the polynomial of degree times.size() - 1 through the given points.
-/// Source: Neville's recursion.
+/// Requires: one to sixteen points. Source: Neville's recursion.
 double EvaluatePolynomialThrough(std::span<const double> times, std::span<const double> values,
                                  double t);
 

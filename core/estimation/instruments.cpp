@@ -24,6 +24,23 @@ Series BetweenRows(const Series& rows) {
   return 0.5 * (rows.topRows(intervals) + rows.bottomRows(intervals));
 }
 
+Eigen::Index ColumnsOf(const WeakProblem& problem, Equation equation) {
+  return std::ssize(Regressors(equation, problem.parameterization)) +
+         static_cast<Eigen::Index>(problem.steady.Count());
+}
+
+/// By equation, whose windows are weighed for it. Sway and yaw have the same regressors: where
+/// their windows are the same too, those of sway serve both.
+std::array<std::size_t, 3> WeighedAs(const WeakProblem& problem,
+                                     const std::array<bool, 3>& simulated) {
+  const std::size_t surge = IndexOf(Equation::kSurge);
+  const std::size_t sway = IndexOf(Equation::kSway);
+  const std::size_t yaw = IndexOf(Equation::kYaw);
+  const bool alike = simulated[sway] && simulated[yaw] &&
+                     problem.windows[sway].first_rows == problem.windows[yaw].first_rows;
+  return {surge, sway, alike ? sway : yaw};
+}
+
 /// What windows of products lose to filtering before they are multiplied, by window start.
 template <class Series>
 auto LostAt(const Series& between, const Series& filtered, const Eigen::VectorXd& seen,
@@ -108,23 +125,31 @@ std::array<PredictedWindows, 3> Instruments::Predict(
     const VesselModel& model, const std::vector<SteadyDisturbance>& steady,
     const std::array<std::vector<std::size_t>, 3>& columns, const FilteredThrust& thrust) const {
   const BodyDynamics dynamics(model);
-  std::array<PredictedWindows, 3> all;
   std::array<bool, 3> simulated{};
-  for (std::size_t j = 0; j < all.size(); ++j) {
-    simulated[j] = !columns[j].empty();
+  std::ranges::transform(columns, simulated.begin(), [](const auto& of) { return !of.empty(); });
+  const std::array<std::size_t, 3> weighed_as = WeighedAs(problem_, simulated);
+  std::array<PredictedWindows, 3> whole;  // of every column, sought or not
+  for (std::size_t j = 0; j < whole.size(); ++j) {
+    if (!simulated[j] || weighed_as[j] != j) continue;
     const auto windows = std::ssize(problem_.windows[j].first_rows);
-    all[j].Z.resize(windows, std::ssize(columns[j]));
-    all[j].lost = Eigen::MatrixXd::Zero(windows, std::ssize(columns[j]));
+    whole[j].Z.resize(windows, ColumnsOf(problem_, kEquations[j]));
+    whole[j].lost = Eigen::MatrixXd::Zero(windows, whole[j].Z.cols());
   }
   std::vector<Instant> predicted(dataset_.rows.size());
   for (const Part& part : Parts()) {
     Simulate(dynamics, steady[part.recording], simulated, thrust, part, predicted);
     const Bodies bodies(predicted, part.rows, kernel_);
-    for (std::size_t j = 0; j < all.size(); ++j) {
-      if (simulated[j]) WeighPart(j, columns[j], thrust, predicted, part, bodies, all[j]);
+    for (std::size_t j = 0; j < whole.size(); ++j) {
+      if (whole[j].Z.size() > 0) WeighPart(j, thrust, predicted, part, bodies, whole[j]);
     }
   }
-  return all;
+  std::array<PredictedWindows, 3> sought;
+  for (std::size_t j = 0; j < sought.size(); ++j) {
+    if (!simulated[j]) continue;
+    const PredictedWindows& windows = whole[weighed_as[j]];
+    sought[j] = {windows.Z(Eigen::all, columns[j]), windows.lost(Eigen::all, columns[j])};
+  }
+  return sought;
 }
 
 std::vector<Instruments::Part> Instruments::Parts() const {
@@ -165,17 +190,15 @@ void Instruments::Simulate(const BodyDynamics& dynamics, const SteadyDisturbance
   }
 }
 
-void Instruments::WeighPart(std::size_t equation, const std::vector<std::size_t>& columns,
-                            const FilteredThrust& thrust, const std::vector<Instant>& predicted,
-                            const Part& part, const Bodies& bodies,
-                            PredictedWindows& windows) const {
+void Instruments::WeighPart(std::size_t equation, const FilteredThrust& thrust,
+                            const std::vector<Instant>& predicted, const Part& part,
+                            const Bodies& bodies, PredictedWindows& windows) const {
   const auto& first_rows = problem_.windows[equation].first_rows;
   const std::size_t half = problem_.phi.Rows() / 2;
   const Equation name = kEquations[equation];
-  const std::size_t regressors = Regressors(name, problem_.parameterization).size();
   const std::size_t steady = problem_.steady.Count();
-  RegressorRows phi(static_cast<Eigen::Index>(part.rows.size()),
-                    static_cast<Eigen::Index>(regressors + steady));
+  const std::size_t regressors = static_cast<std::size_t>(windows.Z.cols()) - steady;
+  RegressorRows phi(static_cast<Eigen::Index>(part.rows.size()), windows.Z.cols());
   for (std::size_t k = part.rows.begin; k < part.rows.end; ++k) {
     double* const row = phi.row(static_cast<Eigen::Index>(k - part.rows.begin)).data();
     FillRow(name, predicted[k].nu, thrust.filtered[k], {row, regressors});
@@ -192,11 +215,8 @@ void Instruments::WeighPart(std::size_t equation, const std::vector<std::size_t>
     const Eigen::RowVectorXd lost =
         bodies.LostFrom(first, name == Equation::kSurge, seen_, weights);
     const auto window = static_cast<Eigen::Index>(at - first_rows.begin());
-    for (Eigen::Index j = 0; j < std::ssize(columns); ++j) {
-      const auto column = static_cast<Eigen::Index>(columns[static_cast<std::size_t>(j)]);
-      windows.Z(window, j) = sum[column];
-      if (column < lost.size()) windows.lost(window, j) = lost[column];
-    }
+    windows.Z.row(window) = sum;
+    windows.lost.row(window).head(lost.size()) = lost;
   }
 }
 

@@ -48,9 +48,9 @@ class Instruments {
   void Simulate(const BodyDynamics& dynamics, const SteadyDisturbance& steady,
                 const std::array<bool, 3>& simulated, const FilteredThrust& thrust,
                 const Part& part, std::vector<Instant>& predicted) const;
-  void WeighPart(std::size_t equation, const std::vector<std::size_t>& columns,
-                 const FilteredThrust& thrust, const std::vector<Instant>& predicted,
-                 const Part& part, const Bodies& bodies, PredictedWindows& windows) const;
+  void WeighPart(std::size_t equation, const FilteredThrust& thrust,
+                 const std::vector<Instant>& predicted, const Part& part, const Bodies& bodies,
+                 PredictedWindows& windows) const;
 
   const PreparedDataset& dataset_;
   const WeakProblem& problem_;

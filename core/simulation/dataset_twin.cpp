@@ -41,28 +41,47 @@ double Hermite(double a, double a_slope, double b, double b_slope, double step_s
 /// The course of one stretch at equal steps.
 class Course {
  public:
-  Course(double start_s, double step_s) : start_s_(start_s), step_s_(step_s) {}
+  Course(double start_s, double step_s, std::size_t steps) : start_s_(start_s), step_s_(step_s) {
+    knots_.reserve(steps + 1);
+  }
 
-  void Add(const Instant& instant) { instants_.push_back(instant); }
+  void Add(const Instant& instant) {
+    knots_.push_back({instant.eta, EtaDot(instant.eta.psi_rad, instant.nu)});
+  }
 
   Eta At(double time_s) const {
-    const double steps = std::max(0.0, (time_s - start_s_) / step_s_);
-    const std::size_t last = instants_.size() - 2;
-    const std::size_t before = std::min(static_cast<std::size_t>(steps), last);
-    const double share = steps - static_cast<double>(before);
-    const Instant& a = instants_[before];
-    const Instant& b = instants_[before + 1];
-    const Eigen::Vector3d a_slope = EtaDot(a.eta.psi_rad, a.nu);
-    const Eigen::Vector3d b_slope = EtaDot(b.eta.psi_rad, b.nu);
-    return {Hermite(a.eta.x_m, a_slope.x(), b.eta.x_m, b_slope.x(), step_s_, share),
-            Hermite(a.eta.y_m, a_slope.y(), b.eta.y_m, b_slope.y(), step_s_, share),
-            Hermite(a.eta.psi_rad, a_slope.z(), b.eta.psi_rad, b_slope.z(), step_s_, share)};
+    const auto [a, b, share] = About(time_s);
+    return {Hermite(a.eta.x_m, a.slope.x(), b.eta.x_m, b.slope.x(), step_s_, share),
+            Hermite(a.eta.y_m, a.slope.y(), b.eta.y_m, b.slope.y(), step_s_, share),
+            Hermite(a.eta.psi_rad, a.slope.z(), b.eta.psi_rad, b.slope.z(), step_s_, share)};
+  }
+
+  double HeadingAt(double time_s) const {
+    const auto [a, b, share] = About(time_s);
+    return Hermite(a.eta.psi_rad, a.slope.z(), b.eta.psi_rad, b.slope.z(), step_s_, share);
   }
 
  private:
+  struct Knot {
+    Eta eta;
+    Eigen::Vector3d slope;
+  };
+  struct Piece {
+    const Knot& before;
+    const Knot& after;
+    double share;
+  };
+
+  Piece About(double time_s) const {
+    const double steps = std::max(0.0, (time_s - start_s_) / step_s_);
+    const std::size_t last = knots_.size() - 2;
+    const std::size_t before = std::min(static_cast<std::size_t>(steps), last);
+    return {knots_[before], knots_[before + 1], steps - static_cast<double>(before)};
+  }
+
   double start_s_;
   double step_s_;
-  std::vector<Instant> instants_;
+  std::vector<Knot> knots_;
 };
 
 /// A boat this much beyond all that was measured has run away.
@@ -124,7 +143,7 @@ Result<Course> Sail(const Voyage& voyage, const VesselModel& model, const BodyDy
                     const Runaway& runaway, double step_s, const std::array<bool, 3>& as_measured,
                     const SteadyDisturbance& steady, std::array<GaussMarkov, 3>& disturbance) {
   const auto steps = static_cast<std::size_t>(std::lround(voyage.Duration() / step_s));
-  Course course(voyage.start_s, step_s);
+  Course course(voyage.start_s, step_s, steps);
   Instant now{voyage.First().eta, voyage.First().nu};
   ThrustRegressors thrust = ThrustAtStart(voyage, model);
   course.Add(now);
@@ -203,7 +222,7 @@ class Instrumented {
     for (std::size_t i = 0;; ++i) {
       const double t = voyage.start_s + static_cast<double>(i) * heading_period_s_;
       if (t > end_s) break;
-      const double psi = course.At(t).psi_rad + heading_noise_rad_ * heading_();
+      const double psi = course.HeadingAt(t) + heading_noise_rad_ * heading_();
       recording.heading.push_back({t, WrapAngle(psi) * kDegreesPerRadian});
     }
     const HeldCommands& commands = voyage.Commands();

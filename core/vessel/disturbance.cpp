@@ -14,7 +14,11 @@ std::array<GaussMarkov, 3> DrawAxes(const Disturbance& disturbance, double step_
 }
 
 NuDot SteadyDisturbance::At(double psi_rad) const {
-  const Eigen::Vector3d rate = terms * Eigen::Vector3d(1.0, std::cos(psi_rad), std::sin(psi_rad));
+  Eigen::Vector3d rate = terms.col(0);
+  const auto to_north_and_east = terms.rightCols<2>();
+  if (!to_north_and_east.isZero(0.0)) {
+    rate += to_north_and_east * Eigen::Vector2d(std::cos(psi_rad), std::sin(psi_rad));
+  }
   return {rate[0], rate[1], rate[2]};
 }
 

@@ -74,5 +74,26 @@ TEST(Instruments, LoseNothingOfWhatIsLinear) {
   }
 }
 
+// Where one equation lacks a window the two are weighed each by itself.
+TEST(Instruments, ServeSwayAndYawAlikeTogetherOrApart) {
+  const PreparedDataset dataset = Sailed(8);
+  WeakProblem problem = BuildWeakForm(dataset, {}, {});
+  const FilteredThrust thrust = FilterThrust(dataset, problem, std::nullopt);
+  const auto predict = [&] {
+    return Instruments(dataset, problem)
+        .Predict(testing::StableBoat(), std::vector<SteadyDisturbance>(1),
+                 {{{0, 3}, {0, 4, 8, 12}, {1, 4, 12}}}, thrust);
+  };
+  const auto together = predict();
+  problem.windows[1].first_rows.pop_back();
+  const auto apart = predict();
+  ASSERT_EQ(apart[1].Z.rows() + 1, apart[2].Z.rows());
+  EXPECT_EQ(together[1].Z.topRows(apart[1].Z.rows()), apart[1].Z);
+  EXPECT_EQ(together[1].lost.topRows(apart[1].lost.rows()), apart[1].lost);
+  EXPECT_EQ(together[2].Z, apart[2].Z);
+  EXPECT_EQ(together[2].lost, apart[2].lost);
+  EXPECT_EQ(together[1].Z.col(1), together[2].Z.col(1));  // both of uv
+}
+
 }  // namespace
 }  // namespace telltale
