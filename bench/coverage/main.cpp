@@ -13,6 +13,7 @@
 #include "coverage/campaign.hpp"
 #include "data/preparation.hpp"
 #include "estimation/excitation.hpp"
+#include "estimation/lagged_regression.hpp"
 #include "estimation/one_step.hpp"
 #include "estimation/weak_iv.hpp"
 #include "gauss_markov.hpp"
@@ -162,22 +163,35 @@ std::optional<Holding> TryWeakIv(const Told& scenario, const Recording& recordin
   return holding;
 }
 
+/// One-step least squares: an equation each, or all of them with the time constant first. Nothing
+/// when an equation is not excited.
+std::optional<std::vector<ClusteredFit>> FitOneStep(const Scenario& scenario,
+                                                    const PreparedDataset& dataset) {
+  RegressionOptions options;
+  if (scenario.Lags()) options.structure = Structure::kFirstOrderDynamic;
+  const LaggedProblem problem = BuildLagged(dataset, options);
+  std::array<std::optional<Excitation>, 3> excitations;
+  std::vector<ClusteredFit> fits;
+  for (std::size_t j = 0; j < excitations.size(); ++j) {
+    const EquationProblem& equation = problem.at_once.equations[j];
+    const auto excitation = Assess(equation, {});
+    if (!excitation) return std::nullopt;
+    excitations[j] = *excitation;
+    if (!scenario.Lags()) fits.push_back(FitOf(equation, EstimateOneStep(*excitation)));
+  }
+  if (scenario.Lags()) fits.push_back(FitOf(EstimateLagged(problem, excitations)));
+  return fits;
+}
+
 /// The paper's recipe, with a bootstrap over segments.
 std::optional<Holding> TryOneStep(const Scenario& scenario, const Recording& recording,
                                   std::uint64_t seed) {
-  if (scenario.Lags()) return std::nullopt;
-  const PreparedDataset dataset = Prepared(recording, std::nullopt);
-  const RegressionProblem problem = BuildRegression(dataset, {});
-  std::vector<ClusteredFit> fits;
-  for (const EquationProblem& equation : problem.equations) {
-    const auto excitation = Assess(equation, {});
-    if (!excitation) return std::nullopt;
-    fits.push_back(FitOf(equation, EstimateOneStep(*excitation)));
-  }
-  const BootstrapReplicates replicates = Bootstrap(fits, {400, seed, 1});
+  const auto fits = FitOneStep(scenario, Prepared(recording, std::nullopt));
+  if (!fits) return std::nullopt;
+  const BootstrapReplicates replicates = Bootstrap(*fits, {400, seed, 1});
   Eigen::VectorXd theta(TruthOf(scenario).size());
   Eigen::Index next = 0;
-  for (const ClusteredFit& fit : fits) {
+  for (const ClusteredFit& fit : *fits) {
     if (next + fit.theta.size() > theta.size()) return std::nullopt;
     theta.segment(next, fit.theta.size()) = fit.theta;
     next += fit.theta.size();
