@@ -42,6 +42,7 @@ inline Recording Sail(const Scenario& scenario, std::uint64_t seed) {
 struct Campaign {
   std::vector<std::string> wanted;
   std::size_t repeats = 0;
+  std::size_t first = 0;  ///< repeats before it are another campaign's
   std::size_t threads = std::max(1U, std::thread::hardware_concurrency());
   std::uint64_t seed = 1;
 
@@ -51,20 +52,22 @@ struct Campaign {
     for (const auto& scenario : scenarios) names.push_back(scenario.name);
     app.add_option("--scenario", wanted, "only these (default: all)")->check(CLI::IsMember(names));
     app.add_option("--repeats", repeats, "seeded repeats of each scenario")->capture_default_str();
+    app.add_option("--first", first, "where to go on after so many repeats of this seed");
     app.add_option("--threads", threads, "never change the result")->capture_default_str();
-    app.add_option("--seed", seed, "of the first repeat")->capture_default_str();
+    app.add_option("--seed", seed, "of the repeats' own seeds")->capture_default_str();
   }
 
   bool Wants(const std::string& name) const {
     return wanted.empty() || std::find(wanted.begin(), wanted.end(), name) != wanted.end();
   }
 
-  /// What attempt(seed of the repeat) gives, by repeat; attempts run beside each other.
+  /// What attempt(seed of the repeat) gives, by repeat; attempts run beside each other. Campaigns
+  /// of one seed that go on where the other ended are one campaign in two parts.
   template <class Attempt>
   auto Repeat(const Attempt& attempt) const {
     std::vector<decltype(attempt(seed))> all(repeats);
     ForEachIndex(repeats, threads,
-                 [&](std::size_t i) { all[i] = attempt(RandomEngine::Stream(seed, i)()); });
+                 [&](std::size_t i) { all[i] = attempt(RandomEngine::Stream(seed, first + i)()); });
     return all;
   }
 };
