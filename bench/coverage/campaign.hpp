@@ -27,6 +27,13 @@ struct Scenario {
   bool Lags() const { return boat.thruster_time_constant_s > 0.0; }
 };
 
+/// Pushed by so much of the usual disturbance.
+inline Surroundings Disturbed(double share) {
+  Surroundings around;
+  for (double& sigma : around.disturbance_sigma) sigma *= share;
+  return around;
+}
+
 /// The stacked unknowns of an estimate: the time constant first, if the boat has one.
 inline Eigen::VectorXd TruthOf(const Scenario& scenario) {
   std::vector<double> truth = CoefficientsOf(scenario.boat);

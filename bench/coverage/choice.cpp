@@ -13,31 +13,31 @@
 namespace telltale::coverage {
 namespace {
 
-Scenario Disturbed(std::string name, double share) {
+Scenario ScenarioOf(std::string name, double share) {
   Scenario scenario;
   scenario.name = std::move(name);
-  for (double& sigma : scenario.around.disturbance_sigma) sigma *= share;
+  scenario.around = Disturbed(share);
   return scenario;
 }
 
 std::vector<Scenario> Scenarios() {
-  std::vector<Scenario> all = {Disturbed("still", 0.0), Disturbed("hundredth", 0.01),
-                               Disturbed("fiftieth", 0.02), Disturbed("tenth", 0.1),
-                               Disturbed("rtk", 1.0)};
-  Scenario surge = Disturbed("tenth-in-surge-alone", 0.0);
+  std::vector<Scenario> all = {ScenarioOf("still", 0.0), ScenarioOf("hundredth", 0.01),
+                               ScenarioOf("fiftieth", 0.02), ScenarioOf("tenth", 0.1),
+                               ScenarioOf("rtk", 1.0)};
+  Scenario surge = ScenarioOf("tenth-in-surge-alone", 0.0);
   surge.around.disturbance_sigma[0] = 0.003;
-  Scenario ten = Disturbed("still-ten-segments", 0.0);
+  Scenario ten = ScenarioOf("still-ten-segments", 0.0);
   ten.mission.segments = 10;
-  Scenario ten_tenth = Disturbed("tenth-ten-segments", 0.1);
+  Scenario ten_tenth = ScenarioOf("tenth-ten-segments", 0.1);
   ten_tenth.mission.segments = 10;
-  Scenario plain = Disturbed("still-plain-gnss", 0.0);
+  Scenario plain = ScenarioOf("still-plain-gnss", 0.0);
   plain.around.position_noise_m = 0.10;
   plain.around.heading_noise_deg = 0.5;
-  Scenario coloured = Disturbed("still-coloured-gnss", 0.0);
+  Scenario coloured = ScenarioOf("still-coloured-gnss", 0.0);
   coloured.around.slow_position_error_m = 0.2;
-  Scenario bend = Disturbed("still-propeller-outside-class", 0.0);
+  Scenario bend = ScenarioOf("still-propeller-outside-class", 0.0);
   bend.boat.thrust_bend = 0.3;
-  Scenario slight = Disturbed("still-propeller-slightly-outside", 0.0);
+  Scenario slight = ScenarioOf("still-propeller-slightly-outside", 0.0);
   slight.boat.thrust_bend = 0.02;
   all.insert(all.end(), {surge, ten, ten_tenth, plain, coloured, bend, slight});
   return all;

@@ -34,7 +34,7 @@ struct Told : Scenario {
 };
 
 std::vector<Told> Scenarios() {
-  std::vector<Told> all(10);
+  std::vector<Told> all(12);
   all[0].name = "rtk";
   all[1].name = "plain-gnss";
   all[1].around.position_noise_m = 0.10;
@@ -56,6 +56,10 @@ std::vector<Told> Scenarios() {
   all[8].boat.thrust_bend = 0.3;
   all[9].name = "three-segments";
   all[9].mission.segments = 3;
+  all[10].name = "calm";
+  all[10].around = Disturbed(0.1);
+  all[11].name = "still";
+  all[11].around = Disturbed(0.0);
   return all;
 }
 

@@ -27,10 +27,10 @@ struct TwinOptions {
 /// anew by `model` from where it began and under the same commands, disturbed and measured with
 /// fresh draws, and prepared by the same options.
 /// Model: nu_dot = Phi(nu, T) theta + d, d first-order Gauss-Markov per axis; Runge-Kutta at a
-/// tenth of a second; positions and headings at the dataset's own rates (headings above 10 Hz as
-/// averages with as much less noise) with white noise, fixes besides with a slow first-order
-/// Gauss-Markov error where they wander. Refuses when: the simulation runs away, or
-/// what it gives cannot be prepared.
+/// tenth of a second, poses by Simpson's rule; positions and headings at the dataset's own rates
+/// (of headings five a row at most, with as much less noise) with white noise, fixes besides with a
+/// slow first-order Gauss-Markov error where they wander. Refuses when: the simulation runs away,
+/// or what it gives cannot be prepared.
 Result<PreparedDataset> SailAgain(const PreparedDataset& dataset, const VesselModel& model,
                                   const TwinOptions& options);
 
