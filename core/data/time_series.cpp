@@ -15,7 +15,7 @@ constexpr std::size_t kMostKnots = 16;
 double EvaluatePolynomialThrough(std::span<const double> times, std::span<const double> values,
                                  double t) {
   Require(!values.empty() && values.size() <= kMostKnots, "one to sixteen points");
-  std::array<double, kMostKnots> p;  // no heap: this runs for each row of each signal
+  std::array<double, kMostKnots> p{};  // no heap: this runs for each row of each signal
   std::ranges::copy(values, p.begin());
   for (std::size_t order = 1; order < values.size(); ++order) {
     for (std::size_t i = 0; i + order < values.size(); ++i) {
