@@ -5,11 +5,11 @@
 #include <benchmark/benchmark.h>
 #include <boost/random/normal_distribution.hpp>
 
-#include "estimation/one_step.hpp"
-#include "random.hpp"
-#include "uncertainty/block_length.hpp"
-#include "uncertainty/bootstrap.hpp"
-#include "uncertainty/timeline.hpp"
+#include "telltale/core/estimation/one_step.hpp"
+#include "telltale/core/random.hpp"
+#include "telltale/core/uncertainty/block_length.hpp"
+#include "telltale/core/uncertainty/bootstrap.hpp"
+#include "telltale/core/uncertainty/timeline.hpp"
 
 namespace telltale {
 namespace {

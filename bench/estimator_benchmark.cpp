@@ -4,12 +4,12 @@
 #include <benchmark/benchmark.h>
 
 #include "coverage/truth.hpp"
-#include "data/preparation.hpp"
-#include "estimation/output_error.hpp"
-#include "estimation/weak_iv.hpp"
-#include "identification/identify.hpp"
-#include "identification/weak_iv_answer.hpp"
-#include "uncertainty/twin_correction.hpp"
+#include "telltale/core/data/preparation.hpp"
+#include "telltale/core/estimation/output_error.hpp"
+#include "telltale/core/estimation/weak_iv.hpp"
+#include "telltale/core/identification/identify.hpp"
+#include "telltale/core/identification/weak_iv_answer.hpp"
+#include "telltale/core/uncertainty/twin_correction.hpp"
 
 namespace telltale {
 namespace {

@@ -3,12 +3,12 @@
 
 #include <benchmark/benchmark.h>
 
-#include "estimation/one_step.hpp"
-#include "identification/identify.hpp"
-#include "simulation/manoeuvres.hpp"
-#include "simulation/sensors.hpp"
-#include "simulation/yellowfish.hpp"
-#include "uncertainty/bootstrap.hpp"
+#include "telltale/core/estimation/one_step.hpp"
+#include "telltale/core/identification/identify.hpp"
+#include "telltale/core/simulation/manoeuvres.hpp"
+#include "telltale/core/simulation/sensors.hpp"
+#include "telltale/core/simulation/yellowfish.hpp"
+#include "telltale/core/uncertainty/bootstrap.hpp"
 
 namespace telltale {
 namespace {

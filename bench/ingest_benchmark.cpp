@@ -4,11 +4,11 @@
 
 #include <benchmark/benchmark.h>
 
-#include "codec/wire.hpp"
-#include "data/window.hpp"
-#include "simulation/manoeuvres.hpp"
-#include "simulation/sensors.hpp"
-#include "simulation/yellowfish.hpp"
+#include "telltale/core/data/window.hpp"
+#include "telltale/core/simulation/manoeuvres.hpp"
+#include "telltale/core/simulation/sensors.hpp"
+#include "telltale/core/simulation/yellowfish.hpp"
+#include "telltale/idl/codec/wire.hpp"
 
 namespace telltale {
 namespace {

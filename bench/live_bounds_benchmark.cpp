@@ -3,8 +3,8 @@
 #include <benchmark/benchmark.h>
 #include <boost/random/normal_distribution.hpp>
 
-#include "estimation/sliding_regression.hpp"
-#include "random.hpp"
+#include "telltale/core/estimation/sliding_regression.hpp"
+#include "telltale/core/random.hpp"
 
 namespace telltale {
 namespace {

@@ -12,9 +12,9 @@
 #include <boost/random/normal_distribution.hpp>
 #include <boost/random/uniform_real_distribution.hpp>
 
-#include "data/north_east.hpp"
-#include "data/preparation.hpp"
-#include "random.hpp"
+#include "telltale/core/data/north_east.hpp"
+#include "telltale/core/data/preparation.hpp"
+#include "telltale/core/random.hpp"
 
 namespace {
 

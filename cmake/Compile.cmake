@@ -41,8 +41,9 @@ if(TELLTALE_SANITIZE)
                                                                         -Wno-use-after-free>)
 endif()
 
-# telltale_layer(NAME core LINKS ...): a static library of every .cpp below this folder whose only own
-# include directory is this folder, so that a layer can include nothing it does not link.
+# telltale_layer(NAME core LINKS ...): a static library of every .cpp below this folder. Its headers are
+# included as "telltale/NAME/folder/file.hpp" through an include directory that holds this layer alone, so
+# that a layer can include nothing it does not link.
 function(telltale_layer name)
   cmake_parse_arguments(ARG "" "" "LINKS;EXCLUDE" ${ARGN})
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS *.cpp *.hpp)
@@ -50,14 +51,18 @@ function(telltale_layer name)
     list(FILTER sources EXCLUDE REGEX ${pattern})
   endforeach()
   add_library(telltale_${name} STATIC ${sources})
-  target_include_directories(telltale_${name} PUBLIC ${CMAKE_CURRENT_SOURCE_DIR})
-  target_link_libraries(telltale_${name} PUBLIC ${ARG_LINKS} PRIVATE telltale_compile)
+  set(root ${PROJECT_BINARY_DIR}/include/${name})
+  file(MAKE_DIRECTORY ${root}/telltale)
+  file(CREATE_LINK ${CMAKE_CURRENT_SOURCE_DIR} ${root}/telltale/${name} SYMBOLIC)
+  target_include_directories(telltale_${name} PUBLIC $<BUILD_INTERFACE:${root}>)
+  target_link_libraries(telltale_${name} PUBLIC ${ARG_LINKS}
+                                         PRIVATE $<BUILD_INTERFACE:telltale_compile>)
 endfunction()
 
 # Parsing what most files include takes longer than compiling them: it is read once for core and idl,
 # once for what is around them and once for the tests, which differ in their optimisation or in what
 # they include and so cannot share.
-set(telltale_linear_algebra ${PROJECT_SOURCE_DIR}/core/linear_algebra)
+set(telltale_linear_algebra ${PROJECT_BINARY_DIR}/include/core/telltale/core/linear_algebra)
 function(telltale_precompile target)
   if(target STREQUAL telltale_core)
     target_precompile_headers(telltale_core PRIVATE ${telltale_linear_algebra}/products.hpp <optional>

@@ -5,7 +5,7 @@
 
 #include <boost/random/normal_distribution.hpp>
 
-#include "random.hpp"
+#include "telltale/core/random.hpp"
 
 namespace telltale {
 

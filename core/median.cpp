@@ -1,8 +1,8 @@
-#include "median.hpp"
+#include "telltale/core/median.hpp"
 
 #include <algorithm>
 
-#include "contract.hpp"
+#include "telltale/core/contract.hpp"
 
 namespace telltale {
 

@@ -1,4 +1,4 @@
-#include "number.hpp"
+#include "telltale/core/number.hpp"
 
 #include <array>
 #include <cstdio>

@@ -1,4 +1,4 @@
-#include "range.hpp"
+#include "telltale/core/range.hpp"
 
 #include <cmath>
 #include <sstream>

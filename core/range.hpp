@@ -3,7 +3,7 @@
 #include <optional>
 #include <string_view>
 
-#include "result.hpp"
+#include "telltale/core/result.hpp"
 
 namespace telltale {
 

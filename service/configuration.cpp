@@ -1,7 +1,7 @@
-#include "configuration.hpp"
+#include "telltale/service/configuration.hpp"
 
-#include "codec/vehicle_file.hpp"
-#include "recording/files.hpp"
+#include "telltale/client/recording/files.hpp"
+#include "telltale/idl/codec/vehicle_file.hpp"
 
 namespace telltale {
 namespace {

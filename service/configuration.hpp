@@ -2,7 +2,7 @@
 
 #include <filesystem>
 
-#include "codec/daemon_config.hpp"
+#include "telltale/idl/codec/daemon_config.hpp"
 
 namespace telltale {
 

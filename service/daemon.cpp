@@ -1,4 +1,4 @@
-#include "daemon.hpp"
+#include "telltale/service/daemon.hpp"
 
 #include <string_view>
 #include <utility>

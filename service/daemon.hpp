@@ -2,18 +2,18 @@
 
 #include <functional>
 
-#include "bus/log_sink.hpp"
-#include "bus/participant.hpp"
-#include "codec/daemon_config.hpp"
-#include "diagnosis/diagnosis_jobs.hpp"
-#include "diagnosis/healthy_recordings.hpp"
-#include "diagnosis/published_diagnoses.hpp"
-#include "identification/answers.hpp"
-#include "identification/identification_jobs.hpp"
-#include "ingest/fleet.hpp"
-#include "ingest/ingest.hpp"
-#include "models/published_models.hpp"
-#include "monitoring/quality_monitor.hpp"
+#include "telltale/client/bus/log_sink.hpp"
+#include "telltale/client/bus/participant.hpp"
+#include "telltale/idl/codec/daemon_config.hpp"
+#include "telltale/service/diagnosis/diagnosis_jobs.hpp"
+#include "telltale/service/diagnosis/healthy_recordings.hpp"
+#include "telltale/service/diagnosis/published_diagnoses.hpp"
+#include "telltale/service/identification/answers.hpp"
+#include "telltale/service/identification/identification_jobs.hpp"
+#include "telltale/service/ingest/fleet.hpp"
+#include "telltale/service/ingest/ingest.hpp"
+#include "telltale/service/models/published_models.hpp"
+#include "telltale/service/monitoring/quality_monitor.hpp"
 
 namespace telltale {
 

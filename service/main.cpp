@@ -10,8 +10,8 @@
 #include <spdlog/spdlog.h>
 #include <CLI/CLI.hpp>
 
-#include "configuration.hpp"
-#include "daemon.hpp"
+#include "telltale/service/configuration.hpp"
+#include "telltale/service/daemon.hpp"
 
 namespace telltale {
 namespace {

@@ -12,8 +12,8 @@
 #include <Eigen/Core>
 
 #include "coverage/truth.hpp"
-#include "parallel.hpp"
-#include "random.hpp"
+#include "telltale/core/parallel.hpp"
+#include "telltale/core/random.hpp"
 
 namespace telltale::coverage {
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "coverage/campaign.hpp"
-#include "identification/identify.hpp"
+#include "telltale/core/identification/identify.hpp"
 
 namespace telltale::coverage {
 namespace {

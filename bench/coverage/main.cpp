@@ -11,18 +11,18 @@
 #include <vector>
 
 #include "coverage/campaign.hpp"
-#include "data/preparation.hpp"
-#include "estimation/excitation.hpp"
-#include "estimation/lagged_regression.hpp"
-#include "estimation/one_step.hpp"
-#include "estimation/weak_iv.hpp"
-#include "gauss_markov.hpp"
-#include "linear_algebra/decompositions.hpp"
-#include "uncertainty/bootstrap.hpp"
-#include "uncertainty/clustered_fit.hpp"
-#include "uncertainty/laws.hpp"
-#include "uncertainty/prediction_band.hpp"
-#include "uncertainty/twin_correction.hpp"
+#include "telltale/core/data/preparation.hpp"
+#include "telltale/core/estimation/excitation.hpp"
+#include "telltale/core/estimation/lagged_regression.hpp"
+#include "telltale/core/estimation/one_step.hpp"
+#include "telltale/core/estimation/weak_iv.hpp"
+#include "telltale/core/gauss_markov.hpp"
+#include "telltale/core/linear_algebra/decompositions.hpp"
+#include "telltale/core/uncertainty/bootstrap.hpp"
+#include "telltale/core/uncertainty/clustered_fit.hpp"
+#include "telltale/core/uncertainty/laws.hpp"
+#include "telltale/core/uncertainty/prediction_band.hpp"
+#include "telltale/core/uncertainty/twin_correction.hpp"
 
 namespace telltale::coverage {
 namespace {

@@ -9,10 +9,10 @@
 #include <vector>
 
 #include "coverage/campaign.hpp"
-#include "data/preparation.hpp"
-#include "estimation/output_error.hpp"
-#include "estimation/weak_iv.hpp"
-#include "uncertainty/laws.hpp"
+#include "telltale/core/data/preparation.hpp"
+#include "telltale/core/estimation/output_error.hpp"
+#include "telltale/core/estimation/weak_iv.hpp"
+#include "telltale/core/uncertainty/laws.hpp"
 
 namespace telltale::coverage {
 namespace {

@@ -5,8 +5,8 @@
 #include <numbers>
 #include <random>
 
-#include "data/north_east.hpp"
-#include "random.hpp"
+#include "telltale/core/data/north_east.hpp"
+#include "telltale/core/random.hpp"
 
 namespace telltale::coverage {
 namespace {

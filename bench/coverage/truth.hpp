@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "data/samples.hpp"
-#include "vessel/vehicle.hpp"
+#include "telltale/core/data/samples.hpp"
+#include "telltale/core/vessel/vehicle.hpp"
 
 namespace telltale::coverage {
 

@@ -1,10 +1,10 @@
-#include "bus/endpoint.hpp"
+#include "telltale/client/bus/endpoint.hpp"
 
 #include <algorithm>
 #include <string>
 
-#include "bus/error.hpp"
-#include "bus/wait_set.hpp"
+#include "telltale/client/bus/error.hpp"
+#include "telltale/client/bus/wait_set.hpp"
 
 namespace telltale {
 namespace {

@@ -5,8 +5,8 @@
 #include <functional>
 #include <vector>
 
-#include "bus/entity.hpp"
-#include "bus/participant.hpp"
+#include "telltale/client/bus/entity.hpp"
+#include "telltale/client/bus/participant.hpp"
 
 namespace telltale {
 

@@ -1,4 +1,4 @@
-#include "bus/log_sink.hpp"
+#include "telltale/client/bus/log_sink.hpp"
 
 #include <mutex>
 #include <string_view>

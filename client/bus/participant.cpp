@@ -1,8 +1,8 @@
-#include "bus/participant.hpp"
+#include "telltale/client/bus/participant.hpp"
 
 #include <string>
 
-#include "bus/error.hpp"
+#include "telltale/client/bus/error.hpp"
 
 namespace telltale {
 

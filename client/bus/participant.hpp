@@ -2,7 +2,7 @@
 
 #include <cstdint>
 
-#include "bus/entity.hpp"
+#include "telltale/client/bus/entity.hpp"
 
 namespace telltale {
 

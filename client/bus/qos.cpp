@@ -1,4 +1,4 @@
-#include "bus/qos.hpp"
+#include "telltale/client/bus/qos.hpp"
 
 namespace telltale {
 namespace {

@@ -3,9 +3,9 @@
 #include <array>
 #include <cstddef>
 
-#include "bus/endpoint.hpp"
-#include "bus/error.hpp"
-#include "bus/topics.hpp"
+#include "telltale/client/bus/endpoint.hpp"
+#include "telltale/client/bus/error.hpp"
+#include "telltale/client/bus/topics.hpp"
 
 namespace telltale {
 

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "bus/qos.hpp"
-#include "codec/wire_sample.hpp"
+#include "telltale/client/bus/qos.hpp"
+#include "telltale/idl/codec/wire_sample.hpp"
 
 namespace telltale {
 

@@ -1,9 +1,9 @@
-#include "bus/wait_set.hpp"
+#include "telltale/client/bus/wait_set.hpp"
 
 #include <algorithm>
 #include <array>
 
-#include "bus/error.hpp"
+#include "telltale/client/bus/error.hpp"
 
 namespace telltale {
 

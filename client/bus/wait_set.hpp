@@ -5,8 +5,8 @@
 #include <memory>
 #include <vector>
 
-#include "bus/endpoint.hpp"
-#include "bus/participant.hpp"
+#include "telltale/client/bus/endpoint.hpp"
+#include "telltale/client/bus/participant.hpp"
 
 namespace telltale {
 

@@ -5,8 +5,8 @@
 #include <optional>
 #include <utility>
 
-#include "bus/reader.hpp"
-#include "bus/wait_set.hpp"
+#include "telltale/client/bus/reader.hpp"
+#include "telltale/client/bus/wait_set.hpp"
 
 namespace telltale {
 

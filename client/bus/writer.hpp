@@ -1,9 +1,9 @@
 #pragma once
 
-#include "bus/endpoint.hpp"
-#include "bus/error.hpp"
-#include "bus/topics.hpp"
-#include "codec/wire_sample.hpp"
+#include "telltale/client/bus/endpoint.hpp"
+#include "telltale/client/bus/error.hpp"
+#include "telltale/client/bus/topics.hpp"
+#include "telltale/idl/codec/wire_sample.hpp"
 
 namespace telltale {
 

@@ -3,13 +3,13 @@
 #include <memory>
 #include <vector>
 
-#include "cli/commands.hpp"
-#include "cli/inputs.hpp"
-#include "cli/outcome.hpp"
-#include "cli/output.hpp"
-#include "cli/table.hpp"
-#include "codec/change_json.hpp"
-#include "identification/model_comparison.hpp"
+#include "telltale/client/cli/commands.hpp"
+#include "telltale/client/cli/inputs.hpp"
+#include "telltale/client/cli/outcome.hpp"
+#include "telltale/client/cli/output.hpp"
+#include "telltale/client/cli/table.hpp"
+#include "telltale/core/identification/model_comparison.hpp"
+#include "telltale/idl/codec/change_json.hpp"
 
 namespace telltale {
 namespace {

@@ -1,13 +1,13 @@
-#include "diagnosis/diagnose.hpp"
+#include "telltale/core/diagnosis/diagnose.hpp"
 
 #include <memory>
 
-#include "cli/commands.hpp"
-#include "cli/diagnose_arguments.hpp"
-#include "cli/diagnose_live.hpp"
-#include "cli/live_options.hpp"
-#include "cli/outcome.hpp"
-#include "cli/progress_line.hpp"
+#include "telltale/client/cli/commands.hpp"
+#include "telltale/client/cli/diagnose_arguments.hpp"
+#include "telltale/client/cli/diagnose_live.hpp"
+#include "telltale/client/cli/live_options.hpp"
+#include "telltale/client/cli/outcome.hpp"
+#include "telltale/client/cli/progress_line.hpp"
 
 namespace telltale {
 namespace {

@@ -1,16 +1,16 @@
-#include "cli/diagnose_arguments.hpp"
+#include "telltale/client/cli/diagnose_arguments.hpp"
 
 #include <iostream>
 
-#include "cli/diagnosis_table.hpp"
-#include "cli/outcome.hpp"
-#include "cli/table.hpp"
-#include "cli/threads.hpp"
-#include "cli/whole_number.hpp"
-#include "codec/model_json.hpp"
-#include "codec/report_json.hpp"
-#include "recording/files.hpp"
-#include "report/page.hpp"
+#include "telltale/client/cli/diagnosis_table.hpp"
+#include "telltale/client/cli/outcome.hpp"
+#include "telltale/client/cli/table.hpp"
+#include "telltale/client/cli/threads.hpp"
+#include "telltale/client/cli/whole_number.hpp"
+#include "telltale/client/recording/files.hpp"
+#include "telltale/client/report/page.hpp"
+#include "telltale/idl/codec/model_json.hpp"
+#include "telltale/idl/codec/report_json.hpp"
 
 namespace telltale {
 namespace {

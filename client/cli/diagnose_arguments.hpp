@@ -8,9 +8,9 @@
 
 #include <CLI/CLI.hpp>
 
-#include "cli/inputs.hpp"
-#include "cli/output.hpp"
-#include "diagnosis/diagnose.hpp"
+#include "telltale/client/cli/inputs.hpp"
+#include "telltale/client/cli/output.hpp"
+#include "telltale/core/diagnosis/diagnose.hpp"
 
 namespace telltale {
 

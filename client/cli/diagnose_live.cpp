@@ -1,12 +1,12 @@
-#include "cli/diagnose_live.hpp"
+#include "telltale/client/cli/diagnose_live.hpp"
 
 #include <algorithm>
 
-#include "bus/participant.hpp"
-#include "cli/outcome.hpp"
-#include "cli/progress_line.hpp"
-#include "cli/table.hpp"
-#include "fleet/diagnosis_client.hpp"
+#include "telltale/client/bus/participant.hpp"
+#include "telltale/client/cli/outcome.hpp"
+#include "telltale/client/cli/progress_line.hpp"
+#include "telltale/client/cli/table.hpp"
+#include "telltale/client/fleet/diagnosis_client.hpp"
 
 namespace telltale {
 namespace {

@@ -1,10 +1,10 @@
-#include "cli/diagnosis_table.hpp"
+#include "telltale/client/cli/diagnosis_table.hpp"
 
 #include <algorithm>
 #include <array>
 
-#include "cli/table.hpp"
-#include "report/words.hpp"
+#include "telltale/client/cli/table.hpp"
+#include "telltale/client/report/words.hpp"
 
 namespace telltale {
 namespace {

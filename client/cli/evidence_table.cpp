@@ -1,10 +1,10 @@
-#include "cli/evidence_table.hpp"
+#include "telltale/client/cli/evidence_table.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "cli/table.hpp"
-#include "identification/advice.hpp"
+#include "telltale/client/cli/table.hpp"
+#include "telltale/core/identification/advice.hpp"
 
 namespace telltale {
 namespace {

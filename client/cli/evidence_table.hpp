@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "identification/identification.hpp"
+#include "telltale/core/identification/identification.hpp"
 
 namespace telltale {
 

@@ -5,14 +5,14 @@
 #include <optional>
 #include <string>
 
-#include "cli/commands.hpp"
-#include "cli/inputs.hpp"
-#include "cli/outcome.hpp"
-#include "cli/whole_number.hpp"
-#include "exchange/draws.hpp"
-#include "exchange/mss.hpp"
-#include "exchange/vrx.hpp"
-#include "recording/files.hpp"
+#include "telltale/client/cli/commands.hpp"
+#include "telltale/client/cli/inputs.hpp"
+#include "telltale/client/cli/outcome.hpp"
+#include "telltale/client/cli/whole_number.hpp"
+#include "telltale/client/exchange/draws.hpp"
+#include "telltale/client/exchange/mss.hpp"
+#include "telltale/client/exchange/vrx.hpp"
+#include "telltale/client/recording/files.hpp"
 
 namespace telltale {
 namespace {

@@ -4,13 +4,13 @@
 #include <string>
 #include <vector>
 
-#include "cli/commands.hpp"
-#include "cli/inputs.hpp"
-#include "cli/number_pair.hpp"
-#include "cli/outcome.hpp"
-#include "cli/output.hpp"
-#include "cli/table.hpp"
-#include "exchange/gains.hpp"
+#include "telltale/client/cli/commands.hpp"
+#include "telltale/client/cli/inputs.hpp"
+#include "telltale/client/cli/number_pair.hpp"
+#include "telltale/client/cli/outcome.hpp"
+#include "telltale/client/cli/output.hpp"
+#include "telltale/client/cli/table.hpp"
+#include "telltale/client/exchange/gains.hpp"
 
 namespace telltale {
 namespace {

@@ -1,6 +1,6 @@
-#include "cli/help.hpp"
+#include "telltale/client/cli/help.hpp"
 
-#include "cli/table.hpp"
+#include "telltale/client/cli/table.hpp"
 
 namespace telltale {
 namespace {

@@ -1,15 +1,15 @@
-#include "identification/identify.hpp"
+#include "telltale/core/identification/identify.hpp"
 
 #include <memory>
 
-#include "cli/commands.hpp"
-#include "cli/identify_arguments.hpp"
-#include "cli/identify_live.hpp"
-#include "cli/live_options.hpp"
-#include "cli/model_table.hpp"
-#include "cli/outcome.hpp"
-#include "cli/progress_line.hpp"
-#include "codec/model_json.hpp"
+#include "telltale/client/cli/commands.hpp"
+#include "telltale/client/cli/identify_arguments.hpp"
+#include "telltale/client/cli/identify_live.hpp"
+#include "telltale/client/cli/live_options.hpp"
+#include "telltale/client/cli/model_table.hpp"
+#include "telltale/client/cli/outcome.hpp"
+#include "telltale/client/cli/progress_line.hpp"
+#include "telltale/idl/codec/model_json.hpp"
 
 namespace telltale {
 namespace {

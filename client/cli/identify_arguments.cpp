@@ -1,12 +1,12 @@
-#include "cli/identify_arguments.hpp"
+#include "telltale/client/cli/identify_arguments.hpp"
 
 #include <string_view>
 #include <utility>
 
-#include "cli/number_pair.hpp"
-#include "cli/outcome.hpp"
-#include "cli/threads.hpp"
-#include "cli/whole_number.hpp"
+#include "telltale/client/cli/number_pair.hpp"
+#include "telltale/client/cli/outcome.hpp"
+#include "telltale/client/cli/threads.hpp"
+#include "telltale/client/cli/whole_number.hpp"
 
 namespace telltale {
 namespace {

@@ -6,9 +6,9 @@
 
 #include <CLI/CLI.hpp>
 
-#include "cli/inputs.hpp"
-#include "cli/output.hpp"
-#include "identification/identify.hpp"
+#include "telltale/client/cli/inputs.hpp"
+#include "telltale/client/cli/output.hpp"
+#include "telltale/core/identification/identify.hpp"
 
 namespace telltale {
 

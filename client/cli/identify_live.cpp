@@ -1,14 +1,14 @@
-#include "cli/identify_live.hpp"
+#include "telltale/client/cli/identify_live.hpp"
 
 #include <iostream>
 
-#include "bus/participant.hpp"
-#include "cli/inputs.hpp"
-#include "cli/model_table.hpp"
-#include "cli/outcome.hpp"
-#include "cli/progress_line.hpp"
-#include "cli/published_model.hpp"
-#include "fleet/identification_client.hpp"
+#include "telltale/client/bus/participant.hpp"
+#include "telltale/client/cli/inputs.hpp"
+#include "telltale/client/cli/model_table.hpp"
+#include "telltale/client/cli/outcome.hpp"
+#include "telltale/client/cli/progress_line.hpp"
+#include "telltale/client/cli/published_model.hpp"
+#include "telltale/client/fleet/identification_client.hpp"
 
 namespace telltale {
 namespace {

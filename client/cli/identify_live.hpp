@@ -2,8 +2,8 @@
 
 #include <string>
 
-#include "cli/identify_arguments.hpp"
-#include "cli/live_options.hpp"
+#include "telltale/client/cli/identify_arguments.hpp"
+#include "telltale/client/cli/live_options.hpp"
 
 namespace telltale {
 

@@ -1,18 +1,18 @@
-#include "cli/inputs.hpp"
+#include "telltale/client/cli/inputs.hpp"
 
 #include <algorithm>
 #include <iostream>
 #include <stdexcept>
 #include <utility>
 
-#include "cli/outcome.hpp"
-#include "cli/table.hpp"
-#include "codec/model_json.hpp"
-#include "codec/vehicle_file.hpp"
-#include "contract.hpp"
-#include "recording/files.hpp"
-#include "recording/load.hpp"
-#include "recording/telemetry_log.hpp"
+#include "telltale/client/cli/outcome.hpp"
+#include "telltale/client/cli/table.hpp"
+#include "telltale/client/recording/files.hpp"
+#include "telltale/client/recording/load.hpp"
+#include "telltale/client/recording/telemetry_log.hpp"
+#include "telltale/core/contract.hpp"
+#include "telltale/idl/codec/model_json.hpp"
+#include "telltale/idl/codec/vehicle_file.hpp"
 
 namespace telltale {
 namespace {

@@ -6,11 +6,11 @@
 
 #include <CLI/CLI.hpp>
 
-#include "data/preparation.hpp"
-#include "data/samples.hpp"
-#include "identification/identification.hpp"
-#include "recording/dataflash.hpp"
-#include "vessel/vehicle.hpp"
+#include "telltale/client/recording/dataflash.hpp"
+#include "telltale/core/data/preparation.hpp"
+#include "telltale/core/data/samples.hpp"
+#include "telltale/core/identification/identification.hpp"
+#include "telltale/core/vessel/vehicle.hpp"
 
 namespace telltale {
 

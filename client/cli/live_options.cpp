@@ -1,8 +1,8 @@
-#include "cli/live_options.hpp"
+#include "telltale/client/cli/live_options.hpp"
 
-#include "bus/participant.hpp"
-#include "cli/table.hpp"
-#include "codec/vehicle_file.hpp"
+#include "telltale/client/bus/participant.hpp"
+#include "telltale/client/cli/table.hpp"
+#include "telltale/idl/codec/vehicle_file.hpp"
 
 namespace telltale {
 

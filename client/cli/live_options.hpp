@@ -6,8 +6,8 @@
 
 #include <CLI/CLI.hpp>
 
-#include "cli/outcome.hpp"
-#include "fleet/exchange.hpp"
+#include "telltale/client/cli/outcome.hpp"
+#include "telltale/client/fleet/exchange.hpp"
 
 namespace telltale {
 

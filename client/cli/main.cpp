@@ -3,9 +3,9 @@
 
 #include <CLI/CLI.hpp>
 
-#include "cli/commands.hpp"
-#include "cli/help.hpp"
-#include "cli/outcome.hpp"
+#include "telltale/client/cli/commands.hpp"
+#include "telltale/client/cli/help.hpp"
+#include "telltale/client/cli/outcome.hpp"
 
 namespace telltale {
 namespace {

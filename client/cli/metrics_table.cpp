@@ -1,11 +1,11 @@
-#include "cli/metrics_table.hpp"
+#include "telltale/client/cli/metrics_table.hpp"
 
 #include <algorithm>
 #include <string>
 #include <vector>
 
-#include "cli/table.hpp"
-#include "vessel/structure.hpp"
+#include "telltale/client/cli/table.hpp"
+#include "telltale/core/vessel/structure.hpp"
 
 namespace telltale {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "validation/validation.hpp"
+#include "telltale/core/validation/validation.hpp"
 
 namespace telltale {
 

@@ -1,11 +1,11 @@
-#include "cli/model_table.hpp"
+#include "telltale/client/cli/model_table.hpp"
 
 #include <cctype>
 #include <cmath>
 
-#include "cli/evidence_table.hpp"
-#include "cli/outcome.hpp"
-#include "cli/table.hpp"
+#include "telltale/client/cli/evidence_table.hpp"
+#include "telltale/client/cli/outcome.hpp"
+#include "telltale/client/cli/table.hpp"
 
 namespace telltale {
 namespace {

@@ -6,11 +6,11 @@
 
 #include <unistd.h>
 
-#include "bus/participant.hpp"
-#include "cli/commands.hpp"
-#include "cli/live_options.hpp"
-#include "cli/quality_table.hpp"
-#include "fleet/subscriber.hpp"
+#include "telltale/client/bus/participant.hpp"
+#include "telltale/client/cli/commands.hpp"
+#include "telltale/client/cli/live_options.hpp"
+#include "telltale/client/cli/quality_table.hpp"
+#include "telltale/client/fleet/subscriber.hpp"
 
 namespace telltale {
 namespace {

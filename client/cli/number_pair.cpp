@@ -1,10 +1,10 @@
-#include "cli/number_pair.hpp"
+#include "telltale/client/cli/number_pair.hpp"
 
 #include <charconv>
 #include <optional>
 #include <string_view>
 
-#include "cli/outcome.hpp"
+#include "telltale/client/cli/outcome.hpp"
 
 namespace telltale {
 namespace {

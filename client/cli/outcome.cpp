@@ -1,6 +1,6 @@
-#include "cli/outcome.hpp"
+#include "telltale/client/cli/outcome.hpp"
 
-#include "cli/table.hpp"
+#include "telltale/client/cli/table.hpp"
 
 namespace telltale {
 

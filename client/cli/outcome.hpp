@@ -4,8 +4,8 @@
 #include <string>
 #include <utility>
 
-#include "codec/error.hpp"
-#include "result.hpp"
+#include "telltale/core/result.hpp"
+#include "telltale/idl/codec/error.hpp"
 
 namespace telltale {
 

@@ -1,8 +1,8 @@
-#include "cli/output.hpp"
+#include "telltale/client/cli/output.hpp"
 
 #include <iostream>
 
-#include "recording/files.hpp"
+#include "telltale/client/recording/files.hpp"
 
 namespace telltale {
 

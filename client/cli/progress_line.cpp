@@ -1,10 +1,10 @@
-#include "cli/progress_line.hpp"
+#include "telltale/client/cli/progress_line.hpp"
 
 #include <unistd.h>
 
 #include <iostream>
 
-#include "cli/table.hpp"
+#include "telltale/client/cli/table.hpp"
 
 namespace telltale {
 namespace {

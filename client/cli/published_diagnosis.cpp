@@ -1,7 +1,7 @@
-#include "cli/published_diagnosis.hpp"
+#include "telltale/client/cli/published_diagnosis.hpp"
 
-#include "codec/json_message.hpp"
-#include "codec/report_json.hpp"
+#include "telltale/idl/codec/json_message.hpp"
+#include "telltale/idl/codec/report_json.hpp"
 
 namespace telltale {
 

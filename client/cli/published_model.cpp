@@ -1,7 +1,7 @@
-#include "cli/published_model.hpp"
+#include "telltale/client/cli/published_model.hpp"
 
-#include "codec/json_message.hpp"
-#include "codec/model_json.hpp"
+#include "telltale/idl/codec/json_message.hpp"
+#include "telltale/idl/codec/model_json.hpp"
 
 namespace telltale {
 

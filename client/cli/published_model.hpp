@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "codec/messages.hpp"
+#include "telltale/idl/codec/messages.hpp"
 
 namespace telltale {
 

@@ -1,8 +1,8 @@
-#include "cli/quality_table.hpp"
+#include "telltale/client/cli/quality_table.hpp"
 
 #include <numeric>
 
-#include "cli/table.hpp"
+#include "telltale/client/cli/table.hpp"
 
 namespace telltale {
 namespace {

@@ -3,7 +3,7 @@
 #include <map>
 #include <string>
 
-#include "codec/messages.hpp"
+#include "telltale/idl/codec/messages.hpp"
 
 namespace telltale {
 

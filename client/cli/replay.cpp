@@ -6,16 +6,16 @@
 #include <memory>
 #include <thread>
 
-#include "bus/participant.hpp"
-#include "bus/writer.hpp"
-#include "cli/commands.hpp"
-#include "cli/inputs.hpp"
-#include "cli/live_options.hpp"
-#include "cli/outcome.hpp"
-#include "cli/progress_line.hpp"
-#include "cli/table.hpp"
-#include "fleet/telemetry_publisher.hpp"
-#include "recording/load.hpp"
+#include "telltale/client/bus/participant.hpp"
+#include "telltale/client/bus/writer.hpp"
+#include "telltale/client/cli/commands.hpp"
+#include "telltale/client/cli/inputs.hpp"
+#include "telltale/client/cli/live_options.hpp"
+#include "telltale/client/cli/outcome.hpp"
+#include "telltale/client/cli/progress_line.hpp"
+#include "telltale/client/cli/table.hpp"
+#include "telltale/client/fleet/telemetry_publisher.hpp"
+#include "telltale/client/recording/load.hpp"
 
 namespace telltale {
 namespace {

@@ -7,17 +7,17 @@
 #include <string>
 #include <vector>
 
-#include "cli/commands.hpp"
-#include "cli/inputs.hpp"
-#include "cli/model_table.hpp"
-#include "cli/outcome.hpp"
-#include "cli/table.hpp"
-#include "cli/whole_number.hpp"
-#include "diagnosis/augmented_identification.hpp"
-#include "effects/augmented_simulation.hpp"
-#include "recording/telemetry_log.hpp"
-#include "simulation/sensors.hpp"
-#include "simulation/simulator.hpp"
+#include "telltale/client/cli/commands.hpp"
+#include "telltale/client/cli/inputs.hpp"
+#include "telltale/client/cli/model_table.hpp"
+#include "telltale/client/cli/outcome.hpp"
+#include "telltale/client/cli/table.hpp"
+#include "telltale/client/cli/whole_number.hpp"
+#include "telltale/client/recording/telemetry_log.hpp"
+#include "telltale/core/diagnosis/augmented_identification.hpp"
+#include "telltale/core/effects/augmented_simulation.hpp"
+#include "telltale/core/simulation/sensors.hpp"
+#include "telltale/core/simulation/simulator.hpp"
 
 namespace telltale {
 namespace {

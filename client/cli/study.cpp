@@ -4,15 +4,15 @@
 #include <string>
 #include <thread>
 
-#include "cli/commands.hpp"
-#include "cli/inputs.hpp"
-#include "cli/outcome.hpp"
-#include "cli/output.hpp"
-#include "cli/progress_line.hpp"
-#include "cli/study_table.hpp"
-#include "cli/whole_number.hpp"
-#include "codec/study_json.hpp"
-#include "validation/study.hpp"
+#include "telltale/client/cli/commands.hpp"
+#include "telltale/client/cli/inputs.hpp"
+#include "telltale/client/cli/outcome.hpp"
+#include "telltale/client/cli/output.hpp"
+#include "telltale/client/cli/progress_line.hpp"
+#include "telltale/client/cli/study_table.hpp"
+#include "telltale/client/cli/whole_number.hpp"
+#include "telltale/core/validation/study.hpp"
+#include "telltale/idl/codec/study_json.hpp"
 
 namespace telltale {
 namespace {

@@ -1,11 +1,11 @@
-#include "cli/study_table.hpp"
+#include "telltale/client/cli/study_table.hpp"
 
 #include <algorithm>
 #include <complex>
 
-#include "cli/paper_figures.hpp"
-#include "cli/table.hpp"
-#include "simulation/yellowfish.hpp"
+#include "telltale/client/cli/paper_figures.hpp"
+#include "telltale/client/cli/table.hpp"
+#include "telltale/core/simulation/yellowfish.hpp"
 
 namespace telltale {
 namespace {

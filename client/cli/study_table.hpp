@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "validation/study.hpp"
+#include "telltale/core/validation/study.hpp"
 
 namespace telltale {
 

@@ -1,10 +1,10 @@
-#include "cli/table.hpp"
+#include "telltale/client/cli/table.hpp"
 
 #include <algorithm>
 #include <numeric>
 #include <sstream>
 
-#include "contract.hpp"
+#include "telltale/core/contract.hpp"
 
 namespace telltale {
 namespace {

@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "report/numbers.hpp"
+#include "telltale/client/report/numbers.hpp"
 
 namespace telltale {
 

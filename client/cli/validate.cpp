@@ -4,19 +4,19 @@
 #include <optional>
 #include <string>
 
-#include "cli/commands.hpp"
-#include "cli/inputs.hpp"
-#include "cli/metrics_table.hpp"
-#include "cli/outcome.hpp"
-#include "cli/output.hpp"
-#include "cli/progress_line.hpp"
-#include "cli/table.hpp"
-#include "codec/metrics_json.hpp"
-#include "diagnosis/augmented_identification.hpp"
-#include "exchange/disturbance.hpp"
-#include "identification/input_gain.hpp"
-#include "recording/files.hpp"
-#include "validation/validation.hpp"
+#include "telltale/client/cli/commands.hpp"
+#include "telltale/client/cli/inputs.hpp"
+#include "telltale/client/cli/metrics_table.hpp"
+#include "telltale/client/cli/outcome.hpp"
+#include "telltale/client/cli/output.hpp"
+#include "telltale/client/cli/progress_line.hpp"
+#include "telltale/client/cli/table.hpp"
+#include "telltale/client/exchange/disturbance.hpp"
+#include "telltale/client/recording/files.hpp"
+#include "telltale/core/diagnosis/augmented_identification.hpp"
+#include "telltale/core/identification/input_gain.hpp"
+#include "telltale/core/validation/validation.hpp"
+#include "telltale/idl/codec/metrics_json.hpp"
 
 namespace telltale {
 namespace {

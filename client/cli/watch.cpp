@@ -5,14 +5,14 @@
 #include <string>
 #include <utility>
 
-#include "bus/participant.hpp"
-#include "bus/wait_set.hpp"
-#include "cli/commands.hpp"
-#include "cli/live_options.hpp"
-#include "cli/model_table.hpp"
-#include "cli/published_diagnosis.hpp"
-#include "cli/published_model.hpp"
-#include "fleet/subscriber.hpp"
+#include "telltale/client/bus/participant.hpp"
+#include "telltale/client/bus/wait_set.hpp"
+#include "telltale/client/cli/commands.hpp"
+#include "telltale/client/cli/live_options.hpp"
+#include "telltale/client/cli/model_table.hpp"
+#include "telltale/client/cli/published_diagnosis.hpp"
+#include "telltale/client/cli/published_model.hpp"
+#include "telltale/client/fleet/subscriber.hpp"
 
 namespace telltale {
 namespace {

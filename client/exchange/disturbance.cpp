@@ -1,6 +1,6 @@
-#include "exchange/disturbance.hpp"
+#include "telltale/client/exchange/disturbance.hpp"
 
-#include "exchange/shortest.hpp"
+#include "telltale/client/exchange/shortest.hpp"
 
 namespace telltale {
 

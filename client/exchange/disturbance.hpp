@@ -3,7 +3,7 @@
 #include <span>
 #include <string>
 
-#include "identification/input_gain.hpp"
+#include "telltale/core/identification/input_gain.hpp"
 
 namespace telltale {
 

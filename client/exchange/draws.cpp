@@ -1,8 +1,8 @@
-#include "exchange/draws.hpp"
+#include "telltale/client/exchange/draws.hpp"
 
-#include "codec/json_message.hpp"
-#include "exchange/shortest.hpp"
-#include "proto/exchange.pb.h"
+#include "telltale/client/exchange/shortest.hpp"
+#include "telltale/idl/codec/json_message.hpp"
+#include "telltale/idl/proto/exchange.pb.h"
 
 namespace telltale {
 namespace {

@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <string>
 
-#include "identification/posterior_draws.hpp"
+#include "telltale/core/identification/posterior_draws.hpp"
 
 namespace telltale {
 

@@ -1,11 +1,11 @@
-#include "exchange/gains.hpp"
+#include "telltale/client/exchange/gains.hpp"
 
 #include <algorithm>
 
-#include "codec/json_message.hpp"
-#include "codec/model_json.hpp"
-#include "contract.hpp"
-#include "proto/gain.pb.h"
+#include "telltale/core/contract.hpp"
+#include "telltale/idl/codec/json_message.hpp"
+#include "telltale/idl/codec/model_json.hpp"
+#include "telltale/idl/proto/gain.pb.h"
 
 namespace telltale {
 namespace {

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "identification/identification.hpp"
-#include "identification/input_gain.hpp"
+#include "telltale/core/identification/identification.hpp"
+#include "telltale/core/identification/input_gain.hpp"
 
 namespace telltale {
 

@@ -1,12 +1,12 @@
-#include "exchange/mss.hpp"
+#include "telltale/client/exchange/mss.hpp"
 
 #include <array>
 #include <map>
 #include <string_view>
 
-#include "codec/json_message.hpp"
-#include "codec/model_json.hpp"
-#include "proto/exchange.pb.h"
+#include "telltale/idl/codec/json_message.hpp"
+#include "telltale/idl/codec/model_json.hpp"
+#include "telltale/idl/proto/exchange.pb.h"
 
 namespace telltale {
 namespace {

@@ -2,8 +2,8 @@
 
 #include <string>
 
-#include "identification/identification.hpp"
-#include "vessel/vehicle.hpp"
+#include "telltale/core/identification/identification.hpp"
+#include "telltale/core/vessel/vehicle.hpp"
 
 namespace telltale {
 

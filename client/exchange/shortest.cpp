@@ -1,4 +1,4 @@
-#include "exchange/shortest.hpp"
+#include "telltale/client/exchange/shortest.hpp"
 
 #include <array>
 #include <charconv>

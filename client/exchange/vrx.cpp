@@ -1,12 +1,12 @@
-#include "exchange/vrx.hpp"
+#include "telltale/client/exchange/vrx.hpp"
 
 #include <array>
 #include <charconv>
 #include <cmath>
 #include <string_view>
 
-#include "contract.hpp"
-#include "identification/input_gain.hpp"
+#include "telltale/core/contract.hpp"
+#include "telltale/core/identification/input_gain.hpp"
 
 namespace telltale {
 namespace {

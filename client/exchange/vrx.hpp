@@ -2,9 +2,9 @@
 
 #include <string>
 
-#include "identification/identification.hpp"
-#include "result.hpp"
-#include "vessel/vehicle.hpp"
+#include "telltale/core/identification/identification.hpp"
+#include "telltale/core/result.hpp"
+#include "telltale/core/vessel/vehicle.hpp"
 
 namespace telltale {
 

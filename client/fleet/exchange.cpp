@@ -1,4 +1,4 @@
-#include "fleet/exchange.hpp"
+#include "telltale/client/fleet/exchange.hpp"
 
 #include <array>
 #include <cstdio>

@@ -7,12 +7,12 @@
 #include <string>
 #include <utility>
 
-#include "bus/participant.hpp"
-#include "bus/reader.hpp"
-#include "bus/wait_set.hpp"
-#include "bus/writer.hpp"
-#include "codec/error.hpp"
-#include "codec/wire.hpp"
+#include "telltale/client/bus/participant.hpp"
+#include "telltale/client/bus/reader.hpp"
+#include "telltale/client/bus/wait_set.hpp"
+#include "telltale/client/bus/writer.hpp"
+#include "telltale/idl/codec/error.hpp"
+#include "telltale/idl/codec/wire.hpp"
 
 namespace telltale {
 

@@ -2,9 +2,9 @@
 
 #include <functional>
 
-#include "bus/participant.hpp"
-#include "codec/messages.hpp"
-#include "fleet/exchange.hpp"
+#include "telltale/client/bus/participant.hpp"
+#include "telltale/client/fleet/exchange.hpp"
+#include "telltale/idl/codec/messages.hpp"
 
 namespace telltale {
 

@@ -4,10 +4,10 @@
 #include <functional>
 #include <utility>
 
-#include "bus/participant.hpp"
-#include "bus/reader.hpp"
-#include "bus/wait_set.hpp"
-#include "codec/wire.hpp"
+#include "telltale/client/bus/participant.hpp"
+#include "telltale/client/bus/reader.hpp"
+#include "telltale/client/bus/wait_set.hpp"
+#include "telltale/idl/codec/wire.hpp"
 
 namespace telltale {
 

@@ -1,9 +1,9 @@
-#include "fleet/telemetry_publisher.hpp"
+#include "telltale/client/fleet/telemetry_publisher.hpp"
 
 #include <thread>
 #include <utility>
 
-#include "codec/wire.hpp"
+#include "telltale/idl/codec/wire.hpp"
 
 namespace telltale {
 namespace {

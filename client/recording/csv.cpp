@@ -1,10 +1,10 @@
-#include "recording/csv.hpp"
+#include "telltale/client/recording/csv.hpp"
 
 #include <algorithm>
 #include <charconv>
 #include <optional>
 
-#include "recording/files.hpp"
+#include "telltale/client/recording/files.hpp"
 
 namespace telltale {
 namespace {

@@ -1,4 +1,4 @@
-#include "recording/dataflash.hpp"
+#include "telltale/client/recording/dataflash.hpp"
 
 #include <algorithm>
 #include <array>

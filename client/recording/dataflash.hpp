@@ -7,10 +7,10 @@
 #include <string>
 #include <vector>
 
-#include "data/samples.hpp"
-#include "recording/dataflash_records.hpp"
-#include "result.hpp"
-#include "vessel/propellers.hpp"
+#include "telltale/client/recording/dataflash_records.hpp"
+#include "telltale/core/data/samples.hpp"
+#include "telltale/core/result.hpp"
+#include "telltale/core/vessel/propellers.hpp"
 
 namespace telltale {
 

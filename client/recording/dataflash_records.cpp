@@ -1,4 +1,4 @@
-#include "recording/dataflash_records.hpp"
+#include "telltale/client/recording/dataflash_records.hpp"
 
 #include <algorithm>
 #include <bit>

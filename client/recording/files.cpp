@@ -1,4 +1,4 @@
-#include "recording/files.hpp"
+#include "telltale/client/recording/files.hpp"
 
 #include <cerrno>
 #include <fstream>

@@ -1,8 +1,8 @@
-#include "recording/load.hpp"
+#include "telltale/client/recording/load.hpp"
 
 #include <utility>
 
-#include "recording/telemetry_log.hpp"
+#include "telltale/client/recording/telemetry_log.hpp"
 
 namespace telltale {
 namespace {

@@ -7,12 +7,12 @@
 #include <string>
 #include <vector>
 
-#include "data/samples.hpp"
-#include "recording/csv.hpp"
-#include "recording/dataflash.hpp"
-#include "recording/time_order.hpp"
-#include "result.hpp"
-#include "vessel/vehicle.hpp"
+#include "telltale/client/recording/csv.hpp"
+#include "telltale/client/recording/dataflash.hpp"
+#include "telltale/client/recording/time_order.hpp"
+#include "telltale/core/data/samples.hpp"
+#include "telltale/core/result.hpp"
+#include "telltale/core/vessel/vehicle.hpp"
 
 namespace telltale {
 

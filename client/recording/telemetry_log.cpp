@@ -1,4 +1,4 @@
-#include "recording/telemetry_log.hpp"
+#include "telltale/client/recording/telemetry_log.hpp"
 
 #include <algorithm>
 #include <charconv>
@@ -7,8 +7,8 @@
 #include <optional>
 #include <string>
 
-#include "data/window.hpp"
-#include "recording/files.hpp"
+#include "telltale/client/recording/files.hpp"
+#include "telltale/core/data/window.hpp"
 
 namespace telltale {
 namespace {

@@ -6,10 +6,10 @@
 #include <span>
 #include <vector>
 
-#include "data/samples.hpp"
-#include "recording/csv.hpp"
-#include "recording/time_order.hpp"
-#include "result.hpp"
+#include "telltale/client/recording/csv.hpp"
+#include "telltale/client/recording/time_order.hpp"
+#include "telltale/core/data/samples.hpp"
+#include "telltale/core/result.hpp"
 
 namespace telltale {
 

@@ -3,7 +3,7 @@
 #include <variant>
 #include <vector>
 
-#include "data/samples.hpp"
+#include "telltale/core/data/samples.hpp"
 
 namespace telltale {
 

@@ -3,11 +3,11 @@
 #include <cmath>
 #include <map>
 
-#include "report/numbers.hpp"
-#include "report/pictures.hpp"
-#include "report/plot.hpp"
-#include "report/window_groups.hpp"
-#include "report/words.hpp"
+#include "telltale/client/report/numbers.hpp"
+#include "telltale/client/report/pictures.hpp"
+#include "telltale/client/report/plot.hpp"
+#include "telltale/client/report/window_groups.hpp"
+#include "telltale/client/report/words.hpp"
 
 namespace telltale {
 namespace {

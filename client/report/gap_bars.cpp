@@ -1,9 +1,9 @@
 #include <algorithm>
 
-#include "report/numbers.hpp"
-#include "report/pictures.hpp"
-#include "report/plot.hpp"
-#include "report/words.hpp"
+#include "telltale/client/report/numbers.hpp"
+#include "telltale/client/report/pictures.hpp"
+#include "telltale/client/report/plot.hpp"
+#include "telltale/client/report/words.hpp"
 
 namespace telltale {
 namespace {

@@ -2,11 +2,11 @@
 #include <cmath>
 #include <numbers>
 
-#include "report/numbers.hpp"
-#include "report/pictures.hpp"
-#include "report/plot.hpp"
-#include "report/window_groups.hpp"
-#include "vessel/compass.hpp"
+#include "telltale/client/report/numbers.hpp"
+#include "telltale/client/report/pictures.hpp"
+#include "telltale/client/report/plot.hpp"
+#include "telltale/client/report/window_groups.hpp"
+#include "telltale/core/vessel/compass.hpp"
 
 namespace telltale {
 namespace {

@@ -1,4 +1,4 @@
-#include "report/markup.hpp"
+#include "telltale/client/report/markup.hpp"
 
 namespace telltale {
 namespace {

@@ -1,4 +1,4 @@
-#include "report/numbers.hpp"
+#include "telltale/client/report/numbers.hpp"
 
 #include <cmath>
 #include <cstdio>

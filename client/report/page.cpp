@@ -1,13 +1,13 @@
-#include "report/page.hpp"
+#include "telltale/client/report/page.hpp"
 
 #include <algorithm>
 #include <array>
 
-#include "report/markup.hpp"
-#include "report/numbers.hpp"
-#include "report/pictures.hpp"
-#include "report/style.hpp"
-#include "report/words.hpp"
+#include "telltale/client/report/markup.hpp"
+#include "telltale/client/report/numbers.hpp"
+#include "telltale/client/report/pictures.hpp"
+#include "telltale/client/report/style.hpp"
+#include "telltale/client/report/words.hpp"
 
 namespace telltale {
 namespace {

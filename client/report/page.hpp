@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "diagnosis/diagnosis.hpp"
+#include "telltale/core/diagnosis/diagnosis.hpp"
 
 namespace telltale {
 

@@ -3,10 +3,10 @@
 
 #include <Eigen/Geometry>
 
-#include "codec/report_json.hpp"
-#include "report/numbers.hpp"
-#include "report/pictures.hpp"
-#include "report/plot.hpp"
+#include "telltale/client/report/numbers.hpp"
+#include "telltale/client/report/pictures.hpp"
+#include "telltale/client/report/plot.hpp"
+#include "telltale/idl/codec/report_json.hpp"
 
 namespace telltale {
 namespace {

@@ -1,4 +1,4 @@
-#include "report/pictures.hpp"
+#include "telltale/client/report/pictures.hpp"
 
 namespace telltale {
 namespace {

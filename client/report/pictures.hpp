@@ -1,7 +1,7 @@
 #pragma once
 
-#include "diagnosis/diagnosis.hpp"
-#include "report/markup.hpp"
+#include "telltale/client/report/markup.hpp"
+#include "telltale/core/diagnosis/diagnosis.hpp"
 
 namespace telltale {
 

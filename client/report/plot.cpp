@@ -1,9 +1,9 @@
-#include "report/plot.hpp"
+#include "telltale/client/report/plot.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "report/numbers.hpp"
+#include "telltale/client/report/numbers.hpp"
 
 namespace telltale {
 

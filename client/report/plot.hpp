@@ -6,7 +6,7 @@
 
 #include <Eigen/Core>
 
-#include "report/markup.hpp"
+#include "telltale/client/report/markup.hpp"
 
 namespace telltale {
 

@@ -1,4 +1,4 @@
-#include "report/style.hpp"
+#include "telltale/client/report/style.hpp"
 
 namespace telltale {
 

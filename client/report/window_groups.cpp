@@ -1,4 +1,4 @@
-#include "report/window_groups.hpp"
+#include "telltale/client/report/window_groups.hpp"
 
 #include <cmath>
 

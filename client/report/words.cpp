@@ -1,9 +1,9 @@
-#include "report/words.hpp"
+#include "telltale/client/report/words.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "report/numbers.hpp"
+#include "telltale/client/report/numbers.hpp"
 
 namespace telltale {
 namespace {

@@ -6,11 +6,11 @@
 
 #include <CLI/CLI.hpp>
 
-#include "recording/telemetry_log.hpp"
-#include "simulation/manoeuvres.hpp"
-#include "simulation/paper_mission.hpp"
-#include "simulation/sensors.hpp"
-#include "simulation/yellowfish.hpp"
+#include "telltale/client/recording/telemetry_log.hpp"
+#include "telltale/core/simulation/manoeuvres.hpp"
+#include "telltale/core/simulation/paper_mission.hpp"
+#include "telltale/core/simulation/sensors.hpp"
+#include "telltale/core/simulation/yellowfish.hpp"
 
 namespace telltale {
 namespace {

@@ -1,8 +1,8 @@
-#include "data/heading.hpp"
+#include "telltale/core/data/heading.hpp"
 
 #include <numbers>
 
-#include "vessel/motion.hpp"
+#include "telltale/core/vessel/motion.hpp"
 
 namespace telltale {
 

@@ -3,7 +3,7 @@
 #include <span>
 #include <vector>
 
-#include "data/samples.hpp"
+#include "telltale/core/data/samples.hpp"
 
 namespace telltale {
 

@@ -1,10 +1,10 @@
-#include "data/held_commands.hpp"
+#include "telltale/core/data/held_commands.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 
-#include "data/time_series.hpp"
+#include "telltale/core/data/time_series.hpp"
 
 namespace telltale {
 namespace {

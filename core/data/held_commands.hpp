@@ -4,10 +4,10 @@
 #include <span>
 #include <vector>
 
-#include "contract.hpp"
-#include "data/samples.hpp"
-#include "vessel/propellers.hpp"
-#include "vessel/vehicle.hpp"
+#include "telltale/core/contract.hpp"
+#include "telltale/core/data/samples.hpp"
+#include "telltale/core/vessel/propellers.hpp"
+#include "telltale/core/vessel/vehicle.hpp"
 
 namespace telltale {
 

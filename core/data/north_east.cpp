@@ -1,4 +1,4 @@
-#include "data/north_east.hpp"
+#include "telltale/core/data/north_east.hpp"
 
 #include <cmath>
 

@@ -1,4 +1,4 @@
-#include "data/preparation.hpp"
+#include "telltale/core/data/preparation.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -6,16 +6,16 @@
 #include <sstream>
 #include <utility>
 
-#include "contract.hpp"
-#include "data/heading.hpp"
-#include "data/held_commands.hpp"
-#include "data/north_east.hpp"
-#include "data/savitzky_golay.hpp"
-#include "data/segments.hpp"
-#include "data/time_series.hpp"
-#include "data/white_noise.hpp"
-#include "median.hpp"
-#include "range.hpp"
+#include "telltale/core/contract.hpp"
+#include "telltale/core/data/heading.hpp"
+#include "telltale/core/data/held_commands.hpp"
+#include "telltale/core/data/north_east.hpp"
+#include "telltale/core/data/savitzky_golay.hpp"
+#include "telltale/core/data/segments.hpp"
+#include "telltale/core/data/time_series.hpp"
+#include "telltale/core/data/white_noise.hpp"
+#include "telltale/core/median.hpp"
+#include "telltale/core/range.hpp"
 
 namespace telltale {
 namespace {

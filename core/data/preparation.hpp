@@ -1,10 +1,10 @@
 #pragma once
 
-#include "data/prepare_options.hpp"
-#include "data/prepared_dataset.hpp"
-#include "data/samples.hpp"
-#include "result.hpp"
-#include "vessel/vehicle.hpp"
+#include "telltale/core/data/prepare_options.hpp"
+#include "telltale/core/data/prepared_dataset.hpp"
+#include "telltale/core/data/samples.hpp"
+#include "telltale/core/result.hpp"
+#include "telltale/core/vessel/vehicle.hpp"
 
 namespace telltale {
 

@@ -1,4 +1,4 @@
-#include "data/prepared_dataset.hpp"
+#include "telltale/core/data/prepared_dataset.hpp"
 
 #include <algorithm>
 #include <cmath>

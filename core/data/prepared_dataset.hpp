@@ -3,14 +3,14 @@
 #include <cstddef>
 #include <vector>
 
-#include "data/held_commands.hpp"
-#include "data/north_east.hpp"
-#include "data/prepare_options.hpp"
-#include "data/samples.hpp"
-#include "data/time_series.hpp"
-#include "vessel/motion.hpp"
-#include "vessel/propellers.hpp"
-#include "vessel/vehicle.hpp"
+#include "telltale/core/data/held_commands.hpp"
+#include "telltale/core/data/north_east.hpp"
+#include "telltale/core/data/prepare_options.hpp"
+#include "telltale/core/data/samples.hpp"
+#include "telltale/core/data/time_series.hpp"
+#include "telltale/core/vessel/motion.hpp"
+#include "telltale/core/vessel/propellers.hpp"
+#include "telltale/core/vessel/vehicle.hpp"
 
 namespace telltale {
 

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "data/samples.hpp"
+#include "telltale/core/data/samples.hpp"
 
 namespace telltale {
 

@@ -1,4 +1,4 @@
-#include "data/samples.hpp"
+#include "telltale/core/data/samples.hpp"
 
 #include <numeric>
 

@@ -1,9 +1,9 @@
-#include "data/savitzky_golay.hpp"
+#include "telltale/core/data/savitzky_golay.hpp"
 
 #include <algorithm>
 
-#include "contract.hpp"
-#include "linear_algebra/decompositions.hpp"
+#include "telltale/core/contract.hpp"
+#include "telltale/core/linear_algebra/decompositions.hpp"
 
 namespace telltale {
 namespace {

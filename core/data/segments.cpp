@@ -1,10 +1,10 @@
-#include "data/segments.hpp"
+#include "telltale/core/data/segments.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "contract.hpp"
-#include "data/time_series.hpp"
+#include "telltale/core/contract.hpp"
+#include "telltale/core/data/time_series.hpp"
 
 namespace telltale {
 namespace {

@@ -4,8 +4,8 @@
 #include <span>
 #include <vector>
 
-#include "data/prepared_dataset.hpp"
-#include "data/samples.hpp"
+#include "telltale/core/data/prepared_dataset.hpp"
+#include "telltale/core/data/samples.hpp"
 
 namespace telltale {
 

@@ -1,9 +1,9 @@
-#include "data/time_series.hpp"
+#include "telltale/core/data/time_series.hpp"
 
 #include <algorithm>
 #include <array>
 
-#include "contract.hpp"
+#include "telltale/core/contract.hpp"
 
 namespace telltale {
 namespace {

@@ -1,9 +1,9 @@
-#include "data/white_noise.hpp"
+#include "telltale/core/data/white_noise.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <vector>
-#include "median.hpp"
+#include "telltale/core/median.hpp"
 
 namespace telltale {
 namespace {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "data/time_series.hpp"
+#include "telltale/core/data/time_series.hpp"
 
 namespace telltale {
 

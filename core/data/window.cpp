@@ -1,4 +1,4 @@
-#include "data/window.hpp"
+#include "telltale/core/data/window.hpp"
 
 #include <algorithm>
 #include <array>
@@ -7,8 +7,8 @@
 #include <limits>
 #include <tuple>
 
-#include "contract.hpp"
-#include "range.hpp"
+#include "telltale/core/contract.hpp"
+#include "telltale/core/range.hpp"
 
 namespace telltale {
 namespace {

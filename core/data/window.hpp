@@ -4,8 +4,8 @@
 #include <memory>
 #include <optional>
 
-#include "data/samples.hpp"
-#include "result.hpp"
+#include "telltale/core/data/samples.hpp"
+#include "telltale/core/result.hpp"
 
 namespace telltale {
 

@@ -1,11 +1,11 @@
-#include "diagnosis/augmented_identification.hpp"
+#include "telltale/core/diagnosis/augmented_identification.hpp"
 
 #include <array>
 #include <cmath>
 #include <string>
 
-#include "linear_algebra/covariance.hpp"
-#include "uncertainty/interval.hpp"
+#include "telltale/core/linear_algebra/covariance.hpp"
+#include "telltale/core/uncertainty/interval.hpp"
 
 namespace telltale {
 namespace {

@@ -1,10 +1,10 @@
 #pragma once
 
-#include "diagnosis/effect_fit.hpp"
-#include "diagnosis/evidence.hpp"
-#include "diagnosis/uncertain_model.hpp"
-#include "effects/augmented_model.hpp"
-#include "identification/identification.hpp"
+#include "telltale/core/diagnosis/effect_fit.hpp"
+#include "telltale/core/diagnosis/evidence.hpp"
+#include "telltale/core/diagnosis/uncertain_model.hpp"
+#include "telltale/core/effects/augmented_model.hpp"
+#include "telltale/core/identification/identification.hpp"
 
 namespace telltale {
 

@@ -1,24 +1,24 @@
-#include "diagnosis/diagnose.hpp"
+#include "telltale/core/diagnosis/diagnose.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <utility>
 
-#include "diagnosis/augmented_identification.hpp"
-#include "diagnosis/gap.hpp"
-#include "diagnosis/held_out.hpp"
-#include "diagnosis/onset.hpp"
-#include "diagnosis/ranking.hpp"
-#include "diagnosis/remainder.hpp"
-#include "diagnosis/search.hpp"
-#include "diagnosis/sentence.hpp"
-#include "diagnosis/separation.hpp"
-#include "diagnosis/testability.hpp"
-#include "diagnosis/where.hpp"
-#include "diagnosis/wiring.hpp"
-#include "range.hpp"
-#include "simulation/dataset_twin.hpp"
+#include "telltale/core/diagnosis/augmented_identification.hpp"
+#include "telltale/core/diagnosis/gap.hpp"
+#include "telltale/core/diagnosis/held_out.hpp"
+#include "telltale/core/diagnosis/onset.hpp"
+#include "telltale/core/diagnosis/ranking.hpp"
+#include "telltale/core/diagnosis/remainder.hpp"
+#include "telltale/core/diagnosis/search.hpp"
+#include "telltale/core/diagnosis/sentence.hpp"
+#include "telltale/core/diagnosis/separation.hpp"
+#include "telltale/core/diagnosis/testability.hpp"
+#include "telltale/core/diagnosis/where.hpp"
+#include "telltale/core/diagnosis/wiring.hpp"
+#include "telltale/core/range.hpp"
+#include "telltale/core/simulation/dataset_twin.hpp"
 
 namespace telltale {
 namespace {

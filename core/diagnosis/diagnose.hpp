@@ -7,11 +7,11 @@
 #include <string_view>
 #include <vector>
 
-#include "data/prepared_dataset.hpp"
-#include "diagnosis/diagnosis.hpp"
-#include "identification/identification.hpp"
-#include "identification/identify.hpp"
-#include "result.hpp"
+#include "telltale/core/data/prepared_dataset.hpp"
+#include "telltale/core/diagnosis/diagnosis.hpp"
+#include "telltale/core/identification/identification.hpp"
+#include "telltale/core/identification/identify.hpp"
+#include "telltale/core/result.hpp"
 
 namespace telltale {
 

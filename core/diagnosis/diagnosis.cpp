@@ -1,9 +1,9 @@
-#include "diagnosis/diagnosis.hpp"
+#include "telltale/core/diagnosis/diagnosis.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "contract.hpp"
+#include "telltale/core/contract.hpp"
 
 namespace telltale {
 namespace {

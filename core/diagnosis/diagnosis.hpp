@@ -8,12 +8,12 @@
 
 #include <Eigen/Core>
 
-#include "effects/effect.hpp"
-#include "result.hpp"
-#include "uncertainty/interval.hpp"
-#include "validation/validation.hpp"
-#include "vessel/propellers.hpp"
-#include "vessel/structure.hpp"
+#include "telltale/core/effects/effect.hpp"
+#include "telltale/core/result.hpp"
+#include "telltale/core/uncertainty/interval.hpp"
+#include "telltale/core/validation/validation.hpp"
+#include "telltale/core/vessel/propellers.hpp"
+#include "telltale/core/vessel/structure.hpp"
 
 namespace telltale {
 

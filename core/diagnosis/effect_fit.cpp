@@ -1,11 +1,11 @@
-#include "diagnosis/effect_fit.hpp"
+#include "telltale/core/diagnosis/effect_fit.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <optional>
 
-#include "linear_algebra/covariance.hpp"
-#include "linear_algebra/decompositions.hpp"
+#include "telltale/core/linear_algebra/covariance.hpp"
+#include "telltale/core/linear_algebra/decompositions.hpp"
 
 namespace telltale {
 namespace {

@@ -6,9 +6,9 @@
 
 #include <Eigen/Core>
 
-#include "diagnosis/free_runs.hpp"
-#include "diagnosis/judge.hpp"
-#include "effects/augmented_model.hpp"
+#include "telltale/core/diagnosis/free_runs.hpp"
+#include "telltale/core/diagnosis/judge.hpp"
+#include "telltale/core/effects/augmented_model.hpp"
 
 namespace telltale {
 

@@ -2,11 +2,11 @@
 
 #include <vector>
 
-#include "diagnosis/free_runs.hpp"
-#include "diagnosis/healthy.hpp"
-#include "diagnosis/judge.hpp"
-#include "diagnosis/sensitivity.hpp"
-#include "diagnosis/swings.hpp"
+#include "telltale/core/diagnosis/free_runs.hpp"
+#include "telltale/core/diagnosis/healthy.hpp"
+#include "telltale/core/diagnosis/judge.hpp"
+#include "telltale/core/diagnosis/sensitivity.hpp"
+#include "telltale/core/diagnosis/swings.hpp"
 
 namespace telltale {
 

@@ -1,13 +1,13 @@
-#include "diagnosis/free_runs.hpp"
+#include "telltale/core/diagnosis/free_runs.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <span>
 
-#include "contract.hpp"
-#include "effects/augmented_boat.hpp"
-#include "effects/sensor_chain.hpp"
-#include "linear_algebra/decompositions.hpp"
+#include "telltale/core/contract.hpp"
+#include "telltale/core/effects/augmented_boat.hpp"
+#include "telltale/core/effects/sensor_chain.hpp"
+#include "telltale/core/linear_algebra/decompositions.hpp"
 
 namespace telltale {
 namespace {

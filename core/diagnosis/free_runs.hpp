@@ -6,8 +6,8 @@
 
 #include <Eigen/Core>
 
-#include "data/prepared_dataset.hpp"
-#include "effects/augmented_model.hpp"
+#include "telltale/core/data/prepared_dataset.hpp"
+#include "telltale/core/effects/augmented_model.hpp"
 
 namespace telltale {
 

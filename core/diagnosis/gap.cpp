@@ -1,4 +1,4 @@
-#include "diagnosis/gap.hpp"
+#include "telltale/core/diagnosis/gap.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -6,10 +6,10 @@
 
 #include <boost/random/normal_distribution.hpp>
 
-#include "contract.hpp"
-#include "random.hpp"
-#include "uncertainty/interval.hpp"
-#include "uncertainty/laws.hpp"
+#include "telltale/core/contract.hpp"
+#include "telltale/core/random.hpp"
+#include "telltale/core/uncertainty/interval.hpp"
+#include "telltale/core/uncertainty/laws.hpp"
 
 namespace telltale {
 namespace {

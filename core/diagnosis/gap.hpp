@@ -8,8 +8,8 @@
 
 #include <Eigen/Core>
 
-#include "diagnosis/diagnosis.hpp"
-#include "diagnosis/free_runs.hpp"
+#include "telltale/core/diagnosis/diagnosis.hpp"
+#include "telltale/core/diagnosis/free_runs.hpp"
 
 namespace telltale {
 

@@ -1,13 +1,13 @@
-#include "diagnosis/healthy.hpp"
+#include "telltale/core/diagnosis/healthy.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 
-#include "contract.hpp"
-#include "diagnosis/judge.hpp"
-#include "linear_algebra/covariance.hpp"
-#include "linear_algebra/decompositions.hpp"
+#include "telltale/core/contract.hpp"
+#include "telltale/core/diagnosis/judge.hpp"
+#include "telltale/core/linear_algebra/covariance.hpp"
+#include "telltale/core/linear_algebra/decompositions.hpp"
 
 namespace telltale {
 namespace {

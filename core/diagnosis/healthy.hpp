@@ -6,7 +6,7 @@
 
 #include <Eigen/Core>
 
-#include "diagnosis/sensitivity.hpp"
+#include "telltale/core/diagnosis/sensitivity.hpp"
 
 namespace telltale {
 

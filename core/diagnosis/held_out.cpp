@@ -1,8 +1,8 @@
-#include "diagnosis/held_out.hpp"
+#include "telltale/core/diagnosis/held_out.hpp"
 
 #include <algorithm>
 
-#include "diagnosis/shaking.hpp"
+#include "telltale/core/diagnosis/shaking.hpp"
 
 namespace telltale {
 

@@ -7,8 +7,8 @@
 
 #include <Eigen/Core>
 
-#include "diagnosis/gap.hpp"
-#include "diagnosis/search.hpp"
+#include "telltale/core/diagnosis/gap.hpp"
+#include "telltale/core/diagnosis/search.hpp"
 
 namespace telltale {
 

@@ -1,12 +1,12 @@
-#include "diagnosis/judge.hpp"
+#include "telltale/core/diagnosis/judge.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 #include <utility>
 
-#include "linear_algebra/covariance.hpp"
-#include "linear_algebra/decompositions.hpp"
+#include "telltale/core/linear_algebra/covariance.hpp"
+#include "telltale/core/linear_algebra/decompositions.hpp"
 
 namespace telltale {
 namespace {

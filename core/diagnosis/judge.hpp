@@ -6,9 +6,9 @@
 
 #include <Eigen/Core>
 
-#include "diagnosis/healthy.hpp"
-#include "diagnosis/sensitivity.hpp"
-#include "linear_algebra/decompositions.hpp"
+#include "telltale/core/diagnosis/healthy.hpp"
+#include "telltale/core/diagnosis/sensitivity.hpp"
+#include "telltale/core/linear_algebra/decompositions.hpp"
 
 namespace telltale {
 

@@ -1,4 +1,4 @@
-#include "diagnosis/onset.hpp"
+#include "telltale/core/diagnosis/onset.hpp"
 
 #include <algorithm>
 #include <cmath>

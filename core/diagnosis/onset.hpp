@@ -2,9 +2,9 @@
 
 #include <optional>
 
-#include "diagnosis/diagnosis.hpp"
-#include "diagnosis/effect_fit.hpp"
-#include "diagnosis/evidence.hpp"
+#include "telltale/core/diagnosis/diagnosis.hpp"
+#include "telltale/core/diagnosis/effect_fit.hpp"
+#include "telltale/core/diagnosis/evidence.hpp"
 
 namespace telltale {
 

@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "diagnosis/diagnosis.hpp"
-#include "diagnosis/remainder.hpp"
-#include "diagnosis/search.hpp"
+#include "telltale/core/diagnosis/diagnosis.hpp"
+#include "telltale/core/diagnosis/remainder.hpp"
+#include "telltale/core/diagnosis/search.hpp"
 
 namespace telltale {
 

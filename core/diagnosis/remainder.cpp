@@ -1,11 +1,11 @@
-#include "diagnosis/remainder.hpp"
+#include "telltale/core/diagnosis/remainder.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <numeric>
 
-#include "linear_algebra/decompositions.hpp"
+#include "telltale/core/linear_algebra/decompositions.hpp"
 
 namespace telltale {
 namespace {

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "diagnosis/evidence.hpp"
-#include "diagnosis/held_out.hpp"
+#include "telltale/core/diagnosis/evidence.hpp"
+#include "telltale/core/diagnosis/held_out.hpp"
 
 namespace telltale {
 

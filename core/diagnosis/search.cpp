@@ -1,13 +1,13 @@
-#include "diagnosis/search.hpp"
+#include "telltale/core/diagnosis/search.hpp"
 
 #include <algorithm>
 #include <limits>
 #include <map>
 #include <mutex>
 
-#include "diagnosis/shaking.hpp"
-#include "linear_algebra/decompositions.hpp"
-#include "parallel.hpp"
+#include "telltale/core/diagnosis/shaking.hpp"
+#include "telltale/core/linear_algebra/decompositions.hpp"
+#include "telltale/core/parallel.hpp"
 
 namespace telltale {
 namespace {

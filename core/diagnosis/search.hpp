@@ -5,8 +5,8 @@
 #include <span>
 #include <vector>
 
-#include "diagnosis/effect_fit.hpp"
-#include "diagnosis/evidence.hpp"
+#include "telltale/core/diagnosis/effect_fit.hpp"
+#include "telltale/core/diagnosis/evidence.hpp"
 
 namespace telltale {
 

@@ -1,8 +1,8 @@
-#include "diagnosis/sensitivity.hpp"
+#include "telltale/core/diagnosis/sensitivity.hpp"
 
 #include <cmath>
 
-#include "parallel.hpp"
+#include "telltale/core/parallel.hpp"
 
 namespace telltale {
 namespace {

@@ -6,9 +6,9 @@
 
 #include <Eigen/Core>
 
-#include "diagnosis/free_runs.hpp"
-#include "diagnosis/uncertain_model.hpp"
-#include "effects/effect.hpp"
+#include "telltale/core/diagnosis/free_runs.hpp"
+#include "telltale/core/diagnosis/uncertain_model.hpp"
+#include "telltale/core/effects/effect.hpp"
 
 namespace telltale {
 

@@ -1,9 +1,9 @@
-#include "diagnosis/sentence.hpp"
+#include "telltale/core/diagnosis/sentence.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "effects/wording.hpp"
+#include "telltale/core/effects/wording.hpp"
 
 namespace telltale {
 namespace {

@@ -1,16 +1,16 @@
-#include "diagnosis/separation.hpp"
+#include "telltale/core/diagnosis/separation.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <optional>
 
-#include "data/preparation.hpp"
-#include "diagnosis/free_runs.hpp"
-#include "linear_algebra/decompositions.hpp"
-#include "simulation/manoeuvres.hpp"
-#include "simulation/sensors.hpp"
-#include "simulation/simulator.hpp"
+#include "telltale/core/data/preparation.hpp"
+#include "telltale/core/diagnosis/free_runs.hpp"
+#include "telltale/core/linear_algebra/decompositions.hpp"
+#include "telltale/core/simulation/manoeuvres.hpp"
+#include "telltale/core/simulation/sensors.hpp"
+#include "telltale/core/simulation/simulator.hpp"
 
 namespace telltale {
 namespace {

@@ -2,9 +2,9 @@
 
 #include <vector>
 
-#include "diagnosis/diagnosis.hpp"
-#include "diagnosis/healthy.hpp"
-#include "diagnosis/ranking.hpp"
+#include "telltale/core/diagnosis/diagnosis.hpp"
+#include "telltale/core/diagnosis/healthy.hpp"
+#include "telltale/core/diagnosis/ranking.hpp"
 
 namespace telltale {
 

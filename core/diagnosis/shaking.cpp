@@ -1,13 +1,13 @@
-#include "diagnosis/shaking.hpp"
+#include "telltale/core/diagnosis/shaking.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <vector>
 
-#include "diagnosis/gap.hpp"
-#include "linear_algebra/covariance.hpp"
-#include "linear_algebra/decompositions.hpp"
-#include "parallel.hpp"
+#include "telltale/core/diagnosis/gap.hpp"
+#include "telltale/core/linear_algebra/covariance.hpp"
+#include "telltale/core/linear_algebra/decompositions.hpp"
+#include "telltale/core/parallel.hpp"
 
 namespace telltale {
 namespace {

@@ -4,8 +4,8 @@
 
 #include <Eigen/Core>
 
-#include "diagnosis/effect_fit.hpp"
-#include "diagnosis/evidence.hpp"
+#include "telltale/core/diagnosis/effect_fit.hpp"
+#include "telltale/core/diagnosis/evidence.hpp"
 
 namespace telltale {
 

@@ -1,12 +1,12 @@
-#include "diagnosis/swings.hpp"
+#include "telltale/core/diagnosis/swings.hpp"
 
 #include <cmath>
 #include <numbers>
 #include <string>
 
-#include "contract.hpp"
-#include "linear_algebra/covariance.hpp"
-#include "parallel.hpp"
+#include "telltale/core/contract.hpp"
+#include "telltale/core/linear_algebra/covariance.hpp"
+#include "telltale/core/parallel.hpp"
 
 namespace telltale {
 namespace {

@@ -8,8 +8,8 @@
 
 #include <Eigen/Core>
 
-#include "diagnosis/free_runs.hpp"
-#include "effects/effect.hpp"
+#include "telltale/core/diagnosis/free_runs.hpp"
+#include "telltale/core/effects/effect.hpp"
 
 namespace telltale {
 

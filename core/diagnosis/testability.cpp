@@ -1,9 +1,9 @@
-#include "diagnosis/testability.hpp"
+#include "telltale/core/diagnosis/testability.hpp"
 
 #include <cmath>
 #include <string>
 
-#include "diagnosis/shaking.hpp"
+#include "telltale/core/diagnosis/shaking.hpp"
 
 namespace telltale {
 namespace {

@@ -3,9 +3,9 @@
 #include <span>
 #include <vector>
 
-#include "diagnosis/diagnosis.hpp"
-#include "diagnosis/evidence.hpp"
-#include "diagnosis/uncertain_model.hpp"
+#include "telltale/core/diagnosis/diagnosis.hpp"
+#include "telltale/core/diagnosis/evidence.hpp"
+#include "telltale/core/diagnosis/uncertain_model.hpp"
 
 namespace telltale {
 

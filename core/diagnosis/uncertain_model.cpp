@@ -1,8 +1,8 @@
-#include "diagnosis/uncertain_model.hpp"
+#include "telltale/core/diagnosis/uncertain_model.hpp"
 
 #include <cmath>
 
-#include "linear_algebra/covariance.hpp"
+#include "telltale/core/linear_algebra/covariance.hpp"
 
 namespace telltale {
 

@@ -4,10 +4,10 @@
 
 #include <Eigen/Core>
 
-#include "identification/identification.hpp"
-#include "result.hpp"
-#include "vessel/structure.hpp"
-#include "vessel/vessel_model.hpp"
+#include "telltale/core/identification/identification.hpp"
+#include "telltale/core/result.hpp"
+#include "telltale/core/vessel/structure.hpp"
+#include "telltale/core/vessel/vessel_model.hpp"
 
 namespace telltale {
 

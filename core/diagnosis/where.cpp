@@ -1,4 +1,4 @@
-#include "diagnosis/where.hpp"
+#include "telltale/core/diagnosis/where.hpp"
 
 #include <algorithm>
 #include <array>
@@ -8,10 +8,10 @@
 #include <span>
 #include <string>
 
-#include "contract.hpp"
-#include "effects/augmented_boat.hpp"
-#include "random.hpp"
-#include "vessel/compass.hpp"
+#include "telltale/core/contract.hpp"
+#include "telltale/core/effects/augmented_boat.hpp"
+#include "telltale/core/random.hpp"
+#include "telltale/core/vessel/compass.hpp"
 
 namespace telltale {
 namespace {

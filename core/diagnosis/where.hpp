@@ -3,9 +3,9 @@
 #include <cstdint>
 #include <vector>
 
-#include "data/prepared_dataset.hpp"
-#include "diagnosis/diagnosis.hpp"
-#include "effects/augmented_model.hpp"
+#include "telltale/core/data/prepared_dataset.hpp"
+#include "telltale/core/diagnosis/diagnosis.hpp"
+#include "telltale/core/effects/augmented_model.hpp"
 
 namespace telltale {
 

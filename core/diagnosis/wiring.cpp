@@ -1,10 +1,10 @@
-#include "diagnosis/wiring.hpp"
+#include "telltale/core/diagnosis/wiring.hpp"
 
 #include <algorithm>
 #include <array>
 #include <string>
 
-#include "diagnosis/free_runs.hpp"
+#include "telltale/core/diagnosis/free_runs.hpp"
 
 namespace telltale {
 namespace {

@@ -2,9 +2,9 @@
 
 #include <optional>
 
-#include "data/prepared_dataset.hpp"
-#include "diagnosis/uncertain_model.hpp"
-#include "result.hpp"
+#include "telltale/core/data/prepared_dataset.hpp"
+#include "telltale/core/diagnosis/uncertain_model.hpp"
+#include "telltale/core/result.hpp"
 
 namespace telltale {
 

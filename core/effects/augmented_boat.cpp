@@ -1,4 +1,4 @@
-#include "effects/augmented_boat.hpp"
+#include "telltale/core/effects/augmented_boat.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -8,9 +8,9 @@
 #include <span>
 #include <utility>
 
-#include "contract.hpp"
-#include "simulation/simulator.hpp"
-#include "vessel/body_row.hpp"
+#include "telltale/core/contract.hpp"
+#include "telltale/core/simulation/simulator.hpp"
+#include "telltale/core/vessel/body_row.hpp"
 
 namespace telltale {
 namespace {

@@ -7,10 +7,10 @@
 
 #include <Eigen/Core>
 
-#include "data/held_commands.hpp"
-#include "effects/augmented_model.hpp"
-#include "vessel/motion.hpp"
-#include "vessel/vehicle.hpp"
+#include "telltale/core/data/held_commands.hpp"
+#include "telltale/core/effects/augmented_model.hpp"
+#include "telltale/core/vessel/motion.hpp"
+#include "telltale/core/vessel/vehicle.hpp"
 
 namespace telltale {
 

@@ -3,8 +3,8 @@
 #include <span>
 #include <vector>
 
-#include "effects/effect.hpp"
-#include "vessel/vessel_model.hpp"
+#include "telltale/core/effects/effect.hpp"
+#include "telltale/core/vessel/vessel_model.hpp"
 
 namespace telltale {
 

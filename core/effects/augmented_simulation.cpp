@@ -1,12 +1,12 @@
-#include "effects/augmented_simulation.hpp"
+#include "telltale/core/effects/augmented_simulation.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
-#include "contract.hpp"
-#include "data/held_commands.hpp"
-#include "effects/augmented_boat.hpp"
+#include "telltale/core/contract.hpp"
+#include "telltale/core/data/held_commands.hpp"
+#include "telltale/core/effects/augmented_boat.hpp"
 
 namespace telltale {
 namespace {

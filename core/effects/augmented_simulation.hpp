@@ -2,11 +2,11 @@
 
 #include <vector>
 
-#include "data/samples.hpp"
-#include "effects/augmented_model.hpp"
-#include "simulation/sensors.hpp"
-#include "simulation/simulator.hpp"
-#include "vessel/vehicle.hpp"
+#include "telltale/core/data/samples.hpp"
+#include "telltale/core/effects/augmented_model.hpp"
+#include "telltale/core/simulation/sensors.hpp"
+#include "telltale/core/simulation/simulator.hpp"
+#include "telltale/core/vessel/vehicle.hpp"
 
 namespace telltale {
 

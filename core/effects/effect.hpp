@@ -10,9 +10,9 @@
 
 #include <Eigen/Core>
 
-#include "vessel/motion.hpp"
-#include "vessel/structure.hpp"
-#include "vessel/vehicle.hpp"
+#include "telltale/core/vessel/motion.hpp"
+#include "telltale/core/vessel/structure.hpp"
+#include "telltale/core/vessel/vehicle.hpp"
 
 namespace telltale {
 

@@ -1,6 +1,6 @@
-#include "effects/effect.hpp"
-#include "effects/library.hpp"
-#include "effects/wording.hpp"
+#include "telltale/core/effects/effect.hpp"
+#include "telltale/core/effects/library.hpp"
+#include "telltale/core/effects/wording.hpp"
 
 namespace telltale {
 namespace {

@@ -1,4 +1,4 @@
-#include "effects/library.hpp"
+#include "telltale/core/effects/library.hpp"
 
 #include <algorithm>
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "effects/effect.hpp"
+#include "telltale/core/effects/effect.hpp"
 
 // Every effect of the library, a line each; each stands in a file of its name. Adding one is shown
 // in docs/adding-an-effect.md.

@@ -1,4 +1,4 @@
-#include "effects/sensor_chain.hpp"
+#include "telltale/core/effects/sensor_chain.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -2,8 +2,8 @@
 
 #include <Eigen/Core>
 
-#include "data/prepared_dataset.hpp"
-#include "effects/augmented_boat.hpp"
+#include "telltale/core/data/prepared_dataset.hpp"
+#include "telltale/core/effects/augmented_boat.hpp"
 
 namespace telltale {
 

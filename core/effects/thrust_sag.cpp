@@ -1,8 +1,8 @@
 #include <algorithm>
 
-#include "effects/effect.hpp"
-#include "effects/library.hpp"
-#include "effects/wording.hpp"
+#include "telltale/core/effects/effect.hpp"
+#include "telltale/core/effects/library.hpp"
+#include "telltale/core/effects/wording.hpp"
 
 namespace telltale {
 namespace {

@@ -1,8 +1,8 @@
-#include "effects/wording.hpp"
+#include "telltale/core/effects/wording.hpp"
 
 #include <cmath>
 
-#include "vessel/compass.hpp"
+#include "telltale/core/vessel/compass.hpp"
 
 namespace telltale {
 

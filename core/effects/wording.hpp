@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "number.hpp"
+#include "telltale/core/number.hpp"
 
 namespace telltale {
 

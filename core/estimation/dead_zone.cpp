@@ -1,4 +1,4 @@
-#include "estimation/dead_zone.hpp"
+#include "telltale/core/estimation/dead_zone.hpp"
 
 #include <algorithm>
 #include <array>
@@ -8,10 +8,10 @@
 #include <span>
 #include <vector>
 
-#include "estimation/lagged_regression.hpp"
-#include "estimation/triangular_factor.hpp"
-#include "linear_algebra/decompositions.hpp"
-#include "parallel.hpp"
+#include "telltale/core/estimation/lagged_regression.hpp"
+#include "telltale/core/estimation/triangular_factor.hpp"
+#include "telltale/core/linear_algebra/decompositions.hpp"
+#include "telltale/core/parallel.hpp"
 
 namespace telltale {
 namespace {

@@ -1,10 +1,10 @@
 #pragma once
 
-#include "data/prepared_dataset.hpp"
-#include "estimation/excitation.hpp"
-#include "estimation/regression_problem.hpp"
-#include "result.hpp"
-#include "vessel/propellers.hpp"
+#include "telltale/core/data/prepared_dataset.hpp"
+#include "telltale/core/estimation/excitation.hpp"
+#include "telltale/core/estimation/regression_problem.hpp"
+#include "telltale/core/result.hpp"
+#include "telltale/core/vessel/propellers.hpp"
 
 namespace telltale {
 

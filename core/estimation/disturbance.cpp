@@ -1,12 +1,12 @@
-#include "estimation/disturbance.hpp"
+#include "telltale/core/estimation/disturbance.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <optional>
 #include <vector>
 
-#include "estimation/instruments.hpp"
-#include "estimation/residual_correlation.hpp"
+#include "telltale/core/estimation/instruments.hpp"
+#include "telltale/core/estimation/residual_correlation.hpp"
 
 namespace telltale {
 namespace {

@@ -4,10 +4,10 @@
 
 #include <Eigen/Core>
 
-#include "data/prepared_dataset.hpp"
-#include "estimation/weak_form.hpp"
-#include "estimation/weak_iv.hpp"
-#include "vessel/disturbance.hpp"
+#include "telltale/core/data/prepared_dataset.hpp"
+#include "telltale/core/estimation/weak_form.hpp"
+#include "telltale/core/estimation/weak_iv.hpp"
+#include "telltale/core/vessel/disturbance.hpp"
 
 namespace telltale {
 

@@ -1,4 +1,4 @@
-#include "estimation/excitation.hpp"
+#include "telltale/core/estimation/excitation.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -7,9 +7,9 @@
 #include <numeric>
 #include <utility>
 
-#include "contract.hpp"
-#include "linear_algebra/decompositions.hpp"
-#include "range.hpp"
+#include "telltale/core/contract.hpp"
+#include "telltale/core/linear_algebra/decompositions.hpp"
+#include "telltale/core/range.hpp"
 
 namespace telltale {
 namespace {

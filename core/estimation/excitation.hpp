@@ -6,9 +6,9 @@
 
 #include <Eigen/Core>
 
-#include "estimation/regression_problem.hpp"
-#include "estimation/triangular_factor.hpp"
-#include "result.hpp"
+#include "telltale/core/estimation/regression_problem.hpp"
+#include "telltale/core/estimation/triangular_factor.hpp"
+#include "telltale/core/result.hpp"
 
 namespace telltale {
 

@@ -1,4 +1,4 @@
-#include "estimation/excitation_summary.hpp"
+#include "telltale/core/estimation/excitation_summary.hpp"
 
 #include <cmath>
 #include <limits>

@@ -3,8 +3,8 @@
 #include <cstddef>
 #include <vector>
 
-#include "estimation/excitation.hpp"
-#include "vessel/structure.hpp"
+#include "telltale/core/estimation/excitation.hpp"
+#include "telltale/core/vessel/structure.hpp"
 
 namespace telltale {
 

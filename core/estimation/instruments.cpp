@@ -1,10 +1,10 @@
-#include "estimation/instruments.hpp"
+#include "telltale/core/estimation/instruments.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <iterator>
 
-#include "vessel/body_row.hpp"
+#include "telltale/core/vessel/body_row.hpp"
 
 namespace telltale {
 namespace {

@@ -5,11 +5,11 @@
 
 #include <Eigen/Core>
 
-#include "data/prepared_dataset.hpp"
-#include "estimation/weak_form.hpp"
-#include "vessel/body_dynamics.hpp"
-#include "vessel/disturbance.hpp"
-#include "vessel/vessel_model.hpp"
+#include "telltale/core/data/prepared_dataset.hpp"
+#include "telltale/core/estimation/weak_form.hpp"
+#include "telltale/core/vessel/body_dynamics.hpp"
+#include "telltale/core/vessel/disturbance.hpp"
+#include "telltale/core/vessel/vessel_model.hpp"
 
 namespace telltale {
 

@@ -1,4 +1,4 @@
-#include "estimation/lagged_regression.hpp"
+#include "telltale/core/estimation/lagged_regression.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -6,10 +6,10 @@
 
 #include <ceres/ceres.h>
 
-#include "contract.hpp"
-#include "estimation/triangular_factor.hpp"
-#include "linear_algebra/decompositions.hpp"
-#include "vessel/thruster_lag.hpp"
+#include "telltale/core/contract.hpp"
+#include "telltale/core/estimation/triangular_factor.hpp"
+#include "telltale/core/linear_algebra/decompositions.hpp"
+#include "telltale/core/vessel/thruster_lag.hpp"
 
 namespace telltale {
 namespace {

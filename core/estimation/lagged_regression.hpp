@@ -6,9 +6,9 @@
 
 #include <Eigen/Core>
 
-#include "data/prepared_dataset.hpp"
-#include "estimation/one_step.hpp"
-#include "estimation/regression_problem.hpp"
+#include "telltale/core/data/prepared_dataset.hpp"
+#include "telltale/core/estimation/one_step.hpp"
+#include "telltale/core/estimation/regression_problem.hpp"
 
 namespace telltale {
 

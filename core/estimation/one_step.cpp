@@ -1,4 +1,4 @@
-#include "estimation/one_step.hpp"
+#include "telltale/core/estimation/one_step.hpp"
 
 #include <cmath>
 

@@ -4,8 +4,8 @@
 
 #include <Eigen/Core>
 
-#include "estimation/excitation.hpp"
-#include "estimation/regression_problem.hpp"
+#include "telltale/core/estimation/excitation.hpp"
+#include "telltale/core/estimation/regression_problem.hpp"
 
 namespace telltale {
 

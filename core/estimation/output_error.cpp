@@ -1,16 +1,16 @@
-#include "estimation/output_error.hpp"
+#include "telltale/core/estimation/output_error.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <optional>
 
-#include "contract.hpp"
-#include "estimation/shot_solution.hpp"
-#include "estimation/weak_iv.hpp"
-#include "linear_algebra/covariance.hpp"
-#include "linear_algebra/decompositions.hpp"
-#include "range.hpp"
+#include "telltale/core/contract.hpp"
+#include "telltale/core/estimation/shot_solution.hpp"
+#include "telltale/core/estimation/weak_iv.hpp"
+#include "telltale/core/linear_algebra/covariance.hpp"
+#include "telltale/core/linear_algebra/decompositions.hpp"
+#include "telltale/core/range.hpp"
 
 namespace telltale {
 namespace {

@@ -7,12 +7,12 @@
 
 #include <Eigen/Core>
 
-#include "data/prepared_dataset.hpp"
-#include "estimation/regression_problem.hpp"
-#include "estimation/separability.hpp"
-#include "estimation/shooting.hpp"
-#include "result.hpp"
-#include "vessel/vessel_model.hpp"
+#include "telltale/core/data/prepared_dataset.hpp"
+#include "telltale/core/estimation/regression_problem.hpp"
+#include "telltale/core/estimation/separability.hpp"
+#include "telltale/core/estimation/shooting.hpp"
+#include "telltale/core/result.hpp"
+#include "telltale/core/vessel/vessel_model.hpp"
 
 namespace telltale {
 

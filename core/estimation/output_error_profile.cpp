@@ -1,12 +1,12 @@
-#include "estimation/output_error_profile.hpp"
+#include "telltale/core/estimation/output_error_profile.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "contract.hpp"
-#include "estimation/weak_iv.hpp"
-#include "linear_algebra/decompositions.hpp"
+#include "telltale/core/contract.hpp"
+#include "telltale/core/estimation/weak_iv.hpp"
+#include "telltale/core/linear_algebra/decompositions.hpp"
 
 namespace telltale {
 namespace {

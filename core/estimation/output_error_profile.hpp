@@ -5,10 +5,10 @@
 
 #include <Eigen/Core>
 
-#include "data/prepared_dataset.hpp"
-#include "estimation/output_error.hpp"
-#include "estimation/regression_problem.hpp"
-#include "estimation/shot_solution.hpp"
+#include "telltale/core/data/prepared_dataset.hpp"
+#include "telltale/core/estimation/output_error.hpp"
+#include "telltale/core/estimation/regression_problem.hpp"
+#include "telltale/core/estimation/shot_solution.hpp"
 
 namespace telltale {
 

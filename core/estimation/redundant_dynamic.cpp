@@ -1,4 +1,4 @@
-#include "estimation/redundant_dynamic.hpp"
+#include "telltale/core/estimation/redundant_dynamic.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -8,9 +8,9 @@
 
 #include <boost/math/tools/minima.hpp>
 
-#include "contract.hpp"
-#include "estimation/triangular_factor.hpp"
-#include "linear_algebra/decompositions.hpp"
+#include "telltale/core/contract.hpp"
+#include "telltale/core/estimation/triangular_factor.hpp"
+#include "telltale/core/linear_algebra/decompositions.hpp"
 
 namespace telltale {
 namespace {

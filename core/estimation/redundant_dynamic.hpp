@@ -8,9 +8,9 @@
 
 #include <Eigen/Core>
 
-#include "data/prepared_dataset.hpp"
-#include "estimation/regression_problem.hpp"
-#include "result.hpp"
+#include "telltale/core/data/prepared_dataset.hpp"
+#include "telltale/core/estimation/regression_problem.hpp"
+#include "telltale/core/result.hpp"
 
 namespace telltale {
 

@@ -1,8 +1,8 @@
-#include "estimation/regression_problem.hpp"
+#include "telltale/core/estimation/regression_problem.hpp"
 
 #include <algorithm>
 
-#include "contract.hpp"
+#include "telltale/core/contract.hpp"
 
 namespace telltale {
 namespace {

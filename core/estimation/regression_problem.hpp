@@ -6,9 +6,9 @@
 
 #include <Eigen/Core>
 
-#include "data/prepared_dataset.hpp"
-#include "estimation/steady_terms.hpp"
-#include "vessel/structure.hpp"
+#include "telltale/core/data/prepared_dataset.hpp"
+#include "telltale/core/estimation/steady_terms.hpp"
+#include "telltale/core/vessel/structure.hpp"
 
 namespace telltale {
 

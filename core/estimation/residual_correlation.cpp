@@ -1,4 +1,4 @@
-#include "estimation/residual_correlation.hpp"
+#include "telltale/core/estimation/residual_correlation.hpp"
 
 #include <algorithm>
 #include <limits>

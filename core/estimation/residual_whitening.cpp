@@ -1,4 +1,4 @@
-#include "estimation/residual_whitening.hpp"
+#include "telltale/core/estimation/residual_whitening.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -4,7 +4,7 @@
 
 #include <Eigen/Core>
 
-#include "data/prepared_dataset.hpp"
+#include "telltale/core/data/prepared_dataset.hpp"
 
 namespace telltale {
 

@@ -1,12 +1,12 @@
-#include "estimation/separability.hpp"
+#include "telltale/core/estimation/separability.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "contract.hpp"
-#include "linear_algebra/covariance.hpp"
-#include "linear_algebra/decompositions.hpp"
+#include "telltale/core/contract.hpp"
+#include "telltale/core/linear_algebra/covariance.hpp"
+#include "telltale/core/linear_algebra/decompositions.hpp"
 
 namespace telltale {
 namespace {

@@ -1,9 +1,9 @@
-#include "estimation/separable_columns.hpp"
+#include "telltale/core/estimation/separable_columns.hpp"
 
 #include <algorithm>
 #include <limits>
 
-#include "linear_algebra/decompositions.hpp"
+#include "telltale/core/linear_algebra/decompositions.hpp"
 
 namespace telltale {
 namespace {

@@ -3,9 +3,9 @@
 #include <array>
 #include <vector>
 
-#include "data/prepared_dataset.hpp"
-#include "estimation/excitation.hpp"
-#include "estimation/weak_form.hpp"
+#include "telltale/core/data/prepared_dataset.hpp"
+#include "telltale/core/estimation/excitation.hpp"
+#include "telltale/core/estimation/weak_form.hpp"
 
 namespace telltale {
 

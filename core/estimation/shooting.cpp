@@ -1,14 +1,14 @@
-#include "estimation/shooting.hpp"
+#include "telltale/core/estimation/shooting.hpp"
 
 #include <algorithm>
 #include <cmath>
 
 #include <Eigen/QR>
 
-#include "contract.hpp"
-#include "data/time_series.hpp"
-#include "vessel/body_dynamics.hpp"
-#include "vessel/thruster_lag.hpp"
+#include "telltale/core/contract.hpp"
+#include "telltale/core/data/time_series.hpp"
+#include "telltale/core/vessel/body_dynamics.hpp"
+#include "telltale/core/vessel/thruster_lag.hpp"
 
 namespace telltale {
 namespace {

@@ -8,10 +8,10 @@
 
 #include <Eigen/Core>
 
-#include "data/north_east.hpp"
-#include "data/prepared_dataset.hpp"
-#include "estimation/regression_problem.hpp"
-#include "vessel/vessel_model.hpp"
+#include "telltale/core/data/north_east.hpp"
+#include "telltale/core/data/prepared_dataset.hpp"
+#include "telltale/core/estimation/regression_problem.hpp"
+#include "telltale/core/vessel/vessel_model.hpp"
 
 namespace telltale {
 

@@ -1,4 +1,4 @@
-#include "estimation/shot_solution.hpp"
+#include "telltale/core/estimation/shot_solution.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -7,8 +7,8 @@
 
 #include <ceres/ceres.h>
 
-#include "estimation/weak_iv.hpp"
-#include "median.hpp"
+#include "telltale/core/estimation/weak_iv.hpp"
+#include "telltale/core/median.hpp"
 
 namespace telltale {
 namespace {

@@ -1,15 +1,15 @@
-#include "estimation/sliding_regression.hpp"
+#include "telltale/core/estimation/sliding_regression.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
 
-#include "contract.hpp"
-#include "estimation/excitation.hpp"
-#include "linear_algebra/covariance.hpp"
-#include "linear_algebra/decompositions.hpp"
-#include "range.hpp"
+#include "telltale/core/contract.hpp"
+#include "telltale/core/estimation/excitation.hpp"
+#include "telltale/core/linear_algebra/covariance.hpp"
+#include "telltale/core/linear_algebra/decompositions.hpp"
+#include "telltale/core/range.hpp"
 
 namespace telltale {
 namespace {

@@ -1,10 +1,10 @@
-#include "estimation/steady_terms.hpp"
+#include "telltale/core/estimation/steady_terms.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "contract.hpp"
-#include "linear_algebra/decompositions.hpp"
+#include "telltale/core/contract.hpp"
+#include "telltale/core/linear_algebra/decompositions.hpp"
 
 namespace telltale {
 namespace {

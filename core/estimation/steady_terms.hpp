@@ -6,8 +6,8 @@
 #include <string_view>
 #include <vector>
 
-#include "data/prepared_dataset.hpp"
-#include "result.hpp"
+#include "telltale/core/data/prepared_dataset.hpp"
+#include "telltale/core/result.hpp"
 
 namespace telltale {
 

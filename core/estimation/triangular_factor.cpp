@@ -1,10 +1,10 @@
-#include "estimation/triangular_factor.hpp"
+#include "telltale/core/estimation/triangular_factor.hpp"
 
 #include <algorithm>
 
 #include <Eigen/QR>
 
-#include "contract.hpp"
+#include "telltale/core/contract.hpp"
 
 namespace telltale {
 namespace {

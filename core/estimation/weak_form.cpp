@@ -1,11 +1,11 @@
-#include "estimation/weak_form.hpp"
+#include "telltale/core/estimation/weak_form.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "contract.hpp"
-#include "data/savitzky_golay.hpp"
-#include "vessel/thruster_lag.hpp"
+#include "telltale/core/contract.hpp"
+#include "telltale/core/data/savitzky_golay.hpp"
+#include "telltale/core/vessel/thruster_lag.hpp"
 
 namespace telltale {
 namespace {

@@ -7,11 +7,11 @@
 
 #include <Eigen/Core>
 
-#include "data/prepared_dataset.hpp"
-#include "estimation/regression_problem.hpp"
-#include "estimation/steady_terms.hpp"
-#include "vessel/body_row.hpp"
-#include "vessel/structure.hpp"
+#include "telltale/core/data/prepared_dataset.hpp"
+#include "telltale/core/estimation/regression_problem.hpp"
+#include "telltale/core/estimation/steady_terms.hpp"
+#include "telltale/core/vessel/body_row.hpp"
+#include "telltale/core/vessel/structure.hpp"
 
 namespace telltale {
 

@@ -1,15 +1,15 @@
-#include "estimation/weak_iv.hpp"
+#include "telltale/core/estimation/weak_iv.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 
-#include "contract.hpp"
-#include "estimation/instruments.hpp"
-#include "estimation/residual_correlation.hpp"
-#include "estimation/residual_whitening.hpp"
-#include "linear_algebra/covariance.hpp"
-#include "linear_algebra/decompositions.hpp"
+#include "telltale/core/contract.hpp"
+#include "telltale/core/estimation/instruments.hpp"
+#include "telltale/core/estimation/residual_correlation.hpp"
+#include "telltale/core/estimation/residual_whitening.hpp"
+#include "telltale/core/linear_algebra/covariance.hpp"
+#include "telltale/core/linear_algebra/decompositions.hpp"
 
 namespace telltale {
 namespace {

@@ -1,4 +1,4 @@
-#include "identification/advice.hpp"
+#include "telltale/core/identification/advice.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -7,13 +7,13 @@
 #include <numeric>
 #include <utility>
 
-#include "identification/tamed_model.hpp"
-#include "linear_algebra/covariance.hpp"
-#include "linear_algebra/decompositions.hpp"
-#include "median.hpp"
-#include "simulation/free_run.hpp"
-#include "simulation/manoeuvres.hpp"
-#include "simulation/simulator.hpp"
+#include "telltale/core/identification/tamed_model.hpp"
+#include "telltale/core/linear_algebra/covariance.hpp"
+#include "telltale/core/linear_algebra/decompositions.hpp"
+#include "telltale/core/median.hpp"
+#include "telltale/core/simulation/free_run.hpp"
+#include "telltale/core/simulation/manoeuvres.hpp"
+#include "telltale/core/simulation/simulator.hpp"
 
 namespace telltale {
 namespace {

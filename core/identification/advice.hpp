@@ -5,10 +5,10 @@
 #include <string>
 #include <vector>
 
-#include "estimation/excitation.hpp"
-#include "estimation/regression_problem.hpp"
-#include "identification/identification.hpp"
-#include "vessel/motion.hpp"
+#include "telltale/core/estimation/excitation.hpp"
+#include "telltale/core/estimation/regression_problem.hpp"
+#include "telltale/core/identification/identification.hpp"
+#include "telltale/core/vessel/motion.hpp"
 
 namespace telltale {
 

@@ -1,10 +1,10 @@
-#include "identification/answers.hpp"
+#include "telltale/core/identification/answers.hpp"
 
 #include <cmath>
 #include <limits>
 #include <sstream>
 
-#include "estimation/residual_correlation.hpp"
+#include "telltale/core/estimation/residual_correlation.hpp"
 
 namespace telltale {
 namespace {

@@ -9,14 +9,14 @@
 
 #include <Eigen/Core>
 
-#include "data/prepared_dataset.hpp"
-#include "estimation/excitation.hpp"
-#include "estimation/one_step.hpp"
-#include "estimation/regression_problem.hpp"
-#include "identification/identification.hpp"
-#include "result.hpp"
-#include "uncertainty/interval.hpp"
-#include "uncertainty/joint_bounds.hpp"
+#include "telltale/core/data/prepared_dataset.hpp"
+#include "telltale/core/estimation/excitation.hpp"
+#include "telltale/core/estimation/one_step.hpp"
+#include "telltale/core/estimation/regression_problem.hpp"
+#include "telltale/core/identification/identification.hpp"
+#include "telltale/core/result.hpp"
+#include "telltale/core/uncertainty/interval.hpp"
+#include "telltale/core/uncertainty/joint_bounds.hpp"
 
 namespace telltale {
 

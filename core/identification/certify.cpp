@@ -1,4 +1,4 @@
-#include "identification/certify.hpp"
+#include "telltale/core/identification/certify.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -6,16 +6,16 @@
 #include <optional>
 #include <vector>
 
-#include "estimation/separable_columns.hpp"
-#include "identification/tamed_model.hpp"
-#include "identification/weak_iv_answer.hpp"
-#include "linear_algebra/covariance.hpp"
-#include "linear_algebra/decompositions.hpp"
-#include "parallel.hpp"
-#include "random.hpp"
-#include "simulation/dataset_twin.hpp"
-#include "uncertainty/laws.hpp"
-#include "uncertainty/twin_correction.hpp"
+#include "telltale/core/estimation/separable_columns.hpp"
+#include "telltale/core/identification/tamed_model.hpp"
+#include "telltale/core/identification/weak_iv_answer.hpp"
+#include "telltale/core/linear_algebra/covariance.hpp"
+#include "telltale/core/linear_algebra/decompositions.hpp"
+#include "telltale/core/parallel.hpp"
+#include "telltale/core/random.hpp"
+#include "telltale/core/simulation/dataset_twin.hpp"
+#include "telltale/core/uncertainty/laws.hpp"
+#include "telltale/core/uncertainty/twin_correction.hpp"
 
 namespace telltale {
 namespace {

@@ -1,10 +1,10 @@
 #pragma once
 
-#include "data/samples.hpp"
-#include "identification/identification.hpp"
-#include "identification/identify.hpp"
-#include "result.hpp"
-#include "vessel/vehicle.hpp"
+#include "telltale/core/data/samples.hpp"
+#include "telltale/core/identification/identification.hpp"
+#include "telltale/core/identification/identify.hpp"
+#include "telltale/core/result.hpp"
+#include "telltale/core/vessel/vehicle.hpp"
 
 namespace telltale {
 

@@ -1,14 +1,14 @@
-#include "identification/estimator_choice.hpp"
+#include "telltale/core/identification/estimator_choice.hpp"
 
 #include <optional>
 #include <sstream>
 #include <string>
 #include <utility>
 
-#include "estimation/weak_iv.hpp"
-#include "identification/output_error_answer.hpp"
-#include "identification/weak_iv_answer.hpp"
-#include "uncertainty/residual_excess.hpp"
+#include "telltale/core/estimation/weak_iv.hpp"
+#include "telltale/core/identification/output_error_answer.hpp"
+#include "telltale/core/identification/weak_iv_answer.hpp"
+#include "telltale/core/uncertainty/residual_excess.hpp"
 
 namespace telltale {
 namespace {

@@ -1,4 +1,4 @@
-#include "identification/identification.hpp"
+#include "telltale/core/identification/identification.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -7,16 +7,16 @@
 
 #include <Eigen/Core>
 
-#include "data/samples.hpp"
-#include "estimation/excitation_summary.hpp"
-#include "identification/model_change.hpp"
-#include "result.hpp"
-#include "uncertainty/coverage_certificate.hpp"
-#include "uncertainty/interval.hpp"
-#include "uncertainty/joint_bounds.hpp"
-#include "vessel/disturbance.hpp"
-#include "vessel/structure.hpp"
-#include "vessel/vessel_model.hpp"
+#include "telltale/core/data/samples.hpp"
+#include "telltale/core/estimation/excitation_summary.hpp"
+#include "telltale/core/identification/model_change.hpp"
+#include "telltale/core/result.hpp"
+#include "telltale/core/uncertainty/coverage_certificate.hpp"
+#include "telltale/core/uncertainty/interval.hpp"
+#include "telltale/core/uncertainty/joint_bounds.hpp"
+#include "telltale/core/vessel/disturbance.hpp"
+#include "telltale/core/vessel/structure.hpp"
+#include "telltale/core/vessel/vessel_model.hpp"
 
 namespace telltale {
 

@@ -1,20 +1,20 @@
-#include "identification/identify.hpp"
+#include "telltale/core/identification/identify.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 
-#include "data/preparation.hpp"
-#include "estimation/dead_zone.hpp"
-#include "identification/advice.hpp"
-#include "identification/answers.hpp"
-#include "identification/certify.hpp"
-#include "identification/estimator_choice.hpp"
-#include "identification/one_step_answer.hpp"
-#include "identification/output_error_answer.hpp"
-#include "identification/sailed_model.hpp"
-#include "identification/weak_iv_answer.hpp"
-#include "range.hpp"
+#include "telltale/core/data/preparation.hpp"
+#include "telltale/core/estimation/dead_zone.hpp"
+#include "telltale/core/identification/advice.hpp"
+#include "telltale/core/identification/answers.hpp"
+#include "telltale/core/identification/certify.hpp"
+#include "telltale/core/identification/estimator_choice.hpp"
+#include "telltale/core/identification/one_step_answer.hpp"
+#include "telltale/core/identification/output_error_answer.hpp"
+#include "telltale/core/identification/sailed_model.hpp"
+#include "telltale/core/identification/weak_iv_answer.hpp"
+#include "telltale/core/range.hpp"
 
 namespace telltale {
 namespace {

@@ -6,16 +6,16 @@
 #include <string>
 #include <string_view>
 
-#include "data/preparation.hpp"
-#include "data/samples.hpp"
-#include "estimation/excitation.hpp"
-#include "estimation/regression_problem.hpp"
-#include "estimation/weak_iv.hpp"
-#include "identification/identification.hpp"
-#include "result.hpp"
-#include "uncertainty/bootstrap.hpp"
-#include "vessel/vehicle.hpp"
-#include "vessel/vessel_model.hpp"
+#include "telltale/core/data/preparation.hpp"
+#include "telltale/core/data/samples.hpp"
+#include "telltale/core/estimation/excitation.hpp"
+#include "telltale/core/estimation/regression_problem.hpp"
+#include "telltale/core/estimation/weak_iv.hpp"
+#include "telltale/core/identification/identification.hpp"
+#include "telltale/core/result.hpp"
+#include "telltale/core/uncertainty/bootstrap.hpp"
+#include "telltale/core/vessel/vehicle.hpp"
+#include "telltale/core/vessel/vessel_model.hpp"
 
 namespace telltale {
 

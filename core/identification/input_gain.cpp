@@ -1,9 +1,9 @@
-#include "identification/input_gain.hpp"
+#include "telltale/core/identification/input_gain.hpp"
 
 #include <cmath>
 #include <limits>
 
-#include "contract.hpp"
+#include "telltale/core/contract.hpp"
 
 namespace telltale {
 namespace {

@@ -5,11 +5,11 @@
 
 #include <Eigen/Core>
 
-#include "data/prepared_dataset.hpp"
-#include "identification/identification.hpp"
-#include "vessel/motion.hpp"
-#include "vessel/propellers.hpp"
-#include "vessel/vessel_model.hpp"
+#include "telltale/core/data/prepared_dataset.hpp"
+#include "telltale/core/identification/identification.hpp"
+#include "telltale/core/vessel/motion.hpp"
+#include "telltale/core/vessel/propellers.hpp"
+#include "telltale/core/vessel/vessel_model.hpp"
 
 namespace telltale {
 

@@ -1,4 +1,4 @@
-#include "identification/model_change.hpp"
+#include "telltale/core/identification/model_change.hpp"
 
 #include <algorithm>
 #include <cstdio>

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "vessel/structure.hpp"
+#include "telltale/core/vessel/structure.hpp"
 
 namespace telltale {
 

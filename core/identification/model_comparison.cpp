@@ -1,4 +1,4 @@
-#include "identification/model_comparison.hpp"
+#include "telltale/core/identification/model_comparison.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,8 +1,8 @@
 #pragma once
 
-#include "identification/identification.hpp"
-#include "result.hpp"
-#include "uncertainty/wald.hpp"
+#include "telltale/core/identification/identification.hpp"
+#include "telltale/core/result.hpp"
+#include "telltale/core/uncertainty/wald.hpp"
 
 namespace telltale {
 

@@ -1,4 +1,4 @@
-#include "identification/one_step_answer.hpp"
+#include "telltale/core/identification/one_step_answer.hpp"
 
 #include <algorithm>
 #include <array>
@@ -6,13 +6,13 @@
 #include <limits>
 #include <sstream>
 
-#include "estimation/lagged_regression.hpp"
-#include "estimation/one_step.hpp"
-#include "identification/simulated_replicates.hpp"
-#include "uncertainty/bootstrap.hpp"
-#include "uncertainty/clustered_fit.hpp"
-#include "uncertainty/profile_interval.hpp"
-#include "uncertainty/twin_correction.hpp"
+#include "telltale/core/estimation/lagged_regression.hpp"
+#include "telltale/core/estimation/one_step.hpp"
+#include "telltale/core/identification/simulated_replicates.hpp"
+#include "telltale/core/uncertainty/bootstrap.hpp"
+#include "telltale/core/uncertainty/clustered_fit.hpp"
+#include "telltale/core/uncertainty/profile_interval.hpp"
+#include "telltale/core/uncertainty/twin_correction.hpp"
 
 namespace telltale {
 namespace {

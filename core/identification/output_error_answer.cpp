@@ -1,15 +1,15 @@
-#include "identification/output_error_answer.hpp"
+#include "telltale/core/identification/output_error_answer.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <sstream>
 
-#include "contract.hpp"
-#include "estimation/output_error_profile.hpp"
-#include "estimation/weak_iv.hpp"
-#include "parallel.hpp"
-#include "uncertainty/profile_interval.hpp"
+#include "telltale/core/contract.hpp"
+#include "telltale/core/estimation/output_error_profile.hpp"
+#include "telltale/core/estimation/weak_iv.hpp"
+#include "telltale/core/parallel.hpp"
+#include "telltale/core/uncertainty/profile_interval.hpp"
 
 namespace telltale {
 namespace {

@@ -1,11 +1,11 @@
 #pragma once
 
-#include "data/prepared_dataset.hpp"
-#include "estimation/output_error.hpp"
-#include "estimation/regression_problem.hpp"
-#include "identification/answers.hpp"
-#include "identification/identify.hpp"
-#include "result.hpp"
+#include "telltale/core/data/prepared_dataset.hpp"
+#include "telltale/core/estimation/output_error.hpp"
+#include "telltale/core/estimation/regression_problem.hpp"
+#include "telltale/core/identification/answers.hpp"
+#include "telltale/core/identification/identify.hpp"
+#include "telltale/core/result.hpp"
 
 namespace telltale {
 

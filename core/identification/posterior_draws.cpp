@@ -1,13 +1,13 @@
-#include "identification/posterior_draws.hpp"
+#include "telltale/core/identification/posterior_draws.hpp"
 
 #include <cmath>
 
 #include <boost/random/normal_distribution.hpp>
 
-#include "contract.hpp"
-#include "linear_algebra/covariance.hpp"
-#include "linear_algebra/decompositions.hpp"
-#include "random.hpp"
+#include "telltale/core/contract.hpp"
+#include "telltale/core/linear_algebra/covariance.hpp"
+#include "telltale/core/linear_algebra/decompositions.hpp"
+#include "telltale/core/random.hpp"
 
 namespace telltale {
 namespace {

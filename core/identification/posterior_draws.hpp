@@ -6,8 +6,8 @@
 
 #include <Eigen/Core>
 
-#include "identification/identification.hpp"
-#include "result.hpp"
+#include "telltale/core/identification/identification.hpp"
+#include "telltale/core/result.hpp"
 
 namespace telltale {
 

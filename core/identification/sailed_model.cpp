@@ -1,4 +1,4 @@
-#include "identification/sailed_model.hpp"
+#include "telltale/core/identification/sailed_model.hpp"
 
 #include <algorithm>
 #include <array>
@@ -7,14 +7,14 @@
 #include <string>
 #include <vector>
 
-#include "estimation/excitation.hpp"
-#include "estimation/one_step.hpp"
-#include "estimation/regression_problem.hpp"
-#include "identification/tamed_model.hpp"
-#include "linear_algebra/covariance.hpp"
-#include "linear_algebra/decompositions.hpp"
-#include "number.hpp"
-#include "simulation/free_run.hpp"
+#include "telltale/core/estimation/excitation.hpp"
+#include "telltale/core/estimation/one_step.hpp"
+#include "telltale/core/estimation/regression_problem.hpp"
+#include "telltale/core/identification/tamed_model.hpp"
+#include "telltale/core/linear_algebra/covariance.hpp"
+#include "telltale/core/linear_algebra/decompositions.hpp"
+#include "telltale/core/number.hpp"
+#include "telltale/core/simulation/free_run.hpp"
 
 namespace telltale {
 namespace {

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "data/prepared_dataset.hpp"
-#include "identification/identification.hpp"
+#include "telltale/core/data/prepared_dataset.hpp"
+#include "telltale/core/identification/identification.hpp"
 
 namespace telltale {
 

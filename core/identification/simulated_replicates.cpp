@@ -1,11 +1,11 @@
-#include "identification/simulated_replicates.hpp"
+#include "telltale/core/identification/simulated_replicates.hpp"
 
 #include <algorithm>
 #include <vector>
 
-#include "parallel.hpp"
-#include "random.hpp"
-#include "simulation/dataset_twin.hpp"
+#include "telltale/core/parallel.hpp"
+#include "telltale/core/random.hpp"
+#include "telltale/core/simulation/dataset_twin.hpp"
 
 namespace telltale {
 

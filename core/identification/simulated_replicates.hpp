@@ -5,10 +5,10 @@
 
 #include <Eigen/Core>
 
-#include "data/prepared_dataset.hpp"
-#include "uncertainty/bootstrap.hpp"
-#include "vessel/disturbance.hpp"
-#include "vessel/vessel_model.hpp"
+#include "telltale/core/data/prepared_dataset.hpp"
+#include "telltale/core/uncertainty/bootstrap.hpp"
+#include "telltale/core/vessel/disturbance.hpp"
+#include "telltale/core/vessel/vessel_model.hpp"
 
 namespace telltale {
 

@@ -1,10 +1,10 @@
-#include "identification/tamed_model.hpp"
+#include "telltale/core/identification/tamed_model.hpp"
 
 #include <cmath>
 #include <vector>
 
-#include "linear_algebra/covariance.hpp"
-#include "linear_algebra/decompositions.hpp"
+#include "telltale/core/linear_algebra/covariance.hpp"
+#include "telltale/core/linear_algebra/decompositions.hpp"
 
 namespace telltale {
 namespace {

@@ -5,8 +5,8 @@
 
 #include <Eigen/Core>
 
-#include "identification/identification.hpp"
-#include "vessel/vessel_model.hpp"
+#include "telltale/core/identification/identification.hpp"
+#include "telltale/core/vessel/vessel_model.hpp"
 
 namespace telltale {
 

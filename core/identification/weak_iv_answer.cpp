@@ -1,15 +1,15 @@
-#include "identification/weak_iv_answer.hpp"
+#include "telltale/core/identification/weak_iv_answer.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <sstream>
 
-#include "data/preparation.hpp"
-#include "estimation/separable_columns.hpp"
-#include "estimation/weak_iv.hpp"
-#include "identification/weak_iv_publication.hpp"
-#include "linear_algebra/covariance.hpp"
-#include "uncertainty/twin_correction.hpp"
+#include "telltale/core/data/preparation.hpp"
+#include "telltale/core/estimation/separable_columns.hpp"
+#include "telltale/core/estimation/weak_iv.hpp"
+#include "telltale/core/identification/weak_iv_publication.hpp"
+#include "telltale/core/linear_algebra/covariance.hpp"
+#include "telltale/core/uncertainty/twin_correction.hpp"
 
 namespace telltale {
 namespace {

@@ -5,12 +5,12 @@
 #include <optional>
 #include <vector>
 
-#include "data/prepared_dataset.hpp"
-#include "estimation/regression_problem.hpp"
-#include "estimation/weak_iv.hpp"
-#include "identification/answers.hpp"
-#include "identification/identify.hpp"
-#include "result.hpp"
+#include "telltale/core/data/prepared_dataset.hpp"
+#include "telltale/core/estimation/regression_problem.hpp"
+#include "telltale/core/estimation/weak_iv.hpp"
+#include "telltale/core/identification/answers.hpp"
+#include "telltale/core/identification/identify.hpp"
+#include "telltale/core/result.hpp"
 
 namespace telltale {
 

@@ -1,4 +1,4 @@
-#include "identification/weak_iv_publication.hpp"
+#include "telltale/core/identification/weak_iv_publication.hpp"
 
 #include <algorithm>
 #include <array>

@@ -6,10 +6,10 @@
 
 #include <Eigen/Core>
 
-#include "data/prepared_dataset.hpp"
-#include "estimation/weak_iv.hpp"
-#include "identification/answers.hpp"
-#include "identification/identification.hpp"
+#include "telltale/core/data/prepared_dataset.hpp"
+#include "telltale/core/estimation/weak_iv.hpp"
+#include "telltale/core/identification/answers.hpp"
+#include "telltale/core/identification/identification.hpp"
 
 namespace telltale {
 

@@ -1,6 +1,6 @@
-#include "linear_algebra/covariance.hpp"
+#include "telltale/core/linear_algebra/covariance.hpp"
 
-#include "linear_algebra/decompositions.hpp"
+#include "telltale/core/linear_algebra/decompositions.hpp"
 
 namespace telltale {
 

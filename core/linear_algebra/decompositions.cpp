@@ -1,4 +1,4 @@
-#include "linear_algebra/decompositions.hpp"
+#include "telltale/core/linear_algebra/decompositions.hpp"
 
 namespace Eigen {
 

@@ -1,4 +1,4 @@
-#include "linear_algebra/products.hpp"
+#include "telltale/core/linear_algebra/products.hpp"
 
 namespace Eigen::internal {
 

@@ -1,14 +1,14 @@
-#include "simulation/dataset_twin.hpp"
+#include "telltale/core/simulation/dataset_twin.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
 
-#include "data/north_east.hpp"
-#include "data/preparation.hpp"
-#include "gauss_markov.hpp"
-#include "vessel/body_dynamics.hpp"
+#include "telltale/core/data/north_east.hpp"
+#include "telltale/core/data/preparation.hpp"
+#include "telltale/core/gauss_markov.hpp"
+#include "telltale/core/vessel/body_dynamics.hpp"
 
 namespace telltale {
 namespace {

@@ -4,12 +4,12 @@
 #include <cstdint>
 #include <vector>
 
-#include "data/prepared_dataset.hpp"
-#include "data/samples.hpp"
-#include "result.hpp"
-#include "vessel/disturbance.hpp"
-#include "vessel/vehicle.hpp"
-#include "vessel/vessel_model.hpp"
+#include "telltale/core/data/prepared_dataset.hpp"
+#include "telltale/core/data/samples.hpp"
+#include "telltale/core/result.hpp"
+#include "telltale/core/vessel/disturbance.hpp"
+#include "telltale/core/vessel/vehicle.hpp"
+#include "telltale/core/vessel/vessel_model.hpp"
 
 namespace telltale {
 

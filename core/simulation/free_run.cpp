@@ -1,4 +1,4 @@
-#include "simulation/free_run.hpp"
+#include "telltale/core/simulation/free_run.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -3,11 +3,11 @@
 #include <cstddef>
 #include <vector>
 
-#include "data/prepared_dataset.hpp"
-#include "simulation/simulator.hpp"
-#include "vessel/motion.hpp"
-#include "vessel/propellers.hpp"
-#include "vessel/vessel_model.hpp"
+#include "telltale/core/data/prepared_dataset.hpp"
+#include "telltale/core/simulation/simulator.hpp"
+#include "telltale/core/vessel/motion.hpp"
+#include "telltale/core/vessel/propellers.hpp"
+#include "telltale/core/vessel/vessel_model.hpp"
 
 namespace telltale {
 

@@ -1,12 +1,12 @@
-#include "simulation/manoeuvres.hpp"
+#include "telltale/core/simulation/manoeuvres.hpp"
 
 #include <algorithm>
 #include <cmath>
 
 #include <boost/random/uniform_real_distribution.hpp>
 
-#include "contract.hpp"
-#include "random.hpp"
+#include "telltale/core/contract.hpp"
+#include "telltale/core/random.hpp"
 
 namespace telltale {
 namespace {

@@ -4,8 +4,8 @@
 #include <string_view>
 #include <vector>
 
-#include "simulation/simulator.hpp"
-#include "vessel/propellers.hpp"
+#include "telltale/core/simulation/simulator.hpp"
+#include "telltale/core/vessel/propellers.hpp"
 
 namespace telltale {
 

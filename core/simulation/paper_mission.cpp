@@ -1,8 +1,8 @@
-#include "simulation/paper_mission.hpp"
+#include "telltale/core/simulation/paper_mission.hpp"
 
-#include "random.hpp"
-#include "simulation/manoeuvres.hpp"
-#include "simulation/yellowfish.hpp"
+#include "telltale/core/random.hpp"
+#include "telltale/core/simulation/manoeuvres.hpp"
+#include "telltale/core/simulation/yellowfish.hpp"
 
 namespace telltale {
 namespace {

@@ -4,9 +4,9 @@
 #include <cstdint>
 #include <vector>
 
-#include "data/samples.hpp"
-#include "simulation/sensors.hpp"
-#include "simulation/simulator.hpp"
+#include "telltale/core/data/samples.hpp"
+#include "telltale/core/simulation/sensors.hpp"
+#include "telltale/core/simulation/simulator.hpp"
 
 namespace telltale {
 

@@ -1,13 +1,13 @@
-#include "simulation/sensors.hpp"
+#include "telltale/core/simulation/sensors.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
-#include "contract.hpp"
-#include "data/north_east.hpp"
-#include "data/time_series.hpp"
-#include "gauss_markov.hpp"
+#include "telltale/core/contract.hpp"
+#include "telltale/core/data/north_east.hpp"
+#include "telltale/core/data/time_series.hpp"
+#include "telltale/core/gauss_markov.hpp"
 
 namespace telltale {
 namespace {

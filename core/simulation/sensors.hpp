@@ -3,10 +3,10 @@
 #include <cstdint>
 #include <vector>
 
-#include "data/prepared_dataset.hpp"
-#include "data/samples.hpp"
-#include "simulation/simulator.hpp"
-#include "vessel/vehicle.hpp"
+#include "telltale/core/data/prepared_dataset.hpp"
+#include "telltale/core/data/samples.hpp"
+#include "telltale/core/simulation/simulator.hpp"
+#include "telltale/core/vessel/vehicle.hpp"
 
 namespace telltale {
 

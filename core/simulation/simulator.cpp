@@ -1,9 +1,9 @@
-#include "simulation/simulator.hpp"
+#include "telltale/core/simulation/simulator.hpp"
 
 #include <cmath>
 
-#include "contract.hpp"
-#include "data/time_series.hpp"
+#include "telltale/core/contract.hpp"
+#include "telltale/core/data/time_series.hpp"
 
 namespace telltale {
 namespace {

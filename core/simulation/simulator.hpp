@@ -3,10 +3,10 @@
 #include <functional>
 #include <vector>
 
-#include "data/samples.hpp"
-#include "vessel/motion.hpp"
-#include "vessel/propellers.hpp"
-#include "vessel/vessel_model.hpp"
+#include "telltale/core/data/samples.hpp"
+#include "telltale/core/vessel/motion.hpp"
+#include "telltale/core/vessel/propellers.hpp"
+#include "telltale/core/vessel/vessel_model.hpp"
 
 namespace telltale {
 

@@ -1,4 +1,4 @@
-#include "simulation/yellowfish.hpp"
+#include "telltale/core/simulation/yellowfish.hpp"
 
 #include <cmath>
 

@@ -3,9 +3,9 @@
 #include <array>
 #include <vector>
 
-#include "simulation/simulator.hpp"
-#include "vessel/vehicle.hpp"
-#include "vessel/vessel_model.hpp"
+#include "telltale/core/simulation/simulator.hpp"
+#include "telltale/core/vessel/vehicle.hpp"
+#include "telltale/core/vessel/vessel_model.hpp"
 
 namespace telltale {
 

@@ -1,9 +1,9 @@
-#include "uncertainty/block_length.hpp"
+#include "telltale/core/uncertainty/block_length.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "contract.hpp"
+#include "telltale/core/contract.hpp"
 
 namespace telltale {
 namespace {

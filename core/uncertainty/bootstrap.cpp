@@ -1,4 +1,4 @@
-#include "uncertainty/bootstrap.hpp"
+#include "telltale/core/uncertainty/bootstrap.hpp"
 
 #include <algorithm>
 #include <numeric>
@@ -6,13 +6,13 @@
 
 #include <Eigen/Core>
 
-#include "contract.hpp"
-#include "parallel.hpp"
-#include "random.hpp"
-#include "uncertainty/block_length.hpp"
-#include "uncertainty/packed_normal.hpp"
-#include "uncertainty/resampling_units.hpp"
-#include "uncertainty/timeline.hpp"
+#include "telltale/core/contract.hpp"
+#include "telltale/core/parallel.hpp"
+#include "telltale/core/random.hpp"
+#include "telltale/core/uncertainty/block_length.hpp"
+#include "telltale/core/uncertainty/packed_normal.hpp"
+#include "telltale/core/uncertainty/resampling_units.hpp"
+#include "telltale/core/uncertainty/timeline.hpp"
 
 namespace telltale {
 namespace {

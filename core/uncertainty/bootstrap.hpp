@@ -6,8 +6,8 @@
 
 #include <Eigen/Core>
 
-#include "uncertainty/clustered_fit.hpp"
-#include "uncertainty/interval.hpp"
+#include "telltale/core/uncertainty/clustered_fit.hpp"
+#include "telltale/core/uncertainty/interval.hpp"
 
 namespace telltale {
 

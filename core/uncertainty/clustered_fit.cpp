@@ -1,11 +1,11 @@
-#include "uncertainty/clustered_fit.hpp"
+#include "telltale/core/uncertainty/clustered_fit.hpp"
 
 #include <limits>
 
-#include "estimation/excitation.hpp"
-#include "estimation/triangular_factor.hpp"
-#include "linear_algebra/covariance.hpp"
-#include "linear_algebra/decompositions.hpp"
+#include "telltale/core/estimation/excitation.hpp"
+#include "telltale/core/estimation/triangular_factor.hpp"
+#include "telltale/core/linear_algebra/covariance.hpp"
+#include "telltale/core/linear_algebra/decompositions.hpp"
 
 namespace telltale {
 namespace {

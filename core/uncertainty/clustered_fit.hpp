@@ -4,10 +4,10 @@
 
 #include <Eigen/Core>
 
-#include "data/prepared_dataset.hpp"
-#include "estimation/lagged_regression.hpp"
-#include "estimation/one_step.hpp"
-#include "estimation/regression_problem.hpp"
+#include "telltale/core/data/prepared_dataset.hpp"
+#include "telltale/core/estimation/lagged_regression.hpp"
+#include "telltale/core/estimation/one_step.hpp"
+#include "telltale/core/estimation/regression_problem.hpp"
 
 namespace telltale {
 

@@ -1,7 +1,7 @@
-#include "uncertainty/coverage_certificate.hpp"
+#include "telltale/core/uncertainty/coverage_certificate.hpp"
 
-#include "contract.hpp"
-#include "uncertainty/laws.hpp"
+#include "telltale/core/contract.hpp"
+#include "telltale/core/uncertainty/laws.hpp"
 
 namespace telltale {
 

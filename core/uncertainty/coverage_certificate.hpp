@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "uncertainty/interval.hpp"
+#include "telltale/core/uncertainty/interval.hpp"
 
 namespace telltale {
 

@@ -1,9 +1,9 @@
-#include "uncertainty/joint_bounds.hpp"
+#include "telltale/core/uncertainty/joint_bounds.hpp"
 
 #include <algorithm>
 
-#include "contract.hpp"
-#include "uncertainty/laws.hpp"
+#include "telltale/core/contract.hpp"
+#include "telltale/core/uncertainty/laws.hpp"
 
 namespace telltale {
 

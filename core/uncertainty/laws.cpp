@@ -1,4 +1,4 @@
-#include "uncertainty/laws.hpp"
+#include "telltale/core/uncertainty/laws.hpp"
 
 #include <boost/math/distributions/binomial.hpp>
 #include <boost/math/distributions/chi_squared.hpp>

@@ -1,8 +1,8 @@
-#include "uncertainty/live_bounds.hpp"
+#include "telltale/core/uncertainty/live_bounds.hpp"
 
 #include <cmath>
 
-#include "contract.hpp"
+#include "telltale/core/contract.hpp"
 
 namespace telltale {
 namespace {

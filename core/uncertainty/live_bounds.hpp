@@ -4,11 +4,11 @@
 #include <optional>
 #include <vector>
 
-#include "data/prepared_dataset.hpp"
-#include "estimation/regression_problem.hpp"
-#include "estimation/sliding_regression.hpp"
-#include "result.hpp"
-#include "vessel/structure.hpp"
+#include "telltale/core/data/prepared_dataset.hpp"
+#include "telltale/core/estimation/regression_problem.hpp"
+#include "telltale/core/estimation/sliding_regression.hpp"
+#include "telltale/core/result.hpp"
+#include "telltale/core/vessel/structure.hpp"
 
 namespace telltale {
 

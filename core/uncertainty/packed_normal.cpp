@@ -1,4 +1,4 @@
-#include "uncertainty/packed_normal.hpp"
+#include "telltale/core/uncertainty/packed_normal.hpp"
 
 #include <algorithm>
 #include <cmath>

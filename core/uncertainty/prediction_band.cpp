@@ -1,13 +1,13 @@
-#include "uncertainty/prediction_band.hpp"
+#include "telltale/core/uncertainty/prediction_band.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
 
-#include "contract.hpp"
-#include "gauss_markov.hpp"
-#include "vessel/body_dynamics.hpp"
+#include "telltale/core/contract.hpp"
+#include "telltale/core/gauss_markov.hpp"
+#include "telltale/core/vessel/body_dynamics.hpp"
 
 namespace telltale {
 namespace {

@@ -5,9 +5,9 @@
 
 #include <Eigen/Core>
 
-#include "simulation/simulator.hpp"
-#include "vessel/disturbance.hpp"
-#include "vessel/vessel_model.hpp"
+#include "telltale/core/simulation/simulator.hpp"
+#include "telltale/core/vessel/disturbance.hpp"
+#include "telltale/core/vessel/vessel_model.hpp"
 
 namespace telltale {
 

@@ -1,4 +1,4 @@
-#include "uncertainty/profile_interval.hpp"
+#include "telltale/core/uncertainty/profile_interval.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,7 @@
 
 #include <boost/math/tools/toms748_solve.hpp>
 
-#include "contract.hpp"
+#include "telltale/core/contract.hpp"
 
 namespace telltale {
 namespace {

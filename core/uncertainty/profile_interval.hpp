@@ -2,7 +2,7 @@
 
 #include <functional>
 
-#include "uncertainty/interval.hpp"
+#include "telltale/core/uncertainty/interval.hpp"
 
 namespace telltale {
 

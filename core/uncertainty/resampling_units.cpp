@@ -1,10 +1,10 @@
-#include "uncertainty/resampling_units.hpp"
+#include "telltale/core/uncertainty/resampling_units.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 
-#include "contract.hpp"
+#include "telltale/core/contract.hpp"
 
 namespace telltale {
 

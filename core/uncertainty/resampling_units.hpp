@@ -7,9 +7,9 @@
 
 #include <Eigen/Core>
 
-#include "uncertainty/clustered_fit.hpp"
-#include "uncertainty/packed_normal.hpp"
-#include "uncertainty/timeline.hpp"
+#include "telltale/core/uncertainty/clustered_fit.hpp"
+#include "telltale/core/uncertainty/packed_normal.hpp"
+#include "telltale/core/uncertainty/timeline.hpp"
 
 namespace telltale {
 

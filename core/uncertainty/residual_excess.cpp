@@ -1,9 +1,9 @@
-#include "uncertainty/residual_excess.hpp"
+#include "telltale/core/uncertainty/residual_excess.hpp"
 
 #include <algorithm>
 
-#include "estimation/disturbance.hpp"
-#include "simulation/dataset_twin.hpp"
+#include "telltale/core/estimation/disturbance.hpp"
+#include "telltale/core/simulation/dataset_twin.hpp"
 
 namespace telltale {
 namespace {

@@ -3,9 +3,9 @@
 #include <cstdint>
 #include <optional>
 
-#include "data/prepared_dataset.hpp"
-#include "estimation/regression_problem.hpp"
-#include "estimation/weak_iv.hpp"
+#include "telltale/core/data/prepared_dataset.hpp"
+#include "telltale/core/estimation/regression_problem.hpp"
+#include "telltale/core/estimation/weak_iv.hpp"
 
 namespace telltale {
 

@@ -1,9 +1,9 @@
-#include "uncertainty/timeline.hpp"
+#include "telltale/core/uncertainty/timeline.hpp"
 
 #include <algorithm>
 #include <numeric>
 
-#include "contract.hpp"
+#include "telltale/core/contract.hpp"
 
 namespace telltale {
 namespace {

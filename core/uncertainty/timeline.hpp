@@ -5,8 +5,8 @@
 
 #include <Eigen/Core>
 
-#include "data/prepared_dataset.hpp"
-#include "uncertainty/clustered_fit.hpp"
+#include "telltale/core/data/prepared_dataset.hpp"
+#include "telltale/core/uncertainty/clustered_fit.hpp"
 
 namespace telltale {
 

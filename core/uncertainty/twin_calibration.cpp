@@ -1,15 +1,15 @@
-#include "uncertainty/twin_calibration.hpp"
+#include "telltale/core/uncertainty/twin_calibration.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
-#include "contract.hpp"
-#include "linear_algebra/covariance.hpp"
-#include "linear_algebra/decompositions.hpp"
-#include "median.hpp"
-#include "uncertainty/joint_bounds.hpp"
-#include "uncertainty/laws.hpp"
+#include "telltale/core/contract.hpp"
+#include "telltale/core/linear_algebra/covariance.hpp"
+#include "telltale/core/linear_algebra/decompositions.hpp"
+#include "telltale/core/median.hpp"
+#include "telltale/core/uncertainty/joint_bounds.hpp"
+#include "telltale/core/uncertainty/laws.hpp"
 
 namespace telltale {
 namespace {

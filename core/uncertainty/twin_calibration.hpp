@@ -5,7 +5,7 @@
 
 #include <Eigen/Core>
 
-#include "estimation/block.hpp"
+#include "telltale/core/estimation/block.hpp"
 
 namespace telltale {
 

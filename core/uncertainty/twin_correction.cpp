@@ -1,4 +1,4 @@
-#include "uncertainty/twin_correction.hpp"
+#include "telltale/core/uncertainty/twin_correction.hpp"
 
 #include <algorithm>
 #include <array>
@@ -10,15 +10,15 @@
 
 #include <boost/random/normal_distribution.hpp>
 
-#include "contract.hpp"
-#include "estimation/disturbance.hpp"
-#include "estimation/residual_correlation.hpp"
-#include "linear_algebra/covariance.hpp"
-#include "linear_algebra/decompositions.hpp"
-#include "parallel.hpp"
-#include "random.hpp"
-#include "simulation/dataset_twin.hpp"
-#include "uncertainty/twin_calibration.hpp"
+#include "telltale/core/contract.hpp"
+#include "telltale/core/estimation/disturbance.hpp"
+#include "telltale/core/estimation/residual_correlation.hpp"
+#include "telltale/core/linear_algebra/covariance.hpp"
+#include "telltale/core/linear_algebra/decompositions.hpp"
+#include "telltale/core/parallel.hpp"
+#include "telltale/core/random.hpp"
+#include "telltale/core/simulation/dataset_twin.hpp"
+#include "telltale/core/uncertainty/twin_calibration.hpp"
 
 namespace telltale {
 namespace {

@@ -8,10 +8,10 @@
 
 #include <Eigen/Core>
 
-#include "data/prepared_dataset.hpp"
-#include "estimation/weak_iv.hpp"
-#include "uncertainty/joint_bounds.hpp"
-#include "vessel/disturbance.hpp"
+#include "telltale/core/data/prepared_dataset.hpp"
+#include "telltale/core/estimation/weak_iv.hpp"
+#include "telltale/core/uncertainty/joint_bounds.hpp"
+#include "telltale/core/vessel/disturbance.hpp"
 
 namespace telltale {
 

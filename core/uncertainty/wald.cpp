@@ -1,4 +1,4 @@
-#include "uncertainty/wald.hpp"
+#include "telltale/core/uncertainty/wald.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -6,10 +6,10 @@
 #include <numeric>
 #include <string>
 
-#include "contract.hpp"
-#include "linear_algebra/covariance.hpp"
-#include "linear_algebra/decompositions.hpp"
-#include "uncertainty/laws.hpp"
+#include "telltale/core/contract.hpp"
+#include "telltale/core/linear_algebra/covariance.hpp"
+#include "telltale/core/linear_algebra/decompositions.hpp"
+#include "telltale/core/uncertainty/laws.hpp"
 
 namespace telltale {
 namespace {

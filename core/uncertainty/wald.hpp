@@ -5,7 +5,7 @@
 
 #include <Eigen/Core>
 
-#include "result.hpp"
+#include "telltale/core/result.hpp"
 
 namespace telltale {
 

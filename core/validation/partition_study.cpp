@@ -1,4 +1,4 @@
-#include "validation/partition_study.hpp"
+#include "telltale/core/validation/partition_study.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -9,14 +9,14 @@
 
 #include <boost/random/uniform_int_distribution.hpp>
 
-#include "estimation/redundant_dynamic.hpp"
-#include "estimation/triangular_factor.hpp"
-#include "identification/identify.hpp"
-#include "linear_algebra/decompositions.hpp"
-#include "parallel.hpp"
-#include "random.hpp"
-#include "range.hpp"
-#include "validation/validation.hpp"
+#include "telltale/core/estimation/redundant_dynamic.hpp"
+#include "telltale/core/estimation/triangular_factor.hpp"
+#include "telltale/core/identification/identify.hpp"
+#include "telltale/core/linear_algebra/decompositions.hpp"
+#include "telltale/core/parallel.hpp"
+#include "telltale/core/random.hpp"
+#include "telltale/core/range.hpp"
+#include "telltale/core/validation/validation.hpp"
 
 namespace telltale {
 namespace {

@@ -5,9 +5,9 @@
 #include <cstdint>
 #include <optional>
 
-#include "data/prepared_dataset.hpp"
-#include "estimation/regression_problem.hpp"
-#include "result.hpp"
+#include "telltale/core/data/prepared_dataset.hpp"
+#include "telltale/core/estimation/regression_problem.hpp"
+#include "telltale/core/result.hpp"
 
 namespace telltale {
 

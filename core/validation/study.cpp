@@ -1,4 +1,4 @@
-#include "validation/study.hpp"
+#include "telltale/core/validation/study.hpp"
 
 namespace telltale {
 namespace {

@@ -7,12 +7,12 @@
 
 #include <Eigen/Core>
 
-#include "data/prepared_dataset.hpp"
-#include "estimation/redundant_dynamic.hpp"
-#include "identification/identification.hpp"
-#include "identification/identify.hpp"
-#include "result.hpp"
-#include "validation/partition_study.hpp"
+#include "telltale/core/data/prepared_dataset.hpp"
+#include "telltale/core/estimation/redundant_dynamic.hpp"
+#include "telltale/core/identification/identification.hpp"
+#include "telltale/core/identification/identify.hpp"
+#include "telltale/core/result.hpp"
+#include "telltale/core/validation/partition_study.hpp"
 
 namespace telltale {
 

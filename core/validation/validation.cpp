@@ -1,4 +1,4 @@
-#include "validation/validation.hpp"
+#include "telltale/core/validation/validation.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -8,10 +8,10 @@
 #include <string>
 #include <vector>
 
-#include "effects/augmented_boat.hpp"
-#include "effects/sensor_chain.hpp"
-#include "simulation/free_run.hpp"
-#include "simulation/simulator.hpp"
+#include "telltale/core/effects/augmented_boat.hpp"
+#include "telltale/core/effects/sensor_chain.hpp"
+#include "telltale/core/simulation/free_run.hpp"
+#include "telltale/core/simulation/simulator.hpp"
 
 namespace telltale {
 namespace {

@@ -4,10 +4,10 @@
 #include <cstddef>
 #include <vector>
 
-#include "data/prepared_dataset.hpp"
-#include "effects/augmented_model.hpp"
-#include "result.hpp"
-#include "vessel/vessel_model.hpp"
+#include "telltale/core/data/prepared_dataset.hpp"
+#include "telltale/core/effects/augmented_model.hpp"
+#include "telltale/core/result.hpp"
+#include "telltale/core/vessel/vessel_model.hpp"
 
 namespace telltale {
 

@@ -3,10 +3,10 @@
 #include <array>
 #include <cmath>
 
-#include "vessel/body_row.hpp"
-#include "vessel/motion.hpp"
-#include "vessel/structure.hpp"
-#include "vessel/vessel_model.hpp"
+#include "telltale/core/vessel/body_row.hpp"
+#include "telltale/core/vessel/motion.hpp"
+#include "telltale/core/vessel/structure.hpp"
+#include "telltale/core/vessel/vessel_model.hpp"
 
 namespace telltale {
 

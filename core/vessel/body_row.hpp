@@ -3,7 +3,7 @@
 #include <array>
 #include <cmath>
 
-#include "vessel/motion.hpp"
+#include "telltale/core/vessel/motion.hpp"
 
 namespace telltale {
 

@@ -1,4 +1,4 @@
-#include "vessel/compass.hpp"
+#include "telltale/core/vessel/compass.hpp"
 
 #include <cmath>
 #include <numbers>

@@ -1,4 +1,4 @@
-#include "vessel/disturbance.hpp"
+#include "telltale/core/vessel/disturbance.hpp"
 
 #include <cmath>
 

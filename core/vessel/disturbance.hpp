@@ -5,8 +5,8 @@
 
 #include <Eigen/Core>
 
-#include "gauss_markov.hpp"
-#include "vessel/motion.hpp"
+#include "telltale/core/gauss_markov.hpp"
+#include "telltale/core/vessel/motion.hpp"
 
 namespace telltale {
 

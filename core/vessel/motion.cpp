@@ -1,4 +1,4 @@
-#include "vessel/motion.hpp"
+#include "telltale/core/vessel/motion.hpp"
 
 #include <cmath>
 #include <numbers>

@@ -1,8 +1,8 @@
-#include "vessel/structure.hpp"
+#include "telltale/core/vessel/structure.hpp"
 
 #include <algorithm>
 
-#include "contract.hpp"
+#include "telltale/core/contract.hpp"
 
 namespace telltale {
 namespace {

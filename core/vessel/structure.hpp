@@ -4,9 +4,9 @@
 #include <span>
 #include <string_view>
 
-#include "vessel/body_row.hpp"
-#include "vessel/motion.hpp"
-#include "vessel/propellers.hpp"
+#include "telltale/core/vessel/body_row.hpp"
+#include "telltale/core/vessel/motion.hpp"
+#include "telltale/core/vessel/propellers.hpp"
 
 namespace telltale {
 

@@ -1,8 +1,8 @@
-#include "vessel/thruster_lag.hpp"
+#include "telltale/core/vessel/thruster_lag.hpp"
 
 #include <cmath>
 
-#include "contract.hpp"
+#include "telltale/core/contract.hpp"
 
 namespace telltale {
 

@@ -3,7 +3,7 @@
 #include <optional>
 #include <string>
 
-#include "vessel/propellers.hpp"
+#include "telltale/core/vessel/propellers.hpp"
 
 namespace telltale {
 

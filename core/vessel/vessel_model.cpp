@@ -1,9 +1,9 @@
-#include "vessel/vessel_model.hpp"
+#include "telltale/core/vessel/vessel_model.hpp"
 
 #include <cmath>
 
-#include "contract.hpp"
-#include "vessel/thruster_lag.hpp"
+#include "telltale/core/contract.hpp"
+#include "telltale/core/vessel/thruster_lag.hpp"
 
 namespace telltale {
 namespace {

@@ -5,9 +5,9 @@
 
 #include <Eigen/Core>
 
-#include "vessel/motion.hpp"
-#include "vessel/propellers.hpp"
-#include "vessel/structure.hpp"
+#include "telltale/core/vessel/motion.hpp"
+#include "telltale/core/vessel/propellers.hpp"
+#include "telltale/core/vessel/structure.hpp"
 
 namespace telltale {
 

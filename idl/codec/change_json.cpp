@@ -1,8 +1,8 @@
-#include "codec/change_json.hpp"
+#include "telltale/idl/codec/change_json.hpp"
 
-#include "codec/field_reader.hpp"
-#include "codec/json_message.hpp"
-#include "codec/proto_values.hpp"
+#include "telltale/idl/codec/field_reader.hpp"
+#include "telltale/idl/codec/json_message.hpp"
+#include "telltale/idl/codec/proto_values.hpp"
 
 namespace telltale {
 namespace {

@@ -2,9 +2,9 @@
 
 #include <string>
 
-#include "codec/field_reader.hpp"
-#include "identification/model_change.hpp"
-#include "proto/model.pb.h"
+#include "telltale/core/identification/model_change.hpp"
+#include "telltale/idl/codec/field_reader.hpp"
+#include "telltale/idl/proto/model.pb.h"
 
 namespace telltale {
 

@@ -1,13 +1,13 @@
-#include "codec/daemon_config.hpp"
+#include "telltale/idl/codec/daemon_config.hpp"
 
 #include <algorithm>
 #include <array>
 #include <set>
 
-#include "codec/field_reader.hpp"
-#include "codec/text_message.hpp"
-#include "codec/vehicle_file.hpp"
-#include "proto/daemon.pb.h"
+#include "telltale/idl/codec/field_reader.hpp"
+#include "telltale/idl/codec/text_message.hpp"
+#include "telltale/idl/codec/vehicle_file.hpp"
+#include "telltale/idl/proto/daemon.pb.h"
 
 namespace telltale {
 namespace {

@@ -7,9 +7,9 @@
 #include <string_view>
 #include <vector>
 
-#include "codec/error.hpp"
-#include "data/window.hpp"
-#include "vessel/vehicle.hpp"
+#include "telltale/core/data/window.hpp"
+#include "telltale/core/vessel/vehicle.hpp"
+#include "telltale/idl/codec/error.hpp"
 
 namespace telltale {
 

@@ -1,9 +1,9 @@
-#include "codec/effects_json.hpp"
+#include "telltale/idl/codec/effects_json.hpp"
 
 #include <string>
 
-#include "contract.hpp"
-#include "effects/effect.hpp"
+#include "telltale/core/contract.hpp"
+#include "telltale/core/effects/effect.hpp"
 
 namespace telltale {
 namespace {

@@ -1,4 +1,4 @@
-#include "codec/error.hpp"
+#include "telltale/idl/codec/error.hpp"
 
 namespace telltale {
 

@@ -1,12 +1,12 @@
-#include "codec/evidence_json.hpp"
+#include "telltale/idl/codec/evidence_json.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <string>
 
-#include "codec/field_reader.hpp"
-#include "codec/proto_values.hpp"
+#include "telltale/idl/codec/field_reader.hpp"
+#include "telltale/idl/codec/proto_values.hpp"
 
 namespace telltale {
 namespace {

@@ -1,8 +1,8 @@
 #pragma once
 
-#include "codec/field_reader.hpp"
-#include "identification/identification.hpp"
-#include "proto/model.pb.h"
+#include "telltale/core/identification/identification.hpp"
+#include "telltale/idl/codec/field_reader.hpp"
+#include "telltale/idl/proto/model.pb.h"
 
 namespace telltale {
 

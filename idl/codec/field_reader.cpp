@@ -1,11 +1,11 @@
-#include "codec/field_reader.hpp"
+#include "telltale/idl/codec/field_reader.hpp"
 
 #include <cstdio>
 #include <utility>
 
 #include <google/protobuf/descriptor.h>
 
-#include "contract.hpp"
+#include "telltale/core/contract.hpp"
 
 namespace telltale {
 namespace {

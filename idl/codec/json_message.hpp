@@ -6,7 +6,7 @@
 
 #include <google/protobuf/message.h>
 
-#include "codec/error.hpp"
+#include "telltale/idl/codec/error.hpp"
 
 namespace telltale {
 

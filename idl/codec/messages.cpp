@@ -1,4 +1,4 @@
-#include "codec/messages.hpp"
+#include "telltale/idl/codec/messages.hpp"
 
 namespace telltale {
 

@@ -6,11 +6,11 @@
 #include <string_view>
 #include <vector>
 
-#include "data/preparation.hpp"
-#include "data/samples.hpp"
-#include "diagnosis/diagnosis.hpp"
-#include "identification/identify.hpp"
-#include "result.hpp"
+#include "telltale/core/data/preparation.hpp"
+#include "telltale/core/data/samples.hpp"
+#include "telltale/core/diagnosis/diagnosis.hpp"
+#include "telltale/core/identification/identify.hpp"
+#include "telltale/core/result.hpp"
 
 namespace telltale {
 

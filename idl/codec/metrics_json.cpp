@@ -1,7 +1,7 @@
-#include "codec/metrics_json.hpp"
+#include "telltale/idl/codec/metrics_json.hpp"
 
-#include "codec/json_message.hpp"
-#include "codec/proto_values.hpp"
+#include "telltale/idl/codec/json_message.hpp"
+#include "telltale/idl/codec/proto_values.hpp"
 
 namespace telltale {
 namespace {

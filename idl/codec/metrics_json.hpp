@@ -3,9 +3,9 @@
 #include <string>
 #include <string_view>
 
-#include "codec/error.hpp"
-#include "proto/metrics.pb.h"
-#include "validation/validation.hpp"
+#include "telltale/core/validation/validation.hpp"
+#include "telltale/idl/codec/error.hpp"
+#include "telltale/idl/proto/metrics.pb.h"
 
 namespace telltale {
 

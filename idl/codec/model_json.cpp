@@ -1,17 +1,17 @@
-#include "codec/model_json.hpp"
+#include "telltale/idl/codec/model_json.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <utility>
 
-#include "codec/change_json.hpp"
-#include "codec/effects_json.hpp"
-#include "codec/evidence_json.hpp"
-#include "codec/field_reader.hpp"
-#include "codec/json_message.hpp"
-#include "codec/proto_values.hpp"
-#include "codec/vehicle_file.hpp"
+#include "telltale/idl/codec/change_json.hpp"
+#include "telltale/idl/codec/effects_json.hpp"
+#include "telltale/idl/codec/evidence_json.hpp"
+#include "telltale/idl/codec/field_reader.hpp"
+#include "telltale/idl/codec/json_message.hpp"
+#include "telltale/idl/codec/proto_values.hpp"
+#include "telltale/idl/codec/vehicle_file.hpp"
 
 namespace telltale {
 namespace {

@@ -3,9 +3,9 @@
 #include <string>
 #include <string_view>
 
-#include "codec/error.hpp"
-#include "identification/identification.hpp"
-#include "proto/model.pb.h"
+#include "telltale/core/identification/identification.hpp"
+#include "telltale/idl/codec/error.hpp"
+#include "telltale/idl/proto/model.pb.h"
 
 namespace telltale {
 

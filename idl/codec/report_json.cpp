@@ -1,15 +1,15 @@
-#include "codec/report_json.hpp"
+#include "telltale/idl/codec/report_json.hpp"
 
 #include <algorithm>
 #include <cstdint>
 #include <numeric>
 
-#include "codec/field_reader.hpp"
-#include "codec/json_message.hpp"
-#include "codec/metrics_json.hpp"
-#include "codec/proto_values.hpp"
-#include "codec/vehicle_file.hpp"
-#include "contract.hpp"
+#include "telltale/core/contract.hpp"
+#include "telltale/idl/codec/field_reader.hpp"
+#include "telltale/idl/codec/json_message.hpp"
+#include "telltale/idl/codec/metrics_json.hpp"
+#include "telltale/idl/codec/proto_values.hpp"
+#include "telltale/idl/codec/vehicle_file.hpp"
 
 namespace telltale {
 namespace {

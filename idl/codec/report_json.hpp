@@ -5,9 +5,9 @@
 #include <string_view>
 #include <vector>
 
-#include "codec/error.hpp"
-#include "diagnosis/diagnosis.hpp"
-#include "proto/report.pb.h"
+#include "telltale/core/diagnosis/diagnosis.hpp"
+#include "telltale/idl/codec/error.hpp"
+#include "telltale/idl/proto/report.pb.h"
 
 namespace telltale {
 

@@ -1,7 +1,7 @@
-#include "codec/study_json.hpp"
+#include "telltale/idl/codec/study_json.hpp"
 
-#include "codec/json_message.hpp"
-#include "codec/model_json.hpp"
+#include "telltale/idl/codec/json_message.hpp"
+#include "telltale/idl/codec/model_json.hpp"
 
 namespace telltale {
 namespace {

@@ -2,8 +2,8 @@
 
 #include <string>
 
-#include "proto/study.pb.h"
-#include "validation/study.hpp"
+#include "telltale/core/validation/study.hpp"
+#include "telltale/idl/proto/study.pb.h"
 
 namespace telltale {
 

@@ -1,4 +1,4 @@
-#include "codec/text_message.hpp"
+#include "telltale/idl/codec/text_message.hpp"
 
 #include <algorithm>
 #include <cctype>

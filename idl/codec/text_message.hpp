@@ -7,7 +7,7 @@
 #include <google/protobuf/message.h>
 #include <google/protobuf/text_format.h>
 
-#include "codec/error.hpp"
+#include "telltale/idl/codec/error.hpp"
 
 namespace telltale {
 

@@ -1,10 +1,10 @@
-#include "codec/vehicle_file.hpp"
+#include "telltale/idl/codec/vehicle_file.hpp"
 
 #include <algorithm>
 #include <cctype>
 #include <functional>
 
-#include "codec/text_message.hpp"
+#include "telltale/idl/codec/text_message.hpp"
 
 namespace telltale {
 namespace {

@@ -3,10 +3,10 @@
 #include <string>
 #include <string_view>
 
-#include "codec/error.hpp"
-#include "codec/field_reader.hpp"
-#include "proto/vehicle.pb.h"
-#include "vessel/vehicle.hpp"
+#include "telltale/core/vessel/vehicle.hpp"
+#include "telltale/idl/codec/error.hpp"
+#include "telltale/idl/codec/field_reader.hpp"
+#include "telltale/idl/proto/vehicle.pb.h"
 
 namespace telltale {
 

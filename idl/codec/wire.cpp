@@ -1,4 +1,4 @@
-#include "codec/wire.hpp"
+#include "telltale/idl/codec/wire.hpp"
 
 #include <algorithm>
 #include <array>
@@ -8,11 +8,11 @@
 #include <initializer_list>
 #include <limits>
 
-#include "codec/field_reader.hpp"
-#include "codec/report_json.hpp"
-#include "codec/vehicle_file.hpp"
-#include "contract.hpp"
-#include "effects/effect.hpp"
+#include "telltale/core/contract.hpp"
+#include "telltale/core/effects/effect.hpp"
+#include "telltale/idl/codec/field_reader.hpp"
+#include "telltale/idl/codec/report_json.hpp"
+#include "telltale/idl/codec/vehicle_file.hpp"
 
 namespace telltale {
 namespace {

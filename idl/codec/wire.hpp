@@ -2,9 +2,9 @@
 
 #include <string_view>
 
-#include "codec/error.hpp"
-#include "codec/messages.hpp"
-#include "codec/wire_sample.hpp"
+#include "telltale/idl/codec/error.hpp"
+#include "telltale/idl/codec/messages.hpp"
+#include "telltale/idl/codec/wire_sample.hpp"
 
 namespace telltale {
 

@@ -5,7 +5,7 @@
 
 #include <dds/dds.h>
 
-#include "telltale.h"
+#include "telltale/idl/dds/telltale.h"
 
 namespace telltale {
 

@@ -1,13 +1,13 @@
-#include "diagnosis/diagnosis_jobs.hpp"
+#include "telltale/service/diagnosis/diagnosis_jobs.hpp"
 
 #include <algorithm>
 #include <chrono>
 #include <thread>
 #include <utility>
 
-#include "data/preparation.hpp"
-#include "diagnosis/diagnose.hpp"
-#include "diagnosis/live_case.hpp"
+#include "telltale/core/data/preparation.hpp"
+#include "telltale/core/diagnosis/diagnose.hpp"
+#include "telltale/service/diagnosis/live_case.hpp"
 
 namespace telltale {
 namespace {

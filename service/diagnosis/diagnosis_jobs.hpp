@@ -2,15 +2,15 @@
 
 #include <utility>
 
-#include "codec/daemon_config.hpp"
-#include "codec/messages.hpp"
-#include "diagnosis/diagnose.hpp"
-#include "diagnosis/healthy_recordings.hpp"
-#include "diagnosis/published_diagnoses.hpp"
-#include "identification/answers.hpp"
-#include "ingest/fleet.hpp"
-#include "jobs/job_queue.hpp"
-#include "models/published_models.hpp"
+#include "telltale/core/diagnosis/diagnose.hpp"
+#include "telltale/idl/codec/daemon_config.hpp"
+#include "telltale/idl/codec/messages.hpp"
+#include "telltale/service/diagnosis/healthy_recordings.hpp"
+#include "telltale/service/diagnosis/published_diagnoses.hpp"
+#include "telltale/service/identification/answers.hpp"
+#include "telltale/service/ingest/fleet.hpp"
+#include "telltale/service/jobs/job_queue.hpp"
+#include "telltale/service/models/published_models.hpp"
 
 namespace telltale {
 

@@ -1,4 +1,4 @@
-#include "diagnosis/diagnosis_store.hpp"
+#include "telltale/service/diagnosis/diagnosis_store.hpp"
 
 #include <string>
 #include <utility>
@@ -6,9 +6,9 @@
 #include <SQLiteCpp/SQLiteCpp.h>
 #include <spdlog/spdlog.h>
 
-#include "codec/report_json.hpp"
-#include "state/database.hpp"
-#include "state/kept.hpp"
+#include "telltale/idl/codec/report_json.hpp"
+#include "telltale/service/state/database.hpp"
+#include "telltale/service/state/kept.hpp"
 
 namespace telltale {
 

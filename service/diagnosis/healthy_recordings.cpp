@@ -1,4 +1,4 @@
-#include "diagnosis/healthy_recordings.hpp"
+#include "telltale/service/diagnosis/healthy_recordings.hpp"
 
 #include <utility>
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-#include "data/samples.hpp"
+#include "telltale/core/data/samples.hpp"
 
 namespace telltale {
 

@@ -1,12 +1,12 @@
-#include "diagnosis/live_case.hpp"
+#include "telltale/service/diagnosis/live_case.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>
 
-#include "diagnosis/diagnose.hpp"
-#include "monitoring/prediction_error.hpp"
+#include "telltale/core/diagnosis/diagnose.hpp"
+#include "telltale/service/monitoring/prediction_error.hpp"
 
 namespace telltale {
 namespace {

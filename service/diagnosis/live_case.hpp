@@ -3,9 +3,9 @@
 #include <optional>
 #include <string>
 
-#include "codec/messages.hpp"
-#include "data/samples.hpp"
-#include "result.hpp"
+#include "telltale/core/data/samples.hpp"
+#include "telltale/core/result.hpp"
+#include "telltale/idl/codec/messages.hpp"
 
 namespace telltale {
 

@@ -1,10 +1,10 @@
-#include "diagnosis/published_diagnoses.hpp"
+#include "telltale/service/diagnosis/published_diagnoses.hpp"
 
 #include <utility>
 
 #include <spdlog/spdlog.h>
 
-#include "codec/wire.hpp"
+#include "telltale/idl/codec/wire.hpp"
 
 namespace telltale {
 

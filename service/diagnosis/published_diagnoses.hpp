@@ -1,10 +1,10 @@
 #pragma once
 
-#include "bus/participant.hpp"
-#include "bus/writer.hpp"
-#include "codec/messages.hpp"
-#include "diagnosis/diagnosis_store.hpp"
-#include "ingest/fleet.hpp"
+#include "telltale/client/bus/participant.hpp"
+#include "telltale/client/bus/writer.hpp"
+#include "telltale/idl/codec/messages.hpp"
+#include "telltale/service/diagnosis/diagnosis_store.hpp"
+#include "telltale/service/ingest/fleet.hpp"
 
 namespace telltale {
 

@@ -1,8 +1,8 @@
-#include "identification/answers.hpp"
+#include "telltale/service/identification/answers.hpp"
 
 #include <spdlog/spdlog.h>
 
-#include "codec/wire.hpp"
+#include "telltale/idl/codec/wire.hpp"
 
 namespace telltale {
 

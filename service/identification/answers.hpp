@@ -2,9 +2,9 @@
 
 #include <string>
 
-#include "bus/participant.hpp"
-#include "bus/writer.hpp"
-#include "codec/messages.hpp"
+#include "telltale/client/bus/participant.hpp"
+#include "telltale/client/bus/writer.hpp"
+#include "telltale/idl/codec/messages.hpp"
 
 namespace telltale {
 

@@ -1,11 +1,11 @@
-#include "identification/identification_jobs.hpp"
+#include "telltale/service/identification/identification_jobs.hpp"
 
 #include <algorithm>
 #include <thread>
 #include <utility>
 
-#include "data/recordings.hpp"
-#include "monitoring/prediction_error.hpp"
+#include "telltale/core/data/recordings.hpp"
+#include "telltale/service/monitoring/prediction_error.hpp"
 
 namespace telltale {
 

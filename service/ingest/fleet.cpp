@@ -1,4 +1,4 @@
-#include "ingest/fleet.hpp"
+#include "telltale/service/ingest/fleet.hpp"
 
 #include <algorithm>
 

@@ -9,10 +9,10 @@
 #include <string_view>
 #include <vector>
 
-#include "codec/messages.hpp"
-#include "data/window.hpp"
-#include "ingest/vehicle_window.hpp"
-#include "vessel/vehicle.hpp"
+#include "telltale/core/data/window.hpp"
+#include "telltale/core/vessel/vehicle.hpp"
+#include "telltale/idl/codec/messages.hpp"
+#include "telltale/service/ingest/vehicle_window.hpp"
 
 namespace telltale {
 

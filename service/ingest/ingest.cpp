@@ -1,11 +1,11 @@
-#include "ingest/ingest.hpp"
+#include "telltale/service/ingest/ingest.hpp"
 
 #include <chrono>
 #include <utility>
 
 #include <spdlog/spdlog.h>
 
-#include "codec/wire.hpp"
+#include "telltale/idl/codec/wire.hpp"
 
 namespace telltale {
 namespace {

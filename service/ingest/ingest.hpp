@@ -6,12 +6,12 @@
 #include <string_view>
 #include <thread>
 
-#include "bus/log_sink.hpp"
-#include "bus/participant.hpp"
-#include "bus/wait_set.hpp"
-#include "bus/watched_reader.hpp"
-#include "codec/messages.hpp"
-#include "ingest/fleet.hpp"
+#include "telltale/client/bus/log_sink.hpp"
+#include "telltale/client/bus/participant.hpp"
+#include "telltale/client/bus/wait_set.hpp"
+#include "telltale/client/bus/watched_reader.hpp"
+#include "telltale/idl/codec/messages.hpp"
+#include "telltale/service/ingest/fleet.hpp"
 
 namespace telltale {
 

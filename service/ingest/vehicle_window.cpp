@@ -1,4 +1,4 @@
-#include "ingest/vehicle_window.hpp"
+#include "telltale/service/ingest/vehicle_window.hpp"
 
 #include <algorithm>
 #include <utility>

@@ -6,10 +6,10 @@
 #include <variant>
 #include <vector>
 
-#include "data/samples.hpp"
-#include "data/window.hpp"
-#include "ingest/sequence_gaps.hpp"
-#include "vessel/vehicle.hpp"
+#include "telltale/core/data/samples.hpp"
+#include "telltale/core/data/window.hpp"
+#include "telltale/core/vessel/vehicle.hpp"
+#include "telltale/service/ingest/sequence_gaps.hpp"
 
 namespace telltale {
 

@@ -18,10 +18,10 @@
 
 #include <spdlog/spdlog.h>
 
-#include "codec/messages.hpp"
-#include "identification/answers.hpp"
-#include "identification/identify.hpp"
-#include "ingest/fleet.hpp"
+#include "telltale/core/identification/identify.hpp"
+#include "telltale/idl/codec/messages.hpp"
+#include "telltale/service/identification/answers.hpp"
+#include "telltale/service/ingest/fleet.hpp"
 
 namespace telltale {
 

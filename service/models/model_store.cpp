@@ -1,11 +1,11 @@
-#include "models/model_store.hpp"
+#include "telltale/service/models/model_store.hpp"
 
 #include <SQLiteCpp/SQLiteCpp.h>
 #include <spdlog/spdlog.h>
 
-#include "codec/model_json.hpp"
-#include "state/database.hpp"
-#include "state/kept.hpp"
+#include "telltale/idl/codec/model_json.hpp"
+#include "telltale/service/state/database.hpp"
+#include "telltale/service/state/kept.hpp"
 
 namespace telltale {
 namespace {

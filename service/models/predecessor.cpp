@@ -1,4 +1,4 @@
-#include "models/predecessor.hpp"
+#include "telltale/service/models/predecessor.hpp"
 
 #include <utility>
 

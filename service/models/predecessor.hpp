@@ -2,8 +2,8 @@
 
 #include <optional>
 
-#include "identification/model_comparison.hpp"
-#include "models/model_store.hpp"
+#include "telltale/core/identification/model_comparison.hpp"
+#include "telltale/service/models/model_store.hpp"
 
 namespace telltale {
 

@@ -1,12 +1,12 @@
-#include "models/published_models.hpp"
+#include "telltale/service/models/published_models.hpp"
 
 #include <utility>
 
 #include <spdlog/spdlog.h>
 
-#include "codec/wire.hpp"
-#include "models/predecessor.hpp"
-#include "unix_now.hpp"
+#include "telltale/idl/codec/wire.hpp"
+#include "telltale/service/models/predecessor.hpp"
+#include "telltale/service/unix_now.hpp"
 
 namespace telltale {
 namespace {

@@ -7,10 +7,10 @@
 #include <string>
 #include <string_view>
 
-#include "bus/participant.hpp"
-#include "bus/writer.hpp"
-#include "ingest/fleet.hpp"
-#include "models/model_store.hpp"
+#include "telltale/client/bus/participant.hpp"
+#include "telltale/client/bus/writer.hpp"
+#include "telltale/service/ingest/fleet.hpp"
+#include "telltale/service/models/model_store.hpp"
 
 namespace telltale {
 

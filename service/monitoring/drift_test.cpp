@@ -1,4 +1,4 @@
-#include "monitoring/drift_test.hpp"
+#include "telltale/service/monitoring/drift_test.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,11 +1,11 @@
-#include "monitoring/live_feed.hpp"
+#include "telltale/service/monitoring/live_feed.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <string>
 
-#include "data/preparation.hpp"
-#include "monitoring/prediction_error.hpp"
+#include "telltale/core/data/preparation.hpp"
+#include "telltale/service/monitoring/prediction_error.hpp"
 
 namespace telltale {
 namespace {

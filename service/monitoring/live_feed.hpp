@@ -2,10 +2,10 @@
 
 #include <optional>
 
-#include "codec/messages.hpp"
-#include "data/samples.hpp"
-#include "uncertainty/live_bounds.hpp"
-#include "vessel/vehicle.hpp"
+#include "telltale/core/data/samples.hpp"
+#include "telltale/core/uncertainty/live_bounds.hpp"
+#include "telltale/core/vessel/vehicle.hpp"
+#include "telltale/idl/codec/messages.hpp"
 
 namespace telltale {
 

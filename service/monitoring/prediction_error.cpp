@@ -1,10 +1,10 @@
-#include "monitoring/prediction_error.hpp"
+#include "telltale/service/monitoring/prediction_error.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "data/preparation.hpp"
-#include "validation/validation.hpp"
+#include "telltale/core/data/preparation.hpp"
+#include "telltale/core/validation/validation.hpp"
 
 namespace telltale {
 namespace {

@@ -2,10 +2,10 @@
 
 #include <optional>
 
-#include "data/samples.hpp"
-#include "identification/identification.hpp"
-#include "models/model_store.hpp"
-#include "vessel/vehicle.hpp"
+#include "telltale/core/data/samples.hpp"
+#include "telltale/core/identification/identification.hpp"
+#include "telltale/core/vessel/vehicle.hpp"
+#include "telltale/service/models/model_store.hpp"
 
 namespace telltale {
 

@@ -1,13 +1,13 @@
-#include "monitoring/quality_monitor.hpp"
+#include "telltale/service/monitoring/quality_monitor.hpp"
 
 #include <exception>
 #include <utility>
 
 #include <spdlog/spdlog.h>
 
-#include "codec/wire.hpp"
-#include "monitoring/prediction_error.hpp"
-#include "unix_now.hpp"
+#include "telltale/idl/codec/wire.hpp"
+#include "telltale/service/monitoring/prediction_error.hpp"
+#include "telltale/service/unix_now.hpp"
 
 namespace telltale {
 namespace {

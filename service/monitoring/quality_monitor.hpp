@@ -9,13 +9,13 @@
 #include <string>
 #include <thread>
 
-#include "bus/participant.hpp"
-#include "bus/writer.hpp"
-#include "codec/messages.hpp"
-#include "ingest/fleet.hpp"
-#include "models/published_models.hpp"
-#include "monitoring/drift_test.hpp"
-#include "monitoring/live_feed.hpp"
+#include "telltale/client/bus/participant.hpp"
+#include "telltale/client/bus/writer.hpp"
+#include "telltale/idl/codec/messages.hpp"
+#include "telltale/service/ingest/fleet.hpp"
+#include "telltale/service/models/published_models.hpp"
+#include "telltale/service/monitoring/drift_test.hpp"
+#include "telltale/service/monitoring/live_feed.hpp"
 
 namespace telltale {
 

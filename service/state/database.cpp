@@ -1,4 +1,4 @@
-#include "state/database.hpp"
+#include "telltale/service/state/database.hpp"
 
 #include <string>
 

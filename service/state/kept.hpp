@@ -5,7 +5,7 @@
 
 #include <google/protobuf/message_lite.h>
 
-#include "codec/error.hpp"
+#include "telltale/idl/codec/error.hpp"
 
 namespace telltale {
 

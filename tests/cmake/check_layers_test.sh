@@ -13,10 +13,10 @@ build_house() {
   rm -rf "${sandbox:?}"/*
   mkdir -p "$sandbox"/{core/data,idl/codec,client/bus,service/ingest,tests/support,bench}
   echo '#include <vector>' > "$sandbox/core/data/window.hpp"
-  echo '#include "data/window.hpp"' > "$sandbox/idl/codec/wire.hpp"
-  printf '#include "codec/wire.hpp"\n#include <dds/dds.h>\n' > "$sandbox/client/bus/reader.hpp"
-  echo '#include "bus/reader.hpp"' > "$sandbox/service/ingest/ingest.hpp"
-  echo '#include "data/window.hpp"' > "$sandbox/tests/support/matchers.hpp"
+  echo '#include "telltale/core/data/window.hpp"' > "$sandbox/idl/codec/wire.hpp"
+  printf '#include "telltale/idl/codec/wire.hpp"\n#include <dds/dds.h>\n' > "$sandbox/client/bus/reader.hpp"
+  echo '#include "telltale/client/bus/reader.hpp"' > "$sandbox/service/ingest/ingest.hpp"
+  echo '#include "telltale/core/data/window.hpp"' > "$sandbox/tests/support/matchers.hpp"
   mkdir -p "$sandbox/tests/blind/truth"
   echo '#include <CLI/CLI.hpp>' > "$sandbox/tests/blind/truth/dice.hpp"
   printf '#include <cmath>\n#include "dice.hpp"\n' > "$sandbox/tests/blind/truth/dice.cpp"
@@ -38,10 +38,11 @@ rejects() {
 build_house
 "$check" "$sandbox" > /dev/null || fail "a house in order was refused"
 
-rejects core/data/bad.hpp '"codec/wire.hpp"' 'core may not see idl'
-rejects core/data/bad.cpp '<bus/reader.hpp>' 'core may not see client'
-rejects core/data/bad.hpp '"proto/model.pb.h"' 'core may not see idl'
-rejects core/data/bad.hpp '"telltale.h"' 'core may not see idl'
+rejects core/data/bad.hpp '"telltale/idl/codec/wire.hpp"' 'core may not see idl'
+rejects core/data/bad.cpp '"telltale/client/bus/reader.hpp"' 'core may not see client'
+rejects core/data/bad.cpp '<telltale/core/data/window.hpp>' 'own headers are included by ""'
+rejects core/data/bad.hpp '"telltale/idl/proto/model.pb.h"' 'core may not see idl'
+rejects core/data/bad.hpp '"telltale/idl/dds/telltale.h"' 'core may not see idl'
 rejects core/bad.cpp '<dds/dds.h>' 'core knows no DDS'
 rejects core/bad.cpp '<google/protobuf/message.h>' 'core knows no Protobuf'
 rejects core/bad.cpp '<spdlog/spdlog.h>' 'core writes no log'
@@ -49,19 +50,20 @@ rejects core/bad.cpp '<fstream>' 'core knows no files'
 rejects core/bad.cpp '<filesystem>' 'core knows no files'
 rejects core/bad.cpp '<chrono>' 'core knows no clock'
 rejects core/bad.hpp '<ceres/ceres.h>' "Ceres stays inside core's .cpp files"
-rejects core/bad.cpp '"support/matchers.hpp"' 'core may not see tests'
-rejects core/bad.cpp '"../idl/codec/wire.hpp"' "relative to the layer's folder"
-rejects core/bad.cpp '"nowhere.hpp"' 'no such header'
-rejects idl/codec/bad.hpp '"bus/reader.hpp"' 'idl may not see client'
-rejects idl/codec/bad.hpp '"ingest/ingest.hpp"' 'idl may not see service'
-rejects client/bus/bad.hpp '"ingest/ingest.hpp"' 'client may not see service'
+rejects core/bad.cpp '"telltale/tests/support/matchers.hpp"' 'core may not see tests'
+rejects core/bad.cpp '"../idl/codec/wire.hpp"' 'own headers are included as'
+rejects core/bad.cpp '"nowhere.hpp"' 'own headers are included as'
+rejects core/bad.cpp '"telltale/core/nowhere.hpp"' 'no such header'
+rejects idl/codec/bad.hpp '"telltale/client/bus/reader.hpp"' 'idl may not see client'
+rejects idl/codec/bad.hpp '"telltale/service/ingest/ingest.hpp"' 'idl may not see service'
+rejects client/bus/bad.hpp '"telltale/service/ingest/ingest.hpp"' 'client may not see service'
 rejects client/bus/bad.hpp '<SQLiteCpp/SQLiteCpp.h>' "the model store is the service's"
 rejects service/ingest/bad.cpp '<dds/dds.h>' 'DDS is handled in client/bus'
-rejects service/ingest/bad.cpp '"support/matchers.hpp"' 'service may not see tests'
-rejects tests/blind/truth/bad.cpp '"data/window.hpp"' 'only its own folder'
+rejects service/ingest/bad.cpp '"telltale/tests/support/matchers.hpp"' 'service may not see tests'
+rejects tests/blind/truth/bad.cpp '"telltale/core/data/window.hpp"' 'only its own folder'
 rejects tests/blind/truth/bad.cpp '"support/matchers.hpp"' 'only its own folder'
 rejects tests/blind/truth/bad.cpp '"../../support/matchers.hpp"' 'only its own folder'
-rejects tests/blind/truth/bad.cpp '<data/window.hpp>' 'nothing but the standard library'
+rejects tests/blind/truth/bad.cpp '<telltale/core/data/window.hpp>' 'nothing but the standard library'
 rejects tests/blind/truth/bad.hpp '<Eigen/Dense>' 'nothing but the standard library'
 rejects tests/blind/truth/bad.hpp '<gtest/gtest.h>' 'nothing but the standard library'
 

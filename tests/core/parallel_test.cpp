@@ -1,4 +1,4 @@
-#include "parallel.hpp"
+#include "telltale/core/parallel.hpp"
 
 #include <stdexcept>
 #include <vector>

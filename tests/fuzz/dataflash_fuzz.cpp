@@ -5,7 +5,7 @@
 #include <map>
 #include <string>
 
-#include "recording/dataflash.hpp"
+#include "telltale/client/recording/dataflash.hpp"
 
 namespace {
 

@@ -3,8 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "fleet/identification_client.hpp"
 #include "service/service_fixture.hpp"
+#include "telltale/client/fleet/identification_client.hpp"
 
 namespace telltale {
 namespace {

@@ -8,20 +8,20 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "bus/reader.hpp"
-#include "bus/wait_set.hpp"
-#include "bus/writer.hpp"
-#include "codec/model_json.hpp"
-#include "codec/wire.hpp"
-#include "fleet/identification_client.hpp"
-#include "fleet/subscriber.hpp"
-#include "fleet/telemetry_publisher.hpp"
-#include "recording/files.hpp"
-#include "recording/telemetry_log.hpp"
 #include "service/service_fixture.hpp"
-#include "simulation/yellowfish.hpp"
 #include "support/boats.hpp"
 #include "support/numbers.hpp"
+#include "telltale/client/bus/reader.hpp"
+#include "telltale/client/bus/wait_set.hpp"
+#include "telltale/client/bus/writer.hpp"
+#include "telltale/client/fleet/identification_client.hpp"
+#include "telltale/client/fleet/subscriber.hpp"
+#include "telltale/client/fleet/telemetry_publisher.hpp"
+#include "telltale/client/recording/files.hpp"
+#include "telltale/client/recording/telemetry_log.hpp"
+#include "telltale/core/simulation/yellowfish.hpp"
+#include "telltale/idl/codec/model_json.hpp"
+#include "telltale/idl/codec/wire.hpp"
 
 namespace telltale {
 namespace {

@@ -7,17 +7,17 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "codec/model_json.hpp"
-#include "codec/report_json.hpp"
-#include "data/preparation.hpp"
-#include "diagnosis/augmented_identification.hpp"
-#include "fleet/diagnosis_client.hpp"
-#include "fleet/subscriber.hpp"
-#include "recording/files.hpp"
 #include "service/service_fixture.hpp"
-#include "simulation/yellowfish.hpp"
 #include "support/boats.hpp"
-#include "validation/validation.hpp"
+#include "telltale/client/fleet/diagnosis_client.hpp"
+#include "telltale/client/fleet/subscriber.hpp"
+#include "telltale/client/recording/files.hpp"
+#include "telltale/core/data/preparation.hpp"
+#include "telltale/core/diagnosis/augmented_identification.hpp"
+#include "telltale/core/simulation/yellowfish.hpp"
+#include "telltale/core/validation/validation.hpp"
+#include "telltale/idl/codec/model_json.hpp"
+#include "telltale/idl/codec/report_json.hpp"
 
 namespace telltale {
 namespace {

@@ -8,17 +8,17 @@
 
 #include <gtest/gtest.h>
 
-#include "data/preparation.hpp"
-#include "gauss_markov.hpp"
-#include "identification/identify.hpp"
-#include "monitoring/drift_test.hpp"
-#include "monitoring/prediction_error.hpp"
-#include "random.hpp"
-#include "simulation/manoeuvres.hpp"
-#include "simulation/sensors.hpp"
 #include "support/boats.hpp"
-#include "validation/validation.hpp"
-#include "vessel/body_dynamics.hpp"
+#include "telltale/core/data/preparation.hpp"
+#include "telltale/core/gauss_markov.hpp"
+#include "telltale/core/identification/identify.hpp"
+#include "telltale/core/random.hpp"
+#include "telltale/core/simulation/manoeuvres.hpp"
+#include "telltale/core/simulation/sensors.hpp"
+#include "telltale/core/validation/validation.hpp"
+#include "telltale/core/vessel/body_dynamics.hpp"
+#include "telltale/service/monitoring/drift_test.hpp"
+#include "telltale/service/monitoring/prediction_error.hpp"
 
 namespace telltale {
 namespace {

@@ -1,4 +1,4 @@
-#include "jobs/job_queue.hpp"
+#include "telltale/service/jobs/job_queue.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -14,11 +14,11 @@
 #include <gtest/gtest.h>
 #include <spdlog/spdlog.h>
 
-#include "bus/reader.hpp"
-#include "bus/wait_set.hpp"
-#include "codec/wire.hpp"
-#include "simulation/yellowfish.hpp"
 #include "support/loopback_domain.hpp"
+#include "telltale/client/bus/reader.hpp"
+#include "telltale/client/bus/wait_set.hpp"
+#include "telltale/core/simulation/yellowfish.hpp"
+#include "telltale/idl/codec/wire.hpp"
 
 namespace telltale {
 namespace {

@@ -2,10 +2,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "codec/model_json.hpp"
-#include "recording/files.hpp"
 #include "service/service_fixture.hpp"
 #include "support/boats.hpp"
+#include "telltale/client/recording/files.hpp"
+#include "telltale/idl/codec/model_json.hpp"
 
 namespace telltale {
 namespace {

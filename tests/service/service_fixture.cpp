@@ -3,13 +3,13 @@
 #include <chrono>
 #include <stdexcept>
 
-#include "codec/vehicle_file.hpp"
-#include "fleet/subscriber.hpp"
-#include "random.hpp"
-#include "recording/telemetry_log.hpp"
-#include "simulation/sensors.hpp"
-#include "simulation/simulator.hpp"
-#include "simulation/yellowfish.hpp"
+#include "telltale/client/fleet/subscriber.hpp"
+#include "telltale/client/recording/telemetry_log.hpp"
+#include "telltale/core/random.hpp"
+#include "telltale/core/simulation/sensors.hpp"
+#include "telltale/core/simulation/simulator.hpp"
+#include "telltale/core/simulation/yellowfish.hpp"
+#include "telltale/idl/codec/vehicle_file.hpp"
 
 namespace telltale {
 namespace {

@@ -8,14 +8,14 @@
 
 #include <gtest/gtest.h>
 
-#include "bus/participant.hpp"
-#include "codec/messages.hpp"
-#include "data/samples.hpp"
-#include "fleet/identification_client.hpp"
 #include "support/loopback_domain.hpp"
 #include "support/process.hpp"
 #include "support/temporary_folder.hpp"
-#include "vessel/vessel_model.hpp"
+#include "telltale/client/bus/participant.hpp"
+#include "telltale/client/fleet/identification_client.hpp"
+#include "telltale/core/data/samples.hpp"
+#include "telltale/core/vessel/vessel_model.hpp"
+#include "telltale/idl/codec/messages.hpp"
 
 namespace telltale {
 

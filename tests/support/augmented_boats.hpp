@@ -3,10 +3,10 @@
 #include <string>
 #include <vector>
 
-#include "data/preparation.hpp"
-#include "effects/augmented_simulation.hpp"
-#include "identification/identification.hpp"
 #include "support/boats.hpp"
+#include "telltale/core/data/preparation.hpp"
+#include "telltale/core/effects/augmented_simulation.hpp"
+#include "telltale/core/identification/identification.hpp"
 
 namespace telltale::testing {
 

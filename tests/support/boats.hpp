@@ -2,12 +2,12 @@
 
 #include <vector>
 
-#include "data/samples.hpp"
-#include "simulation/manoeuvres.hpp"
-#include "simulation/sensors.hpp"
-#include "simulation/simulator.hpp"
-#include "vessel/vehicle.hpp"
-#include "vessel/vessel_model.hpp"
+#include "telltale/core/data/samples.hpp"
+#include "telltale/core/simulation/manoeuvres.hpp"
+#include "telltale/core/simulation/sensors.hpp"
+#include "telltale/core/simulation/simulator.hpp"
+#include "telltale/core/vessel/vehicle.hpp"
+#include "telltale/core/vessel/vessel_model.hpp"
 
 namespace telltale::testing {
 

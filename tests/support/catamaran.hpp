@@ -4,11 +4,11 @@
 #include <optional>
 #include <vector>
 
-#include "data/preparation.hpp"
-#include "simulation/manoeuvres.hpp"
-#include "simulation/sensors.hpp"
-#include "simulation/simulator.hpp"
-#include "vessel/vessel_model.hpp"
+#include "telltale/core/data/preparation.hpp"
+#include "telltale/core/simulation/manoeuvres.hpp"
+#include "telltale/core/simulation/sensors.hpp"
+#include "telltale/core/simulation/simulator.hpp"
+#include "telltale/core/vessel/vessel_model.hpp"
 
 namespace telltale::testing {
 

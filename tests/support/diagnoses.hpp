@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include "diagnosis/diagnosis.hpp"
+#include "telltale/core/diagnosis/diagnosis.hpp"
 
 namespace telltale {
 

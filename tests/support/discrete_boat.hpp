@@ -7,9 +7,9 @@
 #include <boost/random/uniform_int_distribution.hpp>
 #include <boost/random/uniform_real_distribution.hpp>
 
-#include "data/prepared_dataset.hpp"
-#include "random.hpp"
-#include "vessel/vessel_model.hpp"
+#include "telltale/core/data/prepared_dataset.hpp"
+#include "telltale/core/random.hpp"
+#include "telltale/core/vessel/vessel_model.hpp"
 
 namespace telltale::testing {
 

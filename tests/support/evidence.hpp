@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "identification/identification.hpp"
+#include "telltale/core/identification/identification.hpp"
 
 namespace telltale {
 

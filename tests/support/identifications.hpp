@@ -6,8 +6,8 @@
 
 #include <gtest/gtest.h>
 
-#include "identification/identification.hpp"
 #include "support/numbers.hpp"
+#include "telltale/core/identification/identification.hpp"
 
 namespace telltale {
 

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "effects/augmented_boat.hpp"
-#include "effects/sensor_chain.hpp"
-#include "linear_algebra/decompositions.hpp"
+#include "telltale/core/effects/augmented_boat.hpp"
+#include "telltale/core/effects/sensor_chain.hpp"
+#include "telltale/core/linear_algebra/decompositions.hpp"
 
 namespace blind::baselines {
 namespace {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "linear_algebra/decompositions.hpp"
+#include "telltale/core/linear_algebra/decompositions.hpp"
 
 namespace blind::baselines {
 namespace {

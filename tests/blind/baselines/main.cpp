@@ -5,7 +5,7 @@
 
 #include "baselines/best_bic.hpp"
 #include "baselines/regressions.hpp"
-#include "recording/files.hpp"
+#include "telltale/client/recording/files.hpp"
 
 namespace {
 

@@ -5,7 +5,7 @@
 #include <set>
 
 #include "baselines/accelerations.hpp"
-#include "linear_algebra/decompositions.hpp"
+#include "telltale/core/linear_algebra/decompositions.hpp"
 
 namespace blind::baselines {
 namespace {

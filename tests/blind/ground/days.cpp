@@ -1,8 +1,8 @@
 #include "ground/days.hpp"
 
-#include "cli/inputs.hpp"
-#include "cli/outcome.hpp"
-#include "data/preparation.hpp"
+#include "telltale/client/cli/inputs.hpp"
+#include "telltale/client/cli/outcome.hpp"
+#include "telltale/core/data/preparation.hpp"
 
 namespace blind {
 

@@ -4,8 +4,8 @@
 #include <filesystem>
 #include <vector>
 
-#include "data/prepared_dataset.hpp"
-#include "diagnosis/uncertain_model.hpp"
+#include "telltale/core/data/prepared_dataset.hpp"
+#include "telltale/core/diagnosis/uncertain_model.hpp"
 
 namespace blind {
 

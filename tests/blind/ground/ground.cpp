@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "diagnosis/shaking.hpp"
+#include "telltale/core/diagnosis/shaking.hpp"
 
 namespace blind {
 namespace {

@@ -3,11 +3,11 @@
 #include <optional>
 #include <vector>
 
-#include "diagnosis/free_runs.hpp"
-#include "diagnosis/gap.hpp"
-#include "diagnosis/healthy.hpp"
-#include "diagnosis/sensitivity.hpp"
 #include "ground/days.hpp"
+#include "telltale/core/diagnosis/free_runs.hpp"
+#include "telltale/core/diagnosis/gap.hpp"
+#include "telltale/core/diagnosis/healthy.hpp"
+#include "telltale/core/diagnosis/sensitivity.hpp"
 
 namespace blind {
 

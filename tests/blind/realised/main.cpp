@@ -5,11 +5,11 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "cli/inputs.hpp"
-#include "cli/outcome.hpp"
-#include "diagnosis/augmented_identification.hpp"
 #include "ground/ground.hpp"
-#include "recording/files.hpp"
+#include "telltale/client/cli/inputs.hpp"
+#include "telltale/client/cli/outcome.hpp"
+#include "telltale/client/recording/files.hpp"
+#include "telltale/core/diagnosis/augmented_identification.hpp"
 
 namespace {
 

@@ -8,16 +8,16 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "bus/error.hpp"
-#include "bus/log_sink.hpp"
-#include "bus/participant.hpp"
-#include "bus/reader.hpp"
-#include "bus/wait_set.hpp"
-#include "bus/watched_reader.hpp"
-#include "bus/writer.hpp"
-#include "codec/wire.hpp"
 #include "support/identifications.hpp"
 #include "support/loopback_domain.hpp"
+#include "telltale/client/bus/error.hpp"
+#include "telltale/client/bus/log_sink.hpp"
+#include "telltale/client/bus/participant.hpp"
+#include "telltale/client/bus/reader.hpp"
+#include "telltale/client/bus/wait_set.hpp"
+#include "telltale/client/bus/watched_reader.hpp"
+#include "telltale/client/bus/writer.hpp"
+#include "telltale/idl/codec/wire.hpp"
 
 namespace telltale {
 namespace {

@@ -3,22 +3,22 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "codec/json_message.hpp"
-#include "codec/metrics_json.hpp"
-#include "codec/model_json.hpp"
-#include "codec/vehicle_file.hpp"
-#include "data/preparation.hpp"
-#include "identification/input_gain.hpp"
-#include "proto/study.pb.h"
-#include "recording/csv.hpp"
-#include "recording/load.hpp"
-#include "recording/telemetry_log.hpp"
-#include "simulation/manoeuvres.hpp"
-#include "simulation/sensors.hpp"
-#include "simulation/yellowfish.hpp"
 #include "support/identifications.hpp"
 #include "support/telltale_command.hpp"
 #include "support/temporary_folder.hpp"
+#include "telltale/client/recording/csv.hpp"
+#include "telltale/client/recording/load.hpp"
+#include "telltale/client/recording/telemetry_log.hpp"
+#include "telltale/core/data/preparation.hpp"
+#include "telltale/core/identification/input_gain.hpp"
+#include "telltale/core/simulation/manoeuvres.hpp"
+#include "telltale/core/simulation/sensors.hpp"
+#include "telltale/core/simulation/yellowfish.hpp"
+#include "telltale/idl/codec/json_message.hpp"
+#include "telltale/idl/codec/metrics_json.hpp"
+#include "telltale/idl/codec/model_json.hpp"
+#include "telltale/idl/codec/vehicle_file.hpp"
+#include "telltale/idl/proto/study.pb.h"
 
 namespace telltale {
 namespace {

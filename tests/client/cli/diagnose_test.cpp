@@ -3,16 +3,16 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "cli/diagnosis_table.hpp"
-#include "codec/report_json.hpp"
-#include "codec/vehicle_file.hpp"
-#include "recording/telemetry_log.hpp"
-#include "simulation/manoeuvres.hpp"
-#include "simulation/sensors.hpp"
-#include "simulation/yellowfish.hpp"
 #include "support/diagnoses.hpp"
 #include "support/telltale_command.hpp"
 #include "support/temporary_folder.hpp"
+#include "telltale/client/cli/diagnosis_table.hpp"
+#include "telltale/client/recording/telemetry_log.hpp"
+#include "telltale/core/simulation/manoeuvres.hpp"
+#include "telltale/core/simulation/sensors.hpp"
+#include "telltale/core/simulation/yellowfish.hpp"
+#include "telltale/idl/codec/report_json.hpp"
+#include "telltale/idl/codec/vehicle_file.hpp"
 
 namespace telltale {
 namespace {

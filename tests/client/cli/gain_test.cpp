@@ -3,12 +3,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "codec/json_message.hpp"
-#include "codec/model_json.hpp"
-#include "proto/gain.pb.h"
 #include "support/identifications.hpp"
 #include "support/telltale_command.hpp"
 #include "support/temporary_folder.hpp"
+#include "telltale/idl/codec/json_message.hpp"
+#include "telltale/idl/codec/model_json.hpp"
+#include "telltale/idl/proto/gain.pb.h"
 
 namespace telltale {
 namespace {

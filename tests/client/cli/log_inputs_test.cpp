@@ -3,15 +3,15 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "codec/model_json.hpp"
-#include "codec/vehicle_file.hpp"
-#include "recording/telemetry_log.hpp"
-#include "simulation/manoeuvres.hpp"
-#include "simulation/sensors.hpp"
-#include "simulation/yellowfish.hpp"
 #include "support/dataflash_writer.hpp"
 #include "support/telltale_command.hpp"
 #include "support/temporary_folder.hpp"
+#include "telltale/client/recording/telemetry_log.hpp"
+#include "telltale/core/simulation/manoeuvres.hpp"
+#include "telltale/core/simulation/sensors.hpp"
+#include "telltale/core/simulation/yellowfish.hpp"
+#include "telltale/idl/codec/model_json.hpp"
+#include "telltale/idl/codec/vehicle_file.hpp"
 
 namespace telltale {
 namespace {

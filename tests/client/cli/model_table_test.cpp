@@ -1,4 +1,4 @@
-#include "cli/model_table.hpp"
+#include "telltale/client/cli/model_table.hpp"
 
 #include <algorithm>
 #include <sstream>
@@ -6,9 +6,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "cli/metrics_table.hpp"
-#include "cli/table.hpp"
 #include "support/identifications.hpp"
+#include "telltale/client/cli/metrics_table.hpp"
+#include "telltale/client/cli/table.hpp"
 
 namespace telltale {
 namespace {

@@ -1,4 +1,4 @@
-#include "cli/table.hpp"
+#include "telltale/client/cli/table.hpp"
 #include "support/numbers.hpp"
 
 #include <limits>

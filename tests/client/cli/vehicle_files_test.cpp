@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
-#include "cli/inputs.hpp"
-#include "simulation/yellowfish.hpp"
+#include "telltale/client/cli/inputs.hpp"
+#include "telltale/core/simulation/yellowfish.hpp"
 
 namespace telltale {
 namespace {

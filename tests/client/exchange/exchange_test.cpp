@@ -5,13 +5,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "codec/json_message.hpp"
-#include "exchange/draws.hpp"
-#include "exchange/mss.hpp"
-#include "exchange/vrx.hpp"
-#include "proto/exchange.pb.h"
-#include "simulation/yellowfish.hpp"
 #include "support/identifications.hpp"
+#include "telltale/client/exchange/draws.hpp"
+#include "telltale/client/exchange/mss.hpp"
+#include "telltale/client/exchange/vrx.hpp"
+#include "telltale/core/simulation/yellowfish.hpp"
+#include "telltale/idl/codec/json_message.hpp"
+#include "telltale/idl/proto/exchange.pb.h"
 
 namespace telltale {
 namespace {

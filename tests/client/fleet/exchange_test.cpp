@@ -1,4 +1,4 @@
-#include "fleet/exchange.hpp"
+#include "telltale/client/fleet/exchange.hpp"
 
 #include <atomic>
 #include <chrono>
@@ -7,10 +7,10 @@
 
 #include <gtest/gtest.h>
 
-#include "fleet/identification_client.hpp"
 #include "support/identifications.hpp"
 #include "support/loopback_domain.hpp"
 #include "support/numbers.hpp"
+#include "telltale/client/fleet/identification_client.hpp"
 
 namespace telltale {
 namespace {

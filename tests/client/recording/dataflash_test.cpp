@@ -1,4 +1,4 @@
-#include "recording/dataflash.hpp"
+#include "telltale/client/recording/dataflash.hpp"
 
 #include <cmath>
 #include <fstream>
@@ -8,8 +8,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "random.hpp"
 #include "support/dataflash_writer.hpp"
+#include "telltale/core/random.hpp"
 
 namespace telltale {
 namespace {

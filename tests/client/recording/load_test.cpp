@@ -1,4 +1,4 @@
-#include "recording/load.hpp"
+#include "telltale/client/recording/load.hpp"
 
 #include <filesystem>
 #include <fstream>

@@ -1,4 +1,4 @@
-#include "recording/telemetry_log.hpp"
+#include "telltale/client/recording/telemetry_log.hpp"
 
 #include <cmath>
 

@@ -1,4 +1,4 @@
-#include "recording/time_order.hpp"
+#include "telltale/client/recording/time_order.hpp"
 #include "support/numbers.hpp"
 
 #include <gmock/gmock.h>

@@ -1,4 +1,4 @@
-#include "report/page.hpp"
+#include "telltale/client/report/page.hpp"
 
 #include <cmath>
 #include <cstdlib>
@@ -11,10 +11,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "codec/report_json.hpp"
-#include "effects/effect.hpp"
 #include "support/browser.hpp"
 #include "support/diagnoses.hpp"
+#include "telltale/core/effects/effect.hpp"
+#include "telltale/idl/codec/report_json.hpp"
 
 namespace telltale {
 namespace {

@@ -1,4 +1,4 @@
-#include "data/heading.hpp"
+#include "telltale/core/data/heading.hpp"
 
 #include <gtest/gtest.h>
 

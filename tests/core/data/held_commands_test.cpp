@@ -1,4 +1,4 @@
-#include "data/held_commands.hpp"
+#include "telltale/core/data/held_commands.hpp"
 
 #include <gtest/gtest.h>
 

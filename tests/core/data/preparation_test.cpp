@@ -1,4 +1,4 @@
-#include "data/preparation.hpp"
+#include "telltale/core/data/preparation.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -9,7 +9,7 @@
 #include <numbers>
 #include <random>
 
-#include "data/north_east.hpp"
+#include "telltale/core/data/north_east.hpp"
 
 namespace telltale {
 namespace {

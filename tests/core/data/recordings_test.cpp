@@ -1,4 +1,4 @@
-#include "data/recordings.hpp"
+#include "telltale/core/data/recordings.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,11 +1,11 @@
-#include "data/savitzky_golay.hpp"
+#include "telltale/core/data/savitzky_golay.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <vector>
 
-#include "contract.hpp"
+#include "telltale/core/contract.hpp"
 
 namespace telltale {
 namespace {

@@ -1,4 +1,4 @@
-#include "data/segments.hpp"
+#include "telltale/core/data/segments.hpp"
 
 #include <gtest/gtest.h>
 

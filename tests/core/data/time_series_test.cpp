@@ -1,11 +1,11 @@
-#include "data/time_series.hpp"
+#include "telltale/core/data/time_series.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <functional>
 
-#include "contract.hpp"
+#include "telltale/core/contract.hpp"
 
 namespace telltale {
 namespace {

@@ -1,15 +1,15 @@
-#include "data/white_noise.hpp"
+#include "telltale/core/data/white_noise.hpp"
 
 #include <cmath>
 
 #include <gtest/gtest.h>
 #include <boost/random/normal_distribution.hpp>
 
-#include "data/preparation.hpp"
-#include "random.hpp"
-#include "simulation/manoeuvres.hpp"
-#include "simulation/sensors.hpp"
-#include "simulation/yellowfish.hpp"
+#include "telltale/core/data/preparation.hpp"
+#include "telltale/core/random.hpp"
+#include "telltale/core/simulation/manoeuvres.hpp"
+#include "telltale/core/simulation/sensors.hpp"
+#include "telltale/core/simulation/yellowfish.hpp"
 
 namespace telltale {
 namespace {

@@ -1,4 +1,4 @@
-#include "data/window.hpp"
+#include "telltale/core/data/window.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -9,8 +9,8 @@
 #include <random>
 #include <vector>
 
-#include "contract.hpp"
 #include "support/numbers.hpp"
+#include "telltale/core/contract.hpp"
 
 namespace telltale {
 namespace {

@@ -1,4 +1,4 @@
-#include "diagnosis/diagnose.hpp"
+#include "telltale/core/diagnosis/diagnose.hpp"
 
 #include <cmath>
 #include <string_view>
@@ -6,8 +6,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "diagnosis/augmented_identification.hpp"
 #include "support/augmented_boats.hpp"
+#include "telltale/core/diagnosis/augmented_identification.hpp"
 
 namespace telltale {
 namespace {

@@ -1,4 +1,4 @@
-#include "diagnosis/gap.hpp"
+#include "telltale/core/diagnosis/gap.hpp"
 
 #include <cmath>
 

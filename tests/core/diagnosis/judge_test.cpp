@@ -1,4 +1,4 @@
-#include "diagnosis/judge.hpp"
+#include "telltale/core/diagnosis/judge.hpp"
 
 #include <cmath>
 

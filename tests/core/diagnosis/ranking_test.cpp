@@ -1,4 +1,4 @@
-#include "diagnosis/ranking.hpp"
+#include "telltale/core/diagnosis/ranking.hpp"
 
 #include <limits>
 

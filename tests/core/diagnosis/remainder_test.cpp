@@ -1,10 +1,10 @@
-#include "diagnosis/remainder.hpp"
+#include "telltale/core/diagnosis/remainder.hpp"
 
 #include <gtest/gtest.h>
 #include <boost/random/normal_distribution.hpp>
 
-#include "random.hpp"
 #include "support/augmented_boats.hpp"
+#include "telltale/core/random.hpp"
 
 namespace telltale {
 namespace {

@@ -1,4 +1,4 @@
-#include "diagnosis/sentence.hpp"
+#include "telltale/core/diagnosis/sentence.hpp"
 
 #include <utility>
 

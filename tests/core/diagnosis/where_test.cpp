@@ -1,4 +1,4 @@
-#include "diagnosis/where.hpp"
+#include "telltale/core/diagnosis/where.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -7,9 +7,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "data/preparation.hpp"
 #include "support/boats.hpp"
-#include "vessel/body_dynamics.hpp"
+#include "telltale/core/data/preparation.hpp"
+#include "telltale/core/vessel/body_dynamics.hpp"
 
 namespace telltale {
 namespace {

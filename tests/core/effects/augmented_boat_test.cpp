@@ -1,4 +1,4 @@
-#include "effects/augmented_boat.hpp"
+#include "telltale/core/effects/augmented_boat.hpp"
 
 #include <array>
 #include <cmath>
@@ -6,10 +6,10 @@
 
 #include <gtest/gtest.h>
 
-#include "effects/augmented_simulation.hpp"
-#include "effects/effect.hpp"
-#include "simulation/simulator.hpp"
 #include "support/boats.hpp"
+#include "telltale/core/effects/augmented_simulation.hpp"
+#include "telltale/core/effects/effect.hpp"
+#include "telltale/core/simulation/simulator.hpp"
 
 namespace telltale {
 namespace {

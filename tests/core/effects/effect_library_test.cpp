@@ -4,9 +4,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "effects/augmented_simulation.hpp"
-#include "effects/effect.hpp"
 #include "support/boats.hpp"
+#include "telltale/core/effects/augmented_simulation.hpp"
+#include "telltale/core/effects/effect.hpp"
 
 namespace telltale {
 namespace {

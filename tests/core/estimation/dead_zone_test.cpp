@@ -1,4 +1,4 @@
-#include "estimation/dead_zone.hpp"
+#include "telltale/core/estimation/dead_zone.hpp"
 
 #include <cmath>
 
@@ -6,10 +6,10 @@
 #include <boost/random/normal_distribution.hpp>
 #include <boost/random/uniform_real_distribution.hpp>
 
-#include "identification/identify.hpp"
-#include "simulation/simulator.hpp"
-#include "simulation/yellowfish.hpp"
 #include "support/discrete_boat.hpp"
+#include "telltale/core/identification/identify.hpp"
+#include "telltale/core/simulation/simulator.hpp"
+#include "telltale/core/simulation/yellowfish.hpp"
 
 namespace telltale {
 namespace {

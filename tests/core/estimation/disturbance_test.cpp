@@ -1,10 +1,10 @@
-#include "estimation/disturbance.hpp"
+#include "telltale/core/estimation/disturbance.hpp"
 
 #include <gtest/gtest.h>
 
-#include "data/preparation.hpp"
-#include "simulation/dataset_twin.hpp"
 #include "support/boats.hpp"
+#include "telltale/core/data/preparation.hpp"
+#include "telltale/core/simulation/dataset_twin.hpp"
 
 namespace telltale {
 namespace {

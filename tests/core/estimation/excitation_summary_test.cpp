@@ -1,13 +1,13 @@
-#include "estimation/excitation_summary.hpp"
+#include "telltale/core/estimation/excitation_summary.hpp"
 
 #include <cmath>
 #include <numeric>
 
 #include <gtest/gtest.h>
 
-#include "linear_algebra/decompositions.hpp"
-#include "simulation/yellowfish.hpp"
 #include "support/discrete_boat.hpp"
+#include "telltale/core/linear_algebra/decompositions.hpp"
+#include "telltale/core/simulation/yellowfish.hpp"
 
 namespace telltale {
 namespace {

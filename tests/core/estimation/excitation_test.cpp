@@ -1,9 +1,9 @@
-#include "estimation/excitation.hpp"
+#include "telltale/core/estimation/excitation.hpp"
 
 #include <gtest/gtest.h>
 
-#include "simulation/yellowfish.hpp"
 #include "support/discrete_boat.hpp"
+#include "telltale/core/simulation/yellowfish.hpp"
 
 namespace telltale {
 namespace {

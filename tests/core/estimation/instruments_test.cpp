@@ -1,10 +1,10 @@
-#include "estimation/instruments.hpp"
+#include "telltale/core/estimation/instruments.hpp"
 
 #include <gtest/gtest.h>
 
-#include "data/preparation.hpp"
-#include "estimation/weak_iv.hpp"
 #include "support/boats.hpp"
+#include "telltale/core/data/preparation.hpp"
+#include "telltale/core/estimation/weak_iv.hpp"
 
 namespace telltale {
 namespace {

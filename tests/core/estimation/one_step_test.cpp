@@ -1,11 +1,11 @@
-#include "estimation/one_step.hpp"
+#include "telltale/core/estimation/one_step.hpp"
 
 #include <cmath>
 
 #include <gtest/gtest.h>
 
-#include "simulation/yellowfish.hpp"
 #include "support/discrete_boat.hpp"
+#include "telltale/core/simulation/yellowfish.hpp"
 
 namespace telltale {
 namespace {

@@ -1,7 +1,7 @@
 // A boat on a straight course, u_dot = -d u + b delta. For a fixed d its track is a linear function
 // of b and of where each shot starts, so the exact profile of d follows from linear least squares
 // in closed form.
-#include "estimation/output_error_profile.hpp"
+#include "telltale/core/estimation/output_error_profile.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -9,12 +9,12 @@
 
 #include <gtest/gtest.h>
 
-#include "data/preparation.hpp"
-#include "linear_algebra/decompositions.hpp"
-#include "simulation/sensors.hpp"
-#include "simulation/simulator.hpp"
 #include "support/catamaran.hpp"
-#include "uncertainty/profile_interval.hpp"
+#include "telltale/core/data/preparation.hpp"
+#include "telltale/core/linear_algebra/decompositions.hpp"
+#include "telltale/core/simulation/sensors.hpp"
+#include "telltale/core/simulation/simulator.hpp"
+#include "telltale/core/uncertainty/profile_interval.hpp"
 
 namespace telltale {
 namespace {

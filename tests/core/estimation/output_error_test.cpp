@@ -1,12 +1,12 @@
-#include "estimation/output_error.hpp"
+#include "telltale/core/estimation/output_error.hpp"
 
 #include <cmath>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "estimation/weak_iv.hpp"
 #include "support/catamaran.hpp"
+#include "telltale/core/estimation/weak_iv.hpp"
 
 namespace telltale {
 namespace {

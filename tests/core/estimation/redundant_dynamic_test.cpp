@@ -1,13 +1,13 @@
-#include "estimation/redundant_dynamic.hpp"
+#include "telltale/core/estimation/redundant_dynamic.hpp"
 
 #include <cmath>
 
 #include <gtest/gtest.h>
 #include <boost/random/uniform_real_distribution.hpp>
 
-#include "random.hpp"
-#include "simulation/yellowfish.hpp"
 #include "support/discrete_boat.hpp"
+#include "telltale/core/random.hpp"
+#include "telltale/core/simulation/yellowfish.hpp"
 
 namespace telltale {
 namespace {

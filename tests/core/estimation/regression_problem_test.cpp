@@ -1,11 +1,11 @@
-#include "estimation/regression_problem.hpp"
+#include "telltale/core/estimation/regression_problem.hpp"
 
 #include <map>
 #include <string_view>
 
 #include <gtest/gtest.h>
 
-#include "contract.hpp"
+#include "telltale/core/contract.hpp"
 
 namespace telltale {
 namespace {

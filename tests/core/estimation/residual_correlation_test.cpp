@@ -1,4 +1,4 @@
-#include "estimation/residual_correlation.hpp"
+#include "telltale/core/estimation/residual_correlation.hpp"
 
 #include <algorithm>
 #include <random>
@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 #include <boost/random/normal_distribution.hpp>
 
-#include "random.hpp"
+#include "telltale/core/random.hpp"
 
 namespace telltale {
 namespace {

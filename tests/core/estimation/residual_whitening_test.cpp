@@ -1,4 +1,4 @@
-#include "estimation/residual_whitening.hpp"
+#include "telltale/core/estimation/residual_whitening.hpp"
 
 #include <cmath>
 #include <limits>
@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include "estimation/residual_correlation.hpp"
+#include "telltale/core/estimation/residual_correlation.hpp"
 
 namespace telltale {
 namespace {

@@ -1,4 +1,4 @@
-#include "estimation/separability.hpp"
+#include "telltale/core/estimation/separability.hpp"
 
 #include <cmath>
 #include <limits>
@@ -8,8 +8,8 @@
 #include <Eigen/LU>
 #include <boost/random/normal_distribution.hpp>
 
-#include "contract.hpp"
-#include "random.hpp"
+#include "telltale/core/contract.hpp"
+#include "telltale/core/random.hpp"
 
 namespace telltale {
 namespace {

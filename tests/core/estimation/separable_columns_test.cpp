@@ -1,14 +1,14 @@
-#include "estimation/separable_columns.hpp"
+#include "telltale/core/estimation/separable_columns.hpp"
 
 #include <algorithm>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "data/preparation.hpp"
-#include "estimation/weak_iv.hpp"
-#include "simulation/sensors.hpp"
 #include "support/boats.hpp"
+#include "telltale/core/data/preparation.hpp"
+#include "telltale/core/estimation/weak_iv.hpp"
+#include "telltale/core/simulation/sensors.hpp"
 
 namespace telltale {
 namespace {

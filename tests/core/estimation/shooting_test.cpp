@@ -1,11 +1,11 @@
-#include "estimation/shooting.hpp"
+#include "telltale/core/estimation/shooting.hpp"
 
 #include <cmath>
 
 #include <gtest/gtest.h>
 
-#include "estimation/weak_iv.hpp"
 #include "support/catamaran.hpp"
+#include "telltale/core/estimation/weak_iv.hpp"
 
 namespace telltale {
 namespace {

@@ -1,4 +1,4 @@
-#include "estimation/sliding_regression.hpp"
+#include "telltale/core/estimation/sliding_regression.hpp"
 
 #include <cmath>
 #include <deque>
@@ -6,9 +6,9 @@
 #include <gtest/gtest.h>
 #include <boost/random/normal_distribution.hpp>
 
-#include "contract.hpp"
-#include "linear_algebra/decompositions.hpp"
-#include "random.hpp"
+#include "telltale/core/contract.hpp"
+#include "telltale/core/linear_algebra/decompositions.hpp"
+#include "telltale/core/random.hpp"
 
 namespace telltale {
 namespace {

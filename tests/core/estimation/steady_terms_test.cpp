@@ -1,4 +1,4 @@
-#include "estimation/steady_terms.hpp"
+#include "telltale/core/estimation/steady_terms.hpp"
 
 #include <array>
 #include <cmath>
@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "vessel/disturbance.hpp"
+#include "telltale/core/vessel/disturbance.hpp"
 
 namespace telltale {
 namespace {

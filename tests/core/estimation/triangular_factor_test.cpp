@@ -1,8 +1,8 @@
-#include "estimation/triangular_factor.hpp"
+#include "telltale/core/estimation/triangular_factor.hpp"
 
 #include <gtest/gtest.h>
 
-#include "contract.hpp"
+#include "telltale/core/contract.hpp"
 
 namespace telltale {
 namespace {

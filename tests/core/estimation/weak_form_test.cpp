@@ -1,9 +1,9 @@
-#include "estimation/weak_form.hpp"
+#include "telltale/core/estimation/weak_form.hpp"
 
 #include <gtest/gtest.h>
 
-#include "data/preparation.hpp"
 #include "support/boats.hpp"
+#include "telltale/core/data/preparation.hpp"
 
 namespace telltale {
 namespace {

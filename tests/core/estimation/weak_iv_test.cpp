@@ -1,15 +1,15 @@
-#include "estimation/weak_iv.hpp"
+#include "telltale/core/estimation/weak_iv.hpp"
 
 #include <Eigen/Eigenvalues>
 
 #include <gtest/gtest.h>
 #include <boost/random/uniform_real_distribution.hpp>
 
-#include "data/preparation.hpp"
-#include "estimation/one_step.hpp"
-#include "linear_algebra/covariance.hpp"
-#include "random.hpp"
 #include "support/boats.hpp"
+#include "telltale/core/data/preparation.hpp"
+#include "telltale/core/estimation/one_step.hpp"
+#include "telltale/core/linear_algebra/covariance.hpp"
+#include "telltale/core/random.hpp"
 
 namespace telltale {
 namespace {

@@ -1,4 +1,4 @@
-#include "identification/advice.hpp"
+#include "telltale/core/identification/advice.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -6,9 +6,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "identification/identify.hpp"
-#include "simulation/sensors.hpp"
 #include "support/boats.hpp"
+#include "telltale/core/identification/identify.hpp"
+#include "telltale/core/simulation/sensors.hpp"
 
 namespace telltale {
 namespace {

@@ -1,4 +1,4 @@
-#include "identification/certify.hpp"
+#include "telltale/core/identification/certify.hpp"
 
 #include <algorithm>
 #include <stdexcept>

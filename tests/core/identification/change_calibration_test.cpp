@@ -5,9 +5,9 @@
 #include <gtest/gtest.h>
 
 #include "coverage/truth.hpp"
-#include "identification/identify.hpp"
-#include "identification/model_comparison.hpp"
-#include "parallel.hpp"
+#include "telltale/core/identification/identify.hpp"
+#include "telltale/core/identification/model_comparison.hpp"
+#include "telltale/core/parallel.hpp"
 
 namespace telltale {
 namespace {

@@ -1,4 +1,4 @@
-#include "identification/estimator_choice.hpp"
+#include "telltale/core/identification/estimator_choice.hpp"
 
 #include <cmath>
 #include <optional>
@@ -7,10 +7,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "identification/identify.hpp"
-#include "identification/output_error_answer.hpp"
-#include "parallel.hpp"
 #include "support/reference_boat.hpp"
+#include "telltale/core/identification/identify.hpp"
+#include "telltale/core/identification/output_error_answer.hpp"
+#include "telltale/core/parallel.hpp"
 
 namespace telltale {
 namespace {

@@ -1,4 +1,4 @@
-#include "identification/identify.hpp"
+#include "telltale/core/identification/identify.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -8,10 +8,10 @@
 #include <gtest/gtest.h>
 #include <boost/random/normal_distribution.hpp>
 
-#include "simulation/simulator.hpp"
-#include "simulation/yellowfish.hpp"
 #include "support/boats.hpp"
 #include "support/discrete_boat.hpp"
+#include "telltale/core/simulation/simulator.hpp"
+#include "telltale/core/simulation/yellowfish.hpp"
 
 namespace telltale {
 namespace {

@@ -1,4 +1,4 @@
-#include "identification/input_gain.hpp"
+#include "telltale/core/identification/input_gain.hpp"
 
 #include <cmath>
 
@@ -6,13 +6,13 @@
 #include <Eigen/Cholesky>
 #include <boost/random/normal_distribution.hpp>
 
-#include "contract.hpp"
-#include "random.hpp"
-#include "simulation/simulator.hpp"
-#include "simulation/yellowfish.hpp"
 #include "support/discrete_boat.hpp"
 #include "support/identifications.hpp"
 #include "support/numbers.hpp"
+#include "telltale/core/contract.hpp"
+#include "telltale/core/random.hpp"
+#include "telltale/core/simulation/simulator.hpp"
+#include "telltale/core/simulation/yellowfish.hpp"
 
 namespace telltale {
 namespace {

@@ -1,12 +1,12 @@
-#include "identification/model_change.hpp"
+#include "telltale/core/identification/model_change.hpp"
 
 #include <cmath>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "identification/model_comparison.hpp"
 #include "support/identifications.hpp"
+#include "telltale/core/identification/model_comparison.hpp"
 
 namespace telltale {
 namespace {

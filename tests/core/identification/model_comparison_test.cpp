@@ -1,4 +1,4 @@
-#include "identification/model_comparison.hpp"
+#include "telltale/core/identification/model_comparison.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -6,9 +6,9 @@
 #include <gtest/gtest.h>
 #include <boost/random/normal_distribution.hpp>
 
-#include "identification/identify.hpp"
-#include "simulation/yellowfish.hpp"
 #include "support/discrete_boat.hpp"
+#include "telltale/core/identification/identify.hpp"
+#include "telltale/core/simulation/yellowfish.hpp"
 
 namespace telltale {
 namespace {

@@ -6,8 +6,8 @@
 #include <gtest/gtest.h>
 
 #include "coverage/truth.hpp"
-#include "identification/identify.hpp"
-#include "parallel.hpp"
+#include "telltale/core/identification/identify.hpp"
+#include "telltale/core/parallel.hpp"
 
 namespace telltale {
 namespace {

@@ -1,4 +1,4 @@
-#include "identification/output_error_answer.hpp"
+#include "telltale/core/identification/output_error_answer.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -7,9 +7,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "identification/identify.hpp"
 #include "support/boats.hpp"
 #include "support/reference_boat.hpp"
+#include "telltale/core/identification/identify.hpp"
 
 namespace telltale {
 namespace {

@@ -1,4 +1,4 @@
-#include "identification/posterior_draws.hpp"
+#include "telltale/core/identification/posterior_draws.hpp"
 
 #include <cmath>
 #include <limits>

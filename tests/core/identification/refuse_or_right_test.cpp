@@ -7,12 +7,12 @@
 
 #include <gtest/gtest.h>
 
-#include "identification/identify.hpp"
-#include "parallel.hpp"
-#include "simulation/manoeuvres.hpp"
-#include "simulation/sensors.hpp"
 #include "support/boats.hpp"
-#include "uncertainty/laws.hpp"
+#include "telltale/core/identification/identify.hpp"
+#include "telltale/core/parallel.hpp"
+#include "telltale/core/simulation/manoeuvres.hpp"
+#include "telltale/core/simulation/sensors.hpp"
+#include "telltale/core/uncertainty/laws.hpp"
 
 namespace telltale {
 namespace {

@@ -1,13 +1,13 @@
-#include "identification/sailed_model.hpp"
+#include "telltale/core/identification/sailed_model.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "data/preparation.hpp"
-#include "simulation/free_run.hpp"
 #include "support/augmented_boats.hpp"
 #include "support/boats.hpp"
 #include "support/identifications.hpp"
+#include "telltale/core/data/preparation.hpp"
+#include "telltale/core/simulation/free_run.hpp"
 
 namespace telltale {
 namespace {

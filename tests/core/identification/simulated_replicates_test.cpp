@@ -1,11 +1,11 @@
-#include "identification/simulated_replicates.hpp"
+#include "telltale/core/identification/simulated_replicates.hpp"
 
 #include <cmath>
 
 #include <gtest/gtest.h>
 
-#include "identification/identify.hpp"
 #include "support/boats.hpp"
+#include "telltale/core/identification/identify.hpp"
 
 namespace telltale {
 namespace {

@@ -1,4 +1,4 @@
-#include "identification/tamed_model.hpp"
+#include "telltale/core/identification/tamed_model.hpp"
 
 #include <limits>
 

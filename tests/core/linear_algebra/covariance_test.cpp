@@ -1,4 +1,4 @@
-#include "linear_algebra/covariance.hpp"
+#include "telltale/core/linear_algebra/covariance.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "simulation/dataset_twin.hpp"
+#include "telltale/core/simulation/dataset_twin.hpp"
 
 #include <cmath>
 #include <vector>
@@ -6,9 +6,9 @@
 #include <gtest/gtest.h>
 #include <Eigen/Core>
 
-#include "data/north_east.hpp"
-#include "data/preparation.hpp"
 #include "support/boats.hpp"
+#include "telltale/core/data/north_east.hpp"
+#include "telltale/core/data/preparation.hpp"
 
 namespace telltale {
 namespace {

@@ -1,11 +1,11 @@
-#include "simulation/free_run.hpp"
+#include "telltale/core/simulation/free_run.hpp"
 
 #include <cmath>
 
 #include <gtest/gtest.h>
 
-#include "simulation/yellowfish.hpp"
 #include "support/discrete_boat.hpp"
+#include "telltale/core/simulation/yellowfish.hpp"
 
 namespace telltale {
 namespace {

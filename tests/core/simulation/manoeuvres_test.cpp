@@ -1,12 +1,12 @@
-#include "simulation/manoeuvres.hpp"
+#include "telltale/core/simulation/manoeuvres.hpp"
 
 #include <cmath>
 #include <map>
 
 #include <gtest/gtest.h>
 
-#include "linear_algebra/decompositions.hpp"
-#include "simulation/yellowfish.hpp"
+#include "telltale/core/linear_algebra/decompositions.hpp"
+#include "telltale/core/simulation/yellowfish.hpp"
 
 namespace telltale {
 namespace {

@@ -1,4 +1,4 @@
-#include "simulation/paper_mission.hpp"
+#include "telltale/core/simulation/paper_mission.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -6,8 +6,8 @@
 
 #include <gtest/gtest.h>
 
-#include "data/preparation.hpp"
-#include "simulation/yellowfish.hpp"
+#include "telltale/core/data/preparation.hpp"
+#include "telltale/core/simulation/yellowfish.hpp"
 
 namespace telltale {
 namespace {

@@ -1,4 +1,4 @@
-#include "simulation/sensors.hpp"
+#include "telltale/core/simulation/sensors.hpp"
 
 #include <cmath>
 #include <numbers>
@@ -6,8 +6,8 @@
 #include <gtest/gtest.h>
 #include <GeographicLib/Geodesic.hpp>
 
-#include "simulation/manoeuvres.hpp"
-#include "simulation/yellowfish.hpp"
+#include "telltale/core/simulation/manoeuvres.hpp"
+#include "telltale/core/simulation/yellowfish.hpp"
 
 namespace telltale {
 namespace {

@@ -1,12 +1,12 @@
-#include "simulation/simulator.hpp"
+#include "telltale/core/simulation/simulator.hpp"
 
 #include <cmath>
 #include <numbers>
 
 #include <gtest/gtest.h>
 
-#include "contract.hpp"
-#include "simulation/yellowfish.hpp"
+#include "telltale/core/contract.hpp"
+#include "telltale/core/simulation/yellowfish.hpp"
 
 namespace telltale {
 namespace {

@@ -1,10 +1,10 @@
-#include "simulation/yellowfish.hpp"
+#include "telltale/core/simulation/yellowfish.hpp"
 
 #include <cmath>
 
 #include <gtest/gtest.h>
 
-#include "simulation/manoeuvres.hpp"
+#include "telltale/core/simulation/manoeuvres.hpp"
 
 namespace telltale {
 namespace {

@@ -1,11 +1,11 @@
-#include "uncertainty/block_length.hpp"
+#include "telltale/core/uncertainty/block_length.hpp"
 
 #include <cmath>
 
 #include <gtest/gtest.h>
 #include <boost/random/normal_distribution.hpp>
 
-#include "random.hpp"
+#include "telltale/core/random.hpp"
 
 namespace telltale {
 namespace {

@@ -1,4 +1,4 @@
-#include "uncertainty/bootstrap.hpp"
+#include "telltale/core/uncertainty/bootstrap.hpp"
 
 #include <cmath>
 
@@ -6,10 +6,10 @@
 #include <boost/random/exponential_distribution.hpp>
 #include <boost/random/normal_distribution.hpp>
 
-#include "linear_algebra/decompositions.hpp"
-#include "simulation/yellowfish.hpp"
 #include "support/discrete_boat.hpp"
-#include "uncertainty/timeline.hpp"
+#include "telltale/core/linear_algebra/decompositions.hpp"
+#include "telltale/core/simulation/yellowfish.hpp"
+#include "telltale/core/uncertainty/timeline.hpp"
 
 namespace telltale {
 namespace {

@@ -1,4 +1,4 @@
-#include "uncertainty/coverage_certificate.hpp"
+#include "telltale/core/uncertainty/coverage_certificate.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "uncertainty/interval.hpp"
+#include "telltale/core/uncertainty/interval.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -8,8 +8,8 @@
 #include <Eigen/Core>
 #include <boost/random/normal_distribution.hpp>
 
-#include "contract.hpp"
-#include "random.hpp"
+#include "telltale/core/contract.hpp"
+#include "telltale/core/random.hpp"
 
 namespace telltale {
 namespace {

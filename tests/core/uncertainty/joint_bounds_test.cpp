@@ -1,8 +1,8 @@
-#include "uncertainty/joint_bounds.hpp"
+#include "telltale/core/uncertainty/joint_bounds.hpp"
 
 #include <gtest/gtest.h>
 
-#include "contract.hpp"
+#include "telltale/core/contract.hpp"
 
 namespace telltale {
 namespace {

@@ -1,14 +1,14 @@
-#include "uncertainty/live_bounds.hpp"
+#include "telltale/core/uncertainty/live_bounds.hpp"
 
 #include <algorithm>
 
 #include <gtest/gtest.h>
 #include <boost/random/normal_distribution.hpp>
 
-#include "contract.hpp"
-#include "estimation/one_step.hpp"
-#include "simulation/yellowfish.hpp"
 #include "support/discrete_boat.hpp"
+#include "telltale/core/contract.hpp"
+#include "telltale/core/estimation/one_step.hpp"
+#include "telltale/core/simulation/yellowfish.hpp"
 
 namespace telltale {
 namespace {

@@ -1,12 +1,12 @@
-#include "uncertainty/packed_normal.hpp"
+#include "telltale/core/uncertainty/packed_normal.hpp"
 
 #include <vector>
 
 #include <gtest/gtest.h>
 #include <boost/random/normal_distribution.hpp>
 
-#include "linear_algebra/decompositions.hpp"
-#include "random.hpp"
+#include "telltale/core/linear_algebra/decompositions.hpp"
+#include "telltale/core/random.hpp"
 
 namespace telltale {
 namespace {

@@ -1,4 +1,4 @@
-#include "uncertainty/prediction_band.hpp"
+#include "telltale/core/uncertainty/prediction_band.hpp"
 
 #include <cmath>
 

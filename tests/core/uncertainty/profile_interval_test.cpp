@@ -1,4 +1,4 @@
-#include "uncertainty/profile_interval.hpp"
+#include "telltale/core/uncertainty/profile_interval.hpp"
 
 #include <cmath>
 

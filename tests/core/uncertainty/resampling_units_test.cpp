@@ -1,4 +1,4 @@
-#include "uncertainty/resampling_units.hpp"
+#include "telltale/core/uncertainty/resampling_units.hpp"
 
 #include <algorithm>
 #include <numeric>
@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 #include <boost/random/normal_distribution.hpp>
 
-#include "random.hpp"
+#include "telltale/core/random.hpp"
 
 namespace telltale {
 namespace {

@@ -1,4 +1,4 @@
-#include "uncertainty/twin_calibration.hpp"
+#include "telltale/core/uncertainty/twin_calibration.hpp"
 
 #include <cmath>
 #include <limits>
@@ -7,10 +7,10 @@
 #include <gtest/gtest.h>
 #include <boost/random/normal_distribution.hpp>
 
-#include "contract.hpp"
-#include "random.hpp"
-#include "uncertainty/joint_bounds.hpp"
-#include "uncertainty/laws.hpp"
+#include "telltale/core/contract.hpp"
+#include "telltale/core/random.hpp"
+#include "telltale/core/uncertainty/joint_bounds.hpp"
+#include "telltale/core/uncertainty/laws.hpp"
 
 namespace telltale {
 namespace {

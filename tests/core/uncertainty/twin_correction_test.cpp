@@ -1,4 +1,4 @@
-#include "uncertainty/twin_correction.hpp"
+#include "telltale/core/uncertainty/twin_correction.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -6,12 +6,12 @@
 #include <gtest/gtest.h>
 
 #include "coverage/truth.hpp"
-#include "data/preparation.hpp"
-#include "estimation/one_step.hpp"
-#include "linear_algebra/decompositions.hpp"
-#include "parallel.hpp"
-#include "uncertainty/clustered_fit.hpp"
-#include "uncertainty/laws.hpp"
+#include "telltale/core/data/preparation.hpp"
+#include "telltale/core/estimation/one_step.hpp"
+#include "telltale/core/linear_algebra/decompositions.hpp"
+#include "telltale/core/parallel.hpp"
+#include "telltale/core/uncertainty/clustered_fit.hpp"
+#include "telltale/core/uncertainty/laws.hpp"
 
 namespace telltale {
 namespace {

@@ -1,14 +1,14 @@
-#include "uncertainty/wald.hpp"
+#include "telltale/core/uncertainty/wald.hpp"
 
 #include <cmath>
 
 #include <gtest/gtest.h>
 #include <boost/random/normal_distribution.hpp>
 
-#include "contract.hpp"
-#include "linear_algebra/decompositions.hpp"
-#include "random.hpp"
 #include "support/numbers.hpp"
+#include "telltale/core/contract.hpp"
+#include "telltale/core/linear_algebra/decompositions.hpp"
+#include "telltale/core/random.hpp"
 
 namespace telltale {
 namespace {

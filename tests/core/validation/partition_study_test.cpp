@@ -1,13 +1,13 @@
-#include "validation/partition_study.hpp"
+#include "telltale/core/validation/partition_study.hpp"
 
 #include <cmath>
 
 #include <gtest/gtest.h>
 #include <boost/random/normal_distribution.hpp>
 
-#include "simulation/simulator.hpp"
-#include "simulation/yellowfish.hpp"
 #include "support/discrete_boat.hpp"
+#include "telltale/core/simulation/simulator.hpp"
+#include "telltale/core/simulation/yellowfish.hpp"
 
 namespace telltale {
 namespace {

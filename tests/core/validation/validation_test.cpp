@@ -1,13 +1,13 @@
-#include "validation/validation.hpp"
+#include "telltale/core/validation/validation.hpp"
 
 #include <cmath>
 
 #include <gtest/gtest.h>
 
-#include "simulation/manoeuvres.hpp"
-#include "simulation/simulator.hpp"
-#include "simulation/yellowfish.hpp"
 #include "support/numbers.hpp"
+#include "telltale/core/simulation/manoeuvres.hpp"
+#include "telltale/core/simulation/simulator.hpp"
+#include "telltale/core/simulation/yellowfish.hpp"
 
 namespace telltale {
 namespace {

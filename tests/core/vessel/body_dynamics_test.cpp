@@ -1,10 +1,10 @@
-#include "vessel/body_dynamics.hpp"
+#include "telltale/core/vessel/body_dynamics.hpp"
 
 #include <gtest/gtest.h>
 
-#include "simulation/simulator.hpp"
-#include "simulation/yellowfish.hpp"
 #include "support/boats.hpp"
+#include "telltale/core/simulation/simulator.hpp"
+#include "telltale/core/simulation/yellowfish.hpp"
 
 namespace telltale {
 namespace {

@@ -1,4 +1,4 @@
-#include "vessel/body_row.hpp"
+#include "telltale/core/vessel/body_row.hpp"
 
 #include <algorithm>
 #include <cmath>

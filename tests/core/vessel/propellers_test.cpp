@@ -1,4 +1,4 @@
-#include "vessel/propellers.hpp"
+#include "telltale/core/vessel/propellers.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "codec/daemon_config.hpp"
+#include "telltale/idl/codec/daemon_config.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

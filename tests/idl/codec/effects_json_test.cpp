@@ -1,14 +1,14 @@
-#include "codec/effects_json.hpp"
+#include "telltale/idl/codec/effects_json.hpp"
 
 #include <cmath>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "codec/model_json.hpp"
-#include "codec/wire.hpp"
-#include "effects/effect.hpp"
 #include "support/identifications.hpp"
+#include "telltale/core/effects/effect.hpp"
+#include "telltale/idl/codec/model_json.hpp"
+#include "telltale/idl/codec/wire.hpp"
 
 namespace telltale {
 namespace {

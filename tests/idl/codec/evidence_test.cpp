@@ -6,10 +6,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "codec/model_json.hpp"
-#include "codec/wire.hpp"
 #include "support/evidence.hpp"
 #include "support/identifications.hpp"
+#include "telltale/idl/codec/model_json.hpp"
+#include "telltale/idl/codec/wire.hpp"
 
 namespace telltale {
 namespace {

@@ -1,4 +1,4 @@
-#include "codec/metrics_json.hpp"
+#include "telltale/idl/codec/metrics_json.hpp"
 
 #include <cmath>
 #include <limits>

@@ -1,4 +1,4 @@
-#include "codec/model_json.hpp"
+#include "telltale/idl/codec/model_json.hpp"
 
 #include <algorithm>
 #include <functional>

@@ -1,4 +1,4 @@
-#include "codec/report_json.hpp"
+#include "telltale/idl/codec/report_json.hpp"
 
 #include <algorithm>
 

@@ -1,4 +1,4 @@
-#include "codec/vehicle_file.hpp"
+#include "telltale/idl/codec/vehicle_file.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

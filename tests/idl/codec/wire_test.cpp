@@ -1,4 +1,4 @@
-#include "codec/wire.hpp"
+#include "telltale/idl/codec/wire.hpp"
 
 #include <cmath>
 #include <cstring>
@@ -7,10 +7,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "contract.hpp"
 #include "support/diagnoses.hpp"
 #include "support/identifications.hpp"
 #include "support/numbers.hpp"
+#include "telltale/core/contract.hpp"
 
 namespace telltale {
 namespace {
