@@ -5,8 +5,8 @@
 #include <benchmark/benchmark.h>
 #include <boost/random/normal_distribution.hpp>
 
-#include "telltale/core/estimation/one_step.hpp"
-#include "telltale/core/random.hpp"
+#include "telltale/core/base/random.hpp"
+#include "telltale/core/estimation/regression/one_step.hpp"
 #include "telltale/core/uncertainty/block_length.hpp"
 #include "telltale/core/uncertainty/bootstrap.hpp"
 #include "telltale/core/uncertainty/timeline.hpp"
@@ -26,7 +26,7 @@ Eigen::VectorXd Coloured(double memory, RandomEngine& engine) {
   return series;
 }
 
-EquationProblem MadeUpProblem(std::size_t segments) {
+EquationProblem MadeUpProblem(std::size_t slices) {
   RandomEngine engine(1);
   EquationProblem problem;
   problem.equation = Equation::kYaw;
@@ -35,14 +35,14 @@ EquationProblem MadeUpProblem(std::size_t segments) {
   for (auto column : problem.phi.colwise()) column = Coloured(0.9, engine);
   problem.y = problem.phi.rowwise().sum() + Coloured(0.5, engine);
   for (std::size_t i = 0; i < static_cast<std::size_t>(kRows); ++i) problem.instants.push_back(i);
-  for (std::size_t s = 0; s < segments; ++s) {
-    problem.clusters.push_back({s * kRows / segments, (s + 1) * kRows / segments});
+  for (std::size_t s = 0; s < slices; ++s) {
+    problem.clusters.push_back({s * kRows / slices, (s + 1) * kRows / slices});
   }
   return problem;
 }
 
-std::vector<ClusteredFit> MadeUpFit(std::size_t segments) {
-  const EquationProblem problem = MadeUpProblem(segments);
+std::vector<ClusteredFit> MadeUpFit(std::size_t slices) {
+  const EquationProblem problem = MadeUpProblem(slices);
   return {FitOf(problem, EstimateOneStep(*Assess(problem, {})))};
 }
 
@@ -56,23 +56,23 @@ void LeastSquaresWithCovariance(benchmark::State& state) {
 }
 BENCHMARK(LeastSquaresWithCovariance)->Unit(benchmark::kMillisecond);
 
-void SegmentReplicates(benchmark::State& state, IntervalMethod interval) {
+void SliceReplicates(benchmark::State& state, IntervalMethod interval) {
   const auto fits = MadeUpFit(static_cast<std::size_t>(state.range(0)));
   for (auto _ : state) {
-    benchmark::DoNotOptimize(Bootstrap(fits, {1000, 1, 1, Resampling::kSegments, interval}));
+    benchmark::DoNotOptimize(Bootstrap(fits, {1000, 1, 1, Resampling::kSlices, interval}));
   }
 }
-BENCHMARK_CAPTURE(SegmentReplicates, percentile, IntervalMethod::kPercentile)
-    ->ArgName("segments")
+BENCHMARK_CAPTURE(SliceReplicates, percentile, IntervalMethod::kPercentile)
+    ->ArgName("slices")
     ->Arg(40)
     ->Arg(130)
     ->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(SegmentReplicates, studentized, IntervalMethod::kStudentized)
-    ->ArgName("segments")
+BENCHMARK_CAPTURE(SliceReplicates, studentized, IntervalMethod::kStudentized)
+    ->ArgName("slices")
     ->Arg(130)
     ->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(SegmentReplicates, bca, IntervalMethod::kBca)
-    ->ArgName("segments")
+BENCHMARK_CAPTURE(SliceReplicates, bca, IntervalMethod::kBca)
+    ->ArgName("slices")
     ->Arg(130)
     ->Unit(benchmark::kMillisecond);
 

@@ -50,8 +50,8 @@ theta = np.linalg.lstsq(X, y, rcond=None)[0]
 e = y - X @ theta
 
 
-def edges(segments):
-    return np.arange(segments + 1) * ROWS // segments
+def edges(slices):
+    return np.arange(slices + 1) * ROWS // slices
 
 
 def covariance_by_lstsq(solve):
@@ -63,9 +63,9 @@ def covariance_by_lstsq(solve):
     return job
 
 
-def rows_of_segments(segments, draw):
-    first = edges(segments)
-    drawn = draw.integers(0, segments, segments)
+def rows_of_segments(slices, draw):
+    first = edges(slices)
+    drawn = draw.integers(0, slices, slices)
     return np.concatenate([np.arange(first[s], first[s + 1]) for s in drawn])
 
 
@@ -88,15 +88,15 @@ def normal_equations(A, b):
     return np.linalg.solve(A.T @ A, A.T @ b)
 
 
-def grams_of_segments(segments):
+def grams_of_segments(slices):
     """Gram matrices once, then one product with the multiplicities and one batched solve."""
 
     def job():
-        first = edges(segments)
-        grams = np.array([X[a:b].T @ X[a:b] for a, b in zip(first, first[1:])]).reshape(segments, -1)
+        first = edges(slices)
+        grams = np.array([X[a:b].T @ X[a:b] for a, b in zip(first, first[1:])]).reshape(slices, -1)
         scores = np.array([X[a:b].T @ e[a:b] for a, b in zip(first, first[1:])])
         draw = np.random.default_rng(2)
-        times = draw.multinomial(segments, np.full(segments, 1.0 / segments), REPLICATES).astype(float)
+        times = draw.multinomial(slices, np.full(slices, 1.0 / slices), REPLICATES).astype(float)
         A = (times @ grams).reshape(REPLICATES, COLUMNS, COLUMNS)
         return theta + np.linalg.solve(A, (times @ scores)[:, :, None])[:, :, 0]
 
@@ -119,9 +119,9 @@ def prefix_sums_of_blocks():
     return theta + np.linalg.solve(A, sums[:, len(upper[0]) :, None])[:, :, 0]
 
 
-def milliseconds(job, repeats):
+def milliseconds(job, repetitions):
     times = []
-    for _ in range(repeats):
+    for _ in range(repetitions):
         start = time.perf_counter()
         job()
         times.append(1e3 * (time.perf_counter() - start))
@@ -131,7 +131,7 @@ def milliseconds(job, repeats):
 def own_milliseconds(bench):
     """Median times of the project's benchmarks by name."""
     run = subprocess.run(
-        [bench, "--benchmark_filter=^(LeastSquares|SegmentReplicates/percentile|BlockReplicates/percentile)",
+        [bench, "--benchmark_filter=^(LeastSquares|SliceReplicates/percentile|BlockReplicates/percentile)",
          "--benchmark_repetitions=7", "--benchmark_min_time=0.1", "--benchmark_format=json"],
         check=True, capture_output=True, text=True)
     return {b["run_name"]: b["real_time"] for b in json.loads(run.stdout)["benchmarks"]
@@ -168,22 +168,22 @@ def compare(bench):
         return np.linalg.lstsq(A, b, rcond=None)[0]
 
     least = "LeastSquaresWithCovariance"
-    few, many = "SegmentReplicates/percentile/segments:40", "SegmentReplicates/percentile/segments:130"
+    few, many = "SliceReplicates/percentile/slices:40", "SliceReplicates/percentile/slices:130"
     blocks = f"BlockReplicates/percentile/length:{LENGTH}"
     part = 50
     scaled = REPLICATES / part
-    # What it is, the project's benchmark, the rival, its job, repeats, and by how much its time is scaled up.
+    # What it is, the project's benchmark, the reference, its job, repetitions, and by how much its time is scaled up.
     jobs = [
         (least, "numpy lstsq", covariance_by_lstsq(lambda A, b: np.linalg.lstsq(A, b, rcond=None)), 9, 1),
         (least, "scipy lstsq", covariance_by_lstsq(scipy.linalg.lstsq), 9, 1),
         (least, "statsmodels OLS", lambda: sm.OLS(y, X).fit().cov_params(), 9, 1)]
-    for name, segments in ((few, 40), (many, 130)):
-        rows = lambda draw, segments=segments: rows_of_segments(segments, draw)
+    for name, slices in ((few, 40), (many, 130)):
+        rows = lambda draw, slices=slices: rows_of_segments(slices, draw)
         jobs += [
             (name, "statsmodels OLS, refitted *", refits(rows, loop_of_statsmodels, part), 1, scaled),
             (name, "numpy lstsq, refitted *", refits(rows, lstsq, part), 1, scaled),
             (name, "numpy normal equations, refitted", refits(rows, normal_equations), 1, 1),
-            (name, "numpy, Gram matrices of the segments", grams_of_segments(segments), 9, 1)]
+            (name, "numpy, Gram matrices of the slices", grams_of_segments(slices), 9, 1)]
     jobs += [
         (blocks, "statsmodels OLS, refitted *", refits(rows_of_blocks, loop_of_statsmodels, part), 1, scaled),
         (blocks, "numpy lstsq, refitted *", refits(rows_of_blocks, lstsq, part), 1, scaled),
@@ -195,9 +195,9 @@ def compare(bench):
           f"BLAS: {blas_in_use()}\n")
     print("| job | telltale, ms | with | ms | ratio |")
     print("|---|---|---|---|---|")
-    for name, rival, job, repeats, scale in jobs:
-        theirs = scale * milliseconds(job, repeats)
-        print(f"| `{name}` | {short(own[name])} | {rival} | {short(theirs)} | {short(theirs / own[name])} |", flush=True)
+    for name, reference, job, repetitions, scale in jobs:
+        theirs = scale * milliseconds(job, repetitions)
+        print(f"| `{name}` | {short(own[name])} | {reference} | {short(theirs)} | {short(theirs / own[name])} |", flush=True)
     print(f"\n\\* timed for {part} replicates, scaled up to {REPLICATES}")
 
 

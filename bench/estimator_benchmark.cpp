@@ -3,18 +3,18 @@
 
 #include <benchmark/benchmark.h>
 
-#include "coverage/truth.hpp"
+#include "coverage/independent_simulator.hpp"
 #include "telltale/core/data/preparation.hpp"
-#include "telltale/core/estimation/output_error.hpp"
-#include "telltale/core/estimation/weak_iv.hpp"
+#include "telltale/core/estimation/output_error/output_error.hpp"
+#include "telltale/core/estimation/weak_form/weak_iv.hpp"
 #include "telltale/core/identification/identify.hpp"
-#include "telltale/core/identification/weak_iv_answer.hpp"
-#include "telltale/core/uncertainty/twin_correction.hpp"
+#include "telltale/core/identification/weak_iv_estimate.hpp"
+#include "telltale/core/uncertainty/bootstrap_correction.hpp"
 
 namespace telltale {
 namespace {
 
-constexpr int kStretches = 80;  // of 40 s at 5 Hz
+constexpr int kSegmentCount = 80;  // of 40 s at 5 Hz
 
 using Columns = std::array<std::vector<std::size_t>, 3>;
 
@@ -28,8 +28,8 @@ Columns All() {
 }
 
 template <std::size_t N>
-std::array<double, N> Only(const std::array<double, N>& all,
-                           const std::vector<std::size_t>& columns) {
+std::array<double, N> KeepColumns(const std::array<double, N>& all,
+                                  const std::vector<std::size_t>& columns) {
   std::array<double, N> kept{};
   for (const std::size_t column : columns) kept[column] = all[column];
   return kept;
@@ -38,26 +38,26 @@ std::array<double, N> Only(const std::array<double, N>& all,
 /// The boat of bench/coverage with these coefficients and no others.
 coverage::Boat BoatOf(const Columns& columns) {
   coverage::Boat boat = coverage::ReferenceBoat();
-  boat.surge = Only(boat.surge, columns[0]);
-  boat.sway = Only(boat.sway, columns[1]);
-  boat.yaw = Only(boat.yaw, columns[2]);
+  boat.surge = KeepColumns(boat.surge, columns[0]);
+  boat.sway = KeepColumns(boat.sway, columns[1]);
+  boat.yaw = KeepColumns(boat.yaw, columns[2]);
   return boat;
 }
 
 Recording Recorded(const coverage::Boat& boat, double disturbed) {
-  coverage::Surroundings around;
-  for (double& sigma : around.disturbance_sigma) sigma *= disturbed;
+  coverage::SimulatedEnvironment environment;
+  for (double& sigma : environment.disturbance_sigma) sigma *= disturbed;
   coverage::Mission mission;
-  mission.segments = kStretches;
-  return coverage::Sail(boat, around, mission, 1);
+  mission.segments = kSegmentCount;
+  return coverage::Simulate(boat, environment, mission, 1);
 }
 
 PreparedDataset Prepared(const coverage::Boat& boat, double disturbed) {
   return PrepareForWeakIv(Recorded(boat, disturbed), coverage::VehicleOf(), {}).value();
 }
 
-void EstimateBySailing(benchmark::State& state, const Columns& columns, double time_constant_s,
-                       double disturbed) {
+void EstimateBySimulation(benchmark::State& state, const Columns& columns, double time_constant_s,
+                          double disturbed) {
   coverage::Boat boat = BoatOf(columns);
   boat.thruster_time_constant_s = time_constant_s;
   const PreparedDataset dataset = Prepared(boat, disturbed);
@@ -82,18 +82,18 @@ void EstimateBySailing(benchmark::State& state, const Columns& columns, double t
 }
 
 void OutputError(benchmark::State& state, const Columns& columns) {
-  EstimateBySailing(state, columns, 0.0, 0.0);
+  EstimateBySimulation(state, columns, 0.0, 0.0);
 }
 BENCHMARK_CAPTURE(OutputError, thirteen, Thirteen())->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(OutputError, all, All())->Unit(benchmark::kMillisecond);
 
 void OutputErrorLagging(benchmark::State& state) {
-  EstimateBySailing(state, All(), 0.4, 0.0);
+  EstimateBySimulation(state, All(), 0.4, 0.0);
 }
 BENCHMARK(OutputErrorLagging)->Unit(benchmark::kMillisecond);
 
 void OutputErrorDisturbed(benchmark::State& state) {
-  EstimateBySailing(state, All(), 0.0, 1.0);
+  EstimateBySimulation(state, All(), 0.0, 1.0);
 }
 BENCHMARK(OutputErrorDisturbed)->Unit(benchmark::kMillisecond);
 
@@ -109,21 +109,22 @@ BENCHMARK_CAPTURE(WeakIv, thirteen, Thirteen())->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(WeakIv, all, All())->Unit(benchmark::kMillisecond);
 
 /// The estimate and 40 twins of it on two threads.
-void WeakIvWithTwins(benchmark::State& state, const Columns& columns) {
+void WeakIvWithReplicates(benchmark::State& state, const Columns& columns) {
   const PreparedDataset dataset = Prepared(BoatOf(columns), 1.0);
   for (auto _ : state) {
     const auto fit = EstimateWeakIv(dataset, {}, columns, {});
-    benchmark::DoNotOptimize(CorrectWithTwins(dataset, {}, *fit, columns, {}, {40, 1, 2}));
+    benchmark::DoNotOptimize(
+        CorrectByParametricBootstrap(dataset, {}, *fit, columns, {}, {40, 1, 2}));
   }
   state.counters["rows"] = static_cast<double>(dataset.rows.size());
 }
-BENCHMARK_CAPTURE(WeakIvWithTwins, thirteen, Thirteen())
+BENCHMARK_CAPTURE(WeakIvWithReplicates, thirteen, Thirteen())
     ->Unit(benchmark::kMillisecond)
     ->UseRealTime();
-BENCHMARK_CAPTURE(WeakIvWithTwins, all, All())->Unit(benchmark::kMillisecond)->UseRealTime();
+BENCHMARK_CAPTURE(WeakIvWithReplicates, all, All())->Unit(benchmark::kMillisecond)->UseRealTime();
 
 /// From raw samples to a bounded model, the estimator chosen by the data, on two threads.
-void IdentifyByTheData(benchmark::State& state, double disturbed) {
+void IdentifyWithEstimatorSelection(benchmark::State& state, double disturbed) {
   const Recording recording = Recorded(coverage::ReferenceBoat(), disturbed);
   IdentifyOptions options;
   options.threads = 2;
@@ -131,8 +132,12 @@ void IdentifyByTheData(benchmark::State& state, double disturbed) {
     benchmark::DoNotOptimize(Identify(recording, coverage::VehicleOf(), options));
   }
 }
-BENCHMARK_CAPTURE(IdentifyByTheData, still, 0.0)->Unit(benchmark::kMillisecond)->UseRealTime();
-BENCHMARK_CAPTURE(IdentifyByTheData, disturbed, 1.0)->Unit(benchmark::kMillisecond)->UseRealTime();
+BENCHMARK_CAPTURE(IdentifyWithEstimatorSelection, still, 0.0)
+    ->Unit(benchmark::kMillisecond)
+    ->UseRealTime();
+BENCHMARK_CAPTURE(IdentifyWithEstimatorSelection, disturbed, 1.0)
+    ->Unit(benchmark::kMillisecond)
+    ->UseRealTime();
 
 /// One-step least squares of all three equations with covariance, from rows; what to sail next
 /// costs extra, as it simulates a catalogue of manoeuvres.

@@ -3,11 +3,11 @@
 
 #include <benchmark/benchmark.h>
 
-#include "telltale/core/estimation/one_step.hpp"
+#include "telltale/core/estimation/regression/one_step.hpp"
 #include "telltale/core/identification/identify.hpp"
+#include "telltale/core/paper/yellowfish.hpp"
 #include "telltale/core/simulation/manoeuvres.hpp"
 #include "telltale/core/simulation/sensors.hpp"
-#include "telltale/core/simulation/yellowfish.hpp"
 #include "telltale/core/uncertainty/bootstrap.hpp"
 
 namespace telltale {
@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kDurationS = 3200.0;  // 16,000 rows at 5 Hz
 
-Recording RecordTwin() {
+Recording RecordYellowfish() {
   std::vector<TimedCommand> commands;
   for (std::uint64_t part = 0; commands.empty() || commands.back().time_s < kDurationS; ++part) {
     const double start_s = commands.empty() ? 0.0 : commands.back().time_s + 1.0;
@@ -28,28 +28,28 @@ Recording RecordTwin() {
                  {});
 }
 
-const Recording& TwinRecording() {
-  static const Recording recording = RecordTwin();
+const Recording& SyntheticRecording() {
+  static const Recording recording = RecordYellowfish();
   return recording;
 }
 
-const PreparedDataset& TwinDataset() {
+const PreparedDataset& SimulatedYellowfishDataset() {
   static const PreparedDataset dataset =
-      Prepare(TwinRecording(), YellowfishVehicle(), PrepareOptions::Robust()).value();
+      Prepare(SyntheticRecording(), YellowfishVehicle(), PrepareOptions::Robust()).value();
   return dataset;
 }
 
 /// Yaw alone, 13 regressors; the rows the regions leave out are what keeps it just under 16,000.
 EquationProblem YawProblem() {
-  return BuildRegression(TwinDataset(), {}).equations[2];
+  return BuildRegression(SimulatedYellowfishDataset(), {}).equations[2];
 }
 
 void PrepareRecording(benchmark::State& state) {
   const Vehicle vehicle = YellowfishVehicle();
   for (auto _ : state) {
-    benchmark::DoNotOptimize(Prepare(TwinRecording(), vehicle, PrepareOptions::Robust()));
+    benchmark::DoNotOptimize(Prepare(SyntheticRecording(), vehicle, PrepareOptions::Robust()));
   }
-  state.counters["rows"] = static_cast<double>(TwinDataset().rows.size());
+  state.counters["rows"] = static_cast<double>(SimulatedYellowfishDataset().rows.size());
 }
 BENCHMARK(PrepareRecording)->Unit(benchmark::kMillisecond);
 
@@ -78,12 +78,12 @@ void BootstrapYaw(benchmark::State& state, Resampling resampling, IntervalMethod
   state.counters["draws"] = static_cast<double>(replicates.draws);
   state.counters["block"] = static_cast<double>(replicates.block_length);
 }
-BENCHMARK_CAPTURE(BootstrapYaw, segments, Resampling::kSegments, IntervalMethod::kPercentile)
+BENCHMARK_CAPTURE(BootstrapYaw, slices, Resampling::kSlices, IntervalMethod::kPercentile)
     ->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(BootstrapYaw, segments_studentized, Resampling::kSegments,
+BENCHMARK_CAPTURE(BootstrapYaw, slices_studentized, Resampling::kSlices,
                   IntervalMethod::kStudentized)
     ->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(BootstrapYaw, segments_bca, Resampling::kSegments, IntervalMethod::kBca)
+BENCHMARK_CAPTURE(BootstrapYaw, slices_bca, Resampling::kSlices, IntervalMethod::kBca)
     ->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(BootstrapYaw, blocks, Resampling::kMovingBlocks, IntervalMethod::kPercentile)
     ->Unit(benchmark::kMillisecond);
@@ -98,7 +98,7 @@ void PrepareAndIdentify(benchmark::State& state) {
   IdentifyOptions options = IdentifyOptions::OneStep();
   options.bootstrap_replicates = static_cast<std::size_t>(state.range(0));
   for (auto _ : state) {
-    benchmark::DoNotOptimize(Identify(TwinRecording(), vehicle, options));
+    benchmark::DoNotOptimize(Identify(SyntheticRecording(), vehicle, options));
   }
 }
 BENCHMARK(PrepareAndIdentify)

@@ -5,10 +5,10 @@
 #include <benchmark/benchmark.h>
 
 #include "telltale/core/data/window.hpp"
+#include "telltale/core/paper/yellowfish.hpp"
 #include "telltale/core/simulation/manoeuvres.hpp"
 #include "telltale/core/simulation/sensors.hpp"
-#include "telltale/core/simulation/yellowfish.hpp"
-#include "telltale/idl/codec/wire.hpp"
+#include "telltale/idl/codec/wire/wire.hpp"
 
 namespace telltale {
 namespace {
@@ -30,7 +30,7 @@ void EncodeAll(const std::vector<Sample>& samples, std::vector<Wire>& wires) {
   }
 }
 
-const WireLog& TwinLog() {
+const WireLog& SimulatedLog() {
   static const WireLog log = [] {
     const auto track = Simulate(YellowfishTwin(), {}, SampleMission(1), 600.0, 0.02);
     const Recording recording = Measure(track, YellowfishVehicle(), {});
@@ -51,7 +51,7 @@ void Admit(const Wire& wire, Window& window) {
 
 /// Samples come interleaved by time as a boat sends them: for each fix two pulses and ten headings.
 void DecodeAndAdmit(benchmark::State& state) {
-  const WireLog& log = TwinLog();
+  const WireLog& log = SimulatedLog();
   for (auto _ : state) {
     Window window{WindowLimits{}};
     for (std::size_t k = 0; k < log.gnss.size(); ++k) {
@@ -70,7 +70,7 @@ void DecodeAndAdmit(benchmark::State& state) {
 BENCHMARK(DecodeAndAdmit)->Unit(benchmark::kMillisecond);
 
 void Snapshot(benchmark::State& state) {
-  const WireLog& log = TwinLog();
+  const WireLog& log = SimulatedLog();
   Window window{WindowLimits{}};
   for (const auto& wire : log.heading) Admit(wire, window);
   for (auto _ : state) benchmark::DoNotOptimize(window.Snapshot());

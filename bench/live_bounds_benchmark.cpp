@@ -3,8 +3,8 @@
 #include <benchmark/benchmark.h>
 #include <boost/random/normal_distribution.hpp>
 
-#include "telltale/core/estimation/sliding_regression.hpp"
-#include "telltale/core/random.hpp"
+#include "telltale/core/base/random.hpp"
+#include "telltale/core/estimation/regression/sliding_regression.hpp"
 
 namespace telltale {
 namespace {

@@ -1,5 +1,6 @@
 // Velocity errors of the two preparation presets on a known motion: the table of
-// docs/data-preparation.md. With --sweep also the robust preset over half widths and degrees.
+// docs/concepts/data-preparation.md. With --sweep also the robust preset over half widths and
+// degrees.
 
 #include <array>
 #include <cmath>
@@ -12,9 +13,9 @@
 #include <boost/random/normal_distribution.hpp>
 #include <boost/random/uniform_real_distribution.hpp>
 
-#include "telltale/core/data/north_east.hpp"
+#include "telltale/core/base/random.hpp"
+#include "telltale/core/data/north_east_frame.hpp"
 #include "telltale/core/data/preparation.hpp"
-#include "telltale/core/random.hpp"
 
 namespace {
 
@@ -130,7 +131,7 @@ struct Score {
 };
 
 /// RMS errors of the velocities, and the error of the surge gain that one-step least squares gets.
-Score Judge(const PreparedDataset& dataset, const Motion& motion) {
+Score ScorePreparation(const PreparedDataset& dataset, const Motion& motion) {
   Score sum;
   Eigen::Matrix2d normal = Eigen::Matrix2d::Zero();
   Eigen::Vector2d right = Eigen::Vector2d::Zero();
@@ -166,7 +167,7 @@ void PrintRow(const char* preset, const PrepareOptions& options, const Noise& no
                 dataset.error().reason.c_str());
     return;
   }
-  const Score score = Judge(*dataset, motion);
+  const Score score = ScorePreparation(*dataset, motion);
   std::printf("| %s | %zu / %zu | %s | %s | %.4f | %.4f | %.4f | %+.1f %% |\n", preset,
               options.smoothing_half_width, options.smoothing_degree, noise.name, clocks.name,
               score.u, score.v, score.r, score.gain_percent);

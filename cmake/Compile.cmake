@@ -62,10 +62,10 @@ endfunction()
 # Parsing what most files include takes longer than compiling them: it is read once for core and idl,
 # once for what is around them and once for the tests, which differ in their optimisation or in what
 # they include and so cannot share.
-set(telltale_linear_algebra ${PROJECT_BINARY_DIR}/include/core/telltale/core/linear_algebra)
+set(telltale_linear_algebra ${PROJECT_BINARY_DIR}/include/core/telltale/core/base/linear_algebra)
 function(telltale_precompile target)
   if(target STREQUAL telltale_core)
-    target_precompile_headers(telltale_core PRIVATE ${telltale_linear_algebra}/products.hpp <optional>
+    target_precompile_headers(telltale_core PRIVATE ${telltale_linear_algebra}/eigen_products.hpp <optional>
                               <string> <vector> <tl/expected.hpp>)
   else()
     target_precompile_headers(${target} REUSE_FROM telltale_core)
@@ -111,7 +111,7 @@ function(telltale_check target)
     find_package(GTest REQUIRED)
     telltale_precompiled(
       telltale_check_headers
-      HEADERS ${telltale_linear_algebra}/products.hpp ${telltale_linear_algebra}/decompositions.hpp
+      HEADERS ${telltale_linear_algebra}/eigen_products.hpp ${telltale_linear_algebra}/eigen_decompositions.hpp
               <gmock/gmock.h> <gtest/gtest.h> <filesystem> <functional> <map> <optional> <string>
               <vector>
       LINKS Eigen3::Eigen GTest::gmock GTest::gtest)

@@ -1,6 +1,6 @@
 #include "telltale/service/configuration.hpp"
 
-#include "telltale/client/recording/files.hpp"
+#include "telltale/client/recording/file_contents.hpp"
 #include "telltale/idl/codec/vehicle_file.hpp"
 
 namespace telltale {

@@ -13,16 +13,16 @@ Daemon::Daemon(const DaemonConfig& config, std::function<void(const std::excepti
                [this](std::string_view topic) { fleet_.CountUnreadable(topic); }),
       participant_(config.domain),
       models_(participant_, ModelStore(config.state_directory), fleet_),
-      answers_(participant_),
+      replies_(participant_),
       diagnoses_(participant_, DiagnosisStore(config.state_directory), fleet_),
-      jobs_(fleet_, models_, healthy_, answers_, config.identification),
-      diagnosis_jobs_(fleet_, models_, healthy_, diagnoses_, answers_, config.identification),
+      jobs_(fleet_, models_, baselines_, replies_, config.identification),
+      diagnosis_jobs_(fleet_, models_, baselines_, diagnoses_, replies_, config.identification),
       quality_(participant_, fleet_, models_, config.quality_period_s),
       ingest_(participant_, fleet_,
               {.identify = [this](IdentifyRequest request) { jobs_.Submit(std::move(request)); },
                .diagnose =
                    [this](DiagnoseRequest request) { diagnosis_jobs_.Submit(std::move(request)); },
-               .beat = [this] { models_.AssertLiveliness(); },
+               .heartbeat = [this] { models_.AssertLiveliness(); },
                .failed = std::move(failed)}) {}
 
 }  // namespace telltale

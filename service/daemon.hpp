@@ -2,16 +2,16 @@
 
 #include <functional>
 
-#include "telltale/client/bus/log_sink.hpp"
+#include "telltale/client/bus/bus_log.hpp"
 #include "telltale/client/bus/participant.hpp"
 #include "telltale/idl/codec/daemon_config.hpp"
+#include "telltale/service/diagnosis/baseline_recordings.hpp"
 #include "telltale/service/diagnosis/diagnosis_jobs.hpp"
-#include "telltale/service/diagnosis/healthy_recordings.hpp"
 #include "telltale/service/diagnosis/published_diagnoses.hpp"
-#include "telltale/service/identification/answers.hpp"
 #include "telltale/service/identification/identification_jobs.hpp"
 #include "telltale/service/ingest/fleet.hpp"
 #include "telltale/service/ingest/ingest.hpp"
+#include "telltale/service/jobs/reply_publisher.hpp"
 #include "telltale/service/models/published_models.hpp"
 #include "telltale/service/monitoring/quality_monitor.hpp"
 
@@ -31,8 +31,8 @@ class Daemon {
   BusLog bus_log_;
   Participant participant_;
   PublishedModels models_;
-  Answers answers_;
-  HealthyRecordings healthy_;
+  ReplyPublisher replies_;
+  BaselineRecordings baselines_;
   PublishedDiagnoses diagnoses_;
   IdentificationJobs jobs_;
   DiagnosisJobs diagnosis_jobs_;

@@ -10,6 +10,7 @@
 #include <spdlog/spdlog.h>
 #include <CLI/CLI.hpp>
 
+#include "telltale/core/base/version.hpp"
 #include "telltale/service/configuration.hpp"
 #include "telltale/service/daemon.hpp"
 
@@ -19,22 +20,22 @@ namespace {
 constexpr int kFailure = 1;
 constexpr int kUsageError = 2;
 
-sem_t told_to_stop;
+sem_t stop_requested;
 
 /// SIGINT and SIGTERM, whichever thread they come to: libraries start threads before main that
 /// block neither, so that to block them here and wait would leave them to kill the process.
 class StopSignals {
  public:
   StopSignals() {
-    sem_init(&told_to_stop, 0, 0);
+    sem_init(&stop_requested, 0, 0);
     struct sigaction action {};
-    action.sa_handler = [](int) { sem_post(&told_to_stop); };
+    action.sa_handler = [](int) { sem_post(&stop_requested); };
     action.sa_flags = SA_RESTART;
     for (const int signal : {SIGINT, SIGTERM}) sigaction(signal, &action, nullptr);
   }
 
   void Wait() const {
-    while (sem_wait(&told_to_stop) != 0 && errno == EINTR) {
+    while (sem_wait(&stop_requested) != 0 && errno == EINTR) {
     }
   }
 };
@@ -57,7 +58,7 @@ int Main(int argc, char** argv) {
   CLI::App app{"Identifies a fleet's vehicles from their telemetry over DDS.", "telltaled"};
   std::string config_file;
   app.add_option("--config", config_file, "configuration, Protobuf text format")->required();
-  app.set_version_flag("--version", "telltaled " TELLTALE_VERSION);
+  app.set_version_flag("--version", "telltaled " + std::string(Version()));
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -1,5 +1,5 @@
 // Does a 95 % bound from output error hold 95 % of the time, with and without disturbance? Prints
-// the table of docs/output-error.md.
+// the table of docs/validation/output-error.md.
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -8,11 +8,11 @@
 #include <string>
 #include <vector>
 
-#include "coverage/campaign.hpp"
+#include "coverage/replicates.hpp"
 #include "telltale/core/data/preparation.hpp"
-#include "telltale/core/estimation/output_error.hpp"
-#include "telltale/core/estimation/weak_iv.hpp"
-#include "telltale/core/uncertainty/laws.hpp"
+#include "telltale/core/estimation/output_error/output_error.hpp"
+#include "telltale/core/estimation/weak_form/weak_iv.hpp"
+#include "telltale/core/uncertainty/distributions.hpp"
 
 namespace telltale::coverage {
 namespace {
@@ -24,20 +24,21 @@ std::vector<Scenario> Scenarios() {
   all[2].name = "rtk-still-lag";
   all[2].boat.thruster_time_constant_s = 0.4;
   all[3].name = "plain-gnss-still";
-  all[3].around.position_noise_m = 0.10;
-  all[3].around.heading_noise_deg = 0.5;
+  all[3].environment.position_noise_m = 0.10;
+  all[3].environment.heading_noise_deg = 0.5;
   all[4].name = "rtk-still-ten-segments";
   all[4].mission.segments = 10;
   all[5].name = "rtk-tenth";
   for (Scenario& scenario : all) {
-    if (scenario.name.find("still") != std::string::npos) scenario.around.disturbance_sigma = {};
+    if (scenario.name.find("still") != std::string::npos)
+      scenario.environment.disturbance_sigma = {};
   }
-  for (double& sigma : all[5].around.disturbance_sigma) sigma *= 0.1;
+  for (double& sigma : all[5].environment.disturbance_sigma) sigma *= 0.1;
   return all;
 }
 
 /// What one repeat says.
-struct Repeat {
+struct ReplicateResult {
   Eigen::VectorXd error;
   Eigen::VectorXd clustered;  ///< standard errors
   Eigen::VectorXd naive;
@@ -47,9 +48,9 @@ struct Repeat {
   double seconds = 0.0;
 };
 
-std::optional<Repeat> Try(const Scenario& scenario, const OutputErrorOptions& options,
-                          std::uint64_t seed) {
-  const Recording recording = Sail(scenario, seed);
+std::optional<ReplicateResult> RunReplicate(const Scenario& scenario,
+                                            const OutputErrorOptions& options, std::uint64_t seed) {
+  const Recording recording = Simulate(scenario, seed);
   const auto dataset = Prepare(recording, VehicleOf(), {});
   if (!dataset) return std::nullopt;
   RegressionOptions regression;
@@ -60,32 +61,33 @@ std::optional<Repeat> Try(const Scenario& scenario, const OutputErrorOptions& op
   const auto fit = EstimateOutputError(*dataset, regression, columns, start, options);
   const std::chrono::duration<double> took = std::chrono::steady_clock::now() - from;
   if (!fit) return std::nullopt;
-  return Repeat{fit->theta - TruthOf(scenario),
-                ClusterCovariance(*fit).diagonal().cwiseSqrt(),
-                NaiveCovariance(*fit).diagonal().cwiseSqrt(),
-                StudentQuantile(static_cast<double>(fit->scores.cols()) - 1.0, 0.975),
-                std::hypot(fit->position_misfit, fit->heading_misfit) / std::sqrt(2.0),
-                Misspecification(*fit),
-                took.count()};
+  return ReplicateResult{fit->theta - TruthOf(scenario),
+                         ClusterCovariance(*fit).diagonal().cwiseSqrt(),
+                         NaiveCovariance(*fit).diagonal().cwiseSqrt(),
+                         StudentQuantile(static_cast<double>(fit->scores.cols()) - 1.0, 0.975),
+                         std::hypot(fit->position_misfit, fit->heading_misfit) / std::sqrt(2.0),
+                         Misspecification(*fit),
+                         took.count()};
 }
 
 /// Shares in percent of true values within bounds: mean, lowest and highest over coefficients.
-struct Held {
+struct CoverageSummary {
   double mean = 0.0;
   double lowest = 100.0;
   double highest = 0.0;
 };
 
-Held Hold(const std::vector<Repeat>& repeats, Eigen::VectorXd Repeat::*standard_errors) {
-  Held held;
-  const Eigen::Index p = repeats.front().error.size();
+CoverageSummary SummariseCoverage(const std::vector<ReplicateResult>& replicates,
+                                  Eigen::VectorXd ReplicateResult::*standard_errors) {
+  CoverageSummary held;
+  const Eigen::Index p = replicates.front().error.size();
   for (Eigen::Index j = 0; j < p; ++j) {
     double inside = 0.0;
-    for (const Repeat& repeat : repeats) {
-      const double half = repeat.student * (repeat.*standard_errors)[j];
-      inside += std::abs(repeat.error[j]) <= half ? 1.0 : 0.0;
+    for (const ReplicateResult& replicate : replicates) {
+      const double half = replicate.student * (replicate.*standard_errors)[j];
+      inside += std::abs(replicate.error[j]) <= half ? 1.0 : 0.0;
     }
-    const double percent = 100.0 * inside / static_cast<double>(repeats.size());
+    const double percent = 100.0 * inside / static_cast<double>(replicates.size());
     held.mean += percent / static_cast<double>(p);
     held.lowest = std::min(held.lowest, percent);
     held.highest = std::max(held.highest, percent);
@@ -93,39 +95,42 @@ Held Hold(const std::vector<Repeat>& repeats, Eigen::VectorXd Repeat::*standard_
   return held;
 }
 
-void PrintRow(const std::string& name, const std::vector<Repeat>& repeats, std::size_t asked) {
-  if (repeats.empty()) {
-    std::printf("| %s | 0/%zu |\n", name.c_str(), asked);
+void PrintRow(const std::string& name, const std::vector<ReplicateResult>& replicates,
+              std::size_t replicates_requested) {
+  if (replicates.empty()) {
+    std::printf("| %s | 0/%zu |\n", name.c_str(), replicates_requested);
     return;
   }
-  const auto n = static_cast<double>(repeats.size());
-  Eigen::VectorXd mean = Eigen::VectorXd::Zero(repeats.front().error.size());
+  const auto n = static_cast<double>(replicates.size());
+  Eigen::VectorXd mean = Eigen::VectorXd::Zero(replicates.front().error.size());
   Eigen::VectorXd squares = mean;
   Eigen::VectorXd predicted = mean;
-  for (const Repeat& repeat : repeats) {
-    mean += repeat.error / n;
-    squares += repeat.error.cwiseAbs2() / n;
-    predicted += repeat.clustered / n;
+  for (const ReplicateResult& replicate : replicates) {
+    mean += replicate.error / n;
+    squares += replicate.error.cwiseAbs2() / n;
+    predicted += replicate.clustered / n;
   }
   const Eigen::VectorXd spread = (squares - mean.cwiseAbs2()).cwiseMax(1e-30).cwiseSqrt();
-  const Held clustered = Hold(repeats, &Repeat::clustered);
-  const Held naive = Hold(repeats, &Repeat::naive);
+  const CoverageSummary clustered = SummariseCoverage(replicates, &ReplicateResult::clustered);
+  const CoverageSummary naive = SummariseCoverage(replicates, &ReplicateResult::naive);
   std::printf(
       "| %s | %zu/%zu | %.1f | %.1f | %.1f | %.1f | %.2f | %.2f | %.2f | %.2f | %.3f | %.2f |\n",
-      name.c_str(), repeats.size(), asked, clustered.mean, clustered.lowest, clustered.highest,
-      naive.mean, mean.cwiseAbs().cwiseQuotient(spread).mean(),
-      predicted.cwiseQuotient(spread).mean(), MeanOf(repeats, &Repeat::misfit),
-      MeanOf(repeats, &Repeat::misspecification), spread.mean(), MeanOf(repeats, &Repeat::seconds));
+      name.c_str(), replicates.size(), replicates_requested, clustered.mean, clustered.lowest,
+      clustered.highest, naive.mean, mean.cwiseAbs().cwiseQuotient(spread).mean(),
+      predicted.cwiseQuotient(spread).mean(), MeanOf(replicates, &ReplicateResult::misfit),
+      MeanOf(replicates, &ReplicateResult::misspecification), spread.mean(),
+      MeanOf(replicates, &ReplicateResult::seconds));
   std::fflush(stdout);
 }
 
 int Main(int argc, char** argv) {
   Campaign campaign;
-  campaign.repeats = 60;
+  campaign.replicates = 60;
   OutputErrorOptions options;
   CLI::App app("How often bounds from output error, nominally of 95 %, hold the truth");
   campaign.AddOptionsTo(app, Scenarios());
-  app.add_option("--shot", options.shots.length_s, "seconds a shot")->capture_default_str();
+  app.add_option("--shooting-segment", options.shooting_segments.length_s, "seconds a shot")
+      ->capture_default_str();
   CLI11_PARSE(app, argc, argv);
 
   std::printf(
@@ -133,10 +138,10 @@ int Main(int argc, char** argv) {
       "bias/spread | predicted/spread | misfit | alarm | spread | s |\n"
       "|---|---|---|---|---|---|---|---|---|---|---|---|\n");
   for (const Scenario& scenario : Scenarios()) {
-    if (!campaign.Wants(scenario.name)) continue;
-    const auto repeats =
-        campaign.Repeat([&](std::uint64_t seed) { return Try(scenario, options, seed); });
-    PrintRow(scenario.name, Answered(repeats), campaign.repeats);
+    if (!campaign.IsSelected(scenario.name)) continue;
+    const auto replicates = campaign.RunReplicates(
+        [&](std::uint64_t seed) { return RunReplicate(scenario, options, seed); });
+    PrintRow(scenario.name, Completed(replicates), campaign.replicates);
   }
   return 0;
 }

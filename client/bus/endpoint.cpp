@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <string>
 
-#include "telltale/client/bus/error.hpp"
+#include "telltale/client/bus/bus_error.hpp"
 #include "telltale/client/bus/wait_set.hpp"
 
 namespace telltale {

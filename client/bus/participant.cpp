@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "telltale/client/bus/error.hpp"
+#include "telltale/client/bus/bus_error.hpp"
 
 namespace telltale {
 

@@ -20,7 +20,7 @@ Qos TelemetryQos() {
   return MakeQos(DDS_RELIABILITY_BEST_EFFORT, kHistoryDepth);
 }
 
-Qos ExchangeQos() {
+Qos RequestReplyQos() {
   return MakeQos(DDS_RELIABILITY_RELIABLE, kHistoryDepth);
 }
 

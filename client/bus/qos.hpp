@@ -19,7 +19,7 @@ Qos TelemetryQos();
 
 /// Reliable, volatile, keep last 64 per vehicle. A write gives up after 100 ms: one stalled client
 /// must not keep the daemon from the others, and a client that missed something asks again.
-Qos ExchangeQos();
+Qos RequestReplyQos();
 
 /// Reliable, transient local, keep last 1, exclusive ownership. Liveliness is asserted by hand
 /// within kModelLease, so that a daemon that hangs loses its vehicles to a standby as one that died

@@ -3,8 +3,8 @@
 #include <array>
 #include <cstddef>
 
+#include "telltale/client/bus/bus_error.hpp"
 #include "telltale/client/bus/endpoint.hpp"
-#include "telltale/client/bus/error.hpp"
 #include "telltale/client/bus/topics.hpp"
 
 namespace telltale {

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "telltale/client/bus/qos.hpp"
-#include "telltale/idl/codec/wire_sample.hpp"
+#include "telltale/idl/codec/wire/wire_sample.hpp"
 
 namespace telltale {
 
@@ -25,22 +25,22 @@ inline constexpr Contract kContract<telltale_wire_Thrusters>{"telltale/telemetry
                                                              TelemetryQos};
 template <>
 inline constexpr Contract kContract<telltale_wire_IdentifyRequest>{"telltale/identify/request",
-                                                                   ExchangeQos};
+                                                                   RequestReplyQos};
 template <>
 inline constexpr Contract kContract<telltale_wire_IdentifyProgress>{"telltale/identify/progress",
-                                                                    ExchangeQos};
+                                                                    RequestReplyQos};
 template <>
 inline constexpr Contract kContract<telltale_wire_IdentifyReply>{"telltale/identify/reply",
-                                                                 ExchangeQos};
+                                                                 RequestReplyQos};
 template <>
 inline constexpr Contract kContract<telltale_wire_DiagnoseRequest>{"telltale/diagnose/request",
-                                                                   ExchangeQos};
+                                                                   RequestReplyQos};
 template <>
 inline constexpr Contract kContract<telltale_wire_DiagnoseProgress>{"telltale/diagnose/progress",
-                                                                    ExchangeQos};
+                                                                    RequestReplyQos};
 template <>
 inline constexpr Contract kContract<telltale_wire_DiagnoseReply>{"telltale/diagnose/reply",
-                                                                 ExchangeQos};
+                                                                 RequestReplyQos};
 template <>
 inline constexpr Contract kContract<telltale_wire_Diagnosis>{"telltale/diagnosis", DiagnosisQos};
 template <>

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 
-#include "telltale/client/bus/error.hpp"
+#include "telltale/client/bus/bus_error.hpp"
 
 namespace telltale {
 
@@ -15,9 +15,9 @@ WaitSet::WaitSet(const Participant& participant)
           "attaching a guard condition");
 }
 
-void WaitSet::Attach(const Endpoint& endpoint, std::function<void()> when_news) {
+void WaitSet::Attach(const Endpoint& endpoint, std::function<void()> on_data) {
   const auto& attachment = attachments_.emplace_back(
-      std::make_unique<Attachment>(endpoint.handle(), std::move(when_news)));
+      std::make_unique<Attachment>(endpoint.handle(), std::move(on_data)));
   Checked(dds_waitset_attach(wait_set_.handle(), endpoint.handle(),
                              reinterpret_cast<dds_attach_t>(attachment.get())),
           "attaching to a wait set");
@@ -34,17 +34,17 @@ bool WaitSet::Wait(std::chrono::nanoseconds timeout) {
   const auto count = Checked(
       dds_waitset_wait(wait_set_.handle(), triggered.data(), triggered.size(), timeout.count()),
       "waiting");
-  bool news = false;
+  bool has_data = false;
   for (std::int32_t i = 0; i < std::min<std::int32_t>(count, triggered.size()); ++i) {
     if (triggered[i] == 0) {
       bool woken = false;
       Checked(dds_take_guardcondition(guard_.handle(), &woken), "resetting a guard condition");
     } else {
-      reinterpret_cast<Attachment*>(triggered[i])->when_news();
-      news = true;
+      reinterpret_cast<Attachment*>(triggered[i])->on_data();
+      has_data = true;
     }
   }
-  return news;
+  return has_data;
 }
 
 void WaitSet::Wake() {

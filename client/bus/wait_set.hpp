@@ -18,7 +18,7 @@ class WaitSet {
   explicit WaitSet(const Participant& participant);
 
   /// The endpoint must stay until it is detached or the wait set is gone.
-  void Attach(const Endpoint& endpoint, std::function<void()> when_news);
+  void Attach(const Endpoint& endpoint, std::function<void()> on_data);
   void Detach(const Endpoint& endpoint);
 
   /// Runs the handlers of all that has news. False when nothing had within `timeout`, or on Wake.
@@ -30,7 +30,7 @@ class WaitSet {
  private:
   struct Attachment {
     dds_entity_t endpoint;
-    std::function<void()> when_news;
+    std::function<void()> on_data;
   };
 
   Entity guard_;

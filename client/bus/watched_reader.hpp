@@ -31,9 +31,9 @@ class WatchedReader {
   ~WatchedReader() { wait_set_.Detach(*reader_); }
 
   /// Makes the reader anew if it has been silent for too long; true when it did.
-  bool Tend(Clock::time_point now) {
-    if (reader_->Matched() == 0) last_heard_ = now;
-    if (now - last_heard_ <= longest_silence_) return false;
+  bool ReopenIfSilent(Clock::time_point now) {
+    if (reader_->Matched() == 0) last_received_ = now;
+    if (now - last_received_ <= longest_silence_) return false;
     wait_set_.Detach(*reader_);
     Open();
     return true;
@@ -42,9 +42,9 @@ class WatchedReader {
  private:
   void Open() {
     reader_.emplace(participant_);
-    last_heard_ = Clock::now();
+    last_received_ = Clock::now();
     wait_set_.Attach(*reader_, [this] {
-      last_heard_ = Clock::now();
+      last_received_ = Clock::now();
       reader_->Take(receive_);
     });
   }
@@ -54,7 +54,7 @@ class WatchedReader {
   std::function<void(const Wire&)> receive_;
   std::chrono::nanoseconds longest_silence_;
   std::optional<Reader<Wire>> reader_;
-  Clock::time_point last_heard_;
+  Clock::time_point last_received_;
 };
 
 }  // namespace telltale

@@ -1,9 +1,9 @@
 #pragma once
 
+#include "telltale/client/bus/bus_error.hpp"
 #include "telltale/client/bus/endpoint.hpp"
-#include "telltale/client/bus/error.hpp"
 #include "telltale/client/bus/topics.hpp"
-#include "telltale/idl/codec/wire_sample.hpp"
+#include "telltale/idl/codec/wire/wire_sample.hpp"
 
 namespace telltale {
 

@@ -4,12 +4,12 @@
 #include <vector>
 
 #include "telltale/client/cli/commands.hpp"
-#include "telltale/client/cli/inputs.hpp"
-#include "telltale/client/cli/outcome.hpp"
-#include "telltale/client/cli/output.hpp"
+#include "telltale/client/cli/exit_codes.hpp"
+#include "telltale/client/cli/input_options.hpp"
+#include "telltale/client/cli/output_options.hpp"
 #include "telltale/client/cli/table.hpp"
 #include "telltale/core/identification/model_comparison.hpp"
-#include "telltale/idl/codec/change_json.hpp"
+#include "telltale/idl/codec/json/model_change.hpp"
 
 namespace telltale {
 namespace {

@@ -5,8 +5,8 @@
 #include "telltale/client/cli/commands.hpp"
 #include "telltale/client/cli/diagnose_arguments.hpp"
 #include "telltale/client/cli/diagnose_live.hpp"
+#include "telltale/client/cli/exit_codes.hpp"
 #include "telltale/client/cli/live_options.hpp"
-#include "telltale/client/cli/outcome.hpp"
 #include "telltale/client/cli/progress_line.hpp"
 
 namespace telltale {

@@ -2,15 +2,15 @@
 
 #include <iostream>
 
+#include "telltale/client/cli/default_threads.hpp"
 #include "telltale/client/cli/diagnosis_table.hpp"
-#include "telltale/client/cli/outcome.hpp"
+#include "telltale/client/cli/exit_codes.hpp"
 #include "telltale/client/cli/table.hpp"
-#include "telltale/client/cli/threads.hpp"
 #include "telltale/client/cli/whole_number.hpp"
-#include "telltale/client/recording/files.hpp"
-#include "telltale/client/report/page.hpp"
-#include "telltale/idl/codec/model_json.hpp"
-#include "telltale/idl/codec/report_json.hpp"
+#include "telltale/client/recording/file_contents.hpp"
+#include "telltale/client/report/report_page.hpp"
+#include "telltale/idl/codec/json/model.hpp"
+#include "telltale/idl/codec/json/report.hpp"
 
 namespace telltale {
 namespace {

@@ -8,8 +8,8 @@
 
 #include <CLI/CLI.hpp>
 
-#include "telltale/client/cli/inputs.hpp"
-#include "telltale/client/cli/output.hpp"
+#include "telltale/client/cli/input_options.hpp"
+#include "telltale/client/cli/output_options.hpp"
 #include "telltale/core/diagnosis/diagnose.hpp"
 
 namespace telltale {

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "telltale/client/bus/participant.hpp"
-#include "telltale/client/cli/outcome.hpp"
+#include "telltale/client/cli/exit_codes.hpp"
 #include "telltale/client/cli/progress_line.hpp"
 #include "telltale/client/cli/table.hpp"
 #include "telltale/client/fleet/diagnosis_client.hpp"
@@ -22,10 +22,10 @@ DiagnoseRequest DiagnoseRequestOf(const std::string& vehicle_id,
   return request;
 }
 
-DiagnoseAnswer AskForDiagnosis(const DiagnoseRequest& request, const LiveOptions& live) {
+DiagnoseResult AskForDiagnosis(const DiagnoseRequest& request, const LiveOptions& live) {
   const Participant participant(live.domain);
   DiagnosisClient client(participant);
-  ExchangeTiming timing;
+  RequestTiming timing;
   timing.match = std::min(timing.match, live.Timeout());
   timing.reply = live.Timeout();
   ProgressLine line;
@@ -39,10 +39,10 @@ DiagnoseAnswer AskForDiagnosis(const DiagnoseRequest& request, const LiveOptions
 
 void DiagnoseLive(const std::string& vehicle_id, const DiagnoseArguments& arguments,
                   const LiveOptions& live) {
-  const DiagnoseAnswer answer = AskForDiagnosis(DiagnoseRequestOf(vehicle_id, arguments), live);
-  RequirePublished(answer, vehicle_id, live);
-  const PublishedDiagnosis& published = *answer.reply->diagnosis;
-  arguments.Write(published.diagnosis, answer.reply->augmented,
+  const DiagnoseResult result = AskForDiagnosis(DiagnoseRequestOf(vehicle_id, arguments), live);
+  RequirePublished(result, vehicle_id, live);
+  const PublishedDiagnosis& published = *result.reply->diagnosis;
+  arguments.Write(published.diagnosis, result.reply->augmented,
                   "Held against revision " + std::to_string(published.model_revision) + " of " +
                       vehicle_id + ".");
 }

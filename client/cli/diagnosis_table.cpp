@@ -4,7 +4,7 @@
 #include <array>
 
 #include "telltale/client/cli/table.hpp"
-#include "telltale/client/report/words.hpp"
+#include "telltale/client/report/diagnosis_text.hpp"
 
 namespace telltale {
 namespace {
@@ -26,9 +26,10 @@ std::string Headline(const Diagnosis& diagnosis) {
 }
 
 std::vector<std::string> GapRow(std::string_view channel, const GapSize& size,
-                                const std::optional<Closure>& closure) {
-  return {"  " + std::string(channel), Fixed(size.before, 2),      Fixed(size.after, 2),
-          Fixed(size.noise_floor, 2),  Fixed(size.floor_limit, 2), ClosureText(closure)};
+                                const std::optional<ExcessExplained>& excess_explained) {
+  return {"  " + std::string(channel), Fixed(size.before, 2),
+          Fixed(size.after, 2),        Fixed(size.noise_floor, 2),
+          Fixed(size.floor_limit, 2),  ExcessExplainedText(excess_explained)};
 }
 
 std::string GapTable(const Diagnosis& diagnosis) {
@@ -41,10 +42,10 @@ std::string GapTable(const Diagnosis& diagnosis) {
   for (const Gap& gap : diagnosis.gaps) {
     table.AddHeading(Plain(gap.horizon_s) + " s: " + Counted(gap.windows, "window", "windows"));
     if (gap.windows == 0) continue;
-    table.AddRow(GapRow("all", gap.all, gap.closure));
+    table.AddRow(GapRow("all", gap.all, gap.excess_explained));
     for (const Equation channel : kEquations) {
       const std::size_t i = IndexOf(channel);
-      table.AddRow(GapRow(ChannelText(channel), gap.channels[i], gap.channel_closures[i]));
+      table.AddRow(GapRow(ChannelText(channel), gap.channels[i], gap.channel_excess_explained[i]));
     }
   }
   return table.Render();
@@ -58,7 +59,7 @@ std::string WhereTable(const Diagnosis& diagnosis) {
                {"kind", Align::kLeft},
                {"mean, sigmas", Align::kRight},
                {"windows", Align::kRight}});
-  for (const GapCell& cell : ShownCells(diagnosis)) {
+  for (const GapCell& cell : ListedCells(diagnosis)) {
     table.AddRow({PlaceText(cell), ShareText(cell.excess_share), Significant(cell.p_value, 2),
                   std::string(KindText(cell.kind)), Fixed(cell.mean, 2),
                   std::to_string(cell.windows)});
@@ -88,8 +89,9 @@ std::string CausesTable(const Diagnosis& diagnosis) {
                {"probability", Align::kRight},
                {"closed [95 %]", Align::kRight}});
   for (const Cause& cause : diagnosis.causes) {
-    const std::string closed = cause.effects.empty() ? "" : ClosureText(cause.closure);
-    table.AddRow({CauseText(cause), "", ShareText(cause.probability), closed});
+    const std::string excess_text =
+        cause.effects.empty() ? "" : ExcessExplainedText(cause.excess_explained);
+    table.AddRow({CauseText(cause), "", ShareText(cause.probability), excess_text});
     for (const CausalEffect& effect : cause.effects) {
       AddEffect(table, effect, cause.effects.size() > 1);
     }
@@ -115,7 +117,7 @@ std::string TestabilityTable(const Diagnosis& diagnosis) {
 std::string AdviceText(const Diagnosis& diagnosis) {
   std::string text;
   for (const SeparationAdvice& advice : diagnosis.advice) {
-    const std::string promise = advice.promised ? ", which should settle it" : ", which may not do";
+    const std::string promise = advice.decisive ? ", which should settle it" : ", which may not do";
     text += Wrapped(advice.manoeuvre + " for " + Fixed(advice.duration_s, 0) +
                         " s would separate " + JoinedWith(advice.separates, " from ") + " by " +
                         Fixed(advice.expected_nats, 1) + " nats" + promise,

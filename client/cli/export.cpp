@@ -6,13 +6,13 @@
 #include <string>
 
 #include "telltale/client/cli/commands.hpp"
-#include "telltale/client/cli/inputs.hpp"
-#include "telltale/client/cli/outcome.hpp"
+#include "telltale/client/cli/exit_codes.hpp"
+#include "telltale/client/cli/input_options.hpp"
 #include "telltale/client/cli/whole_number.hpp"
-#include "telltale/client/exchange/draws.hpp"
 #include "telltale/client/exchange/mss.hpp"
+#include "telltale/client/exchange/posterior_draws.hpp"
 #include "telltale/client/exchange/vrx.hpp"
-#include "telltale/client/recording/files.hpp"
+#include "telltale/client/recording/file_contents.hpp"
 
 namespace telltale {
 namespace {
@@ -62,11 +62,11 @@ void ExportModel(const ExportArguments& arguments) {
   const Vehicle vehicle = LoadVehicle(arguments.vehicle_file);
   const Identification model = LoadModel(arguments.model_file);
   NoteOtherVehicle(model, vehicle);
-  if (!model.sailed.empty()) {
+  if (!model.simulation.empty()) {
     std::cerr << "note: as estimated the model runs away; what is written is what it is sailed "
                  "with, draws are about the estimates\n";
   }
-  const std::string text = Formatted(arguments, AsSailed(model), vehicle);
+  const std::string text = Formatted(arguments, WithSimulationParameters(model), vehicle);
   std::optional<PosteriorDraws> draws;
   if (arguments.draws) draws = OrThrow(DrawFromPosterior(model, *arguments.draws, arguments.seed));
   if (draws) fs::create_directories(arguments.out);

@@ -5,12 +5,12 @@
 #include <vector>
 
 #include "telltale/client/cli/commands.hpp"
-#include "telltale/client/cli/inputs.hpp"
+#include "telltale/client/cli/exit_codes.hpp"
+#include "telltale/client/cli/input_options.hpp"
 #include "telltale/client/cli/number_pair.hpp"
-#include "telltale/client/cli/outcome.hpp"
-#include "telltale/client/cli/output.hpp"
+#include "telltale/client/cli/output_options.hpp"
 #include "telltale/client/cli/table.hpp"
-#include "telltale/client/exchange/gains.hpp"
+#include "telltale/client/exchange/input_gains.hpp"
 
 namespace telltale {
 namespace {
@@ -92,7 +92,7 @@ std::string SettlingText(const Identification& model) {
                  BoundsText(settling.interval) + ".");
 }
 
-void TellGains(const GainArguments& arguments) {
+void PrintGains(const GainArguments& arguments) {
   const Identification model = LoadModel(arguments.model_file);
   std::vector<CommandGain> gains;
   for (const PropellerCommand& delta : CommandsOf(arguments)) {
@@ -121,7 +121,7 @@ void AddGain(CLI::App& telltale) {
   command.footer(
       "G is the paper's input gain, over one sampling period h; G / h is continuous-time.\n"
       "Example: telltale gain --model model.json --delta 0.5,0.5 --delta 0.5,-0.2");
-  command.callback([arguments] { TellGains(*arguments); });
+  command.callback([arguments] { PrintGains(*arguments); });
 }
 
 }  // namespace telltale

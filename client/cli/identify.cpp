@@ -3,13 +3,13 @@
 #include <memory>
 
 #include "telltale/client/cli/commands.hpp"
+#include "telltale/client/cli/exit_codes.hpp"
 #include "telltale/client/cli/identify_arguments.hpp"
 #include "telltale/client/cli/identify_live.hpp"
 #include "telltale/client/cli/live_options.hpp"
 #include "telltale/client/cli/model_table.hpp"
-#include "telltale/client/cli/outcome.hpp"
 #include "telltale/client/cli/progress_line.hpp"
-#include "telltale/idl/codec/model_json.hpp"
+#include "telltale/idl/codec/json/model.hpp"
 
 namespace telltale {
 namespace {

@@ -3,9 +3,9 @@
 #include <string_view>
 #include <utility>
 
+#include "telltale/client/cli/default_threads.hpp"
+#include "telltale/client/cli/exit_codes.hpp"
 #include "telltale/client/cli/number_pair.hpp"
-#include "telltale/client/cli/outcome.hpp"
-#include "telltale/client/cli/threads.hpp"
 #include "telltale/client/cli/whole_number.hpp"
 
 namespace telltale {
@@ -18,12 +18,15 @@ DeadZone DeadZoneNamed(const std::string& text) {
 }
 
 /// With the options that were typed in place of the fields that they set.
-std::string AsTyped(std::string text) {
-  constexpr std::pair<std::string_view, std::string_view> kTyped[] = {
-      {"certificate_twins", "--certify"},      {"twins", "--twins"},
-      {"bootstrap_replicates", "--bootstrap"}, {"sampling_period_s", "--sampling-period"},
-      {"interval_level", "--level"},           {"threads", "--threads"}};
-  for (const auto& [field, option] : kTyped) {
+std::string WithOptionNames(std::string text) {
+  constexpr std::pair<std::string_view, std::string_view> kOptionNames[] = {
+      {"coverage_check_replicates", "--check-coverage"},
+      {"parametric_replicates", "--replicates"},
+      {"bootstrap_replicates", "--bootstrap"},
+      {"sampling_period_s", "--sampling-period"},
+      {"interval_level", "--level"},
+      {"threads", "--threads"}};
+  for (const auto& [field, option] : kOptionNames) {
     const auto sets = std::string(field) + " ";  // "FIELD = 3 must be", "set FIELD to a value"
     if (!text.starts_with("identification: " + sets) &&
         !text.starts_with("data preparation: " + sets)) {
@@ -76,7 +79,7 @@ void IdentifyArguments::AddOptionsTo(CLI::App& command) {
       ->type_name("S");
   command
       .add_option(
-          "--twins", twins,
+          "--replicates", parametric_replicates,
           "simulated repeats of the data behind the bounds of weak-iv, [8, 1000], 0 for none "
           "(default 40)")
       ->type_name("N")
@@ -100,7 +103,7 @@ void IdentifyArguments::AddOptionsTo(CLI::App& command) {
       ->type_name("NAME")
       ->check(CLI::IsMember({"percentile", "studentized", "bca"}).description(""));
   command
-      .add_option("--offsets", offsets,
+      .add_option("--recording-bias", recording_bias,
                   "steady disturbance, as of wind: shared by all logs (default of one log, of a "
                   "window, and of one-step), per-recording (default of several; in a window, what "
                   "a minute of silence parts), or per-recording-ned: with a part besides that "
@@ -108,7 +111,7 @@ void IdentifyArguments::AddOptionsTo(CLI::App& command) {
       ->type_name("NAME")
       ->check(CLI::IsMember({"shared", "per-recording", "per-recording-ned"}).description(""));
   command
-      .add_option("--certify", certificate_twins,
+      .add_option("--check-coverage", coverage_check_replicates,
                   "measure how often the bounds hold on so many simulated repeats of the data, "
                   "[10, 1000]; each takes as long as the identification itself")
       ->type_name("N")
@@ -141,7 +144,7 @@ std::optional<Estimator> IdentifyArguments::ChosenEstimator() const {
     throw UsageError("--bootstrap, --bootstrap-kind and --interval belong to --estimator one-step");
   }
   const bool output_error = estimator == "output-error";
-  if ((one_step || output_error) && twins) {
+  if ((one_step || output_error) && parametric_replicates) {
     throw UsageError("--twins belongs to --estimator weak-iv");
   }
   if (one_step) return Estimator::kOneStep;
@@ -150,13 +153,13 @@ std::optional<Estimator> IdentifyArguments::ChosenEstimator() const {
   return std::nullopt;
 }
 
-Offsets IdentifyArguments::ChosenOffsets() const {
+RecordingBiasModel IdentifyArguments::ChosenRecordingBias() const {
   const bool several = inputs.logs.size() > 1;
   const bool seeks_them = ChosenEstimator().value_or(Estimator::kWeakIv) == Estimator::kWeakIv;
-  if (!offsets && several && seeks_them) return Offsets::kPerRecording;
-  if (offsets == "per-recording") return Offsets::kPerRecording;
-  if (offsets == "per-recording-ned") return Offsets::kPerRecordingNorthEast;
-  return Offsets::kShared;
+  if (!recording_bias && several && seeks_them) return RecordingBiasModel::kPerRecording;
+  if (recording_bias == "per-recording") return RecordingBiasModel::kPerRecording;
+  if (recording_bias == "per-recording-ned") return RecordingBiasModel::kPerRecordingNorthEast;
+  return RecordingBiasModel::kShared;
 }
 
 IdentifyOptions IdentifyArguments::Options() const {
@@ -167,13 +170,13 @@ IdentifyOptions IdentifyArguments::Options() const {
   if (parameterization == "paper") options.regression.parameterization = Parameterization::kPaper;
   if (structure == "dynamic") options.regression.structure = Structure::kFirstOrderDynamic;
   options.regression.include_reverse = include_rr;
-  options.regression.offsets = ChosenOffsets();
+  options.regression.recording_bias = ChosenRecordingBias();
   if (dead_zone == "identify") {
     options.dead_zone_source = DeadZoneSource::kIdentified;
   } else if (dead_zone) {
     options.regression.dead_zone = DeadZoneNamed(*dead_zone);
   }
-  if (twins) options.twins = *twins;
+  if (parametric_replicates) options.parametric_replicates = *parametric_replicates;
   if (bootstrap_replicates) options.bootstrap_replicates = *bootstrap_replicates;
   if (bootstrap_kind == "moving-blocks") options.resampling = Resampling::kMovingBlocks;
   if (bootstrap_kind == "parametric") {
@@ -184,11 +187,12 @@ IdentifyOptions IdentifyArguments::Options() const {
   if (interval == "studentized") options.interval_method = IntervalMethod::kStudentized;
   if (interval == "bca") options.interval_method = IntervalMethod::kBca;
   if (interval_level) options.interval_level = *interval_level;
-  options.certificate_twins = certificate_twins;
+  options.coverage_check_replicates = coverage_check_replicates;
   options.seed = seed;
   options.threads = threads.value_or(DefaultThreads());
   if (const auto refusal = options.Validate()) {
-    throw UsageError(AsTyped(refusal->subject + ": " + refusal->reason + "; " + refusal->advice));
+    throw UsageError(
+        WithOptionNames(refusal->subject + ": " + refusal->reason + "; " + refusal->advice));
   }
   return options;
 }

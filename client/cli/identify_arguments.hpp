@@ -6,8 +6,8 @@
 
 #include <CLI/CLI.hpp>
 
-#include "telltale/client/cli/inputs.hpp"
-#include "telltale/client/cli/output.hpp"
+#include "telltale/client/cli/input_options.hpp"
+#include "telltale/client/cli/output_options.hpp"
 #include "telltale/core/identification/identify.hpp"
 
 namespace telltale {
@@ -21,15 +21,15 @@ struct IdentifyArguments {
   std::optional<std::string> estimator;         ///< auto, weak-iv, output-error, one-step
   std::optional<std::string> preset;            ///< robust, paper
   std::optional<double> sampling_period_s;
-  std::optional<std::size_t> twins;
+  std::optional<std::size_t> parametric_replicates;
   std::optional<std::uint32_t> bootstrap_replicates;
   std::optional<std::string> bootstrap_kind;  ///< segments, moving-blocks, parametric
   std::optional<std::string> interval;        ///< percentile, studentized, bca
-  std::optional<std::string> offsets;         ///< shared, per-recording, per-recording-ned
+  std::optional<std::string> recording_bias;  ///< shared, per-recording, per-recording-ned
   std::optional<double> interval_level;
   std::uint64_t seed = 1;
   std::optional<std::size_t> threads;
-  std::uint32_t certificate_twins = 0;
+  std::uint32_t coverage_check_replicates = 0;
   bool include_rr = false;
   bool discrete = false;
   OutputOptions output;
@@ -42,7 +42,7 @@ struct IdentifyArguments {
 
  private:
   bool AskForBootstrap() const;
-  Offsets ChosenOffsets() const;
+  RecordingBiasModel ChosenRecordingBias() const;
 
   /// The one named, else what the other options ask for; none: by the data. Throws: UsageError
   /// where they contradict.

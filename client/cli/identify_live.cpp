@@ -3,22 +3,22 @@
 #include <iostream>
 
 #include "telltale/client/bus/participant.hpp"
-#include "telltale/client/cli/inputs.hpp"
+#include "telltale/client/cli/exit_codes.hpp"
+#include "telltale/client/cli/input_options.hpp"
 #include "telltale/client/cli/model_table.hpp"
-#include "telltale/client/cli/outcome.hpp"
 #include "telltale/client/cli/progress_line.hpp"
-#include "telltale/client/cli/published_model.hpp"
+#include "telltale/client/cli/published_model_json.hpp"
 #include "telltale/client/fleet/identification_client.hpp"
 
 namespace telltale {
 namespace {
 
-constexpr std::uint32_t kRepeatsPerTimeout = 10;
+constexpr std::uint32_t kReplicatesPerTimeout = 10;
 
 IdentifyRequest RequestOf(const std::string& vehicle_id, const IdentifyArguments& arguments) {
   const IdentifyOptions options = arguments.Options();
   if (arguments.sampling_period_s || arguments.interval_level || arguments.threads ||
-      arguments.twins) {
+      arguments.parametric_replicates) {
     throw UsageError(
         "--sampling-period, --level, --threads and --twins are the daemon's to choose; leave them "
         "out with --vehicle-id");
@@ -39,18 +39,18 @@ IdentifyRequest RequestOf(const std::string& vehicle_id, const IdentifyArguments
   if (arguments.interval) request.interval_method = options.interval_method;
   request.seed = arguments.seed;
   request.include_reverse = arguments.include_rr;
-  request.certificate_twins = arguments.certificate_twins;
-  if (arguments.offsets) request.offsets = options.regression.offsets;
+  request.coverage_check_replicates = arguments.coverage_check_replicates;
+  if (arguments.recording_bias) request.recording_bias = options.regression.recording_bias;
   return request;
 }
 
-IdentifyAnswer Ask(const IdentifyRequest& request, const LiveOptions& live) {
+IdentifyResult Ask(const IdentifyRequest& request, const LiveOptions& live) {
   const Participant participant(live.domain);
   IdentificationClient client(participant);
-  ExchangeTiming timing;
+  RequestTiming timing;
   timing.match = std::min(timing.match, live.Timeout());
   // A repeat costs as much as the identification, and the daemon sails several at a time.
-  timing.reply = live.Timeout() * (1 + request.certificate_twins / kRepeatsPerTimeout);
+  timing.reply = live.Timeout() * (1 + request.coverage_check_replicates / kReplicatesPerTimeout);
   ProgressLine line;
   line.Update("asking the daemon", 0.0);
   return client.Identify(request, timing, [&line](const IdentifyProgress& progress) {
@@ -62,9 +62,9 @@ IdentifyAnswer Ask(const IdentifyRequest& request, const LiveOptions& live) {
 
 void IdentifyLive(const std::string& vehicle_id, const IdentifyArguments& arguments,
                   const LiveOptions& live) {
-  const IdentifyAnswer answer = Ask(RequestOf(vehicle_id, arguments), live);
-  RequirePublished(answer, vehicle_id, live);
-  const PublishedModel& model = *answer.reply->model;
+  const IdentifyResult result = Ask(RequestOf(vehicle_id, arguments), live);
+  RequirePublished(result, vehicle_id, live);
+  const PublishedModel& model = *result.reply->model;
   arguments.output.Write(PrintModelJson(model), [&] {
     return vehicle_id + ", revision " + std::to_string(model.revision) + "\n\n" +
            ModelTable(model.identification) +

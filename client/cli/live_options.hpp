@@ -6,8 +6,8 @@
 
 #include <CLI/CLI.hpp>
 
-#include "telltale/client/cli/outcome.hpp"
-#include "telltale/client/fleet/exchange.hpp"
+#include "telltale/client/cli/exit_codes.hpp"
+#include "telltale/client/fleet/request_reply.hpp"
 
 namespace telltale {
 
@@ -36,22 +36,22 @@ std::string NobodyThereAdvice(std::uint32_t domain);
 /// Throws: RefusedError where the daemon refused, std::runtime_error where nobody answers, it
 /// failed or its answer cannot be read.
 template <class Reply>
-void RequirePublished(const ExchangeAnswer<Reply>& answer, const std::string& vehicle_id,
+void RequirePublished(const ReplyResult<Reply>& result, const std::string& vehicle_id,
                       const LiveOptions& live) {
-  switch (answer.outcome) {
-    case ExchangeOutcome::kPublished: return;
-    case ExchangeOutcome::kRefused:
-      throw RefusedError(answer.reply->refusals.empty() ? Refusal{vehicle_id, "was refused", ""}
-                                                        : answer.reply->refusals.front());
-    case ExchangeOutcome::kNoDaemon:
+  switch (result.outcome) {
+    case RequestOutcome::kPublished: return;
+    case RequestOutcome::kRefused:
+      throw RefusedError(result.reply->refusals.empty() ? Refusal{vehicle_id, "was refused", ""}
+                                                        : result.reply->refusals.front());
+    case RequestOutcome::kNoDaemon:
       throw std::runtime_error("no daemon answers: " + NobodyThereAdvice(live.domain));
-    case ExchangeOutcome::kTimedOut: throw std::runtime_error(TimedOutText(live));
-    case ExchangeOutcome::kUnreadable:
+    case RequestOutcome::kTimedOut: throw std::runtime_error(TimedOutText(live));
+    case RequestOutcome::kUnreadable:
       throw std::runtime_error(
-          "the daemon's answer cannot be read: " + answer.unreadable->Message() +
+          "the daemon's answer cannot be read: " + result.unreadable->Message() +
           "; are client and daemon of one version?");
-    case ExchangeOutcome::kFailed:
-    case ExchangeOutcome::kUnknown: throw std::runtime_error(answer.reply->message);
+    case RequestOutcome::kFailed:
+    case RequestOutcome::kUnknown: throw std::runtime_error(result.reply->message);
   }
 }
 

@@ -4,8 +4,8 @@
 #include <CLI/CLI.hpp>
 
 #include "telltale/client/cli/commands.hpp"
-#include "telltale/client/cli/help.hpp"
-#include "telltale/client/cli/outcome.hpp"
+#include "telltale/client/cli/exit_codes.hpp"
+#include "telltale/client/cli/help_formatter.hpp"
 
 namespace telltale {
 namespace {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "telltale/client/cli/table.hpp"
-#include "telltale/core/vessel/structure.hpp"
+#include "telltale/core/vessel/model_structure.hpp"
 
 namespace telltale {
 namespace {
@@ -27,7 +27,7 @@ std::string OneStepTable(const Metrics& metrics) {
                {"MAE", Align::kRight}});
   for (const Equation equation : kEquations) {
     const OneStepScore& score = metrics.one_step[IndexOf(equation)];
-    table.AddRow({VelocityText(equation), Fixed(score.r2, 4), Fixed(score.persistence_r2, 4),
+    table.AddRow({VelocityText(equation), Fixed(score.r2, 4), Fixed(score.constant_velocity_r2, 4),
                   Significant(score.mae, 3)});
   }
   return table.Render();
@@ -35,8 +35,8 @@ std::string OneStepTable(const Metrics& metrics) {
 
 // Beyond this a velocity is no longer a boat's: the model ran away, and how far says nothing.
 bool Diverges(const FreeRunScore& score) {
-  constexpr double kFastest = 100.0;  // m/s or rad/s
-  return !(score.rmse < kFastest);
+  constexpr double kDivergedVelocity = 100.0;  // m/s or rad/s
+  return !(score.rmse < kDivergedVelocity);
 }
 
 bool Diverges(const FreeRunScores& scores) {
@@ -45,16 +45,17 @@ bool Diverges(const FreeRunScores& scores) {
 }
 
 std::vector<std::string> Row(Equation equation, const FreeRunScore& score) {
-  const std::string persistence = Significant(score.persistence_rmse, 3);
+  const std::string constant_velocity = Significant(score.constant_velocity_rmse, 3);
   const std::string floor = Significant(score.noise_floor, 3);
-  if (Diverges(score)) return {VelocityText(equation), "diverges", persistence, floor, "–", "–"};
-  return {VelocityText(equation),    Significant(score.rmse, 3), persistence, floor,
+  if (Diverges(score))
+    return {VelocityText(equation), "diverges", constant_velocity, floor, "–", "–"};
+  return {VelocityText(equation),    Significant(score.rmse, 3), constant_velocity, floor,
           Significant(score.mae, 3), Fixed(score.r2, 3)};
 }
 
 std::string HorizonText(const FreeRunScores& scores) {
   const std::string horizon = Plain(scores.horizon_s) + " s: ";
-  if (scores.windows == 0) return horizon + "no stretch without gaps is this long";
+  if (scores.windows == 0) return horizon + "no segment without gaps is this long";
   const std::string windows = horizon + Counted(scores.windows, "window", "windows");
   if (Diverges(scores)) return windows + ", in some of which the model runs away";
   return windows + ", position off by " + Significant(scores.position_rmse_m, 3) +

@@ -3,8 +3,8 @@
 #include <cctype>
 #include <cmath>
 
-#include "telltale/client/cli/evidence_table.hpp"
-#include "telltale/client/cli/outcome.hpp"
+#include "telltale/client/cli/exit_codes.hpp"
+#include "telltale/client/cli/identifiability_table.hpp"
 #include "telltale/client/cli/table.hpp"
 
 namespace telltale {
@@ -74,8 +74,8 @@ std::string Coefficients(const Identification& model) {
                                  {"unit", Align::kLeft},
                                  {"status", Align::kLeft}};
   constexpr int kAfterBounds = 5;
-  const bool sailed = !model.sailed.empty();
-  if (sailed) columns.insert(columns.begin() + kAfterBounds, {"sailed with", Align::kRight});
+  const bool simulation = !model.simulation.empty();
+  if (simulation) columns.insert(columns.begin() + kAfterBounds, {"sailed with", Align::kRight});
   return Grouped(model, std::move(columns), [&](const Coefficient& c) {
     std::vector<std::string> cells = {c.regressor,
                                       c.symbol,
@@ -84,9 +84,9 @@ std::string Coefficients(const Identification& model) {
                                       BoundsText(c.interval, 1.0),
                                       c.unit,
                                       InWords(Name(c.status))};
-    if (sailed) {
+    if (simulation) {
       const auto place = static_cast<std::size_t>(&c - model.coefficients.data());
-      cells.insert(cells.begin() + kAfterBounds, Significant(model.SailedWith(place)));
+      cells.insert(cells.begin() + kAfterBounds, Significant(model.SimulationParameter(place)));
     }
     return cells;
   });
@@ -118,8 +118,8 @@ std::string Alpha(const Identification& model) {
          Significant(alpha(tau.interval.upper)) + "]; beta = 1 - alpha\n";
 }
 
-std::string OffsetsText(const Identification& model) {
-  if (model.offsets.empty()) return "";
+std::string RecordingBiasText(const Identification& model) {
+  if (model.recording_bias.empty()) return "";
   Table table({{"steady in recording"},
                {"equation"},
                {"regressor"},
@@ -127,11 +127,11 @@ std::string OffsetsText(const Identification& model) {
                {"std. error", Align::kRight},
                {BoundsTitle(model), Align::kRight},
                {"unit"}});
-  for (std::size_t i = 0; i < model.offsets.size(); ++i) {
-    const RecordingOffsets& offsets = model.offsets[i];
-    table.AddHeading(std::to_string(i + 1) + ", " + Fixed(offsets.start_s, 1) + " s to " +
-                     Fixed(offsets.end_s, 1) + " s");
-    for (const Coefficient& c : offsets.coefficients) {
+  for (std::size_t i = 0; i < model.recording_bias.size(); ++i) {
+    const RecordingBias& recording_bias = model.recording_bias[i];
+    table.AddHeading(std::to_string(i + 1) + ", " + Fixed(recording_bias.start_s, 1) + " s to " +
+                     Fixed(recording_bias.end_s, 1) + " s");
+    for (const Coefficient& c : recording_bias.coefficients) {
       table.AddRow({"", std::string(Name(c.equation)), c.regressor, Significant(c.estimate),
                     Significant(c.standard_error, 3), BoundsText(c.interval, 1.0), c.unit});
     }
@@ -141,7 +141,7 @@ std::string OffsetsText(const Identification& model) {
 }
 
 /// A part of its own, if there is anything in it.
-std::string Apart(const std::string& text) {
+std::string AsParagraph(const std::string& text) {
   return text.empty() ? "" : '\n' + text;
 }
 
@@ -164,9 +164,9 @@ std::string ChoiceText(const Provenance& provenance) {
   return Wrapped("Estimator chosen: " + provenance.estimator_choice + ".");
 }
 
-std::string WanderText(const std::optional<Disturbance>& disturbance) {
-  if (!disturbance || disturbance->fix_wander_m == 0.0) return "";
-  return Wrapped("Fixes wander off by " + Fixed(100.0 * disturbance->fix_wander_m, 1) +
+std::string GnssDriftText(const std::optional<Disturbance>& disturbance) {
+  if (!disturbance || disturbance->gnss_drift_m == 0.0) return "";
+  return Wrapped("Fixes wander off by " + Fixed(100.0 * disturbance->gnss_drift_m, 1) +
                  " cm within a second, as the residuals show; the bounds allow for it.");
 }
 
@@ -202,11 +202,12 @@ std::string RejectedText(const RejectCounts& rejected) {
 
 std::string ModelTable(const Identification& identification) {
   return Title(identification) + Coefficients(identification) + TimeConstant(identification) +
-         DeadZoneText(identification.dead_zone) + OffsetsText(identification) +
+         DeadZoneText(identification.dead_zone) + RecordingBiasText(identification) +
          Refusals(identification) + ChangeText(identification) +
-         Apart(ExcitationTable(identification)) + Apart(CertificateTable(identification)) + '\n' +
-         WindowText(identification.window) + WanderText(identification.disturbance) +
-         ChoiceText(identification.provenance) + BoundsBasis(identification.provenance);
+         AsParagraph(IdentifiabilityTable(identification)) +
+         AsParagraph(CoverageTable(identification)) + '\n' + WindowText(identification.window) +
+         GnssDriftText(identification.disturbance) + ChoiceText(identification.provenance) +
+         BoundsBasis(identification.provenance);
 }
 
 std::string DiscreteTable(const Identification& identification) {

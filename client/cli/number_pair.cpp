@@ -4,7 +4,7 @@
 #include <optional>
 #include <string_view>
 
-#include "telltale/client/cli/outcome.hpp"
+#include "telltale/client/cli/exit_codes.hpp"
 
 namespace telltale {
 namespace {

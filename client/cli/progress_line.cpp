@@ -9,7 +9,7 @@
 namespace telltale {
 namespace {
 
-constexpr std::chrono::seconds kPatience{2};
+constexpr std::chrono::seconds kDisplayDelay{2};
 constexpr std::chrono::milliseconds kRedraw{200};
 constexpr const char* kClearLine = "\r\033[K";
 
@@ -34,7 +34,7 @@ void ProgressLine::Draw(const std::stop_token& stop) {
     changed_.wait_until(lock, stop, time, [] { return false; });
     return !stop.stop_requested();
   };
-  if (!wait(begun_ + kPatience)) return;
+  if (!wait(begun_ + kDisplayDelay)) return;
   do {
     const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - begun_;
     std::cerr << kClearLine << stage_ << "  " << Fixed(100.0 * fraction_, 0) << " %  "

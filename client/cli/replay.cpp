@@ -9,13 +9,13 @@
 #include "telltale/client/bus/participant.hpp"
 #include "telltale/client/bus/writer.hpp"
 #include "telltale/client/cli/commands.hpp"
-#include "telltale/client/cli/inputs.hpp"
+#include "telltale/client/cli/exit_codes.hpp"
+#include "telltale/client/cli/input_options.hpp"
 #include "telltale/client/cli/live_options.hpp"
-#include "telltale/client/cli/outcome.hpp"
 #include "telltale/client/cli/progress_line.hpp"
 #include "telltale/client/cli/table.hpp"
 #include "telltale/client/fleet/telemetry_publisher.hpp"
-#include "telltale/client/recording/load.hpp"
+#include "telltale/client/recording/load_recording.hpp"
 
 namespace telltale {
 namespace {
@@ -43,7 +43,7 @@ struct ReplayArguments {
 /// silence longer than kLongestSilenceS.
 class Schedule {
  public:
-  double Due(double time_s) {
+  double DueTime(double time_s) {
     if (!(time_s > newest_s_)) return due_s_;  // a wrong time, NaN included, is due at once
     due_s_ += begun_ ? std::min(time_s - newest_s_, kLongestSilenceS) : 0.0;
     newest_s_ = time_s;
@@ -67,7 +67,7 @@ double Publish(const std::vector<RawSample>& samples, double speed, TelemetryPub
   auto burst_begin = start;
   std::size_t burst = 0;
   for (const RawSample& sample : samples) {
-    due_s = schedule.Due(TimeOf(sample));
+    due_s = schedule.DueTime(TimeOf(sample));
     const auto due = start + std::chrono::ceil<Clock::duration>(Seconds(due_s / speed));
     if (burst == kBurstSamples || due > burst_begin + kBurstSpacing) {
       publisher.Flush();

@@ -8,13 +8,13 @@
 #include <vector>
 
 #include "telltale/client/cli/commands.hpp"
-#include "telltale/client/cli/inputs.hpp"
+#include "telltale/client/cli/exit_codes.hpp"
+#include "telltale/client/cli/input_options.hpp"
 #include "telltale/client/cli/model_table.hpp"
-#include "telltale/client/cli/outcome.hpp"
 #include "telltale/client/cli/table.hpp"
 #include "telltale/client/cli/whole_number.hpp"
-#include "telltale/client/recording/telemetry_log.hpp"
-#include "telltale/core/diagnosis/augmented_identification.hpp"
+#include "telltale/client/recording/telemetry_log/telemetry_log.hpp"
+#include "telltale/core/diagnosis/hypotheses/augmented_identification.hpp"
 #include "telltale/core/effects/augmented_simulation.hpp"
 #include "telltale/core/simulation/sensors.hpp"
 #include "telltale/core/simulation/simulator.hpp"
@@ -58,13 +58,13 @@ bool IsFinite(const VesselState& state) {
 
 // A boat beyond this has left what any of these vessels can do, and soon the numbers too.
 bool IsPlausible(const VesselState& state) {
-  constexpr double kFastestMps = 100.0;
-  constexpr double kFastestRadps = 100.0;
-  return IsFinite(state) && std::hypot(state.nu.u, state.nu.v) < kFastestMps &&
-         std::abs(state.nu.r) < kFastestRadps;
+  constexpr double kDivergedSpeedMps = 100.0;
+  constexpr double kDivergedYawRateRadps = 100.0;
+  return IsFinite(state) && std::hypot(state.nu.u, state.nu.v) < kDivergedSpeedMps &&
+         std::abs(state.nu.r) < kDivergedYawRateRadps;
 }
 
-void RefuseRunaway(const std::vector<TimedState>& track) {
+void RefuseDivergence(const std::vector<TimedState>& track) {
   for (const TimedState& instant : track) {
     if (IsPlausible(instant.state)) continue;
     throw RefusedError({"simulation",
@@ -85,7 +85,7 @@ void SimulateLog(const SimulateArguments& arguments) {
   const double end_s = commands.back().time_s;
   const auto track = model.effects.empty() ? Simulate(model.model, {}, commands, end_s, step_s)
                                            : Simulate(model, commands, end_s, step_s);
-  RefuseRunaway(track);
+  RefuseDivergence(track);
   const Recording recording = Measure(track, model, vehicle, arguments.sensors);
   WriteTelemetryLog(arguments.out, recording);
   const VesselState& last = track.back().state;

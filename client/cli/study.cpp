@@ -5,14 +5,14 @@
 #include <thread>
 
 #include "telltale/client/cli/commands.hpp"
-#include "telltale/client/cli/inputs.hpp"
-#include "telltale/client/cli/outcome.hpp"
-#include "telltale/client/cli/output.hpp"
+#include "telltale/client/cli/exit_codes.hpp"
+#include "telltale/client/cli/input_options.hpp"
+#include "telltale/client/cli/output_options.hpp"
 #include "telltale/client/cli/progress_line.hpp"
 #include "telltale/client/cli/study_table.hpp"
 #include "telltale/client/cli/whole_number.hpp"
-#include "telltale/core/validation/study.hpp"
-#include "telltale/idl/codec/study_json.hpp"
+#include "telltale/core/paper/study.hpp"
+#include "telltale/idl/codec/json/study.hpp"
 
 namespace telltale {
 namespace {

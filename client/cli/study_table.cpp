@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <complex>
 
-#include "telltale/client/cli/paper_figures.hpp"
+#include "telltale/client/cli/published_results.hpp"
 #include "telltale/client/cli/table.hpp"
-#include "telltale/core/simulation/yellowfish.hpp"
+#include "telltale/core/paper/yellowfish.hpp"
 
 namespace telltale {
 namespace {
@@ -17,7 +17,7 @@ std::string StructureText(Structure structure) {
 }
 
 std::string MethodText(PartitionMethod method) {
-  return method == PartitionMethod::kBySegments ? "by segments" : "by points";
+  return method == PartitionMethod::kBySlices ? "by segments" : "by points";
 }
 
 std::string Entry(const StudyEntry& entry) {
@@ -25,7 +25,7 @@ std::string Entry(const StudyEntry& entry) {
 }
 
 const PublishedPartition& Published(const StudyEntry& entry) {
-  const bool segments = entry.method == PartitionMethod::kBySegments;
+  const bool segments = entry.method == PartitionMethod::kBySlices;
   if (entry.structure == Structure::kStaticQuadratic) {
     return segments ? kPublishedStaticBySegments : kPublishedStaticByPoints;
   }
@@ -55,8 +55,8 @@ std::string PartitionTable(const Study& study) {
       table.AddRow({kVelocities[j], Fixed(s.mae.mean, 6), Significant(s.mae.standard_deviation, 2),
                     Fixed(published.mae[j], 6), Fixed(s.r2.mean, 6),
                     Significant(s.r2.standard_deviation, 2), Fixed(published.r2[j], 6),
-                    Fixed(s.persistence_r2.mean, 4), FreeRun(s.free_run_rmse),
-                    FreeRun(s.persistence_free_run_rmse)});
+                    Fixed(s.constant_velocity_r2.mean, 4), FreeRun(s.free_run_rmse),
+                    FreeRun(s.constant_velocity_free_run_rmse)});
     }
   }
   return table.Render();
@@ -160,7 +160,7 @@ std::string AlphaText(const Study& study) {
   return text;
 }
 
-std::string WhatPointsHide() {
+std::string PointPartitionWarning() {
   return Wrapped(
       "Partition by points hides how a model does on new data: neighbouring points are nearly "
       "copies of each other, so every validation point has its twin among the training points.");
@@ -169,7 +169,7 @@ std::string WhatPointsHide() {
 }  // namespace
 
 std::string StudyTable(const Study& study) {
-  return PartitionTable(study) + '\n' + WhatPointsHide() + '\n' + SharesTable(study) + '\n' +
+  return PartitionTable(study) + '\n' + PointPartitionWarning() + '\n' + SharesTable(study) + '\n' +
          CoefficientTable("static, times h", study.static_table, PublishedStatic()) + '\n' +
          CoefficientTable("dynamic, redundant", study.dynamic_table, YellowfishDynamicTable()) +
          '\n' + AlphaText(study);

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "telltale/core/validation/study.hpp"
+#include "telltale/core/paper/study.hpp"
 
 namespace telltale {
 

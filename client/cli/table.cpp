@@ -4,7 +4,7 @@
 #include <numeric>
 #include <sstream>
 
-#include "telltale/core/contract.hpp"
+#include "telltale/core/base/contract.hpp"
 
 namespace telltale {
 namespace {

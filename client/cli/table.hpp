@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "telltale/client/report/numbers.hpp"
+#include "telltale/client/report/number_text.hpp"
 
 namespace telltale {
 

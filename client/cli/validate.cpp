@@ -5,18 +5,18 @@
 #include <string>
 
 #include "telltale/client/cli/commands.hpp"
-#include "telltale/client/cli/inputs.hpp"
+#include "telltale/client/cli/exit_codes.hpp"
+#include "telltale/client/cli/input_options.hpp"
 #include "telltale/client/cli/metrics_table.hpp"
-#include "telltale/client/cli/outcome.hpp"
-#include "telltale/client/cli/output.hpp"
+#include "telltale/client/cli/output_options.hpp"
 #include "telltale/client/cli/progress_line.hpp"
 #include "telltale/client/cli/table.hpp"
-#include "telltale/client/exchange/disturbance.hpp"
-#include "telltale/client/recording/files.hpp"
-#include "telltale/core/diagnosis/augmented_identification.hpp"
+#include "telltale/client/exchange/disturbance_csv.hpp"
+#include "telltale/client/recording/file_contents.hpp"
+#include "telltale/core/diagnosis/hypotheses/augmented_identification.hpp"
 #include "telltale/core/identification/input_gain.hpp"
 #include "telltale/core/validation/validation.hpp"
-#include "telltale/idl/codec/metrics_json.hpp"
+#include "telltale/idl/codec/json/metrics.hpp"
 
 namespace telltale {
 namespace {
@@ -65,7 +65,7 @@ std::string OverlapText(const Identification& model, const PreparedDataset& data
 
 std::string ScoredText(const PreparedDataset& dataset) {
   return Wrapped("Scored on " + Counted(dataset.rows.size(), "row", "rows") + " in " +
-                 Counted(dataset.stretches.size(), "stretch", "stretches") + " without gaps.");
+                 Counted(dataset.segments.size(), "segment", "segments") + " without gaps.");
 }
 
 void ValidateModel(const ValidateArguments& arguments) {

@@ -10,8 +10,8 @@
 #include "telltale/client/cli/commands.hpp"
 #include "telltale/client/cli/live_options.hpp"
 #include "telltale/client/cli/model_table.hpp"
-#include "telltale/client/cli/published_diagnosis.hpp"
-#include "telltale/client/cli/published_model.hpp"
+#include "telltale/client/cli/published_diagnosis_json.hpp"
+#include "telltale/client/cli/published_model_json.hpp"
 #include "telltale/client/fleet/subscriber.hpp"
 
 namespace telltale {
@@ -47,7 +47,7 @@ void Print(const PublishedDiagnosis& published, bool json) {
             << std::flush;
 }
 
-std::function<void(const CodecError&)> SetAside(std::string what) {
+std::function<void(const CodecError&)> ReportUnreadable(std::string what) {
   return [what = std::move(what)](const CodecError& error) {
     std::cerr << "telltale: " << what << " was set aside: " << error.Message() << '\n';
   };
@@ -63,26 +63,26 @@ void Watch(const WatchArguments& arguments) {
     Print(published, arguments.json);
     ++seen;
   };
-  WaitSet news(participant);
-  const ModelFeed models(
-      participant, news,
+  WaitSet wait_set(participant);
+  const ModelSubscription models(
+      participant, wait_set,
       [&](const PublishedModel& model) { show(model.identification.vehicle_id, model); },
-      SetAside("a model"));
-  const DiagnosisFeed diagnoses(
-      participant, news,
+      ReportUnreadable("a model"));
+  const DiagnosisSubscription diagnoses(
+      participant, wait_set,
       [&](const PublishedDiagnosis& published) { show(published.diagnosis.vehicle_id, published); },
-      SetAside("a diagnosis"));
+      ReportUnreadable("a diagnosis"));
 
-  const bool patient = arguments.live.timeout_s == 0.0;
+  const bool without_timeout = arguments.live.timeout_s == 0.0;
   const auto deadline = Clock::now() + arguments.live.Timeout();
   while (!enough()) {
     const auto left = deadline - Clock::now();
-    if (!patient && left <= left.zero()) {
+    if (!without_timeout && left <= left.zero()) {
       throw std::runtime_error(
           "only " + std::to_string(seen) + " models and diagnoses came in time" +
           (models.Connected() ? "" : ": " + NobodyThereAdvice(arguments.live.domain)));
     }
-    news.Wait(patient ? std::chrono::hours(1) : left);
+    wait_set.Wait(without_timeout ? std::chrono::hours(1) : left);
   }
 }
 

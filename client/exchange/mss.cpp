@@ -4,8 +4,8 @@
 #include <map>
 #include <string_view>
 
-#include "telltale/idl/codec/json_message.hpp"
-#include "telltale/idl/codec/model_json.hpp"
+#include "telltale/idl/codec/json/json_message.hpp"
+#include "telltale/idl/codec/json/model.hpp"
 #include "telltale/idl/proto/exchange.pb.h"
 
 namespace telltale {
@@ -71,21 +71,22 @@ std::string_view MeaningOf(const Coefficient& coefficient) {
   return kMeanings[IndexOf(coefficient.equation)]->at(coefficient.regressor);
 }
 
-struct Unknowable {
+struct UnidentifiableTerm {
   const char* parameter;
   const char* reason;
 };
 
-constexpr std::array kUnknowable = {
-    Unknowable{"m, X_udot",
-               "surge sees m11 = m - X_udot alone, and only as a common divisor of forces"},
-    Unknowable{"Y_vdot, Y_rdot", "they come in products with W alone"},
-    Unknowable{"I_z, N_rdot", "yaw sees I_z - N_rdot alone, and only as a divisor of moments"},
-    Unknowable{"x_g", "it comes with Y_rdot alone, in m x_g - Y_rdot, and divided by m11"},
-    Unknowable{"a_f, b_f, a_r, b_r", "thrust in newtons is known only times W"},
-    Unknowable{"X_u, X_|u|u, Y_v, N_r and all other damping",
-               "known only times W; in sway and yaw only sums of two such products"},
-    Unknowable{"wind, current, trim", "all are within the constant term"},
+constexpr std::array kUnidentifiableTerms = {
+    UnidentifiableTerm{"m, X_udot",
+                       "surge sees m11 = m - X_udot alone, and only as a common divisor of forces"},
+    UnidentifiableTerm{"Y_vdot, Y_rdot", "they come in products with W alone"},
+    UnidentifiableTerm{"I_z, N_rdot",
+                       "yaw sees I_z - N_rdot alone, and only as a divisor of moments"},
+    UnidentifiableTerm{"x_g", "it comes with Y_rdot alone, in m x_g - Y_rdot, and divided by m11"},
+    UnidentifiableTerm{"a_f, b_f, a_r, b_r", "thrust in newtons is known only times W"},
+    UnidentifiableTerm{"X_u, X_|u|u, Y_v, N_r and all other damping",
+                       "known only times W; in sway and yaw only sums of two such products"},
+    UnidentifiableTerm{"wind, current, trim", "all are within the constant term"},
 };
 
 void Write(const Coefficient& coefficient, proto::NormalisedCoefficient& message) {
@@ -147,10 +148,10 @@ std::string PrintMss(const Identification& identification, const Vehicle& vehicl
   }
   message.set_propeller_separation_m(vehicle.propeller_separation_m);
   if (vehicle.mass_kg) message.set_mass_kg(*vehicle.mass_kg);
-  for (const Unknowable& unknowable : kUnknowable) {
+  for (const UnidentifiableTerm& unidentifiable : kUnidentifiableTerms) {
     proto::NotIdentifiable& entry = *message.add_not_identifiable();
-    entry.set_parameter(unknowable.parameter);
-    entry.set_reason(unknowable.reason);
+    entry.set_parameter(unidentifiable.parameter);
+    entry.set_reason(unidentifiable.reason);
   }
   AddNotes(identification, vehicle, message);
   return PrintJsonMessage(message);

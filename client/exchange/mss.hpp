@@ -9,7 +9,7 @@ namespace telltale {
 
 /// The model for Fossen's MSS and Python Vehicle Simulator: JSON of M^-1-normalised coefficients,
 /// each with what it is in physical parameters, and the parameters that position, heading and pulse
-/// widths cannot tell. docs/model-exchange.md.
+/// widths cannot tell. docs/guides/model-exchange.md.
 std::string PrintMss(const Identification& identification, const Vehicle& vehicle);
 
 }  // namespace telltale

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <string_view>
 
-#include "telltale/core/contract.hpp"
+#include "telltale/core/base/contract.hpp"
 #include "telltale/core/identification/input_gain.hpp"
 
 namespace telltale {

@@ -3,29 +3,29 @@
 #include <functional>
 
 #include "telltale/client/bus/participant.hpp"
-#include "telltale/client/fleet/exchange.hpp"
-#include "telltale/idl/codec/messages.hpp"
+#include "telltale/client/fleet/request_reply.hpp"
+#include "telltale/idl/codec/wire/messages.hpp"
 
 namespace telltale {
 
-using DiagnoseAnswer = ExchangeAnswer<DiagnoseReply>;
+using DiagnoseResult = ReplyResult<DiagnoseReply>;
 
 /// Asks the daemon for diagnoses of its windows.
 class DiagnosisClient {
  public:
-  explicit DiagnosisClient(const Participant& participant) : exchange_(participant) {}
+  explicit DiagnosisClient(const Participant& participant) : request_reply_(participant) {}
 
   /// Blocks until the answer is there. `progress` runs on the calling thread.
   /// Requires: identifiers of 1..64 letters, digits, '.', '_' or '-'.
-  DiagnoseAnswer Diagnose(const DiagnoseRequest& request, const ExchangeTiming& timing,
+  DiagnoseResult Diagnose(const DiagnoseRequest& request, const RequestTiming& timing,
                           const std::function<void(const DiagnoseProgress&)>& progress = {}) {
-    return exchange_.Ask<DiagnoseReply, DiagnoseProgress>(request, timing, progress);
+    return request_reply_.Ask<DiagnoseReply, DiagnoseProgress>(request, timing, progress);
   }
 
  private:
-  Exchange<telltale_wire_DiagnoseRequest, telltale_wire_DiagnoseProgress,
-           telltale_wire_DiagnoseReply>
-      exchange_;
+  RequestReply<telltale_wire_DiagnoseRequest, telltale_wire_DiagnoseProgress,
+               telltale_wire_DiagnoseReply>
+      request_reply_;
 };
 
 }  // namespace telltale

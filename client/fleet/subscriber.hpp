@@ -7,34 +7,35 @@
 #include "telltale/client/bus/participant.hpp"
 #include "telltale/client/bus/reader.hpp"
 #include "telltale/client/bus/wait_set.hpp"
-#include "telltale/idl/codec/wire.hpp"
+#include "telltale/idl/codec/wire/wire.hpp"
 
 namespace telltale {
 
 /// One topic of the fleet on a wait set that may follow others too. What cannot be decoded goes to
 /// `reject` with the field at fault. Belongs to the wait set's thread.
 template <class Wire, class Message>
-class Feed {
+class TopicSubscription {
  public:
-  Feed(const Participant& participant, WaitSet& news, std::function<void(const Message&)> receive,
-       std::function<void(const CodecError&)> reject)
-      : news_(news), reader_(participant) {
-    news_.Attach(reader_, [this, receive = std::move(receive), reject = std::move(reject)] {
+  TopicSubscription(const Participant& participant, WaitSet& wait_set,
+                    std::function<void(const Message&)> receive,
+                    std::function<void(const CodecError&)> reject)
+      : wait_set_(wait_set), reader_(participant) {
+    wait_set_.Attach(reader_, [this, receive = std::move(receive), reject = std::move(reject)] {
       reader_.Take([&](const Wire& wire) {
         const auto message = Decode(wire);
         message ? receive(*message) : reject(message.error());
       });
     });
   }
-  Feed(const Feed&) = delete;
-  Feed& operator=(const Feed&) = delete;
-  ~Feed() { news_.Detach(reader_); }
+  TopicSubscription(const TopicSubscription&) = delete;
+  TopicSubscription& operator=(const TopicSubscription&) = delete;
+  ~TopicSubscription() { wait_set_.Detach(reader_); }
 
   /// Whether anyone publishes on this topic.
   bool Connected() const { return reader_.Matched() > 0; }
 
  private:
-  WaitSet& news_;
+  WaitSet& wait_set_;
   Reader<Wire> reader_;
 };
 
@@ -44,22 +45,23 @@ class Subscriber {
  public:
   Subscriber(const Participant& participant, std::function<void(const Message&)> receive,
              std::function<void(const CodecError&)> reject)
-      : news_(participant), feed_(participant, news_, std::move(receive), std::move(reject)) {}
+      : wait_set_(participant),
+        subscription_(participant, wait_set_, std::move(receive), std::move(reject)) {}
 
   /// Waits for news and hands it on, on this thread; false when there was none within `timeout`.
-  bool Wait(std::chrono::nanoseconds timeout) { return news_.Wait(timeout); }
+  bool Wait(std::chrono::nanoseconds timeout) { return wait_set_.Wait(timeout); }
 
   /// Whether anyone publishes on this topic.
-  bool Connected() const { return feed_.Connected(); }
+  bool Connected() const { return subscription_.Connected(); }
 
  private:
-  WaitSet news_;
-  Feed<Wire, Message> feed_;
+  WaitSet wait_set_;
+  TopicSubscription<Wire, Message> subscription_;
 };
 
 /// Published models and diagnoses; who joins late is given the last of each vehicle.
-using ModelFeed = Feed<telltale_wire_Model, PublishedModel>;
-using DiagnosisFeed = Feed<telltale_wire_Diagnosis, PublishedDiagnosis>;
+using ModelSubscription = TopicSubscription<telltale_wire_Model, PublishedModel>;
+using DiagnosisSubscription = TopicSubscription<telltale_wire_Diagnosis, PublishedDiagnosis>;
 using ModelSubscriber = Subscriber<telltale_wire_Model, PublishedModel>;
 using DiagnosisSubscriber = Subscriber<telltale_wire_Diagnosis, PublishedDiagnosis>;
 using QualitySubscriber = Subscriber<telltale_wire_Quality, Quality>;

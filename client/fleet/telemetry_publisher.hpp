@@ -6,7 +6,7 @@
 
 #include "telltale/client/bus/participant.hpp"
 #include "telltale/client/bus/writer.hpp"
-#include "telltale/idl/codec/messages.hpp"
+#include "telltale/idl/codec/wire/messages.hpp"
 
 namespace telltale {
 

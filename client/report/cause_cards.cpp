@@ -1,9 +1,9 @@
 #include <algorithm>
 
-#include "telltale/client/report/numbers.hpp"
+#include "telltale/client/report/diagnosis_text.hpp"
+#include "telltale/client/report/number_text.hpp"
 #include "telltale/client/report/pictures.hpp"
 #include "telltale/client/report/plot.hpp"
-#include "telltale/client/report/words.hpp"
 
 namespace telltale {
 namespace {
@@ -20,22 +20,22 @@ Markup ProbabilityBar(double probability) {
                      RectangleShape({0.0, 0.0}, {x(probability), 6.0}, "ink-bar"));
 }
 
-Markup ClosureWhisker(const Closure& closure) {
+Markup ExcessExplainedPlot(const ExcessExplained& excess_explained) {
   constexpr double kWidth = 260.0;
   constexpr double kBaseline = 14.0;
-  const double low = std::clamp(closure.interval.lower, -1.0, 0.0);
-  const double high = std::clamp(closure.interval.upper, 1.0, 1.5);
+  const double low = std::clamp(excess_explained.interval.lower, -1.0, 0.0);
+  const double high = std::clamp(excess_explained.interval.upper, 1.0, 1.5);
   const Axis x{low, high, 18.0, kWidth - 26.0};
   Markup shapes = LineShape({x(low), kBaseline}, {x(high), kBaseline}, "grid");
   for (const double share : {0.0, 0.5, 1.0}) {
     shapes += LineShape({x(share), kBaseline - 5.0}, {x(share), kBaseline + 5.0}, "grid");
     shapes += LabelShape({x(share), kBaseline + 24.0}, ShareText(share), Anchor::kMiddle);
   }
-  shapes += LineShape({x(closure.interval.lower), kBaseline},
-                      {x(closure.interval.upper), kBaseline}, "whisker");
-  shapes += CircleShape({x(closure.share), kBaseline}, 6.0, "whisker-dot");
-  return Picture({kWidth, 44.0}, "whiskers", "closes " + ClosureText(closure) + " of the gap",
-                 shapes);
+  shapes += LineShape({x(excess_explained.interval.lower), kBaseline},
+                      {x(excess_explained.interval.upper), kBaseline}, "whisker");
+  shapes += CircleShape({x(excess_explained.share), kBaseline}, 6.0, "whisker-dot");
+  return Picture({kWidth, 44.0}, "whiskers",
+                 "closes " + ExcessExplainedText(excess_explained) + " of the gap", shapes);
 }
 
 Markup ParameterList(const CausalEffect& effect) {
@@ -53,7 +53,7 @@ Markup EffectPart(const CausalEffect& effect, bool several) {
   return Styled("p", "says", Words(text)) + ParameterList(effect);
 }
 
-Markup TiedWith(const Cause& cause) {
+Markup IndistinguishableText(const Cause& cause) {
   if (cause.indistinguishable.empty()) return {};
   std::string names;
   for (const std::string& name : cause.indistinguishable) {
@@ -73,10 +73,11 @@ Markup CauseCard(const Cause& cause) {
   for (const CausalEffect& effect : cause.effects) {
     card += EffectPart(effect, cause.effects.size() > 1);
   }
-  card += TiedWith(cause);
-  if (cause.closure) {
-    card += Styled("p", "soft", Words("Closes " + ClosureText(cause.closure) + " of the gap")) +
-            ClosureWhisker(*cause.closure);
+  card += IndistinguishableText(cause);
+  if (cause.excess_explained) {
+    card += Styled("p", "soft",
+                   Words("Closes " + ExcessExplainedText(cause.excess_explained) + " of the gap")) +
+            ExcessExplainedPlot(*cause.excess_explained);
   }
   return Styled("article", "card", card);
 }

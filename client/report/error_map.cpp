@@ -3,11 +3,11 @@
 #include <cmath>
 #include <map>
 
-#include "telltale/client/report/numbers.hpp"
+#include "telltale/client/report/diagnosis_text.hpp"
+#include "telltale/client/report/grouped_error.hpp"
+#include "telltale/client/report/number_text.hpp"
 #include "telltale/client/report/pictures.hpp"
 #include "telltale/client/report/plot.hpp"
-#include "telltale/client/report/window_groups.hpp"
-#include "telltale/client/report/words.hpp"
 
 namespace telltale {
 namespace {

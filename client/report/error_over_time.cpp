@@ -1,9 +1,9 @@
 #include <algorithm>
 
-#include "telltale/client/report/numbers.hpp"
+#include "telltale/client/report/diagnosis_text.hpp"
+#include "telltale/client/report/number_text.hpp"
 #include "telltale/client/report/pictures.hpp"
 #include "telltale/client/report/plot.hpp"
-#include "telltale/client/report/words.hpp"
 
 namespace telltale {
 namespace {
@@ -49,7 +49,7 @@ Markup GridOf(const TimeFrame& frame) {
   return grid;
 }
 
-Markup FloorOf(const TimeFrame& frame, const GapSize& gap) {
+Markup NoiseFloorBand(const TimeFrame& frame, const GapSize& gap) {
   const double limit = frame.y(gap.floor_limit);
   const double floor = frame.y(gap.noise_floor);
   return RectangleShape({frame.x.from, limit}, {frame.x.to - frame.x.from, frame.y.from - limit},
@@ -89,7 +89,8 @@ Markup CurveOf(const TimeFrame& frame, const Diagnosis& diagnosis, double Window
 Markup TimePicture(const Diagnosis& diagnosis, const Eigen::Vector2d& size,
                    std::string_view style) {
   const TimeFrame frame = FrameOf(diagnosis, size);
-  Markup shapes = FloorOf(frame, diagnosis.Main().all) + GridOf(frame) + OnsetOf(frame, diagnosis) +
+  Markup shapes = NoiseFloorBand(frame, diagnosis.Main().all) + GridOf(frame) +
+                  OnsetOf(frame, diagnosis) +
                   CurveOf(frame, diagnosis, &WindowPicture::before, "before");
   if (HasAfter(diagnosis)) {
     shapes += CurveOf(frame, diagnosis, &WindowPicture::after, "after");

@@ -1,9 +1,9 @@
 #include <algorithm>
 
-#include "telltale/client/report/numbers.hpp"
+#include "telltale/client/report/diagnosis_text.hpp"
+#include "telltale/client/report/number_text.hpp"
 #include "telltale/client/report/pictures.hpp"
 #include "telltale/client/report/plot.hpp"
-#include "telltale/client/report/words.hpp"
 
 namespace telltale {
 namespace {
@@ -45,20 +45,22 @@ Markup Bars(std::string_view name, const GapSize& size, double highest, bool aft
                  shapes);
 }
 
-Markup BarNumbers(const GapSize& size, const std::optional<Closure>& closure, bool after) {
+Markup BarNumbers(const GapSize& size, const std::optional<ExcessExplained>& excess_explained,
+                  bool after) {
   Markup numbers = Styled("b", "before-text", Words(Fixed(size.before, 2)));
   if (after) {
     numbers += Words(" → ") + Styled("b", "after-text", Words(Fixed(size.after, 2)));
   }
-  Markup closed;
-  if (closure) closed = Styled("span", "soft", Words(ClosureText(closure)));
-  return Styled("span", "figures", Styled("span", "", numbers) + closed);
+  Markup excess_text;
+  if (excess_explained)
+    excess_text = Styled("span", "soft", Words(ExcessExplainedText(excess_explained)));
+  return Styled("span", "figures", Styled("span", "", numbers) + excess_text);
 }
 
-Markup BarRow(std::string_view name, const GapSize& size, const std::optional<Closure>& closure,
-              double highest, bool after) {
+Markup BarRow(std::string_view name, const GapSize& size,
+              const std::optional<ExcessExplained>& excess_explained, double highest, bool after) {
   return Styled("div", "bar-row",
-                Styled("span", "name", Words(name)) + BarNumbers(size, closure, after) +
+                Styled("span", "name", Words(name)) + BarNumbers(size, excess_explained, after) +
                     Bars(name, size, highest, after));
 }
 
@@ -66,12 +68,13 @@ Markup HorizonBars(const Gap& gap, double highest, bool after) {
   const std::string title = Plain(gap.horizon_s) + " s ahead";
   Markup rows = Styled("h3", "", Words(title));
   if (gap.windows == 0) {
-    return Styled("div", "horizon", rows + Nothing("No stretch without gaps is this long."));
+    return Styled("div", "horizon", rows + Nothing("No segment without gaps is this long."));
   }
-  rows += BarRow("all", gap.all, gap.closure, highest, after);
+  rows += BarRow("all", gap.all, gap.excess_explained, highest, after);
   for (const Equation channel : kEquations) {
     const std::size_t i = IndexOf(channel);
-    rows += BarRow(ChannelText(channel), gap.channels[i], gap.channel_closures[i], highest, after);
+    rows += BarRow(ChannelText(channel), gap.channels[i], gap.channel_excess_explained[i], highest,
+                   after);
   }
   return Styled("div", "horizon",
                 rows + Styled("p", "soft", Words(Counted(gap.windows, "window", "windows"))));

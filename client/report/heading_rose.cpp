@@ -2,10 +2,10 @@
 #include <cmath>
 #include <numbers>
 
-#include "telltale/client/report/numbers.hpp"
+#include "telltale/client/report/grouped_error.hpp"
+#include "telltale/client/report/number_text.hpp"
 #include "telltale/client/report/pictures.hpp"
 #include "telltale/client/report/plot.hpp"
-#include "telltale/client/report/window_groups.hpp"
 #include "telltale/core/vessel/compass.hpp"
 
 namespace telltale {

@@ -3,10 +3,10 @@
 
 #include <Eigen/Geometry>
 
-#include "telltale/client/report/numbers.hpp"
+#include "telltale/client/report/number_text.hpp"
 #include "telltale/client/report/pictures.hpp"
 #include "telltale/client/report/plot.hpp"
-#include "telltale/idl/codec/report_json.hpp"
+#include "telltale/idl/codec/json/report.hpp"
 
 namespace telltale {
 namespace {
@@ -49,7 +49,7 @@ Chart ChartOf(const std::vector<const Path*>& paths) {
   return {box.center(), std::min(across, up)};
 }
 
-Markup Sailed(const Chart& chart, const Path& path, const std::string& style) {
+Markup DrawPath(const Chart& chart, const Path& path, const std::string& style) {
   if (path.empty()) return {};
   Path points;
   for (const Eigen::Vector2d& point : path) points.push_back(chart(point));
@@ -87,10 +87,10 @@ Markup WindowFigure(const WindowPicture& window, double start_s, bool after) {
   const Path before = OnTheMap(window.predicted_before, middle, reach_m);
   const Path predicted_after = after ? OnTheMap(window.predicted_after, middle, reach_m) : Path();
   const Chart chart = ChartOf({&window.measured, &before, &predicted_after});
-  const Markup shapes = Sailed(chart, window.measured, "measured") +
-                        Sailed(chart, before, "before") + Sailed(chart, predicted_after, "after") +
-                        CircleShape(chart(window.measured.front()), 4.0, "start") +
-                        ScaleBar(chart) + NorthArrow();
+  const Markup shapes =
+      DrawPath(chart, window.measured, "measured") + DrawPath(chart, before, "before") +
+      DrawPath(chart, predicted_after, "after") +
+      CircleShape(chart(window.measured.front()), 4.0, "start") + ScaleBar(chart) + NorthArrow();
   const std::string caption = WindowCaption(window, start_s, after);
   return Styled(
       "figure", "",

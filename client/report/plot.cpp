@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "telltale/client/report/numbers.hpp"
+#include "telltale/client/report/number_text.hpp"
 
 namespace telltale {
 

@@ -6,16 +6,16 @@
 
 #include <CLI/CLI.hpp>
 
-#include "telltale/client/recording/telemetry_log.hpp"
+#include "telltale/client/recording/telemetry_log/telemetry_log.hpp"
+#include "telltale/core/paper/paper_mission.hpp"
+#include "telltale/core/paper/yellowfish.hpp"
 #include "telltale/core/simulation/manoeuvres.hpp"
-#include "telltale/core/simulation/paper_mission.hpp"
 #include "telltale/core/simulation/sensors.hpp"
-#include "telltale/core/simulation/yellowfish.hpp"
 
 namespace telltale {
 namespace {
 
-struct Voyage {
+struct TwinRecordingOptions {
   std::filesystem::path out;
   std::string mission = "sample";
   std::string structure = "static";
@@ -24,43 +24,44 @@ struct Voyage {
   SensorOptions sensors;
 };
 
-Recording Sail(const Voyage& voyage) {
+Recording SimulateMission(const TwinRecordingOptions& options) {
   const VesselModel twin =
-      voyage.structure == "dynamic" ? YellowfishLaggingTwin() : YellowfishTwin();
-  SensorOptions sensors = voyage.sensors;
-  sensors.seed = voyage.seed;
-  if (voyage.mission == "paper") return RecordPaperMission(twin, sensors, voyage.seed);
+      options.structure == "dynamic" ? YellowfishLaggingTwin() : YellowfishTwin();
+  SensorOptions sensors = options.sensors;
+  sensors.seed = options.seed;
+  if (options.mission == "paper") return RecordPaperMission(twin, sensors, options.seed);
   constexpr double kStepS = 0.01;
-  const auto commands = SampleMission(voyage.seed);
+  const auto commands = SampleMission(options.seed);
   const VesselState start{{}, {}, twin.SteadyThrust(commands.front().delta)};
-  return Measure(Simulate(twin, start, commands, voyage.duration_s, kStepS), YellowfishVehicle(),
+  return Measure(Simulate(twin, start, commands, options.duration_s, kStepS), YellowfishVehicle(),
                  sensors);
 }
 
-void Record(const Voyage& voyage) {
-  WriteTelemetryLog(voyage.out, Sail(voyage));
+void Record(const TwinRecordingOptions& options) {
+  WriteTelemetryLog(options.out, SimulateMission(options));
 }
 
 int Main(int argc, char** argv) {
   CLI::App app("Records what the sensors of the simulated Yellowfish report on a sample mission.");
-  Voyage voyage;
-  app.add_option("--out", voyage.out, "Folder the telemetry log is written to")->required();
-  app.add_option("--mission", voyage.mission,
+  TwinRecordingOptions options;
+  app.add_option("--out", options.out, "Folder the telemetry log is written to")->required();
+  app.add_option("--mission", options.mission,
                  "sample (ten minutes), or paper (127 segments, 16,025 points, 53.4 minutes)")
       ->check(CLI::IsMember({"sample", "paper"}))
       ->capture_default_str();
-  app.add_option("--structure", voyage.structure, "Of the thrusters: static, or dynamic (they lag)")
+  app.add_option("--structure", options.structure,
+                 "Of the thrusters: static, or dynamic (they lag)")
       ->check(CLI::IsMember({"static", "dynamic"}))
       ->capture_default_str();
-  app.add_option("--duration", voyage.duration_s, "Seconds of the sample mission, from its start")
+  app.add_option("--duration", options.duration_s, "Seconds of the sample mission, from its start")
       ->check(CLI::Range(10.0, kSampleMissionDurationS))
       ->capture_default_str();
-  app.add_option("--seed", voyage.seed, "Of the mission's random steps and the sensors' noise")
+  app.add_option("--seed", options.seed, "Of the mission's random steps and the sensors' noise")
       ->capture_default_str();
-  app.add_option("--position-noise", voyage.sensors.position_noise_m, "One sigma per axis, m")
+  app.add_option("--position-noise", options.sensors.position_noise_m, "One sigma per axis, m")
       ->check(CLI::Range(0.0, 10.0))
       ->capture_default_str();
-  app.add_option("--heading-noise", voyage.sensors.heading_noise_deg, "One sigma, degrees")
+  app.add_option("--heading-noise", options.sensors.heading_noise_deg, "One sigma, degrees")
       ->check(CLI::Range(0.0, 45.0))
       ->capture_default_str();
   try {
@@ -69,7 +70,7 @@ int Main(int argc, char** argv) {
     constexpr int kUsageError = 2;
     return app.exit(error) == 0 ? 0 : kUsageError;
   }
-  Record(voyage);
+  Record(options);
   return 0;
 }
 

@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "telltale/core/contract.hpp"
+#include "telltale/core/base/contract.hpp"
 #include "telltale/core/data/samples.hpp"
 #include "telltale/core/vessel/propellers.hpp"
 #include "telltale/core/vessel/vehicle.hpp"

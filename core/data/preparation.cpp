@@ -6,16 +6,16 @@
 #include <sstream>
 #include <utility>
 
-#include "telltale/core/contract.hpp"
-#include "telltale/core/data/heading.hpp"
+#include "telltale/core/base/contract.hpp"
+#include "telltale/core/base/median.hpp"
+#include "telltale/core/base/range.hpp"
+#include "telltale/core/data/heading_unwrap.hpp"
 #include "telltale/core/data/held_commands.hpp"
-#include "telltale/core/data/north_east.hpp"
+#include "telltale/core/data/north_east_frame.hpp"
 #include "telltale/core/data/savitzky_golay.hpp"
-#include "telltale/core/data/segments.hpp"
+#include "telltale/core/data/segments_and_slices.hpp"
 #include "telltale/core/data/time_series.hpp"
-#include "telltale/core/data/white_noise.hpp"
-#include "telltale/core/median.hpp"
-#include "telltale/core/range.hpp"
+#include "telltale/core/data/white_noise_estimate.hpp"
 
 namespace telltale {
 namespace {
@@ -23,12 +23,12 @@ namespace {
 constexpr double kShortestPeriodS = 0.02;
 constexpr double kLongestPeriodS = 2.0;
 
-/// What was recorded along one stretch, not yet on a grid.
+/// What was recorded along one segment, not yet on a grid.
 struct Signals : RawSignals {
   HeldCommands commands;
 };
 
-/// Equally spaced instants of one stretch.
+/// Equally spaced instants of one segment.
 struct Grid {
   double start_s = 0.0;
   double period_s = 0.0;
@@ -61,18 +61,18 @@ std::span<const Sample> Slice(const std::vector<Sample>& samples, const RowRange
   return std::span(samples).subspan(range.begin, range.size());
 }
 
-Signals ReadSignals(const Recording& recording, const Stretch& stretch, const Vehicle& vehicle,
+Signals ReadSignals(const Recording& recording, const Segment& segment, const Vehicle& vehicle,
                     const NorthEastFrame& frame) {
   Signals signals{
-      {}, HeldCommands(Slice(recording.thrusters, stretch.Of(Channel::kThrusters)), vehicle)};
-  for (const GnssFix& fix : Slice(recording.gnss, stretch.Of(Channel::kGnss))) {
+      {}, HeldCommands(Slice(recording.thrusters, segment.Of(Channel::kThrusters)), vehicle)};
+  for (const GnssFix& fix : Slice(recording.gnss, segment.Of(Channel::kGnss))) {
     const NorthEastPosition antenna = frame.Forward({fix.latitude_deg, fix.longitude_deg});
     signals.north_m.times_s.push_back(fix.time_s);
     signals.north_m.values.push_back(antenna.north_m);
     signals.east_m.values.push_back(antenna.east_m);
   }
   signals.east_m.times_s = signals.north_m.times_s;
-  const auto headings = Slice(recording.heading, stretch.Of(Channel::kHeading));
+  const auto headings = Slice(recording.heading, segment.Of(Channel::kHeading));
   for (const HeadingSample& sample : headings) signals.psi_rad.times_s.push_back(sample.time_s);
   signals.psi_rad.values = Unwrap(headings);
   return signals;
@@ -93,21 +93,21 @@ double SamplingPeriod(const std::vector<GnssFix>& fixes, const PrepareOptions& o
   return std::clamp(rounded, kShortestPeriodS, kLongestPeriodS);
 }
 
-// The grid starts on the first fix of the stretch: it is the GNSS clock the others are brought to.
-Grid LayGrid(const Recording& recording, const Stretch& stretch, double period_s) {
-  const auto fixes = Slice(recording.gnss, stretch.Of(Channel::kGnss));
+// The grid starts on the first fix of the segment: it is the GNSS clock the others are brought to.
+Grid LayGrid(const Recording& recording, const Segment& segment, double period_s) {
+  const auto fixes = Slice(recording.gnss, segment.Of(Channel::kGnss));
   const auto first = std::find_if(fixes.begin(), fixes.end(), [&](const GnssFix& fix) {
-    return fix.time_s >= stretch.start_s - kSameInstantS;
+    return fix.time_s >= segment.start_s - kSameInstantS;
   });
-  if (first == fixes.end() || first->time_s > stretch.end_s) return {};
-  const double intervals = std::floor((stretch.end_s + kSameInstantS - first->time_s) / period_s);
+  if (first == fixes.end() || first->time_s > segment.end_s) return {};
+  const double intervals = std::floor((segment.end_s + kSameInstantS - first->time_s) / period_s);
   return {first->time_s, period_s, static_cast<std::size_t>(intervals) + 1};
 }
 
 bool LongEnough(const Grid& grid, const PrepareOptions& options) {
   const std::size_t window = 2 * options.smoothing_half_width + 1;
   const double duration = grid.rows == 0 ? 0.0 : grid.Time(grid.rows - 1) - grid.start_s;
-  return grid.rows >= window && duration >= options.shortest_stretch_s - kSameInstantS;
+  return grid.rows >= window && duration >= options.shortest_segment_s - kSameInstantS;
 }
 
 // The antenna sits at p + R(psi) l.
@@ -245,9 +245,9 @@ Increments BodyIncrements(const Path& path, std::span<const double> psi) {
 // nu(k+1) - nu(k) is a weighted sum of the changes between the mean velocities of neighbouring
 // intervals, and the change across t_i is h times the triangular mean about t_i of the
 // acceleration. The command is given those very weights, so that row k pairs the command with the
-// velocity change it caused: docs/data-preparation.md (4).
-std::vector<PropellerCommand> SeeAsVelocityDoes(const HeldCommands& commands, const Grid& grid,
-                                                const SavitzkyGolay& filter) {
+// velocity change it caused: docs/concepts/data-preparation.md (4).
+std::vector<PropellerCommand> FilterAsVelocity(const HeldCommands& commands, const Grid& grid,
+                                               const SavitzkyGolay& filter) {
   std::vector<PropellerCommand> about(grid.rows);
   for (std::size_t row = 0; row < grid.rows; ++row) {
     about[row] = commands.TriangularMean(grid.Time(row), grid.period_s);
@@ -282,7 +282,7 @@ std::vector<PreparedRow> PrepareRobustly(const Signals& signals, const Grid& gri
   const Increments increments = BodyIncrements(path, raw_psi);
   const auto u_per_row = filter.SlopeOfIncrements(increments.forward_m);
   const auto v_per_row = filter.SlopeOfIncrements(increments.starboard_m);
-  const auto seen = SeeAsVelocityDoes(signals.commands, grid, filter);
+  const auto seen = FilterAsVelocity(signals.commands, grid, filter);
 
   std::vector<PreparedRow> rows = EmptyRows(signals, grid);
   FillPoses(rows, {filter.Smooth(path.x_m), filter.Smooth(path.y_m)}, filter.Smooth(raw_psi));
@@ -294,7 +294,7 @@ std::vector<PreparedRow> PrepareRobustly(const Signals& signals, const Grid& gri
   return rows;
 }
 
-std::vector<PreparedRow> PrepareStretch(const Signals& signals, const Grid& grid,
+std::vector<PreparedRow> PrepareSegment(const Signals& signals, const Grid& grid,
                                         const Vehicle& vehicle, const PrepareOptions& options) {
   const SavitzkyGolay filter(options.smoothing_half_width, options.smoothing_degree);
   return options.preset == Preset::kPaper ? PrepareAsPaper(signals, grid, vehicle, filter)
@@ -344,12 +344,12 @@ Nu NoiseInVelocity(const SignalNoise& noise, const Signals& signals, const Grid&
   return {gain * position_m, gain * position_m, gain * psi_rad};
 }
 
-std::vector<Stretch> StretchesOf(const Recording& recording, const PrepareOptions& options) {
-  std::vector<Stretch> stretches = FindStretches(recording, options.longest_gap_s);
-  if (!options.longest_stretch_s) return stretches;
-  std::vector<Stretch> parts;
-  for (const Stretch& stretch : stretches) {
-    const auto cut = CutStretch(stretch, recording, *options.longest_stretch_s);
+std::vector<Segment> SegmentsOf(const Recording& recording, const PrepareOptions& options) {
+  std::vector<Segment> segments = FindSegments(recording, options.longest_gap_s);
+  if (!options.longest_segment_s) return segments;
+  std::vector<Segment> parts;
+  for (const Segment& segment : segments) {
+    const auto cut = CutSegment(segment, recording, *options.longest_segment_s);
     parts.insert(parts.end(), cut.begin(), cut.end());
   }
   return parts;
@@ -367,25 +367,25 @@ std::optional<Refusal> MissingChannel(const Recording& recording) {
   return std::nullopt;
 }
 
-Refusal NoStretch(const PrepareOptions& options, double period_s, double longest_found_s) {
+Refusal NoSegment(const PrepareOptions& options, double period_s, double longest_found_s) {
   const double window_s = 2.0 * static_cast<double>(options.smoothing_half_width) * period_s;
   std::ostringstream reason;
-  reason << "the longest stretch in which no channel is silent for more than "
+  reason << "the longest segment in which no channel is silent for more than "
          << options.longest_gap_s << " s lasts " << longest_found_s << " s, and "
-         << std::max(options.shortest_stretch_s, window_s) << " s are needed";
+         << std::max(options.shortest_segment_s, window_s) << " s are needed";
   return {"data preparation", reason.str(),
           "record longer without interruptions, or allow a longer longest_gap_s"};
 }
 
 void Append(PreparedDataset& dataset, const std::vector<PreparedRow>& rows,
             const PrepareOptions& options) {
-  const RowRange stretch{dataset.rows.size(), dataset.rows.size() + rows.size()};
+  const RowRange segment{dataset.rows.size(), dataset.rows.size() + rows.size()};
   dataset.rows.insert(dataset.rows.end(), rows.begin(), rows.end());
-  dataset.stretches.push_back(stretch);
+  dataset.segments.push_back(segment);
   const auto longest = static_cast<std::size_t>(
-      std::max(1.0, std::floor(options.longest_segment_s / dataset.sampling_period_s + 1e-9)));
-  const auto segments = CutSegments(dataset.rows, stretch, longest);
-  dataset.segments.insert(dataset.segments.end(), segments.begin(), segments.end());
+      std::max(1.0, std::floor(options.longest_slice_s / dataset.sampling_period_s + 1e-9)));
+  const auto slices = CutSlices(dataset.rows, segment, longest);
+  dataset.slices.insert(dataset.slices.end(), slices.begin(), slices.end());
 }
 
 double MeanPeriod(const TimeSeries& series) {
@@ -394,10 +394,10 @@ double MeanPeriod(const TimeSeries& series) {
                           : (times.back() - times.front()) / static_cast<double>(times.size() - 1);
 }
 
-// Means over stretches, each with the weight of its rows, noises by their squares; call after
+// Means over segments, each with the weight of its rows, noises by their squares; call after
 // Append.
 void PoolSensors(PreparedDataset& dataset, const Signals& signals, const SignalNoise& noise) {
-  const double share = static_cast<double>(dataset.stretches.back().size()) /
+  const double share = static_cast<double>(dataset.segments.back().size()) /
                        static_cast<double>(dataset.rows.size());
   const auto pool = [&](double& so_far, double here) { so_far += share * (here - so_far); };
   const auto pool_square = [&](double& so_far, double here) {
@@ -410,13 +410,13 @@ void PoolSensors(PreparedDataset& dataset, const Signals& signals, const SignalN
   pool_square(dataset.sensors.heading_noise_rad, noise.psi_rad);
 }
 
-// Root mean square over stretches, each with the weight of its rows; call after Append.
-void PoolNoise(PreparedDataset& dataset, const Nu& of_stretch) {
-  const double share = static_cast<double>(dataset.stretches.back().size()) /
+// Root mean square over segments, each with the weight of its rows; call after Append.
+void PoolNoise(PreparedDataset& dataset, const Nu& of_segment) {
+  const double share = static_cast<double>(dataset.segments.back().size()) /
                        static_cast<double>(dataset.rows.size());
   for (const auto velocity : {&Nu::u, &Nu::v, &Nu::r}) {
     const double so_far = dataset.nu_noise.*velocity;
-    const double here = of_stretch.*velocity;
+    const double here = of_segment.*velocity;
     dataset.nu_noise.*velocity = std::sqrt((1.0 - share) * so_far * so_far + share * here * here);
   }
 }
@@ -427,7 +427,7 @@ std::size_t PlaceAmong(const std::vector<double>& starts_s, double time_s) {
   return static_cast<std::size_t>(after - starts_s.begin());
 }
 
-// Recordings that left no stretch do not count.
+// Recordings that left no segment do not count.
 std::vector<std::size_t> CountedAnew(const std::vector<std::size_t>& places) {
   std::vector<std::size_t> counted(places.size(), 0);
   for (std::size_t i = 1; i < places.size(); ++i) {
@@ -476,10 +476,10 @@ std::optional<Refusal> PrepareOptions::Validate() const {
     return r;
   }
   if (auto r = OutOfRange(subject, "longest_gap_s", longest_gap_s, 0.1, 60.0)) return r;
-  if (auto r = OutOfRange(subject, "shortest_stretch_s", shortest_stretch_s, 1.0, 600.0)) return r;
-  if (auto r = OutOfRange(subject, "longest_segment_s", longest_segment_s, 2.0, 600.0)) return r;
-  if (!longest_stretch_s) return std::nullopt;
-  return OutOfRange(subject, "longest_stretch_s", *longest_stretch_s, 10.0, 86400.0);
+  if (auto r = OutOfRange(subject, "shortest_segment_s", shortest_segment_s, 1.0, 600.0)) return r;
+  if (auto r = OutOfRange(subject, "longest_slice_s", longest_slice_s, 2.0, 600.0)) return r;
+  if (!longest_segment_s) return std::nullopt;
+  return OutOfRange(subject, "longest_segment_s", *longest_segment_s, 10.0, 86400.0);
 }
 
 Result<PreparedDataset> Prepare(const Recording& recording, const Vehicle& vehicle,
@@ -498,22 +498,22 @@ Result<PreparedDataset> Prepare(const Recording& recording, const Vehicle& vehic
   dataset.sensors.antenna = vehicle.gnss_antenna;
   const NorthEastFrame frame(dataset.origin);
   double longest_found_s = 0.0;
-  std::vector<std::size_t> places;  // of each stretch among the recordings
-  for (const Stretch& stretch : StretchesOf(recording, options)) {
-    longest_found_s = std::max(longest_found_s, stretch.end_s - stretch.start_s);
-    const Grid grid = LayGrid(recording, stretch, dataset.sampling_period_s);
+  std::vector<std::size_t> places;  // of each segment among the recordings
+  for (const Segment& segment : SegmentsOf(recording, options)) {
+    longest_found_s = std::max(longest_found_s, segment.end_s - segment.start_s);
+    const Grid grid = LayGrid(recording, segment, dataset.sampling_period_s);
     if (!LongEnough(grid, options)) continue;
-    Signals signals = ReadSignals(recording, stretch, vehicle, frame);
-    Append(dataset, PrepareStretch(signals, grid, vehicle, options), options);
-    places.push_back(PlaceAmong(recording.starts_s, stretch.start_s));
+    Signals signals = ReadSignals(recording, segment, vehicle, frame);
+    Append(dataset, PrepareSegment(signals, grid, vehicle, options), options);
+    places.push_back(PlaceAmong(recording.starts_s, segment.start_s));
     const SignalNoise noise(signals);
     PoolSensors(dataset, signals, noise);
     PoolNoise(dataset, NoiseInVelocity(noise, signals, grid, options));
     dataset.commands.push_back(std::move(signals.commands));
     dataset.signals.push_back(static_cast<RawSignals&&>(signals));
   }
-  if (dataset.stretches.empty()) {
-    return tl::unexpected(NoStretch(options, dataset.sampling_period_s, longest_found_s));
+  if (dataset.segments.empty()) {
+    return tl::unexpected(NoSegment(options, dataset.sampling_period_s, longest_found_s));
   }
   dataset.recordings = CountedAnew(places);
   return dataset;

@@ -1,16 +1,16 @@
 #pragma once
 
+#include "telltale/core/base/result.hpp"
 #include "telltale/core/data/prepare_options.hpp"
 #include "telltale/core/data/prepared_dataset.hpp"
 #include "telltale/core/data/samples.hpp"
-#include "telltale/core/result.hpp"
 #include "telltale/core/vessel/vehicle.hpp"
 
 namespace telltale {
 
-/// Recording -> PreparedDataset, docs/model.md section on data preparation.
+/// Recording -> PreparedDataset, docs/concepts/model.md section on data preparation.
 /// Assumes: the recording's channels are in order of time and share one clock.
-/// Refuses when: a channel is empty, or no stretch without gaps is long enough.
+/// Refuses when: a channel is empty, or no segment without gaps is long enough.
 /// Source: the paper, Data Preparation.
 Result<PreparedDataset> Prepare(const Recording& recording, const Vehicle& vehicle,
                                 const PrepareOptions& options);

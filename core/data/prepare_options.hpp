@@ -4,17 +4,18 @@
 #include <optional>
 #include <string_view>
 
-#include "telltale/core/result.hpp"
+#include "telltale/core/base/result.hpp"
 
 namespace telltale {
 
-/// How the three channels are brought onto one grid; docs/data-preparation.md compares the two.
-/// kPaper: causal spline extrapolation from the newest past samples (cubic position, 8th-degree
-/// heading, cubic PWM), velocities by differentiation, then Savitzky-Golay on the velocities.
-/// kRobust: positions and headings interpolated between their neighbours or averaged about the grid
-/// point, displacements turned into the body frame interval by interval, velocities as the slope of
-/// one Savitzky-Golay kernel, and the held commands filtered with the weights by which that kernel
-/// sees the acceleration, so that row k pairs a command with the velocity change it caused.
+/// How the three channels are brought onto one grid; docs/concepts/data-preparation.md compares the
+/// two. kPaper: causal spline extrapolation from the newest past samples (cubic position,
+/// 8th-degree heading, cubic PWM), velocities by differentiation, then Savitzky-Golay on the
+/// velocities. kRobust: positions and headings interpolated between their neighbours or averaged
+/// about the grid point, displacements turned into the body frame interval by interval, velocities
+/// as the slope of one Savitzky-Golay kernel, and the held commands filtered with the weights by
+/// which that kernel sees the acceleration, so that row k pairs a command with the velocity change
+/// it caused.
 enum class Preset { kUnknown, kPaper, kRobust };
 
 /// "PAPER" or "ROBUST".
@@ -26,11 +27,11 @@ struct PrepareOptions {
       std::nullopt;                      ///< [0.02, 2]; unset: the median GNSS period
   std::size_t smoothing_half_width = 8;  ///< Savitzky-Golay rows to each side, [2, 50]
   std::size_t smoothing_degree = 3;      ///< [1, 5], below 2 * half width + 1
-  double longest_gap_s = 1.0;       ///< a longer silence of any channel ends a stretch, [0.1, 60]
-  double shortest_stretch_s = 5.0;  ///< shorter stretches are dropped, [1, 600]
-  double longest_segment_s = 20.0;  ///< segments are cut at this length, [2, 600]
-  std::optional<double> longest_stretch_s =
-      std::nullopt;  ///< stretches are cut into equal parts no longer, [10, 86400]; unset: uncut
+  double longest_gap_s = 1.0;       ///< a longer silence of any channel ends a segment, [0.1, 60]
+  double shortest_segment_s = 5.0;  ///< shorter segments are dropped, [1, 600]
+  double longest_slice_s = 20.0;    ///< slices are cut at this length, [2, 600]
+  std::optional<double> longest_segment_s =
+      std::nullopt;  ///< segments are cut into equal parts no longer, [10, 86400]; unset: uncut
 
   static PrepareOptions Paper();
   static PrepareOptions Robust();

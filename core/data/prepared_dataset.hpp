@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "telltale/core/data/held_commands.hpp"
-#include "telltale/core/data/north_east.hpp"
+#include "telltale/core/data/north_east_frame.hpp"
 #include "telltale/core/data/prepare_options.hpp"
 #include "telltale/core/data/samples.hpp"
 #include "telltale/core/data/time_series.hpp"
@@ -17,7 +17,7 @@ namespace telltale {
 /// One instant of the common sampling grid.
 struct PreparedRow {
   double time_s = 0.0;
-  Eta eta;  ///< body origin, as the preset filters it; psi unwrapped along a stretch
+  Eta eta;  ///< body origin, as the preset filters it; psi unwrapped along a segment
   Nu nu;    ///< body velocity
 
   /// The command behind nu(k+1) - nu(k): that over [t, t + h), filtered as the preset says. A
@@ -39,14 +39,14 @@ struct RowRange {
 
 /// The sensors behind a dataset as its samples show them: what a simulated repeat of it needs.
 struct SensorChain {
-  double gnss_period_s = 0.0;     ///< mean over the stretches
+  double gnss_period_s = 0.0;     ///< mean over the segments
   double heading_period_s = 0.0;  ///< likewise
   double position_noise_m = 0.0;  ///< one sigma per axis and fix, white, judged by WhiteNoise
   double heading_noise_rad = 0.0;
   LeverArm antenna;
 };
 
-/// What the sensors said along one stretch and a little beyond its ends, as it came.
+/// What the sensors said along one segment and a little beyond its ends, as it came.
 struct RawSignals {
   TimeSeries north_m;  ///< of the antenna, in {n}
   TimeSeries east_m;   ///< at the same times
@@ -55,20 +55,20 @@ struct RawSignals {
 
 /// A recording turned into what regressions need: synchronised rows at one sampling period.
 ///
-/// stretches: gap-free runs of rows, ascending and disjoint; consecutive rows of a stretch are
-/// exactly sampling_period_s apart. Free runs live inside a stretch.
-/// segments: stretches cut further at each change of propeller region and at the longest segment
+/// segments: gap-free runs of rows, ascending and disjoint; consecutive rows of a segment are
+/// exactly sampling_period_s apart. Free runs live inside a segment.
+/// slices: segments cut further at each change of propeller region and at the longest slice
 /// the options allow; they are the independent units of the bootstrap.
 struct PreparedDataset {
   double sampling_period_s = 0.0;
   FrameOrigin origin;
   std::vector<PreparedRow> rows;
-  std::vector<RowRange> stretches;
   std::vector<RowRange> segments;
-  /// By stretch, what the thrusters were told before and along it, as it was sent.
+  std::vector<RowRange> slices;
+  /// By segment, what the thrusters were told before and along it, as it was sent.
   std::vector<HeldCommands> commands;
-  std::vector<RawSignals> signals;  ///< by stretch
-  /// By stretch, which recording it was cut from, counted from 0 without a gap; empty: all from
+  std::vector<RawSignals> signals;  ///< by segment
+  /// By segment, which recording it was cut from, counted from 0 without a gap; empty: all from
   /// one.
   std::vector<std::size_t> recordings;
   PrepareOptions options;  ///< how the rows were made
@@ -76,8 +76,8 @@ struct PreparedDataset {
   RejectCounts rejected;
   Nu nu_noise;  ///< one sigma that white sensor noise, judged by WhiteNoise, leaves in each nu
 
-  std::size_t RecordingOf(std::size_t stretch) const {
-    return recordings.empty() ? 0 : recordings[stretch];
+  std::size_t RecordingOf(std::size_t segment) const {
+    return recordings.empty() ? 0 : recordings[segment];
   }
   std::size_t Recordings() const { return recordings.empty() ? 1 : recordings.back() + 1; }
 

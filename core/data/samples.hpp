@@ -55,18 +55,20 @@ class RejectCounts {
   void Count(Channel channel, RejectReason reason) { ++At(channel, reason); }
   void Count(Channel channel, RejectReason reason, std::uint64_t n) { At(channel, reason) += n; }
   std::uint64_t Of(Channel channel, RejectReason reason) const {
-    return counts_[Slot(channel, reason)];
+    return counts_[CellOf(channel, reason)];
   }
   std::uint64_t Of(RejectReason reason) const;
   std::uint64_t Total() const;
   void Add(const RejectCounts& other);
 
  private:
-  static std::size_t Slot(Channel channel, RejectReason reason) {
+  static std::size_t CellOf(Channel channel, RejectReason reason) {
     return static_cast<std::size_t>(channel) * kRejectReasons.size() +
            static_cast<std::size_t>(reason);
   }
-  std::uint64_t& At(Channel channel, RejectReason reason) { return counts_[Slot(channel, reason)]; }
+  std::uint64_t& At(Channel channel, RejectReason reason) {
+    return counts_[CellOf(channel, reason)];
+  }
 
   std::array<std::uint64_t, kChannels.size() * kRejectReasons.size()> counts_{};
 };

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "telltale/core/contract.hpp"
-#include "telltale/core/linear_algebra/decompositions.hpp"
+#include "telltale/core/base/contract.hpp"
+#include "telltale/core/base/linear_algebra/eigen_decompositions.hpp"
 
 namespace telltale {
 namespace {

@@ -7,8 +7,8 @@
 #include <limits>
 #include <tuple>
 
-#include "telltale/core/contract.hpp"
-#include "telltale/core/range.hpp"
+#include "telltale/core/base/contract.hpp"
+#include "telltale/core/base/range.hpp"
 
 namespace telltale {
 namespace {
@@ -153,7 +153,7 @@ struct Window::Impl {
   std::optional<RejectReason> Admit(const Sample& sample) {
     if (!IsFinite(sample)) return RejectReason::kNotFinite;
     if (!InRange(sample)) return RejectReason::kOutOfRange;
-    if (Leaps(sample.time_s) && !BelieveClock(ChannelOf(sample), sample.time_s)) {
+    if (Leaps(sample.time_s) && !AcceptClock(ChannelOf(sample), sample.time_s)) {
       return RejectReason::kClockJump;
     }
     if (const auto reason = Insert(sample)) return reason;
@@ -169,7 +169,7 @@ struct Window::Impl {
 
   // Ahead, what is held stays: it lies behind a gap, as after a long silence. Back, it lies in the
   // new clock's future and has to go.
-  bool BelieveClock(Channel channel, double time_s) {
+  bool AcceptClock(Channel channel, double time_s) {
     if (candidate.See(channel, time_s, limits.clock_jump_s) < limits.clock_jump_confirmations) {
       return false;
     }

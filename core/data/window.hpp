@@ -4,8 +4,8 @@
 #include <memory>
 #include <optional>
 
+#include "telltale/core/base/result.hpp"
 #include "telltale/core/data/samples.hpp"
-#include "telltale/core/result.hpp"
 
 namespace telltale {
 

@@ -1,24 +1,25 @@
 #include "telltale/core/diagnosis/diagnose.hpp"
+#include "telltale/core/base/version.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <utility>
 
-#include "telltale/core/diagnosis/augmented_identification.hpp"
-#include "telltale/core/diagnosis/gap.hpp"
-#include "telltale/core/diagnosis/held_out.hpp"
-#include "telltale/core/diagnosis/onset.hpp"
-#include "telltale/core/diagnosis/ranking.hpp"
-#include "telltale/core/diagnosis/remainder.hpp"
-#include "telltale/core/diagnosis/search.hpp"
-#include "telltale/core/diagnosis/sentence.hpp"
-#include "telltale/core/diagnosis/separation.hpp"
-#include "telltale/core/diagnosis/testability.hpp"
-#include "telltale/core/diagnosis/where.hpp"
-#include "telltale/core/diagnosis/wiring.hpp"
-#include "telltale/core/range.hpp"
-#include "telltale/core/simulation/dataset_twin.hpp"
+#include "telltale/core/base/range.hpp"
+#include "telltale/core/diagnosis/hypotheses/augmented_identification.hpp"
+#include "telltale/core/diagnosis/hypotheses/cross_validation.hpp"
+#include "telltale/core/diagnosis/hypotheses/hypothesis_search.hpp"
+#include "telltale/core/diagnosis/hypotheses/lack_of_fit.hpp"
+#include "telltale/core/diagnosis/hypotheses/onset.hpp"
+#include "telltale/core/diagnosis/hypotheses/ranking.hpp"
+#include "telltale/core/diagnosis/hypotheses/testability.hpp"
+#include "telltale/core/diagnosis/report/separation_advice.hpp"
+#include "telltale/core/diagnosis/report/summary_sentence.hpp"
+#include "telltale/core/diagnosis/residuals/gap.hpp"
+#include "telltale/core/diagnosis/residuals/localisation.hpp"
+#include "telltale/core/diagnosis/residuals/wiring_check.hpp"
+#include "telltale/core/simulation/synthetic_dataset.hpp"
 
 namespace telltale {
 namespace {
@@ -26,9 +27,10 @@ namespace {
 constexpr std::string_view kSubject = "options";
 constexpr std::array kHorizonsS = {1.0, 5.0, 10.0};
 constexpr double kMainHorizonS = 5.0;
-constexpr std::size_t kTwins = 4;
-constexpr std::size_t kFewestWindows = 12;
-constexpr double kAtRest = 0.05;  // m/s and rad/s: whatever goes slower than this has not sailed
+constexpr std::size_t kSyntheticReferences = 4;
+constexpr std::size_t kMinimumWindows = 12;
+constexpr double kMinimumSpeed =
+    0.05;  // m/s and rad/s: whatever goes slower than this has not sailed
 
 std::vector<const Effect*> LibraryWithout(const std::vector<std::string>& names) {
   std::vector<const Effect*> library;
@@ -40,35 +42,36 @@ std::vector<const Effect*> LibraryWithout(const std::vector<std::string>& names)
   return library;
 }
 
-std::optional<Refusal> Undiagnosable(const PreparedDataset& recording) {
-  double sailed_s = 0.0;
-  for (const RowRange& stretch : recording.stretches) {
-    sailed_s += static_cast<double>(stretch.size()) * recording.sampling_period_s;
+std::optional<Refusal> CheckRecording(const PreparedDataset& recording) {
+  double recorded_s = 0.0;
+  for (const RowRange& segment : recording.segments) {
+    recorded_s += static_cast<double>(segment.size()) * recording.sampling_period_s;
   }
-  if (sailed_s < kShortestDiagnosedS) {
-    return Refusal{"recording", "it is " + std::to_string(std::lround(sailed_s)) + " s long",
-                   "record at least " + std::to_string(std::lround(kShortestDiagnosedS)) + " s"};
+  if (recorded_s < kMinimumDiagnosedS) {
+    return Refusal{"recording", "it is " + std::to_string(std::lround(recorded_s)) + " s long",
+                   "record at least " + std::to_string(std::lround(kMinimumDiagnosedS)) + " s"};
   }
   const Nu fastest = FastestOf(recording);
-  if (std::max({fastest.u, fastest.v, fastest.r}) < kAtRest) {
+  if (std::max({fastest.u, fastest.v, fastest.r}) < kMinimumSpeed) {
     return Refusal{"recording", "the boat is at rest throughout", "sail while recording"};
   }
   return std::nullopt;
 }
 
 /// What sensor noise alone would leave of the recording, sailed by the model itself.
-std::vector<PreparedDataset> Twins(const PreparedDataset& recording, const VesselModel& model,
-                                   std::uint64_t seed) {
-  std::vector<PreparedDataset> twins;
-  for (std::size_t i = 0; i < kTwins; ++i) {
-    TwinOptions options;
+std::vector<PreparedDataset> SyntheticReferences(const PreparedDataset& recording,
+                                                 const VesselModel& model, std::uint64_t seed) {
+  std::vector<PreparedDataset> synthetic_references;
+  for (std::size_t i = 0; i < kSyntheticReferences; ++i) {
+    SyntheticDatasetOptions options;
     options.seed = seed + i;
-    if (auto twin = SailAgain(recording, model, options)) twins.push_back(*std::move(twin));
+    if (auto synthetic = SimulateDataset(recording, model, options))
+      synthetic_references.push_back(*std::move(synthetic));
   }
-  return twins;
+  return synthetic_references;
 }
 
-GapSize SizeOf(const Eigen::VectorXd& before, const Eigen::VectorXd& after, const Floor& floor,
+GapSize SizeOf(const Eigen::VectorXd& before, const Eigen::VectorXd& after, const NoiseFloor& floor,
                int channel) {
   GapSize size;
   size.before = std::sqrt(before.mean());
@@ -78,11 +81,11 @@ GapSize SizeOf(const Eigen::VectorXd& before, const Eigen::VectorXd& after, cons
   return size;
 }
 
-class Diagnosing {
+class DiagnosisRun {
  public:
-  Diagnosing(const PreparedDataset& recording, const std::vector<PreparedDataset>& references,
-             const Identification& identification, const UncertainModel& model,
-             const DiagnoseOptions& options, const Progress& progress)
+  DiagnosisRun(const PreparedDataset& recording, const std::vector<PreparedDataset>& references,
+               const Identification& identification, const UncertainModel& model,
+               const DiagnoseOptions& options, const Progress& progress)
       : recording_(recording),
         references_(references),
         identification_(identification),
@@ -90,181 +93,189 @@ class Diagnosing {
         options_(options),
         progress_(progress),
         library_(LibraryWithout(options.without)),
-        slots_(SlotsOf(library_)) {}
+        parameter_refs_(EffectParameterRefsOf(library_)) {}
 
   Result<DiagnosedModel> Run() {
-    Tell("free runs", 0.0);
-    if (auto refusal = FreeRunEverywhere()) return tl::unexpected<Refusal>(*std::move(refusal));
-    Tell("healthy boat", 0.1);
-    const Healthy healthy = LearnHealthy(healthy_at_[main_], model_, slots_, options_.threads);
-    boat_ = healthy.boat;
-    for (const std::vector<FreeRuns>& runs : healthy_at_) floors_.push_back(FloorOf(runs, boat_));
+    ReportProgress("free runs", 0.0);
+    if (auto refusal = BuildFreeRuns()) return tl::unexpected<Refusal>(*std::move(refusal));
+    ReportProgress("nominal boat", 0.1);
+    const NominalBaseline nominal =
+        LearnNominalBaseline(reference_runs_[main_], model_, parameter_refs_, options_.threads);
+    boat_ = nominal.boat;
+    for (const std::vector<FreeRuns>& runs : reference_runs_)
+      floors_.push_back(NoiseFloorOf(runs, boat_));
     for (const FreeRuns& runs : runs_) errors_.push_back(runs.Errors(boat_));
-    Tell("sensitivities", 0.35);
+    ReportProgress("sensitivities", 0.35);
     const Sensitivity sensitivity =
-        SensitivityOf(runs_[main_], healthy.boat, model_, slots_, options_.threads);
-    const Judge judge(healthy, sensitivity, EveryWindow(sensitivity), options_.refit);
-    const Swings swings(library_, runs_[main_], healthy.boat, sensitivity.errors, options_.threads);
-    const Evidence evidence{runs_[main_], healthy, sensitivity, judge, slots_, swings};
-    const Explanations explanations =
-        Search(evidence, library_, options_.most_effects, options_.threads,
-               [&](double share) { Tell("effects", 0.4 + 0.4 * share); });
-    return Conclude(evidence, explanations);
+        SensitivityOf(runs_[main_], nominal.boat, model_, parameter_refs_, options_.threads);
+    const ResidualMetric metric(nominal, sensitivity, EveryWindow(sensitivity), options_.refit);
+    const FrequencyResponse frequency_response(library_, runs_[main_], nominal.boat,
+                                               sensitivity.errors, options_.threads);
+    const DiagnosisProblem problem{runs_[main_], nominal,         sensitivity,
+                                   metric,       parameter_refs_, frequency_response};
+    const Hypotheses hypotheses =
+        Search(problem, library_, options_.most_effects, options_.threads,
+               [&](double share) { ReportProgress("effects", 0.4 + 0.4 * share); });
+    return Conclude(problem, hypotheses);
   }
 
  private:
-  void Tell(std::string_view stage, double share) const {
+  void ReportProgress(std::string_view stage, double share) const {
     if (progress_) progress_(stage, share);
   }
 
   /// At every horizon that leaves windows in all recordings.
-  std::optional<Refusal> FreeRunEverywhere() {
+  std::optional<Refusal> BuildFreeRuns() {
     for (const double horizon_s : kHorizonsS) {
       FreeRuns runs(recording_, model_.model, horizon_s);
-      std::vector<FreeRuns> healthy;
+      std::vector<FreeRuns> nominal;
       for (const PreparedDataset& reference : references_) {
         FreeRuns of_reference(reference, model_.model, horizon_s);
-        if (of_reference.Windows() > 0) healthy.push_back(std::move(of_reference));
+        if (of_reference.Windows() > 0) nominal.push_back(std::move(of_reference));
       }
       const bool main = horizon_s == kMainHorizonS;
-      if (main && runs.Windows() < kFewestWindows) {
+      if (main && runs.Windows() < kMinimumWindows) {
         return Refusal{"recording",
                        "only " + std::to_string(runs.Windows()) + " windows of five seconds",
                        "record a minute or more without gaps"};
       }
-      if (main && healthy.empty()) {
+      if (main && nominal.empty()) {
         return Refusal{"reference", "no window of five seconds without gaps",
                        "name reference logs of a minute or more"};
       }
-      if (runs.Windows() == 0 || healthy.empty()) continue;
+      if (runs.Windows() == 0 || nominal.empty()) continue;
       if (main) {
         main_ = runs_.size();
       }
-      healthy_at_.push_back(std::move(healthy));
+      reference_runs_.push_back(std::move(nominal));
       runs_.push_back(std::move(runs));
     }
     return std::nullopt;
   }
 
-  DiagnosedModel Conclude(const Evidence& evidence, const Explanations& explanations) {
-    const EffectFit& best = BestOf(explanations);
-    const FoldFits folds = FitOnFolds(best, evidence);
-    const HeldOutErrors held = ErrorsHeldOut(folds, runs_[main_], boat_);
-    const std::optional<Closure> closure = ClosureAt(main_, held, kAllChannels);
-    const Remainder remainder = RemainderOf(best, held, evidence);
-    const Gate gate = GateAtMainHorizon(best, remainder);
-    const Ranking ranking = Rank(explanations, evidence.judge, remainder);
+  DiagnosedModel Conclude(const DiagnosisProblem& problem, const Hypotheses& hypotheses) {
+    const EffectFit& best = BestHypothesis(hypotheses);
+    const FoldFits folds = FitOnFolds(best, problem);
+    const CrossValidatedErrors cross_validated = CrossValidatedErrorsOf(folds, runs_[main_], boat_);
+    const std::optional<ExcessExplained> excess_explained =
+        ExcessExplainedAt(main_, cross_validated, kAllChannels);
+    const LackOfFit lack_of_fit = AssessLackOfFit(best, cross_validated, problem);
+    const GapAssessment assessment = AssessMainGap(best, lack_of_fit);
+    const Ranking ranking = Rank(hypotheses, problem.metric, lack_of_fit);
     DiagnosedModel diagnosed;
     Diagnosis& diagnosis = diagnosed.diagnosis;
-    diagnosis.verdict = VerdictOf(gate, ranking, closure);
-    const bool likely = IsLikely(gate, ranking);
+    diagnosis.verdict = VerdictOf(assessment, ranking, excess_explained);
+    const bool likely = IsLikely(assessment, ranking);
     for (std::size_t i = 0; i < runs_.size(); ++i) {
-      std::optional<HeldOutErrors> after;
-      if (likely) after = i == main_ ? held : ErrorsHeldOut(folds, runs_[i], boat_);
+      std::optional<CrossValidatedErrors> after;
+      if (likely)
+        after = i == main_ ? cross_validated : CrossValidatedErrorsOf(folds, runs_[i], boat_);
       diagnosis.gaps.push_back(GapAt(i, after));
     }
-    diagnosis.effects = TestabilityOf(evidence, model_, library_);
-    if (gate == Gate::kMaterial) {
-      Tell("where", 0.85);
+    diagnosis.effects = TestabilityOf(problem, model_, library_);
+    if (assessment == GapAssessment::kMaterial) {
+      ReportProgress("where", 0.85);
       diagnosis.where = Localise(recording_, references_, boat_, options_.seed);
-      diagnosis.rest = RestOf(diagnosis, best);
-      ListCauses(ranking, folds, closure, evidence, diagnosis);
-      if (options_.advise) Advise(ranking, evidence.healthy, diagnosis);
+      diagnosis.rest = UnexplainedLocation(diagnosis, best);
+      ListCauses(ranking, folds, excess_explained, problem, diagnosis);
+      if (options_.advise) Advise(ranking, problem.nominal, diagnosis);
     }
-    if (gate == Gate::kUndecided) {
+    if (assessment == GapAssessment::kUndecided) {
       diagnosis.notes.emplace_back(
           "No effect of the library explains enough of it, and weather or what the references "
           "leave open of the boat may account for it: record longer, or name more references.");
     }
     if (likely) {
-      diagnosis.onset = OnsetOf(best, evidence);
-      const AugmentedModel boat = Reidentified(best, evidence, model_);
-      diagnosed.augmented = Augmented(identification_, boat, best, evidence, model_);
+      diagnosis.onset = OnsetOf(best, problem);
+      const AugmentedModel boat = Reidentified(best, problem, model_);
+      diagnosed.augmented = Augmented(identification_, boat, best, problem, model_);
       diagnosis.improvement = ImprovementBy(boat);
     }
-    Draw(likely ? std::optional(held) : std::nullopt, folds.front(), diagnosis);
+    FillPictures(likely ? std::optional(cross_validated) : std::nullopt, folds.front(), diagnosis);
     Describe(diagnosis);
-    Tell("done", 1.0);
+    ReportProgress("done", 1.0);
     return diagnosed;
   }
 
-  Gate GateAtMainHorizon(const EffectFit& best, const Remainder& remainder) const {
-    const Floor& floor = floors_[main_];
+  GapAssessment AssessMainGap(const EffectFit& best, const LackOfFit& lack_of_fit) const {
+    const NoiseFloor& floor = floors_[main_];
     const Eigen::VectorXd gaps = SquaredGaps(errors_[main_], floor.scale, kAllChannels);
-    return GateOf(gaps.mean(), UpperBound(gaps, BlocksOf(runs_[main_]), options_.seed),
-                  floor.SquaredLimit(kAllChannels), best.score, remainder);
+    return AssessGap(gaps.mean(), UpperBound(gaps, BlocksOf(runs_[main_]), options_.seed),
+                     floor.SquaredLimit(kAllChannels), best.score, lack_of_fit);
   }
 
-  static const EffectFit& BestOf(const Explanations& explanations) {
-    const EffectFit& single = explanations.singles.front();
-    if (explanations.together.empty()) return single;
-    return explanations.together.front().score < single.score ? explanations.together.front()
-                                                              : single;
+  static const EffectFit& BestHypothesis(const Hypotheses& hypotheses) {
+    const EffectFit& single = hypotheses.singles.front();
+    if (hypotheses.combined.empty()) return single;
+    return hypotheses.combined.front().score < single.score ? hypotheses.combined.front() : single;
   }
 
-  Gap GapAt(std::size_t horizon, const std::optional<HeldOutErrors>& after) const {
+  Gap GapAt(std::size_t horizon, const std::optional<CrossValidatedErrors>& after) const {
     const FreeRuns& runs = runs_[horizon];
-    const Floor& floor = floors_[horizon];
+    const NoiseFloor& floor = floors_[horizon];
     Gap gap;
     gap.horizon_s = runs.HorizonS();
     gap.windows = runs.Windows();
     for (int channel = 0; channel <= kAllChannels; ++channel) {
       const Eigen::VectorXd before = SquaredGaps(errors_[horizon], floor.scale, channel);
       const Eigen::VectorXd then =
-          after ? SquaredGapsHeldOut(*after, runs, floor, channel) : before;
+          after ? CrossValidatedSquaredGaps(*after, runs, floor, channel) : before;
       const GapSize size = SizeOf(before, then, floor, channel);
-      std::optional<Closure> closure;
-      if (after) closure = ClosureAt(horizon, *after, channel);
+      std::optional<ExcessExplained> excess_explained;
+      if (after) excess_explained = ExcessExplainedAt(horizon, *after, channel);
       if (channel == kAllChannels) {
         gap.all = size;
-        gap.closure = closure;
+        gap.excess_explained = excess_explained;
       } else {
         gap.channels[static_cast<std::size_t>(channel)] = size;
-        gap.channel_closures[static_cast<std::size_t>(channel)] = closure;
+        gap.channel_excess_explained[static_cast<std::size_t>(channel)] = excess_explained;
       }
     }
     return gap;
   }
 
-  std::optional<Closure> ClosureAt(std::size_t horizon, const HeldOutErrors& after,
-                                   int channel) const {
+  std::optional<ExcessExplained> ExcessExplainedAt(std::size_t horizon,
+                                                   const CrossValidatedErrors& after,
+                                                   int channel) const {
     const FreeRuns& runs = runs_[horizon];
-    const Floor& floor = floors_[horizon];
-    return ClosureOf(SquaredGaps(errors_[horizon], floor.scale, channel),
-                     SquaredGapsHeldOut(after, runs, floor, channel), BlocksOf(runs), floor,
-                     channel, options_.seed);
+    const NoiseFloor& floor = floors_[horizon];
+    return ExcessExplainedBy(SquaredGaps(errors_[horizon], floor.scale, channel),
+                             CrossValidatedSquaredGaps(after, runs, floor, channel), BlocksOf(runs),
+                             floor, channel, options_.seed);
   }
 
   void ListCauses(const Ranking& ranking, const FoldFits& best_folds,
-                  const std::optional<Closure>& best_closure, const Evidence& evidence,
-                  Diagnosis& diagnosis) const {
+                  const std::optional<ExcessExplained>& best_excess_explained,
+                  const DiagnosisProblem& problem, Diagnosis& diagnosis) const {
     constexpr std::size_t kListed = 5;
-    constexpr double kWorthListing = 0.001;
-    for (const RankedFit& ranked : ranking.fits) {
+    constexpr double kMinimumListedProbability = 0.001;
+    for (const RankedHypothesis& ranked : ranking.fits) {
       const bool first = diagnosis.causes.empty();
-      if (diagnosis.causes.size() == kListed || (!first && ranked.probability < kWorthListing))
+      if (diagnosis.causes.size() == kListed ||
+          (!first && ranked.probability < kMinimumListedProbability))
         break;
       Cause& cause = diagnosis.causes.emplace_back();
       cause.probability = ranked.probability;
       cause.indistinguishable = ranked.Indistinguishable();
       cause.effects = EffectsOf(ranked.fit);
       if (first) {
-        if (cause.effects.size() > 1) ShareOut(best_folds, cause.effects);
-        cause.closure = best_closure;
+        if (cause.effects.size() > 1) AssignShapleyShares(best_folds, cause.effects);
+        cause.excess_explained = best_excess_explained;
         continue;
       }
-      const FoldFits folds = FitOnFolds(ranked.fit, evidence);
-      cause.closure = ClosureAt(main_, ErrorsHeldOut(folds, runs_[main_], boat_), kAllChannels);
+      const FoldFits folds = FitOnFolds(ranked.fit, problem);
+      cause.excess_explained = ExcessExplainedAt(
+          main_, CrossValidatedErrorsOf(folds, runs_[main_], boat_), kAllChannels);
     }
     Cause unknown;
-    unknown.probability = ranking.unknown + ranking.nothing;
+    unknown.probability = ranking.unknown + ranking.no_effect;
     diagnosis.causes.push_back(unknown);
     std::stable_sort(diagnosis.causes.begin(), diagnosis.causes.end(),
                      [](const Cause& a, const Cause& b) { return a.probability > b.probability; });
   }
 
   /// Where what stays unexplained sits.
-  std::string RestOf(const Diagnosis& diagnosis, const EffectFit& best) const {
+  std::string UnexplainedLocation(const Diagnosis& diagnosis, const EffectFit& best) const {
     if (diagnosis.verdict == Verdict::kExplained) return "";
     std::vector<GapCell> cells = diagnosis.where;
     if (diagnosis.verdict == Verdict::kPartlyExplained) {
@@ -280,14 +291,14 @@ class Diagnosing {
     return "";
   }
 
-  void Advise(const Ranking& ranking, const Healthy& healthy, Diagnosis& diagnosis) const {
-    const RankedFit& first = ranking.fits.front();
-    if (first.alike.empty()) return;
-    diagnosis.advice = AdviseSeparation(first, healthy, recording_.sampling_period_s);
-    const bool promised = !diagnosis.advice.empty() && diagnosis.advice.front().promised;
-    if (!promised) {
+  void Advise(const Ranking& ranking, const NominalBaseline& nominal, Diagnosis& diagnosis) const {
+    const RankedHypothesis& first = ranking.fits.front();
+    if (first.equivalent.empty()) return;
+    diagnosis.advice = AdviseSeparatingManoeuvres(first, nominal, recording_.sampling_period_s);
+    const bool decisive = !diagnosis.advice.empty() && diagnosis.advice.front().decisive;
+    if (!decisive) {
       diagnosis.notes.push_back("No manoeuvre of the catalogue is sure to separate what is tied. " +
-                                SensorThatSettles(first));
+                                AdviseSensor(first));
     }
   }
 
@@ -309,7 +320,7 @@ class Diagnosing {
   }
 
   /// Shapley values: what each effect closes on average over the orders in which they may be added.
-  void ShareOut(const FoldFits& folds, std::vector<CausalEffect>& effects) const {
+  void AssignShapleyShares(const FoldFits& folds, std::vector<CausalEffect>& effects) const {
     const FreeRuns& runs = runs_[main_];
     const std::size_t n = effects.size();
     std::vector<double> closed(std::size_t{1} << n);
@@ -322,8 +333,8 @@ class Diagnosing {
         }
         fit.effects = kept;
       }
-      const HeldOutErrors held = ErrorsHeldOut(some, runs, boat_);
-      return SquaredGapsHeldOut(held, runs, floors_[main_], kAllChannels).mean();
+      const CrossValidatedErrors cross_validated = CrossValidatedErrorsOf(some, runs, boat_);
+      return CrossValidatedSquaredGaps(cross_validated, runs, floors_[main_], kAllChannels).mean();
     };
     const double none = squared(0);
     for (std::size_t subset = 0; subset < closed.size(); ++subset) {
@@ -350,18 +361,18 @@ class Diagnosing {
     return Improvement{before->free_run, after->free_run};
   }
 
-  void Draw(const std::optional<HeldOutErrors>& held, const EffectFit& fit,
-            Diagnosis& diagnosis) const {
+  void FillPictures(const std::optional<CrossValidatedErrors>& cross_validated,
+                    const EffectFit& fit, Diagnosis& diagnosis) const {
     const FreeRuns& runs = runs_[main_];
-    const Floor& floor = floors_[main_];
+    const NoiseFloor& floor = floors_[main_];
     const Eigen::MatrixXd& errors = errors_[main_];
     const Eigen::VectorXd before = SquaredGaps(errors, floor.scale, kAllChannels);
     Eigen::VectorXd after = before;
     Eigen::MatrixXd errors_after = errors;
     AugmentedModel with = boat_;
-    if (held) {
-      after = SquaredGapsHeldOut(*held, runs, floor, kAllChannels);
-      errors_after = held->errors;
+    if (cross_validated) {
+      after = CrossValidatedSquaredGaps(*cross_validated, runs, floor, kAllChannels);
+      errors_after = cross_validated->errors;
       with = boat_.With(fit.effects);
     }
     const auto tracks_before = runs.Tracks(boat_);
@@ -391,7 +402,7 @@ class Diagnosing {
     diagnosis.start_s = recording_.StartTime();
     diagnosis.end_s = recording_.EndTime();
     diagnosis.seed = options_.seed;
-    diagnosis.software_version = TELLTALE_VERSION;
+    diagnosis.software_version = Version();
   }
 
   const PreparedDataset& recording_;
@@ -401,12 +412,12 @@ class Diagnosing {
   const DiagnoseOptions& options_;
   const Progress& progress_;
   std::vector<const Effect*> library_;
-  std::vector<Slot> slots_;
-  std::vector<FreeRuns> runs_;                     ///< of the recording, by horizon
-  std::size_t main_ = 0;                           ///< which of them is of kMainHorizonS
-  std::vector<std::vector<FreeRuns>> healthy_at_;  ///< of the references, by horizon
-  AugmentedModel boat_;                            ///< the model as healthy days recalibrate it
-  std::vector<Floor> floors_;
+  std::vector<EffectParameterRef> parameter_refs_;
+  std::vector<FreeRuns> runs_;                         ///< of the recording, by horizon
+  std::size_t main_ = 0;                               ///< which of them is of kMainHorizonS
+  std::vector<std::vector<FreeRuns>> reference_runs_;  ///< of the references, by horizon
+  AugmentedModel boat_;                                ///< the model as nominal days recalibrate it
+  std::vector<NoiseFloor> floors_;
   std::vector<Eigen::MatrixXd> errors_;  ///< of the boat on the recording, by horizon
 };
 
@@ -439,20 +450,20 @@ Result<DiagnosedModel> Diagnose(const PreparedDataset& recording,
     return Refuse("model", "it is of " + model.vehicle_id + ", the recording of " + vehicle_id,
                   "name a model of the same boat");
   }
-  if (auto refusal = Undiagnosable(recording)) return tl::unexpected<Refusal>(*std::move(refusal));
-  if (auto refusal = MisWired(recording, uncertain->model)) {
+  if (auto refusal = CheckRecording(recording)) return tl::unexpected<Refusal>(*std::move(refusal));
+  if (auto refusal = SuspectedWiringFault(recording, uncertain->model)) {
     return tl::unexpected<Refusal>(*std::move(refusal));
   }
-  const std::vector<PreparedDataset> twins = references.empty()
-                                                 ? Twins(recording, uncertain->model, options.seed)
-                                                 : std::vector<PreparedDataset>{};
-  if (references.empty() && twins.empty()) {
+  const std::vector<PreparedDataset> synthetic_references =
+      references.empty() ? SyntheticReferences(recording, uncertain->model, options.seed)
+                         : std::vector<PreparedDataset>{};
+  if (references.empty() && synthetic_references.empty()) {
     return Refuse("model", "it runs away when it sails this recording",
                   "identify the boat again, or name reference logs");
   }
-  Diagnosing diagnosing(recording, references.empty() ? twins : references, model, *uncertain,
-                        options, progress);
-  auto diagnosed = diagnosing.Run();
+  DiagnosisRun diagnosis_run(recording, references.empty() ? synthetic_references : references,
+                             model, *uncertain, options, progress);
+  auto diagnosed = diagnosis_run.Run();
   if (!diagnosed) return diagnosed;
   Diagnosis& diagnosis = diagnosed->diagnosis;
   diagnosis.vehicle_id = vehicle_id;
@@ -461,10 +472,10 @@ Result<DiagnosedModel> Diagnose(const PreparedDataset& recording,
   diagnosis.reference_logs = references.size();
   if (!references.empty() && references.size() < 3) {
     diagnosis.notes.emplace_back(
-        "Fewer than three reference logs: how much healthy days differ "
+        "Fewer than three reference logs: how much nominal days differ "
         "is mostly assumed.");
   }
-  diagnosis.sentence = SentenceOf(diagnosis);
+  diagnosis.sentence = SummarySentence(diagnosis);
   return diagnosed;
 }
 

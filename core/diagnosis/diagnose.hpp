@@ -7,15 +7,15 @@
 #include <string_view>
 #include <vector>
 
+#include "telltale/core/base/result.hpp"
 #include "telltale/core/data/prepared_dataset.hpp"
-#include "telltale/core/diagnosis/diagnosis.hpp"
+#include "telltale/core/diagnosis/report/diagnosis.hpp"
 #include "telltale/core/identification/identification.hpp"
 #include "telltale/core/identification/identify.hpp"
-#include "telltale/core/result.hpp"
 
 namespace telltale {
 
-inline constexpr double kShortestDiagnosedS = 60.0;
+inline constexpr double kMinimumDiagnosedS = 60.0;
 
 struct DiagnoseOptions {
   bool refit = false;  ///< let the coefficients follow the recording, as a model made from it would
@@ -36,11 +36,11 @@ struct DiagnosedModel {
 };
 
 /// Where, why and how far a model parts from a recording that it was not made from,
-/// docs/diagnosis.md. `references` are recordings of the same boat when all was well; without any
-/// the floor is what sensor noise alone would leave, which is too low.
-/// Refuses when: the model lacks an equation, the recording is shorter than kShortestDiagnosedS,
-/// nothing in it moves, model and recording are of different boats, or the thrusters seem to be
-/// swapped or reversed, which it names.
+/// docs/concepts/diagnosis.md. `references` are recordings of the same boat when all was well;
+/// without any the floor is what sensor noise alone would leave, which is too low. Refuses when:
+/// the model lacks an equation, the recording is shorter than kMinimumDiagnosedS, nothing in it
+/// moves, model and recording are of different boats, or the thrusters seem to be swapped or
+/// reversed, which it names.
 Result<DiagnosedModel> Diagnose(const PreparedDataset& recording,
                                 const std::vector<PreparedDataset>& references,
                                 const Identification& model, const std::string& vehicle_id,

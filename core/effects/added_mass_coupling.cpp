@@ -1,5 +1,5 @@
 #include "telltale/core/effects/effect.hpp"
-#include "telltale/core/effects/library.hpp"
+#include "telltale/core/effects/effect_library.hpp"
 #include "telltale/core/effects/wording.hpp"
 
 namespace telltale {
@@ -15,14 +15,14 @@ class AddedMassCouplingEffect final : public Effect {
                     "Fossen 2011, chapter 6: the Munk moment in the Coriolis terms of added mass",
                 .parameters = {{"moment", "1/m^2", 1.0, -8.0, 8.0}},
                 .settled_by = "an inertial sensor",
-                .hook = Hook::kPush,
-                .habit = Habit::kInCoefficients}) {}
+                .hook = Hook::kAcceleration,
+                .nominal_variation = NominalVariation::kInCoefficients}) {}
 
   std::string Describe(EffectValues values) const override {
     return "a Munk moment of " + Number(values[0], 2) + " u v more";
   }
 
-  NuDot Push(EffectValues values, const Moment& moment) const override {
+  NuDot AddedAcceleration(EffectValues values, const InstantState& moment) const override {
     return {0.0, 0.0, values[0] * moment.nu_r.u * moment.nu_r.v};
   }
 };

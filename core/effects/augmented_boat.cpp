@@ -8,18 +8,18 @@
 #include <span>
 #include <utility>
 
-#include "telltale/core/contract.hpp"
+#include "telltale/core/base/contract.hpp"
 #include "telltale/core/simulation/simulator.hpp"
-#include "telltale/core/vessel/body_row.hpp"
+#include "telltale/core/vessel/body_regressors.hpp"
 
 namespace telltale {
 namespace {
 
 // Thrusters have forgotten what they were told so many time constants ago.
-constexpr double kMemoryInLags = 6.0;
+constexpr double kStartUpTimeConstants = 6.0;
 // Runge-Kutta's error over it, a hundred-thousandth of the change of a yaw rate that decays in a
 // third of a second, is far below what sensors see.
-constexpr double kLongestStepS = 0.2;
+constexpr double kMaximumStepS = 0.2;
 constexpr double kRounding = 1e-9;
 
 NuDot Plus(const NuDot& a, const NuDot& b, double share = 1.0) {
@@ -30,7 +30,7 @@ Nu Along(const Nu& nu, const NuDot& slope, double step_s) {
   return {nu.u + step_s * slope.u, nu.v + step_s * slope.v, nu.r + step_s * slope.r};
 }
 
-Drive Weighed(const Drive& sum, const Drive& more, double weight) {
+Drive AddScaled(const Drive& sum, const Drive& more, double weight) {
   return {
       {Plus(sum.thrust[0], more.thrust[0], weight), Plus(sum.thrust[1], more.thrust[1], weight)},
       sum.load + weight * more.load};
@@ -46,10 +46,10 @@ class LaggedThrust {
 
   /// The mean through a step that tends to `steady`.
   Drive Follow(const Drive& steady) {
-    const Drive behind = Weighed(now_, steady, -1.0);
-    Drive mean = Weighed(steady, behind, mean_);
+    const Drive behind = AddScaled(now_, steady, -1.0);
+    Drive mean = AddScaled(steady, behind, mean_);
     mean.load = steady.load;
-    now_ = Weighed(steady, behind, remaining_);
+    now_ = AddScaled(steady, behind, remaining_);
     return mean;
   }
 
@@ -72,22 +72,22 @@ double ThrustAt(double speed) {
 constexpr std::array kNodes = {0.5 - 0.5 / std::numbers::sqrt3, 0.5 + 0.5 / std::numbers::sqrt3};
 
 /// Two shafts whose speed follows what they are told by first orders, one after the other.
-class LaggingShafts {
+class ShaftLagChain {
  public:
-  LaggingShafts(std::span<const double> lags_s, const SideThrust& first) {
+  ShaftLagChain(std::span<const double> lags_s, const SideThrust& first) {
     for (const double lag_s : lags_s) stages_.push_back({lag_s, first});
   }
 
   /// What they give on average while they are told to give the same for so long.
-  SideThrust Follow(const SideThrust& told, double time_s) {
-    if (stages_.empty()) return told;
+  SideThrust Follow(const SideThrust& commanded, double time_s) {
+    if (stages_.empty()) return commanded;
     SideThrust mean;
     for (const double node : kNodes) {
-      SideThrust given = told;
+      SideThrust given = commanded;
       for (const Stage& stage : stages_) given = stage.After(node * time_s, given);
       for (std::size_t side = 0; side < 2; ++side) mean[side] = Plus(mean[side], given[side], 0.5);
     }
-    SideThrust given = told;
+    SideThrust given = commanded;
     for (Stage& stage : stages_) given = stage.now = stage.After(time_s, given);
     return mean;
   }
@@ -97,7 +97,7 @@ class LaggingShafts {
     double lag_s;
     SideThrust now;
 
-    SideThrust After(double time_s, const SideThrust& told) const {
+    SideThrust After(double time_s, const SideThrust& commanded) const {
       const double remaining = std::exp(-time_s / lag_s);
       const auto between = [&](double from, double to) {
         const double end = SpeedFor(to);
@@ -105,8 +105,9 @@ class LaggingShafts {
       };
       SideThrust thrust;
       for (std::size_t side = 0; side < 2; ++side) {
-        thrust[side] = {between(now[side].u, told[side].u), between(now[side].v, told[side].v),
-                        between(now[side].r, told[side].r)};
+        thrust[side] = {between(now[side].u, commanded[side].u),
+                        between(now[side].v, commanded[side].v),
+                        between(now[side].r, commanded[side].r)};
       }
       return thrust;
     }
@@ -119,7 +120,7 @@ class LaggingShafts {
 
 std::size_t StepsPerRow(const VesselModel& model, double sampling_period_s) {
   if (model.discretisation == Discretisation::kForwardEuler) return 1;
-  return static_cast<std::size_t>(std::ceil(sampling_period_s / kLongestStepS - kRounding));
+  return static_cast<std::size_t>(std::ceil(sampling_period_s / kMaximumStepS - kRounding));
 }
 
 AugmentedBoat::AugmentedBoat(AugmentedModel model, double start_s, double span_s)
@@ -167,13 +168,13 @@ SideThrust AugmentedBoat::SteadyThrust(const PropellerCommand& delta) const {
   return {port, Plus(accelerations(model_.model.SteadyThrust(altered)), port, -1.0)};
 }
 
-std::vector<Drive> AugmentedBoat::DriveAlong(const HeldCommands& commands, double from_s,
-                                             double step_s, std::size_t steps) const {
+std::vector<Drive> AugmentedBoat::DrivesAlong(const HeldCommands& commands, double from_s,
+                                              double step_s, std::size_t steps) const {
   const double thrust_lag_s = model_.model.thruster_time_constant_s.value_or(0.0);
   const double lags_s = std::accumulate(shaft_lags_s_.begin(), shaft_lags_s_.end(), thrust_lag_s);
-  const auto before = static_cast<std::size_t>(std::ceil(kMemoryInLags * lags_s / step_s));
+  const auto before = static_cast<std::size_t>(std::ceil(kStartUpTimeConstants * lags_s / step_s));
   const double first_s = from_s - delay_s_ - static_cast<double>(before) * step_s;
-  LaggingShafts shafts(shaft_lags_s_, SteadyThrust(commands.At(first_s)));
+  ShaftLagChain shafts(shaft_lags_s_, SteadyThrust(commands.At(first_s)));
   const auto drive_of_step = [&](std::size_t k) {
     const double start_s = first_s + static_cast<double>(k) * step_s;
     Drive mean;
@@ -181,7 +182,7 @@ std::vector<Drive> AugmentedBoat::DriveAlong(const HeldCommands& commands, doubl
         start_s, start_s + step_s, [&](const PropellerCommand& delta, double begin, double end) {
           const double load = 0.5 * (delta.port * delta.port + delta.starboard * delta.starboard);
           const SideThrust thrust = shafts.Follow(SteadyThrust(delta), end - begin);
-          mean = Weighed(mean, {thrust, load}, (end - begin) / step_s);
+          mean = AddScaled(mean, {thrust, load}, (end - begin) / step_s);
         });
     return mean;
   };
@@ -201,42 +202,42 @@ std::vector<Drive> AugmentedBoat::DriveAlong(const HeldCommands& commands, doubl
 
 NuDot AugmentedBoat::Acceleration(const Nu& nu, double psi_rad, const Drive& drive,
                                   double time_s) const {
-  Moment moment;
-  moment.time_s = time_s - start_s_;
-  moment.span_s = span_s_;
-  moment.psi_rad = psi_rad;
-  moment.load = drive.load;
-  moment.nu = nu;
-  moment.nu_r = nu;
+  InstantState instant;
+  instant.time_s = time_s - start_s_;
+  instant.span_s = span_s_;
+  instant.psi_rad = psi_rad;
+  instant.load = drive.load;
+  instant.nu = nu;
+  instant.nu_r = nu;
   NuDot nu_dot;
   if (!current_.isZero(0.0)) {
     const double u_c = std::cos(psi_rad) * current_[0] + std::sin(psi_rad) * current_[1];
     const double v_c = -std::sin(psi_rad) * current_[0] + std::cos(psi_rad) * current_[1];
-    moment.nu_r = {nu.u - u_c, nu.v - v_c, nu.r};
+    instant.nu_r = {nu.u - u_c, nu.v - v_c, nu.r};
     nu_dot = {nu.r * v_c, -nu.r * u_c, 0.0};
   }
-  const BodyRow row = BodyRowAt(moment.nu_r);
+  const BodyRow row = BodyRowAt(instant.nu_r);
   for (std::size_t i = 0; i < row.surge.size(); ++i) {
-    moment.hull[0][i] = hull_[0][i] * row.surge[i];
-    nu_dot.u += moment.hull[0][i];
+    instant.hull[0][i] = hull_[0][i] * row.surge[i];
+    nu_dot.u += instant.hull[0][i];
   }
   for (std::size_t i = 0; i < row.turning.size(); ++i) {
-    moment.hull[1][i] = hull_[1][i] * row.turning[i];
-    moment.hull[2][i] = hull_[2][i] * row.turning[i];
-    nu_dot.v += moment.hull[1][i];
-    nu_dot.r += moment.hull[2][i];
+    instant.hull[1][i] = hull_[1][i] * row.turning[i];
+    instant.hull[2][i] = hull_[2][i] * row.turning[i];
+    nu_dot.v += instant.hull[1][i];
+    nu_dot.r += instant.hull[2][i];
   }
-  moment.thrust = drive.thrust;
+  instant.thrust = drive.thrust;
   for (const auto& [effect, values] : Hooked(Hook::kThrustShare)) {
     for (const Side side : {Side::kPort, Side::kStarboard}) {
-      const double share = effect->ThrustShare(values, side, moment);
-      NuDot& thrust = moment.thrust[side == Side::kPort ? 0 : 1];
+      const double share = effect->ThrustShare(values, side, instant);
+      NuDot& thrust = instant.thrust[side == Side::kPort ? 0 : 1];
       thrust = {share * thrust.u, share * thrust.v, share * thrust.r};
     }
   }
-  nu_dot = Plus(nu_dot, moment.Thrust());
-  for (const auto& [effect, values] : Hooked(Hook::kPush)) {
-    nu_dot = Plus(nu_dot, effect->Push(values, moment));
+  nu_dot = Plus(nu_dot, instant.Thrust());
+  for (const auto& [effect, values] : Hooked(Hook::kAcceleration)) {
+    nu_dot = Plus(nu_dot, effect->AddedAcceleration(values, instant));
   }
   return nu_dot;
 }
@@ -259,8 +260,8 @@ Pose AugmentedBoat::Advance(const Pose& from, const Drive& drive, double time_s,
   return {NextPose(from.eta, from.nu, nu, step_s), nu};
 }
 
-std::vector<Pose> AugmentedBoat::Sail(const Pose& from, std::span<const Drive> drives,
-                                      double from_s, double step_s) const {
+std::vector<Pose> AugmentedBoat::Simulate(const Pose& from, std::span<const Drive> drives,
+                                          double from_s, double step_s) const {
   std::vector<Pose> track = {from};
   track.reserve(drives.size() + 1);
   for (std::size_t k = 0; k < drives.size(); ++k) {

@@ -34,25 +34,25 @@ std::size_t StepsPerRow(const VesselModel& model, double sampling_period_s);
 
 /// A model and its effects, ready to sail.
 /// Model: nu_dot = body(nu_r) + sum over sides of share T + (r v_c, -r u_c, 0) + pushes,
-/// docs/diagnosis.md (81); T is of shafts that follow the commands, delayed and altered, through
-/// the effects' lags, and lags itself by the model's own. kForwardEuler models step as they were
-/// made, kContinuous ones by a Runge-Kutta step of order four with the heading of the middle of the
-/// step. Requires: a model with all three equations; `span_s` > 0, the length of what is sailed,
-/// from `start_s` on the clock of the commands.
+/// docs/concepts/diagnosis.md (81); T is of shafts that follow the commands, delayed and altered,
+/// through the effects' lags, and lags itself by the model's own. kForwardEuler models step as they
+/// were made, kContinuous ones by a Runge-Kutta step of order four with the heading of the middle
+/// of the step. Requires: a model with all three equations; `span_s` > 0, the length of what is
+/// sailed, from `start_s` on the clock of the commands.
 class AugmentedBoat {
  public:
   AugmentedBoat(AugmentedModel model, double start_s, double span_s);
 
   /// The drives of `steps` steps from `from_s`, thrusters having followed the commands before.
-  std::vector<Drive> DriveAlong(const HeldCommands& commands, double from_s, double step_s,
-                                std::size_t steps) const;
+  std::vector<Drive> DrivesAlong(const HeldCommands& commands, double from_s, double step_s,
+                                 std::size_t steps) const;
 
   /// The boat `step_s` after `from` at `time_s`.
   Pose Advance(const Pose& from, const Drive& drive, double time_s, double step_s) const;
 
   /// The boat at `from_s` and after each of the drives.
-  std::vector<Pose> Sail(const Pose& from, std::span<const Drive> drives, double from_s,
-                         double step_s) const;
+  std::vector<Pose> Simulate(const Pose& from, std::span<const Drive> drives, double from_s,
+                             double step_s) const;
 
   double HeadingErrorRad() const { return heading_error_rad_; }
   LeverArm AntennaShift() const { return antenna_shift_; }

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "telltale/core/contract.hpp"
+#include "telltale/core/base/contract.hpp"
 #include "telltale/core/data/held_commands.hpp"
 #include "telltale/core/effects/augmented_boat.hpp"
 
@@ -32,9 +32,9 @@ std::vector<TimedState> Simulate(const AugmentedModel& model,
   const AugmentedBoat boat(model, start_s, end_s - start_s);
   const HeldCommands held = Held(commands);
   const auto steps = static_cast<std::size_t>(std::floor((end_s - start_s) / step_s + 1e-9));
-  const std::vector<Drive> drives = boat.DriveAlong(held, start_s, step_s, steps);
+  const std::vector<Drive> drives = boat.DrivesAlong(held, start_s, step_s, steps);
   std::vector<TimedState> track;
-  for (const Pose& pose : boat.Sail({}, drives, start_s, step_s)) {
+  for (const Pose& pose : boat.Simulate({}, drives, start_s, step_s)) {
     const double time_s = start_s + static_cast<double>(track.size()) * step_s;
     track.push_back({time_s, {pose.eta, pose.nu}, held.At(time_s)});
   }

@@ -1,5 +1,5 @@
 #include "telltale/core/effects/effect.hpp"
-#include "telltale/core/effects/library.hpp"
+#include "telltale/core/effects/effect_library.hpp"
 #include "telltale/core/effects/wording.hpp"
 
 namespace telltale {
@@ -16,15 +16,15 @@ class BodyBiasEffect final : public Effect {
                                {"sway", "m/s^2", 0.05, -1.0, 1.0},
                                {"yaw", "rad/s^2", 0.05, -1.0, 1.0}},
                 .settled_by = "an anemometer and a look below the waterline",
-                .hook = Hook::kPush,
-                .habit = Habit::kInCoefficients}) {}
+                .hook = Hook::kAcceleration,
+                .nominal_variation = NominalVariation::kInCoefficients}) {}
 
   std::string Describe(EffectValues values) const override {
     return "a steady push of " + Number(values[0], 3) + " m/s^2 ahead, " + Number(values[1], 3) +
            " m/s^2 to starboard and " + Number(values[2], 3) + " rad/s^2 to starboard";
   }
 
-  NuDot Push(EffectValues values, const Moment&) const override {
+  NuDot AddedAcceleration(EffectValues values, const InstantState&) const override {
     return {values[0], values[1], values[2]};
   }
 };

@@ -1,5 +1,5 @@
 #include "telltale/core/effects/effect.hpp"
-#include "telltale/core/effects/library.hpp"
+#include "telltale/core/effects/effect_library.hpp"
 #include "telltale/core/effects/wording.hpp"
 
 namespace telltale {
@@ -16,15 +16,15 @@ class CrossflowDragEffect final : public Effect {
              .source = "Fossen 2011, chapter 6: cross-flow drag",
              .parameters = {{"drag_gain", "1", 0.5, -0.95, 4.0}},
              .settled_by = "a look below the waterline",
-             .hook = Hook::kPush,
-             .habit = Habit::kInCoefficients}) {}
+             .hook = Hook::kAcceleration,
+             .nominal_variation = NominalVariation::kInCoefficients}) {}
 
   std::string Describe(EffectValues values) const override {
     return "drag across the hull " + PercentMoreOrLess(values[0]);
   }
 
-  NuDot Push(EffectValues values, const Moment& moment) const override {
-    return {0.0, values[0] * Cross(moment.hull[1]), values[0] * Cross(moment.hull[2])};
+  NuDot AddedAcceleration(EffectValues values, const InstantState& instant) const override {
+    return {0.0, values[0] * Cross(instant.hull[1]), values[0] * Cross(instant.hull[2])};
   }
 
  private:

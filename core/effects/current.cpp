@@ -1,7 +1,7 @@
 #include <cmath>
 
 #include "telltale/core/effects/effect.hpp"
-#include "telltale/core/effects/library.hpp"
+#include "telltale/core/effects/effect_library.hpp"
 #include "telltale/core/effects/wording.hpp"
 
 namespace telltale {
@@ -20,7 +20,7 @@ class CurrentEffect final : public Effect {
              .parameters = {{"current_north", "m/s", 0.2, -2.0, 2.0},
                             {"current_east", "m/s", 0.2, -2.0, 2.0}},
              .settled_by = "a current meter or a log of speed through the water",
-             .habit = Habit::kPasses}) {}
+             .nominal_variation = NominalVariation::kRecordingEffect}) {}
 
   std::string Describe(EffectValues values) const override {
     return Number(std::hypot(values[0], values[1]), 2) + " m/s of current " +

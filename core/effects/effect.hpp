@@ -10,8 +10,8 @@
 
 #include <Eigen/Core>
 
+#include "telltale/core/vessel/model_structure.hpp"
 #include "telltale/core/vessel/motion.hpp"
-#include "telltale/core/vessel/structure.hpp"
 #include "telltale/core/vessel/vehicle.hpp"
 
 namespace telltale {
@@ -24,14 +24,14 @@ struct EffectParameter {
   double typical = 0.0;  ///< size met in practice, > 0; of a shaping parameter, its spread
   double lower = 0.0;    ///< range in which it is sought
   double upper = 0.0;
-  bool shapes = false;
-  double usual = 0.0;  ///< where it is expected: zero but for a shaping parameter
+  bool is_shape = false;
+  double prior_mean = 0.0;  ///< where it is expected: zero but for a shaping parameter
 };
 
 enum class Side { kPort, kStarboard };
 
 /// What a boat goes through at one instant of a free run, as the model has it.
-struct Moment {
+struct InstantState {
   double time_s = 0.0;  ///< since the recording began
   double span_s = 0.0;  ///< how long the recording is
   double psi_rad = 0.0;
@@ -48,7 +48,7 @@ struct Moment {
 };
 
 /// Body accelerations in a narrow band that no free run can foretell, of random phase.
-struct BandNoise {
+struct NarrowBandExcitation {
   Eigen::Vector3d amplitude = Eigen::Vector3d::Zero();  ///< m/s^2, m/s^2, rad/s^2
   double frequency_rad_s = 0.0;
 };
@@ -56,11 +56,11 @@ struct BandNoise {
 using EffectValues = std::span<const double>;
 
 /// Which of its hooks an effect overrides among those that are called at every step.
-enum class Hook { kNone, kCommand, kThrustShare, kPush };
+enum class Hook { kNone, kCommand, kThrustShare, kAcceleration };
 
 /// Where a healthy boat's lasting share of an effect is found: in the effect itself, in the model's
 /// coefficients, or nowhere, since weather passes.
-enum class Habit { kOwn, kInCoefficients, kPasses };
+enum class NominalVariation { kFixedEffect, kInCoefficients, kRecordingEffect };
 
 /// What an effect is, for people and reports.
 struct EffectFacts {
@@ -71,10 +71,10 @@ struct EffectFacts {
   std::vector<EffectParameter> parameters;
   std::string_view settled_by;  ///< a sensor that would tell: "an anemometer"
   Hook hook = Hook::kNone;
-  Habit habit = Habit::kOwn;
+  NominalVariation nominal_variation = NominalVariation::kFixedEffect;
   /// Scatter of those parameters that do not shape, from one free run to the next, as a share of
   /// their length: what blows in gusts.
-  double gustiness = 0.0;
+  double turbulence_intensity = 0.0;
 };
 
 /// Something that moves a boat, or what its sensors say, and that the model leaves out. An effect
@@ -93,8 +93,8 @@ class Effect {
   std::span<const EffectParameter> Parameters() const { return facts_.parameters; }
 
   /// Whether it shakes the boat at random instead of moving it in a way that free runs can follow.
-  bool Shakes() const {
-    return Shaking(std::vector<double>(facts_.parameters.size(), 1.0)).has_value();
+  bool IsStochastic() const {
+    return StochasticExcitation(std::vector<double>(facts_.parameters.size(), 1.0)).has_value();
   }
 
   /// What an operator would call it with these values: "port thruster 22 % weaker".
@@ -108,13 +108,15 @@ class Effect {
   /// constant.
   virtual double ShaftLagS(EffectValues) const { return 0.0; }
   /// Share of its thrust that a propeller gives. Hook::kThrustShare.
-  virtual double ThrustShare(EffectValues, Side, const Moment&) const { return 1.0; }
+  virtual double ThrustShare(EffectValues, Side, const InstantState&) const { return 1.0; }
   /// The water's velocity north and east.
   virtual Eigen::Vector2d Current(EffectValues) const { return Eigen::Vector2d::Zero(); }
-  /// What else accelerates the boat. Hook::kPush.
-  virtual NuDot Push(EffectValues, const Moment&) const { return {}; }
+  /// What else accelerates the boat. Hook::kAcceleration.
+  virtual NuDot AddedAcceleration(EffectValues, const InstantState&) const { return {}; }
   /// What else shakes it.
-  virtual std::optional<BandNoise> Shaking(EffectValues) const { return std::nullopt; }
+  virtual std::optional<NarrowBandExcitation> StochasticExcitation(EffectValues) const {
+    return std::nullopt;
+  }
   /// Measured heading less true heading.
   virtual double HeadingErrorRad(EffectValues) const { return 0.0; }
   /// Where the antenna is, from where the vehicle file has it.

@@ -1,7 +1,7 @@
 #include <cmath>
 
 #include "telltale/core/effects/effect.hpp"
-#include "telltale/core/effects/library.hpp"
+#include "telltale/core/effects/effect_library.hpp"
 #include "telltale/core/effects/wording.hpp"
 
 namespace telltale {
@@ -22,19 +22,19 @@ class HullFoulingEffect final : public Effect {
                 .parameters = {{"drag_gain", "1", 0.25, -0.9, 4.0},
                                {"turning_ratio", "1", 0.5, 0.0, 2.0, true, 0.5}},
                 .settled_by = "a look below the waterline",
-                .hook = Hook::kPush,
-                .habit = Habit::kInCoefficients}) {}
+                .hook = Hook::kAcceleration,
+                .nominal_variation = NominalVariation::kInCoefficients}) {}
 
   std::string Describe(EffectValues values) const override {
     return "drag ahead " + PercentMoreOrLess(values[0]);
   }
 
-  NuDot Push(EffectValues values, const Moment& moment) const override {
-    const double quadratic = moment.hull[0][0];
-    const double linear = moment.hull[0][3];
-    const double u = moment.nu_r.u;
+  NuDot AddedAcceleration(EffectValues values, const InstantState& instant) const override {
+    const double quadratic = instant.hull[0][0];
+    const double linear = instant.hull[0][3];
+    const double u = instant.nu_r.u;
     const double slope = std::abs(u) < kStill ? 0.0 : (2.0 * quadratic + linear) / u;
-    return {values[0] * (quadratic + linear), 0.0, values[0] * values[1] * slope * moment.nu_r.r};
+    return {values[0] * (quadratic + linear), 0.0, values[0] * values[1] * slope * instant.nu_r.r};
   }
 };
 

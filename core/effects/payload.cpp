@@ -3,7 +3,7 @@
 #include <numeric>
 
 #include "telltale/core/effects/effect.hpp"
-#include "telltale/core/effects/library.hpp"
+#include "telltale/core/effects/effect_library.hpp"
 #include "telltale/core/effects/wording.hpp"
 
 namespace telltale {
@@ -29,19 +29,19 @@ class PayloadEffect final : public Effect {
              .parameters = {{"mass_gain", "1", 0.2, -0.6, 2.0},
                             {"forward_m", "m", 0.2, -0.6, 0.6, true, 0.0}},
              .settled_by = "a scale",
-             .hook = Hook::kPush,
-             .habit = Habit::kInCoefficients}) {}
+             .hook = Hook::kAcceleration,
+             .nominal_variation = NominalVariation::kInCoefficients}) {}
 
   std::string Describe(EffectValues values) const override {
     return Percent(values[0]) + (values[0] < 0.0 ? " less mass" : " more mass");
   }
 
-  NuDot Push(EffectValues values, const Moment& moment) const override {
+  NuDot AddedAcceleration(EffectValues values, const InstantState& instant) const override {
     const double p = values[0];
     const double x = values[1];
-    const Nu& nu = moment.nu;
-    const NuDot thrust = moment.Thrust();
-    const auto& [surge, sway, yaw] = moment.hull;
+    const Nu& nu = instant.nu;
+    const NuDot thrust = instant.Thrust();
+    const auto& [surge, sway, yaw] = instant.hull;
     const NuDot light = {thrust.u + Sum(surge), thrust.v + Sum(sway), thrust.r + Sum(yaw)};
     // The load's share of the boat's mass and inertia, added mass included.
     const double p_v = p / kSwayMass;

@@ -11,24 +11,24 @@ Eigen::Vector2d Turned(double psi_rad, double forward, double starboard) {
   return {c * forward - s * starboard, s * forward + c * starboard};
 }
 
-Pose MeasuredAt(const PreparedDataset& dataset, const RowRange& stretch, double time_s) {
-  const PreparedRow& first = dataset.rows[stretch.begin];
+Pose MeasuredAt(const PreparedDataset& dataset, const RowRange& segment, double time_s) {
+  const PreparedRow& first = dataset.rows[segment.begin];
   const double steps = std::clamp((time_s - first.time_s) / dataset.sampling_period_s, 0.0,
-                                  static_cast<double>(stretch.size() - 1));
-  const std::size_t k = std::min(static_cast<std::size_t>(steps), stretch.size() - 2);
+                                  static_cast<double>(segment.size() - 1));
+  const std::size_t k = std::min(static_cast<std::size_t>(steps), segment.size() - 2);
   const double share = steps - static_cast<double>(k);
-  const PreparedRow& a = dataset.rows[stretch.begin + k];
-  const PreparedRow& b = dataset.rows[stretch.begin + k + 1];
+  const PreparedRow& a = dataset.rows[segment.begin + k];
+  const PreparedRow& b = dataset.rows[segment.begin + k + 1];
   const auto between = [&](double x, double y) { return x + share * (y - x); };
   return {{between(a.eta.x_m, b.eta.x_m), between(a.eta.y_m, b.eta.y_m),
            between(a.eta.psi_rad, b.eta.psi_rad)},
           {between(a.nu.u, b.nu.u), between(a.nu.v, b.nu.v), between(a.nu.r, b.nu.r)}};
 }
 
-Pose TrueStart(const PreparedDataset& dataset, const RowRange& stretch, double time_s,
+Pose TrueStart(const PreparedDataset& dataset, const RowRange& segment, double time_s,
                const AugmentedBoat& boat) {
-  const Pose now = MeasuredAt(dataset, stretch, time_s);
-  const Pose fixed = MeasuredAt(dataset, stretch, time_s + boat.LatencyS());
+  const Pose now = MeasuredAt(dataset, segment, time_s);
+  const Pose fixed = MeasuredAt(dataset, segment, time_s + boat.LatencyS());
   const LeverArm stated = dataset.sensors.antenna;
   const LeverArm shift = boat.AntennaShift();
   const double ahead = stated.forward_m + shift.forward_m;

@@ -1,5 +1,5 @@
 #include "telltale/core/effects/effect.hpp"
-#include "telltale/core/effects/library.hpp"
+#include "telltale/core/effects/effect_library.hpp"
 #include "telltale/core/effects/wording.hpp"
 
 namespace telltale {
@@ -15,13 +15,13 @@ class ThrustGainEffect final : public Effect {
                 .parameters = {{"loss", "1", 0.1, -1.0, 0.9}},
                 .settled_by = "the battery voltage",
                 .hook = Hook::kThrustShare,
-                .habit = Habit::kInCoefficients}) {}
+                .nominal_variation = NominalVariation::kInCoefficients}) {}
 
   std::string Describe(EffectValues values) const override {
     return "thrust of both thrusters " + PercentMoreOrLess(-values[0]);
   }
 
-  double ThrustShare(EffectValues values, Side, const Moment&) const override {
+  double ThrustShare(EffectValues values, Side, const InstantState&) const override {
     return 1.0 - values[0];
   }
 };

@@ -1,7 +1,7 @@
 #include <algorithm>
 
 #include "telltale/core/effects/effect.hpp"
-#include "telltale/core/effects/library.hpp"
+#include "telltale/core/effects/effect_library.hpp"
 #include "telltale/core/effects/wording.hpp"
 
 namespace telltale {
@@ -23,9 +23,9 @@ class ThrustInflowLossEffect final : public Effect {
     return "thrust " + Percent(values[0]) + " less for each m/s ahead";
   }
 
-  double ThrustShare(EffectValues values, Side side, const Moment& moment) const override {
-    const double thrust = moment.thrust[side == Side::kPort ? 0 : 1].u;
-    const double inflow = thrust < 0.0 ? -moment.nu_r.u : moment.nu_r.u;
+  double ThrustShare(EffectValues values, Side side, const InstantState& instant) const override {
+    const double thrust = instant.thrust[side == Side::kPort ? 0 : 1].u;
+    const double inflow = thrust < 0.0 ? -instant.nu_r.u : instant.nu_r.u;
     return std::max(1.0 - values[0] * std::max(inflow, 0.0), 0.0);
   }
 };

@@ -1,7 +1,7 @@
 #include <algorithm>
 
 #include "telltale/core/effects/effect.hpp"
-#include "telltale/core/effects/library.hpp"
+#include "telltale/core/effects/effect_library.hpp"
 #include "telltale/core/effects/wording.hpp"
 
 namespace telltale {
@@ -25,9 +25,9 @@ class ThrustSagEffect final : public Effect {
            " less at full load";
   }
 
-  double ThrustShare(EffectValues values, Side, const Moment& moment) const override {
-    const double faded = values[0] * moment.time_s / moment.span_s;
-    return std::max(1.0 - faded - values[1] * moment.load, 0.0);
+  double ThrustShare(EffectValues values, Side, const InstantState& instant) const override {
+    const double faded = values[0] * instant.time_s / instant.span_s;
+    return std::max(1.0 - faded - values[1] * instant.load, 0.0);
   }
 };
 

@@ -1,7 +1,7 @@
 #include <algorithm>
 
 #include "telltale/core/effects/effect.hpp"
-#include "telltale/core/effects/library.hpp"
+#include "telltale/core/effects/effect_library.hpp"
 #include "telltale/core/effects/wording.hpp"
 
 namespace telltale {
@@ -26,7 +26,7 @@ class ThrusterImbalanceEffect final : public Effect {
            " weaker";
   }
 
-  double ThrustShare(EffectValues values, Side side, const Moment&) const override {
+  double ThrustShare(EffectValues values, Side side, const InstantState&) const override {
     const double loss = side == Side::kPort ? values[0] : -values[0];
     return 1.0 - std::max(loss, 0.0);
   }

@@ -2,7 +2,7 @@
 #include <numbers>
 
 #include "telltale/core/effects/effect.hpp"
-#include "telltale/core/effects/library.hpp"
+#include "telltale/core/effects/effect_library.hpp"
 #include "telltale/core/effects/wording.hpp"
 
 namespace telltale {
@@ -22,14 +22,14 @@ class ThrusterMisalignmentEffect final : public Effect {
                 .parameters = {{"angle", "rad", 0.035, -0.5, 0.5},
                                {"lever_ratio", "1/m", 1.5, 0.5, 7.0, true, 2.7}},
                 .settled_by = "a look at how the thrusters are mounted",
-                .hook = Hook::kPush}) {}
+                .hook = Hook::kAcceleration}) {}
 
   std::string Describe(EffectValues values) const override {
     return "thrust turned by " + Number(values[0] * 180.0 / std::numbers::pi, 1) + " deg";
   }
 
-  NuDot Push(EffectValues values, const Moment& moment) const override {
-    const double ahead = moment.Thrust().u;
+  NuDot AddedAcceleration(EffectValues values, const InstantState& instant) const override {
+    const double ahead = instant.Thrust().u;
     return {ahead * (std::cos(values[0]) - 1.0), ahead * kSwayRatio * std::sin(values[0]),
             -ahead * values[1] * std::sin(values[0])};
   }

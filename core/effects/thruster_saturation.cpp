@@ -1,7 +1,7 @@
 #include <algorithm>
 
 #include "telltale/core/effects/effect.hpp"
-#include "telltale/core/effects/library.hpp"
+#include "telltale/core/effects/effect_library.hpp"
 #include "telltale/core/effects/wording.hpp"
 
 namespace telltale {

@@ -1,7 +1,7 @@
 #include <numbers>
 
 #include "telltale/core/effects/effect.hpp"
-#include "telltale/core/effects/library.hpp"
+#include "telltale/core/effects/effect_library.hpp"
 #include "telltale/core/effects/wording.hpp"
 
 namespace telltale {
@@ -22,14 +22,14 @@ class WavesEffect final : public Effect {
                             {"yaw_amplitude", "rad/s^2", 0.2, 0.0, 3.0},
                             {"encounter_frequency", "rad/s", 1.0, 0.8, 6.0, true, 2.5}},
              .settled_by = "an inertial sensor",
-             .habit = Habit::kPasses}) {}
+             .nominal_variation = NominalVariation::kRecordingEffect}) {}
 
   std::string Describe(EffectValues values) const override {
     return "waves met every " + Number(2.0 * std::numbers::pi / values[3], 1) + " s";
   }
 
-  std::optional<BandNoise> Shaking(EffectValues values) const override {
-    return BandNoise{{values[0], values[1], values[2]}, values[3]};
+  std::optional<NarrowBandExcitation> StochasticExcitation(EffectValues values) const override {
+    return NarrowBandExcitation{{values[0], values[1], values[2]}, values[3]};
   }
 };
 

@@ -1,7 +1,7 @@
 #include <cmath>
 
 #include "telltale/core/effects/effect.hpp"
-#include "telltale/core/effects/library.hpp"
+#include "telltale/core/effects/effect_library.hpp"
 #include "telltale/core/effects/wording.hpp"
 
 namespace telltale {
@@ -29,27 +29,27 @@ class WindEffect final : public Effect {
                                {"side_ratio", "1", 0.5, 0.3, 3.0, true, 1.0},
                                {"yaw_ratio", "1", 1.0, -3.0, 3.0, true, 0.0}},
                 .settled_by = "an anemometer",
-                .hook = Hook::kPush,
-                .habit = Habit::kPasses,
-                .gustiness = kTurbulence}) {}
+                .hook = Hook::kAcceleration,
+                .nominal_variation = NominalVariation::kRecordingEffect,
+                .turbulence_intensity = kTurbulence}) {}
 
   std::string Describe(EffectValues values) const override {
     return Number(std::hypot(values[0], values[1]), 1) + " m/s of wind " +
            Towards(values[0], values[1]);
   }
 
-  NuDot Push(EffectValues values, const Moment& moment) const override {
-    const double c = std::cos(moment.psi_rad);
-    const double s = std::sin(moment.psi_rad);
-    const Nu& nu = moment.nu;
-    const double ahead = c * values[0] + s * values[1] - nu.u;
-    const double aside = -s * values[0] + c * values[1] - nu.v;
-    const double speed = std::hypot(ahead, aside);
+  NuDot AddedAcceleration(EffectValues values, const InstantState& instant) const override {
+    const double c = std::cos(instant.psi_rad);
+    const double s = std::sin(instant.psi_rad);
+    const Nu& nu = instant.nu;
+    const double relative_forward = c * values[0] + s * values[1] - nu.u;
+    const double relative_starboard = -s * values[0] + c * values[1] - nu.v;
+    const double speed = std::hypot(relative_forward, relative_starboard);
     // The drag of still air is in the coefficients of the hull already.
     const double still = std::hypot(nu.u, nu.v);
-    return {kSurge * (speed * ahead + still * nu.u),
-            kSway * values[2] * (speed * aside + still * nu.v),
-            kYaw * values[3] * (ahead * aside - nu.u * nu.v)};
+    return {kSurge * (speed * relative_forward + still * nu.u),
+            kSway * values[2] * (speed * relative_starboard + still * nu.v),
+            kYaw * values[3] * (relative_forward * relative_starboard - nu.u * nu.v)};
   }
 };
 

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "telltale/core/number.hpp"
+#include "telltale/core/base/format_number.hpp"
 
 namespace telltale {
 

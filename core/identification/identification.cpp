@@ -71,7 +71,7 @@ Result<VesselModel> ModelOf(const Identification& identification) {
     Eigen::Index next = 0;
     for (std::size_t i = 0; i < identification.coefficients.size(); ++i) {
       if (identification.coefficients[i].equation != equation) continue;
-      theta[next++] = identification.SailedWith(i);
+      theta[next++] = identification.SimulationParameter(i);
     }
   }
   if (identification.thruster_time_constant) {
@@ -80,11 +80,11 @@ Result<VesselModel> ModelOf(const Identification& identification) {
   return model;
 }
 
-Identification AsSailed(Identification identification) {
+Identification WithSimulationParameters(Identification identification) {
   for (std::size_t i = 0; i < identification.coefficients.size(); ++i) {
-    identification.coefficients[i].estimate = identification.SailedWith(i);
+    identification.coefficients[i].estimate = identification.SimulationParameter(i);
   }
-  identification.sailed.clear();
+  identification.simulation.clear();
   return identification;
 }
 

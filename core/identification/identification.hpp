@@ -7,15 +7,15 @@
 
 #include <Eigen/Core>
 
+#include "telltale/core/base/result.hpp"
 #include "telltale/core/data/samples.hpp"
-#include "telltale/core/estimation/excitation_summary.hpp"
+#include "telltale/core/estimation/regression/excitation_summary.hpp"
 #include "telltale/core/identification/model_change.hpp"
-#include "telltale/core/result.hpp"
-#include "telltale/core/uncertainty/coverage_certificate.hpp"
+#include "telltale/core/uncertainty/coverage.hpp"
 #include "telltale/core/uncertainty/interval.hpp"
 #include "telltale/core/uncertainty/joint_bounds.hpp"
 #include "telltale/core/vessel/disturbance.hpp"
-#include "telltale/core/vessel/structure.hpp"
+#include "telltale/core/vessel/model_structure.hpp"
 #include "telltale/core/vessel/vessel_model.hpp"
 
 namespace telltale {
@@ -53,10 +53,10 @@ struct WindowSummary {
   RejectCounts rejected;
 };
 
-/// What pushed the boat steadily in one of several recordings, docs/model.md (70): coefficients of
-/// "1", which turns with the boat, and of "cos(psi)" and "sin(psi)", which stand to the north and
-/// east, in each equation.
-struct RecordingOffsets {
+/// What pushed the boat steadily in one of several recordings, docs/concepts/model.md (70):
+/// coefficients of "1", which turns with the boat, and of "cos(psi)" and "sin(psi)", which stand to
+/// the north and east, in each equation.
+struct RecordingBias {
   double start_s = 0.0;  ///< first and last prepared row
   double end_s = 0.0;
   std::vector<Coefficient> coefficients;
@@ -70,14 +70,13 @@ struct Provenance {
   std::size_t bootstrap_failures = 0;  ///< replicates that could not be solved
   std::uint64_t seed = 0;
   std::string software_version;
-  std::size_t twins = 0;          ///< simulated repeats that were identified again
-  std::size_t twin_failures = 0;  ///< those that could not be
-  std::string estimator_choice;   ///< why this estimator, a sentence; empty where it was named
+  std::size_t parametric_replicates = 0;          ///< simulated repeats that were identified again
+  std::size_t parametric_replicate_failures = 0;  ///< those that could not be
+  std::string estimator_choice;  ///< why this estimator, a sentence; empty where it was named
   /// Standard errors by cluster over naive ones, of output error; 0 where it was not judged. Well
   /// above one something else than the sensors keeps model and measurement apart.
   double misspecification = 0.0;
-  std::size_t clusters =
-      0;  ///< independent stretches of time behind the covariance, 0: not so made
+  std::size_t clusters = 0;  ///< independent segments of time behind the covariance, 0: not so made
   std::optional<ModelChange> change;  ///< against an earlier model, where there is one
 };
 
@@ -100,7 +99,7 @@ struct ManoeuvreAdvice {
   std::vector<ExpectedBounds> expected;  ///< of those coefficients, most shrunk first
 };
 
-/// An effect that was added to a model by name, docs/adding-an-effect.md.
+/// An effect that was added to a model by name, docs/guides/adding-an-effect.md.
 struct AddedEffect {
   std::string effect;
   std::vector<double> values;  ///< one per parameter, in its order
@@ -127,22 +126,22 @@ struct Identification {
   std::optional<Disturbance> disturbance;  ///< what else moved the boat, where that was judged
   /// Where each recording has a steady disturbance of its own: these, and the coefficients of the
   /// regressor "1" are their means.
-  std::vector<RecordingOffsets> offsets;
+  std::vector<RecordingBias> recording_bias;
   std::vector<AddedEffect> effects;  ///< that act on the boat besides its coefficients
   /// Where the estimates run away, what a simulation takes in their place, in the order of the
-  /// coefficients and within the ellipsoid, or the bounds where there is none: docs/model.md (18b).
-  /// Empty: the estimates.
-  std::vector<double> sailed;
+  /// coefficients and within the ellipsoid, or the bounds where there is none:
+  /// docs/concepts/model.md (18b). Empty: the estimates.
+  std::vector<double> simulation;
   /// What a simulation takes for the coefficient at that place.
-  double SailedWith(std::size_t place) const {
-    return sailed.empty() ? coefficients[place].estimate : sailed[place];
+  double SimulationParameter(std::size_t place) const {
+    return simulation.empty() ? coefficients[place].estimate : simulation[place];
   }
   WindowSummary window;
   std::vector<Refusal> refusals;
   Provenance provenance;
   std::vector<ExcitationSummary> excitation;  ///< of the answered equations, in their order
   std::vector<ManoeuvreAdvice> advice;        ///< best first; none where nothing is left open
-  std::optional<CoverageCertificate> certificate;
+  std::optional<CoverageCheck> coverage_check;
 
   bool Has(Equation equation) const;
 
@@ -163,6 +162,6 @@ std::optional<double> SquaredRadius(const Identification& identification);
 Result<VesselModel> ModelOf(const Identification& identification);
 
 /// The same with what it is sailed with for estimates, for who knows nothing of bounds.
-Identification AsSailed(Identification identification);
+Identification WithSimulationParameters(Identification identification);
 
 }  // namespace telltale

@@ -1,25 +1,26 @@
 #include "telltale/core/identification/identify.hpp"
+#include "telltale/core/base/version.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 
+#include "telltale/core/base/range.hpp"
 #include "telltale/core/data/preparation.hpp"
-#include "telltale/core/estimation/dead_zone.hpp"
-#include "telltale/core/identification/advice.hpp"
-#include "telltale/core/identification/answers.hpp"
-#include "telltale/core/identification/certify.hpp"
-#include "telltale/core/identification/estimator_choice.hpp"
-#include "telltale/core/identification/one_step_answer.hpp"
-#include "telltale/core/identification/output_error_answer.hpp"
-#include "telltale/core/identification/sailed_model.hpp"
-#include "telltale/core/identification/weak_iv_answer.hpp"
-#include "telltale/core/range.hpp"
+#include "telltale/core/estimation/regression/dead_zone_estimate.hpp"
+#include "telltale/core/identification/coverage_check.hpp"
+#include "telltale/core/identification/equation_estimates.hpp"
+#include "telltale/core/identification/estimator_selection.hpp"
+#include "telltale/core/identification/experiment_design.hpp"
+#include "telltale/core/identification/one_step_estimate.hpp"
+#include "telltale/core/identification/output_error_estimate.hpp"
+#include "telltale/core/identification/simulation_parameters.hpp"
+#include "telltale/core/identification/weak_iv_estimate.hpp"
 
 namespace telltale {
 namespace {
 
-Refusal CannotTell(const char* side, const DeadZoneLimit& limit, double kept) {
+Refusal UndeterminedLimit(const char* side, const DeadZoneLimit& limit, double kept) {
   const std::string reason = limit.contrast > kLeastContrast
                                  ? "the best value lies at the edge of the allowed range, so it "
                                    "stands for something else"
@@ -38,24 +39,24 @@ DeadZone IdentifyDeadZone(const PreparedDataset& dataset, const IdentifyOptions&
   if (estimate->forward.determined) {
     limits.forward = estimate->forward.estimate;
   } else {
-    refusals.push_back(CannotTell("forward", estimate->forward, limits.forward));
+    refusals.push_back(UndeterminedLimit("forward", estimate->forward, limits.forward));
   }
   if (estimate->reverse.determined) {
     limits.reverse = estimate->reverse.estimate;
   } else {
-    refusals.push_back(CannotTell("reverse", estimate->reverse, limits.reverse));
+    refusals.push_back(UndeterminedLimit("reverse", estimate->reverse, limits.reverse));
   }
   return limits;
 }
 
 WindowSummary Summarise(const PreparedDataset& dataset) {
-  return {dataset.StartTime(), dataset.EndTime(), dataset.rows.size(), dataset.segments.size(),
+  return {dataset.StartTime(), dataset.EndTime(), dataset.rows.size(), dataset.slices.size(),
           dataset.rejected};
 }
 
 constexpr const char* kSubject = "identification";
 
-std::optional<Refusal> ReplicatesRefusal(std::size_t replicates) {
+std::optional<Refusal> BootstrapReplicatesRefusal(std::size_t replicates) {
   if (replicates == 0) return std::nullopt;
   auto refusal = OutOfRange(kSubject, "bootstrap_replicates", static_cast<double>(replicates),
                             100.0, 100000.0);
@@ -63,10 +64,10 @@ std::optional<Refusal> ReplicatesRefusal(std::size_t replicates) {
   return refusal;
 }
 
-std::optional<Refusal> CertificateRefusal(std::size_t twins) {
-  if (twins == 0) return std::nullopt;
-  auto refusal =
-      OutOfRange(kSubject, "certificate_twins", static_cast<double>(twins), 10.0, 1000.0);
+std::optional<Refusal> CoverageCheckReplicatesRefusal(std::size_t parametric_replicates) {
+  if (parametric_replicates == 0) return std::nullopt;
+  auto refusal = OutOfRange(kSubject, "coverage_check_replicates",
+                            static_cast<double>(parametric_replicates), 10.0, 1000.0);
   if (refusal) refusal->advice += ", or to 0 for none";
   return refusal;
 }
@@ -87,14 +88,14 @@ std::optional<Refusal> LimitRefusal(const DeadZone& limits) {
 }
 
 std::optional<Refusal> EstimatorRefusal(const IdentifyOptions& options) {
-  if (options.regression.offsets == Offsets::kUnknown) {
-    return Refusal{"offsets", "is unset",
+  if (options.regression.recording_bias == RecordingBiasModel::kUnknown) {
+    return Refusal{"recording_bias", "is unset",
                    "choose SHARED, PER_RECORDING or PER_RECORDING_NORTH_EAST"};
   }
   if (options.estimator == Estimator::kOneStep || options.estimator == Estimator::kOutputError) {
-    if (options.regression.offsets != Offsets::kShared) {
+    if (options.regression.recording_bias != RecordingBiasModel::kShared) {
       return Refusal{
-          "offsets",
+          "recording_bias",
           "of each recording are not estimated by " + std::string(Name(*options.estimator)),
           "choose WEAK_IV, or SHARED offsets"};
     }
@@ -110,17 +111,19 @@ std::optional<Refusal> EstimatorRefusal(const IdentifyOptions& options) {
                    "one kernel",
                    "choose the robust preset, or ONE_STEP"};
   }
-  if (options.twins == 0) return std::nullopt;
-  auto refusal = OutOfRange(kSubject, "twins", static_cast<double>(options.twins), 8.0, 1000.0);
+  if (options.parametric_replicates == 0) return std::nullopt;
+  auto refusal = OutOfRange(kSubject, "parametric_replicates",
+                            static_cast<double>(options.parametric_replicates), 8.0, 1000.0);
   if (refusal) refusal->advice += ", or to 0 for none";
   return refusal;
 }
 
-Result<BoundedAnswers> BoundWith(const std::optional<Estimator>& estimator,
-                                 const PreparedDataset& dataset,
-                                 const RegressionOptions& regression,
-                                 const IdentifyOptions& options, const Progress& progress) {
-  if (!estimator) return BoundByDisturbance(dataset, regression, options, progress);
+Result<BoundedEstimates> BoundWithEstimator(const std::optional<Estimator>& estimator,
+                                            const PreparedDataset& dataset,
+                                            const RegressionOptions& regression,
+                                            const IdentifyOptions& options,
+                                            const Progress& progress) {
+  if (!estimator) return BoundWithSelectedEstimator(dataset, regression, options, progress);
   switch (*estimator) {
     case Estimator::kOneStep: return BoundOneStep(dataset, regression, options, progress);
     case Estimator::kOutputError: return BoundOutputError(dataset, regression, options, progress);
@@ -164,8 +167,8 @@ std::optional<Refusal> IdentifyOptions::Validate() const {
   if (auto refusal = OutOfRange(kSubject, "interval_level", interval_level, 0.5, 0.999)) {
     return refusal;
   }
-  if (auto refusal = ReplicatesRefusal(bootstrap_replicates)) return refusal;
-  if (auto refusal = CertificateRefusal(certificate_twins)) return refusal;
+  if (auto refusal = BootstrapReplicatesRefusal(bootstrap_replicates)) return refusal;
+  if (auto refusal = CoverageCheckReplicatesRefusal(coverage_check_replicates)) return refusal;
   if (resampling == Resampling::kUnknown) {
     return Refusal{"resampling", "is unset", "choose SEGMENTS, MOVING_BLOCKS or PARAMETRIC"};
   }
@@ -186,7 +189,7 @@ Result<Identification> Identify(const Recording& recording, const Vehicle& vehic
                                 const IdentifyOptions& options, const Progress& progress) {
   if (auto refusal = options.Validate()) return tl::unexpected(*refusal);
   // The identification itself is as much work as one repeat of the certificate.
-  const double share = 1.0 / (1.0 + static_cast<double>(options.certificate_twins));
+  const double share = 1.0 / (1.0 + static_cast<double>(options.coverage_check_replicates));
   if (progress) progress("preparing data", 0.0);
   const auto dataset = options.estimator == Estimator::kOneStep
                            ? Prepare(recording, vehicle, options.prepare)
@@ -194,13 +197,13 @@ Result<Identification> Identify(const Recording& recording, const Vehicle& vehic
   if (!dataset) return tl::unexpected(dataset.error());
   auto identification =
       Identify(*dataset, vehicle.vehicle_id, options, Within(progress, 0.0, share));
-  if (!identification || options.certificate_twins == 0) return identification;
-  auto certificate =
-      Certify(recording, vehicle, *identification, options, Within(progress, share, 1.0));
-  if (certificate) {
-    identification->certificate = *std::move(certificate);
+  if (!identification || options.coverage_check_replicates == 0) return identification;
+  auto coverage_check =
+      CheckCoverage(recording, vehicle, *identification, options, Within(progress, share, 1.0));
+  if (coverage_check) {
+    identification->coverage_check = *std::move(coverage_check);
   } else {
-    identification->refusals.push_back(certificate.error());
+    identification->refusals.push_back(coverage_check.error());
   }
   return identification;
 }
@@ -211,15 +214,15 @@ Result<Identification> Identify(const PreparedDataset& dataset, const std::strin
   const auto report = [&](std::string_view stage, double fraction) {
     if (progress) progress(stage, fraction);
   };
-  const bool seek_dead_zone = options.dead_zone_source == DeadZoneSource::kIdentified;
+  const bool identify_dead_zone = options.dead_zone_source == DeadZoneSource::kIdentified;
   RegressionOptions regression = options.regression;
   std::vector<Refusal> dead_zone_refusals;
-  if (seek_dead_zone) {
+  if (identify_dead_zone) {
     report("identifying the dead zone", 0.1);
     regression.dead_zone = IdentifyDeadZone(dataset, options, dead_zone_refusals);
   }
   report("estimating", 0.3);
-  auto bounded = BoundWith(options.estimator, dataset, regression, options, progress);
+  auto bounded = BoundWithEstimator(options.estimator, dataset, regression, options, progress);
   if (!bounded) return tl::unexpected(bounded.error());
 
   Identification identification;
@@ -229,26 +232,28 @@ Result<Identification> Identify(const PreparedDataset& dataset, const std::strin
   identification.estimator = bounded->estimator;
   identification.sampling_period_s = dataset.sampling_period_s;
   identification.dead_zone = regression.dead_zone;
-  WriteCoefficients(bounded->answers, bounded->bounds, identification);
+  WriteCoefficients(bounded->equation_estimates, bounded->bounds, identification);
   identification.disturbance = bounded->disturbance;
-  identification.offsets = std::move(bounded->offsets);
+  identification.recording_bias = std::move(bounded->recording_bias);
   identification.window = Summarise(dataset);
-  identification.refusals = std::move(bounded->answers.refusals);
+  identification.refusals = std::move(bounded->equation_estimates.refusals);
   identification.refusals.insert(identification.refusals.end(), dead_zone_refusals.begin(),
                                  dead_zone_refusals.end());
   identification.provenance = std::move(bounded->provenance);
-  identification.excitation = Summarise(bounded->answers, options.regression.parameterization);
-  SeekToSail(dataset, identification);
+  identification.excitation =
+      Summarise(bounded->equation_estimates, options.regression.parameterization);
+  FindSimulationParameters(dataset, identification);
   if (options.advise) {
-    Advise({bounded->answers.excitations, regression, FastestOf(dataset)}, identification);
+    AdviseManoeuvres({bounded->equation_estimates.excitations, regression, FastestOf(dataset)},
+                     identification);
   }
-  if (seek_dead_zone) {
+  if (identify_dead_zone) {
     identification.provenance.bounds_basis +=
         "; identified limits of the dead zone are taken as known";
   }
   identification.provenance.preset = Name(options.prepare.preset);
   identification.provenance.seed = options.seed;
-  identification.provenance.software_version = TELLTALE_VERSION;
+  identification.provenance.software_version = Version();
   report("done", 1.0);
   return identification;
 }
@@ -256,13 +261,15 @@ Result<Identification> Identify(const PreparedDataset& dataset, const std::strin
 Result<VesselModel> EstimateModel(const PreparedDataset& dataset,
                                   const RegressionOptions& regression,
                                   const ExcitationLimits& limits) {
-  const Answers answers = AnswerOneStep(dataset, regression, limits);
+  const EquationEstimates equation_estimates =
+      EstimateOneStepEquations(dataset, regression, limits);
   for (const Equation equation : kEquations) {
-    if (answers.estimates[IndexOf(equation)]) continue;
+    if (equation_estimates.estimates[IndexOf(equation)]) continue;
     return Refuse(std::string(Name(equation)), "the data cannot answer this equation",
-                  answers.refusals.front().advice);
+                  equation_estimates.refusals.front().advice);
   }
-  return ModelOf(answers, regression, Discretisation::kForwardEuler, dataset.sampling_period_s);
+  return ModelOf(equation_estimates, regression, Discretisation::kForwardEuler,
+                 dataset.sampling_period_s);
 }
 
 }  // namespace telltale

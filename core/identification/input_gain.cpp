@@ -3,7 +3,7 @@
 #include <cmath>
 #include <limits>
 
-#include "telltale/core/contract.hpp"
+#include "telltale/core/base/contract.hpp"
 
 namespace telltale {
 namespace {
@@ -167,10 +167,10 @@ std::vector<DisturbanceSample> ReconstructDisturbance(const PreparedDataset& dat
   const double h = dataset.sampling_period_s;
   Require(h > 0.0, "a positive sampling period");
   std::vector<DisturbanceSample> samples;
-  for (const RowRange& stretch : dataset.stretches) {
-    if (stretch.size() == 0) continue;
-    ThrustRegressors thrust = model.SteadyThrust(dataset.rows[stretch.begin].delta);
-    for (std::size_t k = stretch.begin; k + 1 < stretch.end; ++k) {
+  for (const RowRange& segment : dataset.segments) {
+    if (segment.size() == 0) continue;
+    ThrustRegressors thrust = model.SteadyThrust(dataset.rows[segment.begin].delta);
+    for (std::size_t k = segment.begin; k + 1 < segment.end; ++k) {
       const PreparedRow& row = dataset.rows[k];
       const Nu& now = row.nu;
       const Nu& next = dataset.rows[k + 1].nu;

@@ -28,7 +28,7 @@ struct InputGain {
 
 /// The gain under given propeller regressors, its bound that of the coefficients alone.
 /// Model: gain = Phi_propeller theta, covariance = Phi_propeller Sigma Phi_propeller'.
-/// docs/model.md (25).
+/// docs/concepts/model.md (25).
 InputGain GainUnder(const Identification& identification, const ThrustRegressors& thrust);
 
 /// The gain of a command whose thrust is there at once (static structure) or has settled (dynamic).
@@ -41,8 +41,8 @@ InputGain SteadyInputGain(const Identification& identification, const PropellerC
 /// first-order sensitivity dG/dtau followed along: with P the propeller regressors as they stand
 /// and b = dG/dtau, P Sigma P' + b b' var(tau) + P c b' + b c' P', c = time_constant_covariance.
 /// What the bound leaves out is the initial condition, whose share left is InitialShare().
-/// docs/model.md (26). Requires: the dynamic structure with its time constant. Source: the paper,
-/// input gain for dynamic propeller modelling. `identification` must outlive this.
+/// docs/concepts/model.md (26). Requires: the dynamic structure with its time constant. Source: the
+/// paper, input gain for dynamic propeller modelling. `identification` must outlive this.
 class LaggedInputGain {
  public:
   /// Thrusters that stand where `settled_on`, held for ever, leads to.
@@ -70,7 +70,7 @@ class LaggedInputGain {
 };
 
 /// Seconds until no more than `remaining` of an initial condition is left, tau ln(1 / remaining).
-/// docs/model.md (27). Requires: time_constant_s >= 0, remaining in (0, 1].
+/// docs/concepts/model.md (27). Requires: time_constant_s >= 0, remaining in (0, 1].
 /// Source: the paper, the property that the influence of the initial condition vanishes.
 double SettlingTime(double time_constant_s, double remaining = 0.01);
 
@@ -81,9 +81,9 @@ struct DisturbanceSample {
 };
 
 /// The lumped disturbance over a recording: the acceleration measured between rows k and k + 1
-/// minus what the model's propellers give at k, for each k whose successor is in the same stretch.
-/// docs/model.md (28). Lagging thrusters are taken to have settled at the start of each
-/// stretch; a wrong guess decays within SettlingTime.
+/// minus what the model's propellers give at k, for each k whose successor is in the same segment.
+/// docs/concepts/model.md (28). Lagging thrusters are taken to have settled at the start of each
+/// segment; a wrong guess decays within SettlingTime.
 std::vector<DisturbanceSample> ReconstructDisturbance(const PreparedDataset& dataset,
                                                       const VesselModel& model);
 

@@ -35,9 +35,9 @@ std::string MostSignificant(const std::vector<CoefficientChange>& changes) {
 
 std::string_view Name(ChangeVerdict verdict) {
   switch (verdict) {
-    case ChangeVerdict::kAlike: return "ALIKE";
-    case ChangeVerdict::kDiffers: return "DIFFERS";
-    case ChangeVerdict::kCannotTell: return "CANNOT_TELL";
+    case ChangeVerdict::kNoSignificantChange: return "ALIKE";
+    case ChangeVerdict::kChanged: return "DIFFERS";
+    case ChangeVerdict::kInconclusive: return "CANNOT_TELL";
     case ChangeVerdict::kUnknown: break;
   }
   return "UNKNOWN";
@@ -46,11 +46,12 @@ std::string_view Name(ChangeVerdict verdict) {
 std::string InWords(const ModelChange& change) {
   const std::string p = "p = " + Formatted("%.2g", change.p_value);
   switch (change.verdict) {
-    case ChangeVerdict::kDiffers:
+    case ChangeVerdict::kChanged:
       return "differs from " + Earlier(change) + ": " + p + MostSignificant(change.coefficients) +
              "; fouling, damage or another load?";
-    case ChangeVerdict::kAlike: return "is no different from " + Earlier(change) + ": " + p;
-    case ChangeVerdict::kCannotTell:
+    case ChangeVerdict::kNoSignificantChange:
+      return "is no different from " + Earlier(change) + ": " + p;
+    case ChangeVerdict::kInconclusive:
       return "cannot be compared with " +
              (change.revision > 0 ? Earlier(change) : "earlier models") + ": " + change.reason;
     case ChangeVerdict::kUnknown: break;

@@ -6,13 +6,14 @@
 #include <string_view>
 #include <vector>
 
-#include "telltale/core/vessel/structure.hpp"
+#include "telltale/core/vessel/model_structure.hpp"
 
 namespace telltale {
 
-/// kAlike: two models of one boat may well be of the same boat unchanged. kDiffers: they differ by
-/// more than their errors. kCannotTell: there is no honest test, for a reason given.
-enum class ChangeVerdict { kUnknown, kAlike, kDiffers, kCannotTell };
+/// kNoSignificantChange: two models of one boat may well be of the same boat unchanged. kChanged:
+/// they differ by more than their errors. kInconclusive: there is no honest test, for a reason
+/// given.
+enum class ChangeVerdict { kUnknown, kNoSignificantChange, kChanged, kInconclusive };
 
 std::string_view Name(ChangeVerdict verdict);
 
@@ -36,7 +37,7 @@ struct ModelChange {
   std::uint64_t revision = 0;  ///< of the earlier model, 0 where it has none
   ChangeVerdict verdict = ChangeVerdict::kUnknown;
   double p_value = 1.0;    ///< that models of one unchanged boat differ this much
-  double statistic = 0.0;  ///< d'V^+ d, docs/model.md (41)
+  double statistic = 0.0;  ///< d'V^+ d, docs/concepts/model.md (41)
   std::size_t degrees_of_freedom = 0;
   std::vector<CoefficientChange> coefficients;  ///< the most significant first
   std::string reason;                           ///< why it cannot be told

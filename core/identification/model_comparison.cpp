@@ -94,12 +94,12 @@ Estimates InOrderOf(const Identification& order, const Identification& model) {
 
 }  // namespace
 
-Result<WaldTest> Compare(const Identification& first, const Identification& second) {
+Result<WaldTest> TestForChange(const Identification& first, const Identification& second) {
   if (auto refusal = Unlike(first, second)) return tl::unexpected(*refusal);
   return TestEquality(InOrderOf(first, first), InOrderOf(first, second));
 }
 
-bool MadeAlike(const Identification& first, const Identification& second) {
+bool AreComparable(const Identification& first, const Identification& second) {
   return !Unlike(first, second);
 }
 
@@ -108,11 +108,11 @@ bool WindowsOverlap(const Identification& first, const Identification& second) {
 }
 
 Result<ModelChange> ChangeBetween(const Identification& earlier, const Identification& later) {
-  const auto test = Compare(later, earlier);
+  const auto test = TestForChange(later, earlier);
   if (!test) return tl::unexpected(test.error());
   ModelChange change;
-  change.verdict =
-      test->p_value < kSignificantChange ? ChangeVerdict::kDiffers : ChangeVerdict::kAlike;
+  change.verdict = test->p_value < kSignificantChange ? ChangeVerdict::kChanged
+                                                      : ChangeVerdict::kNoSignificantChange;
   change.p_value = test->p_value;
   change.statistic = test->statistic;
   change.degrees_of_freedom = test->degrees_of_freedom;

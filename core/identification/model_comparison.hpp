@@ -1,7 +1,7 @@
 #pragma once
 
+#include "telltale/core/base/result.hpp"
 #include "telltale/core/identification/identification.hpp"
-#include "telltale/core/result.hpp"
 #include "telltale/core/uncertainty/wald.hpp"
 
 namespace telltale {
@@ -17,16 +17,16 @@ namespace telltale {
 /// velocities, cancels only where they were recorded and prepared alike.
 /// Refuses when: structure, parameterization, estimator, sampling period or dead zone differ, since
 /// coefficients then mean different things; or as TestEquality().
-Result<WaldTest> Compare(const Identification& first, const Identification& second);
+Result<WaldTest> TestForChange(const Identification& first, const Identification& second);
 
-/// Whether coefficients of the two mean the same: what Compare() asks first.
-bool MadeAlike(const Identification& first, const Identification& second);
+/// Whether coefficients of the two mean the same: what TestForChange() asks first.
+bool AreComparable(const Identification& first, const Identification& second);
 
 /// Whether, by one clock, some of the data behind one may be behind the other too.
 bool WindowsOverlap(const Identification& first, const Identification& second);
 
-/// Compare() in words and with a verdict at kSignificantChange: every coefficient both know, the
-/// most significant first. Refuses as Compare().
+/// TestForChange() in words and with a verdict at kSignificantChange: every coefficient both know,
+/// the most significant first. Refuses as TestForChange().
 Result<ModelChange> ChangeBetween(const Identification& earlier, const Identification& later);
 
 }  // namespace telltale

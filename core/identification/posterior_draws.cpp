@@ -4,10 +4,10 @@
 
 #include <boost/random/normal_distribution.hpp>
 
-#include "telltale/core/contract.hpp"
-#include "telltale/core/linear_algebra/covariance.hpp"
-#include "telltale/core/linear_algebra/decompositions.hpp"
-#include "telltale/core/random.hpp"
+#include "telltale/core/base/contract.hpp"
+#include "telltale/core/base/linear_algebra/covariance.hpp"
+#include "telltale/core/base/linear_algebra/eigen_decompositions.hpp"
+#include "telltale/core/base/random.hpp"
 
 namespace telltale {
 namespace {

@@ -6,8 +6,8 @@
 
 #include <Eigen/Core>
 
+#include "telltale/core/base/result.hpp"
 #include "telltale/core/identification/identification.hpp"
-#include "telltale/core/result.hpp"
 
 namespace telltale {
 

@@ -24,10 +24,10 @@ void ForSomeRuns(const PreparedDataset& dataset, const VesselModel& model, doubl
 ThrustHistory FollowThrust(const PreparedDataset& dataset, const VesselModel& model) {
   ThrustHistory history(dataset.rows.size());
   if (model.structure == Structure::kStaticQuadratic) return history;
-  for (const RowRange& stretch : dataset.stretches) {
-    if (stretch.size() == 0) continue;
-    history[stretch.begin] = model.SteadyThrust(dataset.rows[stretch.begin].delta);
-    for (std::size_t k = stretch.begin; k + 1 < stretch.end; ++k) {
+  for (const RowRange& segment : dataset.segments) {
+    if (segment.size() == 0) continue;
+    history[segment.begin] = model.SteadyThrust(dataset.rows[segment.begin].delta);
+    for (std::size_t k = segment.begin; k + 1 < segment.end; ++k) {
       history[k + 1] =
           model.ThrustAfter(history[k], dataset.rows[k].delta, dataset.sampling_period_s);
     }
@@ -47,7 +47,7 @@ std::vector<VesselState> RunFreely(const PreparedDataset& dataset, const VesselM
   return states;
 }
 
-Nu RunawayLimits(const Nu& fastest) {
+Nu DivergenceLimits(const Nu& fastest) {
   constexpr double kTimes = 2.0;
   constexpr double kAtLeast = 0.5;  // m/s, rad/s
   return {std::max(kTimes * fastest.u, kAtLeast), std::max(kTimes * fastest.v, kAtLeast),
@@ -60,26 +60,27 @@ bool Within(const Nu& nu, const Nu& limits) {
 
 std::vector<std::size_t> FreeRunStarts(const PreparedDataset& dataset, std::size_t steps) {
   std::vector<std::size_t> firsts;
-  for (const RowRange& stretch : dataset.stretches) {
-    for (std::size_t k = stretch.begin; k + steps < stretch.end; k += steps) firsts.push_back(k);
+  for (const RowRange& segment : dataset.segments) {
+    for (std::size_t k = segment.begin; k + steps < segment.end; k += steps) firsts.push_back(k);
   }
   return firsts;
 }
 
-Runaways CountRunaways(const PreparedDataset& dataset, const VesselModel& model, double horizon_s) {
-  const Nu limits = RunawayLimits(FastestOf(dataset));
-  Runaways count;
+DivergenceCount CountDivergences(const PreparedDataset& dataset, const VesselModel& model,
+                                 double horizon_s) {
+  const Nu limits = DivergenceLimits(FastestOf(dataset));
+  DivergenceCount count;
   ForSomeRuns(dataset, model, horizon_s, [&](std::size_t, const auto& states) {
     ++count.runs;
     if (!std::all_of(states.begin(), states.end(),
                      [&](const VesselState& state) { return Within(state.nu, limits); })) {
-      ++count.runaways;
+      ++count.diverged;
     }
   });
   return count;
 }
 
-double FreeRunMiss(const PreparedDataset& dataset, const VesselModel& model, double horizon_s) {
+double FreeRunError(const PreparedDataset& dataset, const VesselModel& model, double horizon_s) {
   constexpr double kMost = 2.0;
   const Nu fastest = FastestOf(dataset);
   const auto square = [&](double off, double unit) {

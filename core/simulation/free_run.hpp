@@ -15,37 +15,38 @@ namespace telltale {
 /// static structure.
 using ThrustHistory = std::vector<ThrustRegressors>;
 
-/// A stretch is taken to begin in steady thrust; a wrong guess decays with the thruster's time
+/// A segment is taken to begin in steady thrust; a wrong guess decays with the thruster's time
 /// constant.
 ThrustHistory FollowThrust(const PreparedDataset& dataset, const VesselModel& model);
 
 /// The states of a model that starts from what row `first` measured and is fed commands alone, at
 /// that row and the `steps` that follow it.
-/// Requires: steps rows after the first in its stretch.
+/// Requires: steps rows after the first in its segment.
 std::vector<VesselState> RunFreely(const PreparedDataset& dataset, const VesselModel& model,
                                    const ThrustHistory& thrust, std::size_t first,
                                    std::size_t steps);
 
-/// The first rows of all runs of `steps` inside stretches, one after the other: each begins where
+/// The first rows of all runs of `steps` inside segments, one after the other: each begins where
 /// the one before it ends.
 std::vector<std::size_t> FreeRunStarts(const PreparedDataset& dataset, std::size_t steps);
 
 /// Velocities beyond which the simulation of a boat that was measured at most `fastest` has run
-/// away: twice those, and at least half a metre or radian a second; docs/model.md (18a).
-Nu RunawayLimits(const Nu& fastest);
+/// away: twice those, and at least half a metre or radian a second; docs/concepts/model.md (18a).
+Nu DivergenceLimits(const Nu& fastest);
 bool Within(const Nu& nu, const Nu& limits);
 
-/// Free runs over a dataset, and those of them that left what RunawayLimits allow.
-struct Runaways {
+/// Free runs over a dataset, and those of them that left what DivergenceLimits allow.
+struct DivergenceCount {
   std::size_t runs = 0;
-  std::size_t runaways = 0;
+  std::size_t diverged = 0;
 };
 
 /// Runs of `horizon_s` from FreeRunStarts; of many, some sixty spread evenly.
-Runaways CountRunaways(const PreparedDataset& dataset, const VesselModel& model, double horizon_s);
+DivergenceCount CountDivergences(const PreparedDataset& dataset, const VesselModel& model,
+                                 double horizon_s);
 
 /// Root mean square by which the same runs miss the measured velocities: each in units of the
 /// fastest of its kind that was measured, and no miss by more than two of these.
-double FreeRunMiss(const PreparedDataset& dataset, const VesselModel& model, double horizon_s);
+double FreeRunError(const PreparedDataset& dataset, const VesselModel& model, double horizon_s);
 
 }  // namespace telltale

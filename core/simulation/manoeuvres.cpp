@@ -5,8 +5,8 @@
 
 #include <boost/random/uniform_real_distribution.hpp>
 
-#include "telltale/core/contract.hpp"
-#include "telltale/core/random.hpp"
+#include "telltale/core/base/contract.hpp"
+#include "telltale/core/base/random.hpp"
 
 namespace telltale {
 namespace {

@@ -80,8 +80,8 @@ inline constexpr double kSampleMissionDurationS = 600.0;
 
 /// Ten minutes that excite every coefficient of the Yellowfish twin: all of FF, FR and RF and a
 /// little RR, fast steps and slow ones, both sides alike. The twin's straight course is unstable at
-/// low speed and its spins run away near full command (docs/twin.md), so straights and circles are
-/// short and spins stay moderate.
+/// low speed and its spins run away near full command (docs/reference/yellowfish-twin.md), so
+/// straights and circles are short and spins stay moderate.
 std::vector<TimedCommand> SampleMission(std::uint64_t seed);
 
 }  // namespace telltale

@@ -4,10 +4,10 @@
 #include <cmath>
 #include <numbers>
 
-#include "telltale/core/contract.hpp"
-#include "telltale/core/data/north_east.hpp"
+#include "telltale/core/base/contract.hpp"
+#include "telltale/core/base/gauss_markov.hpp"
+#include "telltale/core/data/north_east_frame.hpp"
 #include "telltale/core/data/time_series.hpp"
-#include "telltale/core/gauss_markov.hpp"
 
 namespace telltale {
 namespace {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "telltale/core/contract.hpp"
+#include "telltale/core/base/contract.hpp"
 
 namespace telltale {
 namespace {

@@ -6,11 +6,11 @@
 
 #include <Eigen/Core>
 
-#include "telltale/core/contract.hpp"
-#include "telltale/core/parallel.hpp"
-#include "telltale/core/random.hpp"
+#include "telltale/core/base/contract.hpp"
+#include "telltale/core/base/parallel.hpp"
+#include "telltale/core/base/random.hpp"
 #include "telltale/core/uncertainty/block_length.hpp"
-#include "telltale/core/uncertainty/packed_normal.hpp"
+#include "telltale/core/uncertainty/packed_normal_equations.hpp"
 #include "telltale/core/uncertainty/resampling_units.hpp"
 #include "telltale/core/uncertainty/timeline.hpp"
 
@@ -113,7 +113,7 @@ class BatchFit {
     Eigen::MatrixXd scores = Eigen::MatrixXd::Zero(sums_.rows(), sums_.cols());
     std::vector<double> score(Unknowns() + 1, 0.0);
     ForEachDrawn(units, draws, [&](const Unit& unit, Eigen::Index i, double times) {
-      Remainder(unit.system, Unknowns(), x_.col(i).data(), score.data());
+      ScoreAt(unit.system, Unknowns(), x_.col(i).data(), score.data());
       AddRow(score.data(), Unknowns(), times, scores.col(i).data());
     });
     Eigen::MatrixXd errors = Eigen::MatrixXd::Zero(fit_.theta.size(), sums_.cols());
@@ -150,7 +150,7 @@ Eigen::VectorXd StandardErrors(const ClusteredFit& fit, const Units& units, cons
   const double draws_per_ticket =
       static_cast<double>(plan.draws) / static_cast<double>(plan.tickets.size());
   units.ForEach([&](const Unit& unit) {
-    Remainder(unit.system, r, at_estimate.data(), score.data());
+    ScoreAt(unit.system, r, at_estimate.data(), score.data());
     AddRow(score.data(), r, unit.tickets * draws_per_ticket, scores.data());
   });
   return SandwichErrors(fit.basis.transpose(), scores.data());
@@ -285,13 +285,13 @@ BootstrapReplicates Replicate(const std::vector<ClusteredFit>& fits,
 
 BootstrapReplicates BootstrapSegments(const std::vector<ClusteredFit>& fits,
                                       const BootstrapOptions& options) {
-  const std::size_t segments = fits.front().clusters.size();
-  std::vector<SegmentUnits> units;
+  const std::size_t slices = fits.front().clusters.size();
+  std::vector<SliceUnits> units;
   for (const ClusteredFit& fit : fits) {
-    Require(fit.clusters.size() == segments, "the same segments in every fit");
+    Require(fit.clusters.size() == slices, "the same slices in every fit");
     units.emplace_back(fit);
   }
-  return Replicate(fits, units, PlanSegments(segments), options);
+  return Replicate(fits, units, PlanSlices(slices), options);
 }
 
 std::size_t LengthFromData(const std::vector<ClusteredFit>& fits, const Timeline& timeline) {
@@ -320,7 +320,7 @@ BootstrapReplicates BootstrapBlocks(const std::vector<ClusteredFit>& fits,
 
 std::string_view Name(Resampling resampling) {
   switch (resampling) {
-    case Resampling::kSegments: return "SEGMENTS";
+    case Resampling::kSlices: return "SEGMENTS";
     case Resampling::kMovingBlocks: return "MOVING_BLOCKS";
     case Resampling::kParametric: return "PARAMETRIC";
     case Resampling::kUnknown: break;

@@ -11,11 +11,11 @@
 
 namespace telltale {
 
-/// What a replicate redraws. kSegments: whole segments, which stand for independent manoeuvres.
+/// What a replicate redraws. kSlices: whole slices, which stand for independent manoeuvres.
 /// kMovingBlocks: blocks of consecutive instants, for residuals that stay coloured for far shorter
-/// than a segment lasts, or segments too few to be drawn. kParametric: nothing; the data set is
+/// than a slice lasts, or slices too few to be drawn. kParametric: nothing; the data set is
 /// simulated anew (SimulateReplicates), which shows the bias of the estimator too.
-enum class Resampling { kUnknown, kSegments, kMovingBlocks, kParametric };
+enum class Resampling { kUnknown, kSlices, kMovingBlocks, kParametric };
 
 std::string_view Name(Resampling resampling);
 
@@ -23,7 +23,7 @@ struct BootstrapOptions {
   std::size_t replicates = 1000;  ///< [100, 100000]
   std::uint64_t seed = 1;
   std::size_t threads = 1;  ///< [1, 256]
-  Resampling resampling = Resampling::kSegments;
+  Resampling resampling = Resampling::kSlices;
   IntervalMethod interval = IntervalMethod::kPercentile;  ///< what the replicates are to serve
   std::size_t block_length = 0;  ///< of moving blocks, instants; 0: chosen from the data
 };
@@ -35,7 +35,7 @@ struct BootstrapReplicates {
   Eigen::MatrixXd theta;
   std::size_t failures = 0;  ///< draws whose normal equations were singular, left out
   Eigen::VectorXd estimate;
-  std::size_t block_length = 0;  ///< instants; 0 for segments
+  std::size_t block_length = 0;  ///< instants; 0 for slices
   std::size_t draws = 0;         ///< units drawn for each replicate
   Eigen::VectorXd standard_error;
   Eigen::MatrixXd standard_errors;
@@ -44,20 +44,20 @@ struct BootstrapReplicates {
 
 /// Each replicate draws as many units of rows as cover the data once, with replacement, the same
 /// draw for every fit, so that covariances between equations come with it.
-/// Units: segments (the pairs cluster bootstrap), or circular blocks of a common length inside each
+/// Units: slices (the pairs cluster bootstrap), or circular blocks of a common length inside each
 /// run of instants without a gap, that length from BlockLength() of the influence of each instant
 /// on each coefficient. A run shorter than a block is drawn whole, and as often as its instants
 /// need, so each instant is drawn once on average.
 /// Method: a unit is only its normal equations W_u'W_u x = W_u'e_u; a replicate adds those drawn
 /// and solves an r x r system near the identity, theta* = theta + basis x. Its standard errors, for
 /// studentized intervals, are those of the cluster covariance of its own units, scores W_u'e_u -
-/// W_u'W_u x. The acceleration, for BCa, comes from leaving out one segment at a time, or one of
+/// W_u'W_u x. The acceleration, for BCa, comes from leaving out one slice at a time, or one of
 /// the blocks laid end to end. For a linearised fit a replicate is one Gauss-Newton step from the
 /// solution.
 /// Cost: O(n r^2) once for a batch of some hundred replicates, and O(draws r^2 + r^3) each.
 /// Determinism: replicate i has a random engine of its own, so the result does not depend on
 /// threads.
-/// Requires: segments or blocks; at least one fit; for segments all with the same number of
+/// Requires: slices or blocks; at least one fit; for slices all with the same number of
 /// clusters, at least one; for blocks the instants of all rows.
 /// Source: Cameron, Gelbach, Miller, "Bootstrap-based improvements for inference with clustered
 /// errors", Review of Economics and Statistics 90 (2008); Politis, Romano, "A circular

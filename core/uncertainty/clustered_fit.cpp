@@ -2,10 +2,10 @@
 
 #include <limits>
 
-#include "telltale/core/estimation/excitation.hpp"
-#include "telltale/core/estimation/triangular_factor.hpp"
-#include "telltale/core/linear_algebra/covariance.hpp"
-#include "telltale/core/linear_algebra/decompositions.hpp"
+#include "telltale/core/base/linear_algebra/covariance.hpp"
+#include "telltale/core/base/linear_algebra/eigen_decompositions.hpp"
+#include "telltale/core/estimation/regression/excitation.hpp"
+#include "telltale/core/estimation/regression/triangular_factor.hpp"
 
 namespace telltale {
 namespace {

@@ -5,17 +5,17 @@
 #include <Eigen/Core>
 
 #include "telltale/core/data/prepared_dataset.hpp"
-#include "telltale/core/estimation/lagged_regression.hpp"
-#include "telltale/core/estimation/one_step.hpp"
-#include "telltale/core/estimation/regression_problem.hpp"
+#include "telltale/core/estimation/regression/lagged_regression.hpp"
+#include "telltale/core/estimation/regression/one_step.hpp"
+#include "telltale/core/estimation/regression/regression_problem.hpp"
 
 namespace telltale {
 
-/// A least-squares fit whose rows come in segments, linear or linearised about its solution: all
+/// A least-squares fit whose rows come in slices, linear or linearised about its solution: all
 /// that bounds are made from. Shapes: W n x r has orthonormal columns, W = Phi basis with basis p x
-/// r; residual, instants n; theta, estimable p. clusters[s] is the range of rows that segment s
+/// r; residual, instants n; theta, estimable p. clusters[s] is the range of rows that slice s
 /// gave, possibly empty; instants[i] is the place in time of row i, which other rows of the same
-/// instant share: consecutive rows of a gap-free stretch count up by one, and a gap skips at least
+/// instant share: consecutive rows of a gap-free segment count up by one, and a gap skips at least
 /// one. Only moving blocks need the instants.
 struct ClusteredFit {
   Eigen::MatrixXd W;

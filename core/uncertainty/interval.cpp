@@ -6,8 +6,8 @@
 #include <numeric>
 #include <vector>
 
-#include "telltale/core/contract.hpp"
-#include "telltale/core/uncertainty/laws.hpp"
+#include "telltale/core/base/contract.hpp"
+#include "telltale/core/uncertainty/distributions.hpp"
 
 namespace telltale {
 namespace {
@@ -42,7 +42,7 @@ double CorrectedShare(double share, double bias, double acceleration) {
   const double deviate = bias + NormalQuantile(share);
   const double stretch = 1.0 - acceleration * deviate;
   if (stretch <= 0.0) return deviate > 0.0 ? 1.0 : 0.0;
-  return NormalShareBelow(bias + deviate / stretch);
+  return NormalCdf(bias + deviate / stretch);
 }
 
 }  // namespace

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "telltale/core/contract.hpp"
-#include "telltale/core/uncertainty/laws.hpp"
+#include "telltale/core/base/contract.hpp"
+#include "telltale/core/uncertainty/distributions.hpp"
 
 namespace telltale {
 

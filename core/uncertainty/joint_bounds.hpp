@@ -10,7 +10,7 @@ namespace telltale {
 ///   covariance for joint statements = covariance_factor * covariance,
 /// and with the probability `level` the truth of q unknowns together lies where
 ///   off' (covariance_factor * covariance)^-1 off <= q JointQuantile(degrees_of_freedom, q, level).
-/// docs/model.md (35).
+/// docs/concepts/model.md (35).
 struct JointBounds {
   double covariance_factor = 1.0;
   double degrees_of_freedom = 0.0;  ///< independent clusters behind the covariance, less one

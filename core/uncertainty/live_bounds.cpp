@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "telltale/core/contract.hpp"
+#include "telltale/core/base/contract.hpp"
 
 namespace telltale {
 namespace {

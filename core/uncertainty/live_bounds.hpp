@@ -4,20 +4,19 @@
 #include <optional>
 #include <vector>
 
+#include "telltale/core/base/result.hpp"
 #include "telltale/core/data/prepared_dataset.hpp"
-#include "telltale/core/estimation/regression_problem.hpp"
-#include "telltale/core/estimation/sliding_regression.hpp"
-#include "telltale/core/result.hpp"
-#include "telltale/core/vessel/structure.hpp"
+#include "telltale/core/estimation/regression/regression_problem.hpp"
+#include "telltale/core/estimation/regression/sliding_regression.hpp"
+#include "telltale/core/vessel/model_structure.hpp"
 
 namespace telltale {
 
 /// The one-step regressions of one vehicle, kept up to date row by row: estimates with error bars
 /// as a stream. Indicative only: they share the attenuation of one-step least squares by noisy
-/// velocities (docs/model.md, Limits), remember residuals for a fixed number of lags, and are not
-/// to be read as 95 % of anything.
-/// Static structure; rows enter the equations as in BuildRegression. Cost of a row: O(lags p^2) an
-/// equation.
+/// velocities (docs/concepts/model.md, Limits), remember residuals for a fixed number of lags, and
+/// are not to be read as 95 % of anything. Static structure; rows enter the equations as in
+/// BuildRegression. Cost of a row: O(lags p^2) an equation.
 class LiveBounds {
  public:
   /// Requires: the static structure, a known parameterization, a positive sampling period, sliding

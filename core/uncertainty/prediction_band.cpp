@@ -5,8 +5,8 @@
 #include <cmath>
 #include <limits>
 
-#include "telltale/core/contract.hpp"
-#include "telltale/core/gauss_markov.hpp"
+#include "telltale/core/base/contract.hpp"
+#include "telltale/core/base/gauss_markov.hpp"
 #include "telltale/core/vessel/body_dynamics.hpp"
 
 namespace telltale {
@@ -17,7 +17,7 @@ Eigen::Matrix3Xd Run(const VesselModel& model, const VesselState& start,
                      const std::vector<TimedCommand>& commands, const Disturbance& disturbance,
                      std::size_t steps, double step_s, std::uint64_t seed, double beyond) {
   const BodyDynamics dynamics(model);
-  auto pushed = DrawAxes(disturbance, step_s, seed, 0);
+  auto disturbance_axes = DrawDisturbances(disturbance, step_s, seed, 0);
   Eigen::Matrix3Xd run = Eigen::Matrix3Xd::Constant(3, static_cast<Eigen::Index>(steps), beyond);
   Nu nu = start.nu;
   ThrustRegressors thrust = start.thrust;
@@ -27,9 +27,10 @@ Eigen::Matrix3Xd Run(const VesselModel& model, const VesselState& start,
     while (held + 1 != commands.end() && (held + 1)->time_s <= time_s + 1e-6) ++held;
     const NuDot propelled = dynamics.Propelled(model.MeanThrust(thrust, held->delta, step_s));
     thrust = model.ThrustAfter(thrust, held->delta, step_s);
-    nu = dynamics.Step({propelled.u + pushed[0].Next(), propelled.v + pushed[1].Next(),
-                        propelled.r + pushed[2].Next()},
-                       nu, step_s);
+    nu = dynamics.Step(
+        {propelled.u + disturbance_axes[0].Next(), propelled.v + disturbance_axes[1].Next(),
+         propelled.r + disturbance_axes[2].Next()},
+        nu, step_s);
     if (!std::isfinite(nu.u + nu.v + nu.r)) break;
     run.col(static_cast<Eigen::Index>(k)) << nu.u, nu.v, nu.r;
   }

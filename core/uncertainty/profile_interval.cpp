@@ -7,7 +7,7 @@
 
 #include <boost/math/tools/toms748_solve.hpp>
 
-#include "telltale/core/contract.hpp"
+#include "telltale/core/base/contract.hpp"
 
 namespace telltale {
 namespace {
@@ -49,7 +49,7 @@ Interval ProfileInterval(const std::function<double(double)>& deviance, const Pr
   return {level, End(deviance, search, threshold, -1.0), End(deviance, search, threshold, 1.0)};
 }
 
-double Lopsidedness(const Interval& interval, double estimate) {
+double Asymmetry(const Interval& interval, double estimate) {
   const double below = estimate - interval.lower;
   const double above = interval.upper - estimate;
   const double shorter = std::min(below, above);

@@ -4,17 +4,17 @@
 #include <cmath>
 #include <numeric>
 
-#include "telltale/core/contract.hpp"
+#include "telltale/core/base/contract.hpp"
 
 namespace telltale {
 
-DrawPlan PlanSegments(std::size_t segments) {
-  Require(segments > 0, "at least one segment");
+DrawPlan PlanSlices(std::size_t slices) {
+  Require(slices > 0, "at least one segment");
   DrawPlan plan;
-  plan.tickets.resize(segments);
+  plan.tickets.resize(slices);
   std::iota(plan.tickets.begin(), plan.tickets.end(), 0u);
-  plan.units = segments;
-  plan.draws = segments;
+  plan.units = slices;
+  plan.draws = slices;
   return plan;
 }
 
@@ -33,7 +33,7 @@ DrawPlan PlanBlocks(const Timeline& timeline, std::size_t length) {
   return plan;
 }
 
-SegmentUnits::SegmentUnits(const ClusteredFit& fit) {
+SliceUnits::SliceUnits(const ClusteredFit& fit) {
   const auto r = static_cast<std::size_t>(fit.W.cols());
   systems_ = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(PackedLength(r)),
                                    static_cast<Eigen::Index>(fit.clusters.size()));

@@ -8,7 +8,7 @@
 #include <Eigen/Core>
 
 #include "telltale/core/uncertainty/clustered_fit.hpp"
-#include "telltale/core/uncertainty/packed_normal.hpp"
+#include "telltale/core/uncertainty/packed_normal_equations.hpp"
 #include "telltale/core/uncertainty/timeline.hpp"
 
 namespace telltale {
@@ -21,8 +21,8 @@ struct DrawPlan {
   std::size_t draws = 0;
 };
 
-/// Segments: as many draws as segments, each equally likely.
-DrawPlan PlanSegments(std::size_t segments);
+/// Segments: as many draws as slices, each equally likely.
+DrawPlan PlanSlices(std::size_t slices);
 
 /// Circular blocks of `length` instants inside each run, one starting at every instant. A run no
 /// longer than that is a block of its own, drawn as often as its instants need.
@@ -38,9 +38,9 @@ struct Unit {
 };
 
 /// Segments of a fit: their systems are formed once.
-class SegmentUnits {
+class SliceUnits {
  public:
-  explicit SegmentUnits(const ClusteredFit& fit);
+  explicit SliceUnits(const ClusteredFit& fit);
 
   template <class Visit>
   void ForEach(const Visit& visit) const {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
-#include "telltale/core/contract.hpp"
+#include "telltale/core/base/contract.hpp"
 
 namespace telltale {
 namespace {

@@ -6,10 +6,10 @@
 #include <numeric>
 #include <string>
 
-#include "telltale/core/contract.hpp"
-#include "telltale/core/linear_algebra/covariance.hpp"
-#include "telltale/core/linear_algebra/decompositions.hpp"
-#include "telltale/core/uncertainty/laws.hpp"
+#include "telltale/core/base/contract.hpp"
+#include "telltale/core/base/linear_algebra/covariance.hpp"
+#include "telltale/core/base/linear_algebra/eigen_decompositions.hpp"
+#include "telltale/core/uncertainty/distributions.hpp"
 
 namespace telltale {
 namespace {
@@ -130,16 +130,17 @@ Result<WaldTest> TestEquality(const Estimates& first, const Estimates& second) {
   WaldTest test;
   test.statistic = whitened.squaredNorm();
   test.degrees_of_freedom = static_cast<std::size_t>(whitened.size());
-  test.segment_degrees_of_freedom = JointDegrees(one, other, whitening);
-  if (test.segment_degrees_of_freedom < q + 1.0) {
-    return Refuse(
-        "comparison",
-        "segments count for " + std::to_string(static_cast<int>(test.segment_degrees_of_freedom)) +
-            " degrees of freedom, and more than " + std::to_string(test.degrees_of_freedom) +
-            " are needed to compare as many coefficients",
-        "record more segments, or compare fewer coefficients");
+  test.covariance_degrees_of_freedom = JointDegrees(one, other, whitening);
+  if (test.covariance_degrees_of_freedom < q + 1.0) {
+    return Refuse("comparison",
+                  "segments count for " +
+                      std::to_string(static_cast<int>(test.covariance_degrees_of_freedom)) +
+                      " degrees of freedom, and more than " +
+                      std::to_string(test.degrees_of_freedom) +
+                      " are needed to compare as many coefficients",
+                  "record more segments, or compare fewer coefficients");
   }
-  test.p_value = JointPValue(test.statistic, q, test.segment_degrees_of_freedom);
+  test.p_value = JointPValue(test.statistic, q, test.covariance_degrees_of_freedom);
 
   const std::vector<Eigen::Index> order = BySize(scaled);
   for (const Eigen::Index i : order) {

@@ -5,7 +5,7 @@
 
 #include <Eigen/Core>
 
-#include "telltale/core/result.hpp"
+#include "telltale/core/base/result.hpp"
 
 namespace telltale {
 
@@ -29,10 +29,10 @@ struct CoefficientDifference {
 
 /// Shapes: differences, combination one entry for each coefficient compared.
 struct WaldTest {
-  double statistic = 0.0;                   ///< d' V^+ d
-  std::size_t degrees_of_freedom = 0;       ///< rank of V
-  double segment_degrees_of_freedom = 0.0;  ///< of V itself; infinite where it counts as known
-  double p_value = 1.0;                     ///< that models of one boat differ this much
+  double statistic = 0.0;                      ///< d' V^+ d
+  std::size_t degrees_of_freedom = 0;          ///< rank of V
+  double covariance_degrees_of_freedom = 0.0;  ///< of V itself; infinite where it counts as known
+  double p_value = 1.0;                        ///< that models of one boat differ this much
   std::vector<CoefficientDifference> differences;  ///< the most significant first
   /// The combination sum_i combination[i] d_i that differs most, |.| in its own standard errors
   /// being sqrt(statistic): weights in the order of `differences`, each for a difference in units

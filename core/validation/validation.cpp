@@ -76,19 +76,19 @@ void Add(SumsByVelocity& sums, const Nu& truth, const Nu& predicted) {
 std::array<OneStepScore, 3> ScoreOneStep(const PreparedDataset& dataset, const VesselModel& model,
                                          const ThrustHistory& thrust) {
   SumsByVelocity of_model;
-  SumsByVelocity of_persistence;
-  for (const RowRange& stretch : dataset.stretches) {
-    for (std::size_t k = stretch.begin; k + 1 < stretch.end; ++k) {
+  SumsByVelocity of_constant_velocity;
+  for (const RowRange& segment : dataset.segments) {
+    for (std::size_t k = segment.begin; k + 1 < segment.end; ++k) {
       const PreparedRow& now = dataset.rows[k];
       const Nu& next = dataset.rows[k + 1].nu;
       Add(of_model, next,
           Advance(model, Measured(now, thrust[k]), now.delta, dataset.sampling_period_s).nu);
-      Add(of_persistence, next, now.nu);
+      Add(of_constant_velocity, next, now.nu);
     }
   }
   std::array<OneStepScore, 3> scores;
   for (std::size_t j = 0; j < scores.size(); ++j) {
-    scores[j] = {of_model[j].R2(), of_model[j].Mae(), of_persistence[j].R2()};
+    scores[j] = {of_model[j].R2(), of_model[j].Mae(), of_constant_velocity[j].R2()};
   }
   return scores;
 }
@@ -96,7 +96,7 @@ std::array<OneStepScore, 3> ScoreOneStep(const PreparedDataset& dataset, const V
 // Everything the free runs of one horizon have summed up.
 struct FreeRunSums {
   SumsByVelocity of_model;
-  SumsByVelocity of_persistence;
+  SumsByVelocity of_constant_velocity;
   double squared_distance_m2 = 0.0;
   std::size_t windows = 0;
 };
@@ -113,7 +113,7 @@ void AddRun(const PreparedDataset& dataset, const std::vector<Predicted>& run, s
             FreeRunSums& sums) {
   for (std::size_t k = 1; k < run.size(); ++k) {
     Add(sums.of_model, dataset.rows[first + k].nu, run[k].nu);
-    Add(sums.of_persistence, dataset.rows[first + k].nu, dataset.rows[first].nu);
+    Add(sums.of_constant_velocity, dataset.rows[first + k].nu, dataset.rows[first].nu);
   }
   sums.squared_distance_m2 +=
       SquaredDistance(dataset.rows[first + run.size() - 1].eta, run.back().eta);
@@ -128,7 +128,7 @@ FreeRunScores ScoresOf(const FreeRunSums& sums, const PreparedDataset& dataset, 
   const Velocity noise = ToArray(dataset.nu_noise);
   for (std::size_t j = 0; j < scores.velocity.size(); ++j) {
     scores.velocity[j] = {sums.of_model[j].Rmse(), sums.of_model[j].Mae(), sums.of_model[j].R2(),
-                          sums.of_persistence[j].Rmse(), noise[j]};
+                          sums.of_constant_velocity[j].Rmse(), noise[j]};
   }
   scores.position_rmse_m = std::sqrt(sums.squared_distance_m2 / static_cast<double>(sums.windows));
   return scores;
@@ -145,9 +145,9 @@ FreeRunScores ScoreFreeRuns(const PreparedDataset& dataset, const VesselModel& m
 }
 
 /// A model with effects, sailed along a dataset from measured states.
-class AugmentedSailing {
+class AugmentedFreeRuns {
  public:
-  AugmentedSailing(const PreparedDataset& dataset, const AugmentedModel& model)
+  AugmentedFreeRuns(const PreparedDataset& dataset, const AugmentedModel& model)
       : dataset_(dataset),
         boat_(model, dataset.StartTime(), std::max(dataset.EndTime() - dataset.StartTime(), 1.0)),
         steps_(StepsPerRow(model.model, dataset.sampling_period_s)),
@@ -156,25 +156,25 @@ class AugmentedSailing {
   /// Calls visit(first row, predicted rows from it on) for every run of `rows` periods.
   template <class Visit>
   void RunAll(std::size_t rows, Visit visit) const {
-    for (std::size_t s = 0; s < dataset_.stretches.size(); ++s) {
-      const RowRange& stretch = dataset_.stretches[s];
-      if (stretch.size() < 2) continue;
-      const double start_s = dataset_.rows[stretch.begin].time_s;
+    for (std::size_t s = 0; s < dataset_.segments.size(); ++s) {
+      const RowRange& segment = dataset_.segments[s];
+      if (segment.size() < 2) continue;
+      const double start_s = dataset_.rows[segment.begin].time_s;
       const auto drives =
-          boat_.DriveAlong(dataset_.commands[s], start_s, step_s_, stretch.size() * steps_);
-      for (std::size_t k = stretch.begin; k + rows < stretch.end; k += rows) {
-        visit(k, Run(stretch, k, rows, drives));
+          boat_.DrivesAlong(dataset_.commands[s], start_s, step_s_, segment.size() * steps_);
+      for (std::size_t k = segment.begin; k + rows < segment.end; k += rows) {
+        visit(k, Run(segment, k, rows, drives));
       }
     }
   }
 
  private:
-  std::vector<PreparedRow> Run(const RowRange& stretch, std::size_t first, std::size_t rows,
+  std::vector<PreparedRow> Run(const RowRange& segment, std::size_t first, std::size_t rows,
                                const std::vector<Drive>& drives) const {
     const double from_s = dataset_.rows[first].time_s;
-    const auto ahead = std::span(drives).subspan((first - stretch.begin) * steps_, rows * steps_);
+    const auto ahead = std::span(drives).subspan((first - segment.begin) * steps_, rows * steps_);
     const std::vector<Pose> track =
-        boat_.Sail(TrueStart(dataset_, stretch, from_s, boat_), ahead, from_s, step_s_);
+        boat_.Simulate(TrueStart(dataset_, segment, from_s, boat_), ahead, from_s, step_s_);
     std::vector<PreparedRow> predicted;
     for (std::size_t k = 0; k <= rows; ++k) {
       const Pose& now = track[k * steps_];
@@ -195,10 +195,10 @@ class AugmentedSailing {
   double step_s_;
 };
 
-std::optional<Refusal> Unanswerable(const PreparedDataset& dataset, const VesselModel& model,
-                                    const ValidationOptions& options) {
-  const bool has_pair = std::any_of(dataset.stretches.begin(), dataset.stretches.end(),
-                                    [](const RowRange& stretch) { return stretch.size() >= 2; });
+std::optional<Refusal> RefuseUnanswerable(const PreparedDataset& dataset, const VesselModel& model,
+                                          const ValidationOptions& options) {
+  const bool has_pair = std::any_of(dataset.segments.begin(), dataset.segments.end(),
+                                    [](const RowRange& segment) { return segment.size() >= 2; });
   if (!has_pair) {
     return Refusal{"validation", "no two consecutive rows without a gap between them",
                    "record at least a few seconds of position, heading and thruster commands"};
@@ -224,7 +224,7 @@ std::optional<Refusal> Unanswerable(const PreparedDataset& dataset, const Vessel
 
 Result<Metrics> Validate(const PreparedDataset& dataset, const VesselModel& model,
                          const ValidationOptions& options) {
-  if (auto refusal = Unanswerable(dataset, model, options)) {
+  if (auto refusal = RefuseUnanswerable(dataset, model, options)) {
     return tl::unexpected<Refusal>(*std::move(refusal));
   }
   Metrics metrics;
@@ -239,24 +239,24 @@ Result<Metrics> Validate(const PreparedDataset& dataset, const VesselModel& mode
 Result<Metrics> Validate(const PreparedDataset& dataset, const AugmentedModel& model,
                          const ValidationOptions& options) {
   if (model.effects.empty()) return Validate(dataset, model.model, options);
-  if (auto refusal = Unanswerable(dataset, model.model, options)) {
+  if (auto refusal = RefuseUnanswerable(dataset, model.model, options)) {
     return tl::unexpected<Refusal>(*std::move(refusal));
   }
-  const AugmentedSailing sailing(dataset, model);
+  const AugmentedFreeRuns free_runs(dataset, model);
   Metrics metrics;
   SumsByVelocity of_model;
-  SumsByVelocity of_persistence;
-  sailing.RunAll(1, [&](std::size_t first, const std::vector<PreparedRow>& predicted) {
+  SumsByVelocity of_constant_velocity;
+  free_runs.RunAll(1, [&](std::size_t first, const std::vector<PreparedRow>& predicted) {
     Add(of_model, dataset.rows[first + 1].nu, predicted[1].nu);
-    Add(of_persistence, dataset.rows[first + 1].nu, dataset.rows[first].nu);
+    Add(of_constant_velocity, dataset.rows[first + 1].nu, dataset.rows[first].nu);
   });
   for (std::size_t j = 0; j < metrics.one_step.size(); ++j) {
-    metrics.one_step[j] = {of_model[j].R2(), of_model[j].Mae(), of_persistence[j].R2()};
+    metrics.one_step[j] = {of_model[j].R2(), of_model[j].Mae(), of_constant_velocity[j].R2()};
   }
   for (const double horizon_s : options.horizons_s) {
     const auto steps = static_cast<std::size_t>(std::lround(horizon_s / dataset.sampling_period_s));
     FreeRunSums sums;
-    sailing.RunAll(steps, [&](std::size_t first, const std::vector<PreparedRow>& predicted) {
+    free_runs.RunAll(steps, [&](std::size_t first, const std::vector<PreparedRow>& predicted) {
       AddRun(dataset, predicted, first, sums);
     });
     metrics.free_run.push_back(ScoresOf(sums, dataset, horizon_s));

@@ -4,9 +4,9 @@
 #include <cstddef>
 #include <vector>
 
+#include "telltale/core/base/result.hpp"
 #include "telltale/core/data/prepared_dataset.hpp"
 #include "telltale/core/effects/augmented_model.hpp"
-#include "telltale/core/result.hpp"
 #include "telltale/core/vessel/vessel_model.hpp"
 
 namespace telltale {
@@ -16,7 +16,7 @@ namespace telltale {
 struct OneStepScore {
   double r2 = 0.0;
   double mae = 0.0;  ///< m/s or rad/s
-  double persistence_r2 = 0.0;
+  double constant_velocity_r2 = 0.0;
 };
 
 /// Free-run score of one velocity over one horizon, over all instants after the first of all
@@ -28,8 +28,8 @@ struct FreeRunScore {
   double rmse = 0.0;  ///< m/s or rad/s
   double mae = 0.0;
   double r2 = 0.0;
-  double persistence_rmse = 0.0;  ///< holding the initial velocity
-  double noise_floor = 0.0;       ///< one sigma of the measured velocity
+  double constant_velocity_rmse = 0.0;  ///< holding the initial velocity
+  double noise_floor = 0.0;             ///< one sigma of the measured velocity
 };
 
 struct FreeRunScores {
@@ -49,11 +49,11 @@ struct Metrics {
 };
 
 /// PreparedDataset x model -> scores. One-step: nu(k+1) from the measured nu(k). Free run:
-/// non-overlapping windows inside stretches, started from the measured state, fed only commands.
+/// non-overlapping windows inside segments, started from the measured state, fed only commands.
 /// Each run steps the model as the model is discretised (Advance); windows share no compared
-/// instant. docs/model.md (16)..(18). Source: the paper's R2 and MAE equations. Refuses when: the
-/// dataset has no pair of rows, a discrete model's sampling period is not the data's, a horizon is
-/// out of range. A horizon that fits no window has windows = 0.
+/// instant. docs/concepts/model.md (16)..(18). Source: the paper's R2 and MAE equations. Refuses
+/// when: the dataset has no pair of rows, a discrete model's sampling period is not the data's, a
+/// horizon is out of range. A horizon that fits no window has windows = 0.
 Result<Metrics> Validate(const PreparedDataset& dataset, const VesselModel& model,
                          const ValidationOptions& options);
 

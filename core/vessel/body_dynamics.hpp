@@ -3,15 +3,15 @@
 #include <array>
 #include <cmath>
 
-#include "telltale/core/vessel/body_row.hpp"
+#include "telltale/core/vessel/body_regressors.hpp"
+#include "telltale/core/vessel/model_structure.hpp"
 #include "telltale/core/vessel/motion.hpp"
-#include "telltale/core/vessel/structure.hpp"
 #include "telltale/core/vessel/vessel_model.hpp"
 
 namespace telltale {
 
 /// A model's accelerations with nothing left to look up: what simulates by the million.
-/// Model: nu_dot = body(nu) + propelled, docs/model.md (10)..(12); the same numbers as
+/// Model: nu_dot = body(nu) + propelled, docs/concepts/model.md (10)..(12); the same numbers as
 /// VesselModel::AccelerationUnder to rounding.
 class BodyDynamics {
  public:

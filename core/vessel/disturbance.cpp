@@ -4,8 +4,8 @@
 
 namespace telltale {
 
-std::array<GaussMarkov, 3> DrawAxes(const Disturbance& disturbance, double step_s,
-                                    std::uint64_t seed, std::uint64_t first_stream) {
+std::array<GaussMarkov, 3> DrawDisturbances(const Disturbance& disturbance, double step_s,
+                                            std::uint64_t seed, std::uint64_t first_stream) {
   const auto axis = [&](Eigen::Index j) {
     return GaussMarkov(disturbance.sigma[j], disturbance.time_constant_s[j], step_s,
                        WhiteSource(seed, first_stream + static_cast<std::uint64_t>(j)));
@@ -13,7 +13,7 @@ std::array<GaussMarkov, 3> DrawAxes(const Disturbance& disturbance, double step_
   return {axis(0), axis(1), axis(2)};
 }
 
-NuDot SteadyDisturbance::At(double psi_rad) const {
+NuDot ConstantDisturbance::At(double psi_rad) const {
   Eigen::Vector3d rate = terms.col(0);
   const auto to_north_and_east = terms.rightCols<2>();
   if (!to_north_and_east.isZero(0.0)) {

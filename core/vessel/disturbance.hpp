@@ -5,7 +5,7 @@
 
 #include <Eigen/Core>
 
-#include "telltale/core/gauss_markov.hpp"
+#include "telltale/core/base/gauss_markov.hpp"
 #include "telltale/core/vessel/motion.hpp"
 
 namespace telltale {
@@ -18,19 +18,19 @@ struct Disturbance {
   Eigen::Vector3d time_constant_s = Eigen::Vector3d::Ones();
   /// One sigma of what fixes wander off by within a second, north and east each; it grows with the
   /// root of time. Seems to accelerate the boat, does not.
-  double fix_wander_m = 0.0;
+  double gnss_drift_m = 0.0;
 };
 
 /// Draws of a disturbance, one process an axis: streams first_stream to first_stream + 2 of the
 /// seed. Requires: step_s > 0.
-std::array<GaussMarkov, 3> DrawAxes(const Disturbance& disturbance, double step_s,
-                                    std::uint64_t seed, std::uint64_t first_stream);
+std::array<GaussMarkov, 3> DrawDisturbances(const Disturbance& disturbance, double step_s,
+                                            std::uint64_t seed, std::uint64_t first_stream);
 
 /// What accelerates a boat steadily: a part that turns with the boat and a part that stands in the
-/// north-east-down frame, as wind and current do to first order. docs/model.md (70).
+/// north-east-down frame, as wind and current do to first order. docs/concepts/model.md (70).
 /// Shapes and units: rows surge, sway, yaw (m/s^2, m/s^2, rad/s^2); columns the coefficients of 1,
 /// cos psi and sin psi.
-struct SteadyDisturbance {
+struct ConstantDisturbance {
   Eigen::Matrix3d terms = Eigen::Matrix3d::Zero();
 
   NuDot At(double psi_rad) const;

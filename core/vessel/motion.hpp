@@ -28,7 +28,7 @@ struct NuDot {
   double r = 0.0;
 };
 
-/// eta-dot = R(psi) nu, docs/model.md (2).
+/// eta-dot = R(psi) nu, docs/concepts/model.md (2).
 Eigen::Vector3d EtaDot(double psi_rad, const Nu& nu);
 
 /// Smallest signed angle congruent to `angle_rad`, in [-pi, pi).

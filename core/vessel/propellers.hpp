@@ -36,7 +36,7 @@ inline constexpr double kWidestDeadZone = 0.3;
 
 /// Commands between the two limits give no thrust; beyond them thrust counts from the limit.
 /// Assumes: -kWidestDeadZone <= reverse <= 0 <= forward <= kWidestDeadZone. Zeros mean no dead
-/// zone. Source: the paper, remark on the T200's dead zone; docs/model.md (7).
+/// zone. Source: the paper, remark on the T200's dead zone; docs/concepts/model.md (7).
 struct DeadZone {
   double forward = 0.0;
   double reverse = 0.0;

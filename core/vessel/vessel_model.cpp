@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include "telltale/core/contract.hpp"
-#include "telltale/core/vessel/thruster_lag.hpp"
+#include "telltale/core/base/contract.hpp"
+#include "telltale/core/vessel/thruster_response.hpp"
 
 namespace telltale {
 namespace {

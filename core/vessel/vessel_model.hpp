@@ -5,9 +5,9 @@
 
 #include <Eigen/Core>
 
+#include "telltale/core/vessel/model_structure.hpp"
 #include "telltale/core/vessel/motion.hpp"
 #include "telltale/core/vessel/propellers.hpp"
-#include "telltale/core/vessel/structure.hpp"
 
 namespace telltale {
 
@@ -17,7 +17,7 @@ namespace telltale {
 enum class Discretisation { kUnknown, kForwardEuler, kContinuous };
 
 /// A boat's model with numbers in it: what simulation and validation need, without any bound.
-/// Model: nu_dot_j = Phi_j(nu, delta) theta_j, docs/model.md (10)..(12).
+/// Model: nu_dot_j = Phi_j(nu, delta) theta_j, docs/concepts/model.md (10)..(12).
 /// Shapes and units: theta[j] has one SI coefficient per entry of Regressors(j).
 struct VesselModel {
   Structure structure = Structure::kUnknown;

@@ -9,7 +9,7 @@
 
 #include "telltale/core/data/window.hpp"
 #include "telltale/core/vessel/vehicle.hpp"
-#include "telltale/idl/codec/error.hpp"
+#include "telltale/idl/codec/codec_error.hpp"
 
 namespace telltale {
 

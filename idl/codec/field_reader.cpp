@@ -5,7 +5,7 @@
 
 #include <google/protobuf/descriptor.h>
 
-#include "telltale/core/contract.hpp"
+#include "telltale/core/base/contract.hpp"
 
 namespace telltale {
 namespace {

@@ -7,7 +7,7 @@
 #include <google/protobuf/message.h>
 #include <google/protobuf/text_format.h>
 
-#include "telltale/idl/codec/error.hpp"
+#include "telltale/idl/codec/codec_error.hpp"
 
 namespace telltale {
 

@@ -4,7 +4,7 @@
 #include <string_view>
 
 #include "telltale/core/vessel/vehicle.hpp"
-#include "telltale/idl/codec/error.hpp"
+#include "telltale/idl/codec/codec_error.hpp"
 #include "telltale/idl/codec/field_reader.hpp"
 #include "telltale/idl/proto/vehicle.pb.h"
 

@@ -7,7 +7,7 @@
 
 #include "telltale/core/data/preparation.hpp"
 #include "telltale/core/diagnosis/diagnose.hpp"
-#include "telltale/service/diagnosis/live_case.hpp"
+#include "telltale/service/diagnosis/diagnosis_recordings.hpp"
 
 namespace telltale {
 namespace {
@@ -34,7 +34,7 @@ Refusal Unmodelled(const std::string& vehicle_id) {
 }
 
 DiagnoseReply RefusedWith(const DiagnoseRequest& request, Refusal refusal) {
-  auto reply = ReplyTo<DiagnoseReply>(request, IdentifyOutcome::kRefused);
+  auto reply = ReplyTo<DiagnoseReply>(request, ReplyOutcome::kRefused);
   reply.refusals.push_back(std::move(refusal));
   return reply;
 }
@@ -42,14 +42,14 @@ DiagnoseReply RefusedWith(const DiagnoseRequest& request, Refusal refusal) {
 }  // namespace
 
 DiagnosisJobs::DiagnosisJobs(const Fleet& fleet, const PublishedModels& models,
-                             const HealthyRecordings& healthy, PublishedDiagnoses& diagnoses,
-                             Answers& answers, const IdentificationSettings& settings)
+                             const BaselineRecordings& baseline, PublishedDiagnoses& diagnoses,
+                             ReplyPublisher& replies, const IdentificationSettings& settings)
     : fleet_(fleet),
       models_(models),
-      healthy_(healthy),
+      baselines_(baseline),
       diagnoses_(diagnoses),
       settings_(settings),
-      jobs_("diagnosis", fleet, answers, kDiagnosedAtOnce, settings.queue_limit,
+      jobs_("diagnosis", fleet, replies, kDiagnosedAtOnce, settings.queue_limit,
             [this](const DiagnoseRequest& request, const Progress& progress) {
               return DiagnoseAndPublish(request, progress);
             }) {}
@@ -58,7 +58,7 @@ DiagnoseReply DiagnosisJobs::DiagnoseAndPublish(const DiagnoseRequest& request,
                                                 const Progress& progress) {
   const DiagnoseOptions options = DiagnoseOptionsOf(request, settings_);
   if (const auto fault = options.Validate()) {
-    return ReplyTo<DiagnoseReply>(request, IdentifyOutcome::kFailed,
+    return ReplyTo<DiagnoseReply>(request, ReplyOutcome::kFailed,
                                   fault->subject + ": " + fault->reason + "; " + fault->advice);
   }
   const auto stored = models_.Latest(request.vehicle_id);
@@ -66,7 +66,7 @@ DiagnoseReply DiagnosisJobs::DiagnoseAndPublish(const DiagnoseRequest& request,
   auto diagnosed = DiagnoseWindow(stored->model, options, progress);
   if (!diagnosed) return RefusedWith(request, std::move(diagnosed).error());
   progress("publish", 1.0);
-  auto reply = ReplyTo<DiagnoseReply>(request, IdentifyOutcome::kPublished);
+  auto reply = ReplyTo<DiagnoseReply>(request, ReplyOutcome::kPublished);
   reply.diagnosis = {std::move(diagnosed->diagnosis), stored->model.revision, UnixSecondsNow()};
   reply.augmented = std::move(diagnosed->augmented);
   diagnoses_.Publish(*reply.diagnosis);
@@ -79,17 +79,18 @@ Result<DiagnosedModel> DiagnosisJobs::DiagnoseWindow(const PublishedModel& model
   const std::string& vehicle_id = model.identification.vehicle_id;
   VehicleWindow& window = *fleet_.Find(vehicle_id);
   progress("preparing data", 0.0);
-  const auto live = CaseOf(window.Snapshot(), model, healthy_.Behind(vehicle_id, model.revision));
+  const auto live = SelectDiagnosisRecordings(window.Snapshot(), model,
+                                              baselines_.Behind(vehicle_id, model.revision));
   if (!live) return tl::unexpected(live.error());
   PrepareOptions preparation;
   preparation.sampling_period_s = model.identification.sampling_period_s;
   const auto since = Prepare(live->since, window.vehicle(), preparation);
   if (!since) return tl::unexpected(since.error());
   std::vector<PreparedDataset> references;
-  if (live->healthy) {
-    auto healthy = Prepare(*live->healthy, window.vehicle(), preparation);
-    if (!healthy) return tl::unexpected(std::move(healthy).error());
-    references.push_back(*std::move(healthy));
+  if (live->baseline) {
+    auto baseline = Prepare(*live->baseline, window.vehicle(), preparation);
+    if (!baseline) return tl::unexpected(std::move(baseline).error());
+    references.push_back(*std::move(baseline));
   }
   auto diagnosed =
       Diagnose(*since, references, model.identification, vehicle_id, options, progress);

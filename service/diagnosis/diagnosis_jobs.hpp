@@ -4,12 +4,12 @@
 
 #include "telltale/core/diagnosis/diagnose.hpp"
 #include "telltale/idl/codec/daemon_config.hpp"
-#include "telltale/idl/codec/messages.hpp"
-#include "telltale/service/diagnosis/healthy_recordings.hpp"
+#include "telltale/idl/codec/wire/messages.hpp"
+#include "telltale/service/diagnosis/baseline_recordings.hpp"
 #include "telltale/service/diagnosis/published_diagnoses.hpp"
-#include "telltale/service/identification/answers.hpp"
 #include "telltale/service/ingest/fleet.hpp"
 #include "telltale/service/jobs/job_queue.hpp"
+#include "telltale/service/jobs/reply_publisher.hpp"
 #include "telltale/service/models/published_models.hpp"
 
 namespace telltale {
@@ -18,11 +18,11 @@ namespace telltale {
 /// vehicle at a time, and publishes the diagnoses.
 class DiagnosisJobs {
  public:
-  DiagnosisJobs(const Fleet& fleet, const PublishedModels& models, const HealthyRecordings& healthy,
-                PublishedDiagnoses& diagnoses, Answers& answers,
-                const IdentificationSettings& settings);
+  DiagnosisJobs(const Fleet& fleet, const PublishedModels& models,
+                const BaselineRecordings& baseline, PublishedDiagnoses& diagnoses,
+                ReplyPublisher& replies, const IdentificationSettings& settings);
 
-  /// Takes a request in and returns; the answer goes out through Answers.
+  /// Takes a request in and returns; the answer goes out through ReplyPublisher.
   void Submit(DiagnoseRequest request) { jobs_.Submit(std::move(request)); }
 
  private:
@@ -32,7 +32,7 @@ class DiagnosisJobs {
 
   const Fleet& fleet_;
   const PublishedModels& models_;
-  const HealthyRecordings& healthy_;
+  const BaselineRecordings& baselines_;
   PublishedDiagnoses& diagnoses_;
   const IdentificationSettings settings_;
   JobQueue<DiagnoseRequest, DiagnoseProgress, DiagnoseReply> jobs_;  // last: its thread uses these

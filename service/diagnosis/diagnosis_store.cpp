@@ -6,9 +6,9 @@
 #include <SQLiteCpp/SQLiteCpp.h>
 #include <spdlog/spdlog.h>
 
-#include "telltale/idl/codec/report_json.hpp"
-#include "telltale/service/state/database.hpp"
-#include "telltale/service/state/kept.hpp"
+#include "telltale/idl/codec/json/report.hpp"
+#include "telltale/service/storage/checked_serialisation.hpp"
+#include "telltale/service/storage/database.hpp"
 
 namespace telltale {
 
@@ -27,7 +27,7 @@ DiagnosisStore& DiagnosisStore::operator=(DiagnosisStore&&) noexcept = default;
 
 void DiagnosisStore::Save(const PublishedDiagnosis& diagnosis) {
   const proto::Report message = ToProto(diagnosis.diagnosis);
-  const std::string blob = Kept(message, DiagnosisOf(message, "diagnosis"));
+  const std::string blob = SerialiseChecked(message, DiagnosisOf(message, "diagnosis"));
   SQLite::Statement insert(*database_, "INSERT OR REPLACE INTO diagnoses VALUES (?, ?, ?, ?)");
   insert.bind(1, diagnosis.diagnosis.vehicle_id);
   insert.bind(2, static_cast<std::int64_t>(diagnosis.model_revision));

@@ -4,7 +4,7 @@
 
 #include <spdlog/spdlog.h>
 
-#include "telltale/idl/codec/wire.hpp"
+#include "telltale/idl/codec/wire/wire.hpp"
 
 namespace telltale {
 

@@ -4,7 +4,7 @@
 #include <thread>
 #include <utility>
 
-#include "telltale/core/data/recordings.hpp"
+#include "telltale/core/data/recording_starts.hpp"
 #include "telltale/service/monitoring/prediction_error.hpp"
 
 namespace telltale {
@@ -37,21 +37,22 @@ IdentifyOptions OptionsOf(const IdentifyRequest& request, const IdentificationSe
   if (request.interval_method != IntervalMethod::kUnknown) {
     options.interval_method = request.interval_method;
   }
-  options.certificate_twins = request.certificate_twins;
-  if (request.offsets != Offsets::kUnknown) options.regression.offsets = request.offsets;
+  options.coverage_check_replicates = request.coverage_check_replicates;
+  if (request.recording_bias != RecordingBiasModel::kUnknown)
+    options.regression.recording_bias = request.recording_bias;
   options.seed = request.seed;
   options.threads = std::max(1u, std::thread::hardware_concurrency() / settings.workers);
   return options;
 }
 
 IdentificationJobs::IdentificationJobs(const Fleet& fleet, PublishedModels& models,
-                                       HealthyRecordings& healthy, Answers& answers,
+                                       BaselineRecordings& baseline, ReplyPublisher& replies,
                                        const IdentificationSettings& settings)
     : fleet_(fleet),
       models_(models),
-      healthy_(healthy),
+      baselines_(baseline),
       settings_(settings),
-      jobs_("identification", fleet, answers, settings.workers, settings.queue_limit,
+      jobs_("identification", fleet, replies, settings.workers, settings.queue_limit,
             [this](const IdentifyRequest& request, const Progress& progress) {
               return IdentifyAndPublish(request, progress);
             }) {}
@@ -60,7 +61,7 @@ IdentifyReply IdentificationJobs::IdentifyAndPublish(const IdentifyRequest& requ
                                                      const Progress& progress) {
   const IdentifyOptions options = OptionsOf(request, settings_);
   if (const auto fault = options.Validate()) {
-    return ReplyTo<IdentifyReply>(request, IdentifyOutcome::kFailed,
+    return ReplyTo<IdentifyReply>(request, ReplyOutcome::kFailed,
                                   fault->subject + ": " + fault->reason + "; " + fault->advice);
   }
   VehicleWindow& window = *fleet_.Find(request.vehicle_id);
@@ -68,15 +69,15 @@ IdentifyReply IdentificationJobs::IdentifyAndPublish(const IdentifyRequest& requ
   recording.starts_s = StartsAfterSilence(recording, kSilenceBetweenRecordingsS);
   const auto identification = Identify(recording, window.vehicle(), options, progress);
   if (!identification) {
-    auto reply = ReplyTo<IdentifyReply>(request, IdentifyOutcome::kRefused);
+    auto reply = ReplyTo<IdentifyReply>(request, ReplyOutcome::kRefused);
     reply.refusals.push_back(identification.error());
     return reply;
   }
   progress("publish", 1.0);
-  auto reply = ReplyTo<IdentifyReply>(request, IdentifyOutcome::kPublished);
+  auto reply = ReplyTo<IdentifyReply>(request, ReplyOutcome::kPublished);
   reply.model = models_.Publish(*identification,
                                 MeasureFreeRunError(recording, window.vehicle(), *identification));
-  healthy_.Keep(request.vehicle_id, reply.model->revision, recording);
+  baselines_.Keep(request.vehicle_id, reply.model->revision, recording);
   return reply;
 }
 

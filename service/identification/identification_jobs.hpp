@@ -4,11 +4,11 @@
 
 #include "telltale/core/identification/identify.hpp"
 #include "telltale/idl/codec/daemon_config.hpp"
-#include "telltale/idl/codec/messages.hpp"
-#include "telltale/service/diagnosis/healthy_recordings.hpp"
-#include "telltale/service/identification/answers.hpp"
+#include "telltale/idl/codec/wire/messages.hpp"
+#include "telltale/service/diagnosis/baseline_recordings.hpp"
 #include "telltale/service/ingest/fleet.hpp"
 #include "telltale/service/jobs/job_queue.hpp"
+#include "telltale/service/jobs/reply_publisher.hpp"
 #include "telltale/service/models/published_models.hpp"
 
 namespace telltale {
@@ -19,10 +19,10 @@ IdentifyOptions OptionsOf(const IdentifyRequest& request, const IdentificationSe
 /// Identifies vehicles from their windows on request, and publishes their models.
 class IdentificationJobs {
  public:
-  IdentificationJobs(const Fleet& fleet, PublishedModels& models, HealthyRecordings& healthy,
-                     Answers& answers, const IdentificationSettings& settings);
+  IdentificationJobs(const Fleet& fleet, PublishedModels& models, BaselineRecordings& baseline,
+                     ReplyPublisher& replies, const IdentificationSettings& settings);
 
-  /// Takes a request in and returns; the answer goes out through Answers.
+  /// Takes a request in and returns; the answer goes out through ReplyPublisher.
   void Submit(IdentifyRequest request) { jobs_.Submit(std::move(request)); }
 
  private:
@@ -30,7 +30,7 @@ class IdentificationJobs {
 
   const Fleet& fleet_;
   PublishedModels& models_;
-  HealthyRecordings& healthy_;
+  BaselineRecordings& baselines_;
   const IdentificationSettings settings_;
   JobQueue<IdentifyRequest, IdentifyProgress, IdentifyReply> jobs_;  // last: its threads use these
 };

@@ -4,11 +4,11 @@
 
 namespace telltale {
 
-std::string_view Name(StrayReason reason) {
+std::string_view Name(UnattributedReason reason) {
   switch (reason) {
-    case StrayReason::kMalformedId: return "MALFORMED_VEHICLE_ID";
-    case StrayReason::kUnknownVehicle: return "UNKNOWN_VEHICLE";
-    case StrayReason::kUnreadable: return "UNREADABLE";
+    case UnattributedReason::kMalformedId: return "MALFORMED_VEHICLE_ID";
+    case UnattributedReason::kUnknownVehicle: return "UNKNOWN_VEHICLE";
+    case UnattributedReason::kUnreadable: return "UNREADABLE";
   }
   return "";
 }
@@ -33,13 +33,13 @@ std::string Fleet::Served() const {
   return names.empty() ? "none" : names;
 }
 
-void Fleet::CountStray(std::string_view channel, StrayReason reason) {
-  const std::lock_guard lock(strays_mutex_);
-  const auto found = std::ranges::find_if(strays_, [&](const RejectEntry& entry) {
+void Fleet::CountUnattributed(std::string_view channel, UnattributedReason reason) {
+  const std::lock_guard lock(unattributed_mutex_);
+  const auto found = std::ranges::find_if(unattributed_, [&](const RejectEntry& entry) {
     return entry.channel == channel && entry.reason == Name(reason);
   });
-  if (found == strays_.end()) {
-    strays_.push_back({std::string(channel), std::string(Name(reason)), 1});
+  if (found == unattributed_.end()) {
+    unattributed_.push_back({std::string(channel), std::string(Name(reason)), 1});
   } else {
     ++found->count;
   }
@@ -48,12 +48,12 @@ void Fleet::CountStray(std::string_view channel, StrayReason reason) {
 void Fleet::CountUnreadable(std::string_view topic) {
   constexpr std::string_view kTelemetry = "telltale/telemetry/";
   if (!topic.starts_with(kTelemetry)) return;
-  CountStray(topic.substr(kTelemetry.size()), StrayReason::kUnreadable);
+  CountUnattributed(topic.substr(kTelemetry.size()), UnattributedReason::kUnreadable);
 }
 
-std::vector<RejectEntry> Fleet::Strays() const {
-  const std::lock_guard lock(strays_mutex_);
-  return strays_;
+std::vector<RejectEntry> Fleet::Unattributed() const {
+  const std::lock_guard lock(unattributed_mutex_);
+  return unattributed_;
 }
 
 }  // namespace telltale

@@ -11,15 +11,15 @@
 
 #include "telltale/core/data/window.hpp"
 #include "telltale/core/vessel/vehicle.hpp"
-#include "telltale/idl/codec/messages.hpp"
+#include "telltale/idl/codec/wire/messages.hpp"
 #include "telltale/service/ingest/vehicle_window.hpp"
 
 namespace telltale {
 
 /// Why a sample reached no window.
-enum class StrayReason { kMalformedId, kUnknownVehicle, kUnreadable };
+enum class UnattributedReason { kMalformedId, kUnknownVehicle, kUnreadable };
 
-std::string_view Name(StrayReason reason);
+std::string_view Name(UnattributedReason reason);
 
 /// The vehicles this daemon serves, fixed for its life, and what arrived for none of them.
 class Fleet {
@@ -35,15 +35,15 @@ class Fleet {
   /// "a, b and c": the vehicles served, for a person.
   std::string Served() const;
 
-  void CountStray(std::string_view channel, StrayReason reason);
+  void CountUnattributed(std::string_view channel, UnattributedReason reason);
   /// What the bus could not even read: counted where the topic carries telemetry.
   void CountUnreadable(std::string_view topic);
-  std::vector<RejectEntry> Strays() const;
+  std::vector<RejectEntry> Unattributed() const;
 
  private:
   Windows windows_;
-  mutable std::mutex strays_mutex_;
-  std::vector<RejectEntry> strays_;
+  mutable std::mutex unattributed_mutex_;
+  std::vector<RejectEntry> unattributed_;
 };
 
 }  // namespace telltale

@@ -5,14 +5,14 @@
 
 #include <spdlog/spdlog.h>
 
-#include "telltale/idl/codec/wire.hpp"
+#include "telltale/idl/codec/wire/wire.hpp"
 
 namespace telltale {
 namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr auto kBeat = std::chrono::seconds(1);
+constexpr auto kHeartbeatPeriod = std::chrono::seconds(1);
 
 // Boats send several samples a second, and a client that waits for an answer asks again every
 // second.
@@ -23,51 +23,51 @@ constexpr auto kLongestSilence = std::chrono::seconds(30);
 Ingest::Ingest(const Participant& participant, Fleet& fleet, Handlers handlers)
     : fleet_(fleet),
       handlers_(std::move(handlers)),
-      complaints_(5, std::chrono::seconds(10)),
-      news_(participant),
+      warning_limit_(5, std::chrono::seconds(10)),
+      wait_set_(participant),
       gnss_(
-          participant, news_, [this](const auto& wire) { Route(Channel::kGnss, wire); },
+          participant, wait_set_, [this](const auto& wire) { Route(Channel::kGnss, wire); },
           kLongestSilence),
       heading_(
-          participant, news_, [this](const auto& wire) { Route(Channel::kHeading, wire); },
+          participant, wait_set_, [this](const auto& wire) { Route(Channel::kHeading, wire); },
           kLongestSilence),
       thrusters_(
-          participant, news_, [this](const auto& wire) { Route(Channel::kThrusters, wire); },
+          participant, wait_set_, [this](const auto& wire) { Route(Channel::kThrusters, wire); },
           kLongestSilence),
       requests_(
-          participant, news_, [this](const auto& wire) { Submit(wire, handlers_.identify); },
+          participant, wait_set_, [this](const auto& wire) { Submit(wire, handlers_.identify); },
           kLongestSilence),
       diagnose_requests_(
-          participant, news_, [this](const auto& wire) { Submit(wire, handlers_.diagnose); },
+          participant, wait_set_, [this](const auto& wire) { Submit(wire, handlers_.diagnose); },
           kLongestSilence),
       thread_([this] { Run(); }) {}
 
 Ingest::~Ingest() {
   stopping_ = true;
-  news_.Wake();
+  wait_set_.Wake();
   thread_.join();
 }
 
 void Ingest::Run() {
   try {
-    auto next_beat = Clock::now();
+    auto next_heartbeat = Clock::now();
     while (!stopping_) {
-      if (Clock::now() >= next_beat) {
-        next_beat = Clock::now() + kBeat;
-        Beat();
+      if (Clock::now() >= next_heartbeat) {
+        next_heartbeat = Clock::now() + kHeartbeatPeriod;
+        Heartbeat();
       }
-      news_.Wait(next_beat - Clock::now());
+      wait_set_.Wait(next_heartbeat - Clock::now());
     }
   } catch (const std::exception& error) {
     handlers_.failed(error);
   }
 }
 
-void Ingest::Beat() {
-  handlers_.beat();
+void Ingest::Heartbeat() {
+  handlers_.heartbeat();
   const auto now = Clock::now();
   const auto tend = [now](auto& reader, const char* what) {
-    if (reader.Tend(now)) spdlog::warn("{} connected but silent, reader made anew", what);
+    if (reader.ReopenIfSilent(now)) spdlog::warn("{} connected but silent, reader made anew", what);
   };
   tend(gnss_, "gnss");
   tend(heading_, "heading");
@@ -80,17 +80,18 @@ template <class Wire>
 void Ingest::Route(Channel channel, const Wire& wire) {
   const auto telemetry = Decode(wire);
   if (!telemetry) {
-    Stray(channel, StrayReason::kMalformedId, telemetry.error().value);
+    RejectUnattributed(channel, UnattributedReason::kMalformedId, telemetry.error().value);
   } else if (VehicleWindow* window = fleet_.Find(telemetry->vehicle_id)) {
     window->Add(telemetry->sequence_number, telemetry->sample);
   } else {
-    Stray(channel, StrayReason::kUnknownVehicle, telemetry->vehicle_id);
+    RejectUnattributed(channel, UnattributedReason::kUnknownVehicle, telemetry->vehicle_id);
   }
 }
 
-void Ingest::Stray(Channel channel, StrayReason reason, std::string_view detail) {
-  fleet_.CountStray(Name(channel), reason);
-  if (const auto held_back = complaints_.Admit(Clock::now())) {
+void Ingest::RejectUnattributed(Channel channel, UnattributedReason reason,
+                                std::string_view detail) {
+  fleet_.CountUnattributed(Name(channel), reason);
+  if (const auto held_back = warning_limit_.Admit(Clock::now())) {
     spdlog::warn("{} sample set aside: {} '{}' ({} more not shown)", Name(channel), Name(reason),
                  detail, *held_back);
   }
@@ -101,7 +102,7 @@ void Ingest::Submit(const Wire& wire, const Handler& handler) {
   auto request = Decode(wire);
   if (request) {
     handler(std::move(*request));
-  } else if (const auto held_back = complaints_.Admit(Clock::now())) {
+  } else if (const auto held_back = warning_limit_.Admit(Clock::now())) {
     spdlog::warn("request set aside: {} ({} more not shown)", request.error().Message(),
                  *held_back);
   }

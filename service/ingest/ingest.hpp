@@ -6,11 +6,11 @@
 #include <string_view>
 #include <thread>
 
-#include "telltale/client/bus/log_sink.hpp"
+#include "telltale/client/bus/bus_log.hpp"
 #include "telltale/client/bus/participant.hpp"
 #include "telltale/client/bus/wait_set.hpp"
 #include "telltale/client/bus/watched_reader.hpp"
-#include "telltale/idl/codec/messages.hpp"
+#include "telltale/idl/codec/wire/messages.hpp"
 #include "telltale/service/ingest/fleet.hpp"
 
 namespace telltale {
@@ -22,7 +22,7 @@ class Ingest {
   struct Handlers {
     std::function<void(IdentifyRequest)> identify;      ///< must return at once
     std::function<void(DiagnoseRequest)> diagnose;      ///< likewise
-    std::function<void()> beat;                         ///< every second while the loop is at work
+    std::function<void()> heartbeat;                    ///< every second while the loop is at work
     std::function<void(const std::exception&)> failed;  ///< the loop has ended; nothing comes in
   };
 
@@ -33,17 +33,18 @@ class Ingest {
 
  private:
   void Run();
-  void Beat();
+  void Heartbeat();
   template <class Wire>
   void Route(Channel channel, const Wire& wire);
-  void Stray(Channel channel, StrayReason reason, std::string_view detail);
+  void RejectUnattributed(Channel channel, UnattributedReason reason,
+                          std::string_view detail);
   template <class Wire, class Handler>
   void Submit(const Wire& wire, const Handler& handler);
 
   Fleet& fleet_;
   Handlers handlers_;
-  RateLimit complaints_;
-  WaitSet news_;  // before the readers attached to it, so that it goes last
+  RateLimit warning_limit_;
+  WaitSet wait_set_;  // before the readers attached to it, so that it goes last
   WatchedReader<telltale_wire_GnssFix> gnss_;
   WatchedReader<telltale_wire_Heading> heading_;
   WatchedReader<telltale_wire_Thrusters> thrusters_;

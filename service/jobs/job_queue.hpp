@@ -19,15 +19,15 @@
 #include <spdlog/spdlog.h>
 
 #include "telltale/core/identification/identify.hpp"
-#include "telltale/idl/codec/messages.hpp"
-#include "telltale/service/identification/answers.hpp"
+#include "telltale/idl/codec/wire/messages.hpp"
 #include "telltale/service/ingest/fleet.hpp"
+#include "telltale/service/jobs/reply_publisher.hpp"
 
 namespace telltale {
 
 /// A reply to this request, so far without an answer in it.
 template <class Reply, class Request>
-Reply ReplyTo(const Request& request, IdentifyOutcome outcome, const std::string& message = {}) {
+Reply ReplyTo(const Request& request, ReplyOutcome outcome, const std::string& message = {}) {
   Reply reply;
   reply.correlation_id = request.correlation_id;
   reply.vehicle_id = request.vehicle_id;
@@ -42,17 +42,17 @@ Reply ReplyTo(const Request& request, IdentifyOutcome outcome, const std::string
 template <class Request, class Stage, class Reply>
 class JobQueue {
  public:
-  /// Answers a request, telling `progress` how far it is; runs on a worker, and may throw.
+  /// ReplyPublisher a request, telling `progress` how far it is; runs on a worker, and may throw.
   using Work = std::function<Reply(const Request&, const Progress& progress)>;
 
   /// `what` is what is done to a vehicle, for the log and messages: "identification".
-  JobQueue(std::string what, const Fleet& fleet, Answers& answers, std::size_t workers,
+  JobQueue(std::string what, const Fleet& fleet, ReplyPublisher& replies, std::size_t workers,
            std::size_t queue_limit, Work work);
   JobQueue(const JobQueue&) = delete;
   JobQueue& operator=(const JobQueue&) = delete;
   ~JobQueue();  ///< breaks off what is running and ends the workers
 
-  /// Takes a request in and returns; the answer goes out through Answers.
+  /// Takes a request in and returns; the answer goes out through ReplyPublisher.
   void Submit(Request request);
 
  private:
@@ -64,17 +64,17 @@ class JobQueue {
   };
 
   static Reply Failed(const Request& request, const std::string& message) {
-    return ReplyTo<Reply>(request, IdentifyOutcome::kFailed, message);
+    return ReplyTo<Reply>(request, ReplyOutcome::kFailed, message);
   }
   void Run();
   typename Queue::iterator NextRunnable();
-  Reply Answer(const Request& request);
+  Reply Execute(const Request& request);
   void Report(const Request& request, std::string_view stage, double fraction);
   void Remember(const Reply& reply);
 
   const std::string what_;
   const Fleet& fleet_;
-  Answers& answers_;
+  ReplyPublisher& replies_;
   const std::size_t queue_limit_;
   const Work work_;
 
@@ -90,11 +90,12 @@ class JobQueue {
 };
 
 template <class Request, class Stage, class Reply>
-JobQueue<Request, Stage, Reply>::JobQueue(std::string what, const Fleet& fleet, Answers& answers,
-                                          std::size_t workers, std::size_t queue_limit, Work work)
+JobQueue<Request, Stage, Reply>::JobQueue(std::string what, const Fleet& fleet,
+                                          ReplyPublisher& replies, std::size_t workers,
+                                          std::size_t queue_limit, Work work)
     : what_(std::move(what)),
       fleet_(fleet),
-      answers_(answers),
+      replies_(replies),
       queue_limit_(queue_limit),
       work_(std::move(work)) {
   for (std::size_t i = 0; i < workers; ++i) workers_.emplace_back([this] { Run(); });
@@ -108,7 +109,7 @@ JobQueue<Request, Stage, Reply>::~JobQueue() {
   }
   changed_.notify_all();
   for (std::thread& worker : workers_) worker.join();
-  for (const Request& request : queue_) answers_.Send(Failed(request, Stopping().what()));
+  for (const Request& request : queue_) replies_.Send(Failed(request, Stopping().what()));
 }
 
 template <class Request, class Stage, class Reply>
@@ -117,21 +118,21 @@ void JobQueue<Request, Stage, Reply>::Submit(Request request) {
   if (const auto done = finished_.find(request.correlation_id); done != finished_.end()) {
     const Reply reply = done->second;
     lock.unlock();
-    return answers_.Send(reply);
+    return replies_.Send(reply);
   }
   if (const auto known = unfinished_.find(request.correlation_id); known != unfinished_.end()) {
     const Stage stage = known->second;
     lock.unlock();
-    return answers_.Send(stage);
+    return replies_.Send(stage);
   }
   if (fleet_.Find(request.vehicle_id) == nullptr) {
     lock.unlock();
-    return answers_.Send(Failed(request, "vehicle '" + request.vehicle_id +
+    return replies_.Send(Failed(request, "vehicle '" + request.vehicle_id +
                                              "' is not served here; served: " + fleet_.Served()));
   }
   if (queue_.size() >= queue_limit_) {
     lock.unlock();
-    return answers_.Send(Failed(
+    return replies_.Send(Failed(
         request, std::to_string(queue_limit_) + ' ' + what_ + "s are waiting already; ask later"));
   }
   const Stage stage{{request.correlation_id, request.vehicle_id, "queued", 0.0}};
@@ -139,7 +140,7 @@ void JobQueue<Request, Stage, Reply>::Submit(Request request) {
   queue_.push_back(std::move(request));
   lock.unlock();
   changed_.notify_one();
-  answers_.Send(stage);
+  replies_.Send(stage);
 }
 
 template <class Request, class Stage, class Reply>
@@ -153,14 +154,14 @@ void JobQueue<Request, Stage, Reply>::Run() {
     queue_.erase(next);
     running_vehicles_.insert(request.vehicle_id);
     lock.unlock();
-    const Reply reply = Answer(request);
+    const Reply reply = Execute(request);
     lock.lock();
     running_vehicles_.erase(request.vehicle_id);
     unfinished_.erase(request.correlation_id);
     Remember(reply);
     lock.unlock();
     changed_.notify_all();
-    answers_.Send(reply);
+    replies_.Send(reply);
     lock.lock();
   }
 }
@@ -173,7 +174,7 @@ auto JobQueue<Request, Stage, Reply>::NextRunnable() -> typename Queue::iterator
 }
 
 template <class Request, class Stage, class Reply>
-Reply JobQueue<Request, Stage, Reply>::Answer(const Request& request) {
+Reply JobQueue<Request, Stage, Reply>::Execute(const Request& request) {
   using Clock = std::chrono::steady_clock;
   const auto start = Clock::now();
   Reply reply;
@@ -204,7 +205,7 @@ void JobQueue<Request, Stage, Reply>::Report(const Request& request, std::string
     last.fraction = std::clamp(fraction, 0.0, 1.0);
     told = last;
   }
-  answers_.Send(told);
+  replies_.Send(told);
 }
 
 template <class Request, class Stage, class Reply>

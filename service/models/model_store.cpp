@@ -3,9 +3,9 @@
 #include <SQLiteCpp/SQLiteCpp.h>
 #include <spdlog/spdlog.h>
 
-#include "telltale/idl/codec/model_json.hpp"
-#include "telltale/service/state/database.hpp"
-#include "telltale/service/state/kept.hpp"
+#include "telltale/idl/codec/json/model.hpp"
+#include "telltale/service/storage/checked_serialisation.hpp"
+#include "telltale/service/storage/database.hpp"
 
 namespace telltale {
 namespace {
@@ -54,7 +54,7 @@ ModelStore& ModelStore::operator=(ModelStore&&) noexcept = default;
 StoredModel ModelStore::Save(const Identification& identification, double published_unix_s,
                              const std::optional<FreeRunError>& reference_error) {
   const proto::Model message = ToProto(identification);
-  const std::string blob = Kept(message, IdentificationOf(message, "model"));
+  const std::string blob = SerialiseChecked(message, IdentificationOf(message, "model"));
   SQLite::Transaction transaction(*database_, SQLite::TransactionBehavior::IMMEDIATE);
   SQLite::Statement next(*database_,
                          "SELECT COALESCE(MAX(revision), 0) + 1 FROM models WHERE vehicle_id = ?");

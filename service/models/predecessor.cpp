@@ -5,13 +5,13 @@
 namespace telltale {
 namespace {
 
-constexpr std::size_t kReported = 5;
-constexpr std::size_t kLookedBack = 200;  // models; each is some ten kilobytes to read
+constexpr std::size_t kCoefficientsReported = 5;
+constexpr std::size_t kModelsLookedBack = 200;  // models; each is some ten kilobytes to read
 
 ModelChange CannotTell(std::uint64_t revision, std::string reason) {
   ModelChange change;
   change.revision = revision;
-  change.verdict = ChangeVerdict::kCannotTell;
+  change.verdict = ChangeVerdict::kInconclusive;
   change.reason = std::move(reason);
   return change;
 }
@@ -23,13 +23,13 @@ std::optional<ModelChange> ChangeSincePredecessor(const ModelStore& store,
   std::size_t seen = 0;
   std::size_t overlapping = 0;
   const auto predecessor = store.Newest(identification.vehicle_id, [&](const StoredModel& stored) {
-    if (++seen > kLookedBack) return true;
+    if (++seen > kModelsLookedBack) return true;
     const bool overlaps = WindowsOverlap(stored.model.identification, identification);
     overlapping += overlaps ? 1 : 0;
-    return !overlaps && MadeAlike(stored.model.identification, identification);
+    return !overlaps && AreComparable(stored.model.identification, identification);
   });
   if (seen == 0) return std::nullopt;
-  if (!predecessor || seen > kLookedBack) {
+  if (!predecessor || seen > kModelsLookedBack) {
     return CannotTell(0, overlapping > 0
                              ? "all that were made with the same options share data with it"
                              : "none was made with the same options");
@@ -38,7 +38,8 @@ std::optional<ModelChange> ChangeSincePredecessor(const ModelStore& store,
   auto change = ChangeBetween(predecessor->model.identification, identification);
   if (!change) return CannotTell(revision, change.error().reason);
   change->revision = revision;
-  if (change->coefficients.size() > kReported) change->coefficients.resize(kReported);
+  if (change->coefficients.size() > kCoefficientsReported)
+    change->coefficients.resize(kCoefficientsReported);
   return *std::move(change);
 }
 

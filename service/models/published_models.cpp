@@ -4,7 +4,7 @@
 
 #include <spdlog/spdlog.h>
 
-#include "telltale/idl/codec/wire.hpp"
+#include "telltale/idl/codec/wire/wire.hpp"
 #include "telltale/service/models/predecessor.hpp"
 #include "telltale/service/unix_now.hpp"
 
@@ -15,7 +15,7 @@ void LogChange(const PublishedModel& model) {
   const auto& change = model.identification.provenance.change;
   if (!change) return;
   const auto level =
-      change->verdict == ChangeVerdict::kDiffers ? spdlog::level::warn : spdlog::level::info;
+      change->verdict == ChangeVerdict::kChanged ? spdlog::level::warn : spdlog::level::info;
   spdlog::log(level, "revision {} of {} {}", model.revision, model.identification.vehicle_id,
               InWords(*change));
 }

@@ -5,7 +5,7 @@
 
 #include <spdlog/spdlog.h>
 
-#include "telltale/idl/codec/wire.hpp"
+#include "telltale/idl/codec/wire/wire.hpp"
 #include "telltale/service/monitoring/prediction_error.hpp"
 #include "telltale/service/unix_now.hpp"
 
@@ -61,11 +61,11 @@ void QualityMonitor::PublishAll(double elapsed_s) {
   for (const auto& [vehicle_id, window] : fleet_.windows()) {
     writer_.Write(Encode(Assess(*window, memories_[vehicle_id], elapsed_s)));
   }
-  Quality strays;
-  strays.vehicle_id = kUnattributed;
-  strays.sequence_number = ++strays_published_;
-  strays.rejected = fleet_.Strays();
-  writer_.Write(Encode(strays));
+  Quality unattributed;
+  unattributed.vehicle_id = kUnattributed;
+  unattributed.sequence_number = ++unattributed_published_;
+  unattributed.rejected = fleet_.Unattributed();
+  writer_.Write(Encode(unattributed));
 }
 
 Quality QualityMonitor::Assess(VehicleWindow& window, Memory& memory, double elapsed_s) {
@@ -80,7 +80,7 @@ Quality QualityMonitor::Assess(VehicleWindow& window, Memory& memory, double ela
   quality.thrusters_rate_hz = Rate(Channel::kThrusters, state, memory.window, elapsed_s);
   quality.lost = state.lost;
   quality.accepted = state.accepted;
-  quality.rejected = Entries(state.rejected);
+  quality.rejected = RejectEntries(state.rejected);
   memory.window = state;
   Follow(window, state, memory);
   quality.indicative = memory.indicative;
@@ -98,7 +98,7 @@ Quality QualityMonitor::Assess(VehicleWindow& window, Memory& memory, double ela
 
 void QualityMonitor::Follow(VehicleWindow& window, const WindowState& state, Memory& memory) {
   if (state.accepted == 0 || !memory.live.IsDue(state.end_s)) return;
-  memory.live.TakeIn(window.Snapshot(), window.vehicle());
+  memory.live.Update(window.Snapshot(), window.vehicle());
   memory.indicative = memory.live.Estimates();
 }
 
@@ -109,7 +109,7 @@ void QualityMonitor::Evaluate(VehicleWindow& window, const WindowState& state,
   if (std::exchange(memory.evaluated_revision, revision) != revision) {
     memory.prediction_error.reset();
     memory.drift = 0.0;
-    memory.drift_test = DriftTest();
+    memory.drift_detector = DriftDetector();
   } else if (state.end_s < memory.evaluated_to_s + kNewDataS) {
     return;
   }
@@ -122,11 +122,11 @@ void QualityMonitor::Evaluate(VehicleWindow& window, const WindowState& state,
     memory.drift += kDriftWeight * (relative - *memory.prediction_error - memory.drift);
   }
   memory.prediction_error = relative;
-  memory.drift_test.Add(relative);
+  memory.drift_detector.Add(relative);
 }
 
 std::string QualityMonitor::Propose(const Quality& quality, Memory& memory) {
-  const bool fires = memory.drift_test.Fires();
+  const bool fires = memory.drift_detector.Fires();
   std::string proposal;
   if (fires) {
     proposal = fmt::format(

@@ -11,11 +11,11 @@
 
 #include "telltale/client/bus/participant.hpp"
 #include "telltale/client/bus/writer.hpp"
-#include "telltale/idl/codec/messages.hpp"
+#include "telltale/idl/codec/wire/messages.hpp"
 #include "telltale/service/ingest/fleet.hpp"
 #include "telltale/service/models/published_models.hpp"
-#include "telltale/service/monitoring/drift_test.hpp"
-#include "telltale/service/monitoring/live_feed.hpp"
+#include "telltale/service/monitoring/drift_detector.hpp"
+#include "telltale/service/monitoring/live_estimator.hpp"
 
 namespace telltale {
 
@@ -38,9 +38,9 @@ class QualityMonitor {
     std::uint64_t evaluated_revision = 0;  ///< of the model evaluated
     std::optional<double> prediction_error;
     double drift = 0.0;
-    DriftTest drift_test;
+    DriftDetector drift_detector;
     bool proposed = false;  ///< a diagnosis, by the log
-    LiveFeed live;
+    LiveEstimator live;
     std::vector<IndicativeCoefficient> indicative;
   };
 
@@ -57,7 +57,7 @@ class QualityMonitor {
   const std::chrono::duration<double> period_;
   Writer<telltale_wire_Quality> writer_;
   std::map<std::string, Memory> memories_;
-  std::uint64_t strays_published_ = 0;
+  std::uint64_t unattributed_published_ = 0;
   std::mutex mutex_;
   std::condition_variable stop_;
   bool stopping_ = false;

@@ -5,7 +5,7 @@
 #include <map>
 #include <string>
 
-#include "telltale/client/recording/dataflash.hpp"
+#include "telltale/client/recording/dataflash/dataflash_log.hpp"
 
 namespace {
 

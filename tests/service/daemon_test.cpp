@@ -9,19 +9,19 @@
 #include <gtest/gtest.h>
 
 #include "service/service_fixture.hpp"
-#include "support/boats.hpp"
-#include "support/numbers.hpp"
+#include "support/special_values.hpp"
+#include "support/stable_boat.hpp"
 #include "telltale/client/bus/reader.hpp"
 #include "telltale/client/bus/wait_set.hpp"
 #include "telltale/client/bus/writer.hpp"
 #include "telltale/client/fleet/identification_client.hpp"
 #include "telltale/client/fleet/subscriber.hpp"
 #include "telltale/client/fleet/telemetry_publisher.hpp"
-#include "telltale/client/recording/files.hpp"
-#include "telltale/client/recording/telemetry_log.hpp"
-#include "telltale/core/simulation/yellowfish.hpp"
-#include "telltale/idl/codec/model_json.hpp"
-#include "telltale/idl/codec/wire.hpp"
+#include "telltale/client/recording/file_contents.hpp"
+#include "telltale/client/recording/telemetry_log/telemetry_log.hpp"
+#include "telltale/core/paper/yellowfish.hpp"
+#include "telltale/idl/codec/json/model.hpp"
+#include "telltale/idl/codec/wire/wire.hpp"
 
 namespace telltale {
 namespace {
@@ -173,7 +173,7 @@ TEST_F(Daemon, TellsWhetherABoatHasChanged) {
   const auto model = ParseModelJson(*ReadFile(file));
   ASSERT_TRUE(model) << model.error().Message();
   ASSERT_TRUE(model->provenance.change);
-  EXPECT_EQ(model->provenance.change->verdict, ChangeVerdict::kDiffers);
+  EXPECT_EQ(model->provenance.change->verdict, ChangeVerdict::kChanged);
   EXPECT_THAT(model->provenance.change->coefficients[0].regressor, HasSubstr(":d"));
 }
 
@@ -229,15 +229,15 @@ TEST_F(Daemon, AnswersLateOnceItIsAwakeAgain) {
   const auto daemon = StartDaemon();
   const Participant participant(domain_.id());
   IdentificationClient client(participant);
-  ExchangeTiming timing{.match = 60s, .reply = 60s, .retry = 100ms};
-  ASSERT_EQ(client.Identify(Request("first"), timing).outcome, ExchangeOutcome::kRefused);
+  RequestTiming timing{.match = 60s, .reply = 60s, .retry = 100ms};
+  ASSERT_EQ(client.Identify(Request("first"), timing).outcome, RequestOutcome::kRefused);
 
   daemon->Suspend();
   timing.reply = 500ms;
-  EXPECT_EQ(client.Identify(Request("second"), timing).outcome, ExchangeOutcome::kTimedOut);
+  EXPECT_EQ(client.Identify(Request("second"), timing).outcome, RequestOutcome::kTimedOut);
   daemon->Resume();
   timing.reply = 60s;
-  EXPECT_EQ(client.Identify(Request("second"), timing).outcome, ExchangeOutcome::kRefused);
+  EXPECT_EQ(client.Identify(Request("second"), timing).outcome, RequestOutcome::kRefused);
 }
 
 TEST_F(Daemon, CountsWhatItSetsAsideByReason) {
@@ -287,12 +287,12 @@ TEST_F(Daemon, CountsWhatItSetsAsideByReason) {
   EXPECT_EQ(CountOf(*quality, "gnss", "NOT_FINITE"), 1u);
   EXPECT_EQ(CountOf(*quality, "gnss", "OUT_OF_RANGE"), 1u);
   EXPECT_EQ(CountOf(*quality, "gnss", "DUPLICATE"), 1u);
-  const auto strays = AwaitQuality(std::string(kUnattributed), [](const Quality& q) {
+  const auto unattributed = AwaitQuality(std::string(kUnattributed), [](const Quality& q) {
     return CountOf(q, "thrusters", "MALFORMED_VEHICLE_ID") == 1 &&
            CountOf(q, "thrusters", "UNREADABLE") == 1;
   });
-  ASSERT_TRUE(strays);
-  EXPECT_EQ(CountOf(*strays, "heading", "UNKNOWN_VEHICLE"), 1u);
+  ASSERT_TRUE(unattributed);
+  EXPECT_EQ(CountOf(*unattributed, "heading", "UNKNOWN_VEHICLE"), 1u);
   // What cannot even be read ends in Cyclone DDS, which tells the log.
   EXPECT_TRUE(daemon->WaitForOutput("deserialization telltale/telemetry/thrusters"));
 }
@@ -302,13 +302,13 @@ TEST_F(Daemon, AnswersACorrelationIdOnce) {
   ReplaySimulation();
   const Participant participant(domain_.id());
   IdentificationClient client(participant);
-  const ExchangeTiming timing{.match = 60s, .reply = 60s, .retry = 1s};
+  const RequestTiming timing{.match = 60s, .reply = 60s, .retry = 1s};
   const auto first = client.Identify(Request("the-same"), timing);
   const auto again = client.Identify(Request("the-same"), timing);
   const auto other = client.Identify(Request("another"), timing);
-  ASSERT_EQ(first.outcome, ExchangeOutcome::kPublished);
-  ASSERT_EQ(again.outcome, ExchangeOutcome::kPublished);
-  ASSERT_EQ(other.outcome, ExchangeOutcome::kPublished);
+  ASSERT_EQ(first.outcome, RequestOutcome::kPublished);
+  ASSERT_EQ(again.outcome, RequestOutcome::kPublished);
+  ASSERT_EQ(other.outcome, RequestOutcome::kPublished);
   EXPECT_EQ(first.reply->model->revision, 1u);
   EXPECT_EQ(again.reply->model->revision, 1u);
   EXPECT_EQ(other.reply->model->revision, 2u);
@@ -318,13 +318,13 @@ TEST_F(Daemon, FailsARequestItCannotTakeAndGoesOn) {
   const auto daemon = StartDaemon();
   const Participant participant(domain_.id());
   IdentificationClient client(participant);
-  const ExchangeTiming timing{.match = 60s, .reply = 60s, .retry = 1s};
+  const RequestTiming timing{.match = 60s, .reply = 60s, .retry = 1s};
   IdentifyRequest wrong = Request("too-few-replicates");
   wrong.bootstrap_replicates = 7;
   const auto answer = client.Identify(wrong, timing);
-  ASSERT_EQ(answer.outcome, ExchangeOutcome::kFailed);
+  ASSERT_EQ(answer.outcome, RequestOutcome::kFailed);
   EXPECT_THAT(answer.reply->message, HasSubstr("bootstrap_replicates"));
-  EXPECT_EQ(client.Identify(Request("sound"), timing).outcome, ExchangeOutcome::kRefused);
+  EXPECT_EQ(client.Identify(Request("sound"), timing).outcome, RequestOutcome::kRefused);
 }
 
 TEST_F(Daemon, StopsCleanlyWhenTold) {

@@ -4,11 +4,11 @@
 #include <stdexcept>
 
 #include "telltale/client/fleet/subscriber.hpp"
-#include "telltale/client/recording/telemetry_log.hpp"
-#include "telltale/core/random.hpp"
+#include "telltale/client/recording/telemetry_log/telemetry_log.hpp"
+#include "telltale/core/base/random.hpp"
+#include "telltale/core/paper/yellowfish.hpp"
 #include "telltale/core/simulation/sensors.hpp"
 #include "telltale/core/simulation/simulator.hpp"
-#include "telltale/core/simulation/yellowfish.hpp"
 #include "telltale/idl/codec/vehicle_file.hpp"
 
 namespace telltale {

@@ -15,7 +15,7 @@
 #include "telltale/client/fleet/identification_client.hpp"
 #include "telltale/core/data/samples.hpp"
 #include "telltale/core/vessel/vessel_model.hpp"
-#include "telltale/idl/codec/messages.hpp"
+#include "telltale/idl/codec/wire/messages.hpp"
 
 namespace telltale {
 

@@ -7,8 +7,8 @@
 #include <boost/random/uniform_int_distribution.hpp>
 #include <boost/random/uniform_real_distribution.hpp>
 
+#include "telltale/core/base/random.hpp"
 #include "telltale/core/data/prepared_dataset.hpp"
-#include "telltale/core/random.hpp"
 #include "telltale/core/vessel/vessel_model.hpp"
 
 namespace telltale::testing {
@@ -37,10 +37,10 @@ inline std::vector<PropellerCommand> RandomCommands(std::size_t steps,
 }
 
 /// Rows made by the discrete model itself, nu(k+1) = nu(k) + h nu_dot(k): no sensor, no smoothing.
-/// One stretch, cut into segments of `segment_rows`.
+/// One segment, cut into slices of `slice_rows`.
 inline PreparedDataset DriveDiscrete(const VesselModel& model,
                                      const std::vector<PropellerCommand>& commands,
-                                     std::size_t segment_rows) {
+                                     std::size_t slice_rows) {
   PreparedDataset dataset;
   const double h = model.sampling_period_s;
   dataset.sampling_period_s = h;
@@ -53,9 +53,9 @@ inline PreparedDataset DriveDiscrete(const VesselModel& model,
     const NuDot nu_dot = model.Acceleration(row.nu, row.delta);
     row.nu = {row.nu.u + h * nu_dot.u, row.nu.v + h * nu_dot.v, row.nu.r + h * nu_dot.r};
   }
-  dataset.stretches = {{0, commands.size()}};
-  for (std::size_t begin = 0; begin < commands.size(); begin += segment_rows) {
-    dataset.segments.push_back({begin, std::min(begin + segment_rows, commands.size())});
+  dataset.segments = {{0, commands.size()}};
+  for (std::size_t begin = 0; begin < commands.size(); begin += slice_rows) {
+    dataset.slices.push_back({begin, std::min(begin + slice_rows, commands.size())});
   }
   return dataset;
 }

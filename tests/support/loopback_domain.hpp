@@ -18,7 +18,7 @@ namespace telltale {
 class LoopbackDomain {
  public:
   LoopbackDomain() {
-    const auto* test = testing::UnitTest::GetInstance()->current_test_info();
+    const auto* test = ::testing::UnitTest::GetInstance()->current_test_info();
     const std::string name = std::string(test->test_suite_name()) + "." + test->name();
     id_ = static_cast<std::uint32_t>(std::hash<std::string>()(name) % 101) + 1;
     const std::string configuration =

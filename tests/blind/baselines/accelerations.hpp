@@ -2,7 +2,7 @@
 
 #include <Eigen/Core>
 
-#include "ground/ground.hpp"
+#include "inputs/reference_basis.hpp"
 
 namespace blind::baselines {
 
@@ -12,11 +12,11 @@ namespace blind::baselines {
 /// Shapes: surge, sway and yaw stacked second by second; one column a slot, what its typical size
 /// would change.
 struct Accelerations {
-  Eigen::VectorXd misses;
+  Eigen::VectorXd residuals;
   Eigen::MatrixXd signatures;
   double independent = 0.0;  ///< misses there are, less for their correlation from one to the next
 };
 
-Accelerations AccelerationsOf(const Ground& ground);
+Accelerations AccelerationsOf(const ReferenceBasis& basis);
 
 }  // namespace blind::baselines

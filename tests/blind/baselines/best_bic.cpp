@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "telltale/core/linear_algebra/decompositions.hpp"
+#include "telltale/core/base/linear_algebra/eigen_decompositions.hpp"
 
 namespace blind::baselines {
 namespace {
@@ -20,28 +20,28 @@ constexpr double kMostDamping = 1e4;
 /// One effect's parameters, in typical sizes from where they are usual, on a recording.
 class Problem {
  public:
-  Problem(const Ground& ground, const Effect& effect)
-      : ground_(ground), effect_(effect), whitener_(ground.healthy.covariance) {}
+  Problem(const ReferenceBasis& basis, const Effect& effect)
+      : basis_(basis), effect_(effect), whitener_(basis.nominal.covariance) {}
 
   Eigen::Index Unknowns() const { return static_cast<Eigen::Index>(effect_.Parameters().size()); }
 
   telltale::ModelledEffect At(const Eigen::VectorXd& sizes) const {
     telltale::ModelledEffect modelled{&effect_, {}};
     for (Eigen::Index i = 0; i < Unknowns(); ++i) {
-      modelled.values.push_back(Of(i).usual + Of(i).typical * sizes[i]);
+      modelled.values.push_back(Of(i).prior_mean + Of(i).typical * sizes[i]);
     }
     return modelled;
   }
 
   Eigen::VectorXd Within(Eigen::VectorXd sizes) const {
     for (Eigen::Index i = 0; i < Unknowns(); ++i) {
-      sizes[i] = std::clamp(sizes[i], (Of(i).lower - Of(i).usual) / Of(i).typical, Highest(i));
+      sizes[i] = std::clamp(sizes[i], (Of(i).lower - Of(i).prior_mean) / Of(i).typical, Highest(i));
     }
     return sizes;
   }
 
   Eigen::VectorXd Errors(const Eigen::VectorXd& sizes) const {
-    Eigen::MatrixXd errors = ground_.runs.Errors(ground_.With({At(sizes)}));
+    Eigen::MatrixXd errors = basis_.runs.Errors(basis_.With({At(sizes)}));
     whitener_.matrixL().solveInPlace(errors);
     return errors.cwiseMax(-kMostSigmas).cwiseMin(kMostSigmas).reshaped();
   }
@@ -61,7 +61,7 @@ class Problem {
   std::vector<Eigen::VectorXd> Starts() const {
     std::vector<Eigen::VectorXd> starts{Eigen::VectorXd::Zero(Unknowns())};
     for (Eigen::Index i = 0; i < Unknowns(); ++i) {
-      if (Of(i).shapes) continue;
+      if (Of(i).is_shape) continue;
       for (const double size : {-1.0, 1.0}) {
         starts.push_back(Within(size * Eigen::VectorXd::Unit(Unknowns(), i)));
       }
@@ -73,9 +73,9 @@ class Problem {
   const EffectParameter& Of(Eigen::Index i) const {
     return effect_.Parameters()[static_cast<std::size_t>(i)];
   }
-  double Highest(Eigen::Index i) const { return (Of(i).upper - Of(i).usual) / Of(i).typical; }
+  double Highest(Eigen::Index i) const { return (Of(i).upper - Of(i).prior_mean) / Of(i).typical; }
 
-  const Ground& ground_;
+  const ReferenceBasis& basis_;
   const Effect& effect_;
   Eigen::LLT<Eigen::MatrixXd> whitener_;
 };
@@ -83,7 +83,7 @@ class Problem {
 struct Point {
   Eigen::VectorXd sizes;
   Eigen::VectorXd errors;
-  double Square() const { return errors.squaredNorm(); }
+  double SquaredMahalanobis() const { return errors.squaredNorm(); }
 };
 
 /// Levenberg-Marquardt from the best of the starts.
@@ -91,41 +91,42 @@ Point LeastSquares(const Problem& problem) {
   const auto at = [&](const Eigen::VectorXd& sizes) { return Point{sizes, problem.Errors(sizes)}; };
   Point best = at(problem.Starts().front());
   for (const Eigen::VectorXd& start : problem.Starts()) {
-    if (Point other = at(start); other.Square() < best.Square()) best = std::move(other);
+    if (Point other = at(start); other.SquaredMahalanobis() < best.SquaredMahalanobis())
+      best = std::move(other);
   }
   double damping = 1e-3;
   for (int iteration = 0; iteration < kMostIterations; ++iteration) {
     const Eigen::MatrixXd jacobian = problem.Jacobian(best.sizes, best.errors);
     const Eigen::MatrixXd information = jacobian.transpose() * jacobian;
     const Eigen::VectorXd slope = jacobian.transpose() * best.errors;
-    const double before = best.Square();
-    for (; damping < kMostDamping && best.Square() == before; damping *= 10.0) {
+    const double before = best.SquaredMahalanobis();
+    for (; damping < kMostDamping && best.SquaredMahalanobis() == before; damping *= 10.0) {
       Eigen::MatrixXd damped = information;
       damped.diagonal() += damping * (information.diagonal().array() + 1e-9).matrix();
       Point next = at(problem.Within(best.sizes - damped.ldlt().solve(slope)));
-      if (next.Square() >= before) continue;
+      if (next.SquaredMahalanobis() >= before) continue;
       best = std::move(next);
       damping /= 100.0;
     }
-    if (before - best.Square() < kConverged * before) break;
+    if (before - best.SquaredMahalanobis() < kConverged * before) break;
   }
   return best;
 }
 
 }  // namespace
 
-std::vector<Answer> BestBic(const Ground& ground) {
-  std::vector<Answer> answers;
+std::vector<ScoredExplanation> BestBic(const ReferenceBasis& basis) {
+  std::vector<ScoredExplanation> explanations;
   for (const Effect* effect : telltale::EffectLibrary()) {
-    if (telltale::SlotsOf(std::span(&effect, 1)).empty()) continue;
-    const Problem problem(ground, *effect);
+    if (telltale::EffectParameterRefsOf(std::span(&effect, 1)).empty()) continue;
+    const Problem problem(basis, *effect);
     const Point point = LeastSquares(problem);
     const auto n = static_cast<double>(point.errors.size());
-    const double bic =
-        n * std::log(point.Square() / n) + static_cast<double>(problem.Unknowns()) * std::log(n);
-    answers.push_back({{problem.At(point.sizes)}, bic});
+    const double bic = n * std::log(point.SquaredMahalanobis() / n) +
+                       static_cast<double>(problem.Unknowns()) * std::log(n);
+    explanations.push_back({{problem.At(point.sizes)}, bic});
   }
-  return answers;
+  return explanations;
 }
 
 }  // namespace blind::baselines

@@ -5,29 +5,31 @@
 
 #include "baselines/best_bic.hpp"
 #include "baselines/regressions.hpp"
-#include "telltale/client/recording/files.hpp"
+#include "telltale/client/recording/file_contents.hpp"
 
 namespace {
 
 constexpr int kUsageError = 2;
 
 struct Arguments {
-  blind::DayFiles files;
+  blind::DiagnosisInputFiles files;
   std::filesystem::path out;
   std::string name;
 };
 
 void Run(const Arguments& arguments) {
-  const blind::Days days = arguments.files.Load();
-  const blind::Ground ground(days);
-  const auto write = [&](const char* method, std::vector<blind::baselines::Answer> answers) {
+  const blind::DiagnosisInputs inputs = arguments.files.Load();
+  const blind::ReferenceBasis basis(inputs);
+  const auto write = [&](const char* method,
+                         std::vector<blind::baselines::ScoredExplanation> explanations) {
     const std::filesystem::path folder = arguments.out / method;
     std::filesystem::create_directories(folder);
-    telltale::WriteFile(folder / (arguments.name + ".json"), ReportOf(std::move(answers), ground));
+    telltale::WriteFile(folder / (arguments.name + ".json"),
+                        ReportOf(std::move(explanations), basis));
   };
-  write("best-bic", blind::baselines::BestBic(ground));
-  write("stepwise", blind::baselines::Stepwise(ground));
-  write("sparse", blind::baselines::Sparse(ground));
+  write("best-bic", blind::baselines::BestBic(basis));
+  write("stepwise", blind::baselines::Stepwise(basis));
+  write("sparse", blind::baselines::Sparse(basis));
 }
 
 }  // namespace

@@ -5,7 +5,7 @@
 #include <set>
 
 #include "baselines/accelerations.hpp"
-#include "telltale/core/linear_algebra/decompositions.hpp"
+#include "telltale/core/base/linear_algebra/eigen_decompositions.hpp"
 
 namespace blind::baselines {
 namespace {
@@ -30,10 +30,11 @@ struct Fit {
 
 class Regression {
  public:
-  explicit Regression(const Ground& ground)
-      : slots_(ground.slots), accelerations_(AccelerationsOf(ground)) {
-    for (std::size_t i = 0; i < slots_.size(); ++i) {
-      if (i == 0 || slots_[i].effect != slots_[i - 1].effect) columns_of_.emplace_back();
+  explicit Regression(const ReferenceBasis& basis)
+      : parameter_refs_(basis.parameter_refs), accelerations_(AccelerationsOf(basis)) {
+    for (std::size_t i = 0; i < parameter_refs_.size(); ++i) {
+      if (i == 0 || parameter_refs_[i].effect != parameter_refs_[i - 1].effect)
+        columns_of_.emplace_back();
       columns_of_.back().push_back(static_cast<Eigen::Index>(i));
     }
   }
@@ -45,16 +46,16 @@ class Regression {
     const Eigen::MatrixXd signatures = accelerations_.signatures(Eigen::all, columns);
     Eigen::MatrixXd information = signatures.transpose() * signatures;
     information.diagonal().array() += ridge;
-    const Eigen::VectorXd along = signatures.transpose() * accelerations_.misses;
+    const Eigen::VectorXd along = signatures.transpose() * accelerations_.residuals;
     const Eigen::VectorXd sizes = information.ldlt().solve(along);
     Fit fit{.support = support,
             .sizes = {sizes.begin(), sizes.end()},
-            .square = (accelerations_.misses - signatures * sizes).squaredNorm()};
+            .square = (accelerations_.residuals - signatures * sizes).squaredNorm()};
     for (std::size_t i = 0; i < columns.size(); ++i) {
       fit.in_range = fit.in_range && InRange(columns[i], fit.sizes[i]) == fit.sizes[i];
     }
     const double n = accelerations_.independent;
-    fit.bic = n * std::log(fit.square / static_cast<double>(accelerations_.misses.size())) +
+    fit.bic = n * std::log(fit.square / static_cast<double>(accelerations_.residuals.size())) +
               static_cast<double>(columns.size()) * std::log(n);
     return fit;
   }
@@ -71,32 +72,36 @@ class Regression {
     return above;
   }
 
-  Answer AnswerOf(const Fit& fit) const {
-    Answer answer{.effects = {}, .bic = fit.bic};
+  ScoredExplanation ExplanationOf(const Fit& fit) const {
+    ScoredExplanation explanation{.effects = {}, .bic = fit.bic};
     std::size_t next = 0;
     for (const std::size_t effect : fit.support) {
       for (const Eigen::Index column : columns_of_[effect]) {
-        const telltale::Slot& slot = slots_[static_cast<std::size_t>(column)];
-        const double value = fit.sizes[next++] * Typical(slot);
+        const telltale::EffectParameterRef& parameter_ref =
+            parameter_refs_[static_cast<std::size_t>(column)];
+        const double value = fit.sizes[next++] * Typical(parameter_ref);
         if (column == columns_of_[effect].front()) {
-          answer.effects.push_back(telltale::At(slot, value));
+          explanation.effects.push_back(telltale::At(parameter_ref, value));
         } else {
-          answer.effects.back().values[slot.parameter] = value;
+          explanation.effects.back().values[parameter_ref.parameter] = value;
         }
       }
     }
-    return answer;
+    return explanation;
   }
 
  private:
-  static const telltale::EffectParameter& ParameterOf(const telltale::Slot& slot) {
-    return slot.effect->Parameters()[slot.parameter];
+  static const telltale::EffectParameter& ParameterOf(
+      const telltale::EffectParameterRef& parameter_ref) {
+    return parameter_ref.effect->Parameters()[parameter_ref.parameter];
   }
-  static double Typical(const telltale::Slot& slot) { return ParameterOf(slot).typical; }
+  static double Typical(const telltale::EffectParameterRef& parameter_ref) {
+    return ParameterOf(parameter_ref).typical;
+  }
 
   double InRange(Eigen::Index column, double size) const {
     const telltale::EffectParameter& parameter =
-        ParameterOf(slots_[static_cast<std::size_t>(column)]);
+        ParameterOf(parameter_refs_[static_cast<std::size_t>(column)]);
     return std::clamp(size, parameter.lower / parameter.typical,
                       parameter.upper / parameter.typical);
   }
@@ -109,7 +114,7 @@ class Regression {
     return columns;
   }
 
-  std::vector<telltale::Slot> slots_;
+  std::vector<telltale::EffectParameterRef> parameter_refs_;
   Accelerations accelerations_;
   std::vector<std::vector<Eigen::Index>> columns_of_;
 };
@@ -138,35 +143,35 @@ Support ThresholdedSupport(const Regression& regression, double threshold) {
 
 }  // namespace
 
-std::vector<Answer> Stepwise(const Ground& ground) {
-  const Regression regression(ground);
+std::vector<ScoredExplanation> Stepwise(const ReferenceBasis& basis) {
+  const Regression regression(basis);
   const Fit none = regression.FitOf({}, 0.0);
   Fit best = none;
-  std::vector<Answer> answers{regression.AnswerOf(none)};
+  std::vector<ScoredExplanation> explanations{regression.ExplanationOf(none)};
   while (best.support.size() < kMostEffects) {
     const std::vector<Fit> larger = OneMore(regression, best);
     if (larger.empty() || larger.front().bic >= best.bic) break;
     const Fit& next = larger.front();
     if (best.square - next.square < kWorthwhile * (none.square - next.square)) break;
-    for (const Fit& fit : larger) answers.push_back(regression.AnswerOf(fit));
+    for (const Fit& fit : larger) explanations.push_back(regression.ExplanationOf(fit));
     best = next;
   }
-  return answers;
+  return explanations;
 }
 
-std::vector<Answer> Sparse(const Ground& ground) {
-  const Regression regression(ground);
-  std::vector<Answer> answers{regression.AnswerOf(regression.FitOf({}, 0.0))};
+std::vector<ScoredExplanation> Sparse(const ReferenceBasis& basis) {
+  const Regression regression(basis);
+  std::vector<ScoredExplanation> explanations{regression.ExplanationOf(regression.FitOf({}, 0.0))};
   std::set<Support> seen{Support{}};
   for (double threshold = kLowestThreshold; threshold <= kHighestThreshold;
        threshold *= kThresholdStep) {
     const Support support = ThresholdedSupport(regression, threshold);
     if (support.size() > kMostEffects || !seen.insert(support).second) continue;
     if (const Fit fit = regression.FitOf(support, 0.0); fit.in_range) {
-      answers.push_back(regression.AnswerOf(fit));
+      explanations.push_back(regression.ExplanationOf(fit));
     }
   }
-  return answers;
+  return explanations;
 }
 
 }  // namespace blind::baselines

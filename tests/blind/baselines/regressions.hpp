@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "baselines/answer.hpp"
+#include "baselines/scored_explanation.hpp"
 
 namespace blind::baselines {
 
@@ -13,11 +13,11 @@ namespace blind::baselines {
 
 /// Forward: adds the effect that lowers the criterion most, as long as one does and brings at least
 /// a tenth of what is explained with it (Draper and Smith 1998, chapter 15).
-std::vector<Answer> Stepwise(const Ground& ground);
+std::vector<ScoredExplanation> Stepwise(const ReferenceBasis& basis);
 
 /// Sequentially thresholded ridge regression (Brunton, Proctor and Kutz 2016; Rudy et al. 2017):
 /// all effects at once, those below a share of their typical size dropped, fitted again until none
 /// is; of all such shares the support with the least criterion.
-std::vector<Answer> Sparse(const Ground& ground);
+std::vector<ScoredExplanation> Sparse(const ReferenceBasis& basis);
 
 }  // namespace blind::baselines

@@ -7,7 +7,7 @@
 #include "baselines/best_bic.hpp"
 #include "baselines/regressions.hpp"
 #include "score/figures.hpp"
-#include "support/augmented_boats.hpp"
+#include "support/stable_boat_with_effects.hpp"
 
 namespace blind::baselines {
 namespace {
@@ -17,26 +17,28 @@ using telltale::ModelledEffect;
 
 constexpr double kDurationS = 200.0;
 
-/// The stable boat with effects, against two healthy days of it.
-Days DaysWith(const std::vector<ModelledEffect>& effects) {
-  Days days{.model = telltale::UncertainModelOf(telltale::testing::KnownStableBoat()).value(),
-            .recording = telltale::testing::SailWithEffects(effects, kDurationS, 7000),
-            .references = {}};
+/// The stable boat with effects, against two nominal days of it.
+DiagnosisInputs DaysWith(const std::vector<ModelledEffect>& effects) {
+  DiagnosisInputs inputs{
+      .model = telltale::UncertainModelOf(telltale::testing::KnownStableBoat()).value(),
+      .recording = telltale::testing::SimulateWithEffects(effects, kDurationS, 7000),
+      .references = {}};
   for (const std::uint64_t seed : {1100, 1200}) {
-    days.references.push_back(telltale::testing::SailWithEffects({}, kDurationS, seed));
+    inputs.references.push_back(telltale::testing::SimulateWithEffects({}, kDurationS, seed));
   }
-  return days;
+  return inputs;
 }
 
-score::Report Said(const std::vector<Answer>& answers, const Ground& ground) {
-  return score::ParseReport(ReportOf(answers, ground));
+score::Report Said(const std::vector<ScoredExplanation>& explanations,
+                   const ReferenceBasis& basis) {
+  return score::ParseReport(ReportOf(explanations, basis));
 }
 
 TEST(Baselines, NameAWeakThruster) {
-  const Days days = DaysWith({{FindEffect("thruster_imbalance"), {-0.2}}});
-  const Ground ground(days);
+  const DiagnosisInputs inputs = DaysWith({{FindEffect("thruster_imbalance"), {-0.2}}});
+  const ReferenceBasis basis(inputs);
   for (const auto& method : {BestBic, Stepwise, Sparse}) {
-    const score::Report report = Said(method(ground), ground);
+    const score::Report report = Said(method(basis), basis);
     EXPECT_EQ(report.verdict, "EXPLAINED");
     ASSERT_FALSE(report.causes.empty());
     EXPECT_EQ(report.causes[0].effects, score::EffectSet{"thruster_imbalance"});
@@ -46,45 +48,45 @@ TEST(Baselines, NameAWeakThruster) {
   }
 }
 
-TEST(Baselines, NameOldFixesWithoutLookingAhead) {
-  const Days days = DaysWith({{FindEffect("gnss_latency"), {0.4}}});
-  const Ground ground(days);
+TEST(Baselines, NameOldFixesCausally) {
+  const DiagnosisInputs inputs = DaysWith({{FindEffect("gnss_latency"), {0.4}}});
+  const ReferenceBasis basis(inputs);
   for (const auto& method : {BestBic, Stepwise}) {
-    const score::Report report = Said(method(ground), ground);
+    const score::Report report = Said(method(basis), basis);
     ASSERT_FALSE(report.causes.empty());
     EXPECT_TRUE(report.causes[0].effects.contains("gnss_latency"));
   }
   // Whoever started from fixes yet to come would miss nothing: signature and misses would be one.
-  const Days healthy = DaysWith({});
-  const Ground calm(healthy);
+  const DiagnosisInputs nominal = DaysWith({});
+  const ReferenceBasis calm(nominal);
   const Accelerations accelerations = AccelerationsOf(calm);
-  for (std::size_t i = 0; i < calm.slots.size(); ++i) {
-    if (calm.slots[i].effect->Name() != "gnss_latency") continue;
+  for (std::size_t i = 0; i < calm.parameter_refs.size(); ++i) {
+    if (calm.parameter_refs[i].effect->Name() != "gnss_latency") continue;
     const auto signature = accelerations.signatures.col(static_cast<Eigen::Index>(i));
-    EXPECT_LT(std::abs(signature.normalized().dot(accelerations.misses.normalized())), 0.3);
+    EXPECT_LT(std::abs(signature.normalized().dot(accelerations.residuals.normalized())), 0.3);
   }
 }
 
-TEST(Baselines, TellAHealthyBoatOnlyWhereNothingIsAnAnswer) {
-  const Days days = DaysWith({});
-  const Ground ground(days);
-  EXPECT_EQ(Said(Stepwise(ground), ground).verdict, "NO_MATERIAL_GAP");
-  EXPECT_EQ(Said(Sparse(ground), ground).verdict, "NO_MATERIAL_GAP");
-  EXPECT_EQ(Said(BestBic(ground), ground).verdict, "EXPLAINED") << "it always names one";
+TEST(Baselines, FindNoEffectOnANominalBoatOnlyIfNoEffectIsACandidate) {
+  const DiagnosisInputs inputs = DaysWith({});
+  const ReferenceBasis basis(inputs);
+  EXPECT_EQ(Said(Stepwise(basis), basis).verdict, "NO_MATERIAL_GAP");
+  EXPECT_EQ(Said(Sparse(basis), basis).verdict, "NO_MATERIAL_GAP");
+  EXPECT_EQ(Said(BestBic(basis), basis).verdict, "EXPLAINED") << "it always names one";
 }
 
-TEST(ReportOf, WeighsAnswersByTheirCriterion) {
-  const Days days = DaysWith({});
-  const Ground ground(days);
-  const auto answer = [](const char* effect, double bic) {
-    return Answer{{{FindEffect(effect), {0.1}}}, bic};
+TEST(ReportOf, WeightsExplanationsByTheirCriterion) {
+  const DiagnosisInputs inputs = DaysWith({});
+  const ReferenceBasis basis(inputs);
+  const auto explanation = [](const char* effect, double bic) {
+    return ScoredExplanation{{{FindEffect(effect), {0.1}}}, bic};
   };
-  const score::Report report =
-      Said({answer("thrust_gain", 12.0), answer("gnss_latency", 10.0), {{}, 1000.0}}, ground);
+  const score::Report report = Said(
+      {explanation("thrust_gain", 12.0), explanation("gnss_latency", 10.0), {{}, 1000.0}}, basis);
   ASSERT_EQ(report.causes.size(), 2u);
   EXPECT_EQ(report.causes[0].effects, score::EffectSet{"gnss_latency"});
   EXPECT_NEAR(report.causes[0].probability, 1.0 / (1.0 + std::exp(-1.0)), 1e-9);
-  EXPECT_EQ(Said({answer("thrust_gain", 12.0), {{}, 10.0}}, ground).verdict, "NO_MATERIAL_GAP");
+  EXPECT_EQ(Said({explanation("thrust_gain", 12.0), {{}, 10.0}}, basis).verdict, "NO_MATERIAL_GAP");
 }
 
 }  // namespace

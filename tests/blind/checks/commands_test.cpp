@@ -39,8 +39,8 @@ TEST(BlindTruth, RefusesBadOptionsByName) {
       {{"--out", out, "--set", "third"}, "--set"},
       {{"--out", out, "--duration", "1"}, "--duration"},
       {{"--out", out, "--effect", "gremlins"}, "no effect gremlins; there are wind,"},
-      {{"--out", out, "--healthy", "--hull", "bounty"}, "no hull bounty"},
-      {{"--out", out, "--healthy", "--effect", "wind"}, "--healthy"},
+      {{"--out", out, "--nominal", "--hull", "bounty"}, "no hull bounty"},
+      {{"--out", out, "--nominal", "--effect", "wind"}, "--nominal"},
       {{"--out", out, "--hull", "tern"}, "--hull"},
       {{"--out", out, "--effect", "wind", "--sign", "0"}, "--sign"},
       {{"--out", out, "--effect", "wind", "--size", "1", "--size", "2"}, "--size"}};

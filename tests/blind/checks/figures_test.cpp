@@ -80,10 +80,10 @@ TEST(Figures, CountTop1Top3AndClass) {
 
 TEST(Figures, CountFalseAlarms) {
   const Figures figures = FiguresOf({
-      Answer("healthy", {}, "NO_MATERIAL_GAP", {}),
-      Answer("healthy", {}, "INSUFFICIENT_DATA", {}),
-      Answer("healthy", {}, "EXPLAINED", {Named({"wind"}, 0.7)}),
-      Answer("healthy", {}, "UNKNOWN_CAUSE", {Named({"unknown"}, 0.9)}),
+      Answer("nominal", {}, "NO_MATERIAL_GAP", {}),
+      Answer("nominal", {}, "INSUFFICIENT_DATA", {}),
+      Answer("nominal", {}, "EXPLAINED", {Named({"wind"}, 0.7)}),
+      Answer("nominal", {}, "UNKNOWN_CAUSE", {Named({"unknown"}, 0.9)}),
   });
   EXPECT_EQ(figures.false_alarms.hits, 2u);
   EXPECT_EQ(figures.false_alarms.all, 4u);
@@ -139,11 +139,11 @@ TEST(Figures, CompareClosureWhereItWasRealised) {
   ASSERT_EQ(figures.closure_errors.size(), 2u);
   EXPECT_NEAR(figures.closure_errors[0], 0.1, 1e-12);
   EXPECT_NEAR(figures.closure_errors[1], 0.5, 1e-12);
-  ASSERT_EQ(figures.sure_closure_errors.size(), 1u);
-  EXPECT_NEAR(figures.sure_closure_errors[0], 0.1, 1e-12);
+  ASSERT_EQ(figures.named_closure_errors.size(), 1u);
+  EXPECT_NEAR(figures.named_closure_errors[0], 0.1, 1e-12);
   EXPECT_NEAR(Median(figures.closures), 0.8, 1e-12);
   EXPECT_EQ(figures.all.class_hit.hits, 3u);
-  EXPECT_EQ(figures.all.sure_hit.hits, 2u) << "likely, but not named for sure";
+  EXPECT_EQ(figures.all.named_hit.hits, 2u) << "likely, but not named for sure";
 }
 
 TEST(Figures, CountWrongNamesGivenWithoutTheTrueEffect) {
@@ -166,9 +166,9 @@ TEST(Figures, CountWrongNamesGivenWithoutTheTrueEffect) {
   });
   EXPECT_EQ(figures.confidently_wrong.hits, 4u);
   EXPECT_EQ(figures.confidently_wrong.all, 7u) << "a gap has to be seen";
-  EXPECT_EQ(figures.stranger_named.hits, 1u) << "wind and current are known to look alike";
-  EXPECT_EQ(figures.stranger_named.all, 7u);
-  EXPECT_EQ(figures.neighbour_named.hits, 1u);
+  EXPECT_EQ(figures.unrelated_named.hits, 1u) << "wind and current are known to look alike";
+  EXPECT_EQ(figures.unrelated_named.all, 7u);
+  EXPECT_EQ(figures.indistinguishable_named.hits, 1u);
 }
 
 TEST(Confusable, IsAPairWhicheverWayRound) {
@@ -228,7 +228,7 @@ TEST(ParseReport, NamesWhatIsWrong) {
 }
 
 TEST(Markdown, HasAColumnAFolderAndARowAnEffect) {
-  const std::vector<Scored> cases{Answer("healthy", {}, "NO_MATERIAL_GAP", {}),
+  const std::vector<Scored> cases{Answer("nominal", {}, "NO_MATERIAL_GAP", {}),
                                   Answer("single", {"wind"}, "EXPLAINED", {Named({"wind"}, 0.9)})};
   const std::string text =
       Markdown({{"ours", FiguresOf(cases)}, {"best-bic", FiguresOf(cases)}}, cases.size());

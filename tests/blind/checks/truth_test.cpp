@@ -16,7 +16,7 @@
 #include "support/run_command.hpp"
 #include "support/temporary_folder.hpp"
 #include "thruster.hpp"
-#include "voyage.hpp"
+#include "simulated_run.hpp"
 
 namespace blind::truth {
 namespace {
@@ -37,7 +37,7 @@ Scenario SymmetricScenario() {
 State Sailed(State state, const Scenario& scenario, const Drive& drive, const Surroundings& around,
              double duration_s) {
   for (int step = 0; step < duration_s / kStepS; ++step) {
-    state = Stepped(state, scenario, drive, around, kStepS);
+    state = RungeKuttaStep(state, scenario, drive, around, kStepS);
   }
   return state;
 }
@@ -95,14 +95,14 @@ TEST(Thruster, LosesItsStatedShareAtReferenceSpeed) {
 
 TEST(Motion, LosesEnergyWithoutThrust) {
   const Scenario scenario = SymmetricScenario();
-  Dice dice(3);
+  RandomStream rng(3);
   for (int start = 0; start < 20; ++start) {
-    State state{.surge_mps = dice.Uniform(-2, 2),
-                .sway_mps = dice.Uniform(-1, 1),
-                .yaw_radps = dice.Uniform(-2, 2)};
+    State state{.surge_mps = rng.Uniform(-2, 2),
+                .sway_mps = rng.Uniform(-1, 1),
+                .yaw_radps = rng.Uniform(-2, 2)};
     for (int step = 0; step < 2000; ++step) {
       const double before = KineticEnergy(state, scenario);
-      state = Stepped(state, scenario, {}, {}, kStepS);
+      state = RungeKuttaStep(state, scenario, {}, {}, kStepS);
       ASSERT_LT(KineticEnergy(state, scenario), before) << "start " << start << " step " << step;
     }
   }
@@ -162,7 +162,7 @@ TEST(Motion, TurnsToStarboardWhenPortPushesMore) {
 }
 
 /// What is asked of a boat of this class: about 1.5 to 2 m/s and 0.6 to 1 rad/s, with some margin.
-TEST(Fleet, SailsAsBoatsOfItsClassDo) {
+TEST(Fleet, MovesAsBoatsOfItsClassDo) {
   for (const Set set : {Set::kDevelopment, Set::kHeldOut}) {
     for (const std::uint64_t seed : {1u, 2u, 3u}) {
       for (const Hull& hull : Fleet(set, seed)) {
@@ -202,7 +202,7 @@ TEST(Plan, HoldsWhatItPromises) {
       singles[applied.effect].insert(
           {static_cast<int>(std::lround(std::log2(applied.size))), applied.sign > 0 ? 1 : -1});
     }
-    EXPECT_EQ(kinds["healthy"], 30u);
+    EXPECT_EQ(kinds["nominal"], 30u);
     EXPECT_EQ(kinds["pair"], 12u);
     EXPECT_EQ(kinds["outside"], 12u);
     EXPECT_EQ(singles.size(), 20u);
@@ -229,7 +229,7 @@ TEST(Campaign, WritesTheSameBytesForTheSameSeed) {
     const CampaignOptions options{.set = Set::kHeldOut,
                                   .seed = seed,
                                   .repeats = 1,
-                                  .healthy_days = {},
+                                  .nominal_days = {},
                                   .most_cases = 3,
                                   .duration_s = 12.0,
                                   .again = false};
@@ -243,13 +243,13 @@ TEST(Campaign, WritesTheSameBytesForTheSameSeed) {
   EXPECT_NE(files.at("cases/001/log/gnss.csv"), other.at("cases/001/log/gnss.csv"));
 }
 
-TEST(Campaign, SailsCasesAgainWithoutChangingWhatItSailsOnce) {
+TEST(Campaign, SimulatesSecondRecordingsWithoutChangingTheFirst) {
   const TemporaryFolder folder;
   const auto write = [&](const std::string& name, bool again) {
     const CampaignOptions options{.set = Set::kHeldOut,
                                   .seed = 7,
                                   .repeats = 1,
-                                  .healthy_days = {},
+                                  .nominal_days = {},
                                   .most_cases = 2,
                                   .duration_s = 12.0,
                                   .again = again};
@@ -266,13 +266,13 @@ TEST(Campaign, SailsCasesAgainWithoutChangingWhatItSailsOnce) {
   }
 }
 
-TEST(Campaign, SailsHealthyDaysOfTheSameBoatsThatAreNoneOfTheCases) {
+TEST(Campaign, SimulatesNominalDaysThatAreNoneOfTheCases) {
   const TemporaryFolder folder;
-  const auto write = [&](const std::string& name, std::optional<std::size_t> healthy_days) {
+  const auto write = [&](const std::string& name, std::optional<std::size_t> nominal_days) {
     const CampaignOptions options{.set = Set::kHeldOut,
                                   .seed = 7,
                                   .repeats = 1,
-                                  .healthy_days = healthy_days,
+                                  .nominal_days = nominal_days,
                                   .most_cases = 5,
                                   .duration_s = 12.0,
                                   .again = false};
@@ -292,12 +292,12 @@ TEST(Campaign, SailsHealthyDaysOfTheSameBoatsThatAreNoneOfTheCases) {
   }
 }
 
-TEST(Plan, DealsOutHealthyDaysThatAreNoneOfTheCases) {
+TEST(Plan, DistributesNominalDaysThatAreNoneOfTheCases) {
   std::set<std::uint64_t> taken;
   for (const Case& planned : PlannedCases(Set::kHeldOut, 1, 20)) taken.insert(planned.day);
   std::map<std::size_t, int> by_hull;
-  for (const Case& planned : HealthyDays(Set::kHeldOut, 1, 300)) {
-    EXPECT_EQ(planned.kind, "healthy");
+  for (const Case& planned : NominalDays(Set::kHeldOut, 1, 300)) {
+    EXPECT_EQ(planned.kind, "nominal");
     EXPECT_TRUE(taken.insert(planned.day).second) << "a day twice";
     ++by_hull[planned.hull];
   }
@@ -311,44 +311,44 @@ TEST(SingleCase, EveryEffectShowsInTheLog) {
     SingleCaseOptions options = ShortCase(effects);
     options.duration_s = 150.0;  // wash and weed come and go
     EXPECT_THAT(WriteSingleCase(options, folder.Path() / name),
-                testing::HasSubstr(effects.empty() ? "healthy" : name));
+                testing::HasSubstr(effects.empty() ? "nominal" : name));
     return FilesBelow(folder.Path() / name / "log");
   };
-  const auto healthy = written("healthy", {});
+  const auto nominal = written("nominal", {});
   for (const Effect& effect : Effects()) {
     const auto files = written(effect.name, {{effect.name, 1.0, 1.0}});
-    EXPECT_TRUE(files.at("gnss.csv") != healthy.at("gnss.csv") ||
-                files.at("heading.csv") != healthy.at("heading.csv"))
+    EXPECT_TRUE(files.at("gnss.csv") != nominal.at("gnss.csv") ||
+                files.at("heading.csv") != nominal.at("heading.csv"))
         << effect.name;
   }
 }
 
 TEST(SingleCase, TurnsOnlyTheCompassByAHeadingBias) {
   const TemporaryFolder folder;
-  WriteSingleCase(ShortCase({}), folder.Path() / "healthy");
+  WriteSingleCase(ShortCase({}), folder.Path() / "nominal");
   WriteSingleCase(ShortCase({{"heading_bias", 2.0, -1.0}}), folder.Path() / "biased");
-  const auto healthy = SecondColumn(folder.Path() / "healthy/log/heading.csv");
+  const auto nominal = SecondColumn(folder.Path() / "nominal/log/heading.csv");
   const auto biased = SecondColumn(folder.Path() / "biased/log/heading.csv");
-  ASSERT_EQ(healthy.size(), biased.size());
-  for (std::size_t row = 0; row < healthy.size(); ++row) {
+  ASSERT_EQ(nominal.size(), biased.size());
+  for (std::size_t row = 0; row < nominal.size(); ++row) {
     // Twice the typical 3 degrees, to port; headings are written to 1e-4.
-    EXPECT_NEAR(std::remainder(biased[row] - healthy[row], 360.0), -6.0, 1.1e-4) << row;
+    EXPECT_NEAR(std::remainder(biased[row] - nominal[row], 360.0), -6.0, 1.1e-4) << row;
   }
-  EXPECT_EQ(TextOfFile(folder.Path() / "healthy/log/gnss.csv"),
+  EXPECT_EQ(TextOfFile(folder.Path() / "nominal/log/gnss.csv"),
             TextOfFile(folder.Path() / "biased/log/gnss.csv"));
 }
 
-TEST(SingleCase, IsHealthyUntilTheOnset) {
+TEST(SingleCase, IsNominalUntilTheOnset) {
   const TemporaryFolder folder;
-  WriteSingleCase(ShortCase({}), folder.Path() / "healthy");
+  WriteSingleCase(ShortCase({}), folder.Path() / "nominal");
   SingleCaseOptions options = ShortCase({{"thruster_imbalance", 2.0, 1.0}});
   options.onset_s = 30.0;
   WriteSingleCase(options, folder.Path() / "late");
-  const auto healthy = SecondColumn(folder.Path() / "healthy/log/heading.csv");
+  const auto nominal = SecondColumn(folder.Path() / "nominal/log/heading.csv");
   const auto late = SecondColumn(folder.Path() / "late/log/heading.csv");
   constexpr std::ptrdiff_t kRowsBefore = 30 * 20;
-  EXPECT_TRUE(std::equal(healthy.begin(), healthy.begin() + kRowsBefore, late.begin()));
-  EXPECT_FALSE(std::equal(healthy.begin(), healthy.end(), late.begin()));
+  EXPECT_TRUE(std::equal(nominal.begin(), nominal.begin() + kRowsBefore, late.begin()));
+  EXPECT_FALSE(std::equal(nominal.begin(), nominal.end(), late.begin()));
 }
 
 TEST(SingleCase, RefusesWhatItDoesNotKnow) {

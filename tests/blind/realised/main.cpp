@@ -5,11 +5,11 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "ground/ground.hpp"
-#include "telltale/client/cli/inputs.hpp"
-#include "telltale/client/cli/outcome.hpp"
-#include "telltale/client/recording/files.hpp"
-#include "telltale/core/diagnosis/augmented_identification.hpp"
+#include "inputs/reference_basis.hpp"
+#include "telltale/client/cli/exit_codes.hpp"
+#include "telltale/client/cli/input_options.hpp"
+#include "telltale/client/recording/file_contents.hpp"
+#include "telltale/core/diagnosis/hypotheses/augmented_identification.hpp"
 
 namespace {
 
@@ -17,25 +17,24 @@ constexpr int kUsageError = 2;
 constexpr int kNoGap = 3;
 
 struct Arguments {
-  blind::DayFiles files;
+  blind::DiagnosisInputFiles files;
   std::filesystem::path augmented;
   std::filesystem::path out;
 };
 
 /// Writes what there is to say and tells whether that is a closure.
 bool Run(const Arguments& arguments) {
-  const blind::Days days = arguments.files.Load();
-  const blind::Ground ground(days);
+  const blind::DiagnosisInputs inputs = arguments.files.Load();
+  const blind::ReferenceBasis basis(inputs);
   const telltale::AugmentedModel augmented =
       telltale::OrThrow(telltale::AugmentedModelOf(telltale::LoadModel(arguments.augmented)));
-  const auto closure = ground.ClosureBy(augmented);
+  const auto closure = basis.ClosureBy(augmented);
   if (!closure) return false;
-  const nlohmann::json json{
-      {"closure", *closure},
-      {"published", std::sqrt(ground.SquaredGap({days.model.model, {}}))},
-      {"before", std::sqrt(ground.SquaredGap(ground.healthy.boat))},
-      {"after", std::sqrt(std::max(ground.SquaredGap(augmented), 0.0))},
-      {"noiseFloor", std::sqrt(ground.floor.Squared(telltale::kAllChannels))}};
+  const nlohmann::json json{{"closure", *closure},
+                            {"published", std::sqrt(basis.SquaredGap({inputs.model.model, {}}))},
+                            {"before", std::sqrt(basis.SquaredGap(basis.nominal.boat))},
+                            {"after", std::sqrt(std::max(basis.SquaredGap(augmented), 0.0))},
+                            {"noiseFloor", std::sqrt(basis.floor.Squared(telltale::kAllChannels))}};
   telltale::WriteFile(arguments.out, json.dump(1) + '\n');
   return true;
 }
@@ -45,7 +44,7 @@ bool Run(const Arguments& arguments) {
 int main(int argc, char** argv) {
   CLI::App app("Measures how far a diagnosis' model closes the gap on a recording it never saw");
   app.footer(
-      "Errors are those of free runs of 5 s in healthy sigmas, as in report.json.\n"
+      "Errors are those of free runs of 5 s in nominal sigmas, as in report.json.\n"
       "Example: blind_realised --log cases/001/again --vehicle boat.textproto --model model.json "
       "\\\n"
       "             --reference-log reference-1 --reference-log reference-2 \\\n"

@@ -60,11 +60,11 @@ bool AmongFirst(const Report& report, std::size_t count, const EffectSet& truth)
                      [&](const Cause& cause) { return cause.effects == truth; });
 }
 
-void CountNaming(Naming& naming, const Scored& scored) {
+void CountNaming(NamingRates& naming, const Scored& scored) {
   naming.top_1.Count(AmongFirst(scored.report, 1, scored.label.effects));
   naming.top_3.Count(AmongFirst(scored.report, 3, scored.label.effects));
   naming.class_hit.Count(ClassHit(scored));
-  naming.sure_hit.Count(ClassHit(scored) && IsSure(scored.report));
+  naming.named_hit.Count(ClassHit(scored) && IsSure(scored.report));
   const Cause* first = FirstCause(scored.report);
   if (first && !IsUnknown(*first)) {
     naming.class_sizes.push_back(static_cast<double>(ClassSize(*first)));
@@ -111,15 +111,15 @@ void CountLeftOut(Figures& figures, const Scored& scored) {
       first && !IsUnknown(*first) && first->probability > 0.5 && IsSure(*scored.left_out);
   const bool neighbour = first && IsNeighbour(*first, scored);
   figures.confidently_wrong.Count(sure && !neighbour);
-  figures.stranger_named.Count(sure && !neighbour && !LooksAlike(*first, scored.label.effects));
-  figures.neighbour_named.Count(neighbour);
+  figures.unrelated_named.Count(sure && !neighbour && !LooksAlike(*first, scored.label.effects));
+  figures.indistinguishable_named.Count(neighbour);
 }
 
 void CountByEffect(Figures& figures, const Scored& scored) {
-  const bool healthy = scored.label.kind == "healthy";
-  EffectFigures& own = figures.effects[healthy ? "healthy" : Joined(scored.label.effects)];
+  const bool nominal = scored.label.kind == "nominal";
+  EffectFigures& own = figures.effects[nominal ? "nominal" : Joined(scored.label.effects)];
   ++own.called[CalledBy(scored.report)];
-  if (healthy) return;
+  if (nominal) return;
   CountNaming(own.naming, scored);
   own.detectability.push_back(Detectability(scored));
 }
@@ -170,7 +170,7 @@ std::string CalledBy(const Report& report) {
 bool ClassHit(const Scored& scored) {
   const Cause* first = FirstCause(scored.report);
   if (!first) return false;
-  if (scored.label.kind == "healthy") return false;
+  if (scored.label.kind == "nominal") return false;
   if (scored.label.kind == "outside") return IsUnknown(*first);
   return StandsFor(*first, scored.label.effects);
 }
@@ -183,7 +183,7 @@ Figures FiguresOf(const std::vector<Scored>& cases) {
   Figures figures;
   for (const Scored& scored : cases) {
     const std::string& kind = scored.label.kind;
-    if (kind == "healthy") figures.false_alarms.Count(ReportsGap(scored.report));
+    if (kind == "nominal") figures.false_alarms.Count(ReportsGap(scored.report));
     if (kind == "single") CountNaming(figures.all, scored);
     if (kind == "single" && Detectability(scored) >= kDetectable) {
       CountNaming(figures.detectable, scored);
@@ -202,7 +202,7 @@ Figures FiguresOf(const std::vector<Scored>& cases) {
     if (report.closure && report.realised) {
       const double error = std::abs(*report.closure - *report.realised);
       figures.closure_errors.push_back(error);
-      if (IsSure(report)) figures.sure_closure_errors.push_back(error);
+      if (IsSure(report)) figures.named_closure_errors.push_back(error);
     }
   }
   return figures;

@@ -64,16 +64,16 @@ bool ClassHit(const Scored& scored);
 /// How many single effects the first cause stands for.
 std::size_t ClassSize(const Cause& cause);
 
-struct Naming {
+struct NamingRates {
   Rate top_1;
   Rate top_3;
   Rate class_hit;
-  Rate sure_hit;                    // of all: a class hit that the verdict names outright
+  Rate named_hit;                   // of all: a class hit that the verdict names outright
   std::vector<double> class_sizes;  // where a cause of the library was named
 };
 
 struct EffectFigures {
-  Naming naming;
+  NamingRates naming;
   std::vector<double> detectability;
   std::map<std::string, std::size_t> called;  // the row of the confusion table
 };
@@ -81,21 +81,22 @@ struct EffectFigures {
 inline constexpr double kDetectable = 10.0;
 
 struct Figures {
-  Naming all;          // single effects
-  Naming detectable;   // of them those whose own report has the true effect at kDetectable or more
-  Rate false_alarms;   // healthy
+  NamingRates all;  // single effects
+  NamingRates
+      detectable;      // of them those whose own report has the true effect at kDetectable or more
+  Rate false_alarms;   // nominal
   Rate wrongly_named;  // outside the library: called EXPLAINED, or by an effect at more than 0.5
   Rate outside_seen;   // outside the library: a gap was reported at all
   Rate exact_pairs;    // both of two effects and no other, each up to its class
   Rate half_pairs;     // at least one of the two
-  Rate confidently_wrong;  // true effect left out, gap seen: the verdict names one unlike it
-  Rate stranger_named;     // of all that too, by nothing that is known to look like it either
-  Rate neighbour_named;    // likewise, by one that the report with it cannot tell it from
+  Rate confidently_wrong;        // true effect left out, gap seen: the verdict names one unlike it
+  Rate unrelated_named;          // of all that too, by nothing that is known to look like it either
+  Rate indistinguishable_named;  // likewise, by one that the report with it cannot tell it from
   std::vector<Forecast> forecasts;               // of each first cause there was
   std::vector<double> closures;                  // predicted, where a class was hit
   std::vector<double> closure_errors;            // |predicted - realised|, where realised is known
-  std::vector<double> sure_closure_errors;       // of them where the verdict names a cause outright
-  std::map<std::string, EffectFigures> effects;  // by true effects, "healthy" among them
+  std::vector<double> named_closure_errors;      // of them where the verdict names a cause outright
+  std::map<std::string, EffectFigures> effects;  // by true effects, "nominal" among them
 };
 
 Figures FiguresOf(const std::vector<Scored>& cases);

@@ -5,7 +5,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "score/contest.hpp"
+#include "score/comparison.hpp"
 
 namespace {
 
@@ -51,9 +51,9 @@ void ListSingleEffects(const Arguments& arguments) {
 
 void Run(const Arguments& arguments) {
   if (arguments.single_effects) return ListSingleEffects(arguments);
-  const blind::score::Contest contest =
+  const blind::score::Comparison comparison =
       blind::score::Scores(arguments.set, arguments.reports, arguments.partial);
-  const std::string tables = blind::score::Markdown(contest.contestants, contest.cases);
+  const std::string tables = blind::score::Markdown(comparison.methods, comparison.cases);
   std::cout << tables;
   if (arguments.markdown.empty()) return;
   std::ofstream file(arguments.markdown, std::ios::binary);
@@ -67,7 +67,8 @@ void Run(const Arguments& arguments) {
 int main(int argc, char** argv) {
   CLI::App app("Opens the sealed labels of a set and scores the reports on it");
   app.footer(
-      "No label is opened unless every case has a report. What the figures mean: docs/blind.md\n"
+      "No label is opened unless every case has a report. What the figures mean: "
+      "docs/validation/blind-checks.md\n"
       "Example: blind_score --set-dir development --reports reports --reports best-bic");
   Arguments arguments;
   AddOptions(app, arguments);

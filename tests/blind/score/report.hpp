@@ -16,7 +16,7 @@ inline constexpr std::string_view kUnknown = "unknown";
 
 /// What the label of a case says.
 struct Label {
-  std::string kind;  // healthy, single, pair or outside (the library)
+  std::string kind;  // nominal, single, pair or outside (the library)
   EffectSet effects;
 };
 

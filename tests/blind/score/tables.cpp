@@ -59,16 +59,16 @@ std::vector<Row> Rows() {
       {"single effects: top-1", [](const Figures& f) { return InWords(f.all.top_1); }},
       {"top-3", [](const Figures& f) { return InWords(f.all.top_3); }},
       {"class hit", [](const Figures& f) { return InWords(f.all.class_hit); }},
-      {"class hit, named for sure", [](const Figures& f) { return InWords(f.all.sure_hit); }},
+      {"class hit, named for sure", [](const Figures& f) { return InWords(f.all.named_hit); }},
       {"mean class size", [](const Figures& f) { return MeanOf(f.all.class_sizes); }},
       {"of those with d >= 10: top-1",
        [](const Figures& f) { return InWords(f.detectable.top_1); }},
       {"top-3", [](const Figures& f) { return InWords(f.detectable.top_3); }},
       {"class hit", [](const Figures& f) { return InWords(f.detectable.class_hit); }},
       {"class hit, named for sure",
-       [](const Figures& f) { return InWords(f.detectable.sure_hit); }},
+       [](const Figures& f) { return InWords(f.detectable.named_hit); }},
       {"mean class size", [](const Figures& f) { return MeanOf(f.detectable.class_sizes); }},
-      {"false alarms on healthy (95 % bound)",
+      {"false alarms on nominal (95 % bound)",
        [](const Figures& f) { return WithBound(f.false_alarms); }},
       {"unknowns wrongly named (95 % bound)",
        [](const Figures& f) { return WithBound(f.wrongly_named); }},
@@ -78,9 +78,9 @@ std::vector<Row> Rows() {
       {"true effect left out: another named for sure (95 % bound)",
        [](const Figures& f) { return WithBound(f.confidently_wrong); }},
       {"of them by none that is known to look like it",
-       [](const Figures& f) { return WithBound(f.stranger_named); }},
+       [](const Figures& f) { return WithBound(f.unrelated_named); }},
       {"true effect left out: one of its class named",
-       [](const Figures& f) { return InWords(f.neighbour_named); }},
+       [](const Figures& f) { return InWords(f.indistinguishable_named); }},
       {"Brier (forecasts)", [](const Figures& f) { return OfForecasts(Brier, f); }},
       {"calibration error (forecasts)",
        [](const Figures& f) { return OfForecasts(CalibrationError, f); }},
@@ -89,7 +89,7 @@ std::vector<Row> Rows() {
       {"mean abs(predicted - realised closure) (cases)",
        [](const Figures& f) { return CountedMean(f.closure_errors); }},
       {"the same where the cause is named for sure",
-       [](const Figures& f) { return CountedMean(f.sure_closure_errors); }},
+       [](const Figures& f) { return CountedMean(f.named_closure_errors); }},
   };
 }
 
@@ -105,12 +105,12 @@ std::string CalledAs(const EffectFigures& effect) {
   return text;
 }
 
-std::string EffectTable(const Contestant& contestant) {
-  std::string text = "\n### " + contestant.name +
+std::string EffectTable(const Method& method) {
+  std::string text = "\n### " + method.name +
                      ", by true effect\n"
                      "| true | median d | top-1 | class hit | class size | called |\n"
                      "|---|---|---|---|---|---|\n";
-  for (const auto& [name, effect] : contestant.figures.effects) {
+  for (const auto& [name, effect] : method.figures.effects) {
     text += "| " + name + " | " + Formatted("%.1f", Median(effect.detectability)) + " | " +
             InWords(effect.naming.top_1) + " | " + InWords(effect.naming.class_hit) + " | " +
             MeanOf(effect.naming.class_sizes) + " | " + CalledAs(effect) + " |\n";
@@ -120,20 +120,20 @@ std::string EffectTable(const Contestant& contestant) {
 
 }  // namespace
 
-std::string Markdown(const std::vector<Contestant>& contestants, std::size_t cases) {
+std::string Markdown(const std::vector<Method>& methods, std::size_t cases) {
   std::string text = "| " + std::to_string(cases) + " cases |";
-  for (const Contestant& contestant : contestants) text += " " + contestant.name + " |";
+  for (const Method& method : methods) text += " " + method.name + " |";
   text += "\n|---|";
-  for (std::size_t column = 0; column < contestants.size(); ++column) text += "---|";
+  for (std::size_t column = 0; column < methods.size(); ++column) text += "---|";
   text += '\n';
   for (const Row& row : Rows()) {
     text += std::string("| ") + row.title + " |";
-    for (const Contestant& contestant : contestants) {
-      text += " " + row.cell(contestant.figures) + " |";
+    for (const Method& method : methods) {
+      text += " " + row.cell(method.figures) + " |";
     }
     text += '\n';
   }
-  for (const Contestant& contestant : contestants) text += EffectTable(contestant);
+  for (const Method& method : methods) text += EffectTable(method);
   return text;
 }
 

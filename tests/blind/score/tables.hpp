@@ -8,12 +8,12 @@
 namespace blind::score {
 
 /// One folder of reports.
-struct Contestant {
+struct Method {
   std::string name;
   Figures figures;
 };
 
 /// All figures as Markdown: one column a folder, then for each folder a row an effect.
-std::string Markdown(const std::vector<Contestant>& contestants, std::size_t cases);
+std::string Markdown(const std::vector<Method>& methods, std::size_t cases);
 
 }  // namespace blind::score

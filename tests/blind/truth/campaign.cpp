@@ -16,7 +16,7 @@ namespace {
 constexpr std::size_t kTrainLogs = 3;
 constexpr std::size_t kReferenceLogs = 4;
 constexpr std::size_t kDaysBefore = 10;  // of the hulls' own logs; then a case a day
-constexpr int kHealthyCases = 30;
+constexpr int kNominalCases = 30;
 constexpr std::array<double, 3> kSizes{0.5, 1.0, 2.0};
 constexpr std::array<double, 2> kOutsideSizes{1.0, 2.0};
 
@@ -48,35 +48,35 @@ constexpr std::array<Pair, 12> kHeldOutPairs{{{"current", "thruster_imbalance"},
                                               {"thrust_sag", "heading_bias"},
                                               {"thruster_saturation", "wind"}}};
 
-Dice Yard(Set set, std::uint64_t seed) {
-  return Dice(seed).For(set == Set::kDevelopment ? "development" : "held-out");
+RandomStream Yard(Set set, std::uint64_t seed) {
+  return RandomStream(seed).For(set == Set::kDevelopment ? "development" : "held-out");
 }
 
-void AddSingles(std::vector<Case>& cases, Dice& dice) {
+void AddSingles(std::vector<Case>& cases, RandomStream& rng) {
   for (const Effect& effect : Effects()) {
     if (!effect.in_library) continue;
     for (const double size : kSizes) {
       for (const double sign : effect.has_sign ? std::vector{-1.0, 1.0} : std::vector{1.0}) {
-        cases.push_back({"single", {{effect.name, size * dice.Uniform(0.9, 1.1), sign}}});
+        cases.push_back({"single", {{effect.name, size * rng.Uniform(0.9, 1.1), sign}}});
       }
     }
   }
 }
 
-void AddOutside(std::vector<Case>& cases, Dice& dice) {
+void AddOutside(std::vector<Case>& cases, RandomStream& rng) {
   for (const Effect& effect : Effects()) {
     if (effect.in_library) continue;
     for (const double size : kOutsideSizes) {
-      cases.push_back({"outside", {{effect.name, size * dice.Uniform(0.9, 1.1), 1.0}}});
+      cases.push_back({"outside", {{effect.name, size * rng.Uniform(0.9, 1.1), 1.0}}});
     }
   }
 }
 
-void AddPairs(std::vector<Case>& cases, Set set, Dice& dice) {
+void AddPairs(std::vector<Case>& cases, Set set, RandomStream& rng) {
   for (const Pair& pair : set == Set::kDevelopment ? kDevelopmentPairs : kHeldOutPairs) {
     cases.push_back({"pair",
-                     {{pair.first, dice.Uniform(0.9, 1.6), dice.Sign()},
-                      {pair.second, dice.Uniform(0.9, 1.6), dice.Sign()}}});
+                     {{pair.first, rng.Uniform(0.9, 1.6), rng.Sign()},
+                      {pair.second, rng.Uniform(0.9, 1.6), rng.Sign()}}});
   }
 }
 
@@ -110,15 +110,15 @@ std::string EffectLabel(const AppliedEffect& applied, const std::vector<Paramete
 }
 
 /// The day's scenario with and without the case's effects, and its label.
-std::pair<Voyage, std::string> Prepared(const Case& asked, const Hull& hull, double onset_s,
-                                        double duration_s, const Dice& dice) {
-  const Scenario healthy{.hull = hull, .weather = LightDay(dice.For("weather")), .faults = {}};
-  Voyage voyage{healthy, healthy, onset_s, duration_s};
+std::pair<SimulatedRun, std::string> Prepared(const Case& asked, const Hull& hull, double onset_s,
+                                              double duration_s, const RandomStream& rng) {
+  const Scenario nominal{.hull = hull, .weather = LightDay(rng.For("weather")), .faults = {}};
+  SimulatedRun voyage{nominal, nominal, onset_s, duration_s};
   std::string label = "{\"kind\":" + InQuotes(asked.kind) + ",\"hull\":" + InQuotes(hull.name) +
                       ",\"onset_s\":" + Number(onset_s) + ",\"effects\":[";
   for (std::size_t at = 0; at < asked.effects.size(); ++at) {
     const AppliedEffect& applied = asked.effects[at];
-    Dice draws = dice.For("effect", at);
+    RandomStream draws = rng.For("effect", at);
     const auto parameters =
         EffectNamed(applied.effect).apply(voyage.after, applied.size, applied.sign, draws);
     label += (at == 0 ? "" : ",") + EffectLabel(applied, parameters);
@@ -126,58 +126,58 @@ std::pair<Voyage, std::string> Prepared(const Case& asked, const Hull& hull, dou
   return {voyage, label + "]}"};
 }
 
-void Record(const Voyage& voyage, Set set, std::size_t day, const Dice& dice,
+void Record(const SimulatedRun& voyage, Set set, std::size_t day, const RandomStream& rng,
             const std::filesystem::path& folder) {
-  Mission mission = DrawnMission(set, voyage.duration_s, dice.For("mission"));
-  const Track track = Sail(voyage, std::move(mission), dice.For("voyage"));
-  WriteRecording(track, voyage, day, dice.For("sensors"), folder);
+  Mission mission = DrawnMission(set, voyage.duration_s, rng.For("mission"));
+  const Track track = Simulate(voyage, std::move(mission), rng.For("voyage"));
+  WriteRecording(track, voyage, day, rng.For("sensors"), folder);
 }
 
-void WriteHealthy(const CampaignOptions& options, const Hull& hull, std::size_t day,
-                  const Dice& dice, const std::filesystem::path& folder) {
-  const auto [voyage, label] = Prepared({"healthy", {}}, hull, 0.0, options.duration_s, dice);
-  Record(voyage, options.set, day, dice, folder);
+void WriteNominal(const CampaignOptions& options, const Hull& hull, std::size_t day,
+                  const RandomStream& rng, const std::filesystem::path& folder) {
+  const auto [voyage, label] = Prepared({"nominal", {}}, hull, 0.0, options.duration_s, rng);
+  Record(voyage, options.set, day, rng, folder);
 }
 
 }  // namespace
 
 std::vector<Case> PlannedCases(Set set, std::uint64_t seed, std::size_t repeats) {
-  Dice dice = Yard(set, seed).For("plan");
+  RandomStream rng = Yard(set, seed).For("plan");
   const std::size_t hulls = Fleet(set, seed).size();
   std::vector<Case> cases;
   for (std::size_t repeat = 0; repeat < repeats; ++repeat) {
-    for (int healthy = 0; healthy < kHealthyCases; ++healthy) cases.push_back({"healthy", {}});
-    AddSingles(cases, dice);
-    AddPairs(cases, set, dice);
-    AddOutside(cases, dice);
+    for (int nominal = 0; nominal < kNominalCases; ++nominal) cases.push_back({"nominal", {}});
+    AddSingles(cases, rng);
+    AddPairs(cases, set, rng);
+    AddOutside(cases, rng);
   }
   // Hulls are dealt out within the kinds, so that each hull meets about as many of each.
-  std::size_t hull = dice.Below(hulls);
+  std::size_t hull = rng.Below(hulls);
   for (std::size_t at = 0; at < cases.size(); ++at) {
-    if (at % hulls == 0) hull = dice.Below(hulls);
+    if (at % hulls == 0) hull = rng.Below(hulls);
     cases[at].hull = (hull + at) % hulls;
     cases[at].day = at;
   }
-  dice.Shuffle(cases);
+  rng.Shuffle(cases);
   return cases;
 }
 
-std::vector<Case> HealthyDays(Set set, std::uint64_t seed, std::size_t days) {
+std::vector<Case> NominalDays(Set set, std::uint64_t seed, std::size_t days) {
   constexpr std::uint64_t kAfterAllCases = 1'000'000;
   const std::size_t hulls = Fleet(set, seed).size();
   std::vector<Case> cases;
   for (std::size_t at = 0; at < days; ++at) {
-    cases.push_back({"healthy", {}, at % hulls, kAfterAllCases + at});
+    cases.push_back({"nominal", {}, at % hulls, kAfterAllCases + at});
   }
   return cases;
 }
 
 void WriteCampaign(const CampaignOptions& options, const std::filesystem::path& folder,
                    const Progress& progress) {
-  const Dice yard = Yard(options.set, options.seed);
+  const RandomStream yard = Yard(options.set, options.seed);
   const std::vector<Hull> fleet = Fleet(options.set, options.seed);
-  std::vector<Case> cases = options.healthy_days
-                                ? HealthyDays(options.set, options.seed, *options.healthy_days)
+  std::vector<Case> cases = options.nominal_days
+                                ? NominalDays(options.set, options.seed, *options.nominal_days)
                                 : PlannedCases(options.set, options.seed, options.repeats);
   if (options.most_cases && *options.most_cases < cases.size()) {
     cases.resize(*options.most_cases);
@@ -189,14 +189,14 @@ void WriteCampaign(const CampaignOptions& options, const std::filesystem::path& 
   for (const Hull& hull : fleet) {
     const std::filesystem::path home = folder / "hulls" / hull.name;
     WriteFile(home / "vehicle.textproto", VehicleFile(hull));
-    const Dice days = yard.For(hull.name);
+    const RandomStream days = yard.For(hull.name);
     for (std::size_t day = 1; day <= kTrainLogs; ++day) {
       progress(done++, all);
-      WriteHealthy(options, hull, day, days.For("train", day), home / Numbered("train-%zu", day));
+      WriteNominal(options, hull, day, days.For("train", day), home / Numbered("train-%zu", day));
     }
     for (std::size_t day = 1; day <= kReferenceLogs; ++day) {
       progress(done++, all);
-      WriteHealthy(options, hull, kTrainLogs + day, days.For("reference", day),
+      WriteNominal(options, hull, kTrainLogs + day, days.For("reference", day),
                    home / Numbered("reference-%zu", day));
     }
   }
@@ -205,12 +205,12 @@ void WriteCampaign(const CampaignOptions& options, const std::filesystem::path& 
     const Case& asked = cases[number - 1];
     const std::string name = Numbered("%03zu", number);
     const Hull& hull = fleet[asked.hull];
-    const Dice dice = yard.For("case", asked.day);
-    const auto [voyage, label] = Prepared(asked, hull, 0.0, options.duration_s, dice);
-    Record(voyage, options.set, kDaysBefore + number, dice, folder / "cases" / name / "log");
+    const RandomStream rng = yard.For("case", asked.day);
+    const auto [voyage, label] = Prepared(asked, hull, 0.0, options.duration_s, rng);
+    Record(voyage, options.set, kDaysBefore + number, rng, folder / "cases" / name / "log");
     if (options.again) {
       progress(done++, all);
-      Record(voyage, options.set, kDaysBefore + cases.size() + number, dice.For("again"),
+      Record(voyage, options.set, kDaysBefore + cases.size() + number, rng.For("again"),
              folder / "cases" / name / "again");
     }
     WriteFile(folder / "cases" / name / "hull", hull.name + "\n");
@@ -229,10 +229,10 @@ std::string WriteSingleCase(const SingleCaseOptions& options, const std::filesys
     for (const Hull& candidate : fleet) known += " " + candidate.name;
     throw std::invalid_argument("no hull " + options.hull + " in this set; there are" + known);
   }
-  const Dice dice = Yard(options.set, options.seed).For("single case");
-  const Case asked{options.effects.empty() ? "healthy" : "single", options.effects};
-  const auto [voyage, label] = Prepared(asked, *hull, options.onset_s, options.duration_s, dice);
-  Record(voyage, options.set, kDaysBefore, dice, folder / "log");
+  const RandomStream rng = Yard(options.set, options.seed).For("single case");
+  const Case asked{options.effects.empty() ? "nominal" : "single", options.effects};
+  const auto [voyage, label] = Prepared(asked, *hull, options.onset_s, options.duration_s, rng);
+  Record(voyage, options.set, kDaysBefore, rng, folder / "log");
   WriteFile(folder / "hull", hull->name + "\n");
   WriteFile(folder / "vehicle.textproto", VehicleFile(*hull));
   WriteFile(folder / "label.sealed", Sealed(label, "single"));

@@ -19,7 +19,7 @@ struct AppliedEffect {
 
 /// One recording to be diagnosed.
 struct Case {
-  std::string kind;  // healthy, single, pair or outside (the library)
+  std::string kind;  // nominal, single, pair or outside (the library)
   std::vector<AppliedEffect> effects;
   std::size_t hull = 0;
   std::uint64_t day = 0;  // of no two cases alike
@@ -29,13 +29,13 @@ struct Case {
 std::vector<Case> PlannedCases(Set set, std::uint64_t seed, std::size_t repeats);
 
 /// Days with nothing wrong, none of them one of the set's cases, dealt out over its hulls.
-std::vector<Case> HealthyDays(Set set, std::uint64_t seed, std::size_t days);
+std::vector<Case> NominalDays(Set set, std::uint64_t seed, std::size_t days);
 
 struct CampaignOptions {
   Set set = Set::kDevelopment;
   std::uint64_t seed = 1;
   std::size_t repeats = 1;
-  std::optional<std::size_t> healthy_days;  ///< so many of these in place of the set's cases
+  std::optional<std::size_t> nominal_days;  ///< so many of these in place of the set's cases
   std::optional<std::size_t> most_cases;
   double duration_s = 600.0;
   /// Each case once more beside it: hull, weather and effects as they were, another mission, other

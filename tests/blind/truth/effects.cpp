@@ -14,152 +14,152 @@ double Degrees(double radians) {
   return radians / kDegree;
 }
 
-Parameters Wind(Scenario& scenario, double size, double, Dice& dice) {
+Parameters Wind(Scenario& scenario, double size, double, RandomStream& rng) {
   Weather& day = scenario.weather;
   day.wind_mps = 5.0 * std::sqrt(size);  // force, not speed, goes with the size
-  day.wind_towards = dice.Angle();
+  day.wind_towards = rng.Angle();
   day.gust_share = 0.15;
   return {{"speed", day.wind_mps, "m/s"}, {"towards", Degrees(day.wind_towards), "deg"}};
 }
 
-Parameters Current(Scenario& scenario, double size, double, Dice& dice) {
+Parameters Current(Scenario& scenario, double size, double, RandomStream& rng) {
   Weather& day = scenario.weather;
   day.current_mps = 0.2 * size;
-  day.current_towards = dice.Angle();
+  day.current_towards = rng.Angle();
   return {{"speed", day.current_mps, "m/s"}, {"towards", Degrees(day.current_towards), "deg"}};
 }
 
-Parameters Waves(Scenario& scenario, double size, double, Dice& dice) {
+Parameters Waves(Scenario& scenario, double size, double, RandomStream& rng) {
   Weather& day = scenario.weather;
   day.wave_force_n = 10.0 * size;
-  day.wave_period_s = dice.Uniform(1.6, 2.6);
-  day.wave_towards = dice.Angle();
+  day.wave_period_s = rng.Uniform(1.6, 2.6);
+  day.wave_towards = rng.Angle();
   return {{"force", day.wave_force_n, "N"},
           {"period", day.wave_period_s, "s"},
           {"towards", Degrees(day.wave_towards), "deg"}};
 }
 
-Parameters BodyBias(Scenario& scenario, double size, double sign, Dice& dice) {
+Parameters BodyBias(Scenario& scenario, double size, double sign, RandomStream& rng) {
   Faults& faults = scenario.faults;
-  const double direction = dice.Uniform(-75.0, 75.0) * kDegree;  // the sign turns it round
+  const double direction = rng.Uniform(-75.0, 75.0) * kDegree;  // the sign turns it round
   faults.body_x_n = sign * 2.0 * size * std::cos(direction);
   faults.body_y_n = sign * 2.0 * size * std::sin(direction);
-  faults.body_n_nm = size * dice.Sign() * dice.Uniform(0.3, 0.7);
+  faults.body_n_nm = size * rng.Sign() * rng.Uniform(0.3, 0.7);
   return {{"X", faults.body_x_n, "N"}, {"Y", faults.body_y_n, "N"}, {"N", faults.body_n_nm, "N m"}};
 }
 
-Parameters DeadZone(Scenario& scenario, double size, double, Dice&) {
+Parameters DeadZone(Scenario& scenario, double size, double, RandomStream&) {
   scenario.faults.dead_zone_widening_us = 24.0 * size;
   return {{"widening", scenario.faults.dead_zone_widening_us, "us"}};
 }
 
-Parameters Lag(Scenario& scenario, double size, double, Dice&) {
+Parameters Lag(Scenario& scenario, double size, double, RandomStream&) {
   scenario.faults.extra_lag_s = 0.25 * size;
   return {{"added time constant", scenario.faults.extra_lag_s, "s"}};
 }
 
-Parameters Delay(Scenario& scenario, double size, double, Dice&) {
+Parameters Delay(Scenario& scenario, double size, double, RandomStream&) {
   scenario.faults.command_delay_s = 0.2 * size;
   return {{"delay", scenario.faults.command_delay_s, "s"}};
 }
 
-Parameters Imbalance(Scenario& scenario, double size, double sign, Dice&) {
+Parameters Imbalance(Scenario& scenario, double size, double sign, RandomStream&) {
   const double lost = 0.2 * size;
   (sign > 0.0 ? scenario.faults.port_share : scenario.faults.starboard_share) = 1.0 - lost;
   return {{sign > 0.0 ? "port lost" : "starboard lost", lost, ""}};
 }
 
-Parameters Saturation(Scenario& scenario, double size, double, Dice&) {
+Parameters Saturation(Scenario& scenario, double size, double, RandomStream&) {
   scenario.faults.command_limit = 1.0 - 0.25 * size;
   return {{"limit", scenario.faults.command_limit, ""}};
 }
 
-Parameters Misalignment(Scenario& scenario, double size, double sign, Dice&) {
+Parameters Misalignment(Scenario& scenario, double size, double sign, RandomStream&) {
   scenario.faults.misalignment_rad = sign * 2.0 * size * kDegree;
   return {{"angle", sign * 2.0 * size, "deg"}};
 }
 
-Parameters Gain(Scenario& scenario, double size, double sign, Dice&) {
+Parameters Gain(Scenario& scenario, double size, double sign, RandomStream&) {
   scenario.faults.thrust_share = 1.0 - sign * 0.1 * size;
   return {{"lost", sign * 0.1 * size, ""}};
 }
 
-Parameters Sag(Scenario& scenario, double size, double, Dice&) {
+Parameters Sag(Scenario& scenario, double size, double, RandomStream&) {
   scenario.faults.sag = 0.14 * size;
   return {{"lost at the end", scenario.faults.sag, ""}};
 }
 
-Parameters InflowLoss(Scenario& scenario, double size, double, Dice&) {
+Parameters InflowLoss(Scenario& scenario, double size, double, RandomStream&) {
   scenario.faults.extra_inflow_loss = 0.17 * size;
   return {{"lost at 1.8 m/s", scenario.faults.extra_inflow_loss, ""}};
 }
 
-Parameters Payload(Scenario& scenario, double size, double, Dice& dice) {
+Parameters Payload(Scenario& scenario, double size, double, RandomStream& rng) {
   scenario.faults.payload_kg = 0.2 * size * scenario.hull.mass_kg;
-  scenario.faults.payload_x_m = dice.Sign() * dice.Uniform(0.05, 0.3);
+  scenario.faults.payload_x_m = rng.Sign() * rng.Uniform(0.05, 0.3);
   return {{"mass", scenario.faults.payload_kg, "kg"}, {"x", scenario.faults.payload_x_m, "m"}};
 }
 
-Parameters Fouling(Scenario& scenario, double size, double, Dice&) {
+Parameters Fouling(Scenario& scenario, double size, double, RandomStream&) {
   scenario.faults.fouling = 1.0 + 0.25 * size;
   return {{"friction times", scenario.faults.fouling, ""}};
 }
 
-Parameters Crossflow(Scenario& scenario, double size, double, Dice&) {
+Parameters Crossflow(Scenario& scenario, double size, double, RandomStream&) {
   scenario.faults.crossflow = 1.0 + 0.5 * size;
   return {{"drag times", scenario.faults.crossflow, ""}};
 }
 
-Parameters Munk(Scenario& scenario, double size, double sign, Dice&) {
+Parameters Munk(Scenario& scenario, double size, double sign, RandomStream&) {
   scenario.faults.munk = sign * 0.5 * size;
   return {{"moment gained", scenario.faults.munk, ""}};
 }
 
-Parameters HeadingBias(Scenario& scenario, double size, double sign, Dice&) {
+Parameters HeadingBias(Scenario& scenario, double size, double sign, RandomStream&) {
   scenario.faults.heading_bias_rad = sign * 3.0 * size * kDegree;
   return {{"bias", sign * 3.0 * size, "deg"}};
 }
 
-Parameters LeverArm(Scenario& scenario, double size, double sign, Dice& dice) {
+Parameters LeverArm(Scenario& scenario, double size, double sign, RandomStream& rng) {
   Faults& faults = scenario.faults;
-  const double direction = dice.Uniform(-60.0, 60.0) * kDegree;  // fore or aft rather than abeam
+  const double direction = rng.Uniform(-60.0, 60.0) * kDegree;  // fore or aft rather than abeam
   faults.antenna_forward_m = sign * 0.3 * size * std::cos(direction);
   faults.antenna_starboard_m = sign * 0.3 * size * std::sin(direction);
   return {{"forward", faults.antenna_forward_m, "m"},
           {"starboard", faults.antenna_starboard_m, "m"}};
 }
 
-Parameters Latency(Scenario& scenario, double size, double, Dice&) {
+Parameters Latency(Scenario& scenario, double size, double, RandomStream&) {
   scenario.faults.gnss_latency_s = 0.2 * size;
   return {{"latency", scenario.faults.gnss_latency_s, "s"}};
 }
 
-Parameters Shear(Scenario& scenario, double size, double, Dice&) {
+Parameters Shear(Scenario& scenario, double size, double, RandomStream&) {
   scenario.faults.shear_mps = 0.25 * size;
   return {{"amplitude", scenario.faults.shear_mps, "m/s"}};
 }
 
-Parameters Wash(Scenario& scenario, double size, double, Dice&) {
+Parameters Wash(Scenario& scenario, double size, double, RandomStream&) {
   scenario.faults.wash_force_n = 40.0 * size;
   return {{"force", scenario.faults.wash_force_n, "N"}};
 }
 
-Parameters CompassWander(Scenario& scenario, double size, double, Dice&) {
-  scenario.faults.compass_wander_rad = 4.0 * size * kDegree;
+Parameters HeadingDrift(Scenario& scenario, double size, double, RandomStream&) {
+  scenario.faults.heading_drift_rad = 4.0 * size * kDegree;
   return {{"standard deviation", 4.0 * size, "deg"}};
 }
 
-Parameters TowedObject(Scenario& scenario, double size, double, Dice&) {
+Parameters TowedObject(Scenario& scenario, double size, double, RandomStream&) {
   scenario.faults.tow_kg = 12.0 * size;
   return {{"mass", scenario.faults.tow_kg, "kg"}};
 }
 
-Parameters Weed(Scenario& scenario, double size, double, Dice&) {
+Parameters Weed(Scenario& scenario, double size, double, RandomStream&) {
   scenario.faults.weed_share = 0.15 * size;
   return {{"share of time", scenario.faults.weed_share, ""}};
 }
 
-Parameters Shallows(Scenario& scenario, double size, double, Dice&) {
+Parameters Shallows(Scenario& scenario, double size, double, RandomStream&) {
   scenario.faults.shoal_drag = 0.6 * size;
   return {{"drag gained", scenario.faults.shoal_drag, ""}};
 }
@@ -190,7 +190,7 @@ const std::vector<Effect>& Effects() {
       {"gnss_latency", false, true, Latency},
       {"current_shear", false, false, Shear},
       {"ship_wash", false, false, Wash},
-      {"compass_wander", false, false, CompassWander},
+      {"compass_wander", false, false, HeadingDrift},
       {"towed_object", false, false, TowedObject},
       {"propeller_weed", false, false, Weed},
       {"shallow_water", false, false, Shallows},

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "dice.hpp"
+#include "random_stream.hpp"
 #include "scenario.hpp"
 
 namespace blind::truth {
@@ -20,7 +20,7 @@ struct Effect {
   std::string name;
   bool has_sign;
   bool in_library;  // of the diagnoser, by the names of the interfaces
-  std::vector<Parameter> (*apply)(Scenario& scenario, double size, double sign, Dice& dice);
+  std::vector<Parameter> (*apply)(Scenario& scenario, double size, double sign, RandomStream& rng);
 };
 
 const std::vector<Effect>& Effects();

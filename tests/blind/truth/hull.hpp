@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "dice.hpp"
+#include "random_stream.hpp"
 
 namespace blind::truth {
 

@@ -17,7 +17,7 @@ struct Arguments {
   std::string folder;
   std::uint64_t seed = 1;
   std::size_t repeats = 1;
-  std::size_t healthy_days = 0;
+  std::size_t nominal_days = 0;
   std::size_t most_cases = 0;
   double duration_s = 600.0;
   std::vector<std::string> effects;
@@ -26,7 +26,7 @@ struct Arguments {
   std::string hull;
   double onset_s = 0.0;
   bool again = false;
-  bool healthy = false;
+  bool nominal = false;
   bool unseal = false;
   bool list = false;
 };
@@ -53,7 +53,7 @@ void AddOptions(CLI::App& app, Arguments& arguments) {
       ->type_name("N")
       ->check(CLI::Range(1, 20).description(""));
   whole
-      ->add_option("--healthy-days", arguments.healthy_days,
+      ->add_option("--nominal-days", arguments.nominal_days,
                    "in place of the set's cases so many days with nothing wrong, [1, 1000]")
       ->type_name("N")
       ->check(CLI::Range(1, 1000).description(""))
@@ -81,7 +81,7 @@ void AddOptions(CLI::App& app, Arguments& arguments) {
   single->add_option("--onset", arguments.onset_s, "when it sets in, seconds (default 0)")
       ->type_name("S")
       ->check(CLI::NonNegativeNumber.description(""));
-  single->add_flag("--healthy", arguments.healthy, "a single case with nothing wrong");
+  single->add_flag("--nominal", arguments.nominal, "a single case with nothing wrong");
   single->add_flag("--unseal", arguments.unseal, "print the label");
   app.add_flag("--list-effects", arguments.list, "name the effects and exit");
 }
@@ -102,11 +102,11 @@ void WriteSet(const Arguments& arguments) {
   blind::truth::CampaignOptions options{.set = arguments.set,
                                         .seed = arguments.seed,
                                         .repeats = arguments.repeats,
-                                        .healthy_days = {},
+                                        .nominal_days = {},
                                         .most_cases = {},
                                         .duration_s = arguments.duration_s,
                                         .again = arguments.again};
-  if (arguments.healthy_days > 0) options.healthy_days = arguments.healthy_days;
+  if (arguments.nominal_days > 0) options.nominal_days = arguments.nominal_days;
   if (arguments.most_cases > 0) options.most_cases = arguments.most_cases;
   blind::truth::WriteCampaign(options, arguments.folder, ShowProgress);
 }
@@ -132,12 +132,12 @@ void WriteOne(const Arguments& arguments) {
 void Run(const Arguments& arguments) {
   if (arguments.list) return ListEffects();
   if (arguments.folder.empty()) throw std::invalid_argument("--out is required");
-  if (arguments.healthy && !arguments.effects.empty()) {
-    throw std::invalid_argument("--healthy excludes --effect");
+  if (arguments.nominal && !arguments.effects.empty()) {
+    throw std::invalid_argument("--nominal excludes --effect");
   }
-  if (arguments.healthy || !arguments.effects.empty()) return WriteOne(arguments);
+  if (arguments.nominal || !arguments.effects.empty()) return WriteOne(arguments);
   if (!arguments.hull.empty() || arguments.unseal || !arguments.sizes.empty()) {
-    throw std::invalid_argument("--hull, --size and --unseal go with --effect or --healthy");
+    throw std::invalid_argument("--hull, --size and --unseal go with --effect or --nominal");
   }
   WriteSet(arguments);
 }
@@ -147,7 +147,7 @@ void Run(const Arguments& arguments) {
 int main(int argc, char** argv) {
   CLI::App app("Sails boats of its own making and records them, with or without something wrong");
   app.footer(
-      "Without --effect or --healthy it writes a whole set: hulls/, cases/ and labels/ below DIR.\n"
+      "Without --effect or --nominal it writes a whole set: hulls/, cases/ and labels/ below DIR.\n"
       "Labels are sealed; only blind_score opens them.\n"
       "Example: blind_truth --set development --out build/blind/development\n"
       "         blind_truth --effect wind --size 2 --hull tern --unseal --out one");

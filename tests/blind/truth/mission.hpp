@@ -3,9 +3,9 @@
 #include <functional>
 #include <vector>
 
-#include "dice.hpp"
 #include "hull.hpp"
 #include "motion.hpp"
+#include "random_stream.hpp"
 
 namespace blind::truth {
 
@@ -38,6 +38,6 @@ class Mission {
 /// zigzags, staircases, circles, legs, spins, coasting, fast steps. Held-out: ramps between random
 /// set points, zigzags by heading, figures of eight, boxes, spirals, sweeps, bursts out of rest,
 /// braking.
-Mission DrawnMission(Set set, double duration_s, Dice dice);
+Mission DrawnMission(Set set, double duration_s, RandomStream rng);
 
 }  // namespace blind::truth

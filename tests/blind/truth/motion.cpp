@@ -183,8 +183,8 @@ State Rate(const State& state, const Scenario& scenario, const Drive& drive,
           .starboard_shaft = ShaftRate(drive.starboard_us, state.starboard_shaft, scenario)};
 }
 
-State Stepped(const State& state, const Scenario& scenario, const Drive& drive,
-              const Surroundings& surroundings, double dt_s) {
+State RungeKuttaStep(const State& state, const Scenario& scenario, const Drive& drive,
+                     const Surroundings& surroundings, double dt_s) {
   const auto rate = [&](const State& at) { return Rate(at, scenario, drive, surroundings); };
   const State k1 = rate(state);
   const State k2 = rate(Moved(state, k1, 0.5 * dt_s));

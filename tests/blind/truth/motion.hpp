@@ -1,7 +1,7 @@
 #pragma once
 
+#include "environment.hpp"
 #include "scenario.hpp"
-#include "sea.hpp"
 
 namespace blind::truth {
 
@@ -29,13 +29,13 @@ struct Drive {
 /// Model: rigid body and added mass with their Coriolis terms, drag of two demihulls in the flow
 /// each sees (linear, quadratic, cubic), cross-flow drag by strips, a lifting skeg, linear and
 /// cubic sway and yaw damping, two thrusters with lagging shafts, air drag by angle of attack.
-/// docs/blind.md.
+/// docs/validation/blind-checks.md.
 State Rate(const State& state, const Scenario& scenario, const Drive& drive,
            const Surroundings& surroundings);
 
 /// One fourth-order Runge-Kutta step.
-State Stepped(const State& state, const Scenario& scenario, const Drive& drive,
-              const Surroundings& surroundings, double dt_s);
+State RungeKuttaStep(const State& state, const Scenario& scenario, const Drive& drive,
+                     const Surroundings& surroundings, double dt_s);
 
 /// Kinetic energy of boat and added mass in still water, joules.
 double KineticEnergy(const State& state, const Scenario& scenario);

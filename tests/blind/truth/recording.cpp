@@ -43,28 +43,29 @@ void AppendLine(std::string& text, const char* format, Numbers... numbers) {
   text += line.data();
 }
 
-const Faults& FaultsAt(const Voyage& voyage, double time_s) {
-  return (time_s >= voyage.onset_s ? voyage.after : voyage.before).faults;
+const Faults& FaultsAt(const SimulatedRun& simulated_run, double time_s) {
+  return (time_s >= simulated_run.onset_s ? simulated_run.after : simulated_run.before).faults;
 }
 
-std::string Fixes(const Track& track, const Voyage& voyage, double start_s, Dice dice) {
+std::string Fixes(const Track& track, const SimulatedRun& simulated_run, double start_s,
+                  RandomStream rng) {
   const Chart chart;
-  const double memory_s = dice.Uniform(20.0, 40.0);
-  GaussMarkov north_drift(0.015, memory_s, dice.For("north"));
-  GaussMarkov east_drift(0.015, memory_s, dice.For("east"));
+  const double memory_s = rng.Uniform(20.0, 40.0);
+  GaussMarkov north_drift(0.015, memory_s, rng.For("north"));
+  GaussMarkov east_drift(0.015, memory_s, rng.For("east"));
   std::string text = "time_s,latitude_deg,longitude_deg\n";
   for (int step = 0; step < static_cast<int>(track.states.size()); step += kStepsPerFix) {
     const double time = step * kStepS;
-    const Faults& faults = FaultsAt(voyage, time);
+    const Faults& faults = FaultsAt(simulated_run, time);
     const int late = static_cast<int>(std::lround(faults.gnss_latency_s / kStepS));
     const State& boat = track.states[static_cast<std::size_t>(std::max(0, step - late))];
-    const Hull& hull = voyage.before.hull;
+    const Hull& hull = simulated_run.before.hull;
     const double forward = hull.antenna_forward_m + faults.antenna_forward_m;
     const double starboard = hull.antenna_starboard_m + faults.antenna_starboard_m;
     const double c = std::cos(boat.heading_rad), s = std::sin(boat.heading_rad);
-    const double north = boat.north_m + c * forward - s * starboard + dice.Normal(0.01) +
+    const double north = boat.north_m + c * forward - s * starboard + rng.Normal(0.01) +
                          north_drift.Step(kStepsPerFix * kStepS);
-    const double east = boat.east_m + s * forward + c * starboard + dice.Normal(0.01) +
+    const double east = boat.east_m + s * forward + c * starboard + rng.Normal(0.01) +
                         east_drift.Step(kStepsPerFix * kStepS);
     AppendLine(text, "%.1f,%.10f,%.10f\n", start_s + time, chart.LatitudeDeg(north),
                chart.LongitudeDeg(east));
@@ -72,18 +73,19 @@ std::string Fixes(const Track& track, const Voyage& voyage, double start_s, Dice
   return text;
 }
 
-std::string Headings(const Track& track, const Voyage& voyage, double start_s, Dice dice) {
-  constexpr double kWanderTimeS = 25.0;
-  GaussMarkov drift(0.15 * kDegree, dice.Uniform(20.0, 40.0), dice.For("drift"));
-  GaussMarkov wander(1.0, kWanderTimeS, dice.For("wander"));
+std::string Headings(const Track& track, const SimulatedRun& simulated_run, double start_s,
+                     RandomStream rng) {
+  constexpr double kHeadingDriftTimeS = 25.0;
+  GaussMarkov drift(0.15 * kDegree, rng.Uniform(20.0, 40.0), rng.For("drift"));
+  GaussMarkov wander(1.0, kHeadingDriftTimeS, rng.For("wander"));
   std::string text = "time_s,heading_deg\n";
   for (int step = 0; step < static_cast<int>(track.states.size()); step += kStepsPerHeading) {
     const double time = step * kStepS;
-    const Faults& faults = FaultsAt(voyage, time);
+    const Faults& faults = FaultsAt(simulated_run, time);
     const double shown = track.states[static_cast<std::size_t>(step)].heading_rad +
-                         faults.heading_bias_rad + dice.Normal(0.2 * kDegree) +
+                         faults.heading_bias_rad + rng.Normal(0.2 * kDegree) +
                          drift.Step(kStepsPerHeading * kStepS) +
-                         faults.compass_wander_rad * wander.Step(kStepsPerHeading * kStepS);
+                         faults.heading_drift_rad * wander.Step(kStepsPerHeading * kStepS);
     double degrees = std::fmod(shown / kDegree, 360.0);
     if (degrees < 0.0) degrees += 360.0;
     AppendLine(text, "%.2f,%.4f\n", start_s + time, degrees);
@@ -112,13 +114,13 @@ void WriteFile(const std::filesystem::path& file, const std::string& content) {
   if (!stream) throw std::runtime_error("cannot write " + file.string());
 }
 
-void WriteRecording(const Track& track, const Voyage& voyage, std::size_t day, Dice dice,
-                    const std::filesystem::path& folder) {
+void WriteRecording(const Track& track, const SimulatedRun& simulated_run, std::size_t day,
+                    RandomStream rng, const std::filesystem::path& folder) {
   constexpr double kFirstMorningS = 1717221600.0;
   constexpr double kDayS = 86400.0;
   const double start = kFirstMorningS + kDayS * static_cast<double>(day);
-  WriteFile(folder / "gnss.csv", Fixes(track, voyage, start, dice.For("fixes")));
-  WriteFile(folder / "heading.csv", Headings(track, voyage, start, dice.For("headings")));
+  WriteFile(folder / "gnss.csv", Fixes(track, simulated_run, start, rng.For("fixes")));
+  WriteFile(folder / "heading.csv", Headings(track, simulated_run, start, rng.For("headings")));
   WriteFile(folder / "thrusters.csv", Commands(track, start));
 }
 

@@ -2,7 +2,7 @@
 
 #include <filesystem>
 
-#include "voyage.hpp"
+#include "simulated_run.hpp"
 
 namespace blind::truth {
 
@@ -10,8 +10,8 @@ namespace blind::truth {
 /// Gauss-Markov noise a horizontal axis, heading at 20 Hz with 0.2 and 0.15 degrees, commands at 10
 /// Hz.
 /// Stamped in seconds of the Unix epoch, on the day of that number.
-void WriteRecording(const Track& track, const Voyage& voyage, std::size_t day, Dice dice,
-                    const std::filesystem::path& folder);
+void WriteRecording(const Track& track, const SimulatedRun& simulated_run, std::size_t day,
+                    RandomStream rng, const std::filesystem::path& folder);
 
 /// Writes a file and its folders; throws std::runtime_error naming the file where that fails.
 void WriteFile(const std::filesystem::path& file, const std::string& content);

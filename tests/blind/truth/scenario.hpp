@@ -12,14 +12,14 @@ struct Weather {
   double gust_time_s = 8.0;
   double current_mps = 0.0;
   double current_towards = 0.0;
-  double current_wander_mps = 0.0;
+  double current_drift_mps = 0.0;
   double wave_force_n = 0.0;  // amplitude of the regular sea of the same energy
   double wave_period_s = 2.0;
   double wave_towards = 0.0;
 };
 
-/// A healthy day: light air, hardly a current, ripples.
-Weather LightDay(Dice dice);
+/// A nominal day: light air, hardly a current, ripples.
+Weather LightDay(RandomStream rng);
 
 /// All that can be wrong with boat or sensors; as it stands nothing is.
 struct Faults {
@@ -49,7 +49,7 @@ struct Faults {
 
   double shear_mps = 0.0;  // current that varies with place
   double wash_force_n = 0.0;
-  double compass_wander_rad = 0.0;
+  double heading_drift_rad = 0.0;
   double tow_kg = 0.0;
   double weed_share = 0.0;  // of the time that one thruster is fouled
   double shoal_drag = 0.0;  // drag gained where it is shallow, as a share

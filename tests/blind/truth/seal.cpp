@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <stdexcept>
 
-#include "dice.hpp"
+#include "random_stream.hpp"
 
 namespace blind::truth {
 namespace {
@@ -13,8 +13,8 @@ constexpr std::string_view kMark = "sealed label 1\n";
 constexpr std::string_view kDigits = "0123456789abcdef";
 constexpr std::size_t kDigestBytes = 8;
 
-Dice Stream(std::string_view name) {
-  return Dice(0x5ea1ed1abe15u).For(name);
+RandomStream Stream(std::string_view name) {
+  return RandomStream(0x5ea1ed1abe15u).For(name);
 }
 
 /// FNV-1a, 64 bits.
@@ -47,7 +47,7 @@ std::string Sealed(std::string_view label, std::string_view name) {
     throw std::invalid_argument("a label this long cannot be sealed");
   std::string plain(label);
   plain.resize(kSealedBytes, ' ');
-  Dice stream = Stream(name);
+  RandomStream stream = Stream(name);
   std::string sealed(kMark);
   for (const char letter : WithDigest(plain)) {
     const auto byte = static_cast<unsigned char>(letter) ^ (stream.Bits() & 0xff);
@@ -62,7 +62,7 @@ std::string Unsealed(std::string_view sealed, std::string_view name) {
   if (!sealed.starts_with(kMark)) throw std::invalid_argument("this is no sealed label");
   sealed.remove_prefix(kMark.size());
   if (sealed.size() < kDigitsSealed) throw std::invalid_argument("the seal is cut short");
-  Dice stream = Stream(name);
+  RandomStream stream = Stream(name);
   std::string plain;
   for (std::size_t digit = 0; digit < kDigitsSealed; digit += 2) {
     const std::size_t byte = DigitValue(sealed[digit]) << 4 | DigitValue(sealed[digit + 1]);

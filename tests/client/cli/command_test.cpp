@@ -3,20 +3,20 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "support/identifications.hpp"
+#include "support/made_up_identifications.hpp"
 #include "support/telltale_command.hpp"
 #include "support/temporary_folder.hpp"
-#include "telltale/client/recording/csv.hpp"
-#include "telltale/client/recording/load.hpp"
-#include "telltale/client/recording/telemetry_log.hpp"
+#include "telltale/client/recording/csv/numeric_csv.hpp"
+#include "telltale/client/recording/load_recording.hpp"
+#include "telltale/client/recording/telemetry_log/telemetry_log.hpp"
 #include "telltale/core/data/preparation.hpp"
 #include "telltale/core/identification/input_gain.hpp"
+#include "telltale/core/paper/yellowfish.hpp"
 #include "telltale/core/simulation/manoeuvres.hpp"
 #include "telltale/core/simulation/sensors.hpp"
-#include "telltale/core/simulation/yellowfish.hpp"
-#include "telltale/idl/codec/json_message.hpp"
-#include "telltale/idl/codec/metrics_json.hpp"
-#include "telltale/idl/codec/model_json.hpp"
+#include "telltale/idl/codec/json/json_message.hpp"
+#include "telltale/idl/codec/json/metrics.hpp"
+#include "telltale/idl/codec/json/model.hpp"
 #include "telltale/idl/codec/vehicle_file.hpp"
 #include "telltale/idl/proto/study.pb.h"
 
@@ -132,8 +132,9 @@ TEST_F(CommandTest, OptionsOutOfRangeAreUsageErrorsThatNameTheRange) {
   expect({"--level", "nan"}, "[0.5, 0.999]");
   expect({"--threads", "0"}, "[1, 256]");
   expect({"--sampling-period", "5"}, "--sampling-period = 5");
-  expect({"--certify", "3"}, "--certify = 3 must be within [10, 1000]; set --certify to");
-  for (const char* counts : {"--twins", "--bootstrap", "--certify", "--seed", "--threads"}) {
+  expect({"--check-coverage", "3"}, "--certify = 3 must be within [10, 1000]; set --certify to");
+  for (const char* counts :
+       {"--replicates", "--bootstrap", "--check-coverage", "--seed", "--threads"}) {
     expect({counts, "-3"}, ": -3 must be a whole number, 0 or more");
     expect({counts, "2.5"}, ": 2.5 must be a whole number, 0 or more");
   }
@@ -153,9 +154,9 @@ TEST_F(CommandTest, OptionsOfOneEstimatorDoNotGoWithTheOther) {
               HasSubstr("belong to --estimator one-step"));
   EXPECT_THAT(Identify({"--estimator", "output-error"}).err,
               HasSubstr("belong to --estimator one-step"));
-  EXPECT_THAT(Identify({"--twins", "20"}).err, HasSubstr("belongs to --estimator weak-iv"));
+  EXPECT_THAT(Identify({"--replicates", "20"}).err, HasSubstr("belongs to --estimator weak-iv"));
   EXPECT_THAT(Telltale({"identify", "--log", Path("log"), "--vehicle", Path("boat.textproto"),
-                        "--estimator", "output-error", "--twins", "20"})
+                        "--estimator", "output-error", "--replicates", "20"})
                   .err,
               HasSubstr("belongs to --estimator weak-iv"));
 }
@@ -332,7 +333,7 @@ TEST_F(CommandTest, AModelThatCannotBeWrittenFails) {
 
 // ---- validate --------------------------------------------------------------------------------
 
-TEST_F(CommandTest, ValidateScoresTheModelBesidePersistence) {
+TEST_F(CommandTest, ValidateScoresTheModelBesideConstantVelocity) {
   MakeModel();
   const CommandOutcome outcome = Validate({"--out", Path("metrics.json")});
   EXPECT_EQ(outcome.exit_code, kSuccess) << outcome.err;
@@ -433,7 +434,7 @@ TEST_F(CommandTest, TheSameSeedSimulatesTheSameLog) {
   EXPECT_NE(gnss("8", "c"), first);
 }
 
-TEST_F(CommandTest, SimulateRefusesAModelThatRunsAway) {
+TEST_F(CommandTest, SimulateRefusesAModelThatDiverges) {
   Identification unstable = MadeUpIdentification();
   unstable.coefficients[0].estimate = 50.0;  // u|u| that drives instead of damping
   unstable.coefficients[4].estimate = 1.0;   // and a push to begin with
@@ -484,10 +485,10 @@ TEST_F(ExportTest, WritesAFileOrIntoAFolder) {
   EXPECT_EQ(TextOfFile(Path("mss.json")), TextOfFile(Path("boat.json")));
 }
 
-TEST_F(ExportTest, WritesWhatTheModelIsSailedWithAndSaysSo) {
-  Identification model = MadeUpSailedIdentification();
+TEST_F(ExportTest, WritesTheSimulationParametersAndNotesIt) {
+  Identification model = MadeUpIdentificationWithSimulationParameters();
   model.vehicle_id = "yellowfish";
-  model.sailed[0] = -0.0625;
+  model.simulation[0] = -0.0625;
   folder.Write("model.json", PrintModelJson(model));
   const CommandOutcome outcome =
       Export("massless.textproto", {"--format", "mss", "--out", Path("boat.json")});

@@ -3,11 +3,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "support/identifications.hpp"
+#include "support/made_up_identifications.hpp"
 #include "support/telltale_command.hpp"
 #include "support/temporary_folder.hpp"
-#include "telltale/idl/codec/json_message.hpp"
-#include "telltale/idl/codec/model_json.hpp"
+#include "telltale/idl/codec/json/json_message.hpp"
+#include "telltale/idl/codec/json/model.hpp"
 
 namespace telltale {
 namespace {

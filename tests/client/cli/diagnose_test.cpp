@@ -3,15 +3,15 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "support/diagnoses.hpp"
+#include "support/made_up_diagnoses.hpp"
 #include "support/telltale_command.hpp"
 #include "support/temporary_folder.hpp"
 #include "telltale/client/cli/diagnosis_table.hpp"
-#include "telltale/client/recording/telemetry_log.hpp"
+#include "telltale/client/recording/telemetry_log/telemetry_log.hpp"
+#include "telltale/core/paper/yellowfish.hpp"
 #include "telltale/core/simulation/manoeuvres.hpp"
 #include "telltale/core/simulation/sensors.hpp"
-#include "telltale/core/simulation/yellowfish.hpp"
-#include "telltale/idl/codec/report_json.hpp"
+#include "telltale/idl/codec/json/report.hpp"
 #include "telltale/idl/codec/vehicle_file.hpp"
 
 namespace telltale {
@@ -38,7 +38,7 @@ TEST(DiagnosisTable, SaysTheSentenceFirstAndThenEveryPart) {
 }
 
 TEST(DiagnosisTable, SaysInWordsWhereThereIsNothing) {
-  const std::string table = DiagnosisTable(MadeUpHealthyDiagnosis());
+  const std::string table = DiagnosisTable(MadeUpNominalDiagnosis());
   for (const char* part : {"no corner of the data stands out", "nothing to explain"}) {
     EXPECT_THAT(table, HasSubstr(part));
   }
@@ -47,7 +47,7 @@ TEST(DiagnosisTable, SaysInWordsWhereThereIsNothing) {
   }
 }
 
-TEST(DiagnosisTable, ShowsADozenCornersAndCountsTheRest) {
+TEST(DiagnosisTable, ShowsADozenOperatingConditionsAndCountsTheRest) {
   Diagnosis made = MadeUpDiagnosis();
   made.where.resize(15, made.where[0]);
   EXPECT_THAT(DiagnosisTable(made), HasSubstr("3 more corners stand out"));

@@ -3,11 +3,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "support/identifications.hpp"
+#include "support/made_up_identifications.hpp"
 #include "support/telltale_command.hpp"
 #include "support/temporary_folder.hpp"
-#include "telltale/idl/codec/json_message.hpp"
-#include "telltale/idl/codec/model_json.hpp"
+#include "telltale/idl/codec/json/json_message.hpp"
+#include "telltale/idl/codec/json/model.hpp"
 #include "telltale/idl/proto/gain.pb.h"
 
 namespace telltale {
@@ -69,7 +69,7 @@ TEST_F(GainTest, PrintsACatalogueInAllRegionsButAstern) {
 }
 
 // tau = 0.25 s: 1 % is left after 0.25 ln 100 = 1.151293 s; bounds 0.23 and 0.27 alike.
-TEST_F(GainTest, TellsWhenAnInitialConditionHasSettled) {
+TEST_F(GainTest, ShowsWhenAnInitialConditionHasSettled) {
   const Identification model = MadeUpDynamicIdentification();
   EXPECT_THAT(Gain(model, {}).out, HasSubstr("left after 1.151 s, 95 % bounds [1.059, 1.243]"));
   const proto::Bounded settling =
@@ -81,7 +81,7 @@ TEST_F(GainTest, TellsWhenAnInitialConditionHasSettled) {
               settling.estimate(), 0.0);
 }
 
-TEST_F(GainTest, SaysWhatAModelCannotTell) {
+TEST_F(GainTest, NamesWhatAModelDoesNotDetermine) {
   Identification partial = IdentificationByHand();
   std::erase_if(partial.coefficients, [](const auto& c) { return c.equation == Equation::kSway; });
   const auto n = static_cast<Eigen::Index>(partial.coefficients.size());

@@ -6,7 +6,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "support/identifications.hpp"
+#include "support/made_up_identifications.hpp"
 #include "telltale/client/cli/metrics_table.hpp"
 #include "telltale/client/cli/table.hpp"
 
@@ -44,15 +44,15 @@ TEST(ModelTable, FitsATerminal) {
   ExpectNoLineBeyondTheTerminal(ModelTable(WithWideNumbers(Parameterization::kPropeller)));
 }
 
-TEST(ModelTable, ShowsWhatTheModelIsSailedWithWhereThatIsAnother) {
+TEST(ModelTable, ShowsSimulationParametersWhereTheyDiffer) {
   EXPECT_THAT(ModelTable(MadeUpIdentification()), Not(HasSubstr("sailed with")));
-  const std::string table = ModelTable(MadeUpSailedIdentification());
+  const std::string table = ModelTable(MadeUpIdentificationWithSimulationParameters());
   ExpectNoLineBeyondTheTerminal(table);
   EXPECT_THAT(table, HasSubstr("sailed with"));
   EXPECT_THAT(table, HasSubstr("-0.1667"));  // half of the first estimate
 }
 
-TEST(ModelTable, TellsEverythingTheModelRestsOn) {
+TEST(ModelTable, ShowsEverythingTheModelRestsOn) {
   const std::string table = ModelTable(MadeUpIdentification());
   for (const char* text : {"made-up.1",
                            "static quadratic",
@@ -123,7 +123,7 @@ Metrics MadeUpMetrics() {
   return metrics;
 }
 
-TEST(MetricsTable, PutsPersistenceAndTheNoiseFloorBesideTheModel) {
+TEST(MetricsTable, PutsConstantVelocityAndTheNoiseFloorBesideTheModel) {
   const std::string table = MetricsTable(MadeUpMetrics());
   ExpectNoLineBeyondTheTerminal(table);
   for (const char* text : {"R2 of persistence", "0.9500", "0.0123", "5 s: 7 windows", "0.0456",
@@ -132,7 +132,7 @@ TEST(MetricsTable, PutsPersistenceAndTheNoiseFloorBesideTheModel) {
   }
 }
 
-TEST(MetricsTable, SaysWhereTheModelRunsAway) {
+TEST(MetricsTable, SaysWhereTheModelDiverges) {
   Metrics metrics = MadeUpMetrics();
   metrics.free_run[0].velocity[0].rmse = 1e80;
   metrics.free_run[0].velocity[1].rmse = std::numeric_limits<double>::quiet_NaN();
@@ -146,13 +146,13 @@ TEST(MetricsTable, SaysWhereTheModelRunsAway) {
 TEST(MetricsTable, SaysWhereNoWindowFits) {
   Metrics metrics = MadeUpMetrics();
   metrics.free_run[0].windows = 0;
-  EXPECT_THAT(MetricsTable(metrics), HasSubstr("no stretch without gaps is this long"));
+  EXPECT_THAT(MetricsTable(metrics), HasSubstr("no segment without gaps is this long"));
 }
 
-TEST(ModelTable, SaysHowFarFixesWanderWhereTheyDo) {
+TEST(ModelTable, ShowsGnssDriftWhereThereIsSome) {
   Identification model = MadeUpIdentification();
   EXPECT_THAT(ModelTable(model), HasSubstr("Fixes wander off by 6.0 cm within a second"));
-  model.disturbance->fix_wander_m = 0.0;
+  model.disturbance->gnss_drift_m = 0.0;
   EXPECT_THAT(ModelTable(model), Not(HasSubstr("wander")));
   model.disturbance.reset();
   EXPECT_THAT(ModelTable(model), Not(HasSubstr("wander")));

@@ -1,5 +1,5 @@
 #include "telltale/client/cli/table.hpp"
-#include "support/numbers.hpp"
+#include "support/special_values.hpp"
 
 #include <limits>
 #include <sstream>

@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
-#include "telltale/client/cli/inputs.hpp"
-#include "telltale/core/simulation/yellowfish.hpp"
+#include "telltale/client/cli/input_options.hpp"
+#include "telltale/core/paper/yellowfish.hpp"
 
 namespace telltale {
 namespace {

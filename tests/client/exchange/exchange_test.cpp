@@ -5,12 +5,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "support/identifications.hpp"
-#include "telltale/client/exchange/draws.hpp"
+#include "support/made_up_identifications.hpp"
 #include "telltale/client/exchange/mss.hpp"
+#include "telltale/client/exchange/posterior_draws.hpp"
 #include "telltale/client/exchange/vrx.hpp"
-#include "telltale/core/simulation/yellowfish.hpp"
-#include "telltale/idl/codec/json_message.hpp"
+#include "telltale/core/paper/yellowfish.hpp"
+#include "telltale/idl/codec/json/json_message.hpp"
 #include "telltale/idl/proto/exchange.pb.h"
 
 namespace telltale {
@@ -51,7 +51,7 @@ Identification KnownBoat() {
   return model;
 }
 
-Vehicle Weighed() {
+Vehicle VehicleWithMass() {
   Vehicle vehicle = YellowfishVehicle();
   vehicle.propeller_separation_m = 0.6;
   vehicle.mass_kg = 15.0;
@@ -67,7 +67,7 @@ double ElementOf(const std::string& xml, const std::string& name) {
 // ---- vrx ---------------------------------------------------------------------------------------
 
 TEST(Vrx, GivesTheKnownBoatsPhysicsBack) {
-  const auto xml = PrintVrx(KnownBoat(), Weighed());
+  const auto xml = PrintVrx(KnownBoat(), VehicleWithMass());
   ASSERT_TRUE(xml) << xml.error().reason;
   EXPECT_NEAR(ElementOf(*xml, "xU"), 6.0, 1e-5);
   EXPECT_NEAR(ElementOf(*xml, "xUU"), 9.0, 1e-5);
@@ -85,7 +85,7 @@ TEST(Vrx, NeverDrivesTheBoatWithADrag) {
   model.coefficients[0].estimate = 0.2;                           // u|u|
   model.coefficients[3].status = CoefficientStatus::kNotExcited;  // u
   model.coefficients[3].estimate = 0.0;
-  const auto xml = PrintVrx(model, Weighed());
+  const auto xml = PrintVrx(model, VehicleWithMass());
   ASSERT_TRUE(xml);
   EXPECT_EQ(ElementOf(*xml, "xUU"), 0.0);
   EXPECT_EQ(ElementOf(*xml, "xU"), 0.0);
@@ -98,7 +98,7 @@ TEST(Vrx, SaysLagAndDeadZoneAndKeepsItsComments) {
   model.structure = Structure::kFirstOrderDynamic;
   model.thruster_time_constant = MadeUpDynamicIdentification().thruster_time_constant;
   model.dead_zone = {0.05, -0.06};
-  const auto xml = PrintVrx(model, Weighed());
+  const auto xml = PrintVrx(model, VehicleWithMass());
   ASSERT_TRUE(xml);
   EXPECT_THAT(*xml, AllOf(HasSubstr("lag of 0.25 s"), HasSubstr("between -0.06 and 0.05")));
   std::istringstream lines(*xml);
@@ -112,7 +112,7 @@ TEST(Vrx, SaysLagAndDeadZoneAndKeepsItsComments) {
 }
 
 TEST(Vrx, RefusesWithAdvice) {
-  Vehicle vehicle = Weighed();
+  Vehicle vehicle = VehicleWithMass();
   vehicle.mass_kg.reset();
   const auto massless = PrintVrx(KnownBoat(), vehicle);
   ASSERT_FALSE(massless);
@@ -122,7 +122,7 @@ TEST(Vrx, RefusesWithAdvice) {
   std::erase_if(partial.coefficients, [](const auto& c) { return c.equation == Equation::kSway; });
   const auto n = static_cast<Eigen::Index>(partial.coefficients.size());
   partial.covariance = Eigen::MatrixXd::Identity(n, n);
-  const auto incomplete = PrintVrx(partial, Weighed());
+  const auto incomplete = PrintVrx(partial, VehicleWithMass());
   ASSERT_FALSE(incomplete);
   EXPECT_THAT(incomplete.error().reason, HasSubstr("SWAY"));
 
@@ -130,7 +130,7 @@ TEST(Vrx, RefusesWithAdvice) {
   for (Coefficient& c : reversed.coefficients) {
     if (c.equation == Equation::kYaw) c.estimate = -c.estimate;
   }
-  EXPECT_FALSE(PrintVrx(reversed, Weighed()));
+  EXPECT_FALSE(PrintVrx(reversed, VehicleWithMass()));
 }
 
 // ---- mss ---------------------------------------------------------------------------------------
@@ -145,7 +145,7 @@ proto::MssModel ReadMss(const std::string& text) {
 TEST(Mss, HoldsEveryCoefficientWithItsMeaning) {
   for (const auto parameterization : {Parameterization::kPropeller, Parameterization::kPaper}) {
     const Identification model = MadeUpIdentification(parameterization);
-    const proto::MssModel read = ReadMss(PrintMss(model, Weighed()));
+    const proto::MssModel read = ReadMss(PrintMss(model, VehicleWithMass()));
     ASSERT_EQ(read.coefficients_size(), static_cast<int>(model.coefficients.size()));
     for (int i = 0; i < read.coefficients_size(); ++i) {
       EXPECT_EQ(read.coefficients(i).estimate(),
@@ -157,8 +157,8 @@ TEST(Mss, HoldsEveryCoefficientWithItsMeaning) {
   }
 }
 
-TEST(Mss, SaysPlainlyWhatTelemetryCannotTell) {
-  const std::string text = PrintMss(MadeUpDynamicIdentification(), Weighed());
+TEST(Mss, NamesWhatTelemetryDoesNotDetermine) {
+  const std::string text = PrintMss(MadeUpDynamicIdentification(), VehicleWithMass());
   for (const char* parameter : {"X_udot", "Y_vdot", "N_rdot", "x_g", "I_z", "a_f"}) {
     EXPECT_THAT(text.substr(text.find("notIdentifiable")), HasSubstr(parameter));
   }
@@ -167,7 +167,7 @@ TEST(Mss, SaysPlainlyWhatTelemetryCannotTell) {
 }
 
 TEST(Mss, WithoutAMassThereIsNone) {
-  Vehicle vehicle = Weighed();
+  Vehicle vehicle = VehicleWithMass();
   vehicle.mass_kg.reset();
   const proto::MssModel read = ReadMss(PrintMss(MadeUpIdentification(), vehicle));
   EXPECT_FALSE(read.has_mass_kg());

@@ -1,5 +1,5 @@
 #include "telltale/client/recording/time_order.hpp"
-#include "support/numbers.hpp"
+#include "support/special_values.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

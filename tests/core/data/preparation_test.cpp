@@ -9,7 +9,7 @@
 #include <numbers>
 #include <random>
 
-#include "telltale/core/data/north_east.hpp"
+#include "telltale/core/data/north_east_frame.hpp"
 
 namespace telltale {
 namespace {
@@ -108,7 +108,7 @@ TEST(PrepareRobust, RecoversTheVelocitiesOfACircle) {
   ASSERT_TRUE(dataset) << dataset.error().reason;
   EXPECT_DOUBLE_EQ(dataset->sampling_period_s, 0.2);
   EXPECT_EQ(dataset->rows.size(), 301u);
-  EXPECT_EQ(dataset->stretches.size(), 1u);
+  EXPECT_EQ(dataset->segments.size(), 1u);
   ExpectVelocities(*dataset, {1.2, 0.15, 0.2}, kChord);
 }
 
@@ -222,7 +222,7 @@ TEST(PrepareRobust, UnevenFixesAreInterpolated) {
   std::erase_if(recording.gnss, [&](const GnssFix&) { return engine() % 4 == 0; });
   const auto dataset = Prepare(recording, Vehicle{}, PrepareOptions::Robust());
   ASSERT_TRUE(dataset);
-  // At the end of a stretch a hole of two periods has a neighbour on one side only; a parabola
+  // At the end of a segment a hole of two periods has a neighbour on one side only; a parabola
   // misses the arc there by u r^2 (0.4 s)^3 / 15 = 0.2 mm, a line by u r (0.4 s)^2 / 8 = 5 mm.
   ExpectVelocities(*dataset, {1.2, 0.15, 0.2}, 0.01);
 }
@@ -231,8 +231,8 @@ TEST(PrepareRobust, ADatasetKeepsItsGrid) {
   const auto dataset = Prepare(Record({.pose = Circle(1, 0, 0.1), .jitter = Jitter(0.01)}),
                                Vehicle{}, PrepareOptions::Robust());
   ASSERT_TRUE(dataset);
-  for (const RowRange& stretch : dataset->stretches) {
-    for (std::size_t row = stretch.begin + 1; row < stretch.end; ++row) {
+  for (const RowRange& segment : dataset->segments) {
+    for (std::size_t row = segment.begin + 1; row < segment.end; ++row) {
       ASSERT_NEAR(dataset->rows[row].time_s - dataset->rows[row - 1].time_s,
                   dataset->sampling_period_s, 1e-9);
     }
@@ -249,9 +249,9 @@ TEST_P(EitherPreset, GapsOfAnyChannelCut) {
   const auto dataset = Prepare(recording, Vehicle{}, Options());
   ASSERT_TRUE(dataset);
   // [100, 115], [117, 130] and [140, 160]; [132, 133] is too short.
-  ASSERT_EQ(dataset->stretches.size(), 3u);
-  const auto start = [&](int i) { return dataset->rows[dataset->stretches[i].begin].time_s; };
-  const auto end = [&](int i) { return dataset->rows[dataset->stretches[i].end - 1].time_s; };
+  ASSERT_EQ(dataset->segments.size(), 3u);
+  const auto start = [&](int i) { return dataset->rows[dataset->segments[i].begin].time_s; };
+  const auto end = [&](int i) { return dataset->rows[dataset->segments[i].end - 1].time_s; };
   EXPECT_NEAR(start(0), 100.0, 0.21);
   EXPECT_NEAR(end(0), 115.0, 0.21);
   EXPECT_NEAR(start(1), 117.0, 0.21);
@@ -260,25 +260,24 @@ TEST_P(EitherPreset, GapsOfAnyChannelCut) {
   EXPECT_NEAR(end(2), 160.0, 0.21);
 }
 
-TEST_P(EitherPreset, SegmentsPartitionStretchesAndHoldOneRegion) {
+TEST_P(EitherPreset, SlicesPartitionSegmentsAndHoldOneRegion) {
   const auto thrusters = [](double t) {
     return ThrusterSample{t, std::fmod(t, 14.0) < 7.0 ? 1700.0 : 1300.0, 1700.0};
   };
   Recording recording = Record({.pose = Circle(1, 0, 0.1), .thrusters = thrusters});
   std::erase_if(recording.gnss, [](const GnssFix& s) { return s.time_s > 125 && s.time_s < 127; });
   PrepareOptions options = Options();
-  options.longest_segment_s = 4.0;
+  options.longest_slice_s = 4.0;
   const auto dataset = Prepare(recording, Vehicle{}, options);
   ASSERT_TRUE(dataset);
   std::size_t next = 0;
-  std::size_t segment = 0;
-  for (const RowRange& stretch : dataset->stretches) {
-    ASSERT_EQ(stretch.begin, next);
-    for (; segment < dataset->segments.size() && dataset->segments[segment].begin < stretch.end;
-         ++segment) {
-      const RowRange& range = dataset->segments[segment];
+  std::size_t slice = 0;
+  for (const RowRange& segment : dataset->segments) {
+    ASSERT_EQ(segment.begin, next);
+    for (; slice < dataset->slices.size() && dataset->slices[slice].begin < segment.end; ++slice) {
+      const RowRange& range = dataset->slices[slice];
       ASSERT_EQ(range.begin, next);
-      ASSERT_LE(range.end, stretch.end);
+      ASSERT_LE(range.end, segment.end);
       ASSERT_LE(range.size(), 20u);
       for (std::size_t row = range.begin; row < range.end; ++row) {
         const double t = dataset->rows[row].time_s - 100.0;
@@ -405,8 +404,8 @@ TEST(PrepareOptions, NameFieldValueAndRange) {
   EXPECT_TRUE(PrepareOptions{.smoothing_half_width = 1}.Validate());
   EXPECT_TRUE((PrepareOptions{.smoothing_half_width = 2, .smoothing_degree = 5}.Validate()));
   EXPECT_TRUE(PrepareOptions{.longest_gap_s = 0.01}.Validate());
-  EXPECT_TRUE(PrepareOptions{.shortest_stretch_s = 0.5}.Validate());
-  EXPECT_TRUE(PrepareOptions{.longest_segment_s = 1.0}.Validate());
+  EXPECT_TRUE(PrepareOptions{.shortest_segment_s = 0.5}.Validate());
+  EXPECT_TRUE(PrepareOptions{.longest_slice_s = 1.0}.Validate());
   EXPECT_FALSE(Prepare({}, {}, PrepareOptions{.longest_gap_s = -1.0}));
 }
 

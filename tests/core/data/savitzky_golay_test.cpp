@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-#include "telltale/core/contract.hpp"
+#include "telltale/core/base/contract.hpp"
 
 namespace telltale {
 namespace {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <functional>
 
-#include "telltale/core/contract.hpp"
+#include "telltale/core/base/contract.hpp"
 
 namespace telltale {
 namespace {
@@ -65,7 +65,7 @@ TEST(Interpolate, IsExactOnCubicsInside) {
   }
 }
 
-TEST(Interpolate, StaysTameWhereStampsCrowd) {
+TEST(Interpolate, StaysBoundedWhereStampsCrowd) {
   // Two samples 1 ms apart with 1 cm of noise between them, next to an interval of 1 s.
   const TimeSeries series{{0.0, 1.0, 2.0, 2.001, 3.0}, {0.0, 0.0, 0.0, 0.01, 0.0}};
   for (double t = 1.0; t < 2.0; t += 0.05) EXPECT_LT(std::abs(series.Interpolate(t)), 0.01);

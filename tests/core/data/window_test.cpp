@@ -9,8 +9,8 @@
 #include <random>
 #include <vector>
 
-#include "support/numbers.hpp"
-#include "telltale/core/contract.hpp"
+#include "support/special_values.hpp"
+#include "telltale/core/base/contract.hpp"
 
 namespace telltale {
 namespace {
@@ -49,7 +49,7 @@ TEST(Window, KeepsWhatIsFineInOrder) {
   EXPECT_EQ(window.Rejected().Total(), 0u);
 }
 
-TEST(Window, SetsAsideWhatIsNotFinite) {
+TEST(Window, RejectsWhatIsNotFinite) {
   Window window{{}};
   EXPECT_EQ(window.Add(GnssFix{kNaN, 0, 0}), RejectReason::kNotFinite);
   EXPECT_EQ(window.Add(GnssFix{0, kInfinity, 0}), RejectReason::kNotFinite);
@@ -60,7 +60,7 @@ TEST(Window, SetsAsideWhatIsNotFinite) {
   EXPECT_EQ(window.Rejected().Of(Channel::kGnss, RejectReason::kNotFinite), 2u);
 }
 
-TEST(Window, SetsAsideWhatIsOutOfRangeAndKeepsTheLimits) {
+TEST(Window, RejectsWhatIsOutOfRangeAndKeepsTheLimits) {
   Window window{{}};
   EXPECT_EQ(window.Add(GnssFix{0, 90.001, 0}), RejectReason::kOutOfRange);
   EXPECT_EQ(window.Add(GnssFix{0, 0, -180.001}), RejectReason::kOutOfRange);
@@ -139,7 +139,7 @@ TEST(Window, MemoryIsBoundedAndTheOldestGoFirst) {
   EXPECT_GT(recording.gnss.size(), 1500u) << "the bound is used, not only kept";
 }
 
-TEST(Window, OneWildStampWipesNothing) {
+TEST(Window, OneOutlyingStampRemovesNothing) {
   Window window{{}};
   for (int i = 0; i < 100; ++i) window.Add(FixAt(0.2 * i));
   EXPECT_EQ(window.Add(FixAt(1e9)), RejectReason::kClockJump);
@@ -148,7 +148,7 @@ TEST(Window, OneWildStampWipesNothing) {
   EXPECT_EQ(window.Size(Channel::kGnss), 101u);
 }
 
-TEST(Window, WildStampsThatDisagreeAreNeverBelieved) {
+TEST(Window, InconsistentOutlyingStampsAreNeverAccepted) {
   Window window{{}};
   window.Add(FixAt(1000.0));
   for (int i = 1; i < 100; ++i) {

@@ -6,8 +6,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "support/augmented_boats.hpp"
-#include "telltale/core/diagnosis/augmented_identification.hpp"
+#include "support/stable_boat_with_effects.hpp"
+#include "telltale/core/diagnosis/hypotheses/augmented_identification.hpp"
 
 namespace telltale {
 namespace {
@@ -16,11 +16,11 @@ using ::testing::HasSubstr;
 
 constexpr double kDurationS = 300.0;
 
-const std::vector<PreparedDataset>& HealthyDays() {
+const std::vector<PreparedDataset>& NominalRecordings() {
   static const std::vector<PreparedDataset> days = [] {
     std::vector<PreparedDataset> all;
     for (const std::uint64_t seed : {11, 12, 13}) {
-      all.push_back(testing::SailWithEffects({}, kDurationS, 100 * seed));
+      all.push_back(testing::SimulateWithEffects({}, kDurationS, 100 * seed));
     }
     return all;
   }();
@@ -35,7 +35,7 @@ DiagnoseOptions TwoThreads() {
 
 Result<DiagnosedModel> DiagnosedWith(const std::vector<ModelledEffect>& effects,
                                      std::uint64_t seed = 7000) {
-  return Diagnose(testing::SailWithEffects(effects, kDurationS, seed), HealthyDays(),
+  return Diagnose(testing::SimulateWithEffects(effects, kDurationS, seed), NominalRecordings(),
                   testing::KnownStableBoat(), "stable", TwoThreads());
 }
 
@@ -62,12 +62,12 @@ TEST(Diagnose, NamesAWeakThrusterAndHowWeak) {
   const ParameterEstimate& loss = cause.effects[0].parameters[0];
   EXPECT_NEAR(loss.estimate, -0.2, 4.0 * loss.standard_error);
   EXPECT_LT(loss.standard_error, 0.02);
-  ASSERT_TRUE(cause.closure.has_value());
-  EXPECT_GT(cause.closure->share, 0.9);
+  ASSERT_TRUE(cause.excess_explained.has_value());
+  EXPECT_GT(cause.excess_explained->share, 0.9);
   EXPECT_THAT(diagnosed->diagnosis.sentence, HasSubstr("Starboard thruster"));
 }
 
-TEST(Diagnose, TellsSensorsFromForces) {
+TEST(Diagnose, SeparatesSensorFaultsFromForces) {
   const auto diagnosed = DiagnosedWith({{FindEffect("gnss_latency"), {0.3}}});
   ASSERT_TRUE(diagnosed.has_value());
   const Cause& cause = FirstCause(diagnosed);
@@ -100,7 +100,7 @@ class Unlisted : public Effect {
                 .source = "",
                 .parameters = {},
                 .settled_by = "",
-                .hook = Hook::kPush}) {}
+                .hook = Hook::kAcceleration}) {}
   std::string Describe(EffectValues) const override { return ""; }
 };
 
@@ -111,8 +111,8 @@ class Swell : public Unlisted {
   static constexpr double kFrequency = 2.5;
 
   explicit Swell(std::string_view name = "swell") : Unlisted(name) {}
-  NuDot Push(EffectValues, const Moment& moment) const override {
-    const double phase = kFrequency * moment.time_s;
+  NuDot AddedAcceleration(EffectValues, const InstantState& instant) const override {
+    const double phase = kFrequency * instant.time_s;
     return {0.2 * std::cos(phase), 0.2 * std::sin(phase), 0.1 * std::cos(phase + 1.0)};
   }
 };
@@ -133,8 +133,9 @@ TEST(Diagnose, NamesWavesByTheirFrequency) {
 class Wash final : public Swell {
  public:
   Wash() : Swell("wash") {}
-  NuDot Push(EffectValues values, const Moment& moment) const override {
-    return std::fmod(moment.time_s, 120.0) < 35.0 ? Swell::Push(values, moment) : NuDot{};
+  NuDot AddedAcceleration(EffectValues values, const InstantState& instant) const override {
+    return std::fmod(instant.time_s, 120.0) < 35.0 ? Swell::AddedAcceleration(values, instant)
+                                                   : NuDot{};
   }
 };
 
@@ -153,11 +154,11 @@ class Gusts final : public Unlisted {
   static constexpr double kSpeed = 8.0;
 
   Gusts() : Unlisted("gusts") {}
-  NuDot Push(EffectValues, const Moment& moment) const override {
-    const double t = moment.time_s;
+  NuDot AddedAcceleration(EffectValues, const InstantState& instant) const override {
+    const double t = instant.time_s;
     const double speed = kSpeed * (1.0 + 0.2 * std::sin(0.21 * t) + 0.2 * std::sin(0.53 * t + 1.0));
-    const double ahead = std::sin(moment.psi_rad);
-    const double aside = std::cos(moment.psi_rad);
+    const double ahead = std::sin(instant.psi_rad);
+    const double aside = std::cos(instant.psi_rad);
     return {0.0028 * speed * speed * ahead, 0.004 * speed * speed * aside, 0.0};
   }
 };
@@ -180,21 +181,22 @@ TEST(Diagnose, NamesWindInGusts) {
 TEST(Diagnose, NamesNoWrongEffectWithoutTheRightOne) {
   DiagnoseOptions options = TwoThreads();
   options.without = {"antenna_lever_arm"};
-  const auto diagnosed = Diagnose(
-      testing::SailWithEffects({{FindEffect("antenna_lever_arm"), {0.8, 0.6}}}, kDurationS, 7000),
-      HealthyDays(), testing::KnownStableBoat(), "stable", options);
+  const auto diagnosed =
+      Diagnose(testing::SimulateWithEffects({{FindEffect("antenna_lever_arm"), {0.8, 0.6}}},
+                                            kDurationS, 7000),
+               NominalRecordings(), testing::KnownStableBoat(), "stable", options);
   ASSERT_TRUE(diagnosed.has_value());
   EXPECT_NE(diagnosed->diagnosis.verdict, Verdict::kNoMaterialGap);
   EXPECT_NE(diagnosed->diagnosis.verdict, Verdict::kExplained);
 }
 
-TEST(Diagnose, MakesAModelThatSailsTheRecordingBetter) {
+TEST(Diagnose, ReidentifiedModelPredictsTheRecordingBetter) {
   const auto diagnosed = DiagnosedWith({{FindEffect("thrust_gain"), {0.3}}});
   ASSERT_TRUE(diagnosed.has_value());
   ASSERT_TRUE(diagnosed->augmented.has_value());
   ASSERT_FALSE(diagnosed->augmented->effects.empty());
   const PreparedDataset another =
-      testing::SailWithEffects({{FindEffect("thrust_gain"), {0.3}}}, kDurationS, 9100);
+      testing::SimulateWithEffects({{FindEffect("thrust_gain"), {0.3}}}, kDurationS, 9100);
   const auto old = Validate(another, testing::StableBoat(), {});
   const auto now = Validate(another, AugmentedModelOf(*diagnosed->augmented).value(), {});
   ASSERT_TRUE(old.has_value() && now.has_value());
@@ -202,17 +204,17 @@ TEST(Diagnose, MakesAModelThatSailsTheRecordingBetter) {
   EXPECT_LT(now->free_run[1].velocity[0].rmse, 0.3 * old->free_run[1].velocity[0].rmse);
 }
 
-TEST(Diagnose, StartsFromWhatTheModelIsSailedWith) {
+TEST(Diagnose, StartsFromTheSimulationParameters) {
   const PreparedDataset recording =
-      testing::SailWithEffects({{FindEffect("thrust_gain"), {0.3}}}, 120.0, 7000);
+      testing::SimulateWithEffects({{FindEffect("thrust_gain"), {0.3}}}, 120.0, 7000);
   const Identification known = testing::KnownStableBoat();
   Identification off = known;
   for (Coefficient& c : off.coefficients) {
-    off.sailed.push_back(c.estimate);
+    off.simulation.push_back(c.estimate);
     c.estimate += 0.9 * c.standard_error;
   }
-  const auto a = Diagnose(recording, HealthyDays(), known, "stable", TwoThreads());
-  const auto b = Diagnose(recording, HealthyDays(), off, "stable", TwoThreads());
+  const auto a = Diagnose(recording, NominalRecordings(), known, "stable", TwoThreads());
+  const auto b = Diagnose(recording, NominalRecordings(), off, "stable", TwoThreads());
   ASSERT_TRUE(a.has_value() && b.has_value());
   EXPECT_EQ(a->diagnosis.sentence, b->diagnosis.sentence);
   ASSERT_TRUE(a->augmented.has_value() && b->augmented.has_value());
@@ -222,14 +224,14 @@ TEST(Diagnose, StartsFromWhatTheModelIsSailedWith) {
 
 TEST(Diagnose, DoesNotDependOnThreads) {
   const PreparedDataset recording =
-      testing::SailWithEffects({{FindEffect("hull_fouling"), {0.6, 0.5}}}, 120.0, 7000);
+      testing::SimulateWithEffects({{FindEffect("hull_fouling"), {0.6, 0.5}}}, 120.0, 7000);
   DiagnoseOptions one;
   one.advise = false;
   DiagnoseOptions two = one;
   two.threads = 2;
   const auto model = testing::KnownStableBoat();
-  const auto a = Diagnose(recording, HealthyDays(), model, "stable", one);
-  const auto b = Diagnose(recording, HealthyDays(), model, "stable", two);
+  const auto a = Diagnose(recording, NominalRecordings(), model, "stable", one);
+  const auto b = Diagnose(recording, NominalRecordings(), model, "stable", two);
   ASSERT_TRUE(a.has_value() && b.has_value());
   EXPECT_EQ(a->diagnosis.sentence, b->diagnosis.sentence);
   EXPECT_EQ(a->diagnosis.Main().all.after, b->diagnosis.Main().all.after);
@@ -238,7 +240,7 @@ TEST(Diagnose, DoesNotDependOnThreads) {
 }
 
 TEST(Diagnose, SaysWhatItRestsOnWithoutReferences) {
-  const auto diagnosed = Diagnose(testing::SailWithEffects({}, 120.0, 7000), {},
+  const auto diagnosed = Diagnose(testing::SimulateWithEffects({}, 120.0, 7000), {},
                                   testing::KnownStableBoat(), "stable", TwoThreads());
   ASSERT_TRUE(diagnosed.has_value());
   EXPECT_EQ(diagnosed->diagnosis.floor_basis, FloorBasis::kSensorNoise);
@@ -247,34 +249,34 @@ TEST(Diagnose, SaysWhatItRestsOnWithoutReferences) {
 
 TEST(Diagnose, RefusesWhatItCannotJudge) {
   const auto model = testing::KnownStableBoat();
-  const auto shorter =
-      Diagnose(testing::SailWithEffects({}, 40.0, 7000), HealthyDays(), model, "stable", {});
+  const auto shorter = Diagnose(testing::SimulateWithEffects({}, 40.0, 7000), NominalRecordings(),
+                                model, "stable", {});
   ASSERT_FALSE(shorter.has_value());
   EXPECT_THAT(shorter.error().advice, HasSubstr("60 s"));
 
-  const PreparedDataset recording = testing::SailWithEffects({}, 90.0, 7000);
-  const auto other = Diagnose(recording, HealthyDays(), model, "another", {});
+  const PreparedDataset recording = testing::SimulateWithEffects({}, 90.0, 7000);
+  const auto other = Diagnose(recording, NominalRecordings(), model, "another", {});
   ASSERT_FALSE(other.has_value());
   EXPECT_THAT(other.error().reason, HasSubstr("another"));
 
   DiagnoseOptions unknown;
   unknown.without = {"magnetism"};
-  const auto no_such = Diagnose(recording, HealthyDays(), model, "stable", unknown);
+  const auto no_such = Diagnose(recording, NominalRecordings(), model, "stable", unknown);
   ASSERT_FALSE(no_such.has_value());
   EXPECT_THAT(no_such.error().reason, HasSubstr("magnetism"));
   EXPECT_THAT(no_such.error().advice, HasSubstr("thruster_lag"));
 
   DiagnoseOptions four;
   four.most_effects = 4;
-  EXPECT_FALSE(Diagnose(recording, HealthyDays(), model, "stable", four).has_value());
+  EXPECT_FALSE(Diagnose(recording, NominalRecordings(), model, "stable", four).has_value());
 }
 
 TEST(Diagnose, RecognisesSwappedAndReversedThrusters) {
-  const PreparedDataset recording = testing::SailWithEffects({}, 90.0, 7000);
+  const PreparedDataset recording = testing::SimulateWithEffects({}, 90.0, 7000);
   const auto rewired = [&](auto change) {
     PreparedDataset changed = recording;
     for (HeldCommands& commands : changed.commands) commands.ForEachCommand(change);
-    return Diagnose(changed, HealthyDays(), testing::KnownStableBoat(), "stable", {});
+    return Diagnose(changed, NominalRecordings(), testing::KnownStableBoat(), "stable", {});
   };
   const auto swapped = rewired([](PropellerCommand d) {
     return PropellerCommand{d.starboard, d.port};

@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "support/boats.hpp"
+#include "support/stable_boat.hpp"
 #include "telltale/core/effects/augmented_simulation.hpp"
 #include "telltale/core/effects/effect.hpp"
 #include "telltale/core/simulation/simulator.hpp"
@@ -42,7 +42,7 @@ AugmentedBoat Plain() {
 }
 
 Drive SteadyDrive(const AugmentedBoat& boat, const PropellerCommand& delta) {
-  return boat.DriveAlong(Held(delta), 10.0, kStepS, 1).front();
+  return boat.DrivesAlong(Held(delta), 10.0, kStepS, 1).front();
 }
 
 TEST(AugmentedBoat, WithoutEffectsIsTheModel) {
@@ -73,8 +73,8 @@ TEST(AugmentedBoat, WeakensOneSideOnly) {
 
 TEST(AugmentedBoat, DelaysCommands) {
   const PropellerCommand ahead{0.5, 0.5};
-  const auto plain = Plain().DriveAlong(Stepped(ahead), 0.0, kStepS, 60);
-  const auto late = BoatWith("thruster_delay", {0.3}).DriveAlong(Stepped(ahead), 0.0, kStepS, 60);
+  const auto plain = Plain().DrivesAlong(Stepped(ahead), 0.0, kStepS, 60);
+  const auto late = BoatWith("thruster_delay", {0.3}).DrivesAlong(Stepped(ahead), 0.0, kStepS, 60);
   for (std::size_t k = 6; k < 60; ++k) {
     EXPECT_NEAR(late[k].thrust[0].u, plain[k - 6].thrust[0].u, 1e-9) << k;
   }
@@ -84,8 +84,9 @@ TEST(AugmentedBoat, DelaysCommands) {
 TEST(AugmentedBoat, LagsInTheSpeedOfItsShafts) {
   constexpr double kTau = 0.4;
   const PropellerCommand ahead{0.5, 0.5};
-  const auto plain = Plain().DriveAlong(Stepped(ahead), 0.0, kStepS, 60);
-  const auto lagging = BoatWith("thruster_lag", {kTau}).DriveAlong(Stepped(ahead), 0.0, kStepS, 60);
+  const auto plain = Plain().DrivesAlong(Stepped(ahead), 0.0, kStepS, 60);
+  const auto lagging =
+      BoatWith("thruster_lag", {kTau}).DrivesAlong(Stepped(ahead), 0.0, kStepS, 60);
   const NuDot steady = plain.back().thrust[0];
   for (std::size_t k = 20; k < 60; ++k) {
     const double t = static_cast<double>(k - 20) * kStepS;
@@ -183,7 +184,7 @@ TEST(AugmentedBoat, BrakesATurnByTheSlopeOfAFouledHullsDrag) {
 
 // Mirrored: a port loss to a boat that turns to port is a starboard loss to one that turns to
 // starboard, for a boat alike on both sides.
-TEST(AugmentedBoat, KnowsNoSideFromTheOther) {
+TEST(AugmentedBoat, TreatsPortAndStarboardAlike) {
   VesselModel model = testing::StableBoat();
   for (const std::size_t j : {1, 2}) model.theta[j][8] = 0.0;
   const auto sail = [&](double loss, double port, double starboard) {

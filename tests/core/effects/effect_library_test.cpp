@@ -4,7 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "support/boats.hpp"
+#include "support/stable_boat.hpp"
 #include "telltale/core/effects/augmented_simulation.hpp"
 #include "telltale/core/effects/effect.hpp"
 
@@ -16,18 +16,19 @@ constexpr double kSailingStepS = 0.1;
 std::vector<double> TypicalValues(const Effect& effect) {
   std::vector<double> values;
   for (const EffectParameter& parameter : effect.Parameters()) {
-    values.push_back(parameter.shapes ? parameter.usual : parameter.typical);
+    values.push_back(parameter.is_shape ? parameter.prior_mean : parameter.typical);
   }
   return values;
 }
 
 std::vector<double> NoValues(const Effect& effect) {
   std::vector<double> values;
-  for (const EffectParameter& parameter : effect.Parameters()) values.push_back(parameter.usual);
+  for (const EffectParameter& parameter : effect.Parameters())
+    values.push_back(parameter.prior_mean);
   return values;
 }
 
-Recording Sailed(const std::vector<ModelledEffect>& effects) {
+Recording SimulatedRecording(const std::vector<ModelledEffect>& effects) {
   const AugmentedModel model{testing::StableBoat(), effects};
   const auto track = Simulate(model, testing::VariedCommands(60.0, 3), 60.0, kSailingStepS);
   return Measure(track, model, testing::StableBoatVehicle(), testing::NoNoise());
@@ -93,27 +94,29 @@ TEST(EffectLibrary, SaysOfEveryEffectWhatItIs) {
     for (const EffectParameter& parameter : effect->Parameters()) {
       EXPECT_GT(parameter.typical, 0.0) << parameter.name;
       EXPECT_LT(parameter.lower, parameter.upper) << parameter.name;
-      EXPECT_LE(parameter.lower, parameter.usual) << parameter.name;
-      EXPECT_GE(parameter.upper, parameter.usual) << parameter.name;
+      EXPECT_LE(parameter.lower, parameter.prior_mean) << parameter.name;
+      EXPECT_GE(parameter.upper, parameter.prior_mean) << parameter.name;
       EXPECT_LE(parameter.typical, parameter.upper) << parameter.name;
     }
   }
 }
 
 TEST(EffectLibrary, LeavesTheBoatAloneWhereAnEffectIsNotThere) {
-  const Recording plain = Sailed({});
+  const Recording plain = SimulatedRecording({});
   for (const Effect* effect : EffectLibrary()) {
-    EXPECT_TRUE(SameReadings(Sailed({{effect, NoValues(*effect)}}), plain)) << effect->Name();
+    EXPECT_TRUE(SameReadings(SimulatedRecording({{effect, NoValues(*effect)}}), plain))
+        << effect->Name();
   }
 }
 
 // A hook that is overridden but not named in the facts would be silent.
 TEST(EffectLibrary, ShowsInTheReadingsWhereAnEffectIsThere) {
-  const Recording plain = Sailed({});
+  const Recording plain = SimulatedRecording({});
   for (const Effect* effect : EffectLibrary()) {
-    if (effect->Shaking(TypicalValues(*effect))) continue;
+    if (effect->StochasticExcitation(TypicalValues(*effect))) continue;
     // Commands reach full, so that a cut is felt.
-    EXPECT_FALSE(SameReadings(Sailed({{effect, TypicalValues(*effect)}}), plain)) << effect->Name();
+    EXPECT_FALSE(SameReadings(SimulatedRecording({{effect, TypicalValues(*effect)}}), plain))
+        << effect->Name();
   }
 }
 

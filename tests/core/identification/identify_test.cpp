@@ -8,10 +8,10 @@
 #include <gtest/gtest.h>
 #include <boost/random/normal_distribution.hpp>
 
-#include "support/boats.hpp"
 #include "support/discrete_boat.hpp"
+#include "support/stable_boat.hpp"
+#include "telltale/core/paper/yellowfish.hpp"
 #include "telltale/core/simulation/simulator.hpp"
-#include "telltale/core/simulation/yellowfish.hpp"
 
 namespace telltale {
 namespace {
@@ -69,7 +69,7 @@ TEST(Identify, WritesEveryCoefficientInOrderWithBounds) {
 }
 
 /// Known truth: noise of 1e-4 m/s on velocities 0.2 s apart leaves the thrust coefficients right.
-TEST(Identify, RecoversTheTwin) {
+TEST(Identify, RecoversTheSimulatedBoat) {
   const VesselModel truth = YellowfishTwin();
   const auto result = Identify(Boat({kFF, kFR, kRF}, 1e-4), "boat", Quick());
   ASSERT_TRUE(result.has_value());
@@ -135,8 +135,8 @@ TEST(Identify, RefusesABoatThatNeverMoved) {
 TEST(Identify, RefusesTooShortARecording) {
   PreparedDataset dataset = Boat({kFF, kFR, kRF});
   dataset.rows.resize(60);
-  dataset.stretches = {{0, 60}};
   dataset.segments = {{0, 60}};
+  dataset.slices = {{0, 60}};
   const auto result = Identify(dataset, "boat", Quick());
   ASSERT_FALSE(result.has_value());
   EXPECT_NE(result.error().reason.find("usable rows"), std::string::npos);
@@ -155,7 +155,7 @@ TEST(Identify, WithoutBootstrapBoundsRestOnResiduals) {
 /// coefficients and 200 replicates the mean ratio of two standard errors is good to 10 %.
 TEST(Identify, BoundsByBlocksAndEachMethodAgreeOnWhiteErrors) {
   const PreparedDataset boat = Boat({kFF, kFR, kRF}, 1e-4);
-  const auto segments = Identify(boat, "boat", Quick());
+  const auto slices = Identify(boat, "boat", Quick());
   for (const IntervalMethod method :
        {IntervalMethod::kPercentile, IntervalMethod::kStudentized, IntervalMethod::kBca}) {
     IdentifyOptions options = Quick();
@@ -169,7 +169,7 @@ TEST(Identify, BoundsByBlocksAndEachMethodAgreeOnWhiteErrors) {
     double widths = 0.0;
     for (std::size_t i = 0; i < blocks->coefficients.size(); ++i) {
       const Coefficient& c = blocks->coefficients[i];
-      const Coefficient& other = segments->coefficients[i];
+      const Coefficient& other = slices->coefficients[i];
       EXPECT_EQ(c.estimate, other.estimate);
       EXPECT_LT(c.interval.lower, c.interval.upper);
       errors += std::log(c.standard_error / other.standard_error) / 35.0;
@@ -184,22 +184,22 @@ TEST(Identify, BoundsByBlocksAndEachMethodAgreeOnWhiteErrors) {
 TEST(Identify, BoundsTheDynamicStructureByBlocks) {
   IdentifyOptions options = Quick();
   options.regression.structure = Structure::kFirstOrderDynamic;
-  const auto segments = Identify(Boat({kFF, kFR, kRF}, 1e-4), "boat", options);
+  const auto slices = Identify(Boat({kFF, kFR, kRF}, 1e-4), "boat", options);
   options.resampling = Resampling::kMovingBlocks;
   const auto blocks = Identify(Boat({kFF, kFR, kRF}, 1e-4), "boat", options);
-  ASSERT_TRUE(segments.has_value() && blocks.has_value());
+  ASSERT_TRUE(slices.has_value() && blocks.has_value());
   double errors = 0.0;
   for (std::size_t i = 0; i < 35; ++i) {
-    errors += std::log(blocks->coefficients[i].standard_error /
-                       segments->coefficients[i].standard_error) /
-              35.0;
+    errors +=
+        std::log(blocks->coefficients[i].standard_error / slices->coefficients[i].standard_error) /
+        35.0;
   }
   EXPECT_NEAR(errors, 0.0, 0.1);
 }
 
 TEST(Identify, WarnsWhenBoundsRestOnFewSegments) {
   PreparedDataset dataset = Boat({kFF, kFR, kRF}, 1e-3);
-  dataset.segments = {{0, 1000}, {1000, 2000}, {2000, 3000}};
+  dataset.slices = {{0, 1000}, {1000, 2000}, {2000, 3000}};
   const auto result = Identify(dataset, "boat", Quick());
   ASSERT_TRUE(result.has_value());
   EXPECT_TRUE(Refuses(*result, "bounds"));
@@ -341,10 +341,10 @@ TEST(EstimateModel, RefusesWhatCannotRunFreely) {
 TEST(Identify, BoundsARecordingWithTheWeakForm) {
   IdentifyOptions options;
   options.estimator = Estimator::kWeakIv;
-  options.twins = 8;
+  options.parametric_replicates = 8;
   std::vector<std::string> stages;
   const Recording recording =
-      testing::SailStableBoat(testing::StableBoat(), 600.0, SensorOptions{}, 31);
+      testing::SimulateStableBoat(testing::StableBoat(), 600.0, SensorOptions{}, 31);
   const auto result = Identify(recording, testing::StableBoatVehicle(), options,
                                [&](std::string_view stage, double) { stages.emplace_back(stage); });
   ASSERT_TRUE(result.has_value());
@@ -362,17 +362,19 @@ TEST(Identify, BoundsARecordingWithTheWeakForm) {
     }
   }
   ASSERT_TRUE(result->disturbance.has_value());
-  EXPECT_EQ(result->provenance.twins + result->provenance.twin_failures, 8U);
+  EXPECT_EQ(
+      result->provenance.parametric_replicates + result->provenance.parametric_replicate_failures,
+      8U);
   EXPECT_NE(std::find(stages.begin(), stages.end(), "simulating repeats"), stages.end());
   EXPECT_TRUE(ModelOf(*result)->discretisation == Discretisation::kContinuous);
 }
 
-TEST(Identify, WithoutTwinsTheWeakFormSaysThatBiasIsLeft) {
+TEST(Identify, WithoutReplicatesTheWeakFormSaysThatBiasIsLeft) {
   IdentifyOptions options;
   options.estimator = Estimator::kWeakIv;
-  options.twins = 0;
+  options.parametric_replicates = 0;
   const auto result =
-      Identify(testing::SailStableBoat(testing::StableBoat(), 600.0, SensorOptions{}, 31),
+      Identify(testing::SimulateStableBoat(testing::StableBoat(), 600.0, SensorOptions{}, 31),
                testing::StableBoatVehicle(), options);
   ASSERT_TRUE(result.has_value());
   EXPECT_NE(result->provenance.bounds_basis.find("not corrected for bias"), std::string::npos);
@@ -391,7 +393,7 @@ TEST(IdentifyOptions, AskForOneKernelWithTheWeakForm) {
   options.estimator = Estimator::kUnknown;
   EXPECT_TRUE(options.Validate().has_value());
   options = {};
-  options.twins = 7;
+  options.parametric_replicates = 7;
   ASSERT_TRUE(options.Validate().has_value());
   EXPECT_NE(options.Validate()->advice.find("[8, 1000]"), std::string::npos);
 }

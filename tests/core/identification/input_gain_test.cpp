@@ -7,12 +7,12 @@
 #include <boost/random/normal_distribution.hpp>
 
 #include "support/discrete_boat.hpp"
-#include "support/identifications.hpp"
-#include "support/numbers.hpp"
-#include "telltale/core/contract.hpp"
-#include "telltale/core/random.hpp"
+#include "support/made_up_identifications.hpp"
+#include "support/special_values.hpp"
+#include "telltale/core/base/contract.hpp"
+#include "telltale/core/base/random.hpp"
+#include "telltale/core/paper/yellowfish.hpp"
 #include "telltale/core/simulation/simulator.hpp"
-#include "telltale/core/simulation/yellowfish.hpp"
 
 namespace telltale {
 namespace {
@@ -288,7 +288,7 @@ TEST(ReconstructDisturbance, NeverStraddlesAGap) {
   const VesselModel model = YellowfishPaperModel();
   PreparedDataset dataset = testing::DriveDiscrete(
       model, std::vector<PropellerCommand>(10, PropellerCommand{0.5, 0.5}), 5);
-  dataset.stretches = {{0, 4}, {4, 4}, {4, 10}};
+  dataset.segments = {{0, 4}, {4, 4}, {4, 10}};
   const auto samples = ReconstructDisturbance(dataset, model);
   ASSERT_EQ(samples.size(), 3u + 5u);
   EXPECT_EQ(samples[2].time_s, dataset.rows[2].time_s);

@@ -5,7 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "support/identifications.hpp"
+#include "support/made_up_identifications.hpp"
 #include "telltale/core/identification/model_comparison.hpp"
 
 namespace telltale {
@@ -32,8 +32,8 @@ TEST(ChangeBetween, CallsModelsDifferentBeyondOnePercent) {
   const auto above = ChangeBetween(earlier, Later(earlier, 13, std::sqrt(53.6)));
   ASSERT_TRUE(below && above);
   EXPECT_EQ(below->degrees_of_freedom, 32u);
-  EXPECT_EQ(below->verdict, ChangeVerdict::kAlike);
-  EXPECT_EQ(above->verdict, ChangeVerdict::kDiffers);
+  EXPECT_EQ(below->verdict, ChangeVerdict::kNoSignificantChange);
+  EXPECT_EQ(above->verdict, ChangeVerdict::kChanged);
   EXPECT_NEAR(above->statistic, 53.6, 1e-9);
 }
 
@@ -54,14 +54,14 @@ TEST(ChangeBetween, DoesNotMindAnotherSteadyDisturbance) {
   ASSERT_EQ(earlier.coefficients[4].regressor, "1");
   const auto change = ChangeBetween(earlier, Later(earlier, 4, 100.0));
   ASSERT_TRUE(change);
-  EXPECT_EQ(change->verdict, ChangeVerdict::kAlike);
+  EXPECT_EQ(change->verdict, ChangeVerdict::kNoSignificantChange);
 }
 
 TEST(ChangeBetween, CountsClustersAsWhatCovariancesWereEstimatedFrom) {
   Identification earlier = Known();
   earlier.provenance.clusters = 60;
   const Identification later = Later(earlier, 13, std::sqrt(53.6));
-  EXPECT_EQ(ChangeBetween(earlier, later)->verdict, ChangeVerdict::kAlike);
+  EXPECT_EQ(ChangeBetween(earlier, later)->verdict, ChangeVerdict::kNoSignificantChange);
   earlier.provenance.clusters = 10;
   EXPECT_FALSE(ChangeBetween(earlier, earlier));  // 18 degrees of freedom cannot judge 32
 }
@@ -85,10 +85,10 @@ TEST(ModelChange, IsToldInASentence) {
   EXPECT_EQ(InWords(change),
             "differs from revision 3: p = 0.0021, YAW r|r| by +3.4 sigma, thruster time constant "
             "by -2.0 sigma; fouling, damage or another load?");
-  change.verdict = ChangeVerdict::kAlike;
+  change.verdict = ChangeVerdict::kNoSignificantChange;
   change.p_value = 0.41;
   EXPECT_EQ(InWords(change), "is no different from revision 3: p = 0.41");
-  change.verdict = ChangeVerdict::kCannotTell;
+  change.verdict = ChangeVerdict::kInconclusive;
   change.reason = "too little";
   EXPECT_EQ(InWords(change), "cannot be compared with revision 3: too little");
   change.revision = 0;

@@ -8,7 +8,7 @@
 
 #include "support/discrete_boat.hpp"
 #include "telltale/core/identification/identify.hpp"
-#include "telltale/core/simulation/yellowfish.hpp"
+#include "telltale/core/paper/yellowfish.hpp"
 
 namespace telltale {
 namespace {
@@ -35,7 +35,8 @@ Identification RunOf(const VesselModel& model, std::uint64_t seed,
 /// Six pairs of runs of one boat: at 0.1 % a false alarm among them has a chance of 0.6 %.
 TEST(ModelComparison, FindsOneBoatLikeItself) {
   for (std::uint64_t pair = 1; pair <= 6; ++pair) {
-    const auto test = Compare(RunOf(YellowfishTwin(), pair), RunOf(YellowfishTwin(), 100 + pair));
+    const auto test =
+        TestForChange(RunOf(YellowfishTwin(), pair), RunOf(YellowfishTwin(), 100 + pair));
     ASSERT_TRUE(test) << test.error().reason;
     EXPECT_EQ(test->degrees_of_freedom, 32u);  // of 35, three being steady disturbances
     EXPECT_GT(test->p_value, 0.001) << pair;
@@ -52,7 +53,7 @@ TEST(ModelComparison, FindsAFouledHull) {
     }
   }
   const Identification clean = RunOf(YellowfishTwin(), 1);
-  const auto test = Compare(clean, RunOf(fouled, 2));
+  const auto test = TestForChange(clean, RunOf(fouled, 2));
   ASSERT_TRUE(test);
   EXPECT_LT(test->p_value, 1e-4);
   EXPECT_EQ(clean.coefficients[test->differences[0].index].equation, Equation::kSurge);
@@ -64,10 +65,11 @@ TEST(ModelComparison, ComparesTheEquationsBothHave) {
                 [](const Coefficient& c) { return c.equation != Equation::kSurge; });
   surge_alone.covariance = Eigen::MatrixXd(surge_alone.covariance.topLeftCorner(9, 9));
   const Identification whole = RunOf(YellowfishTwin(), 2);
-  const auto test = Compare(whole, surge_alone);
+  const auto test = TestForChange(whole, surge_alone);
   ASSERT_TRUE(test);
   EXPECT_EQ(test->degrees_of_freedom, 8u);
-  EXPECT_NEAR(Compare(surge_alone, whole)->statistic, test->statistic, 1e-8 * test->statistic);
+  EXPECT_NEAR(TestForChange(surge_alone, whole)->statistic, test->statistic,
+              1e-8 * test->statistic);
 }
 
 /// A time constant five of its errors away, all else alike: it alone differs, and by that much.
@@ -81,7 +83,7 @@ TEST(ModelComparison, ComparesTheThrusterTimeConstant) {
   first.time_constant_covariance = Eigen::VectorXd::Zero(first.covariance.rows());
   Identification second = first;
   second.thruster_time_constant->estimate += 5.0 * std::sqrt(2.0) * 0.01;
-  const auto test = Compare(first, second);
+  const auto test = TestForChange(first, second);
   ASSERT_TRUE(test);
   EXPECT_EQ(test->degrees_of_freedom, 33u);
   EXPECT_NEAR(test->statistic, 25.0, 1e-9);
@@ -93,7 +95,7 @@ TEST(ModelComparison, RefusesModelsWhoseCoefficientsMeanDifferentThings) {
   Identification second = first;
   second.sampling_period_s *= 2.0;
   second.structure = Structure::kFirstOrderDynamic;
-  const auto refused = Compare(first, second);
+  const auto refused = TestForChange(first, second);
   ASSERT_FALSE(refused);
   EXPECT_EQ(refused.error().reason, "the models differ in structure, sampling period");
 }

@@ -6,7 +6,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "support/identifications.hpp"
+#include "support/made_up_identifications.hpp"
 
 namespace telltale {
 namespace {

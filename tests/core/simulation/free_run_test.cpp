@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "support/discrete_boat.hpp"
-#include "telltale/core/simulation/yellowfish.hpp"
+#include "telltale/core/paper/yellowfish.hpp"
 
 namespace telltale {
 namespace {
@@ -19,14 +19,14 @@ VesselModel Discrete() {
   return boat;
 }
 
-PreparedDataset Sailed() {
+PreparedDataset SimulatedDataset() {
   return testing::DriveDiscrete(YellowfishTwin(),
                                 testing::RandomCommands(1000, {PropellerRegion::kFF}, 3), 50);
 }
 
 /// The boat that made the data is at every row where the data say it is.
 TEST(RunFreely, FollowsTheDataOfTheBoatItself) {
-  const PreparedDataset dataset = Sailed();
+  const PreparedDataset dataset = SimulatedDataset();
   const VesselModel boat = Discrete();
   const auto run = RunFreely(dataset, boat, FollowThrust(dataset, boat), 100, 50);
   ASSERT_EQ(run.size(), 51u);
@@ -38,7 +38,7 @@ TEST(RunFreely, FollowsTheDataOfTheBoatItself) {
 
 /// By the definition of the lag: a constant command leaves (1 - T) e^(-t / T_c) of a step to come.
 TEST(FollowThrust, LagsByTheTimeConstant) {
-  PreparedDataset dataset = Sailed();
+  PreparedDataset dataset = SimulatedDataset();
   VesselModel boat = YellowfishTwin();
   boat.structure = Structure::kFirstOrderDynamic;
   boat.thruster_time_constant_s = 0.5;
@@ -51,54 +51,54 @@ TEST(FollowThrust, LagsByTheTimeConstant) {
   EXPECT_NEAR(thrust[10].surge[0], after + (before - after) * std::exp(-elapsed_s / 0.5), 1e-9);
 }
 
-TEST(CountRunaways, FindsNoneWhereTheBoatMadeTheData) {
-  const PreparedDataset dataset = Sailed();
-  const Runaways count = CountRunaways(dataset, Discrete(), kHorizonS);
+TEST(CountDivergences, FindsNoneWhereTheBoatMadeTheData) {
+  const PreparedDataset dataset = SimulatedDataset();
+  const DivergenceCount count = CountDivergences(dataset, Discrete(), kHorizonS);
   EXPECT_GT(count.runs, 10u);
-  EXPECT_EQ(count.runaways, 0u);
+  EXPECT_EQ(count.diverged, 0u);
 }
 
 /// With u' = + 2 u a speed grows by e^10 in five seconds.
-TEST(CountRunaways, FindsAllOfABoatThatDrivesItself) {
-  const PreparedDataset dataset = Sailed();
+TEST(CountDivergences, FindsAllOfABoatThatDrivesItself) {
+  const PreparedDataset dataset = SimulatedDataset();
   VesselModel boat = Discrete();
   const auto regressors = Regressors(Equation::kSurge, boat.parameterization);
   for (std::size_t i = 0; i < regressors.size(); ++i) {
     if (regressors[i].name == "u") boat.theta[0][static_cast<Eigen::Index>(i)] = 2.0;
   }
-  const Runaways count = CountRunaways(dataset, boat, kHorizonS);
+  const DivergenceCount count = CountDivergences(dataset, boat, kHorizonS);
   EXPECT_GT(count.runs, 10u);
-  EXPECT_GE(count.runaways + 1, count.runs);  // the first starts at rest
+  EXPECT_GE(count.diverged + 1, count.runs);  // the first starts at rest
 }
 
 /// Of hours of data some sixty runs are looked at, not thousands.
-TEST(CountRunaways, LooksAtSomeSixtyOfManyRuns) {
+TEST(CountDivergences, CountsSomeSixtyOfManyRuns) {
   const PreparedDataset dataset = testing::DriveDiscrete(
       YellowfishTwin(), testing::RandomCommands(20000, {PropellerRegion::kFF}, 3), 50);
-  const std::size_t runs = CountRunaways(dataset, Discrete(), kHorizonS).runs;
+  const std::size_t runs = CountDivergences(dataset, Discrete(), kHorizonS).runs;
   EXPECT_GT(runs, 30u);
   EXPECT_LE(runs, 60u);
 }
 
-TEST(FreeRunMiss, IsNoneOfTheBoatThatMadeTheData) {
-  EXPECT_LT(FreeRunMiss(Sailed(), Discrete(), kHorizonS), 1e-9);
+TEST(FreeRunError, IsNoneOfTheBoatThatMadeTheData) {
+  EXPECT_LT(FreeRunError(SimulatedDataset(), Discrete(), kHorizonS), 1e-9);
 }
 
 /// Unless it starts at rest, such a boat is soon further off than counts.
-TEST(FreeRunMiss, OfWhatRunsAwayIsFinite) {
+TEST(FreeRunError, OfADivergingModelIsFinite) {
   VesselModel boat = Discrete();
   boat.theta[0].setConstant(1e9);
   boat.theta[1].setConstant(1e9);
   boat.theta[2].setConstant(1e9);
-  const double miss = FreeRunMiss(Sailed(), boat, kHorizonS);
+  const double miss = FreeRunError(SimulatedDataset(), boat, kHorizonS);
   EXPECT_GT(miss, 1.5);
   EXPECT_LE(miss, 2.0);
 }
 
 /// A boat that always lies still misses by what was measured: less than the fastest, since the mean
 /// is.
-TEST(FreeRunMiss, IsInUnitsOfTheFastestMeasured) {
-  const PreparedDataset dataset = Sailed();
+TEST(FreeRunError, IsInUnitsOfTheFastestMeasured) {
+  const PreparedDataset dataset = SimulatedDataset();
   VesselModel boat = Discrete();
   for (Eigen::VectorXd& theta : boat.theta) theta.setZero();  // keeps its velocities
   double squares = 0.0;
@@ -116,11 +116,11 @@ TEST(FreeRunMiss, IsInUnitsOfTheFastestMeasured) {
     }
   }
   const auto misses = static_cast<double>(3 * steps * starts.size());
-  EXPECT_NEAR(FreeRunMiss(dataset, boat, kHorizonS), std::sqrt(squares / misses), 1e-12);
+  EXPECT_NEAR(FreeRunError(dataset, boat, kHorizonS), std::sqrt(squares / misses), 1e-12);
 }
 
-TEST(RunawayLimits, LeaveRoomForABoatAtRest) {
-  const Nu limits = RunawayLimits({0.0, 0.0, 0.0});
+TEST(DivergenceLimits, LeaveRoomForABoatAtRest) {
+  const Nu limits = DivergenceLimits({0.0, 0.0, 0.0});
   EXPECT_TRUE(Within({0.4, -0.4, 0.4}, limits));
   EXPECT_FALSE(Within({0.4, -0.6, 0.4}, limits));
   EXPECT_FALSE(Within({std::nan(""), 0.0, 0.0}, limits));

@@ -5,8 +5,8 @@
 
 #include <gtest/gtest.h>
 
-#include "telltale/core/linear_algebra/decompositions.hpp"
-#include "telltale/core/simulation/yellowfish.hpp"
+#include "telltale/core/base/linear_algebra/eigen_decompositions.hpp"
+#include "telltale/core/paper/yellowfish.hpp"
 
 namespace telltale {
 namespace {
@@ -130,7 +130,7 @@ TEST(SampleMission, SpendsEnoughTimeInEveryRegion) {
   EXPECT_GT(seconds[PropellerRegion::kRR], 10.0);
 }
 
-TEST(SampleMission, TellsEveryCoefficientOfTheTwinApart) {
+TEST(SampleMission, SeparatesEveryCoefficientOfTheSimulatedBoat) {
   // Columns scaled to unit length, one row a fifth of a second. A condition number of c lets a
   // relative error of e in the data grow to c e in the worst combination of coefficients.
   const auto track = Simulate(YellowfishTwin(), {}, SampleMission(1), kSampleMissionDurationS, 0.2);

@@ -6,8 +6,8 @@
 #include <gtest/gtest.h>
 #include <GeographicLib/Geodesic.hpp>
 
+#include "telltale/core/paper/yellowfish.hpp"
 #include "telltale/core/simulation/manoeuvres.hpp"
-#include "telltale/core/simulation/yellowfish.hpp"
 
 namespace telltale {
 namespace {

@@ -5,8 +5,8 @@
 
 #include <gtest/gtest.h>
 
-#include "telltale/core/contract.hpp"
-#include "telltale/core/simulation/yellowfish.hpp"
+#include "telltale/core/base/contract.hpp"
+#include "telltale/core/paper/yellowfish.hpp"
 
 namespace telltale {
 namespace {

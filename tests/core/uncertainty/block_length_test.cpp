@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 #include <boost/random/normal_distribution.hpp>
 
-#include "telltale/core/random.hpp"
+#include "telltale/core/base/random.hpp"
 
 namespace telltale {
 namespace {

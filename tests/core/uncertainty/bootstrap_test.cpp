@@ -7,14 +7,14 @@
 #include <boost/random/normal_distribution.hpp>
 
 #include "support/discrete_boat.hpp"
-#include "telltale/core/linear_algebra/decompositions.hpp"
-#include "telltale/core/simulation/yellowfish.hpp"
+#include "telltale/core/base/linear_algebra/eigen_decompositions.hpp"
+#include "telltale/core/paper/yellowfish.hpp"
 #include "telltale/core/uncertainty/timeline.hpp"
 
 namespace telltale {
 namespace {
 
-using EquationEstimates = std::array<std::optional<EquationEstimate>, 3>;
+using OneStepEquations = std::array<std::optional<EquationEstimate>, 3>;
 
 constexpr std::size_t kSegmentRows = 50;
 
@@ -32,21 +32,21 @@ RegressionProblem NoisyProblem(double sigma, std::uint64_t seed) {
 }
 
 std::vector<ClusteredFit> FitsOf(const RegressionProblem& problem,
-                                 const EquationEstimates& estimates) {
+                                 const OneStepEquations& estimates) {
   std::vector<ClusteredFit> fits;
   for (std::size_t j = 0; j < 3; ++j) fits.push_back(FitOf(problem.equations[j], *estimates[j]));
   return fits;
 }
 
-EquationEstimates EstimateAll(const RegressionProblem& problem) {
-  EquationEstimates estimates;
+OneStepEquations EstimateAll(const RegressionProblem& problem) {
+  OneStepEquations estimates;
   for (std::size_t j = 0; j < 3; ++j) {
     estimates[j] = EstimateOneStep(*Assess(problem.equations[j], {}));
   }
   return estimates;
 }
 
-TEST(SegmentBootstrap, GivesTheSameBitsForAnyThreadCount) {
+TEST(SliceBootstrap, GivesTheSameBitsForAnyThreadCount) {
   const auto problem = NoisyProblem(0.1, 1);
   const auto estimates = EstimateAll(problem);
   const auto one = Bootstrap(FitsOf(problem, estimates), {500, 42, 1});
@@ -56,7 +56,7 @@ TEST(SegmentBootstrap, GivesTheSameBitsForAnyThreadCount) {
   }
 }
 
-TEST(SegmentBootstrap, SeedsDiffer) {
+TEST(SliceBootstrap, SeedsDiffer) {
   const auto problem = NoisyProblem(0.1, 1);
   const auto estimates = EstimateAll(problem);
   const auto one = Bootstrap(FitsOf(problem, estimates), {100, 1, 1});
@@ -65,18 +65,18 @@ TEST(SegmentBootstrap, SeedsDiffer) {
 }
 
 /// The law behind the fast form: a replicate is the least-squares fit of the stacked drawn rows.
-TEST(SegmentBootstrap, ReplicateIsTheFitOfTheDrawnRows) {
+TEST(SliceBootstrap, ReplicateIsTheFitOfTheDrawnRows) {
   const auto problem = NoisyProblem(0.1, 1);
   const auto estimates = EstimateAll(problem);
   const auto fast = Bootstrap(FitsOf(problem, estimates), {100, 9, 2});
   ASSERT_EQ(fast.failures, 0u);
 
-  const std::size_t segments = problem.equations[0].clusters.size();
+  const std::size_t slices = problem.equations[0].clusters.size();
   for (const std::size_t i : {0u, 57u, 99u}) {
     RandomEngine engine = RandomEngine::Stream(9, i);
     std::vector<std::size_t> drawn;
-    for (std::size_t draw = 0; draw < segments; ++draw) {
-      drawn.push_back(DrawBelow(engine, segments));
+    for (std::size_t draw = 0; draw < slices; ++draw) {
+      drawn.push_back(DrawBelow(engine, slices));
     }
 
     Eigen::Index first = 0;
@@ -142,7 +142,7 @@ TEST(BlockBootstrap, ReplicateIsTheFitOfTheDrawnRows) {
 TEST(BlockBootstrap, GivesTheSameBitsForAnyThreadCount) {
   const auto problem = NoisyProblem(0.1, 1);
   const auto fits = FitsOf(problem, EstimateAll(problem));
-  for (const Resampling resampling : {Resampling::kMovingBlocks, Resampling::kSegments}) {
+  for (const Resampling resampling : {Resampling::kMovingBlocks, Resampling::kSlices}) {
     BootstrapOptions options{500, 42, 1, resampling, IntervalMethod::kStudentized};
     const auto one = Bootstrap(fits, options);
     for (const std::size_t threads : {2u, 7u}) {
@@ -155,7 +155,7 @@ TEST(BlockBootstrap, GivesTheSameBitsForAnyThreadCount) {
 }
 
 /// A fit of the mean of a series: W is a column of ones, scaled.
-ClusteredFit MeanOf(const Eigen::VectorXd& series, std::size_t segments) {
+ClusteredFit MeanOf(const Eigen::VectorXd& series, std::size_t slices) {
   const auto rows = static_cast<std::size_t>(series.size());
   ClusteredFit fit;
   fit.W = Eigen::VectorXd::Constant(series.size(), 1.0 / std::sqrt(static_cast<double>(rows)));
@@ -163,8 +163,8 @@ ClusteredFit MeanOf(const Eigen::VectorXd& series, std::size_t segments) {
   fit.residual = series.array() - series.mean();
   fit.basis = Eigen::MatrixXd::Constant(1, 1, 1.0 / std::sqrt(static_cast<double>(rows)));
   fit.estimable = {true};
-  for (std::size_t s = 0; s < segments; ++s) {
-    fit.clusters.push_back({s * rows / segments, (s + 1) * rows / segments});
+  for (std::size_t s = 0; s < slices; ++s) {
+    fit.clusters.push_back({s * rows / slices, (s + 1) * rows / slices});
   }
   for (std::size_t i = 0; i < rows; ++i) fit.instants.push_back(i);
   return fit;
@@ -195,18 +195,18 @@ TEST(BlockBootstrap, GivesTheVarianceOfTheMeanOfAnAutoregression) {
   EXPECT_NEAR(sum / 40.0 / theory, seen, 0.06);
 }
 
-/// The cluster standard error of a mean of equal segments is sqrt(sum of squared segment means) /
-/// segments, by hand; that of blocks of one instant the textbook's.
+/// The cluster standard error of a mean of equal slices is sqrt(sum of squared segment means) /
+/// slices, by hand; that of blocks of one instant the textbook's.
 TEST(Bootstrap, StandardErrorOfTheEstimateIsTheClusterFormula) {
   RandomEngine engine(4);
   boost::random::normal_distribution<double> normal(0.0, 1.0);
   Eigen::VectorXd series(600);
   for (double& value : series) value = normal(engine);
   const ClusteredFit fit = MeanOf(series, 20);
-  const auto segments =
-      Bootstrap({fit}, {100, 1, 1, Resampling::kSegments, IntervalMethod::kStudentized});
+  const auto slices =
+      Bootstrap({fit}, {100, 1, 1, Resampling::kSlices, IntervalMethod::kStudentized});
   const Eigen::VectorXd means = fit.residual.reshaped(30, 20).colwise().mean();
-  EXPECT_NEAR(segments.standard_error[0], means.norm() / 20.0, 1e-12);
+  EXPECT_NEAR(slices.standard_error[0], means.norm() / 20.0, 1e-12);
 
   BootstrapOptions options{100, 1, 1, Resampling::kMovingBlocks, IntervalMethod::kStudentized};
   options.block_length = 1;
@@ -219,8 +219,8 @@ TEST(Bootstrap, StandardErrorsOfReplicatesAreThoseOfTheirRows) {
   boost::random::normal_distribution<double> normal(0.0, 1.0);
   Eigen::VectorXd series(100);
   for (double& value : series) value = normal(engine);
-  const auto replicates = Bootstrap(
-      {MeanOf(series, 10)}, {100, 3, 1, Resampling::kSegments, IntervalMethod::kStudentized});
+  const auto replicates = Bootstrap({MeanOf(series, 10)},
+                                    {100, 3, 1, Resampling::kSlices, IntervalMethod::kStudentized});
   for (const std::size_t i : {0u, 99u}) {
     RandomEngine draw = RandomEngine::Stream(3, i);
     Eigen::VectorXd means(10);
@@ -234,7 +234,7 @@ TEST(Bootstrap, StandardErrorsOfReplicatesAreThoseOfTheirRows) {
   }
 }
 
-/// How often the interval of the mean of 20 exponential segments misses below and above the truth.
+/// How often the interval of the mean of 20 exponential slices misses below and above the truth.
 struct Misses {
   double below = 0.0;  // the whole interval lies below the truth
   double above = 0.0;
@@ -249,7 +249,7 @@ Misses MissesOf(IntervalMethod method) {
     Eigen::VectorXd series(20);
     for (double& value : series) value = exponential(engine);
     const auto replicates =
-        Bootstrap({MeanOf(series, 20)}, {1000, seed, 1, Resampling::kSegments, method});
+        Bootstrap({MeanOf(series, 20)}, {1000, seed, 1, Resampling::kSlices, method});
     const Interval interval = Intervals(replicates, method, 0.9).front();
     misses.below += interval.upper < 1.0 ? 1.0 / kRepeats : 0.0;
     misses.above += interval.lower > 1.0 ? 1.0 / kRepeats : 0.0;
@@ -257,7 +257,7 @@ Misses MissesOf(IntervalMethod method) {
   return misses;
 }
 
-/// A skewed estimate from few segments, 5 % to be missed on either side. Percentiles are
+/// A skewed estimate from few slices, 5 % to be missed on either side. Percentiles are
 /// first-order correct only and miss far too often where the tail is long; BCa mends part of it and
 /// studentized intervals most. 2000 repeats leave a standard deviation of 0.5 % to each rate. Why:
 /// Hall, "The Bootstrap and Edgeworth Expansion" (1992), chapter 3.
@@ -272,23 +272,23 @@ TEST(Bootstrap, StudentizedAndBcaIntervalsMendTheCoverageOfSkewedEstimates) {
   EXPECT_NEAR(studentized.below + studentized.above, 0.10, 0.03);
 }
 
-/// Two regressors, normal errors shared within each of 25 segments: the exact distribution of the
-/// estimate given the segments is normal, and bounds at 95 % must hold it that often. 1000 repeats
-/// leave 0.7 %; percentiles of 25 segments are known to fall short by a few percent.
+/// Two regressors, normal errors shared within each of 25 slices: the exact distribution of the
+/// estimate given the slices is normal, and bounds at 95 % must hold it that often. 1000 repeats
+/// leave 0.7 %; percentiles of 25 slices are known to fall short by a few percent.
 TEST(Bootstrap, StudentizedIntervalsCoverALinearModelWithFewSegments) {
   constexpr std::uint64_t kRepeats = 1000;
-  constexpr Eigen::Index kSegments = 25;
+  constexpr Eigen::Index kSlices = 25;
   constexpr Eigen::Index kRowsEach = 8;
   double covered = 0.0;
   double percentile_covered = 0.0;
   for (std::uint64_t seed = 1; seed <= kRepeats; ++seed) {
     RandomEngine engine(seed);
     boost::random::normal_distribution<double> normal(0.0, 1.0);
-    Eigen::MatrixXd phi(kSegments * kRowsEach, 2);
+    Eigen::MatrixXd phi(kSlices * kRowsEach, 2);
     for (double& value : phi.reshaped()) value = normal(engine);
     Eigen::VectorXd y = phi * Eigen::Vector2d(1.0, -2.0);
     ClusteredFit fit;
-    for (Eigen::Index s = 0; s < kSegments; ++s) {
+    for (Eigen::Index s = 0; s < kSlices; ++s) {
       const double shared = normal(engine);
       const auto first = static_cast<std::size_t>(s * kRowsEach);
       fit.clusters.push_back({first, first + kRowsEach});
@@ -306,7 +306,7 @@ TEST(Bootstrap, StudentizedIntervalsCoverALinearModelWithFewSegments) {
     fit.residual = y - phi * fit.theta;
     fit.estimable = {true, true};
     const auto replicates =
-        Bootstrap({fit}, {1000, seed, 1, Resampling::kSegments, IntervalMethod::kStudentized});
+        Bootstrap({fit}, {1000, seed, 1, Resampling::kSlices, IntervalMethod::kStudentized});
     const Interval studentized = Intervals(replicates, IntervalMethod::kStudentized, 0.95)[1];
     const Interval percentile = Intervals(replicates, IntervalMethod::kPercentile, 0.95)[1];
     const auto holds = [](const Interval& i) { return i.lower <= -2.0 && -2.0 <= i.upper; };
@@ -319,16 +319,15 @@ TEST(Bootstrap, StudentizedIntervalsCoverALinearModelWithFewSegments) {
 
 /// Nothing to go by, nothing ruled out: a coefficient without any residual has no standard error.
 TEST(Bootstrap, StudentizedIntervalsOfAnExactFitAreUnbounded) {
-  const auto replicates =
-      Bootstrap({MeanOf(Eigen::VectorXd::Ones(40), 8)},
-                {100, 1, 1, Resampling::kSegments, IntervalMethod::kStudentized});
+  const auto replicates = Bootstrap({MeanOf(Eigen::VectorXd::Ones(40), 8)},
+                                    {100, 1, 1, Resampling::kSlices, IntervalMethod::kStudentized});
   EXPECT_TRUE(std::isinf(Intervals(replicates, IntervalMethod::kStudentized, 0.95)[0].upper));
 }
 
-/// With white noise and many segments the bootstrap's standard errors agree with the textbook's. 60
-/// segments and 2000 replicates leave about 10 % of scatter per coefficient; their mean ratio much
+/// With white noise and many slices the bootstrap's standard errors agree with the textbook's. 60
+/// slices and 2000 replicates leave about 10 % of scatter per coefficient; their mean ratio much
 /// less.
-TEST(SegmentBootstrap, AgreesWithResidualCovarianceUnderWhiteNoise) {
+TEST(SliceBootstrap, AgreesWithResidualCovarianceUnderWhiteNoise) {
   const auto problem = NoisyProblem(0.1, 3);
   const auto estimates = EstimateAll(problem);
   const Eigen::MatrixXd covariance =
@@ -349,14 +348,14 @@ TEST(SegmentBootstrap, AgreesWithResidualCovarianceUnderWhiteNoise) {
 }
 
 /// A boat that reversed in one segment only cannot be refitted from draws that miss that segment.
-TEST(SegmentBootstrap, CountsDrawsThatCannotBeSolved) {
+TEST(SliceBootstrap, CountsDrawsThatCannotBeSolved) {
   auto commands = testing::RandomCommands(1000, {PropellerRegion::kFF}, 7);
   for (std::size_t k = 500; k < 550; ++k) commands[k].starboard = (k % 3 == 0) ? -0.3 : -0.9;
   const auto problem =
       BuildRegression(testing::DriveDiscrete(YellowfishTwin(), commands, kSegmentRows), {});
   const auto estimates = EstimateAll(problem);
   const auto replicates = Bootstrap(FitsOf(problem, estimates), {1000, 1, 1});
-  // P(one of 20 segments is never drawn) = 0.95^20 = 0.358; four sigmas of 1000 draws are 0.061.
+  // P(one of 20 slices is never drawn) = 0.95^20 = 0.358; four sigmas of 1000 draws are 0.061.
   EXPECT_NEAR(static_cast<double>(replicates.failures) / 1000.0, 0.358, 0.061);
   EXPECT_EQ(static_cast<std::size_t>(replicates.theta.cols()) + replicates.failures, 1000u);
 }

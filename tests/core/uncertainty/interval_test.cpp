@@ -8,8 +8,8 @@
 #include <Eigen/Core>
 #include <boost/random/normal_distribution.hpp>
 
-#include "telltale/core/contract.hpp"
-#include "telltale/core/random.hpp"
+#include "telltale/core/base/contract.hpp"
+#include "telltale/core/base/random.hpp"
 
 namespace telltale {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "telltale/core/contract.hpp"
+#include "telltale/core/base/contract.hpp"
 
 namespace telltale {
 namespace {

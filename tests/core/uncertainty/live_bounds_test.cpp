@@ -6,9 +6,9 @@
 #include <boost/random/normal_distribution.hpp>
 
 #include "support/discrete_boat.hpp"
-#include "telltale/core/contract.hpp"
-#include "telltale/core/estimation/one_step.hpp"
-#include "telltale/core/simulation/yellowfish.hpp"
+#include "telltale/core/base/contract.hpp"
+#include "telltale/core/estimation/regression/one_step.hpp"
+#include "telltale/core/paper/yellowfish.hpp"
 
 namespace telltale {
 namespace {
@@ -27,8 +27,8 @@ PreparedDataset NoisyBoat() {
     row.nu = {row.nu.u + noise(engine), row.nu.v + noise(engine), row.nu.r + noise(engine)};
   }
   for (std::size_t k = 1200; k < kRows; ++k) dataset.rows[k].time_s += 10.0;
-  dataset.stretches = {{0, 1200}, {1200, kRows}};
-  dataset.segments = dataset.stretches;
+  dataset.segments = {{0, 1200}, {1200, kRows}};
+  dataset.slices = dataset.segments;
   return dataset;
 }
 

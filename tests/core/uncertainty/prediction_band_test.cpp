@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "support/boats.hpp"
+#include "support/stable_boat.hpp"
 
 namespace telltale {
 namespace {
@@ -43,7 +43,7 @@ TEST(PredictionBand, WidensAsADisturbanceIntegrates) {
   EXPECT_NEAR(band.lower(0, 299), -1.96 * spread, 0.1 * spread * 1.96);
 }
 
-TEST(PredictionBand, DoesNotHideModelsThatBlowUp) {
+TEST(PredictionBand, DoesNotHideModelsThatDiverge) {
   std::vector<VesselModel> models(20, Accelerating(0.1));
   models[4].theta[0][0] = 500.0;
   models[4].theta[0][4] = 1e3;

@@ -13,17 +13,17 @@ TEST(ProfileInterval, OfAParabolaIsTheNormalInterval) {
   EXPECT_EQ(found.level, 0.95);
   EXPECT_NEAR(found.lower, 3.0 - 0.98, 2e-3);
   EXPECT_NEAR(found.upper, 3.0 + 0.98, 2e-3);
-  EXPECT_NEAR(Lopsidedness(found, 3.0), 1.0, 5e-3);
+  EXPECT_NEAR(Asymmetry(found, 3.0), 1.0, 5e-3);
 }
 
 // The mean of n exponential waits: deviance 2n (m/x - 1 - log(m/x)), whose ends for n = 10, m = 1
 // and the 95 % point of chi-square, 3.8415, solve m/x - 1 - log(m/x) = 0.19207: 0.561 and 2.018.
-TEST(ProfileInterval, IsAsLopsidedAsTheLikelihood) {
+TEST(ProfileInterval, IsAsAsymmetricAsTheLikelihood) {
   const auto deviance = [](double x) { return 20.0 * (1.0 / x - 1.0 + std::log(x)); };
   const Interval found = ProfileInterval(deviance, {1.0, 0.3, 1e-3, 100.0}, 3.841459, 0.95);
   EXPECT_NEAR(deviance(found.lower), 3.841459, 0.02);
   EXPECT_NEAR(deviance(found.upper), 3.841459, 0.02);
-  EXPECT_GT(Lopsidedness(found, 1.0), 1.5);
+  EXPECT_GT(Asymmetry(found, 1.0), 1.5);
 }
 
 TEST(ProfileInterval, EndsWhereNothingIsAllowedBeyond) {

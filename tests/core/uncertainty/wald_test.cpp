@@ -5,10 +5,10 @@
 #include <gtest/gtest.h>
 #include <boost/random/normal_distribution.hpp>
 
-#include "support/numbers.hpp"
-#include "telltale/core/contract.hpp"
-#include "telltale/core/linear_algebra/decompositions.hpp"
-#include "telltale/core/random.hpp"
+#include "support/special_values.hpp"
+#include "telltale/core/base/contract.hpp"
+#include "telltale/core/base/linear_algebra/eigen_decompositions.hpp"
+#include "telltale/core/base/random.hpp"
 
 namespace telltale {
 namespace {
@@ -50,7 +50,7 @@ TEST(WaldTest, WithFewSegmentsIsHotellingsTest) {
   const Estimates one{Eigen::VectorXd::Constant(1, 2.228), Eigen::MatrixXd::Identity(1, 1), 11};
   const auto test = TestEquality(one, none);
   EXPECT_NEAR(test->p_value, 0.05, 5e-5);
-  EXPECT_NEAR(test->segment_degrees_of_freedom, 10.0, 1e-9);
+  EXPECT_NEAR(test->covariance_degrees_of_freedom, 10.0, 1e-9);
   EXPECT_NEAR(test->differences[0].p_value, 0.05, 5e-5);
 }
 
@@ -69,8 +69,8 @@ TEST(WaldTest, HasItsSizeWhenCovariancesAreKnown) {
 }
 
 /// An estimate made of g segments, each with an estimate of its own, and its covariance.
-Estimates FromSegments(const Eigen::VectorXd& truth, const Eigen::MatrixXd& root, std::size_t g,
-                       RandomEngine& engine) {
+Estimates FromSlices(const Eigen::VectorXd& truth, const Eigen::MatrixXd& root, std::size_t g,
+                     RandomEngine& engine) {
   const auto count = static_cast<Eigen::Index>(g);
   const Eigen::MatrixXd each = (root * Normals(truth.size(), count, engine)).colwise() + truth;
   const Eigen::VectorXd mean = each.rowwise().mean();
@@ -86,8 +86,8 @@ double RejectionRate(double shift, bool count_segments, int repeats) {
   RandomEngine engine(2);
   double rejected = 0.0;
   for (int repeat = 0; repeat < repeats; ++repeat) {
-    Estimates first = FromSegments(truth, root, 12, engine);
-    Estimates second = FromSegments(other, 3.0 * root, 20, engine);
+    Estimates first = FromSlices(truth, root, 12, engine);
+    Estimates second = FromSlices(other, 3.0 * root, 20, engine);
     if (!count_segments) first.segments = second.segments = 0;
     rejected += TestEquality(first, second)->p_value < 0.05 ? 1.0 / repeats : 0.0;
   }
@@ -114,8 +114,8 @@ TEST(WaldTest, FindsLargerDifferencesMoreOften) {
 TEST(WaldTest, DoesNotDependOnUnits) {
   RandomEngine engine(9);
   const Eigen::MatrixXd root = Correlated(4).llt().matrixL();
-  const Estimates first = FromSegments(Eigen::VectorXd::Ones(4), root, 15, engine);
-  const Estimates second = FromSegments(Eigen::VectorXd::Zero(4), root, 15, engine);
+  const Estimates first = FromSlices(Eigen::VectorXd::Ones(4), root, 15, engine);
+  const Estimates second = FromSlices(Eigen::VectorXd::Zero(4), root, 15, engine);
   const Eigen::Vector4d units(1e6, 1.0, 1e-3, 57.3);
   const auto convert = [&](const Estimates& e) {
     return Estimates{units.asDiagonal() * e.theta,
@@ -173,7 +173,7 @@ TEST(WaldTest, RefusesWhatItCannotJudge) {
   RandomEngine engine(3);
   const Eigen::MatrixXd root = Eigen::MatrixXd::Identity(5, 5);
   const Eigen::VectorXd zero = Eigen::VectorXd::Zero(5);
-  const Estimates few = FromSegments(zero, root, 4, engine);
+  const Estimates few = FromSlices(zero, root, 4, engine);
   const Estimates known{zero, Eigen::MatrixXd::Zero(5, 5)};
   const auto refused = TestEquality(few, known);
   ASSERT_FALSE(refused);

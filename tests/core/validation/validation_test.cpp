@@ -4,22 +4,22 @@
 
 #include <gtest/gtest.h>
 
-#include "support/numbers.hpp"
+#include "support/special_values.hpp"
+#include "telltale/core/paper/yellowfish.hpp"
 #include "telltale/core/simulation/manoeuvres.hpp"
 #include "telltale/core/simulation/simulator.hpp"
-#include "telltale/core/simulation/yellowfish.hpp"
 
 namespace telltale {
 namespace {
 
-// Rows taken straight from a simulated track, in one stretch.
+// Rows taken straight from a simulated track, in one segment.
 PreparedDataset Rows(const std::vector<TimedState>& track, double sampling_period_s) {
   PreparedDataset dataset;
   dataset.sampling_period_s = sampling_period_s;
   for (const TimedState& at : track) {
     dataset.rows.push_back({at.time_s, at.state.eta, at.state.nu, at.delta, RegionOf(at.delta)});
   }
-  dataset.stretches = {{0, dataset.rows.size()}};
+  dataset.segments = {{0, dataset.rows.size()}};
   return dataset;
 }
 
@@ -30,7 +30,7 @@ PreparedDataset PaperRows(double duration_s) {
 }
 
 // A discrete boat that keeps its velocity whatever it is told: persistence as a model.
-VesselModel Persistence(double sampling_period_s) {
+VesselModel ConstantVelocity(double sampling_period_s) {
   VesselModel model = YellowfishPaperModel();
   model.sampling_period_s = sampling_period_s;
   for (Eigen::VectorXd& theta : model.theta) theta.setZero();
@@ -46,7 +46,7 @@ PreparedDataset SurgeOnly(const std::vector<double>& u, double sampling_period_s
     row.nu.u = u[k];
     dataset.rows.push_back(row);
   }
-  dataset.stretches = {{0, u.size()}};
+  dataset.segments = {{0, u.size()}};
   return dataset;
 }
 
@@ -56,7 +56,7 @@ TEST(Validate, TheModelThatMadeTheDataIsPerfect) {
   for (const OneStepScore& score : metrics->one_step) {
     EXPECT_EQ(score.r2, 1.0);
     EXPECT_EQ(score.mae, 0.0);
-    EXPECT_LT(score.persistence_r2, 1.0);
+    EXPECT_LT(score.constant_velocity_r2, 1.0);
   }
   ASSERT_EQ(metrics->free_run.size(), 3u);
   for (const FreeRunScores& scores : metrics->free_run) {
@@ -65,7 +65,7 @@ TEST(Validate, TheModelThatMadeTheDataIsPerfect) {
       EXPECT_NEAR(score.rmse, 0.0, 1e-12);
       EXPECT_NEAR(score.mae, 0.0, 1e-12);
       EXPECT_NEAR(score.r2, 1.0, 1e-12);
-      EXPECT_GT(score.persistence_rmse, 0.0);
+      EXPECT_GT(score.constant_velocity_rmse, 0.0);
     }
   }
 }
@@ -84,20 +84,20 @@ TEST(Validate, AContinuousModelRunsUnderItsOwnDiscretisation) {
   }
 }
 
-TEST(Validate, PersistenceByHandOnThreeRows) {
+TEST(Validate, ConstantVelocityByHandOnThreeRows) {
   // u = 0, 1, 3: the targets 1 and 3 have mean 2 and spread 1 + 1 = 2; no change errs by 1 and 2,
   // so R2 = 1 - (1 + 4) / 2 = -1.5 and MAE = 1.5. In a free run both instants compare with u(0) =
   // 0.
   const PreparedDataset dataset = SurgeOnly({0.0, 1.0, 3.0}, 0.5);
-  const auto metrics = Validate(dataset, Persistence(0.5), {{1.0}});
+  const auto metrics = Validate(dataset, ConstantVelocity(0.5), {{1.0}});
   ASSERT_TRUE(metrics.has_value());
   const OneStepScore& surge = metrics->one_step[0];
-  EXPECT_DOUBLE_EQ(surge.persistence_r2, -1.5);
+  EXPECT_DOUBLE_EQ(surge.constant_velocity_r2, -1.5);
   EXPECT_DOUBLE_EQ(surge.r2, -1.5);
   EXPECT_DOUBLE_EQ(surge.mae, 1.5);
   ASSERT_EQ(metrics->free_run[0].windows, 1u);
   const FreeRunScore& free = metrics->free_run[0].velocity[0];
-  EXPECT_DOUBLE_EQ(free.persistence_rmse, std::sqrt((1.0 + 9.0) / 2.0));
+  EXPECT_DOUBLE_EQ(free.constant_velocity_rmse, std::sqrt((1.0 + 9.0) / 2.0));
   EXPECT_DOUBLE_EQ(free.rmse, std::sqrt(5.0));
   EXPECT_DOUBLE_EQ(free.mae, 2.0);
   EXPECT_DOUBLE_EQ(free.r2, 1.0 - 10.0 / 2.0);
@@ -110,17 +110,17 @@ TEST(Validate, PositionErrorIsTakenAtTheEndOfEachWindow) {
   // Two windows of 1 s: dead reckoning at 2 m/s goes 2 m north in each; the truth went 2 and 5.
   const double north_m[] = {0.0, 7.0, 2.0, -3.0, 7.0};
   for (std::size_t k = 0; k < dataset.rows.size(); ++k) dataset.rows[k].eta.x_m = north_m[k];
-  const auto metrics = Validate(dataset, Persistence(0.5), {{1.0}});
+  const auto metrics = Validate(dataset, ConstantVelocity(0.5), {{1.0}});
   ASSERT_TRUE(metrics.has_value());
   EXPECT_EQ(metrics->free_run[0].windows, 2u);
   EXPECT_DOUBLE_EQ(metrics->free_run[0].position_rmse_m, std::sqrt((0.0 + 9.0) / 2.0));
 }
 
 TEST(Validate, WindowsNeverStraddleAGap) {
-  // A jump in velocity from one stretch to the next would cost a straddling window dearly.
+  // A jump in velocity from one segment to the next would cost a straddling window dearly.
   PreparedDataset dataset = SurgeOnly({1, 1, 1, 1, 1, 9, 9, 9, 9, 9, 9}, 0.5);
-  dataset.stretches = {{0, 5}, {5, 11}};
-  const auto metrics = Validate(dataset, Persistence(0.5), {{1.0, 2.0, 2.5}});
+  dataset.segments = {{0, 5}, {5, 11}};
+  const auto metrics = Validate(dataset, ConstantVelocity(0.5), {{1.0, 2.0, 2.5}});
   ASSERT_TRUE(metrics.has_value());
   EXPECT_EQ(metrics->free_run[0].windows, 4u);  // rows 0-2, 2-4, 5-7, 7-9
   EXPECT_EQ(metrics->free_run[1].windows, 2u);  // rows 0-4, 5-9
@@ -139,7 +139,7 @@ TEST(Validate, AHorizonThatFitsNowhereHasNoWindows) {
   EXPECT_EQ(metrics->free_run[1].horizon_s, 5.0);
 }
 
-TEST(Validate, AModelThatBlowsUpErrsByInfinity) {
+TEST(Validate, AModelThatDivergesErrsByInfinity) {
   VesselModel explosive = YellowfishPaperModel();
   explosive.theta[0][0] = 1e200;
   explosive.theta[0][3] = -1e200;
@@ -151,7 +151,7 @@ TEST(Validate, AModelThatBlowsUpErrsByInfinity) {
 }
 
 TEST(Validate, AVelocityThatNeverChangesHasNoR2) {
-  const auto metrics = Validate(SurgeOnly({1, 1, 1, 1}, 0.5), Persistence(0.5), {{1.0}});
+  const auto metrics = Validate(SurgeOnly({1, 1, 1, 1}, 0.5), ConstantVelocity(0.5), {{1.0}});
   ASSERT_TRUE(metrics.has_value());
   EXPECT_TRUE(std::isnan(metrics->one_step[0].r2));
   EXPECT_TRUE(std::isnan(metrics->free_run[0].velocity[0].r2));

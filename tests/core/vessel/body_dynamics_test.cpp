@@ -2,9 +2,9 @@
 
 #include <gtest/gtest.h>
 
-#include "support/boats.hpp"
+#include "support/stable_boat.hpp"
+#include "telltale/core/paper/yellowfish.hpp"
 #include "telltale/core/simulation/simulator.hpp"
-#include "telltale/core/simulation/yellowfish.hpp"
 
 namespace telltale {
 namespace {

@@ -1,0 +1,216 @@
+#include "telltale/client/cli/input_options.hpp"
+
+#include <algorithm>
+#include <iostream>
+#include <stdexcept>
+#include <utility>
+
+#include "telltale/client/cli/exit_codes.hpp"
+#include "telltale/client/cli/table.hpp"
+#include "telltale/client/recording/file_contents.hpp"
+#include "telltale/client/recording/load_recording.hpp"
+#include "telltale/client/recording/telemetry_log/telemetry_log.hpp"
+#include "telltale/core/base/contract.hpp"
+#include "telltale/idl/codec/json/model.hpp"
+#include "telltale/idl/codec/vehicle_file.hpp"
+
+namespace telltale {
+namespace {
+
+std::string TextOf(const std::filesystem::path& file) {
+  auto text = ReadFile(file);
+  if (!text) throw std::runtime_error(text.error().subject + ' ' + text.error().reason);
+  return *std::move(text);
+}
+
+void NoteMalformed(const std::filesystem::path& file, const MalformedRows& malformed) {
+  if (malformed.count == 0) return;
+  std::cerr << "note: " << file.string() << ": " << malformed.count
+            << " malformed rows skipped, first in line";
+  for (const std::size_t line : malformed.first_lines) std::cerr << ' ' << line;
+  std::cerr << '\n';
+}
+
+LoadedRecording LoadLog(const std::filesystem::path& path, const DataFlashOptions& options) {
+  LoadedRecording loaded = OrThrow(LoadRecording(path, options));
+  if (loaded.dataflash) {
+    std::cerr << "note: " << path.string() << ": " << loaded.dataflash->report.Summary() << '\n';
+  }
+  for (const Channel channel : kChannels) {
+    NoteMalformed(path / (std::string(Name(channel)) + ".csv"),
+                  loaded.malformed[static_cast<std::size_t>(channel)]);
+  }
+  if (loaded.evicted > 0) {
+    std::cerr << "note: " << path.string() << ": " << loaded.evicted
+              << " samples left out, older than a day or before the clock was set back\n";
+  }
+  return loaded;
+}
+
+// ---- the vehicle that logs describe -------------------------------------------------------------
+
+void RequireSelfDescribing(const std::vector<std::filesystem::path>& logs) {
+  const auto folder = std::find_if(
+      logs.begin(), logs.end(), [](const auto& log) { return std::filesystem::is_directory(log); });
+  if (folder == logs.end()) return;
+  throw UsageError("--vehicle is required: " + folder->string() +
+                   " is a folder, and only ArduPilot .BIN logs say how their thrusters are driven");
+}
+
+Vehicle DescribedBy(const LoadedRecording& loaded, const std::filesystem::path& log) {
+  auto vehicle = VehicleFrom(*loaded.dataflash, VehicleIdLike(log.stem().string()));
+  if (vehicle) return *std::move(vehicle);
+  Refusal refusal = std::move(vehicle).error();
+  refusal.subject = log.string() + ' ' + refusal.subject;
+  throw RefusedError(std::move(refusal));
+}
+
+std::string RangeText(const PwmChannel& range) {
+  return Plain(range.full_reverse_us) + " us (full reverse), " + Plain(range.neutral_us) +
+         " us (neutral), " + Plain(range.full_forward_us) + " us (full forward)";
+}
+
+void NoteDescribed(const Vehicle& vehicle, const DataFlashSource& source,
+                   const std::filesystem::path& log) {
+  std::cerr << "note: vehicle " << vehicle.vehicle_id << " is taken from " << log.string()
+            << ": port on channel " << source.port.channel << ", " << RangeText(vehicle.port)
+            << "; starboard on channel " << source.starboard.channel << ", "
+            << RangeText(vehicle.starboard)
+            << "; the separation of the propellers and the antenna's place are unknown, taken as "
+               "zero\n";
+}
+
+void RequireSameRange(const char* thruster, const PwmChannel& first, const PwmChannel& other,
+                      const std::filesystem::path& first_log,
+                      const std::filesystem::path& other_log) {
+  if (first == other) return;
+  throw RefusedError({other_log.string() + ' ' + thruster + " thruster",
+                      "ranges over " + RangeText(other) + ", but over " + RangeText(first) +
+                          " in " + first_log.string(),
+                      "give a vehicle file that holds for all logs, or take the logs one by one"});
+}
+
+/// The first log's vehicle, to which all others must agree.
+Vehicle DescribedBy(const std::vector<LoadedRecording>& loaded,
+                    const std::vector<std::filesystem::path>& logs) {
+  Vehicle vehicle = DescribedBy(loaded.front(), logs.front());
+  for (std::size_t i = 1; i < loaded.size(); ++i) {
+    const Vehicle other = DescribedBy(loaded[i], logs[i]);
+    RequireSameRange("port", vehicle.port, other.port, logs.front(), logs[i]);
+    RequireSameRange("starboard", vehicle.starboard, other.starboard, logs.front(), logs[i]);
+  }
+  NoteDescribed(vehicle, *loaded.front().dataflash, logs.front());
+  return vehicle;
+}
+
+// ---- options ------------------------------------------------------------------------------------
+
+template <class Target>
+CLI::Option* AddLogOption(CLI::App& command, Target& target, const std::string& description) {
+  return command.add_option("--log", target, description)
+      ->type_name("DIR|FILE.BIN")
+      ->check(CLI::ExistingPath.description(""));
+}
+
+CLI::Option* AddFile(CLI::App& command, const std::string& name, std::filesystem::path& file,
+                     const std::string& description) {
+  return command.add_option(name, file, description)
+      ->type_name("FILE")
+      ->check(CLI::ExistingFile.description(""));
+}
+
+void AddDataFlashOptions(CLI::App& command, DataFlashOptions& options, CLI::Option* log) {
+  const auto add = [&](const char* name, std::optional<int>& target, CLI::Range range,
+                       const char* description) {
+    command.add_option(name, target, description)
+        ->type_name("N")
+        ->check(range.description(""))
+        ->needs(log);
+  };
+  add("--gps-instance", options.gps_instance, {0, 255},
+      "of .BIN logs: the GPS receiver to take, [0, 255] (default: the one with most fixes)");
+  add("--port-channel", options.port_channel, {1, 14},
+      "of .BIN logs: the output that drives the port thruster, [1, 14] (default: the one whose "
+      "SERVOn_FUNCTION is 73)");
+  add("--starboard-channel", options.starboard_channel, {1, 14},
+      "of .BIN logs: the same for starboard (default: SERVOn_FUNCTION 74)");
+}
+
+}  // namespace
+
+CLI::Option* LogInputs::AddTo(CLI::App& command, CLI::App& whom) {
+  auto* const log = AddLogOption(
+      whom, logs,
+      "telemetry logs: folders with gnss.csv, heading.csv and thrusters.csv, or ArduPilot .BIN "
+      "files. Several are put one after the other; one that does not follow the last within a day "
+      "is shifted to start 120 s after it");
+  AddFile(command, "--vehicle", vehicle_file,
+          "vehicle file (text format); .BIN logs can do without, then their servo parameters count")
+      ->needs(log);
+  AddDataFlashOptions(command, dataflash, log);
+  return log;
+}
+
+RecordedVehicle LogInputs::Load() const {
+  std::optional<Vehicle> vehicle;
+  if (NamesVehicle()) {
+    vehicle = LoadVehicle(vehicle_file);
+  } else {
+    RequireSelfDescribing(logs);
+  }
+  std::vector<LoadedRecording> loaded;
+  for (const std::filesystem::path& log : logs) loaded.push_back(LoadLog(log, dataflash));
+  if (!vehicle) vehicle = DescribedBy(loaded, logs);
+  std::vector<Recording> recordings;
+  for (LoadedRecording& log : loaded) recordings.push_back(std::move(log.recording));
+  return {Concatenate(recordings), *std::move(vehicle)};
+}
+
+Recording LoadAdmitted(const std::filesystem::path& log, const DataFlashOptions& options) {
+  return LoadLog(log, options).recording;
+}
+
+CLI::Option* AddLog(CLI::App& command, std::filesystem::path& log, DataFlashOptions& dataflash) {
+  auto* const option = AddLogOption(command, log, "telemetry log: a folder or an ArduPilot file");
+  AddDataFlashOptions(command, dataflash, option);
+  return option->required();
+}
+
+CLI::Option* AddModelFile(CLI::App& command, std::filesystem::path& file) {
+  return AddFile(command, "--model", file, "model.json, as identify writes it")->required();
+}
+
+CLI::Option* AddVehicleFile(CLI::App& command, std::filesystem::path& file) {
+  return AddFile(command, "--vehicle", file, "vehicle file (text format)")->required();
+}
+
+void AddIncludeRr(CLI::App& command, bool& include_reverse) {
+  command.add_flag("--include-rr", include_reverse,
+                   "also fit rows in which both propellers turn in reverse, which the paper leaves "
+                   "out; its surge equation never takes them");
+}
+
+Vehicle LoadVehicle(const std::filesystem::path& file) {
+  return OrThrow(ParseVehicle(TextOf(file), file.string()));
+}
+
+Identification LoadModel(const std::filesystem::path& file) {
+  return OrThrow(ParseModelJson(TextOf(file), file.string()));
+}
+
+Preset PresetNamed(const std::string& name) {
+  Require(name == "robust" || name == "paper", "the name of a preset");
+  return name == "paper" ? Preset::kPaper : Preset::kRobust;
+}
+
+PrepareOptions PrepareOptionsOf(Preset preset) {
+  return preset == Preset::kPaper ? PrepareOptions::Paper() : PrepareOptions::Robust();
+}
+
+void NoteOtherVehicle(const Identification& model, const Vehicle& vehicle) {
+  if (model.vehicle_id == vehicle.vehicle_id) return;
+  std::cerr << "note: the model is of " << model.vehicle_id << ", the vehicle file of "
+            << vehicle.vehicle_id << '\n';
+}
+
+}  // namespace telltale

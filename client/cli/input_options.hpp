@@ -1,0 +1,70 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+
+#include "telltale/client/recording/dataflash/dataflash_log.hpp"
+#include "telltale/core/data/preparation.hpp"
+#include "telltale/core/data/samples.hpp"
+#include "telltale/core/identification/identification.hpp"
+#include "telltale/core/vessel/vehicle.hpp"
+
+namespace telltale {
+
+/// One recording and the vehicle that made it.
+struct RecordedVehicle {
+  Recording recording;
+  Vehicle vehicle;
+};
+
+/// Logs and the vehicle that made them, as a command line names them.
+struct LogInputs {
+  std::vector<std::filesystem::path> logs;
+  std::filesystem::path vehicle_file;  ///< empty: the vehicle is what the logs themselves describe
+  DataFlashOptions dataflash;
+
+  /// `--log`, to `whom` (the command itself or a group of its options), and what goes with it:
+  /// `--vehicle` and the options of DataFlash files. Returns `--log`.
+  CLI::Option* AddTo(CLI::App& command, CLI::App& whom);
+
+  /// Whether the vehicle comes from a file, so that its id is one that somebody chose.
+  bool NamesVehicle() const { return !vehicle_file.empty(); }
+
+  /// One recording of all logs, admitted one by one and put one after the other (Concatenate), and
+  /// the vehicle: of its file or else VehicleFrom the first log. Rows that could not be read, and
+  /// what was taken for the vehicle, are noted on standard error. Throws: UsageError where neither
+  /// a file nor every log describes the vehicle, RefusedError naming the log, and as LoadVehicle.
+  RecordedVehicle Load() const;
+};
+
+/// One log, admitted, with what was left out of it noted on standard error. Throws: RefusedError
+/// naming the log.
+Recording LoadAdmitted(const std::filesystem::path& log, const DataFlashOptions& options);
+
+/// `--log` of a subcommand that takes one log and no vehicle, with the options of DataFlash files.
+CLI::Option* AddLog(CLI::App& command, std::filesystem::path& log, DataFlashOptions& dataflash);
+
+/// `--model` and `--vehicle`, required.
+CLI::Option* AddModelFile(CLI::App& command, std::filesystem::path& file);
+CLI::Option* AddVehicleFile(CLI::App& command, std::filesystem::path& file);
+
+/// `--include-rr`: RegressionOptions::include_reverse.
+void AddIncludeRr(CLI::App& command, bool& include_reverse);
+
+/// A vehicle file. Throws: std::runtime_error naming file, line, field, value and range.
+Vehicle LoadVehicle(const std::filesystem::path& file);
+
+/// model.json. Throws: std::runtime_error naming file, field, value and what is allowed.
+Identification LoadModel(const std::filesystem::path& file);
+
+/// "robust" or "paper".
+Preset PresetNamed(const std::string& name);
+PrepareOptions PrepareOptionsOf(Preset preset);
+
+/// Tells on standard error when a model was identified on another vehicle.
+void NoteOtherVehicle(const Identification& model, const Vehicle& vehicle);
+
+}  // namespace telltale

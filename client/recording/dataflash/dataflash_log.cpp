@@ -1,0 +1,490 @@
+#include "telltale/client/recording/dataflash/dataflash_log.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <fstream>
+#include <limits>
+#include <sstream>
+#include <utility>
+
+namespace telltale {
+namespace {
+
+constexpr int kLoggedChannels = 14;  // RCOU stops there; RCO2 and RCO3 hold the others
+constexpr int kLastServo = 32;
+constexpr int kThrottleLeft = 73;
+constexpr int kThrottleRight = 74;
+constexpr double kFix3d = 3.0;
+constexpr double kLeapAheadS = 60.0;
+constexpr double kShortestPulseUs = 500.0;
+constexpr double kLongestPulseUs = 2500.0;
+constexpr std::size_t kBlockBytes = 1u << 20;
+
+enum class Message { kOther, kGps, kAtt, kAhr2, kRcou, kParm };
+
+/// How the records of one type are read: columns found once, at the definition.
+struct MessageColumns {
+  Message message = Message::kOther;
+  std::string name;
+  std::string fault;  ///< what the definition lacks; empty when its records can be read
+  DataFlashColumn time;
+  double tick_s = 0.0;
+  std::vector<DataFlashColumn> values;      ///< in the order the message's own taker expects
+  std::optional<DataFlashColumn> instance;  ///< GPS of newer firmware
+  int fixed_instance = 0;                   ///< GPS of older firmware: one message a receiver
+};
+
+/// Pulse widths of all channels at one time; NaN where the firmware logs fewer.
+struct Pulses {
+  double time_s = 0.0;
+  std::array<float, kLoggedChannels> us{};
+};
+
+using Parameters = std::map<std::string, double, std::less<>>;
+
+Message MessageNamed(std::string_view name) {
+  if (name == "GPS" || name == "GPS2" || name == "GPSB") return Message::kGps;
+  if (name == "ATT") return Message::kAtt;
+  if (name == "AHR2") return Message::kAhr2;
+  if (name == "RCOU") return Message::kRcou;
+  if (name == "PARM") return Message::kParm;
+  return Message::kOther;
+}
+
+/// Finds the column of the autopilot's clock. TimeMS in a GPS message is the time of the GPS week,
+/// another clock: there the autopilot's is T.
+bool BindTime(const DataFlashFormat& format, MessageColumns& reading) {
+  const DataFlashColumn* us = format.Find("TimeUS");
+  const DataFlashColumn* ms = format.Find(reading.message == Message::kGps ? "T" : "TimeMS");
+  if (us == nullptr && ms == nullptr) return false;
+  reading.time = us != nullptr ? *us : *ms;
+  reading.tick_s = us != nullptr ? 1e-6 : 1e-3;
+  return true;
+}
+
+const DataFlashColumn* FindOutput(const DataFlashFormat& format, int channel) {
+  for (const char* prefix : {"C", "Ch", "Chan"}) {
+    if (const auto* column = format.Find(prefix + std::to_string(channel))) return column;
+  }
+  return nullptr;
+}
+
+void BindOutputs(const DataFlashFormat& format, MessageColumns& reading) {
+  for (int channel = 1; channel <= kLoggedChannels; ++channel) {
+    const DataFlashColumn* column = FindOutput(format, channel);
+    if (column == nullptr) break;
+    reading.values.push_back(*column);
+  }
+  if (reading.values.empty()) reading.fault = "RCOU without C1";
+}
+
+void BindColumns(const DataFlashFormat& format, std::initializer_list<const char*> labels,
+                 MessageColumns& reading) {
+  for (const char* label : labels) {
+    const DataFlashColumn* column = format.Find(label);
+    if (column == nullptr) {
+      reading.fault = format.name + " without " + label;
+      return;
+    }
+    reading.values.push_back(*column);
+  }
+}
+
+void BindInstance(const DataFlashFormat& format, MessageColumns& reading) {
+  if (const DataFlashColumn* column = format.Find("I")) reading.instance = *column;
+  reading.fixed_instance = format.name == "GPSB" ? 2 : format.name == "GPS2" ? 1 : 0;
+}
+
+MessageColumns Bind(const DataFlashFormat& format) {
+  MessageColumns reading;
+  reading.message = MessageNamed(format.name);
+  reading.name = format.name;
+  switch (reading.message) {
+    case Message::kOther: return reading;
+    case Message::kParm: BindColumns(format, {"Name", "Value"}, reading); return reading;
+    case Message::kGps:
+      BindColumns(format, {"Status", "Lat", "Lng"}, reading);
+      BindInstance(format, reading);
+      break;
+    case Message::kAtt:
+    case Message::kAhr2: BindColumns(format, {"Yaw"}, reading); break;
+    case Message::kRcou: BindOutputs(format, reading); break;
+  }
+  if (!BindTime(format, reading)) {
+    const bool is_gps = reading.message == Message::kGps;
+    reading.fault = format.name + (is_gps ? " without TimeUS or T" : " without TimeUS or TimeMS");
+  }
+  return reading;
+}
+
+/// "SERVO12_TRIM" -> true: the only parameters worth keeping, whatever else a damaged log names.
+bool IsOutputParameter(std::string_view name) {
+  std::size_t at = name.starts_with("SERVO") ? 5 : name.starts_with("RC") ? 2 : 0;
+  const std::size_t digits = at;
+  while (at < name.size() && name[at] >= '0' && name[at] <= '9') ++at;
+  if (digits == 0 || at == digits || at - digits > 2) return false;
+  const std::string_view tail = name.substr(at);
+  return tail == "_FUNCTION" || tail == "_MIN" || tail == "_TRIM" || tail == "_MAX" ||
+         tail == "_REVERSED" || tail == "_REV";
+}
+
+std::string ParameterName(std::string_view prefix, int channel, std::string_view tail) {
+  return std::string(prefix) + std::to_string(channel) + std::string(tail);
+}
+
+std::optional<double> Find(const Parameters& parameters, const std::string& name) {
+  const auto found = parameters.find(name);
+  return found == parameters.end() ? std::nullopt : std::optional(found->second);
+}
+
+/// Firmware before Rover 3.2 kept output settings under RCn_, where newer firmware keeps its
+/// inputs.
+std::string_view OutputPrefix(const Parameters& parameters) {
+  const bool has_servos =
+      std::any_of(parameters.begin(), parameters.end(),
+                  [](const auto& parameter) { return parameter.first.starts_with("SERVO"); });
+  return has_servos ? "SERVO" : "RC";
+}
+
+std::optional<int> ChannelWithFunction(const Parameters& parameters, int function) {
+  const std::string_view prefix = OutputPrefix(parameters);
+  for (int channel = 1; channel <= kLastServo; ++channel) {
+    if (Find(parameters, ParameterName(prefix, channel, "_FUNCTION")) == function) return channel;
+  }
+  return std::nullopt;
+}
+
+/// SERVOn_REVERSED is 1 on a reversed channel; its forerunner RCn_REV is -1.
+bool IsReversed(const Parameters& parameters, std::string_view prefix, int channel) {
+  return Find(parameters, ParameterName(prefix, channel, "_REVERSED")).value_or(0.0) > 0.0 ||
+         Find(parameters, ParameterName(prefix, channel, "_REV")).value_or(1.0) < 0.0;
+}
+
+ThrusterOutput OutputOn(const Parameters& parameters, int channel) {
+  ThrusterOutput output;
+  output.channel = channel;
+  const std::string_view prefix = OutputPrefix(parameters);
+  std::array<double, 3> us{};
+  const std::array<std::string_view, 3> tails = {"_MIN", "_TRIM", "_MAX"};
+  for (std::size_t i = 0; i < tails.size(); ++i) {
+    const std::string name = ParameterName(prefix, channel, tails[i]);
+    const std::optional<double> value = Find(parameters, name);
+    if (!value) {
+      output.range_fault = "no " + name + " in the log";
+      return output;
+    }
+    us[i] = *value;
+  }
+  const auto [min, trim, max] = us;
+  if (!(kShortestPulseUs <= min && min < trim && trim < max && max <= kLongestPulseUs)) {
+    std::ostringstream fault;
+    fault << ParameterName(prefix, channel, "_MIN, _TRIM, _MAX") << " = " << min << ", " << trim
+          << ", " << max << ": must ascend within [500, 2500]";
+    output.range_fault = fault.str();
+    return output;
+  }
+  output.range = IsReversed(parameters, prefix, channel) ? PwmChannel{trim, min, max}
+                                                         : PwmChannel{trim, max, min};
+  return output;
+}
+
+/// Gathers what the messages say; choices between sources wait until the log has ended.
+class DataFlashLogBuilder : public DataFlashConsumer {
+ public:
+  void Define(const DataFlashFormat& format) override { readings_[format.type] = Bind(format); }
+
+  void Take(const DataFlashFormat& format, DataFlashBytes record) override {
+    const MessageColumns& reading = readings_[format.type];
+    if (reading.message == Message::kOther) return;
+    if (!reading.fault.empty()) {
+      ++report_.unreadable[reading.fault];
+      return;
+    }
+    switch (reading.message) {
+      case Message::kGps: TakeFix(reading, record); break;
+      case Message::kAtt: TakeYaw(reading, record, attitude_); break;
+      case Message::kAhr2: TakeYaw(reading, record, backup_attitude_); break;
+      case Message::kRcou: TakePulses(reading, record); break;
+      case Message::kParm: TakeParameter(reading, record); break;
+      case Message::kOther: break;
+    }
+  }
+
+  DataFlashLog Finish(const DataFlashOptions& options) {
+    DataFlashLog log;
+    log.report = std::move(report_);
+    ChooseReceiver(options, log);
+    ChooseHeading(log);
+    ChooseThrusters(options, log);
+    return log;
+  }
+
+ private:
+  double TimeOf(const MessageColumns& reading, DataFlashBytes record, int instance = 0) {
+    const double time_s = DataFlashNumber(record, reading.time) * reading.tick_s;
+    auto [newest, is_first] = newest_s_.try_emplace({reading.message, instance}, time_s);
+    if (is_first) return time_s;
+    const double step_s = time_s - newest->second;
+    if (!(0.0 <= step_s && step_s <= kLeapAheadS)) ++report_.time_leaps[reading.name];
+    newest->second = time_s;
+    return time_s;
+  }
+
+  void TakeFix(const MessageColumns& reading, DataFlashBytes record) {
+    const int instance = reading.instance ? InstanceOf(DataFlashNumber(record, *reading.instance))
+                                          : reading.fixed_instance;
+    const double time_s = TimeOf(reading, record, instance);
+    if (!(DataFlashNumber(record, reading.values[0]) >= kFix3d)) {
+      ++report_.gps_without_fix;
+      return;
+    }
+    ++report_.gps_fixes[instance];
+    fixes_[instance].push_back({time_s, DataFlashNumber(record, reading.values[1]),
+                                DataFlashNumber(record, reading.values[2])});
+  }
+
+  static int InstanceOf(double number) {
+    return number >= 0.0 && number <= 255.0 ? static_cast<int>(number) : 0;
+  }
+
+  void TakeYaw(const MessageColumns& reading, DataFlashBytes record,
+               std::vector<HeadingSample>& series) {
+    series.push_back({TimeOf(reading, record), DataFlashNumber(record, reading.values[0])});
+  }
+
+  void TakePulses(const MessageColumns& reading, DataFlashBytes record) {
+    Pulses pulses;
+    pulses.time_s = TimeOf(reading, record);
+    pulses.us.fill(std::numeric_limits<float>::quiet_NaN());
+    for (std::size_t i = 0; i < reading.values.size(); ++i) {
+      pulses.us[i] = static_cast<float>(DataFlashNumber(record, reading.values[i]));
+    }
+    pulses_.push_back(pulses);
+  }
+
+  void TakeParameter(const MessageColumns& reading, DataFlashBytes record) {
+    const std::string_view name = DataFlashText(record, reading.values[0]);
+    if (!IsOutputParameter(name)) return;
+    const double value = DataFlashNumber(record, reading.values[1]);
+    if (!std::isfinite(value)) return;
+    auto [parameter, is_new] = parameters_.try_emplace(std::string(name), value);
+    if (is_new || parameter->second == value) return;
+    parameter->second = value;
+    ++report_.changed_parameters[parameter->first];
+  }
+
+  void ChooseReceiver(const DataFlashOptions& options, DataFlashLog& log) {
+    auto chosen = fixes_.end();
+    if (options.gps_instance) {
+      chosen = fixes_.find(*options.gps_instance);
+    } else {
+      chosen = std::max_element(fixes_.begin(), fixes_.end(), [](const auto& a, const auto& b) {
+        return a.second.size() < b.second.size();
+      });
+    }
+    if (chosen == fixes_.end()) return;
+    log.report.gps_instance = chosen->first;
+    log.gnss = std::move(chosen->second);
+  }
+
+  void ChooseHeading(DataFlashLog& log) {
+    if (!attitude_.empty()) {
+      log.report.heading_source = HeadingSource::kAtt;
+      log.heading = std::move(attitude_);
+    } else if (!backup_attitude_.empty()) {
+      log.report.heading_source = HeadingSource::kAhr2;
+      log.heading = std::move(backup_attitude_);
+    }
+  }
+
+  void ChooseThrusters(const DataFlashOptions& options, DataFlashLog& log) {
+    const auto choose = [&](std::optional<int> asked, int function) {
+      const auto channel = asked ? asked : ChannelWithFunction(parameters_, function);
+      return channel ? std::optional(OutputOn(parameters_, *channel)) : std::nullopt;
+    };
+    log.port = choose(options.port_channel, kThrottleLeft);
+    log.starboard = choose(options.starboard_channel, kThrottleRight);
+    if (!log.port || !log.starboard) return;
+    if (std::max(log.port->channel, log.starboard->channel) > kLoggedChannels) return;
+    log.thrusters.reserve(pulses_.size());
+    for (const Pulses& pulses : pulses_) {
+      log.thrusters.push_back({pulses.time_s,
+                               pulses.us[static_cast<std::size_t>(log.port->channel - 1)],
+                               pulses.us[static_cast<std::size_t>(log.starboard->channel - 1)]});
+    }
+  }
+
+  std::array<MessageColumns, 256> readings_;
+  std::map<std::pair<Message, int>, double> newest_s_;
+  std::map<int, std::vector<GnssFix>> fixes_;
+  std::vector<HeadingSample> attitude_;
+  std::vector<HeadingSample> backup_attitude_;
+  std::vector<Pulses> pulses_;
+  Parameters parameters_;
+  DataFlashReport report_;
+};
+
+DataFlashLog FinishLog(DataFlashLogBuilder& builder, const DataFlashFraming& framing,
+                       std::uint64_t bytes, const DataFlashOptions& options) {
+  DataFlashLog log = builder.Finish(options);
+  log.report.bytes = bytes;
+  log.report.records = framing.RecordsByName();
+  log.report.damage = framing.Damage();
+  return log;
+}
+
+std::uint64_t CountOf(const DataFlashReport& report, const std::string& name) {
+  const auto found = report.records.find(name);
+  return found == report.records.end() ? 0 : found->second;
+}
+
+std::optional<Refusal> OutOfRange(const char* field, std::optional<int> value, int low, int high) {
+  if (!value || (low <= *value && *value <= high)) return std::nullopt;
+  const std::string range = "[" + std::to_string(low) + ", " + std::to_string(high) + "]";
+  return Refusal{field, std::to_string(*value) + " is outside " + range,
+                 std::string("give ") + field + " a value in " + range};
+}
+
+Refusal LacksFix(const DataFlashReport& report, const std::string& read) {
+  if (!report.gps_fixes.empty()) {
+    std::string have;
+    for (const auto& [instance, fixes] : report.gps_fixes)
+      have.append(" ").append(std::to_string(instance));
+    return {"gnss", "the GPS instance asked for has no fix" + read, "ask for one of:" + have};
+  }
+  if (report.gps_without_fix > 0) {
+    return {"gnss",
+            "no fix: Status is below 3 in all " + std::to_string(report.gps_without_fix) +
+                " GPS records" + read,
+            "wait for a 3D fix before the run"};
+  }
+  return {"gnss", "no GPS message that can be read" + read, "enable GPS (bit 2) in LOG_BITMASK"};
+}
+
+Refusal LacksThrusters(const DataFlashLog& log, const std::string& read) {
+  if (CountOf(log.report, "RCOU") == 0) {
+    return {"thrusters", "no RCOU message" + read,
+            "enable RC output (Rover: RC Input-Output, bit 14) in LOG_BITMASK"};
+  }
+  for (const auto& [output, function] : {std::pair(&log.port, "73 (ThrottleLeft)"),
+                                         std::pair(&log.starboard, "74 (ThrottleRight)")}) {
+    if (!*output) {
+      return {"thrusters", std::string("no PARM record gives a SERVOn_FUNCTION ") + function + read,
+              "name the channel that drives this thruster"};
+    }
+    if ((*output)->channel > kLoggedChannels) {
+      return {"thrusters",
+              "channel " + std::to_string((*output)->channel) + " drives a thruster" + read,
+              "use channels 1 to 14, which RCOU records"};
+    }
+  }
+  return {"thrusters", "no RCOU message that can be read" + read,
+          "log RCOU with TimeUS and C1..C14"};
+}
+
+void AppendCounts(std::ostream& out, std::uint64_t count, const char* what) {
+  if (count > 0) out << "; " << count << ' ' << what;
+}
+
+void AppendCounts(std::ostream& out, const std::map<std::string, std::uint64_t>& counts,
+                  const char* what) {
+  for (const auto& [name, count] : counts) out << "; " << count << ' ' << what << ' ' << name;
+}
+
+}  // namespace
+
+std::string_view Name(HeadingSource source) {
+  switch (source) {
+    case HeadingSource::kUnknown: return "none";
+    case HeadingSource::kAtt: return "ATT";
+    case HeadingSource::kAhr2: return "AHR2";
+  }
+  return "";
+}
+
+std::optional<Refusal> DataFlashOptions::Validate() const {
+  if (auto refusal = OutOfRange("gps_instance", gps_instance, 0, 255)) return refusal;
+  if (auto refusal = OutOfRange("port_channel", port_channel, 1, kLoggedChannels)) return refusal;
+  return OutOfRange("starboard_channel", starboard_channel, 1, kLoggedChannels);
+}
+
+std::string DataFlashReport::Summary() const {
+  std::uint64_t total = 0;
+  for (const auto& [name, count] : records) total += count;
+  std::ostringstream out;
+  out << total << " records in " << bytes << " bytes";
+  if (gps_instance) out << "; positions from GPS instance " << *gps_instance;
+  if (heading_source != HeadingSource::kUnknown) out << "; heading from " << Name(heading_source);
+  AppendCounts(out, gps_without_fix, "GPS records without a fix");
+  AppendCounts(out, time_leaps, "leaps in time in");
+  AppendCounts(out, unreadable, "unreadable records:");
+  AppendCounts(out, changed_parameters, "changes of");
+  AppendCounts(out, damage.corrupt_records, "corrupt records");
+  AppendCounts(out, damage.undefined_records, "records of undefined type");
+  AppendCounts(out, damage.malformed_definitions, "malformed definitions");
+  AppendCounts(out, damage.redefinitions, "redefinitions");
+  AppendCounts(out, damage.skipped_bytes, "bytes skipped");
+  AppendCounts(out, damage.truncated_bytes, "bytes of a record cut off at the end");
+  return out.str();
+}
+
+std::optional<Refusal> DataFlashLog::Lacks() const {
+  if (report.bytes == 0) return Refusal{"log", "the file is empty", "download the log again"};
+  if (CountOf(report, "FMT") == 0) {
+    return Refusal{
+        "log",
+        "not a DataFlash log: no FMT record in its " + std::to_string(report.bytes) + " bytes",
+        "give an ArduPilot .BIN log or a folder of CSV files"};
+  }
+  const std::string read = " (" + report.Summary() + ")";
+  if (gnss.empty()) return LacksFix(report, read);
+  if (heading.empty()) {
+    return Refusal{"heading", "no ATT or AHR2 message that can be read" + read,
+                   "enable attitude (bit 0 or 1) in LOG_BITMASK"};
+  }
+  if (thrusters.empty()) return LacksThrusters(*this, read);
+  return std::nullopt;
+}
+
+DataFlashLog ParseDataFlash(DataFlashBytes bytes, const DataFlashOptions& options) {
+  DataFlashLogBuilder builder;
+  DataFlashFraming framing(builder);
+  framing.Consume(bytes, true);
+  return FinishLog(builder, framing, bytes.size(), options);
+}
+
+Result<DataFlashLog> ReadDataFlash(const std::filesystem::path& file,
+                                   const DataFlashOptions& options) {
+  if (auto refusal = options.Validate()) return tl::unexpected(*std::move(refusal));
+  std::ifstream in(file, std::ios::binary);
+  if (!in) return Refuse(file.string(), "cannot be opened", "check the path and its permissions");
+
+  DataFlashLogBuilder builder;
+  DataFlashFraming framing(builder);
+  std::vector<std::uint8_t> block(kBlockBytes);
+  std::size_t held = 0;
+  std::uint64_t total = 0;
+  for (bool at_end = false; !at_end;) {
+    in.read(reinterpret_cast<char*>(block.data() + held),
+            static_cast<std::streamsize>(block.size() - held));
+    const auto got = static_cast<std::size_t>(in.gcount());
+    if (in.bad()) return Refuse(file.string(), "cannot be read", "check the disk");
+    at_end = !in;
+    total += got;
+    held += got;
+    const std::size_t done = framing.Consume({block.data(), held}, at_end);
+    std::copy(block.begin() + static_cast<std::ptrdiff_t>(done),
+              block.begin() + static_cast<std::ptrdiff_t>(held), block.begin());
+    held -= done;
+  }
+
+  DataFlashLog log = FinishLog(builder, framing, total, options);
+  if (auto refusal = log.Lacks()) {
+    refusal->subject = file.string() + " " + refusal->subject;
+    return tl::unexpected(*std::move(refusal));
+  }
+  return log;
+}
+
+}  // namespace telltale

@@ -1,0 +1,88 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "telltale/client/recording/dataflash/dataflash_records.hpp"
+#include "telltale/core/base/result.hpp"
+#include "telltale/core/data/samples.hpp"
+#include "telltale/core/vessel/propellers.hpp"
+
+namespace telltale {
+
+/// What to take from a log where it offers a choice. Channels are counted from 1, as on the
+/// autopilot.
+struct DataFlashOptions {
+  std::optional<int>
+      gps_instance;  ///< [0, 255]; unset: the one with most fixes, the first of equals
+  std::optional<int> port_channel;       ///< [1, 14]; unset: SERVOn_FUNCTION 73 (ThrottleLeft)
+  std::optional<int> starboard_channel;  ///< [1, 14]; unset: SERVOn_FUNCTION 74 (ThrottleRight)
+
+  /// The first field out of its range, as a refusal naming field, value and range.
+  std::optional<Refusal> Validate() const;
+};
+
+enum class HeadingSource { kUnknown, kAtt, kAhr2 };
+
+std::string_view Name(HeadingSource source);
+
+/// One thruster's output: its channel and, when the parameters in the log say it soundly, its
+/// range.
+struct ThrusterOutput {
+  int channel = 0;
+  std::optional<PwmChannel> range;  ///< from SERVOn_MIN, TRIM, MAX, REVERSED
+  std::string range_fault;          ///< why there is no range
+};
+
+/// What a log held and what was wrong with it, by name and count.
+struct DataFlashReport {
+  std::uint64_t bytes = 0;
+  std::map<std::string, std::uint64_t> records;  ///< whole records by message name, FMT included
+  DataFlashDamage damage;
+  std::map<std::string, std::uint64_t> unreadable;  ///< records by what their definition lacks
+  std::map<std::string, std::uint64_t> time_leaps;  ///< by message: back at all, or ahead over 60 s
+  std::map<std::string, std::uint64_t> changed_parameters;  ///< used ones; the last value counts
+  std::map<int, std::uint64_t> gps_fixes;                   ///< by instance
+  std::uint64_t gps_without_fix = 0;                        ///< Status below 3, every instance
+  std::optional<int> gps_instance;                          ///< the one taken
+  HeadingSource heading_source = HeadingSource::kUnknown;
+
+  /// A sentence or two for a person: what was read and each kind of damage that occurred.
+  std::string Summary() const;
+};
+
+/// The telemetry of a DataFlash log as it was logged: in log order, nothing judged but the fix.
+///
+/// Times are seconds of the autopilot's clock since it started, the same for the three channels. A
+/// fix bears the time at which it was logged (TimeUS, or T in ms before Rover 3), not its GPS time
+/// (GMS, GWk), so it lags by what the receiver and its link take.
+/// Heading is the yaw of the attitude estimate, clockwise from true north (AHRS adds declination).
+struct DataFlashLog {
+  std::vector<GnssFix> gnss;
+  std::vector<HeadingSample> heading;
+  std::vector<ThrusterSample> thrusters;
+  std::optional<ThrusterOutput> port;
+  std::optional<ThrusterOutput> starboard;
+  DataFlashReport report;
+
+  /// What is missing for a recording of use: names the message or parameter and how to log it.
+  std::optional<Refusal> Lacks() const;
+};
+
+/// Everything that can be had from these bytes; never fails, a log of nothing included.
+/// Reads: GPS, GPS2, GPSB (Status, Lat, Lng at Status 3 and above), ATT or else AHR2 (Yaw), RCOU
+/// (C1..C14), PARM (SERVOn_*, or RCn_* of firmware that has no SERVOn_FUNCTION).
+/// Memory: a small multiple of the bytes in records of those messages.
+/// Requires: options.Validate() is empty.
+DataFlashLog ParseDataFlash(DataFlashBytes bytes, const DataFlashOptions& options);
+
+/// The same from a file, read once in blocks.
+/// Refuses when: the file cannot be read, is not a DataFlash log, or the log Lacks() something.
+Result<DataFlashLog> ReadDataFlash(const std::filesystem::path& file,
+                                   const DataFlashOptions& options = {});
+
+}  // namespace telltale

@@ -1,0 +1,18 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+#include "telltale/core/base/result.hpp"
+
+namespace telltale {
+
+/// The bytes of a file. Refuses when: it is missing, a folder, or cannot be read.
+Result<std::string> ReadFile(const std::filesystem::path& file);
+
+/// Writes all of `content`, replacing what was there.
+/// Throws: std::system_error naming the file when it cannot be written.
+void WriteFile(const std::filesystem::path& file, std::string_view content);
+
+}  // namespace telltale

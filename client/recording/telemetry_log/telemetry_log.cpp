@@ -1,0 +1,217 @@
+#include "telltale/client/recording/telemetry_log/telemetry_log.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <iterator>
+#include <limits>
+#include <optional>
+#include <string>
+
+#include "telltale/client/recording/file_contents.hpp"
+#include "telltale/core/data/window.hpp"
+
+namespace telltale {
+namespace {
+
+constexpr double kDayS = 86400.0;
+
+constexpr int kTimeDecimals = 9;
+constexpr int kPositionDecimals = 9;
+constexpr int kHeadingDecimals = 6;
+constexpr int kPulseDecimals = 3;
+
+constexpr std::array<std::string_view, 3> kGnssColumns = {"time_s", "latitude_deg",
+                                                          "longitude_deg"};
+constexpr std::array<std::string_view, 2> kHeadingColumns = {"time_s", "heading_deg"};
+constexpr std::array<std::string_view, 3> kThrusterColumns = {"time_s", "left_us", "right_us"};
+
+GnssFix SampleFrom(std::span<const double> row, const GnssFix*) {
+  return {row[0], row[1], row[2]};
+}
+HeadingSample SampleFrom(std::span<const double> row, const HeadingSample*) {
+  return {row[0], row[1]};
+}
+ThrusterSample SampleFrom(std::span<const double> row, const ThrusterSample*) {
+  return {row[0], row[1], row[2]};
+}
+
+template <class Sample>
+struct ChannelFile {
+  std::vector<Sample> samples;
+  MalformedRows malformed;
+};
+
+template <class Sample>
+Result<ChannelFile<Sample>> ReadChannel(const std::filesystem::path& file,
+                                        std::span<const std::string_view> columns) {
+  ChannelFile<Sample> channel;
+  const auto malformed = ReadCsv(file, columns, [&](std::span<const double> row) {
+    channel.samples.push_back(SampleFrom(row, static_cast<const Sample*>(nullptr)));
+  });
+  if (!malformed) return tl::unexpected(malformed.error());
+  channel.malformed = *malformed;
+  if (!channel.samples.empty()) return channel;
+  const std::string rows = channel.malformed.count == 0
+                               ? "has a header and no row"
+                               : "has no usable row, only " +
+                                     std::to_string(channel.malformed.count) + " malformed rows";
+  return Refuse(file.string(), rows, "write one row of numbers per sample");
+}
+
+WindowLimits OneDayWindow() {
+  WindowLimits limits;
+  limits.duration_s = kDayS;
+  limits.memory_bytes = std::numeric_limits<std::size_t>::max() / 2;
+  return limits;
+}
+
+std::string Reasons(const RejectCounts& rejected, Channel channel) {
+  std::string reasons;
+  for (const RejectReason reason : kRejectReasons) {
+    const auto count = rejected.Of(channel, reason);
+    if (count == 0) continue;
+    reasons +=
+        (reasons.empty() ? "" : ", ") + std::to_string(count) + " " + std::string(Name(reason));
+  }
+  return reasons.empty() ? "no samples" : reasons;
+}
+
+std::optional<Refusal> RefuseEmpty(const Window& window) {
+  for (const Channel channel : kChannels) {
+    if (window.Size(channel) > 0) continue;
+    return Refusal{std::string(Name(channel)),
+                   "no sample of this channel can be used: " + Reasons(window.Rejected(), channel),
+                   "check the channel's source, its units and its clock"};
+  }
+  return std::nullopt;
+}
+
+// ---- one clock for several recordings ------------------------------------------------------
+
+double StartOf(const Recording& r) {
+  return std::min({r.gnss.front().time_s, r.heading.front().time_s, r.thrusters.front().time_s});
+}
+
+double EndOf(const Recording& r) {
+  return std::max({r.gnss.back().time_s, r.heading.back().time_s, r.thrusters.back().time_s});
+}
+
+bool IsEmpty(const Recording& r) {
+  return r.gnss.empty() || r.heading.empty() || r.thrusters.empty();
+}
+
+double ShiftAfter(double end_s, double start_s) {
+  const double pause_s = start_s - end_s;
+  const bool may_stay = pause_s >= kGapBetweenLogsS && pause_s <= kDayS;
+  return may_stay ? 0.0 : end_s + kGapBetweenLogsS - start_s;
+}
+
+template <class Sample>
+void AppendShifted(const std::vector<Sample>& from, double shift_s, std::vector<Sample>& to) {
+  for (Sample sample : from) {
+    sample.time_s += shift_s;
+    to.push_back(sample);
+  }
+}
+
+// ---- writing ---------------------------------------------------------------------------------
+
+std::string HeaderOf(std::span<const std::string_view> columns) {
+  std::string header;
+  for (const std::string_view column : columns) {
+    header.append(header.empty() ? "" : ",").append(column);
+  }
+  return header + '\n';
+}
+
+// Digits beyond the last one that matters are left out, and so are zeros at the end.
+void AppendNumber(std::string& text, double value, int decimals, char after) {
+  char number[400];
+  const auto written =
+      std::to_chars(number, std::end(number), value, std::chars_format::fixed, decimals);
+  std::string_view digits(number, static_cast<std::size_t>(written.ptr - number));
+  digits = digits.substr(0, digits.find_last_not_of('0') + 1);
+  if (digits.ends_with('.')) digits.remove_suffix(1);
+  text.append(digits).push_back(after);
+}
+
+}  // namespace
+
+Result<TelemetryLog> ReadTelemetryLog(const std::filesystem::path& folder) {
+  if (!std::filesystem::is_directory(folder)) {
+    return Refuse(folder.string(), "is not a folder",
+                  "give a folder with gnss.csv, heading.csv and thrusters.csv");
+  }
+  const auto gnss = ReadChannel<GnssFix>(folder / "gnss.csv", kGnssColumns);
+  if (!gnss) return tl::unexpected(gnss.error());
+  const auto heading = ReadChannel<HeadingSample>(folder / "heading.csv", kHeadingColumns);
+  if (!heading) return tl::unexpected(heading.error());
+  const auto thrusters = ReadChannel<ThrusterSample>(folder / "thrusters.csv", kThrusterColumns);
+  if (!thrusters) return tl::unexpected(thrusters.error());
+  return TelemetryLog{InOrderOfTime(gnss->samples, heading->samples, thrusters->samples),
+                      {gnss->malformed, heading->malformed, thrusters->malformed}};
+}
+
+Result<AdmittedLog> Admit(std::span<const RawSample> samples) {
+  Window window(OneDayWindow());
+  for (const RawSample& raw : samples) {
+    std::visit([&window](const auto& sample) { window.Add(sample); }, raw);
+  }
+  if (auto refusal = RefuseEmpty(window)) return tl::unexpected(*refusal);
+  std::size_t accounted_for = window.Rejected().Total();
+  for (const Channel channel : kChannels) accounted_for += window.Size(channel);
+  return AdmittedLog{window.Snapshot(), samples.size() - accounted_for};
+}
+
+Recording Concatenate(std::span<const Recording> recordings) {
+  Recording all;
+  for (const Recording& recording : recordings) {
+    all.rejected.Add(recording.rejected);
+    if (IsEmpty(recording)) continue;
+    const double shift_s = IsEmpty(all) ? 0.0 : ShiftAfter(EndOf(all), StartOf(recording));
+    all.starts_s.push_back(StartOf(recording) + shift_s);
+    AppendShifted(recording.gnss, shift_s, all.gnss);
+    AppendShifted(recording.heading, shift_s, all.heading);
+    AppendShifted(recording.thrusters, shift_s, all.thrusters);
+  }
+  return all;
+}
+
+void WriteTelemetryLog(const std::filesystem::path& folder, const Recording& recording) {
+  std::filesystem::create_directories(folder);
+  std::string text = HeaderOf(kGnssColumns);
+  for (const GnssFix& fix : recording.gnss) {
+    AppendNumber(text, fix.time_s, kTimeDecimals, ',');
+    AppendNumber(text, fix.latitude_deg, kPositionDecimals, ',');
+    AppendNumber(text, fix.longitude_deg, kPositionDecimals, '\n');
+  }
+  WriteFile(folder / "gnss.csv", text);
+  text = HeaderOf(kHeadingColumns);
+  for (const HeadingSample& sample : recording.heading) {
+    AppendNumber(text, sample.time_s, kTimeDecimals, ',');
+    AppendNumber(text, sample.heading_deg, kHeadingDecimals, '\n');
+  }
+  WriteFile(folder / "heading.csv", text);
+  text = HeaderOf(kThrusterColumns);
+  for (const ThrusterSample& sample : recording.thrusters) {
+    AppendNumber(text, sample.time_s, kTimeDecimals, ',');
+    AppendNumber(text, sample.port_us, kPulseDecimals, ',');
+    AppendNumber(text, sample.starboard_us, kPulseDecimals, '\n');
+  }
+  WriteFile(folder / "thrusters.csv", text);
+}
+
+Result<CommandLog> ReadCommands(const std::filesystem::path& file) {
+  const auto channel = ReadChannel<ThrusterSample>(file, kThrusterColumns);
+  if (!channel) return tl::unexpected(channel.error());
+  Window window(OneDayWindow());
+  for (const ThrusterSample& sample : channel->samples) window.Add(sample);
+  if (window.Empty()) {
+    return Refuse(file.string(),
+                  "has no usable row: " + Reasons(window.Rejected(), Channel::kThrusters),
+                  "give pulse widths in [500, 2500] us");
+  }
+  return CommandLog{window.Snapshot().thrusters, channel->malformed, window.Rejected()};
+}
+
+}  // namespace telltale

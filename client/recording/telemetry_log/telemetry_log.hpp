@@ -1,0 +1,56 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <filesystem>
+#include <span>
+#include <vector>
+
+#include "telltale/client/recording/csv/numeric_csv.hpp"
+#include "telltale/client/recording/time_order.hpp"
+#include "telltale/core/base/result.hpp"
+#include "telltale/core/data/samples.hpp"
+
+namespace telltale {
+
+/// A telemetry log as it was written: gnss.csv, heading.csv and thrusters.csv of one folder.
+struct TelemetryLog {
+  std::vector<RawSample> samples;          ///< InOrderOfTime(), before any admission
+  std::array<MalformedRows, 3> malformed;  ///< by channel
+};
+
+/// Refuses when: a file is missing, empty, without its columns, or without one readable row.
+Result<TelemetryLog> ReadTelemetryLog(const std::filesystem::path& folder);
+
+/// What of a log can be trusted, by the rules of a live Window with room for a day.
+struct AdmittedLog {
+  Recording recording;
+  /// Samples a window let go again: older than a day, or before the clock was set back.
+  std::size_t evicted = 0;
+};
+
+/// Refuses when: a channel has nothing left.
+Result<AdmittedLog> Admit(std::span<const RawSample> samples);
+
+/// Recordings one after the other in one clock. A recording that starts within a day after the end
+/// of the one before, and far enough to leave a gap no preparation bridges, keeps its times; any
+/// other is shifted to start kGapBetweenLogsS after that end. Where each begins is kept.
+inline constexpr double kGapBetweenLogsS = 120.0;
+Recording Concatenate(std::span<const Recording> recordings);
+
+/// Writes the folder's three files so that reading them gives the same samples back: times to the
+/// nanosecond, degrees to 1e-9 (0.1 mm) and 1e-6 (heading), pulse widths to 1e-3 us.
+/// Throws: std::system_error when the folder or a file cannot be written.
+void WriteTelemetryLog(const std::filesystem::path& folder, const Recording& recording);
+
+/// A lone thrusters.csv: what a simulation is to be commanded. Rejected rows are counted, not used.
+struct CommandLog {
+  std::vector<ThrusterSample> commands;  ///< in order of time
+  MalformedRows malformed;
+  RejectCounts rejected;
+};
+
+/// Refuses when: the file is missing, empty, without its columns, or without one usable row.
+Result<CommandLog> ReadCommands(const std::filesystem::path& file);
+
+}  // namespace telltale

@@ -1,0 +1,153 @@
+#include "telltale/client/report/diagnosis_text.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "telltale/client/report/number_text.hpp"
+
+namespace telltale {
+namespace {
+
+/// So many that a standard error shows two digits.
+int DecimalsFor(double standard_error) {
+  constexpr int kMost = 6;
+  if (!std::isfinite(standard_error) || standard_error <= 0.0) return 3;
+  return std::clamp(1 - static_cast<int>(std::floor(std::log10(standard_error))), 0, kMost);
+}
+
+}  // namespace
+
+std::string_view VerdictText(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::kUnknown: return "Not diagnosed";
+    case Verdict::kNoMaterialGap: return "No material gap";
+    case Verdict::kExplained: return "Explained";
+    case Verdict::kPartlyExplained: return "Partly explained";
+    case Verdict::kUnknownCause: return "Cause unknown";
+    case Verdict::kInsufficientData: return "Not enough data";
+  }
+  return "";
+}
+
+std::string_view VerdictMeaning(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::kUnknown: return "";
+    case Verdict::kNoMaterialGap:
+      return "The model misses this recording by no more than it misses a healthy one.";
+    case Verdict::kExplained:
+      return "The named effect brings the error back to that of a healthy recording.";
+    case Verdict::kPartlyExplained:
+      return "The named effect closes part of the gap; something else keeps the rest open.";
+    case Verdict::kUnknownCause:
+      return "There is a gap, and no effect of the library accounts for it for sure.";
+    case Verdict::kInsufficientData: return "The recording can neither show nor rule out a gap.";
+  }
+  return "";
+}
+
+std::string_view ChannelText(Equation channel) {
+  switch (channel) {
+    case Equation::kUnknown: return "all";
+    case Equation::kSurge: return "along";
+    case Equation::kSway: return "across";
+    case Equation::kYaw: return "heading";
+  }
+  return "";
+}
+
+std::string_view KindText(GapKind kind) {
+  switch (kind) {
+    case GapKind::kUnknown: return "–";
+    case GapKind::kBias: return "offset";
+    case GapKind::kSlope: return "proportional";
+    case GapKind::kTiming: return "timing";
+    case GapKind::kNoise: return "noise";
+  }
+  return "";
+}
+
+std::string_view RegionText(PropellerRegion region) {
+  switch (region) {
+    case PropellerRegion::kFF: return "both forward";
+    case PropellerRegion::kFR: return "port forward, starboard reverse";
+    case PropellerRegion::kRF: return "port reverse, starboard forward";
+    case PropellerRegion::kRR: return "both reverse";
+  }
+  return "";
+}
+
+std::string PlaceText(const GapCell& cell) {
+  std::string text(ChannelText(cell.channel));
+  if (cell.region) text.append(", ").append(Name(*cell.region));
+  if (!cell.bin.empty()) text.append(", ").append(cell.bin);
+  return text;
+}
+
+std::span<const GapCell> ListedCells(const Diagnosis& diagnosis) {
+  constexpr std::size_t kMost = 12;
+  return std::span(diagnosis.where).first(std::min(diagnosis.where.size(), kMost));
+}
+
+std::string MoreCellsText(const Diagnosis& diagnosis) {
+  const std::size_t hidden = diagnosis.where.size() - ListedCells(diagnosis).size();
+  if (hidden == 0) return "";
+  return Counted(hidden, "more corner stands out", "more corners stand out") +
+         "; report.json has them all.";
+}
+
+std::string TestabilityText(const EffectTestability& effect) {
+  switch (effect.testability) {
+    case Testability::kUnknown: return "–";
+    case Testability::kTestable: return "testable";
+    case Testability::kMasked:
+      return "absorbed" + (effect.masked_by.empty() ? "" : " by " + effect.masked_by);
+    case Testability::kNotExcited: return "not excited";
+  }
+  return "";
+}
+
+std::string CauseText(const Cause& cause) {
+  if (cause.effects.empty()) return "unknown";
+  std::string text;
+  for (const CausalEffect& effect : cause.effects) {
+    text.append(text.empty() ? "" : " + ").append(effect.effect);
+  }
+  return text;
+}
+
+std::string EstimateText(const ParameterEstimate& parameter) {
+  const std::string unit =
+      parameter.unit.empty() || parameter.unit == "1" ? "" : ' ' + parameter.unit;
+  const int decimals = DecimalsFor(parameter.standard_error);
+  return Fixed(parameter.estimate, decimals) + " ± " + Fixed(parameter.standard_error, decimals) +
+         unit;
+}
+
+std::string ExcessExplainedText(const std::optional<ExcessExplained>& excess_explained) {
+  if (!excess_explained) return "–";
+  return ShareText(excess_explained->share) + " [" +
+         Fixed(100.0 * excess_explained->interval.lower, 0) + ", " +
+         Fixed(100.0 * excess_explained->interval.upper, 0) + "]";
+}
+
+std::string FloorText(const Diagnosis& diagnosis) {
+  switch (diagnosis.floor_basis) {
+    case FloorBasis::kUnknown: return "What a healthy error is, is not known.";
+    case FloorBasis::kReferenceLogs:
+      return "A healthy error is that on " +
+             Counted(diagnosis.reference_logs, "reference recording", "reference recordings") +
+             " of the same boat.";
+    case FloorBasis::kSensorNoise:
+      return "Without reference recordings a healthy error is what sensor noise alone would leave, "
+             "which is too low: waves and wind count as a gap.";
+  }
+  return "";
+}
+
+std::string OnsetText(const Onset& onset, double start_s) {
+  return "It began " + Fixed(onset.time_s - start_s, 0) +
+         " s after the start (95 %: " + Fixed(onset.earliest_s - start_s, 0) + " to " +
+         Fixed(onset.latest_s - start_s, 0) + " s).";
+}
+
+}  // namespace telltale

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "telltale/core/diagnosis/report/diagnosis.hpp"
+
+namespace telltale {
+
+/// How a diagnosis is put for people, alike on a terminal and on a page.
+
+std::string_view VerdictText(Verdict verdict);  ///< "Explained"
+
+/// What the verdict claims, in a sentence.
+std::string_view VerdictMeaning(Verdict verdict);
+
+/// "along", "across", "heading": the errors that surge, sway and yaw leave.
+std::string_view ChannelText(Equation channel);
+
+std::string_view KindText(GapKind kind);  ///< "offset"
+
+/// "FF" as "both forward".
+std::string_view RegionText(PropellerRegion region);
+
+/// "heading, FR, 0.5 to 1.0 m/s".
+std::string PlaceText(const GapCell& cell);
+
+/// The corners of the data that are shown to people, a dozen at most; report.json has them all.
+std::span<const GapCell> ListedCells(const Diagnosis& diagnosis);
+
+/// "38 more corners stand out; report.json has them all."; empty where all are shown.
+std::string MoreCellsText(const Diagnosis& diagnosis);
+
+/// "testable", "absorbed by YAW uv", "not excited".
+std::string TestabilityText(const EffectTestability& effect);
+
+/// "thruster_lag + wind", or "unknown".
+std::string CauseText(const Cause& cause);
+
+/// "0.220 ± 0.030 m/s".
+std::string EstimateText(const ParameterEstimate& parameter);
+
+/// "81 % [74, 87]", or "–" where there is no gap to close.
+std::string ExcessExplainedText(const std::optional<ExcessExplained>& excess_explained);
+
+/// What the floor rests on, in a sentence.
+std::string FloorText(const Diagnosis& diagnosis);
+
+/// When it began, counted from the start of the recording.
+std::string OnsetText(const Onset& onset, double start_s);
+
+}  // namespace telltale

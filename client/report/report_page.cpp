@@ -1,0 +1,252 @@
+#include "telltale/client/report/report_page.hpp"
+
+#include <algorithm>
+#include <array>
+
+#include "telltale/client/report/diagnosis_text.hpp"
+#include "telltale/client/report/markup.hpp"
+#include "telltale/client/report/number_text.hpp"
+#include "telltale/client/report/pictures.hpp"
+#include "telltale/client/report/style.hpp"
+
+namespace telltale {
+namespace {
+
+Markup Section(std::string_view title, std::string_view lead, const Markup& content) {
+  Markup section = Styled("h2", "", Words(title));
+  if (!lead.empty()) section += Styled("p", "soft", Words(lead));
+  return Element("section", {}, section + content);
+}
+
+Markup Cell(std::string_view text, std::string_view style = "") {
+  return Styled("td", style, Words(text));
+}
+
+Markup HeaderRow(std::initializer_list<Attribute> titles) {
+  Markup heads;
+  for (const Attribute& title : titles) {
+    heads += Element("th", {{"scope", "col"}, {"class", title.value}}, Words(title.name));
+  }
+  return Element("thead", {}, Element("tr", {}, heads));
+}
+
+// ---- the headline -------------------------------------------------------------------------------
+
+std::string_view BadgeStyle(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::kNoMaterialGap:
+    case Verdict::kExplained: return "badge calm";
+    case Verdict::kPartlyExplained:
+    case Verdict::kUnknownCause: return "badge alert";
+    case Verdict::kInsufficientData:
+    case Verdict::kUnknown: break;
+  }
+  return "badge mute";
+}
+
+Markup Headline(const Diagnosis& diagnosis) {
+  const std::string kicker = "Model against recording · " + diagnosis.vehicle_id + " · " +
+                             Fixed(diagnosis.end_s - diagnosis.start_s, 0) + " s recorded";
+  std::string details = FloorText(diagnosis);
+  if (diagnosis.onset) details = OnsetText(*diagnosis.onset, diagnosis.start_s) + ' ' + details;
+  if (!diagnosis.rest.empty()) {
+    details = "What stays unexplained sits in " + diagnosis.rest + ". " + details;
+  }
+  return Element("header", {},
+                 Styled("p", "kicker", Words(kicker)) +
+                     Element("h1", {{"id", "headline"}}, Words(diagnosis.sentence)) +
+                     Styled("p", "meaning",
+                            Styled("span", BadgeStyle(diagnosis.verdict),
+                                   Words(VerdictText(diagnosis.verdict))) +
+                                Words(VerdictMeaning(diagnosis.verdict))) +
+                     Styled("p", "soft", Words(details)));
+}
+
+// ---- sections -----------------------------------------------------------------------------------
+
+Markup GapSection(const Diagnosis& diagnosis) {
+  return Section("How large the gap is",
+                 "Free-run error in healthy sigmas: 1 is what a healthy recording shows. Five "
+                 "seconds decide. Shares are how much of the gap is closed, with 95 % intervals.",
+                 GapBars(diagnosis));
+}
+
+Markup When(const Diagnosis& diagnosis) {
+  return Section("When it shows", "", ErrorOverTime(diagnosis));
+}
+
+Markup WhereRow(const GapCell& cell) {
+  const std::string details = std::string(KindText(cell.kind)) + ", mean " + Fixed(cell.mean, 1) +
+                              " sigmas, p " + Significant(cell.p_value, 2) + ", " +
+                              Counted(cell.windows, "window", "windows");
+  return Element("tr", {},
+                 Element("td", {}, Words(PlaceText(cell)) + Styled("small", "", Words(details))) +
+                     Cell(ShareText(cell.excess_share), "number"));
+}
+
+Markup WhereTable(const Diagnosis& diagnosis) {
+  if (diagnosis.where.empty()) {
+    return Nothing("No corner of the data holds more error than chance would put there.");
+  }
+  Markup rows;
+  for (const GapCell& cell : ListedCells(diagnosis)) rows += WhereRow(cell);
+  return Element("table", {},
+                 HeaderRow({{"Corner of the data", ""}, {"Of the excess", "number"}}) +
+                     Element("tbody", {}, rows)) +
+         Styled("p", "soft", Words(MoreCellsText(diagnosis)));
+}
+
+Markup Where(const Diagnosis& diagnosis) {
+  const Markup left =
+      Styled("div", "", Styled("h3", "", Words("By propellers and speed")) + ErrorMap(diagnosis));
+  const Markup right =
+      Styled("div", "", Styled("h3", "", Words("By heading")) + HeadingRose(diagnosis));
+  return Section("Where it sits",
+                 "Corners that stand out after correcting for having looked at all of them.",
+                 WhereTable(diagnosis) + Styled("div", "halves", left + right));
+}
+
+Markup Which(const Diagnosis& diagnosis) {
+  return Section("Which effect causes it",
+                 "Probabilities are among the effects of the library and the unknown.",
+                 CauseCards(diagnosis));
+}
+
+Markup Paths(const Diagnosis& diagnosis) {
+  return Section("What it looks like",
+                 "The windows that the model misses most, each from its start (circle) to its end.",
+                 PathPictures(diagnosis));
+}
+
+Markup ScoreRow(std::string_view name, double before, double after) {
+  const double change = before > 0.0 ? after / before - 1.0 : 0.0;
+  return Element("tr", {},
+                 Cell(name) + Cell(Significant(before, 3), "number") +
+                     Cell(Significant(after, 3), "number") +
+                     Cell((change > 0.0 ? "+" : "") + ShareText(change), "number"));
+}
+
+Markup ScoreRows(const FreeRunScores& before, const FreeRunScores& after) {
+  constexpr std::array kVelocities = {"surge, m/s", "sway, m/s", "yaw, rad/s"};
+  const std::string title =
+      Plain(before.horizon_s) + " s ahead, " + Counted(before.windows, "window", "windows");
+  Markup rows = Element("tr", {{"class", "group"}},
+                        Element("th", {{"colspan", "4"}, {"scope", "rowgroup"}}, Words(title)));
+  for (std::size_t i = 0; i < kVelocities.size(); ++i) {
+    rows += ScoreRow(kVelocities[i], before.velocity[i].rmse, after.velocity[i].rmse);
+  }
+  return rows + ScoreRow("position, m", before.position_rmse_m, after.position_rmse_m);
+}
+
+Markup ImprovementTable(const Diagnosis& diagnosis) {
+  if (!diagnosis.improvement) {
+    return Nothing("No effect is likely, so no other model was identified.");
+  }
+  const auto& [before, after] = *diagnosis.improvement;
+  Markup rows;
+  for (std::size_t i = 0; i < std::min(before.size(), after.size()); ++i) {
+    if (before[i].windows > 0) rows += ScoreRows(before[i], after[i]);
+  }
+  return Element(
+      "table", {},
+      HeaderRow(
+          {{"Free-run RMSE", ""}, {"Old", "number"}, {"New", "number"}, {"Change", "number"}}) +
+          Element("tbody", {}, rows));
+}
+
+Markup ImprovementSection(const Diagnosis& diagnosis) {
+  return Section("What the model gains",
+                 "Identified again with the likely effects and scored on windows that did not take "
+                 "part in fitting.",
+                 ImprovementTable(diagnosis));
+}
+
+/// Those that the recording would show first, the clearest on top.
+std::vector<EffectTestability> ByTestability(std::vector<EffectTestability> effects) {
+  std::stable_sort(effects.begin(), effects.end(), [](const auto& a, const auto& b) {
+    if (a.testability != b.testability) return a.testability < b.testability;
+    return a.detectability > b.detectability;
+  });
+  return effects;
+}
+
+Markup TestabilityTable(const Diagnosis& diagnosis) {
+  if (diagnosis.effects.empty()) return Nothing("No effect of the library was asked for.");
+  Markup rows;
+  for (const EffectTestability& effect : ByTestability(diagnosis.effects)) {
+    rows +=
+        Element("tr", {},
+                Element("td", {}, JoinedName(effect.effect)) +
+                    Cell(Fixed(effect.detectability, 1), "number") + Cell(TestabilityText(effect)));
+  }
+  return Element("table", {},
+                 HeaderRow({{"Effect", ""}, {"Sigmas", "number"}, {"On this recording", ""}}) +
+                     Element("tbody", {}, rows));
+}
+
+Markup TestabilitySection(const Diagnosis& diagnosis) {
+  return Section("What this recording could show",
+                 "How many sigmas an effect of typical size would stand out, once the model's own "
+                 "coefficients have taken up what they can.",
+                 TestabilityTable(diagnosis));
+}
+
+Markup AdviceCard(const SeparationAdvice& advice) {
+  std::string separates;
+  for (const std::string& effect : advice.separates) {
+    separates.append(separates.empty() ? "" : " from ").append(effect);
+  }
+  const std::string gain = "Tells " + separates + " by " + Fixed(advice.expected_nats, 1) +
+                           " nats" +
+                           (advice.decisive ? ", which should settle it." : ", which may not do.");
+  Markup card = Styled("header", "",
+                       Styled("h3", "", Words(advice.manoeuvre)) +
+                           Styled("b", "share", Words(Fixed(advice.duration_s, 0) + " s")));
+  if (!advice.how.empty()) card += Element("p", {}, Words(advice.how));
+  return Styled("article", "card", card + Styled("p", "soft", Words(gain)));
+}
+
+Markup Next(const Diagnosis& diagnosis) {
+  Markup cards;
+  for (const SeparationAdvice& advice : diagnosis.advice) cards += AdviceCard(advice);
+  return Section("What to sail next", "",
+                 diagnosis.advice.empty()
+                     ? Nothing("No effects are tied that a manoeuvre of the catalogue would part.")
+                     : Styled("div", "cards", cards));
+}
+
+Markup Notes(const Diagnosis& diagnosis) {
+  Markup items;
+  for (const std::string& note : diagnosis.notes) items += Element("li", {}, Words(note));
+  return Section("Notes", "",
+                 diagnosis.notes.empty() ? Nothing("Nothing else limits the answer.")
+                                         : Element("ul", {}, items));
+}
+
+Markup Colophon(const Diagnosis& diagnosis) {
+  return Element("footer", {},
+                 Styled("p", "soft",
+                        Words("Telltale " + diagnosis.software_version + ", seed " +
+                              std::to_string(diagnosis.seed) + ".")));
+}
+
+}  // namespace
+
+std::string ReportPage(const Diagnosis& diagnosis) {
+  const Markup body = Element("main", {},
+                              Headline(diagnosis) + GapSection(diagnosis) + When(diagnosis) +
+                                  Where(diagnosis) + Which(diagnosis) + Paths(diagnosis) +
+                                  ImprovementSection(diagnosis) + TestabilitySection(diagnosis) +
+                                  Next(diagnosis) + Notes(diagnosis) + Colophon(diagnosis));
+  const Markup head = Markup::Own(
+                          "<meta charset=\"utf-8\">"
+                          "<meta name=\"viewport\" "
+                          "content=\"width=device-width, initial-scale=1\">") +
+                      Element("title", {}, Words("Diagnosis of " + diagnosis.vehicle_id)) +
+                      Element("style", {}, Markup::Own(Style()));
+  const Markup page =
+      Element("html", {{"lang", "en"}}, Element("head", {}, head) + Element("body", {}, body));
+  return "<!DOCTYPE html>\n" + page.Text() + '\n';
+}
+
+}  // namespace telltale

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "telltale/core/data/prepared_dataset.hpp"
+#include "telltale/core/data/samples.hpp"
+
+namespace telltale {
+
+/// A span of time in which no channel is silent for long.
+struct Segment {
+  double start_s = 0.0;
+  double end_s = 0.0;
+  /// The samples of each channel's own unbroken run around the segment, in the order of kChannels:
+  /// what may be interpolated from without crossing a gap.
+  std::array<RowRange, kChannels.size()> samples;
+
+  const RowRange& Of(Channel channel) const { return samples[static_cast<std::size_t>(channel)]; }
+};
+
+/// Cuts a recording where a channel is silent for more than `longest_gap_s`, and where not all
+/// three are present. Cost: linear in the samples.
+std::vector<Segment> FindSegments(const Recording& recording, double longest_gap_s);
+
+/// Equal parts of a segment, none longer than `longest_s`. Their samples still reach across the
+/// cuts: positions and headings far enough for any filter, commands as far back as thrusters
+/// remember.
+std::vector<Segment> CutSegment(const Segment& segment, const Recording& recording,
+                                double longest_s);
+
+/// Cuts `segment` of `rows` at each change of region and so that no slice has more than
+/// `longest` rows. The slices partition the segment.
+std::vector<RowRange> CutSlices(std::span<const PreparedRow> rows, const RowRange& segment,
+                                std::size_t longest);
+
+}  // namespace telltale

@@ -1,0 +1,377 @@
+#include "telltale/core/diagnosis/baseline/nominal_baseline.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "telltale/core/base/contract.hpp"
+#include "telltale/core/base/linear_algebra/covariance.hpp"
+#include "telltale/core/base/linear_algebra/eigen_decompositions.hpp"
+#include "telltale/core/diagnosis/baseline/residual_metric.hpp"
+
+namespace telltale {
+namespace {
+
+// Of the typical size: what a nominal boat may always have of an effect, and its day of weather,
+// believed as if one recording had shown it.
+constexpr double kPriorEffectSize = 0.1;
+constexpr double kPriorRecordings = 1.0;
+constexpr double kInitialFixedEffectSd =
+    0.5;  // typical sizes of what a boat may always have, to begin with
+constexpr double kCoefficientPriorScale =
+    10.0;  // by how many of its standard errors a model may be off
+constexpr double kNegligibleSd = 1e-6;
+constexpr double kMaximumOptimism = 10.0;
+constexpr int kMaximumRecalibrations = 8;  // at most
+constexpr double kConvergedRatio =
+    0.995;                          // of the squares: smaller gains are not worth another round
+constexpr double kSlopeStep = 0.1;  // in typical sizes
+constexpr int kRounds = 2;          // of scatter and unknowns in turn
+constexpr int kIterations = 25;     // of unknowns and sizes in turn
+constexpr std::array kStepLengths = {1.0, 0.7, 0.5, 0.35, 0.25, 0.12, 0.06, 0.03};  // of a step
+
+Eigen::MatrixXd SecondMoment(const std::vector<Eigen::MatrixXd>& residuals) {
+  const Eigen::Index rows = residuals.front().rows();
+  Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(rows, rows);
+  double windows = 0.0;
+  for (const Eigen::MatrixXd& residual : residuals) {
+    sum += residual * residual.transpose();
+    windows += static_cast<double>(residual.cols());
+  }
+  sum /= windows;
+  const double shrink = std::clamp(0.15 * static_cast<double>(rows) / windows, 0.01, 0.3);
+  const Eigen::VectorXd diagonal = sum.diagonal();
+  sum *= 1.0 - shrink;
+  sum.diagonal() += shrink * diagonal;
+  return sum;
+}
+
+/// (1 - rho) / (1 + rho) of whitened errors from one window to the next.
+double Kappa(const Eigen::LLT<Eigen::MatrixXd>& factor,
+             const std::vector<Eigen::MatrixXd>& recordings) {
+  double product = 0.0;
+  double square = 0.0;
+  for (const Eigen::MatrixXd& errors : recordings) {
+    const Eigen::MatrixXd white = factor.matrixL().solve(errors);
+    for (Eigen::Index w = 0; w + 1 < white.cols(); ++w) {
+      product += white.col(w).dot(white.col(w + 1));
+      square += 0.5 * (white.col(w).squaredNorm() + white.col(w + 1).squaredNorm());
+    }
+  }
+  const double rho = square > 0.0 ? product / square : 0.0;
+  return std::clamp((1.0 - rho) / (1.0 + rho), 0.1, 1.0);
+}
+
+/// What is estimated from nominal recordings, as one stack of unknowns: coefficients, lasting
+/// effects, then the weather of each day. All are changes of the boat about which the sensitivities
+/// were taken, but for the weather, which is taken anew.
+class NominalBaselineFit {
+ public:
+  NominalBaselineFit(const UncertainModel& model,
+                     const std::vector<EffectParameterRef>& parameter_refs, std::size_t days)
+      : coefficient_count_(static_cast<Eigen::Index>(model.free.size())),
+        parameter_refs_(static_cast<Eigen::Index>(parameter_refs.size())),
+        random_(RandomColumnsOf(parameter_refs)),
+        days_(static_cast<Eigen::Index>(days)),
+        coefficients_(Eigen::VectorXd::Zero(coefficient_count_)),
+        fixed_(Eigen::VectorXd::Zero(parameter_refs_)),
+        fixed_effect_sd_(Eigen::VectorXd::Constant(parameter_refs_, kInitialFixedEffectSd)),
+        recording_effect_sd_(Eigen::VectorXd::Constant(RandomCount(), kPriorEffectSize)) {
+    Eigen::MatrixXd correlation = model.Correlation();
+    correlation.diagonal().array() += 1e-6;
+    base_information_ = Inverse(correlation) / (kCoefficientPriorScale * kCoefficientPriorScale);
+    fixed_effect_limits_.resize(parameter_refs_, 2);
+    for (Eigen::Index j = 0; j < parameter_refs_; ++j) {
+      const EffectParameterRef& parameter_ref = parameter_refs[static_cast<std::size_t>(j)];
+      const EffectParameter& parameter =
+          parameter_ref.effect->Parameters()[parameter_ref.parameter];
+      fixed_effect_limits_.row(j) << parameter.lower / parameter.typical,
+          parameter.upper / parameter.typical;
+      if (parameter_ref.effect->Facts().nominal_variation == NominalVariation::kFixedEffect)
+        continue;
+      fixed_effect_limits_.row(j).setZero();
+      fixed_effect_sd_[j] = kNegligibleSd;
+    }
+  }
+
+  /// Sums up what whitened recordings say.
+  void Accumulate(const std::vector<Sensitivity>& recordings,
+                  const Eigen::LLT<Eigen::MatrixXd>& factor, double kappa) {
+    gram_ = Eigen::MatrixXd::Zero(Size(), Size());
+    right_ = Eigen::VectorXd::Zero(Size());
+    const Eigen::Index shared = coefficient_count_ + parameter_refs_;
+    for (Eigen::Index day = 0; day < days_; ++day) {
+      const Sensitivity& recording = recordings[static_cast<std::size_t>(day)];
+      Eigen::MatrixXd phi(recording.errors.size(), shared + RandomCount() + 1);
+      phi << recording.by_coefficient, recording.by_effect_parameter,
+          recording.by_effect_parameter(Eigen::all, random_), recording.errors.reshaped();
+      const Eigen::MatrixXd white = Whitened(factor, phi);
+      const Eigen::MatrixXd gram = kappa * white.transpose() * white;
+      const Eigen::Index own = shared + day * RandomCount();
+      const auto last = gram.col(shared + RandomCount());
+      gram_.topLeftCorner(shared, shared) += gram.topLeftCorner(shared, shared);
+      gram_.block(0, own, shared, RandomCount()) = gram.block(0, shared, shared, RandomCount());
+      gram_.block(own, 0, RandomCount(), shared) = gram.block(shared, 0, RandomCount(), shared);
+      gram_.block(own, own, RandomCount(), RandomCount()) =
+          gram.block(shared, shared, RandomCount(), RandomCount());
+      right_.head(shared) -= last.head(shared);
+      right_.segment(own, RandomCount()) = -last.segment(shared, RandomCount());
+    }
+  }
+
+  /// In turn unknowns given sizes, sizes given unknowns.
+  void Solve() {
+    for (int iteration = 0; iteration < kIterations; ++iteration) {
+      unknowns_ = Step();
+      UpdateStandardDeviations();
+    }
+  }
+
+  /// Makes the change that was found; the next one is sought from there.
+  void Accept(double share) {
+    coefficients_ += share * unknowns_.head(coefficient_count_);
+    fixed_ = (fixed_ + share * unknowns_.segment(coefficient_count_, parameter_refs_))
+                 .cwiseMax(fixed_effect_limits_.col(0))
+                 .cwiseMin(fixed_effect_limits_.col(1));
+  }
+
+  /// What the weather of a day does to a recording's errors, to be taken away by adding this.
+  Eigen::MatrixXd RecordingEffects(const Sensitivity& recording, std::size_t day) const {
+    const Eigen::VectorXd sizes = unknowns_.segment(
+        coefficient_count_ + parameter_refs_ + static_cast<Eigen::Index>(day) * RandomCount(),
+        RandomCount());
+    return (recording.by_effect_parameter(Eigen::all, random_) * sizes)
+        .reshaped(recording.errors.rows(), recording.errors.cols());
+  }
+
+  /// What would be left of a recording's errors if sensitivities told all.
+  Eigen::MatrixXd PredictedResiduals(const Sensitivity& recording, std::size_t day) const {
+    const Eigen::VectorXd left =
+        recording.errors.reshaped() +
+        recording.by_coefficient * unknowns_.head(coefficient_count_) +
+        recording.by_effect_parameter * unknowns_.segment(coefficient_count_, parameter_refs_);
+    return left.reshaped(recording.errors.rows(), recording.errors.cols()) +
+           RecordingEffects(recording, day);
+  }
+
+  const Eigen::VectorXd& Coefficients() const { return coefficients_; }
+  const Eigen::VectorXd& FixedEffects() const { return fixed_; }
+  Eigen::VectorXd RecordingEffectSd() const {
+    Eigen::VectorXd sizes = Eigen::VectorXd::Zero(parameter_refs_);
+    sizes(random_) = recording_effect_sd_;
+    return sizes;
+  }
+  Eigen::MatrixXd BoatCovariance() const {
+    return Inverse(Information())
+        .topLeftCorner(coefficient_count_ + parameter_refs_, coefficient_count_ + parameter_refs_);
+  }
+
+ private:
+  static std::vector<Eigen::Index> RandomColumnsOf(
+      const std::vector<EffectParameterRef>& parameter_refs) {
+    std::vector<Eigen::Index> random_columns;
+    for (std::size_t j = 0; j < parameter_refs.size(); ++j) {
+      if (parameter_refs[j].effect->Facts().nominal_variation ==
+          NominalVariation::kRecordingEffect) {
+        random_columns.push_back(static_cast<Eigen::Index>(j));
+      }
+    }
+    return random_columns;
+  }
+
+  Eigen::Index RandomCount() const { return static_cast<Eigen::Index>(random_.size()); }
+  Eigen::Index Size() const { return coefficient_count_ + parameter_refs_ + days_ * RandomCount(); }
+
+  Eigen::MatrixXd Information() const {
+    Eigen::MatrixXd information = gram_;
+    information.topLeftCorner(coefficient_count_, coefficient_count_) += base_information_;
+    information.diagonal().segment(coefficient_count_, parameter_refs_) +=
+        fixed_effect_sd_.cwiseAbs2().cwiseInverse();
+    information.diagonal().tail(days_ * RandomCount()) +=
+        recording_effect_sd_.cwiseAbs2().cwiseInverse().replicate(days_, 1);
+    return information;
+  }
+
+  Eigen::VectorXd Step() const {
+    Eigen::VectorXd right = right_;
+    right.head(coefficient_count_) -= base_information_ * coefficients_;
+    right.segment(coefficient_count_, parameter_refs_) -=
+        fixed_.cwiseQuotient(fixed_effect_sd_.cwiseAbs2());
+    return Information().llt().solve(right);
+  }
+
+  // By the most probable unknowns, not by expectation: what weather shares with the coefficients,
+  // which are the same every day, would otherwise keep it large for ever.
+  void UpdateStandardDeviations() {
+    const double prior = kPriorRecordings * kPriorEffectSize * kPriorEffectSize;
+    const auto recording_effects =
+        unknowns_.tail(days_ * RandomCount()).reshaped(RandomCount(), days_);
+    recording_effect_sd_ = ((recording_effects.rowwise().squaredNorm().array() + prior) /
+                            (static_cast<double>(days_) + kPriorRecordings))
+                               .sqrt();
+    for (Eigen::Index j = 0; j < parameter_refs_; ++j) {
+      if (fixed_effect_limits_(j, 0) == fixed_effect_limits_(j, 1)) continue;
+      const double now = fixed_[j] + unknowns_[coefficient_count_ + j];
+      fixed_effect_sd_[j] = std::sqrt((prior + now * now) / (1.0 + kPriorRecordings));
+    }
+  }
+
+  Eigen::Index coefficient_count_;
+  Eigen::Index parameter_refs_;
+  std::vector<Eigen::Index> random_;  // slots of weather
+  Eigen::Index days_;
+  Eigen::VectorXd coefficients_;
+  Eigen::VectorXd fixed_;
+  Eigen::VectorXd fixed_effect_sd_;
+  Eigen::VectorXd recording_effect_sd_;
+  Eigen::MatrixXd base_information_;
+  Eigen::MatrixXd fixed_effect_limits_;
+  Eigen::MatrixXd gram_;
+  Eigen::VectorXd right_;
+  Eigen::VectorXd unknowns_;
+};
+
+/// By how much more a recording that took no part in estimating the covariance leaves by it: the
+/// mean of Hotelling's T^2 over its rows, n / (n - rows - 1) with n windows.
+double OptimismOf(const std::vector<Sensitivity>& days) {
+  const auto rows = static_cast<double>(days.front().errors.rows());
+  double windows = 0.0;
+  for (const Sensitivity& day : days) windows += static_cast<double>(day.errors.cols());
+  return windows / std::max(windows - rows - 1.0, windows / kMaximumOptimism);
+}
+
+std::vector<Sensitivity> SensitivitiesOf(const std::vector<FreeRuns>& recordings,
+                                         const AugmentedModel& boat, const UncertainModel& model,
+                                         const std::vector<EffectParameterRef>& parameter_refs,
+                                         std::size_t threads, double step) {
+  std::vector<Sensitivity> sensitivities;
+  for (const FreeRuns& runs : recordings) {
+    sensitivities.push_back(SensitivityOf(runs, boat, model, parameter_refs, threads, step));
+  }
+  return sensitivities;
+}
+
+/// A boat on its way to how it sails on nominal days.
+class BaselineEstimation {
+ public:
+  BaselineEstimation(const std::vector<FreeRuns>& recordings, const UncertainModel& model,
+                     const std::vector<EffectParameterRef>& parameter_refs, std::size_t threads)
+      : recordings_(recordings),
+        model_(model),
+        parameter_refs_(parameter_refs),
+        threads_(threads),
+        fit_(model, parameter_refs, recordings.size()),
+        boat_{model.model, {}} {
+    for (const FreeRuns& runs : recordings) errors_.push_back(runs.Errors(boat_));
+    covariance_ = SecondMoment(errors_);
+  }
+
+  /// Whether the boat changed for the better by enough to go on.
+  bool Improve() {
+    sensitivities_ =
+        SensitivitiesOf(recordings_, boat_, model_, parameter_refs_, threads_, kSlopeStep);
+    // Weighed by the scatter that sensitivities promise to leave: by the present one, whatever the
+    // boat still does wrong would count as noise and stay.
+    for (int round = 0; round < kRounds; ++round) {
+      Reestimate();
+      for (std::size_t day = 0; day < errors_.size(); ++day) {
+        errors_[day] = fit_.PredictedResiduals(sensitivities_[day], day);
+      }
+      covariance_ = SecondMoment(errors_);
+    }
+    factor_.compute(covariance_);
+    errors_ = LessRecordingEffects(boat_);
+    const double before = SquaredNorm(errors_);
+    return LineSearch(before) < kConvergedRatio * before;
+  }
+
+  NominalBaseline Baseline() {
+    covariance_ = SecondMoment(errors_);
+    Reestimate();
+    NominalBaseline nominal{
+        .boat = boat_,
+        .covariance = covariance_,
+        .kappa = kappa_,
+        .boat_covariance = fit_.BoatCovariance(),
+        .recording_effect_sd = fit_.RecordingEffectSd(),
+        .days = SensitivitiesOf(recordings_, boat_, model_, parameter_refs_, threads_, 1.0),
+        .log_reduced_chi_squares = {}};
+    const double optimism = std::log(OptimismOf(nominal.days));
+    for (const Sensitivity& day : nominal.days) {
+      const ResidualMetric metric(nominal, day, EveryWindow(day), false);
+      nominal.log_reduced_chi_squares.push_back(
+          std::log(metric.ReducedChiSquare(metric.Whiten(day.errors))) + optimism);
+    }
+    return nominal;
+  }
+
+ private:
+  void Reestimate() {
+    factor_.compute(covariance_);
+    kappa_ = Kappa(factor_, errors_);
+    fit_.Accumulate(sensitivities_, factor_, kappa_);
+    fit_.Solve();
+  }
+
+  // Steps are longer than linear: a delay or a dead zone that is found moves much besides.
+  double LineSearch(double before) {
+    const NominalBaselineFit start = fit_;
+    double least = before;
+    for (const double share : kStepLengths) {
+      NominalBaselineFit tried = start;
+      tried.Accept(share);
+      const Eigen::VectorXd change = tried.Coefficients().cwiseProduct(model_.StandardErrors());
+      AugmentedModel boat{model_.Changed(model_.model, change),
+                          EffectsOf(parameter_refs_, tried.FixedEffects())};
+      auto left = LessRecordingEffects(boat);
+      const double square = SquaredNorm(left);
+      if (square >= least) continue;
+      least = square;
+      fit_ = std::move(tried);
+      boat_ = std::move(boat);
+      errors_ = std::move(left);
+    }
+    return least;
+  }
+
+  std::vector<Eigen::MatrixXd> LessRecordingEffects(const AugmentedModel& boat) const {
+    std::vector<Eigen::MatrixXd> left;
+    for (std::size_t day = 0; day < recordings_.size(); ++day) {
+      left.emplace_back(recordings_[day].Errors(boat) +
+                        fit_.RecordingEffects(sensitivities_[day], day));
+    }
+    return left;
+  }
+
+  double SquaredNorm(const std::vector<Eigen::MatrixXd>& errors) const {
+    double sum = 0.0;
+    for (const Eigen::MatrixXd& day : errors) sum += factor_.matrixL().solve(day).squaredNorm();
+    return sum;
+  }
+
+  const std::vector<FreeRuns>& recordings_;
+  const UncertainModel& model_;
+  const std::vector<EffectParameterRef>& parameter_refs_;
+  std::size_t threads_;
+  NominalBaselineFit fit_;
+  AugmentedModel boat_;
+  std::vector<Sensitivity> sensitivities_;
+  std::vector<Eigen::MatrixXd> errors_;  ///< about the boat, less what weather did
+  Eigen::MatrixXd covariance_;
+  Eigen::LLT<Eigen::MatrixXd> factor_;  ///< of it
+  double kappa_ = 1.0;
+};
+
+}  // namespace
+
+NominalBaseline LearnNominalBaseline(const std::vector<FreeRuns>& recordings,
+                                     const UncertainModel& model,
+                                     const std::vector<EffectParameterRef>& parameter_refs,
+                                     std::size_t threads) {
+  Require(!recordings.empty(), "at least one nominal recording");
+  BaselineEstimation estimation(recordings, model, parameter_refs, threads);
+  for (int round = 0; round < kMaximumRecalibrations && estimation.Improve(); ++round) continue;
+  return estimation.Baseline();
+}
+
+}  // namespace telltale

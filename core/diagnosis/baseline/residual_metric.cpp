@@ -1,0 +1,176 @@
+#include "telltale/core/diagnosis/baseline/residual_metric.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <utility>
+
+#include "telltale/core/base/linear_algebra/covariance.hpp"
+#include "telltale/core/base/linear_algebra/eigen_decompositions.hpp"
+
+namespace telltale {
+namespace {
+
+// In standard errors of the model: as good as free.
+constexpr double kUnboundedPrior = 100.0;
+// A window that errs by more root mean square sigmas than this counts as erring by so many: a model
+// that has run away says that it is wrong, not how much.
+constexpr double kMaximumSigmas = 50.0;
+constexpr double kNothing = 1e-12;
+
+Eigen::MatrixXd RootOf(const Eigen::MatrixXd& covariance) {
+  const Eigen::LDLT<Eigen::MatrixXd> factor(covariance);
+  const Eigen::MatrixXd root =
+      Eigen::MatrixXd(factor.matrixL()) * factor.vectorD().cwiseMax(0.0).cwiseSqrt().asDiagonal();
+  return factor.transpositionsP().transpose() * root;
+}
+
+}  // namespace
+
+ResidualMetric::ResidualMetric(const NominalBaseline& nominal, const Sensitivity& recording,
+                               std::vector<std::size_t> windows, bool free_coefficients)
+    : windows_(std::move(windows)),
+      frees_coefficients_(free_coefficients),
+      factor_(nominal.covariance),
+      kappa_(nominal.kappa) {
+  const Eigen::Index base = recording.by_coefficient.cols();
+  const Eigen::Index parameter_refs = recording.by_effect_parameter.cols();
+  Eigen::MatrixXd covariance = nominal.boat_covariance;
+  if (free_coefficients)
+    covariance.diagonal().head(base).array() += kUnboundedPrior * kUnboundedPrior;
+  const Eigen::MatrixXd root = RootOf(covariance);
+  coefficient_root_ = root.topRows(base);
+  Eigen::MatrixXd boat(recording.errors.size(), base + parameter_refs);
+  boat << recording.by_coefficient, recording.by_effect_parameter;
+  std::vector<Eigen::Index> random_effects;
+  for (Eigen::Index j = 0; j < parameter_refs; ++j) {
+    if (nominal.recording_effect_sd[j] > 0.0) random_effects.push_back(j);
+  }
+  Eigen::MatrixXd nuisance(recording.errors.size(),
+                           base + parameter_refs + std::ssize(random_effects));
+  // A day's weather is one draw of its own and counts in full, where errors count by looks.
+  nuisance << boat * root,
+      recording.by_effect_parameter(Eigen::all, random_effects) *
+          (nominal.recording_effect_sd(random_effects) / std::sqrt(RowsPerObservation()))
+              .asDiagonal();
+  nuisance_ = WhitenColumns(nuisance);
+  FactoriseNuisance();
+}
+
+void ResidualMetric::FactoriseNuisance() {
+  Eigen::MatrixXd weights = nuisance_.transpose() * nuisance_;
+  weights.diagonal().array() += 1.0;
+  nuisance_factor_.compute(weights);
+}
+
+ResidualMetric ResidualMetric::WithWindowVariation(const Eigen::MatrixXd& varying) const {
+  const Eigen::Index rows = factor_.rows();
+  const Eigen::Index columns = varying.cols();
+  const Eigen::MatrixXd white = WhitenColumns(varying) / std::sqrt(kappa_);
+  ResidualMetric metric = *this;
+  metric.window_variation_.resize(rows, columns * std::ssize(windows_));
+  for (Eigen::Index w = 0; w < std::ssize(windows_); ++w) {
+    const auto window = white.middleRows(w * rows, rows);
+    const Eigen::MatrixXd gram = window.transpose() * window;
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> axes(gram);
+    const Eigen::ArrayXd squares = axes.eigenvalues().array().max(kNothing);
+    const Eigen::VectorXd damped = ((1.0 - (1.0 + squares).rsqrt()) / squares).sqrt();
+    metric.window_variation_.middleCols(w * columns, columns) =
+        window * axes.eigenvectors() * damped.asDiagonal();
+    metric.variation_penalty_ += kappa_ * squares.log1p().sum() / RowsPerObservation();
+  }
+  metric.DeflateWindowVariation(metric.nuisance_);
+  metric.FactoriseNuisance();
+  return metric;
+}
+
+void ResidualMetric::DeflateWindowVariation(Eigen::MatrixXd& seen) const {
+  if (window_variation_.size() == 0) return;
+  const Eigen::Index rows = factor_.rows();
+  const Eigen::Index columns = window_variation_.cols() / std::ssize(windows_);
+  for (Eigen::Index w = 0; w < std::ssize(windows_); ++w) {
+    const auto allowed = window_variation_.middleCols(w * columns, columns);
+    auto window = seen.middleRows(w * rows, rows);
+    window -= allowed * (allowed.transpose() * window).eval();
+  }
+}
+
+Eigen::VectorXd ResidualMetric::Whiten(const Eigen::MatrixXd& errors) const {
+  Eigen::VectorXd seen = WhitenColumns(errors.reshaped()).col(0);
+  auto windows = seen.reshaped(factor_.rows(), seen.size() / factor_.rows());
+  const double most = kMaximumSigmas * std::sqrt(static_cast<double>(factor_.rows()));
+  for (auto window : windows.colwise()) window *= std::min(1.0, most / window.norm());
+  return seen;
+}
+
+double ResidualMetric::ExpectedSquare() const {
+  return kappa_ * static_cast<double>(windows_.size()) * static_cast<double>(factor_.rows());
+}
+
+double ResidualMetric::EffectiveObservations() const {
+  return kObservationsPerWindow * kappa_ * static_cast<double>(windows_.size());
+}
+
+double ResidualMetric::Deviance(double square, double than) const {
+  return EffectiveObservations() * std::log(square / than);
+}
+
+double ResidualMetric::Sigmas(const Eigen::VectorXd& seen) const {
+  return std::sqrt(SquaredMahalanobis(seen) / RowsPerObservation());
+}
+
+Eigen::MatrixXd ResidualMetric::WhitenColumns(const Eigen::MatrixXd& stacked) const {
+  const Eigen::Index rows = factor_.rows();
+  Eigen::MatrixXd chosen(rows * static_cast<Eigen::Index>(windows_.size()), stacked.cols());
+  for (Eigen::Index j = 0; j < stacked.cols(); ++j) {
+    const auto all = stacked.col(j).reshaped(rows, stacked.rows() / rows);
+    chosen.col(j) = all(Eigen::all, windows_).reshaped();
+  }
+  Eigen::MatrixXd seen = std::sqrt(kappa_) * Whitened(factor_, chosen);
+  DeflateWindowVariation(seen);
+  return seen;
+}
+
+Eigen::MatrixXd ResidualMetric::WhitenMoment(const Eigen::MatrixXd& pattern) const {
+  const Eigen::MatrixXd half = factor_.matrixL().solve(pattern);
+  return factor_.matrixL().solve(half.transpose());
+}
+
+Eigen::MatrixXd ResidualMetric::Marginalise(const Eigen::MatrixXd& seen) const {
+  const Eigen::MatrixXd along = nuisance_.transpose() * seen;
+  const Eigen::MatrixXd taken = nuisance_factor_.solve(along);
+  return seen - nuisance_ * taken;
+}
+
+Eigen::MatrixXd ResidualMetric::UnexplainedByWindow(const Eigen::VectorXd& seen) const {
+  const Eigen::VectorXd left = Unexplained(seen) / std::sqrt(kappa_);
+  return left.reshaped(factor_.rows(), static_cast<Eigen::Index>(windows_.size()));
+}
+
+ResidualMetric::Recalibration ResidualMetric::Recalibrate(const Eigen::VectorXd& seen) const {
+  const Eigen::Index boat = coefficient_root_.cols();
+  const Eigen::VectorXd along = nuisance_.transpose() * seen;
+  const Eigen::VectorXd nuisance = nuisance_factor_.solve(along);
+  const Eigen::MatrixXd identity = Eigen::MatrixXd::Identity(nuisance_.cols(), nuisance_.cols());
+  const Eigen::MatrixXd covariance = nuisance_factor_.solve(identity).topLeftCorner(boat, boat);
+  return {-coefficient_root_ * nuisance.head(boat), Mapped(coefficient_root_, covariance)};
+}
+
+Eigen::MatrixXd Whitened(const Eigen::LLT<Eigen::MatrixXd>& factor,
+                         const Eigen::MatrixXd& stacked) {
+  const Eigen::Index rows = factor.rows();
+  Eigen::MatrixXd white = stacked;
+  for (Eigen::Index j = 0; j < white.cols(); ++j) {
+    auto windows = white.col(j).reshaped(rows, stacked.rows() / rows);
+    factor.matrixL().solveInPlace(windows);
+  }
+  return white;
+}
+
+std::vector<std::size_t> EveryWindow(const Sensitivity& recording) {
+  std::vector<std::size_t> windows(static_cast<std::size_t>(recording.errors.cols()));
+  std::iota(windows.begin(), windows.end(), std::size_t{0});
+  return windows;
+}
+
+}  // namespace telltale

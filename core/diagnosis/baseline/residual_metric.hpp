@@ -1,0 +1,125 @@
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "telltale/core/base/linear_algebra/eigen_decompositions.hpp"
+#include "telltale/core/diagnosis/baseline/nominal_baseline.hpp"
+#include "telltale/core/diagnosis/residuals/sensitivity.hpp"
+
+namespace telltale {
+
+/// Independent looks at a boat that a window amounts to, docs/concepts/diagnosis.md (89).
+inline constexpr double kObservationsPerWindow = 0.5;
+
+/// Weighs the errors of one recording by what a nominal boat may do: scatter from window to window,
+/// coefficients and lasting effects off by what their covariance leaves, and a day's weather.
+/// Model: (y, z) = kappa y' V^-1 z with V the nominal covariance of all errors together, by the
+/// matrix inversion lemma; docs/concepts/diagnosis.md (87).
+class ResidualMetric {
+ public:
+  /// Only the given windows count. `free_coefficients`: coefficients may follow the recording as
+  /// they like.
+  ResidualMetric(const NominalBaseline& nominal, const Sensitivity& recording,
+                 std::vector<std::size_t> windows, bool free_coefficients);
+
+  /// The same, where besides each window's errors may vary, on their own, by what the columns do to
+  /// them. Shapes: errors stacked window by window, one column a unit of what varies.
+  ResidualMetric WithWindowVariation(const Eigen::MatrixXd& varying) const;
+
+  const std::vector<std::size_t>& Windows() const { return windows_; }
+  bool FreesCoefficients() const { return frees_coefficients_; }
+
+  /// The errors of a model (rows x all windows) as they count: whitened, of the windows that count,
+  /// none larger than a lost boat.
+  Eigen::VectorXd Whiten(const Eigen::MatrixXd& errors) const;
+
+  /// Columns of stacked errors likewise, however large.
+  Eigen::MatrixXd WhitenColumns(const Eigen::MatrixXd& stacked) const;
+
+  /// What is left of seen errors once all that may vary in health is weighed in.
+  Eigen::MatrixXd Marginalise(const Eigen::MatrixXd& seen) const;
+
+  double SquaredMahalanobis(const Eigen::VectorXd& seen) const {
+    return seen.dot(Marginalise(seen).col(0));
+  }
+
+  /// SquaredMahalanobis as a share of what a nominal boat is expected to leave: about one.
+  double ReducedChiSquare(const Eigen::VectorXd& seen) const {
+    return SquaredMahalanobis(seen) / ExpectedSquare();
+  }
+
+  /// The square that a nominal boat is expected to leave.
+  double ExpectedSquare() const;
+
+  /// Rows of errors that amount to one look.
+  double RowsPerObservation() const {
+    return static_cast<double>(factor_.rows()) / kObservationsPerWindow;
+  }
+
+  /// How many independent looks at the boat the recording amounts to: errors within a window, and
+  /// what a model leaves wrong everywhere alike, vary together.
+  double EffectiveObservations() const;
+
+  /// -2 ln of how much likelier what leaves one square is than what leaves the other, if the scale
+  /// of errors is not known: looks ln(square / than); docs/concepts/diagnosis.md (89).
+  double Deviance(double square, double than) const;
+
+  /// What allowing for more costs: ln of how much wider it makes all windows, counted by looks.
+  double VariationPenalty() const { return variation_penalty_; }
+
+  /// By how many sigmas something shows, counted by looks.
+  double Sigmas(const Eigen::VectorXd& seen) const;
+
+  /// Seen errors less the most probable part of what may vary in health.
+  Eigen::VectorXd Unexplained(const Eigen::VectorXd& seen) const {
+    return Marginalise(seen).col(0);
+  }
+
+  /// The same by window, rows x windows, of unit variance in health.
+  Eigen::MatrixXd UnexplainedByWindow(const Eigen::VectorXd& seen) const;
+
+  /// How the coefficients most probably differ from the nominal boat's, and how certain that is.
+  /// Units: standard errors of the model.
+  struct Recalibration {
+    Eigen::VectorXd change;
+    Eigen::MatrixXd covariance;
+  };
+  Recalibration Recalibrate(const Eigen::VectorXd& seen) const;
+
+  double Kappa() const { return kappa_; }
+
+  /// L^-1 pattern L^-T of a second moment of one window's errors.
+  Eigen::MatrixXd WhitenMoment(const Eigen::MatrixXd& pattern) const;
+
+ private:
+  void FactoriseNuisance();
+  void DeflateWindowVariation(Eigen::MatrixXd& seen) const;
+
+  std::vector<std::size_t> windows_;
+  bool frees_coefficients_;
+  Eigen::LLT<Eigen::MatrixXd> factor_;
+  double kappa_;
+  Eigen::MatrixXd nuisance_;  // as seen, one column a unit of what may vary
+  Eigen::LLT<Eigen::MatrixXd> nuisance_factor_;
+  Eigen::MatrixXd
+      coefficient_root_;  // rows of the coefficients in the root of the boat's covariance
+  // Of each window what is allowed to vary, D of (I + b b')^(-1/2) = I - D D'; side by side.
+  Eigen::MatrixXd window_variation_;
+  double variation_penalty_ = 0.0;
+};
+
+/// Nats that so many looks yield against what adds this share to the square that the truth leaves.
+inline double LogEvidenceOf(double effective_observations, double share) {
+  return 0.5 * effective_observations * std::log1p(share);
+}
+
+/// L^-1 applied to every window of every column, L L' the covariance of a window.
+Eigen::MatrixXd Whitened(const Eigen::LLT<Eigen::MatrixXd>& factor, const Eigen::MatrixXd& stacked);
+
+std::vector<std::size_t> EveryWindow(const Sensitivity& recording);
+
+}  // namespace telltale

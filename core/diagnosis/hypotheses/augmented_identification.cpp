@@ -1,0 +1,80 @@
+#include "telltale/core/diagnosis/hypotheses/augmented_identification.hpp"
+
+#include <array>
+#include <cmath>
+#include <string>
+
+#include "telltale/core/base/linear_algebra/covariance.hpp"
+#include "telltale/core/uncertainty/interval.hpp"
+
+namespace telltale {
+namespace {
+
+ResidualMetric::Recalibration RecalibrationOf(const EffectFit& fit,
+                                              const DiagnosisProblem& problem) {
+  const ResidualMetric metric = fit.WidenedMetric(problem.metric);
+  return metric.Recalibrate(metric.Whiten(fit.errors));
+}
+
+}  // namespace
+
+AugmentedModel Reidentified(const EffectFit& fit, const DiagnosisProblem& problem,
+                            const UncertainModel& model) {
+  const Eigen::VectorXd change =
+      RecalibrationOf(fit, problem).change.cwiseProduct(model.StandardErrors());
+  const AugmentedModel& nominal = problem.nominal.boat;
+  return AugmentedModel{model.Changed(nominal.model, change), nominal.effects}.With(fit.effects);
+}
+
+Identification Augmented(const Identification& old, const AugmentedModel& boat,
+                         const EffectFit& fit, const DiagnosisProblem& problem,
+                         const UncertainModel& model) {
+  Identification augmented = old;
+  const Eigen::VectorXd scale = model.StandardErrors();
+  const Eigen::MatrixXd covariance = Scaled(RecalibrationOf(fit, problem).covariance, scale);
+  std::array<Eigen::Index, 3> column{};
+  Eigen::Index free = 0;
+  std::vector<Eigen::Index> place_of;
+  for (std::size_t i = 0; i < augmented.coefficients.size(); ++i) {
+    Coefficient& coefficient = augmented.coefficients[i];
+    const std::size_t equation = IndexOf(coefficient.equation);
+    const Eigen::Index own = column[equation]++;
+    coefficient.estimate = boat.model.theta[equation][own];
+    const bool is_free = free < static_cast<Eigen::Index>(model.free.size()) &&
+                         IndexOf(model.free[static_cast<std::size_t>(free)].equation) == equation &&
+                         model.free[static_cast<std::size_t>(free)].column == own;
+    if (!is_free) continue;
+    coefficient.standard_error = std::sqrt(covariance(free, free));
+    coefficient.interval = NormalInterval(coefficient.estimate, coefficient.standard_error,
+                                          coefficient.interval.level);
+    place_of.push_back(static_cast<Eigen::Index>(i));
+    ++free;
+  }
+  augmented.covariance(place_of, place_of) = covariance;
+  augmented.simulation.clear();  // what was sailed with is what the new estimates started from
+  augmented.effects.clear();
+  for (const auto& [effect, values] : boat.effects) {
+    augmented.effects.push_back({std::string(effect->Name()), values});
+  }
+  augmented.provenance.bounds_basis =
+      "windows of free runs with the likely effects in the model, from the bounds of the model "
+      "that was diagnosed";
+  return augmented;
+}
+
+Result<AugmentedModel> AugmentedModelOf(const Identification& identification) {
+  auto model = ModelOf(identification);
+  if (!model) return tl::unexpected<Refusal>(model.error());
+  AugmentedModel augmented{*std::move(model), {}};
+  for (const AddedEffect& added : identification.effects) {
+    const Effect* effect = FindEffect(added.effect);
+    if (effect == nullptr || effect->Parameters().size() != added.values.size()) {
+      return Refuse("effects", "the model names an effect that there is not: " + added.effect,
+                    "use a model of the same version");
+    }
+    augmented.effects.push_back({effect, added.values});
+  }
+  return augmented;
+}
+
+}  // namespace telltale

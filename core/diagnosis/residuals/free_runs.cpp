@@ -1,0 +1,222 @@
+#include "telltale/core/diagnosis/residuals/free_runs.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+
+#include "telltale/core/base/contract.hpp"
+#include "telltale/core/base/linear_algebra/eigen_decompositions.hpp"
+#include "telltale/core/effects/augmented_boat.hpp"
+#include "telltale/core/effects/sensor_chain.hpp"
+
+namespace telltale {
+namespace {
+
+constexpr double kBinsPerWindow = 10.0;
+// Stamps of seconds since 1970 are exact to a fraction of a microsecond.
+constexpr double kSameBin = 1e-4;
+// Beyond this a run has left what can be compared: metres, radians.
+constexpr double kDivergedError = 1e3;
+// Steps by which a start is varied: metres, radians, m/s, rad/s. Small against what windows show,
+// large against rounding.
+constexpr std::array kStartSteps = {1e-2, 1e-2, 1e-3, 1e-2, 1e-2, 1e-2};
+
+Pose Moved(Pose pose, const Eigen::Matrix<double, 6, 1>& by) {
+  pose.eta.x_m += by[0];
+  pose.eta.y_m += by[1];
+  pose.eta.psi_rad += by[2];
+  pose.nu.u += by[3];
+  pose.nu.v += by[4];
+  pose.nu.r += by[5];
+  return pose;
+}
+
+/// The pose at a time along poses that are step_s apart, by the parabola that fits the velocities
+/// at both ends; a straight line before the first.
+Eta PoseAt(const std::vector<Pose>& track, double since_start_s, double step_s) {
+  const double steps = since_start_s / step_s;
+  const auto last = static_cast<double>(track.size() - 2);
+  const auto k = static_cast<std::size_t>(std::clamp(std::floor(steps), 0.0, last));
+  const double share = steps - static_cast<double>(k);
+  const Pose& a = track[k];
+  const Pose& b = track[k + 1];
+  const double bow = share < 0.0 ? 0.0 : 0.5 * share * (1.0 - share) * step_s;
+  const Eigen::Vector3d faster = EtaDot(b.eta.psi_rad, b.nu) - EtaDot(a.eta.psi_rad, a.nu);
+  return {a.eta.x_m + share * (b.eta.x_m - a.eta.x_m) - bow * faster[0],
+          a.eta.y_m + share * (b.eta.y_m - a.eta.y_m) - bow * faster[1],
+          a.eta.psi_rad + share * (b.eta.psi_rad - a.eta.psi_rad) - bow * faster[2]};
+}
+
+/// The heading alone.
+double HeadingAt(const std::vector<Pose>& track, double since_start_s, double step_s) {
+  const double steps = since_start_s / step_s;
+  const auto last = static_cast<double>(track.size() - 2);
+  const auto k = static_cast<std::size_t>(std::clamp(std::floor(steps), 0.0, last));
+  const double share = steps - static_cast<double>(k);
+  const double bow = share < 0.0 ? 0.0 : 0.5 * share * (1.0 - share) * step_s;
+  return track[k].eta.psi_rad + share * (track[k + 1].eta.psi_rad - track[k].eta.psi_rad) -
+         bow * (track[k + 1].nu.r - track[k].nu.r);
+}
+
+double Limited(double error) {
+  return std::isfinite(error) ? std::clamp(error, -kDivergedError, kDivergedError) : kDivergedError;
+}
+
+}  // namespace
+
+FreeRuns::FreeRuns(const PreparedDataset& dataset, const VesselModel& base, double horizon_s)
+    : dataset_(&dataset),
+      horizon_s_(horizon_s),
+      rows_(static_cast<std::size_t>(std::lround(horizon_s / dataset.sampling_period_s))),
+      steps_(StepsPerRow(base, dataset.sampling_period_s)),
+      step_s_(dataset.sampling_period_s / static_cast<double>(steps_)) {
+  Require(horizon_s > 0.0, "a horizon");
+  const double shortest_bin_s = std::max(horizon_s / kBinsPerWindow, dataset.sampling_period_s);
+  bins_ = std::max<Eigen::Index>(
+      1, static_cast<Eigen::Index>(std::floor(horizon_s / shortest_bin_s + 1e-9)));
+  for (std::size_t s = 0; s < dataset.segments.size(); ++s) {
+    const RowRange& segment = dataset.segments[s];
+    for (std::size_t k = segment.begin; k + rows_ < segment.end; k += rows_) {
+      Window window;
+      if (Collect(s, k, window)) windows_.push_back(std::move(window));
+    }
+  }
+  const AugmentedModel alone{base, {}};
+  const Eigen::MatrixXd errors = RawErrors(alone, Offset::Zero());
+  for (Window& window : windows_) window.by_start.resize(Rows(), 6);
+  for (Eigen::Index i = 0; i < 6; ++i) {
+    Offset offset = Offset::Zero();
+    offset[i] = kStartSteps[static_cast<std::size_t>(i)];
+    const Eigen::MatrixXd moved = RawErrors(alone, offset);
+    for (std::size_t w = 0; w < windows_.size(); ++w) {
+      windows_[w].by_start.col(i) =
+          (moved.col(static_cast<Eigen::Index>(w)) - errors.col(static_cast<Eigen::Index>(w))) /
+          offset[i];
+    }
+  }
+  const double position = std::max(dataset.sensors.position_noise_m, 0.005);
+  const double heading = std::max(dataset.sensors.heading_noise_rad, 0.001);
+  for (Window& window : windows_) {
+    Eigen::VectorXd weights = window.per_bin;
+    for (Eigen::Index i = 0; i < weights.size(); ++i) {
+      weights[i] /= i % 3 == 2 ? heading * heading : position * position;
+    }
+    const Eigen::Matrix<double, 6, Eigen::Dynamic> weighted =
+        window.by_start.transpose() * weights.asDiagonal();
+    // A start that a short window leaves open stays where it was measured.
+    const Eigen::Matrix<double, 6, 6> information = weighted * window.by_start;
+    const Eigen::Matrix<double, 6, 6> regularised =
+        information + 1e-9 * Eigen::Matrix<double, 6, 6>(information.diagonal().asDiagonal());
+    window.start_estimator = regularised.ldlt().solve(weighted);
+  }
+}
+
+bool FreeRuns::Collect(std::size_t segment, std::size_t first_row, Window& window) const {
+  window.segment = segment;
+  window.first_row = first_row;
+  window.per_bin = Eigen::VectorXd::Zero(Rows());
+  const double from = dataset_->rows[first_row].time_s;
+  const double bin_s = horizon_s_ / static_cast<double>(bins_);
+  const auto bin_of = [&](double time_s) {
+    return static_cast<Eigen::Index>(std::ceil((time_s - from) / bin_s - kSameBin)) - 1;
+  };
+  const RawSignals& raw = dataset_->signals[segment];
+  const auto& fix_times = raw.north_m.times_s;
+  for (std::size_t i = 0; i < fix_times.size(); ++i) {
+    const Eigen::Index bin = bin_of(fix_times[i]);
+    if (bin < 0 || bin >= bins_) continue;
+    const double psi = MeasuredAt(*dataset_, dataset_->segments[segment], fix_times[i]).eta.psi_rad;
+    window.fixes.push_back({fix_times[i], raw.north_m.values[i], raw.east_m.values[i],
+                            std::cos(psi), std::sin(psi), bin});
+    window.per_bin[3 * bin] += 1.0;
+    window.per_bin[3 * bin + 1] += 1.0;
+  }
+  const auto& heading_times = raw.psi_rad.times_s;
+  for (std::size_t i = 0; i < heading_times.size(); ++i) {
+    const Eigen::Index bin = bin_of(heading_times[i]);
+    if (bin < 0 || bin >= bins_) continue;
+    window.headings.push_back({heading_times[i], raw.psi_rad.values[i], bin});
+    window.per_bin[3 * bin + 2] += 1.0;
+  }
+  return window.per_bin.minCoeff() > 0.0;
+}
+
+template <class Visit>
+void FreeRuns::ForEachTrack(const AugmentedModel& model, const Offset& offset, Visit visit) const {
+  const double start_s = dataset_->StartTime();
+  const AugmentedBoat boat(model, start_s, std::max(dataset_->EndTime() - start_s, 1.0));
+  std::vector<Drive> drives;
+  std::size_t driven = dataset_->segments.size();
+  for (std::size_t w = 0; w < windows_.size(); ++w) {
+    const Window& window = windows_[w];
+    const RowRange& segment = dataset_->segments[window.segment];
+    const double segment_start_s = dataset_->rows[segment.begin].time_s;
+    if (driven != window.segment) {
+      drives = boat.DrivesAlong(dataset_->commands[window.segment], segment_start_s, step_s_,
+                                segment.size() * steps_);
+      driven = window.segment;
+    }
+    const double from_s = dataset_->rows[window.first_row].time_s;
+    const std::size_t first_step = (window.first_row - segment.begin) * steps_;
+    const Pose start = Moved(TrueStart(*dataset_, segment, from_s, boat), offset);
+    const auto ahead = std::span(drives).subspan(first_step, rows_ * steps_);
+    visit(w, boat, from_s, boat.Simulate(start, ahead, from_s, step_s_));
+  }
+}
+
+Eigen::MatrixXd FreeRuns::RawErrors(const AugmentedModel& model, const Offset& offset) const {
+  Eigen::MatrixXd errors =
+      Eigen::MatrixXd::Zero(Rows(), static_cast<Eigen::Index>(windows_.size()));
+  ForEachTrack(
+      model, offset,
+      [&](std::size_t w, const AugmentedBoat& boat, double from_s, const std::vector<Pose>& track) {
+        const Window& window = windows_[w];
+        auto error = errors.col(static_cast<Eigen::Index>(w));
+        const double ahead = dataset_->sensors.antenna.forward_m + boat.AntennaShift().forward_m;
+        const double aside =
+            dataset_->sensors.antenna.starboard_m + boat.AntennaShift().starboard_m;
+        for (const Fix& fix : window.fixes) {
+          const Eta eta = PoseAt(track, fix.time_s - boat.LatencyS() - from_s, step_s_);
+          const Eigen::Vector2d antenna =
+              Eigen::Vector2d(eta.x_m, eta.y_m) + Turned(eta.psi_rad, ahead, aside);
+          const double north = Limited(fix.north_m - antenna[0]);
+          const double east = Limited(fix.east_m - antenna[1]);
+          error[3 * fix.bin] += fix.cos_psi * north + fix.sin_psi * east;
+          error[3 * fix.bin + 1] += -fix.sin_psi * north + fix.cos_psi * east;
+        }
+        for (const MeasuredHeading& heading : window.headings) {
+          const double psi = HeadingAt(track, heading.time_s - from_s, step_s_);
+          error[3 * heading.bin + 2] += Limited(heading.psi_rad - boat.HeadingErrorRad() - psi);
+        }
+        error.array() /= window.per_bin.array();
+      });
+  return errors;
+}
+
+Eigen::MatrixXd FreeRuns::Errors(const AugmentedModel& model) const {
+  Eigen::MatrixXd errors = RawErrors(model, Offset::Zero());
+  for (std::size_t w = 0; w < windows_.size(); ++w) {
+    auto error = errors.col(static_cast<Eigen::Index>(w));
+    const Eigen::Matrix<double, 6, 1> start = windows_[w].start_estimator * error;
+    error -= windows_[w].by_start * start;
+  }
+  return errors;
+}
+
+FreeRuns::Circumstances FreeRuns::Of(std::size_t window) const {
+  const Window& it = windows_[window];
+  return {dataset_->rows[it.first_row].time_s, it.first_row, rows_};
+}
+
+std::vector<std::vector<Eigen::Vector2d>> FreeRuns::Tracks(const AugmentedModel& model) const {
+  std::vector<std::vector<Eigen::Vector2d>> tracks(windows_.size());
+  ForEachTrack(model, Offset::Zero(),
+               [&](std::size_t w, const AugmentedBoat&, double, const std::vector<Pose>& track) {
+                 for (std::size_t k = 0; k < track.size(); k += steps_) {
+                   tracks[w].emplace_back(track[k].eta.x_m, track[k].eta.y_m);
+                 }
+               });
+  return tracks;
+}
+
+}  // namespace telltale

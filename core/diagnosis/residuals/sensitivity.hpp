@@ -1,0 +1,48 @@
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "telltale/core/diagnosis/baseline/uncertain_model.hpp"
+#include "telltale/core/diagnosis/residuals/free_runs.hpp"
+#include "telltale/core/effects/effect.hpp"
+
+namespace telltale {
+
+/// One parameter of one effect that is zero in a nominal boat.
+struct EffectParameterRef {
+  const Effect* effect = nullptr;
+  std::size_t parameter = 0;
+};
+
+/// The slots of effects that move free runs; effects that only shake have none.
+std::vector<EffectParameterRef> EffectParameterRefsOf(std::span<const Effect* const> effects);
+
+/// The effect with nothing but this slot at `value`, shaping parameters where they are usual.
+ModelledEffect At(const EffectParameterRef& parameter_ref, double value);
+
+/// The effects that slots add up to. Shapes: typical sizes, one per slot.
+std::vector<ModelledEffect> EffectsOf(const std::vector<EffectParameterRef>& parameter_refs,
+                                      const Eigen::VectorXd& sizes);
+
+/// Errors of a recording and how they change with the model's coefficients, in their standard
+/// errors, and with each slot, in typical sizes. Shapes: errors rows x windows; the others one
+/// column an unknown, errors stacked window by window.
+struct Sensitivity {
+  Eigen::MatrixXd errors;
+  Eigen::MatrixXd by_coefficient;
+  Eigen::MatrixXd by_effect_parameter;
+};
+
+/// About `boat`, whose coefficients `model` says how to change. Secants over one standard error of
+/// a coefficient and `step` typical sizes of a slot more than the boat has: effects with thresholds
+/// have no slope at zero.
+Sensitivity SensitivityOf(const FreeRuns& runs, const AugmentedModel& boat,
+                          const UncertainModel& model,
+                          const std::vector<EffectParameterRef>& parameter_refs,
+                          std::size_t threads, double step = 1.0);
+
+}  // namespace telltale

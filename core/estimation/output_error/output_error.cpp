@@ -1,0 +1,316 @@
+#include "telltale/core/estimation/output_error/output_error.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <optional>
+
+#include "telltale/core/base/contract.hpp"
+#include "telltale/core/base/linear_algebra/covariance.hpp"
+#include "telltale/core/base/linear_algebra/eigen_decompositions.hpp"
+#include "telltale/core/base/range.hpp"
+#include "telltale/core/estimation/output_error/multiple_shooting_solution.hpp"
+#include "telltale/core/estimation/weak_form/weak_iv.hpp"
+
+namespace telltale {
+namespace {
+
+constexpr double kRoughly = 1e-4;  // relative changes of the sum at which to stop
+constexpr double kClosely = 1e-9;
+constexpr int kRoughIterations = 15;
+
+std::string Number(double value) {
+  char text[32];
+  std::snprintf(text, sizeof(text), "%.3g", value);
+  return text;
+}
+
+/// What a shot says of the shared unknowns once its own state has been fitted out of it: rows
+/// orthogonal to the columns of the state.
+struct Eliminated {
+  Eigen::MatrixXd by_shared;
+  Eigen::VectorXd residual;
+};
+
+Eliminated Eliminate(const ShootingResidual& shooting_residual) {
+  const Eigen::Index spare = shooting_residual.residual.size() - shooting_residual.by_start.cols();
+  const Eigen::HouseholderQR<Eigen::MatrixXd> qr(shooting_residual.by_start);
+  Eigen::MatrixXd both(shooting_residual.residual.size(), shooting_residual.by_shared.cols() + 1);
+  both << shooting_residual.by_shared, shooting_residual.residual;
+  both.applyOnTheLeft(qr.householderQ().adjoint());
+  return {both.bottomLeftCorner(spare, shooting_residual.by_shared.cols()),
+          both.rightCols(1).bottomRows(spare)};
+}
+
+OutputErrorFit Quantify(const ShootingPlan& plan, const SharedUnknowns& unknowns,
+                        const ShootingSolution& solution, const NoiseScale& noise_scale,
+                        const OutputErrorOptions& options) {
+  const Eigen::Index P = unknowns.Size();
+  OutputErrorFit fit;
+  fit.unknowns = unknowns;
+  fit.theta = solution.Theta();
+  fit.information = Eigen::MatrixXd::Zero(P, P);
+  fit.scores = Eigen::MatrixXd::Zero(P, static_cast<Eigen::Index>(plan.clusters));
+  fit.cluster_information.assign(plan.clusters, Eigen::MatrixXd::Zero(P, P));
+  Eigen::VectorXd raw = Eigen::VectorXd::Zero(P);
+  double squares = 0.0;
+  double spare = -static_cast<double>(P);
+  for (std::size_t i = 0; i < plan.shooting_segments.size(); ++i) {
+    const auto shooting_residual = solution.ComputeResidual(i, noise_scale, true);
+    Require(shooting_residual.has_value(), "a solution that does not run away");
+    const Eliminated own = Eliminate(*shooting_residual);
+    const std::size_t cluster = plan.shooting_segments[i].cluster;
+    fit.cluster_information[cluster].noalias() += own.by_shared.transpose() * own.by_shared;
+    fit.scores.col(static_cast<Eigen::Index>(cluster)).noalias() -=
+        own.by_shared.transpose() * own.residual;
+    raw += shooting_residual->by_shared.colwise().squaredNorm().transpose();
+    squares += own.residual.squaredNorm();
+    spare += static_cast<double>(own.residual.size());
+    fit.residuals += static_cast<std::size_t>(shooting_residual->residual.size());
+  }
+  for (const Eigen::MatrixXd& H : fit.cluster_information) fit.information += H;
+  fit.separability = Separate(fit.information, raw, options.inseparable_condition_index);
+  fit.degrees_of_freedom = spare;
+  fit.residual_variance = squares / spare;
+  fit.position_misfit = noise_scale.position;
+  fit.heading_misfit = noise_scale.heading;
+  fit.shooting_segments = plan.shooting_segments.size();
+  fit.beyond_huber_threshold = solution.CountBeyondThreshold(noise_scale);
+  return fit;
+}
+
+std::optional<Refusal> RefuseThin(const ShootingPlan& plan, const SharedUnknowns& unknowns) {
+  Eigen::Index spare = -unknowns.Size();
+  for (const ShootingSegment& shooting_segment : plan.shooting_segments) {
+    spare +=
+        shooting_segment.Residuals() - static_cast<Eigen::Index>(ShootingState::SizeAtCompileTime);
+  }
+  if (!plan.shooting_segments.empty() && plan.clusters > 1 && spare > 0) return std::nullopt;
+  return Refusal{"output error",
+                 "the recording gives " +
+                     Number(static_cast<double>(plan.shooting_segments.size())) +
+                     " shots with enough fixes and headings, too few for " +
+                     Number(static_cast<double>(unknowns.Size())) + " coefficients",
+                 "record for longer with the propellers in the regions these equations use"};
+}
+
+Refusal RefuseDivergence() {
+  return {"output error", "no model was found that stays near the boat for as long as a shot lasts",
+          "give shorter shots, or record more of the manoeuvres in which the model runs away"};
+}
+
+VesselModel ZeroForceModel(const SharedUnknowns& unknowns) {
+  Eigen::VectorXd theta = Eigen::VectorXd::Zero(unknowns.Size());
+  constexpr double kUsualTimeConstantS = 0.2;
+  if (unknowns.lagging) theta[0] = kUsualTimeConstantS;
+  return unknowns.ModelWith(theta, 0.0);
+}
+
+SharedUnknowns UnknownsOf(const RegressionOptions& regression,
+                          const std::array<std::vector<std::size_t>, 3>& columns) {
+  const bool lagging = regression.structure == Structure::kFirstOrderDynamic;
+  return {regression.parameterization, regression.dead_zone, lagging, columns};
+}
+
+Eigen::VectorXd InBounds(const SharedUnknowns& unknowns, Eigen::VectorXd theta) {
+  if (unknowns.lagging) {
+    theta[0] = std::clamp(theta[0], kShortestTimeConstantS, kLongestLagS);
+  }
+  return theta;
+}
+
+/// The way from a start to near the least sum.
+class InitialDescent {
+ public:
+  InitialDescent(const PreparedDataset& dataset, const RegressionOptions& regression,
+                 const ShootingPlan& plan, const SharedUnknowns& unknowns,
+                 const RidgePrior& ridge_prior, const OutputErrorOptions& options)
+      : dataset_(dataset),
+        regression_(regression),
+        plan_(plan),
+        unknowns_(unknowns),
+        ridge_prior_(ridge_prior),
+        options_(options) {}
+
+  /// Straight from `theta` where that leads there soon, as it does from a good start; else by brief
+  /// shots.
+  ShootingSolution From(const Eigen::VectorXd& theta) const {
+    ShootingSolution direct(plan_, unknowns_, ridge_prior_, options_.huber_threshold, theta);
+    if (Descend(direct)) return direct;
+    ShootingSolution by_short_segments(plan_, unknowns_, ridge_prior_, options_.huber_threshold,
+                                       FromShortSegments(theta));
+    if (by_short_segments.Diverges()) return direct;
+    Descend(by_short_segments);
+    return by_short_segments;
+  }
+
+ private:
+  bool Descend(ShootingSolution& solution) const {
+    return solution.Descend(solution.Measure(), kRoughly, kRoughIterations);
+  }
+
+  /// Sails shots of a quarter and of half the length. The briefest hardly bend and hardly run away,
+  /// so that almost any theta leads to one from which full shots can be sailed.
+  Eigen::VectorXd FromShortSegments(Eigen::VectorXd theta) const {
+    ShootingOptions brief = options_.shooting_segments;
+    for (const double share : {0.25, 0.5}) {
+      brief.length_s = share * options_.shooting_segments.length_s;
+      const ShootingPlan plan = CutShootingSegments(dataset_, regression_, unknowns_, brief);
+      if (ShootingSolution(plan, unknowns_, ridge_prior_, options_.huber_threshold, theta)
+              .Diverges()) {
+        theta = unknowns_.In(ZeroForceModel(unknowns_));
+      }
+      ShootingSolution solution(plan, unknowns_, ridge_prior_, options_.huber_threshold, theta);
+      Descend(solution);
+      theta = solution.Theta();
+    }
+    return theta;
+  }
+
+  const PreparedDataset& dataset_;
+  const RegressionOptions& regression_;
+  const ShootingPlan& plan_;
+  const SharedUnknowns& unknowns_;
+  const RidgePrior& ridge_prior_;
+  const OutputErrorOptions& options_;
+};
+
+}  // namespace
+
+std::optional<Refusal> OutputErrorOptions::Validate() const {
+  const std::string_view subject = "output error";
+  const std::array checks = {
+      OutOfRange(subject, "shots.length_s", shooting_segments.length_s, 2.0, 60.0),
+      OutOfRange(subject, "huber_threshold", huber_threshold, 1.0, 100.0),
+      OutOfRange(subject, "inseparable_condition_index", inseparable_condition_index, 10.0, 1e6),
+      OutOfRange(subject, "iterations", iterations, 1.0, 1000.0)};
+  for (const auto& refusal : checks) {
+    if (refusal) return refusal;
+  }
+  return std::nullopt;
+}
+
+Result<OutputErrorFit> EstimateOutputError(const PreparedDataset& dataset,
+                                           const RegressionOptions& regression,
+                                           const std::array<std::vector<std::size_t>, 3>& columns,
+                                           const VesselModel& start,
+                                           const OutputErrorOptions& options) {
+  if (auto refusal = options.Validate()) return tl::unexpected(*std::move(refusal));
+  const SharedUnknowns unknowns = UnknownsOf(regression, columns);
+  Require(unknowns.Size() > (unknowns.lagging ? 1 : 0), "at least one coefficient to seek");
+  const ShootingPlan plan =
+      CutShootingSegments(dataset, regression, unknowns, options.shooting_segments);
+  if (auto refusal = RefuseThin(plan, unknowns)) return tl::unexpected(*std::move(refusal));
+
+  // Far from the least sum, residuals say little of which measurement is wild: roughly there first.
+  const Eigen::VectorXd begin = InBounds(unknowns, unknowns.In(start));
+  const RidgePrior ridge_prior = MakeRidgePrior(dataset, unknowns, begin);
+  ShootingSolution solution =
+      InitialDescent(dataset, regression, plan, unknowns, ridge_prior, options).From(begin);
+  if (solution.Diverges()) return tl::unexpected(RefuseDivergence());
+  // How far residuals reach weighs the sensors against each other, and that moves the residuals.
+  solution.Descend(solution.Measure(), kRoughly, options.iterations);
+  const NoiseScale noise_scale = solution.Measure();
+  const bool converged = solution.Descend(noise_scale, kClosely, options.iterations);
+
+  OutputErrorFit fit = Quantify(plan, unknowns, solution, noise_scale, options);
+  fit.begin = begin;
+  fit.starts = solution.Starts();
+  fit.converged = converged;
+  return fit;
+}
+
+VesselModel StartOf(const PreparedDataset& dataset, const RegressionOptions& regression,
+                    const std::array<std::vector<std::size_t>, 3>& columns) {
+  const auto weak = EstimateWeakIv(dataset, regression, columns, {});
+  if (weak) return ModelOf(*weak, weak->Regularised(), dataset.sampling_period_s);
+  return ZeroForceModel(UnknownsOf(regression, columns));
+}
+
+Eigen::MatrixXd ClusterCovariance(const OutputErrorFit& fit) {
+  // A cluster that alone tells of some direction would leave nothing of it.
+  constexpr double kLeastLeft = 0.02;
+  const Eigen::MatrixXd& root = fit.separability.root;
+  const Eigen::MatrixXd across = root.transpose();
+  const auto g = static_cast<double>(fit.scores.cols());
+  Require(g > 1.0, "at least two clusters");
+  Eigen::MatrixXd influence(root.rows(), fit.scores.cols());
+  for (Eigen::Index s = 0; s < fit.scores.cols(); ++s) {
+    // (H - H_s)^-1 q_s = root (1 - root' H_s root)^-1 root' q_s, within what can be told apart.
+    Eigen::MatrixXd left =
+        (kLeastLeft - 1.0) * Mapped(across, fit.cluster_information[static_cast<std::size_t>(s)]);
+    left.diagonal().array() += 1.0;
+    const Eigen::VectorXd right = across * fit.scores.col(s);
+    influence.col(s) = root * left.llt().solve(right);
+  }
+  return (g - 1.0) / g * OfRoot(influence);
+}
+
+Eigen::MatrixXd NaiveCovariance(const OutputErrorFit& fit) {
+  return fit.residual_variance * OfRoot(fit.separability.root);
+}
+
+double Misspecification(const OutputErrorFit& fit) {
+  const Eigen::VectorXd clustered = ClusterCovariance(fit).diagonal();
+  const Eigen::VectorXd naive = NaiveCovariance(fit).diagonal();
+  double worst = 0.0;
+  for (const Equation equation : kEquations) {
+    const Eigen::Index first = fit.unknowns.First(equation);
+    const auto size = static_cast<Eigen::Index>(fit.unknowns.columns[IndexOf(equation)].size());
+    double sum = 0.0;
+    double count = 0.0;
+    for (Eigen::Index j = first; j < first + size; ++j) {
+      if (!fit.separability.separable[static_cast<std::size_t>(j)]) continue;
+      sum += 0.5 * std::log(clustered[j] / naive[j]);
+      count += 1.0;
+    }
+    if (count > 0.0) worst = std::max(worst, std::exp(sum / count));
+  }
+  return worst;
+}
+
+bool LagIsAtLowerBound(const OutputErrorFit& fit) {
+  return fit.unknowns.lagging && fit.theta[0] <= 1.001 * kShortestTimeConstantS;
+}
+
+std::string NameOf(const SharedUnknowns& unknowns, std::size_t unknown) {
+  Require(unknown < static_cast<std::size_t>(unknowns.Size()), "one of the unknowns");
+  if (unknowns.lagging && unknown == 0) return "thruster time constant";
+  for (const Equation equation : {Equation::kYaw, Equation::kSway, Equation::kSurge}) {
+    const auto first = static_cast<std::size_t>(unknowns.First(equation));
+    if (unknown < first) continue;
+    const std::size_t column = unknowns.columns[IndexOf(equation)][unknown - first];
+    return std::string(Name(equation)) + " " +
+           std::string(Regressors(equation, unknowns.parameterization)[column].name);
+  }
+  return {};
+}
+
+Refusal Explain(const InseparableDirection& direction, const SharedUnknowns& unknowns) {
+  constexpr std::size_t kNamed = 6;
+  std::string names;
+  std::string change;
+  for (std::size_t i = 0; i < std::min(kNamed, direction.unknowns.size()); ++i) {
+    const std::size_t unknown = direction.unknowns[i];
+    const std::string name = NameOf(unknowns, unknown);
+    const double by = direction.change[static_cast<Eigen::Index>(unknown)];
+    names += (names.empty() ? "" : ", ") + name;
+    change += (change.empty() ? "" : ", ") + Number(by) + " to " + name;
+  }
+  if (direction.unknowns.size() > kNamed) {
+    const auto rest = static_cast<double>(direction.unknowns.size() - kNamed);
+    change += " and something to " + Number(rest) + " others";
+  }
+  if (direction.unknowns.size() == 1) {
+    return {names, "the data say nothing of it: no measurement moves with it alone",
+            "record manoeuvres in which this term is at work"};
+  }
+  return {names,
+          "these cannot be told apart: adding " + change +
+              " leaves every measurement as it is (condition index " +
+              Number(direction.condition_index) + ")",
+          "add steps of the command between small and full, zigzags and circles at two or more "
+          "speeds"};
+}
+
+}  // namespace telltale

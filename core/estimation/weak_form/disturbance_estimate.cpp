@@ -1,0 +1,204 @@
+#include "telltale/core/estimation/weak_form/disturbance_estimate.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <vector>
+
+#include "telltale/core/estimation/regression/residual_autocovariance.hpp"
+#include "telltale/core/estimation/weak_form/instruments.hpp"
+
+namespace telltale {
+namespace {
+
+/// Products of weights so many rows apart, the middle one those of a weight with itself.
+Eigen::VectorXd ProductsByLag(const Eigen::VectorXd& weights) {
+  const Eigen::Index middle = weights.size() - 1;
+  Eigen::VectorXd products = Eigen::VectorXd::Zero(2 * middle + 1);
+  for (Eigen::Index a = 0; a < weights.size(); ++a) {
+    for (Eigen::Index b = 0; b < weights.size(); ++b) {
+      products[middle + a - b] += weights[a] * weights[b];
+    }
+  }
+  return products;
+}
+
+/// Autocovariance by window lag of a unit Gauss-Markov process seen through weights with these
+/// products, up to the lag at which next to nothing is left of it.
+Eigen::VectorXd FilteredAutocovariance(const Eigen::VectorXd& products, double h,
+                                       std::size_t stride, double time_constant_s) {
+  constexpr double kLongestInTimeConstants = 5.0;
+  const Eigen::Index middle = products.size() / 2;
+  const double support_spacing_s = h * static_cast<double>(stride);
+  const double reach_s =
+      kLongestInTimeConstants * time_constant_s + h * static_cast<double>(products.size());
+  Eigen::VectorXd filtered =
+      Eigen::VectorXd::Zero(static_cast<Eigen::Index>(reach_s / support_spacing_s) + 1);
+  for (Eigen::Index l = 0; l < filtered.size(); ++l) {
+    for (Eigen::Index d = -middle; d <= middle; ++d) {
+      const double apart_s =
+          std::abs(static_cast<double>(d) * h + static_cast<double>(l) * support_spacing_s);
+      filtered[l] += products[middle + d] * std::exp(-apart_s / time_constant_s);
+    }
+  }
+  return filtered;
+}
+
+/// `steps` steps of equal ratio.
+std::vector<double> GeometricGrid(double least, double most, int steps) {
+  std::vector<double> all;
+  for (int i = 0; i <= steps; ++i) {
+    all.push_back(least * std::pow(most / least, static_cast<double>(i) / steps));
+  }
+  return all;
+}
+
+/// What there is to choose from.
+std::vector<double> TimeConstants() {
+  return GeometricGrid(0.2, 40.0, 30);  // s
+}
+
+std::vector<double> DriftSizes() {
+  return GeometricGrid(1e-3, 1.0, 72);  // m within a second
+}
+
+/// For each time constant the best variance of one axis, and what it leaves of the autocovariance
+/// shown, as a share of the residual variance squared.
+struct AxisFits {
+  Eigen::VectorXd variance;
+  Eigen::VectorXd misfit;
+};
+
+/// What one equation shows, in autocovariances by window lag.
+struct AxisView {
+  Eigen::VectorXd beyond_noise;
+  Eigen::VectorXd by_drift;            ///< of fixes that wander off 1 m within a second
+  std::vector<Eigen::VectorXd> units;  ///< of a disturbance of variance one, by time constant
+  double residual_variance = 0.0;
+};
+
+AxisFits FitAxis(const AxisView& view, double drift_m) {
+  const Eigen::VectorXd shown = view.beyond_noise - drift_m * drift_m * view.by_drift;
+  AxisFits fits{Eigen::VectorXd(std::ssize(view.units)), Eigen::VectorXd(std::ssize(view.units))};
+  for (std::size_t i = 0; i < view.units.size(); ++i) {
+    const auto at = static_cast<Eigen::Index>(i);
+    const Eigen::VectorXd& unit = view.units[i];
+    fits.variance[at] = std::max(0.0, unit.dot(shown) / unit.squaredNorm());
+    fits.misfit[at] = (shown - fits.variance[at] * unit).squaredNorm() /
+                      (view.residual_variance * view.residual_variance);
+  }
+  return fits;
+}
+
+using Views = std::array<std::optional<AxisView>, 3>;  ///< of the equations that were answered
+
+struct Explanation {
+  Disturbance disturbance;
+  double misfit = 0.0;
+};
+
+/// The likeliest disturbance if fixes wander off by so much within a second.
+Explanation Explain(const Views& views, const std::vector<double>& time_constants, double drift_m) {
+  // An axis whose residuals are mostly noise says little of its own time constant: the other axes
+  // then speak for it, since what pushes a boat pushes all three.
+  constexpr double kSayOfOthers = 0.25;
+  std::array<std::optional<AxisFits>, 3> fits;
+  Eigen::VectorXd all = Eigen::VectorXd::Zero(std::ssize(time_constants));
+  for (std::size_t j = 0; j < views.size(); ++j) {
+    if (!views[j]) continue;
+    fits[j] = FitAxis(*views[j], drift_m);
+    all += fits[j]->misfit;
+  }
+  Explanation explanation;
+  explanation.disturbance.gnss_drift_m = drift_m;
+  for (std::size_t j = 0; j < fits.size(); ++j) {
+    if (!fits[j]) continue;
+    Eigen::Index best = 0;
+    const Eigen::VectorXd misfit = fits[j]->misfit + kSayOfOthers * (all - fits[j]->misfit);
+    explanation.misfit += misfit.minCoeff(&best);
+    const auto axis = static_cast<Eigen::Index>(j);
+    explanation.disturbance.sigma[axis] = std::sqrt(fits[j]->variance[best]);
+    explanation.disturbance.time_constant_s[axis] = time_constants[static_cast<std::size_t>(best)];
+  }
+  return explanation;
+}
+
+/// Without wander, unless it explains most of what is missed: about fixes that do not wander it
+/// explains a twentieth by chance, where it shows nearly all.
+Disturbance Likeliest(const Views& views, const std::vector<double>& time_constants) {
+  constexpr double kUnexplainedWithDrift = 0.5;
+  const Explanation without_drift = Explain(views, time_constants, 0.0);
+  Explanation best = without_drift;
+  for (const double drift_m : DriftSizes()) {
+    const Explanation with_drift = Explain(views, time_constants, drift_m);
+    if (with_drift.misfit < best.misfit) best = with_drift;
+  }
+  return best.misfit < kUnexplainedWithDrift * without_drift.misfit ? best.disturbance
+                                                                    : without_drift.disturbance;
+}
+
+}  // namespace
+
+std::array<Eigen::VectorXd, 3> ResidualsOf(const WeakFit& fit, const Eigen::VectorXd& theta,
+                                           const PreparedDataset& dataset,
+                                           const WeakProblem& problem) {
+  const FilteredThrust thrust =
+      FilterThrust(dataset, problem, fit.time_constant_s ? std::optional(theta[0]) : std::nullopt);
+  std::array<std::vector<std::size_t>, 3> columns;
+  for (std::size_t j = 0; j < columns.size(); ++j) {
+    if (fit.equations[j]) columns[j] = fit.equations[j]->columns;
+  }
+  const auto predicted = Instruments(dataset, problem)
+                             .Predict(ModelOf(fit, theta, dataset.sampling_period_s),
+                                      ConstantDisturbancesOf(fit, theta), columns, thrust);
+  std::array<Eigen::VectorXd, 3> residuals;
+  for (std::size_t j = 0; j < columns.size(); ++j) {
+    if (columns[j].empty()) continue;
+    const TestFunctionSupports& supports = problem.supports[j];
+    const RegressorRows rows = RowsOf(dataset, problem, thrust, kEquations[j]);
+    const auto [begin, size] = fit.BlockOf(j);
+    const Eigen::MatrixXd G =
+        Project(problem, supports, rows)(Eigen::all, columns[j]) + predicted[j].filtering_loss;
+    residuals[j] = ProjectAcceleration(problem, supports, dataset, kEquations[j]) -
+                   G * theta.segment(begin, size);
+  }
+  return residuals;
+}
+
+SensorAutocovariances::SensorAutocovariances() {
+  noise.fill(Eigen::VectorXd::Zero(static_cast<Eigen::Index>(kDisturbanceLags)));
+  drift = noise;
+}
+
+Disturbance EstimateDisturbance(const PreparedDataset& dataset, const WeakFit& fit,
+                                const SensorAutocovariances& sensor_autocovariances) {
+  const WeakProblem& problem = fit.problem;
+  const Eigen::VectorXd products =
+      ProductsByLag(FilteredTestFunction(FilterOnIntervals(dataset), problem.phi));
+  const std::vector<double> time_constants = TimeConstants();
+  std::vector<Eigen::VectorXd> filtered;
+  for (const double tau : time_constants) {
+    filtered.push_back(
+        FilteredAutocovariance(products, dataset.sampling_period_s, problem.phi.stride, tau));
+  }
+  Views views;
+  for (std::size_t j = 0; j < views.size(); ++j) {
+    if (!fit.equations[j]) continue;
+    const WeakEstimate& estimate = *fit.equations[j];
+    const auto runs = RunsOf(problem.supports[j].first_rows, problem.phi.stride);
+    const auto [begin, size] = fit.BlockOf(j);
+    const Eigen::MatrixXd response = estimate.G * fit.bread.block(begin, begin, size, size);
+    const Eigen::VectorXd shown = Autocovariance(runs, estimate.residual, kDisturbanceLags);
+    AxisView& view = views[j].emplace();
+    view.beyond_noise = shown - sensor_autocovariances.noise[j];
+    view.by_drift = sensor_autocovariances.drift[j];
+    view.residual_variance = shown[0];
+    for (const Eigen::VectorXd& of_tau : filtered) {
+      view.units.push_back(
+          AutocovarianceAfterFit(runs, of_tau, response, estimate.Z, kDisturbanceLags));
+    }
+  }
+  return Likeliest(views, time_constants);
+}
+
+}  // namespace telltale

@@ -1,0 +1,41 @@
+#include "telltale/service/jobs/reply_publisher.hpp"
+
+#include <spdlog/spdlog.h>
+
+#include "telltale/idl/codec/wire/wire.hpp"
+
+namespace telltale {
+
+ReplyPublisher::ReplyPublisher(const Participant& participant)
+    : progress_writer_(participant),
+      reply_writer_(participant),
+      diagnose_progress_writer_(participant),
+      diagnose_reply_writer_(participant) {}
+
+void ReplyPublisher::Send(const IdentifyProgress& progress) {
+  Send(progress_writer_, Encode(progress), progress.correlation_id);
+}
+
+void ReplyPublisher::Send(const IdentifyReply& reply) {
+  Send(reply_writer_, Encode(reply), reply.correlation_id);
+}
+
+void ReplyPublisher::Send(const DiagnoseProgress& progress) {
+  Send(diagnose_progress_writer_, Encode(progress), progress.correlation_id);
+}
+
+void ReplyPublisher::Send(const DiagnoseReply& reply) {
+  Send(diagnose_reply_writer_, Encode(reply), reply.correlation_id);
+}
+
+template <class Wire>
+void ReplyPublisher::Send(Writer<Wire>& writer, const WireSample<Wire>& wire,
+                          const std::string& correlation_id) {
+  try {
+    if (!writer.Write(wire)) spdlog::warn("{}: held up by a stalled client", correlation_id);
+  } catch (const BusError& error) {
+    spdlog::error("{}: {}", correlation_id, error.what());
+  }
+}
+
+}  // namespace telltale

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <string>
+
+#include "telltale/client/bus/participant.hpp"
+#include "telltale/client/bus/writer.hpp"
+#include "telltale/idl/codec/wire/messages.hpp"
+
+namespace telltale {
+
+/// What goes back to those who asked for an identification or a diagnosis. Safe to use from several
+/// threads; never blocks for longer than the contract's 100 ms and never throws: what could not be
+/// sent is logged, and a client that missed something asks again.
+class ReplyPublisher {
+ public:
+  explicit ReplyPublisher(const Participant& participant);
+
+  void Send(const IdentifyProgress& progress);
+  void Send(const IdentifyReply& reply);
+  void Send(const DiagnoseProgress& progress);
+  void Send(const DiagnoseReply& reply);
+
+ private:
+  template <class Wire>
+  static void Send(Writer<Wire>& writer, const WireSample<Wire>& wire,
+                   const std::string& correlation_id);
+
+  Writer<telltale_wire_IdentifyProgress> progress_writer_;
+  Writer<telltale_wire_IdentifyReply> reply_writer_;
+  Writer<telltale_wire_DiagnoseProgress> diagnose_progress_writer_;
+  Writer<telltale_wire_DiagnoseReply> diagnose_reply_writer_;
+};
+
+}  // namespace telltale

@@ -1,0 +1,24 @@
+#include "telltale/service/monitoring/drift_detector.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace telltale {
+namespace {
+
+// Calibrated by DriftCalibration: what weather that changes by a third gains and loses again.
+constexpr double kToleratedRelativeError = 1.75;
+constexpr double kAlarmThreshold = 20.0;
+constexpr double kExcessLimit =
+    2.0 * kAlarmThreshold;  // so that it ends some time after the cause does
+
+}  // namespace
+
+void DriftDetector::Add(double relative_error) {
+  if (std::isnan(relative_error)) return;
+  excess_ = std::clamp(excess_ + relative_error - kToleratedRelativeError, 0.0, kExcessLimit);
+  if (excess_ >= kAlarmThreshold) fires_ = true;
+  if (excess_ == 0.0) fires_ = false;
+}
+
+}  // namespace telltale

@@ -1,0 +1,65 @@
+#include "inputs/reference_basis.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "telltale/core/diagnosis/hypotheses/stochastic_excitation.hpp"
+
+namespace blind {
+namespace {
+
+using telltale::FreeRuns;
+
+constexpr double kHorizonS = 5.0;
+
+std::vector<FreeRuns> ReferenceRuns(const DiagnosisInputs& inputs) {
+  std::vector<FreeRuns> nominal;
+  for (const telltale::PreparedDataset& reference : inputs.references) {
+    FreeRuns runs(reference, inputs.model.model, kHorizonS);
+    if (runs.Windows() > 0) nominal.push_back(std::move(runs));
+  }
+  if (nominal.empty()) {
+    throw std::invalid_argument("no reference has five seconds without a gap");
+  }
+  return nominal;
+}
+
+}  // namespace
+
+ReferenceBasis::ReferenceBasis(const DiagnosisInputs& given)
+    : inputs(given),
+      parameter_refs(telltale::EffectParameterRefsOf(telltale::EffectLibrary())),
+      runs(given.recording, given.model.model, kHorizonS),
+      reference_runs(ReferenceRuns(given)),
+      nominal(telltale::LearnNominalBaseline(reference_runs, given.model, parameter_refs, 1)),
+      floor(telltale::NoiseFloorOf(reference_runs, nominal.boat)) {
+  if (runs.Windows() == 0) {
+    throw std::invalid_argument("the recording has no five seconds without a gap");
+  }
+}
+
+std::optional<double> ReferenceBasis::ClosureBy(const telltale::AugmentedModel& model) const {
+  const double before = SquaredGap(nominal.boat);
+  if (before <= floor.SquaredLimit(telltale::kAllChannels)) return std::nullopt;
+  return (before - SquaredGap(model)) / (before - floor.Squared(telltale::kAllChannels));
+}
+
+double ReferenceBasis::SquaredGap(const telltale::AugmentedModel& model) const {
+  const auto mean = [&](const Eigen::MatrixXd& errors) {
+    return telltale::SquaredGaps(errors, floor.scale, telltale::kAllChannels).mean();
+  };
+  telltale::EffectFit fit;
+  fit.effects = model.effects;
+  const Eigen::VectorXd shaken = telltale::StochasticMeanSquares(fit, runs, nominal.boat);
+  const double gap = mean(runs.Errors(model));
+  // What shakes explains no more than there is to explain, as in the report.
+  const double there = std::max(gap - floor.Squared(telltale::kAllChannels), 0.0);
+  return gap - std::min(mean(shaken.cwiseMax(0.0).cwiseSqrt()), there);
+}
+
+telltale::AugmentedModel ReferenceBasis::With(
+    const std::vector<telltale::ModelledEffect>& effects) const {
+  return nominal.boat.With(effects);
+}
+
+}  // namespace blind

@@ -1,0 +1,140 @@
+#include "telltale/client/recording/load_recording.hpp"
+
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "support/dataflash_writer.hpp"
+
+namespace telltale {
+namespace {
+
+using ::testing::HasSubstr;
+
+class Loading : public testing::Test {
+ protected:
+  Loading() { std::filesystem::create_directories(folder_); }
+  ~Loading() override { std::filesystem::remove_all(folder_); }
+
+  std::filesystem::path Save(const DataFlashWriter& writer) const {
+    Write("log.BIN", std::string(writer.Bytes().begin(), writer.Bytes().end()));
+    return folder_ / "log.BIN";
+  }
+  void Write(const char* name, const std::string& content) const {
+    std::ofstream(folder_ / name, std::ios::binary) << content;
+  }
+
+  const std::filesystem::path folder_ =
+      testing::TempDir() + "telltale_" +
+      testing::UnitTest::GetInstance()->current_test_info()->name();
+};
+
+TEST_F(Loading, TakesADataFlashFile) {
+  const auto loaded = LoadRecording(Save(Rover4Writer().WholeLog(50)));
+  ASSERT_TRUE(loaded) << loaded.error().reason;
+  EXPECT_EQ(loaded->recording.gnss.size(), 50u);
+  EXPECT_EQ(loaded->recording.heading.size(), 100u);
+  EXPECT_EQ(loaded->recording.thrusters.size(), 100u);
+  EXPECT_EQ(loaded->recording.rejected.Total(), 0u);
+  EXPECT_EQ(loaded->evicted, 0u);
+  ASSERT_TRUE(loaded->dataflash);
+  EXPECT_EQ(loaded->dataflash->report.heading_source, HeadingSource::kAtt);
+}
+
+TEST_F(Loading, TakesAFolderWithTheSameOutcome) {
+  Write("gnss.csv", "time_s,latitude_deg,longitude_deg\n1,63.4,10.3\n1.2,63.5,10.4\n");
+  Write("heading.csv", "time_s,heading_deg\n1,10\n1.1,11\n");
+  Write("thrusters.csv", "time_s,left_us,right_us\n1,1600,1400\n1.1,1610,1390\n");
+  const auto loaded = LoadRecording(folder_);
+  ASSERT_TRUE(loaded) << loaded.error().reason;
+  EXPECT_EQ(loaded->recording.gnss.size(), 2u);
+  EXPECT_FALSE(loaded->dataflash);
+
+  Rover4Writer writer;
+  writer.Definitions().Parm("SERVO3_FUNCTION", 73).Parm("SERVO1_FUNCTION", 74);
+  writer.Gps(1'000'000, 0, 3, 634000000, 103000000).Gps(1'200'000, 0, 3, 635000000, 104000000);
+  writer.Att(1'000'000, 1000).Att(1'100'000, 1100);
+  writer.Rcou(1'000'000, 1400, 0, 1600).Rcou(1'100'000, 1390, 0, 1610);
+  const auto same = LoadRecording(Save(writer));
+  ASSERT_TRUE(same) << same.error().reason;
+  for (std::size_t i = 0; i < 2; ++i) {
+    EXPECT_DOUBLE_EQ(same->recording.gnss[i].time_s, loaded->recording.gnss[i].time_s);
+    EXPECT_EQ(same->recording.gnss[i].latitude_deg, loaded->recording.gnss[i].latitude_deg);
+    EXPECT_EQ(same->recording.gnss[i].longitude_deg, loaded->recording.gnss[i].longitude_deg);
+    EXPECT_EQ(same->recording.heading[i].heading_deg, loaded->recording.heading[i].heading_deg);
+    EXPECT_EQ(same->recording.thrusters[i].port_us, loaded->recording.thrusters[i].port_us);
+    EXPECT_EQ(same->recording.thrusters[i].starboard_us,
+              loaded->recording.thrusters[i].starboard_us);
+  }
+}
+
+TEST_F(Loading, BadSamplesOfADataFlashFileAreRejectedByReason) {
+  Rover4Writer writer;
+  writer.WholeLog(20);
+  writer.Rcou(14'000'000, 0, 0, 0);             // outputs off
+  writer.Gps(14'000'000, 0, 3, 1900000000, 0);  // 190 degrees north
+  writer.Att(14'001'000, 100).Att(14'001'000, 100);
+  const auto loaded = LoadRecording(Save(writer));
+  ASSERT_TRUE(loaded) << loaded.error().reason;
+  const RejectCounts& rejected = loaded->recording.rejected;
+  EXPECT_EQ(rejected.Of(Channel::kThrusters, RejectReason::kOutOfRange), 1u);
+  EXPECT_EQ(rejected.Of(Channel::kGnss, RejectReason::kOutOfRange), 1u);
+  EXPECT_EQ(rejected.Of(Channel::kHeading, RejectReason::kDuplicate), 1u);
+  EXPECT_EQ(rejected.Total(), 3u);
+}
+
+TEST_F(Loading, ALeapOfOneSampleIsReportedAndRejected) {
+  Rover4Writer writer;
+  writer.WholeLog(20).Gps(900'000'000, 0, 3, 634014986, 103146182).Run(20, 14'000'000);
+  const auto loaded = LoadRecording(Save(writer));
+  ASSERT_TRUE(loaded) << loaded.error().reason;
+  EXPECT_EQ(loaded->dataflash->report.time_leaps.at("GPS"), 2u);  // there and back
+  EXPECT_EQ(loaded->recording.rejected.Of(Channel::kGnss, RejectReason::kClockJump), 1u);
+  EXPECT_EQ(loaded->recording.gnss.size(), 40u);
+}
+
+TEST_F(Loading, RefusalsNameThePath) {
+  const auto file = Save(Rover4Writer().Definitions());
+  const auto lacking = LoadRecording(file);
+  ASSERT_FALSE(lacking);
+  EXPECT_THAT(lacking.error().subject, HasSubstr(file.string()));
+  EXPECT_THAT(lacking.error().reason, HasSubstr("no GPS message"));
+
+  const auto absent = LoadRecording(folder_ / "absent.BIN");
+  ASSERT_FALSE(absent);
+  EXPECT_THAT(absent.error().subject, HasSubstr("absent.BIN"));
+
+  Rover4Writer off;
+  off.Definitions().Parm("SERVO3_FUNCTION", 73).Parm("SERVO1_FUNCTION", 74);
+  off.Gps(1, 0, 3, 1, 1).Att(1, 1).Rcou(1, 0, 0, 0);
+  const auto unusable = LoadRecording(Save(off));
+  ASSERT_FALSE(unusable);
+  EXPECT_THAT(unusable.error().subject, HasSubstr("log.BIN thrusters"));
+  EXPECT_THAT(unusable.error().reason, HasSubstr("OUT_OF_RANGE"));
+}
+
+TEST_F(Loading, TheLogsServoParametersMakeAVehicle) {
+  const auto log = ReadLog(Save(Rover4Writer().WholeLog(1)));
+  ASSERT_TRUE(log);
+  const auto vehicle = VehicleFrom(*log->dataflash, "blueboat-1");
+  ASSERT_TRUE(vehicle);
+  EXPECT_EQ(vehicle->vehicle_id, "blueboat-1");
+  // Full forward of both: above neutral to port, below it on the reversed starboard channel.
+  EXPECT_DOUBLE_EQ(vehicle->Normalise(1900, 1100).port, 1.0);
+  EXPECT_DOUBLE_EQ(vehicle->Normalise(1900, 1100).starboard, 1.0);
+
+  Rover4Writer unsaid;
+  unsaid.Definitions().Parm("SERVO3_FUNCTION", 73).Parm("SERVO1_FUNCTION", 74).Run(1);
+  const auto without = ReadLog(Save(unsaid));
+  ASSERT_TRUE(without);
+  const auto refused = VehicleFrom(*without->dataflash, "blueboat-1");
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().subject, "port thruster");
+  EXPECT_THAT(refused.error().reason, HasSubstr("SERVO3_MIN"));
+}
+
+}  // namespace
+}  // namespace telltale

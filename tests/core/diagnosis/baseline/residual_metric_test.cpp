@@ -1,0 +1,113 @@
+#include "telltale/core/diagnosis/baseline/residual_metric.hpp"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "support/stable_boat_with_effects.hpp"
+
+namespace telltale {
+namespace {
+
+struct BaselineFixture {
+  UncertainModel model = UncertainModelOf(testing::KnownStableBoat()).value();
+  std::vector<EffectParameterRef> parameter_refs = EffectParameterRefsOf(EffectLibrary());
+  PreparedDataset sailed = testing::SimulateWithEffects({}, 120.0, 500);
+  FreeRuns runs{sailed, model.model, 5.0};
+  NominalBaseline nominal = LearnNominalBaseline({runs}, model, parameter_refs, 2);
+  Sensitivity recording = SensitivityOf(runs, nominal.boat, model, parameter_refs, 2);
+};
+
+const BaselineFixture& SharedFixture() {
+  static const BaselineFixture boat;
+  return boat;
+}
+
+ResidualMetric MetricOf(bool free_coefficients) {
+  const BaselineFixture& boat = SharedFixture();
+  return {boat.nominal, boat.recording, EveryWindow(boat.recording), free_coefficients};
+}
+
+TEST(ResidualMetric, RemembersWhetherItFreesTheCoefficients) {
+  EXPECT_FALSE(MetricOf(false).FreesCoefficients());
+  EXPECT_TRUE(MetricOf(true).FreesCoefficients());
+}
+
+// What a coefficient that is as good as free would explain costs next to nothing; held to its
+// covariance it costs what a prior asks: x'(I + v v')^-1 x = |x|^2 / (1 + |v|^2) for x along v.
+TEST(ResidualMetric, MarginalisesAFreeCoefficient) {
+  const BaselineFixture& boat = SharedFixture();
+  const Eigen::VectorXd pattern = boat.recording.by_coefficient.col(0) * 20.0;
+  const auto cost = [&](const ResidualMetric& metric) {
+    return metric.WhitenColumns(pattern).col(0).dot(
+        metric.Unexplained(metric.WhitenColumns(pattern).col(0)));
+  };
+  EXPECT_LE(cost(MetricOf(true)), 400.0 / (100.0 * 100.0) + 1e-6);  // 20 of 100 standard errors
+  EXPECT_GT(cost(MetricOf(false)), 10.0 * cost(MetricOf(true)));
+}
+
+// Nothing weighed in can make an error count for more than it does by scatter alone.
+TEST(ResidualMetric, NeverExceedsTheUnmarginalisedDistance) {
+  const BaselineFixture& boat = SharedFixture();
+  const ResidualMetric metric = MetricOf(false);
+  const Eigen::VectorXd seen = metric.Whiten(boat.recording.errors);
+  EXPECT_GE(metric.SquaredMahalanobis(seen), 0.0);
+  EXPECT_LE(metric.SquaredMahalanobis(seen), seen.squaredNorm());
+}
+
+// Sherman and Morrison: y' (V + b b' / kappa)^-1 y = y' V^-1 y - (y' V^-1 b)^2 / (kappa + b' V^-1
+// b), and the determinant grows by 1 + b' V^-1 b with scatter alone.
+TEST(ResidualMetric, WidensForVariationWithinAWindow) {
+  const BaselineFixture& boat = SharedFixture();
+  const ResidualMetric metric(boat.nominal, boat.recording, {3}, false);
+  const Eigen::VectorXd varying = 4.0 * boat.recording.by_effect_parameter.col(0);
+  const ResidualMetric widened = metric.WithWindowVariation(varying);
+  const Eigen::VectorXd y = metric.Whiten(boat.recording.errors);
+  const Eigen::VectorXd b = metric.WhitenColumns(varying).col(0);
+  const double by = b.dot(metric.Unexplained(y));
+  const double bb = b.dot(metric.Unexplained(b));
+  EXPECT_GT(bb, 1.0);  // or there would be nothing to allow for
+  EXPECT_NEAR(widened.SquaredMahalanobis(widened.Whiten(boat.recording.errors)),
+              metric.SquaredMahalanobis(y) - by * by / (metric.Kappa() + bb),
+              1e-9 * metric.SquaredMahalanobis(y));
+  EXPECT_NEAR(
+      widened.VariationPenalty(),
+      metric.Kappa() * std::log1p(b.squaredNorm() / metric.Kappa()) / metric.RowsPerObservation(),
+      1e-12);
+}
+
+// A ratio of likelihoods: nothing to tell between equals, and what is gained step by step adds up.
+TEST(ResidualMetric, ComputesDevianceFromRatiosOfSquares) {
+  const ResidualMetric metric = MetricOf(false);
+  EXPECT_EQ(metric.Deviance(7.0, 7.0), 0.0);
+  EXPECT_LT(metric.Deviance(5.0, 7.0), 0.0);
+  EXPECT_NEAR(metric.Deviance(2.0, 5.0) + metric.Deviance(5.0, 7.0), metric.Deviance(2.0, 7.0),
+              1e-12);
+}
+
+// A model three standard errors off in every coefficient, and references by the boat itself.
+TEST(NominalBaseline, RecalibratesABiasedModel) {
+  UncertainModel off = UncertainModelOf(testing::KnownStableBoat()).value();
+  Eigen::VectorXd change = 3.0 * off.StandardErrors();
+  for (Eigen::Index i = 0; i < change.size(); i += 2) change[i] = -change[i];
+  off.model = off.Changed(off.model, change);
+  std::vector<PreparedDataset> days;
+  for (const std::uint64_t seed : {21, 22, 23}) {
+    days.push_back(testing::SimulateWithEffects({}, 240.0, 100 * seed));
+  }
+  std::vector<FreeRuns> runs;
+  for (const PreparedDataset& day : days) runs.emplace_back(day, off.model, 5.0);
+  const NominalBaseline nominal =
+      LearnNominalBaseline(runs, off, EffectParameterRefsOf(EffectLibrary()), 2);
+  const PreparedDataset another = testing::SimulateWithEffects({}, 240.0, 3100);
+  const FreeRuns sailed(another, off.model, 5.0);
+  const double truth = sailed.Errors({testing::StableBoat(), {}}).squaredNorm();
+  const double before = sailed.Errors({off.model, {}}).squaredNorm();
+  const double after = sailed.Errors(nominal.boat).squaredNorm();
+  EXPECT_GT(before, 10.0 * truth);  // or there would be nothing to mend
+  // Thirty coefficients from three recordings as long as this one cost a share of its noise.
+  EXPECT_LT(after, 1.5 * truth);
+}
+
+}  // namespace
+}  // namespace telltale

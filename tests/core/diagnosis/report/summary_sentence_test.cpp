@@ -1,0 +1,49 @@
+#include "telltale/core/diagnosis/report/summary_sentence.hpp"
+
+#include <utility>
+
+#include <gtest/gtest.h>
+
+#include "support/made_up_diagnoses.hpp"
+
+namespace telltale {
+namespace {
+
+/// A gap of twice the nominal error, put down to thrust that is late, as likely as that.
+Diagnosis LateThrust(Verdict verdict, double probability) {
+  Diagnosis diagnosis = MadeUpDiagnosis();
+  for (Gap& gap : diagnosis.gaps) {
+    gap.all.before = 2.0;
+    gap.all.noise_floor = 1.0;
+  }
+  diagnosis.verdict = verdict;
+  diagnosis.rest = "yaw, FR";
+  Cause lag;
+  lag.effects = {{"thruster_lag", {}, "thrust 0.15 s late", 1.0}};
+  lag.probability = probability;
+  lag.excess_explained = ExcessExplained{0.81, {0.95, 0.74, 0.87}};
+  Cause unknown;
+  unknown.probability = 1.0 - probability;
+  diagnosis.causes = {lag, unknown};
+  if (probability < 0.5) std::swap(diagnosis.causes[0], diagnosis.causes[1]);
+  return diagnosis;
+}
+
+TEST(Sentence, NamesACauseOutrightWhereItIsSure) {
+  EXPECT_EQ(SummarySentence(LateThrust(Verdict::kExplained, 0.9)),
+            "Thrust 0.15 s late: 81 % [74, 87] of the gap; the rest is within noise.");
+}
+
+TEST(Sentence, SaysHowLikelyACauseIsThatIsNotSure) {
+  EXPECT_EQ(SummarySentence(LateThrust(Verdict::kUnknownCause, 0.66)),
+            "Most likely (66 %), but not for sure, thrust 0.15 s late: 81 % [74, 87] of the gap.");
+}
+
+TEST(Sentence, NamesNothingThatIsUnlikely) {
+  EXPECT_EQ(SummarySentence(LateThrust(Verdict::kUnknownCause, 0.3)),
+            "Model and boat part (2.0 times the nominal error), by something the library does not "
+            "hold; it sits in yaw, FR.");
+}
+
+}  // namespace
+}  // namespace telltale

@@ -1,0 +1,69 @@
+#pragma once
+
+#include <vector>
+
+#include "telltale/core/data/samples.hpp"
+#include "telltale/core/simulation/manoeuvres.hpp"
+#include "telltale/core/simulation/sensors.hpp"
+#include "telltale/core/simulation/simulator.hpp"
+#include "telltale/core/vessel/vehicle.hpp"
+#include "telltale/core/vessel/vessel_model.hpp"
+
+namespace telltale::testing {
+
+/// A made-up catamaran of 1.2 m, stable on every course, in SI units.
+inline VesselModel StableBoat() {
+  VesselModel model;
+  model.structure = Structure::kStaticQuadratic;
+  model.parameterization = Parameterization::kPropeller;
+  model.discretisation = Discretisation::kContinuous;
+  model.sampling_period_s = 0.2;
+  model.theta = {Eigen::VectorXd(9), Eigen::VectorXd(13), Eigen::VectorXd(13)};
+  model.theta[0] << -0.35, 0.9, 0.05, -0.25, 0.01, 0.45, 0.25, -0.3, 0.2;
+  model.theta[1] << -0.8, -0.2, 0.1, 0.05, -0.2, -0.6, -0.6, 0.05, 0.005, 0.02, 0.03, -0.02, 0.02;
+  model.theta[2] << 0.05, 0.02, -0.1, -0.9, -0.15, -0.35, -0.1, -0.8, 0.005, 0.9, 0.5, -0.6, 0.4;
+  return model;
+}
+
+inline Vehicle StableBoatVehicle() {
+  Vehicle vehicle;
+  vehicle.vehicle_id = "stable";
+  vehicle.propeller_separation_m = 0.7;
+  vehicle.gnss_antenna = {-0.2, 0.1};
+  return vehicle;
+}
+
+/// Random steps ahead, and one side astern now and then.
+inline std::vector<TimedCommand> VariedCommands(double duration_s, std::uint64_t seed) {
+  const CommandRange ahead{{0.1, 0.1}, {1.0, 1.0}};
+  const CommandRange port_astern{{-0.7, 0.1}, {-0.1, 1.0}};
+  const CommandRange starboard_astern{{0.1, -0.7}, {1.0, -0.1}};
+  std::vector<Manoeuvre> manoeuvres;
+  constexpr double kPieceS = 20.0;
+  for (double t = 0.0; t < duration_s; t += kPieceS) {
+    const auto piece = static_cast<std::uint64_t>(t / kPieceS);
+    const CommandRange& range = piece % 4 == 1   ? port_astern
+                                : piece % 4 == 3 ? starboard_astern
+                                                 : ahead;
+    manoeuvres.push_back(RandomSteps(range, 1.4, 5.0, kPieceS, seed + piece));
+  }
+  return Schedule(manoeuvres, 0.0);
+}
+
+/// The boat sailed for `duration_s` at steps of 0.02 s and measured.
+inline Recording SimulateStableBoat(const VesselModel& model, double duration_s,
+                                    const SensorOptions& sensors, std::uint64_t seed) {
+  VesselState start;
+  start.nu.u = 0.5;
+  return Measure(Simulate(model, start, VariedCommands(duration_s, seed), duration_s, 0.02),
+                 StableBoatVehicle(), sensors);
+}
+
+inline SensorOptions NoNoise() {
+  SensorOptions sensors;
+  sensors.position_noise_m = 0.0;
+  sensors.heading_noise_deg = 0.0;
+  return sensors;
+}
+
+}  // namespace telltale::testing
