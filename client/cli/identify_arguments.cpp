@@ -92,10 +92,10 @@ void IdentifyArguments::AddOptionsTo(CLI::App& command) {
       ->check(WholeNumber());
   command
       .add_option("--bootstrap-kind", bootstrap_kind,
-                  "what a replicate redraws: segments (default), moving-blocks as long as the data "
+                  "what a replicate redraws: slices (default), moving-blocks as long as the data "
                   "ask for, or with parametric nothing: it simulates the data anew, which is slow")
       ->type_name("NAME")
-      ->check(CLI::IsMember({"segments", "moving-blocks", "parametric"}).description(""));
+      ->check(CLI::IsMember({"slices", "moving-blocks", "parametric"}).description(""));
   command
       .add_option("--interval", interval,
                   "how replicates bound: percentile (default), studentized (default of "
@@ -145,7 +145,7 @@ std::optional<Estimator> IdentifyArguments::ChosenEstimator() const {
   }
   const bool output_error = estimator == "output-error";
   if ((one_step || output_error) && parametric_replicates) {
-    throw UsageError("--twins belongs to --estimator weak-iv");
+    throw UsageError("--replicates belongs to --estimator weak-iv");
   }
   if (one_step) return Estimator::kOneStep;
   if (output_error) return Estimator::kOutputError;

@@ -23,7 +23,7 @@ struct IdentifyArguments {
   std::optional<double> sampling_period_s;
   std::optional<std::size_t> parametric_replicates;
   std::optional<std::uint32_t> bootstrap_replicates;
-  std::optional<std::string> bootstrap_kind;  ///< segments, moving-blocks, parametric
+  std::optional<std::string> bootstrap_kind;  ///< slices, moving-blocks, parametric
   std::optional<std::string> interval;        ///< percentile, studentized, bca
   std::optional<std::string> recording_bias;  ///< shared, per-recording, per-recording-ned
   std::optional<double> interval_level;

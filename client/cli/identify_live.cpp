@@ -20,7 +20,8 @@ IdentifyRequest RequestOf(const std::string& vehicle_id, const IdentifyArguments
   if (arguments.sampling_period_s || arguments.interval_level || arguments.threads ||
       arguments.parametric_replicates) {
     throw UsageError(
-        "--sampling-period, --level, --threads and --twins are the daemon's to choose; leave them "
+        "--sampling-period, --level, --threads and --replicates are the daemon's to choose; leave "
+        "them "
         "out with --vehicle-id");
   }
   IdentifyRequest request;

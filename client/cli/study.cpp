@@ -63,7 +63,7 @@ void AddStudy(CLI::App& telltale) {
                   "seconds, [0.02, 2] (default: the median GNSS period)")
       ->type_name("S");
   command
-      .add_option("--repeats", arguments->options.repeats,
+      .add_option("--partitions", arguments->options.repeats,
                   "random partitions behind each mean, [1, 1000]")
       ->type_name("N")
       ->check(CLI::Range(1, 1000).description(""))

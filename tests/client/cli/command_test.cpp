@@ -132,7 +132,8 @@ TEST_F(CommandTest, OptionsOutOfRangeAreUsageErrorsThatNameTheRange) {
   expect({"--level", "nan"}, "[0.5, 0.999]");
   expect({"--threads", "0"}, "[1, 256]");
   expect({"--sampling-period", "5"}, "--sampling-period = 5");
-  expect({"--check-coverage", "3"}, "--certify = 3 must be within [10, 1000]; set --certify to");
+  expect({"--check-coverage", "3"},
+         "--check-coverage = 3 must be within [10, 1000]; set --check-coverage to");
   for (const char* counts :
        {"--replicates", "--bootstrap", "--check-coverage", "--seed", "--threads"}) {
     expect({counts, "-3"}, ": -3 must be a whole number, 0 or more");
@@ -255,8 +256,8 @@ TEST_F(CommandTest, ReverseRowsAreTakenOnRequest) {
 TEST_F(CommandTest, StudyTakesReverseRowsOnRequestButNeverInThePapersSurge) {
   const auto study = [this](std::vector<std::string> more) {
     std::vector<std::string> arguments = {
-        "study",     "--log", Path("log"), "--vehicle", Path("boat.textproto"),
-        "--repeats", "1",     "--json"};
+        "study",        "--log", Path("log"), "--vehicle", Path("boat.textproto"),
+        "--partitions", "1",     "--json"};
     arguments.insert(arguments.end(), more.begin(), more.end());
     proto::Study message;
     const auto fault = ParseJsonMessage(Telltale(arguments).out, "study", message);

@@ -113,7 +113,7 @@ TEST_F(LogInputsTest, ADataFlashLogIsValidatedAndStudied) {
   // Names of files are not names of boats: their difference is nothing to be told.
   EXPECT_THAT(scored.err, Not(HasSubstr("the model is of")));
   const CommandOutcome studied =
-      Telltale({"study", "--log", Path("a.BIN"), "--log", Path("b.BIN"), "--repeats", "1"});
+      Telltale({"study", "--log", Path("a.BIN"), "--log", Path("b.BIN"), "--partitions", "1"});
   EXPECT_EQ(studied.exit_code, kSuccess) << studied.err;
   EXPECT_THAT(studied.err, HasSubstr("vehicle a is taken from"));
 }
