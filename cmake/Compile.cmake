@@ -1,4 +1,5 @@
 # How everything here is compiled: C++20, warnings as errors, optional sanitizers.
+include(GNUInstallDirs)
 set(CMAKE_CXX_STANDARD 20)
 set(CMAKE_CXX_STANDARD_REQUIRED ON)
 set(CMAKE_CXX_EXTENSIONS OFF)
