@@ -661,10 +661,11 @@ std::optional<CoverageCheck> ReadCoverageCheck(
     const dds_sequence_telltale_wire_CoverageCheck& coverage_checks,
     const Identification& identification) {
   if (coverage_checks._length == 0) return std::nullopt;
-  const std::string field = "certificate[0]";
+  const std::string field = "coverage_check[0]";
   const telltale_wire_CoverageCheck& wire = coverage_checks._buffer[0];
   CoverageCheck coverage_check;
-  const Tally answered = ReadTally(field + ".replicates_identified", wire.replicates_identified, wire.replicates_requested);
+  const Tally answered = ReadTally(field + ".replicates_identified", wire.replicates_identified,
+                                   wire.replicates_requested);
   coverage_check.replicates_requested = answered.of;
   coverage_check.replicates_identified = answered.held;
   coverage_check.seed = wire.seed;

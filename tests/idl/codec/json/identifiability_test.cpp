@@ -43,9 +43,9 @@ TEST(IdentifiabilityCodec, HasTheNamesPeopleRead) {
   for (const char* name :
        {"\"excitation\"", "\"condition\"", "\"varianceInflation\"", "\"leastSeparable\"",
         "\"effectiveRows\"", "\"advice\"", "\"manoeuvre\"", "\"durationS\"", "\"expectedNats\"",
-        "\"expectedHalfWidth\"", "\"certificate\"", "\"held\"", "\"total\"", "\"coverage\"",
+        "\"expectedHalfWidth\"", "\"coverageCheck\"", "\"held\"", "\"total\"", "\"coverage\"",
         "\"biasStandardErrors\"", "\"jointInterval\"", "\"meanCoverage\"",
-        "\"aboutPublishedModel\""}) {
+        "\"truthIsReportedModel\""}) {
     EXPECT_THAT(json, testing::HasSubstr(name));
   }
 }
@@ -73,12 +73,13 @@ TEST(IdentifiabilityCodec, WrongFieldsOfAFileAreNamed) {
        [](auto& m) {
          m.mutable_advice(0)->mutable_expected(1)->set_expected_half_width(kNotANumber);
        }},
-      {"certificate.replicates_identified", [](auto& m) { m.mutable_coverage_check()->set_replicates_identified(101); }},
-      {"certificate.coefficients",
+      {"coverageCheck.replicatesIdentified",
+       [](auto& m) { m.mutable_coverage_check()->set_replicates_identified(101); }},
+      {"coverageCheck.coefficients",
        [](auto& m) { m.mutable_coverage_check()->mutable_coefficients()->RemoveLast(); }},
-      {"certificate.coefficients[3].held",
+      {"coverageCheck.coefficients[3].held",
        [](auto& m) { m.mutable_coverage_check()->mutable_coefficients(3)->set_held(99); }},
-      {"certificate.meanCoverage",
+      {"coverageCheck.meanCoverage",
        [](auto& m) { m.mutable_coverage_check()->set_mean_coverage(1.01); }}};
   for (const SpoiltMessage& spoilt : cases) {
     proto::Model message = ToProto(MadeUpWithAndWithout().front());
@@ -105,10 +106,12 @@ TEST(IdentifiabilityCodec, WrongFieldsOnTheWireAreNamed) {
       {"advice[0].expected_nats", [](auto& m) { m.advice._buffer[0].expected_nats = kNotANumber; }},
       {"advice[0].expected[0].half_width",
        [](auto& m) { m.advice._buffer[0].expected._buffer[0].half_width = -1.0; }},
-      {"certificate[0].replicates_identified", [](auto& m) { m.coverage_check._buffer[0].replicates_identified = 101; }},
-      {"certificate[0].coefficients",
+      {"coverage_check[0].replicates_identified",
+       [](auto& m) { m.coverage_check._buffer[0].replicates_identified = 101; }},
+      {"coverage_check[0].coefficients",
        [](auto& m) { m.coverage_check._buffer[0].coefficients._length = 1; }},
-      {"certificate[0].joint_held", [](auto& m) { m.coverage_check._buffer[0].joint_held = 97; }}};
+      {"coverage_check[0].joint_held",
+       [](auto& m) { m.coverage_check._buffer[0].joint_held = 97; }}};
   for (const SpoiltWire& spoilt : cases) {
     auto wire = Encode(PublishedModel{MadeUpWithAndWithout().front(), 3, 1700000700.5});
     spoilt.spoil(*wire);

@@ -228,7 +228,7 @@ INSTANTIATE_TEST_SUITE_P(
         ModelFault{[](M& m) {
                      while (m.simulation_size() < 35) m.add_simulation(kNan);
                    },
-                   "sailed[0]", "nan", "number"},
+                   "simulation[0]", "nan", "number"},
         ModelFault{[](M& m) { m.set_covariance(1, kNan); }, "covariance[1]", "nan", "number"},
         ModelFault{[](M& m) { m.set_covariance(0, -1.0); }, "covariance[0]", "-1", "[0, inf]"},
         ModelFault{[](M& m) { m.set_covariance(70, 5.0); }, "covariance[70]", "5", "symmetric"},
