@@ -5,9 +5,15 @@
 
 namespace telltale {
 
-std::string Number(double value, int decimals) {
-  std::array<char, 64> text{};
+std::string FormatNumber(double value, int decimals) {
+  std::array<char, 400> text{};  // the longest double has 309 digits before its point
   std::snprintf(text.data(), text.size(), "%.*f", decimals, value);
+  return text.data();
+}
+
+std::string FormatSignificant(double value, int digits) {
+  std::array<char, 64> text{};
+  std::snprintf(text.data(), text.size(), "%.*g", digits, value);
   return text.data();
 }
 

@@ -19,7 +19,7 @@ class AddedMassCouplingEffect final : public Effect {
                 .nominal_variation = NominalVariation::kInCoefficients}) {}
 
   std::string Describe(EffectValues values) const override {
-    return "a Munk moment of " + Number(values[0], 2) + " u v more";
+    return "a Munk moment of " + FormatNumber(values[0], 2) + " u v more";
   }
 
   NuDot AddedAcceleration(EffectValues values, const InstantState& moment) const override {

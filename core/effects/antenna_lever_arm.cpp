@@ -17,8 +17,8 @@ class AntennaLeverArmEffect final : public Effect {
              .settled_by = "a tape measure"}) {}
 
   std::string Describe(EffectValues values) const override {
-    return "antenna " + Number(values[0], 2) + " m further forward and " + Number(values[1], 2) +
-           " m further to starboard than stated";
+    return "antenna " + FormatNumber(values[0], 2) + " m further forward and " +
+           FormatNumber(values[1], 2) + " m further to starboard than stated";
   }
 
   LeverArm AntennaShift(EffectValues values) const override { return {values[0], values[1]}; }

@@ -20,8 +20,9 @@ class BodyBiasEffect final : public Effect {
                 .nominal_variation = NominalVariation::kInCoefficients}) {}
 
   std::string Describe(EffectValues values) const override {
-    return "a steady push of " + Number(values[0], 3) + " m/s^2 ahead, " + Number(values[1], 3) +
-           " m/s^2 to starboard and " + Number(values[2], 3) + " rad/s^2 to starboard";
+    return "a steady push of " + FormatNumber(values[0], 3) + " m/s^2 ahead, " +
+           FormatNumber(values[1], 3) + " m/s^2 to starboard and " + FormatNumber(values[2], 3) +
+           " rad/s^2 to starboard";
   }
 
   NuDot AddedAcceleration(EffectValues values, const InstantState&) const override {

@@ -23,7 +23,7 @@ class CurrentEffect final : public Effect {
              .nominal_variation = NominalVariation::kRecordingEffect}) {}
 
   std::string Describe(EffectValues values) const override {
-    return Number(std::hypot(values[0], values[1]), 2) + " m/s of current " +
+    return FormatNumber(std::hypot(values[0], values[1]), 2) + " m/s of current " +
            Towards(values[0], values[1]);
   }
 

@@ -18,7 +18,7 @@ class GnssLatencyEffect final : public Effect {
                 .settled_by = "the receiver's own time stamps"}) {}
 
   std::string Describe(EffectValues values) const override {
-    return "positions " + Number(values[0], 2) + " s old";
+    return "positions " + FormatNumber(values[0], 2) + " s old";
   }
 
   double LatencyS(EffectValues values) const override { return values[0]; }

@@ -18,7 +18,7 @@ class HeadingBiasEffect final : public Effect {
                 .settled_by = "a second GNSS antenna"}) {}
 
   std::string Describe(EffectValues values) const override {
-    return "heading reads " + Number(values[0] * 180.0 / std::numbers::pi, 1) + " deg too " +
+    return "heading reads " + FormatNumber(values[0] * 180.0 / std::numbers::pi, 1) + " deg too " +
            (values[0] < 0.0 ? "low" : "high");
   }
 

@@ -16,7 +16,7 @@ class ThrusterDelayEffect final : public Effect {
                 .settled_by = "the speed of the propellers"}) {}
 
   std::string Describe(EffectValues values) const override {
-    return "commands reach the thrusters " + Number(values[0], 2) + " s late";
+    return "commands reach the thrusters " + FormatNumber(values[0], 2) + " s late";
   }
 
   double CommandDelayS(EffectValues values) const override { return values[0]; }

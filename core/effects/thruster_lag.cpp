@@ -16,7 +16,7 @@ class ThrusterLagEffect final : public Effect {
                 .settled_by = "the speed of the propellers"}) {}
 
   std::string Describe(EffectValues values) const override {
-    return "thrusters follow commands " + Number(values[0], 2) + " s more slowly";
+    return "thrusters follow commands " + FormatNumber(values[0], 2) + " s more slowly";
   }
 
   double ShaftLagS(EffectValues values) const override { return values[0]; }

@@ -25,7 +25,7 @@ class ThrusterMisalignmentEffect final : public Effect {
                 .hook = Hook::kAcceleration}) {}
 
   std::string Describe(EffectValues values) const override {
-    return "thrust turned by " + Number(values[0] * 180.0 / std::numbers::pi, 1) + " deg";
+    return "thrust turned by " + FormatNumber(values[0] * 180.0 / std::numbers::pi, 1) + " deg";
   }
 
   NuDot AddedAcceleration(EffectValues values, const InstantState& instant) const override {

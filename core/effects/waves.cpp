@@ -25,7 +25,7 @@ class WavesEffect final : public Effect {
              .nominal_variation = NominalVariation::kRecordingEffect}) {}
 
   std::string Describe(EffectValues values) const override {
-    return "waves met every " + Number(2.0 * std::numbers::pi / values[3], 1) + " s";
+    return "waves met every " + FormatNumber(2.0 * std::numbers::pi / values[3], 1) + " s";
   }
 
   std::optional<NarrowBandExcitation> StochasticExcitation(EffectValues values) const override {

@@ -34,7 +34,7 @@ class WindEffect final : public Effect {
                 .turbulence_intensity = kTurbulence}) {}
 
   std::string Describe(EffectValues values) const override {
-    return Number(std::hypot(values[0], values[1]), 1) + " m/s of wind " +
+    return FormatNumber(std::hypot(values[0], values[1]), 1) + " m/s of wind " +
            Towards(values[0], values[1]);
   }
 

@@ -7,7 +7,7 @@
 namespace telltale {
 
 std::string Percent(double share) {
-  return Number(100.0 * std::abs(share), 0) + " %";
+  return FormatNumber(100.0 * std::abs(share), 0) + " %";
 }
 
 std::string PercentMoreOrLess(double share) {

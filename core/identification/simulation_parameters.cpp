@@ -178,7 +178,7 @@ std::optional<std::string> Divergence(const PreparedDataset& dataset, const Vess
     const DivergenceCount count = CountDivergences(dataset, model, horizon_s);
     if (count.diverged == 0) continue;
     return "in " + std::to_string(count.diverged) + " of " + std::to_string(count.runs) +
-           " runs of " + Number(horizon_s, 0) + " s over its own recording";
+           " runs of " + FormatNumber(horizon_s, 0) + " s over its own recording";
   }
   return std::nullopt;
 }
@@ -191,8 +191,8 @@ std::optional<std::string> Regularise(const PreparedDataset& dataset,
   if (!candidate) return std::nullopt;
   identification.simulation.assign(candidate->theta.begin(), candidate->theta.end());
   return "it is sailed with coefficients drawn in along what the data leave open, by " +
-         Number(LargestShift(identification, candidate->theta), 1) +
-         " standard errors at most, and so runs for " + Number(candidate->stable_s, 0) + " s";
+         FormatNumber(LargestShift(identification, candidate->theta), 1) +
+         " standard errors at most, and so runs for " + FormatNumber(candidate->stable_s, 0) + " s";
 }
 
 }  // namespace

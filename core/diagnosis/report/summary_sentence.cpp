@@ -30,7 +30,7 @@ std::string WhatIsWrong(const Cause& cause) {
 
 std::string HowMuch(const std::optional<ExcessExplained>& excess_explained) {
   if (!excess_explained) return "too little to see in the free runs' size";
-  const auto whole = [](double share) { return Number(100.0 * share, 0); };
+  const auto whole = [](double share) { return FormatNumber(100.0 * share, 0); };
   return whole(excess_explained->share) + " % [" + whole(excess_explained->interval.lower) + ", " +
          whole(excess_explained->interval.upper) + "] of the gap";
 }
@@ -46,8 +46,9 @@ std::string WhatMayBeWrong(const Diagnosis& diagnosis, const std::string& times)
   const bool likely = !diagnosis.causes.empty() && !diagnosis.causes.front().effects.empty();
   if (likely) {
     const Cause& first = diagnosis.causes.front();
-    return "Most likely (" + Number(100.0 * first.probability, 0) + " %), but not for sure, " +
-           WhatIsWrong(first) + ": " + HowMuch(first.excess_explained) + ".";
+    return "Most likely (" + FormatNumber(100.0 * first.probability, 0) +
+           " %), but not for sure, " + WhatIsWrong(first) + ": " + HowMuch(first.excess_explained) +
+           ".";
   }
   return "Model and boat part (" + times +
          " times the nominal error), by something the library does not hold" +
@@ -58,7 +59,7 @@ std::string WhatMayBeWrong(const Diagnosis& diagnosis, const std::string& times)
 
 std::string SummarySentence(const Diagnosis& diagnosis) {
   const GapSize& gap = diagnosis.Main().all;
-  const std::string times = Number(gap.before / gap.noise_floor, 1);
+  const std::string times = FormatNumber(gap.before / gap.noise_floor, 1);
   const Cause* cause = FirstNamed(diagnosis);
   switch (diagnosis.verdict) {
     case Verdict::kNoMaterialGap:

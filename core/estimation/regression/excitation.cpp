@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 #include <numeric>
 #include <utility>
 
 #include "telltale/core/base/contract.hpp"
+#include "telltale/core/base/format_number.hpp"
 #include "telltale/core/base/linear_algebra/eigen_decompositions.hpp"
 #include "telltale/core/base/range.hpp"
 
@@ -18,12 +18,6 @@ namespace {
 constexpr double kActiveCommand = 0.05;
 // Two columns share a near dependency when it carries more than this share of their variance.
 constexpr double kVarianceShare = 0.5;
-
-std::string Number(double value) {
-  char text[32];
-  std::snprintf(text, sizeof(text), "%.3g", value);
-  return text;
-}
 
 Eigen::Index ColumnOf(const EquationProblem& problem, std::string_view name) {
   const auto found = std::find_if(problem.regressors.begin(), problem.regressors.end(),
@@ -55,7 +49,8 @@ std::optional<Refusal> RefuseShort(const EquationProblem& problem, const Excitat
   const auto rows = static_cast<double>(problem.phi.rows());
   if (rows >= needed) return std::nullopt;
   return Refusal{std::string(Name(problem.equation)),
-                 "only " + Number(rows) + " usable rows, " + Number(needed) + " are needed",
+                 "only " + FormatSignificant(rows, 3) + " usable rows, " +
+                     FormatSignificant(needed, 3) + " are needed",
                  "record for longer with the propellers in the regions this equation uses"};
 }
 
@@ -70,16 +65,16 @@ std::optional<Refusal> RefuseConstantMotion(const EquationProblem& problem,
                                    : "add zigzags at two speeds, circles both ways and a spin";
   if (motion < least) {
     return Refusal{std::string(Name(problem.equation)),
-                   what + Number(motion) + unit + " (standard deviation), " + Number(least) + unit +
-                       " are needed",
+                   what + FormatSignificant(motion, 3) + unit + " (standard deviation), " +
+                       FormatSignificant(least, 3) + unit + " are needed",
                    advice};
   }
   const double command = Spread(CommandOf(problem));
   if (command >= limits.command_spread) return std::nullopt;
   return Refusal{std::string(Name(problem.equation)),
                  std::string(surge ? "the mean command" : "the command difference") +
-                     " varies by only " + Number(command) + " of full command, " +
-                     Number(limits.command_spread) + " are needed",
+                     " varies by only " + FormatSignificant(command, 3) + " of full command, " +
+                     FormatSignificant(limits.command_spread, 3) + " are needed",
                  advice};
 }
 
@@ -218,7 +213,7 @@ Refusal Explain(const CollinearGroup& group, const EquationProblem& problem) {
   }
   return {std::string(Name(problem.equation)) + " " + names,
           "these cannot be told apart: the data move them together (condition index " +
-              Number(group.condition_index) + ")",
+              FormatSignificant(group.condition_index, 3) + ")",
           thrust ? "add steps of the command between small and full, in each direction of turning"
                  : "add zigzags and circles at two or more speeds"};
 }
