@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <complex>
 
-#include "telltale/client/cli/published_results.hpp"
 #include "telltale/client/cli/table.hpp"
+#include "telltale/core/paper/published_results.hpp"
 #include "telltale/core/paper/yellowfish.hpp"
 
 namespace telltale {
