@@ -5,24 +5,11 @@
 #include <limits>
 #include <utility>
 
+#include "telltale/core/data/recording_parts.hpp"
 #include "telltale/core/diagnosis/diagnose.hpp"
-#include "telltale/service/monitoring/prediction_error.hpp"
 
 namespace telltale {
 namespace {
-
-template <class Sample>
-std::vector<Sample> Between(const std::vector<Sample>& samples, double from_s, double to_s) {
-  const auto first = std::ranges::upper_bound(samples, from_s, {}, &Sample::time_s);
-  const auto last = std::ranges::upper_bound(samples, to_s, {}, &Sample::time_s);
-  return {first, std::max(first, last)};
-}
-
-/// Later than `from_s`, until `to_s`.
-Recording Part(const Recording& recording, double from_s, double to_s) {
-  return {Between(recording.gnss, from_s, to_s), Between(recording.heading, from_s, to_s),
-          Between(recording.thrusters, from_s, to_s), recording.rejected};
-}
 
 double DurationS(const Recording& recording) {
   if (recording.gnss.empty()) return 0.0;
@@ -43,7 +30,7 @@ Result<DiagnosisRecordings> SelectDiagnosisRecordings(const Recording& window,
   const std::string revision = "revision " + std::to_string(model.revision);
   const bool same_clock = EndTime(window) >= made_s;
   DiagnosisRecordings live;
-  live.since = same_clock ? Part(window, made_s, kEver) : window;
+  live.since = same_clock ? Between(window, made_s, kEver) : window;
   if (DurationS(live.since) < kMinimumDiagnosedS) {
     return Refuse(model.identification.vehicle_id,
                   "has recorded only " + Seconds(DurationS(live.since)) + " since " + revision +
@@ -52,7 +39,7 @@ Result<DiagnosisRecordings> SelectDiagnosisRecordings(const Recording& window,
   }
   live.baseline = behind;
   if (!live.baseline && same_clock) {
-    live.baseline = Part(window, model.identification.window.start_s - 1.0, made_s);
+    live.baseline = Between(window, model.identification.window.start_s - 1.0, made_s);
   }
   if (live.baseline && DurationS(*live.baseline) < kMinimumDiagnosedS) live.baseline.reset();
   live.basis = live.baseline

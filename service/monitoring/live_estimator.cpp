@@ -5,6 +5,7 @@
 #include <string>
 
 #include "telltale/core/data/preparation.hpp"
+#include "telltale/core/data/recording_parts.hpp"
 #include "telltale/service/monitoring/prediction_error.hpp"
 
 namespace telltale {

@@ -11,12 +11,6 @@ namespace {
 
 constexpr double kHorizonS = 5.0;
 
-template <class Sample>
-std::vector<Sample> Since(const std::vector<Sample>& samples, double time_s) {
-  const auto first = std::ranges::lower_bound(samples, time_s, {}, &Sample::time_s);
-  return {first, samples.end()};
-}
-
 }  // namespace
 
 std::optional<FreeRunError> MeasureFreeRunError(const Recording& recording, const Vehicle& vehicle,
@@ -44,20 +38,6 @@ double RelativeError(const FreeRunError& now, const FreeRunError& reference) {
     sum += ratio * ratio;
   }
   return std::sqrt(sum / static_cast<double>(now.size()));
-}
-
-double EndTime(const Recording& recording) {
-  double end_s = 0.0;
-  if (!recording.gnss.empty()) end_s = std::max(end_s, recording.gnss.back().time_s);
-  if (!recording.heading.empty()) end_s = std::max(end_s, recording.heading.back().time_s);
-  if (!recording.thrusters.empty()) end_s = std::max(end_s, recording.thrusters.back().time_s);
-  return end_s;
-}
-
-Recording Latest(const Recording& recording, double duration_s) {
-  const double since_s = EndTime(recording) - duration_s;
-  return {Since(recording.gnss, since_s), Since(recording.heading, since_s),
-          Since(recording.thrusters, since_s), recording.rejected};
 }
 
 }  // namespace telltale

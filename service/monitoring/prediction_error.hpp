@@ -17,10 +17,4 @@ std::optional<FreeRunError> MeasureFreeRunError(const Recording& recording, cons
 /// `now` in units of `reference`: the root mean square over the three velocities of their ratios.
 double RelativeError(const FreeRunError& now, const FreeRunError& reference);
 
-/// The time of the newest sample of any channel; 0 where there is none.
-double EndTime(const Recording& recording);
-
-/// The last `duration_s` of a recording.
-Recording Latest(const Recording& recording, double duration_s);
-
 }  // namespace telltale

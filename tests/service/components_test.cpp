@@ -236,14 +236,6 @@ TEST(PredictionError, IsOneWhereNothingChangedAndScalesWithTheError) {
   EXPECT_DOUBLE_EQ(RelativeError({0.2, 0.2, 0.3}, reference), std::sqrt(2.0));
 }
 
-TEST(PredictionError, LooksAtTheLastMinute) {
-  Recording recording;
-  for (int i = 0; i <= 100; ++i) recording.gnss.push_back({1.0 * i, 0.0, 0.0});
-  EXPECT_EQ(Latest(recording, 60.0).gnss.front().time_s, 40.0);
-  EXPECT_EQ(Latest(recording, 600.0).gnss.size(), 101u);
-  EXPECT_TRUE(Latest(Recording(), 60.0).gnss.empty());
-}
-
 /// Rows of a whole recording taken in piece by piece are those of the recording taken at once but
 /// for what interpolation makes of the ends of pieces: a hundredth of an error bar, five allowed.
 TEST(LiveEstimator, TellsTheSameHoweverItIsFed) {

@@ -1,0 +1,17 @@
+#pragma once
+
+#include "telltale/core/data/samples.hpp"
+
+namespace telltale {
+
+/// The time of the newest sample of any channel; 0 where there is none or all are older than 0.
+double EndTime(const Recording& recording);
+
+/// The samples of each channel later than `from_s` and not later than `to_s`, with the counts of
+/// rejected samples of the whole recording.
+Recording Between(const Recording& recording, double from_s, double to_s);
+
+/// The samples of each channel within the last `duration_s` before EndTime, with the same counts.
+Recording Latest(const Recording& recording, double duration_s);
+
+}  // namespace telltale
