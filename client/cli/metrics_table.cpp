@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "telltale/client/cli/table.hpp"
+#include "telltale/core/simulation/divergence.hpp"
 #include "telltale/core/vessel/model_structure.hpp"
 
 namespace telltale {
@@ -35,8 +36,7 @@ std::string OneStepTable(const Metrics& metrics) {
 
 // Beyond this a velocity is no longer a boat's: the model ran away, and how far says nothing.
 bool Diverges(const FreeRunScore& score) {
-  constexpr double kDivergedVelocity = 100.0;  // m/s or rad/s
-  return !(score.rmse < kDivergedVelocity);
+  return !(score.rmse < kOpenLoopDivergence.speed_mps);
 }
 
 bool Diverges(const FreeRunScores& scores) {

@@ -16,6 +16,7 @@
 #include "telltale/client/recording/telemetry_log/telemetry_log.hpp"
 #include "telltale/core/diagnosis/hypotheses/augmented_identification.hpp"
 #include "telltale/core/effects/augmented_simulation.hpp"
+#include "telltale/core/simulation/divergence.hpp"
 #include "telltale/core/simulation/sensors.hpp"
 #include "telltale/core/simulation/simulator.hpp"
 
@@ -58,10 +59,7 @@ bool IsFinite(const VesselState& state) {
 
 // A boat beyond this has left what any of these vessels can do, and soon the numbers too.
 bool IsPlausible(const VesselState& state) {
-  constexpr double kDivergedSpeedMps = 100.0;
-  constexpr double kDivergedYawRateRadps = 100.0;
-  return IsFinite(state) && std::hypot(state.nu.u, state.nu.v) < kDivergedSpeedMps &&
-         std::abs(state.nu.r) < kDivergedYawRateRadps;
+  return IsFinite(state) && !kOpenLoopDivergence.Exceeds(state.nu);
 }
 
 void RefuseDivergence(const std::vector<TimedState>& track) {

@@ -5,12 +5,12 @@
 
 #include "telltale/core/base/contract.hpp"
 #include "telltale/core/data/time_series.hpp"
+#include "telltale/core/vessel/thruster_response.hpp"
 
 namespace telltale {
 namespace {
 
 constexpr double kFilterReachS = 5.0;
-constexpr double kThrusterMemoryS = 30.0;
 
 struct Run {
   double start_s;

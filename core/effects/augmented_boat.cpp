@@ -11,6 +11,7 @@
 #include "telltale/core/base/contract.hpp"
 #include "telltale/core/simulation/simulator.hpp"
 #include "telltale/core/vessel/body_regressors.hpp"
+#include "telltale/core/vessel/runge_kutta.hpp"
 
 namespace telltale {
 namespace {
@@ -24,10 +25,6 @@ constexpr double kRounding = 1e-9;
 
 NuDot Plus(const NuDot& a, const NuDot& b, double share = 1.0) {
   return {a.u + share * b.u, a.v + share * b.v, a.r + share * b.r};
-}
-
-Nu Along(const Nu& nu, const NuDot& slope, double step_s) {
-  return {nu.u + step_s * slope.u, nu.v + step_s * slope.v, nu.r + step_s * slope.r};
 }
 
 Drive AddScaled(const Drive& sum, const Drive& more, double weight) {

@@ -2,15 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 #include <numeric>
 #include <utility>
 
+#include "telltale/core/base/format_number.hpp"
 #include "telltale/core/base/linear_algebra/covariance.hpp"
 #include "telltale/core/base/linear_algebra/eigen_decompositions.hpp"
 #include "telltale/core/base/median.hpp"
 #include "telltale/core/identification/shrinkage.hpp"
+#include "telltale/core/simulation/divergence.hpp"
 #include "telltale/core/simulation/free_run.hpp"
 #include "telltale/core/simulation/manoeuvres.hpp"
 #include "telltale/core/simulation/simulator.hpp"
@@ -109,10 +110,8 @@ void AssumeReverseThrust(const Identification& identification, VesselModel& mode
 }
 
 /// Two significant digits, and never a power of ten for numbers people read at a glance.
-std::string Number(double value) {
-  char text[32];
-  std::snprintf(text, sizeof(text), value >= 100.0 && value < 1e6 ? "%.0f" : "%.2g", value);
-  return text;
+std::string TwoDigits(double value) {
+  return value >= 100.0 && value < 1e6 ? FormatNumber(value, 0) : FormatSignificant(value, 2);
 }
 
 /// In per cent of the estimate where that makes sense.
@@ -121,11 +120,12 @@ std::string InWords(const ExpectedBounds& expected) {
   const double size = std::abs(expected.estimate);
   const bool relative = expected.expected_half_width < size;
   const auto width = [&](double half_width) {
-    return relative ? "+-" + Number(100.0 * half_width / size) + " %"
-                    : "+-" + Number(half_width) + (expected.unit == "1" ? "" : ' ' + expected.unit);
+    return relative
+               ? "+-" + TwoDigits(100.0 * half_width / size) + " %"
+               : "+-" + TwoDigits(half_width) + (expected.unit == "1" ? "" : ' ' + expected.unit);
   };
   if (std::isinf(expected.half_width)) {
-    const std::string now = "+-" + Number(expected.expected_half_width) +
+    const std::string now = "+-" + TwoDigits(expected.expected_half_width) +
                             (expected.unit == "1" ? "" : ' ' + expected.unit);
     return name + " from unknown to " + now;
   }
@@ -212,7 +212,7 @@ std::optional<ManoeuvreAdvisor::SimulatedManoeuvre> ManoeuvreAdvisor::SimulateMa
       Schedule({ManoeuvreCatalogue()[manoeuvre].manoeuvre}, 0.0);
   const std::vector<TimedState> track =
       Simulate(model, {}, commands, kCatalogueDurationS, h / static_cast<double>(steps_a_row));
-  const Nu limits = DivergenceLimits(basis_.fastest);
+  const Nu limits = kFreeRunDivergence.LimitsFor(basis_.fastest);
   SimulatedManoeuvre simulated{manoeuvre, {}, {}};
   for (const Equation equation : kEquations) {
     const Eigen::VectorXd& theta = model.theta[IndexOf(equation)];
@@ -339,7 +339,7 @@ std::string InWords(const ManoeuvreAdvice& advice, std::size_t most) {
   }
   if (words.empty()) return "";
   if (more > 0) words += " and " + std::to_string(more) + " more";
-  return advice.manoeuvre + " for " + Number(advice.duration_s) + " s" + words;
+  return advice.manoeuvre + " for " + TwoDigits(advice.duration_s) + " s" + words;
 }
 
 void AdviseManoeuvres(AdviceBasis basis, Identification& identification) {

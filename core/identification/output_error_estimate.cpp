@@ -94,7 +94,7 @@ std::optional<Interval> AsymmetricInterval(const OutputErrorProfile& profile,
   const bool is_lag = fit.unknowns.lagging && unknown == 0;
   if (is_lag) {
     search.lowest = kShortestTimeConstantS;
-    search.highest = kLongestLagS;
+    search.highest = kLongestTimeConstantS;
   }
   Interval interval =
       ProfileInterval([&](double value) { return profile.Deviance(unknown, value); }, search,

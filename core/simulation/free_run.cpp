@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "telltale/core/simulation/divergence.hpp"
+
 namespace telltale {
 namespace {
 
@@ -47,17 +49,6 @@ std::vector<VesselState> RunFreely(const PreparedDataset& dataset, const VesselM
   return states;
 }
 
-Nu DivergenceLimits(const Nu& fastest) {
-  constexpr double kTimes = 2.0;
-  constexpr double kAtLeast = 0.5;  // m/s, rad/s
-  return {std::max(kTimes * fastest.u, kAtLeast), std::max(kTimes * fastest.v, kAtLeast),
-          std::max(kTimes * fastest.r, kAtLeast)};
-}
-
-bool Within(const Nu& nu, const Nu& limits) {
-  return std::abs(nu.u) < limits.u && std::abs(nu.v) < limits.v && std::abs(nu.r) < limits.r;
-}
-
 std::vector<std::size_t> FreeRunStarts(const PreparedDataset& dataset, std::size_t steps) {
   std::vector<std::size_t> firsts;
   for (const RowRange& segment : dataset.segments) {
@@ -68,7 +59,7 @@ std::vector<std::size_t> FreeRunStarts(const PreparedDataset& dataset, std::size
 
 DivergenceCount CountDivergences(const PreparedDataset& dataset, const VesselModel& model,
                                  double horizon_s) {
-  const Nu limits = DivergenceLimits(FastestOf(dataset));
+  const Nu limits = kFreeRunDivergence.LimitsFor(FastestOf(dataset));
   DivergenceCount count;
   ForSomeRuns(dataset, model, horizon_s, [&](std::size_t, const auto& states) {
     ++count.runs;

@@ -30,12 +30,7 @@ std::vector<VesselState> RunFreely(const PreparedDataset& dataset, const VesselM
 /// the one before it ends.
 std::vector<std::size_t> FreeRunStarts(const PreparedDataset& dataset, std::size_t steps);
 
-/// Velocities beyond which the simulation of a boat that was measured at most `fastest` has run
-/// away: twice those, and at least half a metre or radian a second; docs/concepts/model.md (18a).
-Nu DivergenceLimits(const Nu& fastest);
-bool Within(const Nu& nu, const Nu& limits);
-
-/// Free runs over a dataset, and those of them that left what DivergenceLimits allow.
+/// Free runs over a dataset, and those of them that left the limits of kFreeRunDivergence.
 struct DivergenceCount {
   std::size_t runs = 0;
   std::size_t diverged = 0;

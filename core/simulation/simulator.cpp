@@ -4,27 +4,22 @@
 
 #include "telltale/core/base/contract.hpp"
 #include "telltale/core/data/time_series.hpp"
+#include "telltale/core/vessel/runge_kutta.hpp"
 
 namespace telltale {
 namespace {
 
-Nu Along(const Nu& nu, const NuDot& slope, double step_s) {
-  return {nu.u + step_s * slope.u, nu.v + step_s * slope.v, nu.r + step_s * slope.r};
-}
-
 Nu RungeKutta(const VesselModel& model, const VesselState& state, const PropellerCommand& delta,
               double h) {
-  const Nu& nu = state.nu;
   const ThrustRegressors start = model.ThrustAfter(state.thrust, delta, 0.0);
   const ThrustRegressors middle = model.ThrustAfter(state.thrust, delta, h / 2);
   const ThrustRegressors end = model.ThrustAfter(state.thrust, delta, h);
-  const NuDot k1 = model.AccelerationUnder(start, nu);
-  const NuDot k2 = model.AccelerationUnder(middle, Along(nu, k1, h / 2));
-  const NuDot k3 = model.AccelerationUnder(middle, Along(nu, k2, h / 2));
-  const NuDot k4 = model.AccelerationUnder(end, Along(nu, k3, h));
-  const NuDot mean{(k1.u + 2 * k2.u + 2 * k3.u + k4.u) / 6, (k1.v + 2 * k2.v + 2 * k3.v + k4.v) / 6,
-                   (k1.r + 2 * k2.r + 2 * k3.r + k4.r) / 6};
-  return Along(nu, mean, h);
+  return RungeKuttaStep(state.nu, h, [&](const Nu& nu, StepStage stage) {
+    return model.AccelerationUnder(stage == StepStage::kStart    ? start
+                                   : stage == StepStage::kMiddle ? middle
+                                                                 : end,
+                                   nu);
+  });
 }
 
 Nu NextVelocity(const VesselModel& model, const VesselState& state, const PropellerCommand& delta,

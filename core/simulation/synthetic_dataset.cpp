@@ -8,6 +8,7 @@
 #include "telltale/core/base/gauss_markov.hpp"
 #include "telltale/core/data/north_east_frame.hpp"
 #include "telltale/core/data/preparation.hpp"
+#include "telltale/core/simulation/divergence.hpp"
 #include "telltale/core/vessel/body_dynamics.hpp"
 
 namespace telltale {
@@ -87,25 +88,6 @@ class Course {
   std::vector<Knot> knots_;
 };
 
-/// A boat this much beyond all that was measured has run away.
-class DivergenceCheck {
- public:
-  explicit DivergenceCheck(const PreparedDataset& dataset) : fastest_(FastestOf(dataset)) {}
-
-  bool Diverged(const Nu& nu) const {
-    const auto within = [](double value, double fastest) {
-      return std::abs(value) < std::max(kTimes * fastest, kAtLeast);  // never for NaN
-    };
-    return !(within(nu.u, fastest_.u) && within(nu.v, fastest_.v) && within(nu.r, fastest_.r));
-  }
-
- private:
-  static constexpr double kTimes = 3.0;
-  static constexpr double kAtLeast = 0.5;  // m/s, rad/s
-
-  Nu fastest_;
-};
-
 /// What segment s of the dataset started with, and when it is sailed on the twin's clock.
 struct SimulatedSegment {
   const PreparedDataset& dataset;
@@ -166,8 +148,8 @@ Instant Later(const Instant& now, const Nu& midway, const Nu& after, double step
 }
 
 Result<Course> SimulateSegment(const SimulatedSegment& simulated_segment, const VesselModel& model,
-                               const BodyDynamics& dynamics, const DivergenceCheck& divergence,
-                               double step_s, const std::array<bool, 3>& as_measured,
+                               const BodyDynamics& dynamics, const Nu& limits, double step_s,
+                               const std::array<bool, 3>& as_measured,
                                const ConstantDisturbance& constant_disturbances,
                                std::array<GaussMarkov, 3>& disturbance) {
   const auto steps = static_cast<std::size_t>(std::lround(simulated_segment.Duration() / step_s));
@@ -202,7 +184,7 @@ Result<Course> SimulateSegment(const SimulatedSegment& simulated_segment, const 
       midway.*velocity = (now.nu.*velocity + measured.*velocity) / 2.0;
     }
     now = Later(now, midway, next, step_s);
-    if (divergence.Diverged(next)) {
+    if (!Within(next, limits)) {
       return Refuse("simulated repeat", "the model runs away under the recorded commands",
                     "record more of the manoeuvres in which it does");
     }
@@ -309,7 +291,7 @@ Result<SyntheticRecording> SimulateRecording(const PreparedDataset& dataset,
   const double h = dataset.sampling_period_s;
   const double step_s = h / std::ceil(h / kLongestStepS - 1e-9);
   const BodyDynamics dynamics(model);
-  const DivergenceCheck divergence(dataset);
+  const Nu limits = kSyntheticDatasetDivergence.LimitsFor(FastestOf(dataset));
   auto disturbance =
       DrawDisturbances(options.disturbance, step_s, options.seed, kFirstDisturbanceStream);
   SyntheticSensors synthetic_sensors(dataset, options);
@@ -321,7 +303,7 @@ Result<SyntheticRecording> SimulateRecording(const PreparedDataset& dataset,
     const std::size_t of = dataset.RecordingOf(s);
     if (s == 0 || of != dataset.RecordingOf(s - 1)) synthetic.recording.starts_s.push_back(start_s);
     const auto course =
-        SimulateSegment(simulated_segment, model, dynamics, divergence, step_s, options.as_measured,
+        SimulateSegment(simulated_segment, model, dynamics, limits, step_s, options.as_measured,
                         options.constant_disturbances.empty() ? ConstantDisturbance()
                                                               : options.constant_disturbances[of],
                         disturbance);

@@ -6,6 +6,7 @@
 #include "telltale/core/vessel/body_regressors.hpp"
 #include "telltale/core/vessel/model_structure.hpp"
 #include "telltale/core/vessel/motion.hpp"
+#include "telltale/core/vessel/runge_kutta.hpp"
 #include "telltale/core/vessel/vessel_model.hpp"
 
 namespace telltale {
@@ -59,14 +60,7 @@ class BodyDynamics {
 
   /// A Runge-Kutta step of order four under what is applied throughout.
   Nu Step(const NuDot& applied, const Nu& nu, double step_s) const {
-    const NuDot k1 = Under(applied, nu);
-    const NuDot k2 = Under(applied, Along(nu, k1, step_s / 2));
-    const NuDot k3 = Under(applied, Along(nu, k2, step_s / 2));
-    const NuDot k4 = Under(applied, Along(nu, k3, step_s));
-    return Along(nu,
-                 {(k1.u + 2 * k2.u + 2 * k3.u + k4.u) / 6, (k1.v + 2 * k2.v + 2 * k3.v + k4.v) / 6,
-                  (k1.r + 2 * k2.r + 2 * k3.r + k4.r) / 6},
-                 step_s);
+    return RungeKuttaStep(nu, step_s, [&](const Nu& at, StepStage) { return Under(applied, at); });
   }
 
  private:
@@ -81,10 +75,6 @@ class BodyDynamics {
     double sum = 0.0;
     for (std::size_t i = 0; i < N; ++i) sum += a[i] * b[i];
     return sum;
-  }
-
-  static Nu Along(const Nu& nu, const NuDot& slope, double step_s) {
-    return {nu.u + step_s * slope.u, nu.v + step_s * slope.v, nu.r + step_s * slope.r};
   }
 
   std::array<double, 5> surge_{};

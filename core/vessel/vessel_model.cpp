@@ -29,13 +29,12 @@ LagPerPeriod LagOf(const VesselModel& model, double elapsed_s) {
   return LagOver(*model.thruster_time_constant_s / elapsed_s);
 }
 
-/// `steady`, but for the share `remaining` of what `thrust` is behind it.
-ThrustRegressors Approach(const ThrustRegressors& thrust, const ThrustRegressors& steady,
-                          double remaining) {
-  ThrustRegressors next = steady;
+ThrustRegressors EachApproaching(const ThrustRegressors& start, const ThrustRegressors& steady,
+                                 double share) {
+  ThrustRegressors next;
   for (std::size_t i = 0; i < next.surge.size(); ++i) {
-    next.surge[i] += remaining * (thrust.surge[i] - steady.surge[i]);
-    next.turning[i] += remaining * (thrust.turning[i] - steady.turning[i]);
+    next.surge[i] = Approach(start.surge[i], steady.surge[i], share);
+    next.turning[i] = Approach(start.turning[i], steady.turning[i], share);
   }
   return next;
 }
@@ -62,12 +61,12 @@ ThrustRegressors VesselModel::SteadyThrust(const PropellerCommand& delta) const 
 
 ThrustRegressors VesselModel::ThrustAfter(const ThrustRegressors& thrust,
                                           const PropellerCommand& delta, double elapsed_s) const {
-  return Approach(thrust, SteadyThrust(delta), LagOf(*this, elapsed_s).remaining);
+  return EachApproaching(thrust, SteadyThrust(delta), LagOf(*this, elapsed_s).remaining);
 }
 
 ThrustRegressors VesselModel::MeanThrust(const ThrustRegressors& thrust,
                                          const PropellerCommand& delta, double elapsed_s) const {
-  return Approach(thrust, SteadyThrust(delta), LagOf(*this, elapsed_s).mean);
+  return EachApproaching(thrust, SteadyThrust(delta), LagOf(*this, elapsed_s).mean);
 }
 
 NuDot VesselModel::AccelerationUnder(const ThrustRegressors& thrust, const Nu& nu) const {

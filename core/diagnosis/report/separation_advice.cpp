@@ -8,6 +8,7 @@
 #include "telltale/core/base/linear_algebra/eigen_decompositions.hpp"
 #include "telltale/core/data/preparation.hpp"
 #include "telltale/core/diagnosis/residuals/free_runs.hpp"
+#include "telltale/core/simulation/divergence.hpp"
 #include "telltale/core/simulation/manoeuvres.hpp"
 #include "telltale/core/simulation/sensors.hpp"
 #include "telltale/core/simulation/simulator.hpp"
@@ -21,9 +22,6 @@ constexpr double kMinimumLogEvidence = 1.0;
 constexpr std::size_t kMaximumAdvice = 3;
 constexpr double kCruise = 0.4;  // share of full command at which a manoeuvre begins, for a while
 constexpr double kCruiseS = 10.0;
-// Beyond these a rehearsal has run away and teaches nothing.
-constexpr double kDivergedSpeedMps = 20.0;
-constexpr double kDivergedYawRateRadps = 10.0;
 
 /// A recording of the manoeuvre as a boat like this one would make it, without noise: commands and
 /// a course to start windows from.
@@ -39,8 +37,7 @@ std::optional<PreparedDataset> SimulatedManoeuvre(const CatalogueManoeuvre& mano
   const double end_s = kCruiseS + kCatalogueDurationS;
   const auto track = Simulate(carrier, {}, commands, end_s, sampling_period_s / 10.0);
   const auto diverges = [](const TimedState& now) {
-    const Nu& nu = now.state.nu;
-    return !(std::hypot(nu.u, nu.v) < kDivergedSpeedMps && std::abs(nu.r) < kDivergedYawRateRadps);
+    return kSimulatedManoeuvreDivergence.Exceeds(now.state.nu);
   };
   if (std::any_of(track.begin(), track.end(), diverges)) return std::nullopt;
   SensorOptions sensors;

@@ -8,6 +8,7 @@
 #include "telltale/core/base/linear_algebra/eigen_decompositions.hpp"
 #include "telltale/core/effects/augmented_boat.hpp"
 #include "telltale/core/effects/sensor_chain.hpp"
+#include "telltale/core/simulation/divergence.hpp"
 
 namespace telltale {
 namespace {
@@ -15,8 +16,6 @@ namespace {
 constexpr double kBinsPerWindow = 10.0;
 // Stamps of seconds since 1970 are exact to a fraction of a microsecond.
 constexpr double kSameBin = 1e-4;
-// Beyond this a run has left what can be compared: metres, radians.
-constexpr double kDivergedError = 1e3;
 // Steps by which a start is varied: metres, radians, m/s, rad/s. Small against what windows show,
 // large against rounding.
 constexpr std::array kStartSteps = {1e-2, 1e-2, 1e-3, 1e-2, 1e-2, 1e-2};
@@ -59,7 +58,8 @@ double HeadingAt(const std::vector<Pose>& track, double since_start_s, double st
 }
 
 double Limited(double error) {
-  return std::isfinite(error) ? std::clamp(error, -kDivergedError, kDivergedError) : kDivergedError;
+  return std::isfinite(error) ? std::clamp(error, -kLargestFreeRunResidual, kLargestFreeRunResidual)
+                              : kLargestFreeRunResidual;
 }
 
 }  // namespace

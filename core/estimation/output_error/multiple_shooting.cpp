@@ -7,15 +7,15 @@
 
 #include "telltale/core/base/contract.hpp"
 #include "telltale/core/data/time_series.hpp"
+#include "telltale/core/simulation/divergence.hpp"
 #include "telltale/core/vessel/body_dynamics.hpp"
+#include "telltale/core/vessel/runge_kutta.hpp"
 #include "telltale/core/vessel/thruster_response.hpp"
 
 namespace telltale {
 namespace {
 
 constexpr double kLongestStepS = 0.2;
-constexpr double kThrusterMemoryS = 30.0;
-constexpr double kShortestLagS = 1e-3;
 constexpr std::size_t kFewestFixes = 4;
 constexpr std::size_t kFewestHeadings = 3;
 
@@ -229,9 +229,9 @@ class FollowingThrusters {
     const LagPerPeriod lag = LagOver(*time_constant_s_ / duration_s);
     const Thrust start = now_;
     const Terms behind = start.now - steady;
-    now_.now = steady + lag.remaining * behind;
+    now_.now = Approach(start.now, steady, lag.remaining);
     now_.by_lag = lag.remaining * start.by_lag + lag.remaining_slope / duration_s * behind;
-    const Terms mean = steady + lag.mean * behind;
+    const Terms mean = Approach(start.now, steady, lag.mean);
     const Terms mean_by_lag = lag.mean * start.by_lag + lag.mean_slope / duration_s * behind;
     const Thrust middle{(6.0 * mean - start.now - now_.now) / 4.0,
                         (6.0 * mean_by_lag - start.by_lag - now_.by_lag) / 4.0};
@@ -270,18 +270,26 @@ class VariedDynamics {
   }
 
   Motion Step(const Motion& from, const ThrustOverStep& thrust, double h) const {
-    const Motion k1 = Slope(from, thrust.start);
-    const Motion k2 = Slope(Along(from, k1, h / 2), thrust.middle);
-    const Motion k3 = Slope(Along(from, k2, h / 2), thrust.middle);
-    const Motion k4 = Slope(Along(from, k3, h), thrust.end);
-    Motion to;
-    to.state = from.state + h / 6 * (k1.state + 2 * k2.state + 2 * k3.state + k4.state);
-    if (varied_) {
-      to.sensitivity =
-          from.sensitivity +
-          h / 6 * (k1.sensitivity + 2 * k2.sensitivity + 2 * k3.sensitivity + k4.sensitivity);
-    }
-    return to;
+    return RungeKuttaStep(
+        from, h,
+        [&](const Motion& at, StepStage stage) {
+          return Slope(at, stage == StepStage::kStart    ? thrust.start
+                           : stage == StepStage::kMiddle ? thrust.middle
+                                                         : thrust.end);
+        },
+        [&](const Motion& at, const Motion& slope, double step_s) {
+          return Along(at, slope, step_s);
+        },
+        [&](const Motion& k1, const Motion& k2, const Motion& k3, const Motion& k4) {
+          Motion to;
+          to.state = from.state + h / 6 * (k1.state + 2 * k2.state + 2 * k3.state + k4.state);
+          if (varied_) {
+            to.sensitivity =
+                from.sensitivity +
+                h / 6 * (k1.sensitivity + 2 * k2.sensitivity + 2 * k3.sensitivity + k4.sensitivity);
+          }
+          return to;
+        });
   }
 
  private:
@@ -430,8 +438,7 @@ class ShootingResidualWriter {
 };
 
 bool HasDiverged(const ShootingState& state) {
-  constexpr double kFastest = 50.0;  // m/s or rad/s, beyond any boat
-  return !(state.tail<3>().cwiseAbs().maxCoeff() < kFastest);
+  return !Within({state[3], state[4], state[5]}, kShootingLimits);
 }
 
 }  // namespace
@@ -453,7 +460,7 @@ VesselModel SharedUnknowns::ModelWith(const Eigen::VectorXd& theta,
       VesselModel::OfZeros(lagging ? Structure::kFirstOrderDynamic : Structure::kStaticQuadratic,
                            parameterization, Discretisation::kContinuous, sampling_period_s);
   model.dead_zone = dead_zone;
-  if (lagging) model.thruster_time_constant_s = std::max(theta[0], kShortestLagS);
+  if (lagging) model.thruster_time_constant_s = std::max(theta[0], kShortestSimulatedTimeConstantS);
   for (const Equation equation : kEquations) {
     const std::size_t j = IndexOf(equation);
     Eigen::Index next = First(equation);
@@ -467,7 +474,7 @@ VesselModel SharedUnknowns::ModelWith(const Eigen::VectorXd& theta,
 Eigen::VectorXd SharedUnknowns::In(const VesselModel& model) const {
   Require(model.parameterization == parameterization, "a model of the same parameterization");
   Eigen::VectorXd theta(Size());
-  if (lagging) theta[0] = model.thruster_time_constant_s.value_or(kShortestLagS);
+  if (lagging) theta[0] = model.thruster_time_constant_s.value_or(kShortestSimulatedTimeConstantS);
   for (const Equation equation : kEquations) {
     const std::size_t j = IndexOf(equation);
     Eigen::Index next = First(equation);
@@ -520,7 +527,7 @@ std::optional<ShootingResidual> ComputeShootingResidual(
     const NoiseScale& noise_scale, bool with_derivatives) {
   const VariedDynamics dynamics(unknowns, theta, with_derivatives);
   std::optional<double> time_constant_s;
-  if (unknowns.lagging) time_constant_s = std::max(theta[0], kShortestLagS);
+  if (unknowns.lagging) time_constant_s = std::max(theta[0], kShortestSimulatedTimeConstantS);
   FollowingThrusters thrusters(shooting_segment, time_constant_s);
   ShootingResidualWriter writer(plan, shooting_segment, unknowns, noise_scale, with_derivatives);
   writer.StartAt(start);

@@ -189,7 +189,7 @@ bool ShootingSolution::Descend(const NoiseScale& noise_scale, double tolerance, 
   }
   if (unknowns_.lagging) {
     problem.SetParameterLowerBound(theta_.data(), 0, kShortestTimeConstantS);
-    problem.SetParameterUpperBound(theta_.data(), 0, kLongestLagS);
+    problem.SetParameterUpperBound(theta_.data(), 0, kLongestTimeConstantS);
   }
   for (std::size_t i = 0; i < plan_.shooting_segments.size(); ++i) {
     problem.AddResidualBlock(std::make_unique<ShootingSegmentCost>(

@@ -9,10 +9,9 @@
 
 #include "telltale/core/data/prepared_dataset.hpp"
 #include "telltale/core/estimation/output_error/multiple_shooting.hpp"
+#include "telltale/core/vessel/thruster_response.hpp"
 
 namespace telltale {
-
-inline constexpr double kLongestLagS = 20.0;  ///< time constant that is sought by shooting
 
 /// Where theta begins and how far a coefficient may reasonably move from there: by what would take
 /// the boat through the spread of its velocities in a second. Data that tell anything overrule it

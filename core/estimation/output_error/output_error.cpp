@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <optional>
 
 #include "telltale/core/base/contract.hpp"
+#include "telltale/core/base/format_number.hpp"
 #include "telltale/core/base/linear_algebra/covariance.hpp"
 #include "telltale/core/base/linear_algebra/eigen_decompositions.hpp"
 #include "telltale/core/base/range.hpp"
@@ -18,12 +18,6 @@ namespace {
 constexpr double kRoughly = 1e-4;  // relative changes of the sum at which to stop
 constexpr double kClosely = 1e-9;
 constexpr int kRoughIterations = 15;
-
-std::string Number(double value) {
-  char text[32];
-  std::snprintf(text, sizeof(text), "%.3g", value);
-  return text;
-}
 
 /// What a shot says of the shared unknowns once its own state has been fitted out of it: rows
 /// orthogonal to the columns of the state.
@@ -88,9 +82,9 @@ std::optional<Refusal> RefuseThin(const ShootingPlan& plan, const SharedUnknowns
   if (!plan.shooting_segments.empty() && plan.clusters > 1 && spare > 0) return std::nullopt;
   return Refusal{"output error",
                  "the recording gives " +
-                     Number(static_cast<double>(plan.shooting_segments.size())) +
+                     FormatSignificant(static_cast<double>(plan.shooting_segments.size()), 3) +
                      " shots with enough fixes and headings, too few for " +
-                     Number(static_cast<double>(unknowns.Size())) + " coefficients",
+                     FormatSignificant(static_cast<double>(unknowns.Size()), 3) + " coefficients",
                  "record for longer with the propellers in the regions these equations use"};
 }
 
@@ -114,7 +108,7 @@ SharedUnknowns UnknownsOf(const RegressionOptions& regression,
 
 Eigen::VectorXd InBounds(const SharedUnknowns& unknowns, Eigen::VectorXd theta) {
   if (unknowns.lagging) {
-    theta[0] = std::clamp(theta[0], kShortestTimeConstantS, kLongestLagS);
+    theta[0] = std::clamp(theta[0], kShortestTimeConstantS, kLongestTimeConstantS);
   }
   return theta;
 }
@@ -295,11 +289,11 @@ Refusal Explain(const InseparableDirection& direction, const SharedUnknowns& unk
     const std::string name = NameOf(unknowns, unknown);
     const double by = direction.change[static_cast<Eigen::Index>(unknown)];
     names += (names.empty() ? "" : ", ") + name;
-    change += (change.empty() ? "" : ", ") + Number(by) + " to " + name;
+    change += (change.empty() ? "" : ", ") + FormatSignificant(by, 3) + " to " + name;
   }
   if (direction.unknowns.size() > kNamed) {
     const auto rest = static_cast<double>(direction.unknowns.size() - kNamed);
-    change += " and something to " + Number(rest) + " others";
+    change += " and something to " + FormatSignificant(rest, 3) + " others";
   }
   if (direction.unknowns.size() == 1) {
     return {names, "the data say nothing of it: no measurement moves with it alone",
@@ -308,7 +302,7 @@ Refusal Explain(const InseparableDirection& direction, const SharedUnknowns& unk
   return {names,
           "these cannot be told apart: adding " + change +
               " leaves every measurement as it is (condition index " +
-              Number(direction.condition_index) + ")",
+              FormatSignificant(direction.condition_index, 3) + ")",
           "add steps of the command between small and full, zigzags and circles at two or more "
           "speeds"};
 }

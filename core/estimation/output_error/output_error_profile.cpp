@@ -77,7 +77,8 @@ double OutputErrorProfile::Deviance(Eigen::Index unknown, double value) const {
   ShootingSolution solution = optimum_;
   Eigen::VectorXd theta = optimum_.Theta() + Follow(unknown, value - optimum_.Theta()[unknown]);
   theta[unknown] = value;
-  if (fit_.unknowns.lagging) theta[0] = std::clamp(theta[0], kShortestTimeConstantS, kLongestLagS);
+  if (fit_.unknowns.lagging)
+    theta[0] = std::clamp(theta[0], kShortestTimeConstantS, kLongestTimeConstantS);
   solution.MoveTo(theta, optimum_.Starts());
   if (solution.Diverges()) {
     theta = optimum_.Theta();

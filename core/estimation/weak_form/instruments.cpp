@@ -4,6 +4,7 @@
 #include <cmath>
 #include <iterator>
 
+#include "telltale/core/simulation/divergence.hpp"
 #include "telltale/core/vessel/body_regressors.hpp"
 
 namespace telltale {
@@ -179,6 +180,7 @@ void Instruments::Simulate(const BodyDynamics& dynamics,
   const double h = dataset_.sampling_period_s;
   const PreparedRow& start = dataset_.rows[part.rows.begin];
   predicted[part.rows.begin] = {start.nu, start.eta.psi_rad};
+  const Nu limits = kInstrumentDivergence.LimitsFor(fastest_);
   for (std::size_t k = part.rows.begin; k + 1 < part.rows.end; ++k) {
     const NuDot propelled = dynamics.Propelled(thrust.interval[k]);
     const NuDot constant = disturbance_terms.At(predicted[k].psi_rad);
@@ -187,9 +189,9 @@ void Instruments::Simulate(const BodyDynamics& dynamics,
         predicted[k].nu, h);
     const Nu& measured = dataset_.rows[k + 1].nu;
     Instant& then = predicted[k + 1];
-    then.nu = {simulated[0] ? Clamped(next.u, 2.0 * fastest_.u) : measured.u,
-               simulated[1] ? Clamped(next.v, 2.0 * fastest_.v) : measured.v,
-               simulated[2] ? Clamped(next.r, 2.0 * fastest_.r) : measured.r};
+    then.nu = {simulated[0] ? Clamped(next.u, limits.u) : measured.u,
+               simulated[1] ? Clamped(next.v, limits.v) : measured.v,
+               simulated[2] ? Clamped(next.r, limits.r) : measured.r};
     then.psi_rad = predicted[k].psi_rad + h * (predicted[k].nu.r + then.nu.r) / 2.0;
   }
 }

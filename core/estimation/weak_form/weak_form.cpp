@@ -50,9 +50,9 @@ class FollowedThrust {
       return duration_s * disturbance_terms;
     }
     const LagPerPeriod lag = LagOver(time_constant_s_ / duration_s);
-    const Terms behind = now_ - disturbance_terms;
-    now_ = disturbance_terms + lag.remaining * behind;
-    return duration_s * (disturbance_terms + lag.mean * behind);
+    const Terms mean = Approach(now_, disturbance_terms, lag.mean);
+    now_ = Approach(now_, disturbance_terms, lag.remaining);
+    return duration_s * mean;
   }
 
  private:

@@ -14,7 +14,6 @@
 namespace telltale {
 namespace {
 
-constexpr double kLongestTimeConstantS = 20.0;
 constexpr std::size_t kResidualLags = 20;  // over which residuals of windows hang together
 
 /// One equation weighed: b = G theta + e.

@@ -10,11 +10,10 @@
 #include "telltale/core/estimation/regression/parameter_block.hpp"
 #include "telltale/core/estimation/weak_form/weak_form.hpp"
 #include "telltale/core/vessel/disturbance.hpp"
+#include "telltale/core/vessel/thruster_response.hpp"
 #include "telltale/core/vessel/vessel_model.hpp"
 
 namespace telltale {
-
-constexpr double kShortestTimeConstantS = 0.01;  ///< that is sought
 
 struct WeakIvOptions {
   WeakFormOptions form;

@@ -119,12 +119,5 @@ TEST(FreeRunError, IsInUnitsOfTheFastestMeasured) {
   EXPECT_NEAR(FreeRunError(dataset, boat, kHorizonS), std::sqrt(squares / misses), 1e-12);
 }
 
-TEST(DivergenceLimits, LeaveRoomForABoatAtRest) {
-  const Nu limits = DivergenceLimits({0.0, 0.0, 0.0});
-  EXPECT_TRUE(Within({0.4, -0.4, 0.4}, limits));
-  EXPECT_FALSE(Within({0.4, -0.6, 0.4}, limits));
-  EXPECT_FALSE(Within({std::nan(""), 0.0, 0.0}, limits));
-}
-
 }  // namespace
 }  // namespace telltale
