@@ -38,7 +38,7 @@ struct RowRange {
 };
 
 /// The sensors behind a dataset as its samples show them: what a simulated repeat of it needs.
-struct SensorChain {
+struct SensorProperties {
   double gnss_period_s = 0.0;     ///< mean over the segments
   double heading_period_s = 0.0;  ///< likewise
   double position_noise_m = 0.0;  ///< one sigma per axis and fix, white, judged by WhiteNoise
@@ -72,7 +72,7 @@ struct PreparedDataset {
   /// one.
   std::vector<std::size_t> recordings;
   PrepareOptions options;  ///< how the rows were made
-  SensorChain sensors;
+  SensorProperties sensors;
   RejectCounts rejected;
   Nu nu_noise;  ///< one sigma that white sensor noise, judged by WhiteNoise, leaves in each nu
 

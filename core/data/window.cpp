@@ -1,7 +1,6 @@
 #include "telltale/core/data/window.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <deque>
 #include <limits>
@@ -9,17 +8,13 @@
 
 #include "telltale/core/base/contract.hpp"
 #include "telltale/core/base/range.hpp"
+#include "telltale/core/data/clock_check.hpp"
+#include "telltale/core/data/stuck_sensor_check.hpp"
 
 namespace telltale {
 namespace {
 
 constexpr double kNever = -std::numeric_limits<double>::infinity();
-
-// Pulse widths this close to those at the start of a repeated reading command the same motion.
-constexpr double kSameCommandUs = 50.0;
-
-// A command's effect is not vouched for beyond this time without a newer one.
-constexpr double kLongestHoldS = 1.0;
 
 constexpr Channel ChannelOf(const GnssFix&) {
   return Channel::kGnss;
@@ -55,69 +50,10 @@ bool InRange(const ThrusterSample& s) {
   return Within(s.port_us, 500.0, 2500.0) && Within(s.starboard_us, 500.0, 2500.0);
 }
 
-bool SameReading(const GnssFix& a, const GnssFix& b) {
-  return a.latitude_deg == b.latitude_deg && a.longitude_deg == b.longitude_deg;
-}
-bool SameReading(const HeadingSample& a, const HeadingSample& b) {
-  return a.heading_deg == b.heading_deg;
-}
-
-bool SameCommand(const ThrusterSample& a, const ThrusterSample& b) {
-  return std::abs(a.port_us - b.port_us) <= kSameCommandUs &&
-         std::abs(a.starboard_us - b.starboard_us) <= kSameCommandUs;
-}
-
 template <class Channels, class Visit>
 void ForEachChannel(Channels& channels, Visit visit) {
   std::apply([&visit](auto&... samples) { (visit(samples), ...); }, channels);
 }
-
-/// Watches one sensor for a reading that does not change although the commands did.
-template <class Sample>
-class StuckWatch {
- public:
-  void See(const Sample& sample, const std::optional<ThrusterSample>& command) {
-    if (reading_ && SameReading(*reading_, sample)) return;
-    reading_ = sample;
-    command_then_ = command;
-    commanded_s_ = 0.0;
-  }
-
-  /// `held` was in force for `duration_s`.
-  void Commanded(const ThrusterSample& held, double duration_s) {
-    if (!command_then_) command_then_ = held;
-    if (!SameCommand(held, *command_then_)) commanded_s_ += std::min(duration_s, kLongestHoldS);
-  }
-
-  bool IsStuck(double after_s) const { return commanded_s_ > after_s; }
-
- private:
-  std::optional<Sample> reading_;
-  std::optional<ThrusterSample> command_then_;
-  double commanded_s_ = 0.0;
-};
-
-/// Samples off the window's clock that agree with each other: perhaps the boat's new clock.
-class ClockCandidate {
- public:
-  /// How many samples in a row now speak for the new clock.
-  std::size_t See(Channel channel, double time_s, double consistent_within_s) {
-    if (count_ == 0 || std::abs(time_s - latest_s_) > consistent_within_s) Forget();
-    double& of_channel = latest_of_[static_cast<std::size_t>(channel)];
-    // A stamp that stands still is no clock.
-    if (time_s > of_channel) ++count_;
-    of_channel = std::max(of_channel, time_s);
-    latest_s_ = time_s;
-    return count_;
-  }
-
-  void Forget() { *this = ClockCandidate(); }
-
- private:
-  std::size_t count_ = 0;
-  double latest_s_ = kNever;
-  std::array<double, kChannels.size()> latest_of_ = {kNever, kNever, kNever};
-};
 
 }  // namespace
 
@@ -153,24 +89,24 @@ struct Window::Impl {
   std::optional<RejectReason> Admit(const Sample& sample) {
     if (!IsFinite(sample)) return RejectReason::kNotFinite;
     if (!InRange(sample)) return RejectReason::kOutOfRange;
-    if (Leaps(sample.time_s) && !AcceptClock(ChannelOf(sample), sample.time_s)) {
+    if (ClockJumps(sample.time_s) && !AcceptClock(ChannelOf(sample), sample.time_s)) {
       return RejectReason::kClockJump;
     }
     if (const auto reason = Insert(sample)) return reason;
-    candidate.Forget();
+    clock_check.Reset();
     newest_s = std::max(newest_s, sample.time_s);
     DropExpired();
     return std::nullopt;
   }
 
-  bool Leaps(double time_s) const {
+  bool ClockJumps(double time_s) const {
     return !Empty() && std::abs(time_s - newest_s) > limits.clock_jump_s;
   }
 
-  // Ahead, what is held stays: it lies behind a gap, as after a long silence. Back, it lies in the
-  // new clock's future and has to go.
+  // After a jump ahead the held samples stay: they lie before a gap. After a jump back they lie in
+  // the new clock's future and are dropped.
   bool AcceptClock(Channel channel, double time_s) {
-    if (candidate.See(channel, time_s, limits.clock_jump_s) < limits.clock_jump_confirmations) {
+    if (clock_check.Count(channel, time_s, limits.clock_jump_s) < limits.clock_jump_confirmations) {
       return false;
     }
     if (time_s < newest_s) Restart();
@@ -180,8 +116,8 @@ struct Window::Impl {
   void Restart() {
     held = {};
     last_command.reset();
-    gnss_watch = {};
-    heading_watch = {};
+    stuck_gnss = {};
+    stuck_heading = {};
     newest_s = kNever;
   }
 
@@ -211,18 +147,18 @@ struct Window::Impl {
   }
 
   bool IsStuck(const GnssFix& fix) {
-    gnss_watch.See(fix, last_command);
-    return gnss_watch.IsStuck(limits.stuck_after_s);
+    stuck_gnss.AddReading(fix, last_command);
+    return stuck_gnss.IsStuck(limits.stuck_after_s);
   }
   bool IsStuck(const HeadingSample& sample) {
-    heading_watch.See(sample, last_command);
-    return heading_watch.IsStuck(limits.stuck_after_s);
+    stuck_heading.AddReading(sample, last_command);
+    return stuck_heading.IsStuck(limits.stuck_after_s);
   }
   bool IsStuck(const ThrusterSample& command) {
     if (last_command) {
       const double held_s = command.time_s - last_command->time_s;
-      gnss_watch.Commanded(*last_command, held_s);
-      heading_watch.Commanded(*last_command, held_s);
+      stuck_gnss.AddCommand(*last_command, held_s);
+      stuck_heading.AddCommand(*last_command, held_s);
     }
     last_command = command;
     return false;
@@ -269,10 +205,10 @@ struct Window::Impl {
   std::tuple<std::deque<GnssFix>, std::deque<HeadingSample>, std::deque<ThrusterSample>> held;
   double newest_s = kNever;
   RejectCounts rejected;
-  ClockCandidate candidate;
+  ClockCheck clock_check;
   std::optional<ThrusterSample> last_command;
-  StuckWatch<GnssFix> gnss_watch;
-  StuckWatch<HeadingSample> heading_watch;
+  StuckSensorCheck<GnssFix> stuck_gnss;
+  StuckSensorCheck<HeadingSample> stuck_heading;
 };
 
 Window::Window(WindowLimits limits) {

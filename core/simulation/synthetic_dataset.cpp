@@ -265,7 +265,7 @@ class SyntheticSensors {
     return {t, place.latitude_deg, place.longitude_deg};
   }
 
-  SensorChain sensors_;
+  SensorProperties sensors_;
   NorthEastFrame frame_;
   WhiteSource north_;
   WhiteSource east_;

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <array>
-#include <span>
 #include <vector>
 
 #include "telltale/core/data/prepared_dataset.hpp"
@@ -29,10 +28,5 @@ std::vector<Segment> FindSegments(const Recording& recording, double longest_gap
 /// remember.
 std::vector<Segment> CutSegment(const Segment& segment, const Recording& recording,
                                 double longest_s);
-
-/// Cuts `segment` of `rows` at each change of region and so that no slice has more than
-/// `longest` rows. The slices partition the segment.
-std::vector<RowRange> CutSlices(std::span<const PreparedRow> rows, const RowRange& segment,
-                                std::size_t longest);
 
 }  // namespace telltale

@@ -1,4 +1,4 @@
-#include "telltale/core/data/segments_and_slices.hpp"
+#include "telltale/core/data/segments.hpp"
 
 #include <gtest/gtest.h>
 
@@ -53,20 +53,6 @@ TEST(FindSegments, NoneWhereChannelsNeverMeet) {
   EXPECT_TRUE(FindSegments(recording, 1.0).empty());
   recording.heading.clear();
   EXPECT_TRUE(FindSegments(recording, 1.0).empty());
-}
-
-TEST(CutSlices, PartitionAtRegionsAndAtTheLongest) {
-  std::vector<PreparedRow> rows(12);
-  for (std::size_t i = 5; i < 8; ++i) rows[i].region = PropellerRegion::kFR;
-  const auto slices = CutSlices(rows, {1, 12}, 3);
-  const std::vector<std::size_t> ends = {4, 5, 8, 11, 12};
-  ASSERT_EQ(slices.size(), ends.size());
-  std::size_t begin = 1;
-  for (std::size_t i = 0; i < ends.size(); ++i) {
-    EXPECT_EQ(slices[i].begin, begin);
-    EXPECT_EQ(slices[i].end, ends[i]);
-    begin = ends[i];
-  }
 }
 
 }  // namespace
