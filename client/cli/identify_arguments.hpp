@@ -8,7 +8,7 @@
 
 #include "telltale/client/cli/input_options.hpp"
 #include "telltale/client/cli/output_options.hpp"
-#include "telltale/core/identification/identify.hpp"
+#include "telltale/core/identification/options.hpp"
 
 namespace telltale {
 

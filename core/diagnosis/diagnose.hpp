@@ -11,7 +11,7 @@
 #include "telltale/core/data/prepared_dataset.hpp"
 #include "telltale/core/diagnosis/report/diagnosis.hpp"
 #include "telltale/core/identification/identification.hpp"
-#include "telltale/core/identification/identify.hpp"
+#include "telltale/core/identification/progress.hpp"
 
 namespace telltale {
 

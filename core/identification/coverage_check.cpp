@@ -312,7 +312,7 @@ Result<CoverageCheck> CheckCoverage(const Recording& recording, const Vehicle& v
   auto disturbance = identification.disturbance;
   if (!disturbance && weak_form.fit) {
     disturbance = DisturbanceFromResiduals(*dataset, weak_form.regression, *weak_form.fit,
-                                           weak_form.columns, options.weak_iv, options.seed);
+                                           options.weak_iv, options.seed);
   }
   if (!disturbance) {
     return Refuse(kSubject, "what disturbs the boat cannot be judged from these data", kAdvice);

@@ -5,26 +5,6 @@
 
 namespace telltale {
 
-std::string_view Name(Estimator estimator) {
-  switch (estimator) {
-    case Estimator::kOneStep: return "ONE_STEP";
-    case Estimator::kWeakIv: return "WEAK_IV";
-    case Estimator::kOutputError: return "OUTPUT_ERROR";
-    case Estimator::kUnknown: break;
-  }
-  return "UNKNOWN";
-}
-
-std::string_view Name(CoefficientStatus status) {
-  switch (status) {
-    case CoefficientStatus::kEstimated: return "ESTIMATED";
-    case CoefficientStatus::kNotExcited: return "NOT_EXCITED";
-    case CoefficientStatus::kCollinear: return "COLLINEAR";
-    case CoefficientStatus::kUnknown: break;
-  }
-  return "UNKNOWN";
-}
-
 bool Identification::Has(Equation equation) const {
   return std::any_of(coefficients.begin(), coefficients.end(),
                      [&](const Coefficient& c) { return c.equation == equation; });

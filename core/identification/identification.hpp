@@ -1,6 +1,6 @@
 #pragma once
 
-#include <cstdint>
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <vector>
@@ -8,50 +8,18 @@
 #include <Eigen/Core>
 
 #include "telltale/core/base/result.hpp"
-#include "telltale/core/data/samples.hpp"
 #include "telltale/core/estimation/regression/excitation_summary.hpp"
-#include "telltale/core/identification/model_change.hpp"
+#include "telltale/core/identification/coefficient.hpp"
+#include "telltale/core/identification/estimator.hpp"
+#include "telltale/core/identification/manoeuvre_advice.hpp"
+#include "telltale/core/identification/provenance.hpp"
 #include "telltale/core/uncertainty/coverage.hpp"
-#include "telltale/core/uncertainty/interval.hpp"
 #include "telltale/core/uncertainty/joint_bounds.hpp"
 #include "telltale/core/vessel/disturbance.hpp"
 #include "telltale/core/vessel/model_structure.hpp"
 #include "telltale/core/vessel/vessel_model.hpp"
 
 namespace telltale {
-
-enum class Estimator { kUnknown, kOneStep, kWeakIv, kOutputError };
-
-std::string_view Name(Estimator estimator);
-
-/// kEstimated: estimate and bounds come from the data.
-/// kNotExcited: the data never moved this regressor; estimate 0, standard error and bounds
-/// infinite. kCollinear: the data move it only together with others; its bounds are honest but it
-/// should be read with its partners, which a refusal names.
-enum class CoefficientStatus { kUnknown, kEstimated, kNotExcited, kCollinear };
-
-std::string_view Name(CoefficientStatus status);
-
-/// One coefficient with its bounds, continuous-time SI.
-struct Coefficient {
-  Equation equation = Equation::kUnknown;
-  std::string regressor;
-  std::string symbol;
-  double estimate = 0.0;
-  double standard_error = 0.0;
-  Interval interval;
-  std::string unit;
-  CoefficientStatus status = CoefficientStatus::kUnknown;
-};
-
-/// What the identification rests on.
-struct WindowSummary {
-  double start_s = 0.0;
-  double end_s = 0.0;
-  std::size_t samples = 0;  ///< prepared rows
-  std::size_t segments = 0;
-  RejectCounts rejected;
-};
 
 /// What pushed the boat steadily in one of several recordings, docs/concepts/model.md (70):
 /// coefficients of "1", which turns with the boat, and of "cos(psi)" and "sin(psi)", which stand to
@@ -60,43 +28,6 @@ struct RecordingBias {
   double start_s = 0.0;  ///< first and last prepared row
   double end_s = 0.0;
   std::vector<Coefficient> coefficients;
-};
-
-/// How it was made, enough to make it again.
-struct Provenance {
-  std::string preset;        ///< of the data preparation
-  std::string bounds_basis;  ///< what standard errors and intervals rest on, in words
-  std::size_t bootstrap_replicates = 0;
-  std::size_t bootstrap_failures = 0;  ///< replicates that could not be solved
-  std::uint64_t seed = 0;
-  std::string software_version;
-  std::size_t parametric_replicates = 0;          ///< simulated repeats that were identified again
-  std::size_t parametric_replicate_failures = 0;  ///< those that could not be
-  std::string estimator_choice;  ///< why this estimator, a sentence; empty where it was named
-  /// Standard errors by cluster over naive ones, of output error; 0 where it was not judged. Well
-  /// above one something else than the sensors keeps model and measurement apart.
-  double misspecification = 0.0;
-  std::size_t clusters = 0;  ///< independent segments of time behind the covariance, 0: not so made
-  std::optional<ModelChange> change;  ///< against an earlier model, where there is one
-};
-
-/// What a manoeuvre is expected to do to the bounds of one coefficient.
-struct ExpectedBounds {
-  Equation equation = Equation::kUnknown;
-  std::string regressor;
-  std::string unit;
-  double estimate = 0.0;
-  double half_width = 0.0;           ///< of the interval now; infinite where not known
-  double expected_half_width = 0.0;  ///< once the manoeuvre is in the data too; likewise
-};
-
-/// A manoeuvre that would tell more of the coefficients the data leave open.
-struct ManoeuvreAdvice {
-  std::string manoeuvre;
-  std::string how;
-  double duration_s = 0.0;
-  double expected_nats = 0.0;            ///< information about those coefficients, (66)
-  std::vector<ExpectedBounds> expected;  ///< of those coefficients, most shrunk first
 };
 
 /// An effect that was added to a model by name, docs/guides/adding-an-effect.md.

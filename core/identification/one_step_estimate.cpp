@@ -155,8 +155,7 @@ Disturbance DisturbanceOf(const Fitted& fitted, const PreparedDataset& dataset,
   }
   const auto weak = EstimateWeakIv(dataset, regression, columns, options.weak_iv);
   if (!weak) return {};
-  return DisturbanceFromResiduals(dataset, regression, *weak, columns, options.weak_iv,
-                                  options.seed)
+  return DisturbanceFromResiduals(dataset, regression, *weak, options.weak_iv, options.seed)
       .value_or(Disturbance());
 }
 

@@ -1,10 +1,7 @@
 #include "telltale/core/uncertainty/bootstrap_correction.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <functional>
-#include <iterator>
 #include <mutex>
 #include <utility>
 
@@ -15,21 +12,14 @@
 #include "telltale/core/base/linear_algebra/eigen_decompositions.hpp"
 #include "telltale/core/base/parallel.hpp"
 #include "telltale/core/base/random.hpp"
-#include "telltale/core/estimation/regression/residual_autocovariance.hpp"
-#include "telltale/core/estimation/weak_form/disturbance_estimate.hpp"
-#include "telltale/core/simulation/synthetic_dataset.hpp"
+#include "telltale/core/uncertainty/fit_simulation.hpp"
 #include "telltale/core/uncertainty/interval_calibration.hpp"
+#include "telltale/core/uncertainty/residual_disturbance.hpp"
+#include "telltale/core/uncertainty/shrinkage_search.hpp"
+#include "telltale/core/uncertainty/whitening.hpp"
 
 namespace telltale {
 namespace {
-
-constexpr std::size_t kUndisturbedReplicates = 2;
-// Large beside sensor noise, so that little chance is left in what wandering fixes leave.
-constexpr double kUnitDriftM = 0.03;
-// Of the expected distance of the truth from the estimate: how plain the boats are that are
-// sailed. Plainer ones are less wild than the truth may be, and tell of another bias.
-constexpr double kPriorScales[] = {0.1, 0.5, 2.0, 8.0, 32.0, 128.0};
-constexpr int kShrinkageLevels = static_cast<int>(std::size(kPriorScales)) + 1;
 
 bool IsUsable(const BootstrapCorrection& correction) {
   return correction.theta.allFinite() && correction.covariance.allFinite() &&
@@ -38,109 +28,93 @@ bool IsUsable(const BootstrapCorrection& correction) {
          std::isfinite(correction.joint.covariance_factor);
 }
 
-/// Coordinates in which the errors of each block are uncorrelated and of size one: x = map z. The
-/// axes are those of the correlations, so that units make no difference, and never of two blocks:
-/// one that the data hardly move would lend its size to the others.
-struct Whitening {
-  Whitening(const Eigen::MatrixXd& covariance, const std::vector<Block>& blocks)
-      : map(Eigen::MatrixXd::Zero(covariance.rows(), covariance.cols())), inverse(map) {
-    const Eigen::VectorXd sizes = covariance.diagonal().cwiseMax(kSmallest).cwiseSqrt();
-    const Eigen::MatrixXd correlation = Scaled(covariance, sizes.cwiseInverse());
-    for (const auto& [begin, size] : blocks) {
-      const Eigen::MatrixXd within = correlation.block(begin, begin, size, size);
-      const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> axes(within);
-      const Eigen::VectorXd lengths = axes.eigenvalues().cwiseMax(kSmallest).cwiseSqrt();
-      const auto of_block = sizes.segment(begin, size);
-      map.block(begin, begin, size, size) =
-          of_block.asDiagonal() * axes.eigenvectors() * lengths.asDiagonal();
-      inverse.block(begin, begin, size, size) = lengths.cwiseInverse().asDiagonal() *
-                                                axes.eigenvectors().transpose() *
-                                                of_block.cwiseInverse().asDiagonal();
-    }
+std::uint64_t SeedOf(const BootstrapCorrectionOptions& bootstrap, std::size_t replicate) {
+  return RandomEngine::Stream(bootstrap.seed, replicate)();
+}
+
+/// Undisturbed replicates draw from the streams that follow those of the replicates.
+SyntheticSensors SensorsOf(const BootstrapCorrectionOptions& bootstrap) {
+  SyntheticSensors sensors{bootstrap.noise_scale, {}, bootstrap.threads};
+  for (std::size_t i = 0; i < sensors.seeds.size(); ++i) {
+    sensors.seeds[i] = SeedOf(bootstrap, bootstrap.parametric_replicates + i);
   }
+  return sensors;
+}
 
-  Eigen::MatrixXd Of(const Eigen::MatrixXd& covariance) const {
-    return Mapped(inverse, covariance);
-  }
-
-  static constexpr double kSmallest = 1e-14;
-  Eigen::MatrixXd map;
-  Eigen::MatrixXd inverse;
-};
-
-class BootstrapCorrector {
+/// Counts finished replicates. The fraction never falls where the work starts again.
+class ReplicateProgress {
  public:
-  BootstrapCorrector(const PreparedDataset& dataset, const RegressionOptions& regression,
-                     const WeakFit& fit, const std::array<std::vector<std::size_t>, 3>& columns,
-                     const WeakIvOptions& options,
-                     const BootstrapCorrectionOptions& parametric_replicates,
-                     const std::function<void(double)>& progress)
-      : dataset_(dataset),
-        regression_(regression),
-        fit_(fit),
-        columns_(columns),
-        options_(options),
-        bootstrap_(parametric_replicates),
-        progress_(progress),
-        clustered_(ClusterCovariance(fit)),
-        blocks_(fit.Blocks()),
-        white_(clustered_, blocks_) {}
+  ReplicateProgress(std::size_t replicates, const std::function<void(double)>& progress)
+      : replicates_(replicates), progress_(progress) {}
 
-  std::optional<Disturbance> DisturbanceOnly() const {
-    return WithSimulableBoats([this](const SimulableBoats& simulable) {
-      return std::optional<Disturbance>(DisturbanceFromResiduals(simulable));
-    });
-  }
+  void Restart() { done_ = 0; }
 
-  /// By boats as much plainer than the estimate as it takes for most twins not to run away.
-  std::optional<BootstrapCorrection> Run() {
-    return WithSimulableBoats(
-        [this](const SimulableBoats& simulable) { return CorrectBy(simulable); });
+  void AddOne() {
+    const std::lock_guard lock(mutex_);
+    ++done_;
+    const double fraction = static_cast<double>(done_) / static_cast<double>(replicates_);
+    if (fraction <= reported_) return;
+    reported_ = fraction;
+    if (progress_) progress_(fraction);
   }
 
  private:
-  /// Boats that can be sailed, and what the middle one gives in still water, by fixes that stay and
-  /// by fixes that wander.
-  struct SimulableBoats {
-    RidgePosterior boats;
-    std::vector<PreparedDataset> undisturbed;
-    std::vector<PreparedDataset> with_drift;
-  };
+  const std::size_t replicates_;
+  const std::function<void(double)>& progress_;
+  std::mutex mutex_;
+  std::size_t done_ = 0;
+  double reported_ = 0.0;
+};
 
-  /// Plausible boats, each plainer than the one before; in the end the damped one alone.
-  RidgePosterior BoatsOf(int shrinkage_level) const {
-    if (shrinkage_level < std::ssize(kPriorScales))
-      return RidgePosteriorOf(fit_, kPriorScales[shrinkage_level]);
-    const Eigen::Index P = fit_.theta.size();
-    return {fit_.Regularised(), Eigen::MatrixXd::Zero(P, P)};
+/// The part of the bias that the data determine, P Sigma^-1 bias in each block with P the
+/// posterior's and Sigma the clusters' covariance. Along ill-determined directions the bias depends
+/// on the drawn models, which differ from the true one.
+Eigen::VectorXd ShrunkBias(const Eigen::VectorXd& bias, const Eigen::MatrixXd& posterior_covariance,
+                           const Eigen::MatrixXd& cluster_covariance,
+                           const std::vector<Block>& blocks) {
+  Eigen::VectorXd shrunk(bias.size());
+  for (const auto& [begin, size] : blocks) {
+    const Eigen::MatrixXd clustered = cluster_covariance.block(begin, begin, size, size);
+    const Eigen::VectorXd of_block = bias.segment(begin, size);
+    const Eigen::VectorXd whitened = clustered.ldlt().solve(of_block);
+    shrunk.segment(begin, size) = posterior_covariance.block(begin, begin, size, size) * whitened;
   }
+  return shrunk;
+}
 
-  /// What `answer` makes of the least plain boats that can be sailed and that it has an answer for.
-  template <class Answer>
-  auto WithSimulableBoats(const Answer& estimate) const
-      -> decltype(estimate(std::declval<const SimulableBoats&>())) {
-    for (int shrinkage_level = 0; shrinkage_level < kShrinkageLevels; ++shrinkage_level) {
-      const auto simulable = SimulateUndisturbed(BoatsOf(shrinkage_level));
-      if (!simulable) continue;
-      if (auto estimated = estimate(*simulable)) return estimated;
-    }
-    return std::nullopt;
-  }
+/// Draws, simulates and estimates replicates, and corrects the fit by their errors.
+class BootstrapCorrector {
+ public:
+  BootstrapCorrector(const FittedData& fitted,
+                     const std::array<std::vector<std::size_t>, 3>& columns,
+                     const BootstrapCorrectionOptions& bootstrap,
+                     const std::function<void(double)>& progress)
+      : fitted_(fitted),
+        columns_(columns),
+        bootstrap_(bootstrap),
+        clustered_(ClusterCovariance(fitted.fit)),
+        blocks_(fitted.fit.Blocks()),
+        white_(clustered_, blocks_),
+        progress_(bootstrap.parametric_replicates, progress) {}
 
-  std::optional<BootstrapCorrection> CorrectBy(const SimulableBoats& simulable) {
+  std::optional<BootstrapCorrection> CorrectBy(const SimulablePosterior& simulable) {
+    const WeakFit& fit = fitted_.fit;
+    const RidgePosterior& posterior = simulable.posterior;
     BootstrapCorrection correction;
-    correction.disturbance = DisturbanceFromResiduals(simulable);
-    disturbance_ = correction.disturbance;
-    disturbance_.time_constant_s *= bootstrap_.time_scale;
-    const auto replicate_errors = EstimateReplicates(simulable.boats);
+    correction.disturbance =
+        DisturbanceFromResiduals(fitted_, posterior.posterior_mean, simulable.undisturbed);
+    Disturbance disturbance = correction.disturbance;
+    disturbance.time_constant_s *= bootstrap_.time_scale;
+    const auto replicate_errors = EstimateReplicates(posterior, disturbance);
     if (2 * replicate_errors.size() < bootstrap_.parametric_replicates) return std::nullopt;
     correction.solved = replicate_errors.size();
     correction.failures = bootstrap_.parametric_replicates - replicate_errors.size();
-    correction.degrees_of_freedom = static_cast<double>(fit_.scores.cols()) - 1.0;
+    correction.degrees_of_freedom = static_cast<double>(fit.scores.cols()) - 1.0;
     const auto calibration =
         CalibrateIntervals(replicate_errors, white_.map, blocks_, correction.degrees_of_freedom);
     if (!calibration) return std::nullopt;
-    correction.theta = fit_.theta - ShrunkBias(calibration->bias, simulable.boats);
+    correction.theta =
+        fit.theta - ShrunkBias(calibration->bias, posterior.covariance, clustered_, blocks_);
     correction.covariance = Mapped(calibration->scale, white_.Of(clustered_));
     correction.interval_factors = calibration->interval_factors;
     correction.joint = {calibration->covariance_factor, correction.degrees_of_freedom};
@@ -148,108 +122,47 @@ class BootstrapCorrector {
     return correction;
   }
 
-  std::optional<SimulableBoats> SimulateUndisturbed(const RidgePosterior& boats) const {
-    Disturbance drift;
-    drift.gnss_drift_m = kUnitDriftM;
-    SimulableBoats found{boats, std::vector<PreparedDataset>(kUndisturbedReplicates),
-                         std::vector<PreparedDataset>(kUndisturbedReplicates)};
-    std::array<bool, 2 * kUndisturbedReplicates> simulated{};
-    ForEachIndex(simulated.size(), bootstrap_.threads, [&](std::size_t i) {
-      const bool drifts = i >= kUndisturbedReplicates;
-      const std::size_t at = i % kUndisturbedReplicates;
-      auto replicate = Simulate(boats.posterior_mean, drifts ? drift : Disturbance(),
-                                SeedOf(bootstrap_.parametric_replicates + at));
-      if (!replicate) return;
-      (drifts ? found.with_drift : found.undisturbed)[at] = *std::move(replicate);
-      simulated[i] = true;
-    });
-    if (!std::all_of(simulated.begin(), simulated.end(), std::identity())) return std::nullopt;
-    return found;
-  }
-
-  Result<PreparedDataset> Simulate(const Eigen::VectorXd& theta, const Disturbance& disturbance,
-                                   std::uint64_t seed) const {
-    return SimulateDataset(dataset_, ModelOf(fit_, theta, dataset_.sampling_period_s),
-                           {disturbance, bootstrap_.noise_scale, seed, NotEstimated(),
-                            ConstantDisturbancesOf(fit_, theta)});
-  }
-
-  /// What the residuals show beyond what sensors alone leave in still water.
-  Disturbance DisturbanceFromResiduals(const SimulableBoats& simulable) const {
-    SensorAutocovariances sensor_autocovariances;
-    sensor_autocovariances.noise =
-        ResidualAutocovariance(simulable.boats.posterior_mean, simulable.undisturbed);
-    sensor_autocovariances.drift =
-        ResidualAutocovariance(simulable.boats.posterior_mean, simulable.with_drift);
-    for (std::size_t j = 0; j < sensor_autocovariances.drift.size(); ++j) {
-      sensor_autocovariances.drift[j] -= sensor_autocovariances.noise[j];
-      sensor_autocovariances.drift[j] /= kUnitDriftM * kUnitDriftM;
-    }
-    return EstimateDisturbance(dataset_, fit_, sensor_autocovariances);
-  }
-
-  /// Autocovariances of the residuals that `theta` leaves in its own twins, their mean.
-  std::array<Eigen::VectorXd, 3> ResidualAutocovariance(
-      const Eigen::VectorXd& theta, const std::vector<PreparedDataset>& simulated) const {
-    std::array<Eigen::VectorXd, 3> autocovariance = SensorAutocovariances().noise;
-    for (const PreparedDataset& replicate : simulated) {
-      const WeakProblem problem = BuildWeakForm(replicate, regression_, options_.form);
-      const auto residuals = ResidualsOf(fit_, theta, replicate, problem);
-      for (std::size_t j = 0; j < autocovariance.size(); ++j) {
-        if (residuals[j].size() == 0) continue;
-        const auto runs = RunsOf(problem.supports[j].first_rows, problem.phi.stride);
-        autocovariance[j] += Autocovariance(runs, residuals[j], kDisturbanceLags) /
-                             static_cast<double>(simulated.size());
-      }
-    }
-    return autocovariance;
-  }
-
-  std::array<bool, 3> NotEstimated() const {
-    return {!fit_.equations[0], !fit_.equations[1], !fit_.equations[2]};
-  }
-
-  std::uint64_t SeedOf(std::size_t replicate) const {
-    return RandomEngine::Stream(bootstrap_.seed, replicate)();
-  }
-
-  /// Twins are different boats, each as plausible as the next: what the bias owes to coefficients
-  /// that the data leave open then shows as scatter.
-  std::vector<ReplicateError> EstimateReplicates(const RidgePosterior& boats) {
-    const Whitening plausible(boats.covariance, {{0, boats.posterior_mean.size()}});
+ private:
+  /// Each replicate draws a plausible model of its own. A bias that depends on ill-determined
+  /// coefficients then shows as scatter.
+  std::vector<ReplicateError> EstimateReplicates(const RidgePosterior& posterior,
+                                                 const Disturbance& disturbance) {
+    const Eigen::VectorXd& mean = posterior.posterior_mean;
+    const Whitening plausible(posterior.covariance, {{0, mean.size()}});
     std::vector<std::optional<ReplicateError>> all(bootstrap_.parametric_replicates);
-    done_ = 0;
+    progress_.Restart();
     ForEachIndex(all.size(), bootstrap_.threads, [&](std::size_t i) {
-      RandomEngine engine(SeedOf(i));
+      RandomEngine engine(SeedOf(bootstrap_, i));
       boost::random::normal_distribution<double> normal;
-      Eigen::VectorXd off(boats.posterior_mean.size());
+      Eigen::VectorXd off(mean.size());
       for (double& value : off) value = normal(engine);
-      all[i] = EstimateReplicate(boats.posterior_mean, plausible.map * off, engine());
-      Report();
+      all[i] = EstimateReplicate(mean, plausible.map * off, disturbance, engine());
+      progress_.AddOne();
     });
-    std::vector<ReplicateError> seen;
+    std::vector<ReplicateError> estimated;
     for (auto& replicate_error : all) {
-      if (replicate_error) seen.push_back(*std::move(replicate_error));
+      if (replicate_error) estimated.push_back(*std::move(replicate_error));
     }
-    return seen;
+    return estimated;
   }
 
-  /// The boat off the middle by half the variance of `off`, or nearer as it takes not to run away:
-  /// all of it makes most twins wilder than the boat, less hides how bias depends on the boat.
-  /// Where the middle itself is pushed off, pushes that the boat, which was seen, can have had are
-  /// sought.
-  std::optional<ReplicateError> EstimateReplicate(const Eigen::VectorXd& posterior_mean,
+  /// The error of the first replicate that can be simulated and estimated, with models ever nearer
+  /// to the mean. All of `off` makes most replicates larger than the boat, and less hides how the
+  /// bias depends on the model. Where the mean itself diverges, other disturbances are tried,
+  /// because the recorded boat did not diverge.
+  std::optional<ReplicateError> EstimateReplicate(const Eigen::VectorXd& mean,
                                                   const Eigen::VectorXd& off,
+                                                  const Disturbance& disturbance,
                                                   std::uint64_t seed) const {
     constexpr std::array<double, 8> kShares = {0.7, 0.35, 0.175, 0.0, 0.0, 0.0, 0.0, 0.0};
     for (std::size_t i = 0; i < kShares.size(); ++i) {
       const bool repeats_the_mean = i > 0 && kShares[i] == kShares[i - 1];
       if (repeats_the_mean) seed = RandomEngine::Stream(seed, i)();
-      Eigen::VectorXd truth = posterior_mean + kShares[i] * off;
-      if (fit_.time_constant_s) truth[0] = std::max(truth[0], kShortestTimeConstantS);
-      const auto replicate = Simulate(truth, disturbance_, seed);
+      Eigen::VectorXd truth = mean + kShares[i] * off;
+      if (fitted_.fit.time_constant_s) truth[0] = std::max(truth[0], kShortestTimeConstantS);
+      const auto replicate = SimulateFit(fitted_, truth, disturbance, bootstrap_.noise_scale, seed);
       if (!replicate) continue;
-      const auto again = EstimateWeakIv(*replicate, regression_, columns_, options_);
+      const auto again = EstimateWeakIv(*replicate, fitted_.regression, columns_, fitted_.options);
       if (!again) continue;
       ReplicateError replicate_error{white_.inverse * (again->theta - truth),
                                      white_.Of(ClusterCovariance(*again))};
@@ -258,44 +171,13 @@ class BootstrapCorrector {
     return std::nullopt;
   }
 
-  /// Of a bias that the twins show, as much as the data tell which boat it is the bias of: along
-  /// what they leave open it depends on boats that are plainer or wilder than the true one.
-  Eigen::VectorXd ShrunkBias(const Eigen::VectorXd& bias, const RidgePosterior& boats) const {
-    Eigen::VectorXd shrunk(bias.size());
-    for (const auto& [begin, size] : blocks_) {
-      const Eigen::MatrixXd clustered = clustered_.block(begin, begin, size, size);
-      const Eigen::VectorXd shown = bias.segment(begin, size);
-      const Eigen::VectorXd whitened = clustered.ldlt().solve(shown);
-      shrunk.segment(begin, size) = boats.covariance.block(begin, begin, size, size) * whitened;
-    }
-    return shrunk;
-  }
-
-  /// Nothing of what has been told before, where it starts again.
-  void Report() {
-    const std::lock_guard lock(reporting_);
-    ++done_;
-    const double fraction =
-        static_cast<double>(done_) / static_cast<double>(bootstrap_.parametric_replicates);
-    if (fraction <= reported_) return;
-    reported_ = fraction;
-    if (progress_) progress_(fraction);
-  }
-
-  const PreparedDataset& dataset_;
-  const RegressionOptions& regression_;
-  const WeakFit& fit_;
+  const FittedData& fitted_;
   const std::array<std::vector<std::size_t>, 3>& columns_;
-  const WeakIvOptions& options_;
   const BootstrapCorrectionOptions& bootstrap_;
-  const std::function<void(double)>& progress_;
-  Eigen::MatrixXd clustered_;
-  std::vector<Block> blocks_;
-  Whitening white_;
-  Disturbance disturbance_;
-  std::mutex reporting_;
-  std::size_t done_ = 0;
-  double reported_ = 0.0;
+  const Eigen::MatrixXd clustered_;
+  const std::vector<Block> blocks_;
+  const Whitening white_;
+  ReplicateProgress progress_;
 };
 
 }  // namespace
@@ -303,22 +185,28 @@ class BootstrapCorrector {
 std::optional<BootstrapCorrection> CorrectByParametricBootstrap(
     const PreparedDataset& dataset, const RegressionOptions& regression, const WeakFit& fit,
     const std::array<std::vector<std::size_t>, 3>& columns, const WeakIvOptions& options,
-    const BootstrapCorrectionOptions& parametric_replicates,
+    const BootstrapCorrectionOptions& bootstrap,
     const std::function<void(double fraction)>& progress) {
-  Require(parametric_replicates.parametric_replicates >= 8, "at least eight twins");
-  return BootstrapCorrector(dataset, regression, fit, columns, options, parametric_replicates,
-                            progress)
-      .Run();
+  Require(bootstrap.parametric_replicates >= 8, "at least eight parametric bootstrap replicates");
+  const FittedData fitted{dataset, regression, options, fit};
+  BootstrapCorrector corrector(fitted, columns, bootstrap, progress);
+  return FirstSimulable(fitted, SensorsOf(bootstrap), [&](const SimulablePosterior& simulable) {
+    return corrector.CorrectBy(simulable);
+  });
 }
 
-std::optional<Disturbance> DisturbanceFromResiduals(
-    const PreparedDataset& dataset, const RegressionOptions& regression, const WeakFit& fit,
-    const std::array<std::vector<std::size_t>, 3>& columns, const WeakIvOptions& options,
-    std::uint64_t seed) {
-  BootstrapCorrectionOptions parametric_replicates;
-  parametric_replicates.seed = seed;
-  return BootstrapCorrector(dataset, regression, fit, columns, options, parametric_replicates, {})
-      .DisturbanceOnly();
+std::optional<Disturbance> DisturbanceFromResiduals(const PreparedDataset& dataset,
+                                                    const RegressionOptions& regression,
+                                                    const WeakFit& fit,
+                                                    const WeakIvOptions& options,
+                                                    std::uint64_t seed) {
+  const FittedData fitted{dataset, regression, options, fit};
+  BootstrapCorrectionOptions bootstrap;
+  bootstrap.seed = seed;
+  return FirstSimulable(fitted, SensorsOf(bootstrap), [&](const SimulablePosterior& simulable) {
+    return std::optional<Disturbance>(DisturbanceFromResiduals(
+        fitted, simulable.posterior.posterior_mean, simulable.undisturbed));
+  });
 }
 
 }  // namespace telltale

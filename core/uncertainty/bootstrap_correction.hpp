@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <optional>
@@ -19,41 +20,44 @@ struct BootstrapCorrectionOptions {
   std::size_t parametric_replicates = 40;  ///< [8, 1000]
   std::uint64_t seed = 1;
   std::size_t threads = 1;   ///< never changes the result
-  double noise_scale = 1.0;  ///< sensor noise of the twins against what the data show
-  double time_scale = 1.0;   ///< their disturbance's time constant against what the data show
+  double noise_scale = 1.0;  ///< sensor noise of the replicates, in units of what the data show
+  double time_scale = 1.0;   ///< time constant of their disturbance, likewise
 };
 
-/// Shapes: theta and covariance over the stacked unknowns of the WeakFit.
+/// Shapes: theta P, covariance P x P, interval_factors P over the stacked unknowns of the WeakFit.
 struct BootstrapCorrection {
   Eigen::VectorXd theta;             ///< corrected for bias
-  Eigen::MatrixXd covariance;        ///< as the twins scattered, with what few of them leave open
-  Eigen::VectorXd interval_factors;  ///< by unknown, of its interval beside Student's
+  Eigen::MatrixXd covariance;        ///< of the replicates' errors, enlarged for their small number
+  Eigen::VectorXd interval_factors;  ///< by unknown, of its interval's length to Student's
   JointBounds joint;                 ///< calibrated so that ellipsoids hold
   double degrees_of_freedom = 0.0;   ///< of Student's t for intervals
   Disturbance disturbance;
-  std::size_t solved = 0;    ///< twins that could be estimated
-  std::size_t failures = 0;  ///< twins that could not
+  std::size_t solved = 0;    ///< replicates that could be estimated
+  std::size_t failures = 0;  ///< replicates that could not
 };
 
-/// Bias correction and calibration by simulating the whole pipeline, docs/concepts/model.md (33),
-/// (34): the disturbance is judged from the residuals; twins of the data set, each another boat as
-/// plausible as the next, are sailed, measured, prepared and estimated again. What they are off by
-/// on average is taken from the estimate, how they scatter about that sizes each direction of the
-/// clusters' covariance, and how often intervals made like that hold says by what factor they have
-/// to be stretched: all of an equation together, and single ones once more each. Where most twins
-/// run away it starts again with plainer boats. progress is called by one thread at a time. Nothing
-/// when even of the plainest fewer than half can be estimated, or numbers overflow.
+/// Bias correction and interval calibration by parametric bootstrap, docs/concepts/model.md (33),
+/// (34). The residuals give the disturbance. Each replicate draws a plausible model, simulates the
+/// dataset with it, and prepares and estimates the synthetic data. The replicates' mean error is
+/// subtracted from the estimate. Their scatter about that mean sizes each direction of the
+/// clusters' covariance. The coverage of intervals made in this way gives inflation factors, one
+/// for each equation and one for each single interval.
+/// Where more than half of the replicates fail, the search continues with more shrinkage.
+/// `progress` is called by one thread at a time. Requires: 8 replicates or more. Nothing when fewer
+/// than half of the replicates can be estimated at every shrinkage level, or numbers overflow.
 std::optional<BootstrapCorrection> CorrectByParametricBootstrap(
     const PreparedDataset& dataset, const RegressionOptions& regression, const WeakFit& fit,
     const std::array<std::vector<std::size_t>, 3>& columns, const WeakIvOptions& options,
-    const BootstrapCorrectionOptions& parametric_replicates,
+    const BootstrapCorrectionOptions& bootstrap,
     const std::function<void(double fraction)>& progress = {});
 
-/// The disturbance that the residuals of a fit show beyond what sensors leave in still water, as
-/// CorrectByParametricBootstrap() judges it. Nothing when the fit cannot be sailed.
-std::optional<Disturbance> DisturbanceFromResiduals(
-    const PreparedDataset& dataset, const RegressionOptions& regression, const WeakFit& fit,
-    const std::array<std::vector<std::size_t>, 3>& columns, const WeakIvOptions& options,
-    std::uint64_t seed);
+/// The disturbance that the residuals of a weak-form fit show in excess of the sensors' part, as
+/// CorrectByParametricBootstrap() computes it. Nothing when the fit diverges at every shrinkage
+/// level.
+std::optional<Disturbance> DisturbanceFromResiduals(const PreparedDataset& dataset,
+                                                    const RegressionOptions& regression,
+                                                    const WeakFit& fit,
+                                                    const WeakIvOptions& options,
+                                                    std::uint64_t seed);
 
 }  // namespace telltale

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "telltale/core/data/recording_starts.hpp"
+#include "telltale/core/identification/identify.hpp"
 #include "telltale/service/monitoring/prediction_error.hpp"
 
 namespace telltale {

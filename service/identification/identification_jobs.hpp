@@ -2,7 +2,8 @@
 
 #include <utility>
 
-#include "telltale/core/identification/identify.hpp"
+#include "telltale/core/identification/options.hpp"
+#include "telltale/core/identification/progress.hpp"
 #include "telltale/idl/codec/daemon_config.hpp"
 #include "telltale/idl/codec/wire/messages.hpp"
 #include "telltale/service/diagnosis/baseline_recordings.hpp"

@@ -10,7 +10,8 @@
 #include "telltale/core/data/preparation.hpp"
 #include "telltale/core/data/samples.hpp"
 #include "telltale/core/diagnosis/report/diagnosis.hpp"
-#include "telltale/core/identification/identify.hpp"
+#include "telltale/core/identification/identification.hpp"
+#include "telltale/core/identification/options.hpp"
 
 namespace telltale {
 

@@ -59,8 +59,7 @@ TEST(BootstrapCorrection, ReportsProgress) {
 Disturbance DisturbanceSeen(const PreparedDataset& dataset) {
   const auto columns = AllColumns(Parameterization::kPropeller);
   const auto fit = EstimateWeakIv(dataset, {}, columns, {});
-  const auto judged =
-      fit ? DisturbanceFromResiduals(dataset, {}, *fit, columns, {}, 3) : std::nullopt;
+  const auto judged = fit ? DisturbanceFromResiduals(dataset, {}, *fit, {}, 3) : std::nullopt;
   return judged.value_or(Disturbance{});
 }
 

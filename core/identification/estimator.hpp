@@ -1,0 +1,13 @@
+#pragma once
+
+#include <string_view>
+
+namespace telltale {
+
+/// kOneStep: least squares of one-step differences, the paper's. kWeakIv: weak form with
+/// instrumental variables. kOutputError: multiple shooting of all three equations together.
+enum class Estimator { kUnknown, kOneStep, kWeakIv, kOutputError };
+
+std::string_view Name(Estimator estimator);
+
+}  // namespace telltale

@@ -1,0 +1,119 @@
+#include "telltale/core/identification/options.hpp"
+
+#include <string>
+
+#include "telltale/core/base/range.hpp"
+
+namespace telltale {
+namespace {
+
+constexpr const char* kOptionsSubject = "identification";
+
+std::optional<Refusal> BootstrapReplicatesRefusal(std::size_t replicates) {
+  if (replicates == 0) return std::nullopt;
+  auto refusal = OutOfRange(kOptionsSubject, "bootstrap_replicates",
+                            static_cast<double>(replicates), 100.0, 100000.0);
+  if (refusal) refusal->advice += ", or to 0 for none";
+  return refusal;
+}
+
+std::optional<Refusal> CoverageCheckReplicatesRefusal(std::size_t parametric_replicates) {
+  if (parametric_replicates == 0) return std::nullopt;
+  auto refusal = OutOfRange(kOptionsSubject, "coverage_check_replicates",
+                            static_cast<double>(parametric_replicates), 10.0, 1000.0);
+  if (refusal) refusal->advice += ", or to 0 for none";
+  return refusal;
+}
+
+std::optional<Refusal> LimitRefusal(const DeadZone& limits) {
+  if (auto refusal = OutOfRange("dead_zone", "forward", limits.forward, 0.0, kWidestDeadZone)) {
+    return refusal;
+  }
+  return OutOfRange("dead_zone", "reverse", limits.reverse, -kWidestDeadZone, 0.0);
+}
+
+std::optional<Refusal> EstimatorRefusal(const IdentifyOptions& options) {
+  if (options.regression.recording_bias == RecordingBiasModel::kUnknown) {
+    return Refusal{"recording_bias", "is unset",
+                   "choose SHARED, PER_RECORDING or PER_RECORDING_NORTH_EAST"};
+  }
+  if (options.estimator == Estimator::kOneStep || options.estimator == Estimator::kOutputError) {
+    if (options.regression.recording_bias != RecordingBiasModel::kShared) {
+      return Refusal{
+          "recording_bias",
+          "of each recording are not estimated by " + std::string(Name(*options.estimator)),
+          "choose WEAK_IV, or SHARED offsets"};
+    }
+  }
+  if (options.estimator == Estimator::kOneStep) return std::nullopt;
+  if (options.estimator == Estimator::kUnknown) {
+    return Refusal{"estimator", "is UNKNOWN",
+                   "choose WEAK_IV, OUTPUT_ERROR or ONE_STEP, or leave it unset"};
+  }
+  if (options.prepare.preset != Preset::kRobust) {
+    return Refusal{"estimator",
+                   "WEAK_IV, from which OUTPUT_ERROR starts, needs motion and commands filtered by "
+                   "one kernel",
+                   "choose the robust preset, or ONE_STEP"};
+  }
+  if (options.parametric_replicates == 0) return std::nullopt;
+  auto refusal = OutOfRange(kOptionsSubject, "parametric_replicates",
+                            static_cast<double>(options.parametric_replicates), 8.0, 1000.0);
+  if (refusal) refusal->advice += ", or to 0 for none";
+  return refusal;
+}
+
+}  // namespace
+
+std::string_view Name(DeadZoneSource source) {
+  switch (source) {
+    case DeadZoneSource::kGiven: return "GIVEN";
+    case DeadZoneSource::kIdentified: return "IDENTIFIED";
+    case DeadZoneSource::kUnknown: break;
+  }
+  return "UNKNOWN";
+}
+
+IdentifyOptions IdentifyOptions::OneStep() {
+  IdentifyOptions options;
+  options.estimator = Estimator::kOneStep;
+  return options;
+}
+
+std::optional<Refusal> IdentifyOptions::Validate() const {
+  if (auto refusal = prepare.Validate()) return refusal;
+  if (auto refusal = excitation.Validate()) return refusal;
+  if (regression.structure == Structure::kUnknown) {
+    return Refusal{"structure", "is unset", "choose STATIC_QUADRATIC or FIRST_ORDER_DYNAMIC"};
+  }
+  if (regression.parameterization == Parameterization::kUnknown) {
+    return Refusal{"parameterization", "is unset", "choose PROPELLER or PAPER"};
+  }
+  if (dead_zone_source == DeadZoneSource::kUnknown) {
+    return Refusal{"dead_zone_source", "is unset", "choose GIVEN or IDENTIFIED"};
+  }
+  if (auto refusal = LimitRefusal(regression.dead_zone)) return refusal;
+  if (auto refusal = EstimatorRefusal(*this)) return refusal;
+  if (auto refusal = OutOfRange(kOptionsSubject, "interval_level", interval_level, 0.5, 0.999)) {
+    return refusal;
+  }
+  if (auto refusal = BootstrapReplicatesRefusal(bootstrap_replicates)) return refusal;
+  if (auto refusal = CoverageCheckReplicatesRefusal(coverage_check_replicates)) return refusal;
+  if (resampling == Resampling::kUnknown) {
+    return Refusal{"resampling", "is unset", "choose SEGMENTS, MOVING_BLOCKS or PARAMETRIC"};
+  }
+  if (resampling == Resampling::kParametric && prepare.preset != Preset::kRobust) {
+    return Refusal{"resampling", "PARAMETRIC simulates what the robust preset has prepared",
+                   "choose the robust preset, or SEGMENTS"};
+  }
+  if (interval_method == IntervalMethod::kUnknown) {
+    return Refusal{"interval_method", "is unset", "choose PERCENTILE, STUDENTIZED or BCA"};
+  }
+  if (auto refusal =
+          OutOfRange(kOptionsSubject, "threads", static_cast<double>(threads), 1.0, 256.0)) {
+    return refusal;
+  }
+  return std::nullopt;
+}
+
+}  // namespace telltale
