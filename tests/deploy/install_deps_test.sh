@@ -51,6 +51,11 @@ MISSING="clang-tidy-16" run
 MISSING="clang-tidy-16" run --ci
 grep -q 'install .* clang-tidy-16$' "$CALLS" || fail "--ci did not install clang-tidy-16"
 
+MISSING="chromium" run
+[[ ! -s $CALLS ]] || fail "the browser was installed without --tests"
+MISSING="chromium" run --tests
+grep -q 'install .* chromium$' "$CALLS" || fail "--tests did not install the browser"
+
 run --no-such-option
 ((status == 2)) || fail "an unknown option should exit 2, not $status"
 
