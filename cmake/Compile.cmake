@@ -5,7 +5,7 @@ set(CMAKE_CXX_STANDARD_REQUIRED ON)
 set(CMAKE_CXX_EXTENSIONS OFF)
 set(CMAKE_CXX_FLAGS_RELEASE "-O3 -DNDEBUG")  # contracts are checked by Require, never by assert
 
-# Two compilers on two cores: Ninja's two more would only wait for them, and take their cache.
+# As many compilers as cores: the two more that Ninja starts compete for the cache.
 cmake_host_system_information(RESULT cores QUERY NUMBER_OF_LOGICAL_CORES)
 set_property(GLOBAL PROPERTY JOB_POOLS compile=${cores})
 set(CMAKE_JOB_POOL_COMPILE compile)
@@ -23,16 +23,16 @@ if(TELLTALE_SANITIZE)
 endif()
 
 add_library(telltale_compile INTERFACE)
-# A tenth of GCC's time goes into collecting garbage while it instantiates templates; up to a gigabyte
-# may lie about.
+# GCC spends a tenth of its time on garbage collection while it instantiates templates. It collects only above
+# a gigabyte.
 target_compile_options(telltale_compile
                        INTERFACE $<$<COMPILE_LANG_AND_ID:CXX,GNU>:--param=ggc-min-heapsize=1000000>)
 target_compile_options(
   telltale_compile INTERFACE $<$<COMPILE_LANGUAGE:CXX>:-Wall -Wextra -Wpedantic -Wshadow -Wconversion
                              -Wno-sign-conversion -Wnon-virtual-dtor -Woverloaded-virtual -Werror>)
 
-# GCC 12 sees writes out of bounds in assignments to std::string that are none, and under a sanitizer,
-# which cuts its inlining short, variables that may not be initialised and pointers used after free.
+# GCC 12 reports writes out of bounds in correct assignments to std::string. Under a sanitizer, which limits
+# inlining, it also reports correct variables as uninitialised and correct pointers as used after free.
 target_compile_options(
   telltale_compile INTERFACE $<$<COMPILE_LANG_AND_ID:CXX,GNU>:-Wno-array-bounds -Wno-restrict
                              -Wno-stringop-overflow>)
@@ -60,8 +60,8 @@ function(telltale_layer name)
                                          PRIVATE $<BUILD_INTERFACE:telltale_compile>)
 endfunction()
 
-# Parsing what most files include takes longer than compiling them: it is read once for core and idl,
-# once for what is around them and once for the tests, which differ in their optimisation or in what
+# Parsing what most files include takes longer than compiling them. It is read once for core and idl,
+# once for the programs and once for the tests, which differ in their optimisation or in what
 # they include and so cannot share.
 set(telltale_linear_algebra ${PROJECT_BINARY_DIR}/include/core/telltale/core/base/linear_algebra)
 function(telltale_precompile target)
@@ -73,7 +73,7 @@ function(telltale_precompile target)
   endif()
 endfunction()
 
-# What waits for people, or checks the rest, gains nothing from the last optimisations but their wait.
+# Code around the arithmetic, and tests, run no faster with full optimisation and compile more slowly.
 function(telltale_optimise_lightly target)
   target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-Og>)
 endfunction()
