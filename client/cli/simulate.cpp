@@ -81,8 +81,9 @@ void SimulateLog(const SimulateArguments& arguments) {
   const auto commands = LoadCommands(arguments.commands_file, vehicle);
   const double step_s = arguments.step_s.value_or(model.model.sampling_period_s);
   const double end_s = commands.back().time_s;
-  const auto track = model.effects.empty() ? Simulate(model.model, {}, commands, end_s, step_s)
-                                           : Simulate(model, commands, end_s, step_s);
+  const auto track = model.effects.empty()
+                         ? Simulate(model.model, {}, commands, end_s, step_s)
+                         : Simulate(model, commands, end_s, step_s, vehicle.HullOrDefault());
   RefuseDivergence(track);
   const Recording recording = Measure(track, model, vehicle, arguments.sensors);
   WriteTelemetryLog(arguments.out, recording);

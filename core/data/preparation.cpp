@@ -108,6 +108,7 @@ Result<PreparedDataset> Prepare(const Recording& recording, const Vehicle& vehic
   dataset.rejected = recording.rejected;
   dataset.options = options;
   dataset.sensors.antenna = vehicle.gnss_antenna;
+  dataset.hull = vehicle.HullOrDefault();
   const NorthEastFrame frame(dataset.origin);
   double longest_found_s = 0.0;
   std::vector<std::size_t> places;  // of each segment among the recordings

@@ -73,6 +73,7 @@ struct PreparedDataset {
   std::vector<std::size_t> recordings;
   PrepareOptions options;  ///< how the rows were made
   SensorProperties sensors;
+  HullParticulars hull;  ///< as the vehicle file states it, or the defaults
   RejectCounts rejected;
   Nu nu_noise;  ///< one sigma that white sensor noise, judged by WhiteNoise, leaves in each nu
 

@@ -294,7 +294,8 @@ class DiagnosisRun {
   void Advise(const Ranking& ranking, const NominalBaseline& nominal, Diagnosis& diagnosis) const {
     const RankedHypothesis& first = ranking.fits.front();
     if (first.equivalent.empty()) return;
-    diagnosis.advice = AdviseSeparatingManoeuvres(first, nominal, recording_.sampling_period_s);
+    diagnosis.advice =
+        AdviseSeparatingManoeuvres(first, nominal, recording_.sampling_period_s, recording_.hull);
     const bool decisive = !diagnosis.advice.empty() && diagnosis.advice.front().decisive;
     if (!decisive) {
       diagnosis.notes.push_back("No manoeuvre of the catalogue is sure to separate what is tied. " +

@@ -39,7 +39,7 @@ struct LocalisationConstants {
   double cluster_s = 5.0;        ///< s, within which residuals may be correlated
   double after_step_s = 1.0;     ///< s, how long commands count as just changed
   double command_step = 0.1;     ///< 1, of full command, change that counts as a step
-  std::size_t replicates = 500;  ///< wild bootstrap, convention
+  std::size_t replicates = 500;  ///< of random signs, convention
   double significance = 0.05;    ///< 1, family-wise, convention
   double material_share = 0.05;  ///< 1, of the excess that a listed cell holds at least
   double density_ratio = 1.5;    ///< 1, excess per row of a nested cell over that of the wider one

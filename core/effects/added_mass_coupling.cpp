@@ -1,9 +1,7 @@
-#include "telltale/core/effects/effect.hpp"
-#include "telltale/core/effects/effect_library.hpp"
+#include "telltale/core/effects/effect_instance.hpp"
 #include "telltale/core/effects/wording.hpp"
 
 namespace telltale {
-namespace {
 
 class AddedMassCouplingEffect final : public Effect {
  public:
@@ -27,11 +25,6 @@ class AddedMassCouplingEffect final : public Effect {
   }
 };
 
-}  // namespace
-
-const Effect& AddedMassCoupling() {
-  static const AddedMassCouplingEffect effect;
-  return effect;
-}
+template const Effect& InstanceOf<AddedMassCouplingEffect>();
 
 }  // namespace telltale

@@ -1,9 +1,7 @@
-#include "telltale/core/effects/effect.hpp"
-#include "telltale/core/effects/effect_library.hpp"
+#include "telltale/core/effects/effect_instance.hpp"
 #include "telltale/core/effects/wording.hpp"
 
 namespace telltale {
-namespace {
 
 class AntennaLeverArmEffect final : public Effect {
  public:
@@ -24,11 +22,6 @@ class AntennaLeverArmEffect final : public Effect {
   LeverArm AntennaShift(EffectValues values) const override { return {values[0], values[1]}; }
 };
 
-}  // namespace
-
-const Effect& AntennaLeverArm() {
-  static const AntennaLeverArmEffect effect;
-  return effect;
-}
+template const Effect& InstanceOf<AntennaLeverArmEffect>();
 
 }  // namespace telltale

@@ -120,9 +120,10 @@ std::size_t StepsPerRow(const VesselModel& model, double sampling_period_s) {
   return static_cast<std::size_t>(std::ceil(sampling_period_s / kMaximumStepS - kRounding));
 }
 
-AugmentedBoat::AugmentedBoat(AugmentedModel model, double start_s, double span_s)
-    : model_(std::move(model)), start_s_(start_s), span_s_(span_s) {
-  Require(span_s > 0.0, "something to sail");
+AugmentedBoat::AugmentedBoat(AugmentedModel model, double start_s, double span_s,
+                             const HullParticulars& hull)
+    : model_(std::move(model)), start_s_(start_s), span_s_(span_s), hull_scale_(hull) {
+  Require(span_s > 0.0, "a span to simulate");
   for (const telltale::Equation equation : kEquations) {
     const std::size_t j = IndexOf(equation);
     const Eigen::VectorXd& theta = model_.model.theta[j];
@@ -206,6 +207,7 @@ NuDot AugmentedBoat::Acceleration(const Nu& nu, double psi_rad, const Drive& dri
   instant.load = drive.load;
   instant.nu = nu;
   instant.nu_r = nu;
+  instant.hull_scale = hull_scale_;
   NuDot nu_dot;
   if (!current_.isZero(0.0)) {
     const double u_c = std::cos(psi_rad) * current_[0] + std::sin(psi_rad) * current_[1];

@@ -41,7 +41,8 @@ std::size_t StepsPerRow(const VesselModel& model, double sampling_period_s);
 /// sailed, from `start_s` on the clock of the commands.
 class AugmentedBoat {
  public:
-  AugmentedBoat(AugmentedModel model, double start_s, double span_s);
+  AugmentedBoat(AugmentedModel model, double start_s, double span_s,
+                const HullParticulars& hull = {});
 
   /// The drives of `steps` steps from `from_s`, thrusters having followed the commands before.
   std::vector<Drive> DrivesAlong(const HeldCommands& commands, double from_s, double step_s,
@@ -70,6 +71,7 @@ class AugmentedBoat {
   std::array<std::vector<ModelledEffect>, 4> hooked_;  ///< by the hook they override
   double start_s_;
   double span_s_;
+  HullScale hull_scale_;
   std::array<std::array<double, 9>, 3> hull_{};
   std::array<std::array<double, 4>, 3> thrust_{};
   std::vector<double> shaft_lags_s_;

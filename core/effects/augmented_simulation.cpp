@@ -25,11 +25,11 @@ HeldCommands Held(const std::vector<TimedCommand>& commands) {
 
 std::vector<TimedState> Simulate(const AugmentedModel& model,
                                  const std::vector<TimedCommand>& commands, double end_s,
-                                 double step_s) {
+                                 double step_s, const HullParticulars& hull) {
   Require(!commands.empty() && step_s > 0.0, "commands and a step");
   const double start_s = commands.front().time_s;
   Require(end_s > start_s, "an end after the first command");
-  const AugmentedBoat boat(model, start_s, end_s - start_s);
+  const AugmentedBoat boat(model, start_s, end_s - start_s, hull);
   const HeldCommands held = Held(commands);
   const auto steps = static_cast<std::size_t>(std::floor((end_s - start_s) / step_s + 1e-9));
   const std::vector<Drive> drives = boat.DrivesAlong(held, start_s, step_s, steps);

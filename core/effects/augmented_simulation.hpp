@@ -14,7 +14,7 @@ namespace telltale {
 /// Requires: commands in order of time, at least one; end_s after the first; step_s > 0.
 std::vector<TimedState> Simulate(const AugmentedModel& model,
                                  const std::vector<TimedCommand>& commands, double end_s,
-                                 double step_s);
+                                 double step_s, const HullParticulars& hull = {});
 
 /// Measure() by sensors with the faults that the model names: antenna elsewhere, compass turned,
 /// positions stamped late.

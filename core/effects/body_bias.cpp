@@ -1,9 +1,7 @@
-#include "telltale/core/effects/effect.hpp"
-#include "telltale/core/effects/effect_library.hpp"
+#include "telltale/core/effects/effect_instance.hpp"
 #include "telltale/core/effects/wording.hpp"
 
 namespace telltale {
-namespace {
 
 class BodyBiasEffect final : public Effect {
  public:
@@ -30,11 +28,6 @@ class BodyBiasEffect final : public Effect {
   }
 };
 
-}  // namespace
-
-const Effect& BodyBias() {
-  static const BodyBiasEffect effect;
-  return effect;
-}
+template const Effect& InstanceOf<BodyBiasEffect>();
 
 }  // namespace telltale

@@ -1,9 +1,7 @@
-#include "telltale/core/effects/effect.hpp"
-#include "telltale/core/effects/effect_library.hpp"
+#include "telltale/core/effects/effect_instance.hpp"
 #include "telltale/core/effects/wording.hpp"
 
 namespace telltale {
-namespace {
 
 class CrossflowDragEffect final : public Effect {
  public:
@@ -33,11 +31,6 @@ class CrossflowDragEffect final : public Effect {
   }
 };
 
-}  // namespace
-
-const Effect& CrossflowDrag() {
-  static const CrossflowDragEffect effect;
-  return effect;
-}
+template const Effect& InstanceOf<CrossflowDragEffect>();
 
 }  // namespace telltale

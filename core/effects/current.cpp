@@ -1,11 +1,9 @@
 #include <cmath>
 
-#include "telltale/core/effects/effect.hpp"
-#include "telltale/core/effects/effect_library.hpp"
+#include "telltale/core/effects/effect_instance.hpp"
 #include "telltale/core/effects/wording.hpp"
 
 namespace telltale {
-namespace {
 
 class CurrentEffect final : public Effect {
  public:
@@ -30,11 +28,6 @@ class CurrentEffect final : public Effect {
   Eigen::Vector2d Current(EffectValues values) const override { return {values[0], values[1]}; }
 };
 
-}  // namespace
-
-const Effect& Current() {
-  static const CurrentEffect effect;
-  return effect;
-}
+template const Effect& InstanceOf<CurrentEffect>();
 
 }  // namespace telltale

@@ -10,6 +10,7 @@
 
 #include <Eigen/Core>
 
+#include "telltale/core/effects/hull_scale.hpp"
 #include "telltale/core/vessel/model_structure.hpp"
 #include "telltale/core/vessel/motion.hpp"
 #include "telltale/core/vessel/vehicle.hpp"
@@ -39,6 +40,7 @@ struct InstantState {
   Nu nu;                        ///< over ground
   Nu nu_r;                      ///< through the water
   std::array<NuDot, 2> thrust;  ///< what each side's propeller gives, port first
+  HullScale hull_scale;         ///< of the vehicle file's hull
   /// Each body term of surge, sway and yaw, in the order of Regressors().
   std::array<std::array<double, 9>, 3> hull{};
 
@@ -128,7 +130,7 @@ class Effect {
   EffectFacts facts_;
 };
 
-/// Every effect, in the order of core/effects/library.hpp. They live as long as the program.
+/// Every effect, in the order of core/effects/effect_library.cpp. They live as long as the program.
 std::span<const Effect* const> EffectLibrary();
 
 /// Nothing where there is no such effect.

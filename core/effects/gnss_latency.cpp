@@ -1,9 +1,7 @@
-#include "telltale/core/effects/effect.hpp"
-#include "telltale/core/effects/effect_library.hpp"
+#include "telltale/core/effects/effect_instance.hpp"
 #include "telltale/core/effects/wording.hpp"
 
 namespace telltale {
-namespace {
 
 class GnssLatencyEffect final : public Effect {
  public:
@@ -24,11 +22,6 @@ class GnssLatencyEffect final : public Effect {
   double LatencyS(EffectValues values) const override { return values[0]; }
 };
 
-}  // namespace
-
-const Effect& GnssLatency() {
-  static const GnssLatencyEffect effect;
-  return effect;
-}
+template const Effect& InstanceOf<GnssLatencyEffect>();
 
 }  // namespace telltale

@@ -1,11 +1,9 @@
 #include <numbers>
 
-#include "telltale/core/effects/effect.hpp"
-#include "telltale/core/effects/effect_library.hpp"
+#include "telltale/core/effects/effect_instance.hpp"
 #include "telltale/core/effects/wording.hpp"
 
 namespace telltale {
-namespace {
 
 class HeadingBiasEffect final : public Effect {
  public:
@@ -25,11 +23,6 @@ class HeadingBiasEffect final : public Effect {
   double HeadingErrorRad(EffectValues values) const override { return values[0]; }
 };
 
-}  // namespace
-
-const Effect& HeadingBias() {
-  static const HeadingBiasEffect effect;
-  return effect;
-}
+template const Effect& InstanceOf<HeadingBiasEffect>();
 
 }  // namespace telltale

@@ -2,18 +2,10 @@
 #include <array>
 #include <numeric>
 
-#include "telltale/core/effects/effect.hpp"
-#include "telltale/core/effects/effect_library.hpp"
+#include "telltale/core/effects/effect_instance.hpp"
 #include "telltale/core/effects/wording.hpp"
 
 namespace telltale {
-namespace {
-
-// Of a small catamaran: radius of gyration, 0.3 of its length, and what the water carried along
-// makes of its mass in sway and its inertia in yaw; next to nothing in surge.
-constexpr double kGyrationM = 0.4;
-constexpr double kSwayMass = 1.5;
-constexpr double kYawInertia = 1.3;
 
 class PayloadEffect final : public Effect {
  public:
@@ -23,7 +15,8 @@ class PayloadEffect final : public Effect {
              .title = "more mass aboard",
              .equation = "a load p m at x forward: (1 + p) u_dot, (1 + p_v) v_dot + p_v x r_dot "
                          "and (1 + p_r x) r_dot + p_r v_dot are the boat's own + p (v r + x r^2), "
-                         "- p_v u r, - p_r u r; p_v = p / 1.5, p_r = p x / (1.3 k^2), k = 0.4 m",
+                         "- p_v u r, - p_r u r; p_v = p m / (m + A22), "
+                         "p_r = p x I / ((I + A66) k^2), k = 0.31 L; in surge A11 is neglected",
              .source = "Fossen 2011, chapter 3: rigid-body mass, inertia and Coriolis terms of a "
                        "point mass; chapter 6 for added mass",
              .parameters = {{"mass_gain", "1", 0.2, -0.6, 2.0},
@@ -44,8 +37,9 @@ class PayloadEffect final : public Effect {
     const auto& [surge, sway, yaw] = instant.hull;
     const NuDot light = {thrust.u + Sum(surge), thrust.v + Sum(sway), thrust.r + Sum(yaw)};
     // The load's share of the boat's mass and inertia, added mass included.
-    const double p_v = p / kSwayMass;
-    const double p_r = p * x / (kYawInertia * kGyrationM * kGyrationM);
+    const HullScale& hull = instant.hull_scale;
+    const double p_v = p / hull.sway_mass;
+    const double p_r = p * x / (hull.yaw_inertia * hull.gyration_radius_m * hull.gyration_radius_m);
     const double side = light.v - p_v * nu.u * nu.r;
     const double turn = light.r - p_r * nu.u * nu.r;
     const double determinant = std::max((1.0 + p_v) * (1.0 + p_r * x) - p_v * x * p_r, 0.1);
@@ -60,11 +54,6 @@ class PayloadEffect final : public Effect {
   }
 };
 
-}  // namespace
-
-const Effect& Payload() {
-  static const PayloadEffect effect;
-  return effect;
-}
+template const Effect& InstanceOf<PayloadEffect>();
 
 }  // namespace telltale

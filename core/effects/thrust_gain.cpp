@@ -1,9 +1,7 @@
-#include "telltale/core/effects/effect.hpp"
-#include "telltale/core/effects/effect_library.hpp"
+#include "telltale/core/effects/effect_instance.hpp"
 #include "telltale/core/effects/wording.hpp"
 
 namespace telltale {
-namespace {
 
 class ThrustGainEffect final : public Effect {
  public:
@@ -26,11 +24,6 @@ class ThrustGainEffect final : public Effect {
   }
 };
 
-}  // namespace
-
-const Effect& ThrustGain() {
-  static const ThrustGainEffect effect;
-  return effect;
-}
+template const Effect& InstanceOf<ThrustGainEffect>();
 
 }  // namespace telltale

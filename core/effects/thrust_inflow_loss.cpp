@@ -1,11 +1,9 @@
 #include <algorithm>
 
-#include "telltale/core/effects/effect.hpp"
-#include "telltale/core/effects/effect_library.hpp"
+#include "telltale/core/effects/effect_instance.hpp"
 #include "telltale/core/effects/wording.hpp"
 
 namespace telltale {
-namespace {
 
 class ThrustInflowLossEffect final : public Effect {
  public:
@@ -30,11 +28,6 @@ class ThrustInflowLossEffect final : public Effect {
   }
 };
 
-}  // namespace
-
-const Effect& ThrustInflowLoss() {
-  static const ThrustInflowLossEffect effect;
-  return effect;
-}
+template const Effect& InstanceOf<ThrustInflowLossEffect>();
 
 }  // namespace telltale

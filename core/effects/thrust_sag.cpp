@@ -1,11 +1,9 @@
 #include <algorithm>
 
-#include "telltale/core/effects/effect.hpp"
-#include "telltale/core/effects/effect_library.hpp"
+#include "telltale/core/effects/effect_instance.hpp"
 #include "telltale/core/effects/wording.hpp"
 
 namespace telltale {
-namespace {
 
 class ThrustSagEffect final : public Effect {
  public:
@@ -31,11 +29,6 @@ class ThrustSagEffect final : public Effect {
   }
 };
 
-}  // namespace
-
-const Effect& ThrustSag() {
-  static const ThrustSagEffect effect;
-  return effect;
-}
+template const Effect& InstanceOf<ThrustSagEffect>();
 
 }  // namespace telltale

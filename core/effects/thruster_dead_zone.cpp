@@ -1,12 +1,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "telltale/core/effects/effect.hpp"
-#include "telltale/core/effects/effect_library.hpp"
+#include "telltale/core/effects/effect_instance.hpp"
 #include "telltale/core/effects/wording.hpp"
 
 namespace telltale {
-namespace {
 
 class ThrusterDeadZoneEffect final : public Effect {
  public:
@@ -29,11 +27,6 @@ class ThrusterDeadZoneEffect final : public Effect {
   }
 };
 
-}  // namespace
-
-const Effect& ThrusterDeadZone() {
-  static const ThrusterDeadZoneEffect effect;
-  return effect;
-}
+template const Effect& InstanceOf<ThrusterDeadZoneEffect>();
 
 }  // namespace telltale

@@ -1,9 +1,7 @@
-#include "telltale/core/effects/effect.hpp"
-#include "telltale/core/effects/effect_library.hpp"
+#include "telltale/core/effects/effect_instance.hpp"
 #include "telltale/core/effects/wording.hpp"
 
 namespace telltale {
-namespace {
 
 class ThrusterDelayEffect final : public Effect {
  public:
@@ -22,11 +20,6 @@ class ThrusterDelayEffect final : public Effect {
   double CommandDelayS(EffectValues values) const override { return values[0]; }
 };
 
-}  // namespace
-
-const Effect& ThrusterDelay() {
-  static const ThrusterDelayEffect effect;
-  return effect;
-}
+template const Effect& InstanceOf<ThrusterDelayEffect>();
 
 }  // namespace telltale

@@ -1,11 +1,9 @@
 #include <algorithm>
 
-#include "telltale/core/effects/effect.hpp"
-#include "telltale/core/effects/effect_library.hpp"
+#include "telltale/core/effects/effect_instance.hpp"
 #include "telltale/core/effects/wording.hpp"
 
 namespace telltale {
-namespace {
 
 class ThrusterImbalanceEffect final : public Effect {
  public:
@@ -32,11 +30,6 @@ class ThrusterImbalanceEffect final : public Effect {
   }
 };
 
-}  // namespace
-
-const Effect& ThrusterImbalance() {
-  static const ThrusterImbalanceEffect effect;
-  return effect;
-}
+template const Effect& InstanceOf<ThrusterImbalanceEffect>();
 
 }  // namespace telltale

@@ -1,9 +1,7 @@
-#include "telltale/core/effects/effect.hpp"
-#include "telltale/core/effects/effect_library.hpp"
+#include "telltale/core/effects/effect_instance.hpp"
 #include "telltale/core/effects/wording.hpp"
 
 namespace telltale {
-namespace {
 
 class ThrusterLagEffect final : public Effect {
  public:
@@ -22,11 +20,6 @@ class ThrusterLagEffect final : public Effect {
   double ShaftLagS(EffectValues values) const override { return values[0]; }
 };
 
-}  // namespace
-
-const Effect& ThrusterLag() {
-  static const ThrusterLagEffect effect;
-  return effect;
-}
+template const Effect& InstanceOf<ThrusterLagEffect>();
 
 }  // namespace telltale

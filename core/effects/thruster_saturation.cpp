@@ -1,11 +1,9 @@
 #include <algorithm>
 
-#include "telltale/core/effects/effect.hpp"
-#include "telltale/core/effects/effect_library.hpp"
+#include "telltale/core/effects/effect_instance.hpp"
 #include "telltale/core/effects/wording.hpp"
 
 namespace telltale {
-namespace {
 
 class ThrusterSaturationEffect final : public Effect {
  public:
@@ -27,11 +25,6 @@ class ThrusterSaturationEffect final : public Effect {
   }
 };
 
-}  // namespace
-
-const Effect& ThrusterSaturation() {
-  static const ThrusterSaturationEffect effect;
-  return effect;
-}
+template const Effect& InstanceOf<ThrusterSaturationEffect>();
 
 }  // namespace telltale

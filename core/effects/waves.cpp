@@ -1,11 +1,9 @@
 #include <numbers>
 
-#include "telltale/core/effects/effect.hpp"
-#include "telltale/core/effects/effect_library.hpp"
+#include "telltale/core/effects/effect_instance.hpp"
 #include "telltale/core/effects/wording.hpp"
 
 namespace telltale {
-namespace {
 
 class WavesEffect final : public Effect {
  public:
@@ -33,11 +31,6 @@ class WavesEffect final : public Effect {
   }
 };
 
-}  // namespace
-
-const Effect& Waves() {
-  static const WavesEffect effect;
-  return effect;
-}
+template const Effect& InstanceOf<WavesEffect>();
 
 }  // namespace telltale

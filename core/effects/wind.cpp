@@ -1,19 +1,21 @@
 #include <cmath>
 
-#include "telltale/core/effects/effect.hpp"
-#include "telltale/core/effects/effect_library.hpp"
+#include "telltale/core/effects/effect_instance.hpp"
 #include "telltale/core/effects/wording.hpp"
 
 namespace telltale {
 namespace {
 
-// Half the density of air times drag coefficient, area and, in yaw, length, over mass or inertia of
-// a 1.3 m catamaran of 35 kg with its added mass. Another boat finds another speed of wind.
+// Half the density of air times drag coefficient, area and, in yaw, length, over mass or inertia
+// with added mass: of the default hull, with drag coefficients of 0.69, 0.88 and 0.105. Units: 1/m,
+// 1/m, 1/m^2.
 constexpr double kSurge = 0.0028;
 constexpr double kSway = 0.0040;
 constexpr double kYaw = 0.0045;
-// Scatter of the speed over its mean, low over sheltered water.
+// Turbulence intensity: scatter of the speed over its mean, low over sheltered water.
 constexpr double kTurbulence = 0.2;
+
+}  // namespace
 
 class WindEffect final : public Effect {
  public:
@@ -21,7 +23,8 @@ class WindEffect final : public Effect {
       : Effect({.name = "wind",
                 .title = "wind",
                 .equation = "nu_dot += (kx |V_rw| V_rw,x, ky a |V_rw| V_rw,y, kn b V_rw,x V_rw,y), "
-                            "V_rw = R(psi)' V_w - nu, less the same in still air",
+                            "V_rw = R(psi)' V_w - nu, less the same in still air; kx ~ A_F / m, "
+                            "ky ~ A_L / (m + A22), kn ~ A_L / ((1 + A66 / I) m L)",
                 .source = "Blendermann, Parameter identification of wind loads on ships, J. Wind "
                           "Eng. Ind. Aerodyn. 51, 1994; Fossen 2011, chapter 8",
                 .parameters = {{"wind_north", "m/s", 4.0, -25.0, 25.0},
@@ -47,17 +50,17 @@ class WindEffect final : public Effect {
     const double speed = std::hypot(relative_forward, relative_starboard);
     // The drag of still air is in the coefficients of the hull already.
     const double still = std::hypot(nu.u, nu.v);
-    return {kSurge * (speed * relative_forward + still * nu.u),
-            kSway * values[2] * (speed * relative_starboard + still * nu.v),
-            kYaw * values[3] * (relative_forward * relative_starboard - nu.u * nu.v)};
+    const HullScale& hull = instant.hull_scale;
+    const double surge = kSurge * (hull.frontal_area / hull.mass);
+    const double sway = kSway * (hull.lateral_area / (hull.mass * hull.SwayMassRatio()));
+    const double yaw =
+        kYaw * (hull.lateral_area / (hull.mass * hull.length * hull.YawInertiaRatio()));
+    return {surge * (speed * relative_forward + still * nu.u),
+            sway * values[2] * (speed * relative_starboard + still * nu.v),
+            yaw * values[3] * (relative_forward * relative_starboard - nu.u * nu.v)};
   }
 };
 
-}  // namespace
-
-const Effect& Wind() {
-  static const WindEffect effect;
-  return effect;
-}
+template const Effect& InstanceOf<WindEffect>();
 
 }  // namespace telltale

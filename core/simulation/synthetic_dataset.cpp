@@ -13,6 +13,8 @@ constexpr double kBetweenSegmentsS = 100.0;
 Vehicle VehicleOf(const PreparedDataset& dataset) {
   Vehicle vehicle;
   vehicle.gnss_antenna = dataset.sensors.antenna;
+  vehicle.hull = dataset.hull;
+  vehicle.mass_kg = dataset.hull.mass_kg;
   return vehicle;
 }
 

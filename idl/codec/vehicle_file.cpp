@@ -15,6 +15,10 @@ constexpr FieldRange kNeutral{800.0, 2200.0};
 constexpr FieldRange kFullCommand{500.0, 2500.0};
 constexpr FieldRange kLeverArm{-100.0, 100.0};
 constexpr FieldRange kMass{0.0, 100000.0, true};
+constexpr FieldRange kLength{0.2, 100.0};
+constexpr FieldRange kBeam{0.1, 50.0};
+constexpr FieldRange kDraught{0.01, 20.0};
+constexpr FieldRange kArea{0.001, 1000.0};
 
 bool IsOfVehicleId(unsigned char c) {
   return c < 0x80 && (std::isalnum(c) || c == '.' || c == '_' || c == '-');
@@ -41,6 +45,27 @@ PwmChannel ReadChannel(FieldReader reader) {
 
 LeverArm ReadLeverArm(FieldReader reader) {
   return {reader.Number("forward_m", kLeverArm), reader.Number("starboard_m", kLeverArm)};
+}
+
+HullParticulars ReadHull(FieldReader reader) {
+  HullParticulars hull;
+  const auto read = [&](const char* field, const FieldRange& range, double& value) {
+    if (reader.Has(field)) value = reader.Number(field, range);
+  };
+  read("length_m", kLength, hull.length_m);
+  read("beam_m", kBeam, hull.beam_m);
+  read("draught_m", kDraught, hull.draught_m);
+  read("frontal_area_m2", kArea, hull.frontal_area_m2);
+  read("lateral_area_m2", kArea, hull.lateral_area_m2);
+  return hull;
+}
+
+void WriteHull(const HullParticulars& hull, proto::Vehicle::Hull& message) {
+  message.set_length_m(hull.length_m);
+  message.set_beam_m(hull.beam_m);
+  message.set_draught_m(hull.draught_m);
+  message.set_frontal_area_m2(hull.frontal_area_m2);
+  message.set_lateral_area_m2(hull.lateral_area_m2);
 }
 
 void WriteChannel(const PwmChannel& channel, proto::Vehicle::PwmChannel& message) {
@@ -73,6 +98,7 @@ Vehicle ReadVehicle(FieldReader reader) {
   vehicle.starboard = ReadChannel(reader.Required("starboard"));
   vehicle.gnss_antenna = ReadLeverArm(reader.Optional("gnss_antenna"));
   if (reader.Has("mass_kg")) vehicle.mass_kg = reader.Number("mass_kg", kMass);
+  if (reader.Has("hull")) vehicle.hull = ReadHull(reader.Required("hull"));
   return vehicle;
 }
 
@@ -104,6 +130,7 @@ proto::Vehicle ToProto(const Vehicle& vehicle) {
   message.mutable_gnss_antenna()->set_forward_m(vehicle.gnss_antenna.forward_m);
   message.mutable_gnss_antenna()->set_starboard_m(vehicle.gnss_antenna.starboard_m);
   if (vehicle.mass_kg) message.set_mass_kg(*vehicle.mass_kg);
+  if (vehicle.hull) WriteHull(*vehicle.hull, *message.mutable_hull());
   return message;
 }
 

@@ -54,15 +54,17 @@ std::optional<PreparedDataset> SimulatedManoeuvre(const CatalogueManoeuvre& mano
 
 std::vector<SeparationAdvice> AdviseSeparatingManoeuvres(const RankedHypothesis& hypothesis,
                                                          const NominalBaseline& nominal,
-                                                         double sampling_period_s) {
+                                                         double sampling_period_s,
+                                                         const HullParticulars& hull) {
   std::vector<SeparationAdvice> all;
   if (hypothesis.equivalent.empty()) return all;
   const Eigen::LLT<Eigen::MatrixXd> factor(nominal.covariance);
   std::vector<std::string> separated = hypothesis.fit.Names();
   for (const std::string& name : hypothesis.Indistinguishable()) separated.push_back(name);
   for (const CatalogueManoeuvre& manoeuvre : ManoeuvreCatalogue()) {
-    const auto dataset = SimulatedManoeuvre(manoeuvre, nominal.boat.model, sampling_period_s);
+    auto dataset = SimulatedManoeuvre(manoeuvre, nominal.boat.model, sampling_period_s);
     if (!dataset) continue;
+    dataset->hull = hull;
     const FreeRuns runs(*dataset, nominal.boat.model, kHorizonS);
     if (runs.Rows() != nominal.covariance.rows() || runs.Windows() == 0) continue;
     const Eigen::MatrixXd one = runs.Errors(nominal.boat.With(hypothesis.fit.effects));

@@ -13,7 +13,8 @@ namespace telltale {
 /// docs/concepts/diagnosis.md (96). None where nothing is tied.
 std::vector<SeparationAdvice> AdviseSeparatingManoeuvres(const RankedHypothesis& hypothesis,
                                                          const NominalBaseline& nominal,
-                                                         double sampling_period_s);
+                                                         double sampling_period_s,
+                                                         const HullParticulars& hull);
 
 /// What would settle it where no manoeuvre is promised to: sensors.
 std::string AdviseSensor(const RankedHypothesis& hypothesis);

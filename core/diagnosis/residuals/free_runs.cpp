@@ -144,7 +144,8 @@ bool FreeRuns::Collect(std::size_t segment, std::size_t first_row, Window& windo
 template <class Visit>
 void FreeRuns::ForEachTrack(const AugmentedModel& model, const Offset& offset, Visit visit) const {
   const double start_s = dataset_->StartTime();
-  const AugmentedBoat boat(model, start_s, std::max(dataset_->EndTime() - start_s, 1.0));
+  const AugmentedBoat boat(model, start_s, std::max(dataset_->EndTime() - start_s, 1.0),
+                           dataset_->hull);
   std::vector<Drive> drives;
   std::size_t driven = dataset_->segments.size();
   for (std::size_t w = 0; w < windows_.size(); ++w) {

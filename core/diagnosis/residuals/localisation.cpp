@@ -64,7 +64,7 @@ std::vector<AccelerationResidual> AccelerationResidualsOf(const PreparedDataset&
                                                           const AugmentedModel& augmented) {
   const double h = dataset.sampling_period_s;
   const double span_s = std::max(dataset.EndTime() - dataset.StartTime(), 1.0);
-  const AugmentedBoat boat(augmented, dataset.StartTime(), span_s);
+  const AugmentedBoat boat(augmented, dataset.StartTime(), span_s, dataset.hull);
   const std::size_t steps = StepsPerRow(augmented.model, h);
   const double step_s = h / static_cast<double>(steps);
   std::vector<AccelerationResidual> residuals;

@@ -1,5 +1,7 @@
 #include "telltale/idl/codec/vehicle_file.hpp"
 
+#include <tuple>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include "support/test_name.hpp"
@@ -50,6 +52,40 @@ TEST(VehicleFile, AntennaAndMassMayBeLeftOut) {
   EXPECT_EQ(vehicle->gnss_antenna.forward_m, 0.0);
   EXPECT_EQ(vehicle->gnss_antenna.starboard_m, 0.0);
   EXPECT_FALSE(vehicle->mass_kg.has_value());
+}
+
+TEST(VehicleFile, FieldsOfTheHullHaveDefaults) {
+  const auto without = ParseVehicle(kGood);
+  ASSERT_TRUE(without) << without.error().Message();
+  EXPECT_FALSE(without->hull.has_value());
+  const auto vehicle = ParseVehicle(kGood + "hull { length_m: 2.0 lateral_area_m2: 0.9 }");
+  ASSERT_TRUE(vehicle) << vehicle.error().Message();
+  ASSERT_TRUE(vehicle->hull.has_value());
+  EXPECT_EQ(vehicle->hull->length_m, 2.0);
+  EXPECT_EQ(vehicle->hull->beam_m, HullParticulars{}.beam_m);
+  EXPECT_EQ(vehicle->hull->draught_m, HullParticulars{}.draught_m);
+  EXPECT_EQ(vehicle->hull->frontal_area_m2, HullParticulars{}.frontal_area_m2);
+  EXPECT_EQ(vehicle->hull->lateral_area_m2, 0.9);
+  const auto again = ParseVehicle(PrintVehicle(*vehicle));
+  ASSERT_TRUE(again) << again.error().Message();
+  EXPECT_EQ(again->hull->length_m, 2.0);
+  EXPECT_EQ(again->hull->lateral_area_m2, 0.9);
+}
+
+TEST(VehicleFile, AHullOutOfRangeIsRefusedNamingItsField) {
+  for (const auto& [field, value, allowed] :
+       {std::tuple("length_m", "0.1", "[0.2, 100]"), std::tuple("beam_m", "51", "[0.1, 50]"),
+        std::tuple("draught_m", "0", "[0.01, 20]"),
+        std::tuple("frontal_area_m2", "-1", "[0.001, 1000]"),
+        std::tuple("lateral_area_m2", "nan", "[0.001, 1000]")}) {
+    const auto vehicle =
+        ParseVehicle(kGood + "hull { " + field + ": " + value + " }", "boat.textproto");
+    ASSERT_FALSE(vehicle) << field;
+    EXPECT_EQ(vehicle.error().field, std::string("hull.") + field);
+    EXPECT_EQ(vehicle.error().value, value);
+    EXPECT_THAT(vehicle.error().allowed, HasSubstr(allowed));
+    EXPECT_EQ(vehicle.error().where, "boat.textproto:7");
+  }
 }
 
 TEST(VehicleFile, PrintedAndReadAgainIsTheSame) {
