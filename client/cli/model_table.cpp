@@ -155,7 +155,8 @@ std::string Refusals(const Identification& model) {
 std::string WindowText(const WindowSummary& window) {
   return Wrapped("Window: " + Fixed(window.start_s, 1) + " s to " + Fixed(window.end_s, 1) +
                  " s, " + Counted(window.samples, "row", "rows") + " in " +
-                 Counted(window.segments, "segment", "segments") + "; set aside " +
+                 Counted(window.segments, "segment", "segments") + ", " +
+                 Counted(window.slices, "slice", "slices") + "; set aside " +
                  RejectedText(window.rejected) + ".");
 }
 

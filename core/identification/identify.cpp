@@ -49,8 +49,8 @@ DeadZone IdentifyDeadZone(const PreparedDataset& dataset, const IdentifyOptions&
 }
 
 WindowSummary Summarise(const PreparedDataset& dataset) {
-  return {dataset.StartTime(), dataset.EndTime(), dataset.rows.size(), dataset.slices.size(),
-          dataset.rejected};
+  return {dataset.StartTime(),     dataset.EndTime(),     dataset.rows.size(),
+          dataset.segments.size(), dataset.slices.size(), dataset.rejected};
 }
 
 Result<BoundedEstimates> BoundWithEstimator(const std::optional<Estimator>& estimator,

@@ -28,12 +28,12 @@ std::optional<Refusal> Unlike(const Identification& first, const Identification&
 // Wind and current, which are no property of the boat.
 constexpr std::string_view kSteadyDisturbance = "1";
 
-std::size_t SegmentsBehind(const Identification& identification) {
+std::size_t ClustersBehind(const Identification& identification) {
   const Provenance& provenance = identification.provenance;
   if (provenance.clusters > 0) return std::max<std::size_t>(provenance.clusters, 2);
   if (provenance.bootstrap_replicates == 0) return 0;
   return std::max<std::size_t>(
-      std::min(identification.window.segments, provenance.bootstrap_replicates), 2);
+      std::min(identification.window.slices, provenance.bootstrap_replicates), 2);
 }
 
 /// Where each coefficient of `order` stands in `model`, -1 where it does not or is not the boat's.
@@ -78,7 +78,7 @@ Estimates InOrderOf(const Identification& order, const Identification& model) {
   std::vector<Eigen::Index> places = PlacesIn(model, order);
   places.push_back(stacked.theta.size() - 1);
   const auto p = static_cast<Eigen::Index>(places.size());
-  Estimates estimates{Eigen::VectorXd::Zero(p), Eigen::MatrixXd::Zero(p, p), SegmentsBehind(model)};
+  Estimates estimates{Eigen::VectorXd::Zero(p), Eigen::MatrixXd::Zero(p, p), ClustersBehind(model)};
   for (Eigen::Index i = 0; i < p; ++i) {
     const Eigen::Index from = places[static_cast<std::size_t>(i)];
     estimates.covariance(i, i) = std::numeric_limits<double>::infinity();

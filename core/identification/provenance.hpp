@@ -16,6 +16,7 @@ struct WindowSummary {
   double end_s = 0.0;
   std::size_t samples = 0;   ///< prepared rows
   std::size_t segments = 0;  ///< runs of rows without a gap
+  std::size_t slices = 0;    ///< segments cut further at each change of propeller region
   RejectCounts rejected;
 };
 

@@ -69,7 +69,8 @@ inline Identification MadeUpIdentification(
   made.window.start_s = 1700000000.125;
   made.window.end_s = 1700000600.625;
   made.window.samples = 3003;
-  made.window.segments = 41;
+  made.window.segments = 3;
+  made.window.slices = 41;
   made.window.rejected.Count(Channel::kGnss, RejectReason::kDuplicate, 7);
   made.window.rejected.Count(Channel::kThrusters, RejectReason::kNotFinite, 2);
   made.refusals.push_back({"sway", "v and v|v| move together", "add a zigzag at two speeds"});
@@ -153,6 +154,7 @@ inline void ExpectSame(const WindowSummary& a, const WindowSummary& b) {
   EXPECT_EQ(a.end_s, b.end_s);
   EXPECT_EQ(a.samples, b.samples);
   EXPECT_EQ(a.segments, b.segments);
+  EXPECT_EQ(a.slices, b.slices);
   for (const Channel channel : kChannels) {
     for (const RejectReason reason : kRejectReasons) {
       EXPECT_EQ(a.rejected.Of(channel, reason), b.rejected.Of(channel, reason));

@@ -53,6 +53,7 @@ void Write(const WindowSummary& window, proto::WindowSummary& message) {
   message.set_end_s(window.end_s);
   message.set_samples(Saturated(window.samples));
   message.set_segments(Saturated(window.segments));
+  message.set_slices(Saturated(window.slices));
   Write(window.rejected, message);
 }
 
@@ -283,6 +284,7 @@ WindowSummary ReadWindow(FieldReader reader, const proto::WindowSummary& message
   }
   window.samples = message.samples();
   window.segments = message.segments();
+  window.slices = message.slices();
   for (int i = 0; i < message.rejected_size(); ++i) {
     FieldReader item = reader.Item("rejected", i);
     const proto::RejectCount& entry = message.rejected(i);

@@ -218,6 +218,7 @@ void Fill(telltale_wire_Model& wire, const PublishedModel& model) {
   wire.window_end_s = identification.window.end_s;
   wire.window_samples = identification.window.samples;
   wire.window_segments = identification.window.segments;
+  wire.window_slices = identification.window.slices;
   PutSequence(wire.rejected, RejectEntries(identification.window.rejected), kFill);
   PutSequence(wire.refusals, identification.refusals, kFill);
   const Provenance& provenance = identification.provenance;
@@ -741,6 +742,7 @@ PublishedModel ReadModel(const telltale_wire_Model& wire) {
       ReadWithin("window_end_s", wire.window_end_s, wire.window_start_s, kLargest);
   identification.window.samples = wire.window_samples;
   identification.window.segments = wire.window_segments;
+  identification.window.slices = wire.window_slices;
   identification.window.rejected = ReadRejectCounts(wire.rejected);
   identification.refusals = ReadSequence("refusals", wire.refusals, ReadRefusal);
   identification.provenance.preset = View(wire.preset);

@@ -68,7 +68,7 @@ TEST(ModelTable, ShowsEverythingTheModelRestsOn) {
                            "[-∞, ∞]",
                            "sway: v and v|v| move together",
                            "add a zigzag at two speeds",
-                           "3003 rows in 41 segments",
+                           "3003 rows in 3 segments, 41 slices",
                            "gnss 7 DUPLICATE",
                            "thrusters 2 NOT_FINITE",
                            "a cluster bootstrap over segments",
