@@ -23,14 +23,14 @@ namespace {
 constexpr const char* kSubject = "coverage_check";
 constexpr const char* kAdvice = "record for longer, with more varied manoeuvres";
 
-/// Sailing and identification of a repeat draw from streams of their own.
+/// Simulation and identification of a replicate draw from streams of their own.
 enum class Draw : std::uint64_t { kSimulation, kIdentification };
 
 std::uint64_t SeedOf(std::uint64_t seed, std::size_t replicate, Draw draw) {
   return RandomEngine::Stream(seed, 2 * replicate + static_cast<std::uint64_t>(draw))();
 }
 
-/// The data as they are sailed again: in parts of a minute, which stay near what was recorded.
+/// The data prepared for simulation: in parts of a minute, whose replicates stay near the record.
 Result<PreparedDataset> PrepareForSimulation(const Recording& recording, const Vehicle& vehicle,
                                              const Identification& identification,
                                              const IdentifyOptions& options) {
@@ -40,8 +40,8 @@ Result<PreparedDataset> PrepareForSimulation(const Recording& recording, const V
   return PrepareForWeakIv(recording, vehicle, prepare);
 }
 
-/// The same data seen through the weak form, whatever estimator is to be certified: it judges the
-/// disturbance where that estimator does not, and knows a damped boat.
+/// A weak-form fit of the same data, whatever estimator is checked. It gives the disturbance where
+/// that estimator does not, and a regularised model.
 struct WeakFormFit {
   RegressionOptions regression;
   std::array<std::vector<std::size_t>, 3> columns;
@@ -65,8 +65,8 @@ WeakFormFit FitWeakForm(const PreparedDataset& dataset, const Identification& id
   return weak_form;
 }
 
-/// Boats to take for the truth: the published one first, then what it is sailed with, then ones
-/// drawn towards the damped one.
+/// Models to take for the truth: the reported one, then the simulation parameters, then models
+/// between the reported and the regularised one.
 std::vector<VesselModel> Candidates(const Identification& identification,
                                     const WeakFormFit& weak_form) {
   const VesselModel reported = RegularisedModel(identification, kUnregularised);
@@ -85,7 +85,7 @@ std::vector<VesselModel> Candidates(const Identification& identification,
   return candidates;
 }
 
-/// The boat that stands for the truth.
+/// The model that stands for the truth.
 struct Truth {
   VesselModel model;
   bool as_reported = false;
@@ -98,7 +98,7 @@ struct Truth {
   }
 };
 
-/// How often one coefficient's bounds held, as repeats come in.
+/// How often one coefficient's bounds hold, replicate by replicate.
 class CoverageCount {
  public:
   /// Whether the bounds hold the truth; nothing when there are none.
@@ -136,7 +136,7 @@ class CoverageExperiment {
     disturbance_ = disturbance;
     const auto truth = FindTruth(candidates);
     if (!truth) {
-      return Refuse(kSubject, "the identified boat runs away under the recorded commands", kAdvice);
+      return Refuse(kSubject, "the identified model diverges under the recorded commands", kAdvice);
     }
     std::vector<std::optional<Identification>> replicates(options_.coverage_check_replicates);
     ForEachIndex(replicates.size(), options_.threads, [&](std::size_t i) {
@@ -145,7 +145,7 @@ class CoverageExperiment {
     });
     std::erase(replicates, std::nullopt);
     if (replicates.empty()) {
-      return Refuse(kSubject, "not one simulated repeat of this data set could be identified",
+      return Refuse(kSubject, "not one parametric bootstrap replicate could be identified",
                     kAdvice);
     }
     return Count(*truth, replicates);
@@ -162,7 +162,7 @@ class CoverageExperiment {
     return simulation_options;
   }
 
-  /// The first that can be sailed; the first of all is the published one.
+  /// The first that can be simulated; the first of all is the reported model.
   std::optional<Truth> FindTruth(const std::vector<VesselModel>& candidates) const {
     for (std::size_t i = 0; i < candidates.size(); ++i) {
       if (CanBeSimulated(candidates[i])) return Truth{candidates[i], i == 0};
@@ -170,7 +170,7 @@ class CoverageExperiment {
     return std::nullopt;
   }
 
-  /// In at least half of a few voyages: the disturbance alone may carry a boat away.
+  /// In at least half of a few trials, because the disturbance alone may make a run diverge.
   bool CanBeSimulated(const VesselModel& model) const {
     constexpr std::size_t kTrials = 8;
     std::size_t simulation = 0;
@@ -200,7 +200,7 @@ class CoverageExperiment {
     const std::lock_guard lock(reporting_);
     reported_ += std::max(0.0, fraction - fractions_[replicate]);
     fractions_[replicate] = std::max(fraction, fractions_[replicate]);
-    progress_("certifying the bounds on simulated repeats",
+    progress_("checking coverage on simulated replicates",
               std::min(1.0, reported_ / static_cast<double>(fractions_.size())));
   }
 
@@ -246,9 +246,9 @@ class CoverageExperiment {
     return found == replicate.coefficients.end() ? nullptr : &*found;
   }
 
-  /// Whether the ellipsoid that the repeat publishes at the level of its bounds holds the truth; if
-  /// it makes no joint statement, the one that its covariance would draw were it known. Nothing
-  /// when it bounds fewer coefficients than the identification does.
+  /// Whether the replicate's ellipsoid at the level of its bounds holds the truth. Without a joint
+  /// statement its covariance counts as known. Nothing when the replicate bounds fewer coefficients
+  /// than the identification.
   std::optional<bool> EllipsoidHolds(const Truth& truth, const Identification& replicate) const {
     std::vector<Eigen::Index> places;
     std::vector<double> off;
@@ -315,7 +315,7 @@ Result<CoverageCheck> CheckCoverage(const Recording& recording, const Vehicle& v
                                            options.weak_iv, options.seed);
   }
   if (!disturbance) {
-    return Refuse(kSubject, "what disturbs the boat cannot be judged from these data", kAdvice);
+    return Refuse(kSubject, "the disturbance cannot be estimated from these data", kAdvice);
   }
   return CoverageExperiment(*dataset, identification, options, progress)
       .Run(*disturbance, Candidates(identification, weak_form));

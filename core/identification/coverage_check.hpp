@@ -8,14 +8,13 @@
 
 namespace telltale {
 
-/// Measures how often the bounds of `identification` hold, docs/concepts/model.md (60): the
-/// identified boat is sailed anew options.coverage_check_replicates times under the recorded
-/// commands, disturbed and measured as the data show, and every repeat goes the whole way of
-/// Identify with the same options. The truth is then known; the coverage is that of the bounds if
-/// the model were true. Repeat i has seeds of its own, so results do not depend on threads.
-/// progress is called by one thread at a time, and what it throws ends the work. Refuses when: the
-/// model cannot be sailed under the recorded commands, what disturbs the boat cannot be judged, or
-/// not one repeat can be identified.
+/// Coverage check by simulation, docs/concepts/model.md (60): how often the bounds of
+/// `identification` hold if its model is true. The model is simulated
+/// options.coverage_check_replicates times under the recorded commands, with the disturbance and
+/// sensor noise that the data show. Each replicate passes through Identify() with the same options.
+/// Replicate i has seeds of its own, so results do not depend on threads. `progress` is called by
+/// one thread at a time; what it throws ends the work. Refuses when: the model diverges under the
+/// recorded commands, the disturbance cannot be estimated, or no replicate can be identified.
 Result<CoverageCheck> CheckCoverage(const Recording& recording, const Vehicle& vehicle,
                                     const Identification& identification,
                                     const IdentifyOptions& options, const Progress& progress = {});

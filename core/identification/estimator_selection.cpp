@@ -13,7 +13,7 @@
 namespace telltale {
 namespace {
 
-/// Mean squares of sensor noise alone differ by less from one repeat to the next.
+/// Mean squares of sensor noise alone differ by less from one replicate to the next.
 constexpr double kLargestVarianceRatio = 2.0;
 
 template <class... Parts>
@@ -24,19 +24,20 @@ std::string Sentence(const Parts&... parts) {
   return words.str();
 }
 
-/// Output error's answers if its bounds can be trusted, else why not.
+/// The estimates of output error if its bounds hold, else the reason why they do not.
 tl::expected<BoundedEstimates, std::string> TryOutputError(
     const PreparedDataset& dataset, const RegressionOptions& regression,
     const IdentifyOptions& options, const Progress& progress,
     const std::optional<PreliminaryWeakFit>& preliminary) {
   const auto doubt = [](std::string why) { return tl::unexpected(std::move(why)); };
-  if (!preliminary) return doubt("only they seek a steady disturbance for each recording");
+  if (!preliminary) return doubt("only they estimate a constant disturbance for each recording");
   const auto& weak = preliminary->fit;
-  if (!weak) return doubt("there is no first estimate from which to judge the disturbance");
+  if (!weak)
+    return doubt("there is no preliminary weak-form fit from which to estimate the disturbance");
   const auto variance_ratio =
       ResidualVarianceRatio(dataset, regression, *weak, options.weak_iv.form, options.seed);
   if (!variance_ratio)
-    return doubt("the first estimate runs away, so that no disturbance can be judged");
+    return doubt("the preliminary weak-form fit diverges, so that no disturbance can be estimated");
   if (*variance_ratio > kLargestVarianceRatio) {
     return doubt(Sentence("a disturbance shows, its residuals being ", *variance_ratio,
                           " times what the sensors leave (above ", kLargestVarianceRatio, ')'));
@@ -47,7 +48,7 @@ tl::expected<BoundedEstimates, std::string> TryOutputError(
   if (!fitted) return doubt("output error gives no answer (" + fitted.error().reason + ')');
   if (!fitted->fit.converged) return doubt("output error does not converge");
   if (!fitted->fit.separability.directions.empty()) {
-    return doubt("output error cannot tell all coefficients apart");
+    return doubt("output error finds inseparable coefficients");
   }
   if (!fitted->IsWellSpecified()) {
     return doubt(

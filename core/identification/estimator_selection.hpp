@@ -8,13 +8,13 @@
 
 namespace telltale {
 
-/// Output error where its bounds hold, weak-form instrumental variables everywhere else;
-/// docs/concepts/model.md (54), (55). Two questions, the cheap one first:
-///   do the weak form's residuals exceed plainly what sensors leave? (ResidualVarianceRatio)
-///   does output error leave anything but the sensors' noise? (Misspecification)
-/// Output error is chosen on two clear noes; doubt of any kind, a fit that does not converge, an
-/// equation that cannot be answered or a direction that cannot be told apart, is answered by the
-/// weak form. The provenance says in a sentence what was chosen and why.
+/// Output error where its bounds hold, weak-form instrumental variables elsewhere;
+/// docs/concepts/model.md (54), (55). Two tests, the cheap one first:
+///   whether the weak form's residuals exceed the sensors' part (ResidualVarianceRatio),
+///   whether output error leaves more than the sensors' noise (Misspecification).
+/// Output error is chosen where neither holds. The weak form is chosen in all other cases: a fit
+/// that does not converge, an equation that cannot be estimated, an inseparable direction. The
+/// provenance gives choice and reason in a sentence.
 /// Refuses when: BoundWeakIv does.
 Result<BoundedEstimates> BoundWithSelectedEstimator(const PreparedDataset& dataset,
                                                     const RegressionOptions& regression,

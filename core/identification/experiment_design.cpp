@@ -22,7 +22,7 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kWideShare = 0.25;     // of the estimate,
 constexpr double kMaterialShare = 0.1;  // and of the accelerations that manoeuvres make
-// A manoeuvre that leaves more than this of an interval is not worth naming for it.
+// A manoeuvre is named for an interval that it shrinks to this share or less.
 constexpr double kLargestShrinkRatio = 0.8;
 
 /// Phi'Phi of all regressors from the triangle of the excited ones; zero for the others.
@@ -90,7 +90,7 @@ std::string MirrorOf(const std::string& regressor) {
   return regressor.starts_with("r:") ? 'f' + regressor.substr(1) : "";
 }
 
-/// Thrust in reverse that the data never show is taken for that ahead, mirrored: T(-d) = -T(d).
+/// Reverse thrust that the data do not excite is set to mirrored forward thrust: T(-d) = -T(d).
 void AssumeReverseThrust(const Identification& identification, VesselModel& model) {
   for (const Equation equation : kEquations) {
     const auto regressors = Regressors(equation, model.parameterization);
@@ -185,7 +185,7 @@ void ManoeuvreAdvisor::AssessInformation(std::size_t equation) {
     }
   }
   if (scales.empty() || largest_thrust <= 0.0) return;
-  // What is not known yet will be seen through noise like that of the others.
+  // An unknown coefficient is assumed to have the median noise scale of the others.
   const double usual = Median(std::move(scales));
   for (Eigen::Index j = 0; j < equation_information.scale.size(); ++j) {
     if (std::isinf(equation_information.scale[j])) equation_information.scale[j] = usual;

@@ -12,27 +12,29 @@
 
 namespace telltale {
 
-/// What advice is worked out from, all of one identification.
+/// The data behind the advice, all of one identification.
 struct AdviceBasis {
   std::array<std::optional<Excitation>, 3> excitations;
   RegressionOptions regression;
-  Nu fastest;  ///< largest absolute velocities in the data; a boat far beyond them has run away
+  Nu fastest;  ///< largest absolute velocities in the data; a simulation far beyond them has
+               ///< diverged
 };
 
 /// Coefficients that one piece of advice is about: positions in Identification::coefficients.
 using OpenCoefficients = std::vector<std::size_t>;
 
-/// Which manoeuvre next? Every manoeuvre of the catalogue is simulated with the identified boat,
-/// tamed where the data say little, and its rows are added to those there are;
-/// docs/concepts/model.md (65), (66). D-optimal among the catalogue: sorted by what they tell of
-/// the open coefficients together. Manoeuvres in which the simulated boat runs away, or that would
-/// leave four fifths of every interval, are left out.
+/// Experiment design: the manoeuvres that narrow ill-determined coefficients most. Each manoeuvre
+/// of the catalogue is simulated with the identified model, regularised where the data determine
+/// little, and its rows are added to those of the data; docs/concepts/model.md (65), (66).
+/// D-optimal within the catalogue: sorted by the information about the open coefficients together.
+/// A manoeuvre is left out when its simulation diverges or when it leaves four fifths of every
+/// interval.
 class ManoeuvreAdvisor {
  public:
   ManoeuvreAdvisor(const Identification& identification, AdviceBasis basis);
 
   /// Not excited, collinear, or wide: the interval reaches further than a quarter of the estimate
-  /// and is worth more than a tenth of the accelerations that the catalogue's manoeuvres make.
+  /// and amounts to more than a tenth of the accelerations in the catalogue's manoeuvres.
   OpenCoefficients Open() const;
 
   /// Best first; empty where nothing is open or no boat can be simulated.
@@ -43,7 +45,7 @@ class ManoeuvreAdvisor {
     std::size_t first = 0;  ///< of its coefficients among all
     Eigen::MatrixXd gram;   ///< of the regressors in the data
     Eigen::VectorXd scale;  ///< standard errors are scale sqrt(diag(gram^-1))
-    Eigen::VectorXd prior;  ///< how large coefficients are believed to be before any data
+    Eigen::VectorXd prior;  ///< prior scale of the coefficients
   };
   struct SimulatedManoeuvre {
     std::size_t manoeuvre = 0;            ///< in the catalogue

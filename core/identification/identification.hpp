@@ -21,9 +21,8 @@
 
 namespace telltale {
 
-/// What pushed the boat steadily in one of several recordings, docs/concepts/model.md (70):
-/// coefficients of "1", which turns with the boat, and of "cos(psi)" and "sin(psi)", which stand to
-/// the north and east, in each equation.
+/// Per-recording bias, docs/concepts/model.md (70): coefficients of "1", a constant disturbance in
+/// body axes, and of "cos(psi)" and "sin(psi)", one to the north and east, in each equation.
 struct RecordingBias {
   double start_s = 0.0;  ///< first and last prepared row
   double end_s = 0.0;
@@ -51,19 +50,19 @@ struct Identification {
   DeadZone dead_zone;
   std::vector<Coefficient> coefficients;
   Eigen::MatrixXd covariance;
-  std::optional<JointBounds> joint;  ///< where joint statements can be made: what they take
+  std::optional<JointBounds> joint;  ///< where joint statements can be made
   std::optional<Coefficient> thruster_time_constant;
   Eigen::VectorXd time_constant_covariance;
-  std::optional<Disturbance> disturbance;  ///< what else moved the boat, where that was judged
-  /// Where each recording has a steady disturbance of its own: these, and the coefficients of the
+  std::optional<Disturbance> disturbance;  ///< besides the propellers, where it is estimated
+  /// Where each recording has a constant disturbance of its own: these, and the coefficients of the
   /// regressor "1" are their means.
   std::vector<RecordingBias> recording_bias;
   std::vector<AddedEffect> effects;  ///< that act on the boat besides its coefficients
-  /// Where the estimates run away, what a simulation takes in their place, in the order of the
-  /// coefficients and within the ellipsoid, or the bounds where there is none:
-  /// docs/concepts/model.md (18b). Empty: the estimates.
+  /// Simulation parameters, docs/concepts/model.md (18b): where a simulation with the estimates
+  /// diverges, coefficients in their order within the ellipsoid, or within the bounds where there
+  /// is none. Empty: the estimates.
   std::vector<double> simulation;
-  /// What a simulation takes for the coefficient at that place.
+  /// The value that a simulation uses for the coefficient at `place`.
   double SimulationParameter(std::size_t place) const {
     return simulation.empty() ? coefficients[place].estimate : simulation[place];
   }
@@ -88,11 +87,11 @@ struct Identification {
 /// over those of finite variance. Nothing where no joint statement can be made.
 std::optional<double> SquaredRadius(const Identification& identification);
 
-/// The numbers without the bounds, ready to simulate: `sailed` where there are such.
+/// The model without bounds, ready to simulate: with the simulation parameters.
 /// Refuses when: an equation was refused, since a free run needs all three.
 Result<VesselModel> ModelOf(const Identification& identification);
 
-/// The same with what it is sailed with for estimates, for who knows nothing of bounds.
+/// The same identification with its simulation parameters as estimates.
 Identification WithSimulationParameters(Identification identification);
 
 }  // namespace telltale

@@ -20,21 +20,23 @@ namespace telltale {
 namespace {
 
 Refusal UndeterminedLimit(const char* side, const DeadZoneLimit& limit, double kept) {
-  const std::string reason = limit.contrast > kLeastContrast
-                                 ? "the best value lies at the edge of the allowed range, so it "
-                                   "stands for something else"
-                                 : "the data cannot tell: every value allowed explains them alike";
+  const std::string reason =
+      limit.contrast > kLeastContrast
+          ? "the best value lies at the edge of the allowed range, so it "
+            "stands for something else"
+          : "the data do not determine it: every allowed value explains them equally";
   return {"dead zone, " + std::string(side), reason + "; " + std::to_string(kept) + " is kept",
           "record commands that pass slowly through neutral on this side, or give the limit"};
 }
 
-/// What the data say of the dead zone; a limit they say nothing of stays as given, with a refusal.
+/// The dead zone by the data. A limit that the data do not determine stays as given, with a
+/// refusal.
 DeadZone IdentifyDeadZone(const PreparedDataset& dataset, const IdentifyOptions& options,
                           std::vector<Refusal>& refusals) {
   DeadZone limits = options.regression.dead_zone;
   const auto estimate =
       EstimateDeadZone(dataset, options.regression, options.excitation, options.threads);
-  if (!estimate) return limits;  // the equations are refused next, for the same reason
+  if (!estimate) return limits;  // the estimator refuses next, for the same reason
   if (estimate->forward.determined) {
     limits.forward = estimate->forward.estimate;
   } else {
@@ -73,7 +75,7 @@ Result<BoundedEstimates> BoundWithEstimator(const std::optional<Estimator>& esti
 Result<Identification> Identify(const Recording& recording, const Vehicle& vehicle,
                                 const IdentifyOptions& options, const Progress& progress) {
   if (auto refusal = options.Validate()) return tl::unexpected(*refusal);
-  // The identification itself is as much work as one repeat of the certificate.
+  // The identification takes as long as one replicate of the coverage check.
   const double share = 1.0 / (1.0 + static_cast<double>(options.coverage_check_replicates));
   if (progress) progress("preparing data", 0.0);
   const auto dataset = options.estimator == Estimator::kOneStep

@@ -17,14 +17,14 @@ namespace telltale {
 
 /// Recording -> Identification: prepare, build the regressions, assess excitation, estimate,
 /// quantify. Refuses when: the recording cannot be prepared, or not one equation can be answered.
-/// An equation that alone cannot be answered is left out and its refusal listed in the result, as
-/// is that of a certificate.
+/// An equation that alone cannot be estimated is left out and its refusal listed in the result, as
+/// is that of the coverage check.
 Result<Identification> Identify(const Recording& recording, const Vehicle& vehicle,
                                 const IdentifyOptions& options, const Progress& progress = {});
 
-/// The same from data that are prepared already; but for kOneStep as PrepareForWeakIv does, in
-/// segments of a minute or so and with a narrow filter. There is no certificate, which takes a
-/// recording.
+/// The same from prepared data. For other estimators than kOneStep the data are prepared as
+/// PrepareForWeakIv() does: in segments of about a minute and with a narrow filter. There is no
+/// coverage check, which takes a recording.
 Result<Identification> Identify(const PreparedDataset& dataset, const std::string& vehicle_id,
                                 const IdentifyOptions& options, const Progress& progress = {});
 

@@ -17,7 +17,7 @@
 namespace telltale {
 namespace {
 
-// With fewer independent slices or blocks than this a bootstrap over them says little.
+// A bootstrap over fewer independent slices or blocks than this is not reliable.
 constexpr std::size_t kFewestUnits = 8;
 
 /// EquationEstimates and what they were fitted to: equations of the static structure, or all three
@@ -145,7 +145,7 @@ bool SameColumns(const EquationEstimates& first, const EquationEstimates& second
   return true;
 }
 
-/// What pushed the boat, by the residuals of the weak form, which noisy velocities do not swell.
+/// The disturbance by the residuals of the weak form, which noisy velocities do not inflate.
 Disturbance DisturbanceOf(const Fitted& fitted, const PreparedDataset& dataset,
                           const RegressionOptions& regression, const IdentifyOptions& options) {
   std::array<std::vector<std::size_t>, 3> columns;
@@ -175,8 +175,8 @@ BootstrapReplicates SimulatedReplicates(const Fitted& fitted, const std::vector<
                             {options.bootstrap_replicates, options.seed, options.threads});
 }
 
-/// The equations of the dynamic structure are fitted as one, so their residuals hang together
-/// alike.
+/// The equations of the dynamic structure are fitted as one, so their residuals share one
+/// autocorrelation.
 void CountRows(const std::vector<ClusteredFit>& fits, Fitted& fitted) {
   std::size_t next = 0;
   for (std::size_t j = 0; j < fitted.equation_estimates.estimates.size(); ++j) {
@@ -214,7 +214,7 @@ std::optional<Refusal> WarnOfFewUnits(const std::vector<ClusteredFit>& fits,
 }
 
 std::string InWords(const BootstrapReplicates& replicates, double sampling_period_s) {
-  if (replicates.block_length == 0) return "segment bootstrap";
+  if (replicates.block_length == 0) return "slice bootstrap";
   std::ostringstream words;
   words << "moving-block bootstrap, blocks of " << replicates.block_length << " rows ("
         << static_cast<double>(replicates.block_length) * sampling_period_s << " s)";
@@ -233,12 +233,12 @@ std::string InWords(IntervalMethod method) {
 
 std::optional<Refusal> WarnOfFailures(const BootstrapReplicates& replicates) {
   const auto solved = static_cast<std::size_t>(replicates.theta.cols());
-  // Losing one draw in twenty at random still leaves a 95 % interval what it says it is.
+  // A 95 % interval keeps its level when one in twenty draws is lost at random.
   if (replicates.failures * 20 <= solved) return std::nullopt;
   return Refusal{"bounds",
                  std::to_string(replicates.failures) + " of " +
                      std::to_string(replicates.failures + solved) +
-                     " bootstrap draws could not be solved: some coefficient rests on a handful of "
+                     " bootstrap draws could not be solved: some coefficient depends on few "
                      "slices",
                  "repeat the manoeuvres that occur only once or twice"};
 }
@@ -265,7 +265,7 @@ void ProfileTimeConstant(const ClusteredFit& fit, double level, Fitted& fitted,
       sharpness * quantile * quantile, level);
   if (Asymmetry(profile, estimate) < kStronglyAsymmetric) return;
   fitted.equation_estimates.lag->profile = profile;
-  bounded.provenance.bounds_basis += "; the time constant's by profile likelihood, lopsided";
+  bounded.provenance.bounds_basis += "; the time constant's by profile likelihood, asymmetric";
 }
 
 }  // namespace
@@ -312,7 +312,7 @@ Result<BoundedEstimates> BoundOneStep(const PreparedDataset& dataset,
   if (auto warning = WarnOfFailures(replicates)) refusals.push_back(*warning);
   bounded.provenance.bootstrap_failures = replicates.failures;
   bounded.provenance.bounds_basis =
-      (parametric ? "parametric bootstrap, the data set simulated anew"
+      (parametric ? "parametric bootstrap, synthetic datasets"
                   : InWords(replicates, dataset.sampling_period_s)) +
       ", " + InWords(options.interval_method) +
       (parametric && options.interval_method == IntervalMethod::kStudentized

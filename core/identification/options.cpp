@@ -42,7 +42,7 @@ std::optional<Refusal> EstimatorRefusal(const IdentifyOptions& options) {
       return Refusal{
           "recording_bias",
           "of each recording are not estimated by " + std::string(Name(*options.estimator)),
-          "choose WEAK_IV, or SHARED offsets"};
+          "choose WEAK_IV, or a SHARED recording bias"};
     }
   }
   if (options.estimator == Estimator::kOneStep) return std::nullopt;

@@ -26,7 +26,7 @@ std::optional<Refusal> RefuseMissingEquation(const EquationEstimates& equation_e
     Require(why != equation_estimates.refusals.end(),
             "a refusal of every equation that is not answered");
     return Refusal{"output error",
-                   "it sails the boat by all three equations at once, and " + why->subject +
+                   "it simulates all three equations together, and " + why->subject +
                        " has none: " + why->reason,
                    why->advice + ", or ask for weak-iv, which answers them one by one"};
   }
@@ -78,7 +78,7 @@ std::optional<JointBounds> JointOf(const Bounds& bounds) {
 /// How far the profile of an unknown is followed, in half widths of its interval.
 constexpr double kProfileHalfWidths = 15.0;
 
-/// The interval of one unknown by its profile if that is badly lopsided.
+/// The interval of one unknown by its profile if that is strongly asymmetric.
 std::optional<Interval> AsymmetricInterval(const OutputErrorProfile& profile,
                                            const OutputErrorFit& fit, Eigen::Index unknown,
                                            double variance, double quantile, double level) {
@@ -105,8 +105,8 @@ std::optional<Interval> AsymmetricInterval(const OutputErrorProfile& profile,
   return interval;
 }
 
-/// Replaces intervals by those of the profile likelihood where that is badly lopsided, and says of
-/// how many.
+/// Replaces strongly asymmetric intervals by those of the profile likelihood, and writes their
+/// number into the provenance.
 void ProfileAsymmetric(const OutputErrorProfile& profile, const OutputErrorFit& fit,
                        const std::vector<Eigen::Index>& places, const IdentifyOptions& options,
                        BoundedEstimates& bounded) {
@@ -131,10 +131,10 @@ void ProfileAsymmetric(const OutputErrorProfile& profile, const OutputErrorFit& 
   if (count == 0) return;
   bounded.provenance.bounds_basis += "; of " + std::to_string(count) +
                                      (count == 1 ? " unknown" : " unknowns") +
-                                     " by profile likelihood, lopsided";
+                                     " by profile likelihood, asymmetric";
 }
 
-/// Splits the unknowns at `places` into the answers they are.
+/// Splits the unknowns at `places` into the estimates of the equations.
 void Unstack(const OutputErrorFit& fit, const std::vector<Eigen::Index>& places,
              EquationEstimates& equation_estimates) {
   const SharedUnknowns& unknowns = fit.unknowns;
@@ -157,16 +157,16 @@ void Unstack(const OutputErrorFit& fit, const std::vector<Eigen::Index>& places,
 Refusal WarnOfMisspecification(double ratio) {
   std::ostringstream reason;
   reason.precision(2);
-  reason << "hold less often than they say: something else than the sensors keeps model and "
-            "measurement apart (standard errors by cluster "
+  reason << "hold less often than they say: a disturbance or a model error shows besides "
+            "sensor noise (standard errors by cluster "
          << ratio << " times the naive ones, " << kLargestAcceptedMisspecification
-         << " is believed), and what it does to the estimates no covariance shows";
+         << " is accepted), and no covariance shows its effect on the estimates";
   return {"bounds", reason.str(),
           "ask for --estimator weak-iv, whose bounds hold under disturbances"};
 }
 
 Refusal WarnOfNoConvergence() {
-  return {"model", "output error was still creeping when it was stopped",
+  return {"model", "output error did not converge",
           "record more varied manoeuvres, or ask for --estimator weak-iv"};
 }
 

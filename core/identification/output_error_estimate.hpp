@@ -9,32 +9,32 @@
 
 namespace telltale {
 
-/// Above this misspecification ratio bounds of output error are not believed,
+/// Above this misspecification ratio the bounds of output error are not accepted,
 /// docs/concepts/model.md (54).
 inline constexpr double kLargestAcceptedMisspecification = 1.3;
 
 /// Output error on the columns that one-step regressions of the same rows excite.
 struct FittedOutputError {
-  EquationEstimates equation_estimates;  ///< excitations and refusals so far
+  EquationEstimates equation_estimates;  ///< excitations and refusals
   OutputErrorFit fit;
   double misspecification = 0.0;
 
-  /// Whether what keeps model and measurement apart is the sensors' noise alone.
+  /// Whether sensor noise alone explains the difference between model and measurement.
   bool IsWellSpecified() const;
 };
 
-/// `answers`: of AssessExcitation. `start`: where to begin; the damped estimate of weak-form IV if
-/// there is none. Refuses when: an equation cannot be answered, as all three are sailed at once, or
-/// EstimateOutputError does.
+/// `equation_estimates`: of AssessExcitation. `start`: initial model; the regularised estimate of
+/// weak-form IV if there is none. Refuses when: an equation cannot be estimated, since all three
+/// are simulated together, or EstimateOutputError does.
 Result<FittedOutputError> FitOutputError(const PreparedDataset& dataset,
                                          const RegressionOptions& regression,
                                          EquationEstimates equation_estimates,
                                          const std::optional<VesselModel>& start = std::nullopt);
 
 /// Its coefficients with bounds by the cluster sandwich, and by profile likelihood where that is
-/// badly lopsided and the fit believable. One that is part of an inseparable direction is COLLINEAR
-/// and unbounded, one that nothing measured moves with NOT_EXCITED; refusals name the directions.
-/// Requires: dataset and regression that were fitted.
+/// strongly asymmetric and the fit well specified. A coefficient in an inseparable direction is
+/// COLLINEAR and unbounded; one without effect on the measurements is NOT_EXCITED. Refusals name
+/// the directions. Requires: dataset and regression that were fitted.
 BoundedEstimates BoundsOf(FittedOutputError fitted, const PreparedDataset& dataset,
                           const RegressionOptions& regression, const IdentifyOptions& options);
 

@@ -12,7 +12,7 @@
 namespace telltale {
 namespace {
 
-// An eigenvalue this far below zero, as a share of the largest, is rounding and worth no note.
+// An eigenvalue this far below zero, as a share of the largest, is rounding and not reported.
 constexpr double kRounding = 1e-10;
 
 struct SquareRoot {

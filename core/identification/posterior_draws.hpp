@@ -11,9 +11,9 @@
 
 namespace telltale {
 
-/// Boats that the data could have come from: joint draws of the coefficients from N(theta,
-/// covariance). Shapes: theta is (coefficients) x (draws), in the order of
-/// Identification::coefficients; time_constant_s one per draw in the dynamic structure, else empty.
+/// Models that the data allow: joint draws of the coefficients from N(theta, covariance). Shapes:
+/// theta (coefficients) x (draws), in the order of Identification::coefficients; time_constant_s
+/// one value a draw for the dynamic structure, otherwise empty.
 struct PosteriorDraws {
   Eigen::MatrixXd theta;
   std::vector<double> time_constant_s;

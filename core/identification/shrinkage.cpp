@@ -9,7 +9,7 @@
 namespace telltale {
 namespace {
 
-/// Places of those that are known to some extent and believed to be anything.
+/// Places of coefficients with a finite variance and a positive prior scale.
 std::vector<Eigen::Index> Shrinkable(const Identification& identification,
                                      const Eigen::VectorXd& prior_scales) {
   std::vector<Eigen::Index> shrinkable;
@@ -28,7 +28,7 @@ Eigen::VectorXd RegularisedEstimates(const Identification& identification,
   Eigen::VectorXd theta = identification.Estimates();
   const std::vector<Eigen::Index> shrinkable = Shrinkable(identification, prior_scales);
   if (shrinkable.empty()) return theta;
-  // With coefficients in units of their believed size: theta' = b + (I + Sigma)^-1 (theta - b).
+  // With coefficients in units of their prior scale: theta' = b + (I + Sigma)^-1 (theta - b).
   const Eigen::VectorXd units = prior_scales(shrinkable).cwiseInverse();
   Eigen::MatrixXd sum = Scaled(identification.covariance(shrinkable, shrinkable), units);
   sum.diagonal().array() += 1.0;

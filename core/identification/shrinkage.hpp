@@ -10,24 +10,24 @@
 
 namespace telltale {
 
-/// Estimates believed as they are.
+/// The prior scale of unregularised estimates.
 inline constexpr double kUnregularised = std::numeric_limits<double>::infinity();
 
-/// How large coefficients are believed to be, in units of their estimates, tried in turn until a
-/// model can be sailed.
+/// Prior scales in units of the estimates, tried in turn until a model can be simulated.
 inline constexpr std::array kRelativePriorScales = {1.0, 0.7, 0.5, 0.35, 0.25, 0.18, 0.125};
 
-/// Coefficients that are believed to be of these sizes before any data are seen,
-/// docs/concepts/model.md (61), in their order, about what is believed of them: drawn towards it
-/// along what the data hardly determine, theta' = b + P (P + Sigma)^-1 (theta - b) with P =
-/// diag(sizes^2), they stay where the data are sure. One that is not known, or of size zero, stays
-/// as it is. Shapes: sizes, believed, one a coefficient.
+/// The posterior mean under independent normal priors, docs/concepts/model.md (61): theta' = b + P
+/// (P + Sigma)^-1 (theta - b) with P = diag(prior_scales^2) and b the prior means. Ill-determined
+/// combinations are shrunk towards b; well-determined ones stay. A coefficient of infinite
+/// variance, or of prior scale zero, keeps its estimate. Shapes: one prior scale and mean a
+/// coefficient.
 Eigen::VectorXd RegularisedEstimates(const Identification& identification,
                                      const Eigen::VectorXd& prior_scales,
                                      const Eigen::VectorXd& prior_means);
 
-/// The continuous boat whose coefficients are believed to be of `trust` times the sizes of their
-/// estimates; those that are not known, or whose equation was refused, are zero.
+/// The continuous-time model with coefficients shrunk towards zero, their prior scales being
+/// `prior_scale` times the sizes of the estimates. Unknown coefficients, and those of a refused
+/// equation, are zero.
 VesselModel RegularisedModel(const Identification& identification, double prior_scale);
 
 }  // namespace telltale

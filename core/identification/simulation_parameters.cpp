@@ -66,8 +66,8 @@ Eigen::VectorXd RegressorSizes(const RegressionProblem& problem, Eigen::Index co
   return sizes;
 }
 
-/// What least squares from each instant to the next makes of the recording: attenuated, but seldom
-/// wild. Zero in an equation that it cannot answer.
+/// One-step least-squares estimates of the recording: attenuated, but seldom far from the truth.
+/// Zero in an equation that cannot be estimated.
 Eigen::VectorXd OneStepEstimates(const RegressionProblem& problem, Eigen::Index coefficients) {
   Eigen::VectorXd theta = Eigen::VectorXd::Zero(coefficients);
   const auto excitations = Assess(problem.equations, {});
@@ -94,8 +94,8 @@ double LargestShift(const Identification& identification, const Eigen::VectorXd&
   return largest_shift;
 }
 
-/// The length of the longest free runs that neither run away themselves nor do shorter ones: long
-/// runs are few, and start from few states. Zero where some of the shortest run away.
+/// The longest horizon at which neither the free runs nor those of shorter horizons diverge,
+/// because long runs are few and start from few states. Zero where some of the shortest diverge.
 double LongestStableRunS(const PreparedDataset& dataset, const VesselModel& model) {
   double longest_s = 0.0;
   for (const double horizon_s : kHorizonsS) {
@@ -106,7 +106,7 @@ double LongestStableRunS(const PreparedDataset& dataset, const VesselModel& mode
   return longest_s;
 }
 
-/// Coefficients to sail with.
+/// Candidate simulation parameters.
 struct SimulationCandidate {
   Eigen::VectorXd theta;
   double stable_s = 0.0;
@@ -118,8 +118,8 @@ bool IsBetter(const SimulationCandidate& one, const SimulationCandidate& other) 
          (one.stable_s == other.stable_s && one.free_run_error < other.free_run_error);
 }
 
-/// What the coefficients are where each of them is believed to move the boat by about as much as
-/// any other, more or less, off what one-step least squares make of it, or off nothing.
+/// Posterior means where each coefficient has a prior scale of the same acceleration, over a range
+/// of accelerations, about the one-step estimates or about zero.
 std::vector<Eigen::VectorXd> RegularisedCandidates(const PreparedDataset& dataset,
                                                    const Identification& identification) {
   constexpr double kMost = 4.0;  // m/s^2, rad/s^2
@@ -130,10 +130,10 @@ std::vector<Eigen::VectorXd> RegularisedCandidates(const PreparedDataset& datase
   const std::array<Eigen::VectorXd, 2> prior_means = {Eigen::VectorXd::Zero(coefficients),
                                                       OneStepEstimates(problem, coefficients)};
   std::vector<Eigen::VectorXd> candidates;
-  double believed_acceleration = kMost;
-  for (int halving = 0; halving <= kHalvings; ++halving, believed_acceleration /= 2.0) {
+  double prior_acceleration = kMost;
+  for (int halving = 0; halving <= kHalvings; ++halving, prior_acceleration /= 2.0) {
     const Eigen::VectorXd sizes =
-        (regressors.array() > 0.0).select(believed_acceleration * regressors.cwiseInverse(), 0.0);
+        (regressors.array() > 0.0).select(prior_acceleration * regressors.cwiseInverse(), 0.0);
     for (const Eigen::VectorXd& prior_mean : prior_means) {
       candidates.push_back(RegularisedEstimates(identification, sizes, prior_mean));
     }
@@ -141,7 +141,7 @@ std::vector<Eigen::VectorXd> RegularisedCandidates(const PreparedDataset& datase
   return candidates;
 }
 
-/// Those that sail for longest, and of them those that miss the recording least.
+/// The candidate with the longest stable runs and, among those, the least free-run error.
 std::optional<SimulationCandidate> BestOf(const std::vector<Eigen::VectorXd>& candidates,
                                           const PreparedDataset& dataset,
                                           Identification identification) {
@@ -158,7 +158,7 @@ std::optional<SimulationCandidate> BestOf(const std::vector<Eigen::VectorXd>& ca
   return best;
 }
 
-/// Of candidates that the ellipsoid holds; of all, held at their bounds, where there is none.
+/// The best candidate within the ellipsoid or, where there is none, clamped to the bounds.
 std::optional<SimulationCandidate> BestRegularised(const PreparedDataset& dataset,
                                                    const Identification& identification) {
   std::vector<Eigen::VectorXd> candidates = RegularisedCandidates(dataset, identification);
@@ -172,7 +172,7 @@ std::optional<SimulationCandidate> BestRegularised(const PreparedDataset& datase
   return BestOf(candidates, dataset, identification);
 }
 
-/// In how many of the shortest runs in which it does so at all the model runs away.
+/// In how many runs of the shortest diverging horizon the model diverges.
 std::optional<std::string> Divergence(const PreparedDataset& dataset, const VesselModel& model) {
   for (const double horizon_s : kHorizonsS) {
     const DivergenceCount count = CountDivergences(dataset, model, horizon_s);
@@ -183,16 +183,17 @@ std::optional<std::string> Divergence(const PreparedDataset& dataset, const Vess
   return std::nullopt;
 }
 
-/// How the model is sailed in spite of its estimates, if it can be.
+/// Writes simulation parameters and describes them; nothing where there are none.
 std::optional<std::string> Regularise(const PreparedDataset& dataset,
                                       Identification& identification) {
   if (identification.estimator == Estimator::kOneStep) return std::nullopt;
   const auto candidate = BestRegularised(dataset, identification);
   if (!candidate) return std::nullopt;
   identification.simulation.assign(candidate->theta.begin(), candidate->theta.end());
-  return "it is sailed with coefficients drawn in along what the data leave open, by " +
+  return "simulations use parameters regularised within the bounds, off the estimates by " +
          FormatNumber(LargestShift(identification, candidate->theta), 1) +
-         " standard errors at most, and so runs for " + FormatNumber(candidate->stable_s, 0) + " s";
+         " standard errors at most, and are stable for " + FormatNumber(candidate->stable_s, 0) +
+         " s";
 }
 
 }  // namespace
@@ -202,15 +203,15 @@ void FindSimulationParameters(const PreparedDataset& dataset, Identification& id
   if (!model) return;
   const auto diverged = Divergence(dataset, *model);
   if (!diverged) return;
-  Refusal warning{"free run", *diverged + " the model runs away as estimated: ",
+  Refusal warning{"free run", *diverged + " the model diverges with its estimates: ",
                   "record more varied manoeuvres for longer"};
   if (const auto how = Regularise(dataset, identification)) {
     warning.reason += *how;
   } else {
-    warning.reason += "its bounds say what the data leave open, but it is not to be sailed";
+    warning.reason += "its bounds hold, but it cannot be simulated";
     if (identification.estimator != Estimator::kOneStep) {
       warning.advice +=
-          ", or see by `validate` on another recording whether the one-step "
+          ", or check by `validate` on another recording whether the one-step "
           "estimator's model predicts better, without bounds that hold";
     }
   }

@@ -5,11 +5,11 @@
 
 namespace telltale {
 
-/// Bounds may hold about estimates that nobody can sail. Where free runs over the model's own
-/// recording run away, docs/concepts/model.md (18a), coefficients to sail with are sought that the
-/// bounds or the ellipsoid hold, (18b), and written to `sailed`; a refusal says so, or that there
-/// are none. Estimates and bounds stay as they are. The paper's one-step model is warned of and
-/// left as the paper makes it.
+/// Finds simulation parameters. Bounds may hold although simulations with the estimates diverge,
+/// docs/concepts/model.md (18a). Where free runs over the model's own recording diverge,
+/// regularised coefficients within the ellipsoid or the bounds are sought, (18b), and written to
+/// `simulation`. A refusal reports them, or that there are none. Estimates and bounds stay
+/// unchanged. The paper's one-step model gets the refusal alone.
 void FindSimulationParameters(const PreparedDataset& dataset, Identification& identification);
 
 }  // namespace telltale

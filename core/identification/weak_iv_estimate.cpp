@@ -43,7 +43,7 @@ bool Names(const std::vector<Refusal>& refusals, const Refusal& named) {
                      [&](const Refusal& refusal) { return refusal.subject == named.subject; });
 }
 
-/// Makes known what had to be cut apart before anything could be estimated.
+/// Reports the groups of collinear columns that are separated before estimation.
 void ReportCollinearGroups(const SeparableColumns& separable, Parameterization parameterization,
                            EquationEstimates& equation_estimates) {
   for (const Equation equation : kEquations) {
@@ -76,7 +76,7 @@ void RemoveBounds(const SeparableColumns& separable, const EquationEstimates& eq
   }
 }
 
-/// Splits the published unknowns into the answers they are.
+/// Splits the reported parameters into the estimates of the equations.
 void Unstack(const WeakFit& fit, const ReportedParameters& reported_parameters,
              const Eigen::VectorXd& theta, EquationEstimates& equation_estimates) {
   Eigen::Index next = 0;
@@ -102,16 +102,17 @@ void CountTestFunctions(const WeakFit& fit, EquationEstimates& equation_estimate
 
 Refusal WarnOfUncorrectedBias() {
   return {"bounds",
-          "fewer than half of the simulated repeats of this data set could be identified again, so "
+          "fewer than half of the parametric bootstrap replicates could be identified, so "
           "the bias is neither known nor corrected",
           "record for longer, with more varied manoeuvres"};
 }
 
 Refusal RefuseWeakInstruments() {
-  return {"model",
-          "velocities simulated with the model say nothing of those measured, so they cannot "
-          "serve as instruments",
-          "record more varied manoeuvres for longer, or ask for the one-step estimator"};
+  return {
+      "model",
+      "velocities simulated with the model are not correlated with those measured, so they cannot "
+      "serve as instruments",
+      "record more varied manoeuvres for longer, or ask for the one-step estimator"};
 }
 
 /// A mean of several unknowns has an interval as long as the one that takes the longest.
@@ -128,8 +129,8 @@ Eigen::VectorXd ReportedIntervalFactors(const ReportedParameters& reported_param
 std::string InWords(const BootstrapCorrection& corrected, Eigen::Index clusters) {
   std::ostringstream words;
   words.precision(3);
-  words << "clusters of residuals (" << clusters << "), bias taken out and bounds sized by "
-        << corrected.solved << " simulated repeats of this data set, Student t";
+  words << "clusters of residuals (" << clusters << "), bias corrected and bounds calibrated by "
+        << corrected.solved << " parametric bootstrap replicates, Student t";
   return words.str();
 }
 
@@ -190,7 +191,7 @@ Result<BoundedEstimates> BoundWeakIv(const PreparedDataset& dataset,
     corrected = CorrectByParametricBootstrap(
         dataset, regression, *fit, columns, options.weak_iv,
         {options.parametric_replicates, options.seed, options.threads}, [&](double fraction) {
-          if (progress) progress("simulating repeats", 0.4 + 0.55 * fraction);
+          if (progress) progress("simulating replicates", 0.4 + 0.55 * fraction);
         });
     if (!corrected) equation_estimates.refusals.push_back(WarnOfUncorrectedBias());
   }

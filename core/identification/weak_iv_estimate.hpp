@@ -14,17 +14,17 @@
 
 namespace telltale {
 
-/// How a recording is prepared for the weak form: parts of a minute, whose simulated repeats stay
-/// near the data, and the narrowest filter that the noise of the positions allows.
+/// Prepares a recording for the weak form: parts of a minute, whose synthetic datasets stay near
+/// the data, and the narrowest filter that the noise of the positions allows.
 /// Refuses when: Prepare does.
 Result<PreparedDataset> PrepareForWeakIv(const Recording& recording, const Vehicle& vehicle,
                                          const PrepareOptions& options);
 
-/// What the weak form makes of a dataset before anything is cut apart, corrected or bounded.
+/// A weak-form fit before separation of columns, correction and bounds.
 struct PreliminaryWeakFit {
-  EquationEstimates equation_estimates;  ///< excitations and refusals so far
+  EquationEstimates equation_estimates;  ///< excitations and refusals
   std::array<std::vector<std::size_t>, 3> columns;
-  std::optional<WeakFit> fit;  ///< of all that the data move
+  std::optional<WeakFit> fit;  ///< of all excited columns
 };
 
 PreliminaryWeakFit FitPreliminaryWeakForm(const PreparedDataset& dataset,
@@ -32,8 +32,8 @@ PreliminaryWeakFit FitPreliminaryWeakForm(const PreparedDataset& dataset,
                                           const IdentifyOptions& options);
 
 /// Weak-form instrumental variables on the equations and columns that one-step regressions of the
-/// same rows excite, corrected and calibrated by simulated twins. A look that was had at the same
-/// data need not be had again.
+/// same rows excite, corrected and calibrated by parametric bootstrap. `preliminary`: a fit of the
+/// same data, if there is one already.
 /// Refuses when: no equation can be answered, or simulated instruments say nothing of the data.
 Result<BoundedEstimates> BoundWeakIv(
     const PreparedDataset& dataset, const RegressionOptions& regression,

@@ -2,9 +2,9 @@
 
 namespace telltale {
 
-// The laws that bounds and tests go by, from Boost.Math and compiled once: each takes seconds in
-// every file that compiles its own. A quantile is what the variable stays below with probability
-// `share`, between 0 and 1; a tail is the probability that it exceeds x.
+// The distributions of bounds and tests, from Boost.Math. They are compiled once, because each
+// takes seconds in a file that compiles its own. A quantile is the value below which the variable
+// stays with `probability`, between 0 and 1. A tail is the probability that the variable exceeds x.
 
 double NormalQuantile(double probability);
 double NormalCdf(double x);

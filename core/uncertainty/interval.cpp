@@ -40,9 +40,9 @@ double MedianBias(double estimate, const std::vector<double>& sorted) {
 /// Which share of the replicates stands where a normal, unaccelerated distribution has `share`.
 double CorrectedShare(double share, double bias, double acceleration) {
   const double deviate = bias + NormalQuantile(share);
-  const double stretch = 1.0 - acceleration * deviate;
-  if (stretch <= 0.0) return deviate > 0.0 ? 1.0 : 0.0;
-  return NormalCdf(bias + deviate / stretch);
+  const double denominator = 1.0 - acceleration * deviate;
+  if (denominator <= 0.0) return deviate > 0.0 ? 1.0 : 0.0;
+  return NormalCdf(bias + deviate / denominator);
 }
 
 }  // namespace

@@ -21,7 +21,7 @@ struct Interval {
 Interval StudentInterval(double estimate, double standard_error, double degrees_of_freedom,
                          double level);
 
-/// The same with endless degrees of freedom.
+/// The same with infinite degrees of freedom.
 Interval NormalInterval(double estimate, double standard_error, double level);
 
 /// The central `level` of the replicates, by linear interpolation between order statistics
@@ -29,7 +29,7 @@ Interval NormalInterval(double estimate, double standard_error, double level);
 Interval PercentileInterval(std::span<const double> replicates, double level);
 
 /// Bootstrap-t: [estimate - t_{upper} standard_error, estimate - t_{lower} standard_error] with the
-/// quantiles of t* = (replicate - estimate) / its own standard error. Lopsided where the
+/// quantiles of t* = (replicate - estimate) / its own standard error. Asymmetric where the
 /// distribution is, and second-order correct. Shapes: a standard error, positive, for each
 /// replicate; at least two. Source: Efron, Tibshirani, "An Introduction to the Bootstrap" (1993),
 /// section 12.5.

@@ -28,8 +28,8 @@ double MedianAbsoluteDeviation(std::vector<double> values, double about) {
   return Median(std::move(values));
 }
 
-/// Twins x directions: errors in standard errors of the twin's own clusters. One that knows it
-/// knows little proves nothing wild.
+/// Replicates x directions: errors in standard errors of the replicate's own clusters. A replicate
+/// with a large standard error is not an outlier.
 Eigen::MatrixXd StandardisedErrors(const std::vector<ReplicateError>& replicate_errors) {
   Eigen::MatrixXd errors(std::ssize(replicate_errors), replicate_errors.front().error.size());
   for (Eigen::Index i = 0; i < errors.rows(); ++i) {
@@ -39,9 +39,9 @@ Eigen::MatrixXd StandardisedErrors(const std::vector<ReplicateError>& replicate_
   return errors;
 }
 
-/// Weights of the twins, below one for those that lie wildly apart from the rest in any direction:
-/// where instruments are weak a single twin can be off by any amount. A twin is weighed as a whole,
-/// since coefficients err together: drawn in one by one they would no longer fit each other.
+/// Weights of the replicates, below one for outliers in any direction, because with weak
+/// instruments a single replicate can err by any amount. A replicate has one weight, since its
+/// coefficients err together.
 Eigen::VectorXd OutlierWeights(const Eigen::MatrixXd& errors) {
   constexpr double kOutlierThreshold = 4.0;
   Eigen::VectorXd weights = Eigen::VectorXd::Ones(errors.rows());
@@ -58,7 +58,7 @@ Eigen::VectorXd OutlierWeights(const Eigen::MatrixXd& errors) {
   return weights;
 }
 
-/// Weighed mean of such errors by direction, and their root mean square about it.
+/// Weighted mean of such errors by direction, and their root mean square about it.
 struct Spread {
   Eigen::VectorXd mean;
   Eigen::VectorXd size;
@@ -72,14 +72,14 @@ Spread SpreadOf(const Eigen::MatrixXd& errors, const Eigen::VectorXd& weights) {
   return {mean, (off.cwiseAbs2().transpose() * weights / (n - 1.0)).cwiseSqrt()};
 }
 
-/// How much further a boat lies from the mean of so many twins than from where all would lie: their
-/// mean errs along the very directions in which single twins do.
+/// The error of the true model about the mean of n replicates has variance 1 + 1/n, because that
+/// mean has errors of its own.
 double FewReplicatesFactor(std::size_t parametric_replicates) {
   return std::sqrt(1.0 + 1.0 / static_cast<double>(parametric_replicates));
 }
 
-/// Each twin as the true boat stands to all of them: its error about the mean of the others and
-/// its clusters' covariance, which take their sizes from the others; as unknowns.
+/// Each replicate in the place of the true model: its error about the mean of the others, and its
+/// clusters' covariance with sizes from the others; as unknowns.
 std::vector<ReplicateError> CalibratedByOthers(const std::vector<ReplicateError>& replicate_errors,
                                                const Eigen::MatrixXd& errors,
                                                const Eigen::VectorXd& weights,
@@ -98,7 +98,7 @@ std::vector<ReplicateError> CalibratedByOthers(const std::vector<ReplicateError>
   return calibrated;
 }
 
-/// Sizes of errors in standard errors, twins x unknowns.
+/// Sizes of errors in standard errors, replicates x unknowns.
 Eigen::MatrixXd StandardisedSizes(const std::vector<ReplicateError>& calibrated) {
   Eigen::MatrixXd pivots(std::ssize(calibrated), calibrated.front().error.size());
   for (Eigen::Index i = 0; i < pivots.rows(); ++i) {
@@ -114,9 +114,9 @@ Eigen::MatrixXd WithoutRow(const Eigen::MatrixXd& rows, Eigen::Index row) {
   return others;
 }
 
-/// By what the standard errors of each block have to be stretched for the intervals behind the
-/// pivots to hold. Never one unknown against the next of its block: where some are hardly told
-/// apart the data know combinations of them, and those would be lost.
+/// The inflation factor of each block's standard errors with which the intervals behind the pivots
+/// hold. One factor serves a whole block: the data may determine combinations of collinear
+/// unknowns, and single factors would lose those.
 Eigen::VectorXd InflationFactors(const Eigen::MatrixXd& pivots, const std::vector<Block>& blocks,
                                  double nominal_quantile) {
   Eigen::VectorXd inflation(pivots.cols());
@@ -129,9 +129,9 @@ Eigen::VectorXd InflationFactors(const Eigen::MatrixXd& pivots, const std::vecto
   return inflation;
 }
 
-/// The factors by which intervals of single unknowns are longer than those of stretched standard
-/// errors: of n + 1 alike, the next twin is within the k-th of n with probability k / (n + 1). With
-/// fewer than nineteen twins none of them is far enough out, and the inflation is the least.
+/// The factors by which intervals of single unknowns exceed those of inflated standard errors. The
+/// next replicate lies within the k-th of n with probability k / (n + 1). With fewer than nineteen
+/// replicates the largest error and the inflation give the least factor.
 Eigen::VectorXd IntervalFactorsOf(const Eigen::MatrixXd& pivots, const Eigen::VectorXd& inflation,
                                   double nominal_quantile) {
   const auto n = static_cast<double>(pivots.rows());
@@ -148,9 +148,8 @@ Eigen::VectorXd IntervalFactorsOf(const Eigen::MatrixXd& pivots, const Eigen::Ve
   return factors;
 }
 
-/// What the next value stays below with probability `share`, more than a half, after few positive
-/// ones: by way of the middle of their logarithms and how far those above it reach, known no better
-/// than so few tell.
+/// The quantile at `share`, more than a half, of the next value after few positive ones: by the
+/// median of their logarithms and the spread above it, with Student's t for the small number.
 double LogNormalQuantile(std::vector<double> values, double share) {
   const auto n = static_cast<double>(values.size());
   for (double& value : values) value = std::log(value);
@@ -170,7 +169,7 @@ bool IsUsable(const ReplicateError& replicate_error) {
 std::optional<IntervalCalibration> CalibrateIntervals(
     const std::vector<ReplicateError>& replicate_errors, const Eigen::MatrixXd& map,
     const std::vector<Block>& blocks, double degrees_of_freedom) {
-  Require(replicate_errors.size() >= 3, "at least three twins");
+  Require(replicate_errors.size() >= 3, "at least three replicates");
   const Eigen::MatrixXd errors = StandardisedErrors(replicate_errors);
   const Eigen::VectorXd weights = OutlierWeights(errors);
   const std::vector<ReplicateError> calibrated =
@@ -180,7 +179,7 @@ std::optional<IntervalCalibration> CalibrateIntervals(
   const double nominal_quantile =
       StudentQuantile(degrees_of_freedom, 0.5 * (1.0 + kCalibrationLevel));
   const auto unknowns = static_cast<double>(map.rows());
-  std::vector<double> squares;  // of each twin's ellipsoid, an unknown
+  std::vector<double> squares;  // of each replicate's ellipsoid, an unknown
   for (Eigen::Index i = 0; i < std::ssize(calibrated); ++i) {
     const ReplicateError& s = calibrated[static_cast<std::size_t>(i)];
     const Eigen::VectorXd off =

@@ -9,17 +9,17 @@
 
 namespace telltale {
 
-/// How far a twin's estimate was off the boat it was sailed with, and the covariance that it made
-/// of its own clusters. Both in one kind of coordinates: whitened ones or those of the unknowns.
+/// The error of a replicate's estimate and the covariance of its own clusters. Both in one kind of
+/// coordinates: whitened ones or those of the unknowns.
 struct ReplicateError {
   Eigen::VectorXd error;
   Eigen::MatrixXd covariance;
 };
 
-/// False where instruments all but vanished and numbers overflowed.
+/// False where weak instruments make numbers overflow.
 bool IsUsable(const ReplicateError& replicate_error);
 
-/// What twins tell of an estimate and of the covariance C that clusters gave it.
+/// The calibration of an estimate and of its clusters' covariance C.
 struct IntervalCalibration {
   Eigen::VectorXd bias;              ///< of the estimate, as unknowns
   Eigen::MatrixXd scale;             ///< covariance that holds: scale C scale', C whitened
@@ -27,14 +27,14 @@ struct IntervalCalibration {
   double covariance_factor = 1.0;    ///< of JointBounds
 };
 
-/// Tells bias and size of each whitened direction by the twins' errors in standard errors of their
-/// own, and stretches those of each block until intervals that each twin makes of its own clusters,
-/// sized by the other twins, hold 95 % over the block; each unknown's interval then is as long as
-/// holds 95 % of the twins in that unknown. docs/concepts/model.md (33), (35).
-/// Assumes: the true boat stands to the twins as each of them stands to the others.
-/// Shapes: sightings whitened, so that clusters gave the estimate standard errors of one;
+/// Bias and size of each whitened direction from the replicates' errors in standard errors of their
+/// own. Each replicate's intervals, with sizes from the other replicates, give the inflation factor
+/// of each block with which they hold 95 % over the block. Each unknown's interval is as long as
+/// holds 95 % of the replicates in that unknown. docs/concepts/model.md (33), (35).
+/// Assumes: the true model stands to the replicates as each of them stands to the others.
+/// Shapes: replicate errors whitened, so that the estimate's clusters give standard errors of one;
 /// unknowns = map * whitened, block by block.
-/// Requires: three sightings or more, all sound. Nothing where numbers overflow.
+/// Requires: three usable replicate errors or more. Nothing where numbers overflow.
 std::optional<IntervalCalibration> CalibrateIntervals(
     const std::vector<ReplicateError>& replicate_errors, const Eigen::MatrixXd& map,
     const std::vector<Block>& blocks, double degrees_of_freedom);

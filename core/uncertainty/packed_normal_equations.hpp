@@ -20,7 +20,7 @@ void AddSystem(const double* system, std::size_t r, double weight, double* sum);
 
 /// A becomes its Cholesky factor L and b becomes L^-1 b, in place; false, with the system spoilt,
 /// when A is not positive definite or its pivots differ by more than a factor of 1e10. W is taken
-/// to be scaled so that A of a healthy system is near a multiple of the identity.
+/// to be scaled so that A of a regular system is near a multiple of the identity.
 bool Factorise(std::size_t r, double* system);
 
 /// x = L'^-1 (L^-1 b), from a factorised system.

@@ -15,7 +15,7 @@ struct ProfileSearch {
 };
 
 /// The values whose deviance does not exceed `threshold`, about the estimate, at which it is zero:
-/// as lopsided as the likelihood is. docs/concepts/model.md (72).
+/// as asymmetric as the likelihood is. docs/concepts/model.md (72).
 /// Method: steps doubled until the threshold is passed, then bracketed by TOMS 748 to 1e-3 of the
 /// way; an end that is not found within the limits is the limit.
 /// Requires: deviance rising away from the estimate on both sides; threshold positive.

@@ -13,7 +13,7 @@ namespace telltale {
 /// the equation where that is most; docs/concepts/model.md (55). About one where nothing but
 /// sensors is at work. What sensors leave is what the fit leaves in a simulated repeat in still
 /// water. Cheap, and blind to what is small against the noise of the sensors. Nothing when the fit
-/// cannot be sailed.
+/// diverges.
 std::optional<double> ResidualVarianceRatio(const PreparedDataset& dataset,
                                             const RegressionOptions& regression, const WeakFit& fit,
                                             const WeakFormOptions& form, std::uint64_t seed);

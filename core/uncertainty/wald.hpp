@@ -40,15 +40,15 @@ struct WaldTest {
   Eigen::VectorXd combination;
 };
 
-/// Do two independent estimates differ by more than their errors? The Wald test of theta1 = theta2
+/// The Wald test of theta1 = theta2
 /// over the coefficients both know: d = theta1 - theta2, V = Sigma1 + Sigma2.
 /// Rank: eigenvalues of V scaled to unit diagonal, above 1e-10 of the largest; the test is of the
 /// directions that V spans, and no verdict depends on units.
-/// Law: chi-square with rank degrees of freedom where both covariances count as known. Else V
-/// counts as a sum of two Wishart matrices with segments - 1 degrees of freedom each, and
+/// Distribution: chi-square with rank degrees of freedom where both covariances count as known.
+/// Else V counts as a sum of two Wishart matrices with segments - 1 degrees of freedom each, and
 /// (nu - q + 1) / (nu q) statistic as F with q and nu - q + 1, nu from Krishnamoorthy and Yu's
 /// affine-invariant approximation.
-/// Refuses when: no coefficient is shared; a difference has no variance to be judged by; or the
+/// Refuses when: no coefficient is shared; a difference has no positive variance; or the
 /// segments are too few for a joint test of so many coefficients, nu < q + 1.
 /// Requires: both over the same p, covariances symmetric.
 /// Source: Krishnamoorthy, Yu, "Modified Nel and Van der Merwe test for the multivariate

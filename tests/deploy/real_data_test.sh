@@ -31,7 +31,7 @@ for log in "$data"/*/*/; do
   ((status == 0)) || fail "identify on $name exited $status"
   said=$(tr -s '\n ' ' ' < "$models/table")
   # Twins of so short a recording run away; plainer ones have to serve it.
-  [[ $said != *"fewer than half of the simulated repeats"* ]] ||
+  [[ $said != *"fewer than half of the parametric bootstrap replicates"* ]] ||
     fail "the bounds of $name are not calibrated"
   for other in "$data/$boat"/*/; do
     status=0
@@ -41,14 +41,14 @@ for log in "$data"/*/*/; do
     if ((status == 0)); then
       grep -q 'of persistence' "$models/scores" || fail "no persistence beside the score of $name"
     fi
-    # What a model is sailed with has to sail where it was made, or the model says itself that it does not.
+    # The simulation parameters are stable over the recording of the model, or the model reports that they are not.
     if [[ $other -ef $log ]]; then
       if grep -q '^5 s: .*runs away' "$models/scores"; then
-        [[ $said == *"the model runs away as estimated: its bounds say"* ]] ||
+        [[ $said == *"the model diverges with its estimates: its bounds hold"* ]] ||
           fail "$name runs away from its own recording without a warning"
         echo "$name: warned of"
-      elif [[ $said == *"the model runs away as estimated: it is sailed with"* ]]; then
-        echo "$name: sailed within its bounds"
+      elif [[ $said == *"the model diverges with its estimates: simulations use parameters"* ]]; then
+        echo "$name: simulated within its bounds"
       fi
     fi
   done

@@ -33,7 +33,7 @@ Identification WithCoverageCheck(const IdentifyOptions& options) {
 }
 
 /// Weak-form intervals hold, 35 coefficients in 20 repeats; without correction they may be some
-/// points short. That one-step intervals do not is what a certificate is there to show.
+/// points short. The coverage check shows that one-step intervals do not.
 TEST(CheckCoverage, TellsBoundsThatHoldFromThoseThatDoNot) {
   const Identification weak = WithCoverageCheck(CheckingCoverage(20));
   ASSERT_TRUE(weak.coverage_check.has_value());
@@ -70,12 +70,13 @@ TEST(CheckCoverage, CountsEveryIntervalOnce) {
   EXPECT_GT(coverage_check.mean_coverage_error, 0.0);
 }
 
-/// What twins promise of all coefficients together holds where the boat is the truth: of ten
+/// What replicates promise of all coefficients together holds where the boat is the truth: of ten
 /// ellipsoids of 95 % seven and more, but for one time in a thousand.
 TEST(CheckCoverage, ChecksTheEllipsoidThatIsReported) {
   IdentifyOptions options = CheckingCoverage(0);
   options.estimator = Estimator::kWeakIv;
-  EXPECT_FALSE(WithCoverageCheck(options).joint.has_value());  // nothing sizes it without twins
+  EXPECT_FALSE(
+      WithCoverageCheck(options).joint.has_value());  // nothing sizes it without replicates
   options.parametric_replicates = 20;
   options.coverage_check_replicates = 10;
   const Identification identification = WithCoverageCheck(options);
@@ -138,7 +139,8 @@ TEST(CheckCoverage, RefusesANumberOutOfRange) {
   }
 }
 
-/// Straight runs answer surge alone: sway and yaw go as measured, and surge is certified.
+/// Straight runs answer surge alone: sway and yaw go as measured, and the coverage of surge is
+/// checked.
 TEST(CheckCoverage, ChecksTheEquationsThereAre) {
   SensorOptions sensors;
   const auto commands = Schedule({Repeated(SurgeSteps(0.2, 0.9, 1, 4.0), 300.0)}, 0.0);

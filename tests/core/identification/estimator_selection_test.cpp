@@ -78,7 +78,7 @@ TEST(EstimatorSelection, IsTheWeakFormUnderDisturbancesAndItsBoundsHold) {
   EXPECT_GE(Held(repeats), 91.0);
 }
 
-/// A twentieth of it hides in the sensors' noise as far as the weak form is concerned; sailing
+/// A twentieth of it hides in the sensors' noise as far as the weak form is concerned; simulating
 /// finds it.
 TEST(EstimatorSelection, IsTheWeakFormUnderDisturbancesThatHardlyShow) {
   for (const auto& repeat : Repeated(0.05, coverage::ReferenceBoat(), 6, 0)) {

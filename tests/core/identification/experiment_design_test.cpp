@@ -89,7 +89,7 @@ TEST(Advice, AsksForReverseThrustWhereThereWasNone) {
   }
 }
 
-/// What was promised is what comes out when the advice is followed: sailed by the true boat,
+/// The expected bounds come out when the advice is followed: simulated with the true model,
 /// recorded, identified from old and new data. Bounds from a dozen or two clusters are themselves
 /// known to a third, and simulation knew the boat from the first recording alone.
 TEST(Advice, KeepsItsPromiseWhenFollowed) {

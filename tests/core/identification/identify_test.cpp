@@ -337,7 +337,7 @@ TEST(EstimateModel, RefusesWhatCannotRunFreely) {
   EXPECT_EQ(model.error().subject, "SWAY");
 }
 
-/// From a recording to bounds: every coefficient bounded, the disturbance judged.
+/// From a recording to bounds: every coefficient bounded, the disturbance estimated.
 TEST(Identify, BoundsARecordingWithTheWeakForm) {
   IdentifyOptions options;
   options.estimator = Estimator::kWeakIv;

@@ -63,7 +63,7 @@ TEST(ChangeBetween, CountsClustersAsWhatCovariancesWereEstimatedFrom) {
   const Identification later = Later(earlier, 13, std::sqrt(53.6));
   EXPECT_EQ(ChangeBetween(earlier, later)->verdict, ChangeVerdict::kNoSignificantChange);
   earlier.provenance.clusters = 10;
-  EXPECT_FALSE(ChangeBetween(earlier, earlier));  // 18 degrees of freedom cannot judge 32
+  EXPECT_FALSE(ChangeBetween(earlier, earlier));  // 18 degrees of freedom are too few for 32
 }
 
 TEST(WindowsOverlap, WhereTheyMayShareData) {

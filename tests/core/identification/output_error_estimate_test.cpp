@@ -119,7 +119,7 @@ TEST(OutputErrorEstimate, NamesThrustTermsThatOneCommandCannotTellApart) {
       EXPECT_EQ(c.status, CoefficientStatus::kNotExcited) << c.symbol;
       EXPECT_EQ(c.estimate, 0.0) << c.symbol;
     }
-    // What can be told apart from it is.
+    // The separable coefficients are bounded.
     const double sum = kCommand * kCommand * Find(*result, equation, "f:d^2").estimate +
                        kCommand * Find(*result, equation, "f:d").estimate;
     const Eigen::VectorXd truth = testing::StableBoat().theta[IndexOf(equation)];

@@ -151,8 +151,8 @@ TEST(RecordingBiasModel, AreNotForOneStepLeastSquares) {
 }
 
 // The bounds of the boat's own coefficients hold as they do in one recording; with one constant for
-// both days thrust comes out wrong: twice as wrong in twice the wind, which windows weighed by what
-// is new in them heed little.
+// both days thrust comes out wrong: twice as wrong in twice the wind, which test functions weighted
+// by their innovations hardly count.
 TEST(RecordingBiasModel, KeepTheBoundsOfTheBoatTrue) {
   constexpr std::size_t kRepeats = 20;
   std::vector<Score> own(kRepeats);

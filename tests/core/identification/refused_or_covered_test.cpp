@@ -72,7 +72,7 @@ std::vector<std::optional<Identification>> IdentifyAllSubsets(const IdentifyOpti
   return all;
 }
 
-/// The default estimator with as few twins as its correction takes.
+/// The default estimator with as few replicates as its correction takes.
 IdentifyOptions WithFewReplicates() {
   IdentifyOptions options;
   options.parametric_replicates = 8;

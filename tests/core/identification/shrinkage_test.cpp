@@ -27,7 +27,7 @@ TEST(RegularisedModel, UnregularisedIsWhatWasReported) {
   EXPECT_EQ(model.theta[2][9], 4.0);
 }
 
-/// A coefficient alone is drawn in by size^2 / (size^2 + variance).
+/// A coefficient alone is shrunk by size^2 / (size^2 + variance).
 TEST(RegularisedModel, ShrinksWhatIsIllDetermined) {
   const VesselModel sure = RegularisedModel(KnownTo(0.01), 1.0);
   const VesselModel unsure = RegularisedModel(KnownTo(2.0), 1.0);
@@ -36,13 +36,13 @@ TEST(RegularisedModel, ShrinksWhatIsIllDetermined) {
   EXPECT_LT(RegularisedModel(KnownTo(2.0), 0.1).theta[0][0], 0.02);
 }
 
-/// The same about anything else: what the data say is weighed against what is believed.
+/// The same about anything else: the estimate and the prior mean have weights by their variances.
 TEST(RegularisedModel, ShrinksTowardsThePriorMeans) {
   const Identification made = KnownTo(2.0);
   const Eigen::VectorXd estimates = made.Estimates();
   const Eigen::VectorXd believed = Eigen::VectorXd::Constant(estimates.size(), 3.0);
-  const Eigen::VectorXd tamed = RegularisedEstimates(made, estimates.cwiseAbs(), believed);
-  EXPECT_NEAR(tamed[0], 3.0 + (7.0 - 3.0) / 5.0, 1e-9);
+  const Eigen::VectorXd regularised = RegularisedEstimates(made, estimates.cwiseAbs(), believed);
+  EXPECT_NEAR(regularised[0], 3.0 + (7.0 - 3.0) / 5.0, 1e-9);
   EXPECT_TRUE(
       RegularisedEstimates(made, 1e6 * estimates.cwiseAbs(), believed).isApprox(estimates, 1e-6));
 }
@@ -55,9 +55,9 @@ TEST(RegularisedModel, KeepsWhatTheDataDetermine) {
   made.covariance *= 1e-6;
   made.covariance.topLeftCorner<2, 2>() << 1e4, -1e4, -1e4, 1e4;
   made.covariance.topLeftCorner<2, 2>().diagonal().array() += 1e-4;
-  const VesselModel tamed = RegularisedModel(made, 0.1);
-  EXPECT_LT(std::abs(tamed.theta[0][0]), 3.0);
-  EXPECT_NEAR(tamed.theta[0][0] + tamed.theta[0][1], 1.0, 0.01);
+  const VesselModel regularised = RegularisedModel(made, 0.1);
+  EXPECT_LT(std::abs(regularised.theta[0][0]), 3.0);
+  EXPECT_NEAR(regularised.theta[0][0] + regularised.theta[0][1], 1.0, 0.01);
 }
 
 TEST(RegularisedModel, LeavesARefusedEquationAtZero) {

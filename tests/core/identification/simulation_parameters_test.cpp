@@ -51,7 +51,7 @@ TEST(SimulationParameters, StaysWithinBoundsAndDoesNotDiverge) {
     EXPECT_EQ(CountDivergences(RecordedAfloat(), *ModelOf(model), horizon_s).diverged, 0U);
   }
   ASSERT_EQ(model.refusals.size(), 1U);
-  EXPECT_THAT(model.refusals[0].reason, ::testing::HasSubstr("it is sailed with"));
+  EXPECT_THAT(model.refusals[0].reason, ::testing::HasSubstr("simulations use parameters"));
   // 2 / (1 + 9 / (t 2)^2), by hand: 0.62, 0.36, 0.20 for t = 1, 0.7, 0.5; drag u|u| of -0.35 holds
   // a push of 0.62 u to twice the fastest recorded, so that the first may do.
   EXPECT_LE(model.simulation[3], 0.62);
@@ -81,7 +81,7 @@ TEST(SimulationParameters, LiesWithinTheEllipsoidWhereThereIsOne) {
   EXPECT_EQ(CountDivergences(RecordedAfloat(), *ModelOf(model), 30.0).diverged, 0U);
 }
 
-/// An ellipsoid so small that it holds none that sails, where the bounds of single ones would.
+/// An ellipsoid so small that it holds no stable candidate, where the bounds of single ones would.
 TEST(SimulationParameters, IsNoneWhereTheEllipsoidHoldsNoneThatIsStable) {
   Identification model = Diverging(3.0);
   model.joint = JointBounds{1e-6, 60.0};
@@ -94,7 +94,7 @@ TEST(SimulationParameters, IsNoneWhereTheDataDetermineWhatDiverges) {
   FindSimulationParameters(RecordedAfloat(), model);
   EXPECT_TRUE(model.simulation.empty());
   ASSERT_EQ(model.refusals.size(), 1U);
-  EXPECT_THAT(model.refusals[0].reason, ::testing::HasSubstr("not to be sailed"));
+  EXPECT_THAT(model.refusals[0].reason, ::testing::HasSubstr("cannot be simulated"));
 }
 
 TEST(SimulationParameters, TheOneStepModelIsWarnedOfAndUnchanged) {
@@ -103,7 +103,7 @@ TEST(SimulationParameters, TheOneStepModelIsWarnedOfAndUnchanged) {
   FindSimulationParameters(RecordedAfloat(), model);
   EXPECT_TRUE(model.simulation.empty());
   ASSERT_EQ(model.refusals.size(), 1U);
-  EXPECT_THAT(model.refusals[0].reason, ::testing::HasSubstr("runs away"));
+  EXPECT_THAT(model.refusals[0].reason, ::testing::HasSubstr("diverges"));
 }
 
 TEST(SimulationParameters, ReplacesTheEstimatesOnRequest) {

@@ -59,8 +59,8 @@ TEST(BootstrapCorrection, ReportsProgress) {
 Disturbance DisturbanceSeen(const PreparedDataset& dataset) {
   const auto columns = AllColumns(Parameterization::kPropeller);
   const auto fit = EstimateWeakIv(dataset, {}, columns, {});
-  const auto judged = fit ? DisturbanceFromResiduals(dataset, {}, *fit, {}, 3) : std::nullopt;
-  return judged.value_or(Disturbance{});
+  const auto disturbance = fit ? DisturbanceFromResiduals(dataset, {}, *fit, {}, 3) : std::nullopt;
+  return disturbance.value_or(Disturbance{});
 }
 
 TEST(BootstrapCorrection, SeparatesGnssDriftFromDisturbance) {
@@ -69,17 +69,17 @@ TEST(BootstrapCorrection, SeparatesGnssDriftFromDisturbance) {
   environment.position_drift_time_s = 20.0;
   const double within_a_second_m = 0.2 * std::sqrt(2.0 * (1.0 - std::exp(-1.0 / 20.0)));
   for (const std::uint64_t seed : {1, 2, 3}) {
-    const Disturbance wandering = DisturbanceSeen(Simulated(seed, environment));
+    const Disturbance drifting = DisturbanceSeen(Simulated(seed, environment));
     const Disturbance still = DisturbanceSeen(Simulated(seed));
-    // Ten minutes are 600 seconds' wanders, north and east: the size is known to 3 %, and what is
+    // Ten minutes are 600 steps of drift, north and east: the size is known to 3 %, and what is
     // taken for the boat's own way, in windows of two seconds, a few per cent more.
-    EXPECT_NEAR(wandering.gnss_drift_m, within_a_second_m, 0.15 * within_a_second_m);
+    EXPECT_NEAR(drifting.gnss_drift_m, within_a_second_m, 0.15 * within_a_second_m);
     EXPECT_EQ(still.gnss_drift_m, 0.0);
     for (Eigen::Index axis = 0; axis < 3; ++axis) {
       // Taken for a disturbance it made one five times as strong that lasts 0.2 s.
-      EXPECT_LT(wandering.sigma[axis], 2.0 * still.sigma[axis]) << axis;
-      EXPECT_GT(wandering.sigma[axis], 0.5 * still.sigma[axis]) << axis;
-      EXPECT_GT(wandering.time_constant_s[axis], 2.0) << axis;
+      EXPECT_LT(drifting.sigma[axis], 2.0 * still.sigma[axis]) << axis;
+      EXPECT_GT(drifting.sigma[axis], 0.5 * still.sigma[axis]) << axis;
+      EXPECT_GT(drifting.time_constant_s[axis], 2.0) << axis;
     }
   }
 }

@@ -20,7 +20,7 @@ constexpr double kDegreesOfFreedom = 30.0;
 const std::vector<Block> kBlocks = {{0, 1}, {1, 4}, {5, 5}};
 
 /// A law of estimates that is known: a bias, another scatter along each whitened direction, and
-/// clusters that tell the covariance as well as so many normal looks do, of a wrong `size`.
+/// clusters that tell the covariance as well as so many normal observations do, of a wrong `size`.
 class KnownDistribution {
  public:
   KnownDistribution(double size, std::uint64_t seed) : size_(size), engine_(seed) {}
@@ -70,8 +70,8 @@ struct Held {
   double ellipsoids = 0.0;
 };
 
-/// How often bounds from forty twins hold the truth, an estimate of the same law, over 400 repeats:
-/// an ellipsoid's share is known to 1.1 points, that of ten intervals together to less.
+/// How often bounds from forty replicates hold the truth, an estimate of the same law, over 400
+/// repeats: an ellipsoid's share is known to 1.1 points, that of ten intervals together to less.
 Held HoldWhereClustersSay(double size) {
   constexpr int kRepeats = 400;
   const double t = StudentQuantile(kDegreesOfFreedom, 0.975);
@@ -152,9 +152,9 @@ TEST(IntervalCalibration, LetsNoIntervalShrinkByTooFewReplicates) {
   EXPECT_GE(calibration->interval_factors.minCoeff(), 1.0);
 }
 
-/// A quarter of the twins err six times as far, and their clusters say so. Scatters that did not
-/// heed that would be sqrt(0.75 + 0.25 36) = 3.1 times those of a twin that knows its boat; what is
-/// left are few draws, known to a quarter of themselves at two standard errors.
+/// A quarter of the replicates err six times as far, and their clusters say so. Scatters that did
+/// not heed that would be sqrt(0.75 + 0.25 36) = 3.1 times those of a twin that knows its boat;
+/// what is left are few draws, known to a quarter of themselves at two standard errors.
 TEST(IntervalCalibration, AReplicateOfLargeStandardErrorIsNoOutlier) {
   KnownDistribution law(1.0, 23);
   std::vector<ReplicateError> parametric_replicates = law.Draw(40);

@@ -70,10 +70,10 @@ TEST(Factorise, RefusesASingularSystem) {
     std::vector<double> system = {1.0, 0.0, 1.0, second, 1.0};  // diag(1, second), b = (1, 1)
     EXPECT_FALSE(Factorise(2, system.data()));
   }
-  std::vector<double> healthy = {4.0, 0.0, 8.0, 1.0, 3.0};
-  ASSERT_TRUE(Factorise(2, healthy.data()));
+  std::vector<double> regular = {4.0, 0.0, 8.0, 1.0, 3.0};
+  ASSERT_TRUE(Factorise(2, regular.data()));
   double x[2];
-  Substitute(healthy.data(), 2, x);
+  Substitute(regular.data(), 2, x);
   EXPECT_DOUBLE_EQ(x[0], 2.0);
   EXPECT_DOUBLE_EQ(x[1], 3.0);
 }
