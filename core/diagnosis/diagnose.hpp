@@ -9,38 +9,42 @@
 
 #include "telltale/core/base/result.hpp"
 #include "telltale/core/data/prepared_dataset.hpp"
+#include "telltale/core/diagnosis/diagnosis_constants.hpp"
 #include "telltale/core/diagnosis/report/diagnosis.hpp"
 #include "telltale/core/identification/identification.hpp"
 #include "telltale/core/identification/progress.hpp"
 
 namespace telltale {
 
-inline constexpr double kMinimumDiagnosedS = 60.0;
+inline constexpr double kMinimumDiagnosedS = kDiagnosis.recording.minimum_duration_s;
 
 struct DiagnoseOptions {
   bool refit = false;  ///< let the coefficients follow the recording, as a model made from it would
   std::size_t most_effects = 3;      ///< that may act together, [1, 3]
-  std::vector<std::string> without;  ///< effects to leave out of the library
-  bool advise = true;
-  std::uint64_t seed = 1;
-  std::size_t threads = 1;  ///< [1, 256]; never changes the result
+  std::vector<std::string> without;  ///< names of effects to leave out of the library
+  bool advise = true;                ///< manoeuvres that separate equivalent hypotheses
+  std::uint64_t seed = 1;            ///< of every random draw
+  std::size_t threads = 1;           ///< [1, 256]; never changes the result
 
   /// The first field out of its range, as a refusal naming field, value and range.
   std::optional<Refusal> Validate() const;
 };
 
-/// A diagnosis and the model identified again with the effects it names; none where it names none.
+/// A diagnosis, and the model identified again with the effects that it names; none where no cause
+/// is likely.
 struct DiagnosedModel {
   Diagnosis diagnosis;
   std::optional<Identification> augmented;
 };
 
-/// Where, why and how far a model parts from a recording that it was not made from,
-/// docs/concepts/diagnosis.md. `references` are recordings of the same boat when all was well;
-/// without any the floor is what sensor noise alone would leave, which is too low. Refuses when:
-/// the model lacks an equation, the recording is shorter than kMinimumDiagnosedS, nothing in it
-/// moves, model and recording are of different boats, or the thrusters seem to be swapped or
-/// reversed, which it names.
+/// Where, why and by how much a model no longer matches the boat on a recording that it was not
+/// made from, docs/concepts/diagnosis.md. `references` are recordings of the same boat in its
+/// normal condition. Without any, simulated ones stand in, whose noise floor is too low. Assumes:
+/// recording and references are of one boat, on their own clocks, in SI units. Refuses when: an
+/// option is out of range, the model lacks an equation, recording and model are of different
+/// vehicles, the recording is shorter than kMinimumDiagnosedS or has too few windows, the boat is
+/// at rest throughout, the thrusters seem to be swapped or reversed, or there is no reference and
+/// the model diverges on the recording.
 Result<DiagnosedModel> Diagnose(const PreparedDataset& recording,
                                 const std::vector<PreparedDataset>& references,
                                 const Identification& model, const std::string& vehicle_id,

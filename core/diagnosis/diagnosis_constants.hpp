@@ -90,6 +90,91 @@ struct ResidualMetricConstants {
   double largest_sigmas = 50.0;          ///< 1, root mean square at which a window's error is cut
 };
 
+/// What a recording needs to be diagnosed, and what stands in for references.
+struct RecordingConstants {
+  double minimum_duration_s = 60.0;      ///< s, in all segments together, convention
+  std::size_t minimum_windows = 12;      ///< of the main horizon, convention
+  double minimum_speed = 0.05;           ///< m/s and rad/s, of a boat that is under way, convention
+  std::size_t synthetic_references = 4;  ///< simulated where there are no reference logs
+  std::size_t few_references = 3;        ///< below these a note says so, convention
+};
+
+/// The fit of effects, docs/concepts/diagnosis.md (88), (89).
+struct EffectFitConstants {
+  double prior_width = 2.0;     ///< typical sizes, prior sd of a parameter; of a shape parameter: 1
+  int maximum_iterations = 12;  ///< Levenberg-Marquardt
+  double converged_gain = 0.01;  ///< of -2 ln of the posterior, below which a step is the last
+  double minimum_remaining_share = 1e-3;  ///< 1, of the square that the score test leaves at least
+};
+
+/// The search for hypotheses.
+struct SearchConstants {
+  std::size_t effects_fitted_in_full = 14;  ///< of those that the score test ranks first
+  std::size_t seed_hypotheses = 2;          ///< single effects to which a second one is added
+  std::size_t candidates_per_seed = 5;      ///< second and third effects fitted for each
+  double score_to_add_effect = 12.0;        ///< -2 ln evidence, decrease that one more effect needs
+  double separable_nats = 3.0;       ///< nats, below which two hypotheses are indistinguishable
+  double nominal_gain_factor = 1.5;  ///< 1, times the evidence that an effect has on references
+  std::size_t most_effects = 3;      ///< that may act together, limit of the option
+};
+
+/// The fit of stochastic excitation, docs/concepts/diagnosis.md (90).
+struct StochasticExcitationConstants {
+  int iterations = 40;  ///< Fisher scoring
+  double narrow_band_factor =
+      50.0;                    ///< 1, times the gain of a frequency over the ends of the range
+  double initial_share = 0.1;  ///< 1, of the scatter, where the scoring starts
+  double minimum_remaining_share = 0.01;  ///< 1, of the square, that the fit leaves at least
+};
+
+/// The lack of fit, docs/concepts/diagnosis.md (98).
+struct LackOfFitConstants {
+  double prior_effect_sd = 0.3;  ///< typical sizes, of each effect in what a fit leaves
+};
+
+/// Gap assessment, ranking and verdict, docs/concepts/diagnosis.md (91). The doubt constants
+/// minimise the logarithmic score over development sets 2 and 3, with the true effect in the
+/// library and without it, the latter a quarter of all.
+struct RankingConstants {
+  double material_score = 8.0;            ///< -2 ln evidence, beyond which a gap is material
+  double material_log_lack_of_fit = 0.9;  ///< 1, ln of the lack of fit over that of references
+  double equivalence_factor = 2.0;        ///< 1, upper bound of G^2 over the floor's limit
+  double doubt_slope = 2.8;               ///< log odds per unit of doubt
+  double doubt_midpoint = -0.2;           ///< doubt at even odds
+  double doubt_per_extra_effect = 0.7;    ///< doubt per effect beyond the first
+  double doubt_per_predictable = 4.0;     ///< doubt per unit of LackOfFit::predictable
+  double likely_unknown = 0.5;            ///< probability of an unknown cause, at most; convention
+  double explained_share = 0.7;           ///< 1, of the excess, from which on a gap is explained
+  double naming_probability = 0.9;        ///< of a named cause at least, development sets 2 and 3
+};
+
+/// The onset, docs/concepts/diagnosis.md (95).
+struct OnsetConstants {
+  double minimum_deviance = 20.0;   ///< -2 ln likelihood, besides 2 ln of the number of windows
+  double interval_deviance = 3.84;  ///< -2 ln likelihood, chi-squared of one at 95 %
+  std::size_t minimum_windows = 4;  ///< on either side of an onset, convention
+};
+
+/// The testability of effects, docs/concepts/diagnosis.md (92).
+struct TestabilityConstants {
+  double detectable_sigmas = 3.0;  ///< sigmas, that the typical size shows at least, convention
+};
+
+/// The manoeuvres that separate hypotheses, docs/concepts/diagnosis.md (96).
+struct SeparationConstants {
+  double decisive_nats = 5.0;   ///< nats, above which a manoeuvre is expected to decide
+  double minimum_nats = 1.0;    ///< nats, below which a manoeuvre is not advised
+  std::size_t most_advice = 3;  ///< manoeuvres, convention
+  double cruise_command = 0.4;  ///< 1, of full command, before a manoeuvre; convention
+  double cruise_s = 10.0;       ///< s, how long; convention
+};
+
+/// What a report lists.
+struct ReportConstants {
+  std::size_t most_causes = 5;                ///< besides the unknown one, convention
+  double minimum_listed_probability = 0.001;  ///< of a cause after the first, convention
+};
+
 struct DiagnosisConstants {
   HorizonConstants horizons;
   FreeRunConstants free_runs;
@@ -99,6 +184,16 @@ struct DiagnosisConstants {
   WiringConstants wiring;
   BaselineConstants baseline;
   ResidualMetricConstants metric;
+  RecordingConstants recording;
+  EffectFitConstants effect_fit;
+  SearchConstants search;
+  StochasticExcitationConstants stochastic_excitation;
+  LackOfFitConstants lack_of_fit;
+  RankingConstants ranking;
+  OnsetConstants onset;
+  TestabilityConstants testability;
+  SeparationConstants separation;
+  ReportConstants report;
 };
 
 inline constexpr DiagnosisConstants kDiagnosis;

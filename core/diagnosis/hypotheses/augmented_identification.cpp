@@ -16,6 +16,30 @@ ResidualMetric::Recalibration RecalibrationOf(const EffectFit& fit,
   return metric.Recalibrate(metric.Whiten(fit.errors));
 }
 
+/// Gives every coefficient its value in `by`, and the free ones of `model` their `covariance`.
+void ReplaceCoefficients(const VesselModel& by, const UncertainModel& model,
+                         const Eigen::MatrixXd& covariance, Identification& identification) {
+  std::array<Eigen::Index, 3> column{};
+  std::vector<Eigen::Index> place_of_free;
+  for (std::size_t i = 0; i < identification.coefficients.size(); ++i) {
+    Coefficient& coefficient = identification.coefficients[i];
+    const std::size_t equation = IndexOf(coefficient.equation);
+    const Eigen::Index own = column[equation]++;
+    coefficient.estimate = by.theta[equation][own];
+    const std::size_t free = place_of_free.size();
+    const bool is_free = free < model.free.size() &&
+                         IndexOf(model.free[free].equation) == equation &&
+                         model.free[free].column == own;
+    if (!is_free) continue;
+    const auto place = static_cast<Eigen::Index>(free);
+    coefficient.standard_error = std::sqrt(covariance(place, place));
+    coefficient.interval = NormalInterval(coefficient.estimate, coefficient.standard_error,
+                                          coefficient.interval.level);
+    place_of_free.push_back(static_cast<Eigen::Index>(i));
+  }
+  identification.covariance(place_of_free, place_of_free) = covariance;
+}
+
 }  // namespace
 
 AugmentedModel Reidentified(const EffectFit& fit, const DiagnosisProblem& problem,
@@ -30,28 +54,10 @@ Identification Augmented(const Identification& old, const AugmentedModel& boat,
                          const EffectFit& fit, const DiagnosisProblem& problem,
                          const UncertainModel& model) {
   Identification augmented = old;
-  const Eigen::VectorXd scale = model.StandardErrors();
-  const Eigen::MatrixXd covariance = Scaled(RecalibrationOf(fit, problem).covariance, scale);
-  std::array<Eigen::Index, 3> column{};
-  Eigen::Index free = 0;
-  std::vector<Eigen::Index> place_of;
-  for (std::size_t i = 0; i < augmented.coefficients.size(); ++i) {
-    Coefficient& coefficient = augmented.coefficients[i];
-    const std::size_t equation = IndexOf(coefficient.equation);
-    const Eigen::Index own = column[equation]++;
-    coefficient.estimate = boat.model.theta[equation][own];
-    const bool is_free = free < static_cast<Eigen::Index>(model.free.size()) &&
-                         IndexOf(model.free[static_cast<std::size_t>(free)].equation) == equation &&
-                         model.free[static_cast<std::size_t>(free)].column == own;
-    if (!is_free) continue;
-    coefficient.standard_error = std::sqrt(covariance(free, free));
-    coefficient.interval = NormalInterval(coefficient.estimate, coefficient.standard_error,
-                                          coefficient.interval.level);
-    place_of.push_back(static_cast<Eigen::Index>(i));
-    ++free;
-  }
-  augmented.covariance(place_of, place_of) = covariance;
-  augmented.simulation.clear();  // what was sailed with is what the new estimates started from
+  ReplaceCoefficients(boat.model, model,
+                      Scaled(RecalibrationOf(fit, problem).covariance, model.StandardErrors()),
+                      augmented);
+  augmented.simulation.clear();
   augmented.effects.clear();
   for (const auto& [effect, values] : boat.effects) {
     augmented.effects.push_back({std::string(effect->Name()), values});
@@ -69,7 +75,7 @@ Result<AugmentedModel> AugmentedModelOf(const Identification& identification) {
   for (const AddedEffect& added : identification.effects) {
     const Effect* effect = FindEffect(added.effect);
     if (effect == nullptr || effect->Parameters().size() != added.values.size()) {
-      return Refuse("effects", "the model names an effect that there is not: " + added.effect,
+      return Refuse("effects", "the model names an effect that the library lacks: " + added.effect,
                     "use a model of the same version");
     }
     augmented.effects.push_back({effect, added.values});

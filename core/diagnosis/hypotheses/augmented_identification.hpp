@@ -8,19 +8,21 @@
 
 namespace telltale {
 
-/// The nominal boat with the effects of a fit, coefficients identified again on the recording with
-/// them in: what their covariance and nominal days leave open follows the data.
+/// The nominal boat with the effects of a fit. Its coefficients are estimated again on the
+/// recording with those effects, by ResidualMetric::Recalibrate: within the covariance that the
+/// references leave, they follow the data.
 AugmentedModel Reidentified(const EffectFit& fit, const DiagnosisProblem& problem,
                             const UncertainModel& model);
 
-/// The same as a model to publish: the old one's coefficients replaced, with the uncertainty that
-/// is left, and the effects named.
+/// `old` with the coefficients of `boat`, their posterior covariance and intervals, and with the
+/// effects of `boat`. Coefficients that are not free keep their standard errors. Simulation
+/// parameters are removed, since they belong to the old estimates.
 Identification Augmented(const Identification& old, const AugmentedModel& boat,
                          const EffectFit& fit, const DiagnosisProblem& problem,
                          const UncertainModel& model);
 
-/// The model and its effects, ready to sail.
-/// Refuses when: the model lacks an equation, or names an effect that there is not.
+/// The model of an identification together with its effects, for simulation.
+/// Refuses when: the model lacks an equation, or names an effect that the library lacks.
 Result<AugmentedModel> AugmentedModelOf(const Identification& identification);
 
 }  // namespace telltale

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "telltale/core/diagnosis/hypotheses/refit.hpp"
 #include "telltale/core/diagnosis/hypotheses/stochastic_excitation.hpp"
 
 namespace telltale {
@@ -57,14 +58,14 @@ Eigen::VectorXd CrossValidatedSquaredGaps(const CrossValidatedErrors& cross_vali
                                           const FreeRuns& runs, const NoiseFloor& floor,
                                           int channel) {
   Eigen::VectorXd gaps = SquaredGaps(cross_validated.errors, floor.scale, channel);
-  const double there = std::max(gaps.mean() - floor.Squared(channel), 0.0);
+  const double excess = std::max(gaps.mean() - floor.Squared(channel), 0.0);
   const auto folds = FoldsOf(runs);
   for (std::size_t fold = 0; fold < kFolds; ++fold) {
-    // As errors of one window whose squares these are; no more than there is to explain.
-    const Eigen::VectorXd stochastic_mean_squares =
+    // SquaredGaps takes errors: the roots stand for one window with these mean squares.
+    const Eigen::VectorXd root_mean_squares =
         cross_validated.stochastic_mean_squares[fold].cwiseMax(0.0).cwiseSqrt();
     const double explained =
-        std::min(SquaredGaps(stochastic_mean_squares, floor.scale, channel)[0], there);
+        std::min(SquaredGaps(root_mean_squares, floor.scale, channel)[0], excess);
     for (std::size_t w = 0; w < folds.size(); ++w) {
       if (folds[w] != fold) gaps[static_cast<Eigen::Index>(w)] -= explained;
     }

@@ -12,24 +12,25 @@
 
 namespace telltale {
 
-/// Blocks of half a minute in turn belong to the one fold and the other: what was fitted on one is
-/// judged on the other. Both see the whole recording, its weather and what changes along it. Blocks
-/// without a window take no turn, so that neither fold is empty however a recording is torn.
+/// The fold of each window. Blocks of half a minute alternate between two folds: what is fitted to
+/// one is assessed on the other. Both span the whole recording, with its weather and its changes.
+/// Blocks without a window take no turn, so that gaps in a recording leave neither fold empty.
 inline constexpr std::size_t kFolds = 2;
 std::vector<std::size_t> FoldsOf(const FreeRuns& runs);
 
-/// The windows of one of them.
+/// The windows of one fold.
 std::vector<std::size_t> WindowsOf(const std::vector<std::size_t>& folds, std::size_t fold);
 
-/// Of what one fold's windows say alone.
+/// The metric of the problem, restricted to one fold's windows.
 ResidualMetric MetricOfFold(const DiagnosisProblem& problem, std::size_t fold);
 
-/// An explanation fitted on each fold's windows alone.
+/// A hypothesis fitted to each fold's windows alone.
 using FoldFits = std::array<EffectFit, kFolds>;
 FoldFits FitOnFolds(const EffectFit& fit, const DiagnosisProblem& problem);
 
-/// Errors of a model with the effects, each window's by the fit that did not see it; how much the
-/// effects that shake add to the mean square of each row comes apart.
+/// Errors of a model with the effects, each window by the fit to the other fold, rows x windows.
+/// What stochastic effects add to the mean square of each row stands beside them, by fold of the
+/// fit.
 struct CrossValidatedErrors {
   Eigen::MatrixXd errors;
   std::array<Eigen::VectorXd, kFolds> stochastic_mean_squares;
@@ -37,7 +38,8 @@ struct CrossValidatedErrors {
 CrossValidatedErrors CrossValidatedErrorsOf(const FoldFits& fits, const FreeRuns& runs,
                                             const AugmentedModel& model);
 
-/// SquaredGaps of held-out errors, less what shaking explains.
+/// SquaredGaps of cross-validated errors, less what stochastic excitation explains. Stochastic
+/// effects explain no more than the mean excess over the floor.
 Eigen::VectorXd CrossValidatedSquaredGaps(const CrossValidatedErrors& cross_validated,
                                           const FreeRuns& runs, const NoiseFloor& floor,
                                           int channel);

@@ -10,13 +10,15 @@
 
 namespace telltale {
 
-/// A recording as the search for its cause sees it.
+/// What the search for the cause of a recording's errors is given: its free runs at the main
+/// horizon, the nominal baseline, the linearisation about it and the metric of its errors. The
+/// referenced objects have to outlive it.
 struct DiagnosisProblem {
   const FreeRuns& runs;
   const NominalBaseline& nominal;
   const Sensitivity& recording;
   const ResidualMetric& metric;
-  const std::vector<EffectParameterRef>& parameter_refs;
+  const std::vector<EffectParameterRef>& parameter_refs;  ///< columns of by_effect_parameter
   const FrequencyResponse& frequency_response;
 };
 

@@ -1,194 +1,61 @@
 #include "telltale/core/diagnosis/hypotheses/effect_fit.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <optional>
 
 #include "telltale/core/base/linear_algebra/covariance.hpp"
 #include "telltale/core/base/linear_algebra/eigen_decompositions.hpp"
+#include "telltale/core/diagnosis/hypotheses/effect_parameters.hpp"
+#include "telltale/core/diagnosis/hypotheses/levenberg_marquardt.hpp"
 
 namespace telltale {
 namespace {
 
-constexpr double kPriorWidth = 2.0;   // of typical sizes
-constexpr double kDerivative = 0.05;  // step in scaled values
-constexpr int kMaximumIterations = 12;
-constexpr double kConverged = 0.01;  // of -2 ln evidence
-constexpr double kGiveUpDamping = 1e4;
-constexpr double kMinimumRemainingShare =
-    1e-3;  // of a square, by a guess that promises more than there is
-
-/// The stacked values of effects, scaled so that priors are of order one and bounds are known.
-class Unknowns {
- public:
-  explicit Unknowns(const std::vector<const Effect*>& effects) : effects_(effects) {
-    for (const Effect* effect : effects) {
-      for (const EffectParameter& parameter : effect->Parameters())
-        parameters_.push_back(&parameter);
-    }
-  }
-
-  Eigen::Index Size() const { return static_cast<Eigen::Index>(parameters_.size()); }
-
-  Eigen::VectorXd Scaled(const Eigen::VectorXd& values) const {
-    Eigen::VectorXd scaled(Size());
-    for (Eigen::Index i = 0; i < Size(); ++i)
-      scaled[i] = (values[i] - At(i).prior_mean) / At(i).typical;
-    return Clamped(scaled);
-  }
-
-  Eigen::VectorXd Clamped(Eigen::VectorXd scaled) const {
-    for (Eigen::Index i = 0; i < Size(); ++i) {
-      scaled[i] = std::clamp(scaled[i], (At(i).lower - At(i).prior_mean) / At(i).typical,
-                             (At(i).upper - At(i).prior_mean) / At(i).typical);
-    }
-    return scaled;
-  }
-
-  std::vector<ModelledEffect> Effects(const Eigen::VectorXd& scaled) const {
-    std::vector<ModelledEffect> modelled;
-    Eigen::Index i = 0;
-    for (const Effect* effect : effects_) {
-      ModelledEffect& one = modelled.emplace_back(ModelledEffect{effect, {}});
-      for (std::size_t j = 0; j < effect->Parameters().size(); ++j, ++i) {
-        one.values.push_back(At(i).prior_mean + At(i).typical * scaled[i]);
-      }
-    }
-    return modelled;
-  }
-
-  Eigen::VectorXd PriorInformation() const {
-    Eigen::VectorXd information(Size());
-    for (Eigen::Index i = 0; i < Size(); ++i) {
-      information[i] = At(i).is_shape ? 1.0 : 1.0 / (kPriorWidth * kPriorWidth);
-    }
-    return information;
-  }
-
-  /// Away from the nearer bound.
-  double DerivativeStep(Eigen::Index i, double scaled) const {
-    const double upper = (At(i).upper - At(i).prior_mean) / At(i).typical;
-    return scaled + kDerivative > upper ? -kDerivative : kDerivative;
-  }
-
-  Eigen::VectorXd Sizes() const {
-    Eigen::VectorXd sizes(Size());
-    for (Eigen::Index i = 0; i < Size(); ++i) sizes[i] = At(i).typical;
-    return sizes;
-  }
-
- private:
-  const EffectParameter& At(Eigen::Index i) const {
-    return *parameters_[static_cast<std::size_t>(i)];
-  }
-
-  std::vector<const Effect*> effects_;
-  std::vector<const EffectParameter*> parameters_;
-};
-
-struct Point {
-  Eigen::VectorXd scaled;
-  Eigen::MatrixXd errors;
-  Eigen::VectorXd seen;
-  double square = 0.0;
-  double cost = 0.0;
-};
-
-class EffectFitting {
- public:
-  EffectFitting(const FreeRuns& runs, const AugmentedModel& boat, const ResidualMetric& metric,
-                const Unknowns& unknowns)
-      : runs_(runs), boat_(boat), metric_(metric), unknowns_(unknowns) {}
-
-  Point At(const Eigen::VectorXd& scaled) const {
-    Point point;
-    point.scaled = scaled;
-    point.errors = runs_.Errors(boat_.With(unknowns_.Effects(scaled)));
-    point.seen = metric_.Whiten(point.errors);
-    point.square = metric_.SquaredMahalanobis(point.seen);
-    point.cost = point.square + scaled.cwiseAbs2().dot(unknowns_.PriorInformation());
-    return point;
-  }
-
-  Eigen::MatrixXd Jacobian(const Point& point) const {
-    Eigen::MatrixXd jacobian(point.seen.size(), unknowns_.Size());
-    for (Eigen::Index i = 0; i < unknowns_.Size(); ++i) {
-      const double step = unknowns_.DerivativeStep(i, point.scaled[i]);
-      Eigen::VectorXd moved = point.scaled;
-      moved[i] += step;
-      jacobian.col(i) =
-          (metric_.Whiten(runs_.Errors(boat_.With(unknowns_.Effects(moved)))) - point.seen) / step;
-    }
-    return jacobian;
-  }
-
-  Point Descend(Point point) const {
-    double damping = 1e-3;
-    for (int iteration = 0; iteration < kMaximumIterations; ++iteration) {
-      const Eigen::MatrixXd jacobian = Jacobian(point);
-      const Eigen::MatrixXd weighed = metric_.Marginalise(jacobian);
-      const Eigen::VectorXd prior = unknowns_.PriorInformation();
-      Eigen::MatrixXd information = jacobian.transpose() * weighed;
-      information.diagonal() += prior;
-      const Eigen::VectorXd slope =
-          weighed.transpose() * point.seen + prior.cwiseProduct(point.scaled);
-      double gained = 0.0;
-      while (damping < kGiveUpDamping) {
-        Eigen::MatrixXd damped = information;
-        damped.diagonal() *= 1.0 + damping;
-        const Point next = At(unknowns_.Clamped(point.scaled - damped.ldlt().solve(slope)));
-        if (next.cost < point.cost) {
-          gained = point.cost - next.cost;
-          point = next;
-          damping = std::max(damping / 10.0, 1e-6);
-          break;
-        }
-        damping *= 10.0;
-      }
-      if (gained < kConverged) break;
-    }
-    return point;
-  }
-
- private:
-  const FreeRuns& runs_;
-  const AugmentedModel& boat_;
-  const ResidualMetric& metric_;
-  const Unknowns& unknowns_;
-};
-
-/// As FitEffects, but nothing gusts; `none` is the square that no effect at all leaves.
-EffectFit FitWithoutGusts(const FreeRuns& runs, const AugmentedModel& boat,
-                          const ResidualMetric& metric, double none,
-                          const std::vector<const Effect*>& effects,
-                          const std::vector<Eigen::VectorXd>& starts) {
-  const Unknowns unknowns(effects);
-  const EffectFitting fitting(runs, boat, metric, unknowns);
-  std::optional<Point> best;
+PosteriorPoint LowestFrom(const std::vector<Eigen::VectorXd>& starts,
+                          const EffectPosterior& posterior) {
+  std::optional<PosteriorPoint> best;
   for (const Eigen::VectorXd& start : starts) {
-    const Point found = fitting.Descend(fitting.At(unknowns.Scaled(start)));
+    const PosteriorPoint found =
+        MinimiseCost(posterior, posterior.At(posterior.Parameters().Scaled(start)));
     if (!best || found.cost < best->cost) best = found;
   }
-  const Eigen::MatrixXd jacobian = fitting.Jacobian(*best);
-  const Eigen::VectorXd prior = unknowns.PriorInformation();
-  // Curvature of looks ln(square).
-  const Eigen::MatrixXd seen = jacobian.transpose() * metric.Marginalise(jacobian);
-  Eigen::MatrixXd information = metric.EffectiveObservations() / best->square * seen;
+  return *best;
+}
+
+/// Laplace's evidence and the covariance at the minimum. `none` is the square without any effect.
+EffectFit FitOfMinimum(const PosteriorPoint& minimum, const EffectPosterior& posterior,
+                       double none) {
+  const ResidualMetric& metric = posterior.Metric();
+  const EffectParameters& parameters = posterior.Parameters();
+  const Eigen::MatrixXd jacobian = posterior.Jacobian(minimum);
+  const Eigen::VectorXd prior = parameters.PriorInformation();
+  // The curvature of n ln(square), n the effective number of observations.
+  const Eigen::MatrixXd curvature = jacobian.transpose() * metric.Marginalise(jacobian);
+  Eigen::MatrixXd information = metric.EffectiveObservations() / minimum.square * curvature;
   information.diagonal() += prior;
   const Eigen::LLT<Eigen::MatrixXd> factor(information);
   const double log_determinant =
       2.0 * factor.matrixLLT().diagonal().array().log().sum() - prior.array().log().sum();
 
   EffectFit fit;
-  fit.effects = unknowns.Effects(best->scaled);
-  fit.covariance = Scaled(Inverse(information), unknowns.Sizes());
-  fit.square = best->square;
-  fit.score = metric.Deviance(best->square, none) + best->cost - best->square + log_determinant;
-  fit.errors = best->errors;
+  fit.effects = parameters.Effects(minimum.scaled);
+  fit.covariance = Scaled(Inverse(information), parameters.TypicalSizes());
+  fit.square = minimum.square;
+  fit.score =
+      metric.Deviance(minimum.square, none) + minimum.cost - minimum.square + log_determinant;
+  fit.errors = minimum.errors;
   return fit;
 }
 
-/// Length of those values that do not shape what others do.
+EffectFit FitWithoutGusts(const ErrorModel& error_model, const ResidualMetric& metric, double none,
+                          const std::vector<const Effect*>& effects,
+                          const std::vector<Eigen::VectorXd>& starts) {
+  const EffectParameters parameters(effects);
+  const EffectPosterior posterior(error_model, metric, parameters);
+  return FitOfMinimum(LowestFrom(starts, posterior), posterior, none);
+}
+
+/// Length of the vector of those values that are not shape parameters.
 double LengthOf(const ModelledEffect& modelled) {
   double squared = 0.0;
   for (std::size_t j = 0; j < modelled.values.size(); ++j) {
@@ -198,9 +65,9 @@ double LengthOf(const ModelledEffect& modelled) {
   return std::sqrt(squared);
 }
 
-/// What gusts about the effects' means do to errors: one column a parameter that gusts, for one
-/// standard deviation of it.
-Eigen::MatrixXd GustsOf(const EffectFit& fit, const FreeRuns& runs, const AugmentedModel& boat) {
+/// EffectFit::gusts of a fit: secants over one standard deviation, which is the turbulence
+/// intensity times the length of the mean.
+Eigen::MatrixXd GustsOf(const EffectFit& fit, const ErrorModel& error_model) {
   std::vector<Eigen::VectorXd> columns;
   for (std::size_t i = 0; i < fit.effects.size(); ++i) {
     const Effect& effect = *fit.effects[i].effect;
@@ -210,7 +77,7 @@ Eigen::MatrixXd GustsOf(const EffectFit& fit, const FreeRuns& runs, const Augmen
       if (effect.Parameters()[j].is_shape) continue;
       auto gusting = fit.effects;
       gusting[i].values[j] += deviation;
-      columns.emplace_back((runs.Errors(boat.With(gusting)) - fit.errors).reshaped());
+      columns.emplace_back((error_model(gusting) - fit.errors).reshaped());
     }
   }
   Eigen::MatrixXd gusts(fit.errors.size(), std::ssize(columns));
@@ -218,39 +85,6 @@ Eigen::MatrixXd GustsOf(const EffectFit& fit, const FreeRuns& runs, const Augmen
     gusts.col(j) = columns[static_cast<std::size_t>(j)];
   }
   return gusts;
-}
-
-/// What a step along an effect's slots, from none of it, promises.
-struct LinearGuess {
-  std::vector<Eigen::Index> own;  ///< its slots
-  Eigen::VectorXd sizes;          ///< in typical sizes, within the range
-  double promise = 0.0;
-};
-
-LinearGuess GuessOf(const Effect& effect, const ResidualMetric& metric,
-                    const Eigen::MatrixXd& errors, const Sensitivity& recording,
-                    const std::vector<EffectParameterRef>& parameter_refs) {
-  LinearGuess guess;
-  for (std::size_t j = 0; j < parameter_refs.size(); ++j) {
-    if (parameter_refs[j].effect == &effect) guess.own.push_back(static_cast<Eigen::Index>(j));
-  }
-  const Eigen::MatrixXd seen =
-      metric.WhitenColumns(recording.by_effect_parameter(Eigen::all, guess.own));
-  const Eigen::MatrixXd weighed = metric.Marginalise(seen);
-  const Eigen::VectorXd slope = weighed.transpose() * metric.Whiten(errors);
-  Eigen::MatrixXd information = seen.transpose() * weighed;
-  information.diagonal().array() += 1.0 / (kPriorWidth * kPriorWidth);
-  guess.sizes = -information.ldlt().solve(slope);
-  for (std::size_t k = 0; k < guess.own.size(); ++k) {
-    const EffectParameterRef& parameter_ref =
-        parameter_refs[static_cast<std::size_t>(guess.own[k])];
-    const EffectParameter& parameter = effect.Parameters()[parameter_ref.parameter];
-    double& size = guess.sizes[static_cast<Eigen::Index>(k)];
-    size =
-        std::clamp(size, parameter.lower / parameter.typical, parameter.upper / parameter.typical);
-  }
-  guess.promise = -2.0 * slope.dot(guess.sizes) - guess.sizes.dot(information * guess.sizes);
-  return guess;
 }
 
 }  // namespace
@@ -292,54 +126,23 @@ ResidualMetric EffectFit::WidenedMetric(const ResidualMetric& metric) const {
   return gusts.size() == 0 ? metric : metric.WithWindowVariation(gusts);
 }
 
-EffectFit FitEffects(const FreeRuns& runs, const AugmentedModel& boat, const ResidualMetric& metric,
+ErrorModel ErrorModelOf(const FreeRuns& runs, const AugmentedModel& boat) {
+  return
+      [&](const std::vector<ModelledEffect>& effects) { return runs.Errors(boat.With(effects)); };
+}
+
+EffectFit FitEffects(const ErrorModel& error_model, const ResidualMetric& metric,
                      const std::vector<const Effect*>& effects,
                      const std::vector<Eigen::VectorXd>& starts) {
-  const double none = metric.SquaredMahalanobis(metric.Whiten(runs.Errors(boat)));
-  EffectFit steady = FitWithoutGusts(runs, boat, metric, none, effects, starts);
-  const Eigen::MatrixXd gusts = GustsOf(steady, runs, boat);
+  const double none = metric.SquaredMahalanobis(metric.Whiten(error_model({})));
+  EffectFit steady = FitWithoutGusts(error_model, metric, none, effects, starts);
+  const Eigen::MatrixXd gusts = GustsOf(steady, error_model);
   if (gusts.size() == 0) return steady;
   const ResidualMetric widened = metric.WithWindowVariation(gusts);
-  EffectFit gusty = FitWithoutGusts(runs, boat, widened, none, effects, {steady.Values()});
+  EffectFit gusty = FitWithoutGusts(error_model, widened, none, effects, {steady.Values()});
   gusty.gusts = gusts;
   gusty.score += widened.VariationPenalty();
   return gusty.score < steady.score ? gusty : steady;
-}
-
-std::vector<Eigen::VectorXd> StartsOf(const Effect& effect, const ResidualMetric& metric,
-                                      const Eigen::MatrixXd& errors, const Sensitivity& recording,
-                                      const std::vector<EffectParameterRef>& parameter_refs) {
-  const LinearGuess guess = GuessOf(effect, metric, errors, recording, parameter_refs);
-  Eigen::VectorXd prior_mean(static_cast<Eigen::Index>(effect.Parameters().size()));
-  for (Eigen::Index i = 0; i < prior_mean.size(); ++i) {
-    prior_mean[i] = effect.Parameters()[static_cast<std::size_t>(i)].prior_mean;
-  }
-  std::vector<Eigen::VectorXd> starts = {prior_mean};
-  for (std::size_t k = 0; k < guess.own.size(); ++k) {
-    const EffectParameterRef& parameter_ref =
-        parameter_refs[static_cast<std::size_t>(guess.own[k])];
-    starts[0][static_cast<Eigen::Index>(parameter_ref.parameter)] =
-        effect.Parameters()[parameter_ref.parameter].typical *
-        guess.sizes[static_cast<Eigen::Index>(k)];
-  }
-  if (guess.own.size() != 1) return starts;
-  const EffectParameterRef& parameter_ref = parameter_refs[static_cast<std::size_t>(guess.own[0])];
-  const EffectParameter& parameter = effect.Parameters()[parameter_ref.parameter];
-  for (const double size : {parameter.typical, -parameter.typical}) {
-    if (size < parameter.lower || size > parameter.upper) continue;
-    Eigen::VectorXd start = prior_mean;
-    start[static_cast<Eigen::Index>(parameter_ref.parameter)] = size;
-    starts.push_back(start);
-  }
-  return starts;
-}
-
-double ScoreTest(const Effect& effect, const ResidualMetric& metric, const Eigen::MatrixXd& errors,
-                 const Sensitivity& recording,
-                 const std::vector<EffectParameterRef>& parameter_refs) {
-  const double none = metric.SquaredMahalanobis(metric.Whiten(errors));
-  const double promise = GuessOf(effect, metric, errors, recording, parameter_refs).promise;
-  return metric.Deviance(std::clamp(none - promise, kMinimumRemainingShare * none, none), none);
 }
 
 }  // namespace telltale

@@ -7,6 +7,7 @@
 #include <Eigen/Core>
 
 #include "telltale/core/diagnosis/baseline/residual_metric.hpp"
+#include "telltale/core/diagnosis/hypotheses/effect_posterior.hpp"
 #include "telltale/core/diagnosis/residuals/free_runs.hpp"
 #include "telltale/core/effects/augmented_model.hpp"
 
@@ -15,43 +16,38 @@ namespace telltale {
 /// Effects fitted together to a recording's free runs.
 struct EffectFit {
   std::vector<ModelledEffect> effects;
-  Eigen::MatrixXd covariance;  ///< of all values, stacked
+  Eigen::MatrixXd covariance;  ///< of all values, stacked in the order of the effects
   /// -2 ln of the evidence (Laplace) less that of no effect at all. Negative where the effects are
   /// likelier than none.
   double score = 0.0;
-  double square = 0.0;     ///< weighed square of what is left
+  double square = 0.0;     ///< squared Mahalanobis distance of the errors that are left
   Eigen::MatrixXd errors;  ///< rows x windows, with the effects
-  /// What gusts do to the errors, one column a standard deviation; none where nothing gusts.
+  /// What gusts do to the errors, stacked window by window, one column a standard deviation of one
+  /// parameter; empty where nothing gusts.
   Eigen::MatrixXd gusts;
 
   std::vector<const Effect*> Effects() const;
   std::vector<std::string> Names() const;
   Eigen::VectorXd Values() const;  ///< stacked
-  /// Half the squared distance, in spreads, of shaping values from where they are usual. Large
-  /// where effects are bent to resemble something else.
+  /// Half the squared distance, in standard deviations, of shape parameters from their prior means.
+  /// It is large where an effect imitates another.
   double NegativeLogPrior() const;
 
-  /// `judge`, allowing for the gusts that come with these effects.
+  /// `metric`, allowing for the gusts of these effects.
   ResidualMetric WidenedMetric(const ResidualMetric& metric) const;
 };
 
-/// Most probable values of effects acting together, docs/concepts/diagnosis.md (88), (89): each
-/// value has a normal prior, of twice its typical size about zero, or of its spread about where it
-/// is usual. Levenberg-Marquardt from `starts`, each a stack of values, the best kept. Requires: at
-/// least one effect and one start.
-EffectFit FitEffects(const FreeRuns& runs, const AugmentedModel& boat, const ResidualMetric& metric,
+/// The free-run errors of `boat` with effects. The free runs and the boat have to outlive it.
+ErrorModel ErrorModelOf(const FreeRuns& runs, const AugmentedModel& boat);
+
+/// Most probable values of effects that act together, and their evidence by Laplace's method,
+/// docs/concepts/diagnosis.md (88), (89), (97). Priors are normal: of twice the typical size about
+/// zero, and for a shape parameter of its spread about its prior mean. Levenberg-Marquardt runs
+/// from each of `starts`, a stack of values each; the lowest cost is kept. An effect with
+/// turbulence is fitted again with gusts, which stay where they lower the score. Requires: at least
+/// one effect and one start.
+EffectFit FitEffects(const ErrorModel& error_model, const ResidualMetric& metric,
                      const std::vector<const Effect*>& effects,
                      const std::vector<Eigen::VectorXd>& starts);
-
-/// Where to begin, given what is missed by now: the best linear guess, and both signs of the
-/// typical size where the range has them.
-std::vector<Eigen::VectorXd> StartsOf(const Effect& effect, const ResidualMetric& metric,
-                                      const Eigen::MatrixXd& errors, const Sensitivity& recording,
-                                      const std::vector<EffectParameterRef>& parameter_refs);
-
-/// -2 ln of the likelihood that the linear guess promises over that of none; zero at the most.
-double ScoreTest(const Effect& effect, const ResidualMetric& metric, const Eigen::MatrixXd& errors,
-                 const Sensitivity& recording,
-                 const std::vector<EffectParameterRef>& parameter_refs);
 
 }  // namespace telltale

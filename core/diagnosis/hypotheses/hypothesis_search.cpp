@@ -7,22 +7,22 @@
 
 #include "telltale/core/base/linear_algebra/eigen_decompositions.hpp"
 #include "telltale/core/base/parallel.hpp"
+#include "telltale/core/diagnosis/diagnosis_constants.hpp"
+#include "telltale/core/diagnosis/hypotheses/nominal_gain.hpp"
+#include "telltale/core/diagnosis/hypotheses/refit.hpp"
+#include "telltale/core/diagnosis/hypotheses/score_test.hpp"
 #include "telltale/core/diagnosis/hypotheses/stochastic_excitation.hpp"
 
 namespace telltale {
 namespace {
 
-constexpr std::size_t kEffectsFittedInFull = 14;  // of the effects that the score test likes best
-constexpr std::size_t kCandidatesPerSeed = 5;     // tried beside each promising first
-constexpr std::size_t kSeedHypotheses = 2;
-constexpr double kNominalGainFactor = 1.5;
+constexpr SearchConstants kSearch = kDiagnosis.search;
 
 bool Contains(const EffectFit& fit, const Effect* effect) {
   const auto effects = fit.Effects();
   return std::find(effects.begin(), effects.end(), effect) != effects.end();
 }
 
-/// What free runs do not tell apart by where they lead.
 std::vector<const Effect*> StochasticEffectsIn(const EffectFit& fit) {
   std::vector<const Effect*> stochastic_effects = fit.Effects();
   std::erase_if(stochastic_effects, [](const Effect* effect) { return !effect->IsStochastic(); });
@@ -37,53 +37,46 @@ class HypothesisSearch {
  public:
   HypothesisSearch(const DiagnosisProblem& problem, std::span<const Effect* const> library,
                    std::size_t threads)
-      : problem_(problem), library_(library), threads_(threads) {
-    MeasureNominalGains();
-  }
+      : problem_(problem),
+        library_(library),
+        threads_(threads),
+        error_model_(ErrorModelOf(problem.runs, problem.nominal.boat)),
+        nominal_gains_(NominalGains(problem, library)) {}
 
-  std::vector<EffectFit> Singles(const std::function<void(double)>& tell) const {
-    std::vector<const Effect*> moving;
+  /// Fits of the effects that the score test ranks first, and of every stochastic effect.
+  std::vector<EffectFit> Singles(const std::function<void(double)>& report_progress) const {
+    std::vector<const Effect*> deterministic;
     std::vector<EffectFit> fits;
     for (const Effect* effect : library_) {
       if (effect->IsStochastic()) {
         fits.push_back(FitStochastic(*effect, problem_.recording.errors));
       } else {
-        moving.push_back(effect);
+        deterministic.push_back(effect);
       }
     }
-    const auto ranked = ByScoreTest(moving, problem_.recording.errors);
-    std::vector<EffectFit> fitted(std::min(kEffectsFittedInFull, ranked.size()));
-    std::mutex telling;
+    const auto ranked = ByScoreTest(deterministic, problem_.recording.errors);
+    std::vector<EffectFit> fitted(std::min(kSearch.effects_fitted_in_full, ranked.size()));
+    std::mutex reporting;
     std::size_t done = 0;
     ForEachIndex(fitted.size(), threads_, [&](std::size_t i) {
       const Effect* effect = ranked[i];
       fitted[i] = Fit({effect}, StartsOf(*effect, problem_.metric, problem_.recording.errors,
                                          problem_.recording, problem_.parameter_refs));
-      const std::lock_guard lock(telling);
-      tell(static_cast<double>(++done) / static_cast<double>(fitted.size()));
+      const std::lock_guard lock(reporting);
+      report_progress(static_cast<double>(++done) / static_cast<double>(fitted.size()));
     });
     fits.insert(fits.end(), fitted.begin(), fitted.end());
     std::sort(fits.begin(), fits.end(), HasLowerScore);
     return fits;
   }
 
-  /// The best fits of one effect more than `first` has.
+  /// Fits of one deterministic effect more than `first` has, separable from it.
   std::vector<EffectFit> WithOneMore(const EffectFit& first,
                                      const std::vector<EffectFit>& singles) const {
-    std::vector<const Effect*> others;
-    for (const Effect* effect : library_) {
-      if (Contains(first, effect) || effect->IsStochastic()) continue;
-      const auto single = std::find_if(singles.begin(), singles.end(), [&](const EffectFit& fit) {
-        return fit.effects.front().effect == effect;
-      });
-      const bool collinear = single != singles.end() && first.effects.size() == 1 &&
-                             Distance(first, *single, problem_.metric) < kSeparableLogEvidence;
-      if (!collinear) others.push_back(effect);
-    }
-    const auto ranked = ByScoreTest(others, first.errors);
-    std::vector<EffectFit> fitted(std::min(kCandidatesPerSeed, ranked.size()));
+    const auto ranked = ByScoreTest(SeparableFrom(first, singles), first.errors);
+    std::vector<EffectFit> fitted(std::min(kSearch.candidates_per_seed, ranked.size()));
     ForEachIndex(fitted.size(), threads_, [&](std::size_t i) {
-      // The linear guess: what else there is has been fitted already.
+      // The linearised minimum alone: the other effects start from their fit.
       const Eigen::VectorXd start = StartsOf(*ranked[i], problem_.metric, first.errors,
                                              problem_.recording, problem_.parameter_refs)
                                         .front();
@@ -97,18 +90,18 @@ class HypothesisSearch {
     return fitted;
   }
 
-  /// With what shakes the boat besides, where there is such a thing.
-  EffectFit WithStochastic(const EffectFit& moving) const {
-    EffectFit best = moving;
+  /// `fit` with a stochastic effect where the evidence asks for one; else `fit` itself.
+  EffectFit WithStochastic(const EffectFit& fit) const {
+    EffectFit best = fit;
     for (const Effect* effect : library_) {
-      if (!effect->IsStochastic() || moving.effects.back().effect->IsStochastic()) continue;
-      const EffectFit both = WithStochasticEffect(moving, FitStochastic(*effect, moving.errors));
-      if (both.score < best.score - kScoreToAddEffect) best = both;
+      if (!effect->IsStochastic() || fit.effects.back().effect->IsStochastic()) continue;
+      const EffectFit both = WithStochasticEffect(fit, FitStochastic(*effect, fit.errors));
+      if (both.score < best.score - kSearch.score_to_add_effect) best = both;
     }
     return best;
   }
 
-  /// Without what it can do without.
+  /// `fit` less the effects whose removal raises the score by too little.
   EffectFit Pruned(EffectFit fit) const {
     bool pruned = true;
     while (pruned && fit.effects.size() > 1) {
@@ -117,7 +110,7 @@ class HypothesisSearch {
         EffectFit fewer = fit;
         fewer.effects.erase(fewer.effects.begin() + static_cast<std::ptrdiff_t>(drop));
         fewer = Refitted(fewer);
-        if (fit.score < fewer.score - kScoreToAddEffect) continue;
+        if (fit.score < fewer.score - kSearch.score_to_add_effect) continue;
         fit = fewer;
         pruned = true;
         break;
@@ -129,8 +122,7 @@ class HypothesisSearch {
  private:
   EffectFit Fit(const std::vector<const Effect*>& effects,
                 const std::vector<Eigen::VectorXd>& starts) const {
-    return AboveNominalGain(
-        FitEffects(problem_.runs, problem_.nominal.boat, problem_.metric, effects, starts));
+    return AboveNominalGain(FitEffects(error_model_, problem_.metric, effects, starts));
   }
 
   EffectFit Refitted(const EffectFit& old) const {
@@ -138,7 +130,7 @@ class HypothesisSearch {
   }
 
   EffectFit AboveNominalGain(EffectFit fit) const {
-    for (const Effect* effect : fit.Effects()) fit.score += nominal_gain_.at(effect);
+    for (const Effect* effect : fit.Effects()) fit.score += nominal_gains_.at(effect);
     return fit;
   }
 
@@ -146,22 +138,24 @@ class HypothesisSearch {
     return FitStochasticExcitation(effect, problem_, problem_.metric, errors, threads_);
   }
 
-  void MeasureNominalGains() {
-    for (const Effect* effect : library_) nominal_gain_[effect] = 0.0;
-    for (const Sensitivity& day : problem_.nominal.days) {
-      const ResidualMetric metric(problem_.nominal, day, EveryWindow(day),
-                                  problem_.metric.FreesCoefficients());
-      for (auto& [effect, gain] : nominal_gain_) {
-        if (effect->IsStochastic()) continue;
-        const double score = ScoreTest(*effect, metric, day.errors, day, problem_.parameter_refs);
-        const double effective_observations =
-            problem_.metric.EffectiveObservations() / metric.EffectiveObservations();
-        gain = std::max(gain, -kNominalGainFactor * effective_observations * score);
-      }
+  /// The deterministic effects that `first` does not have, less those that this recording cannot
+  /// separate from it where it stands alone.
+  std::vector<const Effect*> SeparableFrom(const EffectFit& first,
+                                           const std::vector<EffectFit>& singles) const {
+    std::vector<const Effect*> others;
+    for (const Effect* effect : library_) {
+      if (Contains(first, effect) || effect->IsStochastic()) continue;
+      const auto single = std::find_if(singles.begin(), singles.end(), [&](const EffectFit& fit) {
+        return fit.effects.front().effect == effect;
+      });
+      const bool collinear = single != singles.end() && first.effects.size() == 1 &&
+                             Distance(first, *single, problem_.metric) < kSearch.separable_nats;
+      if (!collinear) others.push_back(effect);
     }
+    return others;
   }
 
-  /// By how much evidence their linear guess promises, the most first.
+  /// The effects by the evidence that their score test promises, the most first.
   std::vector<const Effect*> ByScoreTest(std::vector<const Effect*> effects,
                                          const Eigen::MatrixXd& errors) const {
     std::vector<std::pair<double, const Effect*>> scored;
@@ -179,51 +173,69 @@ class HypothesisSearch {
   const DiagnosisProblem& problem_;
   std::span<const Effect* const> library_;
   std::size_t threads_;
-  std::map<const Effect*, double> nominal_gain_;  ///< evidence that is none, by effect
+  ErrorModel error_model_;
+  std::map<const Effect*, double> nominal_gains_;
 };
 
+/// Combinations of one effect more than those of `level` have, by score.
+std::vector<EffectFit> NextLevel(const HypothesisSearch& search,
+                                 const std::vector<EffectFit>& level,
+                                 const std::vector<EffectFit>& singles) {
+  std::vector<EffectFit> next;
+  for (const EffectFit& first : level) {
+    if (first.effects.back().effect->IsStochastic()) continue;
+    for (EffectFit& more : search.WithOneMore(first, singles)) {
+      if (more.score < first.score - kSearch.score_to_add_effect) next.push_back(std::move(more));
+    }
+    EffectFit with_stochastic = search.WithStochastic(first);
+    if (with_stochastic.effects.size() > first.effects.size())
+      next.push_back(std::move(with_stochastic));
+  }
+  std::sort(next.begin(), next.end(), HasLowerScore);
+  return next;
+}
+
 }  // namespace
+
+const EffectFit& BestHypothesis(const Hypotheses& hypotheses) {
+  const EffectFit& single = hypotheses.singles.front();
+  if (hypotheses.combined.empty()) return single;
+  return hypotheses.combined.front().score < single.score ? hypotheses.combined.front() : single;
+}
 
 double Distance(const EffectFit& one, const EffectFit& other, const ResidualMetric& metric) {
   if (StochasticEffectsIn(one) != StochasticEffectsIn(other))
     return std::numeric_limits<double>::infinity();
-  const double apart =
+  const double square =
       metric.SquaredMahalanobis(metric.Whiten(one.errors) - metric.Whiten(other.errors));
-  return LogEvidenceOf(metric.EffectiveObservations(), apart / std::min(one.square, other.square));
+  return LogEvidenceOf(metric.EffectiveObservations(), square / std::min(one.square, other.square));
 }
 
 Hypotheses Search(const DiagnosisProblem& problem, std::span<const Effect* const> library,
                   std::size_t most_effects, std::size_t threads,
-                  const std::function<void(double)>& tell) {
-  const HypothesisSearch searching(problem, library, threads);
+                  const std::function<void(double)>& report_progress) {
+  constexpr double kShareOfSingles = 0.6;
+  const HypothesisSearch search(problem, library, threads);
   Hypotheses hypotheses;
-  hypotheses.singles = searching.Singles([&](double share) { tell(0.6 * share); });
+  hypotheses.singles =
+      search.Singles([&](double share) { report_progress(kShareOfSingles * share); });
   std::vector<EffectFit> level(
       hypotheses.singles.begin(),
-      hypotheses.singles.begin() +
-          static_cast<std::ptrdiff_t>(std::min(kSeedHypotheses, hypotheses.singles.size())));
+      hypotheses.singles.begin() + static_cast<std::ptrdiff_t>(std::min(
+                                       kSearch.seed_hypotheses, hypotheses.singles.size())));
   for (std::size_t count = 2; count <= most_effects; ++count) {
-    std::vector<EffectFit> next;
-    for (const EffectFit& first : level) {
-      if (first.effects.back().effect->IsStochastic()) continue;
-      for (EffectFit& more : searching.WithOneMore(first, hypotheses.singles)) {
-        if (more.score < first.score - kScoreToAddEffect) next.push_back(std::move(more));
-      }
-      EffectFit stochastic_mean_squares = searching.WithStochastic(first);
-      if (stochastic_mean_squares.effects.size() == count)
-        next.push_back(std::move(stochastic_mean_squares));
-    }
+    const std::vector<EffectFit> next = NextLevel(search, level, hypotheses.singles);
     if (next.empty()) break;
-    std::sort(next.begin(), next.end(), HasLowerScore);
-    const EffectFit best = searching.Pruned(next.front());
+    const EffectFit best = search.Pruned(next.front());
     const bool grew = best.effects.size() == count;
     if (grew) hypotheses.combined.push_back(best);
-    tell(0.6 + 0.4 * static_cast<double>(count) / static_cast<double>(most_effects));
+    report_progress(kShareOfSingles + (1.0 - kShareOfSingles) * static_cast<double>(count) /
+                                          static_cast<double>(most_effects));
     if (!grew) break;
     level = {best};
   }
   std::sort(hypotheses.combined.begin(), hypotheses.combined.end(), HasLowerScore);
-  tell(1.0);
+  report_progress(1.0);
   return hypotheses;
 }
 

@@ -10,29 +10,27 @@
 
 namespace telltale {
 
-/// What explains a recording's errors, single effects by score, then the best that act together.
+/// Hypotheses that explain a recording's errors, each list by score, the likeliest first.
 struct Hypotheses {
-  std::vector<EffectFit> singles;   ///< every effect that was fitted, the likeliest first
-  std::vector<EffectFit> combined;  ///< combinations that are worth their second or third effect,
-                                    ///< the likeliest first
+  std::vector<EffectFit> singles;   ///< every single effect that was fitted
+  std::vector<EffectFit> combined;  ///< of two or three effects, where the evidence asks for each
 };
 
-/// Scores are in comparison with nominal days: what an effect seems to explain of those, the most
-/// of any, and half as much again, is taken back.
-///
+/// The hypothesis with the lowest score. Requires: at least one single hypothesis.
+const EffectFit& BestHypothesis(const Hypotheses& hypotheses);
+
 /// Screens every effect by the score test, fits the most promising in full, then adds a second and
-/// a third effect where the evidence asks for it and they are of different classes; what a
-/// combination can do without is dropped again. `tell` is called with the share done.
+/// a third effect where the score falls by kDiagnosis.search.score_to_add_effect and the effects
+/// are separable. An effect that a combination does not need is removed again. Every score is
+/// raised by the NominalGains of its effects. `report_progress` gets the share done; it is called
+/// by one thread at a time.
 Hypotheses Search(const DiagnosisProblem& problem, std::span<const Effect* const> library,
                   std::size_t most_effects, std::size_t threads,
-                  const std::function<void(double)>& tell);
+                  const std::function<void(double)>& report_progress);
 
-/// Nats by which the better of two explanations would win if it were the truth: below
-/// kSeparableLogEvidence this recording cannot tell them apart.
+/// Expected log evidence, in nats, of the better of two hypotheses over the other if it is true.
+/// Below kDiagnosis.search.separable_nats this recording does not separate them. Infinite where
+/// their stochastic effects differ.
 double Distance(const EffectFit& one, const EffectFit& other, const ResidualMetric& metric);
-inline constexpr double kSeparableLogEvidence = 3.0;
-
-/// -2 ln of how much likelier the first is than the second has to be before it counts as found.
-inline constexpr double kScoreToAddEffect = 12.0;
 
 }  // namespace telltale

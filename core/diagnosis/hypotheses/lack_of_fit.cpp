@@ -6,41 +6,42 @@
 #include <numeric>
 
 #include "telltale/core/base/linear_algebra/eigen_decompositions.hpp"
+#include "telltale/core/diagnosis/diagnosis_constants.hpp"
 
 namespace telltale {
 namespace {
 
-constexpr double kPriorEffectSd = 0.3;  // of typical ones: what a remainder may hold of each effect
-
-/// Sizes of all slots that the remainder on the judge's windows asks for, by ridge. What scatters
-/// more than in health tells less.
+/// Sizes of all effect parameters, in typical sizes, that ridge regression finds in the errors of
+/// the metric's windows. Errors that scatter more than a nominal boat's count for less.
 Eigen::VectorXd RidgeEstimate(const Eigen::MatrixXd& errors, const ResidualMetric& metric,
                               const Sensitivity& recording) {
-  const Eigen::VectorXd left = metric.Whiten(errors);
-  const Eigen::MatrixXd seen = metric.WhitenColumns(recording.by_effect_parameter);
-  const Eigen::MatrixXd weighed = metric.Marginalise(seen);
-  const double scatter = std::max(metric.ReducedChiSquare(left), 1.0);
-  Eigen::MatrixXd information = seen.transpose() * weighed / scatter;
-  information.diagonal().array() += 1.0 / (kPriorEffectSd * kPriorEffectSd);
-  const Eigen::VectorXd slope = weighed.transpose() * left / scatter;
-  return -information.ldlt().solve(slope);
+  constexpr double kPriorSd = kDiagnosis.lack_of_fit.prior_effect_sd;
+  const Eigen::VectorXd whitened = metric.Whiten(errors);
+  const Eigen::MatrixXd columns = metric.WhitenColumns(recording.by_effect_parameter);
+  const Eigen::MatrixXd marginalised = metric.Marginalise(columns);
+  const double scatter = std::max(metric.ReducedChiSquare(whitened), 1.0);
+  Eigen::MatrixXd information = columns.transpose() * marginalised / scatter;
+  information.diagonal().array() += 1.0 / (kPriorSd * kPriorSd);
+  const Eigen::VectorXd gradient = marginalised.transpose() * whitened / scatter;
+  return -information.ldlt().solve(gradient);
 }
 
+/// LackOfFit::predictable of the errors.
 double PredictableIn(const Eigen::MatrixXd& errors, const EffectFit& best,
                      const DiagnosisProblem& problem) {
   const std::array metrics = {best.WidenedMetric(MetricOfFold(problem, 0)),
                               best.WidenedMetric(MetricOfFold(problem, 1))};
-  double left = 0.0;
-  double less = 0.0;
+  double square = 0.0;
+  double remaining = 0.0;
   for (std::size_t fold = 0; fold < kFolds; ++fold) {
     const Eigen::VectorXd sizes = RidgeEstimate(errors, metrics[1 - fold], problem.recording);
     const ResidualMetric& metric = metrics[fold];
-    const Eigen::VectorXd seen = metric.Whiten(errors);
-    left += metric.SquaredMahalanobis(seen);
-    less += metric.SquaredMahalanobis(
-        seen + metric.WhitenColumns(problem.recording.by_effect_parameter) * sizes);
+    const Eigen::VectorXd whitened = metric.Whiten(errors);
+    square += metric.SquaredMahalanobis(whitened);
+    remaining += metric.SquaredMahalanobis(
+        whitened + metric.WhitenColumns(problem.recording.by_effect_parameter) * sizes);
   }
-  return std::log(left / less);
+  return std::log(square / remaining);
 }
 
 }  // namespace
@@ -53,7 +54,7 @@ LackOfFit AssessLackOfFit(const EffectFit& best, const CrossValidatedErrors& cro
       std::accumulate(logs.begin(), logs.end(), 0.0) / static_cast<double>(logs.size());
   LackOfFit lack_of_fit{.before = metric.ReducedChiSquare(metric.Whiten(problem.recording.errors)),
                         .nominal = std::exp(mean)};
-  // What only shakes leaves errors as they are, and windows that scatter: nothing to learn from.
+  // A stochastic effect leaves the errors as they are: no fold predicts the other.
   if (best.effects.back().effect->IsStochastic()) {
     lack_of_fit.after = best.square / metric.ExpectedSquare();
     return lack_of_fit;

@@ -5,20 +5,20 @@
 
 namespace telltale {
 
-/// What a ResidualMetric has against a recording, as shares of what a nominal one is expected to
-/// leave, about one: without an explanation, with the likeliest, fitted to other windows than it is
-/// judged on, and of the references.
+/// Reduced chi-squares of a recording by its ResidualMetric, about one for a nominal boat.
 struct LackOfFit {
-  double before = 1.0;
-  double after = 1.0;
-  double nominal = 1.0;
-  /// ln of how much less than `after` is left of each fold once what the effects' slopes make of
-  /// the other fold's remainder is taken off. Above zero where the same is wrong everywhere, so
-  /// that something else is at work; zero or less where a rough day has made windows err.
+  double before = 1.0;   ///< of the nominal baseline
+  double after = 1.0;    ///< of the likeliest hypothesis, cross-validated
+  double nominal = 1.0;  ///< of the references, their geometric mean
+  /// ln of the square that the hypothesis leaves over the square that remains once effect sizes
+  /// that ridge regression finds on the other fold are subtracted. It is above zero where the same
+  /// error recurs in both folds, so that the hypothesis lacks something. It is zero or less where
+  /// windows err independently, as in rough weather.
   double predictable = 0.0;
 };
 
-/// Of the likeliest explanation, docs/concepts/diagnosis.md (98).
+/// The lack of fit of the likeliest hypothesis, docs/concepts/diagnosis.md (98). Errors of a
+/// stochastic effect are unpredictable: its `after` is its own square, and `predictable` is zero.
 LackOfFit AssessLackOfFit(const EffectFit& best, const CrossValidatedErrors& cross_validated,
                           const DiagnosisProblem& problem);
 

@@ -4,42 +4,49 @@
 #include <cmath>
 #include <vector>
 
+#include "telltale/core/diagnosis/diagnosis_constants.hpp"
+
 namespace telltale {
 namespace {
 
-constexpr double kOnsetDeviance = 20.0;  // -2 ln likelihood, beyond what looking everywhere gains
-constexpr double kChiSquared95 = 3.84;
-constexpr std::size_t kFewestWindows = 4;  // on either side
-
+/// Squared norm of what the metric leaves unexplained, by window.
 Eigen::VectorXd SquaresOf(const ResidualMetric& metric, const Eigen::MatrixXd& errors) {
-  const Eigen::VectorXd left = metric.Unexplained(metric.Whiten(errors));
+  const Eigen::VectorXd unexplained = metric.Unexplained(metric.Whiten(errors));
   const auto windows = static_cast<Eigen::Index>(metric.Windows().size());
-  return left.reshaped(left.size() / windows, windows).colwise().squaredNorm();
+  return unexplained.reshaped(unexplained.size() / windows, windows).colwise().squaredNorm();
+}
+
+/// For each window, by how much the windows before it are more likely without the hypothesis.
+std::vector<double> GainsOf(const Eigen::VectorXd& without, const Eigen::VectorXd& with) {
+  const auto windows = static_cast<std::size_t>(with.size());
+  std::vector<double> gains(windows, 0.0);
+  for (std::size_t w = 1; w < windows; ++w) {
+    const auto before = static_cast<Eigen::Index>(w - 1);
+    gains[w] = gains[w - 1] + with[before] - without[before];
+  }
+  return gains;
 }
 
 }  // namespace
 
 std::optional<Onset> OnsetOf(const EffectFit& fit, const DiagnosisProblem& problem) {
-  const Eigen::VectorXd without = SquaresOf(problem.metric, problem.recording.errors);
-  const Eigen::VectorXd with = SquaresOf(problem.metric, fit.errors);
-  const auto windows = static_cast<std::size_t>(with.size());
-  if (windows < 3 * kFewestWindows) return std::nullopt;
-  // By how much the windows before each one are better without.
-  std::vector<double> gain(windows, 0.0);
-  for (std::size_t w = 1; w < windows; ++w) {
-    const auto before = static_cast<Eigen::Index>(w - 1);
-    gain[w] = gain[w - 1] + with[before] - without[before];
-  }
-  const auto from = gain.begin() + static_cast<std::ptrdiff_t>(kFewestWindows);
-  const auto to = gain.end() - static_cast<std::ptrdiff_t>(kFewestWindows);
+  constexpr OnsetConstants kOnset = kDiagnosis.onset;
+  const std::vector<double> gains = GainsOf(SquaresOf(problem.metric, problem.recording.errors),
+                                            SquaresOf(problem.metric, fit.errors));
+  if (gains.size() < 3 * kOnset.minimum_windows) return std::nullopt;
+  const auto from = gains.begin() + static_cast<std::ptrdiff_t>(kOnset.minimum_windows);
+  const auto to = gains.end() - static_cast<std::ptrdiff_t>(kOnset.minimum_windows);
   const auto best = std::max_element(from, to);
-  if (*best < kOnsetDeviance + 2.0 * std::log(static_cast<double>(windows))) return std::nullopt;
-  const auto near = [&](double value) { return value >= *best - kChiSquared95; };
+  // Trying every window costs 2 ln of their number.
+  const double cost_of_search = 2.0 * std::log(static_cast<double>(gains.size()));
+  if (*best < kOnset.minimum_deviance + cost_of_search) return std::nullopt;
+  const auto near = [&](double gain) { return gain >= *best - kOnset.interval_deviance; };
   const auto first = std::find_if(from, to, near);
   const auto last =
       std::find_if(std::make_reverse_iterator(to), std::make_reverse_iterator(from), near);
   const auto time_of = [&](auto place) {
-    return problem.runs.Of(problem.metric.Windows()[static_cast<std::size_t>(place - gain.begin())])
+    return problem.runs
+        .Of(problem.metric.Windows()[static_cast<std::size_t>(place - gains.begin())])
         .time_s;
   };
   return Onset{time_of(best), time_of(first), time_of(last.base() - 1)};

@@ -8,10 +8,10 @@
 
 namespace telltale {
 
-/// When an explanation began to act, if the recording's early windows are better without it.
-/// Method: -2 ln likelihood with the explanation from a window on, against all along; the interval
-/// holds the beginnings within 3.84 of the best (chi-squared, 95 %). docs/concepts/diagnosis.md
-/// (95).
+/// When a hypothesis began to act. Method: -2 ln likelihood with the hypothesis from one window on,
+/// against all along; the interval holds the onsets within 3.84 of the best (chi-squared, 95 %).
+/// docs/concepts/diagnosis.md (95). None where the recording is too short, or where the best onset
+/// gains too little over none.
 std::optional<Onset> OnsetOf(const EffectFit& fit, const DiagnosisProblem& problem);
 
 }  // namespace telltale

@@ -3,51 +3,53 @@
 #include <algorithm>
 #include <cmath>
 
+#include "telltale/core/diagnosis/diagnosis_constants.hpp"
+
 namespace telltale {
 namespace {
 
-// Chosen on development cases, docs/validation/blind-checks.md.
-// A recording is called unwell for a score below the negative of this,
-constexpr double kMaterialScore = 8.0;
-// or for what a ResidualMetric has against it, as ln of a share of what it has against nominal
-// ones.
-constexpr double kMaterialLogLackOfFit = 0.9;
-// Times the limit: what an upper bound may be of a gap that is no more than health.
-constexpr double kEquivalenceFactor = 2.0;
-// The logarithm of the odds that it is something else: so much a unit of ln of what is left, with
-// an even chance at this much; this much sooner for each further effect, as several mend between
-// them what none of them is, and for each unit that could be learnt from the rest. By the
-// logarithmic score, of explanations by true effects and of those by others where the true one was
-// left out, the latter a quarter of all.
-constexpr double kDoubtSlope = 2.8;
-constexpr double kDoubtMidpoint = -0.2;
-constexpr double kDoubtPerExtraEffect = 0.7;
-constexpr double kDoubtPerPredictable = 4.0;
-constexpr double kExplained = 0.7;  // of the gap
-// Odds of nine to one: below them a cause may be likely, and is not named for sure.
-constexpr double kNamingProbability = 0.9;
+constexpr RankingConstants kRanking = kDiagnosis.ranking;
 
 double Logistic(double x) {
   return 1.0 / (1.0 + std::exp(-x));
 }
 
-/// Share of the excess that an explanation may leave unseen: of the nats that speak for it, as many
-/// as do not tell two explanations apart. What little speaks for stands in for much.
-double UnseenShare(const EffectFit& best) {
-  return kSeparableLogEvidence / (kSeparableLogEvidence + 0.5 * std::max(-best.score, 0.0));
+/// Share of the excess that a hypothesis may leave without notice: the nats that do not separate
+/// two hypotheses over those and the hypothesis' own.
+double UnresolvedShare(const EffectFit& best) {
+  constexpr double kSeparable = kDiagnosis.search.separable_nats;
+  return kSeparable / (kSeparable + 0.5 * std::max(-best.score, 0.0));
 }
 
-/// Probability that it is something else, by what the likeliest explanation leaves and how far it
-/// had to be bent: strain is -ln of how likely such shapes are where the explanation is right.
+/// Probability that the cause is another than the likeliest hypothesis. It grows with what that
+/// leaves, with its number of effects, with what is predictable in its errors, and with the
+/// negative log prior of its shape parameters.
 double UnknownProbability(const LackOfFit& lack_of_fit, const EffectFit& best) {
   const double excess = lack_of_fit.after - lack_of_fit.nominal;
   const double before = std::max(lack_of_fit.before - lack_of_fit.nominal, excess);
-  const double unseen = UnseenShare(best);
-  const double share = before > 0.0 ? std::max(excess / before, unseen) : unseen;
-  const double left = std::log(share) + std::log(lack_of_fit.after / lack_of_fit.nominal);
-  const double penalty = kDoubtPerExtraEffect * static_cast<double>(best.effects.size() - 1) +
-                         kDoubtPerPredictable * std::max(lack_of_fit.predictable, 0.0);
-  return Logistic(kDoubtSlope * (left - kDoubtMidpoint + penalty) + best.NegativeLogPrior());
+  const double unresolved = UnresolvedShare(best);
+  const double share = before > 0.0 ? std::max(excess / before, unresolved) : unresolved;
+  const double unexplained = std::log(share) + std::log(lack_of_fit.after / lack_of_fit.nominal);
+  const double penalty =
+      kRanking.doubt_per_extra_effect * static_cast<double>(best.effects.size() - 1) +
+      kRanking.doubt_per_predictable * std::max(lack_of_fit.predictable, 0.0);
+  return Logistic(kRanking.doubt_slope * (unexplained - kRanking.doubt_midpoint + penalty) +
+                  best.NegativeLogPrior());
+}
+
+std::vector<EffectFit> ByScore(const Hypotheses& hypotheses) {
+  std::vector<EffectFit> all = hypotheses.combined;
+  all.insert(all.end(), hypotheses.singles.begin(), hypotheses.singles.end());
+  std::sort(all.begin(), all.end(),
+            [](const EffectFit& a, const EffectFit& b) { return a.score < b.score; });
+  return all;
+}
+
+/// Whether this recording separates neither hypothesis from the other.
+bool AreEquivalent(const RankedHypothesis& ranked, const EffectFit& fit,
+                   const ResidualMetric& metric) {
+  return fit.score < -kRanking.material_score && ranked.fit.effects.size() == fit.effects.size() &&
+         Distance(ranked.fit, fit, metric) < kDiagnosis.search.separable_nats;
 }
 
 }  // namespace
@@ -68,10 +70,7 @@ std::vector<std::string> RankedHypothesis::Indistinguishable() const {
 
 Ranking Rank(const Hypotheses& hypotheses, const ResidualMetric& metric,
              const LackOfFit& lack_of_fit) {
-  std::vector<EffectFit> all = hypotheses.combined;
-  all.insert(all.end(), hypotheses.singles.begin(), hypotheses.singles.end());
-  std::sort(all.begin(), all.end(),
-            [](const EffectFit& a, const EffectFit& b) { return a.score < b.score; });
+  const std::vector<EffectFit> all = ByScore(hypotheses);
   const double best = std::min(all.front().score, 0.0);
   const auto weight = [&](double score) { return std::exp(-0.5 * (score - best)); };
   Ranking ranking;
@@ -80,11 +79,9 @@ Ranking Rank(const Hypotheses& hypotheses, const ResidualMetric& metric,
   for (const EffectFit& fit : all) {
     const double own = weight(fit.score);
     total += own;
-    const auto equivalent =
-        std::find_if(ranking.fits.begin(), ranking.fits.end(), [&](const RankedHypothesis& r) {
-          return fit.score < -kMaterialScore && r.fit.effects.size() == fit.effects.size() &&
-                 Distance(r.fit, fit, metric) < kSeparableLogEvidence;
-        });
+    const auto equivalent = std::find_if(
+        ranking.fits.begin(), ranking.fits.end(),
+        [&](const RankedHypothesis& ranked) { return AreEquivalent(ranked, fit, metric); });
     if (equivalent == ranking.fits.end()) {
       ranking.fits.push_back({fit, own, {}});
       continue;
@@ -102,25 +99,27 @@ Ranking Rank(const Hypotheses& hypotheses, const ResidualMetric& metric,
 GapAssessment AssessGap(double squared_gap, double upper_squared_gap, double squared_limit,
                         double best_score, const LackOfFit& lack_of_fit) {
   const double beyond = std::log(lack_of_fit.before / lack_of_fit.nominal);
-  if (best_score < -kMaterialScore || beyond > kMaterialLogLackOfFit)
+  if (best_score < -kRanking.material_score || beyond > kRanking.material_log_lack_of_fit)
     return GapAssessment::kMaterial;
-  const bool small =
-      squared_gap <= squared_limit && upper_squared_gap <= kEquivalenceFactor * squared_limit;
+  const bool small = squared_gap <= squared_limit &&
+                     upper_squared_gap <= kRanking.equivalence_factor * squared_limit;
   return small ? GapAssessment::kWithinNominal : GapAssessment::kUndecided;
 }
 
 bool IsLikely(GapAssessment assessment, const Ranking& ranking) {
-  return assessment == GapAssessment::kMaterial && !ranking.fits.empty() && ranking.unknown <= 0.5;
+  return assessment == GapAssessment::kMaterial && !ranking.fits.empty() &&
+         ranking.unknown <= kRanking.likely_unknown;
 }
 
 Verdict VerdictOf(GapAssessment assessment, const Ranking& ranking,
                   const std::optional<ExcessExplained>& excess_explained) {
   if (assessment == GapAssessment::kWithinNominal) return Verdict::kNoMaterialGap;
   if (assessment == GapAssessment::kUndecided) return Verdict::kInsufficientData;
-  const bool named_outright =
-      !ranking.fits.empty() && ranking.fits.front().probability >= kNamingProbability;
-  if (!named_outright) return Verdict::kUnknownCause;
-  if (!excess_explained || excess_explained->share >= kExplained) return Verdict::kExplained;
+  const bool is_named =
+      !ranking.fits.empty() && ranking.fits.front().probability >= kRanking.naming_probability;
+  if (!is_named) return Verdict::kUnknownCause;
+  if (!excess_explained || excess_explained->share >= kRanking.explained_share)
+    return Verdict::kExplained;
   return Verdict::kPartlyExplained;
 }
 

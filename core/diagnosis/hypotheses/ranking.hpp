@@ -10,46 +10,49 @@
 
 namespace telltale {
 
-/// An explanation and how probable it is, docs/concepts/diagnosis.md (91).
+/// A hypothesis with its probability, docs/concepts/diagnosis.md (91).
 struct RankedHypothesis {
   EffectFit fit;
-  double probability = 0.0;
-  std::vector<EffectFit> equivalent;  ///< less probable ones that predict the same
+  double probability = 0.0;           ///< of the fit and its equivalents together
+  std::vector<EffectFit> equivalent;  ///< less probable ones that this recording cannot separate
 
-  /// Effects that would do as well in its place.
+  /// Names of the effects of the equivalents that the fit itself does not have.
   std::vector<std::string> Indistinguishable() const;
 };
 
+/// Probabilities of all hypotheses; they add up to one.
 struct Ranking {
   std::vector<RankedHypothesis> fits;  ///< most probable first
-  double no_effect = 0.0;              ///< probability that all is well
-  double unknown = 0.0;                ///< that it is something the library lacks
+  double no_effect = 0.0;              ///< probability that no effect acts
+  double unknown = 0.0;                ///< probability of an effect that the library lacks
 };
 
-/// Weighs explanations by their scores, and against something unknown by what they leave.
-/// Those that predict the same, to within kSeparableLogEvidence, are one class: its likeliest
-/// member stands for all and has their probability.
+/// Probabilities proportional to exp(-score / 2) (91), less the probability of an unknown effect,
+/// which is logistic in what the likeliest hypothesis leaves unexplained. Hypotheses of as many
+/// effects within kDiagnosis.search.separable_nats of one another form one class: its likeliest
+/// member stands for all and has their probability. Requires: at least one single hypothesis.
 Ranking Rank(const Hypotheses& hypotheses, const ResidualMetric& metric,
              const LackOfFit& lack_of_fit);
 
-/// What there is to say about a gap before looking for whose fault it is.
+/// Whether a recording shows a gap, before any cause is named.
 enum class GapAssessment {
-  kWithinNominal,  ///< equivalent: even its upper bound is hardly beyond what nominal days do
-  kUndecided,  ///< larger, but weather and what references leave open may account for it, or too
-               ///< short a recording to bound it
-  kMaterial,   ///< more than health can be taken for: something explains it, or nothing does
+  kWithinNominal,  ///< the upper bound of the gap is within what nominal recordings show
+  kUndecided,      ///< the gap may be larger, but no effect explains it and weather or a short
+               ///< recording may account for it
+  kMaterial,  ///< an effect explains the gap, or the lack of fit is beyond that of references
 };
 
-/// `squared_gap` with its upper 95 % bound, `squared_limit` that 95 % of nominal recordings stay
-/// below.
+/// `squared_gap`: G^2; `upper_squared_gap`: its upper 95 % bound; `squared_limit`: what 95 % of
+/// nominal recordings stay below; `best_score`: of the likeliest hypothesis.
 GapAssessment AssessGap(double squared_gap, double upper_squared_gap, double squared_limit,
                         double best_score, const LackOfFit& lack_of_fit);
 
-/// Whether the likeliest explanation is worth following up: a better model, how far it closes.
+/// Whether the likeliest hypothesis is more probable than an unknown cause, so that the model is
+/// identified again with it.
 bool IsLikely(GapAssessment assessment, const Ranking& ranking);
 
-/// A likely cause is named for sure from odds of nine to one on; below them the cause is unknown.
-/// `closure`: held out; none where there is no gap.
+/// The verdict. A cause is named from odds of nine to one on; below them the cause is unknown.
+/// `excess_explained` is cross-validated; none where there is no gap.
 Verdict VerdictOf(GapAssessment assessment, const Ranking& ranking,
                   const std::optional<ExcessExplained>& excess_explained);
 

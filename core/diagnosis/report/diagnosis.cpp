@@ -4,14 +4,9 @@
 #include <cmath>
 
 #include "telltale/core/base/contract.hpp"
+#include "telltale/core/diagnosis/diagnosis_constants.hpp"
 
 namespace telltale {
-namespace {
-
-constexpr double kMainHorizonS = 5.0;
-
-}  // namespace
-
 std::string_view Name(Verdict verdict) {
   switch (verdict) {
     case Verdict::kNoMaterialGap: return "NO_MATERIAL_GAP";
@@ -47,7 +42,7 @@ std::string_view Name(Testability testability) {
 
 const Gap& Diagnosis::Main() const {
   const auto main = std::find_if(gaps.begin(), gaps.end(), [](const Gap& gap) {
-    return std::abs(gap.horizon_s - kMainHorizonS) < 1e-6;
+    return std::abs(gap.horizon_s - kDiagnosis.horizons.main_s) < 1e-6;
   });
   Require(main != gaps.end(), "a gap at five seconds");
   return *main;

@@ -26,18 +26,19 @@ enum class Verdict {
   kInsufficientData
 };
 
-/// "NO_MATERIAL_GAP" and so on.
+/// The name in report.json: "NO_MATERIAL_GAP".
 std::string_view Name(Verdict verdict);
 
-/// Free-run error over windows of one length, in nominal sigmas, docs/concepts/diagnosis.md (80).
+/// Free-run error over windows of one length, times the normal error, docs/concepts/diagnosis.md
+/// (80).
 struct GapSize {
   double before = 0.0;
   double after = 0.0;        ///< with the likely effects in the model; as before without any
-  double noise_floor = 0.0;  ///< of nominal boats
-  double floor_limit = 0.0;  ///< which 95 % of nominal recordings stay below
+  double noise_floor = 0.0;  ///< of nominal recordings, geometric mean
+  double floor_limit = 0.0;  ///< 95 % of nominal recordings stay below it
 };
 
-/// (before^2 - after^2) / (before^2 - floor^2) on windows that did not take part in fitting.
+/// (before^2 - after^2) / (before^2 - floor^2), cross-validated.
 struct ExcessExplained {
   double share = 0.0;
   Interval interval;
@@ -52,21 +53,21 @@ struct Gap {
   std::size_t windows = 0;
 };
 
-/// What kind of error dominates where model and boat part: an offset, in proportion to what the
-/// model does, the rest, or more noise alone (Theil).
+/// The kind of error that dominates in a cell, by Theil's decomposition: an offset, an error in
+/// proportion to the prediction, the rest of the correlated error, or noise alone.
 enum class GapKind { kUnknown, kBias, kSlope, kTiming, kNoise };
 
 std::string_view Name(GapKind kind);
 
-/// A corner of the data that holds more error than it should.
+/// An operating condition with more error than the references have there.
 struct GapCell {
   Equation channel = Equation::kUnknown;
   std::optional<PropellerRegion> region;  ///< none: all
   std::string bin;  ///< "0.5 to 1.0 m/s", "heading N", "first third", "after a step"; "" all
   double excess_share = 0.0;  ///< of all error above the floor
-  double p_value = 1.0;       ///< corrected for looking at every cell (max-T)
+  double p_value = 1.0;       ///< family-wise over all cells (max-T)
   GapKind kind = GapKind::kUnknown;
-  double mean = 0.0;  ///< error in nominal sigmas
+  double mean = 0.0;  ///< error, times the normal error
   std::size_t windows = 0;
 };
 
@@ -81,14 +82,14 @@ struct CausalEffect {
   std::string effect;
   std::vector<ParameterEstimate> parameters;
   std::string sentence;        ///< "port thruster 22 % weaker"
-  double shapley_share = 1.0;  ///< of what its combination closes
+  double shapley_share = 1.0;  ///< of what the effects of the cause explain together
 };
 
-/// One answer to "which": effects that act together; no effects: something the library lacks.
+/// Effects that act together; without effects, the unknown cause, which the library lacks.
 struct Cause {
   std::vector<CausalEffect> effects;
   double probability = 0.0;
-  std::vector<std::string> indistinguishable;       ///< effects this recording cannot tell it from
+  std::vector<std::string> indistinguishable;       ///< effects that explain this recording alike
   std::optional<ExcessExplained> excess_explained;  ///< at five seconds
 };
 
@@ -96,35 +97,35 @@ enum class Testability { kUnknown, kTestable, kMasked, kNotExcited };
 
 std::string_view Name(Testability testability);
 
-/// Whether this recording would show an effect.
+/// Whether this recording would show an effect at its typical size.
 struct EffectTestability {
   std::string effect;
   Testability testability = Testability::kUnknown;
   double detectability = 0.0;  ///< sigmas that its typical size would show
-  std::string masked_by;       ///< coefficient: "YAW uv"
+  std::string masked_by;       ///< coefficient, "YAW uv"; empty unless masked
 };
 
-/// A manoeuvre that would separate what is tied.
+/// A manoeuvre that separates effects which this recording does not.
 struct SeparationAdvice {
   std::string manoeuvre;
   std::string how;
   std::vector<std::string> separates;
   double duration_s = 0.0;
   double expected_nats = 0.0;
-  bool decisive = false;  ///< it is expected to settle the matter: above five nats
+  bool decisive = false;  ///< more than five nats are expected
 };
 
-/// When the first cause began, where that shows.
+/// When the first cause began to act.
 struct Onset {
   double time_s = 0.0;      ///< of the recording's clock
-  double earliest_s = 0.0;  ///< 95 %
+  double earliest_s = 0.0;  ///< of the 95 % interval
   double latest_s = 0.0;
 };
 
-/// What the pictures are drawn from.
+/// One window of the main horizon, for the figures of a report.
 struct WindowPicture {
   double time_s = 0.0;
-  double before = 0.0;  ///< error of this window in nominal sigmas
+  double before = 0.0;  ///< error of this window, times the normal error
   double after = 0.0;
   double psi_rad = 0.0;  ///< mean heading
   double speed_m_s = 0.0;
@@ -132,21 +133,22 @@ struct WindowPicture {
   /// Mean errors along (m), across (m) and in heading (rad) at the window's end, before and after.
   Eigen::Vector3d error_before = Eigen::Vector3d::Zero();
   Eigen::Vector3d error_after = Eigen::Vector3d::Zero();
-  std::vector<Eigen::Vector2d> measured;  ///< north, east (m), at equal steps through the window
+  std::vector<Eigen::Vector2d> measured;  ///< north, east (m), at equal steps in time
   std::vector<Eigen::Vector2d> predicted_before;
   std::vector<Eigen::Vector2d> predicted_after;
 };
 
-/// The old model and the one identified again with the likely effects, by their free runs on this
-/// recording's windows that did not take part in fitting.
+/// Free-run scores on this recording of the old model and of the one identified again with the
+/// likely effects. The latter was fitted to this recording.
 struct Improvement {
   std::vector<FreeRunScores> before;
   std::vector<FreeRunScores> after;
 };
 
-/// What a floor rests on.
+/// What the noise floor is measured on.
 enum class FloorBasis { kUnknown, kReferenceLogs, kSensorNoise };
 
+/// The result of Diagnose().
 struct Diagnosis {
   std::string vehicle_id;
   Verdict verdict = Verdict::kUnknown;
@@ -161,10 +163,10 @@ struct Diagnosis {
   std::vector<EffectTestability> effects;  ///< in the order of the library
   std::vector<SeparationAdvice> advice;    ///< best first
   std::optional<Onset> onset;
-  std::string rest;  ///< where what stays unexplained sits: "yaw, FR"; empty where none does
+  std::string rest;  ///< where the unexplained error sits: "yaw, FR"; empty where none does
   std::optional<Improvement> improvement;
   std::vector<WindowPicture> pictures;
-  std::vector<std::string> notes;  ///< what limits the answer
+  std::vector<std::string> notes;  ///< limitations, as sentences
   std::uint64_t seed = 0;
   std::string software_version;
 

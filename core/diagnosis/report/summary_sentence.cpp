@@ -15,7 +15,8 @@ std::string WithCapital(std::string text) {
   return text;
 }
 
-std::string WhatIsWrong(const Cause& cause) {
+/// The effects of a cause, with those that are indistinguishable from it.
+std::string EffectsIn(const Cause& cause) {
   std::string all;
   for (const CausalEffect& effect : cause.effects) {
     all.append(all.empty() ? "" : ", and ").append(effect.sentence);
@@ -25,11 +26,12 @@ std::string WhatIsWrong(const Cause& cause) {
   for (std::size_t i = 0; i < cause.indistinguishable.size(); ++i) {
     all.append(i == 0 ? "" : ", ").append(cause.indistinguishable[i]);
   }
-  return all + ": this recording cannot tell)";
+  return all + ": this recording does not separate them)";
 }
 
-std::string HowMuch(const std::optional<ExcessExplained>& excess_explained) {
-  if (!excess_explained) return "too little to see in the free runs' size";
+/// "81 % [74, 87] of the gap".
+std::string ShareIn(const std::optional<ExcessExplained>& excess_explained) {
+  if (!excess_explained) return "the free runs show no gap in size";
   const auto whole = [](double share) { return FormatNumber(100.0 * share, 0); };
   return whole(excess_explained->share) + " % [" + whole(excess_explained->interval.lower) + ", " +
          whole(excess_explained->interval.upper) + "] of the gap";
@@ -41,18 +43,17 @@ const Cause* FirstNamed(const Diagnosis& diagnosis) {
   return named == diagnosis.causes.end() ? nullptr : &*named;
 }
 
-/// Where no cause is named for sure: the likely one, if there is any.
-std::string WhatMayBeWrong(const Diagnosis& diagnosis, const std::string& times) {
+/// The likely cause where none is named, if there is one.
+std::string UncertainCause(const Diagnosis& diagnosis, const std::string& times) {
   const bool likely = !diagnosis.causes.empty() && !diagnosis.causes.front().effects.empty();
   if (likely) {
     const Cause& first = diagnosis.causes.front();
-    return "Most likely (" + FormatNumber(100.0 * first.probability, 0) +
-           " %), but not for sure, " + WhatIsWrong(first) + ": " + HowMuch(first.excess_explained) +
-           ".";
+    return "Most likely (" + FormatNumber(100.0 * first.probability, 0) + " %), but not certain, " +
+           EffectsIn(first) + ": " + ShareIn(first.excess_explained) + ".";
   }
-  return "Model and boat part (" + times +
-         " times the nominal error), by something the library does not hold" +
-         (diagnosis.rest.empty() ? "." : "; it sits in " + diagnosis.rest + ".");
+  return "The model no longer matches the boat (" + times +
+         " times the normal error), and no effect of the library explains it" +
+         (diagnosis.rest.empty() ? "." : "; the error sits in " + diagnosis.rest + ".");
 }
 
 }  // namespace
@@ -63,17 +64,18 @@ std::string SummarySentence(const Diagnosis& diagnosis) {
   const Cause* cause = FirstNamed(diagnosis);
   switch (diagnosis.verdict) {
     case Verdict::kNoMaterialGap:
-      return "No material gap: the model follows the boat as well as on nominal days (" + times +
-             " times their error).";
-    case Verdict::kInsufficientData: return "The data cannot tell whether model and boat part.";
+      return "No material gap: the model matches the boat as well as on the references (" + times +
+             " times the normal error).";
+    case Verdict::kInsufficientData:
+      return "The data cannot answer whether the model still matches the boat.";
     case Verdict::kExplained:
-      return WithCapital(WhatIsWrong(*cause)) + ": " + HowMuch(cause->excess_explained) +
+      return WithCapital(EffectsIn(*cause)) + ": " + ShareIn(cause->excess_explained) +
              "; the rest is within noise.";
     case Verdict::kPartlyExplained:
-      return WithCapital(WhatIsWrong(*cause)) + ": " + HowMuch(cause->excess_explained) +
+      return WithCapital(EffectsIn(*cause)) + ": " + ShareIn(cause->excess_explained) +
              "; the rest is unknown" +
              (diagnosis.rest.empty() ? "" : " and sits in " + diagnosis.rest) + ".";
-    case Verdict::kUnknownCause: return WhatMayBeWrong(diagnosis, times);
+    case Verdict::kUnknownCause: return UncertainCause(diagnosis, times);
     case Verdict::kUnknown: break;
   }
   return "Not diagnosed.";

@@ -6,7 +6,8 @@
 
 namespace telltale {
 
-/// The answer in one sentence: what, how sure, how much of the gap.
+/// The diagnosis in one sentence: the cause, its probability where it is not certain, and the share
+/// of the gap that it explains.
 std::string SummarySentence(const Diagnosis& diagnosis);
 
 }  // namespace telltale

@@ -1,0 +1,98 @@
+#include "telltale/core/diagnosis/report/build_report.hpp"
+
+#include <optional>
+#include <string>
+
+#include "telltale/core/base/version.hpp"
+#include "telltale/core/diagnosis/hypotheses/onset.hpp"
+#include "telltale/core/diagnosis/hypotheses/testability.hpp"
+#include "telltale/core/diagnosis/report/causes.hpp"
+#include "telltale/core/diagnosis/report/pictures.hpp"
+#include "telltale/core/diagnosis/report/separation_advice.hpp"
+#include "telltale/core/diagnosis/residuals/localisation.hpp"
+
+namespace telltale {
+namespace {
+
+std::vector<Gap> GapsOf(const ReportInputs& inputs) {
+  const Conclusion& conclusion = inputs.conclusion;
+  std::vector<Gap> gaps;
+  for (const HorizonErrors& horizon : inputs.horizons) {
+    std::optional<CrossValidatedErrors> after;
+    if (conclusion.is_likely) {
+      after = &horizon == &inputs.main ? conclusion.cross_validated
+                                       : CrossValidatedErrorsOf(conclusion.folds, horizon.runs,
+                                                                inputs.problem.nominal.boat);
+    }
+    gaps.push_back(GapAt(horizon, after, inputs.seed));
+  }
+  return gaps;
+}
+
+/// The cell with the most excess that is narrower than a channel: "yaw, FR".
+std::string NarrowestPlace(const std::vector<GapCell>& cells) {
+  for (const GapCell& cell : cells) {
+    if (!cell.region && cell.bin.empty()) continue;
+    std::string place(Name(cell.channel));
+    if (cell.region) place.append(", ").append(Name(*cell.region));
+    if (!cell.bin.empty()) place.append(", ").append(cell.bin);
+    return place;
+  }
+  return "";
+}
+
+/// Where the error sits that stays unexplained; empty where the gap is explained.
+std::string UnexplainedPlace(const ReportInputs& inputs, const std::vector<GapCell>& where) {
+  if (inputs.conclusion.verdict == Verdict::kExplained) return "";
+  if (inputs.conclusion.verdict != Verdict::kPartlyExplained) return NarrowestPlace(where);
+  return NarrowestPlace(Localise(inputs.recording, inputs.references,
+                                 inputs.problem.nominal.boat.With(inputs.conclusion.best.effects),
+                                 inputs.seed));
+}
+
+void Advise(const ReportInputs& inputs, Diagnosis& diagnosis) {
+  const RankedHypothesis& first = inputs.conclusion.ranking.fits.front();
+  if (!inputs.advise || first.equivalent.empty()) return;
+  diagnosis.advice = AdviseSeparatingManoeuvres(
+      first, inputs.problem.nominal, inputs.recording.sampling_period_s, inputs.recording.hull);
+  const bool is_decisive = !diagnosis.advice.empty() && diagnosis.advice.front().decisive;
+  if (is_decisive) return;
+  diagnosis.notes.push_back(
+      "No manoeuvre of the catalogue is sure to separate the effects that are indistinguishable. " +
+      AdviseSensor(first));
+}
+
+void DescribeMaterialGap(const ReportInputs& inputs, Diagnosis& diagnosis) {
+  diagnosis.where =
+      Localise(inputs.recording, inputs.references, inputs.problem.nominal.boat, inputs.seed);
+  diagnosis.rest = UnexplainedPlace(inputs, diagnosis.where);
+  diagnosis.causes = CausesOf(inputs.conclusion, inputs.problem, inputs.main, inputs.seed);
+  Advise(inputs, diagnosis);
+}
+
+}  // namespace
+
+Diagnosis BuildReport(const ReportInputs& inputs) {
+  const Conclusion& conclusion = inputs.conclusion;
+  Diagnosis diagnosis;
+  diagnosis.verdict = conclusion.verdict;
+  diagnosis.start_s = inputs.recording.StartTime();
+  diagnosis.end_s = inputs.recording.EndTime();
+  diagnosis.seed = inputs.seed;
+  diagnosis.software_version = Version();
+  diagnosis.gaps = GapsOf(inputs);
+  diagnosis.effects = TestabilityOf(inputs.problem, inputs.model, inputs.library);
+  if (conclusion.assessment == GapAssessment::kMaterial) DescribeMaterialGap(inputs, diagnosis);
+  if (conclusion.assessment == GapAssessment::kUndecided) {
+    diagnosis.notes.emplace_back(
+        "No effect of the library explains enough of the gap. Weather, or what the references "
+        "leave "
+        "uncertain about the boat, may account for it: record longer, or name more references.");
+  }
+  if (conclusion.is_likely) diagnosis.onset = OnsetOf(conclusion.best, inputs.problem);
+  diagnosis.pictures =
+      PicturesOf(inputs.recording, inputs.main, inputs.problem.nominal.boat, conclusion);
+  return diagnosis;
+}
+
+}  // namespace telltale

@@ -1,0 +1,27 @@
+#include "telltale/core/diagnosis/report/conclusion.hpp"
+
+namespace telltale {
+
+Conclusion Conclude(const Hypotheses& hypotheses, const DiagnosisProblem& problem,
+                    const HorizonErrors& main, std::uint64_t seed) {
+  Conclusion conclusion;
+  conclusion.best = BestHypothesis(hypotheses);
+  conclusion.folds = FitOnFolds(conclusion.best, problem);
+  conclusion.cross_validated =
+      CrossValidatedErrorsOf(conclusion.folds, main.runs, problem.nominal.boat);
+  conclusion.excess_explained =
+      ExcessExplainedAt(main, conclusion.cross_validated, kAllChannels, seed);
+  const LackOfFit lack_of_fit =
+      AssessLackOfFit(conclusion.best, conclusion.cross_validated, problem);
+  const Eigen::VectorXd gaps = main.SquaredGapsOf(kAllChannels);
+  conclusion.assessment =
+      AssessGap(gaps.mean(), UpperBound(gaps, BlocksOf(main.runs), seed),
+                main.floor.SquaredLimit(kAllChannels), conclusion.best.score, lack_of_fit);
+  conclusion.ranking = Rank(hypotheses, problem.metric, lack_of_fit);
+  conclusion.verdict =
+      VerdictOf(conclusion.assessment, conclusion.ranking, conclusion.excess_explained);
+  conclusion.is_likely = IsLikely(conclusion.assessment, conclusion.ranking);
+  return conclusion;
+}
+
+}  // namespace telltale
