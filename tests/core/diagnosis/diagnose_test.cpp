@@ -43,7 +43,7 @@ const Cause& FirstCause(const Result<DiagnosedModel>& diagnosed) {
   return diagnosed->diagnosis.causes.front();
 }
 
-TEST(Diagnose, FindsNothingWhereNothingIs) {
+TEST(Diagnose, FindsNoMaterialGapWithoutAnEffect) {
   const auto diagnosed = DiagnosedWith({});
   ASSERT_TRUE(diagnosed.has_value());
   EXPECT_EQ(diagnosed->diagnosis.verdict, Verdict::kNoMaterialGap);
@@ -51,7 +51,7 @@ TEST(Diagnose, FindsNothingWhereNothingIs) {
   EXPECT_THAT(diagnosed->diagnosis.sentence, HasSubstr("No material gap"));
 }
 
-TEST(Diagnose, NamesAWeakThrusterAndHowWeak) {
+TEST(Diagnose, NamesAWeakThrusterAndItsLoss) {
   const auto diagnosed = DiagnosedWith({{FindEffect("thruster_imbalance"), {-0.2}}});
   ASSERT_TRUE(diagnosed.has_value());
   EXPECT_EQ(diagnosed->diagnosis.verdict, Verdict::kExplained);
@@ -76,7 +76,7 @@ TEST(Diagnose, SeparatesSensorFaultsFromForces) {
   EXPECT_NEAR(cause.effects[0].parameters[0].estimate, 0.3, 0.05);
 }
 
-TEST(Diagnose, NamesTwoThatActTogether) {
+TEST(Diagnose, NamesTwoEffectsThatActTogether) {
   const auto diagnosed =
       DiagnosedWith({{FindEffect("thruster_lag"), {0.4}}, {FindEffect("heading_bias"), {0.09}}});
   ASSERT_TRUE(diagnosed.has_value());
@@ -87,10 +87,10 @@ TEST(Diagnose, NamesTwoThatActTogether) {
     shared += effect.shapley_share;
   }
   EXPECT_THAT(named, ::testing::UnorderedElementsAre("thruster_lag", "heading_bias"));
-  EXPECT_NEAR(shared, 1.0, 1e-9);  // Shapley values share out all that is closed
+  EXPECT_NEAR(shared, 1.0, 1e-9);  // Shapley shares add up to one
 }
 
-/// What pushes a boat and is no effect of the library.
+/// An acceleration that is no effect of the library.
 class Unlisted : public Effect {
  public:
   explicit Unlisted(std::string_view name)
@@ -104,8 +104,8 @@ class Unlisted : public Effect {
   std::string Describe(EffectValues) const override { return ""; }
 };
 
-/// A swell of one frequency, which the simulator can sail; of the library's waves it is told only
-/// how they scatter.
+/// A swell of one frequency and known phase, which the simulator can follow. The library's waves
+/// describe only how it scatters the windows.
 class Swell : public Unlisted {
  public:
   static constexpr double kFrequency = 2.5;
@@ -139,7 +139,7 @@ class Wash final : public Swell {
   }
 };
 
-TEST(Diagnose, DoesNotTakeWashForWaves) {
+TEST(Diagnose, DoesNotNameWavesForTheWashOfShips) {
   const Wash wash;
   const auto diagnosed = DiagnosedWith({{&wash, {}}});
   ASSERT_TRUE(diagnosed.has_value());
@@ -163,7 +163,7 @@ class Gusts final : public Unlisted {
   }
 };
 
-// The mean explains part of the gap alone; what gusts leave is no reason for doubt.
+// The mean wind explains a part of the gap. What gusts add does not lower the probability.
 TEST(Diagnose, NamesWindInGusts) {
   const Gusts gusts;
   const auto diagnosed = DiagnosedWith({{&gusts, {}}});
@@ -200,7 +200,7 @@ TEST(Diagnose, ReidentifiedModelPredictsTheRecordingBetter) {
   const auto old = Validate(another, testing::StableBoat(), {});
   const auto now = Validate(another, AugmentedModelOf(*diagnosed->augmented).value(), {});
   ASSERT_TRUE(old.has_value() && now.has_value());
-  // Thrust 30 % less leaves surge errors far above what sensors do; with it in they are gone.
+  // Surge errors of 30 % less thrust are far above sensor noise.
   EXPECT_LT(now->free_run[1].velocity[0].rmse, 0.3 * old->free_run[1].velocity[0].rmse);
 }
 
@@ -239,7 +239,7 @@ TEST(Diagnose, DoesNotDependOnThreads) {
   EXPECT_EQ(a->diagnosis.causes[0].probability, b->diagnosis.causes[0].probability);
 }
 
-TEST(Diagnose, SaysWhatItRestsOnWithoutReferences) {
+TEST(Diagnose, RestsOnSensorNoiseWithoutReferences) {
   const auto diagnosed = Diagnose(testing::SimulateWithEffects({}, 120.0, 7000), {},
                                   testing::KnownStableBoat(), "stable", TwoThreads());
   ASSERT_TRUE(diagnosed.has_value());
@@ -247,7 +247,7 @@ TEST(Diagnose, SaysWhatItRestsOnWithoutReferences) {
   EXPECT_EQ(diagnosed->diagnosis.reference_logs, 0U);
 }
 
-TEST(Diagnose, RefusesWhatItCannotJudge) {
+TEST(Diagnose, RefusesShortRecordingsOtherBoatsAndOptionsOutOfRange) {
   const auto model = testing::KnownStableBoat();
   const auto shorter = Diagnose(testing::SimulateWithEffects({}, 40.0, 7000), NominalRecordings(),
                                 model, "stable", {});

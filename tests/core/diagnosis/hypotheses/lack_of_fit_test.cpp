@@ -9,12 +9,12 @@
 namespace telltale {
 namespace {
 
-/// A nominal boat's recording and, as the explanation, an effect of no size: what is held against
-/// it is the test's to choose.
+/// A nominal boat's recording and, as the hypothesis, an effect of size zero. Tests choose its
+/// cross-validated errors.
 class LackOfFitTest : public ::testing::Test {
  protected:
   LackOfFit Left(const Eigen::MatrixXd& errors) const {
-    return AssessLackOfFit(explanation_, {errors, {}}, problem_);
+    return AssessLackOfFit(hypothesis_, {errors, {}}, problem_);
   }
 
   const UncertainModel model_ = UncertainModelOf(testing::KnownStableBoat()).value();
@@ -28,7 +28,7 @@ class LackOfFitTest : public ::testing::Test {
                                               recording_.errors, 2};
   const DiagnosisProblem problem_{runs_,   nominal_,        recording_,
                                   metric_, parameter_refs_, frequency_response_};
-  const EffectFit explanation_ = [] {
+  const EffectFit hypothesis_ = [] {
     EffectFit fit;
     fit.effects = {{FindEffect("thruster_lag"), {0.0}}};
     return fit;
@@ -41,7 +41,7 @@ TEST_F(LackOfFitTest, OfANominalBoatIsThatOfTheReferences) {
   EXPECT_LT(left.predictable, 0.05);
 }
 
-/// Half a typical size of one effect, whichever it is, left all along.
+/// Half a typical size of one effect, left throughout the recording.
 TEST_F(LackOfFitTest, IsPredictableWhereTheErrorIsTheSameEverywhere) {
   for (const char* effect : {"heading_bias", "thrust_gain", "antenna_lever_arm"}) {
     Eigen::MatrixXd errors = recording_.errors;
@@ -55,7 +55,7 @@ TEST_F(LackOfFitTest, IsPredictableWhereTheErrorIsTheSameEverywhere) {
   }
 }
 
-/// As much scatter again in every window, each for itself: nothing of one fold helps the other.
+/// Twice the variance, drawn independently in every window: no fold predicts the other.
 TEST_F(LackOfFitTest, IsNotPredictableWhereOnlyScatterGrows) {
   RandomEngine engine(5);
   boost::random::normal_distribution<double> normal;
@@ -69,21 +69,6 @@ TEST_F(LackOfFitTest, IsNotPredictableWhereOnlyScatterGrows) {
   const LackOfFit left = Left(errors);
   EXPECT_GT(left.after, 1.5 * left.before);
   EXPECT_LT(left.predictable, 0.05);
-}
-
-/// Half a minute, silence for as long, half a minute: each half is judged by the other.
-TEST(Folds, AreBothNonEmptyDespiteGaps) {
-  PreparedDataset torn = testing::SimulateWithEffects({}, 120.0, 500);
-  const auto half_minute = static_cast<std::size_t>(30.0 / torn.sampling_period_s) + 1;
-  const std::size_t first = torn.segments.front().begin;
-  torn.segments = {{first, first + half_minute},
-                   {first + 2 * half_minute, first + 3 * half_minute}};
-  torn.commands.assign(2, torn.commands.front());
-  torn.signals.assign(2, torn.signals.front());
-  const UncertainModel model = UncertainModelOf(testing::KnownStableBoat()).value();
-  const FreeRuns runs(torn, model.model, 5.0);
-  const auto folds = FoldsOf(runs);
-  for (std::size_t fold = 0; fold < kFolds; ++fold) EXPECT_GE(WindowsOf(folds, fold).size(), 5U);
 }
 
 }  // namespace

@@ -11,20 +11,20 @@ namespace {
 
 constexpr double kNoEvidence = 0.0;
 constexpr double kStrongEvidence = -50.0;
-const LackOfFit kLikeHealth{.before = 1.0, .after = 0.95, .nominal = 0.95};
+const LackOfFit kLikeNominal{.before = 1.0, .after = 0.95, .nominal = 0.95};
 
 TEST(GapAssessment, IsWithinNominalOnlyIfTheUpperBoundIs) {
-  EXPECT_EQ(AssessGap(1.0, 1.3, 1.5, kNoEvidence, kLikeHealth), GapAssessment::kWithinNominal);
-  // As small, but so short a recording that it could be far larger.
-  EXPECT_EQ(AssessGap(1.0, 9.0, 1.5, kNoEvidence, kLikeHealth), GapAssessment::kUndecided);
-  // Larger than nominal days, and nothing speaks for any effect.
-  EXPECT_EQ(AssessGap(2.0, 2.2, 1.5, kNoEvidence, kLikeHealth), GapAssessment::kUndecided);
+  EXPECT_EQ(AssessGap(1.0, 1.3, 1.5, kNoEvidence, kLikeNominal), GapAssessment::kWithinNominal);
+  // As small, but of a recording so short that the upper bound is far larger.
+  EXPECT_EQ(AssessGap(1.0, 9.0, 1.5, kNoEvidence, kLikeNominal), GapAssessment::kUndecided);
+  // Larger than the limit, without evidence for any effect.
+  EXPECT_EQ(AssessGap(2.0, 2.2, 1.5, kNoEvidence, kLikeNominal), GapAssessment::kUndecided);
 }
 
 TEST(GapAssessment, IsMaterialForHighScoreOrLargeLackOfFit) {
-  EXPECT_EQ(AssessGap(1.0, 1.3, 1.5, kStrongEvidence, kLikeHealth), GapAssessment::kMaterial);
-  const LackOfFit wild{.before = 4.0, .after = 3.9, .nominal = 0.95};
-  EXPECT_EQ(AssessGap(1.0, 1.3, 1.5, kNoEvidence, wild), GapAssessment::kMaterial);
+  EXPECT_EQ(AssessGap(1.0, 1.3, 1.5, kStrongEvidence, kLikeNominal), GapAssessment::kMaterial);
+  const LackOfFit large{.before = 4.0, .after = 3.9, .nominal = 0.95};
+  EXPECT_EQ(AssessGap(1.0, 1.3, 1.5, kNoEvidence, large), GapAssessment::kMaterial);
 }
 
 TEST(Verdict, FollowsAssessmentProbabilityAndExcessExplained) {
@@ -36,12 +36,12 @@ TEST(Verdict, FollowsAssessmentProbabilityAndExcessExplained) {
   EXPECT_EQ(VerdictOf(GapAssessment::kUndecided, ranking, most), Verdict::kInsufficientData);
   EXPECT_EQ(VerdictOf(GapAssessment::kMaterial, ranking, most), Verdict::kExplained);
   EXPECT_EQ(VerdictOf(GapAssessment::kMaterial, ranking, half), Verdict::kPartlyExplained);
-  // Likelier than all else together, but not by nine to one.
+  // More probable than all else together, but by less than nine to one.
   ranking.fits.front().probability = 0.85;
   EXPECT_EQ(VerdictOf(GapAssessment::kMaterial, ranking, most), Verdict::kUnknownCause);
 }
 
-TEST(Verdict, FollowsUpWhatIsLikelierThanNot) {
+TEST(IsLikely, HoldsForAMaterialGapWhoseCauseIsProbablyKnown) {
   Ranking ranking;
   EXPECT_FALSE(IsLikely(GapAssessment::kMaterial, ranking));
   ranking.fits.emplace_back();
@@ -52,7 +52,7 @@ TEST(Verdict, FollowsUpWhatIsLikelierThanNot) {
   EXPECT_FALSE(IsLikely(GapAssessment::kMaterial, ranking));
 }
 
-/// At its typical size, shaped as usual.
+/// An effect at its typical size, with shapes at their prior means.
 ModelledEffect AtPriorMean(const char* name) {
   ModelledEffect modelled{FindEffect(name), {}};
   for (const EffectParameter& parameter : modelled.effect->Parameters()) {
@@ -64,8 +64,8 @@ ModelledEffect AtPriorMean(const char* name) {
 struct RankedBoat {
   UncertainModel model = UncertainModelOf(testing::KnownStableBoat()).value();
   std::vector<EffectParameterRef> parameter_refs = EffectParameterRefsOf(EffectLibrary());
-  PreparedDataset sailed = testing::SimulateWithEffects({}, 120.0, 500);
-  FreeRuns runs{sailed, model.model, 5.0};
+  PreparedDataset dataset = testing::SimulateWithEffects({}, 120.0, 500);
+  FreeRuns runs{dataset, model.model, 5.0};
   NominalBaseline nominal = LearnNominalBaseline({runs}, model, parameter_refs, 2);
   Sensitivity recording = SensitivityOf(runs, nominal.boat, model, parameter_refs, 2);
   ResidualMetric metric{nominal, recording, EveryWindow(recording), false};
@@ -80,14 +80,14 @@ struct RankedBoat {
   }
 };
 
-// Two explanations that predict the same are one class with the probability of both; one that only
-// shakes predicts no path, and is none of theirs.
+// Two hypotheses that predict the same are one class with the probability of both. A stochastic
+// effect predicts no path and is in no class with them.
 TEST(Rank, MergesHypothesesThatPredictTheSame) {
   const RankedBoat boat;
   Hypotheses hypotheses;
   hypotheses.singles = {boat.Scored("thruster_lag", -40.0), boat.Scored("thruster_delay", -38.0),
                         boat.Scored("waves", -36.0)};
-  const Ranking ranking = Rank(hypotheses, boat.metric, kLikeHealth);
+  const Ranking ranking = Rank(hypotheses, boat.metric, kLikeNominal);
   ASSERT_EQ(ranking.fits.size(), 2U);
   EXPECT_EQ(ranking.fits[0].Indistinguishable(), std::vector<std::string>{"thruster_delay"});
   EXPECT_EQ(ranking.fits[1].fit.Names(), std::vector<std::string>{"waves"});
@@ -96,7 +96,6 @@ TEST(Rank, MergesHypothesesThatPredictTheSame) {
   EXPECT_NEAR(sum, 1.0, 1e-12);
 }
 
-// The more an explanation leaves, the likelier it is something else.
 TEST(Rank, UnknownProbabilityGrowsWithLackOfFit) {
   const RankedBoat boat;
   Hypotheses hypotheses;
@@ -111,7 +110,7 @@ TEST(Rank, UnknownProbabilityGrowsWithLackOfFit) {
   EXPECT_GT(lower_unknown_probability, 0.95);
 }
 
-// Where little speaks for an explanation, as little is missed of what another leaves.
+// With little evidence, what another cause would leave is not resolved.
 TEST(Rank, UnknownProbabilityGrowsWithWeakEvidence) {
   const RankedBoat boat;
   const auto doubt = [&](double score) {
@@ -125,7 +124,7 @@ TEST(Rank, UnknownProbabilityGrowsWithWeakEvidence) {
   EXPECT_LT(doubt(-100.0), 0.05);
 }
 
-// Two that mend between them what neither of them is are likelier to be mistaken than one.
+// Two effects may imitate a third between them.
 TEST(Rank, UnknownProbabilityGrowsWithTheNumberOfEffects) {
   const RankedBoat boat;
   Hypotheses alone;
@@ -138,8 +137,8 @@ TEST(Rank, UnknownProbabilityGrowsWithTheNumberOfEffects) {
             Rank(alone, boat.metric, lack_of_fit).unknown);
 }
 
-// What could be learnt from the rest is something that the explanation lacks; that nothing can be
-// learnt does not make it the likelier.
+// What is predictable in the errors is something that the hypothesis lacks. Negative values do not
+// count in its favour.
 TEST(Rank, UnknownProbabilityGrowsWithPredictableResiduals) {
   const RankedBoat boat;
   Hypotheses hypotheses;
@@ -153,8 +152,7 @@ TEST(Rank, UnknownProbabilityGrowsWithPredictableResiduals) {
   EXPECT_EQ(doubt(-0.3), doubt(0.0));
 }
 
-// A load as far forward as there is boat, or twice its mass, is as much of a load: only where it
-// would have to be to explain what is seen makes it doubtful.
+// The place of a payload is a shape parameter and counts; its mass is a size and does not.
 TEST(Rank, UnknownProbabilityGrowsWithTheNegativeLogPrior) {
   const RankedBoat boat;
   const auto doubt = [&](double mass_gain, double forward_m) {
@@ -167,15 +165,6 @@ TEST(Rank, UnknownProbabilityGrowsWithTheNegativeLogPrior) {
   EXPECT_GT(doubt(0.2, 0.3), doubt(0.2, 0.0));
   EXPECT_GT(doubt(0.2, -0.6), doubt(0.2, 0.3));
   EXPECT_EQ(doubt(0.4, 0.3), doubt(0.2, 0.3));
-}
-
-TEST(EffectFit, NegativeLogPriorCountsShapesInStandardDeviations) {
-  EffectFit fit;
-  fit.effects = {AtPriorMean("payload")};
-  EXPECT_EQ(fit.NegativeLogPrior(), 0.0);
-  const EffectParameter& forward = fit.effects.front().effect->Parameters()[1];
-  fit.effects.front().values[1] = forward.prior_mean + 3.0 * forward.typical;
-  EXPECT_NEAR(fit.NegativeLogPrior(), 4.5, 1e-12);
 }
 
 }  // namespace

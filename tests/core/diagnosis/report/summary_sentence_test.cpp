@@ -9,7 +9,7 @@
 namespace telltale {
 namespace {
 
-/// A gap of twice the nominal error, put down to thrust that is late, as likely as that.
+/// A gap of twice the normal error, caused by late thrust with the given probability.
 Diagnosis LateThrust(Verdict verdict, double probability) {
   Diagnosis diagnosis = MadeUpDiagnosis();
   for (Gap& gap : diagnosis.gaps) {
@@ -29,20 +29,21 @@ Diagnosis LateThrust(Verdict verdict, double probability) {
   return diagnosis;
 }
 
-TEST(Sentence, NamesACauseOutrightWhereItIsSure) {
+TEST(SummarySentence, NamesACertainCause) {
   EXPECT_EQ(SummarySentence(LateThrust(Verdict::kExplained, 0.9)),
             "Thrust 0.15 s late: 81 % [74, 87] of the gap; the rest is within noise.");
 }
 
-TEST(Sentence, SaysHowLikelyACauseIsThatIsNotSure) {
+TEST(SummarySentence, GivesTheProbabilityOfAnUncertainCause) {
   EXPECT_EQ(SummarySentence(LateThrust(Verdict::kUnknownCause, 0.66)),
-            "Most likely (66 %), but not for sure, thrust 0.15 s late: 81 % [74, 87] of the gap.");
+            "Most likely (66 %), but not certain, thrust 0.15 s late: 81 % [74, 87] of the gap.");
 }
 
-TEST(Sentence, NamesNothingThatIsUnlikely) {
-  EXPECT_EQ(SummarySentence(LateThrust(Verdict::kUnknownCause, 0.3)),
-            "Model and boat part (2.0 times the nominal error), by something the library does not "
-            "hold; it sits in yaw, FR.");
+TEST(SummarySentence, NamesNoUnlikelyCause) {
+  EXPECT_EQ(
+      SummarySentence(LateThrust(Verdict::kUnknownCause, 0.3)),
+      "The model no longer matches the boat (2.0 times the normal error), and no effect of the "
+      "library explains it; the error sits in yaw, FR.");
 }
 
 }  // namespace
