@@ -19,7 +19,6 @@ struct HorizonConstants {
 /// Free runs, docs/concepts/diagnosis.md (82), (83).
 struct FreeRunConstants {
   double bins_per_window = 10.0;             ///< 1, none shorter than a sampling period
-  double largest_error = 1e3;                ///< m and rad, limit of a single error; convention
   double minimum_position_noise_m = 0.005;   ///< m, floor of the weight of a fix; convention
   double minimum_heading_noise_rad = 0.001;  ///< rad, floor of the weight of a heading; convention
 };

@@ -7,7 +7,7 @@ class BodyBiasEffect final : public Effect {
  public:
   BodyBiasEffect()
       : Effect({.name = "body_bias",
-                .title = "a steady push that turns with the boat",
+                .title = "a constant force that turns with the boat",
                 .equation = "nu_dot += (X0, Y0, N0)",
                 .source = "Fossen 2011, chapter 8, forces constant in the body frame",
                 .parameters = {{"surge", "m/s^2", 0.05, -1.0, 1.0},
@@ -18,7 +18,7 @@ class BodyBiasEffect final : public Effect {
                 .nominal_variation = NominalVariation::kInCoefficients}) {}
 
   std::string Describe(EffectValues values) const override {
-    return "a steady push of " + FormatNumber(values[0], 3) + " m/s^2 ahead, " +
+    return "a constant acceleration of " + FormatNumber(values[0], 3) + " m/s^2 ahead, " +
            FormatNumber(values[1], 3) + " m/s^2 to starboard and " + FormatNumber(values[2], 3) +
            " rad/s^2 to starboard";
   }

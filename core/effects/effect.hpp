@@ -18,7 +18,7 @@
 namespace telltale {
 
 /// One unknown of an effect. Assumes: zero means that the effect is not there, unless it only says
-/// how the others act (a ratio), which `shapes` marks.
+/// how the others act (a ratio), which `is_shape` marks.
 struct EffectParameter {
   std::string_view name;
   std::string_view unit;
@@ -60,8 +60,8 @@ using EffectValues = std::span<const double>;
 /// Which of its hooks an effect overrides among those that are called at every step.
 enum class Hook { kNone, kCommand, kThrustShare, kAcceleration };
 
-/// Where a healthy boat's lasting share of an effect is found: in the effect itself, in the model's
-/// coefficients, or nowhere, since weather passes.
+/// Where a nominal boat's share of an effect is estimated: as a fixed effect, in the model's
+/// coefficients, or as a random effect of each recording, as weather is.
 enum class NominalVariation { kFixedEffect, kInCoefficients, kRecordingEffect };
 
 /// What an effect is, for people and reports.
@@ -94,7 +94,7 @@ class Effect {
   const EffectFacts& Facts() const { return facts_; }
   std::span<const EffectParameter> Parameters() const { return facts_.parameters; }
 
-  /// Whether it shakes the boat at random instead of moving it in a way that free runs can follow.
+  /// Whether it excites the boat with random phase, which free runs cannot follow.
   bool IsStochastic() const {
     return StochasticExcitation(std::vector<double>(facts_.parameters.size(), 1.0)).has_value();
   }
@@ -115,7 +115,7 @@ class Effect {
   virtual Eigen::Vector2d Current(EffectValues) const { return Eigen::Vector2d::Zero(); }
   /// What else accelerates the boat. Hook::kAcceleration.
   virtual NuDot AddedAcceleration(EffectValues, const InstantState&) const { return {}; }
-  /// What else shakes it.
+  /// The stochastic excitation of the boat.
   virtual std::optional<NarrowBandExcitation> StochasticExcitation(EffectValues) const {
     return std::nullopt;
   }

@@ -129,12 +129,12 @@ inline Diagnosis MadeUpDiagnosis() {
   return made;
 }
 
-/// A healthy boat on a short recording: as little as a diagnosis can hold.
+/// A nominal boat on a short recording: as little as a diagnosis can hold.
 inline Diagnosis MadeUpNominalDiagnosis() {
   Diagnosis made;
   made.vehicle_id = "made-up.1";
   made.verdict = Verdict::kNoMaterialGap;
-  made.sentence = "No material gap: the model misses this recording as little as a healthy one.";
+  made.sentence = "No material gap: the model predicts this recording as well as a nominal one.";
   made.floor_basis = FloorBasis::kSensorNoise;
   made.end_s = 75.0;
   Gap gap = MadeUpGap(5.0, 15);

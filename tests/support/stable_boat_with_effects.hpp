@@ -10,7 +10,7 @@
 
 namespace telltale::testing {
 
-/// The stable boat with effects, sailed and measured by RTK-like sensors, prepared.
+/// The stable boat with effects, simulated and measured by RTK-like sensors, prepared.
 inline PreparedDataset SimulateWithEffects(const std::vector<ModelledEffect>& effects,
                                            double duration_s, std::uint64_t seed) {
   const AugmentedModel boat{StableBoat(), effects};

@@ -8,27 +8,23 @@
 #include "telltale/core/base/linear_algebra/covariance.hpp"
 #include "telltale/core/base/linear_algebra/eigen_decompositions.hpp"
 #include "telltale/core/diagnosis/baseline/residual_metric.hpp"
+#include "telltale/core/diagnosis/diagnosis_constants.hpp"
 
 namespace telltale {
 namespace {
 
-// Of the typical size: what a nominal boat may always have of an effect, and its day of weather,
-// believed as if one recording had shown it.
-constexpr double kPriorEffectSize = 0.1;
-constexpr double kPriorRecordings = 1.0;
-constexpr double kInitialFixedEffectSd =
-    0.5;  // typical sizes of what a boat may always have, to begin with
-constexpr double kCoefficientPriorScale =
-    10.0;  // by how many of its standard errors a model may be off
+constexpr double kPriorEffectSize = kDiagnosis.baseline.prior_effect_size;
+constexpr double kPriorRecordings = kDiagnosis.baseline.prior_recordings;
+constexpr double kInitialFixedEffectSd = kDiagnosis.baseline.initial_fixed_effect_sd;
+constexpr double kCoefficientPriorScale = kDiagnosis.baseline.coefficient_prior_scale;
 constexpr double kNegligibleSd = 1e-6;
-constexpr double kMaximumOptimism = 10.0;
-constexpr int kMaximumRecalibrations = 8;  // at most
-constexpr double kConvergedRatio =
-    0.995;                          // of the squares: smaller gains are not worth another round
-constexpr double kSlopeStep = 0.1;  // in typical sizes
-constexpr int kRounds = 2;          // of scatter and unknowns in turn
-constexpr int kIterations = 25;     // of unknowns and sizes in turn
-constexpr std::array kStepLengths = {1.0, 0.7, 0.5, 0.35, 0.25, 0.12, 0.06, 0.03};  // of a step
+constexpr double kMaximumOptimism = kDiagnosis.baseline.maximum_optimism;
+constexpr int kMaximumRecalibrations = kDiagnosis.baseline.maximum_recalibrations;
+constexpr double kConvergedRatio = kDiagnosis.baseline.converged_ratio;
+constexpr double kSlopeStep = kDiagnosis.baseline.slope_step;
+constexpr int kRounds = kDiagnosis.baseline.covariance_rounds;
+constexpr int kIterations = kDiagnosis.baseline.variance_iterations;
+constexpr std::array kStepLengths = kDiagnosis.baseline.step_lengths;
 
 Eigen::MatrixXd SecondMoment(const std::vector<Eigen::MatrixXd>& residuals) {
   const Eigen::Index rows = residuals.front().rows();
@@ -39,7 +35,10 @@ Eigen::MatrixXd SecondMoment(const std::vector<Eigen::MatrixXd>& residuals) {
     windows += static_cast<double>(residual.cols());
   }
   sum /= windows;
-  const double shrink = std::clamp(0.15 * static_cast<double>(rows) / windows, 0.01, 0.3);
+  const double shrink =
+      std::clamp(kDiagnosis.baseline.covariance_shrinkage * static_cast<double>(rows) / windows,
+                 kDiagnosis.baseline.minimum_covariance_shrinkage,
+                 kDiagnosis.baseline.maximum_covariance_shrinkage);
   const Eigen::VectorXd diagonal = sum.diagonal();
   sum *= 1.0 - shrink;
   sum.diagonal() += shrink * diagonal;
@@ -59,12 +58,12 @@ double Kappa(const Eigen::LLT<Eigen::MatrixXd>& factor,
     }
   }
   const double rho = square > 0.0 ? product / square : 0.0;
-  return std::clamp((1.0 - rho) / (1.0 + rho), 0.1, 1.0);
+  return std::clamp((1.0 - rho) / (1.0 + rho), kDiagnosis.baseline.minimum_kappa, 1.0);
 }
 
-/// What is estimated from nominal recordings, as one stack of unknowns: coefficients, lasting
-/// effects, then the weather of each day. All are changes of the boat about which the sensitivities
-/// were taken, but for the weather, which is taken anew.
+/// The mixed-effects fit to the nominal recordings. Unknowns, stacked: coefficients, fixed effects,
+/// then the per-recording random effects of each day. The first two are changes of the boat about
+/// which the sensitivities are; the random effects are estimated anew at each step.
 class NominalBaselineFit {
  public:
   NominalBaselineFit(const UncertainModel& model,
@@ -144,7 +143,7 @@ class NominalBaselineFit {
         .reshaped(recording.errors.rows(), recording.errors.cols());
   }
 
-  /// What would be left of a recording's errors if sensitivities told all.
+  /// A recording's errors after the step, if they were linear.
   Eigen::MatrixXd PredictedResiduals(const Sensitivity& recording, std::size_t day) const {
     const Eigen::VectorXd left =
         recording.errors.reshaped() +
@@ -218,7 +217,7 @@ class NominalBaselineFit {
 
   Eigen::Index coefficient_count_;
   Eigen::Index parameter_refs_;
-  std::vector<Eigen::Index> random_;  // slots of weather
+  std::vector<Eigen::Index> random_;  // columns of per-recording effects
   Eigen::Index days_;
   Eigen::VectorXd coefficients_;
   Eigen::VectorXd fixed_;
@@ -251,7 +250,7 @@ std::vector<Sensitivity> SensitivitiesOf(const std::vector<FreeRuns>& recordings
   return sensitivities;
 }
 
-/// A boat on its way to how it sails on nominal days.
+/// Gauss-Newton estimation of the nominal boat, with new slopes at each step.
 class BaselineEstimation {
  public:
   BaselineEstimation(const std::vector<FreeRuns>& recordings, const UncertainModel& model,
@@ -270,8 +269,8 @@ class BaselineEstimation {
   bool Improve() {
     sensitivities_ =
         SensitivitiesOf(recordings_, boat_, model_, parameter_refs_, threads_, kSlopeStep);
-    // Weighed by the scatter that sensitivities promise to leave: by the present one, whatever the
-    // boat still does wrong would count as noise and stay.
+    // Whitened by the scatter that the slopes predict to be left. The present scatter would count
+    // what the boat still does wrong as noise.
     for (int round = 0; round < kRounds; ++round) {
       Reestimate();
       for (std::size_t day = 0; day < errors_.size(); ++day) {

@@ -7,15 +7,16 @@
 
 #include "telltale/core/base/linear_algebra/covariance.hpp"
 #include "telltale/core/base/linear_algebra/eigen_decompositions.hpp"
+#include "telltale/core/diagnosis/diagnosis_constants.hpp"
 
 namespace telltale {
 namespace {
 
 // In standard errors of the model: as good as free.
-constexpr double kUnboundedPrior = 100.0;
+constexpr double kUnboundedPrior = kDiagnosis.metric.free_coefficient_sd;
 // A window that errs by more root mean square sigmas than this counts as erring by so many: a model
-// that has run away says that it is wrong, not how much.
-constexpr double kMaximumSigmas = 50.0;
+// that has diverged says that it is wrong, not how much.
+constexpr double kMaximumSigmas = kDiagnosis.metric.largest_sigmas;
 constexpr double kNothing = 1e-12;
 
 Eigen::MatrixXd RootOf(const Eigen::MatrixXd& covariance) {

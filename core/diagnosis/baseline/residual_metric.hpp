@@ -8,15 +8,16 @@
 
 #include "telltale/core/base/linear_algebra/eigen_decompositions.hpp"
 #include "telltale/core/diagnosis/baseline/nominal_baseline.hpp"
+#include "telltale/core/diagnosis/diagnosis_constants.hpp"
 #include "telltale/core/diagnosis/residuals/sensitivity.hpp"
 
 namespace telltale {
 
-/// Independent looks at a boat that a window amounts to, docs/concepts/diagnosis.md (89).
-inline constexpr double kObservationsPerWindow = 0.5;
+/// Effective independent observations of a window, docs/concepts/diagnosis.md (89).
+inline constexpr double kObservationsPerWindow = kDiagnosis.metric.observations_per_window;
 
-/// Weighs the errors of one recording by what a nominal boat may do: scatter from window to window,
-/// coefficients and lasting effects off by what their covariance leaves, and a day's weather.
+/// Whitens the errors of one recording and marginalises what varies in a nominal boat: scatter from
+/// window to window, coefficients and fixed effects by their covariance, and a day's weather.
 /// Model: (y, z) = kappa y' V^-1 z with V the nominal covariance of all errors together, by the
 /// matrix inversion lemma; docs/concepts/diagnosis.md (87).
 class ResidualMetric {
@@ -34,13 +35,13 @@ class ResidualMetric {
   bool FreesCoefficients() const { return frees_coefficients_; }
 
   /// The errors of a model (rows x all windows) as they count: whitened, of the windows that count,
-  /// none larger than a lost boat.
+  /// none larger than that of a diverged model.
   Eigen::VectorXd Whiten(const Eigen::MatrixXd& errors) const;
 
   /// Columns of stacked errors likewise, however large.
   Eigen::MatrixXd WhitenColumns(const Eigen::MatrixXd& stacked) const;
 
-  /// What is left of seen errors once all that may vary in health is weighed in.
+  /// Whitened errors times V^-1: what nominal variation does not explain.
   Eigen::MatrixXd Marginalise(const Eigen::MatrixXd& seen) const;
 
   double SquaredMahalanobis(const Eigen::VectorXd& seen) const {
@@ -55,31 +56,33 @@ class ResidualMetric {
   /// The square that a nominal boat is expected to leave.
   double ExpectedSquare() const;
 
-  /// Rows of errors that amount to one look.
+  /// Rows of errors per effective observation.
   double RowsPerObservation() const {
     return static_cast<double>(factor_.rows()) / kObservationsPerWindow;
   }
 
-  /// How many independent looks at the boat the recording amounts to: errors within a window, and
-  /// what a model leaves wrong everywhere alike, vary together.
+  /// Effective independent observations of the recording: errors within a window are correlated,
+  /// and so is what a model leaves wrong everywhere.
   double EffectiveObservations() const;
 
   /// -2 ln of how much likelier what leaves one square is than what leaves the other, if the scale
-  /// of errors is not known: looks ln(square / than); docs/concepts/diagnosis.md (89).
+  /// of errors is not known: n ln(square / than), n effective observations;
+  /// docs/concepts/diagnosis.md (89).
   double Deviance(double square, double than) const;
 
-  /// What allowing for more costs: ln of how much wider it makes all windows, counted by looks.
+  /// What allowing for more costs: ln of how much wider it makes all windows, counted by effective
+  /// observations.
   double VariationPenalty() const { return variation_penalty_; }
 
-  /// By how many sigmas something shows, counted by looks.
+  /// By how many sigmas something shows, counted by effective observations.
   double Sigmas(const Eigen::VectorXd& seen) const;
 
-  /// Seen errors less the most probable part of what may vary in health.
+  /// Whitened errors less the most probable nominal variation.
   Eigen::VectorXd Unexplained(const Eigen::VectorXd& seen) const {
     return Marginalise(seen).col(0);
   }
 
-  /// The same by window, rows x windows, of unit variance in health.
+  /// The same by window, rows x windows, of unit variance for a nominal boat.
   Eigen::MatrixXd UnexplainedByWindow(const Eigen::VectorXd& seen) const;
 
   /// How the coefficients most probably differ from the nominal boat's, and how certain that is.
@@ -112,7 +115,8 @@ class ResidualMetric {
   double variation_penalty_ = 0.0;
 };
 
-/// Nats that so many looks yield against what adds this share to the square that the truth leaves.
+/// Nats that so many effective observations yield against what adds this share to the square that
+/// the truth leaves.
 inline double LogEvidenceOf(double effective_observations, double share) {
   return 0.5 * effective_observations * std::log1p(share);
 }

@@ -6,6 +6,7 @@
 
 #include "telltale/core/base/contract.hpp"
 #include "telltale/core/base/linear_algebra/eigen_decompositions.hpp"
+#include "telltale/core/diagnosis/diagnosis_constants.hpp"
 #include "telltale/core/effects/augmented_boat.hpp"
 #include "telltale/core/effects/sensor_chain.hpp"
 #include "telltale/core/simulation/divergence.hpp"
@@ -13,7 +14,7 @@
 namespace telltale {
 namespace {
 
-constexpr double kBinsPerWindow = 10.0;
+constexpr double kBinsPerWindow = kDiagnosis.free_runs.bins_per_window;
 // Stamps of seconds since 1970 are exact to a fraction of a microsecond.
 constexpr double kSameBin = 1e-4;
 // Steps by which a start is varied: metres, radians, m/s, rad/s. Small against what windows show,
@@ -94,8 +95,10 @@ FreeRuns::FreeRuns(const PreparedDataset& dataset, const VesselModel& base, doub
           offset[i];
     }
   }
-  const double position = std::max(dataset.sensors.position_noise_m, 0.005);
-  const double heading = std::max(dataset.sensors.heading_noise_rad, 0.001);
+  const double position =
+      std::max(dataset.sensors.position_noise_m, kDiagnosis.free_runs.minimum_position_noise_m);
+  const double heading =
+      std::max(dataset.sensors.heading_noise_rad, kDiagnosis.free_runs.minimum_heading_noise_rad);
   for (Window& window : windows_) {
     Eigen::VectorXd weights = window.per_bin;
     for (Eigen::Index i = 0; i < weights.size(); ++i) {

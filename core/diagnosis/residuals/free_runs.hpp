@@ -11,13 +11,13 @@
 
 namespace telltale {
 
-/// Non-overlapping windows of a recording that models sail freely, and what they miss by.
+/// Free runs of models over non-overlapping windows of a recording, and their errors.
 ///
-/// A window is divided into equal bins. In each the mean miss (measured less predicted) is taken of
-/// the antenna's position, along and across the measured heading, and of the heading. The sensor
+/// A window is divided into equal bins. In each the mean error (measured less predicted) is taken
+/// of the antenna's position, along and across the measured heading, and of the heading. The sensor
 /// chain is the model's: latency, lever arm and heading error act on what is predicted.
 /// Shapes: errors are 3 bins x windows, by bin along (m), across (m), heading (rad).
-/// The state in which a window starts is estimated, by least squares on the window's own misses
+/// The state in which a window starts is estimated, by least squares on the window's own errors
 /// with the base model's derivatives, so that errors are what no start explains;
 /// docs/concepts/diagnosis.md (82), (83).
 class FreeRuns {

@@ -7,17 +7,18 @@
 #include "telltale/core/base/contract.hpp"
 #include "telltale/core/base/linear_algebra/covariance.hpp"
 #include "telltale/core/base/parallel.hpp"
+#include "telltale/core/diagnosis/diagnosis_constants.hpp"
 
 namespace telltale {
 namespace {
 
-constexpr std::size_t kFrequencies = 12;
+constexpr std::size_t kFrequencies = kDiagnosis.linearisation.frequencies;
 
-/// Pushes along one axis at one frequency and phase, an acceleration of one.
+/// An acceleration along one axis, of one frequency and phase.
 class HarmonicAcceleration final : public Effect {
  public:
   HarmonicAcceleration(std::size_t axis, double frequency_rad_s, double phase_rad)
-      : Effect({.name = "swing",
+      : Effect({.name = "harmonic_acceleration",
                 .title = "",
                 .equation = "",
                 .source = "",
@@ -35,7 +36,7 @@ class HarmonicAcceleration final : public Effect {
     return {axis_ == 0 ? push : 0.0, axis_ == 1 ? push : 0.0, axis_ == 2 ? push : 0.0};
   }
 
-  static constexpr double kAcceleration = 0.05;  // small enough to stay linear
+  static constexpr double kAcceleration = kDiagnosis.linearisation.harmonic_acceleration;
 
  private:
   std::size_t axis_;
@@ -52,8 +53,8 @@ ResponseMoments ResponseMomentsAt(double frequency_rad_s, const FreeRuns& runs,
   for (std::size_t axis = 0; axis < patterns.size(); ++axis) {
     patterns[axis] = Eigen::MatrixXd::Zero(errors.rows(), errors.rows());
     for (const double phase : {0.0, -std::numbers::pi / 2.0}) {
-      const HarmonicAcceleration swing(axis, frequency_rad_s, phase);
-      const ModelledEffect stochastic{&swing, {}};
+      const HarmonicAcceleration harmonic(axis, frequency_rad_s, phase);
+      const ModelledEffect stochastic{&harmonic, {}};
       const Eigen::MatrixXd response =
           (runs.Errors(boat.With({&stochastic, 1})) - errors) / HarmonicAcceleration::kAcceleration;
       patterns[axis] += 0.5 / windows * OfRoot(response);

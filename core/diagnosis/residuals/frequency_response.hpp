@@ -22,8 +22,8 @@ using ResponseMoments = std::array<Eigen::MatrixXd, 3>;
 ResponseMoments ResponseMomentsAt(double frequency_rad_s, const FreeRuns& runs,
                                   const AugmentedModel& boat, const Eigen::MatrixXd& errors);
 
-/// A recording's swing patterns at a dozen frequencies over the range of each effect that shakes,
-/// in even ratios.
+/// The response moments of a recording over the frequency range of each stochastic effect, at
+/// frequencies in even ratios.
 class FrequencyResponse {
  public:
   struct Band {
@@ -35,7 +35,7 @@ class FrequencyResponse {
   FrequencyResponse(std::span<const Effect* const> library, const FreeRuns& runs,
                     const AugmentedModel& boat, const Eigen::MatrixXd& errors, std::size_t threads);
 
-  /// Lowest frequency first. Requires: an effect of the library that shakes.
+  /// Lowest frequency first. Requires: a stochastic effect of the library.
   const std::vector<Band>& Of(const Effect& effect) const { return bands_.at(&effect); }
 
  private:

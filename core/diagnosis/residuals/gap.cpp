@@ -8,6 +8,7 @@
 
 #include "telltale/core/base/contract.hpp"
 #include "telltale/core/base/random.hpp"
+#include "telltale/core/diagnosis/diagnosis_constants.hpp"
 #include "telltale/core/uncertainty/distributions.hpp"
 #include "telltale/core/uncertainty/interval.hpp"
 
@@ -15,14 +16,14 @@ namespace telltale {
 namespace {
 
 // A window that errs by more root mean square sigmas than this counts as erring by so many.
-constexpr double kMaximumSigmas = 100.0;
-constexpr double kBlockS = 30.0;
-constexpr std::size_t kResamples = 1000;
-constexpr double kLevel = 0.95;
+constexpr double kMaximumSigmas = kDiagnosis.gap.largest_sigmas;
+constexpr double kBlockS = kDiagnosis.gap.block_s;
+constexpr std::size_t kResamples = kDiagnosis.gap.resamples;
+constexpr double kLevel = kDiagnosis.gap.level;
 // Of ln G^2 from one nominal day to another where a single recording cannot show it.
-constexpr double kDefaultSpread = 0.25;
-// NominalBaseline days differ by this at least, even where the few there are look alike.
-constexpr double kMinimumSpread = 0.2;
+constexpr double kDefaultSpread = kDiagnosis.gap.single_recording_sd;
+// Nominal days differ by this at least, even where the few references agree.
+constexpr double kMinimumSpread = kDiagnosis.gap.minimum_sd;
 
 double SpreadWithin(const Eigen::VectorXd& gaps, const std::vector<std::size_t>& blocks) {
   const auto sums = SumsByBlock(gaps, Eigen::VectorXd::Ones(gaps.size()), blocks);

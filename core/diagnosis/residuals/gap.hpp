@@ -16,7 +16,7 @@ namespace telltale {
 /// All three channels of a free run's errors together.
 inline constexpr int kAllChannels = 3;
 
-/// How far a boat's free runs err on recordings of when all was well.
+/// The error of a boat's free runs on nominal recordings.
 struct NoiseFloor {
   Eigen::VectorXd scale;                        ///< root mean square of each row's error
   std::vector<std::array<double, 4>> log_gaps;  ///< ln G^2 of each recording, by channel and of all
@@ -32,12 +32,13 @@ struct NoiseFloor {
 NoiseFloor NoiseFloorOf(const std::vector<FreeRuns>& recordings, const AugmentedModel& boat);
 
 /// Mean squared errors in nominal scales by window, of one channel or of all: G^2 is their mean,
-/// docs/concepts/diagnosis.md (80). A window of a model that has run away counts as far off, not as
-/// how far.
+/// docs/concepts/diagnosis.md (80). The error of a window is cut, so that a diverged model counts
+/// as wrong without a size.
 Eigen::VectorXd SquaredGaps(const Eigen::MatrixXd& errors, const Eigen::VectorXd& scale,
                             int channel);
 
-/// Stretches of half a minute, over which errors may vary together: windows are resampled by them.
+/// The block of each window, half a minute long. Errors in a block may be correlated, so blocks are
+/// the units of resampling.
 std::vector<std::size_t> BlocksOf(const FreeRuns& runs);
 
 /// Sums of both over the windows of each block.
@@ -49,8 +50,8 @@ std::vector<std::array<double, 2>> SumsByBlock(const Eigen::VectorXd& one,
 double UpperBound(const Eigen::VectorXd& squared_gaps, const std::vector<std::size_t>& blocks,
                   std::uint64_t seed);
 
-/// How far `after` closes the gap between `before` and the floor, with an interval by resampling
-/// blocks of windows in pairs. None where before is not above the floor's limit.
+/// The excess error over the floor that `after` explains of `before`, with an interval by
+/// resampling blocks of windows in pairs. None where before is not above the floor's limit.
 std::optional<ExcessExplained> ExcessExplainedBy(const Eigen::VectorXd& before,
                                                  const Eigen::VectorXd& after,
                                                  const std::vector<std::size_t>& blocks,

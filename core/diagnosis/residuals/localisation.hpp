@@ -9,14 +9,15 @@
 
 namespace telltale {
 
-/// Where model and boat part: by channel and, each on its own, propeller region, speed, heading,
-/// time and whether commands have just changed, and region by speed.
-/// Method: accelerations that the model misses by from row to row, in nominal sigmas. A cell's mean
-/// is compared with that of the reference recordings; p-values by a wild bootstrap that turns the
-/// signs of whole windows of five seconds, against the largest of all cells (max-T). A cell is
-/// listed when its p-value is at most five per cent and it holds at least five per cent of the
-/// excess; a region at one speed beside that region or speed only where its rows hold half as much
-/// excess again each. docs/concepts/diagnosis.md (93), (94).
+/// The operating conditions in which the model no longer matches the boat, by channel: propeller
+/// region, speed, heading, third of the recording, after a step or not, and region by speed.
+/// Method: acceleration residuals from row to row. The mean of a cell is compared with that of the
+/// references. Its p-value is of a bootstrap that turns the signs of whole clusters, against the
+/// largest statistic of all cells (max-T), so that it is family-wise. A cell is listed when its
+/// p-value and its share of the excess pass the limits of LocalisationConstants. A region at one
+/// speed stands beside that region or that speed only where its rows hold more excess each.
+/// docs/concepts/diagnosis.md (93), (94). Units: means in root mean squares of the references.
+/// The same seed gives the same cells.
 /// Requires: at least one reference.
 std::vector<GapCell> Localise(const PreparedDataset& recording,
                               const std::vector<PreparedDataset>& references,

@@ -3,11 +3,12 @@
 #include <cmath>
 
 #include "telltale/core/base/parallel.hpp"
+#include "telltale/core/diagnosis/diagnosis_constants.hpp"
 
 namespace telltale {
 namespace {
 
-constexpr double kNegligible = 0.02;  // of the typical size
+constexpr double kNegligible = kDiagnosis.linearisation.negligible_size;  // of the typical size
 
 Eigen::VectorXd Stacked(const Eigen::MatrixXd& errors) {
   return errors.reshaped();

@@ -18,19 +18,19 @@ struct EffectParameterRef {
   std::size_t parameter = 0;
 };
 
-/// The slots of effects that move free runs; effects that only shake have none.
+/// The parameters of effects that move free runs. Stochastic effects have none.
 std::vector<EffectParameterRef> EffectParameterRefsOf(std::span<const Effect* const> effects);
 
-/// The effect with nothing but this slot at `value`, shaping parameters where they are usual.
+/// The effect with this parameter at `value`, the others at their prior means.
 ModelledEffect At(const EffectParameterRef& parameter_ref, double value);
 
-/// The effects that slots add up to. Shapes: typical sizes, one per slot.
+/// The effects of these parameters. Shapes: sizes in typical sizes, one per parameter.
 std::vector<ModelledEffect> EffectsOf(const std::vector<EffectParameterRef>& parameter_refs,
                                       const Eigen::VectorXd& sizes);
 
 /// Errors of a recording and how they change with the model's coefficients, in their standard
-/// errors, and with each slot, in typical sizes. Shapes: errors rows x windows; the others one
-/// column an unknown, errors stacked window by window.
+/// errors, and with each effect parameter, in typical sizes. Shapes: errors rows x windows; the
+/// others one column an unknown, errors stacked window by window.
 struct Sensitivity {
   Eigen::MatrixXd errors;
   Eigen::MatrixXd by_coefficient;
@@ -38,8 +38,8 @@ struct Sensitivity {
 };
 
 /// About `boat`, whose coefficients `model` says how to change. Secants over one standard error of
-/// a coefficient and `step` typical sizes of a slot more than the boat has: effects with thresholds
-/// have no slope at zero.
+/// a coefficient and `step` typical sizes of a parameter more than the boat has: effects with
+/// thresholds have no slope at zero.
 Sensitivity SensitivityOf(const FreeRuns& runs, const AugmentedModel& boat,
                           const UncertainModel& model,
                           const std::vector<EffectParameterRef>& parameter_refs,

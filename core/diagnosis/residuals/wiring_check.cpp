@@ -4,14 +4,15 @@
 #include <array>
 #include <string>
 
+#include "telltale/core/diagnosis/diagnosis_constants.hpp"
 #include "telltale/core/diagnosis/residuals/free_runs.hpp"
 
 namespace telltale {
 namespace {
 
-constexpr double kHorizonS = 5.0;
+constexpr double kHorizonS = kDiagnosis.horizons.main_s;
 // Of the squared error: no other fault is mended like this by exchanging commands.
-constexpr double kMaximumErrorRatio = 0.2;
+constexpr double kMaximumErrorRatio = kDiagnosis.wiring.maximum_error_ratio;
 
 struct Wiring {
   std::string_view fault;
@@ -41,10 +42,12 @@ constexpr std::array kWirings = {
            }},
 };
 
-/// Along (m), across (m) and heading (rad, at a metre) alike; a lost boat counts as a metre off.
+/// Along (m), across (m) and heading (rad, at a metre) alike; errors are cut at one.
 double SquaredError(const PreparedDataset& recording, const VesselModel& model) {
   const FreeRuns runs(recording, model, kHorizonS);
-  const Eigen::MatrixXd errors = runs.Errors({model, {}}).cwiseMin(1.0).cwiseMax(-1.0);
+  const Eigen::MatrixXd errors = runs.Errors({model, {}})
+                                     .cwiseMin(kDiagnosis.wiring.largest_error)
+                                     .cwiseMax(-kDiagnosis.wiring.largest_error);
   return errors.squaredNorm();
 }
 

@@ -34,8 +34,8 @@ void ForEachSpan(const PreparedDataset& dataset, Visit visit) {
   }
 }
 
-/// A model that sails spans from what was measured, with fixes `late_s` old: what they say of the
-/// boat's way is of that time, and driven by commands of that time.
+/// A model that simulates spans from what was measured, with fixes `late_s` old: what they say of
+/// the boat's way is of that time, and driven by commands of that time.
 class SimulatedRow {
  public:
   SimulatedRow(const PreparedDataset& dataset, const AugmentedModel& model, double late_s)

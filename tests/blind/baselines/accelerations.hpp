@@ -6,11 +6,11 @@
 
 namespace blind::baselines {
 
-/// Accelerations that the recalibrated boat misses by, as a regression sees them. Each is the mean
+/// Acceleration residuals of the recalibrated boat, as a regression sees them. Each is the mean
 /// over one second that begins where the boat was measured to be, in what such misses are on the
 /// reference recordings (root mean square by channel), less what regresses on effects there too.
-/// Shapes: surge, sway and yaw stacked second by second; one column a slot, what its typical size
-/// would change.
+/// Shapes: surge, sway and yaw stacked second by second; one column a parameter, what its typical
+/// size would change.
 struct Accelerations {
   Eigen::VectorXd residuals;
   Eigen::MatrixXd signatures;

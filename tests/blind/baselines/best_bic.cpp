@@ -57,7 +57,8 @@ class Problem {
     return jacobian;
   }
 
-  /// Each parameter that is zero in health at its typical size, either way, and all at nothing.
+  /// Each parameter that is zero in a nominal boat at its typical size, either way, and all at
+  /// nothing.
   std::vector<Eigen::VectorXd> Starts() const {
     std::vector<Eigen::VectorXd> starts{Eigen::VectorXd::Zero(Unknowns())};
     for (Eigen::Index i = 0; i < Unknowns(); ++i) {

@@ -17,7 +17,7 @@ constexpr double kLowestThreshold = 0.02;  // typical sizes
 constexpr double kHighestThreshold = 2.0;
 constexpr double kThresholdStep = 1.25;
 
-/// Effects by their place in the library of those that have slots.
+/// Effects by their place in the library of those that have parameters.
 using Support = std::set<std::size_t>;
 
 struct Fit {

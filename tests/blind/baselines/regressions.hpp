@@ -6,10 +6,10 @@
 
 namespace blind::baselines {
 
-/// Both regress the accelerations that the recalibrated boat misses by on the signatures of
-/// effects, all slots of an effect together, sizes within the effect's range; up to three effects.
-/// bic = n ln(S / m) + k ln n, with n the independent ones of m misses. Nothing at all is an
-/// answer.
+/// Both regress the acceleration residuals of the recalibrated boat on the signatures of
+/// effects, all parameters of an effect together, sizes within the effect's range; up to three
+/// effects. bic = n ln(S / m) + k ln n, with n the independent ones of m misses. Nothing at all is
+/// an answer.
 
 /// Forward: adds the effect that lowers the criterion most, as long as one does and brings at least
 /// a tenth of what is explained with it (Draper and Smith 1998, chapter 15).

@@ -50,9 +50,9 @@ run --set development --cases 4 --jobs 2 -- --seed 7
 grep -q -- '--seed 7$' "$sandbox/calls" || fail "options after -- do not reach telltale diagnose"
 grep -q '^| 4 cases | reports |' "$sandbox/said" || fail "it does not score"
 
-# A set sailed once gets its second recordings, but never those of another set.
+# A set simulated once gets its second recordings, but never those of another set.
 run --set development --cases 4 --realised
-((status == 0)) || fail "sailing again should end in 0, not $status"
+((status == 0)) || fail "simulating again should end in 0, not $status"
 [[ -s $set_folder/cases/004/again/gnss.csv ]] || fail "no second recording"
 rm -r "$set_folder"/cases/*/again
 run --set development --cases 4 --realised --seed 2

@@ -13,10 +13,10 @@
 #include "campaign.hpp"
 #include "effects.hpp"
 #include "motion.hpp"
+#include "simulated_run.hpp"
 #include "support/run_command.hpp"
 #include "support/temporary_folder.hpp"
 #include "thruster.hpp"
-#include "simulated_run.hpp"
 
 namespace blind::truth {
 namespace {
@@ -34,8 +34,8 @@ Scenario SymmetricScenario() {
   return {.hull = {}, .weather = {}, .faults = {}};
 }
 
-State Sailed(State state, const Scenario& scenario, const Drive& drive, const Surroundings& around,
-             double duration_s) {
+State Simulated(State state, const Scenario& scenario, const Drive& drive,
+                const Surroundings& around, double duration_s) {
   for (int step = 0; step < duration_s / kStepS; ++step) {
     state = RungeKuttaStep(state, scenario, drive, around, kStepS);
   }
@@ -125,9 +125,10 @@ TEST(Motion, IsTheSameInAMirror) {
   around_mirrored.wind_east_mps *= -1.0;
   around_mirrored.current_east_mps *= -1.0;
 
-  const State end = Sailed(state, scenario, {.port_us = 1800, .starboard_us = 1350}, around, 20.0);
+  const State end =
+      Simulated(state, scenario, {.port_us = 1800, .starboard_us = 1350}, around, 20.0);
   const State mirror_end =
-      Sailed(mirrored, scenario, {.port_us = 1350, .starboard_us = 1800}, around_mirrored, 20.0);
+      Simulated(mirrored, scenario, {.port_us = 1350, .starboard_us = 1800}, around_mirrored, 20.0);
   EXPECT_NEAR(mirror_end.north_m, end.north_m, kRounding);
   EXPECT_NEAR(mirror_end.east_m, -end.east_m, kRounding);
   EXPECT_NEAR(mirror_end.heading_rad, -end.heading_rad, kRounding);
@@ -147,8 +148,8 @@ TEST(Motion, IsTheSameInAirAndWaterThatMoveAlong) {
                             .waves = {},
                             .shoal = 0.0};
   const State drifting{.surge_mps = north, .sway_mps = east};  // with the water, heading north
-  const State end = Sailed({}, scenario, drive, {}, 20.0);
-  const State end_moving = Sailed(drifting, scenario, drive, moving, 20.0);
+  const State end = Simulated({}, scenario, drive, {}, 20.0);
+  const State end_moving = Simulated(drifting, scenario, drive, moving, 20.0);
   EXPECT_NEAR(end_moving.north_m - 20.0 * north, end.north_m, kRounding);
   EXPECT_NEAR(end_moving.east_m - 20.0 * east, end.east_m, kRounding);
   EXPECT_NEAR(end_moving.heading_rad, end.heading_rad, kRounding);
@@ -156,7 +157,7 @@ TEST(Motion, IsTheSameInAirAndWaterThatMoveAlong) {
 
 TEST(Motion, TurnsToStarboardWhenPortPushesMore) {
   const State end =
-      Sailed({}, SymmetricScenario(), {.port_us = 1700, .starboard_us = 1600}, {}, 5.0);
+      Simulated({}, SymmetricScenario(), {.port_us = 1700, .starboard_us = 1600}, {}, 5.0);
   EXPECT_GT(end.heading_rad, 0.1);
   EXPECT_GT(end.east_m, 0.0);
 }
@@ -167,10 +168,12 @@ TEST(Fleet, MovesAsBoatsOfItsClassDo) {
     for (const std::uint64_t seed : {1u, 2u, 3u}) {
       for (const Hull& hull : Fleet(set, seed)) {
         const Scenario scenario{.hull = hull, .weather = {}, .faults = {}};
-        const State ahead = Sailed({}, scenario, {.port_us = 1900, .starboard_us = 1900}, {}, 20.0);
+        const State ahead =
+            Simulated({}, scenario, {.port_us = 1900, .starboard_us = 1900}, {}, 20.0);
         EXPECT_THAT(std::hypot(ahead.surge_mps, ahead.sway_mps), AllOf(Ge(1.4), Le(2.3)))
             << hull.name << seed;
-        const State spin = Sailed({}, scenario, {.port_us = 1740, .starboard_us = 1260}, {}, 12.0);
+        const State spin =
+            Simulated({}, scenario, {.port_us = 1740, .starboard_us = 1260}, {}, 12.0);
         EXPECT_THAT(spin.yaw_radps, AllOf(Ge(0.4), Le(1.1))) << hull.name << seed;
       }
     }

@@ -50,11 +50,11 @@ double ReferenceBasis::SquaredGap(const telltale::AugmentedModel& model) const {
   };
   telltale::EffectFit fit;
   fit.effects = model.effects;
-  const Eigen::VectorXd shaken = telltale::StochasticMeanSquares(fit, runs, nominal.boat);
+  const Eigen::VectorXd stochastic = telltale::StochasticMeanSquares(fit, runs, nominal.boat);
   const double gap = mean(runs.Errors(model));
-  // What shakes explains no more than there is to explain, as in the report.
+  // Stochastic excitation explains no more than there is to explain, as in the report.
   const double there = std::max(gap - floor.Squared(telltale::kAllChannels), 0.0);
-  return gap - std::min(mean(shaken.cwiseMax(0.0).cwiseSqrt()), there);
+  return gap - std::min(mean(stochastic.cwiseMax(0.0).cwiseSqrt()), there);
 }
 
 telltale::AugmentedModel ReferenceBasis::With(

@@ -17,12 +17,12 @@ struct ReferenceBasis {
   /// The days have to live on. Throws std::invalid_argument where no recording has a window.
   explicit ReferenceBasis(const DiagnosisInputs& inputs);
 
-  /// (before^2 - after^2) / (before^2 - floor^2) for a model sailed on the recording; what effects
-  /// that only shake are expected to add is taken off. None where the recalibrated boat errs no
-  /// more than nominal days do.
+  /// (before^2 - after^2) / (before^2 - floor^2) for a model simulated on the recording; what
+  /// effects that only shake are expected to add is taken off. None where the recalibrated boat
+  /// errs no more than nominal days do.
   std::optional<double> ClosureBy(const telltale::AugmentedModel& model) const;
 
-  /// G^2 of a model on the recording, less what shaking explains.
+  /// G^2 of a model on the recording, less what stochastic excitation explains.
   double SquaredGap(const telltale::AugmentedModel& model) const;
 
   /// The recalibrated boat with effects.

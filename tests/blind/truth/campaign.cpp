@@ -113,30 +113,30 @@ std::string EffectLabel(const AppliedEffect& applied, const std::vector<Paramete
 std::pair<SimulatedRun, std::string> Prepared(const Case& asked, const Hull& hull, double onset_s,
                                               double duration_s, const RandomStream& rng) {
   const Scenario nominal{.hull = hull, .weather = LightDay(rng.For("weather")), .faults = {}};
-  SimulatedRun voyage{nominal, nominal, onset_s, duration_s};
+  SimulatedRun run{nominal, nominal, onset_s, duration_s};
   std::string label = "{\"kind\":" + InQuotes(asked.kind) + ",\"hull\":" + InQuotes(hull.name) +
                       ",\"onset_s\":" + Number(onset_s) + ",\"effects\":[";
   for (std::size_t at = 0; at < asked.effects.size(); ++at) {
     const AppliedEffect& applied = asked.effects[at];
     RandomStream draws = rng.For("effect", at);
     const auto parameters =
-        EffectNamed(applied.effect).apply(voyage.after, applied.size, applied.sign, draws);
+        EffectNamed(applied.effect).apply(run.after, applied.size, applied.sign, draws);
     label += (at == 0 ? "" : ",") + EffectLabel(applied, parameters);
   }
-  return {voyage, label + "]}"};
+  return {run, label + "]}"};
 }
 
-void Record(const SimulatedRun& voyage, Set set, std::size_t day, const RandomStream& rng,
+void Record(const SimulatedRun& run, Set set, std::size_t day, const RandomStream& rng,
             const std::filesystem::path& folder) {
-  Mission mission = DrawnMission(set, voyage.duration_s, rng.For("mission"));
-  const Track track = Simulate(voyage, std::move(mission), rng.For("voyage"));
-  WriteRecording(track, voyage, day, rng.For("sensors"), folder);
+  Mission mission = DrawnMission(set, run.duration_s, rng.For("mission"));
+  const Track track = Simulate(run, std::move(mission), rng.For("voyage"));
+  WriteRecording(track, run, day, rng.For("sensors"), folder);
 }
 
 void WriteNominal(const CampaignOptions& options, const Hull& hull, std::size_t day,
                   const RandomStream& rng, const std::filesystem::path& folder) {
-  const auto [voyage, label] = Prepared({"nominal", {}}, hull, 0.0, options.duration_s, rng);
-  Record(voyage, options.set, day, rng, folder);
+  const auto [run, label] = Prepared({"nominal", {}}, hull, 0.0, options.duration_s, rng);
+  Record(run, options.set, day, rng, folder);
 }
 
 }  // namespace
@@ -206,11 +206,11 @@ void WriteCampaign(const CampaignOptions& options, const std::filesystem::path& 
     const std::string name = Numbered("%03zu", number);
     const Hull& hull = fleet[asked.hull];
     const RandomStream rng = yard.For("case", asked.day);
-    const auto [voyage, label] = Prepared(asked, hull, 0.0, options.duration_s, rng);
-    Record(voyage, options.set, kDaysBefore + number, rng, folder / "cases" / name / "log");
+    const auto [run, label] = Prepared(asked, hull, 0.0, options.duration_s, rng);
+    Record(run, options.set, kDaysBefore + number, rng, folder / "cases" / name / "log");
     if (options.again) {
       progress(done++, all);
-      Record(voyage, options.set, kDaysBefore + cases.size() + number, rng.For("again"),
+      Record(run, options.set, kDaysBefore + cases.size() + number, rng.For("again"),
              folder / "cases" / name / "again");
     }
     WriteFile(folder / "cases" / name / "hull", hull.name + "\n");
@@ -231,8 +231,8 @@ std::string WriteSingleCase(const SingleCaseOptions& options, const std::filesys
   }
   const RandomStream rng = Yard(options.set, options.seed).For("single case");
   const Case asked{options.effects.empty() ? "nominal" : "single", options.effects};
-  const auto [voyage, label] = Prepared(asked, *hull, options.onset_s, options.duration_s, rng);
-  Record(voyage, options.set, kDaysBefore, rng, folder / "log");
+  const auto [run, label] = Prepared(asked, *hull, options.onset_s, options.duration_s, rng);
+  Record(run, options.set, kDaysBefore, rng, folder / "log");
   WriteFile(folder / "hull", hull->name + "\n");
   WriteFile(folder / "vehicle.textproto", VehicleFile(*hull));
   WriteFile(folder / "label.sealed", Sealed(label, "single"));

@@ -61,9 +61,10 @@ void AddOptions(CLI::App& app, Arguments& arguments) {
   whole->add_option("--cases", arguments.most_cases, "no more than the first N cases")
       ->type_name("N")
       ->check(CLI::PositiveNumber.description(""));
-  whole->add_flag("--again", arguments.again,
-                  "also sail each case a second time: cases/NNN/again, the same but for mission, "
-                  "gusts and noise");
+  whole->add_flag(
+      "--again", arguments.again,
+      "also simulate each case a second time: cases/NNN/again, the same but for mission, "
+      "gusts and noise");
 
   CLI::App* single = app.add_option_group("single cases");
   single->add_option("--effect", arguments.effects, "the effect to turn on, several for several")
@@ -145,7 +146,8 @@ void Run(const Arguments& arguments) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app("Sails boats of its own making and records them, with or without something wrong");
+  CLI::App app(
+      "Simulates boats of its own making and records them, with or without something wrong");
   app.footer(
       "Without --effect or --nominal it writes a whole set: hulls/, cases/ and labels/ below DIR.\n"
       "Labels are sealed; only blind_score opens them.\n"

@@ -37,7 +37,7 @@ State Rate(const State& state, const Scenario& scenario, const Drive& drive,
 State RungeKuttaStep(const State& state, const Scenario& scenario, const Drive& drive,
                      const Surroundings& surroundings, double dt_s);
 
-/// Kinetic energy of boat and added mass in still water, joules.
+/// Kinetic energy of boat and added mass without current, joules.
 double KineticEnergy(const State& state, const Scenario& scenario);
 
 }  // namespace blind::truth

@@ -77,7 +77,7 @@ std::string Headings(const Track& track, const SimulatedRun& simulated_run, doub
                      RandomStream rng) {
   constexpr double kHeadingDriftTimeS = 25.0;
   GaussMarkov drift(0.15 * kDegree, rng.Uniform(20.0, 40.0), rng.For("drift"));
-  GaussMarkov wander(1.0, kHeadingDriftTimeS, rng.For("wander"));
+  GaussMarkov applied_drift(1.0, kHeadingDriftTimeS, rng.For("wander"));
   std::string text = "time_s,heading_deg\n";
   for (int step = 0; step < static_cast<int>(track.states.size()); step += kStepsPerHeading) {
     const double time = step * kStepS;
@@ -85,7 +85,7 @@ std::string Headings(const Track& track, const SimulatedRun& simulated_run, doub
     const double shown = track.states[static_cast<std::size_t>(step)].heading_rad +
                          faults.heading_bias_rad + rng.Normal(0.2 * kDegree) +
                          drift.Step(kStepsPerHeading * kStepS) +
-                         faults.heading_drift_rad * wander.Step(kStepsPerHeading * kStepS);
+                         faults.heading_drift_rad * applied_drift.Step(kStepsPerHeading * kStepS);
     double degrees = std::fmod(shown / kDegree, 360.0);
     if (degrees < 0.0) degrees += 360.0;
     AppendLine(text, "%.2f,%.4f\n", start_s + time, degrees);

@@ -21,7 +21,7 @@ struct Track {
   std::vector<Pulses> commands;
 };
 
-/// What is sailed: `before` until the onset, then `after`, on the same day's sea.
+/// What is simulated: `before` until the onset, then `after`, on the same day's sea.
 struct SimulatedRun {
   Scenario before;
   Scenario after;

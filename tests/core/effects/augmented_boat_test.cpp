@@ -120,7 +120,7 @@ TEST(AugmentedBoat, CutsCommandsOff) {
 TEST(AugmentedBoat, DriftsWithTheCurrent) {
   VesselModel model = testing::StableBoat();
   for (const std::size_t j : {0, 1, 2}) {
-    model.theta[j][j == 0 ? 4 : 8] = 0.0;  // a steady push of its own would move it
+    model.theta[j][j == 0 ? 4 : 8] = 0.0;  // a constant disturbance of its own would move it
   }
   const AugmentedBoat boat({model, {{FindEffect("current"), {0.2, -0.1}}}}, 0.0, 100.0);
   for (const double psi : {0.0, 0.7, 2.0, -2.5}) {
@@ -145,8 +145,8 @@ TEST(AugmentedBoat, CarriesALoadByTheLawOfMotionOfAPointMass) {
   const Drive drive = SteadyDrive(Plain(), {0.8, 0.4});
   const Nu nu{0.7, 0.2, 0.5};
   const double step_s = 1e-6;
-  const auto acceleration = [&](const AugmentedBoat& sailed) {
-    const Pose after = sailed.Advance({{}, nu}, drive, 0.0, step_s);
+  const auto acceleration = [&](const AugmentedBoat& simulated) {
+    const Pose after = simulated.Advance({{}, nu}, drive, 0.0, step_s);
     return NuDot{(after.nu.u - nu.u) / step_s, (after.nu.v - nu.v) / step_s,
                  (after.nu.r - nu.r) / step_s};
   };
@@ -187,12 +187,12 @@ TEST(AugmentedBoat, BrakesATurnByTheSlopeOfAFouledHullsDrag) {
 TEST(AugmentedBoat, TreatsPortAndStarboardAlike) {
   VesselModel model = testing::StableBoat();
   for (const std::size_t j : {1, 2}) model.theta[j][8] = 0.0;
-  const auto sail = [&](double loss, double port, double starboard) {
+  const auto simulate = [&](double loss, double port, double starboard) {
     const AugmentedModel boat{model, {{FindEffect("thruster_imbalance"), {loss}}}};
     return Simulate(boat, {{0.0, {port, starboard}}}, 20.0, kStepS).back().state;
   };
-  const VesselState one = sail(0.3, 0.7, 0.4);
-  const VesselState other = sail(-0.3, 0.4, 0.7);
+  const VesselState one = simulate(0.3, 0.7, 0.4);
+  const VesselState other = simulate(-0.3, 0.4, 0.7);
   EXPECT_NEAR(one.nu.u, other.nu.u, 1e-12);
   EXPECT_NEAR(one.nu.v, -other.nu.v, 1e-12);
   EXPECT_NEAR(one.nu.r, -other.nu.r, 1e-12);

@@ -12,8 +12,8 @@ namespace {
 struct BaselineFixture {
   UncertainModel model = UncertainModelOf(testing::KnownStableBoat()).value();
   std::vector<EffectParameterRef> parameter_refs = EffectParameterRefsOf(EffectLibrary());
-  PreparedDataset sailed = testing::SimulateWithEffects({}, 120.0, 500);
-  FreeRuns runs{sailed, model.model, 5.0};
+  PreparedDataset dataset = testing::SimulateWithEffects({}, 120.0, 500);
+  FreeRuns runs{dataset, model.model, 5.0};
   NominalBaseline nominal = LearnNominalBaseline({runs}, model, parameter_refs, 2);
   Sensitivity recording = SensitivityOf(runs, nominal.boat, model, parameter_refs, 2);
 };
@@ -46,7 +46,7 @@ TEST(ResidualMetric, MarginalisesAFreeCoefficient) {
   EXPECT_GT(cost(MetricOf(false)), 10.0 * cost(MetricOf(true)));
 }
 
-// Nothing weighed in can make an error count for more than it does by scatter alone.
+// No marginalised variation can make an error count for more than it does by scatter alone.
 TEST(ResidualMetric, NeverExceedsTheUnmarginalisedDistance) {
   const BaselineFixture& boat = SharedFixture();
   const ResidualMetric metric = MetricOf(false);
@@ -100,10 +100,10 @@ TEST(NominalBaseline, RecalibratesABiasedModel) {
   const NominalBaseline nominal =
       LearnNominalBaseline(runs, off, EffectParameterRefsOf(EffectLibrary()), 2);
   const PreparedDataset another = testing::SimulateWithEffects({}, 240.0, 3100);
-  const FreeRuns sailed(another, off.model, 5.0);
-  const double truth = sailed.Errors({testing::StableBoat(), {}}).squaredNorm();
-  const double before = sailed.Errors({off.model, {}}).squaredNorm();
-  const double after = sailed.Errors(nominal.boat).squaredNorm();
+  const FreeRuns runs_of_another(another, off.model, 5.0);
+  const double truth = runs_of_another.Errors({testing::StableBoat(), {}}).squaredNorm();
+  const double before = runs_of_another.Errors({off.model, {}}).squaredNorm();
+  const double after = runs_of_another.Errors(nominal.boat).squaredNorm();
   EXPECT_GT(before, 10.0 * truth);  // or there would be nothing to mend
   // Thirty coefficients from three recordings as long as this one cost a share of its noise.
   EXPECT_LT(after, 1.5 * truth);
