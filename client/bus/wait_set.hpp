@@ -10,7 +10,7 @@
 
 namespace telltale {
 
-/// One thread's waiting place: sleeps until an attached endpoint has news, then runs its handler on
+/// One thread's waiting place: sleeps until an attached endpoint has data, then runs its handler on
 /// the waiting thread. Work belongs here, never in a DDS listener, where it deadlocks.
 /// Only Wake may be called from other threads.
 class WaitSet {
@@ -21,7 +21,8 @@ class WaitSet {
   void Attach(const Endpoint& endpoint, std::function<void()> on_data);
   void Detach(const Endpoint& endpoint);
 
-  /// Runs the handlers of all that has news. False when nothing had within `timeout`, or on Wake.
+  /// Runs the handlers of all endpoints that have data. False when none had within `timeout`, or on
+  /// Wake.
   bool Wait(std::chrono::nanoseconds timeout);
 
   /// Ends the present or the next Wait early.

@@ -14,7 +14,7 @@ double TimeOf(const RawSample& sample);
 
 /// Three channels, each in the order it was written, woven into the order in which a receiver would
 /// have seen them. Samples of one channel keep their order, wrong times included, so that a Window
-/// judges them as it would have judged them live. A wrong time does not hold its channel back: a
+/// checks them as it would check them live. A wrong time does not hold its channel back: a
 /// sample is placed by the median of its own and its neighbours' times. A clock that was set back
 /// (by more than a minute, for good) begins a new epoch, which comes after the old one in all
 /// channels.

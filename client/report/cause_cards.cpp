@@ -35,7 +35,8 @@ Markup ExcessExplainedPlot(const ExcessExplained& excess_explained) {
                       {x(excess_explained.interval.upper), kBaseline}, "whisker");
   shapes += CircleShape({x(excess_explained.share), kBaseline}, 6.0, "whisker-dot");
   return Picture({kWidth, 44.0}, "whiskers",
-                 "closes " + ExcessExplainedText(excess_explained) + " of the gap", shapes);
+                 "explains " + ExcessExplainedText(excess_explained) + " of the excess error",
+                 shapes);
 }
 
 Markup ParameterList(const CausalEffect& effect) {
@@ -49,7 +50,7 @@ Markup ParameterList(const CausalEffect& effect) {
 
 Markup EffectPart(const CausalEffect& effect, bool several) {
   std::string text = effect.sentence.empty() ? effect.effect : effect.sentence;
-  if (several) text += " (" + ShareText(effect.shapley_share) + " of what these close)";
+  if (several) text += " (" + ShareText(effect.shapley_share) + " of what these explain)";
   return Styled("p", "says", Words(text)) + ParameterList(effect);
 }
 
@@ -59,7 +60,7 @@ Markup IndistinguishableText(const Cause& cause) {
   for (const std::string& name : cause.indistinguishable) {
     names.append(names.empty() ? "" : ", ").append(name);
   }
-  return Styled("p", "tied", Words("This recording cannot tell it from " + names + "."));
+  return Styled("p", "tied", Words("This recording cannot separate it from " + names + "."));
 }
 
 Markup CauseCard(const Cause& cause) {
@@ -76,7 +77,8 @@ Markup CauseCard(const Cause& cause) {
   card += IndistinguishableText(cause);
   if (cause.excess_explained) {
     card += Styled("p", "soft",
-                   Words("Closes " + ExcessExplainedText(cause.excess_explained) + " of the gap")) +
+                   Words("Explains " + ExcessExplainedText(cause.excess_explained) +
+                         " of the excess error")) +
             ExcessExplainedPlot(*cause.excess_explained);
   }
   return Styled("article", "card", card);

@@ -33,13 +33,14 @@ std::string_view VerdictMeaning(Verdict verdict) {
   switch (verdict) {
     case Verdict::kUnknown: return "";
     case Verdict::kNoMaterialGap:
-      return "The model misses this recording by no more than it misses a healthy one.";
+      return "The model's error on this recording is no larger than on a nominal one.";
     case Verdict::kExplained:
-      return "The named effect brings the error back to that of a healthy recording.";
+      return "The named effect brings the error back to that of a nominal recording.";
     case Verdict::kPartlyExplained:
-      return "The named effect closes part of the gap; something else keeps the rest open.";
+      return "The named effect explains part of the excess error; the cause of the rest is not "
+             "known.";
     case Verdict::kUnknownCause:
-      return "There is a gap, and no effect of the library accounts for it for sure.";
+      return "There is a gap, and no effect of the library explains it with certainty.";
     case Verdict::kInsufficientData: return "The recording can neither show nor rule out a gap.";
   }
   return "";
@@ -91,7 +92,8 @@ std::span<const GapCell> ListedCells(const Diagnosis& diagnosis) {
 std::string MoreCellsText(const Diagnosis& diagnosis) {
   const std::size_t hidden = diagnosis.where.size() - ListedCells(diagnosis).size();
   if (hidden == 0) return "";
-  return Counted(hidden, "more corner stands out", "more corners stand out") +
+  return Counted(hidden, "more operating condition stands out",
+                 "more operating conditions stand out") +
          "; report.json has them all.";
 }
 
@@ -100,7 +102,7 @@ std::string TestabilityText(const EffectTestability& effect) {
     case Testability::kUnknown: return "–";
     case Testability::kTestable: return "testable";
     case Testability::kMasked:
-      return "absorbed" + (effect.masked_by.empty() ? "" : " by " + effect.masked_by);
+      return "masked" + (effect.masked_by.empty() ? "" : " by " + effect.masked_by);
     case Testability::kNotExcited: return "not excited";
   }
   return "";
@@ -132,14 +134,15 @@ std::string ExcessExplainedText(const std::optional<ExcessExplained>& excess_exp
 
 std::string FloorText(const Diagnosis& diagnosis) {
   switch (diagnosis.floor_basis) {
-    case FloorBasis::kUnknown: return "What a healthy error is, is not known.";
+    case FloorBasis::kUnknown: return "The size of the normal error is not known.";
     case FloorBasis::kReferenceLogs:
-      return "A healthy error is that on " +
+      return "The normal error is that on " +
              Counted(diagnosis.reference_logs, "reference recording", "reference recordings") +
              " of the same boat.";
     case FloorBasis::kSensorNoise:
-      return "Without reference recordings a healthy error is what sensor noise alone would leave, "
-             "which is too low: waves and wind count as a gap.";
+      return "Without reference recordings the normal error is the one that sensor noise alone "
+             "leaves. "
+             "This is too low: waves and wind count as a gap.";
   }
   return "";
 }

@@ -27,13 +27,13 @@ std::string_view RegionText(PropellerRegion region);
 /// "heading, FR, 0.5 to 1.0 m/s".
 std::string PlaceText(const GapCell& cell);
 
-/// The corners of the data that are shown to people, a dozen at most; report.json has them all.
+/// The operating conditions that are shown to people, a dozen at most; report.json has them all.
 std::span<const GapCell> ListedCells(const Diagnosis& diagnosis);
 
-/// "38 more corners stand out; report.json has them all."; empty where all are shown.
+/// "38 more operating conditions stand out; report.json has them all."; empty where all are shown.
 std::string MoreCellsText(const Diagnosis& diagnosis);
 
-/// "testable", "absorbed by YAW uv", "not excited".
+/// "testable", "masked by YAW uv", "not excited".
 std::string TestabilityText(const EffectTestability& effect);
 
 /// "thruster_lag + wind", or "unknown".

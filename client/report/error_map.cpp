@@ -75,9 +75,10 @@ Markup ErrorMap(const Diagnosis& diagnosis) {
   }
   const Markup caption = Element(
       "caption", {},
-      Words("Error in healthy sigmas by speed and propellers (port first, F forward or idle, R "
-            "reverse)" +
-            std::string(after ? ", before → after" : "") + "; n windows"));
+      Words(
+          "Error, times the normal error, by speed and propellers (port first, F forward or idle, "
+          "R reverse)" +
+          std::string(after ? ", before → after" : "") + "; n windows"));
   return Styled("table", "map", caption + RegionHeads() + Element("tbody", {}, body));
 }
 

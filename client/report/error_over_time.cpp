@@ -44,7 +44,7 @@ Markup GridOf(const TimeFrame& frame) {
     if (time_s > frame.x.high) continue;
     grid += LabelShape({frame.x(time_s), frame.y.from + 20.0}, Plain(time_s), Anchor::kMiddle);
   }
-  grid += LabelShape({4.0, 16.0}, "error, healthy sigmas", Anchor::kStart);
+  grid += LabelShape({4.0, 16.0}, "error, times the normal error", Anchor::kStart);
   grid += LabelShape({frame.x.to, frame.y.from + 40.0}, "seconds since the start", Anchor::kEnd);
   return grid;
 }
@@ -98,7 +98,7 @@ Markup TimePicture(const Diagnosis& diagnosis, const Eigen::Vector2d& size,
   const std::string description =
       "Error of each of " + Counted(diagnosis.pictures.size(), "window", "windows") +
       " over time against the floor of " + Fixed(diagnosis.Main().all.noise_floor, 2) +
-      " healthy sigmas." +
+      " times the normal error." +
       (diagnosis.onset ? ' ' + OnsetText(*diagnosis.onset, diagnosis.start_s) : "");
   return Picture(size, style, description, shapes);
 }

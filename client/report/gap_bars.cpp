@@ -8,7 +8,7 @@
 namespace telltale {
 namespace {
 
-constexpr double kBarLength = 100.0;  // the picture is stretched to its column
+constexpr double kBarLength = 100.0;  // the picture is scaled to its column
 constexpr double kBarHeight = 22.0;
 
 double HighestOf(const GapSize& size) {
@@ -24,8 +24,8 @@ double HighestOf(const Gap& gap) {
 std::string BarDescription(std::string_view name, const GapSize& size, bool after) {
   return std::string(name) + ": before " + Fixed(size.before, 2) +
          (after ? ", after " + Fixed(size.after, 2) : "") + ", floor " +
-         Fixed(size.noise_floor, 2) + ", 95 % of healthy recordings below " +
-         Fixed(size.floor_limit, 2) + " healthy sigmas";
+         Fixed(size.noise_floor, 2) + ", 95 % of nominal recordings below " +
+         Fixed(size.floor_limit, 2) + " times the normal error";
 }
 
 Markup Bars(std::string_view name, const GapSize& size, double highest, bool after) {

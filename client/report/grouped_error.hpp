@@ -6,7 +6,7 @@
 
 namespace telltale {
 
-/// Root mean square error of some windows, before and after, in healthy sigmas.
+/// Root mean square error of some windows, before and after, in times the normal error.
 class GroupedError {
  public:
   void Add(const WindowPicture& window);

@@ -44,13 +44,13 @@ Markup Wedge(std::size_t octant, double radius, double half_width_rad, std::stri
 
 std::string OctantText(std::size_t octant, const GroupedError& group, bool after) {
   std::string text(kCompassPoints[octant]);
-  if (group.Windows() == 0) return text + " not sailed";
+  if (group.Windows() == 0) return text + " no data";
   text += " " + Fixed(group.Before(), 1);
   return after ? text + " before, " + Fixed(group.After(), 1) + " after" : text;
 }
 
 std::string RoseDescription(const Rose& rose, bool after) {
-  std::string text = "Error by heading, healthy sigmas: ";
+  std::string text = "Error by heading, times the normal error: ";
   for (std::size_t i = 0; i < rose.size(); ++i) {
     text += (i > 0 ? "; " : "") + OctantText(i, rose[i], after);
   }

@@ -28,7 +28,7 @@ struct Chart {
   }
 };
 
-/// As far as a prediction stays on the map: a model that runs away leaves it at once.
+/// As far as a prediction stays on the map: a model that diverges leaves it at once.
 Path OnTheMap(const Path& predicted, const Eigen::Vector2d& middle, double reach_m) {
   Path kept;
   for (const Eigen::Vector2d& point : predicted) {
@@ -81,9 +81,9 @@ std::string WindowCaption(const WindowPicture& window, double start_s, bool afte
 
 Markup WindowFigure(const WindowPicture& window, double start_s, bool after) {
   const Eigen::Vector2d middle = window.measured[window.measured.size() / 2];
-  Eigen::AlignedBox2d sailed;
-  for (const Eigen::Vector2d& point : window.measured) sailed.extend(point);
-  const double reach_m = 3.0 * sailed.sizes().norm() + 2.0;
+  Eigen::AlignedBox2d measured_box;
+  for (const Eigen::Vector2d& point : window.measured) measured_box.extend(point);
+  const double reach_m = 3.0 * measured_box.sizes().norm() + 2.0;
   const Path before = OnTheMap(window.predicted_before, middle, reach_m);
   const Path predicted_after = after ? OnTheMap(window.predicted_after, middle, reach_m) : Path();
   const Chart chart = ChartOf({&window.measured, &before, &predicted_after});
@@ -92,10 +92,10 @@ Markup WindowFigure(const WindowPicture& window, double start_s, bool after) {
       DrawPath(chart, predicted_after, "after") +
       CircleShape(chart(window.measured.front()), 4.0, "start") + ScaleBar(chart) + NorthArrow();
   const std::string caption = WindowCaption(window, start_s, after);
-  return Styled(
-      "figure", "",
-      Picture({kPathWidth, kPathHeight}, "path", "Path sailed and predicted, " + caption, shapes) +
-          Element("figcaption", {}, Words(caption)));
+  return Styled("figure", "",
+                Picture({kPathWidth, kPathHeight}, "path",
+                        "Path measured and predicted, " + caption, shapes) +
+                    Element("figcaption", {}, Words(caption)));
 }
 
 }  // namespace

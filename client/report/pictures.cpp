@@ -21,12 +21,12 @@ bool HasAfter(const Diagnosis& diagnosis) {
 
 Markup Legend(const Diagnosis& diagnosis, bool measured) {
   Markup entries;
-  if (measured) entries += LegendEntry("swatch measured", "as sailed");
+  if (measured) entries += LegendEntry("swatch measured", "as measured");
   entries += LegendEntry("swatch before", BeforeText(HasAfter(diagnosis), measured));
   if (HasAfter(diagnosis)) {
     entries += LegendEntry("swatch after", measured ? "predicted after" : "after");
   }
-  if (!measured) entries += LegendEntry("swatch floor", "healthy: 95 % stay inside");
+  if (!measured) entries += LegendEntry("swatch floor", "nominal: 95 % stay inside");
   return Styled("p", "legend", entries);
 }
 

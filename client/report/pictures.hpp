@@ -23,10 +23,10 @@ Markup ErrorMap(const Diagnosis& diagnosis);
 /// Error by heading, octant by octant.
 Markup HeadingRose(const Diagnosis& diagnosis);
 
-/// Causes with probabilities, parameters and how far each closes the gap.
+/// Causes with probabilities, parameters and how much of the excess error each explains.
 Markup CauseCards(const Diagnosis& diagnosis);
 
-/// The windows that the model misses most, as sailed and as predicted.
+/// The windows with the largest error, as measured and as predicted.
 Markup PathPictures(const Diagnosis& diagnosis);
 
 /// What the colours and strokes of the pictures stand for; `measured` where paths are drawn.

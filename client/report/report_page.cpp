@@ -66,18 +66,19 @@ Markup Headline(const Diagnosis& diagnosis) {
 
 Markup GapSection(const Diagnosis& diagnosis) {
   return Section("How large the gap is",
-                 "Free-run error in healthy sigmas: 1 is what a healthy recording shows. Five "
-                 "seconds decide. Shares are how much of the gap is closed, with 95 % intervals.",
+                 "Free-run error, times the normal error: 1 is what a nominal recording shows. The "
+                 "horizon of five seconds decides. Percentages are the excess error explained, "
+                 "with 95 % intervals.",
                  GapBars(diagnosis));
 }
 
-Markup When(const Diagnosis& diagnosis) {
+Markup OnsetSection(const Diagnosis& diagnosis) {
   return Section("When it shows", "", ErrorOverTime(diagnosis));
 }
 
 Markup WhereRow(const GapCell& cell) {
   const std::string details = std::string(KindText(cell.kind)) + ", mean " + Fixed(cell.mean, 1) +
-                              " sigmas, p " + Significant(cell.p_value, 2) + ", " +
+                              " times the normal error, p " + Significant(cell.p_value, 2) + ", " +
                               Counted(cell.windows, "window", "windows");
   return Element("tr", {},
                  Element("td", {}, Words(PlaceText(cell)) + Styled("small", "", Words(details))) +
@@ -86,35 +87,36 @@ Markup WhereRow(const GapCell& cell) {
 
 Markup WhereTable(const Diagnosis& diagnosis) {
   if (diagnosis.where.empty()) {
-    return Nothing("No corner of the data holds more error than chance would put there.");
+    return Nothing("No operating condition holds more error than chance would put there.");
   }
   Markup rows;
   for (const GapCell& cell : ListedCells(diagnosis)) rows += WhereRow(cell);
   return Element("table", {},
-                 HeaderRow({{"Corner of the data", ""}, {"Of the excess", "number"}}) +
+                 HeaderRow({{"Operating condition", ""}, {"Of the excess", "number"}}) +
                      Element("tbody", {}, rows)) +
          Styled("p", "soft", Words(MoreCellsText(diagnosis)));
 }
 
-Markup Where(const Diagnosis& diagnosis) {
+Markup LocationSection(const Diagnosis& diagnosis) {
   const Markup left =
       Styled("div", "", Styled("h3", "", Words("By propellers and speed")) + ErrorMap(diagnosis));
   const Markup right =
       Styled("div", "", Styled("h3", "", Words("By heading")) + HeadingRose(diagnosis));
-  return Section("Where it sits",
-                 "Corners that stand out after correcting for having looked at all of them.",
-                 WhereTable(diagnosis) + Styled("div", "halves", left + right));
+  return Section(
+      "Where it sits",
+      "Operating conditions that stand out, corrected for the number of conditions tested.",
+      WhereTable(diagnosis) + Styled("div", "halves", left + right));
 }
 
-Markup Which(const Diagnosis& diagnosis) {
+Markup CausesSection(const Diagnosis& diagnosis) {
   return Section("Which effect causes it",
                  "Probabilities are among the effects of the library and the unknown.",
                  CauseCards(diagnosis));
 }
 
-Markup Paths(const Diagnosis& diagnosis) {
-  return Section("What it looks like",
-                 "The windows that the model misses most, each from its start (circle) to its end.",
+Markup PathsSection(const Diagnosis& diagnosis) {
+  return Section("Paths",
+                 "The windows with the largest error, each from its start (circle) to its end.",
                  PathPictures(diagnosis));
 }
 
@@ -180,14 +182,14 @@ Markup TestabilityTable(const Diagnosis& diagnosis) {
                     Cell(Fixed(effect.detectability, 1), "number") + Cell(TestabilityText(effect)));
   }
   return Element("table", {},
-                 HeaderRow({{"Effect", ""}, {"Sigmas", "number"}, {"On this recording", ""}}) +
+                 HeaderRow({{"Effect", ""}, {"Std. errors", "number"}, {"On this recording", ""}}) +
                      Element("tbody", {}, rows));
 }
 
 Markup TestabilitySection(const Diagnosis& diagnosis) {
   return Section("What this recording could show",
-                 "How many sigmas an effect of typical size would stand out, once the model's own "
-                 "coefficients have taken up what they can.",
+                 "By how many standard errors an effect of typical size would stand out beside the "
+                 "model's own coefficients.",
                  TestabilityTable(diagnosis));
 }
 
@@ -196,9 +198,9 @@ Markup AdviceCard(const SeparationAdvice& advice) {
   for (const std::string& effect : advice.separates) {
     separates.append(separates.empty() ? "" : " from ").append(effect);
   }
-  const std::string gain = "Tells " + separates + " by " + Fixed(advice.expected_nats, 1) +
-                           " nats" +
-                           (advice.decisive ? ", which should settle it." : ", which may not do.");
+  const std::string gain =
+      "Separates " + separates + " by " + Fixed(advice.expected_nats, 1) + " nats" +
+      (advice.decisive ? ", which should suffice." : ", which may not suffice.");
   Markup card = Styled("header", "",
                        Styled("h3", "", Words(advice.manoeuvre)) +
                            Styled("b", "share", Words(Fixed(advice.duration_s, 0) + " s")));
@@ -206,16 +208,17 @@ Markup AdviceCard(const SeparationAdvice& advice) {
   return Styled("article", "card", card + Styled("p", "soft", Words(gain)));
 }
 
-Markup Next(const Diagnosis& diagnosis) {
+Markup AdviceSection(const Diagnosis& diagnosis) {
   Markup cards;
   for (const SeparationAdvice& advice : diagnosis.advice) cards += AdviceCard(advice);
-  return Section("What to sail next", "",
-                 diagnosis.advice.empty()
-                     ? Nothing("No effects are tied that a manoeuvre of the catalogue would part.")
-                     : Styled("div", "cards", cards));
+  return Section(
+      "Recommended manoeuvres", "",
+      diagnosis.advice.empty()
+          ? Nothing("No effects are left that a manoeuvre of the catalogue would separate.")
+          : Styled("div", "cards", cards));
 }
 
-Markup Notes(const Diagnosis& diagnosis) {
+Markup NotesSection(const Diagnosis& diagnosis) {
   Markup items;
   for (const std::string& note : diagnosis.notes) items += Element("li", {}, Words(note));
   return Section("Notes", "",
@@ -233,11 +236,12 @@ Markup Colophon(const Diagnosis& diagnosis) {
 }  // namespace
 
 std::string ReportPage(const Diagnosis& diagnosis) {
-  const Markup body = Element("main", {},
-                              Headline(diagnosis) + GapSection(diagnosis) + When(diagnosis) +
-                                  Where(diagnosis) + Which(diagnosis) + Paths(diagnosis) +
-                                  ImprovementSection(diagnosis) + TestabilitySection(diagnosis) +
-                                  Next(diagnosis) + Notes(diagnosis) + Colophon(diagnosis));
+  const Markup body =
+      Element("main", {},
+              Headline(diagnosis) + GapSection(diagnosis) + OnsetSection(diagnosis) +
+                  LocationSection(diagnosis) + CausesSection(diagnosis) + PathsSection(diagnosis) +
+                  ImprovementSection(diagnosis) + TestabilitySection(diagnosis) +
+                  AdviceSection(diagnosis) + NotesSection(diagnosis) + Colophon(diagnosis));
   const Markup head = Markup::Own(
                           "<meta charset=\"utf-8\">"
                           "<meta name=\"viewport\" "

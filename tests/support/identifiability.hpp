@@ -11,7 +11,7 @@
 namespace telltale {
 
 /// The identification with a different number in every place of its excitation, advice and
-/// certificate.
+/// coverage check.
 inline Identification WithIdentifiability(Identification made) {
   constexpr double kUnbounded = std::numeric_limits<double>::infinity();
   for (const Equation equation : kEquations) {
@@ -101,7 +101,7 @@ inline void ExpectSame(const ManoeuvreAdvice& a, const ManoeuvreAdvice& b) {
   }
 }
 
-/// Excitation, advice and certificate, bit for bit.
+/// Excitation, advice and coverage check, bit for bit.
 inline void ExpectSameIdentifiability(const Identification& a, const Identification& b) {
   ASSERT_EQ(a.excitation.size(), b.excitation.size());
   for (std::size_t i = 0; i < a.excitation.size(); ++i)

@@ -103,7 +103,7 @@ inline Identification MadeUpDynamicIdentification() {
   return made;
 }
 
-/// The same, sailed with half of each estimate.
+/// The same, with half of each estimate for simulation.
 inline Identification MadeUpIdentificationWithSimulationParameters() {
   Identification made = MadeUpIdentification();
   for (const Coefficient& c : made.coefficients) made.simulation.push_back(0.5 * c.estimate);

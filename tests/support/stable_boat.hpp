@@ -50,7 +50,7 @@ inline std::vector<TimedCommand> VariedCommands(double duration_s, std::uint64_t
   return Schedule(manoeuvres, 0.0);
 }
 
-/// The boat sailed for `duration_s` at steps of 0.02 s and measured.
+/// The boat simulated for `duration_s` at steps of 0.02 s and measured.
 inline Recording SimulateStableBoat(const VesselModel& model, double duration_s,
                                     const SensorOptions& sensors, std::uint64_t seed) {
   VesselState start;

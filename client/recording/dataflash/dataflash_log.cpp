@@ -118,7 +118,7 @@ MessageColumns Bind(const DataFlashFormat& format) {
   return reading;
 }
 
-/// "SERVO12_TRIM" -> true: the only parameters worth keeping, whatever else a damaged log names.
+/// "SERVO12_TRIM" -> true: the only parameters that are kept, whatever else a damaged log names.
 bool IsOutputParameter(std::string_view name) {
   std::size_t at = name.starts_with("SERVO") ? 5 : name.starts_with("RC") ? 2 : 0;
   const std::size_t digits = at;

@@ -55,7 +55,7 @@ struct DataFlashReport {
   std::string Summary() const;
 };
 
-/// The telemetry of a DataFlash log as it was logged: in log order, nothing judged but the fix.
+/// The telemetry of a DataFlash log as it was logged: in log order. Only the fix status is checked.
 ///
 /// Times are seconds of the autopilot's clock since it started, the same for the three channels. A
 /// fix bears the time at which it was logged (TimeUS, or T in ms before Rover 3), not its GPS time

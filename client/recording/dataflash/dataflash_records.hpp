@@ -64,8 +64,7 @@ class DataFlashConsumer {
 
 /// What was wrong with the bytes themselves.
 struct DataFlashDamage {
-  std::uint64_t corrupt_records =
-      0;  ///< records not followed by a header, and stretches of stray bytes
+  std::uint64_t corrupt_records = 0;  ///< records not followed by a header, and runs of stray bytes
   std::uint64_t undefined_records = 0;      ///< headers of a type that no FMT record has defined
   std::uint64_t malformed_definitions = 0;  ///< FMT records that contradict themselves
   std::uint64_t redefinitions = 0;          ///< types defined anew with another layout

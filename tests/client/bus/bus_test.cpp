@@ -55,11 +55,11 @@ TEST_F(Bus, HandsOverEverySampleOfABurstInOrder) {
     writer.Write(Encode(Telemetry<GnssFix>{"boat-1", i, {}}));
   }
   std::vector<std::uint64_t> received;
-  WaitSet news(here_);
-  news.Attach(reader, [&] {
+  WaitSet wait_set(here_);
+  wait_set.Attach(reader, [&] {
     reader.Take([&](const auto& wire) { received.push_back(wire.sequence_number); });
   });
-  ASSERT_TRUE(WaitUntil(news, [&] { return received.size() >= 64; }));
+  ASSERT_TRUE(WaitUntil(wait_set, [&] { return received.size() >= 64; }));
   for (std::size_t i = 0; i < received.size(); ++i) EXPECT_EQ(received[i], i + 1);
 }
 
@@ -73,11 +73,11 @@ TEST_F(Bus, TakesMoreThanOneBatch) {
       writer.Write(Encode(Telemetry<GnssFix>{"boat-" + std::to_string(boat), i, {}}));
     }
   }
-  WaitSet news(here_);
+  WaitSet wait_set(here_);
   std::size_t total = 0;
-  news.Attach(reader,
-              [&] { total += reader.Take([&](const auto& w) { ++received[w.vehicle_id]; }); });
-  ASSERT_TRUE(WaitUntil(news, [&] { return total >= 600; }));
+  wait_set.Attach(reader,
+                  [&] { total += reader.Take([&](const auto& w) { ++received[w.vehicle_id]; }); });
+  ASSERT_TRUE(WaitUntil(wait_set, [&] { return total >= 600; }));
   EXPECT_EQ(received.size(), 10u);
   for (const auto& [boat, count] : received) EXPECT_EQ(count, 60u) << boat;
 }
@@ -87,17 +87,17 @@ TEST_F(Bus, SkipsTheNoticeThatAWriterIsGone) {
   std::optional<Writer<telltale_wire_Model>> writer(here_);
   ASSERT_TRUE(WaitForMatch(here_, {reader, *writer}, 10s));
   writer->Write(Encode(ModelOfRevision(1)));
-  WaitSet news(here_);
+  WaitSet wait_set(here_);
   int notices = 0;
   int models = 0;
-  news.Attach(reader, [&] {
+  wait_set.Attach(reader, [&] {
     ++notices;
     models += static_cast<int>(reader.Take([](const auto&) {}));
   });
-  ASSERT_TRUE(WaitUntil(news, [&] { return models == 1; }));
+  ASSERT_TRUE(WaitUntil(wait_set, [&] { return models == 1; }));
   const int before = notices;
   writer.reset();
-  ASSERT_TRUE(WaitUntil(news, [&] { return notices > before; }));
+  ASSERT_TRUE(WaitUntil(wait_set, [&] { return notices > before; }));
   EXPECT_EQ(models, 1);
 }
 
@@ -109,11 +109,11 @@ TEST_F(Bus, GivesALateReaderTheLastModelOfEachVehicle) {
   }
   Reader<telltale_wire_Model> reader(here_);
   std::map<std::string, std::vector<std::uint64_t>> received;
-  WaitSet news(here_);
-  news.Attach(reader, [&] {
+  WaitSet wait_set(here_);
+  wait_set.Attach(reader, [&] {
     reader.Take([&](const auto& wire) { received[wire.vehicle_id].push_back(wire.revision); });
   });
-  ASSERT_TRUE(WaitUntil(news, [&] { return received.size() == 2; }));
+  ASSERT_TRUE(WaitUntil(wait_set, [&] { return received.size() == 2; }));
   EXPECT_THAT(received["boat-1"], testing::ElementsAre(3));
   EXPECT_THAT(received["boat-2"], testing::ElementsAre(30));
 }
@@ -135,16 +135,16 @@ TEST_F(Bus, ABestEffortReaderMatchesAReliableWriter) {
 }
 
 TEST_F(Bus, WakesAWaitingThread) {
-  WaitSet news(here_);
-  std::jthread waker([&] { news.Wake(); });
-  EXPECT_FALSE(news.Wait(10min));
+  WaitSet wait_set(here_);
+  std::jthread waker([&] { wait_set.Wake(); });
+  EXPECT_FALSE(wait_set.Wait(10min));
 }
 
 TEST_F(Bus, ReopensASilentReaderAndReceivesAgain) {
-  WaitSet news(here_);
+  WaitSet wait_set(here_);
   int heard = 0;
   WatchedReader<telltale_wire_GnssFix> reader(
-      here_, news, [&](const auto&) { ++heard; }, 60s);
+      here_, wait_set, [&](const auto&) { ++heard; }, 60s);
   const auto now = std::chrono::steady_clock::now();
   EXPECT_FALSE(reader.ReopenIfSilent(now + 10min)) << "nobody is connected, so silence is right";
   Writer<telltale_wire_GnssFix> writer(here_);
@@ -153,7 +153,7 @@ TEST_F(Bus, ReopensASilentReaderAndReceivesAgain) {
   EXPECT_TRUE(reader.ReopenIfSilent(now + 20min));
   ASSERT_TRUE(WaitForMatch(here_, {writer}, 10s));
   writer.Write(Encode(Telemetry<GnssFix>{"boat-1", 1, {}}));
-  EXPECT_TRUE(WaitUntil(news, [&] { return heard == 1; }));
+  EXPECT_TRUE(WaitUntil(wait_set, [&] { return heard == 1; }));
 }
 
 TEST(BusError, SaysWhatWasTriedAndWhyItFailed) {

@@ -56,7 +56,7 @@ TEST(Page, SaysTheSentenceTheVerdictAndEveryPart) {
                            "0.150 ± 0.035 s",
                            "cannot tell it from thruster_delay",
                            "unknown",
-                           "absorbed by YAW uv",
+                           "masked by YAW uv",
                            "not excited",
                            "fast random steps",
                            "7.2 nats",
@@ -70,9 +70,9 @@ TEST(Page, SaysTheSentenceTheVerdictAndEveryPart) {
 TEST(Page, SaysInWordsWhereThereIsNothing) {
   const std::string text = TextOfPage(ReportPage(MadeUpNominalDiagnosis()));
   for (const char* part :
-       {"No material gap", "sensor noise alone", "No corner of the data", "no gap that would ask",
+       {"No material gap", "sensor noise alone", "No operating condition", "no gap that would ask",
         "No windows were kept to draw over time", "No windows were kept to sort by heading",
-        "No paths were kept", "No effect is likely", "No effects are tied",
+        "No paths were kept", "No effect is likely", "No effects are left",
         "Nothing else limits the answer"}) {
     EXPECT_THAT(text, HasSubstr(part));
   }
@@ -105,7 +105,7 @@ TEST(Page, TheMapHoldsRootMeanSquaresByRegionAndSpeed) {
   // sqrt((9 + 16) / 2) = 3.54; speeds to 1.75 m/s in steps of 0.5.
   EXPECT_THAT(text, HasSubstr("0–0.5 – 3.5 → 1.0 n 2 – – 1.5–2 – – – 2.0 → 1.5 n 1 "));
   EXPECT_THAT(ReportPage(made),
-              HasSubstr("healthy sigmas: N 3.1 before, 1.2 after; NE not sailed"));
+              HasSubstr("times the normal error: N 3.1 before, 1.2 after; NE no data"));
 }
 
 TEST(Page, EveryStringIsEscaped) {

@@ -335,7 +335,7 @@ TEST(DataFlash, LeapsInTimeAreCountedByMessage) {
   const DataFlashLog log = Parse(writer);
   EXPECT_EQ(log.report.time_leaps, (Counts{{"GPS", 2}, {"ATT", 2}, {"RCOU", 2}}));
   EXPECT_THAT(log.report.Summary(), HasSubstr("2 leaps in time in GPS"));
-  EXPECT_EQ(log.gnss.size(), 9u);  // judged by the window, not here
+  EXPECT_EQ(log.gnss.size(), 9u);  // the window checks it, not the reader
 }
 
 TEST(DataFlash, ATypeRedefinedUnderWayIsReadByItsNewLayout) {
