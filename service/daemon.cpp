@@ -23,6 +23,7 @@ Daemon::Daemon(const DaemonConfig& config, std::function<void(const std::excepti
                .diagnose =
                    [this](DiagnoseRequest request) { diagnosis_jobs_.Submit(std::move(request)); },
                .heartbeat = [this] { models_.AssertLiveliness(); },
+               .received = [this](VehicleWindow& window) { quality_.PublishReceipt(window); },
                .failed = std::move(failed)}) {}
 
 }  // namespace telltale

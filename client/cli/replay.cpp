@@ -1,9 +1,11 @@
 #include <algorithm>
 #include <chrono>
+#include <cstdint>
 #include <filesystem>
 #include <iostream>
 #include <limits>
 #include <memory>
+#include <string>
 #include <thread>
 
 #include "telltale/client/bus/participant.hpp"
@@ -14,6 +16,7 @@
 #include "telltale/client/cli/live_options.hpp"
 #include "telltale/client/cli/progress_line.hpp"
 #include "telltale/client/cli/table.hpp"
+#include "telltale/client/fleet/receipts.hpp"
 #include "telltale/client/fleet/telemetry_publisher.hpp"
 #include "telltale/client/recording/load_recording.hpp"
 
@@ -23,12 +26,19 @@ namespace {
 using Clock = std::chrono::steady_clock;
 using Seconds = std::chrono::duration<double>;
 
-// Samples leave in bursts: few packets. Receivers hold 64 samples of a vehicle's channel until they
-// get to read them, so a burst is kept well below that, and the next gives them time.
-constexpr std::size_t kBurstSamples = 40;
+// A receiver holds 64 samples of a vehicle's channel until it takes them, and reports the count of
+// what it took every 32 samples. No more than that many are ever under way, so that a busy receiver
+// loses none.
+constexpr std::uint64_t kMostUnderWay = 60;
+
+// Samples leave in bursts, which make few packets. Where nobody reports, bursts are spaced in time.
+constexpr std::size_t kBurstSamples = 20;
 constexpr auto kBurstSpacing = std::chrono::milliseconds(2);
 
-// A recording may have been switched off for hours; nobody wants to wait that long.
+// A receiver that accounts for nothing for so long has lost what is under way.
+constexpr auto kReceiptPatience = std::chrono::seconds(10);
+
+// A recording may hold hours without power; a longer silence is cut to this.
 constexpr double kLongestSilenceS = 60.0;
 
 struct ReplayArguments {
@@ -57,9 +67,44 @@ class Schedule {
   double due_s_ = 0.0;
 };
 
-/// Publishes the samples at their times, or as fast as receivers can be trusted to follow; returns
-/// how many seconds of recording went by.
-double Publish(const std::vector<RawSample>& samples, double speed, TelemetryPublisher& publisher) {
+/// Keeps the number of samples under way within what a receiver holds.
+class Pacing {
+ public:
+  Pacing(const Participant& participant, const std::string& vehicle_id)
+      : receipts_(participant, vehicle_id), reported_(receipts_.Begin(kReceiptPatience)) {}
+
+  /// Whether a daemon reports how many samples it took.
+  bool Reported() const { return reported_; }
+
+  /// Waits until the next burst after `published` samples may leave.
+  void WaitForRoom(std::uint64_t published) {
+    const std::uint64_t with_burst = published + kBurstSamples;
+    if (with_burst > kMostUnderWay) WaitUntilTaken(with_burst - kMostUnderWay, published);
+  }
+
+  /// Waits until all `published` samples are accounted for.
+  void Finish(std::uint64_t published) { WaitUntilTaken(published, published); }
+
+  std::uint64_t Lost() const { return receipts_.Lost(); }
+
+ private:
+  void WaitUntilTaken(std::uint64_t count, std::uint64_t published) {
+    if (!reported_ || receipts_.WaitFor(count, kReceiptPatience)) return;
+    const std::uint64_t accounted = receipts_.Accounted();
+    reported_ = accounted != accounted_at_write_off_;  // else the daemon is gone
+    receipts_.WriteOff(published - std::min(published, accounted));
+    accounted_at_write_off_ = receipts_.Accounted();
+  }
+
+  Receipts receipts_;
+  bool reported_;
+  std::uint64_t accounted_at_write_off_ = 0;
+};
+
+/// Publishes the samples at their times, or as fast as the receiver follows; returns how many
+/// seconds of recording went by.
+double Publish(const std::vector<RawSample>& samples, double speed, TelemetryPublisher& publisher,
+               Pacing& pacing) {
   ProgressLine line;
   Schedule schedule;
   double due_s = 0.0;
@@ -73,7 +118,9 @@ double Publish(const std::vector<RawSample>& samples, double speed, TelemetryPub
       publisher.Flush();
       line.Update("replaying",
                   static_cast<double>(publisher.Published()) / static_cast<double>(samples.size()));
-      std::this_thread::sleep_until(std::max(due, burst_begin + kBurstSpacing));
+      pacing.WaitForRoom(publisher.Published());
+      const auto spaced = pacing.Reported() ? due : std::max(due, burst_begin + kBurstSpacing);
+      std::this_thread::sleep_until(spaced);
       burst_begin = Clock::now();
       burst = 0;
     }
@@ -81,7 +128,14 @@ double Publish(const std::vector<RawSample>& samples, double speed, TelemetryPub
     ++burst;
   }
   publisher.Flush();
+  pacing.Finish(publisher.Published());
   return due_s;
+}
+
+std::string OutcomeText(const Pacing& pacing) {
+  if (!pacing.Reported()) return "; no daemon reports on this vehicle";
+  if (pacing.Lost() == 0) return ", all received";
+  return ", " + Counted(pacing.Lost(), "sample", "samples") + " lost on the way";
 }
 
 void Replay(const ReplayArguments& arguments) {
@@ -94,13 +148,10 @@ void Replay(const ReplayArguments& arguments) {
                              std::to_string(arguments.live.domain) + ": " +
                              NobodyThereAdvice(arguments.live.domain));
   }
-  const auto start = Clock::now();
-  const double recorded_s = Publish(log.samples, arguments.speed, publisher);
-  const double elapsed_s = Seconds(Clock::now() - start).count();
+  Pacing pacing(participant, arguments.vehicle_id);
+  const double recorded_s = Publish(log.samples, arguments.speed, publisher, pacing);
   std::cout << "replayed " << publisher.Published() << " samples as " << arguments.vehicle_id
-            << ": " << Fixed(recorded_s, 1) << " s of recording in " << Fixed(elapsed_s, 1)
-            << " s, " << Fixed(static_cast<double>(publisher.Published()) / elapsed_s, 0)
-            << " samples/s\n";
+            << ", " << Fixed(recorded_s, 1) << " s of recording" << OutcomeText(pacing) << '\n';
 }
 
 }  // namespace
@@ -117,9 +168,8 @@ void AddReplay(CLI::App& telltale) {
       ->capture_default_str();
   arguments->live.AddTo(command, 10.0, "how long to wait for somebody to receive it");
   command.footer(
-      "Samples go out as recorded, wrong ones too: the receiver judges them. Silences longer than "
-      "a\n"
-      "minute are cut to a minute.\n"
+      "Samples go out as recorded, wrong ones too: the receiver checks them. Silences longer than\n"
+      "a minute are cut to a minute.\n"
       "Example: telltale replay --log run1 --vehicle-id boat-1 --speed 50");
   command.callback([arguments] { Replay(*arguments); });
 }

@@ -48,7 +48,7 @@ class Subscriber {
       : wait_set_(participant),
         subscription_(participant, wait_set_, std::move(receive), std::move(reject)) {}
 
-  /// Waits for news and hands it on, on this thread; false when there was none within `timeout`.
+  /// Waits for messages and hands them on, on this thread; false when none came within `timeout`.
   bool Wait(std::chrono::nanoseconds timeout) { return wait_set_.Wait(timeout); }
 
   /// Whether anyone publishes on this topic.

@@ -83,9 +83,17 @@ void Ingest::Route(Channel channel, const Wire& wire) {
     RejectUnattributed(channel, UnattributedReason::kMalformedId, telemetry.error().value);
   } else if (VehicleWindow* window = fleet_.Find(telemetry->vehicle_id)) {
     window->Add(telemetry->sequence_number, telemetry->sample);
+    CountReceived(*window);
   } else {
     RejectUnattributed(channel, UnattributedReason::kUnknownVehicle, telemetry->vehicle_id);
   }
+}
+
+void Ingest::CountReceived(VehicleWindow& window) {
+  std::size_t& received = received_[&window];
+  if (++received < kSamplesPerReceipt) return;
+  received = 0;
+  handlers_.received(window);
 }
 
 void Ingest::RejectUnattributed(Channel channel, UnattributedReason reason,

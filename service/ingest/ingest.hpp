@@ -3,6 +3,7 @@
 #include <atomic>
 #include <exception>
 #include <functional>
+#include <map>
 #include <string_view>
 #include <thread>
 
@@ -15,14 +16,20 @@
 
 namespace telltale {
 
+/// A receipt is due after so many samples of a vehicle: half of what a reader holds until it is
+/// taken, so that a sender that waits for receipts overruns no reader.
+inline constexpr std::size_t kSamplesPerReceipt = 32;
+
 /// The one thread that takes from the bus: telemetry into the vehicles' windows, requests to
 /// whoever answers them. It never estimates, and never waits for those who do.
 class Ingest {
  public:
   struct Handlers {
-    std::function<void(IdentifyRequest)> identify;      ///< must return at once
-    std::function<void(DiagnoseRequest)> diagnose;      ///< likewise
-    std::function<void()> heartbeat;                    ///< every second while the loop is at work
+    std::function<void(IdentifyRequest)> identify;  ///< must return at once
+    std::function<void(DiagnoseRequest)> diagnose;  ///< likewise
+    std::function<void()> heartbeat;                ///< every second while the loop is at work
+    /// After every kSamplesPerReceipt samples of a vehicle; must return at once.
+    std::function<void(VehicleWindow&)> received;
     std::function<void(const std::exception&)> failed;  ///< the loop has ended; nothing comes in
   };
 
@@ -36,14 +43,15 @@ class Ingest {
   void Heartbeat();
   template <class Wire>
   void Route(Channel channel, const Wire& wire);
-  void RejectUnattributed(Channel channel, UnattributedReason reason,
-                          std::string_view detail);
+  void CountReceived(VehicleWindow& window);
+  void RejectUnattributed(Channel channel, UnattributedReason reason, std::string_view detail);
   template <class Wire, class Handler>
   void Submit(const Wire& wire, const Handler& handler);
 
   Fleet& fleet_;
   Handlers handlers_;
   RateLimit warning_limit_;
+  std::map<const VehicleWindow*, std::size_t> received_;  ///< since the last receipt
   WaitSet wait_set_;  // before the readers attached to it, so that it goes last
   WatchedReader<telltale_wire_GnssFix> gnss_;
   WatchedReader<telltale_wire_Heading> heading_;

@@ -13,8 +13,6 @@
 namespace telltale {
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
 constexpr double kEvaluatedSpanS = 60.0;
 constexpr double kNewDataS = 5.0;     // one more free-run window has to fit before evaluating again
 constexpr double kDriftWeight = 0.1;  // of the newest change, so that drift remembers about ten
@@ -22,6 +20,24 @@ constexpr double kDriftWeight = 0.1;  // of the newest change, so that drift rem
 double Rate(Channel channel, const WindowState& now, const WindowState& before, double elapsed_s) {
   const auto i = static_cast<std::size_t>(channel);
   return static_cast<double>(now.arrived[i] - before.arrived[i]) / elapsed_s;
+}
+
+/// Monitoring goes on after a failure, which the log names.
+template <class Work>
+void LoggingFailure(Work work) {
+  try {
+    work();
+  } catch (const std::exception& error) {
+    spdlog::error("monitoring: {}", error.what());
+  }
+}
+
+void WriteCounts(const WindowState& state, Quality& quality) {
+  quality.window_s = state.end_s - state.start_s;
+  quality.window_fill = state.fill;
+  quality.lost = state.lost;
+  quality.accepted = state.accepted;
+  quality.rejected = RejectEntries(state.rejected);
 }
 
 }  // namespace
@@ -37,30 +53,63 @@ QualityMonitor::~QualityMonitor() {
     const std::lock_guard lock(mutex_);
     stopping_ = true;
   }
-  stop_.notify_all();
+  wake_.notify_all();
   thread_.join();
+}
+
+void QualityMonitor::PublishReceipt(VehicleWindow& window) {
+  {
+    const std::lock_guard lock(mutex_);
+    receipts_due_.insert(&window);
+  }
+  wake_.notify_all();
 }
 
 void QualityMonitor::Run() {
   auto last = Clock::now();
-  std::unique_lock lock(mutex_);
-  while (!stop_.wait_for(lock, period_, [this] { return stopping_; })) {
-    lock.unlock();
+  const auto period = std::chrono::ceil<Clock::duration>(period_);
+  while (WaitUntil(last + period)) {
     const auto now = Clock::now();
-    try {
+    LoggingFailure([&] {
       PublishAll(std::chrono::duration<double>(now - last).count());
       models_.PublishHeldUp();
-    } catch (const std::exception& error) {
-      spdlog::error("monitoring: {}", error.what());
-    }
+    });
     last = now;
+  }
+}
+
+bool QualityMonitor::WaitUntil(Clock::time_point deadline) {
+  std::unique_lock lock(mutex_);
+  while (!stopping_ && Clock::now() < deadline) {
+    wake_.wait_until(lock, deadline, [this] { return stopping_ || !receipts_due_.empty(); });
+    if (stopping_ || receipts_due_.empty()) continue;
+    lock.unlock();
+    LoggingFailure([this] { PublishReceipts(); });
     lock.lock();
+  }
+  return !stopping_;
+}
+
+void QualityMonitor::PublishReceipts() {
+  std::set<VehicleWindow*> due;
+  {
+    const std::lock_guard lock(mutex_);
+    std::swap(due, receipts_due_);
+  }
+  for (VehicleWindow* window : due) {
+    Memory& memory = memories_[window->vehicle().vehicle_id];
+    WriteCounts(window->State(), memory.quality);
+    memory.quality.vehicle_id = window->vehicle().vehicle_id;
+    memory.quality.sequence_number = ++memory.published;
+    writer_.Write(Encode(memory.quality));
   }
 }
 
 void QualityMonitor::PublishAll(double elapsed_s) {
   for (const auto& [vehicle_id, window] : fleet_.windows()) {
-    writer_.Write(Encode(Assess(*window, memories_[vehicle_id], elapsed_s)));
+    Memory& memory = memories_[vehicle_id];
+    memory.quality = Assess(*window, memory, elapsed_s);
+    writer_.Write(Encode(memory.quality));
   }
   Quality unattributed;
   unattributed.vehicle_id = kUnattributed;
@@ -74,14 +123,10 @@ Quality QualityMonitor::Assess(VehicleWindow& window, Memory& memory, double ela
   Quality quality;
   quality.vehicle_id = window.vehicle().vehicle_id;
   quality.sequence_number = ++memory.published;
-  quality.window_s = state.end_s - state.start_s;
-  quality.window_fill = state.fill;
+  WriteCounts(state, quality);
   quality.gnss_rate_hz = Rate(Channel::kGnss, state, memory.window, elapsed_s);
   quality.heading_rate_hz = Rate(Channel::kHeading, state, memory.window, elapsed_s);
   quality.thrusters_rate_hz = Rate(Channel::kThrusters, state, memory.window, elapsed_s);
-  quality.lost = state.lost;
-  quality.accepted = state.accepted;
-  quality.rejected = RejectEntries(state.rejected);
   memory.window = state;
   Follow(window, state, memory);
   quality.indicative = memory.indicative;
