@@ -10,7 +10,9 @@
 #include <spdlog/spdlog.h>
 #include <CLI/CLI.hpp>
 
+#include "telltale/core/base/solver_log.hpp"
 #include "telltale/core/base/version.hpp"
+#include "telltale/idl/codec/protobuf_log.hpp"
 #include "telltale/service/configuration.hpp"
 #include "telltale/service/daemon.hpp"
 
@@ -55,6 +57,8 @@ int Serve(const DaemonConfig& config, const StopSignals& signals) {
 }
 
 int Main(int argc, char** argv) {
+  SilenceSolverLog();
+  SilenceProtobufLog();
   CLI::App app{"Identifies a fleet's vehicles from their telemetry over DDS.", "telltaled"};
   std::string config_file;
   app.add_option("--config", config_file, "configuration, Protobuf text format")->required();

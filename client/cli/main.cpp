@@ -1,16 +1,19 @@
 #include <iostream>
 #include <memory>
+#include <string>
 
 #include <CLI/CLI.hpp>
 
 #include "telltale/client/cli/commands.hpp"
 #include "telltale/client/cli/exit_codes.hpp"
 #include "telltale/client/cli/help_formatter.hpp"
+#include "telltale/client/cli/library_logs.hpp"
+#include "telltale/core/base/version.hpp"
 
 namespace telltale {
 namespace {
 
-/// CLI11 would say only that a command is missing.
+/// A first word that is no command: CLI11 says only that a command is missing.
 bool NamesNoCommand(const CLI::App& app, int argc, char** argv) {
   return app.get_subcommands().empty() && argc > 1 && argv[1][0] != '-';
 }
@@ -18,7 +21,9 @@ bool NamesNoCommand(const CLI::App& app, int argc, char** argv) {
 ExitCode Run(CLI::App& app, int argc, char** argv) {
   try {
     app.parse(argc, argv);
-    return ExitCode::kSuccess;
+    if (std::cout.flush()) return ExitCode::kSuccess;
+    std::cerr << "telltale: standard output cannot be written\n";
+    return ExitCode::kFailure;
   } catch (const CLI::ParseError& error) {
     if (NamesNoCommand(app, argc, argv)) {
       std::cerr << argv[1] << ": no such command\nRun with --help for those there are.\n";
@@ -41,12 +46,15 @@ ExitCode Run(CLI::App& app, int argc, char** argv) {
 }  // namespace telltale
 
 int main(int argc, char** argv) {
+  const telltale::LibraryLogs logs;
   CLI::App app(
-      "Identifies how autonomous surface vehicles answer to their thrusters, with bounds.");
+      "Identifies how autonomous surface vehicles respond to their thrusters, with bounds.");
   app.name("telltale");
   app.formatter(std::make_shared<telltale::HelpFormatter>());
   app.require_subcommand(1);
-  app.footer("Exit codes: 0 success, 1 failure, 2 usage error, 3 the data cannot answer.");
+  app.set_version_flag("--version", "telltale " + std::string(telltale::Version()));
+  app.footer(
+      "Exit codes: 0 success, 1 any other failure, 2 usage error, 3 the data cannot answer.");
   telltale::AddIdentify(app);
   telltale::AddValidate(app);
   telltale::AddDiagnose(app);
