@@ -4,8 +4,8 @@
 
 namespace telltale {
 
-/// Each adds one subcommand, which runs when the command line is parsed and throws what outcome.hpp
-/// names, or any other exception for a failure, where it does not succeed.
+/// Each function adds one subcommand, which runs when the command line is parsed. Where it does not
+/// succeed it throws what exit_codes.hpp names, or any other exception for a failure.
 void AddIdentify(CLI::App& telltale);
 void AddValidate(CLI::App& telltale);
 void AddDiagnose(CLI::App& telltale);

@@ -36,11 +36,42 @@ std::string ChangeTable(const ModelChange& change) {
   return table.Render();
 }
 
-std::string VerdictLine(const ModelChange& change) {
-  return Wrapped("The second " + InWords(change) + ". Together: Wald statistic " +
+/// The answer in one line, then how it was found.
+std::string AnswerText(const ModelChange& change) {
+  const bool differ = change.verdict == ChangeVerdict::kChanged;
+  return std::string(differ ? "The models differ" : "The models do not differ significantly") +
+         ", p = " + Significant(change.p_value, 2) + ".\n" +
+         Wrapped("The second " + InWords(change) + ". Together: Wald statistic " +
                  Significant(change.statistic) + " over " +
                  Counted(change.degrees_of_freedom, "combination", "combinations") +
-                 "; below p = " + Plain(kSignificantChange) + " models are called different.");
+                 "; models differ where p is below " + Plain(kSignificantChange) + '.');
+}
+
+/// What each model simulates with, where that is not its estimates. The test compares estimates:
+/// regularised values are shrunk, so that their difference has no covariance.
+std::string SimulationValuesText(const Identification& earlier, const Identification& later) {
+  if (earlier.simulation.empty() && later.simulation.empty()) return "";
+  Table table({{"coefficient"},
+               {"earlier", Align::kRight},
+               {"later", Align::kRight},
+               {"difference", Align::kRight},
+               {"unit"}});
+  for (std::size_t i = 0; i < earlier.coefficients.size(); ++i) {
+    const Coefficient& c = earlier.coefficients[i];
+    for (std::size_t j = 0; j < later.coefficients.size(); ++j) {
+      const Coefficient& other = later.coefficients[j];
+      if (other.equation != c.equation || other.regressor != c.regressor) continue;
+      const double before = earlier.SimulationParameter(i);
+      const double after = later.SimulationParameter(j);
+      table.AddRow({std::string(Name(c.equation)) + ' ' + c.regressor, Significant(before),
+                    Significant(after), Significant(after - before), c.unit});
+    }
+  }
+  return '\n' +
+         Wrapped(
+             "Values for simulation. The test above compares the estimates, since regularised "
+             "values have no covariance of their difference.") +
+         table.Render();
 }
 
 void CompareModels(const CompareArguments& arguments) {
@@ -57,8 +88,9 @@ void CompareModels(const CompareArguments& arguments) {
                  "test does not hold\n";
   }
   const ModelChange change = OrThrow(ChangeBetween(earlier, later));
-  arguments.output.Write(PrintChangeJson(change),
-                         [&] { return ChangeTable(change) + '\n' + VerdictLine(change); });
+  arguments.output.Write(PrintChangeJson(change), [&] {
+    return AnswerText(change) + '\n' + ChangeTable(change) + SimulationValuesText(earlier, later);
+  });
 }
 
 }  // namespace
@@ -66,7 +98,7 @@ void CompareModels(const CompareArguments& arguments) {
 void AddCompare(CLI::App& telltale) {
   const auto arguments = std::make_shared<CompareArguments>();
   CLI::App& command = *telltale.add_subcommand(
-      "compare", "Tells whether two models of a boat differ by more than their errors");
+      "compare", "Tests whether two models of a boat differ by more than their errors");
   command
       .add_option("--model", arguments->models,
                   "model.json, as identify writes it; twice, the earlier first")
@@ -75,7 +107,7 @@ void AddCompare(CLI::App& telltale) {
       ->required();
   arguments->output.AddTo(command, "change.json");
   command.footer(
-      "The models must rest on different data and have been identified with the same options.\n"
+      "The models must rest on different data and be identified with the same options.\n"
       "Example: telltale compare --model may.json --model june.json");
   command.callback([arguments] { CompareModels(*arguments); });
 }

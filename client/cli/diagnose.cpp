@@ -74,8 +74,8 @@ void AddDiagnose(CLI::App& telltale) {
   arguments->AddOptionsTo(command, log);
   live->AddTo(command, 300.0, "with --vehicle-id: how long to wait for the answer");
   command.footer(
-      "Give a recording that the model was not made from, of 60 s or more. Errors are in healthy "
-      "sigmas.\n"
+      "Give a recording of 60 s or more that did not make the model. Errors are in times the\n"
+      "normal error, 1 is what a nominal recording shows.\n"
       "Example: telltale diagnose --log today --vehicle boat.textproto --model model.json \\\n"
       "             --reference-log last-week --html report.html --out report.json\n"
       "         telltale diagnose --vehicle-id boat-1");

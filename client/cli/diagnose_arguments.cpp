@@ -42,9 +42,10 @@ void DiagnoseArguments::AddOptionsTo(CLI::App& command, CLI::Option* log) {
   auto* const model = AddModelFile(command, model_file)->required(false)->needs(log);
   log->needs(model);
   command
-      .add_option("--reference-log", reference_logs,
-                  "logs of the same boat when all was well, which say how large a healthy error "
-                  "is; without any the floor is what sensor noise alone would leave")
+      .add_option(
+          "--reference-log", reference_logs,
+          "logs of the same boat in its nominal state, which say how large the normal error "
+          "is; without any the floor is the error that sensor noise alone leaves")
       ->type_name("DIR|FILE.BIN")
       ->check(CLI::ExistingPath.description(""))
       ->needs(log);

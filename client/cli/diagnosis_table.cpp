@@ -33,12 +33,12 @@ std::vector<std::string> GapRow(std::string_view channel, const GapSize& size,
 }
 
 std::string GapTable(const Diagnosis& diagnosis) {
-  Table table({{"gap, in healthy sigmas", Align::kLeft},
+  Table table({{"times the normal error", Align::kLeft},
                {"before", Align::kRight},
                {"after", Align::kRight},
                {"floor", Align::kRight},
-               {"95 % of healthy", Align::kRight},
-               {"closed [95 %]", Align::kRight}});
+               {"95 % below", Align::kRight},
+               {"explained [95 %]", Align::kRight}});
   for (const Gap& gap : diagnosis.gaps) {
     table.AddHeading(Plain(gap.horizon_s) + " s: " + Counted(gap.windows, "window", "windows"));
     if (gap.windows == 0) continue;
@@ -52,12 +52,12 @@ std::string GapTable(const Diagnosis& diagnosis) {
 }
 
 std::string WhereTable(const Diagnosis& diagnosis) {
-  if (diagnosis.where.empty()) return Wrapped("Where: no corner of the data stands out.");
+  if (diagnosis.where.empty()) return Wrapped("Where: no operating condition stands out.");
   Table table({{"where", Align::kLeft},
-               {"of the excess", Align::kRight},
+               {"excess", Align::kRight},
                {"p", Align::kRight},
                {"kind", Align::kLeft},
-               {"mean, sigmas", Align::kRight},
+               {"mean", Align::kRight},
                {"windows", Align::kRight}});
   for (const GapCell& cell : ListedCells(diagnosis)) {
     table.AddRow({PlaceText(cell), ShareText(cell.excess_share), Significant(cell.p_value, 2),
@@ -67,13 +67,14 @@ std::string WhereTable(const Diagnosis& diagnosis) {
   return table.Render() + Wrapped(MoreCellsText(diagnosis));
 }
 
-void AddEffect(Table& table, const CausalEffect& effect, bool several) {
-  std::string words = "  " + effect.sentence;
-  if (several) words += " (" + ShareText(effect.shapley_share) + " of what these close)";
-  if (!effect.sentence.empty()) table.AddHeading(words);
+std::string EffectText(const CausalEffect& effect, bool several) {
+  std::string sentence = effect.sentence;
+  if (several) sentence += " (" + ShareText(effect.shapley_share) + " of what these explain)";
+  std::string text = effect.sentence.empty() ? "" : Wrapped(sentence, "  ");
   for (const ParameterEstimate& parameter : effect.parameters) {
-    table.AddRow({"    " + parameter.name, EstimateText(parameter), "", ""});
+    text += "    " + parameter.name + "  " + EstimateText(parameter) + '\n';
   }
+  return text;
 }
 
 std::string JoinedWith(const std::vector<std::string>& names, const std::string& separator) {
@@ -82,31 +83,35 @@ std::string JoinedWith(const std::vector<std::string>& names, const std::string&
   return text;
 }
 
-std::string CausesTable(const Diagnosis& diagnosis) {
-  if (diagnosis.causes.empty()) return Wrapped("Which: nothing to explain.");
-  Table table({{"which", Align::kLeft},
-               {"estimate", Align::kRight},
-               {"probability", Align::kRight},
-               {"closed [95 %]", Align::kRight}});
-  for (const Cause& cause : diagnosis.causes) {
-    const std::string excess_text =
-        cause.effects.empty() ? "" : ExcessExplainedText(cause.excess_explained);
-    table.AddRow({CauseText(cause), "", ShareText(cause.probability), excess_text});
-    for (const CausalEffect& effect : cause.effects) {
-      AddEffect(table, effect, cause.effects.size() > 1);
-    }
-    if (!cause.indistinguishable.empty()) {
-      table.AddHeading("  this recording cannot tell it from " +
-                       JoinedWith(cause.indistinguishable, ", "));
-    }
+/// "thruster_lag: probability 81 %, excess explained 74 % [60, 88]", then its effects.
+std::string CauseParagraph(const Cause& cause) {
+  std::string headline = CauseText(cause) + ": probability " + ShareText(cause.probability);
+  if (!cause.effects.empty()) {
+    headline += ", excess explained [95 %] " + ExcessExplainedText(cause.excess_explained);
   }
-  return table.Render();
+  std::string text = Wrapped(headline);
+  for (const CausalEffect& effect : cause.effects) {
+    text += EffectText(effect, cause.effects.size() > 1);
+  }
+  if (!cause.indistinguishable.empty()) {
+    text += Wrapped(
+        "this recording cannot separate it from " + JoinedWith(cause.indistinguishable, ", "),
+        "  ");
+  }
+  return text;
+}
+
+std::string CausesText(const Diagnosis& diagnosis) {
+  if (diagnosis.causes.empty()) return Wrapped("Causes: nothing to explain.");
+  std::string text = "Causes\n";
+  for (const Cause& cause : diagnosis.causes) text += CauseParagraph(cause);
+  return text;
 }
 
 std::string TestabilityTable(const Diagnosis& diagnosis) {
   if (diagnosis.effects.empty()) return "";
-  Table table({{"would this recording show it", Align::kLeft},
-               {"sigmas at its typical size", Align::kRight},
+  Table table({{"effect of typical size", Align::kLeft},
+               {"std. errors", Align::kRight},
                {"", Align::kLeft}});
   for (const EffectTestability& effect : diagnosis.effects) {
     table.AddRow({effect.effect, Fixed(effect.detectability, 1), TestabilityText(effect)});
@@ -117,14 +122,15 @@ std::string TestabilityTable(const Diagnosis& diagnosis) {
 std::string AdviceText(const Diagnosis& diagnosis) {
   std::string text;
   for (const SeparationAdvice& advice : diagnosis.advice) {
-    const std::string promise = advice.decisive ? ", which should settle it" : ", which may not do";
+    const std::string promise =
+        advice.decisive ? ", which should suffice" : ", which may not suffice";
     text += Wrapped(advice.manoeuvre + " for " + Fixed(advice.duration_s, 0) +
                         " s would separate " + JoinedWith(advice.separates, " from ") + " by " +
                         Fixed(advice.expected_nats, 1) + " nats" + promise,
                     "  ");
     if (!advice.how.empty()) text += Wrapped("-> " + advice.how, "     ");
   }
-  return Titled("What to sail next, by simulation", text);
+  return Titled("Recommended manoeuvres, by simulation", text);
 }
 
 void AddScores(Table& table, const FreeRunScores& before, const FreeRunScores& after) {
@@ -162,7 +168,7 @@ std::string NotesText(const Diagnosis& diagnosis) {
 
 std::string DiagnosisTable(const Diagnosis& diagnosis) {
   return Headline(diagnosis) + '\n' + GapTable(diagnosis) + '\n' + WhereTable(diagnosis) + '\n' +
-         CausesTable(diagnosis) + ImprovementTable(diagnosis) + TestabilityTable(diagnosis) +
+         CausesText(diagnosis) + ImprovementTable(diagnosis) + TestabilityTable(diagnosis) +
          AdviceText(diagnosis) + NotesText(diagnosis);
 }
 

@@ -7,7 +7,8 @@
 namespace telltale {
 
 /// A diagnosis for people: the sentence first, then the gap by horizon and channel, where it sits,
-/// causes, what this recording could show at all, what to sail next and what the effects improve.
+/// causes, what the effects improve, what this recording could show and the recommended
+/// manoeuvres.
 std::string DiagnosisTable(const Diagnosis& diagnosis);
 
 }  // namespace telltale

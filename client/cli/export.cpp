@@ -42,7 +42,7 @@ void Write(const fs::path& file, const std::string& text) {
 
 void NoteDraws(const PosteriorDraws& draws) {
   for (const std::string& name : draws.not_drawn) {
-    std::cerr << "note: " << name << " is not drawn: the data do not say how it varies\n";
+    std::cerr << "note: " << name << " is not drawn: the data do not determine its variance\n";
   }
   if (draws.clipped > 0.0) {
     std::cerr << "note: the covariance has a negative eigenvalue, " << draws.clipped
@@ -57,16 +57,17 @@ void WriteDraws(const ExportArguments& arguments, const Identification& model,
   Write(arguments.out / "draws.csv", PrintDrawsCsv(model, draws));
 }
 
-// Nothing is written before everything that can be refused has been answered.
+// Everything that can be refused is computed before anything is written.
 void ExportModel(const ExportArguments& arguments) {
   const Vehicle vehicle = LoadVehicle(arguments.vehicle_file);
-  const Identification model = LoadModel(arguments.model_file);
+  const Identification estimated = LoadModel(arguments.model_file);
+  const Identification model = WithSimulationParameters(estimated);
   NoteOtherVehicle(model, vehicle);
-  if (!model.simulation.empty()) {
-    std::cerr << "note: as estimated the model runs away; what is written is what it is sailed "
-                 "with, draws are about the estimates\n";
+  if (!estimated.simulation.empty()) {
+    std::cerr << "note: as estimated the model diverges; the file and the draws take the "
+                 "regularised values for simulation\n";
   }
-  const std::string text = Formatted(arguments, WithSimulationParameters(model), vehicle);
+  const std::string text = Formatted(arguments, model, vehicle);
   std::optional<PosteriorDraws> draws;
   if (arguments.draws) draws = OrThrow(DrawFromPosterior(model, *arguments.draws, arguments.seed));
   if (draws) fs::create_directories(arguments.out);
@@ -110,7 +111,7 @@ void AddExport(CLI::App& telltale) {
       ->type_name("DIR|FILE")
       ->required();
   command.footer(
-      "What telemetry can and cannot tell of a boat is said in what is written.\n"
+      "The file states which properties telemetry cannot determine.\n"
       "Example: telltale export --model model.json --vehicle boat.textproto --format mss "
       "--draws 200 --out exported");
   command.callback([arguments] { ExportModel(*arguments); });

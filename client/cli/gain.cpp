@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "telltale/client/cli/coefficient_text.hpp"
 #include "telltale/client/cli/commands.hpp"
 #include "telltale/client/cli/exit_codes.hpp"
 #include "telltale/client/cli/input_options.hpp"
@@ -47,33 +48,25 @@ struct Axis {
 constexpr std::array<Axis, 3> kAxes = {
     {{"surge", "m/s^2", "m/s"}, {"sway", "m/s^2", "m/s"}, {"yaw", "rad/s^2", "rad/s"}}};
 
-std::string BoundsText(const Interval& interval) {
-  return '[' + Significant(interval.lower) + ", " + Significant(interval.upper) + ']';
-}
-
 std::vector<std::string> Row(const Identification& model, const CommandGain& command,
                              Equation equation) {
   const Axis& axis = kAxes[IndexOf(equation)];
-  if (!model.Has(equation)) return {axis.name, "refused", "", "", "", "", ""};
+  if (!model.Has(equation)) return {axis.name, "refused", "", "", "", ""};
   const auto place = static_cast<Eigen::Index>(IndexOf(equation));
-  const InputGain discrete = command.gain.Times(model.sampling_period_s);
   return {axis.name,
           Significant(command.gain.gain[place]),
           BoundsText(BoundsOf(model, command.gain, equation)),
           axis.continuous_unit,
-          Significant(discrete.gain[place]),
-          BoundsText(BoundsOf(model, discrete, equation)),
+          Significant(model.sampling_period_s * command.gain.gain[place]),
           axis.discrete_unit};
 }
 
 std::string GainTable(const Identification& model, const std::vector<CommandGain>& gains) {
-  const std::string bounds = Plain(100.0 * model.coefficients.front().interval.level) + " % bounds";
   Table table({{"input gain", Align::kLeft},
                {"G / h", Align::kRight},
-               {bounds, Align::kRight},
+               {BoundsTitle(model), Align::kRight},
                {"", Align::kLeft},
                {"G", Align::kRight},
-               {bounds, Align::kRight},
                {"", Align::kLeft}});
   for (const CommandGain& command : gains) {
     table.AddHeading("port " + Plain(command.delta.port) + ", starboard " +
@@ -88,12 +81,11 @@ std::string SettlingText(const Identification& model) {
   if (!model.thruster_time_constant) return "";
   const Settling settling = SettlingOf(model);
   return Wrapped("1 % of an initial condition is left after " + Significant(settling.estimate_s) +
-                 " s, " + Plain(100.0 * settling.interval.level) + " % bounds " +
-                 BoundsText(settling.interval) + ".");
+                 " s, " + BoundsTitle(model) + ' ' + BoundsText(settling.interval) + ".");
 }
 
 void PrintGains(const GainArguments& arguments) {
-  const Identification model = LoadModel(arguments.model_file);
+  const Identification model = WithSimulationParameters(LoadModel(arguments.model_file));
   std::vector<CommandGain> gains;
   for (const PropellerCommand& delta : CommandsOf(arguments)) {
     gains.push_back({delta, SteadyInputGain(model, delta)});
@@ -111,7 +103,7 @@ void PrintGains(const GainArguments& arguments) {
 void AddGain(CLI::App& telltale) {
   const auto arguments = std::make_shared<GainArguments>();
   CLI::App& command = *telltale.add_subcommand(
-      "gain", "Tells what commands do to a boat's velocities, with bounds, and how soon");
+      "gain", "Prints the input gain of commands with bounds, and how soon thrust settles");
   AddModelFile(command, arguments->model_file);
   command
       .add_option("--delta", arguments->deltas,
@@ -119,7 +111,8 @@ void AddGain(CLI::App& telltale) {
       ->type_name("PORT,STARBOARD");
   arguments->output.AddTo(command, "gain.json");
   command.footer(
-      "G is the paper's input gain, over one sampling period h; G / h is continuous-time.\n"
+      "G is the paper's input gain over one sampling period h, G / h the acceleration. The\n"
+      "bounds of G are h times those of G / h. Coefficients are the values for simulation.\n"
       "Example: telltale gain --model model.json --delta 0.5,0.5 --delta 0.5,-0.2");
   command.callback([arguments] { PrintGains(*arguments); });
 }

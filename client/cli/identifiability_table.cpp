@@ -45,69 +45,15 @@ std::string LargestInflation(const ExcitationSummary& summary, Parameterization 
          std::string(regressors[largest].name);
 }
 
-std::string Advice(const Identification& identification) {
-  std::string text;
-  std::size_t shown = 0;
-  for (const ManoeuvreAdvice& advice : identification.advice) {
-    if (shown == kManoeuvresShown) break;
-    const std::string words = InWords(advice);
-    if (words.empty()) continue;
-    text += Wrapped(words, "  ") + Wrapped("-> " + advice.how, "     ");
-    ++shown;
-  }
-  return text.empty() ? "" : "\nWhat would tell more, by simulation\n" + text;
-}
-
-std::string PercentOf(double share) {
-  return Fixed(100.0 * share, 1);
-}
-
-std::vector<std::string> Cells(const std::string& name, const CoefficientCoverage& coverage) {
-  const Interval bounds = coverage.Bounds();
-  return {name, std::to_string(coverage.tally.held) + " of " + std::to_string(coverage.tally.of),
-          PercentOf(coverage.tally.Share()),
-          '[' + PercentOf(bounds.lower) + ", " + PercentOf(bounds.upper) + ']',
-          Fixed(coverage.bias, 2)};
-}
-
-std::string JointCoverageText(const CoverageCheck& coverage_check) {
-  std::string text = "All bounds: " + PercentOf(coverage_check.mean_coverage) + " % held, +-" +
-                     PercentOf(coverage_check.mean_coverage_error) + " (one sigma)";
-  if (coverage_check.joint.of > 0) {
-    const Interval joint = BinomialInterval(coverage_check.joint, kCoverageLevel);
-    text += "; the ellipsoid of all coefficients: " + PercentOf(coverage_check.joint.Share()) +
-            " %, between " + PercentOf(joint.lower) + " and " + PercentOf(joint.upper);
-  }
-  return Wrapped(text + ".");
-}
-
-std::string CoverageCheckConditions(const CoverageCheck& coverage_check) {
-  std::string text = std::to_string(coverage_check.replicates_identified) + " of " +
-                     std::to_string(coverage_check.replicates_requested) +
-                     " simulated repeats of these data, seed " +
-                     std::to_string(coverage_check.seed) +
-                     ", could be identified. This is how bounds fare if the model is true; it says "
-                     "nothing of what the model leaves out.";
-  if (!coverage_check.truth_is_reported_model) {
-    text += " The boat that was sailed is a tamer one than published, which runs away.";
-  }
-  return Wrapped(text);
-}
-
-}  // namespace
-
-std::string IdentifiabilityTable(const Identification& identification) {
-  if (identification.excitation.empty()) return "";
+std::string ExcitationTable(const Identification& identification, bool counted) {
   const bool weak = identification.estimator == Estimator::kWeakIv;
-  const bool counted = identification.excitation.front().rows > 0;
   std::vector<Column> columns = {{"excitation", Align::kLeft},
                                  {"condition", Align::kRight},
-                                 {"largest variance inflation", Align::kRight}};
+                                 {"variance inflation", Align::kRight}};
   if (counted) {
     columns.push_back({weak ? "windows" : "rows", Align::kRight});
-    columns.push_back({"worth", Align::kRight});
+    columns.push_back({"effective sample size", Align::kRight});
   }
-  columns.push_back({"least told apart", Align::kLeft});
   Table table(columns);
   for (const ExcitationSummary& summary : identification.excitation) {
     std::vector<std::string> cells = {std::string(Name(summary.equation)),
@@ -117,36 +63,41 @@ std::string IdentifiabilityTable(const Identification& identification) {
       cells.push_back(std::to_string(summary.rows));
       cells.push_back(Fixed(summary.effective_rows, 0));
     }
-    cells.push_back(Combination(summary, identification.parameterization));
     table.AddRow(std::move(cells));
   }
-  return table.Render() + Advice(identification);
+  return table.Render();
 }
 
-std::string CoverageTable(const Identification& identification) {
-  if (!identification.coverage_check) return "";
-  const CoverageCheck& coverage_check = *identification.coverage_check;
-  Table table({{"coverage_check", Align::kLeft},
-               {"bounds held", Align::kRight},
-               {"%", Align::kRight},
-               {"known to lie in", Align::kRight},
-               {"bias in std. errors", Align::kRight}});
-  for (const Equation equation : kEquations) {
-    if (!identification.Has(equation)) continue;
-    table.AddHeading(std::string(Name(equation)));
-    for (std::size_t i = 0; i < coverage_check.coefficients.size(); ++i) {
-      const Coefficient& c = identification.coefficients[i];
-      if (c.equation == equation) {
-        table.AddRow(Cells(c.regressor, coverage_check.coefficients[i]));
-      }
-    }
+std::string CombinationsText(const Identification& identification) {
+  std::string text = "least identifiable combination\n";
+  for (const ExcitationSummary& summary : identification.excitation) {
+    text += Wrapped(std::string(Name(summary.equation)) + ": " +
+                        Combination(summary, identification.parameterization),
+                    "  ");
   }
-  if (coverage_check.thruster_time_constant) {
-    table.AddHeading("THRUSTERS");
-    table.AddRow(Cells("tau", *coverage_check.thruster_time_constant));
+  return text;
+}
+
+std::string AdviceText(const Identification& identification) {
+  std::string text;
+  std::size_t shown = 0;
+  for (const ManoeuvreAdvice& advice : identification.advice) {
+    if (shown == kManoeuvresShown) break;
+    const std::string words = InWords(advice);
+    if (words.empty()) continue;
+    text += Wrapped(words, "  ") + Wrapped("-> " + advice.how, "     ");
+    ++shown;
   }
-  return table.Render() + JointCoverageText(coverage_check) +
-         CoverageCheckConditions(coverage_check);
+  return text.empty() ? "" : "\nRecommended manoeuvres, by simulation\n" + text;
+}
+
+}  // namespace
+
+std::string IdentifiabilityTable(const Identification& identification) {
+  if (identification.excitation.empty()) return "";
+  const bool counted = identification.excitation.front().rows > 0;
+  return ExcitationTable(identification, counted) + CombinationsText(identification) +
+         AdviceText(identification);
 }
 
 }  // namespace telltale

@@ -6,11 +6,9 @@
 
 namespace telltale {
 
-/// How far the data tell coefficients apart, a line for each equation, and the best one or two
-/// manoeuvres that would tell more. Empty where a model does not carry it.
+/// How well the data separate the coefficients, a row per equation, the least identifiable
+/// combination of each, and the best two manoeuvres that would determine more. Empty where the
+/// model has no excitation summary.
 std::string IdentifiabilityTable(const Identification& identification);
-
-/// How often the bounds held on simulated repeats. Empty where there is no certificate.
-std::string CoverageTable(const Identification& identification);
 
 }  // namespace telltale

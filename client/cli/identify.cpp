@@ -1,31 +1,53 @@
 #include "telltale/core/identification/identify.hpp"
 
 #include <memory>
+#include <optional>
+#include <utility>
 
 #include "telltale/client/cli/commands.hpp"
+#include "telltale/client/cli/discrete_table.hpp"
 #include "telltale/client/cli/exit_codes.hpp"
 #include "telltale/client/cli/identify_arguments.hpp"
 #include "telltale/client/cli/identify_live.hpp"
 #include "telltale/client/cli/live_options.hpp"
 #include "telltale/client/cli/model_table.hpp"
 #include "telltale/client/cli/progress_line.hpp"
+#include "telltale/core/validation/held_out_score.hpp"
 #include "telltale/idl/codec/json/model.hpp"
 
 namespace telltale {
 namespace {
 
+RecordedVehicle LoadLogs(const IdentifyArguments& arguments) {
+  ProgressLine line;
+  line.Update("reading logs", 0.0);
+  return arguments.inputs.Load();
+}
+
+Identification IdentifyRecording(const RecordedVehicle& recorded, const IdentifyOptions& options) {
+  ProgressLine line;
+  return OrThrow(
+      Identify(recorded.recording, recorded.vehicle, options,
+               [&line](std::string_view stage, double fraction) { line.Update(stage, fraction); }));
+}
+
+/// Nothing where the recording gives no score; the table says then how to get one.
+std::optional<HeldOutScore> Score(const RecordedVehicle& recorded, const Identification& model,
+                                  const IdentifyOptions& options) {
+  ProgressLine line;
+  line.Update("scoring on the part that is held out", 0.0);
+  auto score = ScoreOnHeldOutPart(recorded.recording, recorded.vehicle, model, options);
+  if (!score) return std::nullopt;
+  return *std::move(score);
+}
+
 void IdentifyLogs(const IdentifyArguments& arguments) {
   const IdentifyOptions options = arguments.Options();
-  const Identification model = [&] {
-    ProgressLine line;
-    line.Update("reading logs", 0.0);
-    const RecordedVehicle recorded = arguments.inputs.Load();
-    return OrThrow(Identify(
-        recorded.recording, recorded.vehicle, options,
-        [&line](std::string_view stage, double fraction) { line.Update(stage, fraction); }));
-  }();
+  const RecordedVehicle recorded = LoadLogs(arguments);
+  const Identification model = IdentifyRecording(recorded, options);
   arguments.output.Write(PrintModelJson(model), [&] {
-    return ModelTable(model) + (arguments.discrete ? '\n' + DiscreteTable(model) : "");
+    return ModelTable(model, Score(recorded, model, options)) +
+           (arguments.discrete ? '\n' + DiscreteTable(model) : "");
   });
 }
 
@@ -45,7 +67,7 @@ void AddIdentify(CLI::App& telltale) {
   arguments->AddOptionsTo(command);
   live->AddTo(command, 120.0,
               "with --vehicle-id: how long to wait for the answer, and as long again for every "
-              "ten repeats of a certificate");
+              "ten replicates of a coverage check");
   command.footer(
       "Coefficients are continuous-time, SI.\n"
       "Example: telltale identify --log run1 --log run2 --vehicle boat.textproto --out model.json\n"

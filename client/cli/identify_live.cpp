@@ -3,6 +3,7 @@
 #include <iostream>
 
 #include "telltale/client/bus/participant.hpp"
+#include "telltale/client/cli/discrete_table.hpp"
 #include "telltale/client/cli/exit_codes.hpp"
 #include "telltale/client/cli/input_options.hpp"
 #include "telltale/client/cli/model_table.hpp"
@@ -20,8 +21,7 @@ IdentifyRequest RequestOf(const std::string& vehicle_id, const IdentifyArguments
   if (arguments.sampling_period_s || arguments.interval_level || arguments.threads ||
       arguments.parametric_replicates) {
     throw UsageError(
-        "--sampling-period, --level, --threads and --replicates are the daemon's to choose; leave "
-        "them "
+        "--sampling-period, --level, --threads and --replicates are set by the daemon; leave them "
         "out with --vehicle-id");
   }
   IdentifyRequest request;
@@ -50,7 +50,7 @@ IdentifyResult Ask(const IdentifyRequest& request, const LiveOptions& live) {
   IdentificationClient client(participant);
   RequestTiming timing;
   timing.match = std::min(timing.match, live.Timeout());
-  // A repeat costs as much as the identification, and the daemon sails several at a time.
+  // A replicate costs as much as the identification; the daemon runs several at a time.
   timing.reply = live.Timeout() * (1 + request.coverage_check_replicates / kReplicatesPerTimeout);
   ProgressLine line;
   line.Update("asking the daemon", 0.0);

@@ -24,7 +24,7 @@ std::string VelocityText(Equation equation) {
 std::string OneStepTable(const Metrics& metrics) {
   Table table({{"one step", Align::kLeft},
                {"R2", Align::kRight},
-               {"R2 of persistence", Align::kRight},
+               {"R2 of constant velocity", Align::kRight},
                {"MAE", Align::kRight}});
   for (const Equation equation : kEquations) {
     const OneStepScore& score = metrics.one_step[IndexOf(equation)];
@@ -34,14 +34,9 @@ std::string OneStepTable(const Metrics& metrics) {
   return table.Render();
 }
 
-// Beyond this a velocity is no longer a boat's: the model ran away, and how far says nothing.
+/// The size of the error of a diverged run has no meaning.
 bool Diverges(const FreeRunScore& score) {
   return !(score.rmse < kOpenLoopDivergence.speed_mps);
-}
-
-bool Diverges(const FreeRunScores& scores) {
-  return std::any_of(scores.velocity.begin(), scores.velocity.end(),
-                     [](const FreeRunScore& score) { return Diverges(score); });
 }
 
 std::vector<std::string> Row(Equation equation, const FreeRunScore& score) {
@@ -57,7 +52,7 @@ std::string HorizonText(const FreeRunScores& scores) {
   const std::string horizon = Plain(scores.horizon_s) + " s: ";
   if (scores.windows == 0) return horizon + "no segment without gaps is this long";
   const std::string windows = horizon + Counted(scores.windows, "window", "windows");
-  if (Diverges(scores)) return windows + ", in some of which the model runs away";
+  if (Diverges(scores)) return windows + ", in some of which the model diverges";
   return windows + ", position off by " + Significant(scores.position_rmse_m, 3) +
          " m RMS at the end";
 }
@@ -65,7 +60,7 @@ std::string HorizonText(const FreeRunScores& scores) {
 std::string FreeRunTable(const Metrics& metrics) {
   Table table({{"free run", Align::kLeft},
                {"RMSE", Align::kRight},
-               {"of persistence", Align::kRight},
+               {"of constant velocity", Align::kRight},
                {"noise floor", Align::kRight},
                {"MAE", Align::kRight},
                {"R2", Align::kRight}});
@@ -80,6 +75,11 @@ std::string FreeRunTable(const Metrics& metrics) {
 }
 
 }  // namespace
+
+bool Diverges(const FreeRunScores& scores) {
+  return std::any_of(scores.velocity.begin(), scores.velocity.end(),
+                     [](const FreeRunScore& score) { return Diverges(score); });
+}
 
 std::string MetricsTable(const Metrics& metrics) {
   return OneStepTable(metrics) + '\n' + FreeRunTable(metrics);

@@ -1,19 +1,16 @@
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "telltale/core/identification/identification.hpp"
+#include "telltale/core/validation/held_out_score.hpp"
 
 namespace telltale {
 
-/// A model for people, within 100 columns: one row per coefficient with its bounds, refusals under
-/// it, then the window it rests on, what was set aside there, and what the bounds rest on.
-std::string ModelTable(const Identification& identification);
-
-/// The coefficients times the sampling period, as the paper's tables hold them, and alpha.
-std::string DiscreteTable(const Identification& identification);
-
-/// "gnss 7 DUPLICATE, thrusters 2 NOT_FINITE", or "nothing".
-std::string RejectedText(const RejectCounts& rejected);
+/// A model for people, within 80 columns: the verdict, the values that a simulation uses with their
+/// bounds, refusals, then the estimates, how identifiable they are and what they rest on.
+std::string ModelTable(const Identification& identification,
+                       const std::optional<HeldOutScore>& score = std::nullopt);
 
 }  // namespace telltale

@@ -45,7 +45,7 @@ void Monitor(const MonitorArguments& arguments) {
   QualitySubscriber qualities(
       participant, [&](const Quality& quality) { rounds.Take(quality); },
       [](const CodecError& error) {
-        std::cerr << "telltale: a report was set aside: " << error.Message() << '\n';
+        std::cerr << "telltale: a report is rejected: " << error.Message() << '\n';
       });
 
   const std::size_t wanted = arguments.once ? 1 : arguments.count;
@@ -79,11 +79,11 @@ void AddMonitor(CLI::App& telltale) {
       ->excludes(once);
   arguments->live.AddTo(command, 10.0, "give up when no report comes for this long");
   command.footer(
-      "error: free-run error over 5 s in the last minute, in units of that when the model was "
-      "made;\n"
-      "drift: its running change. lost: gaps in the sequence numbers.\n"
-      "~f:d: indicative, live one-step estimate of surge f:d (m/s^2) with its standard error; no "
-      "bound.");
+      "error: free-run error over 5 s in the last minute, in units of that when the model was\n"
+      "made. drift: its running change. lost: gaps in the sequence numbers.\n"
+      "~f:d: live one-step estimate of surge f:d, forward thrust, linear (m/s^2), with its\n"
+      "standard error; it is indicative and has no bounds.\n"
+      "Example: telltale monitor --count 1");
   command.callback([arguments] { Monitor(*arguments); });
 }
 

@@ -9,8 +9,8 @@
 
 namespace telltale {
 
-/// One line on standard error that tells what is being done and for how long, redrawn in place. It
-/// appears after two seconds and only on a terminal, and is gone when the object is. Thread safe.
+/// One line on standard error with the stage, its share and the elapsed time, redrawn in place.
+/// It appears after two seconds, on a terminal only, and the destructor erases it. Thread safe.
 class ProgressLine {
  public:
   ProgressLine();

@@ -23,13 +23,13 @@ std::string ForwardThrust(const Quality& quality) {
   return "";
 }
 
-std::string Explained(const std::string& subject, const std::vector<RejectEntry>& rejected) {
+std::string RejectedOf(const std::string& subject, const std::vector<RejectEntry>& rejected) {
   std::string text;
   for (const RejectEntry& entry : rejected) {
     text += (text.empty() ? "" : ", ") + entry.channel + ' ' + std::to_string(entry.count) + ' ' +
             entry.reason;
   }
-  return text.empty() ? "" : Wrapped(subject + " set aside: " + text);
+  return text.empty() ? "" : Wrapped(subject + " rejected: " + text);
 }
 
 }  // namespace
@@ -51,7 +51,7 @@ std::string QualityTable(const std::map<std::string, Quality>& fleet) {
   std::string notes;
   for (const auto& [vehicle_id, quality] : fleet) {
     if (vehicle_id == kUnattributed) {
-      notes += Explained("for no vehicle here", quality.rejected);
+      notes += RejectedOf("for no vehicle here", quality.rejected);
       continue;
     }
     const bool modelled = quality.model_revision.has_value();
@@ -63,7 +63,7 @@ std::string QualityTable(const std::map<std::string, Quality>& fleet) {
          modelled ? Fixed(quality.model_age_s, 0) : "",
          quality.prediction_error > 0.0 ? Fixed(quality.prediction_error, 2) : "",
          quality.prediction_error > 0.0 ? Fixed(quality.drift, 2) : "", ForwardThrust(quality)});
-    notes += Explained(vehicle_id, quality.rejected);
+    notes += RejectedOf(vehicle_id, quality.rejected);
     if (!quality.proposal.empty()) notes += Wrapped(vehicle_id + ": " + quality.proposal);
   }
   return table.Render() + notes;

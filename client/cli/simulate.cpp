@@ -10,7 +10,7 @@
 #include "telltale/client/cli/commands.hpp"
 #include "telltale/client/cli/exit_codes.hpp"
 #include "telltale/client/cli/input_options.hpp"
-#include "telltale/client/cli/model_table.hpp"
+#include "telltale/client/cli/model_notes.hpp"
 #include "telltale/client/cli/table.hpp"
 #include "telltale/client/cli/whole_number.hpp"
 #include "telltale/client/recording/telemetry_log/telemetry_log.hpp"
@@ -36,7 +36,7 @@ std::vector<TimedCommand> LoadCommands(const std::filesystem::path& file, const 
   const CommandLog log = OrThrow(ReadCommands(file));
   if (log.malformed.count + log.rejected.Total() > 0) {
     std::cerr << "note: " << file.string() << ": " << log.malformed.count
-              << " malformed rows skipped, set aside " << RejectedText(log.rejected) << '\n';
+              << " malformed rows skipped, " << RejectedText(log.rejected) << " rejected\n";
   }
   std::vector<TimedCommand> commands;
   for (const ThrusterSample& sample : log.commands) {
@@ -45,26 +45,20 @@ std::vector<TimedCommand> LoadCommands(const std::filesystem::path& file, const 
   return commands;
 }
 
-// As it was identified, or integrated accurately at a step of the caller's.
+// The discrete model as identified, or its equations integrated at the step that was asked for.
 VesselModel Discretised(VesselModel model, const std::optional<double>& step_s) {
   if (step_s) model.discretisation = Discretisation::kContinuous;
   return model;
 }
 
-bool IsFinite(const VesselState& state) {
-  return std::isfinite(state.nu.u) && std::isfinite(state.nu.v) && std::isfinite(state.nu.r) &&
-         std::isfinite(state.eta.x_m) && std::isfinite(state.eta.y_m) &&
-         std::isfinite(state.eta.psi_rad);
-}
-
-// A boat beyond this has left what any of these vessels can do, and soon the numbers too.
-bool IsPlausible(const VesselState& state) {
-  return IsFinite(state) && !kOpenLoopDivergence.Exceeds(state.nu);
+bool IsFinite(const Eta& eta) {
+  return std::isfinite(eta.x_m) && std::isfinite(eta.y_m) && std::isfinite(eta.psi_rad);
 }
 
 void RefuseDivergence(const std::vector<TimedState>& track) {
   for (const TimedState& instant : track) {
-    if (IsPlausible(instant.state)) continue;
+    const bool diverged = kOpenLoopDivergence.Exceeds(instant.state.nu);
+    if (!diverged && IsFinite(instant.state.eta)) continue;
     throw RefusedError({"simulation",
                         "the velocity grows without bound from " + Fixed(instant.time_s, 1) +
                             " s on: this model is not stable under these commands",

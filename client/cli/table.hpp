@@ -9,7 +9,7 @@
 
 namespace telltale {
 
-inline constexpr std::size_t kTerminalColumns = 100;
+inline constexpr std::size_t kTerminalColumns = 80;
 
 enum class Align { kLeft, kRight };
 

@@ -49,7 +49,7 @@ void Print(const PublishedDiagnosis& published, bool json) {
 
 std::function<void(const CodecError&)> ReportUnreadable(std::string what) {
   return [what = std::move(what)](const CodecError& error) {
-    std::cerr << "telltale: " << what << " was set aside: " << error.Message() << '\n';
+    std::cerr << "telltale: " << what << " is rejected: " << error.Message() << '\n';
   };
 }
 

@@ -13,14 +13,13 @@ std::string ColumnOf(const Coefficient& coefficient) {
 
 void AddNotes(const PosteriorDraws& draws, proto::Draws& message) {
   message.add_notes(
-      "Joint normal draws of the coefficients, continuous-time SI, about the estimate with the "
-      "model's "
-      "covariance; they are as wide as its bounds and as honest (provenance.boundsBasis).");
+      "Joint normal draws of the coefficients, continuous-time SI, about the values for simulation "
+      "with the model's covariance. They are as wide as its bounds and rest on the same basis "
+      "(provenance.boundsBasis).");
   if (!draws.not_drawn.empty()) {
     message.add_notes(
         "What notDrawn names has no finite variance and is the same in every draw: the data do not "
-        "say "
-        "how it varies.");
+        "determine it.");
   }
   if (draws.clipped > 0.0) {
     message.add_notes(

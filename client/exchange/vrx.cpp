@@ -49,8 +49,9 @@ struct Inertia {
 
 Result<Inertia> ReferenceInertia(const Identification& identification, const Vehicle& vehicle) {
   if (!vehicle.mass_kg) {
-    return Refuse("vrx", "the vehicle file states no mass_kg, and drag in newtons needs an inertia",
-                  "weigh the boat as it sailed and add mass_kg to the vehicle file");
+    return Refuse(
+        "vrx", "the vehicle file states no mass_kg, and drag in newtons needs an inertia",
+        "measure the mass of the boat as it was recorded and add mass_kg to the vehicle file");
   }
   for (const Equation equation : kEquations) {
     if (identification.Has(equation)) continue;

@@ -30,7 +30,7 @@ for log in "$data"/*/*/; do
   fi
   ((status == 0)) || fail "identify on $name exited $status"
   said=$(tr -s '\n ' ' ' < "$models/table")
-  # Twins of so short a recording run away; plainer ones have to serve it.
+  # Simulated replicates of so short a recording diverge; those of a stronger prior have to serve it.
   [[ $said != *"fewer than half of the parametric bootstrap replicates"* ]] ||
     fail "the bounds of $name are not calibrated"
   for other in "$data/$boat"/*/; do
@@ -39,7 +39,8 @@ for log in "$data"/*/*/; do
       > "$models/scores" 2> "$models/said" || status=$?
     ((status == 0 || status == 3)) || fail "validate of $name on $other exited $status"
     if ((status == 0)); then
-      grep -q 'of persistence' "$models/scores" || fail "no persistence beside the score of $name"
+      grep -q 'of constant velocity' "$models/scores" ||
+        fail "no constant velocity beside the score of $name"
     fi
     # The simulation parameters are stable over the recording of the model, or the model reports that they are not.
     if [[ $other -ef $log ]]; then

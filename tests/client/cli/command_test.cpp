@@ -338,7 +338,7 @@ TEST_F(CommandTest, ValidateScoresTheModelBesideConstantVelocity) {
   MakeModel();
   const CommandOutcome outcome = Validate({"--out", Path("metrics.json")});
   EXPECT_EQ(outcome.exit_code, kSuccess) << outcome.err;
-  EXPECT_THAT(outcome.out, AllOf(HasSubstr("persistence"), HasSubstr("noise floor"),
+  EXPECT_THAT(outcome.out, AllOf(HasSubstr("constant velocity"), HasSubstr("noise floor"),
                                  HasSubstr("1 s:"), HasSubstr("5 s:"), HasSubstr("10 s:")));
   const auto metrics = ParseMetricsJson(TextOfFile(Path("metrics.json")));
   ASSERT_TRUE(metrics) << metrics.error().Message();
@@ -494,7 +494,7 @@ TEST_F(ExportTest, WritesTheSimulationParametersAndNotesIt) {
   const CommandOutcome outcome =
       Export("massless.textproto", {"--format", "mss", "--out", Path("boat.json")});
   EXPECT_EQ(outcome.exit_code, kSuccess);
-  EXPECT_THAT(outcome.err, HasSubstr("as estimated the model runs away"));
+  EXPECT_THAT(outcome.err, HasSubstr("as estimated the model diverges"));
   EXPECT_THAT(TextOfFile(Path("boat.json")), HasSubstr("\"estimate\": -0.0625"));
 }
 
@@ -518,7 +518,8 @@ TEST_F(ExportTest, VrxWithoutAMassIsRefusedAndLeavesNothing) {
   const CommandOutcome outcome =
       Export("massless.textproto", {"--format", "vrx", "--draws", "5", "--out", Path("exported")});
   EXPECT_EQ(outcome.exit_code, kRefused);
-  EXPECT_THAT(outcome.err, AllOf(HasSubstr("mass_kg"), HasSubstr("-> weigh the boat")));
+  EXPECT_THAT(outcome.err,
+              AllOf(HasSubstr("mass_kg"), HasSubstr("-> measure the mass of the boat")));
   EXPECT_FALSE(std::filesystem::exists(Path("exported")));
 }
 

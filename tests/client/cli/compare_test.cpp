@@ -13,8 +13,11 @@ namespace telltale {
 namespace {
 
 using testing::AllOf;
+using testing::ContainsRegex;
 using testing::HasSubstr;
 using testing::IsEmpty;
+using testing::Not;
+using testing::StartsWith;
 
 class CompareTest : public testing::Test {
  protected:
@@ -41,6 +44,7 @@ class CompareTest : public testing::Test {
 TEST_F(CompareTest, FindsNoDifferenceWhereThereIsNone) {
   const CommandOutcome outcome = Compare();
   EXPECT_EQ(outcome.exit_code, kSuccess) << outcome.err;
+  EXPECT_THAT(outcome.out, StartsWith("The models do not differ significantly, p = 1.0.\n"));
   EXPECT_THAT(outcome.out, HasSubstr("no different from the other model: p = 1"));
   EXPECT_THAT(outcome.err, IsEmpty());
 }
@@ -57,8 +61,19 @@ TEST_F(CompareTest, NamesTheCoefficientThatDiffers) {
   EXPECT_EQ(change.degrees_of_freedom(), 32u);
   ASSERT_EQ(change.coefficients_size(), 32);
   EXPECT_EQ(change.coefficients(0).regressor(), "f:d");
-  EXPECT_THAT(Compare().out, AllOf(HasSubstr("differs from the other model"),
+  EXPECT_THAT(Compare().out, AllOf(StartsWith("The models differ, p = "),
+                                   HasSubstr("differs from the other model"),
                                    HasSubstr("SURGE f:d by +10.0 sigma")));
+}
+
+TEST_F(CompareTest, ShowsWhatEachModelSimulatesWith) {
+  EXPECT_THAT(Compare().out, Not(HasSubstr("Values for simulation")));
+  for (const Coefficient& c : later.coefficients) later.simulation.push_back(0.5 * c.estimate);
+  const CommandOutcome outcome = Compare();
+  EXPECT_THAT(outcome.out, StartsWith("The models do not differ significantly"));
+  // Forward thrust, linear, in surge: 3 and half of it.
+  EXPECT_THAT(outcome.out, AllOf(HasSubstr("Values for simulation"),
+                                 ContainsRegex("SURGE f:d +3.000 +1.500 +-1.500")));
 }
 
 TEST_F(CompareTest, RefusesModelsMadeWithOtherOptions) {

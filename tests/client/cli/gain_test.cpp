@@ -58,6 +58,15 @@ TEST_F(GainTest, IsTheHandWorkedGainInBothUnits) {
   EXPECT_FALSE(gains.has_settling_time_s());
 }
 
+// Half of each estimate, about which the bounds are as wide as before.
+TEST_F(GainTest, TakesTheValuesForSimulation) {
+  Identification model = IdentificationByHand();
+  for (const Coefficient& c : model.coefficients) model.simulation.push_back(0.5 * c.estimate);
+  const proto::InputGains gains = Read(Gain(model, {"--delta", "0.5,-0.2", "--json"}).out);
+  EXPECT_NEAR(gains.gains(0).surge().continuous().estimate(), 0.42, 1e-14);
+  EXPECT_NEAR(gains.gains(0).surge().continuous().standard_error(), std::sqrt(0.3541), 1e-14);
+}
+
 TEST_F(GainTest, PrintsACatalogueInAllRegionsButAstern) {
   const CommandOutcome outcome = Gain(IdentificationByHand(), {});
   ASSERT_EQ(outcome.exit_code, kSuccess) << outcome.err;

@@ -1,0 +1,35 @@
+#pragma once
+
+#include "telltale/core/base/result.hpp"
+#include "telltale/core/data/samples.hpp"
+#include "telltale/core/identification/identify.hpp"
+#include "telltale/core/validation/validation.hpp"
+#include "telltale/core/vessel/vehicle.hpp"
+
+namespace telltale {
+
+/// Scores on data that took no part in fitting.
+struct HeldOutScore {
+  double training_s = 0.0;  ///< time span of the data behind the scored model
+  double held_out_s = 0.0;  ///< time span of the data that it is scored on
+  Metrics metrics;          ///< one free-run horizon
+};
+
+struct HeldOutOptions {
+  double share = 0.2;              ///< of the fixes, the last ones, (0, 0.5]
+  double horizon_s = 5.0;          ///< of the free runs, as in ValidationOptions
+  std::size_t most_fixes = 10000;  ///< a longer recording is refused, since it costs too much
+};
+
+/// Identifies the model again from the first part of a recording and scores it on the rest. The
+/// score is that of the second model, which has seen fewer data than `identification`, with the
+/// same estimator and options and without bounds.
+/// Assumes: `options` are those that made `identification` from this recording.
+/// Refuses when: the recording has more than `most_fixes` fixes, either part cannot be prepared or
+/// identified, an equation is missing, or no free run fits into the held-out part.
+Result<HeldOutScore> ScoreOnHeldOutPart(const Recording& recording, const Vehicle& vehicle,
+                                        const Identification& identification,
+                                        const IdentifyOptions& options,
+                                        const HeldOutOptions& held_out = {});
+
+}  // namespace telltale
