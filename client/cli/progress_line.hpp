@@ -9,7 +9,7 @@
 
 namespace telltale {
 
-/// One line on standard error with the stage, its share and the elapsed time, redrawn in place.
+/// A line on standard error with the stage, its share and the elapsed time, drawn anew in place.
 /// It appears after two seconds, on a terminal only, and the destructor erases it. Thread safe.
 class ProgressLine {
  public:

@@ -42,16 +42,16 @@ for log in "$data"/*/*/; do
       grep -q 'of constant velocity' "$models/scores" ||
         fail "no constant velocity beside the score of $name"
     fi
-    # The simulation parameters are stable over the recording of the model, or the model reports that they are not.
+    # The values for simulation stay bounded where the model was made, or the model warns that they do not.
     if [[ $other -ef $log ]]; then
-      if grep -q '^5 s: .*runs away' "$models/scores"; then
-        [[ $said == *"the model diverges with its estimates: its bounds hold"* ]] ||
-          fail "$name runs away from its own recording without a warning"
+      if grep -q '^5 s: .*diverges' "$models/scores"; then
+        [[ $said == *"Simulation: not advised"* ]] ||
+          fail "$name diverges over its own recording without a warning"
         echo "$name: warned of"
-      elif [[ $said == *"the model diverges with its estimates: simulations use parameters"* ]]; then
-        echo "$name: simulated within its bounds"
+      elif [[ $said == *"Simulation: possible with the regularised values"* ]]; then
+        echo "$name: simulated with regularised values"
       fi
     fi
   done
-  echo "$name: answered"
+  echo "$name: identified"
 done
