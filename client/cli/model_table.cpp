@@ -14,7 +14,6 @@ namespace {
 
 std::string Title(const Identification& model) {
   return Wrapped(model.vehicle_id + ": " + InWords(Name(model.structure)) + " model, " +
-                 InWords(Name(model.parameterization)) + " parameterization, " +
                  InWords(Name(model.estimator)) + ", h = " + Plain(model.sampling_period_s) + " s");
 }
 

@@ -20,7 +20,7 @@ constexpr std::array<VelocityName, 3> kVelocityNames = {
     {{"surge", "m/s"}, {"sway", "m/s"}, {"yaw", "rad/s"}}};
 
 std::string HeldOutPart(const HeldOutScore& score) {
-  return "the last " + Fixed(score.held_out_s, 0) + " s, by a model made from the first " +
+  return "the last " + Fixed(score.held_out_s, 0) + " s by a model made from the first " +
          Fixed(score.training_s, 0) + " s";
 }
 
@@ -41,13 +41,13 @@ std::string PredictionText(const std::optional<HeldOutScore>& score) {
            "recording.";
   }
   const FreeRunScores& scores = score->metrics.free_run.front();
-  const std::string held_out = "Prediction of " + HeldOutPart(*score) + ", ";
+  const std::string held_out = "Prediction of " + HeldOutPart(*score) + ": ";
   if (Diverges(scores)) {
-    return held_out + "fails: it diverges within " + Plain(scores.horizon_s) + " s.";
+    return held_out + "it diverges within " + Plain(scores.horizon_s) + " s.";
   }
-  return held_out + Plain(scores.horizon_s) + " s ahead errs by " + ErrorsText(scores) +
+  return held_out + Plain(scores.horizon_s) + " s ahead the RMS errors are " + ErrorsText(scores) +
          ", position " + Significant(scores.position_rmse_m, 2) +
-         " m. In brackets: the error of constant velocity.";
+         " m (in brackets: of constant velocity).";
 }
 
 /// The warning that free runs diverge, where there is one.
