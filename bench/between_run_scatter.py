@@ -28,7 +28,7 @@ def identify(telltale, log, vehicle, estimator, out):
     if run.returncode == REFUSED:
         return {}
     if run.returncode != 0:
-        sys.exit(f"real_scatter: {log}: telltale identify exited {run.returncode}: {run.stderr}")
+        sys.exit(f"between_run_scatter: {log}: telltale identify exited {run.returncode}: {run.stderr}")
     model = json.loads(pathlib.Path(out).read_text())
     return {(c["equation"], c["regressor"]): (c.get("estimate", 0.0), c["standardError"]) for c in model["coefficients"]
             if isinstance(c.get("standardError"), (int, float)) and c["standardError"] > 0.0}
@@ -39,8 +39,8 @@ def ratio(runs):
     return statistics.stdev(e for e, _ in runs) / math.sqrt(statistics.fmean(s * s for _, s in runs))
 
 
-def weighed(runs):
-    """The same with every run weighed by its own standard error, so that the widest does not decide alone."""
+def weighted(runs):
+    """The same with every run weighted by its own standard error, so that the widest does not decide alone."""
     weights = [1.0 / (s * s) for _, s in runs]
     mean = sum(w * e for w, (e, _) in zip(weights, runs)) / sum(weights)
     return math.sqrt(sum(w * (e - mean) ** 2 for w, (e, _) in zip(weights, runs)) / (len(runs) - 1))
@@ -57,7 +57,7 @@ def by_coefficient(models):
 def cells(runs):
     if not runs:
         return "- | - | - | -"
-    return f"{len(runs)} | {statistics.stdev(e for e, _ in runs):.3g} | {ratio(runs):.2f} | {weighed(runs):.2f}"
+    return f"{len(runs)} | {statistics.stdev(e for e, _ in runs):.3g} | {ratio(runs):.2f} | {weighted(runs):.2f}"
 
 
 def escaped(regressor):
@@ -73,7 +73,7 @@ def main():
     arguments = parser.parse_args()
     estimators = arguments.estimator or ["weak-iv", "one-step"]
     if not arguments.data.is_dir():
-        sys.exit(f"real_scatter: no recordings at {arguments.data}")
+        sys.exit(f"between_run_scatter: no recordings at {arguments.data}")
     summary = []
     with tempfile.TemporaryDirectory() as folder:
         for boat in sorted(path for path in arguments.data.iterdir() if path.is_dir()):
@@ -89,18 +89,18 @@ def main():
                 summary.append((boat.name, estimator, [runs for (_, regressor), runs in found[estimator].items()
                                                        if regressor != "1"]))
             print(f"### {boat.name}, {len(logs)} runs\n")
-            print("| coefficient | " + " | ".join(f"runs | {e}: sd between | ratio | weighed"
+            print("| coefficient | " + " | ".join(f"runs | {e}: sd between | ratio | weighted"
                                                    for e in estimators) + " |")
             print("|---|" + "---|" * 4 * len(estimators))
             for key in dict.fromkeys(key for e in estimators for key in found[e]):
                 print(f"| {key[0]} {escaped(key[1])} | " + " | ".join(cells(found[e].get(key)) for e in estimators) + " |")
             print(flush=True)
     print("### All but the constants\n")
-    print("| boat | estimator | coefficients | ratio: median | quartiles | above 2 | weighed: median | quartiles | above 2 |")
+    print("| boat | estimator | coefficients | ratio: median | quartiles | above 2 | weighted: median | quartiles | above 2 |")
     print("|---|---|---|---|---|---|---|---|---|")
     for boat, estimator, all_runs in summary:
         row = [boat, estimator, str(len(all_runs))]
-        for of in (ratio, weighed):
+        for of in (ratio, weighted):
             values = sorted(of(runs) for runs in all_runs)
             if len(values) < 2:
                 row += ["-"] * 3

@@ -6,7 +6,7 @@ Usage: bench/compare_estimators.py [--built DIR] [--shooting-segments N] [--with
 
 Needs what compare_bootstrap.py needs and exits 77 where it is missing. Times are processor time, so that a machine that
 is shared does not decide. The data are made up here, of the size, the structure and the noise of those that the
-project's benchmarks make up: 80 segments of 40 s at 5 Hz, 35 coefficients. scipy shoots N of the 400 shooting_segments (default 50),
+project's benchmarks make up: 80 segments of 40 s at 5 Hz, 35 coefficients. scipy shoots N of the 400 shooting segments (default 50),
 and its time is scaled up to all of them, which the table says.
 
 The rivals are what one would write with these libraries: arrays over all segments at once instead of loops.
@@ -146,7 +146,7 @@ def test_functions():
 
 
 def simulated(theta, restart_rows=50):
-    """Velocities that the model sails to, started anew from the measured ones every ten seconds."""
+    """Velocities that the model simulates, restarted from the measured ones every ten seconds."""
     out = np.empty_like(nu)
     for begin in range(0, ROWS, restart_rows):
         state = nu[:, begin]
@@ -250,7 +250,7 @@ def main():
             ("IdentifyOneStep/with_covariance", "statsmodels OLS, three equations with covariance",
              lambda: one_step(by_statsmodels), 9, 1.0),
             ("WeakIv/all", "numpy, all segments side by side", weak_form, 5, 1.0),
-            ("OutputError/all", f"scipy least_squares, {arguments.shooting_segments} shooting_segments scaled up *",
+            ("OutputError/all", f"scipy least_squares, {arguments.shooting_segments} shooting segments scaled up *",
              shooting(arguments.shooting_segments), 1, scaled)]
     print(f"numpy {np.__version__}, scipy {scipy.__version__}, statsmodels {statsmodels.__version__}, "
           f"BLAS: {compare_bootstrap.blas_in_use()}\n")
@@ -260,7 +260,7 @@ def main():
         theirs = scale * milliseconds(job, repetitions)
         print(f"| `{name}` | {compare_bootstrap.short(own[name])} | {reference} | {compare_bootstrap.short(theirs)} | "
               f"{compare_bootstrap.short(theirs / own[name])} |", flush=True)
-    print(f"\n\\* timed for {arguments.shooting_segments} of {round(arguments.shooting_segments * scaled)} shooting_segments, forty sums at most; without the covariance by clusters")
+    print(f"\n\\* timed for {arguments.shooting_segments} of {round(arguments.shooting_segments * scaled)} shooting segments, forty sums at most; without the covariance by clusters")
     if not arguments.without_bootstrap:
         print()
         compare_bootstrap.compare(bench)

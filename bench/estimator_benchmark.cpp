@@ -1,4 +1,4 @@
-// Output error and the weak form with instruments at the size: 16,000 rows, 13 or all 35
+// Output error and the weak form with instruments at full size: 16,000 rows, 13 or all 35
 // coefficients, one thread unless said.
 
 #include <benchmark/benchmark.h>
@@ -6,6 +6,7 @@
 #include "coverage/independent_simulator.hpp"
 #include "telltale/core/data/preparation.hpp"
 #include "telltale/core/estimation/output_error/output_error.hpp"
+#include "telltale/core/estimation/output_error/output_error_covariance.hpp"
 #include "telltale/core/estimation/weak_form/weak_iv.hpp"
 #include "telltale/core/identification/identify.hpp"
 #include "telltale/core/identification/weak_iv_estimate.hpp"
@@ -108,7 +109,7 @@ void WeakIv(benchmark::State& state, const Columns& columns) {
 BENCHMARK_CAPTURE(WeakIv, thirteen, Thirteen())->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(WeakIv, all, All())->Unit(benchmark::kMillisecond);
 
-/// The estimate and 40 twins of it on two threads.
+/// The estimate and 40 parametric bootstrap replicates on two threads.
 void WeakIvWithReplicates(benchmark::State& state, const Columns& columns) {
   const PreparedDataset dataset = Prepared(BoatOf(columns), 1.0);
   for (auto _ : state) {
@@ -139,8 +140,8 @@ BENCHMARK_CAPTURE(IdentifyWithEstimatorSelection, disturbed, 1.0)
     ->Unit(benchmark::kMillisecond)
     ->UseRealTime();
 
-/// One-step least squares of all three equations with covariance, from rows; what to sail next
-/// costs extra, as it simulates a catalogue of manoeuvres.
+/// One-step least squares of all three equations with covariance, from rows. Advice on
+/// manoeuvres costs extra, as it simulates a catalogue of them.
 void IdentifyOneStep(benchmark::State& state, bool advise) {
   const PreparedDataset dataset = Prepared(coverage::ReferenceBoat(), 1.0);
   IdentifyOptions options = IdentifyOptions::OneStep();

@@ -159,7 +159,7 @@ Vehicle VehicleOf() {
 
 namespace {
 
-/// A boat afloat: its state, its thrusters and what pushes it.
+/// The state of a boat, of its thrusters and of its disturbance.
 class BoatState {
  public:
   BoatState(const Boat& boat, const SimulatedEnvironment& environment, std::uint64_t seed)

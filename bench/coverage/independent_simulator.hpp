@@ -25,7 +25,7 @@ std::vector<double> CoefficientsOf(const Boat& boat);
 /// A stable 1.2 m catamaran with two thrusters, in SI units.
 Boat ReferenceBoat();
 
-/// What surrounds the boat and how it is seen.
+/// The disturbances of the boat and the noise of its sensors.
 struct SimulatedEnvironment {
   std::array<double, 3> disturbance_sigma{0.03, 0.03, 0.04};  ///< m/s^2, m/s^2, rad/s^2
   double disturbance_time_constant_s = 4.0;
@@ -48,7 +48,7 @@ struct Mission {
 Recording Simulate(const Boat& boat, const SimulatedEnvironment& environment,
                    const Mission& mission, std::uint64_t seed);
 
-/// Another voyage of the same boat, seen as it was: what a prediction is held against.
+/// A run of the same boat without sensor noise, against which a prediction is checked.
 struct TrueRun {
   std::vector<double> command_times_s;          ///< from zero, held until the next
   std::vector<std::array<double, 2>> commands;  ///< port, starboard
@@ -56,8 +56,8 @@ struct TrueRun {
   std::vector<std::array<double, 3>> nu;        ///< after each step of `step_s`
 };
 
-/// The boat, a while under way, then watched for `duration_s`; its thrusters have settled on the
-/// first command.
+/// Simulates the boat for `duration_s`, after it has run for a while and its thrusters have settled
+/// on the first command.
 TrueRun SimulateTrueRun(const Boat& boat, const SimulatedEnvironment& environment,
                         const Mission& mission, double duration_s, double step_s,
                         std::uint64_t seed);

@@ -11,6 +11,7 @@
 #include "coverage/replicates.hpp"
 #include "telltale/core/data/preparation.hpp"
 #include "telltale/core/estimation/output_error/output_error.hpp"
+#include "telltale/core/estimation/output_error/output_error_covariance.hpp"
 #include "telltale/core/estimation/weak_form/weak_iv.hpp"
 #include "telltale/core/uncertainty/distributions.hpp"
 
@@ -37,7 +38,7 @@ std::vector<Scenario> Scenarios() {
   return all;
 }
 
-/// What one repeat says.
+/// The result of one replicate.
 struct ReplicateResult {
   Eigen::VectorXd error;
   Eigen::VectorXd clustered;  ///< standard errors
@@ -129,7 +130,8 @@ int Main(int argc, char** argv) {
   OutputErrorOptions options;
   CLI::App app("How often bounds from output error, nominally of 95 %, hold the truth");
   campaign.AddOptionsTo(app, Scenarios());
-  app.add_option("--shooting-segment", options.shooting_segments.length_s, "seconds a shot")
+  app.add_option("--shooting-segment", options.shooting_segments.length_s,
+                 "length of a shooting segment, s")
       ->capture_default_str();
   CLI11_PARSE(app, argc, argv);
 

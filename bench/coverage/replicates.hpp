@@ -17,7 +17,7 @@
 
 namespace telltale::coverage {
 
-/// A boat, what surrounds it and what it does.
+/// A boat, its environment and its mission.
 struct Scenario {
   std::string name;
   Boat boat = ReferenceBoat();
@@ -27,7 +27,7 @@ struct Scenario {
   bool Lags() const { return boat.thruster_time_constant_s > 0.0; }
 };
 
-/// Pushed by so much of the usual disturbance.
+/// The usual disturbance, scaled.
 inline SimulatedEnvironment Disturbed(double share) {
   SimulatedEnvironment environment;
   for (double& sigma : environment.disturbance_sigma) sigma *= share;
@@ -45,11 +45,11 @@ inline Recording Simulate(const Scenario& scenario, std::uint64_t seed) {
   return Simulate(scenario.boat, scenario.environment, scenario.mission, seed);
 }
 
-/// Which scenarios are repeated, how often and from which seed; the options of every program here.
+/// The options of every program here: which scenarios, how many replicates, which seed.
 struct Campaign {
   std::vector<std::string> selected;
   std::size_t replicates = 0;
-  std::size_t first = 0;  ///< repeats before it are another campaign's
+  std::size_t first = 0;  ///< replicates before it belong to another campaign
   std::size_t threads = std::max(1U, std::thread::hardware_concurrency());
   std::uint64_t seed = 1;
 
@@ -59,19 +59,20 @@ struct Campaign {
     for (const auto& scenario : scenarios) names.push_back(scenario.name);
     app.add_option("--scenario", selected, "only these (default: all)")
         ->check(CLI::IsMember(names));
-    app.add_option("--replicates", replicates, "seeded repeats of each scenario")
+    app.add_option("--replicates", replicates, "synthetic recordings of each scenario")
         ->capture_default_str();
-    app.add_option("--first", first, "where to go on after so many repeats of this seed");
-    app.add_option("--threads", threads, "never change the result")->capture_default_str();
-    app.add_option("--seed", seed, "of the repeats' own seeds")->capture_default_str();
+    app.add_option("--first", first, "continue after this many replicates of the seed");
+    app.add_option("--threads", threads, "threads; the result does not depend on them")
+        ->capture_default_str();
+    app.add_option("--seed", seed, "seed of the replicates' own seeds")->capture_default_str();
   }
 
   bool IsSelected(const std::string& name) const {
     return selected.empty() || std::find(selected.begin(), selected.end(), name) != selected.end();
   }
 
-  /// What attempt(seed of the repeat) gives, by repeat; attempts run beside each other. Campaigns
-  /// of one seed that go on where the other ended are one campaign in two parts.
+  /// The results of attempt(seed of the replicate), by replicate; attempts run in parallel. A
+  /// campaign with --first continues one of the same seed exactly.
   template <class Attempt>
   auto RunReplicates(const Attempt& attempt) const {
     std::vector<decltype(attempt(seed))> all(replicates);
@@ -81,7 +82,7 @@ struct Campaign {
   }
 };
 
-/// Those that there are.
+/// The values that are set.
 template <class Value>
 std::vector<Value> Completed(std::vector<std::optional<Value>> all) {
   std::vector<Value> answered;
@@ -91,7 +92,7 @@ std::vector<Value> Completed(std::vector<std::optional<Value>> all) {
   return answered;
 }
 
-/// Of one figure over the repeats.
+/// The mean of one figure over the replicates.
 template <class Value>
 double MeanOf(const std::vector<Value>& replicates, double Value::*figure) {
   double sum = 0.0;

@@ -27,7 +27,7 @@
 namespace telltale::coverage {
 namespace {
 
-/// What the twins are told besides.
+/// With the noise and disturbance that parametric replicates assume, relative to the truth.
 struct CoverageScenario : Scenario {
   double assumed_noise = 1.0;
   double assumed_time = 1.0;
@@ -74,7 +74,7 @@ std::vector<std::string> NamesOf(const Scenario& scenario) {
   return names;
 }
 
-/// What one repeat says of one method: which true values its bounds held.
+/// The outcome of one replicate by one method: which true values its bounds contain.
 struct CoverageOutcome {
   std::vector<bool> coefficient;
   Eigen::VectorXd error;

@@ -7,6 +7,7 @@
 
 #include "telltale/core/base/contract.hpp"
 #include "telltale/core/base/parallel.hpp"
+#include "telltale/core/estimation/output_error/output_error_covariance.hpp"
 #include "telltale/core/estimation/output_error/output_error_profile.hpp"
 #include "telltale/core/estimation/weak_form/weak_iv.hpp"
 #include "telltale/core/uncertainty/profile_interval.hpp"

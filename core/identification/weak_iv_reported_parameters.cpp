@@ -45,7 +45,7 @@ ReportedParameters ReportedParametersOf(const WeakFit& fit) {
   for (std::size_t j = 0; j < fit.equations.size(); ++j) {
     if (!fit.equations[j]) continue;
     const auto regressors = Regressors(kEquations[j], fit.problem.parameterization);
-    const std::size_t each = fit.problem.disturbance_terms.PerRecording();
+    const std::size_t each = fit.problem.recording_bias_terms.PerRecording();
     Eigen::RowVectorXd sum_of_constants = Eigen::RowVectorXd::Zero(fit.theta.size());
     for (const std::size_t column : fit.equations[j]->columns) {
       if (column < regressors.size()) {

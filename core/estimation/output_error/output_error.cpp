@@ -6,21 +6,22 @@
 
 #include "telltale/core/base/contract.hpp"
 #include "telltale/core/base/format_number.hpp"
-#include "telltale/core/base/linear_algebra/covariance.hpp"
 #include "telltale/core/base/linear_algebra/eigen_decompositions.hpp"
 #include "telltale/core/base/range.hpp"
-#include "telltale/core/estimation/output_error/multiple_shooting_solution.hpp"
+#include "telltale/core/estimation/output_error/shooting_solution.hpp"
 #include "telltale/core/estimation/weak_form/weak_iv.hpp"
+#include "telltale/core/vessel/thruster_response.hpp"
 
 namespace telltale {
 namespace {
 
-constexpr double kRoughly = 1e-4;  // relative changes of the sum at which to stop
-constexpr double kClosely = 1e-9;
+// Relative changes of the sum of squares at which a descent stops.
+constexpr double kRoughTolerance = 1e-4;
+constexpr double kFineTolerance = 1e-9;
 constexpr int kRoughIterations = 15;
 
-/// What a shot says of the shared unknowns once its own state has been fitted out of it: rows
-/// orthogonal to the columns of the state.
+/// The rows of a shooting segment, orthogonal to the columns of its initial state: what remains for
+/// the shared unknowns once the state has been fitted.
 struct Eliminated {
   Eigen::MatrixXd by_shared;
   Eigen::VectorXd residual;
@@ -51,7 +52,7 @@ OutputErrorFit Quantify(const ShootingPlan& plan, const SharedUnknowns& unknowns
   double spare = -static_cast<double>(P);
   for (std::size_t i = 0; i < plan.shooting_segments.size(); ++i) {
     const auto shooting_residual = solution.ComputeResidual(i, noise_scale, true);
-    Require(shooting_residual.has_value(), "a solution that does not run away");
+    Require(shooting_residual.has_value(), "a solution that does not diverge");
     const Eliminated own = Eliminate(*shooting_residual);
     const std::size_t cluster = plan.shooting_segments[i].cluster;
     fit.cluster_information[cluster].noalias() += own.by_shared.transpose() * own.by_shared;
@@ -83,14 +84,15 @@ std::optional<Refusal> RefuseThin(const ShootingPlan& plan, const SharedUnknowns
   return Refusal{"output error",
                  "the recording gives " +
                      FormatSignificant(static_cast<double>(plan.shooting_segments.size()), 3) +
-                     " shots with enough fixes and headings, too few for " +
+                     " shooting segments with enough fixes and headings, too few for " +
                      FormatSignificant(static_cast<double>(unknowns.Size()), 3) + " coefficients",
                  "record for longer with the propellers in the regions these equations use"};
 }
 
 Refusal RefuseDivergence() {
-  return {"output error", "no model was found that stays near the boat for as long as a shot lasts",
-          "give shorter shots, or record more of the manoeuvres in which the model runs away"};
+  return {"output error", "every model found diverges from the boat within a shooting segment",
+          "use shorter shooting segments, or record more of the manoeuvres in which the model "
+          "diverges"};
 }
 
 VesselModel ZeroForceModel(const SharedUnknowns& unknowns) {
@@ -113,7 +115,7 @@ Eigen::VectorXd InBounds(const SharedUnknowns& unknowns, Eigen::VectorXd theta) 
   return theta;
 }
 
-/// The way from a start to near the least sum.
+/// The descent from a start to the neighbourhood of the least sum of squares.
 class InitialDescent {
  public:
   InitialDescent(const PreparedDataset& dataset, const RegressionOptions& regression,
@@ -126,8 +128,8 @@ class InitialDescent {
         ridge_prior_(ridge_prior),
         options_(options) {}
 
-  /// Straight from `theta` where that leads there soon, as it does from a good start; else by brief
-  /// shots.
+  /// Directly from `theta` where that converges soon, as it does from a good start; else by way of
+  /// shorter shooting segments.
   ShootingSolution From(const Eigen::VectorXd& theta) const {
     ShootingSolution direct(plan_, unknowns_, ridge_prior_, options_.huber_threshold, theta);
     if (Descend(direct)) return direct;
@@ -140,16 +142,16 @@ class InitialDescent {
 
  private:
   bool Descend(ShootingSolution& solution) const {
-    return solution.Descend(solution.Measure(), kRoughly, kRoughIterations);
+    return solution.Descend(solution.Measure(), kRoughTolerance, kRoughIterations);
   }
 
-  /// Sails shots of a quarter and of half the length. The briefest hardly bend and hardly run away,
-  /// so that almost any theta leads to one from which full shots can be sailed.
+  /// Fits shooting segments of a quarter and then of half the length. The shortest are nearly
+  /// linear and hardly diverge, so almost any theta leads to one that simulates full segments.
   Eigen::VectorXd FromShortSegments(Eigen::VectorXd theta) const {
-    ShootingOptions brief = options_.shooting_segments;
+    ShootingOptions shorter = options_.shooting_segments;
     for (const double share : {0.25, 0.5}) {
-      brief.length_s = share * options_.shooting_segments.length_s;
-      const ShootingPlan plan = CutShootingSegments(dataset_, regression_, unknowns_, brief);
+      shorter.length_s = share * options_.shooting_segments.length_s;
+      const ShootingPlan plan = CutShootingSegments(dataset_, regression_, unknowns_, shorter);
       if (ShootingSolution(plan, unknowns_, ridge_prior_, options_.huber_threshold, theta)
               .Diverges()) {
         theta = unknowns_.In(ZeroForceModel(unknowns_));
@@ -174,7 +176,7 @@ class InitialDescent {
 std::optional<Refusal> OutputErrorOptions::Validate() const {
   const std::string_view subject = "output error";
   const std::array checks = {
-      OutOfRange(subject, "shots.length_s", shooting_segments.length_s, 2.0, 60.0),
+      OutOfRange(subject, "shooting_segments.length_s", shooting_segments.length_s, 2.0, 60.0),
       OutOfRange(subject, "huber_threshold", huber_threshold, 1.0, 100.0),
       OutOfRange(subject, "inseparable_condition_index", inseparable_condition_index, 10.0, 1e6),
       OutOfRange(subject, "iterations", iterations, 1.0, 1000.0)};
@@ -196,16 +198,17 @@ Result<OutputErrorFit> EstimateOutputError(const PreparedDataset& dataset,
       CutShootingSegments(dataset, regression, unknowns, options.shooting_segments);
   if (auto refusal = RefuseThin(plan, unknowns)) return tl::unexpected(*std::move(refusal));
 
-  // Far from the least sum, residuals say little of which measurement is wild: roughly there first.
+  // Far from the least sum, residuals do not show which measurements are outliers, so a rough
+  // descent comes first.
   const Eigen::VectorXd begin = InBounds(unknowns, unknowns.In(start));
   const RidgePrior ridge_prior = MakeRidgePrior(dataset, unknowns, begin);
   ShootingSolution solution =
       InitialDescent(dataset, regression, plan, unknowns, ridge_prior, options).From(begin);
   if (solution.Diverges()) return tl::unexpected(RefuseDivergence());
-  // How far residuals reach weighs the sensors against each other, and that moves the residuals.
-  solution.Descend(solution.Measure(), kRoughly, options.iterations);
+  // The noise scale depends on the residuals, and the residuals on the noise scale: two rounds.
+  solution.Descend(solution.Measure(), kRoughTolerance, options.iterations);
   const NoiseScale noise_scale = solution.Measure();
-  const bool converged = solution.Descend(noise_scale, kClosely, options.iterations);
+  const bool converged = solution.Descend(noise_scale, kFineTolerance, options.iterations);
 
   OutputErrorFit fit = Quantify(plan, unknowns, solution, noise_scale, options);
   fit.begin = begin;
@@ -221,90 +224,8 @@ VesselModel StartOf(const PreparedDataset& dataset, const RegressionOptions& reg
   return ZeroForceModel(UnknownsOf(regression, columns));
 }
 
-Eigen::MatrixXd ClusterCovariance(const OutputErrorFit& fit) {
-  // A cluster that alone tells of some direction would leave nothing of it.
-  constexpr double kLeastLeft = 0.02;
-  const Eigen::MatrixXd& root = fit.separability.root;
-  const Eigen::MatrixXd across = root.transpose();
-  const auto g = static_cast<double>(fit.scores.cols());
-  Require(g > 1.0, "at least two clusters");
-  Eigen::MatrixXd influence(root.rows(), fit.scores.cols());
-  for (Eigen::Index s = 0; s < fit.scores.cols(); ++s) {
-    // (H - H_s)^-1 q_s = root (1 - root' H_s root)^-1 root' q_s, within what can be told apart.
-    Eigen::MatrixXd left =
-        (kLeastLeft - 1.0) * Mapped(across, fit.cluster_information[static_cast<std::size_t>(s)]);
-    left.diagonal().array() += 1.0;
-    const Eigen::VectorXd right = across * fit.scores.col(s);
-    influence.col(s) = root * left.llt().solve(right);
-  }
-  return (g - 1.0) / g * OfRoot(influence);
-}
-
-Eigen::MatrixXd NaiveCovariance(const OutputErrorFit& fit) {
-  return fit.residual_variance * OfRoot(fit.separability.root);
-}
-
-double Misspecification(const OutputErrorFit& fit) {
-  const Eigen::VectorXd clustered = ClusterCovariance(fit).diagonal();
-  const Eigen::VectorXd naive = NaiveCovariance(fit).diagonal();
-  double worst = 0.0;
-  for (const Equation equation : kEquations) {
-    const Eigen::Index first = fit.unknowns.First(equation);
-    const auto size = static_cast<Eigen::Index>(fit.unknowns.columns[IndexOf(equation)].size());
-    double sum = 0.0;
-    double count = 0.0;
-    for (Eigen::Index j = first; j < first + size; ++j) {
-      if (!fit.separability.separable[static_cast<std::size_t>(j)]) continue;
-      sum += 0.5 * std::log(clustered[j] / naive[j]);
-      count += 1.0;
-    }
-    if (count > 0.0) worst = std::max(worst, std::exp(sum / count));
-  }
-  return worst;
-}
-
 bool LagIsAtLowerBound(const OutputErrorFit& fit) {
   return fit.unknowns.lagging && fit.theta[0] <= 1.001 * kShortestTimeConstantS;
-}
-
-std::string NameOf(const SharedUnknowns& unknowns, std::size_t unknown) {
-  Require(unknown < static_cast<std::size_t>(unknowns.Size()), "one of the unknowns");
-  if (unknowns.lagging && unknown == 0) return "thruster time constant";
-  for (const Equation equation : {Equation::kYaw, Equation::kSway, Equation::kSurge}) {
-    const auto first = static_cast<std::size_t>(unknowns.First(equation));
-    if (unknown < first) continue;
-    const std::size_t column = unknowns.columns[IndexOf(equation)][unknown - first];
-    return std::string(Name(equation)) + " " +
-           std::string(Regressors(equation, unknowns.parameterization)[column].name);
-  }
-  return {};
-}
-
-Refusal Explain(const InseparableDirection& direction, const SharedUnknowns& unknowns) {
-  constexpr std::size_t kNamed = 6;
-  std::string names;
-  std::string change;
-  for (std::size_t i = 0; i < std::min(kNamed, direction.unknowns.size()); ++i) {
-    const std::size_t unknown = direction.unknowns[i];
-    const std::string name = NameOf(unknowns, unknown);
-    const double by = direction.change[static_cast<Eigen::Index>(unknown)];
-    names += (names.empty() ? "" : ", ") + name;
-    change += (change.empty() ? "" : ", ") + FormatSignificant(by, 3) + " to " + name;
-  }
-  if (direction.unknowns.size() > kNamed) {
-    const auto rest = static_cast<double>(direction.unknowns.size() - kNamed);
-    change += " and something to " + FormatSignificant(rest, 3) + " others";
-  }
-  if (direction.unknowns.size() == 1) {
-    return {names, "the data say nothing of it: no measurement moves with it alone",
-            "record manoeuvres in which this term is at work"};
-  }
-  return {names,
-          "these cannot be told apart: adding " + change +
-              " leaves every measurement as it is (condition index " +
-              FormatSignificant(direction.condition_index, 3) + ")",
-          "add steps of the command between small and full, zigzags and circles at two or more "
-          "speeds"};
 }
 
 }  // namespace telltale

@@ -6,17 +6,17 @@
 
 #include "telltale/core/base/contract.hpp"
 #include "telltale/core/base/linear_algebra/eigen_decompositions.hpp"
-#include "telltale/core/estimation/weak_form/weak_iv.hpp"
+#include "telltale/core/estimation/output_error/output_error_covariance.hpp"
+#include "telltale/core/vessel/thruster_response.hpp"
 
 namespace telltale {
 namespace {
 
-constexpr std::size_t kSampled = 64;  // shots that tell how lopsided a profile is
-constexpr double kTolerance = 1e-8;   // of the sum: hundredths of what a threshold is
+constexpr std::size_t kSampled = 64;  // shooting segments from which asymmetry is estimated
+constexpr double kTolerance = 1e-8;   // of the sum: hundredths of a threshold
 constexpr int kIterations = 25;
-constexpr double kPriorWeakening =
-    0.03;                           // a leash that tells nothing of what the data tell little of
-constexpr double kBeyondAll = 1e9;  // any threshold
+constexpr double kPriorWeakening = 0.03;  // so that the ridge prior does not narrow the profile
+constexpr double kBeyondAll = 1e9;        // greater than any threshold
 
 }  // namespace
 
@@ -29,7 +29,7 @@ OutputErrorProfile::OutputErrorProfile(const PreparedDataset& dataset,
       noise_scale_{fit.position_misfit, fit.heading_misfit, options.huber_threshold},
       optimum_(plan_, fit.unknowns, ridge_prior_, options.huber_threshold, fit.theta),
       naive_(NaiveCovariance(fit)) {
-  Require(fit.starts.size() == plan_.shooting_segments.size(), "the shots of the fit");
+  Require(fit.starts.size() == plan_.shooting_segments.size(), "the shooting segments of the fit");
   ridge_prior_.weight *= kPriorWeakening;
   optimum_.MoveTo(fit.theta, fit.starts);
   optimum_.Descend(noise_scale_, kTolerance, kIterations);
@@ -38,8 +38,9 @@ OutputErrorProfile::OutputErrorProfile(const PreparedDataset& dataset,
   for (std::size_t shooting_segment = 0; shooting_segment < plan_.shooting_segments.size();
        shooting_segment += stride) {
     const auto shooting_residual = optimum_.ComputeResidual(shooting_segment, noise_scale_, true);
-    Require(shooting_residual.has_value(), "a fit that does not run away");
-    Linear linear{shooting_segment, shooting_residual->residual, shooting_residual->by_shared, {}};
+    Require(shooting_residual.has_value(), "a fit that does not diverge");
+    Linearised linear{
+        shooting_segment, shooting_residual->residual, shooting_residual->by_shared, {}};
     linear.start_by_theta = -Eigen::HouseholderQR<Eigen::MatrixXd>(shooting_residual->by_start)
                                  .solve(Eigen::MatrixXd(shooting_residual->by_shared));
     linear.by_theta += shooting_residual->by_start * linear.start_by_theta;
@@ -47,16 +48,16 @@ OutputErrorProfile::OutputErrorProfile(const PreparedDataset& dataset,
   }
 }
 
-Eigen::VectorXd OutputErrorProfile::Follow(Eigen::Index unknown, double step) const {
+Eigen::VectorXd OutputErrorProfile::StepOf(Eigen::Index unknown, double step) const {
   return step / naive_(unknown, unknown) * naive_.col(unknown);
 }
 
 double OutputErrorProfile::Asymmetry(Eigen::Index unknown, double half_width) const {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  const Eigen::VectorXd step = Follow(unknown, half_width);
+  const Eigen::VectorXd step = StepOf(unknown, half_width);
   double square = 0.0;
   double cube = 0.0;
-  for (const Linear& at : sample_) {
+  for (const Linearised& at : sample_) {
     const ShootingSegment& shooting_segment = plan_.shooting_segments[at.shooting_segment];
     const ShootingState start = at.start_by_theta * step;
     const Eigen::VectorXd linear = at.by_theta * step;
@@ -75,7 +76,7 @@ double OutputErrorProfile::Asymmetry(Eigen::Index unknown, double half_width) co
 
 double OutputErrorProfile::Deviance(Eigen::Index unknown, double value) const {
   ShootingSolution solution = optimum_;
-  Eigen::VectorXd theta = optimum_.Theta() + Follow(unknown, value - optimum_.Theta()[unknown]);
+  Eigen::VectorXd theta = optimum_.Theta() + StepOf(unknown, value - optimum_.Theta()[unknown]);
   theta[unknown] = value;
   if (fit_.unknowns.lagging)
     theta[0] = std::clamp(theta[0], kShortestTimeConstantS, kLongestTimeConstantS);

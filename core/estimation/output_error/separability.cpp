@@ -7,15 +7,15 @@
 #include "telltale/core/base/contract.hpp"
 #include "telltale/core/base/linear_algebra/covariance.hpp"
 #include "telltale/core/base/linear_algebra/eigen_decompositions.hpp"
+#include "telltale/core/estimation/regression/near_dependency.hpp"
 
 namespace telltale {
 namespace {
 
 constexpr double kRounding = 1e-10;
-// An unknown belongs to the null space when that carries more than this share of its variance.
-constexpr double kVarianceShare = 0.5;
-// Unknowns that move less than this share of the strongest, each by its own scale, take no part.
-constexpr double kTakesPart = 0.1;
+// An unknown belongs to a direction when its component, by its own scale, exceeds this share of the
+// largest one.
+constexpr double kNamedComponent = 0.1;
 
 /// Columns that span the same space, each with a pivot where all others are zero.
 Eigen::MatrixXd Echelon(Eigen::MatrixXd basis) {
@@ -41,7 +41,7 @@ InseparableDirection Describe(const Eigen::VectorXd& scaled, const Eigen::Vector
   direction.condition_index = condition_index;
   const double strongest = scaled.cwiseAbs().maxCoeff();
   for (Eigen::Index j = 0; j < scaled.size(); ++j) {
-    if (std::abs(scaled[j]) > kTakesPart * strongest) {
+    if (std::abs(scaled[j]) > kNamedComponent * strongest) {
       direction.unknowns.push_back(static_cast<std::size_t>(j));
     }
   }
@@ -60,7 +60,7 @@ InseparableDirection Describe(const Eigen::VectorXd& scaled, const Eigen::Vector
   return direction;
 }
 
-InseparableDirection Unseen(Eigen::Index unknown, Eigen::Index count) {
+InseparableDirection WithoutInformation(Eigen::Index unknown, Eigen::Index count) {
   return {{static_cast<std::size_t>(unknown)},
           Eigen::VectorXd::Unit(count, unknown),
           std::numeric_limits<double>::infinity()};
@@ -81,7 +81,7 @@ Separability Separate(const Eigen::MatrixXd& information, const Eigen::VectorXd&
     if (information(j, j) > kRounding * raw[j]) {
       informed.push_back(j);
     } else {
-      result.directions.push_back(Unseen(j, P));
+      result.directions.push_back(WithoutInformation(j, P));
     }
   }
   if (informed.empty()) return result;
@@ -105,7 +105,7 @@ Separability Separate(const Eigen::MatrixXd& information, const Eigen::VectorXd&
   for (std::size_t i = 0; i < informed.size(); ++i) {
     const auto row = shares.row(static_cast<Eigen::Index>(i));
     result.separable[static_cast<std::size_t>(informed[i])] =
-        row.head(null).sum() <= kVarianceShare * row.sum();
+        row.head(null).sum() <= kDependencyVarianceShare * row.sum();
     whole[informed[i]] = scale[static_cast<Eigen::Index>(i)];
   }
   const Eigen::MatrixXd combinations = Echelon(V.leftCols(null));

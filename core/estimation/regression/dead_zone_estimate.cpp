@@ -62,7 +62,7 @@ class DeadZoneSearch {
                  std::size_t threads)
       : dataset_(dataset), options_(options), threads_(threads) {}
 
-  /// Which equations count and by which columns, judged without a dead zone.
+  /// Chooses the equations and columns, from their excitation without a dead zone.
   std::optional<Refusal> Prepare(const ExcitationLimits& limits) {
     std::optional<Refusal> first_refusal;
     bool any = false;

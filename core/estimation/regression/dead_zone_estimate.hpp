@@ -8,7 +8,7 @@
 
 namespace telltale {
 
-/// One limit of the dead zone as the data see it.
+/// The estimate of one limit of the dead zone.
 struct DeadZoneLimit {
   double estimate = 0.0;
   /// How far -2 log likelihood rises over the range allowed, in steps of 0.05, the other limit

@@ -10,75 +10,15 @@
 #include "telltale/core/base/format_number.hpp"
 #include "telltale/core/base/linear_algebra/eigen_decompositions.hpp"
 #include "telltale/core/base/range.hpp"
+#include "telltale/core/estimation/regression/insufficient_excitation.hpp"
 
 namespace telltale {
 namespace {
 
 // A thrust term is at work in a row when it is the term of a command of at least this size.
 constexpr double kActiveCommand = 0.05;
-// Two columns share a near dependency when it carries more than this share of their variance.
-constexpr double kVarianceShare = 0.5;
 
-Eigen::Index ColumnOf(const EquationProblem& problem, std::string_view name) {
-  const auto found = std::find_if(problem.regressors.begin(), problem.regressors.end(),
-                                  [&](const Regressor& r) { return r.name == name; });
-  return found == problem.regressors.end() ? -1 : found - problem.regressors.begin();
-}
-
-double Spread(const Eigen::VectorXd& x) {
-  return std::sqrt((x.array() - x.mean()).square().mean());
-}
-
-/// Mean command for surge, port minus starboard for sway and yaw, read back from the thrust
-/// columns.
-Eigen::VectorXd CommandOf(const EquationProblem& problem) {
-  const bool surge = problem.equation == Equation::kSurge;
-  const Eigen::Index forward = ColumnOf(problem, "f:d");
-  if (forward >= 0) {
-    const Eigen::VectorXd sum =
-        problem.phi.col(forward) + problem.phi.col(ColumnOf(problem, "r:d"));
-    return surge ? Eigen::VectorXd(0.5 * sum) : sum;
-  }
-  if (surge) return problem.phi.col(ColumnOf(problem, "mean"));
-  return 2.0 * problem.phi.col(ColumnOf(problem, "diff/2"));
-}
-
-std::optional<Refusal> RefuseShort(const EquationProblem& problem, const ExcitationLimits& limits) {
-  const double needed =
-      limits.rows_per_coefficient * static_cast<double>(problem.regressors.size());
-  const auto rows = static_cast<double>(problem.phi.rows());
-  if (rows >= needed) return std::nullopt;
-  return Refusal{std::string(Name(problem.equation)),
-                 "only " + FormatSignificant(rows, 3) + " usable rows, " +
-                     FormatSignificant(needed, 3) + " are needed",
-                 "record for longer with the propellers in the regions this equation uses"};
-}
-
-std::optional<Refusal> RefuseConstantMotion(const EquationProblem& problem,
-                                            const ExcitationLimits& limits) {
-  const bool surge = problem.equation == Equation::kSurge;
-  const double motion = Spread(problem.phi.col(ColumnOf(problem, surge ? "u" : "r")));
-  const double least = surge ? limits.surge_speed_spread_mps : limits.yaw_rate_spread_radps;
-  const std::string what = surge ? "surge speed varies by only " : "yaw rate varies by only ";
-  const std::string unit = surge ? " m/s" : " rad/s";
-  const std::string advice = surge ? "add straight runs that step between low and high command"
-                                   : "add zigzags at two speeds, circles both ways and a spin";
-  if (motion < least) {
-    return Refusal{std::string(Name(problem.equation)),
-                   what + FormatSignificant(motion, 3) + unit + " (standard deviation), " +
-                       FormatSignificant(least, 3) + unit + " are needed",
-                   advice};
-  }
-  const double command = Spread(CommandOf(problem));
-  if (command >= limits.command_spread) return std::nullopt;
-  return Refusal{std::string(Name(problem.equation)),
-                 std::string(surge ? "the mean command" : "the command difference") +
-                     " varies by only " + FormatSignificant(command, 3) + " of full command, " +
-                     FormatSignificant(limits.command_spread, 3) + " are needed",
-                 advice};
-}
-
-/// A thrust column is excited by rows in which its propeller works, a body column by any motion.
+/// Rows in which its propeller works excite a thrust column; any motion excites a body column.
 bool IsExcited(const EquationProblem& problem, std::size_t column, const ExcitationLimits& limits) {
   const auto values = problem.phi.col(static_cast<Eigen::Index>(column)).array().abs();
   const Regressor& regressor = problem.regressors[column];
@@ -96,7 +36,7 @@ std::vector<std::size_t> ExcitedOf(const EquationProblem& problem, const Excitat
   return excited;
 }
 
-/// Of the named columns of Phi, which are all more often than not: then nothing is copied.
+/// Factors of the named columns of Phi. Usually these are all of them, and nothing is copied.
 std::vector<TriangularFactor> FactorsOf(const Eigen::MatrixXd& phi,
                                         const std::vector<std::size_t>& columns,
                                         const Eigen::Ref<const Eigen::MatrixXd>& Y) {
@@ -104,8 +44,8 @@ std::vector<TriangularFactor> FactorsOf(const Eigen::MatrixXd& phi,
   return TriangulariseAll(phi(Eigen::all, columns), Y);
 }
 
-/// Belsley: in the dependency of singular value k, column j takes part with the share of its
-/// variance that this singular value causes.
+/// Belsley: a column belongs to the dependency of a singular value by the share of its variance
+/// that this singular value causes.
 std::vector<CollinearGroup> FindCollinear(const Excitation& excitation, double limit) {
   const Eigen::VectorXd& s = excitation.singular_values;
   const Eigen::VectorXd floored = s.cwiseMax(s[0] * std::numeric_limits<double>::epsilon());
@@ -118,7 +58,7 @@ std::vector<CollinearGroup> FindCollinear(const Excitation& excitation, double l
     group.condition_index = s[0] / floored[k];
     if (group.condition_index < limit) continue;
     for (Eigen::Index j = 0; j < s.size(); ++j) {
-      if (shares(j, k) / variances[j] > kVarianceShare) {
+      if (shares(j, k) / variances[j] > kDependencyVarianceShare) {
         group.columns.push_back(excitation.excited[static_cast<std::size_t>(j)]);
       }
     }
@@ -127,13 +67,7 @@ std::vector<CollinearGroup> FindCollinear(const Excitation& excitation, double l
   return groups;
 }
 
-std::optional<Refusal> RefuseUnmoved(const EquationProblem& problem,
-                                     const ExcitationLimits& limits) {
-  if (auto refusal = RefuseShort(problem, limits)) return refusal;
-  return RefuseConstantMotion(problem, limits);
-}
-
-/// A triangle has the norms of the columns it was made from, and takes their scale as well as they.
+/// The triangle has the same column norms as Phi, so its columns are scaled in place of those.
 Excitation Decomposed(Equation equation, std::vector<std::size_t> excited, TriangularFactor factor,
                       const ExcitationLimits& limits) {
   Excitation excitation;
@@ -154,9 +88,9 @@ Excitation Decomposed(Equation equation, std::vector<std::size_t> excited, Trian
   return excitation;
 }
 
-/// Of two equations that regress alike, both worth an answer.
-std::array<Excitation, 2> AssessAlike(const EquationProblem& one, const EquationProblem& other,
-                                      const ExcitationLimits& limits) {
+/// The excitations of two equations with the same regressors and rows.
+std::array<Excitation, 2> AssessTogether(const EquationProblem& one, const EquationProblem& other,
+                                         const ExcitationLimits& limits) {
   Eigen::MatrixXd Y(one.y.size(), 2);
   Y << one.y, other.y;
   const std::vector<std::size_t> excited = ExcitedOf(one, limits);
@@ -188,7 +122,8 @@ std::optional<Refusal> ExcitationLimits::Validate() const {
 
 Result<Excitation> Assess(const EquationProblem& problem, const ExcitationLimits& limits) {
   Require(problem.equation != Equation::kUnknown, "a named equation");
-  if (auto refusal = RefuseUnmoved(problem, limits)) return tl::unexpected(*std::move(refusal));
+  if (auto refusal = RefuseInsufficientExcitation(problem, limits))
+    return tl::unexpected(*std::move(refusal));
   const std::vector<std::size_t> excited = ExcitedOf(problem, limits);
   std::vector<TriangularFactor> factors = FactorsOf(problem.phi, excited, problem.y);
   return Decomposed(problem.equation, excited, std::move(factors.front()), limits);
@@ -197,10 +132,11 @@ Result<Excitation> Assess(const EquationProblem& problem, const ExcitationLimits
 std::array<Result<Excitation>, 3> Assess(const std::array<EquationProblem, 3>& problems,
                                          const ExcitationLimits& limits) {
   const auto& [surge, sway, yaw] = problems;
-  if (sway.instants != yaw.instants || RefuseUnmoved(sway, limits) || RefuseUnmoved(yaw, limits)) {
+  if (sway.instants != yaw.instants || RefuseInsufficientExcitation(sway, limits) ||
+      RefuseInsufficientExcitation(yaw, limits)) {
     return {Assess(surge, limits), Assess(sway, limits), Assess(yaw, limits)};
   }
-  auto [of_sway, of_yaw] = AssessAlike(sway, yaw, limits);
+  auto [of_sway, of_yaw] = AssessTogether(sway, yaw, limits);
   return {Assess(surge, limits), std::move(of_sway), std::move(of_yaw)};
 }
 
@@ -212,7 +148,7 @@ Refusal Explain(const CollinearGroup& group, const EquationProblem& problem) {
     thrust = thrust || problem.regressors[column].is_propeller;
   }
   return {std::string(Name(problem.equation)) + " " + names,
-          "these cannot be told apart: the data move them together (condition index " +
+          "these are collinear: the data move them together (condition index " +
               FormatSignificant(group.condition_index, 3) + ")",
           thrust ? "add steps of the command between small and full, in each direction of turning"
                  : "add zigzags and circles at two or more speeds"};

@@ -9,7 +9,7 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 std::vector<CombinationTerm> LeastSeparable(const Excitation& excitation) {
-  // What takes part with less than this of the largest part is not worth naming.
+  // Components below this share of the largest one are left out.
   constexpr double kNamed = 0.3;
   const Eigen::VectorXd worst = excitation.right_singular_vectors.rightCols<1>();
   Eigen::Index largest = 0;

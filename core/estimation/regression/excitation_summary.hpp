@@ -17,17 +17,17 @@ struct CombinationTerm {
   bool operator==(const CombinationTerm&) const = default;
 };
 
-/// How far the data tell one equation's coefficients apart, and on how much they rest.
+/// How well the data separate one equation's coefficients, and from how many observations.
 struct ExcitationSummary {
   Equation equation = Equation::kUnknown;
   double condition = 1.0;  ///< largest over smallest singular value of the unit-scaled columns
   /// One for each of Regressors(), docs/concepts/model.md (62): how many times the variance of a
-  /// coefficient exceeds what it were if no other column looked like its own. Infinite where not
+  /// coefficient exceeds its value without collinearity. Infinite where not
   /// excited.
   std::vector<double> variance_inflation;
-  std::vector<CombinationTerm> least_separable;  ///< what the data determine worst, (63)
-  std::size_t rows = 0;         ///< or windows of the weak form; 0: not counted, as of output error
-  double effective_rows = 0.0;  ///< as many independent ones would say as much, (64)
+  std::vector<CombinationTerm> least_separable;  ///< the least identifiable combination, (63)
+  std::size_t rows = 0;         ///< or supports of the weak form; 0: not counted, as of output error
+  double effective_rows = 0.0;  ///< effective independent observations, (64)
 };
 
 /// The numbers that excitation alone decides; rows are left at zero.

@@ -9,7 +9,7 @@
 namespace telltale {
 namespace {
 
-// The least variance of cos psi and sin psi in any direction: that of a course that swings by 25
+// The least variance of cos psi and sin psi in any direction: that of a course that oscillates by 25
 // degrees to either side.
 constexpr double kLeastVariance = 0.01;
 

@@ -11,14 +11,14 @@
 
 namespace telltale {
 
-/// What steady disturbance the recordings of a dataset are allowed. kShared: one constant for all,
+/// The constant disturbances that the recordings of a dataset may have. kShared: one constant for all,
 /// the regressor "1". kPerRecording: a constant of its own for each, in the boat's frame.
 /// kPerRecordingNorthEast: on top a part that stands in the north-east-down frame.
 enum class RecordingBiasModel { kUnknown, kShared, kPerRecording, kPerRecordingNorthEast };
 
 std::string_view Name(RecordingBiasModel recording_bias);
 
-/// One column more for each steady term of each recording, after those of Regressors():
+/// One more column for each bias term of each recording, after those of Regressors():
 /// docs/concepts/model.md (70). Columns are by recording, and within each 1, cos psi, sin psi or 1
 /// alone. None for kShared.
 struct RecordingBiasTerms {
@@ -36,7 +36,7 @@ struct RecordingBiasTerms {
 std::string_view RecordingBiasTermName(std::size_t term);
 
 /// Recordings whose heading hardly varies, by index: there a force fixed in the north-east-down
-/// frame cannot be told from one that turns with the boat. Assumes: rows of one recording in one
+/// frame is indistinguishable from one in the body frame. Assumes: rows of one recording in one
 /// run of segments.
 std::vector<bool> HeadingVaries(const PreparedDataset& dataset);
 

@@ -50,7 +50,7 @@ struct RegressionOptions {
 /// Whether rows under a command of this region enter this equation.
 bool Enters(PropellerRegion region, Equation equation, const RegressionOptions& options);
 
-/// Instants k of a regression that looks one command back: the command at k-1 lies in `slice`,
+/// Instants k of a regression that uses the previous command: the command at k-1 lies in `slice`,
 /// and k-1, k and k+1 in its segment.
 RowRange InstantsAfter(const RowRange& slice, const std::vector<RowRange>& segments);
 

@@ -10,15 +10,15 @@
 
 namespace telltale {
 
-/// How far apart the residuals of one equation still hang together, be they of rows or of windows,
-/// which overlap and are pushed by what lasts: covariances by lag, in rows or windows.
+/// Autocovariances of the residuals of one equation, by lag in rows or in test-function supports.
+/// Supports overlap and disturbances last, so their residuals are autocorrelated.
 
-/// Runs of items whose places follow each other at `stride`. Correlation is told within runs only:
-/// beyond lies another segment, or rows that do not enter the equation.
+/// Runs of items whose places follow each other at `stride`. Autocovariances are taken within runs
+/// only: runs are separated by a gap, or by rows that do not enter the equation.
 std::vector<RowRange> RunsOf(std::span<const std::size_t> places, std::size_t stride);
 
-/// How many neighbouring residuals say as much as one independent residual, at least one: 1 + 2 sum
-/// of their autocorrelations, as long as pairs of them stay positive. docs/concepts/model.md (64).
+/// Residuals per effective independent residual, at least one: 1 + 2 sum of their autocorrelations,
+/// as long as sums of two successive ones stay positive. docs/concepts/model.md (64).
 /// Source: Geyer, "Practical Markov chain Monte Carlo",
 /// Statistical Science 7 (1992), the initial positive sequence.
 double RowsPerIndependentRow(const Eigen::VectorXd& residual, std::span<const RowRange> runs);
@@ -28,9 +28,9 @@ Eigen::VectorXd Autocovariance(std::span<const RowRange> runs, const Eigen::Vect
                                std::size_t lags);
 
 /// Autocovariances of which Correlate makes no negative variance, however short the runs: products
-/// of residuals l apart over all residuals instead of over pairs, weighed as Bartlett did. What
-/// hangs together for long is told too weak, where means are told right on average but may be of no
-/// process at all.
+/// of residuals l apart divided by the number of residuals instead of pairs, with Bartlett's
+/// weights. Long correlations are biased low. Autocovariance() is unbiased, but may not be positive
+/// semidefinite.
 /// Source: Newey and West, "A simple, positive semi-definite, heteroskedasticity and
 /// autocorrelation consistent covariance matrix", Econometrica 55 (1987).
 Eigen::VectorXd DefiniteAutocovariance(std::span<const RowRange> runs,
@@ -41,10 +41,10 @@ Eigen::VectorXd DefiniteAutocovariance(std::span<const RowRange> runs,
 Eigen::MatrixXd Correlate(std::span<const RowRange> runs, const Eigen::VectorXd& autocovariance,
                           const Eigen::MatrixXd& X);
 
-/// What residuals show of errors with these autocovariances once coefficients were fitted to them,
-/// e = (I - H) errors with H = response Z', for l = 0 .. lags - 1: less, and the less the longer
-/// errors last, since coefficients take up what changes slowly. Shapes: response and Z residuals x
-/// p.
+/// The autocovariances of the residuals of a fit whose errors have these autocovariances:
+/// e = (I - H) errors with H = response Z', for l = 0 .. lags - 1. They are smaller, the more so the
+/// longer the errors last, since coefficients take up slow changes.
+/// Shapes: response and Z residuals x p.
 Eigen::VectorXd AutocovarianceAfterFit(std::span<const RowRange> runs,
                                        const Eigen::VectorXd& autocovariance,
                                        const Eigen::MatrixXd& response, const Eigen::MatrixXd& Z,

@@ -17,7 +17,7 @@ namespace {
 // Of the scaled Gram matrix: the square of the largest condition of Phi that counts as determined.
 constexpr double kSmallestEigenvalue = 1e-10;
 
-/// Pseudo-inverse of a Gram matrix, judged with its columns scaled to unit norm.
+/// Pseudo-inverse of a Gram matrix; its rank is that of the matrix scaled to a unit diagonal.
 struct PseudoInverse {
   Eigen::MatrixXd matrix;
   std::vector<bool> estimable;

@@ -13,7 +13,7 @@ namespace telltale {
 
 struct SlidingOptions {
   std::size_t rows = 6000;  ///< the newest rows held, [10, 1e6]
-  std::size_t lags = 12;    ///< for how many rows a residual is remembered, [0, 100]
+  std::size_t lags = 12;    ///< rows over which residuals are autocorrelated, [0, 100]
 
   /// The first field out of its range, as a refusal naming field, value and range.
   std::optional<Refusal> Validate() const;
@@ -27,7 +27,7 @@ struct SlidingEstimate {
   std::vector<bool> estimable;
   double residual_variance = 0.0;  ///< of y, by the degrees of freedom left
   std::size_t rows = 0;            ///< held
-  double effective_rows = 0.0;     ///< white residuals that would tell as much of their mean
+  double effective_rows = 0.0;     ///< white residuals that determine their mean as well
 };
 
 /// Least squares over the newest rows of a stream.

@@ -6,12 +6,13 @@
 #include <vector>
 
 #include "telltale/core/estimation/regression/residual_autocovariance.hpp"
+#include "telltale/core/estimation/weak_form/constant_disturbances.hpp"
 #include "telltale/core/estimation/weak_form/instruments.hpp"
 
 namespace telltale {
 namespace {
 
-/// Products of weights so many rows apart, the middle one those of a weight with itself.
+/// The autocorrelation of the weights by lag in rows; lag zero stands in the middle.
 Eigen::VectorXd ProductsByLag(const Eigen::VectorXd& weights) {
   const Eigen::Index middle = weights.size() - 1;
   Eigen::VectorXd products = Eigen::VectorXd::Zero(2 * middle + 1);
@@ -23,17 +24,17 @@ Eigen::VectorXd ProductsByLag(const Eigen::VectorXd& weights) {
   return products;
 }
 
-/// Autocovariance by window lag of a unit Gauss-Markov process seen through weights with these
-/// products, up to the lag at which next to nothing is left of it.
+/// The autocovariance, by lag in supports, of a unit Gauss-Markov process filtered by weights with
+/// this autocorrelation. It ends where it is negligible.
 Eigen::VectorXd FilteredAutocovariance(const Eigen::VectorXd& products, double h,
                                        std::size_t stride, double time_constant_s) {
   constexpr double kLongestInTimeConstants = 5.0;
   const Eigen::Index middle = products.size() / 2;
   const double support_spacing_s = h * static_cast<double>(stride);
-  const double reach_s =
+  const double longest_s =
       kLongestInTimeConstants * time_constant_s + h * static_cast<double>(products.size());
   Eigen::VectorXd filtered =
-      Eigen::VectorXd::Zero(static_cast<Eigen::Index>(reach_s / support_spacing_s) + 1);
+      Eigen::VectorXd::Zero(static_cast<Eigen::Index>(longest_s / support_spacing_s) + 1);
   for (Eigen::Index l = 0; l < filtered.size(); ++l) {
     for (Eigen::Index d = -middle; d <= middle; ++d) {
       const double apart_s =
@@ -44,7 +45,7 @@ Eigen::VectorXd FilteredAutocovariance(const Eigen::VectorXd& products, double h
   return filtered;
 }
 
-/// `steps` steps of equal ratio.
+/// Values from `least` to `most` in `steps` steps of equal ratio.
 std::vector<double> GeometricGrid(double least, double most, int steps) {
   std::vector<double> all;
   for (int i = 0; i <= steps; ++i) {
@@ -53,84 +54,86 @@ std::vector<double> GeometricGrid(double least, double most, int steps) {
   return all;
 }
 
-/// What there is to choose from.
+/// The time constants among which the disturbance's is chosen, s.
 std::vector<double> TimeConstants() {
-  return GeometricGrid(0.2, 40.0, 30);  // s
+  return GeometricGrid(0.2, 40.0, 30);
 }
 
+/// The drifts among which that of the fixes is chosen, m within a second.
 std::vector<double> DriftSizes() {
-  return GeometricGrid(1e-3, 1.0, 72);  // m within a second
+  return GeometricGrid(1e-3, 1.0, 72);
 }
 
-/// For each time constant the best variance of one axis, and what it leaves of the autocovariance
-/// shown, as a share of the residual variance squared.
+/// For each time constant: the best variance of one axis, and the squared misfit of the
+/// autocovariance as a share of the squared residual variance.
 struct AxisFits {
   Eigen::VectorXd variance;
   Eigen::VectorXd misfit;
 };
 
-/// What one equation shows, in autocovariances by window lag.
-struct AxisView {
+/// Autocovariances of one equation's residuals by lag in supports.
+struct AxisAutocovariances {
   Eigen::VectorXd beyond_noise;
-  Eigen::VectorXd by_drift;            ///< of fixes that wander off 1 m within a second
+  Eigen::VectorXd by_drift;            ///< per squared metre of drift within a second
   std::vector<Eigen::VectorXd> units;  ///< of a disturbance of variance one, by time constant
   double residual_variance = 0.0;
 };
 
-AxisFits FitAxis(const AxisView& view, double drift_m) {
-  const Eigen::VectorXd shown = view.beyond_noise - drift_m * drift_m * view.by_drift;
-  AxisFits fits{Eigen::VectorXd(std::ssize(view.units)), Eigen::VectorXd(std::ssize(view.units))};
-  for (std::size_t i = 0; i < view.units.size(); ++i) {
+AxisFits FitAxis(const AxisAutocovariances& axis, double drift_m) {
+  const Eigen::VectorXd shown = axis.beyond_noise - drift_m * drift_m * axis.by_drift;
+  AxisFits fits{Eigen::VectorXd(std::ssize(axis.units)), Eigen::VectorXd(std::ssize(axis.units))};
+  for (std::size_t i = 0; i < axis.units.size(); ++i) {
     const auto at = static_cast<Eigen::Index>(i);
-    const Eigen::VectorXd& unit = view.units[i];
+    const Eigen::VectorXd& unit = axis.units[i];
     fits.variance[at] = std::max(0.0, unit.dot(shown) / unit.squaredNorm());
     fits.misfit[at] = (shown - fits.variance[at] * unit).squaredNorm() /
-                      (view.residual_variance * view.residual_variance);
+                      (axis.residual_variance * axis.residual_variance);
   }
   return fits;
 }
 
-using Views = std::array<std::optional<AxisView>, 3>;  ///< of the equations that were answered
+using Axes = std::array<std::optional<AxisAutocovariances>, 3>;  ///< of the answered equations
 
-struct Explanation {
+struct DisturbanceFit {
   Disturbance disturbance;
   double misfit = 0.0;
 };
 
-/// The likeliest disturbance if fixes wander off by so much within a second.
-Explanation Explain(const Views& views, const std::vector<double>& time_constants, double drift_m) {
-  // An axis whose residuals are mostly noise says little of its own time constant: the other axes
-  // then speak for it, since what pushes a boat pushes all three.
-  constexpr double kSayOfOthers = 0.25;
+/// The best-fitting disturbance for a given drift of the fixes.
+DisturbanceFit FitDisturbance(const Axes& axes, const std::vector<double>& time_constants,
+                              double drift_m) {
+  // An axis whose residuals are mostly noise hardly determines its own time constant. The misfit of
+  // the other axes then decides, since a disturbance usually acts on all three.
+  constexpr double kWeightOfOthers = 0.25;
   std::array<std::optional<AxisFits>, 3> fits;
   Eigen::VectorXd all = Eigen::VectorXd::Zero(std::ssize(time_constants));
-  for (std::size_t j = 0; j < views.size(); ++j) {
-    if (!views[j]) continue;
-    fits[j] = FitAxis(*views[j], drift_m);
+  for (std::size_t j = 0; j < axes.size(); ++j) {
+    if (!axes[j]) continue;
+    fits[j] = FitAxis(*axes[j], drift_m);
     all += fits[j]->misfit;
   }
-  Explanation explanation;
-  explanation.disturbance.gnss_drift_m = drift_m;
+  DisturbanceFit fit;
+  fit.disturbance.gnss_drift_m = drift_m;
   for (std::size_t j = 0; j < fits.size(); ++j) {
     if (!fits[j]) continue;
     Eigen::Index best = 0;
-    const Eigen::VectorXd misfit = fits[j]->misfit + kSayOfOthers * (all - fits[j]->misfit);
-    explanation.misfit += misfit.minCoeff(&best);
-    const auto axis = static_cast<Eigen::Index>(j);
-    explanation.disturbance.sigma[axis] = std::sqrt(fits[j]->variance[best]);
-    explanation.disturbance.time_constant_s[axis] = time_constants[static_cast<std::size_t>(best)];
+    const Eigen::VectorXd misfit = fits[j]->misfit + kWeightOfOthers * (all - fits[j]->misfit);
+    fit.misfit += misfit.minCoeff(&best);
+    const auto row = static_cast<Eigen::Index>(j);
+    fit.disturbance.sigma[row] = std::sqrt(fits[j]->variance[best]);
+    fit.disturbance.time_constant_s[row] = time_constants[static_cast<std::size_t>(best)];
   }
-  return explanation;
+  return fit;
 }
 
-/// Without wander, unless it explains most of what is missed: about fixes that do not wander it
-/// explains a twentieth by chance, where it shows nearly all.
-Disturbance Likeliest(const Views& views, const std::vector<double>& time_constants) {
+/// The fit without drift, unless drift removes at least half of its misfit. Of fixes without drift
+/// it removes a twentieth by chance; of drifting fixes, nearly all.
+Disturbance BestDisturbance(const Axes& axes, const std::vector<double>& time_constants) {
   constexpr double kUnexplainedWithDrift = 0.5;
-  const Explanation without_drift = Explain(views, time_constants, 0.0);
-  Explanation best = without_drift;
+  const DisturbanceFit without_drift = FitDisturbance(axes, time_constants, 0.0);
+  DisturbanceFit best = without_drift;
   for (const double drift_m : DriftSizes()) {
-    const Explanation with_drift = Explain(views, time_constants, drift_m);
+    const DisturbanceFit with_drift = FitDisturbance(axes, time_constants, drift_m);
     if (with_drift.misfit < best.misfit) best = with_drift;
   }
   return best.misfit < kUnexplainedWithDrift * without_drift.misfit ? best.disturbance
@@ -181,24 +184,24 @@ Disturbance EstimateDisturbance(const PreparedDataset& dataset, const WeakFit& f
     filtered.push_back(
         FilteredAutocovariance(products, dataset.sampling_period_s, problem.phi.stride, tau));
   }
-  Views views;
-  for (std::size_t j = 0; j < views.size(); ++j) {
+  Axes axes;
+  for (std::size_t j = 0; j < axes.size(); ++j) {
     if (!fit.equations[j]) continue;
     const WeakEstimate& estimate = *fit.equations[j];
     const auto runs = RunsOf(problem.supports[j].first_rows, problem.phi.stride);
     const auto [begin, size] = fit.BlockOf(j);
     const Eigen::MatrixXd response = estimate.G * fit.bread.block(begin, begin, size, size);
     const Eigen::VectorXd shown = Autocovariance(runs, estimate.residual, kDisturbanceLags);
-    AxisView& view = views[j].emplace();
-    view.beyond_noise = shown - sensor_autocovariances.noise[j];
-    view.by_drift = sensor_autocovariances.drift[j];
-    view.residual_variance = shown[0];
+    AxisAutocovariances& axis = axes[j].emplace();
+    axis.beyond_noise = shown - sensor_autocovariances.noise[j];
+    axis.by_drift = sensor_autocovariances.drift[j];
+    axis.residual_variance = shown[0];
     for (const Eigen::VectorXd& of_tau : filtered) {
-      view.units.push_back(
+      axis.units.push_back(
           AutocovarianceAfterFit(runs, of_tau, response, estimate.Z, kDisturbanceLags));
     }
   }
-  return Likeliest(views, time_constants);
+  return BestDisturbance(axes, time_constants);
 }
 
 }  // namespace telltale

@@ -9,13 +9,13 @@ namespace telltale {
 ResidualWhitening::ResidualWhitening(std::vector<RowRange> runs,
                                      const Eigen::VectorXd& autocovariance)
     : runs_(std::move(runs)) {
-  constexpr double kLeastShare = 1e-6;  // of the variance, below which nothing new is left
+  constexpr double kLeastShare = 1e-6;  // of the variance, below which no innovation is left
   const bool varies = autocovariance.allFinite() && autocovariance[0] > 0.0;
   double variance = varies ? autocovariance[0] : 1.0;
   Eigen::VectorXd weights;
   predictors_.push_back({weights, std::sqrt(variance)});
   if (!varies) return;
-  // Levinson and Durbin: with one residual more before it, what that one adds of its own.
+  // Levinson-Durbin recursion: `own` is the partial autocorrelation at this order.
   for (Eigen::Index order = 1; order < autocovariance.size(); ++order) {
     const auto nearer = autocovariance.segment(1, order - 1).reverse();
     const double own = (autocovariance[order] - weights.dot(nearer)) / variance;

@@ -4,36 +4,37 @@
 #include <limits>
 
 #include "telltale/core/base/linear_algebra/eigen_decompositions.hpp"
+#include "telltale/core/estimation/weak_form/projection.hpp"
 
 namespace telltale {
 namespace {
 
-/// A column that makes up this share of the largest part of a dependency takes part in it: leaving
-/// that one out would bend the coefficient of this one by as much.
-constexpr double kTakesPart = 0.01;
+/// A column belongs to a dependency when its component exceeds this share of the largest one.
+/// Leaving the largest column out changes the coefficient of this one by as much.
+constexpr double kLeastComponent = 0.01;
 
 struct Dependency {
   CollinearGroup group;
-  std::size_t largest = 0;  ///< place in the columns looked at
+  std::size_t largest = 0;  ///< place of the largest component among the columns given
 };
 
-/// The closest dependency among weighed columns.
-Dependency ClosestDependency(const Eigen::MatrixXd& weighed,
+/// The closest linear dependency among these columns of a projected equation.
+Dependency ClosestDependency(const Eigen::MatrixXd& projected,
                              const std::vector<std::size_t>& columns) {
   constexpr double kLeast = std::numeric_limits<double>::min();
-  const Eigen::MatrixXd chosen = weighed(Eigen::all, columns);
+  const Eigen::MatrixXd chosen = projected(Eigen::all, columns);
   const Eigen::VectorXd norms = chosen.colwise().norm().transpose().cwiseMax(kLeast);
   const Eigen::MatrixXd unit = chosen * norms.cwiseInverse().asDiagonal();
   const Eigen::JacobiSVD<Eigen::MatrixXd> svd(unit, Eigen::ComputeThinV);
   const Eigen::VectorXd& s = svd.singularValues();
-  const Eigen::VectorXd parts = svd.matrixV().rightCols<1>().cwiseAbs();
+  const Eigen::VectorXd components = svd.matrixV().rightCols<1>().cwiseAbs();
   Dependency dependency;
   Eigen::Index largest = 0;
-  parts.maxCoeff(&largest);
+  components.maxCoeff(&largest);
   dependency.largest = static_cast<std::size_t>(largest);
   dependency.group.condition_index = s[0] / std::max(s[s.size() - 1], kLeast);
   for (std::size_t j = 0; j < columns.size(); ++j) {
-    if (parts[static_cast<Eigen::Index>(j)] > kTakesPart * parts[largest]) {
+    if (components[static_cast<Eigen::Index>(j)] > kLeastComponent * components[largest]) {
       dependency.group.columns.push_back(columns[j]);
     }
   }
@@ -51,11 +52,11 @@ SeparableColumns Separate(const PreparedDataset& dataset, const RegressionOption
   for (const Equation equation : kEquations) {
     const std::size_t j = IndexOf(equation);
     std::vector<std::size_t>& kept = separable.kept[j];
-    const Eigen::MatrixXd weighed =
+    const Eigen::MatrixXd projected =
         Project(problem, problem.supports[j], RowsOf(dataset, problem, thrust, equation));
-    if (weighed.rows() <= static_cast<Eigen::Index>(kept.size())) continue;
+    if (projected.rows() <= static_cast<Eigen::Index>(kept.size())) continue;
     while (kept.size() > 1) {
-      const Dependency dependency = ClosestDependency(weighed, kept);
+      const Dependency dependency = ClosestDependency(projected, kept);
       if (dependency.group.condition_index < worst_condition) break;
       separable.groups[j].push_back(dependency.group);
       kept.erase(kept.begin() + static_cast<std::ptrdiff_t>(dependency.largest));

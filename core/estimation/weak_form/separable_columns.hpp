@@ -4,23 +4,25 @@
 #include <vector>
 
 #include "telltale/core/data/prepared_dataset.hpp"
-#include "telltale/core/estimation/regression/excitation.hpp"
+#include "telltale/core/estimation/regression/near_dependency.hpp"
 #include "telltale/core/estimation/weak_form/weak_form.hpp"
 
 namespace telltale {
 
-/// Columns of each equation of the weak form, parted into what can be sought and what hinders it.
+/// The columns of each equation of the weak form that can be estimated together.
 struct SeparableColumns {
-  std::array<std::vector<std::size_t>, 3> kept;  ///< of those asked for; no two stand for the same
-  /// Dependencies that were cut by leaving one of their columns out: no coefficient of a group can
-  /// be told, while the others, and what the model predicts of like motion, stay as they are.
+  std::array<std::vector<std::size_t>, 3> kept;  ///< of those asked for, free of dependencies
+  /// Dependencies, each resolved by leaving one of its columns out. No coefficient of a group is
+  /// identifiable. The other coefficients and predictions of similar motion do not depend on the
+  /// choice.
   std::array<std::vector<CollinearGroup>, 3> groups;
 };
 
-/// Weighed commands that only ever take a few levels make columns that are one another's
-/// combinations to the last digit, where rows of (13) still differ by how filtering rounds the
-/// steps: the weak form then has no solution. As long as the condition of an equation's unit-scaled
-/// columns is above `worst_condition`, the largest column of the dependency is left out.
+/// Removes collinear columns. Commands of only a few levels make projected columns exactly linearly
+/// dependent, and the weak form then has no solution. The rows of (13) differ even then, because
+/// filtering rounds the steps. As long as the condition index of an equation's columns of unit norm
+/// is at least `worst_condition`, the column with the largest component of the dependency is left
+/// out. An equation with no more supports than columns keeps them all.
 SeparableColumns Separate(const PreparedDataset& dataset, const RegressionOptions& regression,
                           const std::array<std::vector<std::size_t>, 3>& columns,
                           const WeakFormOptions& form, double worst_condition = 1000.0);

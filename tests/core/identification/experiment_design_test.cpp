@@ -131,7 +131,7 @@ TEST(Advice, SeparatesCollinearCoefficients) {
       IdentifiedFrom({FromCatalogue("zigzag"), FromCatalogue("zigzag"), FromCatalogue("spins")});
   const auto named = std::find_if(
       identification.refusals.begin(), identification.refusals.end(),
-      [](const Refusal& r) { return r.reason.find("cannot be told apart") != std::string::npos; });
+      [](const Refusal& r) { return r.reason.find("are collinear") != std::string::npos; });
   ASSERT_NE(named, identification.refusals.end());
   EXPECT_THAT(named->advice, HasSubstr(" for 120 s would shrink "));
   EXPECT_FALSE(identification.advice.empty());

@@ -1,6 +1,6 @@
 // A boat on a straight course, u_dot = -d u + b delta. For a fixed d its track is a linear function
-// of b and of where each shot starts, so the exact profile of d follows from linear least squares
-// in closed form.
+// of b and of the initial state of each shooting segment, so the exact profile of d follows from
+// linear least squares in closed form.
 #include "telltale/core/estimation/output_error/output_error_profile.hpp"
 
 #include <algorithm>
@@ -52,7 +52,7 @@ PreparedDataset StraightRun(double position_noise_m, std::uint64_t seed) {
 }
 
 /// Sum of squares of all fixes northwards, in sizes of the sensor, with b and the states of the
-/// shots as they suit them best.
+/// shooting segments fitted to them.
 double ExactSum(const ShootingPlan& plan, double size_m, double drag) {
   const auto shooting_segments = static_cast<Eigen::Index>(plan.shooting_segments.size());
   std::vector<Eigen::RowVectorXd> rows;
@@ -152,7 +152,7 @@ TEST(OutputErrorProfile, IsThatOfTheClosedFormWhereItIsAsymmetric) {
     EXPECT_NEAR(found.by_profile.upper, found.exact.upper, 0.03 * above) << seed;
     EXPECT_GT(found.by_profile.upper, found.estimate + 1.05 * 1.96 * found.naive) << seed;
     EXPECT_GT(found.by_profile.lower, found.estimate - 0.97 * 1.96 * found.naive) << seed;
-    EXPECT_GT(found.asymmetry_estimate, 1.15) << seed;  // worth the profile
+    EXPECT_GT(found.asymmetry_estimate, 1.15) << seed;  // above the threshold for a profile
   }
 }
 

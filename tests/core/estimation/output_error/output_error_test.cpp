@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "support/catamaran.hpp"
+#include "telltale/core/estimation/output_error/output_error_covariance.hpp"
 #include "telltale/core/estimation/weak_form/weak_iv.hpp"
 
 namespace telltale {
@@ -36,8 +37,8 @@ Result<OutputErrorFit> Estimate(const PreparedDataset& dataset, const Regression
 class NoNoise : public ::testing::TestWithParam<std::optional<double>> {};
 
 /// What remains is rounding of pulse widths (none: commands are twentieths), the steps of 0.02 s of
-/// the simulator's pose and of up to 0.2 s of the shots: under a hundredth of every coefficient
-/// that is not itself tiny.
+/// the simulator's pose and of up to 0.2 s of the shooting segments: under a hundredth of every
+/// coefficient that is not itself tiny.
 TEST_P(NoNoise, GivesTheTruthToDiscretisation) {
   const VesselModel truth = testing::Catamaran(GetParam());
   const auto fit = Estimate(Observe(testing::CatamaranTrack(truth, 400.0, 11), 0.0, 1),
@@ -66,7 +67,7 @@ TEST(EstimateOutputError, DoesNotDependOnWhereItStarts) {
   ASSERT_TRUE(from_nothing.has_value());
   ASSERT_TRUE(from_weak.has_value());
   const Eigen::VectorXd errors = ClusterCovariance(*from_weak).diagonal().cwiseSqrt();
-  // The leash has another end; that it shows at all is of the order of what it weighs.
+  // The ridge prior has another centre; its effect is of the order of its weight.
   EXPECT_LT((from_nothing->theta - from_weak->theta).cwiseQuotient(errors).cwiseAbs().maxCoeff(),
             0.3);
 }
@@ -160,7 +161,7 @@ TEST(EstimateOutputError, NamesWhatOneStraightRunCannotSeparate) {
     EXPECT_NEAR(acceleration, 0.0, 1e-3);
     const Refusal said = Explain(direction, fit->unknowns);
     EXPECT_THAT(said.subject, HasSubstr("SURGE f:d"));
-    EXPECT_THAT(said.reason, HasSubstr("cannot be told apart"));
+    EXPECT_THAT(said.reason, HasSubstr("collinear"));
   }
   EXPECT_EQ(found, 2);
   EXPECT_TRUE(fit->theta.allFinite());
@@ -172,18 +173,18 @@ TEST(EstimateOutputError, NamesWhatOneStraightRunCannotSeparate) {
 TEST(EstimateOutputError, IsRobustToOutlyingFixes) {
   const auto track = testing::CatamaranTrack(testing::Catamaran(), 200.0, 14);
   const PreparedDataset clean = Observe(track, 1.0, 8);
-  PreparedDataset wild = clean;
-  for (RawSignals& signals : wild.signals) {
+  PreparedDataset outlying = clean;
+  for (RawSignals& signals : outlying.signals) {
     for (std::size_t i = 50; i < signals.north_m.values.size(); i += 100) {
       signals.north_m.values[i] += 3.0 + 0.03 * static_cast<double>(i);
       signals.east_m.values[i] -= 8.0;
     }
   }
   const auto before = Estimate(clean, {});
-  const auto after = Estimate(wild, {});
+  const auto after = Estimate(outlying, {});
   OutputErrorOptions squares;
   squares.huber_threshold = 100.0;
-  const auto without = Estimate(wild, {}, squares);
+  const auto without = Estimate(outlying, {}, squares);
   ASSERT_TRUE(before.has_value() && after.has_value() && without.has_value());
   const Eigen::VectorXd errors = ClusterCovariance(*before).diagonal().cwiseSqrt();
   const auto moved = [&](const OutputErrorFit& fit) {
@@ -206,7 +207,7 @@ TEST(EstimateOutputError, RefusesOptionsOutOfRange) {
   options.shooting_segments.length_s = 0.5;
   const auto refusal = options.Validate();
   ASSERT_TRUE(refusal.has_value());
-  EXPECT_THAT(refusal->reason, HasSubstr("shots.length_s"));
+  EXPECT_THAT(refusal->reason, HasSubstr("shooting_segments.length_s"));
 }
 
 }  // namespace

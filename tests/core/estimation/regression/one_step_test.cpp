@@ -59,7 +59,7 @@ TEST(OneStep, RecoversTheSimulatedBoatInThePropellerParameterization) {
   }
 }
 
-/// An overdetermined problem with noise of its own, to hold the laws of least squares against.
+/// An overdetermined problem with noise of its own, to check properties of least squares on.
 EquationProblem NoisyYaw() {
   EquationProblem yaw = ProblemOf(YellowfishTwin(), 3).equations[2];
   RandomEngine engine(5);

@@ -74,7 +74,7 @@ TEST(RowsPerIndependentRow, IsThatOfAnAutoregressiveProcess) {
     const std::vector<RowRange> one_run = {{0, 40000}};
     const double expected = (1.0 + f) / (1.0 - f);
     EXPECT_NEAR(RowsPerIndependentRow(x, one_run), expected, 0.08 * expected) << f;
-    // Cut into runs the same process looks the same.
+    // Cut into runs the same process gives the same value.
     std::vector<RowRange> runs;
     for (std::size_t k = 0; k < 40000; k += 200) runs.push_back({k, k + 200});
     EXPECT_NEAR(RowsPerIndependentRow(x, runs), expected, 0.1 * expected) << f;

@@ -115,7 +115,7 @@ TEST(SlidingRegression, IsTheDirectFitOfTheRowsHeldAtAnyMoment) {
 }
 
 /// Days of telemetry: 10^7 rows of 13 regressors through a window. In each round of the tape a
-/// burst of wild values passes and leaves its rounding behind when it goes: without matrices formed
+/// burst of outliers passes and leaves its rounding behind when it goes: without matrices formed
 /// anew from the rows held, theta ends up wrong by 5e-4. The instrumented builds take a hundredth.
 TEST(SlidingRegression, HoldsOverTenMillionUpdates) {
 #ifdef NDEBUG

@@ -7,7 +7,7 @@
 namespace telltale {
 namespace {
 
-/// Laws of a QR factorisation, over sizes around the block size of 240 rows.
+/// Properties of a QR factorisation, over sizes around the block size of 240 rows.
 TEST(Triangularise, KeepsGramScoreAndResidual) {
   for (const Eigen::Index rows : {14, 239, 240, 241, 1000}) {
     std::srand(static_cast<unsigned>(rows));
@@ -22,7 +22,7 @@ TEST(Triangularise, KeepsGramScoreAndResidual) {
   }
 }
 
-/// Laws again, for each of several y; the third lies in the span of Phi and the other two.
+/// The same for each of several y; the third lies in the span of Phi and the other two.
 TEST(TriangulariseAll, KeepsScoreAndResidualOfEach) {
   std::srand(5);
   const Eigen::MatrixXd phi = Eigen::MatrixXd::Random(700, 7);

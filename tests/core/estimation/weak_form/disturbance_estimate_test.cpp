@@ -43,7 +43,7 @@ TEST(Disturbance, IsNotTakenForQuickerWhereDataAreFew) {
   pushed.sigma << 0.03, 0.03, 0.04;
   pushed.time_constant_s.setConstant(4.0);
   constexpr int kRepeats = 40;
-  // sigma^2 tau is what a steady push's standard error rests on.
+  // sigma^2 tau is what a constant disturbance's standard error depends on.
   Eigen::Array3d found = Eigen::Array3d::Zero();
   for (std::uint64_t seed = 1; seed <= kRepeats; ++seed) {
     const auto dataset = SimulateDataset(calm, testing::StableBoat(), {pushed, 1.0, seed});

@@ -75,7 +75,7 @@ TEST(Instruments, LoseNothingOfWhatIsLinear) {
   }
 }
 
-// Where one equation lacks a window the two are weighed each by itself.
+// Where one equation lacks a support, the two are projected separately.
 TEST(Instruments, ServeSwayAndYawAlikeTogetherOrApart) {
   const PreparedDataset dataset = SimulatedDataset(8);
   WeakProblem problem = BuildWeakForm(dataset, {}, {});

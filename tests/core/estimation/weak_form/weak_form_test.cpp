@@ -4,6 +4,7 @@
 
 #include "support/stable_boat.hpp"
 #include "telltale/core/data/preparation.hpp"
+#include "telltale/core/estimation/weak_form/projection.hpp"
 
 namespace telltale {
 namespace {

@@ -1,4 +1,4 @@
-#include "telltale/core/estimation/output_error/multiple_shooting.hpp"
+#include "telltale/core/estimation/output_error/shooting_residual.hpp"
 
 #include <cmath>
 
@@ -34,7 +34,7 @@ Aim TakeAim(std::optional<double> time_constant_s, const SensorOptions& sensors,
   return aim;
 }
 
-/// Every fix and every heading of the rows' time is in exactly one shot.
+/// Every fix and every heading of the rows' time is in exactly one shooting segment.
 TEST(CutShootingSegments, TakesEveryMeasurementOnce) {
   const Aim aim = TakeAim(std::nullopt, testing::CatamaranSensors(1.0, 1));
   std::size_t fixes = 0;
@@ -124,7 +124,7 @@ INSTANTIATE_TEST_SUITE_P(Lags, Derivatives,
                          ::testing::Values(std::optional<double>(), std::optional(0.02),
                                            std::optional(0.4)));
 
-/// Huber's loss as a sum of squares: s^2 up to the knee, 2 knee s - knee^2 beyond.
+/// Huber's loss as a sum of squares, with threshold k: s^2 up to k, 2 k s - k^2 beyond.
 TEST(ComputeShootingResidual, IsHubersBeyondTheThreshold) {
   const Aim aim = TakeAim(std::nullopt, testing::CatamaranSensors(1.0, 2));
   const Eigen::VectorXd theta = aim.unknowns.In(testing::Catamaran());

@@ -8,28 +8,28 @@
 #include <Eigen/Core>
 
 #include "telltale/core/data/prepared_dataset.hpp"
-#include "telltale/core/estimation/output_error/multiple_shooting.hpp"
-#include "telltale/core/vessel/thruster_response.hpp"
+#include "telltale/core/estimation/output_error/shooting_residual.hpp"
 
 namespace telltale {
 
-/// Where theta begins and how far a coefficient may reasonably move from there: by what would take
-/// the boat through the spread of its velocities in a second. Data that tell anything overrule it
-/// by orders of magnitude; along what they do not tell it keeps theta from wandering off.
+/// A ridge prior on theta. The scale of a coefficient is the value that takes the boat through the
+/// standard deviation of its velocity in one second. Data that determine a coefficient outweigh the
+/// prior by orders of magnitude. Along directions that they do not determine it keeps theta near
+/// the centre.
 struct RidgePrior {
   Eigen::VectorXd centre;
-  Eigen::VectorXd weight;  ///< one over that reach
+  Eigen::VectorXd weight;  ///< one over that scale
 };
 
 RidgePrior MakeRidgePrior(const PreparedDataset& dataset, const SharedUnknowns& unknowns,
                           const Eigen::VectorXd& centre);
 
-/// Theta and the states in which the shots start, moving together towards the least sum of squared
-/// misses and of what pulls at the leash. docs/concepts/model.md (50).
-/// Assumes: plan, unknowns and leash outlive it.
+/// Theta and the initial states of the shooting segments, which together minimise the sum of
+/// squared residuals and of the ridge prior, docs/concepts/model.md (50). Assumes: plan, unknowns
+/// and prior outlive it.
 class ShootingSolution {
  public:
-  /// Each shot starts where it was guessed to begin.
+  /// Each shooting segment starts from its guess.
   ShootingSolution(const ShootingPlan& plan, const SharedUnknowns& unknowns,
                    const RidgePrior& ridge_prior, double huber_threshold,
                    const Eigen::VectorXd& theta);
@@ -39,28 +39,28 @@ class ShootingSolution {
 
   void MoveTo(const Eigen::VectorXd& theta, const std::vector<ShootingState>& starts);
 
-  /// Whether some shot cannot be sailed to its end.
+  /// Whether the simulation of some shooting segment diverges.
   bool Diverges() const;
 
   std::optional<ShootingResidual> ComputeResidual(std::size_t shooting_segment,
                                                   const NoiseScale& noise_scale,
                                                   bool with_derivatives) const;
 
-  /// The sizes that residuals have now, by their medians, never less than the sensors' noise.
+  /// The scale of the present residuals by their medians, never less than the sensors' noise.
   NoiseScale Measure() const;
 
   std::size_t CountBeyondThreshold(const NoiseScale& noise_scale) const;
 
-  /// What is made least; infinite where a shot runs away.
+  /// The objective; infinite where a shooting segment diverges.
   double Sum(const NoiseScale& noise_scale) const;
 
-  /// Moves to the least sum by this yardstick; whether it got there. One of the unknowns may be
-  /// held where it is.
+  /// Moves to the least sum under this noise scale; whether it converged. One of the unknowns may
+  /// be held constant.
   bool Descend(const NoiseScale& noise_scale, double tolerance, int iterations,
                std::optional<Eigen::Index> held = std::nullopt);
 
  private:
-  /// Visits north-east pairs and headings one by one.
+  /// Visits the residuals of fixes, as north-east pairs, and of headings.
   template <class Visit>
   void ForEachResidual(Visit visit) const;
 

@@ -1,4 +1,4 @@
-#include "telltale/core/estimation/output_error/multiple_shooting_solution.hpp"
+#include "telltale/core/estimation/output_error/shooting_solution.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -8,12 +8,12 @@
 #include <ceres/ceres.h>
 
 #include "telltale/core/base/median.hpp"
-#include "telltale/core/estimation/weak_form/weak_iv.hpp"
+#include "telltale/core/vessel/thruster_response.hpp"
 
 namespace telltale {
 namespace {
 
-/// One shot's share of the sum, as a function of theta and of the state it starts in.
+/// One shooting segment's residuals as a function of theta and of its initial state.
 class ShootingSegmentCost : public ceres::CostFunction {
  public:
   ShootingSegmentCost(const ShootingPlan& plan, const ShootingSegment& shooting_segment,
@@ -77,7 +77,7 @@ class RidgePriorCost : public ceres::CostFunction {
   const RidgePrior& ridge_prior_;
 };
 
-/// How many times their usual size values are by their median, at least once.
+/// The median of the values over the median that is usual, at least one.
 double RatioToUsualMedian(std::vector<double> values, double usual_median) {
   return values.empty() ? 1.0 : std::max(1.0, Median(std::move(values)) / usual_median);
 }
@@ -146,7 +146,7 @@ std::optional<ShootingResidual> ShootingSolution::ComputeResidual(std::size_t sh
 
 NoiseScale ShootingSolution::Measure() const {
   constexpr double kMedianDistance = 1.1774;  // of a unit normal in the plane
-  constexpr double kMedianSize = 0.6745;      // of a unit normal
+  constexpr double kMedianSize = 0.6745;      // of the absolute value of a unit normal
   std::vector<double> distances;
   std::vector<double> sizes;
   ForEachResidual([&](const auto& residual) {
@@ -157,12 +157,12 @@ NoiseScale ShootingSolution::Measure() const {
 }
 
 std::size_t ShootingSolution::CountBeyondThreshold(const NoiseScale& noise_scale) const {
-  std::size_t past = 0;
+  std::size_t beyond = 0;
   ForEachResidual([&](const auto& residual) {
     const double size = residual.size() == 2 ? noise_scale.position : noise_scale.heading;
-    past += residual.norm() > noise_scale.huber_threshold * size ? 1 : 0;
+    beyond += residual.norm() > noise_scale.huber_threshold * size ? 1 : 0;
   });
-  return past;
+  return beyond;
 }
 
 double ShootingSolution::Sum(const NoiseScale& noise_scale) const {
