@@ -8,7 +8,7 @@
 #include "telltale/core/paper/yellowfish.hpp"
 #include "telltale/core/simulation/manoeuvres.hpp"
 #include "telltale/core/simulation/sensors.hpp"
-#include "telltale/idl/codec/wire/wire.hpp"
+#include "telltale/idl/codec/wire/telemetry.hpp"
 
 namespace telltale {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "telltale/idl/codec/wire/messages.hpp"
+#include "telltale/idl/codec/messages/model.hpp"
 
 namespace telltale {
 

@@ -3,7 +3,7 @@
 #include <map>
 #include <string>
 
-#include "telltale/idl/codec/wire/messages.hpp"
+#include "telltale/idl/codec/messages/quality.hpp"
 
 namespace telltale {
 

@@ -4,7 +4,7 @@
 
 #include "telltale/client/bus/participant.hpp"
 #include "telltale/client/fleet/request_reply.hpp"
-#include "telltale/idl/codec/wire/messages.hpp"
+#include "telltale/idl/codec/messages/exchange.hpp"
 
 namespace telltale {
 

@@ -12,7 +12,7 @@
 #include "telltale/client/bus/wait_set.hpp"
 #include "telltale/client/bus/writer.hpp"
 #include "telltale/idl/codec/codec_error.hpp"
-#include "telltale/idl/codec/wire/wire.hpp"
+#include "telltale/idl/codec/wire/exchange.hpp"
 
 namespace telltale {
 

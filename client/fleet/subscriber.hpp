@@ -7,7 +7,9 @@
 #include "telltale/client/bus/participant.hpp"
 #include "telltale/client/bus/reader.hpp"
 #include "telltale/client/bus/wait_set.hpp"
-#include "telltale/idl/codec/wire/wire.hpp"
+#include "telltale/idl/codec/wire/diagnosis.hpp"
+#include "telltale/idl/codec/wire/model.hpp"
+#include "telltale/idl/codec/wire/quality.hpp"
 
 namespace telltale {
 

@@ -3,7 +3,7 @@
 #include <thread>
 #include <utility>
 
-#include "telltale/idl/codec/wire/wire.hpp"
+#include "telltale/idl/codec/wire/telemetry.hpp"
 
 namespace telltale {
 namespace {

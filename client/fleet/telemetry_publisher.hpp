@@ -6,7 +6,7 @@
 
 #include "telltale/client/bus/participant.hpp"
 #include "telltale/client/bus/writer.hpp"
-#include "telltale/idl/codec/wire/messages.hpp"
+#include "telltale/idl/codec/messages/telemetry.hpp"
 
 namespace telltale {
 

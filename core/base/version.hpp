@@ -4,7 +4,7 @@
 
 namespace telltale {
 
-/// The version of this software, "0.1.0": what models and reports say they were made by.
+/// The version of this software, "0.2.0". Models and reports name the version that made them.
 std::string_view Version();
 
 }  // namespace telltale

@@ -4,7 +4,7 @@
 
 #include "telltale/core/diagnosis/diagnose.hpp"
 #include "telltale/idl/codec/daemon_config.hpp"
-#include "telltale/idl/codec/wire/messages.hpp"
+#include "telltale/idl/codec/messages/exchange.hpp"
 #include "telltale/service/diagnosis/baseline_recordings.hpp"
 #include "telltale/service/diagnosis/published_diagnoses.hpp"
 #include "telltale/service/ingest/fleet.hpp"

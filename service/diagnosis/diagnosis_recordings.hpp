@@ -5,7 +5,7 @@
 
 #include "telltale/core/base/result.hpp"
 #include "telltale/core/data/samples.hpp"
-#include "telltale/idl/codec/wire/messages.hpp"
+#include "telltale/idl/codec/messages/model.hpp"
 
 namespace telltale {
 

@@ -5,7 +5,7 @@
 #include <optional>
 #include <string_view>
 
-#include "telltale/idl/codec/wire/messages.hpp"
+#include "telltale/idl/codec/messages/diagnosis.hpp"
 
 namespace SQLite {
 class Database;

@@ -4,7 +4,7 @@
 
 #include <spdlog/spdlog.h>
 
-#include "telltale/idl/codec/wire/wire.hpp"
+#include "telltale/idl/codec/wire/diagnosis.hpp"
 
 namespace telltale {
 

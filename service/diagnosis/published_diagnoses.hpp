@@ -2,7 +2,7 @@
 
 #include "telltale/client/bus/participant.hpp"
 #include "telltale/client/bus/writer.hpp"
-#include "telltale/idl/codec/wire/messages.hpp"
+#include "telltale/idl/codec/messages/diagnosis.hpp"
 #include "telltale/service/diagnosis/diagnosis_store.hpp"
 #include "telltale/service/ingest/fleet.hpp"
 

@@ -5,7 +5,7 @@
 #include "telltale/core/identification/options.hpp"
 #include "telltale/core/identification/progress.hpp"
 #include "telltale/idl/codec/daemon_config.hpp"
-#include "telltale/idl/codec/wire/messages.hpp"
+#include "telltale/idl/codec/messages/exchange.hpp"
 #include "telltale/service/diagnosis/baseline_recordings.hpp"
 #include "telltale/service/ingest/fleet.hpp"
 #include "telltale/service/jobs/job_queue.hpp"

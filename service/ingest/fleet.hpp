@@ -11,7 +11,7 @@
 
 #include "telltale/core/data/window.hpp"
 #include "telltale/core/vessel/vehicle.hpp"
-#include "telltale/idl/codec/wire/messages.hpp"
+#include "telltale/idl/codec/messages/quality.hpp"
 #include "telltale/service/ingest/vehicle_window.hpp"
 
 namespace telltale {

@@ -5,7 +5,8 @@
 
 #include <spdlog/spdlog.h>
 
-#include "telltale/idl/codec/wire/wire.hpp"
+#include "telltale/idl/codec/wire/exchange.hpp"
+#include "telltale/idl/codec/wire/telemetry.hpp"
 
 namespace telltale {
 namespace {

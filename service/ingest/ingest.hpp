@@ -11,7 +11,7 @@
 #include "telltale/client/bus/participant.hpp"
 #include "telltale/client/bus/wait_set.hpp"
 #include "telltale/client/bus/watched_reader.hpp"
-#include "telltale/idl/codec/wire/messages.hpp"
+#include "telltale/idl/codec/messages/exchange.hpp"
 #include "telltale/service/ingest/fleet.hpp"
 
 namespace telltale {

@@ -19,7 +19,7 @@
 #include <spdlog/spdlog.h>
 
 #include "telltale/core/identification/progress.hpp"
-#include "telltale/idl/codec/wire/messages.hpp"
+#include "telltale/idl/codec/messages/exchange.hpp"
 #include "telltale/service/ingest/fleet.hpp"
 #include "telltale/service/jobs/reply_publisher.hpp"
 

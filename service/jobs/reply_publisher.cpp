@@ -2,7 +2,7 @@
 
 #include <spdlog/spdlog.h>
 
-#include "telltale/idl/codec/wire/wire.hpp"
+#include "telltale/idl/codec/wire/exchange.hpp"
 
 namespace telltale {
 

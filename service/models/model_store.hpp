@@ -10,7 +10,7 @@
 #include <string_view>
 #include <vector>
 
-#include "telltale/idl/codec/wire/messages.hpp"
+#include "telltale/idl/codec/messages/model.hpp"
 
 namespace SQLite {
 class Database;

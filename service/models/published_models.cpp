@@ -4,7 +4,7 @@
 
 #include <spdlog/spdlog.h>
 
-#include "telltale/idl/codec/wire/wire.hpp"
+#include "telltale/idl/codec/wire/model.hpp"
 #include "telltale/service/models/predecessor.hpp"
 #include "telltale/service/unix_now.hpp"
 

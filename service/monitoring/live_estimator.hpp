@@ -5,7 +5,7 @@
 #include "telltale/core/data/samples.hpp"
 #include "telltale/core/uncertainty/live_bounds.hpp"
 #include "telltale/core/vessel/vehicle.hpp"
-#include "telltale/idl/codec/wire/messages.hpp"
+#include "telltale/idl/codec/messages/quality.hpp"
 
 namespace telltale {
 

@@ -6,7 +6,7 @@
 #include <spdlog/spdlog.h>
 
 #include "telltale/core/data/recording_parts.hpp"
-#include "telltale/idl/codec/wire/wire.hpp"
+#include "telltale/idl/codec/wire/quality.hpp"
 #include "telltale/service/monitoring/prediction_error.hpp"
 #include "telltale/service/unix_now.hpp"
 

@@ -12,7 +12,7 @@
 
 #include "telltale/client/bus/participant.hpp"
 #include "telltale/client/bus/writer.hpp"
-#include "telltale/idl/codec/wire/messages.hpp"
+#include "telltale/idl/codec/messages/quality.hpp"
 #include "telltale/service/ingest/fleet.hpp"
 #include "telltale/service/models/published_models.hpp"
 #include "telltale/service/monitoring/drift_detector.hpp"

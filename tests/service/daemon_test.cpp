@@ -21,7 +21,7 @@
 #include "telltale/client/recording/telemetry_log/telemetry_log.hpp"
 #include "telltale/core/paper/yellowfish.hpp"
 #include "telltale/idl/codec/json/model.hpp"
-#include "telltale/idl/codec/wire/wire.hpp"
+#include "telltale/idl/codec/wire/telemetry.hpp"
 
 namespace telltale {
 namespace {

@@ -15,7 +15,8 @@
 #include "telltale/client/fleet/identification_client.hpp"
 #include "telltale/core/data/samples.hpp"
 #include "telltale/core/vessel/vessel_model.hpp"
-#include "telltale/idl/codec/wire/messages.hpp"
+#include "telltale/idl/codec/messages/exchange.hpp"
+#include "telltale/idl/codec/messages/quality.hpp"
 
 namespace telltale {
 

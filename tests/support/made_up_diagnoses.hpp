@@ -125,7 +125,7 @@ inline Diagnosis MadeUpDiagnosis() {
   for (std::size_t i = 0; i < 80; ++i) made.pictures.push_back(MadeUpWindow(i));
   made.notes = {"the wind was not measured", "one reference recording is shorter than this one"};
   made.seed = std::numeric_limits<std::uint64_t>::max();
-  made.software_version = "0.1.0";
+  made.software_version = "0.2.0";
   return made;
 }
 

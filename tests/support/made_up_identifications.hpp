@@ -80,7 +80,7 @@ inline Identification MadeUpIdentification(
   made.provenance.bootstrap_replicates = 1000;
   made.provenance.bootstrap_failures = 3;
   made.provenance.seed = std::numeric_limits<std::uint64_t>::max();
-  made.provenance.software_version = "0.1.0";
+  made.provenance.software_version = "0.2.0";
   made.provenance.parametric_replicates = 40;
   made.provenance.parametric_replicate_failures = 2;
   made.provenance.estimator_choice = "the boat lay in a harbour";

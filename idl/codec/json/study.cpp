@@ -1,7 +1,9 @@
 #include "telltale/idl/codec/json/study.hpp"
 
+#include "telltale/idl/codec/json/coefficient.hpp"
 #include "telltale/idl/codec/json/json_message.hpp"
-#include "telltale/idl/codec/json/model.hpp"
+#include "telltale/idl/codec/json/proto_values.hpp"
+#include "telltale/idl/codec/json/provenance.hpp"
 
 namespace telltale {
 namespace {
@@ -25,9 +27,7 @@ void Write(const PartitionScores& scores, proto::PartitionScores& message) {
 }
 
 void Write(const StudyEntry& entry, proto::StudyEntry& message) {
-  message.set_structure(entry.structure == Structure::kStaticQuadratic
-                            ? proto::STATIC_QUADRATIC
-                            : proto::FIRST_ORDER_DYNAMIC);
+  message.set_structure(EnumCast<proto::Structure>(entry.structure));
   message.set_method(std::string(Name(entry.method)));
   message.set_training_share(entry.training_share);
   message.set_repeats(static_cast<std::uint32_t>(entry.repeats));

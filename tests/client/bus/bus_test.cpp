@@ -17,7 +17,8 @@
 #include "telltale/client/bus/wait_set.hpp"
 #include "telltale/client/bus/watched_reader.hpp"
 #include "telltale/client/bus/writer.hpp"
-#include "telltale/idl/codec/wire/wire.hpp"
+#include "telltale/idl/codec/wire/model.hpp"
+#include "telltale/idl/codec/wire/telemetry.hpp"
 
 namespace telltale {
 namespace {

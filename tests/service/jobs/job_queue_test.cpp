@@ -18,7 +18,7 @@
 #include "telltale/client/bus/reader.hpp"
 #include "telltale/client/bus/wait_set.hpp"
 #include "telltale/core/paper/yellowfish.hpp"
-#include "telltale/idl/codec/wire/wire.hpp"
+#include "telltale/idl/codec/wire/exchange.hpp"
 
 namespace telltale {
 namespace {

@@ -8,7 +8,7 @@
 #include "support/made_up_identifications.hpp"
 #include "telltale/core/effects/effect.hpp"
 #include "telltale/idl/codec/json/model.hpp"
-#include "telltale/idl/codec/wire/wire.hpp"
+#include "telltale/idl/codec/wire/model.hpp"
 
 namespace telltale {
 namespace {

@@ -9,7 +9,8 @@
 #include "support/identifiability.hpp"
 #include "support/made_up_identifications.hpp"
 #include "telltale/idl/codec/json/model.hpp"
-#include "telltale/idl/codec/wire/wire.hpp"
+#include "telltale/idl/codec/wire/exchange.hpp"
+#include "telltale/idl/codec/wire/model.hpp"
 
 namespace telltale {
 namespace {

@@ -1,16 +1,6 @@
-#include "telltale/idl/codec/wire/messages.hpp"
+#include "telltale/idl/codec/messages/quality.hpp"
 
 namespace telltale {
-
-std::string_view Name(ReplyOutcome outcome) {
-  switch (outcome) {
-    case ReplyOutcome::kUnknown: return "UNKNOWN";
-    case ReplyOutcome::kPublished: return "PUBLISHED";
-    case ReplyOutcome::kRefused: return "REFUSED";
-    case ReplyOutcome::kFailed: return "FAILED";
-  }
-  return "";
-}
 
 std::vector<RejectEntry> RejectEntries(const RejectCounts& counts) {
   std::vector<RejectEntry> entries;

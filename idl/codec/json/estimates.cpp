@@ -1,0 +1,192 @@
+#include "telltale/idl/codec/json/estimates.hpp"
+
+#include <string>
+
+#include "telltale/idl/codec/json/coefficient.hpp"
+#include "telltale/idl/codec/json/effects.hpp"
+#include "telltale/idl/codec/json/proto_values.hpp"
+#include "telltale/idl/codec/model_rules.hpp"
+
+namespace telltale {
+namespace {
+
+using Numbers = google::protobuf::RepeatedField<double>;
+
+// ---- to Protobuf --------------------------------------------------------------------------------
+
+void Write(const Disturbance& disturbance, proto::Disturbance& message) {
+  message.mutable_sigma()->Add(disturbance.sigma.begin(), disturbance.sigma.end());
+  message.mutable_time_constant_s()->Add(disturbance.time_constant_s.begin(),
+                                         disturbance.time_constant_s.end());
+  message.set_gnss_drift_m(disturbance.gnss_drift_m);
+}
+
+void Write(const RecordingBias& recording_bias, proto::RecordingBias& message) {
+  message.set_start_s(recording_bias.start_s);
+  message.set_end_s(recording_bias.end_s);
+  for (const Coefficient& coefficient : recording_bias.coefficients) {
+    *message.add_coefficients() = ToProto(coefficient);
+  }
+}
+
+void WriteRowMajor(const Eigen::MatrixXd& matrix, Numbers& numbers) {
+  for (Eigen::Index row = 0; row < matrix.rows(); ++row) {
+    for (Eigen::Index column = 0; column < matrix.cols(); ++column) {
+      numbers.Add(matrix(row, column));
+    }
+  }
+}
+
+void WriteJoint(const Identification& identification, proto::JointBounds& message) {
+  message.set_covariance_factor(identification.joint->covariance_factor);
+  message.set_degrees_of_freedom(identification.joint->degrees_of_freedom);
+  message.set_squared_radius(SquaredRadius(identification).value_or(0.0));
+}
+
+// ---- from Protobuf ------------------------------------------------------------------------------
+
+/// The numbers alone: ModelFault() checks them.
+Eigen::MatrixXd ReadCovariance(FieldReader& reader, const proto::Model& model) {
+  const int n = model.coefficients_size();
+  if (model.covariance_size() != n * n) {
+    reader.Fail("covariance", std::to_string(model.covariance_size()) + " numbers",
+                std::to_string(n * n) + ", the square of " + std::to_string(n) + " coefficients");
+    return {};
+  }
+  Eigen::MatrixXd covariance(n, n);
+  for (int i = 0; i < n * n; ++i) covariance(i / n, i % n) = model.covariance(i);
+  return covariance;
+}
+
+std::optional<Coefficient> ReadTimeConstant(FieldReader& reader, const proto::Model& model,
+                                            Structure structure) {
+  const bool dynamic = structure == Structure::kFirstOrderDynamic;
+  if (model.has_thruster_time_constant_s() != dynamic) {
+    reader.Fail("thruster_time_constant_s", dynamic ? "" : "(given)",
+                "given for FIRST_ORDER_DYNAMIC and for nothing else");
+  }
+  if (!dynamic) return std::nullopt;
+  FieldReader item = reader.Optional("thruster_time_constant_s");
+  item.Number("estimate", kFinitePositive);
+  return ReadCoefficient(item, model.thruster_time_constant_s());
+}
+
+void ExpectFinite(FieldReader& reader, const char* field, const Numbers& numbers) {
+  for (int i = 0; i < numbers.size(); ++i) {
+    if (kFinite.Contains(numbers[i])) continue;
+    reader.FailItem(field, i, NumberText(numbers[i]), kFinite.Text());
+  }
+}
+
+/// No numbers stand for zeros.
+Eigen::VectorXd ReadTimeConstantCovariance(FieldReader& reader, const proto::Model& model,
+                                           Structure structure) {
+  constexpr const char* kField = "thruster_time_constant_covariance";
+  const Numbers& numbers = model.thruster_time_constant_covariance();
+  const int n = structure == Structure::kFirstOrderDynamic ? model.coefficients_size() : 0;
+  if (numbers.empty()) return Eigen::VectorXd::Zero(n);
+  if (numbers.size() != n) {
+    reader.Fail(kField, std::to_string(numbers.size()) + " numbers",
+                n == 0 ? "given for FIRST_ORDER_DYNAMIC and for nothing else"
+                       : std::to_string(n) + ", one for each coefficient");
+    return {};
+  }
+  ExpectFinite(reader, kField, numbers);
+  return Eigen::Map<const Eigen::VectorXd>(numbers.data(), n);
+}
+
+Eigen::Vector3d ReadAxes(FieldReader& reader, const char* field, const Numbers& values,
+                         FieldRange range) {
+  if (values.size() != 3) {
+    reader.Fail(field, std::to_string(values.size()) + " numbers", "3, one for each axis");
+    return Eigen::Vector3d::Ones();
+  }
+  for (const double value : values) {
+    if (!range.Contains(value)) reader.Fail(field, NumberText(value), range.Text());
+  }
+  return {values[0], values[1], values[2]};
+}
+
+Disturbance ReadDisturbance(FieldReader reader, const proto::Disturbance& message) {
+  return {ReadAxes(reader, "sigma", message.sigma(), kFiniteNotNegative),
+          ReadAxes(reader, "time_constant_s", message.time_constant_s(), kDisturbanceTimeConstantS),
+          reader.Number("gnss_drift_m", kFiniteNotNegative, 0.0)};
+}
+
+RecordingBias ReadRecordingBias(FieldReader reader, const proto::RecordingBias& message) {
+  RecordingBias recording_bias;
+  recording_bias.start_s = reader.Number("start_s", kFinite);
+  recording_bias.end_s = reader.Number("end_s", {recording_bias.start_s, kLargest});
+  recording_bias.coefficients =
+      ReadAll(reader, "coefficients", message.coefficients(), ReadCoefficient);
+  return recording_bias;
+}
+
+DeadZone ReadDeadZone(FieldReader reader) {
+  return {reader.Number("forward", kDeadZoneForward), reader.Number("reverse", kDeadZoneReverse)};
+}
+
+/// The radius follows from the other fields.
+JointBounds ReadJoint(FieldReader reader) {
+  return {reader.Number("covariance_factor", kFinitePositive),
+          reader.Number("degrees_of_freedom", kDegreesOfFreedom)};
+}
+
+std::vector<double> ReadSimulationParameters(FieldReader& reader, const proto::Model& model) {
+  const auto& numbers = model.simulation();
+  if (!numbers.empty() && numbers.size() != model.coefficients_size()) {
+    reader.Fail("simulation", std::to_string(numbers.size()) + " numbers",
+                std::to_string(model.coefficients_size()) + ", one for each coefficient, or none");
+  }
+  ExpectFinite(reader, "simulation", numbers);
+  return {numbers.begin(), numbers.end()};
+}
+
+}  // namespace
+
+void WriteEstimates(const Identification& identification, proto::Model& message) {
+  for (const Coefficient& coefficient : identification.coefficients) {
+    *message.add_coefficients() = ToProto(coefficient);
+  }
+  WriteRowMajor(identification.covariance, *message.mutable_covariance());
+  if (identification.joint) WriteJoint(identification, *message.mutable_joint());
+  if (const auto& time_constant = identification.thruster_time_constant) {
+    *message.mutable_thruster_time_constant_s() = ToProto(*time_constant);
+  }
+  const Eigen::VectorXd& with_tau = identification.time_constant_covariance;
+  message.mutable_thruster_time_constant_covariance()->Add(with_tau.begin(), with_tau.end());
+  message.mutable_dead_zone()->set_forward(identification.dead_zone.forward);
+  message.mutable_dead_zone()->set_reverse(identification.dead_zone.reverse);
+  if (const auto& disturbance = identification.disturbance) {
+    Write(*disturbance, *message.mutable_disturbance());
+  }
+  for (const RecordingBias& recording_bias : identification.recording_bias) {
+    Write(recording_bias, *message.add_recording_bias());
+  }
+  WriteEffects(identification.effects, message);
+  message.mutable_simulation()->Add(identification.simulation.begin(),
+                                    identification.simulation.end());
+}
+
+void ReadEstimates(FieldReader& reader, const proto::Model& message,
+                   Identification& identification) {
+  identification.coefficients =
+      ReadAll(reader, "coefficients", message.coefficients(), ReadCoefficient);
+  identification.dead_zone = ReadDeadZone(reader.Optional("dead_zone"));
+  identification.covariance = ReadCovariance(reader, message);
+  identification.thruster_time_constant =
+      ReadTimeConstant(reader, message, identification.structure);
+  identification.time_constant_covariance =
+      ReadTimeConstantCovariance(reader, message, identification.structure);
+  if (message.has_disturbance()) {
+    identification.disturbance =
+        ReadDisturbance(reader.Optional("disturbance"), message.disturbance());
+  }
+  identification.recording_bias =
+      ReadAll(reader, "recording_bias", message.recording_bias(), ReadRecordingBias);
+  identification.effects = ReadEffects(reader, message);
+  identification.simulation = ReadSimulationParameters(reader, message);
+  if (message.has_joint()) identification.joint = ReadJoint(reader.Optional("joint"));
+}
+
+}  // namespace telltale
