@@ -6,8 +6,8 @@
 
 namespace telltale {
 
-/// The daemon's configuration, the vehicles of its vehicle files among its vehicles. Relative
-/// vehicle files are looked for beside the configuration file.
+/// Reads the configuration file and the vehicle files that it names, whose vehicles join those of
+/// the configuration. A relative path starts at the folder of the configuration file.
 Decoded<DaemonConfig> LoadConfiguration(const std::filesystem::path& file);
 
 }  // namespace telltale

@@ -24,8 +24,9 @@ constexpr int kUsageError = 2;
 
 sem_t stop_requested;
 
-/// SIGINT and SIGTERM, whichever thread they come to: libraries start threads before main that
-/// block neither, so that to block them here and wait would leave them to kill the process.
+/// Waits for SIGINT or SIGTERM in any thread. Libraries start threads before main that block
+/// neither signal, so blocking the signals here and waiting for them would let them kill the
+/// process.
 class StopSignals {
  public:
   StopSignals() {
@@ -43,17 +44,17 @@ class StopSignals {
 };
 
 int Serve(const DaemonConfig& config, const StopSignals& signals) {
-  std::atomic<bool> healthy = true;
+  std::atomic<bool> receiving = true;
   const Daemon daemon(config, [&](const std::exception& error) {
-    spdlog::critical("no longer taking in telemetry: {}", error.what());
-    healthy = false;
+    spdlog::critical("cannot receive telemetry any more: {}", error.what());
+    receiving = false;
     kill(getpid(), SIGTERM);
   });
-  spdlog::info("serving {} vehicles on domain {}, models kept in {}", config.vehicles.size(),
+  spdlog::info("serving {} vehicles on domain {}, models are stored in {}", config.vehicles.size(),
                config.domain, config.state_directory);
   signals.Wait();
   spdlog::info("stopping");
-  return healthy ? 0 : kFailure;
+  return receiving ? 0 : kFailure;
 }
 
 int Main(int argc, char** argv) {

@@ -1,22 +1,18 @@
 #include "telltale/service/diagnosis/diagnosis_jobs.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <thread>
 #include <utility>
 
 #include "telltale/core/data/preparation.hpp"
 #include "telltale/core/diagnosis/diagnose.hpp"
 #include "telltale/service/diagnosis/diagnosis_recordings.hpp"
+#include "telltale/service/unix_now.hpp"
 
 namespace telltale {
 namespace {
 
-constexpr std::size_t kDiagnosedAtOnce = 1;  // each uses all the processors it is given
-
-double UnixSecondsNow() {
-  return std::chrono::duration<double>(std::chrono::system_clock::now().time_since_epoch()).count();
-}
+constexpr std::size_t kWorkers = 1;  // one diagnosis uses all processors that it is given
 
 DiagnoseOptions DiagnoseOptionsOf(const DiagnoseRequest& request,
                                   const IdentificationSettings& settings) {
@@ -29,7 +25,7 @@ DiagnoseOptions DiagnoseOptionsOf(const DiagnoseRequest& request,
 }
 
 Refusal Unmodelled(const std::string& vehicle_id) {
-  return {vehicle_id, "has no model yet that its window could be held against",
+  return {vehicle_id, "has no model to compare its window with",
           "identify it first: telltale identify --vehicle-id " + vehicle_id};
 }
 
@@ -42,14 +38,14 @@ DiagnoseReply RefusedWith(const DiagnoseRequest& request, Refusal refusal) {
 }  // namespace
 
 DiagnosisJobs::DiagnosisJobs(const Fleet& fleet, const PublishedModels& models,
-                             const BaselineRecordings& baseline, PublishedDiagnoses& diagnoses,
+                             const BaselineRecordings& baselines, PublishedDiagnoses& diagnoses,
                              ReplyPublisher& replies, const IdentificationSettings& settings)
     : fleet_(fleet),
       models_(models),
-      baselines_(baseline),
+      baselines_(baselines),
       diagnoses_(diagnoses),
       settings_(settings),
-      jobs_("diagnosis", fleet, replies, kDiagnosedAtOnce, settings.queue_limit,
+      jobs_("diagnosis", fleet, replies, kWorkers, settings.queue_limit,
             [this](const DiagnoseRequest& request, const Progress& progress) {
               return DiagnoseAndPublish(request, progress);
             }) {}
@@ -67,7 +63,7 @@ DiagnoseReply DiagnosisJobs::DiagnoseAndPublish(const DiagnoseRequest& request,
   if (!diagnosed) return RefusedWith(request, std::move(diagnosed).error());
   progress("publish", 1.0);
   auto reply = ReplyTo<DiagnoseReply>(request, ReplyOutcome::kPublished);
-  reply.diagnosis = {std::move(diagnosed->diagnosis), stored->model.revision, UnixSecondsNow()};
+  reply.diagnosis = {std::move(diagnosed->diagnosis), stored->model.revision, UnixNow()};
   reply.augmented = std::move(diagnosed->augmented);
   diagnoses_.Publish(*reply.diagnosis);
   return reply;

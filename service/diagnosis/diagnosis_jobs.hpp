@@ -5,24 +5,24 @@
 #include "telltale/core/diagnosis/diagnose.hpp"
 #include "telltale/idl/codec/daemon_config.hpp"
 #include "telltale/idl/codec/messages/exchange.hpp"
-#include "telltale/service/diagnosis/baseline_recordings.hpp"
 #include "telltale/service/diagnosis/published_diagnoses.hpp"
 #include "telltale/service/ingest/fleet.hpp"
 #include "telltale/service/jobs/job_queue.hpp"
 #include "telltale/service/jobs/reply_publisher.hpp"
+#include "telltale/service/models/baseline_recordings.hpp"
 #include "telltale/service/models/published_models.hpp"
 
 namespace telltale {
 
-/// Holds what vehicles did since their newest model was made against that model, on request, one
-/// vehicle at a time, and publishes the diagnoses.
+/// Compares what a vehicle has done since its newest model was made with that model, on request and
+/// one vehicle at a time, and publishes the diagnoses.
 class DiagnosisJobs {
  public:
   DiagnosisJobs(const Fleet& fleet, const PublishedModels& models,
-                const BaselineRecordings& baseline, PublishedDiagnoses& diagnoses,
+                const BaselineRecordings& baselines, PublishedDiagnoses& diagnoses,
                 ReplyPublisher& replies, const IdentificationSettings& settings);
 
-  /// Takes a request in and returns; the answer goes out through ReplyPublisher.
+  /// Queues a request and returns at once. The answer goes out by ReplyPublisher.
   void Submit(DiagnoseRequest request) { jobs_.Submit(std::move(request)); }
 
  private:

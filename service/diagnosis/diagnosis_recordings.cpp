@@ -34,7 +34,7 @@ Result<DiagnosisRecordings> SelectDiagnosisRecordings(const Recording& window,
   if (DurationS(live.since) < kMinimumDiagnosedS) {
     return Refuse(model.identification.vehicle_id,
                   "has recorded only " + Seconds(DurationS(live.since)) + " since " + revision +
-                      " was made, and a model is not held against the data that made it",
+                      " was made, and a diagnosis needs data that did not make the model",
                   "ask again once a minute or more has been recorded");
   }
   live.baseline = behind;
@@ -44,9 +44,9 @@ Result<DiagnosisRecordings> SelectDiagnosisRecordings(const Recording& window,
   if (live.baseline && DurationS(*live.baseline) < kMinimumDiagnosedS) live.baseline.reset();
   live.basis = live.baseline
                    ? "the baseline error is that on the " + Seconds(DurationS(*live.baseline)) +
-                         " behind " + revision + ", which was fitted to them: it is a little low"
-                   : "the data behind " + revision +
-                         " are no longer held, so there is no baseline recording to compare with";
+                         " behind " + revision + ", which was fitted to them, so it is a little low"
+                   : "the daemon no longer holds the data behind " + revision +
+                         ", so there is no baseline recording to compare with";
   return live;
 }
 

@@ -9,17 +9,18 @@
 
 namespace telltale {
 
-/// What a live diagnosis is about: a model, what the boat has done since it was made, and what it
-/// did when it was made.
+/// The recordings of a live diagnosis of a model.
 struct DiagnosisRecordings {
-  Recording since;
-  std::optional<Recording> baseline;
-  std::string basis;  ///< what the baseline error rests on, for the notes
+  Recording since;                    ///< after the model was made
+  std::optional<Recording> baseline;  ///< that made the model, where a minute or more is at hand
+  std::string basis;                  ///< what the baseline error rests on, for the notes
 };
 
-/// `behind` is the recording behind the model, where it is at hand; else the part of the window
-/// that made the model stands in for it, where a minute or more of that is still held. A window
-/// that ends before the model's data do is of another clock, and all of it counts as since.
+/// Splits the window of a vehicle at the end of the data behind the model.
+/// `behind` is the recording that made the model, where the daemon still holds it. Otherwise the
+/// part of the window up to that time is the baseline.
+/// Assumes another clock where the window ends before the data behind the model do: all of the
+/// window then counts as recorded since.
 /// Refuses when: less than a minute has been recorded since the model was made.
 Result<DiagnosisRecordings> SelectDiagnosisRecordings(const Recording& window,
                                                       const PublishedModel& model,

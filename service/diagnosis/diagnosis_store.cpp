@@ -43,7 +43,7 @@ std::optional<PublishedDiagnosis> DiagnosisStore::Last(std::string_view vehicle_
   proto::Report message;
   const SQLite::Column blob = row.getColumn("report");
   if (!message.ParseFromArray(blob.getBlob(), blob.getBytes())) {
-    spdlog::error("models.sqlite: the diagnosis of {} is none", vehicle_id);
+    spdlog::error("models.sqlite: the stored diagnosis of {} is not a diagnosis", vehicle_id);
     return std::nullopt;
   }
   auto diagnosis = DiagnosisOf(message, "models.sqlite");

@@ -13,9 +13,10 @@ class Database;
 
 namespace telltale {
 
-/// Keeps the last diagnosis of every vehicle on disk, beside the models.
-/// Throws SQLite::Exception when the disk will not have it, std::runtime_error naming the field
-/// when it could not be read back; what was saved before stays whole. Not thread safe.
+/// The last diagnosis of every vehicle on disk, beside the models.
+/// Throws SQLite::Exception where the disk refuses, and std::runtime_error, which names the field,
+/// where a diagnosis could not be read back. Earlier diagnoses then stay as they are. Not thread
+/// safe.
 class DiagnosisStore {
  public:
   /// In the database of `directory`, OpenDatabase().
@@ -24,10 +25,10 @@ class DiagnosisStore {
   DiagnosisStore(DiagnosisStore&&) noexcept;
   DiagnosisStore& operator=(DiagnosisStore&&) noexcept;
 
-  /// In place of the vehicle's one before; on disk when this returns.
+  /// Replaces the vehicle's earlier diagnosis. It is on disk on return.
   void Save(const PublishedDiagnosis& diagnosis);
 
-  /// Nothing where there is none or it cannot be read.
+  /// Nothing where there is none, and where it cannot be read.
   std::optional<PublishedDiagnosis> Last(std::string_view vehicle_id) const;
 
  private:

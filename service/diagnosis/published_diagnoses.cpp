@@ -26,7 +26,7 @@ void PublishedDiagnoses::Announce(const PublishedDiagnosis& diagnosis) {
   spdlog::info("diagnosis of {}: {}", vehicle_id, diagnosis.diagnosis.sentence);
   try {
     if (!writer_.Write(Encode(diagnosis))) {
-      spdlog::warn("a stalled client held up the diagnosis of {}", vehicle_id);
+      spdlog::warn("a stalled client blocks the diagnosis of {}", vehicle_id);
     }
   } catch (const BusError& error) {
     spdlog::error("the diagnosis of {} is saved but not published: {}", vehicle_id, error.what());

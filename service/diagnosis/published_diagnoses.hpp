@@ -8,14 +8,13 @@
 
 namespace telltale {
 
-/// The last diagnosis of every vehicle, on disk and on the bus: what is published has been saved
-/// before, and is published again at start. Use from one thread at a time.
+/// The last diagnosis of every vehicle, on disk and on the bus. It is saved before it is published,
+/// and is published again at start. Not thread safe.
 class PublishedDiagnoses {
  public:
   PublishedDiagnoses(const Participant& participant, DiagnosisStore store, const Fleet& fleet);
 
-  /// Saves, then publishes. Throws SQLite::Exception where it cannot be saved; it is then not
-  /// published either.
+  /// Saves, then publishes. Throws as DiagnosisStore::Save, and then does not publish.
   void Publish(const PublishedDiagnosis& diagnosis);
 
  private:

@@ -16,12 +16,13 @@
 
 namespace telltale {
 
-/// Why a sample reached no window.
+/// Why a sample reaches no window.
 enum class UnattributedReason { kMalformedId, kUnknownVehicle, kUnreadable };
 
 std::string_view Name(UnattributedReason reason);
 
-/// The vehicles this daemon serves, fixed for its life, and what arrived for none of them.
+/// The vehicles that this daemon serves, fixed for its life, and the counts of samples that name
+/// none of them. The counts are safe to use from several threads.
 class Fleet {
  public:
   using Windows = std::map<std::string, std::unique_ptr<VehicleWindow>, std::less<>>;
@@ -32,11 +33,11 @@ class Fleet {
   VehicleWindow* Find(std::string_view vehicle_id) const;
   const Windows& windows() const { return windows_; }
 
-  /// "a, b and c": the vehicles served, for a person.
+  /// The vehicles served, for people: "a, b, c".
   std::string Served() const;
 
   void CountUnattributed(std::string_view channel, UnattributedReason reason);
-  /// What the bus could not even read: counted where the topic carries telemetry.
+  /// Counts a sample that the bus cannot deserialise, where the topic carries telemetry.
   void CountUnreadable(std::string_view topic);
   std::vector<RejectEntry> Unattributed() const;
 

@@ -15,8 +15,8 @@ using Clock = std::chrono::steady_clock;
 
 constexpr auto kHeartbeatPeriod = std::chrono::seconds(1);
 
-// Boats send several samples a second, and a client that waits for an answer asks again every
-// second.
+// Vehicles send several samples a second, and a waiting client repeats its request every second: a
+// connected reader that receives nothing for this long is broken.
 constexpr auto kLongestSilence = std::chrono::seconds(30);
 
 }  // namespace
@@ -67,14 +67,15 @@ void Ingest::Run() {
 void Ingest::Heartbeat() {
   handlers_.heartbeat();
   const auto now = Clock::now();
-  const auto tend = [now](auto& reader, const char* what) {
-    if (reader.ReopenIfSilent(now)) spdlog::warn("{} connected but silent, reader made anew", what);
+  const auto reopen = [now](auto& reader, const char* what) {
+    if (reader.ReopenIfSilent(now))
+      spdlog::warn("the reader of {} is connected but receives nothing; it is opened again", what);
   };
-  tend(gnss_, "gnss");
-  tend(heading_, "heading");
-  tend(thrusters_, "thrusters");
-  tend(requests_, "identify requests");
-  tend(diagnose_requests_, "diagnose requests");
+  reopen(gnss_, "gnss");
+  reopen(heading_, "heading");
+  reopen(thrusters_, "thrusters");
+  reopen(requests_, "identify requests");
+  reopen(diagnose_requests_, "diagnose requests");
 }
 
 template <class Wire>
@@ -100,9 +101,9 @@ void Ingest::CountReceived(VehicleWindow& window) {
 void Ingest::RejectUnattributed(Channel channel, UnattributedReason reason,
                                 std::string_view detail) {
   fleet_.CountUnattributed(Name(channel), reason);
-  if (const auto held_back = warning_limit_.Admit(Clock::now())) {
-    spdlog::warn("{} sample set aside: {} '{}' ({} more not shown)", Name(channel), Name(reason),
-                 detail, *held_back);
+  if (const auto not_shown = warning_limit_.Admit(Clock::now())) {
+    spdlog::warn("{} sample rejected: {} '{}' ({} more not shown)", Name(channel), Name(reason),
+                 detail, *not_shown);
   }
 }
 
@@ -111,9 +112,8 @@ void Ingest::Submit(const Wire& wire, const Handler& handler) {
   auto request = Decode(wire);
   if (request) {
     handler(std::move(*request));
-  } else if (const auto held_back = warning_limit_.Admit(Clock::now())) {
-    spdlog::warn("request set aside: {} ({} more not shown)", request.error().Message(),
-                 *held_back);
+  } else if (const auto not_shown = warning_limit_.Admit(Clock::now())) {
+    spdlog::warn("request rejected: {} ({} more not shown)", request.error().Message(), *not_shown);
   }
 }
 

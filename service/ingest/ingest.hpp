@@ -20,17 +20,17 @@ namespace telltale {
 /// taken, so that a sender that waits for receipts overruns no reader.
 inline constexpr std::size_t kSamplesPerReceipt = 32;
 
-/// The one thread that takes from the bus: telemetry into the vehicles' windows, requests to
-/// whoever answers them. It never estimates, and never waits for those who do.
+/// The one thread that takes samples from the bus. It adds telemetry to the vehicles' windows and
+/// passes requests to their handlers. It does not estimate, and does not wait for estimates.
 class Ingest {
  public:
   struct Handlers {
     std::function<void(IdentifyRequest)> identify;  ///< must return at once
     std::function<void(DiagnoseRequest)> diagnose;  ///< likewise
-    std::function<void()> heartbeat;                ///< every second while the loop is at work
+    std::function<void()> heartbeat;                ///< every second while the loop runs
     /// After every kSamplesPerReceipt samples of a vehicle; must return at once.
     std::function<void(VehicleWindow&)> received;
-    std::function<void(const std::exception&)> failed;  ///< the loop has ended; nothing comes in
+    std::function<void(const std::exception&)> failed;  ///< the loop has ended with a fault
   };
 
   Ingest(const Participant& participant, Fleet& fleet, Handlers handlers);

@@ -13,9 +13,9 @@
 
 namespace telltale {
 
-/// What a vehicle's window holds and what became of the samples that were meant for it.
+/// The contents of a vehicle's window, and the counts of the samples that have arrived for it.
 struct WindowState {
-  double start_s = 0.0;  ///< oldest and newest held, of the boat's clock
+  double start_s = 0.0;  ///< oldest and newest sample, by the vehicle's clock
   double end_s = 0.0;
   double fill = 0.0;                                      ///< share of the configured span, [0, 1]
   std::array<std::uint64_t, kChannels.size()> arrived{};  ///< gnss, heading, thrusters
@@ -24,9 +24,8 @@ struct WindowState {
   RejectCounts rejected;
 };
 
-/// The sliding window of one vehicle, shared by the thread that fills it and those that read it.
-/// Filling never waits for a reader: what arrives while a snapshot is being copied waits in an
-/// inbox.
+/// The sliding window of one vehicle, for one thread that fills it and several that read it.
+/// Filling does not wait for a reader: samples that arrive during a copy wait in an inbox.
 class VehicleWindow {
  public:
   VehicleWindow(Vehicle vehicle, const WindowLimits& limits);

@@ -8,57 +8,52 @@
 #include <deque>
 #include <exception>
 #include <functional>
-#include <map>
 #include <mutex>
+#include <optional>
 #include <set>
 #include <string>
+#include <string_view>
 #include <thread>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include <spdlog/spdlog.h>
 
 #include "telltale/core/identification/progress.hpp"
-#include "telltale/idl/codec/messages/exchange.hpp"
 #include "telltale/service/ingest/fleet.hpp"
+#include "telltale/service/jobs/exchange_history.hpp"
+#include "telltale/service/jobs/reply.hpp"
 #include "telltale/service/jobs/reply_publisher.hpp"
 
 namespace telltale {
 
-/// A reply to this request, so far without an answer in it.
-template <class Reply, class Request>
-Reply ReplyTo(const Request& request, ReplyOutcome outcome, const std::string& message = {}) {
-  Reply reply;
-  reply.correlation_id = request.correlation_id;
-  reply.vehicle_id = request.vehicle_id;
-  reply.outcome = outcome;
-  reply.message = message;
-  return reply;
-}
-
-/// Works on request, on worker threads. A bounded queue; one request at a time for each vehicle;
-/// every correlation id is worked on once: asked again it is told how far the work is, or given its
-/// reply again. Whatever goes wrong with one request ends in its reply.
+/// A bounded queue of requests and the threads that work on them, one request at a time for each
+/// vehicle. A request with a known correlation id is not worked on again: the queue sends its
+/// progress or its reply again. Every fault of a request ends in its reply. Thread safe.
 template <class Request, class Stage, class Reply>
 class JobQueue {
  public:
-  /// ReplyPublisher a request, telling `progress` how far it is; runs on a worker, and may throw.
+  /// Makes the reply to a request and reports its progress. It runs on a worker, and may throw.
   using Work = std::function<Reply(const Request&, const Progress& progress)>;
 
-  /// `what` is what is done to a vehicle, for the log and messages: "identification".
+  /// `what` names the work in the log and in messages: "identification".
   JobQueue(std::string what, const Fleet& fleet, ReplyPublisher& replies, std::size_t workers,
            std::size_t queue_limit, Work work);
   JobQueue(const JobQueue&) = delete;
   JobQueue& operator=(const JobQueue&) = delete;
-  ~JobQueue();  ///< breaks off what is running and ends the workers
 
-  /// Takes a request in and returns; the answer goes out through ReplyPublisher.
+  /// Stops the running requests at their next report of progress, and ends the workers. Each
+  /// unfinished request gets a failed reply.
+  ~JobQueue();
+
+  /// Queues the request, or answers it, and returns at once. Answers go out by ReplyPublisher.
   void Submit(Request request);
 
  private:
   using Queue = std::deque<Request>;
 
-  /// Unwinds the work when the daemon stops.
+  /// Ends the work on a request when the daemon stops.
   struct Stopping : std::exception {
     const char* what() const noexcept override { return "the daemon is stopping"; }
   };
@@ -66,11 +61,13 @@ class JobQueue {
   static Reply Failed(const Request& request, const std::string& message) {
     return ReplyTo<Reply>(request, ReplyOutcome::kFailed, message);
   }
+  std::optional<Reply> RejectionOf(const Request& request) const;
   void Run();
+  std::optional<Request> AwaitNext();
   typename Queue::iterator NextRunnable();
+  void Finish(const Request& request, const Reply& reply);
   Reply Execute(const Request& request);
   void Report(const Request& request, std::string_view stage, double fraction);
-  void Remember(const Reply& reply);
 
   const std::string what_;
   const Fleet& fleet_;
@@ -78,13 +75,11 @@ class JobQueue {
   const std::size_t queue_limit_;
   const Work work_;
 
-  std::mutex mutex_;
+  std::mutex mutex_;  // of what follows
   std::condition_variable changed_;
   Queue queue_;
-  std::map<std::string, Stage> unfinished_;  ///< by correlation id, queued or running
+  ExchangeHistory<Stage, Reply> history_;
   std::set<std::string> running_vehicles_;
-  std::map<std::string, Reply> finished_;  ///< by correlation id, the latest few
-  std::deque<std::string> finished_order_;
   std::atomic<bool> stopping_ = false;
   std::vector<std::thread> workers_;
 };
@@ -115,55 +110,66 @@ JobQueue<Request, Stage, Reply>::~JobQueue() {
 template <class Request, class Stage, class Reply>
 void JobQueue<Request, Stage, Reply>::Submit(Request request) {
   std::unique_lock lock(mutex_);
-  if (const auto done = finished_.find(request.correlation_id); done != finished_.end()) {
-    const Reply reply = done->second;
+  if (const auto answer = history_.Find(request.correlation_id)) {
     lock.unlock();
-    return replies_.Send(reply);
+    return std::visit([this](const auto& known) { replies_.Send(known); }, *answer);
   }
-  if (const auto known = unfinished_.find(request.correlation_id); known != unfinished_.end()) {
-    const Stage stage = known->second;
+  if (const auto rejection = RejectionOf(request)) {
     lock.unlock();
-    return replies_.Send(stage);
-  }
-  if (fleet_.Find(request.vehicle_id) == nullptr) {
-    lock.unlock();
-    return replies_.Send(Failed(request, "vehicle '" + request.vehicle_id +
-                                             "' is not served here; served: " + fleet_.Served()));
-  }
-  if (queue_.size() >= queue_limit_) {
-    lock.unlock();
-    return replies_.Send(Failed(
-        request, std::to_string(queue_limit_) + ' ' + what_ + "s are waiting already; ask later"));
+    return replies_.Send(*rejection);
   }
   const Stage stage{{request.correlation_id, request.vehicle_id, "queued", 0.0}};
-  unfinished_.emplace(request.correlation_id, stage);
+  history_.Begin(stage);
   queue_.push_back(std::move(request));
   lock.unlock();
   changed_.notify_one();
   replies_.Send(stage);
 }
 
+/// Why the queue cannot take a request; the caller holds mutex_.
+template <class Request, class Stage, class Reply>
+std::optional<Reply> JobQueue<Request, Stage, Reply>::RejectionOf(const Request& request) const {
+  if (fleet_.Find(request.vehicle_id) == nullptr) {
+    return Failed(request, "vehicle '" + request.vehicle_id +
+                               "' is not served here; served: " + fleet_.Served());
+  }
+  if (queue_.size() >= queue_limit_) {
+    return Failed(request, std::to_string(queue_limit_) + " requests for " + what_ +
+                               " are waiting already; ask again later");
+  }
+  return std::nullopt;
+}
+
 template <class Request, class Stage, class Reply>
 void JobQueue<Request, Stage, Reply>::Run() {
-  std::unique_lock lock(mutex_);
-  for (;;) {
-    changed_.wait(lock, [this] { return stopping_ || NextRunnable() != queue_.end(); });
-    if (stopping_) return;
-    const auto next = NextRunnable();
-    const Request request = std::move(*next);
-    queue_.erase(next);
-    running_vehicles_.insert(request.vehicle_id);
-    lock.unlock();
-    const Reply reply = Execute(request);
-    lock.lock();
-    running_vehicles_.erase(request.vehicle_id);
-    unfinished_.erase(request.correlation_id);
-    Remember(reply);
-    lock.unlock();
-    changed_.notify_all();
+  while (const auto request = AwaitNext()) {
+    const Reply reply = Execute(*request);
+    Finish(*request, reply);
     replies_.Send(reply);
-    lock.lock();
   }
+}
+
+/// Takes the oldest request whose vehicle is free off the queue; nothing when the daemon stops.
+template <class Request, class Stage, class Reply>
+std::optional<Request> JobQueue<Request, Stage, Reply>::AwaitNext() {
+  std::unique_lock lock(mutex_);
+  changed_.wait(lock, [this] { return stopping_ || NextRunnable() != queue_.end(); });
+  if (stopping_) return std::nullopt;
+  const auto next = NextRunnable();
+  Request request = std::move(*next);
+  queue_.erase(next);
+  running_vehicles_.insert(request.vehicle_id);
+  return request;
+}
+
+template <class Request, class Stage, class Reply>
+void JobQueue<Request, Stage, Reply>::Finish(const Request& request, const Reply& reply) {
+  {
+    const std::lock_guard lock(mutex_);
+    running_vehicles_.erase(request.vehicle_id);
+    history_.Finish(reply);
+  }
+  changed_.notify_all();
 }
 
 template <class Request, class Stage, class Reply>
@@ -194,30 +200,13 @@ Reply JobQueue<Request, Stage, Reply>::Execute(const Request& request) {
 template <class Request, class Stage, class Reply>
 void JobQueue<Request, Stage, Reply>::Report(const Request& request, std::string_view stage,
                                              double fraction) {
-  constexpr double kReportedStep = 0.02;
   if (stopping_) throw Stopping();
-  Stage told;
+  std::optional<Stage> progress;
   {
     const std::lock_guard lock(mutex_);
-    Stage& last = unfinished_.find(request.correlation_id)->second;
-    if (last.stage == stage && fraction - last.fraction < kReportedStep) return;
-    last.stage = stage;
-    last.fraction = std::clamp(fraction, 0.0, 1.0);
-    told = last;
+    progress = history_.Advance(request.correlation_id, stage, fraction);
   }
-  replies_.Send(told);
-}
-
-template <class Request, class Stage, class Reply>
-void JobQueue<Request, Stage, Reply>::Remember(const Reply& reply) {
-  // Replies are some ten kilobytes; whoever asks again does so within seconds.
-  constexpr std::size_t kRememberedReplies = 256;
-  finished_.insert_or_assign(reply.correlation_id, reply);
-  finished_order_.push_back(reply.correlation_id);
-  if (finished_order_.size() > kRememberedReplies) {
-    finished_.erase(finished_order_.front());
-    finished_order_.pop_front();
-  }
+  if (progress) replies_.Send(*progress);
 }
 
 }  // namespace telltale

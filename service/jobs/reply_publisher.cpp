@@ -32,7 +32,7 @@ template <class Wire>
 void ReplyPublisher::Send(Writer<Wire>& writer, const WireSample<Wire>& wire,
                           const std::string& correlation_id) {
   try {
-    if (!writer.Write(wire)) spdlog::warn("{}: held up by a stalled client", correlation_id);
+    if (!writer.Write(wire)) spdlog::warn("{}: a stalled client blocks the answer", correlation_id);
   } catch (const BusError& error) {
     spdlog::error("{}: {}", correlation_id, error.what());
   }

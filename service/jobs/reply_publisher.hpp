@@ -8,9 +8,9 @@
 
 namespace telltale {
 
-/// What goes back to those who asked for an identification or a diagnosis. Safe to use from several
-/// threads; never blocks for longer than the contract's 100 ms and never throws: what could not be
-/// sent is logged, and a client that missed something asks again.
+/// Sends progress and replies to the clients that request identifications and diagnoses. Safe to
+/// use from several threads. A call blocks for at most the 100 ms of the topics' contract and never
+/// throws: it logs what it cannot send, and a client that misses an answer asks again.
 class ReplyPublisher {
  public:
   explicit ReplyPublisher(const Participant& participant);

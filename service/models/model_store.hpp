@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
@@ -11,6 +10,7 @@
 #include <vector>
 
 #include "telltale/idl/codec/messages/model.hpp"
+#include "telltale/service/models/free_run_error.hpp"
 
 namespace SQLite {
 class Database;
@@ -18,18 +18,15 @@ class Database;
 
 namespace telltale {
 
-/// RMS free-run error over 5 s when a model was made: surge, sway (m/s), yaw (rad/s).
-using FreeRunError = std::array<double, 3>;
-
-/// A model as it is kept.
+/// A published model with what the database adds to it.
 struct StoredModel {
   PublishedModel model;
-  std::optional<FreeRunError> reference_error;  ///< on the window that made it
+  std::optional<FreeRunError> reference_error;  ///< on the window that made the model
 };
 
-/// Keeps every published model on disk. DDS itself stores nothing beyond a process's life.
-/// Throws SQLite::Exception when the disk will not have it, std::runtime_error naming the field
-/// when it could not be read back; what was saved before stays whole. Not thread safe.
+/// Every published model on disk, since DDS stores nothing beyond the life of a process.
+/// Throws SQLite::Exception where the disk refuses, and std::runtime_error, which names the field,
+/// where a model could not be read back. Earlier models then stay as they are. Not thread safe.
 class ModelStore {
  public:
   /// In the database of `directory`, OpenDatabase().
@@ -38,14 +35,14 @@ class ModelStore {
   ModelStore(ModelStore&&) noexcept;
   ModelStore& operator=(ModelStore&&) noexcept;
 
-  /// Gives the model its vehicle's next revision and keeps it; on disk when this returns.
+  /// Stores the model as its vehicle's next revision. It is on disk on return.
   StoredModel Save(const Identification& identification, double published_unix_s,
                    const std::optional<FreeRunError>& reference_error);
 
-  /// The vehicle's newest model that can be read, if any.
+  /// The vehicle's newest model that can be read.
   std::optional<StoredModel> Latest(std::string_view vehicle_id) const;
 
-  /// The newest that can be read and that `suits`.
+  /// The vehicle's newest model that can be read and that `suits`.
   std::optional<StoredModel> Newest(std::string_view vehicle_id,
                                     const std::function<bool(const StoredModel&)>& suits) const;
 

@@ -7,11 +7,11 @@
 
 namespace telltale {
 
-/// Whether a model about to be published differs from the vehicle's newest earlier one that was
-/// made alike and, by the boat's clock, shares no data with it: models of overlapping windows err
-/// together, and no test of independent models is true of them. The few most significant
-/// coefficients alone. kInconclusive where there is no such model or no test of it. Nothing for a
-/// vehicle's first model.
+/// Whether a model differs from its predecessor: the vehicle's newest earlier model that was made
+/// with the same options and, by the vehicle's clock, shares no data with it. Models of overlapping
+/// windows have correlated errors, and the test assumes independent ones.
+/// The change has the few most significant coefficients. It is kInconclusive where there is no such
+/// predecessor, or no test of it. Nothing for a vehicle's first model.
 std::optional<ModelChange> ChangeSincePredecessor(const ModelStore& store,
                                                   const Identification& identification);
 

@@ -51,9 +51,9 @@ std::optional<StoredModel> PublishedModels::Latest(std::string_view vehicle_id) 
   return found->second;
 }
 
-void PublishedModels::PublishHeldUp() {
+void PublishedModels::PublishBlocked() {
   const std::lock_guard lock(mutex_);
-  for (const std::string& vehicle_id : std::exchange(held_up_, {})) {
+  for (const std::string& vehicle_id : std::exchange(blocked_, {})) {
     Announce(latest_.find(vehicle_id)->second.model);
   }
 }
@@ -65,12 +65,12 @@ void PublishedModels::Announce(const PublishedModel& model) {
       spdlog::info("published revision {} of {}", model.revision, vehicle_id);
       return;
     }
-    spdlog::warn("a stalled client held up revision {} of {}", model.revision, vehicle_id);
+    spdlog::warn("a stalled client blocks revision {} of {}", model.revision, vehicle_id);
   } catch (const BusError& error) {
     spdlog::error("revision {} of {} is saved but not published: {}", model.revision, vehicle_id,
                   error.what());
   }
-  held_up_.insert(vehicle_id);
+  blocked_.insert(vehicle_id);
 }
 
 }  // namespace telltale

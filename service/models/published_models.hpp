@@ -14,34 +14,34 @@
 
 namespace telltale {
 
-/// The models of the fleet, on disk and on the bus: what is published has been saved before, and
+/// The models of the fleet, on disk and on the bus. A model is saved before it is published, and
 /// the newest model of every vehicle is published again at start. Safe to use from several threads.
 class PublishedModels {
  public:
   PublishedModels(const Participant& participant, ModelStore store, const Fleet& fleet);
 
-  /// Compares with the vehicle's earlier models, saves, then publishes. Throws SQLite::Exception
-  /// where it cannot be saved; it is then not published either.
+  /// Compares the model with the vehicle's earlier ones, saves it, then publishes it. Throws as
+  /// ModelStore::Save, and then does not publish.
   PublishedModel Publish(Identification identification,
                          const std::optional<FreeRunError>& reference_error);
 
   std::optional<StoredModel> Latest(std::string_view vehicle_id) const;
 
-  /// Tries again to publish what a stalled client held up.
-  void PublishHeldUp();
+  /// Publishes again the models that a stalled client has blocked.
+  void PublishBlocked();
 
-  /// Keeps the exclusive ownership of the fleet's models; call from the loop whose hanging must end
-  /// it.
+  /// Renews the exclusive ownership of the model topic. The caller is the loop whose stall must end
+  /// that ownership.
   void AssertLiveliness() { writer_.AssertLiveliness(); }
 
  private:
-  void Announce(const PublishedModel& model);  ///< the caller holds mutex_, once others can have it
+  void Announce(const PublishedModel& model);  ///< the caller holds mutex_, or is the constructor
 
   mutable std::mutex mutex_;
   ModelStore store_;
   Writer<telltale_wire_Model> writer_;
   std::map<std::string, StoredModel, std::less<>> latest_;
-  std::set<std::string> held_up_;
+  std::set<std::string> blocked_;
 };
 
 }  // namespace telltale

@@ -6,11 +6,11 @@
 namespace telltale {
 namespace {
 
-// Calibrated by DriftCalibration: what weather that changes by a third gains and loses again.
+// Calibrated by DriftCalibration in tests/service/monitoring, on simulated weather whose strength
+// changes by a third.
 constexpr double kToleratedRelativeError = 1.75;
 constexpr double kAlarmThreshold = 20.0;
-constexpr double kExcessLimit =
-    2.0 * kAlarmThreshold;  // so that it ends some time after the cause does
+constexpr double kExcessLimit = 2.0 * kAlarmThreshold;  // so that an alarm ends after its cause
 
 }  // namespace
 

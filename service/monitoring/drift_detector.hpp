@@ -2,18 +2,18 @@
 
 namespace telltale {
 
-/// Whether a model no longer fits: a cumulative sum of its prediction error, in units of the error
-/// when it was identified, beyond what other weather may add. It fires where the error stays large,
-/// the sooner the larger it is: after two minutes at three times the error, after five or six at
-/// twice, and never below 1.75 times; how often of a healthy boat stands in
-/// docs/guides/operations.md. Source: E. S. Page, "Continuous inspection schemes", Biometrika 41
+/// Whether a model no longer fits, by a one-sided cumulative sum of the relative prediction error
+/// beyond 1.75, which changes of weather may reach. The relative error is in units of the error
+/// when the model was identified. A constant relative error of 3 raises the alarm after 16
+/// evaluations, one of 2 after 80, and one of 1.75 or less never. docs/guides/operations.md states
+/// the rate of false alarms. Source: E. S. Page, "Continuous inspection schemes", Biometrika 41
 /// (1954).
 class DriftDetector {
  public:
-  /// Takes in the error of one more evaluation, with five seconds or more of new data.
+  /// Adds the relative error of one evaluation, with 5 s or more of new data. NaN is ignored.
   void Add(double relative_error);
 
-  /// Once fired, until the error has been small for long enough to make up for what it was.
+  /// True from the time that the sum reaches its threshold until it is back at zero.
   bool Fires() const { return fires_; }
 
  private:

@@ -6,13 +6,13 @@
 
 #include "telltale/core/data/preparation.hpp"
 #include "telltale/core/data/recording_parts.hpp"
-#include "telltale/service/monitoring/prediction_error.hpp"
+#include "telltale/service/models/free_run_error.hpp"
 
 namespace telltale {
 namespace {
 
 constexpr double kUpdatePeriodS = 5.0;
-// Rows before those taken in, so that filters reach both ways and a segment is long enough.
+// Rows before the new ones: the filter needs rows on both sides, and segments a minimum length.
 constexpr double kLeadS = 15.0;
 constexpr double kLongestUpdateS = 1200.0;
 
@@ -45,7 +45,7 @@ void LiveEstimator::Update(const Recording& recording, const Vehicle& vehicle) {
 }
 
 void LiveEstimator::AddSettledRows(const PreparedDataset& dataset) {
-  // Interpolation onto the last rows of the filter reaches beyond them, to what may yet come.
+  // The filter and the interpolation of the last rows depend on samples that may still arrive.
   const std::size_t unsettled = dataset.options.smoothing_half_width + 3;
   const std::size_t settled = dataset.rows.size() - std::min(unsettled, dataset.rows.size());
   for (std::size_t k = 0; k < settled; ++k) {

@@ -9,19 +9,20 @@
 
 namespace telltale {
 
-/// The live bounds of one vehicle, fed with prepared rows as they become final: the newest rows of
-/// a recording still change as their filter gets to know what follows, and are left for later.
-/// Static structure, propeller parameterization. A clock that was set back starts all anew.
-/// Not thread safe.
+/// Live estimates of one vehicle by recursive one-step least squares over its prepared rows: static
+/// structure, propeller parameterization. A row counts once it is final: the newest rows of a
+/// recording still change with the samples that follow them, because the filter is not causal.
+/// A clock that goes back resets the estimator. Not thread safe.
 class LiveEstimator {
  public:
-  /// Whether there is so much new up to `end_s` that taking it in is worth the while.
+  /// Whether a window that ends at `end_s` has enough new samples for an update: 5 s of them, or a
+  /// clock that went back.
   bool IsDue(double end_s) const;
 
-  /// Takes in the rows of a window's newest recording that it has not seen.
+  /// Adds the final rows of a window's recording that are newer than those added before.
   void Update(const Recording& recording, const Vehicle& vehicle);
 
-  /// One estimate with its error bar a coefficient that the rows held determine, or nothing.
+  /// The coefficients that the rows determine, with their standard errors.
   std::vector<IndicativeCoefficient> Estimates() const;
 
   std::size_t rows() const { return rows_; }
@@ -31,8 +32,8 @@ class LiveEstimator {
 
   std::optional<double> sampling_period_s_;
   std::optional<LiveBounds> bounds_;
-  double fed_to_s_ = 0.0;   ///< the newest row taken in
-  double seen_to_s_ = 0.0;  ///< the newest sample looked at
+  double fed_to_s_ = 0.0;   ///< time of the newest row added
+  double seen_to_s_ = 0.0;  ///< time of the newest sample at the last update
   std::size_t rows_ = 0;
 };
 

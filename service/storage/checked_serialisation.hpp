@@ -9,14 +9,15 @@
 
 namespace telltale {
 
-/// What is kept of a message: its bytes. `again` is what reading it back gives. Throws
-/// std::runtime_error naming the field where that cannot be read: it would be lost with this
-/// process, and no client could read it either.
+/// The bytes of a message, given what reading the message back returns. Throws std::runtime_error,
+/// which names the field, where it cannot be read back: after a restart the daemon could not read
+/// it, and no client could read it now.
 template <class T>
 std::string SerialiseChecked(const google::protobuf::MessageLite& message,
-                             const Decoded<T>& again) {
-  if (!again) {
-    throw std::runtime_error("not published, as nobody could read it: " + again.error().Message());
+                             const Decoded<T>& read_back) {
+  if (!read_back) {
+    throw std::runtime_error("not published, since it cannot be read back: " +
+                             read_back.error().Message());
   }
   return message.SerializeAsString();
 }

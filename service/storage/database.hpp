@@ -9,9 +9,10 @@ class Database;
 
 namespace telltale {
 
-/// Opens or creates models.sqlite in `directory`, which is made if it is not there: what outlives
-/// the daemon stands in it, each kind in a table of its own. What is committed is on disk.
-/// Throws SQLite::Exception when the disk will not have it or a later program has written it.
+/// Opens models.sqlite in `directory`, and creates both where they are missing. The database holds
+/// what outlives the daemon, each kind in a table of its own. A committed transaction is on disk.
+/// Throws SQLite::Exception where the disk refuses, and where an older or a later version of this
+/// software wrote the database: the message names the file, both versions and what to do.
 std::unique_ptr<SQLite::Database> OpenDatabase(const std::filesystem::path& directory);
 
 }  // namespace telltale

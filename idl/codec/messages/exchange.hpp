@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "telltale/core/base/result.hpp"
-#include "telltale/core/identification/identify_options.hpp"
+#include "telltale/core/identification/options.hpp"
 #include "telltale/idl/codec/messages/diagnosis.hpp"
 #include "telltale/idl/codec/messages/model.hpp"
 

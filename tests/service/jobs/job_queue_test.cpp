@@ -161,7 +161,7 @@ TEST_F(Jobs, RefuseWhatTheyCannotQueue) {
   ASSERT_TRUE(work_.AwaitInside(1));
   queue->Submit(RequestNamed("waiting", "two"));
   EXPECT_THAT(ReplyMessageTo(*queue, RequestNamed("too-many", "two")),
-              HasSubstr("1 identifications are waiting"));
+              HasSubstr("1 requests for identification are waiting"));
   work_.LetGo();
   EXPECT_EQ(ReplyMessageTo(*queue, RequestNamed("waiting", "two")), "done");
   EXPECT_EQ(ReplyMessageTo(*queue, RequestNamed("another", "two")), "done");

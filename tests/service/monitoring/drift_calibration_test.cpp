@@ -17,8 +17,8 @@
 #include "telltale/core/simulation/sensors.hpp"
 #include "telltale/core/validation/validation.hpp"
 #include "telltale/core/vessel/body_dynamics.hpp"
+#include "telltale/service/models/free_run_error.hpp"
 #include "telltale/service/monitoring/drift_detector.hpp"
-#include "telltale/service/monitoring/prediction_error.hpp"
 
 namespace telltale {
 namespace {

@@ -1,4 +1,4 @@
-#include "telltale/service/monitoring/prediction_error.hpp"
+#include "telltale/service/models/free_run_error.hpp"
 
 #include <algorithm>
 #include <cmath>

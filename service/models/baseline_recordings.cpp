@@ -1,4 +1,4 @@
-#include "telltale/service/diagnosis/baseline_recordings.hpp"
+#include "telltale/service/models/baseline_recordings.hpp"
 
 #include <utility>
 

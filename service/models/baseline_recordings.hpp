@@ -11,13 +11,13 @@
 
 namespace telltale {
 
-/// The recording behind each vehicle's newest model, kept while the daemon runs: what the boat did
-/// when the model was true of it. Safe to use from several threads.
+/// The recording behind each vehicle's newest model, in memory while the daemon runs. A diagnosis
+/// takes it as the baseline. Safe to use from several threads.
 class BaselineRecordings {
  public:
   void Keep(const std::string& vehicle_id, std::uint64_t revision, Recording recording);
 
-  /// Nothing where that revision's recording is not at hand.
+  /// The recording that made this revision; nothing where the daemon does not hold it.
   std::optional<Recording> Behind(std::string_view vehicle_id, std::uint64_t revision) const;
 
  private:

@@ -1,0 +1,100 @@
+#include "telltale/service/monitoring/quality_publisher.hpp"
+
+#include <exception>
+#include <utility>
+
+#include <spdlog/spdlog.h>
+
+#include "telltale/idl/codec/wire/quality.hpp"
+
+namespace telltale {
+namespace {
+
+/// Monitoring goes on after a failure, which the log names.
+template <class Work>
+void LoggingFailure(Work work) {
+  try {
+    work();
+  } catch (const std::exception& error) {
+    spdlog::error("monitoring: {}", error.what());
+  }
+}
+
+}  // namespace
+
+QualityPublisher::QualityPublisher(const Participant& participant, Fleet& fleet,
+                                   PublishedModels& models, double period_s)
+    : fleet_(fleet), models_(models), period_(period_s), writer_(participant), thread_([this] {
+        Run();
+      }) {}
+
+QualityPublisher::~QualityPublisher() {
+  {
+    const std::lock_guard lock(mutex_);
+    stopping_ = true;
+  }
+  wake_.notify_all();
+  thread_.join();
+}
+
+void QualityPublisher::PublishReceipt(VehicleWindow& window) {
+  {
+    const std::lock_guard lock(mutex_);
+    receipts_due_.insert(&window);
+  }
+  wake_.notify_all();
+}
+
+void QualityPublisher::Run() {
+  auto last = Clock::now();
+  const auto period = std::chrono::ceil<Clock::duration>(period_);
+  while (WaitUntil(last + period)) {
+    const auto now = Clock::now();
+    LoggingFailure([&] {
+      PublishAll(std::chrono::duration<double>(now - last).count());
+      models_.PublishBlocked();
+    });
+    last = now;
+  }
+}
+
+bool QualityPublisher::WaitUntil(Clock::time_point deadline) {
+  std::unique_lock lock(mutex_);
+  while (!stopping_ && Clock::now() < deadline) {
+    wake_.wait_until(lock, deadline, [this] { return stopping_ || !receipts_due_.empty(); });
+    if (stopping_ || receipts_due_.empty()) continue;
+    lock.unlock();
+    LoggingFailure([this] { PublishReceipts(); });
+    lock.lock();
+  }
+  return !stopping_;
+}
+
+void QualityPublisher::PublishReceipts() {
+  std::set<VehicleWindow*> due;
+  {
+    const std::lock_guard lock(mutex_);
+    std::swap(due, receipts_due_);
+  }
+  for (VehicleWindow* window : due) {
+    writer_.Write(Encode(monitors_[window->vehicle().vehicle_id].Receipt(*window)));
+  }
+}
+
+void QualityPublisher::PublishAll(double elapsed_s) {
+  for (const auto& [vehicle_id, window] : fleet_.windows()) {
+    const auto latest = models_.Latest(vehicle_id);
+    writer_.Write(Encode(monitors_[vehicle_id].Assess(*window, latest, elapsed_s)));
+  }
+  writer_.Write(Encode(Unattributed()));
+}
+
+Quality QualityPublisher::Unattributed() {
+  Quality quality;
+  quality.vehicle_id = kUnattributed;
+  quality.sequence_number = ++unattributed_published_;
+  quality.rejected = fleet_.Unattributed();
+  return quality;
+}
+
+}  // namespace telltale

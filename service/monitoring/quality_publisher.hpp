@@ -1,0 +1,56 @@
+#pragma once
+
+#include <chrono>
+#include <condition_variable>
+#include <cstdint>
+#include <map>
+#include <mutex>
+#include <set>
+#include <string>
+#include <thread>
+
+#include "telltale/client/bus/participant.hpp"
+#include "telltale/client/bus/writer.hpp"
+#include "telltale/service/ingest/fleet.hpp"
+#include "telltale/service/models/published_models.hpp"
+#include "telltale/service/monitoring/vehicle_monitor.hpp"
+
+namespace telltale {
+
+/// Publishes the quality of every vehicle's telemetry and model once a period, on a thread of its
+/// own, and a vehicle's counts in between where a receipt is due: a replay paces itself by them.
+/// A fault of one period is logged, and the next period goes on.
+class QualityPublisher {
+ public:
+  QualityPublisher(const Participant& participant, Fleet& fleet, PublishedModels& models,
+                   double period_s);
+  QualityPublisher(const QualityPublisher&) = delete;
+  QualityPublisher& operator=(const QualityPublisher&) = delete;
+  ~QualityPublisher();  ///< ends the thread
+
+  /// Publishes this vehicle's counts soon. Returns at once; any thread may call it.
+  void PublishReceipt(VehicleWindow& window);
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  void Run();
+  bool WaitUntil(Clock::time_point deadline);  ///< false once it is to stop
+  void PublishAll(double elapsed_s);
+  void PublishReceipts();
+  Quality Unattributed();
+
+  Fleet& fleet_;
+  PublishedModels& models_;
+  const std::chrono::duration<double> period_;
+  Writer<telltale_wire_Quality> writer_;
+  std::map<std::string, VehicleMonitor> monitors_;  ///< by vehicle id
+  std::uint64_t unattributed_published_ = 0;
+  std::mutex mutex_;  // of stopping_ and receipts_due_
+  std::condition_variable wake_;
+  bool stopping_ = false;
+  std::set<VehicleWindow*> receipts_due_;
+  std::thread thread_;
+};
+
+}  // namespace telltale

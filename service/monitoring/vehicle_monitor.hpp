@@ -1,0 +1,38 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "telltale/idl/codec/messages/quality.hpp"
+#include "telltale/service/ingest/vehicle_window.hpp"
+#include "telltale/service/models/model_store.hpp"
+#include "telltale/service/monitoring/live_estimator.hpp"
+#include "telltale/service/monitoring/model_monitor.hpp"
+
+namespace telltale {
+
+/// The quality of one vehicle from period to period: rates of its telemetry, live estimates, and
+/// how well its latest model predicts. Not thread safe.
+class VehicleMonitor {
+ public:
+  /// The quality of the period that ends now and that has lasted `elapsed_s`.
+  Quality Assess(VehicleWindow& window, const std::optional<StoredModel>& latest, double elapsed_s);
+
+  /// The quality of the last period with the counts of now.
+  Quality Receipt(VehicleWindow& window);
+
+ private:
+  Quality Complete(VehicleWindow& window, const WindowState& state,
+                   const std::optional<StoredModel>& latest, Quality quality);
+  void UpdateEstimates(VehicleWindow& window, const WindowState& state);
+
+  std::uint64_t published_ = 0;
+  Quality assessed_;  ///< of the last period
+  WindowState last_;  ///< at the end of the period before
+  LiveEstimator live_;
+  std::vector<IndicativeCoefficient> indicative_;
+  ModelMonitor model_;
+};
+
+}  // namespace telltale
