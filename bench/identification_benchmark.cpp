@@ -5,6 +5,7 @@
 
 #include "telltale/core/estimation/regression/one_step.hpp"
 #include "telltale/core/identification/identify.hpp"
+#include "telltale/core/paper/sample_mission.hpp"
 #include "telltale/core/paper/yellowfish.hpp"
 #include "telltale/core/simulation/manoeuvres.hpp"
 #include "telltale/core/simulation/sensors.hpp"

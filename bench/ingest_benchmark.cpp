@@ -5,6 +5,7 @@
 #include <benchmark/benchmark.h>
 
 #include "telltale/core/data/window.hpp"
+#include "telltale/core/paper/sample_mission.hpp"
 #include "telltale/core/paper/yellowfish.hpp"
 #include "telltale/core/simulation/manoeuvres.hpp"
 #include "telltale/core/simulation/sensors.hpp"

@@ -8,6 +8,7 @@
 
 #include "telltale/client/recording/telemetry_log/telemetry_log.hpp"
 #include "telltale/core/paper/paper_mission.hpp"
+#include "telltale/core/paper/sample_mission.hpp"
 #include "telltale/core/paper/yellowfish.hpp"
 #include "telltale/core/simulation/manoeuvres.hpp"
 #include "telltale/core/simulation/sensors.hpp"

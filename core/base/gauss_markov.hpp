@@ -9,7 +9,7 @@
 
 namespace telltale {
 
-/// Seeded white noise of unit variance, independent of every other stream of the same seed.
+/// Seeded normal white noise of unit variance, independent of every other stream of the same seed.
 class WhiteSource {
  public:
   WhiteSource(std::uint64_t seed, std::uint64_t stream)
@@ -22,7 +22,7 @@ class WhiteSource {
   boost::random::normal_distribution<double> normal_;
 };
 
-/// A stationary first-order Gauss-Markov process, exact at equal steps.
+/// A stationary first-order Gauss-Markov process of standard deviation sigma, exact at equal steps.
 class GaussMarkov {
  public:
   /// Requires: time_constant_s > 0, step_s > 0.
@@ -32,7 +32,7 @@ class GaussMarkov {
         innovation_(sigma * std::sqrt(1.0 - decay_ * decay_)),
         value_(sigma * source_()) {}
 
-  /// The value now; then a step onwards.
+  /// Returns the value now and advances the process by one step.
   double Next() {
     const double now = value_;
     value_ = decay_ * value_ + innovation_ * source_();

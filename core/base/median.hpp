@@ -4,7 +4,8 @@
 
 namespace telltale {
 
-/// The middle of the sorted values, the upper one of two. Requires: at least one value.
+/// The middle of the sorted values; of an even count the upper of the two in the middle.
+/// Requires: at least one value.
 double Median(std::vector<double> values);
 
 }  // namespace telltale

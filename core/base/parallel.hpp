@@ -11,11 +11,11 @@
 namespace telltale {
 
 /// Calls body(i) once for each i in [0, count) on up to `threads` threads, the caller's among them,
-/// and never on more than the machine has. Which thread gets which i is left to chance, so bodies
-/// share nothing they write. The first exception ends the loop early and is thrown again here. The
-/// standard library's threads, not oneTBB's: the thread sanitizer sees how these synchronise,
-/// whereas inside Debian's libtbb it does not, and the suppression that asks for would hide races
-/// of the body too.
+/// and on no more than the machine has.
+/// Assumes: bodies share nothing that they write, since any thread may run any i.
+/// The first exception ends the loop early and is thrown again here.
+/// The threads are the standard library's and not oneTBB's: the thread sanitizer sees how these
+/// synchronise. Inside Debian's libtbb it does not, and a suppression would hide races of the body.
 template <class Body>
 void ForEachIndex(std::size_t count, std::size_t threads, const Body& body) {
   std::atomic<std::size_t> next = 0;

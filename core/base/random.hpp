@@ -5,8 +5,8 @@
 
 namespace telltale {
 
-/// Model: SplitMix64, a counter hashed to 64 bits; cheap to seed, so every replicate, twin or
-/// sensor owns an engine of its own and results do not depend on how work is spread over threads.
+/// Model: SplitMix64, a counter hashed to 64 bits. It is cheap to seed, so every replicate and
+/// every sensor owns an engine, and results do not depend on how work is spread over threads.
 /// Source: Steele, Lea, Flood, "Fast splittable pseudorandom number generators", OOPSLA 2014.
 class RandomEngine {
  public:
@@ -37,8 +37,8 @@ class RandomEngine {
   std::uint64_t state_;
 };
 
-/// One of 0 .. count - 1, each as likely as the next to within count / 2^32: the upper half of one
-/// number times count, which unlike a remainder needs no division. Requires count in [1, 2^32].
+/// A uniform draw from 0 .. count - 1, its probabilities equal to within count / 2^32: the upper
+/// half of a 32-bit number times count, which needs no division. Requires: count in [1, 2^32].
 /// Source: Lemire, "Fast random integer generation in an interval", ACM TOMACS 29 (2019), without
 /// its rejection step.
 inline std::uint64_t DrawBelow(RandomEngine& engine, std::uint64_t count) {

@@ -7,8 +7,8 @@
 
 namespace telltale {
 
-/// A refusal is an answer: the data cannot say what was asked. It names what was asked (subject),
-/// why the data cannot tell (reason) and what the operator can do about it (advice).
+/// States that the data cannot answer a question: what was asked (subject), why the data do not
+/// answer it (reason), and what the operator can do (advice).
 struct Refusal {
   std::string subject;
   std::string reason;

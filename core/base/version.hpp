@@ -4,7 +4,7 @@
 
 namespace telltale {
 
-/// The version of this software, "0.2.0". Models and reports name the version that made them.
+/// The version of this software, "0.1.0", which models and reports carry.
 std::string_view Version();
 
 }  // namespace telltale

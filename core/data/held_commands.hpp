@@ -11,8 +11,8 @@
 
 namespace telltale {
 
-/// The normalised commands as the propellers got them: each held from its time until the next.
-/// Beyond the ends the first and last are held. At least one sample.
+/// The normalised commands as the propellers received them, each held from its time until the next.
+/// Beyond the ends the first and the last are held. Requires: at least one sample.
 class HeldCommands {
  public:
   HeldCommands(std::span<const ThrusterSample> samples, const Vehicle& vehicle);
@@ -23,8 +23,7 @@ class HeldCommands {
   PropellerCommand Mean(double from, double to) const;
 
   /// Mean weighted by a triangle about `t` that vanishes at t - half_width and t + half_width. It
-  /// is what drives the difference between the mean velocities of the intervals before and after
-  /// `t`.
+  /// drives the difference between the mean velocities of the intervals before and after `t`.
   PropellerCommand TriangularMean(double t, double half_width) const;
 
   /// The region in force for most of [from, to]; the earliest of equals. Requires: from < to.

@@ -16,8 +16,9 @@ NorthEastPosition NorthEastFrame::Forward(const GeographicPosition& position) co
 }
 
 GeographicPosition NorthEastFrame::Inverse(const NorthEastPosition& position) const {
-  // How far the ellipsoid lies below the plane is not known beforehand; each pass removes the
-  // height left over, which shrinks by (d / R)^2. A height moves what is below it by its d / R.
+  // The height of the ellipsoid below the plane is unknown at first. Each pass removes the
+  // remaining height, which shrinks by (d / R)^2. A height displaces the position below it by d / R
+  // of it.
   constexpr int kMostPasses = 4;
   constexpr double kNoHeightM = 1e-6;
   GeographicPosition on_ellipsoid;

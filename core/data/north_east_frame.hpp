@@ -4,7 +4,7 @@
 
 namespace telltale {
 
-/// Where {n} is anchored.
+/// The origin of {n}.
 struct FrameOrigin {
   double latitude_deg = 0.0;
   double longitude_deg = 0.0;
@@ -21,9 +21,10 @@ struct NorthEastPosition {
   double east_m = 0.0;
 };
 
-/// The local tangent plane of {n}: WGS84 positions on the ellipsoid <-> metres north and east.
-/// Assumes: positions at the height of the ellipsoid, since a boat floats; the plane then departs
-/// from the surface by d^2 / (2 R), 8 cm at 1 km.
+/// The local tangent plane of {n}: converts WGS84 positions on the ellipsoid to and from metres
+/// north and east.
+/// Assumes: positions at the height of the ellipsoid, since a boat floats. The plane departs from
+/// the surface by d^2 / (2 R), 8 cm at 1 km.
 /// Errors: Inverse(Forward(p)) returns p to 1e-9 degrees within 100 km.
 /// Source: Karney, GeographicLib, LocalCartesian.
 class NorthEastFrame {

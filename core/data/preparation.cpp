@@ -77,14 +77,15 @@ void Append(PreparedDataset& dataset, const std::vector<PreparedRow>& rows,
   dataset.slices.insert(dataset.slices.end(), slices.begin(), slices.end());
 }
 
+/// The number of recordings that start at `time_s` or before.
 std::size_t PlaceAmong(const std::vector<double>& starts_s, double time_s) {
   constexpr double kRounding = 1e-6;
   const auto after = std::upper_bound(starts_s.begin(), starts_s.end(), time_s + kRounding);
   return static_cast<std::size_t>(after - starts_s.begin());
 }
 
-// Recordings that left no segment do not count.
-std::vector<std::size_t> CountedAnew(const std::vector<std::size_t>& places) {
+// Numbers the recordings from 0, without those that have no segment.
+std::vector<std::size_t> NumberedWithoutGaps(const std::vector<std::size_t>& places) {
   std::vector<std::size_t> counted(places.size(), 0);
   for (std::size_t i = 1; i < places.size(); ++i) {
     counted[i] = counted[i - 1] + (places[i] != places[i - 1] ? 1 : 0);
@@ -128,7 +129,7 @@ Result<PreparedDataset> Prepare(const Recording& recording, const Vehicle& vehic
   if (dataset.segments.empty()) {
     return tl::unexpected(NoSegment(options, dataset.sampling_period_s, longest_found_s));
   }
-  dataset.recordings = CountedAnew(places);
+  dataset.recordings = NumberedWithoutGaps(places);
   return dataset;
 }
 

@@ -8,9 +8,11 @@
 
 namespace telltale {
 
-/// Recording -> PreparedDataset, docs/concepts/model.md section on data preparation.
+/// Brings the channels of a recording onto one grid, with velocities and the commands behind them;
+/// docs/concepts/data-preparation.md.
 /// Assumes: the recording's channels are in order of time and share one clock.
-/// Refuses when: a channel is empty, or no segment without gaps is long enough.
+/// Refuses when: an option is out of range, a channel is empty, or no segment without gaps is long
+/// enough.
 /// Source: the paper, Data Preparation.
 Result<PreparedDataset> Prepare(const Recording& recording, const Vehicle& vehicle,
                                 const PrepareOptions& options);

@@ -8,14 +8,14 @@
 
 namespace telltale {
 
-/// How the three channels are brought onto one grid; docs/concepts/data-preparation.md compares the
-/// two. kPaper: causal spline extrapolation from the newest past samples (cubic position,
-/// 8th-degree heading, cubic PWM), velocities by differentiation, then Savitzky-Golay on the
-/// velocities. kRobust: positions and headings interpolated between their neighbours or averaged
-/// about the grid point, displacements turned into the body frame interval by interval, velocities
-/// as the slope of one Savitzky-Golay kernel, and the held commands filtered with the weights by
-/// which that kernel sees the acceleration, so that row k pairs a command with the velocity change
-/// it caused.
+/// The way in which the three channels come onto one grid; docs/concepts/data-preparation.md
+/// compares the two.
+/// kPaper: causal spline extrapolation from the newest past samples (cubic position, 8th-degree
+/// heading, cubic PWM), velocities by differentiation, then Savitzky-Golay on the velocities.
+/// kRobust: positions and headings interpolated or averaged about the grid point, displacements
+/// turned into the body frame interval by interval, velocities as the slope of one Savitzky-Golay
+/// kernel. The held commands are filtered with that kernel's weights on the acceleration, so that
+/// row k pairs a command with the velocity change it caused.
 enum class Preset { kUnknown, kPaper, kRobust };
 
 /// "PAPER" or "ROBUST".

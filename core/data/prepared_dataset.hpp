@@ -20,13 +20,13 @@ struct PreparedRow {
   Eta eta;  ///< body origin, as the preset filters it; psi unwrapped along a segment
   Nu nu;    ///< body velocity
 
-  /// The command behind nu(k+1) - nu(k): that over [t, t + h), filtered as the preset says. A
-  /// robust row within half a window of a switch mixes the commands before and after, forward and
-  /// reverse alike, exactly as its nu does, and may overshoot [-1, 1] where the nu overshoots.
+  /// The command behind nu(k+1) - nu(k): that over [t, t + h), filtered as the preset says. Within
+  /// half a smoothing window of a switch a robust row mixes the commands before and after, as its
+  /// nu does. It may overshoot [-1, 1] where the nu overshoots.
   PropellerCommand delta;
 
-  /// In force for most of [t, t + h), of the commands as they were sent; near a switch the filtered
-  /// delta may have another sign.
+  /// The region of the commands as sent for most of [t, t + h). Near a switch the filtered delta
+  /// may have another sign.
   PropellerRegion region = PropellerRegion::kFF;
 };
 
@@ -37,45 +37,45 @@ struct RowRange {
   std::size_t size() const { return end - begin; }
 };
 
-/// The sensors behind a dataset as its samples show them: what a simulated repeat of it needs.
+/// The sensors of a dataset as its samples show them, which a synthetic dataset imitates.
 struct SensorProperties {
   double gnss_period_s = 0.0;     ///< mean over the segments
   double heading_period_s = 0.0;  ///< likewise
-  double position_noise_m = 0.0;  ///< one sigma per axis and fix, white, judged by WhiteNoise
+  double position_noise_m = 0.0;  ///< one sigma of white noise per axis, by WhiteNoise
   double heading_noise_rad = 0.0;
   LeverArm antenna;
 };
 
-/// What the sensors said along one segment and a little beyond its ends, as it came.
+/// The sensor readings along one segment and a little beyond its ends, unfiltered.
 struct RawSignals {
   TimeSeries north_m;  ///< of the antenna, in {n}
   TimeSeries east_m;   ///< at the same times
   TimeSeries psi_rad;  ///< unwrapped, on the same turn as the rows
 };
 
-/// A recording turned into what regressions need: synchronised rows at one sampling period.
+/// Synchronised rows at one sampling period, ready for regression.
 ///
-/// segments: gap-free runs of rows, ascending and disjoint; consecutive rows of a segment are
-/// exactly sampling_period_s apart. Free runs live inside a segment.
-/// slices: segments cut further at each change of propeller region and at the longest slice
-/// the options allow; they are the independent units of the bootstrap.
+/// segments: gap-free runs of rows, ascending and disjoint. Consecutive rows of a segment are
+/// exactly sampling_period_s apart. A free run stays inside a segment.
+/// slices: segments cut at each change of propeller region and at the longest slice of the options.
+/// They are the independent units of the bootstrap.
 struct PreparedDataset {
   double sampling_period_s = 0.0;
   FrameOrigin origin;
   std::vector<PreparedRow> rows;
   std::vector<RowRange> segments;
   std::vector<RowRange> slices;
-  /// By segment, what the thrusters were told before and along it, as it was sent.
+  /// By segment, the commands before and along it, as they were sent.
   std::vector<HeldCommands> commands;
   std::vector<RawSignals> signals;  ///< by segment
-  /// By segment, which recording it was cut from, counted from 0 without a gap; empty: all from
-  /// one.
+  /// By segment, the number of the recording it was cut from, from 0 without a gap. Empty: one
+  /// recording.
   std::vector<std::size_t> recordings;
   PrepareOptions options;  ///< how the rows were made
   SensorProperties sensors;
   HullParticulars hull;  ///< as the vehicle file states it, or the defaults
   RejectCounts rejected;
-  Nu nu_noise;  ///< one sigma that white sensor noise, judged by WhiteNoise, leaves in each nu
+  Nu nu_noise;  ///< one sigma that white sensor noise leaves in each velocity
 
   std::size_t RecordingOf(std::size_t segment) const {
     return recordings.empty() ? 0 : recordings[segment];
@@ -86,8 +86,7 @@ struct PreparedDataset {
   double EndTime() const { return rows.empty() ? 0.0 : rows.back().time_s; }
 };
 
-/// The largest absolute velocities among the rows: beyond a multiple of them a simulation has run
-/// away.
+/// The largest absolute velocity of each kind among the rows; RelativeDivergence counts in these.
 Nu FastestOf(const PreparedDataset& dataset);
 
 }  // namespace telltale

@@ -6,12 +6,12 @@
 
 namespace telltale {
 
-/// After a silence this long of all channels a boat may lie elsewhere, in another wind: what
-/// follows is another recording.
+/// After a silence of all channels for this long the boat may be elsewhere, in another wind: what
+/// follows counts as another recording. Units: seconds.
 inline constexpr double kSilenceBetweenRecordingsS = 60.0;
 
-/// Where each of the recordings begins that silences longer than `silence_s` part from each other:
-/// what Recording::starts_s wants. Empty where there are no samples.
+/// The start of each recording where silences longer than `silence_s` part them, for
+/// Recording::starts_s. Empty where there are no samples.
 std::vector<double> StartsAfterSilence(const Recording& recording, double silence_s);
 
 }  // namespace telltale

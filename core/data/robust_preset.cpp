@@ -13,11 +13,11 @@ struct Increments {
   std::vector<double> starboard_m;
 };
 
-// Turned into the body frame interval by interval, at the heading midway: a boat that turns on the
-// spot or circles keeps u and v nearly constant, while its velocity north and east swings, which no
-// low-degree polynomial over the window follows. The heading as it was measured, not smoothed:
-// where a boat begins to turn a smoothed heading is off by what makes u look like sway, and its
-// noise is next to nothing beside that of positions.
+// Displacements are turned into the body frame interval by interval, at the heading midway. A boat
+// that turns on the spot or circles keeps u and v nearly constant, while its velocity north and
+// east oscillates faster than a low-degree polynomial follows. The heading is the measured one:
+// where a boat begins to turn, the error of a smoothed heading makes u look like sway, and the
+// noise of the measured heading is negligible beside that of positions.
 Increments BodyIncrements(const BodyPath& path, std::span<const double> psi) {
   Increments increments;
   for (std::size_t row = 0; row + 1 < psi.size(); ++row) {
@@ -31,7 +31,7 @@ Increments BodyIncrements(const BodyPath& path, std::span<const double> psi) {
 
 // nu(k+1) - nu(k) is a weighted sum of the changes between the mean velocities of neighbouring
 // intervals, and the change across t_i is h times the triangular mean about t_i of the
-// acceleration. The command is given those very weights, so that row k pairs the command with the
+// acceleration. The command takes the same weights, so that row k pairs the command with the
 // velocity change it caused: docs/concepts/data-preparation.md (4).
 std::vector<PropellerCommand> FilterAsVelocity(const HeldCommands& commands,
                                                const SamplingGrid& grid,
@@ -46,19 +46,19 @@ std::vector<PropellerCommand> FilterAsVelocity(const HeldCommands& commands,
     if (interval < start || interval + 1 >= start + filter.WindowLength()) return 0.0;
     return filter.IncrementWeight(row - start, interval - start);
   };
-  std::vector<PropellerCommand> seen(grid.rows);
+  std::vector<PropellerCommand> filtered(grid.rows);
   for (std::size_t row = 0; row < grid.rows; ++row) {
     const std::size_t start = filter.WindowStart(row, grid.rows);
-    // The last row has no successor; it keeps the weights its own window would hand on.
+    // The last row has no successor and takes the weights of its own window.
     const bool last = row + 1 == grid.rows;
     double weight = 0.0;
     for (std::size_t i = start; i + 1 < start + filter.WindowLength(); ++i) {
       weight = last ? weight_of(row, i) : weight + weight_of(row, i) - weight_of(row + 1, i);
-      seen[row].port += weight * about[i + 1].port;
-      seen[row].starboard += weight * about[i + 1].starboard;
+      filtered[row].port += weight * about[i + 1].port;
+      filtered[row].starboard += weight * about[i + 1].starboard;
     }
   }
-  return seen;
+  return filtered;
 }
 
 }  // namespace
@@ -72,14 +72,14 @@ std::vector<PreparedRow> PrepareRobustly(const SegmentSignals& signals, const Sa
   const Increments increments = BodyIncrements(path, raw_psi);
   const auto u_per_row = filter.SlopeOfIncrements(increments.forward_m);
   const auto v_per_row = filter.SlopeOfIncrements(increments.starboard_m);
-  const auto seen = FilterAsVelocity(signals.commands, grid, filter);
+  const auto filtered = FilterAsVelocity(signals.commands, grid, filter);
 
   std::vector<PreparedRow> rows = EmptyRows(signals, grid);
   FillPoses(rows, {filter.Smooth(path.x_m), filter.Smooth(path.y_m)}, filter.Smooth(raw_psi));
   for (std::size_t row = 0; row < grid.rows; ++row) {
     rows[row].nu = {u_per_row[row] / grid.period_s, v_per_row[row] / grid.period_s,
                     r_per_row[row] / grid.period_s};
-    rows[row].delta = seen[row];
+    rows[row].delta = filtered[row];
   }
   return rows;
 }

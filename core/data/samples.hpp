@@ -32,14 +32,14 @@ enum class Channel { kGnss, kHeading, kThrusters };
 
 inline constexpr std::array kChannels = {Channel::kGnss, Channel::kHeading, Channel::kThrusters};
 
-/// Why a sample was set aside.
+/// The reason for which a sample is rejected.
 enum class RejectReason {
   kNotFinite,    ///< NaN or infinity in a field
   kOutOfRange,   ///< a finite value outside the field's range
   kDuplicate,    ///< same time as a sample already held
   kOutOfOrder,   ///< older than the newest by more than the tolerance
-  kClockJump,    ///< time leapt ahead or back by more than the jump limit
-  kStuckSensor,  ///< a reading repeated bit for bit while the commands changed
+  kClockJump,    ///< time jumps ahead or back by more than the jump limit
+  kStuckSensor,  ///< a reading that repeats bit for bit while the commands change
 };
 
 inline constexpr std::array kRejectReasons = {RejectReason::kNotFinite, RejectReason::kOutOfRange,
@@ -73,14 +73,14 @@ class RejectCounts {
   std::array<std::uint64_t, kChannels.size() * kRejectReasons.size()> counts_{};
 };
 
-/// An immutable copy of what a window or a log holds, each channel in order of time, no duplicates.
+/// A copy of the samples of a window or a log: each channel in order of time, without duplicates.
 struct Recording {
   std::vector<GnssFix> gnss;
   std::vector<HeadingSample> heading;
   std::vector<ThrusterSample> thrusters;
   RejectCounts rejected;
-  /// Where several recordings stand one after the other, with gaps between: the time at which each
-  /// begins, ascending. Empty: it is one.
+  /// Where it joins several recordings with gaps between them: the time at which each begins,
+  /// ascending. Empty: one recording.
   std::vector<double> starts_s = {};
 };
 

@@ -8,11 +8,11 @@
 
 namespace telltale {
 
-/// Savitzky-Golay filter: least-squares polynomial over a window of 2 half_width + 1 equally spaced
-/// values, its value and slope taken anywhere in the window, so that the ends of a series are
-/// filtered by the first or last full window instead of being dropped. Weights are made once.
-///
-/// Exact on polynomials up to `degree`. Slopes are per sample; divide by the period for rates.
+/// Savitzky-Golay filter: the value and slope of a least-squares polynomial over a smoothing window
+/// of 2 half_width + 1 equally spaced values. The ends of a series take the polynomial of the first
+/// or last full window. Weights are made once.
+/// The filter is exact on polynomials up to `degree`. Slopes are per sample; divide by the period
+/// for rates.
 /// Source: Savitzky and Golay, Analytical Chemistry 36 (1964); Gorry, Analytical Chemistry 62
 /// (1990) for the ends.
 class SavitzkyGolay {
@@ -33,10 +33,9 @@ class SavitzkyGolay {
     return slope_.row(Index(position));
   }
 
-  /// The slope written on the increments between neighbours instead of on the values: the weight of
-  /// the increment from `interval` to interval + 1, in [0, WindowLength() - 1); they sum to one.
-  /// They say how a filtered velocity sees the mean velocity of each interval, which is what
-  /// whatever drives the velocity has to be filtered with.
+  /// The slope as a sum over increments between neighbours: the weight of the increment from
+  /// `interval` to interval + 1, in [0, WindowLength() - 1). The weights sum to one. A filtered
+  /// velocity is this weighted mean of interval velocities, so its cause is filtered alike.
   double IncrementWeight(std::size_t position, std::size_t interval) const {
     return increment_(Index(position), Index(interval));
   }

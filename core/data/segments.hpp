@@ -12,8 +12,8 @@ namespace telltale {
 struct Segment {
   double start_s = 0.0;
   double end_s = 0.0;
-  /// The samples of each channel's own unbroken run around the segment, in the order of kChannels:
-  /// what may be interpolated from without crossing a gap.
+  /// The samples of each channel's own unbroken run around the segment, in the order of kChannels.
+  /// Interpolation among them crosses no gap.
   std::array<RowRange, kChannels.size()> samples;
 
   const RowRange& Of(Channel channel) const { return samples[static_cast<std::size_t>(channel)]; }
@@ -23,9 +23,8 @@ struct Segment {
 /// three are present. Cost: linear in the samples.
 std::vector<Segment> FindSegments(const Recording& recording, double longest_gap_s);
 
-/// Equal parts of a segment, none longer than `longest_s`. Their samples still reach across the
-/// cuts: positions and headings far enough for any filter, commands as far back as thrusters
-/// remember.
+/// Equal parts of a segment, none longer than `longest_s`. Their samples extend across the cuts:
+/// positions and headings by five seconds, enough for any filter, commands by kThrusterMemoryS.
 std::vector<Segment> CutSegment(const Segment& segment, const Recording& recording,
                                 double longest_s);
 

@@ -8,7 +8,7 @@
 namespace telltale {
 namespace {
 
-// The norm of the weights with which the values about a row make its slope, per row.
+// The norm of the weights by which the values about a row give its slope, per row.
 double SlopeNorm(const SavitzkyGolay& filter, const PrepareOptions& options) {
   const std::size_t centre = options.smoothing_half_width;
   if (options.preset == Preset::kRobust) return filter.SlopeWeights(centre).norm();
@@ -20,7 +20,7 @@ double SlopeNorm(const SavitzkyGolay& filter, const PrepareOptions& options) {
   return slope.norm();
 }
 
-// What is left of the noise on a signal where it stands on the grid.
+// The noise that remains of a signal once it is on the grid.
 double NoiseOnGrid(double noise, const TimeSeries& series, const SamplingGrid& grid,
                    const PrepareOptions& options) {
   const bool averaged = options.preset == Preset::kRobust && IsAveraged(series, grid);

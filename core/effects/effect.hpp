@@ -11,8 +11,8 @@
 #include <Eigen/Core>
 
 #include "telltale/core/effects/hull_scale.hpp"
-#include "telltale/core/vessel/model_structure.hpp"
 #include "telltale/core/vessel/motion.hpp"
+#include "telltale/core/vessel/regressors.hpp"
 #include "telltale/core/vessel/vehicle.hpp"
 
 namespace telltale {

@@ -13,6 +13,7 @@
 #include "telltale/core/identification/shrinkage.hpp"
 #include "telltale/core/simulation/divergence.hpp"
 #include "telltale/core/simulation/free_run.hpp"
+#include "telltale/core/simulation/manoeuvre_catalogue.hpp"
 #include "telltale/core/simulation/manoeuvres.hpp"
 #include "telltale/core/simulation/simulator.hpp"
 

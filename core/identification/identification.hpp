@@ -16,7 +16,7 @@
 #include "telltale/core/uncertainty/coverage.hpp"
 #include "telltale/core/uncertainty/joint_bounds.hpp"
 #include "telltale/core/vessel/disturbance.hpp"
-#include "telltale/core/vessel/model_structure.hpp"
+#include "telltale/core/vessel/regressors.hpp"
 #include "telltale/core/vessel/vessel_model.hpp"
 
 namespace telltale {

@@ -11,7 +11,7 @@ constexpr double kPointPeriodS = 0.2;
 constexpr double kPauseS = 10.0;
 constexpr double kStepS = 0.02;
 
-/// The kinds of segment, dealt round; the seed of a segment varies levels and holds.
+/// The manoeuvre of a segment: eight kinds take turns, and the seed varies levels and holds.
 Manoeuvre SegmentOfKind(std::size_t kind, double duration_s, std::uint64_t seed) {
   RandomEngine engine(seed);
   const auto between = [&](double low, double high) {
@@ -34,7 +34,7 @@ Manoeuvre SegmentOfKind(std::size_t kind, double duration_s, std::uint64_t seed)
   }
 }
 
-/// Points are dealt evenly; the first segments take the remainder.
+/// Segments have equal numbers of points; the first ones take the remainder.
 std::size_t PointsOf(std::size_t segment) {
   return kPaperPoints / kPaperSegments + (segment < kPaperPoints % kPaperSegments ? 1 : 0);
 }

@@ -14,7 +14,7 @@ namespace telltale {
 inline constexpr std::size_t kPaperSegments = 127;
 inline constexpr std::size_t kPaperPoints = 16025;
 
-/// One trajectory segment: what the boat is told and how many points at 5 Hz it gives.
+/// One trajectory segment: its commands and its number of points at 5 Hz.
 struct PaperSegment {
   std::vector<TimedCommand> commands;  ///< from time zero
   std::size_t points = 0;
@@ -24,8 +24,9 @@ struct PaperSegment {
 /// zigzags, circles to both sides, and turns in FR and RF, more of the latter than of FF; never RR.
 std::vector<PaperSegment> PaperMission(std::uint64_t seed);
 
-/// Sails every segment from a slow start ahead and measures it with the sensors of the paper's
-/// Table 1; between segments the clock leaps by ten seconds, so that they stay apart.
+/// Simulates every segment from a slow start ahead and measures it with the given sensors; those of
+/// SensorOptions are the paper's Table 1. The clock advances ten seconds between segments, so that
+/// they stay apart.
 Recording RecordPaperMission(const VesselModel& model, const SensorOptions& sensors,
                              std::uint64_t seed);
 

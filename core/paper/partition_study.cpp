@@ -23,8 +23,8 @@ namespace {
 
 constexpr std::size_t kFewestSlices = 10;
 
-/// Items dealt out at random: those that identify and those that validate.
-struct Deal {
+/// Items drawn at random for training and for validation.
+struct RowPartition {
   std::vector<std::size_t> training;
   std::vector<std::size_t> validation;
 };
@@ -39,26 +39,26 @@ std::vector<std::size_t> Shuffled(std::size_t count, RandomEngine& engine) {
   return order;
 }
 
-/// Validation items come first, so that the same seed validates on the same items whatever the
-/// training share; each side takes items until it has its share of the rows.
-Deal DealOut(const std::vector<std::size_t>& rows_of, const PartitionOptions& options,
-             RandomEngine engine) {
+/// Draws both sets; each takes items until it has its share of the rows. Validation items come
+/// first, so that a seed gives the same validation items for every training share.
+RowPartition DrawPartition(const std::vector<std::size_t>& rows_of, const PartitionOptions& options,
+                           RandomEngine engine) {
   const auto total =
       static_cast<double>(std::accumulate(rows_of.begin(), rows_of.end(), std::size_t{0}));
-  Deal deal;
+  RowPartition partition;
   double validation = 0.0;
   double training = 0.0;
   for (const std::size_t item : Shuffled(rows_of.size(), engine)) {
     const auto rows = static_cast<double>(rows_of[item]);
     if (validation < options.validation_share * total) {
-      deal.validation.push_back(item);
+      partition.validation.push_back(item);
       validation += rows;
     } else if (training < options.training_share * total) {
-      deal.training.push_back(item);
+      partition.training.push_back(item);
       training += rows;
     }
   }
-  return deal;
+  return partition;
 }
 
 std::vector<Eigen::Index> RowsOf(const EquationProblem& problem,
@@ -112,7 +112,7 @@ Spread SpreadOf(const std::vector<double>& values) {
   return {mean, n > 1.0 ? std::sqrt(squares / (n - 1.0)) : 0.0};
 }
 
-/// What one partition says of one velocity.
+/// The scores of one velocity under one partition.
 struct Sample {
   Score training;
   Score validation;
@@ -166,12 +166,12 @@ PreparedDataset Restrict(const PreparedDataset& dataset, const std::vector<std::
   return part;
 }
 
-void RunFreely(const PreparedDataset& dataset, const Deal& deal, const PartitionOptions& options,
-               std::array<Sample, 3>& samples) {
-  const auto model = EstimateModel(Restrict(dataset, deal.training), options.regression);
+void RunFreely(const PreparedDataset& dataset, const RowPartition& partition,
+               const PartitionOptions& options, std::array<Sample, 3>& samples) {
+  const auto model = EstimateModel(Restrict(dataset, partition.training), options.regression);
   if (!model) return;
   const auto metrics =
-      Validate(Restrict(dataset, deal.validation), *model, {{options.free_run_horizon_s}});
+      Validate(Restrict(dataset, partition.validation), *model, {{options.free_run_horizon_s}});
   if (!metrics || metrics->free_run.front().windows == 0) return;
   for (std::size_t j = 0; j < 3; ++j) samples[j].free_run = metrics->free_run.front().velocity[j];
 }
@@ -229,19 +229,19 @@ Result<std::array<PartitionScores, 3>> StudyPartitions(const PreparedDataset& da
   ForEachIndex(options.repeats, options.threads, [&](std::size_t repeat) {
     const RandomEngine engine = RandomEngine::Stream(options.seed, repeat);
     if (options.method == PartitionMethod::kBySlices) {
-      const Deal deal = DealOut(SegmentSizes(dataset), options, engine);
+      const RowPartition partition = DrawPartition(SegmentSizes(dataset), options, engine);
       for (std::size_t j = 0; j < 3; ++j) {
-        samples[repeat][j] = ScoreOneStep(problems[j], h, RowsOf(problems[j], deal.training),
-                                          RowsOf(problems[j], deal.validation));
+        samples[repeat][j] = ScoreOneStep(problems[j], h, RowsOf(problems[j], partition.training),
+                                          RowsOf(problems[j], partition.validation));
       }
-      RunFreely(dataset, deal, options, samples[repeat]);
+      RunFreely(dataset, partition, options, samples[repeat]);
       return;
     }
     for (std::size_t j = 0; j < 3; ++j) {
       const std::vector<std::size_t> points(static_cast<std::size_t>(problems[j].y.size()), 1);
-      const Deal deal = DealOut(points, options, engine);
+      const RowPartition partition = DrawPartition(points, options, engine);
       samples[repeat][j] =
-          ScoreOneStep(problems[j], h, AsRows(deal.training), AsRows(deal.validation));
+          ScoreOneStep(problems[j], h, AsRows(partition.training), AsRows(partition.validation));
     }
   });
   return std::array<PartitionScores, 3>{Summarise(samples, 0), Summarise(samples, 1),

@@ -11,9 +11,9 @@
 
 namespace telltale {
 
-/// How rows are divided into those that identify and those that validate. By points, nearly every
-/// validation row has a neighbour 0.2 s away in the training set, almost a copy of itself, so a
-/// score says little about new data; by slices it does.
+/// The unit by which rows are divided into training and validation. By points, nearly every
+/// validation row has a neighbour 0.2 s away in the training set and is almost a copy of it, so the
+/// score says little about new data. By slices, the score is one on new data.
 enum class PartitionMethod { kUnknown, kBySlices, kByPoints };
 
 std::string_view Name(PartitionMethod method);
@@ -32,15 +32,15 @@ struct PartitionOptions {
   std::optional<Refusal> Validate() const;
 };
 
-/// Over the random partitions; one partition has a standard deviation of zero.
+/// Mean and standard deviation over the random partitions; zero deviation of one partition.
 struct Spread {
   double mean = 0.0;
   double standard_deviation = 0.0;
 };
 
 /// Scores of one velocity. MAE and R2 are the paper's, of nu(k+1) predicted from the measured
-/// nu(k). Free runs exist by slices alone, since points in between validation points are not
-/// given; they use the consistent estimate of the training slices.
+/// nu(k). Free runs exist by slices alone, since validation points are not consecutive. They use
+/// the consistent estimate of the training slices.
 struct PartitionScores {
   Spread training_mae;
   Spread training_r2;

@@ -13,7 +13,7 @@ struct PublishedPartition {
 };
 
 /// Source: the paper's tables of MAE and R2 by separation method, static and dynamic model. The SD
-/// of the dynamic model's yaw MAE by segments is misprinted there as 5.5 x^-4 and read as 5.5e-4.
+/// of the dynamic model's yaw MAE by segments is printed there as 5.5 x^-4 and taken as 5.5e-4.
 inline constexpr PublishedPartition kPublishedStaticBySegments = {{0.014377, 0.011913, 0.015895},
                                                                   {2.9e-3, 6.2e-4, 2.1e-3},
                                                                   {0.995708, 0.987277, 0.997468},

@@ -77,13 +77,6 @@ constexpr std::array kYaw = {
     RedundantRegressor{"diff/2(k-1)", "h beta W33(bL+bR)"},
 };
 
-// The two places of each body coefficient: what stands at the first is -alpha times the second.
-constexpr std::array<std::array<std::size_t, 2>, 3> kSurgePairs = {{{1, 5}, {2, 6}, {3, 7}}};
-constexpr std::array<std::array<std::size_t, 2>, 7> kTurningPairsSway = {
-    {{1, 9}, {2, 10}, {3, 11}, {4, 12}, {5, 13}, {6, 14}, {8, 15}}};
-constexpr std::array<std::array<std::size_t, 2>, 7> kTurningPairsYaw = {
-    {{1, 9}, {2, 10}, {3, 11}, {4, 12}, {5, 13}, {6, 14}, {7, 15}}};
-
 // Position of the second linear term, -alpha (1 + h R).
 std::size_t SecondLinearTerm(Equation equation) {
   switch (equation) {
@@ -93,8 +86,8 @@ std::size_t SecondLinearTerm(Equation equation) {
   }
 }
 
-// The body terms of an instant stand in the order of its static regression, so that row fills
-// these; what it writes beyond them is written over next.
+// FillBody writes the body terms of an instant in the order of the static regression. The values it
+// writes past them are overwritten next.
 
 void FillSurge(const Nu& now, const Nu& before, const ThrustRegressors& thrust,
                std::span<double> row) {
@@ -132,14 +125,6 @@ std::span<const RedundantRegressor> RedundantRegressors(Equation equation) {
     case Equation::kUnknown: break;
   }
   throw ContractViolation("RedundantRegressors: requires a named equation");
-}
-
-std::span<const std::array<std::size_t, 2>> RedundantPairs(Equation equation) {
-  switch (equation) {
-    case Equation::kSurge: return kSurgePairs;
-    case Equation::kSway: return kTurningPairsSway;
-    default: return kTurningPairsYaw;
-  }
 }
 
 void FillRedundantRow(Equation equation, const Nu& now, const Nu& before,
@@ -205,7 +190,7 @@ Result<Eigen::VectorXd> EstimateRedundant(const EquationProblem& problem) {
   if (svd.rank() < columns) {
     return Refuse(subject,
                   "only " + std::to_string(svd.rank()) + " of " + std::to_string(columns) +
-                      " columns can be told apart",
+                      " columns are linearly independent",
                   "use the consistent estimate, which has one value per physical coefficient");
   }
   return Eigen::VectorXd(svd.solve(factor.z).cwiseQuotient(norms));
@@ -223,8 +208,7 @@ RedundantAlpha RecoverAlpha(const std::array<Eigen::VectorXd, 3>& redundant) {
     second[j] = redundant[j][static_cast<Eigen::Index>(SecondLinearTerm(equation))];
     recovered.roots[j] = Roots(first[j], second[j]);
   }
-  // For a given alpha the best h R of each equation is known in closed form; what it leaves is
-  // this.
+  // The sum of squares at a given alpha, minimised over h R of each equation in closed form.
   const auto misfit = [&](double alpha) {
     double sum = 0.0;
     for (std::size_t j = 0; j < 3; ++j) {
@@ -233,8 +217,7 @@ RedundantAlpha RecoverAlpha(const std::array<Eigen::VectorXd, 3>& redundant) {
     }
     return sum;
   };
-  // The misfit may have two valleys in (0, 1): the lowest of a fine grid says which to descend
-  // into.
+  // The misfit may have two minima in (0, 1); the lowest point of a fine grid selects one.
   constexpr int kGrid = 1000;
   double best = 0.0;
   for (int i = 1; i < kGrid; ++i) {

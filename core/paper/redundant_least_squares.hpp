@@ -21,8 +21,8 @@ struct RedundantRegressor {
 };
 
 /// The columns of the paper's appendix for dynamic propellers: 11 for surge, 21 for sway and for
-/// yaw. The body of the paper lists 22 for sway; docs/concepts/model.md says why the appendix is
-/// right.
+/// yaw. The body of the paper lists 22 for sway; docs/concepts/model.md gives the reason to follow
+/// the appendix.
 std::span<const RedundantRegressor> RedundantRegressors(Equation equation);
 
 /// One row of it: nu(k+1) - nu(k) = A(nu(k), nu(k-1), delta(k-1)) X. `row` must be as long as
@@ -38,10 +38,10 @@ EquationProblem BuildRedundant(const PreparedDataset& dataset, Equation equation
                                const RegressionOptions& options);
 
 /// X of one equation by least squares.
-/// Refuses when: fewer rows than ten a column, or columns that cannot be told apart.
+/// Refuses when: fewer rows than ten a column, or collinear columns.
 Result<Eigen::VectorXd> EstimateRedundant(const EquationProblem& problem);
 
-/// What the redundant coefficients say of alpha.
+/// The alpha that the redundant coefficients imply.
 struct RedundantAlpha {
   /// Both roots of alpha^2 - (1 + X1) alpha - X' = 0 for each equation, X' its second linear term.
   std::array<std::array<std::complex<double>, 2>, 3> roots;
@@ -52,8 +52,5 @@ struct RedundantAlpha {
 
 /// The paper's overdetermined system for alpha, docs/concepts/model.md (21).
 RedundantAlpha RecoverAlpha(const std::array<Eigen::VectorXd, 3>& redundant);
-
-/// Which redundant coefficients hold the same physical one, as pairs of positions (before, now).
-std::span<const std::array<std::size_t, 2>> RedundantPairs(Equation equation);
 
 }  // namespace telltale

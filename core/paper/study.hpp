@@ -23,7 +23,7 @@ struct StudyOptions {
   std::size_t threads = 1;  ///< [1, 256]; never changes the result
 };
 
-/// One structure under one way of dividing the rows.
+/// The scores of one structure under one partition method and training share.
 struct StudyEntry {
   Structure structure = Structure::kUnknown;
   PartitionMethod method = PartitionMethod::kUnknown;
@@ -41,10 +41,10 @@ struct Study {
   std::array<std::optional<Eigen::VectorXd>, 3> dynamic_table;  ///< the redundant X
   std::optional<RedundantAlpha> redundant_alpha;
   std::optional<Coefficient> time_constant;  ///< of the consistent estimate
-  std::vector<Refusal> refusals;             ///< what could not be answered, and why
+  std::vector<Refusal> refusals;             ///< for parts without an answer
 };
 
-/// Reruns the paper's partitions, training shares and coefficient tables; docs/concepts/model.md
+/// Repeats the paper's partitions, training shares and coefficient tables; docs/concepts/model.md
 /// (24). Refuses when: there are too few slices to partition.
 Result<Study> StudyRecording(const PreparedDataset& dataset, const StudyOptions& options,
                              const Progress& progress = {});

@@ -27,15 +27,14 @@ std::array<Eigen::VectorXd, 3> YellowfishDynamicTable();
 /// The paper's own discrete model, in the paper's parameterization.
 VesselModel YellowfishPaperModel();
 
-/// The twin: the paper's table read as a continuous boat whose propellers are consistent in all
-/// four regions (parameterization kPropeller). The table leaves open what a propeller gives in
-/// reverse in surge and which of two meanings mean*diff has; docs/concepts/model.md says how the
-/// twin fills that in.
+/// The simulated boat: the paper's table as a continuous model whose propellers are consistent in
+/// all four regions (parameterization kPropeller). Assumes: reverse surge thrust and the meaning of
+/// mean*diff, which the table leaves open, as docs/concepts/model.md states them.
 VesselModel YellowfishTwin();
 
-/// The twin with thrusters that lag: alpha of the first-order model from the surge column of the
-/// paper's dynamic table, the one equation pair with a single root in (0, 1); the boat is the
-/// static table's. The dynamic table itself, read as a recursion, diverges within seconds
+/// The simulated boat with lagging thrusters: the static table's boat, with alpha of the
+/// first-order model from the surge column of the dynamic table. Surge is the one equation pair
+/// with a single root in (0, 1). The dynamic table itself diverges within seconds as a recursion
 /// (docs/concepts/model.md).
 VesselModel YellowfishLaggingTwin();
 

@@ -8,8 +8,9 @@
 namespace telltale {
 namespace {
 
-/// Runs of `horizon_s` from FreeRunStarts; of many, some sixty spread evenly.
-template <typename Visit>  // Visit(first row, states)
+/// Calls visit(first row, states) for runs of `horizon_s` from FreeRunStarts; of many runs for some
+/// sixty, spread evenly.
+template <typename Visit>
 void ForSomeRuns(const PreparedDataset& dataset, const VesselModel& model, double horizon_s,
                  const Visit& visit) {
   constexpr std::size_t kMost = 60;
@@ -75,21 +76,21 @@ double FreeRunError(const PreparedDataset& dataset, const VesselModel& model, do
   constexpr double kMost = 2.0;
   const Nu fastest = FastestOf(dataset);
   const auto square = [&](double off, double unit) {
-    const double miss = std::abs(off) / unit;
-    return miss < kMost ? miss * miss : kMost * kMost;  // so for NaN
+    const double error = std::abs(off) / unit;
+    return error < kMost ? error * error : kMost * kMost;  // NaN takes the limit too
   };
   double squares = 0.0;
-  double misses = 0.0;
+  double errors = 0.0;
   ForSomeRuns(dataset, model, horizon_s, [&](std::size_t first, const auto& states) {
     for (std::size_t k = 1; k < states.size(); ++k) {
       const Nu& nu = states[k].nu;
       const Nu& measured = dataset.rows[first + k].nu;
       squares += square(nu.u - measured.u, fastest.u) + square(nu.v - measured.v, fastest.v) +
                  square(nu.r - measured.r, fastest.r);
-      misses += 3.0;
+      errors += 3.0;
     }
   });
-  return misses > 0.0 ? std::sqrt(squares / misses) : 0.0;
+  return errors > 0.0 ? std::sqrt(squares / errors) : 0.0;
 }
 
 }  // namespace telltale

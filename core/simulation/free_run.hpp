@@ -11,23 +11,23 @@
 
 namespace telltale {
 
-/// By row of a dataset, what the thrusters deliver at its start: of no account, and zero, in the
-/// static structure.
+/// By row of a dataset, the propeller regressors at its start. Zero and unused in the static
+/// structure.
 using ThrustHistory = std::vector<ThrustRegressors>;
 
-/// A segment is taken to begin in steady thrust; a wrong guess decays with the thruster's time
-/// constant.
+/// The thrust along each segment of a dataset. Assumes: a segment begins in steady thrust; an error
+/// in that decays with the thruster's time constant.
 ThrustHistory FollowThrust(const PreparedDataset& dataset, const VesselModel& model);
 
-/// The states of a model that starts from what row `first` measured and is fed commands alone, at
-/// that row and the `steps` that follow it.
-/// Requires: steps rows after the first in its segment.
+/// The states of a model that starts from the measured state of row `first` and follows the
+/// commands alone: at that row and the `steps` rows after it. Requires: `steps` rows after the
+/// first in its segment.
 std::vector<VesselState> RunFreely(const PreparedDataset& dataset, const VesselModel& model,
                                    const ThrustHistory& thrust, std::size_t first,
                                    std::size_t steps);
 
-/// The first rows of all runs of `steps` inside segments, one after the other: each begins where
-/// the one before it ends.
+/// The first rows of all runs of `steps` rows inside segments; each run begins where the one before
+/// it ends.
 std::vector<std::size_t> FreeRunStarts(const PreparedDataset& dataset, std::size_t steps);
 
 /// Free runs over a dataset, and those of them that left the limits of kFreeRunDivergence.
@@ -36,12 +36,12 @@ struct DivergenceCount {
   std::size_t diverged = 0;
 };
 
-/// Runs of `horizon_s` from FreeRunStarts; of many, some sixty spread evenly.
+/// Runs of `horizon_s` from FreeRunStarts. Of many runs some sixty are taken, spread evenly.
 DivergenceCount CountDivergences(const PreparedDataset& dataset, const VesselModel& model,
                                  double horizon_s);
 
-/// Root mean square by which the same runs miss the measured velocities: each in units of the
-/// fastest of its kind that was measured, and no miss by more than two of these.
+/// The root mean square error of the velocities of the same runs, each in units of the fastest of
+/// its kind that was measured. An error counts two of these units at most; so does NaN.
 double FreeRunError(const PreparedDataset& dataset, const VesselModel& model, double horizon_s);
 
 }  // namespace telltale

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <string_view>
 #include <vector>
 
 #include "telltale/core/simulation/simulator.hpp"
@@ -15,7 +14,7 @@ struct HeldCommand {
   double duration_s = 0.0;
 };
 
-/// What a boat is told to do, one held command after the other.
+/// Held commands, one after the other.
 using Manoeuvre = std::vector<HeldCommand>;
 
 /// Both propellers alike, up through evenly spaced levels from `low` to `high` and down again.
@@ -37,14 +36,14 @@ Manoeuvre Spins(double delta, double hold_s);
 /// Both propellers stopped.
 Manoeuvre Coast(double duration_s);
 
-/// One command after the other from a turn to port to one to starboard and back, each held: the
-/// spiral test, in which a boat without a stable straight course shows it.
+/// The spiral test: held commands from a turn to port to one to starboard and back. It shows
+/// whether a boat has a stable straight course.
 Manoeuvre Spiral(double mean, double widest_difference, int levels, double hold_s);
 
-/// One manoeuvre after the other.
+/// The manoeuvres one after the other.
 Manoeuvre Joined(const std::vector<Manoeuvre>& manoeuvres);
 
-/// A manoeuvre over and over, broken off after `duration_s`. Requires: it takes time.
+/// A manoeuvre repeated and cut off after `duration_s`. Requires: it takes time.
 Manoeuvre Repeated(const Manoeuvre& manoeuvre, double duration_s);
 
 /// A box of commands: each propeller's range.
@@ -61,27 +60,5 @@ Manoeuvre RandomSteps(const CommandRange& range, double shortest_s, double longe
 
 /// Manoeuvres one after the other from time `start_s`.
 std::vector<TimedCommand> Schedule(const std::vector<Manoeuvre>& manoeuvres, double start_s);
-
-/// A manoeuvre an operator can be advised to sail: what to call it, and how it goes, commands in
-/// shares of full command.
-struct CatalogueManoeuvre {
-  std::string_view name;
-  std::string_view how;
-  Manoeuvre manoeuvre;
-};
-
-inline constexpr double kCatalogueDurationS = 120.0;
-
-/// What is known to excite boats, two minutes each: along the course, turning ahead, turning on the
-/// spot, without thrust, and at random.
-const std::vector<CatalogueManoeuvre>& ManoeuvreCatalogue();
-
-inline constexpr double kSampleMissionDurationS = 600.0;
-
-/// Ten minutes that excite every coefficient of the Yellowfish twin: all of FF, FR and RF and a
-/// little RR, fast steps and slow ones, both sides alike. The twin's straight course is unstable at
-/// low speed and its spins run away near full command (docs/reference/yellowfish-twin.md), so
-/// straights and circles are short and spins stay moderate.
-std::vector<TimedCommand> SampleMission(std::uint64_t seed);
 
 }  // namespace telltale

@@ -21,8 +21,8 @@ struct SensorOptions {
   std::uint64_t seed = 1;
 };
 
-/// What the boat's sensors would have reported along a simulated track: antenna positions as
-/// latitude and longitude, headings in [0, 360), commands as pulse widths rounded to a microsecond.
+/// What a boat's sensors report along a simulated track: antenna positions as latitude and
+/// longitude, headings in [0, 360), commands as pulse widths rounded to a microsecond.
 Recording Measure(const std::vector<TimedState>& track, const Vehicle& vehicle,
                   const SensorOptions& options);
 

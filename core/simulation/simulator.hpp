@@ -10,12 +10,11 @@
 
 namespace telltale {
 
-/// State of a simulated boat.
+/// The state of a simulated boat.
 struct VesselState {
   Eta eta;
   Nu nu;
-  ThrustRegressors thrust =
-      {};  ///< what the thrusters deliver now; of no account in the static structure
+  ThrustRegressors thrust = {};  ///< what the thrusters deliver now; unused in the static structure
 };
 
 /// The pose `step_s` later, following the mean of the velocities and headings before and after.
@@ -24,7 +23,7 @@ Eta NextPose(const Eta& eta, const Nu& before, const Nu& after, double step_s);
 /// Advances a boat by `step_s` under a held command. kForwardEuler models take exactly
 /// nu + step nu_dot (step must then be their sampling period); kContinuous ones a Runge-Kutta step
 /// of order four. The pose follows the mean of the two velocities and headings (trapezoid).
-/// Requires: the static structure and a named discretisation.
+/// Requires: a named discretisation.
 VesselState Advance(const VesselModel& model, const VesselState& state,
                     const PropellerCommand& delta, double step_s);
 

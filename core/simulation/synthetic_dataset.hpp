@@ -13,36 +13,37 @@
 
 namespace telltale {
 
-/// What a simulated repeat of a data set is made with.
+/// How a synthetic dataset is made.
 struct SyntheticDatasetOptions {
   Disturbance disturbance;   ///< zero: none
   double noise_scale = 1.0;  ///< on the dataset's sensor noise
   std::uint64_t seed = 1;
-  /// Velocities (u, v, r) that the model has no equation for: they go as measured.
+  /// Velocities (u, v, r) that the model has no equation for: they take the measured values.
   std::array<bool, 3> as_measured{};
   std::vector<ConstantDisturbance> constant_disturbances =
       {};  ///< by recording of the dataset; empty: none
 };
 
-/// A data set that the same boat might have given another day: every segment of `dataset` sailed
-/// anew by `model` from where it began and under the same commands, disturbed and measured with
-/// fresh draws, and prepared by the same options.
-/// Model: nu_dot = Phi(nu, T) theta + d, d first-order Gauss-Markov per axis; Runge-Kutta at a
-/// tenth of a second, poses by Simpson's rule; positions and headings at the dataset's own rates
-/// (of headings five a row at most, with as much less noise) with white noise, fixes besides with a
-/// slow first-order Gauss-Markov error where they wander. Refuses when: the simulation runs away,
-/// or what it gives cannot be prepared.
+/// A synthetic dataset, one replicate of the parametric bootstrap. `model` simulates every segment
+/// of `dataset` from its first state under its commands, with new draws of disturbance and sensor
+/// noise; the same options prepare the result.
+/// Model: nu_dot = Phi(nu, T) theta + d, d first-order Gauss-Markov per axis. Velocities follow a
+/// Runge-Kutta step of order four at a tenth of a second, poses Simpson's rule. Positions and
+/// headings come at the dataset's own rates with white noise; headings at five a row at most, their
+/// noise reduced accordingly. GNSS drift is a slow first-order Gauss-Markov error of the fixes.
+/// Refuses when: the simulation exceeds kSyntheticDatasetDivergence, or its recording cannot be
+/// prepared.
 Result<PreparedDataset> SimulateDataset(const PreparedDataset& dataset, const VesselModel& model,
                                         const SyntheticDatasetOptions& options);
 
-/// A simulated repeat as it comes from the sensors, before any preparation.
+/// A synthetic dataset before its preparation.
 struct SyntheticRecording {
   Recording recording;
-  Vehicle vehicle;  ///< whose sensors and pulse widths these are
+  Vehicle vehicle;  ///< with the antenna and pulse widths of the recording
 };
 
-/// The same before preparation, for who chooses how to prepare.
-/// Refuses when: the simulation runs away.
+/// The same without the preparation.
+/// Refuses when: the simulation exceeds kSyntheticDatasetDivergence.
 Result<SyntheticRecording> SimulateRecording(const PreparedDataset& dataset,
                                              const VesselModel& model,
                                              const SyntheticDatasetOptions& options);

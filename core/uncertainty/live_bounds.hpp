@@ -8,7 +8,7 @@
 #include "telltale/core/data/prepared_dataset.hpp"
 #include "telltale/core/estimation/regression/regression_problem.hpp"
 #include "telltale/core/estimation/regression/sliding_regression.hpp"
-#include "telltale/core/vessel/model_structure.hpp"
+#include "telltale/core/vessel/regressors.hpp"
 
 namespace telltale {
 

@@ -30,7 +30,7 @@ VesselState Measured(const PreparedRow& row, const ThrustRegressors& thrust) {
   return {row.eta, row.nu, thrust};
 }
 
-// A free run that has blown up errs by infinity, not by something unspeakable.
+// The error of a diverged free run is infinite, not NaN.
 double ErrorOf(double truth, double predicted) {
   const double error = truth - predicted;
   return std::isnan(error) ? std::numeric_limits<double>::infinity() : error;
@@ -93,7 +93,7 @@ std::array<OneStepScore, 3> ScoreOneStep(const PreparedDataset& dataset, const V
   return scores;
 }
 
-// Everything the free runs of one horizon have summed up.
+// Sums over the free runs of one horizon.
 struct FreeRunSums {
   SumsByVelocity of_model;
   SumsByVelocity of_constant_velocity;
@@ -107,7 +107,7 @@ double SquaredDistance(const Eta& a, const Eta& b) {
   return north * north + east * east;
 }
 
-/// A run is what was predicted from row `first` on: anything with a pose and a velocity.
+/// Adds the run predicted from row `first` on; Predicted has a pose and a velocity.
 template <class Predicted>
 void AddRun(const PreparedDataset& dataset, const std::vector<Predicted>& run, std::size_t first,
             FreeRunSums& sums) {
@@ -144,7 +144,7 @@ FreeRunScores ScoreFreeRuns(const PreparedDataset& dataset, const VesselModel& m
   return ScoresOf(sums, dataset, horizon_s);
 }
 
-/// A model with effects, sailed along a dataset from measured states.
+/// Free runs of a model with effects along a dataset, from measured states.
 class AugmentedFreeRuns {
  public:
   AugmentedFreeRuns(const PreparedDataset& dataset, const AugmentedModel& model)

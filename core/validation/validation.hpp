@@ -11,19 +11,19 @@
 
 namespace telltale {
 
-/// One-step score of one velocity, the paper's R2 and MAE, beside the R2 of predicting no change.
-/// Any R2 is NaN when the measured velocity never changes.
+/// One-step score of one velocity: the paper's R2 and MAE, and the R2 of predicting no change. An
+/// R2 is NaN when the measured velocity never changes.
 struct OneStepScore {
   double r2 = 0.0;
   double mae = 0.0;  ///< m/s or rad/s
   double constant_velocity_r2 = 0.0;
 };
 
-/// Free-run score of one velocity over one horizon, over all instants after the first of all
-/// windows. A model that blows up within a window scores infinite errors. The noise floor is
-/// PreparedDataset::nu_noise: measured velocities are themselves uncertain by that much, so errors
-/// against them cannot be seen to be smaller. It is a lower bound: noise slower than white, the
-/// uncertain start of a window and what smoothing does to true transients come on top.
+/// Free-run score of one velocity over one horizon, over all instants after the first of every run.
+/// A model that diverges within a run has infinite errors. The noise floor is
+/// PreparedDataset::nu_noise, the uncertainty of the measured velocities: errors against them are
+/// no smaller. It is a lower bound: noise slower than white, the uncertain start of a run and the
+/// smoothing of true transients add to it.
 struct FreeRunScore {
   double rmse = 0.0;  ///< m/s or rad/s
   double mae = 0.0;
@@ -48,16 +48,18 @@ struct Metrics {
   std::vector<FreeRunScores> free_run;
 };
 
-/// PreparedDataset x model -> scores. One-step: nu(k+1) from the measured nu(k). Free run:
-/// non-overlapping windows inside segments, started from the measured state, fed only commands.
-/// Each run steps the model as the model is discretised (Advance); windows share no compared
-/// instant. docs/concepts/model.md (16)..(18). Source: the paper's R2 and MAE equations. Refuses
-/// when: the dataset has no pair of rows, a discrete model's sampling period is not the data's, a
-/// horizon is out of range. A horizon that fits no window has windows = 0.
+/// Scores a model on a dataset, docs/concepts/model.md (16)..(18).
+/// One step: nu(k+1) from the measured nu(k). Free run: consecutive runs inside segments that start
+/// from the measured state and follow the commands alone. Each run steps the model as it is
+/// discretised (Advance); runs share no compared instant. A horizon that fits nowhere has
+/// windows = 0.
+/// Refuses when: the dataset has no pair of rows, a discrete model's sampling period is not the
+/// data's, or a horizon is out of range.
+/// Source: the paper's R2 and MAE equations.
 Result<Metrics> Validate(const PreparedDataset& dataset, const VesselModel& model,
                          const ValidationOptions& options);
 
-/// The same of a model with effects: they act on the boat and on what its sensors say of it.
+/// The same for a model with effects, which act on the boat and on its sensors.
 Result<Metrics> Validate(const PreparedDataset& dataset, const AugmentedModel& model,
                          const ValidationOptions& options);
 

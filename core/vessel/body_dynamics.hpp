@@ -4,16 +4,16 @@
 #include <cmath>
 
 #include "telltale/core/vessel/body_regressors.hpp"
-#include "telltale/core/vessel/model_structure.hpp"
 #include "telltale/core/vessel/motion.hpp"
+#include "telltale/core/vessel/regressors.hpp"
 #include "telltale/core/vessel/runge_kutta.hpp"
 #include "telltale/core/vessel/vessel_model.hpp"
 
 namespace telltale {
 
-/// A model's accelerations with nothing left to look up: what simulates by the million.
-/// Model: nu_dot = body(nu) + propelled, docs/concepts/model.md (10)..(12); the same numbers as
-/// VesselModel::AccelerationUnder to rounding.
+/// A model's accelerations with its coefficients in fixed arrays, for simulations of many steps.
+/// Model: nu_dot = body(nu) + propelled, docs/concepts/model.md (10)..(12). The numbers equal those
+/// of VesselModel::AccelerationUnder to rounding. Units: m/s^2 and rad/s^2.
 class BodyDynamics {
  public:
   explicit BodyDynamics(const VesselModel& model) {
@@ -27,20 +27,20 @@ class BodyDynamics {
     }
   }
 
-  /// nu_dot that the propellers alone would give.
+  /// The part of nu_dot that the propellers give.
   NuDot Propelled(const ThrustRegressors& thrust) const {
     return {Dot(thrust_[0], thrust.surge), Dot(thrust_[1], thrust.turning),
             Dot(thrust_[2], thrust.turning)};
   }
 
-  /// nu_dot at a velocity, `applied` being what the propellers and anything else give.
+  /// nu_dot at a velocity; `applied` is the sum of the propellers and any disturbance.
   NuDot Under(const NuDot& applied, const Nu& nu) const {
     const BodyRow row = BodyRowAt(nu);
     return {applied.u + Dot(surge_, row.surge), applied.v + Dot(sway_, row.turning),
             applied.r + Dot(yaw_, row.turning)};
   }
 
-  /// d nu_dot / d nu. |v| and |r| have no slope at zero; there it is that of neither side, zero.
+  /// d nu_dot / d nu, rows and columns surge, sway, yaw. The slope of |x| at zero is taken as zero.
   Eigen::Matrix3d ByVelocity(const Nu& nu) const {
     const double v_abs = std::abs(nu.v);
     const double r_abs = std::abs(nu.r);
@@ -58,7 +58,7 @@ class BodyDynamics {
     return slope;
   }
 
-  /// A Runge-Kutta step of order four under what is applied throughout.
+  /// The velocity after a Runge-Kutta step of order four with `applied` held throughout.
   Nu Step(const NuDot& applied, const Nu& nu, double step_s) const {
     return RungeKuttaStep(nu, step_s, [&](const Nu& at, StepStage) { return Under(applied, at); });
   }

@@ -5,13 +5,13 @@
 namespace telltale {
 namespace {
 
-/// What normal noise of size sigma adds to |x| and to x |x| on average.
-struct Added {
+/// The bias that normal noise of standard deviation sigma gives |x| and x |x|.
+struct NoiseBias {
   double to_size = 0.0;
   double to_square = 0.0;
 };
 
-Added ByNoise(double x, double sigma) {
+NoiseBias BiasOf(double x, double sigma) {
   if (sigma <= 0.0) return {};
   const double z = x / sigma;
   const double inside = std::erf(z / std::numbers::sqrt2);
@@ -23,9 +23,9 @@ Added ByNoise(double x, double sigma) {
 }  // namespace
 
 BodyRow NoiseCorrectedBodyRow(const Nu& nu, const Nu& noise) {
-  const Added u = ByNoise(nu.u, noise.u);
-  const Added v = ByNoise(nu.v, noise.v);
-  const Added r = ByNoise(nu.r, noise.r);
+  const NoiseBias u = BiasOf(nu.u, noise.u);
+  const NoiseBias v = BiasOf(nu.v, noise.v);
+  const NoiseBias r = BiasOf(nu.r, noise.r);
   BodyRow row = BodyRowAt(nu);
   row.surge[0] -= u.to_square;
   row.surge[2] -= noise.r * noise.r;

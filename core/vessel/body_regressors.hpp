@@ -8,7 +8,7 @@
 namespace telltale {
 
 /// The body part of the rows Phi_j(nu, .), docs/concepts/model.md (10)..(12), in the order of
-/// Regressors(): that of surge, and that which sway and yaw share.
+/// Regressors(): the row of surge, and the row that sway and yaw share.
 struct BodyRow {
   std::array<double, 5> surge;
   std::array<double, 9> turning;
@@ -22,11 +22,11 @@ inline BodyRow BodyRowAt(const Nu& nu) {
            nu.r, 1.0}};
 }
 
-/// BodyRowAt measured velocities less what their noise adds to it on average: what bends, |x| and
-/// x |x|, is biased by noise, E |x + e| > |x|, which no instrument mends. By
-///   2 Phi(nu) - E Phi(nu + e),
-/// of which the average over measured velocities is Phi of the true ones to first order in the
-/// bias. Assumes: errors of u, v and r normal and independent, one sigma each in `noise`.
+/// BodyRowAt measured velocities, corrected for the bias that their noise gives the nonlinear
+/// regressors |x| and x |x| (E |x + e| > |x|). Instruments do not remove this bias.
+/// Model: 2 Phi(nu) - E Phi(nu + e). Its mean over measured velocities is Phi of the true velocity
+/// to first order in the bias.
+/// Assumes: errors of u, v and r are normal and independent, with the standard deviations `noise`.
 BodyRow NoiseCorrectedBodyRow(const Nu& nu, const Nu& noise);
 
 }  // namespace telltale

@@ -6,11 +6,12 @@
 
 namespace telltale {
 
-/// Clockwise from north.
+/// The eight compass points, clockwise from north.
 inline constexpr std::array<std::string_view, 8> kCompassPoints = {"N", "NE", "E", "SE",
                                                                    "S", "SW", "W", "NW"};
 
-/// The place in kCompassPoints of the point nearest to a heading. Requires: finite, any wrap.
+/// The index in kCompassPoints of the point nearest to a heading. Requires: a finite heading; any
+/// wrap.
 std::size_t NearestCompassPoint(double psi_rad);
 
 }  // namespace telltale

@@ -5,8 +5,8 @@
 namespace telltale {
 
 /// Pose of the body origin in the local north-east-down frame {n}.
-/// Units: metres north, metres east, radians clockwise from north. psi_rad is unwrapped where a
-/// series of poses is meant, wrapped nowhere.
+/// Units: metres north, metres east, radians clockwise from north. psi_rad is not wrapped; in a
+/// series of poses it has no jumps.
 struct Eta {
   double x_m = 0.0;
   double y_m = 0.0;
@@ -28,7 +28,7 @@ struct NuDot {
   double r = 0.0;
 };
 
-/// eta-dot = R(psi) nu, docs/concepts/model.md (2).
+/// The rate of the pose, eta_dot = R(psi) nu, docs/concepts/model.md (2).
 Eigen::Vector3d EtaDot(double psi_rad, const Nu& nu);
 
 /// Smallest signed angle congruent to `angle_rad`, in [-pi, pi).

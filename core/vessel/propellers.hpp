@@ -5,9 +5,9 @@
 
 namespace telltale {
 
-/// How one thruster's pulse width maps to the normalised command delta.
-/// Units: microseconds. Assumes: full_forward and full_reverse lie on opposite sides of neutral; a
-/// reversed channel simply has full_forward_us below neutral_us.
+/// The map from one thruster's pulse width to the normalised command delta. Units: microseconds.
+/// Assumes: full_forward and full_reverse lie on opposite sides of neutral; a reversed channel has
+/// full_forward_us below neutral_us.
 struct PwmChannel {
   double neutral_us = 1500.0;
   double full_forward_us = 1900.0;
@@ -31,7 +31,7 @@ struct PropellerCommand {
   double Difference() const { return port - starboard; }
 };
 
-/// No thruster worth driving rests over more of its command than this.
+/// The widest dead zone that is estimated or accepted, as a share of full command.
 inline constexpr double kWidestDeadZone = 0.3;
 
 /// Commands between the two limits give no thrust; beyond them thrust counts from the limit.
@@ -41,18 +41,19 @@ struct DeadZone {
   double forward = 0.0;
   double reverse = 0.0;
 
-  /// The command as the thrust curve sees it.
+  /// The command less the dead zone, which is what the thrust curve takes.
   double Apply(double delta) const;
   PropellerCommand Apply(const PropellerCommand& delta) const;
 
   bool operator==(const DeadZone&) const = default;
 };
 
-/// A command this close to neutral turns no propeller: a neutral stated a few microseconds off must
-/// not make a resting boat look as if one side ran in reverse.
+/// A command this close to neutral turns no propeller. A neutral stated a few microseconds off then
+/// does not make a boat at rest seem to run one side in reverse.
 inline constexpr double kIdleCommand = 0.01;
 
-/// Which way the propellers turn, port first: R reverse (delta < -kIdleCommand), F forward or idle.
+/// The direction in which each propeller turns, port first: R reverse (delta < -kIdleCommand), F
+/// forward or idle.
 enum class PropellerRegion { kFF, kFR, kRF, kRR };
 
 inline constexpr std::array kPropellerRegions = {PropellerRegion::kFF, PropellerRegion::kFR,

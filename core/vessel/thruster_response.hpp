@@ -14,7 +14,7 @@ inline constexpr double kThrusterMemoryS = 30.0;
 
 /// What a sampling period of length h needs to know of a first-order lag, from the lag in periods,
 /// tau / h. Under a held command the deviation from the steady value decays by exp(-t / tau);
-/// docs/concepts/model.md (19).
+/// docs/concepts/model.md (8).
 struct LagPerPeriod {
   /// Share of the deviation that remains at the end of the period: exp(-h / tau), the paper's
   /// alpha.

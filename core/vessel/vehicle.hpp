@@ -7,7 +7,7 @@
 
 namespace telltale {
 
-/// Where the GNSS antenna sits, from the body origin. Units: metres.
+/// The position of the GNSS antenna from the body origin. Units: metres.
 struct LeverArm {
   double forward_m = 0.0;
   double starboard_m = 0.0;
@@ -24,7 +24,7 @@ struct HullParticulars {
   double mass_kg = 35.0;          ///< without added mass
 };
 
-/// What an operator states about one boat: identity, geometry and thruster channels.
+/// One boat as its operator states it: identity, geometry and thruster channels.
 struct Vehicle {
   std::string vehicle_id;
   double propeller_separation_m = 0.0;

@@ -11,7 +11,7 @@ Eigen::MatrixXd Scaled(const Eigen::MatrixXd& V, const Eigen::VectorXd& scale) {
 Eigen::MatrixXd Mapped(const Eigen::MatrixXd& A, const Eigen::MatrixXd& V) {
   const Eigen::MatrixXd once = A * V;
   const Eigen::MatrixXd mapped = once * A.transpose();
-  return 0.5 * (mapped + mapped.transpose());  // rounding alone tells them apart
+  return 0.5 * (mapped + mapped.transpose());  // halves of the matrix differ by rounding
 }
 
 Eigen::MatrixXd OfRoot(const Eigen::MatrixXd& root) {

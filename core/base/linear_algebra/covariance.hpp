@@ -4,18 +4,18 @@
 
 namespace telltale {
 
-/// Diag(scale) V diag(scale): a covariance V in other units; over standard errors, its
-/// correlations.
+/// diag(scale) V diag(scale): the covariance V in other units. With the inverse standard errors as
+/// scale these are its correlations.
 Eigen::MatrixXd Scaled(const Eigen::MatrixXd& V, const Eigen::VectorXd& scale);
 
-/// A V A': the covariance of A x where V is that of x. Symmetric to the last digit, since readers
-/// of a model ask that of a covariance however wild its numbers are.
+/// A V A': the covariance of A x where V is that of x. It is symmetric to the last digit, which
+/// readers of a stored model require.
 Eigen::MatrixXd Mapped(const Eigen::MatrixXd& A, const Eigen::MatrixXd& V);
 
-/// Root root': the covariance of root z where z is white.
+/// root root': the covariance of root z where z is white with unit variance.
 Eigen::MatrixXd OfRoot(const Eigen::MatrixXd& root);
 
-/// Of a positive definite matrix: a covariance of its information, or the other way round.
+/// The inverse of a positive definite matrix: of a covariance its information, and the reverse.
 Eigen::MatrixXd Inverse(const Eigen::MatrixXd& V);
 
 }  // namespace telltale

@@ -6,9 +6,9 @@
 #include <Eigen/QR>
 #include <Eigen/SVD>
 
-// Eigen's decompositions of matrices of any size, compiled once, in decompositions.cpp: each takes
-// seconds in every file that compiles its own. Include this rather than Eigen's headers and hand
-// over matrices and vectors: an expression is a type of its own and would be compiled anew.
+// Eigen's decompositions of matrices of any size, compiled once, in eigen_decompositions.cpp: each
+// costs seconds in every file that compiles its own. Include this header instead of Eigen's and
+// pass matrices and vectors: an expression is a type of its own and is compiled again.
 namespace Eigen {
 
 extern template JacobiSVD<MatrixXd>& JacobiSVD<MatrixXd>::compute(const MatrixXd&, unsigned);

@@ -2,9 +2,9 @@
 
 #include <Eigen/Dense>
 
-// The kernels below Eigen's products and triangular solutions of matrices of any size, compiled
-// once, in products.cpp: else each file that multiplies compiles its own. The build precompiles
-// this header where products are many; results do not depend on who includes it.
+// The kernels of Eigen's products and triangular solutions of matrices of any size, compiled once,
+// in eigen_products.cpp. Without this header each file that multiplies compiles its own. The build
+// precompiles it where products are many. Results do not depend on whether a file includes it.
 namespace Eigen::internal {
 
 template <int Order>

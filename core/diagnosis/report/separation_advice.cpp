@@ -8,6 +8,7 @@
 #include "telltale/core/diagnosis/hypotheses/expected_separation.hpp"
 #include "telltale/core/diagnosis/report/simulated_manoeuvre.hpp"
 #include "telltale/core/diagnosis/residuals/free_runs.hpp"
+#include "telltale/core/simulation/manoeuvre_catalogue.hpp"
 #include "telltale/core/simulation/manoeuvres.hpp"
 
 namespace telltale {

@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "telltale/core/data/prepared_dataset.hpp"
+#include "telltale/core/simulation/manoeuvre_catalogue.hpp"
 #include "telltale/core/simulation/manoeuvres.hpp"
 #include "telltale/core/vessel/vessel_model.hpp"
 

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "telltale/core/estimation/regression/excitation.hpp"
-#include "telltale/core/vessel/model_structure.hpp"
+#include "telltale/core/vessel/regressors.hpp"
 
 namespace telltale {
 

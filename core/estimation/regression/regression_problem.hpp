@@ -8,7 +8,7 @@
 
 #include "telltale/core/data/prepared_dataset.hpp"
 #include "telltale/core/estimation/regression/recording_bias_terms.hpp"
-#include "telltale/core/vessel/model_structure.hpp"
+#include "telltale/core/vessel/regressors.hpp"
 
 namespace telltale {
 

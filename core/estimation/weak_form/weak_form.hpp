@@ -10,7 +10,7 @@
 #include "telltale/core/estimation/weak_form/test_function.hpp"
 #include "telltale/core/estimation/weak_form/weak_form_options.hpp"
 #include "telltale/core/vessel/body_regressors.hpp"
-#include "telltale/core/vessel/model_structure.hpp"
+#include "telltale/core/vessel/regressors.hpp"
 
 namespace telltale {
 

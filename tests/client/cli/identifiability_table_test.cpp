@@ -12,6 +12,7 @@
 #include "telltale/client/cli/coverage_check_table.hpp"
 #include "telltale/client/cli/model_table.hpp"
 #include "telltale/client/recording/telemetry_log/telemetry_log.hpp"
+#include "telltale/core/paper/sample_mission.hpp"
 #include "telltale/core/paper/yellowfish.hpp"
 #include "telltale/core/simulation/manoeuvres.hpp"
 #include "telltale/core/simulation/sensors.hpp"

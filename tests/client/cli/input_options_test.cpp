@@ -7,6 +7,7 @@
 #include "support/telltale_command.hpp"
 #include "support/temporary_folder.hpp"
 #include "telltale/client/recording/telemetry_log/telemetry_log.hpp"
+#include "telltale/core/paper/sample_mission.hpp"
 #include "telltale/core/paper/yellowfish.hpp"
 #include "telltale/core/simulation/manoeuvres.hpp"
 #include "telltale/core/simulation/sensors.hpp"

@@ -19,7 +19,7 @@ TEST(ForEachIndex, CallsEveryIndexOnceWhateverTheThreads) {
   }
 }
 
-TEST(ForEachIndex, WritesAreSeenByTheCaller) {
+TEST(ForEachIndex, MakesWritesVisibleToTheCaller) {
   std::vector<double> squares(1'000);
   ForEachIndex(squares.size(), 4, [&](std::size_t i) { squares[i] = static_cast<double>(i * i); });
   for (std::size_t i = 0; i < squares.size(); ++i) {
@@ -31,7 +31,7 @@ TEST(ForEachIndex, DoesNothingForNone) {
   ForEachIndex(0, 4, [](std::size_t) { FAIL() << "called for an index that is not there"; });
 }
 
-TEST(ForEachIndex, AnExceptionReachesTheCaller) {
+TEST(ForEachIndex, PassesAnExceptionToTheCaller) {
   for (const std::size_t threads : {std::size_t{1}, std::size_t{4}}) {
     EXPECT_THROW(ForEachIndex(1'000, threads,
                               [](std::size_t i) {

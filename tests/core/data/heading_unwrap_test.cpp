@@ -8,7 +8,7 @@
 namespace telltale {
 namespace {
 
-TEST(Unwrap, FollowsABoatRoundAndRoundWhateverTheWrap) {
+TEST(Unwrap, FollowsSeveralTurnsUnderAnyWrap) {
   for (const double turn_deg : {7.0, -33.0, 170.0}) {
     std::vector<HeadingSample> samples;
     for (int i = 0; i < 200; ++i) {
@@ -23,7 +23,7 @@ TEST(Unwrap, FollowsABoatRoundAndRoundWhateverTheWrap) {
   }
 }
 
-TEST(Unwrap, OfNothingIsNothing) {
+TEST(Unwrap, OfNoSamplesIsEmpty) {
   EXPECT_TRUE(Unwrap({}).empty());
 }
 

@@ -10,7 +10,7 @@ namespace {
 // Port +1 from 0 s, -1 from 1 s, 0 from 3 s; starboard half ahead throughout.
 const std::vector<ThrusterSample> kSamples = {{0, 1900, 1700}, {1, 1100, 1700}, {3, 1500, 1700}};
 
-TEST(HeldCommands, HoldsEachUntilTheNextAndTheLastForEver) {
+TEST(HeldCommands, HoldsEachUntilTheNextAndTheLastWithoutEnd) {
   const HeldCommands commands(kSamples, Vehicle{});
   EXPECT_EQ(commands.At(-5.0).port, 1.0);
   EXPECT_EQ(commands.At(0.99).port, 1.0);
@@ -27,7 +27,7 @@ TEST(HeldCommands, MeansAreWeightedByTime) {
   EXPECT_DOUBLE_EQ(commands.Mean(0.1, 7.3).starboard, 0.5);
 }
 
-TEST(HeldCommands, TriangularMeanWeighsTheMiddleMost) {
+TEST(HeldCommands, TriangularMeanWeightsTheMiddleMost) {
   const HeldCommands commands(kSamples, Vehicle{});
   EXPECT_NEAR(commands.TriangularMean(1.0, 0.5).port, 0.0, 1e-15);
   // Up to the switch at half the half width before the centre: 1/8 of the triangle's area.

@@ -48,7 +48,7 @@ TEST(NorthEastFrame, InverseUndoesForward) {
   }
 }
 
-TEST(NorthEastFrame, TheDateLineIsNoSeam) {
+TEST(NorthEastFrame, CrossesTheDateLineWithoutAJump) {
   const NorthEastFrame frame({0.0, 179.9999});
   EXPECT_NEAR(frame.Forward({0.0, -179.9999}).east_m, 2e-4 * 111320.0, 0.01);
 }

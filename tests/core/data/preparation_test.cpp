@@ -121,7 +121,7 @@ TEST(PrepareRobust, RecoversAFastSpin) {
 
 // Ahead at 1 m/s, every five seconds it begins or ends to turn: there a heading smoothed over
 // 3.2 s is off by up to 0.1 rad, which would make 0.1 m/s of sway of what is surge.
-TEST(PrepareRobust, TakesNoTurnForSway) {
+TEST(PrepareRobust, ShowsNoSwayInATurn) {
   constexpr double kTurnS = 5.0;
   constexpr double kRate = 0.8;
   const auto pose = [&](double t) {
@@ -188,7 +188,7 @@ TEST_P(EitherPreset, RemovesTheLeverArm) {
   }
 }
 
-TEST(PrepareRobust, ALeverArmLeftInShowsAsSway) {
+TEST(PrepareRobust, ShowsAnUnstatedLeverArmAsSway) {
   const LeverArm arm{0.8, 0.0};
   const auto dataset = Prepare(Record({.pose = Circle(1.0, 0.0, 0.3), .arm = arm}), Vehicle{},
                                PrepareOptions::Robust());
@@ -196,8 +196,8 @@ TEST(PrepareRobust, ALeverArmLeftInShowsAsSway) {
   EXPECT_NEAR(dataset->rows[100].nu.v, 0.3 * 0.8, 1e-3);  // r times the arm
 }
 
-TEST_P(EitherPreset, NorthIsNoSeam) {
-  // Swings across north; the truth at t is psi = 0.3 sin(0.5 t).
+TEST_P(EitherPreset, CrossesNorthWithoutAJump) {
+  // The heading oscillates across north; the truth at t is psi = 0.3 sin(0.5 t).
   const auto pose = [](double t) { return Pose{0.0, 0.0, 0.3 * std::sin(0.5 * t)}; };
   const auto dataset = Prepare(Record({.pose = pose}), Vehicle{}, Options());
   ASSERT_TRUE(dataset);
@@ -208,7 +208,7 @@ TEST_P(EitherPreset, NorthIsNoSeam) {
   }
 }
 
-TEST(PrepareRobust, JitterOfTheStampsDoesNoHarm) {
+TEST(PrepareRobust, ToleratesJitterOfTheStamps) {
   const Recording recording = Record({.pose = Circle(1.2, 0.15, 0.2), .jitter = Jitter(0.008)});
   const auto dataset = Prepare(recording, Vehicle{}, PrepareOptions::Robust());
   ASSERT_TRUE(dataset);
@@ -239,7 +239,7 @@ TEST(PrepareRobust, ADatasetKeepsItsGrid) {
   }
 }
 
-TEST_P(EitherPreset, GapsOfAnyChannelCut) {
+TEST_P(EitherPreset, CutsAtGapsOfAnyChannel) {
   Recording recording = Record({.pose = Circle(1, 0, 0.1)});
   std::erase_if(recording.gnss, [](const GnssFix& s) { return s.time_s > 115 && s.time_s < 117; });
   std::erase_if(recording.heading,
@@ -380,7 +380,7 @@ TEST(Prepare, RefusesWhenNothingIsLongEnough) {
   EXPECT_THAT(dataset.error().reason, HasSubstr("lasts 3 s"));
 }
 
-TEST(Prepare, OneSampleAChannelIsRefusedNotACrash) {
+TEST(Prepare, RefusesOneSampleAChannel) {
   Recording recording = Record({.pose = Circle(1, 0, 0.1)});
   recording.gnss.resize(1);
   recording.heading.resize(1);
@@ -388,7 +388,7 @@ TEST(Prepare, OneSampleAChannelIsRefusedNotACrash) {
   EXPECT_FALSE(Prepare(recording, Vehicle{}, PrepareOptions::Robust()));
 }
 
-TEST(Prepare, RepeatedPositionsAreFine) {
+TEST(Prepare, AcceptsRepeatedPositions) {
   const auto pose = [](double) { return Pose{3.0, 4.0, 1.0}; };
   const auto dataset = Prepare(Record({.pose = pose}), Vehicle{}, PrepareOptions::Robust());
   ASSERT_TRUE(dataset);

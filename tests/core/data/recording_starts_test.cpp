@@ -17,13 +17,13 @@ TEST(StartsAfterSilence, PartWhereEveryChannelIsSilent) {
   EXPECT_EQ(StartsAfterSilence(recording, 60.0), (std::vector<double>{10.0, 199.5, 300.0}));
 }
 
-TEST(StartsAfterSilence, OneChannelThatSpeaksKeepsARecordingTogether) {
+TEST(StartsAfterSilence, OneActiveChannelKeepsARecordingWhole) {
   const Recording recording = HeardAt({0.0, 100.0}, {50.0});
   EXPECT_EQ(StartsAfterSilence(recording, 60.0), std::vector<double>{0.0});
   EXPECT_EQ(StartsAfterSilence(recording, 49.0), (std::vector<double>{0.0, 50.0, 100.0}));
 }
 
-TEST(StartsAfterSilence, NothingHasNoStart) {
+TEST(StartsAfterSilence, AnEmptyRecordingHasNoStart) {
   EXPECT_TRUE(StartsAfterSilence({}, 60.0).empty());
 }
 

@@ -13,14 +13,14 @@ Recording Regular(double from, double to) {
   return recording;
 }
 
-TEST(FindSegments, OneWithoutGaps) {
+TEST(FindSegments, FindsOneWithoutGaps) {
   const auto segments = FindSegments(Regular(5.0, 25.05), 1.0);
   ASSERT_EQ(segments.size(), 1u);
   EXPECT_DOUBLE_EQ(segments[0].start_s, 5.0);
   EXPECT_NEAR(segments[0].end_s, 25.0, 1e-9);
 }
 
-TEST(FindSegments, OnlyWhereAllThreeAreHeard) {
+TEST(FindSegments, FindsThemWhereAllThreeChannelsHaveSamples) {
   Recording recording = Regular(0.0, 30.0);
   std::erase_if(recording.heading, [](const auto& s) { return s.time_s < 4.95; });
   std::erase_if(recording.thrusters, [](const auto& s) { return s.time_s > 20.05; });
@@ -30,14 +30,14 @@ TEST(FindSegments, OnlyWhereAllThreeAreHeard) {
   EXPECT_NEAR(segments[0].end_s, 20.0, 1e-9);
 }
 
-TEST(FindSegments, ASilenceOfJustTheLimitDoesNotCut) {
+TEST(FindSegments, KeepsASegmentOverASilenceOfExactlyTheLimit) {
   Recording recording = Regular(0.0, 20.0);
   std::erase_if(recording.gnss, [](const auto& s) { return s.time_s > 5.1 && s.time_s < 5.9; });
   EXPECT_EQ(FindSegments(recording, 1.0).size(), 1u);
   EXPECT_EQ(FindSegments(recording, 0.9).size(), 2u);
 }
 
-TEST(FindSegments, SamplesStayOnTheirSideOfAGap) {
+TEST(FindSegments, KeepsSamplesOnTheirSideOfAGap) {
   Recording recording = Regular(0.0, 20.0);
   std::erase_if(recording.gnss, [](const auto& s) { return s.time_s > 8.1 && s.time_s < 11.9; });
   const auto segments = FindSegments(recording, 1.0);
@@ -47,7 +47,7 @@ TEST(FindSegments, SamplesStayOnTheirSideOfAGap) {
   EXPECT_EQ(segments[1].Of(Channel::kHeading).begin, 0u) << "the heading had no gap";
 }
 
-TEST(FindSegments, NoneWhereChannelsNeverMeet) {
+TEST(FindSegments, FindsNoneWhereChannelsDoNotOverlap) {
   Recording recording = Regular(0.0, 10.0);
   recording.heading = Regular(20.0, 30.0).heading;
   EXPECT_TRUE(FindSegments(recording, 1.0).empty());

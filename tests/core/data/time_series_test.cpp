@@ -51,7 +51,7 @@ TEST(Extrapolate, HitsASampleOfTheSameInstant) {
   EXPECT_NEAR(series.Extrapolate(3 * 0.2, 3), 2.0, 1e-12) << "3 * 0.2 is not 0.6 in binary";
 }
 
-TEST(Extrapolate, MakesDoWithFewerSamplesAtTheStart) {
+TEST(Extrapolate, UsesFewerSamplesAtTheStart) {
   const TimeSeries series{{0.0, 1.0, 2.0}, {1.0, 3.0, 100.0}};
   EXPECT_DOUBLE_EQ(series.Extrapolate(0.5, 3), 1.0);
   EXPECT_DOUBLE_EQ(series.Extrapolate(1.5, 3), 4.0);
@@ -65,7 +65,7 @@ TEST(Interpolate, IsExactOnCubicsInside) {
   }
 }
 
-TEST(Interpolate, StaysBoundedWhereStampsCrowd) {
+TEST(Interpolate, StaysBoundedWhereStampsAreUneven) {
   // Two samples 1 ms apart with 1 cm of noise between them, next to an interval of 1 s.
   const TimeSeries series{{0.0, 1.0, 2.0, 2.001, 3.0}, {0.0, 0.0, 0.0, 0.01, 0.0}};
   for (double t = 1.0; t < 2.0; t += 0.05) EXPECT_LT(std::abs(series.Interpolate(t)), 0.01);
@@ -77,7 +77,7 @@ TEST(Interpolate, HoldsBeyondTheEnds) {
   EXPECT_EQ(series.Interpolate(5.0), 7.0);
 }
 
-TEST(MeanAbout, IsTheMeanOfTheJoinedUpSignal) {
+TEST(MeanAbout, IsTheMeanOfTheLinearInterpolation) {
   const TimeSeries series{{0.0, 1.0, 2.0, 3.0}, {0.0, 2.0, 0.0, 0.0}};
   EXPECT_DOUBLE_EQ(series.MeanAbout(1.0, 2.0), 1.0);  // a triangle of height 2 over its base
   EXPECT_DOUBLE_EQ(series.MeanAbout(1.0, 1.0), 1.5);

@@ -7,6 +7,7 @@
 
 #include "telltale/core/base/random.hpp"
 #include "telltale/core/data/preparation.hpp"
+#include "telltale/core/paper/sample_mission.hpp"
 #include "telltale/core/paper/yellowfish.hpp"
 #include "telltale/core/simulation/manoeuvres.hpp"
 #include "telltale/core/simulation/sensors.hpp"
@@ -14,7 +15,7 @@
 namespace telltale {
 namespace {
 
-TEST(WhiteNoise, SeesNoneOnACubicHoweverItIsSampled) {
+TEST(WhiteNoise, IsZeroOnACubicUnderAnySampling) {
   TimeSeries cubic;
   RandomEngine engine(3);
   for (double t = 1000.0; t < 1020.0; t += 0.1 + 1e-20 * static_cast<double>(engine())) {

@@ -35,7 +35,7 @@ std::vector<double> Times(const std::vector<GnssFix>& fixes) {
   return times;
 }
 
-TEST(Window, KeepsWhatIsFineInOrder) {
+TEST(Window, KeepsValidSamplesInOrder) {
   Window window{{}};
   EXPECT_TRUE(window.Empty());
   EXPECT_EQ(window.Add(FixAt(1.0)), std::nullopt);
@@ -49,7 +49,7 @@ TEST(Window, KeepsWhatIsFineInOrder) {
   EXPECT_EQ(window.Rejected().Total(), 0u);
 }
 
-TEST(Window, RejectsWhatIsNotFinite) {
+TEST(Window, RejectsNonFiniteValues) {
   Window window{{}};
   EXPECT_EQ(window.Add(GnssFix{kNaN, 0, 0}), RejectReason::kNotFinite);
   EXPECT_EQ(window.Add(GnssFix{0, kInfinity, 0}), RejectReason::kNotFinite);
@@ -60,7 +60,7 @@ TEST(Window, RejectsWhatIsNotFinite) {
   EXPECT_EQ(window.Rejected().Of(Channel::kGnss, RejectReason::kNotFinite), 2u);
 }
 
-TEST(Window, RejectsWhatIsOutOfRangeAndKeepsTheLimits) {
+TEST(Window, RejectsValuesOutOfRangeAndKeepsTheLimits) {
   Window window{{}};
   EXPECT_EQ(window.Add(GnssFix{0, 90.001, 0}), RejectReason::kOutOfRange);
   EXPECT_EQ(window.Add(GnssFix{0, 0, -180.001}), RejectReason::kOutOfRange);
@@ -72,7 +72,7 @@ TEST(Window, RejectsWhatIsOutOfRangeAndKeepsTheLimits) {
   EXPECT_EQ(window.Add(ThrusterSample{0, 500, 2500}), std::nullopt);
 }
 
-TEST(Window, CountsDuplicatesAlsoWhenLate) {
+TEST(Window, CountsLateDuplicates) {
   Window window{{}};
   for (const double t : {0.0, 1.0, 2.0}) EXPECT_EQ(window.Add(FixAt(t)), std::nullopt);
   EXPECT_EQ(window.Add(FixAt(2.0)), RejectReason::kDuplicate);
@@ -156,7 +156,7 @@ TEST(Window, InconsistentOutlyingStampsAreNeverAccepted) {
   }
 }
 
-TEST(Window, AStampThatStandsStillIsNoClock) {
+TEST(Window, ARepeatedStampConfirmsNoClock) {
   Window window{{}};
   window.Add(FixAt(1000.0));
   for (int i = 0; i < 100; ++i) ASSERT_EQ(window.Add(FixAt(0.0)), RejectReason::kClockJump);
@@ -172,7 +172,7 @@ TEST(Window, SamplesOnTheOldClockInterruptTheNewOne) {
   }
 }
 
-TEST(Window, ARebootedBoatIsHeardAgainOnItsNewClock) {
+TEST(Window, ARebootedBoatIsAcceptedOnItsNewClock) {
   Window window{{.clock_jump_confirmations = 5}};
   for (int i = 0; i < 100; ++i) {
     window.Add(FixAt(5000.0 + 0.2 * i));
@@ -187,7 +187,7 @@ TEST(Window, ARebootedBoatIsHeardAgainOnItsNewClock) {
   EXPECT_EQ(window.Add(HeadingAt(0.8)), std::nullopt);
 }
 
-TEST(Window, ALongRadioSilenceKeepsWhatWasHeardBefore) {
+TEST(Window, ALongRadioSilenceKeepsEarlierSamples) {
   Window window{{}};
   for (int i = 0; i < 100; ++i) window.Add(FixAt(0.2 * i));
   for (int i = 0; i < 100; ++i) window.Add(FixAt(300.0 + 0.2 * i));

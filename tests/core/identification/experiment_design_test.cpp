@@ -8,6 +8,7 @@
 
 #include "support/stable_boat.hpp"
 #include "telltale/core/identification/identify.hpp"
+#include "telltale/core/simulation/manoeuvre_catalogue.hpp"
 #include "telltale/core/simulation/sensors.hpp"
 
 namespace telltale {

@@ -47,7 +47,7 @@ PreparedDataset DriveRedundant(const Table& X, std::size_t segments,
 }
 
 /// Every number of the paper's dynamic table comes back from data made with it.
-TEST(EstimateRedundant, GivesThePublishedDynamicTableBack) {
+TEST(EstimateRedundant, RecoversThePublishedDynamicTable) {
   const Table table = YellowfishDynamicTable();
   const auto dataset = DriveRedundant(
       table, 3000, {PropellerRegion::kFF, PropellerRegion::kFR, PropellerRegion::kRF});
@@ -95,7 +95,7 @@ TEST(RecoverAlpha, FindsTheAlphaOfAConsistentSystem) {
 
 /// By hand from the printed table: surge (1.8062 -+ sqrt(1.8062^2 - 4 * 0.7725)) / 2 = 1.1107,
 /// 0.6955; sway 0.9739, 0.7165; yaw has no real root, 1.9886^2 < 4 * 1.0430.
-TEST(RecoverAlpha, SaysThatThePublishedTableDisagreesWithItself) {
+TEST(RecoverAlpha, ReportsThatThePublishedTableIsInconsistent) {
   const RedundantAlpha recovered = RecoverAlpha(YellowfishDynamicTable());
   EXPECT_NEAR(recovered.roots[0][0].real(), 1.1107, 1e-4);
   EXPECT_NEAR(recovered.roots[0][1].real(), 0.6955, 1e-4);

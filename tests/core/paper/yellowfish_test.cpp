@@ -123,17 +123,5 @@ TEST(YellowfishTwin, ReachesTheSpeedWhereDragBalancesThrust) {
   EXPECT_NEAR(track.back().state.nu.u, 1.4886, 0.01);
 }
 
-TEST(SampleMission, KeepsTheSimulatedBoatWithinItsSpeeds) {
-  for (std::uint64_t seed = 1; seed <= 5; ++seed) {
-    const auto track =
-        Simulate(YellowfishTwin(), {}, SampleMission(seed), kSampleMissionDurationS, 0.05);
-    for (const TimedState& at : track) {
-      ASSERT_LT(std::abs(at.state.nu.u), 1.6) << "seed " << seed << " at " << at.time_s;
-      ASSERT_LT(std::abs(at.state.nu.v), 1.2) << "seed " << seed << " at " << at.time_s;
-      ASSERT_LT(std::abs(at.state.nu.r), 1.5) << "seed " << seed << " at " << at.time_s;
-    }
-  }
-}
-
 }  // namespace
 }  // namespace telltale

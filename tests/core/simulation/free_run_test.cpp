@@ -59,7 +59,7 @@ TEST(CountDivergences, FindsNoneWhereTheBoatMadeTheData) {
 }
 
 /// With u' = + 2 u a speed grows by e^10 in five seconds.
-TEST(CountDivergences, FindsAllOfABoatThatDrivesItself) {
+TEST(CountDivergences, FindsAllOfAnUnstableModel) {
   const PreparedDataset dataset = SimulatedDataset();
   VesselModel boat = Discrete();
   const auto regressors = Regressors(Equation::kSurge, boat.parameterization);
@@ -80,7 +80,7 @@ TEST(CountDivergences, CountsSomeSixtyOfManyRuns) {
   EXPECT_LE(runs, 60u);
 }
 
-TEST(FreeRunError, IsNoneOfTheBoatThatMadeTheData) {
+TEST(FreeRunError, IsZeroForTheModelThatMadeTheData) {
   EXPECT_LT(FreeRunError(SimulatedDataset(), Discrete(), kHorizonS), 1e-9);
 }
 
@@ -95,7 +95,7 @@ TEST(FreeRunError, OfADivergingModelIsFinite) {
   EXPECT_LE(miss, 2.0);
 }
 
-/// A boat that always lies still misses by what was measured: less than the fastest, since the mean
+/// The error of a boat at rest is the measured velocity: less than the fastest, since the mean
 /// is.
 TEST(FreeRunError, IsInUnitsOfTheFastestMeasured) {
   const PreparedDataset dataset = SimulatedDataset();

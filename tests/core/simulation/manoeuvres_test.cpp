@@ -1,12 +1,10 @@
 #include "telltale/core/simulation/manoeuvres.hpp"
 
 #include <cmath>
-#include <map>
 
 #include <gtest/gtest.h>
 
-#include "telltale/core/base/linear_algebra/eigen_decompositions.hpp"
-#include "telltale/core/paper/yellowfish.hpp"
+#include "telltale/core/simulation/manoeuvre_catalogue.hpp"
 
 namespace telltale {
 namespace {
@@ -54,7 +52,7 @@ TEST(Manoeuvres, SpiralGoesFromOneTurnToTheOtherAndBack) {
   }
 }
 
-TEST(Manoeuvres, RepeatedIsBrokenOffOnTime) {
+TEST(Manoeuvres, RepeatedEndsOnTime) {
   const Manoeuvre repeated = Repeated(SurgeSteps(0.2, 0.9, 1, 4.0), 30.0);
   ASSERT_EQ(repeated.size(), 8u);
   EXPECT_EQ(repeated.back().duration_s, 2.0);
@@ -62,7 +60,7 @@ TEST(Manoeuvres, RepeatedIsBrokenOffOnTime) {
   EXPECT_NEAR(Duration(repeated), 30.0, 1e-12);
 }
 
-TEST(Manoeuvres, TheCatalogueHoldsWhatABoatCanDo) {
+TEST(Manoeuvres, TheCatalogueKeepsCommandsInRange) {
   std::map<std::string_view, int> names;
   for (const CatalogueManoeuvre& entry : ManoeuvreCatalogue()) {
     EXPECT_EQ(++names[entry.name], 1) << entry.name;
@@ -76,7 +74,7 @@ TEST(Manoeuvres, TheCatalogueHoldsWhatABoatCanDo) {
   }
 }
 
-TEST(Manoeuvres, RandomStepsStayInTheirBoxAndLastAsLongAsTold) {
+TEST(Manoeuvres, RandomStepsKeepTheirRangeAndDuration) {
   const CommandRange range{{0.1, -0.8}, {0.9, -0.2}};
   const Manoeuvre steps = RandomSteps(range, 1.0, 3.0, 100.0, 7);
   EXPECT_NEAR(Duration(steps), 100.0, 1e-9);
@@ -112,40 +110,6 @@ TEST(Manoeuvres, ScheduleStartsEachCommandWhenTheLastOneEnds) {
   ASSERT_EQ(commands.size(), std::size(expected));
   for (std::size_t i = 0; i < commands.size(); ++i) EXPECT_EQ(commands[i].time_s, expected[i]);
   EXPECT_EQ(commands[2].delta.port, 0.9);
-}
-
-TEST(SampleMission, SpendsEnoughTimeInEveryRegion) {
-  const auto commands = SampleMission(1);
-  std::map<PropellerRegion, double> seconds;
-  for (std::size_t i = 0; i < commands.size(); ++i) {
-    const double end_s = i + 1 < commands.size() ? commands[i + 1].time_s : kSampleMissionDurationS;
-    ASSERT_GT(end_s, commands[i].time_s);
-    ASSERT_LE(std::abs(commands[i].delta.port), 1.0 + 1e-12);
-    ASSERT_LE(std::abs(commands[i].delta.starboard), 1.0 + 1e-12);
-    seconds[RegionOf(commands[i].delta)] += end_s - commands[i].time_s;
-  }
-  EXPECT_GT(seconds[PropellerRegion::kFF], 300.0);
-  EXPECT_GT(seconds[PropellerRegion::kFR], 60.0);
-  EXPECT_GT(seconds[PropellerRegion::kRF], 60.0);
-  EXPECT_GT(seconds[PropellerRegion::kRR], 10.0);
-}
-
-TEST(SampleMission, SeparatesEveryCoefficientOfTheSimulatedBoat) {
-  // Columns scaled to unit length, one row a fifth of a second. A condition number of c lets a
-  // relative error of e in the data grow to c e in the worst combination of coefficients.
-  const auto track = Simulate(YellowfishTwin(), {}, SampleMission(1), kSampleMissionDurationS, 0.2);
-  for (const Equation equation : kEquations) {
-    const auto columns = Regressors(equation, Parameterization::kPropeller).size();
-    Eigen::MatrixXd phi(track.size(), columns);
-    std::vector<double> row(columns);
-    for (std::size_t k = 0; k < track.size(); ++k) {
-      FillRow(equation, Parameterization::kPropeller, track[k].state.nu, track[k].delta, row);
-      phi.row(k) = Eigen::Map<const Eigen::RowVectorXd>(row.data(), columns);
-    }
-    phi.colwise().normalize();
-    const Eigen::VectorXd singular = phi.jacobiSvd().singularValues();
-    EXPECT_LT(singular[0] / singular[singular.size() - 1], 60.0) << Name(equation);
-  }
 }
 
 }  // namespace

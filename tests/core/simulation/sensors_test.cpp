@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 #include <GeographicLib/Geodesic.hpp>
 
+#include "telltale/core/paper/sample_mission.hpp"
 #include "telltale/core/paper/yellowfish.hpp"
 #include "telltale/core/simulation/manoeuvres.hpp"
 

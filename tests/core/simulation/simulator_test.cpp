@@ -115,7 +115,7 @@ TEST(Advance, PoseIgnoresNeitherSwayNorHeading) {
   EXPECT_NEAR(end.eta.y_m, 2.0 + 1.0, 1e-15);
 }
 
-TEST(Advance, NeedsADiscreteModelsOwnPeriodAndAStaticStructure) {
+TEST(Advance, RequiresADiscreteModelsOwnPeriodAndALag) {
   const VesselModel paper = YellowfishPaperModel();
   EXPECT_THROW(Advance(paper, {}, {}, 0.1), ContractViolation);
   EXPECT_THROW(Advance(YellowfishTwin(), {}, {}, 0.0), ContractViolation);
@@ -152,7 +152,7 @@ TEST(Simulate, IsRepeatedAdvance) {
   }
 }
 
-TEST(Simulate, NeedsCommandsInOrderOfTime) {
+TEST(Simulate, RequiresCommandsInOrderOfTime) {
   const VesselModel twin = YellowfishTwin();
   EXPECT_THROW(Simulate(twin, {}, {}, 1.0, 0.1), ContractViolation);
   EXPECT_THROW(Simulate(twin, {}, {{1.0, {}}, {0.5, {}}}, 2.0, 0.1), ContractViolation);

@@ -42,8 +42,9 @@ TEST(SyntheticDataset, WithoutNoiseOrDisturbanceFollowsTheSameCourse) {
   }
 }
 
-// What twins show of a bias is taken for the boat's, so that they must not have one of their own.
-TEST(SyntheticDataset, TurnsAsTheBoatDoesOnceItsStartIsForgotten) {
+// The bias correction takes a bias of synthetic datasets for that of the estimator, so that the
+// simulation itself has none.
+TEST(SyntheticDataset, TurnsAsTheBoatDoesOnceItsStartHasDecayed) {
   constexpr double kForgottenS = 10.0;
   const PreparedDataset dataset = SimulatedDataset(testing::NoNoise());
   const auto synthetic = SimulateDataset(dataset, testing::StableBoat(), {});
@@ -81,8 +82,8 @@ TEST(SyntheticDataset, HasGnssDrift) {
   SyntheticDatasetOptions options;
   const auto still = SimulateRecording(dataset, testing::StableBoat(), options);
   options.disturbance.gnss_drift_m = 0.05;
-  const auto wandering = SimulateRecording(dataset, testing::StableBoat(), options);
-  ASSERT_TRUE(still && wandering);
+  const auto drifting = SimulateRecording(dataset, testing::StableBoat(), options);
+  ASSERT_TRUE(still && drifting);
   const NorthEastFrame frame(dataset.origin);
   std::vector<Eigen::Vector2d> off;
   for (std::size_t i = 0; i < still->recording.gnss.size(); ++i) {
@@ -91,7 +92,7 @@ TEST(SyntheticDataset, HasGnssDrift) {
       const NorthEastPosition at = frame.Forward({fix.latitude_deg, fix.longitude_deg});
       return Eigen::Vector2d(at.north_m, at.east_m);
     };
-    off.push_back(place(*wandering) - place(*still));
+    off.push_back(place(*drifting) - place(*still));
   }
   const auto a_second = static_cast<std::size_t>(std::lround(1.0 / dataset.sensors.gnss_period_s));
   double square = 0.0;
@@ -122,7 +123,7 @@ TEST(SyntheticDataset, RefusesABoatThatDiverges) {
   diverging.theta[0][3] = 3.0;
   const auto synthetic = SimulateDataset(SimulatedDataset(testing::NoNoise()), diverging, {});
   ASSERT_FALSE(synthetic.has_value());
-  EXPECT_EQ(synthetic.error().subject, "simulated repeat");
+  EXPECT_EQ(synthetic.error().subject, "synthetic dataset");
 }
 
 }  // namespace

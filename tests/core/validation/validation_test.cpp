@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "support/special_values.hpp"
+#include "telltale/core/paper/sample_mission.hpp"
 #include "telltale/core/paper/yellowfish.hpp"
 #include "telltale/core/simulation/manoeuvres.hpp"
 #include "telltale/core/simulation/simulator.hpp"
@@ -29,7 +30,7 @@ PreparedDataset PaperRows(double duration_s) {
               kYellowfishSamplingPeriodS);
 }
 
-// A discrete boat that keeps its velocity whatever it is told: persistence as a model.
+// A discrete boat that keeps its velocity under every command: the constant-velocity baseline.
 VesselModel ConstantVelocity(double sampling_period_s) {
   VesselModel model = YellowfishPaperModel();
   model.sampling_period_s = sampling_period_s;

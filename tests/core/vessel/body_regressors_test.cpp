@@ -49,7 +49,7 @@ TEST(NoiseCorrectedBodyRow, IsTheRowItselfWithoutNoise) {
   EXPECT_EQ(corrected.turning, measured.turning);
 }
 
-TEST(NoiseCorrectedBodyRow, IsUnbiasedAwayFromTheBend) {
+TEST(NoiseCorrectedBodyRow, IsUnbiasedAwayFromZero) {
   for (const double v : {-0.6, 0.5, 1.0}) {
     const Biases square = BiasesAt(v, kSquare);
     EXPECT_NEAR(square.measured, std::copysign(kNoise * kNoise, v), 1e-6);
@@ -70,7 +70,7 @@ Biases WorstOf(std::size_t regressor) {
 
 // At the bend itself |x| is off by sqrt(2 / pi) sigma, and 2 - sqrt 2 of that with the correction,
 // whose second order is left.
-TEST(NoiseCorrectedBodyRow, IsLessBiasedAtTheBendToo) {
+TEST(NoiseCorrectedBodyRow, IsLessBiasedAtZeroToo) {
   const Biases size = WorstOf(kSize);
   EXPECT_NEAR(size.measured, 0.4 * kNoise * std::sqrt(2.0 / std::numbers::pi), 1e-6);
   EXPECT_NEAR(size.corrected, (2.0 - std::numbers::sqrt2) * size.measured, 1e-6);
@@ -78,7 +78,7 @@ TEST(NoiseCorrectedBodyRow, IsLessBiasedAtTheBendToo) {
   EXPECT_LT(square.corrected, 0.5 * square.measured);
 }
 
-TEST(NoiseCorrectedBodyRow, TakesTheVarianceOffASquare) {
+TEST(NoiseCorrectedBodyRow, SubtractsTheVarianceFromASquare) {
   const Nu noise{0.0, 0.0, 0.05};
   const double mean = OverNormal([&](double z) {
     return NoiseCorrectedBodyRow({0.7, 0.1, 0.3 + noise.r * z}, noise).surge[2];
@@ -86,7 +86,7 @@ TEST(NoiseCorrectedBodyRow, TakesTheVarianceOffASquare) {
   EXPECT_NEAR(mean, 0.3 * 0.3, 1e-9);
 }
 
-TEST(NoiseCorrectedBodyRow, LeavesWhatIsLinearInEach) {
+TEST(NoiseCorrectedBodyRow, KeepsProductsOfIndependentVelocities) {
   const Nu nu{0.7, -0.2, 0.4};
   const BodyRow measured = BodyRowAt(nu);
   const BodyRow corrected = NoiseCorrectedBodyRow(nu, {0.1, 0.1, 0.1});
