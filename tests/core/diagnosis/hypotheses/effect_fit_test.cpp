@@ -1,0 +1,156 @@
+#include "telltale/core/diagnosis/hypotheses/effect_fit.hpp"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
+
+#include "support/hand_made_diagnosis.hpp"
+
+namespace telltale {
+namespace {
+
+constexpr Eigen::Index kRows = 3;
+constexpr Eigen::Index kWindows = 40;
+
+ResidualMetric UnitMetric() {
+  const Sensitivity recording =
+      testing::SensitivityOfErrors(Eigen::MatrixXd::Zero(kRows, kWindows), 0, 0);
+  return {testing::UnitBaseline(kRows, 0, 0), recording, EveryWindow(recording), false};
+}
+
+/// Errors e + b0 v0 + b1 v1 of an effect of two parameters, typically 2 and 0.5.
+class LinearProblem : public ::testing::Test {
+ protected:
+  const testing::InertEffect effect_{
+      "linear", {{"first", "N", 2.0, -200.0, 200.0}, {"second", "m", 0.5, -50.0, 50.0}}};
+  const Eigen::MatrixXd first_ = testing::Pattern(kRows, kWindows, 0.7);
+  const Eigen::MatrixXd second_ = testing::Pattern(kRows, kWindows, 1.9);
+  const Eigen::MatrixXd errors_ =
+      -1.5 * first_ + 0.3 * second_ + 0.8 * testing::Pattern(kRows, kWindows, 2.3);
+  const ErrorModel error_model_ = [this](const std::vector<ModelledEffect>& effects) {
+    if (effects.empty()) return errors_;
+    const std::vector<double>& values = effects.front().values;
+    return (errors_ + values[0] * first_ + values[1] * second_).eval();
+  };
+  const ResidualMetric metric_ = UnitMetric();
+  const EffectFit fit_ = FitEffects(error_model_, metric_, {&effect_}, {Eigen::Vector2d::Zero()});
+
+  // The posterior of scaled values x in closed form: errors e + J x, prior N(0, 4 I).
+  const Eigen::MatrixXd jacobian_ = [this] {
+    Eigen::MatrixXd jacobian(kRows * kWindows, 2);
+    jacobian << 2.0 * first_.reshaped(), 0.5 * second_.reshaped();
+    return jacobian;
+  }();
+  const Eigen::Matrix2d prior_ = 0.25 * Eigen::Matrix2d::Identity();
+  const Eigen::Vector2d scaled_ =
+      -(jacobian_.transpose() * jacobian_ + prior_)
+           .ldlt()
+           .solve(Eigen::Vector2d(jacobian_.transpose() * errors_.reshaped()));
+  const double square_ = (errors_.reshaped() + jacobian_ * scaled_).squaredNorm();
+  // n / Q times the curvature, n half an observation a window, and the prior.
+  const Eigen::Matrix2d information_ =
+      0.5 * static_cast<double>(kWindows) / square_ * jacobian_.transpose() * jacobian_ + prior_;
+};
+
+TEST_F(LinearProblem, HasThePosteriorMeanInClosedForm) {
+  ASSERT_EQ(fit_.effects.size(), 1U);
+  EXPECT_NEAR(fit_.effects[0].values[0], 2.0 * scaled_[0], 1e-5);
+  EXPECT_NEAR(fit_.effects[0].values[1], 0.5 * scaled_[1], 1e-5);
+  EXPECT_NEAR(fit_.square, square_, 1e-6);
+}
+
+TEST_F(LinearProblem, HasThePosteriorCovarianceInClosedForm) {
+  const Eigen::Vector2d typical(2.0, 0.5);
+  const Eigen::Matrix2d expected =
+      typical.asDiagonal() * information_.inverse() * typical.asDiagonal();
+  EXPECT_TRUE(fit_.covariance.isApprox(expected, 1e-6)) << fit_.covariance << "\n" << expected;
+}
+
+// docs/concepts/diagnosis.md (89).
+TEST_F(LinearProblem, IsScoredByLaplacesEvidence) {
+  const double n = 0.5 * static_cast<double>(kWindows);
+  const double expected = n * std::log(square_ / errors_.squaredNorm()) +
+                          scaled_.dot(prior_ * scaled_) +
+                          std::log(information_.determinant() / prior_.determinant());
+  EXPECT_NEAR(fit_.score, expected, 1e-5);
+  EXPECT_LT(fit_.score, 0.0);
+}
+
+TEST_F(LinearProblem, ReturnsTheErrorsThatTheEffectLeaves) {
+  EXPECT_TRUE(fit_.errors.reshaped().isApprox(errors_.reshaped() + jacobian_ * scaled_, 1e-6));
+  EXPECT_EQ(fit_.gusts.size(), 0);
+}
+
+/// Errors with minima at both signs, the deeper one at +2.
+TEST(FitEffects, KeepsTheLowestOfAllStarts) {
+  const testing::InertEffect effect("two_minima", {{"size", "1", 1.0, -10.0, 10.0}});
+  const Eigen::MatrixXd pattern = testing::Pattern(kRows, kWindows, 0.7);
+  const ErrorModel error_model = [&](const std::vector<ModelledEffect>& effects) {
+    const double v = effects.empty() ? 0.0 : effects.front().values.front();
+    return ((v * v - 4.0 + 0.2 * (v - 2.0)) * pattern).eval();
+  };
+  const ErrorModel with_noise = [&](const std::vector<ModelledEffect>& effects) {
+    const double v = effects.empty() ? 0.0 : effects.front().values.front();
+    return (error_model(effects) + 0.5 * (v - 2.0) * testing::Pattern(kRows, kWindows, 1.9)).eval();
+  };
+  const Eigen::VectorXd negative = Eigen::VectorXd::Constant(1, -3.0);
+  const Eigen::VectorXd positive = Eigen::VectorXd::Constant(1, 3.0);
+  const ResidualMetric metric = UnitMetric();
+  EXPECT_LT(FitEffects(with_noise, metric, {&effect}, {negative}).effects[0].values[0], -1.0);
+  EXPECT_NEAR(FitEffects(with_noise, metric, {&effect}, {negative, positive}).effects[0].values[0],
+              2.0, 0.05);
+}
+
+/// An effect whose size differs from window to window by `scatter`, beside errors of 0.1.
+EffectFit FitWithScatter(double scatter) {
+  static const testing::InertEffect effect("gusty", {{"size", "1", 1.0, -10.0, 10.0}}, 0.2);
+  const Eigen::MatrixXd pattern = 10.0 * testing::Pattern(kRows, kWindows, 0.7);
+  const Eigen::MatrixXd noise = testing::Pattern(kRows, kWindows, 2.3);
+  const ErrorModel error_model = [&](const std::vector<ModelledEffect>& effects) {
+    const double v = effects.empty() ? 0.0 : effects.front().values.front();
+    Eigen::MatrixXd errors = noise;
+    for (Eigen::Index w = 0; w < kWindows; ++w) {
+      const double size = 2.0 + (w % 2 == 0 ? scatter : -scatter);
+      errors.col(w) += (v - size) * pattern.col(w);
+    }
+    return errors;
+  };
+  return FitEffects(error_model, UnitMetric(), {&effect}, {Eigen::VectorXd::Constant(1, 1.0)});
+}
+
+TEST(FitEffects, AllowsForGustsWhereTheSizeDiffersFromWindowToWindow) {
+  const EffectFit fit = FitWithScatter(0.4);
+  ASSERT_EQ(fit.gusts.cols(), 1);
+  // One standard deviation is the turbulence intensity, 0.2, times the mean, 2.
+  EXPECT_TRUE(fit.gusts.reshaped().isApprox(
+      0.4 * 10.0 * testing::Pattern(kRows, kWindows, 0.7).reshaped(), 0.01));
+  EXPECT_NEAR(fit.effects[0].values[0], 2.0, 0.1);
+}
+
+TEST(FitEffects, AllowsForNoGustsWhereTheSizeIsConstant) {
+  EXPECT_EQ(FitWithScatter(0.0).gusts.size(), 0);
+}
+
+TEST(EffectFit, NegativeLogPriorCountsShapesInStandardDeviations) {
+  EffectFit fit;
+  const Effect* payload = FindEffect("payload");
+  const EffectParameter& mass = payload->Parameters()[0];
+  const EffectParameter& forward = payload->Parameters()[1];
+  ASSERT_TRUE(forward.is_shape);
+  fit.effects = {{payload, {mass.typical, forward.prior_mean}}};
+  EXPECT_EQ(fit.NegativeLogPrior(), 0.0);
+  fit.effects.front().values[1] = forward.prior_mean + 3.0 * forward.typical;
+  EXPECT_NEAR(fit.NegativeLogPrior(), 4.5, 1e-12);
+}
+
+TEST(EffectFit, StacksTheValuesOfItsEffects) {
+  EffectFit fit;
+  fit.effects = {{FindEffect("thruster_lag"), {0.3}}, {FindEffect("payload"), {0.2, 0.1}}};
+  EXPECT_EQ(fit.Values(), Eigen::Vector3d(0.3, 0.2, 0.1));
+  EXPECT_EQ(fit.Names(), (std::vector<std::string>{"thruster_lag", "payload"}));
+}
+
+}  // namespace
+}  // namespace telltale

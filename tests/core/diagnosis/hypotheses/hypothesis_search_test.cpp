@@ -1,0 +1,104 @@
+#include "telltale/core/diagnosis/hypotheses/hypothesis_search.hpp"
+
+#include <cmath>
+#include <limits>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "support/hand_made_diagnosis.hpp"
+
+namespace telltale {
+namespace {
+
+ResidualMetric UnitMetricOf(const Eigen::MatrixXd& errors) {
+  const Sensitivity recording = testing::SensitivityOfErrors(errors, 0, 0);
+  return {testing::UnitBaseline(errors.rows(), 0, 0), recording, EveryWindow(recording), false};
+}
+
+EffectFit FitOf(const char* effect, const Eigen::MatrixXd& errors) {
+  EffectFit fit;
+  fit.effects = {{FindEffect(effect), {}}};
+  fit.errors = errors;
+  fit.square = errors.squaredNorm();
+  return fit;
+}
+
+// n / 2 ln(1 + |y1 - y2|^2 / Q), n half an observation a window, Q the smaller square.
+TEST(Distance, IsTheExpectedLogEvidenceInClosedForm) {
+  const Eigen::MatrixXd one = testing::Pattern(3, 20, 0.7);
+  const Eigen::MatrixXd other = 2.0 * testing::Pattern(3, 20, 1.9);
+  const double expected =
+      0.5 * 10.0 * std::log(1.0 + (one - other).squaredNorm() / one.squaredNorm());
+  EXPECT_NEAR(Distance(FitOf("wind", one), FitOf("current", other), UnitMetricOf(one)), expected,
+              1e-9);
+}
+
+TEST(Distance, IsZeroBetweenHypothesesThatLeaveTheSameErrors) {
+  const Eigen::MatrixXd errors = testing::Pattern(3, 20, 0.7);
+  EXPECT_EQ(Distance(FitOf("wind", errors), FitOf("current", errors), UnitMetricOf(errors)), 0.0);
+}
+
+TEST(Distance, IsInfiniteWhereStochasticEffectsDiffer) {
+  const Eigen::MatrixXd errors = testing::Pattern(3, 20, 0.7);
+  EXPECT_EQ(Distance(FitOf("wind", errors), FitOf("waves", errors), UnitMetricOf(errors)),
+            std::numeric_limits<double>::infinity());
+}
+
+TEST(BestHypothesis, HasTheLowestScoreOfSinglesAndCombinations) {
+  Hypotheses hypotheses;
+  hypotheses.singles.resize(1);
+  hypotheses.singles[0].score = -5.0;
+  EXPECT_EQ(&BestHypothesis(hypotheses), &hypotheses.singles[0]);
+  hypotheses.combined.resize(1);
+  hypotheses.combined[0].score = -4.0;
+  EXPECT_EQ(&BestHypothesis(hypotheses), &hypotheses.singles[0]);
+  hypotheses.combined[0].score = -30.0;
+  EXPECT_EQ(&BestHypothesis(hypotheses), &hypotheses.combined[0]);
+}
+
+/// A search among three effects, by a baseline whose errors are independent with the mean squares
+/// of a nominal recording.
+class SearchTest : public ::testing::Test {
+ protected:
+  static Hypotheses Found(const std::vector<ModelledEffect>& effects) {
+    const testing::ShortRecording nominal_recording;
+    const testing::ShortRecording short_recording(120.0, effects);
+    const std::vector<const Effect*> library = {
+        FindEffect("thruster_lag"), FindEffect("heading_bias"), FindEffect("thrust_gain")};
+    const auto parameter_refs = EffectParameterRefsOf(library);
+    const FreeRuns& runs = short_recording.runs;
+    const UncertainModel& model = short_recording.model;
+    const auto coefficients = static_cast<Eigen::Index>(model.free.size());
+    NominalBaseline nominal =
+        testing::UnitBaseline(runs.Rows(), coefficients, std::ssize(parameter_refs));
+    const Eigen::MatrixXd errors = nominal_recording.runs.Errors(nominal.boat);
+    nominal.covariance = errors.rowwise().squaredNorm().asDiagonal();
+    nominal.covariance /= static_cast<double>(errors.cols());
+    nominal.days = {SensitivityOf(nominal_recording.runs, nominal.boat, model, parameter_refs, 2)};
+    const Sensitivity recording = SensitivityOf(runs, nominal.boat, model, parameter_refs, 2);
+    const ResidualMetric metric(nominal, recording, EveryWindow(recording), false);
+    const FrequencyResponse no_response({}, runs, nominal.boat, recording.errors, 1);
+    return Search({runs, nominal, recording, metric, parameter_refs, no_response}, library, 2, 2,
+                  [](double) {});
+  }
+};
+
+TEST_F(SearchTest, FindsTheOneEffectThatActs) {
+  const Hypotheses found = Found({{FindEffect("thrust_gain"), {0.3}}});
+  ASSERT_FALSE(found.singles.empty());
+  EXPECT_EQ(found.singles.front().Names(), std::vector<std::string>{"thrust_gain"});
+  EXPECT_NEAR(found.singles.front().effects[0].values[0], 0.3, 0.05);
+  EXPECT_TRUE(found.combined.empty());
+}
+
+TEST_F(SearchTest, FindsBothEffectsThatActTogether) {
+  const Hypotheses found =
+      Found({{FindEffect("thrust_gain"), {0.3}}, {FindEffect("heading_bias"), {0.12}}});
+  ASSERT_FALSE(found.combined.empty());
+  EXPECT_THAT(found.combined.front().Names(),
+              ::testing::UnorderedElementsAre("thrust_gain", "heading_bias"));
+}
+
+}  // namespace
+}  // namespace telltale

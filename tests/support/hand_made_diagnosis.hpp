@@ -1,0 +1,72 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "support/stable_boat_with_effects.hpp"
+#include "telltale/core/diagnosis/baseline/residual_metric.hpp"
+#include "telltale/core/diagnosis/baseline/uncertain_model.hpp"
+#include "telltale/core/diagnosis/hypotheses/diagnosis_problem.hpp"
+
+namespace telltale::testing {
+
+/// An effect with parameters and no action of its own, whose sensitivities a test chooses.
+class InertEffect final : public Effect {
+ public:
+  InertEffect(std::string_view name, std::vector<EffectParameter> parameters,
+              double turbulence_intensity = 0.0)
+      : Effect({.name = name,
+                .title = name,
+                .equation = "",
+                .source = "",
+                .parameters = std::move(parameters),
+                .settled_by = "a sensor",
+                .hook = Hook::kNone,
+                .nominal_variation = NominalVariation::kFixedEffect,
+                .turbulence_intensity = turbulence_intensity}) {}
+  std::string Describe(EffectValues) const override { return std::string(Name()); }
+};
+
+/// A baseline of independent unit errors whose boat is known exactly: whitening and marginalising
+/// leave errors as they are.
+inline NominalBaseline UnitBaseline(Eigen::Index rows, Eigen::Index coefficients,
+                                    Eigen::Index parameters) {
+  NominalBaseline nominal;
+  nominal.boat = {StableBoat(), {}};
+  nominal.covariance = Eigen::MatrixXd::Identity(rows, rows);
+  nominal.boat_covariance =
+      Eigen::MatrixXd::Zero(coefficients + parameters, coefficients + parameters);
+  nominal.recording_effect_sd = Eigen::VectorXd::Zero(parameters);
+  return nominal;
+}
+
+/// Numbers between -1 and 1 that repeat nowhere.
+inline Eigen::MatrixXd Pattern(Eigen::Index rows, Eigen::Index columns, double frequency) {
+  Eigen::MatrixXd pattern(rows, columns);
+  for (Eigen::Index i = 0; i < pattern.size(); ++i) {
+    pattern.reshaped()[i] = std::sin(frequency * (static_cast<double>(i) + 1.0));
+  }
+  return pattern;
+}
+
+inline Sensitivity SensitivityOfErrors(const Eigen::MatrixXd& errors, Eigen::Index coefficients,
+                                       Eigen::Index parameters) {
+  return {errors, Eigen::MatrixXd::Zero(errors.size(), coefficients),
+          Eigen::MatrixXd::Zero(errors.size(), parameters)};
+}
+
+/// Free runs of a short recording of the stable boat, for the times and number of its windows.
+struct ShortRecording {
+  explicit ShortRecording(double duration_s = 120.0,
+                          const std::vector<ModelledEffect>& effects = {})
+      : dataset(SimulateWithEffects(effects, duration_s, 500)) {}
+
+  PreparedDataset dataset;
+  UncertainModel model = UncertainModelOf(KnownStableBoat()).value();
+  FreeRuns runs{dataset, model.model, 5.0};
+};
+
+}  // namespace telltale::testing
