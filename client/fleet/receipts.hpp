@@ -7,7 +7,7 @@
 
 #include "telltale/client/bus/participant.hpp"
 #include "telltale/client/fleet/subscriber.hpp"
-#include "telltale/idl/codec/wire/messages.hpp"
+#include "telltale/idl/codec/messages/quality.hpp"
 
 namespace telltale {
 

@@ -1,4 +1,5 @@
 #include "telltale/core/uncertainty/bootstrap_correction.hpp"
+#include "telltale/core/vessel/thruster_response.hpp"
 
 #include <algorithm>
 #include <cmath>

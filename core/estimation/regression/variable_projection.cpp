@@ -54,12 +54,10 @@ void ProjectInitialThrust(const LaggedProblem& problem, const EquationProblem& e
     project(at.phi.middleRows(begin, count));
     project(at.slope.middleRows(begin, count));
     project(at.y.segment(begin, count));
-    at.direc
-
-  }  // namespace
-
-  tions_out += 1.0;
+    at.directions_out += 1.0;
+  }
 }
+
 }  // namespace
 
 EquationAtLag ProjectAt(const LaggedProblem& problem, const EquationProblem& equation,

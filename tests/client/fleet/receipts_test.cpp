@@ -7,7 +7,7 @@
 
 #include "support/loopback_domain.hpp"
 #include "telltale/client/bus/writer.hpp"
-#include "telltale/idl/codec/wire/wire.hpp"
+#include "telltale/idl/codec/wire/quality.hpp"
 
 namespace telltale {
 namespace {
