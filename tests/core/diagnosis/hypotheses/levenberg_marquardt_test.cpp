@@ -9,8 +9,8 @@
 namespace telltale {
 namespace {
 
-constexpr Eigen::Index kRows = 3;
-constexpr Eigen::Index kWindows = 10;
+constexpr Eigen::Index kFitRows = 3;
+constexpr Eigen::Index kFitWindows = 10;
 
 /// Errors that a test makes of one scaled parameter, by a metric of unit errors.
 class OneParameter {
@@ -28,8 +28,8 @@ class OneParameter {
   ErrorModel error_model_;
   testing::InertEffect effect_;
   Sensitivity recording_ =
-      testing::SensitivityOfErrors(Eigen::MatrixXd::Zero(kRows, kWindows), 0, 0);
-  ResidualMetric metric_{testing::UnitBaseline(kRows, 0, 0), recording_, EveryWindow(recording_),
+      testing::SensitivityOfErrors(Eigen::MatrixXd::Zero(kFitRows, kFitWindows), 0, 0);
+  ResidualMetric metric_{testing::UnitBaseline(kFitRows, 0, 0), recording_, EveryWindow(recording_),
                          false};
 };
 
@@ -37,7 +37,7 @@ double ValueOf(const std::vector<ModelledEffect>& effects) {
   return effects.front().values.front();
 }
 
-const Eigen::MatrixXd kPattern = testing::Pattern(kRows, kWindows, 0.7);
+const Eigen::MatrixXd kPattern = testing::Pattern(kFitRows, kFitWindows, 0.7);
 
 // Errors (3 - a) p: the cost p'p (3 - a)^2 + a^2 / 4 is least at a = 3 p'p / (p'p + 1 / 4).
 TEST(LevenbergMarquardt, FindsTheMinimumOfALinearProblem) {

@@ -10,8 +10,8 @@
 namespace telltale {
 namespace {
 
-constexpr Eigen::Index kRows = 3;
-constexpr Eigen::Index kWindows = 20;
+constexpr Eigen::Index kScoreRows = 3;
+constexpr Eigen::Index kScoreWindows = 20;
 
 /// Sensitivities that a test chooses, by a metric of unit errors.
 struct Linearised {
@@ -26,16 +26,17 @@ struct Linearised {
 
   std::vector<EffectParameterRef> parameter_refs;
   Sensitivity recording;
-  ResidualMetric metric{testing::UnitBaseline(kRows, 0, recording.by_effect_parameter.cols()),
+  ResidualMetric metric{testing::UnitBaseline(kScoreRows, 0, recording.by_effect_parameter.cols()),
                         recording, EveryWindow(recording), false};
 };
 
 TEST(ScoreTest, IsTheLogLikelihoodRatioOfALinearStep) {
   const testing::InertEffect effect(
       "two", {{"first", "N", 2.0, -200.0, 200.0}, {"second", "m", 0.5, -50.0, 50.0}});
-  const Eigen::MatrixXd a = testing::Pattern(kRows, kWindows, 0.7);
-  const Eigen::MatrixXd b = testing::Pattern(kRows, kWindows, 1.9);
-  const Eigen::MatrixXd errors = -1.2 * a + 0.4 * b + 0.5 * testing::Pattern(kRows, kWindows, 2.3);
+  const Eigen::MatrixXd a = testing::Pattern(kScoreRows, kScoreWindows, 0.7);
+  const Eigen::MatrixXd b = testing::Pattern(kScoreRows, kScoreWindows, 1.9);
+  const Eigen::MatrixXd errors =
+      -1.2 * a + 0.4 * b + 0.5 * testing::Pattern(kScoreRows, kScoreWindows, 2.3);
   const Linearised problem(effect, {a, b}, errors);
 
   Eigen::MatrixXd columns(errors.size(), 2);
@@ -46,7 +47,7 @@ TEST(ScoreTest, IsTheLogLikelihoodRatioOfALinearStep) {
   const Eigen::Vector2d sizes = -information.ldlt().solve(gradient);
   const double decrease = -gradient.dot(sizes);
   const double expected =
-      0.5 * static_cast<double>(kWindows) * std::log1p(-decrease / errors.squaredNorm());
+      0.5 * static_cast<double>(kScoreWindows) * std::log1p(-decrease / errors.squaredNorm());
   EXPECT_NEAR(ScoreTest(effect, problem.metric, errors, problem.recording, problem.parameter_refs),
               expected, 1e-9);
 
@@ -59,7 +60,7 @@ TEST(ScoreTest, IsTheLogLikelihoodRatioOfALinearStep) {
 
 TEST(ScoreTest, IsZeroForAnEffectOrthogonalToTheErrors) {
   const testing::InertEffect effect("one", {{"size", "1", 1.0, -10.0, 10.0}});
-  Eigen::MatrixXd errors = Eigen::MatrixXd::Zero(kRows, kWindows);
+  Eigen::MatrixXd errors = Eigen::MatrixXd::Zero(kScoreRows, kScoreWindows);
   Eigen::MatrixXd column = errors;
   errors.row(0).setOnes();
   column.row(1).setOnes();
@@ -69,7 +70,7 @@ TEST(ScoreTest, IsZeroForAnEffectOrthogonalToTheErrors) {
 }
 
 TEST(StartsOf, HoldBothSignsOfTheTypicalSizeWhereTheRangeHasThem) {
-  const Eigen::MatrixXd column = testing::Pattern(kRows, kWindows, 0.7);
+  const Eigen::MatrixXd column = testing::Pattern(kScoreRows, kScoreWindows, 0.7);
   const Eigen::MatrixXd errors = -3.0 * column;
   const testing::InertEffect both("both", {{"size", "1", 0.5, -10.0, 10.0}});
   const Linearised of_both(both, {column}, errors);
@@ -91,7 +92,7 @@ TEST(StartsOf, HoldBothSignsOfTheTypicalSizeWhereTheRangeHasThem) {
 TEST(StartsOf, KeepShapesAtTheirPriorMeans) {
   const testing::InertEffect effect(
       "shaped", {{"size", "1", 1.0, -10.0, 10.0}, {"shape", "1", 0.25, 0.5, 1.5, true, 1.1}});
-  const Eigen::MatrixXd column = testing::Pattern(kRows, kWindows, 0.7);
+  const Eigen::MatrixXd column = testing::Pattern(kScoreRows, kScoreWindows, 0.7);
   const Linearised problem(effect, {column}, -2.0 * column);
   for (const Eigen::VectorXd& start : StartsOf(effect, problem.metric, problem.recording.errors,
                                                problem.recording, problem.parameter_refs)) {
@@ -101,7 +102,7 @@ TEST(StartsOf, KeepShapesAtTheirPriorMeans) {
 
 TEST(StartsOf, StayWithinTheRange) {
   const testing::InertEffect effect("narrow", {{"size", "1", 1.0, -2.0, 2.0}});
-  const Eigen::MatrixXd column = testing::Pattern(kRows, kWindows, 0.7);
+  const Eigen::MatrixXd column = testing::Pattern(kScoreRows, kScoreWindows, 0.7);
   const Linearised problem(effect, {column}, -7.0 * column);
   EXPECT_EQ(StartsOf(effect, problem.metric, problem.recording.errors, problem.recording,
                      problem.parameter_refs)[0][0],

@@ -2,6 +2,7 @@
 // of b and of the initial state of each shooting segment, so the exact profile of d follows from
 // linear least squares in closed form.
 #include "telltale/core/estimation/output_error/output_error_profile.hpp"
+#include "telltale/core/estimation/output_error/output_error_covariance.hpp"
 
 #include <algorithm>
 #include <cmath>

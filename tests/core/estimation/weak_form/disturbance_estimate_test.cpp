@@ -1,5 +1,8 @@
 #include "telltale/core/estimation/weak_form/disturbance_estimate.hpp"
 
+#include "telltale/core/estimation/weak_form/weak_form_columns.hpp"
+#include "telltale/core/estimation/weak_form/weak_iv.hpp"
+
 #include <gtest/gtest.h>
 
 #include "support/stable_boat.hpp"
