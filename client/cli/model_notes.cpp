@@ -23,9 +23,8 @@ std::string GnssDriftText(const std::optional<Disturbance>& disturbance) {
 
 std::string EstimatorText(const Identification& identification) {
   const std::string& choice = identification.provenance.estimator_choice;
-  return Wrapped("Estimator: " + InWords(Name(identification.estimator)) + ", " +
-                 InWords(Name(identification.parameterization)) + " parameterization" +
-                 (choice.empty() ? "." : ". Estimator chosen: " + choice + '.'));
+  return Wrapped("Parameterization: " + InWords(Name(identification.parameterization)) + '.') +
+         (choice.empty() ? "" : Wrapped("Estimator chosen: " + choice + '.'));
 }
 
 std::string BoundsBasisText(const Provenance& provenance) {

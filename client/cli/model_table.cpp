@@ -67,7 +67,7 @@ std::string RefusalsText(const Identification& model) {
 
 std::string ChangeText(const Identification& model) {
   if (!model.provenance.change) return "";
-  return Wrapped("The model " + InWords(*model.provenance.change) + '.');
+  return Wrapped("The model " + InWords(*model.provenance.change));
 }
 
 std::string EstimatesTable(const Identification& model) {

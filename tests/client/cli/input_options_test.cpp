@@ -213,7 +213,7 @@ TEST_F(LogInputsTest, SeveralLogsHaveARecordingBiasEachByDefault) {
   EXPECT_TRUE(ParseModelJson(shared.out)->recording_bias.empty());
   const CommandOutcome table =
       identify({"--replicates", "0", "--recording-bias", "per-recording-ned"});
-  EXPECT_THAT(table.out, AllOf(HasSubstr("steady in recording"), HasSubstr("cos(psi)")));
+  EXPECT_THAT(table.out, AllOf(HasSubstr("bias of recording 2"), HasSubstr("cos(psi)")));
   const CommandOutcome one_step =
       identify({"--bootstrap", "0", "--recording-bias", "per-recording"});
   EXPECT_EQ(one_step.exit_code, kUsage);

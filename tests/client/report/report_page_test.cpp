@@ -54,7 +54,7 @@ TEST(Page, SaysTheSentenceTheVerdictAndEveryPart) {
                            "port thruster 22 % weaker",
                            "0.220 ± 0.030",
                            "0.150 ± 0.035 s",
-                           "cannot tell it from thruster_delay",
+                           "cannot separate it from thruster_delay",
                            "unknown",
                            "masked by YAW uv",
                            "not excited",
