@@ -51,7 +51,7 @@ TEST_F(LiveCoverageCheck, TravelWithThePublishedModel) {
   EXPECT_GT(identification.coverage_check->replicates_identified, 0u);
   EXPECT_EQ(identification.coverage_check->coefficients.size(), identification.coefficients.size());
   EXPECT_FALSE(identification.excitation.empty());
-  EXPECT_THAT(stages, testing::Contains(testing::HasSubstr("certifying")));
+  EXPECT_THAT(stages, testing::Contains(testing::HasSubstr("checking coverage")));
 }
 
 TEST_F(LiveCoverageCheck, ANumberOutOfRangeFailsAndNamesTheRange) {
