@@ -1,4 +1,5 @@
-// Prints every published model with its bounds: subscribe [DOMAIN [SECONDS]], without SECONDS until Ctrl-C.
+// Prints every published model with its bounds: subscribe [DOMAIN [SECONDS]], without SECONDS until
+// Ctrl-C.
 #include <chrono>
 #include <cstdio>
 #include <limits>
@@ -27,7 +28,8 @@ int main(int argc, char** argv) try {
   });
   const double seconds = argc > 2 ? std::stod(argv[2]) : std::numeric_limits<double>::infinity();
   const auto start = std::chrono::steady_clock::now();
-  while (std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() < seconds) {
+  while (std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() <
+         seconds) {
     models.Wait(std::chrono::milliseconds(200));
   }
 } catch (const std::exception& error) {

@@ -49,7 +49,7 @@ struct FieldSource {
 
 /// One Protobuf message seen field by field, by the names in its .proto file. The first fault met
 /// is kept in `fault` and later ones are passed over, so that reading code states ranges alone and
-/// looks at the fault once, in the end. What is returned after a fault is only there to be
+/// asks for the fault once, at the end. What is returned after a fault is only there to be
 /// discarded. Assumes: message, fault and source outlive the reader; naming a field that does not
 /// exist, or as another type than it has, breaks the contract.
 class FieldReader {

@@ -157,7 +157,7 @@ TEST_F(Daemon, TellsWhetherABoatHasChanged) {
   EXPECT_THAT(again->output(), HasSubstr("cannot be compared"));  // it is the same window
 
   // The same way and the same noise a day later: which samples a busy machine loses is chance, and
-  // of two ways one pair in a hundred would rightly be told apart.
+  // of two ways one pair in a hundred rightly differs.
   Replay(SimulatedRecording(testing::StableBoat(), kDayS, 300.0, 1));
   const auto alike = Start({"identify", "--vehicle-id", kVehicleId});
   EXPECT_EQ(alike->Wait(), 0) << alike->output();

@@ -38,8 +38,8 @@ Ranking Rank(const Hypotheses& hypotheses, const ResidualMetric& metric,
 enum class GapAssessment {
   kWithinNominal,  ///< the upper bound of the gap is within what nominal recordings show
   kUndecided,      ///< the gap may be larger, but no effect explains it and weather or a short
-               ///< recording may account for it
-  kMaterial,  ///< an effect explains the gap, or the lack of fit is beyond that of references
+                   ///< recording may account for it
+  kMaterial,       ///< an effect explains the gap, or the lack of fit is beyond that of references
 };
 
 /// `squared_gap`: G^2; `upper_squared_gap`: its upper 95 % bound; `squared_limit`: what 95 % of

@@ -26,7 +26,7 @@ struct ExcitationSummary {
   /// excited.
   std::vector<double> variance_inflation;
   std::vector<CombinationTerm> least_separable;  ///< the least identifiable combination, (63)
-  std::size_t rows = 0;         ///< or supports of the weak form; 0: not counted, as of output error
+  std::size_t rows = 0;  ///< or supports of the weak form; 0: not counted, as of output error
   double effective_rows = 0.0;  ///< effective independent observations, (64)
 };
 

@@ -9,8 +9,8 @@
 namespace telltale {
 namespace {
 
-// The least variance of cos psi and sin psi in any direction: that of a course that oscillates by 25
-// degrees to either side.
+// The least variance of cos psi and sin psi in any direction: that of a course that oscillates by
+// 25 degrees to either side.
 constexpr double kLeastVariance = 0.01;
 
 }  // namespace

@@ -11,8 +11,8 @@
 
 namespace telltale {
 
-/// The constant disturbances that the recordings of a dataset may have. kShared: one constant for all,
-/// the regressor "1". kPerRecording: a constant of its own for each, in the boat's frame.
+/// The constant disturbances that the recordings of a dataset may have. kShared: one constant for
+/// all, the regressor "1". kPerRecording: a constant of its own for each, in the boat's frame.
 /// kPerRecordingNorthEast: on top a part that stands in the north-east-down frame.
 enum class RecordingBiasModel { kUnknown, kShared, kPerRecording, kPerRecordingNorthEast };
 

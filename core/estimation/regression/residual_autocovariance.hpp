@@ -42,9 +42,9 @@ Eigen::MatrixXd Correlate(std::span<const RowRange> runs, const Eigen::VectorXd&
                           const Eigen::MatrixXd& X);
 
 /// The autocovariances of the residuals of a fit whose errors have these autocovariances:
-/// e = (I - H) errors with H = response Z', for l = 0 .. lags - 1. They are smaller, the more so the
-/// longer the errors last, since coefficients take up slow changes.
-/// Shapes: response and Z residuals x p.
+/// e = (I - H) errors with H = response Z', for l = 0 .. lags - 1. They are smaller, the more so
+/// the longer the errors last, since coefficients take up slow changes. Shapes: response and Z
+/// residuals x p.
 Eigen::VectorXd AutocovarianceAfterFit(std::span<const RowRange> runs,
                                        const Eigen::VectorXd& autocovariance,
                                        const Eigen::MatrixXd& response, const Eigen::MatrixXd& Z,

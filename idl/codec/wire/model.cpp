@@ -316,8 +316,7 @@ Provenance ReadProvenance(const telltale_wire_Model& wire) {
   provenance.parametric_replicates = wire.parametric_replicates;
   provenance.parametric_replicate_failures = wire.parametric_replicate_failures;
   provenance.estimator_choice = View(wire.estimator_choice);
-  provenance.misspecification =
-      ReadWithin("misspecification", wire.misspecification, kNotNegative);
+  provenance.misspecification = ReadWithin("misspecification", wire.misspecification, kNotNegative);
   provenance.clusters = wire.clusters;
   provenance.change = ReadOptional("change", wire.change, ReadModelChange);
   return provenance;

@@ -94,7 +94,7 @@ TEST_F(LiveDiagnosis, HoldsWhatCameSinceTheModelAgainstItAndPublishes) {
   EXPECT_EQ(PrintReportJson(published->diagnosis), *text);
 }
 
-/// Of free runs over five seconds, m/s; nothing where the model cannot be read or sailed.
+/// Of free runs over five seconds, m/s; nothing where the model cannot be read or simulated.
 std::optional<double> SurgeErrorOf(const std::filesystem::path& model_file,
                                    const PreparedDataset& simulated) {
   const auto text = ReadFile(model_file);

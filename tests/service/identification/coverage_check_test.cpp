@@ -42,7 +42,7 @@ TEST_F(LiveCoverageCheck, TravelWithThePublishedModel) {
   MeetDaemon(client);
   std::vector<std::string> stages;
   const auto answer =
-      client.Identify(WithCoverageCheck("certified", 10), kTiming,
+      client.Identify(WithCoverageCheck("coverage-checked", 10), kTiming,
                       [&](const IdentifyProgress& progress) { stages.push_back(progress.stage); });
   ASSERT_EQ(answer.outcome, RequestOutcome::kPublished) << daemon->output();
   const Identification& identification = answer.reply->model->identification;

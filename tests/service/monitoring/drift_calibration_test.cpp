@@ -27,7 +27,7 @@ constexpr double kSimulationStepS = 0.1;
 constexpr double kHourS = 3600.0;
 constexpr double kIdentifiedS = 1200.0;     // the daemon's window
 constexpr double kWindowS = 5.0;            // of a free run, and between evaluations
-constexpr std::size_t kWindowsAtOnce = 12;  // the minute that an evaluation looks at
+constexpr std::size_t kWindowsAtOnce = 12;  // the minute that an evaluation uses
 constexpr std::size_t kWindowsAnHour = 720;
 
 constexpr std::size_t kKindsOfWork = 6;
@@ -59,7 +59,7 @@ class WeatherSimulation {
                GaussMarkov(kGust, kGustLastsS, kSimulationStepS, WhiteSource(seed, 5)),
                GaussMarkov(kGust, kGustLastsS, kSimulationStepS, WhiteSource(seed, 6))} {}
 
-  /// Sails on and returns what the sensors said.
+  /// Simulates the next samples of the sensors.
   Recording Continue(double duration_s) {
     std::vector<Manoeuvre> work;
     const std::size_t first = DrawBelow(random_, kKindsOfWork);

@@ -82,7 +82,7 @@ TEST(EffectsJson, RefusesAnEffectThatTheLibraryLacksAndNamesThoseItHas) {
   }
 }
 
-// As the boat's habit, and as what was found wrong with it.
+// As a property of the nominal boat, and as what the diagnosis found.
 TEST(EffectsJson, KeepsAnEffectThatActsTwice) {
   Identification made = WithAllEffects();
   made.effects.push_back(made.effects.front());
