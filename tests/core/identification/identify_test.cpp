@@ -365,7 +365,7 @@ TEST(Identify, BoundsARecordingWithTheWeakForm) {
   EXPECT_EQ(
       result->provenance.parametric_replicates + result->provenance.parametric_replicate_failures,
       8U);
-  EXPECT_NE(std::find(stages.begin(), stages.end(), "simulating repeats"), stages.end());
+  EXPECT_NE(std::find(stages.begin(), stages.end(), "simulating replicates"), stages.end());
   EXPECT_TRUE(ModelOf(*result)->discretisation == Discretisation::kContinuous);
 }
 
