@@ -11,7 +11,7 @@ namespace telltale {
 std::string ModelNotes(const Identification& identification);
 
 /// The bias of each recording with its bounds, as a table; empty where the model has none.
-std::string RecordingBiasTable(const Identification& identification);
+std::string RecordingBiasTable(const Identification& model);
 
 /// "gnss 7 DUPLICATE, thrusters 2 NOT_FINITE", or "0 samples" without rejects, for
 /// "... rejected".

@@ -13,8 +13,8 @@ namespace {
 constexpr double kFilterReachS = 5.0;
 
 struct Run {
-  double start_s;
-  double end_s;
+  double start_s = 0.0;
+  double end_s = 0.0;
   RowRange samples;
 };
 

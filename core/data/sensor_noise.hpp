@@ -12,9 +12,9 @@ namespace telltale {
 struct SignalNoise {
   explicit SignalNoise(const SegmentSignals& signals);
 
-  double north_m;
-  double east_m;
-  double psi_rad;
+  double north_m = 0.0;
+  double east_m = 0.0;
+  double psi_rad = 0.0;
 };
 
 /// One sigma that this noise leaves in each velocity of the rows. u and v share the noise of north

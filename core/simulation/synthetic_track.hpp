@@ -44,7 +44,7 @@ class SyntheticTrack {
   struct Piece {
     const Knot& before;
     const Knot& after;
-    double share;
+    double share = 0.0;
   };
 
   Piece About(double time_s) const;
@@ -57,9 +57,9 @@ class SyntheticTrack {
 /// One segment of a dataset and when its simulation begins on the synthetic clock.
 struct SimulatedSegment {
   const PreparedDataset& dataset;
-  std::size_t segment;
-  double start_s;
-  double shift_s;  ///< from the dataset's clock to the synthetic one
+  std::size_t segment = 0;
+  double start_s = 0.0;
+  double shift_s = 0.0;  ///< from the dataset's clock to the synthetic one
 
   const PreparedRow& First() const { return dataset.rows[dataset.segments[segment].begin]; }
   const HeldCommands& Commands() const { return dataset.commands[segment]; }

@@ -39,7 +39,7 @@ class Instruments {
  private:
   /// Rows that are simulated from one start, and those of them in which supports are centred.
   struct Part {
-    std::size_t recording;
+    std::size_t recording = 0;
     RowRange rows;
     RowRange centres;
   };
