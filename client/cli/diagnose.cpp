@@ -65,8 +65,8 @@ void AddDiagnose(CLI::App& telltale) {
   const auto live = std::make_shared<LiveOptions>();
   CLI::App& command = *telltale.add_subcommand(
       "diagnose",
-      "Tells where a model and a recording part, which effect parts them and how far it closes the "
-      "gap");
+      "Finds where a model and a recording differ, which effect explains it, and how much of the "
+      "excess error it explains");
   auto* const whom = command.add_option_group("from", "logs, or a vehicle the daemon follows");
   whom->require_option(1);
   auto* const log = arguments->inputs.AddTo(command, *whom);

@@ -64,10 +64,11 @@ void IdentifyArguments::AddOptionsTo(CLI::App& command) {
       ->check(CLI::IsMember({"propeller", "paper"}).description(""));
   AddIncludeRr(command, include_rr);
   command
-      .add_option("--estimator", estimator,
-                  "auto (default): output-error, the sharpest, where the data show no disturbance, "
-                  "else weak-iv, whose bounds hold with one; or one-step, the paper's, which "
-                  "--preset paper and options of the bootstrap ask for")
+      .add_option(
+          "--estimator", estimator,
+          "auto (default): output-error, the most precise, where the data show no disturbance, "
+          "else weak-iv, whose bounds hold with one; or one-step, the paper's, which "
+          "--preset paper and options of the bootstrap ask for")
       ->type_name("NAME")
       ->check(CLI::IsMember({"auto", "one-step", "weak-iv", "output-error"}).description(""));
   command.add_option("--preset", preset, "of the data preparation: robust (default) or paper")
@@ -80,7 +81,7 @@ void IdentifyArguments::AddOptionsTo(CLI::App& command) {
   command
       .add_option(
           "--replicates", parametric_replicates,
-          "simulated repeats of the data behind the bounds of weak-iv, [8, 1000], 0 for none "
+          "parametric bootstrap replicates behind the bounds of weak-iv, [8, 1000], 0 for none "
           "(default 40)")
       ->type_name("N")
       ->check(WholeNumber());
@@ -104,22 +105,21 @@ void IdentifyArguments::AddOptionsTo(CLI::App& command) {
       ->check(CLI::IsMember({"percentile", "studentized", "bca"}).description(""));
   command
       .add_option("--recording-bias", recording_bias,
-                  "steady disturbance, as of wind: shared by all logs (default of one log, of a "
+                  "constant disturbance, as of wind: shared by all logs (default of one log, of a "
                   "window, and of one-step), per-recording (default of several; in a window, what "
-                  "a minute of silence parts), or per-recording-ned: with a part besides that "
+                  "a minute of silence separates), or per-recording-ned: with a part besides that "
                   "stands to the north and east while the boat turns")
       ->type_name("NAME")
       ->check(CLI::IsMember({"shared", "per-recording", "per-recording-ned"}).description(""));
   command
       .add_option("--check-coverage", coverage_check_replicates,
-                  "measure how often the bounds hold on so many simulated repeats of the data, "
+                  "measure how often the bounds hold on so many synthetic datasets, "
                   "[10, 1000]; each takes as long as the identification itself")
       ->type_name("N")
       ->check(WholeNumber());
   command.add_option("--level", interval_level, "of the bounds, [0.5, 0.999] (default 0.95)")
       ->type_name("P");
-  command
-      .add_option("--seed", seed, "of repeats and replicates; the same seed gives the same bits")
+  command.add_option("--seed", seed, "of everything random; the same seed gives the same bits")
       ->type_name("N")
       ->check(WholeNumber())
       ->capture_default_str();

@@ -44,9 +44,9 @@ std::string PartitionTable(const Study& study) {
                {"R2", Align::kRight},
                {"SD", Align::kRight},
                {"paper", Align::kRight},
-               {"persist. R2", Align::kRight},
+               {"const.v. R2", Align::kRight},
                {"5 s RMSE", Align::kRight},
-               {"persist.", Align::kRight}});
+               {"const.v.", Align::kRight}});
   for (const StudyEntry& entry : study.partitions) {
     table.AddHeading(Entry(entry) + ", " + Counted(entry.repeats, "partition", "partitions"));
     const PublishedPartition& published = Published(entry);
@@ -163,7 +163,7 @@ std::string AlphaText(const Study& study) {
 std::string PointPartitionWarning() {
   return Wrapped(
       "Partition by points hides how a model does on new data: neighbouring points are nearly "
-      "copies of each other, so every validation point has its twin among the training points.");
+      "copies of each other, so every validation point has its double among the training points.");
 }
 
 }  // namespace

@@ -4,7 +4,7 @@
 
 namespace telltale {
 
-/// The version of this software, "0.1.0", which models and reports carry.
+/// The version of this software, "0.2.0" for one, which models and reports carry.
 std::string_view Version();
 
 }  // namespace telltale

@@ -33,12 +33,12 @@ struct Pose {
 std::size_t StepsPerRow(const VesselModel& model, double sampling_period_s);
 
 /// A model and its effects, ready to simulate.
-/// Model: nu_dot = body(nu_r) + sum over sides of share T + (r v_c, -r u_c, 0) + pushes,
-/// docs/concepts/diagnosis.md (81); T is of shafts that follow the commands, delayed and altered,
-/// through the effects' lags, and lags itself by the model's own. kForwardEuler models step as they
-/// were made, kContinuous ones by a Runge-Kutta step of order four with the heading of the middle
-/// of the step. Requires: a model with all three equations; `span_s` > 0, the length of what is
-/// simulated, from `start_s` on the clock of the commands.
+/// Model: nu_dot = body(nu_r) + sum over sides of share T + (r v_c, -r u_c, 0) + added
+/// accelerations, docs/concepts/diagnosis.md (81); T is of shafts that follow the commands, delayed
+/// and altered, through the effects' lags, and lags itself by the model's own. kForwardEuler models
+/// step as they were made, kContinuous ones by a Runge-Kutta step of order four with the heading of
+/// the middle of the step. Requires: a model with all three equations; `span_s` > 0, the length of
+/// what is simulated, from `start_s` on the clock of the commands.
 class AugmentedBoat {
  public:
   AugmentedBoat(AugmentedModel model, double start_s, double span_s,

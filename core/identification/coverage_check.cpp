@@ -173,11 +173,11 @@ class CoverageExperiment {
   /// In at least half of a few trials, because the disturbance alone may make a run diverge.
   bool CanBeSimulated(const VesselModel& model) const {
     constexpr std::size_t kTrials = 8;
-    std::size_t simulation = 0;
+    std::size_t simulated = 0;
     for (std::size_t i = 0; i < kTrials; ++i) {
-      if (SimulateRecording(dataset_, model, SimulationOptionsOf(i))) ++simulation;
+      if (SimulateRecording(dataset_, model, SimulationOptionsOf(i))) ++simulated;
     }
-    return 2 * simulation >= kTrials;
+    return 2 * simulated >= kTrials;
   }
 
   std::optional<Identification> IdentifyReplicate(const Truth& truth, std::size_t replicate) {

@@ -20,7 +20,7 @@
 
 namespace telltale {
 
-/// The thrusters' lag as one of the answers.
+/// The thrusters' lag as one of the estimates.
 struct LagEstimate {
   double time_constant_s = 0.0;
   bool lag_at_lower_bound = false;  ///< the data bound it from above alone
@@ -35,7 +35,7 @@ struct SampleSize {
 };
 
 /// Everything known about the equations before coefficients are written down. The stacked unknowns
-/// are the time constant, if there is a lag, and then the coefficients of each answered equation,
+/// are the time constant, if there is a lag, and then the coefficients of each estimated equation,
 /// which begin at first[j].
 struct EquationEstimates {
   std::array<std::optional<Excitation>, 3> excitations;
@@ -59,7 +59,7 @@ struct Bounds {
   std::optional<JointBounds> joint = std::nullopt;  ///< of all of them together, where known
 };
 
-/// What an estimator makes of a dataset: answers, their bounds and what those rest on.
+/// What an estimator makes of a dataset: estimates, their bounds and what those rest on.
 struct BoundedEstimates {
   Estimator estimator = Estimator::kUnknown;
   EquationEstimates equation_estimates;
@@ -69,7 +69,8 @@ struct BoundedEstimates {
   std::vector<RecordingBias> recording_bias;
 };
 
-/// Can these equations be answered? The excitation of each or a refusal goes into the answers.
+/// Whether these equations can be estimated: writes the excitation of each, or a refusal, into
+/// equation_estimates.
 void AssessEquations(const std::array<EquationProblem, 3>& regressions,
                      const ExcitationLimits& limits, EquationEstimates& equation_estimates);
 
@@ -77,11 +78,11 @@ void AssessEquations(const std::array<EquationProblem, 3>& regressions,
 EquationEstimates AssessExcitation(const PreparedDataset& dataset, RegressionOptions regression,
                                    const ExcitationLimits& limits);
 
-/// By equation the columns that the data move; none where it is not answered.
+/// By equation the columns that the data move; none where it is not estimated.
 std::array<std::vector<std::size_t>, 3> ExcitedColumns(const EquationEstimates& equation_estimates);
 
-/// Places the coefficients of one equation, estimated at these columns, in the answers: `first` is
-/// where they begin among the stacked unknowns.
+/// Places the coefficients of one equation, estimated at these columns, in equation_estimates:
+/// `first` is where they begin among the stacked unknowns.
 void PlaceEstimate(Equation equation, const std::vector<std::size_t>& columns,
                    const Eigen::VectorXd& theta, Eigen::Index first,
                    EquationEstimates& equation_estimates);
@@ -105,11 +106,11 @@ Refusal RefuseAllEquations(const std::vector<Refusal>& refusals);
 SampleSize SizeOf(const Eigen::VectorXd& residual, std::span<const std::size_t> places,
                   std::size_t stride);
 
-/// What the data show of each answered equation.
+/// What the data show of each estimated equation.
 std::vector<ExcitationSummary> Summarise(const EquationEstimates& equation_estimates,
                                          Parameterization parameterization);
 
-/// The boat of the answers; coefficients that were not sought are zero.
+/// The model of the estimates; coefficients that were not sought are zero.
 VesselModel ModelOf(const EquationEstimates& equation_estimates,
                     const RegressionOptions& regression, Discretisation discretisation,
                     double sampling_period_s);

@@ -1,10 +1,6 @@
 #include "telltale/core/identification/identify.hpp"
+
 #include "telltale/core/base/version.hpp"
-
-#include <algorithm>
-#include <array>
-#include <cmath>
-
 #include "telltale/core/data/preparation.hpp"
 #include "telltale/core/estimation/regression/dead_zone_estimate.hpp"
 #include "telltale/core/identification/coverage_check.hpp"

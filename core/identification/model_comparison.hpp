@@ -11,7 +11,7 @@ namespace telltale {
 /// thruster time constant; indices in the result are places in first.coefficients, the one past the
 /// last of them that of the time constant. The regressor "1" is left out: wind and current are no
 /// property of the boat and differ from day to day. Covariances count as estimated from the
-/// clusters of their residuals, or from the segments of the window or the replicates, whichever are
+/// clusters of their residuals, or from the slices of the window or the replicates, whichever are
 /// fewer, where they were bootstrapped; as known where they rest on white residuals.
 /// Assumes: windows that share no data. The bias both may have in common, by the noise in measured
 /// velocities, cancels only where they were recorded and prepared alike.

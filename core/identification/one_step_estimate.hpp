@@ -9,7 +9,7 @@
 
 namespace telltale {
 
-/// The answers of one-step least squares, static or lagging, without bounds.
+/// The estimates of one-step least squares, static or lagging, without bounds.
 EquationEstimates EstimateOneStepEquations(const PreparedDataset& dataset,
                                            const RegressionOptions& regression,
                                            const ExcitationLimits& limits);

@@ -9,18 +9,11 @@ namespace {
 
 constexpr const char* kOptionsSubject = "identification";
 
-std::optional<Refusal> BootstrapReplicatesRefusal(std::size_t replicates) {
-  if (replicates == 0) return std::nullopt;
-  auto refusal = OutOfRange(kOptionsSubject, "bootstrap_replicates",
-                            static_cast<double>(replicates), 100.0, 100000.0);
-  if (refusal) refusal->advice += ", or to 0 for none";
-  return refusal;
-}
-
-std::optional<Refusal> CoverageCheckReplicatesRefusal(std::size_t parametric_replicates) {
-  if (parametric_replicates == 0) return std::nullopt;
-  auto refusal = OutOfRange(kOptionsSubject, "coverage_check_replicates",
-                            static_cast<double>(parametric_replicates), 10.0, 1000.0);
+/// Of a count that is 0 (none) or within a range.
+std::optional<Refusal> ReplicatesRefusal(const char* field, std::size_t count, double least,
+                                         double most) {
+  if (count == 0) return std::nullopt;
+  auto refusal = OutOfRange(kOptionsSubject, field, static_cast<double>(count), least, most);
   if (refusal) refusal->advice += ", or to 0 for none";
   return refusal;
 }
@@ -41,7 +34,7 @@ std::optional<Refusal> EstimatorRefusal(const IdentifyOptions& options) {
     if (options.regression.recording_bias != RecordingBiasModel::kShared) {
       return Refusal{
           "recording_bias",
-          "of each recording are not estimated by " + std::string(Name(*options.estimator)),
+          "of each recording is not estimated by " + std::string(Name(*options.estimator)),
           "choose WEAK_IV, or a SHARED recording bias"};
     }
   }
@@ -56,11 +49,7 @@ std::optional<Refusal> EstimatorRefusal(const IdentifyOptions& options) {
                    "one kernel",
                    "choose the robust preset, or ONE_STEP"};
   }
-  if (options.parametric_replicates == 0) return std::nullopt;
-  auto refusal = OutOfRange(kOptionsSubject, "parametric_replicates",
-                            static_cast<double>(options.parametric_replicates), 8.0, 1000.0);
-  if (refusal) refusal->advice += ", or to 0 for none";
-  return refusal;
+  return ReplicatesRefusal("parametric_replicates", options.parametric_replicates, 8.0, 1000.0);
 }
 
 }  // namespace
@@ -97,8 +86,12 @@ std::optional<Refusal> IdentifyOptions::Validate() const {
   if (auto refusal = OutOfRange(kOptionsSubject, "interval_level", interval_level, 0.5, 0.999)) {
     return refusal;
   }
-  if (auto refusal = BootstrapReplicatesRefusal(bootstrap_replicates)) return refusal;
-  if (auto refusal = CoverageCheckReplicatesRefusal(coverage_check_replicates)) return refusal;
+  if (auto refusal =
+          ReplicatesRefusal("bootstrap_replicates", bootstrap_replicates, 100.0, 100000.0))
+    return refusal;
+  if (auto refusal =
+          ReplicatesRefusal("coverage_check_replicates", coverage_check_replicates, 10.0, 1000.0))
+    return refusal;
   if (resampling == Resampling::kUnknown) {
     return Refusal{"resampling", "is unset", "choose SEGMENTS, MOVING_BLOCKS or PARAMETRIC"};
   }

@@ -1,7 +1,6 @@
 #include "telltale/core/identification/weak_iv_estimate.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <sstream>
 
 #include "telltale/core/base/linear_algebra/covariance.hpp"
@@ -17,7 +16,7 @@ namespace {
 constexpr double kLongestPartS = 60.0;
 
 Refusal WarnOfConstantHeading(std::size_t recordings) {
-  return {"steady disturbance",
+  return {"constant disturbance",
           "in " + std::to_string(recordings) +
               " of the recordings the heading hardly varies: a part that stands to the north and "
               "east cannot be told from one that turns with the boat, and is left out there",
@@ -196,8 +195,9 @@ Result<BoundedEstimates> BoundWeakIv(const PreparedDataset& dataset,
     if (!corrected) equation_estimates.refusals.push_back(WarnOfUncorrectedBias());
   }
   const ReportedParameters reported_parameters = ReportedParametersOf(*fit);
-  const auto publish = [&](const Eigen::VectorXd& theta, const Eigen::MatrixXd& covariance,
-                           const Eigen::VectorXd& interval_factors, double degrees_of_freedom) {
+  const auto write_bounds = [&](const Eigen::VectorXd& theta, const Eigen::MatrixXd& covariance,
+                                const Eigen::VectorXd& interval_factors,
+                                double degrees_of_freedom) {
     const Eigen::VectorXd reported = reported_parameters.map * theta;
     Unstack(*fit, reported_parameters, reported, equation_estimates);
     bounded.bounds = StudentBounds(reported, Mapped(reported_parameters.map, covariance),
@@ -208,8 +208,8 @@ Result<BoundedEstimates> BoundWeakIv(const PreparedDataset& dataset,
         RecordingBiasesOf(reported_parameters, reported, bounded.bounds, dataset);
   };
   if (corrected) {
-    publish(corrected->theta, corrected->covariance, corrected->interval_factors,
-            corrected->degrees_of_freedom);
+    write_bounds(corrected->theta, corrected->covariance, corrected->interval_factors,
+                 corrected->degrees_of_freedom);
     bounded.bounds.joint = corrected->joint;
     bounded.disturbance = corrected->disturbance;
     bounded.provenance.parametric_replicates = corrected->solved;
@@ -217,8 +217,8 @@ Result<BoundedEstimates> BoundWeakIv(const PreparedDataset& dataset,
     bounded.provenance.bounds_basis = InWords(*corrected, clusters);
     return bounded;
   }
-  publish(fit->theta, ClusterCovariance(*fit), Eigen::VectorXd::Ones(fit->theta.size()),
-          static_cast<double>(clusters - 1));
+  write_bounds(fit->theta, ClusterCovariance(*fit), Eigen::VectorXd::Ones(fit->theta.size()),
+               static_cast<double>(clusters - 1));
   bounded.provenance.bounds_basis =
       "clusters of residuals (" + std::to_string(clusters) + "), Student t; not corrected for bias";
   return bounded;

@@ -13,16 +13,16 @@
 
 namespace telltale {
 
-/// How the unknowns of a weak-form fit become those that are published: the same, but where each
+/// How the unknowns of a weak-form fit become those that are reported: the same, but where each
 /// recording has steady terms of its own the regressor "1" gets the mean of their constants, and
 /// the terms themselves follow after all coefficients.
-/// Shapes: map published x sought; columns places in Regressors().
+/// Shapes: map reported x sought; columns places in Regressors().
 struct ReportedParameters {
   struct Term {
     Equation equation = Equation::kUnknown;
     std::size_t recording = 0;
     std::size_t term = 0;    ///< as in RecordingBiasTermName()
-    Eigen::Index place = 0;  ///< among the published unknowns
+    Eigen::Index place = 0;  ///< among the reported parameters
   };
 
   Eigen::MatrixXd map;
@@ -32,7 +32,7 @@ struct ReportedParameters {
 
 ReportedParameters ReportedParametersOf(const WeakFit& fit);
 
-/// The steady disturbance of each recording with its bounds; none where it is shared.
+/// The constant disturbance of each recording with its bounds; none where it is shared.
 std::vector<RecordingBias> RecordingBiasesOf(const ReportedParameters& reported_parameters,
                                              const Eigen::VectorXd& reported, const Bounds& bounds,
                                              const PreparedDataset& dataset);

@@ -1,5 +1,4 @@
 #include "telltale/core/uncertainty/bootstrap_correction.hpp"
-#include "telltale/core/vessel/thruster_response.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -18,6 +17,7 @@
 #include "telltale/core/uncertainty/residual_disturbance.hpp"
 #include "telltale/core/uncertainty/shrinkage_search.hpp"
 #include "telltale/core/uncertainty/whitening.hpp"
+#include "telltale/core/vessel/thruster_response.hpp"
 
 namespace telltale {
 namespace {

@@ -21,7 +21,7 @@ struct DrawPlan {
   std::size_t draws = 0;
 };
 
-/// Segments: as many draws as slices, each equally likely.
+/// Slices: as many draws as there are slices, each equally likely.
 DrawPlan PlanSlices(std::size_t slices);
 
 /// Circular blocks of `length` instants inside each run, one starting at every instant. A run no
@@ -37,7 +37,7 @@ struct Unit {
   const double* system = nullptr;  ///< packed normal equations of its rows
 };
 
-/// Segments of a fit: their systems are formed once.
+/// Slices of a fit: their systems are formed once.
 class SliceUnits {
  public:
   explicit SliceUnits(const ClusteredFit& fit);

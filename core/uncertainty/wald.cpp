@@ -29,10 +29,10 @@ std::vector<Eigen::Index> Shared(const Estimates& first, const Estimates& second
 
 /// What one covariance takes from the degrees of freedom of their sum, given R'Sigma R where R'V R
 /// is the identity.
-double Share(const Eigen::MatrixXd& whitened, std::size_t segments) {
-  if (segments == 0) return 0.0;
+double Share(const Eigen::MatrixXd& whitened, std::size_t clusters) {
+  if (clusters == 0) return 0.0;
   return ((whitened * whitened).trace() + std::pow(whitened.trace(), 2)) /
-         static_cast<double>(segments - 1);
+         static_cast<double>(clusters - 1);
 }
 
 double JointPValue(double statistic, double q, double nu) {
@@ -48,11 +48,11 @@ double SinglePValue(double scaled, double nu) {
 
 double WelchDegrees(double first_share, const Estimates& first, const Estimates& second) {
   double reciprocal = 0.0;
-  if (first.segments > 0) {
-    reciprocal += std::pow(first_share, 2) / static_cast<double>(first.segments - 1);
+  if (first.clusters > 0) {
+    reciprocal += std::pow(first_share, 2) / static_cast<double>(first.clusters - 1);
   }
-  if (second.segments > 0) {
-    reciprocal += std::pow(1.0 - first_share, 2) / static_cast<double>(second.segments - 1);
+  if (second.clusters > 0) {
+    reciprocal += std::pow(1.0 - first_share, 2) / static_cast<double>(second.clusters - 1);
   }
   return reciprocal > 0.0 ? 1.0 / reciprocal : kInfinity;
 }
@@ -81,13 +81,13 @@ double JointDegrees(const Estimates& first, const Estimates& second, const White
   const Eigen::MatrixXd whiten =
       whitening.matrix.transpose() * whitening.errors.cwiseInverse().asDiagonal();
   const double q = static_cast<double>(whiten.rows());
-  const double shares = Share(Mapped(whiten, first.covariance), first.segments) +
-                        Share(Mapped(whiten, second.covariance), second.segments);
+  const double shares = Share(Mapped(whiten, first.covariance), first.clusters) +
+                        Share(Mapped(whiten, second.covariance), second.clusters);
   return shares > 0.0 ? (q + q * q) / shares : kInfinity;
 }
 
 Estimates Among(const Estimates& estimates, const std::vector<Eigen::Index>& which) {
-  return {estimates.theta(which), estimates.covariance(which, which), estimates.segments};
+  return {estimates.theta(which), estimates.covariance(which, which), estimates.clusters};
 }
 
 /// Places in `scaled`, the largest first.
@@ -108,7 +108,7 @@ Result<WaldTest> TestEquality(const Estimates& first, const Estimates& second) {
               first.covariance.cols() == p && second.covariance.rows() == p &&
               second.covariance.cols() == p,
           "estimates and covariances of the same coefficients");
-  Require(first.segments != 1 && second.segments != 1, "at least two segments, or 0 for known");
+  Require(first.clusters != 1 && second.clusters != 1, "at least two segments, or 0 for known");
   const std::vector<Eigen::Index> shared = Shared(first, second);
   if (shared.empty()) {
     return Refuse("comparison", "no coefficient is known to both models",

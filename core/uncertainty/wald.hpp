@@ -9,13 +9,13 @@
 
 namespace telltale {
 
-/// Estimates of p coefficients with their covariance. segments: how many independent segments the
+/// Estimates of p coefficients with their covariance. clusters: how many independent clusters the
 /// covariance was estimated from, 0 where it counts as known. A coefficient of infinite variance is
 /// not known at all.
 struct Estimates {
   Eigen::VectorXd theta;
   Eigen::MatrixXd covariance;
-  std::size_t segments = 0;
+  std::size_t clusters = 0;
 };
 
 /// How one coefficient differs, first less second.
@@ -45,11 +45,11 @@ struct WaldTest {
 /// Rank: eigenvalues of V scaled to unit diagonal, above 1e-10 of the largest; the test is of the
 /// directions that V spans, and no verdict depends on units.
 /// Distribution: chi-square with rank degrees of freedom where both covariances count as known.
-/// Else V counts as a sum of two Wishart matrices with segments - 1 degrees of freedom each, and
+/// Else V counts as a sum of two Wishart matrices with clusters - 1 degrees of freedom each, and
 /// (nu - q + 1) / (nu q) statistic as F with q and nu - q + 1, nu from Krishnamoorthy and Yu's
 /// affine-invariant approximation.
 /// Refuses when: no coefficient is shared; a difference has no positive variance; or the
-/// segments are too few for a joint test of so many coefficients, nu < q + 1.
+/// clusters are too few for a joint test of so many coefficients, nu < q + 1.
 /// Requires: both over the same p, covariances symmetric.
 /// Source: Krishnamoorthy, Yu, "Modified Nel and Van der Merwe test for the multivariate
 /// Behrens-Fisher problem", Statistics & Probability Letters 66 (2004).

@@ -69,18 +69,18 @@ class NominalBaselineFit {
   NominalBaselineFit(const UncertainModel& model,
                      const std::vector<EffectParameterRef>& parameter_refs, std::size_t days)
       : coefficient_count_(static_cast<Eigen::Index>(model.free.size())),
-        parameter_refs_(static_cast<Eigen::Index>(parameter_refs.size())),
+        parameter_count_(static_cast<Eigen::Index>(parameter_refs.size())),
         random_(RandomColumnsOf(parameter_refs)),
         days_(static_cast<Eigen::Index>(days)),
         coefficients_(Eigen::VectorXd::Zero(coefficient_count_)),
-        fixed_(Eigen::VectorXd::Zero(parameter_refs_)),
-        fixed_effect_sd_(Eigen::VectorXd::Constant(parameter_refs_, kInitialFixedEffectSd)),
+        fixed_(Eigen::VectorXd::Zero(parameter_count_)),
+        fixed_effect_sd_(Eigen::VectorXd::Constant(parameter_count_, kInitialFixedEffectSd)),
         recording_effect_sd_(Eigen::VectorXd::Constant(RandomCount(), kPriorEffectSize)) {
     Eigen::MatrixXd correlation = model.Correlation();
     correlation.diagonal().array() += 1e-6;
     base_information_ = Inverse(correlation) / (kCoefficientPriorScale * kCoefficientPriorScale);
-    fixed_effect_limits_.resize(parameter_refs_, 2);
-    for (Eigen::Index j = 0; j < parameter_refs_; ++j) {
+    fixed_effect_limits_.resize(parameter_count_, 2);
+    for (Eigen::Index j = 0; j < parameter_count_; ++j) {
       const EffectParameterRef& parameter_ref = parameter_refs[static_cast<std::size_t>(j)];
       const EffectParameter& parameter =
           parameter_ref.effect->Parameters()[parameter_ref.parameter];
@@ -98,7 +98,7 @@ class NominalBaselineFit {
                   const Eigen::LLT<Eigen::MatrixXd>& factor, double kappa) {
     gram_ = Eigen::MatrixXd::Zero(Size(), Size());
     right_ = Eigen::VectorXd::Zero(Size());
-    const Eigen::Index shared = coefficient_count_ + parameter_refs_;
+    const Eigen::Index shared = coefficient_count_ + parameter_count_;
     for (Eigen::Index day = 0; day < days_; ++day) {
       const Sensitivity& recording = recordings[static_cast<std::size_t>(day)];
       Eigen::MatrixXd phi(recording.errors.size(), shared + RandomCount() + 1);
@@ -129,7 +129,7 @@ class NominalBaselineFit {
   /// Makes the change that was found; the next one is sought from there.
   void Accept(double share) {
     coefficients_ += share * unknowns_.head(coefficient_count_);
-    fixed_ = (fixed_ + share * unknowns_.segment(coefficient_count_, parameter_refs_))
+    fixed_ = (fixed_ + share * unknowns_.segment(coefficient_count_, parameter_count_))
                  .cwiseMax(fixed_effect_limits_.col(0))
                  .cwiseMin(fixed_effect_limits_.col(1));
   }
@@ -137,7 +137,7 @@ class NominalBaselineFit {
   /// What the weather of a day does to a recording's errors, to be taken away by adding this.
   Eigen::MatrixXd RecordingEffects(const Sensitivity& recording, std::size_t day) const {
     const Eigen::VectorXd sizes = unknowns_.segment(
-        coefficient_count_ + parameter_refs_ + static_cast<Eigen::Index>(day) * RandomCount(),
+        coefficient_count_ + parameter_count_ + static_cast<Eigen::Index>(day) * RandomCount(),
         RandomCount());
     return (recording.by_effect_parameter(Eigen::all, random_) * sizes)
         .reshaped(recording.errors.rows(), recording.errors.cols());
@@ -148,7 +148,7 @@ class NominalBaselineFit {
     const Eigen::VectorXd left =
         recording.errors.reshaped() +
         recording.by_coefficient * unknowns_.head(coefficient_count_) +
-        recording.by_effect_parameter * unknowns_.segment(coefficient_count_, parameter_refs_);
+        recording.by_effect_parameter * unknowns_.segment(coefficient_count_, parameter_count_);
     return left.reshaped(recording.errors.rows(), recording.errors.cols()) +
            RecordingEffects(recording, day);
   }
@@ -156,13 +156,14 @@ class NominalBaselineFit {
   const Eigen::VectorXd& Coefficients() const { return coefficients_; }
   const Eigen::VectorXd& FixedEffects() const { return fixed_; }
   Eigen::VectorXd RecordingEffectSd() const {
-    Eigen::VectorXd sizes = Eigen::VectorXd::Zero(parameter_refs_);
+    Eigen::VectorXd sizes = Eigen::VectorXd::Zero(parameter_count_);
     sizes(random_) = recording_effect_sd_;
     return sizes;
   }
   Eigen::MatrixXd BoatCovariance() const {
     return Inverse(Information())
-        .topLeftCorner(coefficient_count_ + parameter_refs_, coefficient_count_ + parameter_refs_);
+        .topLeftCorner(coefficient_count_ + parameter_count_,
+                       coefficient_count_ + parameter_count_);
   }
 
  private:
@@ -179,12 +180,14 @@ class NominalBaselineFit {
   }
 
   Eigen::Index RandomCount() const { return static_cast<Eigen::Index>(random_.size()); }
-  Eigen::Index Size() const { return coefficient_count_ + parameter_refs_ + days_ * RandomCount(); }
+  Eigen::Index Size() const {
+    return coefficient_count_ + parameter_count_ + days_ * RandomCount();
+  }
 
   Eigen::MatrixXd Information() const {
     Eigen::MatrixXd information = gram_;
     information.topLeftCorner(coefficient_count_, coefficient_count_) += base_information_;
-    information.diagonal().segment(coefficient_count_, parameter_refs_) +=
+    information.diagonal().segment(coefficient_count_, parameter_count_) +=
         fixed_effect_sd_.cwiseAbs2().cwiseInverse();
     information.diagonal().tail(days_ * RandomCount()) +=
         recording_effect_sd_.cwiseAbs2().cwiseInverse().replicate(days_, 1);
@@ -194,7 +197,7 @@ class NominalBaselineFit {
   Eigen::VectorXd Step() const {
     Eigen::VectorXd right = right_;
     right.head(coefficient_count_) -= base_information_ * coefficients_;
-    right.segment(coefficient_count_, parameter_refs_) -=
+    right.segment(coefficient_count_, parameter_count_) -=
         fixed_.cwiseQuotient(fixed_effect_sd_.cwiseAbs2());
     return Information().llt().solve(right);
   }
@@ -208,7 +211,7 @@ class NominalBaselineFit {
     recording_effect_sd_ = ((recording_effects.rowwise().squaredNorm().array() + prior) /
                             (static_cast<double>(days_) + kPriorRecordings))
                                .sqrt();
-    for (Eigen::Index j = 0; j < parameter_refs_; ++j) {
+    for (Eigen::Index j = 0; j < parameter_count_; ++j) {
       if (fixed_effect_limits_(j, 0) == fixed_effect_limits_(j, 1)) continue;
       const double now = fixed_[j] + unknowns_[coefficient_count_ + j];
       fixed_effect_sd_[j] = std::sqrt((prior + now * now) / (1.0 + kPriorRecordings));
@@ -216,7 +219,7 @@ class NominalBaselineFit {
   }
 
   Eigen::Index coefficient_count_;
-  Eigen::Index parameter_refs_;
+  Eigen::Index parameter_count_;
   std::vector<Eigen::Index> random_;  // columns of per-recording effects
   Eigen::Index days_;
   Eigen::VectorXd coefficients_;

@@ -35,21 +35,22 @@ ResidualMetric::ResidualMetric(const NominalBaseline& nominal, const Sensitivity
       factor_(nominal.covariance),
       kappa_(nominal.kappa) {
   const Eigen::Index base = recording.by_coefficient.cols();
-  const Eigen::Index parameter_refs = recording.by_effect_parameter.cols();
+  const Eigen::Index parameter_count = recording.by_effect_parameter.cols();
   Eigen::MatrixXd covariance = nominal.boat_covariance;
   if (free_coefficients)
     covariance.diagonal().head(base).array() += kUnboundedPrior * kUnboundedPrior;
   const Eigen::MatrixXd root = RootOf(covariance);
   coefficient_root_ = root.topRows(base);
-  Eigen::MatrixXd boat(recording.errors.size(), base + parameter_refs);
+  Eigen::MatrixXd boat(recording.errors.size(), base + parameter_count);
   boat << recording.by_coefficient, recording.by_effect_parameter;
   std::vector<Eigen::Index> random_effects;
-  for (Eigen::Index j = 0; j < parameter_refs; ++j) {
+  for (Eigen::Index j = 0; j < parameter_count; ++j) {
     if (nominal.recording_effect_sd[j] > 0.0) random_effects.push_back(j);
   }
   Eigen::MatrixXd nuisance(recording.errors.size(),
-                           base + parameter_refs + std::ssize(random_effects));
-  // A day's weather is one draw of its own and counts in full, where errors count by looks.
+                           base + parameter_count + std::ssize(random_effects));
+  // A day's weather is one draw of its own and counts in full, where errors count by effective
+  // observations.
   nuisance << boat * root,
       recording.by_effect_parameter(Eigen::all, random_effects) *
           (nominal.recording_effect_sd(random_effects) / std::sqrt(RowsPerObservation()))
@@ -85,23 +86,23 @@ ResidualMetric ResidualMetric::WithWindowVariation(const Eigen::MatrixXd& varyin
   return metric;
 }
 
-void ResidualMetric::DeflateWindowVariation(Eigen::MatrixXd& seen) const {
+void ResidualMetric::DeflateWindowVariation(Eigen::MatrixXd& whitened) const {
   if (window_variation_.size() == 0) return;
   const Eigen::Index rows = factor_.rows();
   const Eigen::Index columns = window_variation_.cols() / std::ssize(windows_);
   for (Eigen::Index w = 0; w < std::ssize(windows_); ++w) {
     const auto allowed = window_variation_.middleCols(w * columns, columns);
-    auto window = seen.middleRows(w * rows, rows);
+    auto window = whitened.middleRows(w * rows, rows);
     window -= allowed * (allowed.transpose() * window).eval();
   }
 }
 
 Eigen::VectorXd ResidualMetric::Whiten(const Eigen::MatrixXd& errors) const {
-  Eigen::VectorXd seen = WhitenColumns(errors.reshaped()).col(0);
-  auto windows = seen.reshaped(factor_.rows(), seen.size() / factor_.rows());
+  Eigen::VectorXd whitened = WhitenColumns(errors.reshaped()).col(0);
+  auto windows = whitened.reshaped(factor_.rows(), whitened.size() / factor_.rows());
   const double most = kMaximumSigmas * std::sqrt(static_cast<double>(factor_.rows()));
   for (auto window : windows.colwise()) window *= std::min(1.0, most / window.norm());
-  return seen;
+  return whitened;
 }
 
 double ResidualMetric::ExpectedSquare() const {
@@ -109,15 +110,15 @@ double ResidualMetric::ExpectedSquare() const {
 }
 
 double ResidualMetric::EffectiveObservations() const {
-  return kObservationsPerWindow * kappa_ * static_cast<double>(windows_.size());
+  return kDiagnosis.metric.observations_per_window * kappa_ * static_cast<double>(windows_.size());
 }
 
 double ResidualMetric::Deviance(double square, double than) const {
   return EffectiveObservations() * std::log(square / than);
 }
 
-double ResidualMetric::Sigmas(const Eigen::VectorXd& seen) const {
-  return std::sqrt(SquaredMahalanobis(seen) / RowsPerObservation());
+double ResidualMetric::Sigmas(const Eigen::VectorXd& whitened) const {
+  return std::sqrt(SquaredMahalanobis(whitened) / RowsPerObservation());
 }
 
 Eigen::MatrixXd ResidualMetric::WhitenColumns(const Eigen::MatrixXd& stacked) const {
@@ -127,9 +128,9 @@ Eigen::MatrixXd ResidualMetric::WhitenColumns(const Eigen::MatrixXd& stacked) co
     const auto all = stacked.col(j).reshaped(rows, stacked.rows() / rows);
     chosen.col(j) = all(Eigen::all, windows_).reshaped();
   }
-  Eigen::MatrixXd seen = std::sqrt(kappa_) * Whitened(factor_, chosen);
-  DeflateWindowVariation(seen);
-  return seen;
+  Eigen::MatrixXd whitened = std::sqrt(kappa_) * Whitened(factor_, chosen);
+  DeflateWindowVariation(whitened);
+  return whitened;
 }
 
 Eigen::MatrixXd ResidualMetric::WhitenMoment(const Eigen::MatrixXd& pattern) const {
@@ -137,20 +138,20 @@ Eigen::MatrixXd ResidualMetric::WhitenMoment(const Eigen::MatrixXd& pattern) con
   return factor_.matrixL().solve(half.transpose());
 }
 
-Eigen::MatrixXd ResidualMetric::Marginalise(const Eigen::MatrixXd& seen) const {
-  const Eigen::MatrixXd along = nuisance_.transpose() * seen;
+Eigen::MatrixXd ResidualMetric::Marginalise(const Eigen::MatrixXd& whitened) const {
+  const Eigen::MatrixXd along = nuisance_.transpose() * whitened;
   const Eigen::MatrixXd taken = nuisance_factor_.solve(along);
-  return seen - nuisance_ * taken;
+  return whitened - nuisance_ * taken;
 }
 
-Eigen::MatrixXd ResidualMetric::UnexplainedByWindow(const Eigen::VectorXd& seen) const {
-  const Eigen::VectorXd left = Unexplained(seen) / std::sqrt(kappa_);
+Eigen::MatrixXd ResidualMetric::UnexplainedByWindow(const Eigen::VectorXd& whitened) const {
+  const Eigen::VectorXd left = Unexplained(whitened) / std::sqrt(kappa_);
   return left.reshaped(factor_.rows(), static_cast<Eigen::Index>(windows_.size()));
 }
 
-ResidualMetric::Recalibration ResidualMetric::Recalibrate(const Eigen::VectorXd& seen) const {
+ResidualMetric::Recalibration ResidualMetric::Recalibrate(const Eigen::VectorXd& whitened) const {
   const Eigen::Index boat = coefficient_root_.cols();
-  const Eigen::VectorXd along = nuisance_.transpose() * seen;
+  const Eigen::VectorXd along = nuisance_.transpose() * whitened;
   const Eigen::VectorXd nuisance = nuisance_factor_.solve(along);
   const Eigen::MatrixXd identity = Eigen::MatrixXd::Identity(nuisance_.cols(), nuisance_.cols());
   const Eigen::MatrixXd covariance = nuisance_factor_.solve(identity).topLeftCorner(boat, boat);

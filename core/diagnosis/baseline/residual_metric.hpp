@@ -13,9 +13,6 @@
 
 namespace telltale {
 
-/// Effective independent observations of a window, docs/concepts/diagnosis.md (89).
-inline constexpr double kObservationsPerWindow = kDiagnosis.metric.observations_per_window;
-
 /// Whitens the errors of one recording and marginalises what varies in a nominal boat: scatter from
 /// window to window, coefficients and fixed effects by their covariance, and a day's weather.
 /// Model: (y, z) = kappa y' V^-1 z with V the nominal covariance of all errors together, by the
@@ -42,15 +39,15 @@ class ResidualMetric {
   Eigen::MatrixXd WhitenColumns(const Eigen::MatrixXd& stacked) const;
 
   /// Whitened errors times V^-1: what nominal variation does not explain.
-  Eigen::MatrixXd Marginalise(const Eigen::MatrixXd& seen) const;
+  Eigen::MatrixXd Marginalise(const Eigen::MatrixXd& whitened) const;
 
-  double SquaredMahalanobis(const Eigen::VectorXd& seen) const {
-    return seen.dot(Marginalise(seen).col(0));
+  double SquaredMahalanobis(const Eigen::VectorXd& whitened) const {
+    return whitened.dot(Marginalise(whitened).col(0));
   }
 
   /// SquaredMahalanobis as a share of what a nominal boat is expected to leave: about one.
-  double ReducedChiSquare(const Eigen::VectorXd& seen) const {
-    return SquaredMahalanobis(seen) / ExpectedSquare();
+  double ReducedChiSquare(const Eigen::VectorXd& whitened) const {
+    return SquaredMahalanobis(whitened) / ExpectedSquare();
   }
 
   /// The square that a nominal boat is expected to leave.
@@ -58,7 +55,7 @@ class ResidualMetric {
 
   /// Rows of errors per effective observation.
   double RowsPerObservation() const {
-    return static_cast<double>(factor_.rows()) / kObservationsPerWindow;
+    return static_cast<double>(factor_.rows()) / kDiagnosis.metric.observations_per_window;
   }
 
   /// Effective independent observations of the recording: errors within a window are correlated,
@@ -75,15 +72,15 @@ class ResidualMetric {
   double VariationPenalty() const { return variation_penalty_; }
 
   /// By how many sigmas something shows, counted by effective observations.
-  double Sigmas(const Eigen::VectorXd& seen) const;
+  double Sigmas(const Eigen::VectorXd& whitened) const;
 
   /// Whitened errors less the most probable nominal variation.
-  Eigen::VectorXd Unexplained(const Eigen::VectorXd& seen) const {
-    return Marginalise(seen).col(0);
+  Eigen::VectorXd Unexplained(const Eigen::VectorXd& whitened) const {
+    return Marginalise(whitened).col(0);
   }
 
   /// The same by window, rows x windows, of unit variance for a nominal boat.
-  Eigen::MatrixXd UnexplainedByWindow(const Eigen::VectorXd& seen) const;
+  Eigen::MatrixXd UnexplainedByWindow(const Eigen::VectorXd& whitened) const;
 
   /// How the coefficients most probably differ from the nominal boat's, and how certain that is.
   /// Units: standard errors of the model.
@@ -91,7 +88,7 @@ class ResidualMetric {
     Eigen::VectorXd change;
     Eigen::MatrixXd covariance;
   };
-  Recalibration Recalibrate(const Eigen::VectorXd& seen) const;
+  Recalibration Recalibrate(const Eigen::VectorXd& whitened) const;
 
   double Kappa() const { return kappa_; }
 
@@ -100,13 +97,13 @@ class ResidualMetric {
 
  private:
   void FactoriseNuisance();
-  void DeflateWindowVariation(Eigen::MatrixXd& seen) const;
+  void DeflateWindowVariation(Eigen::MatrixXd& whitened) const;
 
   std::vector<std::size_t> windows_;
   bool frees_coefficients_;
   Eigen::LLT<Eigen::MatrixXd> factor_;
   double kappa_;
-  Eigen::MatrixXd nuisance_;  // as seen, one column a unit of what may vary
+  Eigen::MatrixXd nuisance_;  // whitened, one column a unit of what may vary
   Eigen::LLT<Eigen::MatrixXd> nuisance_factor_;
   Eigen::MatrixXd
       coefficient_root_;  // rows of the coefficients in the root of the boat's covariance

@@ -86,8 +86,8 @@ Diagnosis BuildReport(const ReportInputs& inputs) {
   if (conclusion.assessment == GapAssessment::kUndecided) {
     diagnosis.notes.emplace_back(
         "No effect of the library explains enough of the gap. Weather, or what the references "
-        "leave "
-        "uncertain about the boat, may account for it: record longer, or name more references.");
+        "leave uncertain about the boat, may account for it: record longer, or name more "
+        "references.");
   }
   if (conclusion.is_likely) diagnosis.onset = OnsetOf(conclusion.best, inputs.problem);
   diagnosis.pictures =

@@ -32,7 +32,7 @@ std::vector<double> DecreasesBySubset(const FoldFits& folds, const AugmentedMode
   };
   const double none = squared_gap(0);
   std::vector<double> decreases(std::size_t{1} << folds.front().effects.size());
-  for (std::size_t subset = 0; subset < decreases.size(); ++subset) {
+  for (std::size_t subset = 1; subset < decreases.size(); ++subset) {
     decreases[subset] = none - squared_gap(subset);
   }
   return decreases;

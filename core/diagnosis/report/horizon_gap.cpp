@@ -38,7 +38,10 @@ Gap GapAt(const HorizonErrors& horizon, const std::optional<CrossValidatedErrors
         after ? CrossValidatedSquaredGaps(*after, horizon.runs, horizon.floor, channel) : before;
     const GapSize size = GapSizeOf(before, then, horizon.floor, channel);
     std::optional<ExcessExplained> excess_explained;
-    if (after) excess_explained = ExcessExplainedAt(horizon, *after, channel, seed);
+    if (after) {
+      excess_explained =
+          ExcessExplainedBy(before, then, BlocksOf(horizon.runs), horizon.floor, channel, seed);
+    }
     if (channel == kAllChannels) {
       gap.all = size;
       gap.excess_explained = excess_explained;

@@ -19,9 +19,8 @@ namespace {
 std::optional<double> NatsOf(const CatalogueManoeuvre& manoeuvre,
                              const RankedHypothesis& hypothesis, const NominalBaseline& nominal,
                              double sampling_period_s, const HullParticulars& hull) {
-  auto dataset = SimulatedManoeuvre(manoeuvre, nominal.boat.model, sampling_period_s);
+  const auto dataset = SimulatedManoeuvre(manoeuvre, nominal.boat.model, sampling_period_s, hull);
   if (!dataset) return std::nullopt;
-  dataset->hull = hull;
   const FreeRuns runs(*dataset, nominal.boat.model, kDiagnosis.horizons.main_s);
   if (runs.Rows() != nominal.covariance.rows() || runs.Windows() == 0) return std::nullopt;
   const Eigen::MatrixXd one = runs.Errors(nominal.boat.With(hypothesis.fit.effects));

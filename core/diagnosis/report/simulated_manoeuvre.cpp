@@ -20,13 +20,15 @@ bool HasDiverged(const TimedState& now) {
 
 std::optional<PreparedDataset> SimulatedManoeuvre(const CatalogueManoeuvre& manoeuvre,
                                                   const VesselModel& model,
-                                                  double sampling_period_s) {
+                                                  double sampling_period_s,
+                                                  const HullParticulars& hull) {
   constexpr double kCruise = kDiagnosis.separation.cruise_command;
   constexpr double kCruiseS = kDiagnosis.separation.cruise_s;
   VesselModel carrier = model;
   carrier.structure = Structure::kStaticQuadratic;
   carrier.discretisation = Discretisation::kContinuous;
-  const Vehicle vehicle{"simulated", 1.0, {}, {}, {}, std::nullopt};
+  Vehicle vehicle{"simulated", 1.0, {}, {}, {}, std::nullopt};
+  vehicle.hull = hull;
   const auto commands =
       Schedule({Manoeuvre{{{kCruise, kCruise}, kCruiseS}}, manoeuvre.manoeuvre}, 0.0);
   const double end_s = kCruiseS + kCatalogueDurationS;

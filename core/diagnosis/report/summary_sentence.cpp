@@ -1,7 +1,6 @@
 #include "telltale/core/diagnosis/report/summary_sentence.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include "telltale/core/effects/wording.hpp"
 

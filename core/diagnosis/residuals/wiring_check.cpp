@@ -1,8 +1,8 @@
 #include "telltale/core/diagnosis/residuals/wiring_check.hpp"
 
-#include <algorithm>
 #include <array>
 #include <string>
+#include <string_view>
 
 #include "telltale/core/diagnosis/diagnosis_constants.hpp"
 #include "telltale/core/diagnosis/residuals/free_runs.hpp"

@@ -88,7 +88,7 @@ double RejectionRate(double shift, bool count_segments, int repeats) {
   for (int repeat = 0; repeat < repeats; ++repeat) {
     Estimates first = FromSlices(truth, root, 12, engine);
     Estimates second = FromSlices(other, 3.0 * root, 20, engine);
-    if (!count_segments) first.segments = second.segments = 0;
+    if (!count_segments) first.clusters = second.clusters = 0;
     rejected += TestEquality(first, second)->p_value < 0.05 ? 1.0 / repeats : 0.0;
   }
   return rejected;
@@ -119,7 +119,7 @@ TEST(WaldTest, DoesNotDependOnUnits) {
   const Eigen::Vector4d units(1e6, 1.0, 1e-3, 57.3);
   const auto convert = [&](const Estimates& e) {
     return Estimates{units.asDiagonal() * e.theta,
-                     units.asDiagonal() * e.covariance * units.asDiagonal(), e.segments};
+                     units.asDiagonal() * e.covariance * units.asDiagonal(), e.clusters};
   };
   const auto plain = TestEquality(first, second);
   const auto converted = TestEquality(convert(first), convert(second));
