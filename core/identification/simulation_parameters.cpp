@@ -190,7 +190,8 @@ std::optional<std::string> Regularise(const PreparedDataset& dataset,
   const auto candidate = BestRegularised(dataset, identification);
   if (!candidate) return std::nullopt;
   identification.simulation.assign(candidate->theta.begin(), candidate->theta.end());
-  return "simulations use parameters regularised within the bounds, off the estimates by " +
+  return "simulations use parameters regularised within the confidence ellipsoid, off the "
+         "estimates by " +
          FormatNumber(LargestShift(identification, candidate->theta), 1) +
          " standard errors at most, and are stable for " + FormatNumber(candidate->stable_s, 0) +
          " s";

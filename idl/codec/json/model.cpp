@@ -76,7 +76,10 @@ Decoded<Identification> IdentificationOf(const proto::Model& model, const std::s
   std::optional<CodecError> fault;
   FieldReader reader(model, source, fault);
   Identification identification = ReadModel(reader, model);
-  if (!fault && (fault = ModelFault(identification))) fault->where = file;
+  if (!fault) {
+    fault = ModelFault(identification);
+    if (fault) fault->where = file;
+  }
   if (!fault) ReadIdentifiability(reader, model, identification);
   if (fault) return tl::unexpected(*fault);
   return identification;

@@ -93,7 +93,7 @@ WindowSummary ReadWindow(FieldReader reader, const proto::WindowSummary& message
   return window;
 }
 
-Refusal ReadRefusal(FieldReader, const proto::Refusal& message) {
+Refusal ReadRefusal(const FieldReader&, const proto::Refusal& message) {
   return {message.subject(), message.reason(), message.advice()};
 }
 

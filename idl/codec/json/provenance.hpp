@@ -16,7 +16,7 @@ proto::Provenance ToProto(const Provenance& provenance);
 /// way round, unknown channels and reject reasons, a misspecification that is no ratio, and what
 /// ReadModelChange() refuses.
 WindowSummary ReadWindow(FieldReader reader, const proto::WindowSummary& message);
-Refusal ReadRefusal(FieldReader reader, const proto::Refusal& message);
+Refusal ReadRefusal(const FieldReader& reader, const proto::Refusal& message);
 Provenance ReadProvenance(FieldReader reader, const proto::Provenance& message);
 
 }  // namespace telltale

@@ -23,7 +23,7 @@ DeadZone ReadDeadZone(double forward, double reverse);
 void FillModel(telltale_wire_Model& wire, const PublishedModel& model);
 PublishedModel ReadModel(const telltale_wire_Model& wire);
 
-void FillDiagnosis(telltale_wire_Diagnosis& wire, const PublishedDiagnosis& diagnosis);
+void FillDiagnosis(telltale_wire_Diagnosis& wire, const PublishedDiagnosis& published);
 PublishedDiagnosis ReadDiagnosis(const telltale_wire_Diagnosis& wire);
 
 /// Excitation, advice and coverage check of a model, once its other fields are in place.
