@@ -76,6 +76,15 @@ std::optional<Refusal> WindowLimits::Validate() const {
 }
 
 struct Window::Impl {
+  /// The samples of one clock, and what has been seen of them.
+  struct Held {
+    std::tuple<std::deque<GnssFix>, std::deque<HeadingSample>, std::deque<ThrusterSample>> samples;
+    double newest_s = kNever;
+    std::optional<ThrusterSample> last_command;
+    StuckSensorCheck<GnssFix> stuck_gnss;
+    StuckSensorCheck<HeadingSample> stuck_heading;
+  };
+
   explicit Impl(WindowLimits window_limits) : limits(window_limits) {}
 
   template <class Sample>
@@ -94,36 +103,43 @@ struct Window::Impl {
     }
     if (const auto reason = Insert(sample)) return reason;
     clock_check.Reset();
-    newest_s = std::max(newest_s, sample.time_s);
+    held.newest_s = std::max(held.newest_s, sample.time_s);
     DropExpired();
+    SettleClock();
     return std::nullopt;
   }
 
   bool ClockJumps(double time_s) const {
-    return !Empty() && std::abs(time_s - newest_s) > limits.clock_jump_s;
+    return !Empty() && std::abs(time_s - held.newest_s) > limits.clock_jump_s;
   }
 
   // After a jump ahead the held samples stay: they lie before a gap. After a jump back they lie in
-  // the new clock's future and are dropped.
+  // the new clock's future and are dropped. Either way the samples of the former clock are kept
+  // until the new one has settled: a few forged or faulty stamps confirm a clock, and the boat then
+  // goes on by its own.
   bool AcceptClock(Channel channel, double time_s) {
     if (clock_check.Count(channel, time_s, limits.clock_jump_s) < limits.clock_jump_confirmations) {
       return false;
     }
-    if (time_s < newest_s) Restart();
+    if (former && std::abs(time_s - former->newest_s) <= limits.clock_jump_s) {
+      held = std::move(*former);
+      former.reset();
+      return true;
+    }
+    if (!former) former = held;
+    if (time_s < held.newest_s) held = {};
+    confirmed_s = time_s;
     return true;
   }
 
-  void Restart() {
-    held = {};
-    last_command.reset();
-    stuck_gnss = {};
-    stuck_heading = {};
-    newest_s = kNever;
+  // The stamps of one burst all lie within clock_jump_s of each other.
+  void SettleClock() {
+    if (former && held.newest_s - confirmed_s > limits.clock_jump_s) former.reset();
   }
 
   template <class Sample>
   std::optional<RejectReason> Insert(const Sample& sample) {
-    std::deque<Sample>& samples = std::get<std::deque<Sample>>(held);
+    std::deque<Sample>& samples = std::get<std::deque<Sample>>(held.samples);
     if (samples.empty() || sample.time_s > samples.back().time_s) {
       if (Expired(sample)) return RejectReason::kOutOfOrder;
       if (IsStuck(sample)) return RejectReason::kStuckSensor;
@@ -147,30 +163,30 @@ struct Window::Impl {
   }
 
   bool IsStuck(const GnssFix& fix) {
-    stuck_gnss.AddReading(fix, last_command);
-    return stuck_gnss.IsStuck(limits.stuck_after_s);
+    held.stuck_gnss.AddReading(fix, held.last_command);
+    return held.stuck_gnss.IsStuck(limits.stuck_after_s);
   }
   bool IsStuck(const HeadingSample& sample) {
-    stuck_heading.AddReading(sample, last_command);
-    return stuck_heading.IsStuck(limits.stuck_after_s);
+    held.stuck_heading.AddReading(sample, held.last_command);
+    return held.stuck_heading.IsStuck(limits.stuck_after_s);
   }
   bool IsStuck(const ThrusterSample& command) {
-    if (last_command) {
-      const double held_s = command.time_s - last_command->time_s;
-      stuck_gnss.AddCommand(*last_command, held_s);
-      stuck_heading.AddCommand(*last_command, held_s);
+    if (held.last_command) {
+      const double held_s = command.time_s - held.last_command->time_s;
+      held.stuck_gnss.AddCommand(*held.last_command, held_s);
+      held.stuck_heading.AddCommand(*held.last_command, held_s);
     }
-    last_command = command;
+    held.last_command = command;
     return false;
   }
 
   template <class Sample>
   bool Expired(const Sample& sample) const {
-    return sample.time_s < newest_s - limits.duration_s;
+    return sample.time_s < held.newest_s - limits.duration_s;
   }
 
   void DropExpired() {
-    ForEachChannel(held, [this](auto& samples) {
+    ForEachChannel(held.samples, [this](auto& samples) {
       while (!samples.empty() && Expired(samples.front())) samples.pop_front();
     });
     while (StoredBytes() > limits.memory_bytes) DropOldest();
@@ -178,37 +194,36 @@ struct Window::Impl {
 
   void DropOldest() {
     const double oldest_s = StartTime();
-    ForEachChannel(held, [oldest_s](auto& samples) {
+    ForEachChannel(held.samples, [oldest_s](auto& samples) {
       if (!samples.empty() && samples.front().time_s <= oldest_s) samples.pop_front();
     });
   }
 
   std::size_t StoredBytes() const {
-    return std::get<0>(held).size() * sizeof(GnssFix) +
-           std::get<1>(held).size() * sizeof(HeadingSample) +
-           std::get<2>(held).size() * sizeof(ThrusterSample);
+    return std::get<0>(held.samples).size() * sizeof(GnssFix) +
+           std::get<1>(held.samples).size() * sizeof(HeadingSample) +
+           std::get<2>(held.samples).size() * sizeof(ThrusterSample);
   }
 
   double StartTime() const {
     double oldest_s = std::numeric_limits<double>::infinity();
-    ForEachChannel(held, [&oldest_s](const auto& samples) {
+    ForEachChannel(held.samples, [&oldest_s](const auto& samples) {
       if (!samples.empty()) oldest_s = std::min(oldest_s, samples.front().time_s);
     });
     return oldest_s;
   }
 
   bool Empty() const {
-    return std::get<0>(held).empty() && std::get<1>(held).empty() && std::get<2>(held).empty();
+    return std::get<0>(held.samples).empty() && std::get<1>(held.samples).empty() &&
+           std::get<2>(held.samples).empty();
   }
 
   WindowLimits limits;
-  std::tuple<std::deque<GnssFix>, std::deque<HeadingSample>, std::deque<ThrusterSample>> held;
-  double newest_s = kNever;
+  Held held;
+  std::optional<Held> former;   ///< of the clock before the last jump, until the new one settles
+  double confirmed_s = kNever;  ///< the first time of the present clock
   RejectCounts rejected;
   ClockCheck clock_check;
-  std::optional<ThrusterSample> last_command;
-  StuckSensorCheck<GnssFix> stuck_gnss;
-  StuckSensorCheck<HeadingSample> stuck_heading;
 };
 
 Window::Window(WindowLimits limits) {
@@ -231,7 +246,7 @@ std::optional<RejectReason> Window::Add(const ThrusterSample& sample) {
 }
 
 Recording Window::Snapshot() const {
-  const auto& [gnss, heading, thrusters] = impl_->held;
+  const auto& [gnss, heading, thrusters] = impl_->held.samples;
   return {{gnss.begin(), gnss.end()},
           {heading.begin(), heading.end()},
           {thrusters.begin(), thrusters.end()},
@@ -240,9 +255,9 @@ Recording Window::Snapshot() const {
 
 std::size_t Window::Size(Channel channel) const {
   switch (channel) {
-    case Channel::kGnss: return std::get<0>(impl_->held).size();
-    case Channel::kHeading: return std::get<1>(impl_->held).size();
-    case Channel::kThrusters: return std::get<2>(impl_->held).size();
+    case Channel::kGnss: return std::get<0>(impl_->held.samples).size();
+    case Channel::kHeading: return std::get<1>(impl_->held.samples).size();
+    case Channel::kThrusters: return std::get<2>(impl_->held.samples).size();
   }
   return 0;
 }
@@ -251,7 +266,7 @@ double Window::StartTime() const {
   return Empty() ? 0.0 : impl_->StartTime();
 }
 double Window::EndTime() const {
-  return Empty() ? 0.0 : impl_->newest_s;
+  return Empty() ? 0.0 : impl_->held.newest_s;
 }
 bool Window::Empty() const {
   return impl_->Empty();

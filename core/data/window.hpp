@@ -33,7 +33,9 @@ struct WindowLimits {
 /// confirm a new clock. After a jump ahead, as after a long radio silence, the held samples stay
 /// and later steps see a gap. After a jump back, as when a boat restarts its clock, they are
 /// dropped. A single wrong stamp less than clock_jump_s ahead makes its channel kOutOfOrder for
-/// that long at most.
+/// that long at most. The samples of the former clock are kept aside until stamps of the new one
+/// span more than clock_jump_s. Until then a return to the former clock, confirmed likewise, drops
+/// the samples of the new clock and gives those of the former back.
 ///
 /// Stuck sensors: a heading or position repeated bit for bit is kStuckSensor once the pulse widths
 /// have differed for more than stuck_after_s in all, by more than 50 us on a side, from those at
@@ -43,7 +45,7 @@ struct WindowLimits {
 /// Assumes: one clock for the three channels. Not thread safe; the owner serialises access.
 /// Cost: O(1) amortised per sample (late samples within the tolerance move a handful of
 /// neighbours). Memory: bounded by duration_s and memory_bytes, whichever is reached first; the
-/// oldest go first.
+/// oldest go first. Twice that while a new clock settles.
 class Window {
  public:
   /// Requires: limits that pass Validate().

@@ -187,6 +187,41 @@ TEST(Window, ARebootedBoatIsAcceptedOnItsNewClock) {
   EXPECT_EQ(window.Add(HeadingAt(0.8)), std::nullopt);
 }
 
+/// 300 s of a boat on its own clock, then a burst of forged stamps, then the boat again.
+std::size_t HeldAfterForgedStamps(const std::vector<double>& forged) {
+  Window window{{.duration_s = 300.0}};
+  for (int i = 0; i < 1500; ++i) window.Add(FixAt(1000.0 + 0.2 * i));
+  for (const double time_s : forged) window.Add(FixAt(time_s));
+  for (int i = 1500; i < 1520; ++i) window.Add(FixAt(1000.0 + 0.2 * i));
+  return window.Size(Channel::kGnss);
+}
+
+TEST(Window, ForgedStampsAheadEmptyNothing) {
+  EXPECT_GT(HeldAfterForgedStamps({5000.0, 5000.1, 5000.2, 5000.3, 5000.4, 5000.5}), 1490u);
+}
+
+TEST(Window, ForgedStampsBehindEmptyNothing) {
+  std::vector<double> forged;
+  for (int i = 0; i < 18; ++i) forged.push_back(1.0 + 0.1 * i);
+  EXPECT_GT(HeldAfterForgedStamps(forged), 1490u);
+}
+
+TEST(Window, ForgedStampsAtTwoInstantsEmptyNothing) {
+  std::vector<double> forged;
+  for (int i = 0; i < 6; ++i) forged.push_back(5000.0 + 0.1 * i);
+  for (int i = 0; i < 6; ++i) forged.push_back(9000.0 + 0.1 * i);
+  EXPECT_GT(HeldAfterForgedStamps(forged), 1490u);
+}
+
+TEST(Window, ANewClockThatGoesOnIsKept) {
+  Window window{{.duration_s = 300.0}};
+  for (int i = 0; i < 1500; ++i) window.Add(FixAt(1000.0 + 0.2 * i));
+  for (int i = 0; i < 600; ++i) window.Add(FixAt(0.2 * i));
+  for (int i = 1500; i < 1510; ++i) window.Add(FixAt(1000.0 + 0.2 * i));
+  EXPECT_EQ(window.EndTime(), 1000.0 + 0.2 * 1509) << "a jump ahead, by then";
+  EXPECT_EQ(window.StartTime(), 1300.0 + 0.2 * 4);
+}
+
 TEST(Window, ALongRadioSilenceKeepsEarlierSamples) {
   Window window{{}};
   for (int i = 0; i < 100; ++i) window.Add(FixAt(0.2 * i));
