@@ -24,7 +24,8 @@ void VehicleWindow::Add(Channel channel, std::uint64_t sequence_number, const Sa
   {
     const std::lock_guard lock(inbox_mutex_);
     inbox_.push_back(sample);
-    gaps_[static_cast<std::size_t>(channel)].Note(sequence_number);
+    gaps_[static_cast<std::size_t>(channel)].Note(
+        sequence_number, std::visit([](const auto& s) { return s.time_s; }, sample));
     ++arrived_[static_cast<std::size_t>(channel)];
   }
   if (const std::unique_lock lock(window_mutex_, std::try_to_lock); lock) EmptyInbox();
