@@ -31,9 +31,9 @@ void WaitSet::Detach(const Endpoint& endpoint) {
 
 bool WaitSet::Wait(std::chrono::nanoseconds timeout) {
   std::array<dds_attach_t, 32> triggered{};
+  const dds_duration_t at_most = std::max<dds_duration_t>(timeout.count(), 0);
   const auto count = Checked(
-      dds_waitset_wait(wait_set_.handle(), triggered.data(), triggered.size(), timeout.count()),
-      "waiting");
+      dds_waitset_wait(wait_set_.handle(), triggered.data(), triggered.size(), at_most), "waiting");
   bool has_data = false;
   for (std::int32_t i = 0; i < std::min<std::int32_t>(count, triggered.size()); ++i) {
     if (triggered[i] == 0) {

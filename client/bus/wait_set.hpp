@@ -22,7 +22,7 @@ class WaitSet {
   void Detach(const Endpoint& endpoint);
 
   /// Runs the handlers of all endpoints that have data. False when none had within `timeout`, or on
-  /// Wake.
+  /// Wake. A timeout below zero counts as zero: the deadline of a late caller has passed already.
   bool Wait(std::chrono::nanoseconds timeout);
 
   /// Ends the present or the next Wait early.

@@ -135,6 +135,11 @@ TEST_F(Bus, ABestEffortReaderMatchesAReliableWriter) {
   EXPECT_TRUE(WaitForMatch(here_, {reader}, 10s));
 }
 
+TEST_F(Bus, WaitsNoTimeForADeadlineThatHasPassed) {
+  WaitSet wait_set(here_);
+  EXPECT_FALSE(wait_set.Wait(-1ms));
+}
+
 TEST_F(Bus, WakesAWaitingThread) {
   WaitSet wait_set(here_);
   std::jthread waker([&] { wait_set.Wake(); });
