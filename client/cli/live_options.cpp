@@ -1,4 +1,5 @@
 #include "telltale/client/cli/live_options.hpp"
+#include "telltale/client/cli/number_range.hpp"
 
 #include "telltale/client/bus/participant.hpp"
 #include "telltale/client/cli/table.hpp"
@@ -15,7 +16,7 @@ void LiveOptions::AddTo(CLI::App& command, double default_timeout_s,
       ->capture_default_str();
   command.add_option("--timeout", timeout_s, timeout_help)
       ->type_name("S")
-      ->check(CLI::Range(0.0, 1e6))
+      ->check(NumberWithin(0.0, 1e6))
       ->capture_default_str();
 }
 

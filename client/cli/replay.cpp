@@ -14,6 +14,7 @@
 #include "telltale/client/cli/exit_codes.hpp"
 #include "telltale/client/cli/input_options.hpp"
 #include "telltale/client/cli/live_options.hpp"
+#include "telltale/client/cli/number_range.hpp"
 #include "telltale/client/cli/progress_line.hpp"
 #include "telltale/client/cli/table.hpp"
 #include "telltale/client/fleet/receipts.hpp"
@@ -164,7 +165,7 @@ void AddReplay(CLI::App& telltale) {
   AddVehicleId(command, arguments->vehicle_id)->required();
   command.add_option("--speed", arguments->speed, "times as fast as it was recorded")
       ->type_name("X")
-      ->check(CLI::Range(1e-3, 1e6))
+      ->check(NumberWithin(1e-3, 1e6))
       ->capture_default_str();
   arguments->live.AddTo(command, 10.0, "how long to wait for somebody to receive it");
   command.footer(

@@ -11,6 +11,7 @@
 #include "telltale/client/cli/exit_codes.hpp"
 #include "telltale/client/cli/input_options.hpp"
 #include "telltale/client/cli/model_notes.hpp"
+#include "telltale/client/cli/number_range.hpp"
 #include "telltale/client/cli/table.hpp"
 #include "telltale/client/cli/whole_number.hpp"
 #include "telltale/client/recording/telemetry_log/telemetry_log.hpp"
@@ -115,19 +116,19 @@ void AddSimulate(CLI::App& telltale) {
           "integrate with this step, seconds, [0.001, 1] (default: the discrete model as it "
           "was identified)")
       ->type_name("S")
-      ->check(CLI::Range(0.001, 1.0).description(""));
+      ->check(NumberWithin(0.001, 1.0).description(""));
   command
       .add_option("--noise-position", arguments->sensors.position_noise_m,
                   "one sigma per axis, metres, [0, 100]")
       ->type_name("M")
       ->capture_default_str()
-      ->check(CLI::Range(0.0, 100.0).description(""));
+      ->check(NumberWithin(0.0, 100.0).description(""));
   command
       .add_option("--noise-heading", arguments->sensors.heading_noise_deg,
                   "one sigma, degrees, [0, 90]")
       ->type_name("DEG")
       ->capture_default_str()
-      ->check(CLI::Range(0.0, 90.0).description(""));
+      ->check(NumberWithin(0.0, 90.0).description(""));
   command.add_option("--seed", arguments->sensors.seed, "of the sensor noise")
       ->type_name("N")
       ->check(WholeNumber())

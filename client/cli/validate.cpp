@@ -8,6 +8,7 @@
 #include "telltale/client/cli/exit_codes.hpp"
 #include "telltale/client/cli/input_options.hpp"
 #include "telltale/client/cli/metrics_table.hpp"
+#include "telltale/client/cli/number_range.hpp"
 #include "telltale/client/cli/output_options.hpp"
 #include "telltale/client/cli/progress_line.hpp"
 #include "telltale/client/cli/table.hpp"
@@ -104,7 +105,7 @@ void AddValidate(CLI::App& telltale) {
                   "lengths of free runs, seconds, at least two sampling periods, at most 600 "
                   "(default 1 5 10)")
       ->type_name("S")
-      ->check(CLI::Range(0.0, 600.0).description(""));
+      ->check(NumberWithin(0.0, 600.0).description(""));
   command
       .add_option("--preset", arguments->preset,
                   "of the data preparation: robust or paper (default: the model's own)")
