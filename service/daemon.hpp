@@ -14,6 +14,7 @@
 #include "telltale/service/models/baseline_recordings.hpp"
 #include "telltale/service/models/published_models.hpp"
 #include "telltale/service/monitoring/quality_publisher.hpp"
+#include "telltale/service/storage/directory_lock.hpp"
 
 namespace telltale {
 
@@ -27,6 +28,7 @@ class Daemon {
  private:
   // A member uses those above it. So telemetry stops first and the participant leaves the bus
   // later; the log of the bus counts into the fleet until then.
+  DirectoryLock state_lock_;
   Fleet fleet_;
   BusLog bus_log_;
   Participant participant_;

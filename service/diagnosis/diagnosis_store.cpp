@@ -13,13 +13,7 @@
 namespace telltale {
 
 DiagnosisStore::DiagnosisStore(const std::filesystem::path& directory)
-    : database_(OpenDatabase(directory)) {
-  database_->exec(
-      "CREATE TABLE IF NOT EXISTS diagnoses ("
-      "  vehicle_id TEXT NOT NULL PRIMARY KEY, model_revision INTEGER NOT NULL,"
-      "  published_unix_s REAL NOT NULL,"
-      "  report BLOB NOT NULL)");  // proto/report.proto, serialised
-}
+    : database_(OpenDatabase(directory)) {}
 
 DiagnosisStore::~DiagnosisStore() = default;
 DiagnosisStore::DiagnosisStore(DiagnosisStore&&) noexcept = default;

@@ -2,6 +2,7 @@
 
 #include <SQLiteCpp/SQLiteCpp.h>
 #include <spdlog/spdlog.h>
+#include <boost/crc.hpp>
 
 #include "telltale/idl/codec/json/model.hpp"
 #include "telltale/service/storage/checked_serialisation.hpp"
@@ -10,10 +11,22 @@
 namespace telltale {
 namespace {
 
+/// What the newest model is compared with goes back no further: ChangeSincePredecessor().
+constexpr int kModelsPerVehicle = 200;
+
+std::int64_t Checksum(const void* bytes, int size) {
+  boost::crc_32_type crc;
+  crc.process_bytes(bytes, static_cast<std::size_t>(size));
+  return crc.checksum();
+}
+
 std::optional<StoredModel> ReadRow(SQLite::Statement& row) {
   proto::Model message;
   const SQLite::Column blob = row.getColumn("model");
-  if (!message.ParseFromArray(blob.getBlob(), blob.getBytes())) {
+  const SQLite::Column checksum = row.getColumn("checksum");
+  const bool changed =
+      !checksum.isNull() && checksum.getInt64() != Checksum(blob.getBlob(), blob.getBytes());
+  if (changed || !message.ParseFromArray(blob.getBlob(), blob.getBytes())) {
     spdlog::error("models.sqlite: revision {} of {} is not a model",
                   row.getColumn("revision").getInt64(), row.getColumn("vehicle_id").getString());
     return std::nullopt;
@@ -38,14 +51,7 @@ std::optional<StoredModel> ReadRow(SQLite::Statement& row) {
 }  // namespace
 
 ModelStore::ModelStore(const std::filesystem::path& directory)
-    : database_(OpenDatabase(directory)) {
-  database_->exec(
-      "CREATE TABLE IF NOT EXISTS models ("
-      "  vehicle_id TEXT NOT NULL, revision INTEGER NOT NULL, published_unix_s REAL NOT NULL,"
-      "  model BLOB NOT NULL,"  // proto/model.proto, serialised
-      "  reference_error_u REAL, reference_error_v REAL, reference_error_r REAL,"
-      "  PRIMARY KEY (vehicle_id, revision)) WITHOUT ROWID");
-}
+    : database_(OpenDatabase(directory)) {}
 
 ModelStore::~ModelStore() = default;
 ModelStore::ModelStore(ModelStore&&) noexcept = default;
@@ -61,19 +67,32 @@ StoredModel ModelStore::Save(const Identification& identification, double publis
   next.bind(1, identification.vehicle_id);
   next.executeStep();
   const std::int64_t revision = next.getColumn(0).getInt64();
+  next.reset();  // a statement under way keeps the log from being checkpointed
 
-  SQLite::Statement insert(*database_, "INSERT INTO models VALUES (?, ?, ?, ?, ?, ?, ?)");
+  SQLite::Statement insert(
+      *database_,
+      "INSERT INTO models (vehicle_id, revision, published_unix_s, model, checksum,"
+      " reference_error_u, reference_error_v, reference_error_r) VALUES (?, ?, ?, ?, ?, ?, ?, ?)");
   insert.bind(1, identification.vehicle_id);
   insert.bind(2, revision);
   insert.bind(3, published_unix_s);
   insert.bind(4, blob.data(), static_cast<int>(blob.size()));
+  insert.bind(5, Checksum(blob.data(), static_cast<int>(blob.size())));
   if (reference_error) {
-    for (int i = 0; i < 3; ++i) insert.bind(5 + i, (*reference_error)[i]);
+    for (int i = 0; i < 3; ++i) insert.bind(6 + i, (*reference_error)[i]);
   }
   insert.exec();
+  DropOldest(identification.vehicle_id, revision);
   transaction.commit();
   return {{identification, static_cast<std::uint64_t>(revision), published_unix_s},
           reference_error};
+}
+
+void ModelStore::DropOldest(const std::string& vehicle_id, std::int64_t newest) {
+  SQLite::Statement drop(*database_, "DELETE FROM models WHERE vehicle_id = ? AND revision <= ?");
+  drop.bind(1, vehicle_id);
+  drop.bind(2, newest - kModelsPerVehicle);
+  drop.exec();
 }
 
 std::optional<StoredModel> ModelStore::Latest(std::string_view vehicle_id) const {

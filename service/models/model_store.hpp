@@ -35,7 +35,8 @@ class ModelStore {
   ModelStore(ModelStore&&) noexcept;
   ModelStore& operator=(ModelStore&&) noexcept;
 
-  /// Stores the model as its vehicle's next revision. It is on disk on return.
+  /// Stores the model as its vehicle's next revision. It is on disk on return. The newest 200
+  /// models of a vehicle are kept.
   StoredModel Save(const Identification& identification, double published_unix_s,
                    const std::optional<FreeRunError>& reference_error);
 
@@ -47,6 +48,8 @@ class ModelStore {
                                     const std::function<bool(const StoredModel&)>& suits) const;
 
  private:
+  void DropOldest(const std::string& vehicle_id, std::int64_t newest);
+
   std::unique_ptr<SQLite::Database> database_;
 };
 

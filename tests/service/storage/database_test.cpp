@@ -41,7 +41,7 @@ TEST_F(DatabaseTest, OpensWhatItHasCreated) {
   EXPECT_EQ(Fault(), "");
   EXPECT_EQ(Fault(), "");
   SQLite::Database database(File());
-  EXPECT_EQ(database.execAndGet("PRAGMA user_version").getInt(), 2);
+  EXPECT_EQ(database.execAndGet("PRAGMA user_version").getInt(), 3);
 }
 
 TEST_F(DatabaseTest, RefusesADatabaseOfAnOlderVersionAndSaysWhatToDo) {
