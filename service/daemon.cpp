@@ -8,7 +8,8 @@
 namespace telltale {
 
 Daemon::Daemon(const DaemonConfig& config, std::function<void(const std::exception&)> failed)
-    : fleet_(config.vehicles, config.window),
+    : state_lock_(config.state_directory),
+      fleet_(config.vehicles, config.window),
       bus_log_(spdlog::default_logger(),
                [this](std::string_view topic) { fleet_.CountUnreadable(topic); }),
       participant_(config.domain),
@@ -22,6 +23,8 @@ Daemon::Daemon(const DaemonConfig& config, std::function<void(const std::excepti
               {.identify = [this](IdentifyRequest request) { jobs_.Submit(std::move(request)); },
                .diagnose =
                    [this](DiagnoseRequest request) { diagnosis_jobs_.Submit(std::move(request)); },
+               .answer_identify = [this](const IdentifyReply& reply) { replies_.Send(reply); },
+               .answer_diagnose = [this](const DiagnoseReply& reply) { replies_.Send(reply); },
                .heartbeat = [this] { models_.AssertLiveliness(); },
                .received = [this](VehicleWindow& window) { quality_.PublishReceipt(window); },
                .failed = std::move(failed)}) {}

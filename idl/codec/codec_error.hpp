@@ -13,7 +13,8 @@ struct CodecError {
   std::string allowed;
   std::string where = {};  ///< "file:line" or "file" where the source is a text, else empty
 
-  /// "where: field = value: allowed ...", for a person.
+  /// "where: field = value: allowed ...", for a person, in one line. At most 200 characters of the
+  /// value are shown.
   std::string Message() const;
 };
 

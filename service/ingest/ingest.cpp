@@ -1,10 +1,14 @@
 #include "telltale/service/ingest/ingest.hpp"
 
 #include <chrono>
+#include <cstring>
+#include <optional>
+#include <string_view>
 #include <utility>
 
 #include <spdlog/spdlog.h>
 
+#include "telltale/idl/codec/vehicle_file.hpp"
 #include "telltale/idl/codec/wire/exchange.hpp"
 #include "telltale/idl/codec/wire/telemetry.hpp"
 
@@ -18,6 +22,20 @@ constexpr auto kHeartbeatPeriod = std::chrono::seconds(1);
 // Vehicles send several samples a second, and a waiting client repeats its request every second: a
 // connected reader that receives nothing for this long is broken.
 constexpr auto kLongestSilence = std::chrono::seconds(30);
+
+/// A failed reply that names the fault. Nothing where the request has no id to answer to.
+template <class Reply, class Wire>
+std::optional<Reply> ReplyToUnreadable(const Wire& wire, const CodecError& fault) {
+  const std::string_view correlation_id = wire.correlation_id == nullptr ? "" : wire.correlation_id;
+  if (!IsVehicleId(correlation_id)) return std::nullopt;
+  Reply reply;
+  reply.correlation_id = correlation_id;
+  reply.vehicle_id =
+      VehicleIdLike({wire.vehicle_id, strnlen(wire.vehicle_id, sizeof wire.vehicle_id)});
+  reply.outcome = ReplyOutcome::kFailed;
+  reply.message = "the daemon cannot read the request: " + fault.Message();
+  return reply;
+}
 
 }  // namespace
 
@@ -36,10 +54,16 @@ Ingest::Ingest(const Participant& participant, Fleet& fleet, Handlers handlers)
           participant, wait_set_, [this](const auto& wire) { Route(Channel::kThrusters, wire); },
           kLongestSilence),
       requests_(
-          participant, wait_set_, [this](const auto& wire) { Submit(wire, handlers_.identify); },
+          participant, wait_set_,
+          [this](const auto& wire) {
+            Submit<IdentifyReply>(wire, handlers_.identify, handlers_.answer_identify);
+          },
           kLongestSilence),
       diagnose_requests_(
-          participant, wait_set_, [this](const auto& wire) { Submit(wire, handlers_.diagnose); },
+          participant, wait_set_,
+          [this](const auto& wire) {
+            Submit<DiagnoseReply>(wire, handlers_.diagnose, handlers_.answer_diagnose);
+          },
           kLongestSilence),
       thread_([this] { Run(); }) {}
 
@@ -107,12 +131,12 @@ void Ingest::RejectUnattributed(Channel channel, UnattributedReason reason,
   }
 }
 
-template <class Wire, class Handler>
-void Ingest::Submit(const Wire& wire, const Handler& handler) {
+template <class Reply, class Wire, class Handler, class Answer>
+void Ingest::Submit(const Wire& wire, const Handler& handler, const Answer& answer) {
   auto request = Decode(wire);
-  if (request) {
-    handler(std::move(*request));
-  } else if (const auto not_shown = warning_limit_.Admit(Clock::now())) {
+  if (request) return handler(std::move(*request));
+  if (auto reply = ReplyToUnreadable<Reply>(wire, request.error())) answer(std::move(*reply));
+  if (const auto not_shown = warning_limit_.Admit(Clock::now())) {
     spdlog::warn("request rejected: {} ({} more not shown)", request.error().Message(), *not_shown);
   }
 }

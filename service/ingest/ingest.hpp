@@ -27,7 +27,10 @@ class Ingest {
   struct Handlers {
     std::function<void(IdentifyRequest)> identify;  ///< must return at once
     std::function<void(DiagnoseRequest)> diagnose;  ///< likewise
-    std::function<void()> heartbeat;                ///< every second while the loop runs
+    /// Sends the answer to a request that cannot be read.
+    std::function<void(const IdentifyReply&)> answer_identify;
+    std::function<void(const DiagnoseReply&)> answer_diagnose;
+    std::function<void()> heartbeat;  ///< every second while the loop runs
     /// After every kSamplesPerReceipt samples of a vehicle; must return at once.
     std::function<void(VehicleWindow&)> received;
     std::function<void(const std::exception&)> failed;  ///< the loop has ended with a fault
@@ -45,8 +48,8 @@ class Ingest {
   void Route(Channel channel, const Wire& wire);
   void CountReceived(VehicleWindow& window);
   void RejectUnattributed(Channel channel, UnattributedReason reason, std::string_view detail);
-  template <class Wire, class Handler>
-  void Submit(const Wire& wire, const Handler& handler);
+  template <class Reply, class Wire, class Handler, class Answer>
+  void Submit(const Wire& wire, const Handler& handler, const Answer& answer);
 
   Fleet& fleet_;
   Handlers handlers_;

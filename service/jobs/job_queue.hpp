@@ -20,6 +20,7 @@
 
 #include <spdlog/spdlog.h>
 
+#include "telltale/client/bus/bus_log.hpp"
 #include "telltale/core/identification/progress.hpp"
 #include "telltale/service/ingest/fleet.hpp"
 #include "telltale/service/jobs/exchange_history.hpp"
@@ -67,6 +68,7 @@ class JobQueue {
   typename Queue::iterator NextRunnable();
   void Finish(const Request& request, const Reply& reply);
   Reply Execute(const Request& request);
+  void Log(const Request& request, const Reply& reply);
   void Report(const Request& request, std::string_view stage, double fraction);
 
   const std::string what_;
@@ -79,6 +81,7 @@ class JobQueue {
   std::condition_variable changed_;
   Queue queue_;
   ExchangeHistory<Stage, Reply> history_;
+  RateLimit log_limit_{200, std::chrono::seconds(10)};
   std::set<std::string> running_vehicles_;
   std::atomic<bool> stopping_ = false;
   std::vector<std::thread> workers_;
@@ -192,9 +195,31 @@ Reply JobQueue<Request, Stage, Reply>::Execute(const Request& request) {
     reply = Failed(request, error.what());
   }
   reply.elapsed_s = std::chrono::duration<double>(Clock::now() - start).count();
-  spdlog::info("{} of {} for {}: {} in {:.3f} s {}", what_, request.vehicle_id,
-               request.correlation_id, Name(reply.outcome), reply.elapsed_s, reply.message);
+  Log(request, reply);
   return reply;
+}
+
+/// With each reason. A flood of requests writes a bounded number of lines.
+template <class Request, class Stage, class Reply>
+void JobQueue<Request, Stage, Reply>::Log(const Request& request, const Reply& reply) {
+  std::optional<std::uint64_t> not_shown;
+  {
+    const std::lock_guard lock(mutex_);
+    not_shown = log_limit_.Admit(std::chrono::steady_clock::now());
+  }
+  if (!not_shown) return;
+  std::string reasons = reply.message;
+  for (const Refusal& refusal : reply.refusals) {
+    if (!reasons.empty()) reasons += "; ";
+    reasons += refusal.subject + ": " + refusal.reason;
+  }
+  if (*not_shown > 0) reasons += " (" + std::to_string(*not_shown) + " more not shown)";
+  const auto level = reply.outcome == ReplyOutcome::kPublished ? spdlog::level::info
+                     : reply.outcome == ReplyOutcome::kRefused ? spdlog::level::warn
+                                                               : spdlog::level::err;
+  spdlog::log(level, "{} of {} for {}: {} in {:.3f} s{}{}", what_, request.vehicle_id,
+              request.correlation_id, Name(reply.outcome), reply.elapsed_s,
+              reasons.empty() ? "" : ": ", reasons);
 }
 
 template <class Request, class Stage, class Reply>

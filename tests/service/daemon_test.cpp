@@ -327,6 +327,27 @@ TEST_F(Daemon, FailsARequestItCannotTakeAndGoesOn) {
   EXPECT_EQ(client.Identify(Request("sound"), timing).outcome, RequestOutcome::kRefused);
 }
 
+TEST_F(Daemon, AnswersARequestItCannotRead) {
+  const auto daemon = StartDaemon();
+  const Participant participant(domain_.id());
+  Writer<telltale_wire_IdentifyRequest> requests(participant);
+  Reader<telltale_wire_IdentifyReply> replies(participant);
+  ASSERT_TRUE(WaitForMatch(participant, {requests, replies}, 60s));
+  IdentifyRequest wrong = Request("unreadable");
+  wrong.dead_zone_source = DeadZoneSource::kGiven;
+  auto wire = Encode(wrong);
+  wire->dead_zone_forward = 7.0;
+  requests.Write(wire);
+  std::string message;
+  WaitSet wait_set(participant);
+  wait_set.Attach(replies, [&] {
+    replies.Take(
+        [&](const telltale_wire_IdentifyReply& reply) { message = Decode(reply)->message; });
+  });
+  for (int patience = 0; patience < 60 && message.empty(); ++patience) wait_set.Wait(1s);
+  EXPECT_THAT(message, HasSubstr("dead_zone"));
+}
+
 TEST_F(Daemon, StopsCleanlyWhenTold) {
   // At once, when any of its threads may be the one that is told.
   for (int round = 0; round < 5; ++round) {
@@ -351,6 +372,16 @@ TEST_F(Daemon, RefusesAWrongConfigurationNamingTheField) {
   EXPECT_EQ(without.Wait(), 2);
   Process help({TELLTALED, "--help"});
   EXPECT_EQ(help.Wait(), 0);
+}
+
+TEST_F(Daemon, LeavesAStateDirectoryToTheDaemonThatHasIt) {
+  const auto first = StartDaemon();
+  Process second({TELLTALED, "--config", config_file_});
+  EXPECT_EQ(second.Wait(), 1);
+  EXPECT_THAT(second.output(), HasSubstr("in use by another telltaled"));
+  first->Signal(SIGKILL);
+  first->Wait();
+  StartDaemon();
 }
 
 TEST_F(Daemon, FailsWhereItCannotKeepModels) {

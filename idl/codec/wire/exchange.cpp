@@ -86,14 +86,19 @@ IdentifyRequest ReadRequest(const telltale_wire_IdentifyRequest& wire) {
   return request;
 }
 
+std::string ReadEffectName(const std::string& field, const char* effect) {
+  constexpr std::size_t kLongestName = 64;
+  std::string name = TextOf(effect);
+  if (name.size() > kLongestName) Reject(field, std::move(name), "an effect of the library");
+  return name;
+}
+
 DiagnoseRequest ReadRequest(const telltale_wire_DiagnoseRequest& wire) {
   DiagnoseRequest request;
   request.correlation_id = ReadIdentifier("correlation_id", wire.correlation_id);
   request.vehicle_id = ReadIdentifier("vehicle_id", wire.vehicle_id);
   request.refit = wire.refit;
-  request.without =
-      ReadSequence("without", wire.without,
-                   [](const std::string&, const char* effect) { return TextOf(effect); });
+  request.without = ReadSequence("without", wire.without, ReadEffectName);
   request.seed = wire.seed;
   return request;
 }
