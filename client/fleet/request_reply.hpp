@@ -44,15 +44,31 @@ struct RequestTiming {
   /// otherwise, so that one announcement may be lost.
   std::chrono::nanoseconds match = std::chrono::seconds(12);
   std::chrono::nanoseconds reply = std::chrono::seconds(120);  ///< from the request to its reply
-  std::chrono::nanoseconds retry = std::chrono::seconds(1);  ///< silence after which it asks again
+  /// Silence after which it asks again. It doubles with each answer that says only that the request
+  /// waits, up to four times this.
+  std::chrono::nanoseconds retry = std::chrono::seconds(1);
 };
 
 /// A correlation id nobody else will choose.
 std::string NewCorrelationId();
 
+/// The same request, for an answer within `patience`.
+template <class Request>
+Request WithDeadline(Request request, std::chrono::nanoseconds patience) {
+  request.deadline_s = std::max(1e-3, std::chrono::duration<double>(patience).count());
+  return request;
+}
+
+/// How long a busy daemon asks to be left alone.
+inline std::chrono::nanoseconds BusyTime(const ExchangeReply& reply) {
+  constexpr double kLongestS = 3600.0;
+  return std::chrono::ceil<std::chrono::nanoseconds>(
+      std::chrono::duration<double>(std::min(reply.retry_after_s, kLongestS)));
+}
+
 /// Asks the daemon over one triple of topics. A request is sent once this client's ends are
-/// connected, and again under the same correlation id while the daemon is silent; the daemon
-/// answers an id once.
+/// connected, and again under the same correlation id while the daemon is silent, and after the
+/// time that a busy daemon names; the daemon answers an id once.
 template <class RequestWire, class ProgressWire, class ReplyWire>
 class RequestReply {
  public:
@@ -81,7 +97,6 @@ template <class Reply, class Progress, class Request>
 ReplyResult<Reply> RequestReply<RequestWire, ProgressWire, ReplyWire>::Ask(
     const Request& request, const RequestTiming& timing,
     const std::function<void(const Progress&)>& progress) {
-  const auto wire = Encode(request);
   if (!WaitForMatch(participant_, {requests_, replies_, progress_}, timing.match)) {
     return {RequestOutcome::kNoDaemon, std::nullopt, std::nullopt};
   }
@@ -90,12 +105,15 @@ ReplyResult<Reply> RequestReply<RequestWire, ProgressWire, ReplyWire>::Ask(
   const auto now = Clock::now();
   const auto deadline = now + timing.reply;
   auto next_request = now;
+  auto silence = timing.retry;
+  ReplyResult<Reply> busy{RequestOutcome::kTimedOut, std::nullopt, std::nullopt};
   WaitSet wait_set(participant_);
   wait_set.Attach(progress_, [&] {
     progress_.Take([&](const ProgressWire& sample) {
       const auto decoded = Decode(sample);
       if (!decoded || decoded->correlation_id != request.correlation_id) return;
-      next_request = Clock::now() + timing.retry;
+      silence = std::min(2 * silence, 4 * timing.retry);
+      next_request = Clock::now() + silence;
       if (progress) progress(*decoded);
     });
   });
@@ -104,7 +122,11 @@ ReplyResult<Reply> RequestReply<RequestWire, ProgressWire, ReplyWire>::Ask(
       if (sample.correlation_id == nullptr || request.correlation_id != sample.correlation_id) {
         return;
       }
-      if (auto decoded = Decode(sample)) {
+      auto decoded = Decode(sample);
+      if (decoded && decoded->retry_after_s > 0.0) {
+        next_request = Clock::now() + BusyTime(*decoded);
+        busy = {RequestOutcome::kFailed, std::move(*decoded), std::nullopt};
+      } else if (decoded) {
         result = {OutcomeOf(decoded->outcome), std::move(*decoded), std::nullopt};
       } else {
         // The daemon answers an id once: to ask again would bring the same.
@@ -115,11 +137,11 @@ ReplyResult<Reply> RequestReply<RequestWire, ProgressWire, ReplyWire>::Ask(
 
   while (!result.reply && !result.unreadable) {
     if (Clock::now() >= deadline) {
-      return {RequestOutcome::kTimedOut, std::nullopt, std::nullopt};
+      return busy;
     }
     if (Clock::now() >= next_request) {
-      requests_.Write(wire);
-      next_request = Clock::now() + timing.retry;
+      requests_.Write(Encode(WithDeadline(request, deadline - Clock::now())));
+      next_request = Clock::now() + silence;
     }
     wait_set.Wait(std::min(next_request, deadline) - Clock::now());
   }

@@ -12,7 +12,7 @@
 namespace telltale {
 namespace {
 
-constexpr std::size_t kWorkers = 1;  // one diagnosis uses all processors that it is given
+constexpr Workers kWorkers{.interactive = 1};  // one diagnosis uses all processors that it is given
 
 DiagnoseOptions DiagnoseOptionsOf(const DiagnoseRequest& request,
                                   const IdentificationSettings& settings) {

@@ -16,10 +16,16 @@ IdentificationJobs::IdentificationJobs(const Fleet& fleet, PublishedModels& mode
       models_(models),
       baselines_(baselines),
       settings_(settings),
-      jobs_("identification", fleet, replies, settings.workers, settings.queue_limit,
+      jobs_("identification", fleet, replies,
+            {.interactive = settings.workers, .refresh = 1, .background = 1}, settings.queue_limit,
             [this](const IdentifyRequest& request, const Progress& progress) {
               return IdentifyAndPublish(request, progress);
             }) {}
+
+void IdentificationJobs::Submit(IdentifyRequest request) {
+  const bool takes_minutes = request.coverage_check_replicates > 0;
+  jobs_.Submit(std::move(request), takes_minutes ? Urgency::kBackground : Urgency::kInteractive);
+}
 
 IdentifyReply IdentificationJobs::IdentifyAndPublish(const IdentifyRequest& request,
                                                      const Progress& progress) {

@@ -21,7 +21,8 @@ class IdentificationJobs {
                      ReplyPublisher& replies, const IdentificationSettings& settings);
 
   /// Queues a request and returns at once. The answer goes out by ReplyPublisher.
-  void Submit(IdentifyRequest request) { jobs_.Submit(std::move(request)); }
+  /// A coverage check runs in the background.
+  void Submit(IdentifyRequest request);
 
  private:
   IdentifyReply IdentifyAndPublish(const IdentifyRequest& request, const Progress& progress);

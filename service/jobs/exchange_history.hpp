@@ -47,6 +47,9 @@ class ExchangeHistory {
     return last;
   }
 
+  /// Takes the id of an unfinished request for a new one from now on.
+  void Forget(const std::string& correlation_id) { unfinished_.erase(correlation_id); }
+
   void Finish(const Reply& reply) {
     unfinished_.erase(reply.correlation_id);
     replies_.insert_or_assign(reply.correlation_id, reply);

@@ -3,11 +3,14 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <cmath>
 #include <condition_variable>
 #include <cstddef>
-#include <deque>
 #include <exception>
 #include <functional>
+#include <list>
+#include <map>
+#include <memory>
 #include <mutex>
 #include <optional>
 #include <set>
@@ -24,22 +27,32 @@
 #include "telltale/core/identification/progress.hpp"
 #include "telltale/service/ingest/fleet.hpp"
 #include "telltale/service/jobs/exchange_history.hpp"
+#include "telltale/service/jobs/job.hpp"
 #include "telltale/service/jobs/reply.hpp"
 #include "telltale/service/jobs/reply_publisher.hpp"
+#include "telltale/service/jobs/urgency.hpp"
 
 namespace telltale {
 
-/// A bounded queue of requests and the threads that work on them, one request at a time for each
-/// vehicle. A request with a known correlation id is not worked on again: the queue sends its
-/// progress or its reply again. Every fault of a request ends in its reply. Thread safe.
+/// A bounded queue of requests and the threads that work on them.
+/// - Each urgency has workers of its own. Of each urgency a vehicle has one request worked on at a
+///   time, and the vehicle that has waited longest for a worker comes first.
+/// - A request with a known correlation id is not worked on again: the queue sends its progress or
+///   its reply again. A request that asks for the same as one that waits, or that has been worked
+///   on for less than 5 s, joins it, and both get its reply.
+/// - A request that was cancelled, or whose deadline has passed, is dropped unless others have
+///   joined it. Work under way ends at its next report of progress.
+/// - A full queue answers at once, and says when to ask again.
+/// Every fault of a request ends in its reply. Thread safe.
 template <class Request, class Stage, class Reply>
 class JobQueue {
  public:
   /// Makes the reply to a request and reports its progress. It runs on a worker, and may throw.
   using Work = std::function<Reply(const Request&, const Progress& progress)>;
+  using Answer = std::function<void(const Reply&)>;
 
   /// `what` names the work in the log and in messages: "identification".
-  JobQueue(std::string what, const Fleet& fleet, ReplyPublisher& replies, std::size_t workers,
+  JobQueue(std::string what, const Fleet& fleet, ReplyPublisher& replies, const Workers& workers,
            std::size_t queue_limit, Work work);
   JobQueue(const JobQueue&) = delete;
   JobQueue& operator=(const JobQueue&) = delete;
@@ -48,55 +61,90 @@ class JobQueue {
   /// unfinished request gets a failed reply.
   ~JobQueue();
 
-  /// Queues the request, or answers it, and returns at once. Answers go out by ReplyPublisher.
-  void Submit(Request request);
+  /// Queues the request, or answers it, and returns at once. Answers go out by ReplyPublisher, or
+  /// to `answer`, which runs on a worker or on the calling thread.
+  void Submit(Request request, Urgency urgency = Urgency::kInteractive, Answer answer = {});
+
+  /// Answers the unfinished request with this correlation id as failed. False where there is none.
+  bool Cancel(const std::string& correlation_id);
 
  private:
-  using Queue = std::deque<Request>;
+  using Clock = std::chrono::steady_clock;
+  using Job = telltale::Job<Request, Reply>;
+  using Asker = telltale::Asker<Reply>;
+  using Jobs = std::list<std::shared_ptr<Job>>;
+  using Outbox = std::vector<std::pair<Asker, Reply>>;
+
+  static constexpr std::chrono::seconds kJoinedWithin{5};
 
   /// Ends the work on a request when the daemon stops.
   struct Stopping : std::exception {
     const char* what() const noexcept override { return "the daemon is stopping"; }
   };
+  /// Ends the work on a request that nobody waits for.
+  struct Abandoned : std::exception {
+    const char* what() const noexcept override { return "nobody waits for it any more"; }
+  };
 
   static Reply Failed(const Request& request, const std::string& message) {
     return ReplyTo<Reply>(request, ReplyOutcome::kFailed, message);
   }
-  std::optional<Reply> RejectionOf(const Request& request) const;
-  void Run();
-  std::optional<Request> AwaitNext();
-  typename Queue::iterator NextRunnable();
-  void Finish(const Request& request, const Reply& reply);
-  Reply Execute(const Request& request);
-  void Log(const Request& request, const Reply& reply);
-  void Report(const Request& request, std::string_view stage, double fraction);
+  static std::optional<Clock::time_point> DeadlineOf(const Request& request);
+  void Prolong(const Request& request);
+  std::optional<Reply> RejectionOf(const Request& request, Urgency urgency) const;
+  double RetryAfterS(Urgency urgency) const;
+  std::size_t Waiting() const;
+  std::shared_ptr<Job> JobLike(const Request& request) const;
+  void Queue(Request request, Urgency urgency, Asker asker);
+  void Run(Urgency urgency);
+  std::shared_ptr<Job> AwaitNext(Urgency urgency);
+  std::shared_ptr<Job> NextRunnable(Urgency urgency) const;
+  std::optional<Clock::time_point> EarliestDeadline() const;
+  Outbox Expire();
+  static void Dismiss(const Job& job, std::vector<Asker> askers, const std::string& why,
+                      Outbox& outbox);
+  void Send(const Outbox& outbox);
+  void Finish(const std::shared_ptr<Job>& job, Reply reply);
+  Reply Execute(const std::shared_ptr<Job>& job);
+  void Log(const Request& request, const Reply& reply, std::size_t askers);
+  void Report(const std::shared_ptr<Job>& job, std::string_view stage, double fraction);
 
   const std::string what_;
   const Fleet& fleet_;
   ReplyPublisher& replies_;
+  const Workers worker_counts_;
   const std::size_t queue_limit_;
   const Work work_;
 
-  std::mutex mutex_;  // of what follows
+  mutable std::mutex mutex_;  // of what follows
   std::condition_variable changed_;
-  Queue queue_;
+  Jobs jobs_;  ///< that wait and that run, oldest first
+  std::uint64_t submitted_ = 0;
+  std::uint64_t begun_ = 0;
   ExchangeHistory<Stage, Reply> history_;
   RateLimit log_limit_{200, std::chrono::seconds(10)};
-  std::set<std::string> running_vehicles_;
+  std::set<std::pair<Urgency, std::string>> running_vehicles_;
+  std::map<std::string, std::uint64_t> last_begun_;  ///< by vehicle: `begun_` at its last job
+  double mean_duration_s_ = 1.0;                     ///< of the latest jobs
   std::atomic<bool> stopping_ = false;
   std::vector<std::thread> workers_;
 };
 
 template <class Request, class Stage, class Reply>
 JobQueue<Request, Stage, Reply>::JobQueue(std::string what, const Fleet& fleet,
-                                          ReplyPublisher& replies, std::size_t workers,
+                                          ReplyPublisher& replies, const Workers& workers,
                                           std::size_t queue_limit, Work work)
     : what_(std::move(what)),
       fleet_(fleet),
       replies_(replies),
+      worker_counts_(workers),
       queue_limit_(queue_limit),
       work_(std::move(work)) {
-  for (std::size_t i = 0; i < workers; ++i) workers_.emplace_back([this] { Run(); });
+  for (const Urgency urgency : kUrgencies) {
+    for (std::size_t i = 0; i < workers.Of(urgency); ++i) {
+      workers_.emplace_back([this, urgency] { Run(urgency); });
+    }
+  }
 }
 
 template <class Request, class Stage, class Reply>
@@ -107,105 +155,271 @@ JobQueue<Request, Stage, Reply>::~JobQueue() {
   }
   changed_.notify_all();
   for (std::thread& worker : workers_) worker.join();
-  for (const Request& request : queue_) replies_.Send(Failed(request, Stopping().what()));
+  Outbox outbox;
+  for (const auto& job : jobs_) {
+    Dismiss(*job, std::exchange(job->askers, {}), Stopping().what(), outbox);
+  }
+  Send(outbox);
 }
 
 template <class Request, class Stage, class Reply>
-void JobQueue<Request, Stage, Reply>::Submit(Request request) {
+void JobQueue<Request, Stage, Reply>::Submit(Request request, Urgency urgency, Answer answer) {
   std::unique_lock lock(mutex_);
-  if (const auto answer = history_.Find(request.correlation_id)) {
+  if (const auto known = history_.Find(request.correlation_id)) {
+    Prolong(request);
     lock.unlock();
-    return std::visit([this](const auto& known) { replies_.Send(known); }, *answer);
+    return std::visit([this](const auto& message) { replies_.Send(message); }, *known);
   }
-  if (const auto rejection = RejectionOf(request)) {
-    lock.unlock();
-    return replies_.Send(*rejection);
+  Asker asker{request.correlation_id, DeadlineOf(request), std::move(answer)};
+  const auto same = JobLike(request);
+  if (!same) {
+    if (const auto rejection = RejectionOf(request, urgency)) {
+      lock.unlock();
+      Log(request, *rejection, 1);
+      return Send({{std::move(asker), *rejection}});
+    }
   }
+  const bool on_the_bus = !asker.answer;
   const Stage stage{{request.correlation_id, request.vehicle_id, "queued", 0.0}};
   history_.Begin(stage);
-  queue_.push_back(std::move(request));
+  if (same) {
+    same->urgency = same->Waits() ? std::min(same->urgency, urgency) : same->urgency;
+    same->askers.push_back(std::move(asker));
+  } else {
+    Queue(std::move(request), urgency, std::move(asker));
+  }
   lock.unlock();
-  changed_.notify_one();
-  replies_.Send(stage);
+  changed_.notify_all();
+  if (on_the_bus) replies_.Send(stage);
 }
 
-/// Why the queue cannot take a request; the caller holds mutex_.
 template <class Request, class Stage, class Reply>
-std::optional<Reply> JobQueue<Request, Stage, Reply>::RejectionOf(const Request& request) const {
+auto JobQueue<Request, Stage, Reply>::DeadlineOf(const Request& request)
+    -> std::optional<Clock::time_point> {
+  constexpr double kLongestS = 1e6;
+  if (request.deadline_s <= 0.0) return std::nullopt;
+  const std::chrono::duration<double> patience(std::min(request.deadline_s, kLongestS));
+  return Clock::now() + std::chrono::duration_cast<Clock::duration>(patience);
+}
+
+/// Somebody asks again, and so waits on. The caller holds mutex_, as for all that follow up to
+/// Run().
+template <class Request, class Stage, class Reply>
+void JobQueue<Request, Stage, Reply>::Prolong(const Request& request) {
+  for (const auto& job : jobs_) {
+    for (Asker& asker : job->askers) {
+      if (asker.correlation_id == request.correlation_id) asker.deadline = DeadlineOf(request);
+    }
+  }
+}
+
+template <class Request, class Stage, class Reply>
+void JobQueue<Request, Stage, Reply>::Queue(Request request, Urgency urgency, Asker asker) {
+  auto job = std::make_shared<Job>();
+  job->request = std::move(request);
+  job->urgency = urgency;
+  job->number = ++submitted_;
+  job->askers.push_back(std::move(asker));
+  jobs_.push_back(std::move(job));
+}
+
+/// An unfinished job that the request may join.
+template <class Request, class Stage, class Reply>
+auto JobQueue<Request, Stage, Reply>::JobLike(const Request& request) const
+    -> std::shared_ptr<Job> {
+  const auto now = Clock::now();
+  const auto found = std::ranges::find_if(jobs_, [&](const auto& job) {
+    const bool fresh = job->Waits() || now - *job->started < kJoinedWithin;
+    return fresh && !job->askers.empty() && AskTheSame(job->request, request);
+  });
+  return found == jobs_.end() ? nullptr : *found;
+}
+
+template <class Request, class Stage, class Reply>
+std::size_t JobQueue<Request, Stage, Reply>::Waiting() const {
+  return static_cast<std::size_t>(
+      std::ranges::count_if(jobs_, [](const auto& job) { return job->Waits(); }));
+}
+
+/// Why the queue cannot take a request.
+template <class Request, class Stage, class Reply>
+std::optional<Reply> JobQueue<Request, Stage, Reply>::RejectionOf(const Request& request,
+                                                                  Urgency urgency) const {
   if (fleet_.Find(request.vehicle_id) == nullptr) {
     return Failed(request, "vehicle '" + request.vehicle_id +
                                "' is not served here; served: " + fleet_.Served());
   }
-  if (queue_.size() >= queue_limit_) {
-    return Failed(request, std::to_string(queue_limit_) + " requests for " + what_ +
-                               " are waiting already; ask again later");
+  if (Waiting() < queue_limit_) return std::nullopt;
+  const double retry_after_s = RetryAfterS(urgency);
+  Reply busy = Failed(request, std::to_string(queue_limit_) + " requests for " + what_ +
+                                   " are waiting already; ask again in " +
+                                   std::to_string(std::lround(retry_after_s)) + " s");
+  busy.retry_after_s = retry_after_s;
+  return busy;
+}
+
+/// Until about half of what waits has been worked on.
+template <class Request, class Stage, class Reply>
+double JobQueue<Request, Stage, Reply>::RetryAfterS(Urgency urgency) const {
+  constexpr double kLongestS = 60.0;
+  const auto workers = static_cast<double>(std::max<std::size_t>(1, worker_counts_.Of(urgency)));
+  const double half_s = 0.5 * mean_duration_s_ * static_cast<double>(Waiting()) / workers;
+  return std::clamp(std::ceil(half_s), 1.0, kLongestS);
+}
+
+template <class Request, class Stage, class Reply>
+auto JobQueue<Request, Stage, Reply>::NextRunnable(Urgency urgency) const -> std::shared_ptr<Job> {
+  std::shared_ptr<Job> next;
+  std::uint64_t next_served = 0;
+  for (const auto& job : jobs_) {
+    const std::string& vehicle_id = job->request.vehicle_id;
+    if (!job->Waits() || job->urgency != urgency) continue;
+    if (running_vehicles_.contains({urgency, vehicle_id})) continue;
+    const auto found = last_begun_.find(vehicle_id);
+    const std::uint64_t served = found == last_begun_.end() ? 0 : found->second;
+    if (next && served >= next_served) continue;
+    next = job;
+    next_served = served;
   }
-  return std::nullopt;
+  return next;
 }
 
 template <class Request, class Stage, class Reply>
-void JobQueue<Request, Stage, Reply>::Run() {
-  while (const auto request = AwaitNext()) {
-    const Reply reply = Execute(*request);
-    Finish(*request, reply);
-    replies_.Send(reply);
+auto JobQueue<Request, Stage, Reply>::EarliestDeadline() const -> std::optional<Clock::time_point> {
+  std::optional<Clock::time_point> earliest;
+  for (const auto& job : jobs_) {
+    for (const Asker& asker : job->askers) {
+      if (asker.deadline) earliest = std::min(earliest.value_or(*asker.deadline), *asker.deadline);
+    }
+  }
+  return earliest;
+}
+
+/// Dismisses the askers whose deadline has passed, and drops the jobs that nobody waits for.
+template <class Request, class Stage, class Reply>
+auto JobQueue<Request, Stage, Reply>::Expire() -> Outbox {
+  Outbox outbox;
+  const auto now = Clock::now();
+  for (const auto& job : jobs_) {
+    Dismiss(*job, job->TakeAskers([now](const Asker& asker) { return asker.GivesUpBy(now); }),
+            "its deadline has passed", outbox);
+  }
+  // Who asks again after all starts anew.
+  for (const auto& [asker, reply] : outbox) history_.Forget(asker.correlation_id);
+  std::erase_if(jobs_, [](const auto& job) { return job->Waits() && job->askers.empty(); });
+  return outbox;
+}
+
+template <class Request, class Stage, class Reply>
+void JobQueue<Request, Stage, Reply>::Dismiss(const Job& job, std::vector<Asker> askers,
+                                              const std::string& why, Outbox& outbox) {
+  for (Asker& asker : askers) {
+    Reply reply = Failed(job.request, why);
+    reply.correlation_id = asker.correlation_id;
+    outbox.emplace_back(std::move(asker), std::move(reply));
   }
 }
 
-/// Takes the oldest request whose vehicle is free off the queue; nothing when the daemon stops.
 template <class Request, class Stage, class Reply>
-std::optional<Request> JobQueue<Request, Stage, Reply>::AwaitNext() {
-  std::unique_lock lock(mutex_);
-  changed_.wait(lock, [this] { return stopping_ || NextRunnable() != queue_.end(); });
-  if (stopping_) return std::nullopt;
-  const auto next = NextRunnable();
-  Request request = std::move(*next);
-  queue_.erase(next);
-  running_vehicles_.insert(request.vehicle_id);
-  return request;
-}
-
-template <class Request, class Stage, class Reply>
-void JobQueue<Request, Stage, Reply>::Finish(const Request& request, const Reply& reply) {
+bool JobQueue<Request, Stage, Reply>::Cancel(const std::string& correlation_id) {
+  Outbox outbox;
   {
     const std::lock_guard lock(mutex_);
-    running_vehicles_.erase(request.vehicle_id);
-    history_.Finish(reply);
+    for (const auto& job : jobs_) {
+      Dismiss(*job, job->TakeAskers([&](const Asker& asker) {
+        return asker.correlation_id == correlation_id;
+      }),
+              "it was cancelled", outbox);
+    }
+    std::erase_if(jobs_, [](const auto& job) { return job->Waits() && job->askers.empty(); });
+    for (const auto& [asker, reply] : outbox) history_.Finish(reply);
+  }
+  Send(outbox);
+  if (!outbox.empty()) spdlog::info("{} for {} was cancelled", what_, correlation_id);
+  return !outbox.empty();
+}
+
+/// The caller does not hold mutex_, since a stalled client may block it for a while.
+template <class Request, class Stage, class Reply>
+void JobQueue<Request, Stage, Reply>::Send(const Outbox& outbox) {
+  for (const auto& [asker, reply] : outbox) {
+    asker.answer ? asker.answer(reply) : replies_.Send(reply);
+  }
+}
+
+template <class Request, class Stage, class Reply>
+void JobQueue<Request, Stage, Reply>::Run(Urgency urgency) {
+  YieldToMoreUrgentThan(urgency);
+  while (const auto job = AwaitNext(urgency)) Finish(job, Execute(job));
+}
+
+/// The next job of this urgency, begun; null when the daemon stops.
+template <class Request, class Stage, class Reply>
+auto JobQueue<Request, Stage, Reply>::AwaitNext(Urgency urgency) -> std::shared_ptr<Job> {
+  std::unique_lock lock(mutex_);
+  while (!stopping_) {
+    if (const Outbox expired = Expire(); !expired.empty()) {
+      lock.unlock();
+      Send(expired);
+      lock.lock();
+      continue;
+    }
+    if (auto next = NextRunnable(urgency)) {
+      next->started = Clock::now();
+      running_vehicles_.emplace(urgency, next->request.vehicle_id);
+      last_begun_[next->request.vehicle_id] = ++begun_;
+      return next;
+    }
+    if (const auto deadline = EarliestDeadline()) {
+      changed_.wait_until(lock, *deadline);
+    } else {
+      changed_.wait(lock);
+    }
+  }
+  return nullptr;
+}
+
+template <class Request, class Stage, class Reply>
+void JobQueue<Request, Stage, Reply>::Finish(const std::shared_ptr<Job>& job, Reply reply) {
+  constexpr double kNewestWeight = 0.2;
+  Outbox outbox;
+  {
+    const std::lock_guard lock(mutex_);
+    mean_duration_s_ += kNewestWeight * (reply.elapsed_s - mean_duration_s_);
+    running_vehicles_.erase({job->urgency, job->request.vehicle_id});
+    jobs_.remove(job);
+    for (Asker& asker : job->askers) {
+      reply.correlation_id = asker.correlation_id;
+      history_.Finish(reply);
+      outbox.emplace_back(std::move(asker), reply);
+    }
   }
   changed_.notify_all();
+  Log(job->request, reply, outbox.size());
+  Send(outbox);
 }
 
 template <class Request, class Stage, class Reply>
-auto JobQueue<Request, Stage, Reply>::NextRunnable() -> typename Queue::iterator {
-  return std::ranges::find_if(queue_, [this](const Request& request) {
-    return !running_vehicles_.contains(request.vehicle_id);
-  });
-}
-
-template <class Request, class Stage, class Reply>
-Reply JobQueue<Request, Stage, Reply>::Execute(const Request& request) {
-  using Clock = std::chrono::steady_clock;
-  const auto start = Clock::now();
+Reply JobQueue<Request, Stage, Reply>::Execute(const std::shared_ptr<Job>& job) {
   Reply reply;
   try {
-    reply = work_(request, [&](std::string_view stage, double fraction) {
-      Report(request, stage, fraction);
-    });
+    reply = work_(job->request,
+                  [&](std::string_view stage, double fraction) { Report(job, stage, fraction); });
   } catch (const std::exception& error) {
-    reply = Failed(request, error.what());
+    reply = Failed(job->request, error.what());
   }
-  reply.elapsed_s = std::chrono::duration<double>(Clock::now() - start).count();
-  Log(request, reply);
+  reply.elapsed_s = std::chrono::duration<double>(Clock::now() - *job->started).count();
   return reply;
 }
 
 /// With each reason. A flood of requests writes a bounded number of lines.
 template <class Request, class Stage, class Reply>
-void JobQueue<Request, Stage, Reply>::Log(const Request& request, const Reply& reply) {
+void JobQueue<Request, Stage, Reply>::Log(const Request& request, const Reply& reply,
+                                          std::size_t askers) {
   std::optional<std::uint64_t> not_shown;
   {
     const std::lock_guard lock(mutex_);
-    not_shown = log_limit_.Admit(std::chrono::steady_clock::now());
+    not_shown = log_limit_.Admit(Clock::now());
   }
   if (!not_shown) return;
   std::string reasons = reply.message;
@@ -213,6 +427,7 @@ void JobQueue<Request, Stage, Reply>::Log(const Request& request, const Reply& r
     if (!reasons.empty()) reasons += "; ";
     reasons += refusal.subject + ": " + refusal.reason;
   }
+  if (askers > 1) reasons += " (asked " + std::to_string(askers) + " times)";
   if (*not_shown > 0) reasons += " (" + std::to_string(*not_shown) + " more not shown)";
   const auto level = reply.outcome == ReplyOutcome::kPublished ? spdlog::level::info
                      : reply.outcome == ReplyOutcome::kRefused ? spdlog::level::warn
@@ -223,15 +438,24 @@ void JobQueue<Request, Stage, Reply>::Log(const Request& request, const Reply& r
 }
 
 template <class Request, class Stage, class Reply>
-void JobQueue<Request, Stage, Reply>::Report(const Request& request, std::string_view stage,
-                                             double fraction) {
+void JobQueue<Request, Stage, Reply>::Report(const std::shared_ptr<Job>& job,
+                                             std::string_view stage, double fraction) {
   if (stopping_) throw Stopping();
-  std::optional<Stage> progress;
+  std::vector<Stage> news;
+  Outbox expired;
+  bool abandoned = false;
   {
     const std::lock_guard lock(mutex_);
-    progress = history_.Advance(request.correlation_id, stage, fraction);
+    expired = Expire();
+    abandoned = job->askers.empty();
+    for (const Asker& asker : job->askers) {
+      auto progress = history_.Advance(asker.correlation_id, stage, fraction);
+      if (progress && !asker.answer) news.push_back(std::move(*progress));
+    }
   }
-  if (progress) replies_.Send(*progress);
+  Send(expired);
+  if (abandoned) throw Abandoned();
+  for (const Stage& progress : news) replies_.Send(progress);
 }
 
 }  // namespace telltale

@@ -384,6 +384,39 @@ TEST_F(Daemon, LeavesAStateDirectoryToTheDaemonThatHasIt) {
   StartDaemon();
 }
 
+TEST_F(Daemon, SaysThatItsDiskIsFullAndGoesOn) {
+  // No file grows beyond 64 KiB, and writes that would fail as on a full disk.
+  Process daemon(
+      {"/bin/sh", "-c",
+       "trap '' XFSZ; ulimit -f 128; exec " TELLTALED " --config " + config_file_.string()});
+  ASSERT_TRUE(daemon.WaitForOutput("serving 1 vehicles")) << daemon.output();
+  ReplaySimulation();
+  std::optional<int> exit_code = 0;
+  std::string output;
+  for (int seed = 1; seed < 10 && exit_code == 0; ++seed) {
+    const auto identify =
+        Start({"identify", "--vehicle-id", kVehicleId, "--seed", std::to_string(seed)});
+    exit_code = identify->Wait();
+    output = identify->output();
+  }
+  EXPECT_EQ(exit_code, 1) << output;
+  EXPECT_THAT(output, HasSubstr("disk"));
+  EXPECT_TRUE(daemon.WaitForOutput("[error] identification of yellowfish"));
+  EXPECT_EQ(Start({"monitor", "--once"})->Wait(), 0);
+}
+
+// More at once than Cyclone DDS lets on one host by default.
+TEST_F(Daemon, LetsManyClientsOnOneHost) {
+  setenv("CYCLONEDDS_URI", "file://" TELLTALE_SOURCE_DIR "/deploy/cyclonedds/loopback.xml", 1);
+  setenv("TELLTALE_DDS_TAG", "LetsManyClientsOnOneHost", 1);
+  std::vector<std::unique_ptr<Process>> clients;
+  for (int i = 0; i < 35; ++i) clients.push_back(Start({"monitor", "--once", "--timeout", "5"}));
+  for (const auto& client : clients) {
+    EXPECT_EQ(client->Wait(), 1);
+    EXPECT_THAT(client->output(), HasSubstr("no reports of a daemon"));
+  }
+}
+
 TEST_F(Daemon, FailsWhereItCannotKeepModels) {
   folder_.Write("state", "a file where a folder is needed");
   Process daemon({TELLTALED, "--config", config_file_});

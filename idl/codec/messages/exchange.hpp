@@ -13,11 +13,18 @@
 
 namespace telltale {
 
-/// Asks the daemon to identify a vehicle from its window. The daemon chooses each option that is
-/// unknown or unset.
-struct IdentifyRequest {
+/// The part that all requests share.
+struct ExchangeRequest {
   std::string correlation_id;  ///< 1..64 characters of a vehicle id; an id is worked on once
   std::string vehicle_id;
+  double deadline_s = 0.0;  ///< from receipt; later nobody waits for the answer. 0: no deadline
+
+  bool operator==(const ExchangeRequest&) const = default;
+};
+
+/// Asks the daemon to identify a vehicle from its window. The daemon chooses each option that is
+/// unknown or unset.
+struct IdentifyRequest : ExchangeRequest {
   Structure structure = Structure::kUnknown;
   Parameterization parameterization = Parameterization::kUnknown;
   Estimator estimator = Estimator::kUnknown;
@@ -32,16 +39,26 @@ struct IdentifyRequest {
   std::uint32_t coverage_check_replicates = 0;  ///< 0 (no check) or [10, 1000]
   /// Of the recordings in the window, which long silences separate.
   RecordingBiasModel recording_bias = RecordingBiasModel::kUnknown;
+
+  bool operator==(const IdentifyRequest&) const = default;
 };
 
 /// Asks the daemon to diagnose a vehicle's window.
-struct DiagnoseRequest {
-  std::string correlation_id;  ///< as in IdentifyRequest
-  std::string vehicle_id;
+struct DiagnoseRequest : ExchangeRequest {
   bool refit = false;                ///< lets the coefficients follow the window
   std::vector<std::string> without;  ///< effects to leave out of the library
   std::uint64_t seed = 1;
+
+  bool operator==(const DiagnoseRequest&) const = default;
 };
+
+/// Whether both ask for the same, whoever asks and until when.
+template <class Request>
+bool AskTheSame(const Request& one, Request other) {
+  other.correlation_id = one.correlation_id;
+  other.deadline_s = one.deadline_s;
+  return one == other;
+}
 
 /// The progress of the daemon with a request.
 struct ExchangeProgress {
@@ -69,6 +86,7 @@ struct ExchangeReply {
   std::string message;            ///< empty unless failed
   std::vector<Refusal> refusals;  ///< empty unless refused
   double elapsed_s = 0.0;
+  double retry_after_s = 0.0;  ///< above 0: failed because the daemon is busy; ask again after this
 };
 
 struct IdentifyReply : ExchangeReply {

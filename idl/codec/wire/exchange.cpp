@@ -32,6 +32,7 @@ void FillRequest(telltale_wire_IdentifyRequest& wire, const IdentifyRequest& req
   PutChoice(wire.interval_method, request.interval_method);
   wire.coverage_check_replicates = request.coverage_check_replicates;
   PutChoice(wire.recording_bias, request.recording_bias);
+  wire.deadline_s = request.deadline_s;
 }
 
 void FillRequest(telltale_wire_DiagnoseRequest& wire, const DiagnoseRequest& request) {
@@ -41,6 +42,7 @@ void FillRequest(telltale_wire_DiagnoseRequest& wire, const DiagnoseRequest& req
   PutSequence(wire.without, request.without,
               [](char*& element, const std::string& effect) { Put(element, effect); });
   wire.seed = request.seed;
+  wire.deadline_s = request.deadline_s;
 }
 
 void FillProgress(auto& wire, const ExchangeProgress& progress) {
@@ -57,6 +59,7 @@ void FillReply(auto& wire, const ExchangeReply& reply) {
   Put(wire.message, reply.message);
   PutSequence(wire.refusals, reply.refusals, FillRefusal);
   wire.elapsed_s = reply.elapsed_s;
+  wire.retry_after_s = reply.retry_after_s;
 }
 
 void FillAugmented(telltale_wire_Model& wire, const Identification& augmented) {
@@ -83,6 +86,7 @@ IdentifyRequest ReadRequest(const telltale_wire_IdentifyRequest& wire) {
   request.coverage_check_replicates = wire.coverage_check_replicates;
   request.recording_bias =
       ReadOptionalName("recording_bias", View(wire.recording_bias), kRecordingBiasModels);
+  request.deadline_s = ReadWithin("deadline_s", wire.deadline_s, kFiniteNotNegative);
   return request;
 }
 
@@ -100,6 +104,7 @@ DiagnoseRequest ReadRequest(const telltale_wire_DiagnoseRequest& wire) {
   request.refit = wire.refit;
   request.without = ReadSequence("without", wire.without, ReadEffectName);
   request.seed = wire.seed;
+  request.deadline_s = ReadWithin("deadline_s", wire.deadline_s, kFiniteNotNegative);
   return request;
 }
 
@@ -115,7 +120,8 @@ ExchangeReply ReadReply(const auto& wire) {
           ReadName("outcome", View(wire.outcome), kReplyOutcomes),
           TextOf(wire.message),
           ReadSequence("refusals", wire.refusals, ReadRefusal),
-          ReadWithin("elapsed_s", wire.elapsed_s, kFiniteNotNegative)};
+          ReadWithin("elapsed_s", wire.elapsed_s, kFiniteNotNegative),
+          ReadWithin("retry_after_s", wire.retry_after_s, kFiniteNotNegative)};
 }
 
 /// Whether the reply has a result to read. Refuses a published reply without one and any other

@@ -85,6 +85,14 @@ class CommandTest : public testing::Test {
 
 // ---- usage -----------------------------------------------------------------------------------
 
+TEST(LiveCommand, TakesNoTimeoutThatIsNoNumber) {
+  for (const char* wrong : {"nan", "-1", "inf"}) {
+    const auto run = Telltale({"watch", "--all", "--count", "1", "--timeout", wrong});
+    EXPECT_EQ(run.exit_code, kUsage) << wrong;
+    EXPECT_THAT(run.err, HasSubstr("--timeout"));
+  }
+}
+
 TEST_F(CommandTest, HelpIsNoError) {
   for (const char* subcommand : {"identify", "validate", "simulate", "export"}) {
     const CommandOutcome outcome = Telltale({subcommand, "--help"});

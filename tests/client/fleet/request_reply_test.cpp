@@ -17,19 +17,23 @@ namespace {
 
 using namespace std::chrono_literals;
 
-/// Answers every request for an identification with one and the same reply.
+/// Answers every request for an identification with one and the same reply, once it has been busy
+/// for some of them.
 class FakeDaemon {
  public:
-  FakeDaemon(const Participant& participant, IdentifyReply reply)
+  FakeDaemon(const Participant& participant, IdentifyReply reply, int busy = 0)
       : reply_(std::move(reply)),
+        busy_(busy),
         wait_set_(participant),
         progress_(participant),
         replies_(participant),
         requests_(participant) {
     wait_set_.Attach(requests_, [this] {
       requests_.Take([this](const auto& request) {
+        ++requests_taken_;
+        deadline_s_ = request.deadline_s;
         reply_.correlation_id = request.correlation_id;
-        replies_.Write(Encode(reply_));
+        replies_.Write(Encode(busy_-- > 0 ? BusyReply() : reply_));
       });
     });
     thread_ = std::thread([this] {
@@ -44,8 +48,24 @@ class FakeDaemon {
     thread_.join();
   }
 
+  int requests_taken() const { return requests_taken_; }
+  double deadline_s() const { return deadline_s_; }  ///< of the last request
+
  private:
+  IdentifyReply BusyReply() const {
+    IdentifyReply busy;
+    busy.correlation_id = reply_.correlation_id;
+    busy.vehicle_id = reply_.vehicle_id;
+    busy.outcome = ReplyOutcome::kFailed;
+    busy.message = "busy";
+    busy.retry_after_s = 0.05;
+    return busy;
+  }
+
   IdentifyReply reply_;
+  int busy_;
+  std::atomic<int> requests_taken_ = 0;
+  std::atomic<double> deadline_s_ = 0.0;
   WaitSet wait_set_;
   Writer<telltale_wire_IdentifyProgress> progress_;
   Writer<telltale_wire_IdentifyReply> replies_;
@@ -92,6 +112,30 @@ TEST_F(RequestReplyTest, NamesTheFieldOfAnUnreadableReply) {
   ASSERT_EQ(result.outcome, RequestOutcome::kUnreadable);
   EXPECT_FALSE(result.reply);
   EXPECT_EQ(result.unreadable->field, "coefficients[3].standard_error");
+}
+
+TEST_F(RequestReplyTest, AsksABusyDaemonAgainAndSaysHowLongItWaits) {
+  const FakeDaemon daemon(there_, reply_, 2);
+  IdentificationClient client(here_);
+  IdentifyRequest request;
+  request.correlation_id = "asked";
+  request.vehicle_id = "made-up.1";
+  const auto result = client.Identify(request, {.match = 20s, .reply = 60s, .retry = 30s});
+  ASSERT_EQ(result.outcome, RequestOutcome::kPublished);
+  EXPECT_EQ(daemon.requests_taken(), 3);
+  EXPECT_GT(daemon.deadline_s(), 0.0);
+  EXPECT_LE(daemon.deadline_s(), 60.0);
+}
+
+TEST_F(RequestReplyTest, SaysThatTheDaemonStaysBusy) {
+  const FakeDaemon daemon(there_, reply_, 1'000'000);
+  IdentificationClient client(here_);
+  IdentifyRequest request;
+  request.correlation_id = "asked";
+  request.vehicle_id = "made-up.1";
+  const auto result = client.Identify(request, {.match = 20s, .reply = 500ms, .retry = 30s});
+  ASSERT_EQ(result.outcome, RequestOutcome::kFailed);
+  EXPECT_EQ(result.reply->message, "busy");
 }
 
 }  // namespace

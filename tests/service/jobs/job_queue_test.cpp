@@ -6,12 +6,16 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <optional>
+#include <sstream>
 #include <string>
 #include <thread>
 #include <utility>
+#include <vector>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <spdlog/sinks/ostream_sink.h>
 #include <spdlog/spdlog.h>
 
 #include "support/loopback_domain.hpp"
@@ -32,23 +36,39 @@ Vehicle Named(const std::string& vehicle_id) {
   return vehicle;
 }
 
-/// Work that goes on until it is let go, and that knows how much was done at once.
+/// Work that goes on until it is let go, and that knows what was done, and how much at once.
 class HeldWork {
  public:
-  void Do(const std::string& vehicle_id) {
+  void Do(const std::string& vehicle_id, const Progress& progress) {
     std::unique_lock lock(mutex_);
+    begun_.push_back(vehicle_id);
     ++inside_;
     most_for_one_ = std::max(most_for_one_, ++inside_for_[vehicle_id]);
     changed_.notify_all();
-    changed_.wait_for(lock, 60s, [this] { return free_; });
-    --inside_;
-    --inside_for_[vehicle_id];
+    try {
+      while (!changed_.wait_for(lock, 10ms, [this] { return free_; })) progress("held", 0.5);
+    } catch (...) {
+      Leave(vehicle_id);
+      throw;
+    }
+    Leave(vehicle_id);
   }
 
   /// False when fewer than `count` have come within a minute.
   bool AwaitInside(int count) {
     std::unique_lock lock(mutex_);
     return changed_.wait_for(lock, 60s, [&] { return inside_ >= count; });
+  }
+
+  bool AwaitNobodyInside() {
+    std::unique_lock lock(mutex_);
+    return changed_.wait_for(lock, 60s, [&] { return inside_ == 0; });
+  }
+
+  /// The vehicles worked on, in the order in which the work began.
+  std::vector<std::string> Begun() {
+    const std::lock_guard lock(mutex_);
+    return begun_;
   }
 
   void LetGo() {
@@ -63,9 +83,16 @@ class HeldWork {
   }
 
  private:
+  void Leave(const std::string& vehicle_id) {
+    --inside_;
+    --inside_for_[vehicle_id];
+    changed_.notify_all();
+  }
+
   std::mutex mutex_;
   std::condition_variable changed_;
   bool free_ = false;
+  std::vector<std::string> begun_;
   int inside_ = 0;
   int most_for_one_ = 0;
   std::map<std::string, int> inside_for_;
@@ -82,19 +109,22 @@ class Jobs : public ::testing::Test {
     wait_set_.Attach(reader_, [this] { TakeReplies(); });
   }
 
-  std::unique_ptr<Queue> QueueOf(std::size_t workers, std::size_t limit) {
-    const auto work = [this](const IdentifyRequest& request, const Progress&) {
-      work_.Do(request.vehicle_id);
+  std::unique_ptr<Queue> QueueOf(const Workers& workers, std::size_t limit) {
+    const auto work = [this](const IdentifyRequest& request, const Progress& progress) {
+      work_.Do(request.vehicle_id, progress);
       return ReplyTo<IdentifyReply>(request, ReplyOutcome::kRefused, "done");
     };
     return std::make_unique<Queue>("identification", fleet_, replies_, workers, limit, work);
   }
 
+  /// Asks for something of its own, unless the seeds are alike.
   static IdentifyRequest RequestNamed(const std::string& correlation_id,
-                                      const std::string& vehicle_id) {
+                                      const std::string& vehicle_id,
+                                      std::optional<std::uint64_t> seed = std::nullopt) {
     IdentifyRequest request;
     request.correlation_id = correlation_id;
     request.vehicle_id = vehicle_id;
+    request.seed = seed.value_or(std::hash<std::string>()(correlation_id));
     return request;
   }
 
@@ -120,6 +150,7 @@ class Jobs : public ::testing::Test {
   ReplyPublisher replies_{participant_};
   HeldWork work_;
   std::map<std::string, std::string> messages_;  ///< by correlation id
+  std::map<std::string, double> retry_after_s_;  ///< likewise
 
  private:
   void TakeReplies() {
@@ -127,12 +158,13 @@ class Jobs : public ::testing::Test {
       const auto reply = Decode(wire);
       ASSERT_TRUE(reply.has_value());
       messages_[reply->correlation_id] = reply->message;
+      retry_after_s_[reply->correlation_id] = reply->retry_after_s;
     });
   }
 };
 
 TEST_F(Jobs, WorkOnSeveralVehiclesAtOnce) {
-  const auto queue = QueueOf(2, 10);
+  const auto queue = QueueOf({.interactive = 2}, 10);
   queue->Submit(RequestNamed("a", "one"));
   queue->Submit(RequestNamed("b", "two"));
   EXPECT_TRUE(work_.AwaitInside(2));
@@ -143,7 +175,7 @@ TEST_F(Jobs, WorkOnSeveralVehiclesAtOnce) {
 
 // The second worker has nothing else to do, and still leaves the vehicle alone.
 TEST_F(Jobs, WorkOnOneRequestOfAVehicleAtATime) {
-  const auto queue = QueueOf(2, 10);
+  const auto queue = QueueOf({.interactive = 2}, 10);
   queue->Submit(RequestNamed("a", "one"));
   queue->Submit(RequestNamed("b", "one"));
   queue->Submit(RequestNamed("c", "two"));
@@ -156,19 +188,20 @@ TEST_F(Jobs, WorkOnOneRequestOfAVehicleAtATime) {
 }
 
 TEST_F(Jobs, RefuseWhatTheyCannotQueue) {
-  const auto queue = QueueOf(1, 1);
+  const auto queue = QueueOf({.interactive = 1}, 1);
   queue->Submit(RequestNamed("running", "one"));
   ASSERT_TRUE(work_.AwaitInside(1));
   queue->Submit(RequestNamed("waiting", "two"));
   EXPECT_THAT(ReplyMessageTo(*queue, RequestNamed("too-many", "two")),
               HasSubstr("1 requests for identification are waiting"));
+  EXPECT_GE(retry_after_s_["too-many"], 1.0);
   work_.LetGo();
   EXPECT_EQ(ReplyMessageTo(*queue, RequestNamed("waiting", "two")), "done");
   EXPECT_EQ(ReplyMessageTo(*queue, RequestNamed("another", "two")), "done");
 }
 
 TEST_F(Jobs, AnswerWhatStillWaitsWhenTheyEnd) {
-  auto queue = QueueOf(1, 10);
+  auto queue = QueueOf({.interactive = 1}, 10);
   // Once an answer has come through, the next will too.
   ASSERT_THAT(ReplyMessageTo(*queue, RequestNamed("stranger", "three")), HasSubstr("one, two"));
   queue->Submit(RequestNamed("running", "one"));
@@ -182,6 +215,92 @@ TEST_F(Jobs, AnswerWhatStillWaitsWhenTheyEnd) {
   }
   // Either the end or the worker was first; unanswered it does not stay.
   EXPECT_THAT(messages_["waiting"], ::testing::AnyOf(HasSubstr("stopping"), "done"));
+}
+
+TEST_F(Jobs, LetNobodyWaitForACoverageCheck) {
+  const auto queue = QueueOf({.interactive = 1, .refresh = 1, .background = 1}, 10);
+  queue->Submit(RequestNamed("check", "one"), Urgency::kBackground);
+  queue->Submit(RequestNamed("another-check", "two"), Urgency::kBackground);
+  ASSERT_TRUE(work_.AwaitInside(1));
+  queue->Submit(RequestNamed("refresh", "two"), Urgency::kRefresh);
+  ASSERT_TRUE(work_.AwaitInside(2));
+  queue->Submit(RequestNamed("plain", "one"));
+  EXPECT_TRUE(work_.AwaitInside(3));
+  work_.LetGo();
+  for (const auto& [id, vehicle] : {std::pair("check", "one"), {"plain", "one"}}) {
+    EXPECT_EQ(ReplyMessageTo(*queue, RequestNamed(id, vehicle)), "done");
+  }
+}
+
+TEST_F(Jobs, WorkOnceForAllWhoAskTheSame) {
+  const auto queue = QueueOf({.interactive = 1}, 10);
+  queue->Submit(RequestNamed("held", "one"));
+  ASSERT_TRUE(work_.AwaitInside(1));
+  for (int i = 0; i < 60; ++i) queue->Submit(RequestNamed("ask-" + std::to_string(i), "two", 7));
+  work_.LetGo();
+  for (int i = 0; i < 60; ++i) {
+    EXPECT_EQ(ReplyMessageTo(*queue, RequestNamed("ask-" + std::to_string(i), "two", 7)), "done");
+  }
+  EXPECT_THAT(work_.Begun(), ::testing::ElementsAre("one", "two"));
+}
+
+TEST_F(Jobs, TakeVehiclesInTurn) {
+  const auto queue = QueueOf({.interactive = 1}, 10);
+  queue->Submit(RequestNamed("a", "one"));
+  ASSERT_TRUE(work_.AwaitInside(1));
+  for (const char* id : {"b", "c", "d"}) queue->Submit(RequestNamed(id, "one"));
+  queue->Submit(RequestNamed("e", "two"));
+  work_.LetGo();
+  for (const auto& [id, vehicle] : {std::pair("d", "one"), {"e", "two"}}) {
+    EXPECT_EQ(ReplyMessageTo(*queue, RequestNamed(id, vehicle)), "done");
+  }
+  EXPECT_THAT(work_.Begun(), ::testing::ElementsAre("one", "two", "one", "one", "one"));
+}
+
+TEST_F(Jobs, DropWhatNobodyWaitsForAnyMore) {
+  const auto queue = QueueOf({.interactive = 1}, 10);
+  IdentifyRequest patient = RequestNamed("patient", "one", 1);
+  queue->Submit(patient);
+  ASSERT_TRUE(work_.AwaitInside(1));
+  IdentifyRequest hasty = RequestNamed("hasty", "two");
+  hasty.deadline_s = 0.05;
+  queue->Submit(hasty);
+  for (int patience = 0; patience < 200 && !HasReply("hasty"); ++patience) {
+  }
+  EXPECT_THAT(messages_["hasty"], HasSubstr("deadline has passed"));
+  // Work under way ends too.
+  EXPECT_TRUE(queue->Cancel("patient"));
+  EXPECT_TRUE(work_.AwaitNobodyInside());
+  EXPECT_THAT(work_.Begun(), ::testing::ElementsAre("one"));
+  EXPECT_THAT(ReplyMessageTo(*queue, patient), HasSubstr("cancelled"));
+}
+
+TEST_F(Jobs, GoOnForThoseWhoStillWait) {
+  const auto queue = QueueOf({.interactive = 1}, 10);
+  queue->Submit(RequestNamed("first", "one", 1));
+  ASSERT_TRUE(work_.AwaitInside(1));
+  queue->Submit(RequestNamed("second", "one", 1));
+  EXPECT_TRUE(queue->Cancel("first"));
+  EXPECT_FALSE(queue->Cancel("nobody"));
+  work_.LetGo();
+  EXPECT_EQ(ReplyMessageTo(*queue, RequestNamed("second", "one", 1)), "done");
+  EXPECT_THAT(work_.Begun(), ::testing::ElementsAre("one"));
+}
+
+TEST_F(Jobs, WriteABoundedLogUnderAFlood) {
+  std::ostringstream log;
+  const auto before = spdlog::default_logger();
+  spdlog::set_default_logger(std::make_shared<spdlog::logger>(
+      "flood", std::make_shared<spdlog::sinks::ostream_sink_mt>(log)));
+  {
+    const auto queue = QueueOf({.interactive = 1}, 10);
+    for (int i = 0; i < 3000; ++i) {
+      queue->Submit(RequestNamed("flood-" + std::to_string(i), "stranger"));
+    }
+  }
+  spdlog::set_default_logger(before);
+  EXPECT_THAT(log.str(), HasSubstr("'stranger' is not served here"));
+  EXPECT_LT(log.str().size(), 100'000u);
 }
 
 }  // namespace

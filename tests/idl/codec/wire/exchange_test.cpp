@@ -50,6 +50,34 @@ TEST(WireExchange, RequestArrivesAsItWasSent) {
   EXPECT_EQ(open->recording_bias, RecordingBiasModel::kUnknown);
 }
 
+TEST(WireExchange, CarriesDeadlineAndTimeToAskAgain) {
+  IdentifyRequest sent;
+  sent.correlation_id = "abc-1";
+  sent.vehicle_id = "boat-1";
+  sent.deadline_s = 12.5;
+  EXPECT_EQ(Decode(*Encode(sent))->deadline_s, 12.5);
+  auto wire = Encode(sent);
+  wire->deadline_s = -1.0;
+  EXPECT_EQ(Decode(*wire).error().field, "deadline_s");
+  DiagnoseReply busy;
+  busy.correlation_id = "abc-1";
+  busy.vehicle_id = "boat-1";
+  busy.outcome = ReplyOutcome::kFailed;
+  busy.retry_after_s = 4.0;
+  EXPECT_EQ(Decode(*Encode(busy))->retry_after_s, 4.0);
+}
+
+TEST(WireExchange, NamesALongFaultInAShortLine) {
+  IdentifyRequest sent;
+  sent.correlation_id = "abc-1";
+  sent.vehicle_id = "boat-1";
+  auto wire = Encode(sent);
+  Replace(wire->estimator, std::string(20'000'000, 'x').c_str());
+  const std::string message = Decode(*wire).error().Message();
+  EXPECT_LT(message.size(), 400u);
+  EXPECT_NE(message.find("20000000 characters"), std::string::npos);
+}
+
 TEST(WireExchange, RequestLeavesReverseRowsOutUnlessItSaysOtherwise) {
   IdentifyRequest sent;
   sent.correlation_id = "abc-1";
@@ -130,7 +158,7 @@ TEST(WireExchange, ProgressStaysBetweenNoneAndAll) {
 }
 
 TEST(WireExchange, RequestAndProgressArriveAsTheyWereSent) {
-  const auto request = Decode(*Encode(DiagnoseRequest{"id-1", "boat-1", true, {"wind", "x"}, 9}));
+  const auto request = Decode(*Encode(DiagnoseRequest{{"id-1", "boat-1"}, true, {"wind", "x"}, 9}));
   ASSERT_TRUE(request) << request.error().Message();
   EXPECT_EQ(request->correlation_id, "id-1");
   EXPECT_EQ(request->vehicle_id, "boat-1");

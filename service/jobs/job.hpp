@@ -1,0 +1,53 @@
+#pragma once
+
+#include <algorithm>
+#include <chrono>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "telltale/service/jobs/urgency.hpp"
+
+namespace telltale {
+
+/// Somebody who waits for the reply to a job.
+template <class Reply>
+struct Asker {
+  using Clock = std::chrono::steady_clock;
+
+  std::string correlation_id;
+  std::optional<Clock::time_point> deadline;  ///< nobody waits after it
+  std::function<void(const Reply&)> answer;   ///< unset: the reply goes out on the bus
+
+  bool GivesUpBy(Clock::time_point now) const { return deadline && *deadline <= now; }
+};
+
+/// A piece of work, and all who have asked for it. The owner serialises access.
+template <class Request, class Reply>
+struct Job {
+  using Clock = std::chrono::steady_clock;
+
+  Request request;  ///< the first asker's
+  std::vector<Asker<Reply>> askers;
+  Urgency urgency = Urgency::kInteractive;
+  std::uint64_t number = 0;                  ///< counts up by one per job
+  std::optional<Clock::time_point> started;  ///< unset: it waits
+
+  bool Waits() const { return !started; }
+
+  /// Takes away the askers for whom `leaves` is true, and returns them.
+  template <class Leaves>
+  std::vector<Asker<Reply>> TakeAskers(Leaves leaves) {
+    const auto first = std::stable_partition(
+        askers.begin(), askers.end(), [&](const Asker<Reply>& asker) { return !leaves(asker); });
+    std::vector<Asker<Reply>> taken(std::make_move_iterator(first),
+                                    std::make_move_iterator(askers.end()));
+    askers.erase(first, askers.end());
+    return taken;
+  }
+};
+
+}  // namespace telltale
