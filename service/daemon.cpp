@@ -14,11 +14,12 @@ Daemon::Daemon(const DaemonConfig& config, std::function<void(const std::excepti
                [this](std::string_view topic) { fleet_.CountUnreadable(topic); }),
       participant_(config.domain),
       models_(participant_, ModelStore(config.state_directory), fleet_),
+      watcher_(participant_, view_),
       replies_(participant_),
       diagnoses_(participant_, DiagnosisStore(config.state_directory), fleet_),
       jobs_(fleet_, models_, baselines_, replies_, config.identification),
       diagnosis_jobs_(fleet_, models_, baselines_, diagnoses_, replies_, config.identification),
-      quality_(participant_, fleet_, models_, config.quality_period_s),
+      quality_(participant_, fleet_, models_, view_, config.quality_period_s),
       ingest_(participant_, fleet_,
               {.identify = [this](IdentifyRequest request) { jobs_.Submit(std::move(request)); },
                .diagnose =

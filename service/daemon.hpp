@@ -13,6 +13,8 @@
 #include "telltale/service/jobs/reply_publisher.hpp"
 #include "telltale/service/models/baseline_recordings.hpp"
 #include "telltale/service/models/published_models.hpp"
+#include "telltale/service/monitoring/fleet_view.hpp"
+#include "telltale/service/monitoring/fleet_watcher.hpp"
 #include "telltale/service/monitoring/quality_publisher.hpp"
 #include "telltale/service/storage/directory_lock.hpp"
 
@@ -33,6 +35,8 @@ class Daemon {
   BusLog bus_log_;
   Participant participant_;
   PublishedModels models_;
+  FleetView view_;
+  FleetWatcher watcher_;
   ReplyPublisher replies_;
   BaselineRecordings baselines_;
   PublishedDiagnoses diagnoses_;

@@ -2,7 +2,10 @@
 #include <iostream>
 #include <map>
 #include <memory>
+#include <stdexcept>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include <unistd.h>
 
@@ -11,6 +14,7 @@
 #include "telltale/client/cli/live_options.hpp"
 #include "telltale/client/cli/quality_table.hpp"
 #include "telltale/client/fleet/subscriber.hpp"
+#include "telltale/idl/codec/json/quality.hpp"
 
 namespace telltale {
 namespace {
@@ -19,9 +23,16 @@ using Clock = std::chrono::steady_clock;
 
 struct MonitorArguments {
   bool once = false;
+  bool json = false;
   std::size_t count = 0;
+  std::string vehicle_id;
+  QualityView view;
   LiveOptions live;
 };
+
+double SystemNow() {
+  return std::chrono::duration<double>(std::chrono::system_clock::now().time_since_epoch()).count();
+}
 
 /// The newest quality of every vehicle. A daemon ends each round with what names no vehicle.
 class Rounds {
@@ -39,6 +50,51 @@ class Rounds {
   std::size_t complete_ = 0;
 };
 
+/// One line a vehicle.
+std::string JsonLines(const std::vector<Quality>& shown) {
+  std::string lines;
+  for (const Quality& quality : shown) lines += PrintQualityLine(quality, SystemNow()) + '\n';
+  return lines;
+}
+
+/// The vehicle asked for. Throws where the daemon serves none of that id.
+const Quality& Named(const std::map<std::string, Quality>& fleet, const std::string& vehicle_id) {
+  const auto named = fleet.find(vehicle_id);
+  if (named != fleet.end()) return named->second;
+  std::string served;
+  for (const auto& [id, quality] : fleet) {
+    if (id != kUnattributed) served += (served.empty() ? "" : ", ") + id;
+  }
+  throw std::runtime_error("no daemon on this domain serves '" + vehicle_id +
+                           "'; served: " + served);
+}
+
+std::string Rendered(const std::map<std::string, Quality>& fleet,
+                     const MonitorArguments& arguments) {
+  if (arguments.vehicle_id.empty()) {
+    if (arguments.json) return JsonLines(Selected(fleet, arguments.view));
+    return QualityTable(fleet, arguments.view) + '\n';
+  }
+  const Quality& quality = Named(fleet, arguments.vehicle_id);
+  if (arguments.json) return JsonLines({quality});
+  return QualityDetail(quality, SystemNow()) + '\n';
+}
+
+/// Whether enough time has passed since the last JSON: a line a vehicle and second, however often
+/// a daemon reports.
+class JsonPace {
+ public:
+  bool IsDue() {
+    const auto now = Clock::now();
+    if (now < next_) return false;
+    next_ = now + std::chrono::milliseconds(990);
+    return true;
+  }
+
+ private:
+  Clock::time_point next_;
+};
+
 void Monitor(const MonitorArguments& arguments) {
   const Participant participant(arguments.live.domain);
   Rounds rounds;
@@ -49,7 +105,9 @@ void Monitor(const MonitorArguments& arguments) {
       });
 
   const std::size_t wanted = arguments.once ? 1 : arguments.count;
-  const bool redraw = wanted != 1 && isatty(STDOUT_FILENO) == 1;
+  const bool redraw = wanted != 1 && !arguments.json && isatty(STDOUT_FILENO) == 1;
+  JsonPace pace;
+  std::size_t seen = 0;
   std::size_t shown = 0;
   auto deadline = Clock::now() + arguments.live.Timeout();
   while (wanted == 0 || shown < wanted) {
@@ -58,12 +116,35 @@ void Monitor(const MonitorArguments& arguments) {
                                NobodyThereAdvice(arguments.live.domain));
     }
     qualities.Wait(deadline - Clock::now());
-    if (rounds.complete() == shown) continue;
-    shown = rounds.complete();
+    if (rounds.complete() == seen) continue;
+    seen = rounds.complete();
     deadline = Clock::now() + arguments.live.Timeout();
-    std::cout << (redraw ? "\x1b[H\x1b[2J" : "") << QualityTable(rounds.fleet()) << '\n'
+    if (arguments.json && !pace.IsDue()) continue;
+    ++shown;
+    std::cout << (redraw ? "\x1b[H\x1b[2J" : "") << Rendered(rounds.fleet(), arguments)
               << std::flush;
   }
+}
+
+void AddViewOptions(CLI::App& command, MonitorArguments& arguments) {
+  const std::map<std::string, QualityOrder> orders = {{"urgency", QualityOrder::kUrgency},
+                                                      {"id", QualityOrder::kId},
+                                                      {"error", QualityOrder::kError},
+                                                      {"fill", QualityOrder::kFill},
+                                                      {"age", QualityOrder::kAge}};
+  std::map<std::string, QualityVerdict> verdicts;
+  for (const QualityVerdict verdict : kQualityVerdicts) verdicts.emplace(Name(verdict), verdict);
+  command.add_option("--sort", arguments.view.order, "urgency (the default), id, error, fill, age")
+      ->type_name("ORDER")
+      ->transform(CLI::CheckedTransformer(orders).description(""));
+  command
+      .add_option("--verdict", arguments.view.verdicts,
+                  "only boats with one of these: OK, WARN, ERROR, STALE")
+      ->type_name("VERDICT,...")
+      ->delimiter(',')
+      ->transform(CLI::CheckedTransformer(verdicts, CLI::ignore_case).description(""));
+  command.add_option("--match", arguments.view.match, "only boats whose id holds this text")
+      ->type_name("TEXT");
 }
 
 }  // namespace
@@ -77,13 +158,17 @@ void AddMonitor(CLI::App& telltale) {
       ->type_name("N")
       ->capture_default_str()
       ->excludes(once);
+  AddViewOptions(command, *arguments);
+  AddVehicleId(command, arguments->vehicle_id)->description("everything about this boat alone");
+  command.add_flag("--json", arguments->json, "a line of JSON a boat and second");
   arguments->live.AddTo(command, 10.0, "give up when no report comes for this long");
   command.footer(
+      "verdict: OK, WARN, ERROR, STALE (no telemetry); the reasons stand below the table.\n"
+      "f/h/t Hz: fixes, headings, thruster commands a second; fill: of the window.\n"
+      "lost, rej.: per cent of the samples of the last minute. rev., age: of the model.\n"
       "error: free-run error over 5 s in the last minute, in units of that when the model was\n"
-      "made. drift: its running change. lost: gaps in the sequence numbers.\n"
-      "~f:d: live one-step estimate of surge f:d, forward thrust, linear (m/s^2), with its\n"
-      "standard error; it is indicative and has no bounds.\n"
-      "Example: telltale monitor --count 1");
+      "made.\n"
+      "Example: telltale monitor --verdict WARN,ERROR --sort error");
   command.callback([arguments] { Monitor(*arguments); });
 }
 

@@ -46,10 +46,17 @@ WindowState VehicleWindow::State() {
   state.fill = std::clamp((state.end_s - state.start_s) / limits_.duration_s, 0.0, 1.0);
   state.accepted = accepted_;
   state.rejected = window_.Rejected();
+  state.newest_fix = newest_fix_;
+  state.newest_heading = newest_heading_;
   const std::lock_guard inbox_lock(inbox_mutex_);
   state.arrived = arrived_;
   for (const SequenceGaps& gaps : gaps_) state.lost += gaps.lost();
   return state;
+}
+
+void VehicleWindow::NoteNewest(const Sample& sample) {
+  if (const auto* fix = std::get_if<GnssFix>(&sample)) newest_fix_ = *fix;
+  if (const auto* heading = std::get_if<HeadingSample>(&sample)) newest_heading_ = *heading;
 }
 
 void VehicleWindow::EmptyInbox() {
@@ -59,7 +66,9 @@ void VehicleWindow::EmptyInbox() {
   }
   for (const Sample& sample : emptied_) {
     const bool kept = !std::visit([&](const auto& s) { return window_.Add(s); }, sample);
-    if (kept) ++accepted_;
+    if (!kept) continue;
+    ++accepted_;
+    NoteNewest(sample);
   }
   emptied_.clear();
 }

@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 #include <mutex>
+#include <optional>
 #include <variant>
 #include <vector>
 
@@ -22,6 +23,8 @@ struct WindowState {
   std::uint64_t accepted = 0;
   std::uint64_t lost = 0;
   RejectCounts rejected;
+  std::optional<GnssFix> newest_fix;  ///< of those kept
+  std::optional<HeadingSample> newest_heading;
 };
 
 /// The sliding window of one vehicle, for one thread that fills it and several that read it.
@@ -43,6 +46,7 @@ class VehicleWindow {
   using Sample = std::variant<GnssFix, HeadingSample, ThrusterSample>;
 
   void Add(Channel channel, std::uint64_t sequence_number, const Sample& sample);
+  void NoteNewest(const Sample& sample);
   void EmptyInbox();  ///< into the window; the caller holds window_mutex_
 
   const Vehicle vehicle_;
@@ -57,6 +61,8 @@ class VehicleWindow {
   std::vector<Sample> emptied_;
   Window window_;
   std::uint64_t accepted_ = 0;
+  std::optional<GnssFix> newest_fix_;
+  std::optional<HeadingSample> newest_heading_;
 };
 
 }  // namespace telltale

@@ -16,6 +16,9 @@ class DriftDetector {
   /// True from the time that the sum reaches its threshold until it is back at zero.
   bool Fires() const { return fires_; }
 
+  /// Whether the sum is above zero. The time at which it last left zero estimates the onset.
+  bool Rises() const { return excess_ > 0.0; }
+
  private:
   double excess_ = 0.0;
   bool fires_ = false;

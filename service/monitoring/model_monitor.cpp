@@ -6,6 +6,7 @@
 
 #include "telltale/core/data/recording_parts.hpp"
 #include "telltale/service/models/free_run_error.hpp"
+#include "telltale/service/unix_now.hpp"
 
 namespace telltale {
 namespace {
@@ -23,6 +24,7 @@ void ModelMonitor::Evaluate(VehicleWindow& window, double end_s, const StoredMod
     prediction_error_.reset();
     drift_ = 0.0;
     drift_detector_ = DriftDetector();
+    rises_since_unix_s_.reset();
   } else if (end_s < evaluated_to_s_ + kNewDataS) {
     return;
   }
@@ -38,6 +40,12 @@ void ModelMonitor::Add(double relative_error) {
   }
   prediction_error_ = relative_error;
   drift_detector_.Add(relative_error);
+  if (!drift_detector_.Rises()) rises_since_unix_s_.reset();
+  if (drift_detector_.Rises() && !rises_since_unix_s_) rises_since_unix_s_ = UnixNow();
+}
+
+std::optional<double> ModelMonitor::DriftSince() const {
+  return drift_detector_.Fires() ? rises_since_unix_s_ : std::nullopt;
 }
 
 std::string ModelMonitor::Proposal(std::string_view vehicle_id) {

@@ -26,6 +26,9 @@ class ModelMonitor {
   /// The running mean of the change of prediction_error() per evaluation.
   double drift() const { return drift_; }
 
+  /// The onset of the drift by the daemon's clock, while there is one.
+  std::optional<double> DriftSince() const;
+
   /// What to do where the model no longer fits; empty where it does. Logs each onset once.
   std::string Proposal(std::string_view vehicle_id);
 
@@ -37,6 +40,7 @@ class ModelMonitor {
   std::optional<double> prediction_error_;
   double drift_ = 0.0;
   DriftDetector drift_detector_;
+  std::optional<double> rises_since_unix_s_;  ///< while the sum of the detector is above zero
   bool proposed_ = false;
 };
 

@@ -5,7 +5,10 @@
 
 #include <spdlog/spdlog.h>
 
+#include "telltale/idl/codec/json/json_message.hpp"
 #include "telltale/idl/codec/wire/quality.hpp"
+#include "telltale/service/monitoring/fleet_json.hpp"
+#include "telltale/service/unix_now.hpp"
 
 namespace telltale {
 namespace {
@@ -23,10 +26,13 @@ void LoggingFailure(Work work) {
 }  // namespace
 
 QualityPublisher::QualityPublisher(const Participant& participant, Fleet& fleet,
-                                   PublishedModels& models, double period_s)
-    : fleet_(fleet), models_(models), period_(period_s), writer_(participant), thread_([this] {
-        Run();
-      }) {}
+                                   PublishedModels& models, FleetView& view, double period_s)
+    : fleet_(fleet),
+      models_(models),
+      view_(view),
+      period_(period_s),
+      writer_(participant),
+      thread_([this] { Run(); }) {}
 
 QualityPublisher::~QualityPublisher() {
   {
@@ -84,9 +90,21 @@ void QualityPublisher::PublishReceipts() {
 void QualityPublisher::PublishAll(double elapsed_s) {
   for (const auto& [vehicle_id, window] : fleet_.windows()) {
     const auto latest = models_.Latest(vehicle_id);
-    writer_.Write(Encode(monitors_[vehicle_id].Assess(*window, latest, elapsed_s)));
+    const Quality quality = monitors_[vehicle_id].Assess(*window, latest, view_, elapsed_s);
+    writer_.Write(Encode(quality));
+    view_.Take(quality, UnixNow());
   }
   writer_.Write(Encode(Unattributed()));
+  AnnounceRound();
+}
+
+void QualityPublisher::AnnounceRound() {
+  if (!view_.events().HasReaders()) return;
+  proto::VehicleList list;
+  list.set_time_unix_s(UnixNow());
+  for (const Quality& quality : view_.Qualities()) *list.add_vehicles() = SummaryOf(quality);
+  list.set_total(static_cast<std::uint32_t>(list.vehicles_size()));
+  view_.events().Add("fleet", PrintJsonLine(list));
 }
 
 Quality QualityPublisher::Unattributed() {

@@ -13,6 +13,7 @@
 #include "telltale/client/bus/writer.hpp"
 #include "telltale/service/ingest/fleet.hpp"
 #include "telltale/service/models/published_models.hpp"
+#include "telltale/service/monitoring/fleet_view.hpp"
 #include "telltale/service/monitoring/vehicle_monitor.hpp"
 
 namespace telltale {
@@ -23,7 +24,7 @@ namespace telltale {
 class QualityPublisher {
  public:
   QualityPublisher(const Participant& participant, Fleet& fleet, PublishedModels& models,
-                   double period_s);
+                   FleetView& view, double period_s);
   QualityPublisher(const QualityPublisher&) = delete;
   QualityPublisher& operator=(const QualityPublisher&) = delete;
   ~QualityPublisher();  ///< ends the thread
@@ -38,10 +39,12 @@ class QualityPublisher {
   bool WaitUntil(Clock::time_point deadline);  ///< false once it is to stop
   void PublishAll(double elapsed_s);
   void PublishReceipts();
+  void AnnounceRound();  ///< to those who follow the events
   Quality Unattributed();
 
   Fleet& fleet_;
   PublishedModels& models_;
+  FleetView& view_;  ///< takes each quality too
   const std::chrono::duration<double> period_;
   Writer<telltale_wire_Quality> writer_;
   std::map<std::string, VehicleMonitor> monitors_;  ///< by vehicle id

@@ -1,7 +1,10 @@
 #include "telltale/service/monitoring/vehicle_monitor.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <utility>
 
+#include "telltale/service/monitoring/quality_verdict.hpp"
 #include "telltale/service/unix_now.hpp"
 
 namespace telltale {
@@ -30,16 +33,60 @@ Quality TelemetryQuality(const WindowState& now, const WindowState& before, doub
   return quality;
 }
 
+std::optional<QualityPosition> PositionOf(const WindowState& state) {
+  if (!state.newest_fix) return std::nullopt;
+  QualityPosition position{state.newest_fix->latitude_deg, state.newest_fix->longitude_deg, {}};
+  if (state.newest_heading) position.heading_deg = state.newest_heading->heading_deg;
+  return position;
+}
+
+/// Median over the identified coefficients of half the width of their bounds, by their estimates.
+double RelativeHalfWidth(const std::vector<Coefficient>& coefficients) {
+  std::vector<double> widths;
+  for (const Coefficient& c : coefficients) {
+    if (c.status != CoefficientStatus::kEstimated || c.estimate == 0.0) continue;
+    widths.push_back(0.5 * (c.interval.upper - c.interval.lower) / std::abs(c.estimate));
+  }
+  if (widths.empty()) return 0.0;
+  const auto middle = widths.begin() + static_cast<std::ptrdiff_t>(widths.size() / 2);
+  std::nth_element(widths.begin(), middle, widths.end());
+  return *middle;
+}
+
+void WriteIdentifiability(const std::vector<Coefficient>& coefficients, Quality& quality) {
+  quality.coefficients = static_cast<std::uint32_t>(coefficients.size());
+  quality.identified = static_cast<std::uint32_t>(
+      std::ranges::count(coefficients, CoefficientStatus::kEstimated, &Coefficient::status));
+  const double width = RelativeHalfWidth(coefficients);
+  quality.relative_half_width = std::isfinite(width) ? width : 0.0;
+}
+
+void WriteLastAnswers(const FleetView& view, Quality& quality) {
+  quality.last_refusal = view.LastRefusalOf(quality.vehicle_id);
+  const auto diagnosis = view.LastDiagnosisOf(quality.vehicle_id);
+  if (!diagnosis) return;
+  quality.diagnosis_verdict = diagnosis->verdict;
+  quality.diagnosis_sentence = diagnosis->sentence;
+  quality.diagnosed_unix_s = diagnosis->published_unix_s;
+}
+
 }  // namespace
 
 Quality VehicleMonitor::Assess(VehicleWindow& window, const std::optional<StoredModel>& latest,
-                               double elapsed_s) {
+                               const FleetView& view, double elapsed_s) {
   const WindowState state = window.State();
   Quality quality = TelemetryQuality(state, last_, elapsed_s);
   last_ = state;
   quality.vehicle_id = window.vehicle().vehicle_id;
   quality.sequence_number = ++published_;
-  assessed_ = Complete(window, state, latest, std::move(quality));
+  quality.position = PositionOf(state);
+  UpdateEstimates(window, state);
+  quality.indicative = indicative_;
+  quality.indicative_rows = live_.rows();
+  if (latest) AddModel(window, state.end_s, *latest, quality);
+  WriteLastAnswers(view, quality);
+  Decide(state, quality);
+  assessed_ = std::move(quality);
   return assessed_;
 }
 
@@ -50,19 +97,30 @@ Quality VehicleMonitor::Receipt(VehicleWindow& window) {
   return assessed_;
 }
 
-Quality VehicleMonitor::Complete(VehicleWindow& window, const WindowState& state,
-                                 const std::optional<StoredModel>& latest, Quality quality) {
-  UpdateEstimates(window, state);
-  quality.indicative = indicative_;
-  quality.indicative_rows = live_.rows();
-  if (!latest) return quality;
-  model_.Evaluate(window, state.end_s, *latest);
-  quality.model_revision = latest->model.revision;
-  quality.model_age_s = UnixNow() - latest->model.published_unix_s;
+void VehicleMonitor::AddModel(VehicleWindow& window, double end_s, const StoredModel& latest,
+                              Quality& quality) {
+  model_.Evaluate(window, end_s, latest);
+  quality.model_revision = latest.model.revision;
+  quality.model_age_s = UnixNow() - latest.model.published_unix_s;
   quality.prediction_error = model_.prediction_error();
   quality.drift = model_.drift();
+  quality.drift_since_unix_s = model_.DriftSince().value_or(0.0);
   quality.proposal = model_.Proposal(quality.vehicle_id);
-  return quality;
+  WriteIdentifiability(latest.model.identification.coefficients, quality);
+}
+
+void VehicleMonitor::Decide(const WindowState& state, Quality& quality) {
+  recent_.Note(state, RecentTelemetry::Clock::now());
+  const LastMinute last = recent_.Summary();
+  quality.silent_s = last.SilentS();
+  quality.loss_share = last.LossShare();
+  quality.reject_share = last.RejectShare();
+  quality.reasons = ReasonsOf(quality, last);
+  quality.verdict = VerdictOf(quality.reasons);
+  if (std::exchange(verdict_, quality.verdict) != quality.verdict) {
+    verdict_since_unix_s_ = UnixNow();
+  }
+  quality.verdict_since_unix_s = verdict_since_unix_s_;
 }
 
 void VehicleMonitor::UpdateEstimates(VehicleWindow& window, const WindowState& state) {

@@ -7,24 +7,28 @@
 #include "telltale/idl/codec/messages/quality.hpp"
 #include "telltale/service/ingest/vehicle_window.hpp"
 #include "telltale/service/models/model_store.hpp"
+#include "telltale/service/monitoring/fleet_view.hpp"
 #include "telltale/service/monitoring/live_estimator.hpp"
 #include "telltale/service/monitoring/model_monitor.hpp"
+#include "telltale/service/monitoring/recent_telemetry.hpp"
 
 namespace telltale {
 
 /// The quality of one vehicle from period to period: rates of its telemetry, live estimates, and
-/// how well its latest model predicts. Not thread safe.
+/// how well its latest model predicts, and what verdict they amount to. Not thread safe.
 class VehicleMonitor {
  public:
   /// The quality of the period that ends now and that has lasted `elapsed_s`.
-  Quality Assess(VehicleWindow& window, const std::optional<StoredModel>& latest, double elapsed_s);
+  /// `view` knows the last refusal and the last diagnosis.
+  Quality Assess(VehicleWindow& window, const std::optional<StoredModel>& latest,
+                 const FleetView& view, double elapsed_s);
 
   /// The quality of the last period with the counts of now.
   Quality Receipt(VehicleWindow& window);
 
  private:
-  Quality Complete(VehicleWindow& window, const WindowState& state,
-                   const std::optional<StoredModel>& latest, Quality quality);
+  void AddModel(VehicleWindow& window, double end_s, const StoredModel& latest, Quality& quality);
+  void Decide(const WindowState& state, Quality& quality);
   void UpdateEstimates(VehicleWindow& window, const WindowState& state);
 
   std::uint64_t published_ = 0;
@@ -33,6 +37,9 @@ class VehicleMonitor {
   LiveEstimator live_;
   std::vector<IndicativeCoefficient> indicative_;
   ModelMonitor model_;
+  RecentTelemetry recent_;
+  QualityVerdict verdict_ = QualityVerdict::kUnknown;  ///< of the last period
+  double verdict_since_unix_s_ = 0.0;
 };
 
 }  // namespace telltale

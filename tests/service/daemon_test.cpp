@@ -1,5 +1,6 @@
 #include <signal.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstring>
@@ -128,9 +129,51 @@ TEST_F(Daemon, FollowsABoatWithIndicativeEstimates) {
   }
   // Indicative: one-step least squares attenuates.
   EXPECT_NEAR(thrust, boat.theta[0][5] + boat.theta[0][6], 0.25 * 0.7);
-  const auto monitor = Start({"monitor", "--once"});
+  const auto monitor = Start({"monitor", "--once", "--vehicle-id", kVehicleId});
   EXPECT_EQ(monitor->Wait(), 0);
   EXPECT_THAT(monitor->output(), HasSubstr("±"));
+}
+
+TEST_F(Daemon, GivesEachBoatAVerdictWithItsReasons) {
+  const auto daemon = StartDaemon();
+  const auto unheard =
+      AwaitQuality(kVehicleId, [](const Quality& q) { return !q.reasons.empty(); });
+  ASSERT_TRUE(unheard);
+  EXPECT_EQ(unheard->verdict, QualityVerdict::kStale);
+  EXPECT_EQ(unheard->reasons.front().code, "NO_TELEMETRY");
+
+  ReplaySimulation();
+  const auto is = [](QualityVerdict verdict) {
+    return [verdict](const Quality& q) { return q.verdict == verdict; };
+  };
+  const auto unmodelled = AwaitQuality(kVehicleId, is(QualityVerdict::kWarn));
+  ASSERT_TRUE(unmodelled);
+  EXPECT_TRUE(unmodelled->position);
+  Run({"identify", "--vehicle-id", kVehicleId});
+  const auto modelled = AwaitQuality(
+      kVehicleId, [](const Quality& q) { return q.model_revision && q.relative_half_width > 0.0; });
+  ASSERT_TRUE(modelled);
+  EXPECT_GT(modelled->identified, 20u);
+  EXPECT_LE(modelled->identified, modelled->coefficients);
+
+  const auto monitor = Start({"monitor", "--json", "--count", "2"});
+  EXPECT_EQ(monitor->Wait(), 0);
+  EXPECT_EQ(std::ranges::count(monitor->output(), '\n'), 2) << monitor->output();
+  EXPECT_THAT(monitor->output(), HasSubstr("\"verdict\":\""));
+  const auto stranger = Start({"monitor", "--once", "--vehicle-id", "nobody"});
+  EXPECT_EQ(stranger->Wait(), 1);
+  EXPECT_THAT(stranger->output(), HasSubstr("served: yellowfish"));
+}
+
+/// The daemon's own record of a refusal reaches the monitors.
+TEST_F(Daemon, WarnsOfARefusedIdentification) {
+  const auto daemon = StartDaemon();
+  const auto identify = Start({"identify", "--vehicle-id", kVehicleId});
+  EXPECT_EQ(identify->Wait(), 3) << identify->output();
+  const auto refused =
+      AwaitQuality(kVehicleId, [](const Quality& q) { return q.last_refusal.has_value(); });
+  ASSERT_TRUE(refused);
+  EXPECT_EQ(refused->reasons.back().code, "REFUSED");
 }
 
 TEST_F(Daemon, GivesALateJoinerTheLastModel) {

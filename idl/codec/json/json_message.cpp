@@ -75,16 +75,24 @@ CodecError ErrorOf(std::string_view message, const std::string& file) {
   return {"(text)", "(not JSON of this kind)", first_line, file};
 }
 
-}  // namespace
-
-std::string PrintJsonMessage(const google::protobuf::Message& message) {
+std::string PrintJson(const google::protobuf::Message& message, bool indented) {
   google::protobuf::util::JsonPrintOptions options;
-  options.add_whitespace = true;
+  options.add_whitespace = indented;
   options.always_print_primitive_fields = true;
   std::string text;
   const auto status = google::protobuf::util::MessageToJsonString(message, &text, options);
   Require(status.ok(), "a message whose strings are UTF-8");
   return text;
+}
+
+}  // namespace
+
+std::string PrintJsonMessage(const google::protobuf::Message& message) {
+  return PrintJson(message, true);
+}
+
+std::string PrintJsonLine(const google::protobuf::Message& message) {
+  return PrintJson(message, false);
 }
 
 std::optional<CodecError> ParseJsonMessage(std::string_view text, const std::string& file,

@@ -14,4 +14,26 @@ std::vector<RejectEntry> RejectEntries(const RejectCounts& counts) {
   return entries;
 }
 
+std::string_view Name(QualityVerdict verdict) {
+  switch (verdict) {
+    case QualityVerdict::kOk: return "OK";
+    case QualityVerdict::kWarn: return "WARN";
+    case QualityVerdict::kError: return "ERROR";
+    case QualityVerdict::kStale: return "STALE";
+    case QualityVerdict::kUnknown: break;
+  }
+  return "";
+}
+
+int SeverityRank(QualityVerdict verdict) {
+  switch (verdict) {
+    case QualityVerdict::kError: return 0;
+    case QualityVerdict::kStale: return 1;
+    case QualityVerdict::kWarn: return 2;
+    case QualityVerdict::kOk: return 3;
+    case QualityVerdict::kUnknown: break;
+  }
+  return 4;
+}
+
 }  // namespace telltale

@@ -1,11 +1,13 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "telltale/core/base/result.hpp"
 #include "telltale/core/data/samples.hpp"
 #include "telltale/core/vessel/model_structure.hpp"
 
@@ -42,6 +44,37 @@ struct IndicativeCoefficient {
   bool operator==(const IndicativeCoefficient&) const = default;
 };
 
+/// kOk: telemetry and model are as they are to be. kWarn: something needs a look. kError: the model
+/// or the window cannot be relied on. kStale: no telemetry arrives, so nothing is known of now.
+/// kUnknown: from a daemon that gives no verdict.
+enum class QualityVerdict { kUnknown, kOk, kWarn, kError, kStale };
+
+inline constexpr std::array kQualityVerdicts = {QualityVerdict::kOk, QualityVerdict::kWarn,
+                                                QualityVerdict::kError, QualityVerdict::kStale};
+
+std::string_view Name(QualityVerdict verdict);
+
+/// The order in which an operator looks: 0 ERROR, 1 STALE, 2 WARN, 3 OK, 4 unknown.
+int SeverityRank(QualityVerdict verdict);
+
+/// Why a vehicle is not OK.
+struct QualityReason {
+  std::string code;                                   ///< docs/reference/quality.md lists them
+  QualityVerdict verdict = QualityVerdict::kUnknown;  ///< what this reason alone amounts to
+  std::string text;                                   ///< for people
+
+  bool operator==(const QualityReason&) const = default;
+};
+
+/// The newest fix of a window with the newest heading, where there is one.
+struct QualityPosition {
+  double latitude_deg = 0.0;
+  double longitude_deg = 0.0;
+  std::optional<double> heading_deg;
+
+  bool operator==(const QualityPosition&) const = default;
+};
+
 /// The state of a vehicle's telemetry and of its model.
 struct Quality {
   std::string vehicle_id;  ///< or kUnattributed
@@ -61,6 +94,22 @@ struct Quality {
   std::vector<IndicativeCoefficient> indicative;  ///< static structure; the estimable ones
   std::uint64_t indicative_rows = 0;              ///< prepared rows behind the live estimates
   std::string proposal;  ///< what to do where the model no longer fits; empty: nothing
+  QualityVerdict verdict = QualityVerdict::kUnknown;
+  double verdict_since_unix_s = 0.0;   ///< when the verdict became this one
+  std::vector<QualityReason> reasons;  ///< most serious first; none: OK
+  double silent_s = 0.0;               ///< since the newest sample arrived, by the daemon's clock
+  double loss_share = 0.0;             ///< of the samples sent in the last minute, [0, 1]
+  double reject_share = 0.0;           ///< of those that arrived in the last minute, [0, 1]
+  double drift_since_unix_s = 0.0;     ///< onset of the drift, by the daemon's clock; 0: none
+  std::uint32_t coefficients = 0;      ///< of the model
+  std::uint32_t identified = 0;        ///< of them, those with status ESTIMATED
+  /// Median over those of half the width of the bounds, in units of the estimate; 0: none.
+  double relative_half_width = 0.0;
+  std::optional<Refusal> last_refusal;  ///< of the newest identification, where it was refused
+  std::string diagnosis_verdict;        ///< of the last diagnosis; empty: none
+  std::string diagnosis_sentence;
+  double diagnosed_unix_s = 0.0;
+  std::optional<QualityPosition> position;
 };
 
 }  // namespace telltale

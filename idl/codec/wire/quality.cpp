@@ -28,6 +28,74 @@ IndicativeCoefficient ReadIndicative(const std::string& field,
           TextOf(wire.unit)};
 }
 
+void FillReason(telltale_wire_QualityReason& wire, const QualityReason& reason) {
+  Put(wire.code, reason.code);
+  Put(wire.verdict, Name(reason.verdict));
+  Put(wire.text, reason.text);
+}
+
+QualityReason ReadReason(const std::string& field, const telltale_wire_QualityReason& wire) {
+  return {TextOf(wire.code), ReadName(field + ".verdict", View(wire.verdict), kQualityVerdicts),
+          TextOf(wire.text)};
+}
+
+void FillPosition(telltale_wire_Position& wire, const QualityPosition& position) {
+  wire.latitude_deg = position.latitude_deg;
+  wire.longitude_deg = position.longitude_deg;
+  wire.has_heading = position.heading_deg.has_value();
+  wire.heading_deg = position.heading_deg.value_or(0.0);
+}
+
+QualityPosition ReadPosition(const std::string& field, const telltale_wire_Position& wire) {
+  QualityPosition position;
+  position.latitude_deg = ReadWithin(field + ".latitude_deg", wire.latitude_deg, {-90.0, 90.0});
+  position.longitude_deg =
+      ReadWithin(field + ".longitude_deg", wire.longitude_deg, {-180.0, 180.0});
+  if (wire.has_heading) {
+    position.heading_deg = ReadWithin(field + ".heading_deg", wire.heading_deg, {-360.0, 720.0});
+  }
+  return position;
+}
+
+/// What the verdict rests on besides the counts: fields that older writers lack.
+void ReadAssessment(const telltale_wire_Quality& wire, Quality& quality) {
+  quality.verdict = ReadOptionalName("verdict", View(wire.verdict), kQualityVerdicts);
+  quality.verdict_since_unix_s =
+      ReadWithin("verdict_since_unix_s", wire.verdict_since_unix_s, kFinite);
+  quality.reasons = ReadSequence("reasons", wire.reasons, ReadReason);
+  quality.silent_s = ReadWithin("silent_s", wire.silent_s, kFiniteNotNegative);
+  quality.loss_share = ReadWithin("loss_share", wire.loss_share, kShare);
+  quality.reject_share = ReadWithin("reject_share", wire.reject_share, kShare);
+  quality.drift_since_unix_s = ReadWithin("drift_since_unix_s", wire.drift_since_unix_s, kFinite);
+  quality.coefficients = wire.coefficients;
+  quality.identified = wire.identified;
+  quality.relative_half_width =
+      ReadWithin("relative_half_width", wire.relative_half_width, kFiniteNotNegative);
+  quality.last_refusal = ReadOptional("last_refusal", wire.last_refusal, ReadRefusal);
+  quality.diagnosis_verdict = View(wire.diagnosis_verdict);
+  quality.diagnosis_sentence = View(wire.diagnosis_sentence);
+  quality.diagnosed_unix_s = ReadWithin("diagnosed_unix_s", wire.diagnosed_unix_s, kFinite);
+  quality.position = ReadOptional("position", wire.position, ReadPosition);
+}
+
+void FillAssessment(telltale_wire_Quality& wire, const Quality& quality) {
+  Put(wire.verdict, Name(quality.verdict));
+  wire.verdict_since_unix_s = quality.verdict_since_unix_s;
+  PutSequence(wire.reasons, quality.reasons, FillReason);
+  wire.silent_s = quality.silent_s;
+  wire.loss_share = quality.loss_share;
+  wire.reject_share = quality.reject_share;
+  wire.drift_since_unix_s = quality.drift_since_unix_s;
+  wire.coefficients = quality.coefficients;
+  wire.identified = quality.identified;
+  wire.relative_half_width = quality.relative_half_width;
+  PutOptional(wire.last_refusal, quality.last_refusal, FillRefusal);
+  Put(wire.diagnosis_verdict, quality.diagnosis_verdict);
+  Put(wire.diagnosis_sentence, quality.diagnosis_sentence);
+  wire.diagnosed_unix_s = quality.diagnosed_unix_s;
+  PutOptional(wire.position, quality.position, FillPosition);
+}
+
 Quality ReadQuality(const telltale_wire_Quality& wire) {
   Quality quality;
   quality.vehicle_id = View(wire.vehicle_id) == kUnattributed
@@ -51,6 +119,7 @@ Quality ReadQuality(const telltale_wire_Quality& wire) {
   quality.indicative = ReadSequence("indicative", wire.indicative, ReadIndicative);
   quality.indicative_rows = wire.indicative_rows;
   quality.proposal = View(wire.proposal);
+  ReadAssessment(wire, quality);
   return quality;
 }
 
@@ -77,6 +146,7 @@ void FillQuality(telltale_wire_Quality& wire, const Quality& quality) {
   PutSequence(wire.indicative, quality.indicative, FillIndicative);
   wire.indicative_rows = quality.indicative_rows;
   Put(wire.proposal, quality.proposal);
+  FillAssessment(wire, quality);
 }
 
 }  // namespace

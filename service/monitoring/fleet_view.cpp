@@ -1,0 +1,146 @@
+#include "telltale/service/monitoring/fleet_view.hpp"
+
+#include <algorithm>
+
+#include "telltale/idl/codec/json/json_message.hpp"
+#include "telltale/service/monitoring/fleet_json.hpp"
+
+namespace telltale {
+namespace {
+
+constexpr double kBetweenPointsS = 2.0;
+constexpr std::size_t kKeptPoints = 1800;
+constexpr std::size_t kKeptJobs = 512;
+
+JobView::State StateOf(ReplyOutcome outcome) {
+  switch (outcome) {
+    case ReplyOutcome::kPublished: return JobView::State::kPublished;
+    case ReplyOutcome::kRefused: return JobView::State::kRefused;
+    case ReplyOutcome::kFailed: return JobView::State::kFailed;
+    case ReplyOutcome::kUnknown: break;
+  }
+  return JobView::State::kUnknown;
+}
+
+}  // namespace
+
+void FleetView::Take(const Quality& quality, double time_unix_s) {
+  const std::lock_guard lock(mutex_);
+  if (quality.vehicle_id == kUnattributed) return;
+  Vehicle& vehicle = Of(quality.vehicle_id);
+  vehicle.quality = quality;
+  if (!vehicle.past.empty() && time_unix_s < vehicle.past.back().time_unix_s + kBetweenPointsS) {
+    return;
+  }
+  vehicle.past.push_back({time_unix_s, quality.prediction_error, quality.position});
+  if (vehicle.past.size() > kKeptPoints) vehicle.past.pop_front();
+}
+
+void FleetView::Take(const PublishedDiagnosis& diagnosis) {
+  const std::lock_guard lock(mutex_);
+  Of(diagnosis.diagnosis.vehicle_id).diagnosis =
+      LastDiagnosis{std::string(Name(diagnosis.diagnosis.verdict)), diagnosis.diagnosis.sentence,
+                    diagnosis.published_unix_s};
+}
+
+void FleetView::Take(const IdentifyProgress& progress) {
+  Advance(JobView::Kind::kRefresh, progress);
+}
+
+void FleetView::Take(const DiagnoseProgress& progress) {
+  Advance(JobView::Kind::kDiagnose, progress);
+}
+
+void FleetView::Take(const IdentifyReply& reply) {
+  Finish(JobView::Kind::kRefresh, reply, reply.model ? reply.model->revision : 0);
+  const std::lock_guard lock(mutex_);
+  std::optional<Refusal>& refusal = Of(reply.vehicle_id).refusal;
+  if (reply.outcome == ReplyOutcome::kPublished) refusal.reset();
+  if (reply.outcome == ReplyOutcome::kRefused && !reply.refusals.empty()) {
+    refusal = reply.refusals.front();
+  }
+}
+
+void FleetView::Take(const DiagnoseReply& reply) {
+  Finish(JobView::Kind::kDiagnose, reply, 0);
+}
+
+void FleetView::Advance(JobView::Kind kind, const ExchangeProgress& progress) {
+  const std::lock_guard lock(mutex_);
+  JobView& job = Job(kind, progress.correlation_id, progress.vehicle_id);
+  if (job.state > JobView::State::kRunning) return;
+  job.state = JobView::State::kRunning;
+  job.stage = progress.stage;
+  job.fraction = progress.fraction;
+  events_.Add("job", PrintJsonLine(ToProto(job)));
+}
+
+void FleetView::Finish(JobView::Kind kind, const ExchangeReply& reply, std::uint64_t revision) {
+  const std::lock_guard lock(mutex_);
+  JobView& job = Job(kind, reply.correlation_id, reply.vehicle_id);
+  job.state = StateOf(reply.outcome);
+  job.fraction = 1.0;
+  job.message = reply.message;
+  job.refusals = reply.refusals;
+  job.revision = revision;
+  events_.Add("job", PrintJsonLine(ToProto(job)));
+}
+
+/// The job of this id, begun where it is not known; the caller holds mutex_.
+JobView& FleetView::Job(JobView::Kind kind, const std::string& id, const std::string& vehicle_id) {
+  const auto known = std::ranges::find(jobs_, id, &JobView::id);
+  if (known != jobs_.end()) return *known;
+  if (jobs_.size() == kKeptJobs) jobs_.pop_front();
+  JobView& job = jobs_.emplace_back();
+  job.id = id;
+  job.vehicle_id = vehicle_id;
+  job.kind = kind;
+  return job;
+}
+
+std::optional<Refusal> FleetView::LastRefusalOf(std::string_view vehicle_id) const {
+  const std::lock_guard lock(mutex_);
+  const auto vehicle = vehicles_.find(vehicle_id);
+  return vehicle == vehicles_.end() ? std::nullopt : vehicle->second.refusal;
+}
+
+std::optional<LastDiagnosis> FleetView::LastDiagnosisOf(std::string_view vehicle_id) const {
+  const std::lock_guard lock(mutex_);
+  const auto vehicle = vehicles_.find(vehicle_id);
+  return vehicle == vehicles_.end() ? std::nullopt : vehicle->second.diagnosis;
+}
+
+std::optional<Quality> FleetView::QualityOf(std::string_view vehicle_id) const {
+  const std::lock_guard lock(mutex_);
+  const auto vehicle = vehicles_.find(vehicle_id);
+  return vehicle == vehicles_.end() ? std::nullopt : vehicle->second.quality;
+}
+
+std::vector<Quality> FleetView::Qualities() const {
+  const std::lock_guard lock(mutex_);
+  std::vector<Quality> all;
+  for (const auto& [id, vehicle] : vehicles_) {
+    if (vehicle.quality) all.push_back(*vehicle.quality);
+  }
+  return all;
+}
+
+std::vector<PastPoint> FleetView::PastOf(std::string_view vehicle_id) const {
+  const std::lock_guard lock(mutex_);
+  const auto vehicle = vehicles_.find(vehicle_id);
+  if (vehicle == vehicles_.end()) return {};
+  return {vehicle->second.past.begin(), vehicle->second.past.end()};
+}
+
+std::vector<JobView> FleetView::Jobs() const {
+  const std::lock_guard lock(mutex_);
+  return {jobs_.rbegin(), jobs_.rend()};
+}
+
+std::optional<JobView> FleetView::JobOf(std::string_view id) const {
+  const std::lock_guard lock(mutex_);
+  const auto job = std::ranges::find(jobs_, id, &JobView::id);
+  return job == jobs_.end() ? std::nullopt : std::optional(*job);
+}
+
+}  // namespace telltale

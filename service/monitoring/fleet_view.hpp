@@ -1,0 +1,92 @@
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <map>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "telltale/core/base/result.hpp"
+#include "telltale/idl/codec/messages/diagnosis.hpp"
+#include "telltale/idl/codec/messages/exchange.hpp"
+#include "telltale/idl/codec/messages/quality.hpp"
+#include "telltale/service/monitoring/event_log.hpp"
+
+namespace telltale {
+
+/// The last diagnosis of a vehicle in short.
+struct LastDiagnosis {
+  std::string verdict;
+  std::string sentence;
+  double published_unix_s = 0.0;
+};
+
+/// A request on its way and what became of it.
+struct JobView {
+  enum class Kind { kUnknown, kRefresh, kDiagnose };
+  enum class State { kUnknown, kRunning, kPublished, kRefused, kFailed };
+
+  std::string id;  ///< its correlation id
+  std::string vehicle_id;
+  Kind kind = Kind::kUnknown;
+  State state = State::kUnknown;
+  std::string stage;
+  double fraction = 0.0;
+  std::string message;
+  std::vector<Refusal> refusals;
+  std::uint64_t revision = 0;  ///< of the model it published
+};
+
+/// One point of a vehicle's past.
+struct PastPoint {
+  double time_unix_s = 0.0;
+  double prediction_error = 0.0;
+  std::optional<QualityPosition> position;
+};
+
+/// What the bus says of the fleet: the newest quality, the last hour in steps of two seconds, the
+/// last refusal and diagnosis, and the requests. Safe to use from several threads.
+class FleetView {
+ public:
+  void Take(const Quality& quality, double time_unix_s);
+  void Take(const PublishedDiagnosis& diagnosis);
+  void Take(const IdentifyProgress& progress);
+  void Take(const DiagnoseProgress& progress);
+  void Take(const IdentifyReply& reply);
+  void Take(const DiagnoseReply& reply);
+
+  /// Of the newest identification, where it was refused.
+  std::optional<Refusal> LastRefusalOf(std::string_view vehicle_id) const;
+  std::optional<LastDiagnosis> LastDiagnosisOf(std::string_view vehicle_id) const;
+
+  std::optional<Quality> QualityOf(std::string_view vehicle_id) const;
+  std::vector<Quality> Qualities() const;  ///< in the order of the ids
+  std::vector<PastPoint> PastOf(std::string_view vehicle_id) const;
+  std::vector<JobView> Jobs() const;  ///< newest first
+  std::optional<JobView> JobOf(std::string_view id) const;
+
+  EventLog& events() { return events_; }
+
+ private:
+  struct Vehicle {
+    std::optional<Quality> quality;
+    std::deque<PastPoint> past;
+    std::optional<Refusal> refusal;
+    std::optional<LastDiagnosis> diagnosis;
+  };
+
+  Vehicle& Of(const std::string& vehicle_id) { return vehicles_[vehicle_id]; }
+  void Advance(JobView::Kind kind, const ExchangeProgress& progress);
+  void Finish(JobView::Kind kind, const ExchangeReply& reply, std::uint64_t revision);
+  JobView& Job(JobView::Kind kind, const std::string& id, const std::string& vehicle_id);
+
+  mutable std::mutex mutex_;
+  std::map<std::string, Vehicle, std::less<>> vehicles_;
+  std::deque<JobView> jobs_;  ///< oldest first
+  EventLog events_;
+};
+
+}  // namespace telltale
