@@ -17,5 +17,8 @@ void AddReplay(CLI::App& telltale);
 void AddWatch(CLI::App& telltale);
 void AddMonitor(CLI::App& telltale);
 void AddStudy(CLI::App& telltale);
+void AddCheck(CLI::App& telltale);
+void AddImport(CLI::App& telltale);
+void AddInit(CLI::App& telltale);
 
 }  // namespace telltale

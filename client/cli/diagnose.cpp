@@ -21,7 +21,7 @@ PrepareOptions PreparationFor(const Identification& model) {
 PreparedDataset PrepareReference(const DiagnoseArguments& arguments,
                                  const std::filesystem::path& log, const Vehicle& vehicle,
                                  const PrepareOptions& options) {
-  auto prepared = Prepare(LoadAdmitted(log, arguments.inputs.dataflash), vehicle, options);
+  auto prepared = Prepare(LoadAdmitted(log, arguments.inputs.options), vehicle, options);
   if (prepared) return *std::move(prepared);
   Refusal refusal = std::move(prepared).error();
   refusal.subject = log.string() + ' ' + refusal.subject;

@@ -46,7 +46,7 @@ void DiagnoseArguments::AddOptionsTo(CLI::App& command, CLI::Option* log) {
           "--reference-log", reference_logs,
           "logs of the same boat in its nominal state, which say how large the normal error "
           "is; without any the floor is the error that sensor noise alone leaves")
-      ->type_name("DIR|FILE.BIN")
+      ->type_name("LOG")
       ->check(CLI::ExistingPath.description(""))
       ->needs(log);
   command.add_flag("--refit", refit,

@@ -1,12 +1,14 @@
 #include "telltale/client/cli/input_options.hpp"
 
 #include <algorithm>
+#include <array>
 #include <iostream>
 #include <stdexcept>
 #include <utility>
 
 #include "telltale/client/cli/exit_codes.hpp"
 #include "telltale/client/cli/table.hpp"
+#include "telltale/client/recording/dataflash/dataflash_log.hpp"
 #include "telltale/client/recording/file_contents.hpp"
 #include "telltale/client/recording/load_recording.hpp"
 #include "telltale/client/recording/telemetry_log/telemetry_log.hpp"
@@ -31,10 +33,23 @@ void NoteMalformed(const std::filesystem::path& file, const MalformedRows& malfo
   std::cerr << '\n';
 }
 
-LoadedRecording LoadLog(const std::filesystem::path& path, const DataFlashOptions& options) {
+/// Channels that the format of a log does not record are an error of the command line.
+void RequireRecordedChannels(const std::filesystem::path& log, const SourceOptions& options) {
+  if (FormatOf(log) != LogFormat::kDataFlash) return;
+  const std::array named = {std::pair("--port-channel", options.port_channel),
+                            std::pair("--starboard-channel", options.starboard_channel)};
+  for (const auto& [option, channel] : named) {
+    if (channel.value_or(1) <= kLoggedChannels) continue;
+    throw UsageError(std::string(option) + ": " + log.string() + " records channels 1 to " +
+                     std::to_string(kLoggedChannels) + ", not " + std::to_string(*channel));
+  }
+}
+
+LoadedRecording LoadLog(const std::filesystem::path& path, const SourceOptions& options) {
+  RequireRecordedChannels(path, options);
   LoadedRecording loaded = OrThrow(LoadRecording(path, options));
-  if (loaded.dataflash) {
-    std::cerr << "note: " << path.string() << ": " << loaded.dataflash->report.Summary() << '\n';
+  if (loaded.description) {
+    std::cerr << "note: " << path.string() << ": " << loaded.description->summary << '\n';
   }
   for (const Channel channel : kChannels) {
     NoteMalformed(path / (std::string(Name(channel)) + ".csv"),
@@ -50,15 +65,17 @@ LoadedRecording LoadLog(const std::filesystem::path& path, const DataFlashOption
 // ---- the vehicle that logs describe -------------------------------------------------------------
 
 void RequireSelfDescribing(const std::vector<std::filesystem::path>& logs) {
-  const auto folder = std::find_if(
-      logs.begin(), logs.end(), [](const auto& log) { return std::filesystem::is_directory(log); });
-  if (folder == logs.end()) return;
-  throw UsageError("--vehicle is required: " + folder->string() +
-                   " is a folder, and only ArduPilot .BIN logs say how their thrusters are driven");
+  const auto silent = std::find_if(logs.begin(), logs.end(), [](const auto& log) {
+    return FormatOf(log) == LogFormat::kTelemetryLog;
+  });
+  if (silent == logs.end()) return;
+  throw UsageError("--vehicle is required: " + silent->string() +
+                   " is a folder of CSV files, and only recordings of autopilots say how their "
+                   "thrusters are driven");
 }
 
 Vehicle DescribedBy(const LoadedRecording& loaded, const std::filesystem::path& log) {
-  auto vehicle = VehicleFrom(*loaded.dataflash, VehicleIdLike(log.stem().string()));
+  auto vehicle = VehicleFrom(*loaded.description, VehicleIdLike(log.stem().string()));
   if (vehicle) return *std::move(vehicle);
   Refusal refusal = std::move(vehicle).error();
   refusal.subject = log.string() + ' ' + refusal.subject;
@@ -70,11 +87,11 @@ std::string RangeText(const PwmChannel& range) {
          " us (neutral), " + Plain(range.full_forward_us) + " us (full forward)";
 }
 
-void NoteDescribed(const Vehicle& vehicle, const DataFlashSource& source,
+void NoteDescribed(const Vehicle& vehicle, const LogDescription& description,
                    const std::filesystem::path& log) {
   std::cerr << "note: vehicle " << vehicle.vehicle_id << " is taken from " << log.string()
-            << ": port on channel " << source.port.channel << ", " << RangeText(vehicle.port)
-            << "; starboard on channel " << source.starboard.channel << ", "
+            << ": port on channel " << description.port->channel << ", " << RangeText(vehicle.port)
+            << "; starboard on channel " << description.starboard->channel << ", "
             << RangeText(vehicle.starboard)
             << "; the separation of the propellers and the antenna's place are unknown, taken as "
                "zero\n";
@@ -99,16 +116,20 @@ Vehicle DescribedBy(const std::vector<LoadedRecording>& loaded,
     RequireSameRange("port", vehicle.port, other.port, logs.front(), logs[i]);
     RequireSameRange("starboard", vehicle.starboard, other.starboard, logs.front(), logs[i]);
   }
-  NoteDescribed(vehicle, *loaded.front().dataflash, logs.front());
+  NoteDescribed(vehicle, *loaded.front().description, logs.front());
   return vehicle;
 }
 
 // ---- options ------------------------------------------------------------------------------------
 
+constexpr const char* kLogFormats =
+    "a recording: a telemetry log (a folder with gnss.csv, heading.csv and thrusters.csv), an "
+    "ArduPilot .BIN, a .tlog, an .mcap of ROS 2 or BlueOS, or a rosbag2 folder or .db3";
+
 template <class Target>
 CLI::Option* AddLogOption(CLI::App& command, Target& target, const std::string& description) {
   return command.add_option("--log", target, description)
-      ->type_name("DIR|FILE.BIN")
+      ->type_name("LOG")
       ->check(CLI::ExistingPath.description(""));
 }
 
@@ -119,7 +140,7 @@ CLI::Option* AddFile(CLI::App& command, const std::string& name, std::filesystem
       ->check(CLI::ExistingFile.description(""));
 }
 
-void AddDataFlashOptions(CLI::App& command, DataFlashOptions& options, CLI::Option* log) {
+void AddSourceOptions(CLI::App& command, SourceOptions& options, CLI::Option* log) {
   const auto add = [&](const char* name, std::optional<int>& target, CLI::Range range,
                        const char* description) {
     command.add_option(name, target, description)
@@ -129,11 +150,13 @@ void AddDataFlashOptions(CLI::App& command, DataFlashOptions& options, CLI::Opti
   };
   add("--gps-instance", options.gps_instance, {0, 255},
       "of .BIN logs: the GPS receiver to take, [0, 255] (default: the one with most fixes)");
-  add("--port-channel", options.port_channel, {1, 14},
-      "of .BIN logs: the output that drives the port thruster, [1, 14] (default: the one whose "
-      "SERVOn_FUNCTION is 73)");
-  add("--starboard-channel", options.starboard_channel, {1, 14},
-      "of .BIN logs: the same for starboard (default: SERVOn_FUNCTION 74)");
+  add("--system-id", options.system_id, {1, 255},
+      "of MAVLink recordings: the vehicle to take, [1, 255] (default: the one that says most)");
+  add("--port-channel", options.port_channel, {1, 16},
+      "the output that drives the port thruster, [1, 16], of .BIN logs to 14 (default: the one "
+      "whose SERVOn_FUNCTION is 73; 1 of MAVROS)");
+  add("--starboard-channel", options.starboard_channel, {1, 16},
+      "the same for starboard (default: SERVOn_FUNCTION 74; 3 of MAVROS)");
 }
 
 }  // namespace
@@ -141,13 +164,14 @@ void AddDataFlashOptions(CLI::App& command, DataFlashOptions& options, CLI::Opti
 CLI::Option* LogInputs::AddTo(CLI::App& command, CLI::App& whom) {
   auto* const log = AddLogOption(
       whom, logs,
-      "telemetry logs: folders with gnss.csv, heading.csv and thrusters.csv, or ArduPilot .BIN "
-      "files. Several are put one after the other; one that does not follow the last within a day "
-      "is shifted to start 120 s after it");
+      std::string(kLogFormats) +
+          ". Several are put one after the other; one that does not follow the last within a day "
+          "is shifted to start 120 s after it");
   AddFile(command, "--vehicle", vehicle_file,
-          "vehicle file (text format); .BIN logs can do without, then their servo parameters count")
+          "vehicle file (text format); recordings of an autopilot can do without, then their servo "
+          "parameters count")
       ->needs(log);
-  AddDataFlashOptions(command, dataflash, log);
+  AddSourceOptions(command, options, log);
   return log;
 }
 
@@ -159,20 +183,25 @@ RecordedVehicle LogInputs::Load() const {
     RequireSelfDescribing(logs);
   }
   std::vector<LoadedRecording> loaded;
-  for (const std::filesystem::path& log : logs) loaded.push_back(LoadLog(log, dataflash));
+  for (const std::filesystem::path& log : logs) loaded.push_back(LoadLog(log, options));
   if (!vehicle) vehicle = DescribedBy(loaded, logs);
   std::vector<Recording> recordings;
   for (LoadedRecording& log : loaded) recordings.push_back(std::move(log.recording));
   return {Concatenate(recordings), *std::move(vehicle)};
 }
 
-Recording LoadAdmitted(const std::filesystem::path& log, const DataFlashOptions& options) {
+RawLog LoadAsRecorded(const std::filesystem::path& log, const SourceOptions& options) {
+  RequireRecordedChannels(log, options);
+  return OrThrow(ReadLog(log, options));
+}
+
+Recording LoadAdmitted(const std::filesystem::path& log, const SourceOptions& options) {
   return LoadLog(log, options).recording;
 }
 
-CLI::Option* AddLog(CLI::App& command, std::filesystem::path& log, DataFlashOptions& dataflash) {
-  auto* const option = AddLogOption(command, log, "telemetry log: a folder or an ArduPilot file");
-  AddDataFlashOptions(command, dataflash, option);
+CLI::Option* AddLog(CLI::App& command, std::filesystem::path& log, SourceOptions& options) {
+  auto* const option = AddLogOption(command, log, kLogFormats);
+  AddSourceOptions(command, options, option);
   return option->required();
 }
 

@@ -6,7 +6,8 @@
 
 #include <CLI/CLI.hpp>
 
-#include "telltale/client/recording/dataflash/dataflash_log.hpp"
+#include "telltale/client/recording/load_recording.hpp"
+#include "telltale/client/recording/source_log.hpp"
 #include "telltale/core/data/preparation.hpp"
 #include "telltale/core/data/samples.hpp"
 #include "telltale/core/identification/identification.hpp"
@@ -24,10 +25,10 @@ struct RecordedVehicle {
 struct LogInputs {
   std::vector<std::filesystem::path> logs;
   std::filesystem::path vehicle_file;  ///< empty: the vehicle is what the logs themselves describe
-  DataFlashOptions dataflash;
+  SourceOptions options;
 
   /// `--log`, to `whom` (the command itself or a group of its options), and what goes with it:
-  /// `--vehicle` and the options of DataFlash files. Returns `--log`.
+  /// `--vehicle` and what to take from a file that offers a choice. Returns `--log`.
   CLI::Option* AddTo(CLI::App& command, CLI::App& whom);
 
   /// Whether the vehicle comes from a file, so that its id is one that somebody chose.
@@ -40,12 +41,17 @@ struct LogInputs {
   RecordedVehicle Load() const;
 };
 
+/// One log before any admission. Throws: RefusedError naming the log, UsageError where its format
+/// does not record a channel that is asked for.
+RawLog LoadAsRecorded(const std::filesystem::path& log, const SourceOptions& options);
+
 /// One log, admitted, with what was left out of it noted on standard error. Throws: RefusedError
 /// naming the log.
-Recording LoadAdmitted(const std::filesystem::path& log, const DataFlashOptions& options);
+Recording LoadAdmitted(const std::filesystem::path& log, const SourceOptions& options);
 
-/// `--log` of a subcommand that takes one log and no vehicle, with the options of DataFlash files.
-CLI::Option* AddLog(CLI::App& command, std::filesystem::path& log, DataFlashOptions& dataflash);
+/// `--log`, required, of a subcommand that takes one log and no vehicle, with what to take from a
+/// file that offers a choice.
+CLI::Option* AddLog(CLI::App& command, std::filesystem::path& log, SourceOptions& options);
 
 /// `--model` and `--vehicle`, required.
 CLI::Option* AddModelFile(CLI::App& command, std::filesystem::path& file);

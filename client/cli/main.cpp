@@ -55,6 +55,9 @@ int main(int argc, char** argv) {
   app.set_version_flag("--version", "telltale " + std::string(telltale::Version()));
   app.footer(
       "Exit codes: 0 success, 1 any other failure, 2 usage error, 3 the data cannot answer.");
+  telltale::AddInit(app);
+  telltale::AddCheck(app);
+  telltale::AddImport(app);
   telltale::AddIdentify(app);
   telltale::AddValidate(app);
   telltale::AddDiagnose(app);

@@ -44,7 +44,7 @@ constexpr double kLongestSilenceS = 60.0;
 
 struct ReplayArguments {
   std::filesystem::path log;
-  DataFlashOptions dataflash;
+  SourceOptions options;
   std::string vehicle_id;
   double speed = 1.0;
   LiveOptions live;
@@ -140,7 +140,7 @@ std::string OutcomeText(const Pacing& pacing) {
 }
 
 void Replay(const ReplayArguments& arguments) {
-  const RawLog log = OrThrow(ReadLog(arguments.log, arguments.dataflash));
+  const RawLog log = LoadAsRecorded(arguments.log, arguments.options);
   const Participant participant(arguments.live.domain);
   BatchWrites();
   TelemetryPublisher publisher(participant, arguments.vehicle_id);
@@ -161,7 +161,7 @@ void AddReplay(CLI::App& telltale) {
   const auto arguments = std::make_shared<ReplayArguments>();
   CLI::App& command =
       *telltale.add_subcommand("replay", "Publishes a recording as a vehicle's live telemetry");
-  AddLog(command, arguments->log, arguments->dataflash);
+  AddLog(command, arguments->log, arguments->options);
   AddVehicleId(command, arguments->vehicle_id)->required();
   command.add_option("--speed", arguments->speed, "times as fast as it was recorded")
       ->type_name("X")

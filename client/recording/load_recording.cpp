@@ -1,11 +1,31 @@
 #include "telltale/client/recording/load_recording.hpp"
 
+#include <algorithm>
+#include <fstream>
+#include <string_view>
 #include <utility>
 
+#include "telltale/client/recording/dataflash/dataflash_log.hpp"
+#include "telltale/client/recording/mavlink/mavlink_recording.hpp"
+#include "telltale/client/recording/mcap/mcap_recording.hpp"
+#include "telltale/client/recording/rosbag2/rosbag2.hpp"
 #include "telltale/client/recording/telemetry_log/telemetry_log.hpp"
+#include "telltale/core/data/input_check.hpp"
 
 namespace telltale {
 namespace {
+
+constexpr std::size_t kBytesToTellFormat = std::size_t{64} << 10;
+constexpr const char* kReadableFormats =
+    "give a folder of CSV files, an ArduPilot .BIN, a .tlog, an .mcap, or a rosbag2 folder or .db3";
+
+std::string FirstBytes(const std::filesystem::path& file) {
+  std::string bytes(kBytesToTellFormat, '\0');
+  std::ifstream in(file, std::ios::binary);
+  in.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  bytes.resize(static_cast<std::size_t>(in.gcount()));
+  return bytes;
+}
 
 Result<RawLog> FromFolder(const std::filesystem::path& folder) {
   return ReadTelemetryLog(folder).map([](TelemetryLog log) {
@@ -13,45 +33,99 @@ Result<RawLog> FromFolder(const std::filesystem::path& folder) {
   });
 }
 
-Result<RawLog> FromFile(const std::filesystem::path& file, const DataFlashOptions& options) {
-  return ReadDataFlash(file, options).map([](DataFlashLog log) {
-    // Thruster samples exist, so both outputs are known.
+Result<RawLog> FromDataFlash(const std::filesystem::path& file, const SourceOptions& options) {
+  const DataFlashOptions choice{options.gps_instance, options.port_channel,
+                                options.starboard_channel};
+  return ReadDataFlash(file, choice).map([](const DataFlashLog& log) {
     return RawLog{InOrderOfTime(log.gnss, log.heading, log.thrusters),
                   {},
-                  DataFlashSource{std::move(log.report), *log.port, *log.starboard}};
+                  LogDescription{log.report.Summary(), log.port, log.starboard}};
   });
 }
 
-Result<PwmChannel> RangeOf(const ThrusterOutput& output, const char* thruster) {
-  if (output.range) return *output.range;
-  return Refuse(std::string(thruster) + " thruster", output.range_fault, "give a vehicle file");
+Result<RawLog> FromSource(Result<SourceLog> source) {
+  return std::move(source).map([](SourceLog log) {
+    return RawLog{InOrderOfTime(log.gnss, log.heading, log.thrusters),
+                  {},
+                  LogDescription{std::move(log.summary), log.port, log.starboard}};
+  });
+}
+
+std::optional<Refusal> UnitFaultOf(const std::vector<RawSample>& samples) {
+  std::vector<GnssFix> gnss;
+  std::vector<ThrusterSample> thrusters;
+  for (const RawSample& sample : samples) {
+    if (const auto* fix = std::get_if<GnssFix>(&sample)) gnss.push_back(*fix);
+    if (const auto* command = std::get_if<ThrusterSample>(&sample)) thrusters.push_back(*command);
+  }
+  return UnitFault(gnss, thrusters);
+}
+
+tl::unexpected<Refusal> Naming(const std::filesystem::path& path, Refusal refusal) {
+  refusal.subject = path.string() + " " + refusal.subject;
+  return tl::unexpected(std::move(refusal));
+}
+
+Refusal UnknownFormat(const std::filesystem::path& path) {
+  std::error_code error;
+  const auto bytes = std::filesystem::file_size(path, error);
+  if (error) return {path.string(), "cannot be read: " + error.message(), kReadableFormats};
+  if (bytes == 0) return {path.string(), "is empty", "copy or download the recording again"};
+  return {path.string(), "is of no format that can be read, by its content", kReadableFormats};
+}
+
+Result<PwmChannel> RangeOf(const std::optional<ThrusterOutput>& output, const char* thruster) {
+  const std::string subject = std::string(thruster) + " thruster";
+  if (!output) return Refuse(subject, "is not described by the log", "give a vehicle file");
+  if (output->range) return *output->range;
+  return Refuse(subject, output->range_fault, "give a vehicle file");
 }
 
 }  // namespace
 
-Result<RawLog> ReadLog(const std::filesystem::path& path, const DataFlashOptions& options) {
+LogFormat FormatOf(const std::filesystem::path& path) {
   std::error_code ignored;
-  return std::filesystem::is_directory(path, ignored) ? FromFolder(path) : FromFile(path, options);
+  if (std::filesystem::is_directory(path, ignored)) {
+    return IsRosbag2Folder(path) ? LogFormat::kRosbag2 : LogFormat::kTelemetryLog;
+  }
+  const std::string begin = FirstBytes(path);
+  if (begin.starts_with(std::string_view("\x89MCAP0\r\n", 8))) return LogFormat::kMcap;
+  if (begin.starts_with("SQLite format 3")) return LogFormat::kRosbag2;
+  const std::span<const std::uint8_t> bytes(reinterpret_cast<const std::uint8_t*>(begin.data()),
+                                            begin.size());
+  if (BeginsLikeMavlinkTelemetryLog(bytes)) return LogFormat::kMavlink;
+  // A damaged log may begin with anything; the definition of a message stands near its start.
+  const bool defines_messages = begin.find("\xA3\x95\x80") != std::string::npos;
+  return defines_messages ? LogFormat::kDataFlash : LogFormat::kUnknown;
+}
+
+Result<RawLog> ReadLog(const std::filesystem::path& path, const SourceOptions& options) {
+  switch (FormatOf(path)) {
+    case LogFormat::kTelemetryLog: return FromFolder(path);
+    case LogFormat::kMavlink: return FromSource(ReadMavlinkTelemetryLog(path, options));
+    case LogFormat::kMcap: return FromSource(ReadMcap(path, options));
+    case LogFormat::kRosbag2: return FromSource(ReadRosbag2(path, options));
+    case LogFormat::kDataFlash: return FromDataFlash(path, options);
+    case LogFormat::kUnknown: break;
+  }
+  return tl::unexpected(UnknownFormat(path));
 }
 
 Result<LoadedRecording> LoadRecording(const std::filesystem::path& path,
-                                      const DataFlashOptions& options) {
+                                      const SourceOptions& options) {
   auto log = ReadLog(path, options);
   if (!log) return tl::unexpected(std::move(log).error());
+  if (auto fault = UnitFaultOf(log->samples)) return Naming(path, *std::move(fault));
   auto admitted = Admit(log->samples);
-  if (!admitted) {
-    Refusal refusal = std::move(admitted).error();
-    refusal.subject = path.string() + " " + refusal.subject;
-    return tl::unexpected(std::move(refusal));
-  }
+  if (!admitted) return Naming(path, std::move(admitted).error());
   return LoadedRecording{std::move(admitted->recording), admitted->evicted, log->malformed,
-                         std::move(log->dataflash)};
+                         std::move(log->description)};
 }
 
-Result<Vehicle> VehicleFrom(const DataFlashSource& source, const std::string& vehicle_id) {
-  const auto port = RangeOf(source.port, "port");
+Result<Vehicle> VehicleFrom(const LogDescription& description, const std::string& vehicle_id) {
+  const auto port = RangeOf(description.port, "port");
   if (!port) return tl::unexpected(port.error());
-  const auto starboard = RangeOf(source.starboard, "starboard");
+  const auto starboard = RangeOf(description.starboard, "starboard");
   if (!starboard) return tl::unexpected(starboard.error());
   Vehicle vehicle;
   vehicle.vehicle_id = vehicle_id;

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "telltale/client/recording/csv/numeric_csv.hpp"
-#include "telltale/client/recording/dataflash/dataflash_log.hpp"
+#include "telltale/client/recording/source_log.hpp"
 #include "telltale/client/recording/time_order.hpp"
 #include "telltale/core/base/result.hpp"
 #include "telltale/core/data/samples.hpp"
@@ -16,41 +16,48 @@
 
 namespace telltale {
 
-/// What only a DataFlash log says besides its samples.
-struct DataFlashSource {
-  DataFlashReport report;
-  ThrusterOutput port;
-  ThrusterOutput starboard;
+/// What a file says of itself besides its samples; a folder of CSV files says nothing.
+struct LogDescription {
+  std::string summary;                 ///< what was read, from where, and each kind of damage
+  std::optional<ThrusterOutput> port;  ///< where the file describes its outputs
+  std::optional<ThrusterOutput> starboard;
 };
 
-/// A log of either kind before any admission: what a replay publishes.
+/// A log of any format before any admission: what a replay publishes.
 struct RawLog {
   std::vector<RawSample> samples;          ///< InOrderOfTime()
   std::array<MalformedRows, 3> malformed;  ///< by channel, of a folder
-  std::optional<DataFlashSource> dataflash;
+  std::optional<LogDescription> description;
 };
 
-/// A log of either kind as far as it can be trusted: what identifications and validations take.
+/// A log of any format as far as it can be trusted: what identifications and validations take.
 struct LoadedRecording {
   Recording recording;
   std::size_t evicted = 0;                 ///< samples a window let go again, as in AdmittedLog
   std::array<MalformedRows, 3> malformed;  ///< by channel, of a folder
-  std::optional<DataFlashSource> dataflash;
+  std::optional<LogDescription> description;
 };
 
-/// A folder of gnss.csv, heading.csv and thrusters.csv, or an ArduPilot DataFlash file.
-/// Refuses when: the path is neither, cannot be read, or holds nothing of a channel. `options`
-/// concern DataFlash files alone.
-Result<RawLog> ReadLog(const std::filesystem::path& path, const DataFlashOptions& options = {});
+enum class LogFormat { kUnknown, kTelemetryLog, kDataFlash, kMavlink, kMcap, kRosbag2 };
 
-/// ReadLog, then Admit. Refuses when: either does; the subject names the path.
+/// By what the path holds, not by its name: a folder of .db3 or .mcap files is a rosbag2 recording,
+/// any other folder a telemetry log; a file is told by its first 64 KiB.
+LogFormat FormatOf(const std::filesystem::path& path);
+
+/// A telemetry log (gnss.csv, heading.csv and thrusters.csv of one folder), an ArduPilot DataFlash
+/// file, a MAVLink telemetry log, an MCAP file or a rosbag2 recording.
+/// Refuses when: the path is none of them, cannot be read, or holds nothing of a channel.
+Result<RawLog> ReadLog(const std::filesystem::path& path, const SourceOptions& options = {});
+
+/// ReadLog, then Admit. Refuses when: either does, or times, positions or commands are plainly in
+/// other units than those of a telemetry log (UnitFault); the subject names the path.
 Result<LoadedRecording> LoadRecording(const std::filesystem::path& path,
-                                      const DataFlashOptions& options = {});
+                                      const SourceOptions& options = {});
 
-/// The vehicle that a DataFlash log's servo parameters describe, for when no vehicle file is given.
+/// The vehicle that a log's servo parameters describe, for when no vehicle file is given.
 /// The log knows neither the separation of the propellers nor the antenna's place: both are zero,
 /// which identification and validation can do with.
-/// Refuses when: the parameters of a thruster's channel are missing or unsound.
-Result<Vehicle> VehicleFrom(const DataFlashSource& source, const std::string& vehicle_id);
+/// Refuses when: the log does not describe a thruster, or its parameters are missing or unsound.
+Result<Vehicle> VehicleFrom(const LogDescription& description, const std::string& vehicle_id);
 
 }  // namespace telltale

@@ -29,7 +29,7 @@ struct InputCheck {
   std::vector<Refusal> faults;
 };
 
-/// Looks for faults of input that would give a wrong model: times in milliseconds or microseconds,
+/// Seeks faults of input that would give a wrong model: times in milliseconds or microseconds,
 /// latitude and longitude exchanged, headings in radians, mirrored, counted from east or turned
 /// round, thrusters exchanged, one or both reversed, commands outside the vehicle's range.
 ///

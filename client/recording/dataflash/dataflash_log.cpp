@@ -3,23 +3,17 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <fstream>
 #include <limits>
 #include <sstream>
 #include <utility>
 
+#include "telltale/client/recording/block_reader.hpp"
+
 namespace telltale {
 namespace {
 
-constexpr int kLoggedChannels = 14;  // RCOU stops there; RCO2 and RCO3 hold the others
-constexpr int kLastServo = 32;
-constexpr int kThrottleLeft = 73;
-constexpr int kThrottleRight = 74;
-constexpr double kFix3d = 3.0;
+constexpr double kStatusFix3d = 3.0;
 constexpr double kLeapAheadS = 60.0;
-constexpr double kShortestPulseUs = 500.0;
-constexpr double kLongestPulseUs = 2500.0;
-constexpr std::size_t kBlockBytes = 1u << 20;
 
 enum class Message { kOther, kGps, kAtt, kAhr2, kRcou, kParm };
 
@@ -40,8 +34,6 @@ struct Pulses {
   double time_s = 0.0;
   std::array<float, kLoggedChannels> us{};
 };
-
-using Parameters = std::map<std::string, double, std::less<>>;
 
 Message MessageNamed(std::string_view name) {
   if (name == "GPS" || name == "GPS2" || name == "GPSB") return Message::kGps;
@@ -118,77 +110,6 @@ MessageColumns Bind(const DataFlashFormat& format) {
   return reading;
 }
 
-/// "SERVO12_TRIM" -> true: the only parameters that are kept, whatever else a damaged log names.
-bool IsOutputParameter(std::string_view name) {
-  std::size_t at = name.starts_with("SERVO") ? 5 : name.starts_with("RC") ? 2 : 0;
-  const std::size_t digits = at;
-  while (at < name.size() && name[at] >= '0' && name[at] <= '9') ++at;
-  if (digits == 0 || at == digits || at - digits > 2) return false;
-  const std::string_view tail = name.substr(at);
-  return tail == "_FUNCTION" || tail == "_MIN" || tail == "_TRIM" || tail == "_MAX" ||
-         tail == "_REVERSED" || tail == "_REV";
-}
-
-std::string ParameterName(std::string_view prefix, int channel, std::string_view tail) {
-  return std::string(prefix) + std::to_string(channel) + std::string(tail);
-}
-
-std::optional<double> Find(const Parameters& parameters, const std::string& name) {
-  const auto found = parameters.find(name);
-  return found == parameters.end() ? std::nullopt : std::optional(found->second);
-}
-
-/// Firmware before Rover 3.2 kept output settings under RCn_, where newer firmware keeps its
-/// inputs.
-std::string_view OutputPrefix(const Parameters& parameters) {
-  const bool has_servos =
-      std::any_of(parameters.begin(), parameters.end(),
-                  [](const auto& parameter) { return parameter.first.starts_with("SERVO"); });
-  return has_servos ? "SERVO" : "RC";
-}
-
-std::optional<int> ChannelWithFunction(const Parameters& parameters, int function) {
-  const std::string_view prefix = OutputPrefix(parameters);
-  for (int channel = 1; channel <= kLastServo; ++channel) {
-    if (Find(parameters, ParameterName(prefix, channel, "_FUNCTION")) == function) return channel;
-  }
-  return std::nullopt;
-}
-
-/// SERVOn_REVERSED is 1 on a reversed channel; its forerunner RCn_REV is -1.
-bool IsReversed(const Parameters& parameters, std::string_view prefix, int channel) {
-  return Find(parameters, ParameterName(prefix, channel, "_REVERSED")).value_or(0.0) > 0.0 ||
-         Find(parameters, ParameterName(prefix, channel, "_REV")).value_or(1.0) < 0.0;
-}
-
-ThrusterOutput OutputOn(const Parameters& parameters, int channel) {
-  ThrusterOutput output;
-  output.channel = channel;
-  const std::string_view prefix = OutputPrefix(parameters);
-  std::array<double, 3> us{};
-  const std::array<std::string_view, 3> tails = {"_MIN", "_TRIM", "_MAX"};
-  for (std::size_t i = 0; i < tails.size(); ++i) {
-    const std::string name = ParameterName(prefix, channel, tails[i]);
-    const std::optional<double> value = Find(parameters, name);
-    if (!value) {
-      output.range_fault = "no " + name + " in the log";
-      return output;
-    }
-    us[i] = *value;
-  }
-  const auto [min, trim, max] = us;
-  if (!(kShortestPulseUs <= min && min < trim && trim < max && max <= kLongestPulseUs)) {
-    std::ostringstream fault;
-    fault << ParameterName(prefix, channel, "_MIN, _TRIM, _MAX") << " = " << min << ", " << trim
-          << ", " << max << ": must ascend within [500, 2500]";
-    output.range_fault = fault.str();
-    return output;
-  }
-  output.range = IsReversed(parameters, prefix, channel) ? PwmChannel{trim, min, max}
-                                                         : PwmChannel{trim, max, min};
-  return output;
-}
-
 /// Gathers what the messages say; choices between sources wait until the log has ended.
 class DataFlashLogBuilder : public DataFlashConsumer {
  public:
@@ -235,7 +156,7 @@ class DataFlashLogBuilder : public DataFlashConsumer {
     const int instance = reading.instance ? InstanceOf(DataFlashNumber(record, *reading.instance))
                                           : reading.fixed_instance;
     const double time_s = TimeOf(reading, record, instance);
-    if (!(DataFlashNumber(record, reading.values[0]) >= kFix3d)) {
+    if (!(DataFlashNumber(record, reading.values[0]) >= kStatusFix3d)) {
       ++report_.gps_without_fix;
       return;
     }
@@ -265,7 +186,7 @@ class DataFlashLogBuilder : public DataFlashConsumer {
 
   void TakeParameter(const MessageColumns& reading, DataFlashBytes record) {
     const std::string_view name = DataFlashText(record, reading.values[0]);
-    if (!IsOutputParameter(name)) return;
+    if (!IsOutputParameter(name)) return;  // whatever else a damaged log names
     const double value = DataFlashNumber(record, reading.values[1]);
     if (!std::isfinite(value)) return;
     auto [parameter, is_new] = parameters_.try_emplace(std::string(name), value);
@@ -321,7 +242,7 @@ class DataFlashLogBuilder : public DataFlashConsumer {
   std::vector<HeadingSample> attitude_;
   std::vector<HeadingSample> backup_attitude_;
   std::vector<Pulses> pulses_;
-  Parameters parameters_;
+  AutopilotParameters parameters_;
   DataFlashReport report_;
 };
 
@@ -457,29 +378,13 @@ DataFlashLog ParseDataFlash(DataFlashBytes bytes, const DataFlashOptions& option
 Result<DataFlashLog> ReadDataFlash(const std::filesystem::path& file,
                                    const DataFlashOptions& options) {
   if (auto refusal = options.Validate()) return tl::unexpected(*std::move(refusal));
-  std::ifstream in(file, std::ios::binary);
-  if (!in) return Refuse(file.string(), "cannot be opened", "check the path and its permissions");
-
   DataFlashLogBuilder builder;
   DataFlashFraming framing(builder);
-  std::vector<std::uint8_t> block(kBlockBytes);
-  std::size_t held = 0;
-  std::uint64_t total = 0;
-  for (bool at_end = false; !at_end;) {
-    in.read(reinterpret_cast<char*>(block.data() + held),
-            static_cast<std::streamsize>(block.size() - held));
-    const auto got = static_cast<std::size_t>(in.gcount());
-    if (in.bad()) return Refuse(file.string(), "cannot be read", "check the disk");
-    at_end = !in;
-    total += got;
-    held += got;
-    const std::size_t done = framing.Consume({block.data(), held}, at_end);
-    std::copy(block.begin() + static_cast<std::ptrdiff_t>(done),
-              block.begin() + static_cast<std::ptrdiff_t>(held), block.begin());
-    held -= done;
-  }
+  const auto total = ReadInBlocks(
+      file, [&](DataFlashBytes bytes, bool at_end) { return framing.Consume(bytes, at_end); });
+  if (!total) return tl::unexpected(total.error());
 
-  DataFlashLog log = FinishLog(builder, framing, total, options);
+  DataFlashLog log = FinishLog(builder, framing, *total, options);
   if (auto refusal = log.Lacks()) {
     refusal->subject = file.string() + " " + refusal->subject;
     return tl::unexpected(*std::move(refusal));

@@ -8,11 +8,15 @@
 #include <vector>
 
 #include "telltale/client/recording/dataflash/dataflash_records.hpp"
+#include "telltale/client/recording/servo_outputs.hpp"
 #include "telltale/core/base/result.hpp"
 #include "telltale/core/data/samples.hpp"
 #include "telltale/core/vessel/propellers.hpp"
 
 namespace telltale {
+
+/// The last output that RCOU records; RCO2 and RCO3, which are not read, hold the others.
+inline constexpr int kLoggedChannels = 14;
 
 /// What to take from a log where it offers a choice. Channels are counted from 1, as on the
 /// autopilot.
@@ -29,14 +33,6 @@ struct DataFlashOptions {
 enum class HeadingSource { kUnknown, kAtt, kAhr2 };
 
 std::string_view Name(HeadingSource source);
-
-/// One thruster's output: its channel and, when the parameters in the log say it soundly, its
-/// range.
-struct ThrusterOutput {
-  int channel = 0;
-  std::optional<PwmChannel> range;  ///< from SERVOn_MIN, TRIM, MAX, REVERSED
-  std::string range_fault;          ///< why there is no range
-};
 
 /// What a log held and what was wrong with it, by name and count.
 struct DataFlashReport {

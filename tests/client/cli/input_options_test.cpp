@@ -179,8 +179,8 @@ TEST_F(LogInputsTest, ReceiverAndChannelsCanBeChosen) {
 TEST_F(LogInputsTest, OptionsOfDataFlashLogsAreChecked) {
   Save("run.BIN", Rover4Writer().WholeLog(5));
   for (const auto& [option, value, range] : {std::array{"--gps-instance", "256", "[0, 255]"},
-                                             std::array{"--port-channel", "0", "[1, 14]"},
-                                             std::array{"--starboard-channel", "15", "[1, 14]"}}) {
+                                             std::array{"--port-channel", "0", "[1, 16]"},
+                                             std::array{"--starboard-channel", "15", "[1, 16]"}}) {
     for (const char* subcommand : {"identify", "study"}) {
       const CommandOutcome outcome =
           Telltale({subcommand, "--log", Path("run.BIN"), option, value});
@@ -193,6 +193,27 @@ TEST_F(LogInputsTest, OptionsOfDataFlashLogsAreChecked) {
     EXPECT_THAT(Telltale({"replay", "--help"}).out, AllOf(HasSubstr(option), HasSubstr(range)));
   }
   EXPECT_EQ(Telltale({"identify", "--vehicle-id", "b", "--gps-instance", "1"}).exit_code, kUsage);
+}
+
+TEST_F(LogInputsTest, AChannelThatALogDoesNotRecordIsAUsageError) {
+  Save("run.BIN", Rover4Writer().WholeLog(5));
+  for (const char* subcommand : {"identify", "check", "import", "init"}) {
+    const CommandOutcome outcome = Telltale(
+        {subcommand, "--log", Path("run.BIN"), "--port-channel", "15", "--out", Path("written")});
+    EXPECT_EQ(outcome.exit_code, kUsage) << subcommand;
+    EXPECT_THAT(outcome.err, AllOf(HasSubstr("--port-channel"), HasSubstr("channels 1 to 14")));
+  }
+}
+
+TEST_F(LogInputsTest, AFileOfNoKnownFormatIsRefusedWithTheFormatsThereAre) {
+  folder.Write("notes.txt", "Rain since noon.\n");
+  const CommandOutcome outcome = Telltale({"check", "--log", Path("notes.txt")});
+  EXPECT_EQ(outcome.exit_code, kRefused);
+  for (const char* format : {"notes.txt", ".BIN", ".tlog", ".mcap", "rosbag2", "CSV"}) {
+    EXPECT_THAT(outcome.err, HasSubstr(format));
+  }
+  folder.Write("empty.BIN", "");
+  EXPECT_THAT(Telltale({"check", "--log", Path("empty.BIN")}).err, HasSubstr("is empty"));
 }
 
 TEST_F(LogInputsTest, SeveralLogsHaveARecordingBiasEachByDefault) {

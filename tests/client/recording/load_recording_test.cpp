@@ -40,8 +40,8 @@ TEST_F(Loading, TakesADataFlashFile) {
   EXPECT_EQ(loaded->recording.thrusters.size(), 100u);
   EXPECT_EQ(loaded->recording.rejected.Total(), 0u);
   EXPECT_EQ(loaded->evicted, 0u);
-  ASSERT_TRUE(loaded->dataflash);
-  EXPECT_EQ(loaded->dataflash->report.heading_source, HeadingSource::kAtt);
+  ASSERT_TRUE(loaded->description);
+  EXPECT_THAT(loaded->description->summary, HasSubstr("heading from ATT"));
 }
 
 TEST_F(Loading, TakesAFolderWithTheSameOutcome) {
@@ -51,7 +51,7 @@ TEST_F(Loading, TakesAFolderWithTheSameOutcome) {
   const auto loaded = LoadRecording(folder_);
   ASSERT_TRUE(loaded) << loaded.error().reason;
   EXPECT_EQ(loaded->recording.gnss.size(), 2u);
-  EXPECT_FALSE(loaded->dataflash);
+  EXPECT_FALSE(loaded->description);
 
   Rover4Writer writer;
   writer.Definitions().Parm("SERVO3_FUNCTION", 73).Parm("SERVO1_FUNCTION", 74);
@@ -91,7 +91,8 @@ TEST_F(Loading, ALeapOfOneSampleIsReportedAndRejected) {
   writer.WholeLog(20).Gps(900'000'000, 0, 3, 634014986, 103146182).Run(20, 14'000'000);
   const auto loaded = LoadRecording(Save(writer));
   ASSERT_TRUE(loaded) << loaded.error().reason;
-  EXPECT_EQ(loaded->dataflash->report.time_leaps.at("GPS"), 2u);  // there and back
+  // There and back.
+  EXPECT_THAT(loaded->description->summary, HasSubstr("2 leaps in time in GPS"));
   EXPECT_EQ(loaded->recording.rejected.Of(Channel::kGnss, RejectReason::kClockJump), 1u);
   EXPECT_EQ(loaded->recording.gnss.size(), 40u);
 }
@@ -119,7 +120,7 @@ TEST_F(Loading, RefusalsNameThePath) {
 TEST_F(Loading, TheLogsServoParametersMakeAVehicle) {
   const auto log = ReadLog(Save(Rover4Writer().WholeLog(1)));
   ASSERT_TRUE(log);
-  const auto vehicle = VehicleFrom(*log->dataflash, "blueboat-1");
+  const auto vehicle = VehicleFrom(*log->description, "blueboat-1");
   ASSERT_TRUE(vehicle);
   EXPECT_EQ(vehicle->vehicle_id, "blueboat-1");
   // Full forward of both: above neutral to port, below it on the reversed starboard channel.
@@ -130,7 +131,7 @@ TEST_F(Loading, TheLogsServoParametersMakeAVehicle) {
   unsaid.Definitions().Parm("SERVO3_FUNCTION", 73).Parm("SERVO1_FUNCTION", 74).Run(1);
   const auto without = ReadLog(Save(unsaid));
   ASSERT_TRUE(without);
-  const auto refused = VehicleFrom(*without->dataflash, "blueboat-1");
+  const auto refused = VehicleFrom(*without->description, "blueboat-1");
   ASSERT_FALSE(refused);
   EXPECT_EQ(refused.error().subject, "port thruster");
   EXPECT_THAT(refused.error().reason, HasSubstr("SERVO3_MIN"));

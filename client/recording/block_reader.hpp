@@ -1,0 +1,21 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <span>
+
+#include "telltale/core/base/result.hpp"
+
+namespace telltale {
+
+/// Takes bytes and returns how many it is done with; the rest comes again in front of what follows.
+/// `at_end`: nothing follows.
+using BlockConsumer = std::function<std::size_t(std::span<const std::uint8_t> bytes, bool at_end)>;
+
+/// Hands a file over in blocks, so that memory does not grow with it; a consumer that needs more
+/// bytes than a block gets a longer one. Returns the file's length in bytes.
+/// Refuses when: the file cannot be opened or read, or an item is longer than 256 MB.
+Result<std::uint64_t> ReadInBlocks(const std::filesystem::path& file, const BlockConsumer& consume);
+
+}  // namespace telltale

@@ -1,0 +1,158 @@
+#include "telltale/client/recording/mavlink/mavlink_frames.hpp"
+
+#include "telltale/client/recording/mavlink/mavlink_messages.hpp"
+
+namespace telltale {
+namespace {
+
+constexpr std::uint8_t kMagic1 = 0xFE;
+constexpr std::uint8_t kMagic2 = 0xFD;
+constexpr std::size_t kHeader1 = 6;
+constexpr std::size_t kHeader2 = 10;
+constexpr std::size_t kChecksum = 2;
+constexpr std::size_t kSignature = 13;
+constexpr std::uint8_t kSigned = 0x01;
+constexpr std::size_t kTimeBytes = 8;
+constexpr std::uint64_t kYear2000Us = 946684800000000;
+constexpr std::uint64_t kYear2100Us = 4102444800000000;
+
+/// X.25, also called CRC-16/MCRF4XX: what MAVLink sums header and payload with.
+class Checksum {
+ public:
+  void Add(std::uint8_t byte) {
+    auto low = static_cast<std::uint8_t>(byte ^ (sum_ & 0xFF));
+    low = static_cast<std::uint8_t>(low ^ (low << 4));
+    sum_ = static_cast<std::uint16_t>((sum_ >> 8) ^ (low << 8) ^ (low << 3) ^ (low >> 4));
+  }
+  std::uint16_t Value() const { return sum_; }
+
+ private:
+  std::uint16_t sum_ = 0xFFFF;
+};
+
+bool ChecksumHolds(std::span<const std::uint8_t> summed, std::uint8_t extra, std::uint16_t stated) {
+  Checksum checksum;
+  for (const std::uint8_t byte : summed) checksum.Add(byte);
+  checksum.Add(extra);
+  return checksum.Value() == stated;
+}
+
+std::uint64_t BigEndian64(std::span<const std::uint8_t> bytes) {
+  std::uint64_t value = 0;
+  for (std::size_t i = 0; i < kTimeBytes; ++i) value = value << 8 | bytes[i];
+  return value;
+}
+
+bool IsPlausibleArrival(std::uint64_t us) {
+  return kYear2000Us <= us && us < kYear2100Us;
+}
+
+/// What stands before each frame, and what is told of it.
+struct NoPrefix {
+  static constexpr std::size_t kBytes = 0;
+  static bool IsPlausible(std::span<const std::uint8_t>) { return true; }
+};
+struct ArrivalPrefix {
+  static constexpr std::size_t kBytes = kTimeBytes;
+  static bool IsPlausible(std::span<const std::uint8_t> bytes) {
+    return IsPlausibleArrival(BigEndian64(bytes));
+  }
+};
+
+template <class Prefix, class Deliver>
+std::size_t ConsumeFrames(std::span<const std::uint8_t> bytes, bool at_end, MavlinkDamage& damage,
+                          Deliver deliver) {
+  std::size_t at = 0;
+  while (at < bytes.size()) {
+    const auto rest = bytes.subspan(at);
+    MavlinkParse parse;
+    if (rest.size() < Prefix::kBytes) {
+      parse.outcome = MavlinkParse::Outcome::kIncomplete;
+    } else if (!Prefix::IsPlausible(rest)) {
+      parse.outcome = MavlinkParse::Outcome::kNotAFrame;
+    } else {
+      parse = ParseMavlinkFrame(rest.subspan(Prefix::kBytes));
+    }
+    if (parse.outcome == MavlinkParse::Outcome::kIncomplete) {
+      if (!at_end) return at;
+      // The seeming start of a frame may be noise with frames behind it.
+      const bool holds_more = Prefix::kBytes == 0 && rest.size() > 1;
+      if (!holds_more) {
+        damage.truncated_bytes += rest.size();
+        return bytes.size();
+      }
+      ++damage.skipped_bytes;
+      ++at;
+      continue;
+    }
+    if (parse.outcome == MavlinkParse::Outcome::kNotAFrame || parse.corrupt) {
+      if (parse.corrupt) ++damage.corrupt_frames;
+      ++damage.skipped_bytes;
+      ++at;
+      continue;
+    }
+    deliver(rest, parse.frame);
+    at += Prefix::kBytes + parse.length;
+  }
+  return bytes.size();
+}
+
+}  // namespace
+
+MavlinkParse ParseMavlinkFrame(std::span<const std::uint8_t> bytes) {
+  using Outcome = MavlinkParse::Outcome;
+  MavlinkParse parse;
+  parse.outcome = Outcome::kIncomplete;
+  if (bytes.empty()) return parse;
+  if (bytes[0] != kMagic1 && bytes[0] != kMagic2) {
+    parse.outcome = Outcome::kNotAFrame;
+    return parse;
+  }
+  const bool is_v2 = bytes[0] == kMagic2;
+  const std::size_t header = is_v2 ? kHeader2 : kHeader1;
+  if (bytes.size() < header) return parse;
+  if (is_v2 && (bytes[2] & ~kSigned) != 0) {
+    parse.outcome = Outcome::kNotAFrame;  // incompatible flags that no version defines yet
+    return parse;
+  }
+  const std::size_t payload = bytes[1];
+  const bool is_signed = is_v2 && (bytes[2] & kSigned) != 0;
+  parse.length = header + payload + kChecksum + (is_signed ? kSignature : 0);
+  if (bytes.size() < parse.length) return parse;
+
+  MavlinkFrame& frame = parse.frame;
+  frame.version = is_v2 ? 2 : 1;
+  frame.system = is_v2 ? bytes[5] : bytes[3];
+  frame.component = is_v2 ? bytes[6] : bytes[4];
+  frame.message =
+      is_v2 ? static_cast<std::uint32_t>(bytes[7] | bytes[8] << 8 | bytes[9] << 16) : bytes[5];
+  frame.payload = bytes.subspan(header, payload);
+  parse.outcome = Outcome::kFrame;
+  if (const auto extra = MavlinkCrcExtra(frame.message)) {
+    const std::size_t end = header + payload;
+    const auto stated = static_cast<std::uint16_t>(bytes[end] | bytes[end + 1] << 8);
+    parse.corrupt = !ChecksumHolds(bytes.subspan(1, end - 1), *extra, stated);
+  }
+  return parse;
+}
+
+std::size_t MavlinkStream::Consume(std::span<const std::uint8_t> bytes, bool at_end,
+                                   const Visit& visit) {
+  return ConsumeFrames<NoPrefix>(bytes, at_end, damage_,
+                                 [&](auto, const MavlinkFrame& frame) { visit(frame); });
+}
+
+std::size_t MavlinkTelemetryLog::Consume(std::span<const std::uint8_t> bytes, bool at_end,
+                                         const Visit& visit) {
+  return ConsumeFrames<ArrivalPrefix>(
+      bytes, at_end, damage_, [&](std::span<const std::uint8_t> from, const MavlinkFrame& frame) {
+        visit(BigEndian64(from), frame);
+      });
+}
+
+bool BeginsLikeMavlinkTelemetryLog(std::span<const std::uint8_t> bytes) {
+  if (bytes.size() <= kTimeBytes || !IsPlausibleArrival(BigEndian64(bytes))) return false;
+  return bytes[kTimeBytes] == kMagic1 || bytes[kTimeBytes] == kMagic2;
+}
+
+}  // namespace telltale

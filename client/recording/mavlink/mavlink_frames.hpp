@@ -1,0 +1,76 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <span>
+
+namespace telltale {
+
+/// One MAVLink frame, version 1 or 2. Its payload may be shorter than the message: version 2 cuts
+/// trailing zeros.
+struct MavlinkFrame {
+  std::uint8_t version = 0;    ///< 1 or 2
+  std::uint8_t system = 0;     ///< which vehicle
+  std::uint8_t component = 0;  ///< which part of it; an autopilot is 1
+  std::uint32_t message = 0;   ///< message id
+  std::span<const std::uint8_t> payload;
+};
+
+/// What the bytes hold beside frames, by kind.
+struct MavlinkDamage {
+  std::uint64_t corrupt_frames = 0;   ///< of a known message, with a wrong checksum
+  std::uint64_t skipped_bytes = 0;    ///< between frames
+  std::uint64_t truncated_bytes = 0;  ///< of a frame that the end cuts off
+};
+
+/// The frame that begins at `bytes`, and its length in bytes.
+struct MavlinkParse {
+  enum class Outcome { kUnknown, kFrame, kNotAFrame, kIncomplete };
+  Outcome outcome = Outcome::kUnknown;
+  MavlinkFrame frame;
+  std::size_t length = 0;  ///< of the whole frame, checksum and signature included
+  bool corrupt = false;    ///< a known message whose checksum is wrong
+};
+
+/// Reads one frame. The checksum of a message that KnowsMavlinkMessage() is compared; that of any
+/// other message cannot be, because it depends on the message's definition. A signature is passed
+/// over.
+/// Source: MAVLink developer guide, "Packet Serialization"; checksum X.25 with CRC_EXTRA.
+MavlinkParse ParseMavlinkFrame(std::span<const std::uint8_t> bytes);
+
+/// Frames out of a byte stream that may begin, break and end anywhere: the stream of a serial line
+/// or of datagrams.
+class MavlinkStream {
+ public:
+  using Visit = std::function<void(const MavlinkFrame&)>;
+
+  /// Visits each whole frame and returns how many bytes are done with; the rest is wanted again in
+  /// front of what follows. With `at_end` nothing follows, and all bytes are done with.
+  std::size_t Consume(std::span<const std::uint8_t> bytes, bool at_end, const Visit& visit);
+
+  const MavlinkDamage& Damage() const { return damage_; }
+
+ private:
+  MavlinkDamage damage_;
+};
+
+/// The same of a telemetry log (tlog): each frame follows its time of arrival, eight bytes
+/// big-endian, microseconds since 1970.
+/// Source: MAVLink developer guide, "Telemetry log format".
+class MavlinkTelemetryLog {
+ public:
+  using Visit = std::function<void(std::uint64_t arrival_us, const MavlinkFrame&)>;
+
+  std::size_t Consume(std::span<const std::uint8_t> bytes, bool at_end, const Visit& visit);
+
+  const MavlinkDamage& Damage() const { return damage_; }
+
+ private:
+  MavlinkDamage damage_;
+};
+
+/// Whether bytes begin like a telemetry log: a time between 2000 and 2100 and a frame.
+bool BeginsLikeMavlinkTelemetryLog(std::span<const std::uint8_t> bytes);
+
+}  // namespace telltale

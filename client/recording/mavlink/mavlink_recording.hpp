@@ -1,0 +1,76 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "telltale/client/recording/mavlink/mavlink_messages.hpp"
+#include "telltale/client/recording/source_log.hpp"
+
+namespace telltale {
+
+/// Gathers what the vehicles of a MAVLink stream say; which vehicle and which of its sources count
+/// is chosen once the stream has ended.
+///
+/// Clock: seconds since the autopilot booted, for the three channels. GPS_RAW_INT bears the time of
+/// its fix, ATTITUDE and SERVO_OUTPUT_RAW the time at which they were measured; none depends on
+/// when a message arrived. A GPS_RAW_INT on the UNIX clock is brought to the autopilot's by
+/// SYSTEM_TIME. Position: GPS_RAW_INT with a three-dimensional fix, else GLOBAL_POSITION_INT. A fix
+/// that is sent again counts once. Heading: yaw of ATTITUDE, else hdg of GLOBAL_POSITION_INT; both
+/// are true. Outputs: SERVO_OUTPUT_RAW of bank 0; SERVOn_FUNCTION 73 and 74 of PARAM_VALUE name the
+/// thrusters.
+class MavlinkRecording {
+ public:
+  /// A frame of any message; those of no use are passed over.
+  void Take(const MavlinkFrame& frame);
+
+  void Take(int system, const MavlinkGpsRawInt& message);
+  void Take(int system, const MavlinkGlobalPositionInt& message);
+  void Take(int system, const MavlinkAttitude& message);
+  void Take(int system, const MavlinkServoOutputRaw& message);
+  void Take(int system, const MavlinkParamValue& message);
+  void Take(int system, const MavlinkSystemTime& message);
+
+  /// Requires: options.Validate() is empty.
+  SourceLog Finish(const SourceOptions& options) const;
+
+ private:
+  struct Outputs {
+    double time_s = 0.0;
+    std::array<std::uint16_t, 16> pulse_us{};
+  };
+  struct Vehicle {
+    std::vector<GnssFix> raw_fixes;
+    std::vector<GnssFix> filtered_fixes;
+    std::vector<HeadingSample> attitude;
+    std::vector<HeadingSample> filtered_heading;
+    std::vector<Outputs> outputs;
+    AutopilotParameters parameters;
+    std::uint64_t without_fix = 0;
+    std::uint64_t repeated_fixes = 0;
+    std::uint32_t last_output_us = 0;
+    std::uint64_t output_wraps = 0;
+    std::optional<double> unix_less_boot_s;
+
+    std::size_t Samples() const;
+  };
+
+  const std::pair<const int, Vehicle>* Chosen(const SourceOptions& options) const;
+  static void ChoosePositions(const Vehicle& vehicle, SourceLog& log);
+  static void ChooseHeadings(const Vehicle& vehicle, SourceLog& log);
+  static void ChooseOutputs(const Vehicle& vehicle, const SourceOptions& options, SourceLog& log);
+  static std::string RateWarning(const Vehicle& vehicle);
+
+  std::map<int, Vehicle> vehicles_;  ///< by system id
+  std::uint64_t messages_ = 0;
+};
+
+/// A telemetry log of a ground station (tlog).
+/// Refuses when: the file cannot be read, holds no frame, or lacks a channel.
+Result<SourceLog> ReadMavlinkTelemetryLog(const std::filesystem::path& file,
+                                          const SourceOptions& options = {});
+
+}  // namespace telltale

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <span>
+#include <string>
+
+#include "telltale/client/recording/source_log.hpp"
+
+namespace telltale {
+
+/// One message of an MCAP file with what its channel says of it.
+struct McapMessage {
+  std::string_view topic;
+  std::string_view schema;    ///< name of the message's type; empty without a schema
+  std::string_view encoding;  ///< "cdr", "json", ...
+  std::int64_t log_time_ns = 0;
+  std::span<const std::uint8_t> data;
+};
+
+/// What a file held besides whole messages.
+struct McapDamage {
+  std::uint64_t messages = 0;           ///< whole ones, for comparison
+  std::uint64_t unreadable_chunks = 0;  ///< wrong checksum, length or compression
+  std::uint64_t unknown_channels = 0;   ///< messages of a channel that is nowhere defined
+  std::uint64_t truncated_bytes = 0;    ///< of a record that the end cuts off
+
+  /// "; 1 unreadable chunk" and so on; empty where nothing is wrong.
+  std::string Summary() const;
+};
+
+/// Visits the messages of an MCAP file in the order they stand there: chunked or not, compressed
+/// with zstd, lz4 or not at all, with or without an index, cut off or whole.
+/// Memory: one chunk, compressed and not.
+/// Refuses when: the file cannot be read, does not begin with MCAP's magic, or holds a record of
+/// more than 256 MB. Source: MCAP file format specification, version 0.
+Result<McapDamage> ForEachMcapMessage(const std::filesystem::path& file,
+                                      const std::function<void(const McapMessage&)>& visit);
+
+/// An MCAP file of ROS 2 (CDR) or of the BlueOS recorder (MAVLink messages as JSON).
+/// Refuses when: ForEachMcapMessage() does, or a channel is missing.
+Result<SourceLog> ReadMcap(const std::filesystem::path& file, const SourceOptions& options = {});
+
+}  // namespace telltale

@@ -1,0 +1,76 @@
+#pragma once
+
+#include <bit>
+#include <cstdint>
+#include <cstring>
+#include <span>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+namespace telltale {
+
+/// Fields of a message in the Common Data Representation (XCDR1), as ROS 2 stores and sends it:
+/// four bytes of encapsulation, then fields aligned to their size.
+/// A field beyond the end is zero or empty, and Ok() is false from then on.
+/// Source: OMG DDS-XTypes 1.3, section 7.4; plain CDR of either byte order.
+class CdrReader {
+ public:
+  explicit CdrReader(std::span<const std::uint8_t> bytes) : bytes_(bytes) {
+    ok_ = bytes.size() >= kEncapsulation && bytes[0] == 0 && bytes[1] <= 1;
+    if (!ok_) return;
+    is_little_ = bytes[1] == 1;
+    bytes_ = bytes.subspan(kEncapsulation);
+  }
+
+  template <class Number>
+  Number Read() {
+    static_assert(std::is_arithmetic_v<Number>);
+    at_ = (at_ + sizeof(Number) - 1) / sizeof(Number) * sizeof(Number);
+    Number value{};
+    if (!Holds(sizeof(Number))) return value;
+    std::uint8_t raw[sizeof(Number)];
+    for (std::size_t i = 0; i < sizeof(Number); ++i) {
+      raw[is_little_ == kHostIsLittle ? i : sizeof(Number) - 1 - i] = bytes_[at_ + i];
+    }
+    std::memcpy(&value, raw, sizeof(Number));
+    at_ += sizeof(Number);
+    return value;
+  }
+
+  std::string ReadString() {
+    const auto length = Read<std::uint32_t>();  // its closing zero included
+    if (length == 0 || !Holds(length)) return {};
+    std::string text(reinterpret_cast<const char*>(bytes_.data() + at_), length - 1);
+    at_ += length;
+    return text;
+  }
+
+  template <class Number>
+  std::vector<Number> ReadSequence() {
+    const auto length = Read<std::uint32_t>();
+    std::vector<Number> values;
+    if (!Holds(std::size_t{length} * sizeof(Number))) return values;
+    values.reserve(length);
+    for (std::uint32_t i = 0; i < length; ++i) values.push_back(Read<Number>());
+    return values;
+  }
+
+  bool Ok() const { return ok_; }
+
+ private:
+  static constexpr std::size_t kEncapsulation = 4;
+  static constexpr bool kHostIsLittle = std::endian::native == std::endian::little;
+
+  bool Holds(std::size_t more) {
+    ok_ = ok_ && more <= bytes_.size() && at_ <= bytes_.size() - more;
+    return ok_;
+  }
+
+  std::span<const std::uint8_t> bytes_;
+  std::size_t at_ = 0;
+  bool is_little_ = true;
+  bool ok_ = false;
+};
+
+}  // namespace telltale

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "telltale/client/recording/servo_outputs.hpp"
+#include "telltale/core/base/result.hpp"
+#include "telltale/core/data/samples.hpp"
+
+namespace telltale {
+
+/// What to take from a file where it offers a choice. Channels are counted from 1.
+struct SourceOptions {
+  std::optional<int> gps_instance;       ///< of DataFlash, [0, 255]; unset: the one with most fixes
+  std::optional<int> system_id;          ///< of MAVLink, [1, 255]; unset: the one that says most
+  std::optional<int> port_channel;       ///< [1, 16]; unset: by SERVOn_FUNCTION 73
+  std::optional<int> starboard_channel;  ///< [1, 16]; unset: by SERVOn_FUNCTION 74
+
+  /// The first field out of its range, as a refusal naming field, value and range.
+  std::optional<Refusal> Validate() const;
+};
+
+/// Three channels out of a file of any format, each in the order it was written, on one clock,
+/// nothing checked yet; and what was chosen to get them.
+struct SourceLog {
+  std::vector<GnssFix> gnss;
+  std::vector<HeadingSample> heading;
+  std::vector<ThrusterSample> thrusters;
+  std::optional<ThrusterOutput> port;  ///< where the file describes its outputs
+  std::optional<ThrusterOutput> starboard;
+  std::string summary;  ///< for people: what was read, from where, and each kind of damage
+
+  /// The first channel that is missing, with the reason and what to do.
+  std::optional<Refusal> Lacks() const;
+};
+
+}  // namespace telltale
