@@ -13,6 +13,13 @@ Decoded<std::string> Read(const std::filesystem::path& file, std::string field) 
                                    text.error().reason + "; " + text.error().advice});
 }
 
+/// Paths are beside the configuration unless they are absolute.
+void ResolvePaths(const std::filesystem::path& folder, HttpSettings& http) {
+  for (std::string* path : {&http.token_file, &http.tls_chain_file, &http.tls_key_file}) {
+    if (!path->empty()) *path = folder / *path;
+  }
+}
+
 }  // namespace
 
 Decoded<DaemonConfig> LoadConfiguration(const std::filesystem::path& file) {
@@ -20,6 +27,7 @@ Decoded<DaemonConfig> LoadConfiguration(const std::filesystem::path& file) {
   if (!text) return tl::unexpected(text.error());
   auto config = ParseDaemonConfig(*text, file.string());
   if (!config) return config;
+  if (config->http) ResolvePaths(file.parent_path(), *config->http);
   for (const std::string& named : config->vehicle_files) {
     const auto vehicle_file = file.parent_path() / named;
     const auto vehicle_text = Read(vehicle_file, "vehicle_files");

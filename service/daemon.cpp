@@ -28,6 +28,14 @@ Daemon::Daemon(const DaemonConfig& config, std::function<void(const std::excepti
                .answer_diagnose = [this](const DiagnoseReply& reply) { replies_.Send(reply); },
                .heartbeat = [this] { models_.AssertLiveliness(); },
                .received = [this](VehicleWindow& window) { quality_.PublishReceipt(window); },
-               .failed = std::move(failed)}) {}
+               .failed = std::move(failed)}) {
+  if (!config.http) return;
+  web_.emplace(
+      *config.http, fleet_, models_, view_,
+      OrderHandlers{
+          .identify = [this](IdentifyRequest request) { jobs_.Submit(std::move(request)); },
+          .diagnose =
+              [this](DiagnoseRequest request) { diagnosis_jobs_.Submit(std::move(request)); }});
+}
 
 }  // namespace telltale

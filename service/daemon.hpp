@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 
 #include "telltale/client/bus/bus_log.hpp"
 #include "telltale/client/bus/participant.hpp"
@@ -17,6 +18,7 @@
 #include "telltale/service/monitoring/fleet_watcher.hpp"
 #include "telltale/service/monitoring/quality_publisher.hpp"
 #include "telltale/service/storage/directory_lock.hpp"
+#include "telltale/service/web/web_server.hpp"
 
 namespace telltale {
 
@@ -44,6 +46,7 @@ class Daemon {
   DiagnosisJobs diagnosis_jobs_;
   QualityPublisher quality_;
   Ingest ingest_;
+  std::optional<WebServer> web_;
 };
 
 }  // namespace telltale

@@ -42,6 +42,22 @@ IdentificationSettings ReadIdentification(FieldReader reader) {
   return settings;
 }
 
+HttpSettings ReadHttp(FieldReader reader) {
+  HttpSettings settings;
+  settings.address = reader.Text("address", settings.address);
+  settings.port = reader.Count("port", {0.0, 65535.0}, settings.port);
+  settings.token_file = reader.Text("token_file", settings.token_file);
+  settings.connections = reader.Count("connections", {8.0, 1024.0}, settings.connections);
+  settings.tls_chain_file = reader.Text("tls_chain_file", settings.tls_chain_file);
+  settings.tls_key_file = reader.Text("tls_key_file", settings.tls_key_file);
+  if (settings.address.empty()) reader.Fail("address", "\"\"", "an IP address");
+  if (settings.tls_chain_file.empty() != settings.tls_key_file.empty()) {
+    reader.Fail("tls_key_file", '"' + settings.tls_key_file + '"',
+                "a file together with tls_chain_file");
+  }
+  return settings;
+}
+
 std::vector<Vehicle> ReadVehicles(FieldReader& reader) {
   std::vector<Vehicle> vehicles;
   std::set<std::string> seen;
@@ -79,6 +95,7 @@ DaemonConfig ReadConfig(FieldReader reader, const proto::DaemonConfig& message) 
   if (config.state_directory.empty()) reader.Fail("state_directory", "\"\"", "a folder");
   config.window = ReadWindow(reader.Optional("window"));
   config.identification = ReadIdentification(reader.Optional("identification"));
+  if (message.has_http()) config.http = ReadHttp(reader.Optional("http"));
   config.quality_period_s =
       reader.Number("quality_period_s", {0.1, 3600.0}, config.quality_period_s);
   config.log_level = ReadLogLevel(reader, config.log_level);

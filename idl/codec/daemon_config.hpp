@@ -21,6 +21,16 @@ struct IdentificationSettings {
   std::uint32_t queue_limit = 1024;           ///< [1, 10000]
 };
 
+/// The web server of the daemon. Paths are as written; who opens them resolves them.
+struct HttpSettings {
+  std::string address = "127.0.0.1";
+  std::uint32_t port = 8480;        ///< [0, 65535]; 0: any that is free
+  std::string token_file;           ///< empty: nothing can be changed over HTTP
+  std::uint32_t connections = 128;  ///< [8, 1024]
+  std::string tls_chain_file;       ///< both or neither
+  std::string tls_key_file;
+};
+
 /// Configuration of telltaled; defaults and ranges are those of proto/daemon.proto.
 struct DaemonConfig {
   std::uint32_t domain = 0;  ///< [0, 101]
@@ -29,6 +39,7 @@ struct DaemonConfig {
   std::string state_directory = "/var/lib/telltale";
   WindowLimits window;
   IdentificationSettings identification;
+  std::optional<HttpSettings> http;
   double quality_period_s = 1.0;   ///< [0.1, 3600]
   std::string log_level = "info";  ///< trace, debug, info, warn, error
 };

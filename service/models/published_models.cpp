@@ -51,6 +51,18 @@ std::optional<StoredModel> PublishedModels::Latest(std::string_view vehicle_id) 
   return found->second;
 }
 
+std::vector<StoredModel> PublishedModels::History(std::string_view vehicle_id, std::uint64_t before,
+                                                  std::size_t limit) const {
+  std::vector<StoredModel> history;
+  if (limit == 0) return history;
+  const std::lock_guard lock(mutex_);
+  store_.Newest(vehicle_id, [&](const StoredModel& stored) {
+    if (stored.model.revision < before) history.push_back(stored);
+    return history.size() == limit;
+  });
+  return history;
+}
+
 void PublishedModels::PublishBlocked() {
   const std::lock_guard lock(mutex_);
   for (const std::string& vehicle_id : std::exchange(blocked_, {})) {

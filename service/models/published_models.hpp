@@ -6,6 +6,7 @@
 #include <set>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "telltale/client/bus/participant.hpp"
 #include "telltale/client/bus/writer.hpp"
@@ -26,6 +27,11 @@ class PublishedModels {
                          const std::optional<FreeRunError>& reference_error);
 
   std::optional<StoredModel> Latest(std::string_view vehicle_id) const;
+
+  /// The newest of the vehicle's models that are older than revision `before`, newest first, at
+  /// most `limit`.
+  std::vector<StoredModel> History(std::string_view vehicle_id, std::uint64_t before,
+                                   std::size_t limit) const;
 
   /// Publishes again the models that a stalled client has blocked.
   void PublishBlocked();

@@ -28,7 +28,7 @@ void FleetView::Take(const Quality& quality, double time_unix_s) {
   const std::lock_guard lock(mutex_);
   if (quality.vehicle_id == kUnattributed) return;
   Vehicle& vehicle = Of(quality.vehicle_id);
-  vehicle.quality = quality;
+  vehicle.quality = {quality, time_unix_s};
   if (!vehicle.past.empty() && time_unix_s < vehicle.past.back().time_unix_s + kBetweenPointsS) {
     return;
   }
@@ -39,8 +39,7 @@ void FleetView::Take(const Quality& quality, double time_unix_s) {
 void FleetView::Take(const PublishedDiagnosis& diagnosis) {
   const std::lock_guard lock(mutex_);
   Of(diagnosis.diagnosis.vehicle_id).diagnosis =
-      LastDiagnosis{std::string(Name(diagnosis.diagnosis.verdict)), diagnosis.diagnosis.sentence,
-                    diagnosis.published_unix_s};
+      std::make_shared<const PublishedDiagnosis>(diagnosis);
 }
 
 void FleetView::Take(const IdentifyProgress& progress) {
@@ -78,6 +77,8 @@ void FleetView::Advance(JobView::Kind kind, const ExchangeProgress& progress) {
 void FleetView::Finish(JobView::Kind kind, const ExchangeReply& reply, std::uint64_t revision) {
   const std::lock_guard lock(mutex_);
   JobView& job = Job(kind, reply.correlation_id, reply.vehicle_id);
+  // A reply that is sent again is of a request that has ended already.
+  if (job.state <= JobView::State::kRunning) ++finished_[{kind, StateOf(reply.outcome)}];
   job.state = StateOf(reply.outcome);
   job.fraction = 1.0;
   job.message = reply.message;
@@ -104,13 +105,14 @@ std::optional<Refusal> FleetView::LastRefusalOf(std::string_view vehicle_id) con
   return vehicle == vehicles_.end() ? std::nullopt : vehicle->second.refusal;
 }
 
-std::optional<LastDiagnosis> FleetView::LastDiagnosisOf(std::string_view vehicle_id) const {
+std::shared_ptr<const PublishedDiagnosis> FleetView::LastDiagnosisOf(
+    std::string_view vehicle_id) const {
   const std::lock_guard lock(mutex_);
   const auto vehicle = vehicles_.find(vehicle_id);
-  return vehicle == vehicles_.end() ? std::nullopt : vehicle->second.diagnosis;
+  return vehicle == vehicles_.end() ? nullptr : vehicle->second.diagnosis;
 }
 
-std::optional<Quality> FleetView::QualityOf(std::string_view vehicle_id) const {
+std::optional<TimedQuality> FleetView::QualityOf(std::string_view vehicle_id) const {
   const std::lock_guard lock(mutex_);
   const auto vehicle = vehicles_.find(vehicle_id);
   return vehicle == vehicles_.end() ? std::nullopt : vehicle->second.quality;
@@ -120,9 +122,38 @@ std::vector<Quality> FleetView::Qualities() const {
   const std::lock_guard lock(mutex_);
   std::vector<Quality> all;
   for (const auto& [id, vehicle] : vehicles_) {
-    if (vehicle.quality) all.push_back(*vehicle.quality);
+    if (vehicle.quality) all.push_back(vehicle.quality->quality);
   }
   return all;
+}
+
+void FleetView::EndRound(double time_unix_s, std::vector<RejectEntry> unattributed) {
+  const std::lock_guard lock(mutex_);
+  last_round_unix_s_ = time_unix_s;
+  unattributed_ = std::move(unattributed);
+}
+
+double FleetView::LastRoundUnixS() const {
+  const std::lock_guard lock(mutex_);
+  return last_round_unix_s_;
+}
+
+std::vector<RejectEntry> FleetView::Unattributed() const {
+  const std::lock_guard lock(mutex_);
+  return unattributed_;
+}
+
+JobView FleetView::Begin(JobView::Kind kind, const std::string& id, const std::string& vehicle_id) {
+  const std::lock_guard lock(mutex_);
+  JobView& job = Job(kind, id, vehicle_id);
+  job.state = JobView::State::kRunning;
+  job.stage = "queued";
+  return job;
+}
+
+JobCounts FleetView::Finished() const {
+  const std::lock_guard lock(mutex_);
+  return finished_;
 }
 
 std::vector<PastPoint> FleetView::PastOf(std::string_view vehicle_id) const {

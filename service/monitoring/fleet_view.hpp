@@ -3,10 +3,12 @@
 #include <cstdint>
 #include <deque>
 #include <map>
+#include <memory>
 #include <mutex>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "telltale/core/base/result.hpp"
@@ -17,11 +19,10 @@
 
 namespace telltale {
 
-/// The last diagnosis of a vehicle in short.
-struct LastDiagnosis {
-  std::string verdict;
-  std::string sentence;
-  double published_unix_s = 0.0;
+/// A quality with the time at which it was published.
+struct TimedQuality {
+  Quality quality;
+  double time_unix_s = 0.0;
 };
 
 /// A request on its way and what became of it.
@@ -47,11 +48,16 @@ struct PastPoint {
   std::optional<QualityPosition> position;
 };
 
+/// How many requests of a kind ended in a state.
+using JobCounts = std::map<std::pair<JobView::Kind, JobView::State>, std::uint64_t>;
+
 /// What the bus says of the fleet: the newest quality, the last hour in steps of two seconds, the
 /// last refusal and diagnosis, and the requests. Safe to use from several threads.
 class FleetView {
  public:
   void Take(const Quality& quality, double time_unix_s);
+  /// Ends a round of qualities: all of them are taken.
+  void EndRound(double time_unix_s, std::vector<RejectEntry> unattributed);
   void Take(const PublishedDiagnosis& diagnosis);
   void Take(const IdentifyProgress& progress);
   void Take(const DiagnoseProgress& progress);
@@ -60,22 +66,29 @@ class FleetView {
 
   /// Of the newest identification, where it was refused.
   std::optional<Refusal> LastRefusalOf(std::string_view vehicle_id) const;
-  std::optional<LastDiagnosis> LastDiagnosisOf(std::string_view vehicle_id) const;
+  /// Null where there is none.
+  std::shared_ptr<const PublishedDiagnosis> LastDiagnosisOf(std::string_view vehicle_id) const;
 
-  std::optional<Quality> QualityOf(std::string_view vehicle_id) const;
+  /// A request that is about to be queued.
+  JobView Begin(JobView::Kind kind, const std::string& id, const std::string& vehicle_id);
+
+  std::optional<TimedQuality> QualityOf(std::string_view vehicle_id) const;
   std::vector<Quality> Qualities() const;  ///< in the order of the ids
+  double LastRoundUnixS() const;           ///< 0: none has ended
+  std::vector<RejectEntry> Unattributed() const;
   std::vector<PastPoint> PastOf(std::string_view vehicle_id) const;
   std::vector<JobView> Jobs() const;  ///< newest first
   std::optional<JobView> JobOf(std::string_view id) const;
+  JobCounts Finished() const;  ///< since the daemon started
 
   EventLog& events() { return events_; }
 
  private:
   struct Vehicle {
-    std::optional<Quality> quality;
+    std::optional<TimedQuality> quality;
     std::deque<PastPoint> past;
     std::optional<Refusal> refusal;
-    std::optional<LastDiagnosis> diagnosis;
+    std::shared_ptr<const PublishedDiagnosis> diagnosis;
   };
 
   Vehicle& Of(const std::string& vehicle_id) { return vehicles_[vehicle_id]; }
@@ -86,6 +99,9 @@ class FleetView {
   mutable std::mutex mutex_;
   std::map<std::string, Vehicle, std::less<>> vehicles_;
   std::deque<JobView> jobs_;  ///< oldest first
+  JobCounts finished_;
+  double last_round_unix_s_ = 0.0;
+  std::vector<RejectEntry> unattributed_;
   EventLog events_;
 };
 

@@ -94,7 +94,9 @@ void QualityPublisher::PublishAll(double elapsed_s) {
     writer_.Write(Encode(quality));
     view_.Take(quality, UnixNow());
   }
-  writer_.Write(Encode(Unattributed()));
+  const Quality unattributed = Unattributed();
+  writer_.Write(Encode(unattributed));
+  view_.EndRound(UnixNow(), unattributed.rejected);
   AnnounceRound();
 }
 

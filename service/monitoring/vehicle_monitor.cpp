@@ -65,8 +65,8 @@ void WriteLastAnswers(const FleetView& view, Quality& quality) {
   quality.last_refusal = view.LastRefusalOf(quality.vehicle_id);
   const auto diagnosis = view.LastDiagnosisOf(quality.vehicle_id);
   if (!diagnosis) return;
-  quality.diagnosis_verdict = diagnosis->verdict;
-  quality.diagnosis_sentence = diagnosis->sentence;
+  quality.diagnosis_verdict = std::string(Name(diagnosis->diagnosis.verdict));
+  quality.diagnosis_sentence = diagnosis->diagnosis.sentence;
   quality.diagnosed_unix_s = diagnosis->published_unix_s;
 }
 

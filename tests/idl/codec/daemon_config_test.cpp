@@ -35,6 +35,30 @@ TEST(DaemonConfig, AnEmptyFileMeansTheDefaultsOfTheSchema) {
   EXPECT_EQ(config->identification.queue_limit, 1024u);
   EXPECT_EQ(config->quality_period_s, 1.0);
   EXPECT_EQ(config->log_level, "info");
+  EXPECT_FALSE(config->http);
+}
+
+TEST(DaemonConfig, AnEmptyHttpBlockIsALoopbackServerThatChangesNothing) {
+  const auto config = ParseDaemonConfig("http {}");
+  ASSERT_TRUE(config && config->http);
+  EXPECT_EQ(config->http->address, "127.0.0.1");
+  EXPECT_EQ(config->http->port, 8480u);
+  EXPECT_EQ(config->http->token_file, "");
+  EXPECT_EQ(config->http->connections, 128u);
+  EXPECT_EQ(config->http->tls_chain_file, "");
+}
+
+TEST(DaemonConfig, ReadsTheHttpBlock) {
+  const auto config = ParseDaemonConfig(
+      "http { address: \"::1\" port: 0 token_file: \"t\" connections: 8 tls_chain_file: \"c\" "
+      "tls_key_file: \"k\" }");
+  ASSERT_TRUE(config && config->http);
+  EXPECT_EQ(config->http->address, "::1");
+  EXPECT_EQ(config->http->port, 0u);
+  EXPECT_EQ(config->http->token_file, "t");
+  EXPECT_EQ(config->http->connections, 8u);
+  EXPECT_EQ(config->http->tls_chain_file, "c");
+  EXPECT_EQ(config->http->tls_key_file, "k");
 }
 
 TEST(DaemonConfig, ReadsEveryField) {
@@ -109,6 +133,11 @@ INSTANTIATE_TEST_SUITE_P(
                     "[0.5, 0.999]"},
         ConfigFault{"identification { queue_limit: 0 }", "identification.queue_limit", "0",
                     "[1, 10000]"},
+        ConfigFault{"http { port: 65536 }", "http.port", "65536", "[0, 65535]"},
+        ConfigFault{"http { connections: 7 }", "http.connections", "7", "[8, 1024]"},
+        ConfigFault{"http { address: \"\" }", "http.address", "\"\"", "an IP address"},
+        ConfigFault{"http { tls_chain_file: \"c\" }", "http.tls_key_file", "\"\"",
+                    "together with tls_chain_file"},
         ConfigFault{"quality_period_s: 0.01", "quality_period_s", "0.01", "[0.1, 3600]"},
         ConfigFault{"log_level: \"loud\"", "log_level", "\"loud\"",
                     "trace, debug, info, warn, error"},

@@ -1,0 +1,61 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+
+#include <httplib.h>
+
+#include "telltale/client/bus/bus_log.hpp"
+#include "telltale/idl/codec/messages/exchange.hpp"
+#include "telltale/service/ingest/fleet.hpp"
+#include "telltale/service/models/published_models.hpp"
+#include "telltale/service/monitoring/fleet_view.hpp"
+
+namespace telltale {
+
+/// Queues the requests that come over HTTP; both return at once.
+struct OrderHandlers {
+  std::function<void(IdentifyRequest)> identify;
+  std::function<void(DiagnoseRequest)> diagnose;
+};
+
+/// The routes of /api/v1 but for the events, docs/reference/openapi.json. Every answer is JSON, by
+/// the messages of idl/proto; a fault is a proto::Failure. Orders need the token; without a
+/// token the API is read-only. Safe to use from several threads.
+class FleetApi {
+ public:
+  FleetApi(const Fleet& fleet, const PublishedModels& models, FleetView& view,
+           OrderHandlers handlers, std::optional<std::string> token);
+
+  void AddRoutes(httplib::Server& server);
+
+ private:
+  using Request = httplib::Request;
+  using Response = httplib::Response;
+
+  void GetInfo(const Request& request, Response& response) const;
+  void GetVehicles(const Request& request, Response& response) const;
+  void GetVehicle(const Request& request, Response& response) const;
+  void GetHistory(const Request& request, Response& response) const;
+  void GetTracks(const Request& request, Response& response) const;
+  void GetModels(const Request& request, Response& response) const;
+  void GetModel(const Request& request, Response& response) const;
+  void GetDiagnosis(const Request& request, Response& response) const;
+  void GetJobs(const Request& request, Response& response) const;
+  void GetJob(const Request& request, Response& response) const;
+  void PostOrder(JobView::Kind kind, const Request& request, Response& response);
+  bool IsAllowed(const Request& request, Response& response);
+  bool IsServed(const std::string& vehicle_id, Response& response) const;
+  void Queue(JobView::Kind kind, const std::string& id, const std::string& vehicle_id);
+
+  const Fleet& fleet_;
+  const PublishedModels& models_;
+  FleetView& view_;
+  const OrderHandlers handlers_;
+  const std::optional<std::string> token_;
+  std::mutex limit_mutex_;
+  RateLimit order_limit_;
+};
+
+}  // namespace telltale

@@ -1,0 +1,257 @@
+#include "telltale/service/web/fleet_metrics.hpp"
+
+#include <array>
+#include <functional>
+#include <string>
+#include <utility>
+
+#include "telltale/core/base/version.hpp"
+#include "telltale/service/web/process_usage.hpp"
+
+namespace telltale {
+namespace {
+
+using prometheus::ClientMetric;
+using prometheus::MetricFamily;
+using prometheus::MetricType;
+using Labels = std::vector<ClientMetric::Label>;
+
+/// One family, filled value by value.
+class MetricValues {
+ public:
+  MetricValues(MetricType type, std::string name, std::string help)
+      : family_{std::move(name), std::move(help), type, {}} {}
+
+  void Add(Labels labels, double value) {
+    ClientMetric& metric = family_.metric.emplace_back();
+    metric.label = std::move(labels);
+    if (family_.type == MetricType::Counter) {
+      metric.counter.value = value;
+    } else {
+      metric.gauge.value = value;
+    }
+  }
+
+  MetricFamily Take() && { return std::move(family_); }
+
+ private:
+  MetricFamily family_;
+};
+
+/// A number of each vehicle; nothing of those that have none.
+struct VehicleNumber {
+  const char* name;
+  const char* help;
+  MetricType type;
+  std::function<std::optional<double>(const Quality&)> of;
+};
+
+std::optional<double> OfModel(const Quality& quality, double value) {
+  return quality.model_revision ? std::optional(value) : std::nullopt;
+}
+
+std::vector<VehicleNumber> TelemetryNumbers() {
+  using enum MetricType;
+  return {
+      {"telltale_vehicle_window_fill_ratio", "Share of the window that telemetry fills.", Gauge,
+       [](const Quality& q) { return q.window_fill; }},
+      {"telltale_vehicle_silence_seconds", "Time since the newest sample arrived.", Gauge,
+       [](const Quality& q) { return q.silent_s; }},
+      {"telltale_vehicle_loss_ratio", "Share of the samples sent in the last minute that are lost.",
+       Gauge, [](const Quality& q) { return q.loss_share; }},
+      {"telltale_vehicle_reject_ratio",
+       "Share of the samples of the last minute that are rejected.", Gauge,
+       [](const Quality& q) { return q.reject_share; }},
+      {"telltale_vehicle_samples_accepted_total", "Samples that reached the window.", Counter,
+       [](const Quality& q) { return static_cast<double>(q.accepted); }},
+      {"telltale_vehicle_samples_lost_total", "Samples missing by their sequence numbers.", Counter,
+       [](const Quality& q) { return static_cast<double>(q.lost); }}};
+}
+
+std::vector<VehicleNumber> ModelNumbers() {
+  using enum MetricType;
+  return {
+      {"telltale_vehicle_model_revision", "Revision of the published model.", Gauge,
+       [](const Quality& q) {
+         return OfModel(q, static_cast<double>(q.model_revision.value_or(0)));
+       }},
+      {"telltale_vehicle_model_age_seconds", "Time since the model was published.", Gauge,
+       [](const Quality& q) { return OfModel(q, q.model_age_s); }},
+      {"telltale_vehicle_prediction_error_ratio",
+       "Free-run error of the last minute in units of that when the model was made.", Gauge,
+       [](const Quality& q) {
+         return q.prediction_error > 0.0 ? OfModel(q, q.prediction_error) : std::nullopt;
+       }},
+      {"telltale_vehicle_drift_onset_timestamp_seconds",
+       "When the drift of the model began; 0: there is no drift.", Gauge,
+       [](const Quality& q) { return OfModel(q, q.drift_since_unix_s); }},
+      {"telltale_vehicle_model_coefficients", "Coefficients of the model.", Gauge,
+       [](const Quality& q) { return OfModel(q, q.coefficients); }},
+      {"telltale_vehicle_model_coefficients_identified",
+       "Coefficients of the model that the data determine.", Gauge,
+       [](const Quality& q) { return OfModel(q, q.identified); }},
+      {"telltale_vehicle_model_relative_half_width_ratio",
+       "Median half width of the bounds in units of the estimates.", Gauge, [](const Quality& q) {
+         return q.relative_half_width > 0.0 ? OfModel(q, q.relative_half_width) : std::nullopt;
+       }}};
+}
+
+void AddNumbers(const std::vector<Quality>& fleet, const std::vector<VehicleNumber>& numbers,
+                std::vector<MetricFamily>& families) {
+  for (const VehicleNumber& number : numbers) {
+    MetricValues values(number.type, number.name, number.help);
+    for (const Quality& quality : fleet) {
+      if (const auto value = number.of(quality)) {
+        values.Add({{"vehicle_id", quality.vehicle_id}}, *value);
+      }
+    }
+    families.push_back(std::move(values).Take());
+  }
+}
+
+MetricFamily VerdictStates(const std::vector<Quality>& fleet) {
+  MetricValues values(MetricType::Gauge, "telltale_vehicle_verdict",
+                      "1 for the verdict that the vehicle has, 0 for the others.");
+  for (const Quality& quality : fleet) {
+    for (const QualityVerdict verdict : kQualityVerdicts) {
+      values.Add({{"vehicle_id", quality.vehicle_id}, {"verdict", std::string(Name(verdict))}},
+                 quality.verdict == verdict ? 1.0 : 0.0);
+    }
+  }
+  return std::move(values).Take();
+}
+
+MetricFamily ActiveReasons(const std::vector<Quality>& fleet) {
+  MetricValues values(MetricType::Gauge, "telltale_vehicle_reason",
+                      "1 for each reason why the vehicle is not OK.");
+  for (const Quality& quality : fleet) {
+    for (const QualityReason& reason : quality.reasons) {
+      values.Add({{"vehicle_id", quality.vehicle_id},
+                  {"code", reason.code},
+                  {"verdict", std::string(Name(reason.verdict))}},
+                 1.0);
+    }
+  }
+  return std::move(values).Take();
+}
+
+MetricFamily SampleRates(const std::vector<Quality>& fleet) {
+  MetricValues values(MetricType::Gauge, "telltale_vehicle_sample_rate_hertz",
+                      "Samples a second in the last period.");
+  for (const Quality& quality : fleet) {
+    const std::array<std::pair<const char*, double>, 3> rates = {
+        {{"gnss", quality.gnss_rate_hz},
+         {"heading", quality.heading_rate_hz},
+         {"thrusters", quality.thrusters_rate_hz}}};
+    for (const auto& [channel, rate] : rates) {
+      values.Add({{"vehicle_id", quality.vehicle_id}, {"channel", channel}}, rate);
+    }
+  }
+  return std::move(values).Take();
+}
+
+MetricFamily RejectedSamples(const std::vector<Quality>& fleet) {
+  MetricValues values(MetricType::Counter, "telltale_vehicle_samples_rejected_total",
+                      "Samples that were rejected.");
+  for (const Quality& quality : fleet) {
+    for (const RejectEntry& entry : quality.rejected) {
+      values.Add({{"vehicle_id", quality.vehicle_id},
+                  {"channel", entry.channel},
+                  {"reason", entry.reason}},
+                 static_cast<double>(entry.count));
+    }
+  }
+  return std::move(values).Take();
+}
+
+MetricFamily UnattributedSamples(const FleetView& view) {
+  MetricValues values(MetricType::Counter, "telltale_unattributed_samples_total",
+                      "Samples that name no vehicle of this daemon.");
+  for (const RejectEntry& entry : view.Unattributed()) {
+    values.Add({{"channel", entry.channel}, {"reason", entry.reason}},
+               static_cast<double>(entry.count));
+  }
+  return std::move(values).Take();
+}
+
+const char* KindName(JobView::Kind kind) {
+  return kind == JobView::Kind::kDiagnose ? "diagnose" : "refresh";
+}
+
+const char* OutcomeName(JobView::State state) {
+  switch (state) {
+    case JobView::State::kPublished: return "published";
+    case JobView::State::kRefused: return "refused";
+    default: return "failed";
+  }
+}
+
+/// Every kind and outcome, since a rate needs the zero from which a counter starts.
+MetricFamily FinishedJobs(const FleetView& view) {
+  MetricValues values(MetricType::Counter, "telltale_jobs_total",
+                      "Requests that ended since the daemon started.");
+  const JobCounts counts = view.Finished();
+  for (const auto kind : {JobView::Kind::kRefresh, JobView::Kind::kDiagnose}) {
+    for (const auto state :
+         {JobView::State::kPublished, JobView::State::kRefused, JobView::State::kFailed}) {
+      const auto count = counts.find({kind, state});
+      values.Add({{"kind", KindName(kind)}, {"outcome", OutcomeName(state)}},
+                 count == counts.end() ? 0.0 : static_cast<double>(count->second));
+    }
+  }
+  return std::move(values).Take();
+}
+
+MetricFamily UnfinishedJobs(const FleetView& view) {
+  MetricValues values(MetricType::Gauge, "telltale_jobs_unfinished",
+                      "Requests that wait or are worked on.");
+  std::map<JobView::Kind, double> counts = {{JobView::Kind::kRefresh, 0.0},
+                                            {JobView::Kind::kDiagnose, 0.0}};
+  for (const JobView& job : view.Jobs()) {
+    if (job.state <= JobView::State::kRunning) ++counts[job.kind];
+  }
+  for (const auto& [kind, count] : counts) values.Add({{"kind", KindName(kind)}}, count);
+  return std::move(values).Take();
+}
+
+MetricFamily Single(MetricType type, const char* name, const char* help, double value,
+                    const Labels& labels = {}) {
+  MetricValues values(type, name, help);
+  values.Add(labels, value);
+  return std::move(values).Take();
+}
+
+void AddDaemon(FleetView& view, std::size_t vehicles, std::vector<MetricFamily>& families) {
+  using enum MetricType;
+  families.push_back(UnattributedSamples(view));
+  families.push_back(FinishedJobs(view));
+  families.push_back(UnfinishedJobs(view));
+  families.push_back(Single(Gauge, "telltale_vehicles", "Vehicles that the daemon serves.",
+                            static_cast<double>(vehicles)));
+  families.push_back(
+      Single(Gauge, "telltale_event_streams", "Open streams of events.", view.events().readers()));
+  families.push_back(Single(Gauge, "telltale_build_info", "The version of the daemon.", 1.0,
+                            {{"version", std::string(Version())}}));
+  const ProcessUsage usage = ReadProcessUsage();
+  families.push_back(
+      Single(Counter, "process_cpu_seconds_total", "CPU time of the daemon.", usage.cpu_s));
+  families.push_back(Single(Gauge, "process_resident_memory_bytes", "Resident memory.",
+                            static_cast<double>(usage.resident_bytes)));
+  families.push_back(Single(Gauge, "process_open_fds", "Open file descriptors.",
+                            static_cast<double>(usage.open_descriptors)));
+}
+
+}  // namespace
+
+std::vector<prometheus::MetricFamily> FleetMetrics::Collect() const {
+  const std::vector<Quality> fleet = view_.Qualities();
+  std::vector<MetricFamily> families = {VerdictStates(fleet), ActiveReasons(fleet),
+                                        SampleRates(fleet), RejectedSamples(fleet)};
+  AddNumbers(fleet, TelemetryNumbers(), families);
+  AddNumbers(fleet, ModelNumbers(), families);
+  AddDaemon(view_, fleet.size(), families);
+  std::erase_if(families, [](const MetricFamily& family) { return family.metric.empty(); });
+  return families;
+}
+
+}  // namespace telltale

@@ -1,0 +1,315 @@
+import type { ComponentChildren } from "preact";
+import { useEffect, useState } from "preact/hooks";
+import { get, order, type Coefficient, type History, type Info, type Job, type Model, type Quality, type Report } from "./api";
+import { ErrorChart, Intervals } from "./charts";
+import { clock, diagnosisVerdict, duration, number, percent, significant, unit, words } from "./format";
+import { TrackMap, type Track } from "./map";
+import { Badge, Bar, Card, Fact, JobLine } from "./parts";
+
+/** Asks the daemon again whenever `when` changes. */
+function useAnswer<T>(route: string, when: unknown): { answer: T | null | undefined; fault: string } {
+  const [answer, setAnswer] = useState<T | null | undefined>(undefined);
+  const [fault, setFault] = useState("");
+  useEffect(() => {
+    let wanted = true;
+    get<T>(route).then(
+      (value) => { if (wanted) { setAnswer(value); setFault(""); } },
+      (error: Error) => { if (wanted) setFault(error.message); });
+    return () => { wanted = false; };
+  }, [route, when]);
+  return { answer, fault };
+}
+
+function sentence(quality: Quality): string {
+  const since = ` since ${clock(quality.verdictSinceUnixS)}`;
+  if (quality.verdict === "OK") {
+    return `Telemetry arrives and the model matches the boat${since}.`;
+  }
+  const reason = quality.reasons[0]?.text ?? "";
+  return `${reason.charAt(0).toUpperCase()}${reason.slice(1)}.`;
+}
+
+function Telemetry({ quality }: { quality: Quality }) {
+  const rates = quality.ratesHz;
+  return (
+    <Card title="Telemetry">
+      <dl>
+        <Fact name="Fixes">{significant(rates.gnss)} Hz</Fact>
+        <Fact name="Headings">{significant(rates.heading)} Hz</Fact>
+        <Fact name="Thruster commands">{significant(rates.thrusters)} Hz</Fact>
+        <Fact name="Newest sample">{duration(quality.silentS)} ago</Fact>
+        <Fact name="Window">{significant(quality.windowS)} s <Bar share={quality.windowFill} label="window filled" /></Fact>
+        <Fact name="Lost, last minute">{percent(quality.lossShare)}</Fact>
+        <Fact name="Rejected, last minute">{percent(quality.rejectShare)}</Fact>
+      </dl>
+      {quality.rejected.length > 0 && (
+        <details>
+          <summary>Rejected since the daemon started</summary>
+          <table>
+            <thead><tr><th scope="col">channel</th><th scope="col">reason</th><th scope="col" class="number">samples</th></tr></thead>
+            <tbody>
+              {quality.rejected.map((entry) => (
+                <tr key={entry.channel + entry.reason}>
+                  <td>{entry.channel}</td><td>{words(entry.reason)}</td><td class="number">{entry.count}</td>
+                </tr>
+              ))}
+            </tbody>
+          </table>
+        </details>
+      )}
+    </Card>
+  );
+}
+
+function withBounds(coefficient: Coefficient): string {
+  const interval = coefficient.interval;
+  const bounds = interval
+    ? ` [${significant(number(interval.lower))}, ${significant(number(interval.upper))}]` : "";
+  return `${significant(coefficient.estimate)}${bounds} ${unit(coefficient.unit)}`;
+}
+
+function isCoefficient(value: unknown): value is Coefficient {
+  return typeof value === "object" && value !== null && "estimate" in value && "unit" in value;
+}
+
+/** What the newest model knows of time: lag of the thrusters and delays of the channels. */
+function Delays({ model }: { model?: Model }) {
+  const lag = model?.thrusterTimeConstantS;
+  const delays = Object.entries(model?.delays ?? {})
+    .filter((entry): entry is [string, Coefficient] => isCoefficient(entry[1]));
+  return (
+    <Card title="Delays">
+      {!lag && delays.length === 0
+        ? <p class="empty">The model estimates none. A first-order dynamic model has the lag of the thrusters.</p>
+        : <dl>
+            {lag && <Fact name="Thruster lag">{withBounds(lag)}</Fact>}
+            {delays.map(([name, delay]) => <Fact key={name} name={words(name)}>{withBounds(delay)}</Fact>)}
+          </dl>}
+    </Card>
+  );
+}
+
+function ModelFacts({ quality }: { quality: Quality }) {
+  const model = quality.model;
+  if (!model) {
+    return <Card title="Model"><p class="empty">No model has been published.</p></Card>;
+  }
+  return (
+    <Card title="Model">
+      <dl>
+        <Fact name="Revision">{model.revision}, {duration(model.ageS)} old</Fact>
+        <Fact name="Free-run error now">{model.predictionError > 0 ? `${significant(model.predictionError)} × normal` : "–"}</Fact>
+        <Fact name="Drift">{model.driftSinceUnixS > 0 ? `since ${clock(model.driftSinceUnixS)}` : "none"}</Fact>
+        <Fact name="Identified">{model.identified} of {model.coefficients} coefficients</Fact>
+        <Fact name="Median half width">{model.relativeHalfWidth > 0 ? percent(model.relativeHalfWidth) : "–"} of the estimate</Fact>
+      </dl>
+      {quality.lastRefusal && (
+        <p class="note"><strong>Last refusal.</strong> {quality.lastRefusal.subject}: {quality.lastRefusal.reason}. {quality.lastRefusal.advice}</p>
+      )}
+    </Card>
+  );
+}
+
+const kEquations = [["SURGE", "Surge"], ["SWAY", "Sway"], ["YAW", "Yaw"]] as const;
+
+function Coefficients({ models }: { models: Model[] }) {
+  const [equation, setEquation] = useState("SURGE");
+  const press = (event: KeyboardEvent) => {
+    const step = { ArrowRight: 1, ArrowLeft: -1 }[event.key];
+    if (!step) return;
+    const at = kEquations.findIndex(([key]) => key === equation);
+    const next = kEquations[(at + step + kEquations.length) % kEquations.length];
+    if (!next) return;
+    setEquation(next[0]);
+    document.getElementById(`tab-${next[0]}`)?.focus();
+  };
+  return (
+    <Card title="Coefficients and their bounds, revision by revision" wide>
+      {models.length === 0 ? <p class="empty">No model has been published.</p> : <>
+        <div class="tabs" role="tablist" aria-label="Equation" onKeyDown={press}>
+          {kEquations.map(([key, name]) => (
+            <button key={key} id={`tab-${key}`} type="button" role="tab" aria-controls="coefficients"
+              aria-selected={key === equation} tabIndex={key === equation ? 0 : -1}
+              onClick={() => setEquation(key)}>{name}</button>
+          ))}
+        </div>
+        <div id="coefficients" role="tabpanel" aria-labelledby={`tab-${equation}`}>
+          <Intervals models={models} equation={equation} />
+        </div>
+      </>}
+    </Card>
+  );
+}
+
+function Cause({ cause }: { cause: Report["causes"][number] }) {
+  const faint = cause.probability < 0.05;
+  return (
+    <li class={faint ? "cause faint" : "cause"}>
+      <div class="cause-head">
+        <strong>{cause.effects.map(words).join(" + ")}</strong>
+        <Bar share={cause.probability} label={`probability of ${cause.effects.map(words).join(" and ")}`} />
+      </div>
+      {!faint && cause.parts.map((part) => <p key={part.effect}>{part.sentence}</p>)}
+      {!faint && cause.parameters.length > 0 && (
+        <p class="muted">{cause.parameters.map((parameter) =>
+          `${words(parameter.name)} ${significant(parameter.estimate)} ± ${significant(number(parameter.standardError), 2)} ${unit(parameter.unit)}`).join("; ")}</p>
+      )}
+      {cause.indistinguishable.length > 0 && (
+        <p class="muted">These data cannot separate it from {cause.indistinguishable.map(words).join(", ")}.</p>
+      )}
+    </li>
+  );
+}
+
+function Diagnosis({ report }: { report?: Report | null }) {
+  if (!report) {
+    return <Card title="Last diagnosis" wide><p class="empty">This boat has not been diagnosed.</p></Card>;
+  }
+  const gap = report.gap;
+  const likely = report.causes.filter((cause) => cause.probability >= 0.005);
+  return (
+    <Card title="Last diagnosis" wide>
+      <p class="lead">{!report.sentence.startsWith(diagnosisVerdict(report.verdict)) &&
+        <strong>{diagnosisVerdict(report.verdict)}. </strong>}{report.sentence}</p>
+      <p class="muted">Of {clock(report.publishedUnixS)}, against revision {report.modelRevision}.
+        {gap && ` Error ${significant(gap.before)} times the normal sigma before, ${significant(gap.after)} with the causes; floor ${significant(gap.noiseFloor)}.`}
+        {gap?.closure !== undefined && ` Excess error explained: ${percent(gap.closure)}.`}</p>
+      {likely.length > 0 && <><h3>Causes, by probability</h3>
+        <ul class="causes">{likely.map((cause) => <Cause key={cause.effects.join()} cause={cause} />)}</ul></>}
+      <h3>What to do next</h3>
+      {report.advice.length > 0
+        ? <ul>{report.advice.map((advice) => (
+            <li key={advice.manoeuvre}>{words(advice.manoeuvre)}, {duration(advice.durationS)}: {advice.how || `separates ${advice.separates.map(words).join(" and ")}`}</li>))}</ul>
+        : <p>{report.verdict === "NO_MATERIAL_GAP"
+            ? "Nothing: the model matches the boat."
+            : report.verdict === "EXPLAINED"
+              ? "No manoeuvre would separate the causes better. Inspect the named part, then refresh the model."
+              : "Record more varied driving, in both directions and at several speeds, and diagnose again."}</p>}
+    </Card>
+  );
+}
+
+function Models({ vehicleId, models }: { vehicleId: string; models: Model[] }) {
+  if (models.length === 0) return null;
+  return (
+    <Card title="Models" wide>
+      <div class="scroll">
+        <table>
+          <thead>
+            <tr>
+              <th scope="col">revision</th><th scope="col">published</th><th scope="col">structure</th>
+              <th scope="col">estimator</th><th scope="col" class="number">identified</th>
+              <th scope="col">against the one before</th><th scope="col">file</th>
+            </tr>
+          </thead>
+          <tbody>
+            {models.map((model) => {
+              const revision = model.provenance.revision;
+              const change = model.provenance.change;
+              const identified = model.coefficients.filter((coefficient) => coefficient.status === "ESTIMATED").length;
+              return (
+                <tr key={revision}>
+                  <th scope="row">{revision}</th>
+                  <td>{clock(model.provenance.publishedUnixS)}</td>
+                  <td>{words(model.structure)}</td>
+                  <td>{words(model.estimator)}</td>
+                  <td class="number">{identified} of {model.coefficients.length}</td>
+                  <td>{change ? `${words(change.verdict)}${Number.isFinite(change.pValue) && change.verdict !== "CANNOT_TELL" ? `, p ${significant(change.pValue, 2)}` : ""}` : "–"}</td>
+                  <td><a href={`api/v1/vehicles/${encodeURIComponent(vehicleId)}/models/${revision}`}
+                    download={`${vehicleId}-r${revision}.json`} aria-label={`Download revision ${revision}`}>model.json</a></td>
+                </tr>
+              );
+            })}
+          </tbody>
+        </table>
+      </div>
+    </Card>
+  );
+}
+
+/** Orders, where the daemon takes them. The token stays in this tab. */
+function Orders({ vehicleId, info, jobs }: { vehicleId: string; info: Info | null; jobs: Job[] }) {
+  const [token, setToken] = useState(sessionStorage.getItem("token") ?? "");
+  const [fault, setFault] = useState("");
+  const send = async (kind: "refresh" | "diagnose") => {
+    setFault("");
+    try {
+      await order(kind, vehicleId, token);
+      sessionStorage.setItem("token", token);
+    } catch (error) {
+      setFault((error as Error).message);
+    }
+  };
+  let controls: ComponentChildren = null;
+  if (info?.readOnly) {
+    controls = <p class="muted">Read-only: this daemon takes no orders over HTTP (<code>http.token_file</code>).</p>;
+  } else if (info) {
+    controls = (
+      <form class="orders" onSubmit={(event) => event.preventDefault()}>
+        <label>Token <input type="password" autocomplete="off" value={token}
+          onInput={(event) => setToken(event.currentTarget.value)} /></label>
+        <button type="button" disabled={token === ""} onClick={() => send("refresh")}>Refresh the model</button>
+        <button type="button" disabled={token === ""} onClick={() => send("diagnose")}>Diagnose</button>
+      </form>
+    );
+  }
+  return (
+    <>
+      {controls}
+      {fault && <p class="fault" role="alert">{fault}</p>}
+      {jobs.slice(0, 2).map((job) => <JobLine key={job.id} job={job} />)}
+    </>
+  );
+}
+
+export function BoatView({ vehicleId, round, info, jobs, track }: {
+  vehicleId: string;
+  round: number;  // counts up with each report of the daemon
+  info: Info | null;
+  jobs: Job[];
+  track?: Track;
+}) {
+  const route = `/vehicles/${encodeURIComponent(vehicleId)}`;
+  const { answer: quality, fault } = useAnswer<Quality>(route, round);
+  const { answer: history } = useAnswer<History>(`${route}/history`, Math.floor(round / 4));
+  const finished = jobs.filter((job) => job.state !== "RUNNING").length;
+  const revision = quality?.model?.revision;
+  const { answer: list } = useAnswer<{ models: Model[] }>(`${route}/models?limit=20`, revision);
+  const { answer: report } = useAnswer<Report>(`${route}/diagnosis`, `${finished} ${revision}`);
+  const models = list?.models ?? [];
+
+  const head = <nav aria-label="Back"><a href="#/">← Fleet</a></nav>;
+  if (quality === null) return <main>{head}<p class="empty">This daemon serves no boat named {vehicleId}.</p></main>;
+  if (!quality) return <main>{head}<p class="empty">{fault || "Loading."}</p></main>;
+  return (
+    <main>
+      {head}
+      <header class="boat-head">
+        <h1>{vehicleId}</h1>
+        <Badge verdict={quality.verdict} />
+      </header>
+      <p class="lead">{sentence(quality)}</p>
+      {quality.verdict !== "OK" && <p class="muted">{quality.verdict} since {clock(quality.verdictSinceUnixS)}.</p>}
+      {quality.reasons.length > 1 && (
+        <ul class="reasons">{quality.reasons.slice(1).map((reason) =>
+          <li key={reason.code}><Badge verdict={reason.verdict} /> {reason.text}</li>)}</ul>
+      )}
+      {quality.proposal && <p class="note">{quality.proposal}</p>}
+      <Orders vehicleId={vehicleId} info={info} jobs={jobs} />
+      <div class="cards">
+        <Card title="Free-run error over the last hour" wide>
+          {history && <ErrorChart history={history} />}
+        </Card>
+        <ModelFacts quality={quality} />
+        <Telemetry quality={quality} />
+        <Delays model={models[0]} />
+        <Card title="Track of the last ten minutes">
+          <TrackMap tracks={track ? [track] : []} selected={vehicleId} label={`Track of ${vehicleId}, north up`} />
+        </Card>
+        <Coefficients models={models} />
+        <Diagnosis report={report} />
+        <Models vehicleId={vehicleId} models={models} />
+      </div>
+    </main>
+  );
+}

@@ -1,0 +1,164 @@
+// Walks the page of a real daemon in a real browser:
+//   node page_test.mjs ADDRESS BOAT TOKEN PICTURES BROWSER
+// Exits 0 when all is well. It restarts nothing itself: page_test.py writes "restarted" to its standard input.
+import assert from "node:assert/strict";
+import { readFile } from "node:fs/promises";
+import { createRequire } from "node:module";
+import { createInterface } from "node:readline";
+import { chromium } from "playwright-core";
+
+const [address, boat, token, pictures, executablePath] = process.argv.slice(2);
+const axe = await readFile(createRequire(import.meta.url).resolve("axe-core/axe.min.js"), "utf8");
+const browser = await chromium.launch({ executablePath, args: ["--no-sandbox"] });
+const faults = [];
+let restarting = false;
+
+async function open(width, colorScheme = "light", hash = "#/") {
+  const context = await browser.newContext({ viewport: { width, height: 900 }, colorScheme });
+  const page = await context.newPage();
+  page.on("pageerror", (error) => faults.push(error.message));
+  page.on("console", (message) => {
+    if (message.type() === "error" && !restarting && !/status of 40[14]/.test(message.text())) faults.push(message.text());
+  });
+  page.on("request", (request) => {
+    if (!request.url().startsWith(address)) faults.push(`a request to ${request.url()}`);
+  });
+  await page.goto(`${address}/${hash}`);
+  await page.waitForSelector(hash === "#/" ? "tbody a" : "#coefficients table");
+  return page;
+}
+
+const names = (page) => page.locator(".boats tbody th").allTextContents();
+
+async function accessible(page, where) {
+  // By the debugger, since the page's own policy lets no foreign script in.
+  await page.evaluate(axe);
+  const found = await page.evaluate(() => axe.run(document));
+  const serious = found.violations.filter(({ impact }) => impact === "serious" || impact === "critical");
+  assert.deepEqual(serious.map(({ id, nodes }) => `${id}: ${nodes[0].html}`), [], where);
+}
+
+async function fits(page, where) {
+  const [scroll, client] = await page.evaluate(() =>
+    [document.documentElement.scrollWidth, document.documentElement.clientWidth]);
+  assert.ok(scroll <= client, `${where} is ${scroll} px wide in ${client}`);
+}
+
+const steps = {
+  async "the worst come first, and a header sorts"() {
+    const page = await open(1280);
+    const verdicts = (await page.locator(".boats .badge").allTextContents()).map((text) => text.trim().split(" ").at(-1));
+    const rank = ["ERROR", "STALE", "WARN", "OK"];
+    assert.deepEqual(verdicts, [...verdicts].sort((a, b) => rank.indexOf(a) - rank.indexOf(b)));
+    await page.getByRole("button", { name: "Boat", exact: true }).click();
+    const ascending = await names(page);
+    assert.deepEqual(ascending, [...ascending].sort());
+    await page.getByRole("button", { name: "Boat", exact: true }).click();
+    assert.deepEqual(await names(page), ascending.reverse());
+    assert.equal(await page.locator("th[aria-sort=descending]").count(), 1);
+    await page.context().close();
+  },
+  async "search and verdict buttons select"() {
+    const page = await open(1280);
+    const all = (await names(page)).length;
+    await page.getByRole("searchbox").fill(boat.toUpperCase());
+    assert.deepEqual(await names(page), [boat]);
+    await page.getByRole("searchbox").fill("no such boat");
+    await page.getByText("No boat matches.").waitFor();
+    await page.getByRole("searchbox").fill("");
+    const stale = page.getByRole("button", { name: /STALE/ });
+    await stale.click();
+    const count = Number(await stale.locator("strong").textContent());
+    assert.equal((await names(page)).length, count);
+    assert.ok(count < all);
+    await stale.click();
+    assert.equal((await names(page)).length, all);
+    await page.context().close();
+  },
+  async "the keyboard alone reaches a boat and comes back"() {
+    const page = await open(1280);
+    await page.keyboard.press("/");
+    await page.keyboard.type(boat);
+    await page.keyboard.press("ArrowDown");
+    await page.keyboard.press("Enter");
+    await page.getByRole("heading", { level: 1, name: boat }).waitFor();
+    await page.locator("#tab-SURGE").focus();
+    await page.keyboard.press("ArrowRight");
+    assert.equal(await page.locator("#tab-SWAY").getAttribute("aria-selected"), "true");
+    await page.goBack();
+    await page.getByRole("searchbox").waitFor();
+    await page.context().close();
+  },
+  async "the boat view shows what the API tells"() {
+    const page = await open(1280, "light", `#/boat/${boat}`);
+    const models = await (await fetch(`${address}/api/v1/vehicles/${boat}/models`)).json();
+    const report = await (await fetch(`${address}/api/v1/vehicles/${boat}/diagnosis`)).json();
+    await page.getByText(report.sentence).waitFor();
+    const surge = models.models[0].coefficients.filter(({ equation }) => equation === "SURGE");
+    assert.equal(await page.locator(".coefficients tbody tr").count(), surge.length);
+    const intervals = await page.locator(".coefficients tbody tr:first-child svg g").count();
+    assert.equal(intervals, models.models.length);
+    assert.match(await page.locator(".coefficients svg title").last().textContent(), /^revision \d+: .+ \[.+, .+\]/);
+    await page.locator(".chart canvas").waitFor();
+    const file = await page.getByRole("link", { name: "Download revision 1", exact: true }).getAttribute("href");
+    assert.equal((await (await fetch(`${address}/${file}`)).json()).provenance.revision, "1");
+    await page.context().close();
+  },
+  async "an order is followed to its end"() {
+    const page = await open(1280, "light", `#/boat/${boat}`);
+    await page.getByLabel("Token").fill("a wrong token");
+    await page.getByRole("button", { name: "Refresh the model" }).click();
+    await page.getByRole("alert").getByText("token is missing or wrong").waitFor();
+    const before = await page.locator(".coefficients svg").first().locator("g").count();
+    await page.getByLabel("Token").fill(token);
+    await page.getByRole("button", { name: "Refresh the model" }).click();
+    await page.getByText(`published as revision ${before + 1}`).waitFor({ timeout: 120_000 });
+    await page.waitForFunction((wanted) =>
+      document.querySelector(".coefficients svg")?.querySelectorAll("g").length === wanted, before + 1);
+    await page.context().close();
+  },
+  async "axe finds nothing serious, and nothing is cut off at any width"() {
+    for (const scheme of ["light", "dark"]) {
+      for (const [view, hash] of [["fleet", "#/"], ["boat", `#/boat/${boat}`]]) {
+        const page = await open(1280, scheme, hash);
+        await accessible(page, `${view}, ${scheme}`);
+        for (const width of [360, 390, 768, 1280, 1920]) {
+          await page.setViewportSize({ width, height: 900 });
+          await fits(page, `${view} at ${width} px`);
+          if (width !== 390 && width !== 1280) continue;
+          await page.waitForFunction(() => [...document.querySelectorAll("canvas")].every((canvas) => canvas.width > 0));
+          await page.screenshot({ path: `${pictures}/${view}-${width}-${scheme}.png`, fullPage: true });
+        }
+        await page.context().close();
+      }
+    }
+  },
+  async "a boat that is not there is named"() {
+    const page = await open(1280);
+    await page.goto(`${address}/#/boat/nobody`);
+    await page.getByText("serves no boat named nobody").waitFor();
+    await page.context().close();
+  },
+  async "the page comes back after a restart of the daemon"() {
+    const page = await open(1280);
+    await page.getByText("Live").waitFor();
+    restarting = true;
+    console.log("RESTART");
+    await page.getByText("No connection; trying again").waitFor();
+    console.log("START");
+    const lines = createInterface({ input: process.stdin });
+    for await (const line of lines) if (line === "restarted") break;
+    await page.getByText("Live").waitFor({ timeout: 60_000 });
+    await page.waitForFunction(() => document.querySelectorAll(".boats tbody tr").length > 0);
+    restarting = false;
+    await page.context().close();
+  },
+};
+
+for (const [name, step] of Object.entries(steps)) {
+  await step();
+  assert.deepEqual(faults, [], name);
+  console.log(`ok: ${name}`);
+}
+await browser.close();
+process.exit(0);

@@ -1,0 +1,48 @@
+"""Builds what tests/web/page_test.mjs shows: six boats of a real daemon, and restarts it when asked.
+
+  page_test.py MODULES PICTURES BROWSER    MODULES: a folder with node_modules and page_test.mjs
+"""
+import subprocess
+import sys
+
+from real_daemon import BOAT, TOKEN, Daemon, until
+
+
+def finish(daemon, kind, boat=BOAT):
+    status, headers, job = daemon.order(kind, boat)
+    assert status == 202, job
+    until(lambda: daemon.get(headers["Location"])["state"] == "PUBLISHED", f"{kind} of {boat}", 300)
+
+
+def main(modules, pictures, browser):
+    with Daemon(more=5) as daemon:
+        daemon.replay(last_s=250)
+        finish(daemon, "refresh")
+        daemon.replay(first_s=250.01, last_s=400)
+        finish(daemon, "refresh")
+        daemon.replay(first_s=400.01)
+        finish(daemon, "diagnose")
+        daemon.replay("boat-0001", last_s=300)
+        until(lambda: daemon.ask("GET", f"/api/v1/vehicles/{BOAT}/diagnosis")[0] == 200, "the diagnosis")
+        with daemon.replaying("boat-0001", first_s=300.01):
+            until(lambda: daemon.get("/api/v1/vehicles/boat-0001")["verdict"] == "WARN", "a live boat without a model")
+            sys.exit(walk(daemon, modules, pictures, browser))
+
+
+def walk(daemon, modules, pictures, browser):
+    """Runs page_test.mjs, and gives back its exit code."""
+    page = subprocess.Popen(["node", "page_test.mjs", daemon.address, BOAT, TOKEN, pictures, browser],
+                            cwd=modules, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
+    for line in page.stdout:
+        print(line, end="", flush=True)
+        if line == "RESTART\n":
+            daemon.stop()
+        if line == "START\n":
+            daemon.config.write_text(daemon.config.read_text().replace("port: 0 ", f"port: {daemon.port} "))
+            daemon.start()
+            page.stdin.write("restarted\n")
+            page.stdin.flush()
+    return page.wait()
+
+
+main(*sys.argv[1:])
