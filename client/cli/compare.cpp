@@ -28,10 +28,11 @@ std::string ChangeTable(const ModelChange& change) {
                {"sigma", Align::kRight},
                {"p alone", Align::kRight}});
   for (const CoefficientChange& c : change.coefficients) {
-    const bool lag = c.equation == Equation::kUnknown;
-    table.AddRow({lag ? "" : std::string(Name(c.equation)), lag ? "time constant" : c.regressor,
-                  c.symbol, Significant(c.difference), Significant(c.standard_error, 3),
-                  Fixed(c.Sigmas(), 1), Significant(c.p_value, 2)});
+    const bool of_boat = c.equation == Equation::kUnknown;
+    table.AddRow({of_boat ? "" : std::string(Name(c.equation)),
+                  c.symbol == "tau" ? "time constant" : c.regressor, c.symbol,
+                  Significant(c.difference), Significant(c.standard_error, 3), Fixed(c.Sigmas(), 1),
+                  Significant(c.p_value, 2)});
   }
   return table.Render();
 }

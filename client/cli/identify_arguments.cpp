@@ -47,10 +47,11 @@ void IdentifyArguments::AddOptionsTo(CLI::App& command) {
   command
       .add_option(
           "--structure", structure,
-          "how thrust follows the command: static (default), at once, or dynamic, through a "
-          "first-order lag")
+          "of the model: static (default), the paper's, whose thrust follows the command at once, "
+          "dynamic, the paper's with a first-order lag, or fossen, the physical form for minutes "
+          "of a real boat, with delays between the channels")
       ->type_name("NAME")
-      ->check(CLI::IsMember({"static", "dynamic"}).description(""));
+      ->check(CLI::IsMember({"static", "dynamic", "fossen"}).description(""));
   command
       .add_option("--dead-zone", dead_zone,
                   "commands that give no thrust: two limits in shares of full command, the forward "
@@ -137,6 +138,25 @@ bool IdentifyArguments::AskForBootstrap() const {
   return bootstrap_replicates || bootstrap_kind || interval;
 }
 
+void IdentifyArguments::ExpectOptionsOfFossen() const {
+  const std::pair<bool, std::string_view> others[] = {
+      {parameterization.has_value(), "--parameterization"},
+      {dead_zone.has_value(), "--dead-zone"},
+      {estimator.has_value() && *estimator != "auto", "--estimator"},
+      {parametric_replicates.has_value(), "--replicates"},
+      {AskForBootstrap(), "--bootstrap, --bootstrap-kind and --interval"},
+      {recording_bias.has_value(), "--recording-bias"},
+      {coverage_check_replicates > 0, "--check-coverage"},
+      {preset == "paper", "--preset paper"},
+      {include_rr, "--include-rr"}};
+  for (const auto& [given, option] : others) {
+    if (!given) continue;
+    throw UsageError(std::string(option) +
+                     " belongs to --structure static and dynamic; fossen estimates all of it from "
+                     "the readings");
+  }
+}
+
 std::optional<Estimator> IdentifyArguments::ChosenEstimator() const {
   const bool one_step =
       estimator ? *estimator == "one-step" : AskForBootstrap() || preset == "paper";
@@ -168,6 +188,10 @@ IdentifyOptions IdentifyArguments::Options() const {
   if (preset) options.prepare = PrepareOptionsOf(PresetNamed(*preset));
   if (sampling_period_s) options.prepare.sampling_period_s = sampling_period_s;
   if (parameterization == "paper") options.regression.parameterization = Parameterization::kPaper;
+  if (structure == "fossen") {
+    ExpectOptionsOfFossen();
+    options.regression.structure = Structure::kFossen;
+  }
   if (structure == "dynamic") options.regression.structure = Structure::kFirstOrderDynamic;
   options.regression.include_reverse = include_rr;
   options.regression.recording_bias = ChosenRecordingBias();

@@ -15,7 +15,7 @@ namespace telltale {
 /// What `telltale identify` was asked. Options left unset take the default of whoever identifies.
 struct IdentifyArguments {
   LogInputs inputs;
-  std::optional<std::string> structure;         ///< static, dynamic
+  std::optional<std::string> structure;         ///< static, dynamic, fossen
   std::optional<std::string> parameterization;  ///< propeller, paper
   std::optional<std::string> dead_zone;         ///< identify, or FORWARD,REVERSE
   std::optional<std::string> estimator;         ///< auto, weak-iv, output-error, one-step
@@ -42,6 +42,10 @@ struct IdentifyArguments {
 
  private:
   bool AskForBootstrap() const;
+
+  /// Throws: UsageError for an option that the physical form has no use for.
+  void ExpectOptionsOfFossen() const;
+
   RecordingBiasModel ChosenRecordingBias() const;
 
   /// The one named, else what the other options ask for; none: by the data. Throws: UsageError

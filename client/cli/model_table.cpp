@@ -56,6 +56,23 @@ std::string SimulationTable(const Identification& model) {
          TimeConstantText(model) + DeadZoneText(model.dead_zone);
 }
 
+/// The parameters of the physical form, which its simulations use.
+std::string ParameterTable(const PhysicalModel& physical, const std::string& bounds_title) {
+  Table table({{"parameter", Align::kLeft},
+               {"value", Align::kRight},
+               {bounds_title, Align::kRight},
+               {"unit", Align::kLeft},
+               {"", Align::kLeft}});
+  for (const Coefficient& parameter : physical.parameters) {
+    table.AddRow({parameter.symbol, Significant(parameter.estimate), BoundsText(parameter.interval),
+                  parameter.unit, parameter.status == CoefficientStatus::kPrior ? "prior" : ""});
+  }
+  return Wrapped(
+             "Parameters of the physical form over the mass with added mass in surge; "
+             "simulations use these values.") +
+         table.Render();
+}
+
 // ---- the rest -----------------------------------------------------------------------------------
 
 std::string RefusalsText(const Identification& model) {
@@ -87,10 +104,12 @@ std::string EstimatesTable(const Identification& model) {
 
 std::string ModelTable(const Identification& identification,
                        const std::optional<HeldOutScore>& score) {
-  return Title(identification) + '\n' + ModelVerdict(identification, score) + '\n' +
-         SimulationTable(identification) + AsParagraph(RefusalsText(identification)) +
-         AsParagraph(ChangeText(identification)) + '\n' + EstimatesTable(identification) +
-         AsParagraph(RecordingBiasTable(identification)) +
+  const std::string values = identification.physical ? ParameterTable(*identification.physical,
+                                                                      BoundsTitle(identification))
+                                                     : SimulationTable(identification);
+  return Title(identification) + '\n' + ModelVerdict(identification, score) + '\n' + values +
+         AsParagraph(RefusalsText(identification)) + AsParagraph(ChangeText(identification)) +
+         '\n' + EstimatesTable(identification) + AsParagraph(RecordingBiasTable(identification)) +
          AsParagraph(IdentifiabilityTable(identification)) +
          AsParagraph(CoverageTable(identification)) + '\n' + ModelNotes(identification);
 }

@@ -80,8 +80,9 @@ void ValidateModel(const ValidateArguments& arguments) {
   const PreparedDataset dataset =
       OrThrow(Prepare(recording, vehicle, Preparation(arguments, model)));
   line.Update("scoring", 0.5);
-  const Metrics metrics =
-      OrThrow(Validate(dataset, OrThrow(AugmentedModelOf(model)), arguments.options));
+  const Metrics metrics = OrThrow(
+      model.physical ? Validate(dataset, *model.physical, arguments.options)
+                     : Validate(dataset, OrThrow(AugmentedModelOf(model)), arguments.options));
   if (!arguments.disturbance_file.empty()) {
     WriteFile(arguments.disturbance_file,
               PrintDisturbanceCsv(ReconstructDisturbance(dataset, vessel)));

@@ -68,7 +68,7 @@ Interval BoundsOf(const Identification& identification, const InputGain& gain, E
 std::vector<std::string> NotesOn(const Identification& identification,
                                  std::span<const CommandGain> gains) {
   std::vector<std::string> notes;
-  if (identification.structure == Structure::kFirstOrderDynamic) {
+  if (HasLag(identification.structure)) {
     notes.emplace_back("Gains are those of thrust that has settled; it lags behind its command.");
   } else {
     notes.emplace_back("Thrust follows its command at once: no initial condition has to settle.");

@@ -7,6 +7,7 @@ std::string_view Name(CoefficientStatus status) {
     case CoefficientStatus::kEstimated: return "ESTIMATED";
     case CoefficientStatus::kNotExcited: return "NOT_EXCITED";
     case CoefficientStatus::kCollinear: return "COLLINEAR";
+    case CoefficientStatus::kPrior: return "PRIOR";
     case CoefficientStatus::kUnknown: break;
   }
   return "UNKNOWN";

@@ -13,7 +13,8 @@ namespace telltale {
 /// are infinite.
 /// kCollinear: the data excite the regressor only together with others. Its bounds hold, but it is
 /// read together with the partners that a refusal names.
-enum class CoefficientStatus { kUnknown, kEstimated, kNotExcited, kCollinear };
+/// kPrior: of a physical parameter. The data narrow its prior by less than a fifth.
+enum class CoefficientStatus { kUnknown, kEstimated, kNotExcited, kCollinear, kPrior };
 
 std::string_view Name(CoefficientStatus status);
 

@@ -32,7 +32,8 @@ std::optional<double> SquaredRadius(const Identification& identification) {
 
 Result<VesselModel> ModelOf(const Identification& identification) {
   VesselModel model;
-  model.structure = identification.structure;
+  model.structure = identification.structure == Structure::kFossen ? Structure::kFirstOrderDynamic
+                                                                   : identification.structure;
   model.parameterization = identification.parameterization;
   // One-step least squares fits the discrete model itself; only that model reproduces its data.
   model.discretisation = identification.estimator == Estimator::kOneStep

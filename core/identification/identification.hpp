@@ -12,6 +12,7 @@
 #include "telltale/core/identification/coefficient.hpp"
 #include "telltale/core/identification/estimator.hpp"
 #include "telltale/core/identification/manoeuvre_advice.hpp"
+#include "telltale/core/identification/physical_model.hpp"
 #include "telltale/core/identification/provenance.hpp"
 #include "telltale/core/uncertainty/coverage.hpp"
 #include "telltale/core/uncertainty/joint_bounds.hpp"
@@ -72,6 +73,7 @@ struct Identification {
   std::vector<ExcitationSummary> excitation;  ///< of the answered equations, in their order
   std::vector<ManoeuvreAdvice> advice;        ///< best first; none where nothing is left open
   std::optional<CoverageCheck> coverage_check;
+  std::optional<PhysicalModel> physical;  ///< of the structure kFossen alone, which always has one
 
   bool Has(Equation equation) const;
 

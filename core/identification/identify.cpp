@@ -9,6 +9,7 @@
 #include "telltale/core/identification/experiment_design.hpp"
 #include "telltale/core/identification/one_step_estimate.hpp"
 #include "telltale/core/identification/output_error_estimate.hpp"
+#include "telltale/core/identification/physical_estimate.hpp"
 #include "telltale/core/identification/simulation_parameters.hpp"
 #include "telltale/core/identification/weak_iv_estimate.hpp"
 
@@ -61,9 +62,29 @@ Result<BoundedEstimates> BoundWithEstimator(const std::optional<Estimator>& esti
     case Estimator::kOneStep: return BoundOneStep(dataset, regression, options, progress);
     case Estimator::kOutputError: return BoundOutputError(dataset, regression, options, progress);
     case Estimator::kWeakIv:
+    case Estimator::kPredictionError:  // has a structure of its own
     case Estimator::kUnknown: break;
   }
   return BoundWeakIv(dataset, regression, options, progress);
+}
+
+void Describe(const PreparedDataset& dataset, const IdentifyOptions& options,
+              Identification& identification) {
+  identification.window = Summarise(dataset);
+  identification.provenance.preset = Name(options.prepare.preset);
+  identification.provenance.seed = options.seed;
+  identification.provenance.software_version = Version();
+}
+
+Result<Identification> IdentifyPhysically(const Recording& recording, const Vehicle& vehicle,
+                                          const IdentifyOptions& options,
+                                          const Progress& progress) {
+  if (progress) progress("preparing data", 0.0);
+  const auto dataset = Prepare(recording, vehicle, options.prepare);
+  if (!dataset) return tl::unexpected(dataset.error());
+  auto identification = IdentifyPhysicalModel(*dataset, vehicle, options, progress);
+  if (identification) Describe(*dataset, options, *identification);
+  return identification;
 }
 
 }  // namespace
@@ -71,6 +92,9 @@ Result<BoundedEstimates> BoundWithEstimator(const std::optional<Estimator>& esti
 Result<Identification> Identify(const Recording& recording, const Vehicle& vehicle,
                                 const IdentifyOptions& options, const Progress& progress) {
   if (auto refusal = options.Validate()) return tl::unexpected(*refusal);
+  if (options.regression.structure == Structure::kFossen) {
+    return IdentifyPhysically(recording, vehicle, options, progress);
+  }
   // The identification takes as long as one replicate of the coverage check.
   const double share = 1.0 / (1.0 + static_cast<double>(options.coverage_check_replicates));
   if (progress) progress("preparing data", 0.0);
@@ -94,6 +118,10 @@ Result<Identification> Identify(const Recording& recording, const Vehicle& vehic
 Result<Identification> Identify(const PreparedDataset& dataset, const std::string& vehicle_id,
                                 const IdentifyOptions& options, const Progress& progress) {
   if (auto refusal = options.Validate()) return tl::unexpected(*refusal);
+  if (options.regression.structure == Structure::kFossen) {
+    return Refuse("structure", "FOSSEN is identified from a recording and its vehicle file",
+                  "identify from logs, or choose STATIC_QUADRATIC or FIRST_ORDER_DYNAMIC");
+  }
   const auto report = [&](std::string_view stage, double fraction) {
     if (progress) progress(stage, fraction);
   };
@@ -118,7 +146,6 @@ Result<Identification> Identify(const PreparedDataset& dataset, const std::strin
   WriteCoefficients(bounded->equation_estimates, bounded->bounds, identification);
   identification.disturbance = bounded->disturbance;
   identification.recording_bias = std::move(bounded->recording_bias);
-  identification.window = Summarise(dataset);
   identification.refusals = std::move(bounded->equation_estimates.refusals);
   identification.refusals.insert(identification.refusals.end(), dead_zone_refusals.begin(),
                                  dead_zone_refusals.end());
@@ -134,9 +161,7 @@ Result<Identification> Identify(const PreparedDataset& dataset, const std::strin
     identification.provenance.bounds_basis +=
         "; identified limits of the dead zone are taken as known";
   }
-  identification.provenance.preset = Name(options.prepare.preset);
-  identification.provenance.seed = options.seed;
-  identification.provenance.software_version = Version();
+  Describe(dataset, options, identification);
   report("done", 1.0);
   return identification;
 }

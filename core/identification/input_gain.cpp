@@ -106,8 +106,7 @@ InputGain SteadyInputGain(const Identification& identification, const PropellerC
 LaggedInputGain::LaggedInputGain(const Identification& identification,
                                  const PropellerCommand& settled_on)
     : identification_(&identification), thrusters_(ThrustersOf(identification)) {
-  Require(identification.structure == Structure::kFirstOrderDynamic &&
-              identification.thruster_time_constant.has_value() &&
+  Require(HasLag(identification.structure) && identification.thruster_time_constant.has_value() &&
               identification.thruster_time_constant->estimate > 0.0,
           "the dynamic structure with a positive time constant");
   Require(identification.time_constant_covariance.size() ==

@@ -19,7 +19,8 @@ std::optional<Refusal> Unlike(const Identification& first, const Identification&
   differs(first.parameterization != second.parameterization, "parameterization");
   differs(first.estimator != second.estimator, "estimator");
   differs(std::abs(first.sampling_period_s - second.sampling_period_s) > 1e-9, "sampling period");
-  differs(first.dead_zone != second.dead_zone, "dead zone");
+  const bool estimates_dead_zone = first.structure == Structure::kFossen;
+  differs(!estimates_dead_zone && first.dead_zone != second.dead_zone, "dead zone");
   if (what.empty()) return std::nullopt;
   return Refusal{"comparison", "the models differ in " + what,
                  "identify both with the same options"};
@@ -92,10 +93,29 @@ Estimates InOrderOf(const Identification& order, const Identification& model) {
   return estimates;
 }
 
+// The delays between the clocks, the last two parameters, are no property of the boat.
+constexpr Eigen::Index kBoatParameters = At(FossenParameter::kCommandDelay);
+
+// Their covariance is widened to Student's t already.
+constexpr std::size_t kWidened = 0;
+
+Estimates ParametersOf(const Identification& model) {
+  return {model.physical->Estimates().head<kBoatParameters>(),
+          model.physical->covariance.topLeftCorner<kBoatParameters, kBoatParameters>(), kWidened};
+}
+
+/// What stands at a place of the test's result.
+const Coefficient& ComparedIn(const Identification& model, std::size_t place) {
+  if (model.physical) return model.physical->parameters[place];
+  return place < model.coefficients.size() ? model.coefficients[place]
+                                           : *model.thruster_time_constant;
+}
+
 }  // namespace
 
 Result<WaldTest> TestForChange(const Identification& first, const Identification& second) {
   if (auto refusal = Unlike(first, second)) return tl::unexpected(*refusal);
+  if (first.physical) return TestEquality(ParametersOf(first), ParametersOf(second));
   return TestEquality(InOrderOf(first, first), InOrderOf(first, second));
 }
 
@@ -117,8 +137,7 @@ Result<ModelChange> ChangeBetween(const Identification& earlier, const Identific
   change.statistic = test->statistic;
   change.degrees_of_freedom = test->degrees_of_freedom;
   for (const CoefficientDifference& d : test->differences) {
-    const Coefficient& of = d.index < later.coefficients.size() ? later.coefficients[d.index]
-                                                                : *later.thruster_time_constant;
+    const Coefficient& of = ComparedIn(later, d.index);
     change.coefficients.push_back(
         {of.equation, of.regressor, of.symbol, d.difference, d.standard_error, d.p_value});
   }

@@ -13,6 +13,8 @@ namespace telltale {
 /// property of the boat and differ from day to day. Covariances count as estimated from the
 /// clusters of their residuals, or from the slices of the window or the replicates, whichever are
 /// fewer, where they were bootstrapped; as known where they rest on white residuals.
+/// Of the physical form its parameters are compared, without the delays between the clocks;
+/// indices are places in PhysicalModel::parameters.
 /// Assumes: windows that share no data. The bias both may have in common, by the noise in measured
 /// velocities, cancels only where they were recorded and prepared alike.
 /// Refuses when: structure, parameterization, estimator, sampling period or dead zone differ, since

@@ -73,7 +73,8 @@ std::optional<Refusal> IdentifyOptions::Validate() const {
   if (auto refusal = prepare.Validate()) return refusal;
   if (auto refusal = excitation.Validate()) return refusal;
   if (regression.structure == Structure::kUnknown) {
-    return Refusal{"structure", "is unset", "choose STATIC_QUADRATIC or FIRST_ORDER_DYNAMIC"};
+    return Refusal{"structure", "is unset",
+                   "choose STATIC_QUADRATIC, FIRST_ORDER_DYNAMIC or FOSSEN"};
   }
   if (regression.parameterization == Parameterization::kUnknown) {
     return Refusal{"parameterization", "is unset", "choose PROPELLER or PAPER"};

@@ -8,6 +8,8 @@
 #include "telltale/core/base/linear_algebra/covariance.hpp"
 #include "telltale/core/base/linear_algebra/eigen_decompositions.hpp"
 #include "telltale/core/base/random.hpp"
+#include "telltale/core/estimation/prediction_error/fossen_prior.hpp"
+#include "telltale/core/uncertainty/truncated_normal.hpp"
 
 namespace telltale {
 namespace {
@@ -57,11 +59,34 @@ Eigen::MatrixXd WithLogTimeConstant(const Eigen::MatrixXd& covariance,
   return joint;
 }
 
+PosteriorDraws DrawPhysicalForm(const PhysicalModel& physical, std::size_t count,
+                                std::uint64_t seed) {
+  Vehicle vehicle;
+  vehicle.propeller_separation_m = physical.propeller_separation_m;
+  const FossenPrior range = PriorOf(vehicle);
+  const FossenVector estimates = physical.Estimates();
+  const FossenVector least = range.least.cwiseMin(estimates);
+  const FossenVector greatest = range.greatest.cwiseMax(estimates);
+  const Eigen::MatrixXd parameters =
+      DrawTruncatedNormal(estimates, physical.covariance, least, greatest, estimates, count, seed);
+  PosteriorDraws draws;
+  draws.theta.resize(CoefficientsOf(estimates, physical.propeller_separation_m).size() - 1,
+                     parameters.cols());
+  for (Eigen::Index i = 0; i < parameters.cols(); ++i) {
+    const Eigen::VectorXd coefficients =
+        CoefficientsOf(WithPositiveMass(parameters.col(i)), physical.propeller_separation_m);
+    draws.theta.col(i) = coefficients.head(draws.theta.rows());
+    draws.time_constant_s.push_back(coefficients[draws.theta.rows()]);
+  }
+  return draws;
+}
+
 }  // namespace
 
 Result<PosteriorDraws> DrawFromPosterior(const Identification& identification, std::size_t count,
                                          std::uint64_t seed) {
   Require(count >= 1, "at least one draw");
+  if (identification.physical) return DrawPhysicalForm(*identification.physical, count, seed);
   const auto size = static_cast<Eigen::Index>(identification.coefficients.size());
   Require(identification.covariance.rows() == size && identification.covariance.cols() == size,
           "a covariance over all coefficients");

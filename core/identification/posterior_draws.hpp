@@ -25,13 +25,17 @@ struct PosteriorDraws {
   double clipped = 0.0;
 };
 
-/// Method: the symmetric square root of the correlation matrix by eigenvalues, negative ones set to
-/// zero, so that a covariance of fewer replicates than coefficients does no harm and no unit
-/// matters. The time constant is drawn together with the coefficients through its logarithm, so
-/// that it stays positive: ln tau has the relative standard error and, with each coefficient, the
-/// covariance over tau (delta method). It is not drawn when its standard error exceeds its
-/// estimate. Determinism: draw i has a random engine of its own; more draws with the same seed
-/// begin with the same ones. Refuses when: no coefficient has a finite variance. Requires: count
+/// Of the physical form its parameters are drawn, from a normal law truncated to their physical
+/// range, and turned into coefficients: every draw has a positive definite mass matrix and drag
+/// that opposes the motion.
+/// Method of every other structure: the symmetric square root of the correlation matrix by
+/// eigenvalues, negative ones set to zero, so that a covariance of fewer replicates than
+/// coefficients does no harm and no unit matters. The time constant is drawn together with the
+/// coefficients through its logarithm, so that it stays positive: ln tau has the relative standard
+/// error and, with each coefficient, the covariance over tau (delta method). It is not drawn when
+/// its standard error exceeds its estimate. Determinism: draw i has a random engine of its own;
+/// more draws with the same seed begin with the same ones. Refuses when: no coefficient has a
+/// finite variance. Requires: count
 /// >= 1.
 Result<PosteriorDraws> DrawFromPosterior(const Identification& identification, std::size_t count,
                                          std::uint64_t seed);

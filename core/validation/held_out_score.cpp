@@ -74,7 +74,9 @@ Result<HeldOutScore> ScoreOnHeldOutPart(const Recording& recording, const Vehicl
   if (!vessel) return tl::unexpected(vessel.error());
   const auto dataset = Prepare(rest, vehicle, PreparationForScoring(options, identification));
   if (!dataset) return tl::unexpected(dataset.error());
-  const auto metrics = Validate(*dataset, *vessel, {{held_out.horizon_s}});
+  const ValidationOptions scoring{{held_out.horizon_s}};
+  const auto metrics = model->physical ? Validate(*dataset, *model->physical, scoring)
+                                       : Validate(*dataset, *vessel, scoring);
   if (!metrics) return tl::unexpected(metrics.error());
   if (metrics->free_run.front().windows == 0) {
     return Refuse(kSubject, "no free run fits into the part that is held out", kAdvice);

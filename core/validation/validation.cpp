@@ -196,6 +196,85 @@ class AugmentedFreeRuns {
   double step_s_;
 };
 
+/// Free runs of the physical form along a dataset, from filtered states.
+class PhysicalFreeRuns {
+ public:
+  PhysicalFreeRuns(const PreparedDataset& dataset, const PhysicalModel& model) : dataset_(dataset) {
+    settings_.parameters = model.Estimates();
+    settings_.noise = model.noise;
+    settings_.propeller_separation_m = model.propeller_separation_m;
+    settings_.antenna = dataset.sensors.antenna;
+    settings_.nominal_fix_delay_s = FixDelay();
+  }
+
+  /// Calls visit(first row, predicted rows from it on) for every run of `rows` periods.
+  template <class Visit>
+  void RunAll(std::size_t rows, Visit visit) const {
+    for (std::size_t s = 0; s < dataset_.segments.size(); ++s) {
+      const RowRange& segment = dataset_.segments[s];
+      std::vector<std::size_t> firsts;
+      std::vector<double> starts_s;
+      for (std::size_t k = segment.begin; k + rows < segment.end; k += rows) {
+        firsts.push_back(k);
+        // A fix that is late tells of an earlier time: until the row, of none after this one.
+        starts_s.push_back(dataset_.rows[k].time_s - std::max(FixDelay(), 0.0));
+      }
+      const auto states =
+          FilteredStates(dataset_.signals[s], dataset_.commands[s], settings_, starts_s);
+      for (std::size_t i = 0; i < states.size(); ++i) {
+        visit(firsts[i], Run(s, firsts[i], rows, starts_s[i], states[i]));
+      }
+    }
+  }
+
+ private:
+  double FixDelay() const { return settings_.parameters[At(FossenParameter::kFixDelay)]; }
+
+  std::vector<PreparedRow> Run(std::size_t segment, std::size_t first, std::size_t rows,
+                               double start_s, const FilterState& start) const {
+    std::vector<double> heading_times_s;
+    std::vector<double> fix_times_s;
+    for (std::size_t k = 0; k <= rows; ++k) {
+      heading_times_s.push_back(dataset_.rows[first + k].time_s);
+      fix_times_s.push_back(dataset_.rows[first + k].time_s - FixDelay());
+    }
+    const auto predict = [&](const std::vector<double>& times_s) {
+      return PredictedStates(start, start_s, dataset_.commands[segment], settings_, times_s);
+    };
+    const auto headings = predict(heading_times_s);
+    const auto fixes = predict(fix_times_s);
+    std::vector<PreparedRow> predicted(rows + 1);
+    for (std::size_t k = 0; k <= rows; ++k) {
+      const NorthEastVelocity velocity = OverGround(fixes[k]);
+      const double psi = headings[k][kHeadingState] + headings[k][kMisalignmentState];
+      // From the measured position on, as every free run.
+      const Eta& measured = dataset_.rows[first].eta;
+      predicted[k].eta = {measured.x_m + fixes[k][0] - fixes[0][0],
+                          measured.y_m + fixes[k][1] - fixes[0][1], psi};
+      predicted[k].nu = {std::cos(psi) * velocity.north + std::sin(psi) * velocity.east,
+                         -std::sin(psi) * velocity.north + std::cos(psi) * velocity.east,
+                         headings[k][kVelocityState + 2]};
+    }
+    return predicted;
+  }
+
+  struct NorthEastVelocity {
+    double north;
+    double east;
+  };
+
+  static NorthEastVelocity OverGround(const FilterState& state) {
+    const double c = std::cos(state[kHeadingState]);
+    const double s = std::sin(state[kHeadingState]);
+    const double u = state[kVelocityState];
+    const double v = state[kVelocityState + 1];
+    return {c * u - s * v + state[kCurrentState], s * u + c * v + state[kCurrentState + 1]};
+  }
+
+  const PreparedDataset& dataset_;
+  FilterSettings settings_;
+};
+
 std::optional<Refusal> RefuseUnanswerable(const PreparedDataset& dataset, const VesselModel& model,
                                           const ValidationOptions& options) {
   const bool has_pair = std::any_of(dataset.segments.begin(), dataset.segments.end(),
@@ -221,6 +300,31 @@ std::optional<Refusal> RefuseUnanswerable(const PreparedDataset& dataset, const 
   return std::nullopt;
 }
 
+/// The scores of free runs that `free_runs` makes, one step ahead among them.
+template <class FreeRuns>
+Metrics ScoresOfRuns(const PreparedDataset& dataset, const FreeRuns& free_runs,
+                     const ValidationOptions& options) {
+  Metrics metrics;
+  SumsByVelocity of_model;
+  SumsByVelocity of_constant_velocity;
+  free_runs.RunAll(1, [&](std::size_t first, const std::vector<PreparedRow>& predicted) {
+    Add(of_model, dataset.rows[first + 1].nu, predicted[1].nu);
+    Add(of_constant_velocity, dataset.rows[first + 1].nu, dataset.rows[first].nu);
+  });
+  for (std::size_t j = 0; j < metrics.one_step.size(); ++j) {
+    metrics.one_step[j] = {of_model[j].R2(), of_model[j].Mae(), of_constant_velocity[j].R2()};
+  }
+  for (const double horizon_s : options.horizons_s) {
+    const auto steps = static_cast<std::size_t>(std::lround(horizon_s / dataset.sampling_period_s));
+    FreeRunSums sums;
+    free_runs.RunAll(steps, [&](std::size_t first, const std::vector<PreparedRow>& predicted) {
+      AddRun(dataset, predicted, first, sums);
+    });
+    metrics.free_run.push_back(ScoresOf(sums, dataset, horizon_s));
+  }
+  return metrics;
+}
+
 }  // namespace
 
 Result<Metrics> Validate(const PreparedDataset& dataset, const VesselModel& model,
@@ -243,26 +347,16 @@ Result<Metrics> Validate(const PreparedDataset& dataset, const AugmentedModel& m
   if (auto refusal = RefuseUnanswerable(dataset, model.model, options)) {
     return tl::unexpected<Refusal>(*std::move(refusal));
   }
-  const AugmentedFreeRuns free_runs(dataset, model);
-  Metrics metrics;
-  SumsByVelocity of_model;
-  SumsByVelocity of_constant_velocity;
-  free_runs.RunAll(1, [&](std::size_t first, const std::vector<PreparedRow>& predicted) {
-    Add(of_model, dataset.rows[first + 1].nu, predicted[1].nu);
-    Add(of_constant_velocity, dataset.rows[first + 1].nu, dataset.rows[first].nu);
-  });
-  for (std::size_t j = 0; j < metrics.one_step.size(); ++j) {
-    metrics.one_step[j] = {of_model[j].R2(), of_model[j].Mae(), of_constant_velocity[j].R2()};
+  return ScoresOfRuns(dataset, AugmentedFreeRuns(dataset, model), options);
+}
+
+Result<Metrics> Validate(const PreparedDataset& dataset, const PhysicalModel& model,
+                         const ValidationOptions& options) {
+  const VesselModel vessel = VesselModelOf(model.Estimates(), model.propeller_separation_m);
+  if (auto refusal = RefuseUnanswerable(dataset, vessel, options)) {
+    return tl::unexpected<Refusal>(*std::move(refusal));
   }
-  for (const double horizon_s : options.horizons_s) {
-    const auto steps = static_cast<std::size_t>(std::lround(horizon_s / dataset.sampling_period_s));
-    FreeRunSums sums;
-    free_runs.RunAll(steps, [&](std::size_t first, const std::vector<PreparedRow>& predicted) {
-      AddRun(dataset, predicted, first, sums);
-    });
-    metrics.free_run.push_back(ScoresOf(sums, dataset, horizon_s));
-  }
-  return metrics;
+  return ScoresOfRuns(dataset, PhysicalFreeRuns(dataset, model), options);
 }
 
 }  // namespace telltale

@@ -7,6 +7,7 @@
 #include "telltale/core/base/result.hpp"
 #include "telltale/core/data/prepared_dataset.hpp"
 #include "telltale/core/effects/augmented_model.hpp"
+#include "telltale/core/identification/physical_model.hpp"
 #include "telltale/core/vessel/vessel_model.hpp"
 
 namespace telltale {
@@ -57,6 +58,13 @@ struct Metrics {
 /// data's, or a horizon is out of range.
 /// Source: the paper's R2 and MAE equations.
 Result<Metrics> Validate(const PreparedDataset& dataset, const VesselModel& model,
+                         const ValidationOptions& options);
+
+/// The same for the physical form. A free run starts from the state that the filter of the model
+/// makes of the readings until then: velocities through the water, current, misalignment of the
+/// compass and disturbance, which decays. What it predicts are the readings: velocities over ground
+/// in the axes of the compass, positions as late as the fixes are.
+Result<Metrics> Validate(const PreparedDataset& dataset, const PhysicalModel& model,
                          const ValidationOptions& options);
 
 /// The same for a model with effects, which act on the boat and on its sensors.

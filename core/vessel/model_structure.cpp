@@ -6,6 +6,7 @@ std::string_view Name(Structure structure) {
   switch (structure) {
     case Structure::kStaticQuadratic: return "STATIC_QUADRATIC";
     case Structure::kFirstOrderDynamic: return "FIRST_ORDER_DYNAMIC";
+    case Structure::kFossen: return "FOSSEN";
     case Structure::kUnknown: break;
   }
   return "UNKNOWN";

@@ -6,8 +6,15 @@
 
 namespace telltale {
 
-/// Thrust follows the command at once, or through a first-order lag.
-enum class Structure { kUnknown, kStaticQuadratic, kFirstOrderDynamic };
+/// kStaticQuadratic and kFirstOrderDynamic, the paper's: free coefficients, and thrust that follows
+/// the command at once or through a first-order lag. kFossen: the parameters of FossenParameter,
+/// with a lag, and the coefficients that they imply.
+enum class Structure { kUnknown, kStaticQuadratic, kFirstOrderDynamic, kFossen };
+
+/// Whether thrust follows the command through a lag.
+constexpr bool HasLag(Structure structure) {
+  return structure == Structure::kFirstOrderDynamic || structure == Structure::kFossen;
+}
 
 /// The form of the propeller regressors. kPaper takes the paper's mean and difference; kPropeller
 /// sums over the two propellers and is consistent in all four regions.

@@ -103,6 +103,36 @@ inline Identification MadeUpDynamicIdentification() {
   return made;
 }
 
+/// The physical form, a different number in every place, one parameter left to its prior.
+inline Identification MadeUpPhysicalIdentification() {
+  Identification made = MadeUpDynamicIdentification();
+  made.structure = Structure::kFossen;
+  made.estimator = Estimator::kPredictionError;
+  PhysicalModel physical;
+  for (std::size_t i = 0; i < kFossenParameters; ++i) {
+    const double n = static_cast<double>(i) + 1.0;
+    const FossenParameterName& name = FossenParameterNames()[i];
+    physical.parameters.push_back({Equation::kUnknown,
+                                   "",
+                                   std::string(name.symbol),
+                                   1.0 / (3.0 * n),
+                                   0.1 / n,
+                                   {0.95, 0.25 / n, 0.5 / n},
+                                   std::string(name.unit),
+                                   CoefficientStatus::kEstimated});
+  }
+  physical.parameters[At(FossenParameter::kM23)].status = CoefficientStatus::kPrior;
+  constexpr auto kSize = static_cast<Eigen::Index>(kFossenParameters);
+  physical.covariance =
+      Eigen::MatrixXd::NullaryExpr(kSize, kSize, [](Eigen::Index row, Eigen::Index column) {
+        return 1.0 / static_cast<double>(3 + row + column);
+      });
+  physical.propeller_separation_m = 0.57;
+  physical.noise = {{0.01, 0.02, 0.03}, 2.5, 0.15, 0.06, 0.02, 0.03};
+  made.physical = physical;
+  return made;
+}
+
 /// The same, with half of each estimate for simulation.
 inline Identification MadeUpIdentificationWithSimulationParameters() {
   Identification made = MadeUpIdentification();
@@ -196,6 +226,21 @@ inline void ExpectSame(const Provenance& a, const Provenance& b) {
   if (a.change) ExpectSame(*a.change, *b.change);
 }
 
+inline void ExpectSame(const PhysicalModel& a, const PhysicalModel& b) {
+  ASSERT_EQ(a.parameters.size(), b.parameters.size());
+  for (std::size_t i = 0; i < a.parameters.size(); ++i) {
+    ExpectSame(a.parameters[i], b.parameters[i]);
+  }
+  EXPECT_EQ(a.covariance, b.covariance);
+  EXPECT_EQ(a.propeller_separation_m, b.propeller_separation_m);
+  EXPECT_EQ(a.noise.acceleration_sigma, b.noise.acceleration_sigma);
+  EXPECT_EQ(a.noise.acceleration_time_constant_s, b.noise.acceleration_time_constant_s);
+  EXPECT_EQ(a.noise.fix_drift_sigma_m, b.noise.fix_drift_sigma_m);
+  EXPECT_EQ(a.noise.fix_sigma_m, b.noise.fix_sigma_m);
+  EXPECT_EQ(a.noise.heading_sigma_rad, b.noise.heading_sigma_rad);
+  EXPECT_EQ(a.noise.stamp_sigma_s, b.noise.stamp_sigma_s);
+}
+
 inline void ExpectSame(const Identification& a, const Identification& b) {
   EXPECT_EQ(a.vehicle_id, b.vehicle_id);
   EXPECT_EQ(a.structure, b.structure);
@@ -228,6 +273,8 @@ inline void ExpectSame(const Identification& a, const Identification& b) {
       ExpectSame(a.recording_bias[i].coefficients[j], b.recording_bias[i].coefficients[j]);
     }
   }
+  ASSERT_EQ(a.physical.has_value(), b.physical.has_value());
+  if (a.physical) ExpectSame(*a.physical, *b.physical);
   ExpectSame(a.window, b.window);
   EXPECT_EQ(a.refusals, b.refusals);
   ExpectSame(a.provenance, b.provenance);

@@ -60,10 +60,10 @@ Eigen::MatrixXd ReadCovariance(FieldReader& reader, const proto::Model& model) {
 
 std::optional<Coefficient> ReadTimeConstant(FieldReader& reader, const proto::Model& model,
                                             Structure structure) {
-  const bool dynamic = structure == Structure::kFirstOrderDynamic;
+  const bool dynamic = HasLag(structure);
   if (model.has_thruster_time_constant_s() != dynamic) {
     reader.Fail("thruster_time_constant_s", dynamic ? "" : "(given)",
-                "given for FIRST_ORDER_DYNAMIC and for nothing else");
+                "given for FIRST_ORDER_DYNAMIC and FOSSEN, and for nothing else");
   }
   if (!dynamic) return std::nullopt;
   FieldReader item = reader.Optional("thruster_time_constant_s");
@@ -83,11 +83,11 @@ Eigen::VectorXd ReadTimeConstantCovariance(FieldReader& reader, const proto::Mod
                                            Structure structure) {
   constexpr const char* kField = "thruster_time_constant_covariance";
   const Numbers& numbers = model.thruster_time_constant_covariance();
-  const int n = structure == Structure::kFirstOrderDynamic ? model.coefficients_size() : 0;
+  const int n = HasLag(structure) ? model.coefficients_size() : 0;
   if (numbers.empty()) return Eigen::VectorXd::Zero(n);
   if (numbers.size() != n) {
     reader.Fail(kField, std::to_string(numbers.size()) + " numbers",
-                n == 0 ? "given for FIRST_ORDER_DYNAMIC and for nothing else"
+                n == 0 ? "given for FIRST_ORDER_DYNAMIC and FOSSEN, and for nothing else"
                        : std::to_string(n) + ", one for each coefficient");
     return {};
   }
@@ -142,6 +142,98 @@ std::vector<double> ReadSimulationParameters(FieldReader& reader, const proto::M
   return {numbers.begin(), numbers.end()};
 }
 
+// ---- the physical form --------------------------------------------------------------------------
+
+void Write(const PhysicalModel& physical, proto::Model& message) {
+  for (const Coefficient& parameter : physical.parameters) {
+    *message.add_parameters() = ToProto(parameter);
+  }
+  WriteRowMajor(physical.covariance, *message.mutable_parameter_covariance());
+  message.set_propeller_separation_m(physical.propeller_separation_m);
+  const auto parameter = [&](FossenParameter at) {
+    return ToProto(physical.parameters[static_cast<std::size_t>(at)]);
+  };
+  *message.mutable_delays()->mutable_commands() = parameter(FossenParameter::kCommandDelay);
+  *message.mutable_delays()->mutable_fixes() = parameter(FossenParameter::kFixDelay);
+  const NoiseModel& noise = physical.noise;
+  proto::FilterNoise& filter = *message.mutable_filter_noise();
+  filter.mutable_acceleration_sigma()->Add(noise.acceleration_sigma.begin(),
+                                           noise.acceleration_sigma.end());
+  filter.set_acceleration_time_constant_s(noise.acceleration_time_constant_s);
+  filter.set_fix_drift_sigma_m(noise.fix_drift_sigma_m);
+  filter.set_fix_sigma_m(noise.fix_sigma_m);
+  filter.set_heading_sigma_rad(noise.heading_sigma_rad);
+  filter.set_stamp_sigma_s(noise.stamp_sigma_s);
+}
+
+NoiseModel ReadNoise(FieldReader reader, const proto::FilterNoise& message) {
+  NoiseModel noise;
+  noise.acceleration_sigma =
+      ReadAxes(reader, "acceleration_sigma", message.acceleration_sigma(), kFinitePositive);
+  noise.acceleration_time_constant_s =
+      reader.Number("acceleration_time_constant_s", kFinitePositive);
+  noise.fix_drift_sigma_m = reader.Number("fix_drift_sigma_m", kFinitePositive);
+  noise.fix_sigma_m = reader.Number("fix_sigma_m", kFinitePositive);
+  noise.heading_sigma_rad = reader.Number("heading_sigma_rad", kFinitePositive);
+  noise.stamp_sigma_s = reader.Number("stamp_sigma_s", kFinitePositive);
+  return noise;
+}
+
+Coefficient ReadParameter(FieldReader reader, const proto::Coefficient& message) {
+  Coefficient parameter;
+  parameter.symbol = message.symbol();
+  parameter.unit = message.unit();
+  parameter.estimate = reader.Number("estimate", kFinite);
+  parameter.standard_error = reader.Number("standard_error", kFiniteNotNegative);
+  parameter.interval = {message.interval().level(), message.interval().lower(),
+                        message.interval().upper()};
+  parameter.status = ReadEnum<CoefficientStatus>(reader, "status", message.status());
+  return parameter;
+}
+
+/// The parameters by name, and a covariance over them.
+void ExpectParameters(FieldReader& reader, const proto::Model& model) {
+  const auto& names = FossenParameterNames();
+  if (model.parameters_size() != static_cast<int>(names.size())) {
+    reader.Fail("parameters", std::to_string(model.parameters_size()) + " items",
+                std::to_string(names.size()) + ", the parameters of FOSSEN");
+    return;
+  }
+  for (int i = 0; i < model.parameters_size(); ++i) {
+    const std::string expected(names[static_cast<std::size_t>(i)].symbol);
+    if (model.parameters(i).symbol() == expected) continue;
+    reader.Fail("parameters", Quoted(model.parameters(i).symbol()), Quoted(expected));
+  }
+  const int cells = model.parameters_size() * model.parameters_size();
+  if (model.parameter_covariance_size() != cells) {
+    reader.Fail("parameter_covariance",
+                std::to_string(model.parameter_covariance_size()) + " numbers",
+                std::to_string(cells) + ", the square of the number of parameters");
+  }
+}
+
+std::optional<PhysicalModel> ReadPhysical(FieldReader& reader, const proto::Model& model,
+                                          Structure structure) {
+  if (structure != Structure::kFossen) {
+    if (model.parameters_size() > 0) {
+      reader.Fail("parameters", "(given)", "given for FOSSEN and for nothing else");
+    }
+    return std::nullopt;
+  }
+  ExpectParameters(reader, model);
+  PhysicalModel physical;
+  physical.parameters = ReadAll(reader, "parameters", model.parameters(), ReadParameter);
+  const auto n = static_cast<Eigen::Index>(model.parameters_size());
+  if (model.parameter_covariance_size() == n * n) {
+    physical.covariance =
+        Eigen::Map<const Eigen::MatrixXd>(model.parameter_covariance().data(), n, n);
+  }
+  ExpectFinite(reader, "parameter_covariance", model.parameter_covariance());
+  physical.propeller_separation_m = reader.Number("propeller_separation_m", kFinitePositive);
+  physical.noise = ReadNoise(reader.Optional("filter_noise"), model.filter_noise());
+  return physical;
+}
+
 }  // namespace
 
 void WriteEstimates(const Identification& identification, proto::Model& message) {
@@ -166,6 +258,7 @@ void WriteEstimates(const Identification& identification, proto::Model& message)
   WriteEffects(identification.effects, message);
   message.mutable_simulation()->Add(identification.simulation.begin(),
                                     identification.simulation.end());
+  if (identification.physical) Write(*identification.physical, message);
 }
 
 void ReadEstimates(FieldReader& reader, const proto::Model& message,
@@ -186,6 +279,7 @@ void ReadEstimates(FieldReader& reader, const proto::Model& message,
       ReadAll(reader, "recording_bias", message.recording_bias(), ReadRecordingBias);
   identification.effects = ReadEffects(reader, message);
   identification.simulation = ReadSimulationParameters(reader, message);
+  identification.physical = ReadPhysical(reader, message, identification.structure);
   if (message.has_joint()) identification.joint = ReadJoint(reader.Optional("joint"));
 }
 

@@ -158,7 +158,7 @@ JointBounds ReadJoint(const std::string& field, const telltale_wire_JointBounds&
 
 /// Given for the dynamic structure alone.
 std::optional<Coefficient> ReadTimeConstant(const telltale_wire_Model& wire, Structure structure) {
-  const bool dynamic = structure == Structure::kFirstOrderDynamic;
+  const bool dynamic = HasLag(structure);
   const auto& constants = wire.thruster_time_constant;
   if (constants._length != (dynamic ? 1u : 0u)) {
     Reject("thruster_time_constant", std::to_string(constants._length) + " items",
@@ -173,7 +173,7 @@ std::optional<Coefficient> ReadTimeConstant(const telltale_wire_Model& wire, Str
 /// No numbers stand for zeros.
 Eigen::VectorXd ReadTimeConstantCovariance(const dds_sequence_double& wire, Structure structure,
                                            std::size_t coefficients) {
-  const bool dynamic = structure == Structure::kFirstOrderDynamic;
+  const bool dynamic = HasLag(structure);
   const auto n = static_cast<Eigen::Index>(dynamic ? coefficients : 0);
   if (wire._length == 0) return Eigen::VectorXd::Zero(n);
   if (wire._length != n) {

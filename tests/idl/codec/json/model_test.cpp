@@ -39,6 +39,34 @@ TEST(ModelJson, TheTimeConstantGoesWithTheDynamicStructure) {
   ExpectReadsBack(MadeUpDynamicIdentification());
 }
 
+TEST(ModelJson, ThePhysicalFormGoesWithItsStructure) {
+  ExpectReadsBack(MadeUpPhysicalIdentification());
+  proto::Model model = ToProto(MadeUpPhysicalIdentification());
+  model.set_structure(proto::FIRST_ORDER_DYNAMIC);
+  EXPECT_EQ(IdentificationOf(model).error().field, "parameters");
+}
+
+TEST(ModelJson, ThePhysicalFormHasEveryParameterByItsName) {
+  proto::Model model = ToProto(MadeUpPhysicalIdentification());
+  model.mutable_parameters(2)->set_symbol("m44");
+  EXPECT_EQ(IdentificationOf(model).error().value, "\"m44\"");
+  EXPECT_EQ(IdentificationOf(model).error().allowed, "\"m33\"");
+  model.mutable_parameters()->RemoveLast();
+  EXPECT_EQ(IdentificationOf(model).error().value, "22 items");
+}
+
+TEST(ModelJson, ThePhysicalFormHasACovarianceAndANoiseThatFilter) {
+  proto::Model model = ToProto(MadeUpPhysicalIdentification());
+  model.mutable_parameter_covariance()->RemoveLast();
+  EXPECT_EQ(IdentificationOf(model).error().field, "parameterCovariance");
+  model = ToProto(MadeUpPhysicalIdentification());
+  model.mutable_filter_noise()->set_fix_sigma_m(0.0);
+  EXPECT_EQ(IdentificationOf(model).error().field, "filterNoise.fixSigmaM");
+  model = ToProto(MadeUpPhysicalIdentification());
+  model.set_propeller_separation_m(-1.0);
+  EXPECT_EQ(IdentificationOf(model).error().field, "propellerSeparationM");
+}
+
 TEST(ModelJson, AnOlderFileHasNoCovarianceOfTheTimeConstant) {
   proto::Model model = ToProto(MadeUpDynamicIdentification());
   model.clear_thruster_time_constant_covariance();
@@ -276,7 +304,7 @@ TEST(ModelJson, TextThatIsNotAModelIsRefusedWithWhatIsWrong) {
   EXPECT_EQ(fault("{\"structure\": \"CUBIC\"}").field, "structure");
   EXPECT_EQ(fault("{\"structure\": \"CUBIC\"}").value, "\"CUBIC\"");
   EXPECT_EQ(fault("{\"structure\": \"CUBIC\"}").allowed,
-            "one of STATIC_QUADRATIC, FIRST_ORDER_DYNAMIC");
+            "one of STATIC_QUADRATIC, FIRST_ORDER_DYNAMIC, FOSSEN");
   EXPECT_EQ(fault("{\"samplingPeriodS\": \"soon\"}").allowed, "a number");
   EXPECT_EQ(fault("{\"window\": {\"samples\": -3}}").field, "window.samples");
   for (const char* text : {"", "{", "[1]", "null", "{\"covariance\": [1e999]}", "\xff"}) {

@@ -1,0 +1,377 @@
+#include "telltale/core/estimation/prediction_error/innovations.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+namespace telltale {
+namespace {
+
+using enum FossenParameter;
+
+constexpr int kStates = kFilterStates;
+constexpr int kNorth = 0;
+constexpr int kEast = 1;
+constexpr int kHeading = 2;
+constexpr int kNu = 3;
+constexpr int kDisturbance = 6;
+constexpr int kDrift = 9;
+
+constexpr int kCurrent = 11;
+constexpr int kMisalignment = 13;
+// A current changes by this much in a second, one sigma of its random walk.
+constexpr double kCurrentWalk = 0.003;
+
+constexpr double kLongestStepS = 0.05;
+constexpr double kShortestStepS = 1e-6;
+constexpr double kHuberLimit = 4.0;
+// Headings closer than this to the one before bring nothing new and cost a step.
+constexpr double kHeadingPeriodS = 0.095;
+
+using State = FilterState;
+using Covariance = FilterCovariance;
+using Slopes = Eigen::Matrix<double, kStates, kActiveParameters>;
+
+struct Reading {
+  double time_s;
+  bool is_fix;
+  double north_m = 0.0;
+  double east_m = 0.0;
+  double psi_rad = 0.0;
+};
+
+std::vector<Reading> InOrder(const RawSignals& signals, double fix_delay_s) {
+  std::vector<Reading> readings;
+  const auto& fixes = signals.north_m;
+  for (std::size_t i = 0; i < fixes.times_s.size(); ++i) {
+    readings.push_back(
+        {fixes.times_s[i] - fix_delay_s, true, fixes.values[i], signals.east_m.values[i], 0.0});
+  }
+  double last_s = -1e300;
+  for (std::size_t i = 0; i < signals.psi_rad.times_s.size(); ++i) {
+    const double t = signals.psi_rad.times_s[i];
+    if (t - last_s < kHeadingPeriodS) continue;
+    last_s = t;
+    readings.push_back({t, false, 0.0, 0.0, signals.psi_rad.values[i]});
+  }
+  std::ranges::stable_sort(readings, {}, &Reading::time_s);
+  return readings;
+}
+
+class Filter {
+ public:
+  Filter(const FilterSettings& settings, const HeldCommands& commands, double start_s,
+         const State& start)
+      : settings_(settings),
+        dynamics_(settings.parameters, settings.propeller_separation_m),
+        thrust_(commands, settings.hold,
+                {settings.parameters[At(kDeadBand)], settings.parameters[At(kTimeConstant)],
+                 settings.parameters[At(kCommandDelay)]},
+                start_s),
+        now_s_(start_s),
+        x_(start) {
+    covariance_.setZero();
+    const NoiseModel& noise = settings.noise;
+    covariance_.diagonal() << 4.0, 4.0, 0.1, 1.0, 0.25, 0.25, noise.acceleration_sigma.cwiseAbs2(),
+        Eigen::Vector2d::Constant(noise.fix_drift_sigma_m * noise.fix_drift_sigma_m),
+        Eigen::Vector2d::Constant(settings.current_sigma_m_s * settings.current_sigma_m_s),
+        settings.misalignment_sigma_rad * settings.misalignment_sigma_rad;
+    slopes_.setZero();
+  }
+
+  /// Takes the gains of another run from now on, or records its own.
+  void UseGains(const std::vector<FilterGain>* fixed, std::vector<FilterGain>* record) {
+    fixed_gains_ = fixed;
+    recorded_gains_ = record;
+  }
+
+  void PredictTo(double time_s) {
+    const double ahead_s = time_s - now_s_;
+    if (ahead_s < kShortestStepS) return;
+    const auto steps = static_cast<int>(std::ceil(ahead_s / kLongestStepS - 1e-9));
+    const double h = ahead_s / steps;
+    for (int i = 0; i < steps; ++i) Step(i + 1 == steps ? time_s - now_s_ : h);
+  }
+
+  void TakeHeading(double psi_rad, std::vector<Innovation>& innovations) {
+    const double sigma = settings_.noise.heading_sigma_rad;
+    Eigen::Matrix<double, 1, kStates> row = Eigen::Matrix<double, 1, kStates>::Zero();
+    row[kHeading] = 1.0;
+    row[kMisalignment] = 1.0;
+    Take(row, psi_rad - x_[kHeading] - x_[kMisalignment], ActiveVector::Zero(), sigma * sigma,
+         innovations);
+  }
+
+  // North and east of a fix turned into along and across the track, where the noise of the stamp
+  // is the one's alone.
+  void TakeFix(double north_m, double east_m, std::vector<Innovation>& innovations) {
+    const double c = std::cos(x_[kHeading]);
+    const double s = std::sin(x_[kHeading]);
+    const LeverArm& arm = settings_.antenna;
+    const double u = x_[kNu];
+    const double v = x_[kNu + 1];
+    const Eigen::Vector2d velocity(c * u - s * v + x_[kCurrent], s * u + c * v + x_[kCurrent + 1]);
+    const double speed = velocity.norm();
+    const Eigen::Vector2d along =
+        speed > 1e-3 ? Eigen::Vector2d(velocity / speed) : Eigen::Vector2d(1.0, 0.0);
+    const Eigen::Vector2d across(-along[1], along[0]);
+    for (const bool is_along : {true, false}) {
+      const Eigen::Vector2d axis = fixed_gains_ != nullptr ? (*fixed_gains_)[next_gain_].axis
+                                   : is_along              ? along
+                                                           : across;
+      const double psi_c = std::cos(x_[kHeading]);
+      const double psi_s = std::sin(x_[kHeading]);
+      const Eigen::Vector2d lever(psi_c * arm.forward_m - psi_s * arm.starboard_m,
+                                  psi_s * arm.forward_m + psi_c * arm.starboard_m);
+      const Eigen::Vector2d lever_by_psi(-lever[1], lever[0]);
+      const Eigen::Vector2d predicted =
+          x_.segment<2>(kNorth) + lever + x_.segment<2>(kDrift) -
+          (settings_.parameters[At(kFixDelay)] - settings_.nominal_fix_delay_s) * velocity;
+      Eigen::Matrix<double, 1, kStates> row = Eigen::Matrix<double, 1, kStates>::Zero();
+      row.segment<2>(kNorth) = axis.transpose();
+      row.segment<2>(kDrift) = axis.transpose();
+      row[kHeading] = axis.dot(lever_by_psi);
+      ActiveVector by = ActiveVector::Zero();
+      // A longer delay predicts where the boat was before.
+      by[At(kFixDelay)] = axis.dot(velocity);
+      const double stamp = is_along ? speed * settings_.noise.stamp_sigma_s : 0.0;
+      Take(row, axis.dot(Eigen::Vector2d(north_m, east_m) - predicted), by,
+           settings_.noise.fix_sigma_m * settings_.noise.fix_sigma_m + stamp * stamp, innovations);
+      if (recorded_gains_ != nullptr) recorded_gains_->back().axis = axis;
+    }
+  }
+
+  const State& Mean() const { return x_; }
+
+ private:
+  struct Rate {
+    State value;
+    Covariance by_state;
+  };
+
+  Rate RateAt(const State& x, const ThrustStep& thrust) const {
+    Rate rate;
+    rate.value.setZero();
+    rate.by_state.setZero();
+    const double c = std::cos(x[kHeading]);
+    const double s = std::sin(x[kHeading]);
+    const double u = x[kNu];
+    const double v = x[kNu + 1];
+    rate.value[kNorth] = c * u - s * v + x[kCurrent];
+    rate.value[kEast] = s * u + c * v + x[kCurrent + 1];
+    rate.value[kHeading] = x[kNu + 2];
+    rate.by_state(kNorth, kHeading) = -s * u - c * v;
+    rate.by_state(kEast, kHeading) = c * u - s * v;
+    rate.by_state.block<2, 2>(kNorth, kNu) << c, -s, s, c;
+    rate.by_state(kHeading, kNu + 2) = 1.0;
+    rate.by_state(kNorth, kCurrent) = 1.0;
+    rate.by_state(kEast, kCurrent + 1) = 1.0;
+    const auto at = dynamics_.At(x.segment<3>(kNu), thrust.mean[0], thrust.mean[1]);
+    rate.value.segment<3>(kNu) = at.nu_dot + x.segment<3>(kDisturbance);
+    rate.by_state.block<3, 3>(kNu, kNu) = at.by_nu;
+    rate.by_state.block<3, 3>(kNu, kDisturbance).setIdentity();
+    return rate;
+  }
+
+  // d rate / d parameter, the rows of the velocities alone.
+  Eigen::Matrix<double, 3, kActiveParameters> ByParameter(const State& x,
+                                                          const ThrustStep& thrust) const {
+    const Eigen::Vector3d nu = x.segment<3>(kNu);
+    const auto at = dynamics_.At(nu, thrust.mean[0], thrust.mean[1]);
+    Eigen::Matrix<double, 3, kActiveParameters> by;
+    by.setZero();
+    by.leftCols<19>() = dynamics_.ByParameter(nu, at.nu_dot, thrust.mean[0], thrust.mean[1]);
+    by.col(At(kDeadBand)) = dynamics_.ByThrust(thrust.by_dead_band[0], thrust.by_dead_band[1]);
+    by.col(At(kTimeConstant)) =
+        dynamics_.ByThrust(thrust.by_time_constant[0], thrust.by_time_constant[1]);
+    by.col(At(kCommandDelay)) = dynamics_.ByThrust(thrust.by_delay[0], thrust.by_delay[1]);
+    return by;
+  }
+
+  // The way made in a step beyond that of the midpoint rule: thrust comes early or late in the
+  // step, and the acceleration changes with the velocity.
+  void AddThirdOrder(const State& middle, const Rate& rate, const ThrustStep& thrust, double h,
+                     State& next) const {
+    const Eigen::Matrix3d by_nu = rate.by_state.block<3, 3>(kNu, kNu);
+    const Eigen::Vector3d way = dynamics_.ByThrust(thrust.early[0], thrust.early[1]) +
+                                (h * h * h / 6.0) * (by_nu * rate.value.segment<3>(kNu));
+    const double c = std::cos(middle[kHeading]);
+    const double s = std::sin(middle[kHeading]);
+    next[kNorth] += c * way[0] - s * way[1];
+    next[kEast] += s * way[0] + c * way[1];
+    next[kHeading] += way[2];
+    next.segment<3>(kNu) += by_nu * way;
+  }
+
+  // The midpoint rule under the mean thrust; disturbance and drift decay exactly.
+  void Step(double h) {
+    const ThrustStep thrust = thrust_.Until(now_s_ + h);
+    const Rate first = RateAt(x_, thrust);
+    const State middle = x_ + 0.5 * h * first.value;
+    const Rate second = RateAt(middle, thrust);
+    Covariance transition = h * second.by_state + 0.5 * h * h * (second.by_state * first.by_state);
+    transition.diagonal().array() += 1.0;
+    const NoiseModel& noise = settings_.noise;
+    const double decay = std::exp(-h / noise.acceleration_time_constant_s);
+    const double drift_decay = std::exp(-h / NoiseModel::kFixDriftTimeConstantS);
+    transition.bottomRows<kStates - kDisturbance>().setZero();
+    transition.diagonal().segment<3>(kDisturbance).setConstant(decay);
+    transition.diagonal().segment<2>(kDrift).setConstant(drift_decay);
+    transition.diagonal().tail<3>().setOnes();
+    if (settings_.with_slopes) {
+      const auto by_first = ByParameter(x_, thrust);
+      const auto by_second = ByParameter(middle, thrust);
+      slopes_ = (transition * slopes_).eval();
+      slopes_.middleRows<3>(kNu) +=
+          h * by_second + (0.5 * h * h) * (second.by_state.block<3, 3>(kNu, kNu) * by_first);
+      slopes_.topRows<3>() += (0.5 * h * h) * (second.by_state.block<3, 3>(kNorth, kNu) * by_first);
+    }
+    State next = x_ + h * second.value;
+    AddThirdOrder(middle, second, thrust, h, next);
+    next.segment<3>(kDisturbance) = decay * x_.segment<3>(kDisturbance);
+    next.segment<2>(kDrift) = drift_decay * x_.segment<2>(kDrift);
+    x_ = next;
+    if (fixed_gains_ != nullptr) {
+      now_s_ += h;
+      return;
+    }
+    covariance_ = (transition * covariance_ * transition.transpose()).eval();
+    covariance_.diagonal().segment<3>(kDisturbance) +=
+        (1.0 - decay * decay) * noise.acceleration_sigma.cwiseAbs2();
+    covariance_.diagonal().segment<2>(kDrift).array() +=
+        (1.0 - drift_decay * drift_decay) * noise.fix_drift_sigma_m * noise.fix_drift_sigma_m;
+    covariance_.diagonal().segment<2>(kCurrent).array() += h * kCurrentWalk * kCurrentWalk;
+    now_s_ += h;
+  }
+
+  void Take(const Eigen::Matrix<double, 1, kStates>& row, double value, const ActiveVector& by,
+            double noise_variance, std::vector<Innovation>& innovations) {
+    State projected;
+    FilterGain gain;
+    if (fixed_gains_ != nullptr) {
+      gain = (*fixed_gains_)[next_gain_++];
+    } else {
+      projected = covariance_ * row.transpose();
+      gain.variance = row.dot(projected) + noise_variance;
+      const double ratio = value * value / (kHuberLimit * kHuberLimit * gain.variance);
+      if (ratio > 1.0) gain.variance *= ratio;
+      gain.gain = projected / gain.variance;
+      if (recorded_gains_ != nullptr) recorded_gains_->push_back(gain);
+    }
+    Innovation& innovation = innovations.emplace_back();
+    innovation.time_s = now_s_;
+    innovation.value = value;
+    innovation.variance = gain.variance;
+    if (settings_.with_slopes) {
+      innovation.slope = by - (row * slopes_).transpose();
+      slopes_ += gain.gain * innovation.slope.transpose();
+    }
+    x_ += gain.gain * value;
+    if (fixed_gains_ != nullptr) return;
+    covariance_ -= gain.gain * projected.transpose();
+    covariance_ = (0.5 * (covariance_ + covariance_.transpose())).eval();
+  }
+
+  const std::vector<FilterGain>* fixed_gains_ = nullptr;
+  std::vector<FilterGain>* recorded_gains_ = nullptr;
+  std::size_t next_gain_ = 0;
+  const FilterSettings& settings_;
+  FossenDynamics dynamics_;
+  ThrustLag thrust_;
+  double now_s_;
+  State x_;
+  Covariance covariance_;
+  Slopes slopes_;
+};
+
+// Before the first readings of both kinds there is nothing to filter.
+std::optional<State> StartOf(const std::vector<Reading>& readings) {
+  const auto first_fix = std::ranges::find(readings, true, &Reading::is_fix);
+  const auto first_heading = std::ranges::find(readings, false, &Reading::is_fix);
+  if (first_fix == readings.end() || first_heading == readings.end()) return std::nullopt;
+  State start = State::Zero();
+  start[kHeading] = first_heading->psi_rad;
+  start.segment<2>(kNorth) << first_fix->north_m, first_fix->east_m;
+  return start;
+}
+
+void Take(const Reading& reading, Filter& filter, std::vector<Innovation>& innovations) {
+  filter.PredictTo(reading.time_s);
+  if (reading.is_fix) {
+    filter.TakeFix(reading.north_m, reading.east_m, innovations);
+  } else {
+    filter.TakeHeading(reading.psi_rad, innovations);
+  }
+}
+
+}  // namespace
+
+namespace {
+
+std::vector<Innovation> Innovate(const RawSignals& signals, const HeldCommands& commands,
+                                 const FilterSettings& settings,
+                                 const std::vector<FilterGain>* fixed,
+                                 std::vector<FilterGain>* record) {
+  const auto readings = InOrder(signals, settings.nominal_fix_delay_s);
+  const auto start = StartOf(readings);
+  std::vector<Innovation> innovations;
+  if (!start) return innovations;
+  innovations.reserve(2 * readings.size());
+  Filter filter(settings, commands, readings.front().time_s, *start);
+  filter.UseGains(fixed, record);
+  for (const Reading& reading : readings) Take(reading, filter, innovations);
+  return innovations;
+}
+
+}  // namespace
+
+std::vector<Innovation> InnovationsOf(const RawSignals& signals, const HeldCommands& commands,
+                                      const FilterSettings& settings,
+                                      std::vector<FilterGain>* gains) {
+  return Innovate(signals, commands, settings, nullptr, gains);
+}
+
+std::vector<Innovation> InnovationsWith(const std::vector<FilterGain>& gains,
+                                        const RawSignals& signals, const HeldCommands& commands,
+                                        const FilterSettings& settings) {
+  return Innovate(signals, commands, settings, &gains, nullptr);
+}
+
+std::vector<FilterState> FilteredStates(const RawSignals& signals, const HeldCommands& commands,
+                                        const FilterSettings& settings,
+                                        const std::vector<double>& times_s) {
+  const auto readings = InOrder(signals, settings.nominal_fix_delay_s);
+  const auto start = StartOf(readings);
+  if (!start) return {};
+  std::vector<Innovation> innovations;
+  Filter filter(settings, commands, readings.front().time_s, *start);
+  std::vector<FilterState> states;
+  std::size_t next = 0;
+  for (const Reading& reading : readings) {
+    for (; next < times_s.size() && times_s[next] < reading.time_s; ++next) {
+      filter.PredictTo(times_s[next]);
+      states.push_back(filter.Mean());
+    }
+    Take(reading, filter, innovations);
+  }
+  for (; next < times_s.size(); ++next) {
+    filter.PredictTo(times_s[next]);
+    states.push_back(filter.Mean());
+  }
+  return states;
+}
+
+std::vector<FilterState> PredictedStates(const FilterState& start, double start_s,
+                                         const HeldCommands& commands,
+                                         const FilterSettings& settings,
+                                         const std::vector<double>& times_s) {
+  Filter filter(settings, commands, start_s, start);
+  std::vector<FilterState> states;
+  for (const double time_s : times_s) {
+    filter.PredictTo(time_s);
+    states.push_back(filter.Mean());
+  }
+  return states;
+}
+
+}  // namespace telltale

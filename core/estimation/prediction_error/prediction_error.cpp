@@ -1,0 +1,422 @@
+#include "telltale/core/estimation/prediction_error/prediction_error.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <Eigen/Cholesky>
+
+#include "telltale/core/base/parallel.hpp"
+
+namespace telltale {
+namespace {
+
+using enum FossenParameter;
+
+constexpr Eigen::Index kParameters = static_cast<Eigen::Index>(kFossenParameters);
+constexpr int kNoises = 8;
+using NoiseVector = Eigen::Matrix<double, kNoises, 1>;
+
+NoiseVector LogOf(const NoiseModel& noise) {
+  NoiseVector log;
+  log << noise.acceleration_sigma, noise.acceleration_time_constant_s, noise.fix_drift_sigma_m,
+      noise.fix_sigma_m, noise.heading_sigma_rad, noise.stamp_sigma_s;
+  return log.array().log();
+}
+
+NoiseModel NoiseOf(const NoiseVector& log) {
+  const NoiseVector v = log.array().exp();
+  return {v.head<3>(), v[3], v[4], v[5], v[6], v[7]};
+}
+
+// A weak log-normal prior of the noise keeps a noise that the data do not show finite.
+NoiseVector NoisePriorMean() {
+  return LogOf({{0.1, 0.1, 0.1}, 2.0, 0.1, 0.05, 0.02, 0.02});
+}
+constexpr double kNoisePriorSigma = 1.5;
+
+// The readings of a boat are smoother than they are true: an autopilot filters its fixes and
+// headings. A noise below these would let the filter follow the readings instead of the model.
+NoiseVector LeastNoise() {
+  return LogOf({{1e-3, 1e-3, 1e-3}, 1.0, 0.1, 0.05, 0.0175, 0.02});
+}
+NoiseVector GreatestNoise() {
+  return LogOf({{3.0, 3.0, 3.0}, 10.0, 3.0, 3.0, 0.2, 0.2});
+}
+
+// Wide process noise: the filter follows the readings whatever the parameters are.
+NoiseModel FirstNoise() {
+  NoiseModel noise = NoiseOf(NoisePriorMean().cwiseMax(LeastNoise()));
+  noise.acceleration_sigma.setConstant(0.5);
+  noise.acceleration_time_constant_s = 1.0;
+  return noise;
+}
+
+using Runs = std::vector<std::vector<Innovation>>;  // by segment
+
+class Problem {
+ public:
+  Problem(const PreparedDataset& dataset, double separation_m, const FossenPrior& prior,
+          const PredictionErrorOptions& options)
+      : dataset_(dataset), separation_m_(separation_m), prior_(prior), options_(options) {}
+
+  Eigen::Index Size() const { return kParameters; }
+
+  using Gains = std::vector<std::vector<FilterGain>>;
+
+  FilterSettings SettingsOf(const Eigen::VectorXd& z, const NoiseModel& noise,
+                            double nominal_fix_delay_s) const {
+    FilterSettings settings;
+    settings.parameters = z.head<kParameters>();
+    settings.nominal_fix_delay_s = nominal_fix_delay_s;
+    settings.current_sigma_m_s = prior_.current_sigma_m_s;
+    settings.misalignment_sigma_rad = prior_.misalignment_sigma_rad;
+    settings.noise = noise;
+    settings.hold = options_.hold;
+    settings.propeller_separation_m = separation_m_;
+    settings.antenna = dataset_.sensors.antenna;
+    return settings;
+  }
+
+  Runs Run(const Eigen::VectorXd& z, const std::vector<NoiseModel>& noise, bool with_slopes,
+           std::size_t threads, Gains* gains = nullptr) const {
+    Runs all(dataset_.segments.size());
+    if (gains != nullptr) gains->assign(all.size(), {});
+    ForEachIndex(all.size(), threads, [&](std::size_t s) {
+      FilterSettings settings = SettingsOf(z, noise[dataset_.RecordingOf(s)], z[At(kFixDelay)]);
+      settings.with_slopes = with_slopes;
+      all[s] = InnovationsOf(dataset_.signals[s], dataset_.commands[s], settings,
+                             gains == nullptr ? nullptr : &(*gains)[s]);
+    });
+    return all;
+  }
+
+  // The sum of weighted squares at fixed gains, which the normal equations are those of.
+  double SquaresWith(const Gains& gains, const Eigen::VectorXd& z,
+                     const std::vector<NoiseModel>& noise, double nominal_fix_delay_s,
+                     std::size_t threads) const {
+    std::vector<double> sums(dataset_.segments.size(), 0.0);
+    ForEachIndex(sums.size(), threads, [&](std::size_t s) {
+      const FilterSettings settings =
+          SettingsOf(z, noise[dataset_.RecordingOf(s)], nominal_fix_delay_s);
+      for (const Innovation& i :
+           InnovationsWith(gains[s], dataset_.signals[s], dataset_.commands[s], settings)) {
+        sums[s] += i.value * i.value / i.variance;
+      }
+    });
+    double sum = 0.0;
+    for (const double of_segment : sums) sum += of_segment;
+    return std::isfinite(sum) ? sum : std::numeric_limits<double>::infinity();
+  }
+
+  Eigen::VectorXd PriorMean() const {
+    Eigen::VectorXd mean = Eigen::VectorXd::Zero(Size());
+    mean.head<kParameters>() = prior_.mean;
+    return mean;
+  }
+
+  // The precision matrix and mean of the prior; that of reverse thrust depends on forward thrust.
+  Eigen::MatrixXd PriorPrecision(const Eigen::VectorXd& z) const {
+    Eigen::MatrixXd precision = Eigen::MatrixXd::Zero(Size(), Size());
+    for (Eigen::Index i = 0; i < kParameters; ++i) {
+      precision(i, i) = 1.0 / std::pow(prior_.standard_deviation[i], 2);
+    }
+    const Eigen::VectorXd row = ReverseRow();
+    const double forward = std::max(z[At(kForwardLinear)] + z[At(kForwardQuadratic)], 0.05);
+    precision += row * row.transpose() / std::pow(prior_.reverse_over_forward_sigma * forward, 2);
+    return precision;
+  }
+
+  Eigen::VectorXd ReverseRow() const {
+    Eigen::VectorXd row = Eigen::VectorXd::Zero(Size());
+    row[At(kReverseLinear)] = row[At(kReverseQuadratic)] = 1.0;
+    row[At(kForwardLinear)] = row[At(kForwardQuadratic)] = -prior_.reverse_over_forward;
+    return row;
+  }
+
+  // The mean of the joint normal that the separate priors make.
+  Eigen::VectorXd PriorShift(const Eigen::MatrixXd& precision) const {
+    Eigen::VectorXd weighted = Eigen::VectorXd::Zero(Size());
+    const Eigen::VectorXd mean = PriorMean();
+    for (Eigen::Index i = 0; i < kParameters; ++i) {
+      weighted[i] = mean[i] / std::pow(prior_.standard_deviation[i], 2);
+    }
+    return precision.ldlt().solve(weighted);
+  }
+
+  bool Feasible(const Eigen::VectorXd& z) const {
+    const double m = z[At(kM22)] * z[At(kM33)] - z[At(kM23)] * z[At(kM23)];
+    return m > 0.05 * z[At(kM22)] * z[At(kM33)];
+  }
+
+  double Least(Eigen::Index i) const {
+    return i < kParameters ? prior_.least[i] : -std::numeric_limits<double>::infinity();
+  }
+  double Greatest(Eigen::Index i) const {
+    return i < kParameters ? prior_.greatest[i] : std::numeric_limits<double>::infinity();
+  }
+
+  const PreparedDataset& dataset_;
+  double separation_m_;
+  const FossenPrior& prior_;
+  const PredictionErrorOptions& options_;
+};
+
+struct Normal {
+  Eigen::MatrixXd information;
+  Eigen::VectorXd gradient;                    // half of that of the objective
+  Eigen::MatrixXd score_covariance;            // of the data's score, by blocks of time
+  Eigen::MatrixXd recording_score_covariance;  // by recordings
+  std::size_t blocks = 0;
+};
+
+// The normal equations of one segment, and the scores of its blocks.
+struct SegmentSums {
+  FossenSquare information = FossenSquare::Zero();
+  std::vector<ActiveVector> block_scores;
+};
+
+SegmentSums SumsOf(const std::vector<Innovation>& innovations, double block_s) {
+  SegmentSums sums;
+  double block_end_s = -std::numeric_limits<double>::infinity();
+  for (const Innovation& i : innovations) {
+    if (i.time_s > block_end_s) {
+      sums.block_scores.emplace_back(ActiveVector::Zero());
+      block_end_s = i.time_s + block_s;
+    }
+    sums.information.selfadjointView<Eigen::Lower>().rankUpdate(i.slope, 1.0 / i.variance);
+    sums.block_scores.back() += i.slope * (i.value / i.variance);
+  }
+  sums.information = sums.information.selfadjointView<Eigen::Lower>();
+  return sums;
+}
+
+Normal NormalEquations(const Problem& problem, const Runs& all) {
+  const FossenSquare zero = FossenSquare::Zero();
+  Normal normal{zero, ActiveVector::Zero(), zero, zero};
+  std::vector<ActiveVector> of_recordings(problem.dataset_.Recordings(), ActiveVector::Zero());
+  for (std::size_t s = 0; s < all.size(); ++s) {
+    const SegmentSums sums = SumsOf(all[s], problem.options_.block_s);
+    normal.information += sums.information;
+    normal.blocks += sums.block_scores.size();
+    for (const ActiveVector& score : sums.block_scores) {
+      normal.score_covariance += score * score.transpose();
+      of_recordings[problem.dataset_.RecordingOf(s)] += score;
+    }
+  }
+  for (const ActiveVector& score : of_recordings) {
+    normal.recording_score_covariance += score * score.transpose();
+    normal.gradient += score;
+  }
+  return normal;
+}
+
+// One step of Fisher scoring of each recording's noise, at most a factor e; slopes by finite
+// differences of log.
+double ScoreNoise(const Problem& problem, const Eigen::VectorXd& z, std::vector<NoiseModel>& noise,
+                  std::size_t threads) {
+  constexpr double kStep = 0.05;
+  std::vector<Runs> runs(kNoises + 1);
+  ForEachIndex(runs.size(), threads, [&](std::size_t i) {
+    std::vector<NoiseModel> moved = noise;
+    if (i > 0) {
+      for (NoiseModel& of_recording : moved) {
+        NoiseVector log = LogOf(of_recording);
+        log[static_cast<Eigen::Index>(i) - 1] += kStep;
+        of_recording = NoiseOf(log);
+      }
+    }
+    runs[i] = problem.Run(z, moved, false, 1);
+  });
+  double largest_move = 0.0;
+  for (std::size_t recording = 0; recording < noise.size(); ++recording) {
+    const NoiseVector log = LogOf(noise[recording]);
+    Eigen::Matrix<double, kNoises, kNoises> information =
+        Eigen::Matrix<double, kNoises, kNoises>::Identity() / std::pow(kNoisePriorSigma, 2);
+    NoiseVector gradient = (NoisePriorMean() - log) / std::pow(kNoisePriorSigma, 2);
+    for (std::size_t s = 0; s < runs[0].size(); ++s) {
+      if (problem.dataset_.RecordingOf(s) != recording) continue;
+      for (std::size_t k = 0; k < runs[0][s].size(); ++k) {
+        const Innovation& i = runs[0][s][k];
+        NoiseVector by_log_variance;
+        NoiseVector by_value;
+        for (int j = 0; j < kNoises; ++j) {
+          const Innovation& m = runs[static_cast<std::size_t>(j) + 1][s][k];
+          by_log_variance[j] = std::log(m.variance / i.variance) / kStep;
+          by_value[j] = (m.value - i.value) / kStep;
+        }
+        const double square = i.value * i.value / i.variance;
+        information += 0.5 * by_log_variance * by_log_variance.transpose() +
+                       by_value * by_value.transpose() / i.variance;
+        gradient += 0.5 * (square - 1.0) * by_log_variance - by_value * (i.value / i.variance);
+      }
+    }
+    NoiseVector step = information.ldlt().solve(gradient);
+    const double largest = step.cwiseAbs().maxCoeff();
+    if (largest > 1.0) step /= largest;
+    const NoiseVector next = (log + step).cwiseMax(LeastNoise()).cwiseMin(GreatestNoise());
+    noise[recording] = NoiseOf(next);
+    largest_move = std::max(largest_move, (next - log).cwiseAbs().maxCoeff());
+  }
+  return largest_move;
+}
+
+// The step of damped normal equations inside the bounds: a parameter that would leave its range
+// stops at the end of it.
+Eigen::VectorXd BoundedStep(const Problem& problem, const Eigen::VectorXd& z,
+                            const Eigen::MatrixXd& information, const Eigen::VectorXd& gradient,
+                            double damping) {
+  const Eigen::Index n = z.size();
+  Eigen::VectorXd step = Eigen::VectorXd::Zero(n);
+  std::vector<bool> fixed(static_cast<std::size_t>(n), false);
+  for (int pass = 0; pass < 12; ++pass) {
+    std::vector<Eigen::Index> free;
+    for (Eigen::Index i = 0; i < n; ++i)
+      if (!fixed[static_cast<std::size_t>(i)]) free.push_back(i);
+    Eigen::MatrixXd a(free.size(), free.size());
+    Eigen::VectorXd b(free.size());
+    for (Eigen::Index i = 0; i < a.rows(); ++i) {
+      const Eigen::Index fi = free[static_cast<std::size_t>(i)];
+      b[i] = gradient[fi];
+      for (Eigen::Index j = 0; j < n; ++j) {
+        if (fixed[static_cast<std::size_t>(j)]) b[i] -= information(fi, j) * step[j];
+      }
+      for (Eigen::Index j = 0; j < a.cols(); ++j) {
+        a(i, j) = information(fi, free[static_cast<std::size_t>(j)]);
+      }
+      a(i, i) *= 1.0 + damping;
+    }
+    const Eigen::VectorXd solved = a.ldlt().solve(b);
+    bool again = false;
+    for (Eigen::Index i = 0; i < a.rows(); ++i) {
+      const Eigen::Index fi = free[static_cast<std::size_t>(i)];
+      const double to = z[fi] + solved[i];
+      step[fi] = solved[i];
+      if (to < problem.Least(fi)) {
+        step[fi] = problem.Least(fi) - z[fi];
+        fixed[static_cast<std::size_t>(fi)] = again = true;
+      } else if (to > problem.Greatest(fi)) {
+        step[fi] = problem.Greatest(fi) - z[fi];
+        fixed[static_cast<std::size_t>(fi)] = again = true;
+      }
+    }
+    if (!again) break;
+  }
+  return step;
+}
+
+double Squares(const Runs& runs) {
+  double squares = 0.0;
+  for (const auto& of_segment : runs) {
+    for (const Innovation& i : of_segment) squares += i.value * i.value / i.variance;
+  }
+  return squares;
+}
+
+// Gauss-Newton steps at fixed gains, each followed by a step of the noise, until neither moves.
+class Search {
+ public:
+  Search(const Problem& problem, const PredictionErrorOptions& options)
+      : problem_(problem),
+        options_(options),
+        z_(problem.PriorMean()),
+        noise_(problem.dataset_.Recordings(), FirstNoise()) {}
+
+  /// Whether there is more to do after this iteration.
+  bool Iterate() {
+    Problem::Gains gains;
+    const Runs runs = problem_.Run(z_, noise_, true, options_.threads, &gains);
+    const Eigen::MatrixXd precision = problem_.PriorPrecision(z_);
+    const Eigen::VectorXd mean = problem_.PriorShift(precision);
+    normal_ = NormalEquations(problem_, runs);
+    information_ = normal_.information + precision;
+    // Innovations are readings less predictions: a step against their slope reduces them.
+    const Eigen::VectorXd gradient = -normal_.gradient - precision * (z_ - mean);
+    newton_mean_ = z_ + information_.ldlt().solve(gradient);
+    innovations_ = 0;
+    for (const auto& of_segment : runs) innovations_ += of_segment.size();
+
+    const auto cost = [&](const Eigen::VectorXd& z, double squares) {
+      return squares + (z - mean).dot(precision * (z - mean));
+    };
+    const double now = cost(z_, Squares(runs));
+    const double nominal_fix_delay_s = z_[At(kFixDelay)];
+    double moved = 0.0;
+    for (int attempt = 0; attempt < kMostAttempts; ++attempt) {
+      const Eigen::VectorXd step = BoundedStep(problem_, z_, information_, gradient, damping_);
+      const double expected = step.dot(2.0 * gradient - information_ * step);
+      const Eigen::VectorXd candidate = z_ + step;
+      if (problem_.Feasible(candidate) &&
+          cost(candidate, problem_.SquaresWith(gains, candidate, noise_, nominal_fix_delay_s,
+                                               options_.threads)) <= now * (1.0 + kRounding)) {
+        moved = std::sqrt(std::max(expected, 0.0));
+        z_ = candidate;
+        damping_ = std::max(0.2 * damping_, kLeastDamping);
+        break;
+      }
+      damping_ = std::max(10.0 * damping_, kFirstDamping);
+      if (expected < kNegligibleGain) break;
+    }
+    const double noise_moved = ScoreNoise(problem_, z_, noise_, options_.threads);
+    ++iterations_;
+    converged_ = moved < kConvergedMove && noise_moved < kConvergedNoise;
+    return !converged_ && iterations_ < options_.max_iterations;
+  }
+
+  double Share() const {
+    return static_cast<double>(iterations_) / static_cast<double>(options_.max_iterations);
+  }
+
+  PredictionErrorFit Fit() const {
+    PredictionErrorFit fit;
+    fit.parameters = z_;
+    fit.noise = noise_;
+    fit.newton_mean = newton_mean_;
+    fit.information = information_;
+    fit.data_information = normal_.information;
+    fit.score_covariance = normal_.score_covariance;
+    fit.recording_score_covariance = normal_.recording_score_covariance;
+    fit.blocks = normal_.blocks;
+    fit.innovations = innovations_;
+    fit.iterations = iterations_;
+    fit.converged = converged_;
+    return fit;
+  }
+
+ private:
+  static constexpr int kMostAttempts = 8;
+  static constexpr double kFirstDamping = 1e-3;
+  static constexpr double kLeastDamping = 1e-9;
+  static constexpr double kRounding = 1e-9;
+  static constexpr double kNegligibleGain = 1e-3;  // of a sum of weighted squares
+  static constexpr double kConvergedMove = 0.1;    // in standard errors, all parameters together
+  static constexpr double kConvergedNoise = 0.03;  // of the logarithm
+
+  const Problem& problem_;
+  const PredictionErrorOptions& options_;
+  Eigen::VectorXd z_;
+  std::vector<NoiseModel> noise_;
+  double damping_ = kFirstDamping;
+  Normal normal_;
+  Eigen::MatrixXd information_;
+  Eigen::VectorXd newton_mean_;
+  std::size_t innovations_ = 0;
+  int iterations_ = 0;
+  bool converged_ = false;
+};
+
+}  // namespace
+
+PredictionErrorFit FitPredictionError(const PreparedDataset& dataset, double propeller_separation_m,
+                                      const FossenPrior& prior,
+                                      const PredictionErrorOptions& options,
+                                      const std::function<void(double share)>& progress) {
+  const Problem problem(dataset, propeller_separation_m, prior, options);
+  Search search(problem, options);
+  while (search.Iterate()) {
+    if (progress) progress(search.Share());
+  }
+  return search.Fit();
+}
+
+}  // namespace telltale

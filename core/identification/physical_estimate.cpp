@@ -1,0 +1,233 @@
+#include "telltale/core/identification/physical_estimate.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include <Eigen/Cholesky>
+
+#include "telltale/core/base/version.hpp"
+#include "telltale/core/estimation/prediction_error/prediction_error.hpp"
+#include "telltale/core/uncertainty/distributions.hpp"
+#include "telltale/core/uncertainty/truncated_normal.hpp"
+
+namespace telltale {
+namespace {
+
+using enum FossenParameter;
+
+constexpr std::size_t kDraws = 2000;
+// A posterior this share of its prior or wider is the prior's.
+constexpr double kPriorShare = 0.8;
+constexpr double kFewestDegreesOfFreedom = 4.0;
+constexpr double kLeastCommandDeviation = 0.05;
+
+// The covariance of the estimates: scores by blocks of time, shrunk to the information's own shape
+// where the blocks are few, widened where whole recordings differ more than their blocks tell.
+Eigen::MatrixXd RobustCovariance(const PredictionErrorFit& fit, std::size_t recordings) {
+  const Eigen::Index n = fit.information.rows();
+  const Eigen::MatrixXd inverse = fit.information.llt().solve(Eigen::MatrixXd::Identity(n, n));
+  const double expected = (inverse * fit.data_information).trace();
+  const double by_blocks = (inverse * fit.score_covariance).trace() / expected;
+  double inflation = by_blocks;
+  if (recordings > 1) {
+    const double correction = static_cast<double>(recordings) / static_cast<double>(recordings - 1);
+    inflation = std::max(
+        inflation, correction * (inverse * fit.recording_score_covariance).trace() / expected);
+  }
+  const auto blocks = static_cast<double>(fit.blocks);
+  const double weight = blocks / (blocks + static_cast<double>(n));
+  const Eigen::MatrixXd scores = weight * (inflation / by_blocks) * fit.score_covariance +
+                                 (1.0 - weight) * inflation * fit.data_information;
+  const Eigen::MatrixXd prior = fit.information - fit.data_information;
+  return inverse * (scores + prior) * inverse;
+}
+
+double StudentWidening(std::size_t blocks, double level) {
+  const double degrees = std::max(static_cast<double>(blocks) - 1.0, kFewestDegreesOfFreedom);
+  const double upper = 0.5 * (1.0 + level);
+  return StudentQuantile(degrees, upper) / NormalQuantile(upper);
+}
+
+double Quantile(std::vector<double>& values, double probability) {
+  const auto place = static_cast<std::ptrdiff_t>(
+      std::lround(probability * static_cast<double>(values.size() - 1)));
+  std::nth_element(values.begin(), values.begin() + place, values.end());
+  return values[static_cast<std::size_t>(place)];
+}
+
+// Both ends at the level; an estimate at the end of its range has that end for a bound.
+Interval IntervalOf(const Eigen::VectorXd& draws, double estimate, double level) {
+  std::vector<double> values(draws.begin(), draws.end());
+  const double tail = 0.5 * (1.0 - level);
+  return {level, std::min(Quantile(values, tail), estimate),
+          std::max(Quantile(values, 1.0 - tail), estimate)};
+}
+
+Eigen::MatrixXd CovarianceOf(const Eigen::MatrixXd& draws) {
+  const Eigen::MatrixXd centred = draws.colwise() - draws.rowwise().mean();
+  return centred * centred.transpose() / static_cast<double>(draws.cols() - 1);
+}
+
+NoiseModel MeanNoise(const std::vector<NoiseModel>& noise) {
+  NoiseModel mean = noise.front();
+  const auto average = [&](auto member) {
+    double sum = 0.0;
+    for (const NoiseModel& one : noise) sum += std::log(member(one));
+    return std::exp(sum / static_cast<double>(noise.size()));
+  };
+  for (Eigen::Index i = 0; i < 3; ++i) {
+    mean.acceleration_sigma[i] =
+        average([i](const NoiseModel& one) { return one.acceleration_sigma[i]; });
+  }
+  mean.acceleration_time_constant_s =
+      average([](const NoiseModel& one) { return one.acceleration_time_constant_s; });
+  mean.fix_drift_sigma_m = average([](const NoiseModel& one) { return one.fix_drift_sigma_m; });
+  mean.fix_sigma_m = average([](const NoiseModel& one) { return one.fix_sigma_m; });
+  mean.heading_sigma_rad = average([](const NoiseModel& one) { return one.heading_sigma_rad; });
+  mean.stamp_sigma_s = average([](const NoiseModel& one) { return one.stamp_sigma_s; });
+  return mean;
+}
+
+PhysicalModel ModelWithBounds(const PredictionErrorFit& fit, const FossenPrior& prior,
+                              const Eigen::MatrixXd& draws, double level) {
+  PhysicalModel model;
+  model.covariance = CovarianceOf(draws);
+  model.noise = MeanNoise(fit.noise);
+  for (std::size_t i = 0; i < kFossenParameters; ++i) {
+    const auto at = static_cast<Eigen::Index>(i);
+    const FossenParameterName& name = FossenParameterNames()[i];
+    Coefficient parameter;
+    parameter.symbol = name.symbol;
+    parameter.unit = name.unit;
+    parameter.estimate = fit.parameters[at];
+    parameter.standard_error = std::sqrt(model.covariance(at, at));
+    parameter.interval = IntervalOf(draws.row(at), parameter.estimate, level);
+    const bool prior_decides =
+        parameter.standard_error > kPriorShare * prior.standard_deviation[at];
+    parameter.status = prior_decides ? CoefficientStatus::kPrior : CoefficientStatus::kEstimated;
+    model.parameters.push_back(parameter);
+  }
+  return model;
+}
+
+// The coefficients that the parameters imply, with bounds from the same draws.
+void WriteImpliedCoefficients(const FossenVector& parameters, const Eigen::MatrixXd& draws,
+                              double separation_m, double level, Identification& identification) {
+  const Eigen::VectorXd estimates = CoefficientsOf(parameters, separation_m);
+  Eigen::MatrixXd implied(estimates.size(), draws.cols());
+  for (Eigen::Index i = 0; i < draws.cols(); ++i) {
+    implied.col(i) = CoefficientsOf(WithPositiveMass(draws.col(i)), separation_m);
+  }
+  const Eigen::MatrixXd covariance = CovarianceOf(implied);
+  const auto write = [&](Eigen::Index at, Coefficient coefficient) {
+    coefficient.estimate = estimates[at];
+    coefficient.standard_error = std::sqrt(covariance(at, at));
+    coefficient.interval = IntervalOf(implied.row(at), coefficient.estimate, level);
+    coefficient.status = CoefficientStatus::kEstimated;
+    return coefficient;
+  };
+  Eigen::Index at = 0;
+  for (const Equation equation : kEquations) {
+    for (const Regressor& regressor : Regressors(equation, Parameterization::kPropeller)) {
+      Coefficient coefficient;
+      coefficient.equation = equation;
+      coefficient.regressor = regressor.name;
+      coefficient.symbol = regressor.symbol;
+      coefficient.unit = regressor.unit;
+      identification.coefficients.push_back(write(at++, coefficient));
+    }
+  }
+  identification.covariance = covariance.topLeftCorner(at, at);
+  Coefficient time_constant;
+  time_constant.symbol = "tau";
+  time_constant.unit = "s";
+  identification.thruster_time_constant = write(at, time_constant);
+  identification.time_constant_covariance = covariance.topRightCorner(at, 1);
+}
+
+Refusal PriorWarning(const PhysicalModel& model) {
+  std::string names;
+  for (const Coefficient& parameter : model.parameters) {
+    if (parameter.status != CoefficientStatus::kPrior) continue;
+    names += (names.empty() ? "" : ", ") + parameter.symbol;
+  }
+  if (names.empty()) return {};
+  return {"parameters", "the data hardly narrow the prior of " + names,
+          "record manoeuvres that excite them: turns to both sides at several speeds, reverse, and "
+          "coasting"};
+}
+
+double CommandDeviation(const PreparedDataset& dataset) {
+  double sum = 0.0;
+  double square = 0.0;
+  double count = 0.0;
+  for (const PreparedRow& row : dataset.rows) {
+    for (const double delta : {row.delta.port, row.delta.starboard}) {
+      sum += delta;
+      square += delta * delta;
+      count += 1.0;
+    }
+  }
+  return count == 0.0 ? 0.0 : std::sqrt(std::max(square / count - sum * sum / count / count, 0.0));
+}
+
+}  // namespace
+
+Result<Identification> IdentifyPhysicalModel(const PreparedDataset& dataset, const Vehicle& vehicle,
+                                             const IdentifyOptions& options,
+                                             const Progress& progress) {
+  const double deviation = CommandDeviation(dataset);
+  if (deviation < kLeastCommandDeviation) {
+    return Refuse("commands",
+                  "they vary by only " + std::to_string(deviation) +
+                      " of full command (standard deviation), 0.05 are needed",
+                  "record starts, stops and turns");
+  }
+  const FossenPrior prior = PriorOf(vehicle);
+  const PredictionErrorFit fit =
+      FitPredictionError(dataset, vehicle.propeller_separation_m, prior,
+                         {CommandHold::kHeld, options.threads}, [&](double share) {
+                           if (progress) progress("fitting the physical model", 0.1 + 0.8 * share);
+                         });
+  if (!fit.parameters.allFinite() || !fit.information.allFinite()) {
+    return Refuse("model", "the fit of the physical model diverged",
+                  "check the vehicle file and the recording with `telltale validate`");
+  }
+  if (progress) progress("bounding", 0.9);
+  const double widening = StudentWidening(fit.blocks, options.interval_level);
+  const Eigen::MatrixXd covariance =
+      widening * widening * RobustCovariance(fit, dataset.Recordings());
+  const Eigen::MatrixXd draws =
+      DrawTruncatedNormal(fit.newton_mean, covariance, prior.least, prior.greatest, fit.parameters,
+                          kDraws, options.seed);
+
+  Identification identification;
+  identification.vehicle_id = vehicle.vehicle_id;
+  identification.structure = Structure::kFossen;
+  identification.parameterization = Parameterization::kPropeller;
+  identification.estimator = Estimator::kPredictionError;
+  identification.sampling_period_s = dataset.sampling_period_s;
+  identification.dead_zone = {fit.parameters[At(kDeadBand)], -fit.parameters[At(kDeadBand)]};
+  identification.physical = ModelWithBounds(fit, prior, draws, options.interval_level);
+  identification.physical->propeller_separation_m = vehicle.propeller_separation_m;
+  WriteImpliedCoefficients(fit.parameters, draws, vehicle.propeller_separation_m,
+                           options.interval_level, identification);
+  if (Refusal warning = PriorWarning(*identification.physical); !warning.subject.empty()) {
+    identification.refusals.push_back(std::move(warning));
+  }
+  if (!fit.converged) {
+    identification.refusals.push_back({"model",
+                                       "the fit stopped after " + std::to_string(fit.iterations) +
+                                           " iterations before it converged",
+                                       "record more varied manoeuvres"});
+  }
+  identification.provenance.bounds_basis = "scores of " + std::to_string(fit.blocks) +
+                                           " blocks of 10 s, Student t, truncated to the "
+                                           "physical range";
+  identification.provenance.clusters = fit.blocks;
+  return identification;
+}
+
+}  // namespace telltale

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "telltale/core/estimation/prediction_error/innovations.hpp"
+#include "telltale/core/identification/coefficient.hpp"
+#include "telltale/core/vessel/fossen_model.hpp"
+
+namespace telltale {
+
+/// The physical form of a boat with bounds; docs/concepts/physical-model.md.
+/// Shapes: parameters and covariance in the order of FossenParameter. The equation of a parameter
+/// is unknown, its regressor is empty.
+struct PhysicalModel {
+  std::vector<Coefficient> parameters;
+  Eigen::MatrixXd covariance;
+  double propeller_separation_m = 0.0;
+  NoiseModel noise;  ///< the geometric mean over the recordings
+
+  FossenVector Estimates() const {
+    FossenVector estimates;
+    for (std::size_t i = 0; i < kFossenParameters; ++i) {
+      estimates[static_cast<Eigen::Index>(i)] = parameters[i].estimate;
+    }
+    return estimates;
+  }
+};
+
+}  // namespace telltale

@@ -1,0 +1,186 @@
+#include "telltale/core/vessel/fossen_model.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/Core>
+
+#include "telltale/core/base/contract.hpp"
+
+namespace telltale {
+namespace {
+
+using enum FossenParameter;
+
+// Of sway and yaw.
+Eigen::Matrix2d InverseMass(const FossenVector& p) {
+  const double determinant = p[At(kM22)] * p[At(kM33)] - p[At(kM23)] * p[At(kM23)];
+  Require(determinant > 0.0, "a positive definite mass matrix");
+  Eigen::Matrix2d inverse;
+  inverse << p[At(kM33)], -p[At(kM23)], -p[At(kM23)], p[At(kM22)];
+  return inverse / determinant;
+}
+
+constexpr Eigen::Index kSurgeCoefficients = 9;
+constexpr Eigen::Index kTurningCoefficients = 13;
+constexpr Eigen::Index kCoefficients = kSurgeCoefficients + 2 * kTurningCoefficients;
+
+}  // namespace
+
+const std::array<FossenParameterName, kFossenParameters>& FossenParameterNames() {
+  static const std::array<FossenParameterName, kFossenParameters> names = {{
+      {"m22", "1", "mass and added mass in sway over those in surge"},
+      {"m23", "m", "coupling of sway and yaw over the mass in surge"},
+      {"m33", "m^2", "moment of inertia in yaw over the mass in surge"},
+      {"Xu", "1/s", "linear drag in surge"},
+      {"Xuu", "1/m", "quadratic drag in surge"},
+      {"Yv", "1/s", "linear drag in sway"},
+      {"Yr", "m/s", "linear force in sway of the yaw rate"},
+      {"Nv", "m/s", "linear moment in yaw of the sway velocity"},
+      {"Nr", "m^2/s", "linear damping in yaw"},
+      {"Yvv", "1/m", "quadratic drag in sway"},
+      {"Nrr", "m^2", "quadratic damping in yaw"},
+      {"Yuv", "1/m", "lift in sway of the sway velocity"},
+      {"Yur", "1", "lift in sway of the yaw rate"},
+      {"Nuv", "1", "moment of lift in yaw of the sway velocity"},
+      {"Nur", "m", "moment of lift in yaw of the yaw rate"},
+      {"Tf1", "m/s^2", "thrust forward, linear in the command"},
+      {"Tf2", "m/s^2", "thrust forward, quadratic in the command"},
+      {"Tr1", "m/s^2", "thrust in reverse, linear in the command"},
+      {"Tr2", "m/s^2", "thrust in reverse, quadratic in the command"},
+      {"d0", "1", "dead band of the command"},
+      {"tau", "s", "time constant of the thrust"},
+      {"delay_commands", "s", "delay of the commands behind the headings"},
+      {"delay_fixes", "s", "delay of the fixes behind the headings"},
+  }};
+  return names;
+}
+
+FossenDynamics::FossenDynamics(const FossenVector& parameters, double propeller_separation_m)
+    : p_(parameters),
+      half_separation_m_(0.5 * propeller_separation_m),
+      inverse_mass_(InverseMass(parameters)) {}
+
+FossenDynamics::Evaluation FossenDynamics::At(const Eigen::Vector3d& nu, const Thrusts& port,
+                                              const Thrusts& starboard) const {
+  const auto p = [this](FossenParameter parameter) { return p_[telltale::At(parameter)]; };
+  const double u = nu[0];
+  const double v = nu[1];
+  const double r = nu[2];
+  const Eigen::Vector3d thrust = ByThrust(port, starboard);
+  Evaluation at;
+  at.nu_dot[0] = p(kM22) * v * r + p(kM23) * r * r - (p(kXu) + p(kXuu) * std::abs(u)) * u;
+  const double sway =
+      -u * r - (p(kYv) + p(kYvv) * std::abs(v) + p(kYuv) * u) * v - (p(kYr) + p(kYur) * u) * r;
+  const double yaw = -(p(kM22) - 1.0 + p(kNuv)) * u * v - (p(kM23) + p(kNur)) * u * r - p(kNv) * v -
+                     (p(kNr) + p(kNrr) * std::abs(r)) * r;
+  at.nu_dot.tail<2>() = inverse_mass_ * Eigen::Vector2d(sway, yaw);
+  at.nu_dot += thrust;
+  at.by_nu.row(0) << -p(kXu) - 2.0 * p(kXuu) * std::abs(u), p(kM22) * r,
+      p(kM22) * v + 2.0 * p(kM23) * r;
+  Eigen::Matrix<double, 2, 3> force;
+  force.row(0) << -r - p(kYuv) * v - p(kYur) * r,
+      -p(kYv) - 2.0 * p(kYvv) * std::abs(v) - p(kYuv) * u, -u - p(kYr) - p(kYur) * u;
+  force.row(1) << -(p(kM22) - 1.0 + p(kNuv)) * v - (p(kM23) + p(kNur)) * r,
+      -(p(kM22) - 1.0 + p(kNuv)) * u - p(kNv),
+      -(p(kM23) + p(kNur)) * u - p(kNr) - 2.0 * p(kNrr) * std::abs(r);
+  at.by_nu.bottomRows<2>() = inverse_mass_ * force;
+  return at;
+}
+
+Eigen::Vector3d FossenDynamics::ByThrust(const Thrusts& port, const Thrusts& starboard) const {
+  const Thrusts curve(p_[telltale::At(kForwardLinear)], p_[telltale::At(kForwardQuadratic)],
+                      p_[telltale::At(kReverseLinear)], -p_[telltale::At(kReverseQuadratic)]);
+  const double port_thrust = curve.dot(port);
+  const double starboard_thrust = curve.dot(starboard);
+  Eigen::Vector3d nu_dot;
+  nu_dot[0] = port_thrust + starboard_thrust;
+  nu_dot.tail<2>() = inverse_mass_.col(1) * (half_separation_m_ * (port_thrust - starboard_thrust));
+  return nu_dot;
+}
+
+Eigen::Matrix<double, 3, 19> FossenDynamics::ByParameter(const Eigen::Vector3d& nu,
+                                                         const Eigen::Vector3d& nu_dot,
+                                                         const Thrusts& port,
+                                                         const Thrusts& starboard) const {
+  const double u = nu[0];
+  const double v = nu[1];
+  const double r = nu[2];
+  Eigen::Matrix<double, 3, 19> by = Eigen::Matrix<double, 3, 19>::Zero();
+  const auto set = [&by](FossenParameter parameter, double surge, double sway, double yaw) {
+    by.col(telltale::At(parameter)) << surge, sway, yaw;
+  };
+  set(kM22, v * r, -nu_dot[1], -u * v);
+  set(kM23, r * r, -nu_dot[2], -u * r - nu_dot[1]);
+  set(kM33, 0.0, 0.0, -nu_dot[2]);
+  set(kXu, -u, 0.0, 0.0);
+  set(kXuu, -u * std::abs(u), 0.0, 0.0);
+  set(kYv, 0.0, -v, 0.0);
+  set(kYr, 0.0, -r, 0.0);
+  set(kNv, 0.0, 0.0, -v);
+  set(kNr, 0.0, 0.0, -r);
+  set(kYvv, 0.0, -v * std::abs(v), 0.0);
+  set(kNrr, 0.0, 0.0, -r * std::abs(r));
+  set(kYuv, 0.0, -u * v, 0.0);
+  set(kYur, 0.0, -u * r, 0.0);
+  set(kNuv, 0.0, 0.0, -u * v);
+  set(kNur, 0.0, 0.0, -u * r);
+  const Thrusts sum = port + starboard;
+  const Thrusts difference = half_separation_m_ * (port - starboard);
+  set(kForwardLinear, sum[0], 0.0, difference[0]);
+  set(kForwardQuadratic, sum[1], 0.0, difference[1]);
+  set(kReverseLinear, sum[2], 0.0, difference[2]);
+  set(kReverseQuadratic, -sum[3], 0.0, -difference[3]);
+  by.bottomRows<2>() = (inverse_mass_ * by.bottomRows<2>()).eval();
+  return by;
+}
+
+FossenVector WithPositiveMass(FossenVector parameters) {
+  const double limit = 0.95 * std::sqrt(parameters[At(kM22)] * parameters[At(kM33)]);
+  parameters[At(kM23)] = std::clamp(parameters[At(kM23)], -limit, limit);
+  return parameters;
+}
+
+Eigen::VectorXd CoefficientsOf(const FossenVector& p, double propeller_separation_m) {
+  Eigen::VectorXd c = Eigen::VectorXd::Zero(kCoefficients + 1);
+  c[0] = -p[At(kXuu)];
+  c[1] = p[At(kM22)];
+  c[2] = p[At(kM23)];
+  c[3] = -p[At(kXu)];
+  const Eigen::Vector4d thrust(p[At(kForwardQuadratic)], p[At(kForwardLinear)],
+                               -p[At(kReverseQuadratic)], p[At(kReverseLinear)]);
+  c.segment<4>(5) = thrust;
+
+  // One column of sway and yaw, from the force and moment that its regressor has.
+  const Eigen::Matrix2d inverse_mass = InverseMass(p);
+  const auto set = [&](Eigen::Index column, double force, double moment) {
+    const Eigen::Vector2d acceleration = inverse_mass * Eigen::Vector2d(force, moment);
+    c[kSurgeCoefficients + column] = acceleration[0];
+    c[kSurgeCoefficients + kTurningCoefficients + column] = acceleration[1];
+  };
+  set(0, -p[At(kYvv)], 0.0);
+  set(3, 0.0, -p[At(kNrr)]);
+  set(4, -p[At(kYuv)], 1.0 - p[At(kM22)] - p[At(kNuv)]);
+  set(5, -1.0 - p[At(kYur)], -p[At(kM23)] - p[At(kNur)]);
+  set(6, -p[At(kYv)], -p[At(kNv)]);
+  set(7, -p[At(kYr)], -p[At(kNr)]);
+  for (Eigen::Index i = 0; i < 4; ++i) {
+    set(9 + i, 0.0, 0.5 * propeller_separation_m * thrust[i]);
+  }
+  c[kCoefficients] = p[At(kTimeConstant)];
+  return c.array() + 0.0;  // no negative zeros
+}
+
+VesselModel VesselModelOf(const FossenVector& parameters, double propeller_separation_m) {
+  VesselModel model = VesselModel::OfZeros(
+      Structure::kFirstOrderDynamic, Parameterization::kPropeller, Discretisation::kContinuous);
+  const Eigen::VectorXd all = CoefficientsOf(parameters, propeller_separation_m);
+  model.theta[0] = all.head(kSurgeCoefficients);
+  model.theta[1] = all.segment(kSurgeCoefficients, kTurningCoefficients);
+  model.theta[2] = all.segment(kSurgeCoefficients + kTurningCoefficients, kTurningCoefficients);
+  model.dead_zone = {parameters[At(kDeadBand)], -parameters[At(kDeadBand)]};
+  model.thruster_time_constant_s = parameters[At(kTimeConstant)];
+  return model;
+}
+
+}  // namespace telltale

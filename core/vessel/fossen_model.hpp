@@ -1,0 +1,107 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <string_view>
+
+#include <Eigen/Core>
+
+#include "telltale/core/vessel/vessel_model.hpp"
+
+namespace telltale {
+
+/// The physical parameters of a boat in Fossen's form, all divided by m11, the mass with added mass
+/// in surge: no recording of a boat without a force sensor shows more.
+/// Model, docs/concepts/physical-model.md (101)..(105), with nu the velocity through the water:
+///   M nu_dot + C(nu) nu + D(nu) nu = tau,   M = [1 0 0; 0 m22 m23; 0 m23 m33],
+/// C follows from M, D nu = [(Xu + Xuu |u|) u; (Yv + Yvv |v| + Yuv u) v + (Yr + Yur u) r;
+/// (Nv + Nuv u) v + (Nr + Nrr |r| + Nur u) r], tau = [Tp + Ts; 0; (b / 2) (Tp - Ts)]. A propeller
+/// gives T = forward_linear e + forward_quadratic e^2 for e, the command beyond the dead band, and
+/// T = -(reverse_linear e + reverse_quadratic e^2) in reverse; thrust follows with a first-order
+/// lag. Drag is positive where it opposes the motion. Source: Fossen, Handbook of Marine Craft
+/// Hydrodynamics and Motion Control, 2nd ed., 6.5 and 7.1.
+enum class FossenParameter : std::size_t {
+  kM22,
+  kM23,
+  kM33,
+  kXu,
+  kXuu,
+  kYv,
+  kYr,
+  kNv,
+  kNr,
+  kYvv,
+  kNrr,
+  kYuv,
+  kYur,
+  kNuv,
+  kNur,
+  kForwardLinear,
+  kForwardQuadratic,
+  kReverseLinear,
+  kReverseQuadratic,
+  kDeadBand,
+  kTimeConstant,
+  kCommandDelay,
+  kFixDelay,
+};
+
+inline constexpr std::size_t kFossenParameters = 23;
+using FossenVector = Eigen::Matrix<double, static_cast<int>(kFossenParameters), 1>;
+using FossenSquare =
+    Eigen::Matrix<double, static_cast<int>(kFossenParameters), static_cast<int>(kFossenParameters)>;
+
+constexpr Eigen::Index At(FossenParameter parameter) {
+  return static_cast<Eigen::Index>(parameter);
+}
+
+struct FossenParameterName {
+  std::string_view symbol;
+  std::string_view unit;
+  std::string_view meaning;
+};
+
+/// Symbol, unit and meaning in the order of FossenParameter.
+const std::array<FossenParameterName, kFossenParameters>& FossenParameterNames();
+
+/// Accelerations of the physical form with their derivatives.
+class FossenDynamics {
+ public:
+  /// Requires: a positive definite M.
+  FossenDynamics(const FossenVector& parameters, double propeller_separation_m);
+
+  using Thrusts = Eigen::Vector4d;  ///< f:d, f:d^2, r:d, r:d^2 of one propeller, after the lag
+
+  struct Evaluation {
+    Eigen::Vector3d nu_dot;
+    Eigen::Matrix3d by_nu;
+  };
+
+  /// nu_dot under the lagged regressors of both propellers.
+  Evaluation At(const Eigen::Vector3d& nu, const Thrusts& port, const Thrusts& starboard) const;
+
+  /// d nu_dot / d parameter for the parameters before kDeadBand; `nu_dot` as At() gives it.
+  Eigen::Matrix<double, 3, 19> ByParameter(const Eigen::Vector3d& nu, const Eigen::Vector3d& nu_dot,
+                                           const Thrusts& port, const Thrusts& starboard) const;
+
+  /// d nu_dot for given changes of the lagged regressors.
+  Eigen::Vector3d ByThrust(const Thrusts& port, const Thrusts& starboard) const;
+
+ private:
+  FossenVector p_;
+  double half_separation_m_;
+  Eigen::Matrix2d inverse_mass_;  ///< of sway and yaw
+};
+
+/// The same boat in the regressors of Parameterization::kPropeller, with a first-order thruster
+/// lag. It is exact: the physical form lies in their span. Delays are not part of it.
+VesselModel VesselModelOf(const FossenVector& parameters, double propeller_separation_m);
+
+/// Its coefficients in the order surge, sway, yaw and of Regressors(), then the time constant.
+Eigen::VectorXd CoefficientsOf(const FossenVector& parameters, double propeller_separation_m);
+
+/// The parameters with m23 moved, where it must be, to within 95 % of where M ceases to be positive
+/// definite.
+FossenVector WithPositiveMass(FossenVector parameters);
+
+}  // namespace telltale

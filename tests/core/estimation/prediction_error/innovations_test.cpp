@@ -1,0 +1,109 @@
+#include "telltale/core/estimation/prediction_error/innovations.hpp"
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "telltale/core/vessel/vehicle.hpp"
+
+namespace telltale {
+namespace {
+
+using enum FossenParameter;
+
+FossenVector Boat() {
+  FossenVector p;
+  p << 1.5, 0.03, 0.18, 0.15, 0.45, 1.2, 0.05, -0.05, 0.25, 1.5, 0.2, 0.3, 0.1, -0.1, 0.1, 0.5, 1.6,
+      0.4, 1.2, 0.06, 0.25, 0.05, 0.1;
+  return p;
+}
+
+struct Track {
+  RawSignals signals;
+  HeldCommands commands;
+};
+
+// A boat that weaves about a line at 1.5 m/s, and commands that have little to do with it: slopes
+// have to be right whatever the readings are.
+Track Weaving() {
+  std::vector<ThrusterSample> commands;
+  RawSignals signals;
+  for (int i = 0; i <= 400; ++i) {
+    const double t = 0.1 * i;
+    commands.push_back({t, 1500.0 + 350.0 * std::sin(0.7 * t), 1500.0 + 380.0 * std::cos(0.4 * t)});
+    signals.psi_rad.times_s.push_back(t);
+    signals.psi_rad.values.push_back(0.5 * std::sin(0.3 * t));
+    if (i % 2 != 0) continue;
+    signals.north_m.times_s.push_back(t);
+    signals.north_m.values.push_back(1.5 * t);
+    signals.east_m.values.push_back(2.0 * std::sin(0.3 * t));
+  }
+  signals.east_m.times_s = signals.north_m.times_s;
+  return {signals, HeldCommands(commands, Vehicle{})};
+}
+
+FilterSettings Settings() {
+  FilterSettings settings;
+  settings.parameters = Boat();
+  settings.propeller_separation_m = 0.6;
+  settings.antenna = {0.2, -0.1};
+  settings.nominal_fix_delay_s = settings.parameters[At(kFixDelay)];
+  return settings;
+}
+
+class InnovationSlope : public testing::TestWithParam<std::size_t> {};
+
+TEST_P(InnovationSlope, IsThatOfCentralDifferencesAtFixedGains) {
+  const Track track = Weaving();
+  FilterSettings settings = Settings();
+  settings.with_slopes = true;
+  std::vector<FilterGain> gains;
+  const auto with_slopes = InnovationsOf(track.signals, track.commands, settings, &gains);
+  settings.with_slopes = false;
+  const auto at = static_cast<Eigen::Index>(GetParam());
+  // Half way between truncation (step squared) and rounding (1e-16 over the step).
+  constexpr double kStep = 1e-5;
+  const auto moved = [&](double by) {
+    FilterSettings shifted = settings;
+    shifted.parameters[at] += by;
+    return InnovationsWith(gains, track.signals, track.commands, shifted);
+  };
+  const auto above = moved(kStep);
+  const auto below = moved(-kStep);
+  double error = 0.0;
+  double size = 0.0;
+  for (std::size_t k = 0; k < with_slopes.size(); ++k) {
+    const double difference = (above[k].value - below[k].value) / (2.0 * kStep);
+    error += std::pow(difference - with_slopes[k].slope[at], 2);
+    size += difference * difference;
+  }
+  EXPECT_GT(size, 0.0);
+  // Slopes are those of the midpoint rule: they leave out terms of third order in the step, a share
+  // (lambda h)^2 / 6 = 0.4 % at the fastest rate, 3 /s, and the longest step, 50 ms.
+  EXPECT_LT(std::sqrt(error / size), 5e-3);
+}
+
+INSTANTIATE_TEST_SUITE_P(OfEveryParameter, InnovationSlope,
+                         testing::Range<std::size_t>(0, kFossenParameters), [](const auto& index) {
+                           return std::string(FossenParameterNames()[index.param].symbol);
+                         });
+
+TEST(Innovations, AreTheSameWithTheirOwnGains) {
+  const Track track = Weaving();
+  std::vector<FilterGain> gains;
+  const auto own = InnovationsOf(track.signals, track.commands, Settings(), &gains);
+  const auto replayed = InnovationsWith(gains, track.signals, track.commands, Settings());
+  ASSERT_EQ(own.size(), replayed.size());
+  for (std::size_t k = 0; k < own.size(); ++k) EXPECT_EQ(own[k].value, replayed[k].value);
+}
+
+TEST(Innovations, AreNoneWithoutHeadings) {
+  Track track = Weaving();
+  track.signals.psi_rad = {};
+  EXPECT_TRUE(InnovationsOf(track.signals, track.commands, Settings()).empty());
+}
+
+}  // namespace
+}  // namespace telltale
