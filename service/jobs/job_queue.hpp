@@ -441,7 +441,7 @@ template <class Request, class Stage, class Reply>
 void JobQueue<Request, Stage, Reply>::Report(const std::shared_ptr<Job>& job,
                                              std::string_view stage, double fraction) {
   if (stopping_) throw Stopping();
-  std::vector<Stage> news;
+  std::vector<Stage> reports;
   Outbox expired;
   bool abandoned = false;
   {
@@ -450,12 +450,12 @@ void JobQueue<Request, Stage, Reply>::Report(const std::shared_ptr<Job>& job,
     abandoned = job->askers.empty();
     for (const Asker& asker : job->askers) {
       auto progress = history_.Advance(asker.correlation_id, stage, fraction);
-      if (progress && !asker.answer) news.push_back(std::move(*progress));
+      if (progress && !asker.answer) reports.push_back(std::move(*progress));
     }
   }
   Send(expired);
   if (abandoned) throw Abandoned();
-  for (const Stage& progress : news) replies_.Send(progress);
+  for (const Stage& progress : reports) replies_.Send(progress);
 }
 
 }  // namespace telltale
