@@ -31,8 +31,8 @@ void ImportLog(const ImportArguments& arguments) {
 
 void AddImport(CLI::App& telltale) {
   const auto arguments = std::make_shared<ImportArguments>();
-  CLI::App& command = *telltale.add_subcommand(
-      "import", "Turns a log of any readable format into a telemetry log");
+  CLI::App& command =
+      *telltale.add_subcommand("import", "Turns a log of any readable format into a telemetry log");
   AddLog(command, arguments->log, arguments->options);
   command.add_option("--out", arguments->out, "folder for gnss.csv, heading.csv and thrusters.csv")
       ->type_name("DIR")

@@ -141,7 +141,7 @@ CLI::Option* AddFile(CLI::App& command, const std::string& name, std::filesystem
 }
 
 void AddSourceOptions(CLI::App& command, SourceOptions& options, CLI::Option* log) {
-  const auto add = [&](const char* name, std::optional<int>& target, CLI::Range range,
+  const auto add = [&](const char* name, std::optional<int>& target, const CLI::Range& range,
                        const char* description) {
     command.add_option(name, target, description)
         ->type_name("N")

@@ -28,7 +28,7 @@ class RosRecording {
  public:
   /// A message of a topic, `type` as "sensor_msgs/msg/NavSatFix". Types of no use are passed over.
   void Take(std::string_view topic, std::string_view type, std::int64_t received_ns,
-            std::span<const std::uint8_t> cdr);
+            std::span<const std::uint8_t> bytes);
 
   /// Requires: options.Validate() is empty.
   SourceLog Finish(const SourceOptions& options) const;
