@@ -1,5 +1,10 @@
 #include "telltale/service/configuration.hpp"
 
+#include <algorithm>
+#include <system_error>
+#include <utility>
+#include <vector>
+
 #include "telltale/client/recording/file_contents.hpp"
 #include "telltale/idl/codec/vehicle_file.hpp"
 
@@ -20,6 +25,22 @@ void ResolvePaths(const std::filesystem::path& folder, HttpSettings& http) {
   }
 }
 
+/// In the order of their names.
+Decoded<std::vector<std::filesystem::path>> VehicleFilesIn(const std::filesystem::path& folder) {
+  std::vector<std::filesystem::path> files;
+  std::error_code error;
+  for (std::filesystem::directory_iterator entry(folder, error), end; !error && entry != end;
+       entry.increment(error)) {
+    if (entry->path().extension() == ".textproto") files.push_back(entry->path());
+  }
+  if (error) {
+    return tl::unexpected(CodecError{"vehicle_folder", folder.string(),
+                                     "a folder that can be read; " + error.message()});
+  }
+  std::ranges::sort(files);
+  return files;
+}
+
 }  // namespace
 
 Decoded<DaemonConfig> LoadConfiguration(const std::filesystem::path& file) {
@@ -28,7 +49,14 @@ Decoded<DaemonConfig> LoadConfiguration(const std::filesystem::path& file) {
   auto config = ParseDaemonConfig(*text, file.string());
   if (!config) return config;
   if (config->http) ResolvePaths(file.parent_path(), *config->http);
-  for (const std::string& named : config->vehicle_files) {
+  std::vector<std::filesystem::path> vehicle_files(config->vehicle_files.begin(),
+                                                   config->vehicle_files.end());
+  if (!config->vehicle_folder.empty()) {
+    const auto found = VehicleFilesIn(file.parent_path() / config->vehicle_folder);
+    if (!found) return tl::unexpected(found.error());
+    vehicle_files.insert(vehicle_files.end(), found->begin(), found->end());
+  }
+  for (const std::filesystem::path& named : vehicle_files) {
     const auto vehicle_file = file.parent_path() / named;
     const auto vehicle_text = Read(vehicle_file, "vehicle_files");
     if (!vehicle_text) return tl::unexpected(vehicle_text.error());

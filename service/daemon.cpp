@@ -2,6 +2,7 @@
 
 #include <string_view>
 #include <utility>
+#include <variant>
 
 #include <spdlog/spdlog.h>
 
@@ -10,32 +11,76 @@ namespace telltale {
 Daemon::Daemon(const DaemonConfig& config, std::function<void(const std::exception&)> failed)
     : state_lock_(config.state_directory),
       fleet_(config.vehicles, config.window),
+      windows_(WindowStore(config.state_directory), fleet_, config.window.duration_s,
+               config.window_save_period_s),
       bus_log_(spdlog::default_logger(),
                [this](std::string_view topic) { fleet_.CountUnreadable(topic); }),
       participant_(config.domain),
       models_(participant_, ModelStore(config.state_directory), fleet_),
       watcher_(participant_, view_),
       replies_(participant_),
+      journal_(config.state_directory),
       diagnoses_(participant_, DiagnosisStore(config.state_directory), fleet_),
-      jobs_(fleet_, models_, baselines_, replies_, config.identification),
-      diagnosis_jobs_(fleet_, models_, baselines_, diagnoses_, replies_, config.identification),
+      jobs_(fleet_, models_, baselines_, replies_, config.identification, journal_),
+      diagnosis_jobs_(fleet_, models_, baselines_, diagnoses_, replies_, config.identification,
+                      journal_),
+      fleet_jobs_(fleet_, models_, replies_, journal_,
+                  {.submit = [this](const IdentifyRequest& request,
+                                    auto answer) { jobs_.Refresh(request, std::move(answer)); },
+                   .cancel =
+                       [this](const std::string& correlation_id) {
+                         return jobs_.Cancel(correlation_id) ||
+                                diagnosis_jobs_.Cancel(correlation_id);
+                       }}),
       quality_(participant_, fleet_, models_, view_, config.quality_period_s),
       ingest_(participant_, fleet_,
-              {.identify = [this](IdentifyRequest request) { jobs_.Submit(std::move(request)); },
-               .diagnose =
-                   [this](DiagnoseRequest request) { diagnosis_jobs_.Submit(std::move(request)); },
+              {.identify = [this](IdentifyRequest request) { Submit(std::move(request)); },
+               .diagnose = [this](DiagnoseRequest request) { Submit(std::move(request)); },
+               .fleet = [this](FleetRequest request) { Submit(std::move(request)); },
                .answer_identify = [this](const IdentifyReply& reply) { replies_.Send(reply); },
                .answer_diagnose = [this](const DiagnoseReply& reply) { replies_.Send(reply); },
-               .heartbeat = [this] { models_.AssertLiveliness(); },
+               .answer_fleet = [this](const FleetReply& reply) { replies_.Send(reply); },
+               .heartbeat =
+                   [this] {
+                     models_.AssertLiveliness();
+                     models_.WatchForRivals();
+                   },
                .received = [this](VehicleWindow& window) { quality_.PublishReceipt(window); },
                .failed = std::move(failed)}) {
+  ResumeRequests();
   if (!config.http) return;
   web_.emplace(
       *config.http, fleet_, models_, view_,
-      OrderHandlers{
-          .identify = [this](IdentifyRequest request) { jobs_.Submit(std::move(request)); },
-          .diagnose =
-              [this](DiagnoseRequest request) { diagnosis_jobs_.Submit(std::move(request)); }});
+      OrderHandlers{.identify = [this](IdentifyRequest request) { Submit(std::move(request)); },
+                    .diagnose = [this](DiagnoseRequest request) { Submit(std::move(request)); }});
+}
+
+void Daemon::Reload(const std::vector<Vehicle>& vehicles) {
+  const Fleet::Changes changes = fleet_.Reload(vehicles);
+  for (const std::string& vehicle_id : changes.added) {
+    windows_.Admit(vehicle_id, *fleet_.Find(vehicle_id));
+    models_.Serve(vehicle_id);
+  }
+  spdlog::info("serving {} vehicles: {} added, {} changed, {} no longer served", vehicles.size(),
+               changes.added.size(), changes.changed.size(), changes.removed.size());
+}
+
+void Daemon::Submit(AnyRequest request) {
+  if (auto* identify = std::get_if<IdentifyRequest>(&request)) {
+    jobs_.Submit(std::move(*identify));
+  } else if (auto* diagnose = std::get_if<DiagnoseRequest>(&request)) {
+    diagnosis_jobs_.Submit(std::move(*diagnose));
+  } else {
+    fleet_jobs_.Submit(std::get<FleetRequest>(std::move(request)));
+  }
+}
+
+/// A daemon that was killed has left requests without an answer.
+void Daemon::ResumeRequests() {
+  auto requests = journal_.TakeUnanswered();
+  if (requests.empty()) return;
+  spdlog::info("{} requests of the run before are worked on again", requests.size());
+  for (AnyRequest& request : requests) Submit(std::move(request));
 }
 
 }  // namespace telltale

@@ -2,6 +2,7 @@
 #include <cerrno>
 #include <csignal>
 #include <string>
+#include <vector>
 
 #include <semaphore.h>
 #include <unistd.h>
@@ -15,6 +16,7 @@
 #include "telltale/idl/codec/protobuf_log.hpp"
 #include "telltale/service/configuration.hpp"
 #include "telltale/service/daemon.hpp"
+#include "telltale/service/storage/backup.hpp"
 
 namespace telltale {
 namespace {
@@ -22,37 +24,61 @@ namespace {
 constexpr int kFailure = 1;
 constexpr int kUsageError = 2;
 
-sem_t stop_requested;
+sem_t signalled;
+std::atomic<bool> stop_requested = false;
+static_assert(std::atomic<bool>::is_always_lock_free);
 
-/// Waits for SIGINT or SIGTERM in any thread. Libraries start threads before main that block
-/// neither signal, so blocking the signals here and waiting for them would let them kill the
+/// Waits for SIGINT, SIGTERM or SIGHUP in any thread. Libraries start threads before main that
+/// block no signal, so blocking the signals here and waiting for them would let them kill the
 /// process.
-class StopSignals {
+class Signals {
  public:
-  StopSignals() {
-    sem_init(&stop_requested, 0, 0);
+  Signals() {
+    sem_init(&signalled, 0, 0);
     struct sigaction action {};
-    action.sa_handler = [](int) { sem_post(&stop_requested); };
+    action.sa_handler = [](int signal) {
+      if (signal != SIGHUP) stop_requested = true;
+      sem_post(&signalled);
+    };
     action.sa_flags = SA_RESTART;
-    for (const int signal : {SIGINT, SIGTERM}) sigaction(signal, &action, nullptr);
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) sigaction(signal, &action, nullptr);
   }
 
-  void Wait() const {
-    while (sem_wait(&stop_requested) != 0 && errno == EINTR) {
+  /// True where the daemon is to reload its vehicles, false where it is to stop.
+  bool WaitForReload() const {
+    while (sem_wait(&signalled) != 0 && errno == EINTR) {
     }
+    return !stop_requested;
   }
 };
 
-int Serve(const DaemonConfig& config, const StopSignals& signals) {
+/// A wrong configuration changes nothing.
+void Reload(Daemon& daemon, const std::string& config_file) {
+  const auto config = LoadConfiguration(config_file);
+  if (config) {
+    daemon.Reload(config->vehicles);
+  } else {
+    spdlog::error("the vehicles are not reloaded: {}", config.error().Message());
+  }
+}
+
+int Report(const std::string& what, const std::vector<std::string>& files) {
+  std::string names;
+  for (const std::string& file : files) names += (names.empty() ? "" : ", ") + file;
+  spdlog::info("{}: {}", what, names);
+  return 0;
+}
+
+int Serve(const DaemonConfig& config, const std::string& config_file, const Signals& signals) {
   std::atomic<bool> receiving = true;
-  const Daemon daemon(config, [&](const std::exception& error) {
+  Daemon daemon(config, [&](const std::exception& error) {
     spdlog::critical("cannot receive telemetry any more: {}", error.what());
     receiving = false;
     kill(getpid(), SIGTERM);
   });
   spdlog::info("serving {} vehicles on domain {}, models are stored in {}", config.vehicles.size(),
                config.domain, config.state_directory);
-  signals.Wait();
+  while (signals.WaitForReload()) Reload(daemon, config_file);
   spdlog::info("stopping");
   return receiving ? 0 : kFailure;
 }
@@ -63,6 +89,19 @@ int Main(int argc, char** argv) {
   CLI::App app{"Identifies a fleet's vehicles from their telemetry over DDS.", "telltaled"};
   std::string config_file;
   app.add_option("--config", config_file, "configuration, Protobuf text format")->required();
+  std::string backup;
+  std::string restore;
+  auto* const back_up =
+      app.add_option("--backup", backup,
+                     "copy the databases of the state directory into this folder, also while "
+                     "another telltaled uses them, and end")
+          ->type_name("DIR");
+  app.add_option("--restore", restore,
+                 "put the databases of a backup in the place of those of the state directory, "
+                 "which are set aside, and end")
+      ->type_name("DIR")
+      ->excludes(back_up);
+  app.footer("SIGHUP reloads the vehicles; SIGTERM and SIGINT stop the daemon.");
   app.set_version_flag("--version", "telltaled " + std::string(Version()));
   try {
     app.parse(argc, argv);
@@ -77,9 +116,15 @@ int Main(int argc, char** argv) {
     return kUsageError;
   }
   spdlog::set_level(spdlog::level::from_str(config->log_level));
-  const StopSignals signals;
+  const Signals signals;
   try {
-    return Serve(*config, signals);
+    if (!backup.empty()) {
+      return Report("backed up to " + backup, BackUp(config->state_directory, backup));
+    }
+    if (!restore.empty()) {
+      return Report("restored from " + restore, RestoreBackup(restore, config->state_directory));
+    }
+    return Serve(*config, config_file, signals);
   } catch (const std::exception& error) {
     spdlog::critical("{}", error.what());
     return kFailure;

@@ -17,7 +17,9 @@ Qos MakeQos(dds_reliability_kind_t reliability, std::int32_t depth) {
 }  // namespace
 
 Qos TelemetryQos() {
-  return MakeQos(DDS_RELIABILITY_BEST_EFFORT, kHistoryDepth);
+  Qos qos = MakeQos(DDS_RELIABILITY_BEST_EFFORT, kHistoryDepth);
+  dds_qset_resource_limits(qos.get(), DDS_LENGTH_UNLIMITED, kMostBoats, DDS_LENGTH_UNLIMITED);
+  return qos;
 }
 
 Qos RequestReplyQos() {

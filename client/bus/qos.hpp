@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <memory>
 
 #include <dds/dds.h>
@@ -14,8 +15,11 @@ using Qos = std::unique_ptr<dds_qos_t, QosDeleter>;
 /// The contracts of the topics, one function each, the same for readers and writers.
 
 /// Best effort, volatile, keep last 64 per vehicle: a reader of this matches any writer, and a
-/// stalled reader can hold up no boat.
+/// stalled reader can hold up no boat. At most kMostBoats vehicle ids: each costs some kilobytes,
+/// and anybody can invent them.
 Qos TelemetryQos();
+
+inline constexpr std::int32_t kMostBoats = 5000;
 
 /// Reliable, volatile, keep last 64 per vehicle. A write gives up after 100 ms: one stalled client
 /// must not keep the daemon from the others, and a client that missed something asks again.

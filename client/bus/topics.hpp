@@ -42,6 +42,15 @@ template <>
 inline constexpr Contract kContract<telltale_wire_DiagnoseReply>{"telltale/diagnose/reply",
                                                                  RequestReplyQos};
 template <>
+inline constexpr Contract kContract<telltale_wire_FleetRequest>{"telltale/fleet/request",
+                                                                RequestReplyQos};
+template <>
+inline constexpr Contract kContract<telltale_wire_FleetProgress>{"telltale/fleet/progress",
+                                                                 RequestReplyQos};
+template <>
+inline constexpr Contract kContract<telltale_wire_FleetReply>{"telltale/fleet/reply",
+                                                              RequestReplyQos};
+template <>
 inline constexpr Contract kContract<telltale_wire_Diagnosis>{"telltale/diagnosis", DiagnosisQos};
 template <>
 inline constexpr Contract kContract<telltale_wire_Model>{"telltale/model", ModelQos};

@@ -8,6 +8,7 @@
 #include "telltale/client/cli/input_options.hpp"
 #include "telltale/client/cli/model_table.hpp"
 #include "telltale/client/cli/progress_line.hpp"
+#include "telltale/client/cli/promotion_text.hpp"
 #include "telltale/client/cli/published_model_json.hpp"
 #include "telltale/client/fleet/identification_client.hpp"
 
@@ -70,10 +71,17 @@ void IdentifyLive(const std::string& vehicle_id, const IdentifyArguments& argume
   RequirePublished(result, vehicle_id, live);
   const PublishedModel& model = *result.reply->model;
   arguments.output.Write(PrintModelJson(model), [&] {
-    return vehicle_id + ", revision " + std::to_string(model.revision) + "\n\n" +
-           ModelTable(model.identification) +
+    return vehicle_id + ", revision " + std::to_string(model.revision) + "\n" +
+           PromotionText(model.promotion) + '\n' + ModelTable(model.identification) +
            (arguments.discrete ? '\n' + DiscreteTable(model.identification) : "");
   });
+  if (model.promotion.verdict == PromotionVerdict::kError) {
+    throw RefusedError({"revision " + std::to_string(model.revision),
+                        "it is published with verdict ERROR: " + model.promotion.reason,
+                        "record more varied manoeuvres, or go back to an earlier model: telltale "
+                        "rollback --vehicle-id " +
+                            vehicle_id});
+  }
 }
 
 }  // namespace telltale

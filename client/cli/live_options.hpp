@@ -34,12 +34,13 @@ std::string TimedOutText(const LiveOptions& live);
 std::string NobodyThereAdvice(std::uint32_t domain);
 
 /// Throws: RefusedError where the daemon refused, std::runtime_error where nobody answers, it
-/// failed or its answer cannot be read.
+/// failed or its answer cannot be read. `vehicle_id` is the subject of a refusal without reasons.
 template <class Reply>
 void RequirePublished(const ReplyResult<Reply>& result, const std::string& vehicle_id,
                       const LiveOptions& live) {
   switch (result.outcome) {
-    case RequestOutcome::kPublished: return;
+    case RequestOutcome::kPublished:
+    case RequestOutcome::kAnswered: return;
     case RequestOutcome::kRefused:
       throw RefusedError(result.reply->refusals.empty() ? Refusal{vehicle_id, "was refused", ""}
                                                         : result.reply->refusals.front());

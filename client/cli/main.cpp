@@ -68,6 +68,11 @@ int main(int argc, char** argv) {
   telltale::AddReplay(app);
   telltale::AddWatch(app);
   telltale::AddMonitor(app);
+  telltale::AddList(app);
+  telltale::AddHistory(app);
+  telltale::AddRollback(app);
+  telltale::AddRefresh(app);
+  telltale::AddLoad(app);
   telltale::AddStudy(app);
   return static_cast<int>(telltale::Run(app, argc, argv));
 }

@@ -10,6 +10,7 @@
 #include "telltale/client/cli/commands.hpp"
 #include "telltale/client/cli/live_options.hpp"
 #include "telltale/client/cli/model_table.hpp"
+#include "telltale/client/cli/promotion_text.hpp"
 #include "telltale/client/cli/published_diagnosis_json.hpp"
 #include "telltale/client/cli/published_model_json.hpp"
 #include "telltale/client/fleet/subscriber.hpp"
@@ -32,7 +33,8 @@ void Print(const PublishedModel& model, bool json) {
     std::cout << PrintModelJson(model) << std::flush;
     return;
   }
-  std::cout << model.identification.vehicle_id << ", revision " << model.revision << "\n\n"
+  std::cout << model.identification.vehicle_id << ", revision " << model.revision << '\n'
+            << PromotionText(model.promotion) << '\n'
             << ModelTable(model.identification) << '\n'
             << std::flush;
 }

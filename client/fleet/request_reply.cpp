@@ -11,6 +11,7 @@ RequestOutcome OutcomeOf(ReplyOutcome outcome) {
     case ReplyOutcome::kPublished: return RequestOutcome::kPublished;
     case ReplyOutcome::kRefused: return RequestOutcome::kRefused;
     case ReplyOutcome::kFailed: return RequestOutcome::kFailed;
+    case ReplyOutcome::kAnswered: return RequestOutcome::kAnswered;
     case ReplyOutcome::kUnknown: break;
   }
   return RequestOutcome::kUnknown;

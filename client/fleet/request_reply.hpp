@@ -13,6 +13,7 @@
 #include "telltale/client/bus/writer.hpp"
 #include "telltale/idl/codec/codec_error.hpp"
 #include "telltale/idl/codec/wire/exchange.hpp"
+#include "telltale/idl/codec/wire/fleet_exchange.hpp"
 
 namespace telltale {
 
@@ -26,7 +27,8 @@ enum class RequestOutcome {
   kUnreadable,
   kRefused,
   kFailed,
-  kPublished
+  kPublished,
+  kAnswered
 };
 
 /// The daemon's own answer as the outcome of asking.

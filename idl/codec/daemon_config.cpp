@@ -91,9 +91,12 @@ DaemonConfig ReadConfig(FieldReader reader, const proto::DaemonConfig& message) 
   config.domain = reader.Count("domain", {0.0, 101.0}, config.domain);
   config.vehicles = ReadVehicles(reader);
   config.vehicle_files = ReadVehicleFiles(reader, message);
+  config.vehicle_folder = reader.Text("vehicle_folder", config.vehicle_folder);
   config.state_directory = reader.Text("state_directory", config.state_directory);
   if (config.state_directory.empty()) reader.Fail("state_directory", "\"\"", "a folder");
   config.window = ReadWindow(reader.Optional("window"));
+  config.window_save_period_s =
+      reader.Optional("window").Number("save_period_s", {0.1, 600.0}, config.window_save_period_s);
   config.identification = ReadIdentification(reader.Optional("identification"));
   if (message.has_http()) config.http = ReadHttp(reader.Optional("http"));
   config.quality_period_s =

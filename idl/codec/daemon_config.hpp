@@ -36,8 +36,10 @@ struct DaemonConfig {
   std::uint32_t domain = 0;  ///< [0, 101]
   std::vector<Vehicle> vehicles;
   std::vector<std::string> vehicle_files;  ///< as written; who opens them resolves them
+  std::string vehicle_folder;              ///< likewise; empty: none
   std::string state_directory = "/var/lib/telltale";
   WindowLimits window;
+  double window_save_period_s = 5.0;  ///< [0.1, 600]
   IdentificationSettings identification;
   std::optional<HttpSettings> http;
   double quality_period_s = 1.0;   ///< [0.1, 3600]

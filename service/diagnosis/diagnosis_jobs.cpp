@@ -39,16 +39,19 @@ DiagnoseReply RefusedWith(const DiagnoseRequest& request, Refusal refusal) {
 
 DiagnosisJobs::DiagnosisJobs(const Fleet& fleet, const PublishedModels& models,
                              const BaselineRecordings& baselines, PublishedDiagnoses& diagnoses,
-                             ReplyPublisher& replies, const IdentificationSettings& settings)
+                             ReplyPublisher& replies, const IdentificationSettings& settings,
+                             RequestJournal& journal)
     : fleet_(fleet),
       models_(models),
       baselines_(baselines),
       diagnoses_(diagnoses),
       settings_(settings),
-      jobs_("diagnosis", fleet, replies, kWorkers, settings.queue_limit,
-            [this](const DiagnoseRequest& request, const Progress& progress) {
-              return DiagnoseAndPublish(request, progress);
-            }) {}
+      jobs_(
+          "diagnosis", fleet, replies, kWorkers, settings.queue_limit,
+          [this](const DiagnoseRequest& request, const Progress& progress) {
+            return DiagnoseAndPublish(request, progress);
+          },
+          &journal) {}
 
 DiagnoseReply DiagnosisJobs::DiagnoseAndPublish(const DiagnoseRequest& request,
                                                 const Progress& progress) {

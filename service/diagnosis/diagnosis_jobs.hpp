@@ -1,5 +1,6 @@
 #pragma once
 
+#include <string>
 #include <utility>
 
 #include "telltale/core/diagnosis/diagnose.hpp"
@@ -20,10 +21,14 @@ class DiagnosisJobs {
  public:
   DiagnosisJobs(const Fleet& fleet, const PublishedModels& models,
                 const BaselineRecordings& baselines, PublishedDiagnoses& diagnoses,
-                ReplyPublisher& replies, const IdentificationSettings& settings);
+                ReplyPublisher& replies, const IdentificationSettings& settings,
+                RequestJournal& journal);
 
   /// Queues a request and returns at once. The answer goes out by ReplyPublisher.
   void Submit(DiagnoseRequest request) { jobs_.Submit(std::move(request)); }
+
+  /// False where no such request waits or runs.
+  bool Cancel(const std::string& correlation_id) { return jobs_.Cancel(correlation_id); }
 
  private:
   DiagnoseReply DiagnoseAndPublish(const DiagnoseRequest& request, const Progress& progress);

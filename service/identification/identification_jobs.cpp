@@ -4,23 +4,28 @@
 
 #include "telltale/core/data/recording_starts.hpp"
 #include "telltale/core/identification/identify.hpp"
+#include "telltale/core/validation/promotion.hpp"
 #include "telltale/service/identification/identification_options.hpp"
 #include "telltale/service/models/free_run_error.hpp"
+#include "telltale/service/models/thin_model.hpp"
 
 namespace telltale {
 
 IdentificationJobs::IdentificationJobs(const Fleet& fleet, PublishedModels& models,
                                        BaselineRecordings& baselines, ReplyPublisher& replies,
-                                       const IdentificationSettings& settings)
+                                       const IdentificationSettings& settings,
+                                       RequestJournal& journal)
     : fleet_(fleet),
       models_(models),
       baselines_(baselines),
       settings_(settings),
-      jobs_("identification", fleet, replies,
-            {.interactive = settings.workers, .refresh = 1, .background = 1}, settings.queue_limit,
-            [this](const IdentifyRequest& request, const Progress& progress) {
-              return IdentifyAndPublish(request, progress);
-            }) {}
+      jobs_(
+          "identification", fleet, replies,
+          {.interactive = settings.workers, .refresh = 1, .background = 1}, settings.queue_limit,
+          [this](const IdentifyRequest& request, const Progress& progress) {
+            return IdentifyAndPublish(request, progress);
+          },
+          &journal) {}
 
 void IdentificationJobs::Submit(IdentifyRequest request) {
   const bool takes_minutes = request.coverage_check_replicates > 0;
@@ -43,10 +48,16 @@ IdentifyReply IdentificationJobs::IdentifyAndPublish(const IdentifyRequest& requ
     reply.refusals.push_back(identification.error());
     return reply;
   }
+  progress("comparing with constant velocity", 0.0);
+  Promotion promotion = AssessPromotion(recording, window.vehicle(), *identification, options);
+  if (const auto sound = models_.NewestSound(request.vehicle_id)) {
+    promotion = WarnIfThin(std::move(promotion), *identification, window.State().fill, *sound);
+  }
   progress("publish", 1.0);
   auto reply = ReplyTo<IdentifyReply>(request, ReplyOutcome::kPublished);
-  reply.model = models_.Publish(*identification,
-                                MeasureFreeRunError(recording, window.vehicle(), *identification));
+  reply.model =
+      models_.Publish(*identification,
+                      MeasureFreeRunError(recording, window.vehicle(), *identification), promotion);
   baselines_.Keep(request.vehicle_id, reply.model->revision, recording);
   return reply;
 }

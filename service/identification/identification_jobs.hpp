@@ -1,5 +1,7 @@
 #pragma once
 
+#include <functional>
+#include <string>
 #include <utility>
 
 #include "telltale/core/identification/progress.hpp"
@@ -18,11 +20,20 @@ namespace telltale {
 class IdentificationJobs {
  public:
   IdentificationJobs(const Fleet& fleet, PublishedModels& models, BaselineRecordings& baselines,
-                     ReplyPublisher& replies, const IdentificationSettings& settings);
+                     ReplyPublisher& replies, const IdentificationSettings& settings,
+                     RequestJournal& journal);
 
   /// Queues a request and returns at once. The answer goes out by ReplyPublisher.
   /// A coverage check runs in the background.
   void Submit(IdentifyRequest request);
+
+  /// The same as a part of a refresh. `answer` gets the reply, on another thread.
+  void Refresh(IdentifyRequest request, std::function<void(const IdentifyReply&)> answer) {
+    jobs_.Submit(std::move(request), Urgency::kRefresh, std::move(answer));
+  }
+
+  /// False where no such request waits or runs.
+  bool Cancel(const std::string& correlation_id) { return jobs_.Cancel(correlation_id); }
 
  private:
   IdentifyReply IdentifyAndPublish(const IdentifyRequest& request, const Progress& progress);

@@ -1,6 +1,9 @@
 #include "telltale/service/ingest/fleet.hpp"
 
 #include <algorithm>
+#include <set>
+
+#include "telltale/idl/codec/vehicle_file.hpp"
 
 namespace telltale {
 
@@ -13,20 +16,53 @@ std::string_view Name(UnattributedReason reason) {
   return "";
 }
 
-Fleet::Fleet(const std::vector<Vehicle>& vehicles, const WindowLimits& limits) {
-  for (const Vehicle& vehicle : vehicles) {
-    windows_.emplace(vehicle.vehicle_id, std::make_unique<VehicleWindow>(vehicle, limits));
-  }
+Fleet::Fleet(const std::vector<Vehicle>& vehicles, const WindowLimits& limits) : limits_(limits) {
+  for (const Vehicle& vehicle : vehicles) Open(vehicle);
+}
+
+void Fleet::Open(const Vehicle& vehicle) {
+  opened_.push_back(std::make_unique<VehicleWindow>(vehicle, limits_));
+  windows_.insert_or_assign(vehicle.vehicle_id, opened_.back().get());
 }
 
 VehicleWindow* Fleet::Find(std::string_view vehicle_id) const {
+  const std::shared_lock lock(windows_mutex_);
   const auto found = windows_.find(vehicle_id);
-  return found == windows_.end() ? nullptr : found->second.get();
+  return found == windows_.end() ? nullptr : found->second;
+}
+
+Fleet::Windows Fleet::windows() const {
+  const std::shared_lock lock(windows_mutex_);
+  return windows_;
+}
+
+Fleet::Changes Fleet::Reload(const std::vector<Vehicle>& vehicles) {
+  Changes changes;
+  const std::unique_lock lock(windows_mutex_);
+  std::set<std::string_view> named;
+  for (const Vehicle& vehicle : vehicles) {
+    named.insert(vehicle.vehicle_id);
+    const auto present = windows_.find(vehicle.vehicle_id);
+    if (present == windows_.end()) {
+      Open(vehicle);
+      changes.added.push_back(vehicle.vehicle_id);
+    } else if (PrintVehicle(present->second->vehicle()) != PrintVehicle(vehicle)) {
+      VehicleWindow& former = *present->second;
+      Open(vehicle);
+      windows_.find(vehicle.vehicle_id)->second->TakeOver(former);
+      changes.changed.push_back(vehicle.vehicle_id);
+    }
+  }
+  for (const auto& [vehicle_id, window] : windows_) {
+    if (!named.contains(vehicle_id)) changes.removed.push_back(vehicle_id);
+  }
+  for (const std::string& vehicle_id : changes.removed) windows_.erase(vehicle_id);
+  return changes;
 }
 
 std::string Fleet::Served() const {
   std::string names;
-  for (const auto& [vehicle_id, window] : windows_) {
+  for (const auto& [vehicle_id, window] : windows()) {
     if (!names.empty()) names += ", ";
     names += vehicle_id;
   }

@@ -5,6 +5,7 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <shared_mutex>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -21,17 +22,28 @@ enum class UnattributedReason { kMalformedId, kUnknownVehicle, kUnreadable };
 
 std::string_view Name(UnattributedReason reason);
 
-/// The vehicles that this daemon serves, fixed for its life, and the counts of samples that name
-/// none of them. The counts are safe to use from several threads.
+/// The vehicles that this daemon serves, and the counts of samples that name none of them. Safe to
+/// use from several threads. A window stays valid for the life of the fleet, also once its vehicle
+/// is no longer served or has been changed.
 class Fleet {
  public:
-  using Windows = std::map<std::string, std::unique_ptr<VehicleWindow>, std::less<>>;
+  using Windows = std::map<std::string, VehicleWindow*, std::less<>>;
+
+  /// What a reload has changed, by vehicle id.
+  struct Changes {
+    std::vector<std::string> added;
+    std::vector<std::string> changed;  ///< other parameters; its samples stay
+    std::vector<std::string> removed;
+  };
 
   Fleet(const std::vector<Vehicle>& vehicles, const WindowLimits& limits);
 
   /// The vehicle's window, or null when it is not served here.
   VehicleWindow* Find(std::string_view vehicle_id) const;
-  const Windows& windows() const { return windows_; }
+  Windows windows() const;
+
+  /// Serves these vehicles from now on.
+  Changes Reload(const std::vector<Vehicle>& vehicles);
 
   /// The vehicles served, for people: "a, b, c".
   std::string Served() const;
@@ -42,7 +54,12 @@ class Fleet {
   std::vector<RejectEntry> Unattributed() const;
 
  private:
+  void Open(const Vehicle& vehicle);
+
+  const WindowLimits limits_;
+  mutable std::shared_mutex windows_mutex_;  // of what follows
   Windows windows_;
+  std::vector<std::unique_ptr<VehicleWindow>> opened_;  ///< those of windows_, and former ones
   mutable std::mutex unattributed_mutex_;
   std::vector<RejectEntry> unattributed_;
 };

@@ -4,12 +4,14 @@
 #include <cstring>
 #include <optional>
 #include <string_view>
+#include <type_traits>
 #include <utility>
 
 #include <spdlog/spdlog.h>
 
 #include "telltale/idl/codec/vehicle_file.hpp"
 #include "telltale/idl/codec/wire/exchange.hpp"
+#include "telltale/idl/codec/wire/fleet_exchange.hpp"
 #include "telltale/idl/codec/wire/telemetry.hpp"
 
 namespace telltale {
@@ -30,8 +32,10 @@ std::optional<Reply> ReplyToUnreadable(const Wire& wire, const CodecError& fault
   if (!IsVehicleId(correlation_id)) return std::nullopt;
   Reply reply;
   reply.correlation_id = correlation_id;
-  reply.vehicle_id =
-      VehicleIdLike({wire.vehicle_id, strnlen(wire.vehicle_id, sizeof wire.vehicle_id)});
+  if constexpr (!std::is_same_v<Reply, FleetReply>) {
+    reply.vehicle_id =
+        VehicleIdLike({wire.vehicle_id, strnlen(wire.vehicle_id, sizeof wire.vehicle_id)});
+  }
   reply.outcome = ReplyOutcome::kFailed;
   reply.message = "the daemon cannot read the request: " + fault.Message();
   return reply;
@@ -63,6 +67,12 @@ Ingest::Ingest(const Participant& participant, Fleet& fleet, Handlers handlers)
           participant, wait_set_,
           [this](const auto& wire) {
             Submit<DiagnoseReply>(wire, handlers_.diagnose, handlers_.answer_diagnose);
+          },
+          kLongestSilence),
+      fleet_requests_(
+          participant, wait_set_,
+          [this](const auto& wire) {
+            Submit<FleetReply>(wire, handlers_.fleet, handlers_.answer_fleet);
           },
           kLongestSilence),
       thread_([this] { Run(); }) {}
@@ -100,6 +110,7 @@ void Ingest::Heartbeat() {
   reopen(thrusters_, "thrusters");
   reopen(requests_, "identify requests");
   reopen(diagnose_requests_, "diagnose requests");
+  reopen(fleet_requests_, "fleet requests");
 }
 
 template <class Wire>

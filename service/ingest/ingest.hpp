@@ -12,6 +12,7 @@
 #include "telltale/client/bus/wait_set.hpp"
 #include "telltale/client/bus/watched_reader.hpp"
 #include "telltale/idl/codec/messages/exchange.hpp"
+#include "telltale/idl/codec/messages/fleet_exchange.hpp"
 #include "telltale/service/ingest/fleet.hpp"
 
 namespace telltale {
@@ -27,9 +28,11 @@ class Ingest {
   struct Handlers {
     std::function<void(IdentifyRequest)> identify;  ///< must return at once
     std::function<void(DiagnoseRequest)> diagnose;  ///< likewise
+    std::function<void(FleetRequest)> fleet;        ///< likewise
     /// Sends the answer to a request that cannot be read.
     std::function<void(const IdentifyReply&)> answer_identify;
     std::function<void(const DiagnoseReply&)> answer_diagnose;
+    std::function<void(const FleetReply&)> answer_fleet;
     std::function<void()> heartbeat;  ///< every second while the loop runs
     /// After every kSamplesPerReceipt samples of a vehicle; must return at once.
     std::function<void(VehicleWindow&)> received;
@@ -61,6 +64,7 @@ class Ingest {
   WatchedReader<telltale_wire_Thrusters> thrusters_;
   WatchedReader<telltale_wire_IdentifyRequest> requests_;
   WatchedReader<telltale_wire_DiagnoseRequest> diagnose_requests_;
+  WatchedReader<telltale_wire_FleetRequest> fleet_requests_;
   std::atomic<bool> stopping_ = false;
   std::thread thread_;
 };

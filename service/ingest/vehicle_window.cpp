@@ -69,8 +69,63 @@ void VehicleWindow::EmptyInbox() {
     if (!kept) continue;
     ++accepted_;
     NoteNewest(sample);
+    NoteUnsaved(sample);
   }
   emptied_.clear();
+}
+
+void VehicleWindow::NoteUnsaved(const Sample& sample) {
+  if (!unsaved_) return;
+  if (const auto* fix = std::get_if<GnssFix>(&sample)) unsaved_->gnss.push_back(*fix);
+  if (const auto* heading = std::get_if<HeadingSample>(&sample)) {
+    unsaved_->heading.push_back(*heading);
+  }
+  if (const auto* command = std::get_if<ThrusterSample>(&sample)) {
+    unsaved_->thrusters.push_back(*command);
+  }
+}
+
+void VehicleWindow::BeginSaving() {
+  const std::lock_guard lock(window_mutex_);
+  unsaved_.emplace();
+}
+
+Recording VehicleWindow::TakeUnsaved() {
+  const std::lock_guard lock(window_mutex_);
+  EmptyInbox();
+  if (!unsaved_) return {};
+  return std::exchange(*unsaved_, {});
+}
+
+void VehicleWindow::TakeOver(VehicleWindow& former) {
+  const std::scoped_lock windows(window_mutex_, former.window_mutex_);
+  former.EmptyInbox();
+  std::swap(window_, former.window_);
+  accepted_ = former.accepted_;
+  newest_fix_ = former.newest_fix_;
+  newest_heading_ = former.newest_heading_;
+  unsaved_ = std::exchange(former.unsaved_, std::nullopt);
+  const std::scoped_lock inboxes(inbox_mutex_, former.inbox_mutex_);
+  gaps_ = former.gaps_;
+  arrived_ = former.arrived_;
+}
+
+void VehicleWindow::Restore(const Recording& samples) {
+  const std::lock_guard lock(window_mutex_);
+  // In the order of time, as they arrived: whether a position is stuck depends on the commands.
+  auto fix = samples.gnss.begin();
+  auto heading = samples.heading.begin();
+  for (const ThrusterSample& command : samples.thrusters) {
+    for (; fix != samples.gnss.end() && fix->time_s <= command.time_s; ++fix) window_.Add(*fix);
+    for (; heading != samples.heading.end() && heading->time_s <= command.time_s; ++heading) {
+      window_.Add(*heading);
+    }
+    window_.Add(command);
+  }
+  for (; fix != samples.gnss.end(); ++fix) window_.Add(*fix);
+  for (; heading != samples.heading.end(); ++heading) window_.Add(*heading);
+  if (!samples.gnss.empty()) newest_fix_ = samples.gnss.back();
+  if (!samples.heading.empty()) newest_heading_ = samples.heading.back();
 }
 
 }  // namespace telltale

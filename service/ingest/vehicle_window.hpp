@@ -39,6 +39,18 @@ class VehicleWindow {
   void Add(std::uint64_t sequence_number, const HeadingSample& heading);
   void Add(std::uint64_t sequence_number, const ThrusterSample& thrusters);
 
+  /// The samples and counts of the same vehicle's former window, which is empty afterwards.
+  void TakeOver(VehicleWindow& former);
+
+  /// Samples of an earlier run, which count neither as arrived nor as accepted.
+  void Restore(const Recording& samples);
+
+  /// From now on the samples that are kept are noted for TakeUnsaved() too.
+  void BeginSaving();
+
+  /// The samples kept since the last call.
+  Recording TakeUnsaved();
+
   Recording Snapshot();
   WindowState State();
 
@@ -48,6 +60,7 @@ class VehicleWindow {
   void Add(Channel channel, std::uint64_t sequence_number, const Sample& sample);
   void NoteNewest(const Sample& sample);
   void EmptyInbox();  ///< into the window; the caller holds window_mutex_
+  void NoteUnsaved(const Sample& sample);
 
   const Vehicle vehicle_;
   const WindowLimits limits_;
@@ -63,6 +76,7 @@ class VehicleWindow {
   std::uint64_t accepted_ = 0;
   std::optional<GnssFix> newest_fix_;
   std::optional<HeadingSample> newest_heading_;
+  std::optional<Recording> unsaved_;
 };
 
 }  // namespace telltale

@@ -30,6 +30,7 @@
 #include "telltale/service/jobs/job.hpp"
 #include "telltale/service/jobs/reply.hpp"
 #include "telltale/service/jobs/reply_publisher.hpp"
+#include "telltale/service/jobs/request_journal.hpp"
 #include "telltale/service/jobs/urgency.hpp"
 
 namespace telltale {
@@ -43,6 +44,8 @@ namespace telltale {
 /// - A request that was cancelled, or whose deadline has passed, is dropped unless others have
 ///   joined it. Work under way ends at its next report of progress.
 /// - A full queue answers at once, and says when to ask again.
+/// - With a journal, a request is on disk before its client hears that it is queued, and until it
+///   is answered.
 /// Every fault of a request ends in its reply. Thread safe.
 template <class Request, class Stage, class Reply>
 class JobQueue {
@@ -51,9 +54,10 @@ class JobQueue {
   using Work = std::function<Reply(const Request&, const Progress& progress)>;
   using Answer = std::function<void(const Reply&)>;
 
-  /// `what` names the work in the log and in messages: "identification".
+  /// `what` names the work in the log and in messages: "identification". The journal outlives the
+  /// queue.
   JobQueue(std::string what, const Fleet& fleet, ReplyPublisher& replies, const Workers& workers,
-           std::size_t queue_limit, Work work);
+           std::size_t queue_limit, Work work, RequestJournal* journal = nullptr);
   JobQueue(const JobQueue&) = delete;
   JobQueue& operator=(const JobQueue&) = delete;
 
@@ -76,6 +80,7 @@ class JobQueue {
   using Outbox = std::vector<std::pair<Asker, Reply>>;
 
   static constexpr std::chrono::seconds kJoinedWithin{5};
+  static constexpr double kAskAgainS = 0.1;
 
   /// Ends the work on a request when the daemon stops.
   struct Stopping : std::exception {
@@ -115,6 +120,7 @@ class JobQueue {
   const Workers worker_counts_;
   const std::size_t queue_limit_;
   const Work work_;
+  RequestJournal* const journal_;  ///< null: requests die with the process
 
   mutable std::mutex mutex_;  // of what follows
   std::condition_variable changed_;
@@ -133,13 +139,15 @@ class JobQueue {
 template <class Request, class Stage, class Reply>
 JobQueue<Request, Stage, Reply>::JobQueue(std::string what, const Fleet& fleet,
                                           ReplyPublisher& replies, const Workers& workers,
-                                          std::size_t queue_limit, Work work)
+                                          std::size_t queue_limit, Work work,
+                                          RequestJournal* journal)
     : what_(std::move(what)),
       fleet_(fleet),
       replies_(replies),
       worker_counts_(workers),
       queue_limit_(queue_limit),
-      work_(std::move(work)) {
+      work_(std::move(work)),
+      journal_(journal) {
   for (const Urgency urgency : kUrgencies) {
     for (std::size_t i = 0; i < workers.Of(urgency); ++i) {
       workers_.emplace_back([this, urgency] { Run(urgency); });
@@ -182,6 +190,8 @@ void JobQueue<Request, Stage, Reply>::Submit(Request request, Urgency urgency, A
   const bool on_the_bus = !asker.answer;
   const Stage stage{{request.correlation_id, request.vehicle_id, "queued", 0.0}};
   history_.Begin(stage);
+  const bool kept = on_the_bus && journal_ != nullptr;
+  if (kept) journal_->Keep(request, [&replies = replies_, stage] { replies.Send(stage); });
   if (same) {
     same->urgency = same->Waits() ? std::min(same->urgency, urgency) : same->urgency;
     same->askers.push_back(std::move(asker));
@@ -190,7 +200,7 @@ void JobQueue<Request, Stage, Reply>::Submit(Request request, Urgency urgency, A
   }
   lock.unlock();
   changed_.notify_all();
-  if (on_the_bus) replies_.Send(stage);
+  if (on_the_bus && !kept) replies_.Send(stage);
 }
 
 template <class Request, class Stage, class Reply>
@@ -304,8 +314,11 @@ auto JobQueue<Request, Stage, Reply>::Expire() -> Outbox {
     Dismiss(*job, job->TakeAskers([now](const Asker& asker) { return asker.GivesUpBy(now); }),
             "its deadline has passed", outbox);
   }
-  // Who asks again after all starts anew.
-  for (const auto& [asker, reply] : outbox) history_.Forget(asker.correlation_id);
+  // Who waits after all asks again, and that starts anew.
+  for (auto& [asker, reply] : outbox) {
+    reply.retry_after_s = kAskAgainS;
+    history_.Forget(asker.correlation_id);
+  }
   std::erase_if(jobs_, [](const auto& job) { return job->Waits() && job->askers.empty(); });
   return outbox;
 }
@@ -343,7 +356,12 @@ bool JobQueue<Request, Stage, Reply>::Cancel(const std::string& correlation_id) 
 template <class Request, class Stage, class Reply>
 void JobQueue<Request, Stage, Reply>::Send(const Outbox& outbox) {
   for (const auto& [asker, reply] : outbox) {
-    asker.answer ? asker.answer(reply) : replies_.Send(reply);
+    if (asker.answer) {
+      asker.answer(reply);
+      continue;
+    }
+    replies_.Send(reply);
+    if (journal_ != nullptr) journal_->Drop(asker.correlation_id);
   }
 }
 

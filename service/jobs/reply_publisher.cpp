@@ -3,6 +3,7 @@
 #include <spdlog/spdlog.h>
 
 #include "telltale/idl/codec/wire/exchange.hpp"
+#include "telltale/idl/codec/wire/fleet_exchange.hpp"
 
 namespace telltale {
 
@@ -10,7 +11,9 @@ ReplyPublisher::ReplyPublisher(const Participant& participant)
     : progress_writer_(participant),
       reply_writer_(participant),
       diagnose_progress_writer_(participant),
-      diagnose_reply_writer_(participant) {}
+      diagnose_reply_writer_(participant),
+      fleet_progress_writer_(participant),
+      fleet_reply_writer_(participant) {}
 
 void ReplyPublisher::Send(const IdentifyProgress& progress) {
   Send(progress_writer_, Encode(progress), progress.correlation_id);
@@ -26,6 +29,14 @@ void ReplyPublisher::Send(const DiagnoseProgress& progress) {
 
 void ReplyPublisher::Send(const DiagnoseReply& reply) {
   Send(diagnose_reply_writer_, Encode(reply), reply.correlation_id);
+}
+
+void ReplyPublisher::Send(const FleetProgress& progress) {
+  Send(fleet_progress_writer_, Encode(progress), progress.correlation_id);
+}
+
+void ReplyPublisher::Send(const FleetReply& reply) {
+  Send(fleet_reply_writer_, Encode(reply), reply.correlation_id);
 }
 
 template <class Wire>

@@ -5,10 +5,11 @@
 #include "telltale/client/bus/participant.hpp"
 #include "telltale/client/bus/writer.hpp"
 #include "telltale/idl/codec/messages/exchange.hpp"
+#include "telltale/idl/codec/messages/fleet_exchange.hpp"
 
 namespace telltale {
 
-/// Sends progress and replies to the clients that request identifications and diagnoses. Safe to
+/// Sends progress and replies to the clients that ask for something. Safe to
 /// use from several threads. A call blocks for at most the 100 ms of the topics' contract and never
 /// throws: it logs what it cannot send, and a client that misses an answer asks again.
 class ReplyPublisher {
@@ -19,6 +20,8 @@ class ReplyPublisher {
   void Send(const IdentifyReply& reply);
   void Send(const DiagnoseProgress& progress);
   void Send(const DiagnoseReply& reply);
+  void Send(const FleetProgress& progress);
+  void Send(const FleetReply& reply);
 
  private:
   template <class Wire>
@@ -29,6 +32,8 @@ class ReplyPublisher {
   Writer<telltale_wire_IdentifyReply> reply_writer_;
   Writer<telltale_wire_DiagnoseProgress> diagnose_progress_writer_;
   Writer<telltale_wire_DiagnoseReply> diagnose_reply_writer_;
+  Writer<telltale_wire_FleetProgress> fleet_progress_writer_;
+  Writer<telltale_wire_FleetReply> fleet_reply_writer_;
 };
 
 }  // namespace telltale

@@ -20,6 +20,14 @@ std::int64_t Checksum(const void* bytes, int size) {
   return crc.checksum();
 }
 
+PromotionVerdict VerdictNamed(std::string_view name) {
+  for (const auto verdict :
+       {PromotionVerdict::kOk, PromotionVerdict::kWarn, PromotionVerdict::kError}) {
+    if (Name(verdict) == name) return verdict;
+  }
+  return PromotionVerdict::kUnknown;
+}
+
 std::optional<StoredModel> ReadRow(SQLite::Statement& row) {
   proto::Model message;
   const SQLite::Column blob = row.getColumn("model");
@@ -39,7 +47,9 @@ std::optional<StoredModel> ReadRow(SQLite::Statement& row) {
   StoredModel stored;
   stored.model = {std::move(*identification),
                   static_cast<std::uint64_t>(row.getColumn("revision").getInt64()),
-                  row.getColumn("published_unix_s").getDouble()};
+                  row.getColumn("published_unix_s").getDouble(),
+                  {VerdictNamed(row.getColumn("verdict").getString()),
+                   row.getColumn("verdict_reason").getString()}};
   if (!row.getColumn("reference_error_u").isNull()) {
     stored.reference_error = {row.getColumn("reference_error_u").getDouble(),
                               row.getColumn("reference_error_v").getDouble(),
@@ -58,7 +68,8 @@ ModelStore::ModelStore(ModelStore&&) noexcept = default;
 ModelStore& ModelStore::operator=(ModelStore&&) noexcept = default;
 
 StoredModel ModelStore::Save(const Identification& identification, double published_unix_s,
-                             const std::optional<FreeRunError>& reference_error) {
+                             const std::optional<FreeRunError>& reference_error,
+                             const Promotion& promotion) {
   const proto::Model message = ToProto(identification);
   const std::string blob = SerialiseChecked(message, IdentificationOf(message, "model"));
   SQLite::Transaction transaction(*database_, SQLite::TransactionBehavior::IMMEDIATE);
@@ -72,7 +83,8 @@ StoredModel ModelStore::Save(const Identification& identification, double publis
   SQLite::Statement insert(
       *database_,
       "INSERT INTO models (vehicle_id, revision, published_unix_s, model, checksum,"
-      " reference_error_u, reference_error_v, reference_error_r) VALUES (?, ?, ?, ?, ?, ?, ?, ?)");
+      " reference_error_u, reference_error_v, reference_error_r, verdict, verdict_reason)"
+      " VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
   insert.bind(1, identification.vehicle_id);
   insert.bind(2, revision);
   insert.bind(3, published_unix_s);
@@ -81,10 +93,12 @@ StoredModel ModelStore::Save(const Identification& identification, double publis
   if (reference_error) {
     for (int i = 0; i < 3; ++i) insert.bind(6 + i, (*reference_error)[i]);
   }
+  insert.bind(9, std::string(Name(promotion.verdict)));
+  insert.bind(10, promotion.reason);
   insert.exec();
   DropOldest(identification.vehicle_id, revision);
   transaction.commit();
-  return {{identification, static_cast<std::uint64_t>(revision), published_unix_s},
+  return {{identification, static_cast<std::uint64_t>(revision), published_unix_s, promotion},
           reference_error};
 }
 
@@ -108,6 +122,15 @@ std::optional<StoredModel> ModelStore::Newest(
     if (auto stored = ReadRow(rows); stored && suits(*stored)) return stored;
   }
   return std::nullopt;
+}
+
+std::vector<StoredModel> ModelStore::History(std::string_view vehicle_id) const {
+  std::vector<StoredModel> models;
+  Newest(vehicle_id, [&](const StoredModel& stored) {
+    models.push_back(stored);
+    return false;
+  });
+  return models;
 }
 
 }  // namespace telltale

@@ -38,7 +38,11 @@ class ModelStore {
   /// Stores the model as its vehicle's next revision. It is on disk on return. The newest 200
   /// models of a vehicle are kept.
   StoredModel Save(const Identification& identification, double published_unix_s,
-                   const std::optional<FreeRunError>& reference_error);
+                   const std::optional<FreeRunError>& reference_error,
+                   const Promotion& promotion = {});
+
+  /// The vehicle's models that can be read, newest first.
+  std::vector<StoredModel> History(std::string_view vehicle_id) const;
 
   /// The vehicle's newest model that can be read.
   std::optional<StoredModel> Latest(std::string_view vehicle_id) const;

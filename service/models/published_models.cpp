@@ -20,28 +20,71 @@ void LogChange(const PublishedModel& model) {
               InWords(*change));
 }
 
+void LogVerdict(const PublishedModel& model) {
+  const Promotion& promotion = model.promotion;
+  if (promotion.verdict == PromotionVerdict::kOk || promotion.reason.empty()) return;
+  spdlog::warn("revision {} of {} is published with verdict {}: {}", model.revision,
+               model.identification.vehicle_id, Name(promotion.verdict), promotion.reason);
+}
+
 }  // namespace
 
 PublishedModels::PublishedModels(const Participant& participant, ModelStore store,
                                  const Fleet& fleet)
-    : store_(std::move(store)), writer_(participant) {
-  for (const auto& [vehicle_id, window] : fleet.windows()) {
-    auto stored = store_.Latest(vehicle_id);
-    if (!stored) continue;
-    Announce(stored->model);
-    latest_.emplace(vehicle_id, std::move(*stored));
-  }
+    : store_(std::move(store)), writer_(participant), own_reader_(participant) {
+  for (const auto& [vehicle_id, window] : fleet.windows()) Serve(vehicle_id);
+}
+
+void PublishedModels::Serve(const std::string& vehicle_id) {
+  const std::lock_guard lock(mutex_);
+  auto stored = store_.Latest(vehicle_id);
+  if (!stored) return;
+  Announce(stored->model);
+  latest_.insert_or_assign(vehicle_id, std::move(*stored));
 }
 
 PublishedModel PublishedModels::Publish(Identification identification,
-                                        const std::optional<FreeRunError>& reference_error) {
+                                        const std::optional<FreeRunError>& reference_error,
+                                        const Promotion& promotion) {
   const std::lock_guard lock(mutex_);
   identification.provenance.change = ChangeSincePredecessor(store_, identification);
-  const StoredModel stored = store_.Save(identification, UnixNow(), reference_error);
+  const StoredModel stored = store_.Save(identification, UnixNow(), reference_error, promotion);
   latest_.insert_or_assign(identification.vehicle_id, stored);
   Announce(stored.model);
+  LogVerdict(stored.model);
   LogChange(stored.model);
   return stored.model;
+}
+
+std::optional<PublishedModel> PublishedModels::Rollback(const std::string& vehicle_id,
+                                                        std::uint64_t revision) {
+  const std::lock_guard lock(mutex_);
+  const auto earlier = store_.Newest(vehicle_id, [revision](const StoredModel& stored) {
+    return stored.model.revision == revision;
+  });
+  if (!earlier) return std::nullopt;
+  Promotion promotion = earlier->model.promotion;
+  promotion.reason = "revision " + std::to_string(revision) + " published again" +
+                     (promotion.reason.empty() ? "" : "; " + promotion.reason);
+  const StoredModel stored =
+      store_.Save(earlier->model.identification, UnixNow(), earlier->reference_error, promotion);
+  latest_.insert_or_assign(vehicle_id, stored);
+  Announce(stored.model);
+  return stored.model;
+}
+
+std::optional<PublishedModel> PublishedModels::NewestSound(std::string_view vehicle_id) const {
+  const std::lock_guard lock(mutex_);
+  auto stored = store_.Newest(vehicle_id, [](const StoredModel& model) {
+    return model.model.promotion.verdict <= PromotionVerdict::kOk;
+  });
+  if (!stored) return std::nullopt;
+  return std::move(stored->model);
+}
+
+std::vector<StoredModel> PublishedModels::History(std::string_view vehicle_id) const {
+  const std::lock_guard lock(mutex_);
+  return store_.History(vehicle_id);
 }
 
 std::optional<StoredModel> PublishedModels::Latest(std::string_view vehicle_id) const {
@@ -61,6 +104,20 @@ std::vector<StoredModel> PublishedModels::History(std::string_view vehicle_id, s
     return history.size() == limit;
   });
   return history;
+}
+
+void PublishedModels::WatchForRivals() {
+  const std::uint32_t matched = own_reader_.Matched();
+  const std::uint32_t rivals = matched > 1 ? matched - 1 : 0;
+  if (std::exchange(rivals_, rivals) == rivals) return;
+  if (rivals == 0) {
+    spdlog::info("this daemon alone publishes models on the domain again");
+    return;
+  }
+  spdlog::error(
+      "{} other participants publish models on this domain: another telltaled, whose revisions "
+      "part from these, or a forger; stop it, or let DDS Security keep it out",
+      rivals);
 }
 
 void PublishedModels::PublishBlocked() {

@@ -17,6 +17,7 @@ JobView::State StateOf(ReplyOutcome outcome) {
     case ReplyOutcome::kPublished: return JobView::State::kPublished;
     case ReplyOutcome::kRefused: return JobView::State::kRefused;
     case ReplyOutcome::kFailed: return JobView::State::kFailed;
+    case ReplyOutcome::kAnswered:
     case ReplyOutcome::kUnknown: break;
   }
   return JobView::State::kUnknown;

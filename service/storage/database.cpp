@@ -105,13 +105,15 @@ void PrepareSchema(SQLite::Database& database, const std::filesystem::path& file
 
 /// A new database beside the damaged one, with the rows that can still be read.
 std::unique_ptr<SQLite::Database> StartAgain(const std::filesystem::path& file,
-                                             const std::string& damage) {
+                                             const std::string& damage,
+                                             const std::function<void(SQLite::Database&)>& prepare,
+                                             const std::vector<std::string>& tables) {
   const std::filesystem::path damaged = SetAside(file);
   spdlog::error("{} is damaged ({}); it is set aside as {}", file.string(), damage,
                 damaged.string());
   auto database = Open(file);
-  PrepareSchema(*database, file);
-  for (const char* table : {"models", "diagnoses"}) {
+  prepare(*database);
+  for (const std::string& table : tables) {
     const SalvagedRows rows = SalvageRows(damaged, *database, table);
     spdlog::warn("{}: {} rows of {} are read from the damaged file{}", file.string(), rows.copied,
                  table, rows.complete ? "" : "; others are lost");
@@ -121,16 +123,23 @@ std::unique_ptr<SQLite::Database> StartAgain(const std::filesystem::path& file,
 
 }  // namespace
 
+std::unique_ptr<SQLite::Database> OpenOrSalvage(
+    const std::filesystem::path& file, const std::function<void(SQLite::Database&)>& prepare,
+    const std::vector<std::string>& tables) {
+  std::filesystem::create_directories(file.parent_path());
+  if (const auto damage = DamageOf(file)) return StartAgain(file, *damage, prepare, tables);
+  auto database = Open(file);
+  prepare(*database);
+  return database;
+}
+
 std::unique_ptr<SQLite::Database> OpenDatabase(const std::filesystem::path& directory) {
-  std::filesystem::create_directories(directory);
   const std::filesystem::path file = directory / "models.sqlite";
   if (std::filesystem::exists(file) && std::filesystem::file_size(file) == 0) {
     spdlog::error("{} is empty: the models of earlier runs are lost", file.string());
   }
-  if (const auto damage = DamageOf(file)) return StartAgain(file, *damage);
-  auto database = Open(file);
-  PrepareSchema(*database, file);
-  return database;
+  return OpenOrSalvage(file, [&file](SQLite::Database& database) { PrepareSchema(database, file); },
+                       {"models", "diagnoses"});
 }
 
 }  // namespace telltale

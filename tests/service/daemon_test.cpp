@@ -460,6 +460,16 @@ TEST_F(Daemon, LetsManyClientsOnOneHost) {
   }
 }
 
+TEST_F(Daemon, SaysThatAnotherPublishesModels) {
+  const auto daemon = StartDaemon();
+  const Participant participant(domain_.id());
+  {
+    const Writer<telltale_wire_Model> rival(participant);
+    EXPECT_TRUE(daemon->WaitForOutput("1 other participants publish models on this domain"));
+  }
+  EXPECT_TRUE(daemon->WaitForOutput("this daemon alone publishes models"));
+}
+
 TEST_F(Daemon, FailsWhereItCannotKeepModels) {
   folder_.Write("state", "a file where a folder is needed");
   Process daemon({TELLTALED, "--config", config_file_});

@@ -3,6 +3,8 @@
 #include <chrono>
 #include <stdexcept>
 
+#include <SQLiteCpp/SQLiteCpp.h>
+
 #include "telltale/client/fleet/subscriber.hpp"
 #include "telltale/client/recording/telemetry_log/telemetry_log.hpp"
 #include "telltale/core/base/random.hpp"
@@ -56,14 +58,28 @@ ServiceTest::ServiceTest() {
                                    "\nvehicle_files: \"vehicle.textproto\"\nstate_directory: \"" +
                                    (folder_.Path() / "state").string() +
                                    "\"\nidentification { bootstrap_replicates: 100 }\n"
-                                   "quality_period_s: 0.1\n");
+                                   "quality_period_s: 0.1\nwindow { save_period_s: 0.2 }\n");
 }
 
-std::unique_ptr<Process> ServiceTest::StartDaemon() const {
+std::unique_ptr<Process> ServiceTest::StartDaemon(int vehicles) const {
   auto daemon =
       std::make_unique<Process>(std::vector<std::string>{TELLTALED, "--config", config_file_});
-  EXPECT_TRUE(daemon->WaitForOutput("serving 1 vehicles")) << daemon->output();
+  EXPECT_TRUE(daemon->WaitForOutput("serving " + std::to_string(vehicles) + " vehicles"))
+      << daemon->output();
   return daemon;
+}
+
+bool ServiceTest::AwaitSavedWindow() const {
+  const auto file = folder_.Path() / "state" / "windows.sqlite";
+  const auto saved = [&] {
+    SQLite::Database database(file);
+    return database.execAndGet("SELECT COALESCE(MAX(last_s), 0) FROM chunks").getDouble();
+  };
+  return AwaitQuality(kVehicleId,
+                      [&](const Quality& quality) {
+                        return quality.window_s > 1.0 && saved() >= quality.window_s - 0.5;
+                      })
+      .has_value();
 }
 
 std::unique_ptr<Process> ServiceTest::Start(const std::vector<std::string>& arguments) const {

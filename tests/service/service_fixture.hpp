@@ -36,8 +36,12 @@ class ServiceTest : public ::testing::Test {
 
   ServiceTest();
 
-  /// telltaled, serving.
-  std::unique_ptr<Process> StartDaemon() const;
+  /// telltaled, serving so many vehicles.
+  std::unique_ptr<Process> StartDaemon(int vehicles = 1) const;
+
+  /// Waits until the newest sample of the window is on disk. False where that takes a minute.
+  /// Assumes a recording whose clock starts at 0.
+  bool AwaitSavedWindow() const;
 
   /// telltale with these arguments on this test's domain.
   std::unique_ptr<Process> Start(const std::vector<std::string>& arguments) const;

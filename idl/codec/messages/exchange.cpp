@@ -8,6 +8,7 @@ std::string_view Name(ReplyOutcome outcome) {
     case ReplyOutcome::kPublished: return "PUBLISHED";
     case ReplyOutcome::kRefused: return "REFUSED";
     case ReplyOutcome::kFailed: return "FAILED";
+    case ReplyOutcome::kAnswered: return "ANSWERED";
   }
   return "";
 }

@@ -74,7 +74,8 @@ struct DiagnoseProgress : ExchangeProgress {};
 /// kPublished: the result is in the reply and on its own topic.
 /// kRefused: the window cannot answer; the refusals say why.
 /// kFailed: anything else; the message says what.
-enum class ReplyOutcome { kUnknown, kPublished, kRefused, kFailed };
+/// kAnswered: the answer is in the reply, and nothing is published for it.
+enum class ReplyOutcome { kUnknown, kPublished, kRefused, kFailed, kAnswered };
 
 std::string_view Name(ReplyOutcome outcome);
 

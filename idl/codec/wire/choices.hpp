@@ -28,7 +28,9 @@ inline constexpr std::array kCoefficientStatuses = {
     CoefficientStatus::kEstimated, CoefficientStatus::kNotExcited, CoefficientStatus::kCollinear};
 inline constexpr std::array kChangeVerdicts = {
     ChangeVerdict::kNoSignificantChange, ChangeVerdict::kChanged, ChangeVerdict::kInconclusive};
+inline constexpr std::array kPromotionVerdicts = {PromotionVerdict::kOk, PromotionVerdict::kWarn,
+                                                  PromotionVerdict::kError};
 inline constexpr std::array kReplyOutcomes = {ReplyOutcome::kPublished, ReplyOutcome::kRefused,
-                                              ReplyOutcome::kFailed};
+                                              ReplyOutcome::kFailed, ReplyOutcome::kAnswered};
 
 }  // namespace telltale::wire

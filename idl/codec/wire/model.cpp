@@ -338,6 +338,8 @@ void FillModel(telltale_wire_Model& wire, const PublishedModel& model) {
   PutSequence(wire.refusals, identification.refusals, FillRefusal);
   FillProvenance(wire, identification.provenance);
   FillIdentifiability(wire, identification);
+  PutVerdict(wire.verdict, model.promotion.verdict);
+  Put(wire.verdict_reason, model.promotion.reason);
 }
 
 PublishedModel ReadModel(const telltale_wire_Model& wire) {
@@ -359,6 +361,8 @@ PublishedModel ReadModel(const telltale_wire_Model& wire) {
   identification.provenance = ReadProvenance(wire);
   if (auto fault = ModelFault(identification)) throw Malformed{*std::move(fault)};
   ReadIdentifiability(wire, identification);
+  model.promotion = {ReadOptionalName("verdict", View(wire.verdict), kPromotionVerdicts),
+                     TextOf(wire.verdict_reason)};
   return model;
 }
 

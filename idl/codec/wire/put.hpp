@@ -10,6 +10,7 @@
 #include <dds/dds.h>
 
 #include "telltale/core/base/contract.hpp"
+#include "telltale/core/validation/promotion.hpp"
 #include "telltale/idl/codec/vehicle_file.hpp"
 
 /// How values of C++ get into the generated C structs. Private to idl/codec/wire.
@@ -28,6 +29,11 @@ inline void Put(char*& target, std::string_view text) {
   target = dds_string_alloc(text.size());
   std::copy(text.begin(), text.end(), target);
   target[text.size()] = '\0';
+}
+
+/// Puts an empty name for the unknown verdict.
+inline void PutVerdict(char*& target, PromotionVerdict verdict) {
+  Put(target, verdict == PromotionVerdict::kUnknown ? std::string_view() : Name(verdict));
 }
 
 /// Copies a vehicle or correlation id. Requires IsVehicleId(text).

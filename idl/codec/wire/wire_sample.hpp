@@ -58,6 +58,18 @@ inline const dds_topic_descriptor_t& Descriptor<telltale_wire_DiagnoseReply>() {
   return telltale_wire_DiagnoseReply_desc;
 }
 template <>
+inline const dds_topic_descriptor_t& Descriptor<telltale_wire_FleetRequest>() {
+  return telltale_wire_FleetRequest_desc;
+}
+template <>
+inline const dds_topic_descriptor_t& Descriptor<telltale_wire_FleetProgress>() {
+  return telltale_wire_FleetProgress_desc;
+}
+template <>
+inline const dds_topic_descriptor_t& Descriptor<telltale_wire_FleetReply>() {
+  return telltale_wire_FleetReply_desc;
+}
+template <>
 inline const dds_topic_descriptor_t& Descriptor<telltale_wire_Quality>() {
   return telltale_wire_Quality_desc;
 }

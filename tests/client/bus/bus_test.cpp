@@ -48,6 +48,24 @@ PublishedModel ModelOfRevision(std::uint64_t revision, const std::string& vehicl
   return model;
 }
 
+// Anybody can invent vehicle ids, and each costs memory.
+TEST_F(Bus, HoldsNoMoreBoatsThanItMay) {
+  Reader<telltale_wire_Heading> reader(here_);
+  std::size_t received = 0;
+  Writer<telltale_wire_Heading> first(here_);
+  Writer<telltale_wire_Heading> second(here_);
+  ASSERT_TRUE(WaitForMatch(here_, {reader, first, second}, 10s));
+  for (int i = 0; i < kMostBoats; ++i) {
+    const std::string one = "one-" + std::to_string(i);
+    const std::string two = "two-" + std::to_string(i);
+    first.Write(Encode(Telemetry<HeadingSample>{one, 1, {}}));
+    second.Write(Encode(Telemetry<HeadingSample>{two, 1, {}}));
+    received += reader.Take([](const auto&) {});
+  }
+  received += reader.Take([](const auto&) {});
+  EXPECT_EQ(received, static_cast<std::size_t>(kMostBoats));
+}
+
 TEST_F(Bus, HandsOverEverySampleOfABurstInOrder) {
   Reader<telltale_wire_GnssFix> reader(here_);
   Writer<telltale_wire_GnssFix> writer(here_);

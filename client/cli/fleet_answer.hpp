@@ -1,0 +1,24 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "telltale/client/cli/live_options.hpp"
+#include "telltale/idl/codec/messages/fleet_exchange.hpp"
+
+namespace telltale {
+
+/// The daemon's answer. Throws as RequirePublished().
+FleetReply AskFleet(FleetRequest request, const LiveOptions& live);
+
+std::string VehicleListTable(const std::vector<VehicleSummary>& vehicles);
+std::string ModelHistoryTable(const std::vector<ModelSummary>& models);
+
+/// "published 12, 1 of them ERROR; unchanged 3; refused 2" and, below, each vehicle that is neither
+/// published with verdict OK nor unchanged, with its reason.
+std::string RefreshSummaryText(const std::vector<RefreshedVehicle>& vehicles);
+
+/// "OK" and the like; "-" where there is none.
+std::string VerdictText(PromotionVerdict verdict);
+
+}  // namespace telltale

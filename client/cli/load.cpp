@@ -1,0 +1,171 @@
+#include <chrono>
+#include <cmath>
+#include <cstdint>
+#include <filesystem>
+#include <iostream>
+#include <memory>
+#include <numbers>
+#include <stdexcept>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "telltale/client/bus/participant.hpp"
+#include "telltale/client/bus/writer.hpp"
+#include "telltale/client/cli/commands.hpp"
+#include "telltale/client/cli/live_options.hpp"
+#include "telltale/client/cli/number_range.hpp"
+#include "telltale/client/cli/progress_line.hpp"
+#include "telltale/client/cli/table.hpp"
+#include "telltale/client/recording/file_contents.hpp"
+#include "telltale/idl/codec/vehicle_file.hpp"
+#include "telltale/idl/codec/wire/telemetry.hpp"
+
+namespace telltale {
+namespace {
+
+using LoadClock = std::chrono::steady_clock;
+
+// A boat sends what the bundled recording holds: 5 fixes, 50 headings and 10 commands a second.
+constexpr int kTicksPerSecond = 50;
+constexpr int kTicksPerFix = 10;
+constexpr int kTicksPerCommand = 5;
+
+struct LoadArguments {
+  int boats = 100;
+  double duration_s = 60.0;
+  std::filesystem::path write_vehicles;
+  LiveOptions live;
+};
+
+std::string BoatName(int number) {
+  std::string digits = std::to_string(number);
+  return "load-" + std::string(digits.size() < 5 ? 5 - digits.size() : 0, '0') + digits;
+}
+
+Vehicle LoadVehicle(const std::string& vehicle_id) {
+  Vehicle vehicle;
+  vehicle.vehicle_id = vehicle_id;
+  vehicle.propeller_separation_m = 0.7;
+  vehicle.port = vehicle.starboard = {1500.0, 1900.0, 1100.0};
+  return vehicle;
+}
+
+/// A boat that winds its way north-east, each in a rhythm of its own.
+class LoadBoat {
+ public:
+  explicit LoadBoat(int number)
+      : vehicle_id_(BoatName(number)), phase_(0.1 * number), latitude_deg_(37.0 + 1e-3 * number) {}
+
+  /// The samples of the tick that is due; returns how many there were.
+  int Send(int tick, Writer<telltale_wire_GnssFix>& gnss, Writer<telltale_wire_Heading>& heading,
+           Writer<telltale_wire_Thrusters>& thrusters) {
+    constexpr double kSpeedMps = 1.0;
+    constexpr double kMetresPerDegree = 111'000.0;
+    const double time_s = static_cast<double>(tick) / kTicksPerSecond;
+    const double turn = std::sin(0.2 * time_s + phase_);
+    const double psi = std::numbers::pi / 4.0 + turn;
+    const double step_m = kSpeedMps / kTicksPerSecond;
+    latitude_deg_ += step_m * std::cos(psi) / kMetresPerDegree;
+    longitude_deg_ += step_m * std::sin(psi) / (kMetresPerDegree * std::cos(0.646));
+    int sent = 1;
+    heading.Write(Encode(Telemetry<HeadingSample>{
+        vehicle_id_, ++headings_, {time_s, psi * 180.0 / std::numbers::pi}}));
+    if (tick % kTicksPerFix == 0) {
+      gnss.Write(Encode(
+          Telemetry<GnssFix>{vehicle_id_, ++fixes_, {time_s, latitude_deg_, longitude_deg_}}));
+      ++sent;
+    }
+    if (tick % kTicksPerCommand == 0) {
+      thrusters.Write(Encode(Telemetry<ThrusterSample>{
+          vehicle_id_, ++commands_, {time_s, 1650.0 + 50.0 * turn, 1650.0 - 50.0 * turn}}));
+      ++sent;
+    }
+    return sent;
+  }
+
+ private:
+  std::string vehicle_id_;
+  double phase_;
+  double latitude_deg_;
+  double longitude_deg_ = -6.0;
+  std::uint64_t fixes_ = 0;
+  std::uint64_t headings_ = 0;
+  std::uint64_t commands_ = 0;
+};
+
+void WriteVehicles(const LoadArguments& arguments) {
+  std::filesystem::create_directories(arguments.write_vehicles);
+  for (int i = 1; i <= arguments.boats; ++i) {
+    const std::string name = BoatName(i);
+    WriteFile(arguments.write_vehicles / (name + ".textproto"), PrintVehicle(LoadVehicle(name)));
+  }
+  std::cout << arguments.boats << " vehicle files are in " << arguments.write_vehicles.string()
+            << "; name it as vehicle_folder of the daemon\n";
+}
+
+void Load(const LoadArguments& arguments) {
+  if (!arguments.write_vehicles.empty()) return WriteVehicles(arguments);
+  BatchWrites();
+  const Participant participant(arguments.live.domain);
+  Writer<telltale_wire_GnssFix> gnss(participant);
+  Writer<telltale_wire_Heading> heading(participant);
+  Writer<telltale_wire_Thrusters> thrusters(participant);
+  if (!WaitForMatch(participant, {gnss, heading, thrusters}, arguments.live.Timeout())) {
+    throw std::runtime_error("nobody takes telemetry: " + NobodyThereAdvice(arguments.live.domain));
+  }
+  std::vector<LoadBoat> boats;
+  for (int i = 1; i <= arguments.boats; ++i) boats.emplace_back(i);
+  ProgressLine line;
+  const auto begun = LoadClock::now();
+  const int ticks = static_cast<int>(std::lround(arguments.duration_s * kTicksPerSecond));
+  std::uint64_t sent = 0;
+  double latest_s = 0.0;
+  for (int tick = 0; tick < ticks; ++tick) {
+    const auto due = begun + std::chrono::duration_cast<LoadClock::duration>(
+                                 std::chrono::duration<double>(tick / double{kTicksPerSecond}));
+    std::this_thread::sleep_until(due);
+    for (LoadBoat& boat : boats) {
+      sent += static_cast<std::uint64_t>(boat.Send(tick, gnss, heading, thrusters));
+    }
+    gnss.Flush();
+    heading.Flush();
+    thrusters.Flush();
+    latest_s = std::max(latest_s, std::chrono::duration<double>(LoadClock::now() - due).count());
+    line.Update("sending " + std::to_string(arguments.boats) + " boats",
+                static_cast<double>(tick + 1) / ticks);
+  }
+  const double took_s = std::chrono::duration<double>(LoadClock::now() - begun).count();
+  std::cout << arguments.boats << " boats sent " << sent << " samples in " << Fixed(took_s, 1)
+            << " s, " << Fixed(static_cast<double>(sent) / took_s, 0)
+            << " a second; the latest was " << Fixed(latest_s, 2)
+            << " s behind\ntelltale monitor shows what the daemon has lost\n";
+}
+
+}  // namespace
+
+void AddLoad(CLI::App& telltale) {
+  const auto arguments = std::make_shared<LoadArguments>();
+  CLI::App& command = *telltale.add_subcommand(
+      "load", "Sends the telemetry of many simulated boats, to see what a daemon can take");
+  command.add_option("--boats", arguments->boats, "boats, load-00001 and on, 65 samples/s each")
+      ->type_name("N")
+      ->check(CLI::Range(1, 5000))
+      ->capture_default_str();
+  command.add_option("--duration", arguments->duration_s, "how long, in real time")
+      ->type_name("S")
+      ->check(NumberWithin(0.1, 86400.0))
+      ->capture_default_str();
+  command
+      .add_option("--write-vehicles", arguments->write_vehicles,
+                  "only write the boats' vehicle files into this folder, for the daemon's "
+                  "vehicle_folder")
+      ->type_name("DIR");
+  arguments->live.AddTo(command, 12.0, "give up when nobody takes telemetry for this long");
+  command.footer(
+      "Example: telltale load --boats 1000 --write-vehicles boats\n"
+      "         telltale load --boats 1000 --duration 300");
+  command.callback([arguments] { Load(*arguments); });
+}
+
+}  // namespace telltale

@@ -1,0 +1,224 @@
+#include <unistd.h>
+
+#include <algorithm>
+#include <iostream>
+#include <map>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "telltale/client/bus/participant.hpp"
+#include "telltale/client/cli/commands.hpp"
+#include "telltale/client/cli/duration_text.hpp"
+#include "telltale/client/cli/exit_codes.hpp"
+#include "telltale/client/cli/fleet_answer.hpp"
+#include "telltale/client/cli/live_options.hpp"
+#include "telltale/client/cli/output_options.hpp"
+#include "telltale/client/cli/progress_line.hpp"
+#include "telltale/client/cli/time_span.hpp"
+#include "telltale/client/fleet/fleet_client.hpp"
+#include "telltale/idl/codec/json/fleet_answer.hpp"
+#include "telltale/idl/codec/vehicle_file.hpp"
+
+namespace telltale {
+namespace {
+
+struct RefreshArguments {
+  std::vector<std::string> vehicle_ids;
+  bool all = false;
+  std::string worse_than;
+  std::string older_than;
+  std::string follow;
+  std::string cancel;
+  OutputOptions output;
+  LiveOptions live;
+};
+
+PromotionVerdict VerdictOf(const std::string& name) {
+  if (name == "OK") return PromotionVerdict::kOk;
+  return name == "WARN" ? PromotionVerdict::kWarn : PromotionVerdict::kUnknown;
+}
+
+FleetRequest RefreshRequestOf(const RefreshArguments& arguments) {
+  FleetRequest request;
+  request.correlation_id = NewCorrelationId();
+  if (!arguments.follow.empty()) {
+    request.command = FleetCommand::kFollow;
+    request.target = arguments.follow;
+    return request;
+  }
+  request.correlation_id.resize(12);  // short, since people type it
+  request.command = FleetCommand::kRefresh;
+  request.vehicle_ids = arguments.vehicle_ids;
+  request.all = arguments.vehicle_ids.empty();
+  request.worse_than = VerdictOf(arguments.worse_than);
+  request.older_than_s = SecondsOf(arguments.older_than).value_or(0.0);
+  return request;
+}
+
+/// The vehicles of a refresh as they come: a line for each that is through, and the share of all.
+class RefreshView {
+ public:
+  explicit RefreshView(bool lines) : lines_(lines) {}
+
+  void Take(const FleetProgress& progress) {
+    for (const RefreshedVehicle& vehicle : progress.vehicles) Take(vehicle);
+    const auto through = static_cast<std::size_t>(
+        std::ranges::count_if(states_, [](const auto& entry) { return IsFinal(entry.second); }));
+    std::string running;
+    for (const auto& [vehicle_id, state] : states_) {
+      if (state == RefreshState::kRunning)
+        running += (running.empty() ? ", now " : ", ") + vehicle_id;
+    }
+    line_.Update(
+        std::to_string(through) + " of " + std::to_string(progress.total) + " boats" + running,
+        progress.total == 0 ? 1.0 : static_cast<double>(through) / progress.total);
+  }
+
+  void Take(const RefreshedVehicle& vehicle) {
+    RefreshState& state = states_[vehicle.vehicle_id];
+    const bool through = IsFinal(vehicle.state) && !IsFinal(state);
+    state = vehicle.state;
+    if (through && lines_) Show(vehicle);
+  }
+
+ private:
+  static void Show(const RefreshedVehicle& vehicle) {
+    if (isatty(STDERR_FILENO)) std::cerr << "\r\033[K" << std::flush;
+    std::string text(Name(vehicle.state));
+    if (vehicle.state == RefreshState::kPublished) {
+      text += " revision " + std::to_string(vehicle.revision) + ' ' + VerdictText(vehicle.verdict);
+    }
+    std::cout << vehicle.vehicle_id << ": " << text << '\n' << std::flush;
+  }
+
+  bool lines_;
+  std::map<std::string, RefreshState> states_;
+  ProgressLine line_;
+};
+
+/// Exit 1 where a vehicle failed, 3 where one was refused or got a model with verdict ERROR.
+void ThrowUnlessAllWell(const std::vector<RefreshedVehicle>& vehicles) {
+  const auto count = [&](auto matches) {
+    return std::to_string(std::ranges::count_if(vehicles, matches));
+  };
+  const auto failed = [](const RefreshedVehicle& vehicle) {
+    return vehicle.state == RefreshState::kFailed || vehicle.state == RefreshState::kCancelled;
+  };
+  const auto refused = [](const RefreshedVehicle& vehicle) {
+    return vehicle.state == RefreshState::kRefused || vehicle.verdict == PromotionVerdict::kError;
+  };
+  const std::string total = std::to_string(vehicles.size());
+  if (std::ranges::any_of(vehicles, failed)) {
+    throw std::runtime_error(count(failed) + " of " + total + " boats failed or were cancelled");
+  }
+  if (std::ranges::any_of(vehicles, refused)) {
+    throw RefusedError({"refresh",
+                        count(refused) + " of " + total + " boats have no sound new model",
+                        "telltale identify --vehicle-id ID says what to record"});
+  }
+}
+
+void Refresh(const RefreshArguments& arguments) {
+  if (!arguments.cancel.empty()) {
+    FleetRequest request;
+    request.command = FleetCommand::kCancel;
+    request.target = arguments.cancel;
+    AskFleet(request, arguments.live);
+    std::cout << "request " << arguments.cancel << " is cancelled\n";
+    return;
+  }
+  const FleetRequest request = RefreshRequestOf(arguments);
+  const std::string refresh_id =
+      request.command == FleetCommand::kFollow ? request.target : request.correlation_id;
+  const Participant participant(arguments.live.domain);
+  FleetClient client(participant);
+  RequestTiming timing;
+  timing.match = std::min(timing.match, arguments.live.Timeout());
+  timing.reply = arguments.live.Timeout();
+  if (request.command == FleetCommand::kRefresh) {
+    std::cerr << "refresh " << refresh_id << "; elsewhere: telltale refresh --follow " << refresh_id
+              << "\n"
+              << std::flush;
+  }
+  auto view = std::make_unique<RefreshView>(!arguments.output.json);
+  const auto result =
+      client.Ask(request, timing, [&](const FleetProgress& progress) { view->Take(progress); });
+  RequirePublished(result, "refresh", arguments.live);
+  for (const RefreshedVehicle& vehicle : result.reply->refreshed) view->Take(vehicle);
+  view.reset();
+  arguments.output.Write(PrintRefreshJson(refresh_id, *result.reply), [&] {
+    if (result.reply->refreshed.empty()) return std::string("no boat meets the conditions\n");
+    return std::to_string(result.reply->refreshed.size()) + " boats in " +
+           DurationText(result.reply->elapsed_s) + ": " +
+           RefreshSummaryText(result.reply->refreshed);
+  });
+  ThrowUnlessAllWell(result.reply->refreshed);
+}
+
+CLI::Validator TimeSpanText() {
+  return CLI::Validator(
+      [](const std::string& text) {
+        return SecondsOf(text)
+                   ? std::string()
+                   : text + " is no time span: 90s, 30min, 12h or 7d, at most 100 years";
+      },
+      "");
+}
+
+CLI::Validator IdentifierText() {
+  return CLI::Validator(
+      [](const std::string& text) {
+        return IsVehicleId(text) ? std::string() : "must be " + std::string(kVehicleIdAllowed);
+      },
+      "");
+}
+
+}  // namespace
+
+void AddRefresh(CLI::App& telltale) {
+  const auto arguments = std::make_shared<RefreshArguments>();
+  CLI::App& command = *telltale.add_subcommand(
+      "refresh", "Identifies many boats again, and shows what becomes of each");
+  auto* const whom =
+      command.add_option_group("whom", "one at least; conditions alone mean every boat");
+  auto* const all = whom->add_flag("--all", arguments->all, "every boat that the daemon serves");
+  whom->add_option("--vehicle-id", arguments->vehicle_ids, "these boats")
+      ->type_name("ID")
+      ->check(IdentifierText())
+      ->excludes(all);
+  whom->add_option("--worse-than", arguments->worse_than,
+                   "boats without a model, or whose model has a worse verdict: OK means WARN and "
+                   "ERROR, WARN means ERROR")
+      ->check(CLI::IsMember({"OK", "WARN"}));
+  whom->add_option("--older-than", arguments->older_than,
+                   "boats without a model, or whose model is older: 90s, 30min, 12h, 7d")
+      ->type_name("SPAN")
+      ->check(TimeSpanText());
+  whom->add_option("--follow", arguments->follow, "show a refresh that another terminal began")
+      ->type_name("REFRESH")
+      ->check(IdentifierText());
+  whom->add_option("--cancel", arguments->cancel, "end a refresh, or another request by its id")
+      ->type_name("REFRESH")
+      ->check(IdentifierText());
+  whom->require_option(1, 0);
+  arguments->output.AddTo(command, "the summary");
+  arguments->live.AddTo(command, 3600.0, "give up after this long; the refresh goes on");
+  command.footer(
+      "A boat is UNCHANGED where no telemetry has come since its model was made.\n"
+      "Exit codes: 3 where a boat was refused or its model has verdict ERROR, 1 where one failed.\n"
+      "Example: telltale refresh --older-than 7d");
+  command.callback([arguments] {
+    const bool other = !arguments->follow.empty() || !arguments->cancel.empty();
+    const bool begins = arguments->all || !arguments->vehicle_ids.empty() ||
+                        !arguments->worse_than.empty() || !arguments->older_than.empty();
+    if (other && (begins || (!arguments->follow.empty() && !arguments->cancel.empty()))) {
+      throw UsageError("--follow and --cancel stand alone");
+    }
+    Refresh(*arguments);
+  });
+}
+
+}  // namespace telltale

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <chrono>
+#include <condition_variable>
+#include <cstdint>
+#include <mutex>
+#include <string>
+#include <thread>
+
+#include "telltale/service/ingest/fleet.hpp"
+#include "telltale/service/windows/window_store.hpp"
+
+namespace telltale {
+
+/// Keeps the windows of the fleet on disk: it fills them at start with what the store holds, and
+/// saves what they take in once a period, on a thread of its own, and at the end. A fault of the
+/// disk is logged, and the next period tries again with what has come since.
+class WindowArchive {
+ public:
+  /// Fills the windows before it returns. Assumes that nothing else fills them yet.
+  WindowArchive(WindowStore store, Fleet& fleet, double window_s, double period_s);
+  WindowArchive(const WindowArchive&) = delete;
+  WindowArchive& operator=(const WindowArchive&) = delete;
+  ~WindowArchive();  ///< saves and ends the thread
+
+  /// Fills the window of a vehicle that is served from now on, and saves it too.
+  void Admit(const std::string& vehicle_id, VehicleWindow& window);
+
+ private:
+  void Restore();
+  void Run();
+  void Save();
+
+  WindowStore store_;
+  Fleet& fleet_;
+  const double window_s_;
+  const std::int64_t most_chunks_;
+  const std::chrono::duration<double> period_;
+  bool saved_last_time_ = true;
+  std::mutex store_mutex_;  // of store_
+  std::mutex mutex_;        // of stopping_
+  std::condition_variable wake_;
+  bool stopping_ = false;
+  std::thread thread_;
+};
+
+}  // namespace telltale

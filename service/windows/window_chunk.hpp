@@ -1,0 +1,17 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "telltale/core/data/samples.hpp"
+
+namespace telltale {
+
+/// The samples of a recording as a compressed blob with a checksum in front.
+std::string PackChunk(const Recording& recording);
+
+/// The way back. Nothing where a bit of the blob has changed, or where it is something else.
+std::optional<Recording> UnpackChunk(std::string_view blob);
+
+}  // namespace telltale

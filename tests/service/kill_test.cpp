@@ -1,0 +1,75 @@
+#include <signal.h>
+
+#include <chrono>
+#include <string>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "service/service_fixture.hpp"
+#include "support/stable_boat.hpp"
+#include "telltale/client/fleet/identification_client.hpp"
+
+namespace telltale {
+namespace {
+
+using namespace std::chrono_literals;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+using KilledDaemon = ServiceTest;
+
+// Before, the data could not answer for minutes, and the first thin model replaced a good one.
+TEST_F(KilledDaemon, IdentifiesAtOnceFromTheWindowThatItHad) {
+  auto daemon = StartDaemon();
+  Replay(SimulatedRecording(testing::StableBoat(), 0.0, 300.0, 4));
+  const auto held = AwaitQuality(kVehicleId, [](const Quality& q) { return q.window_s > 299.0; });
+  ASSERT_TRUE(held);
+  ASSERT_TRUE(AwaitSavedWindow());
+  daemon->Signal(SIGKILL);
+  daemon->Wait();
+
+  daemon = StartDaemon();
+  EXPECT_TRUE(daemon->WaitForOutput("the windows of 1 vehicles are read back"));
+  const auto restored = AwaitQuality(kVehicleId, [](const Quality&) { return true; });
+  ASSERT_TRUE(restored);
+  EXPECT_NEAR(restored->window_s, held->window_s, 1.0);
+  EXPECT_TRUE(restored->rejected.empty());
+  EXPECT_EQ(Start({"identify", "--vehicle-id", kVehicleId})->Wait(), 0);
+}
+
+// The client is told that the request is queued, which means that it is on disk.
+TEST_F(KilledDaemon, FinishesAcknowledgedRequestsAfterItsRestart) {
+  auto daemon = StartDaemon();
+  Replay(SimulatedRecording(testing::StableBoat(), 0.0, 300.0, 4));
+  ASSERT_TRUE(AwaitSavedWindow());
+  const Participant participant(domain_.id());
+  IdentificationClient client(participant);
+  IdentifyRequest request = Request("acknowledged");
+  request.coverage_check_replicates = 10;
+  bool killed = false;
+  const auto result = client.Identify(
+      request, {.match = 60s, .reply = 120s, .retry = 1s}, [&](const IdentifyProgress&) {
+        if (killed) return;
+        killed = true;
+        daemon->Signal(SIGKILL);
+        daemon->Wait();
+        daemon = StartDaemon();
+        EXPECT_TRUE(daemon->WaitForOutput("1 requests of the run before"));
+      });
+  EXPECT_TRUE(killed);
+  EXPECT_EQ(result.outcome, RequestOutcome::kPublished);
+  EXPECT_TRUE(daemon->WaitForOutput("for acknowledged: PUBLISHED"));
+}
+
+TEST_F(KilledDaemon, ForgetsRequestsThatItHasAnswered) {
+  auto daemon = StartDaemon();
+  EXPECT_EQ(Start({"identify", "--vehicle-id", kVehicleId})->Wait(), 3);
+  daemon->Signal(SIGTERM);
+  EXPECT_EQ(daemon->Wait(), 0);
+  daemon = StartDaemon();
+  EXPECT_THAT(daemon->output(), Not(HasSubstr("requests of the run before")));
+}
+
+}  // namespace
+}  // namespace telltale
