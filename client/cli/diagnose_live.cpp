@@ -25,12 +25,9 @@ DiagnoseRequest DiagnoseRequestOf(const std::string& vehicle_id,
 DiagnoseResult AskForDiagnosis(const DiagnoseRequest& request, const LiveOptions& live) {
   const Participant participant(live.domain);
   DiagnosisClient client(participant);
-  RequestTiming timing;
-  timing.match = std::min(timing.match, live.Timeout());
-  timing.reply = live.Timeout();
   ProgressLine line;
   line.Update("asking the daemon", 0.0);
-  return client.Diagnose(request, timing, [&line](const DiagnoseProgress& progress) {
+  return client.Diagnose(request, live.Timing(), [&line](const DiagnoseProgress& progress) {
     line.Update(progress.stage, progress.fraction);
   });
 }

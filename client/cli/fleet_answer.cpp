@@ -37,14 +37,12 @@ std::string Lower(std::string_view name) {
 
 }  // namespace
 
-FleetReply AskFleet(FleetRequest request, const LiveOptions& live) {
+FleetReply AskFleet(FleetRequest request, const LiveOptions& live,
+                    const std::function<void(const FleetProgress&)>& progress) {
   const Participant participant(live.domain);
   FleetClient client(participant);
-  RequestTiming timing;
-  timing.match = std::min(timing.match, live.Timeout());
-  timing.reply = live.Timeout();
   if (request.correlation_id.empty()) request.correlation_id = NewCorrelationId();
-  auto result = client.Ask(request, timing);
+  auto result = client.Ask(request, live.Timing(), progress);
   RequirePublished(result, "the fleet", live);
   return *std::move(result.reply);
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -8,8 +9,9 @@
 
 namespace telltale {
 
-/// The daemon's answer. Throws as RequirePublished().
-FleetReply AskFleet(FleetRequest request, const LiveOptions& live);
+/// The daemon's answer. `progress` runs on the calling thread. Throws as RequirePublished().
+FleetReply AskFleet(FleetRequest request, const LiveOptions& live,
+                    const std::function<void(const FleetProgress&)>& progress = {});
 
 std::string VehicleListTable(const std::vector<VehicleSummary>& vehicles);
 std::string ModelHistoryTable(const std::vector<ModelSummary>& models);

@@ -9,8 +9,8 @@
 #include "telltale/client/cli/model_table.hpp"
 #include "telltale/client/cli/progress_line.hpp"
 #include "telltale/client/cli/promotion_text.hpp"
-#include "telltale/client/cli/published_model_json.hpp"
 #include "telltale/client/fleet/identification_client.hpp"
+#include "telltale/idl/codec/json/published.hpp"
 
 namespace telltale {
 namespace {
@@ -52,10 +52,9 @@ IdentifyRequest RequestOf(const std::string& vehicle_id, const IdentifyArguments
 IdentifyResult Ask(const IdentifyRequest& request, const LiveOptions& live) {
   const Participant participant(live.domain);
   IdentificationClient client(participant);
-  RequestTiming timing;
-  timing.match = std::min(timing.match, live.Timeout());
+  RequestTiming timing = live.Timing();
   // A replicate costs as much as the identification; the daemon runs several at a time.
-  timing.reply = live.Timeout() * (1 + request.coverage_check_replicates / kReplicatesPerTimeout);
+  timing.reply *= (1 + request.coverage_check_replicates / kReplicatesPerTimeout);
   ProgressLine line;
   line.Update("asking the daemon", 0.0);
   return client.Identify(request, timing, [&line](const IdentifyProgress& progress) {

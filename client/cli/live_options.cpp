@@ -20,13 +20,24 @@ void LiveOptions::AddTo(CLI::App& command, double default_timeout_s,
       ->capture_default_str();
 }
 
-CLI::Option* AddVehicleId(CLI::App& command, std::string& vehicle_id) {
+RequestTiming LiveOptions::Timing() const {
+  RequestTiming timing;
+  timing.match = std::min(timing.match, Timeout());
+  timing.reply = Timeout();
+  return timing;
+}
+
+CLI::Validator IdentifierText() {
   const auto check = [](const std::string& text) {
     return IsVehicleId(text) ? std::string() : "must be " + std::string(kVehicleIdAllowed);
   };
+  return {check, ""};
+}
+
+CLI::Option* AddVehicleId(CLI::App& command, std::string& vehicle_id) {
   return command.add_option("--vehicle-id", vehicle_id, "the vehicle")
       ->type_name("ID")
-      ->check(CLI::Validator(check, ""));
+      ->check(IdentifierText());
 }
 
 std::string TimedOutText(const LiveOptions& live) {

@@ -22,7 +22,13 @@ struct LiveOptions {
   std::chrono::nanoseconds Timeout() const {
     return std::chrono::ceil<std::chrono::nanoseconds>(std::chrono::duration<double>(timeout_s));
   }
+
+  /// Of a request that is given up after the time-out, be it for want of a daemon or of a reply.
+  RequestTiming Timing() const;
 };
+
+/// Checks a vehicle id or a correlation id.
+CLI::Validator IdentifierText();
 
 /// `--vehicle-id`, checked.
 CLI::Option* AddVehicleId(CLI::App& command, std::string& vehicle_id);

@@ -9,7 +9,6 @@
 #include <utility>
 #include <vector>
 
-#include "telltale/client/bus/participant.hpp"
 #include "telltale/client/cli/commands.hpp"
 #include "telltale/client/cli/duration_text.hpp"
 #include "telltale/client/cli/exit_codes.hpp"
@@ -18,9 +17,7 @@
 #include "telltale/client/cli/output_options.hpp"
 #include "telltale/client/cli/progress_line.hpp"
 #include "telltale/client/cli/time_span.hpp"
-#include "telltale/client/fleet/fleet_client.hpp"
 #include "telltale/idl/codec/json/fleet_answer.hpp"
-#include "telltale/idl/codec/vehicle_file.hpp"
 
 namespace telltale {
 namespace {
@@ -133,29 +130,22 @@ void Refresh(const RefreshArguments& arguments) {
   const FleetRequest request = RefreshRequestOf(arguments);
   const std::string refresh_id =
       request.command == FleetCommand::kFollow ? request.target : request.correlation_id;
-  const Participant participant(arguments.live.domain);
-  FleetClient client(participant);
-  RequestTiming timing;
-  timing.match = std::min(timing.match, arguments.live.Timeout());
-  timing.reply = arguments.live.Timeout();
   if (request.command == FleetCommand::kRefresh) {
     std::cerr << "refresh " << refresh_id << "; elsewhere: telltale refresh --follow " << refresh_id
               << "\n"
               << std::flush;
   }
   auto view = std::make_unique<RefreshView>(!arguments.output.json);
-  const auto result =
-      client.Ask(request, timing, [&](const FleetProgress& progress) { view->Take(progress); });
-  RequirePublished(result, "refresh", arguments.live);
-  for (const RefreshedVehicle& vehicle : result.reply->refreshed) view->Take(vehicle);
+  const FleetReply reply = AskFleet(request, arguments.live,
+                                    [&](const FleetProgress& progress) { view->Take(progress); });
+  for (const RefreshedVehicle& vehicle : reply.refreshed) view->Take(vehicle);
   view.reset();
-  arguments.output.Write(PrintRefreshJson(refresh_id, *result.reply), [&] {
-    if (result.reply->refreshed.empty()) return std::string("no boat meets the conditions\n");
-    return std::to_string(result.reply->refreshed.size()) + " boats in " +
-           DurationText(result.reply->elapsed_s) + ": " +
-           RefreshSummaryText(result.reply->refreshed);
+  arguments.output.Write(PrintRefreshJson(refresh_id, reply), [&] {
+    if (reply.refreshed.empty()) return std::string("no boat meets the conditions\n");
+    return std::to_string(reply.refreshed.size()) + " boats in " + DurationText(reply.elapsed_s) +
+           ": " + RefreshSummaryText(reply.refreshed);
   });
-  ThrowUnlessAllWell(result.reply->refreshed);
+  ThrowUnlessAllWell(reply.refreshed);
 }
 
 CLI::Validator TimeSpanText() {
@@ -164,14 +154,6 @@ CLI::Validator TimeSpanText() {
         return SecondsOf(text)
                    ? std::string()
                    : text + " is no time span: 90s, 30min, 12h or 7d, at most 100 years";
-      },
-      "");
-}
-
-CLI::Validator IdentifierText() {
-  return CLI::Validator(
-      [](const std::string& text) {
-        return IsVehicleId(text) ? std::string() : "must be " + std::string(kVehicleIdAllowed);
       },
       "");
 }

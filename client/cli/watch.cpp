@@ -11,9 +11,8 @@
 #include "telltale/client/cli/live_options.hpp"
 #include "telltale/client/cli/model_table.hpp"
 #include "telltale/client/cli/promotion_text.hpp"
-#include "telltale/client/cli/published_diagnosis_json.hpp"
-#include "telltale/client/cli/published_model_json.hpp"
 #include "telltale/client/fleet/subscriber.hpp"
+#include "telltale/idl/codec/json/published.hpp"
 
 namespace telltale {
 namespace {

@@ -1,13 +1,11 @@
 #include "telltale/core/data/heading_unwrap.hpp"
 
-#include <numbers>
-
+#include "telltale/core/base/degrees.hpp"
 #include "telltale/core/vessel/motion.hpp"
 
 namespace telltale {
 
 std::vector<double> Unwrap(std::span<const HeadingSample> samples) {
-  constexpr double kRadiansPerDegree = std::numbers::pi / 180.0;
   std::vector<double> psi;
   psi.reserve(samples.size());
   for (const HeadingSample& sample : samples) {

@@ -8,14 +8,16 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Core>
 
+#include "telltale/core/base/degrees.hpp"
 #include "telltale/core/base/format_number.hpp"
+#include "telltale/core/base/median.hpp"
 #include "telltale/core/data/heading_unwrap.hpp"
 #include "telltale/core/data/north_east_frame.hpp"
+#include "telltale/core/data/time_series.hpp"
 
 namespace telltale {
 namespace {
 
-constexpr double kRadiansPerDegree = std::numbers::pi / 180.0;
 constexpr double kLongestGnssPeriodS = 15.0;      // no receiver for navigation is slower
 constexpr double kPeriodOfMicrosecondsS = 1.5e4;  // 15 ms and more, told as microseconds
 constexpr double kShareOutside = 0.5;             // of a channel, before its units are doubted
@@ -48,10 +50,7 @@ ChannelCheck CheckChannel(const std::vector<Sample>& samples) {
     if (std::isfinite(period_s) && period_s > 0.0) periods.push_back(period_s);
   }
   if (periods.empty()) return check;
-  std::vector<double> sorted = periods;
-  const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
-  std::nth_element(sorted.begin(), middle, sorted.end());
-  check.median_period_s = *middle;
+  check.median_period_s = Median(periods);
   const double gap_s = std::max(1.0, 5.0 * check.median_period_s);
   for (const double period_s : periods) {
     check.gaps += period_s > gap_s ? 1 : 0;
@@ -59,29 +58,6 @@ ChannelCheck CheckChannel(const std::vector<Sample>& samples) {
   }
   return check;
 }
-
-/// Linear between samples; the ends are held. Requires: times ascend, at least one sample.
-class Interpolated {
- public:
-  Interpolated(std::vector<double> times_s, std::vector<double> values)
-      : times_s_(std::move(times_s)), values_(std::move(values)) {}
-
-  double At(double t) const {
-    const auto after = std::upper_bound(times_s_.begin(), times_s_.end(), t);
-    if (after == times_s_.begin()) return values_.front();
-    if (after == times_s_.end()) return values_.back();
-    const auto i = static_cast<std::size_t>(after - times_s_.begin());
-    const double share = (t - times_s_[i - 1]) / (times_s_[i] - times_s_[i - 1]);
-    return values_[i - 1] + share * (values_[i] - values_[i - 1]);
-  }
-
-  double Start() const { return times_s_.front(); }
-  double End() const { return times_s_.back(); }
-
- private:
-  std::vector<double> times_s_;
-  std::vector<double> values_;
-};
 
 /// The samples of a channel whose times ascend, so that one wrong stamp spoils nothing.
 template <class Sample>
@@ -118,15 +94,15 @@ class LaggedCommands {
       port.push_back(state.port);
       starboard.push_back(state.starboard);
     }
-    port_.emplace(times_s, port);
-    starboard_.emplace(times_s, starboard);
+    port_ = {times_s, port};
+    starboard_ = {times_s, starboard};
   }
 
-  PropellerCommand At(double t) const { return {port_->At(t), starboard_->At(t)}; }
+  PropellerCommand At(double t) const { return {port_.Linear(t), starboard_.Linear(t)}; }
 
  private:
-  std::optional<Interpolated> port_;
-  std::optional<Interpolated> starboard_;
+  TimeSeries port_;
+  TimeSeries starboard_;
 };
 
 /// The boat over one chord between fixes.
@@ -137,7 +113,7 @@ struct Chord {
   double psi_rad = 0.0;  ///< measured heading in the middle
 };
 
-std::vector<Chord> ChordsOf(const std::vector<GnssFix>& gnss, const Interpolated& psi) {
+std::vector<Chord> ChordsOf(const std::vector<GnssFix>& gnss, const TimeSeries& psi) {
   std::vector<Chord> chords;
   if (gnss.empty()) return chords;
   const NorthEastFrame frame({gnss.front().latitude_deg, gnss.front().longitude_deg});
@@ -145,13 +121,14 @@ std::vector<Chord> ChordsOf(const std::vector<GnssFix>& gnss, const Interpolated
     const double span_s = gnss[j].time_s - gnss[i].time_s;
     if (span_s < kChordS) continue;
     const double middle_s = 0.5 * (gnss[i].time_s + gnss[j].time_s);
-    if (span_s < 3.0 * kChordS && psi.Start() <= middle_s && middle_s <= psi.End()) {
+    if (span_s < 3.0 * kChordS && psi.times_s.front() <= middle_s &&
+        middle_s <= psi.times_s.back()) {
       const auto from = frame.Forward({gnss[i].latitude_deg, gnss[i].longitude_deg});
       const auto to = frame.Forward({gnss[j].latitude_deg, gnss[j].longitude_deg});
       const double north = (to.north_m - from.north_m) / span_s;
       const double east = (to.east_m - from.east_m) / span_s;
       chords.push_back(
-          {middle_s, std::hypot(north, east), std::atan2(east, north), psi.At(middle_s)});
+          {middle_s, std::hypot(north, east), std::atan2(east, north), psi.Linear(middle_s)});
     }
     i = j;
   }
@@ -392,11 +369,12 @@ std::optional<Refusal> FaultOfThrusters(const CommandSigns& yaw, const CommandSi
 }
 
 /// Yaw rates half a second apart, by the slope of the unwrapped heading.
-void YawRates(const Interpolated& psi, std::vector<double>& times_s, std::vector<double>& rates) {
+void YawRates(const TimeSeries& psi, std::vector<double>& times_s, std::vector<double>& rates) {
   constexpr double kStepS = 0.5;
-  for (double t = psi.Start() + 0.5 * kStepS; t + 0.5 * kStepS <= psi.End(); t += kStepS) {
+  for (double t = psi.times_s.front() + 0.5 * kStepS; t + 0.5 * kStepS <= psi.times_s.back();
+       t += kStepS) {
     times_s.push_back(t);
-    rates.push_back((psi.At(t + 0.5 * kStepS) - psi.At(t - 0.5 * kStepS)) / kStepS);
+    rates.push_back((psi.Linear(t + 0.5 * kStepS) - psi.Linear(t - 0.5 * kStepS)) / kStepS);
   }
 }
 
@@ -405,7 +383,7 @@ void CheckMotion(const std::vector<GnssFix>& gnss, const std::vector<HeadingSamp
                  std::vector<Refusal>& faults) {
   std::vector<double> heading_times_s;
   for (const HeadingSample& sample : heading) heading_times_s.push_back(sample.time_s);
-  const Interpolated psi(heading_times_s, Unwrap(heading));
+  const TimeSeries psi{heading_times_s, Unwrap(heading)};
   const std::vector<Chord> chords = ChordsOf(gnss, psi);
   const LaggedCommands at_yaw(thrusters, vehicle, kYawLagS);
   const LaggedCommands at_surge(thrusters, vehicle, kSurgeLagS);

@@ -36,13 +36,15 @@ struct TimeSeries {
   /// cubic between them. The degree is lower where there is no such sample. Held beyond the ends.
   double Interpolate(double t) const;
 
+  /// Linear between the two neighbours of `t`, held beyond the ends.
+  double Linear(double t) const;
+
   /// Mean over [t - width / 2, t + width / 2] of the linearly interpolated signal, cut at the ends.
   /// It averages the noise of all samples within.
   double MeanAbout(double t, double width_s) const;
 
  private:
   std::size_t LaterThan(double t) const;  // index of the first sample later than t
-  double Linear(double t) const;
 };
 
 }  // namespace telltale

@@ -7,6 +7,7 @@
 
 #include <Eigen/Cholesky>
 
+#include "telltale/core/base/linear_algebra/covariance.hpp"
 #include "telltale/core/base/version.hpp"
 #include "telltale/core/estimation/prediction_error/prediction_error.hpp"
 #include "telltale/core/uncertainty/distributions.hpp"
@@ -65,11 +66,6 @@ Interval IntervalOf(const Eigen::VectorXd& draws, double estimate, double level)
           std::max(Quantile(values, 1.0 - tail), estimate)};
 }
 
-Eigen::MatrixXd CovarianceOf(const Eigen::MatrixXd& draws) {
-  const Eigen::MatrixXd centred = draws.colwise() - draws.rowwise().mean();
-  return centred * centred.transpose() / static_cast<double>(draws.cols() - 1);
-}
-
 NoiseModel MeanNoise(const std::vector<NoiseModel>& noise) {
   NoiseModel mean = noise.front();
   const auto average = [&](auto member) {
@@ -93,7 +89,7 @@ NoiseModel MeanNoise(const std::vector<NoiseModel>& noise) {
 PhysicalModel ModelWithBounds(const PredictionErrorFit& fit, const FossenPrior& prior,
                               const Eigen::MatrixXd& draws, double level) {
   PhysicalModel model;
-  model.covariance = CovarianceOf(draws);
+  model.covariance = OfColumns(draws);
   model.noise = MeanNoise(fit.noise);
   for (std::size_t i = 0; i < kFossenParameters; ++i) {
     const auto at = static_cast<Eigen::Index>(i);
@@ -120,7 +116,7 @@ void WriteImpliedCoefficients(const FossenVector& parameters, const Eigen::Matri
   for (Eigen::Index i = 0; i < draws.cols(); ++i) {
     implied.col(i) = CoefficientsOf(WithPositiveMass(draws.col(i)), separation_m);
   }
-  const Eigen::MatrixXd covariance = CovarianceOf(implied);
+  const Eigen::MatrixXd covariance = OfColumns(implied);
   const auto write = [&](Eigen::Index at, Coefficient coefficient) {
     coefficient.estimate = estimates[at];
     coefficient.standard_error = std::sqrt(covariance(at, at));
@@ -188,7 +184,7 @@ Result<Identification> IdentifyPhysicalModel(const PreparedDataset& dataset, con
   const FossenPrior prior = PriorOf(vehicle);
   const PredictionErrorFit fit =
       FitPredictionError(dataset, vehicle.propeller_separation_m, prior,
-                         {CommandHold::kHeld, options.threads}, [&](double share) {
+                         {.threads = options.threads}, [&](double share) {
                            if (progress) progress("fitting the physical model", 0.1 + 0.8 * share);
                          });
   if (!fit.parameters.allFinite() || !fit.information.allFinite()) {

@@ -2,17 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "telltale/core/base/contract.hpp"
+#include "telltale/core/base/degrees.hpp"
 #include "telltale/core/base/gauss_markov.hpp"
 #include "telltale/core/data/north_east_frame.hpp"
 #include "telltale/core/data/time_series.hpp"
 
 namespace telltale {
 namespace {
-
-constexpr double kDegreesPerRadian = 180.0 / std::numbers::pi;
 
 double Between(double a, double b, double fraction) {
   return a + fraction * (b - a);

@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+
+#include "telltale/core/base/degrees.hpp"
 
 namespace telltale {
 namespace {
@@ -15,7 +16,6 @@ constexpr double kDriftTimeConstantS = 30.0;
 // to a twentieth of the variance that averaging removes; the mean of two would leave half as much
 // again.
 constexpr double kHeadingsPerRow = 5.0;
-constexpr double kDegreesPerRadian = 180.0 / std::numbers::pi;
 
 /// The share of white noise's variance that remains in the mean of a linearly interpolated signal
 /// over `samples` sampling intervals: whole weights within, halves at both ends.

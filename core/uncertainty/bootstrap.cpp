@@ -7,6 +7,7 @@
 #include <Eigen/Core>
 
 #include "telltale/core/base/contract.hpp"
+#include "telltale/core/base/linear_algebra/covariance.hpp"
 #include "telltale/core/base/parallel.hpp"
 #include "telltale/core/base/random.hpp"
 #include "telltale/core/uncertainty/block_length.hpp"
@@ -338,8 +339,7 @@ BootstrapReplicates Bootstrap(const std::vector<ClusteredFit>& fits,
 
 Eigen::MatrixXd Covariance(const BootstrapReplicates& replicates) {
   Require(replicates.theta.cols() > 1, "at least two replicates");
-  const Eigen::MatrixXd centred = replicates.theta.colwise() - replicates.theta.rowwise().mean();
-  return centred * centred.transpose() / static_cast<double>(centred.cols() - 1);
+  return OfColumns(replicates.theta);
 }
 
 std::vector<Interval> Intervals(const BootstrapReplicates& replicates, IntervalMethod method,

@@ -29,9 +29,7 @@ FleetReply ReplyWith(const FleetRequest& request, ReplyOutcome outcome,
 }
 
 FleetReply NotServed(const FleetRequest& request, const Fleet& fleet) {
-  return ReplyWith(request, ReplyOutcome::kFailed,
-                   "vehicle '" + request.vehicle_ids.front() +
-                       "' is not served here; served: " + fleet.Served());
+  return ReplyWith(request, ReplyOutcome::kFailed, fleet.NotServed(request.vehicle_ids.front()));
 }
 
 RefreshedVehicle OutcomeOfVehicle(const std::string& vehicle_id, const IdentifyReply& reply) {

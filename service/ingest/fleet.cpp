@@ -60,13 +60,14 @@ Fleet::Changes Fleet::Reload(const std::vector<Vehicle>& vehicles) {
   return changes;
 }
 
-std::string Fleet::Served() const {
+std::string Fleet::NotServed(const std::string& vehicle_id) const {
   std::string names;
-  for (const auto& [vehicle_id, window] : windows()) {
+  for (const auto& [served, window] : windows()) {
     if (!names.empty()) names += ", ";
-    names += vehicle_id;
+    names += served;
   }
-  return names.empty() ? "none" : names;
+  return "vehicle '" + vehicle_id +
+         "' is not served here; served: " + (names.empty() ? "none" : names);
 }
 
 void Fleet::CountUnattributed(std::string_view channel, UnattributedReason reason) {

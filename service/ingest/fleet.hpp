@@ -45,8 +45,8 @@ class Fleet {
   /// Serves these vehicles from now on.
   Changes Reload(const std::vector<Vehicle>& vehicles);
 
-  /// The vehicles served, for people: "a, b, c".
-  std::string Served() const;
+  /// What a client is told of a vehicle that is not served here: which ones are.
+  std::string NotServed(const std::string& vehicle_id) const;
 
   void CountUnattributed(std::string_view channel, UnattributedReason reason);
   /// Counts a sample that the bus cannot deserialise, where the topic carries telemetry.

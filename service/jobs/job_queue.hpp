@@ -256,8 +256,7 @@ template <class Request, class Stage, class Reply>
 std::optional<Reply> JobQueue<Request, Stage, Reply>::RejectionOf(const Request& request,
                                                                   Urgency urgency) const {
   if (fleet_.Find(request.vehicle_id) == nullptr) {
-    return Failed(request, "vehicle '" + request.vehicle_id +
-                               "' is not served here; served: " + fleet_.Served());
+    return Failed(request, fleet_.NotServed(request.vehicle_id));
   }
   if (Waiting() < queue_limit_) return std::nullopt;
   const double retry_after_s = RetryAfterS(urgency);

@@ -16,9 +16,7 @@ namespace telltale {
 namespace {
 
 void CreateRequests(SQLite::Database& database) {
-  database.exec("PRAGMA journal_mode = WAL");
-  database.exec("PRAGMA synchronous = FULL");
-  database.exec("PRAGMA journal_size_limit = 4194304");
+  UseWriteAheadLog(database, "FULL");
   database.exec(
       "CREATE TABLE IF NOT EXISTS requests ("
       "  number INTEGER PRIMARY KEY AUTOINCREMENT, correlation_id TEXT NOT NULL UNIQUE,"

@@ -3,6 +3,8 @@
 #include <limits>
 
 #include "telltale/idl/codec/json/proto_values.hpp"
+#include "telltale/idl/codec/json/provenance.hpp"
+#include "telltale/idl/codec/json/quality.hpp"
 
 namespace telltale {
 
@@ -19,12 +21,7 @@ proto::VehicleSummary SummaryOf(const Quality& quality) {
   summary.set_model_age_s(quality.model_age_s);
   summary.set_prediction_error(quality.prediction_error);
   summary.set_drifts(quality.drift_since_unix_s > 0.0);
-  if (quality.position) {
-    auto& position = *summary.mutable_position();
-    position.set_latitude_deg(quality.position->latitude_deg);
-    position.set_longitude_deg(quality.position->longitude_deg);
-    if (quality.position->heading_deg) position.set_heading_deg(*quality.position->heading_deg);
-  }
+  if (quality.position) *summary.mutable_position() = ToProto(*quality.position);
   return summary;
 }
 
@@ -37,12 +34,7 @@ proto::Job ToProto(const JobView& job) {
   message.set_stage(job.stage);
   message.set_fraction(job.fraction);
   message.set_message(job.message);
-  for (const Refusal& refusal : job.refusals) {
-    proto::Refusal& to = *message.add_refusals();
-    to.set_subject(refusal.subject);
-    to.set_reason(refusal.reason);
-    to.set_advice(refusal.advice);
-  }
+  for (const Refusal& refusal : job.refusals) *message.add_refusals() = ToProto(refusal);
   message.set_revision(Saturated(job.revision));
   return message;
 }

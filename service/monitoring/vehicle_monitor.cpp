@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "telltale/core/base/median.hpp"
 #include "telltale/service/monitoring/quality_verdict.hpp"
 #include "telltale/service/unix_now.hpp"
 
@@ -47,10 +48,7 @@ double RelativeHalfWidth(const std::vector<Coefficient>& coefficients) {
     if (c.status != CoefficientStatus::kEstimated || c.estimate == 0.0) continue;
     widths.push_back(0.5 * (c.interval.upper - c.interval.lower) / std::abs(c.estimate));
   }
-  if (widths.empty()) return 0.0;
-  const auto middle = widths.begin() + static_cast<std::ptrdiff_t>(widths.size() / 2);
-  std::nth_element(widths.begin(), middle, widths.end());
-  return *middle;
+  return widths.empty() ? 0.0 : Median(std::move(widths));
 }
 
 void WriteIdentifiability(const std::vector<Coefficient>& coefficients, Quality& quality) {

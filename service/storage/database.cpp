@@ -92,10 +92,8 @@ void CreateTables(SQLite::Database& database) {
 void PrepareSchema(SQLite::Database& database, const std::filesystem::path& file) {
   const int version = database.execAndGet("PRAGMA user_version").getInt();
   RefuseOtherVersions(file, version);
-  database.exec("PRAGMA journal_mode = WAL");
-  database.exec("PRAGMA synchronous = FULL");
-  database.exec("PRAGMA wal_autocheckpoint = 256");      // pages, so a megabyte
-  database.exec("PRAGMA journal_size_limit = 4194304");  // bytes of the log after a checkpoint
+  UseWriteAheadLog(database, "FULL");
+  database.exec("PRAGMA wal_autocheckpoint = 256");  // pages, so a megabyte
   SQLite::Transaction transaction(database, SQLite::TransactionBehavior::IMMEDIATE);
   if (version == kWithoutVerdicts) AddVerdicts(database);
   CreateTables(database);
@@ -122,6 +120,12 @@ std::unique_ptr<SQLite::Database> StartAgain(const std::filesystem::path& file,
 }
 
 }  // namespace
+
+void UseWriteAheadLog(SQLite::Database& database, const char* synchronous) {
+  database.exec("PRAGMA journal_mode = WAL");
+  database.exec("PRAGMA synchronous = " + std::string(synchronous));
+  database.exec("PRAGMA journal_size_limit = 4194304");
+}
 
 std::unique_ptr<SQLite::Database> OpenOrSalvage(
     const std::filesystem::path& file, const std::function<void(SQLite::Database&)>& prepare,

@@ -12,6 +12,11 @@ class Database;
 
 namespace telltale {
 
+/// Keeps changes in a write-ahead log of at most 4 MiB after a checkpoint. `synchronous` is
+/// SQLite's: FULL puts each committed transaction on disk, NORMAL may lose the latest at a power
+/// failure.
+void UseWriteAheadLog(SQLite::Database& database, const char* synchronous);
+
 /// Opens a database, and creates it where it is missing. `prepare` creates its tables, and may
 /// throw to leave the file as it is. A file that SQLite finds damaged is set aside as
 /// FILE.damaged-TIME, and the rows of `tables` that can be read are copied into a new one; the log

@@ -10,10 +10,9 @@
 #include "telltale/client/fleet/request_reply.hpp"
 #include "telltale/core/base/version.hpp"
 #include "telltale/idl/codec/json/json_message.hpp"
-#include "telltale/idl/codec/json/model.hpp"
 #include "telltale/idl/codec/json/proto_values.hpp"
+#include "telltale/idl/codec/json/published.hpp"
 #include "telltale/idl/codec/json/quality.hpp"
-#include "telltale/idl/codec/json/report.hpp"
 #include "telltale/idl/proto/fleet.pb.h"
 #include "telltale/service/monitoring/fleet_json.hpp"
 #include "telltale/service/unix_now.hpp"
@@ -63,13 +62,6 @@ std::optional<ListFilter> FilterOf(const httplib::Request& request, httplib::Res
     filter.verdicts.insert(*known);
   }
   return filter;
-}
-
-proto::Model ToProto(const StoredModel& stored) {
-  proto::Model message = ToProto(stored.model.identification);
-  message.mutable_provenance()->set_revision(stored.model.revision);
-  message.mutable_provenance()->set_published_unix_s(stored.model.published_unix_s);
-  return message;
 }
 
 proto::Model Shortened(proto::Model model) {
@@ -216,7 +208,7 @@ void FleetApi::GetModels(const Request& request, Response& response) const {
       list.set_next(Saturated(last.revision()));
       break;
     }
-    *list.add_models() = Shortened(ToProto(stored));
+    *list.add_models() = Shortened(ToProto(stored.model));
   }
   AnswerJson(list, request, response);
 }
@@ -233,7 +225,7 @@ void FleetApi::GetModel(const Request& request, Response& response) const {
     return AnswerFailure(404, "there is no revision '" + text.substr(0, 64) + "' of " + vehicle_id,
                          "a revision of GET /api/v1/vehicles/" + vehicle_id + "/models", response);
   }
-  AnswerJson(ToProto(newest.front()), request, response);
+  AnswerJson(ToProto(newest.front().model), request, response);
 }
 
 void FleetApi::GetDiagnosis(const Request& request, Response& response) const {
@@ -244,10 +236,7 @@ void FleetApi::GetDiagnosis(const Request& request, Response& response) const {
     return AnswerFailure(404, vehicle_id + " has not been diagnosed",
                          "telltale diagnose --vehicle-id " + vehicle_id, response);
   }
-  proto::Report report = ToProto(last->diagnosis);
-  report.set_model_revision(last->model_revision);
-  report.set_published_unix_s(last->published_unix_s);
-  AnswerJson(report, request, response);
+  AnswerJson(ToProto(*last), request, response);
 }
 
 void FleetApi::GetJobs(const Request& request, Response& response) const {

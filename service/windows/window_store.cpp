@@ -14,9 +14,7 @@ namespace telltale {
 namespace {
 
 void CreateChunks(SQLite::Database& database) {
-  database.exec("PRAGMA journal_mode = WAL");
-  database.exec("PRAGMA synchronous = NORMAL");  // a lost chunk is a few seconds of telemetry
-  database.exec("PRAGMA journal_size_limit = 4194304");
+  UseWriteAheadLog(database, "NORMAL");  // a lost chunk is a few seconds of telemetry
   database.exec(
       "CREATE TABLE IF NOT EXISTS chunks ("
       "  vehicle_id TEXT NOT NULL, number INTEGER NOT NULL, last_s REAL NOT NULL,"

@@ -2,16 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "telltale/client/recording/block_reader.hpp"
+#include "telltale/core/base/degrees.hpp"
 #include "telltale/core/base/format_number.hpp"
 
 namespace telltale {
 namespace {
 
 constexpr std::uint8_t kFix3d = 3;
-constexpr double kDegreesPerRadian = 180.0 / std::numbers::pi;
 constexpr double kUnixAfterS = 1e9;  ///< no autopilot runs for 30 years
 constexpr std::uint32_t kHalfWrapUs = 1u << 31;
 constexpr double kLowRateHz = 5.0;  // below it commands change unseen

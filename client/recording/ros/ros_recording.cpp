@@ -2,15 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <sstream>
 
 #include "telltale/client/recording/ros/cdr_reader.hpp"
+#include "telltale/core/base/degrees.hpp"
+#include "telltale/core/base/median.hpp"
 
 namespace telltale {
 namespace {
 
-constexpr double kYawDegreesPerRadian = 180.0 / std::numbers::pi;
 constexpr double kClocksAgreeS = 1.0;
 constexpr int kDefaultPortChannel = 1;
 constexpr int kDefaultStarboardChannel = 3;
@@ -140,7 +140,7 @@ void RosRecording::Take(std::string_view topic, std::string_view type, std::int6
         for (int i = 0; i < 3; ++i) cdr.Read<double>();
       }
       const Quaternion q = ReadQuaternion(cdr);
-      const double yaw_deg = YawRad(q) * kYawDegreesPerRadian;
+      const double yaw_deg = YawRad(q) * kDegreesPerRadian;
       sample.values[0] = known.is_ned ? yaw_deg : 90.0 - yaw_deg;
       is_usable = !IsNull(q);
       if (known.type == "sensor_msgs/msg/Imu" && cdr.Read<double>() == -1.0) is_usable = false;
@@ -195,9 +195,7 @@ bool RosRecording::StampsAgree(const Named* named) const {
     if (sample.stamp_s) apart.push_back(std::abs(sample.received_s - *sample.stamp_s));
   }
   if (apart.empty()) return true;  // no stamps: the time of recording stands for them
-  const auto middle = apart.begin() + static_cast<std::ptrdiff_t>(apart.size() / 2);
-  std::nth_element(apart.begin(), middle, apart.end());
-  return *middle <= kClocksAgreeS;
+  return Median(std::move(apart)) <= kClocksAgreeS;
 }
 
 SourceLog RosRecording::Finish(const SourceOptions& options) const {

@@ -18,6 +18,11 @@ Eigen::MatrixXd OfRoot(const Eigen::MatrixXd& root) {
   return root * root.transpose();
 }
 
+Eigen::MatrixXd OfColumns(const Eigen::MatrixXd& columns) {
+  const Eigen::MatrixXd centred = columns.colwise() - columns.rowwise().mean();
+  return centred * centred.transpose() / static_cast<double>(centred.cols() - 1);
+}
+
 Eigen::MatrixXd Inverse(const Eigen::MatrixXd& V) {
   const Eigen::MatrixXd identity = Eigen::MatrixXd::Identity(V.rows(), V.cols());
   return V.llt().solve(identity);

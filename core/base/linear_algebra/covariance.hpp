@@ -15,6 +15,9 @@ Eigen::MatrixXd Mapped(const Eigen::MatrixXd& A, const Eigen::MatrixXd& V);
 /// root root': the covariance of root z where z is white with unit variance.
 Eigen::MatrixXd OfRoot(const Eigen::MatrixXd& root);
 
+/// The sample covariance of columns. Requires: two columns at least.
+Eigen::MatrixXd OfColumns(const Eigen::MatrixXd& columns);
+
 /// The inverse of a positive definite matrix: of a covariance its information, and the reverse.
 Eigen::MatrixXd Inverse(const Eigen::MatrixXd& V);
 

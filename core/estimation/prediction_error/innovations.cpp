@@ -9,16 +9,9 @@ namespace {
 
 using enum FossenParameter;
 
-constexpr int kStates = kFilterStates;
+constexpr int kParameters = static_cast<int>(kFossenParameters);
 constexpr int kNorth = 0;
 constexpr int kEast = 1;
-constexpr int kHeading = 2;
-constexpr int kNu = 3;
-constexpr int kDisturbance = 6;
-constexpr int kDrift = 9;
-
-constexpr int kCurrent = 11;
-constexpr int kMisalignment = 13;
 // A current changes by this much in a second, one sigma of its random walk.
 constexpr double kCurrentWalk = 0.003;
 
@@ -30,7 +23,7 @@ constexpr double kHeadingPeriodS = 0.095;
 
 using State = FilterState;
 using Covariance = FilterCovariance;
-using Slopes = Eigen::Matrix<double, kStates, kActiveParameters>;
+using Slopes = Eigen::Matrix<double, kFilterStates, kParameters>;
 
 struct Reading {
   double time_s;
@@ -64,7 +57,7 @@ class Filter {
          const State& start)
       : settings_(settings),
         dynamics_(settings.parameters, settings.propeller_separation_m),
-        thrust_(commands, settings.hold,
+        thrust_(commands,
                 {settings.parameters[At(kDeadBand)], settings.parameters[At(kTimeConstant)],
                  settings.parameters[At(kCommandDelay)]},
                 start_s),
@@ -95,22 +88,23 @@ class Filter {
 
   void TakeHeading(double psi_rad, std::vector<Innovation>& innovations) {
     const double sigma = settings_.noise.heading_sigma_rad;
-    Eigen::Matrix<double, 1, kStates> row = Eigen::Matrix<double, 1, kStates>::Zero();
-    row[kHeading] = 1.0;
-    row[kMisalignment] = 1.0;
-    Take(row, psi_rad - x_[kHeading] - x_[kMisalignment], ActiveVector::Zero(), sigma * sigma,
-         innovations);
+    Eigen::Matrix<double, 1, kFilterStates> row = Eigen::Matrix<double, 1, kFilterStates>::Zero();
+    row[kHeadingState] = 1.0;
+    row[kMisalignmentState] = 1.0;
+    Take(row, psi_rad - x_[kHeadingState] - x_[kMisalignmentState], FossenVector::Zero(),
+         sigma * sigma, innovations);
   }
 
   // North and east of a fix turned into along and across the track, where the noise of the stamp
   // is the one's alone.
   void TakeFix(double north_m, double east_m, std::vector<Innovation>& innovations) {
-    const double c = std::cos(x_[kHeading]);
-    const double s = std::sin(x_[kHeading]);
+    const double c = std::cos(x_[kHeadingState]);
+    const double s = std::sin(x_[kHeadingState]);
     const LeverArm& arm = settings_.antenna;
-    const double u = x_[kNu];
-    const double v = x_[kNu + 1];
-    const Eigen::Vector2d velocity(c * u - s * v + x_[kCurrent], s * u + c * v + x_[kCurrent + 1]);
+    const double u = x_[kVelocityState];
+    const double v = x_[kVelocityState + 1];
+    const Eigen::Vector2d velocity(c * u - s * v + x_[kCurrentState],
+                                   s * u + c * v + x_[kCurrentState + 1]);
     const double speed = velocity.norm();
     const Eigen::Vector2d along =
         speed > 1e-3 ? Eigen::Vector2d(velocity / speed) : Eigen::Vector2d(1.0, 0.0);
@@ -119,19 +113,19 @@ class Filter {
       const Eigen::Vector2d axis = fixed_gains_ != nullptr ? (*fixed_gains_)[next_gain_].axis
                                    : is_along              ? along
                                                            : across;
-      const double psi_c = std::cos(x_[kHeading]);
-      const double psi_s = std::sin(x_[kHeading]);
+      const double psi_c = std::cos(x_[kHeadingState]);
+      const double psi_s = std::sin(x_[kHeadingState]);
       const Eigen::Vector2d lever(psi_c * arm.forward_m - psi_s * arm.starboard_m,
                                   psi_s * arm.forward_m + psi_c * arm.starboard_m);
       const Eigen::Vector2d lever_by_psi(-lever[1], lever[0]);
       const Eigen::Vector2d predicted =
-          x_.segment<2>(kNorth) + lever + x_.segment<2>(kDrift) -
+          x_.segment<2>(kNorth) + lever + x_.segment<2>(kDriftState) -
           (settings_.parameters[At(kFixDelay)] - settings_.nominal_fix_delay_s) * velocity;
-      Eigen::Matrix<double, 1, kStates> row = Eigen::Matrix<double, 1, kStates>::Zero();
+      Eigen::Matrix<double, 1, kFilterStates> row = Eigen::Matrix<double, 1, kFilterStates>::Zero();
       row.segment<2>(kNorth) = axis.transpose();
-      row.segment<2>(kDrift) = axis.transpose();
-      row[kHeading] = axis.dot(lever_by_psi);
-      ActiveVector by = ActiveVector::Zero();
+      row.segment<2>(kDriftState) = axis.transpose();
+      row[kHeadingState] = axis.dot(lever_by_psi);
+      FossenVector by = FossenVector::Zero();
       // A longer delay predicts where the boat was before.
       by[At(kFixDelay)] = axis.dot(velocity);
       const double stamp = is_along ? speed * settings_.noise.stamp_sigma_s : 0.0;
@@ -153,32 +147,32 @@ class Filter {
     Rate rate;
     rate.value.setZero();
     rate.by_state.setZero();
-    const double c = std::cos(x[kHeading]);
-    const double s = std::sin(x[kHeading]);
-    const double u = x[kNu];
-    const double v = x[kNu + 1];
-    rate.value[kNorth] = c * u - s * v + x[kCurrent];
-    rate.value[kEast] = s * u + c * v + x[kCurrent + 1];
-    rate.value[kHeading] = x[kNu + 2];
-    rate.by_state(kNorth, kHeading) = -s * u - c * v;
-    rate.by_state(kEast, kHeading) = c * u - s * v;
-    rate.by_state.block<2, 2>(kNorth, kNu) << c, -s, s, c;
-    rate.by_state(kHeading, kNu + 2) = 1.0;
-    rate.by_state(kNorth, kCurrent) = 1.0;
-    rate.by_state(kEast, kCurrent + 1) = 1.0;
-    const auto at = dynamics_.At(x.segment<3>(kNu), thrust.mean[0], thrust.mean[1]);
-    rate.value.segment<3>(kNu) = at.nu_dot + x.segment<3>(kDisturbance);
-    rate.by_state.block<3, 3>(kNu, kNu) = at.by_nu;
-    rate.by_state.block<3, 3>(kNu, kDisturbance).setIdentity();
+    const double c = std::cos(x[kHeadingState]);
+    const double s = std::sin(x[kHeadingState]);
+    const double u = x[kVelocityState];
+    const double v = x[kVelocityState + 1];
+    rate.value[kNorth] = c * u - s * v + x[kCurrentState];
+    rate.value[kEast] = s * u + c * v + x[kCurrentState + 1];
+    rate.value[kHeadingState] = x[kVelocityState + 2];
+    rate.by_state(kNorth, kHeadingState) = -s * u - c * v;
+    rate.by_state(kEast, kHeadingState) = c * u - s * v;
+    rate.by_state.block<2, 2>(kNorth, kVelocityState) << c, -s, s, c;
+    rate.by_state(kHeadingState, kVelocityState + 2) = 1.0;
+    rate.by_state(kNorth, kCurrentState) = 1.0;
+    rate.by_state(kEast, kCurrentState + 1) = 1.0;
+    const auto at = dynamics_.At(x.segment<3>(kVelocityState), thrust.mean[0], thrust.mean[1]);
+    rate.value.segment<3>(kVelocityState) = at.nu_dot + x.segment<3>(kDisturbanceState);
+    rate.by_state.block<3, 3>(kVelocityState, kVelocityState) = at.by_nu;
+    rate.by_state.block<3, 3>(kVelocityState, kDisturbanceState).setIdentity();
     return rate;
   }
 
   // d rate / d parameter, the rows of the velocities alone.
-  Eigen::Matrix<double, 3, kActiveParameters> ByParameter(const State& x,
-                                                          const ThrustStep& thrust) const {
-    const Eigen::Vector3d nu = x.segment<3>(kNu);
+  Eigen::Matrix<double, 3, kParameters> ByParameter(const State& x,
+                                                    const ThrustStep& thrust) const {
+    const Eigen::Vector3d nu = x.segment<3>(kVelocityState);
     const auto at = dynamics_.At(nu, thrust.mean[0], thrust.mean[1]);
-    Eigen::Matrix<double, 3, kActiveParameters> by;
+    Eigen::Matrix<double, 3, kParameters> by;
     by.setZero();
     by.leftCols<19>() = dynamics_.ByParameter(nu, at.nu_dot, thrust.mean[0], thrust.mean[1]);
     by.col(At(kDeadBand)) = dynamics_.ByThrust(thrust.by_dead_band[0], thrust.by_dead_band[1]);
@@ -192,15 +186,15 @@ class Filter {
   // step, and the acceleration changes with the velocity.
   void AddThirdOrder(const State& middle, const Rate& rate, const ThrustStep& thrust, double h,
                      State& next) const {
-    const Eigen::Matrix3d by_nu = rate.by_state.block<3, 3>(kNu, kNu);
+    const Eigen::Matrix3d by_nu = rate.by_state.block<3, 3>(kVelocityState, kVelocityState);
     const Eigen::Vector3d way = dynamics_.ByThrust(thrust.early[0], thrust.early[1]) +
-                                (h * h * h / 6.0) * (by_nu * rate.value.segment<3>(kNu));
-    const double c = std::cos(middle[kHeading]);
-    const double s = std::sin(middle[kHeading]);
+                                (h * h * h / 6.0) * (by_nu * rate.value.segment<3>(kVelocityState));
+    const double c = std::cos(middle[kHeadingState]);
+    const double s = std::sin(middle[kHeadingState]);
     next[kNorth] += c * way[0] - s * way[1];
     next[kEast] += s * way[0] + c * way[1];
-    next[kHeading] += way[2];
-    next.segment<3>(kNu) += by_nu * way;
+    next[kHeadingState] += way[2];
+    next.segment<3>(kVelocityState) += by_nu * way;
   }
 
   // The midpoint rule under the mean thrust; disturbance and drift decay exactly.
@@ -214,38 +208,40 @@ class Filter {
     const NoiseModel& noise = settings_.noise;
     const double decay = std::exp(-h / noise.acceleration_time_constant_s);
     const double drift_decay = std::exp(-h / NoiseModel::kFixDriftTimeConstantS);
-    transition.bottomRows<kStates - kDisturbance>().setZero();
-    transition.diagonal().segment<3>(kDisturbance).setConstant(decay);
-    transition.diagonal().segment<2>(kDrift).setConstant(drift_decay);
+    transition.bottomRows<kFilterStates - kDisturbanceState>().setZero();
+    transition.diagonal().segment<3>(kDisturbanceState).setConstant(decay);
+    transition.diagonal().segment<2>(kDriftState).setConstant(drift_decay);
     transition.diagonal().tail<3>().setOnes();
     if (settings_.with_slopes) {
       const auto by_first = ByParameter(x_, thrust);
       const auto by_second = ByParameter(middle, thrust);
       slopes_ = (transition * slopes_).eval();
-      slopes_.middleRows<3>(kNu) +=
-          h * by_second + (0.5 * h * h) * (second.by_state.block<3, 3>(kNu, kNu) * by_first);
-      slopes_.topRows<3>() += (0.5 * h * h) * (second.by_state.block<3, 3>(kNorth, kNu) * by_first);
+      slopes_.middleRows<3>(kVelocityState) +=
+          h * by_second +
+          (0.5 * h * h) * (second.by_state.block<3, 3>(kVelocityState, kVelocityState) * by_first);
+      slopes_.topRows<3>() +=
+          (0.5 * h * h) * (second.by_state.block<3, 3>(kNorth, kVelocityState) * by_first);
     }
     State next = x_ + h * second.value;
     AddThirdOrder(middle, second, thrust, h, next);
-    next.segment<3>(kDisturbance) = decay * x_.segment<3>(kDisturbance);
-    next.segment<2>(kDrift) = drift_decay * x_.segment<2>(kDrift);
+    next.segment<3>(kDisturbanceState) = decay * x_.segment<3>(kDisturbanceState);
+    next.segment<2>(kDriftState) = drift_decay * x_.segment<2>(kDriftState);
     x_ = next;
     if (fixed_gains_ != nullptr) {
       now_s_ += h;
       return;
     }
     covariance_ = (transition * covariance_ * transition.transpose()).eval();
-    covariance_.diagonal().segment<3>(kDisturbance) +=
+    covariance_.diagonal().segment<3>(kDisturbanceState) +=
         (1.0 - decay * decay) * noise.acceleration_sigma.cwiseAbs2();
-    covariance_.diagonal().segment<2>(kDrift).array() +=
+    covariance_.diagonal().segment<2>(kDriftState).array() +=
         (1.0 - drift_decay * drift_decay) * noise.fix_drift_sigma_m * noise.fix_drift_sigma_m;
-    covariance_.diagonal().segment<2>(kCurrent).array() += h * kCurrentWalk * kCurrentWalk;
+    covariance_.diagonal().segment<2>(kCurrentState).array() += h * kCurrentWalk * kCurrentWalk;
     now_s_ += h;
   }
 
-  void Take(const Eigen::Matrix<double, 1, kStates>& row, double value, const ActiveVector& by,
-            double noise_variance, std::vector<Innovation>& innovations) {
+  void Take(const Eigen::Matrix<double, 1, kFilterStates>& row, double value,
+            const FossenVector& by, double noise_variance, std::vector<Innovation>& innovations) {
     State projected;
     FilterGain gain;
     if (fixed_gains_ != nullptr) {
@@ -290,7 +286,7 @@ std::optional<State> StartOf(const std::vector<Reading>& readings) {
   const auto first_heading = std::ranges::find(readings, false, &Reading::is_fix);
   if (first_fix == readings.end() || first_heading == readings.end()) return std::nullopt;
   State start = State::Zero();
-  start[kHeading] = first_heading->psi_rad;
+  start[kHeadingState] = first_heading->psi_rad;
   start.segment<2>(kNorth) << first_fix->north_m, first_fix->east_m;
   return start;
 }
@@ -303,10 +299,6 @@ void Take(const Reading& reading, Filter& filter, std::vector<Innovation>& innov
     filter.TakeHeading(reading.psi_rad, innovations);
   }
 }
-
-}  // namespace
-
-namespace {
 
 std::vector<Innovation> Innovate(const RawSignals& signals, const HeldCommands& commands,
                                  const FilterSettings& settings,

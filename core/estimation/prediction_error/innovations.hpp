@@ -25,15 +25,12 @@ struct NoiseModel {
   static constexpr double kFixDriftTimeConstantS = 20.0;
 };
 
-inline constexpr int kActiveParameters = static_cast<int>(kFossenParameters);
-using ActiveVector = Eigen::Matrix<double, kActiveParameters, 1>;
-
 /// One innovation, a scalar: the reading less its prediction from all readings before it.
 struct Innovation {
   double time_s = 0.0;
   double value = 0.0;
   double variance = 0.0;
-  ActiveVector slope;  ///< d value / d parameters at fixed gains; zero unless asked for
+  FossenVector slope;  ///< d value / d parameters at fixed gains; zero unless asked for
 };
 
 struct FilterSettings {
@@ -41,7 +38,6 @@ struct FilterSettings {
   double current_sigma_m_s = 0.3;
   double misalignment_sigma_rad = 0.087;
   NoiseModel noise;
-  CommandHold hold = CommandHold::kHeld;
   double propeller_separation_m = 0.0;
   LeverArm antenna;
   bool with_slopes = false;

@@ -60,8 +60,6 @@ class Problem {
           const PredictionErrorOptions& options)
       : dataset_(dataset), separation_m_(separation_m), prior_(prior), options_(options) {}
 
-  Eigen::Index Size() const { return kParameters; }
-
   using Gains = std::vector<std::vector<FilterGain>>;
 
   FilterSettings SettingsOf(const Eigen::VectorXd& z, const NoiseModel& noise,
@@ -72,7 +70,6 @@ class Problem {
     settings.current_sigma_m_s = prior_.current_sigma_m_s;
     settings.misalignment_sigma_rad = prior_.misalignment_sigma_rad;
     settings.noise = noise;
-    settings.hold = options_.hold;
     settings.propeller_separation_m = separation_m_;
     settings.antenna = dataset_.sensors.antenna;
     return settings;
@@ -109,15 +106,9 @@ class Problem {
     return std::isfinite(sum) ? sum : std::numeric_limits<double>::infinity();
   }
 
-  Eigen::VectorXd PriorMean() const {
-    Eigen::VectorXd mean = Eigen::VectorXd::Zero(Size());
-    mean.head<kParameters>() = prior_.mean;
-    return mean;
-  }
-
   // The precision matrix and mean of the prior; that of reverse thrust depends on forward thrust.
   Eigen::MatrixXd PriorPrecision(const Eigen::VectorXd& z) const {
-    Eigen::MatrixXd precision = Eigen::MatrixXd::Zero(Size(), Size());
+    Eigen::MatrixXd precision = Eigen::MatrixXd::Zero(kParameters, kParameters);
     for (Eigen::Index i = 0; i < kParameters; ++i) {
       precision(i, i) = 1.0 / std::pow(prior_.standard_deviation[i], 2);
     }
@@ -128,7 +119,7 @@ class Problem {
   }
 
   Eigen::VectorXd ReverseRow() const {
-    Eigen::VectorXd row = Eigen::VectorXd::Zero(Size());
+    Eigen::VectorXd row = Eigen::VectorXd::Zero(kParameters);
     row[At(kReverseLinear)] = row[At(kReverseQuadratic)] = 1.0;
     row[At(kForwardLinear)] = row[At(kForwardQuadratic)] = -prior_.reverse_over_forward;
     return row;
@@ -136,10 +127,9 @@ class Problem {
 
   // The mean of the joint normal that the separate priors make.
   Eigen::VectorXd PriorShift(const Eigen::MatrixXd& precision) const {
-    Eigen::VectorXd weighted = Eigen::VectorXd::Zero(Size());
-    const Eigen::VectorXd mean = PriorMean();
+    Eigen::VectorXd weighted = Eigen::VectorXd::Zero(kParameters);
     for (Eigen::Index i = 0; i < kParameters; ++i) {
-      weighted[i] = mean[i] / std::pow(prior_.standard_deviation[i], 2);
+      weighted[i] = prior_.mean[i] / std::pow(prior_.standard_deviation[i], 2);
     }
     return precision.ldlt().solve(weighted);
   }
@@ -147,13 +137,6 @@ class Problem {
   bool Feasible(const Eigen::VectorXd& z) const {
     const double m = z[At(kM22)] * z[At(kM33)] - z[At(kM23)] * z[At(kM23)];
     return m > 0.05 * z[At(kM22)] * z[At(kM33)];
-  }
-
-  double Least(Eigen::Index i) const {
-    return i < kParameters ? prior_.least[i] : -std::numeric_limits<double>::infinity();
-  }
-  double Greatest(Eigen::Index i) const {
-    return i < kParameters ? prior_.greatest[i] : std::numeric_limits<double>::infinity();
   }
 
   const PreparedDataset& dataset_;
@@ -173,7 +156,7 @@ struct Normal {
 // The normal equations of one segment, and the scores of its blocks.
 struct SegmentSums {
   FossenSquare information = FossenSquare::Zero();
-  std::vector<ActiveVector> block_scores;
+  std::vector<FossenVector> block_scores;
 };
 
 SegmentSums SumsOf(const std::vector<Innovation>& innovations, double block_s) {
@@ -181,7 +164,7 @@ SegmentSums SumsOf(const std::vector<Innovation>& innovations, double block_s) {
   double block_end_s = -std::numeric_limits<double>::infinity();
   for (const Innovation& i : innovations) {
     if (i.time_s > block_end_s) {
-      sums.block_scores.emplace_back(ActiveVector::Zero());
+      sums.block_scores.emplace_back(FossenVector::Zero());
       block_end_s = i.time_s + block_s;
     }
     sums.information.selfadjointView<Eigen::Lower>().rankUpdate(i.slope, 1.0 / i.variance);
@@ -193,18 +176,18 @@ SegmentSums SumsOf(const std::vector<Innovation>& innovations, double block_s) {
 
 Normal NormalEquations(const Problem& problem, const Runs& all) {
   const FossenSquare zero = FossenSquare::Zero();
-  Normal normal{zero, ActiveVector::Zero(), zero, zero};
-  std::vector<ActiveVector> of_recordings(problem.dataset_.Recordings(), ActiveVector::Zero());
+  Normal normal{zero, FossenVector::Zero(), zero, zero};
+  std::vector<FossenVector> of_recordings(problem.dataset_.Recordings(), FossenVector::Zero());
   for (std::size_t s = 0; s < all.size(); ++s) {
     const SegmentSums sums = SumsOf(all[s], problem.options_.block_s);
     normal.information += sums.information;
     normal.blocks += sums.block_scores.size();
-    for (const ActiveVector& score : sums.block_scores) {
+    for (const FossenVector& score : sums.block_scores) {
       normal.score_covariance += score * score.transpose();
       of_recordings[problem.dataset_.RecordingOf(s)] += score;
     }
   }
-  for (const ActiveVector& score : of_recordings) {
+  for (const FossenVector& score : of_recordings) {
     normal.recording_score_covariance += score * score.transpose();
     normal.gradient += score;
   }
@@ -292,11 +275,11 @@ Eigen::VectorXd BoundedStep(const Problem& problem, const Eigen::VectorXd& z,
       const Eigen::Index fi = free[static_cast<std::size_t>(i)];
       const double to = z[fi] + solved[i];
       step[fi] = solved[i];
-      if (to < problem.Least(fi)) {
-        step[fi] = problem.Least(fi) - z[fi];
+      if (to < problem.prior_.least[fi]) {
+        step[fi] = problem.prior_.least[fi] - z[fi];
         fixed[static_cast<std::size_t>(fi)] = again = true;
-      } else if (to > problem.Greatest(fi)) {
-        step[fi] = problem.Greatest(fi) - z[fi];
+      } else if (to > problem.prior_.greatest[fi]) {
+        step[fi] = problem.prior_.greatest[fi] - z[fi];
         fixed[static_cast<std::size_t>(fi)] = again = true;
       }
     }
@@ -319,7 +302,7 @@ class Search {
   Search(const Problem& problem, const PredictionErrorOptions& options)
       : problem_(problem),
         options_(options),
-        z_(problem.PriorMean()),
+        z_(problem.prior_.mean),
         noise_(problem.dataset_.Recordings(), FirstNoise()) {}
 
   /// Whether there is more to do after this iteration.

@@ -13,7 +13,6 @@
 namespace telltale {
 
 struct PredictionErrorOptions {
-  CommandHold hold = CommandHold::kHeld;
   std::size_t threads = 1;
   int max_iterations = 25;
   double block_s = 10.0;  ///< length of the blocks behind the robust covariance

@@ -8,9 +8,6 @@ namespace {
 
 using Thrusts = FossenDynamics::Thrusts;
 
-// Parts of an interval between two commands that a linear command is held over.
-constexpr int kLinearParts = 5;
-
 Thrusts Regress(double delta, double dead_band) {
   if (delta > dead_band) {
     const double e = delta - dead_band;
@@ -31,22 +28,11 @@ Thrusts RegressByDeadBand(double delta, double dead_band) {
 
 }  // namespace
 
-ThrustLag::ThrustLag(const HeldCommands& commands, CommandHold hold, const Lag& lag, double start_s)
-    : lag_(lag), now_s_(start_s - lag.delay_s) {
-  const std::vector<double>& times = commands.Times();
-  const std::vector<PropellerCommand>& values = commands.Commands();
-  for (std::size_t i = 0; i < times.size(); ++i) {
-    const bool ramp = hold == CommandHold::kLinear && i + 1 < times.size();
-    const int parts = ramp ? kLinearParts : 1;
-    for (int part = 0; part < parts; ++part) {
-      const double share = static_cast<double>(part) / parts;
-      const double middle = ramp ? (part + 0.5) / parts : 0.0;
-      const PropellerCommand& next = ramp ? values[i + 1] : values[i];
-      times_s_.push_back(ramp ? times[i] + share * (times[i + 1] - times[i]) : times[i]);
-      commands_.push_back({values[i].port + middle * (next.port - values[i].port),
-                           values[i].starboard + middle * (next.starboard - values[i].starboard)});
-    }
-  }
+ThrustLag::ThrustLag(const HeldCommands& commands, const Lag& lag, double start_s)
+    : times_s_(commands.Times()),
+      commands_(commands.Commands()),
+      lag_(lag),
+      now_s_(start_s - lag.delay_s) {
   // The thrust has settled before the first command.
   Enter(0);
   state_ = target_;

@@ -19,13 +19,9 @@ struct ThrustStep {
   FossenDynamics::Thrusts by_delay[2];
 };
 
-/// How a recorded command stands for the time until the next one.
-enum class CommandHold { kHeld, kLinear };
-
 /// The thrust regressors of both propellers over successive steps: (f:d, f:d^2, r:d, r:d^2) beyond
 /// the dead band, each through a first-order lag, the commands `delay_s` behind their stamps.
-/// Model: docs/concepts/physical-model.md (105), (109). Exact for held commands; a linear command
-/// is held over fifths of its interval.
+/// Model: docs/concepts/physical-model.md (105), (109). Exact for held commands.
 class ThrustLag {
  public:
   struct Lag {
@@ -34,7 +30,7 @@ class ThrustLag {
     double delay_s = 0.0;
   };
 
-  ThrustLag(const HeldCommands& commands, CommandHold hold, const Lag& lag, double start_s);
+  ThrustLag(const HeldCommands& commands, const Lag& lag, double start_s);
 
   /// The step from the end of the last one (first: start_s) to `end_s`. Requires: end_s later.
   ThrustStep Until(double end_s);

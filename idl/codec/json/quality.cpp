@@ -2,6 +2,7 @@
 
 #include "telltale/idl/codec/json/json_message.hpp"
 #include "telltale/idl/codec/json/proto_values.hpp"
+#include "telltale/idl/codec/json/provenance.hpp"
 
 namespace telltale {
 namespace {
@@ -57,25 +58,22 @@ void WriteIndicative(const Quality& quality, proto::Quality& message) {
 }
 
 void WriteLastAnswers(const Quality& quality, proto::Quality& message) {
-  if (quality.last_refusal) {
-    proto::Refusal& refusal = *message.mutable_last_refusal();
-    refusal.set_subject(quality.last_refusal->subject);
-    refusal.set_reason(quality.last_refusal->reason);
-    refusal.set_advice(quality.last_refusal->advice);
-  }
+  if (quality.last_refusal) *message.mutable_last_refusal() = ToProto(*quality.last_refusal);
   if (quality.diagnosis_verdict.empty()) return;
   message.mutable_diagnosis()->set_verdict(quality.diagnosis_verdict);
   message.mutable_diagnosis()->set_sentence(quality.diagnosis_sentence);
   message.mutable_diagnosis()->set_published_unix_s(quality.diagnosed_unix_s);
 }
 
-void WritePosition(const QualityPosition& position, proto::Quality::Position& message) {
+}  // namespace
+
+proto::Quality::Position ToProto(const QualityPosition& position) {
+  proto::Quality::Position message;
   message.set_latitude_deg(position.latitude_deg);
   message.set_longitude_deg(position.longitude_deg);
   if (position.heading_deg) message.set_heading_deg(*position.heading_deg);
+  return message;
 }
-
-}  // namespace
 
 proto::Quality ToProto(const Quality& quality, double time_unix_s) {
   proto::Quality message;
@@ -89,7 +87,7 @@ proto::Quality ToProto(const Quality& quality, double time_unix_s) {
   WriteIndicative(quality, message);
   message.set_proposal(quality.proposal);
   WriteLastAnswers(quality, message);
-  if (quality.position) WritePosition(*quality.position, *message.mutable_position());
+  if (quality.position) *message.mutable_position() = ToProto(*quality.position);
   return message;
 }
 
