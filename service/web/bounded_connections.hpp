@@ -8,7 +8,7 @@
 #include <thread>
 #include <vector>
 
-#include <httplib.h>
+#include "telltale/service/web/httplib.hpp"
 
 namespace telltale {
 

@@ -4,13 +4,12 @@
 #include <optional>
 #include <string>
 
-#include <httplib.h>
-
 #include "telltale/client/bus/bus_log.hpp"
 #include "telltale/idl/codec/messages/exchange.hpp"
 #include "telltale/service/ingest/fleet.hpp"
 #include "telltale/service/models/published_models.hpp"
 #include "telltale/service/monitoring/fleet_view.hpp"
+#include "telltale/service/web/httplib.hpp"
 
 namespace telltale {
 

@@ -6,7 +6,8 @@
 #include <string_view>
 
 #include <google/protobuf/message.h>
-#include <httplib.h>
+
+#include "telltale/service/web/httplib.hpp"
 
 namespace telltale {
 

@@ -3,11 +3,10 @@
 #include <memory>
 #include <thread>
 
-#include <httplib.h>
-
 #include "telltale/idl/codec/daemon_config.hpp"
 #include "telltale/service/web/fleet_api.hpp"
 #include "telltale/service/web/fleet_metrics.hpp"
+#include "telltale/service/web/httplib.hpp"
 
 namespace telltale {
 
