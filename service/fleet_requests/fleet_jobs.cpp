@@ -105,15 +105,18 @@ void FleetJobs::Run() {
     const bool under_way =
         std::ranges::any_of(runs_, [](const auto& entry) { return !entry.second->finished(); });
     const auto something = [&inbox] {
-      return inbox.stopping || !inbox.requests.empty() || !inbox.outcomes.empty();
+      return inbox.stopping || !inbox.requests.empty() || !inbox.kept.empty() ||
+             !inbox.outcomes.empty();
     };
     under_way ? void(inbox.wake.wait_until(lock, next_report, something))
               : inbox.wake.wait(lock, something);
     const auto requests = std::exchange(inbox.requests, {});
+    const auto kept = std::exchange(inbox.kept, {});
     const auto outcomes = std::exchange(inbox.outcomes, {});
     lock.unlock();
     for (const auto& [run_id, vehicle] : outcomes) Take(run_id, vehicle);
     for (const FleetRequest& request : requests) Answer(request);
+    for (const FleetRequest& request : kept) BeginRefresh(request);
     if (std::chrono::steady_clock::now() >= next_report || !outcomes.empty()) {
       Advance();
       next_report = std::chrono::steady_clock::now() + kReportPeriod;
@@ -138,7 +141,7 @@ void FleetJobs::Answer(const FleetRequest& request) {
                ? ReplyTo(*run->second, request.correlation_id)
                : Report(*run->second, run->second->vehicles(), request.correlation_id);
   }
-  if (request.command == FleetCommand::kRefresh) return BeginRefresh(request);
+  if (request.command == FleetCommand::kRefresh) return KeepRefresh(request);
   if (request.command == FleetCommand::kFollow) return Follow(request);
   FleetReply reply;
   try {
@@ -191,8 +194,6 @@ FleetReply FleetJobs::RollbackOf(const FleetRequest& request) {
                          vehicle_id + " that is kept; telltale history --vehicle-id " + vehicle_id +
                          " lists them");
   }
-  spdlog::info("{}: revision {} is published again as revision {}", vehicle_id, request.revision,
-               model->revision);
   FleetReply reply = ReplyWith(request, ReplyOutcome::kAnswered);
   reply.models.push_back(SummaryOf(*model));
   return reply;
@@ -222,9 +223,20 @@ FleetReply FleetJobs::CancelOf(const FleetRequest& request) {
                    "no request '" + request.target + "' waits or runs here");
 }
 
+/// It begins, and its client hears of it, once it is on disk.
+void FleetJobs::KeepRefresh(const FleetRequest& request) {
+  journal_.Keep(request, [inbox = inbox_, request] {
+    {
+      const std::lock_guard lock(inbox->mutex);
+      inbox->kept.push_back(request);
+    }
+    inbox->wake.notify_all();
+  });
+}
+
 void FleetJobs::BeginRefresh(const FleetRequest& request) {
+  if (runs_.contains(request.correlation_id)) return;  // it was asked for again in the meantime
   const auto vehicle_ids = VehiclesToRefresh(request, fleet_, models_);
-  journal_.Keep(request, {});
   spdlog::info("the refresh {} of {} vehicles begins", request.correlation_id, vehicle_ids.size());
   const auto run = runs_
                        .emplace(request.correlation_id,

@@ -53,6 +53,7 @@ class FleetJobs {
     std::condition_variable wake;
     bool stopping = false;
     std::deque<FleetRequest> requests;
+    std::deque<FleetRequest> kept;  ///< refreshes that are on disk
     /// What became of identifications: the refresh, and its vehicle.
     std::deque<std::pair<std::string, RefreshedVehicle>> outcomes;
   };
@@ -66,6 +67,7 @@ class FleetJobs {
   FleetReply HistoryOf(const FleetRequest& request) const;
   FleetReply RollbackOf(const FleetRequest& request);
   FleetReply CancelOf(const FleetRequest& request);
+  void KeepRefresh(const FleetRequest& request);
   void BeginRefresh(const FleetRequest& request);
   void Follow(const FleetRequest& request);
   void Reply(const FleetReply& reply);

@@ -1,9 +1,11 @@
 #pragma once
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -21,7 +23,11 @@ struct Asker {
   std::string correlation_id;
   std::optional<Clock::time_point> deadline;  ///< nobody waits after it
   std::function<void(const Reply&)> answer;   ///< unset: the reply goes out on the bus
+  /// Becomes true once the request is on disk. Unset: it is not kept there.
+  std::shared_ptr<std::atomic<bool>> kept;
 
+  /// Whether the asker may hear that the request is known.
+  bool MayHear() const { return !answer && (!kept || *kept); }
   bool GivesUpBy(Clock::time_point now) const { return deadline && *deadline <= now; }
 };
 

@@ -44,8 +44,8 @@ namespace telltale {
 /// - A request that was cancelled, or whose deadline has passed, is dropped unless others have
 ///   joined it. Work under way ends at its next report of progress.
 /// - A full queue answers at once, and says when to ask again.
-/// - With a journal, a request is on disk before its client hears that it is queued, and until it
-///   is answered.
+/// - With a journal, a request is on disk before its client hears of it, but for a reply, and until
+///   it is answered.
 /// Every fault of a request ends in its reply. Thread safe.
 template <class Request, class Stage, class Reply>
 class JobQueue {
@@ -95,7 +95,7 @@ class JobQueue {
     return ReplyTo<Reply>(request, ReplyOutcome::kFailed, message);
   }
   static std::optional<Clock::time_point> DeadlineOf(const Request& request);
-  void Prolong(const Request& request);
+  bool Prolong(const Request& request);
   std::optional<Reply> RejectionOf(const Request& request, Urgency urgency) const;
   double RetryAfterS(Urgency urgency) const;
   std::size_t Waiting() const;
@@ -174,11 +174,12 @@ template <class Request, class Stage, class Reply>
 void JobQueue<Request, Stage, Reply>::Submit(Request request, Urgency urgency, Answer answer) {
   std::unique_lock lock(mutex_);
   if (const auto known = history_.Find(request.correlation_id)) {
-    Prolong(request);
+    const bool may_hear = Prolong(request);
     lock.unlock();
+    if (!may_hear) return;
     return std::visit([this](const auto& message) { replies_.Send(message); }, *known);
   }
-  Asker asker{request.correlation_id, DeadlineOf(request), std::move(answer)};
+  Asker asker{request.correlation_id, DeadlineOf(request), std::move(answer), {}};
   const auto same = JobLike(request);
   if (!same) {
     if (const auto rejection = RejectionOf(request, urgency)) {
@@ -191,7 +192,13 @@ void JobQueue<Request, Stage, Reply>::Submit(Request request, Urgency urgency, A
   const Stage stage{{request.correlation_id, request.vehicle_id, "queued", 0.0}};
   history_.Begin(stage);
   const bool kept = on_the_bus && journal_ != nullptr;
-  if (kept) journal_->Keep(request, [&replies = replies_, stage] { replies.Send(stage); });
+  if (kept) {
+    asker.kept = std::make_shared<std::atomic<bool>>(false);
+    journal_->Keep(request, [&replies = replies_, stage, kept = asker.kept] {
+      *kept = true;
+      replies.Send(stage);
+    });
+  }
   if (same) {
     same->urgency = same->Waits() ? std::min(same->urgency, urgency) : same->urgency;
     same->askers.push_back(std::move(asker));
@@ -212,15 +219,19 @@ auto JobQueue<Request, Stage, Reply>::DeadlineOf(const Request& request)
   return Clock::now() + std::chrono::duration_cast<Clock::duration>(patience);
 }
 
-/// Somebody asks again, and so waits on. The caller holds mutex_, as for all that follow up to
-/// Run().
+/// Somebody asks again, and so waits on. Returns whether the asker may hear how the request stands.
+/// The caller holds mutex_, as for all that follow up to Run().
 template <class Request, class Stage, class Reply>
-void JobQueue<Request, Stage, Reply>::Prolong(const Request& request) {
+bool JobQueue<Request, Stage, Reply>::Prolong(const Request& request) {
+  bool may_hear = true;
   for (const auto& job : jobs_) {
     for (Asker& asker : job->askers) {
-      if (asker.correlation_id == request.correlation_id) asker.deadline = DeadlineOf(request);
+      if (asker.correlation_id != request.correlation_id) continue;
+      asker.deadline = DeadlineOf(request);
+      may_hear = asker.MayHear();
     }
   }
+  return may_hear;
 }
 
 template <class Request, class Stage, class Reply>
@@ -467,7 +478,7 @@ void JobQueue<Request, Stage, Reply>::Report(const std::shared_ptr<Job>& job,
     abandoned = job->askers.empty();
     for (const Asker& asker : job->askers) {
       auto progress = history_.Advance(asker.correlation_id, stage, fraction);
-      if (progress && !asker.answer) reports.push_back(std::move(*progress));
+      if (progress && asker.MayHear()) reports.push_back(std::move(*progress));
     }
   }
   Send(expired);

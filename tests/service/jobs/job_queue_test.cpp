@@ -13,12 +13,14 @@
 #include <utility>
 #include <vector>
 
+#include <SQLiteCpp/SQLiteCpp.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <spdlog/sinks/ostream_sink.h>
 #include <spdlog/spdlog.h>
 
 #include "support/loopback_domain.hpp"
+#include "support/temporary_folder.hpp"
 #include "telltale/client/bus/reader.hpp"
 #include "telltale/client/bus/wait_set.hpp"
 #include "telltale/core/paper/yellowfish.hpp"
@@ -46,7 +48,11 @@ class HeldWork {
     most_for_one_ = std::max(most_for_one_, ++inside_for_[vehicle_id]);
     changed_.notify_all();
     try {
-      while (!changed_.wait_for(lock, 10ms, [this] { return free_; })) progress("held", 0.5);
+      while (!changed_.wait_for(lock, 10ms, [this] { return free_; })) {
+        progress("held", 0.5);
+        ++reports_;
+        changed_.notify_all();
+      }
     } catch (...) {
       Leave(vehicle_id);
       throw;
@@ -58,6 +64,12 @@ class HeldWork {
   bool AwaitInside(int count) {
     std::unique_lock lock(mutex_);
     return changed_.wait_for(lock, 60s, [&] { return inside_ >= count; });
+  }
+
+  /// False where the work has not reported its progress within a minute.
+  bool AwaitReport() {
+    std::unique_lock lock(mutex_);
+    return changed_.wait_for(lock, 60s, [&] { return reports_ > 0; });
   }
 
   bool AwaitNobodyInside() {
@@ -94,6 +106,7 @@ class HeldWork {
   bool free_ = false;
   std::vector<std::string> begun_;
   int inside_ = 0;
+  int reports_ = 0;
   int most_for_one_ = 0;
   std::map<std::string, int> inside_for_;
 };
@@ -109,12 +122,14 @@ class Jobs : public ::testing::Test {
     wait_set_.Attach(reader_, [this] { TakeReplies(); });
   }
 
-  std::unique_ptr<Queue> QueueOf(const Workers& workers, std::size_t limit) {
+  std::unique_ptr<Queue> QueueOf(const Workers& workers, std::size_t limit,
+                                 RequestJournal* journal = nullptr) {
     const auto work = [this](const IdentifyRequest& request, const Progress& progress) {
       work_.Do(request.vehicle_id, progress);
       return ReplyTo<IdentifyReply>(request, ReplyOutcome::kRefused, "done");
     };
-    return std::make_unique<Queue>("identification", fleet_, replies_, workers, limit, work);
+    return std::make_unique<Queue>("identification", fleet_, replies_, workers, limit, work,
+                                   journal);
   }
 
   /// Asks for something of its own, unless the seeds are alike.
@@ -162,6 +177,40 @@ class Jobs : public ::testing::Test {
     });
   }
 };
+
+// What a client has heard of is not lost where the daemon is killed at once.
+TEST_F(Jobs, TellNobodyOfARequestBeforeItIsOnDisk) {
+  Reader<telltale_wire_IdentifyProgress> progress(participant_);
+  std::vector<std::string> heard;
+  wait_set_.Attach(progress, [&] {
+    progress.Take([&](const auto& wire) { heard.emplace_back(wire.correlation_id); });
+  });
+  const auto await = [&](const std::string& correlation_id) {
+    for (int patience = 0; patience < 600; ++patience) {
+      if (std::ranges::find(heard, correlation_id) != heard.end()) return true;
+      wait_set_.Wait(100ms);
+    }
+    return false;
+  };
+  const TemporaryFolder folder;
+  RequestJournal journal(folder.Path());
+  journal.TakeUnanswered();
+  const auto queue = QueueOf({.interactive = 1}, 10, &journal);
+  const auto forgetful = QueueOf({.interactive = 1}, 10);
+  SQLite::Database other(folder.Path() / "requests.sqlite", SQLite::OPEN_READWRITE);
+  other.exec("BEGIN IMMEDIATE");  // the journal waits for it
+  queue->Submit(RequestNamed("kept", "one"));
+  ASSERT_TRUE(work_.AwaitReport());
+  queue->Submit(RequestNamed("kept", "one"));
+  forgetful->Submit(RequestNamed("other", "two"));  // told after whatever was told of the first
+  EXPECT_TRUE(await("other"));
+  EXPECT_EQ(std::ranges::count(heard, "kept"), 0);
+  other.exec("ROLLBACK");
+  EXPECT_TRUE(await("kept"));
+  work_.LetGo();
+  EXPECT_EQ(ReplyMessageTo(*queue, RequestNamed("kept", "one")), "done");
+  wait_set_.Detach(progress);
+}
 
 TEST_F(Jobs, WorkOnSeveralVehiclesAtOnce) {
   const auto queue = QueueOf({.interactive = 2}, 10);
