@@ -52,7 +52,11 @@ Daemon::Daemon(const DaemonConfig& config, std::function<void(const std::excepti
   web_.emplace(
       *config.http, fleet_, models_, view_,
       OrderHandlers{.identify = [this](IdentifyRequest request) { Submit(std::move(request)); },
-                    .diagnose = [this](DiagnoseRequest request) { Submit(std::move(request)); }});
+                    .diagnose = [this](DiagnoseRequest request) { Submit(std::move(request)); },
+                    .rollback =
+                        [this](const std::string& vehicle_id, std::uint64_t revision) {
+                          return models_.Rollback(vehicle_id, revision);
+                        }});
 }
 
 void Daemon::Reload(const std::vector<Vehicle>& vehicles) {

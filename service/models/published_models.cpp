@@ -69,6 +69,8 @@ std::optional<PublishedModel> PublishedModels::Rollback(const std::string& vehic
   const StoredModel stored =
       store_.Save(earlier->model.identification, UnixNow(), earlier->reference_error, promotion);
   latest_.insert_or_assign(vehicle_id, stored);
+  spdlog::info("{}: revision {} is published again as revision {}", vehicle_id, revision,
+               stored.model.revision);
   Announce(stored.model);
   return stored.model;
 }

@@ -123,6 +123,9 @@ void FleetApi::AddRoutes(httplib::Server& server) {
   server.Post("/api/v1/diagnose", [this](const Request& request, Response& response) {
     PostOrder(JobView::Kind::kDiagnose, request, response);
   });
+  server.Post("/api/v1/rollback", [this](const Request& request, Response& response) {
+    PostRollback(request, response);
+  });
 }
 
 void FleetApi::GetInfo(const Request& request, Response& response) const {
@@ -281,15 +284,23 @@ bool FleetApi::IsAllowed(const Request& request, Response& response) {
   return false;
 }
 
-void FleetApi::PostOrder(JobView::Kind kind, const Request& request, Response& response) {
-  if (!IsAllowed(request, response)) return;
+/// Whether the request is an order of this form that may be carried out; answers it where it is
+/// not.
+bool FleetApi::ReadOrder(const Request& request, const std::string& form,
+                         google::protobuf::Message& order, Response& response) {
+  if (!IsAllowed(request, response)) return false;
   if (request.get_header_value("Content-Type").rfind("application/json", 0) != 0) {
-    return AnswerFailure(415, "the body is no JSON", "Content-Type: application/json", response);
+    AnswerFailure(415, "the body is no JSON", "Content-Type: application/json", response);
+    return false;
   }
+  const auto fault = ParseJsonMessage(request.body, "body", order);
+  if (fault) AnswerFailure(400, fault->Message(), form, response);
+  return !fault;
+}
+
+void FleetApi::PostOrder(JobView::Kind kind, const Request& request, Response& response) {
   proto::Order order;
-  if (const auto fault = ParseJsonMessage(request.body, "body", order)) {
-    return AnswerFailure(400, fault->Message(), "{\"vehicleId\": \"ID\"}", response);
-  }
+  if (!ReadOrder(request, "{\"vehicleId\": \"ID\"}", order, response)) return;
   if (!IsServed(order.vehicle_id(), response)) return;
   const std::string id = NewCorrelationId();
   const JobView job = view_.Begin(kind, id, order.vehicle_id());
@@ -297,6 +308,22 @@ void FleetApi::PostOrder(JobView::Kind kind, const Request& request, Response& r
   response.status = 202;
   response.set_header("Location", "/api/v1/jobs/" + id);
   AnswerJson(ToProto(job), request, response);
+}
+
+void FleetApi::PostRollback(const Request& request, Response& response) {
+  proto::RollbackOrder order;
+  if (!ReadOrder(request, "{\"vehicleId\": \"ID\", \"revision\": N}", order, response)) return;
+  if (!IsServed(order.vehicle_id(), response)) return;
+  const auto model = handlers_.rollback(order.vehicle_id(), order.revision());
+  if (!model) {
+    return AnswerFailure(
+        404,
+        "there is no revision " + std::to_string(order.revision()) + " of " + order.vehicle_id(),
+        "a revision of GET /api/v1/vehicles/" + order.vehicle_id() + "/models", response);
+  }
+  response.set_header("Location", "/api/v1/vehicles/" + order.vehicle_id() + "/models/" +
+                                      std::to_string(model->revision));
+  AnswerJson(Shortened(ToProto(*model)), request, response);
 }
 
 void FleetApi::Queue(JobView::Kind kind, const std::string& id, const std::string& vehicle_id) {

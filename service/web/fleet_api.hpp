@@ -1,8 +1,11 @@
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <optional>
 #include <string>
+
+#include <google/protobuf/message.h>
 
 #include "telltale/client/bus/bus_log.hpp"
 #include "telltale/idl/codec/messages/exchange.hpp"
@@ -13,10 +16,14 @@
 
 namespace telltale {
 
-/// Queues the requests that come over HTTP; both return at once.
+/// What carries out the orders that come over HTTP.
 struct OrderHandlers {
-  std::function<void(IdentifyRequest)> identify;
-  std::function<void(DiagnoseRequest)> diagnose;
+  std::function<void(IdentifyRequest)> identify;  ///< queues the request
+  std::function<void(DiagnoseRequest)> diagnose;  ///< likewise
+  /// Publishes the revision again, as PublishedModels::Rollback().
+  std::function<std::optional<PublishedModel>(const std::string& vehicle_id,
+                                              std::uint64_t revision)>
+      rollback;
 };
 
 /// The routes of /api/v1 but for the events, docs/reference/openapi.json. Every answer is JSON, by
@@ -44,7 +51,10 @@ class FleetApi {
   void GetJobs(const Request& request, Response& response) const;
   void GetJob(const Request& request, Response& response) const;
   void PostOrder(JobView::Kind kind, const Request& request, Response& response);
+  void PostRollback(const Request& request, Response& response);
   bool IsAllowed(const Request& request, Response& response);
+  bool ReadOrder(const Request& request, const std::string& form, google::protobuf::Message& order,
+                 Response& response);
   bool IsServed(const std::string& vehicle_id, Response& response) const;
   void Queue(JobView::Kind kind, const std::string& id, const std::string& vehicle_id);
 

@@ -151,7 +151,7 @@ class ApiTest(unittest.TestCase):
         self.assertEqual(last["next"], 0)
 
     def test_orders_need_the_token(self):
-        for kind in ("refresh", "diagnose"):
+        for kind in ("refresh", "diagnose", "rollback"):
             for status, arguments in ((401, {"token": None}), (401, {"token": TOKEN + "x"}),
                                       (401, {"token": TOKEN[:-1]}), (404, {"boat": "nobody"}),
                                       (400, {"body": "{"}), (400, {"body": '{"boat": "x"}'}),
@@ -159,6 +159,25 @@ class ApiTest(unittest.TestCase):
                 answered, headers, answer = self.daemon.order(kind, **arguments)
                 self.assertEqual(answered, status, (kind, arguments, answer))
                 self.keeps_to_schema("POST", f"/api/v1/{kind}", answered, headers, json.dumps(answer))
+
+    def test_an_earlier_model_is_published_again(self):
+        route = f"/api/v1/vehicles/{BOAT}/models"
+        first = self.daemon.get(f"{route}/1")
+        status, headers, answer = self.daemon.order("rollback", revision=1)
+        self.assertEqual(status, 200, answer)
+        self.keeps_to_schema("POST", "/api/v1/rollback", status, headers, json.dumps(answer))
+        revision = int(answer["provenance"]["revision"])
+        self.assertEqual(headers["Location"], f"{route}/{revision}")
+        again = self.daemon.get(headers["Location"])
+        self.assertEqual(again["coefficients"], first["coefficients"])
+        self.assertEqual(self.daemon.get(route)["models"][0]["provenance"]["revision"], str(revision))
+        history = self.daemon.telltale("history", "--vehicle-id", BOAT)
+        self.assertIn("revision 1 published again", history)
+        for status, more in ((404, {"revision": 999}), (404, {}), (400, {"revision": -1}), (400, {"revision": "x"}),
+                             (400, {"revision": 1.5})):
+            answered, headers, answer = self.daemon.order("rollback", **more)
+            self.assertEqual(answered, status, (more, answer))
+            self.keeps_to_schema("POST", "/api/v1/rollback", answered, headers, json.dumps(answer))
 
     def test_a_large_body_is_refused(self):
         status, _, _ = self.daemon.ask("POST", "/api/v1/refresh", "x" * 100_000,

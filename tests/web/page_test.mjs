@@ -120,6 +120,22 @@ const steps = {
       document.querySelector(".coefficients svg")?.querySelectorAll("g").length === wanted, before + 1);
     await page.context().close();
   },
+  async "an earlier model is published again"() {
+    const page = await open(1280, "light", `#/boat/${boat}`);
+    const { models } = await (await fetch(`${address}/api/v1/vehicles/${boat}/models`)).json();
+    const newest = Number(models[0].provenance.revision);
+    assert.equal(await page.getByRole("button", { name: `Roll back to revision ${newest}`, exact: true }).count(), 0);
+    const button = page.getByRole("button", { name: "Roll back to revision 1", exact: true });
+    assert.ok(await button.isDisabled(), "no token is given");
+    await page.getByLabel("Token").fill("a wrong token");
+    await button.click();
+    await page.getByRole("alert").getByText("token is missing or wrong").waitFor();
+    await page.getByLabel("Token").fill(token);
+    await button.click();
+    await page.getByText(`Revision 1 is published again as revision ${newest + 1}.`).waitFor();
+    await page.getByRole("link", { name: `Download revision ${newest + 1}`, exact: true }).waitFor({ timeout: 60_000 });
+    await page.context().close();
+  },
   async "axe finds nothing serious, and nothing is cut off at any width"() {
     for (const scheme of ["light", "dark"]) {
       for (const [view, hash] of [["fleet", "#/"], ["boat", `#/boat/${boat}`]]) {

@@ -130,10 +130,10 @@ class Daemon:
         assert status == 200, f"{route}: {status} {text}"
         return json.loads(text)
 
-    def order(self, kind, boat=BOAT, token=TOKEN, body=None, content="application/json"):
+    def order(self, kind, boat=BOAT, token=TOKEN, body=None, content="application/json", **more):
         headers = {"Content-Type": content}
         if token:
             headers["Authorization"] = f"Bearer {token}"
-        text = json.dumps({"vehicleId": boat}) if body is None else body
+        text = json.dumps({"vehicleId": boat, **more}) if body is None else body
         status, answered, answer = self.ask("POST", f"/api/v1/{kind}", text, headers)
         return status, answered, json.loads(answer)

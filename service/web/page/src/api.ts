@@ -145,16 +145,26 @@ export async function allVehicles(): Promise<Summary[]> {
   return vehicles;
 }
 
-/** Asks for a new model or a diagnosis. */
-export async function order(kind: "refresh" | "diagnose", vehicleId: string, token: string) {
-  const response = await fetch(`api/v1/${kind}`, {
+async function post<T>(route: string, body: object, token: string): Promise<T> {
+  const response = await fetch(`api/v1${route}`, {
     method: "POST",
     headers: { "Content-Type": "application/json", Authorization: `Bearer ${token}` },
-    body: JSON.stringify({ vehicleId }),
+    body: JSON.stringify(body),
   });
   const answer = await response.json();
   if (!response.ok) throw new Error(answer.error ?? `the daemon answers ${response.status}`);
-  return answer as Job;
+  return answer as T;
+}
+
+/** Asks for a new model or a diagnosis. */
+export function order(kind: "refresh" | "diagnose", vehicleId: string, token: string) {
+  return post<Job>(`/${kind}`, { vehicleId }, token);
+}
+
+/** Publishes an earlier revision again, and gives back the new one. */
+export async function rollback(vehicleId: string, revision: string, token: string) {
+  const model = await post<Model>("/rollback", { vehicleId, revision: Number(revision) }, token);
+  return model.provenance.revision;
 }
 
 /** Follows the daemon for as long as the page is open, across its restarts. */

@@ -1,6 +1,6 @@
 import type { ComponentChildren } from "preact";
 import { useEffect, useState } from "preact/hooks";
-import { get, order, type Coefficient, type History, type Info, type Job, type Model, type Quality, type Report } from "./api";
+import { get, order, rollback, type Coefficient, type History, type Info, type Job, type Model, type Quality, type Report } from "./api";
 import { ErrorChart, Intervals } from "./charts";
 import { clock, diagnosisVerdict, duration, number, percent, significant, unit, words } from "./format";
 import { TrackMap, type Track } from "./map";
@@ -189,10 +189,29 @@ function Diagnosis({ report }: { report?: Report | null }) {
   );
 }
 
-function Models({ vehicleId, models }: { vehicleId: string; models: Model[] }) {
+function Models({ vehicleId, models, takesOrders, token }: {
+  vehicleId: string;
+  models: Model[];
+  takesOrders: boolean;
+  token: string;
+}) {
+  const [outcome, setOutcome] = useState("");
+  const [fault, setFault] = useState("");
   if (models.length === 0) return null;
+  const rollBack = async (revision: string) => {
+    setOutcome("");
+    setFault("");
+    try {
+      const published = await rollback(vehicleId, revision, token);
+      setOutcome(`Revision ${revision} is published again as revision ${published}.`);
+    } catch (error) {
+      setFault((error as Error).message);
+    }
+  };
   return (
     <Card title="Models" wide>
+      {outcome && <p role="status">{outcome}</p>}
+      {fault && <p class="fault" role="alert">{fault}</p>}
       <div class="scroll">
         <table>
           <thead>
@@ -200,10 +219,11 @@ function Models({ vehicleId, models }: { vehicleId: string; models: Model[] }) {
               <th scope="col">revision</th><th scope="col">published</th><th scope="col">structure</th>
               <th scope="col">estimator</th><th scope="col" class="number">identified</th>
               <th scope="col">against the one before</th><th scope="col">file</th>
+              {takesOrders && <th scope="col">earlier model</th>}
             </tr>
           </thead>
           <tbody>
-            {models.map((model) => {
+            {models.map((model, place) => {
               const revision = model.provenance.revision;
               const change = model.provenance.change;
               const identified = model.coefficients.filter((coefficient) => coefficient.status === "ESTIMATED").length;
@@ -217,6 +237,9 @@ function Models({ vehicleId, models }: { vehicleId: string; models: Model[] }) {
                   <td>{change ? `${words(change.verdict)}${Number.isFinite(change.pValue) && change.verdict !== "CANNOT_TELL" ? `, p ${significant(change.pValue, 2)}` : ""}` : "–"}</td>
                   <td><a href={`api/v1/vehicles/${encodeURIComponent(vehicleId)}/models/${revision}`}
                     download={`${vehicleId}-r${revision}.json`} aria-label={`Download revision ${revision}`}>model.json</a></td>
+                  {takesOrders && <td>{place > 0 &&
+                    <button type="button" disabled={token === ""} onClick={() => rollBack(revision)}
+                      aria-label={`Roll back to revision ${revision}`}>Roll back</button>}</td>}
                 </tr>
               );
             })}
@@ -227,9 +250,14 @@ function Models({ vehicleId, models }: { vehicleId: string; models: Model[] }) {
   );
 }
 
-/** Orders, where the daemon takes them. The token stays in this tab. */
-function Orders({ vehicleId, info, jobs }: { vehicleId: string; info: Info | null; jobs: Job[] }) {
-  const [token, setToken] = useState(sessionStorage.getItem("token") ?? "");
+/** Orders, where the daemon takes them. */
+function Orders({ vehicleId, info, jobs, token, setToken }: {
+  vehicleId: string;
+  info: Info | null;
+  jobs: Job[];
+  token: string;
+  setToken: (token: string) => void;
+}) {
   const [fault, setFault] = useState("");
   const send = async (kind: "refresh" | "diagnose") => {
     setFault("");
@@ -277,6 +305,7 @@ export function BoatView({ vehicleId, round, info, jobs, track }: {
   const { answer: list } = useAnswer<{ models: Model[] }>(`${route}/models?limit=20`, revision);
   const { answer: report } = useAnswer<Report>(`${route}/diagnosis`, `${finished} ${revision}`);
   const models = list?.models ?? [];
+  const [token, setToken] = useState(sessionStorage.getItem("token") ?? "");  // it stays in this tab
 
   const head = <nav aria-label="Back"><a href="#/">← Fleet</a></nav>;
   if (quality === null) return <main>{head}<p class="empty">This daemon serves no boat named {vehicleId}.</p></main>;
@@ -295,7 +324,7 @@ export function BoatView({ vehicleId, round, info, jobs, track }: {
           <li key={reason.code}><Badge verdict={reason.verdict} /> {reason.text}</li>)}</ul>
       )}
       {quality.proposal && <p class="note">{quality.proposal}</p>}
-      <Orders vehicleId={vehicleId} info={info} jobs={jobs} />
+      <Orders vehicleId={vehicleId} info={info} jobs={jobs} token={token} setToken={setToken} />
       <div class="cards">
         <Card title="Free-run error over the last hour" wide>
           {history && <ErrorChart history={history} />}
@@ -308,7 +337,7 @@ export function BoatView({ vehicleId, round, info, jobs, track }: {
         </Card>
         <Coefficients models={models} />
         <Diagnosis report={report} />
-        <Models vehicleId={vehicleId} models={models} />
+        <Models vehicleId={vehicleId} models={models} takesOrders={info !== null && !info.readOnly} token={token} />
       </div>
     </main>
   );
