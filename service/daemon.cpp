@@ -6,6 +6,8 @@
 
 #include <spdlog/spdlog.h>
 
+#include "telltale/client/fleet/request_reply.hpp"
+
 namespace telltale {
 
 Daemon::Daemon(const DaemonConfig& config, std::function<void(const std::exception&)> failed)
@@ -22,8 +24,8 @@ Daemon::Daemon(const DaemonConfig& config, std::function<void(const std::excepti
       journal_(config.state_directory),
       diagnoses_(participant_, DiagnosisStore(config.state_directory), fleet_),
       jobs_(fleet_, models_, baselines_, replies_, config.identification, journal_),
-      diagnosis_jobs_(fleet_, models_, baselines_, diagnoses_, replies_, config.identification,
-                      journal_),
+      diagnosis_jobs_(fleet_, models_, view_, baselines_, diagnoses_, replies_,
+                      config.identification, journal_),
       fleet_jobs_(fleet_, models_, replies_, journal_,
                   {.submit = [this](const IdentifyRequest& request,
                                     auto answer) { jobs_.Refresh(request, std::move(answer)); },
@@ -48,6 +50,7 @@ Daemon::Daemon(const DaemonConfig& config, std::function<void(const std::excepti
                .received = [this](VehicleWindow& window) { quality_.PublishReceipt(window); },
                .failed = std::move(failed)}) {
   ResumeRequests();
+  BeginUpkeep(config.upkeep);
   if (!config.http) return;
   web_.emplace(
       *config.http, fleet_, models_, view_,
@@ -77,6 +80,28 @@ void Daemon::Submit(AnyRequest request) {
   } else {
     fleet_jobs_.Submit(std::get<FleetRequest>(std::move(request)));
   }
+}
+
+void Daemon::BeginUpkeep(const UpkeepSettings& settings) {
+  if (settings.refresh == RefreshMode::kOff && !settings.diagnose_on_drift) return;
+  upkeep_.emplace(settings, fleet_, models_, view_,
+                  Upkeep::Orders{.refresh =
+                                     [this](const std::vector<std::string>& vehicle_ids) {
+                                       FleetRequest request;
+                                       request.correlation_id = NewCorrelationId();
+                                       request.command = FleetCommand::kRefresh;
+                                       request.vehicle_ids = vehicle_ids;
+                                       Submit(std::move(request));
+                                     },
+                                 .diagnose =
+                                     [this](const std::string& vehicle_id) {
+                                       DiagnoseRequest request;
+                                       request.correlation_id = NewCorrelationId();
+                                       request.vehicle_id = vehicle_id;
+                                       view_.Begin(JobView::Kind::kDiagnose, request.correlation_id,
+                                                   vehicle_id);
+                                       Submit(std::move(request));
+                                     }});
 }
 
 /// A daemon that was killed has left requests without an answer.

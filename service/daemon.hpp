@@ -21,6 +21,7 @@
 #include "telltale/service/monitoring/fleet_watcher.hpp"
 #include "telltale/service/monitoring/quality_publisher.hpp"
 #include "telltale/service/storage/directory_lock.hpp"
+#include "telltale/service/upkeep/upkeep.hpp"
 #include "telltale/service/web/web_server.hpp"
 #include "telltale/service/windows/window_archive.hpp"
 
@@ -39,6 +40,7 @@ class Daemon {
  private:
   void Submit(AnyRequest request);
   void ResumeRequests();
+  void BeginUpkeep(const UpkeepSettings& settings);
 
   // A member uses those above it. So telemetry stops first and the participant leaves the bus
   // later; the log of the bus counts into the fleet until then.
@@ -59,6 +61,7 @@ class Daemon {
   FleetJobs fleet_jobs_;
   QualityPublisher quality_;
   Ingest ingest_;
+  std::optional<Upkeep> upkeep_;
   std::optional<WebServer> web_;
 };
 

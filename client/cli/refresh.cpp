@@ -13,6 +13,7 @@
 #include "telltale/client/cli/duration_text.hpp"
 #include "telltale/client/cli/exit_codes.hpp"
 #include "telltale/client/cli/fleet_answer.hpp"
+#include "telltale/client/cli/leave_note.hpp"
 #include "telltale/client/cli/live_options.hpp"
 #include "telltale/client/cli/output_options.hpp"
 #include "telltale/client/cli/progress_line.hpp"
@@ -53,6 +54,17 @@ FleetRequest RefreshRequestOf(const RefreshArguments& arguments) {
   request.worse_than = VerdictOf(arguments.worse_than);
   request.older_than_s = SecondsOf(arguments.older_than).value_or(0.0);
   return request;
+}
+
+/// What is said where the client leaves before the daemon has answered.
+std::string UnconfirmedNote(const std::string& refresh_id) {
+  return "the daemon has not confirmed the refresh; telltale refresh --follow " + refresh_id +
+         "\ntells whether it is under way";
+}
+
+std::string GoesOnNote(const std::string& refresh_id) {
+  return "the refresh goes on; telltale refresh --follow " + refresh_id +
+         " shows it,\ntelltale refresh --cancel " + refresh_id + " ends it";
 }
 
 /// The vehicles of a refresh as they come: a line for each that is through, and the share of all.
@@ -130,14 +142,18 @@ void Refresh(const RefreshArguments& arguments) {
   const FleetRequest request = RefreshRequestOf(arguments);
   const std::string refresh_id =
       request.command == FleetCommand::kFollow ? request.target : request.correlation_id;
+  LeaveNote note(UnconfirmedNote(refresh_id));
   if (request.command == FleetCommand::kRefresh) {
     std::cerr << "refresh " << refresh_id << "; elsewhere: telltale refresh --follow " << refresh_id
               << "\n"
               << std::flush;
   }
   auto view = std::make_unique<RefreshView>(!arguments.output.json);
-  const FleetReply reply = AskFleet(request, arguments.live,
-                                    [&](const FleetProgress& progress) { view->Take(progress); });
+  bool confirmed = false;
+  const FleetReply reply = AskFleet(request, arguments.live, [&](const FleetProgress& progress) {
+    if (!std::exchange(confirmed, true)) note.Change(GoesOnNote(refresh_id));
+    view->Take(progress);
+  });
   for (const RefreshedVehicle& vehicle : reply.refreshed) view->Take(vehicle);
   view.reset();
   arguments.output.Write(PrintRefreshJson(refresh_id, reply), [&] {
@@ -190,6 +206,7 @@ void AddRefresh(CLI::App& telltale) {
   arguments->live.AddTo(command, 3600.0, "give up after this long; the refresh goes on");
   command.footer(
       "A boat is UNCHANGED where no telemetry has come since its model was made.\n"
+      "Ctrl-C leaves the refresh under way, and says how to follow or cancel it.\n"
       "Exit codes: 3 where a boat was refused or its model has verdict ERROR, 1 where one failed.\n"
       "Example: telltale refresh --older-than 7d");
   command.callback([arguments] {

@@ -58,6 +58,42 @@ HttpSettings ReadHttp(FieldReader reader) {
   return settings;
 }
 
+RefreshMode ReadRefreshMode(FieldReader& reader) {
+  const std::string mode = reader.Text("refresh", "off");
+  if (mode == "act") return RefreshMode::kAct;
+  if (mode == "advise") return RefreshMode::kAdvise;
+  if (mode != "off") reader.Fail("refresh", '"' + mode + '"', "one of off, advise, act");
+  return RefreshMode::kOff;
+}
+
+/// A time that is 0 where it is not to be.
+double ReadTimeOrNone(FieldReader& reader, std::string_view field) {
+  constexpr double kShortestS = 10.0;
+  constexpr double kLongestS = 31536000.0;  // a year
+  const double time_s = reader.Number(field, {0.0, kLongestS}, 0.0);
+  if (time_s > 0.0 && time_s < kShortestS) {
+    reader.Fail(field, NumberText(time_s), "0 or a number in [10, 31536000]");
+  }
+  return time_s;
+}
+
+UpkeepSettings ReadUpkeep(FieldReader reader, const proto::DaemonConfig::Upkeep& message) {
+  UpkeepSettings settings;
+  settings.refresh = ReadRefreshMode(reader);
+  settings.refresh_every_s = ReadTimeOrNone(reader, "refresh_every_s");
+  settings.refresh_older_than_s = ReadTimeOrNone(reader, "refresh_older_than_s");
+  settings.refresh_on_drift = message.refresh_on_drift();
+  settings.diagnose_on_drift = message.diagnose_on_drift();
+  settings.retry_s = reader.Number("retry_s", {1.0, 86400.0}, settings.retry_s);
+  const bool has_occasion = settings.refresh_every_s > 0.0 || settings.refresh_older_than_s > 0.0 ||
+                            settings.refresh_on_drift;
+  if (settings.refresh != RefreshMode::kOff && !has_occasion) {
+    reader.Fail("refresh", '"' + message.refresh() + '"',
+                "this with refresh_every_s, refresh_older_than_s or refresh_on_drift");
+  }
+  return settings;
+}
+
 std::vector<Vehicle> ReadVehicles(FieldReader& reader) {
   std::vector<Vehicle> vehicles;
   std::set<std::string> seen;
@@ -99,6 +135,7 @@ DaemonConfig ReadConfig(FieldReader reader, const proto::DaemonConfig& message) 
       reader.Optional("window").Number("save_period_s", {0.1, 600.0}, config.window_save_period_s);
   config.identification = ReadIdentification(reader.Optional("identification"));
   if (message.has_http()) config.http = ReadHttp(reader.Optional("http"));
+  config.upkeep = ReadUpkeep(reader.Optional("upkeep"), message.upkeep());
   config.quality_period_s =
       reader.Number("quality_period_s", {0.1, 3600.0}, config.quality_period_s);
   config.log_level = ReadLogLevel(reader, config.log_level);

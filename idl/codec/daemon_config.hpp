@@ -31,6 +31,19 @@ struct HttpSettings {
   std::string tls_key_file;
 };
 
+/// Whether the daemon refreshes models by itself. kAdvise: it says which need it.
+enum class RefreshMode { kOff, kAdvise, kAct };
+
+/// What the daemon does by itself.
+struct UpkeepSettings {
+  RefreshMode refresh = RefreshMode::kOff;
+  double refresh_every_s = 0.0;       ///< 0: not by schedule, or [10, 31536000]
+  double refresh_older_than_s = 0.0;  ///< 0: not by age, or [10, 31536000]
+  bool refresh_on_drift = false;
+  bool diagnose_on_drift = false;
+  double retry_s = 600.0;  ///< [1, 86400] to the next try of the same vehicle
+};
+
 /// Configuration of telltaled; defaults and ranges are those of proto/daemon.proto.
 struct DaemonConfig {
   std::uint32_t domain = 0;  ///< [0, 101]
@@ -42,6 +55,7 @@ struct DaemonConfig {
   double window_save_period_s = 5.0;  ///< [0.1, 600]
   IdentificationSettings identification;
   std::optional<HttpSettings> http;
+  UpkeepSettings upkeep;
   double quality_period_s = 1.0;   ///< [0.1, 3600]
   std::string log_level = "info";  ///< trace, debug, info, warn, error
 };

@@ -38,11 +38,12 @@ DiagnoseReply RefusedWith(const DiagnoseRequest& request, Refusal refusal) {
 }  // namespace
 
 DiagnosisJobs::DiagnosisJobs(const Fleet& fleet, const PublishedModels& models,
-                             const BaselineRecordings& baselines, PublishedDiagnoses& diagnoses,
-                             ReplyPublisher& replies, const IdentificationSettings& settings,
-                             RequestJournal& journal)
+                             const FleetView& view, const BaselineRecordings& baselines,
+                             PublishedDiagnoses& diagnoses, ReplyPublisher& replies,
+                             const IdentificationSettings& settings, RequestJournal& journal)
     : fleet_(fleet),
       models_(models),
+      view_(view),
       baselines_(baselines),
       diagnoses_(diagnoses),
       settings_(settings),
@@ -79,7 +80,8 @@ Result<DiagnosedModel> DiagnosisJobs::DiagnoseWindow(const PublishedModel& model
   VehicleWindow& window = *fleet_.Find(vehicle_id);
   progress("preparing data", 0.0);
   const auto live = SelectDiagnosisRecordings(window.Snapshot(), model,
-                                              baselines_.Behind(vehicle_id, model.revision));
+                                              baselines_.Behind(vehicle_id, model.revision),
+                                              view_.DriftOnsetOf(vehicle_id));
   if (!live) return tl::unexpected(live.error());
   PrepareOptions preparation;
   preparation.sampling_period_s = model.identification.sampling_period_s;
@@ -93,7 +95,9 @@ Result<DiagnosedModel> DiagnosisJobs::DiagnoseWindow(const PublishedModel& model
   }
   auto diagnosed =
       Diagnose(*since, references, model.identification, vehicle_id, options, progress);
-  if (diagnosed) diagnosed->diagnosis.notes.push_back(live->basis);
+  if (!diagnosed) return diagnosed;
+  diagnosed->diagnosis.notes.push_back(live->basis);
+  if (!live->left_out.empty()) diagnosed->diagnosis.notes.push_back(live->left_out);
   return diagnosed;
 }
 

@@ -12,14 +12,15 @@
 #include "telltale/service/jobs/reply_publisher.hpp"
 #include "telltale/service/models/baseline_recordings.hpp"
 #include "telltale/service/models/published_models.hpp"
+#include "telltale/service/monitoring/fleet_view.hpp"
 
 namespace telltale {
 
-/// Compares what a vehicle has done since its newest model was made with that model, on request and
-/// one vehicle at a time, and publishes the diagnoses.
+/// Compares what a vehicle has done since its newest model was made, or since that began to drift,
+/// with that model, on request and one vehicle at a time, and publishes the diagnoses.
 class DiagnosisJobs {
  public:
-  DiagnosisJobs(const Fleet& fleet, const PublishedModels& models,
+  DiagnosisJobs(const Fleet& fleet, const PublishedModels& models, const FleetView& view,
                 const BaselineRecordings& baselines, PublishedDiagnoses& diagnoses,
                 ReplyPublisher& replies, const IdentificationSettings& settings,
                 RequestJournal& journal);
@@ -37,6 +38,7 @@ class DiagnosisJobs {
 
   const Fleet& fleet_;
   const PublishedModels& models_;
+  const FleetView& view_;
   const BaselineRecordings& baselines_;
   PublishedDiagnoses& diagnoses_;
   const IdentificationSettings settings_;

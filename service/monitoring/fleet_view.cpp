@@ -106,6 +106,32 @@ std::optional<Refusal> FleetView::LastRefusalOf(std::string_view vehicle_id) con
   return vehicle == vehicles_.end() ? std::nullopt : vehicle->second.refusal;
 }
 
+void FleetView::TakeDrift(const std::string& vehicle_id, std::optional<double> onset_s) {
+  const std::lock_guard lock(mutex_);
+  Of(vehicle_id).drift_onset_s = onset_s;
+}
+
+std::optional<double> FleetView::DriftOnsetOf(std::string_view vehicle_id) const {
+  const std::lock_guard lock(mutex_);
+  const auto vehicle = vehicles_.find(vehicle_id);
+  return vehicle == vehicles_.end() ? std::nullopt : vehicle->second.drift_onset_s;
+}
+
+void FleetView::Advise(const std::string& vehicle_id, std::uint64_t revision,
+                       const std::string& advice) {
+  const std::lock_guard lock(mutex_);
+  Vehicle& vehicle = Of(vehicle_id);
+  vehicle.advice = advice;
+  vehicle.advised_revision = revision;
+}
+
+std::string FleetView::AdviceOf(std::string_view vehicle_id, std::uint64_t revision) const {
+  const std::lock_guard lock(mutex_);
+  const auto vehicle = vehicles_.find(vehicle_id);
+  const bool known = vehicle != vehicles_.end() && vehicle->second.advised_revision == revision;
+  return known ? vehicle->second.advice : "";
+}
+
 std::shared_ptr<const PublishedDiagnosis> FleetView::LastDiagnosisOf(
     std::string_view vehicle_id) const {
   const std::lock_guard lock(mutex_);

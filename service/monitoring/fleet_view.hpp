@@ -69,6 +69,15 @@ class FleetView {
   /// Null where there is none.
   std::shared_ptr<const PublishedDiagnosis> LastDiagnosisOf(std::string_view vehicle_id) const;
 
+  /// The onset of the drift by the vehicle's clock; nothing where there is none.
+  void TakeDrift(const std::string& vehicle_id, std::optional<double> onset_s);
+  std::optional<double> DriftOnsetOf(std::string_view vehicle_id) const;
+
+  /// What the operator is to do while this revision is the newest; 0: while there is no model.
+  void Advise(const std::string& vehicle_id, std::uint64_t revision, const std::string& advice);
+  /// Empty where there is nothing to do.
+  std::string AdviceOf(std::string_view vehicle_id, std::uint64_t revision) const;
+
   /// A request that is about to be queued.
   JobView Begin(JobView::Kind kind, const std::string& id, const std::string& vehicle_id);
 
@@ -89,6 +98,9 @@ class FleetView {
     std::deque<PastPoint> past;
     std::optional<Refusal> refusal;
     std::shared_ptr<const PublishedDiagnosis> diagnosis;
+    std::optional<double> drift_onset_s;
+    std::string advice;
+    std::uint64_t advised_revision = 0;
   };
 
   Vehicle& Of(const std::string& vehicle_id) { return vehicles_[vehicle_id]; }

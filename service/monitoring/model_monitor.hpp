@@ -29,6 +29,9 @@ class ModelMonitor {
   /// The onset of the drift by the daemon's clock, while there is one.
   std::optional<double> DriftSince() const;
 
+  /// The same by the vehicle's clock.
+  std::optional<double> DriftOnsetS() const;
+
   /// What to do where the model no longer fits; empty where it does. Logs each onset once.
   std::string Proposal(std::string_view vehicle_id);
 
@@ -41,6 +44,7 @@ class ModelMonitor {
   double drift_ = 0.0;
   DriftDetector drift_detector_;
   std::optional<double> rises_since_unix_s_;  ///< while the sum of the detector is above zero
+  std::optional<double> rises_since_s_;       ///< likewise, by the vehicle's clock
   bool proposed_ = false;
 };
 

@@ -92,6 +92,7 @@ void QualityPublisher::PublishAll(double elapsed_s) {
     const auto latest = models_.Latest(vehicle_id);
     const Quality quality = monitors_[vehicle_id].Assess(*window, latest, view_, elapsed_s);
     writer_.Write(Encode(quality));
+    view_.TakeDrift(vehicle_id, monitors_[vehicle_id].DriftOnsetS());
     view_.Take(quality, UnixNow());
   }
   const Quality unattributed = Unattributed();

@@ -61,6 +61,9 @@ void WriteIdentifiability(const std::vector<Coefficient>& coefficients, Quality&
 
 void WriteLastAnswers(const FleetView& view, Quality& quality) {
   quality.last_refusal = view.LastRefusalOf(quality.vehicle_id);
+  if (quality.proposal.empty()) {
+    quality.proposal = view.AdviceOf(quality.vehicle_id, quality.model_revision.value_or(0));
+  }
   const auto diagnosis = view.LastDiagnosisOf(quality.vehicle_id);
   if (!diagnosis) return;
   quality.diagnosis_verdict = std::string(Name(diagnosis->diagnosis.verdict));

@@ -23,6 +23,9 @@ class VehicleMonitor {
   Quality Assess(VehicleWindow& window, const std::optional<StoredModel>& latest,
                  const FleetView& view, double elapsed_s);
 
+  /// The onset of the drift by the vehicle's clock, while there is one.
+  std::optional<double> DriftOnsetS() const { return model_.DriftOnsetS(); }
+
   /// The quality of the last period with the counts of now.
   Quality Receipt(VehicleWindow& window);
 

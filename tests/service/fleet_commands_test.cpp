@@ -1,3 +1,5 @@
+#include <signal.h>
+
 #include <chrono>
 #include <string>
 
@@ -22,7 +24,9 @@ using ::testing::Not;
 /// A daemon that serves the yellowfish and two boats that never speak.
 class FleetCommands : public ServiceTest {
  protected:
-  FleetCommands() {
+  FleetCommands() { Configure("bootstrap_replicates: 100"); }
+
+  void Configure(const std::string& identification) {
     Vehicle vehicle = YellowfishVehicle();
     std::string files;
     for (const char* id : {kVehicleId, "silent-1", "silent-2"}) {
@@ -33,7 +37,8 @@ class FleetCommands : public ServiceTest {
     config_file_ = folder_.Write("fleet.textproto",
                                  "domain: " + std::to_string(domain_.id()) + "\n" + files +
                                      "state_directory: \"" + (folder_.Path() / "state").string() +
-                                     "\"\nidentification { bootstrap_replicates: 100 }\n"
+                                     "\"\nidentification { " + identification +
+                                     " }\n"
                                      "quality_period_s: 0.1\nwindow { save_period_s: 0.2 }\n");
   }
 
@@ -119,6 +124,34 @@ TEST_F(FleetCommands, FollowARefreshThatAnotherBegan) {
   ASSERT_EQ(followed.outcome, RequestOutcome::kAnswered);
   EXPECT_EQ(followed.reply->refreshed.size(), 3u);
   EXPECT_TRUE(daemon->WaitForOutput("the refresh first ended"));
+}
+
+// The boat with telemetry takes minutes; the silent ones are through at once.
+TEST_F(FleetCommands, GoOnWithARefreshWhoseClientIsInterrupted) {
+  Configure("bootstrap_replicates: 100000");
+  const auto daemon = StartDaemon(3);
+  Replay(SimulatedRecording(testing::StableBoat(), 0.0, 300.0, 4));
+  const auto client = Start({"refresh", "--all"});
+  ASSERT_TRUE(client->WaitForOutput("silent-1: REFUSED"));
+  client->Signal(SIGINT);
+  EXPECT_EQ(client->Wait(), 130);
+  const std::string& said = client->output();
+  EXPECT_THAT(said, HasSubstr("the refresh goes on"));
+  const auto named = said.find("--cancel ") + 9;
+  const std::string id = said.substr(named, said.find(' ', named) - named);
+  const auto follower = Start({"refresh", "--follow", id});
+  ASSERT_TRUE(follower->WaitForOutput("silent-1: REFUSED"));
+  EXPECT_THAT(Output({"refresh", "--cancel", id}, 0), HasSubstr("is cancelled"));
+  EXPECT_EQ(follower->Wait(), 1);
+  EXPECT_THAT(follower->output(), HasSubstr("yellowfish: CANCELLED"));
+}
+
+TEST_F(FleetCommands, SayThatARefreshIsNotConfirmedWhereNoDaemonAnswers) {
+  const auto client = Start({"refresh", "--all"});
+  ASSERT_TRUE(client->WaitForOutput("elsewhere: telltale refresh --follow"));
+  client->Signal(SIGTERM);
+  EXPECT_EQ(client->Wait(), 143);
+  EXPECT_THAT(client->output(), HasSubstr("has not confirmed the refresh"));
 }
 
 // A coverage check of a thousand replicates takes minutes; it is cancelled from elsewhere.

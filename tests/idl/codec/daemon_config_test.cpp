@@ -61,6 +61,31 @@ TEST(DaemonConfig, ReadsTheHttpBlock) {
   EXPECT_EQ(config->http->tls_key_file, "k");
 }
 
+TEST(DaemonConfig, DoesNothingByItselfUnlessTold) {
+  const auto config = ParseDaemonConfig("upkeep {}");
+  ASSERT_TRUE(config);
+  EXPECT_EQ(config->upkeep.refresh, RefreshMode::kOff);
+  EXPECT_FALSE(config->upkeep.refresh_on_drift);
+  EXPECT_FALSE(config->upkeep.diagnose_on_drift);
+  EXPECT_EQ(config->upkeep.retry_s, 600.0);
+}
+
+TEST(DaemonConfig, ReadsTheUpkeepBlock) {
+  const auto config = ParseDaemonConfig(
+      "upkeep { refresh: \"act\" refresh_every_s: 86400 refresh_older_than_s: 10 "
+      "refresh_on_drift: true diagnose_on_drift: true retry_s: 60 }");
+  ASSERT_TRUE(config) << config.error().Message();
+  EXPECT_EQ(config->upkeep.refresh, RefreshMode::kAct);
+  EXPECT_EQ(config->upkeep.refresh_every_s, 86400.0);
+  EXPECT_EQ(config->upkeep.refresh_older_than_s, 10.0);
+  EXPECT_TRUE(config->upkeep.refresh_on_drift);
+  EXPECT_TRUE(config->upkeep.diagnose_on_drift);
+  EXPECT_EQ(config->upkeep.retry_s, 60.0);
+  EXPECT_EQ(
+      ParseDaemonConfig("upkeep { refresh: \"advise\" refresh_on_drift: true }")->upkeep.refresh,
+      RefreshMode::kAdvise);
+}
+
 TEST(DaemonConfig, ReadsEveryField) {
   const auto config = ParseDaemonConfig(
       "domain: 42\n" + VehicleNamed("a") + VehicleNamed("b") +
@@ -138,6 +163,14 @@ INSTANTIATE_TEST_SUITE_P(
         ConfigFault{"http { address: \"\" }", "http.address", "\"\"", "an IP address"},
         ConfigFault{"http { tls_chain_file: \"c\" }", "http.tls_key_file", "\"\"",
                     "together with tls_chain_file"},
+        ConfigFault{"upkeep { refresh: \"on\" }", "upkeep.refresh", "\"on\"", "off, advise, act"},
+        ConfigFault{"upkeep { refresh: \"act\" }", "upkeep.refresh", "\"act\"",
+                    "refresh_every_s, refresh_older_than_s or refresh_on_drift"},
+        ConfigFault{"upkeep { refresh_every_s: 9 }", "upkeep.refresh_every_s", "9",
+                    "[10, 31536000]"},
+        ConfigFault{"upkeep { refresh_older_than_s: -1 }", "upkeep.refresh_older_than_s", "-1",
+                    "[0, 31536000]"},
+        ConfigFault{"upkeep { retry_s: 0 }", "upkeep.retry_s", "0", "[1, 86400]"},
         ConfigFault{"quality_period_s: 0.01", "quality_period_s", "0.01", "[0.1, 3600]"},
         ConfigFault{"log_level: \"loud\"", "log_level", "\"loud\"",
                     "trace, debug, info, warn, error"},

@@ -52,6 +52,22 @@ TEST(DiagnosisRecordings, SaysWhereNoBaselineIsAtHand) {
   EXPECT_NE(live->basis.find("no longer holds"), std::string::npos) << live->basis;
 }
 
+TEST(DiagnosisRecordings, LeavesOutWhatCameBeforeTheDrift) {
+  const PublishedModel model = ModelMadeOf(100.0, 400.0);
+  const Recording window = FixesOf(0.0, 700.0);
+  const auto live = SelectDiagnosisRecordings(window, model, std::nullopt, 600.0);
+  ASSERT_TRUE(live);
+  EXPECT_EQ(live->since.gnss.front().time_s, 601.0);
+  EXPECT_NE(live->left_out.find("the 200 s before that"), std::string::npos) << live->left_out;
+  ASSERT_TRUE(live->baseline);
+  EXPECT_EQ(live->baseline->gnss.back().time_s, 400.0);
+  // Too little has come since.
+  const auto early = SelectDiagnosisRecordings(window, model, std::nullopt, 650.0);
+  ASSERT_TRUE(early);
+  EXPECT_EQ(early->since.gnss.front().time_s, 401.0);
+  EXPECT_EQ(early->left_out, "");
+}
+
 TEST(DiagnosisRecordings, AWindowThatEndsBeforeTheModelsDataIsOfAnotherClock) {
   const auto live =
       SelectDiagnosisRecordings(FixesOf(0.0, 100.0), ModelMadeOf(1000.0, 1400.0), std::nullopt);
