@@ -15,7 +15,7 @@
 
 namespace telltale {
 
-/// Does by itself what the configuration asks for: it looks at every vehicle once a second, on a
+/// Does by itself what the configuration asks for: it considers every vehicle once a second, on a
 /// thread of its own, and asks for diagnoses and refreshes, or advises the latter.
 class Upkeep {
  public:

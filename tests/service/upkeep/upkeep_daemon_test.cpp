@@ -11,7 +11,7 @@ namespace {
 
 using ::testing::HasSubstr;
 
-/// A daemon that looks after the models of its boat by itself.
+/// A daemon that renews the models of its boat by itself.
 class UpkeepOfDaemon : public ServiceTest {
  protected:
   void Configure(const std::string& upkeep) {
