@@ -8,6 +8,7 @@
 #include "telltale/client/cli/exit_codes.hpp"
 #include "telltale/client/cli/live_options.hpp"
 #include "telltale/client/cli/progress_line.hpp"
+#include "telltale/core/data/input_check.hpp"
 
 namespace telltale {
 namespace {
@@ -19,9 +20,14 @@ PrepareOptions PreparationFor(const Identification& model) {
 }
 
 PreparedDataset PrepareReference(const DiagnoseArguments& arguments,
-                                 const std::filesystem::path& log, const Vehicle& vehicle,
+                                 const std::filesystem::path& log, const RecordedVehicle& diagnosed,
                                  const PrepareOptions& options) {
-  auto prepared = Prepare(LoadAdmitted(log, arguments.inputs.options), vehicle, options);
+  const Recording reference = LoadAdmitted(log, arguments.inputs.options);
+  if (HoldsRecording(diagnosed.recording, reference)) {
+    throw RefusedError({log.string(), "is both the recording to diagnose and a reference",
+                        "give recordings of days on which the model held as references"});
+  }
+  auto prepared = Prepare(reference, diagnosed.vehicle, options);
   if (prepared) return *std::move(prepared);
   Refusal refusal = std::move(prepared).error();
   refusal.subject = log.string() + ' ' + refusal.subject;
@@ -39,17 +45,18 @@ DiagnosedModel DiagnoseFromFiles(const DiagnoseArguments& arguments) {
   const Identification model = LoadModel(arguments.model_file);
   ProgressLine line;
   line.Update("reading logs", 0.0);
-  const auto [recording, vehicle] = arguments.inputs.Load();
+  const RecordedVehicle diagnosed = arguments.inputs.Load();
   line.Update("preparing data", 0.0);
   const PrepareOptions preparation = PreparationFor(model);
-  const PreparedDataset dataset = OrThrow(Prepare(recording, vehicle, preparation));
+  const PreparedDataset dataset =
+      OrThrow(Prepare(diagnosed.recording, diagnosed.vehicle, preparation));
   std::vector<PreparedDataset> references;
   for (const auto& log : arguments.reference_logs) {
-    references.push_back(PrepareReference(arguments, log, vehicle, preparation));
+    references.push_back(PrepareReference(arguments, log, diagnosed, preparation));
   }
-  return OrThrow(
-      Diagnose(dataset, references, model, VehicleIdFor(arguments, vehicle, model), options,
-               [&line](std::string_view stage, double fraction) { line.Update(stage, fraction); }));
+  return OrThrow(Diagnose(
+      dataset, references, model, VehicleIdFor(arguments, diagnosed.vehicle, model), options,
+      [&line](std::string_view stage, double fraction) { line.Update(stage, fraction); }));
 }
 
 void DiagnoseLogs(const DiagnoseArguments& arguments) {

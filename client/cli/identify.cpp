@@ -63,6 +63,7 @@ void AddIdentify(CLI::App& telltale) {
   auto* const whom = command.add_option_group("from", "logs, or a vehicle the daemon follows");
   whom->require_option(1);
   arguments->inputs.AddTo(command, *whom);
+  arguments->inputs.AddInputCheckTo(command);
   AddVehicleId(*whom, *vehicle_id);
   arguments->AddOptionsTo(command);
   live->AddTo(command, 120.0,

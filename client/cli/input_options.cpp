@@ -13,6 +13,7 @@
 #include "telltale/client/recording/load_recording.hpp"
 #include "telltale/client/recording/telemetry_log/telemetry_log.hpp"
 #include "telltale/core/base/contract.hpp"
+#include "telltale/core/data/input_check.hpp"
 #include "telltale/idl/codec/json/model.hpp"
 #include "telltale/idl/codec/vehicle_file.hpp"
 
@@ -120,11 +121,50 @@ Vehicle DescribedBy(const std::vector<LoadedRecording>& loaded,
   return vehicle;
 }
 
+// ---- faults of input ----------------------------------------------------------------------------
+
+void RequireNotRepeated(const std::vector<LoadedRecording>& loaded,
+                        const std::vector<std::filesystem::path>& logs) {
+  for (std::size_t i = 1; i < loaded.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      if (!HoldsRecording(loaded[j].recording, loaded[i].recording)) continue;
+      throw RefusedError({logs[i].string(), "holds the same recording as " + logs[j].string(),
+                          "give each recording once"});
+    }
+  }
+}
+
+/// As it was recorded: admission drops what is repeated, and with it the sign of a stuck channel.
+std::optional<Refusal> FaultOf(const RawLog& log, const Vehicle& vehicle) {
+  std::vector<GnssFix> gnss;
+  std::vector<HeadingSample> heading;
+  std::vector<ThrusterSample> thrusters;
+  for (const RawSample& sample : log.samples) {
+    if (const auto* fix = std::get_if<GnssFix>(&sample)) gnss.push_back(*fix);
+    if (const auto* of_heading = std::get_if<HeadingSample>(&sample))
+      heading.push_back(*of_heading);
+    if (const auto* command = std::get_if<ThrusterSample>(&sample)) thrusters.push_back(*command);
+  }
+  return FirstFault(CheckInput(gnss, heading, thrusters, vehicle));
+}
+
+void RequireSoundInput(const std::vector<std::filesystem::path>& logs, const SourceOptions& options,
+                       const Vehicle& vehicle) {
+  for (const std::filesystem::path& log : logs) {
+    auto fault = FaultOf(LoadAsRecorded(log, options), vehicle);
+    if (!fault) continue;
+    fault->subject = log.string() + ' ' + fault->subject;
+    fault->advice += "; --skip-input-check, if you know that the input is right";
+    throw RefusedError(*std::move(fault));
+  }
+}
+
 // ---- options ------------------------------------------------------------------------------------
 
 constexpr const char* kLogFormats =
     "a recording: a telemetry log (a folder with gnss.csv, heading.csv and thrusters.csv), an "
-    "ArduPilot .BIN, a .tlog, an .mcap of ROS 2 or BlueOS, or a rosbag2 folder or .db3";
+    "ArduPilot .BIN, a .tlog, an .mcap of ROS 2 or BlueOS, a rosbag2 folder or .db3, or a ROS 1 "
+    ".bag";
 
 template <class Target>
 CLI::Option* AddLogOption(CLI::App& command, Target& target, const std::string& description) {
@@ -175,6 +215,13 @@ CLI::Option* LogInputs::AddTo(CLI::App& command, CLI::App& whom) {
   return log;
 }
 
+void LogInputs::AddInputCheckTo(CLI::App& command) {
+  skip_input_check = false;
+  command.add_flag("--skip-input-check", skip_input_check,
+                   "identify although the input shows a fault, such as swapped thrusters or "
+                   "mirrored headings: telltale check says which");
+}
+
 RecordedVehicle LogInputs::Load() const {
   std::optional<Vehicle> vehicle;
   if (NamesVehicle()) {
@@ -185,6 +232,10 @@ RecordedVehicle LogInputs::Load() const {
   std::vector<LoadedRecording> loaded;
   for (const std::filesystem::path& log : logs) loaded.push_back(LoadLog(log, options));
   if (!vehicle) vehicle = DescribedBy(loaded, logs);
+  if (!skip_input_check) {
+    RequireNotRepeated(loaded, logs);
+    RequireSoundInput(logs, options, *vehicle);
+  }
   std::vector<Recording> recordings;
   for (LoadedRecording& log : loaded) recordings.push_back(std::move(log.recording));
   return {Concatenate(recordings), *std::move(vehicle)};

@@ -26,6 +26,10 @@ struct LogInputs {
   std::vector<std::filesystem::path> logs;
   std::filesystem::path vehicle_file;  ///< empty: the vehicle is what the logs themselves describe
   SourceOptions options;
+  bool skip_input_check = true;  ///< AddInputCheckTo turns the check on
+
+  /// `--skip-input-check`: Load() then seeks no faults of input, which otherwise it does.
+  void AddInputCheckTo(CLI::App& command);
 
   /// `--log`, to `whom` (the command itself or a group of its options), and what goes with it:
   /// `--vehicle` and what to take from a file that offers a choice. Returns `--log`.
@@ -37,7 +41,8 @@ struct LogInputs {
   /// One recording of all logs, admitted one by one and put one after the other (Concatenate), and
   /// the vehicle: of its file or else VehicleFrom the first log. Rows that could not be read, and
   /// what was taken for the vehicle, are noted on standard error. Throws: UsageError where neither
-  /// a file nor every log describes the vehicle, RefusedError naming the log, and as LoadVehicle.
+  /// a file nor every log describes the vehicle, RefusedError naming the log (with the first fault
+  /// of its input, unless skip_input_check; or with the log that it repeats), and as LoadVehicle.
   RecordedVehicle Load() const;
 };
 

@@ -8,6 +8,7 @@
 #include "telltale/client/recording/dataflash/dataflash_log.hpp"
 #include "telltale/client/recording/mavlink/mavlink_recording.hpp"
 #include "telltale/client/recording/mcap/mcap_recording.hpp"
+#include "telltale/client/recording/rosbag1/rosbag1.hpp"
 #include "telltale/client/recording/rosbag2/rosbag2.hpp"
 #include "telltale/client/recording/telemetry_log/telemetry_log.hpp"
 #include "telltale/core/data/input_check.hpp"
@@ -17,7 +18,8 @@ namespace {
 
 constexpr std::size_t kBytesToTellFormat = std::size_t{64} << 10;
 constexpr const char* kReadableFormats =
-    "give a folder of CSV files, an ArduPilot .BIN, a .tlog, an .mcap, or a rosbag2 folder or .db3";
+    "give a folder of CSV files, an ArduPilot .BIN, a .tlog, an .mcap, a rosbag2 folder or "
+    ".db3, or a ROS 1 .bag";
 
 std::string FirstBytes(const std::filesystem::path& file) {
   std::string bytes(kBytesToTellFormat, '\0');
@@ -93,6 +95,7 @@ LogFormat FormatOf(const std::filesystem::path& path) {
   if (begin.starts_with("SQLite format 3")) return LogFormat::kRosbag2;
   const std::span<const std::uint8_t> bytes(reinterpret_cast<const std::uint8_t*>(begin.data()),
                                             begin.size());
+  if (BeginsLikeRosbag1(bytes)) return LogFormat::kRosbag1;
   if (BeginsLikeMavlinkTelemetryLog(bytes)) return LogFormat::kMavlink;
   // A damaged log may begin with anything; the definition of a message stands near its start.
   const bool defines_messages = begin.find("\xA3\x95\x80") != std::string::npos;
@@ -104,6 +107,7 @@ Result<RawLog> ReadLog(const std::filesystem::path& path, const SourceOptions& o
     case LogFormat::kTelemetryLog: return FromFolder(path);
     case LogFormat::kMavlink: return FromSource(ReadMavlinkTelemetryLog(path, options));
     case LogFormat::kMcap: return FromSource(ReadMcap(path, options));
+    case LogFormat::kRosbag1: return FromSource(ReadRosbag1(path, options));
     case LogFormat::kRosbag2: return FromSource(ReadRosbag2(path, options));
     case LogFormat::kDataFlash: return FromDataFlash(path, options);
     case LogFormat::kUnknown: break;

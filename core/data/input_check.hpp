@@ -30,19 +30,9 @@ struct InputCheck {
 };
 
 /// Seeks faults of input that would give a wrong model: times in milliseconds or microseconds,
-/// latitude and longitude exchanged, headings in radians, mirrored, counted from east or turned
-/// round, thrusters exchanged, one or both reversed, commands outside the vehicle's range.
-///
-/// Method: while both propellers push forward a boat moves roughly where it heads, so
-/// course - heading is concentrated about zero (mean resultant length of circular statistics); of a
-/// mirrored heading course + heading is. Yaw rate grows with the port command and falls with the
-/// starboard command, speed ahead grows with both: regressions on commands behind a first-order lag
-/// give the signs. A fault is named only where its evidence is strong: a resultant length above 0.7
-/// that exceeds that of the recording as it is by 0.25, or signs four standard errors from zero
-/// with one sample counted each two lags. A boat that only drives straight shows no fault of
-/// heading. Units: as GnssFix, HeadingSample and ThrusterSample have them. The samples need not be
-/// admitted. Source: Mardia and Jupp, Directional Statistics, section 2.3 (mean direction and
-/// resultant).
+/// latitude and longitude exchanged, commands in shares, a stuck channel (StuckFault), what the
+/// motion betrays (MotionFault), commands outside the vehicle's range. Units: as GnssFix,
+/// HeadingSample and ThrusterSample have them. The samples need not be admitted.
 InputCheck CheckInput(const std::vector<GnssFix>& gnss, const std::vector<HeadingSample>& heading,
                       const std::vector<ThrusterSample>& thrusters, const Vehicle& vehicle);
 
@@ -50,6 +40,9 @@ InputCheck CheckInput(const std::vector<GnssFix>& gnss, const std::vector<Headin
 /// latitude and longitude exchanged, commands in shares or percent.
 std::optional<Refusal> UnitFault(const std::vector<GnssFix>& gnss,
                                  const std::vector<ThrusterSample>& thrusters);
+
+/// Whether all positions of `part` stand in `whole`, at the same times. Requires: times ascend.
+bool HoldsRecording(const Recording& whole, const Recording& part);
 
 /// The most certain fault; nothing where the input shows none.
 std::optional<Refusal> FirstFault(const InputCheck& check);

@@ -2,17 +2,20 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstring>
+#include <limits>
 #include <map>
 #include <optional>
 #include <sstream>
+#include <stdexcept>
 #include <vector>
 
-#include <lz4frame.h>
 #include <zstd.h>
 #include <nlohmann/json.hpp>
 
 #include "telltale/client/recording/block_reader.hpp"
+#include "telltale/client/recording/lz4_frame.hpp"
 #include "telltale/client/recording/mavlink/mavlink_recording.hpp"
 #include "telltale/client/recording/ros/ros_recording.hpp"
 
@@ -22,8 +25,8 @@ namespace {
 using Bytes = std::span<const std::uint8_t>;
 
 constexpr std::array<std::uint8_t, 8> kMagic = {0x89, 'M', 'C', 'A', 'P', '0', '\r', '\n'};
-constexpr std::size_t kRecordHeader = 9;  // opcode and length
-constexpr std::uint64_t kLargestChunk = std::uint64_t{256} << 20;
+constexpr std::size_t kRecordHeader = 9;                          // opcode and length
+constexpr std::uint64_t kLargestChunk = std::uint64_t{64} << 20;  // writers make chunks of some MB
 
 enum Opcode : std::uint8_t { kSchema = 3, kChannel = 4, kMessage = 5, kChunk = 6, kDataEnd = 15 };
 
@@ -66,26 +69,6 @@ bool InflateZstd(Bytes compressed, std::vector<std::uint8_t>& out) {
   return ZSTD_isError(size) == 0 && size == out.size();
 }
 
-bool InflateLz4(Bytes compressed, std::vector<std::uint8_t>& out) {
-  LZ4F_dctx* context = nullptr;
-  if (LZ4F_isError(LZ4F_createDecompressionContext(&context, LZ4F_VERSION)) != 0) return false;
-  std::size_t from = 0;
-  std::size_t to = 0;
-  bool is_done = false;
-  while (!is_done && from < compressed.size()) {
-    std::size_t taken = compressed.size() - from;
-    std::size_t given = out.size() - to;
-    const std::size_t hint = LZ4F_decompress(context, out.data() + to, &given,
-                                             compressed.data() + from, &taken, nullptr);
-    if (LZ4F_isError(hint) != 0 || (taken == 0 && given == 0)) break;
-    from += taken;
-    to += given;
-    is_done = hint == 0;
-  }
-  LZ4F_freeDecompressionContext(context);
-  return is_done && to == out.size();
-}
-
 class McapFile {
  public:
   explicit McapFile(const std::function<void(const McapMessage&)>& visit) : visit_(visit) {}
@@ -103,13 +86,25 @@ class McapFile {
       at = kMagic.size();
     }
     while (at < bytes.size() && !is_foreign_ && !is_ended_) {
+      if (passing_over_ > 0) {
+        const std::uint64_t passed = std::min<std::uint64_t>(passing_over_, bytes.size() - at);
+        passing_over_ -= passed;
+        at += static_cast<std::size_t>(passed);
+        continue;
+      }
       const Bytes rest = bytes.subspan(at);
       if (rest.size() < kRecordHeader) return at_end ? at + Cut(rest.size()) : at;
       Fields header(rest);
       const auto opcode = header.Read<std::uint8_t>();
       const auto length = header.Read<std::uint64_t>();
       if (length > rest.size() - kRecordHeader) {
-        if (!at_end) return at;
+        if (!at_end && IsOfUse(opcode) && length <= 2 * kLargestChunk) return at;
+        if (!at_end) {  // an attachment, say, need not be held in memory
+          damage_.overlong_records += IsOfUse(opcode) ? 1 : 0;
+          passing_over_ = length;
+          at += kRecordHeader;
+          continue;
+        }
         if (opcode == kChunk) TakeCutChunk(rest.subspan(kRecordHeader));
         return at + Cut(rest.size());
       }
@@ -132,6 +127,10 @@ class McapFile {
   std::size_t Cut(std::size_t bytes) {
     damage_.truncated_bytes += bytes;
     return bytes;
+  }
+
+  static bool IsOfUse(std::uint8_t opcode) {
+    return opcode == kSchema || opcode == kChannel || opcode == kMessage || opcode == kChunk;
   }
 
   void TakeRecord(std::uint8_t opcode, Bytes content) {
@@ -192,7 +191,7 @@ class McapFile {
     if (compression.empty()) return TakeRecords(records);
     chunk_.resize(static_cast<std::size_t>(size));
     const bool is_whole = compression == "zstd"  ? InflateZstd(records, chunk_)
-                          : compression == "lz4" ? InflateLz4(records, chunk_)
+                          : compression == "lz4" ? InflateLz4Frame(records, chunk_)
                                                  : false;
     if (is_whole) {
       TakeRecords(chunk_);
@@ -230,6 +229,7 @@ class McapFile {
   std::map<std::uint16_t, Channel> channels_;
   std::vector<std::uint8_t> chunk_;
   McapDamage damage_;
+  std::uint64_t passing_over_ = 0;  ///< bytes of a record of no use that are still to come
   bool has_magic_ = false;
   bool is_foreign_ = false;
   bool is_ended_ = false;
@@ -249,8 +249,28 @@ std::string ParameterNameOf(const Json& value) {
   return name;
 }
 
+/// An integer field. Throws where it is no number or not of that type's range, as Json::at does
+/// where it is absent.
+template <class Integer>
+Integer IntegerOf(const Json& value) {
+  const auto number = value.get<double>();
+  const bool is_in_range = 0.0 <= number && number < std::ldexp(1.0, 8 * sizeof(Integer));
+  if (!is_in_range) throw std::out_of_range("a field of a message");
+  return value.is_number_unsigned() ? static_cast<Integer>(value.get<std::uint64_t>())
+                                    : static_cast<Integer>(number);
+}
+
+/// A number of MAVLink's single precision; one that is too large becomes infinite.
+float FloatOf(const Json& value) {
+  const auto number = value.get<double>();
+  const double largest = std::numeric_limits<float>::max();
+  if (std::abs(number) > largest)
+    return std::copysign(INFINITY, static_cast<float>(std::copysign(1.0, number)));
+  return static_cast<float>(number);
+}
+
 std::uint8_t FixTypeOf(const Json& value) {
-  if (value.is_number()) return value.get<std::uint8_t>();
+  if (value.is_number()) return IntegerOf<std::uint8_t>(value);
   const Json& type = value.is_object() && value.contains("type") ? value.at("type") : value;
   const std::string name = type.is_string() ? type.get<std::string>() : "";
   const bool has_none = name.empty() || name == "GPS_FIX_TYPE_NO_GPS" ||
@@ -264,41 +284,42 @@ bool TakeJson(Bytes data, MavlinkRecording& recording) {
   const Json root = Json::parse(data.begin(), data.end(), nullptr, false);
   if (!root.is_object() || !root.contains("message") || !root.contains("header")) return false;
   try {
-    const int system = root.at("header").at("system_id").get<int>();
+    const int system = IntegerOf<std::uint8_t>(root.at("header").at("system_id"));
     const Json& message = root.at("message");
     const std::string type = message.at("type").get<std::string>();
     if (type == "GPS_RAW_INT") {
-      recording.Take(system, MavlinkGpsRawInt{message.at("time_usec").get<std::uint64_t>(),
+      recording.Take(system, MavlinkGpsRawInt{IntegerOf<std::uint64_t>(message.at("time_usec")),
                                               1e-7 * message.at("lat").get<double>(),
                                               1e-7 * message.at("lon").get<double>(),
                                               FixTypeOf(message.at("fix_type"))});
     } else if (type == "GLOBAL_POSITION_INT") {
-      MavlinkGlobalPositionInt position{message.at("time_boot_ms").get<std::uint32_t>(),
+      MavlinkGlobalPositionInt position{IntegerOf<std::uint32_t>(message.at("time_boot_ms")),
                                         1e-7 * message.at("lat").get<double>(),
                                         1e-7 * message.at("lon").get<double>(), std::nullopt};
       const double heading = message.at("hdg").get<double>();
       if (heading < 36000.5) position.heading_deg = 0.01 * heading;
       recording.Take(system, position);
     } else if (type == "ATTITUDE") {
-      recording.Take(system, MavlinkAttitude{message.at("time_boot_ms").get<std::uint32_t>(),
-                                             message.at("yaw").get<float>()});
+      recording.Take(system, MavlinkAttitude{IntegerOf<std::uint32_t>(message.at("time_boot_ms")),
+                                             FloatOf(message.at("yaw"))});
     } else if (type == "SERVO_OUTPUT_RAW") {
       MavlinkServoOutputRaw output;
-      output.time_us = message.at("time_usec").get<std::uint32_t>();
-      output.bank = message.value("port", std::uint8_t{0});
+      output.time_us = IntegerOf<std::uint32_t>(message.at("time_usec"));
+      if (message.contains("port")) output.bank = IntegerOf<std::uint8_t>(message.at("port"));
       for (std::size_t i = 0; i < output.pulse_us.size(); ++i) {
-        output.pulse_us[i] =
-            message.value("servo" + std::to_string(i + 1) + "_raw", std::uint16_t{0});
+        const std::string name = "servo" + std::to_string(i + 1) + "_raw";
+        if (message.contains(name)) output.pulse_us[i] = IntegerOf<std::uint16_t>(message.at(name));
       }
       recording.Take(system, output);
     } else if (type == "PARAM_VALUE") {
       recording.Take(system, MavlinkParamValue{ParameterNameOf(message.at("param_id")),
-                                               message.at("param_value").get<float>()});
+                                               FloatOf(message.at("param_value"))});
     } else if (type == "SYSTEM_TIME") {
-      recording.Take(system, MavlinkSystemTime{message.at("time_unix_usec").get<std::uint64_t>(),
-                                               message.at("time_boot_ms").get<std::uint32_t>()});
+      recording.Take(system,
+                     MavlinkSystemTime{IntegerOf<std::uint64_t>(message.at("time_unix_usec")),
+                                       IntegerOf<std::uint32_t>(message.at("time_boot_ms"))});
     }
-  } catch (const Json::exception&) {
+  } catch (const std::exception&) {  // of Json, or out of range
     return false;
   }
   return true;
@@ -312,10 +333,47 @@ std::string McapDamage::Summary() const {
     if (count > 0) out << "; " << count << ' ' << what;
   };
   add(unreadable_chunks, "unreadable chunks");
+  add(overlong_records, "records of more than 128 MB");
   add(unknown_channels, "messages of undefined channels");
   add(truncated_bytes, "bytes of a record cut off at the end");
   return out.str();
 }
+
+namespace {
+
+/// What the messages of one file say; which of ROS 2 and BlueOS counts, the most messages say.
+class McapRecording {
+ public:
+  void Take(const McapMessage& message) {
+    if (message.encoding == "cdr") {
+      ++of_ros_;
+      ros_.Take(message.topic, message.schema, message.log_time_ns, message.data);
+    } else if (message.encoding == "json" && Names(message.topic, "mavlink/")) {
+      ++of_mavlink_;
+      if (!TakeJson(message.data, mavlink_)) ++unreadable_;
+    }
+  }
+
+  SourceLog Finish(const SourceOptions& options, const McapDamage& damage) const {
+    SourceLog log = of_mavlink_ > of_ros_ ? mavlink_.Finish(options) : ros_.Finish(options);
+    if (unreadable_ > 0) log.summary += "; " + std::to_string(unreadable_) + " unreadable messages";
+    log.summary += damage.Summary();
+    return log;
+  }
+
+ private:
+  static bool Names(std::string_view topic, std::string_view part) {
+    return topic.find(part) != std::string_view::npos;
+  }
+
+  RosRecording ros_;
+  MavlinkRecording mavlink_;
+  std::uint64_t of_ros_ = 0;
+  std::uint64_t of_mavlink_ = 0;
+  std::uint64_t unreadable_ = 0;
+};
+
+}  // namespace
 
 Result<McapDamage> ForEachMcapMessage(const std::filesystem::path& file,
                                       const std::function<void(const McapMessage&)>& visit) {
@@ -330,27 +388,28 @@ Result<McapDamage> ForEachMcapMessage(const std::filesystem::path& file,
   return mcap.Damage();
 }
 
+SourceLog ParseMcap(std::span<const std::uint8_t> bytes, std::size_t block,
+                    const SourceOptions& options) {
+  McapRecording recording;
+  const std::function<void(const McapMessage&)> take = [&](const McapMessage& message) {
+    recording.Take(message);
+  };
+  McapFile mcap(take);
+  std::size_t done = 0;
+  for (std::size_t end = 0; end < bytes.size();) {
+    end = std::min(end + block, bytes.size());
+    done += mcap.Consume(bytes.subspan(done, end - done), end == bytes.size());
+  }
+  return recording.Finish(options, mcap.Damage());
+}
+
 Result<SourceLog> ReadMcap(const std::filesystem::path& file, const SourceOptions& options) {
   if (auto refusal = options.Validate()) return tl::unexpected(*std::move(refusal));
-  RosRecording ros;
-  MavlinkRecording mavlink;
-  std::uint64_t of_ros = 0;
-  std::uint64_t of_mavlink = 0;
-  std::uint64_t unreadable = 0;
-  const auto damage = ForEachMcapMessage(file, [&](const McapMessage& message) {
-    if (message.encoding == "cdr") {
-      ++of_ros;
-      ros.Take(message.topic, message.schema, message.log_time_ns, message.data);
-    } else if (message.encoding == "json" &&
-               message.topic.find("mavlink/") != std::string_view::npos) {
-      ++of_mavlink;
-      if (!TakeJson(message.data, mavlink)) ++unreadable;
-    }
-  });
+  McapRecording recording;
+  const auto damage =
+      ForEachMcapMessage(file, [&](const McapMessage& message) { recording.Take(message); });
   if (!damage) return tl::unexpected(damage.error());
-  SourceLog log = of_mavlink > of_ros ? mavlink.Finish(options) : ros.Finish(options);
-  if (unreadable > 0) log.summary += "; " + std::to_string(unreadable) + " unreadable messages";
-  log.summary += damage->Summary();
+  SourceLog log = recording.Finish(options, *damage);
   if (auto refusal = log.Lacks()) {
     refusal->subject = file.string() + " " + refusal->subject;
     return tl::unexpected(*std::move(refusal));

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
@@ -23,6 +24,7 @@ struct McapMessage {
 struct McapDamage {
   std::uint64_t messages = 0;           ///< whole ones, for comparison
   std::uint64_t unreadable_chunks = 0;  ///< wrong checksum, length or compression
+  std::uint64_t overlong_records = 0;   ///< too long to be held in memory
   std::uint64_t unknown_channels = 0;   ///< messages of a channel that is nowhere defined
   std::uint64_t truncated_bytes = 0;    ///< of a record that the end cuts off
 
@@ -32,11 +34,16 @@ struct McapDamage {
 
 /// Visits the messages of an MCAP file in the order they stand there: chunked or not, compressed
 /// with zstd, lz4 or not at all, with or without an index, cut off or whole.
-/// Memory: one chunk, compressed and not.
-/// Refuses when: the file cannot be read, does not begin with MCAP's magic, or holds a record of
-/// more than 256 MB. Source: MCAP file format specification, version 0.
+/// Memory: one chunk, compressed and not. Records longer than 128 MB and chunks that inflate to
+/// more than 64 MB are passed over and counted. Refuses when: the file cannot be read or does not
+/// begin with MCAP's magic. Source: MCAP file format specification, version 0.
 Result<McapDamage> ForEachMcapMessage(const std::filesystem::path& file,
                                       const std::function<void(const McapMessage&)>& visit);
+
+/// Everything that can be had from these bytes, taken in blocks of so many; never fails.
+/// Requires: block > 0; options.Validate() is empty.
+SourceLog ParseMcap(std::span<const std::uint8_t> bytes, std::size_t block,
+                    const SourceOptions& options);
 
 /// An MCAP file of ROS 2 (CDR) or of the BlueOS recorder (MAVLink messages as JSON).
 /// Refuses when: ForEachMcapMessage() does, or a channel is missing.

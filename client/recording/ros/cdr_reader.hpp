@@ -12,11 +12,18 @@ namespace telltale {
 
 /// Fields of a message in the Common Data Representation (XCDR1), as ROS 2 stores and sends it:
 /// four bytes of encapsulation, then fields aligned to their size.
+/// The serialisation of ROS 1 is the same without encapsulation, alignment and closing zeros of
+/// strings, always little-endian.
 /// A field beyond the end is zero or empty, and Ok() is false from then on.
 /// Source: OMG DDS-XTypes 1.3, section 7.4; plain CDR of either byte order.
 class CdrReader {
  public:
-  explicit CdrReader(std::span<const std::uint8_t> bytes) : bytes_(bytes) {
+  enum class Encoding { kCdr, kRos1 };
+
+  explicit CdrReader(std::span<const std::uint8_t> bytes, Encoding encoding = Encoding::kCdr)
+      : bytes_(bytes), is_ros1_(encoding == Encoding::kRos1) {
+    ok_ = is_ros1_;
+    if (is_ros1_) return;
     ok_ = bytes.size() >= kEncapsulation && bytes[0] == 0 && bytes[1] <= 1;
     if (!ok_) return;
     is_little_ = bytes[1] == 1;
@@ -26,7 +33,7 @@ class CdrReader {
   template <class Number>
   Number Read() {
     static_assert(std::is_arithmetic_v<Number>);
-    at_ = (at_ + sizeof(Number) - 1) / sizeof(Number) * sizeof(Number);
+    if (!is_ros1_) at_ = (at_ + sizeof(Number) - 1) / sizeof(Number) * sizeof(Number);
     Number value{};
     if (!Holds(sizeof(Number))) return value;
     std::uint8_t raw[sizeof(Number)];
@@ -39,9 +46,10 @@ class CdrReader {
   }
 
   std::string ReadString() {
-    const auto length = Read<std::uint32_t>();  // its closing zero included
+    const auto length = Read<std::uint32_t>();  // of CDR: its closing zero included
     if (length == 0 || !Holds(length)) return {};
-    std::string text(reinterpret_cast<const char*>(bytes_.data() + at_), length - 1);
+    const std::size_t characters = is_ros1_ ? length : length - 1;
+    std::string text(reinterpret_cast<const char*>(bytes_.data() + at_), characters);
     at_ += length;
     return text;
   }
@@ -56,6 +64,7 @@ class CdrReader {
     return values;
   }
 
+  bool IsRos1() const { return is_ros1_; }
   bool Ok() const { return ok_; }
 
  private:
@@ -70,6 +79,7 @@ class CdrReader {
   std::span<const std::uint8_t> bytes_;
   std::size_t at_ = 0;
   bool is_little_ = true;
+  bool is_ros1_ = false;
   bool ok_ = false;
 };
 

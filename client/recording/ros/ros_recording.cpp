@@ -23,6 +23,7 @@ struct RosHeader {
 };
 
 RosHeader ReadHeader(CdrReader& cdr) {
+  if (cdr.IsRos1()) cdr.Read<std::uint32_t>();  // a sequence number
   const auto seconds = cdr.Read<std::int32_t>();
   const auto nanoseconds = cdr.Read<std::uint32_t>();
   return {seconds + 1e-9 * nanoseconds, cdr.ReadString()};
@@ -83,7 +84,7 @@ bool IsCompassTopic(const std::string& topic) {
 }  // namespace
 
 void RosRecording::Take(std::string_view topic, std::string_view type, std::int64_t received_ns,
-                        std::span<const std::uint8_t> bytes) {
+                        std::span<const std::uint8_t> bytes, CdrReader::Encoding encoding) {
   ++messages_;
   auto found = topics_.find(topic);
   if (found == topics_.end()) {
@@ -94,6 +95,8 @@ void RosRecording::Take(std::string_view topic, std::string_view type, std::int6
       fresh.kind = Kind::kPosition;
     } else if (type == "mavros_msgs/msg/RCOut") {
       fresh.kind = Kind::kOutputs;
+    } else if (type == "heron_msgs/msg/Drive") {
+      fresh.kind = Kind::kDrive;
     } else if (type == "std_msgs/msg/Float64" && IsCompassTopic(name)) {
       fresh.kind = Kind::kCompass;
     } else if (type == "sensor_msgs/msg/Imu" || type == "geometry_msgs/msg/QuaternionStamped" ||
@@ -111,7 +114,7 @@ void RosRecording::Take(std::string_view topic, std::string_view type, std::int6
   Topic& known = found->second;
   if (known.kind == Kind::kUnknown) return;
 
-  CdrReader cdr(bytes);
+  CdrReader cdr(bytes, encoding);
   Sample sample;
   sample.received_s = 1e-9 * static_cast<double>(received_ns);
   bool is_usable = true;
@@ -149,6 +152,10 @@ void RosRecording::Take(std::string_view topic, std::string_view type, std::int6
     case Kind::kOutputs:
       stamp(ReadHeader(cdr));
       sample.outputs = cdr.ReadSequence<std::uint16_t>();
+      break;
+    case Kind::kDrive:
+      sample.values[0] = static_cast<double>(cdr.Read<float>());
+      sample.values[1] = static_cast<double>(cdr.Read<float>());
       break;
     case Kind::kSide:
       sample.values[0] = known.type == "std_msgs/msg/UInt16" ? cdr.Read<std::uint16_t>()
@@ -207,6 +214,7 @@ SourceLog RosRecording::Finish(const SourceOptions& options) const {
   const Named* heading = Best(Kind::kCompass);
   if (heading == nullptr) heading = Best(Kind::kOrientation);
   const Named* outputs = Best(Kind::kOutputs);
+  const Named* drive = Best(Kind::kDrive);
   const Named* port = Side(true);
   const Named* starboard = Side(false);
 
@@ -243,6 +251,13 @@ SourceLog RosRecording::Finish(const SourceOptions& options) const {
           {time_of(sample),
            static_cast<double>(sample.outputs[static_cast<std::size_t>(port_channel - 1)]),
            static_cast<double>(sample.outputs[static_cast<std::size_t>(starboard_channel - 1)])});
+    }
+  } else if (drive != nullptr) {
+    summary << "; outputs from " << drive->first
+            << ", shares of full thrust taken as 1500 + 400 share us";
+    for (const Sample& sample : drive->second.samples) {
+      log.thrusters.push_back({time_of(sample), kNeutralUs + kFullUs * sample.values[0],
+                               kNeutralUs + kFullUs * sample.values[1]});
     }
   } else if (port != nullptr && starboard != nullptr) {
     summary << "; outputs from " << port->first << " (port) and " << starboard->first

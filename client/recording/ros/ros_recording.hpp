@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "telltale/client/recording/ros/cdr_reader.hpp"
 #include "telltale/client/recording/source_log.hpp"
 
 namespace telltale {
@@ -20,7 +21,8 @@ namespace telltale {
 /// sensor_msgs/msg/Imu, geometry_msgs/msg/QuaternionStamped, nav_msgs/msg/Odometry. Orientations
 /// are east-north-up, REP 103, unless their frame_id names NED; heading = 90 deg - yaw. Outputs:
 /// mavros_msgs/msg/RCOut, channels 1 and 3 (ArduPilot's skid steering) unless told otherwise; else
-/// one topic each side, named left and right or port and starboard, of UInt16 (microseconds) or of
+/// heron_msgs/msg/Drive; else one topic each
+/// side, named left and right or port and starboard, of UInt16 (microseconds) or of
 /// Float32 or Float64 shares in [-1, 1], which become 1500 + 400 share us. Clock: header stamps
 /// where the sources have them and they agree with the times of recording to a second; else the
 /// times of recording.
@@ -28,17 +30,19 @@ class RosRecording {
  public:
   /// A message of a topic, `type` as "sensor_msgs/msg/NavSatFix". Types of no use are passed over.
   void Take(std::string_view topic, std::string_view type, std::int64_t received_ns,
-            std::span<const std::uint8_t> bytes);
+            std::span<const std::uint8_t> bytes,
+            CdrReader::Encoding encoding = CdrReader::Encoding::kCdr);
 
   /// Requires: options.Validate() is empty.
   SourceLog Finish(const SourceOptions& options) const;
 
  private:
-  enum class Kind { kUnknown, kPosition, kCompass, kOrientation, kOutputs, kSide };
+  enum class Kind { kUnknown, kPosition, kCompass, kOrientation, kOutputs, kDrive, kSide };
   struct Sample {
     double received_s = 0.0;
     std::optional<double> stamp_s;
-    std::array<double, 2> values{};  ///< latitude, longitude | heading | share or pulse
+    std::array<double, 2>
+        values{};  ///< latitude, longitude | heading | port, starboard | share or pulse
     std::vector<std::uint16_t> outputs;
   };
   struct Topic {

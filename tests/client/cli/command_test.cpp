@@ -335,7 +335,7 @@ TEST_F(CommandTest, IdentifySeeksTheDeadZone) {
 }
 
 TEST_F(CommandTest, SeveralLogsAreOneAfterTheOther) {
-  WriteTelemetryLog(Path("second"), Measured(0.0));
+  WriteTelemetryLog(Path("second"), Measured(7.0));
   const CommandOutcome outcome = Identify({"--log", Path("second"), "--json"});
   EXPECT_EQ(outcome.exit_code, kSuccess) << outcome.err;
   const auto model = ParseModelJson(outcome.out);

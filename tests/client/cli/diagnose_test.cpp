@@ -157,6 +157,13 @@ TEST_F(DiagnoseTest, AReferenceThatCannotBeUsedIsNamed) {
   EXPECT_THAT(outcome.err, HasSubstr("blank"));
 }
 
+TEST_F(DiagnoseTest, ARecordingIsNotItsOwnReference) {
+  const CommandOutcome outcome =
+      Diagnose("log", "boat.textproto", {"--reference-log", Path("log")});
+  EXPECT_EQ(outcome.exit_code, kRefused);
+  EXPECT_THAT(outcome.err, HasSubstr("both the recording to diagnose and a reference"));
+}
+
 TEST_F(DiagnoseTest, AModelFileThatIsNoneFailsNamingTheFault) {
   folder.Write("model.json", "{\"vehicleId\": 3}");
   const CommandOutcome outcome = Diagnose("log", "boat.textproto");

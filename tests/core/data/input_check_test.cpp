@@ -122,6 +122,26 @@ INSTANTIATE_TEST_SUITE_P(
               "headings seem to be mirrored"},
         Fault{"from_east", [](Input& i) { ChangeHeadings(i, [](double h) { return 90.0 - h; }); },
               "counted from east"},
+        Fault{"from_east_clockwise",
+              [](Input& i) { ChangeHeadings(i, [](double h) { return h - 90.0; }); },
+              "counted from east, clockwise"},
+        Fault{"magnetic", [](Input& i) { ChangeHeadings(i, [](double h) { return h + 20.0; }); },
+              "keeps -20 +- 0 degrees from the heading"},
+        Fault{"stuck_heading", [](Input& i) { ChangeHeadings(i, [](double) { return 12.0; }); },
+              "heading seems to be stuck"},
+        Fault{"stuck_port_thruster",
+              [](Input& i) {
+                for (auto& sample : i.thrusters) sample.port_us = 1600.0;
+              },
+              "port thruster seems to be stuck"},
+        Fault{"stuck_position",
+              [](Input& i) {
+                for (auto& fix : i.gnss) {
+                  fix.latitude_deg = 60.0;
+                  fix.longitude_deg = 10.0;
+                }
+              },
+              "gnss seems to be stuck"},
         Fault{"turned_round",
               [](Input& i) {
                 ChangeHeadings(i, [](double h) { return std::remainder(h + 180.0, 360.0); });
@@ -158,10 +178,18 @@ INSTANTIATE_TEST_SUITE_P(
               "outside the range of the vehicle file"}),
     [](const auto& test) { return std::string(test.param.name); });
 
+TEST(InputCheck, AFewDegreesOfDeviationAreNoFault) {
+  EXPECT_EQ(FaultAfter([](Input& i) { ChangeHeadings(i, [](double h) { return h + 10.0; }); }),
+            std::nullopt);
+}
+
 TEST(InputCheck, ABoatThatOnlyDrivesStraightShowsNoFaultOfHeading) {
   Input input = SimulatedInput();
   for (auto& sample : input.heading) sample.heading_deg = 20.0;
-  for (auto& sample : input.thrusters) sample.starboard_us = sample.port_us;
+  for (auto& sample : input.thrusters) {
+    sample.port_us = sample.time_s < 100.0 ? 1700.0 : 1650.0;
+    sample.starboard_us = sample.port_us;
+  }
   const NorthEastFrame frame({60.0, 10.0});
   for (auto& fix : input.gnss) {
     const GeographicPosition position =
