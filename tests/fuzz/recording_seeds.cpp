@@ -1,0 +1,173 @@
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace {
+
+using Bytes = std::string;
+
+void Save(const std::filesystem::path& file, const Bytes& bytes) {
+  std::filesystem::create_directories(file.parent_path());
+  std::ofstream(file, std::ios::binary) << bytes;
+}
+
+template <class Number>
+Bytes Little(Number value) {
+  Bytes bytes;
+  for (std::size_t i = 0; i < sizeof(Number); ++i) {
+    bytes.push_back(static_cast<char>(static_cast<std::uint64_t>(value) >> (8 * i) & 0xFF));
+  }
+  return bytes;
+}
+
+// ---- MAVLink ------------------------------------------------------------------------------------
+
+/// Three frames whose checksums hold: GPS_RAW_INT, SERVO_OUTPUT_RAW and a signed ATTITUDE.
+std::vector<Bytes> Frames() {
+  const std::vector<std::vector<int>> frames = {
+      {0xfd, 0x1e, 0x00, 0x00, 0x05, 0x07, 0x01, 0x18, 0x00, 0x00, 0x14, 0x1a, 0x99, 0xbe,
+       0x1c, 0x00, 0x00, 0x00, 0x80, 0x12, 0xca, 0x25, 0x00, 0x16, 0xcd, 0xf9, 0xe8, 0x03,
+       0x00, 0x00, 0x64, 0x00, 0xc8, 0x00, 0x32, 0x00, 0x28, 0x23, 0x03, 0x0b, 0x4e, 0x16},
+      {0xfd, 0x0a, 0x00, 0x00, 0x06, 0x07, 0x01, 0x24, 0x00, 0x00, 0x00,
+       0x09, 0x3d, 0x00, 0x40, 0x06, 0x00, 0x00, 0x78, 0x05, 0x95, 0x35},
+      {0xfd, 0x10, 0x01, 0x00, 0x07, 0x07, 0x01, 0x1e, 0x00, 0x00, 0xc4, 0x09, 0x00, 0x00,
+       0x00, 0x00, 0x00, 0x00, 0x00, 0x00, 0x00, 0x00, 0x00, 0x00, 0x00, 0x3f, 0x35, 0x09,
+       0x01, 0x00, 0xe0, 0x6f, 0x9e, 0x75, 0x19, 0x59, 0x20, 0x7a, 0x61, 0x39, 0x22}};
+  std::vector<Bytes> all;
+  for (const std::vector<int>& frame : frames) all.emplace_back(frame.begin(), frame.end());
+  return all;
+}
+
+Bytes TelemetryLog(const std::vector<Bytes>& frames) {
+  const Bytes arrival("\x00\x05\xfa\xea\x6c\xd6\x2a\x00", 8);  // in 2023
+  Bytes log;
+  for (const Bytes& frame : frames) log += arrival + frame;
+  return log;
+}
+
+/// As mavlink_fuzz takes messages without a frame: id, length, payload.
+Bytes Messages() {
+  Bytes bytes;
+  for (const auto& [id, length] : {std::pair(24, 30), std::pair(33, 28), std::pair(30, 28),
+                                   std::pair(36, 37), std::pair(22, 25), std::pair(2, 12)}) {
+    bytes += static_cast<char>(id);
+    bytes += static_cast<char>(length);
+    bytes += Bytes(static_cast<std::size_t>(length), '\x11');
+  }
+  return bytes;
+}
+
+// ---- MCAP ---------------------------------------------------------------------------------------
+
+Bytes Text(const Bytes& text) {
+  return Little(static_cast<std::uint32_t>(text.size())) + text;
+}
+
+Bytes Record(char opcode, const Bytes& content) {
+  return Bytes(1, opcode) + Little(static_cast<std::uint64_t>(content.size())) + content;
+}
+
+Bytes Channel(std::uint16_t id, const Bytes& topic, const Bytes& type, const Bytes& encoding) {
+  return Record(3, Little(id) + Text(type) + Text("ros2msg") + Text("")) +
+         Record(4,
+                Little(id) + Little(id) + Text(topic) + Text(encoding) + Little<std::uint32_t>(0));
+}
+
+Bytes Message(std::uint16_t channel, const Bytes& data) {
+  return Record(5, Little(channel) + Bytes(20, '\0') + data);
+}
+
+Bytes Chunk(const Bytes& records, const Bytes& compression) {
+  return Record(6, Bytes(16, '\0') + Little(static_cast<std::uint64_t>(records.size())) +
+                       Bytes(4, '\0') + Text(compression) +
+                       Little(static_cast<std::uint64_t>(records.size())) + records);
+}
+
+Bytes Mcap(const Bytes& records) {
+  const Bytes magic("\x89MCAP0\r\n", 8);
+  return magic + Record(1, Text("ros2") + Text("seeds")) + records + Record(15, Bytes(4, '\0')) +
+         magic;
+}
+
+Bytes RosRecords() {
+  const Bytes cdr("\x00\x01\x00\x00", 4);
+  return Channel(1, "/compass_hdg", "std_msgs/msg/Float64", "cdr") +
+         Channel(2, "/gps/fix", "sensor_msgs/msg/NavSatFix", "cdr") +
+         Channel(3, "/rc/out", "mavros_msgs/msg/RCOut", "cdr") +
+         Message(1, cdr + Bytes(8, '\x40')) + Message(2, cdr + Bytes(60, '\0')) +
+         Message(3, cdr + Bytes(12, '\0') + Little<std::uint32_t>(4) + Bytes(8, '\x05'));
+}
+
+Bytes BlueOsRecords() {
+  const auto message = [](std::uint16_t id, const Bytes& body) {
+    return Channel(id, "mavlink/1/1/X", "X", "json") +
+           Message(id, R"({"header":{"system_id":1},"message":{"type":)" + body + "}}");
+  };
+  return message(1, R"("ATTITUDE","time_boot_ms":1,"yaw":0.5)") +
+         message(2, R"("GPS_RAW_INT","time_usec":1,"lat":1,"lon":2,"fix_type":{"type":"A"})") +
+         message(3, R"("SERVO_OUTPUT_RAW","time_usec":1,"port":0,"servo1_raw":1500)") +
+         message(4, R"("PARAM_VALUE","param_id":["S","\u0000"],"param_value":73.0)") +
+         message(5, R"("SYSTEM_TIME","time_unix_usec":1,"time_boot_ms":2)") +
+         message(6, R"("GLOBAL_POSITION_INT","time_boot_ms":1,"lat":1,"lon":2,"hdg":3)");
+}
+
+// ---- ROS 1 --------------------------------------------------------------------------------------
+
+Bytes BagRecord(const Bytes& header, const Bytes& data) {
+  return Text(header) + Text(data);
+}
+
+Bytes BagRecords() {
+  const Bytes id = Text(Bytes("conn=") + Bytes(4, '\0'));
+  return BagRecord(Text("op=\x07") + id + Text("topic=/fix"), Text("type=sensor_msgs/NavSatFix")) +
+         BagRecord(Text("op=\x02") + id + Text(Bytes("time=") + Bytes(8, '\x01')),
+                   Bytes(120, '\0'));
+}
+
+Bytes Bag(const Bytes& compression) {
+  const Bytes records = BagRecords();
+  const Bytes size = Little(static_cast<std::uint32_t>(records.size()));
+  return "#ROSBAG V2.0\n" +
+         BagRecord(Text("op=\x05") + Text("compression=" + compression) + Text("size=" + size),
+                   records);
+}
+
+// ---- ROS 2 --------------------------------------------------------------------------------------
+
+/// As ros_fuzz takes messages: topic, length, CDR.
+Bytes RosMessages() {
+  Bytes bytes;
+  for (char topic = 0; topic < 10; ++topic) {
+    bytes += topic;
+    bytes += static_cast<char>(120);
+    bytes += Bytes("\x00\x01\x00\x00", 4) + Bytes(116, '\0');
+  }
+  return bytes;
+}
+
+}  // namespace
+
+/// recording_seeds FOLDER: the recordings from which the fuzzers start, a folder for each.
+int main(int argc, char** argv) {
+  if (argc != 2) {
+    std::cerr << "usage: recording_seeds FOLDER\n";
+    return 2;
+  }
+  const std::filesystem::path folder = argv[1];
+  Save(folder / "mavlink/log.tlog", TelemetryLog(Frames()));
+  Save(folder / "mavlink/stream", Frames()[0] + Frames()[1] + Frames()[2]);
+  Save(folder / "mavlink/messages", Messages());
+  Save(folder / "mcap/ros.mcap", Mcap(RosRecords()));
+  Save(folder / "mcap/chunk.mcap", Mcap(Chunk(RosRecords(), "")));
+  Save(folder / "mcap/zstd.mcap", Mcap(Chunk(RosRecords(), "zstd")));
+  Save(folder / "mcap/lz4.mcap", Mcap(Chunk(RosRecords(), "lz4")));
+  Save(folder / "mcap/blueos.mcap", Mcap(BlueOsRecords()));
+  Save(folder / "ros/messages", RosMessages());
+  for (const char* compression : {"none", "bz2", "lz4"}) {
+    Save(folder / "rosbag1" / compression, Bag(compression));
+  }
+}

@@ -1,0 +1,45 @@
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+#include <utility>
+
+#include "telltale/client/recording/ros/ros_recording.hpp"
+
+namespace {
+
+void Insist(bool holds) {
+  if (!holds) std::abort();
+}
+
+constexpr std::array kTopics = {std::pair("/gps/fix", "sensor_msgs/msg/NavSatFix"),
+                                std::pair("/imu/data", "sensor_msgs/msg/Imu"),
+                                std::pair("/odom", "nav_msgs/msg/Odometry"),
+                                std::pair("/attitude", "geometry_msgs/msg/QuaternionStamped"),
+                                std::pair("/compass_hdg", "std_msgs/msg/Float64"),
+                                std::pair("/rc/out", "mavros_msgs/msg/RCOut"),
+                                std::pair("/thrusters/left/thrust", "std_msgs/msg/Float64"),
+                                std::pair("/thrusters/right/thrust", "std_msgs/msg/Float32"),
+                                std::pair("/pwm/port", "std_msgs/msg/UInt16"),
+                                std::pair("/chatter", "std_msgs/msg/String")};
+
+}  // namespace
+
+/// Messages out of the bytes, each after its topic and its length; no sample comes from nothing.
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  telltale::RosRecording recording;
+  std::size_t messages = 0;
+  for (std::size_t at = 0; at + 2 <= size; ++messages) {
+    const auto [topic, type] = kTopics[data[at] % kTopics.size()];
+    const std::size_t length = std::min<std::size_t>(data[at + 1], size - at - 2);
+    recording.Take(topic, type, static_cast<std::int64_t>(at) * 1'000'000, {data + at + 2, length});
+    at += 2 + length;
+  }
+  telltale::SourceOptions options;
+  if (size % 2 == 0) options.port_channel = 16;
+  const telltale::SourceLog log = recording.Finish(options);
+  Insist(log.gnss.size() + log.heading.size() + log.thrusters.size() <= messages);
+  Insist(!log.summary.empty());
+  return 0;
+}
