@@ -186,13 +186,19 @@ class PositiveLine {
   }
   void AddUnexplained(double y) { yy_ += y * y; }
   /// Share of the square of y that stays.
-  double Rest() const {
-    if (yy_ <= 0.0) return 1.0;
-    const double explained = xy_ > 0.0 && xx_ > 0.0 ? xy_ * xy_ / xx_ : 0.0;
-    return std::max(1e-9, 1.0 - explained / yy_);
+  double Rest() const { return RestAfter(std::max(0.0, xy_) * std::max(0.0, xy_)); }
+  /// The same where a line of either slope along another direction explains y as well.
+  double RestBeside(const PositiveLine& other) const {
+    return RestAfter(xy_ * xy_ + other.xy_ * other.xy_);
   }
 
  private:
+  double RestAfter(double square_of_xy) const {
+    if (yy_ <= 0.0) return 1.0;
+    const double explained = xx_ > 0.0 ? square_of_xy / xx_ : 0.0;
+    return std::max(1e-9, 1.0 - explained / yy_);
+  }
+
   double xx_ = 0.0;
   double xy_ = 0.0;
   double yy_ = 0.0;
@@ -202,6 +208,7 @@ class PositiveLine {
 struct Rests {
   double yaw = 1.0;
   double velocity = 1.0;
+  double velocity_turned = 1.0;  ///< the same with all headings turned by the angle that fits best
 };
 
 class Motion {
@@ -234,15 +241,19 @@ class Motion {
       yaw.Add(command.Difference(), (psi.Linear(t + kYawStepS) - psi.Linear(t)) / kYawStepS);
     }
     PositiveLine velocity;
+    PositiveLine across;
     for (Velocity v : velocities_) {
       if (!Covers(psi, v.time_s)) continue;
       if (supposition.positions_exchanged) std::swap(v.north_mps, v.east_mps);
       const double angle = psi.Linear(v.time_s);
       const PropellerCommand command = Undone(supposition.thrusters, at_speed_.At(v.time_s));
-      velocity.Add(command.Mean(), v.north_mps * std::cos(angle) + v.east_mps * std::sin(angle));
-      velocity.AddUnexplained(v.east_mps * std::cos(angle) - v.north_mps * std::sin(angle));
+      const double ahead_mps = v.north_mps * std::cos(angle) + v.east_mps * std::sin(angle);
+      const double across_mps = v.east_mps * std::cos(angle) - v.north_mps * std::sin(angle);
+      velocity.Add(command.Mean(), ahead_mps);
+      velocity.AddUnexplained(across_mps);
+      across.Add(command.Mean(), across_mps);
     }
-    return {yaw.Rest(), velocity.Rest()};
+    return {yaw.Rest(), velocity.Rest(), velocity.RestBeside(across)};
   }
 
   double EffectiveYawRates() const {
@@ -310,6 +321,12 @@ std::optional<Refusal> BestSupposition(const Motion& motion,
     if (supposition.heading == HeadingRule::kRadians) break;
   }
   if (best == nullptr) return std::nullopt;
+  // Headings that are off by a constant angle let faults of another kind seem likely.
+  const bool is_turn = best->heading == HeadingRule::kFromEastClockwise ||
+                       best->heading == HeadingRule::kTurnedRound;
+  const double turned_gain =
+      motion.EffectiveVelocities() * std::log(as_is.velocity / as_is.velocity_turned);
+  if (!is_turn && turned_gain > best_gain + kSureGain) return std::nullopt;
   return Told(*best, as_is, best_rests);
 }
 

@@ -20,7 +20,9 @@ namespace telltale {
 /// counts one sample each two lags. A fault is named where it gains more than 8 and explains at
 /// least a tenth of the yaw rate's and three tenths of the velocity's square. A constant angle is
 /// named where course less heading, freed of what goes with the yaw rate, keeps beyond 15 degrees
-/// and four standard errors from zero over headings all around: the lines above leave it out.
+/// and four standard errors from zero over headings all around: the lines above leave it out. Where
+/// a constant angle gains more than a fault by 8, that fault is not named: current and compass look
+/// alike in a boat that keeps to one direction.
 /// Shapes and units: as GnssFix, HeadingSample and ThrusterSample have them. Requires: times
 /// ascend. Refuses when: never; a recording too short or too still shows no fault.
 std::optional<Refusal> MotionFault(const std::vector<GnssFix>& gnss,

@@ -169,9 +169,9 @@ TEST_F(LogInputsTest, ReceiverAndChannelsCanBeChosen) {
   EXPECT_THAT(absent.err, HasSubstr("ask for one of: 0 1"));
 
   // Thrusters taken for each other: port is then the reversed channel.
-  const CommandOutcome swapped = Identify(
-      {"--log", Path("run.BIN"), "--port-channel", "1", "--starboard-channel", "3",
-       "--skip-input-check", "--json"});
+  const CommandOutcome swapped =
+      Identify({"--log", Path("run.BIN"), "--port-channel", "1", "--starboard-channel", "3",
+                "--skip-input-check", "--json"});
   EXPECT_EQ(swapped.exit_code, kSuccess) << swapped.err;
   EXPECT_THAT(swapped.err, AllOf(HasSubstr("port on channel 1, 1900 us (full reverse)"),
                                  HasSubstr("starboard on channel 3, 1100 us (full reverse)")));
