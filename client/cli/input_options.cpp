@@ -15,6 +15,7 @@
 #include "telltale/core/base/contract.hpp"
 #include "telltale/core/data/input_check.hpp"
 #include "telltale/idl/codec/json/model.hpp"
+#include "telltale/idl/codec/mapping_file.hpp"
 #include "telltale/idl/codec/vehicle_file.hpp"
 
 namespace telltale {
@@ -36,9 +37,14 @@ void NoteMalformed(const std::filesystem::path& file, const MalformedRows& malfo
 
 /// Channels that the format of a log does not record are an error of the command line.
 void RequireRecordedChannels(const std::filesystem::path& log, const SourceOptions& options) {
-  if (FormatOf(log) != LogFormat::kDataFlash) return;
   const std::array named = {std::pair("--port-channel", options.port_channel),
                             std::pair("--starboard-channel", options.starboard_channel)};
+  for (const auto& [option, channel] : named) {
+    if (!options.mapping || !channel) continue;
+    throw UsageError(std::string(option) +
+                     ": the mapping names the outputs; leave one of them out");
+  }
+  if (FormatOf(log) != LogFormat::kDataFlash) return;
   for (const auto& [option, channel] : named) {
     if (channel.value_or(1) <= kLoggedChannels) continue;
     throw UsageError(std::string(option) + ": " + log.string() + " records channels 1 to " +
@@ -188,6 +194,17 @@ void AddSourceOptions(CLI::App& command, SourceOptions& options, CLI::Option* lo
         ->check(range.description(""))
         ->needs(log);
   };
+  command
+      .add_option_function<std::string>(
+          "--map",
+          [&options](const std::string& file) {
+            options.mapping = std::make_shared<Mapping>(OrThrow(ParseMapping(TextOf(file), file)));
+          },
+          "which columns of one CSV file, or topics of an MCAP, rosbag2 or ROS 1 recording, hold "
+          "what, in which units and frames (text format)")
+      ->type_name("FILE")
+      ->check(CLI::ExistingFile.description(""))
+      ->needs(log);
   add("--gps-instance", options.gps_instance, {0, 255},
       "of .BIN logs: the GPS receiver to take, [0, 255] (default: the one with most fixes)");
   add("--system-id", options.system_id, {1, 255},

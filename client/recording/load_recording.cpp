@@ -5,6 +5,7 @@
 #include <string_view>
 #include <utility>
 
+#include "telltale/client/recording/csv/mapped_csv.hpp"
 #include "telltale/client/recording/dataflash/dataflash_log.hpp"
 #include "telltale/client/recording/mavlink/mavlink_recording.hpp"
 #include "telltale/client/recording/mcap/mcap_recording.hpp"
@@ -19,7 +20,7 @@ namespace {
 constexpr std::size_t kBytesToTellFormat = std::size_t{64} << 10;
 constexpr const char* kReadableFormats =
     "give a folder of CSV files, an ArduPilot .BIN, a .tlog, an .mcap, a rosbag2 folder or "
-    ".db3, or a ROS 1 .bag";
+    ".db3, a ROS 1 .bag, or one CSV file with --map";
 
 std::string FirstBytes(const std::filesystem::path& file) {
   std::string bytes(kBytesToTellFormat, '\0');
@@ -43,6 +44,31 @@ Result<RawLog> FromDataFlash(const std::filesystem::path& file, const SourceOpti
                   {},
                   LogDescription{log.report.Summary(), log.port, log.starboard}};
   });
+}
+
+/// "a MAVLink telemetry log" and the like: of formats whose messages have a fixed meaning.
+const char* FixedFormat(LogFormat format) {
+  switch (format) {
+    case LogFormat::kTelemetryLog: return "a folder of a telemetry log";
+    case LogFormat::kDataFlash: return "an ArduPilot DataFlash log";
+    case LogFormat::kMavlink: return "a MAVLink telemetry log";
+    default: return nullptr;
+  }
+}
+
+Result<SourceLog> ReadMapped(const std::filesystem::path& path, LogFormat format,
+                             const SourceOptions& options) {
+  if (const char* fixed = FixedFormat(format)) {
+    return Refuse(path.string(),
+                  std::string("is ") + fixed + ", whose columns and messages have a fixed meaning",
+                  "leave out --map, which is for one CSV file, MCAP, rosbag2 and ROS 1");
+  }
+  switch (format) {
+    case LogFormat::kMcap: return ReadMcap(path, options);
+    case LogFormat::kRosbag1: return ReadRosbag1(path, options);
+    case LogFormat::kRosbag2: return ReadRosbag2(path, options);
+    default: return ReadMappedCsv(path, *options.mapping);
+  }
 }
 
 Result<RawLog> FromSource(Result<SourceLog> source) {
@@ -103,7 +129,9 @@ LogFormat FormatOf(const std::filesystem::path& path) {
 }
 
 Result<RawLog> ReadLog(const std::filesystem::path& path, const SourceOptions& options) {
-  switch (FormatOf(path)) {
+  const LogFormat format = FormatOf(path);
+  if (options.mapping) return FromSource(ReadMapped(path, format, options));
+  switch (format) {
     case LogFormat::kTelemetryLog: return FromFolder(path);
     case LogFormat::kMavlink: return FromSource(ReadMavlinkTelemetryLog(path, options));
     case LogFormat::kMcap: return FromSource(ReadMcap(path, options));

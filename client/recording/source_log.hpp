@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -8,6 +9,7 @@
 #include "telltale/client/recording/servo_outputs.hpp"
 #include "telltale/core/base/result.hpp"
 #include "telltale/core/data/samples.hpp"
+#include "telltale/idl/codec/mapping_file.hpp"
 
 namespace telltale {
 
@@ -17,6 +19,7 @@ struct SourceOptions {
   std::optional<int> system_id;          ///< of MAVLink, [1, 255]; unset: the one that says most
   std::optional<int> port_channel;       ///< [1, 16]; unset: by SERVOn_FUNCTION 73
   std::optional<int> starboard_channel;  ///< [1, 16]; unset: by SERVOn_FUNCTION 74
+  std::shared_ptr<const Mapping> mapping;  ///< null: what is known of each format counts
 
   /// The first field out of its range, as a refusal naming field, value and range.
   std::optional<Refusal> Validate() const;

@@ -39,6 +39,21 @@ mkdir "$work/bag"
 cp "$work/made/ros2-zstd.mcap" "$work/bag/bag_0.mcap"
 "$telltale" import --log "$work/bag" --out "$work/read/bag" > /dev/null 2> "$work/said"
 
+# What a mapping names is what is found without one.
+cat > "$work/ros2.textproto" <<'MAPPING'
+time { field: "header.stamp" unit: "stamp" }
+positions { topic: "/gps/*" latitude: "latitude" longitude: "longitude" }
+headings { topic: "/imu/data" field: "orientation" unit: "quaternion" frame: "ENU" }
+port { topic: "/mavros/rc/out" field: "channels[0]" }
+starboard { topic: "/mavros/rc/out" field: "channels[2]" }
+MAPPING
+mapped() {
+  "$telltale" import --log "$work/made/$1" --map "$2" --out "$work/read/mapped-$1" > /dev/null 2> "$work/said" ||
+    { echo "FAILED: import of $1 by $2" >&2; cat "$work/said" >&2; exit 1; }
+}
+mapped blueos.mcap "$root/deploy/mappings/blueos.textproto"
+mapped ros2-zstd.mcap "$work/ros2.textproto"
+
 python3 - "$work" <<'PYTHON'
 import csv, pathlib, sys
 
@@ -64,7 +79,7 @@ MAVLINK = {"gnss": (1e-6, 1e-7), "heading": (1e-3, 4e-5), "thrusters": (1e-6, 1.
 ROS2 = {"gnss": (1e-6, 1e-12), "heading": (1e-6, 1e-9), "thrusters": (1e-6, 1.0)}
 faults = []
 for folder in sorted((work / "read").iterdir()):
-    of_mavlink = folder.name in ("log.tlog", "blueos.mcap")
+    of_mavlink = folder.name.endswith(("log.tlog", "blueos.mcap"))
     for channel, (second, unit) in (MAVLINK if of_mavlink else ROS2).items():
         wanted, got = read(work / "log", channel), read(folder, channel)
         if len(wanted) != len(got):
@@ -83,8 +98,8 @@ sys.exit(1 if faults else 0)
 PYTHON
 
 # What differs by compression or container alone is the same to the last digit, and so is its model.
-for same in ros2-unchunked.mcap ros2-zstd.mcap ros2-lz4.mcap bag; do
+for same in ros2-unchunked.mcap ros2-zstd.mcap ros2-lz4.mcap mapped-ros2-zstd.mcap bag; do
   diff -r "$work/read/ros2-none.mcap" "$work/read/$same" > /dev/null ||
     { echo "FAILED: $same differs from ros2-none.mcap" >&2; exit 1; }
 done
-echo "7 recordings of other writers come back sample by sample"
+echo "9 recordings of other writers come back sample by sample"

@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "telltale/client/recording/block_reader.hpp"
+#include "telltale/client/recording/rate_warning.hpp"
 #include "telltale/core/base/degrees.hpp"
-#include "telltale/core/base/format_number.hpp"
 
 namespace telltale {
 namespace {
@@ -13,7 +13,6 @@ namespace {
 constexpr std::uint8_t kFix3d = 3;
 constexpr double kUnixAfterS = 1e9;  ///< no autopilot runs for 30 years
 constexpr std::uint32_t kHalfWrapUs = 1u << 31;
-constexpr double kLowRateHz = 5.0;  // below it commands change unseen
 constexpr int kOutputs = 16;
 
 std::string AndCount(std::uint64_t count, const char* what) {
@@ -155,13 +154,20 @@ void MavlinkRecording::ChooseOutputs(const Vehicle& vehicle, const SourceOptions
   }
 }
 
-std::string MavlinkRecording::RateWarning(const Vehicle& vehicle) {
-  if (vehicle.outputs.size() < 2) return {};
-  const double span_s = vehicle.outputs.back().time_s - vehicle.outputs.front().time_s;
-  const double rate_hz = static_cast<double>(vehicle.outputs.size() - 1) / span_s;
-  if (!(0.0 < rate_hz && rate_hz < kLowRateHz)) return {};
-  return "; SERVO_OUTPUT_RAW comes at " + FormatNumber(rate_hz, 1) +
-         " Hz only: set SR0_RC_CHAN to 10, or ask for message 36 by MAV_CMD_SET_MESSAGE_INTERVAL";
+std::string MavlinkRecording::RateWarnings(const Vehicle& vehicle, const SourceLog& log) {
+  const auto ask = [](const char* parameter, const char* message) {
+    return std::string("set ") + parameter +
+           " to 10 (SR1_, SR2_ of another port), or ask for message " + message +
+           " by MAV_CMD_SET_MESSAGE_INTERVAL";
+  };
+  const bool has_raw = !vehicle.raw_fixes.empty();
+  return RateWarning("SERVO_OUTPUT_RAW", vehicle.outputs, kLowOutputHz, ask("SR0_RC_CHAN", "36")) +
+         RateWarning(
+             vehicle.attitude.empty() ? "GLOBAL_POSITION_INT" : "ATTITUDE", log.heading,
+             kLowHeadingHz,
+             vehicle.attitude.empty() ? ask("SR0_POSITION", "33") : ask("SR0_EXTRA1", "30")) +
+         RateWarning(has_raw ? "GPS_RAW_INT" : "GLOBAL_POSITION_INT", log.gnss, kLowPositionHz,
+                     has_raw ? ask("SR0_EXT_STAT", "24") : ask("SR0_POSITION", "33"));
 }
 
 SourceLog MavlinkRecording::Finish(const SourceOptions& options) const {
@@ -179,7 +185,8 @@ SourceLog MavlinkRecording::Finish(const SourceOptions& options) const {
   ChoosePositions(vehicle, log);
   ChooseHeadings(vehicle, log);
   ChooseOutputs(vehicle, options, log);
-  log.summary += RateWarning(vehicle) + AndCount(vehicle.without_fix, "positions without a fix") +
+  log.summary += RateWarnings(vehicle, log) +
+                 AndCount(vehicle.without_fix, "positions without a fix") +
                  AndCount(vehicle.repeated_fixes, "positions sent again");
   return log;
 }

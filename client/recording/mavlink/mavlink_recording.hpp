@@ -62,7 +62,7 @@ class MavlinkRecording {
   static void ChoosePositions(const Vehicle& vehicle, SourceLog& log);
   static void ChooseHeadings(const Vehicle& vehicle, SourceLog& log);
   static void ChooseOutputs(const Vehicle& vehicle, const SourceOptions& options, SourceLog& log);
-  static std::string RateWarning(const Vehicle& vehicle);
+  static std::string RateWarnings(const Vehicle& vehicle, const SourceLog& log);
 
   std::map<int, Vehicle> vehicles_;  ///< by system id
   std::uint64_t messages_ = 0;

@@ -17,7 +17,7 @@
 #include "telltale/client/recording/block_reader.hpp"
 #include "telltale/client/recording/lz4_frame.hpp"
 #include "telltale/client/recording/mavlink/mavlink_recording.hpp"
-#include "telltale/client/recording/ros/ros_recording.hpp"
+#include "telltale/client/recording/ros/ros_intake.hpp"
 
 namespace telltale {
 namespace {
@@ -75,6 +75,7 @@ class McapFile {
 
   /// Returns how many bytes of whole records there are.
   std::size_t Consume(Bytes bytes, bool at_end) {
+    if (is_foreign_) return bytes.size();
     std::size_t at = 0;
     if (!has_magic_) {
       if (bytes.size() < kMagic.size()) return at_end ? Cut(bytes.size()) : 0;
@@ -85,10 +86,11 @@ class McapFile {
       has_magic_ = true;
       at = kMagic.size();
     }
-    while (at < bytes.size() && !is_foreign_ && !is_ended_) {
+    while (at < bytes.size() && !is_ended_) {
       if (passing_over_ > 0) {
         const std::uint64_t passed = std::min<std::uint64_t>(passing_over_, bytes.size() - at);
         passing_over_ -= passed;
+        passed_over_ += passed;
         at += static_cast<std::size_t>(passed);
         continue;
       }
@@ -98,19 +100,22 @@ class McapFile {
       const auto opcode = header.Read<std::uint8_t>();
       const auto length = header.Read<std::uint64_t>();
       if (length > rest.size() - kRecordHeader) {
-        if (!at_end && IsOfUse(opcode) && length <= 2 * kLargestChunk) return at;
-        if (!at_end) {  // an attachment, say, need not be held in memory
-          damage_.overlong_records += IsOfUse(opcode) ? 1 : 0;
-          passing_over_ = length;
-          at += kRecordHeader;
-          continue;
+        if (IsOfUse(opcode) && length <= 2 * kLargestChunk) {
+          if (!at_end) return at;
+          if (opcode == kChunk) TakeCutChunk(rest.subspan(kRecordHeader));
+          return at + Cut(rest.size());
         }
-        if (opcode == kChunk) TakeCutChunk(rest.subspan(kRecordHeader));
-        return at + Cut(rest.size());
+        // An attachment, say, need not be held in memory.
+        damage_.overlong_records += IsOfUse(opcode) ? 1 : 0;
+        passing_over_ = length;
+        passed_over_ = kRecordHeader;
+        at += kRecordHeader;
+        continue;
       }
       TakeRecord(opcode, rest.subspan(kRecordHeader, static_cast<std::size_t>(length)));
       at += kRecordHeader + static_cast<std::size_t>(length);
     }
+    if (at_end && passing_over_ > 0) Cut(static_cast<std::size_t>(passed_over_));
     return bytes.size();
   }
 
@@ -118,6 +123,10 @@ class McapFile {
   const McapDamage& Damage() const { return damage_; }
 
  private:
+  struct Schema {
+    std::string name;
+    std::string definition;
+  };
   struct Channel {
     std::uint16_t schema = 0;
     std::string topic;
@@ -130,7 +139,8 @@ class McapFile {
   }
 
   static bool IsOfUse(std::uint8_t opcode) {
-    return opcode == kSchema || opcode == kChannel || opcode == kMessage || opcode == kChunk;
+    return opcode == kSchema || opcode == kChannel || opcode == kMessage || opcode == kChunk ||
+           opcode == kDataEnd;
   }
 
   void TakeRecord(std::uint8_t opcode, Bytes content) {
@@ -147,7 +157,11 @@ class McapFile {
   void TakeSchema(Fields fields) {
     const auto id = fields.Read<std::uint16_t>();
     const std::string_view name = fields.Text();
-    if (fields.Ok()) schemas_[id] = std::string(name);
+    const std::string_view encoding = fields.Text();
+    const std::string_view text = fields.Text();
+    if (!fields.Ok()) return;
+    const bool is_definition = encoding == "ros2msg" || encoding == "ros1msg";
+    schemas_[id] = {std::string(name), is_definition ? std::string(text) : std::string()};
   }
 
   void TakeChannel(Fields fields) {
@@ -170,11 +184,12 @@ class McapFile {
       ++damage_.unknown_channels;
       return;
     }
-    const auto schema = schemas_.find(channel->second.schema);
+    static const Schema none;
+    const auto found = schemas_.find(channel->second.schema);
+    const Schema& schema = found == schemas_.end() ? none : found->second;
     ++damage_.messages;
-    visit_({channel->second.topic,
-            schema == schemas_.end() ? std::string_view() : std::string_view(schema->second),
-            channel->second.encoding, log_time_ns, fields.Rest()});
+    visit_({channel->second.topic, schema.name, channel->second.encoding, log_time_ns,
+            fields.Rest(), schema.definition});
   }
 
   void TakeChunk(Fields fields) {
@@ -225,11 +240,12 @@ class McapFile {
   }
 
   const std::function<void(const McapMessage&)>& visit_;
-  std::map<std::uint16_t, std::string> schemas_;
+  std::map<std::uint16_t, Schema> schemas_;
   std::map<std::uint16_t, Channel> channels_;
   std::vector<std::uint8_t> chunk_;
   McapDamage damage_;
   std::uint64_t passing_over_ = 0;  ///< bytes of a record of no use that are still to come
+  std::uint64_t passed_over_ = 0;   ///< and those that have come
   bool has_magic_ = false;
   bool is_foreign_ = false;
   bool is_ended_ = false;
@@ -344,18 +360,27 @@ namespace {
 /// What the messages of one file say; which of ROS 2 and BlueOS counts, the most messages say.
 class McapRecording {
  public:
+  explicit McapRecording(const SourceOptions& options) : options_(options), ros_(options) {}
+
   void Take(const McapMessage& message) {
     if (message.encoding == "cdr") {
       ++of_ros_;
-      ros_.Take(message.topic, message.schema, message.log_time_ns, message.data);
+      ros_.Take(message.topic, message.schema, message.definition, message.log_time_ns,
+                message.data);
+    } else if (message.encoding == "ros1") {
+      ++of_ros_;
+      ros_.Take(message.topic, TypeOfRos2(message.schema), message.definition, message.log_time_ns,
+                message.data, CdrReader::Encoding::kRos1);
+    } else if (message.encoding == "json" && ros_.Mapped() != nullptr) {
+      ros_.Mapped()->TakeJson(message.topic, message.log_time_ns, message.data);
     } else if (message.encoding == "json" && Names(message.topic, "mavlink/")) {
       ++of_mavlink_;
       if (!TakeJson(message.data, mavlink_)) ++unreadable_;
     }
   }
 
-  SourceLog Finish(const SourceOptions& options, const McapDamage& damage) const {
-    SourceLog log = of_mavlink_ > of_ros_ ? mavlink_.Finish(options) : ros_.Finish(options);
+  SourceLog Finish(const McapDamage& damage) const {
+    SourceLog log = of_mavlink_ > of_ros_ ? mavlink_.Finish(options_) : ros_.Finish();
     if (unreadable_ > 0) log.summary += "; " + std::to_string(unreadable_) + " unreadable messages";
     log.summary += damage.Summary();
     return log;
@@ -366,7 +391,8 @@ class McapRecording {
     return topic.find(part) != std::string_view::npos;
   }
 
-  RosRecording ros_;
+  const SourceOptions& options_;
+  RosIntake ros_;
   MavlinkRecording mavlink_;
   std::uint64_t of_ros_ = 0;
   std::uint64_t of_mavlink_ = 0;
@@ -390,7 +416,7 @@ Result<McapDamage> ForEachMcapMessage(const std::filesystem::path& file,
 
 SourceLog ParseMcap(std::span<const std::uint8_t> bytes, std::size_t block,
                     const SourceOptions& options) {
-  McapRecording recording;
+  McapRecording recording(options);
   const std::function<void(const McapMessage&)> take = [&](const McapMessage& message) {
     recording.Take(message);
   };
@@ -400,16 +426,16 @@ SourceLog ParseMcap(std::span<const std::uint8_t> bytes, std::size_t block,
     end = std::min(end + block, bytes.size());
     done += mcap.Consume(bytes.subspan(done, end - done), end == bytes.size());
   }
-  return recording.Finish(options, mcap.Damage());
+  return recording.Finish(mcap.Damage());
 }
 
 Result<SourceLog> ReadMcap(const std::filesystem::path& file, const SourceOptions& options) {
   if (auto refusal = options.Validate()) return tl::unexpected(*std::move(refusal));
-  McapRecording recording;
+  McapRecording recording(options);
   const auto damage =
       ForEachMcapMessage(file, [&](const McapMessage& message) { recording.Take(message); });
   if (!damage) return tl::unexpected(damage.error());
-  SourceLog log = recording.Finish(options, *damage);
+  SourceLog log = recording.Finish(*damage);
   if (auto refusal = log.Lacks()) {
     refusal->subject = file.string() + " " + refusal->subject;
     return tl::unexpected(*std::move(refusal));

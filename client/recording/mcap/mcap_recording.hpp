@@ -18,6 +18,7 @@ struct McapMessage {
   std::string_view encoding;  ///< "cdr", "json", ...
   std::int64_t log_time_ns = 0;
   std::span<const std::uint8_t> data;
+  std::string_view definition;  ///< of the type, where the schema is ros1msg or ros2msg
 };
 
 /// What a file held besides whole messages.
@@ -45,8 +46,9 @@ Result<McapDamage> ForEachMcapMessage(const std::filesystem::path& file,
 SourceLog ParseMcap(std::span<const std::uint8_t> bytes, std::size_t block,
                     const SourceOptions& options);
 
-/// An MCAP file of ROS 2 (CDR) or of the BlueOS recorder (MAVLink messages as JSON).
-/// Refuses when: ForEachMcapMessage() does, or a channel is missing.
+/// An MCAP file of ROS 2 (CDR), of ROS 1, or of the BlueOS recorder (MAVLink messages as JSON);
+/// with a mapping, of any messages of ROS or JSON. Refuses when: ForEachMcapMessage() does, or a
+/// channel is missing.
 Result<SourceLog> ReadMcap(const std::filesystem::path& file, const SourceOptions& options = {});
 
 }  // namespace telltale

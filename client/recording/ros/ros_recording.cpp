@@ -4,7 +4,9 @@
 #include <cmath>
 #include <sstream>
 
+#include "telltale/client/recording/rate_warning.hpp"
 #include "telltale/client/recording/ros/cdr_reader.hpp"
+#include "telltale/client/recording/thruster_sides.hpp"
 #include "telltale/core/base/degrees.hpp"
 #include "telltale/core/base/median.hpp"
 
@@ -14,8 +16,6 @@ namespace {
 constexpr double kClocksAgreeS = 1.0;
 constexpr int kDefaultPortChannel = 1;
 constexpr int kDefaultStarboardChannel = 3;
-constexpr double kNeutralUs = 1500.0;
-constexpr double kFullUs = 400.0;
 
 struct RosHeader {
   double stamp_s = 0.0;
@@ -195,6 +195,14 @@ const RosRecording::Named* RosRecording::Side(bool is_port) const {
   return nullptr;
 }
 
+std::string RosRecording::Why(Kind kind, const char* reason) const {
+  const auto such = std::count_if(topics_.begin(), topics_.end(), [&](const Named& named) {
+    return named.second.kind == kind && !named.second.samples.empty();
+  });
+  if (such < 2) return {};
+  return std::string(" (") + reason + " of " + std::to_string(such) + " such topics)";
+}
+
 bool RosRecording::StampsAgree(const Named* named) const {
   if (named == nullptr) return true;
   std::vector<double> apart;
@@ -224,13 +232,15 @@ SourceLog RosRecording::Finish(const SourceOptions& options) const {
   };
 
   if (position != nullptr) {
-    summary << "; positions from " << position->first;
+    summary << "; positions from " << position->first << Why(Kind::kPosition, "most fixes");
     for (const Sample& sample : position->second.samples) {
       log.gnss.push_back({time_of(sample), sample.values[0], sample.values[1]});
     }
   }
   if (heading != nullptr) {
-    summary << "; heading from " << heading->first;
+    summary << "; heading from " << heading->first
+            << (heading->second.kind == Kind::kCompass ? Why(Kind::kCompass, "most samples")
+                                                       : Why(Kind::kOrientation, "the best type"));
     if (heading->second.kind == Kind::kOrientation) {
       summary << " (" << heading->second.type << ", "
               << (heading->second.is_ned ? "north-east-down" : "east-north-up") << ")";
@@ -256,8 +266,8 @@ SourceLog RosRecording::Finish(const SourceOptions& options) const {
     summary << "; outputs from " << drive->first
             << ", shares of full thrust taken as 1500 + 400 share us";
     for (const Sample& sample : drive->second.samples) {
-      log.thrusters.push_back({time_of(sample), kNeutralUs + kFullUs * sample.values[0],
-                               kNeutralUs + kFullUs * sample.values[1]});
+      log.thrusters.push_back(
+          {time_of(sample), PulseOfShare(sample.values[0]), PulseOfShare(sample.values[1])});
     }
   } else if (port != nullptr && starboard != nullptr) {
     summary << "; outputs from " << port->first << " (port) and " << starboard->first
@@ -275,26 +285,30 @@ SourceLog RosRecording::Finish(const SourceOptions& options) const {
     } else {
       if (!are_pulses) summary << ", shares of full thrust taken as 1500 + 400 share us";
       const auto pulse = [&](const Sample& sample) {
-        return are_pulses ? sample.values[0] : kNeutralUs + kFullUs * sample.values[0];
+        return are_pulses ? sample.values[0] : PulseOfShare(sample.values[0]);
       };
-      // Each message of either side makes a sample with what the other was told last.
-      std::size_t i = 0;
-      std::size_t j = 0;
-      const auto& left = port->second.samples;
-      const auto& right = starboard->second.samples;
-      while (i < left.size() || j < right.size()) {
-        double time_s = 0.0;
-        if (j == right.size() || (i < left.size() && left[i].received_s <= right[j].received_s)) {
-          time_s = left[i++].received_s;
-          if (j < right.size() && right[j].received_s == time_s) ++j;
-        } else {
-          time_s = right[j++].received_s;
+      const auto commands = [&](const Named& side) {
+        std::vector<SideCommand> told;
+        for (const Sample& sample : side.second.samples) {
+          told.push_back({sample.received_s, pulse(sample)});
         }
-        if (i > 0 && j > 0) {
-          log.thrusters.push_back({time_s, pulse(left[i - 1]), pulse(right[j - 1])});
-        }
-      }
+        return told;
+      };
+      log.thrusters = JoinSides(commands(*port), commands(*starboard));
     }
+  }
+  if (outputs != nullptr) {
+    summary << RateWarning(outputs->first, log.thrusters, kLowOutputHz,
+                           "set SR0_RC_CHAN of the autopilot to 10, or ask for message 36 by the "
+                           "service set_message_interval of MAVROS");
+  }
+  if (position != nullptr) {
+    summary << RateWarning(position->first, log.gnss, kLowPositionHz,
+                           "set the receiver to 5 Hz or more");
+  }
+  if (heading != nullptr) {
+    summary << RateWarning(heading->first, log.heading, kLowHeadingHz,
+                           "publish it at 10 Hz or more");
   }
   summary << "; times " << (use_stamps ? "of the messages' headers" : "of recording");
   for (const Named& named : topics_) {

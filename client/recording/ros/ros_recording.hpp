@@ -59,6 +59,8 @@ class RosRecording {
 
   const Named* Best(Kind kind) const;
   const Named* Side(bool is_port) const;
+  /// Why the best topic was taken, where there are others.
+  std::string Why(Kind kind, const char* reason) const;
   bool StampsAgree(const Named* named) const;
 
   std::map<std::string, Topic, std::less<>> topics_;

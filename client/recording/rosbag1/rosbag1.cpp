@@ -11,7 +11,7 @@
 
 #include "telltale/client/recording/block_reader.hpp"
 #include "telltale/client/recording/lz4_frame.hpp"
-#include "telltale/client/recording/ros/ros_recording.hpp"
+#include "telltale/client/recording/ros/ros_intake.hpp"
 
 namespace telltale {
 namespace {
@@ -75,23 +75,19 @@ bool InflateBz2(BagBytes compressed, std::vector<std::uint8_t>& out) {
   return result == BZ_OK && size == out.size();
 }
 
-/// "sensor_msgs/NavSatFix" as "sensor_msgs/msg/NavSatFix".
-std::string TypeOfRos2(const std::string& type) {
-  const std::size_t slash = type.find('/');
-  return slash == std::string::npos ? type : type.substr(0, slash) + "/msg" + type.substr(slash);
-}
-
 class Rosbag1File {
  public:
-  explicit Rosbag1File(RosRecording& recording) : recording_(recording) {}
+  explicit Rosbag1File(RosIntake& recording) : recording_(recording) {}
 
   /// Returns how many bytes of whole records there are.
   std::size_t Consume(BagBytes bytes, bool at_end) {
     std::size_t at = 0;
+    if (is_foreign_) return bytes.size();
     if (!has_magic_) {
       if (bytes.size() < kBagMagic.size() && !at_end) return 0;
       has_magic_ = BeginsLikeRosbag1(bytes);
-      if (!has_magic_) return bytes.size();
+      is_foreign_ = !has_magic_;
+      if (is_foreign_) return bytes.size();
       at = kBagMagic.size();
     }
     at += TakeRecords(bytes.subspan(at));
@@ -117,6 +113,7 @@ class Rosbag1File {
   struct Connection {
     std::string topic;
     std::string type;
+    std::string definition;
   };
 
   std::size_t TakeRecords(BagBytes bytes) {
@@ -148,7 +145,10 @@ class Rosbag1File {
 
   void TakeConnection(const BagFields& header, BagBytes data) {
     const auto id = header.Number("conn");
-    if (id) connections_[*id] = {header.Text("topic"), TypeOfRos2(BagFields(data).Text("type"))};
+    if (!id) return;
+    const BagFields said(data);
+    connections_[*id] = {header.Text("topic"), TypeOfRos2(said.Text("type")),
+                         said.Text("message_definition")};
   }
 
   void TakeMessage(const BagFields& header, BagBytes data) {
@@ -161,7 +161,8 @@ class Rosbag1File {
     }
     const std::int64_t received_ns = std::int64_t{LittleEndian32(time)} * 1'000'000'000 +
                                      LittleEndian32(time.subspan(kLengthBytes));
-    recording_.Take(connection->second.topic, connection->second.type, received_ns, data,
+    const Connection& from = connection->second;
+    recording_.Take(from.topic, from.type, from.definition, received_ns, data,
                     CdrReader::Encoding::kRos1);
   }
 
@@ -188,13 +189,14 @@ class Rosbag1File {
     is_in_chunk_ = false;
   }
 
-  RosRecording& recording_;
+  RosIntake& recording_;
   std::map<std::uint32_t, Connection> connections_;
   std::vector<std::uint8_t> chunk_;
   std::uint64_t unreadable_chunks_ = 0;
   std::uint64_t unknown_connections_ = 0;
   std::uint64_t truncated_bytes_ = 0;
   bool has_magic_ = false;
+  bool is_foreign_ = false;
   bool is_in_chunk_ = false;
 };
 
@@ -207,21 +209,21 @@ bool BeginsLikeRosbag1(std::span<const std::uint8_t> bytes) {
 
 SourceLog ParseRosbag1(std::span<const std::uint8_t> bytes, std::size_t block,
                        const SourceOptions& options) {
-  RosRecording recording;
+  RosIntake recording(options);
   Rosbag1File bag(recording);
   std::size_t done = 0;
   for (std::size_t end = 0; end < bytes.size();) {
     end = std::min(end + block, bytes.size());
     done += bag.Consume(bytes.subspan(done, end - done), end == bytes.size());
   }
-  SourceLog log = recording.Finish(options);
+  SourceLog log = recording.Finish();
   log.summary += bag.Summary();
   return log;
 }
 
 Result<SourceLog> ReadRosbag1(const std::filesystem::path& file, const SourceOptions& options) {
   if (auto refusal = options.Validate()) return tl::unexpected(*std::move(refusal));
-  RosRecording recording;
+  RosIntake recording(options);
   Rosbag1File bag(recording);
   const auto read =
       ReadInBlocks(file, [&](BagBytes bytes, bool at_end) { return bag.Consume(bytes, at_end); });
@@ -229,7 +231,7 @@ Result<SourceLog> ReadRosbag1(const std::filesystem::path& file, const SourceOpt
   if (!bag.IsBag()) {
     return Refuse(file.string(), "is not a ROS 1 recording of version 2.0", "give a .bag file");
   }
-  SourceLog log = recording.Finish(options);
+  SourceLog log = recording.Finish();
   log.summary += bag.Summary();
   if (auto refusal = log.Lacks()) {
     refusal->subject = file.string() + " " + refusal->subject;

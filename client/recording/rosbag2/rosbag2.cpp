@@ -1,6 +1,7 @@
 #include "telltale/client/recording/rosbag2/rosbag2.hpp"
 
 #include <algorithm>
+#include <map>
 #include <span>
 #include <string>
 #include <vector>
@@ -8,7 +9,7 @@
 #include <SQLiteCpp/SQLiteCpp.h>
 
 #include "telltale/client/recording/mcap/mcap_recording.hpp"
-#include "telltale/client/recording/ros/ros_recording.hpp"
+#include "telltale/client/recording/ros/ros_intake.hpp"
 
 namespace telltale {
 namespace {
@@ -26,16 +27,31 @@ std::vector<fs::path> FilesOf(const fs::path& path) {
   return files;
 }
 
-std::optional<Refusal> TakeDatabase(const fs::path& file, RosRecording& recording) {
+/// Definitions of message types, which newer recordings hold, by type.
+std::map<std::string, std::string> DefinitionsIn(const SQLite::Database& database) {
+  std::map<std::string, std::string> definitions;
+  if (!database.tableExists("message_definitions")) return definitions;
+  SQLite::Statement rows(database,
+                         "SELECT topic_type, encoded_message_definition FROM message_definitions "
+                         "WHERE encoding = 'ros2msg'");
+  while (rows.executeStep()) {
+    definitions[rows.getColumn(0).getString()] = rows.getColumn(1).getString();
+  }
+  return definitions;
+}
+
+std::optional<Refusal> TakeDatabase(const fs::path& file, RosIntake& recording) {
   try {
     const SQLite::Database database(file.string(), SQLite::OPEN_READONLY);
+    std::map<std::string, std::string> definitions = DefinitionsIn(database);
     SQLite::Statement rows(database,
                            "SELECT topics.name, topics.type, messages.timestamp, messages.data "
                            "FROM messages JOIN topics ON topics.id = messages.topic_id "
                            "ORDER BY messages.timestamp");
     while (rows.executeStep()) {
       const SQLite::Column data = rows.getColumn(3);
-      recording.Take(rows.getColumn(0).getString(), rows.getColumn(1).getString(),
+      const std::string type = rows.getColumn(1).getString();
+      recording.Take(rows.getColumn(0).getString(), type, definitions[type],
                      rows.getColumn(2).getInt64(),
                      {static_cast<const std::uint8_t*>(data.getBlob()),
                       static_cast<std::size_t>(data.getBytes())});
@@ -57,13 +73,14 @@ bool IsRosbag2Folder(const fs::path& path) {
 
 Result<SourceLog> ReadRosbag2(const fs::path& path, const SourceOptions& options) {
   if (auto refusal = options.Validate()) return tl::unexpected(*std::move(refusal));
-  RosRecording recording;
+  RosIntake recording(options);
   std::string damage;
   for (const fs::path& file : FilesOf(path)) {
     if (file.extension() == ".mcap") {
       auto read = ForEachMcapMessage(file, [&](const McapMessage& message) {
         if (message.encoding == "cdr") {
-          recording.Take(message.topic, message.schema, message.log_time_ns, message.data);
+          recording.Take(message.topic, message.schema, message.definition, message.log_time_ns,
+                         message.data);
         }
       });
       if (!read) return tl::unexpected(std::move(read).error());
@@ -72,7 +89,7 @@ Result<SourceLog> ReadRosbag2(const fs::path& path, const SourceOptions& options
       return tl::unexpected(*std::move(refusal));
     }
   }
-  SourceLog log = recording.Finish(options);
+  SourceLog log = recording.Finish();
   log.summary += damage;
   if (auto refusal = log.Lacks()) {
     refusal->subject = path.string() + " " + refusal->subject;

@@ -1,0 +1,105 @@
+#include "telltale/client/recording/mapping/mapped_messages.hpp"
+
+#include <charconv>
+#include <utility>
+
+#include <nlohmann/json.hpp>
+
+namespace telltale {
+namespace {
+
+using JsonValue = nlohmann::json;
+
+constexpr std::size_t kMostTopics = 20;  // told of a recording in which a channel is missing
+
+double Seconds(std::int64_t ns) {
+  return 1e-9 * static_cast<double>(ns);
+}
+
+/// What stands at "message.servos[2]"; null where the path leads nowhere.
+const JsonValue* ValueAt(const JsonValue& root, std::string_view path) {
+  const JsonValue* value = &root;
+  while (!path.empty() && value != nullptr) {
+    const std::size_t end = std::min(path.find_first_of(".["), path.size());
+    const std::string name(path.substr(0, end));
+    path.remove_prefix(end);
+    if (!name.empty()) {
+      const auto found = value->is_object() ? value->find(name) : value->end();
+      if (!value->is_object() || found == value->end()) return nullptr;
+      value = &*found;
+    }
+    if (path.starts_with('.')) path.remove_prefix(1);
+    if (!path.starts_with('[')) continue;
+    std::size_t index = 0;
+    const auto [stop, error] = std::from_chars(path.data() + 1, path.data() + path.size(), index);
+    const bool is_index = error == std::errc() && stop != path.data() + path.size() && *stop == ']';
+    if (!is_index || !value->is_array() || index >= value->size()) return nullptr;
+    value = &(*value)[index];
+    path.remove_prefix(static_cast<std::size_t>(stop - path.data()) + 1);
+  }
+  return value;
+}
+
+class JsonFields : public MessageFields {
+ public:
+  explicit JsonFields(const JsonValue& root) : root_(root) {}
+
+  std::optional<double> Number(std::string_view path) const override {
+    const JsonValue* value = ValueAt(root_, path);
+    if (value == nullptr || !value->is_number()) return std::nullopt;
+    return value->get<double>();
+  }
+
+ private:
+  const JsonValue& root_;
+};
+
+}  // namespace
+
+MappedMessages::MappedMessages(std::shared_ptr<const Mapping> mapping)
+    : mapping_(std::move(mapping)), recording_(*mapping_) {}
+
+bool MappedMessages::Names(std::string_view topic) {
+  if (recording_.Names(topic)) return true;
+  const bool is_new = other_topics_.size() < kMostTopics && !other_topics_.contains(topic);
+  if (is_new) other_topics_.emplace(topic);
+  return false;
+}
+
+void MappedMessages::TakeRos(std::string_view topic, std::string_view type,
+                             std::string_view definition, std::int64_t received_ns,
+                             std::span<const std::uint8_t> bytes, CdrReader::Encoding encoding) {
+  if (!Names(topic)) return;
+  auto known = types_.find(type);
+  if (known == types_.end()) {
+    known = types_.emplace(std::string(type), RosMessageType::Of(type, definition, encoding)).first;
+  }
+  if (!known->second) return;
+  recording_.Take(topic, Seconds(received_ns), RosFields(*known->second, bytes, encoding));
+}
+
+void MappedMessages::TakeJson(std::string_view topic, std::int64_t received_ns,
+                              std::span<const std::uint8_t> bytes) {
+  if (!Names(topic)) return;
+  const JsonValue root = JsonValue::parse(bytes.begin(), bytes.end(), nullptr, false);
+  if (root.is_discarded()) {
+    ++unreadable_;
+  } else {
+    recording_.Take(topic, Seconds(received_ns), JsonFields(root));
+  }
+}
+
+SourceLog MappedMessages::Finish() const {
+  SourceLog log = recording_.Finish("messages");
+  for (const auto& [name, type] : types_) {
+    if (!type) log.summary += "; the recording does not define " + name;
+  }
+  if (log.Lacks() && !other_topics_.empty()) {
+    log.summary += "; topics that it does not name:";
+    for (const std::string& topic : other_topics_) log.summary += ' ' + topic;
+  }
+  if (unreadable_ > 0) log.summary += "; " + std::to_string(unreadable_) + " are no JSON";
+  return log;
+}
+
+}  // namespace telltale
