@@ -3,10 +3,13 @@
 #include <filesystem>
 #include <iostream>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 
 #include "telltale/client/recording/telemetry_log/telemetry_log.hpp"
+#include "telltale/client/twin/faults.hpp"
 #include "telltale/core/paper/paper_mission.hpp"
 #include "telltale/core/paper/sample_mission.hpp"
 #include "telltale/core/paper/yellowfish.hpp"
@@ -23,7 +26,15 @@ struct TwinRecordingOptions {
   double duration_s = kSampleMissionDurationS;
   std::uint64_t seed = 1;
   SensorOptions sensors;
+  double starts_at_s = 0.0;
+  TwinFaults faults;
 };
+
+void ShiftTimes(double by_s, Recording& recording) {
+  for (GnssFix& fix : recording.gnss) fix.time_s += by_s;
+  for (HeadingSample& sample : recording.heading) sample.time_s += by_s;
+  for (ThrusterSample& sample : recording.thrusters) sample.time_s += by_s;
+}
 
 Recording SimulateMission(const TwinRecordingOptions& options) {
   const VesselModel twin =
@@ -34,12 +45,36 @@ Recording SimulateMission(const TwinRecordingOptions& options) {
   constexpr double kStepS = 0.01;
   const auto commands = SampleMission(options.seed);
   const VesselState start{{}, {}, twin.SteadyThrust(commands.front().delta)};
-  return Measure(Simulate(twin, start, commands, options.duration_s, kStepS), YellowfishVehicle(),
-                 sensors);
+  std::vector<TimedState> track = Simulate(twin, start, commands, options.duration_s, kStepS);
+  if (options.faults.port_strength < 1.0) {
+    track = SimulateWeak(twin, options.faults, std::move(track));
+  }
+  Recording recording = Measure(track, YellowfishVehicle(), sensors);
+  JumpClock(options.faults, recording);
+  ShiftTimes(options.starts_at_s, recording);
+  return recording;
 }
 
 void Record(const TwinRecordingOptions& options) {
   WriteTelemetryLog(options.out, SimulateMission(options));
+}
+
+/// Of the sample mission alone.
+void AddFaults(CLI::App& app, TwinFaults& faults) {
+  const CLI::Range of_mission(0.0, kSampleMissionDurationS);
+  app.add_option("--port-strength", faults.port_strength,
+                 "Share of its thrust that the port propeller gives; of the static structure")
+      ->check(CLI::Range(0.1, 1.0))
+      ->capture_default_str();
+  app.add_option("--weak-from", faults.weak_from_s, "Since when, seconds of the sample mission")
+      ->check(of_mission)
+      ->capture_default_str();
+  app.add_option("--clock-jump", faults.clock_jump_s, "How far the clock jumps ahead, seconds")
+      ->check(CLI::Range(0.0, 1e6))
+      ->capture_default_str();
+  app.add_option("--clock-jumps-at", faults.clock_jumps_at_s,
+                 "When it does so, seconds of the sample mission")
+      ->check(of_mission);
 }
 
 int Main(int argc, char** argv) {
@@ -65,6 +100,11 @@ int Main(int argc, char** argv) {
   app.add_option("--heading-noise", options.sensors.heading_noise_deg, "One sigma, degrees")
       ->check(CLI::Range(0.0, 45.0))
       ->capture_default_str();
+  app.add_option("--starts-at", options.starts_at_s,
+                 "Of the boat's clock at the start of the sample mission, seconds")
+      ->check(CLI::Range(0.0, 1e9))
+      ->capture_default_str();
+  AddFaults(app, options.faults);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

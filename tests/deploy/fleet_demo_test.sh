@@ -1,0 +1,66 @@
+#!/usr/bin/env bash
+# deploy/demo --fleet sees the clock that jumps and the thruster that weakens, names the thruster by itself, shows
+# it on the page, and leaves nothing running. TELLTALE_BUILT names the build folder.
+set -euo pipefail
+root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
+built=${TELLTALE_BUILT:-$root/build/release}
+sandbox=$(mktemp -d)
+trap 'rm -rf "$sandbox"' EXIT
+mkdir "$sandbox/tmp"
+export TMPDIR=$sandbox/tmp
+unset TELLTALE_DDS_TAG
+readonly output=$sandbox/output
+
+fail() { echo "FAILED: $1" >&2; cat "$output" >&2; exit 1; }
+left_over() { grep -lzx "TELLTALE_DDS_TAG=demo-$demo" /proc/[0-9]*/environ 2> /dev/null || true; }
+
+"$root/deploy/demo" --once &> "$output" && fail "--once without --fleet is taken"
+
+# Where a shell would have SIGINT ignored.
+env --default-signal=INT "$root/deploy/demo" --fleet --built "$built" &> "$output" &
+demo=$!
+until grep -q '^The page shows it: http' "$output"; do
+  kill -0 "$demo" 2> /dev/null || fail "it ended early"
+  sleep 0.2
+done
+grep -qx 'boat-5: DRIFT' "$output" || fail "the drift is not seen"
+grep -qx 'boat-6: CLOCK_JUMP' "$output" || fail "the jump of the clock is not seen"
+sed -n '/^== What is wrong/,$p' "$output" | tr -s ' \n' ' ' | grep -q 'EXPLAINED, .* ago: Port thruster [34][0-9] % weaker' ||
+  fail "the diagnosis does not name the thruster that has lost two fifths"
+for id in boat-1 boat-2 boat-3 boat-4; do
+  ! sed -n '/^== The fleet/,/^== What/p' "$output" | grep -q "$id.*DRIFT" || fail "$id is nominal and seems to drift"
+done
+
+# What the page asks for says the same.
+address=$(sed -n 's/^Open //p' "$output")
+python3 - "$address" <<'CHECK' || fail "the API of the page says something else"
+import json
+import sys
+import urllib.request
+
+def get(route):
+    with urllib.request.urlopen(sys.argv[1] + "api/v1" + route, timeout=30) as answer:
+        return json.load(answer)
+
+report = get("/vehicles/boat-5/diagnosis")
+assert report["causes"][0]["effects"] == ["thruster_imbalance"], report["causes"]
+reasons = {boat: {reason["code"] for reason in get(f"/vehicles/{boat}")["reasons"]}
+           for boat in (f"boat-{n}" for n in range(1, 7))}
+assert "DRIFT" in reasons["boat-5"], reasons
+assert not any("DRIFT" in reasons[f"boat-{n}"] for n in (1, 2, 3, 4)), reasons
+CHECK
+
+# The picture of README.md is one of these, where the page's test has brought its modules.
+browser=$(command -v chromium || true)
+if [[ -n $browser && -d $built/tests/page/node_modules ]]; then
+  cp "$root/tests/web/picture.mjs" "$built/tests/page"
+  (cd "$built/tests/page" && timeout 60 node picture.mjs "$address" fleet.png "$browser") || fail "the page has no picture"
+fi
+
+kill -s INT "$demo"
+status=0
+wait "$demo" || status=$?
+((status == 130)) || fail "Ctrl-C should end it with 130, not $status"
+[[ -z $(left_over) ]] || fail "still running: $(left_over)"
+[[ -z $(ls -A "$TMPDIR") ]] || fail "left behind: $(ls -A "$TMPDIR")"
+echo "the demo of the fleet shows what is wrong, and with whom"
