@@ -40,13 +40,13 @@ void FillExtrapolatedCommands(std::vector<PreparedRow>& rows, const HeldCommands
 }  // namespace
 
 std::vector<PreparedRow> PrepareAsPaper(const SegmentSignals& signals, const SamplingGrid& grid,
-                                        const Vehicle& vehicle, const SavitzkyGolay& filter) {
+                                        const LeverArm& antenna, const SavitzkyGolay& filter) {
   const auto cubic = [](const TimeSeries& series) {
     return [&series](double t) { return series.Extrapolate(t, 3); };
   };
   const auto psi = grid.Map([&](double t) { return signals.psi_rad.Extrapolate(t, 8); });
   BodyPath path{grid.Map(cubic(signals.north_m)), grid.Map(cubic(signals.east_m))};
-  RemoveLeverArm(path, psi, vehicle.gnss_antenna);
+  RemoveLeverArm(path, psi, antenna);
 
   const auto x_slope = Differentiate(path.x_m);
   const auto y_slope = Differentiate(path.y_m);

@@ -15,6 +15,6 @@ namespace telltale {
 /// differences, then smoothed.
 /// Source: the paper, Data Preparation; docs/concepts/data-preparation.md.
 std::vector<PreparedRow> PrepareAsPaper(const SegmentSignals& signals, const SamplingGrid& grid,
-                                        const Vehicle& vehicle, const SavitzkyGolay& filter);
+                                        const LeverArm& antenna, const SavitzkyGolay& filter);
 
 }  // namespace telltale

@@ -26,13 +26,6 @@ void RequireAscending(const std::vector<Sample>& samples) {
           "a recording in order of time without duplicates");
 }
 
-std::vector<PreparedRow> PrepareSegment(const SegmentSignals& signals, const SamplingGrid& grid,
-                                        const Vehicle& vehicle, const PrepareOptions& options) {
-  const SavitzkyGolay filter(options.smoothing_half_width, options.smoothing_degree);
-  return options.preset == Preset::kPaper ? PrepareAsPaper(signals, grid, vehicle, filter)
-                                          : PrepareRobustly(signals, grid, vehicle, filter);
-}
-
 std::vector<Segment> SegmentsOf(const Recording& recording, const PrepareOptions& options) {
   std::vector<Segment> segments = FindSegments(recording, options.longest_gap_s);
   if (!options.longest_segment_s) return segments;
@@ -95,6 +88,13 @@ std::vector<std::size_t> NumberedWithoutGaps(const std::vector<std::size_t>& pla
 
 }  // namespace
 
+std::vector<PreparedRow> PrepareRows(const SegmentSignals& signals, const SamplingGrid& grid,
+                                     const LeverArm& antenna, const PrepareOptions& options) {
+  const SavitzkyGolay filter(options.smoothing_half_width, options.smoothing_degree);
+  return options.preset == Preset::kPaper ? PrepareAsPaper(signals, grid, antenna, filter)
+                                          : PrepareRobustly(signals, grid, antenna, filter);
+}
+
 Result<PreparedDataset> Prepare(const Recording& recording, const Vehicle& vehicle,
                                 const PrepareOptions& options) {
   if (auto refusal = options.Validate()) return tl::unexpected(*std::move(refusal));
@@ -118,7 +118,7 @@ Result<PreparedDataset> Prepare(const Recording& recording, const Vehicle& vehic
     const SamplingGrid grid = LayGrid(recording, segment, dataset.sampling_period_s);
     if (!LongEnough(grid, options)) continue;
     SegmentSignals signals = ReadSignals(recording, segment, vehicle, frame);
-    Append(dataset, PrepareSegment(signals, grid, vehicle, options), options);
+    Append(dataset, PrepareRows(signals, grid, vehicle.gnss_antenna, options), options);
     places.push_back(PlaceAmong(recording.starts_s, segment.start_s));
     const SignalNoise noise(signals);
     PoolSensors(dataset, signals, noise);

@@ -1,9 +1,13 @@
 #pragma once
 
+#include <vector>
+
 #include "telltale/core/base/result.hpp"
 #include "telltale/core/data/prepare_options.hpp"
 #include "telltale/core/data/prepared_dataset.hpp"
 #include "telltale/core/data/samples.hpp"
+#include "telltale/core/data/sampling_grid.hpp"
+#include "telltale/core/data/segment_signals.hpp"
 #include "telltale/core/vessel/vehicle.hpp"
 
 namespace telltale {
@@ -16,5 +20,11 @@ namespace telltale {
 /// Source: the paper, Data Preparation.
 Result<PreparedDataset> Prepare(const Recording& recording, const Vehicle& vehicle,
                                 const PrepareOptions& options);
+
+/// The rows of one segment as Prepare() makes them. Readings that are predicted become rows that
+/// compare with recorded ones: both pass the same filter.
+/// Requires: a grid no shorter than the smoothing window.
+std::vector<PreparedRow> PrepareRows(const SegmentSignals& signals, const SamplingGrid& grid,
+                                     const LeverArm& antenna, const PrepareOptions& options);
 
 }  // namespace telltale

@@ -64,11 +64,11 @@ std::vector<PropellerCommand> FilterAsVelocity(const HeldCommands& commands,
 }  // namespace
 
 std::vector<PreparedRow> PrepareRobustly(const SegmentSignals& signals, const SamplingGrid& grid,
-                                         const Vehicle& vehicle, const SavitzkyGolay& filter) {
+                                         const LeverArm& antenna, const SavitzkyGolay& filter) {
   const auto raw_psi = OntoGrid(signals.psi_rad, grid);
   const auto r_per_row = filter.Slope(raw_psi);
   BodyPath path{OntoGrid(signals.north_m, grid), OntoGrid(signals.east_m, grid)};
-  RemoveLeverArm(path, raw_psi, vehicle.gnss_antenna);
+  RemoveLeverArm(path, raw_psi, antenna);
   const Increments increments = BodyIncrements(path, raw_psi);
   const auto u_per_row = filter.SlopeOfIncrements(increments.forward_m);
   const auto v_per_row = filter.SlopeOfIncrements(increments.starboard_m);

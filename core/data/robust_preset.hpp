@@ -16,6 +16,6 @@ namespace telltale {
 /// which that filter passes on accelerations.
 /// Source: docs/concepts/data-preparation.md (1)..(4).
 std::vector<PreparedRow> PrepareRobustly(const SegmentSignals& signals, const SamplingGrid& grid,
-                                         const Vehicle& vehicle, const SavitzkyGolay& filter);
+                                         const LeverArm& antenna, const SavitzkyGolay& filter);
 
 }  // namespace telltale

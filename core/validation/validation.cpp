@@ -12,6 +12,7 @@
 #include "telltale/core/effects/sensor_chain.hpp"
 #include "telltale/core/simulation/free_run.hpp"
 #include "telltale/core/simulation/simulator.hpp"
+#include "telltale/core/validation/physical_free_runs.hpp"
 
 namespace telltale {
 namespace {
@@ -194,85 +195,6 @@ class AugmentedFreeRuns {
   AugmentedBoat boat_;
   std::size_t steps_;
   double step_s_;
-};
-
-/// Free runs of the physical form along a dataset, from filtered states.
-class PhysicalFreeRuns {
- public:
-  PhysicalFreeRuns(const PreparedDataset& dataset, const PhysicalModel& model) : dataset_(dataset) {
-    settings_.parameters = model.Estimates();
-    settings_.noise = model.noise;
-    settings_.propeller_separation_m = model.propeller_separation_m;
-    settings_.antenna = dataset.sensors.antenna;
-    settings_.nominal_fix_delay_s = FixDelay();
-  }
-
-  /// Calls visit(first row, predicted rows from it on) for every run of `rows` periods.
-  template <class Visit>
-  void RunAll(std::size_t rows, Visit visit) const {
-    for (std::size_t s = 0; s < dataset_.segments.size(); ++s) {
-      const RowRange& segment = dataset_.segments[s];
-      std::vector<std::size_t> firsts;
-      std::vector<double> starts_s;
-      for (std::size_t k = segment.begin; k + rows < segment.end; k += rows) {
-        firsts.push_back(k);
-        // A fix that is late tells of an earlier time: until the row, of none after this one.
-        starts_s.push_back(dataset_.rows[k].time_s - std::max(FixDelay(), 0.0));
-      }
-      const auto states =
-          FilteredStates(dataset_.signals[s], dataset_.commands[s], settings_, starts_s);
-      for (std::size_t i = 0; i < states.size(); ++i) {
-        visit(firsts[i], Run(s, firsts[i], rows, starts_s[i], states[i]));
-      }
-    }
-  }
-
- private:
-  double FixDelay() const { return settings_.parameters[At(FossenParameter::kFixDelay)]; }
-
-  std::vector<PreparedRow> Run(std::size_t segment, std::size_t first, std::size_t rows,
-                               double start_s, const FilterState& start) const {
-    std::vector<double> heading_times_s;
-    std::vector<double> fix_times_s;
-    for (std::size_t k = 0; k <= rows; ++k) {
-      heading_times_s.push_back(dataset_.rows[first + k].time_s);
-      fix_times_s.push_back(dataset_.rows[first + k].time_s - FixDelay());
-    }
-    const auto predict = [&](const std::vector<double>& times_s) {
-      return PredictedStates(start, start_s, dataset_.commands[segment], settings_, times_s);
-    };
-    const auto headings = predict(heading_times_s);
-    const auto fixes = predict(fix_times_s);
-    std::vector<PreparedRow> predicted(rows + 1);
-    for (std::size_t k = 0; k <= rows; ++k) {
-      const NorthEastVelocity velocity = OverGround(fixes[k]);
-      const double psi = headings[k][kHeadingState] + headings[k][kMisalignmentState];
-      // From the measured position on, as every free run.
-      const Eta& measured = dataset_.rows[first].eta;
-      predicted[k].eta = {measured.x_m + fixes[k][0] - fixes[0][0],
-                          measured.y_m + fixes[k][1] - fixes[0][1], psi};
-      predicted[k].nu = {std::cos(psi) * velocity.north + std::sin(psi) * velocity.east,
-                         -std::sin(psi) * velocity.north + std::cos(psi) * velocity.east,
-                         headings[k][kVelocityState + 2]};
-    }
-    return predicted;
-  }
-
-  struct NorthEastVelocity {
-    double north;
-    double east;
-  };
-
-  static NorthEastVelocity OverGround(const FilterState& state) {
-    const double c = std::cos(state[kHeadingState]);
-    const double s = std::sin(state[kHeadingState]);
-    const double u = state[kVelocityState];
-    const double v = state[kVelocityState + 1];
-    return {c * u - s * v + state[kCurrentState], s * u + c * v + state[kCurrentState + 1]};
-  }
-
-  const PreparedDataset& dataset_;
-  FilterSettings settings_;
 };
 
 std::optional<Refusal> RefuseUnanswerable(const PreparedDataset& dataset, const VesselModel& model,

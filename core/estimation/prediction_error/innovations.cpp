@@ -10,8 +10,8 @@ namespace {
 using enum FossenParameter;
 
 constexpr int kParameters = static_cast<int>(kFossenParameters);
-constexpr int kNorth = 0;
-constexpr int kEast = 1;
+constexpr int kNorth = kNorthState;
+constexpr int kEast = kNorthState + 1;
 // A current changes by this much in a second, one sigma of its random walk.
 constexpr double kCurrentWalk = 0.003;
 
@@ -20,6 +20,8 @@ constexpr double kShortestStepS = 1e-6;
 constexpr double kHuberLimit = 4.0;
 // Headings closer than this to the one before bring nothing new and cost a step.
 constexpr double kHeadingPeriodS = 0.095;
+// Readings of one channel this long before and after those of the other count.
+constexpr double kReadingsBeyondS = 0.5;
 
 using State = FilterState;
 using Covariance = FilterCovariance;
@@ -33,17 +35,24 @@ struct Reading {
   double psi_rad = 0.0;
 };
 
+// Where both fixes and headings are read: one channel may go on where the other has a gap.
 std::vector<Reading> InOrder(const RawSignals& signals, double fix_delay_s) {
   std::vector<Reading> readings;
   const auto& fixes = signals.north_m;
+  const auto& headings = signals.psi_rad.times_s;
+  if (fixes.times_s.empty() || headings.empty()) return readings;
+  const double from_s = std::max(fixes.times_s.front(), headings.front()) - kReadingsBeyondS;
+  const double until_s = std::min(fixes.times_s.back(), headings.back()) + kReadingsBeyondS;
+  const auto is_within = [&](double t) { return from_s <= t && t <= until_s; };
   for (std::size_t i = 0; i < fixes.times_s.size(); ++i) {
+    if (!is_within(fixes.times_s[i])) continue;
     readings.push_back(
         {fixes.times_s[i] - fix_delay_s, true, fixes.values[i], signals.east_m.values[i], 0.0});
   }
   double last_s = -1e300;
   for (std::size_t i = 0; i < signals.psi_rad.times_s.size(); ++i) {
     const double t = signals.psi_rad.times_s[i];
-    if (t - last_s < kHeadingPeriodS) continue;
+    if (!is_within(t) || t - last_s < kHeadingPeriodS) continue;
     last_s = t;
     readings.push_back({t, false, 0.0, 0.0, signals.psi_rad.values[i]});
   }
@@ -358,6 +367,8 @@ std::vector<FilterState> PredictedStates(const FilterState& start, double start_
                                          const FilterSettings& settings,
                                          const std::vector<double>& times_s) {
   Filter filter(settings, commands, start_s, start);
+  const std::vector<FilterGain> none;
+  filter.UseGains(&none, nullptr);  // no reading asks for a covariance
   std::vector<FilterState> states;
   for (const double time_s : times_s) {
     filter.PredictTo(time_s);

@@ -50,6 +50,7 @@ struct FilterSettings {
 /// water; the disturbing accelerations; the drift of the fixes north and east; the current north
 /// and east; what the compass reads too much.
 inline constexpr int kFilterStates = 14;
+inline constexpr int kNorthState = 0;
 inline constexpr int kHeadingState = 2;
 inline constexpr int kVelocityState = 3;
 inline constexpr int kDisturbanceState = 6;

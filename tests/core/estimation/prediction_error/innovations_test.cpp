@@ -105,5 +105,22 @@ TEST(Innovations, AreNoneWithoutHeadings) {
   EXPECT_TRUE(InnovationsOf(track.signals, track.commands, Settings()).empty());
 }
 
+// Headings that go on through a gap of the fixes would let the position drift before it is read.
+TEST(Innovations, StartWhereBothChannelsAreRead) {
+  const Track track = Weaving();
+  Track early = Weaving();
+  for (int i = 600; i > 10; --i) {
+    const auto place = early.signals.psi_rad.times_s.begin() + (600 - i);
+    early.signals.psi_rad.times_s.insert(place, -0.1 * i);
+    early.signals.psi_rad.values.insert(early.signals.psi_rad.values.begin() + (600 - i), 2.0);
+  }
+  const auto expected = InnovationsOf(track.signals, track.commands, Settings());
+  const auto innovations = InnovationsOf(early.signals, early.commands, Settings());
+  ASSERT_EQ(innovations.size(), expected.size());
+  for (std::size_t k = 0; k < expected.size(); ++k) {
+    EXPECT_EQ(innovations[k].value, expected[k].value);
+  }
+}
+
 }  // namespace
 }  // namespace telltale

@@ -1,0 +1,135 @@
+#include "telltale/core/validation/physical_free_runs.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "telltale/core/data/preparation.hpp"
+
+namespace telltale {
+namespace {
+
+// Beyond the ends of a grid, for what is interpolated there.
+constexpr double kMarginS = 1.0;
+
+/// The samples of a series in [from, until].
+TimeSeries Within(const TimeSeries& series, double from_s, double until_s) {
+  const auto begin = std::ranges::lower_bound(series.times_s, from_s) - series.times_s.begin();
+  const auto end = std::ranges::upper_bound(series.times_s, until_s) - series.times_s.begin();
+  return {{series.times_s.begin() + begin, series.times_s.begin() + end},
+          {series.values.begin() + begin, series.values.begin() + end}};
+}
+
+/// The place of the first sample after `time_s`.
+std::size_t After(const TimeSeries& series, double time_s) {
+  return static_cast<std::size_t>(std::ranges::upper_bound(series.times_s, time_s + kSameInstantS) -
+                                  series.times_s.begin());
+}
+
+}  // namespace
+
+PhysicalFreeRuns::PhysicalFreeRuns(const PreparedDataset& dataset, const PhysicalModel& model)
+    : dataset_(dataset) {
+  settings_.parameters = model.Estimates();
+  settings_.noise = model.noise;
+  settings_.propeller_separation_m = model.propeller_separation_m;
+  settings_.antenna = dataset.sensors.antenna;
+  settings_.nominal_fix_delay_s = FixDelay();
+}
+
+double PhysicalFreeRuns::FixDelay() const {
+  return settings_.parameters[At(FossenParameter::kFixDelay)];
+}
+
+// A fix that is late tells of an earlier time: until the row, of none after this one.
+double PhysicalFreeRuns::StartTimeOf(std::size_t row) const {
+  return dataset_.rows[row].time_s - std::max(FixDelay(), 0.0);
+}
+
+std::vector<std::size_t> PhysicalFreeRuns::StartsOf(std::size_t segment, std::size_t rows) const {
+  std::vector<std::size_t> firsts;
+  const RowRange& range = dataset_.segments[segment];
+  for (std::size_t k = range.begin; k + rows < range.end; k += rows) firsts.push_back(k);
+  return firsts;
+}
+
+std::vector<FilterState> PhysicalFreeRuns::StatesAt(std::size_t segment,
+                                                    const std::vector<std::size_t>& rows) const {
+  std::vector<double> starts_s;
+  for (const std::size_t row : rows) starts_s.push_back(StartTimeOf(row));
+  return FilteredStates(dataset_.signals[segment], dataset_.commands[segment], settings_, starts_s);
+}
+
+std::vector<FilterState> PhysicalFreeRuns::Predict(const Start& start,
+                                                   std::span<const double> stamps_s,
+                                                   double delay_s) const {
+  std::vector<double> times_s;
+  for (const double stamp_s : stamps_s) times_s.push_back(stamp_s - delay_s);
+  return PredictedStates(start.state, StartTimeOf(start.row), dataset_.commands[start.segment],
+                         settings_, times_s);
+}
+
+void PhysicalFreeRuns::PredictHeadings(const Start& start, TimeSeries& psi_rad) const {
+  std::size_t at = After(psi_rad, dataset_.rows[start.row].time_s);
+  for (const FilterState& x : Predict(start, std::span(psi_rad.times_s).subspan(at), 0.0)) {
+    psi_rad.values[at++] = x[kHeadingState] + x[kMisalignmentState];
+  }
+}
+
+void PhysicalFreeRuns::PredictFixes(const Start& start, RawSignals& signals) const {
+  std::size_t at = After(signals.north_m, dataset_.rows[start.row].time_s);
+  const auto stamps_s = std::span(signals.north_m.times_s).subspan(at);
+  const LeverArm& arm = settings_.antenna;
+  for (const FilterState& x : Predict(start, stamps_s, FixDelay())) {
+    const double c = std::cos(x[kHeadingState]);
+    const double s = std::sin(x[kHeadingState]);
+    signals.north_m.values[at] =
+        x[kNorthState] + x[kDriftState] + c * arm.forward_m - s * arm.starboard_m;
+    signals.east_m.values[at] =
+        x[kNorthState + 1] + x[kDriftState + 1] + s * arm.forward_m + c * arm.starboard_m;
+    ++at;
+  }
+}
+
+SegmentSignals PhysicalFreeRuns::Readings(const Start& start, const SamplingGrid& grid) const {
+  const RawSignals& recorded = dataset_.signals[start.segment];
+  const auto about_grid = [&grid](const TimeSeries& series) {
+    return Within(series, grid.start_s - kMarginS, grid.Time(grid.rows - 1) + kMarginS);
+  };
+  SegmentSignals signals{
+      {about_grid(recorded.north_m), about_grid(recorded.east_m), about_grid(recorded.psi_rad)},
+      dataset_.commands[start.segment]};
+  PredictHeadings(start, signals.psi_rad);
+  PredictFixes(start, signals);
+  return signals;
+}
+
+// The rows that the filter reaches from those of the run. At the ends of a segment it has its whole
+// window on one side.
+RowRange PhysicalFreeRuns::RowsAbout(const RowRange& run, const RowRange& segment) const {
+  const std::size_t half = dataset_.options.smoothing_half_width;
+  const std::size_t window = 2 * half + 1;
+  const std::size_t begin = run.begin - std::min(half, run.begin - segment.begin);
+  const std::size_t end = std::max(run.end + half, segment.begin + window);
+  return {std::min(begin, segment.end - window), std::min(end, segment.end)};
+}
+
+std::vector<PreparedRow> PhysicalFreeRuns::Run(const Start& start, std::size_t rows) const {
+  const RowRange run{start.row, start.row + rows + 1};
+  const RowRange about = RowsAbout(run, dataset_.segments[start.segment]);
+  const SamplingGrid grid{dataset_.rows[about.begin].time_s, dataset_.sampling_period_s,
+                          about.size()};
+  auto predicted = PrepareRows(Readings(start, grid), grid, settings_.antenna, dataset_.options);
+  predicted.resize(run.end - about.begin);
+  predicted.erase(predicted.begin(),
+                  predicted.begin() + static_cast<std::ptrdiff_t>(run.begin - about.begin));
+  // From the measured position on, as every free run.
+  const Eta& measured = dataset_.rows[start.row].eta;
+  const Eta from = predicted.front().eta;
+  for (PreparedRow& row : predicted) {
+    row.eta.x_m += measured.x_m - from.x_m;
+    row.eta.y_m += measured.y_m - from.y_m;
+  }
+  return predicted;
+}
+
+}  // namespace telltale
