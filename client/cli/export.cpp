@@ -8,11 +8,17 @@
 #include "telltale/client/cli/commands.hpp"
 #include "telltale/client/cli/exit_codes.hpp"
 #include "telltale/client/cli/input_options.hpp"
+#include "telltale/client/cli/number_range.hpp"
+#include "telltale/client/cli/progress_line.hpp"
 #include "telltale/client/cli/whole_number.hpp"
+#include "telltale/client/exchange/model_series.hpp"
 #include "telltale/client/exchange/mss.hpp"
 #include "telltale/client/exchange/posterior_draws.hpp"
 #include "telltale/client/exchange/vrx.hpp"
 #include "telltale/client/recording/file_contents.hpp"
+#include "telltale/core/data/preparation.hpp"
+#include "telltale/core/diagnosis/hypotheses/augmented_identification.hpp"
+#include "telltale/core/validation/validation.hpp"
 
 namespace telltale {
 namespace {
@@ -23,10 +29,14 @@ struct ExportArguments {
   fs::path model_file;
   fs::path vehicle_file;
   std::string format;
+  fs::path log;  ///< of csv and mcap
+  SourceOptions options;
+  double horizon_s = 10.0;
   std::optional<std::size_t> draws;
   std::uint64_t seed = 1;
   fs::path out;
 
+  bool IsOverALog() const { return format == "csv" || format == "mcap"; }
   const char* FileName() const { return format == "mss" ? "mss.json" : "vrx.sdf"; }
 };
 
@@ -57,8 +67,57 @@ void WriteDraws(const ExportArguments& arguments, const Identification& model,
   Write(arguments.out / "draws.csv", PrintDrawsCsv(model, draws));
 }
 
+/// What the model says over a log, as files to write.
+void ExportSeries(const ExportArguments& arguments) {
+  const Vehicle vehicle = LoadVehicle(arguments.vehicle_file);
+  const Identification model = LoadModel(arguments.model_file);
+  NoteOtherVehicle(model, vehicle);
+  PrepareOptions preparation = PrepareOptionsOf(
+      model.provenance.preset == Name(Preset::kPaper) ? Preset::kPaper : Preset::kRobust);
+  preparation.sampling_period_s = model.sampling_period_s;
+  ProgressLine line;
+  line.Update("reading the log", 0.0);
+  const Recording recording = LoadAdmitted(arguments.log, arguments.options);
+  line.Update("preparing data", 0.3);
+  const PreparedDataset dataset = OrThrow(Prepare(recording, vehicle, preparation));
+  const auto runs = [&](double horizon_s) {
+    return OrThrow(model.physical
+                       ? FreeRunsOf(dataset, *model.physical, horizon_s)
+                       : FreeRunsOf(dataset, OrThrow(AugmentedModelOf(model)), horizon_s));
+  };
+  line.Update("predicting", 0.6);
+  const ModelSeries series{model, dataset, runs(arguments.horizon_s),
+                           runs(dataset.sampling_period_s)};
+  line.Update("writing", 0.9);
+  if (arguments.format == "mcap") {
+    const bool into_folder = fs::is_directory(arguments.out);
+    Write(into_folder ? arguments.out / "model.mcap" : arguments.out, PrintSeriesMcap(series));
+    return;
+  }
+  fs::create_directories(arguments.out);
+  Write(arguments.out / "series.csv", PrintSeriesCsv(series));
+  Write(arguments.out / "coefficients.csv", PrintCoefficientsCsv(model));
+}
+
+/// csv and mcap are about a log, the others about the model alone.
+void RequireFittingOptions(const ExportArguments& arguments) {
+  if (arguments.IsOverALog() && arguments.log.empty()) {
+    throw UsageError("--log is required with --format " + arguments.format +
+                     ": it shows the model over a recording");
+  }
+  if (!arguments.IsOverALog() && !arguments.log.empty()) {
+    throw UsageError("--log goes with --format csv and mcap; " + arguments.format +
+                     " takes the model alone");
+  }
+  if (arguments.IsOverALog() && arguments.draws) {
+    throw UsageError("--draws goes with --format mss and vrx");
+  }
+}
+
 // Everything that can be refused is computed before anything is written.
 void ExportModel(const ExportArguments& arguments) {
+  RequireFittingOptions(arguments);
+  if (arguments.IsOverALog()) return ExportSeries(arguments);
   const Vehicle vehicle = LoadVehicle(arguments.vehicle_file);
   const Identification estimated = LoadModel(arguments.model_file);
   const Identification model = WithSimulationParameters(estimated);
@@ -81,17 +140,28 @@ void ExportModel(const ExportArguments& arguments) {
 void AddExport(CLI::App& telltale) {
   const auto arguments = std::make_shared<ExportArguments>();
   CLI::App& command = *telltale.add_subcommand(
-      "export", "Writes a model for other simulators, and draws of it for domain randomisation");
+      "export",
+      "Writes a model for other simulators or viewers, and draws of it for domain randomisation");
   AddModelFile(command, arguments->model_file);
   AddVehicleFile(command, arguments->vehicle_file);
   command
       .add_option(
           "--format", arguments->format,
           "mss: M^-1-normalised coefficients for Fossen's MSS and Python Vehicle Simulator; "
-          "vrx: a hydrodynamics plugin for Gazebo, which needs the vehicle's mass_kg")
+          "vrx: a hydrodynamics plugin for Gazebo, which needs the vehicle's mass_kg; "
+          "csv: the model over a log, as tables; "
+          "mcap: the same for Foxglove and PlotJuggler")
       ->type_name("NAME")
       ->required()
-      ->check(CLI::IsMember({"mss", "vrx"}).description(""));
+      ->check(CLI::IsMember({"mss", "vrx", "csv", "mcap"}).description(""));
+  AddLog(command, arguments->log, arguments->options)->required(false);
+  command
+      .add_option("--horizon", arguments->horizon_s,
+                  "of csv and mcap: length of the free runs, seconds, at least two sampling "
+                  "periods, at most 600")
+      ->type_name("S")
+      ->check(NumberWithin(0.0, 600.0).description(""))
+      ->capture_default_str();
   auto* const draws =
       command
           .add_option(
@@ -106,14 +176,18 @@ void AddExport(CLI::App& telltale) {
       ->capture_default_str()
       ->needs(draws);
   command
-      .add_option("--out", arguments->out,
-                  "file to write, or a folder, into which mss.json or vrx.sdf goes")
+      .add_option(
+          "--out", arguments->out,
+          "file to write, or a folder, into which mss.json, vrx.sdf or model.mcap goes; with csv "
+          "a folder, for series.csv and coefficients.csv")
       ->type_name("DIR|FILE")
       ->required();
   command.footer(
       "The file states which properties telemetry cannot determine.\n"
-      "Example: telltale export --model model.json --vehicle boat.textproto --format mss "
-      "--draws 200 --out exported");
+      "Example: telltale export --model model.json --vehicle boat.textproto \\\n"
+      "             --format mss --draws 200 --out exported\n"
+      "         telltale export --model model.json --vehicle boat.textproto \\\n"
+      "             --format mcap --log run2 --out run2.mcap");
   command.callback([arguments] { ExportModel(*arguments); });
 }
 

@@ -169,8 +169,8 @@ void RequireSoundInput(const std::vector<std::filesystem::path>& logs, const Sou
 
 constexpr const char* kLogFormats =
     "a recording: a telemetry log (a folder with gnss.csv, heading.csv and thrusters.csv), an "
-    "ArduPilot .BIN, a .tlog, an .mcap of ROS 2 or BlueOS, a rosbag2 folder or .db3, or a ROS 1 "
-    ".bag";
+    "ArduPilot .BIN, a .tlog, an .mcap of ROS 2 or BlueOS, a rosbag2 folder or .db3, a ROS 1 "
+    ".bag, or one CSV file with --map";
 
 template <class Target>
 CLI::Option* AddLogOption(CLI::App& command, Target& target, const std::string& description) {

@@ -222,6 +222,54 @@ std::optional<Refusal> RefuseUnanswerable(const PreparedDataset& dataset, const 
   return std::nullopt;
 }
 
+/// Free runs of a model that has coefficients alone.
+class PlainFreeRuns {
+ public:
+  PlainFreeRuns(const PreparedDataset& dataset, const VesselModel& model)
+      : dataset_(dataset), model_(model), thrust_(FollowThrust(dataset, model)) {}
+
+  /// Calls visit(first row, predicted rows from it on) for every run of `rows` periods.
+  template <class Visit>
+  void RunAll(std::size_t rows, Visit visit) const {
+    for (const std::size_t first : FreeRunStarts(dataset_, rows)) {
+      std::vector<PreparedRow> predicted;
+      for (const VesselState& state : RunFreely(dataset_, model_, thrust_, first, rows)) {
+        PreparedRow row;
+        row.eta = state.eta;
+        row.nu = state.nu;
+        predicted.push_back(row);
+      }
+      visit(first, predicted);
+    }
+  }
+
+ private:
+  const PreparedDataset& dataset_;
+  const VesselModel& model_;
+  ThrustHistory thrust_;
+};
+
+template <class FreeRuns>
+std::vector<FreeRun> Gathered(const PreparedDataset& dataset, const FreeRuns& free_runs,
+                              double horizon_s) {
+  const long rows = std::lround(horizon_s / dataset.sampling_period_s);
+  std::vector<FreeRun> runs;
+  free_runs.RunAll(static_cast<std::size_t>(rows),
+                   [&](std::size_t first, std::vector<PreparedRow> predicted) {
+                     for (std::size_t k = 0; k < predicted.size(); ++k) {
+                       predicted[k].time_s = dataset.rows[first + k].time_s;
+                     }
+                     runs.push_back({first, std::move(predicted)});
+                   });
+  return runs;
+}
+
+/// A horizon of one period is no score, but a run.
+ValidationOptions OptionsForRuns(const PreparedDataset& dataset, double horizon_s) {
+  const bool is_one_step = std::abs(horizon_s - dataset.sampling_period_s) < kSamePeriodS;
+  return {is_one_step ? std::vector<double>{} : std::vector<double>{horizon_s}};
+}
+
 /// The scores of free runs that `free_runs` makes, one step ahead among them.
 template <class FreeRuns>
 Metrics ScoresOfRuns(const PreparedDataset& dataset, const FreeRuns& free_runs,
@@ -270,6 +318,27 @@ Result<Metrics> Validate(const PreparedDataset& dataset, const AugmentedModel& m
     return tl::unexpected<Refusal>(*std::move(refusal));
   }
   return ScoresOfRuns(dataset, AugmentedFreeRuns(dataset, model), options);
+}
+
+Result<std::vector<FreeRun>> FreeRunsOf(const PreparedDataset& dataset, const AugmentedModel& model,
+                                        double horizon_s) {
+  const auto options = OptionsForRuns(dataset, horizon_s);
+  if (auto refusal = RefuseUnanswerable(dataset, model.model, options)) {
+    return tl::unexpected<Refusal>(*std::move(refusal));
+  }
+  if (model.effects.empty()) {
+    return Gathered(dataset, PlainFreeRuns(dataset, model.model), horizon_s);
+  }
+  return Gathered(dataset, AugmentedFreeRuns(dataset, model), horizon_s);
+}
+
+Result<std::vector<FreeRun>> FreeRunsOf(const PreparedDataset& dataset, const PhysicalModel& model,
+                                        double horizon_s) {
+  const VesselModel vessel = VesselModelOf(model.Estimates(), model.propeller_separation_m);
+  if (auto refusal = RefuseUnanswerable(dataset, vessel, OptionsForRuns(dataset, horizon_s))) {
+    return tl::unexpected<Refusal>(*std::move(refusal));
+  }
+  return Gathered(dataset, PhysicalFreeRuns(dataset, model), horizon_s);
 }
 
 Result<Metrics> Validate(const PreparedDataset& dataset, const PhysicalModel& model,

@@ -71,4 +71,19 @@ Result<Metrics> Validate(const PreparedDataset& dataset, const PhysicalModel& mo
 Result<Metrics> Validate(const PreparedDataset& dataset, const AugmentedModel& model,
                          const ValidationOptions& options);
 
+/// One free run: predicted[k] stands for row first_row + k of the dataset; predicted[0] is where
+/// the run starts. Of a prediction only time_s, eta and nu are set.
+struct FreeRun {
+  std::size_t first_row = 0;
+  std::vector<PreparedRow> predicted;
+};
+
+/// The free runs that Validate scores, one after the other. A horizon of one sampling period gives
+/// its one-step predictions.
+/// Refuses when: as Validate; a horizon of one sampling period is allowed.
+Result<std::vector<FreeRun>> FreeRunsOf(const PreparedDataset& dataset, const AugmentedModel& model,
+                                        double horizon_s);
+Result<std::vector<FreeRun>> FreeRunsOf(const PreparedDataset& dataset, const PhysicalModel& model,
+                                        double horizon_s);
+
 }  // namespace telltale
