@@ -4,6 +4,7 @@
 #include <map>
 #include <string_view>
 
+#include "telltale/core/vessel/fossen_matrices.hpp"
 #include "telltale/idl/codec/json/json_message.hpp"
 #include "telltale/idl/codec/json/model.hpp"
 #include "telltale/idl/proto/exchange.pb.h"
@@ -89,6 +90,13 @@ constexpr std::array kUnidentifiableTerms = {
     UnidentifiableTerm{"wind, current, trim", "all are within the constant term"},
 };
 
+// The mass matrix of the physical form is known over m11, and so is all that it divides.
+constexpr std::array kUnidentifiableOfPhysicalForm = {
+    UnidentifiableTerm{"m, X_udot",
+                       "surge sees m11 = m - X_udot alone, and only as a common divisor of forces"},
+    UnidentifiableTerm{"thrust and drag in newtons", "known only over m11"},
+};
+
 void Write(const Coefficient& coefficient, proto::NormalisedCoefficient& message) {
   message.set_equation(static_cast<proto::Equation>(coefficient.equation));
   message.set_regressor(coefficient.regressor);
@@ -100,6 +108,37 @@ void Write(const Coefficient& coefficient, proto::NormalisedCoefficient& message
   message.set_status(static_cast<proto::CoefficientStatus>(coefficient.status));
 }
 
+void Append(const Eigen::Matrix3d& matrix, google::protobuf::RepeatedField<double>& rows) {
+  for (const auto row : matrix.rowwise()) rows.Add(row.begin(), row.end());
+}
+
+proto::PhysicalForm PhysicalFormOf(const FossenVector& parameters) {
+  using enum FossenParameter;
+  const FossenMatrices matrices = MatricesOf(parameters);
+  proto::PhysicalForm form;
+  Append(matrices.mass, *form.mutable_mass());
+  Append(matrices.linear_damping, *form.mutable_linear_damping());
+  Append(matrices.lift_damping, *form.mutable_lift_damping());
+  form.mutable_quadratic_damping()->Add(matrices.quadratic_damping.begin(),
+                                        matrices.quadratic_damping.end());
+  for (const FossenParameter at : {kForwardLinear, kForwardQuadratic}) {
+    form.add_forward_thrust(parameters[At(at)]);
+  }
+  for (const FossenParameter at : {kReverseLinear, kReverseQuadratic}) {
+    form.add_reverse_thrust(parameters[At(at)]);
+  }
+  return form;
+}
+
+template <class Terms>
+void AddUnidentifiable(const Terms& terms, proto::MssModel& message) {
+  for (const UnidentifiableTerm& unidentifiable : terms) {
+    proto::NotIdentifiable& entry = *message.add_not_identifiable();
+    entry.set_parameter(unidentifiable.parameter);
+    entry.set_reason(unidentifiable.reason);
+  }
+}
+
 void AddNotes(const Identification& identification, const Vehicle& vehicle,
               proto::MssModel& message) {
   message.add_notes(
@@ -109,9 +148,15 @@ void AddNotes(const Identification& identification, const Vehicle& vehicle,
   message.add_notes(
       "The frame is Fossen's: x forward, y to starboard, r clockwise seen from above. d is "
       "propellerSeparationM; commands are shares of full command, after the dead zone.");
-  message.add_notes(
-      "Identifiable beyond the coefficients are ratios alone, W33 d / (2 W11) for one, from the f: "
-      "coefficients of yaw and surge.");
+  if (identification.physical) {
+    message.add_notes(
+        "physical is the same boat as M nu_dot + C(nu) nu + D(nu) nu = tau over m11 = m - X_udot: "
+        "with M and D times m11, forces are newtons. C follows from M.");
+  } else {
+    message.add_notes(
+        "Identifiable beyond the coefficients are ratios alone, W33 d / (2 W11) for one, from the "
+        "f: coefficients of yaw and surge.");
+  }
   if (vehicle.mass_kg) {
     message.add_notes(
         "massKg is stated, not identified. m11 = m - X_udot exceeds it, so massKg times a surge "
@@ -148,10 +193,11 @@ std::string PrintMss(const Identification& identification, const Vehicle& vehicl
   }
   message.set_propeller_separation_m(vehicle.propeller_separation_m);
   if (vehicle.mass_kg) message.set_mass_kg(*vehicle.mass_kg);
-  for (const UnidentifiableTerm& unidentifiable : kUnidentifiableTerms) {
-    proto::NotIdentifiable& entry = *message.add_not_identifiable();
-    entry.set_parameter(unidentifiable.parameter);
-    entry.set_reason(unidentifiable.reason);
+  if (identification.physical) {
+    *message.mutable_physical() = PhysicalFormOf(identification.physical->Estimates());
+    AddUnidentifiable(kUnidentifiableOfPhysicalForm, message);
+  } else {
+    AddUnidentifiable(kUnidentifiableTerms, message);
   }
   AddNotes(identification, vehicle, message);
   return PrintJsonMessage(message);

@@ -1,10 +1,11 @@
 #include "telltale/client/exchange/vrx.hpp"
 
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <string_view>
 
+#include "telltale/client/exchange/sdf_text.hpp"
+#include "telltale/client/exchange/vrx_physical.hpp"
 #include "telltale/core/base/contract.hpp"
 #include "telltale/core/identification/input_gain.hpp"
 
@@ -13,24 +14,6 @@ namespace {
 
 constexpr PropellerCommand kPortFullForward{1.0, 0.0};
 constexpr PropellerCommand kPortFullReverse{-1.0, 0.0};
-
-std::string Text(double value) {
-  std::array<char, 32> buffer{};
-  const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value,
-                                 std::chars_format::general, 6)
-                       .ptr;
-  return {buffer.data(), end};
-}
-
-/// XML forbids two hyphens in a row within a comment, and vehicle ids may have them.
-std::string Comment(std::string_view text) {
-  std::string safe;
-  for (const char c : text) {
-    if (c == '-' && !safe.empty() && safe.back() == '-') safe += ' ';
-    safe += c;
-  }
-  return "<!-- " + safe + " -->\n";
-}
 
 const Coefficient& Find(const Identification& identification, Equation equation,
                         std::string_view regressor) {
@@ -48,11 +31,6 @@ struct Inertia {
 };
 
 Result<Inertia> ReferenceInertia(const Identification& identification, const Vehicle& vehicle) {
-  if (!vehicle.mass_kg) {
-    return Refuse(
-        "vrx", "the vehicle file states no mass_kg, and drag in newtons needs an inertia",
-        "measure the mass of the boat as it was recorded and add mass_kg to the vehicle file");
-  }
   for (const Equation equation : kEquations) {
     if (identification.Has(equation)) continue;
     return Refuse("vrx", "the model has no " + std::string(Name(equation)) + " equation",
@@ -84,14 +62,13 @@ constexpr std::array kDrags = {
     Drag{"nR", Equation::kYaw, "r"},   Drag{"nRR", Equation::kYaw, "r|r|"},
 };
 
-std::string Element(const Drag& drag, const Identification& identification,
-                    const Inertia& inertia) {
+std::string ElementOf(const Drag& drag, const Identification& identification,
+                      const Inertia& inertia) {
   const Coefficient& c = Find(identification, drag.equation, drag.regressor);
   const double scale = inertia.Of(drag.equation);
   const double value = -scale * c.estimate;
   const auto line = [&](double number, const std::string& why) {
-    const std::string name = drag.element;
-    return "  <" + name + '>' + Text(number) + "</" + name + ">  " + Comment(why);
+    return Element(drag.element, number, why);
   };
   if (c.status == CoefficientStatus::kNotExcited) return line(0.0, "not excited by the data");
   if (value < 0.0) {
@@ -151,6 +128,14 @@ std::string Thrust(const Identification& identification, const Inertia& inertia)
 }  // namespace
 
 Result<std::string> PrintVrx(const Identification& identification, const Vehicle& vehicle) {
+  if (!vehicle.mass_kg) {
+    return Refuse(
+        "vrx", "the vehicle file states no mass_kg, and drag in newtons needs an inertia",
+        "measure the mass of the boat as it was recorded and add mass_kg to the vehicle file");
+  }
+  if (identification.physical) {
+    return PrintPhysicalVrx(identification.vehicle_id, *identification.physical, *vehicle.mass_kg);
+  }
   const auto inertia = ReferenceInertia(identification, vehicle);
   if (!inertia) return tl::unexpected(inertia.error());
   std::string text = "<?xml version=\"1.0\"?>\n";
@@ -179,7 +164,7 @@ Result<std::string> PrintVrx(const Identification& identification, const Vehicle
       "  <xDotU>0</xDotU>\n"
       "  <yDotV>0</yDotV>\n"
       "  <nDotR>0</nDotR>\n";
-  for (const Drag& drag : kDrags) text += Element(drag, identification, *inertia);
+  for (const Drag& drag : kDrags) text += ElementOf(drag, identification, *inertia);
   return text + "</plugin>\n";
 }
 

@@ -1,0 +1,16 @@
+#include "telltale/core/vessel/fossen_matrices.hpp"
+
+namespace telltale {
+
+FossenMatrices MatricesOf(const FossenVector& parameters) {
+  using enum FossenParameter;
+  const auto p = [&](FossenParameter parameter) { return parameters[At(parameter)]; };
+  FossenMatrices matrices;
+  matrices.mass << 1.0, 0.0, 0.0, 0.0, p(kM22), p(kM23), 0.0, p(kM23), p(kM33);
+  matrices.linear_damping << p(kXu), 0.0, 0.0, 0.0, p(kYv), p(kYr), 0.0, p(kNv), p(kNr);
+  matrices.lift_damping << 0.0, 0.0, 0.0, 0.0, p(kYuv), p(kYur), 0.0, p(kNuv), p(kNur);
+  matrices.quadratic_damping << p(kXuu), p(kYvv), p(kNrr);
+  return matrices;
+}
+
+}  // namespace telltale
