@@ -1,9 +1,9 @@
 #include "telltale/client/cli/leave_note.hpp"
 
-#include <signal.h>
 #include <unistd.h>
 
 #include <atomic>
+#include <csignal>
 #include <memory>
 
 namespace telltale {

@@ -19,7 +19,8 @@ WindowArchive::WindowArchive(WindowStore store, Fleet& fleet, double window_s, d
       fleet_(fleet),
       window_s_(window_s),
       most_chunks_(static_cast<std::int64_t>(2.0 * window_s / period_s) + kSpareChunks),
-      period_(period_s) {
+      period_(period_s),
+      most_rounds_(static_cast<std::size_t>(window_s / period_s) + 1) {
   Restore();
   thread_ = std::thread([this] { Run(); });
 }
@@ -68,16 +69,10 @@ void WindowArchive::Run() {
 }
 
 void WindowArchive::Save() {
-  std::vector<WindowStore::Chunk> chunks;
-  for (const auto& [vehicle_id, window] : fleet_.windows()) {
-    Recording unsaved = window->TakeUnsaved();
-    if (unsaved.gnss.empty() && unsaved.heading.empty() && unsaved.thrusters.empty()) continue;
-    chunks.push_back({vehicle_id, std::move(unsaved)});
-  }
-  if (chunks.empty()) return;
+  TakeRound();
+  if (rounds_.empty()) return;
   try {
-    const std::lock_guard lock(store_mutex_);
-    store_.Save(chunks, {window_s_, most_chunks_});
+    SaveRounds();
     if (!saved_last_time_) spdlog::info("windows are saved again");
     saved_last_time_ = true;
   } catch (const std::exception& error) {
@@ -85,6 +80,24 @@ void WindowArchive::Save() {
       spdlog::error("windows.sqlite: {}; telemetry is taken in and not saved", error.what());
     }
     saved_last_time_ = false;
+  }
+}
+
+void WindowArchive::TakeRound() {
+  std::vector<WindowStore::Chunk> chunks;
+  for (const auto& [vehicle_id, window] : fleet_.windows()) {
+    Recording unsaved = window->TakeUnsaved();
+    if (unsaved.gnss.empty() && unsaved.heading.empty() && unsaved.thrusters.empty()) continue;
+    chunks.push_back({vehicle_id, std::move(unsaved)});
+  }
+  if (!chunks.empty()) rounds_.push_back(std::move(chunks));
+  if (rounds_.size() > most_rounds_) rounds_.pop_front();
+}
+
+void WindowArchive::SaveRounds() {
+  const std::lock_guard lock(store_mutex_);
+  for (; !rounds_.empty(); rounds_.pop_front()) {
+    store_.Save(rounds_.front(), {window_s_, most_chunks_});
   }
 }
 

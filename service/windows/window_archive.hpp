@@ -2,10 +2,13 @@
 
 #include <chrono>
 #include <condition_variable>
+#include <cstddef>
 #include <cstdint>
+#include <deque>
 #include <mutex>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include "telltale/service/ingest/fleet.hpp"
 #include "telltale/service/windows/window_store.hpp"
@@ -14,7 +17,8 @@ namespace telltale {
 
 /// Keeps the windows of the fleet on disk: it fills them at start with what the store holds, and
 /// saves what they take in once a period, on a thread of its own, and at the end. A fault of the
-/// disk is logged, and the next period tries again with what has come since.
+/// disk is logged, and the next period tries again: what is not saved waits in memory, no longer
+/// than a window lasts.
 class WindowArchive {
  public:
   /// Fills the windows before it returns. Assumes that nothing else fills them yet.
@@ -30,12 +34,16 @@ class WindowArchive {
   void Restore();
   void Run();
   void Save();
+  void TakeRound();
+  void SaveRounds();
 
   WindowStore store_;
   Fleet& fleet_;
   const double window_s_;
   const std::int64_t most_chunks_;
   const std::chrono::duration<double> period_;
+  const std::size_t most_rounds_;
+  std::deque<std::vector<WindowStore::Chunk>> rounds_;  // one a period, not saved yet
   bool saved_last_time_ = true;
   std::mutex store_mutex_;  // of store_
   std::mutex mutex_;        // of stopping_
