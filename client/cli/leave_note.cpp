@@ -4,7 +4,7 @@
 
 #include <atomic>
 #include <csignal>
-#include <memory>
+#include <forward_list>
 
 namespace telltale {
 namespace {
@@ -41,8 +41,9 @@ LeaveNote::~LeaveNote() {
 }
 
 void LeaveNote::Change(const std::string& note) {
-  // Never freed, since a handler may be reading it: a program changes it once or twice.
-  leave_note = std::make_unique<std::string>('\n' + note + '\n').release();
+  // Kept to the end, since a handler may be reading it: a program changes it once or twice.
+  static std::forward_list<std::string> notes;
+  leave_note = &notes.emplace_front('\n' + note + '\n');
 }
 
 }  // namespace telltale
