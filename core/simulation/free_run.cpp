@@ -50,10 +50,17 @@ std::vector<VesselState> RunFreely(const PreparedDataset& dataset, const VesselM
   return states;
 }
 
+std::vector<std::size_t> FreeRunStarts(const RowRange& segment, std::size_t steps) {
+  std::vector<std::size_t> firsts;
+  for (std::size_t k = segment.begin; k + steps < segment.end; k += steps) firsts.push_back(k);
+  return firsts;
+}
+
 std::vector<std::size_t> FreeRunStarts(const PreparedDataset& dataset, std::size_t steps) {
   std::vector<std::size_t> firsts;
   for (const RowRange& segment : dataset.segments) {
-    for (std::size_t k = segment.begin; k + steps < segment.end; k += steps) firsts.push_back(k);
+    const auto of_segment = FreeRunStarts(segment, steps);
+    firsts.insert(firsts.end(), of_segment.begin(), of_segment.end());
   }
   return firsts;
 }

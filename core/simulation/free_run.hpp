@@ -26,8 +26,9 @@ std::vector<VesselState> RunFreely(const PreparedDataset& dataset, const VesselM
                                    const ThrustHistory& thrust, std::size_t first,
                                    std::size_t steps);
 
-/// The first rows of all runs of `steps` rows inside segments; each run begins where the one before
-/// it ends.
+/// The first rows of all runs of `steps` rows inside a segment, or inside the segments of a
+/// dataset; each run begins where the one before it ends.
+std::vector<std::size_t> FreeRunStarts(const RowRange& segment, std::size_t steps);
 std::vector<std::size_t> FreeRunStarts(const PreparedDataset& dataset, std::size_t steps);
 
 /// Free runs over a dataset, and those of them that left the limits of kFreeRunDivergence.

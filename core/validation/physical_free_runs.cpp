@@ -1,7 +1,6 @@
 #include "telltale/core/validation/physical_free_runs.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include "telltale/core/data/preparation.hpp"
 
@@ -17,12 +16,6 @@ TimeSeries Within(const TimeSeries& series, double from_s, double until_s) {
   const auto end = std::ranges::upper_bound(series.times_s, until_s) - series.times_s.begin();
   return {{series.times_s.begin() + begin, series.times_s.begin() + end},
           {series.values.begin() + begin, series.values.begin() + end}};
-}
-
-/// The place of the first sample after `time_s`.
-std::size_t After(const TimeSeries& series, double time_s) {
-  return static_cast<std::size_t>(std::ranges::upper_bound(series.times_s, time_s + kSameInstantS) -
-                                  series.times_s.begin());
 }
 
 }  // namespace
@@ -45,13 +38,6 @@ double PhysicalFreeRuns::StartTimeOf(std::size_t row) const {
   return dataset_.rows[row].time_s - std::max(FixDelay(), 0.0);
 }
 
-std::vector<std::size_t> PhysicalFreeRuns::StartsOf(std::size_t segment, std::size_t rows) const {
-  std::vector<std::size_t> firsts;
-  const RowRange& range = dataset_.segments[segment];
-  for (std::size_t k = range.begin; k + rows < range.end; k += rows) firsts.push_back(k);
-  return firsts;
-}
-
 std::vector<FilterState> PhysicalFreeRuns::StatesAt(std::size_t segment,
                                                     const std::vector<std::size_t>& rows) const {
   std::vector<double> starts_s;
@@ -69,23 +55,19 @@ std::vector<FilterState> PhysicalFreeRuns::Predict(const Start& start,
 }
 
 void PhysicalFreeRuns::PredictHeadings(const Start& start, TimeSeries& psi_rad) const {
-  std::size_t at = After(psi_rad, dataset_.rows[start.row].time_s);
+  std::size_t at = psi_rad.CountUntil(dataset_.rows[start.row].time_s);
   for (const FilterState& x : Predict(start, std::span(psi_rad.times_s).subspan(at), 0.0)) {
-    psi_rad.values[at++] = x[kHeadingState] + x[kMisalignmentState];
+    psi_rad.values[at++] = HeadingOf(x);
   }
 }
 
 void PhysicalFreeRuns::PredictFixes(const Start& start, RawSignals& signals) const {
-  std::size_t at = After(signals.north_m, dataset_.rows[start.row].time_s);
+  std::size_t at = signals.north_m.CountUntil(dataset_.rows[start.row].time_s);
   const auto stamps_s = std::span(signals.north_m.times_s).subspan(at);
-  const LeverArm& arm = settings_.antenna;
   for (const FilterState& x : Predict(start, stamps_s, FixDelay())) {
-    const double c = std::cos(x[kHeadingState]);
-    const double s = std::sin(x[kHeadingState]);
-    signals.north_m.values[at] =
-        x[kNorthState] + x[kDriftState] + c * arm.forward_m - s * arm.starboard_m;
-    signals.east_m.values[at] =
-        x[kNorthState + 1] + x[kDriftState + 1] + s * arm.forward_m + c * arm.starboard_m;
+    const Eigen::Vector2d fix = FixOf(x, settings_.antenna);
+    signals.north_m.values[at] = fix[0];
+    signals.east_m.values[at] = fix[1];
     ++at;
   }
 }

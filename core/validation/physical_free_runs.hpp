@@ -9,6 +9,7 @@
 #include "telltale/core/data/segment_signals.hpp"
 #include "telltale/core/estimation/prediction_error/innovations.hpp"
 #include "telltale/core/identification/physical_model.hpp"
+#include "telltale/core/simulation/free_run.hpp"
 
 namespace telltale {
 
@@ -25,7 +26,7 @@ class PhysicalFreeRuns {
   template <class Visit>
   void RunAll(std::size_t rows, Visit visit) const {
     for (std::size_t s = 0; s < dataset_.segments.size(); ++s) {
-      const auto firsts = StartsOf(s, rows);
+      const auto firsts = FreeRunStarts(dataset_.segments[s], rows);
       const auto states = StatesAt(s, firsts);
       for (std::size_t i = 0; i < states.size(); ++i) {
         visit(firsts[i], Run({s, firsts[i], states[i]}, rows));
@@ -40,7 +41,6 @@ class PhysicalFreeRuns {
     FilterState state;  // at StartTimeOf(row)
   };
 
-  std::vector<std::size_t> StartsOf(std::size_t segment, std::size_t rows) const;
   std::vector<FilterState> StatesAt(std::size_t segment,
                                     const std::vector<std::size_t>& rows) const;
   std::vector<FilterState> Predict(const Start& start, std::span<const double> stamps_s,

@@ -164,7 +164,7 @@ class AugmentedFreeRuns {
       const double start_s = dataset_.rows[segment.begin].time_s;
       const auto drives =
           boat_.DrivesAlong(dataset_.commands[s], start_s, step_s_, segment.size() * steps_);
-      for (std::size_t k = segment.begin; k + rows < segment.end; k += rows) {
+      for (const std::size_t k : FreeRunStarts(segment, rows)) {
         visit(k, Run(segment, k, rows, drives));
       }
     }

@@ -60,6 +60,12 @@ std::vector<Reading> InOrder(const RawSignals& signals, double fix_delay_s) {
   return readings;
 }
 
+Eigen::Vector2d NorthEastOf(const LeverArm& arm, double psi_rad) {
+  const double c = std::cos(psi_rad);
+  const double s = std::sin(psi_rad);
+  return {c * arm.forward_m - s * arm.starboard_m, s * arm.forward_m + c * arm.starboard_m};
+}
+
 class Filter {
  public:
   Filter(const FilterSettings& settings, const HeldCommands& commands, double start_s,
@@ -100,8 +106,7 @@ class Filter {
     Eigen::Matrix<double, 1, kFilterStates> row = Eigen::Matrix<double, 1, kFilterStates>::Zero();
     row[kHeadingState] = 1.0;
     row[kMisalignmentState] = 1.0;
-    Take(row, psi_rad - x_[kHeadingState] - x_[kMisalignmentState], FossenVector::Zero(),
-         sigma * sigma, innovations);
+    Take(row, psi_rad - HeadingOf(x_), FossenVector::Zero(), sigma * sigma, innovations);
   }
 
   // North and east of a fix turned into along and across the track, where the noise of the stamp
@@ -109,7 +114,6 @@ class Filter {
   void TakeFix(double north_m, double east_m, std::vector<Innovation>& innovations) {
     const double c = std::cos(x_[kHeadingState]);
     const double s = std::sin(x_[kHeadingState]);
-    const LeverArm& arm = settings_.antenna;
     const double u = x_[kVelocityState];
     const double v = x_[kVelocityState + 1];
     const Eigen::Vector2d velocity(c * u - s * v + x_[kCurrentState],
@@ -122,13 +126,10 @@ class Filter {
       const Eigen::Vector2d axis = fixed_gains_ != nullptr ? (*fixed_gains_)[next_gain_].axis
                                    : is_along              ? along
                                                            : across;
-      const double psi_c = std::cos(x_[kHeadingState]);
-      const double psi_s = std::sin(x_[kHeadingState]);
-      const Eigen::Vector2d lever(psi_c * arm.forward_m - psi_s * arm.starboard_m,
-                                  psi_s * arm.forward_m + psi_c * arm.starboard_m);
+      const Eigen::Vector2d lever = NorthEastOf(settings_.antenna, x_[kHeadingState]);
       const Eigen::Vector2d lever_by_psi(-lever[1], lever[0]);
       const Eigen::Vector2d predicted =
-          x_.segment<2>(kNorth) + lever + x_.segment<2>(kDriftState) -
+          FixOf(x_, settings_.antenna) -
           (settings_.parameters[At(kFixDelay)] - settings_.nominal_fix_delay_s) * velocity;
       Eigen::Matrix<double, 1, kFilterStates> row = Eigen::Matrix<double, 1, kFilterStates>::Zero();
       row.segment<2>(kNorth) = axis.transpose();
@@ -325,6 +326,15 @@ std::vector<Innovation> Innovate(const RawSignals& signals, const HeldCommands& 
 }
 
 }  // namespace
+
+double HeadingOf(const FilterState& state) {
+  return state[kHeadingState] + state[kMisalignmentState];
+}
+
+Eigen::Vector2d FixOf(const FilterState& state, const LeverArm& antenna) {
+  return state.segment<2>(kNorthState) + NorthEastOf(antenna, state[kHeadingState]) +
+         state.segment<2>(kDriftState);
+}
 
 std::vector<Innovation> InnovationsOf(const RawSignals& signals, const HeldCommands& commands,
                                       const FilterSettings& settings,

@@ -60,6 +60,11 @@ inline constexpr int kMisalignmentState = 13;
 using FilterState = Eigen::Matrix<double, kFilterStates, 1>;
 using FilterCovariance = Eigen::Matrix<double, kFilterStates, kFilterStates>;
 
+/// What a heading, and a fix north and east, read of a state where nothing is late.
+/// Model: docs/concepts/physical-model.md (107), (108).
+double HeadingOf(const FilterState& state);
+Eigen::Vector2d FixOf(const FilterState& state, const LeverArm& antenna);
+
 /// How one scalar reading moves the state, and the variance of its innovation.
 struct FilterGain {
   FilterState gain;
