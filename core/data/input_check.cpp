@@ -1,10 +1,10 @@
 #include "telltale/core/data/input_check.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <string>
 #include <tuple>
+#include <utility>
 
 #include "telltale/core/base/format_number.hpp"
 #include "telltale/core/base/median.hpp"
@@ -129,13 +129,10 @@ InputCheck CheckInput(const std::vector<GnssFix>& gnss, const std::vector<Headin
   const auto fixes = Ascending(gnss);
   const auto headings = Ascending(heading);
   const auto commands = Ascending(thrusters);
-  // A stuck channel makes its motion seem wrong, so it comes first.
-  const std::array suspected = {StuckFault(fixes, headings, commands, vehicle),
-                                MotionFault(fixes, headings, commands, vehicle),
-                                FaultOfCommandRange(commands, vehicle)};
-  for (const std::optional<Refusal>& fault : suspected) {
-    if (fault) check.faults.push_back(*fault);
+  for (Refusal& fault : MotionFaults(fixes, headings, commands, vehicle)) {
+    check.faults.push_back(std::move(fault));
   }
+  if (auto fault = FaultOfCommandRange(commands, vehicle)) check.faults.push_back(*fault);
   return check;
 }
 

@@ -30,8 +30,8 @@ struct InputCheck {
 };
 
 /// Seeks faults of input that would give a wrong model: times in milliseconds or microseconds,
-/// latitude and longitude exchanged, commands in shares, a stuck channel (StuckFault), what the
-/// motion betrays (MotionFault), commands outside the vehicle's range. Units: as GnssFix,
+/// latitude and longitude exchanged, commands in shares, what the motion betrays
+/// (MotionFaults), commands outside the vehicle's range. Units: as GnssFix,
 /// HeadingSample and ThrusterSample have them. The samples need not be admitted.
 InputCheck CheckInput(const std::vector<GnssFix>& gnss, const std::vector<HeadingSample>& heading,
                       const std::vector<ThrusterSample>& thrusters, const Vehicle& vehicle);

@@ -505,25 +505,22 @@ std::optional<Refusal> StuckThruster(const std::vector<ThrusterSample>& thruster
 
 }  // namespace
 
-std::optional<Refusal> MotionFault(const std::vector<GnssFix>& gnss,
-                                   const std::vector<HeadingSample>& heading,
-                                   const std::vector<ThrusterSample>& thrusters,
-                                   const Vehicle& vehicle) {
-  if (gnss.size() < 2 || heading.size() < 2 || thrusters.size() < 2) return std::nullopt;
-  const Motion motion(gnss, heading, thrusters, vehicle);
-  if (auto fault = BestSupposition(motion, heading)) return fault;
-  return ConstantAngle(motion);
-}
-
-std::optional<Refusal> StuckFault(const std::vector<GnssFix>& gnss,
+std::vector<Refusal> MotionFaults(const std::vector<GnssFix>& gnss,
                                   const std::vector<HeadingSample>& heading,
                                   const std::vector<ThrusterSample>& thrusters,
                                   const Vehicle& vehicle) {
-  if (gnss.size() < 2 || heading.size() < 2 || thrusters.size() < 2) return std::nullopt;
-  if (auto fault = StuckThruster(thrusters)) return fault;
+  if (gnss.size() < 2 || heading.size() < 2 || thrusters.size() < 2) return {};
   const Motion motion(gnss, heading, thrusters, vehicle);
-  if (auto fault = StuckHeading(heading, motion)) return fault;
-  return StuckPosition(gnss, motion);
+  std::vector<Refusal> faults;
+  // A stuck channel makes its motion seem wrong, so it comes first.
+  auto stuck = StuckThruster(thrusters);
+  if (!stuck) stuck = StuckHeading(heading, motion);
+  if (!stuck) stuck = StuckPosition(gnss, motion);
+  if (stuck) faults.push_back(*std::move(stuck));
+  auto wrong = BestSupposition(motion, heading);
+  if (!wrong) wrong = ConstantAngle(motion);
+  if (wrong) faults.push_back(*std::move(wrong));
+  return faults;
 }
 
 }  // namespace telltale

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <optional>
 #include <vector>
 
 #include "telltale/core/base/result.hpp"
@@ -9,9 +8,10 @@
 
 namespace telltale {
 
-/// The fault of input that explains a recording's motion far better than input without fault:
-/// headings mirrored, counted from east, turned round, in radians or off by a constant angle,
-/// latitude and longitude exchanged, thrusters swapped, one or both reversed.
+/// Faults of input that a recording's motion betrays: first a channel that keeps to one value while
+/// the other channels say that it should not, then the fault that explains the motion far better
+/// than input without fault: headings mirrored, counted from east, turned round, in radians or off
+/// by a constant angle, latitude and longitude exchanged, thrusters swapped, one or both reversed.
 ///
 /// Method: a boat's yaw rate grows with port less starboard command, r = b (p - s), and its
 /// velocity lies along its heading and grows with their sum, u = a (p + s), v = 0, with a, b > 0
@@ -25,14 +25,7 @@ namespace telltale {
 /// alike in a boat that keeps to one direction.
 /// Shapes and units: as GnssFix, HeadingSample and ThrusterSample have them. Requires: times
 /// ascend. Refuses when: never; a recording too short or too still shows no fault.
-std::optional<Refusal> MotionFault(const std::vector<GnssFix>& gnss,
-                                   const std::vector<HeadingSample>& heading,
-                                   const std::vector<ThrusterSample>& thrusters,
-                                   const Vehicle& vehicle);
-
-/// A channel that keeps to one value while the other channels say that it should not.
-/// Requires: times ascend.
-std::optional<Refusal> StuckFault(const std::vector<GnssFix>& gnss,
+std::vector<Refusal> MotionFaults(const std::vector<GnssFix>& gnss,
                                   const std::vector<HeadingSample>& heading,
                                   const std::vector<ThrusterSample>& thrusters,
                                   const Vehicle& vehicle);
