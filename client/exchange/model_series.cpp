@@ -22,13 +22,8 @@ constexpr std::array kMotionFields = {"north_m", "east_m", "heading_deg",
                                       "u_mps",   "v_mps",  "r_radps"};
 constexpr std::array kResidualFields = {"residual_u_mps", "residual_v_mps", "residual_r_radps"};
 
-double Within360(double degrees) {
-  const double turned = std::fmod(degrees, 360.0);
-  return turned < 0.0 ? turned + 360.0 : turned;
-}
-
 std::array<double, 6> MotionOf(const PreparedRow& row) {
-  return {row.eta.x_m, row.eta.y_m, Within360(row.eta.psi_rad * kDegreesPerRadian),
+  return {row.eta.x_m, row.eta.y_m, Wrap360(row.eta.psi_rad * kDegreesPerRadian),
           row.nu.u,    row.nu.v,    row.nu.r};
 }
 

@@ -40,11 +40,6 @@ void Sample(const std::vector<TimedState>& track, double period_s, Sense sense) 
   }
 }
 
-double Wrap360(double angle_deg) {
-  const double wrapped = angle_deg - 360.0 * std::floor(angle_deg / 360.0);
-  return wrapped < 360.0 ? wrapped : 0.0;
-}
-
 std::vector<GnssFix> MeasurePositions(const std::vector<TimedState>& track, const LeverArm& antenna,
                                       const SensorOptions& options) {
   const NorthEastFrame frame(options.origin);
