@@ -24,8 +24,7 @@ void ModelMonitor::Evaluate(VehicleWindow& window, double end_s, const StoredMod
     prediction_error_.reset();
     drift_ = 0.0;
     drift_detector_ = DriftDetector();
-    rises_since_unix_s_.reset();
-    rises_since_s_.reset();
+    rises_since_.reset();
   } else if (end_s < evaluated_to_s_ + kNewDataS) {
     return;
   }
@@ -42,20 +41,20 @@ void ModelMonitor::Add(double relative_error) {
   prediction_error_ = relative_error;
   drift_detector_.Add(relative_error);
   if (!drift_detector_.Rises()) {
-    rises_since_unix_s_.reset();
-    rises_since_s_.reset();
-  } else if (!rises_since_unix_s_) {
-    rises_since_unix_s_ = UnixNow();
-    rises_since_s_ = evaluated_to_s_;
+    rises_since_.reset();
+  } else if (!rises_since_) {
+    rises_since_ = Onset{UnixNow(), evaluated_to_s_};
   }
 }
 
 std::optional<double> ModelMonitor::DriftSince() const {
-  return drift_detector_.Fires() ? rises_since_unix_s_ : std::nullopt;
+  if (!drift_detector_.Fires() || !rises_since_) return std::nullopt;
+  return rises_since_->unix_s;
 }
 
 std::optional<double> ModelMonitor::DriftOnsetS() const {
-  return drift_detector_.Fires() ? rises_since_s_ : std::nullopt;
+  if (!drift_detector_.Fires() || !rises_since_) return std::nullopt;
+  return rises_since_->vehicle_s;
 }
 
 std::string ModelMonitor::Proposal(std::string_view vehicle_id) {

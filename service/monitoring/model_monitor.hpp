@@ -36,6 +36,11 @@ class ModelMonitor {
   std::string Proposal(std::string_view vehicle_id);
 
  private:
+  struct Onset {
+    double unix_s = 0.0;
+    double vehicle_s = 0.0;  // by the vehicle's clock
+  };
+
   void Add(double relative_error);
 
   std::uint64_t revision_ = 0;   ///< of the model evaluated
@@ -43,8 +48,7 @@ class ModelMonitor {
   std::optional<double> prediction_error_;
   double drift_ = 0.0;
   DriftDetector drift_detector_;
-  std::optional<double> rises_since_unix_s_;  ///< while the sum of the detector is above zero
-  std::optional<double> rises_since_s_;       ///< likewise, by the vehicle's clock
+  std::optional<Onset> rises_since_;  ///< while the sum of the detector is above zero
   bool proposed_ = false;
 };
 
