@@ -38,21 +38,12 @@ struct CheckedLog {
   }
 };
 
-template <class Sample>
-std::vector<Sample> Of(const std::vector<RawSample>& samples) {
-  std::vector<Sample> channel;
-  for (const RawSample& sample : samples) {
-    if (const auto* one = std::get_if<Sample>(&sample)) channel.push_back(*one);
-  }
-  return channel;
-}
-
 CheckedLog Check(const std::filesystem::path& path, const RawLog& log, const Vehicle& vehicle) {
   CheckedLog checked;
   checked.path = path;
   if (log.description) checked.summary = log.description->summary;
-  checked.check = CheckInput(Of<GnssFix>(log.samples), Of<HeadingSample>(log.samples),
-                             Of<ThrusterSample>(log.samples), vehicle);
+  checked.check = CheckInput(SamplesOf<GnssFix>(log.samples), SamplesOf<HeadingSample>(log.samples),
+                             SamplesOf<ThrusterSample>(log.samples), vehicle);
   const auto admitted = Admit(log.samples);
   if (!admitted) {
     checked.unusable = admitted.error();

@@ -72,14 +72,11 @@ void ExportSeries(const ExportArguments& arguments) {
   const Vehicle vehicle = LoadVehicle(arguments.vehicle_file);
   const Identification model = LoadModel(arguments.model_file);
   NoteOtherVehicle(model, vehicle);
-  PrepareOptions preparation = PrepareOptionsOf(
-      model.provenance.preset == Name(Preset::kPaper) ? Preset::kPaper : Preset::kRobust);
-  preparation.sampling_period_s = model.sampling_period_s;
   ProgressLine line;
   line.Update("reading the log", 0.0);
   const Recording recording = LoadAdmitted(arguments.log, arguments.options);
   line.Update("preparing data", 0.3);
-  const PreparedDataset dataset = OrThrow(Prepare(recording, vehicle, preparation));
+  const PreparedDataset dataset = OrThrow(Prepare(recording, vehicle, PrepareOptionsOf(model)));
   const auto runs = [&](double horizon_s) {
     return OrThrow(model.physical
                        ? FreeRunsOf(dataset, *model.physical, horizon_s)

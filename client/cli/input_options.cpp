@@ -52,9 +52,9 @@ void RequireRecordedChannels(const std::filesystem::path& log, const SourceOptio
   }
 }
 
-LoadedRecording LoadLog(const std::filesystem::path& path, const SourceOptions& options) {
-  RequireRecordedChannels(path, options);
-  LoadedRecording loaded = OrThrow(LoadRecording(path, options));
+/// What is admitted of a log, with notes on what is not.
+LoadedRecording Admitted(const std::filesystem::path& path, const RawLog& log) {
+  LoadedRecording loaded = OrThrow(AdmitLog(path, log));
   if (loaded.description) {
     std::cerr << "note: " << path.string() << ": " << loaded.description->summary << '\n';
   }
@@ -141,25 +141,15 @@ void RequireNotRepeated(const std::vector<LoadedRecording>& loaded,
 }
 
 /// As it was recorded: admission drops what is repeated, and with it the sign of a stuck channel.
-std::optional<Refusal> FaultOf(const RawLog& log, const Vehicle& vehicle) {
-  std::vector<GnssFix> gnss;
-  std::vector<HeadingSample> heading;
-  std::vector<ThrusterSample> thrusters;
-  for (const RawSample& sample : log.samples) {
-    if (const auto* fix = std::get_if<GnssFix>(&sample)) gnss.push_back(*fix);
-    if (const auto* of_heading = std::get_if<HeadingSample>(&sample))
-      heading.push_back(*of_heading);
-    if (const auto* command = std::get_if<ThrusterSample>(&sample)) thrusters.push_back(*command);
-  }
-  return FirstFault(CheckInput(gnss, heading, thrusters, vehicle));
-}
-
-void RequireSoundInput(const std::vector<std::filesystem::path>& logs, const SourceOptions& options,
-                       const Vehicle& vehicle) {
-  for (const std::filesystem::path& log : logs) {
-    auto fault = FaultOf(LoadAsRecorded(log, options), vehicle);
+void RequireSoundInput(const std::vector<RawLog>& recorded,
+                       const std::vector<std::filesystem::path>& logs, const Vehicle& vehicle) {
+  for (std::size_t i = 0; i < logs.size(); ++i) {
+    const auto& samples = recorded[i].samples;
+    auto fault =
+        FirstFault(CheckInput(SamplesOf<GnssFix>(samples), SamplesOf<HeadingSample>(samples),
+                              SamplesOf<ThrusterSample>(samples), vehicle));
     if (!fault) continue;
-    fault->subject = log.string() + ' ' + fault->subject;
+    fault->subject = logs[i].string() + ' ' + fault->subject;
     fault->advice += "; --skip-input-check, if you know that the input is right";
     throw RefusedError(*std::move(fault));
   }
@@ -246,12 +236,17 @@ RecordedVehicle LogInputs::Load() const {
   } else {
     RequireSelfDescribing(logs);
   }
+  std::vector<RawLog> recorded;  // for the check
   std::vector<LoadedRecording> loaded;
-  for (const std::filesystem::path& log : logs) loaded.push_back(LoadLog(log, options));
+  for (const std::filesystem::path& log : logs) {
+    RawLog raw = LoadAsRecorded(log, options);
+    loaded.push_back(Admitted(log, raw));
+    if (!skip_input_check) recorded.push_back(std::move(raw));
+  }
   if (!vehicle) vehicle = DescribedBy(loaded, logs);
   if (!skip_input_check) {
     RequireNotRepeated(loaded, logs);
-    RequireSoundInput(logs, options, *vehicle);
+    RequireSoundInput(recorded, logs, *vehicle);
   }
   std::vector<Recording> recordings;
   for (LoadedRecording& log : loaded) recordings.push_back(std::move(log.recording));
@@ -264,7 +259,7 @@ RawLog LoadAsRecorded(const std::filesystem::path& log, const SourceOptions& opt
 }
 
 Recording LoadAdmitted(const std::filesystem::path& log, const SourceOptions& options) {
-  return LoadLog(log, options).recording;
+  return Admitted(log, LoadAsRecorded(log, options)).recording;
 }
 
 CLI::Option* AddLog(CLI::App& command, std::filesystem::path& log, SourceOptions& options) {
@@ -302,6 +297,15 @@ Preset PresetNamed(const std::string& name) {
 
 PrepareOptions PrepareOptionsOf(Preset preset) {
   return preset == Preset::kPaper ? PrepareOptions::Paper() : PrepareOptions::Robust();
+}
+
+PrepareOptions PrepareOptionsOf(const Identification& model,
+                                const std::optional<std::string>& preset) {
+  const bool paper = preset ? PresetNamed(*preset) == Preset::kPaper
+                            : model.provenance.preset == Name(Preset::kPaper);
+  PrepareOptions options = PrepareOptionsOf(paper ? Preset::kPaper : Preset::kRobust);
+  options.sampling_period_s = model.sampling_period_s;
+  return options;
 }
 
 void NoteOtherVehicle(const Identification& model, const Vehicle& vehicle) {

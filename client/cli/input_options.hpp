@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -74,6 +75,10 @@ Identification LoadModel(const std::filesystem::path& file);
 /// "robust" or "paper".
 Preset PresetNamed(const std::string& name);
 PrepareOptions PrepareOptionsOf(Preset preset);
+
+/// Those that the model was made with, unless another preset is asked for by its name.
+PrepareOptions PrepareOptionsOf(const Identification& model,
+                                const std::optional<std::string>& preset = {});
 
 /// Tells on standard error when a model was identified on another vehicle.
 void NoteOtherVehicle(const Identification& model, const Vehicle& vehicle);

@@ -31,15 +31,6 @@ struct ValidateArguments {
   OutputOptions output;
 };
 
-// The model's own preparation, unless another is asked for: scores then mean what its fit meant.
-PrepareOptions Preparation(const ValidateArguments& arguments, const Identification& model) {
-  const bool paper = arguments.preset ? arguments.preset == "paper"
-                                      : model.provenance.preset == Name(Preset::kPaper);
-  PrepareOptions options = PrepareOptionsOf(paper ? Preset::kPaper : Preset::kRobust);
-  options.sampling_period_s = model.sampling_period_s;
-  return options;
-}
-
 std::string NotExcitedText(const Identification& model) {
   std::string names;
   for (const Coefficient& coefficient : model.coefficients) {
@@ -78,7 +69,7 @@ void ValidateModel(const ValidateArguments& arguments) {
   if (arguments.inputs.NamesVehicle()) NoteOtherVehicle(model, vehicle);
   line.Update("preparing data", 0.2);
   const PreparedDataset dataset =
-      OrThrow(Prepare(recording, vehicle, Preparation(arguments, model)));
+      OrThrow(Prepare(recording, vehicle, PrepareOptionsOf(model, arguments.preset)));
   line.Update("scoring", 0.5);
   const Metrics metrics = OrThrow(
       model.physical ? Validate(dataset, *model.physical, arguments.options)

@@ -79,16 +79,6 @@ Result<RawLog> FromSource(Result<SourceLog> source) {
   });
 }
 
-std::optional<Refusal> UnitFaultOf(const std::vector<RawSample>& samples) {
-  std::vector<GnssFix> gnss;
-  std::vector<ThrusterSample> thrusters;
-  for (const RawSample& sample : samples) {
-    if (const auto* fix = std::get_if<GnssFix>(&sample)) gnss.push_back(*fix);
-    if (const auto* command = std::get_if<ThrusterSample>(&sample)) thrusters.push_back(*command);
-  }
-  return UnitFault(gnss, thrusters);
-}
-
 tl::unexpected<Refusal> Naming(const std::filesystem::path& path, Refusal refusal) {
   refusal.subject = path.string() + " " + refusal.subject;
   return tl::unexpected(std::move(refusal));
@@ -143,15 +133,20 @@ Result<RawLog> ReadLog(const std::filesystem::path& path, const SourceOptions& o
   return tl::unexpected(UnknownFormat(path));
 }
 
+Result<LoadedRecording> AdmitLog(const std::filesystem::path& path, const RawLog& log) {
+  auto fault = UnitFault(SamplesOf<GnssFix>(log.samples), SamplesOf<ThrusterSample>(log.samples));
+  if (fault) return Naming(path, *std::move(fault));
+  auto admitted = Admit(log.samples);
+  if (!admitted) return Naming(path, std::move(admitted).error());
+  return LoadedRecording{std::move(admitted->recording), admitted->evicted, log.malformed,
+                         log.description};
+}
+
 Result<LoadedRecording> LoadRecording(const std::filesystem::path& path,
                                       const SourceOptions& options) {
-  auto log = ReadLog(path, options);
-  if (!log) return tl::unexpected(std::move(log).error());
-  if (auto fault = UnitFaultOf(log->samples)) return Naming(path, *std::move(fault));
-  auto admitted = Admit(log->samples);
-  if (!admitted) return Naming(path, std::move(admitted).error());
-  return LoadedRecording{std::move(admitted->recording), admitted->evicted, log->malformed,
-                         std::move(log->description)};
+  const auto log = ReadLog(path, options);
+  if (!log) return tl::unexpected(log.error());
+  return AdmitLog(path, *log);
 }
 
 Result<Vehicle> VehicleFrom(const LogDescription& description, const std::string& vehicle_id) {

@@ -49,8 +49,11 @@ LogFormat FormatOf(const std::filesystem::path& path);
 /// Refuses when: the path is none of them, cannot be read, or holds nothing of a channel.
 Result<RawLog> ReadLog(const std::filesystem::path& path, const SourceOptions& options = {});
 
-/// ReadLog, then Admit. Refuses when: either does, or times, positions or commands are plainly in
+/// What Admit keeps of a log. Refuses when: it does, or times, positions or commands are plainly in
 /// other units than those of a telemetry log (UnitFault); the subject names the path.
+Result<LoadedRecording> AdmitLog(const std::filesystem::path& path, const RawLog& log);
+
+/// ReadLog, then AdmitLog. Refuses when: either does.
 Result<LoadedRecording> LoadRecording(const std::filesystem::path& path,
                                       const SourceOptions& options = {});
 

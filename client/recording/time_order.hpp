@@ -12,6 +12,16 @@ using RawSample = std::variant<GnssFix, HeadingSample, ThrusterSample>;
 
 double TimeOf(const RawSample& sample);
 
+/// The samples of one channel, in their order.
+template <class Sample>
+std::vector<Sample> SamplesOf(const std::vector<RawSample>& samples) {
+  std::vector<Sample> channel;
+  for (const RawSample& sample : samples) {
+    if (const auto* one = std::get_if<Sample>(&sample)) channel.push_back(*one);
+  }
+  return channel;
+}
+
 /// Three channels, each in the order it was written, woven into the order in which a receiver would
 /// have seen them. Samples of one channel keep their order, wrong times included, so that a Window
 /// checks them as it would check them live. A wrong time does not hold its channel back: a
