@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
@@ -17,5 +19,17 @@ using BlockConsumer = std::function<std::size_t(std::span<const std::uint8_t> by
 /// bytes than a block gets a longer one. Returns the file's length in bytes.
 /// Refuses when: the file cannot be opened or read, or an item is longer than 256 MB.
 Result<std::uint64_t> ReadInBlocks(const std::filesystem::path& file, const BlockConsumer& consume);
+
+/// Hands bytes over in the same way, `block` more each time. Returns how many the consumer is done
+/// with. Requires: block > 0.
+template <class Consume>
+std::size_t TakeInBlocks(std::span<const std::uint8_t> bytes, std::size_t block, Consume consume) {
+  std::size_t done = 0;
+  for (std::size_t end = 0; end < bytes.size();) {
+    end = std::min(end + block, bytes.size());
+    done += consume(bytes.subspan(done, end - done), end == bytes.size());
+  }
+  return done;
+}
 
 }  // namespace telltale

@@ -1,5 +1,7 @@
 #include "telltale/client/recording/source_log.hpp"
 
+#include <utility>
+
 namespace telltale {
 namespace {
 
@@ -34,6 +36,13 @@ std::optional<Refusal> SourceLog::Lacks() const {
                    "thruster where the file does not"};
   }
   return std::nullopt;
+}
+
+Result<SourceLog> Complete(SourceLog log, const std::filesystem::path& file) {
+  auto refusal = log.Lacks();
+  if (!refusal) return log;
+  refusal->subject = file.string() + " " + refusal->subject;
+  return tl::unexpected(*std::move(refusal));
 }
 
 }  // namespace telltale

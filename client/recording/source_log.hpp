@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
@@ -38,5 +39,8 @@ struct SourceLog {
   /// The first channel that is missing, with the reason and what to do.
   std::optional<Refusal> Lacks() const;
 };
+
+/// The log of a file, or, where it lacks a channel, the refusal with the file in its subject.
+Result<SourceLog> Complete(SourceLog log, const std::filesystem::path& file);
 
 }  // namespace telltale

@@ -1,10 +1,11 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <cstdlib>
 #include <map>
 #include <string>
 
+#include "insist.hpp"
+#include "telltale/client/recording/block_reader.hpp"
 #include "telltale/client/recording/dataflash/dataflash_log.hpp"
 
 namespace {
@@ -15,10 +16,7 @@ using telltale::DataFlashConsumer;
 using telltale::DataFlashDamage;
 using telltale::DataFlashFormat;
 using telltale::DataFlashFraming;
-
-void Insist(bool holds) {
-  if (!holds) std::abort();
-}
+using telltale::Insist;
 
 /// Reads every column of every record, as no log of use would make the reader do.
 class ReadingAll : public DataFlashConsumer {
@@ -48,11 +46,9 @@ struct Outcome {
 Outcome Frame(DataFlashBytes bytes, std::size_t block) {
   ReadingAll log;
   DataFlashFraming framing(log);
-  std::size_t done = 0;
-  for (std::size_t end = 0; end < bytes.size();) {
-    end = std::min(end + block, bytes.size());
-    done += framing.Consume(bytes.subspan(done, end - done), end == bytes.size());
-  }
+  const std::size_t done = telltale::TakeInBlocks(
+      bytes, block,
+      [&](DataFlashBytes part, bool at_end) { return framing.Consume(part, at_end); });
   Insist(done == bytes.size());
   return {log.record_bytes, log.readable, framing.Damage(), framing.RecordsByName()};
 }

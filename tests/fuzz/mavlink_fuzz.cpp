@@ -1,20 +1,18 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <cstdlib>
 #include <span>
 #include <type_traits>
 
+#include "insist.hpp"
+#include "telltale/client/recording/block_reader.hpp"
 #include "telltale/client/recording/mavlink/mavlink_frames.hpp"
 #include "telltale/client/recording/mavlink/mavlink_recording.hpp"
 
 namespace {
 
+using telltale::Insist;
 using telltale::MavlinkFrame;
-
-void Insist(bool holds) {
-  if (!holds) std::abort();
-}
 
 struct Outcome {
   std::uint64_t frames = 0;
@@ -26,23 +24,20 @@ template <class Stream, class Take>
 Outcome Frame(std::span<const std::uint8_t> bytes, std::size_t block, Take take) {
   Outcome outcome;
   Stream stream;
-  std::size_t done = 0;
   const auto frame = [&](const MavlinkFrame& one) {
     ++outcome.frames;
     outcome.payload_bytes += one.payload.size();
     take(one);
   };
-  for (std::size_t end = 0; end < bytes.size();) {
-    end = std::min(end + block, bytes.size());
-    const auto part = bytes.subspan(done, end - done);
+  const auto consume = [&](std::span<const std::uint8_t> part, bool at_end) {
     if constexpr (std::is_same_v<Stream, telltale::MavlinkStream>) {
-      done += stream.Consume(part, end == bytes.size(), frame);
+      return stream.Consume(part, at_end, frame);
     } else {
-      done += stream.Consume(part, end == bytes.size(),
-                             [&](std::uint64_t, const MavlinkFrame& one) { frame(one); });
+      return stream.Consume(part, at_end,
+                            [&](std::uint64_t, const MavlinkFrame& one) { frame(one); });
     }
-  }
-  Insist(done == bytes.size());
+  };
+  Insist(telltale::TakeInBlocks(bytes, block, consume) == bytes.size());
   outcome.damage = stream.Damage();
   return outcome;
 }

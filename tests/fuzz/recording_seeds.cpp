@@ -6,22 +6,17 @@
 #include <utility>
 #include <vector>
 
+#include "support/little_endian.hpp"
+
 namespace {
 
+using telltale::LittleEndian;
+using telltale::WithLength;
 using Bytes = std::string;
 
 void Save(const std::filesystem::path& file, const Bytes& bytes) {
   std::filesystem::create_directories(file.parent_path());
   std::ofstream(file, std::ios::binary) << bytes;
-}
-
-template <class Number>
-Bytes Little(Number value) {
-  Bytes bytes;
-  for (std::size_t i = 0; i < sizeof(Number); ++i) {
-    bytes.push_back(static_cast<char>(static_cast<std::uint64_t>(value) >> (8 * i) & 0xFF));
-  }
-  return bytes;
 }
 
 // ---- MAVLink ------------------------------------------------------------------------------------
@@ -63,34 +58,30 @@ Bytes Messages() {
 
 // ---- MCAP ---------------------------------------------------------------------------------------
 
-Bytes Text(const Bytes& text) {
-  return Little(static_cast<std::uint32_t>(text.size())) + text;
-}
-
 Bytes Record(char opcode, const Bytes& content) {
-  return Bytes(1, opcode) + Little(static_cast<std::uint64_t>(content.size())) + content;
+  return Bytes(1, opcode) + LittleEndian(static_cast<std::uint64_t>(content.size())) + content;
 }
 
 Bytes Channel(std::uint16_t id, const Bytes& topic, const Bytes& type, const Bytes& encoding) {
-  return Record(3, Little(id) + Text(type) + Text("ros2msg") + Text("")) +
-         Record(4,
-                Little(id) + Little(id) + Text(topic) + Text(encoding) + Little<std::uint32_t>(0));
+  return Record(3, LittleEndian(id) + WithLength(type) + WithLength("ros2msg") + WithLength("")) +
+         Record(4, LittleEndian(id) + LittleEndian(id) + WithLength(topic) + WithLength(encoding) +
+                       LittleEndian<std::uint32_t>(0));
 }
 
 Bytes Message(std::uint16_t channel, const Bytes& data) {
-  return Record(5, Little(channel) + Bytes(20, '\0') + data);
+  return Record(5, LittleEndian(channel) + Bytes(20, '\0') + data);
 }
 
 Bytes Chunk(const Bytes& records, const Bytes& compression) {
-  return Record(6, Bytes(16, '\0') + Little(static_cast<std::uint64_t>(records.size())) +
-                       Bytes(4, '\0') + Text(compression) +
-                       Little(static_cast<std::uint64_t>(records.size())) + records);
+  return Record(6, Bytes(16, '\0') + LittleEndian(static_cast<std::uint64_t>(records.size())) +
+                       Bytes(4, '\0') + WithLength(compression) +
+                       LittleEndian(static_cast<std::uint64_t>(records.size())) + records);
 }
 
 Bytes Mcap(const Bytes& records) {
   const Bytes magic("\x89MCAP0\r\n", 8);
-  return magic + Record(1, Text("ros2") + Text("seeds")) + records + Record(15, Bytes(4, '\0')) +
-         magic;
+  return magic + Record(1, WithLength("ros2") + WithLength("seeds")) + records +
+         Record(15, Bytes(4, '\0')) + magic;
 }
 
 Bytes RosRecords() {
@@ -99,7 +90,7 @@ Bytes RosRecords() {
          Channel(2, "/gps/fix", "sensor_msgs/msg/NavSatFix", "cdr") +
          Channel(3, "/rc/out", "mavros_msgs/msg/RCOut", "cdr") +
          Message(1, cdr + Bytes(8, '\x40')) + Message(2, cdr + Bytes(60, '\0')) +
-         Message(3, cdr + Bytes(12, '\0') + Little<std::uint32_t>(4) + Bytes(8, '\x05'));
+         Message(3, cdr + Bytes(12, '\0') + LittleEndian<std::uint32_t>(4) + Bytes(8, '\x05'));
 }
 
 Bytes BlueOsRecords() {
@@ -118,21 +109,23 @@ Bytes BlueOsRecords() {
 // ---- ROS 1 --------------------------------------------------------------------------------------
 
 Bytes BagRecord(const Bytes& header, const Bytes& data) {
-  return Text(header) + Text(data);
+  return WithLength(header) + WithLength(data);
 }
 
 Bytes BagRecords() {
-  const Bytes id = Text(Bytes("conn=") + Bytes(4, '\0'));
-  return BagRecord(Text("op=\x07") + id + Text("topic=/fix"), Text("type=sensor_msgs/NavSatFix")) +
-         BagRecord(Text("op=\x02") + id + Text(Bytes("time=") + Bytes(8, '\x01')),
+  const Bytes id = WithLength(Bytes("conn=") + Bytes(4, '\0'));
+  return BagRecord(WithLength("op=\x07") + id + WithLength("topic=/fix"),
+                   WithLength("type=sensor_msgs/NavSatFix")) +
+         BagRecord(WithLength("op=\x02") + id + WithLength(Bytes("time=") + Bytes(8, '\x01')),
                    Bytes(120, '\0'));
 }
 
 Bytes Bag(const Bytes& compression) {
   const Bytes records = BagRecords();
-  const Bytes size = Little(static_cast<std::uint32_t>(records.size()));
+  const Bytes size = LittleEndian(static_cast<std::uint32_t>(records.size()));
   return "#ROSBAG V2.0\n" +
-         BagRecord(Text("op=\x05") + Text("compression=" + compression) + Text("size=" + size),
+         BagRecord(WithLength("op=\x05") + WithLength("compression=" + compression) +
+                       WithLength("size=" + size),
                    records);
 }
 

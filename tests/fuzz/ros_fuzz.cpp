@@ -2,16 +2,14 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <cstdlib>
 #include <utility>
 
+#include "insist.hpp"
 #include "telltale/client/recording/ros/ros_recording.hpp"
 
 namespace {
 
-void Insist(bool holds) {
-  if (!holds) std::abort();
-}
+using telltale::Insist;
 
 constexpr std::array kTopics = {std::pair("/gps/fix", "sensor_msgs/msg/NavSatFix"),
                                 std::pair("/imu/data", "sensor_msgs/msg/Imu"),

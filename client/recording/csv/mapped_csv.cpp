@@ -10,17 +10,13 @@
 
 #include "telltale/client/recording/block_reader.hpp"
 #include "telltale/client/recording/mapping/mapped_recording.hpp"
+#include "telltale/client/recording/trimmed.hpp"
 
 namespace telltale {
 namespace {
 
-constexpr std::string_view kMark = "\xef\xbb\xbf";
-
 std::string_view Cell(std::string_view text) {
-  constexpr std::string_view kAround = " \t\r\"";
-  const auto begin = text.find_first_not_of(kAround);
-  if (begin == std::string_view::npos) return {};
-  return text.substr(begin, text.find_last_not_of(kAround) - begin + 1);
+  return Trimmed(text, " \t\r\"");
 }
 
 void SplitInto(std::vector<std::string_view>& cells, std::string_view line, char separator) {
@@ -109,7 +105,7 @@ class MappedCsv : public MessageFields {
   }
 
   void TakeHeader(std::string_view line) {
-    if (line.starts_with(kMark)) line.remove_prefix(kMark.size());
+    if (line.starts_with(kByteOrderMark)) line.remove_prefix(kByteOrderMark.size());
     separator_ = SeparatorOf(line);
     SplitInto(cells_, line, separator_);
     columns_.assign(cells_.begin(), cells_.end());
@@ -162,12 +158,7 @@ Result<SourceLog> ReadMappedCsv(const std::filesystem::path& file, const Mapping
         "has no column " + csv.Missing().front() + ", only " + csv.Header().substr(0, 300),
         "name the columns of this file in the mapping");
   }
-  SourceLog log = csv.Finish();
-  if (auto refusal = log.Lacks()) {
-    refusal->subject = file.string() + " " + refusal->subject;
-    return tl::unexpected(*std::move(refusal));
-  }
-  return log;
+  return Complete(csv.Finish(), file);
 }
 
 }  // namespace telltale

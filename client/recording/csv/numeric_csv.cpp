@@ -5,18 +5,10 @@
 #include <optional>
 
 #include "telltale/client/recording/file_contents.hpp"
+#include "telltale/client/recording/trimmed.hpp"
 
 namespace telltale {
 namespace {
-
-constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
-
-std::string_view Trimmed(std::string_view text) {
-  constexpr std::string_view kBlank = " \t\r";
-  const auto begin = text.find_first_not_of(kBlank);
-  if (begin == std::string_view::npos) return {};
-  return text.substr(begin, text.find_last_not_of(kBlank) - begin + 1);
-}
 
 // Takes what stands before `separator` off the front of `text`.
 std::string_view TakeUntil(char separator, std::string_view& text) {

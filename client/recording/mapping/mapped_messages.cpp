@@ -1,9 +1,10 @@
 #include "telltale/client/recording/mapping/mapped_messages.hpp"
 
-#include <charconv>
 #include <utility>
 
 #include <nlohmann/json.hpp>
+
+#include "telltale/client/recording/mapping/field_path.hpp"
 
 namespace telltale {
 namespace {
@@ -18,24 +19,19 @@ double Seconds(std::int64_t ns) {
 
 /// What stands at "message.servos[2]"; null where the path leads nowhere.
 const JsonValue* ValueAt(const JsonValue& root, std::string_view path) {
+  const auto steps = StepsOf(path);
+  if (!steps) return nullptr;
   const JsonValue* value = &root;
-  while (!path.empty() && value != nullptr) {
-    const std::size_t end = std::min(path.find_first_of(".["), path.size());
-    const std::string name(path.substr(0, end));
-    path.remove_prefix(end);
-    if (!name.empty()) {
-      const auto found = value->is_object() ? value->find(name) : value->end();
-      if (!value->is_object() || found == value->end()) return nullptr;
+  for (const PathStep& step : *steps) {
+    if (!step.name.empty()) {
+      if (!value->is_object()) return nullptr;
+      const auto found = value->find(std::string(step.name));
+      if (found == value->end()) return nullptr;
       value = &*found;
     }
-    if (path.starts_with('.')) path.remove_prefix(1);
-    if (!path.starts_with('[')) continue;
-    std::size_t index = 0;
-    const auto [stop, error] = std::from_chars(path.data() + 1, path.data() + path.size(), index);
-    const bool is_index = error == std::errc() && stop != path.data() + path.size() && *stop == ']';
-    if (!is_index || !value->is_array() || index >= value->size()) return nullptr;
-    value = &(*value)[index];
-    path.remove_prefix(static_cast<std::size_t>(stop - path.data()) + 1);
+    if (!step.index) continue;
+    if (!value->is_array() || *step.index >= value->size()) return nullptr;
+    value = &(*value)[*step.index];
   }
   return value;
 }

@@ -206,11 +206,7 @@ Result<SourceLog> ReadMavlinkTelemetryLog(const std::filesystem::path& file,
   log.summary += AndCount(frames.Damage().corrupt_frames, "messages with a wrong checksum") +
                  AndCount(frames.Damage().skipped_bytes, "bytes skipped") +
                  AndCount(frames.Damage().truncated_bytes, "bytes of a message cut off at the end");
-  if (auto refusal = log.Lacks()) {
-    refusal->subject = file.string() + " " + refusal->subject;
-    return tl::unexpected(*std::move(refusal));
-  }
-  return log;
+  return Complete(std::move(log), file);
 }
 
 }  // namespace telltale

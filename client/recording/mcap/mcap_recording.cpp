@@ -421,11 +421,7 @@ SourceLog ParseMcap(std::span<const std::uint8_t> bytes, std::size_t block,
     recording.Take(message);
   };
   McapFile mcap(take);
-  std::size_t done = 0;
-  for (std::size_t end = 0; end < bytes.size();) {
-    end = std::min(end + block, bytes.size());
-    done += mcap.Consume(bytes.subspan(done, end - done), end == bytes.size());
-  }
+  TakeInBlocks(bytes, block, [&](Bytes part, bool at_end) { return mcap.Consume(part, at_end); });
   return recording.Finish(mcap.Damage());
 }
 
@@ -436,11 +432,7 @@ Result<SourceLog> ReadMcap(const std::filesystem::path& file, const SourceOption
       ForEachMcapMessage(file, [&](const McapMessage& message) { recording.Take(message); });
   if (!damage) return tl::unexpected(damage.error());
   SourceLog log = recording.Finish(*damage);
-  if (auto refusal = log.Lacks()) {
-    refusal->subject = file.string() + " " + refusal->subject;
-    return tl::unexpected(*std::move(refusal));
-  }
-  return log;
+  return Complete(std::move(log), file);
 }
 
 }  // namespace telltale

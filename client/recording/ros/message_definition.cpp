@@ -5,6 +5,9 @@
 #include <charconv>
 #include <utility>
 
+#include "telltale/client/recording/mapping/field_path.hpp"
+#include "telltale/client/recording/trimmed.hpp"
+
 namespace telltale {
 namespace {
 
@@ -140,12 +143,6 @@ float32 left
 float32 right
 )";
 
-std::string_view Trimmed(std::string_view text, std::string_view blanks = kBlanks) {
-  const auto begin = text.find_first_not_of(blanks);
-  if (begin == std::string_view::npos) return {};
-  return text.substr(begin, text.find_last_not_of(blanks) - begin + 1);
-}
-
 std::string_view FirstWord(std::string_view& text) {
   text = Trimmed(text);
   const std::size_t end = std::min(text.find_first_of(kBlanks), text.size());
@@ -226,34 +223,6 @@ void AddTypes(const std::string& first, std::string_view text, RosTypes& types) 
       types[type].push_back(*std::move(field));
     }
   }
-}
-
-struct PathStep {
-  std::string_view name;
-  std::optional<std::size_t> index;
-};
-
-std::optional<std::vector<PathStep>> StepsOf(std::string_view path) {
-  std::vector<PathStep> steps;
-  while (!path.empty()) {
-    const std::size_t end = std::min(path.find('.'), path.size());
-    std::string_view part = path.substr(0, end);
-    path.remove_prefix(std::min(end + 1, path.size()));
-    PathStep step;
-    const std::size_t bracket = part.find('[');
-    if (bracket != std::string_view::npos) {
-      if (!part.ends_with(']')) return std::nullopt;
-      const std::string_view index = part.substr(bracket + 1, part.size() - bracket - 2);
-      std::size_t value = 0;
-      const auto [stop, error] = std::from_chars(index.data(), index.data() + index.size(), value);
-      if (error != std::errc() || stop != index.data() + index.size()) return std::nullopt;
-      step.index = value;
-      part = part.substr(0, bracket);
-    }
-    step.name = part;
-    steps.push_back(step);
-  }
-  return steps.empty() ? std::nullopt : std::optional(std::move(steps));
 }
 
 /// Walks a message from its begin to one number.

@@ -211,11 +211,7 @@ SourceLog ParseRosbag1(std::span<const std::uint8_t> bytes, std::size_t block,
                        const SourceOptions& options) {
   RosIntake recording(options);
   Rosbag1File bag(recording);
-  std::size_t done = 0;
-  for (std::size_t end = 0; end < bytes.size();) {
-    end = std::min(end + block, bytes.size());
-    done += bag.Consume(bytes.subspan(done, end - done), end == bytes.size());
-  }
+  TakeInBlocks(bytes, block, [&](BagBytes part, bool at_end) { return bag.Consume(part, at_end); });
   SourceLog log = recording.Finish();
   log.summary += bag.Summary();
   return log;
@@ -233,11 +229,7 @@ Result<SourceLog> ReadRosbag1(const std::filesystem::path& file, const SourceOpt
   }
   SourceLog log = recording.Finish();
   log.summary += bag.Summary();
-  if (auto refusal = log.Lacks()) {
-    refusal->subject = file.string() + " " + refusal->subject;
-    return tl::unexpected(*std::move(refusal));
-  }
-  return log;
+  return Complete(std::move(log), file);
 }
 
 }  // namespace telltale

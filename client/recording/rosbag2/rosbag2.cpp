@@ -91,11 +91,7 @@ Result<SourceLog> ReadRosbag2(const fs::path& path, const SourceOptions& options
   }
   SourceLog log = recording.Finish();
   log.summary += damage;
-  if (auto refusal = log.Lacks()) {
-    refusal->subject = path.string() + " " + refusal->subject;
-    return tl::unexpected(*std::move(refusal));
-  }
-  return log;
+  return Complete(std::move(log), path);
 }
 
 }  // namespace telltale

@@ -1,4 +1,5 @@
 #include "telltale/client/recording/dataflash/dataflash_records.hpp"
+#include "telltale/client/recording/block_reader.hpp"
 
 #include <cmath>
 #include <limits>
@@ -274,11 +275,9 @@ TEST(DataFlashFraming, HowALogIsCutIntoBlocksDoesNotMatter) {
   for (const std::size_t block : {1u, 7u, 258u, 1000u}) {
     CollectingConsumer log;
     DataFlashFraming framing(log);
-    std::size_t done = 0;
-    for (std::size_t end = 0; end < bytes.size();) {
-      end = std::min(end + block, bytes.size());
-      done += framing.Consume({bytes.data() + done, end - done}, end == bytes.size());
-    }
+    const std::size_t done = TakeInBlocks(bytes, block, [&](DataFlashBytes part, bool at_end) {
+      return framing.Consume(part, at_end);
+    });
     EXPECT_EQ(done, bytes.size());
     EXPECT_EQ(framing.Damage(), whole.damage) << "blocks of " << block;
     EXPECT_EQ(log.records, whole.log.records) << "blocks of " << block;

@@ -10,6 +10,7 @@
 #include <lz4frame.h>
 #include <zstd.h>
 
+#include "support/little_endian.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace telltale {
@@ -17,43 +18,31 @@ namespace {
 
 using Bytes = std::string;
 
-template <class Number>
-Bytes Little(Number value) {
-  Bytes bytes;
-  for (std::size_t i = 0; i < sizeof(Number); ++i) {
-    bytes.push_back(static_cast<char>(static_cast<std::uint64_t>(value) >> (8 * i) & 0xFF));
-  }
-  return bytes;
-}
-
-Bytes Text(const std::string& text) {
-  return Little(static_cast<std::uint32_t>(text.size())) + text;
-}
-
 Bytes Record(std::uint8_t opcode, const Bytes& content) {
-  return Bytes(1, static_cast<char>(opcode)) + Little(static_cast<std::uint64_t>(content.size())) +
-         content;
+  return Bytes(1, static_cast<char>(opcode)) +
+         LittleEndian(static_cast<std::uint64_t>(content.size())) + content;
 }
 
 const Bytes kMagic("\x89MCAP0\r\n", 8);
 
 Bytes Schema() {
-  return Record(3, Little<std::uint16_t>(1) + Text("std_msgs/msg/Float64") + Text("ros2msg") +
-                       Text("float64 data"));
+  return Record(3, LittleEndian<std::uint16_t>(1) + WithLength("std_msgs/msg/Float64") +
+                       WithLength("ros2msg") + WithLength("float64 data"));
 }
 Bytes Channel() {
-  return Record(4, Little<std::uint16_t>(5) + Little<std::uint16_t>(1) + Text("/compass_hdg") +
-                       Text("cdr") + Little<std::uint32_t>(0));
+  return Record(4, LittleEndian<std::uint16_t>(5) + LittleEndian<std::uint16_t>(1) +
+                       WithLength("/compass_hdg") + WithLength("cdr") +
+                       LittleEndian<std::uint32_t>(0));
 }
 Bytes Message(std::uint64_t time_ns, const Bytes& data, std::uint16_t channel = 5) {
-  return Record(
-      5, Little(channel) + Little<std::uint32_t>(0) + Little(time_ns) + Little(time_ns) + data);
+  return Record(5, LittleEndian(channel) + LittleEndian<std::uint32_t>(0) + LittleEndian(time_ns) +
+                       LittleEndian(time_ns) + data);
 }
 Bytes Chunk(const Bytes& records, const std::string& compression, const Bytes& compressed) {
-  return Record(6, Little<std::uint64_t>(0) + Little<std::uint64_t>(0) +
-                       Little(static_cast<std::uint64_t>(records.size())) +
-                       Little<std::uint32_t>(0) + Text(compression) +
-                       Little(static_cast<std::uint64_t>(compressed.size())) + compressed);
+  return Record(6, LittleEndian<std::uint64_t>(0) + LittleEndian<std::uint64_t>(0) +
+                       LittleEndian(static_cast<std::uint64_t>(records.size())) +
+                       LittleEndian<std::uint32_t>(0) + WithLength(compression) +
+                       LittleEndian(static_cast<std::uint64_t>(compressed.size())) + compressed);
 }
 
 Bytes Zstd(const Bytes& records) {
@@ -90,7 +79,7 @@ class McapTest : public testing::Test {
 
 TEST_F(McapTest, ReadsMessagesWithoutChunks) {
   const auto damage = Read(kMagic + Schema() + Channel() + Message(7, "abc") + Message(9, "de") +
-                           Record(15, Little<std::uint32_t>(0)) + kMagic);
+                           Record(15, LittleEndian<std::uint32_t>(0)) + kMagic);
   ASSERT_TRUE(damage);
   EXPECT_EQ(damage->messages, 2u);
   EXPECT_EQ(damage->Summary(), "");

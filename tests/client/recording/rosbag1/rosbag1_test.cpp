@@ -12,6 +12,7 @@
 #include <gtest/gtest.h>
 #include <lz4frame.h>
 
+#include "support/little_endian.hpp"
 #include "support/temporary_folder.hpp"
 #include "telltale/client/recording/load_recording.hpp"
 
@@ -20,58 +21,46 @@ namespace {
 
 using testing::HasSubstr;
 
-/// Bytes as the ROS wiki's "Bags/Format/2.0" and the generated message serialisers lay them out.
-template <class Number>
-std::string BagNumber(Number value) {
-  std::string bytes;
-  for (std::size_t i = 0; i < sizeof(Number); ++i) {
-    bytes.push_back(static_cast<char>(static_cast<std::uint64_t>(value) >> (8 * i) & 0xFF));
-  }
-  return bytes;
-}
-
 std::string BagDouble(double value) {
-  return BagNumber(std::bit_cast<std::uint64_t>(value));
+  return LittleEndian(std::bit_cast<std::uint64_t>(value));
 }
 
 std::string BagFloat(float value) {
-  return BagNumber(std::bit_cast<std::uint32_t>(value));
+  return LittleEndian(std::bit_cast<std::uint32_t>(value));
 }
 
-std::string BagText(const std::string& text) {
-  return BagNumber(static_cast<std::uint32_t>(text.size())) + text;
-}
-
+/// As the ROS wiki's "Bags/Format/2.0" and the generated message serialisers lay bytes out.
 std::string BagField(const std::string& name, const std::string& value) {
-  return BagText(name + '=' + value);
+  return WithLength(name + '=' + value);
 }
 
 std::string BagRecord(char operation, const std::string& fields, const std::string& data) {
-  return BagText(BagField("op", std::string(1, operation)) + fields) + BagText(data);
+  return WithLength(BagField("op", std::string(1, operation)) + fields) + WithLength(data);
 }
 
 std::string BagConnection(std::uint32_t id, const std::string& topic, const std::string& type) {
-  return BagRecord(7, BagField("conn", BagNumber(id)) + BagField("topic", topic),
+  return BagRecord(7, BagField("conn", LittleEndian(id)) + BagField("topic", topic),
                    BagField("topic", topic) + BagField("type", type) + BagField("md5sum", "*") +
                        BagField("message_definition", ""));
 }
 
 std::string BagMessage(std::uint32_t connection, std::uint32_t seconds, const std::string& data) {
-  return BagRecord(2,
-                   BagField("conn", BagNumber(connection)) +
-                       BagField("time", BagNumber(seconds) + BagNumber(std::uint32_t{500000000})),
-                   data);
+  return BagRecord(
+      2,
+      BagField("conn", LittleEndian(connection)) +
+          BagField("time", LittleEndian(seconds) + LittleEndian(std::uint32_t{500000000})),
+      data);
 }
 
 std::string BagHeader(std::uint32_t seconds, const std::string& frame) {
-  return BagNumber(std::uint32_t{7}) + BagNumber(seconds) + BagNumber(std::uint32_t{250000000}) +
-         BagText(frame);
+  return LittleEndian(std::uint32_t{7}) + LittleEndian(seconds) +
+         LittleEndian(std::uint32_t{250000000}) + WithLength(frame);
 }
 
 /// A Clearpath Heron: navsat/fix, imu/data and cmd_drive.
 std::string HeronRecords() {
   const std::string fix = BagHeader(100, "navsat") + std::string(1, '\0') +
-                          BagNumber(std::uint16_t{1}) + BagDouble(46.5) + BagDouble(-80.25) +
+                          LittleEndian(std::uint16_t{1}) + BagDouble(46.5) + BagDouble(-80.25) +
                           BagDouble(200.0) + std::string(73, '\0');
   // East-north-up and a yaw of 90 degrees: the bow points north.
   const std::string imu = BagHeader(100, "imu_link") + BagDouble(0.0) + BagDouble(0.0) +
@@ -86,12 +75,13 @@ std::string HeronRecords() {
 std::string BagChunk(const std::string& compression, std::size_t size, const std::string& data) {
   return BagRecord(5,
                    BagField("compression", compression) +
-                       BagField("size", BagNumber(static_cast<std::uint32_t>(size))),
+                       BagField("size", LittleEndian(static_cast<std::uint32_t>(size))),
                    data);
 }
 
 std::string Bag(const std::string& records) {
-  return "#ROSBAG V2.0\n" + BagRecord(3, BagField("chunk_count", BagNumber(1u)), "    ") + records;
+  return "#ROSBAG V2.0\n" + BagRecord(3, BagField("chunk_count", LittleEndian(1u)), "    ") +
+         records;
 }
 
 std::string Bz2(const std::string& bytes) {
