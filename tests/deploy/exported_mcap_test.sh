@@ -3,23 +3,9 @@
 # writes. TELLTALE_BUILT names the build folder. Skipped where npm gives no reader; in CI that is a failure.
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
-readonly skipped=77
 telltale=$TELLTALE_BUILT/client/telltale
 reader=$TELLTALE_BUILT/mcap_reader
-
-cannot() {
-  [[ ${CI-} == true ]] && { echo "FAILED: $1" >&2; exit 1; }
-  echo "skipped: $1"
-  exit $skipped
-}
-
-command -v npm > /dev/null || cannot "npm is absent"
-mkdir -p "$reader"
-cp "$root"/tests/client/recording/foreign/{package.json,read_mcap.mjs} "$reader"
-if [[ ! -d $reader/node_modules/@mcap/core ]]; then
-  (cd "$reader" && timeout 150 npm install --silent --no-audit --no-fund) ||
-    cannot "the reader cannot be installed from npm"
-fi
+"$root/tests/deploy/from_npm" "$reader" read_mcap.mjs
 
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT

@@ -4,24 +4,9 @@
 # folder, where the writers are kept. Skipped where they cannot be installed; in CI that is a failure.
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
-readonly skipped=77
 telltale=$TELLTALE_BUILT/client/telltale
 writers=$TELLTALE_BUILT/foreign_writers
-
-cannot() {
-  [[ ${CI-} == true ]] && { echo "FAILED: $1" >&2; exit 1; }
-  echo "skipped: $1"
-  exit $skipped
-}
-
-command -v npm > /dev/null || cannot "npm is absent"
-command -v lz4 > /dev/null || cannot "lz4 is absent"
-mkdir -p "$writers"
-cp "$root"/tests/client/recording/foreign/{package.json,write_fixtures.mjs} "$writers"
-if [[ ! -d $writers/node_modules/@mcap/core ]]; then
-  (cd "$writers" && timeout 150 npm install --silent --no-audit --no-fund) ||
-    cannot "the writers cannot be installed from npm"
-fi
+"$root/tests/deploy/from_npm" "$writers" write_fixtures.mjs lz4
 
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
