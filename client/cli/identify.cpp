@@ -13,6 +13,7 @@
 #include "telltale/client/cli/model_table.hpp"
 #include "telltale/client/cli/progress_line.hpp"
 #include "telltale/core/validation/held_out_score.hpp"
+#include "telltale/core/validation/structure_choice.hpp"
 #include "telltale/idl/codec/json/model.hpp"
 
 namespace telltale {
@@ -24,30 +25,51 @@ RecordedVehicle LoadLogs(const IdentifyArguments& arguments) {
   return arguments.inputs.Load();
 }
 
-Identification IdentifyRecording(const RecordedVehicle& recorded, const IdentifyOptions& options) {
-  ProgressLine line;
-  return OrThrow(
-      Identify(recorded.recording, recorded.vehicle, options,
-               [&line](std::string_view stage, double fraction) { line.Update(stage, fraction); }));
+/// A model, and what it predicts of data set aside: nothing where the recording gives no score; the
+/// table says then how to get one.
+struct ScoredModel {
+  Identification model;
+  std::optional<HeldOutScore> score;
+};
+
+ScoredModel IdentifyAsAsked(const RecordedVehicle& recorded, const IdentifyOptions& options,
+                            const Progress& progress) {
+  Identification model = OrThrow(Identify(recorded.recording, recorded.vehicle, options, progress));
+  progress("scoring on the part that is held out", 0.0);
+  auto score = ScoreOnHeldOutPart(recorded.recording, recorded.vehicle, model, options);
+  return {std::move(model), score ? std::optional(*std::move(score)) : std::nullopt};
 }
 
-/// Nothing where the recording gives no score; the table says then how to get one.
-std::optional<HeldOutScore> Score(const RecordedVehicle& recorded, const Identification& model,
-                                  const IdentifyOptions& options) {
-  ProgressLine line;
-  line.Update("scoring on the part that is held out", 0.0);
-  auto score = ScoreOnHeldOutPart(recorded.recording, recorded.vehicle, model, options);
-  if (!score) return std::nullopt;
-  return *std::move(score);
+ScoredModel IdentifyByTheData(const RecordedVehicle& recorded, IdentifyOptions options,
+                              const Progress& progress) {
+  StructureChoice choice = ChooseStructure(recorded.recording, recorded.vehicle, options, progress);
+  const Structure free_structure = std::exchange(options.regression.structure, choice.structure);
+  auto model = Identify(recorded.recording, recorded.vehicle, options, progress);
+  if (!model && choice.structure == Structure::kFossen) {
+    choice.reason = "free coefficients, since of the physical form " + model.error().reason;
+    choice.score.reset();
+    options.regression.structure = free_structure;
+    model = Identify(recorded.recording, recorded.vehicle, options, progress);
+  }
+  ScoredModel made{OrThrow(std::move(model)), std::move(choice.score)};
+  made.model.provenance.structure_choice = std::move(choice.reason);
+  return made;
 }
 
 void IdentifyLogs(const IdentifyArguments& arguments) {
   const IdentifyOptions options = arguments.Options();
   const RecordedVehicle recorded = LoadLogs(arguments);
-  const Identification model = IdentifyRecording(recorded, options);
-  arguments.output.Write(PrintModelJson(model), [&] {
-    return ModelTable(model, Score(recorded, model, options)) +
-           (arguments.discrete ? '\n' + DiscreteTable(model) : "");
+  const ScoredModel made = [&] {
+    ProgressLine line;
+    const Progress show = [&line](std::string_view stage, double fraction) {
+      line.Update(stage, fraction);
+    };
+    return arguments.LeaveStructureToData() ? IdentifyByTheData(recorded, options, show)
+                                            : IdentifyAsAsked(recorded, options, show);
+  }();
+  arguments.output.Write(PrintModelJson(made.model), [&] {
+    return ModelTable(made.model, made.score) +
+           (arguments.discrete ? '\n' + DiscreteTable(made.model) : "");
   });
 }
 

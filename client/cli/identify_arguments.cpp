@@ -47,11 +47,12 @@ void IdentifyArguments::AddOptionsTo(CLI::App& command) {
   command
       .add_option(
           "--structure", structure,
-          "of the model: static (default), the paper's, whose thrust follows the command at once, "
-          "dynamic, the paper's with a first-order lag, or fossen, the physical form for minutes "
-          "of a real boat, with delays between the channels")
+          "of the model: fossen, the physical form, with delays between the channels; static, the "
+          "paper's free coefficients, whose thrust follows the command at once; dynamic, the same "
+          "with a first-order lag; auto (default): fossen or static, whichever predicts data set "
+          "aside better, and static with options that only it has")
       ->type_name("NAME")
-      ->check(CLI::IsMember({"static", "dynamic", "fossen"}).description(""));
+      ->check(CLI::IsMember({"auto", "static", "dynamic", "fossen"}).description(""));
   command
       .add_option("--dead-zone", dead_zone,
                   "commands that give no thrust: two limits in shares of full command, the forward "
@@ -138,7 +139,7 @@ bool IdentifyArguments::AskForBootstrap() const {
   return bootstrap_replicates || bootstrap_kind || interval;
 }
 
-void IdentifyArguments::ExpectOptionsOfFossen() const {
+std::optional<std::string_view> IdentifyArguments::OptionOfFreeCoefficients() const {
   const std::pair<bool, std::string_view> others[] = {
       {parameterization.has_value(), "--parameterization"},
       {dead_zone.has_value(), "--dead-zone"},
@@ -150,11 +151,13 @@ void IdentifyArguments::ExpectOptionsOfFossen() const {
       {preset == "paper", "--preset paper"},
       {include_rr, "--include-rr"}};
   for (const auto& [given, option] : others) {
-    if (!given) continue;
-    throw UsageError(std::string(option) +
-                     " belongs to --structure static and dynamic; fossen estimates all of it from "
-                     "the readings");
+    if (given) return option;
   }
+  return std::nullopt;
+}
+
+bool IdentifyArguments::LeaveStructureToData() const {
+  return structure.value_or("auto") == "auto" && !OptionOfFreeCoefficients();
 }
 
 std::optional<Estimator> IdentifyArguments::ChosenEstimator() const {
@@ -189,7 +192,11 @@ IdentifyOptions IdentifyArguments::Options() const {
   if (sampling_period_s) options.prepare.sampling_period_s = sampling_period_s;
   if (parameterization == "paper") options.regression.parameterization = Parameterization::kPaper;
   if (structure == "fossen") {
-    ExpectOptionsOfFossen();
+    if (const auto option = OptionOfFreeCoefficients()) {
+      throw UsageError(std::string(*option) +
+                       " belongs to --structure static and dynamic; fossen estimates all of it "
+                       "from the readings");
+    }
     options.regression.structure = Structure::kFossen;
   }
   if (structure == "dynamic") options.regression.structure = Structure::kFirstOrderDynamic;

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include <CLI/CLI.hpp>
 
@@ -15,7 +16,7 @@ namespace telltale {
 /// What `telltale identify` was asked. Options left unset take the default of whoever identifies.
 struct IdentifyArguments {
   LogInputs inputs;
-  std::optional<std::string> structure;         ///< static, dynamic, fossen
+  std::optional<std::string> structure;         ///< auto, static, dynamic, fossen
   std::optional<std::string> parameterization;  ///< propeller, paper
   std::optional<std::string> dead_zone;         ///< identify, or FORWARD,REVERSE
   std::optional<std::string> estimator;         ///< auto, weak-iv, output-error, one-step
@@ -40,11 +41,14 @@ struct IdentifyArguments {
   /// Throws: UsageError for what this version cannot do, or a value out of its range.
   IdentifyOptions Options() const;
 
+  /// Whether the data are to choose the structure: none is named, nor an option of one alone.
+  bool LeaveStructureToData() const;
+
  private:
   bool AskForBootstrap() const;
 
-  /// Throws: UsageError for an option that the physical form has no use for.
-  void ExpectOptionsOfFossen() const;
+  /// The first option given that the physical form has no use for.
+  std::optional<std::string_view> OptionOfFreeCoefficients() const;
 
   RecordingBiasModel ChosenRecordingBias() const;
 

@@ -31,7 +31,9 @@ IdentifyRequest RequestOf(const std::string& vehicle_id, const IdentifyArguments
   IdentifyRequest request;
   request.correlation_id = NewCorrelationId();
   request.vehicle_id = vehicle_id;
-  if (arguments.structure) request.structure = options.regression.structure;
+  if (arguments.structure && arguments.structure != "auto") {
+    request.structure = options.regression.structure;
+  }
   if (arguments.dead_zone) {
     request.dead_zone_source = options.dead_zone_source;
     request.dead_zone = options.regression.dead_zone;

@@ -21,10 +21,15 @@ std::string GnssDriftText(const std::optional<Disturbance>& disturbance) {
                  " cm within a second; the bounds allow for it.");
 }
 
-std::string EstimatorText(const Identification& identification) {
-  const std::string& choice = identification.provenance.estimator_choice;
-  return Wrapped("Parameterization: " + InWords(Name(identification.parameterization)) + '.') +
-         (choice.empty() ? "" : Wrapped("Estimator chosen: " + choice + '.'));
+std::string ChoiceText(const char* of, const std::string& choice) {
+  return choice.empty() ? "" : Wrapped(std::string(of) + " chosen: " + choice + '.');
+}
+
+std::string MethodText(const Identification& identification) {
+  const Provenance& provenance = identification.provenance;
+  return ChoiceText("Structure", provenance.structure_choice) +
+         Wrapped("Parameterization: " + InWords(Name(identification.parameterization)) + '.') +
+         ChoiceText("Estimator", provenance.estimator_choice);
 }
 
 std::string BoundsBasisText(const Provenance& provenance) {
@@ -77,7 +82,7 @@ std::string RecordingBiasTable(const Identification& model) {
 
 std::string ModelNotes(const Identification& identification) {
   return WindowText(identification.window) + GnssDriftText(identification.disturbance) +
-         EstimatorText(identification) + BoundsBasisText(identification.provenance);
+         MethodText(identification) + BoundsBasisText(identification.provenance);
 }
 
 }  // namespace telltale

@@ -30,6 +30,7 @@ struct Provenance {
   std::string software_version;
   std::size_t parametric_replicates = 0;          ///< parametric bootstrap replicates identified
   std::size_t parametric_replicate_failures = 0;  ///< those that could not be identified
+  std::string structure_choice;  ///< why this structure, a sentence; empty where it was named
   std::string estimator_choice;  ///< why this estimator, a sentence; empty where it was named
   /// Standard errors by cluster over naive ones, of output error; 0 where it is not computed. A
   /// ratio well above one shows a disturbance or a model error besides sensor noise.

@@ -20,11 +20,7 @@ Recording PartOf(const Recording& recording, double from_s, double to_s) {
   return part;
 }
 
-/// The same estimator, without what only bounds and advice need.
-IdentifyOptions WithoutBounds(IdentifyOptions options, const Identification& identification,
-                              const Recording& training) {
-  options.estimator = identification.estimator;
-  options.prepare.sampling_period_s = identification.sampling_period_s;
+IdentifyOptions WithoutBounds(IdentifyOptions options, const Recording& training) {
   options.bootstrap_replicates = 0;
   options.parametric_replicates = 0;
   options.coverage_check_replicates = 0;
@@ -34,13 +30,6 @@ IdentifyOptions WithoutBounds(IdentifyOptions options, const Identification& ide
   return options;
 }
 
-PrepareOptions PreparationForScoring(const IdentifyOptions& options,
-                                     const Identification& identification) {
-  PrepareOptions prepare = options.prepare;
-  prepare.sampling_period_s = identification.sampling_period_s;
-  return prepare;
-}
-
 double Span(const Recording& recording) {
   return recording.gnss.back().time_s - recording.gnss.front().time_s;
 }
@@ -48,7 +37,6 @@ double Span(const Recording& recording) {
 }  // namespace
 
 Result<HeldOutScore> ScoreOnHeldOutPart(const Recording& recording, const Vehicle& vehicle,
-                                        const Identification& identification,
                                         const IdentifyOptions& options,
                                         const HeldOutOptions& held_out) {
   constexpr const char* kSubject = "held-out score";
@@ -68,11 +56,13 @@ Result<HeldOutScore> ScoreOnHeldOutPart(const Recording& recording, const Vehicl
   const Recording training = PartOf(recording, -kForever, split_s);
   const Recording rest = PartOf(recording, split_s, kForever);
 
-  const auto model = Identify(training, vehicle, WithoutBounds(options, identification, training));
+  const auto model = Identify(training, vehicle, WithoutBounds(options, training));
   if (!model) return tl::unexpected(model.error());
   const auto vessel = ModelOf(*model);
   if (!vessel) return tl::unexpected(vessel.error());
-  const auto dataset = Prepare(rest, vehicle, PreparationForScoring(options, identification));
+  PrepareOptions prepare = options.prepare;
+  prepare.sampling_period_s = model->sampling_period_s;
+  const auto dataset = Prepare(rest, vehicle, prepare);
   if (!dataset) return tl::unexpected(dataset.error());
   const ValidationOptions scoring{{held_out.horizon_s}};
   const auto metrics = model->physical ? Validate(*dataset, *model->physical, scoring)
@@ -82,6 +72,16 @@ Result<HeldOutScore> ScoreOnHeldOutPart(const Recording& recording, const Vehicl
     return Refuse(kSubject, "no free run fits into the part that is held out", kAdvice);
   }
   return HeldOutScore{Span(training), Span(rest), *metrics};
+}
+
+Result<HeldOutScore> ScoreOnHeldOutPart(const Recording& recording, const Vehicle& vehicle,
+                                        const Identification& identification,
+                                        const IdentifyOptions& options,
+                                        const HeldOutOptions& held_out) {
+  IdentifyOptions alike = options;
+  alike.estimator = identification.estimator;
+  alike.prepare.sampling_period_s = identification.sampling_period_s;
+  return ScoreOnHeldOutPart(recording, vehicle, alike, held_out);
 }
 
 }  // namespace telltale

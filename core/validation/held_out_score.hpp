@@ -21,12 +21,15 @@ struct HeldOutOptions {
   std::size_t most_fixes = 10000;  ///< a longer recording is refused, since it costs too much
 };
 
-/// Identifies the model again from the first part of a recording and scores it on the rest. The
-/// score is that of the second model, which has seen fewer data than `identification`, with the
-/// same estimator and options and without bounds.
-/// Assumes: `options` are those that made `identification` from this recording.
-/// Refuses when: the recording has more than `most_fixes` fixes, either part cannot be prepared or
-/// identified, an equation is missing, or no free run fits into the held-out part.
+/// Identifies a model from the first part of a recording, without bounds, and scores it on the
+/// rest. Refuses when: the recording has more than `most_fixes` fixes, either part cannot be
+/// prepared or identified, an equation is missing, or no free run fits into the held-out part.
+Result<HeldOutScore> ScoreOnHeldOutPart(const Recording& recording, const Vehicle& vehicle,
+                                        const IdentifyOptions& options,
+                                        const HeldOutOptions& held_out = {});
+
+/// The same with the estimator and the sampling period of `identification`, which these options
+/// made from this recording. The scored model has seen fewer data than `identification`.
 Result<HeldOutScore> ScoreOnHeldOutPart(const Recording& recording, const Vehicle& vehicle,
                                         const Identification& identification,
                                         const IdentifyOptions& options,

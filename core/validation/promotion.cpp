@@ -53,7 +53,7 @@ Promotion ByHeldOutPart(const HeldOutScore& score) {
   std::string errors;
   for (std::size_t i = 0; i < kVelocities.size(); ++i) {
     const FreeRunScore& velocity = scores.velocity[i];
-    if (!(velocity.constant_velocity_rmse > kVelocities[i].counts_from)) continue;
+    if (!CountsInFreeRuns(i, velocity)) continue;
     ++counted;
     if (velocity.rmse < velocity.constant_velocity_rmse) continue;
     ++worse;
@@ -87,6 +87,10 @@ std::string_view Name(PromotionVerdict verdict) {
     case PromotionVerdict::kError: return "ERROR";
   }
   return "";
+}
+
+bool CountsInFreeRuns(std::size_t velocity, const FreeRunScore& score) {
+  return score.constant_velocity_rmse > kVelocities[velocity].counts_from;
 }
 
 Promotion PromotionByScores(const FreeRunScores& own, const Nu& limits,

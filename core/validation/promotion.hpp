@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -28,11 +29,14 @@ struct Promotion {
   bool operator==(const Promotion&) const = default;
 };
 
+/// Whether a velocity (0 surge, 1 sway, 2 yaw) tells of a model: where constant velocity errs by
+/// more than 0.1 m/s or 0.05 rad/s. Below that the noise of the sensors decides which is better.
+bool CountsInFreeRuns(std::size_t velocity, const FreeRunScore& score);
+
 /// The verdict by scores of 5 s free runs.
 /// `own`: of the model over its own data; it diverges where an error exceeds `limits`, m/s and
-/// rad/s. `held_out`: of a model made from the first part of the data, over the rest. A velocity
-/// counts there where constant velocity errs by more than 0.1 m/s or 0.05 rad/s: below that the
-/// noise of the sensors decides which is better.
+/// rad/s. `held_out`: of a model made from the first part of the data, over the rest, in
+/// the velocities that count there.
 Promotion PromotionByScores(const FreeRunScores& own, const Nu& limits,
                             const std::optional<HeldOutScore>& held_out);
 

@@ -107,6 +107,7 @@ inline Identification MadeUpDynamicIdentification() {
 inline Identification MadeUpPhysicalIdentification() {
   Identification made = MadeUpDynamicIdentification();
   made.structure = Structure::kFossen;
+  made.provenance.structure_choice = "the recording is short";
   made.estimator = Estimator::kPredictionError;
   PhysicalModel physical;
   for (std::size_t i = 0; i < kFossenParameters; ++i) {
@@ -219,6 +220,7 @@ inline void ExpectSame(const Provenance& a, const Provenance& b) {
   EXPECT_EQ(a.software_version, b.software_version);
   EXPECT_EQ(a.parametric_replicates, b.parametric_replicates);
   EXPECT_EQ(a.parametric_replicate_failures, b.parametric_replicate_failures);
+  EXPECT_EQ(a.structure_choice, b.structure_choice);
   EXPECT_EQ(a.estimator_choice, b.estimator_choice);
   EXPECT_EQ(a.misspecification, b.misspecification);
   EXPECT_EQ(a.clusters, b.clusters);

@@ -65,6 +65,7 @@ proto::Provenance ToProto(const Provenance& provenance) {
   message.set_software_version(provenance.software_version);
   message.set_parametric_replicates(Saturated(provenance.parametric_replicates));
   message.set_parametric_replicate_failures(Saturated(provenance.parametric_replicate_failures));
+  message.set_structure_choice(provenance.structure_choice);
   message.set_estimator_choice(provenance.estimator_choice);
   message.set_misspecification(provenance.misspecification);
   message.set_clusters(Saturated(provenance.clusters));
@@ -107,6 +108,7 @@ Provenance ReadProvenance(FieldReader reader, const proto::Provenance& message) 
   provenance.software_version = message.software_version();
   provenance.parametric_replicates = message.parametric_replicates();
   provenance.parametric_replicate_failures = message.parametric_replicate_failures();
+  provenance.structure_choice = message.structure_choice();
   provenance.estimator_choice = message.estimator_choice();
   provenance.misspecification = reader.Number("misspecification", kNotNegative, 0.0);
   provenance.clusters = message.clusters();

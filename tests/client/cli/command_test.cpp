@@ -203,6 +203,21 @@ TEST_F(CommandTest, IdentifySaysWhichEstimatorTheDataChoseAndWhy) {
   EXPECT_GT(model->provenance.misspecification, 0.5);
 }
 
+/// The twin's coefficients lie outside the physical form.
+TEST_F(CommandTest, IdentifySaysWhichStructureTheDataChoseAndWhy) {
+  const CommandOutcome outcome =
+      Telltale({"identify", "--log", Path("log"), "--vehicle", Path("boat.textproto"),
+                "--structure", "auto", "--out", Path("model.json")});
+  EXPECT_EQ(outcome.exit_code, kSuccess) << outcome.err;
+  EXPECT_THAT(outcome.out, HasSubstr("Structure chosen: free coefficients, since"));
+  const auto model = ParseModelJson(TextOfFile(Path("model.json")));
+  ASSERT_TRUE(model) << model.error().Message();
+  EXPECT_EQ(model->structure, Structure::kStaticQuadratic);
+  EXPECT_THAT(model->provenance.structure_choice, HasSubstr("of constant velocity"));
+  // An option that only free coefficients have names them.
+  EXPECT_THAT(Identify({}).out, Not(HasSubstr("Structure chosen")));
+}
+
 TEST_F(CommandTest, IdentifyUsesTheEstimatorThatIsNamed) {
   const CommandOutcome outcome =
       Telltale({"identify", "--log", Path("log"), "--vehicle", Path("boat.textproto"),

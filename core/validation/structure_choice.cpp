@@ -1,0 +1,84 @@
+#include "telltale/core/validation/structure_choice.hpp"
+
+#include <cmath>
+#include <limits>
+
+#include "telltale/core/base/format_number.hpp"
+#include "telltale/core/data/recording_parts.hpp"
+#include "telltale/core/validation/promotion.hpp"
+
+namespace telltale {
+namespace {
+
+constexpr double kClearlyBetter = 0.7;
+// Of the error of constant velocity.
+constexpr double kPredicts = 0.5;
+constexpr double kLittleToGain = 0.1;
+constexpr std::size_t kFewestWindows = 10;
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+Recording LastPart(const Recording& recording, std::size_t most_fixes) {
+  if (recording.gnss.size() <= most_fixes) return recording;
+  return Between(recording, recording.gnss[recording.gnss.size() - most_fixes].time_s, kInfinity);
+}
+
+/// The geometric mean of errors over those of constant velocity; infinite where there is none.
+double RelativeError(const Result<HeldOutScore>& score) {
+  if (!score) return kInfinity;
+  double sum = 0.0;
+  int counted = 0;
+  const FreeRunScores& scores = score->metrics.free_run.front();
+  for (std::size_t i = 0; i < scores.velocity.size(); ++i) {
+    const FreeRunScore& velocity = scores.velocity[i];
+    if (!CountsInFreeRuns(i, velocity)) continue;
+    sum += std::log(velocity.rmse / velocity.constant_velocity_rmse);
+    ++counted;
+  }
+  const double mean = std::exp(sum / counted);
+  return counted > 0 && std::isfinite(mean) ? mean : kInfinity;
+}
+
+std::string ErrorText(double error) {
+  return std::isfinite(error) ? FormatNumber(error, 2) + " of constant velocity"
+                              : "more than can be scored";
+}
+
+std::optional<HeldOutScore> Measured(const Result<HeldOutScore>& score) {
+  return score ? std::optional(*score) : std::nullopt;
+}
+
+bool ShowsEnough(const Result<HeldOutScore>& score) {
+  return score && score->metrics.free_run.front().windows >= kFewestWindows;
+}
+
+}  // namespace
+
+StructureChoice ChooseStructure(const Recording& recording, const Vehicle& vehicle,
+                                const IdentifyOptions& options, const Progress& progress) {
+  const Recording part = LastPart(recording, HeldOutOptions{}.most_fixes);
+  if (progress) progress("scoring free coefficients", 0.0);
+  const auto free = ScoreOnHeldOutPart(part, vehicle, options);
+  const double error = RelativeError(free);
+  const std::string errors = "since over data set aside they err by " + ErrorText(error);
+  if (ShowsEnough(free) && error < kLittleToGain) {
+    return {options.regression.structure, "free coefficients, " + errors, *free};
+  }
+  IdentifyOptions physically = options;
+  physically.regression.structure = Structure::kFossen;
+  if (progress) progress("scoring the physical form", 0.3);
+  const auto physical = ScoreOnHeldOutPart(part, vehicle, physically);
+  const double physical_error = RelativeError(physical);
+  if (ShowsEnough(free) && error < kPredicts && error < kClearlyBetter * physical_error) {
+    return {options.regression.structure,
+            "free coefficients, " + errors + ", the physical form by " + ErrorText(physical_error),
+            *free};
+  }
+  const std::string reason =
+      ShowsEnough(free) ? "since over data set aside it errs by " + ErrorText(physical_error) +
+                              ", free coefficients by " + ErrorText(error)
+                        : "since the recording is too short to show that it lacks "
+                          "something";
+  return {Structure::kFossen, "physical form, " + reason, Measured(physical)};
+}
+
+}  // namespace telltale

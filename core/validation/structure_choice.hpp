@@ -1,0 +1,33 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "telltale/core/data/samples.hpp"
+#include "telltale/core/identification/options.hpp"
+#include "telltale/core/identification/progress.hpp"
+#include "telltale/core/validation/held_out_score.hpp"
+#include "telltale/core/vessel/vehicle.hpp"
+
+namespace telltale {
+
+/// The structure that suits a recording, and why.
+struct StructureChoice {
+  Structure structure = Structure::kUnknown;
+  std::string reason;                 ///< a sentence without its stop, "physical form, since ..."
+  std::optional<HeldOutScore> score;  ///< of this structure, where it could be measured
+};
+
+/// Chooses between the physical form and the free coefficients of `options.regression` by what they
+/// predict 5 s ahead of the last fifth of the recording. The error is the geometric mean over the
+/// velocities in which constant velocity errs by more than sensors do, see CountsInFreeRuns().
+/// The physical form has the fewer unknowns. Free coefficients replace it where at least ten free
+/// runs show their error below 0.7 of its own, since fewer scatter by more than that, and below
+/// half of constant velocity's: two models that hardly predict say nothing of each other. The
+/// physical form is not tried where the other's error is below a tenth of constant velocity's. Of a
+/// recording longer than `HeldOutOptions::most_fixes` the last part decides. Assumes:
+/// `options.regression.structure` is one of free coefficients.
+StructureChoice ChooseStructure(const Recording& recording, const Vehicle& vehicle,
+                                const IdentifyOptions& options, const Progress& progress = {});
+
+}  // namespace telltale

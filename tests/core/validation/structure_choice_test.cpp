@@ -1,0 +1,70 @@
+#include "telltale/core/validation/structure_choice.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "telltale/core/data/recording_parts.hpp"
+#include "telltale/core/paper/sample_mission.hpp"
+#include "telltale/core/paper/yellowfish.hpp"
+#include "telltale/core/simulation/sensors.hpp"
+#include "telltale/core/simulation/simulator.hpp"
+
+namespace telltale {
+namespace {
+
+using testing::HasSubstr;
+using testing::StartsWith;
+
+IdentifyOptions TwoThreads() {
+  IdentifyOptions options;
+  options.threads = 2;
+  return options;
+}
+
+/// Ten minutes of a boat whose 35 coefficients lie outside the physical form.
+Recording OfFreeCoefficients() {
+  const auto track =
+      Simulate(YellowfishTwin(), {}, SampleMission(1), kSampleMissionDurationS, 0.02);
+  return Measure(track, YellowfishVehicle(), {});
+}
+
+TEST(ChooseStructure, KeepsFreeCoefficientsThatPredictWhatThePhysicalFormCannot) {
+  const StructureChoice choice =
+      ChooseStructure(OfFreeCoefficients(), YellowfishVehicle(), TwoThreads());
+  EXPECT_EQ(choice.structure, Structure::kStaticQuadratic);
+  EXPECT_THAT(choice.reason, StartsWith("free coefficients, since"));
+  ASSERT_TRUE(choice.score);
+  EXPECT_NEAR(choice.score->held_out_s, 0.2 * kSampleMissionDurationS, 1.0);
+}
+
+/// The same boat: what ten free runs cannot show is left to the form with fewer unknowns.
+TEST(ChooseStructure, TakesThePhysicalFormOfARecordingThatIsShort) {
+  const Recording recording = OfFreeCoefficients();
+  const double start_s = recording.gnss.front().time_s;
+  const StructureChoice choice = ChooseStructure(Between(recording, start_s, start_s + 90.0),
+                                                 YellowfishVehicle(), TwoThreads());
+  EXPECT_EQ(choice.structure, Structure::kFossen);
+  EXPECT_THAT(choice.reason, HasSubstr("too short"));
+  ASSERT_TRUE(choice.score);
+  EXPECT_LT(choice.score->metrics.free_run.front().windows, 10u);
+}
+
+TEST(ChooseStructure, TakesThePhysicalFormWhereNothingCanBeScored) {
+  const Recording recording = OfFreeCoefficients();
+  const double start_s = recording.gnss.front().time_s;
+  const StructureChoice choice = ChooseStructure(Between(recording, start_s, start_s + 10.0),
+                                                 YellowfishVehicle(), TwoThreads());
+  EXPECT_EQ(choice.structure, Structure::kFossen);
+  EXPECT_FALSE(choice.score);
+}
+
+/// Free coefficients err by less than a tenth of constant velocity here: little is left to gain.
+TEST(ChooseStructure, SparesThePhysicalFormWhereLittleIsToBeGained) {
+  std::vector<std::string> stages;
+  ChooseStructure(OfFreeCoefficients(), YellowfishVehicle(), TwoThreads(),
+                  [&](std::string_view stage, double) { stages.emplace_back(stage); });
+  EXPECT_THAT(stages, testing::ElementsAre("scoring free coefficients"));
+}
+
+}  // namespace
+}  // namespace telltale
