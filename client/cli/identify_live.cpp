@@ -19,9 +19,6 @@ constexpr std::uint32_t kReplicatesPerTimeout = 10;
 
 IdentifyRequest RequestOf(const std::string& vehicle_id, const IdentifyArguments& arguments) {
   const IdentifyOptions options = arguments.Options();
-  if (options.regression.structure == Structure::kFossen) {
-    throw UsageError("--structure fossen is identified from logs; leave it out with --vehicle-id");
-  }
   if (arguments.sampling_period_s || arguments.interval_level || arguments.threads ||
       arguments.parametric_replicates) {
     throw UsageError(

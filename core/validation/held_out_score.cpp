@@ -58,15 +58,11 @@ Result<HeldOutScore> ScoreOnHeldOutPart(const Recording& recording, const Vehicl
 
   const auto model = Identify(training, vehicle, WithoutBounds(options, training));
   if (!model) return tl::unexpected(model.error());
-  const auto vessel = ModelOf(*model);
-  if (!vessel) return tl::unexpected(vessel.error());
   PrepareOptions prepare = options.prepare;
   prepare.sampling_period_s = model->sampling_period_s;
   const auto dataset = Prepare(rest, vehicle, prepare);
   if (!dataset) return tl::unexpected(dataset.error());
-  const ValidationOptions scoring{{held_out.horizon_s}};
-  const auto metrics = model->physical ? Validate(*dataset, *model->physical, scoring)
-                                       : Validate(*dataset, *vessel, scoring);
+  const auto metrics = Validate(*dataset, *model, {{held_out.horizon_s}});
   if (!metrics) return tl::unexpected(metrics.error());
   if (metrics->free_run.front().windows == 0) {
     return Refuse(kSubject, "no free run fits into the part that is held out", kAdvice);

@@ -116,7 +116,7 @@ Promotion AssessPromotion(const Recording& recording, const Vehicle& vehicle,
   prepare.sampling_period_s = identification.sampling_period_s;
   const auto dataset = Prepare(recording, vehicle, prepare);
   if (!dataset) return {PromotionVerdict::kOk, ""};
-  const auto own = Validate(*dataset, *model, {{kHorizonS}});
+  const auto own = Validate(*dataset, identification, {{kHorizonS}});
   if (!own) return {PromotionVerdict::kOk, ""};
   const auto held_out = ScoreOnHeldOutPart(recording, vehicle, identification, options,
                                            {.horizon_s = kHorizonS, .most_fixes = kMostFixes});

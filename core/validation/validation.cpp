@@ -350,4 +350,12 @@ Result<Metrics> Validate(const PreparedDataset& dataset, const PhysicalModel& mo
   return ScoresOfRuns(dataset, PhysicalFreeRuns(dataset, model), options);
 }
 
+Result<Metrics> Validate(const PreparedDataset& dataset, const Identification& identification,
+                         const ValidationOptions& options) {
+  if (identification.physical) return Validate(dataset, *identification.physical, options);
+  const auto model = ModelOf(identification);
+  if (!model) return tl::unexpected(model.error());
+  return Validate(dataset, *model, options);
+}
+
 }  // namespace telltale

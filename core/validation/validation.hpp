@@ -7,6 +7,7 @@
 #include "telltale/core/base/result.hpp"
 #include "telltale/core/data/prepared_dataset.hpp"
 #include "telltale/core/effects/augmented_model.hpp"
+#include "telltale/core/identification/identification.hpp"
 #include "telltale/core/identification/physical_model.hpp"
 #include "telltale/core/vessel/vessel_model.hpp"
 
@@ -65,6 +66,12 @@ Result<Metrics> Validate(const PreparedDataset& dataset, const VesselModel& mode
 /// compass and disturbance, which decays. What it predicts are the readings: velocities over ground
 /// in the axes of the compass, positions as late as the fixes are.
 Result<Metrics> Validate(const PreparedDataset& dataset, const PhysicalModel& model,
+                         const ValidationOptions& options);
+
+/// The same for an identified model: its physical form where it has one, else its coefficients,
+/// without effects that were added to them.
+/// Refuses when: an equation is missing.
+Result<Metrics> Validate(const PreparedDataset& dataset, const Identification& identification,
                          const ValidationOptions& options);
 
 /// The same for a model with effects, which act on the boat and on its sensors.

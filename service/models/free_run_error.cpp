@@ -15,13 +15,11 @@ constexpr double kHorizonS = 5.0;
 
 std::optional<FreeRunError> MeasureFreeRunError(const Recording& recording, const Vehicle& vehicle,
                                                 const Identification& identification) {
-  const auto model = ModelOf(identification);
-  if (!model) return std::nullopt;
   PrepareOptions options;
   options.sampling_period_s = identification.sampling_period_s;
   const auto dataset = Prepare(recording, vehicle, options);
   if (!dataset) return std::nullopt;
-  const auto metrics = Validate(*dataset, *model, {.horizons_s = {kHorizonS}});
+  const auto metrics = Validate(*dataset, identification, {.horizons_s = {kHorizonS}});
   if (!metrics || metrics->free_run.empty() || metrics->free_run.front().windows == 0) {
     return std::nullopt;
   }

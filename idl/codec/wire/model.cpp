@@ -66,6 +66,19 @@ std::vector<double> RowMajor(const Eigen::MatrixXd& matrix) {
   return values;
 }
 
+void FillPhysicalForm(telltale_wire_PhysicalForm& wire, const PhysicalModel& physical) {
+  PutSequence(wire.parameters, physical.parameters, FillCoefficient);
+  PutNumbers(wire.covariance, RowMajor(physical.covariance));
+  wire.propeller_separation_m = physical.propeller_separation_m;
+  const NoiseModel& noise = physical.noise;
+  PutNumbers(wire.acceleration_sigma, noise.acceleration_sigma);
+  wire.acceleration_time_constant_s = noise.acceleration_time_constant_s;
+  wire.fix_drift_sigma_m = noise.fix_drift_sigma_m;
+  wire.fix_sigma_m = noise.fix_sigma_m;
+  wire.heading_sigma_rad = noise.heading_sigma_rad;
+  wire.stamp_sigma_s = noise.stamp_sigma_s;
+}
+
 void FillEstimates(telltale_wire_Model& wire, const Identification& identification) {
   PutSequence(wire.coefficients, identification.coefficients, FillCoefficient);
   PutNumbers(wire.covariance, RowMajor(identification.covariance));
@@ -86,6 +99,7 @@ void FillEstimates(telltale_wire_Model& wire, const Identification& identificati
   PutSequence(wire.recording_bias, identification.recording_bias, FillRecordingBias);
   PutSequence(wire.effects, identification.effects, FillAddedEffect);
   PutNumbers(wire.simulation, identification.simulation);
+  PutOptional(wire.physical, identification.physical, FillPhysicalForm);
 }
 
 void FillWindow(telltale_wire_Model& wire, const WindowSummary& window) {
@@ -106,6 +120,7 @@ void FillProvenance(telltale_wire_Model& wire, const Provenance& provenance) {
   Put(wire.software_version, provenance.software_version);
   wire.parametric_replicates = provenance.parametric_replicates;
   wire.parametric_replicate_failures = provenance.parametric_replicate_failures;
+  Put(wire.structure_choice, provenance.structure_choice);
   Put(wire.estimator_choice, provenance.estimator_choice);
   wire.misspecification = provenance.misspecification;
   wire.clusters = provenance.clusters;
@@ -134,13 +149,14 @@ Coefficient ReadCoefficient(const std::string& field, const telltale_wire_Coeffi
   return coefficient;
 }
 
-Eigen::MatrixXd ReadCovariance(const dds_sequence_double& wire, std::size_t coefficients) {
-  if (wire._length != coefficients * coefficients) {
-    Reject(
-        "covariance", std::to_string(wire._length) + " numbers",
-        std::to_string(coefficients * coefficients) + ", the square of the number of coefficients");
+/// A covariance over `count` coefficients or parameters.
+Eigen::MatrixXd ReadCovariance(const std::string& field, const dds_sequence_double& wire,
+                               std::size_t count, const char* of) {
+  if (wire._length != count * count) {
+    Reject(field, std::to_string(wire._length) + " numbers",
+           std::to_string(count * count) + ", the square of the number of " + of);
   }
-  const auto n = static_cast<Eigen::Index>(coefficients);
+  const auto n = static_cast<Eigen::Index>(count);
   Eigen::MatrixXd covariance(n, n);
   for (Eigen::Index row = 0; row < n; ++row) {
     for (Eigen::Index column = 0; column < n; ++column) {
@@ -185,7 +201,8 @@ Eigen::VectorXd ReadTimeConstantCovariance(const dds_sequence_double& wire, Stru
   return Eigen::Map<const Eigen::VectorXd>(covariance.data(), n);
 }
 
-Eigen::Vector3d ReadAxes(const char* field, const dds_sequence_double& values, FieldRange range) {
+Eigen::Vector3d ReadAxes(const std::string& field, const dds_sequence_double& values,
+                         FieldRange range) {
   if (values._length != 3) {
     Reject(field, std::to_string(values._length) + " numbers", "3, one for each axis, or none");
   }
@@ -240,11 +257,57 @@ std::vector<double> ReadSimulationParameters(const dds_sequence_double& wire,
   return ReadNumbers("simulation", wire);
 }
 
+NoiseModel ReadNoise(const std::string& field, const telltale_wire_PhysicalForm& wire) {
+  const auto positive = [&](const char* name, double value) {
+    return ReadWithin(field + '.' + name, value, kFinitePositive);
+  };
+  return {ReadAxes(field + ".acceleration_sigma", wire.acceleration_sigma, kFinitePositive),
+          positive("acceleration_time_constant_s", wire.acceleration_time_constant_s),
+          positive("fix_drift_sigma_m", wire.fix_drift_sigma_m),
+          positive("fix_sigma_m", wire.fix_sigma_m),
+          positive("heading_sigma_rad", wire.heading_sigma_rad),
+          positive("stamp_sigma_s", wire.stamp_sigma_s)};
+}
+
+PhysicalModel ReadPhysicalForm(const std::string& field, const telltale_wire_PhysicalForm& wire) {
+  PhysicalModel physical;
+  physical.parameters = ReadSequence(field + ".parameters", wire.parameters, ReadCoefficient);
+  const auto& names = FossenParameterNames();
+  if (physical.parameters.size() != names.size()) {
+    Reject(field + ".parameters", std::to_string(physical.parameters.size()) + " items",
+           std::to_string(names.size()) + ", the parameters of FOSSEN");
+  }
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (physical.parameters[i].symbol == names[i].symbol) continue;
+    Reject(field + ".parameters[" + std::to_string(i) + "].symbol", physical.parameters[i].symbol,
+           Quoted(names[i].symbol));
+  }
+  physical.covariance =
+      ReadCovariance(field + ".covariance", wire.covariance, names.size(), "parameters");
+  for (const double value : physical.covariance.reshaped()) {
+    ReadWithin(field + ".covariance", value, kFinite);
+  }
+  physical.propeller_separation_m =
+      ReadWithin(field + ".propeller_separation_m", wire.propeller_separation_m, kFinitePositive);
+  physical.noise = ReadNoise(field, wire);
+  return physical;
+}
+
+/// Given for the physical form alone.
+std::optional<PhysicalModel> ReadPhysical(const telltale_wire_Model& wire, Structure structure) {
+  const bool fossen = structure == Structure::kFossen;
+  if (wire.physical._length != (fossen ? 1u : 0u)) {
+    Reject("physical", std::to_string(wire.physical._length) + " items",
+           "one for FOSSEN, none otherwise");
+  }
+  return ReadOptional("physical", wire.physical, ReadPhysicalForm);
+}
+
 void ReadEstimates(const telltale_wire_Model& wire, Identification& identification) {
   identification.coefficients = ReadSequence("coefficients", wire.coefficients, ReadCoefficient);
   const std::size_t n = identification.coefficients.size();
   const Structure structure = identification.structure;
-  identification.covariance = ReadCovariance(wire.covariance, n);
+  identification.covariance = ReadCovariance("covariance", wire.covariance, n, "coefficients");
   identification.joint = ReadOptional("joint", wire.joint, ReadJoint);
   identification.thruster_time_constant = ReadTimeConstant(wire, structure);
   identification.time_constant_covariance =
@@ -255,6 +318,7 @@ void ReadEstimates(const telltale_wire_Model& wire, Identification& identificati
       ReadSequence("recording_bias", wire.recording_bias, ReadRecordingBias);
   identification.effects = ReadSequence("effects", wire.effects, ReadAddedEffect);
   identification.simulation = ReadSimulationParameters(wire.simulation, n);
+  identification.physical = ReadPhysical(wire, structure);
 }
 
 RejectCounts ReadRejectCounts(const dds_sequence_telltale_wire_RejectCount& sequence) {
@@ -315,6 +379,7 @@ Provenance ReadProvenance(const telltale_wire_Model& wire) {
   provenance.software_version = View(wire.software_version);
   provenance.parametric_replicates = wire.parametric_replicates;
   provenance.parametric_replicate_failures = wire.parametric_replicate_failures;
+  provenance.structure_choice = View(wire.structure_choice);
   provenance.estimator_choice = View(wire.estimator_choice);
   provenance.misspecification = ReadWithin("misspecification", wire.misspecification, kNotNegative);
   provenance.clusters = wire.clusters;
@@ -352,7 +417,7 @@ PublishedModel ReadModel(const telltale_wire_Model& wire) {
   identification.structure = ReadName("structure", View(wire.structure), kStructures);
   identification.parameterization =
       ReadName("parameterization", View(wire.parameterization), kParameterizations);
-  identification.estimator = ReadName("estimator", View(wire.estimator), kEstimators);
+  identification.estimator = ReadName("estimator", View(wire.estimator), kModelEstimators);
   identification.sampling_period_s =
       ReadWithin("sampling_period_s", wire.sampling_period_s, kSamplingPeriodS);
   ReadEstimates(wire, identification);

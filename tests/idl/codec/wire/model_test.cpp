@@ -26,6 +26,32 @@ TEST(WireModel, CarriesTheThrusterTimeConstant) {
   ExpectSame(*received, sent);
 }
 
+TEST(WireModel, CarriesThePhysicalForm) {
+  PublishedModel sent{MadeUpPhysicalIdentification(), 8, 1700000700.5};
+  const auto received = Decode(*Encode(sent));
+  ASSERT_TRUE(received) << received.error().Message();
+  ExpectSame(*received, sent);
+}
+
+TEST(WireModel, ExpectsThePhysicalFormOfFossenAlone) {
+  const PublishedModel sent{MadeUpPhysicalIdentification(), 8, 1700000700.5};
+  auto without = Encode(sent);
+  without->physical._length = 0;
+  EXPECT_EQ(Decode(*without).error().field, "physical");
+  auto wire = Encode(sent);
+  wire->physical._buffer[0].covariance._buffer[7] = kNan;
+  EXPECT_EQ(Decode(*wire).error().field, "physical[0].covariance");
+  wire = Encode(sent);
+  wire->physical._buffer[0].covariance._length -= 1;
+  EXPECT_EQ(Decode(*wire).error().value, "528 numbers");
+  wire = Encode(sent);
+  wire->physical._buffer[0].parameters._length -= 1;
+  EXPECT_EQ(Decode(*wire).error().field, "physical[0].parameters");
+  wire = Encode(sent);
+  wire->physical._buffer[0].fix_sigma_m = 0.0;
+  EXPECT_EQ(Decode(*wire).error().field, "physical[0].fix_sigma_m");
+}
+
 /// Expects that Decode refuses NaN in `numbers`, which it calls `field`, and one number too few.
 void ExpectANumberForEachCoefficient(const PublishedModel& sent,
                                      dds_sequence_double telltale_wire_Model::*numbers,
