@@ -18,9 +18,9 @@ TEST_F(LivePhysicalForm, IsIdentifiedPublishedAndKept) {
   const auto file = folder_.Path() / "model.json";
   {
     const auto daemon = StartDaemon();
-    Replay(SimulatedRecording(testing::StableBoat(), 0.0, 120.0, 4));
+    Replay(SimulatedRecording(testing::StableBoat(), 0.0, 90.0, 4));
     const auto identify = Start({"identify", "--vehicle-id", kVehicleId, "--structure", "fossen",
-                                 "--out", file, "--timeout", "120"});
+                                 "--out", file, "--timeout", "500"});
     ASSERT_EQ(identify->Wait(), 0) << identify->output();
     const auto model = ParseModelJson(*ReadFile(file));
     ASSERT_TRUE(model) << model.error().Message();
@@ -35,8 +35,8 @@ TEST_F(LivePhysicalForm, IsIdentifiedPublishedAndKept) {
 }
 
 TEST_F(LivePhysicalForm, TakesNoOptionOfFreeCoefficients) {
-  const auto identify = Start({"identify", "--vehicle-id", kVehicleId, "--structure", "fossen",
-                               "--estimator", "weak-iv"});
+  const auto identify = Start(
+      {"identify", "--vehicle-id", kVehicleId, "--structure", "fossen", "--estimator", "weak-iv"});
   EXPECT_EQ(identify->Wait(), 2);
   EXPECT_THAT(identify->output(), HasSubstr("belongs to --structure static and dynamic"));
 }
