@@ -29,16 +29,20 @@ expect_code() {  # CODE COMMAND...
   "${@:2}" > "$folder/out" 2>&1 || code=$?
   [[ $code == "$1" ]] || { cat "$folder/out" >&2; fail "exit $code, not $1: ${*:2}"; }
 }
+plain="file://$source/deploy/cyclonedds/loopback.xml"
+of() {  # PARTICIPANT: its configuration
+  echo "$plain,file://$folder/$1/security.xml"
+}
 as() {  # PARTICIPANT COMMAND...
-  CYCLONEDDS_URI="file://$source/deploy/cyclonedds/loopback.xml,file://$folder/$1/security.xml" "${@:2}"
+  CYCLONEDDS_URI=$(of "$1") "${@:2}"
 }
 without() {
-  CYCLONEDDS_URI="file://$source/deploy/cyclonedds/loopback.xml" "$@"
+  CYCLONEDDS_URI=$plain "$@"
 }
-serve() {  # NAME COMMAND...: a daemon of this name, serving
+serve() {  # NAME CONFIGURATION: a daemon of this name, serving
   sed "s|^domain:.*|domain: 63|; s|^state_directory:.*|state_directory: \"$folder/state-$1\"|" \
     "$folder/daemon.textproto" > "$folder/$1.textproto"
-  "${@:2}" "$telltaled" --config "$folder/$1.textproto" > "$folder/$1.log" 2>&1 &
+  CYCLONEDDS_URI=$2 "$telltaled" --config "$folder/$1.textproto" > "$folder/$1.log" 2>&1 &
   daemons+=($!)
   for _ in $(seq 100); do
     grep -q "serving" "$folder/$1.log" && return
@@ -65,7 +69,7 @@ expect_code 2 "$make" --out "$folder/x" --boat b --days never
 "$make" --out "$folder/rogue" --daemon daemon --client client > /dev/null
 [[ $(stat -c %a "$folder/fleet/daemon/key.pem") == 600 ]] || fail "others can read a key"
 
-serve secured as fleet/daemon
+serve secured "$(of fleet/daemon)"
 expect_code 0 as fleet/client "$telltale" list
 expect_code 0 as fleet/boat "$telltale" replay --log "$source/deploy/sample" --vehicle-id yellowfish --speed 200
 expect_code 0 as fleet/client "$telltale" identify --vehicle-id yellowfish
@@ -82,7 +86,7 @@ expect_code 1 as fleet/boat "$telltaled" --config "$folder/secured.textproto"
 sed "s|state-secured|state-boat|" "$folder/secured.textproto" > "$folder/boat.textproto"
 expect_code 1 as fleet/boat "$telltaled" --config "$folder/boat.textproto"
 grep -qi "creating a writer\|not allowed\|security" "$folder/out" || fail "a boat's daemon says not why it ends"
-stranger() {  # NAME COMMAND...: a daemon that publishes revision 999 from the start
+stranger() {  # NAME CONFIGURATION: a daemon that publishes revision 999 from the start
   mkdir "$folder/state-$1"
   python3 - "$folder/state-secured/models.sqlite" "$folder/state-$1/models.sqlite" <<'PYTHON'
 import sqlite3, sys
@@ -97,6 +101,6 @@ PYTHON
   grep -q "revision 1" "$folder/out" || fail "a stranger's model is seen"
   expect_code 0 as fleet/client "$telltale" list
 }
-stranger plain without
-stranger rogue as rogue/daemon
+stranger plain "$plain"
+stranger rogue "$(of rogue/daemon)"
 echo "security_test: passed"
