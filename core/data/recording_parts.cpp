@@ -1,6 +1,7 @@
 #include "telltale/core/data/recording_parts.hpp"
 
 #include <algorithm>
+#include <iterator>
 
 namespace telltale {
 namespace {
@@ -29,9 +30,12 @@ double EndTime(const Recording& recording) {
 }
 
 Recording Between(const Recording& recording, double from_s, double to_s) {
-  return {SamplesBetween(recording.gnss, from_s, to_s),
-          SamplesBetween(recording.heading, from_s, to_s),
-          SamplesBetween(recording.thrusters, from_s, to_s), recording.rejected};
+  Recording part{SamplesBetween(recording.gnss, from_s, to_s),
+                 SamplesBetween(recording.heading, from_s, to_s),
+                 SamplesBetween(recording.thrusters, from_s, to_s), recording.rejected};
+  std::ranges::copy_if(recording.starts_s, std::back_inserter(part.starts_s),
+                       [&](double start_s) { return start_s > from_s && start_s <= to_s; });
+  return part;
 }
 
 Recording Latest(const Recording& recording, double duration_s) {

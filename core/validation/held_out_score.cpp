@@ -1,7 +1,5 @@
 #include "telltale/core/validation/held_out_score.hpp"
 
-#include <algorithm>
-#include <iterator>
 #include <limits>
 #include <string>
 
@@ -10,15 +8,6 @@
 
 namespace telltale {
 namespace {
-
-/// Between, with the recordings that begin there.
-Recording PartOf(const Recording& recording, double from_s, double to_s) {
-  Recording part = Between(recording, from_s, to_s);
-  std::copy_if(recording.starts_s.begin(), recording.starts_s.end(),
-               std::back_inserter(part.starts_s),
-               [&](double start_s) { return start_s > from_s && start_s <= to_s; });
-  return part;
-}
 
 IdentifyOptions WithoutBounds(IdentifyOptions options, const Recording& training) {
   options.bootstrap_replicates = 0;
@@ -53,8 +42,8 @@ Result<HeldOutScore> ScoreOnHeldOutPart(const Recording& recording, const Vehicl
   }
   constexpr double kForever = std::numeric_limits<double>::infinity();
   const double split_s = recording.gnss[training_fixes - 1].time_s;
-  const Recording training = PartOf(recording, -kForever, split_s);
-  const Recording rest = PartOf(recording, split_s, kForever);
+  const Recording training = Between(recording, -kForever, split_s);
+  const Recording rest = Between(recording, split_s, kForever);
 
   const auto model = Identify(training, vehicle, WithoutBounds(options, training));
   if (!model) return tl::unexpected(model.error());

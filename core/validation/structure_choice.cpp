@@ -23,7 +23,7 @@ Recording LastPart(const Recording& recording, std::size_t most_fixes) {
 }
 
 /// The geometric mean of errors over those of constant velocity; infinite where there is none.
-double RelativeError(const Result<HeldOutScore>& score) {
+double ErrorOverConstantVelocity(const Result<HeldOutScore>& score) {
   if (!score) return kInfinity;
   double sum = 0.0;
   int counted = 0;
@@ -58,7 +58,7 @@ StructureChoice ChooseStructure(const Recording& recording, const Vehicle& vehic
   const Recording part = LastPart(recording, HeldOutOptions{}.most_fixes);
   if (progress) progress("scoring free coefficients", 0.0);
   const auto free = ScoreOnHeldOutPart(part, vehicle, options);
-  const double error = RelativeError(free);
+  const double error = ErrorOverConstantVelocity(free);
   const std::string errors = "since over data set aside they err by " + ErrorText(error);
   if (ShowsEnough(free) && error < kLittleToGain) {
     return {options.regression.structure, "free coefficients, " + errors, *free};
@@ -67,7 +67,7 @@ StructureChoice ChooseStructure(const Recording& recording, const Vehicle& vehic
   physically.regression.structure = Structure::kFossen;
   if (progress) progress("scoring the physical form", 0.3);
   const auto physical = ScoreOnHeldOutPart(part, vehicle, physically);
-  const double physical_error = RelativeError(physical);
+  const double physical_error = ErrorOverConstantVelocity(physical);
   if (ShowsEnough(free) && error < kPredicts && error < kClearlyBetter * physical_error) {
     return {options.regression.structure,
             "free coefficients, " + errors + ", the physical form by " + ErrorText(physical_error),

@@ -23,10 +23,11 @@ struct StructureChoice {
 /// velocities in which constant velocity errs by more than sensors do, see CountsInFreeRuns().
 /// The physical form has the fewer unknowns. Free coefficients replace it where at least ten free
 /// runs show their error below 0.7 of its own, since fewer scatter by more than that, and below
-/// half of constant velocity's: two models that hardly predict say nothing of each other. The
-/// physical form is not tried where the other's error is below a tenth of constant velocity's. Of a
-/// recording longer than `HeldOutOptions::most_fixes` the last part decides. Assumes:
-/// `options.regression.structure` is one of free coefficients.
+/// half of constant velocity's: two models that hardly predict say nothing of each other.
+/// The physical form is not tried where the other's error is below a tenth of constant velocity's.
+/// Of a recording longer than `HeldOutOptions::most_fixes` the last part decides.
+///
+/// Assumes: `options.regression.structure` is one of free coefficients.
 StructureChoice ChooseStructure(const Recording& recording, const Vehicle& vehicle,
                                 const IdentifyOptions& options, const Progress& progress = {});
 

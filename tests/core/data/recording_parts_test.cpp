@@ -33,6 +33,12 @@ TEST(Between, IsEmptyWhereTheEndPrecedesTheStart) {
   EXPECT_TRUE(Between(EverySecond(), 20.0, 10.0).gnss.empty());
 }
 
+TEST(Between, HoldsTheRecordingsThatBeginThere) {
+  Recording recording = EverySecond();
+  recording.starts_s = {0.0, 10.0, 15.0, 20.0, 60.0};
+  EXPECT_EQ(Between(recording, 10.0, 20.0).starts_s, (std::vector<double>{15.0, 20.0}));
+}
+
 TEST(Latest, HoldsTheLastMinute) {
   Recording recording;
   for (int i = 0; i <= 100; ++i) recording.gnss.push_back({1.0 * i, 0.0, 0.0});

@@ -28,6 +28,13 @@ Recording OfFreeCoefficients() {
   return Measure(track, YellowfishVehicle(), {});
 }
 
+StructureChoice ChoiceOfTheFirst(double duration_s) {
+  const Recording recording = OfFreeCoefficients();
+  const double start_s = recording.gnss.front().time_s;
+  return ChooseStructure(Between(recording, start_s, start_s + duration_s), YellowfishVehicle(),
+                         TwoThreads());
+}
+
 TEST(ChooseStructure, KeepsFreeCoefficientsThatPredictWhatThePhysicalFormCannot) {
   const StructureChoice choice =
       ChooseStructure(OfFreeCoefficients(), YellowfishVehicle(), TwoThreads());
@@ -39,10 +46,7 @@ TEST(ChooseStructure, KeepsFreeCoefficientsThatPredictWhatThePhysicalFormCannot)
 
 /// The same boat: what ten free runs cannot show is left to the form with fewer unknowns.
 TEST(ChooseStructure, TakesThePhysicalFormOfARecordingThatIsShort) {
-  const Recording recording = OfFreeCoefficients();
-  const double start_s = recording.gnss.front().time_s;
-  const StructureChoice choice = ChooseStructure(Between(recording, start_s, start_s + 90.0),
-                                                 YellowfishVehicle(), TwoThreads());
+  const StructureChoice choice = ChoiceOfTheFirst(90.0);
   EXPECT_EQ(choice.structure, Structure::kFossen);
   EXPECT_THAT(choice.reason, HasSubstr("too short"));
   ASSERT_TRUE(choice.score);
@@ -50,10 +54,7 @@ TEST(ChooseStructure, TakesThePhysicalFormOfARecordingThatIsShort) {
 }
 
 TEST(ChooseStructure, TakesThePhysicalFormWhereNothingCanBeScored) {
-  const Recording recording = OfFreeCoefficients();
-  const double start_s = recording.gnss.front().time_s;
-  const StructureChoice choice = ChooseStructure(Between(recording, start_s, start_s + 10.0),
-                                                 YellowfishVehicle(), TwoThreads());
+  const StructureChoice choice = ChoiceOfTheFirst(10.0);
   EXPECT_EQ(choice.structure, Structure::kFossen);
   EXPECT_FALSE(choice.score);
 }
