@@ -6,7 +6,10 @@
 namespace telltale {
 
 VehicleWindow::VehicleWindow(Vehicle vehicle, const WindowLimits& limits)
-    : vehicle_(std::move(vehicle)), limits_(limits), window_(limits) {}
+    : vehicle_(std::move(vehicle)),
+      limits_(limits),
+      window_(limits),
+      clock_jumps_(limits.clock_jump_s) {}
 
 void VehicleWindow::Add(std::uint64_t sequence_number, const GnssFix& fix) {
   Add(Channel::kGnss, sequence_number, fix);
@@ -23,7 +26,7 @@ void VehicleWindow::Add(std::uint64_t sequence_number, const ThrusterSample& thr
 void VehicleWindow::Add(Channel channel, std::uint64_t sequence_number, const Sample& sample) {
   {
     const std::lock_guard lock(inbox_mutex_);
-    inbox_.push_back(sample);
+    inbox_.push_back({sample, ClockJumps::Clock::now()});
     gaps_[static_cast<std::size_t>(channel)].Note(
         sequence_number, std::visit([](const auto& s) { return s.time_s; }, sample));
     ++arrived_[static_cast<std::size_t>(channel)];
@@ -46,6 +49,7 @@ WindowState VehicleWindow::State() {
   state.fill = std::clamp((state.end_s - state.start_s) / limits_.duration_s, 0.0, 1.0);
   state.accepted = accepted_;
   state.rejected = window_.Rejected();
+  state.clock_jumps = clock_jumps_.count();
   state.newest_fix = newest_fix_;
   state.newest_heading = newest_heading_;
   const std::lock_guard inbox_lock(inbox_mutex_);
@@ -64,14 +68,19 @@ void VehicleWindow::EmptyInbox() {
     const std::lock_guard lock(inbox_mutex_);
     std::swap(inbox_, emptied_);
   }
-  for (const Sample& sample : emptied_) {
-    const bool kept = !std::visit([&](const auto& s) { return window_.Add(s); }, sample);
-    if (!kept) continue;
+  for (const auto& [sample, at] : emptied_) {
+    const double former_end_s = window_.EndTime();
+    if (!Keep(sample)) continue;
+    clock_jumps_.Note(window_.EndTime() - former_end_s, at);
     ++accepted_;
     NoteNewest(sample);
     NoteUnsaved(sample);
   }
   emptied_.clear();
+}
+
+bool VehicleWindow::Keep(const Sample& sample) {
+  return !std::visit([this](const auto& s) { return window_.Add(s); }, sample);
 }
 
 void VehicleWindow::NoteUnsaved(const Sample& sample) {
@@ -102,6 +111,7 @@ void VehicleWindow::TakeOver(VehicleWindow& former) {
   former.EmptyInbox();
   std::swap(window_, former.window_);
   accepted_ = former.accepted_;
+  clock_jumps_ = former.clock_jumps_;
   newest_fix_ = former.newest_fix_;
   newest_heading_ = former.newest_heading_;
   unsaved_ = std::exchange(former.unsaved_, std::nullopt);

@@ -10,6 +10,7 @@
 #include "telltale/core/data/samples.hpp"
 #include "telltale/core/data/window.hpp"
 #include "telltale/core/vessel/vehicle.hpp"
+#include "telltale/service/ingest/clock_jumps.hpp"
 #include "telltale/service/ingest/sequence_gaps.hpp"
 
 namespace telltale {
@@ -23,6 +24,7 @@ struct WindowState {
   std::uint64_t accepted = 0;
   std::uint64_t lost = 0;
   RejectCounts rejected;
+  std::uint64_t clock_jumps = 0;      ///< of the vehicle's clock
   std::optional<GnssFix> newest_fix;  ///< of those kept
   std::optional<HeadingSample> newest_heading;
 };
@@ -57,23 +59,30 @@ class VehicleWindow {
  private:
   using Sample = std::variant<GnssFix, HeadingSample, ThrusterSample>;
 
+  struct Arrival {
+    Sample sample;
+    ClockJumps::Clock::time_point at;
+  };
+
   void Add(Channel channel, std::uint64_t sequence_number, const Sample& sample);
-  void NoteNewest(const Sample& sample);
   void EmptyInbox();  ///< into the window; the caller holds window_mutex_
+  bool Keep(const Sample& sample);
+  void NoteNewest(const Sample& sample);
   void NoteUnsaved(const Sample& sample);
 
   const Vehicle vehicle_;
   const WindowLimits limits_;
 
   std::mutex inbox_mutex_;
-  std::vector<Sample> inbox_;
+  std::vector<Arrival> inbox_;
   std::array<SequenceGaps, kChannels.size()> gaps_;
   std::array<std::uint64_t, kChannels.size()> arrived_{};
 
   std::mutex window_mutex_;
-  std::vector<Sample> emptied_;
+  std::vector<Arrival> emptied_;
   Window window_;
   std::uint64_t accepted_ = 0;
+  ClockJumps clock_jumps_;
   std::optional<GnssFix> newest_fix_;
   std::optional<HeadingSample> newest_heading_;
   std::optional<Recording> unsaved_;

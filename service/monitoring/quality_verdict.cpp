@@ -75,16 +75,25 @@ void AddRejects(const LastMinute& last, const VerdictLimits& limits, Reasons& re
         fmt::format("{:.0f} % of the samples of the last minute are rejected, most often {}",
                     100.0 * share, MostFrequentFault(last.rejected)));
   }
-  const auto jumps = last.rejected.Of(RejectReason::kClockJump);
-  if (jumps >= limits.faults) {
-    reasons.Add(
-        "CLOCK_JUMP", kWarn,
-        fmt::format("the boat's clock jumped: {} samples of the last minute are rejected", jumps));
-  }
   const auto stuck = last.rejected.Of(RejectReason::kStuckSensor);
   if (stuck >= limits.faults) {
     reasons.Add("STUCK_SENSOR", kWarn,
                 fmt::format("a sensor is stuck: {} repeated readings in the last minute", stuck));
+  }
+}
+
+/// A clock that jumps for good, or stamps far off it that no later ones agree with.
+void AddClock(const LastMinute& last, const VerdictLimits& limits, Reasons& reasons) {
+  const auto off_clock = last.rejected.Of(RejectReason::kClockJump);
+  if (last.clock_jumps > 0) {
+    reasons.Add(
+        "CLOCK_JUMP", kWarn,
+        fmt::format("the boat's clock jumped {} in the last minute",
+                    last.clock_jumps == 1 ? "once" : fmt::format("{} times", last.clock_jumps)));
+  } else if (off_clock >= limits.faults) {
+    reasons.Add(
+        "CLOCK_JUMP", kWarn,
+        fmt::format("{} stamps of the last minute are far off the boat's clock", off_clock));
   }
 }
 
@@ -120,6 +129,7 @@ std::vector<QualityReason> ReasonsOf(const Quality& quality, const LastMinute& l
   Reasons reasons;
   AddSilence(last, limits, reasons);
   AddRejects(last, limits, reasons);
+  AddClock(last, limits, reasons);
   AddLoss(last, limits, reasons);
   AddModel(quality, limits, reasons);
   return std::move(reasons).MostSeriousFirst();

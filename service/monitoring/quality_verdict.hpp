@@ -13,7 +13,7 @@ struct VerdictLimits {
   double loss_share = 0.05;    ///< of the samples sent in the last minute
   double reject_share = 0.05;  ///< of the samples of the last minute: WARN
   double useless_share = 0.5;  ///< of the samples of the last minute: ERROR
-  std::uint64_t faults = 5;    ///< jumps of the clock, or readings of a stuck sensor, in a minute
+  std::uint64_t faults = 5;    ///< stamps off the clock, or readings of a stuck sensor, in a minute
   double error_ratio = 3.0;    ///< of a drifting model, in units of its normal error: ERROR
 };
 

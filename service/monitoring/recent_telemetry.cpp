@@ -64,6 +64,7 @@ LastMinute RecentTelemetry::Summary() const {
   last.ever_arrived = Arrived(now) > 0;
   last.arrived = Arrived(now) - Arrived(then);
   last.lost = std::max(now.lost, then.lost) - then.lost;
+  last.clock_jumps = std::max(now.clock_jumps, then.clock_jumps) - then.clock_jumps;
   last.rejected = RejectedBetween(then.rejected, now.rejected);
   return last;
 }

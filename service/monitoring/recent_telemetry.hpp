@@ -17,6 +17,7 @@ struct LastMinute {
   std::array<double, kChannels.size()> silent_s{};  ///< gnss, heading, thrusters
   std::uint64_t arrived = 0;
   std::uint64_t lost = 0;
+  std::uint64_t clock_jumps = 0;  ///< of the vehicle's clock
   RejectCounts rejected;
 
   /// Since the newest sample of any channel.

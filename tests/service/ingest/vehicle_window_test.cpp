@@ -41,5 +41,32 @@ TEST(VehicleWindow, LosesNothingBetweenThreads) {
   EXPECT_EQ(window.State().lost, 0u);
 }
 
+/// `count` headings, a second apart, from `start_s` of the boat's clock.
+void AddHeadings(VehicleWindow& window, double start_s, int count) {
+  for (int i = 0; i < count; ++i) window.Add(0, HeadingSample{start_s + i, 10.0 + 0.1 * i});
+}
+
+TEST(VehicleWindow, CountsEachJumpOfTheClockOnce) {
+  VehicleWindow window(YellowfishVehicle(), WindowLimits());
+  AddHeadings(window, 0.0, 20);
+  AddHeadings(window, 1000.0, 20);  // ahead
+  EXPECT_EQ(window.State().clock_jumps, 1u);
+  EXPECT_EQ(window.State().rejected.Of(RejectReason::kClockJump), 4u);
+  AddHeadings(window, 1100.0, 4);  // not confirmed
+  EXPECT_EQ(window.State().clock_jumps, 1u);
+  AddHeadings(window, 20.0, 20);  // back to where it was
+  EXPECT_EQ(window.State().clock_jumps, 2u);
+}
+
+// It stands for a daemon that starts again: how long the boat has been silent is not known.
+TEST(VehicleWindow, CountsNoJumpAfterARestoredWindow) {
+  VehicleWindow window(YellowfishVehicle(), WindowLimits());
+  Recording saved;
+  saved.heading = {{0.0, 10.0}, {1.0, 10.1}};
+  window.Restore(saved);
+  AddHeadings(window, 1000.0, 20);
+  EXPECT_EQ(window.State().clock_jumps, 0u);
+}
+
 }  // namespace
 }  // namespace telltale

@@ -84,6 +84,18 @@ TEST(QualityVerdict, KeepsToItsLimits) {
   }
 }
 
+TEST(QualityVerdict, OneJumpOfTheClockWarns) {
+  LastMinute last = GoodMinute();
+  last.clock_jumps = 1;
+  const auto reasons = ReasonsOf(GoodQuality(), last);
+  ASSERT_THAT(Codes(reasons), ElementsAre("CLOCK_JUMP"));
+  EXPECT_EQ(reasons[0].text, "the boat's clock jumped once in the last minute");
+  EXPECT_EQ(VerdictOf(reasons), QualityVerdict::kWarn);
+  last.clock_jumps = 2;
+  last.rejected.Count(Channel::kHeading, RejectReason::kClockJump, 8);
+  EXPECT_THAT(Codes(ReasonsOf(GoodQuality(), last)), ElementsAre("CLOCK_JUMP"));
+}
+
 TEST(QualityVerdict, DriftIsAnErrorOnceTheModelIsFarOff) {
   Quality quality = GoodQuality();
   quality.prediction_error = 2.9;
@@ -126,11 +138,13 @@ TEST(RecentTelemetry, CountsTheLastMinuteAlone) {
                      static_cast<std::uint64_t>(s < 150 ? s : 150)};
     if (s == 100) state.lost += 1000;  // long ago in the end
     if (s == 190) state.lost += 7;
+    if (s == 20 || s == 170) ++state.clock_jumps;
     recent.Note(state, start + seconds(s));
   }
   const LastMinute last = recent.Summary();
   EXPECT_TRUE(last.ever_arrived);
   EXPECT_EQ(last.lost, 7u);
+  EXPECT_EQ(last.clock_jumps, 1u);
   EXPECT_EQ(last.arrived, 60u * 15u + 10u);
   EXPECT_THAT(last.silent_s, ElementsAre(0.0, 0.0, 50.0));
 }
