@@ -1,12 +1,13 @@
 #include <algorithm>
 #include <chrono>
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <iostream>
-#include <limits>
 #include <memory>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include "telltale/client/bus/participant.hpp"
 #include "telltale/client/bus/writer.hpp"
@@ -19,6 +20,7 @@
 #include "telltale/client/cli/table.hpp"
 #include "telltale/client/fleet/receipts.hpp"
 #include "telltale/client/fleet/telemetry_publisher.hpp"
+#include "telltale/client/recording/due_times.hpp"
 #include "telltale/client/recording/load_recording.hpp"
 
 namespace telltale {
@@ -39,33 +41,12 @@ constexpr auto kBurstSpacing = std::chrono::milliseconds(2);
 // A receiver that accounts for nothing for so long has lost what is under way.
 constexpr auto kReceiptPatience = std::chrono::seconds(10);
 
-// A recording may hold hours without power; a longer silence is cut to this.
-constexpr double kLongestSilenceS = 60.0;
-
 struct ReplayArguments {
   std::filesystem::path log;
   SourceOptions options;
   std::string vehicle_id;
   double speed = 1.0;
   LiveOptions live;
-};
-
-/// When samples are due, in seconds of the recording since its beginning: never backwards, and no
-/// silence longer than kLongestSilenceS.
-class Schedule {
- public:
-  double DueTime(double time_s) {
-    if (!(time_s > newest_s_)) return due_s_;  // a wrong time, NaN included, is due at once
-    due_s_ += begun_ ? std::min(time_s - newest_s_, kLongestSilenceS) : 0.0;
-    newest_s_ = time_s;
-    begun_ = true;
-    return due_s_;
-  }
-
- private:
-  bool begun_ = false;
-  double newest_s_ = -std::numeric_limits<double>::infinity();
-  double due_s_ = 0.0;
 };
 
 /// Keeps the number of samples under way within what a receiver holds.
@@ -107,14 +88,12 @@ class Pacing {
 double Publish(const std::vector<RawSample>& samples, double speed, TelemetryPublisher& publisher,
                Pacing& pacing) {
   ProgressLine line;
-  Schedule schedule;
-  double due_s = 0.0;
+  const std::vector<double> due_s = DueTimes(samples);
   const auto start = Clock::now();
   auto burst_begin = start;
   std::size_t burst = 0;
-  for (const RawSample& sample : samples) {
-    due_s = schedule.DueTime(TimeOf(sample));
-    const auto due = start + std::chrono::ceil<Clock::duration>(Seconds(due_s / speed));
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    const auto due = start + std::chrono::ceil<Clock::duration>(Seconds(due_s[i] / speed));
     if (burst == kBurstSamples || due > burst_begin + kBurstSpacing) {
       publisher.Flush();
       line.Update("replaying",
@@ -125,12 +104,12 @@ double Publish(const std::vector<RawSample>& samples, double speed, TelemetryPub
       burst_begin = Clock::now();
       burst = 0;
     }
-    std::visit([&](const auto& s) { publisher.Publish(s); }, sample);
+    std::visit([&](const auto& s) { publisher.Publish(s); }, samples[i]);
     ++burst;
   }
   publisher.Flush();
   pacing.Finish(publisher.Published());
-  return due_s;
+  return due_s.empty() ? 0.0 : due_s.back();
 }
 
 std::string OutcomeText(const Pacing& pacing) {
