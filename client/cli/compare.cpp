@@ -39,9 +39,7 @@ std::string ChangeTable(const ModelChange& change) {
 
 /// The answer in one line, then how it was found.
 std::string AnswerText(const ModelChange& change) {
-  const bool differ = change.verdict == ChangeVerdict::kChanged;
-  return std::string(differ ? "The models differ" : "The models do not differ significantly") +
-         ", p = " + Significant(change.p_value, 2) + ".\n" +
+  return AnswerOf(change) + '\n' +
          Wrapped("The second " + InWords(change) + ". Together: Wald statistic " +
                  Significant(change.statistic) + " over " +
                  Counted(change.degrees_of_freedom, "combination", "combinations") +

@@ -7,6 +7,8 @@
 #include <string>
 #include <string_view>
 
+#include "telltale/core/base/format_number.hpp"
+
 namespace telltale {
 namespace {
 
@@ -142,6 +144,18 @@ Result<ModelChange> ChangeBetween(const Identification& earlier, const Identific
         {of.equation, of.regressor, of.symbol, d.difference, d.standard_error, d.p_value});
   }
   return change;
+}
+
+std::string AnswerOf(const ModelChange& change) {
+  const std::string p = "p = " + FormatSignificant(change.p_value, 2) + '.';
+  switch (change.verdict) {
+    case ChangeVerdict::kChanged: return "The models differ, " + p;
+    case ChangeVerdict::kNoSignificantChange: return "The models do not differ significantly, " + p;
+    case ChangeVerdict::kInconclusive:
+      return "The models cannot be compared: " + change.reason + '.';
+    case ChangeVerdict::kUnknown: break;
+  }
+  return "The models were not compared.";
 }
 
 }  // namespace telltale

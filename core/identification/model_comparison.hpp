@@ -1,5 +1,7 @@
 #pragma once
 
+#include <string>
+
 #include "telltale/core/base/result.hpp"
 #include "telltale/core/identification/identification.hpp"
 #include "telltale/core/uncertainty/wald.hpp"
@@ -30,5 +32,8 @@ bool WindowsOverlap(const Identification& first, const Identification& second);
 /// TestForChange() in words and with a verdict at kSignificantChange: every coefficient both know,
 /// the most significant first. Refuses as TestForChange().
 Result<ModelChange> ChangeBetween(const Identification& earlier, const Identification& later);
+
+/// "The models differ, p = 0.002."
+std::string AnswerOf(const ModelChange& change);
 
 }  // namespace telltale

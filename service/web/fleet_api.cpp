@@ -17,6 +17,7 @@
 #include "telltale/service/monitoring/fleet_json.hpp"
 #include "telltale/service/unix_now.hpp"
 #include "telltale/service/web/json_answer.hpp"
+#include "telltale/service/web/model_answers.hpp"
 
 namespace telltale {
 namespace {
@@ -64,9 +65,15 @@ std::optional<ListFilter> FilterOf(const httplib::Request& request, httplib::Res
   return filter;
 }
 
+void AnswerNotServed(const std::string& vehicle_id, httplib::Response& response) {
+  AnswerFailure(404, "vehicle '" + vehicle_id.substr(0, 64) + "' is not served here",
+                "an id of GET /api/v1/vehicles", response);
+}
+
 proto::Model Shortened(proto::Model model) {
   model.clear_covariance();
   model.clear_thruster_time_constant_covariance();
+  model.clear_parameter_covariance();
   model.clear_recording_bias();
   model.clear_joint();
   model.clear_excitation();
@@ -114,6 +121,8 @@ void FleetApi::AddRoutes(httplib::Server& server) {
   get("/api/v1/vehicles/([^/]+)/history", &FleetApi::GetHistory);
   get("/api/v1/vehicles/([^/]+)/models", &FleetApi::GetModels);
   get("/api/v1/vehicles/([^/]+)/models/([^/]+)", &FleetApi::GetModel);
+  get("/api/v1/vehicles/([^/]+)/comparison", &FleetApi::GetComparison);
+  get("/api/v1/vehicles/([^/]+)/predicted-paths", &FleetApi::GetPredictedPaths);
   get("/api/v1/vehicles/([^/]+)/diagnosis", &FleetApi::GetDiagnosis);
   get("/api/v1/jobs", &FleetApi::GetJobs);
   get("/api/v1/jobs/([^/]+)", &FleetApi::GetJob);
@@ -161,8 +170,7 @@ void FleetApi::GetVehicles(const Request& request, Response& response) const {
 
 bool FleetApi::IsServed(const std::string& vehicle_id, Response& response) const {
   if (fleet_.Find(vehicle_id) != nullptr) return true;
-  AnswerFailure(404, "vehicle '" + vehicle_id.substr(0, 64) + "' is not served here",
-                "an id of GET /api/v1/vehicles", response);
+  AnswerNotServed(vehicle_id, response);
   return false;
 }
 
@@ -219,16 +227,67 @@ void FleetApi::GetModels(const Request& request, Response& response) const {
 void FleetApi::GetModel(const Request& request, Response& response) const {
   const std::string vehicle_id = request.matches[1];
   if (!IsServed(vehicle_id, response)) return;
-  const std::string text = request.matches[2];
+  const auto model = FindModel(vehicle_id, request.matches[2], response);
+  if (model) AnswerJson(ToProto(*model), request, response);
+}
+
+/// The model of that revision; nothing after it has answered 404.
+std::optional<PublishedModel> FleetApi::FindModel(const std::string& vehicle_id,
+                                                  const std::string& text,
+                                                  Response& response) const {
   const bool numeric = !text.empty() && text.size() < 10 &&
                        text.find_first_not_of("0123456789") == std::string::npos;
   const std::uint64_t revision = numeric ? std::stoull(text) : 0;
   const auto newest = models_.History(vehicle_id, revision + 1, 1);
-  if (newest.empty() || newest.front().model.revision != revision) {
-    return AnswerFailure(404, "there is no revision '" + text.substr(0, 64) + "' of " + vehicle_id,
-                         "a revision of GET /api/v1/vehicles/" + vehicle_id + "/models", response);
+  if (!newest.empty() && newest.front().model.revision == revision) return newest.front().model;
+  AnswerFailure(404, "there is no revision '" + text.substr(0, 64) + "' of " + vehicle_id,
+                "a revision of GET /api/v1/vehicles/" + vehicle_id + "/models", response);
+  return std::nullopt;
+}
+
+/// By default of the newest model with the one before it.
+void FleetApi::GetComparison(const Request& request, Response& response) const {
+  const std::string vehicle_id = request.matches[1];
+  if (!IsServed(vehicle_id, response)) return;
+  const auto newest = models_.History(vehicle_id, kMostRevision, 1);
+  const std::uint64_t last = newest.empty() ? 1 : newest.front().model.revision;
+  const auto later = QueryCount(request, "later", 1, kMostRevision, last, response);
+  if (!later) return;
+  const auto earlier = QueryCount(request, "earlier", 1, kMostRevision, *later - 1, response);
+  if (!earlier) return;
+  if (*earlier >= *later) {
+    return AnswerFailure(
+        400, "earlier is " + std::to_string(*earlier) + " and later is " + std::to_string(*later),
+        "two revisions, the earlier one smaller", response);
   }
-  AnswerJson(ToProto(newest.front().model), request, response);
+  const auto first = FindModel(vehicle_id, std::to_string(*earlier), response);
+  if (!first) return;
+  const auto second = FindModel(vehicle_id, std::to_string(*later), response);
+  if (second) AnswerJson(Compared(*first, *second), request, response);
+}
+
+void FleetApi::GetPredictedPaths(const Request& request, Response& response) const {
+  const std::string vehicle_id = request.matches[1];
+  VehicleWindow* const window = fleet_.Find(vehicle_id);
+  if (window == nullptr) return AnswerNotServed(vehicle_id, response);
+  const auto seconds = QueryCount(request, "seconds", 10, 600, 180, response);
+  if (!seconds) return;
+  const auto horizon =
+      QueryCount(request, "horizon", 5, *seconds, std::min<std::uint64_t>(*seconds, 60), response);
+  if (!horizon) return;
+  const auto latest = models_.Latest(vehicle_id);
+  if (!latest) {
+    return AnswerFailure(404, vehicle_id + " has no model",
+                         "telltale identify --vehicle-id " + vehicle_id, response);
+  }
+  const auto paths =
+      PredictPaths(window->Snapshot(), window->vehicle(), latest->model.identification,
+                   static_cast<double>(*seconds), static_cast<double>(*horizon));
+  if (!paths) {
+    const Refusal& refusal = paths.error();
+    return AnswerFailure(404, refusal.subject + ": " + refusal.reason, refusal.advice, response);
+  }
+  AnswerJson(ToProto(*paths, latest->model.revision), request, response);
 }
 
 void FleetApi::GetDiagnosis(const Request& request, Response& response) const {

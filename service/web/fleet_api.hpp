@@ -47,6 +47,8 @@ class FleetApi {
   void GetTracks(const Request& request, Response& response) const;
   void GetModels(const Request& request, Response& response) const;
   void GetModel(const Request& request, Response& response) const;
+  void GetComparison(const Request& request, Response& response) const;
+  void GetPredictedPaths(const Request& request, Response& response) const;
   void GetDiagnosis(const Request& request, Response& response) const;
   void GetJobs(const Request& request, Response& response) const;
   void GetJob(const Request& request, Response& response) const;
@@ -56,6 +58,8 @@ class FleetApi {
   bool ReadOrder(const Request& request, const std::string& form, google::protobuf::Message& order,
                  Response& response);
   bool IsServed(const std::string& vehicle_id, Response& response) const;
+  std::optional<PublishedModel> FindModel(const std::string& vehicle_id, const std::string& text,
+                                          Response& response) const;
   void Queue(JobView::Kind kind, const std::string& id, const std::string& vehicle_id);
 
   const Fleet& fleet_;

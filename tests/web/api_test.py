@@ -179,6 +179,44 @@ class ApiTest(unittest.TestCase):
             self.assertEqual(answered, status, (more, answer))
             self.keeps_to_schema("POST", "/api/v1/rollback", answered, headers, json.dumps(answer))
 
+    def refused(self, route, status, template):
+        """What the answer says would do."""
+        answered, headers, text = self.daemon.ask("GET", route)
+        self.assertEqual(answered, status, (route, text))
+        self.keeps_to_schema("GET", template, answered, headers, text)
+        return json.loads(text)["allowed"]
+
+    def test_two_revisions_are_compared(self):
+        template = "/api/v1/vehicles/{id}/comparison"
+        route = template.replace("{id}", BOAT)
+        answer = self.daemon.get(f"{route}?earlier=1&later=2")
+        self.assertEqual((answer["earlier"], answer["later"], answer["change"]["revision"]), (1, 2, "1"))
+        files = []
+        for revision in (1, 2):
+            files.append(self.daemon.folder / f"r{revision}.json")
+            files[-1].write_text(json.dumps(self.daemon.get(f"/api/v1/vehicles/{BOAT}/models/{revision}")))
+        told = self.daemon.compare(*files)
+        self.assertEqual(answer["sentence"].split(" Revision")[0], told.splitlines()[0])
+        newest = self.daemon.get(f"/api/v1/vehicles/{BOAT}/models?limit=1")["models"][0]["provenance"]["revision"]
+        self.assertEqual(self.daemon.get(route)["later"], int(newest))
+        for query, status in (("earlier=2&later=2", 400), ("earlier=2&later=1", 400), ("later=999", 404),
+                              ("later=1", 404)):
+            self.refused(f"{route}?{query}", status, template)
+        self.refused("/api/v1/vehicles/boat-0000/comparison", 404, template)
+
+    def test_paths_are_predicted(self):
+        template = "/api/v1/vehicles/{id}/predicted-paths"
+        route = template.replace("{id}", BOAT)
+        answer = self.daemon.get(f"{route}?seconds=120&horizon=30")
+        self.assertEqual(len(answer["predicted"]), 4)
+        for path in (answer["measured"], *answer["predicted"]):
+            self.assertEqual(len(path["timeS"]), len(path["northM"]))
+            self.assertEqual(len(path["timeS"]), len(path["eastM"]))
+        self.assertLess(answer["positionRmseM"], 10)  # metres, of a model that fits
+        self.assertIn("[5, 60]", self.refused(f"{route}?seconds=60&horizon=61", 400, template))
+        self.assertIn("[10, 600]", self.refused(f"{route}?seconds=601", 400, template))
+        self.assertIn("telltale identify", self.refused("/api/v1/vehicles/boat-0000/predicted-paths", 404, template))
+
     def test_a_large_body_is_refused(self):
         status, _, _ = self.daemon.ask("POST", "/api/v1/refresh", "x" * 100_000,
                                        {"Content-Type": "application/json", "Authorization": f"Bearer {TOKEN}"})

@@ -136,6 +136,32 @@ const steps = {
     await page.getByRole("link", { name: `Download revision ${newest + 1}`, exact: true }).waitFor({ timeout: 60_000 });
     await page.context().close();
   },
+  async "two revisions are compared side by side"() {
+    const page = await open(1280, "light", `#/boat/${boat}`);
+    const { models } = await (await fetch(`${address}/api/v1/vehicles/${boat}/models`)).json();
+    const compared = async (query) => (await fetch(`${address}/api/v1/vehicles/${boat}/comparison${query}`)).json();
+    const newest = await compared("");
+    await page.getByText(newest.sentence, { exact: true }).waitFor();
+    await page.getByRole("button", { name: /^Show all/ }).click();
+    assert.equal(await page.locator(".pairs tbody tr").count(), models[0].coefficients.length);
+    assert.equal(await page.locator(".pairs tbody tr:first-child svg g").count(), 2);
+    await page.getByRole("combobox", { name: /^Revision/ }).selectOption("2");
+    await page.getByRole("combobox", { name: /^with revision/ }).selectOption("1");
+    const earlier = await compared("?earlier=1&later=2");
+    await page.getByText(earlier.sentence, { exact: true }).waitFor();
+    await page.context().close();
+  },
+  async "the predicted path stands beside the measured one"() {
+    const page = await open(1280, "light", `#/boat/${boat}`);
+    const paths = await (await fetch(`${address}/api/v1/vehicles/${boat}/predicted-paths`)).json();
+    assert.ok(paths.predicted.length > 0);
+    await page.locator(".paths .predicted").first().waitFor();
+    assert.equal(await page.locator(".paths polyline.predicted").count(), paths.predicted.length);
+    const points = await page.locator(".paths polyline.measured").getAttribute("points");
+    assert.equal(points.split(" ").length, paths.measured.timeS.length);
+    await page.getByText(`root mean square of ${paths.predicted.length} runs`).waitFor();
+    await page.context().close();
+  },
   async "axe finds nothing serious, and nothing is cut off at any width"() {
     for (const scheme of ["light", "dark"]) {
       for (const [view, hash] of [["fleet", "#/"], ["boat", `#/boat/${boat}`]]) {

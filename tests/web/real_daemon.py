@@ -93,6 +93,11 @@ class Daemon:
         assert done.returncode == 0, done.stdout + done.stderr
         return done.stdout
 
+    def compare(self, earlier, later):
+        """What `telltale compare` prints of two files."""
+        return subprocess.run([BUILT / "client/telltale", "compare", "--model", earlier, "--model", later],
+                              check=True, capture_output=True, text=True, timeout=60).stdout
+
     def replay(self, boat=BOAT, first_s=0, last_s=600, speed=100):
         """The sample from its second first_s to last_s."""
         with self.replaying(boat, first_s, last_s, speed) as replay:

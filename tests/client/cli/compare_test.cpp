@@ -44,7 +44,7 @@ class CompareTest : public testing::Test {
 TEST_F(CompareTest, FindsNoDifferenceWhereThereIsNone) {
   const CommandOutcome outcome = Compare();
   EXPECT_EQ(outcome.exit_code, kSuccess) << outcome.err;
-  EXPECT_THAT(outcome.out, StartsWith("The models do not differ significantly, p = 1.0.\n"));
+  EXPECT_THAT(outcome.out, StartsWith("The models do not differ significantly, p = 1.\n"));
   EXPECT_THAT(outcome.out, HasSubstr("no different from the other model: p = 1"));
   EXPECT_THAT(outcome.err, IsEmpty());
 }

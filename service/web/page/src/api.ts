@@ -73,6 +73,7 @@ export interface Model {
   estimator: string;
   coefficients: Coefficient[];
   thrusterTimeConstantS?: Coefficient;
+  parameters?: Coefficient[];  // of the physical form
   delays?: { [name: string]: unknown };
   window?: { startS: number; endS: number; samples: number };
   provenance: {
@@ -81,6 +82,38 @@ export interface Model {
     softwareVersion: string;
     change?: { verdict: string; revision: string; pValue: number };
   };
+}
+
+export interface Comparison {
+  earlier: number;
+  later: number;
+  sentence: string;
+  windowsOverlap: boolean;
+  change: {
+    verdict: string;
+    coefficients: {
+      equation: Coefficient["equation"];
+      regressor: string;
+      symbol: string;
+      difference: number;
+      standardError: number;
+      pValue: number;
+    }[];
+  };
+}
+
+export interface Path {
+  timeS: number[];
+  northM: number[];
+  eastM: number[];
+}
+
+export interface PredictedPaths {
+  revision: number;
+  horizonS: number;
+  measured: Path;
+  predicted: Path[];
+  positionRmseM: number | string;
 }
 
 export interface Report {

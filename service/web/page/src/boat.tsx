@@ -1,24 +1,13 @@
 import type { ComponentChildren } from "preact";
-import { useEffect, useState } from "preact/hooks";
-import { get, order, rollback, type Coefficient, type History, type Info, type Job, type Model, type Quality, type Report } from "./api";
+import { useState } from "preact/hooks";
+import { order, rollback, type Coefficient, type History, type Info, type Job, type Model, type PredictedPaths, type Quality, type Report } from "./api";
 import { ErrorChart, Intervals } from "./charts";
+import { CompareModels } from "./compare";
 import { clock, diagnosisVerdict, duration, number, percent, significant, unit, words } from "./format";
 import { TrackMap, type Track } from "./map";
 import { Badge, Bar, Card, Fact, JobLine } from "./parts";
-
-/** Asks the daemon again whenever `when` changes. */
-function useAnswer<T>(route: string, when: unknown): { answer: T | null | undefined; fault: string } {
-  const [answer, setAnswer] = useState<T | null | undefined>(undefined);
-  const [fault, setFault] = useState("");
-  useEffect(() => {
-    let wanted = true;
-    get<T>(route).then(
-      (value) => { if (wanted) { setAnswer(value); setFault(""); } },
-      (error: Error) => { if (wanted) setFault(error.message); });
-    return () => { wanted = false; };
-  }, [route, when]);
-  return { answer, fault };
-}
+import { PathPlot } from "./paths";
+import { useAnswer } from "./use_answer";
 
 function sentence(quality: Quality): string {
   const since = ` since ${clock(quality.verdictSinceUnixS)}`;
@@ -77,19 +66,19 @@ function Delays({ model }: { model?: Model }) {
   const lag = model?.thrusterTimeConstantS;
   const delays = Object.entries(model?.delays ?? {})
     .filter((entry): entry is [string, Coefficient] => isCoefficient(entry[1]));
+  if (!lag && delays.length === 0) return null;
   return (
-    <Card title="Delays">
-      {!lag && delays.length === 0
-        ? <p class="empty">The model estimates none. A first-order dynamic model has the lag of the thrusters.</p>
-        : <dl>
-            {lag && <Fact name="Thruster lag">{withBounds(lag)}</Fact>}
-            {delays.map(([name, delay]) => <Fact key={name} name={words(name)}>{withBounds(delay)}</Fact>)}
-          </dl>}
-    </Card>
+    <>
+      <h3>Delays</h3>
+      <dl>
+        {lag && <Fact name="Thruster lag">{withBounds(lag)}</Fact>}
+        {delays.map(([name, delay]) => <Fact key={name} name={words(name)}>{withBounds(delay)}</Fact>)}
+      </dl>
+    </>
   );
 }
 
-function ModelFacts({ quality }: { quality: Quality }) {
+function ModelFacts({ quality, newest }: { quality: Quality; newest?: Model }) {
   const model = quality.model;
   if (!model) {
     return <Card title="Model"><p class="empty">No model has been published.</p></Card>;
@@ -103,6 +92,7 @@ function ModelFacts({ quality }: { quality: Quality }) {
         <Fact name="Identified">{model.identified} of {model.coefficients} coefficients</Fact>
         <Fact name="Median half width">{model.relativeHalfWidth > 0 ? percent(model.relativeHalfWidth) : "–"} of the estimate</Fact>
       </dl>
+      <Delays model={newest} />
       {quality.lastRefusal && (
         <p class="note"><strong>Last refusal.</strong> {quality.lastRefusal.subject}: {quality.lastRefusal.reason}. {quality.lastRefusal.advice}</p>
       )}
@@ -246,6 +236,7 @@ function Models({ vehicleId, models, takesOrders, token }: {
           </tbody>
         </table>
       </div>
+      {models.length > 1 && <CompareModels vehicleId={vehicleId} models={models} />}
     </Card>
   );
 }
@@ -303,6 +294,7 @@ export function BoatView({ vehicleId, round, info, jobs, track }: {
   const finished = jobs.filter((job) => job.state !== "RUNNING").length;
   const revision = quality?.model?.revision;
   const { answer: list } = useAnswer<{ models: Model[] }>(`${route}/models?limit=20`, revision);
+  const { answer: paths } = useAnswer<PredictedPaths>(`${route}/predicted-paths`, `${Math.floor(round / 5)} ${revision}`);
   const { answer: report } = useAnswer<Report>(`${route}/diagnosis`, `${finished} ${revision}`);
   const models = list?.models ?? [];
   const [token, setToken] = useState(sessionStorage.getItem("token") ?? "");  // it stays in this tab
@@ -329,11 +321,14 @@ export function BoatView({ vehicleId, round, info, jobs, track }: {
         <Card title="Free-run error over the last hour" wide>
           {history && <ErrorChart history={history} />}
         </Card>
-        <ModelFacts quality={quality} />
+        <ModelFacts quality={quality} newest={models[0]} />
         <Telemetry quality={quality} />
-        <Delays model={models[0]} />
         <Card title="Track of the last ten minutes">
           <TrackMap tracks={track ? [track] : []} selected={vehicleId} label={`Track of ${vehicleId}, north up`} />
+        </Card>
+        <Card title="Path of the last three minutes, predicted and measured">
+          {paths ? <PathPlot paths={paths} />
+            : <p class="empty">No prediction yet: it needs a model and a minute of telemetry without a gap.</p>}
         </Card>
         <Coefficients models={models} />
         <Diagnosis report={report} />

@@ -40,7 +40,8 @@ function projection(tracks: Track[], width: number, height: number): Projection 
   };
 }
 
-function roundLength(metres: number): number {
+/** 1, 2 or 5 times a power of ten, not above `metres`. */
+export function roundLength(metres: number): number {
   const power = 10 ** Math.floor(Math.log10(metres));
   return power * (metres >= 5 * power ? 5 : metres >= 2 * power ? 2 : 1);
 }
