@@ -55,7 +55,7 @@ CHECK
 browser=$(command -v chromium || true)
 if [[ -n $browser && -d $built/tests/page/node_modules ]]; then
   cp "$root/tests/web/picture.mjs" "$built/tests/page"
-  (cd "$built/tests/page" && timeout 60 node picture.mjs "$address" fleet.png "$browser") || fail "the page has no picture"
+  (cd "$built/tests/page" && timeout 180 node picture.mjs "$address" fleet.png "$browser") || fail "the page has no picture"
 fi
 
 kill -s CONT "$demo"

@@ -326,7 +326,7 @@ export function BoatView({ vehicleId, round, info, jobs, track }: {
         <Card title="Track of the last ten minutes">
           <TrackMap tracks={track ? [track] : []} selected={vehicleId} label={`Track of ${vehicleId}, north up`} />
         </Card>
-        <Card title="Path of the last three minutes, predicted and measured">
+        <Card title="Newest three minutes, predicted and measured">
           {paths ? <PathPlot paths={paths} />
             : <p class="empty">No prediction yet: it needs a model and a minute of telemetry without a gap.</p>}
         </Card>

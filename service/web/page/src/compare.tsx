@@ -101,7 +101,7 @@ function Pairs({ comparison, pairs }: { comparison: Comparison; pairs: Pair[] })
         <table class="pairs">
           <thead>
             <tr>
-              <th scope="col">{pairs.length > kRowsAtOnce ? "most significant first" : "coefficient"}</th>
+              <th scope="col">{comparison.change.coefficients.length > 0 ? "most significant first" : "coefficient"}</th>
               <th scope="col">bounds</th>
               <th scope="col" class="number">revision {comparison.earlier}</th>
               <th scope="col" class="number">revision {comparison.later}</th>
@@ -155,7 +155,7 @@ export function CompareModels({ vehicleId, models }: { vehicleId: string; models
       {fault && <p class="fault" role="alert">{fault}</p>}
       {answer && <>
         <p class="answer" role="status">{answer.sentence}</p>
-        {answer.windowsOverlap &&
+        {answer.windowsOverlap && answer.change.verdict !== "CANNOT_TELL" &&
           <p class="note">By the boat's clock the data of the two overlap. If they share data, the test does not hold.</p>}
         <Pairs comparison={answer} pairs={pairsOf(answer, find(answer.earlier), find(answer.later))} />
       </>}
