@@ -51,6 +51,18 @@ double Pulse(double delta, const Channel& channel) {
   return channel.neutral_us + std::abs(delta) * (full - channel.neutral_us);
 }
 
+/// The command that gives `times` the thrust of `delta`, which may lie beyond +-1.
+double CommandForThrust(double delta, double times, const ThrustCurve& curve) {
+  const double beyond = std::abs(delta) - curve.dead_band;
+  if (beyond <= 0.0) return delta;
+  const double linear = delta > 0.0 ? curve.forward_linear : curve.reverse_linear;
+  const double quadratic = delta > 0.0 ? curve.forward_quadratic : curve.reverse_quadratic;
+  const double thrust = times * (linear + quadratic * beyond) * beyond;
+  const double needed =
+      2.0 * thrust / (linear + std::sqrt(linear * linear + 4.0 * quadratic * thrust));
+  return std::copysign(needed + curve.dead_band, delta);
+}
+
 }  // namespace
 
 void TurnHeading(Telemetry& telemetry, double degrees) {
@@ -84,11 +96,13 @@ std::size_t MoveAntenna(Telemetry& telemetry, double forward_m, double starboard
   return dropped;
 }
 
-std::size_t Weaken(Telemetry& telemetry, Side side, double lost, const Channel& channel) {
+std::size_t Weaken(Telemetry& telemetry, Side side, double lost, const Channel& channel,
+                   const ThrustCurve& curve) {
   std::size_t cut = 0;
   for (Pulses& row : telemetry.pulses) {
     double& pulse = side == Side::kPort ? row.left_us : row.right_us;
-    const double needed = Delta(pulse, channel) / std::sqrt(1.0 - lost);
+    const double delta = std::clamp(Delta(pulse, channel), -1.0, 1.0);
+    const double needed = CommandForThrust(delta, 1.0 / (1.0 - lost), curve);
     cut += std::abs(needed) > 1.0 ? 1 : 0;
     pulse = Pulse(std::clamp(needed, -1.0, 1.0), channel);
   }

@@ -31,10 +31,22 @@ struct Channel {
   double full_reverse_us = 1100.0;
 };
 
+/// The steady thrust of a propeller, up to its unit: with e = |delta| - dead_band above zero,
+/// linear e + quadratic e^2; zero within the dead band. delta is the share of full command. By
+/// default delta |delta|.
+struct ThrustCurve {
+  double forward_linear = 0.0;
+  double forward_quadratic = 1.0;
+  double reverse_linear = 0.0;
+  double reverse_quadratic = 1.0;
+  double dead_band = 0.0;
+};
+
 /// What a boat whose one side gives `lost` of its thrust away, [0, 0.9], would have had to command
-/// for the motion that was recorded. Thrust is taken as proportional to delta |delta|, delta the
-/// share of full command: delta' = delta / sqrt(1 - lost), no further than +-1. Returns how many
-/// rows were cut there.
-std::size_t Weaken(Telemetry& telemetry, Side side, double lost, const Channel& channel);
+/// for the motion that was recorded: the command whose thrust by `curve` is 1 / (1 - lost) times as
+/// large, no further than +-1. Commands within the dead band stay. Returns how many rows were cut
+/// at +-1.
+std::size_t Weaken(Telemetry& telemetry, Side side, double lost, const Channel& channel,
+                   const ThrustCurve& curve = {});
 
 }  // namespace blind::alter

@@ -21,6 +21,7 @@ struct Arguments {
   double delay_fixes_s = 0.0;
   double shift_commands_s = 0.0;
   std::pair<std::string, double> weaken;
+  std::vector<double> thrust_curve{0, 1, 0, 1, 0};
   std::vector<double> move_antenna_m;
   std::vector<double> port_pulses_us{1500, 1900, 1100};
   std::vector<double> starboard_pulses_us{1500, 1900, 1100};
@@ -47,9 +48,15 @@ void AddOptions(CLI::App& app, Arguments& arguments) {
       ->check(CLI::Range(-10.0, 10.0).description(""));
   app.add_option("--weaken", arguments.weaken,
                  "port or starboard, and the share of thrust it gives away, [0, 0.9]: its commands "
-                 "become those the weaker side would have needed, delta / sqrt(1 - share), cut at "
-                 "full command")
+                 "become those the weaker side would have needed by the thrust curve, cut at full "
+                 "command")
       ->type_name("SIDE SHARE");
+  app.add_option("--thrust-curve", arguments.thrust_curve,
+                 "thrust by share of full command beyond the dead band: linear and quadratic "
+                 "ahead, linear and quadratic in reverse, the dead band (default 0 1 0 1 0)")
+      ->type_name("F1 F2 R1 R2 D0")
+      ->check(CLI::NonNegativeNumber.description(""))
+      ->expected(5);
   app.add_option("--move-antenna-m", arguments.move_antenna_m,
                  "fixes are of a point so far forward and to starboard")
       ->type_name("FORWARD STARBOARD")
@@ -76,6 +83,14 @@ blind::alter::Channel ChannelOf(const std::vector<double>& pulses_us) {
   return channel;
 }
 
+blind::alter::ThrustCurve ThrustCurveOf(const std::vector<double>& curve) {
+  if (curve[0] + curve[1] <= 0.0 || curve[2] + curve[3] <= 0.0 || curve[4] >= 1.0) {
+    throw CLI::ValidationError("--thrust-curve",
+                               "thrust grows with the command, and the dead band is below 1");
+  }
+  return {curve[0], curve[1], curve[2], curve[3], curve[4]};
+}
+
 void ApplyWeakening(blind::alter::Telemetry& telemetry, const Arguments& arguments) {
   const auto& [name, lost] = arguments.weaken;
   if ((name != "port" && name != "starboard") || !(lost >= 0.0 && lost <= 0.9)) {
@@ -84,8 +99,11 @@ void ApplyWeakening(blind::alter::Telemetry& telemetry, const Arguments& argumen
   const bool port = name == "port";
   const auto& pulses = port ? arguments.port_pulses_us : arguments.starboard_pulses_us;
   const auto side = port ? blind::alter::Side::kPort : blind::alter::Side::kStarboard;
-  const std::size_t cut = blind::alter::Weaken(telemetry, side, lost, ChannelOf(pulses));
-  if (cut > 0) std::cerr << "blind_alter: " << cut << " commands were cut at full command\n";
+  const std::size_t cut = blind::alter::Weaken(telemetry, side, lost, ChannelOf(pulses),
+                                               ThrustCurveOf(arguments.thrust_curve));
+  if (cut > 0)
+    std::cerr << "blind_alter: " << cut << " of " << telemetry.pulses.size()
+              << " commands were cut at full command\n";
 }
 
 /// In the order in which they happen: at the boat, in the chain of the receiver, at the compass.

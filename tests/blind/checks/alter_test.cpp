@@ -80,6 +80,21 @@ TEST(Weaken, AsksMoreOfTheWeakerSide) {
   EXPECT_DOUBLE_EQ(log.pulses[0].right_us, 1500.0);
 }
 
+TEST(Weaken, FollowsTheThrustCurve) {
+  Telemetry log = SmallLog();
+  log.pulses = {{10.0, 1700, 1500}, {10.1, 1320, 1500}, {10.2, 1530, 1500}};
+  const ThrustCurve curve{.forward_linear = 1.0,
+                          .forward_quadratic = 2.0,
+                          .reverse_linear = 0.5,
+                          .reverse_quadratic = 0.0,
+                          .dead_band = 0.1};
+  EXPECT_EQ(Weaken(log, Side::kPort, 0.5, {1500, 1900, 1100}, curve), 0u);
+  // e = 0.4 gives 0.72; twice that is e + 2 e^2 at e = (sqrt(12.52) - 1) / 4.
+  EXPECT_NEAR(log.pulses[0].left_us, 1500.0 + 400.0 * (0.1 + (std::sqrt(12.52) - 1.0) / 4.0), 1e-9);
+  EXPECT_NEAR(log.pulses[1].left_us, 1500.0 - 400.0 * (0.1 + 2.0 * 0.35), 1e-9);
+  EXPECT_DOUBLE_EQ(log.pulses[2].left_us, 1530.0);  // within the dead band
+}
+
 TEST(Weaken, KnowsReversedChannels) {
   Telemetry log = SmallLog();
   log.pulses = {{10.0, 1500, 1411}, {10.1, 1500, 1611}};

@@ -1,0 +1,234 @@
+#!/usr/bin/env python3
+"""Alters each BlueBoat run in one known way at a time and prints, in Markdown, what telltale diagnose makes of it, by
+the physical model of the boat's other runs, with all of those as references and with every choice of three of them.
+
+Usage: bench/altered_real_runs.py [--built DIR] [--data DIR] [--held RUN]... [--threads N]
+
+Runs telltale and blind_alter of build/release unless --built names another build folder, on the recordings of
+../shared/data unless --data names another folder; without them it exits 77. --held names runs to alter; default: all.
+
+Five runs do not suffice for a model and three references apart, so the other runs are both. telltale diagnose refuses
+references that made the model, therefore the record of what made it is removed from model.json. What the tables show is
+thus a floor of recordings that the model knows.
+"""
+import argparse
+import collections
+import itertools
+import json
+import math
+import pathlib
+import subprocess
+import sys
+import tempfile
+
+REFUSED = 3
+SKIPPED = 77
+VEHICLE = "docs/vehicles/blueboat.textproto"
+# As in the vehicle file: neutral, full forward, full reverse.
+PULSES = ["--port-pulses-us", "1511", "1911", "1111", "--starboard-pulses-us", "1511", "1111", "1911"]
+THRUST_CURVE = ["Tf1", "Tf2", "Tr1", "Tr2", "d0"]
+
+# What is altered: the effect that it stands for, the sizes of its parameters (SI), and how blind_alter makes it.
+Alteration = collections.namedtuple("Alteration", "name effect sizes options")
+DEGREE = math.pi / 180.0
+ALTERATIONS = [
+    Alteration("none", None, {}, []),
+    *(Alteration(f"heading {b:+d} degrees", "heading_bias", {"bias": b * DEGREE}, ["--turn-heading-deg", str(b)])
+      for b in (4, -4, 8, -8)),
+    *(Alteration(f"fixes {s} s late", "gnss_latency", {"latency": s}, ["--delay-fixes-s", str(s)]) for s in (0.2, 0.4)),
+    *(Alteration(f"commands {s} s late", "thruster_delay", {"delay": s}, ["--shift-commands-s", str(s)])
+      for s in (0.15, 0.3)),
+    *(Alteration(f"{side} {round(100 * e)} % weaker", "thruster_imbalance",
+                 {"port_loss": e if side == "port" else -e}, ["--weaken", side, str(e)])
+      for side in ("port", "starboard") for e in (0.1, 0.2, 0.35)),
+    Alteration("antenna 0.4 m forward", "antenna_lever_arm", {"forward": 0.4}, ["--move-antenna-m", "0.4", "0"]),
+    Alteration("antenna 0.4 m to starboard", "antenna_lever_arm", {"starboard": 0.4}, ["--move-antenna-m", "0", "0.4"]),
+]
+
+Answer = collections.namedtuple("Answer", "run alteration references report")
+
+
+def run(*command):
+    """What a command says on standard error; None where the data cannot answer."""
+    done = subprocess.run([str(c) for c in command], capture_output=True, text=True)
+    if done.returncode == REFUSED:
+        return None
+    if done.returncode != 0:
+        sys.exit(f"altered_real_runs: {' '.join(map(str, command))} exited {done.returncode}: {done.stderr}")
+    return done.stderr
+
+
+class Boat:
+    """The programs, the recordings and a folder for what they make of each other."""
+
+    def __init__(self, arguments, root, folder):
+        self.telltale = arguments.built / "client/telltale"
+        self.alter = arguments.built / "tests/blind/blind_alter"
+        self.vehicle = root / VEHICLE
+        self.home = arguments.data / "blueboat"
+        self.runs = sorted(log.name for log in self.home.iterdir() if log.is_dir())
+        self.threads = arguments.threads
+        self.folder = folder
+
+    def model(self, runs):
+        """model.json of these runs, without the record of what made it."""
+        out = self.folder / ("+".join(runs) + ".json")
+        logs = [part for name in runs for part in ("--log", self.home / name)]
+        run(self.telltale, "identify", *logs, "--vehicle", self.vehicle, "--structure", "fossen", "--threads",
+            self.threads, "--out", out)
+        model = json.loads(out.read_text())
+        model["provenance"].pop("recordings", None)
+        out.write_text(json.dumps(model))
+        return out
+
+    def altered(self, name, alteration, model):
+        """The log of a run, altered by the model's thrust curve, and what blind_alter says of it."""
+        if alteration.effect is None:
+            return self.home / name, ""
+        curve = {p["symbol"]: p["estimate"] for p in json.loads(model.read_text())["parameters"]}
+        log = self.folder / "log"
+        said = run(self.alter, "--log", self.home / name, *alteration.options, *PULSES, "--thrust-curve",
+                   *(curve[symbol] for symbol in THRUST_CURVE), "--out", log)
+        return log, said
+
+    def diagnosis(self, log, model, references):
+        """report.json; None where it is refused."""
+        out = self.folder / "report.json"
+        out.unlink(missing_ok=True)
+        logs = [part for name in references for part in ("--reference-log", self.home / name)]
+        said = run(self.telltale, "diagnose", "--log", log, "--vehicle", self.vehicle, "--model", model, *logs,
+                   "--threads", self.threads, "--out", out)
+        return None if said is None else json.loads(out.read_text())
+
+
+def choices(others):
+    """Every choice of references: all, and all but one."""
+    return [others, *itertools.combinations(others, len(others) - 1)]
+
+
+def is_named(report):
+    return report["verdict"] in ("EXPLAINED", "PARTLY_EXPLAINED")
+
+
+def sees_gap(report):
+    return report["verdict"] not in ("NO_MATERIAL_GAP", "INSUFFICIENT_DATA")
+
+
+def first_cause(report):
+    causes = report.get("causes") or [{"effects": []}]
+    return causes[0]
+
+
+def is_right(answer):
+    cause = first_cause(answer.report)
+    return answer.alteration.effect in cause["effects"] + cause.get("indistinguishable", [])
+
+
+def size_text(answer):
+    """Estimates of the true effect's parameters, the true size in brackets."""
+    found = {p["name"]: p for p in first_cause(answer.report).get("parameters", [])
+             if p.get("effect") == answer.alteration.effect}
+    sizes = answer.alteration.sizes
+    texts = [f"{found[n]['estimate']:.2f} ({sizes[n]:.2f}) {found[n].get('unit', '')}" for n in sizes if n in found]
+    return ", ".join(texts) or "–"
+
+
+def row(answer):
+    report = answer.report
+    gap, cause = report["gap"], first_cause(report)
+    effects = " + ".join(cause["effects"]) or "–"
+    probability = f"{cause['probability']:.2f}" if "probability" in cause else "–"
+    return (f"| {answer.run} | {answer.alteration.name} | {report['verdict']} | {gap['before']:.2f} "
+            f"({gap['floorLimit']:.2f}) | {effects} | {probability} | {size_text(answer)} |")
+
+
+def counts(answers):
+    """Answers that see a gap, that name the true effect and another, that hold the true one likeliest."""
+    named = [a for a in answers if is_named(a.report)]
+    right = sum(is_right(a) for a in named)
+    first = sum(sees_gap(a.report) and is_right(a) for a in answers)
+    return f"{sum(sees_gap(a.report) for a in answers)} | {right} | {len(named) - right} | {first} | {len(answers)}"
+
+
+def print_by_run(answers):
+    print("### Against all other runs\n")
+    print("| run | alteration | verdict | gap (nominal limit) | first cause | probability | size (true size) |")
+    print("|---|---|---|---|---|---|---|")
+    most = max(len(a.references) for a in answers)
+    for answer in answers:
+        if len(answer.references) == most:
+            print(row(answer))
+
+
+def print_by_alteration(answers):
+    print("\n### Over every choice of references\n")
+    print("| alteration | gap seen | named rightly | named wrongly | true effect likeliest | diagnoses |")
+    print("|---|---|---|---|---|---|")
+    for alteration in ALTERATIONS:
+        print(f"| {alteration.name} | {counts([a for a in answers if a.alteration is alteration])} |")
+
+
+def print_steadiness(answers):
+    print("\n### Verdicts by choice of references\n")
+    print("| run | alterations of which every choice has one verdict | unaltered |")
+    print("|---|---|---|")
+    for name in sorted({a.run for a in answers}):
+        own = [a for a in answers if a.run == name]
+        verdicts = [[a.report["verdict"] for a in own if a.alteration is alteration] for alteration in ALTERATIONS]
+        steady = sum(len(set(v)) == 1 for v in verdicts)
+        unaltered = ", ".join(f"{n} {v}" for v, n in collections.Counter(verdicts[0]).items())
+        print(f"| {name} | {steady} of {len(ALTERATIONS)} | {unaltered} |")
+
+
+def print_cuts(cuts):
+    print("\n### Commands cut at full command\n")
+    for line in cuts:
+        print(f"- {line}")
+
+
+def diagnosed(boat, held):
+    """The answers of one run, by alteration and choice of references, and what was cut of its commands."""
+    answers, cuts = [], []
+    others = tuple(r for r in boat.runs if r != held)
+    model = boat.model(others)
+    for alteration in ALTERATIONS:
+        log, said = boat.altered(held, alteration, model)
+        if "cut" in said:
+            cuts.append(f"{held}, {alteration.name}: {said.strip().removeprefix('blind_alter: ')}")
+        for references in choices(others):
+            report = boat.diagnosis(log, model, references)
+            if report is not None:
+                answers.append(Answer(held, alteration, references, report))
+    return answers, cuts
+
+
+def main():
+    root = pathlib.Path(__file__).resolve().parent.parent
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--built", type=pathlib.Path, default=root / "build/release")
+    parser.add_argument("--data", type=pathlib.Path, default=root / "../shared/data")
+    parser.add_argument("--held", action="append")
+    parser.add_argument("--threads", type=int, default=1)
+    arguments = parser.parse_args()
+    if not (arguments.data / "blueboat").is_dir():
+        print(f"altered_real_runs: skipped, no recordings at {arguments.data / 'blueboat'}", file=sys.stderr)
+        sys.exit(SKIPPED)
+    answers, cuts = [], []
+    with tempfile.TemporaryDirectory() as folder:
+        boat = Boat(arguments, root, pathlib.Path(folder))
+        for held in arguments.held or boat.runs:
+            if held not in boat.runs:
+                parser.error(f"--held {held}: there are {', '.join(boat.runs)}")
+            of_run, cut_of_run = diagnosed(boat, held)
+            answers += of_run
+            cuts += cut_of_run
+    if not answers:
+        sys.exit("altered_real_runs: every run is refused; telltale diagnose says why")
+    print_by_run(answers)
+    print_by_alteration(answers)
+    print_steadiness(answers)
+    print_cuts(cuts)
+
+
+if __name__ == "__main__":
+    main()
