@@ -19,18 +19,64 @@ PrepareOptions PreparationFor(const Identification& model) {
   return options;
 }
 
-PreparedDataset PrepareReference(const DiagnoseArguments& arguments,
-                                 const std::filesystem::path& log, const RecordedVehicle& diagnosed,
-                                 const PrepareOptions& options) {
-  const Recording reference = LoadAdmitted(log, arguments.inputs.options);
-  if (HoldsRecording(diagnosed.recording, reference)) {
-    throw RefusedError({log.string(), "is both the recording to diagnose and a reference",
-                        "give recordings of days on which the model held as references"});
+bool Overlap(const RecordingIdentity& one_identity, const Recording& one,
+             const RecordingIdentity& other_identity, const Recording& other) {
+  return SharesFixes(one_identity, other) || SharesFixes(other_identity, one);
+}
+
+/// A reference log, known to be evidence of its own.
+struct Reference {
+  std::filesystem::path log;
+  Recording recording;
+  RecordingIdentity identity;
+};
+
+/// A reference shows what a nominal error is. The recording to diagnose may not be nominal, the
+/// model fits the recordings that made it too well, and a recording given twice counts its day
+/// twice.
+void RequireOwnEvidence(const Reference& reference, const RecordedVehicle& diagnosed,
+                        const Identification& model, const std::vector<Reference>& earlier) {
+  const auto refuse = [&](const std::string& reason, const std::string& advice) {
+    throw RefusedError({reference.log.string(), reason, advice});
+  };
+  for (const RecordingIdentity& log : diagnosed.logs) {
+    if (Overlap(log, diagnosed.recording, reference.identity, reference.recording)) {
+      refuse("is both the recording to diagnose and a reference",
+             "give recordings of days on which the model held as references");
+    }
   }
-  auto prepared = Prepare(reference, diagnosed.vehicle, options);
+  for (const RecordingIdentity& made : model.provenance.recordings) {
+    if (SharesFixes(made, reference.recording)) {
+      refuse("made the model (as " + made.name + "), which fits it better than other recordings",
+             "give references that did not make the model, or identify the model without this one");
+    }
+  }
+  for (const Reference& other : earlier) {
+    if (Overlap(other.identity, other.recording, reference.identity, reference.recording)) {
+      refuse("holds the same recording as " + other.log.string(), "give each reference once");
+    }
+  }
+}
+
+std::vector<Reference> LoadReferences(const DiagnoseArguments& arguments,
+                                      const RecordedVehicle& diagnosed,
+                                      const Identification& model) {
+  std::vector<Reference> references;
+  for (const auto& log : arguments.reference_logs) {
+    Reference reference{log, LoadAdmitted(log, arguments.inputs.options), {}};
+    reference.identity = IdentityOf(reference.recording, NameOf(log));
+    RequireOwnEvidence(reference, diagnosed, model, references);
+    references.push_back(std::move(reference));
+  }
+  return references;
+}
+
+PreparedDataset PrepareReference(const Reference& reference, const Vehicle& vehicle,
+                                 const PrepareOptions& options) {
+  auto prepared = Prepare(reference.recording, vehicle, options);
   if (prepared) return *std::move(prepared);
   Refusal refusal = std::move(prepared).error();
-  refusal.subject = log.string() + ' ' + refusal.subject;
+  refusal.subject = reference.log.string() + ' ' + refusal.subject;
   throw RefusedError(std::move(refusal));
 }
 
@@ -38,6 +84,22 @@ PreparedDataset PrepareReference(const DiagnoseArguments& arguments,
 std::string VehicleIdFor(const DiagnoseArguments& arguments, const Vehicle& vehicle,
                          const Identification& model) {
   return arguments.inputs.NamesVehicle() ? vehicle.vehicle_id : model.vehicle_id;
+}
+
+/// What the model's record of its recordings, or its absence, means for the answer.
+void NoteRecordingsOf(const Identification& model, const RecordedVehicle& diagnosed,
+                      bool has_references, Diagnosis& diagnosis) {
+  const auto& recordings = model.provenance.recordings;
+  if (has_references && recordings.empty()) {
+    diagnosis.notes.emplace_back(
+        "The model does not say which recordings made it, so nothing shows that the references did "
+        "not.");
+  }
+  for (const RecordingIdentity& made : recordings) {
+    if (!SharesFixes(made, diagnosed.recording)) continue;
+    diagnosis.notes.push_back("The recording made the model (as " + made.name +
+                              "), which fits it better than recordings that did not.");
+  }
 }
 
 DiagnosedModel DiagnoseFromFiles(const DiagnoseArguments& arguments) {
@@ -51,12 +113,20 @@ DiagnosedModel DiagnoseFromFiles(const DiagnoseArguments& arguments) {
   const PreparedDataset dataset =
       OrThrow(Prepare(diagnosed.recording, diagnosed.vehicle, preparation));
   std::vector<PreparedDataset> references;
-  for (const auto& log : arguments.reference_logs) {
-    references.push_back(PrepareReference(arguments, log, diagnosed, preparation));
+  std::vector<RecordingIdentity> evidence = diagnosed.logs;
+  for (const Reference& reference : LoadReferences(arguments, diagnosed, model)) {
+    references.push_back(PrepareReference(reference, diagnosed.vehicle, preparation));
+    evidence.push_back(reference.identity);
   }
-  return OrThrow(Diagnose(
+  DiagnosedModel answer = OrThrow(Diagnose(
       dataset, references, model, VehicleIdFor(arguments, diagnosed.vehicle, model), options,
       [&line](std::string_view stage, double fraction) { line.Update(stage, fraction); }));
+  if (answer.augmented) {
+    auto& made_of = answer.augmented->provenance.recordings;
+    made_of.insert(made_of.end(), evidence.begin(), evidence.end());
+  }
+  NoteRecordingsOf(model, diagnosed, !references.empty(), answer.diagnosis);
+  return answer;
 }
 
 void DiagnoseLogs(const DiagnoseArguments& arguments) {

@@ -59,7 +59,7 @@ ScoredModel IdentifyByTheData(const RecordedVehicle& recorded, IdentifyOptions o
 void IdentifyLogs(const IdentifyArguments& arguments) {
   const IdentifyOptions options = arguments.Options();
   const RecordedVehicle recorded = LoadLogs(arguments);
-  const ScoredModel made = [&] {
+  ScoredModel made = [&] {
     ProgressLine line;
     const Progress show = [&line](std::string_view stage, double fraction) {
       line.Update(stage, fraction);
@@ -67,6 +67,7 @@ void IdentifyLogs(const IdentifyArguments& arguments) {
     return arguments.LeaveStructureToData() ? IdentifyByTheData(recorded, options, show)
                                             : IdentifyAsAsked(recorded, options, show);
   }();
+  made.model.provenance.recordings = recorded.logs;
   arguments.output.Write(PrintModelJson(made.model), [&] {
     return ModelTable(made.model, made.score) +
            (arguments.discrete ? '\n' + DiscreteTable(made.model) : "");

@@ -249,8 +249,16 @@ RecordedVehicle LogInputs::Load() const {
     RequireSoundInput(recorded, logs, *vehicle);
   }
   std::vector<Recording> recordings;
-  for (LoadedRecording& log : loaded) recordings.push_back(std::move(log.recording));
-  return {Concatenate(recordings), *std::move(vehicle)};
+  std::vector<RecordingIdentity> identities;
+  for (std::size_t i = 0; i < logs.size(); ++i) {
+    identities.push_back(IdentityOf(loaded[i].recording, NameOf(logs[i])));
+    recordings.push_back(std::move(loaded[i].recording));
+  }
+  return {Concatenate(recordings), *std::move(vehicle), std::move(identities)};
+}
+
+std::string NameOf(const std::filesystem::path& log) {
+  return (log.has_filename() ? log : log.parent_path()).filename().string();
 }
 
 RawLog LoadAsRecorded(const std::filesystem::path& log, const SourceOptions& options) {

@@ -10,16 +10,18 @@
 #include "telltale/client/recording/load_recording.hpp"
 #include "telltale/client/recording/source_log.hpp"
 #include "telltale/core/data/preparation.hpp"
+#include "telltale/core/data/recording_identity.hpp"
 #include "telltale/core/data/samples.hpp"
 #include "telltale/core/identification/identification.hpp"
 #include "telltale/core/vessel/vehicle.hpp"
 
 namespace telltale {
 
-/// One recording and the vehicle that made it.
+/// One recording, the vehicle that made it and the logs that it is of.
 struct RecordedVehicle {
   Recording recording;
   Vehicle vehicle;
+  std::vector<RecordingIdentity> logs;
 };
 
 /// Logs and the vehicle that made them, as a command line names them.
@@ -54,6 +56,9 @@ RawLog LoadAsRecorded(const std::filesystem::path& log, const SourceOptions& opt
 /// One log, admitted, with what was left out of it noted on standard error. Throws: RefusedError
 /// naming the log.
 Recording LoadAdmitted(const std::filesystem::path& log, const SourceOptions& options);
+
+/// "run225" of /data/run225 and of /data/run225/.
+std::string NameOf(const std::filesystem::path& log);
 
 /// `--log`, required, of a subcommand that takes one log and no vehicle, with what to take from a
 /// file that offers a choice.

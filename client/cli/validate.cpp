@@ -65,7 +65,7 @@ void ValidateModel(const ValidateArguments& arguments) {
   const VesselModel vessel = OrThrow(ModelOf(model));
   ProgressLine line;
   line.Update("reading logs", 0.0);
-  const auto [recording, vehicle] = arguments.inputs.Load();
+  const auto [recording, vehicle, logs] = arguments.inputs.Load();
   if (arguments.inputs.NamesVehicle()) NoteOtherVehicle(model, vehicle);
   line.Update("preparing data", 0.2);
   const PreparedDataset dataset =

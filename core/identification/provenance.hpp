@@ -4,7 +4,9 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
+#include "telltale/core/data/recording_identity.hpp"
 #include "telltale/core/data/samples.hpp"
 #include "telltale/core/identification/model_change.hpp"
 
@@ -37,6 +39,9 @@ struct Provenance {
   double misspecification = 0.0;
   std::size_t clusters = 0;  ///< independent clusters of time behind the covariance; 0: no clusters
   std::optional<ModelChange> change;  ///< against an earlier model, where there is one
+  /// Those that made the model, by which they are known again; empty where nobody recorded them, as
+  /// in a model of the daemon's window.
+  std::vector<RecordingIdentity> recordings;
 };
 
 }  // namespace telltale

@@ -22,6 +22,23 @@ void Write(const RejectCounts& rejected, proto::WindowSummary& message) {
   }
 }
 
+void Write(const RecordingIdentity& recording, proto::RecordingIdentity& message) {
+  message.set_name(recording.name);
+  message.set_start_s(recording.start_s);
+  message.set_end_s(recording.end_s);
+  message.set_fixes(Saturated(recording.fixes));
+  for (const std::uint32_t mark : recording.marks) message.add_marks(mark);
+}
+
+RecordingIdentity ReadRecordingIdentity(FieldReader reader,
+                                        const proto::RecordingIdentity& message) {
+  return {message.name(),
+          reader.Number("start_s", kFinite),
+          reader.Number("end_s", kFinite),
+          message.fixes(),
+          {message.marks().begin(), message.marks().end()}};
+}
+
 template <class Value, std::size_t N>
 Value ReadName(FieldReader& reader, const char* field, const std::string& name,
                const std::array<Value, N>& values) {
@@ -70,6 +87,9 @@ proto::Provenance ToProto(const Provenance& provenance) {
   message.set_misspecification(provenance.misspecification);
   message.set_clusters(Saturated(provenance.clusters));
   if (provenance.change) *message.mutable_change() = ToProto(*provenance.change);
+  for (const RecordingIdentity& recording : provenance.recordings) {
+    Write(recording, *message.add_recordings());
+  }
   return message;
 }
 
@@ -115,6 +135,8 @@ Provenance ReadProvenance(FieldReader reader, const proto::Provenance& message) 
   if (message.has_change()) {
     provenance.change = ReadModelChange(reader.Optional("change"), message.change());
   }
+  provenance.recordings =
+      ReadAll(reader, "recordings", message.recordings(), ReadRecordingIdentity);
   return provenance;
 }
 

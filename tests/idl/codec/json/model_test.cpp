@@ -125,6 +125,23 @@ TEST(ModelJson, RefusesAMisspecificationThatIsNoRatio) {
   EXPECT_EQ(IdentificationOf(model).error().field, "provenance.misspecification");
 }
 
+TEST(ModelJson, NamesTheRecordingsThatMadeIt) {
+  Identification made = MadeUpIdentification();
+  made.provenance.recordings = {{"monday", 100.0, 400.25, 1501, {1U, 4294967295U}},
+                                {"tuesday", -3.5, 60.0, 300, {}}};
+  const auto read = ParseModelJson(PrintModelJson(made));
+  ASSERT_TRUE(read) << read.error().Message();
+  const auto& recordings = read->provenance.recordings;
+  ASSERT_EQ(recordings.size(), 2U);
+  EXPECT_EQ(recordings[0].name, "monday");
+  EXPECT_EQ(recordings[0].start_s, 100.0);
+  EXPECT_EQ(recordings[0].end_s, 400.25);
+  EXPECT_EQ(recordings[0].fixes, 1501U);
+  EXPECT_EQ(recordings[0].marks, made.provenance.recordings[0].marks);
+  EXPECT_EQ(recordings[1].start_s, -3.5);
+  EXPECT_TRUE(recordings[1].marks.empty());
+}
+
 TEST(ModelJson, UsesTheNamesOfTheInterface) {
   const std::string json = PrintModelJson(MadeUpIdentification());
   for (const char* text : {"\"vehicleId\": \"made-up.1\"",
