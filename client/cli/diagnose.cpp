@@ -103,7 +103,7 @@ void NoteRecordingsOf(const Identification& model, const RecordedVehicle& diagno
 }
 
 DiagnosedModel DiagnoseFromFiles(const DiagnoseArguments& arguments) {
-  const DiagnoseOptions options = arguments.Options();
+  DiagnoseOptions options = arguments.Options();
   const Identification model = LoadModel(arguments.model_file);
   ProgressLine line;
   line.Update("reading logs", 0.0);
@@ -116,6 +116,7 @@ DiagnosedModel DiagnoseFromFiles(const DiagnoseArguments& arguments) {
   std::vector<RecordingIdentity> evidence = diagnosed.logs;
   for (const Reference& reference : LoadReferences(arguments, diagnosed, model)) {
     references.push_back(PrepareReference(reference, diagnosed.vehicle, preparation));
+    options.reference_names.push_back(reference.identity.name);
     evidence.push_back(reference.identity);
   }
   DiagnosedModel answer = OrThrow(Diagnose(

@@ -78,6 +78,7 @@ DiagnoseOptions DiagnoseArguments::Options() const {
   options.refit = refit;
   options.without = without;
   options.seed = seed;
+  options.leave_out_references = true;
   options.threads = threads.value_or(DefaultThreads());
   if (const auto refusal = options.Validate()) {
     throw UsageError(refusal->subject + ": " + refusal->reason + "; " + refusal->advice);

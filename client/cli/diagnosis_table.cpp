@@ -113,8 +113,23 @@ std::string TestabilityTable(const Diagnosis& diagnosis) {
   Table table({{"effect of typical size", Align::kLeft},
                {"std. errors", Align::kRight},
                {"", Align::kLeft}});
+  Table sizes({{"effect", Align::kLeft}, {"shows in 90 % of cases from", Align::kLeft}});
   for (const EffectTestability& effect : diagnosis.effects) {
     table.AddRow({effect.effect, Fixed(effect.detectability, 1), TestabilityText(effect)});
+    if (!effect.detectable_sizes.empty()) sizes.AddRow({effect.effect, DetectableText(effect)});
+  }
+  return '\n' + table.Render() + '\n' + sizes.Render();
+}
+
+std::string ReferencesTable(const Diagnosis& diagnosis) {
+  if (diagnosis.reference_influence.empty()) return "";
+  Table table({{"without reference", Align::kLeft},
+               {"before", Align::kRight},
+               {"95 % below", Align::kRight},
+               {"verdict", Align::kLeft}});
+  for (const ReferenceInfluence& influence : diagnosis.reference_influence) {
+    table.AddRow({influence.reference, Fixed(influence.gap.before, 2),
+                  Fixed(influence.gap.floor_limit, 2), InfluenceText(influence)});
   }
   return '\n' + table.Render();
 }
@@ -168,8 +183,8 @@ std::string NotesText(const Diagnosis& diagnosis) {
 
 std::string DiagnosisTable(const Diagnosis& diagnosis) {
   return Headline(diagnosis) + '\n' + GapTable(diagnosis) + '\n' + WhereTable(diagnosis) + '\n' +
-         CausesText(diagnosis) + ImprovementTable(diagnosis) + TestabilityTable(diagnosis) +
-         AdviceText(diagnosis) + NotesText(diagnosis);
+         CausesText(diagnosis) + ImprovementTable(diagnosis) + ReferencesTable(diagnosis) +
+         TestabilityTable(diagnosis) + AdviceText(diagnosis) + NotesText(diagnosis);
 }
 
 }  // namespace telltale

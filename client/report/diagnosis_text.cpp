@@ -108,6 +108,15 @@ std::string TestabilityText(const EffectTestability& effect) {
   return "";
 }
 
+std::string DetectableText(const EffectTestability& effect) {
+  std::string text;
+  for (const auto& [parameter, size, unit] : effect.detectable_sizes) {
+    text.append(text.empty() ? "" : ", ").append(parameter).append(" ");
+    text += size ? Significant(*size, 2) + (unit == "1" ? "" : ' ' + unit) : "beyond range";
+  }
+  return text;
+}
+
 std::string CauseText(const Cause& cause) {
   if (cause.effects.empty()) return "unknown";
   std::string text;
@@ -115,6 +124,16 @@ std::string CauseText(const Cause& cause) {
     text.append(text.empty() ? "" : " + ").append(effect.effect);
   }
   return text;
+}
+
+std::string InfluenceText(const ReferenceInfluence& influence) {
+  std::string text(VerdictText(influence.verdict));
+  if (influence.effects.empty()) return text;
+  std::string effects;
+  for (const std::string& effect : influence.effects) {
+    effects.append(effects.empty() ? "" : " + ").append(effect);
+  }
+  return text + ": " + effects + " (" + ShareText(influence.probability) + ")";
 }
 
 std::string EstimateText(const ParameterEstimate& parameter) {

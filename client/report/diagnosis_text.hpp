@@ -36,8 +36,14 @@ std::string MoreCellsText(const Diagnosis& diagnosis);
 /// "testable", "masked by YAW uv", "not excited".
 std::string TestabilityText(const EffectTestability& effect);
 
+/// "port_loss 0.31", "forward 0.8 m, starboard beyond range"; empty where nothing is stated.
+std::string DetectableText(const EffectTestability& effect);
+
 /// "thruster_lag + wind", or "unknown".
 std::string CauseText(const Cause& cause);
+
+/// "Unknown cause, likeliest wind (60 %)", "No material gap".
+std::string InfluenceText(const ReferenceInfluence& influence);
 
 /// "0.220 ± 0.030 m/s".
 std::string EstimateText(const ParameterEstimate& parameter);

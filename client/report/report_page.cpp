@@ -176,10 +176,11 @@ Markup TestabilityTable(const Diagnosis& diagnosis) {
   if (diagnosis.effects.empty()) return Nothing("No effect of the library was asked for.");
   Markup rows;
   for (const EffectTestability& effect : ByTestability(diagnosis.effects)) {
-    rows +=
-        Element("tr", {},
-                Element("td", {}, JoinedName(effect.effect)) +
-                    Cell(Fixed(effect.detectability, 1), "number") + Cell(TestabilityText(effect)));
+    rows += Element(
+        "tr", {},
+        Element("td", {},
+                JoinedName(effect.effect) + Styled("small", "", Words(DetectableText(effect)))) +
+            Cell(Fixed(effect.detectability, 1), "number") + Cell(TestabilityText(effect)));
   }
   return Element("table", {},
                  HeaderRow({{"Effect", ""}, {"Std. errors", "number"}, {"On this recording", ""}}) +
@@ -189,8 +190,34 @@ Markup TestabilityTable(const Diagnosis& diagnosis) {
 Markup TestabilitySection(const Diagnosis& diagnosis) {
   return Section("What this recording could show",
                  "By how many standard errors an effect of typical size would stand out beside the "
-                 "model's own coefficients.",
+                 "model's own coefficients, and below its name from which size on it would show in "
+                 "90 % of cases.",
                  TestabilityTable(diagnosis));
+}
+
+Markup ReferencesTable(const Diagnosis& diagnosis) {
+  if (diagnosis.reference_influence.empty()) {
+    return Nothing("It takes two references or more to leave one out.");
+  }
+  Markup rows;
+  for (const ReferenceInfluence& influence : diagnosis.reference_influence) {
+    rows += Element("tr", {},
+                    Cell(influence.reference) + Cell(InfluenceText(influence)) +
+                        Cell(Fixed(influence.gap.before, 2), "number") +
+                        Cell(Fixed(influence.gap.floor_limit, 2), "number"));
+  }
+  return Element(
+      "table", {},
+      HeaderRow(
+          {{"Without", ""}, {"The answer is", ""}, {"Gap", "number"}, {"95 % below", "number"}}) +
+          Element("tbody", {}, rows));
+}
+
+Markup ReferencesSection(const Diagnosis& diagnosis) {
+  return Section("What each reference does",
+                 "The diagnosis once more without each reference. An answer that changes rests on "
+                 "that one recording.",
+                 ReferencesTable(diagnosis));
 }
 
 Markup AdviceCard(const SeparationAdvice& advice) {
@@ -241,7 +268,8 @@ std::string ReportPage(const Diagnosis& diagnosis) {
               Headline(diagnosis) + GapSection(diagnosis) + OnsetSection(diagnosis) +
                   LocationSection(diagnosis) + CausesSection(diagnosis) + PathsSection(diagnosis) +
                   ImprovementSection(diagnosis) + TestabilitySection(diagnosis) +
-                  AdviceSection(diagnosis) + NotesSection(diagnosis) + Colophon(diagnosis));
+                  ReferencesSection(diagnosis) + AdviceSection(diagnosis) +
+                  NotesSection(diagnosis) + Colophon(diagnosis));
   const Markup head = Markup::Own(
                           "<meta charset=\"utf-8\">"
                           "<meta name=\"viewport\" "

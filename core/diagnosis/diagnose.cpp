@@ -104,8 +104,9 @@ Result<DiagnosedModel> DiagnoseAgainst(const std::vector<PreparedDataset>& refer
 
   report_progress("report", 0.85);
   DiagnosedModel diagnosed;
-  diagnosed.diagnosis = BuildReport({recording, references, model, library, horizons, main, problem,
-                                     conclusion, options.advise, options.seed});
+  diagnosed.diagnosis =
+      BuildReport({recording, references, model, library, horizons, main, problem, hypotheses,
+                   conclusion, options.advise, options.seed, options.threads});
   if (conclusion.is_likely) {
     const AugmentedModel boat = Reidentified(conclusion.best, problem, model);
     diagnosed.augmented = Augmented(identification, boat, conclusion.best, problem, model);
@@ -113,6 +114,63 @@ Result<DiagnosedModel> DiagnoseAgainst(const std::vector<PreparedDataset>& refer
   }
   report_progress("done", 1.0);
   return diagnosed;
+}
+
+std::string ReferenceName(const DiagnoseOptions& options, std::size_t reference) {
+  return reference < options.reference_names.size() ? options.reference_names[reference]
+                                                    : "reference " + std::to_string(reference + 1);
+}
+
+ReferenceInfluence InfluenceOf(std::string reference, const Result<DiagnosedModel>& without) {
+  ReferenceInfluence influence;
+  influence.reference = std::move(reference);
+  if (!without) return influence;
+  const Diagnosis& diagnosis = without->diagnosis;
+  influence.verdict = diagnosis.verdict;
+  influence.gap = diagnosis.Main().all;
+  if (diagnosis.causes.empty()) return influence;
+  const Cause& first = diagnosis.causes.front();
+  for (const CausalEffect& effect : first.effects) influence.effects.push_back(effect.effect);
+  influence.probability = first.probability;
+  return influence;
+}
+
+/// The answer without each reference in turn.
+std::vector<ReferenceInfluence> InfluencesOf(const std::vector<PreparedDataset>& references,
+                                             const PreparedDataset& recording,
+                                             const Identification& identification,
+                                             const UncertainModel& model, DiagnoseOptions options,
+                                             const Progress& progress) {
+  options.advise = false;
+  std::vector<ReferenceInfluence> influences;
+  for (std::size_t left_out = 0; left_out < references.size(); ++left_out) {
+    if (progress) {
+      progress("references",
+               static_cast<double>(left_out) / static_cast<double>(references.size()));
+    }
+    std::vector<PreparedDataset> others = references;
+    others.erase(others.begin() + static_cast<std::ptrdiff_t>(left_out));
+    influences.push_back(
+        InfluenceOf(ReferenceName(options, left_out),
+                    DiagnoseAgainst(others, recording, identification, model, options, {})));
+  }
+  return influences;
+}
+
+/// Names the references without which the verdict is another.
+void NoteInfluences(Diagnosis& diagnosis) {
+  std::string deciding;
+  for (const ReferenceInfluence& influence : diagnosis.reference_influence) {
+    if (influence.verdict == diagnosis.verdict) continue;
+    deciding.append(deciding.empty() ? "" : ", ")
+        .append(influence.reference)
+        .append(" (")
+        .append(Name(influence.verdict))
+        .append(")");
+  }
+  if (deciding.empty()) return;
+  diagnosis.notes.push_back("Without one of these references the verdict is another: " + deciding +
+                            ". More references would settle it.");
 }
 
 void DescribeReferences(std::size_t reference_logs, Diagnosis& diagnosis) {
@@ -164,6 +222,11 @@ Result<DiagnosedModel> Diagnose(const PreparedDataset& recording,
   auto diagnosed = DiagnoseAgainst(references.empty() ? synthetic : references, recording, model,
                                    *uncertain, options, progress);
   if (!diagnosed) return diagnosed;
+  if (options.leave_out_references && references.size() > 1) {
+    diagnosed->diagnosis.reference_influence =
+        InfluencesOf(references, recording, model, *uncertain, options, progress);
+    NoteInfluences(diagnosed->diagnosis);
+  }
   diagnosed->diagnosis.vehicle_id = vehicle_id;
   DescribeReferences(references.size(), diagnosed->diagnosis);
   diagnosed->diagnosis.sentence = SummarySentence(diagnosed->diagnosis);

@@ -21,8 +21,13 @@ struct DiagnoseOptions {
   std::size_t most_effects = 3;      ///< that may act together, [1, 3]
   std::vector<std::string> without;  ///< names of effects to leave out of the library
   bool advise = true;                ///< manoeuvres that separate equivalent hypotheses
-  std::uint64_t seed = 1;            ///< of every random draw
-  std::size_t threads = 1;           ///< [1, 256]; never changes the result
+  /// Diagnose once more without each reference, where there are two or more: takes that many times
+  /// as long.
+  bool leave_out_references = false;
+  /// Names of the references in their order; those without a name are numbered from 1.
+  std::vector<std::string> reference_names;
+  std::uint64_t seed = 1;   ///< of every random draw
+  std::size_t threads = 1;  ///< [1, 256]; never changes the result
 
   /// The first field out of its range, as a refusal naming field, value and range.
   std::optional<Refusal> Validate() const;

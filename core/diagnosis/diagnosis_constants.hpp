@@ -154,8 +154,9 @@ struct OnsetConstants {
   std::size_t minimum_windows = 4;  ///< on either side of an onset, convention
 };
 
-/// The testability of effects, docs/concepts/diagnosis.md (92).
+/// The testability of effects, docs/concepts/diagnosis.md (92), (99).
 struct TestabilityConstants {
+  double power = 0.9;              ///< 1, probability that a detectable size shows, convention
   double detectable_sigmas = 3.0;  ///< sigmas, that the typical size shows at least, convention
 };
 

@@ -103,7 +103,11 @@ inline Diagnosis MadeUpDiagnosis() {
   unknown.probability = 0.0625;
   made.causes = {both, one, unknown};
   made.effects = {{"wind", Testability::kTestable, 12.5, ""},
-                  {"thruster_imbalance", Testability::kTestable, 31.25, ""},
+                  {"thruster_imbalance",
+                   Testability::kTestable,
+                   31.25,
+                   "",
+                   {{"loss_port", 0.046875, "1"}, {"loss_starboard", std::nullopt, "1"}}},
                   {"added_mass_coupling", Testability::kMasked, 0.75, "YAW uv"},
                   {"waves", Testability::kNotExcited, 0.125, ""}};
   made.advice = {{"fast random steps",
@@ -118,6 +122,10 @@ inline Diagnosis MadeUpDiagnosis() {
                   60.0,
                   1.5,
                   false}};
+  made.reference_influence = {
+      {"monday", Verdict::kUnknownCause, {"wind", "current"}, 0.625, {4.5, 4.5, 1.25, 1.75}},
+      {"tuesday", Verdict::kNoMaterialGap, {}, 0.0, {2.5, 2.5, 1.5, 3.25}},
+      {"friday", Verdict::kUnknown, {}, 0.0, {}}};
   made.onset = Onset{1700000205.0, 1700000195.0, 1700000220.0};
   made.rest = "heading, FR";
   made.improvement = Improvement{{MadeUpScores(1.0, 2.0), MadeUpScores(5.0, 4.0)},
@@ -213,6 +221,20 @@ inline void ExpectSame(const EffectTestability& a, const EffectTestability& b) {
   EXPECT_EQ(a.testability, b.testability);
   EXPECT_EQ(a.detectability, b.detectability);
   EXPECT_EQ(a.masked_by, b.masked_by);
+  ASSERT_EQ(a.detectable_sizes.size(), b.detectable_sizes.size());
+  for (std::size_t i = 0; i < a.detectable_sizes.size(); ++i) {
+    EXPECT_EQ(a.detectable_sizes[i].parameter, b.detectable_sizes[i].parameter);
+    EXPECT_EQ(a.detectable_sizes[i].size, b.detectable_sizes[i].size);
+    EXPECT_EQ(a.detectable_sizes[i].unit, b.detectable_sizes[i].unit);
+  }
+}
+
+inline void ExpectSame(const ReferenceInfluence& a, const ReferenceInfluence& b) {
+  EXPECT_EQ(a.reference, b.reference);
+  EXPECT_EQ(a.verdict, b.verdict);
+  EXPECT_EQ(a.effects, b.effects);
+  EXPECT_EQ(a.probability, b.probability);
+  ExpectSame(a.gap, b.gap);
 }
 
 inline void ExpectSame(const SeparationAdvice& a, const SeparationAdvice& b) {
@@ -262,6 +284,7 @@ inline void ExpectSame(const Diagnosis& a, const Diagnosis& b) {
   ExpectSame(a.causes, b.causes);
   ExpectSame(a.effects, b.effects);
   ExpectSame(a.advice, b.advice);
+  ExpectSame(a.reference_influence, b.reference_influence);
   ASSERT_EQ(a.onset.has_value(), b.onset.has_value());
   if (a.onset) {
     EXPECT_EQ(a.onset->time_s, b.onset->time_s);

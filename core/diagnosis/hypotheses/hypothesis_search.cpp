@@ -101,6 +101,8 @@ class HypothesisSearch {
     return best;
   }
 
+  const std::map<const Effect*, double>& Gains() const { return nominal_gains_; }
+
   /// `fit` less the effects whose removal raises the score by too little.
   EffectFit Pruned(EffectFit fit) const {
     bool pruned = true;
@@ -217,6 +219,7 @@ Hypotheses Search(const DiagnosisProblem& problem, std::span<const Effect* const
   constexpr double kShareOfSingles = 0.6;
   const HypothesisSearch search(problem, library, threads);
   Hypotheses hypotheses;
+  hypotheses.nominal_gains = search.Gains();
   hypotheses.singles =
       search.Singles([&](double share) { report_progress(kShareOfSingles * share); });
   std::vector<EffectFit> level(

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <map>
 #include <span>
 #include <vector>
 
@@ -14,6 +15,7 @@ namespace telltale {
 struct Hypotheses {
   std::vector<EffectFit> singles;   ///< every single effect that was fitted
   std::vector<EffectFit> combined;  ///< of two or three effects, where the evidence asks for each
+  std::map<const Effect*, double> nominal_gains;  ///< of every effect, NominalGains
 };
 
 /// The hypothesis with the lowest score. Requires: at least one single hypothesis.

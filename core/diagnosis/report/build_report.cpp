@@ -81,7 +81,8 @@ Diagnosis BuildReport(const ReportInputs& inputs) {
   diagnosis.seed = inputs.seed;
   diagnosis.software_version = Version();
   diagnosis.gaps = GapsOf(inputs);
-  diagnosis.effects = TestabilityOf(inputs.problem, inputs.model, inputs.library);
+  diagnosis.effects = TestabilityOf(inputs.problem, inputs.model, inputs.library,
+                                    inputs.hypotheses.nominal_gains, inputs.threads);
   if (conclusion.assessment == GapAssessment::kMaterial) DescribeMaterialGap(inputs, diagnosis);
   if (conclusion.assessment == GapAssessment::kUndecided) {
     diagnosis.notes.emplace_back(

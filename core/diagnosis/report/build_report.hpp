@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -7,6 +8,7 @@
 #include "telltale/core/data/prepared_dataset.hpp"
 #include "telltale/core/diagnosis/baseline/uncertain_model.hpp"
 #include "telltale/core/diagnosis/hypotheses/diagnosis_problem.hpp"
+#include "telltale/core/diagnosis/hypotheses/hypothesis_search.hpp"
 #include "telltale/core/diagnosis/report/conclusion.hpp"
 #include "telltale/core/diagnosis/report/diagnosis.hpp"
 #include "telltale/core/diagnosis/report/horizon_gap.hpp"
@@ -22,9 +24,11 @@ struct ReportInputs {
   const std::vector<HorizonErrors>& horizons;
   const HorizonErrors& main;  ///< that of the main horizon
   const DiagnosisProblem& problem;
+  const Hypotheses& hypotheses;
   const Conclusion& conclusion;
   bool advise = true;  ///< manoeuvres that separate equivalent hypotheses
   std::uint64_t seed = 1;
+  std::size_t threads = 1;
 };
 
 /// The diagnosis as a report lists it: gaps, testability, and, where the gap is material, its

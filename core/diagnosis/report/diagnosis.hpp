@@ -97,12 +97,22 @@ enum class Testability { kUnknown, kTestable, kMasked, kNotExcited };
 
 std::string_view Name(Testability testability);
 
+/// The smallest size of one parameter of an effect that this recording shows with
+/// kDiagnosis.testability.power, of either sign.
+struct DetectableSize {
+  std::string parameter;
+  std::optional<double> size;  ///< positive; none where no size within the range shows so often
+  std::string unit;
+};
+
 /// Whether this recording would show an effect at its typical size.
 struct EffectTestability {
   std::string effect;
   Testability testability = Testability::kUnknown;
   double detectability = 0.0;  ///< sigmas that its typical size would show
   std::string masked_by;       ///< coefficient, "YAW uv"; empty unless masked
+  /// By parameter; none for a stochastic effect.
+  std::vector<DetectableSize> detectable_sizes = {};
 };
 
 /// A manoeuvre that separates effects which this recording does not.
@@ -113,6 +123,16 @@ struct SeparationAdvice {
   double duration_s = 0.0;
   double expected_nats = 0.0;
   bool decisive = false;  ///< more than five nats are expected
+};
+
+/// The answer without one of the references.
+struct ReferenceInfluence {
+  std::string reference;                ///< its name
+  Verdict verdict = Verdict::kUnknown;  ///< unknown where the other references allow no diagnosis
+  std::vector<std::string>
+      effects;               ///< of the likeliest cause; empty where none is, or it is unknown
+  double probability = 0.0;  ///< of that cause
+  GapSize gap;               ///< at five seconds, of all channels
 };
 
 /// When the first cause began to act.
@@ -162,6 +182,8 @@ struct Diagnosis {
   std::vector<Cause> causes;               ///< most probable first
   std::vector<EffectTestability> effects;  ///< in the order of the library
   std::vector<SeparationAdvice> advice;    ///< best first
+  /// What each reference does to the answer, in their order; none where it was not asked for.
+  std::vector<ReferenceInfluence> reference_influence;
   std::optional<Onset> onset;
   std::string rest;  ///< where the unexplained error sits: "yaw, FR"; empty where none does
   std::optional<Improvement> improvement;

@@ -1,6 +1,7 @@
 #include "telltale/idl/codec/json/report.hpp"
 
 #include "telltale/core/base/contract.hpp"
+#include "telltale/core/diagnosis/diagnosis_constants.hpp"
 #include "telltale/idl/codec/field_reader.hpp"
 #include "telltale/idl/codec/json/causes.hpp"
 #include "telltale/idl/codec/json/gap.hpp"
@@ -18,6 +19,12 @@ void Write(const EffectTestability& effect, proto::EffectTestability& message) {
   message.set_testability(EnumCast<proto::EffectTestability::Testability>(effect.testability));
   message.set_detectability(effect.detectability);
   message.set_masked_by(effect.masked_by);
+  for (const auto& [parameter, size, unit] : effect.detectable_sizes) {
+    auto& detectable = *message.add_detectable_sizes();
+    detectable.set_name(parameter);
+    if (size) detectable.set_size(*size);
+    detectable.set_unit(unit);
+  }
 }
 
 void Write(const SeparationAdvice& advice, proto::SeparationAdvice& message) {
@@ -27,6 +34,16 @@ void Write(const SeparationAdvice& advice, proto::SeparationAdvice& message) {
   message.set_duration_s(advice.duration_s);
   message.set_expected_nats(advice.expected_nats);
   message.set_decisive(advice.decisive);
+}
+
+void Write(const ReferenceInfluence& influence, proto::ReferenceInfluence& message) {
+  message.set_reference(influence.reference);
+  message.set_verdict(EnumCast<proto::DiagnosisVerdict>(influence.verdict));
+  for (const std::string& effect : influence.effects) message.add_effects(effect);
+  message.set_probability(influence.probability);
+  message.set_before(influence.gap.before);
+  message.set_noise_floor(influence.gap.noise_floor);
+  message.set_floor_limit(influence.gap.floor_limit);
 }
 
 void Write(const Onset& onset, proto::Onset& message) {
@@ -40,9 +57,17 @@ void Write(const Improvement& improvement, proto::Improvement& message) {
   for (const FreeRunScores& scores : improvement.after) *message.add_after() = ToProto(scores);
 }
 
+DetectableSize ReadDetectableSize(FieldReader reader,
+                                  const proto::EffectTestability::DetectableSize& message) {
+  DetectableSize detectable{message.name(), std::nullopt, message.unit()};
+  if (message.has_size()) detectable.size = reader.Number("size", kNotNegative);
+  return detectable;
+}
+
 EffectTestability ReadTestability(FieldReader reader, const proto::EffectTestability& message) {
   return {message.effect(), ReadEnum<Testability>(reader, "testability", message.testability()),
-          reader.Number("detectability", kNotNegative), message.masked_by()};
+          reader.Number("detectability", kNotNegative), message.masked_by(),
+          ReadAll(reader, "detectable_sizes", message.detectable_sizes(), ReadDetectableSize)};
 }
 
 SeparationAdvice ReadAdvice(FieldReader reader, const proto::SeparationAdvice& message) {
@@ -52,6 +77,22 @@ SeparationAdvice ReadAdvice(FieldReader reader, const proto::SeparationAdvice& m
           reader.Number("duration_s", kNotNegative),
           reader.Number("expected_nats", kNotNan),
           message.decisive()};
+}
+
+ReferenceInfluence ReadInfluence(FieldReader reader, const proto::ReferenceInfluence& message) {
+  ReferenceInfluence influence;
+  influence.reference = message.reference();
+  // Zero is a value here: no diagnosis.
+  if (message.verdict() != proto::UNKNOWN_VERDICT) {
+    influence.verdict = ReadEnum<Verdict>(reader, "verdict", message.verdict());
+  }
+  influence.effects = {message.effects().begin(), message.effects().end()};
+  influence.probability = reader.Number("probability", kShare);
+  influence.gap.before = reader.Number("before", kNotNegative);
+  influence.gap.noise_floor = reader.Number("noise_floor", kNotNegative);
+  influence.gap.floor_limit = reader.Number("floor_limit", kNotNegative);
+  influence.gap.after = influence.gap.before;
+  return influence;
 }
 
 Onset ReadOnset(FieldReader reader) {
@@ -84,6 +125,8 @@ Diagnosis ReadReport(FieldReader reader, const proto::Report& report) {
   diagnosis.causes = ReadAll(reader, "causes", report.causes(), ReadCause);
   diagnosis.effects = ReadAll(reader, "effects", report.effects(), ReadTestability);
   diagnosis.advice = ReadAll(reader, "advice", report.advice(), ReadAdvice);
+  diagnosis.reference_influence =
+      ReadAll(reader, "reference_influence", report.reference_influence(), ReadInfluence);
   if (report.has_onset()) diagnosis.onset = ReadOnset(reader.Optional("onset"));
   diagnosis.rest = report.rest();
   if (report.has_improvement()) diagnosis.improvement = ReadImprovement(report.improvement());
@@ -112,11 +155,15 @@ proto::Report ToProto(const Diagnosis& diagnosis) {
   for (const Cause& cause : diagnosis.causes) *report.add_causes() = ToProto(cause);
   for (const EffectTestability& effect : diagnosis.effects) Write(effect, *report.add_effects());
   for (const SeparationAdvice& advice : diagnosis.advice) Write(advice, *report.add_advice());
+  for (const ReferenceInfluence& influence : diagnosis.reference_influence) {
+    Write(influence, *report.add_reference_influence());
+  }
   if (diagnosis.onset) Write(*diagnosis.onset, *report.mutable_onset());
   report.set_rest(diagnosis.rest);
   if (diagnosis.improvement) Write(*diagnosis.improvement, *report.mutable_improvement());
   WritePictures(diagnosis.pictures, report);
   for (const std::string& note : diagnosis.notes) report.add_notes(note);
+  report.set_detection_power(kDiagnosis.testability.power);
   report.set_seed(diagnosis.seed);
   report.set_software_version(diagnosis.software_version);
   return report;

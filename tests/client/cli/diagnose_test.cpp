@@ -34,14 +34,27 @@ TEST(DiagnosisTable, SaysTheSentenceFirstAndThenEveryPart) {
   std::istringstream lines(rendered);
   for (std::string line; std::getline(lines, line);) EXPECT_LE(DisplayWidth(line), 80u) << line;
   const std::string table = std::regex_replace(rendered, std::regex("\\s+"), " ");
-  for (const char* part :
-       {"Partly explained", "400 s recorded", "205 s after the start (95 %: 195 to 220 s)",
-        "3 reference recordings", "81 % [74, 87]", "-25 % [-50, 12]", "heading, FF, 0.5 to 1.0 m/s",
-        "thruster_imbalance + thruster_lag",
-        "port thruster 22 % weaker (75 % of what these explain)", "0.220 ± 0.030",
-        "0.150 ± 0.035 s", "cannot separate it from thruster_delay", "unknown", "masked by YAW uv",
-        "not excited", "fast random steps for 120 s", "-> full ahead for 20 s, then nothing",
-        "- the wind was not measured"}) {
+  for (const char* part : {"Partly explained",
+                           "400 s recorded",
+                           "205 s after the start (95 %: 195 to 220 s)",
+                           "3 reference recordings",
+                           "81 % [74, 87]",
+                           "-25 % [-50, 12]",
+                           "heading, FF, 0.5 to 1.0 m/s",
+                           "thruster_imbalance + thruster_lag",
+                           "port thruster 22 % weaker (75 % of what these explain)",
+                           "0.220 ± 0.030",
+                           "0.150 ± 0.035 s",
+                           "cannot separate it from thruster_delay",
+                           "unknown",
+                           "masked by YAW uv",
+                           "not excited",
+                           "loss_port 0.047, loss_starboard beyond range",
+                           "monday 4.50 1.75 Cause unknown: wind + current (62 %)",
+                           "friday 0.00 0.00 Not diagnosed",
+                           "fast random steps for 120 s",
+                           "-> full ahead for 20 s, then nothing",
+                           "- the wind was not measured"}) {
     EXPECT_THAT(table, HasSubstr(part));
   }
 }
@@ -80,9 +93,11 @@ class DiagnoseTest : public testing::Test {
 
   std::string Path(const std::string& name) const { return (folder.Path() / name).string(); }
 
-  void WriteLog(const std::string& name, double duration_s) const {
-    const auto track = Simulate(YellowfishTwin(), {}, SampleMission(1), duration_s, 0.02);
-    WriteTelemetryLog(Path(name), Measure(track, YellowfishVehicle(), {}));
+  void WriteLog(const std::string& name, double duration_s, std::uint64_t seed = 1) const {
+    const auto track = Simulate(YellowfishTwin(), {}, SampleMission(seed), duration_s, 0.02);
+    SensorOptions sensors;
+    sensors.seed = seed;
+    WriteTelemetryLog(Path(name), Measure(track, YellowfishVehicle(), sensors));
   }
 
   CommandOutcome Diagnose(const std::string& log, const std::string& vehicle,
@@ -162,6 +177,39 @@ TEST_F(DiagnoseTest, ARecordingIsNotItsOwnReference) {
       Diagnose("log", "boat.textproto", {"--reference-log", Path("log")});
   EXPECT_EQ(outcome.exit_code, kRefused);
   EXPECT_THAT(outcome.err, HasSubstr("both the recording to diagnose and a reference"));
+}
+
+TEST_F(DiagnoseTest, AReferenceThatMadeTheModelIsRefused) {
+  WriteLog("today", 200.0);
+  const CommandOutcome outcome =
+      Diagnose("today", "boat.textproto", {"--reference-log", Path("log")});
+  EXPECT_EQ(outcome.exit_code, kRefused);
+  EXPECT_THAT(outcome.err, HasSubstr("made the model (as log)"));
+}
+
+TEST_F(DiagnoseTest, AReferenceCountsOnce) {
+  WriteLog("monday", 150.0, 2);
+  const CommandOutcome outcome =
+      Diagnose("log", "boat.textproto",
+               {"--reference-log", Path("monday"), "--reference-log", Path("monday") + "/"});
+  EXPECT_EQ(outcome.exit_code, kRefused);
+  EXPECT_THAT(outcome.err, HasSubstr("holds the same recording as"));
+}
+
+TEST_F(DiagnoseTest, SaysWhatEachReferenceDoesAndThatTheModelKnowsTheRecording) {
+  WriteLog("monday", 150.0, 2);
+  WriteLog("tuesday", 150.0, 3);
+  const CommandOutcome outcome = Diagnose("log", "boat.textproto",
+                                          {"--reference-log", Path("monday"), "--reference-log",
+                                           Path("tuesday"), "--out", Path("report.json")});
+  ASSERT_EQ(outcome.exit_code, kSuccess) << outcome.err;
+  const auto report = ParseReportJson(TextOfFile(Path("report.json")));
+  ASSERT_TRUE(report) << report.error().Message();
+  ASSERT_EQ(report->reference_influence.size(), 2u);
+  EXPECT_EQ(report->reference_influence[0].reference, "monday");
+  EXPECT_EQ(report->reference_influence[1].reference, "tuesday");
+  EXPECT_NE(report->reference_influence[0].verdict, Verdict::kUnknown);
+  EXPECT_THAT(report->notes, testing::Contains(HasSubstr("The recording made the model (as log)")));
 }
 
 TEST_F(DiagnoseTest, AModelFileThatIsNoneFailsNamingTheFault) {
