@@ -180,7 +180,7 @@ TEST_F(DiagnoseTest, ARecordingIsNotItsOwnReference) {
 }
 
 TEST_F(DiagnoseTest, AReferenceThatMadeTheModelIsRefused) {
-  WriteLog("today", 200.0);
+  WriteLog("today", 200.0, 2);  // another mission: the same one would be the same recording
   const CommandOutcome outcome =
       Diagnose("today", "boat.textproto", {"--reference-log", Path("log")});
   EXPECT_EQ(outcome.exit_code, kRefused);
