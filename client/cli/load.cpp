@@ -43,7 +43,7 @@ std::string BoatName(int number) {
   return "load-" + std::string(digits.size() < 5 ? 5 - digits.size() : 0, '0') + digits;
 }
 
-Vehicle LoadVehicle(const std::string& vehicle_id) {
+Vehicle VehicleOfLoad(const std::string& vehicle_id) {
   Vehicle vehicle;
   vehicle.vehicle_id = vehicle_id;
   vehicle.propeller_separation_m = 0.7;
@@ -98,7 +98,7 @@ void WriteVehicles(const LoadArguments& arguments) {
   std::filesystem::create_directories(arguments.write_vehicles);
   for (int i = 1; i <= arguments.boats; ++i) {
     const std::string name = BoatName(i);
-    WriteFile(arguments.write_vehicles / (name + ".textproto"), PrintVehicle(LoadVehicle(name)));
+    WriteFile(arguments.write_vehicles / (name + ".textproto"), PrintVehicle(VehicleOfLoad(name)));
   }
   std::cout << arguments.boats << " vehicle files are in " << arguments.write_vehicles.string()
             << "; name it as vehicle_folder of the daemon\n";
