@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "telltale/core/base/format_number.hpp"
+#include "telltale/core/estimation/prediction_error/score_covariance.hpp"
 
 namespace telltale {
 namespace {
@@ -98,12 +99,10 @@ Estimates InOrderOf(const Identification& order, const Identification& model) {
 // The delays between the clocks, the last two parameters, are no property of the boat.
 constexpr Eigen::Index kBoatParameters = At(FossenParameter::kCommandDelay);
 
-// Their covariance is widened to Student's t already.
-constexpr std::size_t kWidened = 0;
-
 Estimates ParametersOf(const Identification& model) {
   return {model.physical->Estimates().head<kBoatParameters>(),
-          model.physical->covariance.topLeftCorner<kBoatParameters, kBoatParameters>(), kWidened};
+          model.physical->covariance.topLeftCorner<kBoatParameters, kBoatParameters>(),
+          EquivalentBlocks(ClustersBehind(model))};
 }
 
 /// What stands at a place of the test's result.

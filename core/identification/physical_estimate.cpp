@@ -2,14 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 #include <vector>
-
-#include <Eigen/Cholesky>
 
 #include "telltale/core/base/linear_algebra/covariance.hpp"
 #include "telltale/core/base/version.hpp"
 #include "telltale/core/estimation/prediction_error/prediction_error.hpp"
+#include "telltale/core/estimation/prediction_error/score_covariance.hpp"
 #include "telltale/core/uncertainty/distributions.hpp"
 #include "telltale/core/uncertainty/truncated_normal.hpp"
 
@@ -21,34 +21,11 @@ using enum FossenParameter;
 constexpr std::size_t kDraws = 2000;
 // A posterior this share of its prior or wider is the prior's.
 constexpr double kPriorShare = 0.8;
-constexpr double kFewestDegreesOfFreedom = 4.0;
 constexpr double kLeastCommandDeviation = 0.05;
+constexpr double kUnlimited = std::numeric_limits<double>::infinity();
 
-// The covariance of the estimates: scores by blocks of time, shrunk to the information's own shape
-// where the blocks are few, widened where whole recordings differ more than their blocks tell.
-Eigen::MatrixXd RobustCovariance(const PredictionErrorFit& fit, std::size_t recordings) {
-  const Eigen::Index n = fit.information.rows();
-  const Eigen::MatrixXd inverse = fit.information.llt().solve(Eigen::MatrixXd::Identity(n, n));
-  const double expected = (inverse * fit.data_information).trace();
-  const double by_blocks = (inverse * fit.score_covariance).trace() / expected;
-  double inflation = by_blocks;
-  if (recordings > 1) {
-    const double correction = static_cast<double>(recordings) / static_cast<double>(recordings - 1);
-    inflation = std::max(
-        inflation, correction * (inverse * fit.recording_score_covariance).trace() / expected);
-  }
-  const auto blocks = static_cast<double>(fit.blocks);
-  const double weight = blocks / (blocks + static_cast<double>(n));
-  const Eigen::MatrixXd scores = weight * (inflation / by_blocks) * fit.score_covariance +
-                                 (1.0 - weight) * inflation * fit.data_information;
-  const Eigen::MatrixXd prior = fit.information - fit.data_information;
-  return inverse * (scores + prior) * inverse;
-}
-
-double StudentWidening(std::size_t blocks, double level) {
-  const double degrees = std::max(static_cast<double>(blocks) - 1.0, kFewestDegreesOfFreedom);
-  const double upper = 0.5 * (1.0 + level);
-  return StudentQuantile(degrees, upper) / NormalQuantile(upper);
+double Width(const Interval& interval) {
+  return interval.upper - interval.lower;
 }
 
 double Quantile(std::vector<double>& values, double probability) {
@@ -58,12 +35,21 @@ double Quantile(std::vector<double>& values, double probability) {
   return values[static_cast<std::size_t>(place)];
 }
 
-// Both ends at the level; an estimate at the end of its range has that end for a bound.
-Interval IntervalOf(const Eigen::VectorXd& draws, double estimate, double level) {
+// Equal tails, or from an end of the physical range where that is shorter: an interval of equal
+// tails never holds a value at the end of its range.
+Interval IntervalOf(const Eigen::VectorXd& draws, double estimate, double level,
+                    double least = -kUnlimited, double greatest = kUnlimited) {
   std::vector<double> values(draws.begin(), draws.end());
   const double tail = 0.5 * (1.0 - level);
-  return {level, std::min(Quantile(values, tail), estimate),
-          std::max(Quantile(values, 1.0 - tail), estimate)};
+  Interval interval{level, Quantile(values, tail), Quantile(values, 1.0 - tail)};
+  const Interval from_least{level, least, Quantile(values, level)};
+  const Interval to_greatest{level, Quantile(values, 1.0 - level), greatest};
+  for (const Interval& one_sided : {from_least, to_greatest}) {
+    if (Width(one_sided) < Width(interval)) interval = one_sided;
+  }
+  interval.lower = std::min(interval.lower, estimate);
+  interval.upper = std::max(interval.upper, estimate);
+  return interval;
 }
 
 NoiseModel MeanNoise(const std::vector<NoiseModel>& noise) {
@@ -99,7 +85,8 @@ PhysicalModel ModelWithBounds(const PredictionErrorFit& fit, const FossenPrior& 
     parameter.unit = name.unit;
     parameter.estimate = fit.parameters[at];
     parameter.standard_error = std::sqrt(model.covariance(at, at));
-    parameter.interval = IntervalOf(draws.row(at), parameter.estimate, level);
+    parameter.interval =
+        IntervalOf(draws.row(at), parameter.estimate, level, prior.least[at], prior.greatest[at]);
     const bool prior_decides =
         parameter.standard_error > kPriorShare * prior.standard_deviation[at];
     parameter.status = prior_decides ? CoefficientStatus::kPrior : CoefficientStatus::kEstimated;
@@ -192,12 +179,10 @@ Result<Identification> IdentifyPhysicalModel(const PreparedDataset& dataset, con
                   "check the vehicle file and the recording with `telltale validate`");
   }
   if (progress) progress("bounding", 0.9);
-  const double widening = StudentWidening(fit.blocks, options.interval_level);
-  const Eigen::MatrixXd covariance =
-      widening * widening * RobustCovariance(fit, dataset.Recordings());
+  const RobustCovariance bounds = CovarianceOf(fit, dataset.Recordings(), options.interval_level);
   const Eigen::MatrixXd draws =
-      DrawTruncatedNormal(fit.newton_mean, covariance, prior.least, prior.greatest, fit.parameters,
-                          kDraws, options.seed);
+      DrawTruncatedNormal(fit.newton_mean, bounds.covariance, prior.least, prior.greatest,
+                          fit.parameters, kDraws, options.seed);
 
   Identification identification;
   identification.vehicle_id = vehicle.vehicle_id;
@@ -219,10 +204,10 @@ Result<Identification> IdentifyPhysicalModel(const PreparedDataset& dataset, con
                                            " iterations before it converged",
                                        "record more varied manoeuvres"});
   }
-  identification.provenance.bounds_basis = "scores of " + std::to_string(fit.blocks) +
+  identification.provenance.bounds_basis = "scores of " + std::to_string(fit.blocks.size()) +
                                            " blocks of 10 s, Student t, truncated to the "
                                            "physical range";
-  identification.provenance.clusters = fit.blocks;
+  identification.provenance.clusters = fit.blocks.size();
   return identification;
 }
 

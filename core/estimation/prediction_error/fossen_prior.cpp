@@ -29,7 +29,7 @@ FossenPrior PriorOf(const Vehicle& vehicle) {
   set(kNv, 0.0, 0.3 * length, -kNone, kNone);
   set(kNr, 0.1 * square, 0.3 * square, 0.0, kNone);
   set(kYvv, 1.0 / length, 3.0 / length, 0.0, kNone);
-  set(kNrr, 0.1 * square, 0.3 * square, 0.0, kNone);
+  set(kNrr, 0.1 * square, square, 0.0, kNone);
   set(kYuv, 0.3 / length, 1.0 / length, 0.0, kNone);
   set(kYur, 0.0, 1.0, -kNone, kNone);
   set(kNuv, 0.0, 1.0, -kNone, kNone);

@@ -148,43 +148,37 @@ class Problem {
 struct Normal {
   Eigen::MatrixXd information;
   Eigen::VectorXd gradient;                    // half of that of the objective
-  Eigen::MatrixXd score_covariance;            // of the data's score, by blocks of time
-  Eigen::MatrixXd recording_score_covariance;  // by recordings
-  std::size_t blocks = 0;
+  std::vector<ScoreBlock> blocks;              // of the data, by time
+  Eigen::MatrixXd recording_score_covariance;  // of the data's score, by recordings
 };
 
-// The normal equations of one segment, and the scores of its blocks.
-struct SegmentSums {
-  FossenSquare information = FossenSquare::Zero();
-  std::vector<FossenVector> block_scores;
-};
-
-SegmentSums SumsOf(const std::vector<Innovation>& innovations, double block_s) {
-  SegmentSums sums;
+// The normal equations of one segment by blocks of time.
+std::vector<ScoreBlock> BlocksOf(const std::vector<Innovation>& innovations, double block_s) {
+  std::vector<ScoreBlock> blocks;
   double block_end_s = -std::numeric_limits<double>::infinity();
   for (const Innovation& i : innovations) {
     if (i.time_s > block_end_s) {
-      sums.block_scores.emplace_back(FossenVector::Zero());
+      blocks.emplace_back();
       block_end_s = i.time_s + block_s;
     }
-    sums.information.selfadjointView<Eigen::Lower>().rankUpdate(i.slope, 1.0 / i.variance);
-    sums.block_scores.back() += i.slope * (i.value / i.variance);
+    blocks.back().information.selfadjointView<Eigen::Lower>().rankUpdate(i.slope, 1.0 / i.variance);
+    blocks.back().score += i.slope * (i.value / i.variance);
   }
-  sums.information = sums.information.selfadjointView<Eigen::Lower>();
-  return sums;
+  for (ScoreBlock& block : blocks) {
+    block.information = block.information.selfadjointView<Eigen::Lower>();
+  }
+  return blocks;
 }
 
 Normal NormalEquations(const Problem& problem, const Runs& all) {
   const FossenSquare zero = FossenSquare::Zero();
-  Normal normal{zero, FossenVector::Zero(), zero, zero};
+  Normal normal{zero, FossenVector::Zero(), {}, zero};
   std::vector<FossenVector> of_recordings(problem.dataset_.Recordings(), FossenVector::Zero());
   for (std::size_t s = 0; s < all.size(); ++s) {
-    const SegmentSums sums = SumsOf(all[s], problem.options_.block_s);
-    normal.information += sums.information;
-    normal.blocks += sums.block_scores.size();
-    for (const FossenVector& score : sums.block_scores) {
-      normal.score_covariance += score * score.transpose();
-      of_recordings[problem.dataset_.RecordingOf(s)] += score;
+    for (const ScoreBlock& block : BlocksOf(all[s], problem.options_.block_s)) {
+      normal.information += block.information;
+      of_recordings[problem.dataset_.RecordingOf(s)] += block.score;
+      normal.blocks.push_back(block);
     }
   }
   for (const FossenVector& score : of_recordings) {
@@ -340,9 +334,13 @@ class Search {
       damping_ = std::max(10.0 * damping_, kFirstDamping);
       if (expected < kNegligibleGain) break;
     }
-    const double noise_moved = ScoreNoise(problem_, z_, noise_, options_.threads);
     ++iterations_;
-    converged_ = moved < kConvergedMove && noise_moved < kConvergedNoise;
+    double noise_moved = 0.0;
+    if (!noise_settled_) {
+      noise_moved = ScoreNoise(problem_, z_, noise_, options_.threads);
+      noise_settled_ = noise_moved < kSettledNoise || iterations_ >= kNoiseIterations;
+    }
+    converged_ = moved < kConvergedMove && noise_settled_;
     return !converged_ && iterations_ < options_.max_iterations;
   }
 
@@ -357,9 +355,8 @@ class Search {
     fit.newton_mean = newton_mean_;
     fit.information = information_;
     fit.data_information = normal_.information;
-    fit.score_covariance = normal_.score_covariance;
-    fit.recording_score_covariance = normal_.recording_score_covariance;
     fit.blocks = normal_.blocks;
+    fit.recording_score_covariance = normal_.recording_score_covariance;
     fit.innovations = innovations_;
     fit.iterations = iterations_;
     fit.converged = converged_;
@@ -373,7 +370,10 @@ class Search {
   static constexpr double kRounding = 1e-9;
   static constexpr double kNegligibleGain = 1e-3;  // of a sum of weighted squares
   static constexpr double kConvergedMove = 0.1;    // in standard errors, all parameters together
-  static constexpr double kConvergedNoise = 0.03;  // of the logarithm
+  // The noise of the logarithm is good enough here: the equations hold for any noise, and steps of
+  // noise and parameters in turn may go round in circles.
+  static constexpr double kSettledNoise = 0.05;
+  static constexpr int kNoiseIterations = 8;
 
   const Problem& problem_;
   const PredictionErrorOptions& options_;
@@ -385,6 +385,7 @@ class Search {
   Eigen::VectorXd newton_mean_;
   std::size_t innovations_ = 0;
   int iterations_ = 0;
+  bool noise_settled_ = false;
   bool converged_ = false;
 };
 

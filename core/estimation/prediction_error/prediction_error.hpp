@@ -18,6 +18,12 @@ struct PredictionErrorOptions {
   double block_s = 10.0;  ///< length of the blocks behind the robust covariance
 };
 
+/// What the innovations of one block of time say.
+struct ScoreBlock {
+  FossenSquare information = FossenSquare::Zero();
+  FossenVector score = FossenVector::Zero();
+};
+
 /// The fit of the physical form. Vectors and matrices in the order of FossenParameter.
 struct PredictionErrorFit {
   FossenVector parameters;
@@ -25,9 +31,8 @@ struct PredictionErrorFit {
   Eigen::VectorXd newton_mean;    ///< the minimum of the quadratic model without physical ranges
   Eigen::MatrixXd information;    ///< of data and prior
   Eigen::MatrixXd data_information;
-  Eigen::MatrixXd score_covariance;            ///< of the data's score, by blocks of time
-  Eigen::MatrixXd recording_score_covariance;  ///< the same by recordings
-  std::size_t blocks = 0;
+  std::vector<ScoreBlock> blocks;              ///< of the data, by time
+  Eigen::MatrixXd recording_score_covariance;  ///< of the data's score, by recordings
   std::size_t innovations = 0;
   int iterations = 0;
   bool converged = false;

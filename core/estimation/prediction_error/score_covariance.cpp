@@ -1,0 +1,91 @@
+#include "telltale/core/estimation/prediction_error/score_covariance.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+
+#include "telltale/core/uncertainty/distributions.hpp"
+
+namespace telltale {
+namespace {
+
+constexpr double kFewestDegreesOfFreedom = 4.0;
+// A block that alone informs a direction has all of its leverage; its score says nothing there.
+constexpr double kMostLeverage = 0.9;
+
+// The block's score as it would be with the parameters known.
+FossenVector UnbiasedScore(const ScoreBlock& block, const Eigen::LLT<FossenSquare>& information) {
+  const auto lower = information.matrixL();
+  const FossenSquare half = lower.solve(block.information);
+  const FossenSquare leverage = lower.solve(FossenSquare(half.transpose()));
+  const Eigen::SelfAdjointEigenSolver<FossenSquare> eigen(leverage);
+  const FossenVector scale =
+      (1.0 - eigen.eigenvalues().array().min(kMostLeverage)).rsqrt().matrix();
+  const FossenVector white = lower.solve(block.score);
+  const FossenVector scaled =
+      eigen.eigenvectors() * scale.cwiseProduct(eigen.eigenvectors().transpose() * white);
+  return lower * scaled;
+}
+
+// Satterthwaite's, of a variance that is the sum over the blocks.
+FossenVector DegreesOfFreedom(const PredictionErrorFit& fit, const FossenSquare& inverse) {
+  FossenVector sum = FossenVector::Zero();
+  FossenVector squares = FossenVector::Zero();
+  for (const ScoreBlock& block : fit.blocks) {
+    const FossenVector share = (inverse * block.information * inverse).diagonal();
+    sum += share;
+    squares += share.cwiseAbs2();
+  }
+  return sum.cwiseAbs2().cwiseQuotient(squares.cwiseMax(1e-300)).array() - 1.0;
+}
+
+FossenVector StudentWidening(const FossenVector& degrees_of_freedom, double level) {
+  const double upper = 0.5 * (1.0 + level);
+  return degrees_of_freedom.unaryExpr([upper](double degrees) {
+    return StudentQuantile(std::max(degrees, kFewestDegreesOfFreedom), upper) /
+           NormalQuantile(upper);
+  });
+}
+
+// Of the blocks' own covariance beside the shape of the information.
+double WeightOf(std::size_t blocks) {
+  return static_cast<double>(blocks) / static_cast<double>(blocks + kFossenParameters);
+}
+
+}  // namespace
+
+std::size_t EquivalentBlocks(std::size_t blocks) {
+  if (blocks == 0) return 0;
+  const double weight = WeightOf(blocks);
+  return static_cast<std::size_t>(std::lround(static_cast<double>(blocks) / (weight * weight)));
+}
+
+RobustCovariance CovarianceOf(const PredictionErrorFit& fit, std::size_t recordings, double level) {
+  const FossenSquare information = fit.information;
+  const Eigen::LLT<FossenSquare> root(information);
+  const FossenSquare inverse = root.solve(FossenSquare(FossenSquare::Identity()));
+  FossenSquare of_blocks = FossenSquare::Zero();
+  for (const ScoreBlock& block : fit.blocks) {
+    const FossenVector score = UnbiasedScore(block, root);
+    of_blocks += score * score.transpose();
+  }
+  const double expected = (inverse * fit.data_information).trace();
+  const double by_blocks = (inverse * of_blocks).trace() / expected;
+  double inflation = by_blocks;
+  if (recordings > 1) {
+    const double correction = static_cast<double>(recordings) / static_cast<double>(recordings - 1);
+    inflation = std::max(
+        inflation, correction * (inverse * fit.recording_score_covariance).trace() / expected);
+  }
+  const double weight = WeightOf(fit.blocks.size());
+  const FossenSquare scores = weight * (inflation / by_blocks) * of_blocks +
+                              (1.0 - weight) * inflation * fit.data_information;
+  const FossenSquare prior = information - fit.data_information;
+  const FossenVector degrees = DegreesOfFreedom(fit, inverse) / (weight * weight);
+  const auto widening = StudentWidening(degrees, level).asDiagonal();
+  return {widening * (inverse * (scores + prior) * inverse) * widening, degrees};
+}
+
+}  // namespace telltale

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <cstddef>
+
+#include <Eigen/Core>
+
+#include "telltale/core/estimation/prediction_error/prediction_error.hpp"
+
+namespace telltale {
+
+/// The covariance of a fit's estimates, in the order of FossenParameter.
+struct RobustCovariance {
+  Eigen::MatrixXd covariance;          ///< widened, so that a normal interval is Student's
+  Eigen::VectorXd degrees_of_freedom;  ///< of each standard error
+};
+
+/// The blocks' own covariance counts by blocks / (blocks + parameters), the rest is the shape of
+/// the information: the covariance is as precise as one of (blocks + parameters)^2 / blocks blocks.
+std::size_t EquivalentBlocks(std::size_t blocks);
+
+/// P (B + Lambda) P of docs/concepts/physical-model.md (112), (113).
+/// A fit takes part of each block's score for itself, most where a parameter's information stands
+/// in few blocks: scores are scaled by (I - H)^(-1/2), H the block's leverage, and a parameter's
+/// degrees of freedom are those of the blocks that inform it.
+/// Source: Bell and McCaffrey, "Bias reduction in standard errors for linear regression with
+/// multi-stage samples", Survey Methodology 28 (2002).
+RobustCovariance CovarianceOf(const PredictionErrorFit& fit, std::size_t recordings, double level);
+
+}  // namespace telltale

@@ -1,0 +1,105 @@
+#include "telltale/core/estimation/prediction_error/score_covariance.hpp"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+#include <Eigen/Cholesky>
+
+#include "telltale/core/base/gauss_markov.hpp"
+
+namespace telltale {
+namespace {
+
+constexpr int kBlocks = 60;
+constexpr int kReplicates = 200;
+// The first parameters stand in few blocks: those of a manoeuvre that a recording has once or
+// twice.
+constexpr Eigen::Index kRare = 4;
+constexpr int kBlocksOfRare = 6;
+
+FossenVector Drawn(WhiteSource& white) {
+  FossenVector z;
+  for (double& value : z) value = white();
+  return z;
+}
+
+// Information of a block: a sum of random squares, larger in some blocks than in others.
+FossenSquare InformationOf(int block, WhiteSource& white) {
+  FossenSquare information = FossenSquare::Zero();
+  const double scale = block % 3 == 0 ? 3.0 : 1.0;
+  for (int i = 0; i < 40; ++i) {
+    FossenVector slope = Drawn(white);
+    if (block >= kBlocksOfRare) slope.head<kRare>() *= 0.05;
+    information += scale * slope * slope.transpose();
+  }
+  return information;
+}
+
+// A fit whose scores have the covariance of the information, at its estimate; the truth is zero.
+struct LinearFit {
+  PredictionErrorFit fit;
+  FossenVector estimate;
+};
+
+LinearFit DrawFit(const std::vector<FossenSquare>& informations, std::uint64_t seed) {
+  WhiteSource white(seed, 1);
+  LinearFit drawn;
+  FossenSquare sum = FossenSquare::Zero();
+  FossenVector score = FossenVector::Zero();
+  for (const FossenSquare& information : informations) {
+    const FossenVector of_block = information.llt().matrixL() * Drawn(white);
+    drawn.fit.blocks.push_back({information, of_block});
+    sum += information;
+    score += of_block;
+  }
+  drawn.estimate = sum.llt().solve(score);
+  for (ScoreBlock& block : drawn.fit.blocks) {
+    block.score -= block.information * drawn.estimate;
+  }
+  drawn.fit.information = drawn.fit.data_information = sum;
+  drawn.fit.recording_score_covariance = FossenSquare::Zero();
+  return drawn;
+}
+
+class ScoreCovariance : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    WhiteSource white(7, 0);
+    for (int b = 0; b < kBlocks; ++b) informations_.push_back(InformationOf(b, white));
+  }
+
+  std::vector<FossenSquare> informations_;
+};
+
+TEST_F(ScoreCovariance, HoldsEveryParameterAsOftenAsItSays) {
+  FossenVector held = FossenVector::Zero();
+  for (int i = 0; i < kReplicates; ++i) {
+    const LinearFit drawn = DrawFit(informations_, static_cast<std::uint64_t>(i));
+    const RobustCovariance bounds = CovarianceOf(drawn.fit, 1, 0.95);
+    const FossenVector half = 1.959964 * bounds.covariance.diagonal().cwiseSqrt();
+    held += (drawn.estimate.cwiseAbs().array() <= half.array()).cast<double>().matrix();
+  }
+  held /= kReplicates;
+  // One share of 200 has a standard error of 1.5 points; three and a half of those for the worst of
+  // 23, and two tenths of that for their mean.
+  EXPECT_NEAR(held.mean(), 0.95, 0.015);
+  EXPECT_GT(held.minCoeff(), 0.895);
+}
+
+TEST_F(ScoreCovariance, HasFewDegreesOfFreedomWhereFewBlocksInform) {
+  const LinearFit drawn = DrawFit(informations_, 1);
+  const RobustCovariance bounds = CovarianceOf(drawn.fit, 1, 0.95);
+  const double equivalent = static_cast<double>(EquivalentBlocks(kBlocks));
+  EXPECT_LT(bounds.degrees_of_freedom.head<kRare>().maxCoeff(),
+            equivalent * kBlocksOfRare / kBlocks);
+  EXPECT_GT(bounds.degrees_of_freedom.tail<19>().minCoeff(), 0.5 * equivalent);
+}
+
+TEST(EquivalentBlocks, AreMoreThanTheBlocksAndNoneOfNone) {
+  EXPECT_EQ(EquivalentBlocks(0), 0U);
+  // (60 + 23)^2 / 60
+  EXPECT_EQ(EquivalentBlocks(60), 115U);
+}
+
+}  // namespace
+}  // namespace telltale
