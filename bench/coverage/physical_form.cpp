@@ -1,0 +1,319 @@
+// Do 95 % bounds of the physical form hold 95 % of the time, on hulls with forces that it has not
+// and with clocks that disagree? Prints the table of docs/validation/physical-coverage.md.
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "coverage/hull_recording.hpp"
+#include "coverage/hulls.hpp"
+#include "coverage/replicates.hpp"
+#include "telltale/core/identification/identify.hpp"
+#include "telltale/core/identification/model_comparison.hpp"
+#include "telltale/core/identification/posterior_draws.hpp"
+#include "telltale/core/uncertainty/prediction_band.hpp"
+
+namespace telltale::coverage {
+namespace {
+
+using enum FossenParameter;
+
+struct HullScenario {
+  std::string name;
+  Hull hull = OfTheForm();
+  Sea sea = {};
+  Clocks clocks = {};
+  double duration_s = 600.0;
+  std::size_t recordings = 1;
+};
+
+std::vector<HullScenario> Scenarios() {
+  std::vector<HullScenario> all;
+  const auto add = [&all](std::string name, const auto& change) {
+    HullScenario& scenario = all.emplace_back(HullScenario{std::move(name)});
+    change(scenario);
+  };
+  add("form", [](HullScenario&) {});
+  add("otter", [](HullScenario& s) { s.hull = Otter(); });
+  add("cybership", [](HullScenario& s) {
+    s.hull = CyberShip();
+    s.sea.gust_sigma = {0.01, 0.01, 0.01};
+    s.sea.current_m_s = 0.03;
+  });
+  add("wam-v", [](HullScenario& s) { s.hull = WamV(); });
+  add("catamaran", [](HullScenario& s) { s.hull = Catamaran(); });
+  add("three-minutes", [](HullScenario& s) { s.duration_s = 180.0; });
+  add("three-recordings", [](HullScenario& s) {
+    s.duration_s = 200.0;
+    s.recordings = 3;
+  });
+  add("calm", [](HullScenario& s) { s.sea.gust_sigma *= 0.2; });
+  add("strong-gusts", [](HullScenario& s) { s.sea.gust_sigma *= 3.0; });
+  add("waves", [](HullScenario& s) { s.sea.wave_sigma = 0.15; });
+  add("current", [](HullScenario& s) {
+    s.sea.current_m_s = 0.3;
+    s.sea.current_wander = 0.1;
+  });
+  add("coloured-fixes", [](HullScenario& s) { s.sea.fix_drift_m = 0.5; });
+  add("commands-sampled", [](HullScenario& s) { s.clocks.sampled = true; });
+  add("commands-of-50-hz", [](HullScenario& s) { s.clocks.sampled = s.clocks.steered = true; });
+  add("offsets", [](HullScenario& s) {
+    s.clocks.command_delay_s = -0.1;
+    s.clocks.least_fix_delay_s = s.clocks.greatest_fix_delay_s = 0.1;
+  });
+  add("jitter", [](HullScenario& s) { s.clocks.jitter_s = 0.02; });
+  add("fixes-on-arrival", [](HullScenario& s) {
+    s.clocks.least_fix_delay_s = 0.05;
+    s.clocks.greatest_fix_delay_s = 0.25;
+  });
+  add("commands-at-2-hz", [](HullScenario& s) {
+    s.clocks.command_period_s = 0.5;
+    s.clocks.sampled = true;
+  });
+  return all;
+}
+
+Recording Record(const HullScenario& scenario, std::size_t recordings, std::uint64_t seed) {
+  constexpr double kBetweenS = 100.0;
+  Recording all;
+  for (std::size_t i = 0; i < recordings; ++i) {
+    const double start_s = 1000.0 + static_cast<double>(i) * (scenario.duration_s + kBetweenS);
+    const Recording one =
+        RecordHull(scenario.hull, scenario.sea, scenario.clocks, scenario.duration_s, start_s,
+                   recordings == 1 ? seed : RandomEngine::Stream(seed, i)());
+    all.gnss.insert(all.gnss.end(), one.gnss.begin(), one.gnss.end());
+    all.heading.insert(all.heading.end(), one.heading.begin(), one.heading.end());
+    all.thrusters.insert(all.thrusters.end(), one.thrusters.begin(), one.thrusters.end());
+    if (recordings > 1) all.starts_s.push_back(start_s - 1.0);
+  }
+  return all;
+}
+
+std::optional<Identification> Identified(const HullScenario& scenario, const Recording& recording,
+                                         std::size_t threads) {
+  IdentifyOptions options;
+  options.regression.structure = Structure::kFossen;
+  options.threads = threads;
+  options.advise = false;
+  auto identification = Identify(recording, VehicleOf(scenario.hull), options);
+  if (!identification || !identification->physical) return std::nullopt;
+  return *std::move(identification);
+}
+
+FossenVector TruthOfTheForm(const HullScenario& scenario) {
+  const Hull hull = OfTheForm();
+  FossenVector p;
+  p << hull.m22, hull.m23, hull.m33, 6.0, 13.0, 25.0, 2.0, 1.5, 5.0, 40.0, 4.0, 9.0, 3.0, 4.0, 2.0,
+      12.0, 30.0, 10.0, 22.0, 0.0, 0.0, 0.0, 0.0;
+  p /= hull.m11;
+  p[At(kDeadBand)] = kDeadBandOfTheForm;
+  p[At(kTimeConstant)] = hull.thrust_time_constant_s;
+  p[At(kCommandDelay)] = scenario.clocks.command_delay_s;
+  p[At(kFixDelay)] =
+      0.5 * (scenario.clocks.least_fix_delay_s + scenario.clocks.greatest_fix_delay_s);
+  return p;
+}
+
+// What the parameters of the form come to on this hull with very much data: of a hull of the form
+// they are known, of another they are those of many recordings together.
+std::optional<FossenVector> PseudoTruth(const HullScenario& scenario, std::size_t recordings,
+                                        std::size_t threads, std::uint64_t seed) {
+  if (scenario.hull.name == "form" && !scenario.clocks.sampled) return TruthOfTheForm(scenario);
+  const auto pooled = Identified(scenario, Record(scenario, recordings, seed), threads);
+  if (!pooled) return std::nullopt;
+  return pooled->physical->Estimates();
+}
+
+struct Outcome {
+  FossenVector error;
+  FossenVector standard_error;
+  std::vector<bool> held;
+  std::vector<bool> prior;
+  bool joint = false;    ///< whether the comparison of models takes the truth for the model
+  double in_band = 0.0;  ///< share
+  bool converged = false;
+  double seconds = 0.0;
+};
+
+double ShareInBand(const HullScenario& scenario, const Identification& model, std::uint64_t seed) {
+  constexpr std::size_t kDraws = 400;
+  constexpr double kHorizonS = 10.0;
+  constexpr double kStepS = 0.1;
+  const auto draws = DrawFromPosterior(model, kDraws, seed);
+  if (!draws) return 0.0;
+  std::vector<VesselModel> models;
+  for (Eigen::Index i = 0; i < draws->theta.cols(); ++i) {
+    VesselModel one =
+        VesselModelOf(model.physical->Estimates(), scenario.hull.propeller_separation_m);
+    Eigen::Index next = 0;
+    for (Eigen::VectorXd& theta : one.theta) {
+      theta = draws->theta.col(i).segment(next, theta.size());
+      next += theta.size();
+    }
+    one.thruster_time_constant_s = draws->time_constant_s[static_cast<std::size_t>(i)];
+    models.push_back(one);
+  }
+  const HullRun run = RunHull(scenario.hull, scenario.sea, kHorizonS, kStepS, seed);
+  VesselState start;
+  start.nu = run.start;
+  start.thrust = models.front().SteadyThrust(run.commands.front().delta);
+  Disturbance disturbance;
+  disturbance.sigma = model.physical->noise.acceleration_sigma;
+  disturbance.time_constant_s.setConstant(model.physical->noise.acceleration_time_constant_s);
+  const PredictionBand band =
+      PredictBand(models, start, run.commands, disturbance, kHorizonS, kStepS, 0.95, seed);
+  double inside = 0.0;
+  for (const Eigen::Index k : {9, 49, 99}) {
+    for (Eigen::Index axis = 0; axis < 3; ++axis) {
+      const double nu = run.nu(axis, k);
+      inside += nu >= band.lower(axis, k) && nu <= band.upper(axis, k) ? 1.0 / 9.0 : 0.0;
+    }
+  }
+  return inside;
+}
+
+bool HoldsJointly(const Identification& model, const FossenVector& truth) {
+  Identification boat = model;
+  boat.physical->covariance.setZero();
+  boat.provenance.clusters = 0;
+  for (std::size_t i = 0; i < kFossenParameters; ++i) {
+    boat.physical->parameters[i].estimate = truth[static_cast<Eigen::Index>(i)];
+  }
+  const auto test = TestForChange(model, boat);
+  return test && test->p_value >= 0.05;
+}
+
+std::optional<Outcome> RunReplicate(const HullScenario& scenario, const FossenVector& truth,
+                                    std::uint64_t seed) {
+  const Recording recording = Record(scenario, scenario.recordings, seed);
+  const auto from = std::chrono::steady_clock::now();
+  const auto model = Identified(scenario, recording, 1);
+  const std::chrono::duration<double> took = std::chrono::steady_clock::now() - from;
+  if (!model) return std::nullopt;
+  Outcome outcome;
+  outcome.seconds = took.count();
+  outcome.error = model->physical->Estimates() - truth;
+  for (std::size_t i = 0; i < kFossenParameters; ++i) {
+    const Coefficient& parameter = model->physical->parameters[i];
+    const double true_value = truth[static_cast<Eigen::Index>(i)];
+    outcome.standard_error[static_cast<Eigen::Index>(i)] = parameter.standard_error;
+    outcome.held.push_back(parameter.interval.lower <= true_value &&
+                           true_value <= parameter.interval.upper);
+    outcome.prior.push_back(parameter.status == CoefficientStatus::kPrior);
+  }
+  outcome.joint = HoldsJointly(*model, truth);
+  outcome.in_band = ShareInBand(scenario, *model, seed + 1);
+  outcome.converged =
+      std::ranges::none_of(model->refusals, [](const Refusal& r) { return r.subject == "model"; });
+  return outcome;
+}
+
+// A parameter that always stops at the end of its range has no spread, hence not the mean.
+double Median(FossenVector values) {
+  std::ranges::sort(values);
+  return values[kFossenParameters / 2];
+}
+
+void PrintRow(const HullScenario& scenario, const std::vector<Outcome>& outcomes,
+              std::size_t replicates) {
+  const auto n = static_cast<double>(outcomes.size());
+  FossenVector held = FossenVector::Zero();
+  FossenVector prior = FossenVector::Zero();
+  FossenVector mean = FossenVector::Zero();
+  FossenVector squares = FossenVector::Zero();
+  FossenVector predicted = FossenVector::Zero();
+  double joint = 0.0;
+  double band = 0.0;
+  double converged = 0.0;
+  double seconds = 0.0;
+  for (const Outcome& outcome : outcomes) {
+    for (std::size_t i = 0; i < kFossenParameters; ++i) {
+      held[static_cast<Eigen::Index>(i)] += outcome.held[i] ? 100.0 / n : 0.0;
+      prior[static_cast<Eigen::Index>(i)] += outcome.prior[i] ? 1.0 / n : 0.0;
+    }
+    mean += outcome.error / n;
+    squares += outcome.error.cwiseAbs2() / n;
+    predicted += outcome.standard_error.cwiseAbs2() / n;
+    joint += outcome.joint ? 100.0 / n : 0.0;
+    band += 100.0 * outcome.in_band / n;
+    converged += outcome.converged ? 1.0 : 0.0;
+    seconds += outcome.seconds / n;
+  }
+  const FossenVector spread = (squares - mean.cwiseAbs2()).cwiseMax(1e-30).cwiseSqrt();
+  Eigen::Index lowest = 0;
+  held.minCoeff(&lowest);
+  std::printf(
+      "| %s | %.0f/%.0f/%zu | %.1f | %.1f (%s) | %.0f | %.2f | %.2f | %.1f | %.1f | %.1f | %.1f "
+      "|\n",
+      scenario.name.c_str(), converged, n, replicates, held.mean(), held[lowest],
+      std::string(FossenParameterNames()[static_cast<std::size_t>(lowest)].symbol).c_str(),
+      (held.array() < 92.0).cast<double>().sum(), Median(mean.cwiseAbs().cwiseQuotient(spread)),
+      Median(predicted.cwiseSqrt().cwiseQuotient(spread)), prior.sum(), joint, band, seconds);
+  std::fflush(stdout);
+}
+
+void PrintParameters(const HullScenario& scenario, const FossenVector& truth,
+                     const std::vector<Outcome>& outcomes) {
+  std::printf(
+      "\n| %s | truth | bias | spread | predicted | prior %% | held %% "
+      "|\n|---|---|---|---|---|---|---|\n",
+      scenario.name.c_str());
+  const auto n = static_cast<double>(outcomes.size());
+  for (std::size_t i = 0; i < kFossenParameters; ++i) {
+    const auto at = static_cast<Eigen::Index>(i);
+    double sum = 0.0, squares = 0.0, predicted = 0.0, prior = 0.0, held = 0.0;
+    for (const Outcome& outcome : outcomes) {
+      sum += outcome.error[at];
+      squares += outcome.error[at] * outcome.error[at];
+      predicted += outcome.standard_error[at] * outcome.standard_error[at];
+      prior += outcome.prior[i] ? 1.0 : 0.0;
+      held += outcome.held[i] ? 1.0 : 0.0;
+    }
+    std::printf("| %s | %.4g | %.2g | %.2g | %.2g | %.0f | %.1f |\n",
+                std::string(FossenParameterNames()[i].symbol).c_str(), truth[at], sum / n,
+                std::sqrt(std::max(0.0, squares / n - sum * sum / n / n)), std::sqrt(predicted / n),
+                100.0 * prior / n, 100.0 * held / n);
+  }
+  std::fflush(stdout);
+}
+
+int Main(int argc, char** argv) {
+  Campaign campaign;
+  campaign.replicates = 400;
+  std::size_t pooled = 30;
+  bool parameters = false;
+  CLI::App app("How often 95 % bounds of the physical form hold, by scenario");
+  campaign.AddOptionsTo(app, Scenarios());
+  app.add_option("--pooled", pooled, "recordings behind the pseudo-true values")
+      ->capture_default_str();
+  app.add_flag("--parameters", parameters, "also one table of parameters a scenario");
+  CLI11_PARSE(app, argc, argv);
+  std::printf(
+      "| scenario | converged/identified/all | mean %% | lowest %% | below 92 | bias/spread | "
+      "predicted/spread | PRIOR | joint %% | band %% | s |\n"
+      "|---|---|---|---|---|---|---|---|---|---|---|\n");
+  for (const HullScenario& scenario : Scenarios()) {
+    if (!campaign.IsSelected(scenario.name)) continue;
+    const auto truth = PseudoTruth(scenario, pooled, campaign.threads, campaign.seed + 1000);
+    if (!truth) {
+      std::printf("| %s | no pseudo-true values |\n", scenario.name.c_str());
+      continue;
+    }
+    const auto outcomes = Completed(campaign.RunReplicates(
+        [&](std::uint64_t seed) { return RunReplicate(scenario, *truth, seed); }));
+    if (outcomes.empty()) continue;
+    PrintRow(scenario, outcomes, campaign.replicates);
+    if (parameters) PrintParameters(scenario, *truth, outcomes);
+  }
+  return 0;
+}
+
+}  // namespace
+}  // namespace telltale::coverage
+
+int main(int argc, char** argv) {
+  return telltale::coverage::Main(argc, argv);
+}
