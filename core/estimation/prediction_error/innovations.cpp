@@ -85,6 +85,7 @@ class Filter {
         Eigen::Vector2d::Constant(settings.current_sigma_m_s * settings.current_sigma_m_s),
         settings.misalignment_sigma_rad * settings.misalignment_sigma_rad;
     slopes_.setZero();
+    instruments_.setZero();
   }
 
   /// Takes the gains of another run from now on, or records its own.
@@ -106,18 +107,14 @@ class Filter {
     Eigen::Matrix<double, 1, kFilterStates> row = Eigen::Matrix<double, 1, kFilterStates>::Zero();
     row[kHeadingState] = 1.0;
     row[kMisalignmentState] = 1.0;
-    Take(row, psi_rad - HeadingOf(x_), FossenVector::Zero(), sigma * sigma, innovations);
+    Take(row, psi_rad - HeadingOf(x_), {FossenVector::Zero(), FossenVector::Zero()}, sigma * sigma,
+         innovations);
   }
 
   // North and east of a fix turned into along and across the track, where the noise of the stamp
   // is the one's alone.
   void TakeFix(double north_m, double east_m, std::vector<Innovation>& innovations) {
-    const double c = std::cos(x_[kHeadingState]);
-    const double s = std::sin(x_[kHeadingState]);
-    const double u = x_[kVelocityState];
-    const double v = x_[kVelocityState + 1];
-    const Eigen::Vector2d velocity(c * u - s * v + x_[kCurrentState],
-                                   s * u + c * v + x_[kCurrentState + 1]);
+    const Eigen::Vector2d velocity = VelocityOverGround(x_);
     const double speed = velocity.norm();
     const Eigen::Vector2d along =
         speed > 1e-3 ? Eigen::Vector2d(velocity / speed) : Eigen::Vector2d(1.0, 0.0);
@@ -135,9 +132,10 @@ class Filter {
       row.segment<2>(kNorth) = axis.transpose();
       row.segment<2>(kDriftState) = axis.transpose();
       row[kHeadingState] = axis.dot(lever_by_psi);
-      FossenVector by = FossenVector::Zero();
       // A longer delay predicts where the boat was before.
-      by[At(kFixDelay)] = axis.dot(velocity);
+      Direct by{FossenVector::Zero(), FossenVector::Zero()};
+      by.slope[At(kFixDelay)] = axis.dot(velocity);
+      by.instrument[At(kFixDelay)] = axis.dot(VelocityOverGround(Undisturbed()));
       const double stamp = is_along ? speed * settings_.noise.stamp_sigma_s : 0.0;
       Take(row, axis.dot(Eigen::Vector2d(north_m, east_m) - predicted), by,
            settings_.noise.fix_sigma_m * settings_.noise.fix_sigma_m + stamp * stamp, innovations);
@@ -152,6 +150,28 @@ class Filter {
     State value;
     Covariance by_state;
   };
+
+  // What a reading changes with the parameters at a given state.
+  struct Direct {
+    FossenVector slope;
+    FossenVector instrument;
+  };
+
+  static Eigen::Vector2d VelocityOverGround(const State& x) {
+    const double c = std::cos(x[kHeadingState]);
+    const double s = std::sin(x[kHeadingState]);
+    const double u = x[kVelocityState];
+    const double v = x[kVelocityState + 1];
+    return {c * u - s * v + x[kCurrentState], s * u + c * v + x[kCurrentState + 1]};
+  }
+
+  // The boat that the commands alone drive, on the headings of the filter.
+  State Undisturbed() const {
+    State x = x_;
+    x.segment<3>(kVelocityState) = undisturbed_nu_;
+    x.segment<3>(kDisturbanceState).setZero();
+    return x;
+  }
 
   Rate RateAt(const State& x, const ThrustStep& thrust) const {
     Rate rate;
@@ -207,51 +227,66 @@ class Filter {
     next.segment<3>(kVelocityState) += by_nu * way;
   }
 
-  // The midpoint rule under the mean thrust; disturbance and drift decay exactly.
-  void Step(double h) {
-    const ThrustStep thrust = thrust_.Until(now_s_ + h);
-    const Rate first = RateAt(x_, thrust);
-    const State middle = x_ + 0.5 * h * first.value;
+  // The midpoint rule under the mean thrust; disturbance and drift decay exactly. Moves the state
+  // and, where there are any, its slopes; returns the transition.
+  Covariance Advance(const ThrustStep& thrust, double h, State& x, Slopes* slopes) const {
+    const Rate first = RateAt(x, thrust);
+    const State middle = x + 0.5 * h * first.value;
     const Rate second = RateAt(middle, thrust);
     Covariance transition = h * second.by_state + 0.5 * h * h * (second.by_state * first.by_state);
     transition.diagonal().array() += 1.0;
-    const NoiseModel& noise = settings_.noise;
-    const double decay = std::exp(-h / noise.acceleration_time_constant_s);
+    const double decay = std::exp(-h / settings_.noise.acceleration_time_constant_s);
     const double drift_decay = std::exp(-h / NoiseModel::kFixDriftTimeConstantS);
     transition.bottomRows<kFilterStates - kDisturbanceState>().setZero();
     transition.diagonal().segment<3>(kDisturbanceState).setConstant(decay);
     transition.diagonal().segment<2>(kDriftState).setConstant(drift_decay);
     transition.diagonal().tail<3>().setOnes();
-    if (settings_.with_slopes) {
-      const auto by_first = ByParameter(x_, thrust);
+    if (slopes != nullptr) {
+      const auto by_first = ByParameter(x, thrust);
       const auto by_second = ByParameter(middle, thrust);
-      slopes_ = (transition * slopes_).eval();
-      slopes_.middleRows<3>(kVelocityState) +=
+      *slopes = (transition * *slopes).eval();
+      slopes->middleRows<3>(kVelocityState) +=
           h * by_second +
           (0.5 * h * h) * (second.by_state.block<3, 3>(kVelocityState, kVelocityState) * by_first);
-      slopes_.topRows<3>() +=
+      slopes->topRows<3>() +=
           (0.5 * h * h) * (second.by_state.block<3, 3>(kNorth, kVelocityState) * by_first);
     }
-    State next = x_ + h * second.value;
+    State next = x + h * second.value;
     AddThirdOrder(middle, second, thrust, h, next);
-    next.segment<3>(kDisturbanceState) = decay * x_.segment<3>(kDisturbanceState);
-    next.segment<2>(kDriftState) = drift_decay * x_.segment<2>(kDriftState);
-    x_ = next;
-    if (fixed_gains_ != nullptr) {
-      now_s_ += h;
-      return;
+    next.segment<3>(kDisturbanceState) = decay * x.segment<3>(kDisturbanceState);
+    next.segment<2>(kDriftState) = drift_decay * x.segment<2>(kDriftState);
+    x = next;
+    return transition;
+  }
+
+  void Step(double h) {
+    const ThrustStep thrust = thrust_.Until(now_s_ + h);
+    now_s_ += h;
+    if (settings_.with_instruments) {
+      State undisturbed = Undisturbed();
+      Advance(thrust, h, undisturbed, &instruments_);
+      undisturbed_nu_ = undisturbed.segment<3>(kVelocityState);
     }
+    const Covariance transition =
+        Advance(thrust, h, x_, settings_.with_slopes ? &slopes_ : nullptr);
+    if (fixed_gains_ == nullptr) Spread(transition, h);
+  }
+
+  // The covariance after a step.
+  void Spread(const Covariance& transition, double h) {
+    const NoiseModel& noise = settings_.noise;
+    const double decay = transition(kDisturbanceState, kDisturbanceState);
+    const double drift_decay = transition(kDriftState, kDriftState);
     covariance_ = (transition * covariance_ * transition.transpose()).eval();
     covariance_.diagonal().segment<3>(kDisturbanceState) +=
         (1.0 - decay * decay) * noise.acceleration_sigma.cwiseAbs2();
     covariance_.diagonal().segment<2>(kDriftState).array() +=
         (1.0 - drift_decay * drift_decay) * noise.fix_drift_sigma_m * noise.fix_drift_sigma_m;
     covariance_.diagonal().segment<2>(kCurrentState).array() += h * kCurrentWalk * kCurrentWalk;
-    now_s_ += h;
   }
 
-  void Take(const Eigen::Matrix<double, 1, kFilterStates>& row, double value,
-            const FossenVector& by, double noise_variance, std::vector<Innovation>& innovations) {
+  void Take(const Eigen::Matrix<double, 1, kFilterStates>& row, double value, const Direct& by,
+            double noise_variance, std::vector<Innovation>& innovations) {
     State projected;
     FilterGain gain;
     if (fixed_gains_ != nullptr) {
@@ -269,8 +304,13 @@ class Filter {
     innovation.value = value;
     innovation.variance = gain.variance;
     if (settings_.with_slopes) {
-      innovation.slope = by - (row * slopes_).transpose();
+      innovation.slope = by.slope - (row * slopes_).transpose();
       slopes_ += gain.gain * innovation.slope.transpose();
+      innovation.instrument = innovation.slope;
+    }
+    if (settings_.with_instruments) {
+      innovation.instrument = by.instrument - (row * instruments_).transpose();
+      instruments_ += gain.gain * innovation.instrument.transpose();
     }
     x_ += gain.gain * value;
     if (fixed_gains_ != nullptr) return;
@@ -288,6 +328,8 @@ class Filter {
   State x_;
   Covariance covariance_;
   Slopes slopes_;
+  Slopes instruments_;
+  Eigen::Vector3d undisturbed_nu_ = Eigen::Vector3d::Zero();
 };
 
 // Before the first readings of both kinds there is nothing to filter.

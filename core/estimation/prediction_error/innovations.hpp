@@ -30,7 +30,10 @@ struct Innovation {
   double time_s = 0.0;
   double value = 0.0;
   double variance = 0.0;
-  FossenVector slope;  ///< d value / d parameters at fixed gains; zero unless asked for
+  FossenVector slope;  ///< d value / d parameters at fixed gains; unset unless asked for
+  /// The slope that the commands alone give: that of a boat without disturbance on the same
+  /// headings. Equal to the slope unless asked for.
+  FossenVector instrument;
 };
 
 struct FilterSettings {
@@ -41,6 +44,7 @@ struct FilterSettings {
   double propeller_separation_m = 0.0;
   LeverArm antenna;
   bool with_slopes = false;
+  bool with_instruments = false;  ///< beside the slopes
   /// The delay at which the fixes are put in order; the difference to that of the parameters moves
   /// what is predicted for them.
   double nominal_fix_delay_s = 0.0;

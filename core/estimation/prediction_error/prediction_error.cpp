@@ -5,6 +5,7 @@
 #include <limits>
 
 #include <Eigen/Cholesky>
+#include <Eigen/LU>
 
 #include "telltale/core/base/parallel.hpp"
 
@@ -52,13 +53,57 @@ NoiseModel FirstNoise() {
   return noise;
 }
 
-using Runs = std::vector<std::vector<Innovation>>;  // by segment
+using Runs = std::vector<std::vector<Innovation>>;  // by segment, or by stretch
+
+// Readings of one segment, from which the noise of its recording is found.
+struct Stretch {
+  std::size_t segment = 0;
+  RawSignals signals;
+};
+
+TimeSeries Within(const TimeSeries& series, double from_s, double to_s) {
+  const auto begin = std::ranges::lower_bound(series.times_s, from_s) - series.times_s.begin();
+  const auto end = std::ranges::lower_bound(series.times_s, to_s) - series.times_s.begin();
+  return {{series.times_s.begin() + begin, series.times_s.begin() + end},
+          {series.values.begin() + begin, series.values.begin() + end}};
+}
+
+// Five minutes of a recording show its noise well enough: of a longer segment, five even stretches
+// of a minute.
+std::vector<Stretch> StretchesForNoise(const PreparedDataset& dataset) {
+  constexpr std::size_t kStretches = 5;
+  constexpr double kStretchS = 60.0;
+  std::vector<Stretch> stretches;
+  for (std::size_t s = 0; s < dataset.segments.size(); ++s) {
+    const RawSignals& signals = dataset.signals[s];
+    const std::vector<double>& times_s = signals.psi_rad.times_s;
+    const double span_s = times_s.empty() ? 0.0 : times_s.back() - times_s.front();
+    if (span_s <= kStretches * kStretchS) {
+      stretches.push_back({s, signals});
+      continue;
+    }
+    for (std::size_t i = 0; i < kStretches; ++i) {
+      const double from_s =
+          times_s.front() + static_cast<double>(i) * (span_s - kStretchS) / (kStretches - 1);
+      const double to_s = from_s + kStretchS;
+      stretches.push_back(
+          {s,
+           {Within(signals.north_m, from_s, to_s), Within(signals.east_m, from_s, to_s),
+            Within(signals.psi_rad, from_s, to_s)}});
+    }
+  }
+  return stretches;
+}
 
 class Problem {
  public:
   Problem(const PreparedDataset& dataset, double separation_m, const FossenPrior& prior,
           const PredictionErrorOptions& options)
-      : dataset_(dataset), separation_m_(separation_m), prior_(prior), options_(options) {}
+      : dataset_(dataset),
+        separation_m_(separation_m),
+        prior_(prior),
+        options_(options),
+        for_noise_(StretchesForNoise(dataset)) {}
 
   using Gains = std::vector<std::vector<FilterGain>>;
 
@@ -75,17 +120,36 @@ class Problem {
     return settings;
   }
 
-  Runs Run(const Eigen::VectorXd& z, const std::vector<NoiseModel>& noise, bool with_slopes,
-           std::size_t threads, Gains* gains = nullptr) const {
+  Runs RunWithSlopes(const Eigen::VectorXd& z, const std::vector<NoiseModel>& noise,
+                     bool with_instruments, Gains& gains) const {
     Runs all(dataset_.segments.size());
-    if (gains != nullptr) gains->assign(all.size(), {});
-    ForEachIndex(all.size(), threads, [&](std::size_t s) {
+    gains.assign(all.size(), {});
+    ForEachIndex(all.size(), options_.threads, [&](std::size_t s) {
       FilterSettings settings = SettingsOf(z, noise[dataset_.RecordingOf(s)], z[At(kFixDelay)]);
-      settings.with_slopes = with_slopes;
-      all[s] = InnovationsOf(dataset_.signals[s], dataset_.commands[s], settings,
-                             gains == nullptr ? nullptr : &(*gains)[s]);
+      settings.with_slopes = true;
+      settings.with_instruments = with_instruments;
+      all[s] = InnovationsOf(dataset_.signals[s], dataset_.commands[s], settings, &gains[s]);
     });
     return all;
+  }
+
+  // Of each noise, the innovations of the stretches that serve to find it.
+  std::vector<Runs> RunForNoise(const Eigen::VectorXd& z,
+                                const std::vector<std::vector<NoiseModel>>& noises,
+                                std::size_t threads) const {
+    const std::size_t n = for_noise_.size();
+    std::vector<Runs> all(noises.size(), Runs(n));
+    ForEachIndex(noises.size() * n, threads, [&](std::size_t i) {
+      const auto& [segment, signals] = for_noise_[i % n];
+      const NoiseModel& noise = noises[i / n][dataset_.RecordingOf(segment)];
+      all[i / n][i % n] = InnovationsOf(signals, dataset_.commands[segment],
+                                        SettingsOf(z, noise, z[At(kFixDelay)]));
+    });
+    return all;
+  }
+
+  std::size_t RecordingOfStretch(std::size_t i) const {
+    return dataset_.RecordingOf(for_noise_[i].segment);
   }
 
   // The sum of weighted squares at fixed gains, which the normal equations are those of.
@@ -143,9 +207,11 @@ class Problem {
   double separation_m_;
   const FossenPrior& prior_;
   const PredictionErrorOptions& options_;
+  std::vector<Stretch> for_noise_;
 };
 
 struct Normal {
+  Eigen::MatrixXd slope;  // of the data's score; the information, where slopes are instruments
   Eigen::MatrixXd information;
   Eigen::VectorXd gradient;                    // half of that of the objective
   std::vector<ScoreBlock> blocks;              // of the data, by time
@@ -161,8 +227,9 @@ std::vector<ScoreBlock> BlocksOf(const std::vector<Innovation>& innovations, dou
       blocks.emplace_back();
       block_end_s = i.time_s + block_s;
     }
-    blocks.back().information.selfadjointView<Eigen::Lower>().rankUpdate(i.slope, 1.0 / i.variance);
-    blocks.back().score += i.slope * (i.value / i.variance);
+    blocks.back().information.selfadjointView<Eigen::Lower>().rankUpdate(i.instrument,
+                                                                         1.0 / i.variance);
+    blocks.back().score += i.instrument * (i.value / i.variance);
   }
   for (ScoreBlock& block : blocks) {
     block.information = block.information.selfadjointView<Eigen::Lower>();
@@ -172,13 +239,16 @@ std::vector<ScoreBlock> BlocksOf(const std::vector<Innovation>& innovations, dou
 
 Normal NormalEquations(const Problem& problem, const Runs& all) {
   const FossenSquare zero = FossenSquare::Zero();
-  Normal normal{zero, FossenVector::Zero(), {}, zero};
+  Normal normal{zero, zero, FossenVector::Zero(), {}, zero};
   std::vector<FossenVector> of_recordings(problem.dataset_.Recordings(), FossenVector::Zero());
   for (std::size_t s = 0; s < all.size(); ++s) {
     for (const ScoreBlock& block : BlocksOf(all[s], problem.options_.block_s)) {
       normal.information += block.information;
       of_recordings[problem.dataset_.RecordingOf(s)] += block.score;
       normal.blocks.push_back(block);
+    }
+    for (const Innovation& i : all[s]) {
+      normal.slope += i.instrument * (i.slope / i.variance).transpose();
     }
   }
   for (const FossenVector& score : of_recordings) {
@@ -193,18 +263,15 @@ Normal NormalEquations(const Problem& problem, const Runs& all) {
 double ScoreNoise(const Problem& problem, const Eigen::VectorXd& z, std::vector<NoiseModel>& noise,
                   std::size_t threads) {
   constexpr double kStep = 0.05;
-  std::vector<Runs> runs(kNoises + 1);
-  ForEachIndex(runs.size(), threads, [&](std::size_t i) {
-    std::vector<NoiseModel> moved = noise;
-    if (i > 0) {
-      for (NoiseModel& of_recording : moved) {
-        NoiseVector log = LogOf(of_recording);
-        log[static_cast<Eigen::Index>(i) - 1] += kStep;
-        of_recording = NoiseOf(log);
-      }
+  std::vector<std::vector<NoiseModel>> moved(kNoises + 1, noise);
+  for (Eigen::Index j = 0; j < kNoises; ++j) {
+    for (NoiseModel& of_recording : moved[static_cast<std::size_t>(j) + 1]) {
+      NoiseVector log = LogOf(of_recording);
+      log[j] += kStep;
+      of_recording = NoiseOf(log);
     }
-    runs[i] = problem.Run(z, moved, false, 1);
-  });
+  }
+  const std::vector<Runs> runs = problem.RunForNoise(z, moved, threads);
   double largest_move = 0.0;
   for (std::size_t recording = 0; recording < noise.size(); ++recording) {
     const NoiseVector log = LogOf(noise[recording]);
@@ -212,7 +279,7 @@ double ScoreNoise(const Problem& problem, const Eigen::VectorXd& z, std::vector<
         Eigen::Matrix<double, kNoises, kNoises>::Identity() / std::pow(kNoisePriorSigma, 2);
     NoiseVector gradient = (NoisePriorMean() - log) / std::pow(kNoisePriorSigma, 2);
     for (std::size_t s = 0; s < runs[0].size(); ++s) {
-      if (problem.dataset_.RecordingOf(s) != recording) continue;
+      if (problem.RecordingOfStretch(s) != recording) continue;
       for (std::size_t k = 0; k < runs[0][s].size(); ++k) {
         const Innovation& i = runs[0][s][k];
         NoiseVector by_log_variance;
@@ -263,7 +330,7 @@ Eigen::VectorXd BoundedStep(const Problem& problem, const Eigen::VectorXd& z,
       }
       a(i, i) *= 1.0 + damping;
     }
-    const Eigen::VectorXd solved = a.ldlt().solve(b);
+    const Eigen::VectorXd solved = a.partialPivLu().solve(b);
     bool again = false;
     for (Eigen::Index i = 0; i < a.rows(); ++i) {
       const Eigen::Index fi = free[static_cast<std::size_t>(i)];
@@ -302,7 +369,7 @@ class Search {
   /// Whether there is more to do after this iteration.
   bool Iterate() {
     Problem::Gains gains;
-    const Runs runs = problem_.Run(z_, noise_, true, options_.threads, &gains);
+    const Runs runs = problem_.RunWithSlopes(z_, noise_, false, gains);
     const Eigen::MatrixXd precision = problem_.PriorPrecision(z_);
     const Eigen::VectorXd mean = problem_.PriorShift(precision);
     normal_ = NormalEquations(problem_, runs);
@@ -344,7 +411,33 @@ class Search {
     return !converged_ && iterations_ < options_.max_iterations;
   }
 
-  double Share() const {
+  // A step of the equations with instruments: there is no sum of squares to watch. Whether there is
+  // more to do.
+  bool IterateWithInstruments() {
+    Problem::Gains gains;
+    normal_ = NormalEquations(problem_, problem_.RunWithSlopes(z_, noise_, true, gains));
+    const Eigen::MatrixXd precision = problem_.PriorPrecision(z_);
+    const Eigen::VectorXd mean = problem_.PriorShift(precision);
+    information_ = normal_.information + precision;
+    slope_ = normal_.slope + precision;
+    const Eigen::VectorXd gradient = -normal_.gradient - precision * (z_ - mean);
+    newton_mean_ = z_ + slope_.partialPivLu().solve(gradient);
+    const Eigen::VectorXd whole = BoundedStep(problem_, z_, slope_, gradient, 0.0);
+    const Eigen::VectorXd score = slope_ * whole;
+    const double left = std::sqrt(score.dot(information_.ldlt().solve(score)));
+    if (!std::isfinite(left)) return false;
+    instrumented_ = left < kConvergedScore;
+    // Weights and order of the readings change with the parameters: a whole step may go to and fro.
+    if (left > kSlow * left_) caution_ = std::min(2.0 * caution_ + 0.25, kMostCaution);
+    left_ = left;
+    Eigen::VectorXd step =
+        BoundedStep(problem_, z_, slope_ + caution_ * information_, gradient, 0.0);
+    while (!problem_.Feasible(z_ + step) && step.squaredNorm() > 0.0) step *= 0.5;
+    z_ += step;
+    return !instrumented_ && ++instrument_iterations_ < kInstrumentIterations;
+  }
+
+  double ShareDone() const {
     return static_cast<double>(iterations_) / static_cast<double>(options_.max_iterations);
   }
 
@@ -354,12 +447,13 @@ class Search {
     fit.noise = noise_;
     fit.newton_mean = newton_mean_;
     fit.information = information_;
+    fit.slope = slope_;
     fit.data_information = normal_.information;
     fit.blocks = normal_.blocks;
     fit.recording_score_covariance = normal_.recording_score_covariance;
     fit.innovations = innovations_;
-    fit.iterations = iterations_;
-    fit.converged = converged_;
+    fit.iterations = iterations_ + instrument_iterations_;
+    fit.converged = converged_ && instrumented_;
     return fit;
   }
 
@@ -374,6 +468,11 @@ class Search {
   // noise and parameters in turn may go round in circles.
   static constexpr double kSettledNoise = 0.05;
   static constexpr int kNoiseIterations = 8;
+  static constexpr int kInstrumentIterations = 20;
+  static constexpr double kSlow = 0.7;
+  static constexpr double kMostCaution = 1.0;
+  // A tenth of a standard error of each parameter, all together.
+  static constexpr double kConvergedScore = 0.48;
 
   const Problem& problem_;
   const PredictionErrorOptions& options_;
@@ -382,9 +481,14 @@ class Search {
   double damping_ = kFirstDamping;
   Normal normal_;
   Eigen::MatrixXd information_;
+  Eigen::MatrixXd slope_;
   Eigen::VectorXd newton_mean_;
   std::size_t innovations_ = 0;
   int iterations_ = 0;
+  int instrument_iterations_ = 0;
+  double left_ = std::numeric_limits<double>::infinity();  // of the score, in standard errors
+  double caution_ = 0.0;
+  bool instrumented_ = false;
   bool noise_settled_ = false;
   bool converged_ = false;
 };
@@ -398,7 +502,9 @@ PredictionErrorFit FitPredictionError(const PreparedDataset& dataset, double pro
   const Problem problem(dataset, propeller_separation_m, prior, options);
   Search search(problem, options);
   while (search.Iterate()) {
-    if (progress) progress(search.Share());
+    if (progress) progress(search.ShareDone());
+  }
+  while (search.IterateWithInstruments()) {
   }
   return search.Fit();
 }

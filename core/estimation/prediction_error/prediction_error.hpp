@@ -29,7 +29,8 @@ struct PredictionErrorFit {
   FossenVector parameters;
   std::vector<NoiseModel> noise;  ///< by recording
   Eigen::VectorXd newton_mean;    ///< the minimum of the quadratic model without physical ranges
-  Eigen::MatrixXd information;    ///< of data and prior
+  Eigen::MatrixXd information;    ///< of the instruments and the prior
+  Eigen::MatrixXd slope;          ///< of the estimating equations, prior included
   Eigen::MatrixXd data_information;
   std::vector<ScoreBlock> blocks;              ///< of the data, by time
   Eigen::MatrixXd recording_score_covariance;  ///< of the data's score, by recordings
@@ -38,13 +39,15 @@ struct PredictionErrorFit {
   bool converged = false;
 };
 
-/// The parameters at which the innovations of an extended Kalman filter are orthogonal to their
-/// slopes, prior included: a prediction-error method, docs/concepts/physical-model.md (110)..(112).
-/// The current and the misalignment of the compass are states of the filter, so that each recording
-/// has its own; so is its noise, which maximises the likelihood.
-/// The slopes are those at fixed gains. They depend on earlier readings alone, so that the
-/// equations stay unbiased whatever the gains are. Source: Ljung, System Identification, 2nd
-/// ed., 7.2 and 7.4; Harvey, Forecasting, Structural Time Series Models and the Kalman Filter, 3.4.
+/// The parameters at which the innovations of an extended Kalman filter are orthogonal to
+/// instruments, prior included; docs/concepts/physical-model.md (110)..(112). The current and the
+/// misalignment of the compass are states of the filter, so that each recording has its own; so is
+/// its noise, which maximises the likelihood.
+/// A prediction-error method comes first: slopes at fixed gains. They follow what has disturbed the
+/// boat before, and where the filter's noise is not the boat's, innovations do so too, which biases
+/// it. Then the instruments, the slopes of a boat that the commands alone drive, take their place.
+/// Source: Ljung, System Identification, 2nd ed., 7.2, 7.4 and 7.6; Harvey, Forecasting, Structural
+/// Time Series Models and the Kalman Filter, 3.4.
 PredictionErrorFit FitPredictionError(const PreparedDataset& dataset, double propeller_separation_m,
                                       const FossenPrior& prior,
                                       const PredictionErrorOptions& options,

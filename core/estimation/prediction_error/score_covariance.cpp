@@ -5,6 +5,7 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
+#include <Eigen/LU>
 
 #include "telltale/core/uncertainty/distributions.hpp"
 
@@ -30,11 +31,11 @@ FossenVector UnbiasedScore(const ScoreBlock& block, const Eigen::LLT<FossenSquar
 }
 
 // Satterthwaite's, of a variance that is the sum over the blocks.
-FossenVector DegreesOfFreedom(const PredictionErrorFit& fit, const FossenSquare& inverse) {
+FossenVector DegreesOfFreedom(const PredictionErrorFit& fit, const FossenSquare& by_score) {
   FossenVector sum = FossenVector::Zero();
   FossenVector squares = FossenVector::Zero();
   for (const ScoreBlock& block : fit.blocks) {
-    const FossenVector share = (inverse * block.information * inverse).diagonal();
+    const FossenVector share = (by_score * block.information * by_score.transpose()).diagonal();
     sum += share;
     squares += share.cwiseAbs2();
   }
@@ -66,6 +67,7 @@ RobustCovariance CovarianceOf(const PredictionErrorFit& fit, std::size_t recordi
   const FossenSquare information = fit.information;
   const Eigen::LLT<FossenSquare> root(information);
   const FossenSquare inverse = root.solve(FossenSquare(FossenSquare::Identity()));
+  const FossenSquare by_score = FossenSquare(fit.slope).inverse();
   FossenSquare of_blocks = FossenSquare::Zero();
   for (const ScoreBlock& block : fit.blocks) {
     const FossenVector score = UnbiasedScore(block, root);
@@ -83,9 +85,9 @@ RobustCovariance CovarianceOf(const PredictionErrorFit& fit, std::size_t recordi
   const FossenSquare scores = weight * (inflation / by_blocks) * of_blocks +
                               (1.0 - weight) * inflation * fit.data_information;
   const FossenSquare prior = information - fit.data_information;
-  const FossenVector degrees = DegreesOfFreedom(fit, inverse) / (weight * weight);
+  const FossenVector degrees = DegreesOfFreedom(fit, by_score) / (weight * weight);
   const auto widening = StudentWidening(degrees, level).asDiagonal();
-  return {widening * (inverse * (scores + prior) * inverse) * widening, degrees};
+  return {widening * (by_score * (scores + prior) * by_score.transpose()) * widening, degrees};
 }
 
 }  // namespace telltale

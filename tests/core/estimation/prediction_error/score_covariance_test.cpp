@@ -56,7 +56,7 @@ LinearFit DrawFit(const std::vector<FossenSquare>& informations, std::uint64_t s
   for (ScoreBlock& block : drawn.fit.blocks) {
     block.score -= block.information * drawn.estimate;
   }
-  drawn.fit.information = drawn.fit.data_information = sum;
+  drawn.fit.information = drawn.fit.slope = drawn.fit.data_information = sum;
   drawn.fit.recording_score_covariance = FossenSquare::Zero();
   return drawn;
 }
