@@ -1,6 +1,7 @@
 #include "telltale/client/recording/mavlink/mavlink_frames.hpp"
 
 #include "telltale/client/recording/mavlink/mavlink_messages.hpp"
+#include "telltale/core/base/contract.hpp"
 
 namespace telltale {
 namespace {
@@ -30,11 +31,17 @@ class Checksum {
   std::uint16_t sum_ = 0xFFFF;
 };
 
-bool ChecksumHolds(std::span<const std::uint8_t> summed, std::uint8_t extra, std::uint16_t stated) {
+std::uint16_t ChecksumOf(std::span<const std::uint8_t> summed, std::uint8_t extra) {
   Checksum checksum;
   for (const std::uint8_t byte : summed) checksum.Add(byte);
   checksum.Add(extra);
-  return checksum.Value() == stated;
+  return checksum.Value();
+}
+
+/// Version 2 leaves out the zeros at the end of a payload, but for its first byte.
+std::span<const std::uint8_t> WithoutTrailingZeros(std::span<const std::uint8_t> payload) {
+  while (payload.size() > 1 && payload.back() == 0) payload = payload.first(payload.size() - 1);
+  return payload;
 }
 
 std::uint64_t BigEndian64(std::span<const std::uint8_t> bytes) {
@@ -127,13 +134,42 @@ MavlinkParse ParseMavlinkFrame(std::span<const std::uint8_t> bytes) {
   frame.message =
       is_v2 ? static_cast<std::uint32_t>(bytes[7] | bytes[8] << 8 | bytes[9] << 16) : bytes[5];
   frame.payload = bytes.subspan(header, payload);
+  frame.sequence = is_v2 ? bytes[4] : bytes[2];
   parse.outcome = Outcome::kFrame;
   if (const auto extra = MavlinkCrcExtra(frame.message)) {
     const std::size_t end = header + payload;
     const auto stated = static_cast<std::uint16_t>(bytes[end] | bytes[end + 1] << 8);
-    parse.corrupt = !ChecksumHolds(bytes.subspan(1, end - 1), *extra, stated);
+    parse.corrupt = ChecksumOf(bytes.subspan(1, end - 1), *extra) != stated;
   }
   return parse;
+}
+
+std::vector<std::uint8_t> SerializeMavlinkFrame(const MavlinkFrame& frame) {
+  const auto extra = MavlinkCrcExtra(frame.message);
+  Require(extra.has_value(), "a message whose checksum is known");
+  Require(frame.payload.size() <= 255, "a payload of at most 255 bytes");
+  const auto low = [](std::uint32_t value) { return static_cast<std::uint8_t>(value & 0xFF); };
+  const bool is_v2 = frame.version == 2;
+  const auto payload = is_v2 ? WithoutTrailingZeros(frame.payload) : frame.payload;
+  const std::uint8_t length = low(static_cast<std::uint32_t>(payload.size()));
+  std::vector<std::uint8_t> bytes =
+      is_v2 ? std::vector<std::uint8_t>{kMagic2,
+                                        length,
+                                        0,
+                                        0,
+                                        frame.sequence,
+                                        frame.system,
+                                        frame.component,
+                                        low(frame.message),
+                                        low(frame.message >> 8),
+                                        low(frame.message >> 16)}
+            : std::vector<std::uint8_t>{kMagic1,      length,          frame.sequence,
+                                        frame.system, frame.component, low(frame.message)};
+  bytes.insert(bytes.end(), payload.begin(), payload.end());
+  const std::uint16_t checksum = ChecksumOf(std::span(bytes).subspan(1), *extra);
+  bytes.push_back(low(checksum));
+  bytes.push_back(low(checksum >> 8));
+  return bytes;
 }
 
 std::size_t MavlinkStream::Consume(std::span<const std::uint8_t> bytes, bool at_end,

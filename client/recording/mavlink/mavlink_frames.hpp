@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <functional>
 #include <span>
+#include <vector>
 
 namespace telltale {
 
@@ -15,6 +16,7 @@ struct MavlinkFrame {
   std::uint8_t component = 0;  ///< which part of it; an autopilot is 1
   std::uint32_t message = 0;   ///< message id
   std::span<const std::uint8_t> payload;
+  std::uint8_t sequence = 0;  ///< of this system and component, counted up by one modulo 256
 };
 
 /// What the bytes hold beside frames, by kind.
@@ -33,11 +35,15 @@ struct MavlinkParse {
   bool corrupt = false;    ///< a known message whose checksum is wrong
 };
 
-/// Reads one frame. The checksum of a message that KnowsMavlinkMessage() is compared; that of any
-/// other message cannot be, because it depends on the message's definition. A signature is passed
-/// over.
-/// Source: MAVLink developer guide, "Packet Serialization"; checksum X.25 with CRC_EXTRA.
+/// Reads one frame. The checksum of a message whose MavlinkCrcExtra() is known is compared; that of
+/// any other message cannot be, because it depends on the message's definition. A signature is
+/// passed over. Source: MAVLink developer guide, "Packet Serialization"; checksum X.25 with
+/// CRC_EXTRA.
 MavlinkParse ParseMavlinkFrame(std::span<const std::uint8_t> bytes);
+
+/// The bytes of a frame, unsigned. Version 2 cuts the trailing zeros of the payload.
+/// Requires: MavlinkCrcExtra(frame.message) is known; version 1 or 2; at most 255 bytes of payload.
+std::vector<std::uint8_t> SerializeMavlinkFrame(const MavlinkFrame& frame);
 
 /// Frames out of a byte stream that may begin, break and end anywhere: the stream of a serial line
 /// or of datagrams.

@@ -33,15 +33,21 @@ constexpr std::uint16_t kHeadingUnknown = 65535;
 
 std::optional<std::uint8_t> MavlinkCrcExtra(std::uint32_t message) {
   switch (message) {
-    case 0: return 50;  // HEARTBEAT
+    case MavlinkHeartbeat::kId: return 50;
     case MavlinkSystemTime::kId: return 137;
     case MavlinkParamValue::kId: return 220;
     case MavlinkGpsRawInt::kId: return 24;
     case MavlinkAttitude::kId: return 39;
     case MavlinkGlobalPositionInt::kId: return 104;
     case MavlinkServoOutputRaw::kId: return 222;
+    case kMavlinkParamRequestRead: return 214;
+    case kMavlinkCommandLong: return 152;
     default: return std::nullopt;
   }
+}
+
+MavlinkHeartbeat HeartbeatOf(const MavlinkFrame& frame) {
+  return {Payload(frame).U8(5)};
 }
 
 MavlinkGpsRawInt GpsRawIntOf(const MavlinkFrame& frame) {

@@ -10,16 +10,23 @@
 namespace telltale {
 namespace {
 
-constexpr std::uint8_t kFix3d = 3;
-constexpr double kUnixAfterS = 1e9;  ///< no autopilot runs for 30 years
 constexpr std::uint32_t kHalfWrapUs = 1u << 31;
-constexpr int kOutputs = 16;
 
 std::string AndCount(std::uint64_t count, const char* what) {
   return count > 0 ? "; " + std::to_string(count) + ' ' + what : std::string();
 }
 
 }  // namespace
+
+std::optional<int> ThrusterChannel(std::optional<int> asked, const AutopilotParameters& parameters,
+                                   int function) {
+  const auto channel = asked ? asked : ChannelWithFunction(parameters, function);
+  return channel && *channel <= kMavlinkOutputs ? channel : std::nullopt;
+}
+
+double PulseOn(const MavlinkPulses& pulse_us, int channel) {
+  return static_cast<double>(pulse_us[static_cast<std::size_t>(channel - 1)]);
+}
 
 std::size_t MavlinkRecording::Vehicle::Samples() const {
   return std::max(raw_fixes.size(), filtered_fixes.size()) +
@@ -41,7 +48,7 @@ void MavlinkRecording::Take(const MavlinkFrame& frame) {
 void MavlinkRecording::Take(int system, const MavlinkGpsRawInt& message) {
   ++messages_;
   Vehicle& vehicle = vehicles_[system];
-  if (message.fix_type < kFix3d) {
+  if (!message.HasFix()) {
     ++vehicle.without_fix;
     return;
   }
@@ -116,7 +123,7 @@ void MavlinkRecording::ChoosePositions(const Vehicle& vehicle, SourceLog& log) {
                                            : "; positions from GPS_RAW_INT";
   if (!vehicle.unix_less_boot_s) return;
   for (GnssFix& fix : log.gnss) {
-    if (fix.time_s > kUnixAfterS) fix.time_s -= *vehicle.unix_less_boot_s;
+    if (IsMavlinkUnixTime(fix.time_s)) fix.time_s -= *vehicle.unix_less_boot_s;
   }
 }
 
@@ -130,8 +137,8 @@ void MavlinkRecording::ChooseHeadings(const Vehicle& vehicle, SourceLog& log) {
 void MavlinkRecording::ChooseOutputs(const Vehicle& vehicle, const SourceOptions& options,
                                      SourceLog& log) {
   const auto output = [&](std::optional<int> asked, int function) -> std::optional<ThrusterOutput> {
-    const auto channel = asked ? asked : ChannelWithFunction(vehicle.parameters, function);
-    if (!channel || *channel > kOutputs) return std::nullopt;
+    const auto channel = ThrusterChannel(asked, vehicle.parameters, function);
+    if (!channel) return std::nullopt;
     return OutputOn(vehicle.parameters, *channel);
   };
   if (vehicle.outputs.empty()) return;
@@ -144,13 +151,10 @@ void MavlinkRecording::ChooseOutputs(const Vehicle& vehicle, const SourceOptions
   }
   log.summary += "; outputs " + std::to_string(log.port->channel) + " (port) and " +
                  std::to_string(log.starboard->channel) + " (starboard) of SERVO_OUTPUT_RAW";
-  const auto pulse = [](const Outputs& outputs, int channel) {
-    return static_cast<double>(outputs.pulse_us[static_cast<std::size_t>(channel - 1)]);
-  };
   log.thrusters.reserve(vehicle.outputs.size());
   for (const Outputs& outputs : vehicle.outputs) {
-    log.thrusters.push_back({outputs.time_s, pulse(outputs, log.port->channel),
-                             pulse(outputs, log.starboard->channel)});
+    log.thrusters.push_back({outputs.time_s, PulseOn(outputs.pulse_us, log.port->channel),
+                             PulseOn(outputs.pulse_us, log.starboard->channel)});
   }
 }
 

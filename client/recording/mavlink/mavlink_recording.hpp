@@ -12,6 +12,14 @@
 
 namespace telltale {
 
+/// The output of bank 0, [1, 16], that drives a thruster: the one asked for, else the one that has
+/// this SERVOn_FUNCTION.
+std::optional<int> ThrusterChannel(std::optional<int> asked, const AutopilotParameters& parameters,
+                                   int function);
+
+/// The pulse on an output. Requires: a channel of [1, 16].
+double PulseOn(const MavlinkPulses& pulse_us, int channel);
+
 /// Gathers what the vehicles of a MAVLink stream say; which vehicle and which of its sources count
 /// is chosen once the stream has ended.
 ///
@@ -40,7 +48,7 @@ class MavlinkRecording {
  private:
   struct Outputs {
     double time_s = 0.0;
-    std::array<std::uint16_t, 16> pulse_us{};
+    MavlinkPulses pulse_us{};
   };
   struct Vehicle {
     std::vector<GnssFix> raw_fixes;
