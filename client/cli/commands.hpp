@@ -14,6 +14,7 @@ void AddExport(CLI::App& telltale);
 void AddGain(CLI::App& telltale);
 void AddCompare(CLI::App& telltale);
 void AddReplay(CLI::App& telltale);
+void AddBridge(CLI::App& telltale);
 void AddWatch(CLI::App& telltale);
 void AddMonitor(CLI::App& telltale);
 void AddList(CLI::App& telltale);

@@ -66,6 +66,7 @@ int main(int argc, char** argv) {
   telltale::AddGain(app);
   telltale::AddCompare(app);
   telltale::AddReplay(app);
+  telltale::AddBridge(app);
   telltale::AddWatch(app);
   telltale::AddMonitor(app);
   telltale::AddList(app);
