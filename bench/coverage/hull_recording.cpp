@@ -103,8 +103,8 @@ class HullState {
         waves_{Waves(sea.wave_sigma, sea.wave_peak_hz, seed, 20),
                Waves(sea.wave_sigma, sea.wave_peak_hz, seed, 21),
                Waves(sea.wave_sigma, sea.wave_peak_hz, seed, 22)},
-        wander_{GaussMarkov(sea.current_wander, 120.0, kStepS, WhiteSource(seed, 30)),
-                GaussMarkov(sea.current_wander, 120.0, kStepS, WhiteSource(seed, 31))} {
+        variation_{GaussMarkov(sea.current_variation, 120.0, kStepS, WhiteSource(seed, 30)),
+                   GaussMarkov(sea.current_variation, 120.0, kStepS, WhiteSource(seed, 31))} {
     WhiteSource steady(seed, 32);
     current_ = sea.current_m_s * Eigen::Vector2d(steady(), steady());
     pose.psi = 2.0 * std::numbers::pi * steady();
@@ -148,9 +148,9 @@ class HullState {
   void Move(const Eigen::Vector3d& mean) {
     const double psi = pose.psi + 0.5 * kStepS * mean[2];
     pose.north += kStepS * (std::cos(psi) * mean[0] - std::sin(psi) * mean[1] + current_[0] +
-                            wander_[0].Next());
+                            variation_[0].Next());
     pose.east += kStepS * (std::sin(psi) * mean[0] + std::cos(psi) * mean[1] + current_[1] +
-                           wander_[1].Next());
+                           variation_[1].Next());
     pose.psi += kStepS * mean[2];
   }
 
@@ -158,7 +158,7 @@ class HullState {
   double share_;
   std::array<GaussMarkov, 3> gusts_;
   std::array<Waves, 3> waves_;
-  std::array<GaussMarkov, 2> wander_;
+  std::array<GaussMarkov, 2> variation_;
   Eigen::Vector2d current_;
   double port_n_ = 0.0;
   double starboard_n_ = 0.0;

@@ -17,8 +17,8 @@ struct Sea {
   double gust_time_constant_s = 4.0;
   double wave_sigma = 0.0;  ///< m/s^2 in surge and sway, rad/s^2 in yaw, at the peak
   double wave_peak_hz = 0.35;
-  double current_m_s = 0.1;     ///< one sigma north and east, of each recording
-  double current_wander = 0.0;  ///< m/s, a Gauss-Markov process of 120 s on top
+  double current_m_s = 0.1;        ///< one sigma north and east, of each recording
+  double current_variation = 0.0;  ///< m/s, a Gauss-Markov process of 120 s on top
   double fix_noise_m = 0.02;
   double fix_drift_m = 0.1;  ///< a Gauss-Markov process of 20 s
   double heading_noise_deg = 0.5;

@@ -55,7 +55,7 @@ std::vector<HullScenario> Scenarios() {
   add("waves", [](HullScenario& s) { s.sea.wave_sigma = 0.15; });
   add("current", [](HullScenario& s) {
     s.sea.current_m_s = 0.3;
-    s.sea.current_wander = 0.1;
+    s.sea.current_variation = 0.1;
   });
   add("coloured-fixes", [](HullScenario& s) { s.sea.fix_drift_m = 0.5; });
   add("commands-sampled", [](HullScenario& s) { s.clocks.sampled = true; });

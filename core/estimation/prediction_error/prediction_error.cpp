@@ -53,10 +53,10 @@ NoiseModel FirstNoise() {
   return noise;
 }
 
-using Runs = std::vector<std::vector<Innovation>>;  // by segment, or by stretch
+using Runs = std::vector<std::vector<Innovation>>;  // by segment, or by excerpt
 
 // Readings of one segment, from which the noise of its recording is found.
-struct Stretch {
+struct Excerpt {
   std::size_t segment = 0;
   RawSignals signals;
 };
@@ -68,31 +68,31 @@ TimeSeries Within(const TimeSeries& series, double from_s, double to_s) {
           {series.values.begin() + begin, series.values.begin() + end}};
 }
 
-// Five minutes of a recording show its noise well enough: of a longer segment, five even stretches
+// Five minutes of a recording show its noise well enough: of a longer segment, five even excerpts
 // of a minute.
-std::vector<Stretch> StretchesForNoise(const PreparedDataset& dataset) {
-  constexpr std::size_t kStretches = 5;
-  constexpr double kStretchS = 60.0;
-  std::vector<Stretch> stretches;
+std::vector<Excerpt> ExcerptsForNoise(const PreparedDataset& dataset) {
+  constexpr std::size_t kExcerpts = 5;
+  constexpr double kExcerptS = 60.0;
+  std::vector<Excerpt> excerpts;
   for (std::size_t s = 0; s < dataset.segments.size(); ++s) {
     const RawSignals& signals = dataset.signals[s];
     const std::vector<double>& times_s = signals.psi_rad.times_s;
     const double span_s = times_s.empty() ? 0.0 : times_s.back() - times_s.front();
-    if (span_s <= kStretches * kStretchS) {
-      stretches.push_back({s, signals});
+    if (span_s <= kExcerpts * kExcerptS) {
+      excerpts.push_back({s, signals});
       continue;
     }
-    for (std::size_t i = 0; i < kStretches; ++i) {
+    for (std::size_t i = 0; i < kExcerpts; ++i) {
       const double from_s =
-          times_s.front() + static_cast<double>(i) * (span_s - kStretchS) / (kStretches - 1);
-      const double to_s = from_s + kStretchS;
-      stretches.push_back(
+          times_s.front() + static_cast<double>(i) * (span_s - kExcerptS) / (kExcerpts - 1);
+      const double to_s = from_s + kExcerptS;
+      excerpts.push_back(
           {s,
            {Within(signals.north_m, from_s, to_s), Within(signals.east_m, from_s, to_s),
             Within(signals.psi_rad, from_s, to_s)}});
     }
   }
-  return stretches;
+  return excerpts;
 }
 
 class Problem {
@@ -103,7 +103,7 @@ class Problem {
         separation_m_(separation_m),
         prior_(prior),
         options_(options),
-        for_noise_(StretchesForNoise(dataset)) {}
+        for_noise_(ExcerptsForNoise(dataset)) {}
 
   using Gains = std::vector<std::vector<FilterGain>>;
 
@@ -133,7 +133,7 @@ class Problem {
     return all;
   }
 
-  // Of each noise, the innovations of the stretches that serve to find it.
+  // Of each noise, the innovations of the excerpts that serve to find it.
   std::vector<Runs> RunForNoise(const Eigen::VectorXd& z,
                                 const std::vector<std::vector<NoiseModel>>& noises,
                                 std::size_t threads) const {
@@ -148,7 +148,7 @@ class Problem {
     return all;
   }
 
-  std::size_t RecordingOfStretch(std::size_t i) const {
+  std::size_t RecordingOfExcerpt(std::size_t i) const {
     return dataset_.RecordingOf(for_noise_[i].segment);
   }
 
@@ -207,7 +207,7 @@ class Problem {
   double separation_m_;
   const FossenPrior& prior_;
   const PredictionErrorOptions& options_;
-  std::vector<Stretch> for_noise_;
+  std::vector<Excerpt> for_noise_;
 };
 
 struct Normal {
@@ -279,7 +279,7 @@ double ScoreNoise(const Problem& problem, const Eigen::VectorXd& z, std::vector<
         Eigen::Matrix<double, kNoises, kNoises>::Identity() / std::pow(kNoisePriorSigma, 2);
     NoiseVector gradient = (NoisePriorMean() - log) / std::pow(kNoisePriorSigma, 2);
     for (std::size_t s = 0; s < runs[0].size(); ++s) {
-      if (problem.RecordingOfStretch(s) != recording) continue;
+      if (problem.RecordingOfExcerpt(s) != recording) continue;
       for (std::size_t k = 0; k < runs[0][s].size(); ++k) {
         const Innovation& i = runs[0][s][k];
         NoiseVector by_log_variance;
