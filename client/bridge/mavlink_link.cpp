@@ -234,7 +234,7 @@ class MavlinkLink::SerialLine : public Transport {
   std::array<std::uint8_t, kLargestDatagram> buffer_{};
 };
 
-MavlinkLink::MavlinkLink(MavlinkAddress address) {
+MavlinkLink::MavlinkLink(const MavlinkAddress& address) {
   switch (address.kind) {
     case MavlinkAddress::Kind::kUdp: transport_ = std::make_unique<Datagrams>(address); return;
     case MavlinkAddress::Kind::kTcp: transport_ = std::make_unique<Connection>(address); return;

@@ -25,7 +25,7 @@ class MavlinkLink {
  public:
   /// Binds the port, finds the host or opens the device; a TCP connection is made by Run().
   /// Throws: std::runtime_error naming the address and what is wrong.
-  explicit MavlinkLink(MavlinkAddress address);
+  explicit MavlinkLink(const MavlinkAddress& address);
   MavlinkLink(const MavlinkLink&) = delete;
   MavlinkLink& operator=(const MavlinkLink&) = delete;
   ~MavlinkLink();

@@ -374,6 +374,7 @@ class Search {
     const Eigen::VectorXd mean = problem_.PriorShift(precision);
     normal_ = NormalEquations(problem_, runs);
     information_ = normal_.information + precision;
+    slope_ = information_;
     // Innovations are readings less predictions: a step against their slope reduces them.
     const Eigen::VectorXd gradient = -normal_.gradient - precision * (z_ - mean);
     newton_mean_ = z_ + information_.ldlt().solve(gradient);
@@ -436,6 +437,8 @@ class Search {
     z_ += step;
     return !instrumented_ && ++instrument_iterations_ < kInstrumentIterations;
   }
+
+  bool IsInstrumented() const { return instrumented_; }
 
   double ShareDone() const {
     return static_cast<double>(iterations_) / static_cast<double>(options_.max_iterations);
@@ -504,9 +507,11 @@ PredictionErrorFit FitPredictionError(const PreparedDataset& dataset, double pro
   while (search.Iterate()) {
     if (progress) progress(search.ShareDone());
   }
+  const Search by_slopes = search;
   while (search.IterateWithInstruments()) {
   }
-  return search.Fit();
+  // Where the instruments are too weak, the slopes' answer stands and counts as not converged.
+  return search.IsInstrumented() ? search.Fit() : by_slopes.Fit();
 }
 
 }  // namespace telltale
