@@ -6,6 +6,7 @@
 #include <numbers>
 #include <random>
 
+#include "telltale/core/base/degrees.hpp"
 #include "telltale/core/base/gauss_markov.hpp"
 #include "telltale/core/base/random.hpp"
 #include "telltale/core/data/north_east_frame.hpp"
@@ -16,7 +17,6 @@ namespace {
 constexpr double kStepS = 0.01;
 constexpr double kBurnInS = 20.0;
 constexpr double kSettlingS = 1.5;
-constexpr double kDegreesPerRadian = 180.0 / std::numbers::pi;
 
 // A broad band about the peak: a damped oscillator driven by white noise.
 class Waves {
@@ -192,7 +192,7 @@ class Recorder {
   void TakeHeading(double time_s, const Pose& pose) {
     const double deg =
         pose.psi * kDegreesPerRadian + misalignment_deg_ + sea_.heading_noise_deg * white_();
-    recording_.heading.push_back({Stamp(time_s), deg - 360.0 * std::floor(deg / 360.0)});
+    recording_.heading.push_back({Stamp(time_s), Wrap360(deg)});
   }
 
   void TakeCommand(double time_s, const PropellerCommand& command) {

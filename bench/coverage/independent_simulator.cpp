@@ -5,6 +5,7 @@
 #include <numbers>
 #include <random>
 
+#include "telltale/core/base/degrees.hpp"
 #include "telltale/core/base/random.hpp"
 #include "telltale/core/data/north_east_frame.hpp"
 
@@ -14,7 +15,6 @@ namespace {
 constexpr double kStepS = 0.01;
 constexpr double kGapS = 10.0;
 constexpr double kBurnInS = 5.0;  // before the recorder starts
-constexpr double kDegreesPerRadian = 180.0 / std::numbers::pi;
 
 struct State {
   double x = 0.0, y = 0.0, psi = 0.0, u = 0.0, v = 0.0, r = 0.0;
@@ -246,7 +246,7 @@ class Sensors {
 
   HeadingSample Heading(double stamp, const State& state) {
     const double deg = state.psi * kDegreesPerRadian + environment_.heading_noise_deg * heading_();
-    return {stamp, deg - 360.0 * std::floor(deg / 360.0)};
+    return {stamp, Wrap360(deg)};
   }
 
  private:

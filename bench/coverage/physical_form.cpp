@@ -211,71 +211,74 @@ std::optional<Outcome> RunReplicate(const HullScenario& scenario, const FossenVe
   return outcome;
 }
 
+/// Over the replicates of a scenario: means, shares in percent, and the parameters one by one.
+struct Tally {
+  FossenVector held = FossenVector::Zero();
+  FossenVector prior = FossenVector::Zero();  ///< by how often the prior decides
+  FossenVector bias = FossenVector::Zero();
+  FossenVector spread = FossenVector::Zero();
+  FossenVector predicted = FossenVector::Zero();  ///< standard error, root mean square
+  double joint = 0.0;
+  double band = 0.0;
+  double converged = 0.0;  ///< number
+  double seconds = 0.0;
+};
+
+Tally Count(const std::vector<Outcome>& outcomes) {
+  const auto n = static_cast<double>(outcomes.size());
+  Tally tally;
+  FossenVector squares = FossenVector::Zero();
+  for (const Outcome& outcome : outcomes) {
+    for (std::size_t i = 0; i < kFossenParameters; ++i) {
+      const auto at = static_cast<Eigen::Index>(i);
+      tally.held[at] += outcome.held[i] ? 100.0 / n : 0.0;
+      tally.prior[at] += outcome.prior[i] ? 100.0 / n : 0.0;
+    }
+    tally.bias += outcome.error / n;
+    squares += outcome.error.cwiseAbs2() / n;
+    tally.predicted += outcome.standard_error.cwiseAbs2() / n;
+    tally.joint += outcome.joint ? 100.0 / n : 0.0;
+    tally.band += 100.0 * outcome.in_band / n;
+    tally.converged += outcome.converged ? 1.0 : 0.0;
+    tally.seconds += outcome.seconds / n;
+  }
+  tally.spread = (squares - tally.bias.cwiseAbs2()).cwiseMax(1e-30).cwiseSqrt();
+  tally.predicted = tally.predicted.cwiseSqrt();
+  return tally;
+}
+
 // A parameter that always stops at the end of its range has no spread, hence not the mean.
 double Median(FossenVector values) {
   std::ranges::sort(values);
   return values[kFossenParameters / 2];
 }
 
-void PrintRow(const HullScenario& scenario, const std::vector<Outcome>& outcomes,
+std::string SymbolOf(Eigen::Index parameter) {
+  return std::string(FossenParameterNames()[static_cast<std::size_t>(parameter)].symbol);
+}
+
+void PrintRow(const std::string& name, const Tally& tally, std::size_t identified,
               std::size_t replicates) {
-  const auto n = static_cast<double>(outcomes.size());
-  FossenVector held = FossenVector::Zero();
-  FossenVector prior = FossenVector::Zero();
-  FossenVector mean = FossenVector::Zero();
-  FossenVector squares = FossenVector::Zero();
-  FossenVector predicted = FossenVector::Zero();
-  double joint = 0.0;
-  double band = 0.0;
-  double converged = 0.0;
-  double seconds = 0.0;
-  for (const Outcome& outcome : outcomes) {
-    for (std::size_t i = 0; i < kFossenParameters; ++i) {
-      held[static_cast<Eigen::Index>(i)] += outcome.held[i] ? 100.0 / n : 0.0;
-      prior[static_cast<Eigen::Index>(i)] += outcome.prior[i] ? 1.0 / n : 0.0;
-    }
-    mean += outcome.error / n;
-    squares += outcome.error.cwiseAbs2() / n;
-    predicted += outcome.standard_error.cwiseAbs2() / n;
-    joint += outcome.joint ? 100.0 / n : 0.0;
-    band += 100.0 * outcome.in_band / n;
-    converged += outcome.converged ? 1.0 : 0.0;
-    seconds += outcome.seconds / n;
-  }
-  const FossenVector spread = (squares - mean.cwiseAbs2()).cwiseMax(1e-30).cwiseSqrt();
   Eigen::Index lowest = 0;
-  held.minCoeff(&lowest);
+  tally.held.minCoeff(&lowest);
   std::printf(
-      "| %s | %.0f/%.0f/%zu | %.1f | %.1f (%s) | %.0f | %.2f | %.2f | %.1f | %.1f | %.1f | %.1f "
-      "|\n",
-      scenario.name.c_str(), converged, n, replicates, held.mean(), held[lowest],
-      std::string(FossenParameterNames()[static_cast<std::size_t>(lowest)].symbol).c_str(),
-      (held.array() < 92.0).cast<double>().sum(), Median(mean.cwiseAbs().cwiseQuotient(spread)),
-      Median(predicted.cwiseSqrt().cwiseQuotient(spread)), prior.sum(), joint, band, seconds);
+      "| %s | %.0f/%zu/%zu | %.1f | %.1f (%s) | %td | %.2f | %.2f | %.1f | %.1f | %.1f | %.1f |\n",
+      name.c_str(), tally.converged, identified, replicates, tally.held.mean(), tally.held[lowest],
+      SymbolOf(lowest).c_str(), (tally.held.array() < 92.0).count(),
+      Median(tally.bias.cwiseAbs().cwiseQuotient(tally.spread)),
+      Median(tally.predicted.cwiseQuotient(tally.spread)), tally.prior.sum() / 100.0, tally.joint,
+      tally.band, tally.seconds);
   std::fflush(stdout);
 }
 
-void PrintParameters(const HullScenario& scenario, const FossenVector& truth,
-                     const std::vector<Outcome>& outcomes) {
+void PrintParameters(const std::string& name, const FossenVector& truth, const Tally& tally) {
   std::printf(
       "\n| %s | truth | bias | spread | predicted | prior %% | held %% "
       "|\n|---|---|---|---|---|---|---|\n",
-      scenario.name.c_str());
-  const auto n = static_cast<double>(outcomes.size());
-  for (std::size_t i = 0; i < kFossenParameters; ++i) {
-    const auto at = static_cast<Eigen::Index>(i);
-    double sum = 0.0, squares = 0.0, predicted = 0.0, prior = 0.0, held = 0.0;
-    for (const Outcome& outcome : outcomes) {
-      sum += outcome.error[at];
-      squares += outcome.error[at] * outcome.error[at];
-      predicted += outcome.standard_error[at] * outcome.standard_error[at];
-      prior += outcome.prior[i] ? 1.0 : 0.0;
-      held += outcome.held[i] ? 1.0 : 0.0;
-    }
-    std::printf("| %s | %.4g | %.2g | %.2g | %.2g | %.0f | %.1f |\n",
-                std::string(FossenParameterNames()[i].symbol).c_str(), truth[at], sum / n,
-                std::sqrt(std::max(0.0, squares / n - sum * sum / n / n)), std::sqrt(predicted / n),
-                100.0 * prior / n, 100.0 * held / n);
+      name.c_str());
+  for (Eigen::Index i = 0; i < truth.size(); ++i) {
+    std::printf("| %s | %.4g | %.2g | %.2g | %.2g | %.0f | %.1f |\n", SymbolOf(i).c_str(), truth[i],
+                tally.bias[i], tally.spread[i], tally.predicted[i], tally.prior[i], tally.held[i]);
   }
   std::fflush(stdout);
 }
@@ -305,8 +308,9 @@ int Main(int argc, char** argv) {
     const auto outcomes = Completed(campaign.RunReplicates(
         [&](std::uint64_t seed) { return RunReplicate(scenario, *truth, seed); }));
     if (outcomes.empty()) continue;
-    PrintRow(scenario, outcomes, campaign.replicates);
-    if (parameters) PrintParameters(scenario, *truth, outcomes);
+    const Tally tally = Count(outcomes);
+    PrintRow(scenario.name, tally, outcomes.size(), campaign.replicates);
+    if (parameters) PrintParameters(scenario.name, *truth, tally);
   }
   return 0;
 }

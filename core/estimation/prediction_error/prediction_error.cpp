@@ -135,11 +135,10 @@ class Problem {
 
   // Of each noise, the innovations of the excerpts that serve to find it.
   std::vector<Runs> RunForNoise(const Eigen::VectorXd& z,
-                                const std::vector<std::vector<NoiseModel>>& noises,
-                                std::size_t threads) const {
+                                const std::vector<std::vector<NoiseModel>>& noises) const {
     const std::size_t n = for_noise_.size();
     std::vector<Runs> all(noises.size(), Runs(n));
-    ForEachIndex(noises.size() * n, threads, [&](std::size_t i) {
+    ForEachIndex(noises.size() * n, options_.threads, [&](std::size_t i) {
       const auto& [segment, signals] = for_noise_[i % n];
       const NoiseModel& noise = noises[i / n][dataset_.RecordingOf(segment)];
       all[i / n][i % n] = InnovationsOf(signals, dataset_.commands[segment],
@@ -154,10 +153,9 @@ class Problem {
 
   // The sum of weighted squares at fixed gains, which the normal equations are those of.
   double SquaresWith(const Gains& gains, const Eigen::VectorXd& z,
-                     const std::vector<NoiseModel>& noise, double nominal_fix_delay_s,
-                     std::size_t threads) const {
+                     const std::vector<NoiseModel>& noise, double nominal_fix_delay_s) const {
     std::vector<double> sums(dataset_.segments.size(), 0.0);
-    ForEachIndex(sums.size(), threads, [&](std::size_t s) {
+    ForEachIndex(sums.size(), options_.threads, [&](std::size_t s) {
       const FilterSettings settings =
           SettingsOf(z, noise[dataset_.RecordingOf(s)], nominal_fix_delay_s);
       for (const Innovation& i :
@@ -211,7 +209,6 @@ class Problem {
 };
 
 struct Normal {
-  Eigen::MatrixXd slope;  // of the data's score; the information, where slopes are instruments
   Eigen::MatrixXd information;
   Eigen::VectorXd gradient;                    // half of that of the objective
   std::vector<ScoreBlock> blocks;              // of the data, by time
@@ -239,16 +236,13 @@ std::vector<ScoreBlock> BlocksOf(const std::vector<Innovation>& innovations, dou
 
 Normal NormalEquations(const Problem& problem, const Runs& all) {
   const FossenSquare zero = FossenSquare::Zero();
-  Normal normal{zero, zero, FossenVector::Zero(), {}, zero};
+  Normal normal{zero, FossenVector::Zero(), {}, zero};
   std::vector<FossenVector> of_recordings(problem.dataset_.Recordings(), FossenVector::Zero());
   for (std::size_t s = 0; s < all.size(); ++s) {
     for (const ScoreBlock& block : BlocksOf(all[s], problem.options_.block_s)) {
       normal.information += block.information;
       of_recordings[problem.dataset_.RecordingOf(s)] += block.score;
       normal.blocks.push_back(block);
-    }
-    for (const Innovation& i : all[s]) {
-      normal.slope += i.instrument * (i.slope / i.variance).transpose();
     }
   }
   for (const FossenVector& score : of_recordings) {
@@ -258,10 +252,21 @@ Normal NormalEquations(const Problem& problem, const Runs& all) {
   return normal;
 }
 
+// How the data's score changes with the parameters.
+FossenSquare ScoreSlope(const Runs& all) {
+  FossenSquare slope = FossenSquare::Zero();
+  for (const auto& of_segment : all) {
+    for (const Innovation& i : of_segment) {
+      slope += i.instrument * (i.slope / i.variance).transpose();
+    }
+  }
+  return slope;
+}
+
 // One step of Fisher scoring of each recording's noise, at most a factor e; slopes by finite
 // differences of log.
-double ScoreNoise(const Problem& problem, const Eigen::VectorXd& z, std::vector<NoiseModel>& noise,
-                  std::size_t threads) {
+double ScoreNoise(const Problem& problem, const Eigen::VectorXd& z,
+                  std::vector<NoiseModel>& noise) {
   constexpr double kStep = 0.05;
   std::vector<std::vector<NoiseModel>> moved(kNoises + 1, noise);
   for (Eigen::Index j = 0; j < kNoises; ++j) {
@@ -271,7 +276,7 @@ double ScoreNoise(const Problem& problem, const Eigen::VectorXd& z, std::vector<
       of_recording = NoiseOf(log);
     }
   }
-  const std::vector<Runs> runs = problem.RunForNoise(z, moved, threads);
+  const std::vector<Runs> runs = problem.RunForNoise(z, moved);
   double largest_move = 0.0;
   for (std::size_t recording = 0; recording < noise.size(); ++recording) {
     const NoiseVector log = LogOf(noise[recording]);
@@ -357,12 +362,12 @@ double Squares(const Runs& runs) {
   return squares;
 }
 
-// Gauss-Newton steps at fixed gains, each followed by a step of the noise, until neither moves.
+// Gauss-Newton steps at fixed gains, each followed by a step of the noise, until neither moves;
+// then steps of the equations with instruments.
 class Search {
  public:
-  Search(const Problem& problem, const PredictionErrorOptions& options)
+  explicit Search(const Problem& problem)
       : problem_(problem),
-        options_(options),
         z_(problem.prior_.mean),
         noise_(problem.dataset_.Recordings(), FirstNoise()) {}
 
@@ -370,18 +375,12 @@ class Search {
   bool Iterate() {
     Problem::Gains gains;
     const Runs runs = problem_.RunWithSlopes(z_, noise_, false, gains);
-    const Eigen::MatrixXd precision = problem_.PriorPrecision(z_);
-    const Eigen::VectorXd mean = problem_.PriorShift(precision);
-    normal_ = NormalEquations(problem_, runs);
-    information_ = normal_.information + precision;
+    const auto [precision, mean, gradient] = Linearise(runs);
     slope_ = information_;
-    // Innovations are readings less predictions: a step against their slope reduces them.
-    const Eigen::VectorXd gradient = -normal_.gradient - precision * (z_ - mean);
     newton_mean_ = z_ + information_.ldlt().solve(gradient);
-    innovations_ = 0;
-    for (const auto& of_segment : runs) innovations_ += of_segment.size();
 
-    const auto cost = [&](const Eigen::VectorXd& z, double squares) {
+    const auto cost = [&, &precision = precision, &mean = mean](const Eigen::VectorXd& z,
+                                                                double squares) {
       return squares + (z - mean).dot(precision * (z - mean));
     };
     const double now = cost(z_, Squares(runs));
@@ -392,8 +391,8 @@ class Search {
       const double expected = step.dot(2.0 * gradient - information_ * step);
       const Eigen::VectorXd candidate = z_ + step;
       if (problem_.Feasible(candidate) &&
-          cost(candidate, problem_.SquaresWith(gains, candidate, noise_, nominal_fix_delay_s,
-                                               options_.threads)) <= now * (1.0 + kRounding)) {
+          cost(candidate, problem_.SquaresWith(gains, candidate, noise_, nominal_fix_delay_s)) <=
+              now * (1.0 + kRounding)) {
         moved = std::sqrt(std::max(expected, 0.0));
         z_ = candidate;
         damping_ = std::max(0.2 * damping_, kLeastDamping);
@@ -403,25 +402,21 @@ class Search {
       if (expected < kNegligibleGain) break;
     }
     ++iterations_;
-    double noise_moved = 0.0;
     if (!noise_settled_) {
-      noise_moved = ScoreNoise(problem_, z_, noise_, options_.threads);
-      noise_settled_ = noise_moved < kSettledNoise || iterations_ >= kNoiseIterations;
+      noise_settled_ =
+          ScoreNoise(problem_, z_, noise_) < kSettledNoise || iterations_ >= kNoiseIterations;
     }
     converged_ = moved < kConvergedMove && noise_settled_;
-    return !converged_ && iterations_ < options_.max_iterations;
+    return !converged_ && iterations_ < problem_.options_.max_iterations;
   }
 
   // A step of the equations with instruments: there is no sum of squares to watch. Whether there is
   // more to do.
   bool IterateWithInstruments() {
     Problem::Gains gains;
-    normal_ = NormalEquations(problem_, problem_.RunWithSlopes(z_, noise_, true, gains));
-    const Eigen::MatrixXd precision = problem_.PriorPrecision(z_);
-    const Eigen::VectorXd mean = problem_.PriorShift(precision);
-    information_ = normal_.information + precision;
-    slope_ = normal_.slope + precision;
-    const Eigen::VectorXd gradient = -normal_.gradient - precision * (z_ - mean);
+    const Runs runs = problem_.RunWithSlopes(z_, noise_, true, gains);
+    const auto [precision, mean, gradient] = Linearise(runs);
+    slope_ = ScoreSlope(runs) + precision;
     newton_mean_ = z_ + slope_.partialPivLu().solve(gradient);
     const Eigen::VectorXd whole = BoundedStep(problem_, z_, slope_, gradient, 0.0);
     const Eigen::VectorXd score = slope_ * whole;
@@ -441,7 +436,8 @@ class Search {
   bool IsInstrumented() const { return instrumented_; }
 
   double ShareDone() const {
-    return static_cast<double>(iterations_) / static_cast<double>(options_.max_iterations);
+    return static_cast<double>(iterations_ + instrument_iterations_) /
+           static_cast<double>(problem_.options_.max_iterations + kInstrumentIterations);
   }
 
   PredictionErrorFit Fit() const {
@@ -461,15 +457,35 @@ class Search {
   }
 
  private:
+  struct Linearised {
+    Eigen::MatrixXd precision;  // of the prior
+    Eigen::VectorXd mean;       // of the prior
+    Eigen::VectorXd gradient;   // data and prior, downwards
+  };
+
+  // The equations at z_; leaves their information behind.
+  Linearised Linearise(const Runs& runs) {
+    normal_ = NormalEquations(problem_, runs);
+    innovations_ = 0;
+    for (const auto& of_segment : runs) innovations_ += of_segment.size();
+    Linearised at;
+    at.precision = problem_.PriorPrecision(z_);
+    at.mean = problem_.PriorShift(at.precision);
+    information_ = normal_.information + at.precision;
+    // Innovations are readings less predictions: a step against their slope reduces them.
+    at.gradient = -normal_.gradient - at.precision * (z_ - at.mean);
+    return at;
+  }
+
   static constexpr int kMostAttempts = 8;
   static constexpr double kFirstDamping = 1e-3;
   static constexpr double kLeastDamping = 1e-9;
   static constexpr double kRounding = 1e-9;
   static constexpr double kNegligibleGain = 1e-3;  // of a sum of weighted squares
   static constexpr double kConvergedMove = 0.1;    // in standard errors, all parameters together
-  // The noise of the logarithm is good enough here: the equations hold for any noise, and steps of
-  // noise and parameters in turn may go round in circles.
-  static constexpr double kSettledNoise = 0.05;
+  // Noise as close as this serves: a wrong one costs precision alone, and steps of noise and
+  // parameters in turn may go round in circles.
+  static constexpr double kSettledNoise = 0.05;  // of its logarithm
   static constexpr int kNoiseIterations = 8;
   static constexpr int kInstrumentIterations = 20;
   static constexpr double kSlow = 0.7;
@@ -478,7 +494,6 @@ class Search {
   static constexpr double kConvergedScore = 0.48;
 
   const Problem& problem_;
-  const PredictionErrorOptions& options_;
   Eigen::VectorXd z_;
   std::vector<NoiseModel> noise_;
   double damping_ = kFirstDamping;
@@ -503,13 +518,13 @@ PredictionErrorFit FitPredictionError(const PreparedDataset& dataset, double pro
                                       const PredictionErrorOptions& options,
                                       const std::function<void(double share)>& progress) {
   const Problem problem(dataset, propeller_separation_m, prior, options);
-  Search search(problem, options);
-  while (search.Iterate()) {
+  Search search(problem);
+  const auto report_progress = [&] {
     if (progress) progress(search.ShareDone());
-  }
+  };
+  while (search.Iterate()) report_progress();
   const Search by_slopes = search;
-  while (search.IterateWithInstruments()) {
-  }
+  while (search.IterateWithInstruments()) report_progress();
   // Where the instruments are too weak, the slopes' answer stands and counts as not converged.
   return search.IsInstrumented() ? search.Fit() : by_slopes.Fit();
 }
