@@ -16,13 +16,13 @@
 #include "telltale/client/cli/exit_codes.hpp"
 #include "telltale/client/cli/live_options.hpp"
 #include "telltale/client/cli/number_range.hpp"
+#include "telltale/client/cli/progress_line.hpp"
 #include "telltale/client/cli/table.hpp"
 #include "telltale/idl/codec/vehicle_file.hpp"
 
 namespace telltale {
 namespace {
 
-constexpr const char* kEraseLine = "\r\033[K";
 constexpr int kLineEachSeconds = 2;
 
 struct BridgeArguments {
@@ -56,7 +56,7 @@ class RatesLine {
  public:
   void EachSecond(const std::vector<MavlinkVehicleCounts>& vehicles) {
     if (!on_terminal_ || ++seconds_ % kLineEachSeconds != 0) return;
-    std::cerr << kEraseLine << (vehicles.empty() ? "no vehicle is heard yet" : "");
+    std::cerr << kClearLine << (vehicles.empty() ? "no vehicle is heard yet" : "");
     for (std::size_t i = 0; i < vehicles.size(); ++i) {
       std::cerr << (i > 0 ? "  |  " : "") << TextOf(vehicles[i]);
     }
@@ -65,7 +65,7 @@ class RatesLine {
   }
 
   void Erase() const {
-    if (on_terminal_) std::cerr << kEraseLine;
+    if (on_terminal_) std::cerr << kClearLine;
   }
 
  private:

@@ -11,7 +11,6 @@ namespace {
 
 constexpr std::chrono::seconds kDisplayDelay{2};
 constexpr std::chrono::milliseconds kRedraw{200};
-constexpr const char* kClearLine = "\r\033[K";
 
 }  // namespace
 

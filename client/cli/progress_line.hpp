@@ -9,6 +9,9 @@
 
 namespace telltale {
 
+/// Takes what stands on a terminal's line away.
+inline constexpr std::string_view kClearLine = "\r\033[K";
+
 /// A line on standard error with the stage, its share and the elapsed time, drawn anew in place.
 /// It appears after two seconds, on a terminal only, and the destructor erases it. Thread safe.
 class ProgressLine {

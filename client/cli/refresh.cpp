@@ -95,7 +95,7 @@ class RefreshView {
 
  private:
   static void Show(const RefreshedVehicle& vehicle) {
-    if (isatty(STDERR_FILENO)) std::cerr << "\r\033[K" << std::flush;
+    if (isatty(STDERR_FILENO)) std::cerr << kClearLine << std::flush;
     std::string text(Name(vehicle.state));
     if (vehicle.state == RefreshState::kPublished) {
       text += " revision " + std::to_string(vehicle.revision) + ' ' + VerdictText(vehicle.verdict);

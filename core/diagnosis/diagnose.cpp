@@ -106,7 +106,7 @@ Result<DiagnosedModel> DiagnoseAgainst(const std::vector<PreparedDataset>& refer
   DiagnosedModel diagnosed;
   diagnosed.diagnosis =
       BuildReport({recording, references, model, library, horizons, main, problem, hypotheses,
-                   conclusion, options.advise, options.seed, options.threads});
+                   conclusion, options.advise, options.state_power, options.seed, options.threads});
   if (conclusion.is_likely) {
     const AugmentedModel boat = Reidentified(conclusion.best, problem, model);
     diagnosed.augmented = Augmented(identification, boat, conclusion.best, problem, model);
@@ -141,7 +141,8 @@ std::vector<ReferenceInfluence> InfluencesOf(const std::vector<PreparedDataset>&
                                              const Identification& identification,
                                              const UncertainModel& model, DiagnoseOptions options,
                                              const Progress& progress) {
-  options.advise = false;
+  // What is asked of them is the verdict.
+  options.advise = options.state_power = false;
   std::vector<ReferenceInfluence> influences;
   for (std::size_t left_out = 0; left_out < references.size(); ++left_out) {
     if (progress) {

@@ -21,6 +21,7 @@ struct DiagnoseOptions {
   std::size_t most_effects = 3;      ///< that may act together, [1, 3]
   std::vector<std::string> without;  ///< names of effects to leave out of the library
   bool advise = true;                ///< manoeuvres that separate equivalent hypotheses
+  bool state_power = true;           ///< the sizes from which on effects show
   /// Diagnose once more without each reference, where there are two or more: takes that many times
   /// as long.
   bool leave_out_references = false;

@@ -3,9 +3,7 @@
 #include <cmath>
 #include <string>
 
-#include "telltale/core/base/parallel.hpp"
 #include "telltale/core/diagnosis/diagnosis_constants.hpp"
-#include "telltale/core/diagnosis/hypotheses/power.hpp"
 #include "telltale/core/diagnosis/hypotheses/stochastic_excitation.hpp"
 
 namespace telltale {
@@ -69,9 +67,7 @@ std::vector<Eigen::VectorXd> WhitenedColumns(const Effect& effect,
 
 std::vector<EffectTestability> TestabilityOf(const DiagnosisProblem& problem,
                                              const UncertainModel& model,
-                                             std::span<const Effect* const> library,
-                                             const std::map<const Effect*, double>& nominal_gains,
-                                             std::size_t threads) {
+                                             std::span<const Effect* const> library) {
   constexpr double kDetectable = kDiagnosis.testability.detectable_sigmas;
   std::vector<EffectTestability> all;
   for (const Effect* effect : library) {
@@ -87,9 +83,6 @@ std::vector<EffectTestability> TestabilityOf(const DiagnosisProblem& problem,
       one.masked_by = MostSimilarCoefficient(problem, model, whitened.front());
     }
   }
-  ForEachIndex(all.size(), threads, [&](std::size_t i) {
-    all[i].detectable_sizes = DetectableSizesOf(*library[i], problem, nominal_gains.at(library[i]));
-  });
   return all;
 }
 

@@ -2,9 +2,12 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
+#include "telltale/core/base/parallel.hpp"
 #include "telltale/core/base/version.hpp"
 #include "telltale/core/diagnosis/hypotheses/onset.hpp"
+#include "telltale/core/diagnosis/hypotheses/power.hpp"
 #include "telltale/core/diagnosis/hypotheses/testability.hpp"
 #include "telltale/core/diagnosis/report/causes.hpp"
 #include "telltale/core/diagnosis/report/pictures.hpp"
@@ -62,6 +65,14 @@ void Advise(const ReportInputs& inputs, Diagnosis& diagnosis) {
       AdviseSensor(first));
 }
 
+void StatePower(const ReportInputs& inputs, std::vector<EffectTestability>& effects) {
+  ForEachIndex(effects.size(), inputs.threads, [&](std::size_t i) {
+    const Effect* const effect = inputs.library[i];
+    effects[i].detectable_sizes =
+        DetectableSizesOf(*effect, inputs.problem, inputs.hypotheses.nominal_gains.at(effect));
+  });
+}
+
 void DescribeMaterialGap(const ReportInputs& inputs, Diagnosis& diagnosis) {
   diagnosis.where =
       Localise(inputs.recording, inputs.references, inputs.problem.nominal.boat, inputs.seed);
@@ -81,8 +92,8 @@ Diagnosis BuildReport(const ReportInputs& inputs) {
   diagnosis.seed = inputs.seed;
   diagnosis.software_version = Version();
   diagnosis.gaps = GapsOf(inputs);
-  diagnosis.effects = TestabilityOf(inputs.problem, inputs.model, inputs.library,
-                                    inputs.hypotheses.nominal_gains, inputs.threads);
+  diagnosis.effects = TestabilityOf(inputs.problem, inputs.model, inputs.library);
+  if (inputs.state_power) StatePower(inputs, diagnosis.effects);
   if (conclusion.assessment == GapAssessment::kMaterial) DescribeMaterialGap(inputs, diagnosis);
   if (conclusion.assessment == GapAssessment::kUndecided) {
     diagnosis.notes.emplace_back(

@@ -26,7 +26,8 @@ struct ReportInputs {
   const DiagnosisProblem& problem;
   const Hypotheses& hypotheses;
   const Conclusion& conclusion;
-  bool advise = true;  ///< manoeuvres that separate equivalent hypotheses
+  bool advise = true;       ///< manoeuvres that separate equivalent hypotheses
+  bool state_power = true;  ///< the sizes from which on effects show
   std::uint64_t seed = 1;
   std::size_t threads = 1;
 };

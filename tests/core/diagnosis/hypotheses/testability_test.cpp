@@ -27,7 +27,7 @@ class TestabilityTest : public ::testing::Test {
     recording_.by_coefficient.col(1) = Column(1, 1.0);
     const ResidualMetric metric(nominal_, recording_, EveryWindow(recording_), false);
     return TestabilityOf({short_.runs, nominal_, recording_, metric, parameter_refs_, no_response_},
-                         model_, library_, {{&single_, 0.0}, {&pair_, 0.0}}, 1);
+                         model_, library_);
   }
 
   const testing::ShortRecording short_;
