@@ -7,6 +7,7 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 
+#include "telltale/core/base/linear_algebra/covariance.hpp"
 #include "telltale/core/uncertainty/distributions.hpp"
 
 namespace telltale {
@@ -86,8 +87,8 @@ RobustCovariance CovarianceOf(const PredictionErrorFit& fit, std::size_t recordi
                               (1.0 - weight) * inflation * fit.data_information;
   const FossenSquare prior = information - fit.data_information;
   const FossenVector degrees = DegreesOfFreedom(fit, by_score) / (weight * weight);
-  const auto widening = StudentWidening(degrees, level).asDiagonal();
-  return {widening * (by_score * (scores + prior) * by_score.transpose()) * widening, degrees};
+  const FossenSquare covariance = Mapped(by_score, scores + prior);
+  return {Scaled(covariance, StudentWidening(degrees, level)), degrees};
 }
 
 }  // namespace telltale
