@@ -38,11 +38,16 @@ double PhysicalFreeRuns::StartTimeOf(std::size_t row) const {
   return dataset_.rows[row].time_s - std::max(FixDelay(), 0.0);
 }
 
+// A start is known from the readings that its recorded row is made of, and from those before.
 std::vector<FilterState> PhysicalFreeRuns::StatesAt(std::size_t segment,
                                                     const std::vector<std::size_t>& rows) const {
-  std::vector<double> starts_s;
-  for (const std::size_t row : rows) starts_s.push_back(StartTimeOf(row));
-  return FilteredStates(dataset_.signals[segment], dataset_.commands[segment], settings_, starts_s);
+  std::vector<SmoothingWindow> windows;
+  for (const std::size_t row : rows) {
+    const RowRange about = RowsAbout({row, row + 1}, dataset_.segments[segment]);
+    const double ahead_s = dataset_.rows[about.end - 1].time_s - dataset_.rows[row].time_s;
+    windows.push_back({StartTimeOf(row), StartTimeOf(row) + ahead_s});
+  }
+  return SmoothedStates(dataset_.signals[segment], dataset_.commands[segment], settings_, windows);
 }
 
 std::vector<FilterState> PhysicalFreeRuns::Predict(const Start& start,

@@ -7,16 +7,17 @@
 #include "telltale/core/data/prepared_dataset.hpp"
 #include "telltale/core/data/sampling_grid.hpp"
 #include "telltale/core/data/segment_signals.hpp"
-#include "telltale/core/estimation/prediction_error/innovations.hpp"
+#include "telltale/core/estimation/prediction_error/smoothed_states.hpp"
 #include "telltale/core/identification/physical_model.hpp"
 #include "telltale/core/simulation/free_run.hpp"
 
 namespace telltale {
 
 /// Free runs of the physical form along a dataset.
-/// Each starts from the state that the filter of the model has of the readings before. What fixes
-/// and headings would read along it replaces those recorded after its start, and passes the filter
-/// of the dataset: predicted rows compare with recorded ones like with like.
+/// Each starts from the state that the model has of the readings before, and of those within the
+/// window of the dataset's filter about the start, from which the recorded row is made too. What
+/// fixes and headings would read along it replaces those recorded after its start, and passes the
+/// filter of the dataset: predicted rows compare with recorded ones like with like.
 /// Model: docs/concepts/physical-model.md (107)..(109).
 class PhysicalFreeRuns {
  public:

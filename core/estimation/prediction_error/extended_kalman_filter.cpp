@@ -1,0 +1,330 @@
+#include "telltale/core/estimation/prediction_error/extended_kalman_filter.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace telltale {
+namespace {
+
+using enum FossenParameter;
+
+constexpr int kParameters = static_cast<int>(kFossenParameters);
+constexpr int kNorth = kNorthState;
+constexpr int kEast = kNorthState + 1;
+// A current changes by this much in a second, one sigma of its random walk.
+constexpr double kCurrentWalk = 0.003;
+
+constexpr double kLongestStepS = 0.05;
+constexpr double kShortestStepS = 1e-6;
+constexpr double kHuberLimit = 4.0;
+// Headings closer than this to the one before bring nothing new and cost a step.
+constexpr double kHeadingPeriodS = 0.095;
+// Readings of one channel this long before and after those of the other count.
+constexpr double kReadingsBeyondS = 0.5;
+
+Eigen::Vector2d NorthEastOf(const LeverArm& arm, double psi_rad) {
+  const double c = std::cos(psi_rad);
+  const double s = std::sin(psi_rad);
+  return {c * arm.forward_m - s * arm.starboard_m, s * arm.forward_m + c * arm.starboard_m};
+}
+
+Eigen::Vector2d VelocityOverGround(const FilterState& x) {
+  const double c = std::cos(x[kHeadingState]);
+  const double s = std::sin(x[kHeadingState]);
+  const double u = x[kVelocityState];
+  const double v = x[kVelocityState + 1];
+  return {c * u - s * v + x[kCurrentState], s * u + c * v + x[kCurrentState + 1]};
+}
+
+}  // namespace
+
+double HeadingOf(const FilterState& state) {
+  return state[kHeadingState] + state[kMisalignmentState];
+}
+
+Eigen::Vector2d FixOf(const FilterState& state, const LeverArm& antenna) {
+  return state.segment<2>(kNorthState) + NorthEastOf(antenna, state[kHeadingState]) +
+         state.segment<2>(kDriftState);
+}
+
+std::vector<Reading> ReadingsOf(const RawSignals& signals, double fix_delay_s) {
+  std::vector<Reading> readings;
+  const auto& fixes = signals.north_m;
+  const auto& headings = signals.psi_rad.times_s;
+  if (fixes.times_s.empty() || headings.empty()) return readings;
+  const double from_s = std::max(fixes.times_s.front(), headings.front()) - kReadingsBeyondS;
+  const double until_s = std::min(fixes.times_s.back(), headings.back()) + kReadingsBeyondS;
+  const auto is_within = [&](double t) { return from_s <= t && t <= until_s; };
+  for (std::size_t i = 0; i < fixes.times_s.size(); ++i) {
+    if (!is_within(fixes.times_s[i])) continue;
+    readings.push_back(
+        {fixes.times_s[i] - fix_delay_s, true, fixes.values[i], signals.east_m.values[i], 0.0});
+  }
+  double last_s = -1e300;
+  for (std::size_t i = 0; i < signals.psi_rad.times_s.size(); ++i) {
+    const double t = signals.psi_rad.times_s[i];
+    if (!is_within(t) || t - last_s < kHeadingPeriodS) continue;
+    last_s = t;
+    readings.push_back({t, false, 0.0, 0.0, signals.psi_rad.values[i]});
+  }
+  std::ranges::stable_sort(readings, {}, &Reading::time_s);
+  return readings;
+}
+
+std::optional<FilterState> StartOf(const std::vector<Reading>& readings) {
+  const auto first_fix = std::ranges::find(readings, true, &Reading::is_fix);
+  const auto first_heading = std::ranges::find(readings, false, &Reading::is_fix);
+  if (first_fix == readings.end() || first_heading == readings.end()) return std::nullopt;
+  FilterState start = FilterState::Zero();
+  start[kHeadingState] = first_heading->psi_rad;
+  start.segment<2>(kNorth) << first_fix->north_m, first_fix->east_m;
+  return start;
+}
+
+ExtendedKalmanFilter::ExtendedKalmanFilter(const FilterSettings& settings,
+                                           const HeldCommands& commands, double start_s,
+                                           const FilterState& start)
+    : settings_(settings),
+      dynamics_(settings.parameters, settings.propeller_separation_m),
+      thrust_(commands,
+              {settings.parameters[At(kDeadBand)], settings.parameters[At(kTimeConstant)],
+               settings.parameters[At(kCommandDelay)]},
+              start_s),
+      now_s_(start_s),
+      x_(start) {
+  covariance_.setZero();
+  const NoiseModel& noise = settings.noise;
+  covariance_.diagonal() << 4.0, 4.0, 0.1, 1.0, 0.25, 0.25, noise.acceleration_sigma.cwiseAbs2(),
+      Eigen::Vector2d::Constant(noise.fix_drift_sigma_m * noise.fix_drift_sigma_m),
+      Eigen::Vector2d::Constant(settings.current_sigma_m_s * settings.current_sigma_m_s),
+      settings.misalignment_sigma_rad * settings.misalignment_sigma_rad;
+  slopes_.setZero();
+  instruments_.setZero();
+}
+
+void ExtendedKalmanFilter::UseGains(const std::vector<FilterGain>* fixed,
+                                    std::vector<FilterGain>* record) {
+  fixed_gains_ = fixed;
+  recorded_gains_ = record;
+}
+
+void ExtendedKalmanFilter::PredictTo(double time_s) {
+  const double ahead_s = time_s - now_s_;
+  if (ahead_s < kShortestStepS) return;
+  const auto steps = static_cast<int>(std::ceil(ahead_s / kLongestStepS - 1e-9));
+  const double h = ahead_s / steps;
+  for (int i = 0; i < steps; ++i) Step(i + 1 == steps ? time_s - now_s_ : h);
+}
+
+void ExtendedKalmanFilter::Take(const Reading& reading, std::vector<Innovation>& innovations) {
+  PredictTo(reading.time_s);
+  if (reading.is_fix) {
+    TakeFix(reading.north_m, reading.east_m, innovations);
+  } else {
+    TakeHeading(reading.psi_rad, innovations);
+  }
+}
+
+void ExtendedKalmanFilter::TakeHeading(double psi_rad, std::vector<Innovation>& innovations) {
+  const double sigma = settings_.noise.heading_sigma_rad;
+  Row row = Row::Zero();
+  row[kHeadingState] = 1.0;
+  row[kMisalignmentState] = 1.0;
+  TakeScalar(row, psi_rad - HeadingOf(x_), {FossenVector::Zero(), FossenVector::Zero()},
+             sigma * sigma, innovations);
+}
+
+// North and east of a fix turned into along and across the track, where the noise of the stamp
+// is the one's alone.
+void ExtendedKalmanFilter::TakeFix(double north_m, double east_m,
+                                   std::vector<Innovation>& innovations) {
+  const Eigen::Vector2d velocity = VelocityOverGround(x_);
+  const double speed = velocity.norm();
+  const Eigen::Vector2d along =
+      speed > 1e-3 ? Eigen::Vector2d(velocity / speed) : Eigen::Vector2d(1.0, 0.0);
+  const Eigen::Vector2d across(-along[1], along[0]);
+  for (const bool is_along : {true, false}) {
+    const Eigen::Vector2d axis = fixed_gains_ != nullptr ? (*fixed_gains_)[next_gain_].axis
+                                 : is_along              ? along
+                                                         : across;
+    const Eigen::Vector2d lever = NorthEastOf(settings_.antenna, x_[kHeadingState]);
+    const Eigen::Vector2d lever_by_psi(-lever[1], lever[0]);
+    const Eigen::Vector2d predicted =
+        FixOf(x_, settings_.antenna) -
+        (settings_.parameters[At(kFixDelay)] - settings_.nominal_fix_delay_s) * velocity;
+    Row row = Row::Zero();
+    row.segment<2>(kNorth) = axis.transpose();
+    row.segment<2>(kDriftState) = axis.transpose();
+    row[kHeadingState] = axis.dot(lever_by_psi);
+    // A longer delay predicts where the boat was before.
+    Direct by{FossenVector::Zero(), FossenVector::Zero()};
+    by.slope[At(kFixDelay)] = axis.dot(velocity);
+    by.instrument[At(kFixDelay)] = axis.dot(VelocityOverGround(Undisturbed()));
+    const double stamp = is_along ? speed * settings_.noise.stamp_sigma_s : 0.0;
+    TakeScalar(row, axis.dot(Eigen::Vector2d(north_m, east_m) - predicted), by,
+               settings_.noise.fix_sigma_m * settings_.noise.fix_sigma_m + stamp * stamp,
+               innovations);
+    if (recorded_gains_ != nullptr) recorded_gains_->back().axis = axis;
+  }
+}
+
+// The boat that the commands alone drive, on the headings of the filter.
+FilterState ExtendedKalmanFilter::Undisturbed() const {
+  FilterState x = x_;
+  x.segment<3>(kVelocityState) = undisturbed_nu_;
+  x.segment<3>(kDisturbanceState).setZero();
+  return x;
+}
+
+ExtendedKalmanFilter::Rate ExtendedKalmanFilter::RateAt(const FilterState& x,
+                                                        const ThrustStep& thrust) const {
+  Rate rate;
+  rate.value.setZero();
+  rate.by_state.setZero();
+  const double c = std::cos(x[kHeadingState]);
+  const double s = std::sin(x[kHeadingState]);
+  const double u = x[kVelocityState];
+  const double v = x[kVelocityState + 1];
+  rate.value[kNorth] = c * u - s * v + x[kCurrentState];
+  rate.value[kEast] = s * u + c * v + x[kCurrentState + 1];
+  rate.value[kHeadingState] = x[kVelocityState + 2];
+  rate.by_state(kNorth, kHeadingState) = -s * u - c * v;
+  rate.by_state(kEast, kHeadingState) = c * u - s * v;
+  rate.by_state.block<2, 2>(kNorth, kVelocityState) << c, -s, s, c;
+  rate.by_state(kHeadingState, kVelocityState + 2) = 1.0;
+  rate.by_state(kNorth, kCurrentState) = 1.0;
+  rate.by_state(kEast, kCurrentState + 1) = 1.0;
+  const auto at = dynamics_.At(x.segment<3>(kVelocityState), thrust.mean[0], thrust.mean[1]);
+  rate.value.segment<3>(kVelocityState) = at.nu_dot + x.segment<3>(kDisturbanceState);
+  rate.by_state.block<3, 3>(kVelocityState, kVelocityState) = at.by_nu;
+  rate.by_state.block<3, 3>(kVelocityState, kDisturbanceState).setIdentity();
+  return rate;
+}
+
+// d rate / d parameter, the rows of the velocities alone.
+Eigen::Matrix<double, 3, kParameters> ExtendedKalmanFilter::ByParameter(
+    const FilterState& x, const ThrustStep& thrust) const {
+  const Eigen::Vector3d nu = x.segment<3>(kVelocityState);
+  const auto at = dynamics_.At(nu, thrust.mean[0], thrust.mean[1]);
+  Eigen::Matrix<double, 3, kParameters> by;
+  by.setZero();
+  by.leftCols<19>() = dynamics_.ByParameter(nu, at.nu_dot, thrust.mean[0], thrust.mean[1]);
+  by.col(At(kDeadBand)) = dynamics_.ByThrust(thrust.by_dead_band[0], thrust.by_dead_band[1]);
+  by.col(At(kTimeConstant)) =
+      dynamics_.ByThrust(thrust.by_time_constant[0], thrust.by_time_constant[1]);
+  by.col(At(kCommandDelay)) = dynamics_.ByThrust(thrust.by_delay[0], thrust.by_delay[1]);
+  return by;
+}
+
+// The way made in a step beyond that of the midpoint rule: thrust comes early or late in the
+// step, and the acceleration changes with the velocity.
+void ExtendedKalmanFilter::AddThirdOrder(const FilterState& middle, const Rate& rate,
+                                         const ThrustStep& thrust, double h,
+                                         FilterState& next) const {
+  const Eigen::Matrix3d by_nu = rate.by_state.block<3, 3>(kVelocityState, kVelocityState);
+  const Eigen::Vector3d way = dynamics_.ByThrust(thrust.early[0], thrust.early[1]) +
+                              (h * h * h / 6.0) * (by_nu * rate.value.segment<3>(kVelocityState));
+  const double c = std::cos(middle[kHeadingState]);
+  const double s = std::sin(middle[kHeadingState]);
+  next[kNorth] += c * way[0] - s * way[1];
+  next[kEast] += s * way[0] + c * way[1];
+  next[kHeadingState] += way[2];
+  next.segment<3>(kVelocityState) += by_nu * way;
+}
+
+// The midpoint rule under the mean thrust; disturbance and drift decay exactly. Moves the state
+// and, where there are any, its slopes; returns the transition.
+FilterCovariance ExtendedKalmanFilter::Advance(const ThrustStep& thrust, double h, FilterState& x,
+                                               Slopes* slopes) const {
+  const Rate first = RateAt(x, thrust);
+  const FilterState middle = x + 0.5 * h * first.value;
+  const Rate second = RateAt(middle, thrust);
+  FilterCovariance transition =
+      h * second.by_state + 0.5 * h * h * (second.by_state * first.by_state);
+  transition.diagonal().array() += 1.0;
+  const double decay = std::exp(-h / settings_.noise.acceleration_time_constant_s);
+  const double drift_decay = std::exp(-h / NoiseModel::kFixDriftTimeConstantS);
+  transition.bottomRows<kFilterStates - kDisturbanceState>().setZero();
+  transition.diagonal().segment<3>(kDisturbanceState).setConstant(decay);
+  transition.diagonal().segment<2>(kDriftState).setConstant(drift_decay);
+  transition.diagonal().tail<3>().setOnes();
+  if (slopes != nullptr) {
+    const auto by_first = ByParameter(x, thrust);
+    const auto by_second = ByParameter(middle, thrust);
+    *slopes = (transition * *slopes).eval();
+    slopes->middleRows<3>(kVelocityState) +=
+        h * by_second +
+        (0.5 * h * h) * (second.by_state.block<3, 3>(kVelocityState, kVelocityState) * by_first);
+    slopes->topRows<3>() +=
+        (0.5 * h * h) * (second.by_state.block<3, 3>(kNorth, kVelocityState) * by_first);
+  }
+  FilterState next = x + h * second.value;
+  AddThirdOrder(middle, second, thrust, h, next);
+  next.segment<3>(kDisturbanceState) = decay * x.segment<3>(kDisturbanceState);
+  next.segment<2>(kDriftState) = drift_decay * x.segment<2>(kDriftState);
+  x = next;
+  return transition;
+}
+
+void ExtendedKalmanFilter::Step(double h) {
+  const ThrustStep thrust = thrust_.Until(now_s_ + h);
+  now_s_ += h;
+  if (settings_.with_instruments) {
+    FilterState undisturbed = Undisturbed();
+    Advance(thrust, h, undisturbed, &instruments_);
+    undisturbed_nu_ = undisturbed.segment<3>(kVelocityState);
+  }
+  const FilterCovariance transition =
+      Advance(thrust, h, x_, settings_.with_slopes ? &slopes_ : nullptr);
+  if (visit_) visit_({transition});
+  if (fixed_gains_ == nullptr) Spread(transition, h);
+}
+
+// The covariance after a step.
+void ExtendedKalmanFilter::Spread(const FilterCovariance& transition, double h) {
+  const NoiseModel& noise = settings_.noise;
+  const double decay = transition(kDisturbanceState, kDisturbanceState);
+  const double drift_decay = transition(kDriftState, kDriftState);
+  covariance_ = (transition * covariance_ * transition.transpose()).eval();
+  covariance_.diagonal().segment<3>(kDisturbanceState) +=
+      (1.0 - decay * decay) * noise.acceleration_sigma.cwiseAbs2();
+  covariance_.diagonal().segment<2>(kDriftState).array() +=
+      (1.0 - drift_decay * drift_decay) * noise.fix_drift_sigma_m * noise.fix_drift_sigma_m;
+  covariance_.diagonal().segment<2>(kCurrentState).array() += h * kCurrentWalk * kCurrentWalk;
+}
+
+void ExtendedKalmanFilter::TakeScalar(const Row& row, double value, const Direct& by,
+                                      double noise_variance, std::vector<Innovation>& innovations) {
+  FilterState projected;
+  FilterGain gain;
+  if (fixed_gains_ != nullptr) {
+    gain = (*fixed_gains_)[next_gain_++];
+  } else {
+    projected = covariance_ * row.transpose();
+    gain.variance = row.dot(projected) + noise_variance;
+    const double ratio = value * value / (kHuberLimit * kHuberLimit * gain.variance);
+    if (ratio > 1.0) gain.variance *= ratio;
+    gain.gain = projected / gain.variance;
+    if (recorded_gains_ != nullptr) recorded_gains_->push_back(gain);
+  }
+  Innovation& innovation = innovations.emplace_back();
+  innovation.time_s = now_s_;
+  innovation.value = value;
+  innovation.variance = gain.variance;
+  if (settings_.with_slopes) {
+    innovation.slope = by.slope - (row * slopes_).transpose();
+    slopes_ += gain.gain * innovation.slope.transpose();
+    innovation.instrument = innovation.slope;
+  }
+  if (settings_.with_instruments) {
+    innovation.instrument = by.instrument - (row * instruments_).transpose();
+    instruments_ += gain.gain * innovation.instrument.transpose();
+  }
+  x_ += gain.gain * value;
+  if (visit_) visit_({std::nullopt, row, gain.gain, value / gain.variance});
+  if (fixed_gains_ != nullptr) return;
+  covariance_ -= gain.gain * projected.transpose();
+  covariance_ = (0.5 * (covariance_ + covariance_.transpose())).eval();
+}
+
+}  // namespace telltale

@@ -1,0 +1,175 @@
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "telltale/core/data/prepared_dataset.hpp"
+#include "telltale/core/estimation/prediction_error/thrust_lag.hpp"
+#include "telltale/core/vessel/fossen_model.hpp"
+
+namespace telltale {
+
+/// Process and sensor noise. All > 0.
+/// Model: accelerations of the boat and the error of the fixes are first-order Gauss-Markov
+/// processes beside white sensor noise; the stamp of a fix is off by white noise.
+struct NoiseModel {
+  Eigen::Vector3d acceleration_sigma{0.1, 0.1, 0.1};  ///< m/s^2, m/s^2, rad/s^2, stationary
+  double acceleration_time_constant_s = 2.0;
+  double fix_drift_sigma_m = 0.1;
+  double fix_sigma_m = 0.05;
+  double heading_sigma_rad = 0.01;
+  double stamp_sigma_s = 0.02;
+
+  static constexpr double kFixDriftTimeConstantS = 20.0;
+};
+
+/// One innovation, a scalar: the reading less its prediction from all readings before it.
+struct Innovation {
+  double time_s = 0.0;
+  double value = 0.0;
+  double variance = 0.0;
+  FossenVector slope;  ///< d value / d parameters at fixed gains; unset unless asked for
+  /// The slope that the commands alone give: that of a boat without disturbance on the same
+  /// headings. Equal to the slope unless asked for.
+  FossenVector instrument;
+};
+
+struct FilterSettings {
+  FossenVector parameters;
+  double current_sigma_m_s = 0.3;
+  double misalignment_sigma_rad = 0.087;
+  NoiseModel noise;
+  double propeller_separation_m = 0.0;
+  LeverArm antenna;
+  bool with_slopes = false;
+  bool with_instruments = false;  ///< beside the slopes
+  /// The delay at which the fixes are put in order; the difference to that of the parameters moves
+  /// what is predicted for them.
+  double nominal_fix_delay_s = 0.0;
+};
+
+/// States of the filter: position north, east and heading of the body origin; u, v, r through the
+/// water; the disturbing accelerations; the drift of the fixes north and east; the current north
+/// and east; what the compass reads too much.
+inline constexpr int kFilterStates = 14;
+inline constexpr int kNorthState = 0;
+inline constexpr int kHeadingState = 2;
+inline constexpr int kVelocityState = 3;
+inline constexpr int kDisturbanceState = 6;
+inline constexpr int kDriftState = 9;
+inline constexpr int kCurrentState = 11;
+inline constexpr int kMisalignmentState = 13;
+using FilterState = Eigen::Matrix<double, kFilterStates, 1>;
+using FilterCovariance = Eigen::Matrix<double, kFilterStates, kFilterStates>;
+
+/// What a heading, and a fix north and east, read of a state where nothing is late.
+/// Model: docs/concepts/physical-model.md (107), (108).
+double HeadingOf(const FilterState& state);
+Eigen::Vector2d FixOf(const FilterState& state, const LeverArm& antenna);
+
+/// How one scalar reading moves the state, and the variance of its innovation.
+struct FilterGain {
+  FilterState gain;
+  double variance = 0.0;
+  Eigen::Vector2d axis = Eigen::Vector2d::Zero();  ///< of a fix: the direction that is read
+};
+
+/// A fix or a heading, at the time at which the boat had what it reads.
+struct Reading {
+  double time_s;
+  bool is_fix;
+  double north_m = 0.0;
+  double east_m = 0.0;
+  double psi_rad = 0.0;
+};
+
+/// The readings in the order of their times, where both channels are read: one may go on where the
+/// other has a gap.
+std::vector<Reading> ReadingsOf(const RawSignals& signals, double fix_delay_s);
+
+/// At the first fix and the first heading, at rest. Nothing where one of them is missing.
+std::optional<FilterState> StartOf(const std::vector<Reading>& readings);
+
+/// What moves the filter, as a smoother needs it on its way back: a step, or a scalar reading.
+struct FilterMove {
+  std::optional<FilterCovariance> transition;  ///< of a step
+  Eigen::Matrix<double, 1, kFilterStates> row = Eigen::Matrix<double, 1, kFilterStates>::Zero();
+  FilterState gain = FilterState::Zero();
+  double weighted_innovation = 0.0;  ///< over its variance
+};
+
+/// An extended Kalman filter of a boat of the physical form, with the slopes of what it predicts.
+/// Model: docs/concepts/physical-model.md (101)..(109). Slopes leave out terms of third order in
+/// the step. A reading further than four standard deviations off counts with the variance at which
+/// it is four (Huber's weight).
+class ExtendedKalmanFilter {
+ public:
+  /// Requires: `settings` outlives the filter.
+  ExtendedKalmanFilter(const FilterSettings& settings, const HeldCommands& commands, double start_s,
+                       const FilterState& start);
+
+  /// Takes the gains of another run from now on, or records its own.
+  void UseGains(const std::vector<FilterGain>* fixed, std::vector<FilterGain>* record);
+
+  /// Calls visit(move) for every step and every scalar reading from now on.
+  void VisitMoves(std::function<void(const FilterMove&)> visit) { visit_ = std::move(visit); }
+
+  void PredictTo(double time_s);
+
+  /// Predicts to the time of the reading and takes it. Appends its innovations.
+  void Take(const Reading& reading, std::vector<Innovation>& innovations);
+
+  const FilterState& Mean() const { return x_; }
+  const FilterCovariance& Covariance() const { return covariance_; }
+
+ private:
+  struct Rate {
+    FilterState value;
+    FilterCovariance by_state;
+  };
+
+  // What a reading changes with the parameters at a given state.
+  struct Direct {
+    FossenVector slope;
+    FossenVector instrument;
+  };
+
+  using Slopes = Eigen::Matrix<double, kFilterStates, static_cast<int>(kFossenParameters)>;
+  using Row = Eigen::Matrix<double, 1, kFilterStates>;
+
+  void TakeHeading(double psi_rad, std::vector<Innovation>& innovations);
+  void TakeFix(double north_m, double east_m, std::vector<Innovation>& innovations);
+  void TakeScalar(const Row& row, double value, const Direct& by, double noise_variance,
+                  std::vector<Innovation>& innovations);
+  FilterState Undisturbed() const;
+  Rate RateAt(const FilterState& x, const ThrustStep& thrust) const;
+  Eigen::Matrix<double, 3, static_cast<int>(kFossenParameters)> ByParameter(
+      const FilterState& x, const ThrustStep& thrust) const;
+  void AddThirdOrder(const FilterState& middle, const Rate& rate, const ThrustStep& thrust,
+                     double h, FilterState& next) const;
+  FilterCovariance Advance(const ThrustStep& thrust, double h, FilterState& x,
+                           Slopes* slopes) const;
+  void Step(double h);
+  void Spread(const FilterCovariance& transition, double h);
+
+  std::function<void(const FilterMove&)> visit_;
+  const std::vector<FilterGain>* fixed_gains_ = nullptr;
+  std::vector<FilterGain>* recorded_gains_ = nullptr;
+  std::size_t next_gain_ = 0;
+  const FilterSettings& settings_;
+  FossenDynamics dynamics_;
+  ThrustLag thrust_;
+  double now_s_;
+  FilterState x_;
+  FilterCovariance covariance_;
+  Slopes slopes_;
+  Slopes instruments_;
+  Eigen::Vector3d undisturbed_nu_ = Eigen::Vector3d::Zero();
+};
+
+}  // namespace telltale
