@@ -15,6 +15,8 @@ constexpr int kEast = kNorthState + 1;
 constexpr double kCurrentWalk = 0.003;
 
 constexpr double kLongestStepS = 0.05;
+constexpr double kLongestDecay = 1.0;   // of a step, in time constants of the damping
+constexpr double kMostSubsteps = 20.0;  // of the longest step
 constexpr double kShortestStepS = 1e-6;
 constexpr double kHuberLimit = 4.0;
 // Headings closer than this to the one before bring nothing new and cost a step.
@@ -109,11 +111,20 @@ void ExtendedKalmanFilter::UseGains(const std::vector<FilterGain>* fixed,
 }
 
 void ExtendedKalmanFilter::PredictTo(double time_s) {
-  const double ahead_s = time_s - now_s_;
-  if (ahead_s < kShortestStepS) return;
-  const auto steps = static_cast<int>(std::ceil(ahead_s / kLongestStepS - 1e-9));
-  const double h = ahead_s / steps;
-  for (int i = 0; i < steps; ++i) Step(i + 1 == steps ? time_s - now_s_ : h);
+  double ahead_s = time_s - now_s_;
+  while (ahead_s >= kShortestStepS) {
+    Step(ahead_s / std::ceil(ahead_s / LongestStepS() - 1e-9));
+    ahead_s = time_s - now_s_;
+  }
+}
+
+// The midpoint rule grows without bound where a step is longer than two time constants of the
+// damping, which an ill-conditioned mass matrix makes short.
+double ExtendedKalmanFilter::LongestStepS() const {
+  const auto at = dynamics_.At(x_.segment<3>(kVelocityState), FossenDynamics::Thrusts::Zero(),
+                               FossenDynamics::Thrusts::Zero());
+  const double rate = at.by_nu.cwiseAbs().rowwise().sum().maxCoeff();
+  return std::max(kLongestStepS / kMostSubsteps, std::min(kLongestStepS, kLongestDecay / rate));
 }
 
 void ExtendedKalmanFilter::Take(const Reading& reading, std::vector<Innovation>& innovations) {

@@ -154,6 +154,7 @@ class ExtendedKalmanFilter {
                      double h, FilterState& next) const;
   FilterCovariance Advance(const ThrustStep& thrust, double h, FilterState& x,
                            Slopes* slopes) const;
+  double LongestStepS() const;
   void Step(double h);
   void Spread(const FilterCovariance& transition, double h);
 

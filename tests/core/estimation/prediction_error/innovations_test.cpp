@@ -99,6 +99,19 @@ TEST(Innovations, AreTheSameWithTheirOwnGains) {
   for (std::size_t k = 0; k < own.size(); ++k) EXPECT_EQ(own[k].value, replayed[k].value);
 }
 
+// A light boat with strong damping in yaw: 280 time constants a second, 14 in the longest step. The
+// whole track is 60 m long.
+TEST(Innovations, StayFiniteWhereDampingIsFasterThanAStep) {
+  const Track track = Weaving();
+  FilterSettings settings = Settings();
+  settings.parameters[At(kNr)] = 5.0;
+  settings.parameters[At(kM33)] = 0.018;
+  settings.parameters[At(kM23)] = 0.0;
+  for (const Innovation& innovation : InnovationsOf(track.signals, track.commands, settings)) {
+    ASSERT_LT(std::abs(innovation.value), 60.0) << "at " << innovation.time_s << " s";
+  }
+}
+
 TEST(Innovations, AreNoneWithoutHeadings) {
   Track track = Weaving();
   track.signals.psi_rad = {};
