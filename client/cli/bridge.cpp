@@ -13,11 +13,11 @@
 #include "telltale/client/bridge/mavlink_link.hpp"
 #include "telltale/client/bus/participant.hpp"
 #include "telltale/client/cli/commands.hpp"
-#include "telltale/client/cli/exit_codes.hpp"
 #include "telltale/client/cli/live_options.hpp"
 #include "telltale/client/cli/number_range.hpp"
 #include "telltale/client/cli/progress_line.hpp"
 #include "telltale/client/cli/table.hpp"
+#include "telltale/client/workbench/errors.hpp"
 #include "telltale/idl/codec/vehicle_file.hpp"
 
 namespace telltale {

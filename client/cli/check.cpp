@@ -1,20 +1,18 @@
 #include <filesystem>
 #include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 
 #include <nlohmann/json.hpp>
 
 #include "telltale/client/cli/commands.hpp"
-#include "telltale/client/cli/exit_codes.hpp"
 #include "telltale/client/cli/input_options.hpp"
 #include "telltale/client/cli/output_options.hpp"
 #include "telltale/client/cli/table.hpp"
-#include "telltale/client/recording/load_recording.hpp"
-#include "telltale/client/recording/telemetry_log/telemetry_log.hpp"
-#include "telltale/core/data/input_check.hpp"
-#include "telltale/core/data/preparation.hpp"
+#include "telltale/client/workbench/check_log.hpp"
+#include "telltale/client/workbench/errors.hpp"
+#include "telltale/client/workbench/files.hpp"
+#include "telltale/client/workbench/recorded_log.hpp"
 
 namespace telltale {
 namespace {
@@ -23,37 +21,6 @@ struct CheckArguments {
   LogInputs inputs;
   OutputOptions output;
 };
-
-/// One log as it was recorded, and what the check says of it.
-struct CheckedLog {
-  std::filesystem::path path;
-  std::string summary;  ///< what the file says of itself; empty for a folder
-  InputCheck check;
-  RejectCounts rejected;
-  std::optional<Refusal> unusable;  ///< why nothing can be identified from it
-
-  std::optional<Refusal> FirstProblem() const {
-    if (auto fault = FirstFault(check)) return fault;
-    return unusable;
-  }
-};
-
-CheckedLog Check(const std::filesystem::path& path, const RawLog& log, const Vehicle& vehicle) {
-  CheckedLog checked;
-  checked.path = path;
-  if (log.description) checked.summary = log.description->summary;
-  checked.check = CheckInput(SamplesOf<GnssFix>(log.samples), SamplesOf<HeadingSample>(log.samples),
-                             SamplesOf<ThrusterSample>(log.samples), vehicle);
-  const auto admitted = Admit(log.samples);
-  if (!admitted) {
-    checked.unusable = admitted.error();
-    return checked;
-  }
-  checked.rejected = admitted->recording.rejected;
-  const auto dataset = Prepare(admitted->recording, vehicle, PrepareOptions::Robust());
-  if (!dataset) checked.unusable = dataset.error();
-  return checked;
-}
 
 std::string RateText(const ChannelCheck& channel) {
   return channel.median_period_s > 0.0 ? Fixed(1.0 / channel.median_period_s, 1) : "-";
@@ -120,19 +87,17 @@ nlohmann::ordered_json JsonOf(const CheckedLog& log) {
   return json;
 }
 
-Vehicle VehicleOf(const CheckArguments& arguments, const RawLog& log) {
-  if (arguments.inputs.NamesVehicle()) return LoadVehicle(arguments.inputs.vehicle_file);
-  if (log.description) {
-    if (auto described = VehicleFrom(*log.description, "log")) return *std::move(described);
-  }
-  return {};
+CheckedLog CheckOne(const std::filesystem::path& path, const LogInputs& inputs) {
+  const RawLog log = LoadAsRecorded(path, inputs.options);
+  const Vehicle vehicle = inputs.NamesVehicle() ? LoadVehicle(inputs.vehicle_file)
+                                                : DescribedOrUsualVehicle(log.description);
+  return CheckLog(path, log.samples, log.description, vehicle);
 }
 
 void CheckLogs(const CheckArguments& arguments) {
   std::vector<CheckedLog> checked;
   for (const std::filesystem::path& path : arguments.inputs.logs) {
-    const RawLog log = LoadAsRecorded(path, arguments.inputs.options);
-    checked.push_back(Check(path, log, VehicleOf(arguments, log)));
+    checked.push_back(CheckOne(path, arguments.inputs));
   }
   nlohmann::ordered_json json = {{"logs", nlohmann::ordered_json::array()}};
   for (const CheckedLog& log : checked) json["logs"].push_back(JsonOf(log));

@@ -4,10 +4,11 @@
 #include <vector>
 
 #include "telltale/client/cli/commands.hpp"
-#include "telltale/client/cli/exit_codes.hpp"
 #include "telltale/client/cli/input_options.hpp"
 #include "telltale/client/cli/output_options.hpp"
 #include "telltale/client/cli/table.hpp"
+#include "telltale/client/workbench/errors.hpp"
+#include "telltale/client/workbench/files.hpp"
 #include "telltale/core/identification/model_comparison.hpp"
 #include "telltale/idl/codec/json/model_change.hpp"
 

@@ -2,9 +2,7 @@
 
 #include <iostream>
 
-#include "telltale/client/cli/default_threads.hpp"
 #include "telltale/client/cli/diagnosis_table.hpp"
-#include "telltale/client/cli/exit_codes.hpp"
 #include "telltale/client/cli/table.hpp"
 #include "telltale/client/cli/whole_number.hpp"
 #include "telltale/client/recording/file_contents.hpp"
@@ -14,18 +12,6 @@
 
 namespace telltale {
 namespace {
-
-std::string EffectNames() {
-  std::string names;
-  for (const Effect* effect : EffectLibrary()) {
-    names.append(names.empty() ? "" : ", ").append(effect->Name());
-  }
-  return names;
-}
-
-std::string EffectFault(const std::string& name) {
-  return FindEffect(name) ? "" : "no such effect as " + name + "; there are " + EffectNames();
-}
 
 void WriteModel(const std::optional<Identification>& augmented, const std::filesystem::path& file) {
   if (augmented) {
@@ -49,17 +35,20 @@ void DiagnoseArguments::AddOptionsTo(CLI::App& command, CLI::Option* log) {
       ->type_name("LOG")
       ->check(CLI::ExistingPath.description(""))
       ->needs(log);
-  command.add_flag("--refit", refit,
+  command.add_flag("--refit", choices.refit,
                    "let the model's coefficients follow the recording, within their bounds, so "
                    "that only what no coefficient can imitate counts");
-  command.add_option("--without", without, "effects to leave out of those that may be the cause")
+  command
+      .add_option("--without", choices.without,
+                  "effects to leave out of those that may be the cause")
       ->type_name("EFFECT")
       ->check(CLI::Validator(EffectFault, ""));
-  command.add_option("--seed", seed, "of the bootstrap: the same seed gives the same report")
+  command
+      .add_option("--seed", choices.seed, "of the bootstrap: the same seed gives the same report")
       ->type_name("N")
       ->check(WholeNumber())
       ->capture_default_str();
-  command.add_option("--threads", threads, "[1, 256], default: what the machine has")
+  command.add_option("--threads", choices.threads, "[1, 256], default: what the machine has")
       ->type_name("N")
       ->check(WholeNumber())
       ->needs(log);
@@ -71,19 +60,6 @@ void DiagnoseArguments::AddOptionsTo(CLI::App& command, CLI::Option* log) {
                   "validate and simulate take like any other")
       ->type_name("FILE");
   output.AddTo(command, "report.json");
-}
-
-DiagnoseOptions DiagnoseArguments::Options() const {
-  DiagnoseOptions options;
-  options.refit = refit;
-  options.without = without;
-  options.seed = seed;
-  options.leave_out_references = true;
-  options.threads = threads.value_or(DefaultThreads());
-  if (const auto refusal = options.Validate()) {
-    throw UsageError(refusal->subject + ": " + refusal->reason + "; " + refusal->advice);
-  }
-  return options;
 }
 
 void DiagnoseArguments::Write(const Diagnosis& diagnosis,

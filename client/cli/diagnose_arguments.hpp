@@ -1,6 +1,5 @@
 #pragma once
 
-#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -10,6 +9,7 @@
 
 #include "telltale/client/cli/input_options.hpp"
 #include "telltale/client/cli/output_options.hpp"
+#include "telltale/client/workbench/diagnose_recorded.hpp"
 #include "telltale/core/diagnosis/diagnose.hpp"
 
 namespace telltale {
@@ -21,18 +21,12 @@ struct DiagnoseArguments {
   std::vector<std::filesystem::path> reference_logs;
   std::filesystem::path html;       ///< empty: no page
   std::filesystem::path out_model;  ///< empty: no model
-  bool refit = false;
-  std::vector<std::string> without;
-  std::uint64_t seed = 1;
-  std::optional<std::size_t> threads;
+  DiagnoseChoices choices;
   OutputOptions output;
 
   /// The options that go with `--log`, those that say how to diagnose and those that say where the
   /// answer goes.
   void AddOptionsTo(CLI::App& command, CLI::Option* log);
-
-  /// Throws: UsageError for a value out of its range.
-  DiagnoseOptions Options() const;
 
   /// The model, the page, the JSON and the table, as far as they were asked for; `against` says in
   /// the table what the recording was held against. Where no effect is likely there is no model to

@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "telltale/client/bus/participant.hpp"
-#include "telltale/client/cli/exit_codes.hpp"
 #include "telltale/client/cli/progress_line.hpp"
 #include "telltale/client/cli/table.hpp"
 #include "telltale/client/fleet/diagnosis_client.hpp"
@@ -16,9 +15,9 @@ DiagnoseRequest DiagnoseRequestOf(const std::string& vehicle_id,
   DiagnoseRequest request;
   request.correlation_id = NewCorrelationId();
   request.vehicle_id = vehicle_id;
-  request.refit = arguments.refit;
-  request.without = arguments.without;
-  request.seed = arguments.seed;
+  request.refit = arguments.choices.refit;
+  request.without = arguments.choices.without;
+  request.seed = arguments.choices.seed;
   return request;
 }
 

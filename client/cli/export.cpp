@@ -6,7 +6,6 @@
 #include <string>
 
 #include "telltale/client/cli/commands.hpp"
-#include "telltale/client/cli/exit_codes.hpp"
 #include "telltale/client/cli/input_options.hpp"
 #include "telltale/client/cli/number_range.hpp"
 #include "telltale/client/cli/progress_line.hpp"
@@ -16,6 +15,10 @@
 #include "telltale/client/exchange/posterior_draws.hpp"
 #include "telltale/client/exchange/vrx.hpp"
 #include "telltale/client/recording/file_contents.hpp"
+#include "telltale/client/workbench/errors.hpp"
+#include "telltale/client/workbench/files.hpp"
+#include "telltale/client/workbench/presets.hpp"
+#include "telltale/client/workbench/recorded_vehicle.hpp"
 #include "telltale/core/data/preparation.hpp"
 #include "telltale/core/diagnosis/hypotheses/augmented_identification.hpp"
 #include "telltale/core/validation/validation.hpp"
@@ -52,7 +55,7 @@ void Write(const fs::path& file, const std::string& text) {
 
 void NoteDraws(const PosteriorDraws& draws) {
   for (const std::string& name : draws.not_drawn) {
-    std::cerr << "note: " << name << " is not drawn: the data do not determine its variance\n";
+    PrintNote(name + " is not drawn: the data do not determine its variance");
   }
   if (draws.clipped > 0.0) {
     std::cerr << "note: the covariance has a negative eigenvalue, " << draws.clipped
@@ -71,10 +74,10 @@ void WriteDraws(const ExportArguments& arguments, const Identification& model,
 void ExportSeries(const ExportArguments& arguments) {
   const Vehicle vehicle = LoadVehicle(arguments.vehicle_file);
   const Identification model = LoadModel(arguments.model_file);
-  NoteOtherVehicle(model, vehicle);
+  NoteOtherVehicle(model, vehicle, PrintNote);
   ProgressLine line;
   line.Update("reading the log", 0.0);
-  const Recording recording = LoadAdmitted(arguments.log, arguments.options);
+  const Recording recording = LoadAdmitted(arguments.log, arguments.options, PrintNote);
   line.Update("preparing data", 0.3);
   const PreparedDataset dataset = OrThrow(Prepare(recording, vehicle, PrepareOptionsOf(model)));
   const auto runs = [&](double horizon_s) {
@@ -118,10 +121,11 @@ void ExportModel(const ExportArguments& arguments) {
   const Vehicle vehicle = LoadVehicle(arguments.vehicle_file);
   const Identification estimated = LoadModel(arguments.model_file);
   const Identification model = WithSimulationParameters(estimated);
-  NoteOtherVehicle(model, vehicle);
+  NoteOtherVehicle(model, vehicle, PrintNote);
   if (!estimated.simulation.empty()) {
-    std::cerr << "note: as estimated the model diverges; the file and the draws take the "
-                 "regularised values for simulation\n";
+    PrintNote(
+        "as estimated the model diverges; the file and the draws take the "
+        "regularised values for simulation");
   }
   const std::string text = Formatted(arguments, model, vehicle);
   std::optional<PosteriorDraws> draws;

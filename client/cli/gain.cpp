@@ -6,12 +6,13 @@
 
 #include "telltale/client/cli/coefficient_text.hpp"
 #include "telltale/client/cli/commands.hpp"
-#include "telltale/client/cli/exit_codes.hpp"
 #include "telltale/client/cli/input_options.hpp"
 #include "telltale/client/cli/number_pair.hpp"
 #include "telltale/client/cli/output_options.hpp"
 #include "telltale/client/cli/table.hpp"
 #include "telltale/client/exchange/input_gains.hpp"
+#include "telltale/client/workbench/errors.hpp"
+#include "telltale/client/workbench/files.hpp"
 
 namespace telltale {
 namespace {

@@ -1,19 +1,15 @@
-#include "telltale/core/identification/identify.hpp"
-
 #include <memory>
-#include <optional>
-#include <utility>
+#include <string>
+#include <string_view>
 
 #include "telltale/client/cli/commands.hpp"
 #include "telltale/client/cli/discrete_table.hpp"
-#include "telltale/client/cli/exit_codes.hpp"
 #include "telltale/client/cli/identify_arguments.hpp"
 #include "telltale/client/cli/identify_live.hpp"
 #include "telltale/client/cli/live_options.hpp"
 #include "telltale/client/cli/model_table.hpp"
 #include "telltale/client/cli/progress_line.hpp"
-#include "telltale/core/validation/held_out_score.hpp"
-#include "telltale/core/validation/structure_choice.hpp"
+#include "telltale/client/workbench/identify_recorded.hpp"
 #include "telltale/idl/codec/json/model.hpp"
 
 namespace telltale {
@@ -25,49 +21,16 @@ RecordedVehicle LoadLogs(const IdentifyArguments& arguments) {
   return arguments.inputs.Load();
 }
 
-/// A model, and what it predicts of data set aside: nothing where the recording gives no score; the
-/// table says then how to get one.
-struct ScoredModel {
-  Identification model;
-  std::optional<HeldOutScore> score;
-};
-
-ScoredModel IdentifyAsAsked(const RecordedVehicle& recorded, const IdentifyOptions& options,
-                            const Progress& progress) {
-  Identification model = OrThrow(Identify(recorded.recording, recorded.vehicle, options, progress));
-  progress("scoring on the part that is held out", 0.0);
-  auto score = ScoreOnHeldOutPart(recorded.recording, recorded.vehicle, model, options);
-  return {std::move(model), score ? std::optional(*std::move(score)) : std::nullopt};
-}
-
-ScoredModel IdentifyByTheData(const RecordedVehicle& recorded, IdentifyOptions options,
-                              const Progress& progress) {
-  StructureChoice choice = ChooseStructure(recorded.recording, recorded.vehicle, options, progress);
-  const Structure free_structure = std::exchange(options.regression.structure, choice.structure);
-  auto model = Identify(recorded.recording, recorded.vehicle, options, progress);
-  if (!model && choice.structure == Structure::kFossen) {
-    choice.reason = "free coefficients, since of the physical form " + model.error().reason;
-    choice.score.reset();
-    options.regression.structure = free_structure;
-    model = Identify(recorded.recording, recorded.vehicle, options, progress);
-  }
-  ScoredModel made{OrThrow(std::move(model)), std::move(choice.score)};
-  made.model.provenance.structure_choice = std::move(choice.reason);
-  return made;
-}
-
 void IdentifyLogs(const IdentifyArguments& arguments) {
-  const IdentifyOptions options = arguments.Options();
+  const IdentifyChoices& choices = arguments.choices;
+  choices.Options(arguments.inputs.logs.size());  // a usage error need not wait for logs
   const RecordedVehicle recorded = LoadLogs(arguments);
-  ScoredModel made = [&] {
+  const ScoredModel made = [&] {
     ProgressLine line;
-    const Progress show = [&line](std::string_view stage, double fraction) {
+    return IdentifyRecorded(recorded, choices, [&line](std::string_view stage, double fraction) {
       line.Update(stage, fraction);
-    };
-    return arguments.LeaveStructureToData() ? IdentifyByTheData(recorded, options, show)
-                                            : IdentifyAsAsked(recorded, options, show);
+    });
   }();
-  made.model.provenance.recordings = recorded.logs;
   arguments.output.Write(PrintModelJson(made.model), [&] {
     return ModelTable(made.model, made.score) +
            (arguments.discrete ? '\n' + DiscreteTable(made.model) : "");

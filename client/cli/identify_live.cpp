@@ -4,12 +4,13 @@
 
 #include "telltale/client/bus/participant.hpp"
 #include "telltale/client/cli/discrete_table.hpp"
-#include "telltale/client/cli/exit_codes.hpp"
 #include "telltale/client/cli/input_options.hpp"
 #include "telltale/client/cli/model_table.hpp"
 #include "telltale/client/cli/progress_line.hpp"
 #include "telltale/client/cli/promotion_text.hpp"
 #include "telltale/client/fleet/identification_client.hpp"
+#include "telltale/client/workbench/errors.hpp"
+#include "telltale/client/workbench/presets.hpp"
 #include "telltale/idl/codec/json/published.hpp"
 
 namespace telltale {
@@ -18,9 +19,10 @@ namespace {
 constexpr std::uint32_t kReplicatesPerTimeout = 10;
 
 IdentifyRequest RequestOf(const std::string& vehicle_id, const IdentifyArguments& arguments) {
-  const IdentifyOptions options = arguments.Options();
-  if (arguments.sampling_period_s || arguments.interval_level || arguments.threads ||
-      arguments.parametric_replicates) {
+  const IdentifyChoices& choices = arguments.choices;
+  const IdentifyOptions options = choices.Options(1);
+  if (choices.sampling_period_s || choices.interval_level || choices.threads ||
+      choices.parametric_replicates) {
     throw UsageError(
         "--sampling-period, --level, --threads and --replicates are set by the daemon; leave them "
         "out with --vehicle-id");
@@ -28,23 +30,23 @@ IdentifyRequest RequestOf(const std::string& vehicle_id, const IdentifyArguments
   IdentifyRequest request;
   request.correlation_id = NewCorrelationId();
   request.vehicle_id = vehicle_id;
-  if (arguments.structure && arguments.structure != "auto") {
+  if (choices.structure && choices.structure != "auto") {
     request.structure = options.regression.structure;
   }
-  if (arguments.dead_zone) {
+  if (choices.ChooseDeadZone()) {
     request.dead_zone_source = options.dead_zone_source;
     request.dead_zone = options.regression.dead_zone;
   }
-  if (arguments.parameterization) request.parameterization = options.regression.parameterization;
+  if (choices.parameterization) request.parameterization = options.regression.parameterization;
   request.estimator = options.estimator.value_or(Estimator::kUnknown);
-  if (arguments.preset) request.preset = PresetNamed(*arguments.preset);
-  request.bootstrap_replicates = arguments.bootstrap_replicates;
-  if (arguments.bootstrap_kind) request.resampling = options.resampling;
-  if (arguments.interval) request.interval_method = options.interval_method;
-  request.seed = arguments.seed;
-  request.include_reverse = arguments.include_rr;
-  request.coverage_check_replicates = arguments.coverage_check_replicates;
-  if (arguments.recording_bias) request.recording_bias = options.regression.recording_bias;
+  if (choices.preset) request.preset = PresetNamed(*choices.preset);
+  request.bootstrap_replicates = choices.bootstrap_replicates;
+  if (choices.bootstrap_kind) request.resampling = options.resampling;
+  if (choices.interval) request.interval_method = options.interval_method;
+  request.seed = choices.seed;
+  request.include_reverse = choices.include_rr;
+  request.coverage_check_replicates = choices.coverage_check_replicates;
+  if (choices.recording_bias) request.recording_bias = options.regression.recording_bias;
   return request;
 }
 

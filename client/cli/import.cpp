@@ -3,10 +3,10 @@
 #include <memory>
 
 #include "telltale/client/cli/commands.hpp"
-#include "telltale/client/cli/exit_codes.hpp"
 #include "telltale/client/cli/input_options.hpp"
 #include "telltale/client/cli/table.hpp"
 #include "telltale/client/recording/telemetry_log/telemetry_log.hpp"
+#include "telltale/client/workbench/recorded_log.hpp"
 
 namespace telltale {
 namespace {
@@ -18,7 +18,7 @@ struct ImportArguments {
 };
 
 void ImportLog(const ImportArguments& arguments) {
-  const Recording recording = LoadAdmitted(arguments.log, arguments.options);
+  const Recording recording = LoadAdmitted(arguments.log, arguments.options, PrintNote);
   WriteTelemetryLog(arguments.out, recording);
   std::cout << Wrapped("Wrote " + Counted(recording.gnss.size(), "position", "positions") + ", " +
                        Counted(recording.heading.size(), "heading", "headings") + " and " +

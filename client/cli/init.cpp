@@ -4,11 +4,12 @@
 #include <string>
 
 #include "telltale/client/cli/commands.hpp"
-#include "telltale/client/cli/exit_codes.hpp"
 #include "telltale/client/cli/input_options.hpp"
 #include "telltale/client/cli/table.hpp"
 #include "telltale/client/recording/file_contents.hpp"
 #include "telltale/client/recording/load_recording.hpp"
+#include "telltale/client/workbench/errors.hpp"
+#include "telltale/client/workbench/recorded_log.hpp"
 #include "telltale/idl/codec/vehicle_file.hpp"
 
 namespace telltale {
@@ -50,7 +51,7 @@ void WriteVehicleFile(const InitArguments& arguments) {
   if (!arguments.log.empty()) {
     const RawLog log = LoadAsRecorded(arguments.log, arguments.options);
     if (!log.description || !log.description->port || !log.description->starboard) {
-      std::cerr << "note: " << arguments.log.string() << " says nothing of its thrusters\n";
+      PrintNote(arguments.log.string() + " says nothing of its thrusters");
     } else {
       vehicle = OrThrow(VehicleFrom(*log.description, "boat"));
       origin = "Taken from SERVOn_* of " + arguments.log.filename().string() + '.';

@@ -1,161 +1,13 @@
 #include "telltale/client/cli/input_options.hpp"
 
-#include <algorithm>
-#include <array>
 #include <iostream>
-#include <stdexcept>
 #include <utility>
 
-#include "telltale/client/cli/exit_codes.hpp"
-#include "telltale/client/cli/table.hpp"
-#include "telltale/client/recording/dataflash/dataflash_log.hpp"
-#include "telltale/client/recording/file_contents.hpp"
-#include "telltale/client/recording/load_recording.hpp"
-#include "telltale/client/recording/telemetry_log/telemetry_log.hpp"
-#include "telltale/core/base/contract.hpp"
-#include "telltale/core/data/input_check.hpp"
-#include "telltale/idl/codec/json/model.hpp"
-#include "telltale/idl/codec/mapping_file.hpp"
-#include "telltale/idl/codec/vehicle_file.hpp"
+#include "telltale/client/workbench/files.hpp"
+#include "telltale/client/workbench/recorded_log.hpp"
 
 namespace telltale {
 namespace {
-
-std::string TextOf(const std::filesystem::path& file) {
-  auto text = ReadFile(file);
-  if (!text) throw std::runtime_error(text.error().subject + ' ' + text.error().reason);
-  return *std::move(text);
-}
-
-void NoteMalformed(const std::filesystem::path& file, const MalformedRows& malformed) {
-  if (malformed.count == 0) return;
-  std::cerr << "note: " << file.string() << ": " << malformed.count
-            << " malformed rows skipped, first in line";
-  for (const std::size_t line : malformed.first_lines) std::cerr << ' ' << line;
-  std::cerr << '\n';
-}
-
-/// Channels that the format of a log does not record are an error of the command line.
-void RequireRecordedChannels(const std::filesystem::path& log, const SourceOptions& options) {
-  const std::array named = {std::pair("--port-channel", options.port_channel),
-                            std::pair("--starboard-channel", options.starboard_channel)};
-  for (const auto& [option, channel] : named) {
-    if (!options.mapping || !channel) continue;
-    throw UsageError(std::string(option) +
-                     ": the mapping names the outputs; leave one of them out");
-  }
-  if (FormatOf(log) != LogFormat::kDataFlash) return;
-  for (const auto& [option, channel] : named) {
-    if (channel.value_or(1) <= kLoggedChannels) continue;
-    throw UsageError(std::string(option) + ": " + log.string() + " records channels 1 to " +
-                     std::to_string(kLoggedChannels) + ", not " + std::to_string(*channel));
-  }
-}
-
-/// What is admitted of a log, with notes on what is not.
-LoadedRecording Admitted(const std::filesystem::path& path, const RawLog& log) {
-  LoadedRecording loaded = OrThrow(AdmitLog(path, log));
-  if (loaded.description) {
-    std::cerr << "note: " << path.string() << ": " << loaded.description->summary << '\n';
-  }
-  for (const Channel channel : kChannels) {
-    NoteMalformed(path / (std::string(Name(channel)) + ".csv"),
-                  loaded.malformed[static_cast<std::size_t>(channel)]);
-  }
-  if (loaded.evicted > 0) {
-    std::cerr << "note: " << path.string() << ": " << loaded.evicted
-              << " samples left out, older than a day or before the clock was set back\n";
-  }
-  return loaded;
-}
-
-// ---- the vehicle that logs describe -------------------------------------------------------------
-
-void RequireSelfDescribing(const std::vector<std::filesystem::path>& logs) {
-  const auto silent = std::find_if(logs.begin(), logs.end(), [](const auto& log) {
-    return FormatOf(log) == LogFormat::kTelemetryLog;
-  });
-  if (silent == logs.end()) return;
-  throw UsageError("--vehicle is required: " + silent->string() +
-                   " is a folder of CSV files, and only recordings of autopilots say how their "
-                   "thrusters are driven");
-}
-
-Vehicle DescribedBy(const LoadedRecording& loaded, const std::filesystem::path& log) {
-  auto vehicle = VehicleFrom(*loaded.description, VehicleIdLike(log.stem().string()));
-  if (vehicle) return *std::move(vehicle);
-  Refusal refusal = std::move(vehicle).error();
-  refusal.subject = log.string() + ' ' + refusal.subject;
-  throw RefusedError(std::move(refusal));
-}
-
-std::string RangeText(const PwmChannel& range) {
-  return Plain(range.full_reverse_us) + " us (full reverse), " + Plain(range.neutral_us) +
-         " us (neutral), " + Plain(range.full_forward_us) + " us (full forward)";
-}
-
-void NoteDescribed(const Vehicle& vehicle, const LogDescription& description,
-                   const std::filesystem::path& log) {
-  std::cerr << "note: vehicle " << vehicle.vehicle_id << " is taken from " << log.string()
-            << ": port on channel " << description.port->channel << ", " << RangeText(vehicle.port)
-            << "; starboard on channel " << description.starboard->channel << ", "
-            << RangeText(vehicle.starboard)
-            << "; the separation of the propellers and the antenna's place are unknown, taken as "
-               "zero\n";
-}
-
-void RequireSameRange(const char* thruster, const PwmChannel& first, const PwmChannel& other,
-                      const std::filesystem::path& first_log,
-                      const std::filesystem::path& other_log) {
-  if (first == other) return;
-  throw RefusedError({other_log.string() + ' ' + thruster + " thruster",
-                      "ranges over " + RangeText(other) + ", but over " + RangeText(first) +
-                          " in " + first_log.string(),
-                      "give a vehicle file that holds for all logs, or take the logs one by one"});
-}
-
-/// The first log's vehicle, to which all others must agree.
-Vehicle DescribedBy(const std::vector<LoadedRecording>& loaded,
-                    const std::vector<std::filesystem::path>& logs) {
-  Vehicle vehicle = DescribedBy(loaded.front(), logs.front());
-  for (std::size_t i = 1; i < loaded.size(); ++i) {
-    const Vehicle other = DescribedBy(loaded[i], logs[i]);
-    RequireSameRange("port", vehicle.port, other.port, logs.front(), logs[i]);
-    RequireSameRange("starboard", vehicle.starboard, other.starboard, logs.front(), logs[i]);
-  }
-  NoteDescribed(vehicle, *loaded.front().description, logs.front());
-  return vehicle;
-}
-
-// ---- faults of input ----------------------------------------------------------------------------
-
-void RequireNotRepeated(const std::vector<LoadedRecording>& loaded,
-                        const std::vector<std::filesystem::path>& logs) {
-  for (std::size_t i = 1; i < loaded.size(); ++i) {
-    for (std::size_t j = 0; j < i; ++j) {
-      if (!HoldsRecording(loaded[j].recording, loaded[i].recording)) continue;
-      throw RefusedError({logs[i].string(), "holds the same recording as " + logs[j].string(),
-                          "give each recording once"});
-    }
-  }
-}
-
-/// As it was recorded: admission drops what is repeated, and with it the sign of a stuck channel.
-void RequireSoundInput(const std::vector<RawLog>& recorded,
-                       const std::vector<std::filesystem::path>& logs, const Vehicle& vehicle) {
-  for (std::size_t i = 0; i < logs.size(); ++i) {
-    const auto& samples = recorded[i].samples;
-    auto fault =
-        FirstFault(CheckInput(SamplesOf<GnssFix>(samples), SamplesOf<HeadingSample>(samples),
-                              SamplesOf<ThrusterSample>(samples), vehicle));
-    if (!fault) continue;
-    fault->subject = logs[i].string() + ' ' + fault->subject;
-    fault->advice += "; --skip-input-check, if you know that the input is right";
-    throw RefusedError(*std::move(fault));
-  }
-}
-
-// ---- options ------------------------------------------------------------------------------------
 
 constexpr const char* kLogFormats =
     "a recording: a telemetry log (a folder with gnss.csv, heading.csv and thrusters.csv), an "
@@ -188,7 +40,7 @@ void AddSourceOptions(CLI::App& command, SourceOptions& options, CLI::Option* lo
       .add_option_function<std::string>(
           "--map",
           [&options](const std::string& file) {
-            options.mapping = std::make_shared<Mapping>(OrThrow(ParseMapping(TextOf(file), file)));
+            options.mapping = std::make_shared<Mapping>(LoadMapping(file));
           },
           "which columns of one CSV file, or topics of an MCAP, rosbag2 or ROS 1 recording, hold "
           "what, in which units and frames (text format)")
@@ -236,38 +88,10 @@ RecordedVehicle LogInputs::Load() const {
   } else {
     RequireSelfDescribing(logs);
   }
-  std::vector<RawLog> recorded;  // for the check
-  std::vector<LoadedRecording> loaded;
-  for (const std::filesystem::path& log : logs) {
-    RawLog raw = LoadAsRecorded(log, options);
-    loaded.push_back(Admitted(log, raw));
-    if (!skip_input_check) recorded.push_back(std::move(raw));
-  }
-  if (!vehicle) vehicle = DescribedBy(loaded, logs);
-  if (!skip_input_check) {
-    RequireNotRepeated(loaded, logs);
-    RequireSoundInput(recorded, logs, *vehicle);
-  }
-  std::vector<Recording> recordings;
-  std::vector<RecordingIdentity> identities;
-  for (std::size_t i = 0; i < logs.size(); ++i) {
-    identities.push_back(IdentityOf(loaded[i].recording, NameOf(logs[i])));
-    recordings.push_back(std::move(loaded[i].recording));
-  }
-  return {Concatenate(recordings), *std::move(vehicle), std::move(identities)};
-}
-
-std::string NameOf(const std::filesystem::path& log) {
-  return (log.has_filename() ? log : log.parent_path()).filename().string();
-}
-
-RawLog LoadAsRecorded(const std::filesystem::path& log, const SourceOptions& options) {
-  RequireRecordedChannels(log, options);
-  return OrThrow(ReadLog(log, options));
-}
-
-Recording LoadAdmitted(const std::filesystem::path& log, const SourceOptions& options) {
-  return Admitted(log, LoadAsRecorded(log, options)).recording;
+  std::vector<RecordedLog> loaded;
+  for (const std::filesystem::path& log : logs) loaded.push_back(LoadLog(log, options, PrintNote));
+  return Join(std::move(loaded), std::move(vehicle),
+              skip_input_check ? InputFaults::kIgnored : InputFaults::kSought, PrintNote);
 }
 
 CLI::Option* AddLog(CLI::App& command, std::filesystem::path& log, SourceOptions& options) {
@@ -290,36 +114,8 @@ void AddIncludeRr(CLI::App& command, bool& include_reverse) {
                    "out; its surge equation never takes them");
 }
 
-Vehicle LoadVehicle(const std::filesystem::path& file) {
-  return OrThrow(ParseVehicle(TextOf(file), file.string()));
-}
-
-Identification LoadModel(const std::filesystem::path& file) {
-  return OrThrow(ParseModelJson(TextOf(file), file.string()));
-}
-
-Preset PresetNamed(const std::string& name) {
-  Require(name == "robust" || name == "paper", "the name of a preset");
-  return name == "paper" ? Preset::kPaper : Preset::kRobust;
-}
-
-PrepareOptions PrepareOptionsOf(Preset preset) {
-  return preset == Preset::kPaper ? PrepareOptions::Paper() : PrepareOptions::Robust();
-}
-
-PrepareOptions PrepareOptionsOf(const Identification& model,
-                                const std::optional<std::string>& preset) {
-  const bool paper = preset ? PresetNamed(*preset) == Preset::kPaper
-                            : model.provenance.preset == Name(Preset::kPaper);
-  PrepareOptions options = PrepareOptionsOf(paper ? Preset::kPaper : Preset::kRobust);
-  options.sampling_period_s = model.sampling_period_s;
-  return options;
-}
-
-void NoteOtherVehicle(const Identification& model, const Vehicle& vehicle) {
-  if (model.vehicle_id == vehicle.vehicle_id) return;
-  std::cerr << "note: the model is of " << model.vehicle_id << ", the vehicle file of "
-            << vehicle.vehicle_id << '\n';
+void PrintNote(const std::string& note) {
+  std::cerr << "note: " << note << '\n';
 }
 
 }  // namespace telltale

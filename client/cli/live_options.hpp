@@ -6,8 +6,8 @@
 
 #include <CLI/CLI.hpp>
 
-#include "telltale/client/cli/exit_codes.hpp"
 #include "telltale/client/fleet/request_reply.hpp"
+#include "telltale/client/workbench/errors.hpp"
 
 namespace telltale {
 

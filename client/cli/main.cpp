@@ -8,6 +8,7 @@
 #include "telltale/client/cli/exit_codes.hpp"
 #include "telltale/client/cli/help_formatter.hpp"
 #include "telltale/client/cli/library_logs.hpp"
+#include "telltale/client/workbench/errors.hpp"
 #include "telltale/core/base/version.hpp"
 
 namespace telltale {

@@ -1,10 +1,10 @@
 #include "telltale/client/cli/number_pair.hpp"
 
+#include "telltale/client/workbench/errors.hpp"
+
 #include <charconv>
 #include <optional>
 #include <string_view>
-
-#include "telltale/client/cli/exit_codes.hpp"
 
 namespace telltale {
 namespace {

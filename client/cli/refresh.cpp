@@ -11,13 +11,13 @@
 
 #include "telltale/client/cli/commands.hpp"
 #include "telltale/client/cli/duration_text.hpp"
-#include "telltale/client/cli/exit_codes.hpp"
 #include "telltale/client/cli/fleet_answer.hpp"
 #include "telltale/client/cli/leave_note.hpp"
 #include "telltale/client/cli/live_options.hpp"
 #include "telltale/client/cli/output_options.hpp"
 #include "telltale/client/cli/progress_line.hpp"
 #include "telltale/client/cli/time_span.hpp"
+#include "telltale/client/workbench/errors.hpp"
 #include "telltale/idl/codec/json/fleet_answer.hpp"
 
 namespace telltale {

@@ -12,7 +12,6 @@
 #include "telltale/client/bus/participant.hpp"
 #include "telltale/client/bus/writer.hpp"
 #include "telltale/client/cli/commands.hpp"
-#include "telltale/client/cli/exit_codes.hpp"
 #include "telltale/client/cli/input_options.hpp"
 #include "telltale/client/cli/live_options.hpp"
 #include "telltale/client/cli/number_range.hpp"
@@ -22,6 +21,7 @@
 #include "telltale/client/fleet/telemetry_publisher.hpp"
 #include "telltale/client/recording/due_times.hpp"
 #include "telltale/client/recording/load_recording.hpp"
+#include "telltale/client/workbench/recorded_log.hpp"
 
 namespace telltale {
 namespace {

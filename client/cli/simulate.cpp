@@ -8,18 +8,17 @@
 #include <vector>
 
 #include "telltale/client/cli/commands.hpp"
-#include "telltale/client/cli/exit_codes.hpp"
 #include "telltale/client/cli/input_options.hpp"
 #include "telltale/client/cli/model_notes.hpp"
 #include "telltale/client/cli/number_range.hpp"
 #include "telltale/client/cli/table.hpp"
 #include "telltale/client/cli/whole_number.hpp"
 #include "telltale/client/recording/telemetry_log/telemetry_log.hpp"
-#include "telltale/core/diagnosis/hypotheses/augmented_identification.hpp"
+#include "telltale/client/workbench/errors.hpp"
+#include "telltale/client/workbench/files.hpp"
+#include "telltale/client/workbench/simulate_model.hpp"
 #include "telltale/core/effects/augmented_simulation.hpp"
-#include "telltale/core/simulation/divergence.hpp"
 #include "telltale/core/simulation/sensors.hpp"
-#include "telltale/core/simulation/simulator.hpp"
 
 namespace telltale {
 namespace {
@@ -36,8 +35,8 @@ struct SimulateArguments {
 std::vector<TimedCommand> LoadCommands(const std::filesystem::path& file, const Vehicle& vehicle) {
   const CommandLog log = OrThrow(ReadCommands(file));
   if (log.malformed.count + log.rejected.Total() > 0) {
-    std::cerr << "note: " << file.string() << ": " << log.malformed.count
-              << " malformed rows skipped, " << RejectedText(log.rejected) << " rejected\n";
+    PrintNote(file.string() + ": " + std::to_string(log.malformed.count) +
+              " malformed rows skipped, " + RejectedText(log.rejected) + " rejected");
   }
   std::vector<TimedCommand> commands;
   for (const ThrusterSample& sample : log.commands) {
@@ -46,40 +45,12 @@ std::vector<TimedCommand> LoadCommands(const std::filesystem::path& file, const 
   return commands;
 }
 
-// The discrete model as identified, or its equations integrated at the step that was asked for.
-VesselModel Discretised(VesselModel model, const std::optional<double>& step_s) {
-  if (step_s) model.discretisation = Discretisation::kContinuous;
-  return model;
-}
-
-bool IsFinite(const Eta& eta) {
-  return std::isfinite(eta.x_m) && std::isfinite(eta.y_m) && std::isfinite(eta.psi_rad);
-}
-
-void RefuseDivergence(const std::vector<TimedState>& track) {
-  for (const TimedState& instant : track) {
-    const bool diverged = kOpenLoopDivergence.Exceeds(instant.state.nu);
-    if (!diverged && IsFinite(instant.state.eta)) continue;
-    throw RefusedError({"simulation",
-                        "the velocity grows without bound from " + Fixed(instant.time_s, 1) +
-                            " s on: this model is not stable under these commands",
-                        "stay within the commands that made the model, or try a smaller --step"});
-  }
-}
-
 void SimulateLog(const SimulateArguments& arguments) {
   const Vehicle vehicle = LoadVehicle(arguments.vehicle_file);
   const Identification identification = LoadModel(arguments.model_file);
-  NoteOtherVehicle(identification, vehicle);
-  AugmentedModel model = OrThrow(AugmentedModelOf(identification));
-  model.model = Discretised(std::move(model.model), arguments.step_s);
+  NoteOtherVehicle(identification, vehicle, PrintNote);
   const auto commands = LoadCommands(arguments.commands_file, vehicle);
-  const double step_s = arguments.step_s.value_or(model.model.sampling_period_s);
-  const double end_s = commands.back().time_s;
-  const auto track = model.effects.empty()
-                         ? Simulate(model.model, {}, commands, end_s, step_s)
-                         : Simulate(model, commands, end_s, step_s, vehicle.HullOrDefault());
-  RefuseDivergence(track);
+  const auto [model, track] = SimulateModel(identification, commands, vehicle, arguments.step_s);
   const Recording recording = Measure(track, model, vehicle, arguments.sensors);
   WriteTelemetryLog(arguments.out, recording);
   const VesselState& last = track.back().state;

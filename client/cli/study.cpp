@@ -11,6 +11,8 @@
 #include "telltale/client/cli/progress_line.hpp"
 #include "telltale/client/cli/study_table.hpp"
 #include "telltale/client/cli/whole_number.hpp"
+#include "telltale/client/workbench/errors.hpp"
+#include "telltale/client/workbench/presets.hpp"
 #include "telltale/core/paper/study.hpp"
 #include "telltale/idl/codec/json/study.hpp"
 
@@ -56,7 +58,7 @@ void AddStudy(CLI::App& telltale) {
   arguments->inputs.AddTo(command, command)->required();
   command.add_option("--preset", arguments->preset, "of the data preparation: robust or paper")
       ->type_name("NAME")
-      ->check(CLI::IsMember({"robust", "paper"}).description(""))
+      ->check(CLI::IsMember(PresetNames()).description(""))
       ->capture_default_str();
   command
       .add_option("--sampling-period", arguments->sampling_period_s,

@@ -5,7 +5,6 @@
 #include <string>
 
 #include "telltale/client/cli/commands.hpp"
-#include "telltale/client/cli/exit_codes.hpp"
 #include "telltale/client/cli/input_options.hpp"
 #include "telltale/client/cli/metrics_table.hpp"
 #include "telltale/client/cli/number_range.hpp"
@@ -14,9 +13,11 @@
 #include "telltale/client/cli/table.hpp"
 #include "telltale/client/exchange/disturbance_csv.hpp"
 #include "telltale/client/recording/file_contents.hpp"
-#include "telltale/core/diagnosis/hypotheses/augmented_identification.hpp"
+#include "telltale/client/workbench/errors.hpp"
+#include "telltale/client/workbench/files.hpp"
+#include "telltale/client/workbench/presets.hpp"
+#include "telltale/client/workbench/score_model.hpp"
 #include "telltale/core/identification/input_gain.hpp"
-#include "telltale/core/validation/validation.hpp"
 #include "telltale/idl/codec/json/metrics.hpp"
 
 namespace telltale {
@@ -65,22 +66,18 @@ void ValidateModel(const ValidateArguments& arguments) {
   const VesselModel vessel = OrThrow(ModelOf(model));
   ProgressLine line;
   line.Update("reading logs", 0.0);
-  const auto [recording, vehicle, logs] = arguments.inputs.Load();
-  if (arguments.inputs.NamesVehicle()) NoteOtherVehicle(model, vehicle);
-  line.Update("preparing data", 0.2);
-  const PreparedDataset dataset =
-      OrThrow(Prepare(recording, vehicle, PrepareOptionsOf(model, arguments.preset)));
-  line.Update("scoring", 0.5);
-  const Metrics metrics = OrThrow(
-      model.physical ? Validate(dataset, *model.physical, arguments.options)
-                     : Validate(dataset, OrThrow(AugmentedModelOf(model)), arguments.options));
+  const RecordedVehicle recorded = arguments.inputs.Load();
+  if (arguments.inputs.NamesVehicle()) NoteOtherVehicle(model, recorded.vehicle, PrintNote);
+  const ModelScores scores = ScoreModel(
+      model, recorded, arguments.preset, arguments.options,
+      [&line](std::string_view stage, double fraction) { line.Update(stage, fraction); });
   if (!arguments.disturbance_file.empty()) {
     WriteFile(arguments.disturbance_file,
-              PrintDisturbanceCsv(ReconstructDisturbance(dataset, vessel)));
+              PrintDisturbanceCsv(ReconstructDisturbance(scores.dataset, vessel)));
   }
-  arguments.output.Write(PrintMetricsJson(metrics), [&] {
-    return MetricsTable(metrics) + '\n' + ScoredText(dataset) + NotExcitedText(model) +
-           OverlapText(model, dataset);
+  arguments.output.Write(PrintMetricsJson(scores.metrics), [&] {
+    return MetricsTable(scores.metrics) + '\n' + ScoredText(scores.dataset) +
+           NotExcitedText(model) + OverlapText(model, scores.dataset);
   });
 }
 
@@ -102,7 +99,7 @@ void AddValidate(CLI::App& telltale) {
       .add_option("--preset", arguments->preset,
                   "of the data preparation: robust or paper (default: the model's own)")
       ->type_name("NAME")
-      ->check(CLI::IsMember({"robust", "paper"}).description(""));
+      ->check(CLI::IsMember(PresetNames()).description(""));
   command
       .add_option("--disturbance", arguments->disturbance_file,
                   "also write what is left of the acceleration without the propellers, over the "

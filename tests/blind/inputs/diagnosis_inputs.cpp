@@ -1,7 +1,9 @@
 #include "inputs/diagnosis_inputs.hpp"
 
-#include "telltale/client/cli/exit_codes.hpp"
 #include "telltale/client/cli/input_options.hpp"
+#include "telltale/client/workbench/errors.hpp"
+#include "telltale/client/workbench/files.hpp"
+#include "telltale/client/workbench/recorded_log.hpp"
 #include "telltale/core/data/preparation.hpp"
 
 namespace blind {
@@ -25,7 +27,8 @@ DiagnosisInputs DiagnosisInputFiles::Load() const {
   telltale::PrepareOptions options = telltale::PrepareOptions::Robust();
   options.sampling_period_s = identification.sampling_period_s;
   const auto prepared = [&](const std::filesystem::path& folder) {
-    return OrThrow(telltale::Prepare(telltale::LoadAdmitted(folder, {}), boat, options));
+    return OrThrow(
+        telltale::Prepare(telltale::LoadAdmitted(folder, {}, telltale::PrintNote), boat, options));
   };
   DiagnosisInputs inputs{.model = OrThrow(telltale::UncertainModelOf(identification)),
                          .recording = prepared(log),

@@ -6,9 +6,9 @@
 #include <string>
 
 #include "inputs/reference_basis.hpp"
-#include "telltale/client/cli/exit_codes.hpp"
-#include "telltale/client/cli/input_options.hpp"
 #include "telltale/client/recording/file_contents.hpp"
+#include "telltale/client/workbench/errors.hpp"
+#include "telltale/client/workbench/files.hpp"
 #include "telltale/core/diagnosis/hypotheses/augmented_identification.hpp"
 
 namespace {

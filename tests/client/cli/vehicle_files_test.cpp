@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "telltale/client/cli/input_options.hpp"
+#include "telltale/client/workbench/files.hpp"
 #include "telltale/core/paper/yellowfish.hpp"
 
 namespace telltale {

@@ -1,0 +1,40 @@
+#include "telltale/client/workbench/check_log.hpp"
+
+#include <utility>
+
+#include "telltale/client/recording/telemetry_log/telemetry_log.hpp"
+#include "telltale/core/data/preparation.hpp"
+
+namespace telltale {
+
+std::optional<Refusal> CheckedLog::FirstProblem() const {
+  if (auto fault = FirstFault(check)) return fault;
+  return unusable;
+}
+
+CheckedLog CheckLog(const std::filesystem::path& path, const std::vector<RawSample>& recorded,
+                    const std::optional<LogDescription>& description, const Vehicle& vehicle) {
+  CheckedLog checked;
+  checked.path = path;
+  if (description) checked.summary = description->summary;
+  checked.check = CheckInput(SamplesOf<GnssFix>(recorded), SamplesOf<HeadingSample>(recorded),
+                             SamplesOf<ThrusterSample>(recorded), vehicle);
+  const auto admitted = Admit(recorded);
+  if (!admitted) {
+    checked.unusable = admitted.error();
+    return checked;
+  }
+  checked.rejected = admitted->recording.rejected;
+  const auto dataset = Prepare(admitted->recording, vehicle, PrepareOptions::Robust());
+  if (!dataset) checked.unusable = dataset.error();
+  return checked;
+}
+
+Vehicle DescribedOrUsualVehicle(const std::optional<LogDescription>& description) {
+  if (description) {
+    if (auto described = VehicleFrom(*description, "log")) return *std::move(described);
+  }
+  return {};
+}
+
+}  // namespace telltale

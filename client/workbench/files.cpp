@@ -1,0 +1,34 @@
+#include "telltale/client/workbench/files.hpp"
+
+#include <string>
+#include <utility>
+
+#include "telltale/client/recording/file_contents.hpp"
+#include "telltale/client/workbench/errors.hpp"
+#include "telltale/idl/codec/json/model.hpp"
+#include "telltale/idl/codec/vehicle_file.hpp"
+
+namespace telltale {
+namespace {
+
+std::string TextOf(const std::filesystem::path& file) {
+  auto text = ReadFile(file);
+  if (!text) throw FileError(text.error().subject + ' ' + text.error().reason);
+  return *std::move(text);
+}
+
+}  // namespace
+
+Vehicle LoadVehicle(const std::filesystem::path& file) {
+  return OrThrow(ParseVehicle(TextOf(file), file.string()));
+}
+
+Mapping LoadMapping(const std::filesystem::path& file) {
+  return OrThrow(ParseMapping(TextOf(file), file.string()));
+}
+
+Identification LoadModel(const std::filesystem::path& file) {
+  return OrThrow(ParseModelJson(TextOf(file), file.string()));
+}
+
+}  // namespace telltale

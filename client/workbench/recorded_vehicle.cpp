@@ -1,0 +1,128 @@
+#include "telltale/client/workbench/recorded_vehicle.hpp"
+
+#include <cstddef>
+#include <string>
+#include <utility>
+
+#include "telltale/client/report/number_text.hpp"
+#include "telltale/client/workbench/errors.hpp"
+#include "telltale/core/data/input_check.hpp"
+#include "telltale/idl/codec/vehicle_file.hpp"
+
+namespace telltale {
+namespace {
+
+// ---- the vehicle that logs describe -------------------------------------------------------------
+
+[[noreturn]] void AskForVehicle(const std::filesystem::path& silent) {
+  throw UsageError("--vehicle is required: " + silent.string() +
+                   " is a folder of CSV files, and only recordings of autopilots say how their "
+                   "thrusters are driven");
+}
+
+}  // namespace
+
+Vehicle DescribedVehicle(const RecordedLog& log) {
+  if (!log.loaded.description) AskForVehicle(log.path);
+  auto vehicle = VehicleFrom(*log.loaded.description, VehicleIdLike(log.path.stem().string()));
+  if (vehicle) return *std::move(vehicle);
+  Refusal refusal = std::move(vehicle).error();
+  refusal.subject = log.path.string() + ' ' + refusal.subject;
+  throw RefusedError(std::move(refusal));
+}
+
+namespace {
+
+std::string RangeText(const PwmChannel& range) {
+  return Plain(range.full_reverse_us) + " us (full reverse), " + Plain(range.neutral_us) +
+         " us (neutral), " + Plain(range.full_forward_us) + " us (full forward)";
+}
+
+void NoteDescribed(const Vehicle& vehicle, const RecordedLog& log, const NoteSink& note) {
+  const LogDescription& description = *log.loaded.description;
+  note("vehicle " + vehicle.vehicle_id + " is taken from " + log.path.string() +
+       ": port on channel " + std::to_string(description.port->channel) + ", " +
+       RangeText(vehicle.port) + "; starboard on channel " +
+       std::to_string(description.starboard->channel) + ", " + RangeText(vehicle.starboard) +
+       "; the separation of the propellers and the antenna's place are unknown, taken as zero");
+}
+
+void RequireSameRange(const char* thruster, const PwmChannel& first, const PwmChannel& other,
+                      const std::filesystem::path& first_log,
+                      const std::filesystem::path& other_log) {
+  if (first == other) return;
+  throw RefusedError({other_log.string() + ' ' + thruster + " thruster",
+                      "ranges over " + RangeText(other) + ", but over " + RangeText(first) +
+                          " in " + first_log.string(),
+                      "give a vehicle file that holds for all logs, or take the logs one by one"});
+}
+
+/// The first log's vehicle, to which all others must agree.
+Vehicle DescribedBy(const std::vector<RecordedLog>& logs, const NoteSink& note) {
+  const RecordedLog& first = logs.front();
+  Vehicle vehicle = DescribedVehicle(first);
+  for (std::size_t i = 1; i < logs.size(); ++i) {
+    const Vehicle other = DescribedVehicle(logs[i]);
+    RequireSameRange("port", vehicle.port, other.port, first.path, logs[i].path);
+    RequireSameRange("starboard", vehicle.starboard, other.starboard, first.path, logs[i].path);
+  }
+  NoteDescribed(vehicle, first, note);
+  return vehicle;
+}
+
+// ---- faults of input ----------------------------------------------------------------------------
+
+void RequireNotRepeated(const std::vector<RecordedLog>& logs) {
+  for (std::size_t i = 1; i < logs.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      if (!HoldsRecording(logs[j].loaded.recording, logs[i].loaded.recording)) continue;
+      throw RefusedError({logs[i].path.string(),
+                          "holds the same recording as " + logs[j].path.string(),
+                          "give each recording once"});
+    }
+  }
+}
+
+/// As it was recorded: admission drops what is repeated, and with it the sign of a stuck channel.
+void RequireSoundInput(const std::vector<RecordedLog>& logs, const Vehicle& vehicle) {
+  for (const RecordedLog& log : logs) {
+    auto fault = FirstFault(CheckInput(SamplesOf<GnssFix>(log.recorded),
+                                       SamplesOf<HeadingSample>(log.recorded),
+                                       SamplesOf<ThrusterSample>(log.recorded), vehicle));
+    if (!fault) continue;
+    fault->subject = log.path.string() + ' ' + fault->subject;
+    fault->advice += "; --skip-input-check, if you know that the input is right";
+    throw RefusedError(*std::move(fault));
+  }
+}
+
+}  // namespace
+
+void RequireSelfDescribing(const std::vector<std::filesystem::path>& logs) {
+  for (const std::filesystem::path& log : logs) {
+    if (FormatOf(log) == LogFormat::kTelemetryLog) AskForVehicle(log);
+  }
+}
+
+RecordedVehicle Join(std::vector<RecordedLog> logs, std::optional<Vehicle> stated,
+                     InputFaults faults, const NoteSink& note) {
+  Vehicle vehicle = stated ? *std::move(stated) : DescribedBy(logs, note);
+  if (faults == InputFaults::kSought) {
+    RequireNotRepeated(logs);
+    RequireSoundInput(logs, vehicle);
+  }
+  std::vector<Recording> recordings;
+  std::vector<RecordingIdentity> identities;
+  for (RecordedLog& log : logs) {
+    identities.push_back(IdentityOf(log.loaded.recording, NameOf(log.path)));
+    recordings.push_back(std::move(log.loaded.recording));
+  }
+  return {Concatenate(recordings), std::move(vehicle), std::move(identities)};
+}
+
+void NoteOtherVehicle(const Identification& model, const Vehicle& vehicle, const NoteSink& note) {
+  if (model.vehicle_id == vehicle.vehicle_id) return;
+  note("the model is of " + model.vehicle_id + ", the vehicle file of " + vehicle.vehicle_id);
+}
+
+}  // namespace telltale
