@@ -10,6 +10,10 @@ cmake_host_system_information(RESULT cores QUERY NUMBER_OF_LOGICAL_CORES)
 set_property(GLOBAL PROPERTY JOB_POOLS compile=${cores})
 set(CMAKE_JOB_POOL_COMPILE compile)
 
+# One compilation serves the programs and the Python module. It costs the programs nothing: within them calls
+# are bound directly, as no other definition can take the place of ours.
+add_compile_options(-fPIC -fno-semantic-interposition)
+
 if(NOT CMAKE_BUILD_TYPE)
   set(CMAKE_BUILD_TYPE Release)
 endif()
