@@ -1,5 +1,6 @@
 # What `cmake --install` copies for programs that use the libraries: headers, libraries and the package
-# that find_package(telltale) reads. deploy/CMakeLists.txt installs the two commands and what runs them.
+# that find_package(telltale) reads. deploy/CMakeLists.txt installs the two commands and what runs them,
+# client/python the package for Python.
 include(CMakePackageConfigHelpers)
 
 set(telltale_package ${CMAKE_INSTALL_LIBDIR}/cmake/telltale)
@@ -22,13 +23,14 @@ install(EXPORT telltale_targets NAMESPACE telltale:: FILE telltale_targets.cmake
 install(DIRECTORY core/ DESTINATION ${telltale_headers}/core FILES_MATCHING PATTERN *.hpp)
 install(DIRECTORY idl/codec DESTINATION ${telltale_headers}/idl FILES_MATCHING PATTERN *.hpp)
 install(DIRECTORY client/ DESTINATION ${telltale_headers}/client FILES_MATCHING PATTERN *.hpp
-        PATTERN cli EXCLUDE PATTERN twin EXCLUDE)
+        PATTERN cli EXCLUDE PATTERN twin EXCLUDE PATTERN python EXCLUDE)
 install(DIRECTORY ${PROJECT_BINARY_DIR}/generated/telltale/idl/proto
                   ${PROJECT_BINARY_DIR}/generated/telltale/idl/dds
         DESTINATION ${telltale_headers}/idl FILES_MATCHING PATTERN *.pb.h PATTERN dds/*.h
         PATTERN CMakeFiles EXCLUDE)
 # The schemas themselves, for programs in other languages.
 install(DIRECTORY idl/proto idl/dds DESTINATION ${CMAKE_INSTALL_DATADIR}/telltale/schemas
+       
         FILES_MATCHING PATTERN *.proto PATTERN *.idl)
 
 configure_package_config_file(cmake/telltaleConfig.cmake.in ${PROJECT_BINARY_DIR}/telltaleConfig.cmake

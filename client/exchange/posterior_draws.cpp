@@ -7,10 +7,6 @@
 namespace telltale {
 namespace {
 
-std::string ColumnOf(const Coefficient& coefficient) {
-  return std::string(Name(coefficient.equation)) + ' ' + coefficient.regressor;
-}
-
 void AddNotes(const PosteriorDraws& draws, proto::Draws& message) {
   message.add_notes(
       "Joint normal draws of the coefficients, continuous-time SI, about the values for simulation "
@@ -35,13 +31,17 @@ void AddNotes(const PosteriorDraws& draws, proto::Draws& message) {
 
 }  // namespace
 
+std::string ColumnName(const Coefficient& coefficient) {
+  return std::string(Name(coefficient.equation)) + ' ' + coefficient.regressor;
+}
+
 std::string PrintDrawsJson(const Identification& identification, const PosteriorDraws& draws,
                            std::uint64_t seed) {
   proto::Draws message;
   message.set_vehicle_id(identification.vehicle_id);
   message.set_seed(seed);
   for (const Coefficient& coefficient : identification.coefficients) {
-    message.add_columns(ColumnOf(coefficient));
+    message.add_columns(ColumnName(coefficient));
   }
   for (Eigen::Index i = 0; i < draws.theta.cols(); ++i) {
     proto::Draw& draw = *message.add_draws();
@@ -59,7 +59,7 @@ std::string PrintDrawsCsv(const Identification& identification, const PosteriorD
   const bool lagging = !draws.time_constant_s.empty();
   std::string text;
   for (const Coefficient& coefficient : identification.coefficients) {
-    text.append(text.empty() ? "" : ",").append(ColumnOf(coefficient));
+    text.append(text.empty() ? "" : ",").append(ColumnName(coefficient));
   }
   text += lagging ? ",thruster_time_constant_s\n" : "\n";
   for (Eigen::Index i = 0; i < draws.theta.cols(); ++i) {

@@ -7,6 +7,9 @@
 
 namespace telltale {
 
+/// "SURGE u|u|" and the like: what a column of coefficients is called.
+std::string ColumnName(const Coefficient& coefficient);
+
 /// Draws for domain randomisation as JSON, with what was not drawn and why it may be trusted.
 std::string PrintDrawsJson(const Identification& identification, const PosteriorDraws& draws,
                            std::uint64_t seed);

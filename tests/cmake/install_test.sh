@@ -16,6 +16,12 @@ for command in telltale telltaled; do
   [[ $said == *"$version"* ]] || fail "$command --version says '$said', not $version"
 done
 
+if grep -q '^TELLTALE_PYTHON:BOOL=ON' "$TELLTALE_BUILT/CMakeCache.txt"; then
+  said=$(PYTHONPATH=$(echo "$sandbox"/prefix/lib/python3*/dist-packages) /usr/bin/python3 -c \
+    'import telltale; print(telltale.__file__, telltale.__version__)' 2>&1) || fail "import telltale fails: $said"
+  [[ $said == "$sandbox"/*" $version" ]] || fail "import telltale finds '$said', not $version"
+fi
+
 # Every include line of an installed header that names this project finds an installed header.
 while IFS= read -r header; do
   [[ -f $sandbox/prefix/include/$header ]] || fail "$header is included, but not installed"

@@ -1,0 +1,156 @@
+#include "telltale/client/workbench/diagnose_recorded.hpp"
+
+#include "telltale/client/python/bindings.hpp"
+#include "telltale/client/python/model.hpp"
+#include "telltale/client/python/recording.hpp"
+#include "telltale/client/report/report_page.hpp"
+#include "telltale/client/workbench/errors.hpp"
+#include "telltale/idl/codec/json/report.hpp"
+
+namespace telltale::python {
+namespace {
+
+namespace py = pybind11;
+
+void RequireEffects(const std::vector<std::string>& names) {
+  for (const std::string& name : names) {
+    if (const auto fault = EffectFault(name); !fault.empty()) {
+      throw UsageError("--without: " + fault);
+    }
+  }
+}
+
+/// The boat that a recording is said to be of. What a log alone suggests is nobody's choice.
+std::string VehicleIdFor(const Recordings& recordings, bool stated, const Vehicle& vehicle,
+                         const Identification& model) {
+  for (const auto& recording : recordings) stated = stated || recording->stated;
+  return stated ? vehicle.vehicle_id : model.vehicle_id;
+}
+
+DiagnosedModel Diagnosed(const ScoredIdentification& model, const OneOrMore& recordings,
+                         const Recordings& references, const std::optional<VehicleOrFile>& vehicle,
+                         bool refit, const std::vector<std::string>& without, std::uint64_t seed,
+                         std::optional<std::size_t> threads, const py::object& progress) {
+  RequireEffects(without);
+  const DiagnoseChoices choices{refit, without, seed, threads};
+  const Recordings logs = ListOf(recordings);
+  const RecordedVehicle recorded = Joined(logs, vehicle, InputFaults::kIgnored);
+  std::vector<RecordedLog> nominal;
+  for (const auto& reference : references) nominal.push_back(reference->log);
+  const auto vehicle_id = VehicleIdFor(logs, vehicle.has_value(), recorded.vehicle, model.model);
+  const Progress interruptible = Interruptible(progress);
+  const py::gil_scoped_release unlocked;
+  return DiagnoseRecorded(model.model, recorded, std::move(nominal), vehicle_id, choices,
+                          interruptible);
+}
+
+std::vector<std::string> EffectsOf(const Cause& cause) {
+  std::vector<std::string> names;
+  for (const CausalEffect& effect : cause.effects) names.push_back(effect.effect);
+  return names;
+}
+
+std::vector<std::string> SentencesOf(const Cause& cause) {
+  std::vector<std::string> sentences;
+  for (const CausalEffect& effect : cause.effects) sentences.push_back(effect.sentence);
+  return sentences;
+}
+
+std::optional<ScoredIdentification> AugmentedOf(const DiagnosedModel& diagnosed) {
+  if (!diagnosed.augmented) return std::nullopt;
+  return ScoredIdentification{*diagnosed.augmented};
+}
+
+}  // namespace
+
+void AddDiagnose(py::module_& module) {
+  py::class_<Cause>(module, "Cause", "Effects that act together, and how probable that is.")
+      .def_property_readonly("effects", &EffectsOf, "Names; none for the unknown cause.")
+      .def_property_readonly("sentences", &SentencesOf,
+                             "'port thruster 22 % weaker', one an effect.")
+      .def_readonly("probability", &Cause::probability, "Among all causes.")
+      .def_readonly("indistinguishable", &Cause::indistinguishable,
+                    "Effects that explain this recording alike.")
+      .def_property_readonly(
+          "excess_explained",
+          [](const Cause& cause) -> std::optional<double> {
+            if (!cause.excess_explained) return std::nullopt;
+            return cause.excess_explained->share;
+          },
+          "The share of the excess error that it explains at five seconds, or None.")
+      .def("__repr__", [](const Cause& cause) {
+        std::string names;
+        for (const std::string& name : EffectsOf(cause))
+          names += (names.empty() ? "" : ", ") + name;
+        return "<telltale.Cause " + (names.empty() ? "unknown" : names) + ": " +
+               std::to_string(cause.probability) + '>';
+      });
+
+  py::class_<DiagnosedModel>(module, "Diagnosis",
+                             "Where a model and a recording differ, which effect explains it, and "
+                             "how much of the excess error it explains.")
+      .def_property_readonly(
+          "verdict",
+          [](const DiagnosedModel& diagnosed) {
+            return std::string(Name(diagnosed.diagnosis.verdict));
+          },
+          "'NO_MATERIAL_GAP', 'EXPLAINED', 'PARTLY_EXPLAINED', 'UNKNOWN_CAUSE' or "
+          "'INSUFFICIENT_DATA'.")
+      .def_property_readonly(
+          "sentence", [](const DiagnosedModel& diagnosed) { return diagnosed.diagnosis.sentence; },
+          "The answer in one sentence.")
+      .def_property_readonly(
+          "causes", [](const DiagnosedModel& diagnosed) { return diagnosed.diagnosis.causes; },
+          "Most probable first.")
+      .def_property_readonly(
+          "notes", [](const DiagnosedModel& diagnosed) { return diagnosed.diagnosis.notes; },
+          "Limitations, as sentences.")
+      .def_property_readonly(
+          "gap",
+          [](const DiagnosedModel& diagnosed) { return diagnosed.diagnosis.Main().all.before; },
+          "The error at five seconds, times the normal error.")
+      .def_property_readonly("model", &AugmentedOf,
+                             "The model identified again with the likely effects; None where no "
+                             "effect is likely.")
+      .def(
+          "to_json",
+          [](const DiagnosedModel& diagnosed) { return PrintReportJson(diagnosed.diagnosis); },
+          "The text of a report.json.")
+      .def(
+          "to_dict",
+          [](const DiagnosedModel& diagnosed) {
+            return FromJson(PrintReportJson(diagnosed.diagnosis));
+          },
+          "All that report.json holds.")
+      .def(
+          "to_html",
+          [](const DiagnosedModel& diagnosed) { return ReportPage(diagnosed.diagnosis); },
+          "A page with pictures, which needs no network.")
+      .def("__repr__", [](const DiagnosedModel& diagnosed) {
+        return "<telltale.Diagnosis " + std::string(Name(diagnosed.diagnosis.verdict)) + ": " +
+               diagnosed.diagnosis.sentence + '>';
+      });
+
+  module.def(
+      "diagnose", &Diagnosed, py::arg("model"), py::arg("recordings"),
+      py::arg("references") = Recordings(), py::arg("vehicle") = py::none(), py::kw_only(),
+      py::arg("refit") = false, py::arg("without") = std::vector<std::string>(),
+      py::arg("seed") = 1, py::arg("threads") = py::none(), py::arg("progress") = py::none(),
+      "Finds where a model and a recording differ, and which effect explains it.\n\n"
+      "Args:\n"
+      "    model: a Model.\n"
+      "    recordings: a Recording of 60 s or more that did not make the model, or several.\n"
+      "    references: recordings of the same boat in its nominal state, which say how large the\n"
+      "        normal error is; without any it is what sensor noise alone leaves.\n"
+      "    vehicle: a Vehicle or the path of a vehicle file, in place of the recordings' own.\n"
+      "    refit: let the coefficients follow the recording, within their bounds.\n"
+      "    without: names of effects to leave out of those that may be the cause.\n"
+      "    seed: of the bootstrap; the same seed gives the same report.\n"
+      "    threads: [1, 256], by default all of the machine; never changes the result.\n"
+      "    progress: called with the stage and the share done, from any thread.\n\n"
+      "Raises InputError for arguments out of their range, DataCannotTell where a reference made "
+      "the "
+      "model or is given twice, or the recording allows no diagnosis. Ctrl-C ends it.");
+}
+
+}  // namespace telltale::python

@@ -1,0 +1,131 @@
+#include "telltale/client/workbench/simulate_model.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "telltale/client/python/arguments.hpp"
+#include "telltale/client/python/bindings.hpp"
+#include "telltale/client/python/model.hpp"
+#include "telltale/client/workbench/errors.hpp"
+
+namespace telltale::python {
+namespace {
+
+namespace py = pybind11;
+
+constexpr double kShortestStepS = 0.001;
+constexpr double kLongestStepS = 1.0;
+
+bool IsShare(double command) {
+  return std::abs(command) <= 1.0;
+}
+
+std::vector<TimedCommand> TimedCommandsOf(const Numbers& time_s, const Numbers& commands) {
+  const auto times = ColumnOf("time_s", time_s);
+  if (times.empty()) throw UsageError("time_s: give one command at least");
+  if (commands.ndim() != 2 || commands.shape(1) != 2 ||
+      static_cast<std::size_t>(commands.shape(0)) != times.size()) {
+    throw UsageError("commands: give an array of " + std::to_string(times.size()) +
+                     " rows, one for each time, and two columns, port and starboard");
+  }
+  const auto cells = commands.unchecked<2>();
+  std::vector<TimedCommand> timed;
+  for (std::size_t i = 0; i < times.size(); ++i) {
+    const auto row = static_cast<py::ssize_t>(i);
+    const TimedCommand command{times[i], {cells(row, 0), cells(row, 1)}};
+    const std::string place = " of row " + std::to_string(i);
+    if (!std::isfinite(command.time_s) || (i > 0 && command.time_s <= times[i - 1])) {
+      throw UsageError("time_s: " + std::to_string(command.time_s) + place +
+                       " does not come after the one before");
+    }
+    if (!IsShare(command.delta.port) || !IsShare(command.delta.starboard)) {
+      throw UsageError("commands: those" + place +
+                       " are not both in [-1, 1], shares of full command");
+    }
+    timed.push_back(command);
+  }
+  return timed;
+}
+
+void RequireStep(const std::optional<double>& step_s) {
+  if (!step_s || (*step_s >= kShortestStepS && *step_s <= kLongestStepS)) return;
+  throw UsageError("--step: " + std::to_string(*step_s) + " is outside [0.001, 1]");
+}
+
+std::vector<TimedState> Simulated(const ScoredIdentification& model, const Numbers& time_s,
+                                  const Numbers& commands,
+                                  const std::optional<VehicleOrFile>& vehicle,
+                                  std::optional<double> step_s) {
+  RequireStep(step_s);
+  const auto timed = TimedCommandsOf(time_s, commands);
+  const Vehicle boat = VehicleOf(vehicle).value_or(Vehicle{});
+  const py::gil_scoped_release unlocked;
+  return SimulateModel(model.model, timed, boat, step_s).track;
+}
+
+/// A Python type of its own: a vector of states would become a list.
+struct Track {
+  std::vector<TimedState> states;
+};
+
+template <class Field>
+auto OfEachState(Field field) {
+  return [field](const Track& track) { return ArrayOf(track.states, field); };
+}
+
+py::array_t<double> TrackCommands(const Track& track) {
+  py::array_t<double> commands({static_cast<py::ssize_t>(track.states.size()), py::ssize_t{2}});
+  auto cells = commands.mutable_unchecked<2>();
+  for (py::ssize_t i = 0; i < cells.shape(0); ++i) {
+    const PropellerCommand& delta = track.states[static_cast<std::size_t>(i)].delta;
+    cells(i, 0) = delta.port;
+    cells(i, 1) = delta.starboard;
+  }
+  return commands;
+}
+
+}  // namespace
+
+void AddSimulate(py::module_& module) {
+  const auto eta = [](double Eta::*of) {
+    return OfEachState([of](const TimedState& s) { return s.state.eta.*of; });
+  };
+  const auto nu = [](double Nu::*of) {
+    return OfEachState([of](const TimedState& s) { return s.state.nu.*of; });
+  };
+  py::class_<Track>(module, "Track",
+                    "A simulated boat, an instant an element. Every array is a copy.")
+      .def_property_readonly("time_s", OfEachState(&TimedState::time_s),
+                             "From the first command on.")
+      .def_property_readonly("north_m", eta(&Eta::x_m), "From where the boat starts.")
+      .def_property_readonly("east_m", eta(&Eta::y_m), "From where the boat starts.")
+      .def_property_readonly("heading_rad", eta(&Eta::psi_rad),
+                             "Clockwise from north, without jumps.")
+      .def_property_readonly("surge", nu(&Nu::u), "Velocity ahead, m/s.")
+      .def_property_readonly("sway", nu(&Nu::v), "Velocity to starboard, m/s.")
+      .def_property_readonly("yaw_rate", nu(&Nu::r), "To starboard, rad/s.")
+      .def_property_readonly("commands", &TrackCommands,
+                             "The commands that act, a row each, port first.")
+      .def("__len__", [](const Track& track) { return track.states.size(); });
+
+  module.def(
+      "simulate",
+      [](const ScoredIdentification& model, const Numbers& time_s, const Numbers& commands,
+         const std::optional<VehicleOrFile>& vehicle, std::optional<double> step) {
+        return Track{Simulated(model, time_s, commands, vehicle, step)};
+      },
+      py::arg("model"), py::arg("time_s"), py::arg("commands"), py::arg("vehicle") = py::none(),
+      py::kw_only(), py::arg("step") = py::none(),
+      "Drives a model open loop, from rest and heading north.\n\n"
+      "Args:\n"
+      "    model: a Model.\n"
+      "    time_s: when each command begins, ascending; the run ends with the last.\n"
+      "    commands: shares of full command, [-1, 1], a row each, port first.\n"
+      "    vehicle: a Vehicle or the path of a vehicle file, whose hull scales the effects that a\n"
+      "        diagnosis added to a model.\n"
+      "    step: integrate the continuous equations with this step, seconds, [0.001, 1]; by\n"
+      "        default the discrete model as it was identified.\n\n"
+      "Raises InputError, DataCannotTell where the model lacks an equation or diverges.");
+}
+
+}  // namespace telltale::python

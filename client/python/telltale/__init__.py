@@ -1,0 +1,66 @@
+"""Identifies how autonomous surface vehicles respond to their thrusters, with bounds.
+
+    recording = telltale.load("my-recording", vehicle="boat.textproto")
+    for finding in telltale.check(recording):
+        print(finding)
+    model = telltale.identify(recording)
+    model.save("model.json")
+
+Times are in seconds of the recording's clock, positions in metres north and east, velocities in m/s and rad/s in the
+axes of the boat, commands in shares of full command, port first. All else says its unit in its name.
+"""
+
+from telltale._telltale import (
+    Cause,
+    Coefficient,
+    Diagnosis,
+    Draws,
+    Finding,
+    FreeRunScore,
+    FreeRunScores,
+    Model,
+    OneStepScore,
+    PwmChannel,
+    Recording,
+    Scores,
+    Track,
+    Vehicle,
+    __version__,
+    check,
+    diagnose,
+    identify,
+    load,
+    load_model,
+    load_vehicle,
+    simulate,
+    validate,
+)
+from telltale.errors import DataCannotTell, InputError
+
+__all__ = [
+    "Cause",
+    "Coefficient",
+    "DataCannotTell",
+    "Diagnosis",
+    "Draws",
+    "Finding",
+    "FreeRunScore",
+    "FreeRunScores",
+    "InputError",
+    "Model",
+    "OneStepScore",
+    "PwmChannel",
+    "Recording",
+    "Scores",
+    "Track",
+    "Vehicle",
+    "__version__",
+    "check",
+    "diagnose",
+    "identify",
+    "load",
+    "load_model",
+    "load_vehicle",
+    "simulate",
+    "validate",
+]
