@@ -3,6 +3,7 @@
 #include <chrono>
 #include <cstdint>
 #include <functional>
+#include <string>
 #include <vector>
 
 #include "telltale/client/bus/entity.hpp"
@@ -17,6 +18,10 @@ class Endpoint {
 
   /// How many ends of the other kind it is connected to.
   std::uint32_t Matched() const;
+
+  /// The partitions of a writer that this reader is connected to; none where it is gone, or has
+  /// named none.
+  std::vector<std::string> PartitionsOf(dds_instance_handle_t writer) const;
 
   /// The status that changes when a connection comes or goes.
   std::uint32_t match_status() const {
