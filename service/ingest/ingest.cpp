@@ -19,8 +19,6 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr auto kHeartbeatPeriod = std::chrono::seconds(1);
-
 // Vehicles send several samples a second, and a waiting client repeats its request every second: a
 // connected reader that receives nothing for this long is broken.
 constexpr auto kLongestSilence = std::chrono::seconds(30);
@@ -86,20 +84,21 @@ Ingest::~Ingest() {
 void Ingest::Run() {
   try {
     auto next_heartbeat = Clock::now();
+    bool has_received = false;
     while (!stopping_) {
       if (Clock::now() >= next_heartbeat) {
-        next_heartbeat = Clock::now() + kHeartbeatPeriod;
-        Heartbeat();
+        next_heartbeat = Clock::now() + handlers_.heartbeat_period;
+        Heartbeat(std::exchange(has_received, false));
       }
-      wait_set_.Wait(next_heartbeat - Clock::now());
+      has_received |= wait_set_.Wait(next_heartbeat - Clock::now());
     }
   } catch (const std::exception& error) {
     handlers_.failed(error);
   }
 }
 
-void Ingest::Heartbeat() {
-  handlers_.heartbeat();
+void Ingest::Heartbeat(bool has_received) {
+  handlers_.heartbeat(has_received);
   const auto now = Clock::now();
   const auto reopen = [now](auto& reader, const char* what) {
     if (reader.ReopenIfSilent(now))

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <atomic>
+#include <chrono>
 #include <exception>
 #include <functional>
 #include <map>
@@ -33,7 +34,9 @@ class Ingest {
     std::function<void(const IdentifyReply&)> answer_identify;
     std::function<void(const DiagnoseReply&)> answer_diagnose;
     std::function<void(const FleetReply&)> answer_fleet;
-    std::function<void()> heartbeat;  ///< every second while the loop runs
+    /// Every heartbeat period while the loop runs; it says whether anything was received since.
+    std::function<void(bool has_received)> heartbeat;
+    std::chrono::nanoseconds heartbeat_period = std::chrono::seconds(1);
     /// After every kSamplesPerReceipt samples of a vehicle; must return at once.
     std::function<void(VehicleWindow&)> received;
     std::function<void(const std::exception&)> failed;  ///< the loop has ended with a fault
@@ -46,7 +49,7 @@ class Ingest {
 
  private:
   void Run();
-  void Heartbeat();
+  void Heartbeat(bool has_received);
   template <class Wire>
   void Route(Channel channel, const Wire& wire);
   void CountReceived(VehicleWindow& window);

@@ -41,6 +41,10 @@ class ModelStore {
                    const std::optional<FreeRunError>& reference_error,
                    const Promotion& promotion = {});
 
+  /// Stores a model that another daemon has published, in place of one of the same revision. It is
+  /// on disk on return.
+  void Keep(const StoredModel& stored);
+
   /// The vehicle's models that can be read, newest first.
   std::vector<StoredModel> History(std::string_view vehicle_id) const;
 
@@ -52,6 +56,7 @@ class ModelStore {
                                     const std::function<bool(const StoredModel&)>& suits) const;
 
  private:
+  void Insert(const StoredModel& stored);
   void DropOldest(const std::string& vehicle_id, std::int64_t newest);
 
   std::unique_ptr<SQLite::Database> database_;

@@ -1,5 +1,6 @@
 #include "telltale/service/models/published_models.hpp"
 
+#include <stdexcept>
 #include <utility>
 
 #include <spdlog/spdlog.h>
@@ -30,9 +31,19 @@ void LogVerdict(const PublishedModel& model) {
 }  // namespace
 
 PublishedModels::PublishedModels(const Participant& participant, ModelStore store,
-                                 const Fleet& fleet)
-    : store_(std::move(store)), writer_(participant), own_reader_(participant) {
+                                 const Fleet& fleet, const Role& role)
+    : participant_(participant),
+      role_(role),
+      store_(std::move(store)),
+      rival_reader_(participant, FromOthers(ModelQos())) {
   for (const auto& [vehicle_id, window] : fleet.windows()) Serve(vehicle_id);
+}
+
+void PublishedModels::BeginPublishing(const Qos& contract) {
+  const std::lock_guard lock(mutex_);
+  writer_.emplace(participant_, contract);
+  publishing_ = true;
+  for (const auto& [vehicle_id, stored] : latest_) Announce(stored.model);
 }
 
 void PublishedModels::Serve(const std::string& vehicle_id) {
@@ -47,6 +58,7 @@ PublishedModel PublishedModels::Publish(Identification identification,
                                         const std::optional<FreeRunError>& reference_error,
                                         const Promotion& promotion) {
   const std::lock_guard lock(mutex_);
+  RequireRole();
   identification.provenance.change = ChangeSincePredecessor(store_, identification);
   const StoredModel stored = store_.Save(identification, UnixNow(), reference_error, promotion);
   latest_.insert_or_assign(identification.vehicle_id, stored);
@@ -59,6 +71,34 @@ PublishedModel PublishedModels::Publish(Identification identification,
 std::optional<PublishedModel> PublishedModels::Rollback(const std::string& vehicle_id,
                                                         std::uint64_t revision) {
   const std::lock_guard lock(mutex_);
+  RequireRole();
+  return PublishAgain(vehicle_id, revision);
+}
+
+void PublishedModels::Learn(const StoredModel& model) {
+  const std::lock_guard lock(mutex_);
+  const std::string& vehicle_id = model.model.identification.vehicle_id;
+  const std::uint64_t revision = model.model.revision;
+  const auto own = latest_.find(vehicle_id);
+  const std::uint64_t newest = own == latest_.end() ? 0 : own->second.model.revision;
+  if (revision < newest) return;
+  if (revision == newest) {
+    if (own->second.model.published_unix_s == model.model.published_unix_s) return;
+    spdlog::error("two daemons have published a revision {} of {}", revision, vehicle_id);
+    if (role_.Serves()) {
+      PublishAgain(vehicle_id, revision);
+      return;
+    }
+  }
+  store_.Keep(model);
+  latest_.insert_or_assign(vehicle_id, model);
+  spdlog::info("revision {} of {} is kept as another daemon has published it", revision,
+               vehicle_id);
+  Announce(model.model);
+}
+
+std::optional<PublishedModel> PublishedModels::PublishAgain(const std::string& vehicle_id,
+                                                            std::uint64_t revision) {
   const auto earlier = store_.Newest(vehicle_id, [revision](const StoredModel& stored) {
     return stored.model.revision == revision;
   });
@@ -108,9 +148,22 @@ std::vector<StoredModel> PublishedModels::History(std::string_view vehicle_id, s
   return history;
 }
 
+bool PublishedModels::AwaitReceipt(std::chrono::nanoseconds timeout) {
+  return !publishing_ || writer_->AwaitReceipt(timeout);
+}
+
+void PublishedModels::AssertLiveliness() {
+  if (publishing_ && role_.Serves()) writer_->AssertLiveliness();
+}
+
+void PublishedModels::RequireRole() const {
+  if (!role_.Serves()) throw std::runtime_error("this daemon does not serve; another may");
+}
+
 void PublishedModels::WatchForRivals() {
-  const std::uint32_t matched = own_reader_.Matched();
-  const std::uint32_t rivals = matched > 1 ? matched - 1 : 0;
+  const std::uint32_t others = rival_reader_.AliveWriters();
+  const std::uint32_t expected = role_.Serves() ? 0 : 1;
+  const std::uint32_t rivals = others > expected ? others - expected : 0;
   if (std::exchange(rivals_, rivals) == rivals) return;
   if (rivals == 0) {
     spdlog::info("this daemon alone publishes models on the domain again");
@@ -130,9 +183,10 @@ void PublishedModels::PublishBlocked() {
 }
 
 void PublishedModels::Announce(const PublishedModel& model) {
+  if (!publishing_ || !role_.Serves()) return;
   const std::string& vehicle_id = model.identification.vehicle_id;
   try {
-    if (writer_.Write(Encode(model))) {
+    if (writer_->Write(Encode(model))) {
       spdlog::info("published revision {} of {}", model.revision, vehicle_id);
       return;
     }
