@@ -11,9 +11,6 @@
 namespace telltale {
 namespace {
 
-/// What the newest model is compared with goes back no further: ChangeSincePredecessor().
-constexpr int kModelsPerVehicle = 200;
-
 std::int64_t Checksum(const void* bytes, int size) {
   boost::crc_32_type crc;
   crc.process_bytes(bytes, static_cast<std::size_t>(size));
@@ -119,8 +116,19 @@ void ModelStore::Insert(const StoredModel& stored) {
 void ModelStore::DropOldest(const std::string& vehicle_id, std::int64_t newest) {
   SQLite::Statement drop(*database_, "DELETE FROM models WHERE vehicle_id = ? AND revision <= ?");
   drop.bind(1, vehicle_id);
-  drop.bind(2, newest - kModelsPerVehicle);
+  drop.bind(2, newest - static_cast<std::int64_t>(kModelsPerVehicle));
   drop.exec();
+}
+
+std::vector<std::uint64_t> ModelStore::Revisions(std::string_view vehicle_id) const {
+  SQLite::Statement rows(*database_,
+                         "SELECT revision FROM models WHERE vehicle_id = ? ORDER BY revision");
+  rows.bind(1, std::string(vehicle_id));
+  std::vector<std::uint64_t> revisions;
+  while (rows.executeStep()) {
+    revisions.push_back(static_cast<std::uint64_t>(rows.getColumn(0).getInt64()));
+  }
+  return revisions;
 }
 
 std::optional<StoredModel> ModelStore::Latest(std::string_view vehicle_id) const {

@@ -1,5 +1,7 @@
 #include "telltale/service/models/published_models.hpp"
 
+#include <algorithm>
+#include <cstddef>
 #include <stdexcept>
 #include <utility>
 
@@ -95,6 +97,40 @@ void PublishedModels::Learn(const StoredModel& model) {
   spdlog::info("revision {} of {} is kept as another daemon has published it", revision,
                vehicle_id);
   Announce(model.model);
+}
+
+void PublishedModels::LearnEarlier(const PublishedModel& model) {
+  const std::lock_guard lock(mutex_);
+  const auto revisions = store_.Revisions(model.identification.vehicle_id);
+  if (!std::ranges::binary_search(revisions, model.revision)) store_.Keep({model, {}});
+}
+
+std::optional<std::uint64_t> PublishedModels::HoleAfter(std::string_view vehicle_id) const {
+  const std::lock_guard lock(mutex_);
+  const auto revisions = store_.Revisions(vehicle_id);
+  if (revisions.empty()) return std::nullopt;
+  std::uint64_t complete_to = revisions.back() - std::min(revisions.back(), kModelsPerVehicle);
+  for (const std::uint64_t revision : revisions) {
+    if (revision <= complete_to) continue;
+    if (revision != complete_to + 1) return complete_to;
+    complete_to = revision;
+  }
+  return std::nullopt;
+}
+
+std::vector<PublishedModel> PublishedModels::Later(std::string_view vehicle_id, std::uint64_t after,
+                                                   std::size_t limit) const {
+  const std::lock_guard lock(mutex_);
+  std::vector<PublishedModel> later;
+  store_.Newest(vehicle_id, [&](const StoredModel& stored) {
+    if (stored.model.revision <= after) return true;
+    later.push_back(stored.model);
+    return false;
+  });
+  std::ranges::reverse(later);
+  if (later.size() > limit)
+    later.erase(later.begin() + static_cast<std::ptrdiff_t>(limit), later.end());
+  return later;
 }
 
 std::optional<PublishedModel> PublishedModels::PublishAgain(const std::string& vehicle_id,

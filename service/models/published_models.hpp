@@ -41,6 +41,14 @@ class PublishedModels {
   /// publishes its own again as the next revision. Throws as ModelStore::Keep.
   void Learn(const StoredModel& model);
 
+  /// Saves an earlier model that another daemon has published, unless there is one of the revision.
+  /// Throws as ModelStore::Keep.
+  void LearnEarlier(const PublishedModel& model);
+
+  /// The revision after which those of the vehicle that are kept have a hole; nothing where they
+  /// follow each other up to the newest, from the first or from the oldest of 200.
+  std::optional<std::uint64_t> HoleAfter(std::string_view vehicle_id) const;
+
   /// Waits until all readers have what was published; false where that takes longer.
   bool AwaitReceipt(std::chrono::nanoseconds timeout);
 
@@ -67,6 +75,11 @@ class PublishedModels {
   /// most `limit`.
   std::vector<StoredModel> History(std::string_view vehicle_id, std::uint64_t before,
                                    std::size_t limit) const;
+
+  /// The oldest of the vehicle's models that are later than revision `after`, oldest first, at most
+  /// `limit`.
+  std::vector<PublishedModel> Later(std::string_view vehicle_id, std::uint64_t after,
+                                    std::size_t limit) const;
 
   /// Publishes again the models that a stalled client has blocked.
   void PublishBlocked();

@@ -118,7 +118,9 @@ void FailOver::Decide() {
   if (step == Election::Step::kStepDown) return StepDown("another daemon serves for a later term");
   const DaemonStatus self = Self();
   if (self.serves && !role_.Serves()) return StepDown("its working loop came late");
-  if (!self.serves) LogTerm(self);
+  if (self.serves) return;
+  LogTerm(self);
+  if (self.term > 0) mirror_.FillHoles(Clock::now());
 }
 
 void FailOver::LogTerm(const DaemonStatus& self) {

@@ -54,6 +54,11 @@ class DaemonPair {
                                 " of yellowfish is kept as another daemon has published it");
   }
 
+  /// What was published while it was down is in its store.
+  static bool IsComplete(Process& daemon) {
+    return daemon.WaitForOutput("the models of yellowfish are as complete");
+  }
+
  private:
   std::uint32_t domain_;
   const TemporaryFolder& folder_;

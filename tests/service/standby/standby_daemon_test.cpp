@@ -11,6 +11,7 @@
 #include "service/service_fixture.hpp"
 #include "service/standby/daemon_pair.hpp"
 #include "support/stable_boat.hpp"
+#include "telltale/client/fleet/fleet_client.hpp"
 #include "telltale/client/fleet/identification_client.hpp"
 #include "telltale/client/fleet/subscriber.hpp"
 
@@ -49,6 +50,19 @@ class StandbyDaemon : public ServiceTest {
     while (models_.Wait(200ms)) {
     }
     return revisions_;
+  }
+
+  /// Those of the daemon that serves, newest first.
+  std::vector<std::uint64_t> RevisionsKept() {
+    FleetRequest request;
+    request.correlation_id = NewCorrelationId();
+    request.command = FleetCommand::kHistory;
+    request.vehicle_ids = {kVehicleId};
+    const auto result = FleetClient(participant_).Ask(request, kTiming);
+    std::vector<std::uint64_t> revisions;
+    if (!result.reply) return revisions;
+    for (const ModelSummary& model : result.reply->models) revisions.push_back(model.revision);
+    return revisions;
   }
 
   static constexpr RequestTiming kTiming{.match = 60s, .reply = 120s, .retry = 1s};
@@ -128,6 +142,7 @@ TEST_F(StandbyDaemon, LearnsWhatWasPublishedBeforeItServesAgain) {
   one_ = pair_.Start("one", 2);  // its own newest is revision 1
   EXPECT_TRUE(DaemonPair::StandsBy(*one_, 2)) << "the stronger leaves the other in its place";
   EXPECT_TRUE(DaemonPair::Keeps(*one_, 3));
+  EXPECT_TRUE(DaemonPair::IsComplete(*one_)) << one_->output();
   two_->Signal(SIGKILL);
   two_->Wait();
   EXPECT_EQ(Identify("fourth"), 4u);
@@ -135,6 +150,7 @@ TEST_F(StandbyDaemon, LearnsWhatWasPublishedBeforeItServesAgain) {
   const auto& seen = RevisionsSeen();
   EXPECT_TRUE(std::ranges::is_sorted(seen)) << ::testing::PrintToString(seen);
   EXPECT_EQ(seen.back(), 4u);
+  EXPECT_THAT(RevisionsKept(), ::testing::ElementsAre(4, 3, 2, 1));
 }
 
 // It hangs, or its machine does.
