@@ -53,7 +53,7 @@ Daemon::Daemon(const DaemonConfig& config, Endings endings)
                        }}),
       quality_(participant_, role_, fleet_, models_, view_, config.quality_period_s),
       fail_over_(MakeFailOver()),
-      ingest_(participant_, fleet_,
+      ingest_(participant_, fleet_, config.require_partition,
               {.identify = [this](IdentifyRequest request) { Take(std::move(request)); },
                .diagnose = [this](DiagnoseRequest request) { Take(std::move(request)); },
                .fleet = [this](FleetRequest request) { Take(std::move(request)); },

@@ -53,7 +53,7 @@ std::uint32_t Endpoint::Matched() const {
   return status.current_count;
 }
 
-std::vector<std::string> Endpoint::PartitionsOf(dds_instance_handle_t writer) const {
+std::vector<std::string> Endpoint::PartitionsOf(WriterHandle writer) const {
   dds_builtintopic_endpoint_t* const endpoint = dds_get_matched_publication_data(handle(), writer);
   if (endpoint == nullptr) return {};
   std::uint32_t count = 0;

@@ -11,6 +11,9 @@
 
 namespace telltale {
 
+/// Names a writer in the samples that a reader takes.
+using WriterHandle = dds_instance_handle_t;
+
 /// One end of a topic, reader or writer. Throws BusError when it cannot be made.
 class Endpoint {
  public:
@@ -21,7 +24,7 @@ class Endpoint {
 
   /// The partitions of a writer that this reader is connected to; none where it is gone, or has
   /// named none.
-  std::vector<std::string> PartitionsOf(dds_instance_handle_t writer) const;
+  std::vector<std::string> PartitionsOf(WriterHandle writer) const;
 
   /// The status that changes when a connection comes or goes.
   std::uint32_t match_status() const {

@@ -31,7 +31,7 @@ class Reader : public Endpoint {
   }
 
   /// Hands all samples that have arrived to `receive(const Wire&)`, or to `receive(const Wire&,
-  /// dds_instance_handle_t writer)`, and forgets them; returns how many there were. Notices without
+  /// WriterHandle writer)`, and forgets them; returns how many there were. Notices without
   /// data (a writer gone, an instance disposed) are passed over. A sample is only lent: what
   /// `receive` wants to keep it copies.
   template <class Receive>
@@ -60,8 +60,8 @@ class Reader : public Endpoint {
 
  private:
   template <class Receive>
-  static void Hand(Receive& receive, const Wire& sample, dds_instance_handle_t writer) {
-    if constexpr (std::is_invocable_v<Receive&, const Wire&, dds_instance_handle_t>) {
+  static void Hand(Receive& receive, const Wire& sample, WriterHandle writer) {
+    if constexpr (std::is_invocable_v<Receive&, const Wire&, WriterHandle>) {
       receive(sample, writer);
     } else {
       receive(sample);
@@ -86,7 +86,7 @@ class Reader : public Endpoint {
 
     std::size_t size() const { return size_; }
     bool valid(std::size_t i) const { return infos_[i].valid_data; }
-    dds_instance_handle_t writer(std::size_t i) const { return infos_[i].publication_handle; }
+    WriterHandle writer(std::size_t i) const { return infos_[i].publication_handle; }
     const Wire& operator[](std::size_t i) const { return *static_cast<const Wire*>(samples_[i]); }
 
    private:

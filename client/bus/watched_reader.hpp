@@ -35,7 +35,7 @@ class WatchedReader {
   ~WatchedReader() { wait_set_.Detach(*reader_); }
 
   /// As that of the reader.
-  std::vector<std::string> PartitionsOf(dds_instance_handle_t writer) const {
+  std::vector<std::string> PartitionsOf(WriterHandle writer) const {
     return reader_->PartitionsOf(writer);
   }
 

@@ -141,6 +141,7 @@ DaemonConfig ReadConfig(FieldReader reader, const proto::DaemonConfig& message) 
   config.vehicle_folder = reader.Text("vehicle_folder", config.vehicle_folder);
   config.state_directory = reader.Text("state_directory", config.state_directory);
   if (config.state_directory.empty()) reader.Fail("state_directory", "\"\"", "a folder");
+  config.require_partition = message.require_partition();
   config.window = ReadWindow(reader.Optional("window"));
   config.window_save_period_s =
       reader.Optional("window").Number("save_period_s", {0.1, 600.0}, config.window_save_period_s);

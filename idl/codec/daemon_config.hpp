@@ -58,6 +58,7 @@ struct DaemonConfig {
   std::string vehicle_folder;              ///< likewise; empty: none
   std::string state_directory = "/var/lib/telltale";
   WindowLimits window;
+  bool require_partition = false;     ///< telemetry only from the DDS partition of the vehicle's id
   double window_save_period_s = 5.0;  ///< [0.1, 600]
   IdentificationSettings identification;
   std::optional<HttpSettings> http;

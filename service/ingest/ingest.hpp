@@ -15,6 +15,7 @@
 #include "telltale/idl/codec/messages/exchange.hpp"
 #include "telltale/idl/codec/messages/fleet_exchange.hpp"
 #include "telltale/service/ingest/fleet.hpp"
+#include "telltale/service/ingest/senders.hpp"
 
 namespace telltale {
 
@@ -42,7 +43,8 @@ class Ingest {
     std::function<void(const std::exception&)> failed;  ///< the loop has ended with a fault
   };
 
-  Ingest(const Participant& participant, Fleet& fleet, Handlers handlers);
+  /// `require_partition`: as Senders.
+  Ingest(const Participant& participant, Fleet& fleet, bool require_partition, Handlers handlers);
   Ingest(const Ingest&) = delete;
   Ingest& operator=(const Ingest&) = delete;
   ~Ingest();  ///< ends the thread
@@ -51,7 +53,8 @@ class Ingest {
   void Run();
   void Heartbeat(bool has_received);
   template <class Wire>
-  void Route(Channel channel, const Wire& wire);
+  void Route(Channel channel, const WatchedReader<Wire>& reader, const Wire& wire,
+             WriterHandle writer);
   void CountReceived(VehicleWindow& window);
   void RejectUnattributed(Channel channel, UnattributedReason reason, std::string_view detail);
   template <class Reply, class Wire, class Handler, class Answer>
@@ -59,6 +62,7 @@ class Ingest {
 
   Fleet& fleet_;
   Handlers handlers_;
+  Senders senders_;
   RateLimit warning_limit_;
   std::map<const VehicleWindow*, std::size_t> received_;  ///< since the last receipt
   WaitSet wait_set_;  // before the readers attached to it, so that it goes last

@@ -82,6 +82,11 @@ TEST(DaemonConfig, RefusesAStandbyWithoutAStrengthOrALease) {
   EXPECT_THAT(config.error().field, HasSubstr("lease_s"));
 }
 
+TEST(DaemonConfig, RequiresNoPartitionUnlessItIsTold) {
+  EXPECT_FALSE(ParseDaemonConfig("")->require_partition);
+  EXPECT_TRUE(ParseDaemonConfig("require_partition: true")->require_partition);
+}
+
 TEST(DaemonConfig, DoesNothingByItselfUnlessTold) {
   const auto config = ParseDaemonConfig("upkeep {}");
   ASSERT_TRUE(config);
