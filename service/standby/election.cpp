@@ -14,6 +14,8 @@ bool Precedes(const DaemonStatus& one, const DaemonStatus& other) {
   return rank(one) > rank(other);
 }
 
+constexpr int kCutOffLeases = 3;
+
 }  // namespace
 
 void Election::Hear(const DaemonStatus& other, Clock::time_point now) {
@@ -26,7 +28,8 @@ void Election::Hear(const DaemonStatus& other, Clock::time_point now) {
 /// Each is heard several times a lease while it is alive.
 bool Election::IsCutOff(Clock::time_point now) const {
   if (!server_heard_ || !fleet_heard_) return false;
-  const bool server_fell_silent = now - *server_heard_ > 0.9 * lease_;
+  const auto silence = now - *server_heard_;
+  const bool server_fell_silent = silence > 0.9 * lease_ && silence < kCutOffLeases * lease_;
   return server_fell_silent && std::chrono::abs(*fleet_heard_ - *server_heard_) < 0.3 * lease_;
 }
 

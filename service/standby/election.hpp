@@ -17,7 +17,8 @@ namespace telltale {
 /// cannot hear each other, agree by the same order.
 ///
 /// A daemon whose boats and clients fall silent together with the daemon that serves is cut off
-/// itself, and waits until it hears any of them. Not thread safe.
+/// itself, and waits until it hears any of them, but for no more than three leases: the fleet may
+/// have ended its work by chance at that time. Not thread safe.
 class Election {
  public:
   using Clock = std::chrono::steady_clock;

@@ -67,7 +67,7 @@ class StandbyDaemon : public ServiceTest {
 
   static constexpr RequestTiming kTiming{.match = 60s, .reply = 120s, .retry = 1s};
 
-  DaemonPair pair_{domain_.id(), folder_,
+  DaemonPair pair_{domain_.id(), folder_, 5.0,
                    "identification { bootstrap_replicates: 0 }\nwindow { save_period_s: 0.2 }\n"};
   std::unique_ptr<Process> one_;
   std::unique_ptr<Process> two_;
@@ -87,7 +87,7 @@ TEST_F(StandbyDaemon, TakesOverWithAWarmWindowWhenTheOtherIsKilled) {
   ASSERT_TRUE(DaemonPair::Keeps(*two_, 1));
   one_->Signal(SIGKILL);
   one_->Wait();
-  EXPECT_TRUE(DaemonPair::TakesOver(*two_, 2));
+  EXPECT_TRUE(DaemonPair::TakesOver(*two_, 2)) << two_->output();
   // It has what prediction errors are measured against too, which no wire carries.
   EXPECT_TRUE(AwaitQuality(kVehicleId, [](const Quality& quality) {
     return quality.model_revision == 1u && quality.prediction_error > 0.0 &&
@@ -111,7 +111,7 @@ TEST_F(StandbyDaemon, AnswersWhatTheOtherHadAcknowledged) {
     one_->Wait();
   });
   EXPECT_TRUE(killed);
-  EXPECT_EQ(result.outcome, RequestOutcome::kPublished);
+  EXPECT_EQ(result.outcome, RequestOutcome::kPublished) << two_->output();
   EXPECT_TRUE(two_->WaitForOutput("for acknowledged: PUBLISHED"));
   EXPECT_THAT(one_->output(), Not(HasSubstr("for acknowledged: PUBLISHED")));
 }
@@ -180,7 +180,7 @@ TEST_F(StandbyDaemon, TakesOverBeforeTheLeaseEndsFromADaemonThatIsStopped) {
   StartPair();
   one_->Signal(SIGTERM);
   EXPECT_EQ(one_->Wait(), 0);
-  EXPECT_TRUE(DaemonPair::TakesOver(*two_, 2));
+  EXPECT_TRUE(DaemonPair::TakesOver(*two_, 2)) << two_->output();
   EXPECT_EQ(Start({"list"})->Wait(), 0);
 }
 
