@@ -9,20 +9,37 @@
 #include "telltale/client/fleet/request_reply.hpp"
 
 namespace telltale {
+namespace {
 
-Daemon::Daemon(const DaemonConfig& config, std::function<void(const std::exception&)> failed)
-    : state_lock_(config.state_directory),
+std::optional<Role::Clock::duration> LeaseIfAny(const DaemonConfig& config) {
+  if (!config.standby) return std::nullopt;
+  return LeaseOf(*config.standby);
+}
+
+/// A lease is renewed several times before it runs out.
+std::chrono::nanoseconds HeartbeatPeriodOf(const DaemonConfig& config) {
+  constexpr std::chrono::seconds kOfOneAlone{1};
+  return config.standby ? LeaseOf(*config.standby) / 4 : kOfOneAlone;
+}
+
+}  // namespace
+
+Daemon::Daemon(const DaemonConfig& config, Endings endings)
+    : config_(config),
+      endings_(std::move(endings)),
+      state_lock_(config.state_directory),
       fleet_(config.vehicles, config.window),
       windows_(WindowStore(config.state_directory), fleet_, config.window.duration_s,
                config.window_save_period_s),
       bus_log_(spdlog::default_logger(),
                [this](std::string_view topic) { fleet_.CountUnreadable(topic); }),
       participant_(config.domain),
-      models_(participant_, ModelStore(config.state_directory), fleet_),
+      role_(LeaseIfAny(config)),
+      models_(participant_, ModelStore(config.state_directory), fleet_, role_),
       watcher_(participant_, view_),
-      replies_(participant_),
+      replies_(participant_, role_),
       journal_(config.state_directory),
-      diagnoses_(participant_, DiagnosisStore(config.state_directory), fleet_),
+      diagnoses_(participant_, DiagnosisStore(config.state_directory)),
       jobs_(fleet_, models_, baselines_, replies_, config.identification, journal_),
       diagnosis_jobs_(fleet_, models_, view_, baselines_, diagnoses_, replies_,
                       config.identification, journal_),
@@ -34,27 +51,29 @@ Daemon::Daemon(const DaemonConfig& config, std::function<void(const std::excepti
                          return jobs_.Cancel(correlation_id) ||
                                 diagnosis_jobs_.Cancel(correlation_id);
                        }}),
-      quality_(participant_, fleet_, models_, view_, config.quality_period_s),
-      ingest_(participant_, fleet_,
-              {.identify = [this](IdentifyRequest request) { Submit(std::move(request)); },
-               .diagnose = [this](DiagnoseRequest request) { Submit(std::move(request)); },
-               .fleet = [this](FleetRequest request) { Submit(std::move(request)); },
+      quality_(participant_, role_, fleet_, models_, view_, config.quality_period_s),
+      fail_over_(MakeFailOver()),
+      ingest_(participant_, fleet_, config.require_partition,
+              {.identify = [this](IdentifyRequest request) { Take(std::move(request)); },
+               .diagnose = [this](DiagnoseRequest request) { Take(std::move(request)); },
+               .fleet = [this](FleetRequest request) { Take(std::move(request)); },
                .answer_identify = [this](const IdentifyReply& reply) { replies_.Send(reply); },
                .answer_diagnose = [this](const DiagnoseReply& reply) { replies_.Send(reply); },
                .answer_fleet = [this](const FleetReply& reply) { replies_.Send(reply); },
-               .heartbeat =
-                   [this] {
-                     models_.AssertLiveliness();
-                     models_.WatchForRivals();
-                   },
+               .heartbeat = [this](bool has_received) { Heartbeat(has_received); },
+               .heartbeat_period = HeartbeatPeriodOf(config),
                .received = [this](VehicleWindow& window) { quality_.PublishReceipt(window); },
-               .failed = std::move(failed)}) {
-  ResumeRequests();
-  BeginUpkeep(config.upkeep);
+               .failed = endings_.failed}) {
+  if (fail_over_) {
+    fail_over_->Start();
+  } else {
+    TakeOver(ModelQos(), false);
+  }
   if (!config.http) return;
   web_.emplace(
       *config.http, fleet_, models_, view_,
-      OrderHandlers{.identify = [this](IdentifyRequest request) { Submit(std::move(request)); },
+      OrderHandlers{.serves = [this] { return role_.Serves(); },
+                    .identify = [this](IdentifyRequest request) { Submit(std::move(request)); },
                     .diagnose = [this](DiagnoseRequest request) { Submit(std::move(request)); },
                     .rollback =
                         [this](const std::string& vehicle_id, std::uint64_t revision) {
@@ -72,6 +91,52 @@ void Daemon::Reload(const std::vector<Vehicle>& vehicles) {
                changes.added.size(), changes.changed.size(), changes.removed.size());
 }
 
+/// Null where this daemon serves alone.
+std::unique_ptr<FailOver> Daemon::MakeFailOver() {
+  if (!config_.standby) return nullptr;
+  return std::make_unique<FailOver>(
+      participant_, *config_.standby, role_, heard_,
+      Mirror::Into{fleet_, models_, diagnoses_, baselines_},
+      FailOver::Handlers{.take_over =
+                             [this](std::int32_t ownership_strength, bool succeeds) {
+                               TakeOver(WithOwnershipStrength(
+                                            WithLease(ModelQos(), LeaseOf(*config_.standby)),
+                                            ownership_strength),
+                                        succeeds);
+                             },
+                         .step_down = [this] { StepDown(); }});
+}
+
+/// The daemon has the role to serve already. `succeeds`: another daemon has served before.
+void Daemon::TakeOver(const Qos& model_contract, bool succeeds) {
+  models_.BeginPublishing(model_contract);
+  diagnoses_.BeginPublishing(fleet_);
+  ResumeRequests(succeeds);
+  for (AnyRequest& request : heard_.TakeUnanswered(HeardRequests::Clock::now())) {
+    Submit(std::move(request));
+  }
+  BeginUpkeep();
+}
+
+/// The role is given up already. What was published while the other daemon could not hear it goes
+/// out to it before this one ends.
+void Daemon::StepDown() {
+  constexpr auto kLongestWait = std::chrono::seconds(5);
+  if (!models_.AwaitReceipt(kLongestWait)) spdlog::warn("not every reader has the newest models");
+  endings_.replaced();
+}
+
+void Daemon::Heartbeat(bool has_received) {
+  if (fail_over_) fail_over_->Heartbeat(has_received);
+  models_.AssertLiveliness();
+  models_.WatchForRivals();
+}
+
+/// A request from the bus.
+void Daemon::Take(AnyRequest request) {
+  if (!heard_.Note(request, HeardRequests::Clock::now())) Submit(std::move(request));
+}
+
 void Daemon::Submit(AnyRequest request) {
   if (auto* identify = std::get_if<IdentifyRequest>(&request)) {
     jobs_.Submit(std::move(*identify));
@@ -82,7 +147,8 @@ void Daemon::Submit(AnyRequest request) {
   }
 }
 
-void Daemon::BeginUpkeep(const UpkeepSettings& settings) {
+void Daemon::BeginUpkeep() {
+  const UpkeepSettings& settings = config_.upkeep;
   if (settings.refresh == RefreshMode::kOff && !settings.diagnose_on_drift) return;
   upkeep_.emplace(settings, fleet_, models_, view_,
                   Upkeep::Orders{.refresh =
@@ -104,10 +170,15 @@ void Daemon::BeginUpkeep(const UpkeepSettings& settings) {
                                      }});
 }
 
-/// A daemon that was killed has left requests without an answer.
-void Daemon::ResumeRequests() {
+/// A daemon that was killed has left requests without an answer. Where another has served in the
+/// meantime, that one has answered them.
+void Daemon::ResumeRequests(bool succeeds) {
   auto requests = journal_.TakeUnanswered();
   if (requests.empty()) return;
+  if (succeeds) {
+    for (const AnyRequest& request : requests) journal_.Drop(CorrelationIdOf(request));
+    return;
+  }
   spdlog::info("{} requests of the run before are worked on again", requests.size());
   for (AnyRequest& request : requests) Submit(std::move(request));
 }

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstdint>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -20,6 +22,9 @@
 #include "telltale/service/monitoring/fleet_view.hpp"
 #include "telltale/service/monitoring/fleet_watcher.hpp"
 #include "telltale/service/monitoring/quality_publisher.hpp"
+#include "telltale/service/standby/fail_over.hpp"
+#include "telltale/service/standby/heard_requests.hpp"
+#include "telltale/service/standby/role.hpp"
 #include "telltale/service/storage/directory_lock.hpp"
 #include "telltale/service/upkeep/upkeep.hpp"
 #include "telltale/service/web/web_server.hpp"
@@ -27,28 +32,43 @@
 
 namespace telltale {
 
-/// The daemon, which serves its vehicles from construction to destruction. Throws where it cannot
-/// join the domain or use the state directory.
+/// The daemon, which takes in the telemetry of its vehicles from construction to destruction. It
+/// serves from the start, or once no other daemon does where the configuration has a standby.
+/// Throws where it cannot join the domain or use the state directory.
 class Daemon {
  public:
-  /// Another thread calls `failed` when the daemon can no longer receive telemetry.
-  Daemon(const DaemonConfig& config, std::function<void(const std::exception&)> failed);
+  /// Both are called on other threads, at most once.
+  struct Endings {
+    std::function<void(const std::exception&)> failed;  ///< telemetry can no longer be received
+    std::function<void()> replaced;  ///< another daemon serves: this one has to be made anew
+  };
+
+  Daemon(const DaemonConfig& config, Endings endings);
 
   /// Serves these vehicles from now on. A boat whose parameters have changed keeps its samples.
   void Reload(const std::vector<Vehicle>& vehicles);
 
  private:
+  std::unique_ptr<FailOver> MakeFailOver();
+  void TakeOver(const Qos& model_contract, bool succeeds);
+  void StepDown();
+  void Take(AnyRequest request);
   void Submit(AnyRequest request);
-  void ResumeRequests();
-  void BeginUpkeep(const UpkeepSettings& settings);
+  void ResumeRequests(bool succeeds);
+  void BeginUpkeep();
+  void Heartbeat(bool has_received);
 
   // A member uses those above it. So telemetry stops first and the participant leaves the bus
   // later; the log of the bus counts into the fleet until then.
+  const DaemonConfig config_;
+  const Endings endings_;
   DirectoryLock state_lock_;
   Fleet fleet_;
   WindowArchive windows_;
   BusLog bus_log_;
   Participant participant_;
+  Role role_;
+  HeardRequests heard_;
   PublishedModels models_;
   FleetView view_;
   FleetWatcher watcher_;
@@ -60,8 +80,9 @@ class Daemon {
   DiagnosisJobs diagnosis_jobs_;
   FleetJobs fleet_jobs_;
   QualityPublisher quality_;
+  std::optional<Upkeep> upkeep_;               ///< while it serves
+  const std::unique_ptr<FailOver> fail_over_;  ///< null: this daemon serves alone
   Ingest ingest_;
-  std::optional<Upkeep> upkeep_;
   std::optional<WebServer> web_;
 };
 

@@ -26,11 +26,15 @@ constexpr int kUsageError = 2;
 
 sem_t signalled;
 std::atomic<bool> stop_requested = false;
+std::atomic<bool> replaced = false;
 static_assert(std::atomic<bool>::is_always_lock_free);
 
-/// Waits for SIGINT, SIGTERM or SIGHUP in any thread. Libraries start threads before main that
-/// block no signal, so blocking the signals here and waiting for them would let them kill the
-/// process.
+/// What the main thread waits for.
+enum class Event { kReload, kReplaced, kStop };
+
+/// Waits for SIGINT, SIGTERM or SIGHUP in any thread, or for the daemon to be replaced. Libraries
+/// start threads before main that block no signal, so blocking the signals here and waiting for
+/// them would let them kill the process.
 class Signals {
  public:
   Signals() {
@@ -44,11 +48,11 @@ class Signals {
     for (const int signal : {SIGINT, SIGTERM, SIGHUP}) sigaction(signal, &action, nullptr);
   }
 
-  /// True where the daemon is to reload its vehicles, false where it is to stop.
-  bool WaitForReload() const {
+  Event Wait() const {
     while (sem_wait(&signalled) != 0 && errno == EINTR) {
     }
-    return !stop_requested;
+    if (stop_requested) return Event::kStop;
+    return replaced.exchange(false) ? Event::kReplaced : Event::kReload;
   }
 };
 
@@ -69,16 +73,36 @@ int Report(const std::string& what, const std::vector<std::string>& files) {
   return 0;
 }
 
-int Serve(const DaemonConfig& config, const std::string& config_file, const Signals& signals) {
-  std::atomic<bool> receiving = true;
-  Daemon daemon(config, [&](const std::exception& error) {
-    spdlog::critical("cannot receive telemetry any more: {}", error.what());
-    receiving = false;
-    kill(getpid(), SIGTERM);
-  });
+/// Until the daemon is to stop, or is replaced by another.
+Event ServeOnce(const DaemonConfig& config, const std::string& config_file, const Signals& signals,
+                std::atomic<bool>& receiving) {
+  Daemon daemon(config, {.failed =
+                             [&](const std::exception& error) {
+                               spdlog::critical("cannot receive telemetry any more: {}",
+                                                error.what());
+                               receiving = false;
+                               kill(getpid(), SIGTERM);
+                             },
+                         .replaced =
+                             [] {
+                               replaced = true;
+                               sem_post(&signalled);
+                             }});
   spdlog::info("serving {} vehicles on domain {}, models are stored in {}", config.vehicles.size(),
                config.domain, config.state_directory);
-  while (signals.WaitForReload()) Reload(daemon, config_file);
+  for (;;) {
+    const Event event = signals.Wait();
+    if (event != Event::kReload) return event;
+    Reload(daemon, config_file);
+  }
+}
+
+int Serve(DaemonConfig config, const std::string& config_file, const Signals& signals) {
+  std::atomic<bool> receiving = true;
+  while (ServeOnce(config, config_file, signals, receiving) == Event::kReplaced) {
+    spdlog::warn("another daemon serves; this one starts again as its standby");
+    if (const auto reloaded = LoadConfiguration(config_file)) config.vehicles = reloaded->vehicles;
+  }
   spdlog::info("stopping");
   return receiving ? 0 : kFailure;
 }

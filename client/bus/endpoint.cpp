@@ -53,6 +53,19 @@ std::uint32_t Endpoint::Matched() const {
   return status.current_count;
 }
 
+std::vector<std::string> Endpoint::PartitionsOf(WriterHandle writer) const {
+  dds_builtintopic_endpoint_t* const endpoint = dds_get_matched_publication_data(handle(), writer);
+  if (endpoint == nullptr) return {};
+  std::uint32_t count = 0;
+  char** names = nullptr;
+  dds_qget_partition(endpoint->qos, &count, &names);
+  std::vector<std::string> partitions(names, names + count);
+  for (std::uint32_t i = 0; i < count; ++i) dds_string_free(names[i]);
+  dds_free(names);
+  dds_builtintopic_free_endpoint(endpoint);
+  return partitions;
+}
+
 bool WaitForMatch(const Participant& participant,
                   const std::vector<std::reference_wrapper<const Endpoint>>& endpoints,
                   std::chrono::nanoseconds timeout) {

@@ -3,12 +3,16 @@
 #include <chrono>
 #include <cstdint>
 #include <functional>
+#include <string>
 #include <vector>
 
 #include "telltale/client/bus/entity.hpp"
 #include "telltale/client/bus/participant.hpp"
 
 namespace telltale {
+
+/// Names a writer in the samples that a reader takes.
+using WriterHandle = dds_instance_handle_t;
 
 /// One end of a topic, reader or writer. Throws BusError when it cannot be made.
 class Endpoint {
@@ -17,6 +21,10 @@ class Endpoint {
 
   /// How many ends of the other kind it is connected to.
   std::uint32_t Matched() const;
+
+  /// The partitions of a writer that this reader is connected to; none where it is gone, or has
+  /// named none.
+  std::vector<std::string> PartitionsOf(WriterHandle writer) const;
 
   /// The status that changes when a connection comes or goes.
   std::uint32_t match_status() const {

@@ -46,4 +46,30 @@ Qos QualityQos() {
   return MakeQos(DDS_RELIABILITY_BEST_EFFORT, 1);
 }
 
+Qos DaemonStatusQos() {
+  return WithLease(DiagnosisQos(), std::chrono::nanoseconds(kModelLease));
+}
+
+Qos WithLease(Qos qos, std::chrono::nanoseconds lease) {
+  dds_qset_liveliness(qos.get(), DDS_LIVELINESS_MANUAL_BY_TOPIC, lease.count());
+  return qos;
+}
+
+Qos WithOwnershipStrength(Qos qos, std::int32_t strength) {
+  dds_qset_ownership_strength(qos.get(), strength);
+  return qos;
+}
+
+Qos InPartitions(Qos qos, const std::vector<std::string>& partitions) {
+  std::vector<const char*> names;
+  for (const std::string& partition : partitions) names.push_back(partition.c_str());
+  dds_qset_partition(qos.get(), static_cast<std::uint32_t>(names.size()), names.data());
+  return qos;
+}
+
+Qos FromOthers(Qos qos) {
+  dds_qset_ignorelocal(qos.get(), DDS_IGNORELOCAL_PARTICIPANT);
+  return qos;
+}
+
 }  // namespace telltale

@@ -1,7 +1,10 @@
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <memory>
+#include <string>
+#include <vector>
 
 #include <dds/dds.h>
 
@@ -35,6 +38,21 @@ Qos DiagnosisQos();
 
 /// Best effort, volatile, keep last 1 per vehicle.
 Qos QualityQos();
+
+/// Reliable, transient local, keep last 1 per daemon. Liveliness as of ModelQos().
+Qos DaemonStatusQos();
+
+/// The contract of a writer that asserts its liveliness within `lease`, at most kModelLease.
+Qos WithLease(Qos qos, std::chrono::nanoseconds lease);
+
+/// The contract of a writer whose samples hide those of weaker writers while it is alive.
+Qos WithOwnershipStrength(Qos qos, std::int32_t strength);
+
+/// The contract of a writer or reader in these partitions; "" is that of all who name none.
+Qos InPartitions(Qos qos, const std::vector<std::string>& partitions);
+
+/// The contract of a reader that is given the samples of other participants alone.
+Qos FromOthers(Qos qos);
 
 inline constexpr dds_duration_t kModelLease = DDS_SECS(5);
 

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstddef>
+#include <type_traits>
 
 #include "telltale/client/bus/bus_error.hpp"
 #include "telltale/client/bus/endpoint.hpp"
@@ -14,23 +15,43 @@ namespace telltale {
 template <class Wire>
 class Reader : public Endpoint {
  public:
-  explicit Reader(const Participant& participant)
-      : Endpoint(participant, Kind::kReader, Descriptor<Wire>(), kContract<Wire>.topic,
-                 kContract<Wire>.qos().get()) {
+  explicit Reader(const Participant& participant) : Reader(participant, kContract<Wire>.qos()) {}
+
+  /// With a contract that is made from that of the topic.
+  Reader(const Participant& participant, const Qos& qos)
+      : Endpoint(participant, Kind::kReader, Descriptor<Wire>(), kContract<Wire>.topic, qos.get()) {
     Checked(dds_set_status_mask(handle(), DDS_DATA_AVAILABLE_STATUS), "setting a status mask");
   }
 
-  /// Hands all samples that have arrived to `receive(const Wire&)` and forgets them; returns how
-  /// many there were. Notices without data (a writer gone, an instance disposed) are passed over. A
-  /// sample is only lent: what `receive` wants to keep it copies.
+  /// How many of the writers that it is connected to assert their liveliness.
+  std::uint32_t AliveWriters() const {
+    dds_liveliness_changed_status_t status;
+    Checked(dds_get_liveliness_changed_status(handle(), &status), "asking which writers are alive");
+    return status.alive_count;
+  }
+
+  /// Hands all samples that have arrived to `receive(const Wire&)`, or to `receive(const Wire&,
+  /// WriterHandle writer)`, and forgets them; returns how many there were. Notices without
+  /// data (a writer gone, an instance disposed) are passed over. A sample is only lent: what
+  /// `receive` wants to keep it copies.
   template <class Receive>
   std::size_t Take(Receive receive) {
+    return Take(receive, [](const Wire&) {});
+  }
+
+  /// The same, and `gone(const Wire&)` is told of each instance that no writer that is alive
+  /// writes any more; of that sample only the key can be read.
+  template <class Receive, class Gone>
+  std::size_t Take(Receive receive, Gone gone) {
     std::size_t received = 0;
     for (;;) {
       Loan loan(handle());
       for (std::size_t i = 0; i < loan.size(); ++i) {
-        if (!loan.valid(i)) continue;
-        receive(loan[i]);
+        if (!loan.valid(i)) {
+          gone(loan[i]);
+          continue;
+        }
+        Hand(receive, loan[i], loan.writer(i));
         ++received;
       }
       if (loan.size() < kBatch) return received;
@@ -38,6 +59,15 @@ class Reader : public Endpoint {
   }
 
  private:
+  template <class Receive>
+  static void Hand(Receive& receive, const Wire& sample, WriterHandle writer) {
+    if constexpr (std::is_invocable_v<Receive&, const Wire&, WriterHandle>) {
+      receive(sample, writer);
+    } else {
+      receive(sample);
+    }
+  }
+
   static constexpr std::size_t kBatch = 256;  // one at a time falls behind a fast writer
 
   /// A batch of samples borrowed from the reader, given back however this ends.
@@ -56,6 +86,7 @@ class Reader : public Endpoint {
 
     std::size_t size() const { return size_; }
     bool valid(std::size_t i) const { return infos_[i].valid_data; }
+    WriterHandle writer(std::size_t i) const { return infos_[i].publication_handle; }
     const Wire& operator[](std::size_t i) const { return *static_cast<const Wire*>(samples_[i]); }
 
    private:

@@ -56,5 +56,7 @@ template <>
 inline constexpr Contract kContract<telltale_wire_Model>{"telltale/model", ModelQos};
 template <>
 inline constexpr Contract kContract<telltale_wire_Quality>{"telltale/quality", QualityQos};
+template <>
+inline constexpr Contract kContract<telltale_wire_DaemonStatus>{"telltale/daemon", DaemonStatusQos};
 
 }  // namespace telltale

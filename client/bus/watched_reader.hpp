@@ -3,7 +3,9 @@
 #include <chrono>
 #include <functional>
 #include <optional>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "telltale/client/bus/reader.hpp"
 #include "telltale/client/bus/wait_set.hpp"
@@ -18,17 +20,24 @@ class WatchedReader {
  public:
   using Clock = std::chrono::steady_clock;
 
-  WatchedReader(const Participant& participant, WaitSet& wait_set,
-                std::function<void(const Wire&)> receive, std::chrono::nanoseconds longest_silence)
+  /// `receive` as that of Reader::Take().
+  template <class Receive>
+  WatchedReader(const Participant& participant, WaitSet& wait_set, Receive receive,
+                std::chrono::nanoseconds longest_silence)
       : participant_(participant),
         wait_set_(wait_set),
-        receive_(std::move(receive)),
+        take_([receive](Reader<Wire>& reader) { reader.Take(receive); }),
         longest_silence_(longest_silence) {
     Open();
   }
   WatchedReader(const WatchedReader&) = delete;
   WatchedReader& operator=(const WatchedReader&) = delete;
   ~WatchedReader() { wait_set_.Detach(*reader_); }
+
+  /// As that of the reader.
+  std::vector<std::string> PartitionsOf(WriterHandle writer) const {
+    return reader_->PartitionsOf(writer);
+  }
 
   /// Makes the reader anew if it has been silent for too long; true when it did.
   bool ReopenIfSilent(Clock::time_point now) {
@@ -45,13 +54,13 @@ class WatchedReader {
     last_received_ = Clock::now();
     wait_set_.Attach(*reader_, [this] {
       last_received_ = Clock::now();
-      reader_->Take(receive_);
+      take_(*reader_);
     });
   }
 
   const Participant& participant_;
   WaitSet& wait_set_;
-  std::function<void(const Wire&)> receive_;
+  const std::function<void(Reader<Wire>&)> take_;
   std::chrono::nanoseconds longest_silence_;
   std::optional<Reader<Wire>> reader_;
   Clock::time_point last_received_;

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <chrono>
+
 #include "telltale/client/bus/bus_error.hpp"
 #include "telltale/client/bus/endpoint.hpp"
 #include "telltale/client/bus/topics.hpp"
@@ -11,9 +13,12 @@ namespace telltale {
 template <class Wire>
 class Writer : public Endpoint {
  public:
-  explicit Writer(const Participant& participant)
-      : Endpoint(participant, Kind::kWriter, Descriptor<Wire>(), kContract<Wire>.topic,
-                 kContract<Wire>.qos().get()) {}
+  explicit Writer(const Participant& participant) : Writer(participant, kContract<Wire>.qos()) {}
+
+  /// With a contract that is made from that of the topic.
+  Writer(const Participant& participant, const Qos& qos)
+      : Endpoint(participant, Kind::kWriter, Descriptor<Wire>(), kContract<Wire>.topic, qos.get()) {
+  }
 
   /// False when a stalled reader left no room within the contract's longest block.
   bool Write(const Wire& sample) {
@@ -26,6 +31,11 @@ class Writer : public Endpoint {
 
   /// Sends what batched writes have gathered.
   void Flush() { dds_write_flush(handle()); }
+
+  /// Waits until every reliable reader has all that was written; false where that takes longer.
+  bool AwaitReceipt(std::chrono::nanoseconds timeout) {
+    return dds_wait_for_acks(handle(), timeout.count()) == DDS_RETCODE_OK;
+  }
 
   /// Says that the loop this is called from is still at work.
   void AssertLiveliness() {

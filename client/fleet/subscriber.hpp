@@ -7,6 +7,7 @@
 #include "telltale/client/bus/participant.hpp"
 #include "telltale/client/bus/reader.hpp"
 #include "telltale/client/bus/wait_set.hpp"
+#include "telltale/client/fleet/newest_models.hpp"
 #include "telltale/idl/codec/wire/diagnosis.hpp"
 #include "telltale/idl/codec/wire/model.hpp"
 #include "telltale/idl/codec/wire/quality.hpp"
@@ -41,8 +42,24 @@ class TopicSubscription {
   Reader<Wire> reader_;
 };
 
+/// Published models. One that is older than what was received of its vehicle, by revision and by
+/// time, is passed over: a daemon that others could not hear for a while may still publish it.
+class ModelSubscription : public TopicSubscription<telltale_wire_Model, PublishedModel> {
+ public:
+  ModelSubscription(const Participant& participant, WaitSet& wait_set,
+                    std::function<void(const PublishedModel&)> receive,
+                    std::function<void(const CodecError&)> reject)
+      : TopicSubscription(
+            participant, wait_set,
+            [newest = NewestModels(),
+             receive = std::move(receive)](const PublishedModel& model) mutable {
+              if (newest.Admit(model)) receive(model);
+            },
+            std::move(reject)) {}
+};
+
 /// Follows one topic of the fleet.
-template <class Wire, class Message>
+template <class Subscription, class Message>
 class Subscriber {
  public:
   Subscriber(const Participant& participant, std::function<void(const Message&)> receive,
@@ -58,14 +75,13 @@ class Subscriber {
 
  private:
   WaitSet wait_set_;
-  TopicSubscription<Wire, Message> subscription_;
+  Subscription subscription_;
 };
 
 /// Published models and diagnoses; who joins late is given the last of each vehicle.
-using ModelSubscription = TopicSubscription<telltale_wire_Model, PublishedModel>;
 using DiagnosisSubscription = TopicSubscription<telltale_wire_Diagnosis, PublishedDiagnosis>;
-using ModelSubscriber = Subscriber<telltale_wire_Model, PublishedModel>;
-using DiagnosisSubscriber = Subscriber<telltale_wire_Diagnosis, PublishedDiagnosis>;
-using QualitySubscriber = Subscriber<telltale_wire_Quality, Quality>;
+using ModelSubscriber = Subscriber<ModelSubscription, PublishedModel>;
+using DiagnosisSubscriber = Subscriber<DiagnosisSubscription, PublishedDiagnosis>;
+using QualitySubscriber = Subscriber<TopicSubscription<telltale_wire_Quality, Quality>, Quality>;
 
 }  // namespace telltale

@@ -8,6 +8,12 @@
 namespace telltale {
 namespace {
 
+/// In the partition of its id, by which DDS Security holds a boat to its own telemetry, and in that
+/// of all, so that every daemon hears it.
+Qos TelemetryQosOf(const std::string& vehicle_id) {
+  return InPartitions(TelemetryQos(), {"", vehicle_id});
+}
+
 // Both sides of a match learn of its coming and going within milliseconds; a busy machine takes
 // longer.
 constexpr auto kSettling = std::chrono::milliseconds(200);
@@ -17,9 +23,9 @@ constexpr auto kSettling = std::chrono::milliseconds(200);
 TelemetryPublisher::TelemetryPublisher(const Participant& participant, std::string vehicle_id)
     : participant_(participant),
       vehicle_id_(std::move(vehicle_id)),
-      gnss_writer_(participant),
-      heading_writer_(participant),
-      thruster_writer_(participant) {}
+      gnss_writer_(participant, TelemetryQosOf(vehicle_id_)),
+      heading_writer_(participant, TelemetryQosOf(vehicle_id_)),
+      thruster_writer_(participant, TelemetryQosOf(vehicle_id_)) {}
 
 TelemetryPublisher::~TelemetryPublisher() {
   if (Published() == 0) return;

@@ -94,6 +94,17 @@ UpkeepSettings ReadUpkeep(FieldReader reader, const proto::DaemonConfig::Upkeep&
   return settings;
 }
 
+StandbySettings ReadStandby(FieldReader reader) {
+  StandbySettings settings;
+  if (!reader.Has("ownership_strength")) {
+    reader.Fail("ownership_strength", "not given", "a number in [1, 1000], of each daemon another");
+  }
+  settings.ownership_strength =
+      reader.Count("ownership_strength", {1.0, 1000.0}, settings.ownership_strength);
+  settings.lease_s = reader.Number("lease_s", {0.5, 5.0}, settings.lease_s);
+  return settings;
+}
+
 std::vector<Vehicle> ReadVehicles(FieldReader& reader) {
   std::vector<Vehicle> vehicles;
   std::set<std::string> seen;
@@ -130,12 +141,14 @@ DaemonConfig ReadConfig(FieldReader reader, const proto::DaemonConfig& message) 
   config.vehicle_folder = reader.Text("vehicle_folder", config.vehicle_folder);
   config.state_directory = reader.Text("state_directory", config.state_directory);
   if (config.state_directory.empty()) reader.Fail("state_directory", "\"\"", "a folder");
+  config.require_partition = message.require_partition();
   config.window = ReadWindow(reader.Optional("window"));
   config.window_save_period_s =
       reader.Optional("window").Number("save_period_s", {0.1, 600.0}, config.window_save_period_s);
   config.identification = ReadIdentification(reader.Optional("identification"));
   if (message.has_http()) config.http = ReadHttp(reader.Optional("http"));
   config.upkeep = ReadUpkeep(reader.Optional("upkeep"), message.upkeep());
+  if (message.has_standby()) config.standby = ReadStandby(reader.Optional("standby"));
   config.quality_period_s =
       reader.Number("quality_period_s", {0.1, 3600.0}, config.quality_period_s);
   config.log_level = ReadLogLevel(reader, config.log_level);

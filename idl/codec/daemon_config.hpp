@@ -44,6 +44,12 @@ struct UpkeepSettings {
   double retry_s = 600.0;  ///< [1, 86400] to the next try of the same vehicle
 };
 
+/// How the daemon and another stand in for each other.
+struct StandbySettings {
+  std::uint32_t ownership_strength = 1;  ///< [1, 1000]; the stronger serves where both start
+  double lease_s = 2.0;                  ///< [0.5, 5] of silence until a daemon counts as dead
+};
+
 /// Configuration of telltaled; defaults and ranges are those of proto/daemon.proto.
 struct DaemonConfig {
   std::uint32_t domain = 0;  ///< [0, 101]
@@ -52,12 +58,14 @@ struct DaemonConfig {
   std::string vehicle_folder;              ///< likewise; empty: none
   std::string state_directory = "/var/lib/telltale";
   WindowLimits window;
+  bool require_partition = false;     ///< telemetry only from the DDS partition of the vehicle's id
   double window_save_period_s = 5.0;  ///< [0.1, 600]
   IdentificationSettings identification;
   std::optional<HttpSettings> http;
   UpkeepSettings upkeep;
-  double quality_period_s = 1.0;   ///< [0.1, 3600]
-  std::string log_level = "info";  ///< trace, debug, info, warn, error
+  std::optional<StandbySettings> standby;  ///< unset: this daemon serves alone
+  double quality_period_s = 1.0;           ///< [0.1, 3600]
+  std::string log_level = "info";          ///< trace, debug, info, warn, error
 };
 
 /// Text format -> DaemonConfig. `file` is only what errors call the text.

@@ -119,6 +119,11 @@ Decoded<AnyRequest> ReadKind(const proto::StoredRequest& message) {
 
 }  // namespace
 
+const std::string& CorrelationIdOf(const AnyRequest& request) {
+  return std::visit([](const auto& kind) -> const std::string& { return kind.correlation_id; },
+                    request);
+}
+
 std::string SerialiseRequest(const AnyRequest& request, double now_unix_s) {
   proto::StoredRequest message;
   std::visit(

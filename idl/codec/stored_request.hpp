@@ -13,6 +13,8 @@ namespace telltale {
 /// A request of any kind that takes time.
 using AnyRequest = std::variant<IdentifyRequest, DiagnoseRequest, FleetRequest>;
 
+const std::string& CorrelationIdOf(const AnyRequest& request);
+
 /// The bytes of proto/stored_request.proto. `now_unix_s` is when the request came: its deadline
 /// counts from then. Requires of a FleetRequest the command kRefresh.
 std::string SerialiseRequest(const AnyRequest& request, double now_unix_s);

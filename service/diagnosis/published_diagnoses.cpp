@@ -8,9 +8,10 @@
 
 namespace telltale {
 
-PublishedDiagnoses::PublishedDiagnoses(const Participant& participant, DiagnosisStore store,
-                                       const Fleet& fleet)
-    : store_(std::move(store)), writer_(participant) {
+PublishedDiagnoses::PublishedDiagnoses(const Participant& participant, DiagnosisStore store)
+    : store_(std::move(store)), writer_(participant) {}
+
+void PublishedDiagnoses::BeginPublishing(const Fleet& fleet) {
   for (const auto& [vehicle_id, window] : fleet.windows()) {
     if (const auto last = store_.Last(vehicle_id)) Announce(*last);
   }

@@ -9,10 +9,16 @@
 namespace telltale {
 
 /// The last diagnosis of every vehicle, on disk and on the bus. It is saved before it is published,
-/// and is published again at start. Not thread safe.
+/// and is published again once the daemon serves. Not thread safe.
 class PublishedDiagnoses {
  public:
-  PublishedDiagnoses(const Participant& participant, DiagnosisStore store, const Fleet& fleet);
+  PublishedDiagnoses(const Participant& participant, DiagnosisStore store);
+
+  /// Publishes the last diagnosis of every vehicle.
+  void BeginPublishing(const Fleet& fleet);
+
+  /// Saves a diagnosis that another daemon has published. Throws as DiagnosisStore::Save.
+  void Learn(const PublishedDiagnosis& diagnosis) { store_.Save(diagnosis); }
 
   /// Saves, then publishes. Throws as DiagnosisStore::Save, and then does not publish.
   void Publish(const PublishedDiagnosis& diagnosis);

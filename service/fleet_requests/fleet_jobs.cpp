@@ -150,12 +150,14 @@ void FleetJobs::Answer(const FleetRequest& request) {
     reply = ReplyWith(request, ReplyOutcome::kFailed, error.what());
     spdlog::error("{} for {}: {}", Name(request.command), request.correlation_id, error.what());
   }
-  Reply(reply);
+  // Models in full are too large to be kept for who asks again.
+  request.command == FleetCommand::kModels ? replies_.Send(reply) : Reply(reply);
 }
 
 FleetReply FleetJobs::AnswerTo(const FleetRequest& request) {
-  const bool of_one =
-      request.command == FleetCommand::kHistory || request.command == FleetCommand::kRollback;
+  const bool of_one = request.command == FleetCommand::kHistory ||
+                      request.command == FleetCommand::kModels ||
+                      request.command == FleetCommand::kRollback;
   if (of_one && request.vehicle_ids.size() != 1) {
     return ReplyWith(
         request, ReplyOutcome::kFailed,
@@ -168,6 +170,7 @@ FleetReply FleetJobs::AnswerTo(const FleetRequest& request) {
       return reply;
     }
     case FleetCommand::kHistory: return HistoryOf(request);
+    case FleetCommand::kModels: return ModelsOf(request);
     case FleetCommand::kRollback: return RollbackOf(request);
     case FleetCommand::kCancel: return CancelOf(request);
     default: return ReplyWith(request, ReplyOutcome::kFailed, "no such command");
@@ -181,6 +184,12 @@ FleetReply FleetJobs::HistoryOf(const FleetRequest& request) const {
     reply.models.push_back(SummaryOf(stored.model));
   }
   if (reply.models.empty() && fleet_.Find(vehicle_id) == nullptr) return NotServed(request, fleet_);
+  return reply;
+}
+
+FleetReply FleetJobs::ModelsOf(const FleetRequest& request) const {
+  FleetReply reply = ReplyWith(request, ReplyOutcome::kAnswered);
+  reply.later_models = models_.Later(request.vehicle_ids.front(), request.revision, kModelsAtATime);
   return reply;
 }
 

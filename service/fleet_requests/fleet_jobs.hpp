@@ -65,6 +65,7 @@ class FleetJobs {
   void Take(const std::string& run_id, const RefreshedVehicle& vehicle);
   FleetReply AnswerTo(const FleetRequest& request);
   FleetReply HistoryOf(const FleetRequest& request) const;
+  FleetReply ModelsOf(const FleetRequest& request) const;
   FleetReply RollbackOf(const FleetRequest& request);
   FleetReply CancelOf(const FleetRequest& request);
   void KeepRefresh(const FleetRequest& request);

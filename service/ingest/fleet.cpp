@@ -12,6 +12,7 @@ std::string_view Name(UnattributedReason reason) {
     case UnattributedReason::kMalformedId: return "MALFORMED_VEHICLE_ID";
     case UnattributedReason::kUnknownVehicle: return "UNKNOWN_VEHICLE";
     case UnattributedReason::kUnreadable: return "UNREADABLE";
+    case UnattributedReason::kForeignWriter: return "FOREIGN_WRITER";
   }
   return "";
 }

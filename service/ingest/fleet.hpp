@@ -18,7 +18,7 @@
 namespace telltale {
 
 /// Why a sample reaches no window.
-enum class UnattributedReason { kMalformedId, kUnknownVehicle, kUnreadable };
+enum class UnattributedReason { kMalformedId, kUnknownVehicle, kUnreadable, kForeignWriter };
 
 std::string_view Name(UnattributedReason reason);
 

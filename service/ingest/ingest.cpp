@@ -19,8 +19,6 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr auto kHeartbeatPeriod = std::chrono::seconds(1);
-
 // Vehicles send several samples a second, and a waiting client repeats its request every second: a
 // connected reader that receives nothing for this long is broken.
 constexpr auto kLongestSilence = std::chrono::seconds(30);
@@ -43,19 +41,28 @@ std::optional<Reply> ReplyToUnreadable(const Wire& wire, const CodecError& fault
 
 }  // namespace
 
-Ingest::Ingest(const Participant& participant, Fleet& fleet, Handlers handlers)
+Ingest::Ingest(const Participant& participant, Fleet& fleet, bool require_partition,
+               Handlers handlers)
     : fleet_(fleet),
       handlers_(std::move(handlers)),
+      senders_(require_partition),
       warning_limit_(5, std::chrono::seconds(10)),
       wait_set_(participant),
       gnss_(
-          participant, wait_set_, [this](const auto& wire) { Route(Channel::kGnss, wire); },
+          participant, wait_set_,
+          [this](const auto& wire, auto writer) { Route(Channel::kGnss, gnss_, wire, writer); },
           kLongestSilence),
       heading_(
-          participant, wait_set_, [this](const auto& wire) { Route(Channel::kHeading, wire); },
+          participant, wait_set_,
+          [this](const auto& wire, auto writer) {
+            Route(Channel::kHeading, heading_, wire, writer);
+          },
           kLongestSilence),
       thrusters_(
-          participant, wait_set_, [this](const auto& wire) { Route(Channel::kThrusters, wire); },
+          participant, wait_set_,
+          [this](const auto& wire, auto writer) {
+            Route(Channel::kThrusters, thrusters_, wire, writer);
+          },
           kLongestSilence),
       requests_(
           participant, wait_set_,
@@ -86,20 +93,21 @@ Ingest::~Ingest() {
 void Ingest::Run() {
   try {
     auto next_heartbeat = Clock::now();
+    bool has_received = false;
     while (!stopping_) {
       if (Clock::now() >= next_heartbeat) {
-        next_heartbeat = Clock::now() + kHeartbeatPeriod;
-        Heartbeat();
+        next_heartbeat = Clock::now() + handlers_.heartbeat_period;
+        Heartbeat(std::exchange(has_received, false));
       }
-      wait_set_.Wait(next_heartbeat - Clock::now());
+      has_received |= wait_set_.Wait(next_heartbeat - Clock::now());
     }
   } catch (const std::exception& error) {
     handlers_.failed(error);
   }
 }
 
-void Ingest::Heartbeat() {
-  handlers_.heartbeat();
+void Ingest::Heartbeat(bool has_received) {
+  handlers_.heartbeat(has_received);
   const auto now = Clock::now();
   const auto reopen = [now](auto& reader, const char* what) {
     if (reader.ReopenIfSilent(now))
@@ -114,15 +122,21 @@ void Ingest::Heartbeat() {
 }
 
 template <class Wire>
-void Ingest::Route(Channel channel, const Wire& wire) {
+void Ingest::Route(Channel channel, const WatchedReader<Wire>& reader, const Wire& wire,
+                   WriterHandle writer) {
   const auto telemetry = Decode(wire);
   if (!telemetry) {
-    RejectUnattributed(channel, UnattributedReason::kMalformedId, telemetry.error().value);
-  } else if (VehicleWindow* window = fleet_.Find(telemetry->vehicle_id)) {
+    return RejectUnattributed(channel, UnattributedReason::kMalformedId, telemetry.error().value);
+  }
+  VehicleWindow* const window = fleet_.Find(telemetry->vehicle_id);
+  const auto partitions_of = [&reader](auto one) { return reader.PartitionsOf(one); };
+  if (window == nullptr) {
+    RejectUnattributed(channel, UnattributedReason::kUnknownVehicle, telemetry->vehicle_id);
+  } else if (!senders_.MaySend(writer, telemetry->vehicle_id, partitions_of)) {
+    RejectUnattributed(channel, UnattributedReason::kForeignWriter, telemetry->vehicle_id);
+  } else {
     window->Add(telemetry->sequence_number, telemetry->sample);
     CountReceived(*window);
-  } else {
-    RejectUnattributed(channel, UnattributedReason::kUnknownVehicle, telemetry->vehicle_id);
   }
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <atomic>
+#include <chrono>
 #include <exception>
 #include <functional>
 #include <map>
@@ -14,6 +15,7 @@
 #include "telltale/idl/codec/messages/exchange.hpp"
 #include "telltale/idl/codec/messages/fleet_exchange.hpp"
 #include "telltale/service/ingest/fleet.hpp"
+#include "telltale/service/ingest/senders.hpp"
 
 namespace telltale {
 
@@ -33,22 +35,26 @@ class Ingest {
     std::function<void(const IdentifyReply&)> answer_identify;
     std::function<void(const DiagnoseReply&)> answer_diagnose;
     std::function<void(const FleetReply&)> answer_fleet;
-    std::function<void()> heartbeat;  ///< every second while the loop runs
+    /// Every heartbeat period while the loop runs; it says whether anything was received since.
+    std::function<void(bool has_received)> heartbeat;
+    std::chrono::nanoseconds heartbeat_period = std::chrono::seconds(1);
     /// After every kSamplesPerReceipt samples of a vehicle; must return at once.
     std::function<void(VehicleWindow&)> received;
     std::function<void(const std::exception&)> failed;  ///< the loop has ended with a fault
   };
 
-  Ingest(const Participant& participant, Fleet& fleet, Handlers handlers);
+  /// `require_partition`: as Senders.
+  Ingest(const Participant& participant, Fleet& fleet, bool require_partition, Handlers handlers);
   Ingest(const Ingest&) = delete;
   Ingest& operator=(const Ingest&) = delete;
   ~Ingest();  ///< ends the thread
 
  private:
   void Run();
-  void Heartbeat();
+  void Heartbeat(bool has_received);
   template <class Wire>
-  void Route(Channel channel, const Wire& wire);
+  void Route(Channel channel, const WatchedReader<Wire>& reader, const Wire& wire,
+             WriterHandle writer);
   void CountReceived(VehicleWindow& window);
   void RejectUnattributed(Channel channel, UnattributedReason reason, std::string_view detail);
   template <class Reply, class Wire, class Handler, class Answer>
@@ -56,6 +62,7 @@ class Ingest {
 
   Fleet& fleet_;
   Handlers handlers_;
+  Senders senders_;
   RateLimit warning_limit_;
   std::map<const VehicleWindow*, std::size_t> received_;  ///< since the last receipt
   WaitSet wait_set_;  // before the readers attached to it, so that it goes last

@@ -7,8 +7,9 @@
 
 namespace telltale {
 
-ReplyPublisher::ReplyPublisher(const Participant& participant)
-    : progress_writer_(participant),
+ReplyPublisher::ReplyPublisher(const Participant& participant, const Role& role)
+    : role_(role),
+      progress_writer_(participant),
       reply_writer_(participant),
       diagnose_progress_writer_(participant),
       diagnose_reply_writer_(participant),
@@ -42,6 +43,7 @@ void ReplyPublisher::Send(const FleetReply& reply) {
 template <class Wire>
 void ReplyPublisher::Send(Writer<Wire>& writer, const WireSample<Wire>& wire,
                           const std::string& correlation_id) {
+  if (!role_.Serves()) return;
   try {
     if (!writer.Write(wire)) spdlog::warn("{}: a stalled client blocks the answer", correlation_id);
   } catch (const BusError& error) {

@@ -6,15 +6,17 @@
 #include "telltale/client/bus/writer.hpp"
 #include "telltale/idl/codec/messages/exchange.hpp"
 #include "telltale/idl/codec/messages/fleet_exchange.hpp"
+#include "telltale/service/standby/role.hpp"
 
 namespace telltale {
 
 /// Sends progress and replies to the clients that ask for something. Safe to
 /// use from several threads. A call blocks for at most the 100 ms of the topics' contract and never
-/// throws: it logs what it cannot send, and a client that misses an answer asks again.
+/// throws: it logs what it cannot send, and a client that misses an answer asks again. It sends
+/// nothing while the daemon does not serve: another answers then.
 class ReplyPublisher {
  public:
-  explicit ReplyPublisher(const Participant& participant);
+  ReplyPublisher(const Participant& participant, const Role& role);
 
   void Send(const IdentifyProgress& progress);
   void Send(const IdentifyReply& reply);
@@ -25,9 +27,9 @@ class ReplyPublisher {
 
  private:
   template <class Wire>
-  static void Send(Writer<Wire>& writer, const WireSample<Wire>& wire,
-                   const std::string& correlation_id);
+  void Send(Writer<Wire>& writer, const WireSample<Wire>& wire, const std::string& correlation_id);
 
+  const Role& role_;
   Writer<telltale_wire_IdentifyProgress> progress_writer_;
   Writer<telltale_wire_IdentifyReply> reply_writer_;
   Writer<telltale_wire_DiagnoseProgress> diagnose_progress_writer_;

@@ -67,9 +67,7 @@ std::vector<AnyRequest> RequestJournal::TakeUnanswered() {
 }
 
 void RequestJournal::Keep(const AnyRequest& request, std::function<void()> kept) {
-  const std::string& id = std::visit(
-      [](const auto& kind) -> const std::string& { return kind.correlation_id; }, request);
-  Push({id, SerialiseRequest(request, UnixNow()), std::move(kept)});
+  Push({CorrelationIdOf(request), SerialiseRequest(request, UnixNow()), std::move(kept)});
 }
 
 void RequestJournal::Drop(const std::string& correlation_id) {

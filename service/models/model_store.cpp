@@ -11,9 +11,6 @@
 namespace telltale {
 namespace {
 
-/// What the newest model is compared with goes back no further: ChangeSincePredecessor().
-constexpr int kModelsPerVehicle = 200;
-
 std::int64_t Checksum(const void* bytes, int size) {
   boost::crc_32_type crc;
   crc.process_bytes(bytes, static_cast<std::size_t>(size));
@@ -70,8 +67,6 @@ ModelStore& ModelStore::operator=(ModelStore&&) noexcept = default;
 StoredModel ModelStore::Save(const Identification& identification, double published_unix_s,
                              const std::optional<FreeRunError>& reference_error,
                              const Promotion& promotion) {
-  const proto::Model message = ToProto(identification);
-  const std::string blob = SerialiseChecked(message, IdentificationOf(message, "model"));
   SQLite::Transaction transaction(*database_, SQLite::TransactionBehavior::IMMEDIATE);
   SQLite::Statement next(*database_,
                          "SELECT COALESCE(MAX(revision), 0) + 1 FROM models WHERE vehicle_id = ?");
@@ -79,34 +74,61 @@ StoredModel ModelStore::Save(const Identification& identification, double publis
   next.executeStep();
   const std::int64_t revision = next.getColumn(0).getInt64();
   next.reset();  // a statement under way keeps the log from being checkpointed
+  StoredModel stored{
+      {identification, static_cast<std::uint64_t>(revision), published_unix_s, promotion},
+      reference_error};
+  Insert(stored);
+  transaction.commit();
+  return stored;
+}
 
+void ModelStore::Keep(const StoredModel& stored) {
+  SQLite::Transaction transaction(*database_, SQLite::TransactionBehavior::IMMEDIATE);
+  Insert(stored);
+  transaction.commit();
+}
+
+/// The caller has begun a transaction.
+void ModelStore::Insert(const StoredModel& stored) {
+  const Identification& identification = stored.model.identification;
+  const auto revision = static_cast<std::int64_t>(stored.model.revision);
+  const proto::Model message = ToProto(identification);
+  const std::string blob = SerialiseChecked(message, IdentificationOf(message, "model"));
   SQLite::Statement insert(
       *database_,
-      "INSERT INTO models (vehicle_id, revision, published_unix_s, model, checksum,"
+      "INSERT OR REPLACE INTO models (vehicle_id, revision, published_unix_s, model, checksum,"
       " reference_error_u, reference_error_v, reference_error_r, verdict, verdict_reason)"
       " VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
   insert.bind(1, identification.vehicle_id);
   insert.bind(2, revision);
-  insert.bind(3, published_unix_s);
+  insert.bind(3, stored.model.published_unix_s);
   insert.bind(4, blob.data(), static_cast<int>(blob.size()));
   insert.bind(5, Checksum(blob.data(), static_cast<int>(blob.size())));
-  if (reference_error) {
-    for (int i = 0; i < 3; ++i) insert.bind(6 + i, (*reference_error)[i]);
+  if (stored.reference_error) {
+    for (int i = 0; i < 3; ++i) insert.bind(6 + i, (*stored.reference_error)[i]);
   }
-  insert.bind(9, std::string(Name(promotion.verdict)));
-  insert.bind(10, promotion.reason);
+  insert.bind(9, std::string(Name(stored.model.promotion.verdict)));
+  insert.bind(10, stored.model.promotion.reason);
   insert.exec();
   DropOldest(identification.vehicle_id, revision);
-  transaction.commit();
-  return {{identification, static_cast<std::uint64_t>(revision), published_unix_s, promotion},
-          reference_error};
 }
 
 void ModelStore::DropOldest(const std::string& vehicle_id, std::int64_t newest) {
   SQLite::Statement drop(*database_, "DELETE FROM models WHERE vehicle_id = ? AND revision <= ?");
   drop.bind(1, vehicle_id);
-  drop.bind(2, newest - kModelsPerVehicle);
+  drop.bind(2, newest - static_cast<std::int64_t>(kModelsPerVehicle));
   drop.exec();
+}
+
+std::vector<std::uint64_t> ModelStore::Revisions(std::string_view vehicle_id) const {
+  SQLite::Statement rows(*database_,
+                         "SELECT revision FROM models WHERE vehicle_id = ? ORDER BY revision");
+  rows.bind(1, std::string(vehicle_id));
+  std::vector<std::uint64_t> revisions;
+  while (rows.executeStep()) {
+    revisions.push_back(static_cast<std::uint64_t>(rows.getColumn(0).getInt64()));
+  }
+  return revisions;
 }
 
 std::optional<StoredModel> ModelStore::Latest(std::string_view vehicle_id) const {

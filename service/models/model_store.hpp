@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
@@ -24,6 +25,9 @@ struct StoredModel {
   std::optional<FreeRunError> reference_error;  ///< on the window that made the model
 };
 
+/// What the newest model is compared with goes back no further: ChangeSincePredecessor().
+inline constexpr std::uint64_t kModelsPerVehicle = 200;
+
 /// Every published model on disk, since DDS stores nothing beyond the life of a process.
 /// Throws SQLite::Exception where the disk refuses, and std::runtime_error, which names the field,
 /// where a model could not be read back. Earlier models then stay as they are. Not thread safe.
@@ -41,6 +45,13 @@ class ModelStore {
                    const std::optional<FreeRunError>& reference_error,
                    const Promotion& promotion = {});
 
+  /// Stores a model that another daemon has published, in place of one of the same revision. It is
+  /// on disk on return.
+  void Keep(const StoredModel& stored);
+
+  /// The revisions of the vehicle's models, oldest first.
+  std::vector<std::uint64_t> Revisions(std::string_view vehicle_id) const;
+
   /// The vehicle's models that can be read, newest first.
   std::vector<StoredModel> History(std::string_view vehicle_id) const;
 
@@ -52,6 +63,7 @@ class ModelStore {
                                     const std::function<bool(const StoredModel&)>& suits) const;
 
  private:
+  void Insert(const StoredModel& stored);
   void DropOldest(const std::string& vehicle_id, std::int64_t newest);
 
   std::unique_ptr<SQLite::Database> database_;

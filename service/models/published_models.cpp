@@ -1,5 +1,8 @@
 #include "telltale/service/models/published_models.hpp"
 
+#include <algorithm>
+#include <cstddef>
+#include <stdexcept>
 #include <utility>
 
 #include <spdlog/spdlog.h>
@@ -30,9 +33,19 @@ void LogVerdict(const PublishedModel& model) {
 }  // namespace
 
 PublishedModels::PublishedModels(const Participant& participant, ModelStore store,
-                                 const Fleet& fleet)
-    : store_(std::move(store)), writer_(participant), own_reader_(participant) {
+                                 const Fleet& fleet, const Role& role)
+    : participant_(participant),
+      role_(role),
+      store_(std::move(store)),
+      rival_reader_(participant, FromOthers(ModelQos())) {
   for (const auto& [vehicle_id, window] : fleet.windows()) Serve(vehicle_id);
+}
+
+void PublishedModels::BeginPublishing(const Qos& contract) {
+  const std::lock_guard lock(mutex_);
+  writer_.emplace(participant_, contract);
+  publishing_ = true;
+  for (const auto& [vehicle_id, stored] : latest_) Announce(stored.model);
 }
 
 void PublishedModels::Serve(const std::string& vehicle_id) {
@@ -47,6 +60,7 @@ PublishedModel PublishedModels::Publish(Identification identification,
                                         const std::optional<FreeRunError>& reference_error,
                                         const Promotion& promotion) {
   const std::lock_guard lock(mutex_);
+  RequireRole();
   identification.provenance.change = ChangeSincePredecessor(store_, identification);
   const StoredModel stored = store_.Save(identification, UnixNow(), reference_error, promotion);
   latest_.insert_or_assign(identification.vehicle_id, stored);
@@ -59,6 +73,68 @@ PublishedModel PublishedModels::Publish(Identification identification,
 std::optional<PublishedModel> PublishedModels::Rollback(const std::string& vehicle_id,
                                                         std::uint64_t revision) {
   const std::lock_guard lock(mutex_);
+  RequireRole();
+  return PublishAgain(vehicle_id, revision);
+}
+
+void PublishedModels::Learn(const StoredModel& model) {
+  const std::lock_guard lock(mutex_);
+  const std::string& vehicle_id = model.model.identification.vehicle_id;
+  const std::uint64_t revision = model.model.revision;
+  const auto own = latest_.find(vehicle_id);
+  const std::uint64_t newest = own == latest_.end() ? 0 : own->second.model.revision;
+  if (revision < newest) return;
+  if (revision == newest) {
+    if (own->second.model.published_unix_s == model.model.published_unix_s) return;
+    spdlog::error("two daemons have published a revision {} of {}", revision, vehicle_id);
+    if (role_.Serves()) {
+      PublishAgain(vehicle_id, revision);
+      return;
+    }
+  }
+  store_.Keep(model);
+  latest_.insert_or_assign(vehicle_id, model);
+  spdlog::info("revision {} of {} is kept as another daemon has published it", revision,
+               vehicle_id);
+  Announce(model.model);
+}
+
+void PublishedModels::LearnEarlier(const PublishedModel& model) {
+  const std::lock_guard lock(mutex_);
+  const auto revisions = store_.Revisions(model.identification.vehicle_id);
+  if (!std::ranges::binary_search(revisions, model.revision)) store_.Keep({model, {}});
+}
+
+std::optional<std::uint64_t> PublishedModels::HoleAfter(std::string_view vehicle_id) const {
+  const std::lock_guard lock(mutex_);
+  const auto revisions = store_.Revisions(vehicle_id);
+  if (revisions.empty()) return std::nullopt;
+  std::uint64_t complete_to = revisions.back() - std::min(revisions.back(), kModelsPerVehicle);
+  for (const std::uint64_t revision : revisions) {
+    if (revision <= complete_to) continue;
+    if (revision != complete_to + 1) return complete_to;
+    complete_to = revision;
+  }
+  return std::nullopt;
+}
+
+std::vector<PublishedModel> PublishedModels::Later(std::string_view vehicle_id, std::uint64_t after,
+                                                   std::size_t limit) const {
+  const std::lock_guard lock(mutex_);
+  std::vector<PublishedModel> later;
+  store_.Newest(vehicle_id, [&](const StoredModel& stored) {
+    if (stored.model.revision <= after) return true;
+    later.push_back(stored.model);
+    return false;
+  });
+  std::ranges::reverse(later);
+  if (later.size() > limit)
+    later.erase(later.begin() + static_cast<std::ptrdiff_t>(limit), later.end());
+  return later;
+}
+
+std::optional<PublishedModel> PublishedModels::PublishAgain(const std::string& vehicle_id,
+                                                            std::uint64_t revision) {
   const auto earlier = store_.Newest(vehicle_id, [revision](const StoredModel& stored) {
     return stored.model.revision == revision;
   });
@@ -108,9 +184,22 @@ std::vector<StoredModel> PublishedModels::History(std::string_view vehicle_id, s
   return history;
 }
 
+bool PublishedModels::AwaitReceipt(std::chrono::nanoseconds timeout) {
+  return !publishing_ || writer_->AwaitReceipt(timeout);
+}
+
+void PublishedModels::AssertLiveliness() {
+  if (publishing_ && role_.Serves()) writer_->AssertLiveliness();
+}
+
+void PublishedModels::RequireRole() const {
+  if (!role_.Serves()) throw std::runtime_error("this daemon does not serve; another may");
+}
+
 void PublishedModels::WatchForRivals() {
-  const std::uint32_t matched = own_reader_.Matched();
-  const std::uint32_t rivals = matched > 1 ? matched - 1 : 0;
+  const std::uint32_t others = rival_reader_.AliveWriters();
+  const std::uint32_t expected = role_.Serves() ? 0 : 1;
+  const std::uint32_t rivals = others > expected ? others - expected : 0;
   if (std::exchange(rivals_, rivals) == rivals) return;
   if (rivals == 0) {
     spdlog::info("this daemon alone publishes models on the domain again");
@@ -130,9 +219,10 @@ void PublishedModels::PublishBlocked() {
 }
 
 void PublishedModels::Announce(const PublishedModel& model) {
+  if (!publishing_ || !role_.Serves()) return;
   const std::string& vehicle_id = model.identification.vehicle_id;
   try {
-    if (writer_.Write(Encode(model))) {
+    if (writer_->Write(Encode(model))) {
       spdlog::info("published revision {} of {}", model.revision, vehicle_id);
       return;
     }

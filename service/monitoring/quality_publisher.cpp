@@ -25,9 +25,10 @@ void LoggingFailure(Work work) {
 
 }  // namespace
 
-QualityPublisher::QualityPublisher(const Participant& participant, Fleet& fleet,
+QualityPublisher::QualityPublisher(const Participant& participant, const Role& role, Fleet& fleet,
                                    PublishedModels& models, FleetView& view, double period_s)
-    : fleet_(fleet),
+    : role_(role),
+      fleet_(fleet),
       models_(models),
       view_(view),
       period_(period_s),
@@ -83,7 +84,7 @@ void QualityPublisher::PublishReceipts() {
     std::swap(due, receipts_due_);
   }
   for (VehicleWindow* window : due) {
-    writer_.Write(Encode(monitors_[window->vehicle().vehicle_id].Receipt(*window)));
+    Publish(monitors_[window->vehicle().vehicle_id].Receipt(*window));
   }
 }
 
@@ -91,14 +92,18 @@ void QualityPublisher::PublishAll(double elapsed_s) {
   for (const auto& [vehicle_id, window] : fleet_.windows()) {
     const auto latest = models_.Latest(vehicle_id);
     const Quality quality = monitors_[vehicle_id].Assess(*window, latest, view_, elapsed_s);
-    writer_.Write(Encode(quality));
+    Publish(quality);
     view_.TakeDrift(vehicle_id, monitors_[vehicle_id].DriftOnsetS());
     view_.Take(quality, UnixNow());
   }
   const Quality unattributed = Unattributed();
-  writer_.Write(Encode(unattributed));
+  Publish(unattributed);
   view_.EndRound(UnixNow(), unattributed.rejected);
   AnnounceRound();
+}
+
+void QualityPublisher::Publish(const Quality& quality) {
+  if (role_.Serves()) writer_.Write(Encode(quality));
 }
 
 void QualityPublisher::AnnounceRound() {

@@ -15,16 +15,18 @@
 #include "telltale/service/models/published_models.hpp"
 #include "telltale/service/monitoring/fleet_view.hpp"
 #include "telltale/service/monitoring/vehicle_monitor.hpp"
+#include "telltale/service/standby/role.hpp"
 
 namespace telltale {
 
 /// Publishes the quality of every vehicle's telemetry and model once a period, on a thread of its
 /// own, and a vehicle's counts in between where a receipt is due: a replay paces itself by them.
-/// A fault of one period is logged, and the next period goes on.
+/// A fault of one period is logged, and the next period goes on. While the daemon does not serve,
+/// the view alone gets the qualities.
 class QualityPublisher {
  public:
-  QualityPublisher(const Participant& participant, Fleet& fleet, PublishedModels& models,
-                   FleetView& view, double period_s);
+  QualityPublisher(const Participant& participant, const Role& role, Fleet& fleet,
+                   PublishedModels& models, FleetView& view, double period_s);
   QualityPublisher(const QualityPublisher&) = delete;
   QualityPublisher& operator=(const QualityPublisher&) = delete;
   ~QualityPublisher();  ///< ends the thread
@@ -40,8 +42,10 @@ class QualityPublisher {
   void PublishAll(double elapsed_s);
   void PublishReceipts();
   void AnnounceRound();  ///< to those who follow the events
+  void Publish(const Quality& quality);
   Quality Unattributed();
 
+  const Role& role_;
   Fleet& fleet_;
   PublishedModels& models_;
   FleetView& view_;  ///< takes each quality too

@@ -348,6 +348,10 @@ bool FleetApi::IsAllowed(const Request& request, Response& response) {
 bool FleetApi::ReadOrder(const Request& request, const std::string& form,
                          google::protobuf::Message& order, Response& response) {
   if (!IsAllowed(request, response)) return false;
+  if (!handlers_.serves()) {
+    AnswerFailure(503, "this daemon stands by for another", "the daemon that serves", response);
+    return false;
+  }
   if (request.get_header_value("Content-Type").rfind("application/json", 0) != 0) {
     AnswerFailure(415, "the body is no JSON", "Content-Type: application/json", response);
     return false;

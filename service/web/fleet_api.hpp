@@ -18,6 +18,7 @@ namespace telltale {
 
 /// What carries out the orders that come over HTTP.
 struct OrderHandlers {
+  std::function<bool()> serves;                   ///< a standby carries out none
   std::function<void(IdentifyRequest)> identify;  ///< queues the request
   std::function<void(DiagnoseRequest)> diagnose;  ///< likewise
   /// Publishes the revision again, as PublishedModels::Rollback().

@@ -250,6 +250,9 @@ std::vector<prometheus::MetricFamily> FleetMetrics::Collect() const {
   AddNumbers(fleet, TelemetryNumbers(), families);
   AddNumbers(fleet, ModelNumbers(), families);
   AddDaemon(view_, fleet.size(), families);
+  families.push_back(Single(MetricType::Gauge, "telltale_serving",
+                            "1: the daemon serves; 0: it stands by for another.",
+                            serves_() ? 1.0 : 0.0));
   std::erase_if(families, [](const MetricFamily& family) { return family.metric.empty(); });
   return families;
 }

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <functional>
+#include <utility>
 #include <vector>
 
 #include <prometheus/collectable.h>
@@ -12,12 +14,15 @@ namespace telltale {
 /// The fleet and the daemon as Prometheus reads them, docs/reference/metrics.md.
 class FleetMetrics : public prometheus::Collectable {
  public:
-  explicit FleetMetrics(FleetView& view) : view_(view) {}
+  /// `serves`: whether this daemon serves, or stands by for another.
+  FleetMetrics(FleetView& view, std::function<bool()> serves)
+      : view_(view), serves_(std::move(serves)) {}
 
   std::vector<prometheus::MetricFamily> Collect() const override;
 
  private:
   FleetView& view_;
+  const std::function<bool()> serves_;
 };
 
 }  // namespace telltale

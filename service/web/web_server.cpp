@@ -100,7 +100,7 @@ class EventStream {
 WebServer::WebServer(const HttpSettings& settings, const Fleet& fleet,
                      const PublishedModels& models, FleetView& view, OrderHandlers handlers)
     : view_(view),
-      metrics_(view),
+      metrics_(view, handlers.serves),
       api_(fleet, models, view, std::move(handlers), ReadToken(settings.token_file)),
       server_(MakeServer(settings)) {
   Limit(settings.connections);

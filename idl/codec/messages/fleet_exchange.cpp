@@ -7,6 +7,7 @@ std::string_view Name(FleetCommand command) {
     case FleetCommand::kUnknown: return "UNKNOWN";
     case FleetCommand::kList: return "LIST";
     case FleetCommand::kHistory: return "HISTORY";
+    case FleetCommand::kModels: return "MODELS";
     case FleetCommand::kRollback: return "ROLLBACK";
     case FleetCommand::kRefresh: return "REFRESH";
     case FleetCommand::kFollow: return "FOLLOW";

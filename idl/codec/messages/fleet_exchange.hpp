@@ -9,17 +9,28 @@
 #include "telltale/core/validation/promotion.hpp"
 #include "telltale/core/vessel/model_structure.hpp"
 #include "telltale/idl/codec/messages/exchange.hpp"
+#include "telltale/idl/codec/messages/model.hpp"
 
 namespace telltale {
 
-/// kList: the vehicles served. kHistory: a vehicle's models. kRollback: an earlier model published
-/// again. kRefresh: identifies many vehicles. kFollow: the progress and the reply of a refresh that
-/// another request began. kCancel: ends a request of any kind.
-enum class FleetCommand { kUnknown, kList, kHistory, kRollback, kRefresh, kFollow, kCancel };
+/// kList: the vehicles served. kHistory: a vehicle's models. kModels: the same in full, for a
+/// daemon that stands by. kRollback: an earlier model published again. kRefresh: identifies many
+/// vehicles. kFollow: the progress and the reply of a refresh that another request began. kCancel:
+/// ends a request of any kind.
+enum class FleetCommand {
+  kUnknown,
+  kList,
+  kHistory,
+  kModels,
+  kRollback,
+  kRefresh,
+  kFollow,
+  kCancel
+};
 
-inline constexpr std::array kFleetCommands = {FleetCommand::kList,     FleetCommand::kHistory,
-                                              FleetCommand::kRollback, FleetCommand::kRefresh,
-                                              FleetCommand::kFollow,   FleetCommand::kCancel};
+inline constexpr std::array kFleetCommands = {
+    FleetCommand::kList,    FleetCommand::kHistory, FleetCommand::kModels, FleetCommand::kRollback,
+    FleetCommand::kRefresh, FleetCommand::kFollow,  FleetCommand::kCancel};
 
 std::string_view Name(FleetCommand command);
 
@@ -27,9 +38,9 @@ std::string_view Name(FleetCommand command);
 struct FleetRequest {
   std::string correlation_id;  ///< as in ExchangeRequest
   FleetCommand command = FleetCommand::kUnknown;
-  std::vector<std::string> vehicle_ids;  ///< of kHistory and kRollback one, of kRefresh any number
+  std::vector<std::string> vehicle_ids;  ///< of kRefresh any number, of others one
   bool all = false;                      ///< of kRefresh: every vehicle that is served
-  std::uint64_t revision = 0;            ///< of kRollback
+  std::uint64_t revision = 0;            ///< of kRollback; of kModels: only later ones
   /// Of kRefresh: only vehicles without a model, or whose model has a worse verdict. Unknown: any.
   PromotionVerdict worse_than = PromotionVerdict::kUnknown;
   double older_than_s = 0.0;  ///< of kRefresh: only vehicles without a model, or an older one
@@ -103,6 +114,9 @@ struct FleetReply : ExchangeReply {         // of no vehicle: its vehicle_id is 
   std::vector<VehicleSummary> vehicles;     ///< of kList
   std::vector<ModelSummary> models;         ///< of kHistory, newest first; of kRollback the new one
   std::vector<RefreshedVehicle> refreshed;  ///< of kRefresh and kFollow: all
+  std::vector<PublishedModel> later_models;  ///< of kModels, oldest first, kModelsAtATime at most
 };
+
+inline constexpr std::size_t kModelsAtATime = 16;  ///< some 30 kB each
 
 }  // namespace telltale

@@ -97,6 +97,10 @@ FleetProgress ReadFleetProgress(const telltale_wire_FleetProgress& wire) {
           ReadSequence("vehicles", wire.vehicles, ReadRefreshed)};
 }
 
+PublishedModel ReadLaterModel(const std::string&, const telltale_wire_Model& wire) {
+  return ReadModel(wire);
+}
+
 FleetReply ReadFleetReply(const telltale_wire_FleetReply& wire) {
   return {{ReadIdentifier("correlation_id", wire.correlation_id), "",
            ReadName("outcome", View(wire.outcome), kReplyOutcomes), TextOf(wire.message),
@@ -105,7 +109,8 @@ FleetReply ReadFleetReply(const telltale_wire_FleetReply& wire) {
            ReadWithin("retry_after_s", wire.retry_after_s, kFiniteNotNegative)},
           ReadSequence("vehicles", wire.vehicles, ReadVehicleSummary),
           ReadSequence("models", wire.models, ReadModelSummary),
-          ReadSequence("refreshed", wire.refreshed, ReadRefreshed)};
+          ReadSequence("refreshed", wire.refreshed, ReadRefreshed),
+          ReadSequence("later_models", wire.later_models, ReadLaterModel)};
 }
 
 }  // namespace
@@ -145,6 +150,7 @@ WireSample<telltale_wire_FleetReply> Encode(const FleetReply& reply) {
   wire::PutSequence(sample->refreshed, reply.refreshed, wire::FillRefreshed);
   sample->elapsed_s = reply.elapsed_s;
   sample->retry_after_s = reply.retry_after_s;
+  wire::PutSequence(sample->later_models, reply.later_models, wire::FillModel);
   return sample;
 }
 

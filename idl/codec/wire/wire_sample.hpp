@@ -73,6 +73,10 @@ template <>
 inline const dds_topic_descriptor_t& Descriptor<telltale_wire_Quality>() {
   return telltale_wire_Quality_desc;
 }
+template <>
+inline const dds_topic_descriptor_t& Descriptor<telltale_wire_DaemonStatus>() {
+  return telltale_wire_DaemonStatus_desc;
+}
 
 /// Owns one generated C struct and everything it points to: strings and sequences are allocated
 /// with dds_alloc and dds_string_dup, and go when it goes.

@@ -2,6 +2,8 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
+#include <string>
 #include <thread>
 #include <vector>
 
@@ -17,6 +19,7 @@
 #include "telltale/client/bus/wait_set.hpp"
 #include "telltale/client/bus/watched_reader.hpp"
 #include "telltale/client/bus/writer.hpp"
+#include "telltale/idl/codec/wire/daemon_status.hpp"
 #include "telltale/idl/codec/wire/model.hpp"
 #include "telltale/idl/codec/wire/telemetry.hpp"
 
@@ -118,6 +121,60 @@ TEST_F(Bus, SkipsTheNoticeThatAWriterIsGone) {
   writer.reset();
   ASSERT_TRUE(WaitUntil(wait_set, [&] { return notices > before; }));
   EXPECT_EQ(models, 1);
+}
+
+/// Which daemons a reader of their statuses has heard of, and which are gone since.
+struct HeardDaemons {
+  explicit HeardDaemons(const Participant& participant)
+      : reader(participant), wait_set(participant) {
+    wait_set.Attach(reader, [this] {
+      reader.Take([this](const auto& wire) { alive.insert(wire.daemon_id); },
+                  [this](const auto& gone) { alive.erase(gone.daemon_id); });
+    });
+  }
+
+  Reader<telltale_wire_DaemonStatus> reader;
+  WaitSet wait_set;
+  std::set<std::string> alive;
+};
+
+TEST_F(Bus, TellsWhoseWriterIsGone) {
+  HeardDaemons heard(here_);
+  Writer<telltale_wire_DaemonStatus> one(here_);
+  std::optional<Writer<telltale_wire_DaemonStatus>> two(here_);
+  one.Write(Encode(DaemonStatus{"one", true, 1, 1}));
+  two->Write(Encode(DaemonStatus{"two", false, 1, 2}));
+  ASSERT_TRUE(WaitUntil(heard.wait_set, [&] { return heard.alive.size() == 2; }));
+  two.reset();
+  ASSERT_TRUE(WaitUntil(heard.wait_set, [&] { return heard.alive.size() == 1; }));
+  EXPECT_TRUE(heard.alive.contains("one"));
+}
+
+TEST_F(Bus, BelievesTheStrongestWriterThatIsAlive) {
+  Reader<telltale_wire_Model> reader(here_);
+  Writer<telltale_wire_Model> weak(here_, WithOwnershipStrength(ModelQos(), 1));
+  std::optional<Writer<telltale_wire_Model>> strong;
+  strong.emplace(here_, WithOwnershipStrength(ModelQos(), 2));
+  std::vector<std::uint64_t> received;
+  WaitSet wait_set(here_);
+  wait_set.Attach(reader,
+                  [&] { reader.Take([&](const auto& w) { received.push_back(w.revision); }); });
+  weak.Write(Encode(ModelOfRevision(1)));
+  ASSERT_TRUE(WaitUntil(wait_set, [&] { return received.size() == 1; }));
+  strong->Write(Encode(ModelOfRevision(2)));
+  weak.Write(Encode(ModelOfRevision(3)));
+  strong->Write(Encode(ModelOfRevision(4)));
+  ASSERT_TRUE(WaitUntil(wait_set, [&] { return received.back() == 4; }));
+  EXPECT_THAT(received, testing::Not(testing::Contains(3)));
+}
+
+TEST_F(Bus, ReadsFromOthersAlone) {
+  const Reader<telltale_wire_Model> from_others(here_, FromOthers(ModelQos()));
+  const Writer<telltale_wire_Model> own(here_);
+  const Participant there(domain_.id());
+  const Writer<telltale_wire_Model> of_another(there);
+  ASSERT_TRUE(WaitForMatch(here_, {from_others}, 10s));
+  EXPECT_EQ(from_others.Matched(), 1u);
 }
 
 TEST_F(Bus, GivesALateReaderTheLastModelOfEachVehicle) {

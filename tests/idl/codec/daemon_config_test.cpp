@@ -61,6 +61,32 @@ TEST(DaemonConfig, ReadsTheHttpBlock) {
   EXPECT_EQ(config->http->tls_key_file, "k");
 }
 
+TEST(DaemonConfig, ServesAloneUnlessItIsTold) {
+  EXPECT_FALSE(ParseDaemonConfig("")->standby);
+  const auto config = ParseDaemonConfig("standby { ownership_strength: 7 }");
+  ASSERT_TRUE(config && config->standby);
+  EXPECT_EQ(config->standby->ownership_strength, 7u);
+  EXPECT_EQ(config->standby->lease_s, 2.0);
+}
+
+TEST(DaemonConfig, RefusesAStandbyWithoutAStrengthOrALease) {
+  for (const char* text : {"standby {}", "standby { ownership_strength: 0 }",
+                           "standby { ownership_strength: 1001 }"}) {
+    const auto config = ParseDaemonConfig(text);
+    ASSERT_FALSE(config) << text;
+    EXPECT_THAT(config.error().field, HasSubstr("ownership_strength"));
+    EXPECT_THAT(config.error().Message(), HasSubstr("[1, 1000]"));
+  }
+  const auto config = ParseDaemonConfig("standby { ownership_strength: 1 lease_s: 0.4 }");
+  ASSERT_FALSE(config);
+  EXPECT_THAT(config.error().field, HasSubstr("lease_s"));
+}
+
+TEST(DaemonConfig, RequiresNoPartitionUnlessItIsTold) {
+  EXPECT_FALSE(ParseDaemonConfig("")->require_partition);
+  EXPECT_TRUE(ParseDaemonConfig("require_partition: true")->require_partition);
+}
+
 TEST(DaemonConfig, DoesNothingByItselfUnlessTold) {
   const auto config = ParseDaemonConfig("upkeep {}");
   ASSERT_TRUE(config);

@@ -162,7 +162,8 @@ class Jobs : public ::testing::Test {
   Reader<telltale_wire_IdentifyReply> reader_{participant_};
   WaitSet wait_set_{participant_};
   Fleet fleet_{{Named("one"), Named("two")}, WindowLimits()};
-  ReplyPublisher replies_{participant_};
+  Role role_{std::nullopt};
+  ReplyPublisher replies_{participant_, role_};
   HeldWork work_;
   std::map<std::string, std::string> messages_;  ///< by correlation id
   std::map<std::string, double> retry_after_s_;  ///< likewise

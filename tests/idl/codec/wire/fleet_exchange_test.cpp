@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "idl/codec/wire/wire_support.hpp"
+#include "support/made_up_identifications.hpp"
 
 namespace telltale {
 namespace {
@@ -66,12 +67,16 @@ TEST(WireFleetExchange, ProgressAndReplyArriveAsTheyWereSent) {
                    {"two", 0.0, 0.0, 0, 0.0, {}}};
   sent.models = {{4, 1.7e9, "STATIC_QUADRATIC", "WEAK_IV", 1.0, 2.0, 500, {}}};
   sent.refreshed = {vehicle};
+  sent.later_models = {{MadeUpIdentification(), 4, 1.5}};
   const auto reply = Decode(*Encode(sent));
   ASSERT_TRUE(reply) << reply.error().Message();
   EXPECT_EQ(reply->outcome, ReplyOutcome::kAnswered);
   EXPECT_EQ(reply->vehicles, sent.vehicles);
   EXPECT_EQ(reply->models, sent.models);
   EXPECT_EQ(reply->refreshed, sent.refreshed);
+  ASSERT_EQ(reply->later_models.size(), 1u);
+  EXPECT_EQ(reply->later_models[0].revision, 4u);
+  EXPECT_EQ(reply->later_models[0].published_unix_s, 1.5);
   auto wire = Encode(sent);
   wire->vehicles._buffer[0].window_fill = 1.5;
   EXPECT_EQ(Decode(*wire).error().field, "vehicles[0].window_fill");

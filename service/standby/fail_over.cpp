@@ -1,0 +1,155 @@
+#include "telltale/service/standby/fail_over.hpp"
+
+#include <cstring>
+#include <exception>
+#include <utility>
+
+#include <spdlog/spdlog.h>
+
+#include "telltale/client/fleet/request_reply.hpp"
+#include "telltale/idl/codec/wire/daemon_status.hpp"
+
+namespace telltale {
+namespace {
+
+DaemonStatus NewDaemon(const StandbySettings& settings) {
+  DaemonStatus self;
+  self.daemon_id = NewCorrelationId();
+  self.ownership_strength = settings.ownership_strength;
+  return self;
+}
+
+}  // namespace
+
+std::chrono::nanoseconds LeaseOf(const StandbySettings& settings) {
+  return std::chrono::ceil<std::chrono::nanoseconds>(
+      std::chrono::duration<double>(settings.lease_s));
+}
+
+FailOver::FailOver(const Participant& participant, const StandbySettings& settings, Role& role,
+                   HeardRequests& requests, const Mirror::Into& mirrored, Handlers handlers)
+    : patience_(LeaseOf(settings) / 8),
+      role_(role),
+      requests_(requests),
+      handlers_(std::move(handlers)),
+      status_writer_(participant, WithLease(DaemonStatusQos(), LeaseOf(settings))),
+      wait_set_(participant),
+      statuses_(participant, FromOthers(DaemonStatusQos())),
+      identify_replies_(participant, FromOthers(RequestReplyQos())),
+      diagnose_replies_(participant, FromOthers(RequestReplyQos())),
+      fleet_replies_(participant, FromOthers(RequestReplyQos())),
+      mirror_(participant, wait_set_, role, mirrored),
+      election_(NewDaemon(settings), LeaseOf(settings), Clock::now()) {}
+
+FailOver::~FailOver() {
+  stopping_ = true;
+  wait_set_.Wake();
+  if (thread_.joinable()) thread_.join();
+}
+
+void FailOver::Start() {
+  Follow();
+  thread_ = std::thread([this] { Run(); });
+}
+
+/// Hears of the other daemons, and of the answers that they give.
+void FailOver::Follow() {
+  wait_set_.Attach(statuses_, [this] {
+    statuses_.Take(
+        [this](const telltale_wire_DaemonStatus& wire) {
+          const auto status = Decode(wire);
+          const std::lock_guard lock(mutex_);
+          if (status) election_.Hear(*status, Clock::now());
+        },
+        [this](const telltale_wire_DaemonStatus& gone) {
+          const std::lock_guard lock(mutex_);
+          election_.Lose({gone.daemon_id, strnlen(gone.daemon_id, sizeof gone.daemon_id)});
+        });
+  });
+  const auto forget_answered = [this](auto& replies) {
+    wait_set_.Attach(replies, [this, &replies] {
+      replies.Take([this](const auto& wire) {
+        const bool is_final = wire.retry_after_s <= 0.0;
+        if (is_final && wire.correlation_id != nullptr) requests_.Answered(wire.correlation_id);
+      });
+    });
+  };
+  forget_answered(identify_replies_);
+  forget_answered(diagnose_replies_);
+  forget_answered(fleet_replies_);
+}
+
+void FailOver::Heartbeat(bool has_heard_fleet) {
+  if (stepped_down_) return;
+  if (has_heard_fleet) {
+    const std::lock_guard lock(mutex_);
+    election_.HearFleet(Clock::now());
+  }
+  role_.Renew(Clock::now());
+  Publish(Self());
+}
+
+DaemonStatus FailOver::Self() const {
+  const std::lock_guard lock(mutex_);
+  return election_.self();
+}
+
+void FailOver::Publish(const DaemonStatus& status) {
+  if (!status_writer_.Write(Encode(status))) spdlog::warn("the status of this daemon is blocked");
+}
+
+void FailOver::Run() {
+  while (!stopping_) {
+    try {
+      wait_set_.Wait(patience_);
+      if (!stepped_down_) Decide();
+    } catch (const std::exception& error) {
+      spdlog::error("standby: {}", error.what());
+    }
+  }
+}
+
+void FailOver::Decide() {
+  const auto step = [this] {
+    const std::lock_guard lock(mutex_);
+    return election_.Decide(Clock::now());
+  }();
+  if (step == Election::Step::kTakeOver) return TakeOver();
+  if (step == Election::Step::kStepDown) return StepDown("another daemon serves for a later term");
+  const DaemonStatus self = Self();
+  if (self.serves && !role_.Serves()) return StepDown("its working loop came late");
+  if (self.serves) return;
+  LogTerm(self);
+  if (self.term > 0) mirror_.FillHoles(Clock::now());
+}
+
+void FailOver::LogTerm(const DaemonStatus& self) {
+  if (std::exchange(followed_term_, self.term) == self.term) return;
+  spdlog::info("another daemon serves, for term {}; this one stands by", self.term);
+}
+
+void FailOver::TakeOver() {
+  const bool succeeds = Self().term > 0;
+  {
+    const std::lock_guard lock(mutex_);
+    election_.TakeOver();
+  }
+  const DaemonStatus self = Self();
+  spdlog::warn("this daemon serves from now on, for term {}", self.term);
+  role_.Assume(Clock::now());
+  try {
+    Publish(self);
+    handlers_.take_over(OwnershipStrengthOn(self), succeeds);
+  } catch (const std::exception& error) {
+    StepDown(error.what());
+  }
+}
+
+void FailOver::StepDown(const std::string& why) {
+  spdlog::error("this daemon does not serve any more: {}", why);
+  stepped_down_ = true;
+  role_.Resign();
+  handlers_.step_down();
+}
+
+}  // namespace telltale

@@ -1,0 +1,132 @@
+#include "telltale/service/standby/mirror.hpp"
+
+#include <cmath>
+#include <exception>
+#include <utility>
+
+#include <spdlog/spdlog.h>
+
+#include "telltale/client/fleet/request_reply.hpp"
+#include "telltale/idl/codec/wire/diagnosis.hpp"
+#include "telltale/idl/codec/wire/fleet_exchange.hpp"
+#include "telltale/idl/codec/wire/model.hpp"
+#include "telltale/service/models/free_run_error.hpp"
+
+namespace telltale {
+namespace {
+
+// Between the end of a window and the end of the identification that it goes into.
+constexpr double kJustMadeWithinS = 30.0;
+
+template <class Message, class Keep>
+void KeepOrLog(const Decoded<Message>& message, const char* what, Keep keep) {
+  if (!message) {
+    spdlog::warn("another daemon's {} cannot be read: {}", what, message.error().Message());
+    return;
+  }
+  try {
+    keep(*message);
+  } catch (const std::exception& error) {
+    spdlog::error("another daemon's {} is not kept: {}", what, error.what());
+  }
+}
+
+}  // namespace
+
+Mirror::Mirror(const Participant& participant, WaitSet& wait_set, const Role& role,
+               const Into& into)
+    : wait_set_(wait_set),
+      role_(role),
+      into_(into),
+      model_reader_(participant, FromOthers(ModelQos())),
+      diagnosis_reader_(participant, FromOthers(DiagnosisQos())),
+      reply_reader_(participant, FromOthers(RequestReplyQos())),
+      request_writer_(participant) {
+  for (const auto& [vehicle_id, window] : into.fleet.windows()) incomplete_.insert(vehicle_id);
+  wait_set_.Attach(model_reader_, [this] {
+    model_reader_.Take([this](const telltale_wire_Model& wire) { Take(wire); });
+  });
+  wait_set_.Attach(diagnosis_reader_, [this] {
+    diagnosis_reader_.Take([this](const telltale_wire_Diagnosis& wire) { Take(wire); });
+  });
+  wait_set_.Attach(reply_reader_, [this] {
+    reply_reader_.Take([this](const telltale_wire_FleetReply& wire) {
+      const auto reply = Decode(wire);
+      if (reply && reply->correlation_id == asked_) Take(*reply);
+    });
+  });
+}
+
+Mirror::~Mirror() {
+  wait_set_.Detach(reply_reader_);
+  wait_set_.Detach(model_reader_);
+  wait_set_.Detach(diagnosis_reader_);
+}
+
+void Mirror::Take(const telltale_wire_Model& wire) {
+  KeepOrLog(Decode(wire), "model", [this](const PublishedModel& model) { Keep({model, {}}); });
+}
+
+void Mirror::Take(const telltale_wire_Diagnosis& wire) {
+  if (role_.Serves()) return;
+  KeepOrLog(Decode(wire), "diagnosis",
+            [this](const PublishedDiagnosis& diagnosis) { into_.diagnoses.Learn(diagnosis); });
+}
+
+void Mirror::FillHoles(Clock::time_point now) {
+  if (!asked_.empty() && now < ask_again_) return;
+  asked_.clear();
+  while (!incomplete_.empty() && asked_.empty()) {
+    const std::string vehicle_id = *incomplete_.begin();
+    if (const auto hole_after = into_.models.HoleAfter(vehicle_id)) {
+      Ask(vehicle_id, *hole_after, now);
+    } else {
+      incomplete_.erase(vehicle_id);
+    }
+  }
+}
+
+void Mirror::Ask(const std::string& vehicle_id, std::uint64_t after, Clock::time_point now) {
+  constexpr std::chrono::seconds kPatience{5};
+  FleetRequest request;
+  request.correlation_id = NewCorrelationId();
+  request.command = FleetCommand::kModels;
+  request.vehicle_ids = {vehicle_id};
+  request.revision = after;
+  request.deadline_s = std::chrono::duration<double>(kPatience).count();
+  request_writer_.Write(Encode(request));
+  asked_ = request.correlation_id;
+  asked_vehicle_ = vehicle_id;
+  ask_again_ = now + kPatience;
+}
+
+/// What the other daemon does not have either is not asked for again.
+void Mirror::Take(const FleetReply& reply) {
+  asked_.clear();
+  const auto before = into_.models.HoleAfter(asked_vehicle_);
+  for (const PublishedModel& model : reply.later_models) {
+    KeepOrLog(Decoded<PublishedModel>(model), "model",
+              [this](const PublishedModel& earlier) { into_.models.LearnEarlier(earlier); });
+  }
+  const auto after = into_.models.HoleAfter(asked_vehicle_);
+  if (after && after != before) return;
+  incomplete_.erase(asked_vehicle_);
+  spdlog::info("the models of {} are as complete as those of the daemon that serves",
+               asked_vehicle_);
+}
+
+void Mirror::Keep(StoredModel model) {
+  incomplete_.insert(model.model.identification.vehicle_id);
+  const Identification& identification = model.model.identification;
+  VehicleWindow* const window = into_.fleet.Find(identification.vehicle_id);
+  const bool just_made =
+      window != nullptr &&
+      std::abs(window->State().end_s - identification.window.end_s) < kJustMadeWithinS;
+  if (!just_made) return into_.models.Learn(model);
+  Recording recording = window->Snapshot();
+  model.reference_error = MeasureFreeRunError(recording, window->vehicle(), identification);
+  into_.models.Learn(model);
+  into_.baselines.Keep(identification.vehicle_id, model.model.revision, std::move(recording));
+}
+
+}  // namespace telltale

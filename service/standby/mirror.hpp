@@ -1,0 +1,66 @@
+#pragma once
+
+#include <chrono>
+#include <set>
+#include <string>
+
+#include "telltale/client/bus/participant.hpp"
+#include "telltale/client/bus/reader.hpp"
+#include "telltale/client/bus/wait_set.hpp"
+#include "telltale/client/bus/writer.hpp"
+#include "telltale/idl/codec/messages/fleet_exchange.hpp"
+#include "telltale/service/diagnosis/published_diagnoses.hpp"
+#include "telltale/service/ingest/fleet.hpp"
+#include "telltale/service/models/baseline_recordings.hpp"
+#include "telltale/service/models/published_models.hpp"
+#include "telltale/service/standby/role.hpp"
+
+namespace telltale {
+
+/// Takes over what another daemon publishes into this daemon's store: models at all times, since
+/// two daemons that could not hear each other may both have published, and diagnoses while this
+/// daemon does not serve. A model that was just made gets its baseline recording and its reference
+/// error from this daemon's own window, which holds the same telemetry. Models that were published
+/// while this daemon was down are asked for, some of one vehicle at a time. Belongs to the thread
+/// of the wait set; a fault of the store is logged.
+class Mirror {
+ public:
+  using Clock = std::chrono::steady_clock;
+
+  struct Into {
+    const Fleet& fleet;
+    PublishedModels& models;
+    PublishedDiagnoses& diagnoses;
+    BaselineRecordings& baselines;
+  };
+
+  Mirror(const Participant& participant, WaitSet& wait_set, const Role& role, const Into& into);
+  Mirror(const Mirror&) = delete;
+  Mirror& operator=(const Mirror&) = delete;
+  ~Mirror();
+
+  /// Asks for what is missing, and again where no answer came.
+  void FillHoles(Clock::time_point now);
+
+ private:
+  void Ask(const std::string& vehicle_id, std::uint64_t after, Clock::time_point now);
+  void Take(const FleetReply& reply);
+  void Take(const telltale_wire_Model& wire);
+  void Take(const telltale_wire_Diagnosis& wire);
+  void Keep(StoredModel model);
+
+  WaitSet& wait_set_;
+  const Role& role_;
+  const Into into_;
+  Reader<telltale_wire_Model> model_reader_;
+  Reader<telltale_wire_Diagnosis> diagnosis_reader_;
+  Reader<telltale_wire_FleetReply> reply_reader_;
+  Writer<telltale_wire_FleetRequest> request_writer_;
+
+  std::set<std::string> incomplete_;  ///< vehicles whose models may have a hole
+  std::string asked_;                 ///< correlation id of the request under way; empty: none
+  std::string asked_vehicle_;
+  Clock::time_point ask_again_;
+};
+
+}  // namespace telltale

@@ -1,0 +1,188 @@
+#include <signal.h>
+
+#include <algorithm>
+#include <chrono>
+#include <string>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "service/service_fixture.hpp"
+#include "service/standby/daemon_pair.hpp"
+#include "support/stable_boat.hpp"
+#include "telltale/client/fleet/fleet_client.hpp"
+#include "telltale/client/fleet/identification_client.hpp"
+#include "telltale/client/fleet/subscriber.hpp"
+
+namespace telltale {
+namespace {
+
+using namespace std::chrono_literals;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+/// Two daemons, and a client that has followed the models from the start.
+class StandbyDaemon : public ServiceTest {
+ protected:
+  void StartPair() {
+    one_ = pair_.Start("one", 2);
+    ASSERT_TRUE(DaemonPair::TakesOver(*one_, 1)) << one_->output();
+    two_ = pair_.Start("two", 1);
+    ASSERT_TRUE(DaemonPair::StandsBy(*two_, 1)) << two_->output();
+  }
+
+  void ReplayToBoth() { Replay(SimulatedRecording(testing::StableBoat(), 0.0, 300.0, 4)); }
+
+  /// The revision that the service gives the boat's next model; 0 where it gives none.
+  std::uint64_t Identify(const std::string& correlation_id) {
+    IdentificationClient client(participant_);
+    IdentifyRequest request = Request(correlation_id);
+    request.estimator = Estimator::kOneStep;
+    request.seed = ++seed_;  // unlike any other, so that it joins none
+    const auto result = client.Identify(request, kTiming, {});
+    const bool published = result.outcome == RequestOutcome::kPublished;
+    return published ? result.reply->model->revision : 0;
+  }
+
+  /// Which revisions the topic of models has brought so far, in their order.
+  const std::vector<std::uint64_t>& RevisionsSeen() {
+    while (models_.Wait(200ms)) {
+    }
+    return revisions_;
+  }
+
+  /// Those of the daemon that serves, newest first.
+  std::vector<std::uint64_t> RevisionsKept() {
+    FleetRequest request;
+    request.correlation_id = NewCorrelationId();
+    request.command = FleetCommand::kHistory;
+    request.vehicle_ids = {kVehicleId};
+    const auto result = FleetClient(participant_).Ask(request, kTiming);
+    std::vector<std::uint64_t> revisions;
+    if (!result.reply) return revisions;
+    for (const ModelSummary& model : result.reply->models) revisions.push_back(model.revision);
+    return revisions;
+  }
+
+  static constexpr RequestTiming kTiming{.match = 60s, .reply = 120s, .retry = 1s};
+
+  DaemonPair pair_{domain_.id(), folder_, 5.0,
+                   "identification { bootstrap_replicates: 0 }\nwindow { save_period_s: 0.2 }\n"};
+  std::unique_ptr<Process> one_;
+  std::unique_ptr<Process> two_;
+  Participant participant_{domain_.id()};
+  std::vector<std::uint64_t> revisions_;
+  // All that is published: ModelSubscription passes over what is older.
+  Subscriber<TopicSubscription<telltale_wire_Model, PublishedModel>, PublishedModel> models_{
+      participant_, [this](const PublishedModel& model) { revisions_.push_back(model.revision); },
+      [](const CodecError& error) { ADD_FAILURE() << error.Message(); }};
+  std::uint64_t seed_ = 0;
+};
+
+TEST_F(StandbyDaemon, TakesOverWithAWarmWindowWhenTheOtherIsKilled) {
+  StartPair();
+  ReplayToBoth();
+  ASSERT_EQ(Identify("first"), 1u);
+  ASSERT_TRUE(DaemonPair::Keeps(*two_, 1));
+  one_->Signal(SIGKILL);
+  one_->Wait();
+  EXPECT_TRUE(DaemonPair::TakesOver(*two_, 2)) << two_->output();
+  // It has what prediction errors are measured against too, which no wire carries.
+  EXPECT_TRUE(AwaitQuality(kVehicleId, [](const Quality& quality) {
+    return quality.model_revision == 1u && quality.prediction_error > 0.0 &&
+           quality.window_s > 299.0;
+  }));
+  EXPECT_EQ(Identify("second"), 2u);
+  const auto& seen = RevisionsSeen();
+  EXPECT_TRUE(std::ranges::is_sorted(seen)) << ::testing::PrintToString(seen);
+}
+
+TEST_F(StandbyDaemon, AnswersWhatTheOtherHadAcknowledged) {
+  StartPair();
+  ReplayToBoth();
+  IdentificationClient client(participant_);
+  IdentifyRequest request = Request("acknowledged");
+  request.coverage_check_replicates = 10;  // seconds of work
+  bool killed = false;
+  const auto result = client.Identify(request, kTiming, [&](const IdentifyProgress&) {
+    if (std::exchange(killed, true)) return;
+    one_->Signal(SIGKILL);
+    one_->Wait();
+  });
+  EXPECT_TRUE(killed);
+  EXPECT_EQ(result.outcome, RequestOutcome::kPublished) << two_->output();
+  EXPECT_TRUE(two_->WaitForOutput("for acknowledged: PUBLISHED"));
+  EXPECT_THAT(one_->output(), Not(HasSubstr("for acknowledged: PUBLISHED")));
+}
+
+TEST_F(StandbyDaemon, DoesNotAnswerWhileTheOtherServes) {
+  StartPair();
+  ReplayToBoth();
+  for (const char* id : {"a", "b", "c"}) EXPECT_GT(Identify(id), 0u);
+  ASSERT_TRUE(DaemonPair::Keeps(*two_, 3));
+  for (Process* daemon : {one_.get(), two_.get()}) {
+    daemon->Signal(SIGTERM);
+    EXPECT_EQ(daemon->Wait(), 0);
+  }
+  EXPECT_THAT(one_->output(), HasSubstr("for c: PUBLISHED"));
+  EXPECT_THAT(two_->output(), Not(HasSubstr("PUBLISHED")));
+}
+
+TEST_F(StandbyDaemon, LearnsWhatWasPublishedBeforeItServesAgain) {
+  StartPair();
+  ReplayToBoth();
+  ASSERT_EQ(Identify("first"), 1u);
+  ASSERT_TRUE(DaemonPair::Keeps(*two_, 1));
+  one_->Signal(SIGKILL);
+  one_->Wait();
+  ASSERT_EQ(Identify("second"), 2u);
+  ASSERT_EQ(Identify("third"), 3u);
+
+  one_ = pair_.Start("one", 2);  // its own newest is revision 1
+  EXPECT_TRUE(DaemonPair::StandsBy(*one_, 2)) << "the stronger leaves the other in its place";
+  EXPECT_TRUE(DaemonPair::Keeps(*one_, 3));
+  EXPECT_TRUE(DaemonPair::IsComplete(*one_)) << one_->output();
+  two_->Signal(SIGKILL);
+  two_->Wait();
+  EXPECT_EQ(Identify("fourth"), 4u);
+  EXPECT_TRUE(DaemonPair::TakesOver(*one_, 3));
+  const auto& seen = RevisionsSeen();
+  EXPECT_TRUE(std::ranges::is_sorted(seen)) << ::testing::PrintToString(seen);
+  EXPECT_EQ(seen.back(), 4u);
+  EXPECT_THAT(RevisionsKept(), ::testing::ElementsAre(4, 3, 2, 1));
+}
+
+// It hangs, or its machine does.
+TEST_F(StandbyDaemon, ReplacesADaemonThatIsSuspendedAndTakesItBackAsStandby) {
+  StartPair();
+  ReplayToBoth();
+  ASSERT_EQ(Identify("first"), 1u);
+  ASSERT_TRUE(DaemonPair::Keeps(*two_, 1));
+  one_->Suspend();
+  EXPECT_EQ(Identify("second"), 2u);
+  one_->Resume();
+  EXPECT_TRUE(one_->WaitForOutput("another daemon serves; this one starts again as its standby"));
+  EXPECT_TRUE(DaemonPair::StandsBy(*one_, 2));
+  EXPECT_TRUE(DaemonPair::Keeps(*one_, 2));
+  EXPECT_EQ(Identify("third"), 3u);
+  EXPECT_TRUE(DaemonPair::Keeps(*one_, 3));
+  const auto& seen = RevisionsSeen();
+  EXPECT_TRUE(std::ranges::is_sorted(seen)) << ::testing::PrintToString(seen);
+  one_->Signal(SIGTERM);
+  EXPECT_EQ(one_->Wait(), 0);
+  EXPECT_THAT(one_->output(), Not(HasSubstr("for second: PUBLISHED")));
+  EXPECT_THAT(one_->output(), Not(HasSubstr("for third: PUBLISHED")));
+}
+
+// It says that it goes.
+TEST_F(StandbyDaemon, TakesOverBeforeTheLeaseEndsFromADaemonThatIsStopped) {
+  StartPair();
+  one_->Signal(SIGTERM);
+  EXPECT_EQ(one_->Wait(), 0);
+  EXPECT_TRUE(DaemonPair::TakesOver(*two_, 2)) << two_->output();
+  EXPECT_EQ(Start({"list"})->Wait(), 0);
+}
+
+}  // namespace
+}  // namespace telltale
