@@ -1,6 +1,7 @@
 #pragma once
 
 #include <chrono>
+#include <cstdint>
 #include <functional>
 #include <optional>
 #include <utility>
@@ -29,6 +30,9 @@ class WatchedReader {
   WatchedReader(const WatchedReader&) = delete;
   WatchedReader& operator=(const WatchedReader&) = delete;
   ~WatchedReader() { wait_set_.Detach(*reader_); }
+
+  /// How many writers it is connected to.
+  std::uint32_t Matched() const { return reader_->Matched(); }
 
   /// Makes the reader anew if it has been silent for too long; true when it did.
   bool ReopenIfSilent(Clock::time_point now) {

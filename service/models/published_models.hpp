@@ -14,6 +14,7 @@
 #include "telltale/client/bus/writer.hpp"
 #include "telltale/service/ingest/fleet.hpp"
 #include "telltale/service/models/model_store.hpp"
+#include "telltale/service/storage/write_durations.hpp"
 
 namespace telltale {
 
@@ -61,11 +62,17 @@ class PublishedModels {
   /// that ownership.
   void AssertLiveliness() { writer_.AssertLiveliness(); }
 
+  /// How many subscribers of models this daemon is connected to.
+  std::uint32_t Matched() const { return writer_.Matched(); }
+
+  WriteDurations::Sum Written() const { return written_.Total(); }
+
  private:
   void Announce(const PublishedModel& model);  ///< the caller holds mutex_
 
   mutable std::mutex mutex_;
   ModelStore store_;
+  WriteDurations written_;
   Writer<telltale_wire_Model> writer_;
   Reader<telltale_wire_Model> own_reader_;  ///< matches every writer of models, also writer_
   std::uint32_t rivals_ = 0;
