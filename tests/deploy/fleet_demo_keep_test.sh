@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# deploy/demo --fleet --keep goes on after its summary: the boats sail in real time, the page shows them live, and
+# deploy/demo --fleet --keep goes on after its summary: the boats move in real time, the page shows them live, and
 # Ctrl-C ends all of it.
 set -euo pipefail
 # shellcheck source=tests/deploy/running_fleet_demo.bash

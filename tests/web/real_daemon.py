@@ -101,6 +101,7 @@ class Daemon:
     def exported(self, model, format):
         """What `telltale export` writes of a file."""
         folder = self.folder / "exported"
+        folder.mkdir(exist_ok=True)
         subprocess.run([BUILT / "client/telltale", "export", "--model", model, "--vehicle", SAMPLE / f"{BOAT}.textproto",
                         "--format", format, "--out", folder], check=True, capture_output=True, timeout=60)
         return (folder / {"mss": "mss.json", "vrx": "vrx.sdf"}[format]).read_text()
