@@ -6,6 +6,7 @@
 
 #include <spdlog/spdlog.h>
 
+#include "telltale/client/bus/topics.hpp"
 #include "telltale/client/fleet/request_reply.hpp"
 
 namespace telltale {
@@ -71,7 +72,7 @@ Daemon::Daemon(const DaemonConfig& config, Endings endings)
   }
   if (!config.http) return;
   web_.emplace(
-      *config.http, fleet_, models_, view_,
+      *config.http, fleet_, models_, view_, [this] { return Activity(); },
       OrderHandlers{.serves = [this] { return role_.Serves(); },
                     .identify = [this](IdentifyRequest request) { Submit(std::move(request)); },
                     .diagnose = [this](DiagnoseRequest request) { Submit(std::move(request)); },
@@ -168,6 +169,19 @@ void Daemon::BeginUpkeep() {
                                                    vehicle_id);
                                        Submit(std::move(request));
                                      }});
+}
+
+DaemonActivity Daemon::Activity() const {
+  DaemonActivity activity;
+  activity.queues = {jobs_.Activity(), diagnosis_jobs_.Activity()};
+  activity.stores = {{"models", models_.Written()},
+                     {"windows", windows_.Written()},
+                     {"requests", journal_.Written()}};
+  activity.received = ingest_.Received();
+  activity.matches = ingest_.Matches();
+  activity.matches.push_back({kContract<telltale_wire_Model>.topic, models_.Matched()});
+  activity.matches.push_back({kContract<telltale_wire_Quality>.topic, quality_.Matched()});
+  return activity;
 }
 
 /// A daemon that was killed has left requests without an answer. Where another has served in the

@@ -19,6 +19,7 @@
 #include "telltale/service/jobs/request_journal.hpp"
 #include "telltale/service/models/baseline_recordings.hpp"
 #include "telltale/service/models/published_models.hpp"
+#include "telltale/service/monitoring/daemon_activity.hpp"
 #include "telltale/service/monitoring/fleet_view.hpp"
 #include "telltale/service/monitoring/fleet_watcher.hpp"
 #include "telltale/service/monitoring/quality_publisher.hpp"
@@ -57,6 +58,7 @@ class Daemon {
   void ResumeRequests(bool succeeds);
   void BeginUpkeep();
   void Heartbeat(bool has_received);
+  DaemonActivity Activity() const;
 
   // A member uses those above it. So telemetry stops first and the participant leaves the bus
   // later; the log of the bus counts into the fleet until then.

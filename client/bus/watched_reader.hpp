@@ -1,6 +1,7 @@
 #pragma once
 
 #include <chrono>
+#include <cstdint>
 #include <functional>
 #include <optional>
 #include <string>
@@ -33,6 +34,9 @@ class WatchedReader {
   WatchedReader(const WatchedReader&) = delete;
   WatchedReader& operator=(const WatchedReader&) = delete;
   ~WatchedReader() { wait_set_.Detach(*reader_); }
+
+  /// How many writers it is connected to.
+  std::uint32_t Matched() const { return reader_->Matched(); }
 
   /// As that of the reader.
   std::vector<std::string> PartitionsOf(WriterHandle writer) const {

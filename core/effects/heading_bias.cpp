@@ -1,3 +1,4 @@
+#include <cmath>
 #include <numbers>
 
 #include "telltale/core/effects/effect_instance.hpp"
@@ -16,8 +17,8 @@ class HeadingBiasEffect final : public Effect {
                 .settled_by = "a second GNSS antenna"}) {}
 
   std::string Describe(EffectValues values) const override {
-    return "heading reads " + FormatNumber(values[0] * 180.0 / std::numbers::pi, 1) + " deg too " +
-           (values[0] < 0.0 ? "low" : "high");
+    return "heading reads " + FormatNumber(std::abs(values[0]) * 180.0 / std::numbers::pi, 1) +
+           " deg too " + (values[0] < 0.0 ? "low" : "high");
   }
 
   double HeadingErrorRad(EffectValues values) const override { return values[0]; }

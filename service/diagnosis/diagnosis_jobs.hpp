@@ -31,6 +31,8 @@ class DiagnosisJobs {
   /// False where no such request waits or runs.
   bool Cancel(const std::string& correlation_id) { return jobs_.Cancel(correlation_id); }
 
+  QueueActivity Activity() const { return jobs_.Activity(); }
+
  private:
   DiagnoseReply DiagnoseAndPublish(const DiagnoseRequest& request, const Progress& progress);
   Result<DiagnosedModel> DiagnoseWindow(const PublishedModel& model, const DiagnoseOptions& options,

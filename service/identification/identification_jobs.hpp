@@ -35,6 +35,8 @@ class IdentificationJobs {
   /// False where no such request waits or runs.
   bool Cancel(const std::string& correlation_id) { return jobs_.Cancel(correlation_id); }
 
+  QueueActivity Activity() const { return jobs_.Activity(); }
+
  private:
   IdentifyReply IdentifyAndPublish(const IdentifyRequest& request, const Progress& progress);
 

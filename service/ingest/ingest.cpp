@@ -1,5 +1,6 @@
 #include "telltale/service/ingest/ingest.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <cstring>
 #include <optional>
@@ -9,6 +10,7 @@
 
 #include <spdlog/spdlog.h>
 
+#include "telltale/client/bus/topics.hpp"
 #include "telltale/idl/codec/vehicle_file.hpp"
 #include "telltale/idl/codec/wire/exchange.hpp"
 #include "telltale/idl/codec/wire/fleet_exchange.hpp"
@@ -119,11 +121,38 @@ void Ingest::Heartbeat(bool has_received) {
   reopen(requests_, "identify requests");
   reopen(diagnose_requests_, "diagnose requests");
   reopen(fleet_requests_, "fleet requests");
+  NoteMatches();
+}
+
+void Ingest::NoteMatches() {
+  const std::lock_guard lock(matches_mutex_);
+  matches_.clear();
+  const auto note = [this]<class Wire>(const WatchedReader<Wire>& reader) {
+    matches_.push_back({kContract<Wire>.topic, reader.Matched()});
+  };
+  note(gnss_);
+  note(heading_);
+  note(thrusters_);
+  note(requests_);
+  note(diagnose_requests_);
+  note(fleet_requests_);
+}
+
+std::array<std::uint64_t, kChannels.size()> Ingest::Received() const {
+  std::array<std::uint64_t, kChannels.size()> received{};
+  std::ranges::copy(received_, received.begin());
+  return received;
+}
+
+std::vector<TopicMatches> Ingest::Matches() const {
+  const std::lock_guard lock(matches_mutex_);
+  return matches_;
 }
 
 template <class Wire>
 void Ingest::Route(Channel channel, const WatchedReader<Wire>& reader, const Wire& wire,
                    WriterHandle writer) {
+  ++received_[static_cast<std::size_t>(channel)];
   const auto telemetry = Decode(wire);
   if (!telemetry) {
     return RejectUnattributed(channel, UnattributedReason::kMalformedId, telemetry.error().value);
@@ -141,9 +170,9 @@ void Ingest::Route(Channel channel, const WatchedReader<Wire>& reader, const Wir
 }
 
 void Ingest::CountReceived(VehicleWindow& window) {
-  std::size_t& received = received_[&window];
-  if (++received < kSamplesPerReceipt) return;
-  received = 0;
+  std::size_t& since_receipt = since_receipt_[&window];
+  if (++since_receipt < kSamplesPerReceipt) return;
+  since_receipt = 0;
   handlers_.received(window);
 }
 

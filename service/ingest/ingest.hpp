@@ -1,12 +1,16 @@
 #pragma once
 
+#include <array>
 #include <atomic>
 #include <chrono>
+#include <cstdint>
 #include <exception>
 #include <functional>
 #include <map>
+#include <mutex>
 #include <string_view>
 #include <thread>
+#include <vector>
 
 #include "telltale/client/bus/bus_log.hpp"
 #include "telltale/client/bus/participant.hpp"
@@ -16,6 +20,7 @@
 #include "telltale/idl/codec/messages/fleet_exchange.hpp"
 #include "telltale/service/ingest/fleet.hpp"
 #include "telltale/service/ingest/senders.hpp"
+#include "telltale/service/ingest/topic_matches.hpp"
 
 namespace telltale {
 
@@ -49,9 +54,17 @@ class Ingest {
   Ingest& operator=(const Ingest&) = delete;
   ~Ingest();  ///< ends the thread
 
+  /// The samples taken from the bus since the start, by channel. Any thread may call it, and the
+  /// next one.
+  std::array<std::uint64_t, kChannels.size()> Received() const;
+
+  /// The connections of the last second.
+  std::vector<TopicMatches> Matches() const;
+
  private:
   void Run();
   void Heartbeat(bool has_received);
+  void NoteMatches();
   template <class Wire>
   void Route(Channel channel, const WatchedReader<Wire>& reader, const Wire& wire,
              WriterHandle writer);
@@ -64,7 +77,10 @@ class Ingest {
   Handlers handlers_;
   Senders senders_;
   RateLimit warning_limit_;
-  std::map<const VehicleWindow*, std::size_t> received_;  ///< since the last receipt
+  std::map<const VehicleWindow*, std::size_t> since_receipt_;
+  std::array<std::atomic<std::uint64_t>, kChannels.size()> received_{};  ///< by channel
+  mutable std::mutex matches_mutex_;
+  std::vector<TopicMatches> matches_;
   WaitSet wait_set_;  // before the readers attached to it, so that it goes last
   WatchedReader<telltale_wire_GnssFix> gnss_;
   WatchedReader<telltale_wire_Heading> heading_;

@@ -28,6 +28,7 @@
 #include "telltale/service/ingest/fleet.hpp"
 #include "telltale/service/jobs/exchange_history.hpp"
 #include "telltale/service/jobs/job.hpp"
+#include "telltale/service/jobs/queue_activity.hpp"
 #include "telltale/service/jobs/reply.hpp"
 #include "telltale/service/jobs/reply_publisher.hpp"
 #include "telltale/service/jobs/request_journal.hpp"
@@ -72,6 +73,8 @@ class JobQueue {
   /// Answers the unfinished request with this correlation id as failed. False where there is none.
   bool Cancel(const std::string& correlation_id);
 
+  QueueActivity Activity() const;
+
  private:
   using Clock = std::chrono::steady_clock;
   using Job = telltale::Job<Request, Reply>;
@@ -96,7 +99,7 @@ class JobQueue {
   }
   static std::optional<Clock::time_point> DeadlineOf(const Request& request);
   bool Prolong(const Request& request);
-  std::optional<Reply> RejectionOf(const Request& request, Urgency urgency) const;
+  std::optional<Reply> RejectionOf(const Request& request, Urgency urgency);
   double RetryAfterS(Urgency urgency) const;
   std::size_t Waiting() const;
   std::shared_ptr<Job> JobLike(const Request& request) const;
@@ -127,6 +130,7 @@ class JobQueue {
   Jobs jobs_;  ///< that wait and that run, oldest first
   std::uint64_t submitted_ = 0;
   std::uint64_t begun_ = 0;
+  std::uint64_t shed_ = 0;
   ExchangeHistory<Stage, Reply> history_;
   RateLimit log_limit_{200, std::chrono::seconds(10)};
   std::set<std::pair<Urgency, std::string>> running_vehicles_;
@@ -262,14 +266,22 @@ std::size_t JobQueue<Request, Stage, Reply>::Waiting() const {
       std::ranges::count_if(jobs_, [](const auto& job) { return job->Waits(); }));
 }
 
+template <class Request, class Stage, class Reply>
+QueueActivity JobQueue<Request, Stage, Reply>::Activity() const {
+  const std::lock_guard lock(mutex_);
+  const std::size_t waiting = Waiting();
+  return {what_, waiting, jobs_.size() - waiting, workers_.size(), shed_};
+}
+
 /// Why the queue cannot take a request.
 template <class Request, class Stage, class Reply>
 std::optional<Reply> JobQueue<Request, Stage, Reply>::RejectionOf(const Request& request,
-                                                                  Urgency urgency) const {
+                                                                  Urgency urgency) {
   if (fleet_.Find(request.vehicle_id) == nullptr) {
     return Failed(request, fleet_.NotServed(request.vehicle_id));
   }
   if (Waiting() < queue_limit_) return std::nullopt;
+  ++shed_;
   const double retry_after_s = RetryAfterS(urgency);
   Reply busy = Failed(request, std::to_string(queue_limit_) + " requests for " + what_ +
                                    " are waiting already; ask again in " +

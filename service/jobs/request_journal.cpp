@@ -96,20 +96,23 @@ void RequestJournal::Run() {
   }
 }
 
+void RequestJournal::Commit(const std::deque<Entry>& entries) {
+  SQLite::Transaction transaction(*database_, SQLite::TransactionBehavior::IMMEDIATE);
+  for (const Entry& entry : entries) {
+    const bool kept = !entry.bytes.empty();
+    SQLite::Statement change(
+        *database_, kept ? "INSERT OR REPLACE INTO requests (correlation_id, request) VALUES (?, ?)"
+                         : "DELETE FROM requests WHERE correlation_id = ?");
+    change.bind(1, entry.correlation_id);
+    if (kept) change.bind(2, entry.bytes.data(), static_cast<int>(entry.bytes.size()));
+    change.exec();
+  }
+  transaction.commit();
+}
+
 void RequestJournal::Write(const std::deque<Entry>& entries) {
   try {
-    SQLite::Transaction transaction(*database_, SQLite::TransactionBehavior::IMMEDIATE);
-    for (const Entry& entry : entries) {
-      const bool kept = !entry.bytes.empty();
-      SQLite::Statement change(
-          *database_,
-          kept ? "INSERT OR REPLACE INTO requests (correlation_id, request) VALUES (?, ?)"
-               : "DELETE FROM requests WHERE correlation_id = ?");
-      change.bind(1, entry.correlation_id);
-      if (kept) change.bind(2, entry.bytes.data(), static_cast<int>(entry.bytes.size()));
-      change.exec();
-    }
-    transaction.commit();
+    written_.Count([&] { Commit(entries); });
     if (!wrote_last_time_) spdlog::info("requests are kept on disk again");
     wrote_last_time_ = true;
   } catch (const std::exception& error) {

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "telltale/idl/codec/stored_request.hpp"
+#include "telltale/service/storage/write_durations.hpp"
 
 namespace SQLite {
 class Database;
@@ -40,6 +41,8 @@ class RequestJournal {
   /// The request needs no answer any more.
   void Drop(const std::string& correlation_id);
 
+  WriteDurations::Sum Written() const { return written_.Total(); }
+
  private:
   struct Entry {
     std::string correlation_id;
@@ -49,10 +52,12 @@ class RequestJournal {
 
   void Run();
   void Write(const std::deque<Entry>& entries);
+  void Commit(const std::deque<Entry>& entries);
   void Push(Entry entry);
 
   std::unique_ptr<SQLite::Database> database_;  // of the thread, once that runs
   bool wrote_last_time_ = true;
+  WriteDurations written_;
   std::mutex mutex_;  // of what follows
   std::condition_variable wake_;
   bool stopping_ = false;

@@ -62,7 +62,8 @@ PublishedModel PublishedModels::Publish(Identification identification,
   const std::lock_guard lock(mutex_);
   RequireRole();
   identification.provenance.change = ChangeSincePredecessor(store_, identification);
-  const StoredModel stored = store_.Save(identification, UnixNow(), reference_error, promotion);
+  const StoredModel stored = written_.Count(
+      [&] { return store_.Save(identification, UnixNow(), reference_error, promotion); });
   latest_.insert_or_assign(identification.vehicle_id, stored);
   Announce(stored.model);
   LogVerdict(stored.model);
@@ -142,8 +143,10 @@ std::optional<PublishedModel> PublishedModels::PublishAgain(const std::string& v
   Promotion promotion = earlier->model.promotion;
   promotion.reason = "revision " + std::to_string(revision) + " published again" +
                      (promotion.reason.empty() ? "" : "; " + promotion.reason);
-  const StoredModel stored =
-      store_.Save(earlier->model.identification, UnixNow(), earlier->reference_error, promotion);
+  const StoredModel stored = written_.Count([&] {
+    return store_.Save(earlier->model.identification, UnixNow(), earlier->reference_error,
+                       promotion);
+  });
   latest_.insert_or_assign(vehicle_id, stored);
   spdlog::info("{}: revision {} is published again as revision {}", vehicle_id, revision,
                stored.model.revision);

@@ -17,6 +17,7 @@
 #include "telltale/service/ingest/fleet.hpp"
 #include "telltale/service/models/model_store.hpp"
 #include "telltale/service/standby/role.hpp"
+#include "telltale/service/storage/write_durations.hpp"
 
 namespace telltale {
 
@@ -93,6 +94,11 @@ class PublishedModels {
   /// that ownership.
   void AssertLiveliness();
 
+  /// How many subscribers of models this daemon is connected to.
+  std::uint32_t Matched() const { return publishing_ ? writer_->Matched() : 0; }
+
+  WriteDurations::Sum Written() const { return written_.Total(); }
+
  private:
   // The caller of these holds mutex_.
   void RequireRole() const;
@@ -106,6 +112,7 @@ class PublishedModels {
   std::optional<Writer<telltale_wire_Model>> writer_;
   std::atomic<bool> publishing_ = false;      ///< writer_ is there, and stays
   Reader<telltale_wire_Model> rival_reader_;  ///< matches the writers of others
+  WriteDurations written_;
   std::uint32_t rivals_ = 0;
   std::map<std::string, StoredModel, std::less<>> latest_;
   std::set<std::string> blocked_;

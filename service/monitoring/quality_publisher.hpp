@@ -34,6 +34,9 @@ class QualityPublisher {
   /// Publishes this vehicle's counts soon. Returns at once; any thread may call it.
   void PublishReceipt(VehicleWindow& window);
 
+  /// How many monitors this daemon is connected to.
+  std::uint32_t Matched() const { return writer_.Matched(); }
+
  private:
   using Clock = std::chrono::steady_clock;
 

@@ -7,7 +7,10 @@
 #include <set>
 #include <utility>
 
+#include "telltale/client/exchange/mss.hpp"
+#include "telltale/client/exchange/vrx.hpp"
 #include "telltale/client/fleet/request_reply.hpp"
+#include "telltale/client/report/report_page.hpp"
 #include "telltale/core/base/version.hpp"
 #include "telltale/idl/codec/json/json_message.hpp"
 #include "telltale/idl/codec/json/proto_values.hpp"
@@ -121,9 +124,11 @@ void FleetApi::AddRoutes(httplib::Server& server) {
   get("/api/v1/vehicles/([^/]+)/history", &FleetApi::GetHistory);
   get("/api/v1/vehicles/([^/]+)/models", &FleetApi::GetModels);
   get("/api/v1/vehicles/([^/]+)/models/([^/]+)", &FleetApi::GetModel);
+  get("/api/v1/vehicles/([^/]+)/models/([^/]+)/export", &FleetApi::GetExport);
   get("/api/v1/vehicles/([^/]+)/comparison", &FleetApi::GetComparison);
   get("/api/v1/vehicles/([^/]+)/predicted-paths", &FleetApi::GetPredictedPaths);
   get("/api/v1/vehicles/([^/]+)/diagnosis", &FleetApi::GetDiagnosis);
+  get("/api/v1/vehicles/([^/]+)/diagnosis/report", &FleetApi::GetReport);
   get("/api/v1/jobs", &FleetApi::GetJobs);
   get("/api/v1/jobs/([^/]+)", &FleetApi::GetJob);
   server.Post("/api/v1/refresh", [this](const Request& request, Response& response) {
@@ -245,6 +250,31 @@ std::optional<PublishedModel> FleetApi::FindModel(const std::string& vehicle_id,
   return std::nullopt;
 }
 
+/// For another simulator, as `telltale export` writes it.
+void FleetApi::GetExport(const Request& request, Response& response) const {
+  const std::string vehicle_id = request.matches[1];
+  const VehicleWindow* const window = fleet_.Find(vehicle_id);
+  if (window == nullptr) return AnswerNotServed(vehicle_id, response);
+  const bool has_format = request.has_param("format");
+  const std::string format = has_format ? request.get_param_value("format") : "mss";
+  if (format != "mss" && format != "vrx") {
+    return AnswerFailure(400, "format is '" + format.substr(0, 64) + "'", "mss or vrx", response);
+  }
+  const auto model = FindModel(vehicle_id, request.matches[2], response);
+  if (!model) return;
+  const bool is_mss = format == "mss";
+  const Result<std::string> text = is_mss ? PrintMss(model->identification, window->vehicle())
+                                          : PrintVrx(model->identification, window->vehicle());
+  if (!text) {
+    const Refusal& refusal = text.error();
+    return AnswerFailure(404, refusal.subject + ": " + refusal.reason, refusal.advice, response);
+  }
+  response.set_header("Content-Disposition", "attachment; filename=\"" + vehicle_id + "-r" +
+                                                 std::to_string(model->revision) +
+                                                 (is_mss ? ".mss.json\"" : ".vrx.sdf\""));
+  response.set_content(*text, is_mss ? "application/json" : "application/xml");
+}
+
 /// By default of the newest model with the one before it.
 void FleetApi::GetComparison(const Request& request, Response& response) const {
   const std::string vehicle_id = request.matches[1];
@@ -280,25 +310,49 @@ void FleetApi::GetPredictedPaths(const Request& request, Response& response) con
     return AnswerFailure(404, vehicle_id + " has no model",
                          "telltale identify --vehicle-id " + vehicle_id, response);
   }
-  const auto paths =
-      PredictPaths(window->Snapshot(), window->vehicle(), latest->model.identification,
-                   static_cast<double>(*seconds), static_cast<double>(*horizon));
+  const std::uint64_t revision = latest->model.revision;
+  const auto paths = path_predictions_.Ask({vehicle_id, revision, *seconds, *horizon}, [&] {
+    return PredictPaths(window->Snapshot(), window->vehicle(), latest->model.identification,
+                        static_cast<double>(*seconds), static_cast<double>(*horizon));
+  });
   if (!paths) {
-    const Refusal& refusal = paths.error();
+    response.set_header("Retry-After", "1");
+    return AnswerFailure(503, "too many predicted paths are asked for", "ask again in a second",
+                         response);
+  }
+  if (!*paths) {
+    const Refusal& refusal = paths->error();
     return AnswerFailure(404, refusal.subject + ": " + refusal.reason, refusal.advice, response);
   }
-  AnswerJson(ToProto(*paths, latest->model.revision), request, response);
+  AnswerJson(ToProto(**paths, revision), request, response);
+}
+
+/// The last one; null after it has answered 404.
+std::shared_ptr<const PublishedDiagnosis> FleetApi::FindDiagnosis(const std::string& vehicle_id,
+                                                                  Response& response) const {
+  if (!IsServed(vehicle_id, response)) return nullptr;
+  auto last = view_.LastDiagnosisOf(vehicle_id);
+  if (!last) {
+    AnswerFailure(404, vehicle_id + " has not been diagnosed",
+                  "telltale diagnose --vehicle-id " + vehicle_id, response);
+  }
+  return last;
 }
 
 void FleetApi::GetDiagnosis(const Request& request, Response& response) const {
-  const std::string vehicle_id = request.matches[1];
-  if (!IsServed(vehicle_id, response)) return;
-  const auto last = view_.LastDiagnosisOf(vehicle_id);
-  if (!last) {
-    return AnswerFailure(404, vehicle_id + " has not been diagnosed",
-                         "telltale diagnose --vehicle-id " + vehicle_id, response);
-  }
-  AnswerJson(ToProto(*last), request, response);
+  const auto last = FindDiagnosis(request.matches[1], response);
+  if (last) AnswerJson(ToProto(*last), request, response);
+}
+
+/// The page that `telltale diagnose --html` writes. Its styles stand inside it.
+void FleetApi::GetReport(const Request& request, Response& response) const {
+  const auto last = FindDiagnosis(request.matches[1], response);
+  if (!last) return;
+  response.headers.erase("Content-Security-Policy");
+  response.set_header("Content-Security-Policy",
+                      "default-src 'none'; style-src 'unsafe-inline'; base-uri 'none'; "
+                      "form-action 'none'; frame-ancestors 'none'");
+  response.set_content(ReportPage(last->diagnosis), "text/html; charset=utf-8");
 }
 
 void FleetApi::GetJobs(const Request& request, Response& response) const {

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 
@@ -13,6 +14,7 @@
 #include "telltale/service/models/published_models.hpp"
 #include "telltale/service/monitoring/fleet_view.hpp"
 #include "telltale/service/web/httplib.hpp"
+#include "telltale/service/web/path_predictions.hpp"
 
 namespace telltale {
 
@@ -48,9 +50,11 @@ class FleetApi {
   void GetTracks(const Request& request, Response& response) const;
   void GetModels(const Request& request, Response& response) const;
   void GetModel(const Request& request, Response& response) const;
+  void GetExport(const Request& request, Response& response) const;
   void GetComparison(const Request& request, Response& response) const;
   void GetPredictedPaths(const Request& request, Response& response) const;
   void GetDiagnosis(const Request& request, Response& response) const;
+  void GetReport(const Request& request, Response& response) const;
   void GetJobs(const Request& request, Response& response) const;
   void GetJob(const Request& request, Response& response) const;
   void PostOrder(JobView::Kind kind, const Request& request, Response& response);
@@ -59,6 +63,8 @@ class FleetApi {
   bool ReadOrder(const Request& request, const std::string& form, google::protobuf::Message& order,
                  Response& response);
   bool IsServed(const std::string& vehicle_id, Response& response) const;
+  std::shared_ptr<const PublishedDiagnosis> FindDiagnosis(const std::string& vehicle_id,
+                                                          Response& response) const;
   std::optional<PublishedModel> FindModel(const std::string& vehicle_id, const std::string& text,
                                           Response& response) const;
   void Queue(JobView::Kind kind, const std::string& id, const std::string& vehicle_id);
@@ -68,6 +74,7 @@ class FleetApi {
   FleetView& view_;
   const OrderHandlers handlers_;
   const std::optional<std::string> token_;
+  mutable PathPredictions path_predictions_;  ///< keeps its answers for a while
   std::mutex limit_mutex_;
   RateLimit order_limit_;
 };

@@ -22,6 +22,14 @@ class MetricValues {
   MetricValues(MetricType type, std::string name, std::string help)
       : family_{std::move(name), std::move(help), type, {}} {}
 
+  /// Of a family that is a summary: how many, and their sum.
+  void Add(Labels labels, std::uint64_t count, double sum) {
+    ClientMetric& metric = family_.metric.emplace_back();
+    metric.label = std::move(labels);
+    metric.summary.sample_count = count;
+    metric.summary.sample_sum = sum;
+  }
+
   void Add(Labels labels, double value) {
     ClientMetric& metric = family_.metric.emplace_back();
     metric.label = std::move(labels);
@@ -214,6 +222,61 @@ MetricFamily UnfinishedJobs(const FleetView& view) {
   return std::move(values).Take();
 }
 
+/// A number of each queue.
+MetricFamily QueueNumbers(const std::vector<QueueActivity>& queues, MetricType type,
+                          const char* name, const char* help, auto QueueActivity::*number) {
+  MetricValues values(type, name, help);
+  for (const QueueActivity& queue : queues) {
+    values.Add({{"queue", queue.queue}}, static_cast<double>(queue.*number));
+  }
+  return std::move(values).Take();
+}
+
+MetricFamily StoreWrites(const std::vector<StoreActivity>& stores) {
+  MetricValues values(MetricType::Summary, "telltale_store_write_seconds",
+                      "Writes to a database, and the time that they took.");
+  for (const auto& [store, written] : stores) {
+    values.Add({{"store", store}}, written.writes, written.duration_s);
+  }
+  return std::move(values).Take();
+}
+
+MetricFamily ReceivedSamples(const DaemonActivity& activity) {
+  MetricValues values(MetricType::Counter, "telltale_received_samples_total",
+                      "Samples of telemetry taken from the bus.");
+  for (const Channel channel : kChannels) {
+    const auto place = static_cast<std::size_t>(channel);
+    values.Add({{"channel", std::string(Name(channel))}},
+               static_cast<double>(activity.received[place]));
+  }
+  return std::move(values).Take();
+}
+
+MetricFamily Matches(const std::vector<TopicMatches>& matches) {
+  MetricValues values(MetricType::Gauge, "telltale_dds_matches",
+                      "Other ends of a topic that the daemon is connected to.");
+  for (const auto& [topic, count] : matches) values.Add({{"topic", topic}}, count);
+  return std::move(values).Take();
+}
+
+void AddActivity(const DaemonActivity& activity, std::vector<MetricFamily>& families) {
+  using enum MetricType;
+  const auto add = [&](auto... description) {
+    families.push_back(QueueNumbers(activity.queues, description...));
+  };
+  add(Gauge, "telltale_queue_requests_waiting", "Requests that no worker has begun.",
+      &QueueActivity::waiting);
+  add(Gauge, "telltale_queue_requests_running", "Requests that are worked on.",
+      &QueueActivity::running);
+  add(Gauge, "telltale_queue_workers", "Threads that work on the requests of a queue.",
+      &QueueActivity::workers);
+  add(Counter, "telltale_queue_requests_shed_total", "Requests that found the queue full.",
+      &QueueActivity::shed);
+  families.push_back(StoreWrites(activity.stores));
+  families.push_back(ReceivedSamples(activity));
+  families.push_back(Matches(activity.matches));
+}
+
 MetricFamily Single(MetricType type, const char* name, const char* help, double value,
                     const Labels& labels = {}) {
   MetricValues values(type, name, help);
@@ -253,6 +316,7 @@ std::vector<prometheus::MetricFamily> FleetMetrics::Collect() const {
   families.push_back(Single(MetricType::Gauge, "telltale_serving",
                             "1: the daemon serves; 0: it stands by for another.",
                             serves_() ? 1.0 : 0.0));
+  AddActivity(activity_(), families);
   std::erase_if(families, [](const MetricFamily& family) { return family.metric.empty(); });
   return families;
 }

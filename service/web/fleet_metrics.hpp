@@ -7,6 +7,7 @@
 #include <prometheus/collectable.h>
 #include <prometheus/metric_family.h>
 
+#include "telltale/service/monitoring/daemon_activity.hpp"
 #include "telltale/service/monitoring/fleet_view.hpp"
 
 namespace telltale {
@@ -15,13 +16,15 @@ namespace telltale {
 class FleetMetrics : public prometheus::Collectable {
  public:
   /// `serves`: whether this daemon serves, or stands by for another.
-  FleetMetrics(FleetView& view, std::function<bool()> serves)
-      : view_(view), serves_(std::move(serves)) {}
+  FleetMetrics(FleetView& view, std::function<DaemonActivity()> activity,
+               std::function<bool()> serves)
+      : view_(view), activity_(std::move(activity)), serves_(std::move(serves)) {}
 
   std::vector<prometheus::MetricFamily> Collect() const override;
 
  private:
   FleetView& view_;
+  const std::function<DaemonActivity()> activity_;
   const std::function<bool()> serves_;
 };
 

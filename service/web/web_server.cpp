@@ -98,9 +98,10 @@ class EventStream {
 }  // namespace
 
 WebServer::WebServer(const HttpSettings& settings, const Fleet& fleet,
-                     const PublishedModels& models, FleetView& view, OrderHandlers handlers)
+                     const PublishedModels& models, FleetView& view,
+                     std::function<DaemonActivity()> activity, OrderHandlers handlers)
     : view_(view),
-      metrics_(view, handlers.serves),
+      metrics_(view, std::move(activity), handlers.serves),
       api_(fleet, models, view, std::move(handlers), ReadToken(settings.token_file)),
       server_(MakeServer(settings)) {
   Limit(settings.connections);

@@ -1,9 +1,11 @@
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <thread>
 
 #include "telltale/idl/codec/daemon_config.hpp"
+#include "telltale/service/monitoring/daemon_activity.hpp"
 #include "telltale/service/web/fleet_api.hpp"
 #include "telltale/service/web/fleet_metrics.hpp"
 #include "telltale/service/web/httplib.hpp"
@@ -15,7 +17,7 @@ namespace telltale {
 class WebServer {
  public:
   WebServer(const HttpSettings& settings, const Fleet& fleet, const PublishedModels& models,
-            FleetView& view, OrderHandlers handlers);
+            FleetView& view, std::function<DaemonActivity()> activity, OrderHandlers handlers);
   WebServer(const WebServer&) = delete;
   WebServer& operator=(const WebServer&) = delete;
   ~WebServer();

@@ -97,7 +97,7 @@ void WindowArchive::TakeRound() {
 void WindowArchive::SaveRounds() {
   const std::lock_guard lock(store_mutex_);
   for (; !rounds_.empty(); rounds_.pop_front()) {
-    store_.Save(rounds_.front(), {window_s_, most_chunks_});
+    written_.Count([this] { store_.Save(rounds_.front(), {window_s_, most_chunks_}); });
   }
 }
 

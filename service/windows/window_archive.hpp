@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "telltale/service/ingest/fleet.hpp"
+#include "telltale/service/storage/write_durations.hpp"
 #include "telltale/service/windows/window_store.hpp"
 
 namespace telltale {
@@ -30,6 +31,8 @@ class WindowArchive {
   /// Fills the window of a vehicle that is served from now on, and saves it too.
   void Admit(const std::string& vehicle_id, VehicleWindow& window);
 
+  WriteDurations::Sum Written() const { return written_.Total(); }
+
  private:
   void Restore();
   void Run();
@@ -38,6 +41,7 @@ class WindowArchive {
   void SaveRounds();
 
   WindowStore store_;
+  WriteDurations written_;
   Fleet& fleet_;
   const double window_s_;
   const std::int64_t most_chunks_;

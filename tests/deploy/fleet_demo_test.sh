@@ -1,39 +1,19 @@
 #!/usr/bin/env bash
 # deploy/demo --fleet sees the clock that jumps once and the thruster that weakens, names the thruster by itself,
 # finds nothing wrong with the others, shows it all on the page, and ends by itself with a summary. It is held up
-# once it has seen everything, since its page lasts no longer than it. TELLTALE_BUILT names the build folder.
+# once it has seen everything, since its page lasts no longer than it.
 set -euo pipefail
-root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
-built=${TELLTALE_BUILT:-$root/build/release}
-sandbox=$(mktemp -d)
-demo=
-stop_demo() {
-  if [[ -n $demo ]] && kill -s TERM "$demo" 2> /dev/null; then
-    kill -s CONT "$demo"
-    wait "$demo" || true
-  fi
-}
-trap 'stop_demo; rm -rf "$sandbox"' EXIT
-mkdir "$sandbox/tmp"
-export TMPDIR=$sandbox/tmp
-unset TELLTALE_DDS_TAG
-readonly output=$sandbox/output
-
-fail() { echo "FAILED: $1" >&2; cat "$output" >&2; exit 1; }
-left_over() { grep -lzx "TELLTALE_DDS_TAG=demo-$demo" /proc/[0-9]*/environ 2> /dev/null || true; }
+# shellcheck source=tests/deploy/running_fleet_demo.bash
+source "$(dirname "${BASH_SOURCE[0]}")/running_fleet_demo.bash"
 
 "$root/deploy/demo" --keep &> "$output" && fail "--keep without --fleet is taken"
 
-"$root/deploy/demo" --fleet --built "$built" &> "$output" &
-demo=$!
-until grep -qx 'boat-5: diagnosed' "$output"; do
-  kill -0 "$demo" 2> /dev/null || fail "it ended early"
-  sleep 0.05
-done
+begin_demo
+await_line 'boat-5: diagnosed'
 kill -s STOP "$demo"
 
 # What the page asks for says the same.
-address=$(sed -n 's/^Open //p' "$output")
+address=$(page_address)
 python3 - "$address" <<'CHECK' || fail "the API of the page says something else"
 import json
 import sys
@@ -67,6 +47,5 @@ done
 (($(grep -cE '^boat-[1-4] +OK ' <<< "$fleet") == 4)) || fail "a nominal boat is not OK"
 sed -n '/^== What is wrong/,$p' "$output" | tr -s ' \n' ' ' | grep -q 'EXPLAINED, .* ago: Port thruster [34][0-9] % weaker' ||
   fail "the diagnosis does not name the thruster that has lost two fifths"
-[[ -z $(left_over) ]] || fail "still running: $(left_over)"
-[[ -z $(ls -A "$TMPDIR") ]] || fail "left behind: $(ls -A "$TMPDIR")"
+check_nothing_is_left
 echo "the demo of the fleet shows what is wrong, and with whom"

@@ -45,7 +45,7 @@ class ScrapeTest(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         folder = pathlib.Path(cls.enterClassContext(tempfile.TemporaryDirectory()))
-        cls.daemon = cls.enterClassContext(Daemon(more=1))
+        cls.daemon = cls.enterClassContext(Daemon(more=2))
         cls.daemon.replay()
         _, headers, _ = cls.daemon.order("refresh")
         until(lambda: cls.daemon.get(headers["Location"])["state"] == "PUBLISHED", "a model", 300)
@@ -88,7 +88,7 @@ class ScrapeTest(unittest.TestCase):
 
     def test_the_scrape_tells_what_the_api_tells(self):
         quality = self.daemon.get(f"/api/v1/vehicles/{BOAT}")
-        self.assertEqual([value for _, value in self.query("telltale_vehicles")], [2])
+        self.assertEqual([value for _, value in self.query("telltale_vehicles")], [3])
         def revision():
             return [value for _, value in self.query(f'telltale_vehicle_model_revision{{vehicle_id="{BOAT}"}}')]
         until(lambda: revision() == [1], "the revision")
@@ -98,6 +98,23 @@ class ScrapeTest(unittest.TestCase):
         self.assertEqual([labels["verdict"] for labels, _ in verdicts], ["STALE"])
         published = self.query('telltale_jobs_total{kind="refresh",outcome="published"}')
         self.assertEqual([value for _, value in published], [1])
+
+    def test_the_daemon_tells_what_its_parts_are_at(self):
+        def value(expression):
+            found = self.query(expression)
+            return found[0][1] if found else None
+        until(lambda: value('telltale_store_write_seconds_count{store="models"}') == 1, "the model is written")
+        self.assertGreater(value('telltale_store_write_seconds_sum{store="models"}'), 0)
+        quality = self.daemon.get(f"/api/v1/vehicles/{BOAT}")
+        received = quality["accepted"] + sum(entry["count"] for entry in quality["rejected"])
+        until(lambda: value("sum(telltale_received_samples_total)") == received, "the samples of the replay")
+        for queue in ("identification", "diagnosis"):
+            for name, wanted in (("requests_waiting", 0), ("requests_running", 0), ("requests_shed_total", 0)):
+                until(lambda: value(f'telltale_queue_{name}{{queue="{queue}"}}') == wanted, f"{name} of {queue}")
+            self.assertGreater(value(f'telltale_queue_workers{{queue="{queue}"}}'), 0)
+        with self.daemon.replaying("boat-0001"):
+            until(lambda: value('telltale_dds_matches{topic="telltale/telemetry/gnss"}') == 1, "a boat is connected")
+        until(lambda: value('telltale_dds_matches{topic="telltale/telemetry/gnss"}') == 0, "it has gone")
 
     def test_rules_and_dashboard_name_metrics_that_are_there(self):
         page = (ROOT / "docs/reference/metrics.md").read_text()
@@ -110,7 +127,8 @@ class ScrapeTest(unittest.TestCase):
         self.assertEqual(documented - sometimes, scraped - sometimes)
         self.assertLessEqual(sometimes, documented)
         for file in (RULES, DASHBOARD):
-            named = set(re.findall(r"(?:telltale_vehicle|telltale_jobs|process)_\w+", file.read_text()))
+            named = set(re.findall(r"(?:telltale_(?:vehicle|jobs|queue|store|dds)|process)_\w+", file.read_text()))
+            named = {re.sub("_(?:sum|count)$", "", name) for name in named}  # of a summary
             self.assertTrue(named)
             self.assertLessEqual(named, documented, file)
 

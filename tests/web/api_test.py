@@ -1,4 +1,6 @@
 """The HTTP API of a real daemon against docs/reference/openapi.json, and against bad clients."""
+import concurrent.futures
+import html
 import http.client
 import json
 import pathlib
@@ -204,6 +206,27 @@ class ApiTest(unittest.TestCase):
             self.refused(f"{route}?{query}", status, template)
         self.refused("/api/v1/vehicles/boat-0000/comparison", 404, template)
 
+    def test_a_model_is_exported(self):
+        template = "/api/v1/vehicles/{id}/models/{revision}/export"
+        route = f"/api/v1/vehicles/{BOAT}/models/1/export"
+        model = self.daemon.folder / "exported.json"
+        model.write_text(json.dumps(self.daemon.get(f"/api/v1/vehicles/{BOAT}/models/1")))
+        status, headers, text = self.daemon.ask("GET", f"{route}?format=mss")
+        self.assertEqual((status, headers["Content-Disposition"]), (200, f'attachment; filename="{BOAT}-r1.mss.json"'))
+        self.assertEqual(text, self.daemon.exported(model, "mss"))
+        # The vehicle file of the sample states no mass, which drags in newtons need.
+        self.assertIn("mass", self.refused(f"{route}?format=vrx", 404, template))
+        self.assertIn("mss or vrx", self.refused(f"{route}?format=x", 400, template))
+        self.refused(f"/api/v1/vehicles/{BOAT}/models/999/export", 404, template)
+
+    def test_the_report_of_a_diagnosis_is_a_page(self):
+        route = f"/api/v1/vehicles/{BOAT}/diagnosis"
+        status, headers, text = self.daemon.ask("GET", f"{route}/report")
+        self.assertEqual((status, headers["Content-Type"]), (200, "text/html; charset=utf-8"))
+        self.assertEqual(headers.get_all("Content-Security-Policy")[0].count("unsafe-inline"), 1)
+        self.assertEqual(len(headers.get_all("Content-Security-Policy")), 1)
+        self.assertIn(self.daemon.get(route)["sentence"], html.unescape(text))
+
     def test_paths_are_predicted(self):
         template = "/api/v1/vehicles/{id}/predicted-paths"
         route = template.replace("{id}", BOAT)
@@ -216,6 +239,19 @@ class ApiTest(unittest.TestCase):
         self.assertIn("[5, 60]", self.refused(f"{route}?seconds=60&horizon=61", 400, template))
         self.assertIn("[10, 600]", self.refused(f"{route}?seconds=601", 400, template))
         self.assertIn("telltale identify", self.refused("/api/v1/vehicles/boat-0000/predicted-paths", 404, template))
+
+    def test_many_who_ask_for_paths_do_not_stop_others(self):
+        template = "/api/v1/vehicles/{id}/predicted-paths"
+        route = template.replace("{id}", BOAT)
+        questions = [f"{route}?seconds={600 - n}&horizon={5 + n}" for n in range(60)]
+        with concurrent.futures.ThreadPoolExecutor(20) as clients:
+            answers = [clients.submit(self.daemon.ask, "GET", question) for question in questions]
+            self.assertEqual(self.daemon.get("/api/v1")["vehicles"], 31)
+            for answer in answers:
+                status, headers, text = answer.result()
+                self.assertIn(status, (200, 503), text)
+                self.keeps_to_schema("GET", template, status, headers, text)
+                self.assertEqual("Retry-After" in headers, status == 503)
 
     def test_a_large_body_is_refused(self):
         status, _, _ = self.daemon.ask("POST", "/api/v1/refresh", "x" * 100_000,

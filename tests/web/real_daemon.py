@@ -98,6 +98,14 @@ class Daemon:
         return subprocess.run([BUILT / "client/telltale", "compare", "--model", earlier, "--model", later],
                               check=True, capture_output=True, text=True, timeout=60).stdout
 
+    def exported(self, model, format):
+        """What `telltale export` writes of a file."""
+        folder = self.folder / "exported"
+        folder.mkdir(exist_ok=True)
+        subprocess.run([BUILT / "client/telltale", "export", "--model", model, "--vehicle", SAMPLE / f"{BOAT}.textproto",
+                        "--format", format, "--out", folder], check=True, capture_output=True, timeout=60)
+        return (folder / {"mss": "mss.json", "vrx": "vrx.sdf"}[format]).read_text()
+
     def replay(self, boat=BOAT, first_s=0, last_s=600, speed=100):
         """The sample from its second first_s to last_s."""
         with self.replaying(boat, first_s, last_s, speed) as replay:

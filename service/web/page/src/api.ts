@@ -76,6 +76,7 @@ export interface Model {
   parameters?: Coefficient[];  // of the physical form
   delays?: { [name: string]: unknown };
   window?: { startS: number; endS: number; samples: number };
+  refusals: { subject: string; reason: string; advice: string }[];
   provenance: {
     revision: string;
     publishedUnixS: number;
@@ -187,6 +188,20 @@ async function post<T>(route: string, body: object, token: string): Promise<T> {
   const answer = await response.json();
   if (!response.ok) throw new Error(answer.error ?? `the daemon answers ${response.status}`);
   return answer as T;
+}
+
+/** Saves what the daemon answers as a file of its name; throws its reason where it has none. */
+export async function save(route: string) {
+  const response = await fetch(`api/v1${route}`);
+  if (!response.ok) {
+    const { error, allowed } = await response.json();
+    throw new Error(`${error}. ${allowed}`);
+  }
+  const link = document.createElement("a");
+  link.href = URL.createObjectURL(await response.blob());
+  link.download = /filename="(.+)"/.exec(response.headers.get("Content-Disposition") ?? "")?.[1] ?? "";
+  link.click();
+  URL.revokeObjectURL(link.href);
 }
 
 /** Asks for a new model or a diagnosis. */

@@ -1,6 +1,6 @@
 import type { ComponentChildren } from "preact";
 import { useState } from "preact/hooks";
-import { order, rollback, type Coefficient, type History, type Info, type Job, type Model, type PredictedPaths, type Quality, type Report } from "./api";
+import { order, rollback, save, type Coefficient, type History, type Info, type Job, type Model, type PredictedPaths, type Quality, type Report } from "./api";
 import { ErrorChart, Intervals } from "./charts";
 import { CompareModels } from "./compare";
 import { clock, diagnosisVerdict, duration, number, percent, significant, unit, words } from "./format";
@@ -78,6 +78,18 @@ function Delays({ model }: { model?: Model }) {
   );
 }
 
+/** Coefficients without bounds, and the manoeuvre that would give them some. */
+function Identifiability({ model }: { model?: Model }) {
+  if (!model || model.refusals.length === 0) return null;
+  return (
+    <>
+      <h3>What the data do not determine</h3>
+      <ul>{model.refusals.map(({ subject, reason, advice }) =>
+        <li key={subject}><strong>{subject}</strong>: {reason}. <span class="advice">{advice}</span></li>)}</ul>
+    </>
+  );
+}
+
 function ModelFacts({ quality, newest }: { quality: Quality; newest?: Model }) {
   const model = quality.model;
   if (!model) {
@@ -93,6 +105,7 @@ function ModelFacts({ quality, newest }: { quality: Quality; newest?: Model }) {
         <Fact name="Median half width">{model.relativeHalfWidth > 0 ? percent(model.relativeHalfWidth) : "–"} of the estimate</Fact>
       </dl>
       <Delays model={newest} />
+      <Identifiability model={newest} />
       {quality.lastRefusal && (
         <p class="note"><strong>Last refusal.</strong> {quality.lastRefusal.subject}: {quality.lastRefusal.reason}. {quality.lastRefusal.advice}</p>
       )}
@@ -151,7 +164,27 @@ function Cause({ cause }: { cause: Report["causes"][number] }) {
   );
 }
 
-function Diagnosis({ report }: { report?: Report | null }) {
+const kPlacesAtMost = 5;
+
+/** Where the excess error sits, most of it first. */
+function Where({ places }: { places: Report["where"] }) {
+  if (places.length === 0) return null;
+  return (
+    <>
+      <h3>Where the excess error sits</h3>
+      <ul>{places.slice(0, kPlacesAtMost).map(({ channel, propellerRegion, bin, excessShare, kind }) => (
+        <li key={`${channel} ${propellerRegion} ${bin}`}>
+          {[words(channel), propellerRegion === "ALL" ? "" : `propellers ${propellerRegion}`, bin].filter(Boolean).join(", ")}:
+          {" "}{percent(excessShare)} of it, {kKinds[kind] ?? words(kind)}
+        </li>
+      ))}</ul>
+    </>
+  );
+}
+
+const kKinds: { [kind: string]: string } = { BIAS: "an offset", SLOPE: "in proportion", TIMING: "timing", NOISE: "noise" };
+
+function Diagnosis({ vehicleId, report }: { vehicleId: string; report?: Report | null }) {
   if (!report) {
     return <Card title="Last diagnosis" wide><p class="empty">This boat has not been diagnosed.</p></Card>;
   }
@@ -166,6 +199,7 @@ function Diagnosis({ report }: { report?: Report | null }) {
         {gap?.closure !== undefined && ` Excess error explained: ${percent(gap.closure)}.`}</p>
       {likely.length > 0 && <><h3>Causes, by probability</h3>
         <ul class="causes">{likely.map((cause) => <Cause key={cause.effects.join()} cause={cause} />)}</ul></>}
+      <Where places={report.where} />
       <h3>What to do next</h3>
       {report.advice.length > 0
         ? <ul>{report.advice.map((advice) => (
@@ -175,6 +209,7 @@ function Diagnosis({ report }: { report?: Report | null }) {
             : report.verdict === "EXPLAINED"
               ? "No manoeuvre would separate the causes better. Inspect the named part, then refresh the model."
               : "Record more varied driving, in both directions and at several speeds, and diagnose again."}</p>}
+      <p><a href={`api/v1/vehicles/${encodeURIComponent(vehicleId)}/diagnosis/report`}>The report with its charts</a></p>
     </Card>
   );
 }
@@ -188,16 +223,22 @@ function Models({ vehicleId, models, takesOrders, token }: {
   const [outcome, setOutcome] = useState("");
   const [fault, setFault] = useState("");
   if (models.length === 0) return null;
-  const rollBack = async (revision: string) => {
+  const tell = async (act: () => Promise<string>) => {
     setOutcome("");
     setFault("");
     try {
-      const published = await rollback(vehicleId, revision, token);
-      setOutcome(`Revision ${revision} is published again as revision ${published}.`);
+      setOutcome(await act());
     } catch (error) {
       setFault((error as Error).message);
     }
   };
+  const rollBack = (revision: string) => tell(async () =>
+    `Revision ${revision} is published again as revision ${await rollback(vehicleId, revision, token)}.`);
+  const file = (revision: string) => `/vehicles/${encodeURIComponent(vehicleId)}/models/${revision}`;
+  const exportFor = (revision: string, format: string) => tell(async () => {
+    await save(`${file(revision)}/export?format=${format}`);
+    return `Revision ${revision} is saved for ${format.toUpperCase()}.`;
+  });
   return (
     <Card title="Models" wide>
       {outcome && <p role="status">{outcome}</p>}
@@ -208,7 +249,7 @@ function Models({ vehicleId, models, takesOrders, token }: {
             <tr>
               <th scope="col">revision</th><th scope="col">published</th><th scope="col">structure</th>
               <th scope="col">estimator</th><th scope="col" class="number">identified</th>
-              <th scope="col">against the one before</th><th scope="col">file</th>
+              <th scope="col">against the one before</th><th scope="col">file</th><th scope="col">export</th>
               {takesOrders && <th scope="col">earlier model</th>}
             </tr>
           </thead>
@@ -225,8 +266,12 @@ function Models({ vehicleId, models, takesOrders, token }: {
                   <td>{words(model.estimator)}</td>
                   <td class="number">{identified} of {model.coefficients.length}</td>
                   <td>{change ? `${words(change.verdict)}${Number.isFinite(change.pValue) && change.verdict !== "CANNOT_TELL" ? `, p ${significant(change.pValue, 2)}` : ""}` : "–"}</td>
-                  <td><a href={`api/v1/vehicles/${encodeURIComponent(vehicleId)}/models/${revision}`}
+                  <td><a href={`api/v1${file(revision)}`}
                     download={`${vehicleId}-r${revision}.json`} aria-label={`Download revision ${revision}`}>model.json</a></td>
+                  <td class="exports">{["mss", "vrx"].map((format) => (
+                    <button key={format} type="button" onClick={() => exportFor(revision, format)}
+                      aria-label={`Export revision ${revision} for ${format.toUpperCase()}`}>{format.toUpperCase()}</button>
+                  ))}</td>
                   {takesOrders && <td>{place > 0 &&
                     <button type="button" disabled={token === ""} onClick={() => rollBack(revision)}
                       aria-label={`Roll back to revision ${revision}`}>Roll back</button>}</td>}
@@ -331,7 +376,7 @@ export function BoatView({ vehicleId, round, info, jobs, track }: {
             : <p class="empty">No prediction yet: it needs a model and a minute of telemetry without a gap.</p>}
         </Card>
         <Coefficients models={models} />
-        <Diagnosis report={report} />
+        <Diagnosis vehicleId={vehicleId} report={report} />
         <Models vehicleId={vehicleId} models={models} takesOrders={info !== null && !info.readOnly} token={token} />
       </div>
     </main>

@@ -8,6 +8,7 @@ import type { Track } from "./map";
 import "./page.css";
 
 const kTrackPoints = 600;
+const kPointsOfAll = 60_000;  // so that a large fleet is drawn within a frame
 
 /** "#/boat/ID" -> ID; empty: the fleet. */
 function boatOf(hash: string): string {
@@ -46,15 +47,22 @@ async function loadPaths(): Promise<Paths> {
   return paths;
 }
 
-function extend(paths: Paths, vehicles: Summary[]) {
+/** Adds where the boats are now. Of a large fleet only every so many rounds leave a point. */
+function extend(paths: Paths, vehicles: Summary[], round: number) {
+  const most = Math.max(2, Math.min(kTrackPoints, Math.floor(kPointsOfAll / vehicles.length)));
+  const leavesPoint = round % Math.ceil(kTrackPoints / most) === 0;
   for (const { vehicleId, position } of vehicles) {
     if (!position) continue;
     const path = paths.get(vehicleId) ?? { latitudeDeg: [], longitudeDeg: [] };
     paths.set(vehicleId, path);
     if (path.latitudeDeg.at(-1) === position.latitudeDeg && path.longitudeDeg.at(-1) === position.longitudeDeg) continue;
+    if (!leavesPoint && path.latitudeDeg.length > 1) {
+      path.latitudeDeg.pop();
+      path.longitudeDeg.pop();
+    }
     path.latitudeDeg.push(position.latitudeDeg);
     path.longitudeDeg.push(position.longitudeDeg);
-    if (path.latitudeDeg.length > kTrackPoints) {
+    if (path.latitudeDeg.length > most) {
       path.latitudeDeg.shift();
       path.longitudeDeg.shift();
     }
@@ -74,6 +82,7 @@ function Page() {
   const [info, setInfo] = useState<Info | null>(null);
   const [jobs, setJobs] = useState<Job[]>([]);
   const paths = useRef<Paths>(new Map());
+  const rounds = useRef(0);
 
   useEffect(() => {
     const load = async () => {
@@ -86,7 +95,7 @@ function Page() {
     };
     follow({
       fleet: (list) => {
-        extend(paths.current, list.vehicles);
+        extend(paths.current, list.vehicles, rounds.current++);
         setState((state) => ({ vehicles: list.vehicles, timeUnixS: list.timeUnixS, round: state.round + 1 }));
       },
       job: (job) => setJobs((before) => [job, ...before.filter((other) => other.id !== job.id)].slice(0, 200)),

@@ -1,0 +1,14 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+namespace telltale {
+
+/// How many ends of the other kind an end of this daemon is connected to.
+struct TopicMatches {
+  std::string topic;
+  std::uint32_t matches = 0;
+};
+
+}  // namespace telltale

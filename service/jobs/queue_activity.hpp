@@ -1,0 +1,18 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+
+namespace telltale {
+
+/// The requests of one queue: those of now, and those turned away since the daemon started.
+struct QueueActivity {
+  std::string queue;        ///< "identification", "diagnosis"
+  std::size_t waiting = 0;  ///< requests that no worker has begun
+  std::size_t running = 0;  ///< requests that are worked on
+  std::size_t workers = 0;  ///< of all urgencies
+  std::uint64_t shed = 0;   ///< requests that found the queue full
+};
+
+}  // namespace telltale

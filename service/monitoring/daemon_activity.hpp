@@ -1,0 +1,30 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "telltale/core/data/samples.hpp"
+#include "telltale/service/ingest/topic_matches.hpp"
+#include "telltale/service/jobs/queue_activity.hpp"
+#include "telltale/service/storage/write_durations.hpp"
+
+namespace telltale {
+
+/// What a store has written.
+struct StoreActivity {
+  std::string store;  ///< the name of its database without ".sqlite"
+  WriteDurations::Sum written;
+};
+
+/// What the parts of the daemon are at, and what they have done since it started.
+struct DaemonActivity {
+  std::vector<QueueActivity> queues;
+  std::vector<StoreActivity> stores;
+  std::array<std::uint64_t, kChannels.size()> received{};  ///< samples taken from the bus
+  std::vector<TopicMatches> matches;
+};
+
+}  // namespace telltale
