@@ -3,14 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "telltale/client/bridge/patience.hpp"
 #include "telltale/client/recording/mavlink/mavlink_recording.hpp"
 #include "telltale/core/base/degrees.hpp"
 
 namespace telltale {
 namespace {
 
-constexpr double kClockPatienceS = 3.0;
-constexpr double kSourcePatienceS = 3.0;
 constexpr double kSetBackS = 1.0;
 constexpr double kSameClockS = 5.0;
 constexpr double kOutputRoundS = 4294.967296;  ///< 2^32 us

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "telltale/idl/codec/vehicle_file.hpp"
+
 namespace telltale {
 namespace {
 
@@ -30,6 +32,17 @@ std::string VehicleIdOf(const std::string& pattern, int system) {
     vehicle_id.replace(at, placeholder.size(), std::to_string(system));
   }
   return vehicle_id;
+}
+
+std::optional<std::string> MavlinkBridgeOptions::Fault() const {
+  const bool one_for_each = vehicle_id.find(kSystemPlaceholder) != std::string::npos;
+  if (!one_for_each && systems.size() != 1) {
+    return vehicle_id + " names one vehicle: say which by one system id, or let it contain " +
+           kSystemPlaceholder;
+  }
+  if (IsVehicleId(VehicleIdOf(vehicle_id, 255))) return std::nullopt;
+  return vehicle_id + " must make " + std::string(kVehicleIdAllowed) + " once " +
+         kSystemPlaceholder + " is replaced by the system id";
 }
 
 MavlinkBridge::Vehicle::Vehicle(const Participant& participant, const MavlinkBridgeOptions& options,

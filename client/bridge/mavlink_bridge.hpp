@@ -30,6 +30,10 @@ struct MavlinkBridgeOptions {
   std::optional<int> starboard_channel;  ///< [1, 16]; unset: by SERVOn_FUNCTION 74
   double rate_hz = 10.0;                 ///< asked of the autopilots, > 0
   bool listen_only = false;              ///< sends nothing at all
+
+  /// What is wrong with the pattern of ids, with what is allowed: a pattern without {system} names
+  /// one vehicle, and so takes one system.
+  std::optional<std::string> Fault() const;
 };
 
 /// The vehicle id of a system, by the pattern.

@@ -3,6 +3,7 @@
 #include <chrono>
 #include <cstdint>
 #include <functional>
+#include <string>
 #include <vector>
 
 #include "telltale/client/bus/entity.hpp"
@@ -29,6 +30,9 @@ class Endpoint {
 
   Endpoint(const Participant& participant, Kind kind, const dds_topic_descriptor_t& type,
            const char* topic, const dds_qos_t* qos);
+  /// `name`: what errors call the topic.
+  Endpoint(const Participant& participant, Kind kind, Entity topic, const std::string& name,
+           const dds_qos_t* qos);
   Endpoint(Endpoint&&) noexcept = default;
   Endpoint& operator=(Endpoint&&) noexcept = default;
   ~Endpoint() = default;

@@ -46,4 +46,16 @@ Qos QualityQos() {
   return MakeQos(DDS_RELIABILITY_BEST_EFFORT, 1);
 }
 
+Qos RosSensorQos() {
+  return MakeQos(DDS_RELIABILITY_BEST_EFFORT, kHistoryDepth);
+}
+
+Qos RosStatusQos() {
+  return MakeQos(DDS_RELIABILITY_RELIABLE, kHistoryDepth);
+}
+
+Qos RosLatchedQos() {
+  return DiagnosisQos();
+}
+
 }  // namespace telltale

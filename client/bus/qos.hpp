@@ -36,6 +36,13 @@ Qos DiagnosisQos();
 /// Best effort, volatile, keep last 1 per vehicle.
 Qos QualityQos();
 
+/// Topics of ROS 2. Sensors: best effort and volatile, keep last 64, which reads either kind of
+/// publisher. Status: reliable and volatile, as its tools ask for. Latched: reliable and transient
+/// local, keep last 1.
+Qos RosSensorQos();
+Qos RosStatusQos();
+Qos RosLatchedQos();
+
 inline constexpr dds_duration_t kModelLease = DDS_SECS(5);
 
 }  // namespace telltale

@@ -186,10 +186,7 @@ void AddSourceOptions(CLI::App& command, SourceOptions& options, CLI::Option* lo
   };
   command
       .add_option_function<std::string>(
-          "--map",
-          [&options](const std::string& file) {
-            options.mapping = std::make_shared<Mapping>(OrThrow(ParseMapping(TextOf(file), file)));
-          },
+          "--map", [&options](const std::string& file) { options.mapping = LoadMapping(file); },
           "which columns of one CSV file, or topics of an MCAP, rosbag2 or ROS 1 recording, hold "
           "what, in which units and frames (text format)")
       ->type_name("FILE")
@@ -288,6 +285,10 @@ void AddIncludeRr(CLI::App& command, bool& include_reverse) {
   command.add_flag("--include-rr", include_reverse,
                    "also fit rows in which both propellers turn in reverse, which the paper leaves "
                    "out; its surge equation never takes them");
+}
+
+std::shared_ptr<const Mapping> LoadMapping(const std::filesystem::path& file) {
+  return std::make_shared<Mapping>(OrThrow(ParseMapping(TextOf(file), file.string())));
 }
 
 Vehicle LoadVehicle(const std::filesystem::path& file) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -71,7 +72,9 @@ CLI::Option* AddVehicleFile(CLI::App& command, std::filesystem::path& file);
 /// `--include-rr`: RegressionOptions::include_reverse.
 void AddIncludeRr(CLI::App& command, bool& include_reverse);
 
-/// A vehicle file. Throws: std::runtime_error naming file, line, field, value and range.
+/// A mapping file, a vehicle file. Throw: std::runtime_error naming file, line, field, value and
+/// range.
+std::shared_ptr<const Mapping> LoadMapping(const std::filesystem::path& file);
 Vehicle LoadVehicle(const std::filesystem::path& file);
 
 /// model.json. Throws: std::runtime_error naming file, field, value and what is allowed.
