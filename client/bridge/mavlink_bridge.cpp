@@ -83,6 +83,7 @@ void MavlinkBridge::Take(const std::string& sender, const MavlinkFrame& frame, d
   vehicle->live.Take(frame, arrival_s, [&](const RawSample& sample) {
     std::visit([&](const auto& one) { vehicle->publisher.Publish(one); }, sample);
   });
+  if (frame.message == MavlinkCommandAck::kId) TakeAnswer(*vehicle, CommandAckOf(frame));
   SeeBoot(*vehicle);
   if (IsAskingDue(*vehicle, arrival_s)) Ask(*vehicle, frame.system, arrival_s);
 }
@@ -126,6 +127,7 @@ void MavlinkBridge::Follow(Vehicle& vehicle, const std::string& sender, const Ma
   vehicle.last_heard_s = arrival_s;
   vehicle.silent = false;
   vehicle.asked_s.reset();
+  vehicle.denials_told.clear();
 }
 
 void MavlinkBridge::SeeBoot(Vehicle& vehicle) {
@@ -134,8 +136,20 @@ void MavlinkBridge::SeeBoot(Vehicle& vehicle) {
   if (vehicle.boots > 0) {
     report_("the autopilot of " + vehicle.vehicle_id + " has booted");
     vehicle.asked_s.reset();
+    vehicle.denials_told.clear();
   }
   vehicle.boots = boots;
+}
+
+/// An answer does not say which interval it is about.
+void MavlinkBridge::TakeAnswer(Vehicle& vehicle, const MavlinkCommandAck& answer) {
+  const bool is_ours = answer.target_system == 0 || answer.target_system == kBridgeSystem;
+  const std::string refusal = MavlinkRefusalName(answer.result);
+  if (answer.command != kMavlinkSetMessageInterval || !is_ours || refusal.empty()) return;
+  ++vehicle.denied;
+  if (!vehicle.denials_told.insert(refusal).second) return;
+  report_("the autopilot of " + vehicle.vehicle_id + " answers " + refusal +
+          " to a request for a message interval: set the rates of its link there (SR0_*)");
 }
 
 bool MavlinkBridge::IsAskingDue(const Vehicle& vehicle, double now_s) const {
@@ -194,6 +208,7 @@ std::vector<MavlinkVehicleCounts> MavlinkBridge::Counts() const {
     }
     counts.lost_frames = vehicle->lost_frames;
     counts.other_sender = vehicle->other_sender;
+    counts.denied = vehicle->denied;
     all.push_back(std::move(counts));
   }
   return all;

@@ -47,6 +47,7 @@ struct MavlinkVehicleCounts {
   std::array<std::uint64_t, kMavlinkRejects.size()> rejected{};
   std::uint64_t lost_frames = 0;   ///< by their sequence numbers, of all its components
   std::uint64_t other_sender = 0;  ///< frames of this system from another sender, passed over
+  std::uint64_t denied = 0;        ///< requests for message intervals
 };
 
 /// Carries the MAVLink streams of a link onto the bus: each autopilot (component 1) is a vehicle.
@@ -56,7 +57,8 @@ struct MavlinkVehicleCounts {
 /// Unless it only listens, it sends as a ground station: a heartbeat a second, and requests for
 /// message intervals and SERVOn_FUNCTION when a vehicle is first heard, when its autopilot has
 /// booted, and every ten seconds while headings or outputs come at under half the rate asked for,
-/// no position comes, or the thrusters' outputs are unknown.
+/// no position comes, or the thrusters' outputs are unknown. A request that the autopilot denies is
+/// told and counted.
 class MavlinkBridge {
  public:
   using Send = std::function<void(const std::string& sender, std::span<const std::uint8_t>)>;
@@ -94,6 +96,8 @@ class MavlinkBridge {
     std::uint64_t lost_frames = 0;
     std::uint64_t other_sender = 0;
     std::uint64_t boots = 0;
+    std::uint64_t denied = 0;
+    std::set<std::string> denials_told;  ///< since it was followed or booted
     std::optional<double> asked_s;
     std::array<std::uint64_t, kChannels.size()> published_when_asked{};
   };
@@ -103,6 +107,7 @@ class MavlinkBridge {
   void Follow(Vehicle& vehicle, const std::string& sender, const MavlinkFrame& frame,
               double arrival_s);
   void SeeBoot(Vehicle& vehicle);
+  void TakeAnswer(Vehicle& vehicle, const MavlinkCommandAck& answer);
   bool IsAskingDue(const Vehicle& vehicle, double now_s) const;
   void Ask(Vehicle& vehicle, int system, double now_s);
   void SendTo(const Vehicle& vehicle, const MavlinkRequest& request);

@@ -38,6 +38,7 @@ void PrintSummary(const MavlinkBridge& bridge) {
       notes += CountNote(whose, one.rejected[static_cast<std::size_t>(reason)], Name(reason));
     }
     notes += CountNote(whose, one.other_sender, "frames of another sender with its system id");
+    notes += CountNote(whose, one.denied, "requests for message intervals denied");
   }
   notes += CountNote("", bridge.Damage().corrupt_frames, "messages with a wrong checksum");
   notes += CountNote("", bridge.Damage().skipped_bytes + bridge.Damage().truncated_bytes,
