@@ -4,8 +4,9 @@
 
 namespace telltale {
 
-LiveRosVehicle::LiveRosVehicle(const SourceOptions& options, Publish publish, const Report& report)
-    : publish_(std::move(publish)), mapping_(options.mapping) {
+LiveRosVehicle::LiveRosVehicle(const SourceOptions& options, Publish publish, const Report& report,
+                               ChannelChoice choice)
+    : choice_(std::move(choice)), publish_(std::move(publish)), mapping_(options.mapping) {
   SampleSink sink{.fix = [this](const GnssFix& fix) { Deliver(Channel::kGnss, fix); },
                   .heading = [this](const HeadingSample& one) { Deliver(Channel::kHeading, one); },
                   .command =
@@ -43,6 +44,7 @@ void LiveRosVehicle::TakeMapped(std::string_view topic, std::string_view type,
 
 void LiveRosVehicle::Deliver(Channel channel, const RawSample& sample) {
   made_sample_ = true;
+  if (!Takes(choice_, channel)) return;
   ++published_[static_cast<std::size_t>(channel)];
   publish_(sample);
 }

@@ -9,6 +9,7 @@
 #include <string>
 #include <string_view>
 
+#include "telltale/client/bridge/channel_choice.hpp"
 #include "telltale/client/bridge/live_ros_topics.hpp"
 #include "telltale/client/recording/mapping/mapped_samples.hpp"
 #include "telltale/client/recording/ros/message_definition.hpp"
@@ -24,7 +25,8 @@ class LiveRosVehicle {
   using Report = std::function<void(const std::string& what)>;
 
   /// Requires: options.Validate() is empty.
-  LiveRosVehicle(const SourceOptions& options, Publish publish, const Report& report);
+  LiveRosVehicle(const SourceOptions& options, Publish publish, const Report& report,
+                 ChannelChoice choice = {});
   LiveRosVehicle(const LiveRosVehicle&) = delete;
   LiveRosVehicle& operator=(const LiveRosVehicle&) = delete;
 
@@ -45,6 +47,7 @@ class LiveRosVehicle {
   void TakeMapped(std::string_view topic, std::string_view type,
                   std::span<const std::uint8_t> bytes, double arrival_s);
 
+  ChannelChoice choice_;
   Publish publish_;
   std::array<std::uint64_t, kChannels.size()> published_{};
   std::array<std::uint64_t, kRosRejects.size()> rejected_{};

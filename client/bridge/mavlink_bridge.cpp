@@ -48,8 +48,8 @@ std::optional<std::string> MavlinkBridgeOptions::Fault() const {
 MavlinkBridge::Vehicle::Vehicle(const Participant& participant, const MavlinkBridgeOptions& options,
                                 int system)
     : vehicle_id(VehicleIdOf(options.vehicle_id, system)),
-      live(options.port_channel, options.starboard_channel),
-      publisher(participant, vehicle_id) {}
+      live(options.port_channel, options.starboard_channel, options.channels),
+      publisher(participant, vehicle_id, TelemetryPublisher::Leave::kAtOnce) {}
 
 MavlinkBridge::MavlinkBridge(const Participant& participant, MavlinkBridgeOptions options,
                              Send send, Report report)
@@ -157,12 +157,13 @@ bool MavlinkBridge::IsAskingDue(const Vehicle& vehicle, double now_s) const {
   if (!vehicle.asked_s) return true;
   const double since_s = now_s - *vehicle.asked_s;
   if (since_s < kAskAgainS) return false;
-  const auto rate_hz = [&](Channel channel) {
+  const auto is_slow = [&](Channel channel, double least_hz) {
     const std::uint64_t before = vehicle.published_when_asked[static_cast<std::size_t>(channel)];
-    return static_cast<double>(vehicle.live.Published(channel) - before) / since_s;
+    const double rate_hz = static_cast<double>(vehicle.live.Published(channel) - before) / since_s;
+    return Takes(options_.channels, channel) && rate_hz < least_hz;
   };
-  return rate_hz(Channel::kHeading) < options_.rate_hz / 2.0 ||
-         rate_hz(Channel::kThrusters) < options_.rate_hz / 2.0 || rate_hz(Channel::kGnss) == 0.0;
+  return is_slow(Channel::kHeading, options_.rate_hz / 2.0) ||
+         is_slow(Channel::kThrusters, options_.rate_hz / 2.0) || is_slow(Channel::kGnss, 1e-3);
 }
 
 void MavlinkBridge::Ask(Vehicle& vehicle, int system, double now_s) {

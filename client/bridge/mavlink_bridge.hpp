@@ -14,7 +14,7 @@
 
 #include "telltale/client/bridge/live_mavlink_vehicle.hpp"
 #include "telltale/client/bridge/mavlink_requests.hpp"
-#include "telltale/client/bridge/sequence_gaps.hpp"
+#include "telltale/client/bridge/mavlink_sequence_gaps.hpp"
 #include "telltale/client/fleet/telemetry_publisher.hpp"
 #include "telltale/client/recording/mavlink/mavlink_frames.hpp"
 
@@ -28,8 +28,9 @@ struct MavlinkBridgeOptions {
   std::set<int> systems;                 ///< [1, 255]; empty: every vehicle that is heard
   std::optional<int> port_channel;       ///< [1, 16]; unset: by SERVOn_FUNCTION 73
   std::optional<int> starboard_channel;  ///< [1, 16]; unset: by SERVOn_FUNCTION 74
-  double rate_hz = 10.0;                 ///< asked of the autopilots, > 0
-  bool listen_only = false;              ///< sends nothing at all
+  ChannelChoice channels;
+  double rate_hz = 10.0;     ///< asked of the autopilots, > 0
+  bool listen_only = false;  ///< sends nothing at all
 
   /// What is wrong with the pattern of ids, with what is allowed: a pattern without {system} names
   /// one vehicle, and so takes one system.
@@ -81,7 +82,7 @@ class MavlinkBridge {
  private:
   struct Sender {
     std::vector<std::uint8_t> pending;  ///< the beginning of a frame
-    std::map<std::pair<int, int>, SequenceGaps> gaps;
+    std::map<std::pair<int, int>, MavlinkSequenceGaps> gaps;
   };
   struct Vehicle {
     Vehicle(const Participant& participant, const MavlinkBridgeOptions& options, int system);

@@ -34,14 +34,14 @@ std::optional<std::string> Ros2BridgeOptions::Fault() const {
 }
 
 Ros2Bridge::Vehicle::Vehicle(const Participant& bus, const std::string& id,
-                             const SourceOptions& options, const Report& report)
-    : publisher(bus, id),
+                             const Ros2BridgeOptions& options, const Report& report)
+    : publisher(bus, id, TelemetryPublisher::Leave::kAtOnce),
       live(
-          options,
+          options.source,
           [this](const RawSample& sample) {
             std::visit([this](const auto& one) { publisher.Publish(one); }, sample);
           },
-          [id, report](const std::string& what) { report(id + ": " + what); }) {}
+          [id, report](const std::string& what) { report(id + ": " + what); }, options.channels) {}
 
 Ros2Bridge::Ros2Bridge(const Participant& ros, const Participant& bus, Ros2BridgeOptions options,
                        Report report)
@@ -89,7 +89,7 @@ Ros2Bridge::Vehicle* Ros2Bridge::VehicleOf(const std::string& topic) {
   }
   report_(topic + " is of " + id);
   auto& vehicle = vehicles_[id];
-  vehicle = std::make_unique<Vehicle>(bus_, id, options_.source, report_);
+  vehicle = std::make_unique<Vehicle>(bus_, id, options_, report_);
   return vehicle.get();
 }
 

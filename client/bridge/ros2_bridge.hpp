@@ -27,6 +27,7 @@ struct Ros2BridgeOptions {
   std::string name_space;  ///< empty: "/{vehicle}", or "/" where the vehicle id has no {vehicle}
   std::string vehicle_id = kVehiclePlaceholder;
   SourceOptions source;  ///< a mapping, or the channels of RCOut
+  ChannelChoice channels;
 
   /// The pattern of namespaces that counts.
   std::string Namespace() const;
@@ -65,7 +66,7 @@ class Ros2Bridge {
 
  private:
   struct Vehicle {
-    Vehicle(const Participant& bus, const std::string& id, const SourceOptions& options,
+    Vehicle(const Participant& bus, const std::string& id, const Ros2BridgeOptions& options,
             const Report& report);
 
     TelemetryPublisher publisher;

@@ -19,10 +19,17 @@ struct BridgeArguments {
   std::string vehicle_id;  ///< empty: the default of the kind of source
   std::vector<int> systems;
   SourceOptions source;
+  std::vector<std::string> channels;
   MavlinkBridgeOptions mavlink;
   Ros2SourceOptions ros2;
   std::uint32_t domain = 0;
 };
+
+ChannelChoice ChannelsOf(const BridgeArguments& arguments) {
+  ChannelChoice channels;
+  for (const std::string& name : arguments.channels) channels.insert(*ChannelNamed(name));
+  return channels;
+}
 
 void FromMavlink(const BridgeArguments& arguments) {
   MavlinkBridgeOptions options = arguments.mavlink;
@@ -30,6 +37,7 @@ void FromMavlink(const BridgeArguments& arguments) {
   options.systems = {arguments.systems.begin(), arguments.systems.end()};
   options.port_channel = arguments.source.port_channel;
   options.starboard_channel = arguments.source.starboard_channel;
+  options.channels = ChannelsOf(arguments);
   if (const auto fault = options.Fault()) throw UsageError("--vehicle-id: " + *fault);
   BridgeMavlink(*arguments.address, options, arguments.domain);
 }
@@ -38,6 +46,7 @@ void FromRos2(const BridgeArguments& arguments) {
   Ros2SourceOptions options = arguments.ros2;
   if (!arguments.vehicle_id.empty()) options.bridge.vehicle_id = arguments.vehicle_id;
   options.bridge.source = arguments.source;
+  options.bridge.channels = ChannelsOf(arguments);
   if (const auto fault = options.bridge.Fault()) throw UsageError(*fault);
   BridgeRos2(options, arguments.domain);
 }
@@ -115,6 +124,11 @@ void AddSharedOptions(CLI::App& command, BridgeArguments& arguments) {
                   "the vehicles' ids: {system} stands for the system id of MAVLink, {vehicle} for "
                   "what --namespace finds (default: mavlink-{system}; {vehicle})")
       ->type_name("PATTERN");
+  command
+      .add_option("--channel", arguments.channels,
+                  "take these channels alone, gnss, heading or thrusters (default: all)")
+      ->type_name("CHANNEL")
+      ->check(CLI::IsMember({"gnss", "heading", "thrusters"}).description(""));
   const auto channel = [&](const std::string& name, std::optional<int>& value,
                            const std::string& help) {
     command.add_option(name, value, help)

@@ -14,15 +14,17 @@ constexpr auto kSettling = std::chrono::milliseconds(200);
 
 }  // namespace
 
-TelemetryPublisher::TelemetryPublisher(const Participant& participant, std::string vehicle_id)
+TelemetryPublisher::TelemetryPublisher(const Participant& participant, std::string vehicle_id,
+                                       Leave leave)
     : participant_(participant),
       vehicle_id_(std::move(vehicle_id)),
+      leave_(leave),
       gnss_writer_(participant),
       heading_writer_(participant),
       thruster_writer_(participant) {}
 
 TelemetryPublisher::~TelemetryPublisher() {
-  if (Published() == 0) return;
+  if (leave_ == Leave::kAtOnce || Published() == 0) return;
   Flush();
   std::this_thread::sleep_for(kSettling);
 }

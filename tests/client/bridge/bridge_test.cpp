@@ -1,7 +1,4 @@
-#include <arpa/inet.h>
 #include <signal.h>
-#include <sys/socket.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
@@ -16,6 +13,7 @@
 #include <nlohmann/json.hpp>
 
 #include "support/loopback_domain.hpp"
+#include "support/mavlink_boats.hpp"
 #include "support/process.hpp"
 #include "support/telemetry_receiver.hpp"
 #include "support/temporary_folder.hpp"
@@ -29,27 +27,11 @@ using namespace std::chrono_literals;
 constexpr double kSenderBootS = 1.7e9;  // of send_live.mjs
 constexpr double kDataBeginS = kSenderBootS + 9.9995;
 
-/// A port of this machine that nobody listens on; of SOCK_DGRAM or SOCK_STREAM.
-int FreePort(int kind) {
-  const int socket_handle = socket(AF_INET, kind, 0);
-  sockaddr_in address{};
-  address.sin_family = AF_INET;
-  address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-  socklen_t size = sizeof(address);
-  bind(socket_handle, reinterpret_cast<sockaddr*>(&address), size);
-  getsockname(socket_handle, reinterpret_cast<sockaddr*>(&address), &size);
-  close(socket_handle);
-  return ntohs(address.sin_port);
-}
-
 /// A real bridge process, autopilots by node-mavlink, and a subscriber on the bus.
 class BridgeTest : public testing::Test {
  protected:
   void SetUp() override {
-    Process install({TELLTALE_SOURCE_DIR "/tests/deploy/from_npm", kSenderFolder, "send_live.mjs"});
-    const auto code = install.Wait();
-    if (code == 77) GTEST_SKIP() << install.output();
-    ASSERT_EQ(code, 0) << install.output();
+    if (const auto missing = MavlinkBoats::Missing()) GTEST_SKIP() << *missing;
   }
 
   std::vector<std::string> BridgeCommand(const std::string& address) const {
@@ -58,21 +40,6 @@ class BridgeTest : public testing::Test {
   }
   std::vector<std::string> BridgeCommand() const {
     return BridgeCommand("udp:127.0.0.1:" + std::to_string(port_));
-  }
-
-  /// Autopilots of two boats that send to a UDP port of this machine, or over TCP: "tcp:PORT" is
-  /// listened on. They deny the interval of message `denied`.
-  static std::vector<std::string> Boats(const std::string& place, int seconds, int loss_every,
-                                        int denied = 0) {
-    return {"/usr/bin/env",
-            "node",
-            std::string(kSenderFolder) + "/send_live.mjs",
-            place,
-            "2",
-            std::to_string(seconds),
-            std::to_string(loss_every),
-            "10",
-            std::to_string(denied)};
   }
 
   /// Two boats that send their data at ten times real time once all channels of both are connected;
@@ -94,7 +61,7 @@ class BridgeTest : public testing::Test {
     return sent;
   }
   nlohmann::json SendFromTwoBoats(int seconds, int loss_every) {
-    Process boats(Boats(std::to_string(port_), seconds, loss_every));
+    Process boats(MavlinkBoats::Command(std::to_string(port_), seconds, loss_every));
     return SendFrom(boats);
   }
 
@@ -151,8 +118,6 @@ class BridgeTest : public testing::Test {
   TelemetryReceiver receiver_{domain_.id()};
 
  private:
-  static constexpr const char* kSenderFolder = TELLTALE_BINARY_DIR "/live_sender";
-
   static ReceivedTelemetry FromTenSeconds(const ReceivedTelemetry& all) {
     const auto later = [](const auto& samples) {
       auto kept = samples;
@@ -200,7 +165,7 @@ TEST_F(BridgeTest, PublishesWhatTwoBoatsSendAndCountsWhatIsLost) {
 TEST_F(BridgeTest, SaysWhichAutopilotDeniesAnInterval) {
   Process bridge(BridgeCommand());
   ASSERT_TRUE(bridge.WaitForOutput("waiting for MAVLink")) << bridge.output();
-  Process boats(Boats(std::to_string(port_), 1, 0, 36));
+  Process boats(MavlinkBoats::Command(std::to_string(port_), 1, 0, 36));
   ExpectAllReceived(SendFrom(boats));
   for (const std::string id : {"boat-1", "boat-2"}) {
     EXPECT_TRUE(bridge.WaitForOutput("the autopilot of " + id + " answers DENIED"))
@@ -217,7 +182,7 @@ TEST_F(BridgeTest, TakesTwoBoatsOverTcpAndConnectsAgain) {
   Process bridge(BridgeCommand("tcp:127.0.0.1:" + port));
   ASSERT_TRUE(bridge.WaitForOutput("cannot be reached")) << bridge.output();
   {
-    Process boats(Boats("tcp:" + port, 5, 50));
+    Process boats(MavlinkBoats::Command("tcp:" + port, 5, 50));
     ASSERT_TRUE(bridge.WaitForOutput("is connected")) << bridge.output();
     const auto sent = SendFrom(boats);
     ExpectAllReceived(sent);
@@ -225,7 +190,7 @@ TEST_F(BridgeTest, TakesTwoBoatsOverTcpAndConnectsAgain) {
     EXPECT_EQ(boats.Wait(), 0);
   }
   ASSERT_TRUE(bridge.WaitForOutput("is lost")) << bridge.output();
-  Process again(Boats("tcp:" + port, 1, 0));
+  Process again(MavlinkBoats::Command("tcp:" + port, 1, 0));
   ExpectAllReceived(SendFrom(again));
   bridge.Signal(SIGTERM);
   ASSERT_EQ(bridge.Wait(), 0) << bridge.output();
@@ -243,7 +208,7 @@ TEST_F(BridgeTest, TakesTwoBoatsOverASerialLineAndOpensItAgain) {
     EXPECT_TRUE(cable->WaitForOutput("starting data transfer loop")) << cable->output();
     return cable;
   };
-  Process boats(Boats("tcp:" + port, 1, 0));
+  Process boats(MavlinkBoats::Command("tcp:" + port, 1, 0));
   ASSERT_TRUE(boats.WaitForOutput("ready"));
   auto cable = lay_line();
   Process bridge(BridgeCommand("serial:" + line + ":57600"));
@@ -262,6 +227,18 @@ TEST_F(BridgeTest, TakesTwoBoatsOverASerialLineAndOpensItAgain) {
   for (const auto& boat : sent) EXPECT_EQ(boat["asked"], nlohmann::json({2, 24, 30, 33, 36}));
   bridge.Signal(SIGTERM);
   ASSERT_EQ(bridge.Wait(), 0) << bridge.output();
+}
+
+TEST_F(BridgeTest, TakesOneChannelAlone) {
+  auto command = BridgeCommand();
+  command.insert(command.end(), {"--channel", "thrusters"});
+  Process bridge(command);
+  ASSERT_TRUE(bridge.WaitForOutput("waiting for MAVLink")) << bridge.output();
+  const Process boats(MavlinkBoats::Command(std::to_string(port_), 1, 0));
+  ASSERT_TRUE(
+      receiver_.ReceiveUntil([this] { return receiver_.Of()["boat-1"].thrusters.size() > 9; }));
+  EXPECT_TRUE(receiver_.Of()["boat-1"].gnss.empty());
+  EXPECT_TRUE(receiver_.Of()["boat-1"].heading.empty());
 }
 
 TEST_F(BridgeTest, RefusesAPortThatIsOccupied) {
@@ -286,6 +263,11 @@ TEST_F(BridgeTest, RefusesAddressesAndIdsThatAreWrong) {
   run({"--mavlink", "udp:127.0.0.1:14550", "--vehicle-id", "boat"}, 2, "{system}");
   run({"--mavlink", "udp:127.0.0.1:14550", "--vehicle-id", "a b {system}"}, 2, "must make 1..64");
   run({"--mavlink", "udp:127.0.0.1:14550", "--system-id", "256"}, 2, "256");
+  run({"--mavlink", "udp:127.0.0.1:14550", "--channel", "attitude"}, 2, "heading");
+  run({"--mavlink", "udp:127.0.0.1:14550", "--ros2"}, 2, "--ros2");
+  run({"--ros2", "--namespace", "boats"}, 2, "each after a '/'");
+  run({"--ros2", "--namespace", "/{vehicle}", "--vehicle-id", "boat"}, 2, "or neither");
+  run({"--ros2", "--rate", "5"}, 2, "--mavlink");
   run({"--mavlink", "serial:/dev/no-such-line:57600"}, 1, "cannot be opened");
 }
 

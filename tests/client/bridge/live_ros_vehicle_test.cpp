@@ -144,6 +144,19 @@ TEST_F(LiveRosVehicleTest, CountsWhatItCannotRead) {
   EXPECT_EQ(vehicle_->Rejected(RosReject::kWithoutFix), 1u);
 }
 
+TEST_F(LiveRosVehicleTest, TakesTheChannelsThatAreChosenAlone) {
+  vehicle_ = std::make_unique<LiveRosVehicle>(
+      SourceOptions{}, [this](const RawSample& sample) { samples_.push_back(sample); },
+      [](const std::string&) {}, ChannelChoice{Channel::kHeading});
+  for (int i = 0; i <= 4; ++i) {
+    TakeFix(kNow + i, kNow + i);
+    TakeImu(kNow + i, kNow + i);
+  }
+  EXPECT_EQ(samples_.size(), Of<HeadingSample>().size());
+  EXPECT_EQ(vehicle_->Published(Channel::kHeading), 2u);
+  EXPECT_EQ(vehicle_->Published(Channel::kGnss), 0u);
+}
+
 TEST_F(LiveRosVehicleTest, FollowsAMappingInNewtons) {
   SourceOptions options;
   options.mapping = std::make_shared<Mapping>(*ParseMapping(R"(

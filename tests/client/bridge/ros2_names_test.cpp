@@ -51,7 +51,9 @@ TEST(Ros2Names, FaultsNameWhatIsAllowed) {
 
 TEST(Ros2BridgeOptions, NeedAVehicleInBothPatternsOrInNeither) {
   const auto fault = [](const std::string& name_space, const std::string& id) {
-    return Ros2BridgeOptions{name_space, id, {}}.Fault();
+    return Ros2BridgeOptions{
+        .name_space = name_space, .vehicle_id = id, .source = {}, .channels = {}}
+        .Fault();
   };
   EXPECT_FALSE(fault("", "{vehicle}"));
   EXPECT_FALSE(fault("", "boat-1"));  // whose all topics then are
