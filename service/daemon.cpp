@@ -48,7 +48,8 @@ Daemon::Daemon(const DaemonConfig& config, std::function<void(const std::excepti
                      models_.WatchForRivals();
                    },
                .received = [this](VehicleWindow& window) { quality_.PublishReceipt(window); },
-               .failed = std::move(failed)}) {
+               .failed = std::move(failed)}),
+      sources_(participant_, config.sources, view_) {
   ResumeRequests();
   BeginUpkeep(config.upkeep);
   if (!config.http) return;

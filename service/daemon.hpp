@@ -20,6 +20,7 @@
 #include "telltale/service/monitoring/fleet_view.hpp"
 #include "telltale/service/monitoring/fleet_watcher.hpp"
 #include "telltale/service/monitoring/quality_publisher.hpp"
+#include "telltale/service/sources/live_sources.hpp"
 #include "telltale/service/storage/directory_lock.hpp"
 #include "telltale/service/upkeep/upkeep.hpp"
 #include "telltale/service/web/web_server.hpp"
@@ -61,6 +62,7 @@ class Daemon {
   FleetJobs fleet_jobs_;
   QualityPublisher quality_;
   Ingest ingest_;
+  LiveSources sources_;
   std::optional<Upkeep> upkeep_;
   std::optional<WebServer> web_;
 };
