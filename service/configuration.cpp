@@ -1,12 +1,16 @@
 #include "telltale/service/configuration.hpp"
 
 #include <algorithm>
+#include <memory>
+#include <optional>
 #include <system_error>
 #include <utility>
 #include <vector>
 
 #include "telltale/client/recording/file_contents.hpp"
+#include "telltale/idl/codec/mapping_file.hpp"
 #include "telltale/idl/codec/vehicle_file.hpp"
+#include "telltale/service/sources/source_of_settings.hpp"
 
 namespace telltale {
 namespace {
@@ -23,6 +27,29 @@ void ResolvePaths(const std::filesystem::path& folder, HttpSettings& http) {
   for (std::string* path : {&http.token_file, &http.tls_chain_file, &http.tls_key_file}) {
     if (!path->empty()) *path = folder / *path;
   }
+}
+
+/// Reads the mappings that sources name, and refuses what no source can be made of.
+std::optional<CodecError> CompleteSources(const std::filesystem::path& file,
+                                          std::vector<SourceSettings>& sources) {
+  for (std::size_t i = 0; i < sources.size(); ++i) {
+    SourceSettings& source = sources[i];
+    const std::string field = "sources[" + std::to_string(i) + "]";
+    if (source.ros2 && !source.ros2->mapping_file.empty()) {
+      const auto mapping_file = file.parent_path() / source.ros2->mapping_file;
+      const auto text = Read(mapping_file, field + ".ros2.mapping_file");
+      if (!text) return text.error();
+      auto mapping = ParseMapping(*text, mapping_file.string());
+      if (!mapping) return mapping.error();
+      source.ros2->mapping = std::make_shared<const Mapping>(*std::move(mapping));
+    }
+    if (auto fault = SourceFault(source)) {
+      fault->field = field + "." + fault->field;
+      fault->where = file.string();
+      return fault;
+    }
+  }
+  return std::nullopt;
 }
 
 /// In the order of their names.
@@ -49,6 +76,7 @@ Decoded<DaemonConfig> LoadConfiguration(const std::filesystem::path& file) {
   auto config = ParseDaemonConfig(*text, file.string());
   if (!config) return config;
   if (config->http) ResolvePaths(file.parent_path(), *config->http);
+  if (auto fault = CompleteSources(file, config->sources)) return tl::unexpected(*std::move(fault));
   std::vector<std::filesystem::path> vehicle_files(config->vehicle_files.begin(),
                                                    config->vehicle_files.end());
   if (!config->vehicle_folder.empty()) {

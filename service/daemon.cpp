@@ -64,7 +64,8 @@ Daemon::Daemon(const DaemonConfig& config, Endings endings)
                .heartbeat = [this](bool has_received) { Heartbeat(has_received); },
                .heartbeat_period = HeartbeatPeriodOf(config),
                .received = [this](VehicleWindow& window) { quality_.PublishReceipt(window); },
-               .failed = endings_.failed}) {
+               .failed = endings_.failed}),
+      sources_(participant_, config.sources, view_) {
   if (fail_over_) {
     fail_over_->Start();
   } else {

@@ -23,6 +23,7 @@
 #include "telltale/service/monitoring/fleet_view.hpp"
 #include "telltale/service/monitoring/fleet_watcher.hpp"
 #include "telltale/service/monitoring/quality_publisher.hpp"
+#include "telltale/service/sources/live_sources.hpp"
 #include "telltale/service/standby/fail_over.hpp"
 #include "telltale/service/standby/heard_requests.hpp"
 #include "telltale/service/standby/role.hpp"
@@ -85,6 +86,7 @@ class Daemon {
   std::optional<Upkeep> upkeep_;               ///< while it serves
   const std::unique_ptr<FailOver> fail_over_;  ///< null: this daemon serves alone
   Ingest ingest_;
+  LiveSources sources_;
   std::optional<WebServer> web_;
 };
 

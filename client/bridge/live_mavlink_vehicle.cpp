@@ -2,15 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
+#include "telltale/client/bridge/patience.hpp"
 #include "telltale/client/recording/mavlink/mavlink_recording.hpp"
 #include "telltale/core/base/degrees.hpp"
 
 namespace telltale {
 namespace {
 
-constexpr double kClockPatienceS = 3.0;
-constexpr double kSourcePatienceS = 3.0;
 constexpr double kSetBackS = 1.0;
 constexpr double kSameClockS = 5.0;
 constexpr double kOutputRoundS = 4294.967296;  ///< 2^32 us
@@ -34,8 +34,10 @@ std::string_view Name(MavlinkReject reason) {
 }
 
 LiveMavlinkVehicle::LiveMavlinkVehicle(std::optional<int> port_channel,
-                                       std::optional<int> starboard_channel)
-    : port_channel_(port_channel), starboard_channel_(starboard_channel) {}
+                                       std::optional<int> starboard_channel, ChannelChoice choice)
+    : choice_(std::move(choice)),
+      port_channel_(port_channel),
+      starboard_channel_(starboard_channel) {}
 
 void LiveMavlinkVehicle::Take(const MavlinkFrame& frame, double arrival_s, const Publish& publish) {
   if (!first_arrival_s_) {
@@ -147,6 +149,7 @@ std::optional<double> LiveMavlinkVehicle::Utc(double boot_s) {
 
 template <class Sample>
 void LiveMavlinkVehicle::Deliver(Channel channel, Sample sample, const Publish& publish) {
+  if (!Takes(choice_, channel)) return;
   const auto utc_s = Utc(sample.time_s);
   if (!utc_s) return;
   sample.time_s = *utc_s;

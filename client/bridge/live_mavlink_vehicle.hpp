@@ -7,6 +7,7 @@
 #include <optional>
 #include <string_view>
 
+#include "telltale/client/bridge/channel_choice.hpp"
 #include "telltale/client/recording/mavlink/mavlink_messages.hpp"
 #include "telltale/client/recording/servo_outputs.hpp"
 #include "telltale/client/recording/time_order.hpp"
@@ -41,8 +42,9 @@ class LiveMavlinkVehicle {
  public:
   using Publish = std::function<void(const RawSample&)>;
 
-  /// Channels of [1, 16] that are asked for; those unset are named by PARAM_VALUE.
-  LiveMavlinkVehicle(std::optional<int> port_channel, std::optional<int> starboard_channel);
+  /// Outputs of [1, 16] that drive the thrusters; those unset are named by PARAM_VALUE.
+  LiveMavlinkVehicle(std::optional<int> port_channel, std::optional<int> starboard_channel,
+                     ChannelChoice choice = {});
 
   /// A frame of the autopilot, and when it arrived, in UTC seconds by a clock that never goes back.
   void Take(const MavlinkFrame& frame, double arrival_s, const Publish& publish);
@@ -79,6 +81,7 @@ class LiveMavlinkVehicle {
   void Deliver(Channel channel, Sample sample, const Publish& publish);
   void Reject(MavlinkReject reason) { ++rejected_[static_cast<std::size_t>(reason)]; }
 
+  ChannelChoice choice_;
   std::optional<int> port_channel_;
   std::optional<int> starboard_channel_;
   AutopilotParameters parameters_;

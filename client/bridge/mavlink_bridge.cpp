@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "telltale/idl/codec/vehicle_file.hpp"
+
 namespace telltale {
 namespace {
 
@@ -32,11 +34,22 @@ std::string VehicleIdOf(const std::string& pattern, int system) {
   return vehicle_id;
 }
 
+std::optional<std::string> MavlinkBridgeOptions::Fault() const {
+  const bool one_for_each = vehicle_id.find(kSystemPlaceholder) != std::string::npos;
+  if (!one_for_each && systems.size() != 1) {
+    return vehicle_id + " names one vehicle: say which by one system id, or let it contain " +
+           kSystemPlaceholder;
+  }
+  if (IsVehicleId(VehicleIdOf(vehicle_id, 255))) return std::nullopt;
+  return vehicle_id + " must make " + std::string(kVehicleIdAllowed) + " once " +
+         kSystemPlaceholder + " is replaced by the system id";
+}
+
 MavlinkBridge::Vehicle::Vehicle(const Participant& participant, const MavlinkBridgeOptions& options,
                                 int system)
     : vehicle_id(VehicleIdOf(options.vehicle_id, system)),
-      live(options.port_channel, options.starboard_channel),
-      publisher(participant, vehicle_id) {}
+      live(options.port_channel, options.starboard_channel, options.channels),
+      publisher(participant, vehicle_id, TelemetryPublisher::Leave::kAtOnce) {}
 
 MavlinkBridge::MavlinkBridge(const Participant& participant, MavlinkBridgeOptions options,
                              Send send, Report report)
@@ -70,6 +83,7 @@ void MavlinkBridge::Take(const std::string& sender, const MavlinkFrame& frame, d
   vehicle->live.Take(frame, arrival_s, [&](const RawSample& sample) {
     std::visit([&](const auto& one) { vehicle->publisher.Publish(one); }, sample);
   });
+  if (frame.message == MavlinkCommandAck::kId) TakeAnswer(*vehicle, CommandAckOf(frame));
   SeeBoot(*vehicle);
   if (IsAskingDue(*vehicle, arrival_s)) Ask(*vehicle, frame.system, arrival_s);
 }
@@ -113,6 +127,7 @@ void MavlinkBridge::Follow(Vehicle& vehicle, const std::string& sender, const Ma
   vehicle.last_heard_s = arrival_s;
   vehicle.silent = false;
   vehicle.asked_s.reset();
+  vehicle.denials_told.clear();
 }
 
 void MavlinkBridge::SeeBoot(Vehicle& vehicle) {
@@ -121,8 +136,20 @@ void MavlinkBridge::SeeBoot(Vehicle& vehicle) {
   if (vehicle.boots > 0) {
     report_("the autopilot of " + vehicle.vehicle_id + " has booted");
     vehicle.asked_s.reset();
+    vehicle.denials_told.clear();
   }
   vehicle.boots = boots;
+}
+
+/// An answer does not say which interval it is about.
+void MavlinkBridge::TakeAnswer(Vehicle& vehicle, const MavlinkCommandAck& answer) {
+  const bool is_ours = answer.target_system == 0 || answer.target_system == kBridgeSystem;
+  const std::string refusal = MavlinkRefusalName(answer.result);
+  if (answer.command != kMavlinkSetMessageInterval || !is_ours || refusal.empty()) return;
+  ++vehicle.denied;
+  if (!vehicle.denials_told.insert(refusal).second) return;
+  report_("the autopilot of " + vehicle.vehicle_id + " answers " + refusal +
+          " to a request for a message interval: set the rates of its link there (SR0_*)");
 }
 
 bool MavlinkBridge::IsAskingDue(const Vehicle& vehicle, double now_s) const {
@@ -130,12 +157,13 @@ bool MavlinkBridge::IsAskingDue(const Vehicle& vehicle, double now_s) const {
   if (!vehicle.asked_s) return true;
   const double since_s = now_s - *vehicle.asked_s;
   if (since_s < kAskAgainS) return false;
-  const auto rate_hz = [&](Channel channel) {
+  const auto is_slow = [&](Channel channel, double least_hz) {
     const std::uint64_t before = vehicle.published_when_asked[static_cast<std::size_t>(channel)];
-    return static_cast<double>(vehicle.live.Published(channel) - before) / since_s;
+    const double rate_hz = static_cast<double>(vehicle.live.Published(channel) - before) / since_s;
+    return Takes(options_.channels, channel) && rate_hz < least_hz;
   };
-  return rate_hz(Channel::kHeading) < options_.rate_hz / 2.0 ||
-         rate_hz(Channel::kThrusters) < options_.rate_hz / 2.0 || rate_hz(Channel::kGnss) == 0.0;
+  return is_slow(Channel::kHeading, options_.rate_hz / 2.0) ||
+         is_slow(Channel::kThrusters, options_.rate_hz / 2.0) || is_slow(Channel::kGnss, 1e-3);
 }
 
 void MavlinkBridge::Ask(Vehicle& vehicle, int system, double now_s) {
@@ -181,6 +209,7 @@ std::vector<MavlinkVehicleCounts> MavlinkBridge::Counts() const {
     }
     counts.lost_frames = vehicle->lost_frames;
     counts.other_sender = vehicle->other_sender;
+    counts.denied = vehicle->denied;
     all.push_back(std::move(counts));
   }
   return all;

@@ -14,7 +14,7 @@
 
 #include "telltale/client/bridge/live_mavlink_vehicle.hpp"
 #include "telltale/client/bridge/mavlink_requests.hpp"
-#include "telltale/client/bridge/sequence_gaps.hpp"
+#include "telltale/client/bridge/mavlink_sequence_gaps.hpp"
 #include "telltale/client/fleet/telemetry_publisher.hpp"
 #include "telltale/client/recording/mavlink/mavlink_frames.hpp"
 
@@ -28,8 +28,13 @@ struct MavlinkBridgeOptions {
   std::set<int> systems;                 ///< [1, 255]; empty: every vehicle that is heard
   std::optional<int> port_channel;       ///< [1, 16]; unset: by SERVOn_FUNCTION 73
   std::optional<int> starboard_channel;  ///< [1, 16]; unset: by SERVOn_FUNCTION 74
-  double rate_hz = 10.0;                 ///< asked of the autopilots, > 0
-  bool listen_only = false;              ///< sends nothing at all
+  ChannelChoice channels;
+  double rate_hz = 10.0;     ///< asked of the autopilots, > 0
+  bool listen_only = false;  ///< sends nothing at all
+
+  /// What is wrong with the pattern of ids, with what is allowed: a pattern without {system} names
+  /// one vehicle, and so takes one system.
+  std::optional<std::string> Fault() const;
 };
 
 /// The vehicle id of a system, by the pattern.
@@ -43,6 +48,7 @@ struct MavlinkVehicleCounts {
   std::array<std::uint64_t, kMavlinkRejects.size()> rejected{};
   std::uint64_t lost_frames = 0;   ///< by their sequence numbers, of all its components
   std::uint64_t other_sender = 0;  ///< frames of this system from another sender, passed over
+  std::uint64_t denied = 0;        ///< requests for message intervals
 };
 
 /// Carries the MAVLink streams of a link onto the bus: each autopilot (component 1) is a vehicle.
@@ -52,7 +58,8 @@ struct MavlinkVehicleCounts {
 /// Unless it only listens, it sends as a ground station: a heartbeat a second, and requests for
 /// message intervals and SERVOn_FUNCTION when a vehicle is first heard, when its autopilot has
 /// booted, and every ten seconds while headings or outputs come at under half the rate asked for,
-/// no position comes, or the thrusters' outputs are unknown.
+/// no position comes, or the thrusters' outputs are unknown. A request that the autopilot denies is
+/// told and counted.
 class MavlinkBridge {
  public:
   using Send = std::function<void(const std::string& sender, std::span<const std::uint8_t>)>;
@@ -75,7 +82,7 @@ class MavlinkBridge {
  private:
   struct Sender {
     std::vector<std::uint8_t> pending;  ///< the beginning of a frame
-    std::map<std::pair<int, int>, SequenceGaps> gaps;
+    std::map<std::pair<int, int>, MavlinkSequenceGaps> gaps;
   };
   struct Vehicle {
     Vehicle(const Participant& participant, const MavlinkBridgeOptions& options, int system);
@@ -90,6 +97,8 @@ class MavlinkBridge {
     std::uint64_t lost_frames = 0;
     std::uint64_t other_sender = 0;
     std::uint64_t boots = 0;
+    std::uint64_t denied = 0;
+    std::set<std::string> denials_told;  ///< since it was followed or booted
     std::optional<double> asked_s;
     std::array<std::uint64_t, kChannels.size()> published_when_asked{};
   };
@@ -99,6 +108,7 @@ class MavlinkBridge {
   void Follow(Vehicle& vehicle, const std::string& sender, const MavlinkFrame& frame,
               double arrival_s);
   void SeeBoot(Vehicle& vehicle);
+  void TakeAnswer(Vehicle& vehicle, const MavlinkCommandAck& answer);
   bool IsAskingDue(const Vehicle& vehicle, double now_s) const;
   void Ask(Vehicle& vehicle, int system, double now_s);
   void SendTo(const Vehicle& vehicle, const MavlinkRequest& request);

@@ -2,7 +2,6 @@
 
 #include <array>
 #include <chrono>
-#include <csignal>
 #include <map>
 #include <stdexcept>
 #include <utility>
@@ -53,12 +52,13 @@ class MavlinkLink::Transport {
 
   void Run(const MavlinkLinkEvents& events) {
     events_ = &events;
-    asio::signal_set signals(context_, SIGINT, SIGTERM);
-    signals.async_wait([this](Error, int) { context_.stop(); });
     Begin();
     NextSecond();
     context_.run();
   }
+
+  void Stop() { context_.stop(); }
+  const std::optional<std::string>& Fault() const { return fault_; }
 
   virtual void Send(const std::string& sender, std::span<const std::uint8_t> bytes) = 0;
 
@@ -69,6 +69,15 @@ class MavlinkLink::Transport {
   asio::io_context& context() { return context_; }
   const MavlinkLinkEvents& events() const { return *events_; }
   const std::string& name() const { return name_; }
+
+  void ReportFault(const std::string& fault) {
+    if (!fault_) events_->report(fault + "; trying again every second");
+    fault_ = fault;
+  }
+  void ReportMended(const std::string& how) {
+    fault_.reset();
+    events_->report(name_ + how);
+  }
 
  private:
   void NextSecond() {
@@ -85,6 +94,7 @@ class MavlinkLink::Transport {
   asio::io_context context_;
   asio::steady_timer timer_{context_};
   const MavlinkLinkEvents* events_ = nullptr;
+  std::optional<std::string> fault_;
 };
 
 class MavlinkLink::Datagrams : public Transport {
@@ -148,10 +158,9 @@ class MavlinkLink::Connection : public Transport {
       connecting_ = false;
       if (error) return Lose("cannot be reached", error);
       connected_ = true;
-      reported_ = false;
       Error ignored;
       socket_.non_blocking(true, ignored);
-      events().report(name() + " is connected");
+      ReportMended(" is connected");
       Receive();
     });
   }
@@ -171,15 +180,14 @@ class MavlinkLink::Connection : public Transport {
 
   void Lose(const std::string& how, const Error& error) {
     connected_ = false;
-    if (error == asio::error::operation_aborted || std::exchange(reported_, true)) return;
-    events().report(name() + ' ' + how + ": " + error.message() + "; trying again every second");
+    if (error == asio::error::operation_aborted) return;
+    ReportFault(name() + ' ' + how + ": " + error.message());
   }
 
   Tcp::endpoint endpoint_;
   Tcp::socket socket_;
   bool connecting_ = false;
   bool connected_ = false;
-  bool reported_ = false;
   std::array<std::uint8_t, kLargestDatagram> buffer_{};
 };
 
@@ -201,7 +209,7 @@ class MavlinkLink::SerialLine : public Transport {
     port_.async_read_some(asio::buffer(buffer_), [this](Error error, std::size_t size) {
       if (error == asio::error::operation_aborted) return;
       if (error) {
-        events().report(name() + " is lost: " + error.message() + "; trying again every second");
+        ReportFault(name() + " is lost: " + error.message());
         port_.close(error);
         return;
       }
@@ -212,7 +220,7 @@ class MavlinkLink::SerialLine : public Transport {
 
   void EachSecond() override {
     if (port_.is_open() || Open()) return;
-    events().report(name() + " is open again");
+    ReportMended(" is open again");
     Begin();
   }
 
@@ -248,6 +256,14 @@ MavlinkLink::~MavlinkLink() = default;
 
 void MavlinkLink::Run(const MavlinkLinkEvents& events) {
   transport_->Run(events);
+}
+
+void MavlinkLink::Stop() {
+  transport_->Stop();
+}
+
+std::optional<std::string> MavlinkLink::Fault() const {
+  return transport_->Fault();
 }
 
 void MavlinkLink::Send(const std::string& sender, std::span<const std::uint8_t> bytes) {

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 
@@ -30,8 +31,15 @@ class MavlinkLink {
   MavlinkLink& operator=(const MavlinkLink&) = delete;
   ~MavlinkLink();
 
-  /// Receives until SIGINT or SIGTERM.
+  /// Receives until Stop().
   void Run(const MavlinkLinkEvents& events);
+
+  /// Ends Run(), also one that is yet to begin. Any thread may call it.
+  void Stop();
+
+  /// Why nothing can be received now, where a connection or a line is lost. From the thread of
+  /// Run() alone.
+  std::optional<std::string> Fault() const;
 
   /// Sends to who has sent before; what cannot be sent is lost, as on any link. From the thread of
   /// Run() alone.

@@ -10,7 +10,6 @@
 namespace telltale {
 namespace {
 
-constexpr std::uint16_t kSetMessageInterval = 511;
 constexpr std::uint8_t kGroundStation = 6;
 constexpr std::uint8_t kNoAutopilot = 8;
 constexpr std::uint8_t kActive = 4;
@@ -28,14 +27,27 @@ MavlinkRequest SetMessageInterval(std::uint8_t system, std::uint8_t component,
   MavlinkRequest request{kMavlinkCommandLong, std::vector<std::uint8_t>(33)};
   PutFloat(request.payload, 0, static_cast<float>(message));
   PutFloat(request.payload, 4, static_cast<float>(1e6 / rate_hz));  // interval, us
-  request.payload[28] = kSetMessageInterval & 0xFF;
-  request.payload[29] = kSetMessageInterval >> 8;
+  request.payload[28] = kMavlinkSetMessageInterval & 0xFF;
+  request.payload[29] = kMavlinkSetMessageInterval >> 8;
   request.payload[30] = system;
   request.payload[31] = component;
   return request;
 }
 
 }  // namespace
+
+std::string MavlinkRefusalName(std::uint8_t result) {
+  switch (result) {
+    case 0: return "";
+    case 1: return "TEMPORARILY_REJECTED";
+    case 2: return "DENIED";
+    case 3: return "UNSUPPORTED";
+    case 4: return "FAILED";
+    case 5: return "";  // in progress
+    case 6: return "CANCELLED";
+    default: return std::to_string(result);
+  }
+}
 
 MavlinkRequest GroundStationHeartbeat() {
   return {MavlinkHeartbeat::kId, {0, 0, 0, 0, kGroundStation, kNoAutopilot, 0, kActive, kVersion}};

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <string>
+#include <utility>
 
 #include "telltale/client/bus/bus_error.hpp"
 #include "telltale/client/bus/wait_set.hpp"
@@ -33,14 +34,21 @@ class MatchStatusEnabled {
 
 Endpoint::Endpoint(const Participant& participant, Kind kind, const dds_topic_descriptor_t& type,
                    const char* topic, const dds_qos_t* qos)
+    : Endpoint(
+          participant, kind,
+          Entity(Checked(dds_create_topic(participant.handle(), &type, topic, nullptr, nullptr),
+                         std::string("creating topic ") + topic)),
+          topic, qos) {}
+
+Endpoint::Endpoint(const Participant& participant, Kind kind, Entity topic, const std::string& name,
+                   const dds_qos_t* qos)
     : kind_(kind),
-      topic_(Checked(dds_create_topic(participant.handle(), &type, topic, nullptr, nullptr),
-                     std::string("creating topic ") + topic)),
+      topic_(std::move(topic)),
       end_(kind == Kind::kReader
                ? Checked(dds_create_reader(participant.handle(), topic_.handle(), qos, nullptr),
-                         std::string("creating a reader of ") + topic)
+                         "creating a reader of " + name)
                : Checked(dds_create_writer(participant.handle(), topic_.handle(), qos, nullptr),
-                         std::string("creating a writer of ") + topic)) {}
+                         "creating a writer of " + name)) {}
 
 std::uint32_t Endpoint::Matched() const {
   if (kind_ == Kind::kReader) {

@@ -37,6 +37,9 @@ class Endpoint {
 
   Endpoint(const Participant& participant, Kind kind, const dds_topic_descriptor_t& type,
            const char* topic, const dds_qos_t* qos);
+  /// `name`: what errors call the topic.
+  Endpoint(const Participant& participant, Kind kind, Entity topic, const std::string& name,
+           const dds_qos_t* qos);
   Endpoint(Endpoint&&) noexcept = default;
   Endpoint& operator=(Endpoint&&) noexcept = default;
   ~Endpoint() = default;

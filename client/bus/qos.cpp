@@ -72,4 +72,16 @@ Qos FromOthers(Qos qos) {
   return qos;
 }
 
+Qos RosSensorQos() {
+  return MakeQos(DDS_RELIABILITY_BEST_EFFORT, kHistoryDepth);
+}
+
+Qos RosStatusQos() {
+  return MakeQos(DDS_RELIABILITY_RELIABLE, kHistoryDepth);
+}
+
+Qos RosLatchedQos() {
+  return DiagnosisQos();
+}
+
 }  // namespace telltale

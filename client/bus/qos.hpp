@@ -54,6 +54,13 @@ Qos InPartitions(Qos qos, const std::vector<std::string>& partitions);
 /// The contract of a reader that is given the samples of other participants alone.
 Qos FromOthers(Qos qos);
 
+/// Topics of ROS 2. Sensors: best effort and volatile, keep last 64, which reads either kind of
+/// publisher. Status: reliable and volatile, as its tools ask for. Latched: reliable and transient
+/// local, keep last 1.
+Qos RosSensorQos();
+Qos RosStatusQos();
+Qos RosLatchedQos();
+
 inline constexpr dds_duration_t kModelLease = DDS_SECS(5);
 
 }  // namespace telltale

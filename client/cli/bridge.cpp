@@ -1,171 +1,62 @@
-#include <unistd.h>
-
-#include <algorithm>
-#include <chrono>
-#include <iostream>
 #include <memory>
-#include <numeric>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "telltale/client/bridge/mavlink_bridge.hpp"
-#include "telltale/client/bridge/mavlink_link.hpp"
 #include "telltale/client/bus/participant.hpp"
+#include "telltale/client/cli/bridge_commands.hpp"
 #include "telltale/client/cli/commands.hpp"
-#include "telltale/client/cli/live_options.hpp"
+#include "telltale/client/cli/exit_codes.hpp"
+#include "telltale/client/cli/input_options.hpp"
 #include "telltale/client/cli/number_range.hpp"
-#include "telltale/client/cli/progress_line.hpp"
-#include "telltale/client/cli/table.hpp"
-#include "telltale/client/workbench/errors.hpp"
-#include "telltale/idl/codec/vehicle_file.hpp"
+#include "telltale/client/workbench/files.hpp"
 
 namespace telltale {
 namespace {
 
-constexpr int kLineEachSeconds = 2;
-
 struct BridgeArguments {
-  MavlinkAddress address;
+  std::optional<MavlinkAddress> address;
+  bool from_ros2 = false;
+  std::string vehicle_id;  ///< empty: the default of the kind of source
   std::vector<int> systems;
-  MavlinkBridgeOptions options;
+  SourceOptions source;
+  std::vector<std::string> channels;
+  MavlinkBridgeOptions mavlink;
+  Ros2SourceOptions ros2;
   std::uint32_t domain = 0;
 };
 
-/// UTC in seconds, by a clock that is set once and never goes back.
-class UtcClock {
- public:
-  double Now() const {
-    const std::chrono::duration<double> since = std::chrono::steady_clock::now() - steady_;
-    return begun_s_ + since.count();
-  }
-
- private:
-  std::chrono::steady_clock::time_point steady_ = std::chrono::steady_clock::now();
-  double begun_s_ =
-      std::chrono::duration<double>(std::chrono::system_clock::now().time_since_epoch()).count();
-};
-
-template <class Counts>
-std::uint64_t Total(const Counts& counts) {
-  return std::accumulate(counts.begin(), counts.end(), std::uint64_t{0});
+ChannelChoice ChannelsOf(const BridgeArguments& arguments) {
+  ChannelChoice channels;
+  for (const std::string& name : arguments.channels) channels.insert(*ChannelNamed(name));
+  return channels;
 }
 
-/// On a terminal: the rates of each vehicle, drawn anew in place every two seconds.
-class RatesLine {
- public:
-  void EachSecond(const std::vector<MavlinkVehicleCounts>& vehicles) {
-    if (!on_terminal_ || ++seconds_ % kLineEachSeconds != 0) return;
-    std::cerr << kClearLine << (vehicles.empty() ? "no vehicle is heard yet" : "");
-    for (std::size_t i = 0; i < vehicles.size(); ++i) {
-      std::cerr << (i > 0 ? "  |  " : "") << TextOf(vehicles[i]);
-    }
-    std::cerr << std::flush;
-    before_ = vehicles;
-  }
-
-  void Erase() const {
-    if (on_terminal_) std::cerr << kClearLine;
-  }
-
- private:
-  std::string TextOf(const MavlinkVehicleCounts& now) const {
-    const auto found = std::find_if(before_.begin(), before_.end(),
-                                    [&](const auto& then) { return then.system == now.system; });
-    std::string text = now.vehicle_id;
-    for (const Channel channel : kChannels) {
-      const auto at = static_cast<std::size_t>(channel);
-      const std::uint64_t then = found == before_.end() ? 0 : found->published[at];
-      const double rate_hz = static_cast<double>(now.published[at] - then) / kLineEachSeconds;
-      text += ' ' + std::string(Name(channel)) + ' ' + Fixed(rate_hz, 1) + " Hz";
-    }
-    return text + ", " + std::to_string(now.lost_frames) + " lost, " +
-           std::to_string(Total(now.rejected)) + " rejected";
-  }
-
-  bool on_terminal_ = isatty(STDERR_FILENO) != 0;
-  int seconds_ = 0;
-  std::vector<MavlinkVehicleCounts> before_;
-};
-
-void PrintSummary(const MavlinkBridge& bridge) {
-  Table table({{"vehicle"},
-               {"system", Align::kRight},
-               {"positions", Align::kRight},
-               {"headings", Align::kRight},
-               {"commands", Align::kRight},
-               {"lost frames", Align::kRight},
-               {"rejected", Align::kRight}});
-  std::string notes;
-  const auto note = [&](const std::string& whose, std::uint64_t count, std::string_view what) {
-    if (count > 0) notes += whose + std::to_string(count) + ' ' + std::string(what) + '\n';
-  };
-  for (const MavlinkVehicleCounts& one : bridge.Counts()) {
-    table.AddRow({one.vehicle_id, std::to_string(one.system), std::to_string(one.published[0]),
-                  std::to_string(one.published[1]), std::to_string(one.published[2]),
-                  std::to_string(one.lost_frames), std::to_string(Total(one.rejected))});
-    for (const MavlinkReject reason : kMavlinkRejects) {
-      note(one.vehicle_id + ": ", one.rejected[static_cast<std::size_t>(reason)], Name(reason));
-    }
-    note(one.vehicle_id + ": ", one.other_sender, "frames of another sender with its system id");
-  }
-  note("", bridge.Damage().corrupt_frames, "messages with a wrong checksum");
-  note("", bridge.Damage().skipped_bytes + bridge.Damage().truncated_bytes,
-       "bytes that are no MAVLink");
-  std::cout << table.Render() << notes;
+void FromMavlink(const BridgeArguments& arguments) {
+  MavlinkBridgeOptions options = arguments.mavlink;
+  if (!arguments.vehicle_id.empty()) options.vehicle_id = arguments.vehicle_id;
+  options.systems = {arguments.systems.begin(), arguments.systems.end()};
+  options.port_channel = arguments.source.port_channel;
+  options.starboard_channel = arguments.source.starboard_channel;
+  options.channels = ChannelsOf(arguments);
+  if (const auto fault = options.Fault()) throw UsageError("--vehicle-id: " + *fault);
+  BridgeMavlink(*arguments.address, options, arguments.domain);
 }
 
-void RequireVehicleIds(const MavlinkBridgeOptions& options) {
-  const std::string& pattern = options.vehicle_id;
-  const bool one_for_each = pattern.find(kSystemPlaceholder) != std::string::npos;
-  if (!one_for_each && options.systems.size() != 1) {
-    throw UsageError("--vehicle-id: " + pattern + " names one vehicle: say which by one " +
-                     "--system-id, or let it contain " + kSystemPlaceholder);
-  }
-  if (!IsVehicleId(VehicleIdOf(pattern, 255))) {
-    throw UsageError("--vehicle-id: " + pattern + " must make " + std::string(kVehicleIdAllowed) +
-                     " once " + kSystemPlaceholder + " is replaced by the system id");
-  }
+void FromRos2(const BridgeArguments& arguments) {
+  Ros2SourceOptions options = arguments.ros2;
+  if (!arguments.vehicle_id.empty()) options.bridge.vehicle_id = arguments.vehicle_id;
+  options.bridge.source = arguments.source;
+  options.bridge.channels = ChannelsOf(arguments);
+  if (const auto fault = options.bridge.Fault()) throw UsageError(*fault);
+  BridgeRos2(options, arguments.domain);
 }
 
-void Bridge(BridgeArguments arguments) {
-  arguments.options.systems = {arguments.systems.begin(), arguments.systems.end()};
-  RequireVehicleIds(arguments.options);
-  const UtcClock clock;
-  RatesLine rates;
-  const auto report = [&](const std::string& what) {
-    rates.Erase();
-    std::cerr << what << std::endl;
-  };
-  MavlinkLink link(arguments.address);
-  const Participant participant(arguments.domain);
-  MavlinkBridge bridge(
-      participant, arguments.options,
-      [&](const std::string& sender, auto bytes) { link.Send(sender, bytes); }, report);
-  report("waiting for MAVLink");
-  link.Run({[&](const std::string& sender, auto bytes, bool whole) {
-              bridge.Receive(sender, bytes, whole, clock.Now());
-            },
-            [&] {
-              bridge.EachSecond(clock.Now());
-              rates.EachSecond(bridge.Counts());
-            },
-            report});
-  rates.Erase();
-  PrintSummary(bridge);
-}
-
-}  // namespace
-
-void AddBridge(CLI::App& telltale) {
-  const auto arguments = std::make_shared<BridgeArguments>();
-  MavlinkBridgeOptions& options = arguments->options;
-  CLI::App& command = *telltale.add_subcommand(
-      "bridge", "Publishes the MAVLink streams of running autopilots as telemetry");
-  command
+CLI::Option* AddMavlink(CLI::App& sources, BridgeArguments& arguments) {
+  return sources
       .add_option_function<std::string>(
           "--mavlink",
-          [arguments](const std::string& text) { arguments->address = *ParseMavlinkAddress(text); },
+          [&arguments](const std::string& text) { arguments.address = *ParseMavlinkAddress(text); },
           "where the stream comes from: udp:HOST:PORT is listened on, tcp:HOST:PORT is connected "
           "to, serial:DEVICE:BAUD is opened")
       ->type_name("ADDRESS")
@@ -174,43 +65,109 @@ void AddBridge(CLI::App& telltale) {
             const auto address = ParseMavlinkAddress(text);
             return address ? std::string() : address.error();
           },
-          ""))
-      ->required();
+          ""));
+}
+
+void AddMavlinkOptions(CLI::App& command, BridgeArguments& arguments, CLI::Option* mavlink) {
+  MavlinkBridgeOptions& options = arguments.mavlink;
   command
-      .add_option("--vehicle-id", options.vehicle_id,
-                  "the vehicles' ids; {system} stands for the system id of MAVLink")
-      ->type_name("PATTERN")
-      ->capture_default_str();
-  command
-      .add_option("--system-id", arguments->systems,
-                  "take these vehicles alone, [1, 255] (default: all)")
+      .add_option("--system-id", arguments.systems,
+                  "of MAVLink: take these vehicles alone, [1, 255] (default: all)")
       ->type_name("N")
-      ->check(CLI::Range(1, 255).description(""));
+      ->check(CLI::Range(1, 255).description(""))
+      ->needs(mavlink);
+  command
+      .add_option("--rate", options.rate_hz,
+                  "of MAVLink: how often to ask for each message, in Hz, [0.1, 100]")
+      ->type_name("HZ")
+      ->check(NumberWithin(0.1, 100.0))
+      ->capture_default_str()
+      ->needs(mavlink);
+  command
+      .add_flag("--listen-only", options.listen_only,
+                "of MAVLink: send nothing, no heartbeat and no requests")
+      ->needs(mavlink);
+}
+
+void AddRos2Options(CLI::App& command, BridgeArguments& arguments, CLI::Option* ros2) {
+  Ros2SourceOptions& options = arguments.ros2;
+  command
+      .add_option("--namespace", options.bridge.name_space,
+                  "of ROS 2: take the topics below this namespace, in which {vehicle} stands for "
+                  "part of a name (default: /{vehicle}; / where --vehicle-id has no {vehicle})")
+      ->type_name("PATTERN")
+      ->needs(ros2);
+  command
+      .add_option_function<std::string>(
+          "--map",
+          [&arguments](const std::string& file) { arguments.source.mapping = LoadMapping(file); },
+          "of ROS 2: which topics hold what, in which units and frames (text format; default: by "
+          "the types of the topics)")
+      ->type_name("FILE")
+      ->check(CLI::ExistingFile.description(""))
+      ->needs(ros2);
+  command
+      .add_option("--ros-domain", options.domain,
+                  "ROS_DOMAIN_ID of the topics, [0, 101] (default: that of --domain)")
+      ->type_name("N")
+      ->check(CLI::Range(0u, kHighestDomain).description(""))
+      ->needs(ros2);
+  command
+      .add_flag_callback(
+          "--telemetry-only", [&options] { options.publish = false; },
+          "of ROS 2: publish neither models nor quality to it")
+      ->needs(ros2);
+}
+
+void AddSharedOptions(CLI::App& command, BridgeArguments& arguments) {
+  command
+      .add_option("--vehicle-id", arguments.vehicle_id,
+                  "the vehicles' ids: {system} stands for the system id of MAVLink, {vehicle} for "
+                  "what --namespace finds (default: mavlink-{system}; {vehicle})")
+      ->type_name("PATTERN");
+  command
+      .add_option("--channel", arguments.channels,
+                  "take these channels alone, gnss, heading or thrusters (default: all)")
+      ->type_name("CHANNEL")
+      ->check(CLI::IsMember({"gnss", "heading", "thrusters"}).description(""));
   const auto channel = [&](const std::string& name, std::optional<int>& value,
                            const std::string& help) {
     command.add_option(name, value, help)
         ->type_name("N")
         ->check(CLI::Range(1, kMavlinkOutputs).description(""));
   };
-  channel("--port-channel", options.port_channel,
+  channel("--port-channel", arguments.source.port_channel,
           "the output that drives the port thruster, [1, 16] (default: the one whose "
-          "SERVOn_FUNCTION is 73)");
-  channel("--starboard-channel", options.starboard_channel,
-          "the same for starboard (default: SERVOn_FUNCTION 74)");
-  command
-      .add_option("--rate", options.rate_hz, "how often to ask for each message, in Hz, [0.1, 100]")
-      ->type_name("HZ")
-      ->check(NumberWithin(0.1, 100.0))
-      ->capture_default_str();
-  command.add_flag("--listen-only", options.listen_only, "send nothing: no heartbeat, no requests");
-  command.add_option("--domain", arguments->domain, "DDS domain")
+          "SERVOn_FUNCTION is 73; 1 of MAVROS)");
+  channel("--starboard-channel", arguments.source.starboard_channel,
+          "the same for starboard (default: SERVOn_FUNCTION 74; 3 of MAVROS)");
+  command.add_option("--domain", arguments.domain, "DDS domain")
       ->envname("TELLTALE_DOMAIN")
       ->check(CLI::Range(0u, kHighestDomain))
       ->capture_default_str();
+}
+
+}  // namespace
+
+void AddBridge(CLI::App& telltale) {
+  const auto arguments = std::make_shared<BridgeArguments>();
+  CLI::App& command = *telltale.add_subcommand(
+      "bridge", "Publishes what running boats say over MAVLink or ROS 2 as telemetry");
+  CLI::App& sources = *command.add_option_group("from", "running autopilots, or topics of ROS 2");
+  CLI::Option* const mavlink = AddMavlink(sources, *arguments);
+  CLI::Option* const ros2 =
+      sources.add_flag("--ros2", arguments->from_ros2, "topics of ROS 2 on DDS; needs no ROS");
+  sources.require_option(1);
+  AddMavlinkOptions(command, *arguments, mavlink);
+  AddRos2Options(command, *arguments, ros2);
+  AddSharedOptions(command, *arguments);
   command.footer(
       "Runs until Ctrl-C or SIGTERM, then says what went through. Lost links are opened again.\n"
-      "Example: telltale bridge --mavlink udp:0.0.0.0:14550 --vehicle-id boat-{system}");
-  command.callback([arguments] { Bridge(*arguments); });
+      "Models and quality of the boats go back to ROS 2: /telltale/NAME/model, /diagnostics.\n"
+      "Examples: telltale bridge --mavlink udp:0.0.0.0:14550 --vehicle-id boat-{system}\n"
+      "          telltale bridge --ros2 --namespace /fleet/{vehicle}");
+  command.callback(
+      [arguments] { arguments->from_ros2 ? FromRos2(*arguments) : FromMavlink(*arguments); });
 }
 
 }  // namespace telltale

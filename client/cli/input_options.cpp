@@ -38,10 +38,7 @@ void AddSourceOptions(CLI::App& command, SourceOptions& options, CLI::Option* lo
   };
   command
       .add_option_function<std::string>(
-          "--map",
-          [&options](const std::string& file) {
-            options.mapping = std::make_shared<Mapping>(LoadMapping(file));
-          },
+          "--map", [&options](const std::string& file) { options.mapping = LoadMapping(file); },
           "which columns of one CSV file, or topics of an MCAP, rosbag2 or ROS 1 recording, hold "
           "what, in which units and frames (text format)")
       ->type_name("FILE")

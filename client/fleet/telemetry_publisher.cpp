@@ -20,15 +20,17 @@ constexpr auto kSettling = std::chrono::milliseconds(200);
 
 }  // namespace
 
-TelemetryPublisher::TelemetryPublisher(const Participant& participant, std::string vehicle_id)
+TelemetryPublisher::TelemetryPublisher(const Participant& participant, std::string vehicle_id,
+                                       Leave leave)
     : participant_(participant),
       vehicle_id_(std::move(vehicle_id)),
+      leave_(leave),
       gnss_writer_(participant, TelemetryQosOf(vehicle_id_)),
       heading_writer_(participant, TelemetryQosOf(vehicle_id_)),
       thruster_writer_(participant, TelemetryQosOf(vehicle_id_)) {}
 
 TelemetryPublisher::~TelemetryPublisher() {
-  if (Published() == 0) return;
+  if (leave_ == Leave::kAtOnce || Published() == 0) return;
   Flush();
   std::this_thread::sleep_for(kSettling);
 }

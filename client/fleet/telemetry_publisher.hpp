@@ -14,12 +14,16 @@ namespace telltale {
 /// what they missed. Requires: a vehicle id of 1..64 letters, digits, '.', '_' or '-'.
 class TelemetryPublisher {
  public:
-  TelemetryPublisher(const Participant& participant, std::string vehicle_id);
+  /// How it leaves. Settled: it sends what is left and leaves a moment later, since a receiver that
+  /// hears of the leave-taking drops what has not reached it yet. At once: of a boat that runs on,
+  /// whose last samples are no more than a gap.
+  enum class Leave { kSettled, kAtOnce };
+
+  TelemetryPublisher(const Participant& participant, std::string vehicle_id,
+                     Leave leave = Leave::kSettled);
   TelemetryPublisher(const TelemetryPublisher&) = delete;
   TelemetryPublisher& operator=(const TelemetryPublisher&) = delete;
 
-  /// Sends what is left and leaves a moment later: a receiver that hears of the leave-taking drops
-  /// what has not reached it yet.
   ~TelemetryPublisher();
 
   /// False when within `timeout` nobody was there to receive all three channels. Where somebody is,
@@ -39,6 +43,7 @@ class TelemetryPublisher {
  private:
   const Participant& participant_;
   std::string vehicle_id_;
+  Leave leave_;
   Writer<telltale_wire_GnssFix> gnss_writer_;
   Writer<telltale_wire_Heading> heading_writer_;
   Writer<telltale_wire_Thrusters> thruster_writer_;

@@ -33,7 +33,7 @@ std::shared_ptr<StatedLog> Load(const fs::path& path, const std::optional<Vehicl
   RequireValid(options);
   if (mapping) {
     RequireThere(*mapping);
-    options.mapping = std::make_shared<Mapping>(LoadMapping(*mapping));
+    options.mapping = LoadMapping(*mapping);
   }
   auto loaded = std::make_shared<StatedLog>();
   loaded->stated = VehicleOf(vehicle);

@@ -4,23 +4,36 @@
 
 namespace telltale {
 
+void SideJoiner::Take(Side side, const SideCommand& command, const Emit& emit) {
+  if (waiting_s_ != command.time_s) Finish(emit);
+  waiting_s_ = command.time_s;
+  (side == Side::kPort ? port_ : starboard_) = {command.pulse_us, true, true};
+  if (port_.now && starboard_.now) Finish(emit);
+}
+
+void SideJoiner::Finish(const Emit& emit) {
+  const bool waits = port_.now || starboard_.now;
+  if (waits && port_.ever && starboard_.ever) {
+    emit({waiting_s_, port_.pulse_us, starboard_.pulse_us});
+  }
+  port_.now = starboard_.now = false;
+}
+
 std::vector<ThrusterSample> JoinSides(const std::vector<SideCommand>& port,
                                       const std::vector<SideCommand>& starboard) {
   std::vector<ThrusterSample> joined;
+  const SideJoiner::Emit keep = [&](const ThrusterSample& sample) { joined.push_back(sample); };
+  SideJoiner joiner;
   std::size_t i = 0;
   std::size_t j = 0;
   while (i < port.size() || j < starboard.size()) {
-    double time_s = 0.0;
     if (j == starboard.size() || (i < port.size() && port[i].time_s <= starboard[j].time_s)) {
-      time_s = port[i++].time_s;
-      if (j < starboard.size() && starboard[j].time_s == time_s) ++j;
+      joiner.Take(Side::kPort, port[i++], keep);
     } else {
-      time_s = starboard[j++].time_s;
-    }
-    if (i > 0 && j > 0) {
-      joined.push_back({time_s, port[i - 1].pulse_us, starboard[j - 1].pulse_us});
+      joiner.Take(Side::kStarboard, starboard[j++], keep);
     }
   }
+  joiner.Finish(keep);
   return joined;
 }
 

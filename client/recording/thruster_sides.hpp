@@ -1,8 +1,10 @@
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "telltale/core/data/samples.hpp"
+#include "telltale/core/vessel/side.hpp"
 
 namespace telltale {
 
@@ -10,6 +12,29 @@ namespace telltale {
 struct SideCommand {
   double time_s = 0.0;
   double pulse_us = 0.0;
+};
+
+/// Joins commands of both sides, in the order of their times, one by one. A sample goes out once
+/// both sides have been told at its time, or at the next command of another time.
+class SideJoiner {
+ public:
+  using Emit = std::function<void(const ThrusterSample&)>;
+
+  void Take(Side side, const SideCommand& command, const Emit& emit);
+
+  /// Emits the sample that waits for its other side.
+  void Finish(const Emit& emit);
+
+ private:
+  struct Told {
+    double pulse_us = 0.0;
+    bool ever = false;
+    bool now = false;  ///< at the time that waits
+  };
+
+  double waiting_s_ = 0.0;
+  Told port_;
+  Told starboard_;
 };
 
 /// Two channels of commands as one: each command of either side makes a sample with what the other

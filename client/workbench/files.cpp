@@ -1,5 +1,6 @@
 #include "telltale/client/workbench/files.hpp"
 
+#include <memory>
 #include <string>
 #include <utility>
 
@@ -23,8 +24,8 @@ Vehicle LoadVehicle(const std::filesystem::path& file) {
   return OrThrow(ParseVehicle(TextOf(file), file.string()));
 }
 
-Mapping LoadMapping(const std::filesystem::path& file) {
-  return OrThrow(ParseMapping(TextOf(file), file.string()));
+std::shared_ptr<const Mapping> LoadMapping(const std::filesystem::path& file) {
+  return std::make_shared<Mapping>(OrThrow(ParseMapping(TextOf(file), file.string())));
 }
 
 Identification LoadModel(const std::filesystem::path& file) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 
 #include "telltale/core/identification/identification.hpp"
 #include "telltale/core/vessel/vehicle.hpp"
@@ -12,7 +13,7 @@ namespace telltale {
 Vehicle LoadVehicle(const std::filesystem::path& file);
 
 /// A mapping file. Throws: as LoadVehicle.
-Mapping LoadMapping(const std::filesystem::path& file);
+std::shared_ptr<const Mapping> LoadMapping(const std::filesystem::path& file);
 
 /// model.json. Throws: FileError naming file, field, value and what is allowed.
 Identification LoadModel(const std::filesystem::path& file);

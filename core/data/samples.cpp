@@ -1,5 +1,6 @@
 #include "telltale/core/data/samples.hpp"
 
+#include <algorithm>
 #include <numeric>
 
 namespace telltale {
@@ -11,6 +12,12 @@ std::string_view Name(Channel channel) {
     case Channel::kThrusters: return "thrusters";
   }
   return "";
+}
+
+std::optional<Channel> ChannelNamed(std::string_view name) {
+  const auto* const found = std::find_if(kChannels.begin(), kChannels.end(),
+                                         [&](Channel channel) { return Name(channel) == name; });
+  return found == kChannels.end() ? std::nullopt : std::optional(*found);
 }
 
 std::string_view Name(RejectReason reason) {

@@ -3,6 +3,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string_view>
 #include <vector>
 
@@ -48,6 +49,9 @@ inline constexpr std::array kRejectReasons = {RejectReason::kNotFinite, RejectRe
 
 std::string_view Name(Channel channel);
 std::string_view Name(RejectReason reason);
+
+/// The channel of this name; nothing where there is none.
+std::optional<Channel> ChannelNamed(std::string_view name);
 
 /// Rejected samples by channel and reason.
 class RejectCounts {

@@ -13,6 +13,7 @@
 #include "telltale/core/effects/hull_scale.hpp"
 #include "telltale/core/vessel/motion.hpp"
 #include "telltale/core/vessel/regressors.hpp"
+#include "telltale/core/vessel/side.hpp"
 #include "telltale/core/vessel/vehicle.hpp"
 
 namespace telltale {
@@ -28,8 +29,6 @@ struct EffectParameter {
   bool is_shape = false;
   double prior_mean = 0.0;  ///< where it is expected: zero but for a shaping parameter
 };
-
-enum class Side { kPort, kStarboard };
 
 /// What a boat goes through at one instant of a free run, as the model has it.
 struct InstantState {

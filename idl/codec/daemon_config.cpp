@@ -105,6 +105,70 @@ StandbySettings ReadStandby(FieldReader reader) {
   return settings;
 }
 
+MavlinkSourceSettings ReadMavlinkSource(FieldReader reader,
+                                        const proto::DaemonConfig::Source::Mavlink& message) {
+  MavlinkSourceSettings settings;
+  settings.address = reader.Text("address");
+  for (int i = 0; i < message.system_ids_size(); ++i) {
+    const std::uint32_t id = message.system_ids(i);
+    if (id < 1 || id > 255) {
+      reader.FailItem("system_ids", i, std::to_string(id), "a number in [1, 255]");
+    }
+    settings.system_ids.insert(static_cast<int>(id));
+  }
+  settings.rate_hz = reader.Number("rate_hz", {0.1, 100.0}, settings.rate_hz);
+  settings.listen_only = message.listen_only();
+  return settings;
+}
+
+Ros2SourceSettings ReadRos2Source(FieldReader reader,
+                                  const proto::DaemonConfig::Source::Ros2& message) {
+  Ros2SourceSettings settings;
+  settings.name_space = reader.Text("namespace", "");
+  settings.mapping_file = reader.Text("mapping_file", "");
+  if (reader.Has("domain")) settings.domain = reader.Count("domain", {0.0, 101.0}, 0);
+  settings.telemetry_only = message.telemetry_only();
+  return settings;
+}
+
+std::optional<int> ReadOutputChannel(FieldReader& reader, std::string_view field) {
+  if (!reader.Has(field)) return std::nullopt;
+  return static_cast<int>(reader.Count(field, {1.0, 16.0}, 1));
+}
+
+SourceSettings ReadSource(FieldReader reader, const proto::DaemonConfig::Source& message) {
+  SourceSettings settings;
+  settings.vehicle_id = reader.Text("vehicle_id", "");
+  for (int i = 0; i < message.channels_size(); ++i) {
+    const auto channel = ChannelNamed(message.channels(i));
+    if (channel) {
+      settings.channels.insert(*channel);
+    } else {
+      reader.FailItem("channels", i, Quoted(message.channels(i)),
+                      "one of gnss, heading, thrusters");
+    }
+  }
+  settings.port_channel = ReadOutputChannel(reader, "port_channel");
+  settings.starboard_channel = ReadOutputChannel(reader, "starboard_channel");
+  if (message.has_mavlink() == message.has_ros2()) {
+    reader.Fail("mavlink", message.has_mavlink() ? "given with ros2" : "absent, as is ros2",
+                "one of the two");
+  }
+  if (message.has_mavlink()) {
+    settings.mavlink = ReadMavlinkSource(reader.Required("mavlink"), message.mavlink());
+  }
+  if (message.has_ros2()) settings.ros2 = ReadRos2Source(reader.Required("ros2"), message.ros2());
+  return settings;
+}
+
+std::vector<SourceSettings> ReadSources(FieldReader& reader, const proto::DaemonConfig& message) {
+  std::vector<SourceSettings> sources;
+  for (const FieldReader& item : reader.Repeated("sources")) {
+    sources.push_back(ReadSource(item, message.sources(static_cast<int>(sources.size()))));
+  }
+  return sources;
+}
+
 std::vector<Vehicle> ReadVehicles(FieldReader& reader) {
   std::vector<Vehicle> vehicles;
   std::set<std::string> seen;
@@ -149,6 +213,7 @@ DaemonConfig ReadConfig(FieldReader reader, const proto::DaemonConfig& message) 
   if (message.has_http()) config.http = ReadHttp(reader.Optional("http"));
   config.upkeep = ReadUpkeep(reader.Optional("upkeep"), message.upkeep());
   if (message.has_standby()) config.standby = ReadStandby(reader.Optional("standby"));
+  config.sources = ReadSources(reader, message);
   config.quality_period_s =
       reader.Number("quality_period_s", {0.1, 3600.0}, config.quality_period_s);
   config.log_level = ReadLogLevel(reader, config.log_level);

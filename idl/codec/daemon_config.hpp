@@ -1,15 +1,19 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
+#include <set>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "telltale/core/data/samples.hpp"
 #include "telltale/core/data/window.hpp"
 #include "telltale/core/vessel/vehicle.hpp"
 #include "telltale/idl/codec/codec_error.hpp"
+#include "telltale/idl/codec/mapping_file.hpp"
 
 namespace telltale {
 
@@ -50,6 +54,33 @@ struct StandbySettings {
   double lease_s = 2.0;                  ///< [0.5, 5] of silence until a daemon counts as dead
 };
 
+/// Running boats on a MAVLink link.
+struct MavlinkSourceSettings {
+  std::string address;       ///< as written; who opens it checks it
+  std::set<int> system_ids;  ///< [1, 255]; empty: every vehicle that is heard
+  double rate_hz = 10.0;     ///< [0.1, 100]
+  bool listen_only = false;
+};
+
+/// Running boats on topics of ROS 2.
+struct Ros2SourceSettings {
+  std::string name_space;                  ///< as written; empty: the default
+  std::string mapping_file;                ///< as written; who opens it resolves it
+  std::shared_ptr<const Mapping> mapping;  ///< what it holds; null: by the types of the topics
+  std::optional<std::uint32_t> domain;     ///< [0, 101]; unset: that of the daemon
+  bool telemetry_only = false;
+};
+
+/// Running boats whose telemetry comes another way than on the bus: exactly one of the two.
+struct SourceSettings {
+  std::string vehicle_id;                ///< a pattern as written; empty: the default
+  std::set<Channel> channels;            ///< empty: all
+  std::optional<int> port_channel;       ///< [1, 16]
+  std::optional<int> starboard_channel;  ///< [1, 16]
+  std::optional<MavlinkSourceSettings> mavlink;
+  std::optional<Ros2SourceSettings> ros2;
+};
+
 /// Configuration of telltaled; defaults and ranges are those of proto/daemon.proto.
 struct DaemonConfig {
   std::uint32_t domain = 0;  ///< [0, 101]
@@ -63,14 +94,16 @@ struct DaemonConfig {
   IdentificationSettings identification;
   std::optional<HttpSettings> http;
   UpkeepSettings upkeep;
+  std::vector<SourceSettings> sources;
   std::optional<StandbySettings> standby;  ///< unset: this daemon serves alone
   double quality_period_s = 1.0;           ///< [0.1, 3600]
   std::string log_level = "info";          ///< trace, debug, info, warn, error
 };
 
 /// Text format -> DaemonConfig. `file` is only what errors call the text.
-/// Refuses: unknown fields, values out of range, a wrong vehicle, a vehicle id given twice. The
-/// vehicles of vehicle_files are not read here; add them and ask DuplicateVehicle again.
+/// Refuses: unknown fields, values out of range, a wrong vehicle, a vehicle id given twice, a
+/// source of no kind or of two. The vehicles of vehicle_files and the mappings of mapping_file are
+/// not read here; add them and ask DuplicateVehicle again.
 Decoded<DaemonConfig> ParseDaemonConfig(std::string_view text,
                                         const std::string& file = "configuration");
 

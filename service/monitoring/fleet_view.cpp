@@ -132,6 +132,22 @@ std::string FleetView::AdviceOf(std::string_view vehicle_id, std::uint64_t revis
   return known ? vehicle->second.advice : "";
 }
 
+void FleetView::TakeSource(const std::string& name, const std::optional<std::string>& fault) {
+  const std::lock_guard lock(mutex_);
+  if (fault) {
+    source_faults_[name] = *fault;
+  } else {
+    source_faults_.erase(name);
+  }
+}
+
+std::vector<std::string> FleetView::SourceFaults() const {
+  const std::lock_guard lock(mutex_);
+  std::vector<std::string> faults;
+  for (const auto& [name, fault] : source_faults_) faults.push_back(name + ": " + fault);
+  return faults;
+}
+
 std::shared_ptr<const PublishedDiagnosis> FleetView::LastDiagnosisOf(
     std::string_view vehicle_id) const {
   const std::lock_guard lock(mutex_);

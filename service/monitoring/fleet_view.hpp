@@ -78,6 +78,11 @@ class FleetView {
   /// Empty where there is nothing to do.
   std::string AdviceOf(std::string_view vehicle_id, std::uint64_t revision) const;
 
+  /// Why nothing comes from a source of the configuration; nothing where all is well.
+  void TakeSource(const std::string& name, const std::optional<std::string>& fault);
+  /// Of each source that has one: "name: fault".
+  std::vector<std::string> SourceFaults() const;
+
   /// A request that is about to be queued.
   JobView Begin(JobView::Kind kind, const std::string& id, const std::string& vehicle_id);
 
@@ -110,7 +115,8 @@ class FleetView {
 
   mutable std::mutex mutex_;
   std::map<std::string, Vehicle, std::less<>> vehicles_;
-  std::deque<JobView> jobs_;  ///< oldest first
+  std::map<std::string, std::string> source_faults_;  ///< by name
+  std::deque<JobView> jobs_;                          ///< oldest first
   JobCounts finished_;
   double last_round_unix_s_ = 0.0;
   std::vector<RejectEntry> unattributed_;

@@ -135,6 +135,16 @@ std::vector<QualityReason> ReasonsOf(const Quality& quality, const LastMinute& l
   return std::move(reasons).MostSeriousFirst();
 }
 
+void AddSourceFaults(const std::vector<std::string>& faults, std::vector<QualityReason>& reasons) {
+  const bool is_silent = std::ranges::any_of(reasons, [](const QualityReason& reason) {
+    return reason.code == "NO_TELEMETRY" || reason.code == "CHANNEL_SILENT";
+  });
+  if (!is_silent) return;
+  for (const std::string& fault : faults) {
+    reasons.push_back({"SOURCE_FAILED", kWarn, "nothing comes from source " + fault});
+  }
+}
+
 QualityVerdict VerdictOf(const std::vector<QualityReason>& reasons) {
   return reasons.empty() ? kOk : reasons.front().verdict;
 }

@@ -22,6 +22,10 @@ struct VerdictLimits {
 std::vector<QualityReason> ReasonsOf(const Quality& quality, const LastMinute& last,
                                      const VerdictLimits& limits = {});
 
+/// Adds the faults of sources, "name: fault", to the reasons of a vehicle that is silent or of
+/// which a channel is: they may be why. Most serious first stays so.
+void AddSourceFaults(const std::vector<std::string>& faults, std::vector<QualityReason>& reasons);
+
 /// The verdict that the reasons amount to. Without telemetry nothing is known of now: STALE.
 QualityVerdict VerdictOf(const std::vector<QualityReason>& reasons);
 

@@ -19,7 +19,7 @@ namespace telltale {
 class VehicleMonitor {
  public:
   /// The quality of the period that ends now and that has lasted `elapsed_s`.
-  /// `view` knows the last refusal and the last diagnosis.
+  /// `view` knows the last refusal, the last diagnosis and the sources that fail.
   Quality Assess(VehicleWindow& window, const std::optional<StoredModel>& latest,
                  const FleetView& view, double elapsed_s);
 
@@ -34,7 +34,7 @@ class VehicleMonitor {
 
  private:
   void AddModel(VehicleWindow& window, double end_s, const StoredModel& latest, Quality& quality);
-  void Decide(const WindowState& state, Quality& quality);
+  void Decide(const WindowState& state, const FleetView& view, Quality& quality);
   void UpdateEstimates(VehicleWindow& window, const WindowState& state);
 
   std::uint64_t published_ = 0;

@@ -1,6 +1,7 @@
 #include "service/service_fixture.hpp"
 
 #include <chrono>
+#include <fstream>
 #include <stdexcept>
 
 #include <SQLiteCpp/SQLiteCpp.h>
@@ -49,7 +50,7 @@ std::size_t SizeOf(const Recording& recording) {
   return recording.gnss.size() + recording.heading.size() + recording.thrusters.size();
 }
 
-ServiceTest::ServiceTest() {
+ServiceTest::ServiceTest(bool is_tagged) : domain_(is_tagged) {
   Vehicle vehicle = YellowfishVehicle();
   vehicle.vehicle_id = kVehicleId;
   folder_.Write("vehicle.textproto", PrintVehicle(vehicle));
@@ -59,6 +60,10 @@ ServiceTest::ServiceTest() {
                                    (folder_.Path() / "state").string() +
                                    "\"\nidentification { bootstrap_replicates: 100 }\n"
                                    "quality_period_s: 0.1\nwindow { save_period_s: 0.2 }\n");
+}
+
+void ServiceTest::Configure(const std::string& more) const {
+  std::ofstream(config_file_, std::ios::app) << more;
 }
 
 std::unique_ptr<Process> ServiceTest::StartDaemon(int vehicles) const {

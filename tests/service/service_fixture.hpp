@@ -34,7 +34,11 @@ class ServiceTest : public ::testing::Test {
  protected:
   static constexpr const char* kVehicleId = "yellowfish";
 
-  ServiceTest();
+  /// `is_tagged`: as LoopbackDomain has it.
+  explicit ServiceTest(bool is_tagged = true);
+
+  /// Lets the daemon's configuration have this too.
+  void Configure(const std::string& more) const;
 
   /// telltaled, serving so many vehicles.
   std::unique_ptr<Process> StartDaemon(int vehicles = 1) const;

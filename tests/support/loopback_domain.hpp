@@ -17,15 +17,19 @@ namespace telltale {
 /// an announcement now and then, and it is made again soon.
 class LoopbackDomain {
  public:
-  LoopbackDomain() {
+  /// `is_tagged` false: for a DDS of another vendor, which knows no tags; the domain is then one
+  /// that no other test is likely to use.
+  explicit LoopbackDomain(bool is_tagged = true) {
     const auto* test = ::testing::UnitTest::GetInstance()->current_test_info();
     const std::string name = std::string(test->test_suite_name()) + "." + test->name();
-    id_ = static_cast<std::uint32_t>(std::hash<std::string>()(name) % 101) + 1;
+    const std::string own = name + "." + std::to_string(getpid());
+    id_ = static_cast<std::uint32_t>(std::hash<std::string>()(is_tagged ? name : own) % 101) + 1;
+    const std::string tag = is_tagged ? "<Tag>" + own + "</Tag>" : std::string();
     const std::string configuration =
         "<CycloneDDS><Domain><General><Interfaces><NetworkInterface name=\"lo\"/></Interfaces>"
-        "<AllowMulticast>false</AllowMulticast></General><Discovery><Tag>" +
-        name + "." + std::to_string(getpid()) +
-        "</Tag><ParticipantIndex>auto</ParticipantIndex>"
+        "<AllowMulticast>false</AllowMulticast></General><Discovery>" +
+        tag +
+        "<ParticipantIndex>auto</ParticipantIndex>"
         "<MaxAutoParticipantIndex>30</MaxAutoParticipantIndex>"
         "<SPDPInterval>1 s</SPDPInterval>"
         "<Peers><Peer address=\"127.0.0.1\"/></Peers></Discovery></Domain></CycloneDDS>";

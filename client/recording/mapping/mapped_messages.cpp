@@ -66,12 +66,9 @@ void MappedMessages::TakeRos(std::string_view topic, std::string_view type,
                              std::string_view definition, std::int64_t received_ns,
                              std::span<const std::uint8_t> bytes, CdrReader::Encoding encoding) {
   if (!Names(topic)) return;
-  auto known = types_.find(type);
-  if (known == types_.end()) {
-    known = types_.emplace(std::string(type), RosMessageType::Of(type, definition, encoding)).first;
-  }
-  if (!known->second) return;
-  recording_.Take(topic, Seconds(received_ns), RosFields(*known->second, bytes, encoding));
+  const RosMessageType* const known = types_.Find(type, definition, encoding);
+  if (known == nullptr) return;
+  recording_.Take(topic, Seconds(received_ns), RosFields(*known, bytes, encoding));
 }
 
 void MappedMessages::TakeJson(std::string_view topic, std::int64_t received_ns,
@@ -87,8 +84,8 @@ void MappedMessages::TakeJson(std::string_view topic, std::int64_t received_ns,
 
 SourceLog MappedMessages::Finish() const {
   SourceLog log = recording_.Finish("messages");
-  for (const auto& [name, type] : types_) {
-    if (!type) log.summary += "; the recording does not define " + name;
+  for (const std::string& name : types_.Unknown()) {
+    log.summary += "; the recording does not define " + name;
   }
   if (log.Lacks() && !other_topics_.empty()) {
     log.summary += "; topics that it does not name:";

@@ -1,9 +1,7 @@
 #pragma once
 
 #include <cstdint>
-#include <map>
 #include <memory>
-#include <optional>
 #include <set>
 #include <span>
 #include <string>
@@ -34,7 +32,7 @@ class MappedMessages {
 
   std::shared_ptr<const Mapping> mapping_;
   MappedRecording recording_;
-  std::map<std::string, std::optional<RosMessageType>, std::less<>> types_;
+  RosMessageTypes types_;
   std::set<std::string, std::less<>> other_topics_;  ///< that the mapping does not name
   std::uint64_t unreadable_ = 0;
 };

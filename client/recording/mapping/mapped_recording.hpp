@@ -1,67 +1,36 @@
 #pragma once
 
-#include <cstdint>
-#include <optional>
-#include <set>
-#include <string>
 #include <string_view>
 #include <vector>
 
-#include "telltale/client/recording/mapping/message_fields.hpp"
+#include "telltale/client/recording/mapping/mapped_samples.hpp"
 #include "telltale/client/recording/source_log.hpp"
-#include "telltale/client/recording/thruster_sides.hpp"
-#include "telltale/idl/codec/mapping_file.hpp"
 
 namespace telltale {
 
-/// Whether a topic has this name, in which * stands for any characters.
-bool TopicMatches(std::string_view pattern, std::string_view topic);
-
-/// Gathers the three channels of what a mapping names. Of several topics that one pattern matches
-/// the first counts. Assumes: the mapping outlives it.
+/// Gathers the three channels of what a mapping names. Assumes: the mapping outlives it.
 class MappedRecording {
  public:
   explicit MappedRecording(const Mapping& mapping);
+  MappedRecording(const MappedRecording&) = delete;
+  MappedRecording& operator=(const MappedRecording&) = delete;
 
   /// Whether the mapping names this topic, so that a message of it need be opened at all.
-  bool Names(std::string_view topic) const;
+  bool Names(std::string_view topic) const { return samples_.Names(topic); }
 
-  void Take(std::string_view topic, double received_s, const MessageFields& fields);
+  void Take(std::string_view topic, double received_s, const MessageFields& fields) {
+    samples_.Take(topic, received_s, fields);
+  }
 
   /// `what`: "messages" or "rows", for people.
   SourceLog Finish(const char* what) const;
 
  private:
-  /// One channel's topic and what could not be had from its messages.
-  struct Source {
-    std::string topic;
-    bool is_taken = false;
-    std::set<std::string, std::less<>> also;  ///< further topics that match
-    std::uint64_t absent = 0;                 ///< messages without the fields
-    std::uint64_t held = 0;                   ///< that repeat the value before
-    std::uint64_t without_fix = 0;
-  };
-
-  static bool IsFrom(Source& source, std::string_view pattern, std::string_view topic);
-  static std::optional<double> TimeOf(const MappedTime& time, double received_s,
-                                      const MessageFields& fields);
-  void TakePosition(double received_s, const MessageFields& fields);
-  void TakeHeading(double received_s, const MessageFields& fields);
-  static void TakeCommand(const MappedThruster& thruster, double received_s,
-                          const MessageFields& fields, Source& source,
-                          std::vector<SideCommand>& commands);
-  std::optional<double> HeadingOf(const MessageFields& fields) const;
-
-  const Mapping& mapping_;
-  Source positions_;
-  Source headings_;
-  Source port_;
-  Source starboard_;
   std::vector<GnssFix> fixes_;
-  std::vector<HeadingSample> heading_samples_;
+  std::vector<HeadingSample> headings_;
   std::vector<SideCommand> port_commands_;
   std::vector<SideCommand> starboard_commands_;
-  std::uint64_t messages_ = 0;
+  MappedSamples samples_;  // after what it writes to
 };
 
 }  // namespace telltale

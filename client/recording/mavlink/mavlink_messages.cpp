@@ -42,6 +42,7 @@ std::optional<std::uint8_t> MavlinkCrcExtra(std::uint32_t message) {
     case MavlinkServoOutputRaw::kId: return 222;
     case kMavlinkParamRequestRead: return 214;
     case kMavlinkCommandLong: return 152;
+    case MavlinkCommandAck::kId: return 143;
     default: return std::nullopt;
   }
 }
@@ -94,6 +95,11 @@ MavlinkParamValue ParamValueOf(const MavlinkFrame& frame) {
 MavlinkSystemTime SystemTimeOf(const MavlinkFrame& frame) {
   const Payload payload(frame);
   return {payload.U64(0), payload.U32(8)};
+}
+
+MavlinkCommandAck CommandAckOf(const MavlinkFrame& frame) {
+  const Payload payload(frame);
+  return {payload.U16(0), payload.U8(2), payload.U8(8)};
 }
 
 }  // namespace telltale

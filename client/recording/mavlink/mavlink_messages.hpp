@@ -63,6 +63,14 @@ struct MavlinkSystemTime {
   std::uint32_t boot_ms = 0;
 };
 
+/// An autopilot's answer to a COMMAND_LONG.
+struct MavlinkCommandAck {
+  static constexpr std::uint32_t kId = 77;
+  std::uint16_t command = 0;
+  std::uint8_t result = 0;         ///< MAV_RESULT; 0: accepted
+  std::uint8_t target_system = 0;  ///< who had asked; 0: not said
+};
+
 /// What a ground station asks an autopilot for: COMMAND_LONG and PARAM_REQUEST_READ.
 inline constexpr std::uint32_t kMavlinkCommandLong = 76;
 inline constexpr std::uint32_t kMavlinkParamRequestRead = 20;
@@ -84,5 +92,6 @@ MavlinkAttitude AttitudeOf(const MavlinkFrame& frame);
 MavlinkServoOutputRaw ServoOutputRawOf(const MavlinkFrame& frame);
 MavlinkParamValue ParamValueOf(const MavlinkFrame& frame);
 MavlinkSystemTime SystemTimeOf(const MavlinkFrame& frame);
+MavlinkCommandAck CommandAckOf(const MavlinkFrame& frame);
 
 }  // namespace telltale

@@ -333,6 +333,23 @@ const RosMessageType::Fields* RosMessageType::FieldsOf(std::string_view type) co
   return found == types_.end() ? nullptr : &found->second;
 }
 
+const RosMessageType* RosMessageTypes::Find(std::string_view name, std::string_view definition,
+                                            CdrReader::Encoding encoding) {
+  auto known = types_.find(name);
+  if (known == types_.end()) {
+    known = types_.emplace(std::string(name), RosMessageType::Of(name, definition, encoding)).first;
+  }
+  return known->second ? &*known->second : nullptr;
+}
+
+std::vector<std::string> RosMessageTypes::Unknown() const {
+  std::vector<std::string> names;
+  for (const auto& [name, type] : types_) {
+    if (!type) names.push_back(name);
+  }
+  return names;
+}
+
 std::optional<double> RosFields::Number(std::string_view path) const {
   const auto steps = StepsOf(path);
   if (!steps) return std::nullopt;

@@ -43,6 +43,20 @@ class RosMessageType {
   std::map<std::string, Fields, std::less<>> types_;
 };
 
+/// Message types by name, each opened once.
+class RosMessageTypes {
+ public:
+  /// Null: the type is not known. Of a name that was asked for before, `definition` is passed over.
+  const RosMessageType* Find(std::string_view name, std::string_view definition,
+                             CdrReader::Encoding encoding);
+
+  /// The names that are not known.
+  std::vector<std::string> Unknown() const;
+
+ private:
+  std::map<std::string, std::optional<RosMessageType>, std::less<>> types_;
+};
+
 /// One serialised message. Assumes: type and bytes outlive it.
 class RosFields : public MessageFields {
  public:

@@ -1,113 +1,83 @@
-#include <arpa/inet.h>
 #include <signal.h>
-#include <sys/socket.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
-#include <map>
+#include <filesystem>
 #include <memory>
 #include <sstream>
 #include <string>
 #include <vector>
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
 #include "support/loopback_domain.hpp"
+#include "support/mavlink_boats.hpp"
 #include "support/process.hpp"
-#include "telltale/client/bus/participant.hpp"
-#include "telltale/client/bus/reader.hpp"
-#include "telltale/client/bus/wait_set.hpp"
+#include "support/telemetry_receiver.hpp"
+#include "support/temporary_folder.hpp"
 #include "telltale/core/base/degrees.hpp"
-#include "telltale/idl/codec/wire/telemetry.hpp"
 
 namespace telltale {
 namespace {
 
 using namespace std::chrono_literals;
-using SteadyClock = std::chrono::steady_clock;
 
 constexpr double kSenderBootS = 1.7e9;  // of send_live.mjs
 constexpr double kDataBeginS = kSenderBootS + 9.9995;
-constexpr auto kPatience = 60s;
-
-/// A UDP port of this machine that nobody listens on.
-int FreePort() {
-  const int socket_handle = socket(AF_INET, SOCK_DGRAM, 0);
-  sockaddr_in address{};
-  address.sin_family = AF_INET;
-  address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-  socklen_t size = sizeof(address);
-  bind(socket_handle, reinterpret_cast<sockaddr*>(&address), size);
-  getsockname(socket_handle, reinterpret_cast<sockaddr*>(&address), &size);
-  close(socket_handle);
-  return ntohs(address.sin_port);
-}
-
-/// What came over DDS of each vehicle.
-struct Received {
-  std::vector<GnssFix> gnss;
-  std::vector<HeadingSample> heading;
-  std::vector<ThrusterSample> thrusters;
-};
 
 /// A real bridge process, autopilots by node-mavlink, and a subscriber on the bus.
 class BridgeTest : public testing::Test {
  protected:
   void SetUp() override {
-    Process install({TELLTALE_SOURCE_DIR "/tests/deploy/from_npm", kSenderFolder, "send_live.mjs"});
-    const auto code = install.Wait();
-    if (code == 77) GTEST_SKIP() << install.output();
-    ASSERT_EQ(code, 0) << install.output();
-    wait_set_.Attach(gnss_,
-                     [this] { gnss_.Take([this](const auto& w) { Keep(w, &Received::gnss); }); });
-    wait_set_.Attach(heading_, [this] {
-      heading_.Take([this](const auto& w) { Keep(w, &Received::heading); });
-    });
-    wait_set_.Attach(thrusters_, [this] {
-      thrusters_.Take([this](const auto& w) { Keep(w, &Received::thrusters); });
-    });
+    if (const auto missing = MavlinkBoats::Missing()) GTEST_SKIP() << *missing;
   }
 
+  std::vector<std::string> BridgeCommand(const std::string& address) const {
+    return {TELLTALE_COMMAND, "bridge",        "--mavlink", address,
+            "--vehicle-id",   "boat-{system}", "--domain",  std::to_string(domain_.id())};
+  }
   std::vector<std::string> BridgeCommand() const {
-    return {
-        TELLTALE_COMMAND, "bridge",        "--mavlink", "udp:127.0.0.1:" + std::to_string(port_),
-        "--vehicle-id",   "boat-{system}", "--domain",  std::to_string(domain_.id())};
+    return BridgeCommand("udp:127.0.0.1:" + std::to_string(port_));
   }
 
-  /// Autopilots of two boats that send `seconds` of data at ten times real time once all channels
-  /// of both are connected; what they say they sent.
-  nlohmann::json SendFromTwoBoats(int seconds, int loss_every) {
-    received_.clear();
-    Process sender({"/usr/bin/env", "node", std::string(kSenderFolder) + "/send_live.mjs",
-                    std::to_string(port_), "2", std::to_string(seconds), std::to_string(loss_every),
-                    "10"});
-    EXPECT_TRUE(sender.WaitForOutput("ready"));
-    EXPECT_TRUE(ReceiveUntil([this] {
-      return received_.size() == 2 &&
-             std::all_of(received_.begin(), received_.end(), [](const auto& one) {
-               return !one.second.gnss.empty() && !one.second.heading.empty() &&
-                      !one.second.thrusters.empty();
-             });
-    })) << "the boats are not heard";
-    sender.Signal(SIGUSR2);
-    EXPECT_TRUE(ReceiveUntil([&] { return sender.WaitForOutput("]}]", 0s); })) << sender.output();
-    const std::string& output = sender.output();
+  /// Two boats that send their data at ten times real time once all channels of both are connected;
+  /// what they say they sent.
+  nlohmann::json SendFrom(Process& boats) {
+    receiver_.Of().clear();
+    EXPECT_TRUE(boats.WaitForOutput("ready"));
+    EXPECT_TRUE(HearBothBoats()) << "the boats are not heard";
+    boats.Signal(SIGUSR2);
+    EXPECT_TRUE(receiver_.ReceiveUntil([&] { return boats.WaitForOutput("]}]", 0s); }))
+        << boats.output();
+    const std::string& output = boats.output();
     const auto sent =
         nlohmann::json::parse(output.substr(std::min(output.size(), output.find("[{"))));
-    ReceiveUntil([&] {
+    receiver_.ReceiveUntil([&] {
       return std::all_of(sent.begin(), sent.end(),
-                         [&](const auto& boat) { return Of(boat).size() >= SizeOf(boat); });
+                         [&](const auto& boat) { return CountOf(boat) >= SizeOf(boat); });
     });
     return sent;
+  }
+  nlohmann::json SendFromTwoBoats(int seconds, int loss_every) {
+    Process boats(MavlinkBoats::Command(std::to_string(port_), seconds, loss_every));
+    return SendFrom(boats);
+  }
+
+  bool HearBothBoats() {
+    return receiver_.ReceiveUntil([this] {
+      return receiver_.Of().size() == 2 && std::ranges::all_of(receiver_.Of(), [](const auto& one) {
+               return one.second.HasAll();
+             });
+    });
   }
 
   /// Compares sample by sample what arrived of each boat with what it says it sent from 10 s on.
   void ExpectAllReceived(const nlohmann::json& sent) {
     for (const auto& boat : sent) {
       const std::string id = "boat-" + std::to_string(boat["system"].get<int>());
-      const Received got = FromTenSeconds(received_[id]);
+      const ReceivedTelemetry got = FromTenSeconds(receiver_.Of()[id]);
       ASSERT_EQ(got.gnss.size(), boat["gnss"].size()) << id;
       ASSERT_EQ(got.heading.size(), boat["heading"].size()) << id;
       ASSERT_EQ(got.thrusters.size(), boat["thrusters"].size()) << id;
@@ -144,29 +114,11 @@ class BridgeTest : public testing::Test {
   }
 
   LoopbackDomain domain_;
-  int port_ = FreePort();
+  int port_ = FreePort(SOCK_DGRAM);
+  TelemetryReceiver receiver_{domain_.id()};
 
  private:
-  static constexpr const char* kSenderFolder = TELLTALE_BINARY_DIR "/live_sender";
-
-  template <class Wire, class Sample>
-  void Keep(const Wire& wire, std::vector<Sample> Received::*channel) {
-    const auto telemetry = Decode(wire);
-    ASSERT_TRUE(telemetry);
-    (received_[std::string(telemetry->vehicle_id)].*channel).push_back(telemetry->sample);
-  }
-
-  template <class Condition>
-  bool ReceiveUntil(Condition condition) {
-    const auto deadline = SteadyClock::now() + kPatience;
-    while (!condition()) {
-      if (SteadyClock::now() > deadline) return false;
-      wait_set_.Wait(20ms);
-    }
-    return true;
-  }
-
-  static Received FromTenSeconds(const Received& all) {
+  static ReceivedTelemetry FromTenSeconds(const ReceivedTelemetry& all) {
     const auto later = [](const auto& samples) {
       auto kept = samples;
       std::erase_if(kept, [](const auto& sample) { return sample.time_s < kDataBeginS; });
@@ -175,22 +127,15 @@ class BridgeTest : public testing::Test {
     return {later(all.gnss), later(all.heading), later(all.thrusters)};
   }
 
-  /// All samples from 10 s on that have arrived of a boat.
-  std::vector<double> Of(const nlohmann::json& boat) {
-    const Received got =
-        FromTenSeconds(received_["boat-" + std::to_string(boat["system"].get<int>())]);
-    return std::vector<double>(got.gnss.size() + got.heading.size() + got.thrusters.size());
+  /// How many samples from 10 s on have arrived of a boat.
+  std::size_t CountOf(const nlohmann::json& boat) {
+    const ReceivedTelemetry got =
+        FromTenSeconds(receiver_.Of()["boat-" + std::to_string(boat["system"].get<int>())]);
+    return got.gnss.size() + got.heading.size() + got.thrusters.size();
   }
   static std::size_t SizeOf(const nlohmann::json& boat) {
     return boat["gnss"].size() + boat["heading"].size() + boat["thrusters"].size();
   }
-
-  Participant participant_{domain_.id()};
-  WaitSet wait_set_{participant_};
-  Reader<telltale_wire_GnssFix> gnss_{participant_};
-  Reader<telltale_wire_Heading> heading_{participant_};
-  Reader<telltale_wire_Thrusters> thrusters_{participant_};
-  std::map<std::string, Received> received_;
 };
 
 TEST_F(BridgeTest, PublishesWhatTwoBoatsSendAndCountsWhatIsLost) {
@@ -217,6 +162,85 @@ TEST_F(BridgeTest, PublishesWhatTwoBoatsSendAndCountsWhatIsLost) {
   EXPECT_NE(bridge.output().find("bytes that are no MAVLink"), std::string::npos);
 }
 
+TEST_F(BridgeTest, SaysWhichAutopilotDeniesAnInterval) {
+  Process bridge(BridgeCommand());
+  ASSERT_TRUE(bridge.WaitForOutput("waiting for MAVLink")) << bridge.output();
+  Process boats(MavlinkBoats::Command(std::to_string(port_), 1, 0, 36));
+  ExpectAllReceived(SendFrom(boats));
+  for (const std::string id : {"boat-1", "boat-2"}) {
+    EXPECT_TRUE(bridge.WaitForOutput("the autopilot of " + id + " answers DENIED"))
+        << bridge.output();
+  }
+  bridge.Signal(SIGTERM);
+  ASSERT_EQ(bridge.Wait(), 0) << bridge.output();
+  EXPECT_THAT(bridge.output(),
+              testing::ContainsRegex("boat-1: [0-9]+ requests for message intervals denied"));
+}
+
+TEST_F(BridgeTest, TakesTwoBoatsOverTcpAndConnectsAgain) {
+  const std::string port = std::to_string(FreePort(SOCK_STREAM));
+  Process bridge(BridgeCommand("tcp:127.0.0.1:" + port));
+  ASSERT_TRUE(bridge.WaitForOutput("cannot be reached")) << bridge.output();
+  {
+    Process boats(MavlinkBoats::Command("tcp:" + port, 5, 50));
+    ASSERT_TRUE(bridge.WaitForOutput("is connected")) << bridge.output();
+    const auto sent = SendFrom(boats);
+    ExpectAllReceived(sent);
+    for (const auto& boat : sent) EXPECT_EQ(boat["asked"], nlohmann::json({2, 24, 30, 33, 36}));
+    EXPECT_EQ(boats.Wait(), 0);
+  }
+  ASSERT_TRUE(bridge.WaitForOutput("is lost")) << bridge.output();
+  Process again(MavlinkBoats::Command("tcp:" + port, 1, 0));
+  ExpectAllReceived(SendFrom(again));
+  bridge.Signal(SIGTERM);
+  ASSERT_EQ(bridge.Wait(), 0) << bridge.output();
+}
+
+TEST_F(BridgeTest, TakesTwoBoatsOverASerialLineAndOpensItAgain) {
+  if (!std::filesystem::exists("/usr/bin/socat")) GTEST_SKIP() << "socat is not there";
+  const TemporaryFolder folder;
+  const std::string line = (folder.Path() / "line").string();
+  const std::string port = std::to_string(FreePort(SOCK_STREAM));
+  // A pseudo terminal whose other end is a connection to the boats.
+  const auto lay_line = [&] {
+    auto cable = std::make_unique<Process>(std::vector<std::string>{
+        "/usr/bin/socat", "-d", "-d", "pty,raw,echo=0,link=" + line, "tcp:127.0.0.1:" + port});
+    EXPECT_TRUE(cable->WaitForOutput("starting data transfer loop")) << cable->output();
+    return cable;
+  };
+  Process boats(MavlinkBoats::Command("tcp:" + port, 1, 0));
+  ASSERT_TRUE(boats.WaitForOutput("ready"));
+  auto cable = lay_line();
+  Process bridge(BridgeCommand("serial:" + line + ":57600"));
+  ASSERT_TRUE(bridge.WaitForOutput("waiting for MAVLink")) << bridge.output();
+  ASSERT_TRUE(HearBothBoats()) << bridge.output();
+  for (const std::string system : {"1", "2"}) {
+    EXPECT_TRUE(boats.WaitForOutput("system " + system + " is asked for 36")) << boats.output();
+  }
+
+  cable.reset();  // pulled
+  ASSERT_TRUE(bridge.WaitForOutput("is lost")) << bridge.output();
+  cable = lay_line();
+  ASSERT_TRUE(bridge.WaitForOutput("is open again")) << bridge.output();
+  const auto sent = SendFrom(boats);
+  ExpectAllReceived(sent);
+  for (const auto& boat : sent) EXPECT_EQ(boat["asked"], nlohmann::json({2, 24, 30, 33, 36}));
+  bridge.Signal(SIGTERM);
+  ASSERT_EQ(bridge.Wait(), 0) << bridge.output();
+}
+
+TEST_F(BridgeTest, TakesOneChannelAlone) {
+  auto command = BridgeCommand();
+  command.insert(command.end(), {"--channel", "thrusters"});
+  Process bridge(command);
+  ASSERT_TRUE(bridge.WaitForOutput("waiting for MAVLink")) << bridge.output();
+  const Process boats(MavlinkBoats::Command(std::to_string(port_), 1, 0));
+  ASSERT_TRUE(
+      receiver_.ReceiveUntil([this] { return receiver_.Of()["boat-1"].thrusters.size() > 9; }));
+  EXPECT_TRUE(receiver_.Of()["boat-1"].gnss.empty());
+  EXPECT_TRUE(receiver_.Of()["boat-1"].heading.empty());
+}
+
 TEST_F(BridgeTest, RefusesAPortThatIsOccupied) {
   Process first(BridgeCommand());
   ASSERT_TRUE(first.WaitForOutput("waiting for MAVLink")) << first.output();
@@ -239,6 +263,11 @@ TEST_F(BridgeTest, RefusesAddressesAndIdsThatAreWrong) {
   run({"--mavlink", "udp:127.0.0.1:14550", "--vehicle-id", "boat"}, 2, "{system}");
   run({"--mavlink", "udp:127.0.0.1:14550", "--vehicle-id", "a b {system}"}, 2, "must make 1..64");
   run({"--mavlink", "udp:127.0.0.1:14550", "--system-id", "256"}, 2, "256");
+  run({"--mavlink", "udp:127.0.0.1:14550", "--channel", "attitude"}, 2, "heading");
+  run({"--mavlink", "udp:127.0.0.1:14550", "--ros2"}, 2, "--ros2");
+  run({"--ros2", "--namespace", "boats"}, 2, "each after a '/'");
+  run({"--ros2", "--namespace", "/{vehicle}", "--vehicle-id", "boat"}, 2, "or neither");
+  run({"--ros2", "--rate", "5"}, 2, "--mavlink");
   run({"--mavlink", "serial:/dev/no-such-line:57600"}, 1, "cannot be opened");
 }
 

@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "telltale/client/bridge/mavlink_address.hpp"
-#include "telltale/client/bridge/sequence_gaps.hpp"
+#include "telltale/client/bridge/mavlink_sequence_gaps.hpp"
 #include "telltale/client/recording/mavlink/mavlink_frames.hpp"
 #include "telltale/client/recording/mavlink/mavlink_messages.hpp"
 
@@ -83,8 +83,8 @@ TEST(MavlinkRequests, ComeBackAsTheyWereSent) {
   }
 }
 
-TEST(SequenceGaps, CountWhatIsMissing) {
-  SequenceGaps gaps;
+TEST(MavlinkSequenceGaps, CountWhatIsMissing) {
+  MavlinkSequenceGaps gaps;
   EXPECT_EQ(gaps.Take(250, 0.0), 0u);
   EXPECT_EQ(gaps.Take(251, 0.1), 0u);
   EXPECT_EQ(gaps.Take(2, 0.2), 6u);  // 252 to 255, 0 and 1
@@ -93,8 +93,8 @@ TEST(SequenceGaps, CountWhatIsMissing) {
   EXPECT_EQ(gaps.Take(3, 0.5), 0u);
 }
 
-TEST(SequenceGaps, BeginAnewAfterASilence) {
-  SequenceGaps gaps;
+TEST(MavlinkSequenceGaps, BeginAnewAfterASilence) {
+  MavlinkSequenceGaps gaps;
   gaps.Take(10, 0.0);
   EXPECT_EQ(gaps.Take(0, 2.5), 0u);
   EXPECT_EQ(gaps.Take(3, 2.6), 2u);

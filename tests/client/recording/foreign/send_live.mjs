@@ -1,29 +1,62 @@
-// Plays autopilots that send MAVLink over UDP, by a writer that is not the project's:
+// Plays autopilots that send MAVLink, by a writer that is not the project's:
 //
-//   node send_live.mjs PORT VEHICLES SECONDS LOSS_EVERY SPEED
+//   node send_live.mjs PORT|tcp:PORT VEHICLES SECONDS LOSS_EVERY SPEED [DENIED]
 //
+// They send to a UDP port of this machine, or to whoever connects to a TCP port. They accept the intervals
+// they are asked for, but for that of message DENIED.
 // Systems 1 to VEHICLES send heartbeats, their clock, their parameters and a sample of each channel, at
 // times before 10 s, until SIGUSR2 comes. Then come SECONDS of data from 10 s on, at SPEED times real time,
 // of which each frame LOSS_EVERY (0: none) is left out. Frames are of version 1, 2 and signed in turn, with
-// garbage between. Prints what each system sent from 10 s on, `lost`, the frames left out, and `asked`, the
-// messages whose intervals were asked for.
+// garbage between. Prints what each system is asked for, and at the end what each sent from 10 s on, `lost`,
+// the frames left out, and `asked`, the messages whose intervals were asked for.
 import { createRequire } from "node:module";
 import { createSocket } from "node:dgram";
+import { createServer } from "node:net";
 
 const require = createRequire(import.meta.url);
 const mavlink = require("node-mavlink");
 const { common, minimal } = mavlink;
-const [port, vehicles, seconds, lossEvery, speed] = process.argv.slice(2).map(Number);
+const place = process.argv[2];
+const [vehicles, seconds, lossEvery, speed, denied = 0] = process.argv.slice(3).map(Number);
 const unixUs = 1700000000000000n; // UTC of boot
 const key = mavlink.MavLinkPacketSignature.key("telltale");
 const made = (Message, fields) => Object.assign(new Message(), fields);
 
+// Ways to the listener: a socket a vehicle, where each datagram is a frame or garbage; or one stream for
+// all, in which garbage would swallow the frame after it.
+function openDatagrams(port) {
+  const socket = createSocket("udp4");
+  return { send: (bytes) => socket.send(bytes, port, "127.0.0.1"),
+    listen: (answer) => socket.on("message", answer), takesGarbage: true };
+}
+function openStream(port) {
+  let listener = null;
+  const answers = [];
+  createServer((socket) => {
+    listener = socket;
+    socket.on("error", () => {});
+    socket.on("data", (bytes) => framesOf(bytes).forEach((frame) => answers.forEach((one) => one(frame))));
+  }).listen(port, "127.0.0.1", () => console.log("ready"));
+  return { send: (bytes) => listener?.write(bytes), listen: (answer) => answers.push(answer), takesGarbage: false };
+}
+// Frames that a stream brought together; what it cut is left out.
+function framesOf(bytes) {
+  const frames = [];
+  for (let at = 0; at + 1 < bytes.length;) {
+    const size = bytes[at + 1] + (bytes[at] === 0xfd ? 12 : 8);
+    frames.push(bytes.subarray(at, at + size));
+    at += size;
+  }
+  return frames.filter((frame) => frame.length >= 8);
+}
+const stream = place.startsWith("tcp:") ? openStream(Number(place.slice(4))) : null;
+
 class Autopilot {
   constructor(system) {
     this.system = system;
-    this.socket = createSocket("udp4");
+    this.way = stream ?? openDatagrams(Number(place));
     this.asked = new Set();
-    this.socket.on("message", (bytes) => this.answer(bytes));
+    this.way.listen((bytes) => this.answer(bytes));
     this.v1 = new mavlink.MavLinkProtocolV1(system, 1);
     this.v2 = new mavlink.MavLinkProtocolV2(system, 1);
     this.signed = new mavlink.MavLinkProtocolV2(system, 1, mavlink.MavLinkProtocolV2.IFLAG_SIGNED);
@@ -31,11 +64,17 @@ class Autopilot {
     this.sent = { system, gnss: [], heading: [], thrusters: [], lost: 0, asked: [] };
   }
   // What the bridge asks for: MAV_CMD_SET_MESSAGE_INTERVAL in a COMMAND_LONG of version 1 or 2.
+  // Version 2 cuts zeros, which a target component of 1 ends.
   answer(bytes) {
     const isV2 = bytes[0] === 0xfd;
     const id = isV2 ? bytes.readUIntLE(7, 3) : bytes[5];
     const at = isV2 ? 10 : 6;
-    if (id === 76 && bytes.readUInt16LE(at + 28) === 511) this.asked.add(bytes.readFloatLE(at));
+    if (id !== 76 || bytes.readUInt16LE(at + 28) !== 511 || bytes[at + 30] !== this.system) return;
+    const message = bytes.readFloatLE(at);
+    if (!this.asked.has(message)) console.log(`system ${this.system} is asked for ${message}`);
+    this.asked.add(message);
+    this.send(made(common.CommandAck, { command: 511, result: message === denied ? 2 : 0, progress: 0,
+      resultParam2: 0, targetSystem: 254, targetComponent: 191 }));
   }
   send(message, lossy = false) {
     const n = this.sequence++;
@@ -47,8 +86,8 @@ class Autopilot {
       ++this.sent.lost;
       return false;
     }
-    this.socket.send(frame, port, "127.0.0.1");
-    if (n % 40 === 0) this.socket.send(Buffer.from([0xfd, 0x09, 0x00, 0x55, 0xfe, 0x21]), port, "127.0.0.1");
+    this.way.send(frame);
+    if (n % 40 === 0 && this.way.takesGarbage) this.way.send(Buffer.from([0xfd, 0x09, 0x00, 0x55, 0xfe, 0x21]));
     return true;
   }
   introduce(ms) {
@@ -106,4 +145,4 @@ process.once("SIGUSR2", () => {
     setTimeout(() => process.exit(0), 200); // once all is on its way
   }, 100 / speed);
 });
-console.log("ready");
+if (stream === null) console.log("ready");

@@ -10,7 +10,7 @@ namespace telltale {
 /// Assumes: fewer than 128 frames in a row are lost; a greater step is a frame that comes late or
 /// twice. What a silence of more than two seconds hid is not counted, since the number may have
 /// gone round or an autopilot begun anew.
-class SequenceGaps {
+class MavlinkSequenceGaps {
  public:
   /// How many frames are missing between the last frame and this one.
   std::uint64_t Take(std::uint8_t sequence, double arrival_s) {

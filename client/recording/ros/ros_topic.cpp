@@ -1,0 +1,180 @@
+#include "telltale/client/recording/ros/ros_topic.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "telltale/client/recording/thruster_sides.hpp"
+#include "telltale/core/base/degrees.hpp"
+
+namespace telltale {
+namespace {
+
+constexpr int kDefaultPortChannel = 1;
+constexpr int kDefaultStarboardChannel = 3;
+
+struct RosHeader {
+  double stamp_s = 0.0;
+  std::string frame;
+};
+
+RosHeader ReadHeader(CdrReader& cdr) {
+  if (cdr.IsRos1()) cdr.Read<std::uint32_t>();  // a sequence number
+  const auto seconds = cdr.Read<std::int32_t>();
+  const auto nanoseconds = cdr.Read<std::uint32_t>();
+  return {seconds + 1e-9 * nanoseconds, cdr.ReadString()};
+}
+
+struct Quaternion {
+  double x, y, z, w;
+};
+
+Quaternion ReadQuaternion(CdrReader& cdr) {
+  Quaternion q{};
+  q.x = cdr.Read<double>();
+  q.y = cdr.Read<double>();
+  q.z = cdr.Read<double>();
+  q.w = cdr.Read<double>();
+  return q;
+}
+
+double YawRad(const Quaternion& q) {
+  return std::atan2(2.0 * (q.w * q.z + q.x * q.y), 1.0 - 2.0 * (q.y * q.y + q.z * q.z));
+}
+
+bool IsNull(const Quaternion& q) {
+  return q.x == 0.0 && q.y == 0.0 && q.z == 0.0 && q.w == 0.0;
+}
+
+std::string Lower(std::string_view text) {
+  std::string lower(text);
+  for (char& c : lower) c = static_cast<char>(c >= 'A' && c <= 'Z' ? c + ('a' - 'A') : c);
+  return lower;
+}
+
+bool Contains(std::string_view text, std::string_view part) {
+  return text.find(part) != std::string_view::npos;
+}
+
+bool NamesNed(const std::string& frame) {
+  return Contains(Lower(frame), "ned");
+}
+
+/// -1 port, 1 starboard, 0 neither: of a topic for one thruster.
+int SideOf(std::string_view topic) {
+  const std::string name = Lower(topic);
+  if (!Contains(name, "thrust") && !Contains(name, "propeller") && !Contains(name, "motor") &&
+      !Contains(name, "pwm")) {
+    return 0;
+  }
+  if (Contains(name, "left") || Contains(name, "port")) return -1;
+  if (Contains(name, "right") || Contains(name, "starboard")) return 1;
+  return 0;
+}
+
+bool IsCompassTopic(std::string_view topic) {
+  const std::string name = Lower(topic);
+  return name.ends_with("compass_hdg") || name.ends_with("heading");
+}
+
+RosKind KindOf(std::string_view name, std::string_view type) {
+  if (type == "sensor_msgs/msg/NavSatFix") return RosKind::kPosition;
+  if (type == "mavros_msgs/msg/RCOut") return RosKind::kOutputs;
+  if (type == "heron_msgs/msg/Drive") return RosKind::kDrive;
+  if (type == "std_msgs/msg/Float64" && IsCompassTopic(name)) return RosKind::kCompass;
+  if (type == "sensor_msgs/msg/Imu" || type == "geometry_msgs/msg/QuaternionStamped" ||
+      type == "nav_msgs/msg/Odometry") {
+    return RosKind::kOrientation;
+  }
+  const bool is_number = type == "std_msgs/msg/Float64" || type == "std_msgs/msg/Float32" ||
+                         type == "std_msgs/msg/UInt16";
+  return is_number && SideOf(name) != 0 ? RosKind::kSide : RosKind::kUnknown;
+}
+
+}  // namespace
+
+RosTopic::RosTopic(std::string_view name, std::string_view type)
+    : kind_(KindOf(name, type)), type_(type) {
+  if (kind_ == RosKind::kOrientation) {
+    rank_ = type == "sensor_msgs/msg/Imu" ? 1 : type == "nav_msgs/msg/Odometry" ? 3 : 2;
+  }
+  is_port_ = kind_ == RosKind::kSide && SideOf(name) < 0;
+  is_pulse_ = kind_ == RosKind::kSide && type == "std_msgs/msg/UInt16";
+}
+
+std::optional<RosReading> RosTopic::Read(std::span<const std::uint8_t> bytes,
+                                         CdrReader::Encoding encoding) {
+  if (kind_ == RosKind::kUnknown) return std::nullopt;
+  CdrReader cdr(bytes, encoding);
+  RosReading reading;
+  bool is_usable = true;
+  const auto stamp = [&](const RosHeader& header) {
+    if (header.stamp_s != 0.0) reading.stamp_s = header.stamp_s;
+    is_ned_ = is_ned_ || NamesNed(header.frame);
+  };
+  switch (kind_) {
+    case RosKind::kPosition: {
+      stamp(ReadHeader(cdr));
+      const auto status = cdr.Read<std::int8_t>();
+      cdr.Read<std::uint16_t>();
+      reading.values[0] = cdr.Read<double>();
+      reading.values[1] = cdr.Read<double>();
+      if (status < 0) {
+        ++without_fix_;
+        is_usable = false;
+      }
+      break;
+    }
+    case RosKind::kCompass: reading.values[0] = cdr.Read<double>(); break;
+    case RosKind::kOrientation: {
+      stamp(ReadHeader(cdr));
+      if (type_ == "nav_msgs/msg/Odometry") {
+        cdr.ReadString();
+        for (int i = 0; i < 3; ++i) cdr.Read<double>();
+      }
+      const Quaternion q = ReadQuaternion(cdr);
+      const double yaw_deg = YawRad(q) * kDegreesPerRadian;
+      reading.values[0] = is_ned_ ? yaw_deg : 90.0 - yaw_deg;
+      is_usable = !IsNull(q);
+      if (type_ == "sensor_msgs/msg/Imu" && cdr.Read<double>() == -1.0) is_usable = false;
+      break;
+    }
+    case RosKind::kOutputs:
+      stamp(ReadHeader(cdr));
+      reading.outputs = cdr.ReadSequence<std::uint16_t>();
+      break;
+    case RosKind::kDrive:
+      reading.values[0] = static_cast<double>(cdr.Read<float>());
+      reading.values[1] = static_cast<double>(cdr.Read<float>());
+      break;
+    case RosKind::kSide:
+      reading.values[0] = is_pulse_                         ? cdr.Read<std::uint16_t>()
+                          : type_ == "std_msgs/msg/Float32" ? static_cast<double>(cdr.Read<float>())
+                                                            : cdr.Read<double>();
+      break;
+    case RosKind::kUnknown: break;
+  }
+  if (!cdr.Ok()) {
+    ++unreadable_;
+    return std::nullopt;
+  }
+  return is_usable ? std::optional(std::move(reading)) : std::nullopt;
+}
+
+RosOutputChannels::RosOutputChannels(const SourceOptions& options)
+    : port(options.port_channel.value_or(kDefaultPortChannel)),
+      starboard(options.starboard_channel.value_or(kDefaultStarboardChannel)) {}
+
+std::optional<ThrusterSample> CommandsOf(RosKind kind, const RosReading& reading,
+                                         const RosOutputChannels& channels, double time_s) {
+  if (kind == RosKind::kDrive) {
+    return ThrusterSample{time_s, PulseOfShare(reading.values[0]), PulseOfShare(reading.values[1])};
+  }
+  const auto most = static_cast<std::size_t>(std::max(channels.port, channels.starboard));
+  if (reading.outputs.size() < most) return std::nullopt;
+  const auto pulse_us = [&](int channel) {
+    return static_cast<double>(reading.outputs[static_cast<std::size_t>(channel - 1)]);
+  };
+  return ThrusterSample{time_s, pulse_us(channels.port), pulse_us(channels.starboard)};
+}
+
+}  // namespace telltale

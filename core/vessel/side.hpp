@@ -1,0 +1,8 @@
+#pragma once
+
+namespace telltale {
+
+/// Of a boat: port is left.
+enum class Side { kPort, kStarboard };
+
+}  // namespace telltale
