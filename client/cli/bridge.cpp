@@ -9,6 +9,7 @@
 #include "telltale/client/cli/exit_codes.hpp"
 #include "telltale/client/cli/input_options.hpp"
 #include "telltale/client/cli/number_range.hpp"
+#include "telltale/client/workbench/errors.hpp"
 #include "telltale/client/workbench/files.hpp"
 
 namespace telltale {

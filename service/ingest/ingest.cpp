@@ -144,7 +144,7 @@ std::array<std::uint64_t, kChannels.size()> Ingest::Received() const {
   return received;
 }
 
-std::vector<TopicMatches> Ingest::Matches() const {
+std::vector<TopicConnections> Ingest::Matches() const {
   const std::lock_guard lock(matches_mutex_);
   return matches_;
 }

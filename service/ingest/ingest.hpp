@@ -20,7 +20,7 @@
 #include "telltale/idl/codec/messages/fleet_exchange.hpp"
 #include "telltale/service/ingest/fleet.hpp"
 #include "telltale/service/ingest/senders.hpp"
-#include "telltale/service/ingest/topic_matches.hpp"
+#include "telltale/service/ingest/topic_connections.hpp"
 
 namespace telltale {
 
@@ -59,7 +59,7 @@ class Ingest {
   std::array<std::uint64_t, kChannels.size()> Received() const;
 
   /// The connections of the last second.
-  std::vector<TopicMatches> Matches() const;
+  std::vector<TopicConnections> Matches() const;
 
  private:
   void Run();
@@ -80,7 +80,7 @@ class Ingest {
   std::map<const VehicleWindow*, std::size_t> since_receipt_;
   std::array<std::atomic<std::uint64_t>, kChannels.size()> received_{};  ///< by channel
   mutable std::mutex matches_mutex_;
-  std::vector<TopicMatches> matches_;
+  std::vector<TopicConnections> matches_;
   WaitSet wait_set_;  // before the readers attached to it, so that it goes last
   WatchedReader<telltale_wire_GnssFix> gnss_;
   WatchedReader<telltale_wire_Heading> heading_;

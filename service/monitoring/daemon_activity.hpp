@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "telltale/core/data/samples.hpp"
-#include "telltale/service/ingest/topic_matches.hpp"
+#include "telltale/service/ingest/topic_connections.hpp"
 #include "telltale/service/jobs/queue_activity.hpp"
 #include "telltale/service/storage/write_durations.hpp"
 
@@ -24,7 +24,7 @@ struct DaemonActivity {
   std::vector<QueueActivity> queues;
   std::vector<StoreActivity> stores;
   std::array<std::uint64_t, kChannels.size()> received{};  ///< samples taken from the bus
-  std::vector<TopicMatches> matches;
+  std::vector<TopicConnections> matches;
 };
 
 }  // namespace telltale

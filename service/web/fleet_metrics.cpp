@@ -252,7 +252,7 @@ MetricFamily ReceivedSamples(const DaemonActivity& activity) {
   return std::move(values).Take();
 }
 
-MetricFamily Matches(const std::vector<TopicMatches>& matches) {
+MetricFamily Matches(const std::vector<TopicConnections>& matches) {
   MetricValues values(MetricType::Gauge, "telltale_dds_matches",
                       "Other ends of a topic that the daemon is connected to.");
   for (const auto& [topic, count] : matches) values.Add({{"topic", topic}}, count);

@@ -6,7 +6,7 @@
 namespace telltale {
 
 /// How many ends of the other kind an end of this daemon is connected to.
-struct TopicMatches {
+struct TopicConnections {
   std::string topic;
   std::uint32_t matches = 0;
 };
