@@ -12,17 +12,18 @@ namespace telltale {
 
 Daemon::Daemon(const DaemonConfig& config, std::function<void(const std::exception&)> failed)
     : state_lock_(config.state_directory),
+      storage_(config.state_directory, config.database),
       fleet_(config.vehicles, config.window),
-      windows_(WindowStore(config.state_directory), fleet_, config.window.duration_s,
+      windows_(WindowStore(storage_), fleet_, config.window.duration_s,
                config.window_save_period_s),
       bus_log_(spdlog::default_logger(),
                [this](std::string_view topic) { fleet_.CountUnreadable(topic); }),
       participant_(config.domain),
-      models_(participant_, ModelStore(config.state_directory), fleet_),
+      models_(participant_, ModelStore(storage_), fleet_),
       watcher_(participant_, view_),
       replies_(participant_),
-      journal_(config.state_directory),
-      diagnoses_(participant_, DiagnosisStore(config.state_directory), fleet_),
+      journal_(storage_),
+      diagnoses_(participant_, DiagnosisStore(storage_), fleet_),
       jobs_(fleet_, models_, baselines_, replies_, config.identification, journal_),
       diagnosis_jobs_(fleet_, models_, view_, baselines_, diagnoses_, replies_,
                       config.identification, journal_),
@@ -34,7 +35,7 @@ Daemon::Daemon(const DaemonConfig& config, std::function<void(const std::excepti
                          return jobs_.Cancel(correlation_id) ||
                                 diagnosis_jobs_.Cancel(correlation_id);
                        }}),
-      quality_(participant_, fleet_, models_, view_, config.quality_period_s),
+      quality_(participant_, fleet_, models_, view_, storage_.status(), config.quality_period_s),
       ingest_(participant_, fleet_,
               {.identify = [this](IdentifyRequest request) { Submit(std::move(request)); },
                .diagnose = [this](DiagnoseRequest request) { Submit(std::move(request)); },

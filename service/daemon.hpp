@@ -21,6 +21,7 @@
 #include "telltale/service/monitoring/fleet_watcher.hpp"
 #include "telltale/service/monitoring/quality_publisher.hpp"
 #include "telltale/service/storage/directory_lock.hpp"
+#include "telltale/service/storage/storage.hpp"
 #include "telltale/service/upkeep/upkeep.hpp"
 #include "telltale/service/web/web_server.hpp"
 #include "telltale/service/windows/window_archive.hpp"
@@ -28,7 +29,7 @@
 namespace telltale {
 
 /// The daemon, which serves its vehicles from construction to destruction. Throws where it cannot
-/// join the domain or use the state directory.
+/// join the domain, or use the state directory or the database.
 class Daemon {
  public:
   /// Another thread calls `failed` when the daemon can no longer receive telemetry.
@@ -45,6 +46,7 @@ class Daemon {
   // A member uses those above it. So telemetry stops first and the participant leaves the bus
   // later; the log of the bus counts into the fleet until then.
   DirectoryLock state_lock_;
+  const Storage storage_;
   Fleet fleet_;
   WindowArchive windows_;
   BusLog bus_log_;

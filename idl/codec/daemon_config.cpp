@@ -122,6 +122,15 @@ std::string ReadLogLevel(FieldReader& reader, const std::string& fallback) {
   return level;
 }
 
+/// The value may hold a password, so that no message shows it.
+std::string ReadDatabase(FieldReader& reader) {
+  std::string database = reader.Text("database", "");
+  if (!database.empty() && !database.starts_with("postgresql://")) {
+    reader.Fail("database", "\"...\"", "an address that begins with postgresql://");
+  }
+  return database;
+}
+
 DaemonConfig ReadConfig(FieldReader reader, const proto::DaemonConfig& message) {
   DaemonConfig config;
   config.domain = reader.Count("domain", {0.0, 101.0}, config.domain);
@@ -130,6 +139,7 @@ DaemonConfig ReadConfig(FieldReader reader, const proto::DaemonConfig& message) 
   config.vehicle_folder = reader.Text("vehicle_folder", config.vehicle_folder);
   config.state_directory = reader.Text("state_directory", config.state_directory);
   if (config.state_directory.empty()) reader.Fail("state_directory", "\"\"", "a folder");
+  config.database = ReadDatabase(reader);
   config.window = ReadWindow(reader.Optional("window"));
   config.window_save_period_s =
       reader.Optional("window").Number("save_period_s", {0.1, 600.0}, config.window_save_period_s);

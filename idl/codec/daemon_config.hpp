@@ -51,6 +51,7 @@ struct DaemonConfig {
   std::vector<std::string> vehicle_files;  ///< as written; who opens them resolves them
   std::string vehicle_folder;              ///< likewise; empty: none
   std::string state_directory = "/var/lib/telltale";
+  std::string database;  ///< postgresql://...; empty: SQLite in state_directory
   WindowLimits window;
   double window_save_period_s = 5.0;  ///< [0.1, 600]
   IdentificationSettings identification;

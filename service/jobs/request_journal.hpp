@@ -2,30 +2,28 @@
 
 #include <condition_variable>
 #include <deque>
-#include <filesystem>
 #include <functional>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <thread>
 #include <vector>
 
 #include "telltale/idl/codec/stored_request.hpp"
-
-namespace SQLite {
-class Database;
-}
+#include "telltale/service/storage/storage.hpp"
 
 namespace telltale {
 
-/// The requests that wait for their answers, in requests.sqlite of the state directory, so that a
-/// daemon that was killed finishes them after its restart. A thread of its own writes what has come
-/// together in one transaction. A fault of the disk is logged: requests are then worked on without
-/// being kept. Safe to use from several threads.
+/// The requests that wait for their answers, in the storage, so that a daemon that was killed
+/// finishes them after its restart. A thread of its own writes what has come together in one
+/// transaction. A fault of the disk is logged: requests are then worked on without being kept. A
+/// database that cannot be reached is tried again once a second, and gets everything in its order.
+/// Safe to use from several threads.
 class RequestJournal {
  public:
-  /// Throws SQLite::Exception where the database cannot be opened.
-  explicit RequestJournal(const std::filesystem::path& directory);
+  /// Throws DatabaseError where the database cannot be opened.
+  explicit RequestJournal(const Storage& storage);
   RequestJournal(const RequestJournal&) = delete;
   RequestJournal& operator=(const RequestJournal&) = delete;
   ~RequestJournal();  ///< writes what has come, and ends the thread
@@ -34,7 +32,11 @@ class RequestJournal {
   /// deadline has passed are dropped. The others stay on disk until Drop(). Call it once.
   std::vector<AnyRequest> TakeUnanswered();
 
-  /// `kept` runs on the thread of the journal once the request is on disk.
+  /// Why the database cannot be reached now, so that no request can be kept; nothing where it can.
+  std::optional<std::string> Unavailable() const { return storage_.status().Unavailable(); }
+
+  /// `kept` runs on the thread of the journal once the request is on disk, or where a fault of the
+  /// disk keeps it from there.
   void Keep(const AnyRequest& request, std::function<void()> kept);
 
   /// The request needs no answer any more.
@@ -48,10 +50,12 @@ class RequestJournal {
   };
 
   void Run();
-  void Write(const std::deque<Entry>& entries);
+  bool Write(const std::deque<Entry>& entries);  ///< false where the database cannot be reached
+  void Write(const Entry& entry);
   void Push(Entry entry);
 
-  std::unique_ptr<SQLite::Database> database_;  // of the thread, once that runs
+  const Storage storage_;
+  std::unique_ptr<Database> database_;  // of the thread, once that runs
   bool wrote_last_time_ = true;
   std::mutex mutex_;  // of what follows
   std::condition_variable wake_;

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <filesystem>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -11,10 +10,7 @@
 
 #include "telltale/idl/codec/messages/model.hpp"
 #include "telltale/service/models/free_run_error.hpp"
-
-namespace SQLite {
-class Database;
-}
+#include "telltale/service/storage/storage.hpp"
 
 namespace telltale {
 
@@ -24,16 +20,12 @@ struct StoredModel {
   std::optional<FreeRunError> reference_error;  ///< on the window that made the model
 };
 
-/// Every published model on disk, since DDS stores nothing beyond the life of a process.
-/// Throws SQLite::Exception where the disk refuses, and std::runtime_error, which names the field,
+/// Every published model in the storage, since DDS stores nothing beyond the life of a process.
+/// Throws DatabaseError where the database refuses, and std::runtime_error, which names the field,
 /// where a model could not be read back. Earlier models then stay as they are. Not thread safe.
 class ModelStore {
  public:
-  /// In the database of `directory`, OpenDatabase().
-  explicit ModelStore(const std::filesystem::path& directory);
-  ~ModelStore();
-  ModelStore(ModelStore&&) noexcept;
-  ModelStore& operator=(ModelStore&&) noexcept;
+  explicit ModelStore(const Storage& storage);
 
   /// Stores the model as its vehicle's next revision. It is on disk on return. The newest 200
   /// models of a vehicle are kept.
@@ -54,7 +46,7 @@ class ModelStore {
  private:
   void DropOldest(const std::string& vehicle_id, std::int64_t newest);
 
-  std::unique_ptr<SQLite::Database> database_;
+  std::unique_ptr<Database> database_;
 };
 
 }  // namespace telltale

@@ -15,6 +15,7 @@
 #include "telltale/service/models/published_models.hpp"
 #include "telltale/service/monitoring/fleet_view.hpp"
 #include "telltale/service/monitoring/vehicle_monitor.hpp"
+#include "telltale/service/storage/store_status.hpp"
 
 namespace telltale {
 
@@ -24,7 +25,7 @@ namespace telltale {
 class QualityPublisher {
  public:
   QualityPublisher(const Participant& participant, Fleet& fleet, PublishedModels& models,
-                   FleetView& view, double period_s);
+                   FleetView& view, const StoreStatus& status, double period_s);
   QualityPublisher(const QualityPublisher&) = delete;
   QualityPublisher& operator=(const QualityPublisher&) = delete;
   ~QualityPublisher();  ///< ends the thread
@@ -45,6 +46,7 @@ class QualityPublisher {
   Fleet& fleet_;
   PublishedModels& models_;
   FleetView& view_;  ///< takes each quality too
+  const StoreStatus& status_;
   const std::chrono::duration<double> period_;
   Writer<telltale_wire_Quality> writer_;
   std::map<std::string, VehicleMonitor> monitors_;  ///< by vehicle id

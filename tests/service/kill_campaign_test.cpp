@@ -12,7 +12,6 @@
 #include <variant>
 #include <vector>
 
-#include <SQLiteCpp/SQLiteCpp.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <spdlog/fmt/fmt.h>
@@ -29,6 +28,7 @@
 #include "telltale/core/data/recording_parts.hpp"
 #include "telltale/service/jobs/request_journal.hpp"
 #include "telltale/service/models/model_store.hpp"
+#include "telltale/service/storage/stores.hpp"
 #include "telltale/service/windows/window_store.hpp"
 
 namespace telltale {
@@ -233,18 +233,16 @@ struct Tally {
 };
 
 /// Random moments of a daemon under load.
-class KillCampaign : public ServiceTest {
+class CampaignTest : public ServiceTest {
  protected:
-  KillCampaign() {
+  explicit CampaignTest(Engine engine) : ServiceTest(engine) {
     config_file_ = folder_.Write(
         "campaign.textproto",
-        fmt::format("domain: {}\nvehicle_files: \"vehicle.textproto\"\nstate_directory: \"{}\"\n"
+        fmt::format("domain: {}\nvehicle_files: \"vehicle.textproto\"\n{}"
                     "identification {{ bootstrap_replicates: 0 }}\nquality_period_s: 0.1\n"
                     "window {{ duration_s: {} save_period_s: {} }}\n",
-                    domain_.id(), State().string(), kCampaignWindowS, kCampaignSavePeriodS));
+                    domain_.id(), StorageLines(), kCampaignWindowS, kCampaignSavePeriodS));
   }
-
-  std::filesystem::path State() const { return folder_.Path() / "state"; }
 
   static Recording LongRecording() {
     return SimulatedRecording(testing::StableBoat(), 0.0,
@@ -278,14 +276,6 @@ class KillCampaign : public ServiceTest {
       client.Step();
     }
     return asked;
-  }
-
-  /// The time of the newest sample on disk.
-  double SavedToS() const {
-    const SQLite::Database database(State() / "windows.sqlite", SQLite::OPEN_READWRITE);
-    SQLite::Statement newest(database, "SELECT COALESCE(MAX(last_s), 0) FROM chunks");
-    newest.executeStep();
-    return newest.getColumn(0).getDouble();
   }
 
   /// The models that the daemon keeps.
@@ -361,16 +351,24 @@ class KillCampaign : public ServiceTest {
   std::uint64_t seed_ = 0;
 };
 
-TEST_F(KillCampaign, LosesNothingThatWasAcknowledged) {
+class KillCampaign : public CampaignTest, public ::testing::WithParamInterface<Engine> {
+ protected:
+  KillCampaign() : CampaignTest(GetParam()) {}
+};
+
+INSTANTIATE_TEST_SUITE_P(Engines, KillCampaign, kEngines, EngineName);
+
+TEST_P(KillCampaign, LosesNothingThatWasAcknowledged) {
   BoatAndClient client(domain_.id(), LongRecording());
   auto daemon = StartDaemon();
   ASSERT_TRUE(client.AwaitDaemon());
   while (client.sent_to_s() < kCampaignWindowS) client.Step();
+  const auto windows = Storage().Open(WindowsSchema());
   Tally tally;
   for (int kill = 0; kill < Kills(); ++kill) {
     SCOPED_TRACE("kill " + std::to_string(kill));
     const auto asked = Live(client, kill);
-    const double saved_to_s = SavedToS();
+    const double saved_to_s = SavedToS(*windows);
     client.Handle(std::chrono::milliseconds(Draw(50)));
     daemon->Signal(SIGKILL);
     const auto killed = CampaignClock::now();
@@ -398,20 +396,24 @@ struct StoreContents {
   std::set<std::string> requests;
   std::size_t unreadable_chunks = 0;
 
-  explicit StoreContents(const std::filesystem::path& folder) {
-    for (const StoredModel& stored : ModelStore(folder).History("yellowfish")) {
+  explicit StoreContents(const telltale::Storage& storage) {
+    for (const StoredModel& stored : ModelStore(storage).History("yellowfish")) {
       models.emplace(stored.model.revision, stored.model.published_unix_s);
     }
-    for (const AnyRequest& request : RequestJournal(folder).TakeUnanswered()) {
+    for (const AnyRequest& request : RequestJournal(storage).TakeUnanswered()) {
       requests.insert(std::visit([](const auto& kind) { return kind.correlation_id; }, request));
     }
-    unreadable_chunks = WindowStore(folder).Load("yellowfish", [](const Recording&) {});
+    unreadable_chunks = WindowStore(storage).Load("yellowfish", [](const Recording&) {});
   }
 };
 
 /// Copies of a store as a loss of power would leave it.
-class PowerCutCampaign : public KillCampaign {
+class PowerCutCampaign : public CampaignTest {
  protected:
+  PowerCutCampaign() : CampaignTest(Engine::kSqlite) {}
+
+  std::filesystem::path State() const { return folder_.Path() / "state"; }
+
   /// The files as they are between two writes. SQLite does without the third file, which is memory
   /// that processes share.
   static void CopyStore(const std::filesystem::path& from, const std::filesystem::path& to) {
@@ -464,13 +466,13 @@ TEST_F(PowerCutCampaign, LeavesAWholeStoreAtAnyWrite) {
     const Published published = client.published();
     const std::set<std::string> unanswered = client.Unanswered(asked);
     daemon->Resume();
-    const StoreContents contents(folder);
+    const StoreContents contents{telltale::Storage(folder)};
     EXPECT_EQ(Missing(published, contents.models), 0);
     EXPECT_TRUE(std::ranges::includes(contents.requests, unanswered));
     EXPECT_EQ(contents.unreadable_chunks, 0u);
     EXPECT_FALSE(WasDamaged(folder));
     TearLogs(torn);
-    const StoreContents rest(torn);
+    const StoreContents rest{telltale::Storage(torn)};
     EXPECT_TRUE(HasNoHole(rest.models));
     EXPECT_TRUE(std::ranges::includes(contents.models, rest.models));
     EXPECT_EQ(rest.unreadable_chunks, 0u);
