@@ -1,19 +1,53 @@
 #include "telltale/service/daemon.hpp"
 
+#include <filesystem>
+#include <memory>
+#include <set>
+#include <stdexcept>
+#include <string>
 #include <string_view>
 #include <utility>
 #include <variant>
 
 #include <spdlog/spdlog.h>
+#include <boost/asio/ip/host_name.hpp>
 
 #include "telltale/client/fleet/request_reply.hpp"
 
 namespace telltale {
 
+namespace {
+
+/// A name that no other daemon has that runs at the same time.
+std::string OwnerName(const std::string& state_directory) {
+  return boost::asio::ip::host_name() + ':' + std::filesystem::absolute(state_directory).string();
+}
+
+/// The leases of a daemon that keeps its fleet in a database. One that has the fleet alone takes
+/// all slices, and throws where another holds one.
+std::unique_ptr<SliceLeases> LeasesOf(const DaemonConfig& config, const Storage& storage) {
+  if (config.database.empty()) return nullptr;
+  const SliceSettings settings = config.slices.value_or(SliceSettings());
+  auto leases =
+      std::make_unique<SliceLeases>(storage, OwnerName(config.state_directory), settings.lease_s);
+  if (config.slices) return leases;
+  storage.held()->Set(leases->Claim(kFleetSlices));
+  if (const std::string other = leases->OtherOwner(); !other.empty()) {
+    throw std::runtime_error("database is in use by another telltaled (" + other +
+                             "): stop that one, or let both have slices {}");
+  }
+  return leases;
+}
+
+}  // namespace
+
 Daemon::Daemon(const DaemonConfig& config, std::function<void(const std::exception&)> failed)
     : state_lock_(config.state_directory),
-      storage_(config.state_directory, config.database),
-      fleet_(config.vehicles, config.window),
+      alone_(!config.slices),
+      storage_(config.state_directory, config.database,
+               config.database.empty() ? Storage::Writes::kFree : Storage::Writes::kNeedLeases),
+      leases_(LeasesOf(config, storage_)),
+      fleet_(config.slices ? std::vector<Vehicle>() : config.vehicles, config.window),
       windows_(WindowStore(storage_), fleet_, config.window.duration_s,
                config.window_save_period_s),
       bus_log_(spdlog::default_logger(),
@@ -46,12 +80,14 @@ Daemon::Daemon(const DaemonConfig& config, std::function<void(const std::excepti
                .heartbeat =
                    [this] {
                      models_.AssertLiveliness();
-                     models_.WatchForRivals();
+                     if (alone_) models_.WatchForRivals();
                    },
                .received = [this](VehicleWindow& window) { quality_.PublishReceipt(window); },
-               .failed = std::move(failed)}) {
-  ResumeRequests();
+               .failed = std::move(failed)}),
+      vehicles_(config.vehicles) {
+  if (alone_) Resume(journal_.TakeUnanswered(), "of the run before");
   BeginUpkeep(config.upkeep);
+  KeepSlices();
   if (!config.http) return;
   web_.emplace(
       *config.http, fleet_, models_, view_,
@@ -64,16 +100,61 @@ Daemon::Daemon(const DaemonConfig& config, std::function<void(const std::excepti
 }
 
 void Daemon::Reload(const std::vector<Vehicle>& vehicles) {
-  const Fleet::Changes changes = fleet_.Reload(vehicles);
+  const std::lock_guard lock(serving_mutex_);
+  vehicles_ = vehicles;
+  Serve(vehicles_);
+}
+
+void Daemon::ServeHeldSlices() {
+  const std::lock_guard lock(serving_mutex_);
+  const Slices held = storage_.held()->Get();
+  std::set<int> gained;
+  for (const auto& [slice, fence] : held) {
+    const auto served = served_slices_.find(slice);
+    if (served == served_slices_.end() || served->second != fence) gained.insert(slice);
+  }
+  served_slices_ = held;
+  spdlog::info("this daemon holds {} of {} slices, {} of them newly", held.size(), kFleetSlices,
+               gained.size());
+  try {
+    Serve(vehicles_);
+    Resume(journal_.TakeUnanswered(gained), "of the daemons before");
+  } catch (const DatabaseError& error) {
+    spdlog::error("not all is taken over: {}", error.what());
+  }
+}
+
+/// The leases that the writes of this daemon need; one without a part of the fleet takes all.
+void Daemon::KeepSlices() {
+  if (!leases_) return;
+  if (alone_) served_slices_ = storage_.held()->Get();
+  slice_keeper_.emplace(*leases_, *storage_.held(), alone_ ? FleetShare::kAll : FleetShare::kPart,
+                        [this] { ServeHeldSlices(); });
+}
+
+/// Those of the vehicles that are this daemon's. The caller holds serving_mutex_.
+void Daemon::Serve(const std::vector<Vehicle>& vehicles) {
+  std::vector<Vehicle> mine;
+  std::set<std::string, std::less<>> elsewhere;
+  for (const Vehicle& vehicle : vehicles) {
+    const bool held = !storage_.held() || storage_.held()->FenceOf(vehicle.vehicle_id);
+    held ? mine.push_back(vehicle) : void(elsewhere.insert(vehicle.vehicle_id));
+  }
+  const Fleet::Changes changes = fleet_.Reload(mine, std::move(elsewhere));
+  for (const std::string& vehicle_id : changes.removed) {
+    if (fleet_.IsServedElsewhere(vehicle_id)) models_.Withdraw(vehicle_id);
+  }
   for (const std::string& vehicle_id : changes.added) {
     windows_.Admit(vehicle_id, *fleet_.Find(vehicle_id));
     models_.Serve(vehicle_id);
+    diagnoses_.Serve(vehicle_id);
   }
-  spdlog::info("serving {} vehicles: {} added, {} changed, {} no longer served", vehicles.size(),
+  spdlog::info("serving {} vehicles: {} added, {} changed, {} no longer served", mine.size(),
                changes.added.size(), changes.changed.size(), changes.removed.size());
 }
 
 void Daemon::Submit(AnyRequest request) {
+  if (IsForAnother(request)) return;
   if (auto* identify = std::get_if<IdentifyRequest>(&request)) {
     jobs_.Submit(std::move(*identify));
   } else if (auto* diagnose = std::get_if<DiagnoseRequest>(&request)) {
@@ -81,6 +162,16 @@ void Daemon::Submit(AnyRequest request) {
   } else {
     fleet_jobs_.Submit(std::get<FleetRequest>(std::move(request)));
   }
+}
+
+/// Whether it is about one boat that another daemon serves, which hears of it too.
+bool Daemon::IsForAnother(const AnyRequest& request) const {
+  if (const auto* fleet = std::get_if<FleetRequest>(&request)) {
+    return fleet->vehicle_ids.size() == 1 && fleet_.IsServedElsewhere(fleet->vehicle_ids.front());
+  }
+  const auto* identify = std::get_if<IdentifyRequest>(&request);
+  return fleet_.IsServedElsewhere(
+      identify != nullptr ? identify->vehicle_id : std::get<DiagnoseRequest>(request).vehicle_id);
 }
 
 void Daemon::BeginUpkeep(const UpkeepSettings& settings) {
@@ -106,10 +197,9 @@ void Daemon::BeginUpkeep(const UpkeepSettings& settings) {
 }
 
 /// A daemon that was killed has left requests without an answer.
-void Daemon::ResumeRequests() {
-  auto requests = journal_.TakeUnanswered();
+void Daemon::Resume(std::vector<AnyRequest> requests, const char* whose) {
   if (requests.empty()) return;
-  spdlog::info("{} requests of the run before are worked on again", requests.size());
+  spdlog::info("{} requests {} are worked on again", requests.size(), whose);
   for (AnyRequest& request : requests) Submit(std::move(request));
 }
 

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <functional>
+#include <memory>
+#include <mutex>
 #include <optional>
 #include <vector>
 
@@ -20,6 +22,8 @@
 #include "telltale/service/monitoring/fleet_view.hpp"
 #include "telltale/service/monitoring/fleet_watcher.hpp"
 #include "telltale/service/monitoring/quality_publisher.hpp"
+#include "telltale/service/slices/slice_keeper.hpp"
+#include "telltale/service/slices/slice_leases.hpp"
 #include "telltale/service/storage/directory_lock.hpp"
 #include "telltale/service/storage/storage.hpp"
 #include "telltale/service/upkeep/upkeep.hpp"
@@ -35,18 +39,25 @@ class Daemon {
   /// Another thread calls `failed` when the daemon can no longer receive telemetry.
   Daemon(const DaemonConfig& config, std::function<void(const std::exception&)> failed);
 
-  /// Serves these vehicles from now on. A boat whose parameters have changed keeps its samples.
+  /// Serves these vehicles from now on, or those of them whose slices it holds. A boat whose
+  /// parameters have changed keeps its samples.
   void Reload(const std::vector<Vehicle>& vehicles);
 
  private:
+  void Serve(const std::vector<Vehicle>& vehicles);
+  void KeepSlices();
+  void ServeHeldSlices();
   void Submit(AnyRequest request);
-  void ResumeRequests();
+  bool IsForAnother(const AnyRequest& request) const;
+  void Resume(std::vector<AnyRequest> requests, const char* whose);
   void BeginUpkeep(const UpkeepSettings& settings);
 
   // A member uses those above it. So telemetry stops first and the participant leaves the bus
   // later; the log of the bus counts into the fleet until then.
   DirectoryLock state_lock_;
+  const bool alone_;  ///< it has the whole fleet
   const Storage storage_;
+  const std::unique_ptr<SliceLeases> leases_;  ///< null: its writes need none
   Fleet fleet_;
   WindowArchive windows_;
   BusLog bus_log_;
@@ -65,6 +76,11 @@ class Daemon {
   Ingest ingest_;
   std::optional<Upkeep> upkeep_;
   std::optional<WebServer> web_;
+
+  std::mutex serving_mutex_;       // of what follows
+  std::vector<Vehicle> vehicles_;  ///< of the whole fleet
+  Slices served_slices_;
+  std::optional<SliceKeeper> slice_keeper_;
 };
 
 }  // namespace telltale

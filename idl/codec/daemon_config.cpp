@@ -131,6 +131,12 @@ std::string ReadDatabase(FieldReader& reader) {
   return database;
 }
 
+SliceSettings ReadSlices(FieldReader reader) {
+  SliceSettings settings;
+  settings.lease_s = reader.Number("lease_s", {1.0, 600.0}, settings.lease_s);
+  return settings;
+}
+
 DaemonConfig ReadConfig(FieldReader reader, const proto::DaemonConfig& message) {
   DaemonConfig config;
   config.domain = reader.Count("domain", {0.0, 101.0}, config.domain);
@@ -140,6 +146,10 @@ DaemonConfig ReadConfig(FieldReader reader, const proto::DaemonConfig& message) 
   config.state_directory = reader.Text("state_directory", config.state_directory);
   if (config.state_directory.empty()) reader.Fail("state_directory", "\"\"", "a folder");
   config.database = ReadDatabase(reader);
+  if (message.has_slices()) config.slices = ReadSlices(reader.Optional("slices"));
+  if (config.slices && config.database.empty()) {
+    reader.Fail("slices", "{}", "this with database, which the daemons share");
+  }
   config.window = ReadWindow(reader.Optional("window"));
   config.window_save_period_s =
       reader.Optional("window").Number("save_period_s", {0.1, 600.0}, config.window_save_period_s);

@@ -44,6 +44,11 @@ struct UpkeepSettings {
   double retry_s = 600.0;  ///< [1, 86400] to the next try of the same vehicle
 };
 
+/// How daemons share the fleet.
+struct SliceSettings {
+  double lease_s = 10.0;  ///< [1, 600] after which others take over
+};
+
 /// Configuration of telltaled; defaults and ranges are those of proto/daemon.proto.
 struct DaemonConfig {
   std::uint32_t domain = 0;  ///< [0, 101]
@@ -51,7 +56,8 @@ struct DaemonConfig {
   std::vector<std::string> vehicle_files;  ///< as written; who opens them resolves them
   std::string vehicle_folder;              ///< likewise; empty: none
   std::string state_directory = "/var/lib/telltale";
-  std::string database;  ///< postgresql://...; empty: SQLite in state_directory
+  std::string database;                 ///< postgresql://...; empty: SQLite in state_directory
+  std::optional<SliceSettings> slices;  ///< unset: it has the fleet alone
   WindowLimits window;
   double window_save_period_s = 5.0;  ///< [0.1, 600]
   IdentificationSettings identification;

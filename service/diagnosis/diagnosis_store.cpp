@@ -32,19 +32,25 @@ std::optional<PublishedDiagnosis> ReadDiagnosis(const Row& row, const std::strin
 
 }  // namespace
 
-DiagnosisStore::DiagnosisStore(const Storage& storage) : database_(storage.Open(ModelsSchema())) {}
+DiagnosisStore::DiagnosisStore(const Storage& storage)
+    : storage_(storage), database_(storage.Open(ModelsSchema())) {}
 
 void DiagnosisStore::Save(const PublishedDiagnosis& diagnosis) {
   const proto::Report message = ToProto(diagnosis.diagnosis);
   const std::string blob = SerialiseChecked(message, DiagnosisOf(message, "diagnosis"));
-  database_->Execute(
-      "INSERT INTO diagnoses (vehicle_id, model_revision, published_unix_s, report, checksum)"
-      " VALUES ($1, $2, $3, $4, $5)"
-      " ON CONFLICT (vehicle_id) DO UPDATE SET model_revision = excluded.model_revision,"
-      " published_unix_s = excluded.published_unix_s, report = excluded.report,"
-      " checksum = excluded.checksum",
-      {diagnosis.diagnosis.vehicle_id, static_cast<std::int64_t>(diagnosis.model_revision),
-       diagnosis.published_unix_s, Blob(blob), std::int64_t{ChecksumOf(blob)}});
+  const std::string& vehicle_id = diagnosis.diagnosis.vehicle_id;
+  database_->InTransaction([&] {
+    const Parameter fence = storage_.RequireLease(*database_, vehicle_id);
+    database_->Execute(
+        "INSERT INTO diagnoses"
+        " (vehicle_id, model_revision, published_unix_s, report, checksum, fence)"
+        " VALUES ($1, $2, $3, $4, $5, $6)"
+        " ON CONFLICT (vehicle_id) DO UPDATE SET model_revision = excluded.model_revision,"
+        " published_unix_s = excluded.published_unix_s, report = excluded.report,"
+        " checksum = excluded.checksum, fence = excluded.fence",
+        {vehicle_id, static_cast<std::int64_t>(diagnosis.model_revision),
+         diagnosis.published_unix_s, Blob(blob), std::int64_t{ChecksumOf(blob)}, fence});
+  });
 }
 
 std::optional<PublishedDiagnosis> DiagnosisStore::Last(std::string_view vehicle_id) const {

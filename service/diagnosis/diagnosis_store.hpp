@@ -10,9 +10,9 @@
 namespace telltale {
 
 /// The last diagnosis of every vehicle in the storage, beside the models.
-/// Throws DatabaseError where the database refuses, and std::runtime_error, which names the field,
-/// where a diagnosis could not be read back. Earlier diagnoses then stay as they are. Not thread
-/// safe.
+/// Throws DatabaseError where the database refuses, LeaseLost where another daemon serves the boat,
+/// and std::runtime_error, which names the field, where a diagnosis could not be read back. Earlier
+/// diagnoses then stay as they are. Not thread safe.
 class DiagnosisStore {
  public:
   explicit DiagnosisStore(const Storage& storage);
@@ -24,6 +24,7 @@ class DiagnosisStore {
   std::optional<PublishedDiagnosis> Last(std::string_view vehicle_id) const;
 
  private:
+  Storage storage_;
   std::unique_ptr<Database> database_;
 };
 

@@ -11,12 +11,16 @@ namespace telltale {
 PublishedDiagnoses::PublishedDiagnoses(const Participant& participant, DiagnosisStore store,
                                        const Fleet& fleet)
     : store_(std::move(store)), writer_(participant) {
-  for (const auto& [vehicle_id, window] : fleet.windows()) {
-    if (const auto last = store_.Last(vehicle_id)) Announce(*last);
-  }
+  for (const auto& [vehicle_id, window] : fleet.windows()) Serve(vehicle_id);
+}
+
+void PublishedDiagnoses::Serve(const std::string& vehicle_id) {
+  const std::lock_guard lock(mutex_);
+  if (const auto last = store_.Last(vehicle_id)) Announce(*last);
 }
 
 void PublishedDiagnoses::Publish(const PublishedDiagnosis& diagnosis) {
+  const std::lock_guard lock(mutex_);
   store_.Save(diagnosis);
   Announce(diagnosis);
 }

@@ -14,12 +14,16 @@ class PublishedDiagnoses {
  public:
   PublishedDiagnoses(const Participant& participant, DiagnosisStore store, const Fleet& fleet);
 
+  /// Publishes the last diagnosis of a vehicle that is served from now on.
+  void Serve(const std::string& vehicle_id);
+
   /// Saves, then publishes. Throws as DiagnosisStore::Save, and then does not publish.
   void Publish(const PublishedDiagnosis& diagnosis);
 
  private:
   void Announce(const PublishedDiagnosis& diagnosis);
 
+  std::mutex mutex_;  // of store_
   DiagnosisStore store_;
   Writer<telltale_wire_Diagnosis> writer_;
 };

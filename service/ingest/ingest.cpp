@@ -121,7 +121,7 @@ void Ingest::Route(Channel channel, const Wire& wire) {
   } else if (VehicleWindow* window = fleet_.Find(telemetry->vehicle_id)) {
     window->Add(telemetry->sequence_number, telemetry->sample);
     CountReceived(*window);
-  } else {
+  } else if (!fleet_.IsServedElsewhere(telemetry->vehicle_id)) {
     RejectUnattributed(channel, UnattributedReason::kUnknownVehicle, telemetry->vehicle_id);
   }
 }

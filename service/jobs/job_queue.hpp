@@ -442,6 +442,10 @@ Reply JobQueue<Request, Stage, Reply>::Execute(const std::shared_ptr<Job>& job) 
                   [&](std::string_view stage, double fraction) { Report(job, stage, fraction); });
   } catch (const DatabaseUnavailable& error) {
     reply = Busy(job->request, error.what(), kUnavailableS);
+  } catch (const NotServedError& error) {
+    const bool elsewhere = fleet_.IsServedElsewhere(job->request.vehicle_id);
+    reply = elsewhere ? Busy(job->request, error.what(), kAskAgainS)
+                      : Failed(job->request, error.what());
   } catch (const std::exception& error) {
     reply = Failed(job->request, error.what());
   }

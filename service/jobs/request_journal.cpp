@@ -37,10 +37,15 @@ std::optional<AnyRequest> ReadRequest(const Row& row, const std::string& databas
   return std::nullopt;
 }
 
+/// 0 for a request that a program without slices has kept.
+int SliceOfRow(const Row& row) {
+  return row.IsNull("slice") ? 0 : static_cast<int>(row.Integer("slice"));
+}
+
 }  // namespace
 
 RequestJournal::RequestJournal(const Storage& storage)
-    : storage_(storage), database_(storage.Open(RequestsSchema())) {}
+    : storage_(storage), database_(storage.Open(RequestsSchema())), thread_([this] { Run(); }) {}
 
 RequestJournal::~RequestJournal() {
   {
@@ -48,35 +53,59 @@ RequestJournal::~RequestJournal() {
     stopping_ = true;
   }
   wake_.notify_all();
-  if (thread_.joinable()) thread_.join();
+  thread_.join();
 }
 
-std::vector<AnyRequest> RequestJournal::TakeUnanswered() {
+/// By a connection of its own, since the other is the thread's.
+std::vector<AnyRequest> RequestJournal::TakeUnanswered(const std::optional<std::set<int>>& slices) {
+  const auto database = storage_.Open(RequestsSchema());
   std::vector<AnyRequest> requests;
   std::vector<std::int64_t> dropped;
-  database_->Query("SELECT * FROM requests ORDER BY number", {}, [&](const Row& row) {
-    auto request = ReadRequest(row, database_->name());
+  database->Query("SELECT * FROM requests ORDER BY number", {}, [&](const Row& row) {
+    if (slices && !slices->contains(SliceOfRow(row))) return;
+    auto request = ReadRequest(row, database->name());
     if (request && !HasPassed(*request)) {
+      const std::lock_guard lock(mutex_);
+      kept_.insert_or_assign(row.Text("correlation_id"), SliceOfRow(row));
       requests.push_back(*std::move(request));
     } else {
       dropped.push_back(row.Integer("number"));
     }
   });
   for (const std::int64_t number : dropped) {
-    database_->Execute("DELETE FROM requests WHERE number = $1", {number});
+    database->Execute("DELETE FROM requests WHERE number = $1", {number});
   }
-  thread_ = std::thread([this] { Run(); });
   return requests;
 }
 
 void RequestJournal::Keep(const AnyRequest& request, std::function<void()> kept) {
   const std::string& id = std::visit(
       [](const auto& kind) -> const std::string& { return kind.correlation_id; }, request);
-  Push({id, SerialiseRequest(request, UnixNow()), std::move(kept)});
+  const int slice = SliceOfRequest(request);
+  {
+    const std::lock_guard lock(mutex_);
+    kept_.insert_or_assign(id, slice);
+  }
+  Push({id, slice, SerialiseRequest(request, UnixNow()), std::move(kept)});
 }
 
 void RequestJournal::Drop(const std::string& correlation_id) {
-  Push({correlation_id, "", {}});
+  std::unique_lock lock(mutex_);
+  const auto kept = kept_.extract(correlation_id);
+  lock.unlock();
+  if (!kept.empty()) Push({correlation_id, kept.mapped(), "", {}});
+}
+
+/// A refresh is of no boat in particular: it goes with any slice that this daemon holds.
+int RequestJournal::SliceOfRequest(const AnyRequest& request) const {
+  if (const auto* identify = std::get_if<IdentifyRequest>(&request)) {
+    return SliceOf(identify->vehicle_id);
+  }
+  if (const auto* diagnose = std::get_if<DiagnoseRequest>(&request)) {
+    return SliceOf(diagnose->vehicle_id);
+  }
+  const Slices held = storage_.held() == nullptr ? Slices() : storage_.held()->Get();
+  return held.empty() ? 0 : held.begin()->first;
 }
 
 void RequestJournal::Push(Entry entry) {
@@ -107,12 +136,10 @@ void RequestJournal::Run() {
   }
 }
 
-bool RequestJournal::Write(const std::deque<Entry>& entries) {
+bool RequestJournal::Write(std::deque<Entry>& entries) {
   bool reachable = true;
   try {
-    database_->InTransaction([&] {
-      for (const Entry& entry : entries) Write(entry);
-    });
+    database_->InTransaction([&] { WriteHeld(entries); });
     if (!wrote_last_time_) spdlog::info("requests are kept on disk again");
     wrote_last_time_ = true;
   } catch (const std::exception& error) {
@@ -126,16 +153,27 @@ bool RequestJournal::Write(const std::deque<Entry>& entries) {
   return reachable;
 }
 
+/// Who asks for a boat that another daemon serves now hears nothing from here, and asks again.
+void RequestJournal::WriteHeld(std::deque<Entry>& entries) {
+  std::set<int> slices;
+  for (const Entry& entry : entries) slices.insert(entry.slice);
+  const std::set<int> held = storage_.LockLeases(*database_, slices);
+  for (Entry& entry : entries) {
+    held.contains(entry.slice) ? Write(entry) : void(entry.kept = {});
+  }
+}
+
 void RequestJournal::Write(const Entry& entry) {
   if (entry.bytes.empty()) {
     database_->Execute("DELETE FROM requests WHERE correlation_id = $1", {entry.correlation_id});
     return;
   }
   database_->Execute(
-      "INSERT INTO requests (correlation_id, request, checksum) VALUES ($1, $2, $3)"
+      "INSERT INTO requests (correlation_id, request, checksum, slice) VALUES ($1, $2, $3, $4)"
       " ON CONFLICT (correlation_id) DO UPDATE SET request = excluded.request,"
-      " checksum = excluded.checksum",
-      {entry.correlation_id, Blob(entry.bytes), std::int64_t{ChecksumOf(entry.bytes)}});
+      " checksum = excluded.checksum, slice = excluded.slice",
+      {entry.correlation_id, Blob(entry.bytes), std::int64_t{ChecksumOf(entry.bytes)},
+       std::int64_t{entry.slice}});
 }
 
 }  // namespace telltale

@@ -3,9 +3,11 @@
 #include <condition_variable>
 #include <deque>
 #include <functional>
+#include <map>
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <set>
 #include <string>
 #include <thread>
 #include <vector>
@@ -28,9 +30,10 @@ class RequestJournal {
   RequestJournal& operator=(const RequestJournal&) = delete;
   ~RequestJournal();  ///< writes what has come, and ends the thread
 
-  /// The requests of the run before, oldest first, that somebody may still wait for. Those whose
-  /// deadline has passed are dropped. The others stay on disk until Drop(). Call it once.
-  std::vector<AnyRequest> TakeUnanswered();
+  /// The requests of a run before, oldest first, that somebody may still wait for: all, or those
+  /// about the boats of these slices. Those whose deadline has passed are dropped. The others stay
+  /// on disk until Drop().
+  std::vector<AnyRequest> TakeUnanswered(const std::optional<std::set<int>>& slices = {});
 
   /// Why the database cannot be reached now, so that no request can be kept; nothing where it can.
   std::optional<std::string> Unavailable() const { return storage_.status().Unavailable(); }
@@ -39,18 +42,21 @@ class RequestJournal {
   /// disk keeps it from there.
   void Keep(const AnyRequest& request, std::function<void()> kept);
 
-  /// The request needs no answer any more.
+  /// The request needs no answer any more, where this daemon still serves its boat.
   void Drop(const std::string& correlation_id);
 
  private:
   struct Entry {
     std::string correlation_id;
+    int slice = 0;      ///< of its boat
     std::string bytes;  ///< empty: it is dropped
     std::function<void()> kept;
   };
 
   void Run();
-  bool Write(const std::deque<Entry>& entries);  ///< false where the database cannot be reached
+  int SliceOfRequest(const AnyRequest& request) const;
+  bool Write(std::deque<Entry>& entries);  ///< false where the database cannot be reached
+  void WriteHeld(std::deque<Entry>& entries);
   void Write(const Entry& entry);
   void Push(Entry entry);
 
@@ -61,6 +67,7 @@ class RequestJournal {
   std::condition_variable wake_;
   bool stopping_ = false;
   std::deque<Entry> entries_;
+  std::map<std::string, int> kept_;  ///< the slice of each request until it is dropped
   std::thread thread_;
 };
 

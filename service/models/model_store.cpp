@@ -55,7 +55,8 @@ Parameter ErrorOf(const std::optional<FreeRunError>& error, std::size_t channel)
 
 }  // namespace
 
-ModelStore::ModelStore(const Storage& storage) : database_(storage.Open(ModelsSchema())) {}
+ModelStore::ModelStore(const Storage& storage)
+    : storage_(storage), database_(storage.Open(ModelsSchema())) {}
 
 StoredModel ModelStore::Save(const Identification& identification, double published_unix_s,
                              const std::optional<FreeRunError>& reference_error,
@@ -65,17 +66,18 @@ StoredModel ModelStore::Save(const Identification& identification, double publis
   const std::string& vehicle_id = identification.vehicle_id;
   std::int64_t revision = 0;
   database_->InTransaction([&] {
+    const Parameter fence = storage_.RequireLease(*database_, vehicle_id);
     revision = IntegerOf(
         *database_,
         "SELECT COALESCE(MAX(revision), 0) + 1 AS value FROM models WHERE vehicle_id = $1",
         {vehicle_id});
     database_->Execute(
         "INSERT INTO models (vehicle_id, revision, published_unix_s, model, checksum,"
-        " reference_error_u, reference_error_v, reference_error_r, verdict, verdict_reason)"
-        " VALUES ($1, $2, $3, $4, $5, $6, $7, $8, $9, $10)",
+        " reference_error_u, reference_error_v, reference_error_r, verdict, verdict_reason, fence)"
+        " VALUES ($1, $2, $3, $4, $5, $6, $7, $8, $9, $10, $11)",
         {vehicle_id, revision, published_unix_s, Blob(blob), std::int64_t{ChecksumOf(blob)},
          ErrorOf(reference_error, 0), ErrorOf(reference_error, 1), ErrorOf(reference_error, 2),
-         Name(promotion.verdict), promotion.reason});
+         Name(promotion.verdict), promotion.reason, fence});
     database_->Execute("DELETE FROM models WHERE vehicle_id = $1 AND revision <= $2",
                        {vehicle_id, revision - kModelsPerVehicle});
   });

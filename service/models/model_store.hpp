@@ -21,8 +21,9 @@ struct StoredModel {
 };
 
 /// Every published model in the storage, since DDS stores nothing beyond the life of a process.
-/// Throws DatabaseError where the database refuses, and std::runtime_error, which names the field,
-/// where a model could not be read back. Earlier models then stay as they are. Not thread safe.
+/// Throws DatabaseError where the database refuses, LeaseLost where another daemon serves the boat,
+/// and std::runtime_error, which names the field, where a model could not be read back. Earlier
+/// models then stay as they are. Not thread safe.
 class ModelStore {
  public:
   explicit ModelStore(const Storage& storage);
@@ -46,6 +47,7 @@ class ModelStore {
  private:
   void DropOldest(const std::string& vehicle_id, std::int64_t newest);
 
+  Storage storage_;
   std::unique_ptr<Database> database_;
 };
 

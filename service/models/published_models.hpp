@@ -26,6 +26,9 @@ class PublishedModels {
   /// Publishes the newest model of a vehicle that is served from now on.
   void Serve(const std::string& vehicle_id);
 
+  /// Leaves the model of a vehicle to the daemon that serves it from now on.
+  void Withdraw(const std::string& vehicle_id);
+
   /// Compares the model with the vehicle's earlier ones, saves it, then publishes it. Throws as
   /// ModelStore::Save, and then does not publish.
   PublishedModel Publish(Identification identification,

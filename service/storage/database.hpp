@@ -22,6 +22,12 @@ struct DatabaseUnavailable : DatabaseError {
   using DatabaseError::DatabaseError;
 };
 
+/// The same where another daemon has taken over the boats that were to be written of: who asks
+/// again asks that one.
+struct LeaseLost : DatabaseUnavailable {
+  using DatabaseUnavailable::DatabaseUnavailable;
+};
+
 /// Bytes as a parameter of a statement.
 struct Blob {
   explicit Blob(std::string_view of) : bytes(of) {}

@@ -28,8 +28,10 @@ const Dialect& PostgresDialect() {
 
 /// The address with what it leaves to us.
 std::string WithDefaults(std::string address) {
-  constexpr std::array<std::pair<const char*, const char*>, 5> kDefaults = {
+  // A daemon that hangs in the midst of a transaction does not keep others from its rows.
+  constexpr std::array<std::pair<const char*, const char*>, 6> kDefaults = {
       {{"application_name", "telltaled"},
+       {"options", "-c%20idle_in_transaction_session_timeout%3D5s"},
        {"connect_timeout", "5"},
        {"keepalives_idle", "10"},
        {"tcp_user_timeout", "10000"},

@@ -21,8 +21,9 @@ class PostgresDatabase : public Database {
  public:
   /// `address` is postgresql://..., as libpq reads it. What it leaves out: it is given up after 5 s
   /// where the server does not answer the connection, and 10 s later where the network is lost; a
-  /// server that only reads is passed over. Throws DatabaseUnavailable where there is no
-  /// connection, and DatabaseError where another version of this software wrote the store.
+  /// server that only reads is passed over; a transaction in which nothing happens for 5 s is
+  /// undone. Throws DatabaseUnavailable where there is no connection, and DatabaseError where
+  /// another version of this software wrote the store.
   PostgresDatabase(const std::string& address, const Schema& schema,
                    std::shared_ptr<StoreStatus> status);
   ~PostgresDatabase() override;

@@ -8,6 +8,9 @@ using enum ColumnType;
 // CRC-32 of the blob of the row; none from programs that made none.
 const Column kChecksum{"checksum", kInteger, ""};
 
+// Of the lease under which the row was written; none where a daemon has the fleet alone.
+const Column kFence{"fence", kInteger, ""};
+
 }  // namespace
 
 const Schema& ModelsSchema() {
@@ -23,14 +26,16 @@ const Schema& ModelsSchema() {
                    {"reference_error_r", kReal, ""},
                    {"verdict", kText, "NOT NULL DEFAULT 'UNKNOWN'"},
                    {"verdict_reason", kText, "NOT NULL DEFAULT ''"},
-                   kChecksum},
+                   kChecksum,
+                   kFence},
                   {"vehicle_id", "revision"}},
                  {"diagnoses",
                   {{"vehicle_id", kText, "NOT NULL"},
                    {"model_revision", kInteger, "NOT NULL"},
                    {"published_unix_s", kReal, "NOT NULL"},
                    {"report", kBlob, "NOT NULL"},  // proto/report.proto, serialised
-                   kChecksum},
+                   kChecksum,
+                   kFence},
                   {"vehicle_id"}}},
       .version = 4,
       .oldest_version = 2,
@@ -59,8 +64,32 @@ const Schema& RequestsSchema() {
                   {{"number", kCounter, ""},
                    {"correlation_id", kText, "NOT NULL UNIQUE"},
                    {"request", kBlob, "NOT NULL"},  // proto/stored_request.proto, serialised
-                   kChecksum},
+                   kChecksum,
+                   {"slice", kInteger, ""}},  // of its boat
                   {}}},
+  };
+  return schema;
+}
+
+const Schema& SlicesSchema() {
+  static const Schema schema{
+      .name = "slices",
+      .tables = {{"slices",
+                  {{"slice", kInteger, "NOT NULL"},
+                   kFence,  // of its newest lease
+                   {"owner", kText, "NOT NULL"},
+                   {"until_unix_s", kReal, "NOT NULL"}},
+                  {"slice"}},
+                 {"leases",  // all there have been
+                  {{"slice", kInteger, "NOT NULL"},
+                   {"fence", kInteger, "NOT NULL"},
+                   {"owner", kText, "NOT NULL"},
+                   {"since_unix_s", kReal, "NOT NULL"},
+                   {"until_unix_s", kReal, "NOT NULL"}},
+                  {"slice", "fence"}},
+                 {"daemons",
+                  {{"owner", kText, "NOT NULL"}, {"until_unix_s", kReal, "NOT NULL"}},
+                  {"owner"}}},
   };
   return schema;
 }

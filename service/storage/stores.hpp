@@ -13,4 +13,7 @@ const Schema& WindowsSchema();
 /// The requests that wait for their answers.
 const Schema& RequestsSchema();
 
+/// Which daemon serves which part of the fleet: SliceLeases.
+const Schema& SlicesSchema();
+
 }  // namespace telltale

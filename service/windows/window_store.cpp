@@ -1,16 +1,24 @@
 #include "telltale/service/windows/window_store.hpp"
 
+#include <set>
+
 #include "telltale/core/data/recording_parts.hpp"
 #include "telltale/service/storage/stores.hpp"
 #include "telltale/service/windows/window_chunk.hpp"
 
 namespace telltale {
 
-WindowStore::WindowStore(const Storage& storage) : database_(storage.Open(WindowsSchema())) {}
+WindowStore::WindowStore(const Storage& storage)
+    : storage_(storage), database_(storage.Open(WindowsSchema())) {}
 
 void WindowStore::Save(const std::vector<Chunk>& chunks, const Limits& limits) {
+  std::set<int> slices;
+  for (const Chunk& chunk : chunks) slices.insert(SliceOf(chunk.vehicle_id));
   database_->InTransaction([&] {
-    for (const Chunk& chunk : chunks) Insert(chunk, limits);
+    const std::set<int> held = storage_.LockLeases(*database_, slices);
+    for (const Chunk& chunk : chunks) {
+      if (held.contains(SliceOf(chunk.vehicle_id))) Insert(chunk, limits);
+    }
   });
 }
 

@@ -33,6 +33,7 @@ class WindowStore {
   };
 
   /// Saves the chunks in one transaction, and drops of these vehicles what is beyond the limits.
+  /// Passes over vehicles that another daemon serves now.
   void Save(const std::vector<Chunk>& chunks, const Limits& limits);
 
   /// Hands each chunk of a vehicle to `take`, oldest first. Returns how many cannot be read.
@@ -42,6 +43,7 @@ class WindowStore {
  private:
   void Insert(const Chunk& chunk, const Limits& limits);
 
+  Storage storage_;
   std::unique_ptr<Database> database_;
 };
 

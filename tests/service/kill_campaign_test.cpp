@@ -368,7 +368,7 @@ TEST_P(KillCampaign, LosesNothingThatWasAcknowledged) {
   for (int kill = 0; kill < Kills(); ++kill) {
     SCOPED_TRACE("kill " + std::to_string(kill));
     const auto asked = Live(client, kill);
-    const double saved_to_s = SavedToS(*windows);
+    const double saved_to_s = SavedToS(*windows, kVehicleId);
     client.Handle(std::chrono::milliseconds(Draw(50)));
     daemon->Signal(SIGKILL);
     const auto killed = CampaignClock::now();

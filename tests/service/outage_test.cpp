@@ -80,8 +80,7 @@ TEST_F(Outage, LosesNoAcknowledgedRequest) {
   ASSERT_TRUE(AwaitSavedWindow());
   const Participant participant(domain_.id());
   IdentificationClient client(participant);
-  IdentifyRequest request = Request("acknowledged");
-  request.coverage_check_replicates = 10;
+  const IdentifyRequest request = Request("acknowledged");
   bool stopped = false;
   const auto result = client.Identify(
       request, {.match = 60s, .reply = 120s, .retry = 1s}, [&](const IdentifyProgress&) {

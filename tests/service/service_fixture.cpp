@@ -44,10 +44,10 @@ Recording SimulatedRecording() {
   return SimulatedRecording(YellowfishTwin(), 0.0, kDurationS, 20);
 }
 
-double SavedToS(Database& windows) {
+double SavedToS(Database& windows, const std::string& vehicle_id) {
   double saved_to_s = 0.0;
-  windows.Query("SELECT COALESCE(MAX(last_s), 0) AS value FROM chunks", {},
-                [&](const Row& row) { saved_to_s = row.Real("value"); });
+  windows.Query("SELECT COALESCE(MAX(last_s), 0) AS value FROM chunks WHERE vehicle_id = $1",
+                {vehicle_id}, [&](const Row& row) { saved_to_s = row.Real("value"); });
   return saved_to_s;
 }
 
@@ -79,12 +79,12 @@ std::unique_ptr<Process> ServiceTest::StartDaemon(int vehicles) const {
   return daemon;
 }
 
-bool ServiceTest::AwaitSavedWindow() const {
+bool ServiceTest::AwaitSavedWindow(const std::string& vehicle_id) const {
   const auto windows = Storage().Open(WindowsSchema());
-  return AwaitQuality(kVehicleId,
+  return AwaitQuality(vehicle_id,
                       [&](const Quality& quality) {
                         return quality.window_s > 1.0 &&
-                               SavedToS(*windows) >= quality.window_s - 0.5;
+                               SavedToS(*windows, vehicle_id) >= quality.window_s - 0.5;
                       })
       .has_value();
 }

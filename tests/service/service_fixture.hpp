@@ -28,8 +28,8 @@ Recording SimulatedRecording(const VesselModel& boat, double start_s, double dur
 /// Two minutes of the simulated Yellowfish.
 Recording SimulatedRecording();
 
-/// The time of the newest sample that the store of windows holds; 0 where it holds none.
-double SavedToS(Database& windows);
+/// The time of the newest sample of a vehicle that the store of windows holds; 0: it holds none.
+double SavedToS(Database& windows, const std::string& vehicle_id);
 
 std::size_t SizeOf(const Recording& recording);
 
@@ -45,7 +45,7 @@ class ServiceTest : public ::testing::Test {
 
   /// Waits until the newest sample of the window is on disk. False where that takes a minute.
   /// Assumes a recording whose clock starts at 0.
-  bool AwaitSavedWindow() const;
+  bool AwaitSavedWindow(const std::string& vehicle_id = kVehicleId) const;
 
   /// telltale with these arguments on this test's domain.
   std::unique_ptr<Process> Start(const std::vector<std::string>& arguments) const;
