@@ -1,10 +1,16 @@
 #include "telltale/service/daemon.hpp"
 
+#include <filesystem>
+#include <memory>
+#include <set>
+#include <stdexcept>
+#include <string>
 #include <string_view>
 #include <utility>
 #include <variant>
 
 #include <spdlog/spdlog.h>
+#include <boost/asio/ip/host_name.hpp>
 
 #include "telltale/client/bus/topics.hpp"
 #include "telltale/client/fleet/request_reply.hpp"
@@ -23,24 +29,49 @@ std::chrono::nanoseconds HeartbeatPeriodOf(const DaemonConfig& config) {
   return config.standby ? LeaseOf(*config.standby) / 4 : kOfOneAlone;
 }
 
+/// A name that no other daemon has that runs at the same time.
+std::string OwnerName(const std::string& state_directory) {
+  return boost::asio::ip::host_name() + ':' + std::filesystem::absolute(state_directory).string();
+}
+
+/// The leases of a daemon that keeps its fleet in a database. One that has the fleet alone takes
+/// all slices, and throws where another holds one.
+std::unique_ptr<SliceLeases> LeasesOf(const DaemonConfig& config, const Storage& storage) {
+  if (config.database.empty()) return nullptr;
+  const SliceSettings settings = config.slices.value_or(SliceSettings());
+  auto leases =
+      std::make_unique<SliceLeases>(storage, OwnerName(config.state_directory), settings.lease_s);
+  if (config.slices) return leases;
+  storage.held()->Set(leases->Claim(kFleetSlices));
+  if (const std::string other = leases->OtherOwner(); !other.empty()) {
+    throw std::runtime_error("database is in use by another telltaled (" + other +
+                             "): stop that one, or let both have slices {}");
+  }
+  return leases;
+}
+
 }  // namespace
 
 Daemon::Daemon(const DaemonConfig& config, Endings endings)
     : config_(config),
       endings_(std::move(endings)),
       state_lock_(config.state_directory),
-      fleet_(config.vehicles, config.window),
-      windows_(WindowStore(config.state_directory), fleet_, config.window.duration_s,
+      alone_(!config.slices),
+      storage_(config.state_directory, config.database,
+               config.database.empty() ? Storage::Writes::kFree : Storage::Writes::kNeedLeases),
+      leases_(LeasesOf(config, storage_)),
+      fleet_(config.slices ? std::vector<Vehicle>() : config.vehicles, config.window),
+      windows_(WindowStore(storage_), fleet_, config.window.duration_s,
                config.window_save_period_s),
       bus_log_(spdlog::default_logger(),
                [this](std::string_view topic) { fleet_.CountUnreadable(topic); }),
       participant_(config.domain),
       role_(LeaseIfAny(config)),
-      models_(participant_, ModelStore(config.state_directory), fleet_, role_),
+      models_(participant_, ModelStore(storage_), fleet_, role_),
       watcher_(participant_, view_),
       replies_(participant_, role_),
-      journal_(config.state_directory),
-      diagnoses_(participant_, DiagnosisStore(config.state_directory)),
+      journal_(storage_),
+      diagnoses_(participant_, DiagnosisStore(storage_)),
       jobs_(fleet_, models_, baselines_, replies_, config.identification, journal_),
       diagnosis_jobs_(fleet_, models_, view_, baselines_, diagnoses_, replies_,
                       config.identification, journal_),
@@ -52,7 +83,8 @@ Daemon::Daemon(const DaemonConfig& config, Endings endings)
                          return jobs_.Cancel(correlation_id) ||
                                 diagnosis_jobs_.Cancel(correlation_id);
                        }}),
-      quality_(participant_, role_, fleet_, models_, view_, config.quality_period_s),
+      quality_(participant_, role_, fleet_, models_, view_, storage_.status(),
+               config.quality_period_s),
       fail_over_(MakeFailOver()),
       ingest_(participant_, fleet_, config.require_partition,
               {.identify = [this](IdentifyRequest request) { Take(std::move(request)); },
@@ -65,12 +97,14 @@ Daemon::Daemon(const DaemonConfig& config, Endings endings)
                .heartbeat_period = HeartbeatPeriodOf(config),
                .received = [this](VehicleWindow& window) { quality_.PublishReceipt(window); },
                .failed = endings_.failed}),
-      sources_(participant_, config.sources, view_) {
+      sources_(participant_, config.sources, view_),
+      vehicles_(config.vehicles) {
   if (fail_over_) {
     fail_over_->Start();
   } else {
     TakeOver(ModelQos(), false);
   }
+  KeepSlices();
   if (!config.http) return;
   web_.emplace(
       *config.http, fleet_, models_, view_, [this] { return Activity(); },
@@ -84,12 +118,56 @@ Daemon::Daemon(const DaemonConfig& config, Endings endings)
 }
 
 void Daemon::Reload(const std::vector<Vehicle>& vehicles) {
-  const Fleet::Changes changes = fleet_.Reload(vehicles);
+  const std::lock_guard lock(serving_mutex_);
+  vehicles_ = vehicles;
+  Serve(vehicles_);
+}
+
+void Daemon::ServeHeldSlices() {
+  const std::lock_guard lock(serving_mutex_);
+  const Slices held = storage_.held()->Get();
+  std::set<int> gained;
+  for (const auto& [slice, fence] : held) {
+    const auto served = served_slices_.find(slice);
+    if (served == served_slices_.end() || served->second != fence) gained.insert(slice);
+  }
+  served_slices_ = held;
+  spdlog::info("this daemon holds {} of {} slices, {} of them newly", held.size(), kFleetSlices,
+               gained.size());
+  try {
+    Serve(vehicles_);
+    Resume(journal_.TakeUnanswered(gained), "of the daemons before");
+  } catch (const DatabaseError& error) {
+    spdlog::error("not all is taken over: {}", error.what());
+  }
+}
+
+/// The leases that the writes of this daemon need; one without a part of the fleet takes all.
+void Daemon::KeepSlices() {
+  if (!leases_) return;
+  if (alone_) served_slices_ = storage_.held()->Get();
+  slice_keeper_.emplace(*leases_, *storage_.held(), alone_ ? FleetShare::kAll : FleetShare::kPart,
+                        [this] { ServeHeldSlices(); });
+}
+
+/// Those of the vehicles that are this daemon's. The caller holds serving_mutex_.
+void Daemon::Serve(const std::vector<Vehicle>& vehicles) {
+  std::vector<Vehicle> mine;
+  std::set<std::string, std::less<>> elsewhere;
+  for (const Vehicle& vehicle : vehicles) {
+    const bool held = !storage_.held() || storage_.held()->FenceOf(vehicle.vehicle_id);
+    held ? mine.push_back(vehicle) : void(elsewhere.insert(vehicle.vehicle_id));
+  }
+  const Fleet::Changes changes = fleet_.Reload(mine, std::move(elsewhere));
+  for (const std::string& vehicle_id : changes.removed) {
+    if (fleet_.IsServedElsewhere(vehicle_id)) models_.Withdraw(vehicle_id);
+  }
   for (const std::string& vehicle_id : changes.added) {
     windows_.Admit(vehicle_id, *fleet_.Find(vehicle_id));
     models_.Serve(vehicle_id);
+    diagnoses_.Serve(vehicle_id);
   }
-  spdlog::info("serving {} vehicles: {} added, {} changed, {} no longer served", vehicles.size(),
+  spdlog::info("serving {} vehicles: {} added, {} changed, {} no longer served", mine.size(),
                changes.added.size(), changes.changed.size(), changes.removed.size());
 }
 
@@ -113,7 +191,7 @@ std::unique_ptr<FailOver> Daemon::MakeFailOver() {
 void Daemon::TakeOver(const Qos& model_contract, bool succeeds) {
   models_.BeginPublishing(model_contract);
   diagnoses_.BeginPublishing(fleet_);
-  ResumeRequests(succeeds);
+  if (alone_) ResumeUnanswered(succeeds);
   for (AnyRequest& request : heard_.TakeUnanswered(HeardRequests::Clock::now())) {
     Submit(std::move(request));
   }
@@ -131,7 +209,7 @@ void Daemon::StepDown() {
 void Daemon::Heartbeat(bool has_received) {
   if (fail_over_) fail_over_->Heartbeat(has_received);
   models_.AssertLiveliness();
-  models_.WatchForRivals();
+  if (alone_) models_.WatchForRivals();
 }
 
 /// A request from the bus.
@@ -140,6 +218,7 @@ void Daemon::Take(AnyRequest request) {
 }
 
 void Daemon::Submit(AnyRequest request) {
+  if (IsForAnother(request)) return;
   if (auto* identify = std::get_if<IdentifyRequest>(&request)) {
     jobs_.Submit(std::move(*identify));
   } else if (auto* diagnose = std::get_if<DiagnoseRequest>(&request)) {
@@ -147,6 +226,16 @@ void Daemon::Submit(AnyRequest request) {
   } else {
     fleet_jobs_.Submit(std::get<FleetRequest>(std::move(request)));
   }
+}
+
+/// Whether it is about one boat that another daemon serves, which hears of it too.
+bool Daemon::IsForAnother(const AnyRequest& request) const {
+  if (const auto* fleet = std::get_if<FleetRequest>(&request)) {
+    return fleet->vehicle_ids.size() == 1 && fleet_.IsServedElsewhere(fleet->vehicle_ids.front());
+  }
+  const auto* identify = std::get_if<IdentifyRequest>(&request);
+  return fleet_.IsServedElsewhere(
+      identify != nullptr ? identify->vehicle_id : std::get<DiagnoseRequest>(request).vehicle_id);
 }
 
 void Daemon::BeginUpkeep() {
@@ -187,14 +276,15 @@ DaemonActivity Daemon::Activity() const {
 
 /// A daemon that was killed has left requests without an answer. Where another has served in the
 /// meantime, that one has answered them.
-void Daemon::ResumeRequests(bool succeeds) {
+void Daemon::ResumeUnanswered(bool succeeds) {
   auto requests = journal_.TakeUnanswered();
+  if (!succeeds) return Resume(std::move(requests), "of the run before");
+  for (const AnyRequest& request : requests) journal_.Drop(CorrelationIdOf(request));
+}
+
+void Daemon::Resume(std::vector<AnyRequest> requests, const char* whose) {
   if (requests.empty()) return;
-  if (succeeds) {
-    for (const AnyRequest& request : requests) journal_.Drop(CorrelationIdOf(request));
-    return;
-  }
-  spdlog::info("{} requests of the run before are worked on again", requests.size());
+  spdlog::info("{} requests {} are worked on again", requests.size(), whose);
   for (AnyRequest& request : requests) Submit(std::move(request));
 }
 

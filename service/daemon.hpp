@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <vector>
 
@@ -23,11 +24,14 @@
 #include "telltale/service/monitoring/fleet_view.hpp"
 #include "telltale/service/monitoring/fleet_watcher.hpp"
 #include "telltale/service/monitoring/quality_publisher.hpp"
+#include "telltale/service/slices/slice_keeper.hpp"
+#include "telltale/service/slices/slice_leases.hpp"
 #include "telltale/service/sources/live_sources.hpp"
 #include "telltale/service/standby/fail_over.hpp"
 #include "telltale/service/standby/heard_requests.hpp"
 #include "telltale/service/standby/role.hpp"
 #include "telltale/service/storage/directory_lock.hpp"
+#include "telltale/service/storage/storage.hpp"
 #include "telltale/service/upkeep/upkeep.hpp"
 #include "telltale/service/web/web_server.hpp"
 #include "telltale/service/windows/window_archive.hpp"
@@ -36,7 +40,7 @@ namespace telltale {
 
 /// The daemon, which takes in the telemetry of its vehicles from construction to destruction. It
 /// serves from the start, or once no other daemon does where the configuration has a standby.
-/// Throws where it cannot join the domain or use the state directory.
+/// Throws where it cannot join the domain, or use the state directory or the database.
 class Daemon {
  public:
   /// Both are called on other threads, at most once.
@@ -47,16 +51,22 @@ class Daemon {
 
   Daemon(const DaemonConfig& config, Endings endings);
 
-  /// Serves these vehicles from now on. A boat whose parameters have changed keeps its samples.
+  /// Serves these vehicles from now on, or those of them whose slices it holds. A boat whose
+  /// parameters have changed keeps its samples.
   void Reload(const std::vector<Vehicle>& vehicles);
 
  private:
   std::unique_ptr<FailOver> MakeFailOver();
   void TakeOver(const Qos& model_contract, bool succeeds);
   void StepDown();
+  void Serve(const std::vector<Vehicle>& vehicles);
+  void KeepSlices();
+  void ServeHeldSlices();
   void Take(AnyRequest request);
   void Submit(AnyRequest request);
-  void ResumeRequests(bool succeeds);
+  bool IsForAnother(const AnyRequest& request) const;
+  void ResumeUnanswered(bool succeeds);
+  void Resume(std::vector<AnyRequest> requests, const char* whose);
   void BeginUpkeep();
   void Heartbeat(bool has_received);
   DaemonActivity Activity() const;
@@ -66,6 +76,9 @@ class Daemon {
   const DaemonConfig config_;
   const Endings endings_;
   DirectoryLock state_lock_;
+  const bool alone_;  ///< it has the whole fleet
+  const Storage storage_;
+  const std::unique_ptr<SliceLeases> leases_;  ///< null: its writes need none
   Fleet fleet_;
   WindowArchive windows_;
   BusLog bus_log_;
@@ -88,6 +101,11 @@ class Daemon {
   Ingest ingest_;
   LiveSources sources_;
   std::optional<WebServer> web_;
+
+  std::mutex serving_mutex_;       // of what follows
+  std::vector<Vehicle> vehicles_;  ///< of the whole fleet
+  Slices served_slices_;
+  std::optional<SliceKeeper> slice_keeper_;
 };
 
 }  // namespace telltale

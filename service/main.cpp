@@ -1,6 +1,7 @@
 #include <atomic>
 #include <cerrno>
 #include <csignal>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -59,11 +60,22 @@ class Signals {
 /// A wrong configuration changes nothing.
 void Reload(Daemon& daemon, const std::string& config_file) {
   const auto config = LoadConfiguration(config_file);
-  if (config) {
-    daemon.Reload(config->vehicles);
-  } else {
-    spdlog::error("the vehicles are not reloaded: {}", config.error().Message());
+  if (!config) {
+    return spdlog::error("the vehicles are not reloaded: {}", config.error().Message());
   }
+  try {
+    daemon.Reload(config->vehicles);
+  } catch (const DatabaseError& error) {
+    spdlog::error("the vehicles are reloaded, and not all of their models: {}", error.what());
+  }
+}
+
+/// Of SQLite: PostgreSQL has programs of its own for this.
+void RequireFiles(const DaemonConfig& config) {
+  if (config.database.empty()) return;
+  throw std::runtime_error(
+      "--backup and --restore copy the files of state_directory, and the configuration names a "
+      "database: use pg_dump and pg_restore");
 }
 
 int Report(const std::string& what, const std::vector<std::string>& files) {
@@ -89,7 +101,7 @@ Event ServeOnce(const DaemonConfig& config, const std::string& config_file, cons
                                sem_post(&signalled);
                              }});
   spdlog::info("serving {} vehicles on domain {}, models are stored in {}", config.vehicles.size(),
-               config.domain, config.state_directory);
+               config.domain, config.database.empty() ? config.state_directory : "PostgreSQL");
   for (;;) {
     const Event event = signals.Wait();
     if (event != Event::kReload) return event;
@@ -142,6 +154,7 @@ int Main(int argc, char** argv) {
   spdlog::set_level(spdlog::level::from_str(config->log_level));
   const Signals signals;
   try {
+    if (!backup.empty() || !restore.empty()) RequireFiles(*config);
     if (!backup.empty()) {
       return Report("backed up to " + backup, BackUp(config->state_directory, backup));
     }

@@ -29,6 +29,13 @@ class Writer : public Endpoint {
   }
   bool Write(const WireSample<Wire>& sample) { return Write(*sample); }
 
+  /// Gives up the ownership of the sample's key; what was written of it stays with its readers.
+  void Unregister(const Wire& sample) {
+    Checked(dds_unregister_instance(handle(), &sample),
+            std::string("unregistering on ") + kContract<Wire>.topic);
+  }
+  void Unregister(const WireSample<Wire>& sample) { Unregister(*sample); }
+
   /// Sends what batched writes have gathered.
   void Flush() { dds_write_flush(handle()); }
 

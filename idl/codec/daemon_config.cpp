@@ -197,6 +197,21 @@ std::string ReadLogLevel(FieldReader& reader, const std::string& fallback) {
   return level;
 }
 
+/// The value may hold a password, so that no message shows it.
+std::string ReadDatabase(FieldReader& reader) {
+  std::string database = reader.Text("database", "");
+  if (!database.empty() && !database.starts_with("postgresql://")) {
+    reader.Fail("database", "\"...\"", "an address that begins with postgresql://");
+  }
+  return database;
+}
+
+SliceSettings ReadSlices(FieldReader reader) {
+  SliceSettings settings;
+  settings.lease_s = reader.Number("lease_s", {1.0, 600.0}, settings.lease_s);
+  return settings;
+}
+
 DaemonConfig ReadConfig(FieldReader reader, const proto::DaemonConfig& message) {
   DaemonConfig config;
   config.domain = reader.Count("domain", {0.0, 101.0}, config.domain);
@@ -206,6 +221,11 @@ DaemonConfig ReadConfig(FieldReader reader, const proto::DaemonConfig& message) 
   config.state_directory = reader.Text("state_directory", config.state_directory);
   if (config.state_directory.empty()) reader.Fail("state_directory", "\"\"", "a folder");
   config.require_partition = message.require_partition();
+  config.database = ReadDatabase(reader);
+  if (message.has_slices()) config.slices = ReadSlices(reader.Optional("slices"));
+  if (config.slices && config.database.empty()) {
+    reader.Fail("slices", "{}", "this with database, which the daemons share");
+  }
   config.window = ReadWindow(reader.Optional("window"));
   config.window_save_period_s =
       reader.Optional("window").Number("save_period_s", {0.1, 600.0}, config.window_save_period_s);
@@ -214,6 +234,9 @@ DaemonConfig ReadConfig(FieldReader reader, const proto::DaemonConfig& message) 
   config.upkeep = ReadUpkeep(reader.Optional("upkeep"), message.upkeep());
   if (message.has_standby()) config.standby = ReadStandby(reader.Optional("standby"));
   config.sources = ReadSources(reader, message);
+  if (config.standby && !config.database.empty()) {
+    reader.Fail("standby", "{}", "this without database: daemons share one by slices");
+  }
   config.quality_period_s =
       reader.Number("quality_period_s", {0.1, 3600.0}, config.quality_period_s);
   config.log_level = ReadLogLevel(reader, config.log_level);

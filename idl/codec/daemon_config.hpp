@@ -81,6 +81,11 @@ struct SourceSettings {
   std::optional<Ros2SourceSettings> ros2;
 };
 
+/// How daemons share the fleet.
+struct SliceSettings {
+  double lease_s = 10.0;  ///< [1, 600] after which others take over
+};
+
 /// Configuration of telltaled; defaults and ranges are those of proto/daemon.proto.
 struct DaemonConfig {
   std::uint32_t domain = 0;  ///< [0, 101]
@@ -88,6 +93,8 @@ struct DaemonConfig {
   std::vector<std::string> vehicle_files;  ///< as written; who opens them resolves them
   std::string vehicle_folder;              ///< likewise; empty: none
   std::string state_directory = "/var/lib/telltale";
+  std::string database;                 ///< postgresql://...; empty: SQLite in state_directory
+  std::optional<SliceSettings> slices;  ///< unset: it has the fleet alone
   WindowLimits window;
   bool require_partition = false;     ///< telemetry only from the DDS partition of the vehicle's id
   double window_save_period_s = 5.0;  ///< [0.1, 600]

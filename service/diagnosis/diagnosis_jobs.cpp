@@ -77,7 +77,7 @@ Result<DiagnosedModel> DiagnosisJobs::DiagnoseWindow(const PublishedModel& model
                                                      const DiagnoseOptions& options,
                                                      const Progress& progress) const {
   const std::string& vehicle_id = model.identification.vehicle_id;
-  VehicleWindow& window = *fleet_.Find(vehicle_id);
+  VehicleWindow& window = fleet_.WindowOf(vehicle_id);
   progress("preparing data", 0.0);
   const auto live = SelectDiagnosisRecordings(window.Snapshot(), model,
                                               baselines_.Behind(vehicle_id, model.revision),

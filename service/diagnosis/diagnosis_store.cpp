@@ -3,51 +3,61 @@
 #include <string>
 #include <utility>
 
-#include <SQLiteCpp/SQLiteCpp.h>
 #include <spdlog/spdlog.h>
 
 #include "telltale/idl/codec/json/report.hpp"
 #include "telltale/service/storage/checked_serialisation.hpp"
-#include "telltale/service/storage/database.hpp"
+#include "telltale/service/storage/stored_blob.hpp"
+#include "telltale/service/storage/stores.hpp"
 
 namespace telltale {
+namespace {
 
-DiagnosisStore::DiagnosisStore(const std::filesystem::path& directory)
-    : database_(OpenDatabase(directory)) {}
-
-DiagnosisStore::~DiagnosisStore() = default;
-DiagnosisStore::DiagnosisStore(DiagnosisStore&&) noexcept = default;
-DiagnosisStore& DiagnosisStore::operator=(DiagnosisStore&&) noexcept = default;
-
-void DiagnosisStore::Save(const PublishedDiagnosis& diagnosis) {
-  const proto::Report message = ToProto(diagnosis.diagnosis);
-  const std::string blob = SerialiseChecked(message, DiagnosisOf(message, "diagnosis"));
-  SQLite::Statement insert(*database_, "INSERT OR REPLACE INTO diagnoses VALUES (?, ?, ?, ?)");
-  insert.bind(1, diagnosis.diagnosis.vehicle_id);
-  insert.bind(2, static_cast<std::int64_t>(diagnosis.model_revision));
-  insert.bind(3, diagnosis.published_unix_s);
-  insert.bind(4, blob.data(), static_cast<int>(blob.size()));
-  insert.exec();
-}
-
-std::optional<PublishedDiagnosis> DiagnosisStore::Last(std::string_view vehicle_id) const {
-  SQLite::Statement row(*database_, "SELECT * FROM diagnoses WHERE vehicle_id = ?");
-  row.bind(1, std::string(vehicle_id));
-  if (!row.executeStep()) return std::nullopt;
+std::optional<PublishedDiagnosis> ReadDiagnosis(const Row& row, const std::string& database) {
   proto::Report message;
-  const SQLite::Column blob = row.getColumn("report");
-  if (!message.ParseFromArray(blob.getBlob(), blob.getBytes())) {
-    spdlog::error("models.sqlite: the stored diagnosis of {} is not a diagnosis", vehicle_id);
+  if (!ReadBlob(row, "report", message)) {
+    spdlog::error("{}: the stored diagnosis of {} is not a diagnosis", database,
+                  row.Text("vehicle_id"));
     return std::nullopt;
   }
-  auto diagnosis = DiagnosisOf(message, "models.sqlite");
+  auto diagnosis = DiagnosisOf(message, database);
   if (!diagnosis) {
     spdlog::error("{}", diagnosis.error().Message());
     return std::nullopt;
   }
   return PublishedDiagnosis{std::move(*diagnosis),
-                            static_cast<std::uint64_t>(row.getColumn("model_revision").getInt64()),
-                            row.getColumn("published_unix_s").getDouble()};
+                            static_cast<std::uint64_t>(row.Integer("model_revision")),
+                            row.Real("published_unix_s")};
+}
+
+}  // namespace
+
+DiagnosisStore::DiagnosisStore(const Storage& storage)
+    : storage_(storage), database_(storage.Open(ModelsSchema())) {}
+
+void DiagnosisStore::Save(const PublishedDiagnosis& diagnosis) {
+  const proto::Report message = ToProto(diagnosis.diagnosis);
+  const std::string blob = SerialiseChecked(message, DiagnosisOf(message, "diagnosis"));
+  const std::string& vehicle_id = diagnosis.diagnosis.vehicle_id;
+  database_->InTransaction([&] {
+    const Parameter fence = storage_.RequireLease(*database_, vehicle_id);
+    database_->Execute(
+        "INSERT INTO diagnoses"
+        " (vehicle_id, model_revision, published_unix_s, report, checksum, fence)"
+        " VALUES ($1, $2, $3, $4, $5, $6)"
+        " ON CONFLICT (vehicle_id) DO UPDATE SET model_revision = excluded.model_revision,"
+        " published_unix_s = excluded.published_unix_s, report = excluded.report,"
+        " checksum = excluded.checksum, fence = excluded.fence",
+        {vehicle_id, static_cast<std::int64_t>(diagnosis.model_revision),
+         diagnosis.published_unix_s, Blob(blob), std::int64_t{ChecksumOf(blob)}, fence});
+  });
+}
+
+std::optional<PublishedDiagnosis> DiagnosisStore::Last(std::string_view vehicle_id) const {
+  std::optional<PublishedDiagnosis> last;
+  database_->Query("SELECT * FROM diagnoses WHERE vehicle_id = $1", {vehicle_id},
+                   [&](const Row& row) { last = ReadDiagnosis(row, database_->name()); });
+  return last;
 }
 
 }  // namespace telltale

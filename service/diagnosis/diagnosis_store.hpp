@@ -1,29 +1,21 @@
 #pragma once
 
-#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string_view>
 
 #include "telltale/idl/codec/messages/diagnosis.hpp"
-
-namespace SQLite {
-class Database;
-}
+#include "telltale/service/storage/storage.hpp"
 
 namespace telltale {
 
-/// The last diagnosis of every vehicle on disk, beside the models.
-/// Throws SQLite::Exception where the disk refuses, and std::runtime_error, which names the field,
-/// where a diagnosis could not be read back. Earlier diagnoses then stay as they are. Not thread
-/// safe.
+/// The last diagnosis of every vehicle in the storage, beside the models.
+/// Throws DatabaseError where the database refuses, LeaseLost where another daemon serves the boat,
+/// and std::runtime_error, which names the field, where a diagnosis could not be read back. Earlier
+/// diagnoses then stay as they are. Not thread safe.
 class DiagnosisStore {
  public:
-  /// In the database of `directory`, OpenDatabase().
-  explicit DiagnosisStore(const std::filesystem::path& directory);
-  ~DiagnosisStore();
-  DiagnosisStore(DiagnosisStore&&) noexcept;
-  DiagnosisStore& operator=(DiagnosisStore&&) noexcept;
+  explicit DiagnosisStore(const Storage& storage);
 
   /// Replaces the vehicle's earlier diagnosis. It is on disk on return.
   void Save(const PublishedDiagnosis& diagnosis);
@@ -32,7 +24,8 @@ class DiagnosisStore {
   std::optional<PublishedDiagnosis> Last(std::string_view vehicle_id) const;
 
  private:
-  std::unique_ptr<SQLite::Database> database_;
+  Storage storage_;
+  std::unique_ptr<Database> database_;
 };
 
 }  // namespace telltale

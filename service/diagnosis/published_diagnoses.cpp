@@ -12,12 +12,23 @@ PublishedDiagnoses::PublishedDiagnoses(const Participant& participant, Diagnosis
     : store_(std::move(store)), writer_(participant) {}
 
 void PublishedDiagnoses::BeginPublishing(const Fleet& fleet) {
-  for (const auto& [vehicle_id, window] : fleet.windows()) {
-    if (const auto last = store_.Last(vehicle_id)) Announce(*last);
-  }
+  publishing_ = true;
+  for (const auto& [vehicle_id, window] : fleet.windows()) Serve(vehicle_id);
+}
+
+void PublishedDiagnoses::Learn(const PublishedDiagnosis& diagnosis) {
+  const std::lock_guard lock(mutex_);
+  store_.Save(diagnosis);
+}
+
+void PublishedDiagnoses::Serve(const std::string& vehicle_id) {
+  if (!publishing_) return;
+  const std::lock_guard lock(mutex_);
+  if (const auto last = store_.Last(vehicle_id)) Announce(*last);
 }
 
 void PublishedDiagnoses::Publish(const PublishedDiagnosis& diagnosis) {
+  const std::lock_guard lock(mutex_);
   store_.Save(diagnosis);
   Announce(diagnosis);
 }

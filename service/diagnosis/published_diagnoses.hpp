@@ -1,5 +1,9 @@
 #pragma once
 
+#include <atomic>
+#include <mutex>
+#include <string>
+
 #include "telltale/client/bus/participant.hpp"
 #include "telltale/client/bus/writer.hpp"
 #include "telltale/idl/codec/messages/diagnosis.hpp"
@@ -9,16 +13,19 @@
 namespace telltale {
 
 /// The last diagnosis of every vehicle, on disk and on the bus. It is saved before it is published,
-/// and is published again once the daemon serves. Not thread safe.
+/// and is published again once the daemon serves. Thread safe.
 class PublishedDiagnoses {
  public:
   PublishedDiagnoses(const Participant& participant, DiagnosisStore store);
 
-  /// Publishes the last diagnosis of every vehicle.
+  /// Publishes the last diagnosis of every vehicle, and from now on all that follow.
   void BeginPublishing(const Fleet& fleet);
 
   /// Saves a diagnosis that another daemon has published. Throws as DiagnosisStore::Save.
-  void Learn(const PublishedDiagnosis& diagnosis) { store_.Save(diagnosis); }
+  void Learn(const PublishedDiagnosis& diagnosis);
+
+  /// Publishes the last diagnosis of a vehicle that is served from now on.
+  void Serve(const std::string& vehicle_id);
 
   /// Saves, then publishes. Throws as DiagnosisStore::Save, and then does not publish.
   void Publish(const PublishedDiagnosis& diagnosis);
@@ -26,6 +33,8 @@ class PublishedDiagnoses {
  private:
   void Announce(const PublishedDiagnosis& diagnosis);
 
+  std::atomic<bool> publishing_ = false;
+  std::mutex mutex_;  // of store_
   DiagnosisStore store_;
   Writer<telltale_wire_Diagnosis> writer_;
 };

@@ -234,6 +234,10 @@ FleetReply FleetJobs::CancelOf(const FleetRequest& request) {
 
 /// It begins, and its client hears of it, once it is on disk.
 void FleetJobs::KeepRefresh(const FleetRequest& request) {
+  if (const auto unavailable = journal_.Unavailable()) {
+    return replies_.Send(
+        ReplyWith(request, ReplyOutcome::kFailed, *unavailable + "; ask again later"));
+  }
   journal_.Keep(request, [inbox = inbox_, request] {
     {
       const std::lock_guard lock(inbox->mutex);
@@ -296,7 +300,7 @@ void FleetJobs::Report(const RefreshRun& run, const std::vector<RefreshedVehicle
 void FleetJobs::Advance() {
   for (const auto& [id, run] : runs_) {
     if (run->finished() && std::ranges::find(finished_runs_, id) != finished_runs_.end()) continue;
-    while (run->running() < kAtATime) {
+    while (run->running() < kAtATime && !journal_.Unavailable()) {
       const RefreshedVehicle* next = run->NextWaiting();
       if (next == nullptr) break;
       Begin(*run, std::string(next->vehicle_id));

@@ -39,7 +39,7 @@ IdentifyReply IdentificationJobs::IdentifyAndPublish(const IdentifyRequest& requ
     return ReplyTo<IdentifyReply>(request, ReplyOutcome::kFailed,
                                   fault->subject + ": " + fault->reason + "; " + fault->advice);
   }
-  VehicleWindow& window = *fleet_.Find(request.vehicle_id);
+  VehicleWindow& window = fleet_.WindowOf(request.vehicle_id);
   Recording recording = window.Snapshot();
   recording.starts_s = StartsAfterSilence(recording, kSilenceBetweenRecordingsS);
   const auto identification = Identify(recording, window.vehicle(), options, progress);

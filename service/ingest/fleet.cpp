@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <set>
+#include <utility>
 
 #include "telltale/idl/codec/vehicle_file.hpp"
 
@@ -37,9 +38,22 @@ Fleet::Windows Fleet::windows() const {
   return windows_;
 }
 
-Fleet::Changes Fleet::Reload(const std::vector<Vehicle>& vehicles) {
+VehicleWindow& Fleet::WindowOf(const std::string& vehicle_id) const {
+  VehicleWindow* const window = Find(vehicle_id);
+  if (window == nullptr) throw NotServedError(NotServed(vehicle_id));
+  return *window;
+}
+
+bool Fleet::IsServedElsewhere(std::string_view vehicle_id) const {
+  const std::shared_lock lock(windows_mutex_);
+  return elsewhere_.contains(vehicle_id);
+}
+
+Fleet::Changes Fleet::Reload(const std::vector<Vehicle>& vehicles,
+                             std::set<std::string, std::less<>> elsewhere) {
   Changes changes;
   const std::unique_lock lock(windows_mutex_);
+  elsewhere_ = std::move(elsewhere);
   std::set<std::string_view> named;
   for (const Vehicle& vehicle : vehicles) {
     named.insert(vehicle.vehicle_id);

@@ -5,7 +5,9 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <set>
 #include <shared_mutex>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -21,6 +23,11 @@ namespace telltale {
 enum class UnattributedReason { kMalformedId, kUnknownVehicle, kUnreadable, kForeignWriter };
 
 std::string_view Name(UnattributedReason reason);
+
+/// A vehicle is no longer served here.
+struct NotServedError : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
 
 /// The vehicles that this daemon serves, and the counts of samples that name none of them. Safe to
 /// use from several threads. A window stays valid for the life of the fleet, also once its vehicle
@@ -40,10 +47,17 @@ class Fleet {
 
   /// The vehicle's window, or null when it is not served here.
   VehicleWindow* Find(std::string_view vehicle_id) const;
+
+  /// The same, throws NotServedError where it is not.
+  VehicleWindow& WindowOf(const std::string& vehicle_id) const;
+
+  /// Whether another daemon that shares the fleet serves the vehicle.
+  bool IsServedElsewhere(std::string_view vehicle_id) const;
   Windows windows() const;
 
-  /// Serves these vehicles from now on.
-  Changes Reload(const std::vector<Vehicle>& vehicles);
+  /// Serves these vehicles from now on. Others that share the fleet serve the vehicles `elsewhere`.
+  Changes Reload(const std::vector<Vehicle>& vehicles,
+                 std::set<std::string, std::less<>> elsewhere = {});
 
   /// What a client is told of a vehicle that is not served here: which ones are.
   std::string NotServed(const std::string& vehicle_id) const;
@@ -59,6 +73,7 @@ class Fleet {
   const WindowLimits limits_;
   mutable std::shared_mutex windows_mutex_;  // of what follows
   Windows windows_;
+  std::set<std::string, std::less<>> elsewhere_;
   std::vector<std::unique_ptr<VehicleWindow>> opened_;  ///< those of windows_, and former ones
   mutable std::mutex unattributed_mutex_;
   std::vector<RejectEntry> unattributed_;

@@ -159,6 +159,7 @@ void Ingest::Route(Channel channel, const WatchedReader<Wire>& reader, const Wir
   }
   VehicleWindow* const window = fleet_.Find(telemetry->vehicle_id);
   const auto partitions_of = [&reader](auto one) { return reader.PartitionsOf(one); };
+  if (window == nullptr && fleet_.IsServedElsewhere(telemetry->vehicle_id)) return;
   if (window == nullptr) {
     RejectUnattributed(channel, UnattributedReason::kUnknownVehicle, telemetry->vehicle_id);
   } else if (!senders_.MaySend(writer, telemetry->vehicle_id, partitions_of)) {

@@ -44,7 +44,8 @@ namespace telltale {
 ///   on for less than 5 s, joins it, and both get its reply.
 /// - A request that was cancelled, or whose deadline has passed, is dropped unless others have
 ///   joined it. Work under way ends at its next report of progress.
-/// - A full queue answers at once, and says when to ask again.
+/// - A full queue answers at once, and says when to ask again. So does a queue whose journal cannot
+///   be reached, also where that shows in the midst of the work.
 /// - With a journal, a request is on disk before its client hears of it, but for a reply, and until
 ///   it is answered.
 /// Every fault of a request ends in its reply. Thread safe.
@@ -84,6 +85,7 @@ class JobQueue {
 
   static constexpr std::chrono::seconds kJoinedWithin{5};
   static constexpr double kAskAgainS = 0.1;
+  static constexpr double kUnavailableS = 2.0;  ///< a lost connection is tried once a second
 
   /// Ends the work on a request when the daemon stops.
   struct Stopping : std::exception {
@@ -96,6 +98,12 @@ class JobQueue {
 
   static Reply Failed(const Request& request, const std::string& message) {
     return ReplyTo<Reply>(request, ReplyOutcome::kFailed, message);
+  }
+  static Reply Busy(const Request& request, const std::string& why, double retry_after_s) {
+    Reply reply = Failed(
+        request, why + "; ask again in " + std::to_string(std::lround(retry_after_s)) + " s");
+    reply.retry_after_s = retry_after_s;
+    return reply;
   }
   static std::optional<Clock::time_point> DeadlineOf(const Request& request);
   bool Prolong(const Request& request);
@@ -280,14 +288,13 @@ std::optional<Reply> JobQueue<Request, Stage, Reply>::RejectionOf(const Request&
   if (fleet_.Find(request.vehicle_id) == nullptr) {
     return Failed(request, fleet_.NotServed(request.vehicle_id));
   }
+  const auto unavailable = journal_ == nullptr ? std::nullopt : journal_->Unavailable();
+  if (unavailable) return Busy(request, *unavailable, kUnavailableS);
   if (Waiting() < queue_limit_) return std::nullopt;
   ++shed_;
-  const double retry_after_s = RetryAfterS(urgency);
-  Reply busy = Failed(request, std::to_string(queue_limit_) + " requests for " + what_ +
-                                   " are waiting already; ask again in " +
-                                   std::to_string(std::lround(retry_after_s)) + " s");
-  busy.retry_after_s = retry_after_s;
-  return busy;
+  return Busy(request,
+              std::to_string(queue_limit_) + " requests for " + what_ + " are waiting already",
+              RetryAfterS(urgency));
 }
 
 /// Until about half of what waits has been worked on.
@@ -430,7 +437,7 @@ void JobQueue<Request, Stage, Reply>::Finish(const std::shared_ptr<Job>& job, Re
     jobs_.remove(job);
     for (Asker& asker : job->askers) {
       reply.correlation_id = asker.correlation_id;
-      history_.Finish(reply);
+      reply.retry_after_s > 0.0 ? history_.Forget(reply.correlation_id) : history_.Finish(reply);
       outbox.emplace_back(std::move(asker), reply);
     }
   }
@@ -445,6 +452,12 @@ Reply JobQueue<Request, Stage, Reply>::Execute(const std::shared_ptr<Job>& job) 
   try {
     reply = work_(job->request,
                   [&](std::string_view stage, double fraction) { Report(job, stage, fraction); });
+  } catch (const DatabaseUnavailable& error) {
+    reply = Busy(job->request, error.what(), kUnavailableS);
+  } catch (const NotServedError& error) {
+    const bool elsewhere = fleet_.IsServedElsewhere(job->request.vehicle_id);
+    reply = elsewhere ? Busy(job->request, error.what(), kAskAgainS)
+                      : Failed(job->request, error.what());
   } catch (const std::exception& error) {
     reply = Failed(job->request, error.what());
   }

@@ -1,36 +1,51 @@
 #include "telltale/service/jobs/request_journal.hpp"
 
+#include <chrono>
 #include <cstdint>
 #include <exception>
+#include <iterator>
 #include <string>
 #include <string_view>
 #include <utility>
 
-#include <SQLiteCpp/SQLiteCpp.h>
 #include <spdlog/spdlog.h>
 
-#include "telltale/service/storage/database.hpp"
+#include "telltale/service/storage/stored_blob.hpp"
+#include "telltale/service/storage/stores.hpp"
 #include "telltale/service/unix_now.hpp"
 
 namespace telltale {
 namespace {
 
-void CreateRequests(SQLite::Database& database) {
-  UseWriteAheadLog(database, "FULL");
-  database.exec(
-      "CREATE TABLE IF NOT EXISTS requests ("
-      "  number INTEGER PRIMARY KEY AUTOINCREMENT, correlation_id TEXT NOT NULL UNIQUE,"
-      "  request BLOB NOT NULL)");  // proto/stored_request.proto, serialised
-}
+constexpr std::chrono::seconds kTryAgainPeriod{1};
 
 bool HasPassed(const AnyRequest& request) {
   return std::visit([](const auto& kind) { return kind.deadline_s < 0.0; }, request);
 }
 
+/// Nothing where the row holds no request.
+std::optional<AnyRequest> ReadRequest(const Row& row, const std::string& database) {
+  const std::string bytes = row.Bytes("request");
+  if (!HasChecksumOf(row, bytes)) {
+    spdlog::error("{}: request {} is damaged and passed over", database,
+                  row.Text("correlation_id"));
+    return std::nullopt;
+  }
+  auto request = ParseStoredRequest(bytes, UnixNow());
+  if (request) return std::move(*request);
+  spdlog::error("{}: {}", database, request.error().Message());
+  return std::nullopt;
+}
+
+/// 0 for a request that a program without slices has kept.
+int SliceOfRow(const Row& row) {
+  return row.IsNull("slice") ? 0 : static_cast<int>(row.Integer("slice"));
+}
+
 }  // namespace
 
-RequestJournal::RequestJournal(const std::filesystem::path& directory)
-    : database_(OpenOrSalvage(directory / "requests.sqlite", CreateRequests, {"requests"})) {}
+RequestJournal::RequestJournal(const Storage& storage)
+    : storage_(storage), database_(storage.Open(RequestsSchema())), thread_([this] { Run(); }) {}
 
 RequestJournal::~RequestJournal() {
   {
@@ -38,40 +53,58 @@ RequestJournal::~RequestJournal() {
     stopping_ = true;
   }
   wake_.notify_all();
-  if (thread_.joinable()) thread_.join();
+  thread_.join();
 }
 
-std::vector<AnyRequest> RequestJournal::TakeUnanswered() {
+/// By a connection of its own, since the other is the thread's.
+std::vector<AnyRequest> RequestJournal::TakeUnanswered(const std::optional<std::set<int>>& slices) {
+  const auto database = storage_.Open(RequestsSchema());
   std::vector<AnyRequest> requests;
   std::vector<std::int64_t> dropped;
-  {
-    SQLite::Statement rows(*database_, "SELECT request, number FROM requests ORDER BY number");
-    while (rows.executeStep()) {
-      const SQLite::Column blob = rows.getColumn(0);
-      auto request = ParseStoredRequest(
-          {static_cast<const char*>(blob.getBlob()), static_cast<std::size_t>(blob.getBytes())},
-          UnixNow());
-      if (!request) spdlog::error("requests.sqlite: {}", request.error().Message());
-      if (request && !HasPassed(*request)) {
-        requests.push_back(*std::move(request));
-      } else {
-        dropped.push_back(rows.getColumn(1).getInt64());
-      }
+  database->Query("SELECT * FROM requests ORDER BY number", {}, [&](const Row& row) {
+    if (slices && !slices->contains(SliceOfRow(row))) return;
+    auto request = ReadRequest(row, database->name());
+    if (request && !HasPassed(*request)) {
+      const std::lock_guard lock(mutex_);
+      kept_.insert_or_assign(row.Text("correlation_id"), SliceOfRow(row));
+      requests.push_back(*std::move(request));
+    } else {
+      dropped.push_back(row.Integer("number"));
     }
-  }
+  });
   for (const std::int64_t number : dropped) {
-    database_->exec("DELETE FROM requests WHERE number = " + std::to_string(number));
+    database->Execute("DELETE FROM requests WHERE number = $1", {number});
   }
-  thread_ = std::thread([this] { Run(); });
   return requests;
 }
 
 void RequestJournal::Keep(const AnyRequest& request, std::function<void()> kept) {
-  Push({CorrelationIdOf(request), SerialiseRequest(request, UnixNow()), std::move(kept)});
+  const std::string& id = CorrelationIdOf(request);
+  const int slice = SliceOfRequest(request);
+  {
+    const std::lock_guard lock(mutex_);
+    kept_.insert_or_assign(id, slice);
+  }
+  Push({id, slice, SerialiseRequest(request, UnixNow()), std::move(kept)});
 }
 
 void RequestJournal::Drop(const std::string& correlation_id) {
-  Push({correlation_id, "", {}});
+  std::unique_lock lock(mutex_);
+  const auto kept = kept_.extract(correlation_id);
+  lock.unlock();
+  if (!kept.empty()) Push({correlation_id, kept.mapped(), "", {}});
+}
+
+/// A refresh is of no boat in particular: it goes with any slice that this daemon holds.
+int RequestJournal::SliceOfRequest(const AnyRequest& request) const {
+  if (const auto* identify = std::get_if<IdentifyRequest>(&request)) {
+    return SliceOf(identify->vehicle_id);
+  }
+  if (const auto* diagnose = std::get_if<DiagnoseRequest>(&request)) {
+    return SliceOf(diagnose->vehicle_id);
+  }
+  const Slices held = storage_.held() == nullptr ? Slices() : storage_.held()->Get();
+  return held.empty() ? 0 : held.begin()->first;
 }
 
 void RequestJournal::Push(Entry entry) {
@@ -83,44 +116,63 @@ void RequestJournal::Push(Entry entry) {
 }
 
 void RequestJournal::Run() {
+  bool reachable = true;
   std::unique_lock lock(mutex_);
-  while (!stopping_ || !entries_.empty()) {
-    wake_.wait(lock, [this] { return stopping_ || !entries_.empty(); });
-    const auto entries = std::exchange(entries_, {});
+  while (!stopping_ || (reachable && !entries_.empty())) {
+    wake_.wait_for(lock, kTryAgainPeriod,
+                   [&] { return stopping_ || (reachable && !entries_.empty()); });
+    if (entries_.empty() && !Unavailable()) continue;
+    auto entries = std::exchange(entries_, {});
     lock.unlock();
-    Write(entries);
+    reachable = Write(entries);
     for (const Entry& entry : entries) {
-      if (entry.kept) entry.kept();
+      if (reachable && entry.kept) entry.kept();
     }
     lock.lock();
+    if (reachable) continue;
+    entries_.insert(entries_.begin(), std::make_move_iterator(entries.begin()),
+                    std::make_move_iterator(entries.end()));
   }
 }
 
-void RequestJournal::Commit(const std::deque<Entry>& entries) {
-  SQLite::Transaction transaction(*database_, SQLite::TransactionBehavior::IMMEDIATE);
-  for (const Entry& entry : entries) {
-    const bool kept = !entry.bytes.empty();
-    SQLite::Statement change(
-        *database_, kept ? "INSERT OR REPLACE INTO requests (correlation_id, request) VALUES (?, ?)"
-                         : "DELETE FROM requests WHERE correlation_id = ?");
-    change.bind(1, entry.correlation_id);
-    if (kept) change.bind(2, entry.bytes.data(), static_cast<int>(entry.bytes.size()));
-    change.exec();
-  }
-  transaction.commit();
-}
-
-void RequestJournal::Write(const std::deque<Entry>& entries) {
+bool RequestJournal::Write(std::deque<Entry>& entries) {
+  bool reachable = true;
   try {
-    written_.Count([&] { Commit(entries); });
+    written_.Count([&] { database_->InTransaction([&] { WriteHeld(entries); }); });
     if (!wrote_last_time_) spdlog::info("requests are kept on disk again");
     wrote_last_time_ = true;
   } catch (const std::exception& error) {
+    reachable = dynamic_cast<const DatabaseUnavailable*>(&error) == nullptr;
     if (wrote_last_time_) {
-      spdlog::error("requests.sqlite: {}; requests are worked on and not kept", error.what());
+      spdlog::error("{}; requests are {}", error.what(),
+                    reachable ? "worked on and not kept" : "answered as busy until it is back");
     }
     wrote_last_time_ = false;
   }
+  return reachable;
+}
+
+/// Who asks for a boat that another daemon serves now hears nothing from here, and asks again.
+void RequestJournal::WriteHeld(std::deque<Entry>& entries) {
+  std::set<int> slices;
+  for (const Entry& entry : entries) slices.insert(entry.slice);
+  const std::set<int> held = storage_.LockLeases(*database_, slices);
+  for (Entry& entry : entries) {
+    held.contains(entry.slice) ? Write(entry) : void(entry.kept = {});
+  }
+}
+
+void RequestJournal::Write(const Entry& entry) {
+  if (entry.bytes.empty()) {
+    database_->Execute("DELETE FROM requests WHERE correlation_id = $1", {entry.correlation_id});
+    return;
+  }
+  database_->Execute(
+      "INSERT INTO requests (correlation_id, request, checksum, slice) VALUES ($1, $2, $3, $4)"
+      " ON CONFLICT (correlation_id) DO UPDATE SET request = excluded.request,"
+      " checksum = excluded.checksum, slice = excluded.slice",
+      {entry.correlation_id, Blob(entry.bytes), std::int64_t{ChecksumOf(entry.bytes)},
+       std::int64_t{entry.slice}});
 }
 
 }  // namespace telltale

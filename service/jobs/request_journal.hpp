@@ -2,43 +2,48 @@
 
 #include <condition_variable>
 #include <deque>
-#include <filesystem>
 #include <functional>
+#include <map>
 #include <memory>
 #include <mutex>
+#include <optional>
+#include <set>
 #include <string>
 #include <thread>
 #include <vector>
 
 #include "telltale/idl/codec/stored_request.hpp"
+#include "telltale/service/storage/storage.hpp"
 #include "telltale/service/storage/write_durations.hpp"
-
-namespace SQLite {
-class Database;
-}
 
 namespace telltale {
 
-/// The requests that wait for their answers, in requests.sqlite of the state directory, so that a
-/// daemon that was killed finishes them after its restart. A thread of its own writes what has come
-/// together in one transaction. A fault of the disk is logged: requests are then worked on without
-/// being kept. Safe to use from several threads.
+/// The requests that wait for their answers, in the storage, so that a daemon that was killed
+/// finishes them after its restart. A thread of its own writes what has come together in one
+/// transaction. A fault of the disk is logged: requests are then worked on without being kept. A
+/// database that cannot be reached is tried again once a second, and gets everything in its order.
+/// Safe to use from several threads.
 class RequestJournal {
  public:
-  /// Throws SQLite::Exception where the database cannot be opened.
-  explicit RequestJournal(const std::filesystem::path& directory);
+  /// Throws DatabaseError where the database cannot be opened.
+  explicit RequestJournal(const Storage& storage);
   RequestJournal(const RequestJournal&) = delete;
   RequestJournal& operator=(const RequestJournal&) = delete;
   ~RequestJournal();  ///< writes what has come, and ends the thread
 
-  /// The requests of the run before, oldest first, that somebody may still wait for. Those whose
-  /// deadline has passed are dropped. The others stay on disk until Drop(). Call it once.
-  std::vector<AnyRequest> TakeUnanswered();
+  /// The requests of a run before, oldest first, that somebody may still wait for: all, or those
+  /// about the boats of these slices. Those whose deadline has passed are dropped. The others stay
+  /// on disk until Drop().
+  std::vector<AnyRequest> TakeUnanswered(const std::optional<std::set<int>>& slices = {});
 
-  /// `kept` runs on the thread of the journal once the request is on disk.
+  /// Why the database cannot be reached now, so that no request can be kept; nothing where it can.
+  std::optional<std::string> Unavailable() const { return storage_.status().Unavailable(); }
+
+  /// `kept` runs on the thread of the journal once the request is on disk, or where a fault of the
+  /// disk keeps it from there.
   void Keep(const AnyRequest& request, std::function<void()> kept);
 
-  /// The request needs no answer any more.
+  /// The request needs no answer any more, where this daemon still serves its boat.
   void Drop(const std::string& correlation_id);
 
   WriteDurations::Sum Written() const { return written_.Total(); }
@@ -46,22 +51,27 @@ class RequestJournal {
  private:
   struct Entry {
     std::string correlation_id;
+    int slice = 0;      ///< of its boat
     std::string bytes;  ///< empty: it is dropped
     std::function<void()> kept;
   };
 
   void Run();
-  void Write(const std::deque<Entry>& entries);
-  void Commit(const std::deque<Entry>& entries);
+  int SliceOfRequest(const AnyRequest& request) const;
+  bool Write(std::deque<Entry>& entries);  ///< false where the database cannot be reached
+  void WriteHeld(std::deque<Entry>& entries);
+  void Write(const Entry& entry);
   void Push(Entry entry);
 
-  std::unique_ptr<SQLite::Database> database_;  // of the thread, once that runs
+  const Storage storage_;
+  std::unique_ptr<Database> database_;  // of the thread, once that runs
   bool wrote_last_time_ = true;
   WriteDurations written_;
   std::mutex mutex_;  // of what follows
   std::condition_variable wake_;
   bool stopping_ = false;
   std::deque<Entry> entries_;
+  std::map<std::string, int> kept_;  ///< the slice of each request until it is dropped
   std::thread thread_;
 };
 

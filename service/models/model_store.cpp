@@ -1,21 +1,19 @@
 #include "telltale/service/models/model_store.hpp"
 
-#include <SQLiteCpp/SQLiteCpp.h>
+#include <limits>
+#include <utility>
+
 #include <spdlog/spdlog.h>
-#include <boost/crc.hpp>
 
 #include "telltale/idl/codec/json/model.hpp"
 #include "telltale/service/storage/checked_serialisation.hpp"
-#include "telltale/service/storage/database.hpp"
+#include "telltale/service/storage/stored_blob.hpp"
+#include "telltale/service/storage/stores.hpp"
 
 namespace telltale {
 namespace {
 
-std::int64_t Checksum(const void* bytes, int size) {
-  boost::crc_32_type crc;
-  crc.process_bytes(bytes, static_cast<std::size_t>(size));
-  return crc.checksum();
-}
+constexpr std::int64_t kReadAtATime = 8;  // of some thirty kilobytes each
 
 PromotionVerdict VerdictNamed(std::string_view name) {
   for (const auto verdict :
@@ -25,109 +23,90 @@ PromotionVerdict VerdictNamed(std::string_view name) {
   return PromotionVerdict::kUnknown;
 }
 
-std::optional<StoredModel> ReadRow(SQLite::Statement& row) {
+std::optional<StoredModel> ReadModel(const Row& row, const std::string& database) {
   proto::Model message;
-  const SQLite::Column blob = row.getColumn("model");
-  const SQLite::Column checksum = row.getColumn("checksum");
-  const bool changed =
-      !checksum.isNull() && checksum.getInt64() != Checksum(blob.getBlob(), blob.getBytes());
-  if (changed || !message.ParseFromArray(blob.getBlob(), blob.getBytes())) {
-    spdlog::error("models.sqlite: revision {} of {} is not a model",
-                  row.getColumn("revision").getInt64(), row.getColumn("vehicle_id").getString());
+  if (!ReadBlob(row, "model", message)) {
+    spdlog::error("{}: revision {} of {} is not a model", database, row.Integer("revision"),
+                  row.Text("vehicle_id"));
     return std::nullopt;
   }
-  auto identification = IdentificationOf(message, "models.sqlite");
+  auto identification = IdentificationOf(message, database);
   if (!identification) {
     spdlog::error("{}", identification.error().Message());
     return std::nullopt;
   }
   StoredModel stored;
   stored.model = {std::move(*identification),
-                  static_cast<std::uint64_t>(row.getColumn("revision").getInt64()),
-                  row.getColumn("published_unix_s").getDouble(),
-                  {VerdictNamed(row.getColumn("verdict").getString()),
-                   row.getColumn("verdict_reason").getString()}};
-  if (!row.getColumn("reference_error_u").isNull()) {
-    stored.reference_error = {row.getColumn("reference_error_u").getDouble(),
-                              row.getColumn("reference_error_v").getDouble(),
-                              row.getColumn("reference_error_r").getDouble()};
+                  static_cast<std::uint64_t>(row.Integer("revision")),
+                  row.Real("published_unix_s"),
+                  {VerdictNamed(row.Text("verdict")), row.Text("verdict_reason")}};
+  if (!row.IsNull("reference_error_u")) {
+    stored.reference_error = {row.Real("reference_error_u"), row.Real("reference_error_v"),
+                              row.Real("reference_error_r")};
   }
   return stored;
+}
+
+Parameter ErrorOf(const std::optional<FreeRunError>& error, std::size_t channel) {
+  return error ? Parameter((*error)[channel]) : std::monostate();
 }
 
 }  // namespace
 
-ModelStore::ModelStore(const std::filesystem::path& directory)
-    : database_(OpenDatabase(directory)) {}
-
-ModelStore::~ModelStore() = default;
-ModelStore::ModelStore(ModelStore&&) noexcept = default;
-ModelStore& ModelStore::operator=(ModelStore&&) noexcept = default;
+ModelStore::ModelStore(const Storage& storage)
+    : storage_(storage), database_(storage.Open(ModelsSchema())) {}
 
 StoredModel ModelStore::Save(const Identification& identification, double published_unix_s,
                              const std::optional<FreeRunError>& reference_error,
                              const Promotion& promotion) {
-  SQLite::Transaction transaction(*database_, SQLite::TransactionBehavior::IMMEDIATE);
-  SQLite::Statement next(*database_,
-                         "SELECT COALESCE(MAX(revision), 0) + 1 FROM models WHERE vehicle_id = ?");
-  next.bind(1, identification.vehicle_id);
-  next.executeStep();
-  const std::int64_t revision = next.getColumn(0).getInt64();
-  next.reset();  // a statement under way keeps the log from being checkpointed
-  StoredModel stored{
-      {identification, static_cast<std::uint64_t>(revision), published_unix_s, promotion},
-      reference_error};
-  Insert(stored);
-  transaction.commit();
+  StoredModel stored{{identification, 0, published_unix_s, promotion}, reference_error};
+  const std::string& vehicle_id = identification.vehicle_id;
+  database_->InTransaction([&] {
+    const Parameter fence = storage_.RequireLease(*database_, vehicle_id);
+    stored.model.revision = static_cast<std::uint64_t>(IntegerOf(
+        *database_,
+        "SELECT COALESCE(MAX(revision), 0) + 1 AS value FROM models WHERE vehicle_id = $1",
+        {vehicle_id}));
+    Insert(stored, fence);
+  });
   return stored;
 }
 
 void ModelStore::Keep(const StoredModel& stored) {
-  SQLite::Transaction transaction(*database_, SQLite::TransactionBehavior::IMMEDIATE);
-  Insert(stored);
-  transaction.commit();
+  database_->InTransaction([&] {
+    const std::string& vehicle_id = stored.model.identification.vehicle_id;
+    const Parameter fence = storage_.RequireLease(*database_, vehicle_id);
+    database_->Execute("DELETE FROM models WHERE vehicle_id = $1 AND revision = $2",
+                       {vehicle_id, static_cast<std::int64_t>(stored.model.revision)});
+    Insert(stored, fence);
+  });
 }
 
 /// The caller has begun a transaction.
-void ModelStore::Insert(const StoredModel& stored) {
-  const Identification& identification = stored.model.identification;
-  const auto revision = static_cast<std::int64_t>(stored.model.revision);
+void ModelStore::Insert(const StoredModel& stored, const Parameter& fence) {
+  const auto& [identification, published_revision, published_unix_s, promotion] = stored.model;
+  const auto revision = static_cast<std::int64_t>(published_revision);
   const proto::Model message = ToProto(identification);
   const std::string blob = SerialiseChecked(message, IdentificationOf(message, "model"));
-  SQLite::Statement insert(
-      *database_,
-      "INSERT OR REPLACE INTO models (vehicle_id, revision, published_unix_s, model, checksum,"
-      " reference_error_u, reference_error_v, reference_error_r, verdict, verdict_reason)"
-      " VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
-  insert.bind(1, identification.vehicle_id);
-  insert.bind(2, revision);
-  insert.bind(3, stored.model.published_unix_s);
-  insert.bind(4, blob.data(), static_cast<int>(blob.size()));
-  insert.bind(5, Checksum(blob.data(), static_cast<int>(blob.size())));
-  if (stored.reference_error) {
-    for (int i = 0; i < 3; ++i) insert.bind(6 + i, (*stored.reference_error)[i]);
-  }
-  insert.bind(9, std::string(Name(stored.model.promotion.verdict)));
-  insert.bind(10, stored.model.promotion.reason);
-  insert.exec();
-  DropOldest(identification.vehicle_id, revision);
-}
-
-void ModelStore::DropOldest(const std::string& vehicle_id, std::int64_t newest) {
-  SQLite::Statement drop(*database_, "DELETE FROM models WHERE vehicle_id = ? AND revision <= ?");
-  drop.bind(1, vehicle_id);
-  drop.bind(2, newest - static_cast<std::int64_t>(kModelsPerVehicle));
-  drop.exec();
+  const std::string& vehicle_id = identification.vehicle_id;
+  const auto& reference_error = stored.reference_error;
+  database_->Execute(
+      "INSERT INTO models (vehicle_id, revision, published_unix_s, model, checksum,"
+      " reference_error_u, reference_error_v, reference_error_r, verdict, verdict_reason, fence)"
+      " VALUES ($1, $2, $3, $4, $5, $6, $7, $8, $9, $10, $11)",
+      {vehicle_id, revision, published_unix_s, Blob(blob), std::int64_t{ChecksumOf(blob)},
+       ErrorOf(reference_error, 0), ErrorOf(reference_error, 1), ErrorOf(reference_error, 2),
+       Name(promotion.verdict), promotion.reason, fence});
+  database_->Execute("DELETE FROM models WHERE vehicle_id = $1 AND revision <= $2",
+                     {vehicle_id, revision - static_cast<std::int64_t>(kModelsPerVehicle)});
 }
 
 std::vector<std::uint64_t> ModelStore::Revisions(std::string_view vehicle_id) const {
-  SQLite::Statement rows(*database_,
-                         "SELECT revision FROM models WHERE vehicle_id = ? ORDER BY revision");
-  rows.bind(1, std::string(vehicle_id));
   std::vector<std::uint64_t> revisions;
-  while (rows.executeStep()) {
-    revisions.push_back(static_cast<std::uint64_t>(rows.getColumn(0).getInt64()));
-  }
+  database_->Query("SELECT revision FROM models WHERE vehicle_id = $1 ORDER BY revision",
+                   {vehicle_id}, [&](const Row& row) {
+                     revisions.push_back(static_cast<std::uint64_t>(row.Integer("revision")));
+                   });
   return revisions;
 }
 
@@ -137,13 +116,24 @@ std::optional<StoredModel> ModelStore::Latest(std::string_view vehicle_id) const
 
 std::optional<StoredModel> ModelStore::Newest(
     std::string_view vehicle_id, const std::function<bool(const StoredModel&)>& suits) const {
-  SQLite::Statement rows(*database_,
-                         "SELECT * FROM models WHERE vehicle_id = ? ORDER BY revision DESC");
-  rows.bind(1, std::string(vehicle_id));
-  while (rows.executeStep()) {
-    if (auto stored = ReadRow(rows); stored && suits(*stored)) return stored;
+  std::int64_t before = std::numeric_limits<std::int64_t>::max();
+  std::optional<StoredModel> found;
+  for (bool more = true; more && !found;) {
+    std::int64_t rows = 0;
+    database_->Query(
+        "SELECT * FROM models WHERE vehicle_id = $1 AND revision < $2"
+        " ORDER BY revision DESC LIMIT $3",
+        {vehicle_id, before, kReadAtATime}, [&](const Row& row) {
+          ++rows;
+          before = row.Integer("revision");
+          if (found) return;
+          if (auto stored = ReadModel(row, database_->name()); stored && suits(*stored)) {
+            found = std::move(stored);
+          }
+        });
+    more = rows == kReadAtATime;
   }
-  return std::nullopt;
+  return found;
 }
 
 std::vector<StoredModel> ModelStore::History(std::string_view vehicle_id) const {

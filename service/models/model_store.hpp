@@ -2,7 +2,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <filesystem>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -12,10 +11,7 @@
 
 #include "telltale/idl/codec/messages/model.hpp"
 #include "telltale/service/models/free_run_error.hpp"
-
-namespace SQLite {
-class Database;
-}
+#include "telltale/service/storage/storage.hpp"
 
 namespace telltale {
 
@@ -28,16 +24,13 @@ struct StoredModel {
 /// What the newest model is compared with goes back no further: ChangeSincePredecessor().
 inline constexpr std::uint64_t kModelsPerVehicle = 200;
 
-/// Every published model on disk, since DDS stores nothing beyond the life of a process.
-/// Throws SQLite::Exception where the disk refuses, and std::runtime_error, which names the field,
-/// where a model could not be read back. Earlier models then stay as they are. Not thread safe.
+/// Every published model in the storage, since DDS stores nothing beyond the life of a process.
+/// Throws DatabaseError where the database refuses, LeaseLost where another daemon serves the boat,
+/// and std::runtime_error, which names the field, where a model could not be read back. Earlier
+/// models then stay as they are. Not thread safe.
 class ModelStore {
  public:
-  /// In the database of `directory`, OpenDatabase().
-  explicit ModelStore(const std::filesystem::path& directory);
-  ~ModelStore();
-  ModelStore(ModelStore&&) noexcept;
-  ModelStore& operator=(ModelStore&&) noexcept;
+  explicit ModelStore(const Storage& storage);
 
   /// Stores the model as its vehicle's next revision. It is on disk on return. The newest 200
   /// models of a vehicle are kept.
@@ -63,10 +56,10 @@ class ModelStore {
                                     const std::function<bool(const StoredModel&)>& suits) const;
 
  private:
-  void Insert(const StoredModel& stored);
-  void DropOldest(const std::string& vehicle_id, std::int64_t newest);
+  void Insert(const StoredModel& stored, const Parameter& fence);
 
-  std::unique_ptr<SQLite::Database> database_;
+  Storage storage_;
+  std::unique_ptr<Database> database_;
 };
 
 }  // namespace telltale

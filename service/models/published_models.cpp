@@ -56,6 +56,15 @@ void PublishedModels::Serve(const std::string& vehicle_id) {
   latest_.insert_or_assign(vehicle_id, std::move(*stored));
 }
 
+void PublishedModels::Withdraw(const std::string& vehicle_id) {
+  const std::lock_guard lock(mutex_);
+  const auto published = latest_.find(vehicle_id);
+  if (published == latest_.end()) return;
+  if (publishing_) writer_->Unregister(Encode(published->second.model));
+  blocked_.erase(vehicle_id);
+  latest_.erase(published);
+}
+
 PublishedModel PublishedModels::Publish(Identification identification,
                                         const std::optional<FreeRunError>& reference_error,
                                         const Promotion& promotion) {

@@ -36,6 +36,9 @@ class PublishedModels {
   /// Publishes the newest model of a vehicle that is served from now on.
   void Serve(const std::string& vehicle_id);
 
+  /// Leaves the model of a vehicle to the daemon that serves it from now on.
+  void Withdraw(const std::string& vehicle_id);
+
   /// Saves a model that another daemon has published, where it is newer than this daemon's; while
   /// this daemon serves it then publishes it too. Where both have given the same revision to
   /// different models, which is possible only while neither hears the other, the one that serves

@@ -26,11 +26,13 @@ void LoggingFailure(Work work) {
 }  // namespace
 
 QualityPublisher::QualityPublisher(const Participant& participant, const Role& role, Fleet& fleet,
-                                   PublishedModels& models, FleetView& view, double period_s)
+                                   PublishedModels& models, FleetView& view,
+                                   const StoreStatus& status, double period_s)
     : role_(role),
       fleet_(fleet),
       models_(models),
       view_(view),
+      status_(status),
       period_(period_s),
       writer_(participant),
       thread_([this] { Run(); }) {}
@@ -89,9 +91,11 @@ void QualityPublisher::PublishReceipts() {
 }
 
 void QualityPublisher::PublishAll(double elapsed_s) {
+  const auto store_fault = status_.Fault();
   for (const auto& [vehicle_id, window] : fleet_.windows()) {
     const auto latest = models_.Latest(vehicle_id);
-    const Quality quality = monitors_[vehicle_id].Assess(*window, latest, view_, elapsed_s);
+    const Quality quality =
+        monitors_[vehicle_id].Assess(*window, latest, view_, store_fault, elapsed_s);
     Publish(quality);
     view_.TakeDrift(vehicle_id, monitors_[vehicle_id].DriftOnsetS());
     view_.Take(quality, UnixNow());

@@ -16,6 +16,7 @@
 #include "telltale/service/monitoring/fleet_view.hpp"
 #include "telltale/service/monitoring/vehicle_monitor.hpp"
 #include "telltale/service/standby/role.hpp"
+#include "telltale/service/storage/store_status.hpp"
 
 namespace telltale {
 
@@ -26,7 +27,8 @@ namespace telltale {
 class QualityPublisher {
  public:
   QualityPublisher(const Participant& participant, const Role& role, Fleet& fleet,
-                   PublishedModels& models, FleetView& view, double period_s);
+                   PublishedModels& models, FleetView& view, const StoreStatus& status,
+                   double period_s);
   QualityPublisher(const QualityPublisher&) = delete;
   QualityPublisher& operator=(const QualityPublisher&) = delete;
   ~QualityPublisher();  ///< ends the thread
@@ -52,6 +54,7 @@ class QualityPublisher {
   Fleet& fleet_;
   PublishedModels& models_;
   FleetView& view_;  ///< takes each quality too
+  const StoreStatus& status_;
   const std::chrono::duration<double> period_;
   Writer<telltale_wire_Quality> writer_;
   std::map<std::string, VehicleMonitor> monitors_;  ///< by vehicle id

@@ -125,6 +125,7 @@ void AddModel(const Quality& quality, const VerdictLimits& limits, Reasons& reas
 }  // namespace
 
 std::vector<QualityReason> ReasonsOf(const Quality& quality, const LastMinute& last,
+                                     const std::optional<std::string>& store_fault,
                                      const VerdictLimits& limits) {
   Reasons reasons;
   AddSilence(last, limits, reasons);
@@ -132,6 +133,7 @@ std::vector<QualityReason> ReasonsOf(const Quality& quality, const LastMinute& l
   AddClock(last, limits, reasons);
   AddLoss(last, limits, reasons);
   AddModel(quality, limits, reasons);
+  if (store_fault) reasons.Add("NOT_SAVED", kWarn, "what comes is not saved: " + *store_fault);
   return std::move(reasons).MostSeriousFirst();
 }
 

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "telltale/idl/codec/messages/quality.hpp"
@@ -18,8 +20,10 @@ struct VerdictLimits {
 };
 
 /// Why the vehicle is not OK, most serious first; none where it is. Requires the fields of the
-/// quality that tell of telemetry, model and last refusal.
+/// quality that tell of telemetry, model and last refusal. `store_fault` is why something is not
+/// saved now.
 std::vector<QualityReason> ReasonsOf(const Quality& quality, const LastMinute& last,
+                                     const std::optional<std::string>& store_fault = {},
                                      const VerdictLimits& limits = {});
 
 /// Adds the faults of sources, "name: fault", to the reasons of a vehicle that is silent or of

@@ -74,7 +74,8 @@ void WriteLastAnswers(const FleetView& view, Quality& quality) {
 }  // namespace
 
 Quality VehicleMonitor::Assess(VehicleWindow& window, const std::optional<StoredModel>& latest,
-                               const FleetView& view, double elapsed_s) {
+                               const FleetView& view, const std::optional<std::string>& store_fault,
+                               double elapsed_s) {
   const WindowState state = window.State();
   Quality quality = TelemetryQuality(state, last_, elapsed_s);
   last_ = state;
@@ -86,7 +87,7 @@ Quality VehicleMonitor::Assess(VehicleWindow& window, const std::optional<Stored
   quality.indicative_rows = live_.rows();
   if (latest) AddModel(window, state.end_s, *latest, quality);
   WriteLastAnswers(view, quality);
-  Decide(state, view, quality);
+  Decide(state, view, store_fault, quality);
   assessed_ = std::move(quality);
   return assessed_;
 }
@@ -111,13 +112,14 @@ void VehicleMonitor::AddModel(VehicleWindow& window, double end_s, const StoredM
   WriteIdentifiability(latest.model.identification.coefficients, quality);
 }
 
-void VehicleMonitor::Decide(const WindowState& state, const FleetView& view, Quality& quality) {
+void VehicleMonitor::Decide(const WindowState& state, const FleetView& view,
+                            const std::optional<std::string>& store_fault, Quality& quality) {
   recent_.Note(state, RecentTelemetry::Clock::now());
   const LastMinute last = recent_.Summary();
   quality.silent_s = last.SilentS();
   quality.loss_share = last.LossShare();
   quality.reject_share = last.RejectShare();
-  quality.reasons = ReasonsOf(quality, last);
+  quality.reasons = ReasonsOf(quality, last, store_fault);
   AddSourceFaults(view.SourceFaults(), quality.reasons);
   quality.verdict = VerdictOf(quality.reasons);
   if (std::exchange(verdict_, quality.verdict) != quality.verdict) {

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "telltale/idl/codec/messages/quality.hpp"
@@ -19,9 +20,11 @@ namespace telltale {
 class VehicleMonitor {
  public:
   /// The quality of the period that ends now and that has lasted `elapsed_s`.
-  /// `view` knows the last refusal, the last diagnosis and the sources that fail.
+  /// `view` knows the last refusal, the last diagnosis and the sources that fail, `store_fault` why
+  /// something is not saved.
   Quality Assess(VehicleWindow& window, const std::optional<StoredModel>& latest,
-                 const FleetView& view, double elapsed_s);
+                 const FleetView& view, const std::optional<std::string>& store_fault,
+                 double elapsed_s);
 
   /// The onset of the drift by the vehicle's clock, while there is one.
   std::optional<double> DriftOnsetS() const {
@@ -34,7 +37,8 @@ class VehicleMonitor {
 
  private:
   void AddModel(VehicleWindow& window, double end_s, const StoredModel& latest, Quality& quality);
-  void Decide(const WindowState& state, const FleetView& view, Quality& quality);
+  void Decide(const WindowState& state, const FleetView& view,
+              const std::optional<std::string>& store_fault, Quality& quality);
   void UpdateEstimates(VehicleWindow& window, const WindowState& state);
 
   std::uint64_t published_ = 0;

@@ -1,37 +1,77 @@
 #pragma once
 
-#include <filesystem>
+#include <cstddef>
+#include <cstdint>
 #include <functional>
-#include <memory>
+#include <stdexcept>
 #include <string>
+#include <string_view>
+#include <variant>
 #include <vector>
-
-namespace SQLite {
-class Database;
-}
 
 namespace telltale {
 
-/// Keeps changes in a write-ahead log of at most 4 MiB after a checkpoint. `synchronous` is
-/// SQLite's: FULL puts each committed transaction on disk, NORMAL may lose the latest at a power
-/// failure.
-void UseWriteAheadLog(SQLite::Database& database, const char* synchronous);
+/// A database that refuses. The message names the database and says why.
+struct DatabaseError : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
 
-/// Opens a database, and creates it where it is missing. `prepare` creates its tables, and may
-/// throw to leave the file as it is. A file that SQLite finds damaged is set aside as
-/// FILE.damaged-TIME, and the rows of `tables` that can be read are copied into a new one; the log
-/// says so. Throws SQLite::Exception where the disk refuses.
-std::unique_ptr<SQLite::Database> OpenOrSalvage(
-    const std::filesystem::path& file, const std::function<void(SQLite::Database&)>& prepare,
-    const std::vector<std::string>& tables);
+/// The same where the database cannot be reached now: the next try may succeed. What was to be
+/// committed may have been.
+struct DatabaseUnavailable : DatabaseError {
+  using DatabaseError::DatabaseError;
+};
 
-/// Opens models.sqlite in `directory`, and creates both where they are missing. The database holds
-/// what outlives the daemon, each kind in a table of its own. A committed transaction is on disk.
-/// A file that SQLite finds damaged is set aside as models.sqlite.damaged-TIME, and the rows that
-/// can be read are copied into a new one; the log says so. A store of schema version 2 is brought
-/// to this version. Throws SQLite::Exception where the disk refuses, and where an older or a later
-/// version of this software wrote the database: the message names the file, both versions and what
-/// to do.
-std::unique_ptr<SQLite::Database> OpenDatabase(const std::filesystem::path& directory);
+/// The same where another daemon has taken over the boats that were to be written of: who asks
+/// again asks that one.
+struct LeaseLost : DatabaseUnavailable {
+  using DatabaseUnavailable::DatabaseUnavailable;
+};
+
+/// Bytes as a parameter of a statement.
+struct Blob {
+  explicit Blob(std::string_view of) : bytes(of) {}
+  std::string_view bytes;
+};
+
+/// Stands for $1, $2, ... in a statement; std::monostate is NULL. What it views outlives the call.
+using Parameter = std::variant<std::monostate, std::int64_t, double, std::string_view, Blob>;
+using Parameters = std::vector<Parameter>;
+
+/// A row of an answer, valid while it is handed over. Columns go by name.
+class Row {
+ public:
+  virtual ~Row() = default;
+  virtual bool IsNull(const char* column) const = 0;
+  virtual std::int64_t Integer(const char* column) const = 0;
+  virtual double Real(const char* column) const = 0;
+  virtual std::string Text(const char* column) const = 0;
+  virtual std::string Bytes(const char* column) const = 0;
+};
+
+/// A connection to a database of either engine, for statements that both understand: parameters are
+/// $1, $2, ..., a conflict is met by ON CONFLICT. Every method throws DatabaseError. Not thread
+/// safe.
+class Database {
+ public:
+  virtual ~Database() = default;
+
+  /// What messages call it: "models.sqlite".
+  virtual const std::string& name() const = 0;
+
+  /// Outside of InTransaction() it is a transaction of its own. Returns how many rows it changed.
+  virtual std::size_t Execute(const std::string& statement, const Parameters& parameters = {}) = 0;
+
+  /// Hands over each row of the answer.
+  virtual void Query(const std::string& statement, const Parameters& parameters,
+                     const std::function<void(const Row&)>& take) = 0;
+
+  /// Runs `work` as one transaction, which is on disk on return. What `work` throws undoes it.
+  virtual void InTransaction(const std::function<void()>& work) = 0;
+};
+
+/// The whole number that a statement answers with, in its column `value`.
+std::int64_t IntegerOf(Database& database, const std::string& statement,
+                       const Parameters& parameters = {});
 
 }  // namespace telltale

@@ -48,14 +48,22 @@ void WindowArchive::Restore() {
 }
 
 void WindowArchive::Admit(const std::string& vehicle_id, VehicleWindow& window) {
+  try {
+    Restore(vehicle_id, window);
+  } catch (const std::exception& error) {
+    spdlog::error("{}; the window of {} begins anew", error.what(), vehicle_id);
+  }
+  window.BeginSaving();
+}
+
+void WindowArchive::Restore(const std::string& vehicle_id, VehicleWindow& window) {
   const std::lock_guard lock(store_mutex_);
   const std::size_t unreadable =
       store_.Load(vehicle_id, [&window](const Recording& samples) { window.Restore(samples); });
   if (unreadable > 0) {
-    spdlog::error("windows.sqlite: {} chunks of {} are damaged and passed over", unreadable,
+    spdlog::error("{}: {} chunks of {} are damaged and passed over", store_.name(), unreadable,
                   vehicle_id);
   }
-  window.BeginSaving();
 }
 
 void WindowArchive::Run() {
@@ -77,7 +85,7 @@ void WindowArchive::Save() {
     saved_last_time_ = true;
   } catch (const std::exception& error) {
     if (saved_last_time_) {
-      spdlog::error("windows.sqlite: {}; telemetry is taken in and not saved", error.what());
+      spdlog::error("{}; telemetry is taken in and not saved", error.what());
     }
     saved_last_time_ = false;
   }

@@ -16,10 +16,10 @@
 
 namespace telltale {
 
-/// Keeps the windows of the fleet on disk: it fills them at start with what the store holds, and
-/// saves what they take in once a period, on a thread of its own, and at the end. A fault of the
-/// disk is logged, and the next period tries again: what is not saved waits in memory, no longer
-/// than a window lasts.
+/// Keeps the windows of the fleet in the storage: it fills them at start with what the store holds,
+/// and saves what they take in once a period, on a thread of its own, and at the end. A fault of
+/// the database is logged, and the next period tries again: what is not saved waits in memory, no
+/// longer than a window lasts.
 class WindowArchive {
  public:
   /// Fills the windows before it returns. Assumes that nothing else fills them yet.
@@ -28,13 +28,15 @@ class WindowArchive {
   WindowArchive& operator=(const WindowArchive&) = delete;
   ~WindowArchive();  ///< saves and ends the thread
 
-  /// Fills the window of a vehicle that is served from now on, and saves it too.
+  /// Fills the window of a vehicle that is served from now on, and saves it too. Where the database
+  /// refuses, the log says so and the window begins empty.
   void Admit(const std::string& vehicle_id, VehicleWindow& window);
 
   WriteDurations::Sum Written() const { return written_.Total(); }
 
  private:
   void Restore();
+  void Restore(const std::string& vehicle_id, VehicleWindow& window);
   void Run();
   void Save();
   void TakeRound();

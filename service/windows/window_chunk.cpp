@@ -6,9 +6,8 @@
 
 #include <zstd.h>
 
-#include <boost/crc.hpp>
-
 #include "telltale/idl/proto/window_chunk.pb.h"
+#include "telltale/service/storage/checksum.hpp"
 
 namespace telltale {
 namespace {
@@ -17,10 +16,8 @@ constexpr int kCompressionLevel = 3;
 constexpr std::size_t kChecksumBytes = sizeof(std::uint32_t);
 constexpr unsigned long long kLargestChunk = 1ULL << 30;
 
-std::array<char, kChecksumBytes> ChecksumOf(std::string_view bytes) {
-  boost::crc_32_type crc;
-  crc.process_bytes(bytes.data(), bytes.size());
-  const std::uint32_t sum = crc.checksum();
+std::array<char, kChecksumBytes> ChecksumBytes(std::string_view bytes) {
+  const std::uint32_t sum = ChecksumOf(bytes);
   std::array<char, kChecksumBytes> text{};
   for (std::size_t i = 0; i < text.size(); ++i) text[i] = static_cast<char>(sum >> (8 * i));
   return text;
@@ -78,7 +75,7 @@ std::string PackChunk(const Recording& recording) {
   const std::size_t size = ZSTD_compress(blob.data() + kChecksumBytes, blob.size() - kChecksumBytes,
                                          bytes.data(), bytes.size(), kCompressionLevel);
   blob.resize(kChecksumBytes + size);
-  const auto checksum = ChecksumOf(std::string_view(blob).substr(kChecksumBytes));
+  const auto checksum = ChecksumBytes(std::string_view(blob).substr(kChecksumBytes));
   std::memcpy(blob.data(), checksum.data(), checksum.size());
   return blob;
 }
@@ -86,7 +83,7 @@ std::string PackChunk(const Recording& recording) {
 std::optional<Recording> UnpackChunk(std::string_view blob) {
   if (blob.size() < kChecksumBytes) return std::nullopt;
   const std::string_view packed = blob.substr(kChecksumBytes);
-  const auto checksum = ChecksumOf(packed);
+  const auto checksum = ChecksumBytes(packed);
   if (std::memcmp(checksum.data(), blob.data(), checksum.size()) != 0) return std::nullopt;
   const unsigned long long size = ZSTD_getFrameContentSize(packed.data(), packed.size());
   if (size > kLargestChunk) return std::nullopt;  // what zstd does not know is larger

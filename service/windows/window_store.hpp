@@ -2,23 +2,19 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <filesystem>
 #include <functional>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "telltale/core/data/samples.hpp"
-
-namespace SQLite {
-class Database;
-}
+#include "telltale/service/storage/storage.hpp"
 
 namespace telltale {
 
-/// The windows of the fleet on disk, in compressed chunks with checksums, in windows.sqlite of the
-/// state directory. What was saved outlives the process; a loss of power may take the newest chunks
-/// with it. Throws SQLite::Exception where the disk refuses. Not thread safe.
+/// The windows of the fleet in the storage, in compressed chunks with checksums. What was saved
+/// outlives the process; a loss of power may take the newest chunks with it. Throws DatabaseError
+/// where the database refuses. Not thread safe.
 class WindowStore {
  public:
   struct Chunk {
@@ -26,12 +22,10 @@ class WindowStore {
     Recording samples;
   };
 
-  /// Creates the database where it is missing. One that SQLite finds damaged is set aside as
-  /// windows.sqlite.damaged-TIME, what can be read is kept, and the log says so.
-  explicit WindowStore(const std::filesystem::path& directory);
-  ~WindowStore();
-  WindowStore(WindowStore&&) noexcept;
-  WindowStore& operator=(WindowStore&&) noexcept;
+  explicit WindowStore(const Storage& storage);
+
+  /// What messages call the database.
+  const std::string& name() const { return database_->name(); }
 
   struct Limits {
     double duration_s = 0.0;       ///< before the newest sample, by the vehicle's clock
@@ -39,6 +33,7 @@ class WindowStore {
   };
 
   /// Saves the chunks in one transaction, and drops of these vehicles what is beyond the limits.
+  /// Passes over vehicles that another daemon serves now.
   void Save(const std::vector<Chunk>& chunks, const Limits& limits);
 
   /// Hands each chunk of a vehicle to `take`, oldest first. Returns how many cannot be read.
@@ -48,7 +43,8 @@ class WindowStore {
  private:
   void Insert(const Chunk& chunk, const Limits& limits);
 
-  std::unique_ptr<SQLite::Database> database_;
+  Storage storage_;
+  std::unique_ptr<Database> database_;
 };
 
 }  // namespace telltale

@@ -58,6 +58,7 @@ rejects idl/codec/bad.hpp '"telltale/client/bus/reader.hpp"' 'idl may not see cl
 rejects idl/codec/bad.hpp '"telltale/service/ingest/ingest.hpp"' 'idl may not see service'
 rejects client/bus/bad.hpp '"telltale/service/ingest/ingest.hpp"' 'client may not see service'
 rejects client/bus/bad.hpp '<SQLiteCpp/SQLiteCpp.h>' "the model store is the service's"
+rejects client/bus/bad.hpp '<pqxx/pqxx>' "the store is the service's"
 rejects service/ingest/bad.cpp '<dds/dds.h>' 'DDS is handled in client/bus'
 rejects service/ingest/bad.cpp '"telltale/tests/support/matchers.hpp"' 'service may not see tests'
 rejects tests/blind/truth/bad.cpp '"telltale/core/data/window.hpp"' 'only its own folder'

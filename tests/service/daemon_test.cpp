@@ -445,7 +445,9 @@ TEST_F(Daemon, SaysThatItsDiskIsFullAndGoesOn) {
   EXPECT_EQ(exit_code, 1) << output;
   EXPECT_THAT(output, HasSubstr("disk"));
   EXPECT_TRUE(daemon.WaitForOutput("[error] identification of yellowfish"));
-  EXPECT_EQ(Start({"monitor", "--once"})->Wait(), 0);
+  const auto monitor = Start({"monitor", "--once", "--json"});
+  EXPECT_EQ(monitor->Wait(), 0);
+  EXPECT_THAT(monitor->output(), HasSubstr("NOT_SAVED"));
 }
 
 // More at once than Cyclone DDS lets on one host by default.

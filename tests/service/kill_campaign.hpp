@@ -3,14 +3,12 @@
 #include <algorithm>
 #include <cstdint>
 #include <cstdlib>
-#include <filesystem>
 #include <iostream>
 #include <map>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include <SQLiteCpp/SQLiteCpp.h>
 #include <gtest/gtest.h>
 #include <spdlog/fmt/fmt.h>
 
@@ -66,18 +64,16 @@ struct KillTally {
 };
 
 /// Random moments of a daemon under load.
-class KillCampaign : public ServiceTest {
+class CampaignTest : public ServiceTest {
  protected:
-  KillCampaign() {
+  explicit CampaignTest(Engine engine) : ServiceTest(engine) {
     config_file_ = folder_.Write(
         "campaign.textproto",
-        fmt::format("domain: {}\nvehicle_files: \"vehicle.textproto\"\nstate_directory: \"{}\"\n"
+        fmt::format("domain: {}\nvehicle_files: \"vehicle.textproto\"\n{}"
                     "identification {{ bootstrap_replicates: 0 }}\nquality_period_s: 0.1\n"
                     "window {{ duration_s: {} save_period_s: {} }}\n",
-                    domain_.id(), State().string(), kCampaignWindowS, kCampaignSavePeriodS));
+                    domain_.id(), StorageLines(), kCampaignWindowS, kCampaignSavePeriodS));
   }
-
-  std::filesystem::path State() const { return folder_.Path() / "state"; }
 
   static Recording LongRecording() {
     return SimulatedRecording(testing::StableBoat(), 0.0,
@@ -111,14 +107,6 @@ class KillCampaign : public ServiceTest {
       client.Step();
     }
     return asked;
-  }
-
-  /// The time of the newest sample on disk.
-  double SavedToS() const {
-    const SQLite::Database database(State() / "windows.sqlite", SQLite::OPEN_READWRITE);
-    SQLite::Statement newest(database, "SELECT COALESCE(MAX(last_s), 0) FROM chunks");
-    newest.executeStep();
-    return newest.getColumn(0).getDouble();
   }
 
   /// The models that the daemon keeps.

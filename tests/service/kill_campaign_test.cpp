@@ -9,10 +9,8 @@
 #include <set>
 #include <string>
 #include <utility>
-#include <variant>
 #include <vector>
 
-#include <SQLiteCpp/SQLiteCpp.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <spdlog/fmt/fmt.h>
@@ -22,6 +20,7 @@
 #include "telltale/core/base/random.hpp"
 #include "telltale/service/jobs/request_journal.hpp"
 #include "telltale/service/models/model_store.hpp"
+#include "telltale/service/storage/stores.hpp"
 #include "telltale/service/windows/window_store.hpp"
 
 namespace telltale {
@@ -31,16 +30,24 @@ using namespace std::chrono_literals;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-TEST_F(KillCampaign, LosesNothingThatWasAcknowledged) {
+class KillCampaign : public CampaignTest, public ::testing::WithParamInterface<Engine> {
+ protected:
+  KillCampaign() : CampaignTest(GetParam()) {}
+};
+
+INSTANTIATE_TEST_SUITE_P(Engines, KillCampaign, kEngines, EngineName);
+
+TEST_P(KillCampaign, LosesNothingThatWasAcknowledged) {
   BoatAndClient client(domain_.id(), LongRecording());
   auto daemon = StartDaemon();
   ASSERT_TRUE(client.AwaitDaemon());
   while (client.sent_to_s() < kCampaignWindowS) client.Step();
+  const auto windows = Storage().Open(WindowsSchema());
   KillTally tally;
   for (int kill = 0; kill < Kills(); ++kill) {
     SCOPED_TRACE("kill " + std::to_string(kill));
     const auto asked = Live(client, kill);
-    const double saved_to_s = SavedToS();
+    const double saved_to_s = SavedToS(*windows, kVehicleId);
     client.Handle(std::chrono::milliseconds(Draw(50)));
     daemon->Signal(SIGKILL);
     const auto killed = CampaignClock::now();
@@ -68,20 +75,24 @@ struct StoreContents {
   std::set<std::string> requests;
   std::size_t unreadable_chunks = 0;
 
-  explicit StoreContents(const std::filesystem::path& folder) {
-    for (const StoredModel& stored : ModelStore(folder).History("yellowfish")) {
+  explicit StoreContents(const telltale::Storage& storage) {
+    for (const StoredModel& stored : ModelStore(storage).History("yellowfish")) {
       models.emplace(stored.model.revision, stored.model.published_unix_s);
     }
-    for (const AnyRequest& request : RequestJournal(folder).TakeUnanswered()) {
-      requests.insert(std::visit([](const auto& kind) { return kind.correlation_id; }, request));
+    for (const AnyRequest& request : RequestJournal(storage).TakeUnanswered()) {
+      requests.insert(CorrelationIdOf(request));
     }
-    unreadable_chunks = WindowStore(folder).Load("yellowfish", [](const Recording&) {});
+    unreadable_chunks = WindowStore(storage).Load("yellowfish", [](const Recording&) {});
   }
 };
 
 /// Copies of a store as a loss of power would leave it.
-class PowerCutCampaign : public KillCampaign {
+class PowerCutCampaign : public CampaignTest {
  protected:
+  PowerCutCampaign() : CampaignTest(Engine::kSqlite) {}
+
+  std::filesystem::path State() const { return folder_.Path() / "state"; }
+
   /// The files as they are between two writes. SQLite does without the third file, which is memory
   /// that processes share.
   static void CopyStore(const std::filesystem::path& from, const std::filesystem::path& to) {
@@ -134,13 +145,13 @@ TEST_F(PowerCutCampaign, LeavesAWholeStoreAtAnyWrite) {
     const Published published = client.published();
     const std::set<std::string> unanswered = client.Unanswered(asked);
     daemon->Resume();
-    const StoreContents contents(folder);
+    const StoreContents contents{telltale::Storage(folder)};
     EXPECT_EQ(Missing(published, contents.models), 0);
     EXPECT_TRUE(std::ranges::includes(contents.requests, unanswered));
     EXPECT_EQ(contents.unreadable_chunks, 0u);
     EXPECT_FALSE(WasDamaged(folder));
     TearLogs(torn);
-    const StoreContents rest(torn);
+    const StoreContents rest{telltale::Storage(torn)};
     EXPECT_TRUE(HasNoHole(rest.models));
     EXPECT_TRUE(std::ranges::includes(contents.models, rest.models));
     EXPECT_EQ(rest.unreadable_chunks, 0u);

@@ -17,10 +17,15 @@ using namespace std::chrono_literals;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-using KilledDaemon = ServiceTest;
+class KilledDaemon : public ServiceTest, public ::testing::WithParamInterface<Engine> {
+ protected:
+  KilledDaemon() : ServiceTest(GetParam()) {}
+};
+
+INSTANTIATE_TEST_SUITE_P(Engines, KilledDaemon, kEngines, EngineName);
 
 // Before, the data could not answer for minutes, and the first thin model replaced a good one.
-TEST_F(KilledDaemon, IdentifiesAtOnceFromTheWindowThatItHad) {
+TEST_P(KilledDaemon, IdentifiesAtOnceFromTheWindowThatItHad) {
   auto daemon = StartDaemon();
   Replay(SimulatedRecording(testing::StableBoat(), 0.0, 300.0, 4));
   const auto held = AwaitQuality(kVehicleId, [](const Quality& q) { return q.window_s > 299.0; });
@@ -39,7 +44,7 @@ TEST_F(KilledDaemon, IdentifiesAtOnceFromTheWindowThatItHad) {
 }
 
 // The client is told that the request is queued, which means that it is on disk.
-TEST_F(KilledDaemon, FinishesAcknowledgedRequestsAfterItsRestart) {
+TEST_P(KilledDaemon, FinishesAcknowledgedRequestsAfterItsRestart) {
   auto daemon = StartDaemon();
   Replay(SimulatedRecording(testing::StableBoat(), 0.0, 300.0, 4));
   ASSERT_TRUE(AwaitSavedWindow());
@@ -62,7 +67,7 @@ TEST_F(KilledDaemon, FinishesAcknowledgedRequestsAfterItsRestart) {
   EXPECT_TRUE(daemon->WaitForOutput("for acknowledged: PUBLISHED"));
 }
 
-TEST_F(KilledDaemon, ForgetsRequestsThatItHasAnswered) {
+TEST_P(KilledDaemon, ForgetsRequestsThatItHasAnswered) {
   auto daemon = StartDaemon();
   EXPECT_EQ(Start({"identify", "--vehicle-id", kVehicleId})->Wait(), 3);
   daemon->Signal(SIGTERM);

@@ -4,8 +4,6 @@
 #include <fstream>
 #include <stdexcept>
 
-#include <SQLiteCpp/SQLiteCpp.h>
-
 #include "telltale/client/fleet/subscriber.hpp"
 #include "telltale/client/recording/telemetry_log/telemetry_log.hpp"
 #include "telltale/core/base/random.hpp"
@@ -13,6 +11,7 @@
 #include "telltale/core/simulation/sensors.hpp"
 #include "telltale/core/simulation/simulator.hpp"
 #include "telltale/idl/codec/vehicle_file.hpp"
+#include "telltale/service/storage/stores.hpp"
 
 namespace telltale {
 namespace {
@@ -46,24 +45,35 @@ Recording SimulatedRecording() {
   return SimulatedRecording(YellowfishTwin(), 0.0, kDurationS, 20);
 }
 
+double SavedToS(Database& windows, const std::string& vehicle_id) {
+  double saved_to_s = 0.0;
+  windows.Query("SELECT COALESCE(MAX(last_s), 0) AS value FROM chunks WHERE vehicle_id = $1",
+                {vehicle_id}, [&](const Row& row) { saved_to_s = row.Real("value"); });
+  return saved_to_s;
+}
+
 std::size_t SizeOf(const Recording& recording) {
   return recording.gnss.size() + recording.heading.size() + recording.thrusters.size();
 }
 
-ServiceTest::ServiceTest(bool is_tagged) : domain_(is_tagged) {
+ServiceTest::ServiceTest(Engine engine, bool is_tagged) : domain_(is_tagged), engine_(engine) {
   Vehicle vehicle = YellowfishVehicle();
   vehicle.vehicle_id = kVehicleId;
   folder_.Write("vehicle.textproto", PrintVehicle(vehicle));
   config_file_ = folder_.Write("daemon.textproto",
                                "domain: " + std::to_string(domain_.id()) +
-                                   "\nvehicle_files: \"vehicle.textproto\"\nstate_directory: \"" +
-                                   (folder_.Path() / "state").string() +
-                                   "\"\nidentification { bootstrap_replicates: 100 }\n"
+                                   "\nvehicle_files: \"vehicle.textproto\"\n" + StorageLines() +
+                                   "identification { bootstrap_replicates: 100 }\n"
                                    "quality_period_s: 0.1\nwindow { save_period_s: 0.2 }\n");
 }
 
 void ServiceTest::Configure(const std::string& more) const {
   std::ofstream(config_file_, std::ios::app) << more;
+}
+
+std::string ServiceTest::StorageLines() const {
+  return "state_directory: \"" + (folder_.Path() / "state").string() + "\"\ndatabase: \"" +
+         engine_.Address() + "\"\n";
 }
 
 std::unique_ptr<Process> ServiceTest::StartDaemon(int vehicles) const {
@@ -74,15 +84,12 @@ std::unique_ptr<Process> ServiceTest::StartDaemon(int vehicles) const {
   return daemon;
 }
 
-bool ServiceTest::AwaitSavedWindow() const {
-  const auto file = folder_.Path() / "state" / "windows.sqlite";
-  const auto saved = [&] {
-    SQLite::Database database(file);
-    return database.execAndGet("SELECT COALESCE(MAX(last_s), 0) FROM chunks").getDouble();
-  };
-  return AwaitQuality(kVehicleId,
+bool ServiceTest::AwaitSavedWindow(const std::string& vehicle_id) const {
+  const auto windows = Storage().Open(WindowsSchema());
+  return AwaitQuality(vehicle_id,
                       [&](const Quality& quality) {
-                        return quality.window_s > 1.0 && saved() >= quality.window_s - 0.5;
+                        return quality.window_s > 1.0 &&
+                               SavedToS(*windows, vehicle_id) >= quality.window_s - 0.5;
                       })
       .has_value();
 }

@@ -8,6 +8,7 @@
 
 #include <gtest/gtest.h>
 
+#include "service/storage_fixture.hpp"
 #include "support/loopback_domain.hpp"
 #include "support/process.hpp"
 #include "support/temporary_folder.hpp"
@@ -27,6 +28,9 @@ Recording SimulatedRecording(const VesselModel& boat, double start_s, double dur
 /// Two minutes of the simulated Yellowfish.
 Recording SimulatedRecording();
 
+/// The time of the newest sample of a vehicle that the store of windows holds; 0: it holds none.
+double SavedToS(Database& windows, const std::string& vehicle_id);
+
 std::size_t SizeOf(const Recording& recording);
 
 /// Real programs on a domain and in a folder of the test's own.
@@ -35,7 +39,7 @@ class ServiceTest : public ::testing::Test {
   static constexpr const char* kVehicleId = "yellowfish";
 
   /// `is_tagged`: as LoopbackDomain has it.
-  explicit ServiceTest(bool is_tagged = true);
+  explicit ServiceTest(Engine engine = Engine::kSqlite, bool is_tagged = true);
 
   /// Lets the daemon's configuration have this too.
   void Configure(const std::string& more) const;
@@ -45,7 +49,7 @@ class ServiceTest : public ::testing::Test {
 
   /// Waits until the newest sample of the window is on disk. False where that takes a minute.
   /// Assumes a recording whose clock starts at 0.
-  bool AwaitSavedWindow() const;
+  bool AwaitSavedWindow(const std::string& vehicle_id = kVehicleId) const;
 
   /// telltale with these arguments on this test's domain.
   std::unique_ptr<Process> Start(const std::vector<std::string>& arguments) const;
@@ -66,7 +70,12 @@ class ServiceTest : public ::testing::Test {
   std::optional<Quality> AwaitQuality(const std::string& vehicle_id,
                                       const std::function<bool(const Quality&)>& as_expected) const;
 
+  /// Lines of a configuration: where the daemon keeps what outlives it.
+  std::string StorageLines() const;
+  telltale::Storage Storage() const { return engine_.StorageIn(folder_.Path() / "state"); }
+
   LoopbackDomain domain_;
+  EngineStorage engine_;
   TemporaryFolder folder_;
   std::filesystem::path config_file_;
 };

@@ -75,6 +75,13 @@ TEST_F(Upkeep, KeepsItsBoatsWhereTheConfigurationIsWrong) {
   EXPECT_EQ(Start({"list"})->Wait(), 0);
 }
 
+TEST_F(Upkeep, LeavesTheBackupsOfADatabaseToItsServer) {
+  config_file_ = folder_.Write("server.textproto", "database: \"postgresql:///telltale\"\n");
+  Process back_up = Upkeeper("--backup", folder_.Path() / "backup");
+  EXPECT_EQ(back_up.Wait(), 1);
+  EXPECT_THAT(back_up.output(), HasSubstr("pg_dump"));
+}
+
 TEST_F(Upkeep, RestoresABackupThatWasMadeWhileItRan) {
   auto daemon = StartDaemon();
   Replay(SimulatedRecording(testing::StableBoat(), 0.0, 300.0, 4));

@@ -24,6 +24,7 @@ TEST(DaemonConfig, AnEmptyFileMeansTheDefaultsOfTheSchema) {
   EXPECT_TRUE(config->vehicles.empty());
   EXPECT_TRUE(config->vehicle_files.empty());
   EXPECT_EQ(config->state_directory, "/var/lib/telltale");
+  EXPECT_EQ(config->database, "");
   EXPECT_EQ(config->window.duration_s, 1200.0);
   EXPECT_EQ(config->window.memory_bytes, std::size_t{64} << 20);
   EXPECT_EQ(config->window.reorder_tolerance_s, 0.5);
@@ -197,6 +198,12 @@ INSTANTIATE_TEST_SUITE_P(
         ConfigFault{"upkeep { refresh_older_than_s: -1 }", "upkeep.refresh_older_than_s", "-1",
                     "[0, 31536000]"},
         ConfigFault{"upkeep { retry_s: 0 }", "upkeep.retry_s", "0", "[1, 86400]"},
+        ConfigFault{"database: \"mysql://boat:sesame@db\"", "database", "\"...\"", "postgresql://"},
+        ConfigFault{"slices {}", "slices", "{}", "with database"},
+        ConfigFault{"database: \"postgresql:///t\" standby { ownership_strength: 1 }", "standby",
+                    "{}", "without database"},
+        ConfigFault{"database: \"postgresql:///t\" slices { lease_s: 0.5 }", "slices.lease_s",
+                    "0.5", "[1, 600]"},
         ConfigFault{"quality_period_s: 0.01", "quality_period_s", "0.01", "[0.1, 3600]"},
         ConfigFault{"log_level: \"loud\"", "log_level", "\"loud\"",
                     "trace, debug, info, warn, error"},

@@ -2,29 +2,33 @@
 
 #include <stdexcept>
 #include <string>
+#include <string_view>
 
-#include <SQLiteCpp/SQLiteCpp.h>
 #include <gtest/gtest.h>
 
+#include "service/storage_fixture.hpp"
 #include "support/made_up_diagnoses.hpp"
 #include "support/made_up_identifications.hpp"
 #include "support/special_values.hpp"
-#include "support/temporary_folder.hpp"
 #include "telltale/idl/codec/json/report.hpp"
 #include "telltale/service/models/model_store.hpp"
+#include "telltale/service/storage/stores.hpp"
 
 namespace telltale {
 namespace {
 
-class DiagnosisStoreTest : public ::testing::Test {
+using namespace std::string_view_literals;
+
+class DiagnosisStoreTest : public StorageTest {
  protected:
-  TemporaryFolder folder_;
   PublishedDiagnosis diagnosis_{MadeUpDiagnosis(), 7, 12.5};
 };
 
-TEST_F(DiagnosisStoreTest, GivesBackTheLastOfEachVehicleAsItWasSaved) {
+INSTANTIATE_TEST_SUITE_P(Engines, DiagnosisStoreTest, kEngines, EngineName);
+
+TEST_P(DiagnosisStoreTest, GivesBackTheLastOfEachVehicleAsItWasSaved) {
   {
-    DiagnosisStore store(folder_.Path());
+    DiagnosisStore store(Storage());
     diagnosis_.diagnosis.vehicle_id = "another";
     store.Save(diagnosis_);
     diagnosis_.diagnosis = MadeUpNominalDiagnosis();
@@ -33,20 +37,20 @@ TEST_F(DiagnosisStoreTest, GivesBackTheLastOfEachVehicleAsItWasSaved) {
     diagnosis_.diagnosis.vehicle_id = MadeUpNominalDiagnosis().vehicle_id;
     store.Save(diagnosis_);
   }
-  const auto last = DiagnosisStore(folder_.Path()).Last(MadeUpNominalDiagnosis().vehicle_id);
+  const auto last = DiagnosisStore(Storage()).Last(MadeUpNominalDiagnosis().vehicle_id);
   ASSERT_TRUE(last);
   EXPECT_EQ(last->model_revision, 8u);
   EXPECT_EQ(last->published_unix_s, 13.5);
   EXPECT_EQ(PrintReportJson(last->diagnosis), PrintReportJson(diagnosis_.diagnosis));
-  const auto other = DiagnosisStore(folder_.Path()).Last("another");
+  const auto other = DiagnosisStore(Storage()).Last("another");
   ASSERT_TRUE(other);
   EXPECT_EQ(other->model_revision, 7u);
-  EXPECT_FALSE(DiagnosisStore(folder_.Path()).Last("stranger"));
+  EXPECT_FALSE(DiagnosisStore(Storage()).Last("stranger"));
 }
 
-TEST_F(DiagnosisStoreTest, SharesItsDatabaseWithTheModels) {
-  ModelStore models(folder_.Path());
-  DiagnosisStore diagnoses(folder_.Path());
+TEST_P(DiagnosisStoreTest, SharesItsDatabaseWithTheModels) {
+  ModelStore models(Storage());
+  DiagnosisStore diagnoses(Storage());
   diagnoses.Save(diagnosis_);
   const Identification model = MadeUpIdentification();
   EXPECT_EQ(models.Save(model, 1.0, std::nullopt).model.revision, 1u);
@@ -54,8 +58,8 @@ TEST_F(DiagnosisStoreTest, SharesItsDatabaseWithTheModels) {
   EXPECT_TRUE(models.Latest(model.vehicle_id));
 }
 
-TEST_F(DiagnosisStoreTest, KeepsNothingThatNobodyCouldRead) {
-  DiagnosisStore store(folder_.Path());
+TEST_P(DiagnosisStoreTest, KeepsNothingThatNobodyCouldRead) {
+  DiagnosisStore store(Storage());
   store.Save(diagnosis_);
   PublishedDiagnosis wrong = diagnosis_;
   wrong.model_revision = 8;
@@ -64,15 +68,23 @@ TEST_F(DiagnosisStoreTest, KeepsNothingThatNobodyCouldRead) {
   EXPECT_EQ(store.Last(diagnosis_.diagnosis.vehicle_id)->model_revision, 7u);
 }
 
-TEST_F(DiagnosisStoreTest, PassesOverWhatCannotBeRead) {
-  DiagnosisStore store(folder_.Path());
+TEST_P(DiagnosisStoreTest, PassesOverWhatCannotBeRead) {
+  DiagnosisStore store(Storage());
   const std::string& vehicle_id = diagnosis_.diagnosis.vehicle_id;
-  for (const char* damage : {"x'ff00ff'", "x''"}) {
+  const auto damage = [&](std::string_view report) {
+    Storage().Open(ModelsSchema())->Execute("UPDATE diagnoses SET report = $1", {Blob(report)});
+  };
+  for (const std::string_view report : {"\xff\0\xff"sv, ""sv}) {
     store.Save(diagnosis_);
-    SQLite::Database(folder_.Path() / "models.sqlite", SQLite::OPEN_READWRITE)
-        .exec(std::string("UPDATE diagnoses SET report = ") + damage);
-    EXPECT_FALSE(store.Last(vehicle_id)) << damage;
+    damage(report);
+    EXPECT_FALSE(store.Last(vehicle_id)) << report.size();
   }
+  // The last byte of a finite number: the message can still be read.
+  std::string flipped = ToProto(diagnosis_.diagnosis).SerializeAsString();
+  flipped.back() = static_cast<char>(flipped.back() ^ 1);
+  store.Save(diagnosis_);
+  damage(flipped);
+  EXPECT_FALSE(store.Last(vehicle_id));
   store.Save(diagnosis_);
   EXPECT_TRUE(store.Last(vehicle_id));
 }

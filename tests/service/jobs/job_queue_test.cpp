@@ -194,7 +194,7 @@ TEST_F(Jobs, TellNobodyOfARequestBeforeItIsOnDisk) {
     return false;
   };
   const TemporaryFolder folder;
-  RequestJournal journal(folder.Path());
+  RequestJournal journal(Storage(folder.Path()));
   journal.TakeUnanswered();
   const auto queue = QueueOf({.interactive = 1}, 10, &journal);
   const auto forgetful = QueueOf({.interactive = 1}, 10);

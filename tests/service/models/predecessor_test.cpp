@@ -25,7 +25,7 @@ class PredecessorTest : public ::testing::Test {
 
   TemporaryFolder folder_;
   Identification model_;
-  ModelStore store_{folder_.Path()};
+  ModelStore store_{Storage(folder_.Path())};
 };
 
 TEST_F(PredecessorTest, AFirstModelHasNone) {

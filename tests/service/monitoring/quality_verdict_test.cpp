@@ -149,5 +149,12 @@ TEST(RecentTelemetry, CountsTheLastMinuteAlone) {
   EXPECT_THAT(last.silent_s, ElementsAre(0.0, 0.0, 50.0));
 }
 
+TEST(QualityVerdict, WarnsWhereNothingIsSaved) {
+  const auto reasons = ReasonsOf(GoodQuality(), GoodMinute(), "models.sqlite: disk full");
+  EXPECT_THAT(Codes(reasons), ElementsAre("NOT_SAVED"));
+  EXPECT_EQ(VerdictOf(reasons), QualityVerdict::kWarn);
+  EXPECT_THAT(reasons.front().text, HasSubstr("disk full"));
+}
+
 }  // namespace
 }  // namespace telltale

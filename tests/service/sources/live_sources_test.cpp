@@ -90,7 +90,7 @@ TEST_F(LiveSourcesTest, WrongSourcesAreRefusedByField) {
 
 class LiveRos2SourceTest : public ServiceTest {
  protected:
-  LiveRos2SourceTest() : ServiceTest(false) {}
+  LiveRos2SourceTest() : ServiceTest(Engine::kSqlite, false) {}
 };
 
 TEST_F(LiveRos2SourceTest, TopicsBecomeTelemetryAndQualityGoesBack) {

@@ -43,8 +43,10 @@ struct FailOverTally {
 };
 
 /// Two daemons, of which the one that serves is killed at random moments under load, and returns.
-class FailOverCampaign : public KillCampaign {
+class FailOverCampaign : public CampaignTest {
  protected:
+  FailOverCampaign() : CampaignTest(Engine::kSqlite) {}
+
   void StartPair() {
     serving_ = pair_.Start("one", 2);
     ASSERT_TRUE(DaemonPair::TakesOver(*serving_, term_)) << serving_->output();

@@ -66,7 +66,7 @@ Vehicle Boat() {
 
 std::size_t SavedFixes(const TemporaryFolder& folder) {
   std::size_t fixes = 0;
-  WindowStore(folder.Path()).Load("boat", [&](const Recording& samples) {
+  WindowStore(Storage(folder.Path())).Load("boat", [&](const Recording& samples) {
     fixes += samples.gnss.size();
   });
   return fixes;
@@ -78,7 +78,7 @@ TEST(WindowArchive, SavesLaterWhatTheDiskRefused) {
   Fleet fleet({Boat()}, WindowLimits());
   VehicleWindow& window = *fleet.Find("boat");
   {
-    WindowArchive archive(WindowStore(folder.Path()), fleet, 600.0, 0.01);
+    WindowArchive archive(WindowStore(Storage(folder.Path())), fleet, 600.0, 0.01);
     SQLite::Database disk(folder.Path() / "windows.sqlite", SQLite::OPEN_READWRITE);
     disk.setBusyTimeout(5000);
     disk.exec(

@@ -3,10 +3,11 @@
 #include <fstream>
 #include <string>
 
-#include <SQLiteCpp/SQLiteCpp.h>
 #include <gtest/gtest.h>
 
+#include "service/storage_fixture.hpp"
 #include "support/temporary_folder.hpp"
+#include "telltale/service/storage/stores.hpp"
 #include "telltale/service/windows/window_chunk.hpp"
 
 namespace telltale {
@@ -31,6 +32,9 @@ std::size_t FixesOf(const WindowStore& store, const std::string& vehicle_id) {
   return fixes;
 }
 
+using WindowStoreTest = StorageTest;
+INSTANTIATE_TEST_SUITE_P(Engines, WindowStoreTest, kEngines, EngineName);
+
 TEST(WindowChunk, ComesBackBitForBitOrNotAtAll) {
   const Recording packed = Seconds(1.7e9, 100);
   std::string blob = PackChunk(packed);
@@ -52,11 +56,10 @@ TEST(WindowChunk, ComesBackBitForBitOrNotAtAll) {
   EXPECT_FALSE(UnpackChunk(blob.substr(0, blob.size() - 1)));
 }
 
-TEST(WindowStore, GivesBackEachVehiclesChunksInOrder) {
-  const TemporaryFolder folder;
-  WindowStore(folder.Path()).Save({{"one", Seconds(0.0, 5)}, {"two", Seconds(0.0, 3)}}, kNoLimits);
-  WindowStore(folder.Path()).Save({{"one", Seconds(5.0, 5)}}, kNoLimits);
-  const WindowStore store(folder.Path());
+TEST_P(WindowStoreTest, GivesBackEachVehiclesChunksInOrder) {
+  WindowStore(Storage()).Save({{"one", Seconds(0.0, 5)}, {"two", Seconds(0.0, 3)}}, kNoLimits);
+  WindowStore(Storage()).Save({{"one", Seconds(5.0, 5)}}, kNoLimits);
+  const WindowStore store(Storage());
   std::vector<double> starts;
   EXPECT_EQ(
       store.Load("one",
@@ -67,9 +70,8 @@ TEST(WindowStore, GivesBackEachVehiclesChunksInOrder) {
   EXPECT_EQ(FixesOf(store, "stranger"), 0u);
 }
 
-TEST(WindowStore, DropsWhatTheWindowHasDropped) {
-  const TemporaryFolder folder;
-  WindowStore store(folder.Path());
+TEST_P(WindowStoreTest, DropsWhatTheWindowHasDropped) {
+  WindowStore store(Storage());
   for (int i = 0; i < 100; ++i) store.Save({{"one", Seconds(5.0 * i, 5)}}, {60.0, 1000});
   // The newest sample is that of 499.2 s.
   EXPECT_GE(FixesOf(store, "one"), 60u);
@@ -79,21 +81,21 @@ TEST(WindowStore, DropsWhatTheWindowHasDropped) {
   EXPECT_EQ(FixesOf(store, "one"), 20u * 5u);
 }
 
-TEST(WindowStore, PassesOverADamagedChunk) {
-  const TemporaryFolder folder;
-  WindowStore store(folder.Path());
+TEST_P(WindowStoreTest, PassesOverADamagedChunk) {
+  WindowStore store(Storage());
   for (int i = 0; i < 3; ++i) store.Save({{"one", Seconds(5.0 * i, 5)}}, kNoLimits);
-  SQLite::Database(folder.Path() / "windows.sqlite", SQLite::OPEN_READWRITE)
-      .exec("UPDATE chunks SET samples = x'0102030405' WHERE number = 2");
+  Storage()
+      .Open(WindowsSchema())
+      ->Execute("UPDATE chunks SET samples = $1 WHERE number = 2", {Blob("\1\2\3\4\5")});
   std::size_t fixes = 0;
   EXPECT_EQ(store.Load("one", [&](const Recording& samples) { fixes += samples.gnss.size(); }), 1u);
   EXPECT_EQ(fixes, 10u);
 }
 
-TEST(WindowStore, StartsAgainBesideAFileThatIsNoDatabase) {
+TEST(SqliteWindowStore, StartsAgainBesideAFileThatIsNoDatabase) {
   const TemporaryFolder folder;
   folder.Write("windows.sqlite", std::string(10000, 'x'));
-  WindowStore store(folder.Path());
+  WindowStore store(Storage(folder.Path()));
   store.Save({{"one", Seconds(0.0, 5)}}, kNoLimits);
   EXPECT_EQ(FixesOf(store, "one"), 5u);
 }

@@ -1,0 +1,97 @@
+#include "telltale/service/storage/stores.hpp"
+
+namespace telltale {
+namespace {
+
+using enum ColumnType;
+
+// CRC-32 of the blob of the row; none from programs that made none.
+const Column kChecksum{"checksum", kInteger, ""};
+
+// Of the lease under which the row was written; none where a daemon has the fleet alone.
+const Column kFence{"fence", kInteger, ""};
+
+}  // namespace
+
+const Schema& ModelsSchema() {
+  static const Schema schema{
+      .name = "models",
+      .tables = {{"models",
+                  {{"vehicle_id", kText, "NOT NULL"},
+                   {"revision", kInteger, "NOT NULL"},
+                   {"published_unix_s", kReal, "NOT NULL"},
+                   {"model", kBlob, "NOT NULL"},  // proto/model.proto, serialised
+                   {"reference_error_u", kReal, ""},
+                   {"reference_error_v", kReal, ""},
+                   {"reference_error_r", kReal, ""},
+                   {"verdict", kText, "NOT NULL DEFAULT 'UNKNOWN'"},
+                   {"verdict_reason", kText, "NOT NULL DEFAULT ''"},
+                   kChecksum,
+                   kFence},
+                  {"vehicle_id", "revision"}},
+                 {"diagnoses",
+                  {{"vehicle_id", kText, "NOT NULL"},
+                   {"model_revision", kInteger, "NOT NULL"},
+                   {"published_unix_s", kReal, "NOT NULL"},
+                   {"report", kBlob, "NOT NULL"},  // proto/report.proto, serialised
+                   kChecksum,
+                   kFence},
+                  {"vehicle_id"}}},
+      .version = 4,
+      .oldest_version = 2,
+  };
+  return schema;
+}
+
+const Schema& WindowsSchema() {
+  static const Schema schema{
+      .name = "windows",
+      .tables = {{"chunks",
+                  {{"vehicle_id", kText, "NOT NULL"},
+                   {"number", kInteger, "NOT NULL"},
+                   {"last_s", kReal, "NOT NULL"},
+                   {"samples", kBlob, "NOT NULL"}},  // PackChunk(), with its checksum
+                  {"vehicle_id", "number"}}},
+      .durability = Durability::kNewestMayBeLost,  // a few seconds of telemetry
+  };
+  return schema;
+}
+
+const Schema& RequestsSchema() {
+  static const Schema schema{
+      .name = "requests",
+      .tables = {{"requests",
+                  {{"number", kCounter, ""},
+                   {"correlation_id", kText, "NOT NULL UNIQUE"},
+                   {"request", kBlob, "NOT NULL"},  // proto/stored_request.proto, serialised
+                   kChecksum,
+                   {"slice", kInteger, ""}},  // of its boat
+                  {}}},
+  };
+  return schema;
+}
+
+const Schema& SlicesSchema() {
+  static const Schema schema{
+      .name = "slices",
+      .tables = {{"slices",
+                  {{"slice", kInteger, "NOT NULL"},
+                   kFence,  // of its newest lease
+                   {"owner", kText, "NOT NULL"},
+                   {"until_unix_s", kReal, "NOT NULL"}},
+                  {"slice"}},
+                 {"leases",  // all there have been
+                  {{"slice", kInteger, "NOT NULL"},
+                   {"fence", kInteger, "NOT NULL"},
+                   {"owner", kText, "NOT NULL"},
+                   {"since_unix_s", kReal, "NOT NULL"},
+                   {"until_unix_s", kReal, "NOT NULL"}},
+                  {"slice", "fence"}},
+                 {"daemons",
+                  {{"owner", kText, "NOT NULL"}, {"until_unix_s", kReal, "NOT NULL"}},
+                  {"owner"}}},
+  };
+  return schema;
+}
+
+}  // namespace telltale

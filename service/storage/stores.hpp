@@ -1,0 +1,19 @@
+#pragma once
+
+#include "telltale/service/storage/schema.hpp"
+
+namespace telltale {
+
+/// Each published model and each vehicle's last diagnosis.
+const Schema& ModelsSchema();
+
+/// The windows of the fleet in chunks.
+const Schema& WindowsSchema();
+
+/// The requests that wait for their answers.
+const Schema& RequestsSchema();
+
+/// Which daemon serves which part of the fleet: SliceLeases.
+const Schema& SlicesSchema();
+
+}  // namespace telltale

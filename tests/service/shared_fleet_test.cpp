@@ -1,0 +1,127 @@
+#include <signal.h>
+
+#include <chrono>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <string>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "service/shared_fleet_fixture.hpp"
+#include "support/stable_boat.hpp"
+#include "telltale/client/fleet/identification_client.hpp"
+#include "telltale/client/recording/telemetry_log/telemetry_log.hpp"
+#include "telltale/service/models/model_store.hpp"
+
+namespace telltale {
+namespace {
+
+using namespace std::chrono_literals;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+class SharedFleet : public SharedFleetTest {
+ protected:
+  // Slices 17, 43, 61 and 30: two for the daemon that comes first, which keeps the lower ones.
+  SharedFleet() : SharedFleetTest(4) {}
+
+  /// Starts two daemons, and waits until each has its half of the slices.
+  void StartBoth() {
+    one_ = StartNamed("one");
+    ASSERT_TRUE(one_->WaitForOutput("serving 4 vehicles:")) << one_->output();
+    two_ = StartNamed("two");
+    ASSERT_TRUE(two_->WaitForOutput("holds 32 of 64 slices")) << two_->output();
+    ASSERT_TRUE(two_->WaitForOutput("serving 2 vehicles:")) << two_->output();
+  }
+
+  void ReplayTo(const std::string& boat, const Recording& recording) const {
+    const auto log = folder_.Path() / ("log-" + boat);
+    WriteTelemetryLog(log, recording);
+    Run({"replay", "--log", log, "--vehicle-id", boat, "--speed", "60"});
+  }
+
+  /// No model was written under a lease that is older than that of the model before.
+  void ExpectModelsInTheOrderOfTheirLeases() const {
+    std::map<std::string, std::int64_t> newest;
+    Storage()
+        .Open(ModelsSchema())
+        ->Query("SELECT vehicle_id, fence FROM models ORDER BY vehicle_id, revision", {},
+                [&](const Row& row) {
+                  std::int64_t& before = newest[row.Text("vehicle_id")];
+                  EXPECT_GE(row.Integer("fence"), before) << row.Text("vehicle_id");
+                  before = row.Integer("fence");
+                });
+    EXPECT_FALSE(newest.empty());
+  }
+
+  std::unique_ptr<Process> one_;
+  std::unique_ptr<Process> two_;
+};
+
+TEST_F(SharedFleet, IsServedByTheOtherWhenADaemonIsKilled) {
+  ASSERT_NO_FATAL_FAILURE(StartBoth());
+  const Recording recording = SimulatedRecording(testing::StableBoat(), 0.0, 300.0, 4);
+  for (const std::string& boat : boats_) {
+    ReplayTo(boat, recording);
+    EXPECT_EQ(Start({"identify", "--vehicle-id", boat})->Wait(), 0) << boat;
+  }
+  ASSERT_TRUE(AwaitSavedWindow("boat-2"));
+  ASSERT_TRUE(AwaitSavedWindow("boat-3"));
+
+  two_->Signal(SIGKILL);
+  two_->Wait();
+  ASSERT_TRUE(one_->WaitForOutput("holds 64 of 64 slices, 32 of them newly"));
+  for (const std::string& boat : boats_) {
+    EXPECT_EQ(Start({"identify", "--vehicle-id", boat})->Wait(), 0) << boat;
+    EXPECT_EQ(ModelStore(Storage()).History(boat).size(), 2u) << boat;
+  }
+  EXPECT_THAT(one_->output(), Not(HasSubstr("UNKNOWN_VEHICLE")));
+  EXPECT_EQ(OverlappingLeases(), 0);
+  ExpectModelsInTheOrderOfTheirLeases();
+}
+
+// The client is told that the request is queued, and the daemon that told it is gone.
+TEST_F(SharedFleet, GetsTheAnswerThatADeadDaemonOwed) {
+  ASSERT_NO_FATAL_FAILURE(StartBoth());
+  ReplayTo("boat-2", SimulatedRecording(testing::StableBoat(), 0.0, 300.0, 4));
+  ASSERT_TRUE(AwaitSavedWindow("boat-2"));
+  const Participant participant(domain_.id());
+  IdentificationClient client(participant);
+  IdentifyRequest request = Request("owed");
+  request.vehicle_id = "boat-2";
+  request.coverage_check_replicates = 10;
+  const auto result = client.Identify(request, {.match = 60s, .reply = 240s, .retry = 1s},
+                                      [&](const IdentifyProgress&) { two_->Signal(SIGKILL); });
+  EXPECT_EQ(result.outcome, RequestOutcome::kPublished);
+  EXPECT_TRUE(one_->WaitForOutput("requests of the daemons before"));
+  EXPECT_TRUE(one_->WaitForOutput("for owed: PUBLISHED"));
+}
+
+TEST_F(SharedFleet, IsLeftAloneByADaemonThatWasSuspendedForLongerThanItsLeases) {
+  ASSERT_NO_FATAL_FAILURE(StartBoth());
+  two_->Suspend();
+  ASSERT_TRUE(one_->WaitForOutput("holds 64 of 64 slices, 32 of them newly"));
+  two_->Resume();
+  EXPECT_TRUE(two_->WaitForOutput("holds 0 of 64 slices"));
+  EXPECT_EQ(OverlappingLeases(), 0);
+}
+
+TEST_F(SharedFleet, IsNotSharedByADaemonThatHasItAlone) {
+  const auto alone = StartDaemon();
+  Process second({TELLTALED, "--config", ConfigOf("second", "")});
+  EXPECT_EQ(second.Wait(), 1);
+  EXPECT_THAT(second.output(), HasSubstr("in use by another telltaled"));
+}
+
+TEST_F(SharedFleet, IsHandedOverByADaemonThatEnds) {
+  ASSERT_NO_FATAL_FAILURE(StartBoth());
+  two_->Signal(SIGTERM);
+  EXPECT_EQ(two_->Wait(), 0);
+  ASSERT_TRUE(one_->WaitForOutput("holds 64 of 64 slices, 32 of them newly"));
+  EXPECT_EQ(OverlappingLeases(), 0);
+}
+
+}  // namespace
+}  // namespace telltale
