@@ -15,10 +15,8 @@ namespace telltale {
 template <class Wire>
 class Reader : public Endpoint {
  public:
-  explicit Reader(const Participant& participant) : Reader(participant, kContract<Wire>.qos()) {}
-
-  /// With a contract that is made from that of the topic.
-  Reader(const Participant& participant, const Qos& qos)
+  /// `qos`: the contract of the topic, or one that is made from it.
+  explicit Reader(const Participant& participant, const Qos& qos = kContract<Wire>.qos())
       : Endpoint(participant, Kind::kReader, Descriptor<Wire>(), kContract<Wire>.topic, qos.get()) {
     Checked(dds_set_status_mask(handle(), DDS_DATA_AVAILABLE_STATUS), "setting a status mask");
   }

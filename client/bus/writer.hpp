@@ -13,10 +13,8 @@ namespace telltale {
 template <class Wire>
 class Writer : public Endpoint {
  public:
-  explicit Writer(const Participant& participant) : Writer(participant, kContract<Wire>.qos()) {}
-
-  /// With a contract that is made from that of the topic.
-  Writer(const Participant& participant, const Qos& qos)
+  /// `qos`: the contract of the topic, or one that is made from it.
+  explicit Writer(const Participant& participant, const Qos& qos = kContract<Wire>.qos())
       : Endpoint(participant, Kind::kWriter, Descriptor<Wire>(), kContract<Wire>.topic, qos.get()) {
   }
 

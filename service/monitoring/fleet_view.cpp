@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include <spdlog/fmt/fmt.h>
+
 #include "telltale/idl/codec/json/json_message.hpp"
 #include "telltale/service/monitoring/fleet_json.hpp"
 
@@ -144,7 +146,8 @@ void FleetView::TakeSource(const std::string& name, const std::optional<std::str
 std::vector<std::string> FleetView::SourceFaults() const {
   const std::lock_guard lock(mutex_);
   std::vector<std::string> faults;
-  for (const auto& [name, fault] : source_faults_) faults.push_back(name + ": " + fault);
+  for (const auto& [name, fault] : source_faults_)
+    faults.push_back(fmt::format("{}: {}", name, fault));
   return faults;
 }
 

@@ -14,7 +14,7 @@ constexpr int kRestPerWork = 3;
 PathPredictions::Answer PathPredictions::Ask(
     const Question& question, const std::function<Result<PredictedPaths>()>& predict) {
   Lock lock(mutex_);
-  if (const Answer known = AwaitAnswerOrTurn(lock, question)) return known;
+  if (Answer known = AwaitAnswerOrTurn(lock, question)) return known;
   if (computing_ || Clock::now() < rests_until_) return nullptr;
   computing_ = true;
   lock.unlock();

@@ -81,8 +81,8 @@ struct FilterGain {
 
 /// A fix or a heading, at the time at which the boat had what it reads.
 struct Reading {
-  double time_s;
-  bool is_fix;
+  double time_s = 0.0;
+  bool is_fix = false;
   double north_m = 0.0;
   double east_m = 0.0;
   double psi_rad = 0.0;
