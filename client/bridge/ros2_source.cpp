@@ -20,13 +20,13 @@ Ros2Source::Ros2Source(const Participant& bus, const Ros2SourceOptions& options,
 
 void Ros2Source::Run(const std::function<void()>& second) {
   using Clock = std::chrono::steady_clock;
-  constexpr auto kSecond = std::chrono::seconds(1);
+  constexpr auto kPeriod = std::chrono::seconds(1);
   const UtcClock clock;
-  auto next = Clock::now() + kSecond;
+  auto next = Clock::now() + kPeriod;
   while (!stopped_) {
     bridge_.Wait(next - Clock::now());
     if (Clock::now() < next) continue;
-    next = Clock::now() + kSecond;
+    next = Clock::now() + kPeriod;
     if (publisher_) publisher_->EachSecond(clock.Now());
     second();
   }

@@ -41,7 +41,7 @@ class FixedLagSmoother {
 
   void CloseOldest() {
     const Start& start = open_.front();
-    states_.push_back(start.mean + start.covariance * ScoreOfMovesSince(start));
+    states_.emplace_back(start.mean + start.covariance * ScoreOfMovesSince(start));
     open_.pop_front();
     const std::size_t needed =
         open_.empty() ? dropped_ + moves_.size() : open_.front().moves_before;
