@@ -33,7 +33,8 @@ class Ros2BridgeTest : public testing::Test {
 #endif
   }
 
-  std::vector<std::string> Peer(const std::string& does, std::vector<std::string> names) const {
+  std::vector<std::string> Peer([[maybe_unused]] const std::string& does,
+                                [[maybe_unused]] std::vector<std::string> names) const {
 #ifdef TELLTALE_ROS2_PEER
     names.insert(names.begin(), {TELLTALE_ROS2_PEER, std::to_string(domain_.id()), does});
 #endif
