@@ -7,12 +7,15 @@
 namespace telltale {
 namespace {
 
-/// Moves of the filter since the start of the oldest window that is open.
+/// Holds the moves of the filter since the start of the oldest window that is open, and none while
+/// none is.
 class FixedLagSmoother {
  public:
   explicit FixedLagSmoother(const std::vector<SmoothingWindow>& windows) : windows_(windows) {}
 
-  void Add(const FilterMove& move) { moves_.push_back(move); }
+  void Add(const FilterMove& move) {
+    if (!open_.empty()) moves_.push_back(move);
+  }
 
   bool HasOneToOpen(double before_s) const {
     return opened_ < windows_.size() && windows_[opened_].time_s < before_s;
