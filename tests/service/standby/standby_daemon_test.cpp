@@ -45,6 +45,15 @@ class StandbyDaemon : public ServiceTest {
     return published ? result.reply->model->revision : 0;
   }
 
+  void KillTheFirstOnceBothHaveAModel() {
+    StartPair();
+    ReplayToBoth();
+    ASSERT_EQ(Identify("first"), 1u);
+    ASSERT_TRUE(DaemonPair::Keeps(*two_, 1));
+    one_->Signal(SIGKILL);
+    one_->Wait();
+  }
+
   /// Which revisions the topic of models has brought so far, in their order.
   const std::vector<std::uint64_t>& RevisionsSeen() {
     while (models_.Wait(200ms)) {
@@ -81,12 +90,7 @@ class StandbyDaemon : public ServiceTest {
 };
 
 TEST_F(StandbyDaemon, TakesOverWithAWarmWindowWhenTheOtherIsKilled) {
-  StartPair();
-  ReplayToBoth();
-  ASSERT_EQ(Identify("first"), 1u);
-  ASSERT_TRUE(DaemonPair::Keeps(*two_, 1));
-  one_->Signal(SIGKILL);
-  one_->Wait();
+  ASSERT_NO_FATAL_FAILURE(KillTheFirstOnceBothHaveAModel());
   EXPECT_TRUE(DaemonPair::TakesOver(*two_, 2)) << two_->output();
   // It has what prediction errors are measured against too, which no wire carries.
   EXPECT_TRUE(AwaitQuality(kVehicleId, [](const Quality& quality) {
@@ -130,12 +134,7 @@ TEST_F(StandbyDaemon, DoesNotAnswerWhileTheOtherServes) {
 }
 
 TEST_F(StandbyDaemon, LearnsWhatWasPublishedBeforeItServesAgain) {
-  StartPair();
-  ReplayToBoth();
-  ASSERT_EQ(Identify("first"), 1u);
-  ASSERT_TRUE(DaemonPair::Keeps(*two_, 1));
-  one_->Signal(SIGKILL);
-  one_->Wait();
+  ASSERT_NO_FATAL_FAILURE(KillTheFirstOnceBothHaveAModel());
   ASSERT_EQ(Identify("second"), 2u);
   ASSERT_EQ(Identify("third"), 3u);
 
