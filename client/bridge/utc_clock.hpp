@@ -2,6 +2,8 @@
 
 #include <chrono>
 
+#include "telltale/client/fleet/unix_now.hpp"
+
 namespace telltale {
 
 /// UTC in seconds, by a clock that is set once and never goes back.
@@ -14,8 +16,7 @@ class UtcClock {
 
  private:
   std::chrono::steady_clock::time_point steady_ = std::chrono::steady_clock::now();
-  double begun_s_ =
-      std::chrono::duration<double>(std::chrono::system_clock::now().time_since_epoch()).count();
+  double begun_s_ = UnixNow();
 };
 
 }  // namespace telltale

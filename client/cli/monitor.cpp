@@ -14,6 +14,7 @@
 #include "telltale/client/cli/live_options.hpp"
 #include "telltale/client/cli/quality_table.hpp"
 #include "telltale/client/fleet/subscriber.hpp"
+#include "telltale/client/fleet/unix_now.hpp"
 #include "telltale/idl/codec/json/quality.hpp"
 
 namespace telltale {
@@ -29,10 +30,6 @@ struct MonitorArguments {
   QualityView view;
   LiveOptions live;
 };
-
-double SystemNow() {
-  return std::chrono::duration<double>(std::chrono::system_clock::now().time_since_epoch()).count();
-}
 
 /// The newest quality of every vehicle. A daemon ends each round with what names no vehicle.
 class Rounds {
@@ -53,7 +50,7 @@ class Rounds {
 /// One line a vehicle.
 std::string JsonLines(const std::vector<Quality>& shown) {
   std::string lines;
-  for (const Quality& quality : shown) lines += PrintQualityLine(quality, SystemNow()) + '\n';
+  for (const Quality& quality : shown) lines += PrintQualityLine(quality, UnixNow()) + '\n';
   return lines;
 }
 
@@ -77,7 +74,7 @@ std::string Rendered(const std::map<std::string, Quality>& fleet,
   }
   const Quality& quality = Named(fleet, arguments.vehicle_id);
   if (arguments.json) return JsonLines({quality});
-  return QualityDetail(quality, SystemNow()) + '\n';
+  return QualityDetail(quality, UnixNow()) + '\n';
 }
 
 /// Whether enough time has passed since the last JSON: a line a vehicle and second, however often

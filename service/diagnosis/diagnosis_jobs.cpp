@@ -4,10 +4,10 @@
 #include <thread>
 #include <utility>
 
+#include "telltale/client/fleet/unix_now.hpp"
 #include "telltale/core/data/preparation.hpp"
 #include "telltale/core/diagnosis/diagnose.hpp"
 #include "telltale/service/diagnosis/diagnosis_recordings.hpp"
-#include "telltale/service/unix_now.hpp"
 
 namespace telltale {
 namespace {

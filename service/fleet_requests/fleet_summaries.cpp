@@ -4,7 +4,7 @@
 #include <set>
 #include <string_view>
 
-#include "telltale/service/unix_now.hpp"
+#include "telltale/client/fleet/unix_now.hpp"
 
 namespace telltale {
 namespace {

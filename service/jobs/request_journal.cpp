@@ -10,9 +10,9 @@
 
 #include <spdlog/spdlog.h>
 
+#include "telltale/client/fleet/unix_now.hpp"
 #include "telltale/service/storage/stored_blob.hpp"
 #include "telltale/service/storage/stores.hpp"
-#include "telltale/service/unix_now.hpp"
 
 namespace telltale {
 namespace {

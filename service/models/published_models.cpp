@@ -7,9 +7,9 @@
 
 #include <spdlog/spdlog.h>
 
+#include "telltale/client/fleet/unix_now.hpp"
 #include "telltale/idl/codec/wire/model.hpp"
 #include "telltale/service/models/predecessor.hpp"
-#include "telltale/service/unix_now.hpp"
 
 namespace telltale {
 namespace {

@@ -4,9 +4,9 @@
 
 #include <spdlog/spdlog.h>
 
+#include "telltale/client/fleet/unix_now.hpp"
 #include "telltale/core/data/recording_parts.hpp"
 #include "telltale/service/models/free_run_error.hpp"
-#include "telltale/service/unix_now.hpp"
 
 namespace telltale {
 namespace {

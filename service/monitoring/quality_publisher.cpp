@@ -5,10 +5,10 @@
 
 #include <spdlog/spdlog.h>
 
+#include "telltale/client/fleet/unix_now.hpp"
 #include "telltale/idl/codec/json/json_message.hpp"
 #include "telltale/idl/codec/wire/quality.hpp"
 #include "telltale/service/monitoring/fleet_json.hpp"
-#include "telltale/service/unix_now.hpp"
 
 namespace telltale {
 namespace {

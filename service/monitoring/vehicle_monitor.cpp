@@ -4,9 +4,9 @@
 #include <cmath>
 #include <utility>
 
+#include "telltale/client/fleet/unix_now.hpp"
 #include "telltale/core/base/median.hpp"
 #include "telltale/service/monitoring/quality_verdict.hpp"
-#include "telltale/service/unix_now.hpp"
 
 namespace telltale {
 namespace {

@@ -6,8 +6,8 @@
 #include <SQLiteCpp/Backup.h>
 #include <SQLiteCpp/SQLiteCpp.h>
 
+#include "telltale/client/fleet/unix_now.hpp"
 #include "telltale/service/storage/directory_lock.hpp"
-#include "telltale/service/unix_now.hpp"
 
 namespace telltale {
 namespace {

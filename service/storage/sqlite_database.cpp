@@ -7,8 +7,8 @@
 #include <spdlog/spdlog.h>
 #include <sqlite3.h>
 
+#include "telltale/client/fleet/unix_now.hpp"
 #include "telltale/service/storage/salvage.hpp"
-#include "telltale/service/unix_now.hpp"
 
 namespace telltale {
 namespace {

@@ -6,7 +6,7 @@
 
 #include <spdlog/spdlog.h>
 
-#include "telltale/service/unix_now.hpp"
+#include "telltale/client/fleet/unix_now.hpp"
 
 namespace telltale {
 namespace {

@@ -10,6 +10,7 @@
 #include "telltale/client/exchange/mss.hpp"
 #include "telltale/client/exchange/vrx.hpp"
 #include "telltale/client/fleet/request_reply.hpp"
+#include "telltale/client/fleet/unix_now.hpp"
 #include "telltale/client/report/report_page.hpp"
 #include "telltale/core/base/version.hpp"
 #include "telltale/idl/codec/json/json_message.hpp"
@@ -18,7 +19,6 @@
 #include "telltale/idl/codec/json/quality.hpp"
 #include "telltale/idl/proto/fleet.pb.h"
 #include "telltale/service/monitoring/fleet_json.hpp"
-#include "telltale/service/unix_now.hpp"
 #include "telltale/service/web/json_answer.hpp"
 #include "telltale/service/web/model_answers.hpp"
 
