@@ -15,7 +15,7 @@ constexpr int kEast = kNorthState + 1;
 constexpr double kCurrentWalk = 0.003;
 
 constexpr double kLongestStepS = 0.05;
-constexpr double kLongestDecay = 1.0;   // of a step, in time constants of the damping
+constexpr double kLongestDecay = 1.5;   // of a step, in time constants of the damping
 constexpr double kMostSubsteps = 20.0;  // of the longest step
 constexpr double kShortestStepS = 1e-6;
 constexpr double kHuberLimit = 4.0;
@@ -36,6 +36,13 @@ Eigen::Vector2d VelocityOverGround(const FilterState& x) {
   const double u = x[kVelocityState];
   const double v = x[kVelocityState + 1];
   return {c * u - s * v + x[kCurrentState], s * u + c * v + x[kCurrentState + 1]};
+}
+
+double SpectralRadius(const Eigen::Matrix2d& a) {
+  const double half_trace = 0.5 * a.trace();
+  const double discriminant = half_trace * half_trace - a.determinant();
+  return discriminant < 0.0 ? std::sqrt(a.determinant())
+                            : std::abs(half_trace) + std::sqrt(discriminant);
 }
 
 }  // namespace
@@ -123,7 +130,8 @@ void ExtendedKalmanFilter::PredictTo(double time_s) {
 double ExtendedKalmanFilter::LongestStepS() const {
   const auto at = dynamics_.At(x_.segment<3>(kVelocityState), FossenDynamics::Thrusts::Zero(),
                                FossenDynamics::Thrusts::Zero());
-  const double rate = at.by_nu.cwiseAbs().rowwise().sum().maxCoeff();
+  const double rate =
+      std::max(std::abs(at.by_nu(0, 0)), SpectralRadius(at.by_nu.bottomRightCorner<2, 2>()));
   return std::max(kLongestStepS / kMostSubsteps, std::min(kLongestStepS, kLongestDecay / rate));
 }
 
