@@ -26,7 +26,7 @@ SKIPPED = 77
 VEHICLE = "docs/vehicles/blueboat.textproto"
 # As in the vehicle file: neutral, full forward, full reverse.
 PULSES = ["--port-pulses-us", "1511", "1911", "1111", "--starboard-pulses-us", "1511", "1111", "1911"]
-THRUST_CURVE = ["Tf1", "Tf2", "Tr1", "Tr2", "d0"]
+THRUST_CURVE = ["Tf1", "Tf2", "Tr1", "Tr2", "df", "dr"]
 
 # What is altered: the effect that it stands for, the sizes of its parameters (SI), and how blind_alter makes it.
 Alteration = collections.namedtuple("Alteration", "name effect sizes options")

@@ -127,6 +127,7 @@ proto::PhysicalForm PhysicalFormOf(const FossenVector& parameters) {
   for (const FossenParameter at : {kReverseLinear, kReverseQuadratic}) {
     form.add_reverse_thrust(parameters[At(at)]);
   }
+  form.set_reverse_loss_s_m(parameters[At(kReverseLoss)]);
   return form;
 }
 
@@ -151,7 +152,9 @@ void AddNotes(const Identification& identification, const Vehicle& vehicle,
   if (identification.physical) {
     message.add_notes(
         "physical is the same boat as M nu_dot + C(nu) nu + D(nu) nu = tau over m11 = m - X_udot: "
-        "with M and D times m11, forces are newtons. C follows from M.");
+        "with M and D times m11, forces are newtons. C follows from M. In reverse a propeller "
+        "keeps "
+        "1 / (1 + (reverseLossSM u)^8) of its thrust while u > 0.");
   } else {
     message.add_notes(
         "Identifiable beyond the coefficients are ratios alone, W33 d / (2 W11) for one, from the "

@@ -38,13 +38,15 @@ class PhysicalSdf {
 
   std::string Thrust() const {
     return Comment("Thrust of one propeller at full forward command: " +
-                   Text(FullThrust(kForwardLinear, kForwardQuadratic)) + " N.") +
+                   Text(FullThrust(kForwardLinear, kForwardQuadratic, kForwardDeadBand)) + " N.") +
            Comment("At full reverse command: " +
-                   Text(-FullThrust(kReverseLinear, kReverseQuadratic)) + " N.") +
+                   Text(-FullThrust(kReverseLinear, kReverseQuadratic, kReverseDeadBand)) + " N.") +
            Comment("Thrust follows the command with a first-order lag of " +
                    Text(Of(kTimeConstant).estimate) + " s.") +
-           Comment("No thrust between " + Text(-Of(kDeadBand).estimate) + " and " +
-                   Text(Of(kDeadBand).estimate) + " of full command.");
+           Comment("No thrust between " + Text(-Of(kReverseDeadBand).estimate) + " and " +
+                   Text(Of(kForwardDeadBand).estimate) + " of full command.") +
+           Comment("No place here: in reverse a propeller keeps 1 / (1 + (" +
+                   Text(Of(kReverseLoss).estimate) + " u)^8) of its thrust at speed u ahead.");
   }
 
   std::string Plugin() const {
@@ -69,8 +71,9 @@ class PhysicalSdf {
   double Scaled(FossenParameter parameter) const { return mass_kg_ * Of(parameter).estimate; }
 
   // The command counts beyond the dead band.
-  double FullThrust(FossenParameter linear, FossenParameter quadratic) const {
-    const double e = 1.0 - Of(kDeadBand).estimate;
+  double FullThrust(FossenParameter linear, FossenParameter quadratic,
+                    FossenParameter dead_band) const {
+    const double e = 1.0 - Of(dead_band).estimate;
     return Scaled(linear) * e + Scaled(quadratic) * e * e;
   }
 

@@ -227,6 +227,12 @@ NuDot AugmentedBoat::Acceleration(const Nu& nu, double psi_rad, const Drive& dri
     nu_dot.r += instant.hull[2][i];
   }
   instant.thrust = drive.thrust;
+  const double reverse_share = model_.model.reverse_loss.Share(instant.nu_r.u);
+  for (NuDot& thrust : instant.thrust) {
+    if (thrust.u < 0.0) {
+      thrust = {reverse_share * thrust.u, reverse_share * thrust.v, reverse_share * thrust.r};
+    }
+  }
   for (const auto& [effect, values] : Hooked(Hook::kThrustShare)) {
     for (const Side side : {Side::kPort, Side::kStarboard}) {
       const double share = effect->ThrustShare(values, side, instant);

@@ -58,6 +58,9 @@ Result<VesselModel> ModelOf(const Identification& identification) {
   if (identification.thruster_time_constant) {
     model.thruster_time_constant_s = identification.thruster_time_constant->estimate;
   }
+  if (identification.physical) {
+    model.reverse_loss = ReverseLossOf(identification.physical->Estimates());
+  }
   return model;
 }
 

@@ -190,7 +190,7 @@ Result<Identification> IdentifyPhysicalModel(const PreparedDataset& dataset, con
   identification.parameterization = Parameterization::kPropeller;
   identification.estimator = Estimator::kPredictionError;
   identification.sampling_period_s = dataset.sampling_period_s;
-  identification.dead_zone = {fit.parameters[At(kDeadBand)], -fit.parameters[At(kDeadBand)]};
+  identification.dead_zone = DeadZoneOf(fit.parameters);
   identification.physical = ModelWithBounds(fit, prior, draws, options.interval_level);
   identification.physical->propeller_separation_m = vehicle.propeller_separation_m;
   WriteImpliedCoefficients(fit.parameters, draws, vehicle.propeller_separation_m,

@@ -25,7 +25,8 @@ Eigen::Matrix3Xd Run(const VesselModel& model, const VesselState& start,
   for (std::size_t k = 0; k < steps; ++k) {
     const double time_s = commands.front().time_s + static_cast<double>(k) * step_s;
     while (held + 1 != commands.end() && (held + 1)->time_s <= time_s + 1e-6) ++held;
-    const NuDot propelled = dynamics.Propelled(model.MeanThrust(thrust, held->delta, step_s));
+    const NuDot propelled =
+        dynamics.Propelled(model.ThrustAt(nu.u, model.MeanThrust(thrust, held->delta, step_s)));
     thrust = model.ThrustAfter(thrust, held->delta, step_s);
     nu = dynamics.Step(
         {propelled.u + disturbance_axes[0].Next(), propelled.v + disturbance_axes[1].Next(),

@@ -48,7 +48,9 @@ const std::array<FossenParameterName, kFossenParameters>& FossenParameterNames()
       {"Tf2", "m/s^2", "thrust forward, quadratic in the command"},
       {"Tr1", "m/s^2", "thrust in reverse, linear in the command"},
       {"Tr2", "m/s^2", "thrust in reverse, quadratic in the command"},
-      {"d0", "1", "dead band of the command"},
+      {"Tru", "s/m", "one over the speed ahead at which half of the thrust in reverse is lost"},
+      {"df", "1", "dead band of the command ahead"},
+      {"dr", "1", "dead band of the command in reverse"},
       {"tau", "s", "time constant of the thrust"},
       {"delay_commands", "s", "delay of the commands behind the headings"},
       {"delay_fixes", "s", "delay of the fixes behind the headings"},
@@ -58,6 +60,7 @@ const std::array<FossenParameterName, kFossenParameters>& FossenParameterNames()
 
 FossenDynamics::FossenDynamics(const FossenVector& parameters, double propeller_separation_m)
     : p_(parameters),
+      reverse_loss_{parameters[telltale::At(kReverseLoss)]},
       half_separation_m_(0.5 * propeller_separation_m),
       inverse_mass_(InverseMass(parameters)) {}
 
@@ -67,7 +70,7 @@ FossenDynamics::Evaluation FossenDynamics::At(const Eigen::Vector3d& nu, const T
   const double u = nu[0];
   const double v = nu[1];
   const double r = nu[2];
-  const Eigen::Vector3d thrust = ByThrust(port, starboard);
+  const Eigen::Vector3d thrust = ByThrust(u, port, starboard);
   Evaluation at;
   at.nu_dot[0] = p(kM22) * v * r + p(kM23) * r * r - (p(kXu) + p(kXuu) * std::abs(u)) * u;
   const double sway =
@@ -85,28 +88,38 @@ FossenDynamics::Evaluation FossenDynamics::At(const Eigen::Vector3d& nu, const T
       -(p(kM22) - 1.0 + p(kNuv)) * u - p(kNv),
       -(p(kM23) + p(kNur)) * u - p(kNr) - 2.0 * p(kNrr) * std::abs(r);
   at.by_nu.bottomRows<2>() = inverse_mass_ * force;
+  const Thrusts reverse(0.0, 0.0, p(kReverseLinear), -p(kReverseQuadratic));
+  const double reverse_by_u = reverse_loss_.ByU(u);
+  at.by_nu.col(0) +=
+      Propelled(reverse_by_u * reverse.dot(port), reverse_by_u * reverse.dot(starboard));
   return at;
 }
 
-Eigen::Vector3d FossenDynamics::ByThrust(const Thrusts& port, const Thrusts& starboard) const {
+Eigen::Vector3d FossenDynamics::ByThrust(double u, const Thrusts& port,
+                                         const Thrusts& starboard) const {
+  const double share = reverse_loss_.Share(u);
   const Thrusts curve(p_[telltale::At(kForwardLinear)], p_[telltale::At(kForwardQuadratic)],
-                      p_[telltale::At(kReverseLinear)], -p_[telltale::At(kReverseQuadratic)]);
-  const double port_thrust = curve.dot(port);
-  const double starboard_thrust = curve.dot(starboard);
+                      share * p_[telltale::At(kReverseLinear)],
+                      -share * p_[telltale::At(kReverseQuadratic)]);
+  return Propelled(curve.dot(port), curve.dot(starboard));
+}
+
+// Of the thrust of each propeller.
+Eigen::Vector3d FossenDynamics::Propelled(double port, double starboard) const {
   Eigen::Vector3d nu_dot;
-  nu_dot[0] = port_thrust + starboard_thrust;
-  nu_dot.tail<2>() = inverse_mass_.col(1) * (half_separation_m_ * (port_thrust - starboard_thrust));
+  nu_dot[0] = port + starboard;
+  nu_dot.tail<2>() = inverse_mass_.col(1) * (half_separation_m_ * (port - starboard));
   return nu_dot;
 }
 
-Eigen::Matrix<double, 3, 19> FossenDynamics::ByParameter(const Eigen::Vector3d& nu,
-                                                         const Eigen::Vector3d& nu_dot,
-                                                         const Thrusts& port,
-                                                         const Thrusts& starboard) const {
+Eigen::Matrix<double, 3, kForceParameters> FossenDynamics::ByParameter(
+    const Eigen::Vector3d& nu, const Eigen::Vector3d& nu_dot, const Thrusts& port,
+    const Thrusts& starboard) const {
   const double u = nu[0];
   const double v = nu[1];
   const double r = nu[2];
-  Eigen::Matrix<double, 3, 19> by = Eigen::Matrix<double, 3, 19>::Zero();
+  Eigen::Matrix<double, 3, kForceParameters> by =
+      Eigen::Matrix<double, 3, kForceParameters>::Zero();
   const auto set = [&by](FossenParameter parameter, double surge, double sway, double yaw) {
     by.col(telltale::At(parameter)) << surge, sway, yaw;
   };
@@ -129,8 +142,13 @@ Eigen::Matrix<double, 3, 19> FossenDynamics::ByParameter(const Eigen::Vector3d& 
   const Thrusts difference = half_separation_m_ * (port - starboard);
   set(kForwardLinear, sum[0], 0.0, difference[0]);
   set(kForwardQuadratic, sum[1], 0.0, difference[1]);
-  set(kReverseLinear, sum[2], 0.0, difference[2]);
-  set(kReverseQuadratic, -sum[3], 0.0, -difference[3]);
+  const double share = reverse_loss_.Share(u);
+  set(kReverseLinear, share * sum[2], 0.0, share * difference[2]);
+  set(kReverseQuadratic, -share * sum[3], 0.0, -share * difference[3]);
+  const Thrusts reverse(0.0, 0.0, p_[telltale::At(kReverseLinear)],
+                        -p_[telltale::At(kReverseQuadratic)]);
+  const double by_loss = reverse_loss_.ByPerSpeed(u);
+  set(kReverseLoss, by_loss * reverse.dot(sum), 0.0, by_loss * reverse.dot(difference));
   by.bottomRows<2>() = (inverse_mass_ * by.bottomRows<2>()).eval();
   return by;
 }
@@ -171,6 +189,14 @@ Eigen::VectorXd CoefficientsOf(const FossenVector& p, double propeller_separatio
   return c.array() + 0.0;  // no negative zeros
 }
 
+DeadZone DeadZoneOf(const FossenVector& parameters) {
+  return {parameters[At(kForwardDeadBand)], -parameters[At(kReverseDeadBand)]};
+}
+
+ReverseLoss ReverseLossOf(const FossenVector& parameters) {
+  return {parameters[At(kReverseLoss)]};
+}
+
 VesselModel VesselModelOf(const FossenVector& parameters, double propeller_separation_m) {
   VesselModel model = VesselModel::OfZeros(
       Structure::kFirstOrderDynamic, Parameterization::kPropeller, Discretisation::kContinuous);
@@ -178,7 +204,8 @@ VesselModel VesselModelOf(const FossenVector& parameters, double propeller_separ
   model.theta[0] = all.head(kSurgeCoefficients);
   model.theta[1] = all.segment(kSurgeCoefficients, kTurningCoefficients);
   model.theta[2] = all.segment(kSurgeCoefficients + kTurningCoefficients, kTurningCoefficients);
-  model.dead_zone = {parameters[At(kDeadBand)], -parameters[At(kDeadBand)]};
+  model.dead_zone = DeadZoneOf(parameters);
+  model.reverse_loss = ReverseLossOf(parameters);
   model.thruster_time_constant_s = parameters[At(kTimeConstant)];
   return model;
 }

@@ -6,6 +6,7 @@
 
 #include <Eigen/Core>
 
+#include "telltale/core/vessel/reverse_loss.hpp"
 #include "telltale/core/vessel/vessel_model.hpp"
 
 namespace telltale {
@@ -17,9 +18,10 @@ namespace telltale {
 /// C follows from M, D nu = [(Xu + Xuu |u|) u; (Yv + Yvv |v| + Yuv u) v + (Yr + Yur u) r;
 /// (Nv + Nuv u) v + (Nr + Nrr |r| + Nur u) r], tau = [Tp + Ts; 0; (b / 2) (Tp - Ts)]. A propeller
 /// gives T = forward_linear e + forward_quadratic e^2 for e, the command beyond the dead band, and
-/// T = -(reverse_linear e + reverse_quadratic e^2) in reverse; thrust follows with a first-order
-/// lag. Drag is positive where it opposes the motion. Source: Fossen, Handbook of Marine Craft
-/// Hydrodynamics and Motion Control, 2nd ed., 6.5 and 7.1.
+/// T = -(reverse_linear e + reverse_quadratic e^2) ReverseLoss::Share(u) in reverse, beyond a dead
+/// band of its own; thrust follows with a first-order lag. Drag is positive where it opposes the
+/// motion. Source: Fossen, Handbook of Marine Craft Hydrodynamics and Motion Control, 2nd ed., 6.5
+/// and 7.1.
 enum class FossenParameter : std::size_t {
   kM22,
   kM23,
@@ -40,13 +42,15 @@ enum class FossenParameter : std::size_t {
   kForwardQuadratic,
   kReverseLinear,
   kReverseQuadratic,
-  kDeadBand,
+  kReverseLoss,
+  kForwardDeadBand,
+  kReverseDeadBand,
   kTimeConstant,
   kCommandDelay,
   kFixDelay,
 };
 
-inline constexpr std::size_t kFossenParameters = 23;
+inline constexpr std::size_t kFossenParameters = 25;
 using FossenVector = Eigen::Matrix<double, static_cast<int>(kFossenParameters), 1>;
 using FossenSquare =
     Eigen::Matrix<double, static_cast<int>(kFossenParameters), static_cast<int>(kFossenParameters)>;
@@ -64,6 +68,9 @@ struct FossenParameterName {
 /// Symbol, unit and meaning in the order of FossenParameter.
 const std::array<FossenParameterName, kFossenParameters>& FossenParameterNames();
 
+/// Those before the dead bands, which act through the lagged commands.
+inline constexpr int kForceParameters = static_cast<int>(FossenParameter::kForwardDeadBand);
+
 /// Accelerations of the physical form with their derivatives.
 class FossenDynamics {
  public:
@@ -80,21 +87,30 @@ class FossenDynamics {
   /// nu_dot under the lagged regressors of both propellers.
   Evaluation At(const Eigen::Vector3d& nu, const Thrusts& port, const Thrusts& starboard) const;
 
-  /// d nu_dot / d parameter for the parameters before kDeadBand; `nu_dot` as At() gives it.
-  Eigen::Matrix<double, 3, 19> ByParameter(const Eigen::Vector3d& nu, const Eigen::Vector3d& nu_dot,
-                                           const Thrusts& port, const Thrusts& starboard) const;
+  /// d nu_dot / d parameter for the first kForceParameters; `nu_dot` as At() gives it.
+  Eigen::Matrix<double, 3, kForceParameters> ByParameter(const Eigen::Vector3d& nu,
+                                                         const Eigen::Vector3d& nu_dot,
+                                                         const Thrusts& port,
+                                                         const Thrusts& starboard) const;
 
-  /// d nu_dot for given changes of the lagged regressors.
-  Eigen::Vector3d ByThrust(const Thrusts& port, const Thrusts& starboard) const;
+  /// d nu_dot for given changes of the lagged regressors at speed u.
+  Eigen::Vector3d ByThrust(double u, const Thrusts& port, const Thrusts& starboard) const;
 
  private:
+  Eigen::Vector3d Propelled(double port, double starboard) const;
+
   FossenVector p_;
+  ReverseLoss reverse_loss_;
   double half_separation_m_;
   Eigen::Matrix2d inverse_mass_;  ///< of sway and yaw
 };
 
+DeadZone DeadZoneOf(const FossenVector& parameters);
+ReverseLoss ReverseLossOf(const FossenVector& parameters);
+
 /// The same boat in the regressors of Parameterization::kPropeller, with a first-order thruster
-/// lag. It is exact: the physical form lies in their span. Delays are not part of it.
+/// lag and the reverse loss. It is exact: the physical form lies in their span. Delays are not part
+/// of it.
 VesselModel VesselModelOf(const FossenVector& parameters, double propeller_separation_m);
 
 /// Its coefficients in the order surge, sway, yaw and of Regressors(), then the time constant.

@@ -69,7 +69,21 @@ ThrustRegressors VesselModel::MeanThrust(const ThrustRegressors& thrust,
   return EachApproaching(thrust, SteadyThrust(delta), LagOf(*this, elapsed_s).mean);
 }
 
-NuDot VesselModel::AccelerationUnder(const ThrustRegressors& thrust, const Nu& nu) const {
+ThrustRegressors VesselModel::ThrustAt(double u, const ThrustRegressors& thrust) const {
+  if (reverse_loss.per_speed == 0.0) return thrust;
+  Require(parameterization == Parameterization::kPropeller,
+          "a reverse loss in the parameterization by propeller");
+  const double share = reverse_loss.Share(u);
+  ThrustRegressors at = thrust;
+  for (const std::size_t reverse : {2, 3}) {
+    at.surge[reverse] *= share;
+    at.turning[reverse] *= share;
+  }
+  return at;
+}
+
+NuDot VesselModel::AccelerationUnder(const ThrustRegressors& before_loss, const Nu& nu) const {
+  const ThrustRegressors thrust = ThrustAt(nu.u, before_loss);
   return {RowTimesTheta(*this, Equation::kSurge, nu, thrust),
           RowTimesTheta(*this, Equation::kSway, nu, thrust),
           RowTimesTheta(*this, Equation::kYaw, nu, thrust)};

@@ -8,6 +8,7 @@
 #include "telltale/core/vessel/motion.hpp"
 #include "telltale/core/vessel/propellers.hpp"
 #include "telltale/core/vessel/regressors.hpp"
+#include "telltale/core/vessel/reverse_loss.hpp"
 
 namespace telltale {
 
@@ -26,6 +27,7 @@ struct VesselModel {
   double sampling_period_s = 0.0;        ///< h of the discrete model
   std::array<Eigen::VectorXd, 3> theta;  ///< surge, sway, yaw
   DeadZone dead_zone;
+  ReverseLoss reverse_loss;                        ///< of the parameterization kPropeller only
   std::optional<double> thruster_time_constant_s;  ///< first-order dynamic structure only
 
   /// A model whose coefficients are all zero, to be filled in.
@@ -45,6 +47,9 @@ struct VesselModel {
   /// of that length takes.
   ThrustRegressors MeanThrust(const ThrustRegressors& thrust, const PropellerCommand& delta,
                               double elapsed_s) const;
+
+  /// The same regressors less what the reverse loss takes at speed u through the water.
+  ThrustRegressors ThrustAt(double u, const ThrustRegressors& thrust) const;
 
   /// nu_dot at a velocity under given propeller regressors.
   NuDot AccelerationUnder(const ThrustRegressors& thrust, const Nu& nu) const;

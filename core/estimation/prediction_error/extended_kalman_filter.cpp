@@ -38,6 +38,14 @@ Eigen::Vector2d VelocityOverGround(const FilterState& x) {
   return {c * u - s * v + x[kCurrentState], s * u + c * v + x[kCurrentState + 1]};
 }
 
+// The regressors of thrust ahead, or in reverse, alone.
+FossenDynamics::Thrusts Ahead(const FossenDynamics::Thrusts& thrust) {
+  return {thrust[0], thrust[1], 0.0, 0.0};
+}
+FossenDynamics::Thrusts Astern(const FossenDynamics::Thrusts& thrust) {
+  return {0.0, 0.0, thrust[2], thrust[3]};
+}
+
 double SpectralRadius(const Eigen::Matrix2d& a) {
   const double half_trace = 0.5 * a.trace();
   const double discriminant = half_trace * half_trace - a.determinant();
@@ -96,7 +104,7 @@ ExtendedKalmanFilter::ExtendedKalmanFilter(const FilterSettings& settings,
     : settings_(settings),
       dynamics_(settings.parameters, settings.propeller_separation_m),
       thrust_(commands,
-              {settings.parameters[At(kDeadBand)], settings.parameters[At(kTimeConstant)],
+              {DeadZoneOf(settings.parameters), settings.parameters[At(kTimeConstant)],
                settings.parameters[At(kCommandDelay)]},
               start_s),
       now_s_(start_s),
@@ -224,14 +232,19 @@ ExtendedKalmanFilter::Rate ExtendedKalmanFilter::RateAt(const FilterState& x,
 Eigen::Matrix<double, 3, kParameters> ExtendedKalmanFilter::ByParameter(
     const FilterState& x, const ThrustStep& thrust) const {
   const Eigen::Vector3d nu = x.segment<3>(kVelocityState);
+  const double u = nu[0];
   const auto at = dynamics_.At(nu, thrust.mean[0], thrust.mean[1]);
   Eigen::Matrix<double, 3, kParameters> by;
   by.setZero();
-  by.leftCols<19>() = dynamics_.ByParameter(nu, at.nu_dot, thrust.mean[0], thrust.mean[1]);
-  by.col(At(kDeadBand)) = dynamics_.ByThrust(thrust.by_dead_band[0], thrust.by_dead_band[1]);
+  by.leftCols<kForceParameters>() =
+      dynamics_.ByParameter(nu, at.nu_dot, thrust.mean[0], thrust.mean[1]);
+  by.col(At(kForwardDeadBand)) =
+      dynamics_.ByThrust(u, Ahead(thrust.by_dead_bands[0]), Ahead(thrust.by_dead_bands[1]));
+  by.col(At(kReverseDeadBand)) =
+      dynamics_.ByThrust(u, Astern(thrust.by_dead_bands[0]), Astern(thrust.by_dead_bands[1]));
   by.col(At(kTimeConstant)) =
-      dynamics_.ByThrust(thrust.by_time_constant[0], thrust.by_time_constant[1]);
-  by.col(At(kCommandDelay)) = dynamics_.ByThrust(thrust.by_delay[0], thrust.by_delay[1]);
+      dynamics_.ByThrust(u, thrust.by_time_constant[0], thrust.by_time_constant[1]);
+  by.col(At(kCommandDelay)) = dynamics_.ByThrust(u, thrust.by_delay[0], thrust.by_delay[1]);
   return by;
 }
 
@@ -241,7 +254,8 @@ void ExtendedKalmanFilter::AddThirdOrder(const FilterState& middle, const Rate& 
                                          const ThrustStep& thrust, double h,
                                          FilterState& next) const {
   const Eigen::Matrix3d by_nu = rate.by_state.block<3, 3>(kVelocityState, kVelocityState);
-  const Eigen::Vector3d way = dynamics_.ByThrust(thrust.early[0], thrust.early[1]) +
+  const double u = middle[kVelocityState];
+  const Eigen::Vector3d way = dynamics_.ByThrust(u, thrust.early[0], thrust.early[1]) +
                               (h * h * h / 6.0) * (by_nu * rate.value.segment<3>(kVelocityState));
   const double c = std::cos(middle[kHeadingState]);
   const double s = std::sin(middle[kHeadingState]);

@@ -38,7 +38,9 @@ FossenPrior PriorOf(const Vehicle& vehicle) {
        {kForwardLinear, kForwardQuadratic, kReverseLinear, kReverseQuadratic}) {
     set(thrust, 0.5, 3.0, 0.0, kNone);
   }
-  set(kDeadBand, 0.04, 0.04, 0.0, kWidestDeadZone);
+  set(kReverseLoss, 0.3, 0.2, 0.0, 2.0);
+  set(kForwardDeadBand, 0.04, 0.04, 0.0, kWidestDeadZone);
+  set(kReverseDeadBand, 0.04, 0.04, 0.0, kWidestDeadZone);
   set(kTimeConstant, 0.2, 0.2, 0.005, 10.0);
   set(kCommandDelay, 0.0, 0.15, -1.0, 1.0);
   set(kFixDelay, 0.1, 0.15, -1.0, 1.0);

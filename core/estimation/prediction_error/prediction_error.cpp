@@ -168,6 +168,22 @@ class Problem {
     return std::isfinite(sum) ? sum : std::numeric_limits<double>::infinity();
   }
 
+  // The mean of the prior, and a reverse loss that the fastest tenth of the rows would show: the
+  // slope of one far above their speeds vanishes.
+  Eigen::VectorXd FirstParameters() const {
+    std::vector<double> speeds_m_s;
+    for (const PreparedRow& row : dataset_.rows) speeds_m_s.push_back(row.nu.u);
+    Eigen::VectorXd first = prior_.mean;
+    if (speeds_m_s.empty()) return first;
+    const auto fast = speeds_m_s.begin() + static_cast<std::ptrdiff_t>(9 * speeds_m_s.size() / 10);
+    std::ranges::nth_element(speeds_m_s, fast);
+    if (*fast > 0.0) {
+      first[At(kReverseLoss)] =
+          std::clamp(1.0 / *fast, first[At(kReverseLoss)], prior_.greatest[At(kReverseLoss)]);
+    }
+    return first;
+  }
+
   // The precision matrix and mean of the prior; that of reverse thrust depends on forward thrust.
   Eigen::MatrixXd PriorPrecision(const Eigen::VectorXd& z) const {
     Eigen::MatrixXd precision = Eigen::MatrixXd::Zero(kParameters, kParameters);
@@ -368,7 +384,7 @@ class Search {
  public:
   explicit Search(const Problem& problem)
       : problem_(problem),
-        z_(problem.prior_.mean),
+        z_(problem.FirstParameters()),
         noise_(problem.dataset_.Recordings(), FirstNoise()) {}
 
   /// Whether there is more to do after this iteration.

@@ -8,21 +8,16 @@ namespace {
 
 using Thrusts = FossenDynamics::Thrusts;
 
-Thrusts Regress(double delta, double dead_band) {
-  if (delta > dead_band) {
-    const double e = delta - dead_band;
-    return {e, e * e, 0.0, 0.0};
-  }
-  if (delta < -dead_band) {
-    const double e = delta + dead_band;
-    return {0.0, 0.0, e, e * e};
-  }
-  return Thrusts::Zero();
+Thrusts Regress(double delta, const DeadZone& dead_zone) {
+  const double e = dead_zone.Apply(delta);
+  return e > 0.0 ? Thrusts(e, e * e, 0.0, 0.0) : Thrusts(0.0, 0.0, e, e * e);
 }
 
-Thrusts RegressByDeadBand(double delta, double dead_band) {
-  if (delta > dead_band) return {-1.0, -2.0 * (delta - dead_band), 0.0, 0.0};
-  if (delta < -dead_band) return {0.0, 0.0, 1.0, 2.0 * (delta + dead_band)};
+// The first two by the dead band ahead, the last two by that in reverse.
+Thrusts RegressByDeadBands(double delta, const DeadZone& dead_zone) {
+  const double e = dead_zone.Apply(delta);
+  if (e > 0.0) return {-1.0, -2.0 * e, 0.0, 0.0};
+  if (e < 0.0) return {0.0, 0.0, 1.0, 2.0 * e};
   return Thrusts::Zero();
 }
 
@@ -48,10 +43,10 @@ ThrustLag::ThrustLag(const HeldCommands& commands, const Lag& lag, double start_
 
 ThrustLag::Target ThrustLag::TargetOf(const PropellerCommand& command) const {
   Target target;
-  target.value[0] = Regress(command.port, lag_.dead_band);
-  target.value[1] = Regress(command.starboard, lag_.dead_band);
-  target.by_dead_band[0] = RegressByDeadBand(command.port, lag_.dead_band);
-  target.by_dead_band[1] = RegressByDeadBand(command.starboard, lag_.dead_band);
+  target.value[0] = Regress(command.port, lag_.dead_zone);
+  target.value[1] = Regress(command.starboard, lag_.dead_zone);
+  target.by_dead_bands[0] = RegressByDeadBands(command.port, lag_.dead_zone);
+  target.by_dead_bands[1] = RegressByDeadBands(command.starboard, lag_.dead_zone);
   return target;
 }
 
@@ -69,7 +64,7 @@ ThrustStep ThrustLag::Until(double end_s) {
   for (int side = 0; side < 2; ++side) {
     step.mean[side].setZero();
     step.early[side].setZero();
-    step.by_dead_band[side].setZero();
+    step.by_dead_bands[side].setZero();
     step.by_time_constant[side].setZero();
   }
   while (now_s_ < to_s) {
@@ -83,16 +78,17 @@ ThrustStep ThrustLag::Until(double end_s) {
     const double off_moment = left_s * memory_s + tau * (span_s - memory_s);
     for (int side = 0; side < 2; ++side) {
       const Thrusts off = state_.value[side] - target_.value[side];
-      const Thrusts off_by_dead_band = state_.by_dead_band[side] - target_.by_dead_band[side];
+      const Thrusts off_by_dead_bands = state_.by_dead_bands[side] - target_.by_dead_bands[side];
       step.mean[side] += target_.value[side] * span_s + off * memory_s;
       step.early[side] += target_.value[side] * target_moment + off * off_moment;
-      step.by_dead_band[side] += target_.by_dead_band[side] * span_s + off_by_dead_band * memory_s;
+      step.by_dead_bands[side] +=
+          target_.by_dead_bands[side] * span_s + off_by_dead_bands * memory_s;
       step.by_time_constant[side] += state_by_time_constant_[side] * memory_s +
                                      off * (1.0 - remaining - remaining * span_s / tau);
       state_by_time_constant_[side] =
           remaining * (state_by_time_constant_[side] + off * (span_s / (tau * tau)));
       state_.value[side] = target_.value[side] + remaining * off;
-      state_.by_dead_band[side] = target_.by_dead_band[side] + remaining * off_by_dead_band;
+      state_.by_dead_bands[side] = target_.by_dead_bands[side] + remaining * off_by_dead_bands;
     }
     now_s_ = piece_end_s;
     if (!last && now_s_ >= times_s_[piece_ + 1]) Enter(piece_ + 1);
@@ -100,7 +96,7 @@ ThrustStep ThrustLag::Until(double end_s) {
   for (int side = 0; side < 2; ++side) {
     step.early[side] -= 0.5 * duration_s * step.mean[side];
     step.mean[side] /= duration_s;
-    step.by_dead_band[side] /= duration_s;
+    step.by_dead_bands[side] /= duration_s;
     step.by_time_constant[side] /= duration_s;
     step.by_delay[side] = -(state_.value[side] - before.value[side]) / duration_s;
   }

@@ -14,7 +14,7 @@ struct ThrustStep {
   /// The integral of (thrust - mean) times the time left in the step: what the way made by the end
   /// of the step has beyond that under the mean.
   FossenDynamics::Thrusts early[2];
-  FossenDynamics::Thrusts by_dead_band[2];
+  FossenDynamics::Thrusts by_dead_bands[2];
   FossenDynamics::Thrusts by_time_constant[2];
   FossenDynamics::Thrusts by_delay[2];
 };
@@ -25,7 +25,7 @@ struct ThrustStep {
 class ThrustLag {
  public:
   struct Lag {
-    double dead_band = 0.0;
+    DeadZone dead_zone;
     double time_constant_s = 0.1;  ///< > 0
     double delay_s = 0.0;
   };
@@ -38,7 +38,7 @@ class ThrustLag {
  private:
   struct Target {
     FossenDynamics::Thrusts value[2];
-    FossenDynamics::Thrusts by_dead_band[2];
+    FossenDynamics::Thrusts by_dead_bands[2];
   };
 
   Target TargetOf(const PropellerCommand& command) const;

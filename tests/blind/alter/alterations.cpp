@@ -53,14 +53,15 @@ double Pulse(double delta, const Channel& channel) {
 
 /// The command that gives `times` the thrust of `delta`, which may lie beyond +-1.
 double CommandForThrust(double delta, double times, const ThrustCurve& curve) {
-  const double beyond = std::abs(delta) - curve.dead_band;
+  const double dead_band = delta > 0.0 ? curve.forward_dead_band : curve.reverse_dead_band;
+  const double beyond = std::abs(delta) - dead_band;
   if (beyond <= 0.0) return delta;
   const double linear = delta > 0.0 ? curve.forward_linear : curve.reverse_linear;
   const double quadratic = delta > 0.0 ? curve.forward_quadratic : curve.reverse_quadratic;
   const double thrust = times * (linear + quadratic * beyond) * beyond;
   const double needed =
       2.0 * thrust / (linear + std::sqrt(linear * linear + 4.0 * quadratic * thrust));
-  return std::copysign(needed + curve.dead_band, delta);
+  return std::copysign(needed + dead_band, delta);
 }
 
 }  // namespace

@@ -31,15 +31,16 @@ struct Channel {
   double full_reverse_us = 1100.0;
 };
 
-/// The steady thrust of a propeller, up to its unit: with e = |delta| - dead_band above zero,
-/// linear e + quadratic e^2; zero within the dead band. delta is the share of full command. By
-/// default delta |delta|.
+/// The steady thrust of a propeller, up to its unit: with e = |delta| less the dead band ahead or
+/// in reverse, above zero, linear e + quadratic e^2; zero within the dead band. delta is the share
+/// of full command. By default delta |delta|.
 struct ThrustCurve {
   double forward_linear = 0.0;
   double forward_quadratic = 1.0;
   double reverse_linear = 0.0;
   double reverse_quadratic = 1.0;
-  double dead_band = 0.0;
+  double forward_dead_band = 0.0;
+  double reverse_dead_band = 0.0;
 };
 
 /// What a boat whose one side gives `lost` of its thrust away, [0, 0.9], would have had to command

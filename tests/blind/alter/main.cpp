@@ -21,7 +21,7 @@ struct Arguments {
   double delay_fixes_s = 0.0;
   double shift_commands_s = 0.0;
   std::pair<std::string, double> weaken;
-  std::vector<double> thrust_curve{0, 1, 0, 1, 0};
+  std::vector<double> thrust_curve{0, 1, 0, 1, 0, 0};
   std::vector<double> move_antenna_m;
   std::vector<double> port_pulses_us{1500, 1900, 1100};
   std::vector<double> starboard_pulses_us{1500, 1900, 1100};
@@ -53,10 +53,10 @@ void AddOptions(CLI::App& app, Arguments& arguments) {
       ->type_name("SIDE SHARE");
   app.add_option("--thrust-curve", arguments.thrust_curve,
                  "thrust by share of full command beyond the dead band: linear and quadratic "
-                 "ahead, linear and quadratic in reverse, the dead band (default 0 1 0 1 0)")
-      ->type_name("F1 F2 R1 R2 D0")
+                 "ahead, linear and quadratic in reverse, the dead bands (default 0 1 0 1 0 0)")
+      ->type_name("F1 F2 R1 R2 DF DR")
       ->check(CLI::NonNegativeNumber.description(""))
-      ->expected(5);
+      ->expected(6);
   app.add_option("--move-antenna-m", arguments.move_antenna_m,
                  "fixes are of a point so far forward and to starboard")
       ->type_name("FORWARD STARBOARD")
@@ -84,11 +84,12 @@ blind::alter::Channel ChannelOf(const std::vector<double>& pulses_us) {
 }
 
 blind::alter::ThrustCurve ThrustCurveOf(const std::vector<double>& curve) {
-  if (curve[0] + curve[1] <= 0.0 || curve[2] + curve[3] <= 0.0 || curve[4] >= 1.0) {
+  if (curve[0] + curve[1] <= 0.0 || curve[2] + curve[3] <= 0.0 ||
+      std::max(curve[4], curve[5]) >= 1.0) {
     throw CLI::ValidationError("--thrust-curve",
-                               "thrust grows with the command, and the dead band is below 1");
+                               "thrust grows with the command, and the dead bands are below 1");
   }
-  return {curve[0], curve[1], curve[2], curve[3], curve[4]};
+  return {curve[0], curve[1], curve[2], curve[3], curve[4], curve[5]};
 }
 
 void ApplyWeakening(blind::alter::Telemetry& telemetry, const Arguments& arguments) {

@@ -87,7 +87,8 @@ TEST(Weaken, FollowsTheThrustCurve) {
                           .forward_quadratic = 2.0,
                           .reverse_linear = 0.5,
                           .reverse_quadratic = 0.0,
-                          .dead_band = 0.1};
+                          .forward_dead_band = 0.1,
+                          .reverse_dead_band = 0.1};
   EXPECT_EQ(Weaken(log, Side::kPort, 0.5, {1500, 1900, 1100}, curve), 0u);
   // e = 0.4 gives 0.72; twice that is e + 2 e^2 at e = (sqrt(12.52) - 1) / 4.
   EXPECT_NEAR(log.pulses[0].left_us, 1500.0 + 400.0 * (0.1 + (std::sqrt(12.52) - 1.0) / 4.0), 1e-9);

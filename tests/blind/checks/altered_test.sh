@@ -25,7 +25,7 @@ done
 if [[ $command == identify ]]; then
   echo '{"provenance": {"recordings": [{"name": "run225"}]}, "parameters": [{"symbol": "Tf1", "estimate": 1},
     {"symbol": "Tf2", "estimate": 2}, {"symbol": "Tr1", "estimate": 1}, {"symbol": "Tr2", "estimate": 2},
-    {"symbol": "d0", "estimate": 0.02}]}' > "$out"
+    {"symbol": "df", "estimate": 0.02}, {"symbol": "dr", "estimate": 0.03}]}' > "$out"
   exit
 fi
 echo '{"verdict": "EXPLAINED", "gap": {"before": 3.14159, "floorLimit": 2}, "causes": [{"effects": ["heading_bias"],

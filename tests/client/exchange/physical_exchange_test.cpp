@@ -27,7 +27,7 @@ constexpr double kMassKg = 20.0;
 FossenVector KnownParameters() {
   FossenVector p;
   p << 1.5, 0.03, 0.18, 0.15, 0.45, 1.2, 0.05, -0.05, 0.25, 1.5, 0.2, 0.3, 0.1, -0.1, 0.1, 0.5, 1.6,
-      0.4, 1.2, 0.06, 0.25, 0.0, 0.1;
+      0.4, 1.2, 0.7, 0.06, 0.08, 0.25, 0.0, 0.1;
   return p;
 }
 
@@ -38,7 +38,7 @@ Identification KnownPhysicalBoat() {
     model.physical->parameters[i].estimate = p[static_cast<Eigen::Index>(i)];
     model.physical->parameters[i].standard_error = 0.01;
   }
-  model.dead_zone = {0.06, -0.06};
+  model.dead_zone = {0.06, -0.08};
   model.thruster_time_constant->estimate = 0.25;
   return model;
 }
@@ -72,9 +72,9 @@ TEST(PhysicalVrx, HoldsMassAndDampingOfTheBoat) {
   }
   EXPECT_THAT(sdf, HasSubstr("<mass>20</mass> and <izz>3.6</izz>"));
   EXPECT_THAT(sdf, HasSubstr("m23 0.6, Yr 1, Nv -1, Yuv 6, Yur 2, Nuv -2, Nur 2"));
-  // 20 kg (0.5 * 0.94 + 1.6 * 0.94^2) m/s^2, and in reverse 20 (0.4 * 0.94 + 1.2 * 0.94^2).
+  // 20 kg (0.5 * 0.94 + 1.6 * 0.94^2) m/s^2, and in reverse 20 (0.4 * 0.92 + 1.2 * 0.92^2).
   EXPECT_THAT(sdf, HasSubstr("full forward command: 37.6752 N"));
-  EXPECT_THAT(sdf, HasSubstr("full reverse command: -28.7264 N"));
+  EXPECT_THAT(sdf, HasSubstr("full reverse command: -27.6736 N"));
 }
 
 TEST(PhysicalVrx, AddsNoNegativeMass) {
@@ -104,8 +104,8 @@ class ForeignBoat {
         quadratic_(file.physical().quadratic_damping().data()),
         file_(file) {}
 
-  /// x, y, psi, u, v, r, thrust of port and of starboard.
-  using State = Eigen::Matrix<double, 8, 1>;
+  /// x, y, psi, u, v, r, thrust ahead of port and of starboard, in reverse of both.
+  using State = Eigen::Matrix<double, 10, 1>;
 
   State Step(const State& x, const PropellerCommand& delta, double h) const {
     const State a = Rate(x, delta);
@@ -120,14 +120,16 @@ class ForeignBoat {
     return Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(rows.data());
   }
 
-  double SteadyThrust(double command) const {
-    const auto& forward = file_.physical().forward_thrust();
-    const auto& reverse = file_.physical().reverse_thrust();
-    const double ahead = command - file_.dead_zone().forward();
-    const double astern = file_.dead_zone().reverse() - command;
-    if (ahead > 0.0) return forward[0] * ahead + forward[1] * ahead * ahead;
-    if (astern > 0.0) return -reverse[0] * astern - reverse[1] * astern * astern;
-    return 0.0;
+  double ThrustAhead(double command) const {
+    const auto& curve = file_.physical().forward_thrust();
+    const double e = std::max(command - file_.dead_zone().forward(), 0.0);
+    return curve[0] * e + curve[1] * e * e;
+  }
+
+  double ThrustInReverse(double command) const {
+    const auto& curve = file_.physical().reverse_thrust();
+    const double e = std::max(file_.dead_zone().reverse() - command, 0.0);
+    return -curve[0] * e - curve[1] * e * e;
   }
 
   State Rate(const State& x, const PropellerCommand& delta) const {
@@ -140,15 +142,21 @@ class ForeignBoat {
     Eigen::Matrix3d damping = linear_ + nu[0] * lift_;
     damping.diagonal() += quadratic_.cwiseProduct(nu.cwiseAbs());
     const double half = 0.5 * file_.propeller_separation_m();
-    const Eigen::Vector3d tau(x[6] + x[7], 0.0, half * (x[6] - x[7]));
+    const double speed = std::max(nu[0], 0.0) * file_.physical().reverse_loss_s_m();
+    const double left = 1.0 / (1.0 + std::pow(speed, 8));
+    const double port = x[6] + left * x[8];
+    const double starboard = x[7] + left * x[9];
+    const Eigen::Vector3d tau(port + starboard, 0.0, half * (port - starboard));
     const double lag_s = file_.thruster_time_constant_s().estimate();
     State rate;
     rate[0] = std::cos(x[2]) * nu[0] - std::sin(x[2]) * nu[1];
     rate[1] = std::sin(x[2]) * nu[0] + std::cos(x[2]) * nu[1];
     rate[2] = nu[2];
     rate.segment<3>(3) = mass_.inverse() * (tau - coriolis * nu - damping * nu);
-    rate[6] = (SteadyThrust(delta.port) - x[6]) / lag_s;
-    rate[7] = (SteadyThrust(delta.starboard) - x[7]) / lag_s;
+    rate[6] = (ThrustAhead(delta.port) - x[6]) / lag_s;
+    rate[7] = (ThrustAhead(delta.starboard) - x[7]) / lag_s;
+    rate[8] = (ThrustInReverse(delta.port) - x[8]) / lag_s;
+    rate[9] = (ThrustInReverse(delta.starboard) - x[9]) / lag_s;
     return rate;
   }
 

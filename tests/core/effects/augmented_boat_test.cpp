@@ -59,6 +59,20 @@ TEST(AugmentedBoat, WithoutEffectsIsTheModel) {
   }
 }
 
+TEST(AugmentedBoat, LosesThrustInReverseAsTheModelDoes) {
+  VesselModel model = testing::StableBoat();
+  model.reverse_loss.per_speed = 0.8;
+  const AugmentedBoat boat{{model, {}}, 0.0, 100.0};
+  for (const PropellerCommand delta : {PropellerCommand{-0.7, 0.5}, PropellerCommand{-0.6, -0.8}}) {
+    const Nu nu{1.3, 0.1, 0.2};
+    const NuDot expected = model.Acceleration(nu, delta);
+    const Pose after = boat.Advance({{}, nu}, SteadyDrive(boat, delta), 0.0, 1e-6);
+    // The velocity after so short a step, less its own rounding.
+    EXPECT_NEAR((after.nu.u - nu.u) / 1e-6, expected.u, 1e-5);
+    EXPECT_NEAR((after.nu.r - nu.r) / 1e-6, expected.r, 1e-5);
+  }
+}
+
 TEST(AugmentedBoat, WeakensOneSideOnly) {
   const PropellerCommand both{0.6, 0.6};
   const Drive plain = SteadyDrive(Plain(), both);

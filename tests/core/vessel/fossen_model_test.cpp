@@ -10,7 +10,7 @@ namespace {
 FossenVector Boat() {
   FossenVector p;
   p << 1.5, 0.03, 0.18, 0.15, 0.45, 1.2, 0.05, -0.05, 0.25, 1.5, 0.2, 0.3, 0.1, -0.1, 0.1, 0.5, 1.6,
-      0.4, 1.2, 0.06, 0.25, 0.0, 0.0;
+      0.4, 1.2, 0.5, 0.06, 0.08, 0.25, 0.0, 0.0;
   return p;
 }
 
@@ -46,10 +46,9 @@ TEST(FossenModel, LiesInTheRegressorsOfTheStructures) {
   const FossenVector p = Boat();
   const FossenDynamics dynamics(p, kSeparation);
   const VesselModel model = VesselModelOf(p, kSeparation);
-  const double dead_band = p[At(FossenParameter::kDeadBand)];
   for (const PropellerCommand command :
        {PropellerCommand{0.8, 0.3}, PropellerCommand{0.5, -0.7}, PropellerCommand{-0.9, -0.2}}) {
-    const auto beyond = [&](double d) { return DeadZone{dead_band, -dead_band}.Apply(d); };
+    const auto beyond = [&](double d) { return model.dead_zone.Apply(d); };
     const Eigen::Vector3d nu(1.2, -0.3, 0.5);
     const auto physical =
         dynamics.At(nu, Steady(beyond(command.port)), Steady(beyond(command.starboard)));

@@ -97,8 +97,8 @@ TEST_F(ScoreCovariance, HasFewDegreesOfFreedomWhereFewBlocksInform) {
 
 TEST(EquivalentBlocks, AreMoreThanTheBlocksAndNoneOfNone) {
   EXPECT_EQ(EquivalentBlocks(0), 0U);
-  // (60 + 23)^2 / 60
-  EXPECT_EQ(EquivalentBlocks(60), 115U);
+  // (60 + 25)^2 / 60
+  EXPECT_EQ(EquivalentBlocks(60), 120U);
 }
 
 }  // namespace
