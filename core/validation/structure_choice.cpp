@@ -2,9 +2,11 @@
 
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "telltale/core/base/format_number.hpp"
 #include "telltale/core/data/recording_parts.hpp"
+#include "telltale/core/identification/identify.hpp"
 #include "telltale/core/validation/promotion.hpp"
 
 namespace telltale {
@@ -79,6 +81,23 @@ StructureChoice ChooseStructure(const Recording& recording, const Vehicle& vehic
                         : "since the recording is too short to show that it lacks "
                           "something";
   return {Structure::kFossen, "physical form, " + reason, Measured(physical)};
+}
+
+Result<ScoredModel> IdentifyInChosenStructure(const Recording& recording, const Vehicle& vehicle,
+                                              IdentifyOptions options, const Progress& progress) {
+  StructureChoice choice = ChooseStructure(recording, vehicle, options, progress);
+  const Structure free_structure = std::exchange(options.regression.structure, choice.structure);
+  auto identification = Identify(recording, vehicle, options, progress);
+  if (!identification && choice.structure == Structure::kFossen) {
+    choice.reason =
+        "free coefficients, since of the physical form " + identification.error().reason;
+    choice.score.reset();
+    options.regression.structure = free_structure;
+    identification = Identify(recording, vehicle, options, progress);
+  }
+  if (!identification) return tl::unexpected(identification.error());
+  identification->provenance.structure_choice = std::move(choice.reason);
+  return ScoredModel{*std::move(identification), std::move(choice.score)};
 }
 
 }  // namespace telltale

@@ -3,7 +3,9 @@
 #include <optional>
 #include <string>
 
+#include "telltale/core/base/result.hpp"
 #include "telltale/core/data/samples.hpp"
+#include "telltale/core/identification/identification.hpp"
 #include "telltale/core/identification/options.hpp"
 #include "telltale/core/identification/progress.hpp"
 #include "telltale/core/validation/held_out_score.hpp"
@@ -30,5 +32,18 @@ struct StructureChoice {
 /// Assumes: `options.regression.structure` is one of free coefficients.
 StructureChoice ChooseStructure(const Recording& recording, const Vehicle& vehicle,
                                 const IdentifyOptions& options, const Progress& progress = {});
+
+/// A model, and what it predicts of data set aside: nothing where the recording gives no score.
+struct ScoredModel {
+  Identification model;
+  std::optional<HeldOutScore> score;
+};
+
+/// Identifies a model in the structure that ChooseStructure chooses, in free coefficients where the
+/// physical form is refused; its provenance says why. Refuses as Identify does. Assumes: as
+/// ChooseStructure.
+Result<ScoredModel> IdentifyInChosenStructure(const Recording& recording, const Vehicle& vehicle,
+                                              IdentifyOptions options,
+                                              const Progress& progress = {});
 
 }  // namespace telltale

@@ -28,6 +28,17 @@ WindowLimits ReadWindow(FieldReader reader) {
   return limits;
 }
 
+std::optional<Structure> ReadStructure(FieldReader& reader) {
+  const std::string name = reader.Text("structure", "static");
+  if (name == "static") return Structure::kStaticQuadratic;
+  if (name == "dynamic") return Structure::kFirstOrderDynamic;
+  if (name == "fossen") return Structure::kFossen;
+  if (name != "auto") {
+    reader.Fail("structure", '"' + name + '"', "one of static, dynamic, fossen, auto");
+  }
+  return std::nullopt;
+}
+
 IdentificationSettings ReadIdentification(FieldReader reader) {
   IdentificationSettings settings;
   settings.workers = reader.Count("workers", {1.0, 64.0}, settings.workers);
@@ -39,6 +50,7 @@ IdentificationSettings ReadIdentification(FieldReader reader) {
   }
   settings.interval_level = reader.Number("interval_level", {0.5, 0.999}, settings.interval_level);
   settings.queue_limit = reader.Count("queue_limit", {1.0, 10000.0}, settings.queue_limit);
+  settings.structure = ReadStructure(reader);
   return settings;
 }
 

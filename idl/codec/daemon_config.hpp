@@ -11,6 +11,7 @@
 
 #include "telltale/core/data/samples.hpp"
 #include "telltale/core/data/window.hpp"
+#include "telltale/core/vessel/model_structure.hpp"
 #include "telltale/core/vessel/vehicle.hpp"
 #include "telltale/idl/codec/codec_error.hpp"
 #include "telltale/idl/codec/mapping_file.hpp"
@@ -23,6 +24,8 @@ struct IdentificationSettings {
   std::uint32_t bootstrap_replicates = 1000;  ///< 0 or [100, 100000]
   double interval_level = 0.95;               ///< [0.5, 0.999]
   std::uint32_t queue_limit = 1024;           ///< [1, 10000]
+  /// Of requests that name none; nothing: by the data.
+  std::optional<Structure> structure = Structure::kStaticQuadratic;
 };
 
 /// The web server of the daemon. Paths are as written; who opens them resolves them.

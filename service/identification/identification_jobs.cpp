@@ -5,11 +5,22 @@
 #include "telltale/core/data/recording_starts.hpp"
 #include "telltale/core/identification/identify.hpp"
 #include "telltale/core/validation/promotion.hpp"
+#include "telltale/core/validation/structure_choice.hpp"
 #include "telltale/service/identification/identification_options.hpp"
 #include "telltale/service/models/free_run_error.hpp"
 #include "telltale/service/models/thin_model.hpp"
 
 namespace telltale {
+namespace {
+
+Result<Identification> InChosenStructure(const Recording& recording, const Vehicle& vehicle,
+                                         const IdentifyOptions& options, const Progress& progress) {
+  auto made = IdentifyInChosenStructure(recording, vehicle, options, progress);
+  if (!made) return tl::unexpected(made.error());
+  return std::move(made->model);
+}
+
+}  // namespace
 
 IdentificationJobs::IdentificationJobs(const Fleet& fleet, PublishedModels& models,
                                        BaselineRecordings& baselines, ReplyPublisher& replies,
@@ -42,7 +53,10 @@ IdentifyReply IdentificationJobs::IdentifyAndPublish(const IdentifyRequest& requ
   VehicleWindow& window = fleet_.WindowOf(request.vehicle_id);
   Recording recording = window.Snapshot();
   recording.starts_s = StartsAfterSilence(recording, kSilenceBetweenRecordingsS);
-  const auto identification = Identify(recording, window.vehicle(), options, progress);
+  const Result<Identification> identification =
+      LeavesStructureToData(request, settings_)
+          ? InChosenStructure(recording, window.vehicle(), options, progress)
+          : Identify(recording, window.vehicle(), options, progress);
   if (!identification) {
     auto reply = ReplyTo<IdentifyReply>(request, ReplyOutcome::kRefused);
     reply.refusals.push_back(identification.error());

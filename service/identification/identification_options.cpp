@@ -6,10 +6,26 @@
 namespace telltale {
 namespace {
 
-void SetModelOptions(const IdentifyRequest& request, IdentifyOptions& options) {
+/// Options that the physical form does not take.
+bool AsksForFreeCoefficients(const IdentifyRequest& request) {
+  return request.parameterization != Parameterization::kUnknown ||
+         request.estimator != Estimator::kUnknown || request.preset == Preset::kPaper ||
+         request.dead_zone_source != DeadZoneSource::kUnknown || request.include_reverse ||
+         request.recording_bias != RecordingBiasModel::kUnknown || request.bootstrap_replicates ||
+         request.resampling != Resampling::kUnknown ||
+         request.interval_method != IntervalMethod::kUnknown ||
+         request.coverage_check_replicates > 0;
+}
+
+void SetModelOptions(const IdentifyRequest& request, const IdentificationSettings& settings,
+                     IdentifyOptions& options) {
   options.prepare =
       request.preset == Preset::kPaper ? PrepareOptions::Paper() : PrepareOptions::Robust();
-  if (request.structure != Structure::kUnknown) options.regression.structure = request.structure;
+  if (request.structure != Structure::kUnknown) {
+    options.regression.structure = request.structure;
+  } else if (settings.structure && !AsksForFreeCoefficients(request)) {
+    options.regression.structure = *settings.structure;
+  }
   if (request.parameterization != Parameterization::kUnknown) {
     options.regression.parameterization = request.parameterization;
   }
@@ -46,9 +62,14 @@ void SetBoundsOptions(const IdentifyRequest& request, const IdentificationSettin
 
 }  // namespace
 
+bool LeavesStructureToData(const IdentifyRequest& request, const IdentificationSettings& settings) {
+  return request.structure == Structure::kUnknown && !settings.structure &&
+         !AsksForFreeCoefficients(request);
+}
+
 IdentifyOptions OptionsOf(const IdentifyRequest& request, const IdentificationSettings& settings) {
   IdentifyOptions options;
-  SetModelOptions(request, options);
+  SetModelOptions(request, settings, options);
   SetBoundsOptions(request, settings, options);
   options.seed = request.seed;
   options.threads = std::max(1u, std::thread::hardware_concurrency() / settings.workers);

@@ -34,6 +34,7 @@ TEST(DaemonConfig, AnEmptyFileMeansTheDefaultsOfTheSchema) {
   EXPECT_EQ(config->identification.bootstrap_replicates, 1000u);
   EXPECT_EQ(config->identification.interval_level, 0.95);
   EXPECT_EQ(config->identification.queue_limit, 1024u);
+  EXPECT_EQ(config->identification.structure, Structure::kStaticQuadratic);
   EXPECT_EQ(config->quality_period_s, 1.0);
   EXPECT_EQ(config->log_level, "info");
   EXPECT_FALSE(config->http);
@@ -120,7 +121,8 @@ TEST(DaemonConfig, ReadsEveryField) {
       "state_directory: \"/tmp/state\"\n"
       "window { duration_s: 600 memory_mib: 2 reorder_tolerance_s: 0 clock_jump_s: 5 "
       "stuck_after_s: 9 }\n"
-      "identification { workers: 3 bootstrap_replicates: 0 interval_level: 0.9 queue_limit: 7 }\n"
+      "identification { workers: 3 bootstrap_replicates: 0 interval_level: 0.9 queue_limit: 7 "
+      "structure: \"auto\" }\n"
       "quality_period_s: 0.5 log_level: \"debug\"\n");
   ASSERT_TRUE(config) << config.error().Message();
   EXPECT_EQ(config->domain, 42u);
@@ -137,6 +139,7 @@ TEST(DaemonConfig, ReadsEveryField) {
   EXPECT_EQ(config->identification.bootstrap_replicates, 0u);
   EXPECT_EQ(config->identification.interval_level, 0.9);
   EXPECT_EQ(config->identification.queue_limit, 7u);
+  EXPECT_EQ(config->identification.structure, std::nullopt);
   EXPECT_EQ(config->quality_period_s, 0.5);
   EXPECT_EQ(config->log_level, "debug");
 }
@@ -183,6 +186,8 @@ INSTANTIATE_TEST_SUITE_P(
                     "identification.bootstrap_replicates", "100001", "100000]"},
         ConfigFault{"identification { interval_level: 1 }", "identification.interval_level", "1",
                     "[0.5, 0.999]"},
+        ConfigFault{"identification { structure: \"best\" }", "identification.structure",
+                    "\"best\"", "one of static, dynamic, fossen, auto"},
         ConfigFault{"identification { queue_limit: 0 }", "identification.queue_limit", "0",
                     "[1, 10000]"},
         ConfigFault{"http { port: 65536 }", "http.port", "65536", "[0, 65535]"},

@@ -41,5 +41,22 @@ TEST(IdentificationOptions, AreTheRequestsWishesOverTheDaemonsDefaults) {
   EXPECT_EQ(options.dead_zone_source, DeadZoneSource::kIdentified);
 }
 
+TEST(IdentificationOptions, LeaveTheStructureToTheDataWhereNothingNamesOne) {
+  IdentificationSettings settings;
+  IdentifyRequest request;
+  EXPECT_FALSE(LeavesStructureToData(request, settings));  // static is the default
+  EXPECT_EQ(OptionsOf(request, settings).regression.structure, Structure::kStaticQuadratic);
+  settings.structure = std::nullopt;
+  EXPECT_TRUE(LeavesStructureToData(request, settings));
+  request.estimator = Estimator::kOneStep;  // of free coefficients
+  EXPECT_FALSE(LeavesStructureToData(request, settings));
+  settings.structure = Structure::kFossen;
+  EXPECT_EQ(OptionsOf(request, settings).regression.structure, Structure::kStaticQuadratic);
+  request.estimator = Estimator::kUnknown;
+  EXPECT_EQ(OptionsOf(request, settings).regression.structure, Structure::kFossen);
+  request.structure = Structure::kFirstOrderDynamic;
+  EXPECT_EQ(OptionsOf(request, settings).regression.structure, Structure::kFirstOrderDynamic);
+}
+
 }  // namespace
 }  // namespace telltale

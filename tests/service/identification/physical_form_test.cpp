@@ -34,6 +34,19 @@ TEST_F(LivePhysicalForm, IsIdentifiedPublishedAndKept) {
   EXPECT_THAT(watch->output(), AllOf(HasSubstr("\"FOSSEN\""), HasSubstr("\"Xuu\"")));
 }
 
+TEST_F(LivePhysicalForm, IsChosenByTheDataWhereTheConfigurationLeavesItToThem) {
+  config_file_ = folder_.Write("auto.textproto", "domain: " + std::to_string(domain_.id()) +
+                                                     "\nvehicle_files: \"vehicle.textproto\"\n" +
+                                                     StorageLines() +
+                                                     "identification { structure: \"auto\" }\n");
+  const auto daemon = StartDaemon();
+  Replay(SimulatedRecording(testing::StableBoat(), 0.0, 90.0, 4));
+  const auto identify = Start({"identify", "--vehicle-id", kVehicleId, "--timeout", "500"});
+  ASSERT_EQ(identify->Wait(), 0) << identify->output();
+  // A minute and a half holds fewer than the ten free runs that free coefficients need.
+  EXPECT_THAT(identify->output(), HasSubstr("Structure chosen: physical form"));
+}
+
 TEST_F(LivePhysicalForm, TakesNoOptionOfFreeCoefficients) {
   const auto identify = Start(
       {"identify", "--vehicle-id", kVehicleId, "--structure", "fossen", "--estimator", "weak-iv"});
