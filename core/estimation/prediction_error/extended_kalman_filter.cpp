@@ -205,9 +205,11 @@ FilterState ExtendedKalmanFilter::Undisturbed() const {
 
 ExtendedKalmanFilter::Rate ExtendedKalmanFilter::RateAt(const FilterState& x,
                                                         const ThrustStep& thrust) const {
+  constexpr int kHeading = 0;  // of the movers
+  constexpr int kVelocity = kVelocityState - kHeadingState;
+  constexpr int kDisturbance = kDisturbanceState - kHeadingState;
   Rate rate;
-  rate.value.setZero();
-  rate.by_state.setZero();
+  rate.by_movers.setZero();
   const double c = std::cos(x[kHeadingState]);
   const double s = std::sin(x[kHeadingState]);
   const double u = x[kVelocityState];
@@ -215,16 +217,14 @@ ExtendedKalmanFilter::Rate ExtendedKalmanFilter::RateAt(const FilterState& x,
   rate.value[kNorth] = c * u - s * v + x[kCurrentState];
   rate.value[kEast] = s * u + c * v + x[kCurrentState + 1];
   rate.value[kHeadingState] = x[kVelocityState + 2];
-  rate.by_state(kNorth, kHeadingState) = -s * u - c * v;
-  rate.by_state(kEast, kHeadingState) = c * u - s * v;
-  rate.by_state.block<2, 2>(kNorth, kVelocityState) << c, -s, s, c;
-  rate.by_state(kHeadingState, kVelocityState + 2) = 1.0;
-  rate.by_state(kNorth, kCurrentState) = 1.0;
-  rate.by_state(kEast, kCurrentState + 1) = 1.0;
+  rate.by_movers(kNorth, kHeading) = -s * u - c * v;
+  rate.by_movers(kEast, kHeading) = c * u - s * v;
+  rate.by_movers.block<2, 2>(kNorth, kVelocity) << c, -s, s, c;
+  rate.by_movers(kHeadingState, kVelocity + 2) = 1.0;
   const auto at = dynamics_.At(x.segment<3>(kVelocityState), thrust.mean[0], thrust.mean[1]);
-  rate.value.segment<3>(kVelocityState) = at.nu_dot + x.segment<3>(kDisturbanceState);
-  rate.by_state.block<3, 3>(kVelocityState, kVelocityState) = at.by_nu;
-  rate.by_state.block<3, 3>(kVelocityState, kDisturbanceState).setIdentity();
+  rate.value.tail<3>() = at.nu_dot + x.segment<3>(kDisturbanceState);
+  rate.by_movers.block<3, 3>(kVelocityState, kVelocity) = at.by_nu;
+  rate.by_movers.block<3, 3>(kVelocityState, kDisturbance).setIdentity();
   return rate;
 }
 
@@ -253,10 +253,11 @@ Eigen::Matrix<double, 3, kParameters> ExtendedKalmanFilter::ByParameter(
 void ExtendedKalmanFilter::AddThirdOrder(const FilterState& middle, const Rate& rate,
                                          const ThrustStep& thrust, double h,
                                          FilterState& next) const {
-  const Eigen::Matrix3d by_nu = rate.by_state.block<3, 3>(kVelocityState, kVelocityState);
+  const Eigen::Matrix3d by_nu =
+      rate.by_movers.block<3, 3>(kVelocityState, kVelocityState - kHeadingState);
   const double u = middle[kVelocityState];
   const Eigen::Vector3d way = dynamics_.ByThrust(u, thrust.early[0], thrust.early[1]) +
-                              (h * h * h / 6.0) * (by_nu * rate.value.segment<3>(kVelocityState));
+                              (h * h * h / 6.0) * (by_nu * rate.value.tail<3>());
   const double c = std::cos(middle[kHeadingState]);
   const double s = std::sin(middle[kHeadingState]);
   next[kNorth] += c * way[0] - s * way[1];
@@ -267,35 +268,37 @@ void ExtendedKalmanFilter::AddThirdOrder(const FilterState& middle, const Rate& 
 
 // The midpoint rule under the mean thrust; disturbance and drift decay exactly. Moves the state
 // and, where there are any, its slopes; returns the transition.
-FilterCovariance ExtendedKalmanFilter::Advance(const ThrustStep& thrust, double h, FilterState& x,
+FilterTransition ExtendedKalmanFilter::Advance(const ThrustStep& thrust, double h, FilterState& x,
                                                Slopes* slopes) const {
+  constexpr int kBefore = kMovingStates - kHeadingState;  // of the movers, those that move
   const Rate first = RateAt(x, thrust);
-  const FilterState middle = x + 0.5 * h * first.value;
+  FilterState middle = x;
+  middle.head<kMovingStates>() += 0.5 * h * first.value;
   const Rate second = RateAt(middle, thrust);
-  FilterCovariance transition =
-      h * second.by_state + 0.5 * h * h * (second.by_state * first.by_state);
-  transition.diagonal().array() += 1.0;
-  const double decay = std::exp(-h / settings_.noise.acceleration_time_constant_s);
-  const double drift_decay = std::exp(-h / NoiseModel::kFixDriftTimeConstantS);
-  transition.bottomRows<kFilterStates - kDisturbanceState>().setZero();
-  transition.diagonal().segment<3>(kDisturbanceState).setConstant(decay);
-  transition.diagonal().segment<2>(kDriftState).setConstant(drift_decay);
-  transition.diagonal().tail<3>().setOnes();
+  FilterTransition transition;
+  transition.step_s = h;
+  transition.by_movers =
+      h * second.by_movers + (0.5 * h * h) * second.by_movers.leftCols<kBefore>().lazyProduct(
+                                                 first.by_movers.bottomRows<kBefore>());
+  transition.by_movers.bottomLeftCorner<kBefore, kBefore>().diagonal().array() += 1.0;
+  transition.decay.setOnes();
+  transition.decay.head<3>().setConstant(
+      std::exp(-h / settings_.noise.acceleration_time_constant_s));
+  transition.decay.segment<2>(kDriftState - kMovingStates)
+      .setConstant(std::exp(-h / NoiseModel::kFixDriftTimeConstantS));
   if (slopes != nullptr) {
     const auto by_first = ByParameter(x, thrust);
     const auto by_second = ByParameter(middle, thrust);
-    *slopes = (transition * *slopes).eval();
+    slopes->topRows<kMovingStates>() = transition.Moved(*slopes);
+    slopes->bottomRows<kDecayingStates>().array().colwise() *= transition.decay.array();
+    const auto by_velocity = second.by_movers.middleCols<3>(kVelocityState - kHeadingState);
     slopes->middleRows<3>(kVelocityState) +=
-        h * by_second +
-        (0.5 * h * h) * (second.by_state.block<3, 3>(kVelocityState, kVelocityState) * by_first);
-    slopes->topRows<3>() +=
-        (0.5 * h * h) * (second.by_state.block<3, 3>(kNorth, kVelocityState) * by_first);
+        h * by_second + (0.5 * h * h) * by_velocity.bottomRows<3>().lazyProduct(by_first);
+    slopes->topRows<3>() += (0.5 * h * h) * by_velocity.topRows<3>().lazyProduct(by_first);
   }
-  FilterState next = x + h * second.value;
-  AddThirdOrder(middle, second, thrust, h, next);
-  next.segment<3>(kDisturbanceState) = decay * x.segment<3>(kDisturbanceState);
-  next.segment<2>(kDriftState) = drift_decay * x.segment<2>(kDriftState);
-  x = next;
+  x.head<kMovingStates>() += h * second.value;
+  AddThirdOrder(middle, second, thrust, h, x);
+  x.tail<kDecayingStates>().array() *= transition.decay.array();
   return transition;
 }
 
@@ -307,23 +310,33 @@ void ExtendedKalmanFilter::Step(double h) {
     Advance(thrust, h, undisturbed, &instruments_);
     undisturbed_nu_ = undisturbed.segment<3>(kVelocityState);
   }
-  const FilterCovariance transition =
+  const FilterTransition transition =
       Advance(thrust, h, x_, settings_.with_slopes ? &slopes_ : nullptr);
-  if (visit_) visit_({transition});
-  if (fixed_gains_ == nullptr) Spread(transition, h);
+  if (visit_) visit_({transition.Whole()});
+  if (fixed_gains_ == nullptr) Spread(transition);
 }
 
 // The covariance after a step.
-void ExtendedKalmanFilter::Spread(const FilterCovariance& transition, double h) {
+void ExtendedKalmanFilter::Spread(const FilterTransition& transition) {
+  const auto& decay = transition.decay;
+  const Eigen::Matrix<double, kFilterStates, kMovingStates> moved =
+      transition.Moved(covariance_).transpose();
+  covariance_.topLeftCorner<kMovingStates, kMovingStates>() = transition.Moved(moved);
+  covariance_.bottomLeftCorner<kDecayingStates, kMovingStates>() =
+      decay.asDiagonal() * moved.bottomRows<kDecayingStates>();
+  covariance_.topRightCorner<kMovingStates, kDecayingStates>() =
+      covariance_.bottomLeftCorner<kDecayingStates, kMovingStates>().transpose();
+  covariance_.bottomRightCorner<kDecayingStates, kDecayingStates>().array() *=
+      (decay * decay.transpose()).array();
   const NoiseModel& noise = settings_.noise;
-  const double decay = transition(kDisturbanceState, kDisturbanceState);
-  const double drift_decay = transition(kDriftState, kDriftState);
-  covariance_ = (transition * covariance_ * transition.transpose()).eval();
+  const Eigen::Matrix<double, kDecayingStates, 1> lost = 1.0 - decay.array().square();
   covariance_.diagonal().segment<3>(kDisturbanceState) +=
-      (1.0 - decay * decay) * noise.acceleration_sigma.cwiseAbs2();
-  covariance_.diagonal().segment<2>(kDriftState).array() +=
-      (1.0 - drift_decay * drift_decay) * noise.fix_drift_sigma_m * noise.fix_drift_sigma_m;
-  covariance_.diagonal().segment<2>(kCurrentState).array() += h * kCurrentWalk * kCurrentWalk;
+      lost.head<3>().cwiseProduct(noise.acceleration_sigma.cwiseAbs2());
+  covariance_.diagonal().segment<2>(kDriftState) += noise.fix_drift_sigma_m *
+                                                    noise.fix_drift_sigma_m *
+                                                    lost.segment<2>(kDriftState - kMovingStates);
+  covariance_.diagonal().segment<2>(kCurrentState).array() +=
+      transition.step_s * kCurrentWalk * kCurrentWalk;
 }
 
 void ExtendedKalmanFilter::TakeScalar(const Row& row, double value, const Direct& by,

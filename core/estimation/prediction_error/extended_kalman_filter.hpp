@@ -9,6 +9,7 @@
 #include <Eigen/Core>
 
 #include "telltale/core/data/prepared_dataset.hpp"
+#include "telltale/core/estimation/prediction_error/filter_transition.hpp"
 #include "telltale/core/estimation/prediction_error/thrust_lag.hpp"
 #include "telltale/core/vessel/fossen_model.hpp"
 
@@ -52,20 +53,6 @@ struct FilterSettings {
   /// what is predicted for them.
   double nominal_fix_delay_s = 0.0;
 };
-
-/// States of the filter: position north, east and heading of the body origin; u, v, r through the
-/// water; the disturbing accelerations; the drift of the fixes north and east; the current north
-/// and east; what the compass reads too much.
-inline constexpr int kFilterStates = 14;
-inline constexpr int kNorthState = 0;
-inline constexpr int kHeadingState = 2;
-inline constexpr int kVelocityState = 3;
-inline constexpr int kDisturbanceState = 6;
-inline constexpr int kDriftState = 9;
-inline constexpr int kCurrentState = 11;
-inline constexpr int kMisalignmentState = 13;
-using FilterState = Eigen::Matrix<double, kFilterStates, 1>;
-using FilterCovariance = Eigen::Matrix<double, kFilterStates, kFilterStates>;
 
 /// What a heading, and a fix north and east, read of a state where nothing is late.
 /// Model: docs/concepts/physical-model.md (107), (108).
@@ -129,8 +116,8 @@ class ExtendedKalmanFilter {
 
  private:
   struct Rate {
-    FilterState value;
-    FilterCovariance by_state;
+    Eigen::Matrix<double, kMovingStates, 1> value;
+    MotionByMovers by_movers;
   };
 
   // What a reading changes with the parameters at a given state.
@@ -152,11 +139,11 @@ class ExtendedKalmanFilter {
       const FilterState& x, const ThrustStep& thrust) const;
   void AddThirdOrder(const FilterState& middle, const Rate& rate, const ThrustStep& thrust,
                      double h, FilterState& next) const;
-  FilterCovariance Advance(const ThrustStep& thrust, double h, FilterState& x,
+  FilterTransition Advance(const ThrustStep& thrust, double h, FilterState& x,
                            Slopes* slopes) const;
   double LongestStepS() const;
   void Step(double h);
-  void Spread(const FilterCovariance& transition, double h);
+  void Spread(const FilterTransition& transition);
 
   std::function<void(const FilterMove&)> visit_;
   const std::vector<FilterGain>* fixed_gains_ = nullptr;
