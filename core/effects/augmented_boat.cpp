@@ -8,6 +8,8 @@
 #include <span>
 #include <utility>
 
+#include <Eigen/Geometry>
+
 #include "telltale/core/base/contract.hpp"
 #include "telltale/core/simulation/simulator.hpp"
 #include "telltale/core/vessel/body_regressors.hpp"
@@ -113,6 +115,31 @@ class ShaftLagChain {
   std::vector<Stage> stages_;
 };
 
+/// Two outputs that go towards their commands at a limited rate.
+class SlewedOutputs {
+ public:
+  SlewedOutputs(double travel_s, const PropellerCommand& first)
+      : travel_s_(travel_s), now_(first) {}
+
+  /// Their mean while they are told the same for so long.
+  PropellerCommand Follow(const PropellerCommand& command, double time_s) {
+    if (travel_s_ == 0.0) return command;
+    return {Mean(now_.port, command.port, time_s), Mean(now_.starboard, command.starboard, time_s)};
+  }
+
+ private:
+  double Mean(double& now, double command, double time_s) const {
+    const double travel = std::min(std::abs(command - now), time_s / travel_s_);
+    const double start = now;
+    now += std::copysign(travel, command - start);
+    const double moving = travel * travel_s_ / time_s;  // share of the time
+    return moving * 0.5 * (start + now) + (1.0 - moving) * now;
+  }
+
+  double travel_s_;
+  PropellerCommand now_;
+};
+
 }  // namespace
 
 std::size_t StepsPerRow(const VesselModel& model, double sampling_period_s) {
@@ -120,10 +147,10 @@ std::size_t StepsPerRow(const VesselModel& model, double sampling_period_s) {
   return static_cast<std::size_t>(std::ceil(sampling_period_s / kMaximumStepS - kRounding));
 }
 
-AugmentedBoat::AugmentedBoat(AugmentedModel model, double start_s, double span_s,
+AugmentedBoat::AugmentedBoat(AugmentedModel model, const RecordingFrame& frame,
                              const HullParticulars& hull)
-    : model_(std::move(model)), start_s_(start_s), span_s_(span_s), hull_scale_(hull) {
-  Require(span_s > 0.0, "a span to simulate");
+    : model_(std::move(model)), frame_(frame), hull_scale_(hull) {
+  Require(frame.span_s > 0.0, "a span to simulate");
   for (const telltale::Equation equation : kEquations) {
     const std::size_t j = IndexOf(equation);
     const Eigen::VectorXd& theta = model_.model.theta[j];
@@ -139,19 +166,21 @@ AugmentedBoat::AugmentedBoat(AugmentedModel model, double start_s, double span_s
       shaft_lags_s_.push_back(lag_s);
     }
     delay_s_ += effect->CommandDelayS(values);
-    heading_error_rad_ += effect->HeadingErrorRad(values);
+    output_travel_s_ += effect->OutputTravelS(values);
     latency_s_ += effect->LatencyS(values);
     const LeverArm shift = effect->AntennaShift(values);
     antenna_shift_.forward_m += shift.forward_m;
     antenna_shift_.starboard_m += shift.starboard_m;
     current_ += effect->Current(values);
+    current_gradient_ += effect->CurrentGradient(values);
   }
 }
 
 SideThrust AugmentedBoat::SteadyThrust(const PropellerCommand& delta) const {
   PropellerCommand altered = delta;
   for (const auto& [effect, values] : Hooked(Hook::kCommand)) {
-    altered = {effect->Command(values, altered.port), effect->Command(values, altered.starboard)};
+    altered = {effect->Command(values, Side::kPort, altered.port),
+               effect->Command(values, Side::kStarboard, altered.starboard)};
   }
   const auto accelerations = [&](const ThrustRegressors& thrust) {
     std::array<double, 3> sum{};
@@ -170,14 +199,17 @@ std::vector<Drive> AugmentedBoat::DrivesAlong(const HeldCommands& commands, doub
                                               double step_s, std::size_t steps) const {
   const double thrust_lag_s = model_.model.thruster_time_constant_s.value_or(0.0);
   const double lags_s = std::accumulate(shaft_lags_s_.begin(), shaft_lags_s_.end(), thrust_lag_s);
-  const auto before = static_cast<std::size_t>(std::ceil(kStartUpTimeConstants * lags_s / step_s));
+  const double memory_s = kStartUpTimeConstants * lags_s + 2.0 * output_travel_s_;
+  const auto before = static_cast<std::size_t>(std::ceil(memory_s / step_s));
   const double first_s = from_s - delay_s_ - static_cast<double>(before) * step_s;
+  SlewedOutputs outputs(output_travel_s_, commands.At(first_s));
   ShaftLagChain shafts(shaft_lags_s_, SteadyThrust(commands.At(first_s)));
   const auto drive_of_step = [&](std::size_t k) {
     const double start_s = first_s + static_cast<double>(k) * step_s;
     Drive mean;
     commands.ForEachPiece(
-        start_s, start_s + step_s, [&](const PropellerCommand& delta, double begin, double end) {
+        start_s, start_s + step_s, [&](const PropellerCommand& command, double begin, double end) {
+          const PropellerCommand delta = outputs.Follow(command, end - begin);
           const double load = 0.5 * (delta.port * delta.port + delta.starboard * delta.starboard);
           const SideThrust thrust = shafts.Follow(SteadyThrust(delta), end - begin);
           mean = AddScaled(mean, {thrust, load}, (end - begin) / step_s);
@@ -198,22 +230,48 @@ std::vector<Drive> AugmentedBoat::DrivesAlong(const HeldCommands& commands, doub
   return drives;
 }
 
-NuDot AugmentedBoat::Acceleration(const Nu& nu, double psi_rad, const Drive& drive,
+double AugmentedBoat::MeasuredHeadingRad(double psi_rad) const {
+  double measured = psi_rad;
+  for (const auto& [effect, values] : Hooked(Hook::kHeading)) {
+    measured += effect->HeadingErrorRad(values, psi_rad);
+  }
+  return measured;
+}
+
+double AugmentedBoat::MeasuredHeadingSlope(double psi_rad) const {
+  constexpr double kStepRad = 1e-4;
+  return (MeasuredHeadingRad(psi_rad + kStepRad) - MeasuredHeadingRad(psi_rad - kStepRad)) /
+         (2.0 * kStepRad);
+}
+
+double AugmentedBoat::TrueHeadingRad(double measured_rad) const {
+  // Errors change slowly with the heading: each round leaves a fraction of the last one's error.
+  constexpr int kRounds = 6;
+  double psi = measured_rad;
+  for (int round = 0; round < kRounds; ++round) psi += measured_rad - MeasuredHeadingRad(psi);
+  return psi;
+}
+
+NuDot AugmentedBoat::Acceleration(const Nu& nu, const Eta& eta, const Drive& drive,
                                   double time_s) const {
+  const double psi_rad = eta.psi_rad;
   InstantState instant;
-  instant.time_s = time_s - start_s_;
-  instant.span_s = span_s_;
+  instant.time_s = time_s - frame_.start_s;
+  instant.span_s = frame_.span_s;
   instant.psi_rad = psi_rad;
   instant.load = drive.load;
   instant.nu = nu;
   instant.nu_r = nu;
   instant.hull_scale = hull_scale_;
   NuDot nu_dot;
-  if (!current_.isZero(0.0)) {
-    const double u_c = std::cos(psi_rad) * current_[0] + std::sin(psi_rad) * current_[1];
-    const double v_c = -std::sin(psi_rad) * current_[0] + std::cos(psi_rad) * current_[1];
-    instant.nu_r = {nu.u - u_c, nu.v - v_c, nu.r};
-    nu_dot = {nu.r * v_c, -nu.r * u_c, 0.0};
+  if (!current_.isZero(0.0) || !current_gradient_.isZero(0.0)) {
+    const Eigen::Rotation2Dd to_body(-psi_rad);
+    const Eigen::Vector2d from_middle = Eigen::Vector2d(eta.x_m, eta.y_m) - frame_.middle_m;
+    const Eigen::Vector2d water = to_body * (current_ + current_gradient_ * from_middle);
+    const Eigen::Vector2d over_ground = to_body.inverse() * Eigen::Vector2d(nu.u, nu.v);
+    const Eigen::Vector2d changing = to_body * (current_gradient_ * over_ground);
+    instant.nu_r = {nu.u - water[0], nu.v - water[1], nu.r};
+    nu_dot = {nu.r * water[1] + changing[0], -nu.r * water[0] + changing[1], 0.0};
   }
   const BodyRow row = BodyRowAt(instant.nu_r);
   for (std::size_t i = 0; i < row.surge.size(); ++i) {
@@ -249,18 +307,22 @@ NuDot AugmentedBoat::Acceleration(const Nu& nu, double psi_rad, const Drive& dri
 
 Pose AugmentedBoat::Advance(const Pose& from, const Drive& drive, double time_s,
                             double step_s) const {
-  const double psi = from.eta.psi_rad;
-  const NuDot k1 = Acceleration(from.nu, psi, drive, time_s);
+  const auto turned = [&](double by_rad) {
+    Eta eta = from.eta;
+    eta.psi_rad += by_rad;
+    return eta;
+  };
+  const NuDot k1 = Acceleration(from.nu, from.eta, drive, time_s);
   if (model_.model.discretisation == Discretisation::kForwardEuler) {
     const Nu nu = Along(from.nu, k1, step_s);
     return {NextPose(from.eta, from.nu, nu, step_s), nu};
   }
   const double half = step_s / 2.0;
-  const double psi_half = psi + half * from.nu.r;
-  const NuDot k2 = Acceleration(Along(from.nu, k1, half), psi_half, drive, time_s + half);
-  const NuDot k3 = Acceleration(Along(from.nu, k2, half), psi_half, drive, time_s + half);
+  const Eta halfway = turned(half * from.nu.r);
+  const NuDot k2 = Acceleration(Along(from.nu, k1, half), halfway, drive, time_s + half);
+  const NuDot k3 = Acceleration(Along(from.nu, k2, half), halfway, drive, time_s + half);
   const NuDot k4 = Acceleration(Along(from.nu, k3, step_s),
-                                psi + step_s * (from.nu.r + half * k1.r), drive, time_s + step_s);
+                                turned(step_s * (from.nu.r + half * k1.r)), drive, time_s + step_s);
   const Nu nu = Along(from.nu, Plus(Plus(Plus(k1, k2, 2.0), k3, 2.0), k4), step_s / 6.0);
   return {NextPose(from.eta, from.nu, nu, step_s), nu};
 }

@@ -9,6 +9,7 @@
 
 #include "telltale/core/data/held_commands.hpp"
 #include "telltale/core/effects/augmented_model.hpp"
+#include "telltale/core/effects/recording_frame.hpp"
 #include "telltale/core/vessel/motion.hpp"
 #include "telltale/core/vessel/vehicle.hpp"
 
@@ -33,15 +34,15 @@ struct Pose {
 std::size_t StepsPerRow(const VesselModel& model, double sampling_period_s);
 
 /// A model and its effects, ready to simulate.
-/// Model: nu_dot = body(nu_r) + sum over sides of share T + (r v_c, -r u_c, 0) + added
-/// accelerations, docs/concepts/diagnosis.md (81); T is of shafts that follow the commands, delayed
-/// and altered, through the effects' lags, and lags itself by the model's own. kForwardEuler models
-/// step as they were made, kContinuous ones by a Runge-Kutta step of order four with the heading of
-/// the middle of the step. Requires: a model with all three equations; `span_s` > 0, the length of
-/// what is simulated, from `start_s` on the clock of the commands.
+/// Model: nu_dot = body(nu_r) + sum over sides of share T + nu_c_dot + added accelerations,
+/// docs/concepts/diagnosis.md (81), with nu_c_dot = (r v_c, -r u_c, 0) of a uniform current; T is
+/// of shafts that follow the commands, delayed, slewed and altered, through the effects' lags, and
+/// lags itself by the model's own. kForwardEuler models step as they were made, kContinuous ones by
+/// a Runge-Kutta step of order four with the heading of the middle of the step and the current of
+/// the place where the step begins. Requires: a model with all three equations.
 class AugmentedBoat {
  public:
-  AugmentedBoat(AugmentedModel model, double start_s, double span_s,
+  AugmentedBoat(AugmentedModel model, const RecordingFrame& frame,
                 const HullParticulars& hull = {});
 
   /// The drives of `steps` steps from `from_s`, thrusters having followed the commands before.
@@ -55,7 +56,11 @@ class AugmentedBoat {
   std::vector<Pose> Simulate(const Pose& from, std::span<const Drive> drives, double from_s,
                              double step_s) const;
 
-  double HeadingErrorRad() const { return heading_error_rad_; }
+  /// What the compass makes of a true heading, how fast that changes with the heading, and the
+  /// true heading behind a measured one.
+  double MeasuredHeadingRad(double psi_rad) const;
+  double MeasuredHeadingSlope(double psi_rad) const;
+  double TrueHeadingRad(double measured_rad) const;
   LeverArm AntennaShift() const { return antenna_shift_; }
   double LatencyS() const { return latency_s_; }
   const VesselModel& Model() const { return model_.model; }
@@ -65,21 +70,21 @@ class AugmentedBoat {
     return hooked_[static_cast<std::size_t>(hook)];
   }
   SideThrust SteadyThrust(const PropellerCommand& delta) const;
-  NuDot Acceleration(const Nu& nu, double psi_rad, const Drive& drive, double time_s) const;
+  NuDot Acceleration(const Nu& nu, const Eta& eta, const Drive& drive, double time_s) const;
 
   AugmentedModel model_;
-  std::array<std::vector<ModelledEffect>, 4> hooked_;  ///< by the hook they override
-  double start_s_;
-  double span_s_;
+  std::array<std::vector<ModelledEffect>, 5> hooked_;  ///< by the hook they override
+  RecordingFrame frame_;
   HullScale hull_scale_;
   std::array<std::array<double, 9>, 3> hull_{};
   std::array<std::array<double, 4>, 3> thrust_{};
   std::vector<double> shaft_lags_s_;
+  double output_travel_s_ = 0.0;
   double delay_s_ = 0.0;
-  double heading_error_rad_ = 0.0;
   LeverArm antenna_shift_;
   double latency_s_ = 0.0;
   Eigen::Vector2d current_ = Eigen::Vector2d::Zero();
+  Eigen::Matrix2d current_gradient_ = Eigen::Matrix2d::Zero();
 };
 
 }  // namespace telltale

@@ -29,7 +29,7 @@ std::vector<TimedState> Simulate(const AugmentedModel& model,
   Require(!commands.empty() && step_s > 0.0, "commands and a step");
   const double start_s = commands.front().time_s;
   Require(end_s > start_s, "an end after the first command");
-  const AugmentedBoat boat(model, start_s, end_s - start_s, hull);
+  const AugmentedBoat boat(model, {start_s, end_s - start_s}, hull);
   const HeldCommands held = Held(commands);
   const auto steps = static_cast<std::size_t>(std::floor((end_s - start_s) / step_s + 1e-9));
   const std::vector<Drive> drives = boat.DrivesAlong(held, start_s, step_s, steps);
@@ -43,14 +43,15 @@ std::vector<TimedState> Simulate(const AugmentedModel& model,
 
 Recording Measure(const std::vector<TimedState>& track, const AugmentedModel& model,
                   const Vehicle& vehicle, const SensorOptions& options) {
-  const AugmentedBoat boat(model, 0.0, 1.0);
+  const AugmentedBoat boat(model, RecordingFrame{});
   Vehicle real = vehicle;
   real.gnss_antenna.forward_m += boat.AntennaShift().forward_m;
   real.gnss_antenna.starboard_m += boat.AntennaShift().starboard_m;
   Recording recording = Measure(track, real, options);
-  const double turned_deg = boat.HeadingErrorRad() * 180.0 / std::numbers::pi;
+  constexpr double kDegree = std::numbers::pi / 180.0;
   for (HeadingSample& sample : recording.heading) {
-    sample.heading_deg = std::fmod(sample.heading_deg + turned_deg + 360.0, 360.0);
+    const double turned_deg = boat.MeasuredHeadingRad(sample.heading_deg * kDegree) / kDegree;
+    sample.heading_deg = std::fmod(turned_deg + 360.0, 360.0);
   }
   for (GnssFix& fix : recording.gnss) fix.time_s += boat.LatencyS();
   return recording;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <numeric>
 #include <optional>
 #include <span>
 #include <string>
@@ -46,6 +47,14 @@ struct InstantState {
   NuDot Thrust() const {
     return {thrust[0].u + thrust[1].u, thrust[0].v + thrust[1].v, thrust[0].r + thrust[1].r};
   }
+  /// Of thrust and hull.
+  NuDot Acceleration() const {
+    const auto sum = [](const std::array<double, 9>& terms) {
+      return std::accumulate(terms.begin(), terms.end(), 0.0);
+    };
+    const NuDot driven = Thrust();
+    return {driven.u + sum(hull[0]), driven.v + sum(hull[1]), driven.r + sum(hull[2])};
+  }
 };
 
 /// Body accelerations in a narrow band that no free run can foretell, of random phase.
@@ -56,12 +65,13 @@ struct NarrowBandExcitation {
 
 using EffectValues = std::span<const double>;
 
-/// Which of its hooks an effect overrides among those that are called at every step.
-enum class Hook { kNone, kCommand, kThrustShare, kAcceleration };
+/// Which of its hooks an effect overrides among those that are called at every step or sample.
+enum class Hook { kNone, kCommand, kThrustShare, kAcceleration, kHeading };
 
 /// Where a nominal boat's share of an effect is estimated: as a fixed effect, in the model's
-/// coefficients, or as a random effect of each recording, as weather is.
-enum class NominalVariation { kFixedEffect, kInCoefficients, kRecordingEffect };
+/// coefficients, as a random effect of each recording, as weather is, or nowhere, since a nominal
+/// boat has none.
+enum class NominalVariation { kFixedEffect, kInCoefficients, kRecordingEffect, kNone };
 
 /// What an effect is, for people and reports.
 struct EffectFacts {
@@ -76,6 +86,8 @@ struct EffectFacts {
   /// Scatter of those parameters that do not shape, from one free run to the next, as a share of
   /// their length: what blows in gusts.
   double turbulence_intensity = 0.0;
+  /// Whether that scatter is the effect: without it, it is another one.
+  bool is_intermittent = false;
 };
 
 /// Something that moves a boat, or what its sensors say, and that the model leaves out. An effect
@@ -104,7 +116,9 @@ class Effect {
   /// Commands reach the thrusters so much later.
   virtual double CommandDelayS(EffectValues) const { return 0.0; }
   /// What a thruster makes of a command in [-1, 1]. Hook::kCommand.
-  virtual double Command(EffectValues, double delta) const { return delta; }
+  virtual double Command(EffectValues, Side, double delta) const { return delta; }
+  /// Time that an output takes from neutral to full.
+  virtual double OutputTravelS(EffectValues) const { return 0.0; }
   /// The shafts' speed, thrust being its square, follows the command by a first order of this time
   /// constant.
   virtual double ShaftLagS(EffectValues) const { return 0.0; }
@@ -112,14 +126,17 @@ class Effect {
   virtual double ThrustShare(EffectValues, Side, const InstantState&) const { return 1.0; }
   /// The water's velocity north and east.
   virtual Eigen::Vector2d Current(EffectValues) const { return Eigen::Vector2d::Zero(); }
+  /// How that velocity changes with place, zero in the middle of the recording's track: a row for
+  /// each of its components, a column for each metre north and east.
+  virtual Eigen::Matrix2d CurrentGradient(EffectValues) const { return Eigen::Matrix2d::Zero(); }
   /// What else accelerates the boat. Hook::kAcceleration.
   virtual NuDot AddedAcceleration(EffectValues, const InstantState&) const { return {}; }
   /// The stochastic excitation of the boat.
   virtual std::optional<NarrowBandExcitation> StochasticExcitation(EffectValues) const {
     return std::nullopt;
   }
-  /// Measured heading less true heading.
-  virtual double HeadingErrorRad(EffectValues) const { return 0.0; }
+  /// Measured heading less true heading, at a true heading. Hook::kHeading.
+  virtual double HeadingErrorRad(EffectValues, double /*psi_rad*/) const { return 0.0; }
   /// Where the antenna is, from where the vehicle file has it.
   virtual LeverArm AntennaShift(EffectValues) const { return {}; }
   /// Age of a position when it is stamped.

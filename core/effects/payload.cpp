@@ -1,8 +1,5 @@
-#include <algorithm>
-#include <array>
-#include <numeric>
-
 #include "telltale/core/effects/effect_instance.hpp"
+#include "telltale/core/effects/load.hpp"
 #include "telltale/core/effects/wording.hpp"
 
 namespace telltale {
@@ -30,27 +27,7 @@ class PayloadEffect final : public Effect {
   }
 
   NuDot AddedAcceleration(EffectValues values, const InstantState& instant) const override {
-    const double p = values[0];
-    const double x = values[1];
-    const Nu& nu = instant.nu;
-    const NuDot thrust = instant.Thrust();
-    const auto& [surge, sway, yaw] = instant.hull;
-    const NuDot light = {thrust.u + Sum(surge), thrust.v + Sum(sway), thrust.r + Sum(yaw)};
-    // The load's share of the boat's mass and inertia, added mass included.
-    const HullScale& hull = instant.hull_scale;
-    const double p_v = p / hull.sway_mass;
-    const double p_r = p * x / (hull.yaw_inertia * hull.gyration_radius_m * hull.gyration_radius_m);
-    const double side = light.v - p_v * nu.u * nu.r;
-    const double turn = light.r - p_r * nu.u * nu.r;
-    const double determinant = std::max((1.0 + p_v) * (1.0 + p_r * x) - p_v * x * p_r, 0.1);
-    return {(light.u + p * (nu.v * nu.r + x * nu.r * nu.r)) / (1.0 + p) - light.u,
-            ((1.0 + p_r * x) * side - p_v * x * turn) / determinant - light.v,
-            ((1.0 + p_v) * turn - p_r * side) / determinant - light.r};
-  }
-
- private:
-  static double Sum(const std::array<double, 9>& hull) {
-    return std::accumulate(hull.begin(), hull.end(), 0.0);
+    return LoadedLess(instant.Acceleration(), {values[0], values[1], 0.0}, instant);
   }
 };
 

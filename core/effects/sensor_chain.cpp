@@ -33,8 +33,8 @@ Pose TrueStart(const PreparedDataset& dataset, const RowRange& segment, double t
   const LeverArm shift = boat.AntennaShift();
   const double ahead = stated.forward_m + shift.forward_m;
   const double aside = stated.starboard_m + shift.starboard_m;
-  const double psi = now.eta.psi_rad - boat.HeadingErrorRad();
-  const double r = now.nu.r;
+  const double psi = boat.TrueHeadingRad(now.eta.psi_rad);
+  const double r = now.nu.r / boat.MeasuredHeadingSlope(psi);
   const double psi_fixed = fixed.eta.psi_rad;
   const Eigen::Vector2d antenna = Eigen::Vector2d(fixed.eta.x_m, fixed.eta.y_m) +
                                   Turned(psi_fixed, stated.forward_m, stated.starboard_m);
@@ -56,11 +56,12 @@ Nu MeasuredNu(const Pose& now, const Pose& past, const LeverArm& stated,
   const Nu& nu = past.nu;
   const Eigen::Vector2d antenna_velocity =
       Turned(past.eta.psi_rad, nu.u - nu.r * aside, nu.v + nu.r * ahead);
-  const double psi = now.eta.psi_rad + boat.HeadingErrorRad();
+  const double psi = boat.MeasuredHeadingRad(now.eta.psi_rad);
+  const double r = now.nu.r * boat.MeasuredHeadingSlope(now.eta.psi_rad);
   const Eigen::Vector2d velocity =
-      antenna_velocity - now.nu.r * Turned(psi, -stated.starboard_m, stated.forward_m);
+      antenna_velocity - r * Turned(psi, -stated.starboard_m, stated.forward_m);
   return {std::cos(psi) * velocity[0] + std::sin(psi) * velocity[1],
-          -std::sin(psi) * velocity[0] + std::cos(psi) * velocity[1], now.nu.r};
+          -std::sin(psi) * velocity[0] + std::cos(psi) * velocity[1], r};
 }
 
 }  // namespace telltale

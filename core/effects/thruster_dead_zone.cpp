@@ -22,7 +22,7 @@ class ThrusterDeadZoneEffect final : public Effect {
     return "no thrust within " + Percent(values[0]) + " of full command more than modelled";
   }
 
-  double Command(EffectValues values, double delta) const override {
+  double Command(EffectValues values, Side, double delta) const override {
     return std::copysign(std::max(std::abs(delta) - values[0], 0.0), delta);
   }
 };

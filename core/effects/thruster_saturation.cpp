@@ -20,7 +20,7 @@ class ThrusterSaturationEffect final : public Effect {
     return "commands cut off at " + Percent(1.0 - values[0]) + " of full";
   }
 
-  double Command(EffectValues values, double delta) const override {
+  double Command(EffectValues values, Side, double delta) const override {
     return std::clamp(delta, values[0] - 1.0, 1.0 - values[0]);
   }
 };

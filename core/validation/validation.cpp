@@ -150,8 +150,7 @@ class AugmentedFreeRuns {
  public:
   AugmentedFreeRuns(const PreparedDataset& dataset, const AugmentedModel& model)
       : dataset_(dataset),
-        boat_(model, dataset.StartTime(), std::max(dataset.EndTime() - dataset.StartTime(), 1.0),
-              dataset.hull),
+        boat_(model, RecordingFrameOf(dataset), dataset.hull),
         steps_(StepsPerRow(model.model, dataset.sampling_period_s)),
         step_s_(dataset.sampling_period_s / static_cast<double>(steps_)) {}
 

@@ -17,7 +17,7 @@ namespace telltale::testing {
 class InertEffect final : public Effect {
  public:
   InertEffect(std::string_view name, std::vector<EffectParameter> parameters,
-              double turbulence_intensity = 0.0)
+              double turbulence_intensity = 0.0, bool is_intermittent = false)
       : Effect({.name = name,
                 .title = name,
                 .equation = "",
@@ -26,7 +26,8 @@ class InertEffect final : public Effect {
                 .settled_by = "a sensor",
                 .hook = Hook::kNone,
                 .nominal_variation = NominalVariation::kFixedEffect,
-                .turbulence_intensity = turbulence_intensity}) {}
+                .turbulence_intensity = turbulence_intensity,
+                .is_intermittent = is_intermittent}) {}
   std::string Describe(EffectValues) const override { return std::string(Name()); }
 };
 

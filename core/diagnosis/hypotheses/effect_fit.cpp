@@ -1,5 +1,6 @@
 #include "telltale/core/diagnosis/hypotheses/effect_fit.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 
@@ -10,6 +11,9 @@
 
 namespace telltale {
 namespace {
+
+constexpr double kInvisible = 1e-12;
+constexpr double kLeastScatter = 1e-4;  // of the variance that an intermittent effect stands for
 
 PosteriorPoint LowestFrom(const std::vector<Eigen::VectorXd>& starts,
                           const EffectPosterior& posterior) {
@@ -65,13 +69,17 @@ double LengthOf(const ModelledEffect& modelled) {
   return std::sqrt(squared);
 }
 
-/// EffectFit::gusts of a fit: secants over one standard deviation, which is the turbulence
-/// intensity times the length of the mean.
+/// One standard deviation of what gusts: the turbulence intensity times the length of the mean.
+double DeviationOf(const ModelledEffect& modelled) {
+  return modelled.effect->Facts().turbulence_intensity * LengthOf(modelled);
+}
+
+/// EffectFit::gusts of a fit: secants over one standard deviation.
 Eigen::MatrixXd GustsOf(const EffectFit& fit, const ErrorModel& error_model) {
   std::vector<Eigen::VectorXd> columns;
   for (std::size_t i = 0; i < fit.effects.size(); ++i) {
     const Effect& effect = *fit.effects[i].effect;
-    const double deviation = effect.Facts().turbulence_intensity * LengthOf(fit.effects[i]);
+    const double deviation = DeviationOf(fit.effects[i]);
     if (deviation == 0.0) continue;
     for (std::size_t j = 0; j < effect.Parameters().size(); ++j) {
       if (effect.Parameters()[j].is_shape) continue;
@@ -85,6 +93,33 @@ Eigen::MatrixXd GustsOf(const EffectFit& fit, const ErrorModel& error_model) {
     gusts.col(j) = columns[static_cast<std::size_t>(j)];
   }
   return gusts;
+}
+
+/// By how much the scatter from window to window that the intermittent effects of a fit stand for
+/// falls short, in -2 ln of the likelihood of so little: n (s - 1 - ln s) where the realised
+/// variance s, over that of the gusts, which are those of `steady`, is below one.
+double ScatterDeficit(const EffectFit& steady, const EffectFit& gusty,
+                      const ResidualMetric& metric) {
+  const Eigen::MatrixXd left = metric.UnexplainedByWindow(metric.Whiten(gusty.errors));
+  const Eigen::MatrixXd whitened = metric.WhitenColumns(gusty.gusts) / std::sqrt(metric.Kappa());
+  double deficit = 0.0;
+  Eigen::Index column = 0;
+  for (const ModelledEffect& modelled : steady.effects) {
+    const EffectFacts& facts = modelled.effect->Facts();
+    if (DeviationOf(modelled) == 0.0) continue;
+    for (const EffectParameter& parameter : facts.parameters) {
+      if (parameter.is_shape) continue;
+      const auto by_window = whitened.col(column++).reshaped(left.rows(), left.cols());
+      if (!facts.is_intermittent) continue;
+      const Eigen::ArrayXd squares = by_window.colwise().squaredNorm().transpose().array();
+      const Eigen::ArrayXd along = left.cwiseProduct(by_window).colwise().sum().transpose().array();
+      // Each window's own noise adds one.
+      const double realised = (along.square() / squares.max(kInvisible) - 1.0).sum();
+      const double ratio = std::clamp(realised / squares.sum(), kLeastScatter, 1.0);
+      deficit += metric.EffectiveObservations() * (ratio - 1.0 - std::log(ratio));
+    }
+  }
+  return deficit;
 }
 
 }  // namespace
@@ -141,8 +176,11 @@ EffectFit FitEffects(const ErrorModel& error_model, const ResidualMetric& metric
   const ResidualMetric widened = metric.WithWindowVariation(gusts);
   EffectFit gusty = FitWithoutGusts(error_model, widened, none, effects, {steady.Values()});
   gusty.gusts = gusts;
-  gusty.score += widened.VariationPenalty();
-  return gusty.score < steady.score ? gusty : steady;
+  gusty.score += widened.VariationPenalty() + ScatterDeficit(steady, gusty, metric);
+  const bool is_intermittent =
+      std::any_of(effects.begin(), effects.end(),
+                  [](const Effect* effect) { return effect->Facts().is_intermittent; });
+  return is_intermittent || gusty.score < steady.score ? gusty : steady;
 }
 
 }  // namespace telltale

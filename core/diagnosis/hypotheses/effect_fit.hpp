@@ -44,8 +44,9 @@ ErrorModel ErrorModelOf(const FreeRuns& runs, const AugmentedModel& boat);
 /// docs/concepts/diagnosis.md (88), (89), (97). Priors are normal: of twice the typical size about
 /// zero, and for a shape parameter of its spread about its prior mean. Levenberg-Marquardt runs
 /// from each of `starts`, a stack of values each; the lowest cost is kept. An effect with
-/// turbulence is fitted again with gusts, which stay where they lower the score. Requires: at least
-/// one effect and one start.
+/// turbulence is fitted again with gusts, which stay where they lower the score or are the effect.
+/// An intermittent effect that scatters less than it stands for is the less likely. Requires: at
+/// least one effect and one start.
 EffectFit FitEffects(const ErrorModel& error_model, const ResidualMetric& metric,
                      const std::vector<const Effect*>& effects,
                      const std::vector<Eigen::VectorXd>& starts);

@@ -1,6 +1,7 @@
 #include "telltale/core/diagnosis/hypotheses/hypothesis_search.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <map>
 #include <mutex>
@@ -210,7 +211,10 @@ double Distance(const EffectFit& one, const EffectFit& other, const ResidualMetr
     return std::numeric_limits<double>::infinity();
   const double square =
       metric.SquaredMahalanobis(metric.Whiten(one.errors) - metric.Whiten(other.errors));
-  return LogEvidenceOf(metric.EffectiveObservations(), square / std::min(one.square, other.square));
+  const double by_mean =
+      LogEvidenceOf(metric.EffectiveObservations(), square / std::min(one.square, other.square));
+  const bool only_one_varies = (one.gusts.size() == 0) != (other.gusts.size() == 0);
+  return only_one_varies ? std::max(by_mean, 0.5 * std::abs(one.score - other.score)) : by_mean;
 }
 
 Hypotheses Search(const DiagnosisProblem& problem, std::span<const Effect* const> library,

@@ -31,8 +31,9 @@ Hypotheses Search(const DiagnosisProblem& problem, std::span<const Effect* const
                   const std::function<void(double)>& report_progress);
 
 /// Expected log evidence, in nats, of the better of two hypotheses over the other if it is true.
-/// Below kDiagnosis.search.separable_nats this recording does not separate them. Infinite where
-/// their stochastic effects differ.
+/// Below kDiagnosis.search.separable_nats this recording does not separate them. Of two that
+/// predict alike, one with scatter from window to window, it is what their own evidence differs by.
+/// Infinite where their stochastic effects differ.
 double Distance(const EffectFit& one, const EffectFit& other, const ResidualMetric& metric);
 
 }  // namespace telltale

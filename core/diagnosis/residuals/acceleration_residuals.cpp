@@ -24,8 +24,8 @@ bool JustStepped(const HeldCommands& commands, double time_s) {
 std::vector<AccelerationResidual> AccelerationResidualsOf(const PreparedDataset& dataset,
                                                           const AugmentedModel& augmented) {
   const double h = dataset.sampling_period_s;
-  const double span_s = std::max(dataset.EndTime() - dataset.StartTime(), 1.0);
-  const AugmentedBoat boat(augmented, dataset.StartTime(), span_s, dataset.hull);
+  const RecordingFrame frame = RecordingFrameOf(dataset);
+  const AugmentedBoat boat(augmented, frame, dataset.hull);
   const std::size_t steps = StepsPerRow(augmented.model, h);
   const double step_s = h / static_cast<double>(steps);
   std::vector<AccelerationResidual> residuals;
@@ -45,12 +45,17 @@ std::vector<AccelerationResidual> AccelerationResidualsOf(const PreparedDataset&
                         (next.r - predicted.r) / h};
       residual.predicted = {(predicted.u - row.nu.u) / h, (predicted.v - row.nu.v) / h,
                             (predicted.r - row.nu.r) / h};
-      const double since_s = row.time_s - dataset.StartTime();
+      const double since_s = row.time_s - frame.start_s;
+      residual.time_s = since_s;
+      residual.psi_rad = row.eta.psi_rad;
+      residual.nu = row.nu;
+      residual.delta = row.delta;
       residual.cluster = static_cast<std::size_t>(since_s / kDiagnosis.localisation.cluster_s);
       residual.region = row.region;
       residual.speed = SpeedBin(std::hypot(row.nu.u, row.nu.v));
       residual.octant = NearestCompassPoint(row.eta.psi_rad);
-      residual.third = std::min<std::size_t>(static_cast<std::size_t>(3.0 * since_s / span_s), 2);
+      residual.third =
+          std::min<std::size_t>(static_cast<std::size_t>(3.0 * since_s / frame.span_s), 2);
       residual.after_step = JustStepped(dataset.commands[s], row.time_s);
       residuals.push_back(residual);
     }

@@ -13,7 +13,11 @@ namespace telltale {
 struct AccelerationResidual {
   std::array<double, 3> error{};      ///< measured less predicted, m/s^2, m/s^2, rad/s^2
   std::array<double, 3> predicted{};  ///< the model's acceleration, likewise
-  std::size_t cluster = 0;            ///< residuals of one cluster may be correlated
+  double time_s = 0.0;                ///< since the recording began
+  double psi_rad = 0.0;
+  Nu nu;
+  PropellerCommand delta;
+  std::size_t cluster = 0;  ///< residuals of one cluster may be correlated
   PropellerRegion region = PropellerRegion::kFF;
   std::size_t speed = 0;    ///< index of the speed bin
   std::size_t octant = 0;   ///< index of the heading's compass point

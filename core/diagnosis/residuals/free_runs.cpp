@@ -146,9 +146,7 @@ bool FreeRuns::Collect(std::size_t segment, std::size_t first_row, Window& windo
 
 template <class Visit>
 void FreeRuns::ForEachTrack(const AugmentedModel& model, const Offset& offset, Visit visit) const {
-  const double start_s = dataset_->StartTime();
-  const AugmentedBoat boat(model, start_s, std::max(dataset_->EndTime() - start_s, 1.0),
-                           dataset_->hull);
+  const AugmentedBoat boat(model, RecordingFrameOf(*dataset_), dataset_->hull);
   std::vector<Drive> drives;
   std::size_t driven = dataset_->segments.size();
   for (std::size_t w = 0; w < windows_.size(); ++w) {
@@ -190,7 +188,7 @@ Eigen::MatrixXd FreeRuns::RawErrors(const AugmentedModel& model, const Offset& o
         }
         for (const MeasuredHeading& heading : window.headings) {
           const double psi = HeadingAt(track, heading.time_s - from_s, step_s_);
-          error[3 * heading.bin + 2] += Limited(heading.psi_rad - boat.HeadingErrorRad() - psi);
+          error[3 * heading.bin + 2] += Limited(heading.psi_rad - boat.MeasuredHeadingRad(psi));
         }
         error.array() /= window.per_bin.array();
       });

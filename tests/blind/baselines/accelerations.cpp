@@ -41,8 +41,7 @@ class SimulatedRow {
   SimulatedRow(const PreparedDataset& dataset, const AugmentedModel& model, double late_s)
       : dataset_(dataset),
         late_s_(late_s),
-        boat_(model, dataset.StartTime(), std::max(dataset.EndTime() - dataset.StartTime(), 1.0),
-              dataset.hull),
+        boat_(model, telltale::RecordingFrameOf(dataset), dataset.hull),
         steps_(telltale::StepsPerRow(model.model, dataset.sampling_period_s)),
         step_s_(dataset.sampling_period_s / static_cast<double>(steps_)) {
     for (std::size_t s = 0; s < dataset.segments.size(); ++s) {

@@ -208,7 +208,7 @@ TEST(Plan, HoldsWhatItPromises) {
     EXPECT_EQ(kinds["nominal"], 30u);
     EXPECT_EQ(kinds["pair"], 12u);
     EXPECT_EQ(kinds["outside"], 12u);
-    EXPECT_EQ(singles.size(), 20u);
+    EXPECT_EQ(singles.size(), 26u);
     for (const auto& [name, seen] : singles) {
       EXPECT_EQ(seen.size(), EffectNamed(name).has_sign ? 6u : 3u) << name;
     }

@@ -7,7 +7,7 @@
 namespace blind::score {
 namespace {
 
-constexpr std::array<std::pair<std::string_view, std::string_view>, 14> kPairs = {{
+constexpr std::array<std::pair<std::string_view, std::string_view>, 23> kPairs = {{
     {"wind", "current"},                     // both push across and along with the heading
     {"heading_bias", "current"},             // both let course and heading part
     {"body_bias", "thruster_misalignment"},  // a turn and a push to one side
@@ -22,6 +22,15 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 14> kPairs =
     {"thrust_sag", "hull_fouling"},
     {"thrust_inflow_loss", "hull_fouling"},  // both grow with speed
     {"hull_fouling", "crossflow_drag"},      // more drag
+    {"trim_sinkage", "payload"},             // the same load
+    {"trim_sinkage", "hull_fouling"},
+    {"output_slew", "thruster_lag"},  // thrust that comes late
+    {"output_slew", "thruster_delay"},
+    {"output_stuck", "thruster_imbalance"},  // one side that does not follow
+    {"intermittent_thrust_loss", "thruster_imbalance"},
+    {"magnetic_deviation", "heading_bias"},  // headings off
+    {"magnetic_deviation", "current"},
+    {"current_shear", "current"},
 }};
 
 }  // namespace

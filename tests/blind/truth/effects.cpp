@@ -100,6 +100,11 @@ Parameters Payload(Scenario& scenario, double size, double, RandomStream& rng) {
   return {{"mass", scenario.faults.payload_kg, "kg"}, {"x", scenario.faults.payload_x_m, "m"}};
 }
 
+Parameters TrimSinkage(Scenario& scenario, double size, double sign, RandomStream& rng) {
+  scenario.faults.payload_sinks = true;
+  return Payload(scenario, size, sign, rng);
+}
+
 Parameters Fouling(Scenario& scenario, double size, double, RandomStream&) {
   scenario.faults.fouling = 1.0 + 0.25 * size;
   return {{"friction times", scenario.faults.fouling, ""}};
@@ -134,6 +139,31 @@ Parameters Latency(Scenario& scenario, double size, double, RandomStream&) {
   return {{"latency", scenario.faults.gnss_latency_s, "s"}};
 }
 
+Parameters Deviation(Scenario& scenario, double size, double, RandomStream& rng) {
+  Faults& faults = scenario.faults;
+  const double towards = rng.Angle();
+  faults.hard_iron_forward = 0.07 * size * std::cos(towards);
+  faults.hard_iron_starboard = 0.07 * size * std::sin(towards);
+  faults.soft_iron = 0.08 * size;
+  faults.soft_iron_rad = rng.Angle();
+  return {{"hard iron forward", faults.hard_iron_forward, ""},
+          {"hard iron starboard", faults.hard_iron_starboard, ""},
+          {"soft iron", faults.soft_iron, ""},
+          {"soft iron towards", Degrees(faults.soft_iron_rad), "deg"}};
+}
+
+Parameters Slew(Scenario& scenario, double size, double, RandomStream&) {
+  scenario.faults.output_travel_s = 0.6 * size;
+  return {{"travel", scenario.faults.output_travel_s, "s"}};
+}
+
+Parameters Stuck(Scenario& scenario, double size, double sign, RandomStream& rng) {
+  Faults& faults = scenario.faults;
+  (sign > 0.0 ? faults.port_stuck : faults.starboard_stuck) = true;
+  faults.stuck_us = 1500.0 + rng.Sign() * 80.0 * size;
+  return {{sign > 0.0 ? "port stuck at" : "starboard stuck at", faults.stuck_us, "us"}};
+}
+
 Parameters Shear(Scenario& scenario, double size, double, RandomStream&) {
   scenario.faults.shear_mps = 0.25 * size;
   return {{"amplitude", scenario.faults.shear_mps, "m/s"}};
@@ -142,6 +172,16 @@ Parameters Shear(Scenario& scenario, double size, double, RandomStream&) {
 Parameters Wash(Scenario& scenario, double size, double, RandomStream&) {
   scenario.faults.wash_force_n = 40.0 * size;
   return {{"force", scenario.faults.wash_force_n, "N"}};
+}
+
+Parameters Eddies(Scenario& scenario, double size, double, RandomStream&) {
+  scenario.faults.eddy_mps = 0.25 * size;
+  return {{"amplitude", scenario.faults.eddy_mps, "m/s"}};
+}
+
+Parameters FixDrift(Scenario& scenario, double size, double, RandomStream&) {
+  scenario.faults.fix_drift_m = 0.4 * size;
+  return {{"standard deviation", scenario.faults.fix_drift_m, "m"}};
 }
 
 Parameters HeadingDrift(Scenario& scenario, double size, double, RandomStream&) {
@@ -170,6 +210,7 @@ const std::vector<Effect>& Effects() {
   static const std::vector<Effect> effects{
       {"wind", false, true, Wind},
       {"current", false, true, Current},
+      {"current_shear", false, true, Shear},
       {"waves", false, true, Waves},
       {"body_bias", true, true, BodyBias},
       {"thruster_dead_zone", false, true, DeadZone},
@@ -177,22 +218,27 @@ const std::vector<Effect>& Effects() {
       {"thruster_delay", false, true, Delay},
       {"thruster_imbalance", true, true, Imbalance},
       {"thruster_saturation", false, true, Saturation},
+      {"output_slew", false, true, Slew},
+      {"output_stuck", true, true, Stuck},
       {"thruster_misalignment", true, true, Misalignment},
       {"thrust_gain", true, true, Gain},
       {"thrust_sag", false, true, Sag},
       {"thrust_inflow_loss", false, true, InflowLoss},
+      {"intermittent_thrust_loss", false, true, Weed},
       {"payload", false, true, Payload},
+      {"trim_sinkage", false, true, TrimSinkage},
       {"hull_fouling", false, true, Fouling},
       {"crossflow_drag", false, true, Crossflow},
       {"added_mass_coupling", true, true, Munk},
       {"heading_bias", true, true, HeadingBias},
+      {"magnetic_deviation", false, true, Deviation},
       {"antenna_lever_arm", true, true, LeverArm},
       {"gnss_latency", false, true, Latency},
-      {"current_shear", false, false, Shear},
+      {"current_eddies", false, false, Eddies},
       {"ship_wash", false, false, Wash},
       {"compass_wander", false, false, HeadingDrift},
       {"towed_object", false, false, TowedObject},
-      {"propeller_weed", false, false, Weed},
+      {"gnss_drift", false, false, FixDrift},
       {"shallow_water", false, false, Shallows},
   };
   return effects;

@@ -72,6 +72,7 @@ Environment::Environment(RandomStream rng) : rng_(rng.For("gusts")) {
   shear_towards_ = rng.Angle();
   shear_across_ = shear_towards_ + 0.5 * std::numbers::pi;
   shoal_across_ = rng.Angle();
+  front_m_ = rng.Uniform(-15.0, 15.0);
   gust_ = rng_.Normal();
   current_north_ = rng_.Normal();
   current_east_ = rng_.Normal();
@@ -85,13 +86,16 @@ void Environment::Advance(const Weather& weather, double dt_s) {
 }
 
 Surroundings Environment::At(const Scenario& scenario, const Place& place, double time_s) const {
-  constexpr double kShearLengthM = 70.0;
+  constexpr double kEddyLengthM = 70.0;
+  constexpr double kFrontWidthM = 40.0;
   constexpr double kShoalLengthM = 60.0;
   const Weather& day = scenario.weather;
   const Faults& faults = scenario.faults;
   const double wind = std::max(0.0, day.wind_mps * (1.0 + day.gust_share * gust_));
-  const double shear = faults.shear_mps * std::sin(2.0 * std::numbers::pi *
-                                                   Along(place, shear_across_) / kShearLengthM);
+  const double eddy = faults.eddy_mps *
+                      std::sin(2.0 * std::numbers::pi * Along(place, shear_across_) / kEddyLengthM);
+  const double from_front = Along(place, shear_across_) - front_m_;
+  const double shear = eddy + faults.shear_mps * std::tanh(from_front / kFrontWidthM);
   const double shallows =
       std::sin(2.0 * std::numbers::pi * Along(place, shoal_across_) / kShoalLengthM);
   Surroundings here{

@@ -61,6 +61,7 @@ class Environment {
   double shear_towards_;
   double shear_across_;
   double shoal_across_;
+  double front_m_;  // where the front lies, across
   RandomStream rng_;
   double gust_ = 0.0;           // in standard deviations
   double current_north_ = 0.0;  // likewise

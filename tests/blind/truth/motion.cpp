@@ -24,17 +24,36 @@ struct Inertia {
   double added_yaw;
 };
 
+/// How a payload changes the draught, as a share of it: everywhere, and more at the bow than that.
+struct Immersion {
+  double sinkage = 0.0;
+  double trim = 0.0;
+};
+
+Immersion ImmersionOf(const Hull& hull, const Faults& faults) {
+  if (!faults.payload_sinks) return {};
+  constexpr double kWaterDensity = 1025.0, kDraughtM = 0.12, kDemihullBeamM = 0.17;
+  constexpr double kWaterplane = 0.78, kWaterplaneInertia = 0.6;
+  const double area = 2.0 * kWaterplane * kDemihullBeamM * hull.length_m;
+  const double inertia =
+      2.0 * kWaterplaneInertia * kDemihullBeamM * std::pow(hull.length_m, 3) / 12.0;
+  const double lever = faults.payload_kg * (faults.payload_x_m - hull.x_g_m);
+  return {.sinkage = faults.payload_kg / (kWaterDensity * area * kDraughtM),
+          .trim = lever / (kWaterDensity * inertia) * 0.5 * hull.length_m / kDraughtM};
+}
+
 Inertia InertiaOf(const Hull& hull, const Faults& faults, double shoal) {
   // Water that cannot pass under the hull is carried along.
   const double carried = 1.0 + 0.3 * shoal;
+  const double deeper = std::pow(1.0 + ImmersionOf(hull, faults).sinkage, 1.8);
   return {.mass = hull.mass_kg + faults.payload_kg,
           .mass_x_g = hull.mass_kg * hull.x_g_m + faults.payload_kg * faults.payload_x_m,
           .yaw = hull.inertia_z_kgm2 +
                  faults.payload_kg * (faults.payload_x_m * faults.payload_x_m + 0.01),
           .added_surge = carried * hull.added_surge_kg,
-          .added_sway = carried * hull.added_sway_kg,
-          .added_coupling = carried * hull.added_coupling_kgm,
-          .added_yaw = carried * hull.added_yaw_kgm2};
+          .added_sway = deeper * carried * hull.added_sway_kg,
+          .added_coupling = deeper * carried * hull.added_coupling_kgm,
+          .added_yaw = deeper * carried * hull.added_yaw_kgm2};
 }
 
 void Apply(BodyForce& sum, double x, double y, double n) {
@@ -55,25 +74,29 @@ void AddCoriolis(BodyForce& sum, const Inertia& inertia, double munk, const Stat
   Apply(sum, 0.0, 0.0, -munk * (inertia.added_sway - inertia.added_surge) * flow.u * flow.v);
 }
 
-void AddResistance(BodyForce& sum, const Hull& hull, double fouling, double payload_share,
-                   double shoal, const Flow& flow) {
-  const double deeper = 1.0 + 0.15 * payload_share;
+void AddResistance(BodyForce& sum, const Hull& hull, const Faults& faults, double shoal,
+                   const Flow& flow) {
+  const double deeper = 1.0 + 0.15 * faults.payload_kg / hull.mass_kg;
+  const double sinkage = ImmersionOf(hull, faults).sinkage;
   for (const double y : {-0.5 * hull.demihull_spacing_m, 0.5 * hull.demihull_spacing_m}) {
     const double u = flow.u - flow.r * y;
-    const double friction = hull.surge_linear + hull.surge_quadratic * std::abs(u);
-    const double drag =
-        0.5 * deeper * (1.0 + shoal) * (fouling * friction + hull.surge_cubic * u * u) * u;
+    const double friction = (1.0 + 0.65 * sinkage) * faults.fouling *
+                            (hull.surge_linear + hull.surge_quadratic * std::abs(u));
+    const double wave_making = (1.0 + 1.5 * sinkage) * hull.surge_cubic * u * u;
+    const double drag = 0.5 * deeper * (1.0 + shoal) * (friction + wave_making) * u;
     Apply(sum, -drag, 0.0, drag * y);
   }
 }
 
-void AddCrossflow(BodyForce& sum, const Hull& hull, double share, const Flow& flow) {
+void AddCrossflow(BodyForce& sum, const Hull& hull, double share, const Immersion& immersion,
+                  const Flow& flow) {
   constexpr int kStrips = 10;
   const double width = hull.length_m / kStrips;
   for (int strip = 0; strip < kStrips; ++strip) {
     const double x = (strip + 0.5) * width - 0.5 * hull.length_m;
     const double speed = flow.v + x * flow.r;
-    const double leaning = 1.0 + hull.crossflow_centre * 2.0 * x / hull.length_m;
+    const double leaning = 1.0 + immersion.sinkage +
+                           (hull.crossflow_centre + immersion.trim) * 2.0 * x / hull.length_m;
     const double drag = share * hull.crossflow * leaning * width * std::abs(speed) * speed;
     Apply(sum, 0.0, -drag, -drag * x);
   }
@@ -157,10 +180,9 @@ State Rate(const State& state, const Scenario& scenario, const Drive& drive,
   Apply(sum, surroundings.waves.x_n, surroundings.waves.y_n, surroundings.waves.n_nm);
   Apply(sum, drive.towline.x_n, drive.towline.y_n, drive.towline.n_nm);
   AddCoriolis(sum, inertia, faults.munk, state, flow);
-  AddResistance(sum, hull, faults.fouling, faults.payload_kg / hull.mass_kg, surroundings.shoal,
-                flow);
+  AddResistance(sum, hull, faults, surroundings.shoal, flow);
   const double across = 1.0 + surroundings.shoal;
-  AddCrossflow(sum, hull, faults.crossflow * across, flow);
+  AddCrossflow(sum, hull, faults.crossflow * across, ImmersionOf(hull, faults), flow);
   AddSkegAndWaveMaking(sum, hull, across, flow);
   AddThrust(sum, scenario, drive, state, flow);
   AddWind(sum, hull, state, surroundings);

@@ -47,12 +47,25 @@ const Faults& FaultsAt(const SimulatedRun& simulated_run, double time_s) {
   return (time_s >= simulated_run.onset_s ? simulated_run.after : simulated_run.before).faults;
 }
 
+/// What a compass beside iron shows of a heading: the bearing of the field that it feels.
+double Shown(double heading_rad, const Faults& faults) {
+  const double forward = std::cos(heading_rad), starboard = -std::sin(heading_rad);
+  const double c = std::cos(faults.soft_iron_rad), s = std::sin(faults.soft_iron_rad);
+  const double along = faults.soft_iron * (c * forward + s * starboard);
+  const double shown = std::atan2(-(starboard + s * along + faults.hard_iron_starboard),
+                                  forward + c * along + faults.hard_iron_forward);
+  return heading_rad + std::remainder(shown - heading_rad, 360.0 * kDegree);
+}
+
 std::string Fixes(const Track& track, const SimulatedRun& simulated_run, double start_s,
                   RandomStream rng) {
+  constexpr double kFixWanderTimeS = 20.0;
   const Chart chart;
   const double memory_s = rng.Uniform(20.0, 40.0);
   GaussMarkov north_drift(0.015, memory_s, rng.For("north"));
   GaussMarkov east_drift(0.015, memory_s, rng.For("east"));
+  GaussMarkov north_fix_drift(1.0, kFixWanderTimeS, rng.For("north fix drift"));
+  GaussMarkov east_fix_drift(1.0, kFixWanderTimeS, rng.For("east fix drift"));
   std::string text = "time_s,latitude_deg,longitude_deg\n";
   for (int step = 0; step < static_cast<int>(track.states.size()); step += kStepsPerFix) {
     const double time = step * kStepS;
@@ -64,9 +77,11 @@ std::string Fixes(const Track& track, const SimulatedRun& simulated_run, double 
     const double starboard = hull.antenna_starboard_m + faults.antenna_starboard_m;
     const double c = std::cos(boat.heading_rad), s = std::sin(boat.heading_rad);
     const double north = boat.north_m + c * forward - s * starboard + rng.Normal(0.01) +
-                         north_drift.Step(kStepsPerFix * kStepS);
+                         north_drift.Step(kStepsPerFix * kStepS) +
+                         faults.fix_drift_m * north_fix_drift.Step(kStepsPerFix * kStepS);
     const double east = boat.east_m + s * forward + c * starboard + rng.Normal(0.01) +
-                        east_drift.Step(kStepsPerFix * kStepS);
+                        east_drift.Step(kStepsPerFix * kStepS) +
+                        faults.fix_drift_m * east_fix_drift.Step(kStepsPerFix * kStepS);
     AppendLine(text, "%.1f,%.10f,%.10f\n", start_s + time, chart.LatitudeDeg(north),
                chart.LongitudeDeg(east));
   }
@@ -82,7 +97,7 @@ std::string Headings(const Track& track, const SimulatedRun& simulated_run, doub
   for (int step = 0; step < static_cast<int>(track.states.size()); step += kStepsPerHeading) {
     const double time = step * kStepS;
     const Faults& faults = FaultsAt(simulated_run, time);
-    const double shown = track.states[static_cast<std::size_t>(step)].heading_rad +
+    const double shown = Shown(track.states[static_cast<std::size_t>(step)].heading_rad, faults) +
                          faults.heading_bias_rad + rng.Normal(0.2 * kDegree) +
                          drift.Step(kStepsPerHeading * kStepS) +
                          faults.heading_drift_rad * applied_drift.Step(kStepsPerHeading * kStepS);

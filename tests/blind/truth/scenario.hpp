@@ -35,6 +35,7 @@ struct Faults {
   double extra_inflow_loss = 0.0;
   double payload_kg = 0.0;
   double payload_x_m = 0.0;
+  bool payload_sinks = false;  // and trims the hull
   double fouling = 1.0;
   double crossflow = 1.0;
   double munk = 0.0;  // share by which the Munk moment is larger
@@ -46,10 +47,21 @@ struct Faults {
   double antenna_forward_m = 0.0;
   double antenna_starboard_m = 0.0;
   double gnss_latency_s = 0.0;
+  double hard_iron_forward = 0.0;  // of a magnet in the boat, in horizontal fields of the earth
+  double hard_iron_starboard = 0.0;
+  double soft_iron = 0.0;      // share by which iron strengthens the field along its axis
+  double soft_iron_rad = 0.0;  // that axis, from forward to starboard
 
-  double shear_mps = 0.0;  // current that varies with place
+  double output_travel_s = 0.0;  // of both outputs, from neutral to full
+  bool port_stuck = false;
+  bool starboard_stuck = false;
+  double stuck_us = 1500.0;  // where
+
+  double shear_mps = 0.0;  // current across a front, on either side of it
+  double eddy_mps = 0.0;   // current that turns every few boat lengths
   double wash_force_n = 0.0;
   double heading_drift_rad = 0.0;
+  double fix_drift_m = 0.0;
   double tow_kg = 0.0;
   double weed_share = 0.0;  // of the time that one thruster is fouled
   double shoal_drag = 0.0;  // drag gained where it is shallow, as a share

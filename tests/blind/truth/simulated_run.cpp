@@ -66,6 +66,24 @@ Pulses PulsesOf(const Command& command) {
           .starboard_us = std::round(kNeutralUs + kFullUs * command.starboard)};
 }
 
+/// Two outputs that follow what is heard at a limited rate, or stick.
+class Outputs {
+ public:
+  Pulses Follow(const Pulses& heard, const Faults& faults, double dt_s) {
+    const double most =
+        faults.output_travel_s > 0.0 ? kFullUs * dt_s / faults.output_travel_s : 2.0 * kFullUs;
+    const auto towards = [&](double now, double wanted, bool stuck) {
+      return stuck ? faults.stuck_us : now + std::clamp(wanted - now, -most, most);
+    };
+    now_ = {.port_us = towards(now_.port_us, heard.port_us, faults.port_stuck),
+            .starboard_us = towards(now_.starboard_us, heard.starboard_us, faults.starboard_stuck)};
+    return now_;
+  }
+
+ private:
+  Pulses now_;
+};
+
 /// The command in force so long ago, neutral before the first.
 Pulses Heard(const std::vector<Pulses>& commands, int step, double delay_s) {
   const int heard_step = step - static_cast<int>(std::lround(delay_s / kStepS));
@@ -80,6 +98,7 @@ Track Simulate(const SimulatedRun& simulated_run, Mission mission, RandomStream 
   Environment sea(rng.For("sea"));
   Tow tow(simulated_run.after.faults.tow_kg);
   Battery battery;
+  Outputs outputs;
   State boat{.heading_rad = rng.For("heading").Angle()};
   Track track;
   track.states.reserve(static_cast<std::size_t>(steps) + 1);
@@ -93,8 +112,9 @@ Track Simulate(const SimulatedRun& simulated_run, Mission mission, RandomStream 
     const Pulses heard = Heard(track.commands, step, now.faults.command_delay_s);
     const double share = battery.Share(now.faults.sag, boat, kStepS);
     const bool weedy = sea.Weedy(now.faults.weed_share, time);
-    Drive drive{.port_us = heard.port_us,
-                .starboard_us = heard.starboard_us,
+    const Pulses sent = outputs.Follow(heard, now.faults, kStepS);
+    Drive drive{.port_us = sent.port_us,
+                .starboard_us = sent.starboard_us,
                 .port_share = share,
                 .starboard_share = weedy ? 0.2 * share : share,
                 .towline = {}};

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include <gtest/gtest.h>
+#include <Eigen/Geometry>
 
 #include "support/stable_boat.hpp"
 #include "telltale/core/effects/augmented_simulation.hpp"
@@ -34,11 +35,11 @@ HeldCommands Stepped(const PropellerCommand& delta) {
 }
 
 AugmentedBoat BoatWith(std::string_view name, std::vector<double> values) {
-  return {{testing::StableBoat(), {{FindEffect(name), std::move(values)}}}, 0.0, 100.0};
+  return {{testing::StableBoat(), {{FindEffect(name), std::move(values)}}}, {0.0, 100.0}};
 }
 
 AugmentedBoat Plain() {
-  return {{testing::StableBoat(), {}}, 0.0, 100.0};
+  return {{testing::StableBoat(), {}}, {0.0, 100.0}};
 }
 
 Drive SteadyDrive(const AugmentedBoat& boat, const PropellerCommand& delta) {
@@ -62,7 +63,7 @@ TEST(AugmentedBoat, WithoutEffectsIsTheModel) {
 TEST(AugmentedBoat, LosesThrustInReverseAsTheModelDoes) {
   VesselModel model = testing::StableBoat();
   model.reverse_loss.per_speed = 0.8;
-  const AugmentedBoat boat{{model, {}}, 0.0, 100.0};
+  const AugmentedBoat boat{{model, {}}, {0.0, 100.0}};
   for (const PropellerCommand delta : {PropellerCommand{-0.7, 0.5}, PropellerCommand{-0.6, -0.8}}) {
     const Nu nu{1.3, 0.1, 0.2};
     const NuDot expected = model.Acceleration(nu, delta);
@@ -130,13 +131,38 @@ TEST(AugmentedBoat, CutsCommandsOff) {
               SteadyDrive(Plain(), {0.6, 0.6}).thrust[1].u, 1e-12);
 }
 
+TEST(AugmentedBoat, HoldsAStuckOutput) {
+  const auto stuck = [](std::vector<double> values) {
+    return SteadyDrive(BoatWith("output_stuck", std::move(values)), {0.8, 0.6});
+  };
+  const auto commanded = [](double port, double starboard) {
+    return SteadyDrive(Plain(), {port, starboard});
+  };
+  EXPECT_NEAR(stuck({1.0, 0.3}).thrust[0].u, commanded(0.3, 0.6).thrust[0].u, 1e-12);
+  EXPECT_NEAR(stuck({1.0, 0.3}).thrust[1].u, commanded(0.3, 0.6).thrust[1].u, 1e-12);
+  EXPECT_NEAR(stuck({-0.5, 0.2}).thrust[1].u, commanded(0.8, 0.4).thrust[1].u, 1e-12);
+}
+
+// From rest at 1 s an output that takes 2 s to full is at (t - 1 s) / 2 s until it is at 0.5.
+TEST(AugmentedBoat, MovesSlowOutputsAtTheirRate) {
+  const auto drives =
+      BoatWith("output_slew", {2.0}).DrivesAlong(Stepped({0.5, -0.5}), 0.0, kStepS, 60);
+  for (std::size_t k = 20; k < 60; ++k) {
+    const double middle_s = (static_cast<double>(k) + 0.5) * kStepS - 1.0;
+    const double output = std::min(middle_s / 2.0, 0.5);
+    const Drive expected = SteadyDrive(Plain(), {output, -output});
+    EXPECT_NEAR(drives[k].thrust[0].u, expected.thrust[0].u, 1e-9) << k;
+    EXPECT_NEAR(drives[k].thrust[1].r, expected.thrust[1].r, 1e-9) << k;
+  }
+}
+
 // Water that carries a boat along at its own speed does nothing to it, whatever the heading.
 TEST(AugmentedBoat, DriftsWithTheCurrent) {
   VesselModel model = testing::StableBoat();
   for (const std::size_t j : {0, 1, 2}) {
     model.theta[j][j == 0 ? 4 : 8] = 0.0;  // a constant disturbance of its own would move it
   }
-  const AugmentedBoat boat({model, {{FindEffect("current"), {0.2, -0.1}}}}, 0.0, 100.0);
+  const AugmentedBoat boat({model, {{FindEffect("current"), {0.2, -0.1}}}}, {0.0, 100.0});
   for (const double psi : {0.0, 0.7, 2.0, -2.5}) {
     const Nu with_water = {std::cos(psi) * 0.2 - std::sin(psi) * 0.1,
                            -std::sin(psi) * 0.2 - std::cos(psi) * 0.1, 0.0};
@@ -145,6 +171,47 @@ TEST(AugmentedBoat, DriftsWithTheCurrent) {
     EXPECT_NEAR(after.nu.v, with_water.v, 1e-12) << psi;
     EXPECT_NEAR(after.eta.x_m, 0.2, 1e-12) << psi;
     EXPECT_NEAR(after.eta.y_m, -0.1, 1e-12) << psi;
+  }
+}
+
+// Of water in a steady field V = G p a particle at p accelerates by G V = G G p. A boat without
+// thrust that moves with it goes on to do so.
+TEST(AugmentedBoat, DriftsWithACurrentThatShears) {
+  VesselModel model = testing::StableBoat();
+  for (const std::size_t j : {0, 1, 2}) model.theta[j][j == 0 ? 4 : 8] = 0.0;
+  const Eigen::Vector2d middle(20.0, -10.0);
+  const AugmentedBoat boat({model, {{FindEffect("current_shear"), {0.01, -0.004, 0.003}}}},
+                           {0.0, 100.0, middle});
+  Eigen::Matrix2d gradient;
+  gradient << 0.003, 0.01, -0.004, -0.003;
+  const Eigen::Vector2d from_middle(15.0, 8.0);
+  const Eigen::Vector2d place = middle + from_middle;
+  const Eigen::Vector2d water = gradient * from_middle;
+  for (const double psi : {0.0, 0.7, -2.5}) {
+    const Eigen::Rotation2Dd to_body(-psi);
+    const Eigen::Vector2d nu = to_body * water;
+    const double step_s = 1e-3;
+    const Pose after = boat.Advance({{place[0], place[1], psi}, {nu[0], nu[1], 0.0}},
+                                    SteadyDrive(boat, {}), 0.0, step_s);
+    const Eigen::Vector2d accelerated = to_body * (gradient * gradient * from_middle);
+    EXPECT_NEAR((after.nu.u - nu[0]) / step_s, accelerated[0], 1e-7) << psi;
+    EXPECT_NEAR((after.nu.v - nu[1]) / step_s, accelerated[1], 1e-7) << psi;
+  }
+  const Pose still =
+      boat.Advance({{middle[0], middle[1], 0.7}, {}}, SteadyDrive(boat, {}), 0.0, 1.0);
+  EXPECT_NEAR(still.nu.u, 0.0, 1e-12);
+}
+
+TEST(AugmentedBoat, DeviatesAsTheDeviationCurveSays) {
+  const AugmentedBoat boat = BoatWith("magnetic_deviation", {0.05, -0.03, 0.02, 0.01});
+  for (const double psi : {0.0, 0.5 * std::numbers::pi, std::numbers::pi, 4.0}) {
+    const double error = 0.05 * std::sin(psi) - 0.03 * std::cos(psi) + 0.02 * std::sin(2.0 * psi) +
+                         0.01 * std::cos(2.0 * psi);
+    const double slope = 1.0 + 0.05 * std::cos(psi) + 0.03 * std::sin(psi) +
+                         0.04 * std::cos(2.0 * psi) - 0.02 * std::sin(2.0 * psi);
+    EXPECT_NEAR(boat.MeasuredHeadingRad(psi), psi + error, 1e-12) << psi;
+    EXPECT_NEAR(boat.MeasuredHeadingSlope(psi), slope, 1e-7) << psi;
+    EXPECT_NEAR(boat.TrueHeadingRad(psi + error), psi, 1e-6) << psi;
   }
 }
 

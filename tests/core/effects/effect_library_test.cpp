@@ -49,9 +49,10 @@ bool SameReadings(const Recording& a, const Recording& b) {
 }
 
 // The effects that the project promises, by the names under which reports give them.
-TEST(EffectLibrary, HoldsTheTwentyByName) {
+TEST(EffectLibrary, HoldsThePromisedByName) {
   const std::set<std::string> promised = {"wind",
                                           "current",
+                                          "current_shear",
                                           "waves",
                                           "body_bias",
                                           "thruster_dead_zone",
@@ -59,15 +60,20 @@ TEST(EffectLibrary, HoldsTheTwentyByName) {
                                           "thruster_delay",
                                           "thruster_imbalance",
                                           "thruster_saturation",
+                                          "output_slew",
+                                          "output_stuck",
                                           "thruster_misalignment",
                                           "thrust_gain",
                                           "thrust_sag",
                                           "thrust_inflow_loss",
+                                          "intermittent_thrust_loss",
                                           "payload",
+                                          "trim_sinkage",
                                           "hull_fouling",
                                           "crossflow_drag",
                                           "added_mass_coupling",
                                           "heading_bias",
+                                          "magnetic_deviation",
                                           "antenna_lever_arm",
                                           "gnss_latency"};
   std::set<std::string> held;
@@ -124,6 +130,13 @@ TEST(EffectLibrary, DescribesInAnOperatorsWords) {
   const std::vector<double> starboard = {-0.22};
   EXPECT_EQ(FindEffect("thruster_imbalance")->Describe(starboard),
             "starboard thruster 22 % weaker");
+  // Half the turning and half the straining of the gradient, over 50 m.
+  const std::vector<double> shear = {0.006, -0.002, 0.0};
+  EXPECT_EQ(FindEffect("current_shear")->Describe(shear),
+            "a current that changes by up to 0.30 m/s over 50 m");
+  const std::vector<double> deviation = {0.1, 0.0, 0.0, 0.0};
+  EXPECT_EQ(FindEffect("magnetic_deviation")->Describe(deviation),
+            "heading off by up to 5.7 deg, by its direction");
   const std::vector<double> current = {-0.3, 0.4};
   EXPECT_EQ(FindEffect("current")->Describe(current), "0.50 m/s of current towards SE");
 }

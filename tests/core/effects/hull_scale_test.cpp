@@ -89,6 +89,43 @@ TEST(PayloadOfAStatedHull, GoesWithTheRadiusOfGyrationOfItsLength) {
   }
 }
 
+// A load amidships of p = 0.4 sinks the default hull by s = 0.3 of its draught: its wetted surface
+// is (1.82 * 1.3 + 1.4 / 1.3) / 2.82 times as large, its damping across 1.3 times, its added mass
+// 1.69 times. Sway carries 0.5 and yaw 0.3 of the dry mass and inertia as added ones.
+TEST(LoadThatSinksTheHull, GrowsDragDampingAndAddedMassWithTheDraught) {
+  InstantState instant;
+  instant.nu = instant.nu_r = {0.8, 0.1, 0.3};
+  instant.hull[0] = {-0.2, 0.0, 0.0, -0.1};
+  instant.hull[1] = {-0.3, 0.0, 0.0, 0.0, 0.0, 0.0, -0.2, -0.1};
+  instant.hull[2] = {0.0, 0.0, 0.0, -0.4, 0.0, 0.0, 0.0, -0.6};
+  instant.thrust[0].u = 0.5;
+  const NuDot added = Added("trim_sinkage", {0.4, 0.0}, {}, instant);
+  const double wetted = (1.82 * 1.3 + 1.4 / 1.3) / 2.82;
+  const double carried = 0.5 * 0.69;
+  EXPECT_NEAR(1.4 * (0.5 - 0.3 + added.u),
+              0.5 - 0.3 * wetted + 0.4 * 0.1 * 0.3 + carried * 0.1 * 0.3, 1e-12);
+  EXPECT_NEAR((1.0 + (0.4 + carried) / 1.5) * (-0.6 + added.v), -0.6 * 1.3 - 0.4 / 1.5 * 0.8 * 0.3,
+              1e-12);
+  EXPECT_NEAR((1.0 + 0.69 * 0.3 / 1.3) * (-1.0 + added.r),
+              -1.0 * 1.3 - carried / (1.3 * 0.16) * 0.8 * 0.1, 1e-12);
+}
+
+// With its bow deeper a hull drags more ahead of its centre: to a side speed it answers with a
+// moment towards the bow, t L / 6 times the force.
+TEST(LoadThatTrimsTheHull, LeansTheDragAcrossToTheBow) {
+  InstantState instant;
+  instant.hull[1] = {-0.3};
+  instant.nu = instant.nu_r = {0.0, 0.5, 0.0};
+  const double amidships = Added("trim_sinkage", {0.01, 0.0}, {}, instant).r;
+  const double at_the_bow = Added("trim_sinkage", {0.01, 0.3}, {}, instant).r;
+  const double trim = 5.6 * 0.01 * 0.3 / 1.3;
+  const double lever = trim * 1.3 / 6.0 * 1.5 / (1.3 * 0.16);
+  // The point mass itself turns the hull by p_r times its own acceleration to the side.
+  const double point_mass = 0.01 * 0.3 / (1.3 * 0.16) * 0.3;
+  EXPECT_NEAR(amidships, 0.0, 1e-12);
+  EXPECT_NEAR(at_the_bow, -0.3 * lever + point_mass, 2e-2 * std::abs(0.3 * lever));
+}
+
 TEST(MisalignmentOfAStatedHull, TurnsALongerHullLess) {
   const std::vector<double> values = {0.1, 2.7};
   const NuDot plain = Added("thruster_misalignment", values, {}, Thrusting(0.4));
@@ -135,9 +172,9 @@ TEST(HullOfAVehicle, ReachesTheBoatThroughThePreparedDataset) {
   options.sampling_period_s = 0.2;
   const auto dataset =
       Prepare(Measure(track, model, vehicle, testing::NoNoise()), vehicle, options).value();
-  const AugmentedBoat stated(model, 0.0, 60.0, dataset.hull);
-  const AugmentedBoat plain(model, 0.0, 60.0);
-  const AugmentedBoat calm({testing::StableBoat(), {}}, 0.0, 60.0);
+  const AugmentedBoat stated(model, {0.0, 60.0}, dataset.hull);
+  const AugmentedBoat plain(model, {0.0, 60.0});
+  const AugmentedBoat calm({testing::StableBoat(), {}}, {0.0, 60.0});
   const auto accelerated = [](const AugmentedBoat& boat) {
     return boat.Advance({}, {}, 0.0, 1e-6).nu.u / 1e-6;
   };

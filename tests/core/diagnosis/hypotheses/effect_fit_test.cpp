@@ -7,6 +7,7 @@
 #include <Eigen/LU>
 
 #include "support/hand_made_diagnosis.hpp"
+#include "telltale/core/diagnosis/hypotheses/hypothesis_search.hpp"
 
 namespace telltale {
 namespace {
@@ -103,9 +104,9 @@ TEST(FitEffects, KeepsTheLowestOfAllStarts) {
               2.0, 0.05);
 }
 
-/// An effect whose size differs from window to window by `scatter`, beside errors of 0.1.
-EffectFit FitWithScatter(double scatter) {
-  static const testing::InertEffect effect("gusty", {{"size", "1", 1.0, -10.0, 10.0}}, 0.2);
+/// What a size that differs from window to window by `scatter` leaves to an effect, beside errors
+/// of 0.1.
+EffectFit FitWithScatter(double scatter, const Effect& effect) {
   const Eigen::MatrixXd pattern = 10.0 * testing::Pattern(kRows, kWindows, 0.7);
   const Eigen::MatrixXd noise = testing::Pattern(kRows, kWindows, 2.3);
   const ErrorModel error_model = [&](const std::vector<ModelledEffect>& effects) {
@@ -120,8 +121,13 @@ EffectFit FitWithScatter(double scatter) {
   return FitEffects(error_model, UnitMetric(), {&effect}, {Eigen::VectorXd::Constant(1, 1.0)});
 }
 
+const testing::InertEffect& Gusty() {
+  static const testing::InertEffect effect("gusty", {{"size", "1", 1.0, -10.0, 10.0}}, 0.2);
+  return effect;
+}
+
 TEST(FitEffects, AllowsForGustsWhereTheSizeDiffersFromWindowToWindow) {
-  const EffectFit fit = FitWithScatter(0.4);
+  const EffectFit fit = FitWithScatter(0.4, Gusty());
   ASSERT_EQ(fit.gusts.cols(), 1);
   // One standard deviation is the turbulence intensity, 0.2, times the mean, 2.
   EXPECT_TRUE(fit.gusts.reshaped().isApprox(
@@ -130,7 +136,27 @@ TEST(FitEffects, AllowsForGustsWhereTheSizeDiffersFromWindowToWindow) {
 }
 
 TEST(FitEffects, AllowsForNoGustsWhereTheSizeIsConstant) {
-  EXPECT_EQ(FitWithScatter(0.0).gusts.size(), 0);
+  EXPECT_EQ(FitWithScatter(0.0, Gusty()).gusts.size(), 0);
+}
+
+// What acts at times only is no explanation of what acts always: there its steady likeness is
+// likelier, and here it is.
+TEST(FitEffects, AnIntermittentEffectKeepsItsScatter) {
+  const std::vector<EffectParameter> size = {{"size", "1", 1.0, -10.0, 10.0}};
+  const testing::InertEffect steady("steady", size);
+  const testing::InertEffect intermittent("intermittent", size, 1.0, true);
+  EXPECT_GT(FitWithScatter(0.0, intermittent).gusts.size(), 0);
+  EXPECT_LT(FitWithScatter(0.0, steady).score, FitWithScatter(0.0, intermittent).score);
+  EXPECT_LT(FitWithScatter(1.5, intermittent).score, FitWithScatter(1.5, steady).score);
+}
+
+TEST(Distance, OfTwoThatPredictAlikeIsTheEvidenceOfTheScatterOfOne) {
+  const std::vector<EffectParameter> size = {{"size", "1", 1.0, -10.0, 10.0}};
+  const testing::InertEffect steady("steady", size);
+  const testing::InertEffect intermittent("intermittent", size, 1.0, true);
+  const EffectFit one = FitWithScatter(0.0, steady);
+  const EffectFit other = FitWithScatter(0.0, intermittent);
+  EXPECT_NEAR(Distance(one, other, UnitMetric()), 0.5 * (other.score - one.score), 1e-2);
 }
 
 TEST(EffectFit, NegativeLogPriorCountsShapesInStandardDeviations) {
