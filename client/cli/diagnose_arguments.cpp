@@ -48,6 +48,10 @@ void DiagnoseArguments::AddOptionsTo(CLI::App& command, CLI::Option* log) {
       ->type_name("N")
       ->check(WholeNumber())
       ->capture_default_str();
+  command
+      .add_flag("--skip-influence", choices.skip_influence,
+                "do not diagnose once more without each reference, which takes most of the time")
+      ->needs(log);
   command.add_option("--threads", choices.threads, "[1, 256], default: what the machine has")
       ->type_name("N")
       ->check(WholeNumber())

@@ -123,26 +123,58 @@ std::string TestabilityTable(const Diagnosis& diagnosis) {
 
 std::string ReferencesTable(const Diagnosis& diagnosis) {
   if (diagnosis.reference_influence.empty()) return "";
-  Table table({{"without reference", Align::kLeft},
+  Table table({{"without", Align::kLeft},
                {"before", Align::kRight},
                {"95 % below", Align::kRight},
+               {"its own gap", Align::kRight},
                {"verdict", Align::kLeft}});
   for (const ReferenceInfluence& influence : diagnosis.reference_influence) {
     table.AddRow({influence.reference, Fixed(influence.gap.before, 2),
-                  Fixed(influence.gap.floor_limit, 2), InfluenceText(influence)});
+                  Fixed(influence.gap.floor_limit, 2), OwnGapText(influence),
+                  InfluenceText(influence)});
   }
   return '\n' + table.Render();
+}
+
+/// The profile of the missing force that holds the most of any of its components.
+const ForceProfile* TellingProfile(const MissingForce& missing) {
+  const auto most = [](const ForceProfile& profile) {
+    return *std::max_element(profile.share.begin(), profile.share.end());
+  };
+  const auto telling = std::max_element(
+      missing.over.begin(), missing.over.end(),
+      [&](const ForceProfile& a, const ForceProfile& b) { return most(a) < most(b); });
+  return telling == missing.over.end() || telling->bins.empty() ? nullptr : &*telling;
+}
+
+std::string MissingForceTable(const Diagnosis& diagnosis) {
+  if (!diagnosis.missing_force) return "";
+  const MissingForce& missing = *diagnosis.missing_force;
+  const std::string mass = Significant(missing.mass_kg, 3) + " kg";
+  const std::string lead =
+      Wrapped("Missing is " + missing.sentence + ", for a mass of " + mass + ".");
+  const ForceProfile* const profile = TellingProfile(missing);
+  if (profile == nullptr) return '\n' + lead;
+  Table table({{std::string(VariableText(profile->variable)), Align::kLeft},
+               {std::string(ForceText(0)), Align::kRight},
+               {std::string(ForceText(1)), Align::kRight},
+               {std::string(ForceText(2)), Align::kRight}});
+  for (const ForceBin& bin : profile->bins) {
+    std::vector<std::string> row = {BinEndText(bin, bin.low) + " to " + BinEndText(bin, bin.high)};
+    for (const ForceMean& force : bin.force) {
+      row.push_back(Fixed(force.mean, 2) + " ± " + Fixed(force.half_width, 2));
+    }
+    table.AddRow(row);
+  }
+  return '\n' + lead + table.Render();
 }
 
 std::string AdviceText(const Diagnosis& diagnosis) {
   std::string text;
   for (const SeparationAdvice& advice : diagnosis.advice) {
-    const std::string promise =
-        advice.decisive ? ", which should suffice" : ", which may not suffice";
-    text += Wrapped(advice.manoeuvre + " for " + Fixed(advice.duration_s, 0) +
-                        " s would separate " + JoinedWith(advice.separates, " from ") + " by " +
-                        Fixed(advice.expected_nats, 1) + " nats" + promise,
-                    "  ");
+    text += Wrapped(
+        advice.manoeuvre + " for " + Fixed(advice.duration_s, 0) + " s " + PromiseText(advice),
+        "  ");
     if (!advice.how.empty()) text += Wrapped("-> " + advice.how, "     ");
   }
   return Titled("Recommended manoeuvres, by simulation", text);
@@ -183,8 +215,9 @@ std::string NotesText(const Diagnosis& diagnosis) {
 
 std::string DiagnosisTable(const Diagnosis& diagnosis) {
   return Headline(diagnosis) + '\n' + GapTable(diagnosis) + '\n' + WhereTable(diagnosis) + '\n' +
-         CausesText(diagnosis) + ImprovementTable(diagnosis) + ReferencesTable(diagnosis) +
-         TestabilityTable(diagnosis) + AdviceText(diagnosis) + NotesText(diagnosis);
+         CausesText(diagnosis) + MissingForceTable(diagnosis) + ImprovementTable(diagnosis) +
+         ReferencesTable(diagnosis) + TestabilityTable(diagnosis) + AdviceText(diagnosis) +
+         NotesText(diagnosis);
 }
 
 }  // namespace telltale

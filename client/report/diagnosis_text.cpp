@@ -1,6 +1,7 @@
 #include "telltale/client/report/diagnosis_text.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "telltale/client/report/number_text.hpp"
@@ -117,6 +118,39 @@ std::string DetectableText(const EffectTestability& effect) {
   return text;
 }
 
+std::string_view ForceText(std::size_t component) {
+  constexpr std::array<std::string_view, 3> kForces = {"surge force, N", "sway force, N",
+                                                       "yaw moment, N m"};
+  return kForces.at(component);
+}
+
+std::string_view VariableText(ForceVariable variable) {
+  switch (variable) {
+    case ForceVariable::kUnknown: return "";
+    case ForceVariable::kSpeed: return "speed ahead, m/s";
+    case ForceVariable::kMeanCommand: return "mean command, share of full";
+    case ForceVariable::kCommandDifference: return "port less starboard command";
+    case ForceVariable::kHeading: return "heading, degrees";
+    case ForceVariable::kTime: return "time since the start, s";
+  }
+  return "";
+}
+
+std::string BinEndText(const ForceBin& bin, double end) {
+  const double width = bin.high - bin.low;
+  return Fixed(end, width >= 5.0 ? 0 : width >= 0.5 ? 1 : 2);
+}
+
+std::string PromiseText(const SeparationAdvice& advice) {
+  if (advice.separates.empty()) return "would show what kind of cause it is";
+  std::string separates;
+  for (const std::string& effect : advice.separates) {
+    separates.append(separates.empty() ? "" : " from ").append(effect);
+  }
+  return "would separate " + separates + " by " + Fixed(advice.expected_nats, 1) + " nats" +
+         (advice.decisive ? ", which should suffice" : ", which may not suffice");
+}
+
 std::string CauseText(const Cause& cause) {
   if (cause.effects.empty()) return "unknown";
   std::string text;
@@ -134,6 +168,10 @@ std::string InfluenceText(const ReferenceInfluence& influence) {
     effects.append(effects.empty() ? "" : " + ").append(effect);
   }
   return text + ": " + effects + " (" + ShareText(influence.probability) + ")";
+}
+
+std::string OwnGapText(const ReferenceInfluence& influence) {
+  return influence.own_gap ? Fixed(*influence.own_gap, 2) : "–";
 }
 
 std::string EstimateText(const ParameterEstimate& parameter) {

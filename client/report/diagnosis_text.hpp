@@ -39,11 +39,27 @@ std::string TestabilityText(const EffectTestability& effect);
 /// "port_loss 0.31", "forward 0.8 m, starboard beyond range"; empty where nothing is stated.
 std::string DetectableText(const EffectTestability& effect);
 
+/// "surge force, N" of component 0, 1 or 2.
+std::string_view ForceText(std::size_t component);
+
+/// "speed ahead, m/s".
+std::string_view VariableText(ForceVariable variable);
+
+/// The end of a bin, with as many decimals as its width needs.
+std::string BinEndText(const ForceBin& bin, double end);
+
+/// What an advised recording is good for: "would separate wind from current by 3.1 nats, which may
+/// not suffice", or that it would show what the library lacks.
+std::string PromiseText(const SeparationAdvice& advice);
+
 /// "thruster_lag + wind", or "unknown".
 std::string CauseText(const Cause& cause);
 
 /// "Unknown cause, likeliest wind (60 %)", "No material gap".
 std::string InfluenceText(const ReferenceInfluence& influence);
+
+/// The gap of a reference itself against the floor of the others.
+std::string OwnGapText(const ReferenceInfluence& influence);
 
 /// "0.220 ± 0.030 m/s".
 std::string EstimateText(const ParameterEstimate& parameter);

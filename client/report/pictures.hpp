@@ -23,6 +23,9 @@ Markup ErrorMap(const Diagnosis& diagnosis);
 /// Error by heading, octant by octant.
 Markup HeadingRose(const Diagnosis& diagnosis);
 
+/// The missing force over speed, commands, heading and time, with 95 % intervals.
+Markup MissingForceCharts(const Diagnosis& diagnosis);
+
 /// Causes with probabilities, parameters and how much of the excess error each explains.
 Markup CauseCards(const Diagnosis& diagnosis);
 

@@ -114,6 +114,18 @@ Markup CausesSection(const Diagnosis& diagnosis) {
                  CauseCards(diagnosis));
 }
 
+Markup MissingForceSection(const Diagnosis& diagnosis) {
+  std::string lead =
+      "The force and moment that would have to be added to the model's boat, with what the verdict "
+      "names, for it to accelerate as the recording does. A fault of a sensor shows as a force "
+      "too.";
+  if (diagnosis.missing_force) {
+    lead +=
+        " Forces are for a mass of " + Significant(diagnosis.missing_force->mass_kg, 3) + " kg.";
+  }
+  return Section("Which force is missing", lead, MissingForceCharts(diagnosis));
+}
+
 Markup PathsSection(const Diagnosis& diagnosis) {
   return Section("Paths",
                  "The windows with the largest error, each from its start (circle) to its end.",
@@ -204,35 +216,32 @@ Markup ReferencesTable(const Diagnosis& diagnosis) {
     rows += Element("tr", {},
                     Cell(influence.reference) + Cell(InfluenceText(influence)) +
                         Cell(Fixed(influence.gap.before, 2), "number") +
-                        Cell(Fixed(influence.gap.floor_limit, 2), "number"));
+                        Cell(Fixed(influence.gap.floor_limit, 2), "number") +
+                        Cell(OwnGapText(influence), "number"));
   }
-  return Element(
-      "table", {},
-      HeaderRow(
-          {{"Without", ""}, {"The answer is", ""}, {"Gap", "number"}, {"95 % below", "number"}}) +
-          Element("tbody", {}, rows));
+  return Element("table", {},
+                 HeaderRow({{"Without", ""},
+                            {"The answer is", ""},
+                            {"Gap", "number"},
+                            {"95 % below", "number"},
+                            {"Its own gap", "number"}}) +
+                     Element("tbody", {}, rows));
 }
 
 Markup ReferencesSection(const Diagnosis& diagnosis) {
   return Section("What each reference does",
                  "The diagnosis once more without each reference. An answer that changes rests on "
-                 "that one recording.",
+                 "that one recording. Its own gap is what a nominal day shows that took no part.",
                  ReferencesTable(diagnosis));
 }
 
 Markup AdviceCard(const SeparationAdvice& advice) {
-  std::string separates;
-  for (const std::string& effect : advice.separates) {
-    separates.append(separates.empty() ? "" : " from ").append(effect);
-  }
-  const std::string gain =
-      "Separates " + separates + " by " + Fixed(advice.expected_nats, 1) + " nats" +
-      (advice.decisive ? ", which should suffice." : ", which may not suffice.");
   Markup card = Styled("header", "",
                        Styled("h3", "", Words(advice.manoeuvre)) +
                            Styled("b", "share", Words(Fixed(advice.duration_s, 0) + " s")));
   if (!advice.how.empty()) card += Element("p", {}, Words(advice.how));
-  return Styled("article", "card", card + Styled("p", "soft", Words(gain)));
+  return Styled("article", "card",
+                card + Styled("p", "soft", Words("It " + PromiseText(advice) + '.')));
 }
 
 Markup AdviceSection(const Diagnosis& diagnosis) {
@@ -263,13 +272,13 @@ Markup Colophon(const Diagnosis& diagnosis) {
 }  // namespace
 
 std::string ReportPage(const Diagnosis& diagnosis) {
-  const Markup body =
-      Element("main", {},
-              Headline(diagnosis) + GapSection(diagnosis) + OnsetSection(diagnosis) +
-                  LocationSection(diagnosis) + CausesSection(diagnosis) + PathsSection(diagnosis) +
-                  ImprovementSection(diagnosis) + TestabilitySection(diagnosis) +
-                  ReferencesSection(diagnosis) + AdviceSection(diagnosis) +
-                  NotesSection(diagnosis) + Colophon(diagnosis));
+  const Markup body = Element(
+      "main", {},
+      Headline(diagnosis) + GapSection(diagnosis) + OnsetSection(diagnosis) +
+          LocationSection(diagnosis) + CausesSection(diagnosis) + MissingForceSection(diagnosis) +
+          PathsSection(diagnosis) + ImprovementSection(diagnosis) + TestabilitySection(diagnosis) +
+          ReferencesSection(diagnosis) + AdviceSection(diagnosis) + NotesSection(diagnosis) +
+          Colophon(diagnosis));
   const Markup head = Markup::Own(
                           "<meta charset=\"utf-8\">"
                           "<meta name=\"viewport\" "

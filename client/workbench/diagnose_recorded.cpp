@@ -112,7 +112,7 @@ DiagnoseOptions DiagnoseChoices::Options() const {
   options.refit = refit;
   options.without = without;
   options.seed = seed;
-  options.leave_out_references = true;
+  options.leave_out_references = !skip_influence;
   options.threads = threads.value_or(DefaultThreads());
   if (const auto refusal = options.Validate()) {
     throw UsageError(refusal->subject + ": " + refusal->reason + "; " + refusal->advice);

@@ -20,6 +20,7 @@ struct DiagnoseChoices {
   std::vector<std::string> without;  ///< names of effects
   std::uint64_t seed = 1;
   std::optional<std::size_t> threads;  ///< unset: all of the machine
+  bool skip_influence = false;         ///< do not diagnose without each reference
 
   /// Throws: UsageError for a value out of its range or an effect that there is not.
   DiagnoseOptions Options() const;

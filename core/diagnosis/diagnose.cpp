@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "telltale/core/base/format_number.hpp"
 #include "telltale/core/base/range.hpp"
 #include "telltale/core/diagnosis/baseline/synthetic_references.hpp"
 #include "telltale/core/diagnosis/hypotheses/augmented_identification.hpp"
@@ -66,12 +67,31 @@ std::optional<Improvement> ImprovementOf(const PreparedDataset& recording,
   return Improvement{scores_before->free_run, scores_after->free_run};
 }
 
+/// The gap of one more nominal recording, which took no part in the baseline; none without windows.
+std::optional<double> GapOf(const PreparedDataset& nominal_day, const HorizonErrors& main,
+                            const AugmentedModel& boat) {
+  const FreeRuns runs(nominal_day, boat.model, main.runs.HorizonS());
+  if (runs.Windows() == 0) return std::nullopt;
+  return std::sqrt(SquaredGaps(runs.Errors(boat), main.floor.scale, kAllChannels).mean());
+}
+
+/// What nominal days that took no part say, and which of them is to be scored.
+struct NominalDays {
+  const PreparedDataset* left_out = nullptr;
+  std::optional<double> squared_limit;
+};
+
+struct Answer {
+  DiagnosedModel diagnosed;
+  std::optional<double> gap_of_left_out;
+};
+
 /// Diagnose() with a model and references that are known to be usable.
-Result<DiagnosedModel> DiagnoseAgainst(const std::vector<PreparedDataset>& references,
-                                       const PreparedDataset& recording,
-                                       const Identification& identification,
-                                       const UncertainModel& model, const DiagnoseOptions& options,
-                                       const Progress& progress) {
+Result<Answer> DiagnoseAgainst(const std::vector<PreparedDataset>& references,
+                               const NominalDays& days, const PreparedDataset& recording,
+                               const Identification& identification, const UncertainModel& model,
+                               const DiagnoseOptions& options, const Progress& progress) {
+  Answer answer;
   const auto report_progress = [&](std::string_view stage, double share) {
     if (progress) progress(stage, share);
   };
@@ -88,6 +108,8 @@ Result<DiagnosedModel> DiagnoseAgainst(const std::vector<PreparedDataset>& refer
   const std::vector<HorizonErrors> horizons = HorizonErrorsOf(*runs, nominal.boat);
   const HorizonErrors& main = horizons[runs->main];
 
+  if (days.left_out) answer.gap_of_left_out = GapOf(*days.left_out, main, nominal.boat);
+
   report_progress("sensitivities", 0.35);
   const Sensitivity sensitivity =
       SensitivityOf(main.runs, nominal.boat, model, parameter_refs, options.threads);
@@ -100,10 +122,11 @@ Result<DiagnosedModel> DiagnoseAgainst(const std::vector<PreparedDataset>& refer
   const Hypotheses hypotheses =
       Search(problem, library, options.most_effects, options.threads,
              [&](double share) { report_progress("effects", 0.4 + 0.4 * share); });
-  const Conclusion conclusion = Conclude(hypotheses, problem, main, options.seed);
+  const Conclusion conclusion =
+      Conclude(hypotheses, problem, main, options.seed, days.squared_limit);
 
   report_progress("report", 0.85);
-  DiagnosedModel diagnosed;
+  DiagnosedModel& diagnosed = answer.diagnosed;
   diagnosed.diagnosis =
       BuildReport({recording, references, model, library, horizons, main, problem, hypotheses,
                    conclusion, options.advise, options.state_power, options.seed, options.threads});
@@ -113,7 +136,7 @@ Result<DiagnosedModel> DiagnoseAgainst(const std::vector<PreparedDataset>& refer
     diagnosed.diagnosis.improvement = ImprovementOf(recording, model.model, boat);
   }
   report_progress("done", 1.0);
-  return diagnosed;
+  return answer;
 }
 
 std::string ReferenceName(const DiagnoseOptions& options, std::size_t reference) {
@@ -121,11 +144,12 @@ std::string ReferenceName(const DiagnoseOptions& options, std::size_t reference)
                                                     : "reference " + std::to_string(reference + 1);
 }
 
-ReferenceInfluence InfluenceOf(std::string reference, const Result<DiagnosedModel>& without) {
+ReferenceInfluence InfluenceOf(std::string reference, const Result<Answer>& without) {
   ReferenceInfluence influence;
   influence.reference = std::move(reference);
   if (!without) return influence;
-  const Diagnosis& diagnosis = without->diagnosis;
+  influence.own_gap = without->gap_of_left_out;
+  const Diagnosis& diagnosis = without->diagnosed.diagnosis;
   influence.verdict = diagnosis.verdict;
   influence.gap = diagnosis.Main().all;
   if (diagnosis.causes.empty()) return influence;
@@ -153,7 +177,8 @@ std::vector<ReferenceInfluence> InfluencesOf(const std::vector<PreparedDataset>&
     others.erase(others.begin() + static_cast<std::ptrdiff_t>(left_out));
     influences.push_back(
         InfluenceOf(ReferenceName(options, left_out),
-                    DiagnoseAgainst(others, recording, identification, model, options, {})));
+                    DiagnoseAgainst(others, {&references[left_out], std::nullopt}, recording,
+                                    identification, model, options, {})));
   }
   return influences;
 }
@@ -172,6 +197,26 @@ void NoteInfluences(Diagnosis& diagnosis) {
   if (deciding.empty()) return;
   diagnosis.notes.push_back("Without one of these references the verdict is another: " + deciding +
                             ". More references would settle it.");
+}
+
+/// What references that took no part in the baseline leave of a gap in doubt; none of fewer than
+/// two.
+std::optional<double> SquaredLimitOf(const std::vector<ReferenceInfluence>& influences) {
+  std::vector<double> squared_gaps;
+  for (const ReferenceInfluence& influence : influences) {
+    if (influence.own_gap) squared_gaps.push_back(*influence.own_gap * *influence.own_gap);
+  }
+  if (squared_gaps.size() < 2) return std::nullopt;
+  return SquaredLimitOfDays(squared_gaps);
+}
+
+void NoteDays(std::optional<double> squared_limit, Diagnosis& diagnosis) {
+  if (!squared_limit) return;
+  diagnosis.notes.push_back(
+      "References that took no part in the baseline say that 95 % of nominal "
+      "days stay below a gap of " +
+      FormatNumber(std::sqrt(*squared_limit), 2) +
+      ". A smaller gap without a certain cause counts as undecided.");
 }
 
 void DescribeReferences(std::size_t reference_logs, Diagnosis& diagnosis) {
@@ -220,18 +265,23 @@ Result<DiagnosedModel> Diagnose(const PreparedDataset& recording,
     return Refuse("model", "its simulation of this recording diverges",
                   "identify the boat again, or name reference logs");
   }
-  auto diagnosed = DiagnoseAgainst(references.empty() ? synthetic : references, recording, model,
-                                   *uncertain, options, progress);
-  if (!diagnosed) return diagnosed;
+  std::vector<ReferenceInfluence> influences;
   if (options.leave_out_references && references.size() > 1) {
-    diagnosed->diagnosis.reference_influence =
-        InfluencesOf(references, recording, model, *uncertain, options, progress);
-    NoteInfluences(diagnosed->diagnosis);
+    influences = InfluencesOf(references, recording, model, *uncertain, options, progress);
   }
-  diagnosed->diagnosis.vehicle_id = vehicle_id;
-  DescribeReferences(references.size(), diagnosed->diagnosis);
-  diagnosed->diagnosis.sentence = SummarySentence(diagnosed->diagnosis);
-  return diagnosed;
+  const std::optional<double> squared_limit = SquaredLimitOf(influences);
+  auto answer =
+      DiagnoseAgainst(references.empty() ? synthetic : references, {nullptr, squared_limit},
+                      recording, model, *uncertain, options, progress);
+  if (!answer) return tl::unexpected<Refusal>(std::move(answer).error());
+  Diagnosis& diagnosis = answer->diagnosed.diagnosis;
+  diagnosis.reference_influence = std::move(influences);
+  NoteInfluences(diagnosis);
+  NoteDays(squared_limit, diagnosis);
+  diagnosis.vehicle_id = vehicle_id;
+  DescribeReferences(references.size(), diagnosis);
+  diagnosis.sentence = SummarySentence(diagnosis);
+  return std::move(answer->diagnosed);
 }
 
 }  // namespace telltale

@@ -49,6 +49,13 @@ struct LocalisationConstants {
   double timing_share = 0.1;  ///< 1, of bias and slope together; below it the cell is noise
 };
 
+/// The missing force, docs/concepts/diagnosis.md (101).
+struct MissingForceConstants {
+  std::size_t bins = 10;        ///< of each variable, convention
+  double significance = 0.01;   ///< 1, of a variable, over all components and variables, convention
+  double telling_share = 0.15;  ///< 1, of the mean square that a sentence names, convention
+};
+
 /// The linearisation of free runs and their response to harmonic accelerations, (84), (90).
 struct LinearisationConstants {
   double negligible_size = 0.02;        ///< typical sizes, below which an effect is left out
@@ -142,7 +149,6 @@ struct RankingConstants {
   double doubt_midpoint = -0.2;           ///< doubt at even odds
   double doubt_per_extra_effect = 0.7;    ///< doubt per effect beyond the first
   double doubt_per_predictable = 4.0;     ///< doubt per unit of LackOfFit::predictable
-  double likely_unknown = 0.5;            ///< probability of an unknown cause, at most; convention
   double explained_share = 0.7;           ///< 1, of the excess, from which on a gap is explained
   double naming_probability = 0.9;        ///< of a named cause at least, development sets 2 and 3
 };
@@ -180,6 +186,7 @@ struct DiagnosisConstants {
   FreeRunConstants free_runs;
   GapConstants gap;
   LocalisationConstants localisation;
+  MissingForceConstants missing_force;
   LinearisationConstants linearisation;
   WiringConstants wiring;
   BaselineConstants baseline;

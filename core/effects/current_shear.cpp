@@ -26,7 +26,8 @@ class CurrentShearEffect final : public Effect {
                        "divergence, Batchelor, An Introduction to Fluid Dynamics, 1967, 2.3",
              .parameters = {{"north_by_east", "1/s", kTypicalShear, -kLargestShear, kLargestShear},
                             {"east_by_north", "1/s", kTypicalShear, -kLargestShear, kLargestShear},
-                            {"stretch", "1/s", kTypicalShear, -kLargestShear, kLargestShear}},
+                            {"north_by_north", "1/s", kTypicalShear, -kLargestShear,
+                             kLargestShear}},
              .settled_by = "a log of speed through the water",
              .nominal_variation = NominalVariation::kRecordingEffect}) {}
 

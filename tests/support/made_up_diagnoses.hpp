@@ -123,9 +123,23 @@ inline Diagnosis MadeUpDiagnosis() {
                   1.5,
                   false}};
   made.reference_influence = {
-      {"monday", Verdict::kUnknownCause, {"wind", "current"}, 0.625, {4.5, 4.5, 1.25, 1.75}},
+      {"monday", Verdict::kUnknownCause, {"wind", "current"}, 0.625, {4.5, 4.5, 1.25, 1.75}, 1.5},
       {"tuesday", Verdict::kNoMaterialGap, {}, 0.0, {2.5, 2.5, 1.5, 3.25}},
       {"friday", Verdict::kUnknown, {}, 0.0, {}}};
+  MissingForce missing;
+  missing.mass_kg = 15.0;
+  missing.mean = {{{-2.5, 0.5}, {0.25, 0.125}, {0.0625, 0.03125}}};
+  missing.constant_share = {0.5, 0.125, 0.0};
+  missing.scatter = {3.5, 1.25, 0.75};
+  missing.excess = {4.5, 0.5, -0.25};
+  ForceProfile over;
+  over.variable = ForceVariable::kHeading;
+  over.share = {0.25, 0.0, 0.0625};
+  over.bins = {{0.0, 36.0, {{{-4.0, 0.75}, {0.5, 0.25}, {0.125, 0.0625}}}, 120},
+               {36.0, 72.0, {{{1.5, 0.5}, {-0.5, 0.25}, {-0.25, 0.125}}}, 95}};
+  missing.over = {over};
+  missing.sentence = "a surge force that is -4.0 ± 0.8 N on headings of 0 to 36 deg";
+  made.missing_force = missing;
   made.onset = Onset{1700000205.0, 1700000195.0, 1700000220.0};
   made.rest = "heading, FR";
   made.improvement = Improvement{{MadeUpScores(1.0, 2.0), MadeUpScores(5.0, 4.0)},
@@ -235,6 +249,37 @@ inline void ExpectSame(const ReferenceInfluence& a, const ReferenceInfluence& b)
   EXPECT_EQ(a.effects, b.effects);
   EXPECT_EQ(a.probability, b.probability);
   ExpectSame(a.gap, b.gap);
+  EXPECT_EQ(a.own_gap, b.own_gap);
+}
+
+inline void ExpectSame(const ForceMean& a, const ForceMean& b) {
+  EXPECT_EQ(a.mean, b.mean);
+  EXPECT_EQ(a.half_width, b.half_width);
+}
+
+inline void ExpectSame(const ForceBin& a, const ForceBin& b) {
+  EXPECT_EQ(a.low, b.low);
+  EXPECT_EQ(a.high, b.high);
+  EXPECT_EQ(a.rows, b.rows);
+  for (std::size_t i = 0; i < 3; ++i) ExpectSame(a.force[i], b.force[i]);
+}
+
+inline void ExpectSame(const ForceProfile& a, const ForceProfile& b) {
+  EXPECT_EQ(a.variable, b.variable);
+  EXPECT_EQ(a.share, b.share);
+  ASSERT_EQ(a.bins.size(), b.bins.size());
+  for (std::size_t i = 0; i < a.bins.size(); ++i) ExpectSame(a.bins[i], b.bins[i]);
+}
+
+inline void ExpectSame(const MissingForce& a, const MissingForce& b) {
+  EXPECT_EQ(a.mass_kg, b.mass_kg);
+  EXPECT_EQ(a.sentence, b.sentence);
+  EXPECT_EQ(a.constant_share, b.constant_share);
+  EXPECT_EQ(a.scatter, b.scatter);
+  EXPECT_EQ(a.excess, b.excess);
+  for (std::size_t i = 0; i < 3; ++i) ExpectSame(a.mean[i], b.mean[i]);
+  ASSERT_EQ(a.over.size(), b.over.size());
+  for (std::size_t i = 0; i < a.over.size(); ++i) ExpectSame(a.over[i], b.over[i]);
 }
 
 inline void ExpectSame(const SeparationAdvice& a, const SeparationAdvice& b) {
@@ -292,6 +337,8 @@ inline void ExpectSame(const Diagnosis& a, const Diagnosis& b) {
     EXPECT_EQ(a.onset->latest_s, b.onset->latest_s);
   }
   EXPECT_EQ(a.rest, b.rest);
+  ASSERT_EQ(a.missing_force.has_value(), b.missing_force.has_value());
+  if (a.missing_force) ExpectSame(*a.missing_force, *b.missing_force);
   ASSERT_EQ(a.improvement.has_value(), b.improvement.has_value());
   if (a.improvement) {
     ExpectSame(a.improvement->before, b.improvement->before);

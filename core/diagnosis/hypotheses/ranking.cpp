@@ -107,8 +107,12 @@ GapAssessment AssessGap(double squared_gap, double upper_squared_gap, double squ
 }
 
 bool IsLikely(GapAssessment assessment, const Ranking& ranking) {
-  return assessment == GapAssessment::kMaterial && !ranking.fits.empty() &&
-         ranking.unknown <= kRanking.likely_unknown;
+  if (assessment != GapAssessment::kMaterial || ranking.fits.empty()) return false;
+  const double probability = ranking.fits.front().probability;
+  return probability >= ranking.unknown + ranking.no_effect &&
+         std::all_of(ranking.fits.begin(), ranking.fits.end(), [&](const RankedHypothesis& other) {
+           return other.probability <= probability;
+         });
 }
 
 Verdict VerdictOf(GapAssessment assessment, const Ranking& ranking,

@@ -47,8 +47,8 @@ enum class GapAssessment {
 GapAssessment AssessGap(double squared_gap, double upper_squared_gap, double squared_limit,
                         double best_score, const LackOfFit& lack_of_fit);
 
-/// Whether the likeliest hypothesis is more probable than an unknown cause, so that the model is
-/// identified again with it.
+/// Whether the hypothesis of the lowest score is the most probable cause, the unknown one included.
+/// Then it leads the report, which shows its figures, and the model is identified again with it.
 bool IsLikely(GapAssessment assessment, const Ranking& ranking);
 
 /// The verdict. A cause is named from odds of nine to one on; below them the cause is unknown.

@@ -1,5 +1,6 @@
 #include "telltale/core/diagnosis/report/build_report.hpp"
 
+#include <algorithm>
 #include <optional>
 #include <string>
 #include <vector>
@@ -10,9 +11,11 @@
 #include "telltale/core/diagnosis/hypotheses/power.hpp"
 #include "telltale/core/diagnosis/hypotheses/testability.hpp"
 #include "telltale/core/diagnosis/report/causes.hpp"
+#include "telltale/core/diagnosis/report/missing_force_text.hpp"
 #include "telltale/core/diagnosis/report/pictures.hpp"
 #include "telltale/core/diagnosis/report/separation_advice.hpp"
 #include "telltale/core/diagnosis/residuals/localisation.hpp"
+#include "telltale/core/diagnosis/residuals/missing_force.hpp"
 
 namespace telltale {
 namespace {
@@ -44,18 +47,50 @@ std::string NarrowestPlace(const std::vector<GapCell>& cells) {
   return "";
 }
 
-/// Where the error sits that stays unexplained; empty where the gap is explained.
-std::string UnexplainedPlace(const ReportInputs& inputs, const std::vector<GapCell>& where) {
-  if (inputs.conclusion.verdict == Verdict::kExplained) return "";
-  if (inputs.conclusion.verdict != Verdict::kPartlyExplained) return NarrowestPlace(where);
-  return NarrowestPlace(Localise(inputs.recording, inputs.references,
-                                 inputs.problem.nominal.boat.With(inputs.conclusion.best.effects),
-                                 inputs.seed));
+/// The nominal boat with what the verdict names.
+AugmentedModel BoatOfTheVerdict(const ReportInputs& inputs) {
+  const AugmentedModel& nominal = inputs.problem.nominal.boat;
+  if (inputs.conclusion.verdict != Verdict::kPartlyExplained) return nominal;
+  return nominal.With(inputs.conclusion.best.effects);
+}
+
+/// What stays unexplained: its place and the force it amounts to. Nothing where the gap is
+/// explained.
+void DescribeTheUnexplained(const ReportInputs& inputs, Diagnosis& diagnosis) {
+  if (diagnosis.verdict == Verdict::kExplained) return;
+  const AugmentedModel boat = BoatOfTheVerdict(inputs);
+  diagnosis.rest =
+      NarrowestPlace(diagnosis.verdict == Verdict::kPartlyExplained
+                         ? Localise(inputs.recording, inputs.references, boat, inputs.seed)
+                         : diagnosis.where);
+  diagnosis.missing_force = MissingForceOf(inputs.recording, inputs.references, boat);
+  diagnosis.missing_force->sentence = DescribeMissingForce(*diagnosis.missing_force);
+}
+
+/// The manoeuvres that separate the likeliest hypothesis from the next ones, and what to record so
+/// that a cause shows that the library lacks.
+void AdviseOnAnUnknownCause(const ReportInputs& inputs, Diagnosis& diagnosis) {
+  constexpr std::size_t kContenders = 3;
+  const std::vector<RankedHypothesis>& ranked = inputs.conclusion.ranking.fits;
+  RankedHypothesis contenders{ranked.front().fit, ranked.front().probability, {}};
+  for (std::size_t i = 1; i < std::min(ranked.size(), kContenders); ++i) {
+    contenders.equivalent.push_back(ranked[i].fit);
+  }
+  diagnosis.advice =
+      AdviseSeparatingManoeuvres(contenders, inputs.problem.nominal,
+                                 inputs.recording.sampling_period_s, inputs.recording.hull);
+  diagnosis.advice.push_back(AdviseRecording(*diagnosis.missing_force));
+  diagnosis.notes.push_back(AdviseSensor(contenders));
 }
 
 void Advise(const ReportInputs& inputs, Diagnosis& diagnosis) {
+  if (!inputs.advise) return;
   const RankedHypothesis& first = inputs.conclusion.ranking.fits.front();
-  if (!inputs.advise || first.equivalent.empty()) return;
+  if (diagnosis.verdict == Verdict::kUnknownCause && first.equivalent.empty()) {
+    AdviseOnAnUnknownCause(inputs, diagnosis);
+    return;
+  }
+  if (first.equivalent.empty()) return;
   diagnosis.advice = AdviseSeparatingManoeuvres(
       first, inputs.problem.nominal, inputs.recording.sampling_period_s, inputs.recording.hull);
   const bool is_decisive = !diagnosis.advice.empty() && diagnosis.advice.front().decisive;
@@ -76,7 +111,7 @@ void StatePower(const ReportInputs& inputs, std::vector<EffectTestability>& effe
 void DescribeMaterialGap(const ReportInputs& inputs, Diagnosis& diagnosis) {
   diagnosis.where =
       Localise(inputs.recording, inputs.references, inputs.problem.nominal.boat, inputs.seed);
-  diagnosis.rest = UnexplainedPlace(inputs, diagnosis.where);
+  DescribeTheUnexplained(inputs, diagnosis);
   diagnosis.causes = CausesOf(inputs.conclusion, inputs.problem, inputs.main, inputs.seed);
   Advise(inputs, diagnosis);
 }

@@ -3,7 +3,8 @@
 namespace telltale {
 
 Conclusion Conclude(const Hypotheses& hypotheses, const DiagnosisProblem& problem,
-                    const HorizonErrors& main, std::uint64_t seed) {
+                    const HorizonErrors& main, std::uint64_t seed,
+                    std::optional<double> squared_limit_of_days) {
   Conclusion conclusion;
   conclusion.best = BestHypothesis(hypotheses);
   conclusion.folds = FitOnFolds(conclusion.best, problem);
@@ -20,6 +21,11 @@ Conclusion Conclude(const Hypotheses& hypotheses, const DiagnosisProblem& proble
   conclusion.ranking = Rank(hypotheses, problem.metric, lack_of_fit);
   conclusion.verdict =
       VerdictOf(conclusion.assessment, conclusion.ranking, conclusion.excess_explained);
+  if (conclusion.verdict == Verdict::kUnknownCause &&
+      gaps.mean() <= squared_limit_of_days.value_or(0.0)) {
+    conclusion.assessment = GapAssessment::kUndecided;
+    conclusion.verdict = Verdict::kInsufficientData;
+  }
   conclusion.is_likely = IsLikely(conclusion.assessment, conclusion.ranking);
   return conclusion;
 }

@@ -23,8 +23,11 @@ struct Conclusion {
 };
 
 /// Cross-validates the likeliest hypothesis, assesses the gap and ranks all hypotheses.
-/// `main`: errors at the main horizon, those of `problem`.
+/// `main`: errors at the main horizon, those of `problem`. `squared_limit_of_days`: what nominal
+/// days stay below that took no part in the baseline, where that is known. A gap within it is
+/// undecided unless its cause is certain.
 Conclusion Conclude(const Hypotheses& hypotheses, const DiagnosisProblem& problem,
-                    const HorizonErrors& main, std::uint64_t seed);
+                    const HorizonErrors& main, std::uint64_t seed,
+                    std::optional<double> squared_limit_of_days = std::nullopt);
 
 }  // namespace telltale

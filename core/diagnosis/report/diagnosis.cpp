@@ -30,6 +30,18 @@ std::string_view Name(GapKind kind) {
   return "UNKNOWN";
 }
 
+std::string_view Name(ForceVariable variable) {
+  switch (variable) {
+    case ForceVariable::kSpeed: return "SPEED";
+    case ForceVariable::kMeanCommand: return "MEAN_COMMAND";
+    case ForceVariable::kCommandDifference: return "COMMAND_DIFFERENCE";
+    case ForceVariable::kHeading: return "HEADING";
+    case ForceVariable::kTime: return "TIME";
+    case ForceVariable::kUnknown: break;
+  }
+  return "UNKNOWN";
+}
+
 std::string_view Name(Testability testability) {
   switch (testability) {
     case Testability::kTestable: return "TESTABLE";

@@ -71,6 +71,54 @@ struct GapCell {
   std::size_t windows = 0;
 };
 
+/// What a missing force is drawn over.
+enum class ForceVariable {
+  kUnknown,
+  kSpeed,              ///< surge over ground, m/s
+  kMeanCommand,        ///< of the two propellers, share of full
+  kCommandDifference,  ///< port less starboard, likewise
+  kHeading,            ///< degrees from north
+  kTime                ///< seconds since the recording began
+};
+
+inline constexpr std::array kForceVariables = {ForceVariable::kSpeed, ForceVariable::kMeanCommand,
+                                               ForceVariable::kCommandDifference,
+                                               ForceVariable::kHeading, ForceVariable::kTime};
+
+/// The name in report.json: "COMMAND_DIFFERENCE".
+std::string_view Name(ForceVariable variable);
+
+/// A mean with the half width of its 95 % interval, N or N m.
+struct ForceMean {
+  double mean = 0.0;
+  double half_width = 0.0;
+};
+
+/// The missing force while a variable is between two values.
+struct ForceBin {
+  double low = 0.0;
+  double high = 0.0;
+  std::array<ForceMean, 3> force;  ///< surge and sway in N, yaw in N m
+  std::size_t rows = 0;
+};
+
+struct ForceProfile {
+  ForceVariable variable = ForceVariable::kUnknown;
+  std::vector<ForceBin> bins;     ///< those with enough rows
+  std::array<double, 3> share{};  ///< of the mean square that the variable holds; 0: chance alone
+};
+
+/// The force that the boat of the model lacks, MissingForceOf().
+struct MissingForce {
+  double mass_kg = 0.0;  ///< that turns accelerations into forces, without added mass
+  std::array<ForceMean, 3> mean;
+  std::array<double, 3> constant_share{};  ///< of the mean square that the mean holds
+  std::array<double, 3> scatter{};         ///< root mean square of means over five seconds
+  std::array<double, 3> excess{};          ///< that mean square over the references', less one
+  std::vector<ForceProfile> over;          ///< in the order of kForceVariables
+  std::string sentence;                    ///< which force it is, for people
+};
+
 struct ParameterEstimate {
   std::string name;
   double estimate = 0.0;
@@ -115,7 +163,8 @@ struct EffectTestability {
   std::vector<DetectableSize> detectable_sizes = {};
 };
 
-/// A manoeuvre that separates effects which this recording does not.
+/// A manoeuvre that separates effects which this recording does not, or, where it names none, what
+/// to record so that an unknown cause shows.
 struct SeparationAdvice {
   std::string manoeuvre;
   std::string how;
@@ -133,6 +182,8 @@ struct ReferenceInfluence {
       effects;               ///< of the likeliest cause; empty where none is, or it is unknown
   double probability = 0.0;  ///< of that cause
   GapSize gap;               ///< at five seconds, of all channels
+  /// That of this reference itself, which took no part; none where it has no window.
+  std::optional<double> own_gap = {};
 };
 
 /// When the first cause began to act.
@@ -187,6 +238,7 @@ struct Diagnosis {
   std::optional<Onset> onset;
   std::string rest;  ///< where the unexplained error sits: "yaw, FR"; empty where none does
   std::optional<Improvement> improvement;
+  std::optional<MissingForce> missing_force;  ///< where a gap has no certain cause
   std::vector<WindowPicture> pictures;
   std::vector<std::string> notes;  ///< limitations, as sentences
   std::uint64_t seed = 0;

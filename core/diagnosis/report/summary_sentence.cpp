@@ -42,6 +42,12 @@ const Cause* FirstNamed(const Diagnosis& diagnosis) {
   return named == diagnosis.causes.end() ? nullptr : &*named;
 }
 
+/// " Missing is a constant surge force of -2 N." Empty where it is not known.
+std::string MissingForceIn(const Diagnosis& diagnosis) {
+  if (!diagnosis.missing_force || diagnosis.missing_force->sentence.empty()) return "";
+  return " Missing is " + diagnosis.missing_force->sentence + ".";
+}
+
 /// The likely cause where none is named, if there is one.
 std::string UncertainCause(const Diagnosis& diagnosis, const std::string& times) {
   const bool likely = !diagnosis.causes.empty() && !diagnosis.causes.front().effects.empty();
@@ -52,7 +58,8 @@ std::string UncertainCause(const Diagnosis& diagnosis, const std::string& times)
   }
   return "The model no longer matches the boat (" + times +
          " times the normal error), and no effect of the library explains it" +
-         (diagnosis.rest.empty() ? "." : "; the error sits in " + diagnosis.rest + ".");
+         (diagnosis.rest.empty() ? "." : "; the error sits in " + diagnosis.rest + ".") +
+         MissingForceIn(diagnosis);
 }
 
 }  // namespace

@@ -43,6 +43,12 @@ double MeanOf(const std::vector<std::array<double, 4>>& values, int channel) {
   return sum / static_cast<double>(values.size());
 }
 
+/// What 95 % of further days stay below in G^2, given ln G^2 of so many.
+double LimitOfOneMoreDay(double mean_log, double spread, double days) {
+  const double quantile = StudentQuantile(std::max(days - 1.0, 2.0), kLevel);
+  return std::exp(mean_log + quantile * spread * std::sqrt(1.0 + 1.0 / days));
+}
+
 }  // namespace
 
 double NoiseFloor::Squared(int channel) const {
@@ -50,10 +56,8 @@ double NoiseFloor::Squared(int channel) const {
 }
 
 double NoiseFloor::SquaredLimit(int channel) const {
-  const double days = static_cast<double>(log_gaps.size());
-  const double quantile = StudentQuantile(std::max(days - 1.0, 2.0), kLevel);
-  return std::exp(MeanOf(log_gaps, channel) + quantile * spread[static_cast<std::size_t>(channel)] *
-                                                  std::sqrt(1.0 + 1.0 / days));
+  return LimitOfOneMoreDay(MeanOf(log_gaps, channel), spread[static_cast<std::size_t>(channel)],
+                           static_cast<double>(log_gaps.size()));
 }
 
 NoiseFloor NoiseFloorOf(const std::vector<FreeRuns>& recordings, const AugmentedModel& boat) {
@@ -102,6 +106,17 @@ Eigen::VectorXd SquaredGaps(const Eigen::MatrixXd& errors, const Eigen::VectorXd
   const Eigen::Index channel_rows = errors.rows() / step;
   gaps /= static_cast<double>(channel_rows);
   return gaps.cwiseMin(kMaximumSigmas * kMaximumSigmas);
+}
+
+double SquaredLimitOfDays(const std::vector<double>& squared_gaps) {
+  Require(squared_gaps.size() > 1, "two days or more");
+  const auto days = static_cast<double>(squared_gaps.size());
+  double mean = 0.0;
+  for (const double gap : squared_gaps) mean += std::log(gap) / days;
+  double variance = 0.0;
+  for (const double gap : squared_gaps)
+    variance += std::pow(std::log(gap) - mean, 2) / (days - 1.0);
+  return LimitOfOneMoreDay(mean, std::max(std::sqrt(variance), kMinimumSpread), days);
 }
 
 std::vector<std::size_t> BlocksOf(const FreeRuns& runs) {

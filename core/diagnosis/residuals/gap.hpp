@@ -37,6 +37,10 @@ NoiseFloor NoiseFloorOf(const std::vector<FreeRuns>& recordings, const Augmented
 Eigen::VectorXd SquaredGaps(const Eigen::MatrixXd& errors, const Eigen::VectorXd& scale,
                             int channel);
 
+/// What 95 % of nominal days stay below in G^2, by Student's t over days that took no part in the
+/// baseline that each was scored by. Requires: at least two, each > 0.
+double SquaredLimitOfDays(const std::vector<double>& squared_gaps);
+
 /// The block of each window, half a minute long. Errors in a block may be correlated, so blocks are
 /// the units of resampling.
 std::vector<std::size_t> BlocksOf(const FreeRuns& runs);

@@ -7,6 +7,7 @@
 #include "telltale/idl/codec/json/gap.hpp"
 #include "telltale/idl/codec/json/json_message.hpp"
 #include "telltale/idl/codec/json/metrics.hpp"
+#include "telltale/idl/codec/json/missing_force.hpp"
 #include "telltale/idl/codec/json/proto_values.hpp"
 #include "telltale/idl/codec/json/window_pictures.hpp"
 #include "telltale/idl/codec/vehicle_file.hpp"
@@ -44,6 +45,7 @@ void Write(const ReferenceInfluence& influence, proto::ReferenceInfluence& messa
   message.set_before(influence.gap.before);
   message.set_noise_floor(influence.gap.noise_floor);
   message.set_floor_limit(influence.gap.floor_limit);
+  if (influence.own_gap) message.set_own_gap(*influence.own_gap);
 }
 
 void Write(const Onset& onset, proto::Onset& message) {
@@ -92,6 +94,7 @@ ReferenceInfluence ReadInfluence(FieldReader reader, const proto::ReferenceInflu
   influence.gap.noise_floor = reader.Number("noise_floor", kNotNegative);
   influence.gap.floor_limit = reader.Number("floor_limit", kNotNegative);
   influence.gap.after = influence.gap.before;
+  if (message.has_own_gap()) influence.own_gap = reader.Number("own_gap", kNotNegative);
   return influence;
 }
 
@@ -129,6 +132,10 @@ Diagnosis ReadReport(FieldReader reader, const proto::Report& report) {
       ReadAll(reader, "reference_influence", report.reference_influence(), ReadInfluence);
   if (report.has_onset()) diagnosis.onset = ReadOnset(reader.Optional("onset"));
   diagnosis.rest = report.rest();
+  if (report.has_missing_force()) {
+    diagnosis.missing_force =
+        ReadMissingForce(reader.Optional("missing_force"), report.missing_force());
+  }
   if (report.has_improvement()) diagnosis.improvement = ReadImprovement(report.improvement());
   diagnosis.pictures = ReadAll(reader, "pictures", report.pictures(), ReadPicture);
   diagnosis.notes = {report.notes().begin(), report.notes().end()};
@@ -160,6 +167,9 @@ proto::Report ToProto(const Diagnosis& diagnosis) {
   }
   if (diagnosis.onset) Write(*diagnosis.onset, *report.mutable_onset());
   report.set_rest(diagnosis.rest);
+  if (diagnosis.missing_force) {
+    *report.mutable_missing_force() = ToProto(*diagnosis.missing_force);
+  }
   if (diagnosis.improvement) Write(*diagnosis.improvement, *report.mutable_improvement());
   WritePictures(diagnosis.pictures, report);
   for (const std::string& note : diagnosis.notes) report.add_notes(note);

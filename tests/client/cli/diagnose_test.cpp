@@ -34,27 +34,31 @@ TEST(DiagnosisTable, SaysTheSentenceFirstAndThenEveryPart) {
   std::istringstream lines(rendered);
   for (std::string line; std::getline(lines, line);) EXPECT_LE(DisplayWidth(line), 80u) << line;
   const std::string table = std::regex_replace(rendered, std::regex("\\s+"), " ");
-  for (const char* part : {"Partly explained",
-                           "400 s recorded",
-                           "205 s after the start (95 %: 195 to 220 s)",
-                           "3 reference recordings",
-                           "81 % [74, 87]",
-                           "-25 % [-50, 12]",
-                           "heading, FF, 0.5 to 1.0 m/s",
-                           "thruster_imbalance + thruster_lag",
-                           "port thruster 22 % weaker (75 % of what these explain)",
-                           "0.220 ± 0.030",
-                           "0.150 ± 0.035 s",
-                           "cannot separate it from thruster_delay",
-                           "unknown",
-                           "masked by YAW uv",
-                           "not excited",
-                           "loss_port 0.047, loss_starboard beyond range",
-                           "monday 4.50 1.75 Cause unknown: wind + current (62 %)",
-                           "friday 0.00 0.00 Not diagnosed",
-                           "fast random steps for 120 s",
-                           "-> full ahead for 20 s, then nothing",
-                           "- the wind was not measured"}) {
+  for (const char* part :
+       {"Partly explained",
+        "400 s recorded",
+        "205 s after the start (95 %: 195 to 220 s)",
+        "3 reference recordings",
+        "81 % [74, 87]",
+        "-25 % [-50, 12]",
+        "heading, FF, 0.5 to 1.0 m/s",
+        "thruster_imbalance + thruster_lag",
+        "port thruster 22 % weaker (75 % of what these explain)",
+        "0.220 ± 0.030",
+        "0.150 ± 0.035 s",
+        "cannot separate it from thruster_delay",
+        "unknown",
+        "masked by YAW uv",
+        "not excited",
+        "loss_port 0.047, loss_starboard beyond range",
+        "monday 4.50 1.75 1.50 Cause unknown: wind + current (62 %)",
+        "friday 0.00 0.00 – Not diagnosed",
+        "Missing is a surge force that is -4.0 ± 0.8 N on headings of 0 to 36 deg",
+        "for a mass of 15.0 kg",
+        "0 to 36 -4.00 ± 0.75 0.50 ± 0.25 0.12 ± 0.06",
+        "fast random steps for 120 s",
+        "-> full ahead for 20 s, then nothing",
+        "- the wind was not measured"}) {
     EXPECT_THAT(table, HasSubstr(part));
   }
 }
@@ -64,7 +68,8 @@ TEST(DiagnosisTable, SaysInWordsWhereThereIsNothing) {
   for (const char* part : {"no operating condition stands out", "nothing to explain"}) {
     EXPECT_THAT(table, HasSubstr(part));
   }
-  for (const char* part : {"Notes", "Recommended manoeuvres", "of typical size", "free-run RMSE"}) {
+  for (const char* part :
+       {"Notes", "Recommended manoeuvres", "of typical size", "free-run RMSE", "Missing is"}) {
     EXPECT_THAT(table, Not(HasSubstr(part)));
   }
 }

@@ -60,6 +60,10 @@ TEST(Page, SaysTheSentenceTheVerdictAndEveryPart) {
                            "not excited",
                            "fast random steps",
                            "7.2 nats",
+                           "Which force is missing",
+                           "a surge force that is -4.0 ± 0.8 N on headings of 0 to 36 deg",
+                           "for a mass of 15.0 kg",
+                           "Over heading, degrees",
                            "coast-down",
                            "the wind was not measured",
                            "seed 18446744073709551615"}) {
@@ -72,8 +76,8 @@ TEST(Page, SaysInWordsWhereThereIsNothing) {
   for (const char* part :
        {"No material gap", "sensor noise alone", "No operating condition", "no gap that would ask",
         "No windows were kept to draw over time", "No windows were kept to sort by heading",
-        "No paths were kept", "No effect is likely", "No effects are left",
-        "Nothing else limits the answer"}) {
+        "No paths were kept", "Nothing stays unexplained", "No effect is likely",
+        "No effects are left", "Nothing else limits the answer"}) {
     EXPECT_THAT(text, HasSubstr(part));
   }
 }
@@ -113,6 +117,7 @@ TEST(Page, EveryStringIsEscaped) {
   Diagnosis made = MadeUpDiagnosis();
   made.vehicle_id = made.sentence = made.rest = made.software_version = hostile;
   made.notes = {hostile};
+  made.missing_force->sentence = hostile;
   for (GapCell& cell : made.where) cell.bin = hostile;
   for (Cause& cause : made.causes) {
     cause.indistinguishable = {hostile};

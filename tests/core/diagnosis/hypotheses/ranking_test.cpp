@@ -41,14 +41,19 @@ TEST(Verdict, FollowsAssessmentProbabilityAndExcessExplained) {
   EXPECT_EQ(VerdictOf(GapAssessment::kMaterial, ranking, most), Verdict::kUnknownCause);
 }
 
-TEST(IsLikely, HoldsForAMaterialGapWhoseCauseIsProbablyKnown) {
+TEST(IsLikely, HoldsForTheMostProbableCauseOfAMaterialGap) {
   Ranking ranking;
   EXPECT_FALSE(IsLikely(GapAssessment::kMaterial, ranking));
-  ranking.fits.emplace_back();
-  ranking.unknown = 0.4;
+  ranking.fits.resize(2);
+  ranking.fits[0].probability = 0.4;
+  ranking.fits[1].probability = 0.3;
+  ranking.unknown = 0.3;
   EXPECT_TRUE(IsLikely(GapAssessment::kMaterial, ranking));
   EXPECT_FALSE(IsLikely(GapAssessment::kUndecided, ranking));
-  ranking.unknown = 0.6;
+  ranking.unknown = 0.45;
+  EXPECT_FALSE(IsLikely(GapAssessment::kMaterial, ranking));
+  ranking.unknown = 0.2;
+  ranking.fits[1].probability = 0.5;
   EXPECT_FALSE(IsLikely(GapAssessment::kMaterial, ranking));
 }
 

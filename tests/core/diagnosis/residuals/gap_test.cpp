@@ -56,6 +56,15 @@ TEST(NoiseFloor, LimitFollowsStudentsT) {
               1e-4);
 }
 
+// ln G^2 of 0, 0.4 and 0.8 have a mean and a standard deviation of 0.4; Student's t with two
+// degrees of freedom is 2.920 at 95 %. Days that hardly differ are taken to differ by 0.2.
+TEST(SquaredLimitOfDays, FollowsStudentsT) {
+  EXPECT_NEAR(SquaredLimitOfDays({1.0, std::exp(0.4), std::exp(0.8)}),
+              std::exp(0.4 + 2.9200 * 0.4 * std::sqrt(4.0 / 3.0)), 1e-3);
+  EXPECT_NEAR(SquaredLimitOfDays({1.0, 1.0, 1.0}), std::exp(2.9200 * 0.2 * std::sqrt(4.0 / 3.0)),
+              1e-3);
+}
+
 // A window's start is estimated, so a model that is the boat errs by sensor noise alone, and one
 // that starts wrongly is forgiven.
 TEST(FreeRuns, ErrByNoiseAloneWhereTheModelIsTheBoat) {
