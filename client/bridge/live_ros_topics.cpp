@@ -54,8 +54,9 @@ void LiveRosTopics::Take(std::string_view topic, std::string_view type,
     return reject_(source.Unreadable() > unreadable ? RosReject::kUnreadable
                                                     : RosReject::kWithoutFix);
   }
+  if (reading->position) TakePosition(*found, *reading, arrival_s);
   switch (source.Kind()) {
-    case RosKind::kPosition: return TakePosition(*found, *reading, arrival_s);
+    case RosKind::kPosition: return;
     case RosKind::kCompass:
     case RosKind::kOrientation: return TakeHeading(*found, *reading, arrival_s);
     case RosKind::kOutputs:
@@ -111,9 +112,13 @@ std::optional<double> LiveRosTopics::TimeOf(Topic& topic, const RosReading& read
 }
 
 void LiveRosTopics::TakePosition(Named& named, const RosReading& reading, double arrival_s) {
-  if (!IsChosen(positions_, "positions", named.first, 0, arrival_s)) return;
+  const RosTopic& source = named.second.source;
+  const bool would_jump =
+      source.IsOdometry() && !positions_.topic.empty() && positions_.rank < *source.PositionRank();
+  if (would_jump) return reject_(RosReject::kOtherTopic);
+  if (!IsChosen(positions_, "positions", named.first, *source.PositionRank(), arrival_s)) return;
   const auto time_s = TimeOf(named.second, reading, arrival_s);
-  if (time_s) sink_.fix({*time_s, reading.values[0], reading.values[1]});
+  if (time_s) sink_.fix({*time_s, reading.position->latitude_deg, reading.position->longitude_deg});
 }
 
 void LiveRosTopics::TakeHeading(Named& named, const RosReading& reading, double arrival_s) {

@@ -35,7 +35,8 @@ std::string_view Name(RosReject reason);
 /// Turns the topics of one vehicle into samples, message by message, by the rules of RosTopic.
 ///
 /// Topics: the best one of a channel counts, in the order of RosRecording; it gives way once it has
-/// been silent for three seconds. Clock: samples bear the stamps of their messages' headers where
+/// been silent for three seconds; but odometry, whose origin is not stated, never stands in for
+/// positions on the Earth. Clock: samples bear the stamps of their messages' headers where
 /// these agree with the times of arrival to a second, else the times of arrival. The messages of
 /// the first three seconds decide. Where stamps count and ten in a row of one topic disagree, the
 /// times of arrival count from then on.

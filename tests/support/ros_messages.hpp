@@ -54,6 +54,27 @@ inline std::vector<std::uint8_t> Imu(std::int32_t seconds, double yaw_rad,
   return cdr.Bytes();
 }
 
+/// What geographic_msgs/GeoPoseStamped and nav_msgs/Odometry share: a place of three numbers, z
+/// being zero, and a yaw.
+inline Cdr& AddPose(Cdr& cdr, double first, double second, double yaw_rad) {
+  cdr.Add(first).Add(second).Add(0.0).Add(0.0).Add(0.0);
+  return cdr.Add(std::sin(yaw_rad / 2)).Add(std::cos(yaw_rad / 2));
+}
+
+inline std::vector<std::uint8_t> GeoPose(std::int32_t seconds, double latitude_deg,
+                                         double longitude_deg, double yaw_rad) {
+  Cdr cdr;
+  cdr.AddHeader(seconds, "base_link");
+  return AddPose(cdr, latitude_deg, longitude_deg, yaw_rad).Bytes();
+}
+
+inline std::vector<std::uint8_t> Odometry(std::int32_t seconds, double x_m, double y_m,
+                                          double yaw_rad, const std::string& frame = "odom") {
+  Cdr cdr;
+  cdr.AddHeader(seconds, frame).AddText("base_link");
+  return AddPose(cdr, x_m, y_m, yaw_rad).Bytes();
+}
+
 inline std::vector<std::uint8_t> RcOut(std::int32_t seconds, std::vector<std::uint16_t> channels) {
   Cdr cdr;
   cdr.AddHeader(seconds).Add(static_cast<std::uint32_t>(channels.size()));

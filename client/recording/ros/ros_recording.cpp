@@ -28,15 +28,24 @@ void RosRecording::Take(std::string_view topic, std::string_view type, std::int6
   }
 }
 
-const RosRecording::Named* RosRecording::Best(RosKind kind) const {
+RosRecording::RankOf RosRecording::OfKind(RosKind kind) {
+  return [kind](const RosTopic& source) -> std::optional<int> {
+    if (source.Kind() != kind) return std::nullopt;
+    return source.Rank();
+  };
+}
+
+const RosRecording::Named* RosRecording::Best(const RankOf& rank_of) const {
   const Named* best = nullptr;
+  std::optional<int> best_rank;
   for (const Named& named : topics_) {
     const Topic& topic = named.second;
-    if (topic.source.Kind() != kind || topic.samples.empty()) continue;
-    if (best == nullptr || topic.source.Rank() < best->second.source.Rank() ||
-        (topic.source.Rank() == best->second.source.Rank() &&
-         topic.samples.size() > best->second.samples.size())) {
+    const auto rank = rank_of(topic.source);
+    if (!rank || topic.samples.empty()) continue;
+    if (best == nullptr || rank < best_rank ||
+        (rank == best_rank && topic.samples.size() > best->second.samples.size())) {
       best = &named;
+      best_rank = rank;
     }
   }
   return best;
@@ -53,9 +62,9 @@ const RosRecording::Named* RosRecording::Side(bool is_port) const {
   return nullptr;
 }
 
-std::string RosRecording::Why(RosKind kind, const char* reason) const {
+std::string RosRecording::Why(const RankOf& rank_of, const char* reason) const {
   const auto such = std::count_if(topics_.begin(), topics_.end(), [&](const Named& named) {
-    return named.second.source.Kind() == kind && !named.second.samples.empty();
+    return rank_of(named.second.source) && !named.second.samples.empty();
   });
   if (such < 2) return {};
   return std::string(" (") + reason + " of " + std::to_string(such) + " such topics)";
@@ -77,11 +86,14 @@ SourceLog RosRecording::Finish(const SourceOptions& options) const {
   std::ostringstream summary;
   summary << messages_ << (messages_ == 1 ? " message of " : " messages of ") << topics_.size()
           << (topics_.size() == 1 ? " topic" : " topics");
-  const Named* position = Best(RosKind::kPosition);
-  const Named* heading = Best(RosKind::kCompass);
-  if (heading == nullptr) heading = Best(RosKind::kOrientation);
-  const Named* outputs = Best(RosKind::kOutputs);
-  const Named* drive = Best(RosKind::kDrive);
+  const RankOf of_positions = &RosTopic::PositionRank;
+  const RankOf of_compasses = OfKind(RosKind::kCompass);
+  const RankOf of_orientations = OfKind(RosKind::kOrientation);
+  const Named* position = Best(of_positions);
+  const Named* heading = Best(of_compasses);
+  if (heading == nullptr) heading = Best(of_orientations);
+  const Named* outputs = Best(OfKind(RosKind::kOutputs));
+  const Named* drive = Best(OfKind(RosKind::kDrive));
   const Named* port = Side(true);
   const Named* starboard = Side(false);
 
@@ -91,16 +103,21 @@ SourceLog RosRecording::Finish(const SourceOptions& options) const {
   };
 
   if (position != nullptr) {
-    summary << "; positions from " << position->first << Why(RosKind::kPosition, "most fixes");
+    summary << "; positions from " << position->first << Why(of_positions, "the best type");
+    if (position->second.source.IsOdometry()) {
+      summary << " (metres from an origin that is not stated, taken as "
+              << kOdometryOrigin.latitude_deg << " N " << kOdometryOrigin.longitude_deg << " E)";
+    }
     for (const Sample& sample : position->second.samples) {
-      log.gnss.push_back({time_of(sample), sample.reading.values[0], sample.reading.values[1]});
+      const GeographicPosition& at = *sample.reading.position;
+      log.gnss.push_back({time_of(sample), at.latitude_deg, at.longitude_deg});
     }
   }
   if (heading != nullptr) {
     summary << "; heading from " << heading->first
             << (heading->second.source.Kind() == RosKind::kCompass
-                    ? Why(RosKind::kCompass, "most samples")
-                    : Why(RosKind::kOrientation, "the best type"));
+                    ? Why(of_compasses, "most samples")
+                    : Why(of_orientations, "the best type"));
     if (heading->second.source.Kind() == RosKind::kOrientation) {
       summary << " (" << heading->second.source.Type() << ", "
               << (heading->second.source.IsNed() ? "north-east-down" : "east-north-up") << ")";

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <map>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -15,11 +17,12 @@ namespace telltale {
 
 /// Gathers messages of ROS 2 topics; which topics count is chosen once all are read.
 ///
-/// Position: the topic of positions with most fixes. Heading: a compass, else the topic of
-/// orientations of the best type (Imu, QuaternionStamped, Odometry). Outputs: RCOut, channels 1 and
-/// 3 unless told otherwise; else heron_msgs/msg/Drive; else one topic each side. RosTopic says what
-/// these are. Clock: header stamps where the sources have them and they agree with the times of
-/// recording to a second; else the times of recording.
+/// Position: the topic of positions of the best type (NavSatFix, GeoPoseStamped, Odometry), of
+/// several the one with most fixes. Heading: a compass, else the topic of
+/// orientations of the best type (Imu, GeoPoseStamped, QuaternionStamped, Odometry). Outputs:
+/// RCOut, channels 1 and 3 unless told otherwise; else heron_msgs/msg/Drive; else one topic each
+/// side. RosTopic says what these are. Clock: header stamps where the sources have them and they
+/// agree with the times of recording to a second; else the times of recording.
 class RosRecording {
  public:
   /// A message of a topic, `type` as "sensor_msgs/msg/NavSatFix". Types of no use are passed over.
@@ -41,10 +44,14 @@ class RosRecording {
   };
   using Named = std::pair<const std::string, Topic>;
 
-  const Named* Best(RosKind kind) const;
+  /// A topic's rank for what is sought: the lower the better; nothing: it has none of it.
+  using RankOf = std::function<std::optional<int>(const RosTopic&)>;
+  static RankOf OfKind(RosKind kind);
+
+  const Named* Best(const RankOf& rank_of) const;
   const Named* Side(bool is_port) const;
   /// Why the best topic was taken, where there are others.
-  std::string Why(RosKind kind, const char* reason) const;
+  std::string Why(const RankOf& rank_of, const char* reason) const;
   bool StampsAgree(const Named* named) const;
 
   std::map<std::string, Topic, std::less<>> topics_;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
 
 #include "telltale/client/recording/thruster_sides.hpp"
 #include "telltale/core/base/degrees.hpp"
@@ -59,15 +60,26 @@ bool NamesNed(const std::string& frame) {
   return Contains(Lower(frame), "ned");
 }
 
+bool ContainsAny(std::string_view text, std::initializer_list<std::string_view> parts) {
+  return std::ranges::any_of(parts, [&](std::string_view part) { return Contains(text, part); });
+}
+
+/// Whether a topic commands a thruster, by its last name: below /thrusters/left/ there may be its
+/// angle (pos), its speed (ang_vel) and its temperature too.
+bool CommandsThruster(std::string_view name) {
+  const std::string_view last = name.substr(name.rfind('/') + 1);
+  return ContainsAny(name, {"thrust", "propeller", "motor", "pwm"}) &&
+         ContainsAny(last, {"thrust", "propeller", "motor", "pwm", "cmd", "command", "left",
+                            "right", "port", "starboard"}) &&
+         !ContainsAny(last, {"angle", "pos", "vel", "rpm", "temp", "current", "volt"});
+}
+
 /// -1 port, 1 starboard, 0 neither: of a topic for one thruster.
 int SideOf(std::string_view topic) {
   const std::string name = Lower(topic);
-  if (!Contains(name, "thrust") && !Contains(name, "propeller") && !Contains(name, "motor") &&
-      !Contains(name, "pwm")) {
-    return 0;
-  }
-  if (Contains(name, "left") || Contains(name, "port")) return -1;
-  if (Contains(name, "right") || Contains(name, "starboard")) return 1;
+  if (!CommandsThruster(name)) return 0;
+  if (ContainsAny(name, {"left", "port"})) return -1;
+  if (ContainsAny(name, {"right", "starboard"})) return 1;
   return 0;
 }
 
@@ -76,15 +88,51 @@ bool IsCompassTopic(std::string_view topic) {
   return name.ends_with("compass_hdg") || name.ends_with("heading");
 }
 
+std::optional<int> PlaceAmong(std::initializer_list<std::string_view> types,
+                              std::string_view type) {
+  const auto found = std::ranges::find(types, type);
+  if (found == types.end()) return std::nullopt;
+  return static_cast<int>(found - types.begin());
+}
+
+std::optional<int> OrientationRank(std::string_view type) {
+  return PlaceAmong({"sensor_msgs/msg/Imu", "geographic_msgs/msg/GeoPoseStamped",
+                     "geometry_msgs/msg/QuaternionStamped", "nav_msgs/msg/Odometry"},
+                    type);
+}
+
+std::optional<int> PositionRankOf(std::string_view type) {
+  return PlaceAmong(
+      {"sensor_msgs/msg/NavSatFix", "geographic_msgs/msg/GeoPoseStamped", "nav_msgs/msg/Odometry"},
+      type);
+}
+
+/// Nothing of 0, 0, which is what stands there without a fix.
+std::optional<GeographicPosition> ReadGeoPoint(CdrReader& cdr) {
+  const auto latitude_deg = cdr.Read<double>();
+  const auto longitude_deg = cdr.Read<double>();
+  cdr.Read<double>();  // altitude
+  if (latitude_deg == 0.0 && longitude_deg == 0.0) return std::nullopt;
+  return GeographicPosition{latitude_deg, longitude_deg};
+}
+
+/// Nothing of what is not finite.
+std::optional<GeographicPosition> ReadOdometryPoint(CdrReader& cdr, bool is_ned) {
+  static const NorthEastFrame frame(kOdometryOrigin);
+  cdr.ReadString();  // the frame that is placed
+  const auto x_m = cdr.Read<double>();
+  const auto y_m = cdr.Read<double>();
+  cdr.Read<double>();
+  if (!std::isfinite(x_m) || !std::isfinite(y_m)) return std::nullopt;
+  return frame.Inverse(is_ned ? NorthEastPosition{x_m, y_m} : NorthEastPosition{y_m, x_m});
+}
+
 RosKind KindOf(std::string_view name, std::string_view type) {
   if (type == "sensor_msgs/msg/NavSatFix") return RosKind::kPosition;
   if (type == "mavros_msgs/msg/RCOut") return RosKind::kOutputs;
   if (type == "heron_msgs/msg/Drive") return RosKind::kDrive;
   if (type == "std_msgs/msg/Float64" && IsCompassTopic(name)) return RosKind::kCompass;
-  if (type == "sensor_msgs/msg/Imu" || type == "geometry_msgs/msg/QuaternionStamped" ||
-      type == "nav_msgs/msg/Odometry") {
-    return RosKind::kOrientation;
-  }
+  if (OrientationRank(type)) return RosKind::kOrientation;
   const bool is_number = type == "std_msgs/msg/Float64" || type == "std_msgs/msg/Float32" ||
                          type == "std_msgs/msg/UInt16";
   return is_number && SideOf(name) != 0 ? RosKind::kSide : RosKind::kUnknown;
@@ -93,10 +141,10 @@ RosKind KindOf(std::string_view name, std::string_view type) {
 }  // namespace
 
 RosTopic::RosTopic(std::string_view name, std::string_view type)
-    : kind_(KindOf(name, type)), type_(type) {
-  if (kind_ == RosKind::kOrientation) {
-    rank_ = type == "sensor_msgs/msg/Imu" ? 1 : type == "nav_msgs/msg/Odometry" ? 3 : 2;
-  }
+    : kind_(KindOf(name, type)),
+      type_(type),
+      rank_(OrientationRank(type).value_or(0)),
+      position_rank_(PositionRankOf(type)) {
   is_port_ = kind_ == RosKind::kSide && SideOf(name) < 0;
   is_pulse_ = kind_ == RosKind::kSide && type == "std_msgs/msg/UInt16";
 }
@@ -116,8 +164,8 @@ std::optional<RosReading> RosTopic::Read(std::span<const std::uint8_t> bytes,
       stamp(ReadHeader(cdr));
       const auto status = cdr.Read<std::int8_t>();
       cdr.Read<std::uint16_t>();
-      reading.values[0] = cdr.Read<double>();
-      reading.values[1] = cdr.Read<double>();
+      const auto latitude_deg = cdr.Read<double>();
+      reading.position = GeographicPosition{latitude_deg, cdr.Read<double>()};
       if (status < 0) {
         ++without_fix_;
         is_usable = false;
@@ -127,14 +175,13 @@ std::optional<RosReading> RosTopic::Read(std::span<const std::uint8_t> bytes,
     case RosKind::kCompass: reading.values[0] = cdr.Read<double>(); break;
     case RosKind::kOrientation: {
       stamp(ReadHeader(cdr));
-      if (type_ == "nav_msgs/msg/Odometry") {
-        cdr.ReadString();
-        for (int i = 0; i < 3; ++i) cdr.Read<double>();
+      if (position_rank_) {
+        reading.position = IsOdometry() ? ReadOdometryPoint(cdr, is_ned_) : ReadGeoPoint(cdr);
       }
       const Quaternion q = ReadQuaternion(cdr);
       const double yaw_deg = YawRad(q) * kDegreesPerRadian;
       reading.values[0] = is_ned_ ? yaw_deg : 90.0 - yaw_deg;
-      is_usable = !IsNull(q);
+      is_usable = !IsNull(q) && reading.position.has_value() == position_rank_.has_value();
       if (type_ == "sensor_msgs/msg/Imu" && cdr.Read<double>() == -1.0) is_usable = false;
       break;
     }

@@ -10,6 +10,7 @@
 
 #include "telltale/client/recording/ros/cdr_reader.hpp"
 #include "telltale/client/recording/source_log.hpp"
+#include "telltale/core/data/north_east_frame.hpp"
 
 namespace telltale {
 
@@ -19,19 +20,25 @@ enum class RosKind { kUnknown, kPosition, kCompass, kOrientation, kOutputs, kDri
 /// What one message says.
 struct RosReading {
   std::optional<double> stamp_s;  ///< of its header, seconds since 1970
-  std::array<double, 2>
-      values{};  ///< latitude, longitude | heading | port, starboard | share or pulse
+  std::optional<GeographicPosition> position;
+  std::array<double, 2> values{};  ///< heading | port, starboard | share or pulse
   std::vector<std::uint16_t> outputs;
 };
 
+/// Where odometry is taken to begin. Models do not depend on the place.
+inline constexpr FrameOrigin kOdometryOrigin{45.0, 0.0};
+
 /// A topic of ROS and what its messages say, by its name and type alone.
 ///
-/// Positions: sensor_msgs/msg/NavSatFix. Compass: std_msgs/msg/Float64 whose name ends in
-/// compass_hdg or heading, degrees clockwise from north. Orientations: sensor_msgs/msg/Imu,
+/// Positions: sensor_msgs/msg/NavSatFix; geographic_msgs/msg/GeoPoseStamped; nav_msgs/msg/Odometry,
+/// whose metres count from an origin that it does not state, taken to be kOdometryOrigin. Compass:
+/// std_msgs/msg/Float64 whose name ends in compass_hdg or heading, degrees clockwise from north.
+/// Orientations: sensor_msgs/msg/Imu, geographic_msgs/msg/GeoPoseStamped,
 /// geometry_msgs/msg/QuaternionStamped, nav_msgs/msg/Odometry, east-north-up, REP 103, unless their
 /// frame_id names NED; heading = 90 deg - yaw. Outputs: mavros_msgs/msg/RCOut. Drive:
 /// heron_msgs/msg/Drive. Sides: a topic for one thruster, named left and right or port and
-/// starboard, of UInt16 (microseconds) or of Float32 or Float64 shares in [-1, 1].
+/// starboard, of UInt16 (microseconds) or of Float32 or Float64 shares in [-1, 1]; not its angle or
+/// speed.
 class RosTopic {
  public:
   /// `type` as "sensor_msgs/msg/NavSatFix".
@@ -43,7 +50,10 @@ class RosTopic {
 
   RosKind Kind() const { return kind_; }
   const std::string& Type() const { return type_; }
-  int Rank() const { return rank_; }          ///< among sources of heading: the lower the better
+  int Rank() const { return rank_; }  ///< among sources of heading: the lower the better
+  /// Among sources of positions, likewise; nothing: it is none.
+  std::optional<int> PositionRank() const { return position_rank_; }
+  bool IsOdometry() const { return type_ == "nav_msgs/msg/Odometry"; }
   bool IsPort() const { return is_port_; }    ///< of kSide
   bool IsPulse() const { return is_pulse_; }  ///< of kSide: microseconds
   bool IsNed() const { return is_ned_; }      ///< of kOrientation, by what it has said so far
@@ -54,6 +64,7 @@ class RosTopic {
   RosKind kind_ = RosKind::kUnknown;
   std::string type_;
   int rank_ = 0;
+  std::optional<int> position_rank_;
   bool is_port_ = false;
   bool is_pulse_ = false;
   bool is_ned_ = false;

@@ -94,6 +94,23 @@ TEST_F(LiveRosVehicleTest, PrefersTheBetterTopicAndTakesTheOtherOnceItIsSilent) 
   EXPECT_EQ(told_.back(), "headings from /odom");
 }
 
+TEST_F(LiveRosVehicleTest, TakesOdometryUntilThereArePositionsOnTheEarth) {
+  const auto take_odometry = [&](double arrival_s) {
+    Take("/odom", "nav_msgs/msg/Odometry",
+         Odometry(static_cast<std::int32_t>(arrival_s), 1.0, 2.0, 0.0), arrival_s);
+  };
+  take_odometry(kNow - 3);  // begins the clock
+  take_odometry(kNow);
+  ASSERT_EQ(Of<GnssFix>().size(), 1u);
+  EXPECT_NEAR(Of<GnssFix>()[0].latitude_deg, 45.0, 1e-4);
+  TakeFix(kNow + 1, kNow + 1);
+  EXPECT_EQ(Of<GnssFix>().back().latitude_deg, 63.4);
+  // A receiver that falls silent does not throw the boat to another place.
+  take_odometry(kNow + 20);
+  EXPECT_EQ(Of<GnssFix>().size(), 2u);
+  EXPECT_EQ(Of<HeadingSample>().size(), 2u);
+}
+
 TEST_F(LiveRosVehicleTest, JoinsOneTopicEachSide) {
   TakeThrust("left", 0.0, kNow - 3);  // begins the clock
   TakeThrust("left", 0.5, kNow);

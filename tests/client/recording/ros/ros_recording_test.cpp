@@ -41,6 +41,68 @@ TEST(RosRecording, TakesANorthEastDownFrameByItsName) {
   EXPECT_NEAR(recording.Finish({}).heading.at(0).heading_deg, 30.0, 1e-9);
 }
 
+TEST(RosRecording, TakesOdometryAsMetresFromAnOriginThatItNames) {
+  const NorthEastFrame frame(kOdometryOrigin);
+  const auto place = [&](const std::string& frame_id) {
+    RosRecording recording;
+    recording.Take("/odom", "nav_msgs/msg/Odometry", 100 * kSecondNs,
+                   Odometry(100, 30.0, -40.0, M_PI / 6, frame_id));
+    const SourceLog log = recording.Finish({});
+    EXPECT_THAT(log.summary, testing::HasSubstr("positions from /odom (metres from an origin that "
+                                                "is not stated, taken as 45 N 0 E)"));
+    const GnssFix& fix = log.gnss.at(0);
+    EXPECT_EQ(log.heading.size(), 1u);
+    return frame.Forward({fix.latitude_deg, fix.longitude_deg});
+  };
+  // x is east of REP 103, and north of a frame that names NED.
+  EXPECT_NEAR(place("odom").east_m, 30.0, 1e-6);
+  EXPECT_NEAR(place("odom").north_m, -40.0, 1e-6);
+  EXPECT_NEAR(place("odom_ned").north_m, 30.0, 1e-6);
+  EXPECT_NEAR(place("odom_ned").east_m, -40.0, 1e-6);
+}
+
+TEST(RosRecording, PrefersPositionsOnTheEarthToOdometryHoweverFew) {
+  RosRecording recording;
+  for (int i = 0; i < 5; ++i) {
+    recording.Take("/odom", "nav_msgs/msg/Odometry", i * kSecondNs, Odometry(i + 1, 1.0, 2.0, 0.0));
+  }
+  recording.Take("/fix", "sensor_msgs/msg/NavSatFix", kSecondNs, NavSatFix(1, 0));
+  const SourceLog log = recording.Finish({});
+  ASSERT_EQ(log.gnss.size(), 1u);
+  EXPECT_EQ(log.gnss[0].latitude_deg, 63.4);
+  EXPECT_THAT(log.summary,
+              testing::HasSubstr("positions from /fix (the best type of 2 such topics)"));
+}
+
+TEST(RosRecording, TakesPositionAndHeadingOfAGeoPose) {
+  RosRecording recording;
+  const auto take = [&](double latitude_deg, double longitude_deg) {
+    recording.Take("/ap/geopose/filtered", "geographic_msgs/msg/GeoPoseStamped", kSecondNs,
+                   GeoPose(1, latitude_deg, longitude_deg, M_PI / 6));
+  };
+  take(0.0, 0.0);  // no fix
+  take(-35.36, 149.16);
+  const SourceLog log = recording.Finish({});
+  ASSERT_EQ(log.gnss.size(), 1u);
+  EXPECT_EQ(log.gnss[0].latitude_deg, -35.36);
+  EXPECT_EQ(log.gnss[0].longitude_deg, 149.16);
+  EXPECT_NEAR(log.heading.at(0).heading_deg, 60.0, 1e-9);
+}
+
+TEST(RosTopic, IsOfAThrusterWhereItsLastNameCommandsIt) {
+  const auto kind = [](const char* name) { return RosTopic(name, "std_msgs/msg/Float64").Kind(); };
+  // VRX in Gazebo, VRX of ROS 1, and names that people give.
+  for (const char* name : {"/wamv/thrusters/left/thrust", "/wamv/thrusters/right_thrust_cmd",
+                           "/pwm/port", "/thrusters/starboard", "/motor_left/cmd", "/left_motor"}) {
+    EXPECT_EQ(kind(name), RosKind::kSide) << name;
+  }
+  for (const char* name :
+       {"/wamv/thrusters/left/pos", "/wamv/thrusters/left_thrust_angle",
+        "/wamv/thrusters/left/ang_vel", "/motor_left/temperature", "/thrusters/left/rpm"}) {
+    EXPECT_EQ(kind(name), RosKind::kUnknown) << name;
+  }
+}
+
 TEST(RosRecording, PrefersACompassToAnOrientation) {
   RosRecording recording;
   recording.Take("/imu", "sensor_msgs/msg/Imu", 0, Imu(1, 0.0, "map"));
