@@ -19,44 +19,60 @@ struct Place {
   auto operator<=>(const Place&) const = default;
 };
 
-// A sample's own time, unless it disturbs the order around it and lies far from its neighbours.
-double PlacedTime(const std::vector<double>& times, std::size_t i) {
-  const std::size_t begin = i < kNeighbours ? 0 : i - kNeighbours;
-  const std::size_t end = std::min(i + kNeighbours + 1, times.size());
-  const std::span around(times.data() + begin, end - begin);
-  if (std::is_sorted(around.begin(), around.end())) return times[i];
-  std::vector<double> sorted(around.begin(), around.end());
-  std::sort(sorted.begin(), sorted.end());
-  const double median_s = sorted[sorted.size() / 2];
-  return std::abs(times[i] - median_s) <= kClockStepS ? times[i] : median_s;
-}
-
+/// Goes through a channel in its order and says where each sample goes.
 template <class Sample>
-std::vector<double> FiniteTimes(const std::vector<Sample>& samples) {
-  std::vector<double> times;
-  times.reserve(samples.size());
-  double latest_s = 0.0;
-  for (const Sample& sample : samples) {
-    if (std::isfinite(sample.time_s)) latest_s = sample.time_s;
-    times.push_back(latest_s);
-  }
-  return times;
-}
+class Cursor {
+ public:
+  explicit Cursor(const std::vector<Sample>& samples) : samples_(samples) { PlaceNext(); }
 
-template <class Sample>
-std::vector<Place> PlacesOf(const std::vector<Sample>& samples) {
-  const std::vector<double> times = FiniteTimes(samples);
-  std::vector<Place> places;
-  places.reserve(times.size());
-  Place place;
-  for (std::size_t i = 0; i < times.size(); ++i) {
-    const double time_s = PlacedTime(times, i);
-    const bool set_back = i > 0 && time_s < place.time_s - kClockStepS;
-    place = {place.epoch + (set_back ? 1 : 0), time_s};
-    places.push_back(place);
+  bool AtEnd() const { return next_ == samples_.size(); }
+  const Place& NextPlace() const { return place_; }
+
+  RawSample Take() {
+    const Sample& taken = samples_[next_++];
+    PlaceNext();
+    return taken;
   }
-  return places;
-}
+
+ private:
+  static constexpr std::size_t kAround = 2 * kNeighbours + 1;
+
+  void PlaceNext() {
+    if (AtEnd()) return;
+    const double time_s = PlacedTime();
+    const bool set_back = next_ > 0 && time_s < place_.time_s - kClockStepS;
+    place_ = {place_.epoch + (set_back ? 1 : 0), time_s};
+  }
+
+  /// The next sample's own time, unless it disturbs the order around it and lies far from its
+  /// neighbours.
+  double PlacedTime() {
+    const std::size_t begin = next_ < kNeighbours ? 0 : next_ - kNeighbours;
+    const std::size_t end = std::min(next_ + kNeighbours + 1, samples_.size());
+    for (; seen_ < end; ++seen_) See(samples_[seen_].time_s);
+    std::array<double, kAround> around{};
+    for (std::size_t i = begin; i < end; ++i) around[i - begin] = times_s_[i % kAround];
+    const double own_s = around[next_ - begin];
+    const std::span sorted(around.data(), end - begin);
+    if (std::is_sorted(sorted.begin(), sorted.end())) return own_s;
+    std::sort(sorted.begin(), sorted.end());
+    const double median_s = sorted[sorted.size() / 2];
+    return std::abs(own_s - median_s) <= kClockStepS ? own_s : median_s;
+  }
+
+  /// A time that is no number counts as the one before it.
+  void See(double time_s) {
+    if (std::isfinite(time_s)) latest_s_ = time_s;
+    times_s_[seen_ % kAround] = latest_s_;
+  }
+
+  const std::vector<Sample>& samples_;
+  std::size_t next_ = 0;
+  std::size_t seen_ = 0;
+  double latest_s_ = 0.0;
+  std::array<double, kAround> times_s_{};  ///< of the sample `i` at i modulo kAround
+  Place place_;                            ///< of the next sample
+};
 
 }  // namespace
 
@@ -67,25 +83,23 @@ double TimeOf(const RawSample& sample) {
 std::vector<RawSample> InOrderOfTime(const std::vector<GnssFix>& gnss,
                                      const std::vector<HeadingSample>& heading,
                                      const std::vector<ThrusterSample>& thrusters) {
-  const std::array places = {PlacesOf(gnss), PlacesOf(heading), PlacesOf(thrusters)};
-  std::array<std::size_t, 3> next{};
-  const auto sample = [&](std::size_t channel) -> RawSample {
-    const std::size_t i = next[channel]++;
-    if (channel == 0) return gnss[i];
-    if (channel == 1) return heading[i];
-    return thrusters[i];
-  };
+  const std::size_t all = gnss.size() + heading.size() + thrusters.size();
   std::vector<RawSample> ordered;
-  ordered.reserve(gnss.size() + heading.size() + thrusters.size());
-  while (ordered.size() < ordered.capacity()) {
-    std::size_t first = places.size();
-    for (std::size_t channel = 0; channel < places.size(); ++channel) {
-      if (next[channel] == places[channel].size()) continue;
-      if (first == places.size() || places[channel][next[channel]] < places[first][next[first]]) {
-        first = channel;
-      }
+  ordered.reserve(all);
+  Cursor fixes(gnss);
+  Cursor headings(heading);
+  Cursor commands(thrusters);
+  const auto goes_before = [](const auto& one, const auto& other) {
+    return !one.AtEnd() && (other.AtEnd() || one.NextPlace() <= other.NextPlace());
+  };
+  while (ordered.size() < all) {
+    if (goes_before(fixes, headings) && goes_before(fixes, commands)) {
+      ordered.push_back(fixes.Take());
+    } else if (goes_before(headings, commands)) {
+      ordered.push_back(headings.Take());
+    } else {
+      ordered.push_back(commands.Take());
     }
-    ordered.push_back(sample(first));
   }
   return ordered;
 }

@@ -61,7 +61,7 @@ void Read(std::span<const std::uint8_t> bytes) {
   if (bytes.size() % 3 == 0) options.system_id = 1;
   if (bytes.size() % 2 == 0) options.port_channel = 16;
   if (bytes.size() % 5 == 0) options.starboard_channel = 1;
-  const telltale::SourceLog log = recording.Finish(options);
+  const telltale::SourceLog log = std::move(recording).Finish(options);
   Insist(log.gnss.size() + log.heading.size() + log.thrusters.size() <= 2 * whole.frames);
   const auto lacks = log.Lacks();
   Insist(!lacks || !lacks->reason.empty());
@@ -76,7 +76,7 @@ void TakeMessages(std::span<const std::uint8_t> bytes) {
     recording.Take({2, 1, 1, bytes[at], bytes.subspan(at + 2, length)});
     at += 2 + length;
   }
-  const telltale::SourceLog log = recording.Finish({});
+  const telltale::SourceLog log = std::move(recording).Finish({});
   Insist(log.gnss.size() + log.heading.size() + log.thrusters.size() <= 2 * messages);
 }
 

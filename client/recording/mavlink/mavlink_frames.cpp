@@ -1,5 +1,6 @@
 #include "telltale/client/recording/mavlink/mavlink_frames.hpp"
 
+#include "telltale/client/recording/mavlink/mavlink_checksum.hpp"
 #include "telltale/client/recording/mavlink/mavlink_messages.hpp"
 #include "telltale/core/base/contract.hpp"
 
@@ -16,27 +17,6 @@ constexpr std::uint8_t kSigned = 0x01;
 constexpr std::size_t kTimeBytes = 8;
 constexpr std::uint64_t kYear2000Us = 946684800000000;
 constexpr std::uint64_t kYear2100Us = 4102444800000000;
-
-/// X.25, also called CRC-16/MCRF4XX: what MAVLink sums header and payload with.
-class Checksum {
- public:
-  void Add(std::uint8_t byte) {
-    auto low = static_cast<std::uint8_t>(byte ^ (sum_ & 0xFF));
-    low = static_cast<std::uint8_t>(low ^ (low << 4));
-    sum_ = static_cast<std::uint16_t>((sum_ >> 8) ^ (low << 8) ^ (low << 3) ^ (low >> 4));
-  }
-  std::uint16_t Value() const { return sum_; }
-
- private:
-  std::uint16_t sum_ = 0xFFFF;
-};
-
-std::uint16_t ChecksumOf(std::span<const std::uint8_t> summed, std::uint8_t extra) {
-  Checksum checksum;
-  for (const std::uint8_t byte : summed) checksum.Add(byte);
-  checksum.Add(extra);
-  return checksum.Value();
-}
 
 /// Version 2 leaves out the zeros at the end of a payload, but for its first byte.
 std::span<const std::uint8_t> WithoutTrailingZeros(std::span<const std::uint8_t> payload) {
@@ -66,21 +46,51 @@ struct ArrivalPrefix {
   }
 };
 
+bool IsMagic(std::uint8_t byte) {
+  return byte == kMagic1 || byte == kMagic2;
+}
+
+using Outcome = MavlinkParse::Outcome;
+
+/// Whether a prefix and a frame seem to begin at `bytes`.
+template <class Prefix>
+Outcome SeemsToBeginAt(std::span<const std::uint8_t> bytes) {
+  if (bytes.size() <= Prefix::kBytes) return Outcome::kIncomplete;
+  const bool seems = IsMagic(bytes[Prefix::kBytes]) && Prefix::IsPlausible(bytes);
+  return seems ? Outcome::kFrame : Outcome::kNotAFrame;
+}
+
+/// The prefix and frame at `bytes`, whose length counts both. What cannot be told from noise by its
+/// checksum counts as a frame only where another one, or the end, follows it.
+template <class Prefix>
+MavlinkParse ParseAt(std::span<const std::uint8_t> bytes, bool at_end) {
+  MavlinkParse parse;
+  parse.outcome = SeemsToBeginAt<Prefix>(bytes);
+  if (parse.outcome != Outcome::kFrame) return parse;
+  parse = ParseMavlinkFrame(bytes.subspan(Prefix::kBytes));
+  parse.length += Prefix::kBytes;
+  if (parse.outcome != Outcome::kFrame || parse.checksum != MavlinkParse::Checksum::kUnknown) {
+    return parse;
+  }
+  parse.outcome = SeemsToBeginAt<Prefix>(bytes.subspan(parse.length));
+  if (parse.outcome == Outcome::kIncomplete && at_end) parse.outcome = Outcome::kFrame;
+  return parse;
+}
+
 template <class Prefix, class Deliver>
 std::size_t ConsumeFrames(std::span<const std::uint8_t> bytes, bool at_end, MavlinkDamage& damage,
                           Deliver deliver) {
   std::size_t at = 0;
   while (at < bytes.size()) {
     const auto rest = bytes.subspan(at);
-    MavlinkParse parse;
-    if (rest.size() < Prefix::kBytes) {
-      parse.outcome = MavlinkParse::Outcome::kIncomplete;
-    } else if (!Prefix::IsPlausible(rest)) {
-      parse.outcome = MavlinkParse::Outcome::kNotAFrame;
-    } else {
-      parse = ParseMavlinkFrame(rest.subspan(Prefix::kBytes));
+    const MavlinkParse parse = ParseAt<Prefix>(rest, at_end);
+    const bool is_corrupt = parse.checksum == MavlinkParse::Checksum::kWrong;
+    if (parse.outcome == Outcome::kFrame && !is_corrupt) {
+      deliver(rest, parse.frame);
+      at += parse.length;
+      continue;
     }
-    if (parse.outcome == MavlinkParse::Outcome::kIncomplete) {
+    if (parse.outcome == Outcome::kIncomplete) {
       if (!at_end) return at;
       // The seeming start of a frame may be noise with frames behind it.
       const bool holds_more = Prefix::kBytes == 0 && rest.size() > 1;
@@ -88,18 +98,10 @@ std::size_t ConsumeFrames(std::span<const std::uint8_t> bytes, bool at_end, Mavl
         damage.truncated_bytes += rest.size();
         return bytes.size();
       }
-      ++damage.skipped_bytes;
-      ++at;
-      continue;
     }
-    if (parse.outcome == MavlinkParse::Outcome::kNotAFrame || parse.corrupt) {
-      if (parse.corrupt) ++damage.corrupt_frames;
-      ++damage.skipped_bytes;
-      ++at;
-      continue;
-    }
-    deliver(rest, parse.frame);
-    at += Prefix::kBytes + parse.length;
+    if (is_corrupt) ++damage.corrupt_frames;
+    ++damage.skipped_bytes;
+    ++at;
   }
   return bytes.size();
 }
@@ -107,11 +109,10 @@ std::size_t ConsumeFrames(std::span<const std::uint8_t> bytes, bool at_end, Mavl
 }  // namespace
 
 MavlinkParse ParseMavlinkFrame(std::span<const std::uint8_t> bytes) {
-  using Outcome = MavlinkParse::Outcome;
   MavlinkParse parse;
   parse.outcome = Outcome::kIncomplete;
   if (bytes.empty()) return parse;
-  if (bytes[0] != kMagic1 && bytes[0] != kMagic2) {
+  if (!IsMagic(bytes[0])) {
     parse.outcome = Outcome::kNotAFrame;
     return parse;
   }
@@ -139,7 +140,8 @@ MavlinkParse ParseMavlinkFrame(std::span<const std::uint8_t> bytes) {
   if (const auto extra = MavlinkCrcExtra(frame.message)) {
     const std::size_t end = header + payload;
     const auto stated = static_cast<std::uint16_t>(bytes[end] | bytes[end + 1] << 8);
-    parse.corrupt = ChecksumOf(bytes.subspan(1, end - 1), *extra) != stated;
+    const bool is_right = MavlinkChecksum(bytes.subspan(1, end - 1), *extra) == stated;
+    parse.checksum = is_right ? MavlinkParse::Checksum::kRight : MavlinkParse::Checksum::kWrong;
   }
   return parse;
 }
@@ -166,7 +168,7 @@ std::vector<std::uint8_t> SerializeMavlinkFrame(const MavlinkFrame& frame) {
             : std::vector<std::uint8_t>{kMagic1,      length,          frame.sequence,
                                         frame.system, frame.component, low(frame.message)};
   bytes.insert(bytes.end(), payload.begin(), payload.end());
-  const std::uint16_t checksum = ChecksumOf(std::span(bytes).subspan(1), *extra);
+  const std::uint16_t checksum = MavlinkChecksum(std::span(bytes).subspan(1), *extra);
   bytes.push_back(low(checksum));
   bytes.push_back(low(checksum >> 8));
   return bytes;
@@ -188,7 +190,7 @@ std::size_t MavlinkTelemetryLog::Consume(std::span<const std::uint8_t> bytes, bo
 
 bool BeginsLikeMavlinkTelemetryLog(std::span<const std::uint8_t> bytes) {
   if (bytes.size() <= kTimeBytes || !IsPlausibleArrival(BigEndian64(bytes))) return false;
-  return bytes[kTimeBytes] == kMagic1 || bytes[kTimeBytes] == kMagic2;
+  return IsMagic(bytes[kTimeBytes]);
 }
 
 }  // namespace telltale

@@ -29,10 +29,11 @@ struct MavlinkDamage {
 /// The frame that begins at `bytes`, and its length in bytes.
 struct MavlinkParse {
   enum class Outcome { kUnknown, kFrame, kNotAFrame, kIncomplete };
+  enum class Checksum { kUnknown, kRight, kWrong };  ///< unknown: of a message that is not known
   Outcome outcome = Outcome::kUnknown;
   MavlinkFrame frame;
   std::size_t length = 0;  ///< of the whole frame, checksum and signature included
-  bool corrupt = false;    ///< a known message whose checksum is wrong
+  Checksum checksum = Checksum::kUnknown;
 };
 
 /// Reads one frame. The checksum of a message whose MavlinkCrcExtra() is known is compared; that of
@@ -46,7 +47,10 @@ MavlinkParse ParseMavlinkFrame(std::span<const std::uint8_t> bytes);
 std::vector<std::uint8_t> SerializeMavlinkFrame(const MavlinkFrame& frame);
 
 /// Frames out of a byte stream that may begin, break and end anywhere: the stream of a serial line
-/// or of datagrams.
+/// or of datagrams. A frame of a known message counts where its checksum is right. A frame of any
+/// other message counts where another frame, or the end, follows it. Wherever no frame counts, one
+/// byte is skipped and the search goes on at the next, so that noise that begins as a frame does
+/// hides no known message behind it.
 class MavlinkStream {
  public:
   using Visit = std::function<void(const MavlinkFrame&)>;

@@ -1,5 +1,7 @@
 #include "telltale/client/recording/mavlink/mavlink_messages.hpp"
 
+#include <algorithm>
+#include <array>
 #include <bit>
 
 namespace telltale {
@@ -8,9 +10,12 @@ namespace {
 /// Little-endian fields of a payload; beyond its end all bytes are zero.
 class Payload {
  public:
-  explicit Payload(const MavlinkFrame& frame) : bytes_(frame.payload) {}
+  explicit Payload(const MavlinkFrame& frame) {
+    std::copy_n(frame.payload.begin(), std::min(frame.payload.size(), bytes_.size()),
+                bytes_.begin());
+  }
 
-  std::uint8_t U8(std::size_t at) const { return at < bytes_.size() ? bytes_[at] : 0; }
+  std::uint8_t U8(std::size_t at) const { return bytes_[at]; }
   std::uint16_t U16(std::size_t at) const {
     return static_cast<std::uint16_t>(U8(at) | U8(at + 1) << 8);
   }
@@ -24,7 +29,9 @@ class Payload {
   double Degrees(std::size_t at) const { return static_cast<std::int32_t>(U32(at)) * 1e-7; }
 
  private:
-  std::span<const std::uint8_t> bytes_;
+  static constexpr std::size_t kLongest = 64;  // no field that is read lies further on
+
+  std::array<std::uint8_t, kLongest> bytes_{};
 };
 
 constexpr std::uint16_t kHeadingUnknown = 65535;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "telltale/client/recording/block_reader.hpp"
 #include "telltale/client/recording/rate_warning.hpp"
@@ -11,6 +12,13 @@ namespace telltale {
 namespace {
 
 constexpr std::uint32_t kHalfWrapUs = 1u << 31;
+
+/// What raises the rate of a message.
+std::string AskFor(const char* parameter, const char* message) {
+  return std::string("set ") + parameter +
+         " to 10 (SR1_, SR2_ of another port), or ask for message " + message +
+         " by MAV_CMD_SET_MESSAGE_INTERVAL";
+}
 
 std::string AndCount(std::uint64_t count, const char* what) {
   return count > 0 ? "; " + std::to_string(count) + ' ' + what : std::string();
@@ -104,8 +112,8 @@ void MavlinkRecording::Take(int system, const MavlinkSystemTime& message) {
   vehicle.unix_less_boot_s = static_cast<double>(message.unix_us) * 1e-6 - message.boot_ms * 1e-3;
 }
 
-const std::pair<const int, MavlinkRecording::Vehicle>* MavlinkRecording::Chosen(
-    const SourceOptions& options) const {
+std::pair<const int, MavlinkRecording::Vehicle>* MavlinkRecording::Chosen(
+    const SourceOptions& options) {
   if (options.system_id) {
     const auto found = vehicles_.find(*options.system_id);
     return found == vehicles_.end() ? nullptr : &*found;
@@ -116,38 +124,47 @@ const std::pair<const int, MavlinkRecording::Vehicle>* MavlinkRecording::Chosen(
   return most == vehicles_.end() ? nullptr : &*most;
 }
 
-void MavlinkRecording::ChoosePositions(const Vehicle& vehicle, SourceLog& log) {
-  log.gnss = vehicle.raw_fixes.empty() ? vehicle.filtered_fixes : vehicle.raw_fixes;
-  if (log.gnss.empty()) return;
-  log.summary += vehicle.raw_fixes.empty() ? "; positions from GLOBAL_POSITION_INT"
-                                           : "; positions from GPS_RAW_INT";
-  if (!vehicle.unix_less_boot_s) return;
-  for (GnssFix& fix : log.gnss) {
-    if (IsMavlinkUnixTime(fix.time_s)) fix.time_s -= *vehicle.unix_less_boot_s;
+std::string MavlinkRecording::ChoosePositions(Vehicle& vehicle, SourceLog& log) {
+  const bool are_raw = !vehicle.raw_fixes.empty();
+  log.gnss = std::move(are_raw ? vehicle.raw_fixes : vehicle.filtered_fixes);
+  if (log.gnss.empty()) return {};
+  const char* source = are_raw ? "GPS_RAW_INT" : "GLOBAL_POSITION_INT";
+  log.summary += std::string("; positions from ") + source;
+  if (vehicle.unix_less_boot_s) {
+    for (GnssFix& fix : log.gnss) {
+      if (IsMavlinkUnixTime(fix.time_s)) fix.time_s -= *vehicle.unix_less_boot_s;
+    }
   }
+  return RateWarning(source, log.gnss, kLowPositionHz,
+                     are_raw ? AskFor("SR0_EXT_STAT", "24") : AskFor("SR0_POSITION", "33"));
 }
 
-void MavlinkRecording::ChooseHeadings(const Vehicle& vehicle, SourceLog& log) {
-  log.heading = vehicle.attitude.empty() ? vehicle.filtered_heading : vehicle.attitude;
-  if (log.heading.empty()) return;
-  log.summary +=
-      vehicle.attitude.empty() ? "; heading from GLOBAL_POSITION_INT" : "; heading from ATTITUDE";
+std::string MavlinkRecording::ChooseHeadings(Vehicle& vehicle, SourceLog& log) {
+  const bool are_attitudes = !vehicle.attitude.empty();
+  log.heading = std::move(are_attitudes ? vehicle.attitude : vehicle.filtered_heading);
+  if (log.heading.empty()) return {};
+  const char* source = are_attitudes ? "ATTITUDE" : "GLOBAL_POSITION_INT";
+  log.summary += std::string("; heading from ") + source;
+  return RateWarning(source, log.heading, kLowHeadingHz,
+                     are_attitudes ? AskFor("SR0_EXTRA1", "30") : AskFor("SR0_POSITION", "33"));
 }
 
-void MavlinkRecording::ChooseOutputs(const Vehicle& vehicle, const SourceOptions& options,
-                                     SourceLog& log) {
+std::string MavlinkRecording::ChooseOutputs(const Vehicle& vehicle, const SourceOptions& options,
+                                            SourceLog& log) {
   const auto output = [&](std::optional<int> asked, int function) -> std::optional<ThrusterOutput> {
     const auto channel = ThrusterChannel(asked, vehicle.parameters, function);
     if (!channel) return std::nullopt;
     return OutputOn(vehicle.parameters, *channel);
   };
-  if (vehicle.outputs.empty()) return;
+  std::string warning =
+      RateWarning("SERVO_OUTPUT_RAW", vehicle.outputs, kLowOutputHz, AskFor("SR0_RC_CHAN", "36"));
+  if (vehicle.outputs.empty()) return warning;
   log.port = output(options.port_channel, kThrottleLeft);
   log.starboard = output(options.starboard_channel, kThrottleRight);
   if (!log.port || !log.starboard) {
     log.summary +=
         "; no PARAM_VALUE gives a SERVOn_FUNCTION 73 (ThrottleLeft) and 74 (ThrottleRight)";
-    return;
+    return warning;
   }
   log.summary += "; outputs " + std::to_string(log.port->channel) + " (port) and " +
                  std::to_string(log.starboard->channel) + " (starboard) of SERVO_OUTPUT_RAW";
@@ -156,40 +173,25 @@ void MavlinkRecording::ChooseOutputs(const Vehicle& vehicle, const SourceOptions
     log.thrusters.push_back({outputs.time_s, PulseOn(outputs.pulse_us, log.port->channel),
                              PulseOn(outputs.pulse_us, log.starboard->channel)});
   }
+  return warning;
 }
 
-std::string MavlinkRecording::RateWarnings(const Vehicle& vehicle, const SourceLog& log) {
-  const auto ask = [](const char* parameter, const char* message) {
-    return std::string("set ") + parameter +
-           " to 10 (SR1_, SR2_ of another port), or ask for message " + message +
-           " by MAV_CMD_SET_MESSAGE_INTERVAL";
-  };
-  const bool has_raw = !vehicle.raw_fixes.empty();
-  return RateWarning("SERVO_OUTPUT_RAW", vehicle.outputs, kLowOutputHz, ask("SR0_RC_CHAN", "36")) +
-         RateWarning(
-             vehicle.attitude.empty() ? "GLOBAL_POSITION_INT" : "ATTITUDE", log.heading,
-             kLowHeadingHz,
-             vehicle.attitude.empty() ? ask("SR0_POSITION", "33") : ask("SR0_EXTRA1", "30")) +
-         RateWarning(has_raw ? "GPS_RAW_INT" : "GLOBAL_POSITION_INT", log.gnss, kLowPositionHz,
-                     has_raw ? ask("SR0_EXT_STAT", "24") : ask("SR0_POSITION", "33"));
-}
-
-SourceLog MavlinkRecording::Finish(const SourceOptions& options) const {
+SourceLog MavlinkRecording::Finish(const SourceOptions& options) && {
   SourceLog log;
   log.summary = std::to_string(messages_) + " MAVLink messages of use";
-  const auto* chosen = Chosen(options);
+  auto* chosen = Chosen(options);
   if (chosen == nullptr) {
     if (options.system_id)
       log.summary += "; none from system " + std::to_string(*options.system_id);
     return log;
   }
-  const auto& [system, vehicle] = *chosen;
+  auto& [system, vehicle] = *chosen;
   log.summary += "; system " + std::to_string(system);
   if (vehicles_.size() > 1) log.summary += " of " + std::to_string(vehicles_.size());
-  ChoosePositions(vehicle, log);
-  ChooseHeadings(vehicle, log);
-  ChooseOutputs(vehicle, options, log);
-  log.summary += RateWarnings(vehicle, log) +
+  const std::string of_positions = ChoosePositions(vehicle, log);
+  const std::string of_headings = ChooseHeadings(vehicle, log);
+  const std::string of_outputs = ChooseOutputs(vehicle, options, log);
+  log.summary += of_outputs + of_headings + of_positions +
                  AndCount(vehicle.without_fix, "positions without a fix") +
                  AndCount(vehicle.repeated_fixes, "positions sent again");
   return log;
@@ -206,7 +208,7 @@ Result<SourceLog> ReadMavlinkTelemetryLog(const std::filesystem::path& file,
   });
   if (!read) return tl::unexpected(read.error());
 
-  SourceLog log = recording.Finish(options);
+  SourceLog log = std::move(recording).Finish(options);
   log.summary += AndCount(frames.Damage().corrupt_frames, "messages with a wrong checksum") +
                  AndCount(frames.Damage().skipped_bytes, "bytes skipped") +
                  AndCount(frames.Damage().truncated_bytes, "bytes of a message cut off at the end");

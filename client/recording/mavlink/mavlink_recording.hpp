@@ -42,8 +42,9 @@ class MavlinkRecording {
   void Take(int system, const MavlinkParamValue& message);
   void Take(int system, const MavlinkSystemTime& message);
 
+  /// Gives the samples away, so that no file stands in memory twice.
   /// Requires: options.Validate() is empty.
-  SourceLog Finish(const SourceOptions& options) const;
+  SourceLog Finish(const SourceOptions& options) &&;
 
  private:
   struct Outputs {
@@ -66,11 +67,12 @@ class MavlinkRecording {
     std::size_t Samples() const;
   };
 
-  const std::pair<const int, Vehicle>* Chosen(const SourceOptions& options) const;
-  static void ChoosePositions(const Vehicle& vehicle, SourceLog& log);
-  static void ChooseHeadings(const Vehicle& vehicle, SourceLog& log);
-  static void ChooseOutputs(const Vehicle& vehicle, const SourceOptions& options, SourceLog& log);
-  static std::string RateWarnings(const Vehicle& vehicle, const SourceLog& log);
+  std::pair<const int, Vehicle>* Chosen(const SourceOptions& options);
+  // Each fills a channel, and returns the warning of a rate that is too low, if it is.
+  static std::string ChoosePositions(Vehicle& vehicle, SourceLog& log);
+  static std::string ChooseHeadings(Vehicle& vehicle, SourceLog& log);
+  static std::string ChooseOutputs(const Vehicle& vehicle, const SourceOptions& options,
+                                   SourceLog& log);
 
   std::map<int, Vehicle> vehicles_;  ///< by system id
   std::uint64_t messages_ = 0;

@@ -379,8 +379,8 @@ class McapRecording {
     }
   }
 
-  SourceLog Finish(const McapDamage& damage) const {
-    SourceLog log = of_mavlink_ > of_ros_ ? mavlink_.Finish(options_) : ros_.Finish();
+  SourceLog Finish(const McapDamage& damage) && {
+    SourceLog log = of_mavlink_ > of_ros_ ? std::move(mavlink_).Finish(options_) : ros_.Finish();
     if (unreadable_ > 0) log.summary += "; " + std::to_string(unreadable_) + " unreadable messages";
     log.summary += damage.Summary();
     return log;
@@ -422,7 +422,7 @@ SourceLog ParseMcap(std::span<const std::uint8_t> bytes, std::size_t block,
   };
   McapFile mcap(take);
   TakeInBlocks(bytes, block, [&](Bytes part, bool at_end) { return mcap.Consume(part, at_end); });
-  return recording.Finish(mcap.Damage());
+  return std::move(recording).Finish(mcap.Damage());
 }
 
 Result<SourceLog> ReadMcap(const std::filesystem::path& file, const SourceOptions& options) {
@@ -431,7 +431,7 @@ Result<SourceLog> ReadMcap(const std::filesystem::path& file, const SourceOption
   const auto damage =
       ForEachMcapMessage(file, [&](const McapMessage& message) { recording.Take(message); });
   if (!damage) return tl::unexpected(damage.error());
-  SourceLog log = recording.Finish(*damage);
+  SourceLog log = std::move(recording).Finish(*damage);
   return Complete(std::move(log), file);
 }
 

@@ -73,7 +73,7 @@ TEST(MavlinkRequests, ComeBackAsTheyWereSent) {
         SerializeMavlinkFrame({version, 254, 191, request.message, request.payload, 9});
     const MavlinkParse parse = ParseMavlinkFrame(bytes);
     ASSERT_EQ(parse.outcome, MavlinkParse::Outcome::kFrame);
-    EXPECT_FALSE(parse.corrupt);
+    EXPECT_EQ(parse.checksum, MavlinkParse::Checksum::kRight);
     EXPECT_EQ(parse.frame.version, version);
     EXPECT_EQ(parse.frame.system, 254);
     EXPECT_EQ(parse.frame.component, 191);

@@ -47,7 +47,7 @@ std::vector<std::uint32_t> MessagesIn(const Bytes& bytes, MavlinkDamage& damage)
 TEST(MavlinkFrames, ReadVersionTwo) {
   const MavlinkParse parse = ParseMavlinkFrame(kGps2);
   ASSERT_EQ(parse.outcome, MavlinkParse::Outcome::kFrame);
-  EXPECT_FALSE(parse.corrupt);
+  EXPECT_EQ(parse.checksum, MavlinkParse::Checksum::kRight);
   EXPECT_EQ(parse.length, kGps2.size());
   EXPECT_EQ(parse.frame.system, 7);
   const MavlinkGpsRawInt fix = GpsRawIntOf(parse.frame);
@@ -78,6 +78,26 @@ TEST(MavlinkFrames, FindTheNextAfterNoise) {
   const Bytes noise = {0x00, 0xfd, 0x03, 0x17};
   EXPECT_THAT(MessagesIn(Joined({kGps2, noise, kServo}), damage), testing::ElementsAre(24u, 36u));
   EXPECT_EQ(damage.skipped_bytes, noise.size());
+}
+
+// HIGHRES_IMU, whose checksum is not known here, of three bytes.
+const Bytes kForeign = {0xfd, 0x03, 0x00, 0x00, 0x08, 0x07, 0x01, 0x69,
+                        0x00, 0x00, 0x01, 0x02, 0x03, 0x12, 0x34};
+
+TEST(MavlinkFrames, OfUnknownMessagesCountBetweenOthersAndAtTheEnd) {
+  MavlinkDamage damage;
+  EXPECT_THAT(MessagesIn(Joined({kForeign, kForeign, kServo, kForeign}), damage),
+              testing::ElementsAre(105u, 105u, 36u, 105u));
+  EXPECT_EQ(damage.skipped_bytes, 0u);
+}
+
+TEST(MavlinkFrames, BehindNoiseThatLooksLikeAnUnknownMessageAreFound) {
+  MavlinkDamage damage;
+  Bytes too_long = kForeign;
+  too_long[1] = 20;  // would end in the midst of the message behind it
+  EXPECT_THAT(MessagesIn(Joined({too_long, kServo, kGps2}), damage),
+              testing::ElementsAre(36u, 24u));
+  EXPECT_EQ(damage.skipped_bytes, too_long.size());
 }
 
 TEST(MavlinkFrames, CountAWrongChecksumAndGoOn) {

@@ -25,7 +25,7 @@ TEST(MavlinkRecording, TakesThreeChannelsOnTheAutopilotsClock) {
   recording.Take(1, MavlinkGpsRawInt{2000000, 63.4, 10.4, 3});
   recording.Take(1, MavlinkAttitude{2500, 0.5F});
   recording.Take(1, OutputAt(3000000, 1600, 1400));
-  const SourceLog log = recording.Finish({});
+  const SourceLog log = std::move(recording).Finish({});
   ASSERT_FALSE(log.Lacks()) << log.summary;
   EXPECT_DOUBLE_EQ(log.gnss.at(0).time_s, 2.0);
   EXPECT_DOUBLE_EQ(log.heading.at(0).time_s, 2.5);
@@ -40,7 +40,7 @@ TEST(MavlinkRecording, CountsOneFixThatIsSentTwiceOnce) {
   recording.Take(1, MavlinkGpsRawInt{2000000, 63.4, 10.4, 3});
   recording.Take(1, MavlinkGpsRawInt{2000000, 63.4, 10.4, 3});
   recording.Take(1, MavlinkGpsRawInt{2200000, 0.0, 0.0, 1});
-  const SourceLog log = recording.Finish({});
+  const SourceLog log = std::move(recording).Finish({});
   EXPECT_EQ(log.gnss.size(), 1u);
   EXPECT_THAT(log.summary, testing::HasSubstr("1 positions without a fix"));
   EXPECT_THAT(log.summary, testing::HasSubstr("1 positions sent again"));
@@ -51,7 +51,7 @@ TEST(MavlinkRecording, GoesOnWhereTheClockOfOutputsBeginsAnew) {
   NameOutputs(recording, 1);
   recording.Take(1, OutputAt(4294900000u, 1500, 1500));
   recording.Take(1, OutputAt(32704u, 1500, 1500));  // 0.1 s later: 2^32 us have passed
-  const SourceLog log = recording.Finish({});
+  const SourceLog log = std::move(recording).Finish({});
   ASSERT_EQ(log.thrusters.size(), 2u);
   EXPECT_NEAR(log.thrusters[1].time_s - log.thrusters[0].time_s, 0.1, 1e-6);
 }
@@ -60,32 +60,35 @@ TEST(MavlinkRecording, BringsUnixFixesToTheAutopilotsClock) {
   MavlinkRecording recording;
   recording.Take(1, MavlinkSystemTime{1700000000000000, 50000});
   recording.Take(1, MavlinkGpsRawInt{1700000010000000, 63.4, 10.4, 3});
-  EXPECT_NEAR(recording.Finish({}).gnss.at(0).time_s, 60.0, 1e-6);
+  EXPECT_NEAR(std::move(recording).Finish({}).gnss.at(0).time_s, 60.0, 1e-6);
 }
 
 TEST(MavlinkRecording, ChoosesTheVehicleThatSaysMostUnlessToldOtherwise) {
-  MavlinkRecording recording;
-  recording.Take(2, MavlinkAttitude{1000, 0.0F});
-  recording.Take(9, MavlinkAttitude{1000, 1.0F});
-  recording.Take(9, MavlinkAttitude{1100, 1.0F});
-  EXPECT_EQ(recording.Finish({}).heading.size(), 2u);
-  SourceOptions options;
-  options.system_id = 2;
-  EXPECT_EQ(recording.Finish(options).heading.size(), 1u);
+  const auto headings = [](std::optional<int> system) {
+    MavlinkRecording recording;
+    recording.Take(2, MavlinkAttitude{1000, 0.0F});
+    recording.Take(9, MavlinkAttitude{1000, 1.0F});
+    recording.Take(9, MavlinkAttitude{1100, 1.0F});
+    SourceOptions options;
+    options.system_id = system;
+    return std::move(recording).Finish(options).heading.size();
+  };
+  EXPECT_EQ(headings(std::nullopt), 2u);
+  EXPECT_EQ(headings(2), 1u);
 }
 
 TEST(MavlinkRecording, NamesTheSettingThatRaisesALowRate) {
   MavlinkRecording recording;
   NameOutputs(recording, 1);
   for (std::uint32_t i = 0; i < 10; ++i) recording.Take(1, OutputAt(500000 * i, 1500, 1500));
-  EXPECT_THAT(recording.Finish({}).summary,
+  EXPECT_THAT(std::move(recording).Finish({}).summary,
               testing::HasSubstr("SERVO_OUTPUT_RAW comes at 2.0 Hz only: set SR0_RC_CHAN to 10"));
 }
 
 TEST(MavlinkRecording, SaysWhichChannelIsMissing) {
   MavlinkRecording recording;
   recording.Take(1, MavlinkGpsRawInt{2000000, 63.4, 10.4, 3});
-  const auto refusal = recording.Finish({}).Lacks();
+  const auto refusal = std::move(recording).Finish({}).Lacks();
   ASSERT_TRUE(refusal);
   EXPECT_EQ(refusal->subject, "heading");
 }
