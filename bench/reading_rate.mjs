@@ -3,11 +3,13 @@
 //   node reading_rate.mjs make TELEMETRY_LOG_FOLDER OUT_FOLDER MEGABYTES
 //   node reading_rate.mjs read FILE...
 //
-// make: OUT_FOLDER/messages.tlog, nothing but messages that count; mixed.tlog, one in five of which counts;
-// messages.mcap, a third as long, nothing but messages that count; camera.mcap, with a picture of 60 kB at each
-// position. Chunks are not compressed.
+// make: OUT_FOLDER/messages.tlog, nothing but messages that count; mixed.tlog, one in five of which counts; a third
+// as long, nothing but messages that count: messages.mcap, messages-zstd.mcap, messages-lz4.mcap, thrusts.mcap, whose
+// outputs are Float64 of each thruster, and blueos.mcap, JSON of the BlueOS recorder; camera.mcap, with a picture of
+// 60 kB at each position. Other chunks than those of the second and third are not compressed.
 // read: @mcap/core or node-mavlink on a file, messages parsed and nothing done with them.
-// Run it in a folder with the packages of tests/client/recording/foreign/package.json.
+// Run it in a folder with the packages of tests/client/recording/foreign/package.json; lz4 must be installed.
+import { execFileSync } from "node:child_process";
 import { createRequire } from "node:module";
 import { createReadStream, mkdirSync, readFileSync, openSync, writeSync, closeSync, statSync } from "node:fs";
 import { join } from "node:path";
@@ -102,44 +104,94 @@ class Cdr {
   bytes() { return new Uint8Array(this.view.buffer, 0, this.at); }
 }
 
-async function writeMcap(path, samples, bytes, pictureBytes) {
+const compressions = {
+  zstd: (data) => ({ compression: "zstd", compressedData: zstd.compress(data, data.byteLength) }),
+  lz4: (data) => ({ compression: "lz4",
+    compressedData: execFileSync("lz4", ["-q", "-c"], { input: data, maxBuffer: 1 << 28 }) }),
+};
+
+// What the writer that `prepare` makes adds of each sample of the log, again and again, until there are so many bytes before compression.
+async function writeMcap(path, profile, samples, bytes, compressChunk, prepare) {
   const file = openSync(path, "w");
   let size = 0n;
   const writable = { position: () => size,
     write: async (buffer) => { writeSync(file, buffer); size += BigInt(buffer.byteLength); } };
-  const writer = new McapWriter({ writable, useChunks: true });
-  await writer.start({ profile: "ros2", library: "reading_rate" });
-  const channel = async (topic, name) => writer.registerChannel({ topic, messageEncoding: "cdr",
-    metadata: new Map(), schemaId: await writer.registerSchema({ name, encoding: "ros2msg", data: Buffer.from("") }) });
-  const channels = { fix: await channel("/gps/fix", "sensor_msgs/msg/NavSatFix"),
-    heading: await channel("/imu/data", "sensor_msgs/msg/Imu"),
-    pulses: await channel("/rc/out", "mavros_msgs/msg/RCOut"),
-    picture: await channel("/camera/compressed", "sensor_msgs/msg/CompressedImage") };
-  const picture = randomFillSync(new Uint8Array(pictureBytes));
-  for (let start = 1000; size < bytes; start += 700) {
+  const writer = new McapWriter({ writable, useChunks: true, compressChunk });
+  await writer.start({ profile, library: "reading_rate" });
+  const channel = async (topic, name, schema, encoding) => writer.registerChannel({ topic, messageEncoding: encoding,
+    metadata: new Map(), schemaId: await writer.registerSchema({ name, encoding: schema, data: Buffer.from("") }) });
+  let added = 0;
+  const write = await prepare(channel, (channelId, ns, data) => {
+    added += data.byteLength;
+    return writer.addMessage({ channelId, sequence: 0, logTime: ns, publishTime: ns, data });
+  });
+  for (let start = 1000; added < bytes; start += 700) {
     for (const s of samples) {
-      const ns = BigInt(Math.round((start + s.t) * 1e6)) * 1000n;
-      const cdr = new Cdr().header(ns);
-      if (s.kind === "fix") {
-        cdr.u8(0).u16(1).f64(s.lat).f64(s.lon).f64(0);
-        for (let i = 0; i < 9; ++i) cdr.f64(0);
-        cdr.u8(0);
-      } else if (s.kind === "heading") {
-        const half = (90 - s.deg) * Math.PI / 360;
-        cdr.f64(0).f64(0).f64(Math.sin(half)).f64(Math.cos(half));
-        for (let i = 0; i < 33; ++i) cdr.f64(0.001 * i);
-      } else {
-        cdr.u32(4).u16(Math.round(s.port)).u16(1500).u16(Math.round(s.starboard)).u16(1500);
-      }
-      const add = (channelId, data) => writer.addMessage({ channelId, sequence: 0, logTime: ns, publishTime: ns, data });
-      await add(channels[s.kind], cdr.bytes());
-      if (pictureBytes > 0 && s.kind === "fix") await add(channels.picture, picture);
-      if (size >= bytes) break;
+      await write(s, start);
+      if (added >= bytes) break;
     }
   }
   await writer.end();
   closeSync(file);
 }
+
+const nanoseconds = (s, start) => BigInt(Math.round((start + s.t) * 1e6)) * 1000n;
+
+const ros2 = (pictureBytes, sides) => async (channel, add) => {
+  const ros = (topic, name) => channel(topic, name, "ros2msg", "cdr");
+  const channels = { fix: await ros("/gps/fix", "sensor_msgs/msg/NavSatFix"),
+    heading: await ros("/imu/data", "sensor_msgs/msg/Imu") };
+  if (sides) {
+    channels.left = await ros("/thrusters/left/thrust", "std_msgs/msg/Float64");
+    channels.right = await ros("/thrusters/right/thrust", "std_msgs/msg/Float64");
+  } else {
+    channels.pulses = await ros("/rc/out", "mavros_msgs/msg/RCOut");
+  }
+  if (pictureBytes > 0) channels.picture = await ros("/camera/compressed", "sensor_msgs/msg/CompressedImage");
+  const picture = randomFillSync(new Uint8Array(pictureBytes));
+  return async (s, start) => {
+    const ns = nanoseconds(s, start);
+    if (s.kind === "pulses" && sides) {
+      await add(channels.left, ns, new Cdr().f64((s.port - 1500) / 400).bytes());
+      await add(channels.right, ns, new Cdr().f64((s.starboard - 1500) / 400).bytes());
+      return;
+    }
+    const cdr = new Cdr().header(ns);
+    if (s.kind === "fix") {
+      cdr.u8(0).u16(1).f64(s.lat).f64(s.lon).f64(0);
+      for (let i = 0; i < 9; ++i) cdr.f64(0);
+      cdr.u8(0);
+    } else if (s.kind === "heading") {
+      const half = (90 - s.deg) * Math.PI / 360;
+      cdr.f64(0).f64(0).f64(Math.sin(half)).f64(Math.cos(half));
+      for (let i = 0; i < 33; ++i) cdr.f64(0.001 * i);
+    } else {
+      cdr.u32(4).u16(Math.round(s.port)).u16(1500).u16(Math.round(s.starboard)).u16(1500);
+    }
+    await add(channels[s.kind], ns, cdr.bytes());
+    if (pictureBytes > 0 && s.kind === "fix") await add(channels.picture, ns, picture);
+  };
+};
+
+const types = { fix: "GPS_RAW_INT", heading: "ATTITUDE", pulses: "SERVO_OUTPUT_RAW", parameter: "PARAM_VALUE" };
+const snake = (name) => name.replace(/[A-Z]/g, (c) => "_" + c.toLowerCase()).replace(/([a-z])(\d)/, "$1$2");
+const blueOs = async (channel, add) => {
+  const channels = {};
+  for (const [kind, type] of Object.entries(types)) {
+    channels[kind] = await channel(`mavlink/1/1/${type}`, type, "jsonschema", "json");
+  }
+  const put = (kind, ns, fields) => add(channels[kind], ns, Buffer.from(JSON.stringify(
+    { header: { system_id: 1, component_id: 1, sequence: 0 }, message: { type: types[kind], ...fields } })));
+  for (const [i, name] of ["SERVO1_FUNCTION", "SERVO3_FUNCTION"].entries()) {
+    await put("parameter", 0n, { param_id: [...name.padEnd(16, "\0")], param_value: 73 + i });
+  }
+  return (s, start) => {
+    const fields = Object.fromEntries(Object.entries(messageOf(s, start)).map(([key, value]) =>
+      [snake(key), typeof value === "bigint" ? Number(value) : value]));
+    if (s.kind === "fix") fields.fix_type = { type: "GPS_FIX_TYPE_3D_FIX" };
+    return put(s.kind, nanoseconds(s, start), fields);
+  };
+};
 
 async function readMcap(path) {
   const reader = new McapStreamReader({
@@ -161,8 +213,14 @@ if (what === "make") {
   const samples = samplesOf(folder);
   writeTlog(join(out, "messages.tlog"), samples, bytes, 0);
   writeTlog(join(out, "mixed.tlog"), samples, bytes, 4);
-  await writeMcap(join(out, "messages.mcap"), samples, bytes / 3, 0);
-  await writeMcap(join(out, "camera.mcap"), samples, bytes, 60000);
+  const some = (name, profile, compressChunk, prepare) =>
+    writeMcap(join(out, name), profile, samples, bytes / 3, compressChunk, prepare);
+  await some("messages.mcap", "ros2", undefined, ros2(0, false));
+  await some("messages-zstd.mcap", "ros2", compressions.zstd, ros2(0, false));
+  await some("messages-lz4.mcap", "ros2", compressions.lz4, ros2(0, false));
+  await some("thrusts.mcap", "ros2", undefined, ros2(0, true));
+  await some("blueos.mcap", "", undefined, blueOs);
+  await writeMcap(join(out, "camera.mcap"), "ros2", samples, bytes, undefined, ros2(60000, false));
 } else {
   for (const path of rest) {
     const start = process.cpuUsage();

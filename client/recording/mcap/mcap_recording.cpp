@@ -12,10 +12,10 @@
 #include <vector>
 
 #include <zstd.h>
-#include <nlohmann/json.hpp>
 
 #include "telltale/client/recording/block_reader.hpp"
 #include "telltale/client/recording/lz4_frame.hpp"
+#include "telltale/client/recording/mavlink/mavlink_json.hpp"
 #include "telltale/client/recording/mavlink/mavlink_recording.hpp"
 #include "telltale/client/recording/ros/ros_intake.hpp"
 
@@ -251,96 +251,6 @@ class McapFile {
   bool is_ended_ = false;
 };
 
-using Json = nlohmann::json;
-
-std::string ParameterNameOf(const Json& value) {
-  if (value.is_string()) return value.get<std::string>();
-  std::string name;
-  if (value.is_array()) {
-    for (const Json& item : value) {
-      if (item.is_string()) name += item.get<std::string>();
-    }
-  }
-  while (!name.empty() && name.back() == '\0') name.pop_back();
-  return name;
-}
-
-/// An integer field. Throws where it is no number or not of that type's range, as Json::at does
-/// where it is absent.
-template <class Integer>
-Integer IntegerOf(const Json& value) {
-  const auto number = value.get<double>();
-  const bool is_in_range = 0.0 <= number && number < std::ldexp(1.0, 8 * sizeof(Integer));
-  if (!is_in_range) throw std::out_of_range("a field of a message");
-  return value.is_number_unsigned() ? static_cast<Integer>(value.get<std::uint64_t>())
-                                    : static_cast<Integer>(number);
-}
-
-/// A number of MAVLink's single precision; one that is too large becomes infinite.
-float FloatOf(const Json& value) {
-  const auto number = value.get<double>();
-  const double largest = std::numeric_limits<float>::max();
-  if (std::abs(number) > largest)
-    return std::copysign(INFINITY, static_cast<float>(std::copysign(1.0, number)));
-  return static_cast<float>(number);
-}
-
-std::uint8_t FixTypeOf(const Json& value) {
-  if (value.is_number()) return IntegerOf<std::uint8_t>(value);
-  const Json& type = value.is_object() && value.contains("type") ? value.at("type") : value;
-  const std::string name = type.is_string() ? type.get<std::string>() : "";
-  const bool has_none = name.empty() || name == "GPS_FIX_TYPE_NO_GPS" ||
-                        name == "GPS_FIX_TYPE_NO_FIX" || name == "GPS_FIX_TYPE_2D_FIX";
-  return has_none ? 0 : 3;
-}
-
-/// A MAVLink message as the BlueOS recorder writes it:
-/// {"header": {"system_id": 1, ...}, "message": {"type": "ATTITUDE", "time_boot_ms": ..., ...}}.
-bool TakeJson(Bytes data, MavlinkRecording& recording) {
-  const Json root = Json::parse(data.begin(), data.end(), nullptr, false);
-  if (!root.is_object() || !root.contains("message") || !root.contains("header")) return false;
-  try {
-    const int system = IntegerOf<std::uint8_t>(root.at("header").at("system_id"));
-    const Json& message = root.at("message");
-    const std::string type = message.at("type").get<std::string>();
-    if (type == "GPS_RAW_INT") {
-      recording.Take(system, MavlinkGpsRawInt{IntegerOf<std::uint64_t>(message.at("time_usec")),
-                                              1e-7 * message.at("lat").get<double>(),
-                                              1e-7 * message.at("lon").get<double>(),
-                                              FixTypeOf(message.at("fix_type"))});
-    } else if (type == "GLOBAL_POSITION_INT") {
-      MavlinkGlobalPositionInt position{IntegerOf<std::uint32_t>(message.at("time_boot_ms")),
-                                        1e-7 * message.at("lat").get<double>(),
-                                        1e-7 * message.at("lon").get<double>(), std::nullopt};
-      const double heading = message.at("hdg").get<double>();
-      if (heading < 36000.5) position.heading_deg = 0.01 * heading;
-      recording.Take(system, position);
-    } else if (type == "ATTITUDE") {
-      recording.Take(system, MavlinkAttitude{IntegerOf<std::uint32_t>(message.at("time_boot_ms")),
-                                             FloatOf(message.at("yaw"))});
-    } else if (type == "SERVO_OUTPUT_RAW") {
-      MavlinkServoOutputRaw output;
-      output.time_us = IntegerOf<std::uint32_t>(message.at("time_usec"));
-      if (message.contains("port")) output.bank = IntegerOf<std::uint8_t>(message.at("port"));
-      for (std::size_t i = 0; i < output.pulse_us.size(); ++i) {
-        const std::string name = "servo" + std::to_string(i + 1) + "_raw";
-        if (message.contains(name)) output.pulse_us[i] = IntegerOf<std::uint16_t>(message.at(name));
-      }
-      recording.Take(system, output);
-    } else if (type == "PARAM_VALUE") {
-      recording.Take(system, MavlinkParamValue{ParameterNameOf(message.at("param_id")),
-                                               FloatOf(message.at("param_value"))});
-    } else if (type == "SYSTEM_TIME") {
-      recording.Take(system,
-                     MavlinkSystemTime{IntegerOf<std::uint64_t>(message.at("time_unix_usec")),
-                                       IntegerOf<std::uint32_t>(message.at("time_boot_ms"))});
-    }
-  } catch (const std::exception&) {  // of Json, or out of range
-    return false;
-  }
-  return true;
-}
-
 }  // namespace
 
 std::string McapDamage::Summary() const {
@@ -373,9 +283,11 @@ class McapRecording {
                 message.data, CdrReader::Encoding::kRos1);
     } else if (message.encoding == "json" && ros_.Mapped() != nullptr) {
       ros_.Mapped()->TakeJson(message.topic, message.log_time_ns, message.data);
-    } else if (message.encoding == "json" && Names(message.topic, "mavlink/")) {
+    } else if (message.encoding == "json" &&
+               message.topic.find("mavlink/") != std::string_view::npos) {
       ++of_mavlink_;
-      if (!TakeJson(message.data, mavlink_)) ++unreadable_;
+      const std::string_view type = message.topic.substr(message.topic.rfind('/') + 1);
+      if (IsMavlinkMessageOfUse(type) && !json_.Take(message.data, mavlink_)) ++unreadable_;
     }
   }
 
@@ -387,13 +299,10 @@ class McapRecording {
   }
 
  private:
-  static bool Names(std::string_view topic, std::string_view part) {
-    return topic.find(part) != std::string_view::npos;
-  }
-
   const SourceOptions& options_;
   RosIntake ros_;
   MavlinkRecording mavlink_;
+  MavlinkJson json_;
   std::uint64_t of_ros_ = 0;
   std::uint64_t of_mavlink_ = 0;
   std::uint64_t unreadable_ = 0;
