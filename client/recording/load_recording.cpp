@@ -12,6 +12,7 @@
 #include "telltale/client/recording/rosbag1/rosbag1.hpp"
 #include "telltale/client/recording/rosbag2/rosbag2.hpp"
 #include "telltale/client/recording/telemetry_log/telemetry_log.hpp"
+#include "telltale/client/recording/zstd_frame.hpp"
 #include "telltale/core/data/input_check.hpp"
 
 namespace telltale {
@@ -107,10 +108,11 @@ LogFormat FormatOf(const std::filesystem::path& path) {
     return IsRosbag2Folder(path) ? LogFormat::kRosbag2 : LogFormat::kTelemetryLog;
   }
   const std::string begin = FirstBytes(path);
-  if (begin.starts_with(std::string_view("\x89MCAP0\r\n", 8))) return LogFormat::kMcap;
-  if (begin.starts_with("SQLite format 3")) return LogFormat::kRosbag2;
   const std::span<const std::uint8_t> bytes(reinterpret_cast<const std::uint8_t*>(begin.data()),
                                             begin.size());
+  if (BeginsLikeMcap(bytes)) return LogFormat::kMcap;
+  if (begin.starts_with("SQLite format 3")) return LogFormat::kRosbag2;
+  if (BeginsLikeZstdFrame(bytes)) return LogFormat::kRosbag2;  // a file of it, compressed
   if (BeginsLikeRosbag1(bytes)) return LogFormat::kRosbag1;
   if (BeginsLikeMavlinkTelemetryLog(bytes)) return LogFormat::kMavlink;
   // A damaged log may begin with anything; the definition of a message stands near its start.

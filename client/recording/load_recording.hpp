@@ -40,8 +40,9 @@ struct LoadedRecording {
 
 enum class LogFormat { kUnknown, kTelemetryLog, kDataFlash, kMavlink, kMcap, kRosbag1, kRosbag2 };
 
-/// By what the path holds, not by its name: a folder of .db3 or .mcap files is a rosbag2 recording,
-/// any other folder a telemetry log; a file is told by its first 64 KiB.
+/// By what the path holds, not by its name: a folder of .db3 or .mcap files, compressed or not, is
+/// a rosbag2 recording, any other folder a telemetry log; a file is told by its first 64 KiB. What
+/// zstd has compressed is a file of rosbag2.
 LogFormat FormatOf(const std::filesystem::path& path);
 
 /// A telemetry log (gnss.csv, heading.csv and thrusters.csv of one folder), an ArduPilot DataFlash

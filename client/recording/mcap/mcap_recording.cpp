@@ -11,13 +11,12 @@
 #include <stdexcept>
 #include <vector>
 
-#include <zstd.h>
-
 #include "telltale/client/recording/block_reader.hpp"
 #include "telltale/client/recording/lz4_frame.hpp"
 #include "telltale/client/recording/mavlink/mavlink_json.hpp"
 #include "telltale/client/recording/mavlink/mavlink_recording.hpp"
 #include "telltale/client/recording/ros/ros_intake.hpp"
+#include "telltale/client/recording/zstd_frame.hpp"
 
 namespace telltale {
 namespace {
@@ -63,12 +62,6 @@ class Fields {
   bool ok_ = true;
 };
 
-bool InflateZstd(Bytes compressed, std::vector<std::uint8_t>& out) {
-  const std::size_t size =
-      ZSTD_decompress(out.data(), out.size(), compressed.data(), compressed.size());
-  return ZSTD_isError(size) == 0 && size == out.size();
-}
-
 class McapFile {
  public:
   explicit McapFile(const std::function<void(const McapMessage&)>& visit) : visit_(visit) {}
@@ -79,7 +72,7 @@ class McapFile {
     std::size_t at = 0;
     if (!has_magic_) {
       if (bytes.size() < kMagic.size()) return at_end ? Cut(bytes.size()) : 0;
-      if (!std::equal(kMagic.begin(), kMagic.end(), bytes.begin())) {
+      if (!BeginsLikeMcap(bytes)) {
         is_foreign_ = true;
         return bytes.size();
       }
@@ -205,7 +198,7 @@ class McapFile {
     }
     if (compression.empty()) return TakeRecords(records);
     chunk_.resize(static_cast<std::size_t>(size));
-    const bool is_whole = compression == "zstd"  ? InflateZstd(records, chunk_)
+    const bool is_whole = compression == "zstd"  ? InflateZstdFrame(records, chunk_)
                           : compression == "lz4" ? InflateLz4Frame(records, chunk_)
                                                  : false;
     if (is_whole) {
@@ -252,6 +245,10 @@ class McapFile {
 };
 
 }  // namespace
+
+bool BeginsLikeMcap(std::span<const std::uint8_t> bytes) {
+  return bytes.size() >= kMagic.size() && std::equal(kMagic.begin(), kMagic.end(), bytes.begin());
+}
 
 std::string McapDamage::Summary() const {
   std::ostringstream out;

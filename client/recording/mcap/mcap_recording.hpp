@@ -11,6 +11,9 @@
 
 namespace telltale {
 
+/// Whether bytes begin with MCAP's magic.
+bool BeginsLikeMcap(std::span<const std::uint8_t> bytes);
+
 /// One message of an MCAP file with what its channel says of it.
 struct McapMessage {
   std::string_view topic;

@@ -4,6 +4,7 @@
 #include <optional>
 #include <span>
 #include <string_view>
+#include <vector>
 
 #include "telltale/client/recording/mapping/mapped_messages.hpp"
 #include "telltale/client/recording/ros/ros_recording.hpp"
@@ -11,22 +12,15 @@
 namespace telltale {
 
 /// Where the messages of every ROS format go: to a mapping, where one is given, else to the rules
-/// of RosRecording. Requires: options outlive it, and options.Validate() is empty.
+/// of RosRecording. Messages that rosbag2 compressed one by one, with zstd, are inflated, up to 64
+/// MB each. Requires: options outlive it, and options.Validate() is empty.
 class RosIntake {
  public:
-  explicit RosIntake(const SourceOptions& options) : options_(options) {
-    if (options.mapping) mapped_.emplace(options.mapping);
-  }
+  explicit RosIntake(const SourceOptions& options);
 
   void Take(std::string_view topic, std::string_view type, std::string_view definition,
             std::int64_t received_ns, std::span<const std::uint8_t> bytes,
-            CdrReader::Encoding encoding = CdrReader::Encoding::kCdr) {
-    if (mapped_) {
-      mapped_->TakeRos(topic, type, definition, received_ns, bytes, encoding);
-    } else {
-      by_rules_.Take(topic, type, received_ns, bytes, encoding);
-    }
-  }
+            CdrReader::Encoding encoding = CdrReader::Encoding::kCdr);
 
   /// Null: no mapping is given.
   MappedMessages* Mapped() { return mapped_ ? &*mapped_ : nullptr; }
@@ -37,6 +31,7 @@ class RosIntake {
   const SourceOptions& options_;
   std::optional<MappedMessages> mapped_;
   RosRecording by_rules_;
+  std::vector<std::uint8_t> inflated_;
 };
 
 /// "sensor_msgs/NavSatFix" of ROS 1 as "sensor_msgs/msg/NavSatFix".

@@ -1,6 +1,10 @@
 #include "telltale/client/recording/rosbag2/rosbag2.hpp"
 
+#include <stdlib.h>
+#include <unistd.h>
+
 #include <algorithm>
+#include <fstream>
 #include <map>
 #include <span>
 #include <string>
@@ -10,18 +14,23 @@
 
 #include "telltale/client/recording/mcap/mcap_recording.hpp"
 #include "telltale/client/recording/ros/ros_intake.hpp"
+#include "telltale/client/recording/zstd_frame.hpp"
 
 namespace telltale {
 namespace {
 
 namespace fs = std::filesystem;
 
+bool IsOfRosbag2(fs::path file) {
+  if (file.extension() == ".zstd") file = file.stem();
+  return file.extension() == ".db3" || file.extension() == ".mcap";
+}
+
 std::vector<fs::path> FilesOf(const fs::path& path) {
   if (!fs::is_directory(path)) return {path};
   std::vector<fs::path> files;
   for (const auto& entry : fs::directory_iterator(path)) {
-    const std::string extension = entry.path().extension().string();
-    if (extension == ".db3" || extension == ".mcap") files.push_back(entry.path());
+    if (IsOfRosbag2(entry.path())) files.push_back(entry.path());
   }
   std::sort(files.begin(), files.end());
   return files;
@@ -59,9 +68,67 @@ std::optional<Refusal> TakeDatabase(const fs::path& file, RosIntake& recording) 
   } catch (const SQLite::Exception& error) {
     return Refusal{file.string(),
                    std::string("cannot be read as a rosbag2 database: ") + error.what(),
-                   "give a .db3 file that ros2 bag wrote, decompressed"};
+                   "give a .db3 file that ros2 bag wrote"};
   }
   return std::nullopt;
+}
+
+std::vector<std::uint8_t> FirstBytes(const fs::path& file) {
+  std::vector<std::uint8_t> bytes(8);
+  std::ifstream in(file, std::ios::binary);
+  in.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+  bytes.resize(static_cast<std::size_t>(in.gcount()));
+  return bytes;
+}
+
+/// A file of its own among the temporary ones, for as long as it lives.
+class TemporaryFile {
+ public:
+  TemporaryFile() : name_((fs::temp_directory_path() / "telltale-XXXXXX").string()) {
+    const int file = mkstemp(name_.data());
+    if (file >= 0) close(file);
+  }
+  TemporaryFile(const TemporaryFile&) = delete;
+  TemporaryFile& operator=(const TemporaryFile&) = delete;
+  ~TemporaryFile() {
+    std::error_code ignored;
+    fs::remove(name_, ignored);
+  }
+
+  fs::path Path() const { return name_; }
+
+ private:
+  std::string name_;
+};
+
+/// The messages of one file, which is not compressed as a whole; returns its damage.
+Result<std::string> TakeFile(const fs::path& file, RosIntake& recording) {
+  if (!BeginsLikeMcap(FirstBytes(file))) {
+    if (auto refusal = TakeDatabase(file, recording)) return tl::unexpected(*std::move(refusal));
+    return std::string();
+  }
+  return ForEachMcapMessage(file,
+                            [&](const McapMessage& message) {
+                              if (message.encoding != "cdr") return;
+                              recording.Take(message.topic, message.schema, message.definition,
+                                             message.log_time_ns, message.data);
+                            })
+      .map([](const McapDamage& damage) { return damage.Summary(); });
+}
+
+/// The same of a file that may be compressed.
+Result<std::string> TakeAnyFile(const fs::path& file, RosIntake& recording) {
+  if (!BeginsLikeZstdFrame(FirstBytes(file))) return TakeFile(file, recording);
+  const TemporaryFile inflated;
+  const auto is_whole = InflateZstdFile(file, inflated.Path());
+  if (!is_whole) return tl::unexpected(is_whole.error());
+  auto damage = TakeFile(inflated.Path(), recording);
+  if (!damage) {
+    damage.error().subject = file.string() + (*is_whole ? "" : ", which is cut off,");
+  } else if (!*is_whole) {
+    *damage += "; " + file.filename().string() + " is cut off";
+  }
+  return damage;
 }
 
 }  // namespace
@@ -76,18 +143,9 @@ Result<SourceLog> ReadRosbag2(const fs::path& path, const SourceOptions& options
   RosIntake recording(options);
   std::string damage;
   for (const fs::path& file : FilesOf(path)) {
-    if (file.extension() == ".mcap") {
-      auto read = ForEachMcapMessage(file, [&](const McapMessage& message) {
-        if (message.encoding == "cdr") {
-          recording.Take(message.topic, message.schema, message.definition, message.log_time_ns,
-                         message.data);
-        }
-      });
-      if (!read) return tl::unexpected(std::move(read).error());
-      damage += read->Summary();
-    } else if (auto refusal = TakeDatabase(file, recording)) {
-      return tl::unexpected(*std::move(refusal));
-    }
+    auto taken = TakeAnyFile(file, recording);
+    if (!taken) return tl::unexpected(std::move(taken).error());
+    damage += *taken;
   }
   SourceLog log = recording.Finish();
   log.summary += damage;

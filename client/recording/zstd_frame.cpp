@@ -1,0 +1,69 @@
+#include "telltale/client/recording/zstd_frame.hpp"
+
+#include <algorithm>
+#include <array>
+#include <fstream>
+#include <memory>
+
+#include <zstd.h>
+
+#include "telltale/client/recording/block_reader.hpp"
+
+namespace telltale {
+namespace {
+
+constexpr std::array<std::uint8_t, 4> kMagic = {0x28, 0xB5, 0x2F, 0xFD};
+
+}  // namespace
+
+bool BeginsLikeZstdFrame(std::span<const std::uint8_t> bytes) {
+  return bytes.size() >= kMagic.size() && std::equal(kMagic.begin(), kMagic.end(), bytes.begin());
+}
+
+bool InflateZstdFrame(std::span<const std::uint8_t> compressed, std::vector<std::uint8_t>& out) {
+  const std::size_t size =
+      ZSTD_decompress(out.data(), out.size(), compressed.data(), compressed.size());
+  return ZSTD_isError(size) == 0 && size == out.size();
+}
+
+bool InflateZstdFrameOfItsLength(std::span<const std::uint8_t> compressed, std::size_t most,
+                                 std::vector<std::uint8_t>& out) {
+  // What is no frame, or states no length, seems longer than any.
+  const unsigned long long size = ZSTD_getFrameContentSize(compressed.data(), compressed.size());
+  if (size > most) return false;
+  out.resize(static_cast<std::size_t>(size));
+  return InflateZstdFrame(compressed, out);
+}
+
+Result<bool> InflateZstdFile(const std::filesystem::path& file, const std::filesystem::path& into) {
+  std::ofstream out(into, std::ios::binary | std::ios::trunc);
+  const std::unique_ptr<ZSTD_DCtx, std::size_t (*)(ZSTD_DCtx*)> inflater(ZSTD_createDCtx(),
+                                                                         &ZSTD_freeDCtx);
+  std::vector<std::uint8_t> inflated(ZSTD_DStreamOutSize());
+  std::size_t wanted = 1;  // more of the frame
+  bool is_zstd = true;
+  const auto read = ReadInBlocks(file, [&](std::span<const std::uint8_t> bytes, bool) {
+    ZSTD_inBuffer from{bytes.data(), bytes.size(), 0};
+    bool holds_back = false;  // what the buffer has no room for
+    while (is_zstd && out && (from.pos < from.size || holds_back)) {
+      ZSTD_outBuffer to{inflated.data(), inflated.size(), 0};
+      wanted = ZSTD_decompressStream(inflater.get(), &to, &from);
+      is_zstd = ZSTD_isError(wanted) == 0;
+      holds_back = wanted != 0 && to.pos == to.size;
+      out.write(static_cast<const char*>(to.dst), static_cast<std::streamsize>(to.pos));
+    }
+    return bytes.size();
+  });
+  if (!read) return tl::unexpected(read.error());
+  if (!is_zstd) {
+    return Refuse(file.string(), "cannot be decompressed as zstd", "copy the file again");
+  }
+  out.close();
+  if (!out) {
+    return Refuse(into.string(), "cannot be written while " + file.string() + " is decompressed",
+                  "make room there, or name another folder by TMPDIR");
+  }
+  return wanted == 0;
+}
+
+}  // namespace telltale

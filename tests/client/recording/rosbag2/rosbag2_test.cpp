@@ -1,0 +1,152 @@
+#include "telltale/client/recording/rosbag2/rosbag2.hpp"
+
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include <SQLiteCpp/SQLiteCpp.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <zstd.h>
+
+#include "support/ros_messages.hpp"
+#include "support/temporary_folder.hpp"
+#include "telltale/client/recording/file_contents.hpp"
+#include "telltale/client/recording/load_recording.hpp"
+
+namespace telltale {
+namespace {
+
+using testing::HasSubstr;
+using Bytes = std::vector<std::uint8_t>;
+
+Bytes Zstd(const void* bytes, std::size_t size) {
+  Bytes out(ZSTD_compressBound(size));
+  out.resize(ZSTD_compress(out.data(), out.size(), bytes, size, 3));
+  return out;
+}
+
+Bytes AsItIs(const Bytes& bytes) {
+  return bytes;
+}
+
+Bytes ByMessage(const Bytes& bytes) {
+  return Zstd(bytes.data(), bytes.size());
+}
+
+/// Storage as rosbag2 makes it: its tables are those of rosbag2_storage_sqlite3, version 4.
+class Rosbag2 : public testing::Test {
+ protected:
+  /// One second of a boat, from `second` on.
+  void WriteStorage(const std::string& name, std::int32_t second,
+                    Bytes (*stored)(const Bytes&) = AsItIs) {
+    SQLite::Database database((bag_ / name).string(), SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE);
+    database.exec(
+        "CREATE TABLE topics(id INTEGER PRIMARY KEY, name TEXT NOT NULL, type TEXT NOT NULL, "
+        "serialization_format TEXT NOT NULL, offered_qos_profiles TEXT NOT NULL);"
+        "CREATE TABLE messages(id INTEGER PRIMARY KEY, topic_id INTEGER NOT NULL, timestamp "
+        "INTEGER NOT NULL, data BLOB NOT NULL);"
+        "INSERT INTO topics VALUES(1, '/fix', 'sensor_msgs/msg/NavSatFix', 'cdr', ''),"
+        "(2, '/imu', 'sensor_msgs/msg/Imu', 'cdr', ''),"
+        "(3, '/rc/out', 'mavros_msgs/msg/RCOut', 'cdr', '')");
+    const auto add = [&](int topic, const Bytes& message) {
+      const Bytes data = stored(message);
+      SQLite::Statement insert(database,
+                               "INSERT INTO messages(topic_id, timestamp, data) VALUES(?, ?, ?)");
+      insert.bind(1, topic);
+      insert.bind(2, std::int64_t{second} * 1'000'000'000);
+      insert.bind(3, data.data(), static_cast<int>(data.size()));
+      insert.exec();
+    };
+    add(1, NavSatFix(second, 0));
+    add(2, Imu(second, 0.0, "base_link"));
+    add(3, RcOut(second, {1600, 1500, 1400}));
+  }
+
+  /// Compresses a file of the bag as a whole, as ros2 bag names it.
+  void CompressFile(const std::string& name) {
+    const std::string content = *ReadFile(bag_ / name);
+    const Bytes compressed = Zstd(content.data(), content.size());
+    WriteFile(bag_ / (name + ".zstd"),
+              {reinterpret_cast<const char*>(compressed.data()), compressed.size()});
+    std::filesystem::remove(bag_ / name);
+  }
+
+  static std::vector<double> FixTimes(const SourceLog& log) {
+    std::vector<double> times_s;
+    for (const GnssFix& fix : log.gnss) times_s.push_back(fix.time_s);
+    return times_s;
+  }
+
+  TemporaryFolder folder_;
+  const std::filesystem::path bag_ = folder_.Path() / "bag";
+
+  void SetUp() override { std::filesystem::create_directories(bag_); }
+};
+
+TEST_F(Rosbag2, OfSeveralFilesIsOneRecording) {
+  WriteStorage("bag_0.db3", 100);
+  WriteStorage("bag_1.db3", 101);
+  EXPECT_EQ(FormatOf(bag_), LogFormat::kRosbag2);
+  const auto log = ReadRosbag2(bag_);
+  ASSERT_TRUE(log) << log.error().reason;
+  EXPECT_THAT(FixTimes(*log), testing::ElementsAre(100.0, 101.0));
+  EXPECT_EQ(log->thrusters.at(1).port_us, 1600.0);
+}
+
+TEST_F(Rosbag2, MayCompressEachMessage) {
+  WriteStorage("bag_0.db3", 100, ByMessage);
+  const auto log = ReadRosbag2(bag_ / "bag_0.db3");
+  ASSERT_TRUE(log) << log.error().reason;
+  EXPECT_THAT(FixTimes(*log), testing::ElementsAre(100.0));
+}
+
+TEST_F(Rosbag2, MayCompressFilesAsAWhole) {
+  WriteStorage("bag_0.db3", 100);
+  CompressFile("bag_0.db3");
+  WriteStorage("bag_1.db3", 101);
+  EXPECT_EQ(FormatOf(bag_), LogFormat::kRosbag2);
+  EXPECT_EQ(FormatOf(bag_ / "bag_0.db3.zstd"), LogFormat::kRosbag2);
+  const auto log = ReadRosbag2(bag_);
+  ASSERT_TRUE(log) << log.error().reason;
+  EXPECT_THAT(FixTimes(*log), testing::ElementsAre(100.0, 101.0));
+  const auto one = ReadRosbag2(bag_ / "bag_0.db3.zstd");
+  ASSERT_TRUE(one) << one.error().reason;
+  EXPECT_THAT(FixTimes(*one), testing::ElementsAre(100.0));
+}
+
+TEST_F(Rosbag2, NamesTheCompressedFileThatIsCutOff) {
+  WriteStorage("bag_0.db3", 100);
+  CompressFile("bag_0.db3");
+  const auto file = bag_ / "bag_0.db3.zstd";
+  std::filesystem::resize_file(file, std::filesystem::file_size(file) / 2);
+  const auto log = ReadRosbag2(bag_);
+  ASSERT_FALSE(log);
+  EXPECT_THAT(log.error().subject, HasSubstr("bag_0.db3.zstd, which is cut off"));
+}
+
+TEST_F(Rosbag2, NamesTheFileThatOnlySeemsCompressed) {
+  WriteFile(bag_ / "bag_0.db3.zstd", "\x28\xB5\x2F\xFD and no frame");
+  const auto log = ReadRosbag2(bag_);
+  ASSERT_FALSE(log);
+  EXPECT_THAT(log.error().subject, HasSubstr("bag_0.db3.zstd"));
+  EXPECT_THAT(log.error().reason, HasSubstr("cannot be decompressed"));
+}
+
+TEST_F(Rosbag2, CountsCompressedMessagesThatCannotBeInflated) {
+  WriteStorage("bag_0.db3", 100);
+  WriteStorage("bag_1.db3", 101, [](const Bytes& bytes) {
+    Bytes broken = ByMessage(bytes);
+    broken.resize(broken.size() - 3);
+    return broken;
+  });
+  const auto log = ReadRosbag2(bag_);
+  ASSERT_TRUE(log) << log.error().reason;
+  EXPECT_EQ(log->gnss.size(), 1u);
+  EXPECT_THAT(log->summary, HasSubstr("1 unreadable messages of /fix"));
+}
+
+}  // namespace
+}  // namespace telltale
