@@ -15,6 +15,7 @@
 #include "telltale/client/recording/lz4_frame.hpp"
 #include "telltale/client/recording/mavlink/mavlink_json.hpp"
 #include "telltale/client/recording/mavlink/mavlink_recording.hpp"
+#include "telltale/client/recording/ros/idl_definition.hpp"
 #include "telltale/client/recording/ros/ros_intake.hpp"
 #include "telltale/client/recording/zstd_frame.hpp"
 
@@ -154,7 +155,9 @@ class McapFile {
     const std::string_view text = fields.Text();
     if (!fields.Ok()) return;
     const bool is_definition = encoding == "ros2msg" || encoding == "ros1msg";
-    schemas_[id] = {std::string(name), is_definition ? std::string(text) : std::string()};
+    schemas_[id] = {std::string(name), encoding == "ros2idl" ? RosDefinitionOfIdl(text)
+                                       : is_definition       ? std::string(text)
+                                                             : std::string()};
   }
 
   void TakeChannel(Fields fields) {

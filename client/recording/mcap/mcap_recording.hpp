@@ -21,7 +21,7 @@ struct McapMessage {
   std::string_view encoding;  ///< "cdr", "json", ...
   std::int64_t log_time_ns = 0;
   std::span<const std::uint8_t> data;
-  std::string_view definition;  ///< of the type, where the schema is ros1msg or ros2msg
+  std::string_view definition;  ///< of the type as .msg, where the schema has it or IDL
 };
 
 /// What a file held besides whole messages.

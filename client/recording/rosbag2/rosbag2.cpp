@@ -13,6 +13,7 @@
 #include <SQLiteCpp/SQLiteCpp.h>
 
 #include "telltale/client/recording/mcap/mcap_recording.hpp"
+#include "telltale/client/recording/ros/idl_definition.hpp"
 #include "telltale/client/recording/ros/ros_intake.hpp"
 #include "telltale/client/recording/zstd_frame.hpp"
 
@@ -41,10 +42,13 @@ std::map<std::string, std::string> DefinitionsIn(const SQLite::Database& databas
   std::map<std::string, std::string> definitions;
   if (!database.tableExists("message_definitions")) return definitions;
   SQLite::Statement rows(database,
-                         "SELECT topic_type, encoded_message_definition FROM message_definitions "
-                         "WHERE encoding = 'ros2msg'");
+                         "SELECT topic_type, encoded_message_definition, encoding = 'ros2idl' "
+                         "FROM message_definitions WHERE encoding IN ('ros2msg', 'ros2idl')");
   while (rows.executeStep()) {
-    definitions[rows.getColumn(0).getString()] = rows.getColumn(1).getString();
+    const std::string definition = rows.getColumn(1).getString();
+    const bool is_idl = rows.getColumn(2).getInt() != 0;
+    definitions[rows.getColumn(0).getString()] =
+        is_idl ? RosDefinitionOfIdl(definition) : definition;
   }
   return definitions;
 }
