@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
@@ -131,10 +132,17 @@ Bytes Bag(const Bytes& compression) {
 
 // ---- ROS 2 --------------------------------------------------------------------------------------
 
+/// As csv_fuzz names columns.
+Bytes Csv(char separator) {
+  Bytes rows = "t,lat,lon,yaw,left,right\n0,63.4,10.4,12.5,1500,1600\n100,,,13,1510,\n";
+  std::replace(rows.begin(), rows.end(), ',', separator);
+  return rows;
+}
+
 /// As ros_fuzz takes messages: topic, length, CDR.
 Bytes RosMessages() {
   Bytes bytes;
-  for (char topic = 0; topic < 10; ++topic) {
+  for (char topic = 0; topic < 11; ++topic) {
     bytes += topic;
     bytes += static_cast<char>(120);
     bytes += Bytes("\x00\x01\x00\x00", 4) + Bytes(116, '\0');
@@ -151,6 +159,8 @@ int main(int argc, char** argv) {
     return 2;
   }
   const std::filesystem::path folder = argv[1];
+  Save(folder / "csv/comma", Csv(','));
+  Save(folder / "csv/semicolon", Csv(';'));
   Save(folder / "mavlink/log.tlog", TelemetryLog(Frames()));
   Save(folder / "mavlink/stream", Frames()[0] + Frames()[1] + Frames()[2]);
   Save(folder / "mavlink/messages", Messages());
