@@ -97,7 +97,6 @@ Daemon::Daemon(const DaemonConfig& config, Endings endings)
                .heartbeat_period = HeartbeatPeriodOf(config),
                .received = [this](VehicleWindow& window) { quality_.PublishReceipt(window); },
                .failed = endings_.failed}),
-      sources_(participant_, config.sources, view_),
       vehicles_(config.vehicles) {
   if (fail_over_) {
     fail_over_->Start();
@@ -196,12 +195,14 @@ void Daemon::TakeOver(const Qos& model_contract, bool succeeds) {
     Submit(std::move(request));
   }
   BeginUpkeep();
+  sources_.emplace(participant_, config_.sources, view_);
 }
 
 /// The role is given up already. What was published while the other daemon could not hear it goes
 /// out to it before this one ends.
 void Daemon::StepDown() {
   constexpr auto kLongestWait = std::chrono::seconds(5);
+  sources_.reset();
   if (!models_.AwaitReceipt(kLongestWait)) spdlog::warn("not every reader has the newest models");
   endings_.replaced();
 }

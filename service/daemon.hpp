@@ -97,9 +97,9 @@ class Daemon {
   FleetJobs fleet_jobs_;
   QualityPublisher quality_;
   std::optional<Upkeep> upkeep_;               ///< while it serves
+  std::optional<LiveSources> sources_;         ///< likewise: a standby would publish all twice
   const std::unique_ptr<FailOver> fail_over_;  ///< null: this daemon serves alone
   Ingest ingest_;
-  LiveSources sources_;
   std::optional<WebServer> web_;
 
   std::mutex serving_mutex_;       // of what follows

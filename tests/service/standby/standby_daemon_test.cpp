@@ -174,6 +174,22 @@ TEST_F(StandbyDaemon, ReplacesADaemonThatIsSuspendedAndTakesItBackAsStandby) {
   EXPECT_THAT(one_->output(), Not(HasSubstr("for third: PUBLISHED")));
 }
 
+// Both would publish the same telemetry otherwise.
+TEST_F(StandbyDaemon, RunsItsSourcesOnlyOnceItServes) {
+  const std::string source = "source mavlink serial:/dev/no-such-line:57600 fails";
+  const DaemonPair pair(domain_.id(), folder_, 5.0,
+                        "sources { mavlink { address: \"serial:/dev/no-such-line:57600\" } }\n");
+  const auto one = pair.Start("one", 2);
+  ASSERT_TRUE(one->WaitForOutput(source)) << one->output();
+  const auto two = pair.Start("two", 1);
+  ASSERT_TRUE(DaemonPair::StandsBy(*two, 1)) << two->output();
+  one->Signal(SIGKILL);
+  one->Wait();
+  ASSERT_TRUE(DaemonPair::TakesOver(*two, 2)) << two->output();
+  ASSERT_TRUE(two->WaitForOutput(source)) << two->output();
+  EXPECT_GT(two->output().find(source), two->output().find("this daemon serves from now on"));
+}
+
 // It says that it goes.
 TEST_F(StandbyDaemon, TakesOverBeforeTheLeaseEndsFromADaemonThatIsStopped) {
   StartPair();
