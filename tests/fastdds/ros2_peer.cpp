@@ -1,6 +1,7 @@
 // Another DDS, Fast DDS, in the place of nodes of ROS 2, on loopback:
 //
 //   ros2_peer DOMAIN publish BOAT...       sensors of boats, until SIGTERM
+//   ros2_peer DOMAIN ardupilot             the topics of an ArduPilot (AP_DDS), until SIGTERM
 //   ros2_peer DOMAIN subscribe TOPIC...    topics of String, and /diagnostics, until SIGTERM
 //
 // Sample i = 0, 1, ... of each boat goes out every 50 ms, stamped BEGIN + 0.05 i, where BEGIN is
@@ -11,6 +12,9 @@
 //   /BOAT/mavros/imu/data                 Imu, reliable: yaw 0.01 i from east, anticlockwise
 //   /BOAT/mavros/rc/out                   RCOut, reliable: channels 1100 + i % 800, 0, 1900 - i %
 //   800
+// An ArduPilot has no outputs; both of its topics are best effort, in the same places and headings:
+//   /ap/navsat            NavSatFix
+//   /ap/geopose/filtered  GeoPoseStamped
 // A subscriber prints what comes: "string TOPIC TEXT", "diagnostics LEVEL NAME: MESSAGE", texts in
 // one line.
 #include <atomic>
@@ -87,6 +91,53 @@ class Output {
   fast::DataWriter* writer_;
 };
 
+/// Sample i, stamped `ns`.
+std_msgs::msg::Header HeaderAt(std::int64_t ns) {
+  std_msgs::msg::Header header;
+  header.stamp().sec(static_cast<std::int32_t>(ns / 1000000000));
+  header.stamp().nanosec(static_cast<std::uint32_t>(ns % 1000000000));
+  header.frame_id("base_link");
+  return header;
+}
+
+sensor_msgs::msg::NavSatFix FixAt(int i, std::int64_t ns) {
+  sensor_msgs::msg::NavSatFix fix;
+  fix.header(HeaderAt(ns));
+  fix.status().status(i % 10 == 9 ? -1 : 0);
+  fix.latitude(63.0 + 1e-6 * i);
+  fix.longitude(10.0 - 1e-6 * i);
+  return fix;
+}
+
+geometry_msgs::msg::Quaternion OrientationAt(int i) {
+  geometry_msgs::msg::Quaternion orientation;
+  orientation.z(std::sin(0.005 * i));
+  orientation.w(std::cos(0.005 * i));
+  return orientation;
+}
+
+class ArduPilot {
+ public:
+  ArduPilot(fast::DomainParticipant& participant, fast::Publisher& publisher)
+      : fix_(participant, publisher, "/ap/navsat", fast::BEST_EFFORT_RELIABILITY_QOS),
+        pose_(participant, publisher, "/ap/geopose/filtered", fast::BEST_EFFORT_RELIABILITY_QOS) {}
+
+  void Publish(int i, std::int64_t ns) {
+    sensor_msgs::msg::NavSatFix fix = FixAt(i, ns);
+    fix_.Write(fix);
+    geographic_msgs::msg::GeoPoseStamped pose;
+    pose.header(HeaderAt(ns));
+    pose.pose().position().latitude(fix.latitude());
+    pose.pose().position().longitude(fix.longitude());
+    pose.pose().orientation(OrientationAt(i));
+    pose_.Write(pose);
+  }
+
+ private:
+  Output<sensor_msgs::msg::NavSatFixPubSubType> fix_;
+  Output<geographic_msgs::msg::GeoPoseStampedPubSubType> pose_;
+};
+
 class Boat {
  public:
   Boat(fast::DomainParticipant& participant, fast::Publisher& publisher, const std::string& name)
@@ -98,26 +149,16 @@ class Boat {
                  fast::RELIABLE_RELIABILITY_QOS) {}
 
   void Publish(int i, std::int64_t ns) {
-    std_msgs::msg::Header header;
-    header.stamp().sec(static_cast<std::int32_t>(ns / 1000000000));
-    header.stamp().nanosec(static_cast<std::uint32_t>(ns % 1000000000));
-    header.frame_id("base_link");
-
-    sensor_msgs::msg::NavSatFix fix;
-    fix.header(header);
-    fix.status().status(i % 10 == 9 ? -1 : 0);
-    fix.latitude(63.0 + 1e-6 * i);
-    fix.longitude(10.0 - 1e-6 * i);
+    sensor_msgs::msg::NavSatFix fix = FixAt(i, ns);
     fix_.Write(fix);
 
     sensor_msgs::msg::Imu imu;
-    imu.header(header);
-    imu.orientation().z(std::sin(0.005 * i));
-    imu.orientation().w(std::cos(0.005 * i));
+    imu.header(HeaderAt(ns));
+    imu.orientation(OrientationAt(i));
     imu_.Write(imu);
 
     mavros_msgs::msg::RCOut outputs;
-    outputs.header(header);
+    outputs.header(HeaderAt(ns));
     outputs.channels({static_cast<std::uint16_t>(1100 + i % 800), 0,
                       static_cast<std::uint16_t>(1900 - i % 800)});
     outputs_.Write(outputs);
@@ -129,21 +170,32 @@ class Boat {
   Output<mavros_msgs::msg::RCOutPubSubType> outputs_;
 };
 
-void Publish(fast::DomainParticipant& participant, const std::vector<std::string>& names) {
-  fast::Publisher& publisher = *participant.create_publisher(fast::PUBLISHER_QOS_DEFAULT);
-  std::vector<std::unique_ptr<Boat>> boats;
-  for (const std::string& name : names) {
-    boats.push_back(std::make_unique<Boat>(participant, publisher, name));
-  }
+/// Calls publish(i, ns) every period.
+template <class PublishSample>
+void PublishUntilStopped(PublishSample publish) {
   const auto begin = Clock::now();
   const auto since = std::chrono::duration_cast<std::chrono::nanoseconds>(begin.time_since_epoch());
   std::cout << since.count() << std::endl;
   for (int i = 0; !stopped; ++i) {
     std::this_thread::sleep_until(begin + i * kPeriod);
-    for (const auto& boat : boats) {
-      boat->Publish(i, (since + std::chrono::nanoseconds(kPeriod) * i).count());
-    }
+    publish(i, (since + std::chrono::nanoseconds(kPeriod) * i).count());
   }
+}
+
+void PublishBoats(fast::DomainParticipant& participant, const std::vector<std::string>& names) {
+  fast::Publisher& publisher = *participant.create_publisher(fast::PUBLISHER_QOS_DEFAULT);
+  std::vector<std::unique_ptr<Boat>> boats;
+  for (const std::string& name : names) {
+    boats.push_back(std::make_unique<Boat>(participant, publisher, name));
+  }
+  PublishUntilStopped([&](int i, std::int64_t ns) {
+    for (const auto& boat : boats) boat->Publish(i, ns);
+  });
+}
+
+void PublishArduPilot(fast::DomainParticipant& participant) {
+  ArduPilot autopilot(participant, *participant.create_publisher(fast::PUBLISHER_QOS_DEFAULT));
+  PublishUntilStopped([&](int i, std::int64_t ns) { autopilot.Publish(i, ns); });
 }
 
 void Print(const std::string& topic, const std_msgs::msg::String& message) {
@@ -204,7 +256,7 @@ void Subscribe(fast::DomainParticipant& participant, const std::vector<std::stri
 
 int main(int argc, char** argv) {
   if (argc < 3) {
-    std::cerr << "usage: ros2_peer DOMAIN publish BOAT... | subscribe TOPIC...\n";
+    std::cerr << "usage: ros2_peer DOMAIN publish BOAT... | ardupilot | subscribe TOPIC...\n";
     return 2;
   }
   std::signal(SIGTERM, [](int) { stopped = true; });
@@ -212,6 +264,13 @@ int main(int argc, char** argv) {
       JoinOnLoopback(static_cast<std::uint32_t>(std::stoul(argv[1])));
   if (participant == nullptr) return 1;
   const std::vector<std::string> names(argv + 3, argv + argc);
-  std::string(argv[2]) == "publish" ? Publish(*participant, names) : Subscribe(*participant, names);
+  const std::string does = argv[2];
+  if (does == "publish") {
+    PublishBoats(*participant, names);
+  } else if (does == "ardupilot") {
+    PublishArduPilot(*participant);
+  } else {
+    Subscribe(*participant, names);
+  }
   return 0;
 }

@@ -1,6 +1,7 @@
 #include <signal.h>
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 
 #include <gtest/gtest.h>
@@ -8,6 +9,7 @@
 #include "service/service_fixture.hpp"
 #include "support/mavlink_boats.hpp"
 #include "support/process.hpp"
+#include "support/telemetry_receiver.hpp"
 
 namespace telltale {
 namespace {
@@ -107,6 +109,38 @@ TEST_F(LiveRos2SourceTest, TopicsBecomeTelemetryAndQualityGoesBack) {
       << monitor.output();
   daemon->Signal(SIGTERM);
   EXPECT_EQ(daemon->Wait(), 0) << daemon->output();
+#else
+  GTEST_SKIP() << "Fast DDS is not there";
+#endif
+}
+
+// ArduPilot's own topics hold no outputs, so they come by MAVLink: docs/guides/live-ros2.md.
+TEST_F(LiveRos2SourceTest, PositionsOfArduPilotsTopicsJoinItsOutputsByMavlink) {
+#ifdef TELLTALE_ROS2_PEER
+  if (const auto missing = MavlinkBoats::Missing()) GTEST_SKIP() << *missing;
+  const std::string port = std::to_string(FreePort(SOCK_STREAM));
+  Configure(Boat("boat-1") +
+            "sources { vehicle_id: \"boat-1\" channels: \"gnss\" channels: \"heading\" ros2 { "
+            "namespace: \"/ap\" mapping_file: \"" TELLTALE_SOURCE_DIR
+            "/deploy/mappings/ardupilot.textproto\" } }\n"
+            "sources { vehicle_id: \"boat-1\" channels: \"thrusters\" mavlink { address: "
+            "\"tcp:127.0.0.1:" +
+            port + "\" system_ids: 1 } }\n");
+  TelemetryReceiver receiver(domain_.id());
+  const auto daemon = StartDaemon(2);
+  Process positions({TELLTALE_ROS2_PEER, std::to_string(domain_.id()), "ardupilot"});
+  Process outputs(MavlinkBoats::Command("tcp:" + port, 1, 0));
+  ASSERT_TRUE(AwaitQuality("boat-1", HearsAllChannels)) << daemon->output();
+
+  ASSERT_TRUE(receiver.ReceiveUntil([&] { return receiver.Of()["boat-1"].HasAll(20); }));
+  EXPECT_EQ(receiver.Of().size(), 1u);
+  const ReceivedTelemetry& got = receiver.Of()["boat-1"];
+  for (const GnssFix& fix : got.gnss) {  // those of MAVLink lie 40 km further north
+    const double i = (fix.latitude_deg - 63.0) * 1e6;
+    EXPECT_NEAR(i, std::round(i), 1e-3);
+    EXPECT_NEAR(fix.longitude_deg, 10.0 - 1e-6 * i, 1e-9);
+  }
+  for (const ThrusterSample& commands : got.thrusters) EXPECT_EQ(commands.port_us, 1500.0);
 #else
   GTEST_SKIP() << "Fast DDS is not there";
 #endif
