@@ -1,5 +1,4 @@
 #include <filesystem>
-#include <iostream>
 #include <memory>
 #include <vector>
 
@@ -7,6 +6,7 @@
 #include "telltale/client/cli/input_options.hpp"
 #include "telltale/client/cli/output_options.hpp"
 #include "telltale/client/cli/table.hpp"
+#include "telltale/client/workbench/compare_models.hpp"
 #include "telltale/client/workbench/errors.hpp"
 #include "telltale/client/workbench/files.hpp"
 #include "telltale/core/identification/model_comparison.hpp"
@@ -74,20 +74,12 @@ std::string SimulationValuesText(const Identification& earlier, const Identifica
          table.Render();
 }
 
-void CompareModels(const CompareArguments& arguments) {
+void PrintComparison(const CompareArguments& arguments) {
   if (arguments.models.size() != 2)
     throw UsageError("--model is needed twice: the earlier, the later");
   const Identification earlier = LoadModel(arguments.models[0]);
   const Identification later = LoadModel(arguments.models[1]);
-  if (earlier.vehicle_id != later.vehicle_id) {
-    std::cerr << "note: the models are of " << earlier.vehicle_id << " and of " << later.vehicle_id
-              << '\n';
-  }
-  if (WindowsOverlap(earlier, later)) {
-    std::cerr << "note: by their clocks the windows of the two overlap; if they share data the "
-                 "test does not hold\n";
-  }
-  const ModelChange change = OrThrow(ChangeBetween(earlier, later));
+  const ModelChange change = CompareModels(earlier, later, PrintNote);
   arguments.output.Write(PrintChangeJson(change), [&] {
     return AnswerText(change) + '\n' + ChangeTable(change) + SimulationValuesText(earlier, later);
   });
@@ -109,7 +101,7 @@ void AddCompare(CLI::App& telltale) {
   command.footer(
       "The models must rest on different data and be identified with the same options.\n"
       "Example: telltale compare --model may.json --model june.json");
-  command.callback([arguments] { CompareModels(*arguments); });
+  command.callback([arguments] { PrintComparison(*arguments); });
 }
 
 }  // namespace telltale

@@ -10,9 +10,9 @@
 #include "telltale/client/cli/number_pair.hpp"
 #include "telltale/client/cli/output_options.hpp"
 #include "telltale/client/cli/table.hpp"
-#include "telltale/client/exchange/input_gains.hpp"
 #include "telltale/client/workbench/errors.hpp"
 #include "telltale/client/workbench/files.hpp"
+#include "telltale/client/workbench/model_gains.hpp"
 
 namespace telltale {
 namespace {
@@ -23,10 +23,6 @@ struct GainArguments {
   OutputOptions output;
 };
 
-/// Full ahead, half ahead, a turn to either side, FR and RF.
-constexpr std::array<PropellerCommand, 6> kCatalogue = {
-    {{1.0, 1.0}, {0.5, 0.5}, {0.8, 0.4}, {0.4, 0.8}, {0.5, -0.5}, {-0.5, 0.5}}};
-
 PropellerCommand CommandNamed(const std::string& text) {
   const auto [port, starboard] = NumberPair("--delta", text, "two shares as in 0.5,-0.2");
   if (std::abs(port) <= 1.0 && std::abs(starboard) <= 1.0) return {port, starboard};
@@ -34,7 +30,6 @@ PropellerCommand CommandNamed(const std::string& text) {
 }
 
 std::vector<PropellerCommand> CommandsOf(const GainArguments& arguments) {
-  if (arguments.deltas.empty()) return {kCatalogue.begin(), kCatalogue.end()};
   std::vector<PropellerCommand> commands;
   for (const std::string& text : arguments.deltas) commands.push_back(CommandNamed(text));
   return commands;
@@ -86,12 +81,8 @@ std::string SettlingText(const Identification& model) {
 }
 
 void PrintGains(const GainArguments& arguments) {
-  const Identification model = WithSimulationParameters(LoadModel(arguments.model_file));
-  std::vector<CommandGain> gains;
-  for (const PropellerCommand& delta : CommandsOf(arguments)) {
-    gains.push_back({delta, SteadyInputGain(model, delta)});
-  }
-  arguments.output.Write(PrintGainsJson(model, gains), [&] {
+  const auto [model, gains] = GainsOf(LoadModel(arguments.model_file), CommandsOf(arguments));
+  arguments.output.Write(PrintGainsJson(model, gains), [&model = model, &gains = gains] {
     std::string text = model.vehicle_id + ", h = " + Plain(model.sampling_period_s) + " s\n\n" +
                        GainTable(model, gains) + '\n';
     for (const std::string& note : NotesOn(model, gains)) text += Wrapped(note);

@@ -4,6 +4,7 @@
 
 #include "telltale/client/cli/number_pair.hpp"
 #include "telltale/client/cli/whole_number.hpp"
+#include "telltale/client/workbench/presets.hpp"
 
 namespace telltale {
 namespace {

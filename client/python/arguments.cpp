@@ -1,6 +1,7 @@
 #include "telltale/client/python/arguments.hpp"
 
 #include <cerrno>
+#include <cmath>
 
 #include "telltale/client/workbench/errors.hpp"
 #include "telltale/client/workbench/files.hpp"
@@ -38,6 +39,35 @@ std::vector<double> ColumnOf(const char* name, const Numbers& numbers,
                      std::to_string(*length) + " times");
   }
   return {numbers.data(), numbers.data() + size};
+}
+
+std::vector<PropellerCommand> CommandRowsOf(const Numbers& commands,
+                                            std::optional<std::size_t> rows) {
+  const bool is_table = commands.ndim() == 2 && commands.shape(1) == 2;
+  if (!is_table || (rows && static_cast<std::size_t>(commands.shape(0)) != *rows)) {
+    throw UsageError("commands: give an array of " +
+                     (rows ? std::to_string(*rows) + " rows, one for each time, and " : "") +
+                     "two columns, port and starboard");
+  }
+  const auto is_share = [](double command) { return std::abs(command) <= 1.0; };
+  const auto cells = commands.unchecked<2>();
+  std::vector<PropellerCommand> read;
+  for (py::ssize_t row = 0; row < cells.shape(0); ++row) {
+    const PropellerCommand command{cells(row, 0), cells(row, 1)};
+    if (!is_share(command.port) || !is_share(command.starboard)) {
+      throw UsageError("commands: those of row " + std::to_string(row) +
+                       " are not both in [-1, 1], shares of full command");
+    }
+    read.push_back(command);
+  }
+  return read;
+}
+
+void RequireDraws(const char* argument, std::size_t count) {
+  constexpr std::size_t kMost = 100'000;
+  if (count >= 1 && count <= kMost) return;
+  throw UsageError(std::string(argument) + ": " + std::to_string(count) + " is outside [1, " +
+                   std::to_string(kMost) + ']');
 }
 
 Progress Interruptible(const py::object& callback) {

@@ -14,6 +14,7 @@
 #include <pybind11/stl/filesystem.h>
 
 #include "telltale/core/identification/progress.hpp"
+#include "telltale/core/vessel/propellers.hpp"
 #include "telltale/core/vessel/vehicle.hpp"
 
 namespace telltale::python {
@@ -34,6 +35,28 @@ std::optional<Vehicle> VehicleOf(const std::optional<VehicleOrFile>& stated);
 /// more, or where it has another length than `length`.
 std::vector<double> ColumnOf(const char* name, const Numbers& numbers,
                              std::optional<std::size_t> length = std::nullopt);
+
+/// Commands in shares of full command, a row each, port first. Throws: UsageError, where there are
+/// other than two columns, or other than `rows` rows, or one is outside [-1, 1].
+std::vector<PropellerCommand> CommandRowsOf(const Numbers& commands,
+                                            std::optional<std::size_t> rows = std::nullopt);
+
+/// Those of many elements as an array of two columns, port first; `field` makes one of an element.
+template <class Elements, class Field>
+pybind11::array_t<double> CommandArrayOf(const Elements& elements, Field field) {
+  pybind11::array_t<double> commands(
+      {static_cast<pybind11::ssize_t>(elements.size()), pybind11::ssize_t{2}});
+  double* next = commands.mutable_data();
+  for (const auto& element : elements) {
+    const PropellerCommand& command = std::invoke(field, element);
+    *next++ = command.port;
+    *next++ = command.starboard;
+  }
+  return commands;
+}
+
+/// Throws: UsageError naming `argument`, where so many draws cannot be asked for.
+void RequireDraws(const char* argument, std::size_t count);
 
 /// Tells `callback`, if it is not None, and ends the computation where a signal such as Ctrl-C has
 /// come, or the callback raises. For computations without the interpreter lock.

@@ -14,5 +14,8 @@ void AddIdentify(pybind11::module_& module);
 void AddValidate(pybind11::module_& module);
 void AddDiagnose(pybind11::module_& module);
 void AddSimulate(pybind11::module_& module);
+void AddGain(pybind11::module_& module);
+void AddCompare(pybind11::module_& module);
+void AddExport(pybind11::module_& module);
 
 }  // namespace telltale::python

@@ -16,8 +16,6 @@ namespace {
 
 namespace py = pybind11;
 
-constexpr std::size_t kMostDraws = 100'000;
-
 using Bounded = ScoredIdentification;
 
 std::vector<std::string> NamesOf(const Bounded& bounded) {
@@ -61,10 +59,7 @@ struct NamedDraws {
 };
 
 NamedDraws Draw(const Bounded& bounded, std::size_t count, std::uint64_t seed) {
-  if (count < 1 || count > kMostDraws) {
-    throw UsageError("count: " + std::to_string(count) + " is outside [1, " +
-                     std::to_string(kMostDraws) + ']');
-  }
+  RequireDraws("count", count);
   const py::gil_scoped_release unlocked;
   const Identification model = WithSimulationParameters(bounded.model);
   return {OrThrow(DrawFromPosterior(model, count, seed)), NamesOf(bounded)};

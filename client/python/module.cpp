@@ -16,4 +16,7 @@ PYBIND11_MODULE(_telltale, module) {
   telltale::python::AddIdentify(module);
   telltale::python::AddDiagnose(module);
   telltale::python::AddSimulate(module);
+  telltale::python::AddGain(module);
+  telltale::python::AddCompare(module);
+  telltale::python::AddExport(module);
 }

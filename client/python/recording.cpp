@@ -109,15 +109,9 @@ std::vector<NorthEastPosition> PositionsOf(const StatedLog& log) {
 py::array_t<double> RecordedCommands(const StatedLog& log) {
   const Vehicle vehicle = log.stated ? *log.stated : DescribedVehicle(log.log);
   const auto& pulses = SamplesOf(log).thrusters;
-  py::array_t<double> commands({static_cast<py::ssize_t>(pulses.size()), py::ssize_t{2}});
-  auto cells = commands.mutable_unchecked<2>();
-  for (py::ssize_t i = 0; i < cells.shape(0); ++i) {
-    const ThrusterSample& pulse = pulses[static_cast<std::size_t>(i)];
-    const PropellerCommand command = vehicle.Normalise(pulse.port_us, pulse.starboard_us);
-    cells(i, 0) = command.port;
-    cells(i, 1) = command.starboard;
-  }
-  return commands;
+  return CommandArrayOf(pulses, [&](const ThrusterSample& pulse) {
+    return vehicle.Normalise(pulse.port_us, pulse.starboard_us);
+  });
 }
 
 py::dict RejectedOf(const StatedLog& log) {

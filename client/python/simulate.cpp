@@ -16,33 +16,17 @@ namespace py = pybind11;
 constexpr double kShortestStepS = 0.001;
 constexpr double kLongestStepS = 1.0;
 
-bool IsShare(double command) {
-  return std::abs(command) <= 1.0;
-}
-
 std::vector<TimedCommand> TimedCommandsOf(const Numbers& time_s, const Numbers& commands) {
   const auto times = ColumnOf("time_s", time_s);
   if (times.empty()) throw UsageError("time_s: give one command at least");
-  if (commands.ndim() != 2 || commands.shape(1) != 2 ||
-      static_cast<std::size_t>(commands.shape(0)) != times.size()) {
-    throw UsageError("commands: give an array of " + std::to_string(times.size()) +
-                     " rows, one for each time, and two columns, port and starboard");
-  }
-  const auto cells = commands.unchecked<2>();
+  const auto rows = CommandRowsOf(commands, times.size());
   std::vector<TimedCommand> timed;
   for (std::size_t i = 0; i < times.size(); ++i) {
-    const auto row = static_cast<py::ssize_t>(i);
-    const TimedCommand command{times[i], {cells(row, 0), cells(row, 1)}};
-    const std::string place = " of row " + std::to_string(i);
-    if (!std::isfinite(command.time_s) || (i > 0 && command.time_s <= times[i - 1])) {
-      throw UsageError("time_s: " + std::to_string(command.time_s) + place +
+    if (!std::isfinite(times[i]) || (i > 0 && times[i] <= times[i - 1])) {
+      throw UsageError("time_s: " + std::to_string(times[i]) + " of row " + std::to_string(i) +
                        " does not come after the one before");
     }
-    if (!IsShare(command.delta.port) || !IsShare(command.delta.starboard)) {
-      throw UsageError("commands: those" + place +
-                       " are not both in [-1, 1], shares of full command");
-    }
-    timed.push_back(command);
+    timed.push_back({times[i], rows[i]});
   }
   return timed;
 }
@@ -74,14 +58,7 @@ auto OfEachState(Field field) {
 }
 
 py::array_t<double> TrackCommands(const Track& track) {
-  py::array_t<double> commands({static_cast<py::ssize_t>(track.states.size()), py::ssize_t{2}});
-  auto cells = commands.mutable_unchecked<2>();
-  for (py::ssize_t i = 0; i < cells.shape(0); ++i) {
-    const PropellerCommand& delta = track.states[static_cast<std::size_t>(i)].delta;
-    cells(i, 0) = delta.port;
-    cells(i, 1) = delta.starboard;
-  }
-  return commands;
+  return CommandArrayOf(track.states, &TimedState::delta);
 }
 
 }  // namespace

@@ -273,6 +273,74 @@ except KeyboardInterrupt:
             telltale.simulate(self.model, [0, 1], np.zeros((2, 2)), step=5)
 
 
+    # ---- gain, compare, export -------------------------------------------------------------------
+
+    def test_gains_are_those_of_the_command(self):
+        for commands, options in ((None, ()), ([[0.5, 0.5], [0.5, -0.2]], ("--delta", "0.5,0.5", "--delta", "0.5,-0.2"))):
+            gains = telltale.gain(self.model, commands)
+            said = twin.answer("gain", "--model", self.model_file, *options)
+            self.assertEqual(gains.to_dict(), said)
+            self.assertEqual(len(gains), len(said["gains"]))
+            for i, command in enumerate(said["gains"]):
+                surge = command["surge"]["continuous"]
+                self.assertEqual(list(gains.commands[i]), [command.get("port", 0.0), command.get("starboard", 0.0)])
+                self.assertEqual(gains.accelerations[i, 0], surge["estimate"])
+                self.assertEqual(list(gains.bounds[i, 0]), [surge["interval"]["lower"], surge["interval"]["upper"]])
+        with self.assertRaisesRegex(telltale.InputError, r"commands: those of row 0 .*\[-1, 1\]"):
+            telltale.gain(self.model, [[1.5, 0]])
+        with self.assertRaisesRegex(telltale.InputError, "commands: give an array of two columns"):
+            telltale.gain(self.model, [0.5, 0.5])
+
+    def test_a_comparison_is_that_of_the_command(self):
+        other = telltale.identify(self.other, **FAST)
+        other_file = self.folder / "other.json"
+        other.save(other_file)
+        change = telltale.compare(self.model, other)
+        self.assertEqual(change.to_dict(), twin.answer("compare", "--model", self.model_file, "--model", other_file))
+        self.assertEqual(change.differ, change.p_value < 0.01)
+        self.assertIn("by their clocks the windows of the two overlap", change.notes[0])
+        first = change.coefficients[0]
+        self.assertAlmostEqual(first.sigmas, first.difference / first.standard_error)
+        with self.assertRaises(telltale.DataCannotTell):
+            telltale.compare(self.model, telltale.identify(self.other, structure="dynamic", **FAST))
+
+    def test_exports_are_those_of_the_command(self):
+        for format, with_log, options in (
+            ("mss", False, {"draws": 5, "seed": 3}),
+            ("csv", True, {"horizon": 5}),
+            ("mcap", True, {}),
+        ):
+            with self.subTest(format):
+                mine, theirs = self.folder / f"mine-{format}", self.folder / f"theirs-{format}"
+                for folder in (mine, theirs):
+                    folder.mkdir()
+                recording = self.other if with_log else None
+                files = telltale.export(self.model, mine, format, twin.BOAT, recording, **options)
+                named = [part for name, value in options.items() for part in (f"--{name}", value)]
+                if with_log:
+                    named += ["--log", self.other_log]
+                run = twin.telltale("export", "--model", self.model_file, "--vehicle", twin.BOAT, "--format", format,
+                                    "--out", theirs, *named)
+                self.assertEqual(run.returncode, 0, run.stderr)
+                self.assertEqual([file.name for file in files], [pathlib.Path(line).name for line in run.stdout.split()])
+                for file in files:
+                    self.assertEqual(file.read_bytes(), (theirs / file.name).read_bytes(), file)
+
+    def test_exports_that_do_not_fit_are_named(self):
+        for says, arguments in (
+            ("format", {"format": "xml"}),
+            ("recording: csv shows the model over a recording", {"format": "csv"}),
+            ("recording: mss takes the model alone", {"format": "mss", "recording": self.other}),
+            (r"draws: 0 is outside \[1, 100000\]", {"format": "mss", "draws": 0}),
+            (r"horizon: 601.0* is outside \[0, 600\]", {"format": "csv", "recording": self.other, "horizon": 601}),
+            ("vehicle: mss needs one", {"format": "mss", "vehicle": None}),
+        ):
+            with self.subTest(says), self.assertRaisesRegex(telltale.InputError, says):
+                telltale.export(self.model, self.folder / "none", **{"vehicle": twin.BOAT, **arguments})
+        with self.assertRaisesRegex(telltale.DataCannotTell, "mass"):
+            telltale.export(self.model, self.folder / "none", "vrx", telltale.Vehicle("yellowfish", propeller_separation_m=0.7))
+
+
 class DiagnoseTest(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
