@@ -9,6 +9,7 @@ set(CPACK_INSTALL_DEFAULT_DIRECTORY_PERMISSIONS OWNER_READ OWNER_WRITE OWNER_EXE
 set(CPACK_DEB_COMPONENT_INSTALL ON)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_RELEASE 1)
+# deploy/packages puts DEBFULLNAME and DEBEMAIL in its place.
 set(CPACK_DEBIAN_PACKAGE_MAINTAINER "The Telltale project <maintainers@telltale.invalid>")
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
@@ -45,7 +46,9 @@ install(FILES deploy/telltaled.textproto DESTINATION /etc/telltale COMPONENT tel
 install(FILES deploy/cyclonedds/loopback.xml DESTINATION /etc/telltale RENAME cyclonedds.xml COMPONENT telltaled
         EXCLUDE_FROM_ALL)
 file(CONFIGURE OUTPUT debian/conffiles CONTENT "/etc/telltale/telltaled.textproto\n/etc/telltale/cyclonedds.xml\n")
-set(CPACK_DEBIAN_TELLTALED_PACKAGE_CONTROL_EXTRA ${PROJECT_BINARY_DIR}/debian/conffiles)
+set(CPACK_DEBIAN_TELLTALED_PACKAGE_CONTROL_EXTRA
+    ${PROJECT_BINARY_DIR}/debian/conffiles ${PROJECT_SOURCE_DIR}/deploy/debian/postinst
+    ${PROJECT_SOURCE_DIR}/deploy/debian/prerm ${PROJECT_SOURCE_DIR}/deploy/debian/postrm)
 
 file(CONFIGURE OUTPUT debian/copyright CONTENT
 "Format: https://www.debian.org/doc/packaging-manuals/copyright-format/1.0/
