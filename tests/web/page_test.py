@@ -11,7 +11,12 @@ from real_daemon import BOAT, TOKEN, Daemon, until
 def finish(daemon, kind, boat=BOAT):
     status, headers, job = daemon.order(kind, boat)
     assert status == 202, job
-    until(lambda: daemon.get(headers["Location"])["state"] == "PUBLISHED", f"{kind} of {boat}", 300)
+    done = until(lambda: ended(daemon.get(headers["Location"])), f"{kind} of {boat}", 300)
+    assert done["state"] == "PUBLISHED", done
+
+
+def ended(job):
+    return job if job["state"] != "RUNNING" else None
 
 
 def main(modules, pictures, browser):
@@ -25,7 +30,7 @@ def main(modules, pictures, browser):
         daemon.replay("boat-0001", last_s=300)
         until(lambda: daemon.ask("GET", f"/api/v1/vehicles/{BOAT}/diagnosis")[0] == 200, "the diagnosis")
         with daemon.replaying("boat-0001", first_s=300.01):
-            until(lambda: daemon.get("/api/v1/vehicles/boat-0001")["verdict"] == "WARN", "a live boat without a model")
+            until(lambda: daemon.get("/api/v1/vehicles/boat-0001")["verdict"] != "STALE", "a live boat")
             sys.exit(walk(daemon, modules, pictures, browser))
 
 

@@ -16,7 +16,7 @@ TOKEN = "a-token-of-the-tests"
 BOAT = "yellowfish"
 
 
-def until(condition, what, seconds=60):
+def until(condition, what, seconds=240):
     """Asks until the condition holds, and gives back what it answers."""
     end = time.monotonic() + seconds
     while time.monotonic() < end:

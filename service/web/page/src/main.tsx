@@ -7,6 +7,7 @@ import { number } from "./format";
 import type { Track } from "./map";
 import "./page.css";
 
+const kRetryMs = 3000;
 const kTrackPoints = 600;
 const kPointsOfAll = 60_000;  // so that a large fleet is drawn within a frame
 
@@ -85,13 +86,19 @@ function Page() {
   const rounds = useRef(0);
 
   useEffect(() => {
+    let live = false;
+    // The boats first: their tracks are the larger answer.
     const load = async () => {
-      const [served, all, known, past] = await Promise.all([
-        get<Info>(""), allVehicles(), get<{ jobs: Job[] }>("/jobs?limit=100"), loadPaths()]);
+      const all = await allVehicles();
+      setState((state) => ({ ...state, vehicles: all, round: state.round + 1 }));
+      const [served, known, past] = await Promise.all([get<Info>(""), get<{ jobs: Job[] }>("/jobs?limit=100"), loadPaths()]);
       paths.current = past;
       setInfo(served);
       setJobs(known?.jobs ?? []);
-      setState((state) => ({ ...state, vehicles: all, round: state.round + 1 }));
+      setState((state) => ({ ...state, round: state.round + 1 }));
+    };
+    const loadUntilAnswered = () => {
+      if (live) load().catch(() => setTimeout(loadUntilAnswered, kRetryMs));
     };
     follow({
       fleet: (list) => {
@@ -100,8 +107,9 @@ function Page() {
       },
       job: (job) => setJobs((before) => [job, ...before.filter((other) => other.id !== job.id)].slice(0, 200)),
       connected: (is) => {
+        live = is;
         setConnected(is);
-        if (is) load().catch(() => setConnected(false));
+        loadUntilAnswered();
       },
     });
   }, []);
