@@ -132,6 +132,12 @@ std::string TelemetryLines(const Quality& quality) {
   return text;
 }
 
+std::string DelayText(const ChannelDelay& delay) {
+  return std::string(Name(delay.channel)) + ' ' + Significant(delay.estimate_s, 2) + " [" +
+         Significant(delay.lower_s, 2) + ", " + Significant(delay.upper_s, 2) +
+         "] s behind the headings";
+}
+
 std::string ModelLines(const Quality& quality, double now_unix_s) {
   if (!quality.model_revision) return Line("model", "none");
   std::string text =
@@ -141,6 +147,12 @@ std::string ModelLines(const Quality& quality, double now_unix_s) {
                         std::to_string(quality.coefficients) +
                         " coefficients identified, median half width of their bounds " +
                         Percent(quality.relative_half_width) + " % of the estimate");
+  if (quality.model_verdict.verdict != PromotionVerdict::kUnknown) {
+    const Promotion& given = quality.model_verdict;
+    text += Line("model verdict", std::string(Name(given.verdict)) +
+                                      (given.reason.empty() ? "" : ": " + given.reason));
+  }
+  for (const ChannelDelay& delay : quality.delays) text += Line("delay", DelayText(delay));
   if (quality.prediction_error > 0.0) {
     text += Line("error now", Fixed(quality.prediction_error, 2) +
                                   " times the normal error over 5 s, changing by " +

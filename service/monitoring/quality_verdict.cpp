@@ -114,6 +114,11 @@ void AddModel(const Quality& quality, const VerdictLimits& limits, Reasons& reas
                 fmt::format("there is no model; telltale identify --vehicle-id {} makes one",
                             quality.vehicle_id));
   }
+  if (quality.model_verdict.verdict == PromotionVerdict::kError) {
+    reasons.Add("MODEL_ERROR", kError,
+                fmt::format("revision {} is not to be relied on: {}",
+                            quality.model_revision.value_or(0), quality.model_verdict.reason));
+  }
   if (quality.drift_since_unix_s > 0.0) {
     reasons.Add("DRIFT", quality.prediction_error >= limits.error_ratio ? kError : kWarn,
                 fmt::format("the model no longer matches the boat: revision {} predicts {:.1f} "

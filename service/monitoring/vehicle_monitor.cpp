@@ -59,6 +59,20 @@ void WriteIdentifiability(const std::vector<Coefficient>& coefficients, Quality&
   quality.relative_half_width = std::isfinite(width) ? width : 0.0;
 }
 
+std::vector<ChannelDelay> DelaysOf(const Identification& identification) {
+  std::vector<ChannelDelay> delays;
+  if (!identification.physical) return delays;
+  const auto add = [&](Channel channel, FossenParameter parameter) {
+    const Coefficient& delay =
+        identification.physical->parameters[static_cast<std::size_t>(At(parameter))];
+    if (!std::isfinite(delay.interval.upper - delay.interval.lower)) return;
+    delays.push_back({channel, delay.estimate, delay.interval.lower, delay.interval.upper});
+  };
+  add(Channel::kGnss, FossenParameter::kFixDelay);
+  add(Channel::kThrusters, FossenParameter::kCommandDelay);
+  return delays;
+}
+
 void WriteLastAnswers(const FleetView& view, Quality& quality) {
   quality.last_refusal = view.LastRefusalOf(quality.vehicle_id);
   if (quality.proposal.empty()) {
@@ -108,6 +122,8 @@ void VehicleMonitor::AddModel(VehicleWindow& window, double end_s, const StoredM
   quality.drift = model_.drift();
   quality.drift_since_unix_s = model_.DriftSince().value_or(0.0);
   quality.proposal = model_.Proposal(quality.vehicle_id);
+  quality.model_verdict = latest.model.promotion;
+  quality.delays = DelaysOf(latest.model.identification);
   WriteIdentifiability(latest.model.identification.coefficients, quality);
 }
 

@@ -158,6 +158,33 @@ MetricFamily SampleRates(const std::vector<Quality>& fleet) {
   return std::move(values).Take();
 }
 
+MetricFamily ModelVerdicts(const std::vector<Quality>& fleet) {
+  MetricValues values(MetricType::Gauge, "telltale_vehicle_model_verdict",
+                      "1 for the verdict that the model got when it was made, 0 for the others.");
+  for (const Quality& quality : fleet) {
+    if (quality.model_verdict.verdict == PromotionVerdict::kUnknown) continue;
+    for (const auto verdict :
+         {PromotionVerdict::kOk, PromotionVerdict::kWarn, PromotionVerdict::kError}) {
+      values.Add({{"vehicle_id", quality.vehicle_id}, {"verdict", std::string(Name(verdict))}},
+                 quality.model_verdict.verdict == verdict ? 1.0 : 0.0);
+    }
+  }
+  return std::move(values).Take();
+}
+
+MetricFamily Delays(const std::vector<Quality>& fleet) {
+  MetricValues values(MetricType::Gauge, "telltale_vehicle_delay_seconds",
+                      "How far the stamps of a channel lie behind those of the headings.");
+  for (const Quality& quality : fleet) {
+    for (const ChannelDelay& delay : quality.delays) {
+      values.Add(
+          {{"vehicle_id", quality.vehicle_id}, {"channel", std::string(Name(delay.channel))}},
+          delay.estimate_s);
+    }
+  }
+  return std::move(values).Take();
+}
+
 MetricFamily RejectedSamples(const std::vector<Quality>& fleet) {
   MetricValues values(MetricType::Counter, "telltale_vehicle_samples_rejected_total",
                       "Samples that were rejected.");
@@ -309,7 +336,8 @@ void AddDaemon(FleetView& view, std::size_t vehicles, std::vector<MetricFamily>&
 std::vector<prometheus::MetricFamily> FleetMetrics::Collect() const {
   const std::vector<Quality> fleet = view_.Qualities();
   std::vector<MetricFamily> families = {VerdictStates(fleet), ActiveReasons(fleet),
-                                        SampleRates(fleet), RejectedSamples(fleet)};
+                                        SampleRates(fleet),   RejectedSamples(fleet),
+                                        ModelVerdicts(fleet), Delays(fleet)};
   AddNumbers(fleet, TelemetryNumbers(), families);
   AddNumbers(fleet, ModelNumbers(), families);
   AddDaemon(view_, fleet.size(), families);

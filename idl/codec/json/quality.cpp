@@ -44,6 +44,17 @@ void WriteModelState(const Quality& quality, proto::Quality::ModelState& model) 
   model.set_coefficients(quality.coefficients);
   model.set_identified(quality.identified);
   model.set_relative_half_width(quality.relative_half_width);
+  if (quality.model_verdict.verdict != PromotionVerdict::kUnknown) {
+    model.set_verdict(std::string(Name(quality.model_verdict.verdict)));
+    model.set_verdict_reason(quality.model_verdict.reason);
+  }
+  for (const ChannelDelay& delay : quality.delays) {
+    proto::Quality::Delay& to = *model.add_delays();
+    to.set_channel(std::string(Name(delay.channel)));
+    to.set_estimate_s(delay.estimate_s);
+    to.set_lower_s(delay.lower_s);
+    to.set_upper_s(delay.upper_s);
+  }
 }
 
 void WriteIndicative(const Quality& quality, proto::Quality& message) {

@@ -9,6 +9,7 @@
 
 #include "telltale/core/base/result.hpp"
 #include "telltale/core/data/samples.hpp"
+#include "telltale/core/validation/promotion.hpp"
 #include "telltale/core/vessel/model_structure.hpp"
 
 namespace telltale {
@@ -75,6 +76,17 @@ struct QualityPosition {
   bool operator==(const QualityPosition&) const = default;
 };
 
+/// By how much the stamps of a channel lie behind those of the headings, s, with 95 % bounds;
+/// negative: before them. As the model has it.
+struct ChannelDelay {
+  Channel channel = Channel::kGnss;
+  double estimate_s = 0.0;
+  double lower_s = 0.0;
+  double upper_s = 0.0;
+
+  bool operator==(const ChannelDelay&) const = default;
+};
+
 /// The state of a vehicle's telemetry and of its model.
 struct Quality {
   std::string vehicle_id;  ///< or kUnattributed
@@ -110,6 +122,8 @@ struct Quality {
   std::string diagnosis_sentence;
   double diagnosed_unix_s = 0.0;
   std::optional<QualityPosition> position;
+  Promotion model_verdict;           ///< of the model when it was made
+  std::vector<ChannelDelay> delays;  ///< of a model of the physical form; none: of the others
 };
 
 }  // namespace telltale

@@ -1,5 +1,6 @@
 #include "telltale/idl/codec/wire/quality.hpp"
 
+#include "telltale/idl/codec/wire/choices.hpp"
 #include "telltale/idl/codec/wire/nested.hpp"
 #include "telltale/idl/codec/wire/put.hpp"
 #include "telltale/idl/codec/wire/read.hpp"
@@ -57,6 +58,20 @@ QualityPosition ReadPosition(const std::string& field, const telltale_wire_Posit
   return position;
 }
 
+void FillDelay(telltale_wire_ChannelDelay& wire, const ChannelDelay& delay) {
+  Put(wire.channel, Name(delay.channel));
+  wire.estimate_s = delay.estimate_s;
+  wire.lower_s = delay.lower_s;
+  wire.upper_s = delay.upper_s;
+}
+
+ChannelDelay ReadDelay(const std::string& field, const telltale_wire_ChannelDelay& wire) {
+  return {ReadName(field + ".channel", View(wire.channel), kChannels),
+          ReadWithin(field + ".estimate_s", wire.estimate_s, kFinite),
+          ReadWithin(field + ".lower_s", wire.lower_s, kFinite),
+          ReadWithin(field + ".upper_s", wire.upper_s, kFinite)};
+}
+
 /// What the verdict rests on besides the counts: fields that older writers lack.
 void ReadAssessment(const telltale_wire_Quality& wire, Quality& quality) {
   quality.verdict = ReadOptionalName("verdict", View(wire.verdict), kQualityVerdicts);
@@ -76,6 +91,10 @@ void ReadAssessment(const telltale_wire_Quality& wire, Quality& quality) {
   quality.diagnosis_sentence = View(wire.diagnosis_sentence);
   quality.diagnosed_unix_s = ReadWithin("diagnosed_unix_s", wire.diagnosed_unix_s, kFinite);
   quality.position = ReadOptional("position", wire.position, ReadPosition);
+  quality.model_verdict = {
+      ReadOptionalName("model_verdict", View(wire.model_verdict), kPromotionVerdicts),
+      TextOf(wire.model_verdict_reason)};
+  quality.delays = ReadSequence("delays", wire.delays, ReadDelay);
 }
 
 void FillAssessment(telltale_wire_Quality& wire, const Quality& quality) {
@@ -94,6 +113,9 @@ void FillAssessment(telltale_wire_Quality& wire, const Quality& quality) {
   Put(wire.diagnosis_sentence, quality.diagnosis_sentence);
   wire.diagnosed_unix_s = quality.diagnosed_unix_s;
   PutOptional(wire.position, quality.position, FillPosition);
+  PutVerdict(wire.model_verdict, quality.model_verdict.verdict);
+  Put(wire.model_verdict_reason, quality.model_verdict.reason);
+  PutSequence(wire.delays, quality.delays, FillDelay);
 }
 
 Quality ReadQuality(const telltale_wire_Quality& wire) {

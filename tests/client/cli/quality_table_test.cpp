@@ -75,6 +75,12 @@ TEST(QualityTable, FitsATerminal) {
       Refusal{"surge", std::string(30, 'x') + " is not excited", "drive a zigzag"};
   quality.diagnosis_verdict = "EXPLAINED";
   quality.diagnosis_sentence = "The starboard thruster gives 25 % less thrust than the model has.";
+  quality.model_verdict = {PromotionVerdict::kWarn, "simulated over its whole data it diverges"};
+  quality.delays = {{Channel::kThrusters, -0.25, -0.5, 0.25}};
+  EXPECT_THAT(QualityDetail(quality, 1000.0),
+              HasSubstr("model verdict WARN: simulated over its whole data it diverges"));
+  EXPECT_THAT(QualityDetail(quality, 1000.0),
+              HasSubstr("thrusters -0.25 [-0.50, 0.25] s behind the headings"));
   EXPECT_THAT(LineWidths(QualityDetail(quality, 1000.0)), Each(Le(kTerminalColumns)));
 }
 

@@ -36,6 +36,17 @@ std::vector<std::string> Codes(const std::vector<QualityReason>& reasons) {
   return codes;
 }
 
+TEST(QualityVerdict, IsErrorWhereTheModelIsKnownToBeWrong) {
+  Quality quality = GoodQuality();
+  quality.model_verdict = {PromotionVerdict::kError, "it diverges"};
+  const auto reasons = ReasonsOf(quality, GoodMinute());
+  EXPECT_THAT(Codes(reasons), ElementsAre("MODEL_ERROR"));
+  EXPECT_EQ(VerdictOf(reasons), QualityVerdict::kError);
+  EXPECT_EQ(reasons.front().text, "revision 4 is not to be relied on: it diverges");
+  quality.model_verdict.verdict = PromotionVerdict::kWarn;
+  EXPECT_THAT(ReasonsOf(quality, GoodMinute()), IsEmpty());
+}
+
 TEST(QualityVerdict, IsOkWhereNothingIsWrong) {
   const auto reasons = ReasonsOf(GoodQuality(), GoodMinute());
   EXPECT_THAT(reasons, IsEmpty());

@@ -52,6 +52,9 @@ export interface Quality {
     coefficients: number;
     identified: number;
     relativeHalfWidth: number;
+    verdict: "" | Verdict;  // given when it was made
+    verdictReason: string;
+    delays: { channel: string; estimateS: number; lowerS: number; upperS: number }[];
   };
   proposal: string;
   lastRefusal?: { subject: string; reason: string; advice: string };
@@ -74,7 +77,6 @@ export interface Model {
   coefficients: Coefficient[];
   thrusterTimeConstantS?: Coefficient;
   parameters?: Coefficient[];  // of the physical form
-  delays?: { [name: string]: unknown };
   window?: { startS: number; endS: number; samples: number };
   refusals: { subject: string; reason: string; advice: string }[];
   provenance: {

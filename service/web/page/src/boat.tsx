@@ -3,7 +3,7 @@ import { useState } from "preact/hooks";
 import { order, rollback, save, type Coefficient, type History, type Info, type Job, type Model, type PredictedPaths, type Quality, type Report } from "./api";
 import { ErrorChart, Intervals } from "./charts";
 import { CompareModels } from "./compare";
-import { clock, diagnosisVerdict, duration, number, percent, significant, unit, words } from "./format";
+import { asSentence, clock, diagnosisVerdict, duration, number, percent, significant, unit, words } from "./format";
 import { TrackMap, type Track } from "./map";
 import { Badge, Bar, Card, Fact, JobLine } from "./parts";
 import { PathPlot } from "./paths";
@@ -14,8 +14,7 @@ function sentence(quality: Quality): string {
   if (quality.verdict === "OK") {
     return `Telemetry arrives and the model matches the boat${since}.`;
   }
-  const reason = quality.reasons[0]?.text ?? "";
-  return `${reason.charAt(0).toUpperCase()}${reason.slice(1)}.`;
+  return asSentence(quality.reasons[0]?.text ?? "");
 }
 
 function Telemetry({ quality }: { quality: Quality }) {
@@ -57,22 +56,22 @@ function withBounds(coefficient: Coefficient): string {
   return `${significant(coefficient.estimate)}${bounds} ${unit(coefficient.unit)}`;
 }
 
-function isCoefficient(value: unknown): value is Coefficient {
-  return typeof value === "object" && value !== null && "estimate" in value && "unit" in value;
-}
+const kChannels: { [channel: string]: string } = { gnss: "Fixes", thrusters: "Commands" };
 
 /** What the newest model knows of time: lag of the thrusters and delays of the channels. */
-function Delays({ model }: { model?: Model }) {
+function Delays({ model, delays }: { model?: Model; delays: NonNullable<Quality["model"]>["delays"] }) {
   const lag = model?.thrusterTimeConstantS;
-  const delays = Object.entries(model?.delays ?? {})
-    .filter((entry): entry is [string, Coefficient] => isCoefficient(entry[1]));
   if (!lag && delays.length === 0) return null;
   return (
     <>
       <h3>Delays</h3>
       <dl>
         {lag && <Fact name="Thruster lag">{withBounds(lag)}</Fact>}
-        {delays.map(([name, delay]) => <Fact key={name} name={words(name)}>{withBounds(delay)}</Fact>)}
+        {delays.map(({ channel, estimateS, lowerS, upperS }) => (
+          <Fact key={channel} name={`${kChannels[channel] ?? channel} behind headings`}>
+            {significant(estimateS, 2)} [{significant(lowerS, 2)}, {significant(upperS, 2)}] s
+          </Fact>
+        ))}
       </dl>
     </>
   );
@@ -99,12 +98,14 @@ function ModelFacts({ quality, newest }: { quality: Quality; newest?: Model }) {
     <Card title="Model">
       <dl>
         <Fact name="Revision">{model.revision}, {duration(model.ageS)} old</Fact>
+        {model.verdict && <Fact name="Verdict when made">
+          <Badge verdict={model.verdict} /> {asSentence(model.verdictReason)}</Fact>}
         <Fact name="Free-run error now">{model.predictionError > 0 ? `${significant(model.predictionError)} × normal` : "–"}</Fact>
         <Fact name="Drift">{model.driftSinceUnixS > 0 ? `since ${clock(model.driftSinceUnixS)}` : "none"}</Fact>
         <Fact name="Identified">{model.identified} of {model.coefficients} coefficients</Fact>
         <Fact name="Median half width">{model.relativeHalfWidth > 0 ? percent(model.relativeHalfWidth) : "–"} of the estimate</Fact>
       </dl>
-      <Delays model={newest} />
+      <Delays model={newest} delays={model.delays} />
       <Identifiability model={newest} />
       {quality.lastRefusal && (
         <p class="note"><strong>Last refusal.</strong> {quality.lastRefusal.subject}: {quality.lastRefusal.reason}. {quality.lastRefusal.advice}</p>
@@ -372,8 +373,8 @@ export function BoatView({ vehicleId, round, info, jobs, track }: {
           <TrackMap tracks={track ? [track] : []} selected={vehicleId} label={`Track of ${vehicleId}, north up`} />
         </Card>
         <Card title="Newest three minutes, predicted and measured">
-          {paths ? <PathPlot paths={paths} />
-            : <p class="empty">No prediction yet: it needs a model and a minute of telemetry without a gap.</p>}
+          {paths && <PathPlot paths={paths} />}
+          {paths === null && <p class="empty">No prediction yet: it needs a model and a minute of telemetry without a gap.</p>}
         </Card>
         <Coefficients models={models} />
         <Diagnosis vehicleId={vehicleId} report={report} />

@@ -74,3 +74,8 @@ const kRegressors: { [symbol: string]: string } = {
 export function regressor(symbol: string): string {
   return kRegressors[symbol] ?? symbol;
 }
+
+/** "it diverges" -> "It diverges."; nothing stays nothing. */
+export function asSentence(text: string): string {
+  return text && `${text.charAt(0).toUpperCase()}${text.slice(1)}.`;
+}

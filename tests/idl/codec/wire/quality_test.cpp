@@ -75,6 +75,19 @@ TEST(WireQuality, CarriesTheVerdictWithWhatItRestsOn) {
   EXPECT_EQ(received->position, sent.position);
 }
 
+TEST(WireQuality, CarriesTheVerdictAndTheDelaysOfTheModel) {
+  Quality sent;
+  sent.vehicle_id = "boat-1";
+  EXPECT_EQ(Decode(*Encode(sent))->model_verdict, Promotion());
+  EXPECT_TRUE(Decode(*Encode(sent))->delays.empty());
+  sent.model_verdict = {PromotionVerdict::kWarn, "it lacks an equation"};
+  sent.delays = {{Channel::kGnss, 0.25, 0.125, 0.375}, {Channel::kThrusters, -0.5, -0.75, 0.0}};
+  const auto received = Decode(*Encode(sent));
+  ASSERT_TRUE(received) << received.error().Message();
+  EXPECT_EQ(received->model_verdict, sent.model_verdict);
+  EXPECT_EQ(received->delays, sent.delays);
+}
+
 TEST(WireQuality, RefusesAVerdictAndAPositionThatAreNone) {
   Quality sent;
   sent.vehicle_id = "boat-1";
