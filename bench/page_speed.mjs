@@ -18,6 +18,16 @@ const loading = await page.evaluate(() => window.tasks.splice(0));
 console.log(`first paint ${paint.toFixed(0)} ms, boats in the table ${boatsAt.toFixed(0)} ms after the start; ` +
   `longest task until then ${Math.max(0, ...loading).toFixed(0)} ms`);
 
+/** Milliseconds of the processor that the longest task of the page's main thread takes, by the trace. */
+function longestTask(trace) {
+  const { traceEvents } = JSON.parse(trace);
+  const started = traceEvents.find(({ name }) => name === "TracingStartedInBrowser");
+  const pid = started.args.data.frames.find(({ url }) => url.startsWith(address)).processId;
+  const { tid } = traceEvents.find((event) => event.pid === pid && event.args?.name === "CrRendererMain");
+  const tasks = traceEvents.filter((event) => event.pid === pid && event.tid === tid && event.name === "RunTask");
+  return Math.max(...tasks.map(({ tdur }) => tdur ?? 0)) / 1000;
+}
+
 // The time that the main thread works for a frame, not how long the frame waits for a processor.
 const session = await page.context().newCDPSession(page);
 await session.send("Performance.enable", { timeDomain: "threadTicks" });
@@ -25,6 +35,7 @@ const work = async () => {
   const { metrics } = await session.send("Performance.getMetrics");
   return Object.fromEntries(metrics.map(({ name, value }) => [name, value]));
 };
+await browser.startTracing(page, { categories: ["devtools.timeline", "disabled-by-default-devtools.timeline"] });
 const before = await work();
 const gaps = await page.evaluate((ms) => new Promise((resolve) => {
   const found = [];
@@ -39,11 +50,13 @@ const gaps = await page.evaluate((ms) => new Promise((resolve) => {
   requestAnimationFrame(frame);
 }), 1000 * Number(seconds));
 const after = await work();
+const longest = longestTask((await browser.stopTracing()).toString());
 const tasks = await page.evaluate(() => window.tasks);
 gaps.sort((a, b) => a - b);
 console.log(`live for ${seconds} s: main thread busy ${(1000 * (after.TaskDuration - before.TaskDuration) / seconds).toFixed(0)} ms a second ` +
   `(script ${(1000 * (after.ScriptDuration - before.ScriptDuration) / seconds).toFixed(0)}, layout ` +
   `${(1000 * (after.LayoutDuration - before.LayoutDuration) / seconds).toFixed(0)}); between frames: median ` +
   `${gaps[Math.floor(gaps.length / 2)].toFixed(0)} ms, 99 % ${gaps[Math.floor(0.99 * gaps.length)].toFixed(0)} ms, ` +
-  `longest ${gaps.at(-1).toFixed(0)} ms; ${tasks.length} tasks over 50 ms, longest ${Math.max(0, ...tasks).toFixed(0)} ms`);
+  `longest ${gaps.at(-1).toFixed(0)} ms; ${tasks.length} tasks over 50 ms, longest ${Math.max(0, ...tasks).toFixed(0)} ms; ` +
+  `the longest task takes ${longest.toFixed(0)} ms of the processor`);
 await browser.close();

@@ -1,76 +1,13 @@
 // Walks the page of a real daemon in a real browser:
-//   node page_test.mjs ADDRESS BOAT TOKEN PICTURES BROWSER
+//   node page_test.mjs ADDRESS BROWSER BOAT TOKEN PICTURES
 // Exits 0 when all is well. It restarts nothing itself: page_test.py writes "restarted" to its standard input.
 import assert from "node:assert/strict";
-import { readFile } from "node:fs/promises";
-import { createRequire } from "node:module";
 import { createInterface } from "node:readline";
-import { setTimeout } from "node:timers/promises";
-import { chromium } from "playwright-core";
+import { accessible, address, answerOf, count, expectFaults, fits, names, open, walk } from "./page_walk.mjs";
 
-const [address, boat, token, pictures, executablePath] = process.argv.slice(2);
-const kPatienceMs = 240_000;  // of every wait: a busy machine takes many times what an idle one does
-const axe = await readFile(createRequire(import.meta.url).resolve("axe-core/axe.min.js"), "utf8");
-const browser = await chromium.launch({ executablePath, args: ["--no-sandbox"], timeout: kPatienceMs });
-const faults = [];
-let restarting = false;
+const [boat, token, pictures] = process.argv.slice(4);
 
-/** A fault, a daemon that restarts, and one that asks for patience (503) are part of what the page is for. */
-function isExpected(text) {
-  return restarting || /status of (401|404|503)/.test(text);
-}
-
-async function open(width, colorScheme = "light", hash = "#/") {
-  const context = await browser.newContext({ viewport: { width, height: 900 }, colorScheme });
-  context.setDefaultTimeout(kPatienceMs);
-  const page = await context.newPage();
-  page.on("pageerror", (error) => faults.push(error.message));
-  page.on("console", (message) => {
-    if (message.type() === "error" && !isExpected(message.text())) faults.push(message.text());
-  });
-  page.on("request", (request) => {
-    if (!request.url().startsWith(address)) faults.push(`a request to ${request.url()}`);
-  });
-  await page.goto(`${address}/${hash}`);
-  await page.waitForSelector(hash === "#/" ? "tbody a" : "#coefficients table");
-  return page;
-}
-
-/** What the daemon answers; it is asked again for as long as it says to come back later. */
-async function answerOf(route) {
-  for (;;) {
-    const response = await fetch(`${address}/api/v1${route}`);
-    if (response.status !== 503) {
-      assert.equal(response.status, 200, route);
-      return response.json();
-    }
-    await setTimeout(1000 * Number(response.headers.get("Retry-After") ?? 1));
-  }
-}
-
-const count = (page, selector, wanted) =>
-  page.waitForFunction(([found, number]) => document.querySelectorAll(found).length === number, [selector, wanted]);
-
-const names = (page) => page.locator(".boats tbody th").allTextContents();
-
-async function accessible(page, where) {
-  // By the debugger, since the page's own policy lets no foreign script in.
-  await page.evaluate(axe);
-  const found = await page.evaluate(() => axe.run(document));
-  const serious = found.violations.filter(({ impact }) => impact === "serious" || impact === "critical");
-  assert.deepEqual(serious.map(({ id, nodes }) => `${id}: ${nodes[0].html}`), [], where);
-}
-
-const overflow = () => document.documentElement.scrollWidth - document.documentElement.clientWidth;
-
-async function fits(page, where) {
-  // A chart takes its new width in the frame after the page does.
-  await page.waitForFunction(`(${overflow})() <= 0`).catch(async () => {
-    assert.fail(`${where} is ${await page.evaluate(overflow)} px too wide`);
-  });
-}
-
-const steps = {
+await walk({
   async "the worst come first, and a header sorts"() {
     const page = await open(1280);
     const verdicts = (await page.locator(".boats .badge").allTextContents()).map((text) => text.trim().split(" ").at(-1));
@@ -191,7 +128,7 @@ const steps = {
     for (const scheme of ["light", "dark"]) {
       for (const [view, hash] of [["fleet", "#/"], ["boat", `#/boat/${boat}`]]) {
         const page = await open(1280, scheme, hash);
-        if (view === "boat") for (const last of [".paths", ".pairs", "a[href$='diagnosis/report']"]) await page.waitForSelector(last);
+        if (view === "boat") for (const last of [".paths", ".pairs", "a[href$='/report']"]) await page.waitForSelector(last);
         await accessible(page, `${view}, ${scheme}`);
         for (const width of [360, 390, 768, 1280, 1920]) {
           await page.setViewportSize({ width, height: 900 });
@@ -214,7 +151,7 @@ const steps = {
     const page = await open(1280);
     const status = page.locator("header [role=status]");
     await status.getByText("Live", { exact: true }).waitFor();
-    restarting = true;
+    expectFaults(true);
     console.log("RESTART");
     await status.getByText("No connection; trying again").waitFor();
     console.log("START");
@@ -224,14 +161,6 @@ const steps = {
     await page.getByRole("link", { name: boat }).click();
     await page.waitForSelector("#coefficients table");
     await page.context().close();
-    restarting = false;  // only now, since the browser may tell of a lost connection late
+    expectFaults(false);  // only now, since the browser may tell of a lost connection late
   },
-};
-
-for (const [name, step] of Object.entries(steps)) {
-  await step();
-  assert.deepEqual(faults, [], name);
-  console.log(`ok: ${name}`);
-}
-await browser.close();
-process.exit(0);
+});

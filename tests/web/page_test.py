@@ -1,6 +1,6 @@
-"""Builds what tests/web/page_test.mjs shows: six boats of a real daemon, and restarts it when asked.
+"""Builds what the tests of the page show: a daemon of many boats, and one of six that it restarts when asked.
 
-  page_test.py MODULES PICTURES BROWSER    MODULES: a folder with node_modules and page_test.mjs
+  page_test.py MODULES PICTURES BROWSER    MODULES: a folder with node_modules and tests/web/*.mjs
 """
 import subprocess
 import sys
@@ -19,7 +19,14 @@ def ended(job):
     return job if job["state"] != "RUNNING" else None
 
 
+MANY_BOATS = 1000
+
+
 def main(modules, pictures, browser):
+    with Daemon(more=MANY_BOATS - 1) as daemon:
+        code = walk(daemon, modules, "large_fleet_test.mjs", browser, MANY_BOATS)
+        if code != 0:
+            sys.exit(code)
     with Daemon(more=5) as daemon:
         daemon.replay(last_s=250)
         finish(daemon, "refresh")
@@ -31,12 +38,12 @@ def main(modules, pictures, browser):
         until(lambda: daemon.ask("GET", f"/api/v1/vehicles/{BOAT}/diagnosis")[0] == 200, "the diagnosis")
         with daemon.replaying("boat-0001", first_s=300.01):
             until(lambda: daemon.get("/api/v1/vehicles/boat-0001")["verdict"] != "STALE", "a live boat")
-            sys.exit(walk(daemon, modules, pictures, browser))
+            sys.exit(walk(daemon, modules, "page_test.mjs", browser, BOAT, TOKEN, pictures))
 
 
-def walk(daemon, modules, pictures, browser):
-    """Runs page_test.mjs, and gives back its exit code."""
-    page = subprocess.Popen(["node", "page_test.mjs", daemon.address, BOAT, TOKEN, pictures, browser],
+def walk(daemon, modules, test, browser, *arguments):
+    """Runs the test on the page of the daemon, and gives back its exit code."""
+    page = subprocess.Popen(["node", test, daemon.address, browser, *map(str, arguments)],
                             cwd=modules, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
     for line in page.stdout:
         print(line, end="", flush=True)
