@@ -106,7 +106,7 @@ Daemon::Daemon(const DaemonConfig& config, Endings endings)
   KeepSlices();
   if (!config.http) return;
   web_.emplace(
-      *config.http, fleet_, models_, view_, [this] { return Activity(); },
+      *config.http, fleet_, models_, diagnoses_, view_, [this] { return Activity(); },
       OrderHandlers{.serves = [this] { return role_.Serves(); },
                     .identify = [this](IdentifyRequest request) { Submit(std::move(request)); },
                     .diagnose = [this](DiagnoseRequest request) { Submit(std::move(request)); },

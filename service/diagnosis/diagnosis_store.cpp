@@ -41,6 +41,7 @@ void DiagnosisStore::Save(const PublishedDiagnosis& diagnosis) {
   const std::string& vehicle_id = diagnosis.diagnosis.vehicle_id;
   database_->InTransaction([&] {
     const Parameter fence = storage_.RequireLease(*database_, vehicle_id);
+    KeepLastAsEarlier(vehicle_id, diagnosis.published_unix_s);
     database_->Execute(
         "INSERT INTO diagnoses"
         " (vehicle_id, model_revision, published_unix_s, report, checksum, fence)"
@@ -53,11 +54,41 @@ void DiagnosisStore::Save(const PublishedDiagnosis& diagnosis) {
   });
 }
 
+/// The caller has begun a transaction.
+void DiagnosisStore::KeepLastAsEarlier(std::string_view vehicle_id, double next_published_unix_s) {
+  const std::string columns =
+      "vehicle_id, model_revision, published_unix_s, report, checksum, fence";
+  database_->Execute("INSERT INTO earlier_diagnoses (" + columns + ") SELECT " + columns +
+                         " FROM diagnoses WHERE vehicle_id = $1 AND published_unix_s <> $2"
+                         " ON CONFLICT (vehicle_id, published_unix_s) DO NOTHING",
+                     {vehicle_id, next_published_unix_s});
+  database_->Execute(
+      "DELETE FROM earlier_diagnoses WHERE vehicle_id = $1 AND published_unix_s NOT IN"
+      " (SELECT published_unix_s FROM earlier_diagnoses WHERE vehicle_id = $1"
+      " ORDER BY published_unix_s DESC LIMIT $2)",
+      {vehicle_id, static_cast<std::int64_t>(kDiagnosesPerVehicle) - 1});
+}
+
 std::optional<PublishedDiagnosis> DiagnosisStore::Last(std::string_view vehicle_id) const {
   std::optional<PublishedDiagnosis> last;
   database_->Query("SELECT * FROM diagnoses WHERE vehicle_id = $1", {vehicle_id},
                    [&](const Row& row) { last = ReadDiagnosis(row, database_->name()); });
   return last;
+}
+
+std::vector<PublishedDiagnosis> DiagnosisStore::History(std::string_view vehicle_id) const {
+  const std::string columns = "vehicle_id, model_revision, published_unix_s, report, checksum";
+  std::vector<PublishedDiagnosis> diagnoses;
+  database_->Query("SELECT " + columns + " FROM diagnoses WHERE vehicle_id = $1 UNION ALL SELECT " +
+                       columns +
+                       " FROM earlier_diagnoses WHERE vehicle_id = $1"
+                       " ORDER BY published_unix_s DESC",
+                   {vehicle_id}, [&](const Row& row) {
+                     if (auto read = ReadDiagnosis(row, database_->name())) {
+                       diagnoses.push_back(std::move(*read));
+                     }
+                   });
+  return diagnoses;
 }
 
 }  // namespace telltale

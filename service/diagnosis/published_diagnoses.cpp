@@ -33,6 +33,11 @@ void PublishedDiagnoses::Publish(const PublishedDiagnosis& diagnosis) {
   Announce(diagnosis);
 }
 
+std::vector<PublishedDiagnosis> PublishedDiagnoses::History(std::string_view vehicle_id) const {
+  const std::lock_guard lock(mutex_);
+  return store_.History(vehicle_id);
+}
+
 void PublishedDiagnoses::Announce(const PublishedDiagnosis& diagnosis) {
   const std::string& vehicle_id = diagnosis.diagnosis.vehicle_id;
   spdlog::info("diagnosis of {}: {}", vehicle_id, diagnosis.diagnosis.sentence);

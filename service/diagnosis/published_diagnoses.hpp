@@ -3,6 +3,8 @@
 #include <atomic>
 #include <mutex>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include "telltale/client/bus/participant.hpp"
 #include "telltale/client/bus/writer.hpp"
@@ -12,8 +14,8 @@
 
 namespace telltale {
 
-/// The last diagnosis of every vehicle, on disk and on the bus. It is saved before it is published,
-/// and is published again once the daemon serves. Thread safe.
+/// The diagnoses of every vehicle on disk, and the last on the bus. It is saved before it is
+/// published, and is published again once the daemon serves. Thread safe.
 class PublishedDiagnoses {
  public:
   PublishedDiagnoses(const Participant& participant, DiagnosisStore store);
@@ -30,11 +32,14 @@ class PublishedDiagnoses {
   /// Saves, then publishes. Throws as DiagnosisStore::Save, and then does not publish.
   void Publish(const PublishedDiagnosis& diagnosis);
 
+  /// Those that are kept, newest first. Throws as DiagnosisStore::History.
+  std::vector<PublishedDiagnosis> History(std::string_view vehicle_id) const;
+
  private:
   void Announce(const PublishedDiagnosis& diagnosis);
 
   std::atomic<bool> publishing_ = false;
-  std::mutex mutex_;  // of store_
+  mutable std::mutex mutex_;  // of store_
   DiagnosisStore store_;
   Writer<telltale_wire_Diagnosis> writer_;
 };

@@ -39,6 +39,18 @@ proto::Job ToProto(const JobView& job) {
   return message;
 }
 
+proto::DiagnosisList ToProto(std::span<const PublishedDiagnosis> diagnoses) {
+  proto::DiagnosisList list;
+  for (const auto& [diagnosis, model_revision, published_unix_s] : diagnoses) {
+    proto::DiagnosisList::Entry& entry = *list.add_diagnoses();
+    entry.set_published_unix_s(published_unix_s);
+    entry.set_model_revision(Saturated(model_revision));
+    entry.set_verdict(EnumCast<proto::DiagnosisVerdict>(diagnosis.verdict));
+    entry.set_sentence(diagnosis.sentence);
+  }
+  return list;
+}
+
 proto::History ToProto(std::span<const PastPoint> past) {
   constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
   proto::History message;

@@ -11,6 +11,7 @@ namespace telltale {
 /// saturate.
 proto::VehicleSummary SummaryOf(const Quality& quality);
 proto::Job ToProto(const JobView& job);
+proto::DiagnosisList ToProto(std::span<const PublishedDiagnosis> diagnoses);
 proto::History ToProto(std::span<const PastPoint> past);
 
 }  // namespace telltale

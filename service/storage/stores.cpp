@@ -11,6 +11,15 @@ const Column kChecksum{"checksum", kInteger, ""};
 // Of the lease under which the row was written; none where a daemon has the fleet alone.
 const Column kFence{"fence", kInteger, ""};
 
+std::vector<Column> DiagnosisColumns() {
+  return {{"vehicle_id", kText, "NOT NULL"},
+          {"model_revision", kInteger, "NOT NULL"},
+          {"published_unix_s", kReal, "NOT NULL"},
+          {"report", kBlob, "NOT NULL"},  // proto/report.proto, serialised
+          kChecksum,
+          kFence};
+}
+
 }  // namespace
 
 const Schema& ModelsSchema() {
@@ -29,14 +38,8 @@ const Schema& ModelsSchema() {
                    kChecksum,
                    kFence},
                   {"vehicle_id", "revision"}},
-                 {"diagnoses",
-                  {{"vehicle_id", kText, "NOT NULL"},
-                   {"model_revision", kInteger, "NOT NULL"},
-                   {"published_unix_s", kReal, "NOT NULL"},
-                   {"report", kBlob, "NOT NULL"},  // proto/report.proto, serialised
-                   kChecksum,
-                   kFence},
-                  {"vehicle_id"}}},
+                 {"diagnoses", DiagnosisColumns(), {"vehicle_id"}},
+                 {"earlier_diagnoses", DiagnosisColumns(), {"vehicle_id", "published_unix_s"}}},
       .version = 4,
       .oldest_version = 2,
   };

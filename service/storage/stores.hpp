@@ -4,7 +4,7 @@
 
 namespace telltale {
 
-/// Each published model and each vehicle's last diagnosis.
+/// Each published model, each vehicle's last diagnosis, and those before it.
 const Schema& ModelsSchema();
 
 /// The windows of the fleet in chunks.

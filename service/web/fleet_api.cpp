@@ -1,6 +1,7 @@
 #include "telltale/service/web/fleet_api.hpp"
 
 #include <algorithm>
+#include <charconv>
 #include <chrono>
 #include <cmath>
 #include <limits>
@@ -73,6 +74,15 @@ void AnswerNotServed(const std::string& vehicle_id, httplib::Response& response)
                 "an id of GET /api/v1/vehicles", response);
 }
 
+/// The page that `telltale diagnose --html` writes. Its styles stand inside it.
+void AnswerReport(const Diagnosis& diagnosis, httplib::Response& response) {
+  response.headers.erase("Content-Security-Policy");
+  response.set_header("Content-Security-Policy",
+                      "default-src 'none'; style-src 'unsafe-inline'; base-uri 'none'; "
+                      "form-action 'none'; frame-ancestors 'none'");
+  response.set_content(ReportPage(diagnosis), "text/html; charset=utf-8");
+}
+
 proto::Model Shortened(proto::Model model) {
   model.clear_covariance();
   model.clear_thruster_time_constant_covariance();
@@ -101,10 +111,12 @@ std::vector<PastPoint> Thinned(const std::vector<PastPoint>& past, double since_
 
 }  // namespace
 
-FleetApi::FleetApi(const Fleet& fleet, const PublishedModels& models, FleetView& view,
-                   OrderHandlers handlers, std::optional<std::string> token)
+FleetApi::FleetApi(const Fleet& fleet, const PublishedModels& models,
+                   const PublishedDiagnoses& diagnoses, FleetView& view, OrderHandlers handlers,
+                   std::optional<std::string> token)
     : fleet_(fleet),
       models_(models),
+      diagnoses_(diagnoses),
       view_(view),
       handlers_(std::move(handlers)),
       token_(std::move(token)),
@@ -129,6 +141,9 @@ void FleetApi::AddRoutes(httplib::Server& server) {
   get("/api/v1/vehicles/([^/]+)/predicted-paths", &FleetApi::GetPredictedPaths);
   get("/api/v1/vehicles/([^/]+)/diagnosis", &FleetApi::GetDiagnosis);
   get("/api/v1/vehicles/([^/]+)/diagnosis/report", &FleetApi::GetReport);
+  get("/api/v1/vehicles/([^/]+)/diagnoses", &FleetApi::GetDiagnoses);
+  get("/api/v1/vehicles/([^/]+)/diagnoses/([^/]+)", &FleetApi::GetKeptDiagnosis);
+  get("/api/v1/vehicles/([^/]+)/diagnoses/([^/]+)/report", &FleetApi::GetKeptReport);
   get("/api/v1/jobs", &FleetApi::GetJobs);
   get("/api/v1/jobs/([^/]+)", &FleetApi::GetJob);
   server.Post("/api/v1/refresh", [this](const Request& request, Response& response) {
@@ -344,15 +359,41 @@ void FleetApi::GetDiagnosis(const Request& request, Response& response) const {
   if (last) AnswerJson(ToProto(*last), request, response);
 }
 
-/// The page that `telltale diagnose --html` writes. Its styles stand inside it.
 void FleetApi::GetReport(const Request& request, Response& response) const {
   const auto last = FindDiagnosis(request.matches[1], response);
-  if (!last) return;
-  response.headers.erase("Content-Security-Policy");
-  response.set_header("Content-Security-Policy",
-                      "default-src 'none'; style-src 'unsafe-inline'; base-uri 'none'; "
-                      "form-action 'none'; frame-ancestors 'none'");
-  response.set_content(ReportPage(last->diagnosis), "text/html; charset=utf-8");
+  if (last) AnswerReport(last->diagnosis, response);
+}
+
+void FleetApi::GetDiagnoses(const Request& request, Response& response) const {
+  const std::string vehicle_id = request.matches[1];
+  if (!IsServed(vehicle_id, response)) return;
+  AnswerJson(ToProto(diagnoses_.History(vehicle_id)), request, response);
+}
+
+/// The one that the time in the route names; nothing after it has answered 404.
+std::optional<PublishedDiagnosis> FleetApi::FindKept(const Request& request,
+                                                     Response& response) const {
+  const std::string vehicle_id = request.matches[1];
+  if (!IsServed(vehicle_id, response)) return std::nullopt;
+  const std::string text = request.matches[2];
+  double published_unix_s = 0.0;
+  std::from_chars(text.data(), text.data() + text.size(), published_unix_s);
+  for (PublishedDiagnosis& diagnosis : diagnoses_.History(vehicle_id)) {
+    if (diagnosis.published_unix_s == published_unix_s) return std::move(diagnosis);
+  }
+  AnswerFailure(404, "there is no diagnosis '" + text.substr(0, 64) + "' of " + vehicle_id,
+                "publishedUnixS of GET /api/v1/vehicles/" + vehicle_id + "/diagnoses", response);
+  return std::nullopt;
+}
+
+void FleetApi::GetKeptDiagnosis(const Request& request, Response& response) const {
+  const auto diagnosis = FindKept(request, response);
+  if (diagnosis) AnswerJson(ToProto(*diagnosis), request, response);
+}
+
+void FleetApi::GetKeptReport(const Request& request, Response& response) const {
+  const auto diagnosis = FindKept(request, response);
+  if (diagnosis) AnswerReport(diagnosis->diagnosis, response);
 }
 
 void FleetApi::GetJobs(const Request& request, Response& response) const {

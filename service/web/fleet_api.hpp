@@ -10,6 +10,7 @@
 
 #include "telltale/client/bus/bus_log.hpp"
 #include "telltale/idl/codec/messages/exchange.hpp"
+#include "telltale/service/diagnosis/published_diagnoses.hpp"
 #include "telltale/service/ingest/fleet.hpp"
 #include "telltale/service/models/published_models.hpp"
 #include "telltale/service/monitoring/fleet_view.hpp"
@@ -34,8 +35,8 @@ struct OrderHandlers {
 /// token the API is read-only. Safe to use from several threads.
 class FleetApi {
  public:
-  FleetApi(const Fleet& fleet, const PublishedModels& models, FleetView& view,
-           OrderHandlers handlers, std::optional<std::string> token);
+  FleetApi(const Fleet& fleet, const PublishedModels& models, const PublishedDiagnoses& diagnoses,
+           FleetView& view, OrderHandlers handlers, std::optional<std::string> token);
 
   void AddRoutes(httplib::Server& server);
 
@@ -55,6 +56,9 @@ class FleetApi {
   void GetPredictedPaths(const Request& request, Response& response) const;
   void GetDiagnosis(const Request& request, Response& response) const;
   void GetReport(const Request& request, Response& response) const;
+  void GetDiagnoses(const Request& request, Response& response) const;
+  void GetKeptDiagnosis(const Request& request, Response& response) const;
+  void GetKeptReport(const Request& request, Response& response) const;
   void GetJobs(const Request& request, Response& response) const;
   void GetJob(const Request& request, Response& response) const;
   void PostOrder(JobView::Kind kind, const Request& request, Response& response);
@@ -65,12 +69,14 @@ class FleetApi {
   bool IsServed(const std::string& vehicle_id, Response& response) const;
   std::shared_ptr<const PublishedDiagnosis> FindDiagnosis(const std::string& vehicle_id,
                                                           Response& response) const;
+  std::optional<PublishedDiagnosis> FindKept(const Request& request, Response& response) const;
   std::optional<PublishedModel> FindModel(const std::string& vehicle_id, const std::string& text,
                                           Response& response) const;
   void Queue(JobView::Kind kind, const std::string& id, const std::string& vehicle_id);
 
   const Fleet& fleet_;
   const PublishedModels& models_;
+  const PublishedDiagnoses& diagnoses_;
   FleetView& view_;
   const OrderHandlers handlers_;
   const std::optional<std::string> token_;

@@ -98,11 +98,12 @@ class EventStream {
 }  // namespace
 
 WebServer::WebServer(const HttpSettings& settings, const Fleet& fleet,
-                     const PublishedModels& models, FleetView& view,
-                     std::function<DaemonActivity()> activity, OrderHandlers handlers)
+                     const PublishedModels& models, const PublishedDiagnoses& diagnoses,
+                     FleetView& view, std::function<DaemonActivity()> activity,
+                     OrderHandlers handlers)
     : view_(view),
       metrics_(view, std::move(activity), handlers.serves),
-      api_(fleet, models, view, std::move(handlers), ReadToken(settings.token_file)),
+      api_(fleet, models, diagnoses, view, std::move(handlers), ReadToken(settings.token_file)),
       server_(MakeServer(settings)) {
   Limit(settings.connections);
   AnswerFaults();

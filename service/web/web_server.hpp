@@ -17,7 +17,8 @@ namespace telltale {
 class WebServer {
  public:
   WebServer(const HttpSettings& settings, const Fleet& fleet, const PublishedModels& models,
-            FleetView& view, std::function<DaemonActivity()> activity, OrderHandlers handlers);
+            const PublishedDiagnoses& diagnoses, FleetView& view,
+            std::function<DaemonActivity()> activity, OrderHandlers handlers);
   WebServer(const WebServer&) = delete;
   WebServer& operator=(const WebServer&) = delete;
   ~WebServer();

@@ -82,7 +82,8 @@ class ApiTest(unittest.TestCase):
         self.assertEqual(faults(json.loads(text), content["application/json"]["schema"]), [], template)
 
     def test_every_route_answers_as_the_file_says(self):
-        filled = {"{revision}": "1"}
+        kept = self.daemon.get(f"/api/v1/vehicles/{BOAT}/diagnoses")["diagnoses"]
+        filled = {"{revision}": "1", "{published}": str(kept[0]["publishedUnixS"])}
         for template, operations in API["paths"].items():
             if "get" not in operations or template.endswith(("/events", "/metrics")):
                 continue
@@ -226,6 +227,24 @@ class ApiTest(unittest.TestCase):
         self.assertEqual(headers.get_all("Content-Security-Policy")[0].count("unsafe-inline"), 1)
         self.assertEqual(len(headers.get_all("Content-Security-Policy")), 1)
         self.assertIn(self.daemon.get(route)["sentence"], html.unescape(text))
+
+    def test_each_diagnosis_is_kept(self):
+        route = f"/api/v1/vehicles/{BOAT}/diagnoses"
+        _, headers, _ = self.daemon.order("diagnose")
+        until(lambda: self.daemon.get(headers["Location"])["state"] == "PUBLISHED", "another diagnosis")
+        last, first = self.daemon.get(route)["diagnoses"]
+        self.assertGreater(last["publishedUnixS"], first["publishedUnixS"])
+        newest = until(lambda: (told := self.daemon.get(f"/api/v1/vehicles/{BOAT}/diagnosis"))["publishedUnixS"]
+                       == last["publishedUnixS"] and told, "the newest is the last")
+        self.assertEqual(self.daemon.get(f"{route}/{last['publishedUnixS']}"), newest)
+        earlier = self.daemon.get(f"{route}/{first['publishedUnixS']}")
+        self.assertEqual({name: earlier[name] for name in ("publishedUnixS", "verdict", "sentence")},
+                         {name: first[name] for name in ("publishedUnixS", "verdict", "sentence")})
+        _, _, page = self.daemon.ask("GET", f"{route}/{first['publishedUnixS']}/report")
+        self.assertIn(first["sentence"], html.unescape(page))
+        for wrong in ("1", "x", "nan"):
+            self.assertIn("diagnoses", self.refused(f"{route}/{wrong}", 404, "/api/v1/vehicles/{id}/diagnoses/{published}"))
+        self.assertEqual(self.daemon.get("/api/v1/vehicles/boat-0000/diagnoses"), {"diagnoses": []})
 
     def test_paths_are_predicted(self):
         template = "/api/v1/vehicles/{id}/predicted-paths"

@@ -124,6 +124,21 @@ await walk({
     await page.getByText(`root mean square of ${paths.predicted.length} runs`).waitFor();
     await page.context().close();
   },
+  async "an earlier diagnosis is opened"() {
+    const page = await open(1280, "light", `#/boat/${boat}`);
+    await page.getByLabel("Token").fill(token);
+    await page.getByRole("button", { name: "Diagnose", exact: true }).click();
+    await page.getByText("Diagnosis: published").waitFor();
+    await count(page, ".kept tbody tr", 2);
+    const { diagnoses: [last, first] } = await answerOf(`/vehicles/${boat}/diagnoses`);
+    await page.locator(`a[href$="diagnoses/${last.publishedUnixS}/report"]`).waitFor();
+    await page.locator(".kept tbody tr").last().getByRole("button").click();
+    await page.locator(`a[href$="diagnoses/${first.publishedUnixS}/report"]`).waitFor();
+    await page.getByRole("heading", { name: "An earlier diagnosis" }).waitFor();
+    await page.locator(".kept tbody tr").first().getByRole("button").click();
+    await page.locator(`a[href$="diagnoses/${last.publishedUnixS}/report"]`).waitFor();
+    await page.context().close();
+  },
   async "axe finds nothing serious, and nothing is cut off at any width"() {
     for (const scheme of ["light", "dark"]) {
       for (const [view, hash] of [["fleet", "#/"], ["boat", `#/boat/${boat}`]]) {

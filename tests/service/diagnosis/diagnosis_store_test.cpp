@@ -48,6 +48,27 @@ TEST_P(DiagnosisStoreTest, GivesBackTheLastOfEachVehicleAsItWasSaved) {
   EXPECT_FALSE(DiagnosisStore(Storage()).Last("stranger"));
 }
 
+TEST_P(DiagnosisStoreTest, KeepsTheNewestOfAVehicleInTheirOrder) {
+  DiagnosisStore store(Storage());
+  const std::string& vehicle_id = diagnosis_.diagnosis.vehicle_id;
+  EXPECT_TRUE(store.History(vehicle_id).empty());
+  const std::size_t saved = kDiagnosesPerVehicle + 3;
+  for (std::size_t i = 1; i <= saved; ++i) {
+    diagnosis_.model_revision = i;
+    diagnosis_.published_unix_s = 1.0e9 + static_cast<double>(i);
+    store.Save(diagnosis_);
+    store.Save(diagnosis_);  // as a standby does that hears of it again
+  }
+  const auto history = DiagnosisStore(Storage()).History(vehicle_id);
+  ASSERT_EQ(history.size(), kDiagnosesPerVehicle);
+  for (std::size_t i = 0; i < history.size(); ++i) {
+    EXPECT_EQ(history[i].model_revision, saved - i);
+    EXPECT_EQ(history[i].published_unix_s, 1.0e9 + static_cast<double>(saved - i));
+  }
+  EXPECT_EQ(PrintReportJson(history.back().diagnosis), PrintReportJson(diagnosis_.diagnosis));
+  EXPECT_TRUE(store.History("stranger").empty());
+}
+
 TEST_P(DiagnosisStoreTest, SharesItsDatabaseWithTheModels) {
   ModelStore models(Storage());
   DiagnosisStore diagnoses(Storage());

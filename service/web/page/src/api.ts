@@ -57,6 +57,7 @@ export interface Quality {
     delays: { channel: string; estimateS: number; lowerS: number; upperS: number }[];
   };
   proposal: string;
+  diagnosis?: { publishedUnixS: number };
   lastRefusal?: { subject: string; reason: string; advice: string };
 }
 
@@ -134,6 +135,13 @@ export interface Report {
     parts: { effect: string; sentence: string }[];
   }[];
   advice: { manoeuvre: string; separates: string[]; durationS: number; how: string }[];
+}
+
+export interface KeptDiagnosis {
+  publishedUnixS: number;  // tells it from the others of its boat
+  modelRevision: number;
+  verdict: string;
+  sentence: string;
 }
 
 export interface History {

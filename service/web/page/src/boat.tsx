@@ -1,6 +1,6 @@
 import type { ComponentChildren } from "preact";
 import { useState } from "preact/hooks";
-import { order, rollback, save, type Coefficient, type History, type Info, type Job, type Model, type PredictedPaths, type Quality, type Report } from "./api";
+import { order, rollback, save, type Coefficient, type History, type Info, type Job, type KeptDiagnosis, type Model, type PredictedPaths, type Quality, type Report } from "./api";
 import { ErrorChart, Intervals } from "./charts";
 import { CompareModels } from "./compare";
 import { asSentence, clock, diagnosisVerdict, duration, number, percent, significant, unit, words } from "./format";
@@ -84,7 +84,7 @@ function Identifiability({ model }: { model?: Model }) {
     <>
       <h3>What the data do not determine</h3>
       <ul>{model.refusals.map(({ subject, reason, advice }) =>
-        <li key={subject}><strong>{subject}</strong>: {reason}. <span class="advice">{advice}</span></li>)}</ul>
+        <li key={subject}><strong>{subject}</strong>: {reason}. <span class="advice">{asSentence(advice)}</span></li>)}</ul>
     </>
   );
 }
@@ -185,14 +185,14 @@ function Where({ places }: { places: Report["where"] }) {
 
 const kKinds: { [kind: string]: string } = { BIAS: "an offset", SLOPE: "in proportion", TIMING: "timing", NOISE: "noise" };
 
-function Diagnosis({ vehicleId, report }: { vehicleId: string; report?: Report | null }) {
-  if (!report) {
-    return <Card title="Last diagnosis" wide><p class="empty">This boat has not been diagnosed.</p></Card>;
-  }
+/** A diagnosis in full. */
+function Diagnosis({ route }: { route: string }) {
+  const { answer: report, fault } = useAnswer<Report>(route, null);
+  if (!report) return <p class="empty">{fault || (report === null ? "It is no longer kept." : "Loading.")}</p>;
   const gap = report.gap;
   const likely = report.causes.filter((cause) => cause.probability >= 0.005);
   return (
-    <Card title="Last diagnosis" wide>
+    <>
       <p class="lead">{!report.sentence.startsWith(diagnosisVerdict(report.verdict)) &&
         <strong>{diagnosisVerdict(report.verdict)}. </strong>}{report.sentence}</p>
       <p class="muted">Of {clock(report.publishedUnixS)}, against revision {report.modelRevision}.
@@ -210,8 +210,55 @@ function Diagnosis({ vehicleId, report }: { vehicleId: string; report?: Report |
             : report.verdict === "EXPLAINED"
               ? "No manoeuvre would separate the causes better. Inspect the named part, then refresh the model."
               : "Record more varied driving, in both directions and at several speeds, and diagnose again."}</p>}
-      <p><a href={`api/v1/vehicles/${encodeURIComponent(vehicleId)}/diagnosis/report`}>The report with its charts</a></p>
+      <p><a href={`api/v1${route}/report`}>The report with its charts</a></p>
+    </>
+  );
+}
+
+/** The last diagnosis, and those before it to open in its place. `when` changes with each new one. */
+function Diagnoses({ vehicleId, when }: { vehicleId: string; when: unknown }) {
+  const route = `/vehicles/${encodeURIComponent(vehicleId)}/diagnoses`;
+  const { answer: list } = useAnswer<{ diagnoses: KeptDiagnosis[] }>(route, when);
+  const [chosen, choose] = useState<number | null>(null);  // null: the last
+  const kept = list?.diagnoses ?? [];
+  const shown = chosen ?? kept[0]?.publishedUnixS;
+  return (
+    <Card title={chosen === null ? "Last diagnosis" : "An earlier diagnosis"} wide>
+      {shown === undefined
+        ? <p class="empty">{list && "This boat has not been diagnosed."}</p>
+        : <Diagnosis key={shown} route={`${route}/${shown}`} />}
+      {kept.length > 1 && <KeptDiagnoses kept={kept} shown={shown}
+        choose={(published) => choose(published === kept[0]?.publishedUnixS ? null : published)} />}
     </Card>
+  );
+}
+
+function KeptDiagnoses({ kept, shown, choose }: {
+  kept: KeptDiagnosis[];
+  shown?: number;
+  choose: (publishedUnixS: number) => void;
+}) {
+  return (
+    <>
+      <h3>All diagnoses, newest first</h3>
+      <div class="scroll">
+        <table class="kept">
+          <thead><tr><th scope="col">of</th><th scope="col" class="number">revision</th><th scope="col">diagnosis</th>
+            <th scope="col"><span class="unseen">open</span></th></tr></thead>
+          <tbody>
+            {kept.map(({ publishedUnixS, modelRevision, verdict, sentence }) => (
+              <tr key={publishedUnixS} aria-current={publishedUnixS === shown}>
+                <th scope="row">{clock(publishedUnixS)}</th>
+                <td class="number">{modelRevision}</td>
+                <td>{!sentence.startsWith(diagnosisVerdict(verdict)) && <strong>{diagnosisVerdict(verdict)}. </strong>}{sentence}</td>
+                <td><button type="button" disabled={publishedUnixS === shown} onClick={() => choose(publishedUnixS)}
+                  aria-label={`Open the diagnosis of ${clock(publishedUnixS)}`}>Open</button></td>
+              </tr>
+            ))}
+          </tbody>
+        </table>
+      </div>
+    </>
   );
 }
 
@@ -341,7 +388,6 @@ export function BoatView({ vehicleId, round, info, jobs, track }: {
   const revision = quality?.model?.revision;
   const { answer: list } = useAnswer<{ models: Model[] }>(`${route}/models?limit=20`, revision);
   const { answer: paths } = useAnswer<PredictedPaths>(`${route}/predicted-paths`, `${Math.floor(round / 5)} ${revision}`);
-  const { answer: report } = useAnswer<Report>(`${route}/diagnosis`, `${finished} ${revision}`);
   const models = list?.models ?? [];
   const [token, setToken] = useState(sessionStorage.getItem("token") ?? "");  // it stays in this tab
 
@@ -377,7 +423,7 @@ export function BoatView({ vehicleId, round, info, jobs, track }: {
           {paths === null && <p class="empty">No prediction yet: it needs a model and a minute of telemetry without a gap.</p>}
         </Card>
         <Coefficients models={models} />
-        <Diagnosis vehicleId={vehicleId} report={report} />
+        <Diagnoses vehicleId={vehicleId} when={`${finished} ${quality.diagnosis?.publishedUnixS}`} />
         <Models vehicleId={vehicleId} models={models} takesOrders={info !== null && !info.readOnly} token={token} />
       </div>
     </main>
