@@ -60,6 +60,8 @@ HttpSettings ReadHttp(FieldReader reader) {
   settings.port = reader.Count("port", {0.0, 65535.0}, settings.port);
   settings.token_file = reader.Text("token_file", settings.token_file);
   settings.connections = reader.Count("connections", {8.0, 1024.0}, settings.connections);
+  settings.requests_per_minute =
+      reader.Count("requests_per_minute", {60.0, 1e6}, settings.requests_per_minute);
   settings.tls_chain_file = reader.Text("tls_chain_file", settings.tls_chain_file);
   settings.tls_key_file = reader.Text("tls_key_file", settings.tls_key_file);
   if (settings.address.empty()) reader.Fail("address", "\"\"", "an IP address");

@@ -31,10 +31,11 @@ struct IdentificationSettings {
 /// The web server of the daemon. Paths are as written; who opens them resolves them.
 struct HttpSettings {
   std::string address = "127.0.0.1";
-  std::uint32_t port = 8480;        ///< [0, 65535]; 0: any that is free
-  std::string token_file;           ///< empty: nothing can be changed over HTTP
-  std::uint32_t connections = 128;  ///< [8, 1024]
-  std::string tls_chain_file;       ///< both or neither
+  std::uint32_t port = 8480;                 ///< [0, 65535]; 0: any that is free
+  std::string token_file;                    ///< empty: nothing can be changed over HTTP
+  std::uint32_t connections = 128;           ///< [8, 1024]
+  std::uint32_t requests_per_minute = 6000;  ///< [60, 1000000] of one client
+  std::string tls_chain_file;                ///< both or neither
   std::string tls_key_file;
 };
 

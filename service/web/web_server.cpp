@@ -102,10 +102,12 @@ WebServer::WebServer(const HttpSettings& settings, const Fleet& fleet,
                      FleetView& view, std::function<DaemonActivity()> activity,
                      OrderHandlers handlers)
     : view_(view),
+      rates_(settings.requests_per_minute),
       metrics_(view, std::move(activity), handlers.serves),
       api_(fleet, models, diagnoses, view, std::move(handlers), ReadToken(settings.token_file)),
       server_(MakeServer(settings)) {
   Limit(settings.connections);
+  LimitRate();
   AnswerFaults();
   AddPage();
   AddMetrics();
@@ -135,6 +137,22 @@ void WebServer::Limit(std::size_t connections) {
        {"Content-Security-Policy",
         "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' data:; "
         "connect-src 'self'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'"}});
+}
+
+/// Orders have a limit of their own.
+void WebServer::LimitRate() {
+  server_->set_pre_routing_handler(
+      [this](const httplib::Request& request, httplib::Response& response) {
+        using enum httplib::Server::HandlerResponse;
+        if (request.method != "GET") return Unhandled;
+        const auto wait = rates_.Wait(request.remote_addr, RequestRates::Clock::now());
+        if (!wait) return Unhandled;
+        response.set_header("Retry-After", std::to_string(wait->count()));
+        AnswerFailure(429, "too many requests of " + request.remote_addr,
+                      std::to_string(rates_.most()) + " a minute; see http.requests_per_minute",
+                      response);
+        return Handled;
+      });
 }
 
 /// Every fault is JSON, also those that no route has answered.

@@ -9,6 +9,7 @@
 #include "telltale/service/web/fleet_api.hpp"
 #include "telltale/service/web/fleet_metrics.hpp"
 #include "telltale/service/web/httplib.hpp"
+#include "telltale/service/web/request_rates.hpp"
 
 namespace telltale {
 
@@ -25,6 +26,7 @@ class WebServer {
 
  private:
   void Limit(std::size_t connections);
+  void LimitRate();
   void AddPage();
   void AddMetrics();
   void AddEvents(std::size_t streams);
@@ -32,6 +34,7 @@ class WebServer {
   void AnswerFaults();
 
   FleetView& view_;
+  RequestRates rates_;
   FleetMetrics metrics_;
   FleetApi api_;
   std::unique_ptr<httplib::Server> server_;

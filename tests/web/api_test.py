@@ -348,6 +348,18 @@ class ApiTest(unittest.TestCase):
         self.assertEqual(self.daemon.get("/api/v1")["vehicles"], 31)
 
 
+class RateTest(unittest.TestCase):
+    def test_a_client_that_asks_too_often_is_told_when_to_come_back(self):
+        with Daemon(http="requests_per_minute: 60") as daemon:
+            def refused():
+                status, headers, text = daemon.ask("GET", "/api/v1")
+                return status == 429 and (headers, json.loads(text))
+            headers, failure = until(refused, "more than 60 requests in a minute")
+            self.assertTrue(1 <= int(headers["Retry-After"]) <= 60)
+            self.assertEqual(failure["allowed"], "60 a minute; see http.requests_per_minute")
+            self.assertEqual(daemon.order("refresh", "nobody")[0], 404)  # orders count by themselves
+
+
 class ReadOnlyTest(unittest.TestCase):
     def test_without_a_token_nothing_can_be_changed(self):
         with Daemon(token=False) as daemon:
