@@ -348,6 +348,25 @@ class ApiTest(unittest.TestCase):
         self.assertEqual(self.daemon.get("/api/v1")["vehicles"], 31)
 
 
+class ModelQualityTest(unittest.TestCase):
+    def test_the_quality_tells_what_the_model_tells(self):
+        with Daemon() as daemon:
+            daemon.replay()
+            daemon.telltale("identify", "--vehicle-id", BOAT, "--structure", "fossen")
+            route = f"/api/v1/vehicles/{BOAT}"
+            told = until(lambda: daemon.get(route).get("model"), "a quality with the model")
+            model = daemon.get(f"{route}/models/1")
+            self.assertEqual(told["verdict"], model["provenance"]["verdict"])
+            for channel, delay in (("gnss", model["delays"]["fixes"]), ("thrusters", model["delays"]["commands"])):
+                published = {"channel": channel, "estimateS": delay["estimate"],
+                             "lowerS": delay["interval"]["lower"], "upperS": delay["interval"]["upper"]}
+                self.assertIn(published, told["delays"])
+            self.assertIn(f'telltale_vehicle_delay_seconds{{vehicle_id="{BOAT}",channel="gnss"}}',
+                          daemon.ask("GET", "/metrics")[2])
+            self.assertIn(f'telltale_vehicle_model_verdict{{vehicle_id="{BOAT}",verdict="{told["verdict"]}"}} 1',
+                          daemon.ask("GET", "/metrics")[2])
+
+
 class RateTest(unittest.TestCase):
     def test_a_client_that_asks_too_often_is_told_when_to_come_back(self):
         with Daemon(http="requests_per_minute: 60") as daemon:
