@@ -63,6 +63,18 @@ std::string Bind(httplib::Server& server, const HttpSettings& settings) {
          ":" + std::to_string(port) + "/";
 }
 
+/// Lets the client have gzip where it takes that, and else plain text. The library would compress
+/// by the slowest quality of Brotli, which takes seconds of a processor for the list of a large
+/// fleet.
+void RuleOutBrotli(const httplib::Request& request) {
+  // The library has no setting for it, and a request of its own that is not const.
+  httplib::Headers& headers = const_cast<httplib::Request&>(request).headers;
+  const bool takes_gzip =
+      request.get_header_value("Accept-Encoding").find("gzip") != std::string::npos;
+  headers.erase("Accept-Encoding");
+  if (takes_gzip) headers.emplace("Accept-Encoding", "gzip");
+}
+
 /// The state of now, then each event; a comment in between keeps the connection.
 class EventStream {
  public:
@@ -107,7 +119,7 @@ WebServer::WebServer(const HttpSettings& settings, const Fleet& fleet,
       api_(fleet, models, diagnoses, view, std::move(handlers), ReadToken(settings.token_file)),
       server_(MakeServer(settings)) {
   Limit(settings.connections);
-  LimitRate();
+  PrepareRequests();
   AnswerFaults();
   AddPage();
   AddMetrics();
@@ -139,11 +151,12 @@ void WebServer::Limit(std::size_t connections) {
         "connect-src 'self'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'"}});
 }
 
-/// Orders have a limit of their own.
-void WebServer::LimitRate() {
+/// The limit is of what is asked; orders have one of their own.
+void WebServer::PrepareRequests() {
   server_->set_pre_routing_handler(
       [this](const httplib::Request& request, httplib::Response& response) {
         using enum httplib::Server::HandlerResponse;
+        RuleOutBrotli(request);
         if (request.method != "GET") return Unhandled;
         const auto wait = rates_.Wait(request.remote_addr, RequestRates::Clock::now());
         if (!wait) return Unhandled;

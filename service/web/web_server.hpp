@@ -26,7 +26,7 @@ class WebServer {
 
  private:
   void Limit(std::size_t connections);
-  void LimitRate();
+  void PrepareRequests();
   void AddPage();
   void AddMetrics();
   void AddEvents(std::size_t streams);

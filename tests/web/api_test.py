@@ -1,5 +1,6 @@
 """The HTTP API of a real daemon against docs/reference/openapi.json, and against bad clients."""
 import concurrent.futures
+import gzip
 import html
 import http.client
 import json
@@ -121,6 +122,17 @@ class ApiTest(unittest.TestCase):
         self.assertEqual((status, again, text), (200, 304, ""))
         other, _, _ = self.daemon.ask("GET", route, headers={"If-None-Match": '"another"'})
         self.assertEqual(other, 200)
+
+    def test_answers_are_compressed_by_gzip_alone(self):
+        # Brotli would take longer than the answer is worth.
+        for takes, gets in (("gzip, deflate, br, zstd", "gzip"), ("br", None), ("identity", None)):
+            client = http.client.HTTPConnection("127.0.0.1", self.daemon.port, timeout=60)
+            client.request("GET", "/api/v1/vehicles", headers={"Accept-Encoding": takes})
+            answer = client.getresponse()
+            text = answer.read()
+            self.assertEqual(answer.headers["Content-Encoding"], gets, takes)
+            self.assertEqual(json.loads(gzip.decompress(text) if gets else text)["total"], 31)
+            client.close()
 
     def test_pages_hold_every_boat_once(self):
         seen, after = [], ""
