@@ -156,7 +156,7 @@ function Cause({ cause }: { cause: Report["causes"][number] }) {
       {!faint && cause.parts.map((part) => <p key={part.effect}>{part.sentence}</p>)}
       {!faint && cause.parameters.length > 0 && (
         <p class="muted">{cause.parameters.map((parameter) =>
-          `${words(parameter.name)} ${significant(parameter.estimate)} ± ${significant(number(parameter.standardError), 2)} ${unit(parameter.unit)}`).join("; ")}</p>
+          `${words(parameter.name)} ${significant(parameter.estimate)} ± ${significant(number(parameter.standardError), 2)} ${unit(parameter.unit)}`.trim()).join("; ")}</p>
       )}
       {cause.indistinguishable.length > 0 && (
         <p class="muted">These data cannot separate it from {cause.indistinguishable.map(words).join(", ")}.</p>
@@ -250,7 +250,7 @@ function KeptDiagnoses({ kept, shown, choose }: {
               <tr key={publishedUnixS} aria-current={publishedUnixS === shown}>
                 <th scope="row">{clock(publishedUnixS)}</th>
                 <td class="number">{modelRevision}</td>
-                <td>{!sentence.startsWith(diagnosisVerdict(verdict)) && <strong>{diagnosisVerdict(verdict)}. </strong>}{sentence}</td>
+                <td class="sentence">{!sentence.startsWith(diagnosisVerdict(verdict)) && <strong>{diagnosisVerdict(verdict)}. </strong>}{sentence}</td>
                 <td><button type="button" disabled={publishedUnixS === shown} onClick={() => choose(publishedUnixS)}
                   aria-label={`Open the diagnosis of ${clock(publishedUnixS)}`}>Open</button></td>
               </tr>
