@@ -135,7 +135,7 @@ TEST_F(FleetCommands, GoOnWithARefreshWhoseClientIsInterrupted) {
   ASSERT_TRUE(client->WaitForOutput("silent-1: REFUSED"));
   client->Signal(SIGINT);
   EXPECT_EQ(client->Wait(), 130);
-  const std::string& said = client->output();
+  const std::string said = client->output();
   EXPECT_THAT(said, HasSubstr("the refresh goes on"));
   const auto named = said.find("--cancel ") + 9;
   const std::string id = said.substr(named, said.find(' ', named) - named);

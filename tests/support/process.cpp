@@ -4,11 +4,13 @@
 #include <poll.h>
 #include <signal.h>
 #include <spawn.h>
+#include <sys/eventfd.h>
 #include <sys/syscall.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <array>
+#include <cerrno>
 #include <system_error>
 
 namespace telltale {
@@ -47,36 +49,60 @@ Process::Process(const std::vector<std::string>& command) {
   close(ends[1]);
   pipe_ = ends[0];
   if (error != 0) throw std::system_error(error, std::generic_category(), command.front());
+  leave_ = eventfd(0, EFD_CLOEXEC);
+  gathering_ = std::thread([this] { Gather(); });
 }
 
 Process::~Process() {
+  if (!reaped_) {
+    kill(pid_, SIGKILL);
+    waitpid(pid_, nullptr, 0);
+  }
+  eventfd_write(leave_, 1);
+  gathering_.join();
+  close(leave_);
   close(pipe_);
-  if (reaped_) return;
-  kill(pid_, SIGKILL);
-  waitpid(pid_, nullptr, 0);
 }
 
-bool Process::ReadUntil(Clock::time_point deadline) {
-  pollfd readable{pipe_, POLLIN, 0};
-  if (poll(&readable, 1, MillisecondsUntil(deadline)) != 1) return false;
+void Process::Gather() {
+  while (TakeIn()) {
+  }
+  const std::lock_guard lock(mutex_);
+  ended_ = true;
+  came_.notify_all();
+}
+
+bool Process::TakeIn() {
+  constexpr int kForEver = -1;
+  std::array<pollfd, 2> readable{{{pipe_, POLLIN, 0}, {leave_, POLLIN, 0}}};
+  if (poll(readable.data(), readable.size(), kForEver) < 0) return errno == EINTR;
+  if (readable[1].revents != 0) return false;
   std::array<char, 4096> buffer;
   const auto count = read(pipe_, buffer.data(), buffer.size());
   if (count <= 0) return false;
+  const std::lock_guard lock(mutex_);
   output_.append(buffer.data(), static_cast<std::size_t>(count));
+  came_.notify_all();
   return true;
 }
 
+std::string Process::output() const {
+  const std::lock_guard lock(mutex_);
+  return output_;
+}
+
 bool Process::WaitForOutput(std::string_view text, std::chrono::seconds timeout) {
-  const auto deadline = Clock::now() + timeout;
-  while (output_.find(text) == std::string::npos) {
-    if (!ReadUntil(deadline)) return false;
-  }
-  return true;
+  const auto has_come = [&] { return output_.find(text) != std::string::npos; };
+  std::unique_lock lock(mutex_);
+  came_.wait_for(lock, timeout, [&] { return ended_ || has_come(); });
+  return has_come();
 }
 
 std::optional<int> Process::Wait(std::chrono::seconds timeout) {
   const auto deadline = Clock::now() + timeout;
-  while (ReadUntil(deadline)) {
+  {
+    std::unique_lock lock(mutex_);
+    came_.wait_until(lock, deadline, [this] { return ended_; });
   }
   if (!Ends(pid_, deadline)) return std::nullopt;
   int status = 0;

@@ -3,15 +3,19 @@
 #include <sys/types.h>
 
 #include <chrono>
+#include <condition_variable>
 #include <filesystem>
+#include <mutex>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <thread>
 #include <vector>
 
 namespace telltale {
 
-/// A program run by a test: its output is gathered, and it does not outlive the test.
+/// A program run by a test: its output is gathered, and it does not outlive the test. A thread
+/// reads the output as it comes, since a program stops at its next line where a pipe is full.
 class Process {
  public:
   explicit Process(const std::vector<std::string>& command);
@@ -19,7 +23,7 @@ class Process {
   Process& operator=(const Process&) = delete;
   ~Process();
 
-  /// Reads on until standard output and error together contain `text`; false when the program ended
+  /// Waits until standard output and error together contain `text`; false when the program ended
   /// or `timeout` passed without.
   bool WaitForOutput(std::string_view text,
                      std::chrono::seconds timeout = std::chrono::seconds(60));
@@ -34,16 +38,22 @@ class Process {
   void Resume() const;
 
   /// All it has written to standard output and error so far.
-  const std::string& output() const { return output_; }
+  std::string output() const;
 
  private:
-  /// Takes in what there is; false once the program has closed its output or the deadline passed.
-  bool ReadUntil(std::chrono::steady_clock::time_point deadline);
+  void Gather();
+  bool TakeIn();  ///< waits for what there is; false at the end
 
   pid_t pid_ = -1;
   int pipe_ = -1;
+  int leave_ = -1;  ///< can be read once nobody wants more output; others may hold the pipe open
   bool reaped_ = false;
+
+  mutable std::mutex mutex_;  // of what follows
+  std::condition_variable came_;
   std::string output_;
+  bool ended_ = false;  ///< all output is there
+  std::thread gathering_;
 };
 
 }  // namespace telltale

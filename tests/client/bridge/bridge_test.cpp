@@ -51,7 +51,7 @@ class BridgeTest : public testing::Test {
     boats.Signal(SIGUSR2);
     EXPECT_TRUE(receiver_.ReceiveUntil([&] { return boats.WaitForOutput("]}]", 0s); }))
         << boats.output();
-    const std::string& output = boats.output();
+    const std::string output = boats.output();
     const auto sent =
         nlohmann::json::parse(output.substr(std::min(output.size(), output.find("[{"))));
     receiver_.ReceiveUntil([&] {
