@@ -87,9 +87,12 @@ Daemon::Daemon(const DaemonConfig& config, Endings endings)
                config.quality_period_s),
       fail_over_(MakeFailOver()),
       ingest_(participant_, fleet_, config.require_partition,
-              {.identify = [this](IdentifyRequest request) { Take(std::move(request)); },
-               .diagnose = [this](DiagnoseRequest request) { Take(std::move(request)); },
-               .fleet = [this](FleetRequest request) { Take(std::move(request)); },
+              {.identify = [this](IdentifyRequest request,
+                                  WriterHandle client) { Take(std::move(request), client); },
+               .diagnose = [this](DiagnoseRequest request,
+                                  WriterHandle client) { Take(std::move(request), client); },
+               .fleet = [this](FleetRequest request,
+                               WriterHandle client) { Take(std::move(request), client); },
                .answer_identify = [this](const IdentifyReply& reply) { replies_.Send(reply); },
                .answer_diagnose = [this](const DiagnoseReply& reply) { replies_.Send(reply); },
                .answer_fleet = [this](const FleetReply& reply) { replies_.Send(reply); },
@@ -214,16 +217,16 @@ void Daemon::Heartbeat(bool has_received) {
 }
 
 /// A request from the bus.
-void Daemon::Take(AnyRequest request) {
-  if (!heard_.Note(request, HeardRequests::Clock::now())) Submit(std::move(request));
+void Daemon::Take(AnyRequest request, WriterHandle client) {
+  if (!heard_.Note(request, HeardRequests::Clock::now())) Submit(std::move(request), client);
 }
 
-void Daemon::Submit(AnyRequest request) {
+void Daemon::Submit(AnyRequest request, WriterHandle client) {
   if (IsForAnother(request)) return;
   if (auto* identify = std::get_if<IdentifyRequest>(&request)) {
-    jobs_.Submit(std::move(*identify));
+    jobs_.Submit(std::move(*identify), client);
   } else if (auto* diagnose = std::get_if<DiagnoseRequest>(&request)) {
-    diagnosis_jobs_.Submit(std::move(*diagnose));
+    diagnosis_jobs_.Submit(std::move(*diagnose), client);
   } else {
     fleet_jobs_.Submit(std::get<FleetRequest>(std::move(request)));
   }

@@ -62,8 +62,8 @@ class Daemon {
   void Serve(const std::vector<Vehicle>& vehicles);
   void KeepSlices();
   void ServeHeldSlices();
-  void Take(AnyRequest request);
-  void Submit(AnyRequest request);
+  void Take(AnyRequest request, WriterHandle client);
+  void Submit(AnyRequest request, WriterHandle client = kNoClient);
   bool IsForAnother(const AnyRequest& request) const;
   void ResumeUnanswered(bool succeeds);
   void Resume(std::vector<AnyRequest> requests, const char* whose);

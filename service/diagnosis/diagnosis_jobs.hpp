@@ -26,7 +26,9 @@ class DiagnosisJobs {
                 RequestJournal& journal);
 
   /// Queues a request and returns at once. The answer goes out by ReplyPublisher.
-  void Submit(DiagnoseRequest request) { jobs_.Submit(std::move(request)); }
+  void Submit(DiagnoseRequest request, WriterHandle client) {
+    jobs_.Submit(std::move(request), Urgency::kInteractive, {}, client);
+  }
 
   /// False where no such request waits or runs.
   bool Cancel(const std::string& correlation_id) { return jobs_.Cancel(correlation_id); }

@@ -38,9 +38,10 @@ IdentificationJobs::IdentificationJobs(const Fleet& fleet, PublishedModels& mode
           },
           &journal) {}
 
-void IdentificationJobs::Submit(IdentifyRequest request) {
+void IdentificationJobs::Submit(IdentifyRequest request, WriterHandle client) {
   const bool takes_minutes = request.coverage_check_replicates > 0;
-  jobs_.Submit(std::move(request), takes_minutes ? Urgency::kBackground : Urgency::kInteractive);
+  jobs_.Submit(std::move(request), takes_minutes ? Urgency::kBackground : Urgency::kInteractive, {},
+               client);
 }
 
 IdentifyReply IdentificationJobs::IdentifyAndPublish(const IdentifyRequest& request,

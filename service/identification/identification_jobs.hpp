@@ -25,7 +25,7 @@ class IdentificationJobs {
 
   /// Queues a request and returns at once. The answer goes out by ReplyPublisher.
   /// A coverage check runs in the background.
-  void Submit(IdentifyRequest request);
+  void Submit(IdentifyRequest request, WriterHandle client);
 
   /// The same as a part of a refresh. `answer` gets the reply, on another thread.
   void Refresh(IdentifyRequest request, std::function<void(const IdentifyReply&)> answer) {

@@ -68,20 +68,20 @@ Ingest::Ingest(const Participant& participant, Fleet& fleet, bool require_partit
           kLongestSilence),
       requests_(
           participant, wait_set_,
-          [this](const auto& wire) {
-            Submit<IdentifyReply>(wire, handlers_.identify, handlers_.answer_identify);
+          [this](const auto& wire, auto client) {
+            Submit<IdentifyReply>(wire, client, handlers_.identify, handlers_.answer_identify);
           },
           kLongestSilence),
       diagnose_requests_(
           participant, wait_set_,
-          [this](const auto& wire) {
-            Submit<DiagnoseReply>(wire, handlers_.diagnose, handlers_.answer_diagnose);
+          [this](const auto& wire, auto client) {
+            Submit<DiagnoseReply>(wire, client, handlers_.diagnose, handlers_.answer_diagnose);
           },
           kLongestSilence),
       fleet_requests_(
           participant, wait_set_,
-          [this](const auto& wire) {
-            Submit<FleetReply>(wire, handlers_.fleet, handlers_.answer_fleet);
+          [this](const auto& wire, auto client) {
+            Submit<FleetReply>(wire, client, handlers_.fleet, handlers_.answer_fleet);
           },
           kLongestSilence),
       thread_([this] { Run(); }) {}
@@ -187,9 +187,10 @@ void Ingest::RejectUnattributed(Channel channel, UnattributedReason reason,
 }
 
 template <class Reply, class Wire, class Handler, class Answer>
-void Ingest::Submit(const Wire& wire, const Handler& handler, const Answer& answer) {
+void Ingest::Submit(const Wire& wire, WriterHandle client, const Handler& handler,
+                    const Answer& answer) {
   auto request = Decode(wire);
-  if (request) return handler(std::move(*request));
+  if (request) return handler(std::move(*request), client);
   if (auto reply = ReplyToUnreadable<Reply>(wire, request.error())) answer(std::move(*reply));
   if (const auto not_shown = warning_limit_.Admit(Clock::now())) {
     spdlog::warn("request rejected: {} ({} more not shown)", request.error().Message(), *not_shown);

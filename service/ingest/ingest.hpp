@@ -33,9 +33,9 @@ inline constexpr std::size_t kSamplesPerReceipt = 32;
 class Ingest {
  public:
   struct Handlers {
-    std::function<void(IdentifyRequest)> identify;  ///< must return at once
-    std::function<void(DiagnoseRequest)> diagnose;  ///< likewise
-    std::function<void(FleetRequest)> fleet;        ///< likewise
+    std::function<void(IdentifyRequest, WriterHandle client)> identify;  ///< must return at once
+    std::function<void(DiagnoseRequest, WriterHandle client)> diagnose;  ///< likewise
+    std::function<void(FleetRequest, WriterHandle client)> fleet;        ///< likewise
     /// Sends the answer to a request that cannot be read.
     std::function<void(const IdentifyReply&)> answer_identify;
     std::function<void(const DiagnoseReply&)> answer_diagnose;
@@ -71,7 +71,7 @@ class Ingest {
   void CountReceived(VehicleWindow& window);
   void RejectUnattributed(Channel channel, UnattributedReason reason, std::string_view detail);
   template <class Reply, class Wire, class Handler, class Answer>
-  void Submit(const Wire& wire, const Handler& handler, const Answer& answer);
+  void Submit(const Wire& wire, WriterHandle client, const Handler& handler, const Answer& answer);
 
   Fleet& fleet_;
   Handlers handlers_;

@@ -11,9 +11,13 @@
 #include <utility>
 #include <vector>
 
+#include "telltale/client/bus/endpoint.hpp"
 #include "telltale/service/jobs/urgency.hpp"
 
 namespace telltale {
+
+/// The client of what this daemon asks itself.
+inline constexpr WriterHandle kNoClient = 0;
 
 /// Somebody who waits for the reply to a job.
 template <class Reply>
@@ -23,6 +27,7 @@ struct Asker {
   std::string correlation_id;
   std::optional<Clock::time_point> deadline;  ///< nobody waits after it
   std::function<void(const Reply&)> answer;   ///< unset: the reply goes out on the bus
+  WriterHandle client = kNoClient;            ///< whose writer the request came from
   /// Becomes true once the request is on disk. Unset: it is not kept there.
   std::shared_ptr<std::atomic<bool>> kept;
 

@@ -44,8 +44,9 @@ namespace telltale {
 ///   on for less than 5 s, joins it, and both get its reply.
 /// - A request that was cancelled, or whose deadline has passed, is dropped unless others have
 ///   joined it. Work under way ends at its next report of progress.
-/// - A full queue answers at once, and says when to ask again. So does a queue whose journal cannot
-///   be reached, also where that shows in the midst of the work.
+/// - A full queue answers at once, and says when to ask again. So it answers a client that has a
+///   quarter of the queue's limit of requests without an answer. So does a queue whose journal
+///   cannot be reached, also where that shows in the midst of the work.
 /// - With a journal, a request is on disk before its client hears of it, but for a reply, and until
 ///   it is answered.
 /// Every fault of a request ends in its reply. Thread safe.
@@ -69,7 +70,8 @@ class JobQueue {
 
   /// Queues the request, or answers it, and returns at once. Answers go out by ReplyPublisher, or
   /// to `answer`, which runs on a worker or on the calling thread.
-  void Submit(Request request, Urgency urgency = Urgency::kInteractive, Answer answer = {});
+  void Submit(Request request, Urgency urgency = Urgency::kInteractive, Answer answer = {},
+              WriterHandle client = kNoClient);
 
   /// Answers the unfinished request with this correlation id as failed. False where there is none.
   bool Cancel(const std::string& correlation_id);
@@ -108,6 +110,9 @@ class JobQueue {
   static std::optional<Clock::time_point> DeadlineOf(const Request& request);
   bool Prolong(const Request& request);
   std::optional<Reply> RejectionOf(const Request& request, Urgency urgency);
+  std::optional<Reply> RejectionByShare(const Request& request, Urgency urgency,
+                                        WriterHandle client);
+  std::size_t UnansweredOf(WriterHandle client) const;
   double RetryAfterS(Urgency urgency) const;
   std::size_t Waiting() const;
   std::shared_ptr<Job> JobLike(const Request& request) const;
@@ -183,7 +188,8 @@ JobQueue<Request, Stage, Reply>::~JobQueue() {
 }
 
 template <class Request, class Stage, class Reply>
-void JobQueue<Request, Stage, Reply>::Submit(Request request, Urgency urgency, Answer answer) {
+void JobQueue<Request, Stage, Reply>::Submit(Request request, Urgency urgency, Answer answer,
+                                             WriterHandle client) {
   std::unique_lock lock(mutex_);
   if (const auto known = history_.Find(request.correlation_id)) {
     const bool may_hear = Prolong(request);
@@ -191,14 +197,14 @@ void JobQueue<Request, Stage, Reply>::Submit(Request request, Urgency urgency, A
     if (!may_hear) return;
     return std::visit([this](const auto& message) { replies_.Send(message); }, *known);
   }
-  Asker asker{request.correlation_id, DeadlineOf(request), std::move(answer), {}};
+  Asker asker{request.correlation_id, DeadlineOf(request), std::move(answer), client, {}};
   const auto same = JobLike(request);
-  if (!same) {
-    if (const auto rejection = RejectionOf(request, urgency)) {
-      lock.unlock();
-      Log(request, *rejection, 1);
-      return Send({{std::move(asker), *rejection}});
-    }
+  auto rejection = RejectionByShare(request, urgency, client);
+  if (!rejection && !same) rejection = RejectionOf(request, urgency);
+  if (rejection) {
+    lock.unlock();
+    Log(request, *rejection, 1);
+    return Send({{std::move(asker), *rejection}});
   }
   const bool on_the_bus = !asker.answer;
   const Stage stage{{request.correlation_id, request.vehicle_id, "queued", 0.0}};
@@ -295,6 +301,29 @@ std::optional<Reply> JobQueue<Request, Stage, Reply>::RejectionOf(const Request&
   return Busy(request,
               std::to_string(queue_limit_) + " requests for " + what_ + " are waiting already",
               RetryAfterS(urgency));
+}
+
+/// One client may not keep the others out.
+template <class Request, class Stage, class Reply>
+std::optional<Reply> JobQueue<Request, Stage, Reply>::RejectionByShare(const Request& request,
+                                                                       Urgency urgency,
+                                                                       WriterHandle client) {
+  const std::size_t share = std::max<std::size_t>(1, queue_limit_ / 4);
+  if (client == kNoClient || UnansweredOf(client) < share) return std::nullopt;
+  ++shed_;
+  return Busy(
+      request,
+      std::to_string(share) + " requests of this client for " + what_ + " have no answer yet",
+      RetryAfterS(urgency));
+}
+
+template <class Request, class Stage, class Reply>
+std::size_t JobQueue<Request, Stage, Reply>::UnansweredOf(WriterHandle client) const {
+  std::ptrdiff_t unanswered = 0;
+  for (const auto& job : jobs_) {
+    unanswered += std::ranges::count(job->askers, client, &Asker::client);
+  }
+  return static_cast<std::size_t>(unanswered);
 }
 
 /// Until about half of what waits has been worked on.

@@ -12,7 +12,7 @@ struct QueueActivity {
   std::size_t waiting = 0;  ///< requests that no worker has begun
   std::size_t running = 0;  ///< requests that are worked on
   std::size_t workers = 0;  ///< of all urgencies
-  std::uint64_t shed = 0;   ///< requests that found the queue full
+  std::uint64_t shed = 0;   ///< requests that found the queue or their client's share full
 };
 
 }  // namespace telltale

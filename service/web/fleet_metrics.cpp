@@ -297,7 +297,8 @@ void AddActivity(const DaemonActivity& activity, std::vector<MetricFamily>& fami
       &QueueActivity::running);
   add(Gauge, "telltale_queue_workers", "Threads that work on the requests of a queue.",
       &QueueActivity::workers);
-  add(Counter, "telltale_queue_requests_shed_total", "Requests that found the queue full.",
+  add(Counter, "telltale_queue_requests_shed_total",
+      "Requests that found the queue, or the part that one client may use, full.",
       &QueueActivity::shed);
   families.push_back(StoreWrites(activity.stores));
   families.push_back(ReceivedSamples(activity));

@@ -337,6 +337,33 @@ TEST_F(Jobs, GoOnForThoseWhoStillWait) {
   EXPECT_THAT(work_.Begun(), ::testing::ElementsAre("one"));
 }
 
+// The limit is 8: a client may have two requests without an answer.
+TEST_F(Jobs, KeepOneClientFromFillingTheQueue) {
+  constexpr WriterHandle kFlooding = 7;
+  constexpr WriterHandle kOther = 8;
+  const auto queue = QueueOf({.interactive = 1}, 8);
+  queue->Submit(RequestNamed("running", "one"), Urgency::kInteractive, {}, kFlooding);
+  ASSERT_TRUE(work_.AwaitInside(1));
+  queue->Submit(RequestNamed("waiting", "one"), Urgency::kInteractive, {}, kFlooding);
+  queue->Submit(RequestNamed("beyond", "one"), Urgency::kInteractive, {}, kFlooding);
+  // Also what would join another request.
+  queue->Submit(RequestNamed("alike", "one", 1), Urgency::kInteractive, {}, kOther);
+  queue->Submit(RequestNamed("joining", "one", 1), Urgency::kInteractive, {}, kFlooding);
+  EXPECT_EQ(queue->Activity().shed, 2u);
+  EXPECT_EQ(queue->Activity().waiting, 2u);
+  EXPECT_THAT(ReplyMessageTo(*queue, RequestNamed("stranger", "three")), HasSubstr("one, two"));
+  for (const char* id : {"beyond", "joining"}) {
+    for (int patience = 0; patience < 200 && !HasReply(id); ++patience) {
+    }
+    EXPECT_THAT(messages_[id], HasSubstr("2 requests of this client"));
+    EXPECT_GT(retry_after_s_[id], 0.0);
+  }
+  work_.LetGo();
+  EXPECT_EQ(ReplyMessageTo(*queue, RequestNamed("alike", "one", 1)), "done");
+  queue->Submit(RequestNamed("later", "one"), Urgency::kInteractive, {}, kFlooding);
+  EXPECT_EQ(ReplyMessageTo(*queue, RequestNamed("later", "one")), "done");
+}
+
 TEST_F(Jobs, WriteABoundedLogUnderAFlood) {
   std::ostringstream log;
   const auto before = spdlog::default_logger();
