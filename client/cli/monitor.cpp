@@ -4,18 +4,20 @@
 #include <memory>
 #include <stdexcept>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include <unistd.h>
 
 #include "telltale/client/bus/participant.hpp"
+#include "telltale/client/bus/reader.hpp"
+#include "telltale/client/bus/wait_set.hpp"
 #include "telltale/client/cli/commands.hpp"
 #include "telltale/client/cli/live_options.hpp"
+#include "telltale/client/cli/quality_rounds.hpp"
 #include "telltale/client/cli/quality_table.hpp"
-#include "telltale/client/fleet/subscriber.hpp"
 #include "telltale/client/fleet/unix_now.hpp"
 #include "telltale/idl/codec/json/quality.hpp"
+#include "telltale/idl/codec/wire/quality.hpp"
 
 namespace telltale {
 namespace {
@@ -29,22 +31,6 @@ struct MonitorArguments {
   std::string vehicle_id;
   QualityView view;
   LiveOptions live;
-};
-
-/// The newest quality of every vehicle. A daemon ends each round with what names no vehicle.
-class Rounds {
- public:
-  void Take(const Quality& quality) {
-    fleet_[quality.vehicle_id] = quality;
-    if (quality.vehicle_id == kUnattributed && !std::exchange(joined_midway_, false)) ++complete_;
-  }
-  std::size_t complete() const { return complete_; }
-  const std::map<std::string, Quality>& fleet() const { return fleet_; }
-
- private:
-  std::map<std::string, Quality> fleet_;
-  bool joined_midway_ = true;
-  std::size_t complete_ = 0;
 };
 
 /// One line a vehicle.
@@ -94,12 +80,16 @@ class JsonPace {
 
 void Monitor(const MonitorArguments& arguments) {
   const Participant participant(arguments.live.domain);
-  Rounds rounds;
-  QualitySubscriber qualities(
-      participant, [&](const Quality& quality) { rounds.Take(quality); },
-      [](const CodecError& error) {
-        std::cerr << "telltale: a report is rejected: " << error.Message() << '\n';
-      });
+  QualityRounds rounds;
+  Reader<telltale_wire_Quality> reports(participant);
+  WaitSet wait_set(participant);
+  wait_set.Attach(reports, [&] {
+    reports.Take([&](const telltale_wire_Quality& wire, WriterHandle daemon) {
+      const auto quality = Decode(wire);
+      if (quality) return rounds.Take(*quality, daemon);
+      std::cerr << "telltale: a report is rejected: " << quality.error().Message() << '\n';
+    });
+  });
 
   const std::size_t wanted = arguments.once ? 1 : arguments.count;
   const bool redraw = wanted != 1 && !arguments.json && isatty(STDOUT_FILENO) == 1;
@@ -112,7 +102,7 @@ void Monitor(const MonitorArguments& arguments) {
       throw std::runtime_error("no reports of a daemon: " +
                                NobodyThereAdvice(arguments.live.domain));
     }
-    qualities.Wait(deadline - Clock::now());
+    wait_set.Wait(deadline - Clock::now());
     if (rounds.complete() == seen) continue;
     seen = rounds.complete();
     deadline = Clock::now() + arguments.live.Timeout();
