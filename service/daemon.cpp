@@ -177,7 +177,7 @@ void Daemon::Serve(const std::vector<Vehicle>& vehicles) {
 std::unique_ptr<FailOver> Daemon::MakeFailOver() {
   if (!config_.standby) return nullptr;
   return std::make_unique<FailOver>(
-      participant_, *config_.standby, role_, heard_,
+      participant_, *config_.standby, TermStore(storage_), role_, heard_,
       Mirror::Into{fleet_, models_, diagnoses_, baselines_},
       FailOver::Handlers{.take_over =
                              [this](std::int32_t ownership_strength, bool succeeds) {

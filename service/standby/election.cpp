@@ -37,8 +37,7 @@ Election::Step Election::Decide(Clock::time_point now) const {
   const bool comes_first = std::ranges::none_of(
       others_, [this](const auto& other) { return Precedes(other.second, self_); });
   if (self_.serves) return comes_first ? Step::kWait : Step::kStepDown;
-  const bool has_followed = self_.term > 0;
-  const bool has_listened = has_followed || now >= start_ + lease_;
+  const bool has_listened = HasFollowed() || now >= start_ + lease_;
   return comes_first && has_listened && !IsCutOff(now) ? Step::kTakeOver : Step::kWait;
 }
 

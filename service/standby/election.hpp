@@ -12,9 +12,9 @@ namespace telltale {
 
 /// Which of several daemons serves, as one of them sees it. No vote is held: the daemon that serves
 /// goes on, and when it is gone the others agree on the next by their order. First comes who knows
-/// of the later term, since that one has followed the daemon that is gone; then the greater
-/// ownership strength; then the greater id. Two that serve, which is possible only while they
-/// cannot hear each other, agree by the same order.
+/// of the later term, since that one has followed the daemon that is gone or was that daemon; then
+/// the greater ownership strength; then the greater id. Two that serve, which is possible only
+/// while they cannot hear each other, agree by the same order.
 ///
 /// A daemon whose boats and clients fall silent together with the daemon that serves is cut off
 /// itself, and waits until it hears any of them, but for no more than three leases: the fleet may
@@ -24,7 +24,8 @@ class Election {
   using Clock = std::chrono::steady_clock;
   enum class Step { kWait, kTakeOver, kStepDown };
 
-  /// A daemon that knows nothing yet gives those that serve a lease to be heard.
+  /// A daemon that has just started gives those that serve a lease to be heard. `self` has the
+  /// latest term that it knows of.
   Election(DaemonStatus self, Clock::duration lease, Clock::time_point now)
       : self_(std::move(self)), lease_(lease), start_(now) {}
 
@@ -38,6 +39,9 @@ class Election {
   void TakeOver();
 
   const DaemonStatus& self() const { return self_; }
+
+  /// Whether it has heard another serve.
+  bool HasFollowed() const { return server_heard_.has_value(); }
 
  private:
   bool IsCutOff(Clock::time_point now) const;

@@ -12,10 +12,11 @@
 namespace telltale {
 namespace {
 
-DaemonStatus NewDaemon(const StandbySettings& settings) {
+DaemonStatus NewDaemon(const StandbySettings& settings, std::uint32_t latest_term) {
   DaemonStatus self;
   self.daemon_id = NewCorrelationId();
   self.ownership_strength = settings.ownership_strength;
+  self.term = latest_term;
   return self;
 }
 
@@ -26,8 +27,9 @@ std::chrono::nanoseconds LeaseOf(const StandbySettings& settings) {
       std::chrono::duration<double>(settings.lease_s));
 }
 
-FailOver::FailOver(const Participant& participant, const StandbySettings& settings, Role& role,
-                   HeardRequests& requests, const Mirror::Into& mirrored, Handlers handlers)
+FailOver::FailOver(const Participant& participant, const StandbySettings& settings, TermStore terms,
+                   Role& role, HeardRequests& requests, const Mirror::Into& mirrored,
+                   Handlers handlers)
     : patience_(LeaseOf(settings) / 8),
       role_(role),
       requests_(requests),
@@ -39,7 +41,8 @@ FailOver::FailOver(const Participant& participant, const StandbySettings& settin
       diagnose_replies_(participant, FromOthers(RequestReplyQos())),
       fleet_replies_(participant, FromOthers(RequestReplyQos())),
       mirror_(participant, wait_set_, role, mirrored),
-      election_(NewDaemon(settings), LeaseOf(settings), Clock::now()) {}
+      election_(NewDaemon(settings, terms.Latest()), LeaseOf(settings), Clock::now()),
+      terms_(std::move(terms)) {}
 
 FailOver::~FailOver() {
   stopping_ = true;
@@ -94,6 +97,11 @@ DaemonStatus FailOver::Self() const {
   return election_.self();
 }
 
+bool FailOver::HasFollowed() const {
+  const std::lock_guard lock(mutex_);
+  return election_.HasFollowed();
+}
+
 void FailOver::Publish(const DaemonStatus& status) {
   if (!status_writer_.Write(Encode(status))) spdlog::warn("the status of this daemon is blocked");
 }
@@ -118,24 +126,36 @@ void FailOver::Decide() {
   if (step == Election::Step::kStepDown) return StepDown("another daemon serves for a later term");
   const DaemonStatus self = Self();
   if (self.serves && !role_.Serves()) return StepDown("its working loop came late");
-  if (self.serves) return;
-  LogTerm(self);
-  if (self.term > 0) mirror_.FillHoles(Clock::now());
+  if (self.serves || !HasFollowed()) return;
+  NoteTerm(self.term);
+  mirror_.FillHoles(Clock::now());
 }
 
-void FailOver::LogTerm(const DaemonStatus& self) {
-  if (std::exchange(followed_term_, self.term) == self.term) return;
-  spdlog::info("another daemon serves, for term {}; this one stands by", self.term);
+void FailOver::NoteTerm(std::uint32_t term) {
+  if (std::exchange(followed_term_, term) == term) return;
+  spdlog::info("another daemon serves, for term {}; this one stands by", term);
+  Keep(term);
+}
+
+/// A daemon whose disk refuses goes on: where both then start again at once, the one with the
+/// earlier models may serve.
+void FailOver::Keep(std::uint32_t term) {
+  try {
+    terms_.Keep(term);
+  } catch (const DatabaseError& error) {
+    spdlog::error("{}; term {} is not kept", error.what(), term);
+  }
 }
 
 void FailOver::TakeOver() {
-  const bool succeeds = Self().term > 0;
+  const bool succeeds = HasFollowed();
   {
     const std::lock_guard lock(mutex_);
     election_.TakeOver();
   }
   const DaemonStatus self = Self();
   spdlog::warn("this daemon serves from now on, for term {}", self.term);
+  Keep(self.term);
   role_.Assume(Clock::now());
   try {
     Publish(self);

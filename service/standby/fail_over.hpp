@@ -17,6 +17,7 @@
 #include "telltale/service/standby/heard_requests.hpp"
 #include "telltale/service/standby/mirror.hpp"
 #include "telltale/service/standby/role.hpp"
+#include "telltale/service/standby/term_store.hpp"
 
 namespace telltale {
 
@@ -36,8 +37,8 @@ class FailOver {
     std::function<void()> step_down;  ///< another serves; this daemon has to start again. Once
   };
 
-  FailOver(const Participant& participant, const StandbySettings& settings, Role& role,
-           HeardRequests& requests, const Mirror::Into& mirrored, Handlers handlers);
+  FailOver(const Participant& participant, const StandbySettings& settings, TermStore terms,
+           Role& role, HeardRequests& requests, const Mirror::Into& mirrored, Handlers handlers);
   FailOver(const FailOver&) = delete;
   FailOver& operator=(const FailOver&) = delete;
   ~FailOver();  ///< ends the thread
@@ -55,11 +56,13 @@ class FailOver {
   void Run();
   void Follow();
   void Decide();
-  void LogTerm(const DaemonStatus& self);
+  void NoteTerm(std::uint32_t term);
+  void Keep(std::uint32_t term);
   void TakeOver();
   void StepDown(const std::string& why);
   void Publish(const DaemonStatus& status);
   DaemonStatus Self() const;
+  bool HasFollowed() const;
 
   const Clock::duration patience_;  ///< between two decisions
   Role& role_;
@@ -76,6 +79,7 @@ class FailOver {
   mutable std::mutex mutex_;  // of election_
   Election election_;
   std::uint32_t followed_term_ = 0;  ///< of the thread
+  TermStore terms_;                  ///< of the thread, once that runs
   std::atomic<bool> stepped_down_ = false;
   std::atomic<bool> stopping_ = false;
   std::thread thread_;

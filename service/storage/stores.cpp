@@ -74,6 +74,14 @@ const Schema& RequestsSchema() {
   return schema;
 }
 
+const Schema& TermsSchema() {
+  static const Schema schema{
+      .name = "terms",
+      .tables = {{"terms", {{"term", kInteger, "NOT NULL"}}, {"term"}}},
+  };
+  return schema;
+}
+
 const Schema& SlicesSchema() {
   static const Schema schema{
       .name = "slices",

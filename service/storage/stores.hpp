@@ -13,6 +13,9 @@ const Schema& WindowsSchema();
 /// The requests that wait for their answers.
 const Schema& RequestsSchema();
 
+/// The latest term of a daemon that stands in for another: TermStore.
+const Schema& TermsSchema();
+
 /// Which daemon serves which part of the fleet: SliceLeases.
 const Schema& SlicesSchema();
 

@@ -39,6 +39,14 @@ class DaemonPair {
     return daemon;
   }
 
+  /// The term for which the daemon serves or served last; 0: it has not served.
+  static int NewestTerm(const Process& daemon) {
+    static const std::string kServes = "this daemon serves from now on, for term ";
+    const std::string log = daemon.output();
+    const auto at = log.rfind(kServes);
+    return at == std::string::npos ? 0 : std::stoi(log.substr(at + kServes.size()));
+  }
+
   static bool TakesOver(Process& daemon, int term) {
     return daemon.WaitForOutput("this daemon serves from now on, for term " + std::to_string(term) +
                                 '\n');
@@ -48,6 +56,9 @@ class DaemonPair {
     return daemon.WaitForOutput("another daemon serves, for term " + std::to_string(term) +
                                 "; this one stands by");
   }
+
+  /// For whichever term.
+  static bool StandsBy(Process& daemon) { return daemon.WaitForOutput("; this one stands by"); }
 
   static bool Keeps(Process& daemon, std::uint64_t revision) {
     return daemon.WaitForOutput("revision " + std::to_string(revision) +

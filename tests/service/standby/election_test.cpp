@@ -99,6 +99,20 @@ TEST(Election, OfTwoThatServeForTheSameTermKeepsTheStronger) {
   EXPECT_EQ(strong.Decide(kStart), Step::kWait);
 }
 
+// After a loss of power, say: the weaker one has the later models.
+TEST(Election, GivesTheOneWithTheLaterTermWhereAllStartAgain) {
+  Election later(Standby("a", 1, 5), kLease, kStart);
+  Election earlier(Standby("b", 2, 4), kLease, kStart);
+  later.Hear(earlier.self(), kStart);
+  earlier.Hear(later.self(), kStart);
+  EXPECT_EQ(later.Decide(kHeard - 1ms), Step::kWait) << "another may serve and is not heard yet";
+  EXPECT_EQ(earlier.Decide(kHeard), Step::kWait);
+  EXPECT_EQ(later.Decide(kHeard), Step::kTakeOver);
+  EXPECT_FALSE(later.HasFollowed());
+  later.TakeOver();
+  EXPECT_EQ(later.self().term, 6u);
+}
+
 // Whatever each knows of itself, exactly one of those that hear each other takes over.
 TEST(Election, GivesOneOfMany) {
   std::vector<Election> all;

@@ -152,6 +152,19 @@ TEST_F(StandbyDaemon, LearnsWhatWasPublishedBeforeItServesAgain) {
   EXPECT_THAT(RevisionsKept(), ::testing::ElementsAre(4, 3, 2, 1));
 }
 
+// After a loss of power, say. The stronger one lacks the newest model.
+TEST_F(StandbyDaemon, ServesWhereItServedLastAndBothStartAgain) {
+  ASSERT_NO_FATAL_FAILURE(KillTheFirstOnceBothHaveAModel());
+  ASSERT_EQ(Identify("second"), 2u);
+  two_->Signal(SIGKILL);
+  two_->Wait();
+  two_ = pair_.Start("two", 1);
+  one_ = pair_.Start("one", 2);
+  EXPECT_TRUE(DaemonPair::TakesOver(*two_, 3)) << two_->output();
+  EXPECT_TRUE(DaemonPair::StandsBy(*one_, 3)) << one_->output();
+  EXPECT_TRUE(DaemonPair::Keeps(*one_, 2)) << one_->output();
+}
+
 // It hangs, or its machine does.
 TEST_F(StandbyDaemon, ReplacesADaemonThatIsSuspendedAndTakesItBackAsStandby) {
   StartPair();
