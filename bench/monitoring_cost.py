@@ -10,85 +10,17 @@ TELLTALE_BUILT names the build folder.
 """
 import argparse
 import contextlib
-import http.client
-import os
 import pathlib
-import re
 import shutil
 import socket
 import subprocess
-import tempfile
 import threading
 import time
 
-ROOT = pathlib.Path(__file__).resolve().parents[1]
-BUILT = pathlib.Path(os.environ.get("TELLTALE_BUILT", ROOT / "build/release"))
-DOMAIN = "79"
-TICKS = os.sysconf("SC_CLK_TCK")
+from daemon_under_load import ROOT, Fleet
+
 SCRAPES = 20
 SPARE_CONNECTIONS = 60
-
-
-class Fleet:
-    """A daemon and the load of its boats, until the block ends."""
-
-    def __init__(self, boats, pages):
-        self._stack = contextlib.ExitStack()
-        self.folder = pathlib.Path(self._stack.enter_context(tempfile.TemporaryDirectory()))
-        self.environment = dict(os.environ, TELLTALE_DDS_TAG=f"cost-{os.getpid()}",
-                                CYCLONEDDS_URI=f"file://{ROOT}/deploy/cyclonedds/loopback.xml")
-        load = [BUILT / "client/telltale", "load", "--domain", DOMAIN, "--boats", str(boats)]
-        subprocess.run([*load, "--write-vehicles", self.folder / "boats"], check=True, stdout=subprocess.DEVNULL)
-        config = self.folder / "telltaled.textproto"
-        config.write_text(f'domain: {DOMAIN}\nvehicle_folder: "{self.folder}/boats"\n'
-                          f'state_directory: "{self.folder}/state"\n'
-                          f"http {{ port: 0 connections: {2 * pages + SPARE_CONNECTIONS} }}\n")
-        with open(self.folder / "log", "w") as log:
-            self.daemon = self._start([BUILT / "service/telltaled", "--config", config], stderr=log)
-        self.port = self._await_port()
-        self.load = self._start([*load, "--duration", "86400"], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-
-    def _start(self, command, **streams):
-        process = self._stack.enter_context(subprocess.Popen(command, env=self.environment, **streams))
-        self._stack.callback(process.terminate)
-        return process
-
-    def _await_port(self):
-        while True:
-            found = re.search(r"page is at http://127\.0\.0\.1:(\d+)/", (self.folder / "log").read_text())
-            if found:
-                return int(found.group(1))
-            assert self.daemon.poll() is None, (self.folder / "log").read_text()
-            time.sleep(0.1)
-
-    def __enter__(self):
-        return self
-
-    def __exit__(self, *fault):
-        self._stack.__exit__(*fault)
-
-    def cpu_s(self):
-        """Processor time of the daemon, all threads."""
-        fields = pathlib.Path(f"/proc/{self.daemon.pid}/stat").read_text().rsplit(")", 1)[1].split()
-        return (int(fields[11]) + int(fields[12])) / TICKS
-
-    def get(self, route):
-        connection = http.client.HTTPConnection("127.0.0.1", self.port, timeout=60)
-        connection.request("GET", route)
-        answer = connection.getresponse()
-        text = answer.read()
-        assert answer.status == 200, (route, answer.status)
-        connection.close()
-        return text
-
-    def gauge(self, name):
-        return float(re.search(rf"^{name}\S* (\S+)$", self.get("/metrics").decode(), re.M).group(1))
-
-    def cores(self, seconds):
-        """Cores that the daemon takes, on average over so many seconds."""
-        before, begun = self.cpu_s(), time.monotonic()
-        time.sleep(seconds)
-        return (self.cpu_s() - before) / (time.monotonic() - begun)
 
 
 class Pages:
@@ -144,9 +76,8 @@ def main():
     arguments.add_argument("--seconds", type=float, default=30)
     arguments.add_argument("--browser", type=pathlib.Path, metavar="MODULES")
     given = arguments.parse_args()
-    with Fleet(given.boats, given.pages) as fleet:
-        while fleet.gauge("telltale_received_samples_total") == 0:
-            time.sleep(1)
+    with Fleet(given.boats, 2 * given.pages + SPARE_CONNECTIONS) as fleet:
+        fleet.await_telemetry()
         time.sleep(given.seconds)  # until the windows hold what a minute's evaluation asks for
         alone = fleet.cores(given.seconds)
         print(f"{given.boats} boats, {given.seconds:.0f} s each\nalone: {alone:.3f} cores")
