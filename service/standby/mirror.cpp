@@ -35,13 +35,13 @@ void KeepOrLog(const Decoded<Message>& message, const char* what, Keep keep) {
 
 Mirror::Mirror(const Participant& participant, WaitSet& wait_set, const Role& role,
                const Into& into)
-    : wait_set_(wait_set),
+    : participant_(participant),
+      wait_set_(wait_set),
       role_(role),
       into_(into),
       model_reader_(participant, FromOthers(ModelQos())),
       diagnosis_reader_(participant, FromOthers(DiagnosisQos())),
-      reply_reader_(participant, FromOthers(RequestReplyQos())),
-      request_writer_(participant) {
+      reply_reader_(participant, FromOthers(RequestReplyQos())) {
   for (const auto& [vehicle_id, window] : into.fleet.windows()) incomplete_.insert(vehicle_id);
   wait_set_.Attach(model_reader_, [this] {
     model_reader_.Take([this](const telltale_wire_Model& wire) { Take(wire); });
@@ -76,25 +76,28 @@ void Mirror::Take(const telltale_wire_Diagnosis& wire) {
 void Mirror::FillHoles(Clock::time_point now) {
   if (!asked_.empty() && now < ask_again_) return;
   asked_.clear();
-  while (!incomplete_.empty() && asked_.empty()) {
+  while (!incomplete_.empty()) {
     const std::string vehicle_id = *incomplete_.begin();
     if (const auto hole_after = into_.models.HoleAfter(vehicle_id)) {
-      Ask(vehicle_id, *hole_after, now);
-    } else {
-      incomplete_.erase(vehicle_id);
+      return Ask(vehicle_id, *hole_after, now);
     }
+    incomplete_.erase(vehicle_id);
   }
+  request_writer_.reset();
 }
 
+/// Not yet where the writer is not connected.
 void Mirror::Ask(const std::string& vehicle_id, std::uint64_t after, Clock::time_point now) {
   constexpr std::chrono::seconds kPatience{5};
+  if (!request_writer_) request_writer_.emplace(participant_, FromOthers(RequestReplyQos()));
+  if (request_writer_->Matched() == 0) return;
   FleetRequest request;
   request.correlation_id = NewCorrelationId();
   request.command = FleetCommand::kModels;
   request.vehicle_ids = {vehicle_id};
   request.revision = after;
   request.deadline_s = std::chrono::duration<double>(kPatience).count();
-  request_writer_.Write(Encode(request));
+  request_writer_->Write(Encode(request));
   asked_ = request.correlation_id;
   asked_vehicle_ = vehicle_id;
   ask_again_ = now + kPatience;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <chrono>
+#include <optional>
 #include <set>
 #include <string>
 
@@ -49,13 +50,15 @@ class Mirror {
   void Take(const telltale_wire_Diagnosis& wire);
   void Keep(StoredModel model);
 
+  const Participant& participant_;
   WaitSet& wait_set_;
   const Role& role_;
   const Into into_;
   Reader<telltale_wire_Model> model_reader_;
   Reader<telltale_wire_Diagnosis> diagnosis_reader_;
   Reader<telltale_wire_FleetReply> reply_reader_;
-  Writer<telltale_wire_FleetRequest> request_writer_;
+  /// While there is something to ask for: one that is silent for long is taken for broken.
+  std::optional<Writer<telltale_wire_FleetRequest>> request_writer_;
 
   std::set<std::string> incomplete_;  ///< vehicles whose models may have a hole
   std::string asked_;                 ///< correlation id of the request under way; empty: none
