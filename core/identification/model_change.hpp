@@ -40,7 +40,7 @@ struct ModelChange {
   double statistic = 0.0;  ///< d'V^+ d, docs/concepts/model.md (41)
   std::size_t degrees_of_freedom = 0;
   std::vector<CoefficientChange> coefficients;  ///< the most significant first
-  std::string reason;                           ///< why it cannot be told
+  std::string reason;                           ///< why there is no verdict
 };
 
 /// "differs from revision 3: p = 0.002, YAW r|r| by 3.4 sigma; fouling, damage or another load?"

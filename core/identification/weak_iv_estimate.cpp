@@ -19,7 +19,7 @@ Refusal WarnOfConstantHeading(std::size_t recordings) {
   return {"constant disturbance",
           "in " + std::to_string(recordings) +
               " of the recordings the heading hardly varies: a part that stands to the north and "
-              "east cannot be told from one that turns with the boat, and is left out there",
+              "east is collinear with one that turns with the boat, and is left out there",
           "record courses in all directions"};
 }
 

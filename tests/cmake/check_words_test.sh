@@ -33,6 +33,8 @@ rejects '// effective windows are its worth'
 rejects '// a healthy boat'
 rejects '// coefficients that are told apart'
 rejects 'struct Yardstick;'
+rejects 'Recording RecordedAfloat();'
+rejects 'int kept_twins = 0;'
 
 "$root/cmake/check-words" core/good.hpp > /dev/null || fail "it searches beyond the paths that it is given"
 echo "check-words finds retired words"

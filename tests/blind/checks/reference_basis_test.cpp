@@ -24,7 +24,7 @@ DiagnosisInputs WeakenedOnAnotherDay() {
   return inputs;
 }
 
-TEST(ReferenceBasis, MeasuresHowFarAModelClosesTheGap) {
+TEST(ReferenceBasis, MeasuresHowMuchOfTheExcessAModelExplains) {
   const DiagnosisInputs inputs = WeakenedOnAnotherDay();
   const ReferenceBasis basis(inputs);
   const auto closure = [&](double loss) {

@@ -42,7 +42,9 @@ bool Run(const Arguments& arguments) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app("Measures how far a diagnosis' model closes the gap on a recording it never saw");
+  CLI::App app(
+      "Measures how much of the excess error a diagnosis' model explains on a recording it never "
+      "saw");
   app.footer(
       "Errors are those of free runs of 5 s in nominal sigmas, as in report.json.\n"
       "Example: blind_realised --log cases/001/again --vehicle boat.textproto --model model.json "

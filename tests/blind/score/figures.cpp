@@ -97,7 +97,7 @@ bool IsNeighbour(const Cause& cause, const Scored& scored) {
 }
 
 /// Whether any effect of the cause is known to look like any of the true ones.
-bool LooksAlike(const Cause& cause, const EffectSet& truth) {
+bool IsConfusable(const Cause& cause, const EffectSet& truth) {
   return std::any_of(cause.effects.begin(), cause.effects.end(), [&](const std::string& named) {
     return std::any_of(truth.begin(), truth.end(),
                        [&](const std::string& effect) { return AreConfusable(named, effect); });
@@ -111,7 +111,7 @@ void CountLeftOut(Figures& figures, const Scored& scored) {
       first && !IsUnknown(*first) && first->probability > 0.5 && IsSure(*scored.left_out);
   const bool neighbour = first && IsNeighbour(*first, scored);
   figures.confidently_wrong.Count(sure && !neighbour);
-  figures.unrelated_named.Count(sure && !neighbour && !LooksAlike(*first, scored.label.effects));
+  figures.unrelated_named.Count(sure && !neighbour && !IsConfusable(*first, scored.label.effects));
   figures.indistinguishable_named.Count(neighbour);
 }
 

@@ -11,7 +11,7 @@
 namespace telltale {
 namespace {
 
-constexpr double kSailingStepS = 0.1;
+constexpr double kSimulationStepS = 0.1;
 
 std::vector<double> TypicalValues(const Effect& effect) {
   std::vector<double> values;
@@ -30,7 +30,7 @@ std::vector<double> NoValues(const Effect& effect) {
 
 Recording SimulatedRecording(const std::vector<ModelledEffect>& effects) {
   const AugmentedModel model{testing::StableBoat(), effects};
-  const auto track = Simulate(model, testing::VariedCommands(60.0, 3), 60.0, kSailingStepS);
+  const auto track = Simulate(model, testing::VariedCommands(60.0, 3), 60.0, kSimulationStepS);
   return Measure(track, model, testing::StableBoatVehicle(), testing::NoNoise());
 }
 

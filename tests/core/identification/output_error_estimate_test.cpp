@@ -94,7 +94,7 @@ TEST(OutputErrorEstimate, SaysThatItsBoundsDoNotHoldUnderDisturbances) {
 }
 
 /// Full ahead or nothing: delta and its square are one number.
-TEST(OutputErrorEstimate, NamesThrustTermsThatOneCommandCannotTellApart) {
+TEST(OutputErrorEstimate, NamesThrustTermsThatAreCollinearUnderOneCommand) {
   constexpr double kCommand = 0.6;
   std::vector<TimedCommand> commands = testing::VariedCommands(400.0, 5);
   for (TimedCommand& command : commands) {

@@ -12,7 +12,7 @@
 namespace telltale {
 namespace {
 
-const PreparedDataset& RecordedAfloat() {
+const PreparedDataset& RecordedBoat() {
   static const PreparedDataset dataset =
       *Prepare(testing::SimulateStableBoat(testing::StableBoat(), 300.0, testing::NoNoise(), 5),
                testing::StableBoatVehicle(), {});
@@ -32,7 +32,7 @@ Identification Diverging(double standard_error) {
 
 TEST(SimulationParameters, IsTheEstimateWhereThatIsStable) {
   Identification model = testing::KnownStableBoat();
-  FindSimulationParameters(RecordedAfloat(), model);
+  FindSimulationParameters(RecordedBoat(), model);
   EXPECT_TRUE(model.simulation.empty());
   EXPECT_TRUE(model.refusals.empty());
 }
@@ -40,7 +40,7 @@ TEST(SimulationParameters, IsTheEstimateWhereThatIsStable) {
 TEST(SimulationParameters, StaysWithinBoundsAndDoesNotDiverge) {
   Identification model = Diverging(3.0);
   const auto before = model.coefficients;
-  FindSimulationParameters(RecordedAfloat(), model);
+  FindSimulationParameters(RecordedBoat(), model);
   ASSERT_EQ(model.simulation.size(), 35U);
   for (std::size_t i = 0; i < 35; ++i) {
     ExpectSame(model.coefficients[i], before[i]);
@@ -48,7 +48,7 @@ TEST(SimulationParameters, StaysWithinBoundsAndDoesNotDiverge) {
     EXPECT_LE(model.simulation[i], before[i].interval.upper) << i;
   }
   for (const double horizon_s : {5.0, 15.0, 30.0}) {
-    EXPECT_EQ(CountDivergences(RecordedAfloat(), *ModelOf(model), horizon_s).diverged, 0U);
+    EXPECT_EQ(CountDivergences(RecordedBoat(), *ModelOf(model), horizon_s).diverged, 0U);
   }
   ASSERT_EQ(model.refusals.size(), 1U);
   EXPECT_THAT(model.refusals[0].reason, ::testing::HasSubstr("simulations use parameters"));
@@ -61,7 +61,7 @@ TEST(SimulationParameters, StaysWithinBoundsAndDoesNotDiverge) {
 // that is drawn from a push of 2 u towards nothing comes to.
 TEST(SimulationParameters, ShrinksToTheOneStepEstimate) {
   Identification model = Diverging(3.0);
-  FindSimulationParameters(RecordedAfloat(), model);
+  FindSimulationParameters(RecordedBoat(), model);
   ASSERT_EQ(model.simulation.size(), 35U);
   EXPECT_NEAR(model.simulation[3], testing::StableBoat().theta[0][3], 0.1);
 }
@@ -69,7 +69,7 @@ TEST(SimulationParameters, ShrinksToTheOneStepEstimate) {
 TEST(SimulationParameters, LiesWithinTheEllipsoidWhereThereIsOne) {
   Identification model = Diverging(3.0);
   model.joint = JointBounds{1.0, 60.0};
-  FindSimulationParameters(RecordedAfloat(), model);
+  FindSimulationParameters(RecordedBoat(), model);
   ASSERT_EQ(model.simulation.size(), 35U);
   double distance = 0.0;
   for (Eigen::Index i = 0; i < 35; ++i) {
@@ -78,20 +78,20 @@ TEST(SimulationParameters, LiesWithinTheEllipsoidWhereThereIsOne) {
     distance += off * off / model.covariance(i, i);
   }
   EXPECT_LE(distance, *SquaredRadius(model));
-  EXPECT_EQ(CountDivergences(RecordedAfloat(), *ModelOf(model), 30.0).diverged, 0U);
+  EXPECT_EQ(CountDivergences(RecordedBoat(), *ModelOf(model), 30.0).diverged, 0U);
 }
 
 /// An ellipsoid so small that it holds no stable candidate, where the bounds of single ones would.
 TEST(SimulationParameters, IsNoneWhereTheEllipsoidHoldsNoneThatIsStable) {
   Identification model = Diverging(3.0);
   model.joint = JointBounds{1e-6, 60.0};
-  FindSimulationParameters(RecordedAfloat(), model);
+  FindSimulationParameters(RecordedBoat(), model);
   EXPECT_TRUE(model.simulation.empty());
 }
 
 TEST(SimulationParameters, IsNoneWhereTheDataDetermineWhatDiverges) {
   Identification model = Diverging(0.01);
-  FindSimulationParameters(RecordedAfloat(), model);
+  FindSimulationParameters(RecordedBoat(), model);
   EXPECT_TRUE(model.simulation.empty());
   ASSERT_EQ(model.refusals.size(), 1U);
   EXPECT_THAT(model.refusals[0].reason, ::testing::HasSubstr("cannot be simulated"));
@@ -100,7 +100,7 @@ TEST(SimulationParameters, IsNoneWhereTheDataDetermineWhatDiverges) {
 TEST(SimulationParameters, TheOneStepModelIsWarnedOfAndUnchanged) {
   Identification model = Diverging(3.0);
   model.estimator = Estimator::kOneStep;
-  FindSimulationParameters(RecordedAfloat(), model);
+  FindSimulationParameters(RecordedBoat(), model);
   EXPECT_TRUE(model.simulation.empty());
   ASSERT_EQ(model.refusals.size(), 1U);
   EXPECT_THAT(model.refusals[0].reason, ::testing::HasSubstr("diverges"));

@@ -57,7 +57,7 @@ TEST(BlockLength, IsShortForWhiteNoise) {
 
 /// Two series count alike, so that the cube of the joint length is the mean of their cubes; a
 /// series that never moves says nothing.
-TEST(BlockLength, WeighsSeriesAlikeWhateverTheirUnits) {
+TEST(BlockLength, GivesSeriesEqualWeightWhateverTheirUnits) {
   Eigen::MatrixXd both(16000, 3);
   both << Autoregression(0.5, 16000, 3), 1e6 * Autoregression(0.8, 16000, 4),
       Eigen::VectorXd::Zero(16000);

@@ -169,7 +169,7 @@ TEST(WaldTest, CountsTheRankOfTheCovariance) {
   EXPECT_NEAR(test->statistic, 4.0, 1e-9);
 }
 
-TEST(WaldTest, RefusesWhatItCannotJudge) {
+TEST(WaldTest, RefusesWhatItCannotTest) {
   RandomEngine engine(3);
   const Eigen::MatrixXd root = Eigen::MatrixXd::Identity(5, 5);
   const Eigen::VectorXd zero = Eigen::VectorXd::Zero(5);

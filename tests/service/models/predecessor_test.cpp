@@ -55,7 +55,7 @@ TEST_F(PredecessorTest, ThatWasMadeAlike) {
   EXPECT_EQ(change->coefficients[0].regressor, "r:d^2");
 }
 
-TEST_F(PredecessorTest, ItCannotBeToldFromModelsOfTheSameData) {
+TEST_F(PredecessorTest, ThereIsNoVerdictOnModelsOfTheSameData) {
   store_.Save(Over(0.0), 1.0, std::nullopt);
   const auto change = ChangeSincePredecessor(store_, Over(599.0));
   ASSERT_TRUE(change);
@@ -64,7 +64,7 @@ TEST_F(PredecessorTest, ItCannotBeToldFromModelsOfTheSameData) {
   EXPECT_NE(change->reason.find("share data"), std::string::npos);
 }
 
-TEST_F(PredecessorTest, ItCannotBeToldFromTooFewClusters) {
+TEST_F(PredecessorTest, ThereIsNoVerdictFromTooFewClusters) {
   model_.provenance.clusters = 10;
   store_.Save(Over(0.0), 1.0, std::nullopt);
   const auto change = ChangeSincePredecessor(store_, Over(600.0));

@@ -18,14 +18,14 @@ using Push = std::function<NuDot(const Nu& nu, const PropellerCommand& delta)>;
 
 /// StableBoat() with a push that it does not know of, for five minutes.
 PreparedDataset Pushed(const Push& push, std::uint64_t seed) {
-  constexpr double kSailedS = 300.0;
+  constexpr double kDurationS = 300.0;
   constexpr double kStepS = 0.02;
   const BodyDynamics dynamics(testing::StableBoat());
-  const auto commands = testing::VariedCommands(kSailedS, seed);
+  const auto commands = testing::VariedCommands(kDurationS, seed);
   std::vector<TimedState> track;
   VesselState state;
   std::size_t now = 0;
-  for (double time_s = 0.0; time_s < kSailedS; time_s += kStepS) {
+  for (double time_s = 0.0; time_s < kDurationS; time_s += kStepS) {
     while (now + 1 < commands.size() && commands[now + 1].time_s <= time_s) ++now;
     const PropellerCommand& delta = commands[now].delta;
     track.push_back({time_s, state, delta});
