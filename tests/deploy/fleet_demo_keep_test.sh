@@ -2,10 +2,10 @@
 # deploy/demo --fleet --keep goes on after its summary: the boats move in real time, the page shows them live, and
 # Ctrl-C ends all of it.
 set -euo pipefail
-# shellcheck source=tests/deploy/running_fleet_demo.bash
-source "$(dirname "${BASH_SOURCE[0]}")/running_fleet_demo.bash"
+# shellcheck source=tests/deploy/running_demo.bash
+source "$(dirname "${BASH_SOURCE[0]}")/running_demo.bash"
 
-begin_demo --keep
+begin_demo --fleet --keep
 await_line 'The boats go on, at last for ten minutes in real time. Ctrl-C ends the demo.'
 
 # In real time a boat sends five fixes a second; replayed before, ten times as many.

@@ -3,12 +3,12 @@
 # finds nothing wrong with the others, shows it all on the page, and ends by itself with a summary. It is held up
 # once it has seen everything, since its page lasts no longer than it.
 set -euo pipefail
-# shellcheck source=tests/deploy/running_fleet_demo.bash
-source "$(dirname "${BASH_SOURCE[0]}")/running_fleet_demo.bash"
+# shellcheck source=tests/deploy/running_demo.bash
+source "$(dirname "${BASH_SOURCE[0]}")/running_demo.bash"
 
 "$root/deploy/demo" --keep &> "$output" && fail "--keep without --fleet is taken"
 
-begin_demo
+begin_demo --fleet
 await_line 'boat-5: diagnosed'
 kill -s STOP "$demo"
 
