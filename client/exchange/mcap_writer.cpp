@@ -7,12 +7,12 @@
 
 #include <zstd.h>
 
+#include "telltale/client/recording/mcap/mcap_recording.hpp"
 #include "telltale/core/base/contract.hpp"
 
 namespace telltale {
 namespace {
 
-constexpr std::string_view kMcapMagic("\x89MCAP0\r\n", 8);
 constexpr std::size_t kChunkBytes = std::size_t{1} << 20;
 constexpr std::string_view kCompression = "zstd";
 constexpr std::uint32_t kNoChecksum = 0;  // the format's word for "not computed"

@@ -24,11 +24,14 @@ namespace {
 
 using Bytes = std::span<const std::uint8_t>;
 
-constexpr std::array<std::uint8_t, 8> kMagic = {0x89, 'M', 'C', 'A', 'P', '0', '\r', '\n'};
 constexpr std::size_t kRecordHeader = 9;                          // opcode and length
 constexpr std::uint64_t kLargestChunk = std::uint64_t{64} << 20;  // writers make chunks of some MB
 
 enum Opcode : std::uint8_t { kSchema = 3, kChannel = 4, kMessage = 5, kChunk = 6, kDataEnd = 15 };
+
+std::string_view TextOf(Bytes raw) {
+  return {reinterpret_cast<const char*>(raw.data()), raw.size()};
+}
 
 /// Fields of a record in order; a field beyond the end makes Ok() false.
 class Fields {
@@ -44,10 +47,7 @@ class Fields {
     }
     return value;
   }
-  std::string_view Text() {
-    const Bytes raw = Take(Read<std::uint32_t>());
-    return {reinterpret_cast<const char*>(raw.data()), raw.size()};
-  }
+  std::string_view Text() { return TextOf(Take(Read<std::uint32_t>())); }
   Bytes Take(std::uint64_t length) {
     ok_ = ok_ && length <= bytes_.size();
     if (!ok_) return {};
@@ -72,13 +72,13 @@ class McapFile {
     if (is_foreign_) return bytes.size();
     std::size_t at = 0;
     if (!has_magic_) {
-      if (bytes.size() < kMagic.size()) return at_end ? Cut(bytes.size()) : 0;
+      if (bytes.size() < kMcapMagic.size()) return at_end ? Cut(bytes.size()) : 0;
       if (!BeginsLikeMcap(bytes)) {
         is_foreign_ = true;
         return bytes.size();
       }
       has_magic_ = true;
-      at = kMagic.size();
+      at = kMcapMagic.size();
     }
     while (at < bytes.size() && !is_ended_) {
       if (passing_over_ > 0) {
@@ -250,7 +250,7 @@ class McapFile {
 }  // namespace
 
 bool BeginsLikeMcap(std::span<const std::uint8_t> bytes) {
-  return bytes.size() >= kMagic.size() && std::equal(kMagic.begin(), kMagic.end(), bytes.begin());
+  return bytes.size() >= kMcapMagic.size() && TextOf(bytes.first(kMcapMagic.size())) == kMcapMagic;
 }
 
 std::string McapDamage::Summary() const {

@@ -6,10 +6,14 @@
 #include <functional>
 #include <span>
 #include <string>
+#include <string_view>
 
 #include "telltale/client/recording/source_log.hpp"
 
 namespace telltale {
+
+/// What an MCAP file begins and ends with.
+inline constexpr std::string_view kMcapMagic("\x89MCAP0\r\n", 8);
 
 /// Whether bytes begin with MCAP's magic.
 bool BeginsLikeMcap(std::span<const std::uint8_t> bytes);
