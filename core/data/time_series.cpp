@@ -30,6 +30,13 @@ std::size_t TimeSeries::CountUntil(double t) const {
   return LaterThan(t + kSameInstantS);
 }
 
+TimeSeries TimeSeries::Within(double from_s, double to_s) const {
+  const auto begin = std::ranges::lower_bound(times_s, from_s) - times_s.begin();
+  const auto end = std::ranges::lower_bound(times_s, to_s) - times_s.begin();
+  return {{times_s.begin() + begin, times_s.begin() + end},
+          {values.begin() + begin, values.begin() + end}};
+}
+
 double TimeSeries::Extrapolate(double t, std::size_t degree) const {
   const std::size_t until = CountUntil(t);
   Require(until > 0, "a sample not later than the time extrapolated to");

@@ -23,6 +23,9 @@ struct TimeSeries {
   /// Number of samples not later than `t`.
   std::size_t CountUntil(double t) const;
 
+  /// The samples in [from, to), so that parts of a series that meet share none.
+  TimeSeries Within(double from_s, double to_s) const;
+
   /// Causal spline extrapolation: the polynomial of that degree through the newest degree + 1
   /// samples not later than `t` (fewer at the start), evaluated at `t`. Exact on polynomials up to
   /// the degree. One sampling period ahead it amplifies white noise by up to 2^(degree + 1) - 1,

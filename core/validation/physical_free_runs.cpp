@@ -10,14 +10,6 @@ namespace {
 // Beyond the ends of a grid, for what is interpolated there.
 constexpr double kMarginS = 1.0;
 
-/// The samples of a series in [from, until].
-TimeSeries Within(const TimeSeries& series, double from_s, double until_s) {
-  const auto begin = std::ranges::lower_bound(series.times_s, from_s) - series.times_s.begin();
-  const auto end = std::ranges::upper_bound(series.times_s, until_s) - series.times_s.begin();
-  return {{series.times_s.begin() + begin, series.times_s.begin() + end},
-          {series.values.begin() + begin, series.values.begin() + end}};
-}
-
 }  // namespace
 
 PhysicalFreeRuns::PhysicalFreeRuns(const PreparedDataset& dataset, const PhysicalModel& model)
@@ -80,7 +72,7 @@ void PhysicalFreeRuns::PredictFixes(const Start& start, RawSignals& signals) con
 SegmentSignals PhysicalFreeRuns::Readings(const Start& start, const SamplingGrid& grid) const {
   const RawSignals& recorded = dataset_.signals[start.segment];
   const auto about_grid = [&grid](const TimeSeries& series) {
-    return Within(series, grid.start_s - kMarginS, grid.Time(grid.rows - 1) + kMarginS);
+    return series.Within(grid.start_s - kMarginS, grid.Time(grid.rows - 1) + kMarginS);
   };
   SegmentSignals signals{
       {about_grid(recorded.north_m), about_grid(recorded.east_m), about_grid(recorded.psi_rad)},

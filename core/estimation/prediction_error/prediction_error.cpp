@@ -61,13 +61,6 @@ struct Excerpt {
   RawSignals signals;
 };
 
-TimeSeries Within(const TimeSeries& series, double from_s, double to_s) {
-  const auto begin = std::ranges::lower_bound(series.times_s, from_s) - series.times_s.begin();
-  const auto end = std::ranges::lower_bound(series.times_s, to_s) - series.times_s.begin();
-  return {{series.times_s.begin() + begin, series.times_s.begin() + end},
-          {series.values.begin() + begin, series.values.begin() + end}};
-}
-
 // Five minutes of a recording show its noise well enough: of a longer segment, five even excerpts
 // of a minute.
 std::vector<Excerpt> ExcerptsForNoise(const PreparedDataset& dataset) {
@@ -88,8 +81,8 @@ std::vector<Excerpt> ExcerptsForNoise(const PreparedDataset& dataset) {
       const double to_s = from_s + kExcerptS;
       excerpts.push_back(
           {s,
-           {Within(signals.north_m, from_s, to_s), Within(signals.east_m, from_s, to_s),
-            Within(signals.psi_rad, from_s, to_s)}});
+           {signals.north_m.Within(from_s, to_s), signals.east_m.Within(from_s, to_s),
+            signals.psi_rad.Within(from_s, to_s)}});
     }
   }
   return excerpts;

@@ -26,6 +26,21 @@ double Polynomial(double t, std::size_t degree) {
   return value;
 }
 
+// Samples at 0, 1, ..., 9.
+TEST(Within, TakesTheBeginningAndLeavesTheEnd) {
+  TimeSeries series;
+  for (int i = 0; i < 10; ++i) {
+    series.times_s.push_back(i);
+    series.values.push_back(10.0 * i);
+  }
+  const TimeSeries part = series.Within(2.0, 5.0);
+  EXPECT_EQ(part.times_s, (std::vector{2.0, 3.0, 4.0}));
+  EXPECT_EQ(part.values, (std::vector{20.0, 30.0, 40.0}));
+  EXPECT_EQ(series.Within(5.0, 9.5).times_s.front(), 5.0);
+  EXPECT_EQ(series.Within(-1.0, 20.0).times_s.size(), 10u);
+  EXPECT_TRUE(series.Within(2.5, 2.9).times_s.empty());
+}
+
 TEST(Extrapolate, IsExactOnPolynomialsUpToItsDegree) {
   for (const std::size_t degree : {1u, 3u, 8u}) {
     const TimeSeries series = SampleUnevenly(20, [&](double t) { return Polynomial(t, degree); });
