@@ -5,6 +5,8 @@
 #include <utility>
 #include <vector>
 
+#include "telltale/core/vessel/fossen_model.hpp"
+
 namespace telltale {
 namespace {
 
@@ -103,6 +105,20 @@ Fault CovarianceFault(const Eigen::MatrixXd& covariance) {
 std::optional<CodecError> ModelFault(const Identification& identification) {
   if (auto fault = CoefficientsFault(identification)) return fault;
   return CovarianceFault(identification.covariance);
+}
+
+std::optional<CodecError> ParametersFault(const std::string& field,
+                                          const std::vector<Coefficient>& parameters) {
+  const auto& names = FossenParameterNames();
+  if (parameters.size() != names.size()) {
+    return CodecError{field, std::to_string(parameters.size()) + " items",
+                      std::to_string(names.size()) + ", the parameters of FOSSEN"};
+  }
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    const std::string place = field + '[' + std::to_string(i) + "].symbol";
+    if (auto fault = TextFault(place, parameters[i].symbol, names[i].symbol)) return fault;
+  }
+  return std::nullopt;
 }
 
 }  // namespace telltale

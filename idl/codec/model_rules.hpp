@@ -1,6 +1,8 @@
 #pragma once
 
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "telltale/core/identification/identification.hpp"
 #include "telltale/core/vessel/propellers.hpp"
@@ -25,5 +27,10 @@ inline constexpr FieldRange kCombinationWeight{-1.0, 1.0};
 /// - the covariance has variances that are not negative, finite covariances, and is symmetric.
 /// Assumes a covariance that is square over the coefficients.
 std::optional<CodecError> ModelFault(const Identification& identification);
+
+/// The first fault of the parameters of the physical form, or nothing: they are those of
+/// FossenParameterNames(), in their order. `field` is where they stand.
+std::optional<CodecError> ParametersFault(const std::string& field,
+                                          const std::vector<Coefficient>& parameters);
 
 }  // namespace telltale

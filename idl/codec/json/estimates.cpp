@@ -45,16 +45,16 @@ void WriteJoint(const Identification& identification, proto::JointBounds& messag
 
 // ---- from Protobuf ------------------------------------------------------------------------------
 
-/// The numbers alone: ModelFault() checks them.
-Eigen::MatrixXd ReadCovariance(FieldReader& reader, const proto::Model& model) {
-  const int n = model.coefficients_size();
-  if (model.covariance_size() != n * n) {
-    reader.Fail("covariance", std::to_string(model.covariance_size()) + " numbers",
-                std::to_string(n * n) + ", the square of " + std::to_string(n) + " coefficients");
+/// The numbers alone, over `n` coefficients or parameters.
+Eigen::MatrixXd ReadCovariance(FieldReader& reader, const char* field, const Numbers& numbers,
+                               int n, const std::string& of) {
+  if (numbers.size() != n * n) {
+    reader.Fail(field, std::to_string(numbers.size()) + " numbers",
+                std::to_string(n * n) + ", the square of " + std::to_string(n) + ' ' + of);
     return {};
   }
   Eigen::MatrixXd covariance(n, n);
-  for (int i = 0; i < n * n; ++i) covariance(i / n, i % n) = model.covariance(i);
+  for (int i = 0; i < n * n; ++i) covariance(i / n, i % n) = numbers[i];
   return covariance;
 }
 
@@ -191,27 +191,6 @@ Coefficient ReadParameter(FieldReader reader, const proto::Coefficient& message)
   return parameter;
 }
 
-/// The parameters by name, and a covariance over them.
-void ExpectParameters(FieldReader& reader, const proto::Model& model) {
-  const auto& names = FossenParameterNames();
-  if (model.parameters_size() != static_cast<int>(names.size())) {
-    reader.Fail("parameters", std::to_string(model.parameters_size()) + " items",
-                std::to_string(names.size()) + ", the parameters of FOSSEN");
-    return;
-  }
-  for (int i = 0; i < model.parameters_size(); ++i) {
-    const std::string expected(names[static_cast<std::size_t>(i)].symbol);
-    if (model.parameters(i).symbol() == expected) continue;
-    reader.Fail("parameters", Quoted(model.parameters(i).symbol()), Quoted(expected));
-  }
-  const int cells = model.parameters_size() * model.parameters_size();
-  if (model.parameter_covariance_size() != cells) {
-    reader.Fail("parameter_covariance",
-                std::to_string(model.parameter_covariance_size()) + " numbers",
-                std::to_string(cells) + ", the square of the number of parameters");
-  }
-}
-
 std::optional<PhysicalModel> ReadPhysical(FieldReader& reader, const proto::Model& model,
                                           Structure structure) {
   if (structure != Structure::kFossen) {
@@ -220,14 +199,13 @@ std::optional<PhysicalModel> ReadPhysical(FieldReader& reader, const proto::Mode
     }
     return std::nullopt;
   }
-  ExpectParameters(reader, model);
   PhysicalModel physical;
   physical.parameters = ReadAll(reader, "parameters", model.parameters(), ReadParameter);
-  const auto n = static_cast<Eigen::Index>(model.parameters_size());
-  if (model.parameter_covariance_size() == n * n) {
-    physical.covariance =
-        Eigen::Map<const Eigen::MatrixXd>(model.parameter_covariance().data(), n, n);
+  if (const auto fault = ParametersFault("parameters", physical.parameters)) {
+    reader.Fail("parameters", fault->value, fault->allowed);
   }
+  physical.covariance = ReadCovariance(reader, "parameter_covariance", model.parameter_covariance(),
+                                       model.parameters_size(), "parameters");
   ExpectFinite(reader, "parameter_covariance", model.parameter_covariance());
   physical.propeller_separation_m = reader.Number("propeller_separation_m", kFinitePositive);
   physical.noise = ReadNoise(reader.Optional("filter_noise"), model.filter_noise());
@@ -266,7 +244,8 @@ void ReadEstimates(FieldReader& reader, const proto::Model& message,
   identification.coefficients =
       ReadAll(reader, "coefficients", message.coefficients(), ReadCoefficient);
   identification.dead_zone = ReadDeadZone(reader.Optional("dead_zone"));
-  identification.covariance = ReadCovariance(reader, message);
+  identification.covariance = ReadCovariance(reader, "covariance", message.covariance(),
+                                             message.coefficients_size(), "coefficients");
   identification.thruster_time_constant =
       ReadTimeConstant(reader, message, identification.structure);
   identification.time_constant_covariance =

@@ -272,18 +272,11 @@ NoiseModel ReadNoise(const std::string& field, const telltale_wire_PhysicalForm&
 PhysicalModel ReadPhysicalForm(const std::string& field, const telltale_wire_PhysicalForm& wire) {
   PhysicalModel physical;
   physical.parameters = ReadSequence(field + ".parameters", wire.parameters, ReadCoefficient);
-  const auto& names = FossenParameterNames();
-  if (physical.parameters.size() != names.size()) {
-    Reject(field + ".parameters", std::to_string(physical.parameters.size()) + " items",
-           std::to_string(names.size()) + ", the parameters of FOSSEN");
+  if (auto fault = ParametersFault(field + ".parameters", physical.parameters)) {
+    throw Malformed{*std::move(fault)};
   }
-  for (std::size_t i = 0; i < names.size(); ++i) {
-    if (physical.parameters[i].symbol == names[i].symbol) continue;
-    Reject(field + ".parameters[" + std::to_string(i) + "].symbol", physical.parameters[i].symbol,
-           Quoted(names[i].symbol));
-  }
-  physical.covariance =
-      ReadCovariance(field + ".covariance", wire.covariance, names.size(), "parameters");
+  physical.covariance = ReadCovariance(field + ".covariance", wire.covariance,
+                                       physical.parameters.size(), "parameters");
   for (const double value : physical.covariance.reshaped()) {
     ReadWithin(field + ".covariance", value, kFinite);
   }
