@@ -25,52 +25,51 @@ std::string EffectNames() {
   return names;
 }
 
-bool Overlap(const RecordingIdentity& one_identity, const Recording& one,
-             const RecordingIdentity& other_identity, const Recording& other) {
-  return SharesFixes(one_identity, other) || SharesFixes(other_identity, one);
-}
-
 /// A reference log, known to be evidence of its own.
 struct Reference {
   std::filesystem::path log;
   Recording recording;
   RecordingIdentity identity;
+  FixMarks marks;
 };
 
 /// A reference shows what a nominal error is. The recording to diagnose may not be nominal, the
 /// model fits the recordings that made it too well, and a recording given twice counts its day
 /// twice.
 void RequireOwnEvidence(const Reference& reference, const RecordedVehicle& diagnosed,
-                        const Identification& model, const std::vector<Reference>& earlier) {
+                        const FixMarks& marks_of_diagnosed, const Identification& model,
+                        const std::vector<Reference>& earlier) {
   const auto refuse = [&](const std::string& reason, const std::string& advice) {
     throw RefusedError({reference.log.string(), reason, advice});
   };
   for (const RecordingIdentity& log : diagnosed.logs) {
-    if (Overlap(log, diagnosed.recording, reference.identity, reference.recording)) {
+    if (Overlap(log, marks_of_diagnosed, reference.identity, reference.marks)) {
       refuse("is both the recording to diagnose and a reference",
              "give recordings of days on which the model held as references");
     }
   }
   for (const RecordingIdentity& made : model.provenance.recordings) {
-    if (SharesFixes(made, reference.recording)) {
+    if (SharesFixes(made, reference.marks)) {
       refuse("made the model (as " + made.name + "), which fits it better than other recordings",
              "give references that did not make the model, or identify the model without this one");
     }
   }
   for (const Reference& other : earlier) {
-    if (Overlap(other.identity, other.recording, reference.identity, reference.recording)) {
+    if (Overlap(other.identity, other.marks, reference.identity, reference.marks)) {
       refuse("holds the same recording as " + other.log.string(), "give each reference once");
     }
   }
 }
 
 std::vector<Reference> ReferencesOf(std::vector<RecordedLog> logs, const RecordedVehicle& diagnosed,
+                                    const FixMarks& marks_of_diagnosed,
                                     const Identification& model) {
   std::vector<Reference> references;
   for (RecordedLog& log : logs) {
-    Reference reference{log.path, std::move(log.loaded.recording), {}};
+    Reference reference{log.path, std::move(log.loaded.recording), {}, {}};
     reference.identity = IdentityOf(reference.recording, NameOf(log.path));
-    RequireOwnEvidence(reference, diagnosed, model, references);
+    reference.marks = MarksOf(reference.recording);
+    RequireOwnEvidence(reference, diagnosed, marks_of_diagnosed, model, references);
     references.push_back(std::move(reference));
   }
   return references;
@@ -86,7 +85,7 @@ PreparedDataset PrepareReference(const Reference& reference, const Vehicle& vehi
 }
 
 /// What the model's record of its recordings, or its absence, means for the answer.
-void NoteRecordingsOf(const Identification& model, const RecordedVehicle& diagnosed,
+void NoteRecordingsOf(const Identification& model, const FixMarks& marks_of_diagnosed,
                       bool has_references, Diagnosis& diagnosis) {
   const auto& recordings = model.provenance.recordings;
   if (has_references && recordings.empty()) {
@@ -95,7 +94,7 @@ void NoteRecordingsOf(const Identification& model, const RecordedVehicle& diagno
         "not.");
   }
   for (const RecordingIdentity& made : recordings) {
-    if (!SharesFixes(made, diagnosed.recording)) continue;
+    if (!SharesFixes(made, marks_of_diagnosed)) continue;
     diagnosis.notes.push_back("The recording made the model (as " + made.name +
                               "), which fits it better than recordings that did not.");
   }
@@ -128,9 +127,10 @@ DiagnosedModel DiagnoseRecorded(const Identification& model, const RecordedVehic
   const PrepareOptions preparation = PreparationFor(model);
   const PreparedDataset dataset =
       OrThrow(Prepare(diagnosed.recording, diagnosed.vehicle, preparation));
+  const FixMarks marks = MarksOf(diagnosed.recording);
   std::vector<PreparedDataset> nominal;
   std::vector<RecordingIdentity> evidence = diagnosed.logs;
-  for (const Reference& reference : ReferencesOf(std::move(references), diagnosed, model)) {
+  for (const Reference& reference : ReferencesOf(std::move(references), diagnosed, marks, model)) {
     nominal.push_back(PrepareReference(reference, diagnosed.vehicle, preparation));
     options.reference_names.push_back(reference.identity.name);
     evidence.push_back(reference.identity);
@@ -140,7 +140,7 @@ DiagnosedModel DiagnoseRecorded(const Identification& model, const RecordedVehic
     auto& made_of = answer.augmented->provenance.recordings;
     made_of.insert(made_of.end(), evidence.begin(), evidence.end());
   }
-  NoteRecordingsOf(model, diagnosed, !nominal.empty(), answer.diagnosis);
+  NoteRecordingsOf(model, marks, !nominal.empty(), answer.diagnosis);
   return answer;
 }
 

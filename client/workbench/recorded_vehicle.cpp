@@ -72,10 +72,22 @@ Vehicle DescribedBy(const std::vector<RecordedLog>& logs, const NoteSink& note) 
 
 // ---- faults of input ----------------------------------------------------------------------------
 
-void RequireNotRepeated(const std::vector<RecordedLog>& logs) {
+std::vector<RecordingIdentity> IdentitiesOf(const std::vector<RecordedLog>& logs) {
+  std::vector<RecordingIdentity> identities;
+  for (const RecordedLog& log : logs) {
+    identities.push_back(IdentityOf(log.loaded.recording, NameOf(log.path)));
+  }
+  return identities;
+}
+
+/// Data that count twice make bounds too narrow.
+void RequireNotRepeated(const std::vector<RecordedLog>& logs,
+                        const std::vector<RecordingIdentity>& identities) {
+  std::vector<FixMarks> marks;
+  for (const RecordedLog& log : logs) marks.push_back(MarksOf(log.loaded.recording));
   for (std::size_t i = 1; i < logs.size(); ++i) {
     for (std::size_t j = 0; j < i; ++j) {
-      if (!HoldsRecording(logs[j].loaded.recording, logs[i].loaded.recording)) continue;
+      if (!Overlap(identities[i], marks[i], identities[j], marks[j])) continue;
       throw RefusedError({logs[i].path.string(),
                           "holds the same recording as " + logs[j].path.string(),
                           "give each recording once"});
@@ -107,16 +119,13 @@ void RequireSelfDescribing(const std::vector<std::filesystem::path>& logs) {
 RecordedVehicle Join(std::vector<RecordedLog> logs, std::optional<Vehicle> stated,
                      InputFaults faults, const NoteSink& note) {
   Vehicle vehicle = stated ? *std::move(stated) : DescribedBy(logs, note);
+  std::vector<RecordingIdentity> identities = IdentitiesOf(logs);
   if (faults == InputFaults::kSought) {
-    RequireNotRepeated(logs);
+    RequireNotRepeated(logs, identities);
     RequireSoundInput(logs, vehicle);
   }
   std::vector<Recording> recordings;
-  std::vector<RecordingIdentity> identities;
-  for (RecordedLog& log : logs) {
-    identities.push_back(IdentityOf(log.loaded.recording, NameOf(log.path)));
-    recordings.push_back(std::move(log.loaded.recording));
-  }
+  for (RecordedLog& log : logs) recordings.push_back(std::move(log.loaded.recording));
   return {Concatenate(recordings), std::move(vehicle), std::move(identities)};
 }
 

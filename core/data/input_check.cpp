@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
-#include <tuple>
 #include <utility>
 
 #include "telltale/core/base/format_number.hpp"
@@ -141,15 +140,6 @@ std::optional<Refusal> UnitFault(const std::vector<GnssFix>& gnss,
   if (auto fault = FaultOfTimes(CheckChannel(gnss))) return fault;
   if (auto fault = FaultOfPositionRange(gnss)) return fault;
   return FaultOfCommandUnit(thrusters);
-}
-
-bool HoldsRecording(const Recording& whole, const Recording& part) {
-  const auto in_order = [](const GnssFix& a, const GnssFix& b) {
-    return std::tie(a.time_s, a.latitude_deg, a.longitude_deg) <
-           std::tie(b.time_s, b.latitude_deg, b.longitude_deg);
-  };
-  return !part.gnss.empty() && std::includes(whole.gnss.begin(), whole.gnss.end(),
-                                             part.gnss.begin(), part.gnss.end(), in_order);
 }
 
 std::optional<Refusal> FirstFault(const InputCheck& check) {

@@ -41,9 +41,6 @@ InputCheck CheckInput(const std::vector<GnssFix>& gnss, const std::vector<Headin
 std::optional<Refusal> UnitFault(const std::vector<GnssFix>& gnss,
                                  const std::vector<ThrusterSample>& thrusters);
 
-/// Whether all positions of `part` stand in `whole`, at the same times. Requires: times ascend.
-bool HoldsRecording(const Recording& whole, const Recording& part);
-
 /// The most certain fault; nothing where the input shows none.
 std::optional<Refusal> FirstFault(const InputCheck& check);
 

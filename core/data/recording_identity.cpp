@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <unordered_set>
 #include <utility>
 
 #include <boost/crc.hpp>
@@ -43,13 +42,22 @@ RecordingIdentity IdentityOf(const Recording& recording, std::string name) {
   return identity;
 }
 
-bool SharesFixes(const RecordingIdentity& identity, const Recording& recording) {
-  std::unordered_set<std::uint32_t> marks;
+FixMarks MarksOf(const Recording& recording) {
+  FixMarks marks;
   for (const GnssFix& fix : recording.gnss) marks.insert(MarkOf(fix));
+  return marks;
+}
+
+bool SharesFixes(const RecordingIdentity& identity, const FixMarks& marks) {
   const auto shared = static_cast<std::size_t>(
       std::count_if(identity.marks.begin(), identity.marks.end(),
                     [&](std::uint32_t mark) { return marks.contains(mark); }));
   return shared > 0 && shared >= std::min(kMarksThatTell, identity.marks.size());
+}
+
+bool Overlap(const RecordingIdentity& one, const FixMarks& marks_of_one,
+             const RecordingIdentity& other, const FixMarks& marks_of_other) {
+  return SharesFixes(one, marks_of_other) || SharesFixes(other, marks_of_one);
 }
 
 }  // namespace telltale

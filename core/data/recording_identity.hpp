@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <string>
+#include <unordered_set>
 #include <vector>
 
 #include "telltale/core/data/samples.hpp"
@@ -22,9 +23,18 @@ struct RecordingIdentity {
 /// Requires: times ascend.
 RecordingIdentity IdentityOf(const Recording& recording, std::string name);
 
-/// Whether `recording` holds the recording of that identity or a part of it: at least three of its
-/// marks, or all where it has fewer. A part of less than about half a minute goes unnoticed.
-/// Assumes: both have the same clock; a recording whose clock was shifted counts as another.
-bool SharesFixes(const RecordingIdentity& identity, const Recording& recording);
+/// The marks of all fixes of a recording at hand, with which identities are compared.
+using FixMarks = std::unordered_set<std::uint32_t>;
+FixMarks MarksOf(const Recording& recording);
+
+/// Whether a recording with these marks holds the recording of that identity or a part of it: at
+/// least three of its marks, or all where it has fewer. A part of less than about half a minute
+/// goes unnoticed. Assumes: both have the same clock; a recording whose clock was shifted counts as
+/// another.
+bool SharesFixes(const RecordingIdentity& identity, const FixMarks& marks);
+
+/// Whether one of two recordings holds the other or a part of it.
+bool Overlap(const RecordingIdentity& one, const FixMarks& marks_of_one,
+             const RecordingIdentity& other, const FixMarks& marks_of_other);
 
 }  // namespace telltale
