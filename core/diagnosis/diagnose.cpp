@@ -159,7 +159,7 @@ ReferenceInfluence InfluenceOf(std::string reference, const Result<Answer>& with
   return influence;
 }
 
-/// The answer without each reference in turn.
+/// The answer without each reference in turn. Requires: two references or more.
 std::vector<ReferenceInfluence> InfluencesOf(const std::vector<PreparedDataset>& references,
                                              const PreparedDataset& recording,
                                              const Identification& identification,
@@ -168,17 +168,18 @@ std::vector<ReferenceInfluence> InfluencesOf(const std::vector<PreparedDataset>&
   // What is asked of them is the verdict.
   options.advise = options.state_power = false;
   std::vector<ReferenceInfluence> influences;
+  std::vector<PreparedDataset> others(references.begin() + 1, references.end());
   for (std::size_t left_out = 0; left_out < references.size(); ++left_out) {
     if (progress) {
       progress("references",
                static_cast<double>(left_out) / static_cast<double>(references.size()));
     }
-    std::vector<PreparedDataset> others = references;
-    others.erase(others.begin() + static_cast<std::ptrdiff_t>(left_out));
     influences.push_back(
         InfluenceOf(ReferenceName(options, left_out),
                     DiagnoseAgainst(others, {&references[left_out], std::nullopt}, recording,
                                     identification, model, options, {})));
+    // It takes the place of the next one, which is left out in turn.
+    if (left_out < others.size()) others[left_out] = references[left_out];
   }
   return influences;
 }
