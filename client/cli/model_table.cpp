@@ -12,9 +12,25 @@
 namespace telltale {
 namespace {
 
+std::string FormText(Structure structure) {
+  return structure == Structure::kFossen ? "physical model in Fossen's form"
+                                         : InWords(Name(structure)) + " model";
+}
+
+std::string EstimatorText(Estimator estimator) {
+  switch (estimator) {
+    case Estimator::kOneStep: return "one-step least squares";
+    case Estimator::kWeakIv: return "the weak form with instruments";
+    case Estimator::kPredictionError: return "the prediction-error method";
+    case Estimator::kOutputError:
+    case Estimator::kUnknown: break;
+  }
+  return InWords(Name(estimator));
+}
+
 std::string Title(const Identification& model) {
-  return Wrapped(model.vehicle_id + ": " + InWords(Name(model.structure)) + " model, " +
-                 InWords(Name(model.estimator)) + ", h = " + Plain(model.sampling_period_s) + " s");
+  return Wrapped(model.vehicle_id + ": " + FormText(model.structure) + ", estimated by " +
+                 EstimatorText(model.estimator) + ", h = " + Plain(model.sampling_period_s) + " s");
 }
 
 /// A paragraph of its own, where there is any text.
@@ -64,12 +80,13 @@ std::string ParameterTable(const PhysicalModel& physical, const std::string& bou
                {"unit", Align::kLeft},
                {"", Align::kLeft}});
   for (const Coefficient& parameter : physical.parameters) {
-    table.AddRow({parameter.symbol, Significant(parameter.estimate), BoundsText(parameter.interval),
-                  parameter.unit, parameter.status == CoefficientStatus::kPrior ? "prior" : ""});
+    table.AddRow({ParameterCell(parameter.symbol), Significant(parameter.estimate),
+                  BoundsText(parameter.interval), parameter.unit,
+                  parameter.status == CoefficientStatus::kPrior ? "prior" : ""});
   }
   return Wrapped(
-             "Parameters of the physical form over the mass with added mass in surge; "
-             "simulations use these values.") +
+             "Parameters of the physical form; simulations use these values. "
+             "Masses, drag and thrust are over the mass with added mass in surge.") +
          table.Render();
 }
 
@@ -87,16 +104,23 @@ std::string ChangeText(const Identification& model) {
   return Wrapped("The model " + InWords(*model.provenance.change));
 }
 
+std::string StatusText(const Identification& model, const Coefficient& c) {
+  const bool absent = model.physical && c.estimate == 0.0 && c.standard_error == 0.0;
+  return absent ? "not in this form" : InWords(Name(c.status));
+}
+
 std::string EstimatesTable(const Identification& model) {
-  return CoefficientRows(model,
+  const std::string title = model.physical ? "Coefficients that the parameters imply.\n" : "";
+  return title +
+         CoefficientRows(model,
                          {{"regressor", Align::kLeft},
                           {"symbol", Align::kLeft},
                           {"estimate", Align::kRight},
                           {"std. error", Align::kRight},
                           {"status", Align::kLeft}},
-                         [](const Coefficient& c, std::size_t) -> std::vector<std::string> {
+                         [&model](const Coefficient& c, std::size_t) -> std::vector<std::string> {
                            return {c.regressor, c.symbol, Significant(c.estimate),
-                                   Significant(c.standard_error, 3), InWords(Name(c.status))};
+                                   Significant(c.standard_error, 3), StatusText(model, c)};
                          });
 }
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 
+#include "telltale/core/vessel/fossen_model.hpp"
+
 namespace telltale {
 namespace {
 
@@ -47,6 +49,13 @@ constexpr std::array kOwnVelocities = {OwnVelocity{Equation::kSurge, "u", "u|u|"
                                        OwnVelocity{Equation::kSway, "v", "v|v|"},
                                        OwnVelocity{Equation::kYaw, "r", "r|r|"}};
 
+std::string SymbolAndWords(std::string_view symbol, std::string_view words) {
+  constexpr std::size_t kSymbolColumns = 6;
+  std::string cell(symbol);
+  cell.resize(std::max(cell.size() + 1, kSymbolColumns), ' ');
+  return cell.append(words);
+}
+
 }  // namespace
 
 std::string_view RegressorInWords(Equation equation, std::string_view regressor) {
@@ -62,10 +71,14 @@ std::string_view RegressorInWords(Equation equation, std::string_view regressor)
 }
 
 std::string RegressorCell(Equation equation, std::string_view regressor) {
-  constexpr std::size_t kSymbolColumns = 6;
-  std::string cell(regressor);
-  cell.resize(std::max(cell.size() + 1, kSymbolColumns), ' ');
-  return cell.append(RegressorInWords(equation, regressor));
+  return SymbolAndWords(regressor, RegressorInWords(equation, regressor));
+}
+
+std::string ParameterCell(std::string_view symbol) {
+  const auto found =
+      std::ranges::find(FossenParameterNames(), symbol, &FossenParameterName::symbol);
+  return found == FossenParameterNames().end() ? std::string(symbol)
+                                               : SymbolAndWords(symbol, found->meaning);
 }
 
 }  // namespace telltale

@@ -14,4 +14,7 @@ std::string_view RegressorInWords(Equation equation, std::string_view regressor)
 /// Symbol and words in one cell: "f:d   forward thrust, linear".
 std::string RegressorCell(Equation equation, std::string_view regressor);
 
+/// The same of a parameter of the physical form: "m22   mass in sway".
+std::string ParameterCell(std::string_view symbol);
+
 }  // namespace telltale

@@ -65,7 +65,8 @@ struct FossenParameterName {
   std::string_view meaning;
 };
 
-/// Symbol, unit and meaning in the order of FossenParameter.
+/// Symbol, unit and a few words of meaning in the order of FossenParameter. Masses, drag and thrust
+/// are over the mass with added mass in surge.
 const std::array<FossenParameterName, kFossenParameters>& FossenParameterNames();
 
 /// Those before the dead bands, which act through the lagged commands.

@@ -194,7 +194,7 @@ TEST_F(CommandTest, IdentifySaysWhichEstimatorTheDataChoseAndWhy) {
   const CommandOutcome outcome = Telltale({"identify", "--log", Path("log"), "--vehicle",
                                            Path("boat.textproto"), "--out", Path("model.json")});
   EXPECT_EQ(outcome.exit_code, kSuccess) << outcome.err;
-  EXPECT_THAT(outcome.out, AllOf(HasSubstr(", output error, h ="),
+  EXPECT_THAT(outcome.out, AllOf(HasSubstr(", estimated by output error, h ="),
                                  HasSubstr("Estimator chosen: output error, since")));
   const auto model = ParseModelJson(TextOfFile(Path("model.json")));
   ASSERT_TRUE(model) << model.error().Message();
@@ -282,7 +282,7 @@ TEST_F(CommandTest, AModelOfThePhysicalFormIsIdentifiedValidatedAndCompared) {
                 "--structure", "fossen", "--out", Path("model.json")});
   EXPECT_EQ(outcome.exit_code, kSuccess) << outcome.err;
   EXPECT_THAT(outcome.out, AllOf(HasSubstr("Parameters of the physical form"),
-                                 HasSubstr("delay_commands"), HasSubstr("prediction error")));
+                                 HasSubstr("delay_commands"), HasSubstr("prediction-error")));
   const auto model = ParseModelJson(TextOfFile(Path("model.json")));
   ASSERT_TRUE(model) << model.error().Message();
   ASSERT_TRUE(model->physical);

@@ -71,6 +71,19 @@ TEST(ModelTable, FitsATerminal) {
   ExpectNoLineBeyondTheTerminal(ModelTable(MadeUpIdentification(), MadeUpScore()));
 }
 
+TEST(ModelTable, SaysOfThePhysicalFormWhatEachNumberIs) {
+  Identification physical = MadeUpPhysicalIdentification();
+  physical.coefficients[4].estimate = physical.coefficients[4].standard_error = 0.0;
+  const std::string table = ModelTable(physical);
+  ExpectNoLineBeyondTheTerminal(table);
+  for (const char* text :
+       {"physical model in Fossen's form, estimated by the prediction-error method",
+        "m22   mass in sway", "Tf2   forward thrust, quadratic", "delay_fixes behind headings",
+        "Coefficients that the parameters imply", "not in this form"}) {
+    EXPECT_THAT(Unwrapped(table), HasSubstr(text));
+  }
+}
+
 TEST(ModelTable, ShowsSimulationParametersWhereTheyDiffer) {
   EXPECT_THAT(ModelTable(MadeUpIdentification()),
               HasSubstr("Values for simulation: the estimates"));
