@@ -70,4 +70,11 @@ struct ShortRecording {
   FreeRuns runs{dataset, model.model, 5.0};
 };
 
+/// The same and the nominal boat that is learned from it.
+struct LearnedBaseline : ShortRecording {
+  std::vector<EffectParameterRef> parameter_refs = EffectParameterRefsOf(EffectLibrary());
+  NominalBaseline nominal = LearnNominalBaseline({runs}, model, parameter_refs, 2);
+  Sensitivity recording = SensitivityOf(runs, nominal.boat, model, parameter_refs, 2);
+};
+
 }  // namespace telltale::testing

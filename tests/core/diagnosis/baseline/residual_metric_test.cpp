@@ -4,27 +4,18 @@
 
 #include <gtest/gtest.h>
 
-#include "support/stable_boat_with_effects.hpp"
+#include "support/hand_made_diagnosis.hpp"
 
 namespace telltale {
 namespace {
 
-struct BaselineFixture {
-  UncertainModel model = UncertainModelOf(testing::KnownStableBoat()).value();
-  std::vector<EffectParameterRef> parameter_refs = EffectParameterRefsOf(EffectLibrary());
-  PreparedDataset dataset = testing::SimulateWithEffects({}, 120.0, 500);
-  FreeRuns runs{dataset, model.model, 5.0};
-  NominalBaseline nominal = LearnNominalBaseline({runs}, model, parameter_refs, 2);
-  Sensitivity recording = SensitivityOf(runs, nominal.boat, model, parameter_refs, 2);
-};
-
-const BaselineFixture& SharedFixture() {
-  static const BaselineFixture boat;
+const testing::LearnedBaseline& SharedFixture() {
+  static const testing::LearnedBaseline boat;
   return boat;
 }
 
 ResidualMetric MetricOf(bool free_coefficients) {
-  const BaselineFixture& boat = SharedFixture();
+  const testing::LearnedBaseline& boat = SharedFixture();
   return {boat.nominal, boat.recording, EveryWindow(boat.recording), free_coefficients};
 }
 
@@ -36,7 +27,7 @@ TEST(ResidualMetric, RemembersWhetherItFreesTheCoefficients) {
 // What a coefficient that is as good as free would explain costs next to nothing; held to its
 // covariance it costs what a prior asks: x'(I + v v')^-1 x = |x|^2 / (1 + |v|^2) for x along v.
 TEST(ResidualMetric, MarginalisesAFreeCoefficient) {
-  const BaselineFixture& boat = SharedFixture();
+  const testing::LearnedBaseline& boat = SharedFixture();
   const Eigen::VectorXd pattern = boat.recording.by_coefficient.col(0) * 20.0;
   const auto cost = [&](const ResidualMetric& metric) {
     return metric.WhitenColumns(pattern).col(0).dot(
@@ -48,7 +39,7 @@ TEST(ResidualMetric, MarginalisesAFreeCoefficient) {
 
 // No marginalised variation can make an error count for more than it does by scatter alone.
 TEST(ResidualMetric, NeverExceedsTheUnmarginalisedDistance) {
-  const BaselineFixture& boat = SharedFixture();
+  const testing::LearnedBaseline& boat = SharedFixture();
   const ResidualMetric metric = MetricOf(false);
   const Eigen::VectorXd seen = metric.Whiten(boat.recording.errors);
   EXPECT_GE(metric.SquaredMahalanobis(seen), 0.0);
@@ -58,7 +49,7 @@ TEST(ResidualMetric, NeverExceedsTheUnmarginalisedDistance) {
 // Sherman and Morrison: y' (V + b b' / kappa)^-1 y = y' V^-1 y - (y' V^-1 b)^2 / (kappa + b' V^-1
 // b), and the determinant grows by 1 + b' V^-1 b with scatter alone.
 TEST(ResidualMetric, WidensForVariationWithinAWindow) {
-  const BaselineFixture& boat = SharedFixture();
+  const testing::LearnedBaseline& boat = SharedFixture();
   const ResidualMetric metric(boat.nominal, boat.recording, {3}, false);
   const Eigen::VectorXd varying = 4.0 * boat.recording.by_effect_parameter.col(0);
   const ResidualMetric widened = metric.WithWindowVariation(varying);

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "support/stable_boat_with_effects.hpp"
+#include "support/hand_made_diagnosis.hpp"
 
 namespace telltale {
 namespace {
@@ -66,13 +66,7 @@ ModelledEffect AtPriorMean(const char* name) {
   return modelled;
 }
 
-struct RankedBoat {
-  UncertainModel model = UncertainModelOf(testing::KnownStableBoat()).value();
-  std::vector<EffectParameterRef> parameter_refs = EffectParameterRefsOf(EffectLibrary());
-  PreparedDataset dataset = testing::SimulateWithEffects({}, 120.0, 500);
-  FreeRuns runs{dataset, model.model, 5.0};
-  NominalBaseline nominal = LearnNominalBaseline({runs}, model, parameter_refs, 2);
-  Sensitivity recording = SensitivityOf(runs, nominal.boat, model, parameter_refs, 2);
+struct RankedBoat : testing::LearnedBaseline {
   ResidualMetric metric{nominal, recording, EveryWindow(recording), false};
 
   EffectFit Scored(const char* effect, double score) const {
