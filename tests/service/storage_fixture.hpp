@@ -16,9 +16,13 @@ enum class Engine { kSqlite, kPostgres };
 
 inline const auto kEngines = ::testing::Values(Engine::kSqlite, Engine::kPostgres);
 
+inline void PrintTo(Engine engine, std::ostream* out) {
+  *out << (engine == Engine::kSqlite ? "SQLite" : "PostgreSQL");
+}
+
 /// The name of an engine in that of a test.
 inline std::string EngineName(const ::testing::TestParamInfo<Engine>& info) {
-  return info.param == Engine::kSqlite ? "SQLite" : "PostgreSQL";
+  return ::testing::PrintToString(info.param);
 }
 
 /// A storage of one engine in a folder and on a server of the test's own.

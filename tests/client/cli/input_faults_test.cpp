@@ -34,6 +34,10 @@ struct InputWithFault {
   std::vector<const char*> said;  ///< each is right
 };
 
+void PrintTo(const InputWithFault& input, std::ostream* out) {
+  *out << input.said.front();
+}
+
 void ChangeEachHeading(Recording& recording, const std::function<double(double)>& change) {
   for (HeadingSample& sample : recording.heading) sample.heading_deg = change(sample.heading_deg);
 }

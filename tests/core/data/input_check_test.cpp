@@ -86,6 +86,10 @@ struct Fault {
   const char* reason;
 };
 
+void PrintTo(const Fault& fault, std::ostream* out) {
+  *out << fault.reason;
+}
+
 class InputFault : public testing::TestWithParam<Fault> {};
 
 TEST_P(InputFault, IsNamed) {

@@ -212,6 +212,10 @@ struct DriftCase {
   double median_thrice_s;  ///< likewise, three times
 };
 
+void PrintTo(const DriftCase& weather, std::ostream* out) {
+  *out << "weather within a factor of exp(" << weather.spread << ')';
+}
+
 class DriftCalibration : public ::testing::TestWithParam<DriftCase> {};
 
 TEST_P(DriftCalibration, KeepsWhatThePageOfOperationsPromises) {
