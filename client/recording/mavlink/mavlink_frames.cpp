@@ -60,8 +60,8 @@ Outcome SeemsToBeginAt(std::span<const std::uint8_t> bytes) {
   return seems ? Outcome::kFrame : Outcome::kNotAFrame;
 }
 
-/// The prefix and frame at `bytes`, whose length counts both. What cannot be told from noise by its
-/// checksum counts as a frame only where another one, or the end, follows it.
+/// The prefix and frame at `bytes`, whose length counts both. What its checksum cannot tell from
+/// noise counts as a frame only where another one, or the end, follows it.
 template <class Prefix>
 MavlinkParse ParseAt(std::span<const std::uint8_t> bytes, bool at_end) {
   MavlinkParse parse;

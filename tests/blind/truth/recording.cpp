@@ -59,13 +59,13 @@ double Shown(double heading_rad, const Faults& faults) {
 
 std::string Fixes(const Track& track, const SimulatedRun& simulated_run, double start_s,
                   RandomStream rng) {
-  constexpr double kFixWanderTimeS = 20.0;
+  constexpr double kFixDriftTimeS = 20.0;
   const Chart chart;
   const double memory_s = rng.Uniform(20.0, 40.0);
   GaussMarkov north_drift(0.015, memory_s, rng.For("north"));
   GaussMarkov east_drift(0.015, memory_s, rng.For("east"));
-  GaussMarkov north_fix_drift(1.0, kFixWanderTimeS, rng.For("north fix drift"));
-  GaussMarkov east_fix_drift(1.0, kFixWanderTimeS, rng.For("east fix drift"));
+  GaussMarkov north_fix_drift(1.0, kFixDriftTimeS, rng.For("north fix drift"));
+  GaussMarkov east_fix_drift(1.0, kFixDriftTimeS, rng.For("east fix drift"));
   std::string text = "time_s,latitude_deg,longitude_deg\n";
   for (int step = 0; step < static_cast<int>(track.states.size()); step += kStepsPerFix) {
     const double time = step * kStepS;

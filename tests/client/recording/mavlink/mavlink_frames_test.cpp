@@ -91,7 +91,7 @@ TEST(MavlinkFrames, OfUnknownMessagesCountBetweenOthersAndAtTheEnd) {
   EXPECT_EQ(damage.skipped_bytes, 0u);
 }
 
-TEST(MavlinkFrames, BehindNoiseThatLooksLikeAnUnknownMessageAreFound) {
+TEST(MavlinkFrames, BehindNoiseInTheFormOfAnUnknownMessageAreFound) {
   MavlinkDamage damage;
   Bytes too_long = kForeign;
   too_long[1] = 20;  // would end in the midst of the message behind it
