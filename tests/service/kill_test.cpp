@@ -51,7 +51,7 @@ TEST_P(KilledDaemon, FinishesAcknowledgedRequestsAfterItsRestart) {
   const Participant participant(domain_.id());
   IdentificationClient client(participant);
   IdentifyRequest request = Request("acknowledged");
-  request.coverage_check_replicates = 10;
+  request.structure = Structure::kFossen;  // a second of work
   bool killed = false;
   const auto result = client.Identify(
       request, {.match = 60s, .reply = 120s, .retry = 1s}, [&](const IdentifyProgress&) {

@@ -91,7 +91,7 @@ TEST_F(SharedFleet, GetsTheAnswerThatADeadDaemonOwed) {
   IdentificationClient client(participant);
   IdentifyRequest request = Request("owed");
   request.vehicle_id = "boat-2";
-  request.coverage_check_replicates = 10;
+  request.structure = Structure::kFossen;  // a second of work
   const auto result = client.Identify(request, {.match = 60s, .reply = 240s, .retry = 1s},
                                       [&](const IdentifyProgress&) { two_->Signal(SIGKILL); });
   EXPECT_EQ(result.outcome, RequestOutcome::kPublished);

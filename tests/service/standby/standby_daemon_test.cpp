@@ -107,7 +107,7 @@ TEST_F(StandbyDaemon, AnswersWhatTheOtherHadAcknowledged) {
   ReplayToBoth();
   IdentificationClient client(participant_);
   IdentifyRequest request = Request("acknowledged");
-  request.coverage_check_replicates = 10;  // seconds of work
+  request.structure = Structure::kFossen;  // a second of work
   bool killed = false;
   const auto result = client.Identify(request, kTiming, [&](const IdentifyProgress&) {
     if (std::exchange(killed, true)) return;
