@@ -90,7 +90,7 @@ class SimulatedRow {
 /// Measured less foretold velocities at the ends of all spans. Nothing that was measured after the
 /// beginning of a span is used, not even by late fixes, which TrueStart would look ahead for.
 Eigen::Matrix3Xd ResidualsOf(const PreparedDataset& dataset, AugmentedModel model) {
-  const double late_s = AugmentedBoat(model, dataset.StartTime(), 1.0).LatencyS();
+  const double late_s = AugmentedBoat(model, telltale::RecordingFrameOf(dataset)).LatencyS();
   std::erase_if(model.effects, [](const telltale::ModelledEffect& modelled) {
     return modelled.effect->LatencyS(modelled.values) != 0.0;
   });
