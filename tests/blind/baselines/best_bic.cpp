@@ -118,7 +118,7 @@ Point LeastSquares(const Problem& problem) {
 
 std::vector<ScoredExplanation> BestBic(const ReferenceBasis& basis) {
   std::vector<ScoredExplanation> explanations;
-  for (const Effect* effect : telltale::EffectLibrary()) {
+  for (const Effect* effect : basis.candidates) {
     if (telltale::EffectParameterRefsOf(std::span(&effect, 1)).empty()) continue;
     const Problem problem(basis, *effect);
     const Point point = LeastSquares(problem);

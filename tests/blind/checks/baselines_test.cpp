@@ -42,7 +42,9 @@ TEST(Baselines, NameAWeakThruster) {
     EXPECT_EQ(report.verdict, "EXPLAINED");
     ASSERT_FALSE(report.causes.empty());
     EXPECT_EQ(report.causes[0].effects, score::EffectSet{"thruster_imbalance"});
-    EXPECT_GT(report.causes[0].probability, 0.9);
+    // An output partly stuck at a command of zero is the same boat with one parameter more, for
+    // which BIC leaves it a weight of 1 / sqrt(n), n the windows: here a fifth.
+    EXPECT_GT(report.causes[0].probability, 0.75);
     ASSERT_TRUE(report.closure.has_value());
     EXPECT_NEAR(*report.closure, 1.0, 0.1);
   }

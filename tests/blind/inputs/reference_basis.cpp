@@ -12,6 +12,13 @@ using telltale::FreeRuns;
 
 constexpr double kHorizonS = 5.0;
 
+std::vector<const telltale::Effect*> EffectsOfTheMean() {
+  const auto library = telltale::EffectLibrary();
+  std::vector<const telltale::Effect*> effects(library.begin(), library.end());
+  std::erase_if(effects, [](const auto* effect) { return effect->Facts().is_intermittent; });
+  return effects;
+}
+
 std::vector<FreeRuns> ReferenceRuns(const DiagnosisInputs& inputs) {
   std::vector<FreeRuns> nominal;
   for (const telltale::PreparedDataset& reference : inputs.references) {
@@ -28,7 +35,8 @@ std::vector<FreeRuns> ReferenceRuns(const DiagnosisInputs& inputs) {
 
 ReferenceBasis::ReferenceBasis(const DiagnosisInputs& given)
     : inputs(given),
-      parameter_refs(telltale::EffectParameterRefsOf(telltale::EffectLibrary())),
+      candidates(EffectsOfTheMean()),
+      parameter_refs(telltale::EffectParameterRefsOf(candidates)),
       runs(given.recording, given.model.model, kHorizonS),
       reference_runs(ReferenceRuns(given)),
       nominal(telltale::LearnNominalBaseline(reference_runs, given.model, parameter_refs, 1)),

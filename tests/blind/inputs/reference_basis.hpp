@@ -29,6 +29,9 @@ struct ReferenceBasis {
   telltale::AugmentedModel With(const std::vector<telltale::ModelledEffect>& effects) const;
 
   const DiagnosisInputs& inputs;
+  /// The effects of the library that differ in the mean. An intermittent one has the mean of a
+  /// steady one and differs by its scatter, which no baseline weighs.
+  std::vector<const telltale::Effect*> candidates;
   std::vector<telltale::EffectParameterRef> parameter_refs;
   telltale::FreeRuns runs;
   std::vector<telltale::FreeRuns> reference_runs;

@@ -43,7 +43,8 @@ TEST(SummarySentence, NamesNoUnlikelyCause) {
   EXPECT_EQ(
       SummarySentence(LateThrust(Verdict::kUnknownCause, 0.3)),
       "The model no longer matches the boat (2.0 times the normal error), and no effect of the "
-      "library explains it; the error sits in yaw, FR.");
+      "library explains it; the error sits in yaw, FR. Missing is a surge force that is -4.0 ± 0.8 "
+      "N on headings of 0 to 36 deg.");
 }
 
 }  // namespace
