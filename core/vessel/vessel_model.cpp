@@ -82,11 +82,11 @@ ThrustRegressors VesselModel::ThrustAt(double u, const ThrustRegressors& thrust)
   return at;
 }
 
-NuDot VesselModel::AccelerationUnder(const ThrustRegressors& before_loss, const Nu& nu) const {
-  const ThrustRegressors thrust = ThrustAt(nu.u, before_loss);
-  return {RowTimesTheta(*this, Equation::kSurge, nu, thrust),
-          RowTimesTheta(*this, Equation::kSway, nu, thrust),
-          RowTimesTheta(*this, Equation::kYaw, nu, thrust)};
+NuDot VesselModel::AccelerationUnder(const ThrustRegressors& thrust, const Nu& nu) const {
+  const ThrustRegressors left = ThrustAt(nu.u, thrust);
+  return {RowTimesTheta(*this, Equation::kSurge, nu, left),
+          RowTimesTheta(*this, Equation::kSway, nu, left),
+          RowTimesTheta(*this, Equation::kYaw, nu, left)};
 }
 
 NuDot VesselModel::Acceleration(const Nu& nu, const PropellerCommand& delta) const {

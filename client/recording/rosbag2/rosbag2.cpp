@@ -1,9 +1,9 @@
 #include "telltale/client/recording/rosbag2/rosbag2.hpp"
 
-#include <stdlib.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <fstream>
 #include <map>
 #include <span>
