@@ -92,7 +92,12 @@ FleetJobs::~FleetJobs() {
 void FleetJobs::Submit(FleetRequest request) {
   {
     const std::lock_guard lock(inbox_->mutex);
-    if (inbox_->requests.size() < kRequestsThatWait) inbox_->requests.push_back(std::move(request));
+    if (inbox_->requests.size() >= kRequestsThatWait) {
+      spdlog::warn("{} for {} is left out: {} requests wait; the client asks again",
+                   Name(request.command), request.correlation_id, kRequestsThatWait);
+      return;
+    }
+    inbox_->requests.push_back(std::move(request));
   }
   inbox_->wake.notify_all();
 }
