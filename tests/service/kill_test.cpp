@@ -46,7 +46,7 @@ TEST_P(KilledDaemon, IdentifiesAtOnceFromTheWindowThatItHad) {
 // The client is told that the request is queued, which means that it is on disk.
 TEST_P(KilledDaemon, FinishesAcknowledgedRequestsAfterItsRestart) {
   auto daemon = StartDaemon();
-  Replay(SimulatedRecording(testing::StableBoat(), 0.0, 300.0, 4));
+  Replay(SimulatedRecording(testing::StableBoat(), 0.0, 90.0, 4));
   ASSERT_TRUE(AwaitSavedWindow());
   const Participant participant(domain_.id());
   IdentificationClient client(participant);

@@ -85,7 +85,7 @@ TEST_F(SharedFleet, IsServedByTheOtherWhenADaemonIsKilled) {
 // The client is told that the request is queued, and the daemon that told it is gone.
 TEST_F(SharedFleet, GetsTheAnswerThatADeadDaemonOwed) {
   ASSERT_NO_FATAL_FAILURE(StartBoth());
-  ReplayTo("boat-2", SimulatedRecording(testing::StableBoat(), 0.0, 300.0, 4));
+  ReplayTo("boat-2", SimulatedRecording(testing::StableBoat(), 0.0, 90.0, 4));
   ASSERT_TRUE(AwaitSavedWindow("boat-2"));
   const Participant participant(domain_.id());
   IdentificationClient client(participant);

@@ -32,7 +32,9 @@ class StandbyDaemon : public ServiceTest {
     ASSERT_TRUE(DaemonPair::StandsBy(*two_, 1)) << two_->output();
   }
 
-  void ReplayToBoth() { Replay(SimulatedRecording(testing::StableBoat(), 0.0, 300.0, 4)); }
+  void ReplayToBoth(double duration_s = 300.0) {
+    Replay(SimulatedRecording(testing::StableBoat(), 0.0, duration_s, 4));
+  }
 
   /// The revision that the service gives the boat's next model; 0 where it gives none.
   std::uint64_t Identify(const std::string& correlation_id) {
@@ -104,7 +106,7 @@ TEST_F(StandbyDaemon, TakesOverWithAWarmWindowWhenTheOtherIsKilled) {
 
 TEST_F(StandbyDaemon, AnswersWhatTheOtherHadAcknowledged) {
   StartPair();
-  ReplayToBoth();
+  ReplayToBoth(90.0);
   IdentificationClient client(participant_);
   IdentifyRequest request = Request("acknowledged");
   request.structure = Structure::kFossen;  // a second of work
