@@ -30,7 +30,7 @@ struct ReferenceBasis {
 
   const DiagnosisInputs& inputs;
   /// The effects of the library that differ in the mean. An intermittent one has the mean of a
-  /// steady one and differs by its scatter, which no baseline weighs.
+  /// steady one and differs by its scatter, which no baseline counts.
   std::vector<const telltale::Effect*> candidates;
   std::vector<telltale::EffectParameterRef> parameter_refs;
   telltale::FreeRuns runs;
