@@ -128,9 +128,10 @@ TEST_F(FleetCommands, FollowARefreshThatAnotherBegan) {
 
 // The boat with telemetry takes minutes; the silent ones are through at once.
 TEST_F(FleetCommands, GoOnWithARefreshWhoseClientIsInterrupted) {
-  Configure("bootstrap_replicates: 100000");
+  // Seconds of work, so that it is under way until it is cancelled.
+  Configure("structure: \"fossen\"");
   const auto daemon = StartDaemon(3);
-  Replay(SimulatedRecording(testing::StableBoat(), 0.0, 300.0, 4));
+  Replay(SimulatedRecording(testing::StableBoat(), 0.0, 900.0, 4));
   const auto client = Start({"refresh", "--all"});
   ASSERT_TRUE(client->WaitForOutput("silent-1: REFUSED"));
   client->Signal(SIGINT);
