@@ -28,18 +28,13 @@ class FleetCommands : public ServiceTest {
 
   void Configure(const std::string& identification) {
     Vehicle vehicle = YellowfishVehicle();
-    std::string files;
+    std::vector<std::string> files;
     for (const char* id : {kVehicleId, "silent-1", "silent-2"}) {
       vehicle.vehicle_id = id;
-      folder_.Write(std::string(id) + ".textproto", PrintVehicle(vehicle));
-      files += "vehicle_files: \"" + std::string(id) + ".textproto\"\n";
+      files.push_back(std::string(id) + ".textproto");
+      folder_.Write(files.back(), PrintVehicle(vehicle));
     }
-    config_file_ = folder_.Write("fleet.textproto",
-                                 "domain: " + std::to_string(domain_.id()) + "\n" + files +
-                                     "state_directory: \"" + (folder_.Path() / "state").string() +
-                                     "\"\nidentification { " + identification +
-                                     " }\n"
-                                     "quality_period_s: 0.1\nwindow { save_period_s: 0.2 }\n");
+    ConfigureIdentification(identification, files);
   }
 
   /// What `telltale` says, after it has exited with this code.

@@ -60,10 +60,17 @@ ServiceTest::ServiceTest(Engine engine, bool is_tagged) : domain_(is_tagged), en
   Vehicle vehicle = YellowfishVehicle();
   vehicle.vehicle_id = kVehicleId;
   folder_.Write("vehicle.textproto", PrintVehicle(vehicle));
+  ConfigureIdentification("bootstrap_replicates: 100");
+}
+
+void ServiceTest::ConfigureIdentification(const std::string& settings,
+                                          const std::vector<std::string>& vehicle_files) {
+  std::string files;
+  for (const std::string& file : vehicle_files) files += "vehicle_files: \"" + file + "\"\n";
   config_file_ = folder_.Write("daemon.textproto",
-                               "domain: " + std::to_string(domain_.id()) +
-                                   "\nvehicle_files: \"vehicle.textproto\"\n" + StorageLines() +
-                                   "identification { bootstrap_replicates: 100 }\n"
+                               "domain: " + std::to_string(domain_.id()) + "\n" + files +
+                                   StorageLines() + "identification { " + settings +
+                                   " }\n"
                                    "quality_period_s: 0.1\nwindow { save_period_s: 0.2 }\n");
 }
 

@@ -41,6 +41,11 @@ class ServiceTest : public ::testing::Test {
   /// `is_tagged`: as LoopbackDomain has it.
   explicit ServiceTest(Engine engine = Engine::kSqlite, bool is_tagged = true);
 
+  /// Writes the daemon's configuration, with these settings of its identification.
+  void ConfigureIdentification(const std::string& settings,
+                               const std::vector<std::string>& vehicle_files = {
+                                   "vehicle.textproto"});
+
   /// Lets the daemon's configuration have this too.
   void Configure(const std::string& more) const;
 

@@ -35,10 +35,7 @@ TEST_F(LivePhysicalForm, IsIdentifiedPublishedAndKept) {
 }
 
 TEST_F(LivePhysicalForm, IsChosenByTheDataWhereTheConfigurationLeavesItToThem) {
-  config_file_ = folder_.Write("auto.textproto", "domain: " + std::to_string(domain_.id()) +
-                                                     "\nvehicle_files: \"vehicle.textproto\"\n" +
-                                                     StorageLines() +
-                                                     "identification { structure: \"auto\" }\n");
+  ConfigureIdentification("structure: \"auto\"");
   const auto daemon = StartDaemon();
   Replay(SimulatedRecording(testing::StableBoat(), 0.0, 90.0, 4));
   const auto identify = Start({"identify", "--vehicle-id", kVehicleId, "--timeout", "500"});
