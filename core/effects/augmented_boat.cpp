@@ -25,6 +25,10 @@ constexpr double kStartUpTimeConstants = 6.0;
 constexpr double kMaximumStepS = 0.2;
 constexpr double kRounding = 1e-9;
 
+NuDot Times(const NuDot& a, double share) {
+  return {share * a.u, share * a.v, share * a.r};
+}
+
 NuDot Plus(const NuDot& a, const NuDot& b, double share = 1.0) {
   return {a.u + share * b.u, a.v + share * b.v, a.r + share * b.r};
 }
@@ -287,15 +291,12 @@ NuDot AugmentedBoat::Acceleration(const Nu& nu, const Eta& eta, const Drive& dri
   instant.thrust = drive.thrust;
   const double reverse_share = model_.model.reverse_loss.Share(instant.nu_r.u);
   for (NuDot& thrust : instant.thrust) {
-    if (thrust.u < 0.0) {
-      thrust = {reverse_share * thrust.u, reverse_share * thrust.v, reverse_share * thrust.r};
-    }
+    if (thrust.u < 0.0) thrust = Times(thrust, reverse_share);
   }
   for (const auto& [effect, values] : Hooked(Hook::kThrustShare)) {
     for (const Side side : {Side::kPort, Side::kStarboard}) {
-      const double share = effect->ThrustShare(values, side, instant);
       NuDot& thrust = instant.thrust[side == Side::kPort ? 0 : 1];
-      thrust = {share * thrust.u, share * thrust.v, share * thrust.r};
+      thrust = Times(thrust, effect->ThrustShare(values, side, instant));
     }
   }
   nu_dot = Plus(nu_dot, instant.Thrust());

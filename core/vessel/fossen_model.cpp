@@ -60,7 +60,9 @@ const std::array<FossenParameterName, kFossenParameters>& FossenParameterNames()
 
 FossenDynamics::FossenDynamics(const FossenVector& parameters, double propeller_separation_m)
     : p_(parameters),
-      reverse_loss_{parameters[telltale::At(kReverseLoss)]},
+      ahead_(p_[telltale::At(kForwardLinear)], p_[telltale::At(kForwardQuadratic)], 0.0, 0.0),
+      reverse_(0.0, 0.0, p_[telltale::At(kReverseLinear)], -p_[telltale::At(kReverseQuadratic)]),
+      reverse_loss_(ReverseLossOf(parameters)),
       half_separation_m_(0.5 * propeller_separation_m),
       inverse_mass_(InverseMass(parameters)) {}
 
@@ -88,19 +90,15 @@ FossenDynamics::Evaluation FossenDynamics::At(const Eigen::Vector3d& nu, const T
       -(p(kM22) - 1.0 + p(kNuv)) * u - p(kNv),
       -(p(kM23) + p(kNur)) * u - p(kNr) - 2.0 * p(kNrr) * std::abs(r);
   at.by_nu.bottomRows<2>() = inverse_mass_ * force;
-  const Thrusts reverse(0.0, 0.0, p(kReverseLinear), -p(kReverseQuadratic));
-  const double reverse_by_u = reverse_loss_.ByU(u);
+  const double share_by_u = reverse_loss_.ByU(u);
   at.by_nu.col(0) +=
-      Propelled(reverse_by_u * reverse.dot(port), reverse_by_u * reverse.dot(starboard));
+      Propelled(share_by_u * reverse_.dot(port), share_by_u * reverse_.dot(starboard));
   return at;
 }
 
 Eigen::Vector3d FossenDynamics::ByThrust(double u, const Thrusts& port,
                                          const Thrusts& starboard) const {
-  const double share = reverse_loss_.Share(u);
-  const Thrusts curve(p_[telltale::At(kForwardLinear)], p_[telltale::At(kForwardQuadratic)],
-                      share * p_[telltale::At(kReverseLinear)],
-                      -share * p_[telltale::At(kReverseQuadratic)]);
+  const Thrusts curve = ahead_ + reverse_loss_.Share(u) * reverse_;
   return Propelled(curve.dot(port), curve.dot(starboard));
 }
 
@@ -145,10 +143,8 @@ Eigen::Matrix<double, 3, kForceParameters> FossenDynamics::ByParameter(
   const double share = reverse_loss_.Share(u);
   set(kReverseLinear, share * sum[2], 0.0, share * difference[2]);
   set(kReverseQuadratic, -share * sum[3], 0.0, -share * difference[3]);
-  const Thrusts reverse(0.0, 0.0, p_[telltale::At(kReverseLinear)],
-                        -p_[telltale::At(kReverseQuadratic)]);
   const double by_loss = reverse_loss_.ByPerSpeed(u);
-  set(kReverseLoss, by_loss * reverse.dot(sum), 0.0, by_loss * reverse.dot(difference));
+  set(kReverseLoss, by_loss * reverse_.dot(sum), 0.0, by_loss * reverse_.dot(difference));
   by.bottomRows<2>() = (inverse_mass_ * by.bottomRows<2>()).eval();
   return by;
 }

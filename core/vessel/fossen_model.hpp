@@ -101,6 +101,8 @@ class FossenDynamics {
   Eigen::Vector3d Propelled(double port, double starboard) const;
 
   FossenVector p_;
+  Thrusts ahead_;    ///< one propeller's thrust over its regressors ahead
+  Thrusts reverse_;  ///< and over those in reverse, before any loss
   ReverseLoss reverse_loss_;
   double half_separation_m_;
   Eigen::Matrix2d inverse_mass_;  ///< of sway and yaw
