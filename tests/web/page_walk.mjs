@@ -76,10 +76,13 @@ export async function accessible(page, where) {
 const overflow = () => document.documentElement.scrollWidth - document.documentElement.clientWidth;
 
 export async function fits(page, where) {
-  // A chart takes its new width in the frame after the page does.
-  await page.waitForFunction(`(${overflow})() <= 0`).catch(async () => {
-    assert.fail(`${where} is ${await page.evaluate(overflow)} px too wide`);
-  });
+  // A chart takes its new width in the frame after the page does. The condition is a function, not a text: the page's
+  // own policy forbids the evaluation of texts, which each frame after the first would need.
+  try {
+    await page.waitForFunction(() => document.documentElement.scrollWidth <= document.documentElement.clientWidth);
+  } catch (cause) {
+    throw new Error(`${where} is ${await page.evaluate(overflow)} px too wide`, { cause });
+  }
 }
 
 /** Takes the steps one after the other, and ends the process. */
