@@ -141,8 +141,9 @@ class HullState {
 
   void Follow(const PropellerCommand& command, double steps) {
     const double share = 1.0 - std::pow(1.0 - share_, steps);
-    port_n_ += share * (hull_.thrust(command.port) - port_n_);
-    starboard_n_ += share * (hull_.thrust(command.starboard) - starboard_n_);
+    port_n_ += share * ((1.0 - hull_.imbalance) * hull_.thrust(command.port) - port_n_);
+    starboard_n_ +=
+        share * ((1.0 + hull_.imbalance) * hull_.thrust(command.starboard) - starboard_n_);
   }
 
   void Move(const Eigen::Vector3d& mean) {

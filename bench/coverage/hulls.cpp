@@ -84,6 +84,7 @@ Hull OfTheForm() {
     const double beyond = std::max(std::abs(delta) - kDeadBandOfTheForm, 0.0);
     return delta >= 0.0 ? (12.0 + 30.0 * beyond) * beyond : -(10.0 + 22.0 * beyond) * beyond;
   };
+  hull.imbalance = 0.05;
   hull.thrust_time_constant_s = 0.2;
   return hull;
 }

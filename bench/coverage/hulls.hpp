@@ -22,6 +22,7 @@ struct Hull {
   double m33 = 0.0;
   std::function<Eigen::Vector3d(const Eigen::Vector3d& nu)> drag;  ///< opposes the motion
   std::function<double(double delta)> thrust;                      ///< of one propeller, N
+  double imbalance = 0.0;  ///< port gives 1 - imbalance of that thrust, starboard 1 + imbalance
   double thrust_time_constant_s = 0.1;
 
   /// nu_dot under thrusts in newtons and an acceleration from outside.

@@ -128,6 +128,7 @@ proto::PhysicalForm PhysicalFormOf(const FossenVector& parameters) {
     form.add_reverse_thrust(parameters[At(at)]);
   }
   form.set_reverse_loss_s_m(parameters[At(kReverseLoss)]);
+  form.set_thrust_imbalance(parameters[At(kImbalance)]);
   return form;
 }
 
@@ -153,8 +154,9 @@ void AddNotes(const Identification& identification, const Vehicle& vehicle,
     message.add_notes(
         "physical is the same boat as M nu_dot + C(nu) nu + D(nu) nu = tau over m11 = m - X_udot: "
         "with M and D times m11, forces are newtons. C follows from M. In reverse a propeller "
-        "keeps "
-        "1 / (1 + (reverseLossSM u)^8) of its thrust while u > 0.");
+        "keeps 1 / (1 + (reverseLossSM u)^8) of its thrust while u > 0. The port propeller gives "
+        "1 - thrustImbalance of forwardThrust and reverseThrust, that to starboard "
+        "1 + thrustImbalance.");
   } else {
     message.add_notes(
         "Identifiable beyond the coefficients are ratios alone, W33 d / (2 W11) for one, from the "

@@ -46,7 +46,10 @@ class PhysicalSdf {
            Comment("No thrust between " + Text(-Of(kReverseDeadBand).estimate) + " and " +
                    Text(Of(kForwardDeadBand).estimate) + " of full command.") +
            Comment("No place here: in reverse a propeller keeps 1 / (1 + (" +
-                   Text(Of(kReverseLoss).estimate) + " u)^8) of its thrust at speed u ahead.");
+                   Text(Of(kReverseLoss).estimate) + " u)^8) of its thrust at speed u ahead.") +
+           Comment("No place here: the port propeller gives " +
+                   Text(1.0 - Of(kImbalance).estimate) + " of that thrust, that to starboard " +
+                   Text(1.0 + Of(kImbalance).estimate) + " of it.");
   }
 
   std::string Plugin() const {

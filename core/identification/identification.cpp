@@ -59,7 +59,9 @@ Result<VesselModel> ModelOf(const Identification& identification) {
     model.thruster_time_constant_s = identification.thruster_time_constant->estimate;
   }
   if (identification.physical) {
-    model.reverse_loss = ReverseLossOf(identification.physical->Estimates());
+    const FossenVector parameters = identification.physical->Estimates();
+    model.reverse_loss = ReverseLossOf(parameters);
+    model.thrust_imbalance = parameters[At(FossenParameter::kImbalance)];
   }
   return model;
 }

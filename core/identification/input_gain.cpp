@@ -67,6 +67,9 @@ VesselModel ThrustersOf(const Identification& identification) {
   if (identification.thruster_time_constant) {
     model.thruster_time_constant_s = identification.thruster_time_constant->estimate;
   }
+  if (identification.physical) {
+    model.thrust_imbalance = identification.physical->Estimates()[At(FossenParameter::kImbalance)];
+  }
   return model;
 }
 

@@ -49,6 +49,7 @@ const std::array<FossenParameterName, kFossenParameters>& FossenParameterNames()
       {"Tr1", "m/s^2", "reverse thrust, linear"},
       {"Tr2", "m/s^2", "reverse thrust, quadratic"},
       {"Tru", "s/m", "loss of reverse thrust"},
+      {"Tps", "1", "excess of starboard thrust"},
       {"df", "1", "dead band ahead"},
       {"dr", "1", "dead band in reverse"},
       {"tau", "s", "time constant of thrust"},
@@ -102,9 +103,12 @@ Eigen::Vector3d FossenDynamics::ByThrust(double u, const Thrusts& port,
   return Propelled(curve.dot(port), curve.dot(starboard));
 }
 
-// Of the thrust of each propeller.
+// Of the thrust that each propeller would give without imbalance.
 Eigen::Vector3d FossenDynamics::Propelled(double port, double starboard) const {
   Eigen::Vector3d nu_dot;
+  const double imbalance = p_[telltale::At(kImbalance)];
+  port *= 1.0 - imbalance;
+  starboard *= 1.0 + imbalance;
   nu_dot[0] = port + starboard;
   nu_dot.tail<2>() = inverse_mass_.col(1) * (half_separation_m_ * (port - starboard));
   return nu_dot;
@@ -136,8 +140,11 @@ Eigen::Matrix<double, 3, kForceParameters> FossenDynamics::ByParameter(
   set(kYur, 0.0, -u * r, 0.0);
   set(kNuv, 0.0, 0.0, -u * v);
   set(kNur, 0.0, 0.0, -u * r);
-  const Thrusts sum = port + starboard;
-  const Thrusts difference = half_separation_m_ * (port - starboard);
+  const double imbalance = p_[telltale::At(kImbalance)];
+  const Thrusts port_acting = (1.0 - imbalance) * port;
+  const Thrusts starboard_acting = (1.0 + imbalance) * starboard;
+  const Thrusts sum = port_acting + starboard_acting;
+  const Thrusts difference = half_separation_m_ * (port_acting - starboard_acting);
   set(kForwardLinear, sum[0], 0.0, difference[0]);
   set(kForwardQuadratic, sum[1], 0.0, difference[1]);
   const double share = reverse_loss_.Share(u);
@@ -145,6 +152,9 @@ Eigen::Matrix<double, 3, kForceParameters> FossenDynamics::ByParameter(
   set(kReverseQuadratic, -share * sum[3], 0.0, -share * difference[3]);
   const double by_loss = reverse_loss_.ByPerSpeed(u);
   set(kReverseLoss, by_loss * reverse_.dot(sum), 0.0, by_loss * reverse_.dot(difference));
+  const Thrusts curve = ahead_ + share * reverse_;
+  set(kImbalance, curve.dot(starboard - port), 0.0,
+      -half_separation_m_ * curve.dot(port + starboard));
   by.bottomRows<2>() = (inverse_mass_ * by.bottomRows<2>()).eval();
   return by;
 }
@@ -202,6 +212,7 @@ VesselModel VesselModelOf(const FossenVector& parameters, double propeller_separ
   model.theta[2] = all.segment(kSurgeCoefficients + kTurningCoefficients, kTurningCoefficients);
   model.dead_zone = DeadZoneOf(parameters);
   model.reverse_loss = ReverseLossOf(parameters);
+  model.thrust_imbalance = parameters[At(kImbalance)];
   model.thruster_time_constant_s = parameters[At(kTimeConstant)];
   return model;
 }

@@ -16,12 +16,12 @@ namespace telltale {
 /// Model, docs/concepts/physical-model.md (101)..(105), with nu the velocity through the water:
 ///   M nu_dot + C(nu) nu + D(nu) nu = tau,   M = [1 0 0; 0 m22 m23; 0 m23 m33],
 /// C follows from M, D nu = [(Xu + Xuu |u|) u; (Yv + Yvv |v| + Yuv u) v + (Yr + Yur u) r;
-/// (Nv + Nuv u) v + (Nr + Nrr |r| + Nur u) r], tau = [Tp + Ts; 0; (b / 2) (Tp - Ts)]. A propeller
-/// gives T = forward_linear e + forward_quadratic e^2 for e, the command beyond the dead band, and
-/// T = -(reverse_linear e + reverse_quadratic e^2) ReverseLoss::Share(u) in reverse, beyond a dead
-/// band of its own; thrust follows with a first-order lag. Drag is positive where it opposes the
-/// motion. Source: Fossen, Handbook of Marine Craft Hydrodynamics and Motion Control, 2nd ed., 6.5
-/// and 7.1.
+/// (Nv + Nuv u) v + (Nr + Nrr |r| + Nur u) r], tau = [Tp + Ts; 0; (b / 2) (Tp - Ts)] with
+/// Tp = (1 - imbalance) T, Ts = (1 + imbalance) T. A propeller gives T = forward_linear e +
+/// forward_quadratic e^2 for e, the command beyond the dead band, and T = -(reverse_linear e +
+/// reverse_quadratic e^2) ReverseLoss::Share(u) in reverse, beyond a dead band of its own; thrust
+/// follows with a first-order lag. Drag is positive where it opposes the motion. Source: Fossen,
+/// Handbook of Marine Craft Hydrodynamics and Motion Control, 2nd ed., 6.5 and 7.1.
 enum class FossenParameter : std::size_t {
   kM22,
   kM23,
@@ -43,6 +43,7 @@ enum class FossenParameter : std::size_t {
   kReverseLinear,
   kReverseQuadratic,
   kReverseLoss,
+  kImbalance,
   kForwardDeadBand,
   kReverseDeadBand,
   kTimeConstant,
@@ -50,7 +51,7 @@ enum class FossenParameter : std::size_t {
   kFixDelay,
 };
 
-inline constexpr std::size_t kFossenParameters = 25;
+inline constexpr std::size_t kFossenParameters = 26;
 using FossenVector = Eigen::Matrix<double, static_cast<int>(kFossenParameters), 1>;
 using FossenSquare =
     Eigen::Matrix<double, static_cast<int>(kFossenParameters), static_cast<int>(kFossenParameters)>;

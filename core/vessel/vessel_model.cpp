@@ -56,7 +56,17 @@ VesselModel VesselModel::OfZeros(Structure structure, Parameterization parameter
 }
 
 ThrustRegressors VesselModel::SteadyThrust(const PropellerCommand& delta) const {
-  return ThrustOf(parameterization, dead_zone.Apply(delta));
+  const ThrustRegressors balanced = ThrustOf(parameterization, dead_zone.Apply(delta));
+  if (thrust_imbalance == 0.0) return balanced;
+  Require(parameterization == Parameterization::kPropeller,
+          "a thrust imbalance in the parameterization by propeller");
+  // Surge has the sum of both propellers, turning their difference.
+  ThrustRegressors thrust;
+  for (std::size_t i = 0; i < thrust.surge.size(); ++i) {
+    thrust.surge[i] = balanced.surge[i] - thrust_imbalance * balanced.turning[i];
+    thrust.turning[i] = balanced.turning[i] - thrust_imbalance * balanced.surge[i];
+  }
+  return thrust;
 }
 
 ThrustRegressors VesselModel::ThrustAfter(const ThrustRegressors& thrust,

@@ -27,14 +27,18 @@ struct VesselModel {
   double sampling_period_s = 0.0;        ///< h of the discrete model
   std::array<Eigen::VectorXd, 3> theta;  ///< surge, sway, yaw
   DeadZone dead_zone;
-  ReverseLoss reverse_loss;                        ///< of the parameterization kPropeller only
+  /// Of the parameterization kPropeller only. The port propeller gives 1 - thrust_imbalance of the
+  /// thrust of the coefficients, that to starboard 1 + thrust_imbalance.
+  ReverseLoss reverse_loss;
+  double thrust_imbalance = 0.0;
   std::optional<double> thruster_time_constant_s;  ///< first-order dynamic structure only
 
   /// A model whose coefficients are all zero, to be filled in.
   static VesselModel OfZeros(Structure structure, Parameterization parameterization,
                              Discretisation discretisation, double sampling_period_s = 0.0);
 
-  /// The propeller regressors that the thrust settles to under a held command.
+  /// The propeller regressors that the thrust settles to under a held command, the imbalance in
+  /// them.
   ThrustRegressors SteadyThrust(const PropellerCommand& delta) const;
 
   /// The propeller regressors `elapsed_s` after `delta` was applied to thrusters at `thrust`. They

@@ -39,6 +39,7 @@ FossenPrior PriorOf(const Vehicle& vehicle) {
     set(thrust, 0.5, 3.0, 0.0, kNone);
   }
   set(kReverseLoss, 0.3, 0.2, 0.0, 2.0);
+  set(kImbalance, 0.0, 0.1, -0.5, 0.5);
   set(kForwardDeadBand, 0.04, 0.04, 0.0, kWidestDeadZone);
   set(kReverseDeadBand, 0.04, 0.04, 0.0, kWidestDeadZone);
   set(kTimeConstant, 0.2, 0.2, 0.005, 10.0);

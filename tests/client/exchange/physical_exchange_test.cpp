@@ -27,7 +27,7 @@ constexpr double kMassKg = 20.0;
 FossenVector KnownParameters() {
   FossenVector p;
   p << 1.5, 0.03, 0.18, 0.15, 0.45, 1.2, 0.05, -0.05, 0.25, 1.5, 0.2, 0.3, 0.1, -0.1, 0.1, 0.5, 1.6,
-      0.4, 1.2, 0.7, 0.06, 0.08, 0.25, 0.0, 0.1;
+      0.4, 1.2, 0.7, 0.04, 0.06, 0.08, 0.25, 0.0, 0.1;
   return p;
 }
 
@@ -144,8 +144,9 @@ class ForeignBoat {
     const double half = 0.5 * file_.propeller_separation_m();
     const double speed = std::max(nu[0], 0.0) * file_.physical().reverse_loss_s_m();
     const double left = 1.0 / (1.0 + std::pow(speed, 8));
-    const double port = x[6] + left * x[8];
-    const double starboard = x[7] + left * x[9];
+    const double imbalance = file_.physical().thrust_imbalance();
+    const double port = (1.0 - imbalance) * (x[6] + left * x[8]);
+    const double starboard = (1.0 + imbalance) * (x[7] + left * x[9]);
     const Eigen::Vector3d tau(port + starboard, 0.0, half * (port - starboard));
     const double lag_s = file_.thruster_time_constant_s().estimate();
     State rate;

@@ -60,9 +60,10 @@ TEST(AugmentedBoat, WithoutEffectsIsTheModel) {
   }
 }
 
-TEST(AugmentedBoat, LosesThrustInReverseAsTheModelDoes) {
+TEST(AugmentedBoat, HasTheThrustOfTheModelInReverseAndOnEachSide) {
   VesselModel model = testing::StableBoat();
   model.reverse_loss.per_speed = 0.8;
+  model.thrust_imbalance = -0.1;
   const AugmentedBoat boat{{model, {}}, {0.0, 100.0}};
   for (const PropellerCommand delta : {PropellerCommand{-0.7, 0.5}, PropellerCommand{-0.6, -0.8}}) {
     const Nu nu{1.3, 0.1, 0.2};

@@ -23,7 +23,7 @@ constexpr double kFixDelayS = 0.1;
 FossenVector Truth() {
   FossenVector p;
   p << 1.5, 0.03, 0.18, 0.15, 0.45, 1.2, 0.05, -0.05, 0.25, 1.5, 0.2, 0.3, 0.0, 0.0, 0.1, 0.5, 1.6,
-      0.4, 1.2, 0.5, 0.06, 0.08, 0.25, kCommandDelayS, kFixDelayS;
+      0.4, 1.2, 0.5, 0.04, 0.06, 0.08, 0.25, kCommandDelayS, kFixDelayS;
   return p;
 }
 
