@@ -6,8 +6,10 @@
 #include <string>
 #include <vector>
 
+#include "telltale/core/base/format_number.hpp"
 #include "telltale/core/base/linear_algebra/covariance.hpp"
 #include "telltale/core/base/version.hpp"
+#include "telltale/core/estimation/prediction_error/heterogeneity.hpp"
 #include "telltale/core/estimation/prediction_error/prediction_error.hpp"
 #include "telltale/core/estimation/prediction_error/score_covariance.hpp"
 #include "telltale/core/uncertainty/distributions.hpp"
@@ -21,6 +23,8 @@ using enum FossenParameter;
 constexpr std::size_t kDraws = 2000;
 // A posterior this share of its prior or wider is the prior's.
 constexpr double kPriorShare = 0.8;
+// Of a recording that differs, over all of them.
+constexpr double kDifferenceLevel = 0.05;
 constexpr double kLeastCommandDeviation = 0.05;
 constexpr double kUnlimited = std::numeric_limits<double>::infinity();
 
@@ -142,6 +146,28 @@ Refusal PriorWarning(const PhysicalModel& model) {
           "coasting"};
 }
 
+// Recordings that are not of the same boat as the others, each with the move that shows it.
+std::vector<Refusal> DifferingRecordings(const Heterogeneity& heterogeneity,
+                                         const FossenVector& parameters) {
+  const std::size_t recordings = heterogeneity.recordings.size();
+  std::vector<Refusal> warnings;
+  for (std::size_t i = 0; i < recordings; ++i) {
+    const RecordingDifference& difference = heterogeneity.recordings[i];
+    if (difference.p_value * static_cast<double>(recordings) > kDifferenceLevel) continue;
+    const FossenParameterName& name =
+        FossenParameterNames()[static_cast<std::size_t>(difference.parameter)];
+    warnings.push_back(
+        {"recordings",
+         "number " + std::to_string(i + 1) + " of " + std::to_string(recordings) +
+             " differs from the others beyond its bounds (p = " +
+             FormatSignificant(difference.p_value, 1) + "): without it " +
+             std::string(name.symbol) + " would be " + FormatSignificant(difference.without, 3) +
+             " in place of " + FormatSignificant(parameters[At(difference.parameter)], 3),
+         "identify it alone and compare; leave it out if the boat was another then"});
+  }
+  return warnings;
+}
+
 double CommandDeviation(const PreparedDataset& dataset) {
   double sum = 0.0;
   double square = 0.0;
@@ -179,7 +205,7 @@ Result<Identification> IdentifyPhysicalModel(const PreparedDataset& dataset, con
                   "check the vehicle file and the recording with `telltale validate`");
   }
   if (progress) progress("bounding", 0.9);
-  const RobustCovariance bounds = CovarianceOf(fit, dataset.Recordings(), options.interval_level);
+  const RobustCovariance bounds = CovarianceOf(fit, options.interval_level);
   const Eigen::MatrixXd draws =
       DrawTruncatedNormal(fit.newton_mean, bounds.covariance, prior.least, prior.greatest,
                           fit.parameters, kDraws, options.seed);
@@ -204,9 +230,18 @@ Result<Identification> IdentifyPhysicalModel(const PreparedDataset& dataset, con
                                            " iterations before it converged",
                                        "record more varied manoeuvres"});
   }
+  const Heterogeneity heterogeneity = HeterogeneityOf(fit, prior);
+  for (Refusal& warning : DifferingRecordings(heterogeneity, fit.parameters)) {
+    identification.refusals.push_back(std::move(warning));
+  }
   identification.provenance.bounds_basis = "scores of " + std::to_string(fit.blocks.size()) +
                                            " blocks of 10 s, Student t, truncated to the "
                                            "physical range";
+  if (heterogeneity.birge_ratio > 0.0) {
+    identification.provenance.bounds_basis += "; recordings scatter by " +
+                                              FormatNumber(heterogeneity.birge_ratio, 2) +
+                                              " of what their bounds expect";
+  }
   identification.provenance.clusters = fit.blocks.size();
   return identification;
 }

@@ -219,9 +219,9 @@ class Problem {
 
 struct Normal {
   Eigen::MatrixXd information;
-  Eigen::VectorXd gradient;                    // half of that of the objective
-  std::vector<ScoreBlock> blocks;              // of the data, by time
-  Eigen::MatrixXd recording_score_covariance;  // of the data's score, by recordings
+  Eigen::VectorXd gradient;            // half of that of the objective
+  std::vector<ScoreBlock> blocks;      // of the data, by time
+  std::vector<ScoreBlock> recordings;  // the same by recordings
 };
 
 // The normal equations of one segment by blocks of time.
@@ -244,19 +244,19 @@ std::vector<ScoreBlock> BlocksOf(const std::vector<Innovation>& innovations, dou
 }
 
 Normal NormalEquations(const Problem& problem, const Runs& all) {
-  const FossenSquare zero = FossenSquare::Zero();
-  Normal normal{zero, FossenVector::Zero(), {}, zero};
-  std::vector<FossenVector> of_recordings(problem.dataset_.Recordings(), FossenVector::Zero());
+  Normal normal{FossenSquare::Zero(), FossenVector::Zero(), {}, {}};
+  normal.recordings.resize(problem.dataset_.Recordings());
   for (std::size_t s = 0; s < all.size(); ++s) {
+    ScoreBlock& recording = normal.recordings[problem.dataset_.RecordingOf(s)];
     for (const ScoreBlock& block : BlocksOf(all[s], problem.options_.block_s)) {
-      normal.information += block.information;
-      of_recordings[problem.dataset_.RecordingOf(s)] += block.score;
+      recording.information += block.information;
+      recording.score += block.score;
       normal.blocks.push_back(block);
     }
   }
-  for (const FossenVector& score : of_recordings) {
-    normal.recording_score_covariance += score * score.transpose();
-    normal.gradient += score;
+  for (const ScoreBlock& recording : normal.recordings) {
+    normal.information += recording.information;
+    normal.gradient += recording.score;
   }
   return normal;
 }
@@ -458,7 +458,7 @@ class Search {
     fit.slope = slope_;
     fit.data_information = normal_.information;
     fit.blocks = normal_.blocks;
-    fit.recording_score_covariance = normal_.recording_score_covariance;
+    fit.recordings = normal_.recordings;
     fit.innovations = innovations_;
     fit.iterations = iterations_ + instrument_iterations_;
     fit.converged = converged_ && instrumented_;

@@ -18,7 +18,7 @@ struct PredictionErrorOptions {
   double block_s = 10.0;  ///< length of the blocks behind the robust covariance
 };
 
-/// What the innovations of one block of time say.
+/// What the innovations of one block of time, or of one recording, say.
 struct ScoreBlock {
   FossenSquare information = FossenSquare::Zero();
   FossenVector score = FossenVector::Zero();
@@ -32,8 +32,8 @@ struct PredictionErrorFit {
   Eigen::MatrixXd information;    ///< of the instruments and the prior
   Eigen::MatrixXd slope;          ///< of the estimating equations, prior included
   Eigen::MatrixXd data_information;
-  std::vector<ScoreBlock> blocks;              ///< of the data, by time
-  Eigen::MatrixXd recording_score_covariance;  ///< of the data's score, by recordings
+  std::vector<ScoreBlock> blocks;      ///< of the data, by time
+  std::vector<ScoreBlock> recordings;  ///< the same by recordings
   std::size_t innovations = 0;
   int iterations = 0;
   bool converged = false;

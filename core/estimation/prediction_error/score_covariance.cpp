@@ -31,6 +31,28 @@ FossenVector UnbiasedScore(const ScoreBlock& block, const Eigen::LLT<FossenSquar
   return lower * scaled;
 }
 
+FossenSquare CovarianceOfScores(const std::vector<ScoreBlock>& blocks,
+                                const Eigen::LLT<FossenSquare>& information) {
+  FossenSquare covariance = FossenSquare::Zero();
+  for (const ScoreBlock& block : blocks) {
+    const FossenVector score = UnbiasedScore(block, information);
+    covariance += score * score.transpose();
+  }
+  return covariance;
+}
+
+// Scatter between the recordings in place of that between blocks of time; 0 of one recording.
+double DispersionByRecordings(const PredictionErrorFit& fit, const FossenSquare& inverse) {
+  const auto recordings = static_cast<double>(fit.recordings.size());
+  if (fit.recordings.size() < 2) return 0.0;
+  FossenSquare squares = FossenSquare::Zero();
+  for (const ScoreBlock& recording : fit.recordings) {
+    squares += recording.score * recording.score.transpose();
+  }
+  return recordings / (recordings - 1.0) * (inverse * squares).trace() /
+         (inverse * fit.data_information).trace();
+}
+
 // Satterthwaite's, of a variance that is the sum over the blocks.
 FossenVector DegreesOfFreedom(const PredictionErrorFit& fit, const FossenSquare& by_score) {
   FossenVector sum = FossenVector::Zero();
@@ -64,24 +86,20 @@ std::size_t EquivalentBlocks(std::size_t blocks) {
   return static_cast<std::size_t>(std::lround(static_cast<double>(blocks) / (weight * weight)));
 }
 
-RobustCovariance CovarianceOf(const PredictionErrorFit& fit, std::size_t recordings, double level) {
+double DispersionOf(const PredictionErrorFit& fit) {
+  const Eigen::LLT<FossenSquare> root{FossenSquare(fit.information)};
+  const FossenSquare of_blocks = CovarianceOfScores(fit.blocks, root);
+  return root.solve(of_blocks).trace() / root.solve(FossenSquare(fit.data_information)).trace();
+}
+
+RobustCovariance CovarianceOf(const PredictionErrorFit& fit, double level) {
   const FossenSquare information = fit.information;
   const Eigen::LLT<FossenSquare> root(information);
   const FossenSquare inverse = root.solve(FossenSquare(FossenSquare::Identity()));
   const FossenSquare by_score = FossenSquare(fit.slope).inverse();
-  FossenSquare of_blocks = FossenSquare::Zero();
-  for (const ScoreBlock& block : fit.blocks) {
-    const FossenVector score = UnbiasedScore(block, root);
-    of_blocks += score * score.transpose();
-  }
-  const double expected = (inverse * fit.data_information).trace();
-  const double by_blocks = (inverse * of_blocks).trace() / expected;
-  double inflation = by_blocks;
-  if (recordings > 1) {
-    const double correction = static_cast<double>(recordings) / static_cast<double>(recordings - 1);
-    inflation = std::max(
-        inflation, correction * (inverse * fit.recording_score_covariance).trace() / expected);
-  }
+  const FossenSquare of_blocks = CovarianceOfScores(fit.blocks, root);
+  const double by_blocks = DispersionOf(fit);
+  const double inflation = std::max(by_blocks, DispersionByRecordings(fit, inverse));
   const double weight = WeightOf(fit.blocks.size());
   const FossenSquare scores = weight * (inflation / by_blocks) * of_blocks +
                               (1.0 - weight) * inflation * fit.data_information;

@@ -18,12 +18,15 @@ struct RobustCovariance {
 /// the information: the covariance is as precise as one of (blocks + parameters)^2 / blocks blocks.
 std::size_t EquivalentBlocks(std::size_t blocks);
 
+/// The variance of the blocks' scores over that which the information expects of them.
+double DispersionOf(const PredictionErrorFit& fit);
+
 /// P (B + Lambda) P of docs/concepts/physical-model.md (112), (113).
 /// A fit takes part of each block's score for itself, most where a parameter's information stands
 /// in few blocks: scores are scaled by (I - H)^(-1/2), H the block's leverage, and a parameter's
 /// degrees of freedom are those of the blocks that inform it.
 /// Source: Bell and McCaffrey, "Bias reduction in standard errors for linear regression with
 /// multi-stage samples", Survey Methodology 28 (2002).
-RobustCovariance CovarianceOf(const PredictionErrorFit& fit, std::size_t recordings, double level);
+RobustCovariance CovarianceOf(const PredictionErrorFit& fit, double level);
 
 }  // namespace telltale
