@@ -19,20 +19,20 @@ FossenPrior PriorOf(const Vehicle& vehicle) {
     prior.least[At(parameter)] = least;
     prior.greatest[At(parameter)] = greatest;
   };
-  set(kM22, 1.6, 0.4, 0.7, 5.0);
+  set(kM22, 1.6, 0.8, 0.7, 5.0);
   set(kM23, 0.0, 0.1 * length, -0.5 * length, 0.5 * length);
-  set(kM33, 0.1 * square, 0.06 * square, 0.015 * square, square);
+  set(kM33, 0.1 * square, 0.1 * square, 0.015 * square, square);
   set(kXu, 0.2, 1.0, 0.0, kNone);
   set(kXuu, 0.5 / length, 1.0 / length, 0.0, kNone);
   set(kYv, 0.5, 1.5, 0.0, kNone);
-  set(kYr, 0.0, 0.3 * length, -kNone, kNone);
-  set(kNv, 0.0, 0.3 * length, -kNone, kNone);
+  set(kYr, 0.0, 0.6 * length, -kNone, kNone);
+  set(kNv, 0.0, 0.6 * length, -kNone, kNone);
   set(kNr, 0.1 * square, 0.3 * square, 0.0, kNone);
-  set(kYvv, 1.0 / length, 3.0 / length, 0.0, kNone);
+  set(kYvv, 2.0 / length, 6.0 / length, 0.0, kNone);
   set(kNrr, 0.1 * square, square, 0.0, kNone);
-  set(kYuv, 0.3 / length, 1.0 / length, 0.0, kNone);
-  set(kYur, 0.0, 1.0, -kNone, kNone);
-  set(kNuv, 0.0, 1.0, -kNone, kNone);
+  set(kYuv, 0.3 / length, 2.0 / length, 0.0, kNone);
+  set(kYur, 0.0, 2.0, -kNone, kNone);
+  set(kNuv, 0.0, 2.0, -kNone, kNone);
   set(kNur, 0.05 * length, 0.2 * length, 0.0, kNone);
   for (const FossenParameter thrust :
        {kForwardLinear, kForwardQuadratic, kReverseLinear, kReverseQuadratic}) {
