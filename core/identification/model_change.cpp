@@ -19,7 +19,9 @@ std::string Earlier(const ModelChange& change) {
 }
 
 std::string NameOf(const CoefficientChange& change) {
-  if (change.equation == Equation::kUnknown) return "thruster time constant";
+  if (change.equation == Equation::kUnknown) {
+    return change.symbol == "tau" ? "thruster time constant" : change.symbol;
+  }
   return std::string(Name(change.equation)) + ' ' + change.regressor;
 }
 

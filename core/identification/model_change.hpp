@@ -22,7 +22,8 @@ inline constexpr double kSignificantChange = 0.01;
 
 /// How one coefficient changed, later less earlier.
 struct CoefficientChange {
-  Equation equation = Equation::kUnknown;  ///< unknown: the thruster time constant
+  /// Unknown: the thruster time constant, or a parameter of the physical form.
+  Equation equation = Equation::kUnknown;
   std::string regressor;
   std::string symbol;
   double difference = 0.0;

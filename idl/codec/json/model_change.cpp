@@ -10,8 +10,10 @@ namespace {
 CoefficientChange ReadCoefficientChange(FieldReader reader,
                                         const proto::CoefficientChange& message) {
   if (!proto::Equation_IsValid(message.equation())) {
-    reader.Fail("equation", std::to_string(static_cast<int>(message.equation())),
-                "one of SURGE, SWAY, YAW, or unset for the thruster time constant");
+    reader.Fail(
+        "equation", std::to_string(static_cast<int>(message.equation())),
+        "one of SURGE, SWAY, YAW, or unset for the thruster time constant and parameters of "
+        "the physical form");
   }
   return {EnumCast<Equation>(message.equation()),
           message.regressor(),

@@ -80,6 +80,17 @@ TEST(WindowsOverlap, WhereTheyMayShareData) {
   EXPECT_TRUE(WindowsOverlap(first, first));
 }
 
+TEST(ModelChange, NamesParametersOfThePhysicalFormByTheirSymbols) {
+  Identification earlier = MadeUpPhysicalIdentification();
+  earlier.physical->covariance.setIdentity();
+  earlier.physical->covariance *= 1e-6;
+  Identification later = earlier;
+  later.physical->parameters[static_cast<std::size_t>(At(FossenParameter::kXuu))].estimate += 1.0;
+  const auto change = ChangeBetween(earlier, later);
+  ASSERT_TRUE(change);
+  EXPECT_THAT(InWords(*change), HasSubstr(", Xuu by +"));
+}
+
 TEST(ModelChange, IsToldInASentence) {
   ModelChange change = MadeUpChange();
   EXPECT_EQ(InWords(change),
