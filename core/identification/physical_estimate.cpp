@@ -76,8 +76,24 @@ NoiseModel MeanNoise(const std::vector<NoiseModel>& noise) {
   return mean;
 }
 
+// The parameters that the data put beyond an end of their range, where the fit keeps them.
+std::vector<Eigen::Index> KeptAtEnds(const PredictionErrorFit& fit, const FossenPrior& prior) {
+  std::vector<Eigen::Index> kept;
+  for (Eigen::Index i = 0; i < fit.parameters.size(); ++i) {
+    const bool beyond =
+        fit.newton_mean[i] < prior.least[i] || fit.newton_mean[i] > prior.greatest[i];
+    const bool ends = fit.parameters[i] <= prior.least[i] || fit.parameters[i] >= prior.greatest[i];
+    if (beyond && ends) kept.push_back(i);
+  }
+  return kept;
+}
+
+// Draws of a parameter that is kept at the end of its range lie to one side of it and take those
+// with them that depend on it, though the truth may be at the end: an interval holds both what the
+// draws say and what the others would be there, as one by the profile likelihood does.
 PhysicalModel ModelWithBounds(const PredictionErrorFit& fit, const FossenPrior& prior,
-                              const Eigen::MatrixXd& draws, double level) {
+                              const Eigen::MatrixXd& draws,
+                              const Eigen::VectorXd& errors_given_ends, double level) {
   PhysicalModel model;
   model.covariance = OfColumns(draws);
   model.noise = MeanNoise(fit.noise);
@@ -91,6 +107,11 @@ PhysicalModel ModelWithBounds(const PredictionErrorFit& fit, const FossenPrior& 
     parameter.standard_error = std::sqrt(model.covariance(at, at));
     parameter.interval =
         IntervalOf(draws.row(at), parameter.estimate, level, prior.least[at], prior.greatest[at]);
+    const double half = NormalQuantile(0.5 * (1.0 + level)) * errors_given_ends[at];
+    parameter.interval.lower =
+        std::min(parameter.interval.lower, std::max(parameter.estimate - half, prior.least[at]));
+    parameter.interval.upper =
+        std::max(parameter.interval.upper, std::min(parameter.estimate + half, prior.greatest[at]));
     const bool prior_decides =
         parameter.standard_error > kPriorShare * prior.standard_deviation[at];
     parameter.status = prior_decides ? CoefficientStatus::kPrior : CoefficientStatus::kEstimated;
@@ -206,9 +227,10 @@ Result<Identification> IdentifyPhysicalModel(const PreparedDataset& dataset, con
   }
   if (progress) progress("bounding", 0.9);
   const RobustCovariance bounds = CovarianceOf(fit, options.interval_level);
-  const Eigen::MatrixXd draws =
-      DrawTruncatedNormal(fit.newton_mean, bounds.covariance, prior.least, prior.greatest,
-                          fit.parameters, kDraws, options.seed);
+  const std::vector<Eigen::Index> kept = KeptAtEnds(fit, prior);
+  const Eigen::MatrixXd draws = DrawTruncatedNormal(
+      MeanBeforeTruncation(fit.parameters, fit.newton_mean, bounds.covariance, kept),
+      bounds.covariance, prior.least, prior.greatest, fit.parameters, kDraws, options.seed);
 
   Identification identification;
   identification.vehicle_id = vehicle.vehicle_id;
@@ -217,7 +239,8 @@ Result<Identification> IdentifyPhysicalModel(const PreparedDataset& dataset, con
   identification.estimator = Estimator::kPredictionError;
   identification.sampling_period_s = dataset.sampling_period_s;
   identification.dead_zone = DeadZoneOf(fit.parameters);
-  identification.physical = ModelWithBounds(fit, prior, draws, options.interval_level);
+  identification.physical = ModelWithBounds(
+      fit, prior, draws, StandardDeviationsGiven(bounds.covariance, kept), options.interval_level);
   identification.physical->propeller_separation_m = vehicle.propeller_separation_m;
   WriteImpliedCoefficients(fit.parameters, draws, vehicle.propeller_separation_m,
                            options.interval_level, identification);

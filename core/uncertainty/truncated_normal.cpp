@@ -59,4 +59,22 @@ Eigen::MatrixXd DrawTruncatedNormal(const Eigen::VectorXd& mean, const Eigen::Ma
   return draws;
 }
 
+Eigen::VectorXd MeanBeforeTruncation(const Eigen::VectorXd& estimate,
+                                     const Eigen::VectorXd& unconstrained,
+                                     const Eigen::MatrixXd& covariance,
+                                     const std::vector<Eigen::Index>& kept) {
+  if (kept.empty()) return unconstrained;
+  const Eigen::VectorXd beyond = (unconstrained - estimate)(kept);
+  return estimate + covariance(Eigen::all, kept) * covariance(kept, kept).ldlt().solve(beyond);
+}
+
+Eigen::VectorXd StandardDeviationsGiven(const Eigen::MatrixXd& covariance,
+                                        const std::vector<Eigen::Index>& kept) {
+  if (kept.empty()) return Eigen::VectorXd::Zero(covariance.rows());
+  const Eigen::MatrixXd explained =
+      covariance(Eigen::all, kept) *
+      covariance(kept, kept).ldlt().solve(covariance(kept, Eigen::all));
+  return (covariance - explained).diagonal().cwiseMax(0.0).cwiseSqrt();
+}
+
 }  // namespace telltale

@@ -3,6 +3,8 @@
 #include <cstddef>
 #include <cstdint>
 
+#include <vector>
+
 #include <Eigen/Core>
 
 namespace telltale {
@@ -15,5 +17,19 @@ Eigen::MatrixXd DrawTruncatedNormal(const Eigen::VectorXd& mean, const Eigen::Ma
                                     const Eigen::VectorXd& least, const Eigen::VectorXd& greatest,
                                     const Eigen::VectorXd& start, std::size_t count,
                                     std::uint64_t seed);
+
+/// The mean of a normal law whose variables `kept` lie beyond an end of their range at
+/// `unconstrained`, such that the others have the mean `estimate` given that those are at their
+/// ends, which `estimate` has them at. An estimate under constraints has them there by the shape of
+/// its own weights, which need not be that of `covariance`. Without `kept`: `unconstrained`.
+/// Requires: a positive definite covariance of those kept.
+Eigen::VectorXd MeanBeforeTruncation(const Eigen::VectorXd& estimate,
+                                     const Eigen::VectorXd& unconstrained,
+                                     const Eigen::MatrixXd& covariance,
+                                     const std::vector<Eigen::Index>& kept);
+
+/// Standard deviations given the variables `kept`; zero for all where there are none.
+Eigen::VectorXd StandardDeviationsGiven(const Eigen::MatrixXd& covariance,
+                                        const std::vector<Eigen::Index>& kept);
 
 }  // namespace telltale

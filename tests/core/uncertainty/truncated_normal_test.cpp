@@ -39,5 +39,31 @@ TEST(TruncatedNormal, FarInATailIsExponential) {
   EXPECT_NEAR(draws.mean(), 20.0498, 4.0 * 0.05 / std::sqrt(20000.0));
 }
 
+TEST(MeanBeforeTruncation, LeavesTheOthersAtTheirEstimatesGivenTheEnds) {
+  Eigen::Matrix2d covariance;
+  covariance << 1.0, 0.8, 0.8, 2.0;
+  const Eigen::Vector2d estimate(2.0, 0.0);
+  const Eigen::VectorXd mean =
+      MeanBeforeTruncation(estimate, Eigen::Vector2d(5.0, -1.0), covariance, {1});
+  EXPECT_EQ(mean[1], -1.0);
+  // The mean of the first given that the second is at 0.
+  EXPECT_NEAR(mean[0] + covariance(0, 1) / covariance(1, 1) * (0.0 - mean[1]), estimate[0], 1e-12);
+}
+
+TEST(MeanBeforeTruncation, IsThatWithoutConstraintsWhereNoneIsKept) {
+  const Eigen::Vector2d unconstrained(5.0, -1.0);
+  EXPECT_EQ(MeanBeforeTruncation(Eigen::Vector2d(2.0, 0.0), unconstrained,
+                                 Eigen::Matrix2d::Identity(), {}),
+            unconstrained);
+}
+
+TEST(StandardDeviationsGiven, AreThoseOfTheConditionalLaw) {
+  Eigen::Matrix2d covariance;
+  covariance << 1.0, 0.8, 0.8, 1.0;
+  const Eigen::VectorXd given = StandardDeviationsGiven(covariance, {1});
+  EXPECT_NEAR(given[0], 0.6, 1e-12);  // sqrt(1 - 0.8^2)
+  EXPECT_NEAR(given[1], 0.0, 1e-12);
+}
+
 }  // namespace
 }  // namespace telltale
