@@ -44,7 +44,7 @@ int main(int argc, char** argv) {
       return 1;
     }
     std::printf("%s: %.0f MB in %.2f s, %.0f MB/s, %zu samples, %.0f MB of memory\n", argv[i],
-                megabytes, took_s, megabytes / took_s, log->samples.size(),
+                megabytes, took_s, megabytes / took_s, log->channels.Size(),
                 PeakMegabytes() - before);
   }
   return 0;

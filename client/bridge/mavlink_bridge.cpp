@@ -8,7 +8,6 @@
 namespace telltale {
 namespace {
 
-constexpr std::uint8_t kAutopilot = 1;  ///< MAV_COMP_ID_AUTOPILOT1
 constexpr double kSilenceS = 2.0;
 constexpr double kAskAgainS = 10.0;
 /// More senders than these are no fleet on one port: what is known of their frames begins anew.
@@ -78,7 +77,7 @@ void MavlinkBridge::Take(const std::string& sender, const MavlinkFrame& frame, d
   if (checked || gaps.contains(source)) {
     vehicle->lost_frames += gaps[source].Take(frame.sequence, arrival_s);
   }
-  if (!checked || frame.component != kAutopilot) return;
+  if (!checked || frame.component != kMavlinkAutopilot) return;
   vehicle->last_heard_s = arrival_s;
   vehicle->live.Take(frame, arrival_s, [&](const RawSample& sample) {
     std::visit([&](const auto& one) { vehicle->publisher.Publish(one); }, sample);
@@ -94,7 +93,7 @@ MavlinkBridge::Vehicle* MavlinkBridge::VehicleOf(const std::string& sender,
   if (system == 0 || (!options_.systems.empty() && !options_.systems.contains(system))) {
     return nullptr;
   }
-  const bool speaks = MavlinkCrcExtra(frame.message) && frame.component == kAutopilot;
+  const bool speaks = MavlinkCrcExtra(frame.message) && frame.component == kMavlinkAutopilot;
   const auto found = vehicles_.find(system);
   if (found == vehicles_.end()) {
     if (!speaks) return nullptr;
@@ -171,11 +170,11 @@ void MavlinkBridge::Ask(Vehicle& vehicle, int system, double now_s) {
   vehicle.published_when_asked = PublishedOf(vehicle.live);
   const auto target = static_cast<std::uint8_t>(system);
   for (const MavlinkRequest& request :
-       MessageIntervalRequests(target, kAutopilot, options_.rate_hz)) {
+       MessageIntervalRequests(target, kMavlinkAutopilot, options_.rate_hz)) {
     SendTo(vehicle, request);
   }
   if (vehicle.live.PortChannel() && vehicle.live.StarboardChannel()) return;
-  for (const MavlinkRequest& request : OutputFunctionRequests(target, kAutopilot)) {
+  for (const MavlinkRequest& request : OutputFunctionRequests(target, kMavlinkAutopilot)) {
     SendTo(vehicle, request);
   }
 }

@@ -12,7 +12,6 @@
 #include "telltale/client/workbench/check_log.hpp"
 #include "telltale/client/workbench/errors.hpp"
 #include "telltale/client/workbench/files.hpp"
-#include "telltale/client/workbench/recorded_log.hpp"
 
 namespace telltale {
 namespace {
@@ -88,10 +87,10 @@ nlohmann::ordered_json JsonOf(const CheckedLog& log) {
 }
 
 CheckedLog CheckOne(const std::filesystem::path& path, const LogInputs& inputs) {
-  const RawLog log = LoadAsRecorded(path, inputs.options);
+  const RawLog log = ReadShown(path, inputs.options);
   const Vehicle vehicle = inputs.NamesVehicle() ? LoadVehicle(inputs.vehicle_file)
                                                 : DescribedOrUsualVehicle(log.description);
-  return CheckLog(path, log.samples, log.description, vehicle);
+  return CheckLog(path, log.channels, log.description, vehicle);
 }
 
 void CheckLogs(const CheckArguments& arguments) {

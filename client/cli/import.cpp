@@ -18,7 +18,9 @@ struct ImportArguments {
 };
 
 void ImportLog(const ImportArguments& arguments) {
-  const Recording recording = LoadAdmitted(arguments.log, arguments.options, PrintNote);
+  const Recording recording =
+      Admitted(arguments.log, ReadShown(arguments.log, arguments.options), PrintNote)
+          .loaded.recording;
   WriteTelemetryLog(arguments.out, recording);
   std::cout << Wrapped("Wrote " + Counted(recording.gnss.size(), "position", "positions") + ", " +
                        Counted(recording.heading.size(), "heading", "headings") + " and " +

@@ -49,7 +49,7 @@ void WriteVehicleFile(const InitArguments& arguments) {
   Vehicle vehicle;
   std::string origin = "Set them from the speed controllers' data sheet.";
   if (!arguments.log.empty()) {
-    const RawLog log = LoadAsRecorded(arguments.log, arguments.options);
+    const RawLog log = ReadShown(arguments.log, arguments.options);
     if (!log.description || !log.description->port || !log.description->starboard) {
       PrintNote(arguments.log.string() + " says nothing of its thrusters");
     } else {

@@ -3,6 +3,7 @@
 #include <iostream>
 #include <utility>
 
+#include "telltale/client/cli/progress_line.hpp"
 #include "telltale/client/workbench/files.hpp"
 #include "telltale/client/workbench/recorded_log.hpp"
 
@@ -86,9 +87,19 @@ RecordedVehicle LogInputs::Load() const {
     RequireSelfDescribing(logs);
   }
   std::vector<RecordedLog> loaded;
-  for (const std::filesystem::path& log : logs) loaded.push_back(LoadLog(log, options, PrintNote));
+  for (const std::filesystem::path& log : logs) {
+    loaded.push_back(Admitted(log, ReadShown(log, options), PrintNote));
+  }
   return Join(std::move(loaded), std::move(vehicle),
               skip_input_check ? InputFaults::kIgnored : InputFaults::kSought, PrintNote);
+}
+
+RawLog ReadShown(const std::filesystem::path& log, SourceOptions options) {
+  ProgressLine line;
+  options.progress = [&, stage = "reading " + NameOf(log)](double share) {
+    line.Update(stage, share);
+  };
+  return LoadAsRecorded(log, options);
 }
 
 CLI::Option* AddLog(CLI::App& command, std::filesystem::path& log, SourceOptions& options) {

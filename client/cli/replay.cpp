@@ -21,7 +21,6 @@
 #include "telltale/client/fleet/telemetry_publisher.hpp"
 #include "telltale/client/recording/due_times.hpp"
 #include "telltale/client/recording/load_recording.hpp"
-#include "telltale/client/workbench/recorded_log.hpp"
 
 namespace telltale {
 namespace {
@@ -119,7 +118,7 @@ std::string OutcomeText(const Pacing& pacing) {
 }
 
 void Replay(const ReplayArguments& arguments) {
-  const RawLog log = LoadAsRecorded(arguments.log, arguments.options);
+  const RawLog log = ReadShown(arguments.log, arguments.options);
   const Participant participant(arguments.live.domain);
   BatchWrites();
   TelemetryPublisher publisher(participant, arguments.vehicle_id);
@@ -129,7 +128,8 @@ void Replay(const ReplayArguments& arguments) {
                              NobodyThereAdvice(arguments.live.domain));
   }
   Pacing pacing(participant, arguments.vehicle_id);
-  const double recorded_s = Publish(log.samples, arguments.speed, publisher, pacing);
+  const double recorded_s =
+      Publish(InOrderOfTime(log.channels), arguments.speed, publisher, pacing);
   std::cout << "replayed " << publisher.Published() << " samples as " << arguments.vehicle_id
             << ", " << Fixed(recorded_s, 1) << " s of recording" << OutcomeText(pacing) << '\n';
 }

@@ -7,7 +7,7 @@
 
 #include <zstd.h>
 
-#include "telltale/client/recording/mcap/mcap_recording.hpp"
+#include "telltale/client/recording/mcap/mcap_records.hpp"
 #include "telltale/core/base/contract.hpp"
 
 namespace telltale {

@@ -29,7 +29,7 @@ std::shared_ptr<StatedLog> Load(const fs::path& path, const std::optional<Vehicl
                                 std::optional<int> port_channel,
                                 std::optional<int> starboard_channel) {
   RequireThere(path);
-  SourceOptions options{gps_instance, system_id, port_channel, starboard_channel, nullptr};
+  SourceOptions options{gps_instance, system_id, port_channel, starboard_channel, nullptr, nullptr};
   RequireValid(options);
   if (mapping) {
     RequireThere(*mapping);
@@ -78,10 +78,9 @@ std::shared_ptr<StatedLog> FromArrays(const VehicleOrFile& vehicle, const Number
                                       const Numbers& command_time_s, const Numbers& port_us,
                                       const Numbers& starboard_us, const std::string& name) {
   RawLog raw;
-  raw.samples =
-      InOrderOfTime(FixesAt(ColumnOf("fix_time_s", fix_time_s), latitude_deg, longitude_deg),
-                    HeadingsAt(ColumnOf("heading_time_s", heading_time_s), heading_deg),
-                    PulsesAt(ColumnOf("command_time_s", command_time_s), port_us, starboard_us));
+  raw.channels = {FixesAt(ColumnOf("fix_time_s", fix_time_s), latitude_deg, longitude_deg),
+                  HeadingsAt(ColumnOf("heading_time_s", heading_time_s), heading_deg),
+                  PulsesAt(ColumnOf("command_time_s", command_time_s), port_us, starboard_us)};
   auto made = std::make_shared<StatedLog>();
   made->stated = VehicleOf(vehicle);
   made->log =

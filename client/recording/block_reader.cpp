@@ -1,7 +1,10 @@
 #include "telltale/client/recording/block_reader.hpp"
 
+#include <malloc.h>
+
 #include <algorithm>
 #include <fstream>
+#include <system_error>
 #include <vector>
 
 namespace telltale {
@@ -12,10 +15,12 @@ constexpr std::size_t kLongestItem = std::size_t{256} << 20;
 
 }  // namespace
 
-Result<std::uint64_t> ReadInBlocks(const std::filesystem::path& file,
-                                   const BlockConsumer& consume) {
+Result<std::uint64_t> ReadInBlocks(const std::filesystem::path& file, const BlockConsumer& consume,
+                                   const ReadProgress& progress) {
   std::ifstream in(file, std::ios::binary);
   if (!in) return Refuse(file.string(), "cannot be opened", "check the path and its permissions");
+  std::error_code ignored;
+  const auto size = static_cast<double>(std::filesystem::file_size(file, ignored));
   std::vector<std::uint8_t> block(kBlockBytes);
   std::size_t filled = 0;
   std::uint64_t total = 0;
@@ -37,7 +42,9 @@ Result<std::uint64_t> ReadInBlocks(const std::filesystem::path& file,
     std::copy(block.begin() + static_cast<std::ptrdiff_t>(done),
               block.begin() + static_cast<std::ptrdiff_t>(filled), block.begin());
     filled -= done;
+    if (progress) progress(static_cast<double>(total) / size);
   }
+  malloc_trim(0);  // what the samples' vectors left behind as they grew
   return total;
 }
 

@@ -15,10 +15,14 @@ namespace telltale {
 /// `at_end`: nothing follows.
 using BlockConsumer = std::function<std::size_t(std::span<const std::uint8_t> bytes, bool at_end)>;
 
+/// Told how much of a file has been read, as a share of it.
+using ReadProgress = std::function<void(double share)>;
+
 /// Hands a file over in blocks, so that memory does not grow with it; a consumer that needs more
-/// bytes than a block gets a longer one. Returns the file's length in bytes.
-/// Refuses when: the file cannot be opened or read, or an item is longer than 256 MB.
-Result<std::uint64_t> ReadInBlocks(const std::filesystem::path& file, const BlockConsumer& consume);
+/// bytes than a block gets a longer one. Returns the file's length in bytes. `progress` may be
+/// null. Refuses when: the file cannot be opened or read, or an item is longer than 256 MB.
+Result<std::uint64_t> ReadInBlocks(const std::filesystem::path& file, const BlockConsumer& consume,
+                                   const ReadProgress& progress = nullptr);
 
 /// Hands bytes over in the same way, `block` more each time. Returns how many the consumer is done
 /// with. Requires: block > 0.

@@ -9,6 +9,7 @@
 #include "telltale/client/recording/dataflash/dataflash_log.hpp"
 #include "telltale/client/recording/mavlink/mavlink_recording.hpp"
 #include "telltale/client/recording/mcap/mcap_recording.hpp"
+#include "telltale/client/recording/mcap/mcap_records.hpp"
 #include "telltale/client/recording/rosbag1/rosbag1.hpp"
 #include "telltale/client/recording/rosbag2/rosbag2.hpp"
 #include "telltale/client/recording/telemetry_log/telemetry_log.hpp"
@@ -33,17 +34,22 @@ std::string FirstBytes(const std::filesystem::path& file) {
 
 Result<RawLog> FromFolder(const std::filesystem::path& folder) {
   return ReadTelemetryLog(folder).map([](TelemetryLog log) {
-    return RawLog{std::move(log.samples), log.malformed, std::nullopt};
+    return RawLog{std::move(log.channels), log.malformed, std::nullopt};
   });
+}
+
+std::string OutputsText(const DataFlashLog& log) {
+  if (!log.port || !log.starboard) return {};
+  return "; outputs " + std::to_string(log.port->channel) + " (port) and " +
+         std::to_string(log.starboard->channel) + " (starboard) of RCOU";
 }
 
 Result<RawLog> FromDataFlash(const std::filesystem::path& file, const SourceOptions& options) {
   const DataFlashOptions choice{options.gps_instance, options.port_channel,
                                 options.starboard_channel};
-  return ReadDataFlash(file, choice).map([](const DataFlashLog& log) {
-    return RawLog{InOrderOfTime(log.gnss, log.heading, log.thrusters),
-                  {},
-                  LogDescription{log.report.Summary(), log.port, log.starboard}};
+  return ReadDataFlash(file, choice, options.progress).map([](DataFlashLog log) {
+    LogDescription description{log.report.Summary() + OutputsText(log), log.port, log.starboard};
+    return RawLog{std::move(log), {}, std::move(description)};
   });
 }
 
@@ -68,15 +74,14 @@ Result<SourceLog> ReadMapped(const std::filesystem::path& path, LogFormat format
     case LogFormat::kMcap: return ReadMcap(path, options);
     case LogFormat::kRosbag1: return ReadRosbag1(path, options);
     case LogFormat::kRosbag2: return ReadRosbag2(path, options);
-    default: return ReadMappedCsv(path, *options.mapping);
+    default: return ReadMappedCsv(path, *options.mapping, options.progress);
   }
 }
 
 Result<RawLog> FromSource(Result<SourceLog> source) {
   return std::move(source).map([](SourceLog log) {
-    return RawLog{InOrderOfTime(log.gnss, log.heading, log.thrusters),
-                  {},
-                  LogDescription{std::move(log.summary), log.port, log.starboard}};
+    LogDescription description{std::move(log.summary), log.port, log.starboard};
+    return RawLog{std::move(log), {}, std::move(description)};
   });
 }
 
@@ -136,9 +141,9 @@ Result<RawLog> ReadLog(const std::filesystem::path& path, const SourceOptions& o
 }
 
 Result<LoadedRecording> AdmitLog(const std::filesystem::path& path, const RawLog& log) {
-  auto fault = UnitFault(SamplesOf<GnssFix>(log.samples), SamplesOf<ThrusterSample>(log.samples));
+  auto fault = UnitFault(log.channels.gnss, log.channels.thrusters);
   if (fault) return Naming(path, *std::move(fault));
-  auto admitted = Admit(log.samples);
+  auto admitted = Admit(log.channels);
   if (!admitted) return Naming(path, std::move(admitted).error());
   return LoadedRecording{std::move(admitted->recording), admitted->evicted, log.malformed,
                          log.description};

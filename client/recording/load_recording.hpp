@@ -5,7 +5,6 @@
 #include <filesystem>
 #include <optional>
 #include <string>
-#include <vector>
 
 #include "telltale/client/recording/csv/numeric_csv.hpp"
 #include "telltale/client/recording/source_log.hpp"
@@ -23,9 +22,9 @@ struct LogDescription {
   std::optional<ThrusterOutput> starboard;
 };
 
-/// A log of any format before any admission: what a replay publishes.
+/// A log of any format before any admission.
 struct RawLog {
-  std::vector<RawSample> samples;          ///< InOrderOfTime()
+  RawChannels channels;
   std::array<MalformedRows, 3> malformed;  ///< by channel, of a folder
   std::optional<LogDescription> description;
 };

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -13,14 +14,26 @@ inline constexpr double kLowOutputHz = 5.0;
 inline constexpr double kLowHeadingHz = 4.0;
 inline constexpr double kLowPositionHz = 0.9;
 
-/// "; SERVO_OUTPUT_RAW comes at 2 Hz only: set ..." where the samples come more seldom than
-/// `least_hz`, by the median of their periods; else empty.
+/// How many periods give the median of a long recording well enough.
+inline constexpr std::size_t kEnoughPeriods = 100'000;
+
+inline double TimeIn(double time_s) {
+  return time_s;
+}
+template <class Sample>
+double TimeIn(const Sample& sample) {
+  return sample.time_s;
+}
+
+/// "; SERVO_OUTPUT_RAW comes at 2 Hz only: set ..." where the samples, or times, come more seldom
+/// than `least_hz`, by the median of their periods; else empty.
 template <class Sample>
 std::string RateWarning(const std::string& source, const std::vector<Sample>& samples,
                         double least_hz, const std::string& remedy) {
   std::vector<double> periods_s;
-  for (std::size_t i = 1; i < samples.size(); ++i) {
-    const double period_s = samples[i].time_s - samples[i - 1].time_s;
+  const std::size_t step = 1 + samples.size() / kEnoughPeriods;
+  for (std::size_t i = 1; i < samples.size(); i += step) {
+    const double period_s = TimeIn(samples[i]) - TimeIn(samples[i - 1]);
     if (period_s > 0.0) periods_s.push_back(period_s);
   }
   if (periods_s.empty()) return {};

@@ -32,8 +32,9 @@ std::optional<Refusal> SourceLog::Lacks() const {
   }
   if (thrusters.empty()) {
     return Refusal{"thrusters", "no outputs of two known thrusters" + read,
-                   "record the servo outputs, and name the channels of the port and starboard "
-                   "thruster where the file does not"};
+                   "record the servo outputs; where the file does not name the channels of the "
+                   "thrusters, give --port-channel and --starboard-channel, or say by --map what "
+                   "holds their commands"};
   }
   return std::nullopt;
 }

@@ -5,11 +5,11 @@
 #include <memory>
 #include <optional>
 #include <string>
-#include <vector>
 
+#include "telltale/client/recording/block_reader.hpp"
 #include "telltale/client/recording/servo_outputs.hpp"
+#include "telltale/client/recording/time_order.hpp"
 #include "telltale/core/base/result.hpp"
-#include "telltale/core/data/samples.hpp"
 #include "telltale/idl/codec/mapping_file.hpp"
 
 namespace telltale {
@@ -21,17 +21,14 @@ struct SourceOptions {
   std::optional<int> port_channel;       ///< [1, 16]; unset: by SERVOn_FUNCTION 73
   std::optional<int> starboard_channel;  ///< [1, 16]; unset: by SERVOn_FUNCTION 74
   std::shared_ptr<const Mapping> mapping;  ///< null: what is known of each format counts
+  ReadProgress progress;                   ///< null: nobody is told
 
   /// The first field out of its range, as a refusal naming field, value and range.
   std::optional<Refusal> Validate() const;
 };
 
-/// Three channels out of a file of any format, each in the order it was written, on one clock,
-/// nothing checked yet; and what was chosen to get them.
-struct SourceLog {
-  std::vector<GnssFix> gnss;
-  std::vector<HeadingSample> heading;
-  std::vector<ThrusterSample> thrusters;
+/// Three channels out of a file of any format, on one clock, and what was chosen to get them.
+struct SourceLog : RawChannels {
   std::optional<ThrusterOutput> port;  ///< where the file describes its outputs
   std::optional<ThrusterOutput> starboard;
   std::string summary;  ///< for people: what was read, from where, and each kind of damage

@@ -80,27 +80,29 @@ double TimeOf(const RawSample& sample) {
   return std::visit([](const auto& s) { return s.time_s; }, sample);
 }
 
-std::vector<RawSample> InOrderOfTime(const std::vector<GnssFix>& gnss,
-                                     const std::vector<HeadingSample>& heading,
-                                     const std::vector<ThrusterSample>& thrusters) {
-  const std::size_t all = gnss.size() + heading.size() + thrusters.size();
-  std::vector<RawSample> ordered;
-  ordered.reserve(all);
-  Cursor fixes(gnss);
-  Cursor headings(heading);
-  Cursor commands(thrusters);
+void ForEachInOrderOfTime(const RawChannels& channels,
+                          const std::function<void(const RawSample&)>& visit) {
+  Cursor fixes(channels.gnss);
+  Cursor headings(channels.heading);
+  Cursor commands(channels.thrusters);
   const auto goes_before = [](const auto& one, const auto& other) {
     return !one.AtEnd() && (other.AtEnd() || one.NextPlace() <= other.NextPlace());
   };
-  while (ordered.size() < all) {
+  while (!fixes.AtEnd() || !headings.AtEnd() || !commands.AtEnd()) {
     if (goes_before(fixes, headings) && goes_before(fixes, commands)) {
-      ordered.push_back(fixes.Take());
+      visit(fixes.Take());
     } else if (goes_before(headings, commands)) {
-      ordered.push_back(headings.Take());
+      visit(headings.Take());
     } else {
-      ordered.push_back(commands.Take());
+      visit(commands.Take());
     }
   }
+}
+
+std::vector<RawSample> InOrderOfTime(const RawChannels& channels) {
+  std::vector<RawSample> ordered;
+  ordered.reserve(channels.Size());
+  ForEachInOrderOfTime(channels, [&](const RawSample& sample) { ordered.push_back(sample); });
   return ordered;
 }
 

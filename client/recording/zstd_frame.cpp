@@ -14,31 +14,57 @@ namespace {
 
 constexpr std::array<std::uint8_t, 4> kMagic = {0x28, 0xB5, 0x2F, 0xFD};
 
+using ZstdContext = std::unique_ptr<ZSTD_DCtx, std::size_t (*)(ZSTD_DCtx*)>;
+
+ZstdContext MakeContext() {
+  return {ZSTD_createDCtx(), &ZSTD_freeDCtx};
+}
+
 }  // namespace
 
 bool BeginsLikeZstdFrame(std::span<const std::uint8_t> bytes) {
   return bytes.size() >= kMagic.size() && std::equal(kMagic.begin(), kMagic.end(), bytes.begin());
 }
 
-bool InflateZstdFrame(std::span<const std::uint8_t> compressed, std::vector<std::uint8_t>& out) {
-  const std::size_t size =
-      ZSTD_decompress(out.data(), out.size(), compressed.data(), compressed.size());
+struct ZstdInflater::Context {
+  ZstdContext zstd = MakeContext();
+};
+
+ZstdInflater::ZstdInflater() : context_(std::make_unique<Context>()) {}
+ZstdInflater::~ZstdInflater() = default;
+
+bool ZstdInflater::Inflate(std::span<const std::uint8_t> compressed, std::span<std::uint8_t> out) {
+  const std::size_t size = ZSTD_decompressDCtx(context_->zstd.get(), out.data(), out.size(),
+                                               compressed.data(), compressed.size());
   return ZSTD_isError(size) == 0 && size == out.size();
 }
 
-bool InflateZstdFrameOfItsLength(std::span<const std::uint8_t> compressed, std::size_t most,
-                                 std::vector<std::uint8_t>& out) {
+bool ZstdInflater::InflateStart(std::span<const std::uint8_t> compressed,
+                                std::span<std::uint8_t> out) {
+  ZSTD_DCtx_reset(context_->zstd.get(), ZSTD_reset_session_only);
+  ZSTD_inBuffer from{compressed.data(), compressed.size(), 0};
+  ZSTD_outBuffer to{out.data(), out.size(), 0};
+  std::size_t wanted = 1;  // more of the frame
+  while (wanted != 0 && to.pos < to.size) {
+    const std::size_t before = from.pos + to.pos;
+    wanted = ZSTD_decompressStream(context_->zstd.get(), &to, &from);
+    if (ZSTD_isError(wanted) != 0 || from.pos + to.pos == before) return false;
+  }
+  return to.pos == to.size;
+}
+
+bool ZstdInflater::InflateOfItsLength(std::span<const std::uint8_t> compressed, std::size_t most,
+                                      std::vector<std::uint8_t>& out) {
   // What is no frame, or states no length, seems longer than any.
   const unsigned long long size = ZSTD_getFrameContentSize(compressed.data(), compressed.size());
   if (size > most) return false;
   out.resize(static_cast<std::size_t>(size));
-  return InflateZstdFrame(compressed, out);
+  return Inflate(compressed, out);
 }
 
 Result<bool> InflateZstdFile(const std::filesystem::path& file, const std::filesystem::path& into) {
   std::ofstream out(into, std::ios::binary | std::ios::trunc);
-  const std::unique_ptr<ZSTD_DCtx, std::size_t (*)(ZSTD_DCtx*)> inflater(ZSTD_createDCtx(),
-                                                                         &ZSTD_freeDCtx);
+  const ZstdContext inflater = MakeContext();
   std::vector<std::uint8_t> inflated(ZSTD_DStreamOutSize());
   std::size_t wanted = 1;  // more of the frame
   bool is_zstd = true;

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -12,13 +13,27 @@ namespace telltale {
 
 bool BeginsLikeZstdFrame(std::span<const std::uint8_t> bytes);
 
-/// Inflates one zstd frame, which is to fill `out` exactly; false where it does not.
-bool InflateZstdFrame(std::span<const std::uint8_t> compressed, std::vector<std::uint8_t>& out);
+/// Inflates one zstd frame after the other, in memory that it keeps between them.
+class ZstdInflater {
+ public:
+  ZstdInflater();
+  ~ZstdInflater();
 
-/// Inflates one zstd frame that states its length, at most `most` bytes, into `out`; false where it
-/// is no such frame.
-bool InflateZstdFrameOfItsLength(std::span<const std::uint8_t> compressed, std::size_t most,
-                                 std::vector<std::uint8_t>& out);
+  /// A frame that is to fill `out` exactly; false where it does not.
+  bool Inflate(std::span<const std::uint8_t> compressed, std::span<std::uint8_t> out);
+
+  /// The start of a frame, until `out` is full; false where it does not fill it. What follows is
+  /// not looked at.
+  bool InflateStart(std::span<const std::uint8_t> compressed, std::span<std::uint8_t> out);
+
+  /// A frame that states its length, at most `most` bytes; false where it is no such frame.
+  bool InflateOfItsLength(std::span<const std::uint8_t> compressed, std::size_t most,
+                          std::vector<std::uint8_t>& out);
+
+ private:
+  struct Context;
+  std::unique_ptr<Context> context_;
+};
 
 /// Inflates a file of zstd frames into another. Returns whether the frames are whole: of a file
 /// that is cut off, `into` holds what there is. Memory: the window of a frame, at most 128 MB.

@@ -12,13 +12,12 @@ std::optional<Refusal> CheckedLog::FirstProblem() const {
   return unusable;
 }
 
-CheckedLog CheckLog(const std::filesystem::path& path, const std::vector<RawSample>& recorded,
+CheckedLog CheckLog(const std::filesystem::path& path, const RawChannels& recorded,
                     const std::optional<LogDescription>& description, const Vehicle& vehicle) {
   CheckedLog checked;
   checked.path = path;
   if (description) checked.summary = description->summary;
-  checked.check = CheckInput(SamplesOf<GnssFix>(recorded), SamplesOf<HeadingSample>(recorded),
-                             SamplesOf<ThrusterSample>(recorded), vehicle);
+  checked.check = CheckInput(recorded.gnss, recorded.heading, recorded.thrusters, vehicle);
   const auto admitted = Admit(recorded);
   if (!admitted) {
     checked.unusable = admitted.error();

@@ -3,7 +3,6 @@
 #include <filesystem>
 #include <optional>
 #include <string>
-#include <vector>
 
 #include "telltale/client/recording/load_recording.hpp"
 #include "telltale/core/base/result.hpp"
@@ -25,7 +24,7 @@ struct CheckedLog {
 };
 
 /// Seeks faults of input in a log (CheckInput) and tries whether it can be prepared.
-CheckedLog CheckLog(const std::filesystem::path& path, const std::vector<RawSample>& recorded,
+CheckedLog CheckLog(const std::filesystem::path& path, const RawChannels& recorded,
                     const std::optional<LogDescription>& description, const Vehicle& vehicle);
 
 /// The vehicle that a log describes, else one whose thrusters take 1100, 1500 and 1900 us for full

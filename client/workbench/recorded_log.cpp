@@ -58,7 +58,7 @@ RecordedLog Admitted(const std::filesystem::path& path, RawLog log, const NoteSi
     note(path.string() + ": " + std::to_string(loaded.evicted) +
          " samples left out, older than a day or before the clock was set back");
   }
-  return {path, std::move(loaded), std::move(log.samples)};
+  return {path, std::move(loaded), std::move(log.channels)};
 }
 
 RecordedLog LoadLog(const std::filesystem::path& path, const SourceOptions& options,

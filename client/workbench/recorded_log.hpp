@@ -2,7 +2,6 @@
 
 #include <filesystem>
 #include <string>
-#include <vector>
 
 #include "telltale/client/recording/load_recording.hpp"
 #include "telltale/client/recording/source_log.hpp"
@@ -15,7 +14,7 @@ namespace telltale {
 struct RecordedLog {
   std::filesystem::path path;  ///< by which errors name it
   LoadedRecording loaded;
-  std::vector<RawSample> recorded;  ///< admission drops what shows some faults; checks need these
+  RawChannels recorded;  ///< admission drops what shows some faults; checks need these
 };
 
 /// "run225" of /data/run225 and of /data/run225/.

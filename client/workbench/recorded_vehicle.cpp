@@ -98,9 +98,9 @@ void RequireNotRepeated(const std::vector<RecordedLog>& logs,
 /// As it was recorded: admission drops what is repeated, and with it the sign of a stuck channel.
 void RequireSoundInput(const std::vector<RecordedLog>& logs, const Vehicle& vehicle) {
   for (const RecordedLog& log : logs) {
-    auto fault = FirstFault(CheckInput(SamplesOf<GnssFix>(log.recorded),
-                                       SamplesOf<HeadingSample>(log.recorded),
-                                       SamplesOf<ThrusterSample>(log.recorded), vehicle));
+    const RawChannels& recorded = log.recorded;
+    auto fault =
+        FirstFault(CheckInput(recorded.gnss, recorded.heading, recorded.thrusters, vehicle));
     if (!fault) continue;
     fault->subject = log.path.string() + ' ' + fault->subject;
     fault->advice += "; --skip-input-check, if you know that the input is right";
@@ -125,7 +125,10 @@ RecordedVehicle Join(std::vector<RecordedLog> logs, std::optional<Vehicle> state
     RequireSoundInput(logs, vehicle);
   }
   std::vector<Recording> recordings;
-  for (RecordedLog& log : logs) recordings.push_back(std::move(log.loaded.recording));
+  for (RecordedLog& log : logs) {
+    recordings.push_back(std::move(log.loaded.recording));
+    log.recorded = {};
+  }
   return {Concatenate(recordings), std::move(vehicle), std::move(identities)};
 }
 

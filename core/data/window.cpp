@@ -55,6 +55,15 @@ void ForEachChannel(Channels& channels, Visit visit) {
   std::apply([&visit](auto&... samples) { (visit(samples), ...); }, channels);
 }
 
+/// A deque frees its blocks as it is taken from.
+template <class Sample>
+std::vector<Sample> Drained(std::deque<Sample>& from) {
+  std::vector<Sample> samples;
+  samples.reserve(from.size());
+  for (; !from.empty(); from.pop_front()) samples.push_back(from.front());
+  return samples;
+}
+
 }  // namespace
 
 std::optional<Refusal> WindowLimits::Validate() const {
@@ -251,6 +260,11 @@ Recording Window::Snapshot() const {
           {heading.begin(), heading.end()},
           {thrusters.begin(), thrusters.end()},
           impl_->rejected};
+}
+
+Recording Window::Release() && {
+  auto& [gnss, heading, thrusters] = impl_->held.samples;
+  return {Drained(gnss), Drained(heading), Drained(thrusters), impl_->rejected};
 }
 
 std::size_t Window::Size(Channel channel) const {

@@ -61,6 +61,9 @@ class Window {
 
   Recording Snapshot() const;
 
+  /// The same, given away, so that the samples stand in memory once. The window is empty then.
+  Recording Release() &&;
+
   std::size_t Size(Channel channel) const;
   double StartTime() const;  ///< oldest kept sample of any channel; 0 when empty
   double EndTime() const;    ///< newest kept sample of any channel; 0 when empty

@@ -85,6 +85,20 @@ Bytes Mcap(const Bytes& records) {
          Record(15, Bytes(4, '\0')) + magic;
 }
 
+/// With an index of each chunk and a summary, by which chunks are passed over.
+Bytes IndexedMcap(const Bytes& definitions, const Bytes& chunks, std::uint32_t channels) {
+  const Bytes magic("\x89MCAP0\r\n", 8);
+  const Bytes data = magic + definitions + chunks + Record(15, Bytes(4, '\0'));
+  const Bytes statistics = Record(11, Bytes(10, '\0') + LittleEndian(channels) + Bytes(30, '\0'));
+  const Bytes footer =
+      Record(2, LittleEndian(static_cast<std::uint64_t>(data.size())) + Bytes(12, '\0'));
+  return data + definitions + statistics + footer + magic;
+}
+
+Bytes MessageIndex(std::uint16_t channel, std::uint64_t offset) {
+  return Record(7, LittleEndian(channel) + WithLength(Bytes(8, '\0') + LittleEndian(offset)));
+}
+
 Bytes RosRecords() {
   const Bytes cdr("\x00\x01\x00\x00", 4);
   return Channel(1, "/compass_hdg", "std_msgs/msg/Float64", "cdr") +
@@ -168,6 +182,9 @@ int main(int argc, char** argv) {
   Save(folder / "mcap/chunk.mcap", Mcap(Chunk(RosRecords(), "")));
   Save(folder / "mcap/zstd.mcap", Mcap(Chunk(RosRecords(), "zstd")));
   Save(folder / "mcap/lz4.mcap", Mcap(Chunk(RosRecords(), "lz4")));
+  const Bytes unwanted = Channel(9, "/camera", "sensor_msgs/msg/Image", "cdr");
+  Save(folder / "mcap/indexed.mcap",
+       IndexedMcap(unwanted, Chunk(Message(9, "picture"), "") + MessageIndex(9, 0), 1));
   Save(folder / "mcap/blueos.mcap", Mcap(BlueOsRecords()));
   Save(folder / "ros/messages", RosMessages());
   for (const char* compression : {"none", "bz2", "lz4"}) {

@@ -28,7 +28,9 @@ constexpr std::array kTopics = {std::pair("/gps/fix", "sensor_msgs/msg/NavSatFix
 /// Messages out of the bytes, each after its topic and its length; no sample comes from nothing,
 /// and a message makes a position and a heading at most.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  telltale::RosRecording recording;
+  telltale::SourceOptions options;
+  if (size % 2 == 0) options.port_channel = 16;
+  telltale::RosRecording recording(options);
   std::size_t messages = 0;
   for (std::size_t at = 0; at + 2 <= size; ++messages) {
     const auto [topic, type] = kTopics[data[at] % kTopics.size()];
@@ -36,9 +38,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     recording.Take(topic, type, static_cast<std::int64_t>(at) * 1'000'000, {data + at + 2, length});
     at += 2 + length;
   }
-  telltale::SourceOptions options;
-  if (size % 2 == 0) options.port_channel = 16;
-  const telltale::SourceLog log = recording.Finish(options);
+  const telltale::SourceLog log = std::move(recording).Finish();
   Insist(log.gnss.size() + log.heading.size() + log.thrusters.size() <= 2 * messages);
   Insist(!log.summary.empty());
   return 0;

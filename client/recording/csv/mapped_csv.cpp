@@ -93,7 +93,7 @@ class MappedCsv : public MessageFields {
     for (const std::string& column : columns_) header += (header.empty() ? "" : ", ") + column;
     return header;
   }
-  SourceLog Finish() const { return recording_.Finish("rows"); }
+  SourceLog Finish() && { return std::move(recording_).Finish("rows"); }
 
  private:
   void TakeLine(std::string_view line) {
@@ -142,12 +142,16 @@ std::optional<Refusal> NotForCsv(const Mapping& mapping) {
 
 }  // namespace
 
-Result<SourceLog> ReadMappedCsv(const std::filesystem::path& file, const Mapping& mapping) {
+Result<SourceLog> ReadMappedCsv(const std::filesystem::path& file, const Mapping& mapping,
+                                const ReadProgress& progress) {
   if (auto refusal = NotForCsv(mapping)) return tl::unexpected(*std::move(refusal));
   MappedCsv csv(mapping);
-  const auto read = ReadInBlocks(file, [&](std::span<const std::uint8_t> bytes, bool at_end) {
-    return csv.Consume({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, at_end);
-  });
+  const auto read = ReadInBlocks(
+      file,
+      [&](std::span<const std::uint8_t> bytes, bool at_end) {
+        return csv.Consume({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, at_end);
+      },
+      progress);
   if (!read) return tl::unexpected(read.error());
   if (!csv.HasHeader()) {
     return Refuse(file.string(), "is empty", "give a file with a header row and a row per sample");
@@ -158,7 +162,7 @@ Result<SourceLog> ReadMappedCsv(const std::filesystem::path& file, const Mapping
         "has no column " + csv.Missing().front() + ", only " + csv.Header().substr(0, 300),
         "name the columns of this file in the mapping");
   }
-  return Complete(csv.Finish(), file);
+  return Complete(std::move(csv).Finish(), file);
 }
 
 }  // namespace telltale

@@ -13,6 +13,7 @@ namespace telltale {
 /// rates of their own. Memory: one row beside the samples.
 /// Refuses when: the file cannot be read, lacks a column that the mapping names, the mapping names
 /// a topic or no column of times, or a channel is missing.
-Result<SourceLog> ReadMappedCsv(const std::filesystem::path& file, const Mapping& mapping);
+Result<SourceLog> ReadMappedCsv(const std::filesystem::path& file, const Mapping& mapping,
+                                const ReadProgress& progress = nullptr);
 
 }  // namespace telltale

@@ -7,7 +7,7 @@
 #include <sstream>
 #include <utility>
 
-#include "telltale/client/recording/block_reader.hpp"
+#include "telltale/client/recording/pulse_columns.hpp"
 
 namespace telltale {
 namespace {
@@ -27,12 +27,6 @@ struct MessageColumns {
   std::vector<DataFlashColumn> values;      ///< in the order the message's own taker expects
   std::optional<DataFlashColumn> instance;  ///< GPS of newer firmware
   int fixed_instance = 0;                   ///< GPS of older firmware: one message a receiver
-};
-
-/// Pulse widths of all channels at one time; NaN where the firmware logs fewer.
-struct Pulses {
-  double time_s = 0.0;
-  std::array<float, kLoggedChannels> us{};
 };
 
 Message MessageNamed(std::string_view name) {
@@ -175,13 +169,12 @@ class DataFlashLogBuilder : public DataFlashConsumer {
   }
 
   void TakePulses(const MessageColumns& reading, DataFlashBytes record) {
-    Pulses pulses;
-    pulses.time_s = TimeOf(reading, record);
-    pulses.us.fill(std::numeric_limits<float>::quiet_NaN());
+    std::array<float, kLoggedChannels> pulse_us{};
+    pulse_us.fill(std::numeric_limits<float>::quiet_NaN());  // where the firmware logs fewer
     for (std::size_t i = 0; i < reading.values.size(); ++i) {
-      pulses.us[i] = static_cast<float>(DataFlashNumber(record, reading.values[i]));
+      pulse_us[i] = static_cast<float>(DataFlashNumber(record, reading.values[i]));
     }
-    pulses_.push_back(pulses);
+    pulses_.Add(TimeOf(reading, record), pulse_us);
   }
 
   void TakeParameter(const MessageColumns& reading, DataFlashBytes record) {
@@ -228,12 +221,7 @@ class DataFlashLogBuilder : public DataFlashConsumer {
     log.starboard = choose(options.starboard_channel, kThrottleRight);
     if (!log.port || !log.starboard) return;
     if (std::max(log.port->channel, log.starboard->channel) > kLoggedChannels) return;
-    log.thrusters.reserve(pulses_.size());
-    for (const Pulses& pulses : pulses_) {
-      log.thrusters.push_back({pulses.time_s,
-                               pulses.us[static_cast<std::size_t>(log.port->channel - 1)],
-                               pulses.us[static_cast<std::size_t>(log.starboard->channel - 1)]});
-    }
+    log.thrusters = pulses_.Of(log.port->channel, log.starboard->channel);
   }
 
   std::array<MessageColumns, 256> readings_;
@@ -241,7 +229,7 @@ class DataFlashLogBuilder : public DataFlashConsumer {
   std::map<int, std::vector<GnssFix>> fixes_;
   std::vector<HeadingSample> attitude_;
   std::vector<HeadingSample> backup_attitude_;
-  std::vector<Pulses> pulses_;
+  PulseColumns pulses_;
   AutopilotParameters parameters_;
   DataFlashReport report_;
 };
@@ -376,12 +364,13 @@ DataFlashLog ParseDataFlash(DataFlashBytes bytes, const DataFlashOptions& option
 }
 
 Result<DataFlashLog> ReadDataFlash(const std::filesystem::path& file,
-                                   const DataFlashOptions& options) {
+                                   const DataFlashOptions& options, const ReadProgress& progress) {
   if (auto refusal = options.Validate()) return tl::unexpected(*std::move(refusal));
   DataFlashLogBuilder builder;
   DataFlashFraming framing(builder);
   const auto total = ReadInBlocks(
-      file, [&](DataFlashBytes bytes, bool at_end) { return framing.Consume(bytes, at_end); });
+      file, [&](DataFlashBytes bytes, bool at_end) { return framing.Consume(bytes, at_end); },
+      progress);
   if (!total) return tl::unexpected(total.error());
 
   DataFlashLog log = FinishLog(builder, framing, *total, options);

@@ -5,12 +5,12 @@
 #include <map>
 #include <optional>
 #include <string>
-#include <vector>
 
+#include "telltale/client/recording/block_reader.hpp"
 #include "telltale/client/recording/dataflash/dataflash_records.hpp"
 #include "telltale/client/recording/servo_outputs.hpp"
+#include "telltale/client/recording/time_order.hpp"
 #include "telltale/core/base/result.hpp"
-#include "telltale/core/data/samples.hpp"
 #include "telltale/core/vessel/propellers.hpp"
 
 namespace telltale {
@@ -57,10 +57,7 @@ struct DataFlashReport {
 /// fix bears the time at which it was logged (TimeUS, or T in ms before Rover 3), not its GPS time
 /// (GMS, GWk), so it lags by what the receiver and its link take.
 /// Heading is the yaw of the attitude estimate, clockwise from true north (AHRS adds declination).
-struct DataFlashLog {
-  std::vector<GnssFix> gnss;
-  std::vector<HeadingSample> heading;
-  std::vector<ThrusterSample> thrusters;
+struct DataFlashLog : RawChannels {
   std::optional<ThrusterOutput> port;
   std::optional<ThrusterOutput> starboard;
   DataFlashReport report;
@@ -79,6 +76,7 @@ DataFlashLog ParseDataFlash(DataFlashBytes bytes, const DataFlashOptions& option
 /// The same from a file, read once in blocks.
 /// Refuses when: the file cannot be read, is not a DataFlash log, or the log Lacks() something.
 Result<DataFlashLog> ReadDataFlash(const std::filesystem::path& file,
-                                   const DataFlashOptions& options = {});
+                                   const DataFlashOptions& options = {},
+                                   const ReadProgress& progress = nullptr);
 
 }  // namespace telltale

@@ -82,8 +82,8 @@ void MappedMessages::TakeJson(std::string_view topic, std::int64_t received_ns,
   }
 }
 
-SourceLog MappedMessages::Finish() const {
-  SourceLog log = recording_.Finish("messages");
+SourceLog MappedMessages::Finish() && {
+  SourceLog log = std::move(recording_).Finish("messages");
   for (const std::string& name : types_.Unknown()) {
     log.summary += "; the recording does not define " + name;
   }

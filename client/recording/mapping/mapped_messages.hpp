@@ -25,11 +25,13 @@ class MappedMessages {
   void TakeJson(std::string_view topic, std::int64_t received_ns,
                 std::span<const std::uint8_t> bytes);
 
-  SourceLog Finish() const;
-
- private:
+  /// Whether the mapping names this topic; the report lists some of the others.
   bool Names(std::string_view topic);
 
+  /// Gives the samples away.
+  SourceLog Finish() &&;
+
+ private:
   std::shared_ptr<const Mapping> mapping_;
   MappedRecording recording_;
   RosMessageTypes types_;

@@ -1,5 +1,7 @@
 #include "telltale/client/recording/mapping/mapped_recording.hpp"
 
+#include <utility>
+
 namespace telltale {
 
 MappedRecording::MappedRecording(const Mapping& mapping)
@@ -12,10 +14,10 @@ MappedRecording::MappedRecording(const Mapping& mapping)
                  (side == Side::kPort ? port_commands_ : starboard_commands_).push_back(command);
                }}) {}
 
-SourceLog MappedRecording::Finish(const char* what) const {
+SourceLog MappedRecording::Finish(const char* what) && {
   SourceLog log;
-  log.gnss = fixes_;
-  log.heading = headings_;
+  log.gnss = std::move(fixes_);
+  log.heading = std::move(headings_);
   log.thrusters = JoinSides(port_commands_, starboard_commands_);
   log.summary = samples_.Summary(what);
   return log;

@@ -22,8 +22,8 @@ class MappedRecording {
     samples_.Take(topic, received_s, fields);
   }
 
-  /// `what`: "messages" or "rows", for people.
-  SourceLog Finish(const char* what) const;
+  /// Gives the samples away. `what`: "messages" or "rows", for people.
+  SourceLog Finish(const char* what) &&;
 
  private:
   std::vector<GnssFix> fixes_;

@@ -41,7 +41,7 @@ float FloatOf(const Json& value) {
 }
 
 double DegreesOf(const Json& value) {
-  return 1e-7 * double(value);
+  return double(value) / 1e7;
 }
 
 std::uint8_t FixTypeOf(const Json& value) {
@@ -54,7 +54,7 @@ std::uint8_t FixTypeOf(const Json& value) {
   return has_none ? 0 : 3;
 }
 
-/// A text, or an array of its characters; zeros fill it up.
+/// A text, or an array of its characters or of their codes; zeros fill it up.
 std::string ParameterNameOf(const Json& value) {
   std::string name;
   std::string_view text;
@@ -63,7 +63,9 @@ std::string ParameterNameOf(const Json& value) {
     name = text;
   } else if (value.get(characters) == simdjson::SUCCESS) {
     for (const Json character : characters) {
+      std::uint64_t code = 0;
       if (character.get(text) == simdjson::SUCCESS) name += text;
+      if (character.get(code) == simdjson::SUCCESS) name.push_back(static_cast<char>(code));
     }
   }
   while (!name.empty() && name.back() == '\0') name.pop_back();
@@ -105,22 +107,28 @@ MavlinkServoOutputRaw ServoOutputRawOf(const Json& message) {
   return output;
 }
 
-void TakeMessage(int system, const Json& message, MavlinkRecording& recording) {
+int ComponentOf(const Json& header) {
+  Json component;
+  const bool is_said = header["component_id"].get(component) == simdjson::SUCCESS;
+  return is_said ? IntegerOf<std::uint8_t>(component) : kMavlinkAutopilot;
+}
+
+void TakeMessage(const MavlinkSender& sender, const Json& message, MavlinkRecording& recording) {
   const std::string_view type = message["type"];
   if (type == "GPS_RAW_INT") {
-    recording.Take(system, GpsRawIntOf(message));
+    recording.Take(sender, GpsRawIntOf(message));
   } else if (type == "GLOBAL_POSITION_INT") {
-    recording.Take(system, GlobalPositionIntOf(message));
+    recording.Take(sender, GlobalPositionIntOf(message));
   } else if (type == "ATTITUDE") {
-    recording.Take(system, MavlinkAttitude{IntegerOf<std::uint32_t>(message["time_boot_ms"]),
+    recording.Take(sender, MavlinkAttitude{IntegerOf<std::uint32_t>(message["time_boot_ms"]),
                                            FloatOf(message["yaw"])});
   } else if (type == "SERVO_OUTPUT_RAW") {
-    recording.Take(system, ServoOutputRawOf(message));
+    recording.Take(sender, ServoOutputRawOf(message));
   } else if (type == "PARAM_VALUE") {
-    recording.Take(system, MavlinkParamValue{ParameterNameOf(message["param_id"]),
+    recording.Take(sender, MavlinkParamValue{ParameterNameOf(message["param_id"]),
                                              FloatOf(message["param_value"])});
   } else if (type == "SYSTEM_TIME") {
-    recording.Take(system, MavlinkSystemTime{IntegerOf<std::uint64_t>(message["time_unix_usec"]),
+    recording.Take(sender, MavlinkSystemTime{IntegerOf<std::uint64_t>(message["time_unix_usec"]),
                                              IntegerOf<std::uint32_t>(message["time_boot_ms"])});
   }
 }
@@ -145,8 +153,9 @@ bool MavlinkJson::Take(std::span<const std::uint8_t> json, MavlinkRecording& rec
   std::copy(json.begin(), json.end(), padded.begin());
   try {
     const Json root = parser_->parser.parse(padded.data(), json.size(), false);
-    const int system = IntegerOf<std::uint8_t>(root["header"]["system_id"]);
-    TakeMessage(system, root["message"], recording);
+    const Json header = root["header"];
+    TakeMessage({IntegerOf<std::uint8_t>(header["system_id"]), ComponentOf(header)},
+                root["message"], recording);
   } catch (const std::exception&) {  // of the parser, or out of range
     return false;
   }

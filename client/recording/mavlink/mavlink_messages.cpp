@@ -26,7 +26,7 @@ class Payload {
     return static_cast<std::uint64_t>(U32(at)) | static_cast<std::uint64_t>(U32(at + 4)) << 32;
   }
   float F32(std::size_t at) const { return std::bit_cast<float>(U32(at)); }
-  double Degrees(std::size_t at) const { return static_cast<std::int32_t>(U32(at)) * 1e-7; }
+  double Degrees(std::size_t at) const { return static_cast<std::int32_t>(U32(at)) / 1e7; }
 
  private:
   static constexpr std::size_t kLongest = 64;  // no field that is read lies further on

@@ -12,6 +12,8 @@ namespace telltale {
 // The messages of MAVLink's common dialect that say where a boat is, where it heads and what its
 // thrusters are told. Field names and units are the dialect's. Source: MAVLink, common.xml.
 
+inline constexpr std::uint8_t kMavlinkAutopilot = 1;  ///< MAV_COMP_ID_AUTOPILOT1
+
 struct MavlinkHeartbeat {
   static constexpr std::uint32_t kId = 0;
   std::uint8_t autopilot = 0;  ///< MAV_AUTOPILOT; 8: this component is none

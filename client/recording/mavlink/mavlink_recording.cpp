@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <utility>
 
 #include "telltale/client/recording/block_reader.hpp"
@@ -11,13 +12,19 @@
 namespace telltale {
 namespace {
 
-constexpr std::uint32_t kHalfWrapUs = 1u << 31;
+constexpr double kWrapUs = 4294967296.0;
 
 /// What raises the rate of a message.
 std::string AskFor(const char* parameter, const char* message) {
   return std::string("set ") + parameter +
          " to 10 (SR1_, SR2_ of another port), or ask for message " + message +
          " by MAV_CMD_SET_MESSAGE_INTERVAL";
+}
+
+/// Frees what samples of a source take that gives way to a better one.
+template <class Sample>
+void GiveBack(std::vector<Sample>& samples) {
+  if (!samples.empty()) std::vector<Sample>().swap(samples);
 }
 
 std::string AndCount(std::uint64_t count, const char* what) {
@@ -38,24 +45,25 @@ double PulseOn(const MavlinkPulses& pulse_us, int channel) {
 
 std::size_t MavlinkRecording::Vehicle::Samples() const {
   return std::max(raw_fixes.size(), filtered_fixes.size()) +
-         std::max(attitude.size(), filtered_heading.size()) + outputs.size();
+         std::max(attitude.size(), filtered_heading.size()) + outputs.TimesS().size();
 }
 
 void MavlinkRecording::Take(const MavlinkFrame& frame) {
+  const MavlinkSender sender(frame.system, frame.component);
   switch (frame.message) {
-    case MavlinkGpsRawInt::kId: return Take(frame.system, GpsRawIntOf(frame));
-    case MavlinkGlobalPositionInt::kId: return Take(frame.system, GlobalPositionIntOf(frame));
-    case MavlinkAttitude::kId: return Take(frame.system, AttitudeOf(frame));
-    case MavlinkServoOutputRaw::kId: return Take(frame.system, ServoOutputRawOf(frame));
-    case MavlinkParamValue::kId: return Take(frame.system, ParamValueOf(frame));
-    case MavlinkSystemTime::kId: return Take(frame.system, SystemTimeOf(frame));
+    case MavlinkGpsRawInt::kId: return Take(sender, GpsRawIntOf(frame));
+    case MavlinkGlobalPositionInt::kId: return Take(sender, GlobalPositionIntOf(frame));
+    case MavlinkAttitude::kId: return Take(sender, AttitudeOf(frame));
+    case MavlinkServoOutputRaw::kId: return Take(sender, ServoOutputRawOf(frame));
+    case MavlinkParamValue::kId: return Take(sender, ParamValueOf(frame));
+    case MavlinkSystemTime::kId: return Take(sender, SystemTimeOf(frame));
     default: return;
   }
 }
 
-void MavlinkRecording::Take(int system, const MavlinkGpsRawInt& message) {
+void MavlinkRecording::Take(const MavlinkSender& sender, const MavlinkGpsRawInt& message) {
   ++messages_;
-  Vehicle& vehicle = vehicles_[system];
+  Vehicle& vehicle = vehicles_[sender];
   if (!message.HasFix()) {
     ++vehicle.without_fix;
     return;
@@ -65,63 +73,91 @@ void MavlinkRecording::Take(int system, const MavlinkGpsRawInt& message) {
     ++vehicle.repeated_fixes;
     return;
   }
+  GiveBack(vehicle.filtered_fixes);
   vehicle.raw_fixes.push_back({time_s, message.latitude_deg, message.longitude_deg});
 }
 
-void MavlinkRecording::Take(int system, const MavlinkGlobalPositionInt& message) {
+void MavlinkRecording::Take(const MavlinkSender& sender, const MavlinkGlobalPositionInt& message) {
   ++messages_;
-  Vehicle& vehicle = vehicles_[system];
+  Vehicle& vehicle = vehicles_[sender];
   const double time_s = message.time_boot_ms * 1e-3;
-  vehicle.filtered_fixes.push_back({time_s, message.latitude_deg, message.longitude_deg});
-  if (message.heading_deg) vehicle.filtered_heading.push_back({time_s, *message.heading_deg});
+  vehicle.boot_s = time_s;
+  const bool has_position = message.latitude_deg != 0.0 || message.longitude_deg != 0.0;
+  if (!has_position) ++vehicle.without_fix;
+  if (has_position && vehicle.raw_fixes.empty()) {
+    vehicle.filtered_fixes.push_back({time_s, message.latitude_deg, message.longitude_deg});
+  }
+  if (message.heading_deg && vehicle.attitude.empty()) {
+    vehicle.filtered_heading.push_back({time_s, *message.heading_deg});
+  }
 }
 
-void MavlinkRecording::Take(int system, const MavlinkAttitude& message) {
+void MavlinkRecording::Take(const MavlinkSender& sender, const MavlinkAttitude& message) {
   ++messages_;
-  vehicles_[system].attitude.push_back(
-      {message.time_boot_ms * 1e-3, static_cast<double>(message.yaw_rad) * kDegreesPerRadian});
+  Vehicle& vehicle = vehicles_[sender];
+  vehicle.boot_s = message.time_boot_ms * 1e-3;
+  GiveBack(vehicle.filtered_heading);
+  vehicle.attitude.push_back(
+      {*vehicle.boot_s, static_cast<double>(message.yaw_rad) * kDegreesPerRadian});
 }
 
-void MavlinkRecording::Take(int system, const MavlinkServoOutputRaw& message) {
-  ++messages_;
-  if (message.bank != 0) return;
-  Vehicle& vehicle = vehicles_[system];
-  // A counter of 32 bits begins anew; one that went back by less was set back, which is for the
-  // checks of the window.
-  if (message.time_us < vehicle.last_output_us &&
-      vehicle.last_output_us - message.time_us > kHalfWrapUs) {
+/// A counter of 32 bits begins anew every 71.6 minutes. The other messages' time since boot says
+/// how often it has; without them it has where it goes back by more than half. One that goes back
+/// by less was set back, which is for the checks of the window.
+double MavlinkRecording::OutputTime(Vehicle& vehicle, std::uint32_t time_us) {
+  if (vehicle.boot_s) {
+    const double wraps = std::round((*vehicle.boot_s * 1e6 - time_us) / kWrapUs);
+    vehicle.output_wraps = static_cast<std::uint64_t>(std::max(wraps, 0.0));
+  } else if (time_us < vehicle.last_output_us && vehicle.last_output_us - time_us > kWrapUs / 2) {
     ++vehicle.output_wraps;
   }
-  vehicle.last_output_us = message.time_us;
-  const double time_s =
-      (static_cast<double>(vehicle.output_wraps) * 4294967296.0 + message.time_us) * 1e-6;
-  vehicle.outputs.push_back({time_s, message.pulse_us});
+  vehicle.last_output_us = time_us;
+  return (static_cast<double>(vehicle.output_wraps) * kWrapUs + time_us) * 1e-6;
 }
 
-void MavlinkRecording::Take(int system, const MavlinkParamValue& message) {
+void MavlinkRecording::Take(const MavlinkSender& sender, const MavlinkServoOutputRaw& message) {
+  ++messages_;
+  if (message.bank != 0) return;
+  Vehicle& vehicle = vehicles_[sender];
+  const double time_s = OutputTime(vehicle, message.time_us);
+  std::array<float, kMavlinkOutputs> pulse_us{};
+  std::copy(message.pulse_us.begin(), message.pulse_us.end(), pulse_us.begin());
+  vehicle.outputs.Add(time_s, pulse_us);
+}
+
+void MavlinkRecording::Take(const MavlinkSender& sender, const MavlinkParamValue& message) {
   ++messages_;
   if (!IsOutputParameter(message.name) || !std::isfinite(message.value)) return;
-  vehicles_[system].parameters[message.name] = static_cast<double>(message.value);
+  vehicles_[sender].parameters[message.name] = static_cast<double>(message.value);
 }
 
-void MavlinkRecording::Take(int system, const MavlinkSystemTime& message) {
+void MavlinkRecording::Take(const MavlinkSender& sender, const MavlinkSystemTime& message) {
   ++messages_;
   if (message.unix_us == 0) return;
-  Vehicle& vehicle = vehicles_[system];
+  Vehicle& vehicle = vehicles_[sender];
   if (vehicle.unix_less_boot_s) return;  // the first holds: a clock that is set later would jump
   vehicle.unix_less_boot_s = static_cast<double>(message.unix_us) * 1e-6 - message.boot_ms * 1e-3;
 }
 
-std::pair<const int, MavlinkRecording::Vehicle>* MavlinkRecording::Chosen(
+std::pair<const MavlinkSender, MavlinkRecording::Vehicle>* MavlinkRecording::Chosen(
     const SourceOptions& options) {
-  if (options.system_id) {
-    const auto found = vehicles_.find(*options.system_id);
-    return found == vehicles_.end() ? nullptr : &*found;
+  const auto rank = [](const Vehicle& vehicle) {
+    return std::pair(!vehicle.outputs.TimesS().empty(), vehicle.Samples());
+  };
+  std::pair<const MavlinkSender, Vehicle>* chosen = nullptr;
+  for (auto& entry : vehicles_) {
+    if (options.system_id && entry.first.system != *options.system_id) continue;
+    if (chosen == nullptr || rank(chosen->second) < rank(entry.second)) chosen = &entry;
   }
-  const auto most = std::max_element(
-      vehicles_.begin(), vehicles_.end(),
-      [](const auto& a, const auto& b) { return a.second.Samples() < b.second.Samples(); });
-  return most == vehicles_.end() ? nullptr : &*most;
+  return chosen;
+}
+
+std::size_t MavlinkRecording::SystemsWithSamples() const {
+  std::set<int> systems;
+  for (const auto& [sender, vehicle] : vehicles_) {
+    if (vehicle.Samples() > 0) systems.insert(sender.system);
+  }
+  return systems.size();
 }
 
 std::string MavlinkRecording::ChoosePositions(Vehicle& vehicle, SourceLog& log) {
@@ -156,9 +192,9 @@ std::string MavlinkRecording::ChooseOutputs(const Vehicle& vehicle, const Source
     if (!channel) return std::nullopt;
     return OutputOn(vehicle.parameters, *channel);
   };
-  std::string warning =
-      RateWarning("SERVO_OUTPUT_RAW", vehicle.outputs, kLowOutputHz, AskFor("SR0_RC_CHAN", "36"));
-  if (vehicle.outputs.empty()) return warning;
+  std::string warning = RateWarning("SERVO_OUTPUT_RAW", vehicle.outputs.TimesS(), kLowOutputHz,
+                                    AskFor("SR0_RC_CHAN", "36"));
+  if (vehicle.outputs.TimesS().empty()) return warning;
   log.port = output(options.port_channel, kThrottleLeft);
   log.starboard = output(options.starboard_channel, kThrottleRight);
   if (!log.port || !log.starboard) {
@@ -168,11 +204,7 @@ std::string MavlinkRecording::ChooseOutputs(const Vehicle& vehicle, const Source
   }
   log.summary += "; outputs " + std::to_string(log.port->channel) + " (port) and " +
                  std::to_string(log.starboard->channel) + " (starboard) of SERVO_OUTPUT_RAW";
-  log.thrusters.reserve(vehicle.outputs.size());
-  for (const Outputs& outputs : vehicle.outputs) {
-    log.thrusters.push_back({outputs.time_s, PulseOn(outputs.pulse_us, log.port->channel),
-                             PulseOn(outputs.pulse_us, log.starboard->channel)});
-  }
+  log.thrusters = vehicle.outputs.Of(log.port->channel, log.starboard->channel);
   return warning;
 }
 
@@ -185,9 +217,13 @@ SourceLog MavlinkRecording::Finish(const SourceOptions& options) && {
       log.summary += "; none from system " + std::to_string(*options.system_id);
     return log;
   }
-  auto& [system, vehicle] = *chosen;
-  log.summary += "; system " + std::to_string(system);
-  if (vehicles_.size() > 1) log.summary += " of " + std::to_string(vehicles_.size());
+  auto& [sender, vehicle] = *chosen;
+  log.summary += "; system " + std::to_string(sender.system);
+  if (sender.component != kMavlinkAutopilot) {
+    log.summary += ", component " + std::to_string(sender.component);
+  }
+  const std::size_t systems = SystemsWithSamples();
+  if (systems > 1) log.summary += " of " + std::to_string(systems) + " (--system-id takes another)";
   const std::string of_positions = ChoosePositions(vehicle, log);
   const std::string of_headings = ChooseHeadings(vehicle, log);
   const std::string of_outputs = ChooseOutputs(vehicle, options, log);
@@ -202,10 +238,13 @@ Result<SourceLog> ReadMavlinkTelemetryLog(const std::filesystem::path& file,
   if (auto refusal = options.Validate()) return tl::unexpected(*std::move(refusal));
   MavlinkRecording recording;
   MavlinkTelemetryLog frames;
-  const auto read = ReadInBlocks(file, [&](std::span<const std::uint8_t> bytes, bool at_end) {
-    return frames.Consume(bytes, at_end,
-                          [&](auto, const MavlinkFrame& frame) { recording.Take(frame); });
-  });
+  const auto read = ReadInBlocks(
+      file,
+      [&](std::span<const std::uint8_t> bytes, bool at_end) {
+        return frames.Consume(bytes, at_end,
+                              [&](auto, const MavlinkFrame& frame) { recording.Take(frame); });
+      },
+      options.progress);
   if (!read) return tl::unexpected(read.error());
 
   SourceLog log = std::move(recording).Finish(options);

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "telltale/client/recording/mavlink/mavlink_messages.hpp"
+#include "telltale/client/recording/pulse_columns.hpp"
 #include "telltale/client/recording/source_log.hpp"
 
 namespace telltale {
@@ -20,8 +21,20 @@ std::optional<int> ThrusterChannel(std::optional<int> asked, const AutopilotPara
 /// The pulse on an output. Requires: a channel of [1, 16].
 double PulseOn(const MavlinkPulses& pulse_us, int channel);
 
+/// Who sent a message: a vehicle and which part of it.
+struct MavlinkSender {
+  // Tests and readers speak of a vehicle, whose autopilot it is.
+  MavlinkSender(int of_system, int of_component = kMavlinkAutopilot)  // NOLINT(*-explicit-*)
+      : system(of_system), component(of_component) {}
+
+  int system;
+  int component;
+  auto operator<=>(const MavlinkSender&) const = default;
+};
+
 /// Gathers what the vehicles of a MAVLink stream say; which vehicle and which of its sources count
-/// is chosen once the stream has ended.
+/// is chosen once the stream has ended: of the components that report outputs, or else of all, the
+/// one with most samples. A camera or a gimbal may have an attitude of its own.
 ///
 /// Clock: seconds since the autopilot booted, for the three channels. GPS_RAW_INT bears the time of
 /// its fix, ATTITUDE and SERVO_OUTPUT_RAW the time at which they were measured; none depends on
@@ -35,31 +48,28 @@ class MavlinkRecording {
   /// A frame of any message; those of no use are passed over.
   void Take(const MavlinkFrame& frame);
 
-  void Take(int system, const MavlinkGpsRawInt& message);
-  void Take(int system, const MavlinkGlobalPositionInt& message);
-  void Take(int system, const MavlinkAttitude& message);
-  void Take(int system, const MavlinkServoOutputRaw& message);
-  void Take(int system, const MavlinkParamValue& message);
-  void Take(int system, const MavlinkSystemTime& message);
+  void Take(const MavlinkSender& sender, const MavlinkGpsRawInt& message);
+  void Take(const MavlinkSender& sender, const MavlinkGlobalPositionInt& message);
+  void Take(const MavlinkSender& sender, const MavlinkAttitude& message);
+  void Take(const MavlinkSender& sender, const MavlinkServoOutputRaw& message);
+  void Take(const MavlinkSender& sender, const MavlinkParamValue& message);
+  void Take(const MavlinkSender& sender, const MavlinkSystemTime& message);
 
   /// Gives the samples away, so that no file stands in memory twice.
   /// Requires: options.Validate() is empty.
   SourceLog Finish(const SourceOptions& options) &&;
 
  private:
-  struct Outputs {
-    double time_s = 0.0;
-    MavlinkPulses pulse_us{};
-  };
   struct Vehicle {
     std::vector<GnssFix> raw_fixes;
-    std::vector<GnssFix> filtered_fixes;
+    std::vector<GnssFix> filtered_fixes;  ///< none once there is a raw one
     std::vector<HeadingSample> attitude;
-    std::vector<HeadingSample> filtered_heading;
-    std::vector<Outputs> outputs;
+    std::vector<HeadingSample> filtered_heading;  ///< none once there is an attitude
+    PulseColumns outputs;
     AutopilotParameters parameters;
     std::uint64_t without_fix = 0;
     std::uint64_t repeated_fixes = 0;
+    std::optional<double> boot_s;  ///< of the newest message that bears it
     std::uint32_t last_output_us = 0;
     std::uint64_t output_wraps = 0;
     std::optional<double> unix_less_boot_s;
@@ -67,14 +77,17 @@ class MavlinkRecording {
     std::size_t Samples() const;
   };
 
-  std::pair<const int, Vehicle>* Chosen(const SourceOptions& options);
+  std::pair<const MavlinkSender, Vehicle>* Chosen(const SourceOptions& options);
+  static double OutputTime(Vehicle& vehicle, std::uint32_t time_us);
   // Each fills a channel, and returns the warning of a rate that is too low, if it is.
   static std::string ChoosePositions(Vehicle& vehicle, SourceLog& log);
   static std::string ChooseHeadings(Vehicle& vehicle, SourceLog& log);
   static std::string ChooseOutputs(const Vehicle& vehicle, const SourceOptions& options,
                                    SourceLog& log);
 
-  std::map<int, Vehicle> vehicles_;  ///< by system id
+  std::size_t SystemsWithSamples() const;
+
+  std::map<MavlinkSender, Vehicle> vehicles_;
   std::uint64_t messages_ = 0;
 };
 

@@ -1,10 +1,11 @@
 #pragma once
 
+#include <algorithm>
 #include <bit>
 #include <cstdint>
 #include <cstring>
 #include <span>
-#include <string>
+#include <string_view>
 #include <type_traits>
 #include <vector>
 
@@ -36,20 +37,21 @@ class CdrReader {
     if (!is_ros1_) at_ = (at_ + sizeof(Number) - 1) / sizeof(Number) * sizeof(Number);
     Number value{};
     if (!Holds(sizeof(Number))) return value;
-    std::uint8_t raw[sizeof(Number)];
-    for (std::size_t i = 0; i < sizeof(Number); ++i) {
-      raw[is_little_ == kHostIsLittle ? i : sizeof(Number) - 1 - i] = bytes_[at_ + i];
-    }
-    std::memcpy(&value, raw, sizeof(Number));
+    std::memcpy(&value, bytes_.data() + at_, sizeof(Number));
     at_ += sizeof(Number);
+    if (is_little_ != kHostIsLittle) {
+      auto* const raw = reinterpret_cast<std::uint8_t*>(&value);
+      std::reverse(raw, raw + sizeof(Number));
+    }
     return value;
   }
 
-  std::string ReadString() {
+  /// Valid as long as the bytes are.
+  std::string_view ReadString() {
     const auto length = Read<std::uint32_t>();  // of CDR: its closing zero included
     if (length == 0 || !Holds(length)) return {};
     const std::size_t characters = is_ros1_ ? length : length - 1;
-    std::string text(reinterpret_cast<const char*>(bytes_.data() + at_), characters);
+    const std::string_view text(reinterpret_cast<const char*>(bytes_.data() + at_), characters);
     at_ += length;
     return text;
   }

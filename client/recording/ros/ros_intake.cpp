@@ -1,7 +1,5 @@
 #include "telltale/client/recording/ros/ros_intake.hpp"
 
-#include "telltale/client/recording/zstd_frame.hpp"
-
 namespace telltale {
 namespace {
 
@@ -9,7 +7,7 @@ constexpr std::size_t kLongestMessage = std::size_t{64} << 20;
 
 }  // namespace
 
-RosIntake::RosIntake(const SourceOptions& options) : options_(options) {
+RosIntake::RosIntake(const SourceOptions& options) : by_rules_(options) {
   if (options.mapping) mapped_.emplace(options.mapping);
 }
 
@@ -18,7 +16,7 @@ void RosIntake::Take(std::string_view topic, std::string_view type, std::string_
                      CdrReader::Encoding encoding) {
   // CDR begins with a zero. What cannot be inflated goes on to be counted as unreadable.
   const bool is_compressed = encoding == CdrReader::Encoding::kCdr && BeginsLikeZstdFrame(bytes);
-  if (is_compressed && InflateZstdFrameOfItsLength(bytes, kLongestMessage, inflated_)) {
+  if (is_compressed && zstd_.InflateOfItsLength(bytes, kLongestMessage, inflated_)) {
     bytes = inflated_;
   }
   if (mapped_) {

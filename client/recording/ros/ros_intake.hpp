@@ -4,16 +4,18 @@
 #include <optional>
 #include <span>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "telltale/client/recording/mapping/mapped_messages.hpp"
 #include "telltale/client/recording/ros/ros_recording.hpp"
+#include "telltale/client/recording/zstd_frame.hpp"
 
 namespace telltale {
 
 /// Where the messages of every ROS format go: to a mapping, where one is given, else to the rules
 /// of RosRecording. Messages that rosbag2 compressed one by one, with zstd, are inflated, up to 64
-/// MB each. Requires: options outlive it, and options.Validate() is empty.
+/// MB each. Requires: options.Validate() is empty.
 class RosIntake {
  public:
   explicit RosIntake(const SourceOptions& options);
@@ -25,12 +27,20 @@ class RosIntake {
   /// Null: no mapping is given.
   MappedMessages* Mapped() { return mapped_ ? &*mapped_ : nullptr; }
 
-  SourceLog Finish() const { return mapped_ ? mapped_->Finish() : by_rules_.Finish(options_); }
+  /// Whether messages of such a topic are of use.
+  bool Wants(std::string_view topic, std::string_view type) {
+    return mapped_ ? mapped_->Names(topic) : RosRecording::Wants(topic, type);
+  }
+
+  /// Gives the samples away.
+  SourceLog Finish() && {
+    return mapped_ ? std::move(*mapped_).Finish() : std::move(by_rules_).Finish();
+  }
 
  private:
-  const SourceOptions& options_;
   std::optional<MappedMessages> mapped_;
   RosRecording by_rules_;
+  ZstdInflater zstd_;
   std::vector<std::uint8_t> inflated_;
 };
 

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <sstream>
+#include <tuple>
 
 #include "telltale/client/recording/rate_warning.hpp"
-#include "telltale/client/recording/thruster_sides.hpp"
 #include "telltale/core/base/median.hpp"
 
 namespace telltale {
@@ -13,18 +13,96 @@ namespace {
 
 constexpr double kClocksAgreeS = 1.0;
 
+template <class Sample>
+void SetTimes(std::vector<Sample>& samples, const std::vector<double>& times_s) {
+  for (std::size_t i = 0; i < samples.size(); ++i) samples[i].time_s = times_s[i];
+}
+
+/// How many names of two topics' paths are the same, from the first on.
+std::size_t SharedNames(std::string_view a, std::string_view b) {
+  const auto [end, ignored] = std::ranges::mismatch(a, b);
+  return static_cast<std::size_t>(std::count(a.begin(), end, '/'));
+}
+
+double LargestOf(const std::vector<SideCommand>& told) {
+  double largest = 0.0;
+  for (const SideCommand& command : told) largest = std::max(largest, std::abs(command.pulse_us));
+  return largest;
+}
+
+void MakePulses(std::vector<SideCommand>& shares) {
+  for (SideCommand& share : shares) share.pulse_us = PulseOfShare(share.pulse_us);
+}
+
 }  // namespace
+
+// ---- one topic ----------------------------------------------------------------------------------
+
+void RosRecording::Topic::Take(double at_s, const RosReading& reading,
+                               const RosOutputChannels& channels) {
+  const double time_s = reading.stamp_s.value_or(at_s);
+  if (reading.position) {
+    fixes.push_back({time_s, reading.position->latitude_deg, reading.position->longitude_deg});
+  }
+  switch (source.Kind()) {
+    case RosKind::kCompass:
+    case RosKind::kOrientation: headings.push_back({time_s, reading.values[0]}); break;
+    case RosKind::kOutputs:
+    case RosKind::kDrive: {
+      const auto command = CommandsOf(source.Kind(), reading, channels, time_s);
+      if (!command) {
+        ++without_channels;
+        return;
+      }
+      commands.push_back(*command);
+      break;
+    }
+    case RosKind::kSide: told.push_back({time_s, reading.values[0]}); break;
+    case RosKind::kPosition:
+    case RosKind::kUnknown: break;
+  }
+  received_s.push_back(at_s);
+}
+
+double RosRecording::Topic::StampOf(std::size_t i) const {
+  if (!fixes.empty()) return fixes[i].time_s;
+  if (!headings.empty()) return headings[i].time_s;
+  if (!commands.empty()) return commands[i].time_s;
+  return told[i].time_s;
+}
+
+bool RosRecording::Topic::StampsAgree() const {
+  std::vector<double> apart_s;
+  const std::size_t step = 1 + received_s.size() / kEnoughPeriods;
+  for (std::size_t i = 0; i < received_s.size(); i += step) {
+    // Without a header the time of recording stands for it.
+    if (received_s[i] != StampOf(i)) apart_s.push_back(std::abs(received_s[i] - StampOf(i)));
+  }
+  return apart_s.empty() || Median(std::move(apart_s)) <= kClocksAgreeS;
+}
+
+void RosRecording::Topic::TimeByRecording() {
+  SetTimes(fixes, received_s);
+  SetTimes(headings, received_s);
+  SetTimes(commands, received_s);
+}
+
+// ---- the choice among topics --------------------------------------------------------------------
 
 void RosRecording::Take(std::string_view topic, std::string_view type, std::int64_t received_ns,
                         std::span<const std::uint8_t> bytes, CdrReader::Encoding encoding) {
-  ++messages_;
-  auto found = topics_.find(topic);
-  if (found == topics_.end()) {
-    found = topics_.emplace(std::string(topic), Topic{RosTopic(topic, type), {}}).first;
+  if (last_ == nullptr || last_->first != topic) {  // often one topic has many messages in a row
+    auto found = topics_.find(topic);
+    if (found == topics_.end()) {
+      found = topics_.emplace(std::string(topic), Topic(RosTopic(topic, type))).first;
+    }
+    last_ = &*found;
   }
-  Topic& known = found->second;
-  if (auto reading = known.source.Read(bytes, encoding)) {
-    known.samples.push_back({1e-9 * static_cast<double>(received_ns), *std::move(reading)});
+  Topic& known = last_->second;
+  if (known.source.Kind() == RosKind::kUnknown) return;
+  ++messages_;
+  if (const auto reading = known.source.Read(bytes, encoding)) {
+    known.Take(1e-9 * static_cast<double>(received_ns), *reading, channels_);
   }
 }
 
@@ -35,140 +113,139 @@ RosRecording::RankOf RosRecording::OfKind(RosKind kind) {
   };
 }
 
-const RosRecording::Named* RosRecording::Best(const RankOf& rank_of) const {
-  const Named* best = nullptr;
-  std::optional<int> best_rank;
-  for (const Named& named : topics_) {
+RosRecording::RankOf RosRecording::OfSide(bool is_port) {
+  return [is_port](const RosTopic& source) -> std::optional<int> {
+    if (source.Kind() != RosKind::kSide || source.IsPort() != is_port) return std::nullopt;
+    return source.Rank();
+  };
+}
+
+RosRecording::Named* RosRecording::Best(const RankOf& rank_of, std::string_view beside) {
+  Named* best = nullptr;
+  std::tuple<int, std::size_t, std::size_t> best_place;  // the larger the better
+  for (Named& named : topics_) {
     const Topic& topic = named.second;
     const auto rank = rank_of(topic.source);
-    if (!rank || topic.samples.empty()) continue;
-    if (best == nullptr || rank < best_rank ||
-        (rank == best_rank && topic.samples.size() > best->second.samples.size())) {
+    if (!rank || topic.IsEmpty()) continue;
+    const std::tuple place(-*rank, SharedNames(named.first, beside), topic.received_s.size());
+    if (best == nullptr || place > best_place) {
       best = &named;
-      best_rank = rank;
+      best_place = place;
     }
   }
   return best;
 }
 
-const RosRecording::Named* RosRecording::Side(bool is_port) const {
-  for (const Named& named : topics_) {
-    const RosTopic& source = named.second.source;
-    if (source.Kind() == RosKind::kSide && source.IsPort() == is_port &&
-        !named.second.samples.empty()) {
-      return &named;
-    }
-  }
-  return nullptr;
-}
-
 std::string RosRecording::Why(const RankOf& rank_of, const char* reason) const {
   const auto such = std::count_if(topics_.begin(), topics_.end(), [&](const Named& named) {
-    return rank_of(named.second.source) && !named.second.samples.empty();
+    return rank_of(named.second.source) && !named.second.IsEmpty();
   });
   if (such < 2) return {};
   return std::string(" (") + reason + " of " + std::to_string(such) + " such topics)";
 }
 
-bool RosRecording::StampsAgree(const Named* named) const {
-  if (named == nullptr) return true;
-  std::vector<double> apart;
-  for (const Sample& sample : named->second.samples) {
-    const auto& stamp_s = sample.reading.stamp_s;
-    if (stamp_s) apart.push_back(std::abs(sample.received_s - *stamp_s));
+// ---- the channels -------------------------------------------------------------------------------
+
+// Each fills a channel and says from what.
+
+std::string RosRecording::TakePositions(Named& from, SourceLog& log) const {
+  std::ostringstream said;
+  said << "; positions from " << from.first << Why(&RosTopic::PositionRank, "the best type");
+  if (from.second.source.IsOdometry()) {
+    said << " (metres from an origin that is not stated, taken as " << kOdometryOrigin.latitude_deg
+         << " N " << kOdometryOrigin.longitude_deg << " E)";
   }
-  if (apart.empty()) return true;  // no stamps: the time of recording stands for them
-  return Median(std::move(apart)) <= kClocksAgreeS;
+  log.gnss = std::move(from.second.fixes);
+  return said.str();
 }
 
-SourceLog RosRecording::Finish(const SourceOptions& options) const {
-  SourceLog log;
+std::string RosRecording::TakeHeadings(Named& from, SourceLog& log) const {
+  const RosTopic& source = from.second.source;
+  std::string said = "; heading from " + from.first;
+  said += source.Kind() == RosKind::kCompass ? Why(OfKind(RosKind::kCompass), "most samples")
+                                             : Why(OfKind(RosKind::kOrientation), "the best type");
+  if (source.Kind() == RosKind::kOrientation) {
+    said += " (" + source.Type() + (source.IsNed() ? ", north-east-down)" : ", east-north-up)");
+  }
+  log.heading = std::move(from.second.headings);
+  return said;
+}
+
+std::string RosRecording::TakeSides(Named& port, Named& starboard, SourceLog& log) const {
+  std::ostringstream said;
+  said << "; outputs from " << port.first << " (port) and " << starboard.first << " (starboard)";
+  auto& of_port = port.second.told;
+  auto& of_starboard = starboard.second.told;
+  if (!port.second.source.IsPulse() || !starboard.second.source.IsPulse()) {
+    const double largest = std::max(LargestOf(of_port), LargestOf(of_starboard));
+    if (largest > 1.0) {
+      said << ", which hold values up to " << largest
+           << ": neither shares of full thrust in [-1, 1] nor pulse widths";
+      return said.str();
+    }
+    said << ", shares of full thrust taken as 1500 + 400 share us";
+    MakePulses(of_port);
+    MakePulses(of_starboard);
+  }
+  log.thrusters = JoinSides(of_port, of_starboard);
+  return said.str();
+}
+
+std::string RosRecording::Faults() const {
+  std::ostringstream said;
+  for (const auto& [name, topic] : topics_) {
+    if (topic.source.Unreadable() > 0) {
+      said << "; " << topic.source.Unreadable() << " unreadable messages of " << name;
+    }
+    if (topic.source.WithoutFix() > 0) {
+      said << "; " << topic.source.WithoutFix() << " positions without a fix in " << name;
+    }
+    if (topic.without_channels > 0) {
+      said << "; " << topic.without_channels << " messages of " << name << " with fewer than "
+           << std::max(channels_.port, channels_.starboard) << " channels";
+    }
+  }
+  return said.str();
+}
+
+SourceLog RosRecording::Finish() && {
+  const auto of_use = std::ranges::count_if(
+      topics_, [](const Named& named) { return named.second.source.Kind() != RosKind::kUnknown; });
   std::ostringstream summary;
-  summary << messages_ << (messages_ == 1 ? " message of " : " messages of ") << topics_.size()
-          << (topics_.size() == 1 ? " topic" : " topics");
-  const RankOf of_positions = &RosTopic::PositionRank;
-  const RankOf of_compasses = OfKind(RosKind::kCompass);
-  const RankOf of_orientations = OfKind(RosKind::kOrientation);
-  const Named* position = Best(of_positions);
-  const Named* heading = Best(of_compasses);
-  if (heading == nullptr) heading = Best(of_orientations);
-  const Named* outputs = Best(OfKind(RosKind::kOutputs));
-  const Named* drive = Best(OfKind(RosKind::kDrive));
-  const Named* port = Side(true);
-  const Named* starboard = Side(false);
+  summary << messages_ << (messages_ == 1 ? " message" : " messages") << " of use in " << of_use
+          << (of_use == 1 ? " topic" : " topics");
+  Named* position = Best(&RosTopic::PositionRank);
+  const std::string_view beside = position != nullptr ? position->first : std::string_view();
+  Named* heading = Best(OfKind(RosKind::kCompass), beside);
+  if (heading == nullptr) heading = Best(OfKind(RosKind::kOrientation), beside);
+  Named* outputs = Best(OfKind(RosKind::kOutputs), beside);
+  Named* drive = Best(OfKind(RosKind::kDrive), beside);
+  Named* port = Best(OfSide(true), beside);
+  Named* starboard = Best(OfSide(false), beside);
 
-  const bool use_stamps = StampsAgree(position) && StampsAgree(heading) && StampsAgree(outputs);
-  const auto time_of = [&](const Sample& sample) {
-    return use_stamps ? sample.reading.stamp_s.value_or(sample.received_s) : sample.received_s;
+  const auto stamps_agree = [](const Named* named) {
+    return named == nullptr || named->second.StampsAgree();
   };
-
-  if (position != nullptr) {
-    summary << "; positions from " << position->first << Why(of_positions, "the best type");
-    if (position->second.source.IsOdometry()) {
-      summary << " (metres from an origin that is not stated, taken as "
-              << kOdometryOrigin.latitude_deg << " N " << kOdometryOrigin.longitude_deg << " E)";
-    }
-    for (const Sample& sample : position->second.samples) {
-      const GeographicPosition& at = *sample.reading.position;
-      log.gnss.push_back({time_of(sample), at.latitude_deg, at.longitude_deg});
+  const bool use_stamps = stamps_agree(position) && stamps_agree(heading) && stamps_agree(outputs);
+  if (!use_stamps) {
+    for (Named* named : {position, heading, outputs}) {
+      if (named != nullptr) named->second.TimeByRecording();
     }
   }
-  if (heading != nullptr) {
-    summary << "; heading from " << heading->first
-            << (heading->second.source.Kind() == RosKind::kCompass
-                    ? Why(of_compasses, "most samples")
-                    : Why(of_orientations, "the best type"));
-    if (heading->second.source.Kind() == RosKind::kOrientation) {
-      summary << " (" << heading->second.source.Type() << ", "
-              << (heading->second.source.IsNed() ? "north-east-down" : "east-north-up") << ")";
-    }
-    for (const Sample& sample : heading->second.samples) {
-      log.heading.push_back({time_of(sample), sample.reading.values[0]});
-    }
-  }
-  const RosOutputChannels channels(options);
-  const auto take_commands = [&](const Named& source) {
-    for (const Sample& sample : source.second.samples) {
-      const auto commands =
-          CommandsOf(source.second.source.Kind(), sample.reading, channels, time_of(sample));
-      if (commands) log.thrusters.push_back(*commands);
-    }
-  };
+
+  SourceLog log;
+  if (position != nullptr) summary << TakePositions(*position, log);
+  if (heading != nullptr) summary << TakeHeadings(*heading, log);
   if (outputs != nullptr) {
-    summary << "; outputs " << channels.port << " (port) and " << channels.starboard
+    summary << "; outputs " << channels_.port << " (port) and " << channels_.starboard
             << " (starboard) of " << outputs->first;
-    take_commands(*outputs);
+    log.thrusters = std::move(outputs->second.commands);
   } else if (drive != nullptr) {
     summary << "; outputs from " << drive->first
             << ", shares of full thrust taken as 1500 + 400 share us";
-    take_commands(*drive);
+    log.thrusters = std::move(drive->second.commands);
   } else if (port != nullptr && starboard != nullptr) {
-    summary << "; outputs from " << port->first << " (port) and " << starboard->first
-            << " (starboard)";
-    double largest = 0.0;
-    for (const Named* side : {port, starboard}) {
-      for (const Sample& sample : side->second.samples) {
-        largest = std::max(largest, std::abs(sample.reading.values[0]));
-      }
-    }
-    const bool are_pulses = port->second.source.IsPulse() && starboard->second.source.IsPulse();
-    if (!are_pulses && largest > 1.0) {
-      summary << ", which hold values up to " << largest
-              << ": neither shares of full thrust in [-1, 1] nor pulse widths";
-    } else {
-      if (!are_pulses) summary << ", shares of full thrust taken as 1500 + 400 share us";
-      const auto pulse = [&](const Sample& sample) {
-        return are_pulses ? sample.reading.values[0] : PulseOfShare(sample.reading.values[0]);
-      };
-      const auto commands = [&](const Named& side) {
-        std::vector<SideCommand> told;
-        for (const Sample& sample : side.second.samples) {
-          told.push_back({sample.received_s, pulse(sample)});
-        }
-        return told;
-      };
-      log.thrusters = JoinSides(commands(*port), commands(*starboard));
-    }
+    summary << TakeSides(*port, *starboard, log);
   }
   if (outputs != nullptr) {
     summary << RateWarning(outputs->first, log.thrusters, kLowOutputHz,
@@ -183,17 +260,7 @@ SourceLog RosRecording::Finish(const SourceOptions& options) const {
     summary << RateWarning(heading->first, log.heading, kLowHeadingHz,
                            "publish it at 10 Hz or more");
   }
-  summary << "; times " << (use_stamps ? "of the messages' headers" : "of recording");
-  for (const Named& named : topics_) {
-    if (named.second.source.Unreadable() > 0) {
-      summary << "; " << named.second.source.Unreadable() << " unreadable messages of "
-              << named.first;
-    }
-    if (named.second.source.WithoutFix() > 0) {
-      summary << "; " << named.second.source.WithoutFix() << " positions without a fix in "
-              << named.first;
-    }
-  }
+  summary << "; times " << (use_stamps ? "of the messages' headers" : "of recording") << Faults();
   log.summary = summary.str();
   return log;
 }

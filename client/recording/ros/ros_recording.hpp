@@ -7,54 +7,86 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "telltale/client/recording/ros/cdr_reader.hpp"
 #include "telltale/client/recording/ros/ros_topic.hpp"
 #include "telltale/client/recording/source_log.hpp"
+#include "telltale/client/recording/thruster_sides.hpp"
 
 namespace telltale {
 
-/// Gathers messages of ROS 2 topics; which topics count is chosen once all are read.
+/// Gathers messages of ROS 2 topics; which topics count is chosen once all are read. Memory: 24 to
+/// 32 bytes a sample.
 ///
 /// Position: the topic of positions of the best type (NavSatFix, GeoPoseStamped, Odometry), of
 /// several the one with most fixes. Heading: a compass, else the topic of
 /// orientations of the best type (Imu, GeoPoseStamped, QuaternionStamped, Odometry). Outputs:
 /// RCOut, channels 1 and 3 unless told otherwise; else heron_msgs/msg/Drive; else one topic each
-/// side. RosTopic says what these are. Clock: header stamps where the sources have them and they
-/// agree with the times of recording to a second; else the times of recording.
+/// side. Headings and outputs of the positions' namespace come first. RosTopic says what these are.
+/// Clock: header stamps where the sources have them and they agree with the times of recording to a
+/// second; else the times of recording.
 class RosRecording {
  public:
+  /// Requires: options.Validate() is empty.
+  explicit RosRecording(const SourceOptions& options) : channels_(options) {}
+
+  /// Whether messages of such a topic are of use.
+  static bool Wants(std::string_view topic, std::string_view type) {
+    return RosTopic(topic, type).Kind() != RosKind::kUnknown;
+  }
+
   /// A message of a topic, `type` as "sensor_msgs/msg/NavSatFix". Types of no use are passed over.
   void Take(std::string_view topic, std::string_view type, std::int64_t received_ns,
             std::span<const std::uint8_t> bytes,
             CdrReader::Encoding encoding = CdrReader::Encoding::kCdr);
 
-  /// Requires: options.Validate() is empty.
-  SourceLog Finish(const SourceOptions& options) const;
+  /// Gives the samples away, so that they stand in memory once.
+  SourceLog Finish() &&;
 
  private:
-  struct Sample {
-    double received_s = 0.0;
-    RosReading reading;
-  };
+  /// What the messages of a topic say, at the times of their headers where they have them.
   struct Topic {
+    explicit Topic(RosTopic topic) : source(std::move(topic)) {}
+
+    bool IsEmpty() const { return received_s.empty(); }
+    void Take(double at_s, const RosReading& reading, const RosOutputChannels& channels);
+    /// Whether the times of the headers are those of recording, to a second; without headers they
+    /// are.
+    bool StampsAgree() const;
+    double StampOf(std::size_t i) const;
+    /// Gives all samples the times of recording.
+    void TimeByRecording();
+
     RosTopic source;
-    std::vector<Sample> samples;
+    std::vector<double> received_s;  ///< of each sample below
+    std::vector<GnssFix> fixes;
+    std::vector<HeadingSample> headings;
+    std::vector<ThrusterSample> commands;  ///< of kOutputs and kDrive
+    std::vector<SideCommand> told;         ///< of kSide: what the thruster was told, in its unit
+    std::uint64_t without_channels = 0;    ///< messages of kOutputs with too few of them
   };
   using Named = std::pair<const std::string, Topic>;
 
   /// A topic's rank for what is sought: the lower the better; nothing: it has none of it.
   using RankOf = std::function<std::optional<int>(const RosTopic&)>;
   static RankOf OfKind(RosKind kind);
+  static RankOf OfSide(bool is_port);
 
-  const Named* Best(const RankOf& rank_of) const;
-  const Named* Side(bool is_port) const;
+  /// Of topics of one rank, the one whose name shares most of its beginning with `beside`: a
+  /// recording of several boats has a namespace for each. Of these the one with most samples.
+  Named* Best(const RankOf& rank_of, std::string_view beside = {});
   /// Why the best topic was taken, where there are others.
   std::string Why(const RankOf& rank_of, const char* reason) const;
-  bool StampsAgree(const Named* named) const;
+  std::string TakePositions(Named& from, SourceLog& log) const;
+  std::string TakeHeadings(Named& from, SourceLog& log) const;
+  std::string TakeSides(Named& port, Named& starboard, SourceLog& log) const;
+  std::string Faults() const;
 
+  RosOutputChannels channels_;
   std::map<std::string, Topic, std::less<>> topics_;
+  Named* last_ = nullptr;  ///< to which the last message came
   std::uint64_t messages_ = 0;
 };
 

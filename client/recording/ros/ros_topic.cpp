@@ -15,7 +15,7 @@ constexpr int kDefaultStarboardChannel = 3;
 
 struct RosHeader {
   double stamp_s = 0.0;
-  std::string frame;
+  std::string_view frame;
 };
 
 RosHeader ReadHeader(CdrReader& cdr) {
@@ -56,7 +56,7 @@ bool Contains(std::string_view text, std::string_view part) {
   return text.find(part) != std::string_view::npos;
 }
 
-bool NamesNed(const std::string& frame) {
+bool NamesNed(std::string_view frame) {
   return Contains(Lower(frame), "ned");
 }
 
@@ -157,7 +157,9 @@ std::optional<RosReading> RosTopic::Read(std::span<const std::uint8_t> bytes,
   bool is_usable = true;
   const auto stamp = [&](const RosHeader& header) {
     if (header.stamp_s != 0.0) reading.stamp_s = header.stamp_s;
-    is_ned_ = is_ned_ || NamesNed(header.frame);
+    if (header.frame == frame_) return;
+    frame_ = header.frame;
+    is_ned_ = is_ned_ || NamesNed(frame_);
   };
   switch (kind_) {
     case RosKind::kPosition: {

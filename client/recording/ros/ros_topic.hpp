@@ -68,6 +68,7 @@ class RosTopic {
   bool is_port_ = false;
   bool is_pulse_ = false;
   bool is_ned_ = false;
+  std::string frame_;  ///< that the last header named
   std::uint64_t unreadable_ = 0;
   std::uint64_t without_fix_ = 0;
 };

@@ -178,7 +178,7 @@ class Rosbag1File {
     } else {
       chunk_.resize(size);
       const bool is_whole = compression == "bz2"   ? InflateBz2(data, chunk_)
-                            : compression == "lz4" ? InflateLz4Frame(data, chunk_)
+                            : compression == "lz4" ? lz4_.Inflate(data, chunk_)
                                                    : false;
       if (is_whole) {
         TakeRecords(chunk_);
@@ -192,6 +192,7 @@ class Rosbag1File {
   RosIntake& recording_;
   std::map<std::uint32_t, Connection> connections_;
   std::vector<std::uint8_t> chunk_;
+  Lz4Inflater lz4_;
   std::uint64_t unreadable_chunks_ = 0;
   std::uint64_t unknown_connections_ = 0;
   std::uint64_t truncated_bytes_ = 0;
@@ -212,7 +213,7 @@ SourceLog ParseRosbag1(std::span<const std::uint8_t> bytes, std::size_t block,
   RosIntake recording(options);
   Rosbag1File bag(recording);
   TakeInBlocks(bytes, block, [&](BagBytes part, bool at_end) { return bag.Consume(part, at_end); });
-  SourceLog log = recording.Finish();
+  SourceLog log = std::move(recording).Finish();
   log.summary += bag.Summary();
   return log;
 }
@@ -221,13 +222,14 @@ Result<SourceLog> ReadRosbag1(const std::filesystem::path& file, const SourceOpt
   if (auto refusal = options.Validate()) return tl::unexpected(*std::move(refusal));
   RosIntake recording(options);
   Rosbag1File bag(recording);
-  const auto read =
-      ReadInBlocks(file, [&](BagBytes bytes, bool at_end) { return bag.Consume(bytes, at_end); });
+  const auto read = ReadInBlocks(
+      file, [&](BagBytes bytes, bool at_end) { return bag.Consume(bytes, at_end); },
+      options.progress);
   if (!read) return tl::unexpected(read.error());
   if (!bag.IsBag()) {
     return Refuse(file.string(), "is not a ROS 1 recording of version 2.0", "give a .bag file");
   }
-  SourceLog log = recording.Finish();
+  SourceLog log = std::move(recording).Finish();
   log.summary += bag.Summary();
   return Complete(std::move(log), file);
 }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <cstring>
 #include <fstream>
 #include <map>
 #include <span>
@@ -12,7 +13,8 @@
 
 #include <SQLiteCpp/SQLiteCpp.h>
 
-#include "telltale/client/recording/mcap/mcap_recording.hpp"
+#include "telltale/client/recording/mcap/mcap_file.hpp"
+#include "telltale/client/recording/mcap/mcap_records.hpp"
 #include "telltale/client/recording/ros/idl_definition.hpp"
 #include "telltale/client/recording/ros/ros_intake.hpp"
 #include "telltale/client/recording/zstd_frame.hpp"
@@ -33,7 +35,10 @@ std::vector<fs::path> FilesOf(const fs::path& path) {
   for (const auto& entry : fs::directory_iterator(path)) {
     if (IsOfRosbag2(entry.path())) files.push_back(entry.path());
   }
-  std::sort(files.begin(), files.end());
+  // bag_2 comes before bag_10.
+  std::sort(files.begin(), files.end(), [](const fs::path& a, const fs::path& b) {
+    return strverscmp(a.c_str(), b.c_str()) < 0;
+  });
   return files;
 }
 
@@ -53,19 +58,46 @@ std::map<std::string, std::string> DefinitionsIn(const SQLite::Database& databas
   return definitions;
 }
 
-std::optional<Refusal> TakeDatabase(const fs::path& file, RosIntake& recording) {
+struct Topic {
+  std::string name;
+  std::string type;
+};
+
+/// The topics of use, by their numbers.
+std::map<std::int64_t, Topic> TopicsIn(const SQLite::Database& database, RosIntake& recording) {
+  std::map<std::int64_t, Topic> topics;
+  SQLite::Statement rows(database, "SELECT id, name, type FROM topics");
+  while (rows.executeStep()) {
+    Topic topic{rows.getColumn(1).getString(), rows.getColumn(2).getString()};
+    if (recording.Wants(topic.name, topic.type)) {
+      topics.emplace(rows.getColumn(0).getInt64(), std::move(topic));
+    }
+  }
+  return topics;
+}
+
+double MessagesIn(const SQLite::Database& database) {
+  SQLite::Statement count(database, "SELECT COUNT(*) FROM messages");
+  count.executeStep();
+  return count.getColumn(0).getDouble();
+}
+
+std::optional<Refusal> TakeDatabase(const fs::path& file, RosIntake& recording,
+                                    const ReadProgress& progress) {
   try {
     const SQLite::Database database(file.string(), SQLite::OPEN_READONLY);
     std::map<std::string, std::string> definitions = DefinitionsIn(database);
+    const std::map<std::int64_t, Topic> topics = TopicsIn(database, recording);
     SQLite::Statement rows(database,
-                           "SELECT topics.name, topics.type, messages.timestamp, messages.data "
-                           "FROM messages JOIN topics ON topics.id = messages.topic_id "
-                           "ORDER BY messages.timestamp");
-    while (rows.executeStep()) {
-      const SQLite::Column data = rows.getColumn(3);
-      const std::string type = rows.getColumn(1).getString();
-      recording.Take(rows.getColumn(0).getString(), type, definitions[type],
-                     rows.getColumn(2).getInt64(),
+                           "SELECT topic_id, timestamp, data FROM messages ORDER BY timestamp");
+    const double messages = MessagesIn(database);
+    for (double read = 1.0; rows.executeStep(); ++read) {
+      if (progress) progress(read / messages);
+      const auto topic = topics.find(rows.getColumn(0).getInt64());
+      if (topic == topics.end()) continue;
+      const SQLite::Column data = rows.getColumn(2);
+      recording.Take(topic->second.name, topic->second.type, definitions[topic->second.type],
+                     rows.getColumn(1).getInt64(),
                      {static_cast<const std::uint8_t*>(data.getBlob()),
                       static_cast<std::size_t>(data.getBytes())});
     }
@@ -106,27 +138,36 @@ class TemporaryFile {
 };
 
 /// The messages of one file, which is not compressed as a whole; returns its damage.
-Result<std::string> TakeFile(const fs::path& file, RosIntake& recording) {
+Result<std::string> TakeFile(const fs::path& file, RosIntake& recording,
+                             const ReadProgress& progress) {
   if (!BeginsLikeMcap(FirstBytes(file))) {
-    if (auto refusal = TakeDatabase(file, recording)) return tl::unexpected(*std::move(refusal));
+    if (auto refusal = TakeDatabase(file, recording, progress))
+      return tl::unexpected(*std::move(refusal));
     return std::string();
   }
-  return ForEachMcapMessage(file,
+  const McapVisitor visitor{[&](const McapChannel& channel) {
+                              return channel.encoding == "cdr" &&
+                                     recording.Wants(channel.topic, channel.schema);
+                            },
                             [&](const McapMessage& message) {
-                              if (message.encoding != "cdr") return;
-                              recording.Take(message.topic, message.schema, message.definition,
+                              const McapChannel& channel = message.channel;
+                              recording.Take(channel.topic, channel.schema, channel.definition,
                                              message.log_time_ns, message.data);
-                            })
-      .map([](const McapDamage& damage) { return damage.Summary(); });
+                            },
+                            progress};
+  return ForEachMcapMessage(file, visitor).map([](const McapDamage& damage) {
+    return damage.Summary();
+  });
 }
 
 /// The same of a file that may be compressed.
-Result<std::string> TakeAnyFile(const fs::path& file, RosIntake& recording) {
-  if (!BeginsLikeZstdFrame(FirstBytes(file))) return TakeFile(file, recording);
+Result<std::string> TakeAnyFile(const fs::path& file, RosIntake& recording,
+                                const ReadProgress& progress) {
+  if (!BeginsLikeZstdFrame(FirstBytes(file))) return TakeFile(file, recording, progress);
   const TemporaryFile inflated;
   const auto is_whole = InflateZstdFile(file, inflated.Path());
   if (!is_whole) return tl::unexpected(is_whole.error());
-  auto damage = TakeFile(inflated.Path(), recording);
+  auto damage = TakeFile(inflated.Path(), recording, progress);
   if (!damage) {
     damage.error().subject = file.string() + (*is_whole ? "" : ", which is cut off,");
   } else if (!*is_whole) {
@@ -146,12 +187,18 @@ Result<SourceLog> ReadRosbag2(const fs::path& path, const SourceOptions& options
   if (auto refusal = options.Validate()) return tl::unexpected(*std::move(refusal));
   RosIntake recording(options);
   std::string damage;
-  for (const fs::path& file : FilesOf(path)) {
-    auto taken = TakeAnyFile(file, recording);
+  const std::vector<fs::path> files = FilesOf(path);
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    const ReadProgress progress = [&](double share) {
+      if (options.progress) {
+        options.progress((static_cast<double>(i) + share) / static_cast<double>(files.size()));
+      }
+    };
+    auto taken = TakeAnyFile(files[i], recording, progress);
     if (!taken) return tl::unexpected(std::move(taken).error());
     damage += *taken;
   }
-  SourceLog log = recording.Finish();
+  SourceLog log = std::move(recording).Finish();
   log.summary += damage;
   return Complete(std::move(log), path);
 }

@@ -6,6 +6,7 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "telltale/client/recording/file_contents.hpp"
 #include "telltale/core/data/window.hpp"
@@ -142,25 +143,26 @@ Result<TelemetryLog> ReadTelemetryLog(const std::filesystem::path& folder) {
     return Refuse(folder.string(), "is not a folder",
                   "give a folder with gnss.csv, heading.csv and thrusters.csv");
   }
-  const auto gnss = ReadChannel<GnssFix>(folder / "gnss.csv", kGnssColumns);
+  auto gnss = ReadChannel<GnssFix>(folder / "gnss.csv", kGnssColumns);
   if (!gnss) return tl::unexpected(gnss.error());
-  const auto heading = ReadChannel<HeadingSample>(folder / "heading.csv", kHeadingColumns);
+  auto heading = ReadChannel<HeadingSample>(folder / "heading.csv", kHeadingColumns);
   if (!heading) return tl::unexpected(heading.error());
-  const auto thrusters = ReadChannel<ThrusterSample>(folder / "thrusters.csv", kThrusterColumns);
+  auto thrusters = ReadChannel<ThrusterSample>(folder / "thrusters.csv", kThrusterColumns);
   if (!thrusters) return tl::unexpected(thrusters.error());
-  return TelemetryLog{InOrderOfTime(gnss->samples, heading->samples, thrusters->samples),
-                      {gnss->malformed, heading->malformed, thrusters->malformed}};
+  return TelemetryLog{
+      {std::move(gnss->samples), std::move(heading->samples), std::move(thrusters->samples)},
+      {gnss->malformed, heading->malformed, thrusters->malformed}};
 }
 
-Result<AdmittedLog> Admit(std::span<const RawSample> samples) {
+Result<AdmittedLog> Admit(const RawChannels& channels) {
   Window window(OneDayWindow());
-  for (const RawSample& raw : samples) {
+  ForEachInOrderOfTime(channels, [&](const RawSample& raw) {
     std::visit([&window](const auto& sample) { window.Add(sample); }, raw);
-  }
+  });
   if (auto refusal = RefuseEmpty(window)) return tl::unexpected(*refusal);
   std::size_t accounted_for = window.Rejected().Total();
   for (const Channel channel : kChannels) accounted_for += window.Size(channel);
-  return AdmittedLog{window.Snapshot(), samples.size() - accounted_for};
+  return AdmittedLog{std::move(window).Release(), channels.Size() - accounted_for};
 }
 
 Recording Concatenate(std::span<const Recording> recordings) {

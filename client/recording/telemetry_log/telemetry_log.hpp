@@ -15,7 +15,7 @@ namespace telltale {
 
 /// A telemetry log as it was written: gnss.csv, heading.csv and thrusters.csv of one folder.
 struct TelemetryLog {
-  std::vector<RawSample> samples;          ///< InOrderOfTime(), before any admission
+  RawChannels channels;                    ///< before any admission
   std::array<MalformedRows, 3> malformed;  ///< by channel
 };
 
@@ -29,8 +29,8 @@ struct AdmittedLog {
   std::size_t evicted = 0;
 };
 
-/// Refuses when: a channel has nothing left.
-Result<AdmittedLog> Admit(std::span<const RawSample> samples);
+/// Takes the samples in order of time. Refuses when: a channel has nothing left.
+Result<AdmittedLog> Admit(const RawChannels& channels);
 
 /// Recordings one after the other in one clock. A recording that starts within a day after the end
 /// of the one before, and far enough to leave a gap no preparation bridges, keeps its times; any

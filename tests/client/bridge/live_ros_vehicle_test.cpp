@@ -2,6 +2,7 @@
 
 #include <memory>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include <gmock/gmock.h>
@@ -45,7 +46,11 @@ class LiveRosVehicleTest : public testing::Test {
 
   template <class Sample>
   std::vector<Sample> Of() const {
-    return SamplesOf<Sample>(samples_);
+    std::vector<Sample> channel;
+    for (const RawSample& sample : samples_) {
+      if (const auto* one = std::get_if<Sample>(&sample)) channel.push_back(*one);
+    }
+    return channel;
   }
 
   std::unique_ptr<LiveRosVehicle> vehicle_;

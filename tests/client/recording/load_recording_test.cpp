@@ -42,6 +42,7 @@ TEST_F(Loading, TakesADataFlashFile) {
   EXPECT_EQ(loaded->evicted, 0u);
   ASSERT_TRUE(loaded->description);
   EXPECT_THAT(loaded->description->summary, HasSubstr("heading from ATT"));
+  EXPECT_THAT(loaded->description->summary, HasSubstr("3 (port) and 1 (starboard) of RCOU"));
 }
 
 TEST_F(Loading, TakesAFolderWithTheSameOutcome) {

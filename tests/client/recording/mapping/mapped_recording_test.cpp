@@ -7,6 +7,7 @@
 #include <fstream>
 #include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <gmock/gmock.h>
@@ -110,7 +111,7 @@ TEST(MappedRecording, ConvertsUnitsAndFrames) {
                                 {"l", 25.0},
                                 {"r", -50.0}}));
   recording.Take("", 9.0, MappedNumbers({{"t", 1600.0}, {"l", -40.0}, {"r", 100.0}}));
-  const SourceLog log = recording.Finish("rows");
+  const SourceLog log = std::move(recording).Finish("rows");
   ASSERT_EQ(log.gnss.size(), 1u);
   EXPECT_DOUBLE_EQ(log.gnss[0].time_s, 1.5);
   EXPECT_NEAR(log.gnss[0].latitude_deg, 63.4, 1e-12);
@@ -143,7 +144,7 @@ TEST(MappedRecording, CountsHeldValuesOnceAndLeavesOutWhatIsNoFix) {
   row(0.1, 1.0, 10.0);
   row(0.2, 1.0, 20.0);
   row(0.3, 2.0, 20.0);
-  const SourceLog log = recording.Finish("rows");
+  const SourceLog log = std::move(recording).Finish("rows");
   ASSERT_EQ(log.gnss.size(), 2u);
   EXPECT_EQ(log.gnss[1].time_s, 0.3);
   ASSERT_EQ(log.heading.size(), 2u);
@@ -220,7 +221,7 @@ TEST(ShippedMappings, FindTheChannelsOfTheirRecordings) {
   const auto gather = [](const char* name, auto take) {
     MappedMessages messages(std::make_shared<const Mapping>(Shipped(name)));
     take(messages);
-    return messages.Finish();
+    return std::move(messages).Finish();
   };
 
   expect_boat(gather("vrx", [&](MappedMessages& messages) {

@@ -46,6 +46,16 @@ TEST_F(MavlinkJsonTest, TakesThreeChannels) {
   EXPECT_THAT(log.summary, testing::HasSubstr("system 7"));
 }
 
+// Newer recorders write the name as the codes of its characters.
+TEST_F(MavlinkJsonTest, TakesTheNameOfAParameterAsCodes) {
+  EXPECT_TRUE(Take(R"({"type": "PARAM_VALUE", "param_id": [83,69,82,86,79,49,95,70,85,78,67,84,73,
+      79,78,0], "param_value": 73})"));
+  EXPECT_TRUE(Take(R"({"type": "PARAM_VALUE", "param_id": "SERVO3_FUNCTION", "param_value": 74})"));
+  EXPECT_TRUE(Take(R"({"type": "SERVO_OUTPUT_RAW", "time_usec": 4000000, "port": 0,
+      "servo1_raw": 1600, "servo3_raw": 1400})"));
+  EXPECT_EQ(Finished().thrusters.at(0).port_us, 1600.0);
+}
+
 TEST_F(MavlinkJsonTest, TakesNoFixWithoutOne) {
   for (const char* fix :
        {"2", R"("GPS_FIX_TYPE_2D_FIX")", R"({"type": "GPS_FIX_TYPE_NO_GPS"})", "null"}) {

@@ -56,6 +56,19 @@ TEST(MavlinkRecording, GoesOnWhereTheClockOfOutputsBeginsAnew) {
   EXPECT_NEAR(log.thrusters[1].time_s - log.thrusters[0].time_s, 0.1, 1e-6);
 }
 
+TEST(MavlinkRecording, KeepsOutputsBesideTheOthersWhereTheAutopilotBootsAgain) {
+  MavlinkRecording recording;
+  NameOutputs(recording, 1);
+  recording.Take(1, MavlinkAttitude{4300000, 0.0F});  // beyond the 4295 s that the counter holds
+  recording.Take(1, OutputAt(5032704u, 1500, 1500));
+  recording.Take(1, MavlinkAttitude{2000, 0.0F});
+  recording.Take(1, OutputAt(2000000u, 1500, 1500));
+  const SourceLog log = std::move(recording).Finish({});
+  ASSERT_EQ(log.thrusters.size(), 2u);
+  EXPECT_NEAR(log.thrusters[0].time_s, 4300.0, 1e-6);
+  EXPECT_NEAR(log.thrusters[1].time_s, 2.0, 1e-6);
+}
+
 TEST(MavlinkRecording, BringsUnixFixesToTheAutopilotsClock) {
   MavlinkRecording recording;
   recording.Take(1, MavlinkSystemTime{1700000000000000, 50000});
@@ -75,6 +88,49 @@ TEST(MavlinkRecording, ChoosesTheVehicleThatSaysMostUnlessToldOtherwise) {
   };
   EXPECT_EQ(headings(std::nullopt), 2u);
   EXPECT_EQ(headings(2), 1u);
+}
+
+TEST(MavlinkRecording, TakesTheComponentThatReportsOutputs) {
+  MavlinkRecording recording;
+  constexpr int kGimbal = 154;
+  for (std::uint32_t i = 0; i < 10; ++i) {
+    recording.Take({1, kGimbal}, MavlinkAttitude{1000 + i, 2.0F});
+  }
+  recording.Take(1, MavlinkAttitude{1000, 1.0F});
+  recording.Take(1, OutputAt(1000000, 1500, 1500));
+  const SourceLog log = std::move(recording).Finish({});
+  EXPECT_EQ(log.heading.size(), 1u);
+  EXPECT_THAT(log.summary, testing::HasSubstr("; system 1; heading"));
+}
+
+TEST(MavlinkRecording, CountsAGroundStationAsNoVehicle) {
+  MavlinkRecording recording;
+  recording.Take(1, MavlinkAttitude{1000, 1.0F});
+  recording.Take(255, MavlinkSystemTime{1700000000000000, 50000});
+  EXPECT_THAT(std::move(recording).Finish({}).summary, testing::HasSubstr("; system 1; heading"));
+}
+
+TEST(MavlinkRecording, TakesNoPositionAtZeroZeroFromAFilterThatHasNone) {
+  MavlinkRecording recording;
+  recording.Take(1, MavlinkGlobalPositionInt{1000, 0.0, 0.0, 10.0});
+  recording.Take(1, MavlinkGlobalPositionInt{1200, 63.4, 10.4, 11.0});
+  const SourceLog log = std::move(recording).Finish({});
+  ASSERT_EQ(log.gnss.size(), 1u);
+  EXPECT_EQ(log.gnss[0].latitude_deg, 63.4);
+  EXPECT_EQ(log.heading.size(), 2u);
+}
+
+TEST(MavlinkRecording, TakesTheFilterOnlyWhereTheReceiverAndTheAttitudeAreSilent) {
+  MavlinkRecording recording;
+  recording.Take(1, MavlinkGlobalPositionInt{1000, 63.0, 10.0, 10.0});
+  recording.Take(1, MavlinkGpsRawInt{1100000, 63.4, 10.4, 3});
+  recording.Take(1, MavlinkAttitude{1100, 1.0F});
+  recording.Take(1, MavlinkGlobalPositionInt{1200, 63.0, 10.0, 10.0});
+  const SourceLog log = std::move(recording).Finish({});
+  ASSERT_EQ(log.gnss.size(), 1u);
+  EXPECT_EQ(log.gnss[0].latitude_deg, 63.4);
+  ASSERT_EQ(log.heading.size(), 1u);
+  EXPECT_NEAR(log.heading[0].heading_deg, 57.2957795, 1e-5);
 }
 
 TEST(MavlinkRecording, NamesTheSettingThatRaisesALowRate) {

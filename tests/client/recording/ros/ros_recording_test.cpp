@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdint>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <gmock/gmock.h>
@@ -17,14 +18,14 @@ namespace {
 constexpr std::int64_t kSecondNs = 1000000000;
 
 TEST(RosRecording, TakesPositionsHeadingsAndOutputs) {
-  RosRecording recording;
+  RosRecording recording{SourceOptions{}};
   recording.Take("/fix", "sensor_msgs/msg/NavSatFix", 100 * kSecondNs, NavSatFix(100, 0));
   recording.Take("/fix", "sensor_msgs/msg/NavSatFix", 101 * kSecondNs, NavSatFix(101, -1));
   // East-north-up: yaw 30 degrees from east is heading 60 degrees.
   recording.Take("/imu", "sensor_msgs/msg/Imu", 100 * kSecondNs, Imu(100, M_PI / 6, "base_link"));
   recording.Take("/rc/out", "mavros_msgs/msg/RCOut", 100 * kSecondNs,
                  RcOut(100, {1600, 1500, 1400}));
-  const SourceLog log = recording.Finish({});
+  const SourceLog log = std::move(recording).Finish();
   ASSERT_FALSE(log.Lacks()) << log.summary;
   ASSERT_EQ(log.gnss.size(), 1u);
   EXPECT_EQ(log.gnss[0].time_s, 100.0);
@@ -35,19 +36,48 @@ TEST(RosRecording, TakesPositionsHeadingsAndOutputs) {
   EXPECT_THAT(log.summary, testing::HasSubstr("1 positions without a fix in /fix"));
 }
 
+TEST(RosRecording, TakesTheChannelsOfOneBoatFromARecordingOfTwo) {
+  RosRecording recording{SourceOptions{}};
+  for (int i = 0; i < 3; ++i) {
+    const auto take = [&](const std::string& topic, const char* type,
+                          const std::vector<std::uint8_t>& bytes) {
+      recording.Take(topic, type, (100 + i) * kSecondNs, bytes);
+    };
+    // The second boat has most fixes, the first most of all else.
+    if (i < 2) take("/boat1/mavros/fix", "sensor_msgs/msg/NavSatFix", NavSatFix(100 + i, 0));
+    take("/boat2/mavros/fix", "sensor_msgs/msg/NavSatFix", NavSatFix(100 + i, 0));
+    take("/boat1/mavros/imu", "sensor_msgs/msg/Imu", Imu(100 + i, 0.0, "base_link"));
+    take("/boat1/mavros/out", "mavros_msgs/msg/RCOut", RcOut(100 + i, {1600, 1500, 1400}));
+    if (i == 0) continue;
+    take("/boat2/mavros/imu", "sensor_msgs/msg/Imu", Imu(100 + i, 0.0, "base_link"));
+    take("/boat2/mavros/out", "mavros_msgs/msg/RCOut", RcOut(100 + i, {1600, 1500, 1400}));
+  }
+  const SourceLog log = std::move(recording).Finish();
+  EXPECT_EQ(log.gnss.size(), 3u);
+  EXPECT_EQ(log.heading.size(), 2u);
+  EXPECT_EQ(log.thrusters.size(), 2u);
+}
+
+TEST(RosRecording, CountsOutputsWithTooFewChannels) {
+  RosRecording recording{SourceOptions{}};
+  recording.Take("/rc/out", "mavros_msgs/msg/RCOut", 100 * kSecondNs, RcOut(100, {1600, 1500}));
+  EXPECT_THAT(std::move(recording).Finish().summary,
+              testing::HasSubstr("1 messages of /rc/out with fewer than 3 channels"));
+}
+
 TEST(RosRecording, TakesANorthEastDownFrameByItsName) {
-  RosRecording recording;
+  RosRecording recording{SourceOptions{}};
   recording.Take("/imu", "sensor_msgs/msg/Imu", 0, Imu(1, M_PI / 6, "base_link_ned"));
-  EXPECT_NEAR(recording.Finish({}).heading.at(0).heading_deg, 30.0, 1e-9);
+  EXPECT_NEAR(std::move(recording).Finish().heading.at(0).heading_deg, 30.0, 1e-9);
 }
 
 TEST(RosRecording, TakesOdometryAsMetresFromAnOriginThatItNames) {
   const NorthEastFrame frame(kOdometryOrigin);
   const auto place = [&](const std::string& frame_id) {
-    RosRecording recording;
+    RosRecording recording{SourceOptions{}};
     recording.Take("/odom", "nav_msgs/msg/Odometry", 100 * kSecondNs,
                    Odometry(100, 30.0, -40.0, M_PI / 6, frame_id));
-    const SourceLog log = recording.Finish({});
+    const SourceLog log = std::move(recording).Finish();
     EXPECT_THAT(log.summary, testing::HasSubstr("positions from /odom (metres from an origin that "
                                                 "is not stated, taken as 45 N 0 E)"));
     const GnssFix& fix = log.gnss.at(0);
@@ -62,12 +92,12 @@ TEST(RosRecording, TakesOdometryAsMetresFromAnOriginThatItNames) {
 }
 
 TEST(RosRecording, PrefersPositionsOnTheEarthToOdometryHoweverFew) {
-  RosRecording recording;
+  RosRecording recording{SourceOptions{}};
   for (int i = 0; i < 5; ++i) {
     recording.Take("/odom", "nav_msgs/msg/Odometry", i * kSecondNs, Odometry(i + 1, 1.0, 2.0, 0.0));
   }
   recording.Take("/fix", "sensor_msgs/msg/NavSatFix", kSecondNs, NavSatFix(1, 0));
-  const SourceLog log = recording.Finish({});
+  const SourceLog log = std::move(recording).Finish();
   ASSERT_EQ(log.gnss.size(), 1u);
   EXPECT_EQ(log.gnss[0].latitude_deg, 63.4);
   EXPECT_THAT(log.summary,
@@ -75,14 +105,14 @@ TEST(RosRecording, PrefersPositionsOnTheEarthToOdometryHoweverFew) {
 }
 
 TEST(RosRecording, TakesPositionAndHeadingOfAGeoPose) {
-  RosRecording recording;
+  RosRecording recording{SourceOptions{}};
   const auto take = [&](double latitude_deg, double longitude_deg) {
     recording.Take("/ap/geopose/filtered", "geographic_msgs/msg/GeoPoseStamped", kSecondNs,
                    GeoPose(1, latitude_deg, longitude_deg, M_PI / 6));
   };
   take(0.0, 0.0);  // no fix
   take(-35.36, 149.16);
-  const SourceLog log = recording.Finish({});
+  const SourceLog log = std::move(recording).Finish();
   ASSERT_EQ(log.gnss.size(), 1u);
   EXPECT_EQ(log.gnss[0].latitude_deg, -35.36);
   EXPECT_EQ(log.gnss[0].longitude_deg, 149.16);
@@ -104,20 +134,20 @@ TEST(RosTopic, IsOfAThrusterWhereItsLastNameCommandsIt) {
 }
 
 TEST(RosRecording, PrefersACompassToAnOrientation) {
-  RosRecording recording;
+  RosRecording recording{SourceOptions{}};
   recording.Take("/imu", "sensor_msgs/msg/Imu", 0, Imu(1, 0.0, "map"));
   recording.Take("/compass_hdg", "std_msgs/msg/Float64", kSecondNs, Cdr().Add(123.0).Bytes());
-  const SourceLog log = recording.Finish({});
+  const SourceLog log = std::move(recording).Finish();
   ASSERT_EQ(log.heading.size(), 1u);
   EXPECT_EQ(log.heading[0].heading_deg, 123.0);
 }
 
 TEST(RosRecording, MakesPulsesOfSharesOfThrust) {
-  RosRecording recording;
+  RosRecording recording{SourceOptions{}};
   const auto share = [](double value) { return Cdr().Add(value).Bytes(); };
   recording.Take("/thrusters/left/thrust", "std_msgs/msg/Float64", kSecondNs, share(0.5));
   recording.Take("/thrusters/right/thrust", "std_msgs/msg/Float64", 2 * kSecondNs, share(-0.25));
-  const SourceLog log = recording.Finish({});
+  const SourceLog log = std::move(recording).Finish();
   ASSERT_EQ(log.thrusters.size(), 1u);
   EXPECT_EQ(log.thrusters[0].time_s, 2.0);
   EXPECT_EQ(log.thrusters[0].port_us, 1700.0);
@@ -125,30 +155,30 @@ TEST(RosRecording, MakesPulsesOfSharesOfThrust) {
 }
 
 TEST(RosRecording, LeavesThrustInNewtonsToAMapping) {
-  RosRecording recording;
+  RosRecording recording{SourceOptions{}};
   for (const char* side : {"/left/thrust", "/right/thrust"}) {
     recording.Take(side, "std_msgs/msg/Float64", kSecondNs, Cdr().Add(40.0).Bytes());
   }
-  const SourceLog log = recording.Finish({});
+  const SourceLog log = std::move(recording).Finish();
   EXPECT_TRUE(log.thrusters.empty());
   EXPECT_THAT(log.summary, testing::HasSubstr("values up to 40"));
 }
 
 TEST(RosRecording, UsesTimesOfRecordingWhereStampsAreOfAnotherClock) {
-  RosRecording recording;
+  RosRecording recording{SourceOptions{}};
   recording.Take("/fix", "sensor_msgs/msg/NavSatFix", 5000 * kSecondNs, NavSatFix(100, 0));
-  const SourceLog log = recording.Finish({});
+  const SourceLog log = std::move(recording).Finish();
   EXPECT_EQ(log.gnss.at(0).time_s, 5000.0);
   EXPECT_THAT(log.summary, testing::HasSubstr("times of recording"));
 }
 
 TEST(RosRecording, CountsMessagesThatAreCutShort) {
-  RosRecording recording;
+  RosRecording recording{SourceOptions{}};
   auto bytes = NavSatFix(100, 0);
   bytes.resize(bytes.size() - 4);
   recording.Take("/fix", "sensor_msgs/msg/NavSatFix", 0, bytes);
   recording.Take("/fix", "sensor_msgs/msg/NavSatFix", 0, {});
-  const SourceLog log = recording.Finish({});
+  const SourceLog log = std::move(recording).Finish();
   EXPECT_TRUE(log.gnss.empty());
   EXPECT_THAT(log.summary, testing::HasSubstr("2 unreadable messages of /fix"));
 }

@@ -154,7 +154,7 @@ TEST(Rosbag1, IsToldByItsContent) {
   EXPECT_EQ(FormatOf(file), LogFormat::kRosbag1);
   const auto log = ReadLog(file);
   ASSERT_TRUE(log) << log.error().reason;
-  EXPECT_EQ(log->samples.size(), 3u);
+  EXPECT_EQ(log->channels.Size(), 3u);
 
   std::ofstream(file, std::ios::binary) << Bag(BagConnection(0, "/chat", "std_msgs/String"));
   const auto lacking = ReadLog(file);

@@ -96,6 +96,26 @@ TEST_F(Rosbag2, OfSeveralFilesIsOneRecording) {
   EXPECT_EQ(log->thrusters.at(1).port_us, 1600.0);
 }
 
+TEST_F(Rosbag2, OfManyFilesIsInTheOrderOfTheirNumbers) {
+  for (const int part : {1, 2, 10}) {
+    WriteStorage("bag_" + std::to_string(part) + ".db3", 100 + part);
+  }
+  const auto log = ReadRosbag2(bag_);
+  ASSERT_TRUE(log) << log.error().reason;
+  EXPECT_THAT(FixTimes(*log), testing::ElementsAre(101.0, 102.0, 110.0));
+}
+
+TEST_F(Rosbag2, PassesOverTopicsOfNoUse) {
+  WriteStorage("bag_0.db3", 100);
+  SQLite::Database database((bag_ / "bag_0.db3").string(), SQLite::OPEN_READWRITE);
+  database.exec(
+      "INSERT INTO topics VALUES(4, '/camera', 'sensor_msgs/msg/Image', 'cdr', '');"
+      "INSERT INTO messages(topic_id, timestamp, data) VALUES(4, 100000000000, x'00')");
+  const auto log = ReadRosbag2(bag_);
+  ASSERT_TRUE(log) << log.error().reason;
+  EXPECT_THAT(log->summary, HasSubstr("3 messages of use in 3 topics"));
+}
+
 TEST_F(Rosbag2, MayCompressEachMessage) {
   WriteStorage("bag_0.db3", 100, ByMessage);
   const auto log = ReadRosbag2(bag_ / "bag_0.db3");

@@ -35,7 +35,7 @@ class TelemetryLogTest : public testing::Test {
   Recording ReadRecording() const {
     const auto log = ReadTelemetryLog(folder.Path());
     EXPECT_TRUE(log) << log.error().subject << ' ' << log.error().reason;
-    const auto admitted = Admit(log->samples);
+    const auto admitted = Admit(log->channels);
     EXPECT_TRUE(admitted) << admitted.error().subject << ' ' << admitted.error().reason;
     return admitted ? admitted->recording : Recording{};
   }
@@ -62,11 +62,11 @@ TEST_F(TelemetryLogTest, ReadsTheThreeChannels) {
   EXPECT_EQ(recording.rejected.Total(), 0u);
 }
 
-TEST_F(TelemetryLogTest, GivesTheRawSamplesInOrderOfTime) {
+TEST_F(TelemetryLogTest, GivesTheRawSamples) {
   const auto log = ReadTelemetryLog(folder.Path());
   ASSERT_TRUE(log);
   std::vector<double> times;
-  for (const RawSample& sample : log->samples) times.push_back(TimeOf(sample));
+  for (const RawSample& sample : InOrderOfTime(log->channels)) times.push_back(TimeOf(sample));
   EXPECT_THAT(times, ElementsAre(0, 0, 0, 0.1, 0.1, 0.2));
 }
 
@@ -165,7 +165,7 @@ TEST_F(TelemetryLogTest, AFileWithoutAReadableRowIsRefused) {
 
 TEST_F(TelemetryLogTest, AChannelOfWrongValuesIsRefusedWithTheReasons) {
   folder.Write("heading.csv", "time_s,heading_deg\n0,nan\n0.1,9999\n");
-  const auto admitted = Admit(ReadTelemetryLog(folder.Path())->samples);
+  const auto admitted = Admit(ReadTelemetryLog(folder.Path())->channels);
   ASSERT_FALSE(admitted);
   EXPECT_EQ(admitted.error().subject, "heading");
   EXPECT_THAT(admitted.error().reason, HasSubstr("1 NOT_FINITE, 1 OUT_OF_RANGE"));
@@ -191,7 +191,7 @@ TEST_F(TelemetryLogTest, WrittenAndReadAgainIsTheSame) {
   WriteTelemetryLog(folder.Path() / "a" / "log", written);
   const auto log = ReadTelemetryLog(folder.Path() / "a" / "log");
   ASSERT_TRUE(log) << log.error().reason;
-  const auto admitted = Admit(log->samples);
+  const auto admitted = Admit(log->channels);
   ASSERT_TRUE(admitted) << admitted.error().reason;
   EXPECT_EQ(admitted->recording.rejected.Total(), 0u);
   EXPECT_EQ(admitted->evicted, 0u);
@@ -221,7 +221,7 @@ TEST_F(TelemetryLogTest, SamplesOlderThanADayAreEvictedAndCounted) {
   }
   folder.Write("gnss.csv", gnss);
   folder.Write("thrusters.csv", thrusters);
-  const auto admitted = Admit(ReadTelemetryLog(folder.Path())->samples);
+  const auto admitted = Admit(ReadTelemetryLog(folder.Path())->channels);
   ASSERT_TRUE(admitted) << admitted.error().reason;
   EXPECT_EQ(admitted->evicted, 3u);  // time 0 of each channel
 }

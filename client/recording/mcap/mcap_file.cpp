@@ -1,0 +1,317 @@
+#include "telltale/client/recording/mcap/mcap_file.hpp"
+
+#include <algorithm>
+#include <map>
+#include <optional>
+#include <sstream>
+#include <vector>
+
+#include <libdeflate.h>
+
+#include "telltale/client/recording/lz4_frame.hpp"
+#include "telltale/client/recording/mcap/mcap_chunk_index.hpp"
+#include "telltale/client/recording/mcap/mcap_summary.hpp"
+#include "telltale/client/recording/ros/idl_definition.hpp"
+#include "telltale/client/recording/zstd_frame.hpp"
+
+namespace telltale {
+namespace {
+
+using Bytes = std::span<const std::uint8_t>;
+
+constexpr std::uint64_t kLargestChunk = std::uint64_t{64} << 20;  // writers make chunks of some MB
+constexpr std::size_t kLargestIndex = std::size_t{16} << 20;      // of a chunk
+
+class McapFile {
+ public:
+  explicit McapFile(const McapVisitor& visitor) : visitor_(visitor) {}
+
+  /// What the summary defines, which lets chunks be passed over. `summary`: the file from there on;
+  /// empty: it has none.
+  void TakeSummary(Bytes summary) {
+    if (!IsSoundMcapSummary(summary)) return;
+    std::optional<std::uint32_t> stated_channels;
+    McapRecords records(summary);
+    for (McapRecords::Record record; records.Next(record);) {
+      if (record.opcode == McapOpcode::kSchema || record.opcode == McapOpcode::kChannel) {
+        TakeRecord(record);
+      } else if (record.opcode == McapOpcode::kStatistics) {
+        McapFields fields(record.content);
+        fields.Read<std::uint64_t>();  // messages
+        fields.Read<std::uint16_t>();  // schemas
+        stated_channels = fields.Read<std::uint32_t>();
+      }
+    }
+    defines_all_channels_ = stated_channels == channels_.size();
+  }
+
+  /// Returns how many bytes of whole records there are.
+  std::size_t Consume(Bytes bytes, bool at_end) {
+    if (is_foreign_) return bytes.size();
+    std::size_t at = 0;
+    if (!has_magic_) {
+      if (bytes.size() < kMcapMagic.size()) return at_end ? Cut(bytes.size()) : 0;
+      if (!BeginsLikeMcap(bytes)) {
+        is_foreign_ = true;
+        return bytes.size();
+      }
+      has_magic_ = true;
+      at = kMcapMagic.size();
+    }
+    while (at < bytes.size() && !is_ended_) {
+      if (passing_over_ > 0) {
+        const std::uint64_t passed = std::min<std::uint64_t>(passing_over_, bytes.size() - at);
+        passing_over_ -= passed;
+        passed_over_ += passed;
+        at += static_cast<std::size_t>(passed);
+        continue;
+      }
+      const Bytes rest = bytes.subspan(at);
+      if (rest.size() < kMcapRecordHeader) return at_end ? at + Cut(rest.size()) : at;
+      McapFields header(rest);
+      const auto opcode = header.Read<std::uint8_t>();
+      const auto length = header.Read<std::uint64_t>();
+      if (length > rest.size() - kMcapRecordHeader) {
+        if (IsOfUse(opcode) && length <= 2 * kLargestChunk) {
+          if (!at_end) return at;
+          if (opcode == McapOpcode::kChunk) TakeCutChunk(rest.subspan(kMcapRecordHeader));
+          return at + Cut(rest.size());
+        }
+        // An attachment, say, need not be held in memory.
+        damage_.overlong_records += IsOfUse(opcode) ? 1 : 0;
+        passing_over_ = length;
+        passed_over_ = kMcapRecordHeader;
+        at += kMcapRecordHeader;
+        continue;
+      }
+      const std::size_t end = kMcapRecordHeader + static_cast<std::size_t>(length);
+      if (opcode == McapOpcode::kChunk) {
+        if (NeedsMoreOfIndex(rest.subspan(end), at_end)) return at;
+        TakeChunk(rest.subspan(kMcapRecordHeader, static_cast<std::size_t>(length)));
+      } else {
+        TakeRecord({opcode, rest.subspan(kMcapRecordHeader, static_cast<std::size_t>(length))});
+      }
+      at += end;
+    }
+    if (at_end && passing_over_ > 0) Cut(static_cast<std::size_t>(passed_over_));
+    return bytes.size();
+  }
+
+  bool IsForeign() const { return is_foreign_ || !has_magic_; }
+  const McapDamage& Damage() const { return damage_; }
+
+ private:
+  struct Schema {
+    std::string name;
+    std::string definition;
+  };
+  struct Channel {
+    const Schema* schema = nullptr;  ///< in schemas_; null: none
+    std::string topic;
+    std::string encoding;
+    bool is_of_use = false;
+
+    McapChannel Described() const {
+      if (schema == nullptr) return {topic, {}, encoding, {}};
+      return {topic, schema->name, encoding, schema->definition};
+    }
+  };
+
+  std::size_t Cut(std::size_t bytes) {
+    damage_.truncated_bytes += bytes;
+    return bytes;
+  }
+
+  static bool IsOfUse(std::uint8_t opcode) {
+    return opcode == McapOpcode::kSchema || opcode == McapOpcode::kChannel ||
+           opcode == McapOpcode::kMessage || opcode == McapOpcode::kChunk ||
+           opcode == McapOpcode::kDataEnd;
+  }
+
+  void TakeRecord(const McapRecords::Record& record) {
+    const McapFields content(record.content);
+    switch (record.opcode) {
+      case McapOpcode::kSchema: TakeSchema(content); break;
+      case McapOpcode::kChannel: TakeChannel(content); break;
+      case McapOpcode::kMessage: TakeMessage(content); break;
+      case McapOpcode::kDataEnd: is_ended_ = true; break;  // what follows repeats and indexes
+      default: break;
+    }
+  }
+
+  void TakeSchema(McapFields fields) {
+    const auto id = fields.Read<std::uint16_t>();
+    const std::string_view name = fields.Text();
+    const std::string_view encoding = fields.Text();
+    const std::string_view text = fields.Text();
+    if (!fields.Ok()) return;
+    const bool is_definition = encoding == "ros2msg" || encoding == "ros1msg";
+    schemas_[id] = {std::string(name), encoding == "ros2idl" ? RosDefinitionOfIdl(text)
+                                       : is_definition       ? std::string(text)
+                                                             : std::string()};
+  }
+
+  void TakeChannel(McapFields fields) {
+    const auto id = fields.Read<std::uint16_t>();
+    Channel channel;
+    const auto schema = schemas_.find(fields.Read<std::uint16_t>());
+    if (schema != schemas_.end()) channel.schema = &schema->second;
+    channel.topic = std::string(fields.Text());
+    channel.encoding = std::string(fields.Text());
+    if (!fields.Ok()) return;
+    channel.is_of_use = visitor_.is_of_use(channel.Described());
+    channels_[id] = std::move(channel);
+  }
+
+  void TakeMessage(McapFields fields) {
+    const auto id = fields.Read<std::uint16_t>();
+    fields.Read<std::uint32_t>();  // sequence number
+    const auto log_time_ns = static_cast<std::int64_t>(fields.Read<std::uint64_t>());
+    fields.Read<std::uint64_t>();  // time of publication
+    if (!fields.Ok()) return;
+    const auto channel = channels_.find(id);
+    if (channel == channels_.end()) {
+      ++damage_.unknown_channels;
+      return;
+    }
+    if (!channel->second.is_of_use) return;
+    ++damage_.messages;
+    visitor_.visit({channel->second.Described(), log_time_ns, fields.Rest()});
+  }
+
+  /// Reads the index of a chunk, where it lets the chunk be passed over; true: its end is still to
+  /// come.
+  bool NeedsMoreOfIndex(Bytes behind, bool at_end) {
+    has_index_ = false;
+    if (!defines_all_channels_) return false;
+    const bool is_whole = index_.Read(behind) == McapChunkIndex::Outcome::kWhole;
+    if (!is_whole && !at_end && behind.size() < kLargestIndex) return true;
+    has_index_ = is_whole;
+    return false;
+  }
+
+  std::uint64_t BytesOfUse(std::uint64_t size) const {
+    if (!has_index_) return size;
+    return index_.BytesOfUse(size, [this](std::uint16_t id) -> std::optional<bool> {
+      const auto channel = channels_.find(id);
+      if (channel == channels_.end()) return std::nullopt;
+      return channel->second.is_of_use;
+    });
+  }
+
+  void TakeChunk(Bytes content) {
+    McapFields fields(content);
+    fields.Read<std::uint64_t>();  // first and last time
+    fields.Read<std::uint64_t>();
+    const auto size = fields.Read<std::uint64_t>();
+    const auto checksum = fields.Read<std::uint32_t>();
+    const std::string_view compression = fields.Text();
+    const Bytes stored = fields.Take(fields.Read<std::uint64_t>());
+    if (!fields.Ok() || size > kLargestChunk) {
+      ++damage_.unreadable_chunks;
+      return;
+    }
+    const auto of_use = static_cast<std::size_t>(BytesOfUse(size));
+    if (of_use == 0) return;
+    const auto records = Inflated(compression, stored, static_cast<std::size_t>(size), of_use);
+    const bool is_checked = checksum != 0 && of_use == size;
+    if (!records ||
+        (is_checked && libdeflate_crc32(0, records->data(), records->size()) != checksum)) {
+      ++damage_.unreadable_chunks;
+      return;
+    }
+    TakeRecords(*records);
+  }
+
+  /// The first `of_use` bytes of a chunk of `size`; nothing where they cannot be had.
+  std::optional<Bytes> Inflated(std::string_view compression, Bytes stored, std::size_t size,
+                                std::size_t of_use) {
+    if (compression.empty()) return stored.first(std::min(of_use, stored.size()));
+    if (chunk_.size() < of_use) chunk_.resize(of_use);
+    const std::span<std::uint8_t> out(chunk_.data(), of_use);
+    const auto inflate = [&](auto& inflater) {
+      return of_use == size ? inflater.Inflate(stored, out) : inflater.InflateStart(stored, out);
+    };
+    const bool is_there = compression == "zstd"  ? inflate(zstd_)
+                          : compression == "lz4" ? inflate(lz4_)
+                                                 : false;
+    return is_there ? std::optional<Bytes>(out) : std::nullopt;
+  }
+
+  /// A chunk that the end of the file cuts off still gives its whole records where it is not
+  /// compressed.
+  void TakeCutChunk(Bytes content) {
+    McapFields fields(content);
+    for (int i = 0; i < 3; ++i) fields.Read<std::uint64_t>();
+    fields.Read<std::uint32_t>();
+    const std::string_view compression = fields.Text();
+    fields.Read<std::uint64_t>();
+    if (fields.Ok() && compression.empty()) TakeRecords(fields.Rest());
+  }
+
+  void TakeRecords(Bytes bytes) {
+    McapRecords records(bytes);
+    for (McapRecords::Record record; records.Next(record);) TakeRecord(record);
+  }
+
+  const McapVisitor& visitor_;
+  std::map<std::uint16_t, Schema> schemas_;
+  std::map<std::uint16_t, Channel> channels_;
+  McapChunkIndex index_;  ///< of the chunk at hand
+  std::vector<std::uint8_t> chunk_;
+  ZstdInflater zstd_;
+  Lz4Inflater lz4_;
+  McapDamage damage_;
+  std::uint64_t passing_over_ = 0;  ///< bytes of a record of no use that are still to come
+  std::uint64_t passed_over_ = 0;   ///< and those that have come
+  bool defines_all_channels_ = false;
+  bool has_index_ = false;
+  bool has_magic_ = false;
+  bool is_foreign_ = false;
+  bool is_ended_ = false;
+};
+
+Bytes SummaryIn(Bytes file) {
+  if (file.size() < kMcapEnding) return {};
+  const auto start = McapSummaryStart(file.last(kMcapEnding), file.size());
+  return start ? file.subspan(static_cast<std::size_t>(*start)) : Bytes{};
+}
+
+}  // namespace
+
+std::string McapDamage::Summary() const {
+  std::ostringstream out;
+  const auto add = [&](std::uint64_t count, const char* what) {
+    if (count > 0) out << "; " << count << ' ' << what;
+  };
+  add(unreadable_chunks, "unreadable chunks");
+  add(overlong_records, "records of more than 128 MB");
+  add(unknown_channels, "messages of undefined channels");
+  add(truncated_bytes, "bytes of a record cut off at the end");
+  return out.str();
+}
+
+Result<McapDamage> ForEachMcapMessage(const std::filesystem::path& file,
+                                      const McapVisitor& visitor) {
+  McapFile mcap(visitor);
+  mcap.TakeSummary(ReadMcapSummary(file));
+  const auto read = ReadInBlocks(
+      file, [&](Bytes bytes, bool at_end) { return mcap.Consume(bytes, at_end); },
+      visitor.progress);
+  if (!read) return tl::unexpected(read.error());
+  if (mcap.IsForeign()) {
+    return Refuse(file.string(), "is not an MCAP file",
+                  "give a file that begins with MCAP's magic");
+  }
+  return mcap.Damage();
+}
+
+McapDamage ForEachMcapMessage(std::span<const std::uint8_t> bytes, std::size_t block,
+                              const McapVisitor& visitor) {
+  McapFile mcap(visitor);
+  mcap.TakeSummary(SummaryIn(bytes));
+  TakeInBlocks(bytes, block, [&](Bytes part, bool at_end) { return mcap.Consume(part, at_end); });
+  return mcap.Damage();
+}
+
+}  // namespace telltale

@@ -1,0 +1,68 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "telltale/client/recording/block_reader.hpp"
+#include "telltale/client/recording/mcap/mcap_records.hpp"
+#include "telltale/core/base/result.hpp"
+
+namespace telltale {
+
+/// What a channel of an MCAP file says of its messages.
+struct McapChannel {
+  std::string_view topic;
+  std::string_view schema;      ///< name of the messages' type; empty without a schema
+  std::string_view encoding;    ///< "cdr", "json", ...
+  std::string_view definition;  ///< of the type as .msg, where the schema has it or IDL
+};
+
+struct McapMessage {
+  McapChannel channel;
+  std::int64_t log_time_ns = 0;
+  std::span<const std::uint8_t> data;
+};
+
+/// Who reads a file: which channels are of use, and what happens to their messages.
+struct McapVisitor {
+  std::function<bool(const McapChannel&)> is_of_use;
+  std::function<void(const McapMessage&)> visit;
+  ReadProgress progress;  ///< null: nobody is told
+};
+
+/// What a file held besides whole messages.
+struct McapDamage {
+  std::uint64_t messages = 0;           ///< whole ones of use, for comparison
+  std::uint64_t unreadable_chunks = 0;  ///< wrong checksum, length or compression
+  std::uint64_t overlong_records = 0;   ///< too long to be held in memory
+  std::uint64_t unknown_channels = 0;   ///< messages of a channel that is nowhere defined
+  std::uint64_t truncated_bytes = 0;    ///< of a record that the end cuts off
+
+  /// "; 1 unreadable chunk" and so on; empty where nothing is wrong.
+  std::string Summary() const;
+};
+
+/// Visits the messages of use of an MCAP file in the order they stand there: chunked or not,
+/// compressed with zstd, lz4 or not at all, with or without an index, cut off or whole.
+///
+/// Of a chunk whose messages are indexed, only what is needed is inflated: nothing where no message
+/// is of use, else up to the last one that is. This needs the summary at the end of the file,
+/// because a chunk that is passed over may define channels; without one all chunks are inflated.
+/// Checksums of chunks that are inflated whole are compared.
+/// Memory: one chunk, compressed and not. Records longer than 128 MB and chunks that inflate to
+/// more than 64 MB are passed over and counted. Refuses when: the file cannot be read or does not
+/// begin with MCAP's magic. Source: MCAP file format specification, version 0.
+Result<McapDamage> ForEachMcapMessage(const std::filesystem::path& file,
+                                      const McapVisitor& visitor);
+
+/// The same of the bytes of a file, taken in blocks of so many; nothing where they do not begin
+/// with MCAP's magic. Requires: block > 0.
+McapDamage ForEachMcapMessage(std::span<const std::uint8_t> bytes, std::size_t block,
+                              const McapVisitor& visitor);
+
+}  // namespace telltale
