@@ -5,8 +5,8 @@
 //
 // make: OUT_FOLDER/messages.tlog, nothing but messages that count; mixed.tlog, one in five of which counts; a third
 // as long, nothing but messages that count: messages.mcap, messages-zstd.mcap, messages-lz4.mcap, thrusts.mcap, whose
-// outputs are Float64 of each thruster, and blueos.mcap, JSON of the BlueOS recorder; camera.mcap, with a picture of
-// 60 kB at each position. Other chunks than those of the second and third are not compressed.
+// outputs are Float64 of each thruster, and blueos.mcap, JSON of the BlueOS recorder; camera.mcap and
+// camera-zstd.mcap, with a picture of 60 kB at each position. Chunks are compressed where the name says so.
 // read: @mcap/core or node-mavlink on a file, messages parsed and nothing done with them.
 // Run it in a folder with the packages of tests/client/recording/foreign/package.json; lz4 must be installed.
 import { execFileSync } from "node:child_process";
@@ -148,7 +148,7 @@ const ros2 = (pictureBytes, sides) => async (channel, add) => {
     channels.pulses = await ros("/rc/out", "mavros_msgs/msg/RCOut");
   }
   if (pictureBytes > 0) channels.picture = await ros("/camera/compressed", "sensor_msgs/msg/CompressedImage");
-  const picture = randomFillSync(new Uint8Array(pictureBytes));
+  const picture = new Uint8Array(pictureBytes);
   return async (s, start) => {
     const ns = nanoseconds(s, start);
     if (s.kind === "pulses" && sides) {
@@ -169,7 +169,7 @@ const ros2 = (pictureBytes, sides) => async (channel, add) => {
       cdr.u32(4).u16(Math.round(s.port)).u16(1500).u16(Math.round(s.starboard)).u16(1500);
     }
     await add(channels[s.kind], ns, cdr.bytes());
-    if (pictureBytes > 0 && s.kind === "fix") await add(channels.picture, ns, picture);
+    if (pictureBytes > 0 && s.kind === "fix") await add(channels.picture, ns, randomFillSync(picture));
   };
 };
 
@@ -220,7 +220,9 @@ if (what === "make") {
   await some("messages-lz4.mcap", "ros2", compressions.lz4, ros2(0, false));
   await some("thrusts.mcap", "ros2", undefined, ros2(0, true));
   await some("blueos.mcap", "", undefined, blueOs);
-  await writeMcap(join(out, "camera.mcap"), "ros2", samples, bytes, undefined, ros2(60000, false));
+  for (const [name, compressChunk] of [["camera.mcap", undefined], ["camera-zstd.mcap", compressions.zstd]]) {
+    await writeMcap(join(out, name), "ros2", samples, bytes, compressChunk, ros2(60000, false));
+  }
 } else {
   for (const path of rest) {
     const start = process.cpuUsage();
