@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 #include <random>
+#include <utility>
 #include <vector>
 
 #include "support/special_values.hpp"
@@ -29,9 +30,10 @@ ThrusterSample ThrustersAt(double t) {
   return {t, 1600.0, 1600.0};
 }
 
-std::vector<double> Times(const std::vector<GnssFix>& fixes) {
+template <class Sample>
+std::vector<double> Times(const std::vector<Sample>& samples) {
   std::vector<double> times;
-  for (const GnssFix& fix : fixes) times.push_back(fix.time_s);
+  for (const Sample& sample : samples) times.push_back(sample.time_s);
   return times;
 }
 
@@ -305,6 +307,21 @@ TEST(WindowLimits, NameFieldValueAndRange) {
   EXPECT_TRUE(WindowLimits{.clock_jump_confirmations = 0}.Validate());
   EXPECT_TRUE(WindowLimits{.stuck_after_s = 0.0}.Validate());
   EXPECT_THROW(Window(WindowLimits{.duration_s = 5.0}), ContractViolation);
+}
+
+TEST(Window, GivesTheSamplesOfItsSnapshotAway) {
+  Window window{{}};
+  for (int i = 0; i < 1000; ++i) {
+    window.Add(HeadingAt(0.1 * i));
+    window.Add(ThrustersAt(0.1 * i));
+  }
+  window.Add(HeadingSample{5.0, 400000.0});
+  const Recording copy = window.Snapshot();
+  const Recording given = std::move(window).Release();
+  EXPECT_EQ(Times(given.heading), Times(copy.heading));
+  EXPECT_EQ(Times(given.thrusters), Times(copy.thrusters));
+  EXPECT_EQ(given.rejected.Total(), copy.rejected.Total());
+  EXPECT_EQ(given.rejected.Of(RejectReason::kOutOfRange), 1u);
 }
 
 }  // namespace
