@@ -5,6 +5,7 @@
 #include <cmath>
 #include <filesystem>
 #include <map>
+#include <numbers>
 #include <optional>
 #include <set>
 #include <sstream>
@@ -12,6 +13,7 @@
 
 #include "campaign.hpp"
 #include "effects.hpp"
+#include "environment.hpp"
 #include "motion.hpp"
 #include "simulated_run.hpp"
 #include "support/run_command.hpp"
@@ -306,6 +308,110 @@ TEST(Plan, DistributesNominalDaysThatAreNoneOfTheCases) {
   }
   EXPECT_EQ(by_hull.size(), 4u);
   for (const auto& [hull, days] : by_hull) EXPECT_EQ(days, 75) << hull;
+}
+
+/// The forces of a sea that runs north past a boat which lies still and heads north, ten a second.
+std::vector<BodyForce> ForcesOf(const Weather& weather, double duration_s) {
+  Scenario scenario = SymmetricScenario();
+  scenario.weather = weather;
+  const Environment sea(RandomStream(7));
+  std::vector<BodyForce> forces;
+  for (double time = 0.0; time < duration_s; time += 0.1) {
+    forces.push_back(sea.At(scenario, {}, time).waves);
+  }
+  return forces;
+}
+
+Weather WindSea(double force_n, double period_s, double spread_rad) {
+  Weather weather;
+  weather.wave_force_n = force_n;
+  weather.wave_period_s = period_s;
+  weather.is_wind_sea = true;
+  weather.wave_spread_rad = spread_rad;
+  return weather;
+}
+
+double MeanSquare(const std::vector<BodyForce>& forces, double BodyForce::*component) {
+  double sum = 0.0;
+  for (const BodyForce& force : forces) sum += force.*component * force.*component;
+  return sum / static_cast<double>(forces.size());
+}
+
+TEST(WindSea, HasTheEnergyOfTheRegularSeaOfItsForce) {
+  EXPECT_NEAR(MeanSquare(ForcesOf(WindSea(10.0, 2.0, 0.0), 4000.0), &BodyForce::x_n),
+              0.5 * 10.0 * 10.0, 1.5);
+}
+
+// Pierson and Moskowitz: the share exp(-5/4 (peak / frequency)^4) of the energy is below a
+// frequency. 24 components give it to a twenty-fourth.
+TEST(WindSea, HasThePiersonMoskowitzSpectrum) {
+  constexpr double kPeriodS = 2.0, kDurationS = 1000.0;
+  const auto forces = ForcesOf(WindSea(10.0, kPeriodS, 0.0), kDurationS);
+  const auto share_below = [&](double frequency_hz) {
+    double energy = 0.0;
+    for (int cycles = 1; cycles < frequency_hz * kDurationS; ++cycles) {
+      double c = 0.0, s = 0.0;
+      for (std::size_t i = 0; i < forces.size(); ++i) {
+        const double phase =
+            2.0 * std::numbers::pi * cycles * static_cast<double>(i) / double(forces.size());
+        c += forces[i].x_n * std::cos(phase);
+        s += forces[i].x_n * std::sin(phase);
+      }
+      energy += 2.0 * (c * c + s * s) / (double(forces.size()) * double(forces.size()));
+    }
+    return energy / MeanSquare(forces, &BodyForce::x_n);
+  };
+  for (const double over_peak : {0.8, 1.0, 1.3, 1.8}) {
+    EXPECT_NEAR(share_below(over_peak / kPeriodS), std::exp(-1.25 * std::pow(over_peak, -4.0)),
+                1.5 / 24.0)
+        << over_peak;
+  }
+}
+
+// A component that runs at a normal angle of 0.5 rad has sin^2 of (1 - exp(-0.5)) / 2 = 0.20 on
+// average.
+TEST(WindSea, ComesFromManySidesWhereItIsShortCrested) {
+  const auto aside = [](double spread_rad) {
+    const auto forces = ForcesOf(WindSea(10.0, 2.0, spread_rad), 2000.0);
+    return MeanSquare(forces, &BodyForce::y_n) /
+           (1.44 * MeanSquare(forces, &BodyForce::x_n) + MeanSquare(forces, &BodyForce::y_n));
+  };
+  EXPECT_LT(aside(0.05), 0.01);
+  EXPECT_NEAR(aside(0.5), 0.20, 0.1);
+}
+
+TEST(Environment, ACurrentDriftsAsLongAsItSays) {
+  constexpr int kSeas = 2000;
+  constexpr double kDriftMps = 0.05, kDriftS = 100.0;
+  Scenario scenario = SymmetricScenario();
+  scenario.weather = {
+      .current_mps = 0.2, .current_drift_mps = kDriftMps, .current_drift_s = kDriftS};
+  double square = 0.0, product = 0.0;
+  for (int seed = 0; seed < kSeas; ++seed) {
+    Environment sea{RandomStream(seed)};
+    const double first = sea.At(scenario, {}, 0.0).current_north_mps - 0.2;
+    for (double time = 0.0; time < kDriftS; time += 1.0) sea.Advance(scenario.weather, 1.0);
+    const double second = sea.At(scenario, {}, kDriftS).current_north_mps - 0.2;
+    square += first * first / kSeas;
+    product += first * second / kSeas;
+  }
+  EXPECT_NEAR(std::sqrt(square), kDriftMps, 0.1 * kDriftMps);
+  EXPECT_NEAR(product / square, std::exp(-1.0), 0.1);
+}
+
+TEST(Effects, DrawWeatherWithinWhatIsPromised) {
+  for (std::uint64_t seed = 1; seed <= 200; ++seed) {
+    const auto day = [&](const char* effect) {
+      Scenario scenario = SymmetricScenario();
+      RandomStream rng(seed);
+      EffectNamed(effect).apply(scenario, 1.0, 1.0, rng);
+      return scenario.weather;
+    };
+    EXPECT_THAT(1.0 / day("waves").wave_period_s, AllOf(Ge(0.15), Le(0.8)));
+    EXPECT_THAT(day("wind").gust_share, AllOf(Ge(0.1), Le(0.2)));
+    EXPECT_THAT(day("wind").gust_time_s, AllOf(Ge(3.0), Le(20.0)));
+    EXPECT_THAT(day("current").current_drift_s, AllOf(Ge(60.0), Le(300.0)));
+  }
 }
 
 TEST(SingleCase, EveryEffectShowsInTheLog) {

@@ -18,25 +18,38 @@ Parameters Wind(Scenario& scenario, double size, double, RandomStream& rng) {
   Weather& day = scenario.weather;
   day.wind_mps = 5.0 * std::sqrt(size);  // force, not speed, goes with the size
   day.wind_towards = rng.Angle();
-  day.gust_share = 0.15;
-  return {{"speed", day.wind_mps, "m/s"}, {"towards", Degrees(day.wind_towards), "deg"}};
+  day.gust_share = rng.Uniform(0.1, 0.2);
+  day.gust_time_s = rng.LogUniform(3.0, 20.0);
+  return {{"speed", day.wind_mps, "m/s"},
+          {"towards", Degrees(day.wind_towards), "deg"},
+          {"gusts over mean", day.gust_share, ""},
+          {"gusts last", day.gust_time_s, "s"}};
 }
 
 Parameters Current(Scenario& scenario, double size, double, RandomStream& rng) {
   Weather& day = scenario.weather;
   day.current_mps = 0.2 * size;
   day.current_towards = rng.Angle();
-  return {{"speed", day.current_mps, "m/s"}, {"towards", Degrees(day.current_towards), "deg"}};
+  day.current_drift_mps = rng.Uniform(0.1, 0.3) * day.current_mps;
+  day.current_drift_s = rng.LogUniform(60.0, 300.0);
+  return {{"speed", day.current_mps, "m/s"},
+          {"towards", Degrees(day.current_towards), "deg"},
+          {"drift", day.current_drift_mps, "m/s"},
+          {"drift lasts", day.current_drift_s, "s"}};
 }
 
 Parameters Waves(Scenario& scenario, double size, double, RandomStream& rng) {
+  constexpr double kLongCrested = 0.05, kShortCrested = 0.5;
   Weather& day = scenario.weather;
   day.wave_force_n = 10.0 * size;
-  day.wave_period_s = rng.Uniform(1.6, 2.6);
+  day.wave_period_s = 1.0 / rng.LogUniform(0.15, 0.8);
   day.wave_towards = rng.Angle();
+  day.is_wind_sea = true;
+  day.wave_spread_rad = rng.Sign() > 0.0 ? kLongCrested : kShortCrested;
   return {{"force", day.wave_force_n, "N"},
-          {"period", day.wave_period_s, "s"},
-          {"towards", Degrees(day.wave_towards), "deg"}};
+          {"peak period", day.wave_period_s, "s"},
+          {"towards", Degrees(day.wave_towards), "deg"},
+          {"spread", Degrees(day.wave_spread_rad), "deg"}};
 }
 
 Parameters BodyBias(Scenario& scenario, double size, double sign, RandomStream& rng) {

@@ -36,6 +36,12 @@ double Along(const Place& place, double towards) {
   return place.north_m * std::cos(towards) + place.east_m * std::sin(towards);
 }
 
+/// The frequency, over that of the peak, below which a sea of Pierson and Moskowitz' spectrum has
+/// this share of its energy: exp(-5/4 (peak / frequency)^4), the integral of f^-5 exp(-5/4 f^-4).
+double PiersonMoskowitzQuantile(double share) {
+  return std::pow(-1.25 / std::log(share), 0.25);
+}
+
 double GaussMarkovStep(double value, double time_constant_s, double dt_s, RandomStream& rng) {
   const double kept = std::exp(-dt_s / time_constant_s);
   return kept * value + std::sqrt(1.0 - kept * kept) * rng.Normal();
@@ -57,9 +63,16 @@ Weather LightDay(RandomStream rng) {
 }
 
 Environment::Environment(RandomStream rng) : rng_(rng.For("gusts")) {
-  for (Component& component : components_) {
-    component = {
-        .detuning = 1.0 + rng.Normal(0.07), .phase = rng.Angle(), .turn = rng.Normal(0.15)};
+  for (Component& component : swell_) {
+    component = {.detuning = 1.0 + rng.Normal(0.07), .phase = rng.Angle(), .turn = rng.Normal()};
+  }
+  // Components of one energy each, one from every part of the spectrum.
+  RandomStream sea = rng.For("wind sea");
+  for (std::size_t at = 0; at < wind_sea_.size(); ++at) {
+    const double below =
+        (static_cast<double>(at) + sea.Uniform(0.0, 1.0)) / static_cast<double>(wind_sea_.size());
+    wind_sea_[at] = {
+        .detuning = PiersonMoskowitzQuantile(below), .phase = sea.Angle(), .turn = sea.Normal()};
   }
   for (double start = rng.Uniform(30.0, 90.0); start < kLongestDayS;
        start += rng.Uniform(80.0, 150.0)) {
@@ -79,10 +92,9 @@ Environment::Environment(RandomStream rng) : rng_(rng.For("gusts")) {
 }
 
 void Environment::Advance(const Weather& weather, double dt_s) {
-  constexpr double kCurrentTimeS = 120.0;
   gust_ = GaussMarkovStep(gust_, weather.gust_time_s, dt_s, rng_);
-  current_north_ = GaussMarkovStep(current_north_, kCurrentTimeS, dt_s, rng_);
-  current_east_ = GaussMarkovStep(current_east_, kCurrentTimeS, dt_s, rng_);
+  current_north_ = GaussMarkovStep(current_north_, weather.current_drift_s, dt_s, rng_);
+  current_east_ = GaussMarkovStep(current_east_, weather.current_drift_s, dt_s, rng_);
 }
 
 Surroundings Environment::At(const Scenario& scenario, const Place& place, double time_s) const {
@@ -123,10 +135,12 @@ bool Environment::Weedy(double weed_share, double time_s) const {
 BodyForce Environment::Waves(const Weather& weather, const Place& place, double time_s) const {
   BodyForce sum;
   if (weather.wave_force_n == 0.0) return sum;
-  const double force = weather.wave_force_n / std::sqrt(double(components_.size()));
-  for (const Component& component : components_) {
+  const std::span<const Component> components =
+      weather.is_wind_sea ? std::span<const Component>(wind_sea_) : swell_;
+  const double force = weather.wave_force_n / std::sqrt(double(components.size()));
+  for (const Component& component : components) {
     const double frequency = component.detuning * 2.0 * std::numbers::pi / weather.wave_period_s;
-    const double towards = weather.wave_towards + component.turn;
+    const double towards = weather.wave_towards + weather.wave_spread_rad * component.turn;
     const double phase = Phase(frequency, towards, place, time_s) + component.phase;
     Add(sum, OnBody(force, towards, place.heading_rad, phase));
   }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <span>
 #include <vector>
 
 #include "scenario.hpp"
@@ -43,7 +44,7 @@ class Environment {
   struct Component {
     double detuning;  // frequency over that of the peak
     double phase;
-    double turn;  // from the mean direction
+    double turn;  // from the mean direction, in standard deviations
   };
 
   struct Spell {
@@ -54,7 +55,8 @@ class Environment {
   BodyForce Waves(const Weather& weather, const Place& place, double time_s) const;
   BodyForce Wash(double force_n, const Place& place, double time_s) const;
 
-  std::array<Component, 9> components_{};
+  std::array<Component, 9> swell_{};
+  std::array<Component, 24> wind_sea_{};
   std::vector<double> wash_starts_s_;
   std::vector<Spell> spells_;
   double wash_towards_;

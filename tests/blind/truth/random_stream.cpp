@@ -32,6 +32,10 @@ double RandomStream::Uniform(double from, double to) {
   return from + (to - from) * static_cast<double>(Bits() >> 11) * 0x1p-53;
 }
 
+double RandomStream::LogUniform(double from, double to) {
+  return from * std::pow(to / from, Uniform(0.0, 1.0));
+}
+
 double RandomStream::Normal(double sigma) {
   const double radius = std::sqrt(-2.0 * std::log(Uniform(0x1p-53, 1.0)));
   return sigma * radius * std::cos(Angle());

@@ -20,6 +20,8 @@ class RandomStream {
 
   std::uint64_t Bits();
   double Uniform(double from, double to);
+  /// Of no preferred size between two that are positive.
+  double LogUniform(double from, double to);
   double Normal(double sigma = 1.0);
   std::size_t Below(std::size_t count);
   double Sign() { return Below(2) == 0 ? -1.0 : 1.0; }

@@ -12,9 +12,12 @@ struct Weather {
   double gust_time_s = 8.0;
   double current_mps = 0.0;
   double current_towards = 0.0;
-  double current_drift_mps = 0.0;
-  double wave_force_n = 0.0;  // amplitude of the regular sea of the same energy
-  double wave_period_s = 2.0;
+  double current_drift_mps = 0.0;  // standard deviation about that, each of north and east
+  double current_drift_s = 120.0;  // how long it lasts
+  double wave_force_n = 0.0;       // amplitude of the regular sea of the same energy
+  double wave_period_s = 2.0;      // at the peak
+  bool is_wind_sea = false;        // of a broad spectrum; else a swell about the peak
+  double wave_spread_rad = 0.15;   // standard deviation of the components' directions
   double wave_towards = 0.0;
 };
 
