@@ -234,6 +234,16 @@ std::vector<Drive> AugmentedBoat::DrivesAlong(const HeldCommands& commands, doub
   return drives;
 }
 
+bool AugmentedBoat::IsDrivenLike(const AugmentedBoat& other) const {
+  const VesselModel& own = model_.model;
+  const VesselModel& its = other.model_.model;
+  return thrust_ == other.thrust_ && shaft_lags_s_ == other.shaft_lags_s_ &&
+         delay_s_ == other.delay_s_ && output_travel_s_ == other.output_travel_s_ &&
+         Hooked(Hook::kCommand) == other.Hooked(Hook::kCommand) && own.structure == its.structure &&
+         own.parameterization == its.parameterization && own.dead_zone == its.dead_zone &&
+         own.thruster_time_constant_s == its.thruster_time_constant_s;
+}
+
 double AugmentedBoat::MeasuredHeadingRad(double psi_rad) const {
   double measured = psi_rad;
   for (const auto& [effect, values] : Hooked(Hook::kHeading)) {

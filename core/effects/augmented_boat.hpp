@@ -49,6 +49,10 @@ class AugmentedBoat {
   std::vector<Drive> DrivesAlong(const HeldCommands& commands, double from_s, double step_s,
                                  std::size_t steps) const;
 
+  /// Whether the drives of the two boats are the same whatever the commands: they differ in no
+  /// thrust coefficient, and in no effect on commands or shafts.
+  bool IsDrivenLike(const AugmentedBoat& other) const;
+
   /// The boat `step_s` after `from` at `time_s`.
   Pose Advance(const Pose& from, const Drive& drive, double time_s, double step_s) const;
 

@@ -156,6 +156,8 @@ const Effect* FindEffect(std::string_view name);
 struct ModelledEffect {
   const Effect* effect = nullptr;
   std::vector<double> values;
+
+  bool operator==(const ModelledEffect&) const = default;
 };
 
 }  // namespace telltale

@@ -70,10 +70,18 @@ struct ShortRecording {
   FreeRuns runs{dataset, model.model, 5.0};
 };
 
+/// The free runs of one recording alone, as the references of a baseline.
+inline std::vector<FreeRuns> RunsOf(const PreparedDataset& dataset, const VesselModel& model) {
+  std::vector<FreeRuns> runs;
+  runs.emplace_back(dataset, model, 5.0);
+  return runs;
+}
+
 /// The same and the nominal boat that is learned from it.
 struct LearnedBaseline : ShortRecording {
   std::vector<EffectParameterRef> parameter_refs = EffectParameterRefsOf(EffectLibrary());
-  NominalBaseline nominal = LearnNominalBaseline({runs}, model, parameter_refs, 2);
+  NominalBaseline nominal =
+      LearnNominalBaseline(RunsOf(dataset, model.model), model, parameter_refs, 2);
   Sensitivity recording = SensitivityOf(runs, nominal.boat, model, parameter_refs, 2);
 };
 

@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <list>
+#include <mutex>
 #include <span>
+#include <utility>
 
 #include "telltale/core/base/contract.hpp"
 #include "telltale/core/base/linear_algebra/eigen_decompositions.hpp"
@@ -65,12 +68,53 @@ double Limited(double error) {
 
 }  // namespace
 
+/// The drives of the boats that were asked for last, the latest first. Safe from several threads.
+class DriveCache {
+ public:
+  template <class Compute>
+  std::shared_ptr<const DrivesBySegment> Of(const AugmentedBoat& boat, Compute compute) {
+    if (auto known = Find(boat)) return known;
+    auto drives = std::make_shared<const DrivesBySegment>(compute());
+    const std::lock_guard lock(mutex_);
+    if (entries_.size() == kMostBoats) entries_.pop_back();
+    entries_.push_front({boat, drives});
+    return drives;
+  }
+
+ private:
+  // More than the thrust coefficients of an equation, which are varied in turn.
+  static constexpr std::size_t kMostBoats = 8;
+
+  struct Entry {
+    AugmentedBoat boat;
+    std::shared_ptr<const DrivesBySegment> drives;
+  };
+
+  std::shared_ptr<const DrivesBySegment> Find(const AugmentedBoat& boat) {
+    const std::lock_guard lock(mutex_);
+    const auto entry = std::find_if(entries_.begin(), entries_.end(), [&](const Entry& candidate) {
+      return candidate.boat.IsDrivenLike(boat);
+    });
+    if (entry == entries_.end()) return nullptr;
+    entries_.splice(entries_.begin(), entries_, entry);
+    return entry->drives;
+  }
+
+  std::mutex mutex_;
+  std::list<Entry> entries_;
+};
+
+FreeRuns::FreeRuns(FreeRuns&&) noexcept = default;
+FreeRuns& FreeRuns::operator=(FreeRuns&&) noexcept = default;
+FreeRuns::~FreeRuns() = default;
+
 FreeRuns::FreeRuns(const PreparedDataset& dataset, const VesselModel& base, double horizon_s)
     : dataset_(&dataset),
       horizon_s_(horizon_s),
       rows_(static_cast<std::size_t>(std::lround(horizon_s / dataset.sampling_period_s))),
       steps_(StepsPerRow(base, dataset.sampling_period_s)),
-      step_s_(dataset.sampling_period_s / static_cast<double>(steps_)) {
+      step_s_(dataset.sampling_period_s / static_cast<double>(steps_)),
+      drive_cache_(std::make_unique<DriveCache>()) {
   Require(horizon_s > 0.0, "a horizon");
   const double shortest_bin_s = std::max(horizon_s / kBinsPerWindow, dataset.sampling_period_s);
   bins_ = std::max<Eigen::Index>(
@@ -144,24 +188,29 @@ bool FreeRuns::Collect(std::size_t segment, std::size_t first_row, Window& windo
   return window.per_bin.minCoeff() > 0.0;
 }
 
+std::shared_ptr<const DrivesBySegment> FreeRuns::DrivesOf(const AugmentedBoat& boat) const {
+  return drive_cache_->Of(boat, [&] {
+    DrivesBySegment drives;
+    for (std::size_t s = 0; s < dataset_->segments.size(); ++s) {
+      const RowRange& segment = dataset_->segments[s];
+      drives.push_back(boat.DrivesAlong(dataset_->commands[s], dataset_->rows[segment.begin].time_s,
+                                        step_s_, segment.size() * steps_));
+    }
+    return drives;
+  });
+}
+
 template <class Visit>
 void FreeRuns::ForEachTrack(const AugmentedModel& model, const Offset& offset, Visit visit) const {
   const AugmentedBoat boat(model, RecordingFrameOf(*dataset_), dataset_->hull);
-  std::vector<Drive> drives;
-  std::size_t driven = dataset_->segments.size();
+  const auto drives = DrivesOf(boat);
   for (std::size_t w = 0; w < windows_.size(); ++w) {
     const Window& window = windows_[w];
     const RowRange& segment = dataset_->segments[window.segment];
-    const double segment_start_s = dataset_->rows[segment.begin].time_s;
-    if (driven != window.segment) {
-      drives = boat.DrivesAlong(dataset_->commands[window.segment], segment_start_s, step_s_,
-                                segment.size() * steps_);
-      driven = window.segment;
-    }
     const double from_s = dataset_->rows[window.first_row].time_s;
     const std::size_t first_step = (window.first_row - segment.begin) * steps_;
     const Pose start = Moved(TrueStart(*dataset_, segment, from_s, boat), offset);
-    const auto ahead = std::span(drives).subspan(first_step, rows_ * steps_);
+    const auto ahead = std::span((*drives)[window.segment]).subspan(first_step, rows_ * steps_);
     visit(w, boat, from_s, boat.Simulate(start, ahead, from_s, step_s_));
   }
 }

@@ -2,14 +2,19 @@
 
 #include <array>
 #include <cstddef>
+#include <memory>
 #include <vector>
 
 #include <Eigen/Core>
 
 #include "telltale/core/data/prepared_dataset.hpp"
+#include "telltale/core/effects/augmented_boat.hpp"
 #include "telltale/core/effects/augmented_model.hpp"
 
 namespace telltale {
+
+using DrivesBySegment = std::vector<std::vector<Drive>>;
+class DriveCache;
 
 /// Free runs of models over non-overlapping windows of a recording, and their errors.
 ///
@@ -25,6 +30,9 @@ class FreeRuns {
   /// Requires: a model with all three equations; horizon_s > 0. The dataset has to live on.
   FreeRuns(const PreparedDataset& dataset, const VesselModel& base, double horizon_s);
   FreeRuns(const PreparedDataset&& dataset, const VesselModel& base, double horizon_s) = delete;
+  FreeRuns(FreeRuns&&) noexcept;
+  FreeRuns& operator=(FreeRuns&&) noexcept;
+  ~FreeRuns();
 
   std::size_t Windows() const { return windows_.size(); }
   Eigen::Index Rows() const { return 3 * bins_; }
@@ -69,6 +77,10 @@ class FreeRuns {
   void ForEachTrack(const AugmentedModel& model, const Offset& offset, Visit visit) const;
   Eigen::MatrixXd RawErrors(const AugmentedModel& model, const Offset& offset) const;
 
+  /// The drives of each segment, from its first row on. Boats that are driven alike, as most of
+  /// those that are compared are, share them.
+  std::shared_ptr<const DrivesBySegment> DrivesOf(const AugmentedBoat& boat) const;
+
   const PreparedDataset* dataset_;
   double horizon_s_;
   std::size_t rows_;   ///< sampling periods of a window
@@ -76,6 +88,7 @@ class FreeRuns {
   double step_s_;
   Eigen::Index bins_;
   std::vector<Window> windows_;
+  std::unique_ptr<DriveCache> drive_cache_;
 };
 
 }  // namespace telltale

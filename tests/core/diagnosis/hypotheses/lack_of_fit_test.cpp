@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <boost/random/normal_distribution.hpp>
 
+#include "support/hand_made_diagnosis.hpp"
 #include "support/stable_boat_with_effects.hpp"
 #include "telltale/core/base/random.hpp"
 
@@ -21,7 +22,8 @@ class LackOfFitTest : public ::testing::Test {
   const std::vector<EffectParameterRef> parameter_refs_ = EffectParameterRefsOf(EffectLibrary());
   const PreparedDataset dataset_ = testing::SimulateWithEffects({}, 300.0, 500);
   const FreeRuns runs_{dataset_, model_.model, 5.0};
-  const NominalBaseline nominal_ = LearnNominalBaseline({runs_}, model_, parameter_refs_, 2);
+  const NominalBaseline nominal_ =
+      LearnNominalBaseline(testing::RunsOf(dataset_, model_.model), model_, parameter_refs_, 2);
   const Sensitivity recording_ = SensitivityOf(runs_, nominal_.boat, model_, parameter_refs_, 2);
   const ResidualMetric metric_{nominal_, recording_, EveryWindow(recording_), false};
   const FrequencyResponse frequency_response_{EffectLibrary(), runs_, nominal_.boat,
