@@ -86,6 +86,9 @@ struct EffectFacts {
   /// Scatter of those parameters that do not shape, from one free run to the next, as a share of
   /// their length: what blows in gusts.
   double turbulence_intensity = 0.0;
+  /// How long a gust lasts: the time constant of its correlation, of first order. 0 where a gust
+  /// stays as it is throughout a free run. Of Hook::kThrustShare and kAcceleration alone.
+  double turbulence_time_s = 0.0;
   /// Whether that scatter is the effect: without it, it is another one.
   bool is_intermittent = false;
 };

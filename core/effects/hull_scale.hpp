@@ -41,6 +41,11 @@ struct HullScale {
   /// (m + A22) / m and (I + A66) / I over those of the default hull.
   double SwayMassRatio() const { return sway_mass / 1.5; }
   double YawInertiaRatio() const { return yaw_inertia / 1.3; }
+  /// (m + A22) / (I + A66), 1/m^2: the yaw acceleration of a force one metre ahead that alone gives
+  /// a unit of sway acceleration.
+  double SwayOverYawInertia() const {
+    return sway_mass / (gyration_radius_m * gyration_radius_m * yaw_inertia);
+  }
 };
 
 }  // namespace telltale

@@ -10,6 +10,8 @@ namespace {
 // Of a loss that is there for a fifth of the time, in spells of a free run's length or longer: the
 // scatter from run to run over the mean, sqrt((1 - p) / p).
 constexpr double kScatter = 2.0;
+// Weed is shed, and a propeller draws air, within seconds: about as long as a free run lasts.
+constexpr double kSpellS = 5.0;
 
 }  // namespace
 
@@ -29,6 +31,7 @@ class IntermittentThrustLossEffect final : public Effect {
              .hook = Hook::kThrustShare,
              .nominal_variation = NominalVariation::kNone,
              .turbulence_intensity = kScatter,
+             .turbulence_time_s = kSpellS,
              .is_intermittent = true}) {}
 
   std::string Describe(EffectValues values) const override {

@@ -2,12 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <optional>
 
 #include "telltale/core/base/linear_algebra/covariance.hpp"
 #include "telltale/core/base/linear_algebra/eigen_decompositions.hpp"
+#include "telltale/core/diagnosis/diagnosis_constants.hpp"
 #include "telltale/core/diagnosis/hypotheses/effect_parameters.hpp"
 #include "telltale/core/diagnosis/hypotheses/levenberg_marquardt.hpp"
+#include "telltale/core/effects/gust_pattern.hpp"
 
 namespace telltale {
 namespace {
@@ -74,25 +77,48 @@ double DeviationOf(const ModelledEffect& modelled) {
   return modelled.effect->Facts().turbulence_intensity * LengthOf(modelled);
 }
 
-/// EffectFit::gusts of a fit: secants over one standard deviation.
-Eigen::MatrixXd GustsOf(const EffectFit& fit, const ErrorModel& error_model) {
-  std::vector<Eigen::VectorXd> columns;
-  for (std::size_t i = 0; i < fit.effects.size(); ++i) {
-    const Effect& effect = *fit.effects[i].effect;
-    const double deviation = DeviationOf(fit.effects[i]);
-    if (deviation == 0.0) continue;
-    for (std::size_t j = 0; j < effect.Parameters().size(); ++j) {
-      if (effect.Parameters()[j].is_shape) continue;
-      auto gusting = fit.effects;
-      gusting[i].values[j] += deviation;
-      columns.emplace_back((error_model(gusting) - fit.errors).reshaped());
-    }
+/// One way in which a gust may run through a window, and its share of the gust's variance.
+struct GustCourse {
+  double frequency_rad_s = 0.0;  ///< 0: the same all along
+  double phase_rad = 0.0;
+  double share = 1.0;
+};
+
+/// The ways of an effect's gusts, the constant one first. The correlation exp(-t / T) of a
+/// first-order process is, within a window of H, the sum over k of c_k cos(k pi t / H), with c_k =
+/// 2 T/H (1 - (-1)^k exp(-H/T)) / (1 + (k pi T/H)^2) and half of that for k = 0: each term is a
+/// cosine and a sine of independent random sizes. What oscillates faster than k = 1 hardly moves a
+/// boat.
+std::vector<GustCourse> CoursesOf(const EffectFacts& facts, double window_s) {
+  if (facts.turbulence_time_s == 0.0) return {{}};
+  constexpr double kHalfTurn = std::numbers::pi;
+  const double lasting = facts.turbulence_time_s / window_s;
+  const double kept = std::exp(-1.0 / lasting);
+  const double oscillating =
+      2.0 * lasting * (1.0 + kept) / (1.0 + kHalfTurn * kHalfTurn * lasting * lasting);
+  const double frequency = kHalfTurn / window_s;
+  return {{0.0, 0.0, lasting * (1.0 - kept)},
+          {frequency, 0.0, oscillating},
+          {frequency, -0.5 * kHalfTurn, oscillating}};
+}
+
+/// What a deviation of one parameter of one effect, along a course, does to the errors.
+/// Oscillations are no larger than the effect itself, beyond which it may act on the other side,
+/// and scaled to the deviation.
+Eigen::MatrixXd EffectOfGust(const std::vector<ModelledEffect>& effects,
+                             const Eigen::MatrixXd& errors, std::size_t gusting,
+                             std::size_t parameter, double deviation, const GustCourse& course,
+                             const ErrorModel& error_model) {
+  auto changed = effects;
+  if (course.frequency_rad_s == 0.0) {
+    changed[gusting].values[parameter] += deviation;
+    return error_model(changed) - errors;
   }
-  Eigen::MatrixXd gusts(fit.errors.size(), std::ssize(columns));
-  for (Eigen::Index j = 0; j < gusts.cols(); ++j) {
-    gusts.col(j) = columns[static_cast<std::size_t>(j)];
-  }
-  return gusts;
+  const double amplitude = std::min(deviation, LengthOf(effects[gusting]));
+  const GustPattern pattern(*effects[gusting].effect,
+                            {parameter, amplitude, course.frequency_rad_s, course.phase_rad});
+  changed[gusting].effect = &pattern;
+  return deviation / amplitude * (error_model(changed) - errors);
 }
 
 /// By how much the scatter from window to window that the intermittent effects of a fit stand for
@@ -109,7 +135,9 @@ double ScatterDeficit(const EffectFit& steady, const EffectFit& gusty,
     if (DeviationOf(modelled) == 0.0) continue;
     for (const EffectParameter& parameter : facts.parameters) {
       if (parameter.is_shape) continue;
-      const auto by_window = whitened.col(column++).reshaped(left.rows(), left.cols());
+      // What stays as it is throughout a window.
+      const auto by_window = whitened.col(column).reshaped(left.rows(), left.cols());
+      column += std::ssize(CoursesOf(facts, kDiagnosis.horizons.main_s));
       if (!facts.is_intermittent) continue;
       const Eigen::ArrayXd squares = by_window.colwise().squaredNorm().transpose().array();
       const Eigen::ArrayXd along = left.cwiseProduct(by_window).colwise().sum().transpose().array();
@@ -166,12 +194,36 @@ ErrorModel ErrorModelOf(const FreeRuns& runs, const AugmentedModel& boat) {
       [&](const std::vector<ModelledEffect>& effects) { return runs.Errors(boat.With(effects)); };
 }
 
+Eigen::MatrixXd GustsOf(const std::vector<ModelledEffect>& effects, const Eigen::MatrixXd& errors,
+                        const ErrorModel& error_model, double window_s) {
+  std::vector<Eigen::VectorXd> columns;
+  for (std::size_t i = 0; i < effects.size(); ++i) {
+    const Effect& effect = *effects[i].effect;
+    const double deviation = DeviationOf(effects[i]);
+    if (deviation == 0.0) continue;
+    for (std::size_t j = 0; j < effect.Parameters().size(); ++j) {
+      if (effect.Parameters()[j].is_shape) continue;
+      for (const GustCourse& course : CoursesOf(effect.Facts(), window_s)) {
+        const double size = deviation * std::sqrt(course.share);
+        columns.emplace_back(
+            EffectOfGust(effects, errors, i, j, size, course, error_model).reshaped());
+      }
+    }
+  }
+  Eigen::MatrixXd gusts(errors.size(), std::ssize(columns));
+  for (Eigen::Index j = 0; j < gusts.cols(); ++j) {
+    gusts.col(j) = columns[static_cast<std::size_t>(j)];
+  }
+  return gusts;
+}
+
 EffectFit FitEffects(const ErrorModel& error_model, const ResidualMetric& metric,
                      const std::vector<const Effect*>& effects,
                      const std::vector<Eigen::VectorXd>& starts) {
   const double none = metric.SquaredMahalanobis(metric.Whiten(error_model({})));
   EffectFit steady = FitWithoutGusts(error_model, metric, none, effects, starts);
-  const Eigen::MatrixXd gusts = GustsOf(steady, error_model);
+  const Eigen::MatrixXd gusts =
+      GustsOf(steady.effects, steady.errors, error_model, kDiagnosis.horizons.main_s);
   if (gusts.size() == 0) return steady;
   const ResidualMetric widened = metric.WithWindowVariation(gusts);
   EffectFit gusty = FitWithoutGusts(error_model, widened, none, effects, {steady.Values()});

@@ -22,8 +22,9 @@ struct EffectFit {
   double score = 0.0;
   double square = 0.0;     ///< squared Mahalanobis distance of the errors that are left
   Eigen::MatrixXd errors;  ///< rows x windows, with the effects
-  /// What gusts do to the errors, stacked window by window, one column a standard deviation of one
-  /// parameter; empty where nothing gusts.
+  /// What gusts do to the errors, stacked window by window: of each parameter that gusts one column
+  /// for each course of a gust through a window, of one standard deviation. Empty where nothing
+  /// gusts.
   Eigen::MatrixXd gusts;
 
   std::vector<const Effect*> Effects() const;
@@ -39,6 +40,11 @@ struct EffectFit {
 
 /// The free-run errors of `boat` with effects. The free runs and the boat have to outlive it.
 ErrorModel ErrorModelOf(const FreeRuns& runs, const AugmentedModel& boat);
+
+/// What one standard deviation of gusts does to the errors, as EffectFit::gusts has it. `errors`
+/// are those with the effects, in windows of window_s.
+Eigen::MatrixXd GustsOf(const std::vector<ModelledEffect>& effects, const Eigen::MatrixXd& errors,
+                        const ErrorModel& error_model, double window_s);
 
 /// Most probable values of effects that act together, and their evidence by Laplace's method,
 /// docs/concepts/diagnosis.md (88), (89), (97). Priors are normal: of twice the typical size about

@@ -58,6 +58,17 @@ ModelledEffect EffectOf(const Effect& effect, const ScatterFit& fit, double freq
   return modelled;
 }
 
+/// What gusts add to the mean square of each row.
+Eigen::VectorXd GustMeanSquares(const EffectFit& fit, const FreeRuns& runs,
+                                const AugmentedModel& boat) {
+  const Eigen::MatrixXd errors = runs.Errors(boat.With(fit.effects));
+  const Eigen::VectorXd squares =
+      GustsOf(fit.effects, errors, ErrorModelOf(runs, boat), runs.HorizonS())
+          .rowwise()
+          .squaredNorm();
+  return squares.reshaped(errors.rows(), errors.cols()).rowwise().mean();
+}
+
 }  // namespace
 
 EffectFit FitStochasticExcitation(const Effect& effect, const DiagnosisProblem& problem,
@@ -105,6 +116,7 @@ EffectFit WithStochasticEffect(const EffectFit& deterministic, const EffectFit& 
 Eigen::VectorXd StochasticMeanSquares(const EffectFit& fit, const FreeRuns& runs,
                                       const AugmentedModel& boat) {
   Eigen::VectorXd squares = Eigen::VectorXd::Zero(runs.Rows());
+  if (fit.gusts.size() > 0) squares += GustMeanSquares(fit, runs, boat);
   for (const auto& [effect, values] : fit.effects) {
     const auto stochastic = effect->StochasticExcitation(values);
     if (!stochastic) continue;

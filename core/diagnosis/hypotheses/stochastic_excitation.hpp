@@ -23,7 +23,8 @@ EffectFit FitStochasticExcitation(const Effect& effect, const DiagnosisProblem& 
 /// Deterministic effects together with the stochastic effect that was fitted to what they leave.
 EffectFit WithStochasticEffect(const EffectFit& deterministic, const EffectFit& stochastic);
 
-/// By how much the stochastic effects of a fit raise the mean square of each row's error.
+/// By how much the stochastic effects of a fit, and the gusts that it allows for, raise the mean
+/// square of each row's error.
 Eigen::VectorXd StochasticMeanSquares(const EffectFit& fit, const FreeRuns& runs,
                                       const AugmentedModel& boat);
 

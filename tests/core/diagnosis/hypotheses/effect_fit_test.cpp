@@ -150,6 +150,55 @@ TEST(FitEffects, AnIntermittentEffectKeepsItsScatter) {
   EXPECT_LT(FitWithScatter(1.5, intermittent).score, FitWithScatter(1.5, steady).score);
 }
 
+/// An acceleration ahead of its own value, with gusts of a fifth that last 4 s.
+class GustyPush final : public Effect {
+ public:
+  static constexpr double kLastsS = 4.0;
+
+  GustyPush()
+      : Effect({.name = "gusty_push",
+                .title = "",
+                .equation = "",
+                .source = "",
+                .parameters = {{"size", "m/s^2", 1.0, -10.0, 10.0}},
+                .settled_by = "",
+                .hook = Hook::kAcceleration,
+                .turbulence_intensity = 0.2,
+                .turbulence_time_s = kLastsS}) {}
+  std::string Describe(EffectValues) const override { return "gusty push"; }
+  NuDot AddedAcceleration(EffectValues values, const InstantState&) const override {
+    return {values[0], 0.0, 0.0};
+  }
+};
+
+// Where errors are the push itself, every half second of a window, they covary by sigma^2
+// exp(-t / T), of which the courses that are left out have 15 % at most.
+TEST(GustsOf, CovaryAsAFirstOrderProcessWithinAWindow) {
+  constexpr double kWindowS = 5.0, kMean = 3.0;
+  static constexpr Eigen::Index kBins = 11;
+  const GustyPush push;
+  const ErrorModel error_model = [](const std::vector<ModelledEffect>& effects) {
+    Eigen::MatrixXd errors(kBins, 1);
+    for (Eigen::Index i = 0; i < kBins; ++i) {
+      InstantState instant;
+      instant.time_s = 17.0 + 0.5 * static_cast<double>(i);
+      errors(i, 0) = effects[0].effect->AddedAcceleration(effects[0].values, instant).u;
+    }
+    return errors;
+  };
+  const std::vector<ModelledEffect> effects = {{&push, {kMean}}};
+  const Eigen::MatrixXd gusts = GustsOf(effects, error_model(effects), error_model, kWindowS);
+  const double variance = 0.2 * kMean * 0.2 * kMean;
+  for (Eigen::Index i = 0; i < kBins; ++i) {
+    for (Eigen::Index j = 0; j < kBins; ++j) {
+      const double apart_s = 0.5 * static_cast<double>(std::abs(i - j));
+      EXPECT_NEAR(gusts.row(i).dot(gusts.row(j)) / variance,
+                  std::exp(-apart_s / GustyPush::kLastsS), 0.15)
+          << i << ", " << j;
+    }
+  }
+}
+
 TEST(Distance, OfTwoThatPredictAlikeIsTheEvidenceOfTheScatterOfOne) {
   const std::vector<EffectParameter> size = {{"size", "1", 1.0, -10.0, 10.0}};
   const testing::InertEffect steady("steady", size);
