@@ -241,6 +241,7 @@ bool AugmentedBoat::IsDrivenLike(const AugmentedBoat& other) const {
          delay_s_ == other.delay_s_ && output_travel_s_ == other.output_travel_s_ &&
          Hooked(Hook::kCommand) == other.Hooked(Hook::kCommand) && own.structure == its.structure &&
          own.parameterization == its.parameterization && own.dead_zone == its.dead_zone &&
+         own.thrust_imbalance == its.thrust_imbalance &&
          own.thruster_time_constant_s == its.thruster_time_constant_s;
 }
 

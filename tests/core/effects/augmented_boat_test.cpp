@@ -75,6 +75,16 @@ TEST(AugmentedBoat, HasTheThrustOfTheModelInReverseAndOnEachSide) {
   }
 }
 
+TEST(AugmentedBoat, IsDrivenLikeOneWithTheSameThrustAlone) {
+  VesselModel model = testing::StableBoat();
+  const AugmentedBoat boat{{model, {}}, {0.0, 100.0}};
+  EXPECT_TRUE(boat.IsDrivenLike(AugmentedBoat{{model, {}}, {0.0, 100.0}}));
+  EXPECT_TRUE(boat.IsDrivenLike(BoatWith("heading_bias", {0.1})));
+  EXPECT_FALSE(boat.IsDrivenLike(BoatWith("thruster_delay", {0.3})));
+  model.thrust_imbalance = 0.1;
+  EXPECT_FALSE(boat.IsDrivenLike(AugmentedBoat{{model, {}}, {0.0, 100.0}}));
+}
+
 TEST(AugmentedBoat, WeakensOneSideOnly) {
   const PropellerCommand both{0.6, 0.6};
   const Drive plain = SteadyDrive(Plain(), both);
