@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "telltale/core/diagnosis/report/diagnosis.hpp"
+#include "telltale/core/diagnosis/diagnosis.hpp"
 
 namespace telltale {
 

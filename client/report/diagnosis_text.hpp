@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "telltale/core/diagnosis/report/diagnosis.hpp"
+#include "telltale/core/diagnosis/diagnosis.hpp"
 
 namespace telltale {
 

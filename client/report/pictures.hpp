@@ -1,7 +1,7 @@
 #pragma once
 
 #include "telltale/client/report/markup.hpp"
-#include "telltale/core/diagnosis/report/diagnosis.hpp"
+#include "telltale/core/diagnosis/diagnosis.hpp"
 
 namespace telltale {
 

@@ -7,8 +7,8 @@
 
 #include "telltale/core/base/result.hpp"
 #include "telltale/core/data/prepared_dataset.hpp"
+#include "telltale/core/diagnosis/diagnosis.hpp"
 #include "telltale/core/diagnosis/diagnosis_constants.hpp"
-#include "telltale/core/diagnosis/report/diagnosis.hpp"
 #include "telltale/core/identification/identification.hpp"
 #include "telltale/core/identification/progress.hpp"
 

@@ -6,7 +6,7 @@
 #include "telltale/client/bus/writer.hpp"
 #include "telltale/idl/codec/messages/exchange.hpp"
 #include "telltale/idl/codec/messages/fleet_exchange.hpp"
-#include "telltale/service/standby/role.hpp"
+#include "telltale/service/role.hpp"
 
 namespace telltale {
 

@@ -16,7 +16,7 @@
 #include "telltale/client/bus/writer.hpp"
 #include "telltale/service/ingest/fleet.hpp"
 #include "telltale/service/models/model_store.hpp"
-#include "telltale/service/standby/role.hpp"
+#include "telltale/service/role.hpp"
 #include "telltale/service/storage/write_durations.hpp"
 
 namespace telltale {

@@ -15,7 +15,7 @@
 #include "telltale/service/models/published_models.hpp"
 #include "telltale/service/monitoring/fleet_view.hpp"
 #include "telltale/service/monitoring/vehicle_monitor.hpp"
-#include "telltale/service/standby/role.hpp"
+#include "telltale/service/role.hpp"
 #include "telltale/service/storage/store_status.hpp"
 
 namespace telltale {

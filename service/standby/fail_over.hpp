@@ -13,10 +13,10 @@
 #include "telltale/client/bus/wait_set.hpp"
 #include "telltale/client/bus/writer.hpp"
 #include "telltale/idl/codec/daemon_config.hpp"
+#include "telltale/service/role.hpp"
 #include "telltale/service/standby/election.hpp"
 #include "telltale/service/standby/heard_requests.hpp"
 #include "telltale/service/standby/mirror.hpp"
-#include "telltale/service/standby/role.hpp"
 #include "telltale/service/standby/term_store.hpp"
 
 namespace telltale {

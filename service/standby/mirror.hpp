@@ -14,7 +14,7 @@
 #include "telltale/service/ingest/fleet.hpp"
 #include "telltale/service/models/baseline_recordings.hpp"
 #include "telltale/service/models/published_models.hpp"
-#include "telltale/service/standby/role.hpp"
+#include "telltale/service/role.hpp"
 
 namespace telltale {
 

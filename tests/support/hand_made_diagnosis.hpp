@@ -8,8 +8,8 @@
 
 #include "support/stable_boat_with_effects.hpp"
 #include "telltale/core/diagnosis/baseline/residual_metric.hpp"
-#include "telltale/core/diagnosis/baseline/uncertain_model.hpp"
 #include "telltale/core/diagnosis/hypotheses/diagnosis_problem.hpp"
+#include "telltale/core/identification/uncertain_model.hpp"
 
 namespace telltale::testing {
 

@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include "telltale/core/diagnosis/report/diagnosis.hpp"
+#include "telltale/core/diagnosis/diagnosis.hpp"
 
 namespace telltale {
 

@@ -4,7 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "telltale/client/recording/mapping/field_path.hpp"
+#include "telltale/client/recording/field_path.hpp"
 
 namespace telltale {
 namespace {

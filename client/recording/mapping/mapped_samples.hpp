@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-#include "telltale/client/recording/mapping/message_fields.hpp"
+#include "telltale/client/recording/message_fields.hpp"
 #include "telltale/client/recording/thruster_sides.hpp"
 #include "telltale/core/data/samples.hpp"
 #include "telltale/idl/codec/mapping_file.hpp"

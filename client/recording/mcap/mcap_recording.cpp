@@ -7,7 +7,7 @@
 #include "telltale/client/recording/mavlink/mavlink_json.hpp"
 #include "telltale/client/recording/mavlink/mavlink_recording.hpp"
 #include "telltale/client/recording/mcap/mcap_file.hpp"
-#include "telltale/client/recording/ros/ros_intake.hpp"
+#include "telltale/client/recording/ros_intake.hpp"
 
 namespace telltale {
 namespace {

@@ -5,7 +5,7 @@
 #include <charconv>
 #include <utility>
 
-#include "telltale/client/recording/mapping/field_path.hpp"
+#include "telltale/client/recording/field_path.hpp"
 #include "telltale/client/recording/trimmed.hpp"
 
 namespace telltale {

@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "telltale/client/recording/mapping/message_fields.hpp"
+#include "telltale/client/recording/message_fields.hpp"
 #include "telltale/client/recording/ros/cdr_reader.hpp"
 
 namespace telltale {

@@ -11,7 +11,7 @@
 
 #include "telltale/client/recording/block_reader.hpp"
 #include "telltale/client/recording/lz4_frame.hpp"
-#include "telltale/client/recording/ros/ros_intake.hpp"
+#include "telltale/client/recording/ros_intake.hpp"
 
 namespace telltale {
 namespace {

@@ -16,7 +16,7 @@
 #include "telltale/client/recording/mcap/mcap_file.hpp"
 #include "telltale/client/recording/mcap/mcap_records.hpp"
 #include "telltale/client/recording/ros/idl_definition.hpp"
-#include "telltale/client/recording/ros/ros_intake.hpp"
+#include "telltale/client/recording/ros_intake.hpp"
 #include "telltale/client/recording/zstd_frame.hpp"
 
 namespace telltale {

@@ -1,10 +1,10 @@
 #pragma once
 
-#include "telltale/core/diagnosis/baseline/uncertain_model.hpp"
 #include "telltale/core/diagnosis/hypotheses/diagnosis_problem.hpp"
 #include "telltale/core/diagnosis/hypotheses/effect_fit.hpp"
 #include "telltale/core/effects/augmented_model.hpp"
 #include "telltale/core/identification/identification.hpp"
+#include "telltale/core/identification/uncertain_model.hpp"
 
 namespace telltale {
 

@@ -2,9 +2,9 @@
 
 #include <optional>
 
+#include "telltale/core/diagnosis/diagnosis.hpp"
 #include "telltale/core/diagnosis/hypotheses/diagnosis_problem.hpp"
 #include "telltale/core/diagnosis/hypotheses/effect_fit.hpp"
-#include "telltale/core/diagnosis/report/diagnosis.hpp"
 
 namespace telltale {
 

@@ -2,8 +2,8 @@
 
 #include <vector>
 
+#include "telltale/core/diagnosis/diagnosis.hpp"
 #include "telltale/core/diagnosis/hypotheses/diagnosis_problem.hpp"
-#include "telltale/core/diagnosis/report/diagnosis.hpp"
 #include "telltale/core/effects/effect.hpp"
 
 namespace telltale {

@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
+#include "telltale/core/diagnosis/diagnosis.hpp"
 #include "telltale/core/diagnosis/hypotheses/hypothesis_search.hpp"
 #include "telltale/core/diagnosis/hypotheses/lack_of_fit.hpp"
-#include "telltale/core/diagnosis/report/diagnosis.hpp"
 
 namespace telltale {
 

@@ -3,9 +3,9 @@
 #include <span>
 #include <vector>
 
-#include "telltale/core/diagnosis/baseline/uncertain_model.hpp"
+#include "telltale/core/diagnosis/diagnosis.hpp"
 #include "telltale/core/diagnosis/hypotheses/diagnosis_problem.hpp"
-#include "telltale/core/diagnosis/report/diagnosis.hpp"
+#include "telltale/core/identification/uncertain_model.hpp"
 
 namespace telltale {
 

@@ -6,12 +6,12 @@
 #include <vector>
 
 #include "telltale/core/data/prepared_dataset.hpp"
-#include "telltale/core/diagnosis/baseline/uncertain_model.hpp"
+#include "telltale/core/diagnosis/diagnosis.hpp"
 #include "telltale/core/diagnosis/hypotheses/diagnosis_problem.hpp"
 #include "telltale/core/diagnosis/hypotheses/hypothesis_search.hpp"
 #include "telltale/core/diagnosis/report/conclusion.hpp"
-#include "telltale/core/diagnosis/report/diagnosis.hpp"
 #include "telltale/core/diagnosis/report/horizon_gap.hpp"
+#include "telltale/core/identification/uncertain_model.hpp"
 
 namespace telltale {
 

@@ -3,8 +3,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "telltale/core/diagnosis/diagnosis.hpp"
 #include "telltale/core/diagnosis/report/conclusion.hpp"
-#include "telltale/core/diagnosis/report/diagnosis.hpp"
 #include "telltale/core/diagnosis/report/horizon_gap.hpp"
 
 namespace telltale {

@@ -3,9 +3,9 @@
 #include <cstdint>
 #include <optional>
 
+#include "telltale/core/diagnosis/diagnosis.hpp"
 #include "telltale/core/diagnosis/hypotheses/cross_validation.hpp"
 #include "telltale/core/diagnosis/hypotheses/ranking.hpp"
-#include "telltale/core/diagnosis/report/diagnosis.hpp"
 #include "telltale/core/diagnosis/report/horizon_gap.hpp"
 
 namespace telltale {

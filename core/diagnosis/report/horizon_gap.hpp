@@ -6,8 +6,8 @@
 
 #include <Eigen/Core>
 
+#include "telltale/core/diagnosis/diagnosis.hpp"
 #include "telltale/core/diagnosis/hypotheses/cross_validation.hpp"
-#include "telltale/core/diagnosis/report/diagnosis.hpp"
 #include "telltale/core/diagnosis/residuals/gap.hpp"
 #include "telltale/core/diagnosis/residuals/horizon_runs.hpp"
 

@@ -3,8 +3,8 @@
 #include <vector>
 
 #include "telltale/core/data/prepared_dataset.hpp"
+#include "telltale/core/diagnosis/diagnosis.hpp"
 #include "telltale/core/diagnosis/report/conclusion.hpp"
-#include "telltale/core/diagnosis/report/diagnosis.hpp"
 #include "telltale/core/diagnosis/report/horizon_gap.hpp"
 
 namespace telltale {

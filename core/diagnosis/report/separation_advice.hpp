@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "telltale/core/diagnosis/baseline/nominal_baseline.hpp"
+#include "telltale/core/diagnosis/diagnosis.hpp"
 #include "telltale/core/diagnosis/hypotheses/ranking.hpp"
-#include "telltale/core/diagnosis/report/diagnosis.hpp"
 
 namespace telltale {
 

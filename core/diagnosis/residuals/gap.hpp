@@ -8,7 +8,7 @@
 
 #include <Eigen/Core>
 
-#include "telltale/core/diagnosis/report/diagnosis.hpp"
+#include "telltale/core/diagnosis/diagnosis.hpp"
 #include "telltale/core/diagnosis/residuals/free_runs.hpp"
 
 namespace telltale {

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "telltale/core/data/prepared_dataset.hpp"
-#include "telltale/core/diagnosis/report/diagnosis.hpp"
+#include "telltale/core/diagnosis/diagnosis.hpp"
 #include "telltale/core/effects/augmented_model.hpp"
 
 namespace telltale {

@@ -6,9 +6,9 @@
 
 #include <Eigen/Core>
 
-#include "telltale/core/diagnosis/baseline/uncertain_model.hpp"
 #include "telltale/core/diagnosis/residuals/free_runs.hpp"
 #include "telltale/core/effects/effect.hpp"
+#include "telltale/core/identification/uncertain_model.hpp"
 
 namespace telltale {
 

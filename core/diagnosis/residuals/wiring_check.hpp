@@ -4,7 +4,7 @@
 
 #include "telltale/core/base/result.hpp"
 #include "telltale/core/data/prepared_dataset.hpp"
-#include "telltale/core/diagnosis/baseline/uncertain_model.hpp"
+#include "telltale/core/identification/uncertain_model.hpp"
 
 namespace telltale {
 

@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "telltale/core/diagnosis/report/diagnosis.hpp"
+#include "telltale/core/diagnosis/diagnosis.hpp"
 #include "telltale/idl/codec/field_reader.hpp"
 #include "telltale/idl/codec/json/coefficient.hpp"
 #include "telltale/idl/proto/report.pb.h"

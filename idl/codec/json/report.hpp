@@ -3,7 +3,7 @@
 #include <string>
 #include <string_view>
 
-#include "telltale/core/diagnosis/report/diagnosis.hpp"
+#include "telltale/core/diagnosis/diagnosis.hpp"
 #include "telltale/idl/codec/codec_error.hpp"
 #include "telltale/idl/codec/json/window_pictures.hpp"
 #include "telltale/idl/proto/report.pb.h"

@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "telltale/core/diagnosis/report/diagnosis.hpp"
+#include "telltale/core/diagnosis/diagnosis.hpp"
 #include "telltale/idl/codec/field_reader.hpp"
 #include "telltale/idl/proto/report.pb.h"
 

@@ -2,7 +2,7 @@
 
 #include <cstdint>
 
-#include "telltale/core/diagnosis/report/diagnosis.hpp"
+#include "telltale/core/diagnosis/diagnosis.hpp"
 
 namespace telltale {
 

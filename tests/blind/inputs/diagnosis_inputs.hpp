@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "telltale/core/data/prepared_dataset.hpp"
-#include "telltale/core/diagnosis/baseline/uncertain_model.hpp"
+#include "telltale/core/identification/uncertain_model.hpp"
 
 namespace blind {
 

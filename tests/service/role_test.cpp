@@ -1,4 +1,4 @@
-#include "telltale/service/standby/role.hpp"
+#include "telltale/service/role.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "telltale/core/diagnosis/baseline/uncertain_model.hpp"
+#include "telltale/core/identification/uncertain_model.hpp"
 
 #include <cmath>
 

@@ -1,4 +1,4 @@
-#include "telltale/client/recording/mapping/field_path.hpp"
+#include "telltale/client/recording/field_path.hpp"
 
 #include <algorithm>
 #include <charconv>

@@ -1,4 +1,4 @@
-#include "telltale/client/recording/ros/ros_intake.hpp"
+#include "telltale/client/recording/ros_intake.hpp"
 
 namespace telltale {
 namespace {

@@ -1,4 +1,4 @@
-#include "telltale/core/diagnosis/report/diagnosis.hpp"
+#include "telltale/core/diagnosis/diagnosis.hpp"
 
 #include <algorithm>
 #include <cmath>
