@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# cmake/check-layers passes on this project and fails, with file, line and rule, on each wrong include.
+# cmake/check-layers passes on this project and fails, with file, line and rule, on each wrong include, and on
+# folders that include each other in a circle.
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
 check=$root/cmake/check-layers
@@ -68,4 +69,27 @@ rejects tests/blind/truth/bad.cpp '<telltale/core/data/window.hpp>' 'nothing but
 rejects tests/blind/truth/bad.hpp '<Eigen/Dense>' 'nothing but the standard library'
 rejects tests/blind/truth/bad.hpp '<gtest/gtest.h>' 'nothing but the standard library'
 
-echo "check-layers finds every wrong include"
+# include_chain FILE...: each includes the next.
+include_chain() {
+  for ((i = 1; i < $#; i++)); do
+    mkdir -p "$(dirname "$sandbox/${!i}")"
+    local next=$((i + 1))
+    echo "#include \"telltale/${!next}\"" >> "$sandbox/${!i}"
+  done
+}
+
+# A circle of three folders, though no file is on it twice.
+build_house
+touch "$sandbox/core/data/samples.hpp"
+include_chain core/data/window.hpp core/validation/score.hpp core/effects/wind.hpp core/data/samples.hpp
+output=$("$check" "$sandbox" 2>&1) && fail "a circle of folders passed"
+grep -qE '^core/[a-z]+, core/[a-z]+, core/[a-z]+: these include each other in a circle$' <<< "$output" ||
+  fail "the three folders are not named in: $output"
+
+# The files of a folder with others below it stand for themselves: what the others share, and what uses them.
+build_house
+touch "$sandbox/core/constants.hpp"
+include_chain core/diagnose.hpp core/data/window.hpp core/constants.hpp
+"$check" "$sandbox" > /dev/null || fail "files beside folders were taken for one"
+
+echo "check-layers finds every wrong include and circle"
