@@ -75,7 +75,7 @@ Daemon::Daemon(const DaemonConfig& config, Endings endings)
       jobs_(fleet_, models_, baselines_, replies_, config.identification, journal_),
       diagnosis_jobs_(fleet_, models_, view_, baselines_, diagnoses_, replies_,
                       config.identification, journal_),
-      fleet_jobs_(fleet_, models_, replies_, journal_,
+      fleet_jobs_(fleet_, models_, diagnoses_, replies_, journal_,
                   {.submit = [this](const IdentifyRequest& request,
                                     auto answer) { jobs_.Refresh(request, std::move(answer)); },
                    .cancel =

@@ -27,6 +27,10 @@ class DiagnosisStore {
   /// again; beyond kDiagnosesPerVehicle the oldest is dropped.
   void Save(const PublishedDiagnosis& diagnosis);
 
+  /// Joins the vehicle's earlier diagnoses; becomes the last where it is newer than that. Beyond
+  /// kDiagnosesPerVehicle the oldest is dropped. False where it was there before.
+  bool SaveEarlier(const PublishedDiagnosis& diagnosis);
+
   /// Nothing where there is none, and where it cannot be read.
   std::optional<PublishedDiagnosis> Last(std::string_view vehicle_id) const;
 
@@ -35,6 +39,8 @@ class DiagnosisStore {
 
  private:
   void KeepLastAsEarlier(std::string_view vehicle_id, double next_published_unix_s);
+  void DropOldest(std::string_view vehicle_id);
+  std::vector<double> PublicationTimes(std::string_view vehicle_id) const;
 
   Storage storage_;
   std::unique_ptr<Database> database_;

@@ -21,6 +21,11 @@ void PublishedDiagnoses::Learn(const PublishedDiagnosis& diagnosis) {
   store_.Save(diagnosis);
 }
 
+bool PublishedDiagnoses::LearnEarlier(const PublishedDiagnosis& diagnosis) {
+  const std::lock_guard lock(mutex_);
+  return store_.SaveEarlier(diagnosis);
+}
+
 void PublishedDiagnoses::Serve(const std::string& vehicle_id) {
   if (!publishing_) return;
   const std::lock_guard lock(mutex_);
@@ -36,6 +41,21 @@ void PublishedDiagnoses::Publish(const PublishedDiagnosis& diagnosis) {
 std::vector<PublishedDiagnosis> PublishedDiagnoses::History(std::string_view vehicle_id) const {
   const std::lock_guard lock(mutex_);
   return store_.History(vehicle_id);
+}
+
+std::vector<PublishedDiagnosis> PublishedDiagnoses::Earlier(std::string_view vehicle_id,
+                                                            double before_unix_s,
+                                                            std::size_t limit) const {
+  std::vector<PublishedDiagnosis> diagnoses = History(vehicle_id);
+  if (before_unix_s > 0.0) {
+    std::erase_if(diagnoses, [&](const PublishedDiagnosis& diagnosis) {
+      return diagnosis.published_unix_s >= before_unix_s;
+    });
+  }
+  if (diagnoses.size() > limit) {
+    diagnoses.erase(diagnoses.begin() + static_cast<std::ptrdiff_t>(limit), diagnoses.end());
+  }
+  return diagnoses;
 }
 
 void PublishedDiagnoses::Announce(const PublishedDiagnosis& diagnosis) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <atomic>
+#include <cstddef>
 #include <mutex>
 #include <string>
 #include <string_view>
@@ -26,6 +27,10 @@ class PublishedDiagnoses {
   /// Saves a diagnosis that another daemon has published. Throws as DiagnosisStore::Save.
   void Learn(const PublishedDiagnosis& diagnosis);
 
+  /// Saves a diagnosis that another daemon has published before others that are known. False where
+  /// it is known itself. Throws as DiagnosisStore::SaveEarlier.
+  bool LearnEarlier(const PublishedDiagnosis& diagnosis);
+
   /// Publishes the last diagnosis of a vehicle that is served from now on.
   void Serve(const std::string& vehicle_id);
 
@@ -34,6 +39,11 @@ class PublishedDiagnoses {
 
   /// Those that are kept, newest first. Throws as DiagnosisStore::History.
   std::vector<PublishedDiagnosis> History(std::string_view vehicle_id) const;
+
+  /// Those of them that were published before `before_unix_s`, where that is not zero: the newest
+  /// `limit`. Throws likewise.
+  std::vector<PublishedDiagnosis> Earlier(std::string_view vehicle_id, double before_unix_s,
+                                          std::size_t limit) const;
 
  private:
   void Announce(const PublishedDiagnosis& diagnosis);

@@ -28,6 +28,11 @@ FleetReply ReplyWith(const FleetRequest& request, ReplyOutcome outcome,
   return reply;
 }
 
+/// In full, which is too large to be kept for who asks again.
+bool IsForStandby(FleetCommand command) {
+  return command == FleetCommand::kModels || command == FleetCommand::kDiagnoses;
+}
+
 FleetReply NotServed(const FleetRequest& request, const Fleet& fleet) {
   return ReplyWith(request, ReplyOutcome::kFailed, fleet.NotServed(request.vehicle_ids.front()));
 }
@@ -58,10 +63,12 @@ RefreshedVehicle OutcomeOfVehicle(const std::string& vehicle_id, const IdentifyR
 
 }  // namespace
 
-FleetJobs::FleetJobs(Fleet& fleet, PublishedModels& models, ReplyPublisher& replies,
-                     RequestJournal& journal, Identifications identifications)
+FleetJobs::FleetJobs(Fleet& fleet, PublishedModels& models, const PublishedDiagnoses& diagnoses,
+                     ReplyPublisher& replies, RequestJournal& journal,
+                     Identifications identifications)
     : fleet_(fleet),
       models_(models),
+      diagnoses_(diagnoses),
       replies_(replies),
       journal_(journal),
       identifications_(std::move(identifications)),
@@ -155,13 +162,11 @@ void FleetJobs::Answer(const FleetRequest& request) {
     reply = ReplyWith(request, ReplyOutcome::kFailed, error.what());
     spdlog::error("{} for {}: {}", Name(request.command), request.correlation_id, error.what());
   }
-  // Models in full are too large to be kept for who asks again.
-  request.command == FleetCommand::kModels ? replies_.Send(reply) : Reply(reply);
+  IsForStandby(request.command) ? replies_.Send(reply) : Reply(reply);
 }
 
 FleetReply FleetJobs::AnswerTo(const FleetRequest& request) {
-  const bool of_one = request.command == FleetCommand::kHistory ||
-                      request.command == FleetCommand::kModels ||
+  const bool of_one = request.command == FleetCommand::kHistory || IsForStandby(request.command) ||
                       request.command == FleetCommand::kRollback;
   if (of_one && request.vehicle_ids.size() != 1) {
     return ReplyWith(
@@ -176,6 +181,7 @@ FleetReply FleetJobs::AnswerTo(const FleetRequest& request) {
     }
     case FleetCommand::kHistory: return HistoryOf(request);
     case FleetCommand::kModels: return ModelsOf(request);
+    case FleetCommand::kDiagnoses: return DiagnosesOf(request);
     case FleetCommand::kRollback: return RollbackOf(request);
     case FleetCommand::kCancel: return CancelOf(request);
     default: return ReplyWith(request, ReplyOutcome::kFailed, "no such command");
@@ -195,6 +201,13 @@ FleetReply FleetJobs::HistoryOf(const FleetRequest& request) const {
 FleetReply FleetJobs::ModelsOf(const FleetRequest& request) const {
   FleetReply reply = ReplyWith(request, ReplyOutcome::kAnswered);
   reply.later_models = models_.Later(request.vehicle_ids.front(), request.revision, kModelsAtATime);
+  return reply;
+}
+
+FleetReply FleetJobs::DiagnosesOf(const FleetRequest& request) const {
+  FleetReply reply = ReplyWith(request, ReplyOutcome::kAnswered);
+  reply.earlier_diagnoses =
+      diagnoses_.Earlier(request.vehicle_ids.front(), request.before_unix_s, kDiagnosesAtATime);
   return reply;
 }
 

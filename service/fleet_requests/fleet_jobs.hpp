@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "telltale/idl/codec/messages/fleet_exchange.hpp"
+#include "telltale/service/diagnosis/published_diagnoses.hpp"
 #include "telltale/service/ingest/fleet.hpp"
 #include "telltale/service/jobs/exchange_history.hpp"
 #include "telltale/service/jobs/reply_publisher.hpp"
@@ -35,8 +36,8 @@ class FleetJobs {
     std::function<bool(const std::string& correlation_id)> cancel;  ///< of any kind of request
   };
 
-  FleetJobs(Fleet& fleet, PublishedModels& models, ReplyPublisher& replies, RequestJournal& journal,
-            Identifications identifications);
+  FleetJobs(Fleet& fleet, PublishedModels& models, const PublishedDiagnoses& diagnoses,
+            ReplyPublisher& replies, RequestJournal& journal, Identifications identifications);
   FleetJobs(const FleetJobs&) = delete;
   FleetJobs& operator=(const FleetJobs&) = delete;
 
@@ -66,6 +67,7 @@ class FleetJobs {
   FleetReply AnswerTo(const FleetRequest& request);
   FleetReply HistoryOf(const FleetRequest& request) const;
   FleetReply ModelsOf(const FleetRequest& request) const;
+  FleetReply DiagnosesOf(const FleetRequest& request) const;
   FleetReply RollbackOf(const FleetRequest& request);
   FleetReply CancelOf(const FleetRequest& request);
   void KeepRefresh(const FleetRequest& request);
@@ -82,6 +84,7 @@ class FleetJobs {
 
   Fleet& fleet_;
   PublishedModels& models_;
+  const PublishedDiagnoses& diagnoses_;
   ReplyPublisher& replies_;
   RequestJournal& journal_;  ///< keeps refreshes
   const Identifications identifications_;

@@ -42,7 +42,10 @@ Mirror::Mirror(const Participant& participant, WaitSet& wait_set, const Role& ro
       model_reader_(participant, FromOthers(ModelQos())),
       diagnosis_reader_(participant, FromOthers(DiagnosisQos())),
       reply_reader_(participant, FromOthers(RequestReplyQos())) {
-  for (const auto& [vehicle_id, window] : into.fleet.windows()) incomplete_.insert(vehicle_id);
+  for (const auto& [vehicle_id, window] : into.fleet.windows()) {
+    incomplete_.insert(vehicle_id);
+    diagnoses_before_.emplace(vehicle_id, 0.0);
+  }
   wait_set_.Attach(model_reader_, [this] {
     model_reader_.Take([this](const telltale_wire_Model& wire) { Take(wire); });
   });
@@ -52,7 +55,7 @@ Mirror::Mirror(const Participant& participant, WaitSet& wait_set, const Role& ro
   wait_set_.Attach(reply_reader_, [this] {
     reply_reader_.Take([this](const telltale_wire_FleetReply& wire) {
       const auto reply = Decode(wire);
-      if (reply && reply->correlation_id == asked_) Take(*reply);
+      if (reply && reply->correlation_id == asked_.correlation_id) Take(*reply);
     });
   });
 }
@@ -69,53 +72,84 @@ void Mirror::Take(const telltale_wire_Model& wire) {
 
 void Mirror::Take(const telltale_wire_Diagnosis& wire) {
   if (role_.Serves()) return;
-  KeepOrLog(Decode(wire), "diagnosis",
-            [this](const PublishedDiagnosis& diagnosis) { into_.diagnoses.Learn(diagnosis); });
+  KeepOrLog(Decode(wire), "diagnosis", [this](const PublishedDiagnosis& diagnosis) {
+    into_.diagnoses.Learn(diagnosis);
+    diagnoses_before_.emplace(diagnosis.diagnosis.vehicle_id, diagnosis.published_unix_s);
+  });
 }
 
 void Mirror::FillHoles(Clock::time_point now) {
-  if (!asked_.empty() && now < ask_again_) return;
-  asked_.clear();
+  if (asked_.command != FleetCommand::kUnknown && now < ask_again_) return;
+  asked_ = {};
   while (!incomplete_.empty()) {
     const std::string vehicle_id = *incomplete_.begin();
     if (const auto hole_after = into_.models.HoleAfter(vehicle_id)) {
-      return Ask(vehicle_id, *hole_after, now);
+      FleetRequest request;
+      request.command = FleetCommand::kModels;
+      request.revision = *hole_after;
+      return Ask(std::move(request), vehicle_id, now);
     }
     incomplete_.erase(vehicle_id);
+  }
+  if (!diagnoses_before_.empty()) {
+    const auto& [vehicle_id, before_unix_s] = *diagnoses_before_.begin();
+    FleetRequest request;
+    request.command = FleetCommand::kDiagnoses;
+    request.before_unix_s = before_unix_s;
+    return Ask(std::move(request), vehicle_id, now);
   }
   request_writer_.reset();
 }
 
 /// Not yet where the writer is not connected.
-void Mirror::Ask(const std::string& vehicle_id, std::uint64_t after, Clock::time_point now) {
+void Mirror::Ask(FleetRequest request, const std::string& vehicle_id, Clock::time_point now) {
   constexpr std::chrono::seconds kPatience{5};
   if (!request_writer_) request_writer_.emplace(participant_, FromOthers(RequestReplyQos()));
   if (request_writer_->Matched() == 0) return;
-  FleetRequest request;
   request.correlation_id = NewCorrelationId();
-  request.command = FleetCommand::kModels;
   request.vehicle_ids = {vehicle_id};
-  request.revision = after;
   request.deadline_s = std::chrono::duration<double>(kPatience).count();
   request_writer_->Write(Encode(request));
-  asked_ = request.correlation_id;
-  asked_vehicle_ = vehicle_id;
+  asked_ = std::move(request);
   ask_again_ = now + kPatience;
 }
 
-/// What the other daemon does not have either is not asked for again.
+/// A busy daemon is asked again.
 void Mirror::Take(const FleetReply& reply) {
-  asked_.clear();
-  const auto before = into_.models.HoleAfter(asked_vehicle_);
+  if (reply.retry_after_s > 0.0) return;
+  asked_.command == FleetCommand::kModels ? TakeModels(reply) : TakeDiagnoses(reply);
+  asked_ = {};
+}
+
+/// What the other daemon does not have either is not asked for again.
+void Mirror::TakeModels(const FleetReply& reply) {
+  const std::string& vehicle_id = asked_.vehicle_ids.front();
+  const auto before = into_.models.HoleAfter(vehicle_id);
   for (const PublishedModel& model : reply.later_models) {
     KeepOrLog(Decoded<PublishedModel>(model), "model",
               [this](const PublishedModel& earlier) { into_.models.LearnEarlier(earlier); });
   }
-  const auto after = into_.models.HoleAfter(asked_vehicle_);
+  const auto after = into_.models.HoleAfter(vehicle_id);
   if (after && after != before) return;
-  incomplete_.erase(asked_vehicle_);
-  spdlog::info("the models of {} are as complete as those of the daemon that serves",
-               asked_vehicle_);
+  incomplete_.erase(vehicle_id);
+  spdlog::info("the models of {} are as complete as those of the daemon that serves", vehicle_id);
+}
+
+/// An answer that brings nothing new is the last.
+void Mirror::TakeDiagnoses(const FleetReply& reply) {
+  const std::string& vehicle_id = asked_.vehicle_ids.front();
+  bool brings_new = false;
+  for (const PublishedDiagnosis& diagnosis : reply.earlier_diagnoses) {
+    KeepOrLog(Decoded<PublishedDiagnosis>(diagnosis), "diagnosis",
+              [&](const PublishedDiagnosis& earlier) {
+                brings_new |= into_.diagnoses.LearnEarlier(earlier);
+              });
+    diagnoses_before_[vehicle_id] = diagnosis.published_unix_s;
+  }
+  if (brings_new) return;
+  diagnoses_before_.erase(vehicle_id);
+  spdlog::info("the diagnoses of {} are as complete as those of the daemon that serves",
+               vehicle_id);
 }
 
 void Mirror::Keep(StoredModel model) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <chrono>
+#include <map>
 #include <optional>
 #include <set>
 #include <string>
@@ -21,8 +22,9 @@ namespace telltale {
 /// Takes over what another daemon publishes into this daemon's store: models at all times, since
 /// two daemons that could not hear each other may both have published, and diagnoses while this
 /// daemon does not serve. A model that was just made gets its baseline recording and its reference
-/// error from this daemon's own window, which holds the same telemetry. Models that were published
-/// while this daemon was down are asked for, some of one vehicle at a time. Belongs to the thread
+/// error from this daemon's own window, which holds the same telemetry. Models and
+/// diagnoses that were published while this daemon was down are asked for, some of one vehicle at a
+/// time. Belongs to the thread
 /// of the wait set; a fault of the store is logged.
 class Mirror {
  public:
@@ -44,8 +46,10 @@ class Mirror {
   void FillHoles(Clock::time_point now);
 
  private:
-  void Ask(const std::string& vehicle_id, std::uint64_t after, Clock::time_point now);
+  void Ask(FleetRequest request, const std::string& vehicle_id, Clock::time_point now);
   void Take(const FleetReply& reply);
+  void TakeModels(const FleetReply& reply);
+  void TakeDiagnoses(const FleetReply& reply);
   void Take(const telltale_wire_Model& wire);
   void Take(const telltale_wire_Diagnosis& wire);
   void Keep(StoredModel model);
@@ -61,8 +65,9 @@ class Mirror {
   std::optional<Writer<telltale_wire_FleetRequest>> request_writer_;
 
   std::set<std::string> incomplete_;  ///< vehicles whose models may have a hole
-  std::string asked_;                 ///< correlation id of the request under way; empty: none
-  std::string asked_vehicle_;
+  /// Vehicles of which earlier diagnoses may be missing: before which time. 0: any.
+  std::map<std::string, double> diagnoses_before_;
+  FleetRequest asked_;  ///< the request under way, of one vehicle; unknown: none
   Clock::time_point ask_again_;
 };
 

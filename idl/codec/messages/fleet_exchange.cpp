@@ -8,6 +8,7 @@ std::string_view Name(FleetCommand command) {
     case FleetCommand::kList: return "LIST";
     case FleetCommand::kHistory: return "HISTORY";
     case FleetCommand::kModels: return "MODELS";
+    case FleetCommand::kDiagnoses: return "DIAGNOSES";
     case FleetCommand::kRollback: return "ROLLBACK";
     case FleetCommand::kRefresh: return "REFRESH";
     case FleetCommand::kFollow: return "FOLLOW";

@@ -8,29 +8,32 @@
 
 #include "telltale/core/validation/promotion.hpp"
 #include "telltale/core/vessel/model_structure.hpp"
+#include "telltale/idl/codec/messages/diagnosis.hpp"
 #include "telltale/idl/codec/messages/exchange.hpp"
 #include "telltale/idl/codec/messages/model.hpp"
 
 namespace telltale {
 
-/// kList: the vehicles served. kHistory: a vehicle's models. kModels: the same in full, for a
-/// daemon that stands by. kRollback: an earlier model published again. kRefresh: identifies many
-/// vehicles. kFollow: the progress and the reply of a refresh that another request began. kCancel:
-/// ends a request of any kind.
+/// kList: the vehicles served. kHistory: a vehicle's models. kModels and kDiagnoses: its
+/// models and its diagnoses in full, for a daemon that stands by. kRollback: an earlier model
+/// published again. kRefresh: identifies many vehicles. kFollow: the progress and the reply of a
+/// refresh that another request began. kCancel: ends a request of any kind.
 enum class FleetCommand {
   kUnknown,
   kList,
   kHistory,
   kModels,
+  kDiagnoses,
   kRollback,
   kRefresh,
   kFollow,
   kCancel
 };
 
-inline constexpr std::array kFleetCommands = {
-    FleetCommand::kList,    FleetCommand::kHistory, FleetCommand::kModels, FleetCommand::kRollback,
-    FleetCommand::kRefresh, FleetCommand::kFollow,  FleetCommand::kCancel};
+inline constexpr std::array kFleetCommands = {FleetCommand::kList,     FleetCommand::kHistory,
+                                              FleetCommand::kModels,   FleetCommand::kDiagnoses,
+                                              FleetCommand::kRollback, FleetCommand::kRefresh,
+                                              FleetCommand::kFollow,   FleetCommand::kCancel};
 
 std::string_view Name(FleetCommand command);
 
@@ -43,9 +46,10 @@ struct FleetRequest {
   std::uint64_t revision = 0;            ///< of kRollback; of kModels: only later ones
   /// Of kRefresh: only vehicles without a model, or whose model has a worse verdict. Unknown: any.
   PromotionVerdict worse_than = PromotionVerdict::kUnknown;
-  double older_than_s = 0.0;  ///< of kRefresh: only vehicles without a model, or an older one
-  std::string target;         ///< of kFollow and kCancel: the correlation id of another request
-  double deadline_s = 0.0;    ///< as in ExchangeRequest
+  double older_than_s = 0.0;   ///< of kRefresh: only vehicles without a model, or an older one
+  std::string target;          ///< of kFollow and kCancel: the correlation id of another request
+  double deadline_s = 0.0;     ///< as in ExchangeRequest
+  double before_unix_s = 0.0;  ///< of kDiagnoses: only those published earlier; 0: any
 };
 
 struct VehicleSummary {
@@ -115,8 +119,11 @@ struct FleetReply : ExchangeReply {         // of no vehicle: its vehicle_id is 
   std::vector<ModelSummary> models;         ///< of kHistory, newest first; of kRollback the new one
   std::vector<RefreshedVehicle> refreshed;  ///< of kRefresh and kFollow: all
   std::vector<PublishedModel> later_models;  ///< of kModels, oldest first, kModelsAtATime at most
+  /// Of kDiagnoses, newest first, kDiagnosesAtATime at most.
+  std::vector<PublishedDiagnosis> earlier_diagnoses;
 };
 
-inline constexpr std::size_t kModelsAtATime = 16;  ///< some 30 kB each
+inline constexpr std::size_t kModelsAtATime = 16;    ///< some 30 kB each
+inline constexpr std::size_t kDiagnosesAtATime = 4;  ///< some 100 kB each
 
 }  // namespace telltale

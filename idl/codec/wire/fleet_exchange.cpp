@@ -89,6 +89,7 @@ FleetRequest ReadFleetRequest(const telltale_wire_FleetRequest& wire) {
   request.older_than_s = ReadWithin("older_than_s", wire.older_than_s, kFiniteNotNegative);
   request.target = ReadOptionalIdentifier("target", wire.target);
   request.deadline_s = ReadWithin("deadline_s", wire.deadline_s, kFiniteNotNegative);
+  request.before_unix_s = ReadWithin("before_unix_s", wire.before_unix_s, kFiniteNotNegative);
   return request;
 }
 
@@ -101,6 +102,10 @@ PublishedModel ReadLaterModel(const std::string&, const telltale_wire_Model& wir
   return ReadModel(wire);
 }
 
+PublishedDiagnosis ReadEarlierDiagnosis(const std::string&, const telltale_wire_Diagnosis& wire) {
+  return ReadDiagnosis(wire);
+}
+
 FleetReply ReadFleetReply(const telltale_wire_FleetReply& wire) {
   return {{ReadIdentifier("correlation_id", wire.correlation_id), "",
            ReadName("outcome", View(wire.outcome), kReplyOutcomes), TextOf(wire.message),
@@ -110,7 +115,8 @@ FleetReply ReadFleetReply(const telltale_wire_FleetReply& wire) {
           ReadSequence("vehicles", wire.vehicles, ReadVehicleSummary),
           ReadSequence("models", wire.models, ReadModelSummary),
           ReadSequence("refreshed", wire.refreshed, ReadRefreshed),
-          ReadSequence("later_models", wire.later_models, ReadLaterModel)};
+          ReadSequence("later_models", wire.later_models, ReadLaterModel),
+          ReadSequence("earlier_diagnoses", wire.earlier_diagnoses, ReadEarlierDiagnosis)};
 }
 
 }  // namespace
@@ -128,6 +134,7 @@ WireSample<telltale_wire_FleetRequest> Encode(const FleetRequest& request) {
   sample->older_than_s = request.older_than_s;
   wire::Put(sample->target, request.target);
   sample->deadline_s = request.deadline_s;
+  sample->before_unix_s = request.before_unix_s;
   return sample;
 }
 
@@ -151,6 +158,7 @@ WireSample<telltale_wire_FleetReply> Encode(const FleetReply& reply) {
   sample->elapsed_s = reply.elapsed_s;
   sample->retry_after_s = reply.retry_after_s;
   wire::PutSequence(sample->later_models, reply.later_models, wire::FillModel);
+  wire::PutSequence(sample->earlier_diagnoses, reply.earlier_diagnoses, wire::FillDiagnosis);
   return sample;
 }
 

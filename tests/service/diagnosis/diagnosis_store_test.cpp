@@ -3,6 +3,7 @@
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -67,6 +68,34 @@ TEST_P(DiagnosisStoreTest, KeepsTheNewestOfAVehicleInTheirOrder) {
   }
   EXPECT_EQ(PrintReportJson(history.back().diagnosis), PrintReportJson(diagnosis_.diagnosis));
   EXPECT_TRUE(store.History("stranger").empty());
+}
+
+// As a standby does that asks for what it has missed.
+TEST_P(DiagnosisStoreTest, PutsEarlierOnesInTheirPlace) {
+  DiagnosisStore store(Storage());
+  const auto save_earlier = [&](double published_unix_s) {
+    diagnosis_.published_unix_s = published_unix_s;
+    return store.SaveEarlier(diagnosis_);
+  };
+  const auto times = [&] {
+    std::vector<double> published_unix_s;
+    for (const PublishedDiagnosis& kept : store.History(diagnosis_.diagnosis.vehicle_id)) {
+      published_unix_s.push_back(kept.published_unix_s);
+    }
+    return published_unix_s;
+  };
+  EXPECT_TRUE(save_earlier(50.0));
+  EXPECT_EQ(times(), (std::vector{50.0})) << "the first is the last too";
+  for (const double earlier : {40.0, 20.0, 30.0}) EXPECT_TRUE(save_earlier(earlier));
+  for (const double known : {40.0, 50.0}) EXPECT_FALSE(save_earlier(known));
+  EXPECT_EQ(times(), (std::vector{50.0, 40.0, 30.0, 20.0}));
+  EXPECT_TRUE(save_earlier(60.0));
+  EXPECT_EQ(store.Last(diagnosis_.diagnosis.vehicle_id)->published_unix_s, 60.0);
+  EXPECT_EQ(times(), (std::vector{60.0, 50.0, 40.0, 30.0, 20.0}));
+  for (std::size_t i = 0; i < kDiagnosesPerVehicle; ++i)
+    save_earlier(41.0 + 0.1 * static_cast<double>(i));
+  EXPECT_EQ(times().size(), kDiagnosesPerVehicle);
+  EXPECT_EQ(times().back(), 41.2) << "the oldest are dropped";
 }
 
 TEST_P(DiagnosisStoreTest, SharesItsDatabaseWithTheModels) {

@@ -11,9 +11,11 @@
 #include "service/service_fixture.hpp"
 #include "service/standby/daemon_pair.hpp"
 #include "support/stable_boat.hpp"
+#include "telltale/client/fleet/diagnosis_client.hpp"
 #include "telltale/client/fleet/fleet_client.hpp"
 #include "telltale/client/fleet/identification_client.hpp"
 #include "telltale/client/fleet/subscriber.hpp"
+#include "telltale/service/diagnosis/diagnosis_store.hpp"
 
 namespace telltale {
 namespace {
@@ -45,6 +47,17 @@ class StandbyDaemon : public ServiceTest {
     const auto result = client.Identify(request, kTiming, {});
     const bool published = result.outcome == RequestOutcome::kPublished;
     return published ? result.reply->model->revision : 0;
+  }
+
+  /// When the diagnosis was published; 0 where there is none.
+  double Diagnose(const std::string& correlation_id) {
+    DiagnoseRequest request;
+    request.correlation_id = correlation_id;
+    request.vehicle_id = kVehicleId;
+    request.seed = ++seed_;  // unlike any other, so that it joins none
+    const auto result = DiagnosisClient(participant_).Diagnose(request, kTiming, {});
+    const bool published = result.reply && result.reply->diagnosis;
+    return published ? result.reply->diagnosis->published_unix_s : 0.0;
   }
 
   void KillTheFirstOnceBothHaveAModel() {
@@ -152,6 +165,26 @@ TEST_F(StandbyDaemon, LearnsWhatWasPublishedBeforeItServesAgain) {
   EXPECT_TRUE(std::ranges::is_sorted(seen)) << ::testing::PrintToString(seen);
   EXPECT_EQ(seen.back(), 4u);
   EXPECT_THAT(RevisionsKept(), ::testing::ElementsAre(4, 3, 2, 1));
+}
+
+// Made while there was no other, which is given them when it joins.
+TEST_F(StandbyDaemon, HasTheDiagnosesFromBeforeItJoined) {
+  one_ = pair_.Start("one", 2);
+  ASSERT_TRUE(DaemonPair::TakesOver(*one_, 1)) << one_->output();
+  ReplayToBoth();
+  ASSERT_EQ(Identify("first"), 1u);
+  Replay(SimulatedRecording(testing::StableBoat(), 301.0, 120.0, 5));
+  const std::vector<double> published_unix_s = {Diagnose("one"), Diagnose("two")};
+  two_ = pair_.Start("two", 1);
+  ASSERT_TRUE(two_->WaitForOutput("the diagnoses of yellowfish are as complete")) << two_->output();
+  two_->Signal(SIGTERM);
+  EXPECT_EQ(two_->Wait(), 0);
+  const DiagnosisStore store(telltale::Storage(folder_.Path() / "state-two"));
+  std::vector<double> kept;
+  for (const PublishedDiagnosis& diagnosis : store.History(kVehicleId)) {
+    kept.push_back(diagnosis.published_unix_s);
+  }
+  EXPECT_THAT(kept, ::testing::ElementsAre(published_unix_s[1], published_unix_s[0]));
 }
 
 // After a loss of power, say. The stronger one lacks the newest model.

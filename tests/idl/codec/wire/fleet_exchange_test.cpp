@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "idl/codec/wire/wire_support.hpp"
+#include "support/made_up_diagnoses.hpp"
 #include "support/made_up_identifications.hpp"
 
 namespace telltale {
@@ -19,6 +20,7 @@ TEST(WireFleetExchange, RequestArrivesAsItWasSent) {
   sent.older_than_s = 3600.0;
   sent.target = "other";
   sent.deadline_s = 12.5;
+  sent.before_unix_s = 1.7e9;
   const auto received = Decode(*Encode(sent));
   ASSERT_TRUE(received) << received.error().Message();
   EXPECT_EQ(received->correlation_id, "abc-1");
@@ -30,6 +32,7 @@ TEST(WireFleetExchange, RequestArrivesAsItWasSent) {
   EXPECT_EQ(received->older_than_s, 3600.0);
   EXPECT_EQ(received->target, "other");
   EXPECT_EQ(received->deadline_s, 12.5);
+  EXPECT_EQ(received->before_unix_s, 1.7e9);
 }
 
 TEST(WireFleetExchange, RequestNamesItsFault) {
@@ -68,6 +71,7 @@ TEST(WireFleetExchange, ProgressAndReplyArriveAsTheyWereSent) {
   sent.models = {{4, 1.7e9, "STATIC_QUADRATIC", "WEAK_IV", 1.0, 2.0, 500, {}}};
   sent.refreshed = {vehicle};
   sent.later_models = {{MadeUpIdentification(), 4, 1.5}};
+  sent.earlier_diagnoses = {{MadeUpDiagnosis(), 3, 2.5}};
   const auto reply = Decode(*Encode(sent));
   ASSERT_TRUE(reply) << reply.error().Message();
   EXPECT_EQ(reply->outcome, ReplyOutcome::kAnswered);
@@ -77,6 +81,10 @@ TEST(WireFleetExchange, ProgressAndReplyArriveAsTheyWereSent) {
   ASSERT_EQ(reply->later_models.size(), 1u);
   EXPECT_EQ(reply->later_models[0].revision, 4u);
   EXPECT_EQ(reply->later_models[0].published_unix_s, 1.5);
+  ASSERT_EQ(reply->earlier_diagnoses.size(), 1u);
+  EXPECT_EQ(reply->earlier_diagnoses[0].model_revision, 3u);
+  EXPECT_EQ(reply->earlier_diagnoses[0].published_unix_s, 2.5);
+  EXPECT_EQ(reply->earlier_diagnoses[0].diagnosis.sentence, MadeUpDiagnosis().sentence);
   auto wire = Encode(sent);
   wire->vehicles._buffer[0].window_fill = 1.5;
   EXPECT_EQ(Decode(*wire).error().field, "vehicles[0].window_fill");
