@@ -14,6 +14,7 @@ const kMetresPerDegree = 111_320;
 const kMarginPx = 36;
 const kNamedAtMost = 30;
 const kLeastStepPx = 1.5;  // a shorter one is not seen, and a large fleet has many
+const kPositionsAtOnce = 4000;  // of tracks, for one frame
 const kOutline = [[0, -10], [6, 7], [0, 4], [-6, 7]] as const;  // of a boat, its bow up
 
 interface Projection {
@@ -142,50 +143,123 @@ function drawNames(context: CanvasRenderingContext2D, places: Place[], width: nu
   }
 }
 
-/** All boats of one verdict at once: a canvas draws one long path in a fraction of the time of a thousand short ones. */
-function drawBoats(context: CanvasRenderingContext2D, tracks: Track[], to: Projection, lineWidth: number, ink: string, surface: string) {
+/** Boats of one look. */
+interface Group {
+  tracks: Track[];
+  verdict: Verdict;
+  lineWidth: number;
+}
+
+/** The selected boat last and thicker; before it the others, the most urgent on top. */
+function groupsOf(tracks: Track[], selected?: string): Group[] {
+  const groups: Group[] = kLeastUrgentFirst.map((verdict) => ({
+    tracks: tracks.filter((track) => track.verdict === verdict && track.id !== selected), verdict, lineWidth: 1.75,
+  }));
+  for (const track of tracks) if (track.id === selected) groups.push({ tracks: [track], verdict: track.verdict, lineWidth: 3 });
+  return groups.filter((group) => group.tracks.length > 0);
+}
+
+/** The same boats in groups small enough for one frame each. */
+function partsOf(groups: Group[]): Group[] {
+  return groups.flatMap((group) => {
+    const parts: Group[] = [];
+    let positions = Infinity;
+    for (const track of group.tracks) {
+      if (positions + track.latitudeDeg.length > kPositionsAtOnce) {
+        parts.push({ ...group, tracks: [] });
+        positions = 0;
+      }
+      parts.at(-1)?.tracks.push(track);
+      positions += track.latitudeDeg.length;
+    }
+    return parts;
+  });
+}
+
+/** All tracks of a group at once: a canvas draws one long path in a fraction of the time of a thousand short ones. */
+function drawTracks(context: CanvasRenderingContext2D, { tracks, lineWidth }: Group, to: Projection, ink: string) {
   const paths = new Path2D();
   for (const track of tracks) addTrack(paths, track, to);
-  context.strokeStyle = context.fillStyle = ink;
+  context.strokeStyle = ink;
   context.globalAlpha = 0.75;
   context.lineWidth = lineWidth;
   context.lineJoin = "round";
   context.stroke(paths);
   context.globalAlpha = 1;
+}
+
+function drawBoats(context: CanvasRenderingContext2D, { tracks }: Group, to: Projection, ink: string, surface: string) {
   const boats = new Path2D();
   for (const place of placesOf(tracks, to)) addBoat(boats, place);
+  context.fillStyle = ink;
   context.fill(boats);
   context.strokeStyle = surface;
   context.lineWidth = 1.5;
   context.stroke(boats);
 }
 
-/** Draws the tracks, the most urgent last, and gives back where the boats are. */
-function draw(canvas: HTMLCanvasElement, tracks: Track[], selected?: string): Place[] {
-  const { clientWidth: width, clientHeight: height } = canvas;
-  const ratio = window.devicePixelRatio || 1;
-  canvas.width = width * ratio;
-  canvas.height = height * ratio;
-  const context = canvas.getContext("2d");
-  const to = projection(tracks, width, height);
-  if (!context || !to) return [];
-  const style = getComputedStyle(canvas);
-  const colour = (name: string) => style.getPropertyValue(name).trim();
-  const [surface, ink, muted] = [colour("--surface"), colour("--ink"), colour("--muted")];
-  context.scale(ratio, ratio);
-  context.font = "12px system-ui, sans-serif";
-  for (const verdict of kLeastUrgentFirst) {
-    const others = tracks.filter((track) => track.verdict === verdict && track.id !== selected);
-    drawBoats(context, others, to, 1.75, colour(`--${verdict.toLowerCase()}`), surface);
+/** A drawing of the map, which takes a frame for each part of the tracks; what stands before is seen until it is done. */
+class Drawing {
+  private readonly layer = document.createElement("canvas");
+  private readonly groups: Group[];
+  private frame = 0;
+
+  constructor(private readonly canvas: HTMLCanvasElement, private readonly tracks: Track[], selected: string | undefined,
+    private readonly done: (places: Place[]) => void) {
+    this.groups = groupsOf(tracks, selected);
   }
-  for (const track of tracks.filter(({ id }) => id === selected)) {
-    drawBoats(context, [track], to, 3, colour(`--${track.verdict.toLowerCase()}`), surface);
+
+  start() {
+    const { clientWidth: width, clientHeight: height } = this.canvas;
+    const ratio = window.devicePixelRatio || 1;
+    this.layer.width = width * ratio;
+    this.layer.height = height * ratio;
+    const context = this.layer.getContext("2d");
+    const to = projection(this.tracks, width, height);
+    if (!context || !to) {
+      this.show([]);
+    } else {
+      context.scale(ratio, ratio);
+      this.drawNext(partsOf(this.groups), context, to);
+    }
   }
-  const places = placesOf(tracks, to);
-  if (tracks.length <= kNamedAtMost) drawNames(context, places, width, surface, ink);
-  drawScale(context, to, height, muted);
-  drawNorth(context, width, height, muted);
-  return places;
+
+  stop() {
+    cancelAnimationFrame(this.frame);
+  }
+
+  private colour(name: string) {
+    return getComputedStyle(this.canvas).getPropertyValue(name).trim();
+  }
+
+  private colourOf(verdict: Verdict) {
+    return this.colour(`--${verdict.toLowerCase()}`);
+  }
+
+  private drawNext([part, ...rest]: Group[], context: CanvasRenderingContext2D, to: Projection) {
+    if (part) drawTracks(context, part, to, this.colourOf(part.verdict));
+    if (rest.length > 0) this.frame = requestAnimationFrame(() => this.drawNext(rest, context, to));
+    else this.finish(context, to);
+  }
+
+  private finish(context: CanvasRenderingContext2D, to: Projection) {
+    const { clientWidth: width, clientHeight: height } = this.canvas;
+    const [surface, muted] = [this.colour("--surface"), this.colour("--muted")];
+    context.font = "12px system-ui, sans-serif";
+    for (const group of this.groups) drawBoats(context, group, to, this.colourOf(group.verdict), surface);
+    const places = placesOf(this.tracks, to);
+    if (this.tracks.length <= kNamedAtMost) drawNames(context, places, width, surface, this.colour("--ink"));
+    drawScale(context, to, height, muted);
+    drawNorth(context, width, height, muted);
+    this.show(places);
+  }
+
+  private show(places: Place[]) {
+    this.canvas.width = this.layer.width;
+    this.canvas.height = this.layer.height;
+    if (this.layer.width > 0 && this.layer.height > 0) this.canvas.getContext("2d")?.drawImage(this.layer, 0, 0);
+    this.done(places);
+  }
 }
 
 /** The tracks of the last minutes, drawn without tiles. A click on a boat selects it. */
@@ -210,9 +284,22 @@ export function TrackMap({ tracks, selected, select, label }: {
       scheme.removeEventListener("change", redraw);
     };
   }, []);
+  // What comes while a drawing is under way waits for its end: otherwise none would end on a slow machine.
+  const drawing = useRef<Drawing | null>(null);
+  const next = useRef<(() => Drawing) | null>(null);
+  const drawNext = () => {
+    drawing.current = next.current?.() ?? null;
+    next.current = null;
+    drawing.current?.start();
+  };
   useEffect(() => {
-    if (canvas.current) places.current = draw(canvas.current, tracks, selected);
+    next.current = () => new Drawing(canvas.current!, tracks, selected, (found) => {
+      places.current = found;
+      drawNext();
+    });
+    if (!drawing.current) drawNext();
   });
+  useEffect(() => () => drawing.current?.stop(), []);
   const click = (event: MouseEvent) => {
     const near = places.current
       .map(({ id, x, y }) => ({ id, distance: Math.hypot(event.offsetX - x, event.offsetY - y) }))
