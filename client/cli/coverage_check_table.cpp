@@ -18,7 +18,7 @@ std::vector<std::string> Cells(const std::string& name, const CoefficientCoverag
 }
 
 std::string JointCoverageText(const CoverageCheck& coverage_check) {
-  std::string text = "All bounds: " + PercentOf(coverage_check.mean_coverage) + " % held, +-" +
+  std::string text = "All bounds: " + PercentOf(coverage_check.mean_coverage) + " % held, ±" +
                      PercentOf(coverage_check.mean_coverage_error) + " (one sigma)";
   if (coverage_check.joint.of > 0) {
     const Interval joint = BinomialInterval(coverage_check.joint, kCoverageLevel);

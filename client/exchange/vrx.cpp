@@ -72,10 +72,10 @@ std::string ElementOf(const Drag& drag, const Identification& identification,
   };
   if (c.status == CoefficientStatus::kNotExcited) return line(0.0, "not excited by the data");
   if (value < 0.0) {
-    return line(0.0, "the estimate, " + Text(value) + " +- " + Text(scale * c.standard_error) +
+    return line(0.0, "the estimate, " + Text(value) + " ± " + Text(scale * c.standard_error) +
                          ", has the sign of a push; left out");
   }
-  return line(value, "+- " + Text(scale * c.standard_error));
+  return line(value, "± " + Text(scale * c.standard_error));
 }
 
 bool IsCarried(const Coefficient& coefficient) {

@@ -61,7 +61,7 @@ class PhysicalSdf {
     for (const PhysicalDrag& drag : kPhysicalDrags) {
       const Coefficient& parameter = Of(drag.parameter);
       text += Element(drag.element, Scaled(drag.parameter),
-                      "+- " + Text(mass_kg_ * parameter.standard_error));
+                      "± " + Text(mass_kg_ * parameter.standard_error));
     }
     return text + "</plugin>\n";
   }
@@ -83,7 +83,7 @@ class PhysicalSdf {
   std::string AddedMassInSway() const {
     const double beyond_surge = Scaled(kM22) - mass_kg_;
     if (beyond_surge >= 0.0) {
-      return Element("yDotV", beyond_surge, "+- " + Text(mass_kg_ * Of(kM22).standard_error));
+      return Element("yDotV", beyond_surge, "± " + Text(mass_kg_ * Of(kM22).standard_error));
     }
     return Element("yDotV", 0.0,
                    "the estimate, " + Text(beyond_surge) + ", is less than none; left out");

@@ -401,7 +401,7 @@ std::optional<Refusal> ConstantAngle(const Motion& motion) {
   return Refusal{"heading",
                  "headings seem to be magnetic, or the compass to be turned: over headings all "
                  "around the course keeps " +
-                     angle + " +- " + FormatNumber(error / kRadiansPerDegree, 0) +
+                     angle + " ± " + FormatNumber(error / kRadiansPerDegree, 0) +
                      " degrees from the heading",
                  "add " + angle + " degrees to the headings, or the declination of the place"};
 }

@@ -121,11 +121,11 @@ std::string InWords(const ExpectedBounds& expected) {
   const bool relative = expected.expected_half_width < size;
   const auto width = [&](double half_width) {
     return relative
-               ? "+-" + TwoDigits(100.0 * half_width / size) + " %"
-               : "+-" + TwoDigits(half_width) + (expected.unit == "1" ? "" : ' ' + expected.unit);
+               ? "±" + TwoDigits(100.0 * half_width / size) + " %"
+               : "±" + TwoDigits(half_width) + (expected.unit == "1" ? "" : ' ' + expected.unit);
   };
   if (std::isinf(expected.half_width)) {
-    const std::string now = "+-" + TwoDigits(expected.expected_half_width) +
+    const std::string now = "±" + TwoDigits(expected.expected_half_width) +
                             (expected.unit == "1" ? "" : ' ' + expected.unit);
     return name + " from unknown to " + now;
   }

@@ -66,7 +66,7 @@ class ManoeuvreAdvisor {
   std::vector<SimulatedManoeuvre> simulated_;
 };
 
-/// "zigzag for 120 s would shrink YAW r|r| from +-40 % to +-8 %", of at most `most` coefficients;
+/// "zigzag for 120 s would shrink YAW r|r| from ±40 % to ±8 %", of at most `most` coefficients;
 /// empty where it would do nothing of note.
 std::string InWords(const ManoeuvreAdvice& advice, std::size_t most = 3);
 

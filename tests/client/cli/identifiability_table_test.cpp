@@ -36,8 +36,8 @@ TEST(IdentifiabilityTableTest, ShowsHowSeparableCoefficientsAre) {
 TEST(IdentifiabilityTableTest, AdvisesWithWhatIsToBeExpected) {
   std::string text = IdentifiabilityTable(WithIdentifiability(MadeUpIdentification()));
   text = std::regex_replace(text, std::regex("\\s+"), " ");
-  EXPECT_THAT(text, AllOf(HasSubstr("zigzag for 120 s would shrink YAW r|r| from +-40 % to +-13 %"),
-                          HasSubstr("SURGE vr from unknown to +-0.12"),
+  EXPECT_THAT(text, AllOf(HasSubstr("zigzag for 120 s would shrink YAW r|r| from ±40 % to ±13 %"),
+                          HasSubstr("SURGE vr from unknown to ±0.12"),
                           HasSubstr("-> changing sides every 6 s")));
   // A manoeuvre that would do nothing is not advised.
   EXPECT_THAT(text, Not(HasSubstr("spins")));

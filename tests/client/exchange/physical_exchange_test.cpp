@@ -68,7 +68,7 @@ TEST(PhysicalVrx, HoldsMassAndDampingOfTheBoat) {
                                                         {"nR", "5"},
                                                         {"nRR", "4"},
                                                         {"yDotV", "10"}}) {
-    EXPECT_THAT(sdf, HasSubstr("  <" + element + ">" + value + "</" + element + ">  <!-- +- 0.2"));
+    EXPECT_THAT(sdf, HasSubstr("  <" + element + ">" + value + "</" + element + ">  <!-- ± 0.2"));
   }
   EXPECT_THAT(sdf, HasSubstr("<mass>20</mass> and <izz>3.6</izz>"));
   EXPECT_THAT(sdf, HasSubstr("m23 0.6, Yr 1, Nv -1, Yuv 6, Yur 2, Nuv -2, Nur 2"));

@@ -130,7 +130,7 @@ INSTANTIATE_TEST_SUITE_P(
               [](Input& i) { ChangeHeadings(i, [](double h) { return h - 90.0; }); },
               "counted from east, clockwise"},
         Fault{"magnetic", [](Input& i) { ChangeHeadings(i, [](double h) { return h + 20.0; }); },
-              "keeps -20 +- 0 degrees from the heading"},
+              "keeps -20 ± 0 degrees from the heading"},
         Fault{"stuck_heading", [](Input& i) { ChangeHeadings(i, [](double) { return 12.0; }); },
               "heading seems to be stuck"},
         Fault{"stuck_port_thruster",
