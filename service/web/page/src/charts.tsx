@@ -34,7 +34,8 @@ function drawLimits(chart: uPlot, colour: (name: string) => string) {
   context.moveTo(left, at(1));
   context.lineTo(left + width, at(1));
   context.stroke();
-  context.fillText("normal error", left + width - 8 * ratio, at(1) + 15 * ratio);
+  const below = at(1) + 15 * ratio;
+  context.fillText("normal error", left + width - 8 * ratio, below < top + height ? below : at(1) - 5 * ratio);
   context.restore();
 }
 
