@@ -6,9 +6,8 @@
 namespace telltale {
 namespace {
 
-// Calibrated by DriftCalibration in tests/service/monitoring, on simulated weather whose strength
-// changes by a third.
-constexpr double kToleratedRelativeError = 1.75;
+// Weather whose strength doubles from day to day does not reach it: docs/validation/monitoring.md.
+constexpr double kToleratedRelativeError = 4.0;
 constexpr double kAlarmThreshold = 20.0;
 constexpr double kExcessLimit = 2.0 * kAlarmThreshold;  // so that an alarm ends after its cause
 

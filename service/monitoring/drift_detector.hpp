@@ -2,12 +2,11 @@
 
 namespace telltale {
 
-/// Whether a model no longer fits, by a one-sided cumulative sum of the relative prediction error
-/// beyond 1.75, which changes of weather may reach. The relative error is in units of the error
-/// when the model was identified. A constant relative error of 3 raises the alarm after 16
-/// evaluations, one of 2 after 80, and one of 1.75 or less never. docs/guides/operations.md states
-/// the rate of false alarms. Source: E. S. Page, "Continuous inspection schemes", Biometrika 41
-/// (1954).
+/// Whether a model errs far more than any weather makes it, by a one-sided cumulative sum of the
+/// relative prediction error beyond 4. The relative error is in units of the error when the model
+/// was identified. A constant relative error of 6 raises the alarm after 10 evaluations, one of 4.5
+/// after 40, and one of 4 or less never: DriftTest finds smaller changes by their pattern.
+/// Source: E. S. Page, "Continuous inspection schemes", Biometrika 41 (1954).
 class DriftDetector {
  public:
   /// Adds the relative error of one evaluation, with 5 s or more of new data. NaN is ignored.

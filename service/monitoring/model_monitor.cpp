@@ -23,14 +23,17 @@ void ModelMonitor::Evaluate(VehicleWindow& window, double end_s, const StoredMod
   if (std::exchange(revision_, revision) != revision) {
     prediction_error_.reset();
     drift_ = 0.0;
-    drift_detector_ = DriftDetector();
-    rises_since_.reset();
-  } else if (end_s < evaluated_to_s_ + kNewDataS) {
+    pattern_ = DriftMonitor();
+    size_ = DriftDetector();
+    size_onset_ = OnsetClock();
+  } else if (end_s >= evaluated_to_s_ && end_s < evaluated_to_s_ + kNewDataS) {
     return;
   }
   evaluated_to_s_ = end_s;
-  const auto error = MeasureFreeRunError(Latest(window.Snapshot(), kEvaluatedSpanS),
-                                         window.vehicle(), model.model.identification);
+  const Recording recording = window.Snapshot();
+  pattern_.Follow(recording, window.vehicle(), model.model.identification);
+  const auto error = MeasureFreeRunError(Latest(recording, kEvaluatedSpanS), window.vehicle(),
+                                         model.model.identification);
   if (error) Add(RelativeError(*error, *model.reference_error));
 }
 
@@ -39,31 +42,26 @@ void ModelMonitor::Add(double relative_error) {
     drift_ += kDriftWeight * (relative_error - *prediction_error_ - drift_);
   }
   prediction_error_ = relative_error;
-  drift_detector_.Add(relative_error);
-  if (!drift_detector_.Rises()) {
-    rises_since_.reset();
-  } else if (!rises_since_) {
-    rises_since_ = Onset{UnixNow(), evaluated_to_s_};
-  }
+  size_.Add(relative_error);
+  size_onset_.Note(size_.Rises(), evaluated_to_s_);
 }
 
-std::optional<double> ModelMonitor::DriftSince() const {
-  if (!drift_detector_.Fires() || !rises_since_) return std::nullopt;
-  return rises_since_->unix_s;
-}
-
-std::optional<double> ModelMonitor::DriftOnsetS() const {
-  if (!drift_detector_.Fires() || !rises_since_) return std::nullopt;
-  return rises_since_->vehicle_s;
+std::optional<OnsetTime> ModelMonitor::DriftOnset() const {
+  if (pattern_.Fires()) return pattern_.onset();
+  if (size_.Fires()) return size_onset_.onset();
+  return std::nullopt;
 }
 
 std::string ModelMonitor::Proposal(std::string_view vehicle_id) {
-  const bool had_proposed = std::exchange(proposed_, drift_detector_.Fires());
+  const bool had_proposed = std::exchange(proposed_, DriftOnset().has_value());
   if (!proposed_) return "";
+  const std::string pattern = pattern_.Pattern();
   std::string proposal = fmt::format(
-      "revision {} predicts {:.1f} times worse than when it was made; "
-      "telltale diagnose --vehicle-id {} asks why",
-      revision_, prediction_error(), vehicle_id);
+      "{}; telltale diagnose --vehicle-id {} asks why",
+      pattern.empty() ? fmt::format("revision {} predicts {:.1f} times worse than when it was made",
+                                    revision_, prediction_error())
+                      : fmt::format("the errors of revision {} show: {}", revision_, pattern),
+      vehicle_id);
   if (!had_proposed) spdlog::warn("{}: {}", vehicle_id, proposal);
   return proposal;
 }

@@ -8,16 +8,19 @@
 #include "telltale/service/ingest/vehicle_window.hpp"
 #include "telltale/service/models/model_store.hpp"
 #include "telltale/service/monitoring/drift_detector.hpp"
+#include "telltale/service/monitoring/drift_monitor.hpp"
+#include "telltale/service/monitoring/onset_clock.hpp"
 
 namespace telltale {
 
-/// How well the latest model of a vehicle predicts the newest minute, and whether that has drifted.
-/// A new revision starts anew. Not thread safe.
+/// How well the latest model of a vehicle predicts the newest minute, and whether the vehicle has
+/// drifted from it: by the pattern of its errors, or by their mere size. A new revision starts
+/// anew. Not thread safe.
 class ModelMonitor {
  public:
   /// Evaluates the model on the last minute of the window, which ends at `end_s` of the vehicle's
-  /// clock. Does nothing where less than 5 s have come since the last evaluation, and for a model
-  /// without a reference error.
+  /// clock. Does nothing where less than 5 s have come since the last evaluation, unless the clock
+  /// went back, and for a model without a reference error.
   void Evaluate(VehicleWindow& window, double end_s, const StoredModel& model);
 
   /// The free-run error over 5 s in units of that when the model was made; 0 where not evaluated.
@@ -26,29 +29,22 @@ class ModelMonitor {
   /// The running mean of the change of prediction_error() per evaluation.
   double drift() const { return drift_; }
 
-  /// The onset of the drift by the daemon's clock, while there is one.
-  std::optional<double> DriftSince() const;
-
-  /// The same by the vehicle's clock.
-  std::optional<double> DriftOnsetS() const;
+  /// The onset of the drift, while there is one.
+  std::optional<OnsetTime> DriftOnset() const;
 
   /// What to do where the model no longer fits; empty where it does. Logs each onset once.
   std::string Proposal(std::string_view vehicle_id);
 
  private:
-  struct Onset {
-    double unix_s = 0.0;
-    double vehicle_s = 0.0;  // by the vehicle's clock
-  };
-
   void Add(double relative_error);
 
   std::uint64_t revision_ = 0;   ///< of the model evaluated
   double evaluated_to_s_ = 0.0;  ///< the vehicle's time of the newest sample evaluated
   std::optional<double> prediction_error_;
   double drift_ = 0.0;
-  DriftDetector drift_detector_;
-  std::optional<Onset> rises_since_;  ///< while the sum of the detector is above zero
+  DriftMonitor pattern_;
+  DriftDetector size_;
+  OnsetClock size_onset_;
   bool proposed_ = false;
 };
 

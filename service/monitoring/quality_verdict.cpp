@@ -121,9 +121,8 @@ void AddModel(const Quality& quality, const VerdictLimits& limits, Reasons& reas
   }
   if (quality.drift_since_unix_s > 0.0) {
     reasons.Add("DRIFT", quality.prediction_error >= limits.error_ratio ? kError : kWarn,
-                fmt::format("the model no longer matches the boat: revision {} predicts {:.1f} "
-                            "times worse than when it was made",
-                            quality.model_revision.value_or(0), quality.prediction_error));
+                "the model no longer matches the boat: " +
+                    quality.proposal.substr(0, quality.proposal.find(';')));
   }
 }
 

@@ -120,7 +120,8 @@ void VehicleMonitor::AddModel(VehicleWindow& window, double end_s, const StoredM
   quality.model_age_s = UnixNow() - latest.model.published_unix_s;
   quality.prediction_error = model_.prediction_error();
   quality.drift = model_.drift();
-  quality.drift_since_unix_s = model_.DriftSince().value_or(0.0);
+  const auto onset = model_.DriftOnset();
+  quality.drift_since_unix_s = onset ? onset->unix_s : 0.0;
   quality.proposal = model_.Proposal(quality.vehicle_id);
   quality.model_verdict = latest.model.promotion;
   quality.delays = DelaysOf(latest.model.identification);

@@ -27,7 +27,10 @@ class VehicleMonitor {
                  double elapsed_s);
 
   /// The onset of the drift by the vehicle's clock, while there is one.
-  std::optional<double> DriftOnsetS() const { return model_.DriftOnsetS(); }
+  std::optional<double> DriftOnsetS() const {
+    const auto onset = model_.DriftOnset();
+    return onset ? std::optional(onset->vehicle_s) : std::nullopt;
+  }
 
   /// The quality of the last period with the counts of now.
   Quality Receipt(VehicleWindow& window);

@@ -217,7 +217,7 @@ TEST_F(LiveDiagnosis, IsProposedWhereTheModelNoLongerFits) {
       AwaitQuality(kVehicleId, [](const Quality& q) { return !q.proposal.empty(); });
   ASSERT_TRUE(quality) << daemon->output();
   EXPECT_THAT(quality->proposal, HasSubstr("telltale diagnose --vehicle-id yellowfish"));
-  EXPECT_TRUE(daemon->WaitForOutput("times worse than when it was made"));
+  EXPECT_TRUE(daemon->WaitForOutput("telltale diagnose --vehicle-id yellowfish asks why"));
   const auto monitor = Start({"monitor", "--once"});
   EXPECT_EQ(monitor->Wait(), 0);
   // The monitor wraps its lines.

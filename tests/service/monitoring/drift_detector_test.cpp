@@ -19,9 +19,9 @@ std::optional<int> EvaluationsUntilDrift(double relative_error) {
 }
 
 TEST(DriftDetector, FiresTheSoonerTheWorseAndNeverWithinBounds) {
-  EXPECT_EQ(EvaluationsUntilDrift(3.0), 16);  // 20 / 1.25
-  EXPECT_EQ(EvaluationsUntilDrift(2.0), 80);  // 20 / 0.25
-  EXPECT_EQ(EvaluationsUntilDrift(1.75), std::nullopt);
+  EXPECT_EQ(EvaluationsUntilDrift(6.0), 10);  // 20 / 2
+  EXPECT_EQ(EvaluationsUntilDrift(4.5), 40);  // 20 / 0.5
+  EXPECT_EQ(EvaluationsUntilDrift(4.0), std::nullopt);
   EXPECT_EQ(EvaluationsUntilDrift(std::nan("")), std::nullopt);
   EXPECT_EQ(EvaluationsUntilDrift(HUGE_VAL), 1);
 }
@@ -29,18 +29,18 @@ TEST(DriftDetector, FiresTheSoonerTheWorseAndNeverWithinBounds) {
 TEST(DriftDetector, OneBadMinuteIsNoDrift) {
   DriftDetector test;
   for (int i = 0; i < 1000; ++i) {
-    test.Add(i % 12 == 0 ? 4.0 : 1.0);
+    test.Add(i % 12 == 0 ? 8.0 : 1.0);
     EXPECT_FALSE(test.Fires()) << i;
   }
 }
 
 TEST(DriftDetector, EndsOnceTheErrorHasBeenSmallAgain) {
   DriftDetector test;
-  for (int i = 0; i < 100; ++i) test.Add(5.0);
+  for (int i = 0; i < 100; ++i) test.Add(9.0);
   EXPECT_TRUE(test.Fires());
   int until = 0;
   for (; test.Fires() && until < 100; ++until) test.Add(1.0);
-  EXPECT_EQ(until, 54);  // 40 / 0.75
+  EXPECT_EQ(until, 14);  // 40 / 3
 }
 
 }  // namespace

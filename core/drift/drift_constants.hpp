@@ -1,0 +1,66 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <string_view>
+
+namespace telltale {
+
+/// A change that the drift test watches for: one parameter of an effect of the library, in its
+/// unit. In a boat as its model has it the parameter is zero.
+struct WatchedChange {
+  std::string_view effect;
+  std::size_t parameter = 0;
+  double step = 0.0;  ///< of the secant; its sign says on which side
+  bool both_signs = false;
+  double tolerance = 0.0;               ///< a change up to which the model holds
+  double largest_standard_error = 0.0;  ///< beyond it, blocks tell too little of the change
+  double alarm_sigmas = 0.0;            ///< standard errors beyond the tolerance
+};
+
+/// A parameter of what may act on any boat at any time and is no change.
+struct WatchedNuisance {
+  std::string_view effect;
+  std::size_t parameter = 0;
+  double step = 0.0;
+  double prior_sd = 0.0;
+};
+
+/// Calibrated on boats of bench/drift with seeds from 2001 to 2099; docs/validation/monitoring.md
+/// is of other seeds.
+struct DriftConstants {
+  double window_s = 5.0;                      ///< s, of a free run
+  std::size_t block_windows = 12;             ///< between evaluations: a minute
+  std::array<std::size_t, 2> spans = {5, 9};  ///< blocks over which a change is sought
+  /// Of what no change explains; beyond it, errors follow no pattern that is known.
+  double largest_residual_variance = 4.0;
+  std::size_t reference_windows = 60;    ///< that the reference needs
+  double covariance_shrinkage = 0.15;    ///< 1, share of the diagonal in the errors' covariance
+  double least_command_range = 0.2;      ///< of full command, by which a window tells of forces
+  double least_heading_range_rad = 0.3;  ///< rad, by which a window tells of sideslip
+  double largest_sigmas = 4.0;           ///< root mean square beyond which a window counts less
+  double largest_error = 10.0;  ///< m or rad, beyond which a run has diverged and does not count
+  std::array<WatchedChange, 4> changes = {{
+      {"thruster_imbalance", 0, 0.1, false, 0.075, 0.015, 4.0},
+      {"thruster_imbalance", 0, -0.1, false, 0.075, 0.015, 4.0},
+      {"hull_fouling", 0, 0.2, false, 0.2, 0.04, 4.0},
+      {"heading_bias", 0, 0.05, true, 0.035, 0.0117, 2.0},
+  }};
+  std::array<WatchedNuisance, 7> nuisances = {{
+      {"wind", 0, 4.0, 4.0},
+      {"wind", 1, 4.0, 4.0},
+      {"current", 0, 0.1, 0.3},
+      {"current", 1, 0.1, 0.3},
+      {"body_bias", 0, 0.02, 0.05},
+      {"body_bias", 1, 0.02, 0.05},
+      {"body_bias", 2, 0.02, 0.05},
+  }};
+  double drift_through_water_sd = 0.2;  ///< m/s, north and east, by wind and current
+  double sideslip_in_turns_sd = 0.5;    ///< m/s for 1 rad/s, and for 1 m/s times 1 rad/s
+  /// Of what free runs say of the compass. Their errors are less independent than sideslips are.
+  double free_runs_weight = 0.5;
+};
+
+inline constexpr DriftConstants kDrift;
+
+}  // namespace telltale

@@ -1,0 +1,64 @@
+#include "telltale/service/monitoring/drift_monitor.hpp"
+
+#include <algorithm>
+
+#include "telltale/core/data/preparation.hpp"
+#include "telltale/core/data/recording_parts.hpp"
+#include "telltale/core/drift/drift_constants.hpp"
+
+namespace telltale {
+namespace {
+
+// The filters of the preparation need rows on both sides, and segments a minimum length.
+constexpr double kFilterLeadS = 15.0;
+constexpr double kFilterTailS = 2.0;
+constexpr double kReferenceS = 1200.0;
+constexpr double kBlockS = static_cast<double>(kDrift.block_windows) * kDrift.window_s;
+constexpr double kLongestBlockS = 2.0 * kBlockS;  // where telemetry comes faster than time
+
+/// Leaves of each segment the rows in [from_s, to_s]. What led to them stays known.
+void Restrict(PreparedDataset& dataset, double from_s, double to_s) {
+  const auto later = [&](double time_s) {
+    return static_cast<std::size_t>(
+        std::ranges::lower_bound(dataset.rows, time_s, {}, &PreparedRow::time_s) -
+        dataset.rows.begin());
+  };
+  const std::size_t first = later(from_s);
+  const std::size_t last = later(to_s);
+  for (RowRange& segment : dataset.segments) {
+    segment.begin = std::clamp(first, segment.begin, segment.end);
+    segment.end = std::clamp(last, segment.begin, segment.end);
+  }
+}
+
+}  // namespace
+
+void DriftMonitor::Follow(const Recording& recording, const Vehicle& vehicle,
+                          const Identification& identification) {
+  const double settled_s = EndTime(recording) - kFilterTailS;
+  const double new_s = settled_s - followed_to_s_;
+  if (new_s >= 0.0 && new_s < kBlockS) return;
+  const auto model = ModelOf(identification);
+  if (!model) return;
+  PrepareOptions options;
+  options.sampling_period_s = identification.sampling_period_s;
+  // A clock that went back begins anew with the newest block.
+  const double span_s = test_ ? std::clamp(new_s, kBlockS, kLongestBlockS) : kReferenceS;
+  auto dataset = Prepare(Latest(recording, span_s + kFilterTailS + kFilterLeadS), vehicle, options);
+  followed_to_s_ = settled_s;
+  if (!dataset) return;
+  if (!test_) {
+    reference_ = DriftReferenceOf(*dataset, *model);
+    if (reference_) test_.emplace(DriftEvidenceOf(*dataset, *model, *reference_));
+    return;
+  }
+  Restrict(*dataset, settled_s - span_s, settled_s);
+  test_->Add(DriftEvidenceOf(*dataset, *model, *reference_));
+  onset_.Note(test_->Rises() || test_->Fires(), settled_s);
+}
+
+std::string DriftMonitor::Pattern() const {
+  return Fires() ? test_->Alarm()->Describe() : "";
+}
+
+}  // namespace telltale

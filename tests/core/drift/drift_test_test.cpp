@@ -1,0 +1,102 @@
+#include "telltale/core/drift/drift_test.hpp"
+
+#include <cstddef>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+namespace telltale {
+namespace {
+
+enum Change : Eigen::Index { kPort = 0, kStarboard = 1, kDrag = 2, kCompass = 3 };
+
+constexpr double kPrecision = 200.0;  // of a window: in five minutes, a standard error of 0.009
+constexpr std::size_t kBlock = kDrift.block_windows;
+
+/// Windows in whose errors a change shows, and nothing else.
+std::vector<DriftEvidence> Windows(std::size_t count, Change change, double size,
+                                   double precision = kPrecision) {
+  DriftEvidence window = DriftEvidence::None();
+  window.free_runs.information(change, change) = precision;
+  window.free_runs.projection[change] = precision * size;
+  window.free_runs.squares = precision * size * size;
+  window.free_runs.terms = 9.0;
+  return std::vector(count, window);
+}
+
+std::vector<DriftEvidence> Reference(Change change, double size = 0.0) {
+  return Windows(20 * kBlock, change, size);
+}
+
+/// Minutes until it fires; 0: not within half an hour.
+int MinutesUntilAlarm(DriftTest& test, const std::vector<DriftEvidence>& block) {
+  for (int minute = 1; minute <= 30; ++minute) {
+    test.Add(block);
+    if (test.Fires()) return minute;
+  }
+  return 0;
+}
+
+TEST(DriftTest, FindsAndNamesAChangeWithinTheShortestSpan) {
+  DriftTest test(Reference(kPort));
+  EXPECT_EQ(MinutesUntilAlarm(test, Windows(kBlock, kPort, 0.15)), 5);
+  EXPECT_EQ(test.Alarm()->Describe(), "port thruster 15 % weaker");
+  DriftTest other(Reference(kStarboard));
+  EXPECT_EQ(MinutesUntilAlarm(other, Windows(kBlock, kStarboard, -0.15)), 5);
+  EXPECT_EQ(other.Alarm()->Describe(), "starboard thruster 15 % weaker");
+}
+
+TEST(DriftTest, IsSilentWithinToleranceHoweverSureTheChangeIs) {
+  DriftTest test(Reference(kPort));
+  EXPECT_EQ(MinutesUntilAlarm(test, Windows(kBlock, kPort, 0.07, 1e6)), 0);
+  EXPECT_FALSE(test.Rises());
+}
+
+TEST(DriftTest, TakesOffWhatTheModelErrsItself) {
+  DriftTest test(Reference(kDrag, 0.3));
+  EXPECT_EQ(MinutesUntilAlarm(test, Windows(kBlock, kDrag, 0.3)), 0);
+  EXPECT_GT(MinutesUntilAlarm(test, Windows(kBlock, kDrag, 0.7)), 0);
+}
+
+TEST(DriftTest, SaysNothingOfWhatTheWindowsDoNotTell) {
+  DriftTest test(Reference(kPort));
+  EXPECT_EQ(MinutesUntilAlarm(test, Windows(kBlock, kPort, 0.9, 0.1)), 0);
+  DriftTest without_reference(std::vector<DriftEvidence>(20 * kBlock, DriftEvidence::None()));
+  EXPECT_EQ(MinutesUntilAlarm(without_reference, Windows(kBlock, kPort, 0.9)), 0);
+}
+
+TEST(DriftTest, AStrongerThrusterOrLessDragIsNoFault) {
+  DriftTest thrust(Reference(kPort));
+  EXPECT_EQ(MinutesUntilAlarm(thrust, Windows(kBlock, kPort, -0.3)), 0);
+  DriftTest drag(Reference(kDrag));
+  EXPECT_EQ(MinutesUntilAlarm(drag, Windows(kBlock, kDrag, -0.5)), 0);
+}
+
+TEST(DriftTest, ACompassMayTurnToEitherSide) {
+  for (const double bias_rad : {0.07, -0.07}) {
+    DriftTest test(Windows(20 * kBlock, kCompass, 0.0, 2000.0));
+    EXPECT_GT(MinutesUntilAlarm(test, Windows(kBlock, kCompass, bias_rad, 2000.0)), 0);
+  }
+}
+
+TEST(DriftTest, SaysNothingWhereErrorsFollowNoPattern) {
+  DriftTest test(Reference(kPort));
+  std::vector<DriftEvidence> block = Windows(kBlock, kPort, 0.15);
+  for (DriftEvidence& window : block) window.free_runs.squares += 9.0 * 5.0;
+  EXPECT_EQ(MinutesUntilAlarm(test, block), 0);
+}
+
+TEST(DriftTest, EndsOnceTheBoatIsAsItWas) {
+  DriftTest test(Reference(kPort));
+  ASSERT_GT(MinutesUntilAlarm(test, Windows(kBlock, kPort, 0.15)), 0);
+  const std::vector<DriftEvidence> silence(kBlock, DriftEvidence::None());
+  for (int minute = 0; minute < 30; ++minute) test.Add(silence);
+  EXPECT_TRUE(test.Fires()) << "no evidence is none that it has ended";
+  for (std::size_t minute = 0; minute < kDrift.spans.back(); ++minute) {
+    test.Add(Windows(kBlock, kPort, 0.0));
+  }
+  EXPECT_FALSE(test.Fires());
+}
+
+}  // namespace
+}  // namespace telltale
