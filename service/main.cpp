@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include <malloc.h>
 #include <semaphore.h>
 #include <unistd.h>
 
@@ -119,7 +120,15 @@ int Serve(DaemonConfig config, const std::string& config_file, const Signals& si
   return receiving ? 0 : kFailure;
 }
 
+/// glibc lets threads beyond eight a processor share their heaps. One that computes and gets no
+/// processor could then hold the heap of one that must not wait.
+void GiveEachThreadAHeap() {
+  constexpr int kMoreThanThreads = 1024;
+  mallopt(M_ARENA_MAX, kMoreThanThreads);
+}
+
 int Main(int argc, char** argv) {
+  GiveEachThreadAHeap();
   SilenceSolverLog();
   SilenceProtobufLog();
   CLI::App app{"Identifies a fleet's vehicles from their telemetry over DDS.", "telltaled"};

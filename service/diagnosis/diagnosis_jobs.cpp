@@ -49,13 +49,13 @@ DiagnosisJobs::DiagnosisJobs(const Fleet& fleet, const PublishedModels& models,
       settings_(settings),
       jobs_(
           "diagnosis", fleet, replies, kWorkers, settings.queue_limit,
-          [this](const DiagnoseRequest& request, const Progress& progress) {
-            return DiagnoseAndPublish(request, progress);
+          [this](const DiagnoseRequest& request, const Computation& computation) {
+            return DiagnoseAndPublish(request, computation);
           },
           &journal) {}
 
 DiagnoseReply DiagnosisJobs::DiagnoseAndPublish(const DiagnoseRequest& request,
-                                                const Progress& progress) {
+                                                const Computation& computation) {
   const DiagnoseOptions options = DiagnoseOptionsOf(request, settings_);
   if (const auto fault = options.Validate()) {
     return ReplyTo<DiagnoseReply>(request, ReplyOutcome::kFailed,
@@ -63,9 +63,9 @@ DiagnoseReply DiagnosisJobs::DiagnoseAndPublish(const DiagnoseRequest& request,
   }
   const auto stored = models_.Latest(request.vehicle_id);
   if (!stored) return RefusedWith(request, Unmodelled(request.vehicle_id));
-  auto diagnosed = DiagnoseWindow(stored->model, options, progress);
+  auto diagnosed = DiagnoseWindow(stored->model, options, computation);
   if (!diagnosed) return RefusedWith(request, std::move(diagnosed).error());
-  progress("publish", 1.0);
+  computation.Report("publish", 1.0);
   auto reply = ReplyTo<DiagnoseReply>(request, ReplyOutcome::kPublished);
   reply.diagnosis = {std::move(diagnosed->diagnosis), stored->model.revision, UnixNow()};
   reply.augmented = std::move(diagnosed->augmented);
@@ -75,10 +75,10 @@ DiagnoseReply DiagnosisJobs::DiagnoseAndPublish(const DiagnoseRequest& request,
 
 Result<DiagnosedModel> DiagnosisJobs::DiagnoseWindow(const PublishedModel& model,
                                                      const DiagnoseOptions& options,
-                                                     const Progress& progress) const {
+                                                     const Computation& computation) const {
   const std::string& vehicle_id = model.identification.vehicle_id;
   VehicleWindow& window = fleet_.WindowOf(vehicle_id);
-  progress("preparing data", 0.0);
+  computation.Report("preparing data", 0.0);
   const auto live = SelectDiagnosisRecordings(window.Snapshot(), model,
                                               baselines_.Behind(vehicle_id, model.revision),
                                               view_.DriftOnsetOf(vehicle_id));
@@ -93,8 +93,9 @@ Result<DiagnosedModel> DiagnosisJobs::DiagnoseWindow(const PublishedModel& model
     if (!baseline) return tl::unexpected(std::move(baseline).error());
     references.push_back(*std::move(baseline));
   }
-  auto diagnosed =
-      Diagnose(*since, references, model.identification, vehicle_id, options, progress);
+  auto diagnosed = computation([&](const Progress& progress) {
+    return Diagnose(*since, references, model.identification, vehicle_id, options, progress);
+  });
   if (!diagnosed) return diagnosed;
   diagnosed->diagnosis.notes.push_back(live->basis);
   if (!live->left_out.empty()) diagnosed->diagnosis.notes.push_back(live->left_out);

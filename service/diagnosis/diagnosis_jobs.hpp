@@ -36,9 +36,9 @@ class DiagnosisJobs {
   QueueActivity Activity() const { return jobs_.Activity(); }
 
  private:
-  DiagnoseReply DiagnoseAndPublish(const DiagnoseRequest& request, const Progress& progress);
+  DiagnoseReply DiagnoseAndPublish(const DiagnoseRequest& request, const Computation& computation);
   Result<DiagnosedModel> DiagnoseWindow(const PublishedModel& model, const DiagnoseOptions& options,
-                                        const Progress& progress) const;
+                                        const Computation& computation) const;
 
   const Fleet& fleet_;
   const PublishedModels& models_;

@@ -4,7 +4,6 @@
 #include <string>
 #include <utility>
 
-#include "telltale/core/identification/progress.hpp"
 #include "telltale/idl/codec/daemon_config.hpp"
 #include "telltale/idl/codec/messages/exchange.hpp"
 #include "telltale/service/ingest/fleet.hpp"
@@ -38,7 +37,7 @@ class IdentificationJobs {
   QueueActivity Activity() const { return jobs_.Activity(); }
 
  private:
-  IdentifyReply IdentifyAndPublish(const IdentifyRequest& request, const Progress& progress);
+  IdentifyReply IdentifyAndPublish(const IdentifyRequest& request, const Computation& computation);
 
   const Fleet& fleet_;
   PublishedModels& models_;

@@ -24,8 +24,8 @@
 #include <spdlog/spdlog.h>
 
 #include "telltale/client/bus/bus_log.hpp"
-#include "telltale/core/identification/progress.hpp"
 #include "telltale/service/ingest/fleet.hpp"
+#include "telltale/service/jobs/computation.hpp"
 #include "telltale/service/jobs/exchange_history.hpp"
 #include "telltale/service/jobs/job.hpp"
 #include "telltale/service/jobs/queue_activity.hpp"
@@ -53,8 +53,9 @@ namespace telltale {
 template <class Request, class Stage, class Reply>
 class JobQueue {
  public:
-  /// Makes the reply to a request and reports its progress. It runs on a worker, and may throw.
-  using Work = std::function<Reply(const Request&, const Progress& progress)>;
+  /// Makes the reply to a request, and computes by `computation`. It runs on a worker, and may
+  /// throw.
+  using Work = std::function<Reply(const Request&, const Computation& computation)>;
   using Answer = std::function<void(const Reply&)>;
 
   /// `what` names the work in the log and in messages: "identification". The journal outlives the
@@ -425,7 +426,6 @@ void JobQueue<Request, Stage, Reply>::Send(const Outbox& outbox) {
 
 template <class Request, class Stage, class Reply>
 void JobQueue<Request, Stage, Reply>::Run(Urgency urgency) {
-  YieldToMoreUrgentThan(urgency);
   while (const auto job = AwaitNext(urgency)) Finish(job, Execute(job));
 }
 
@@ -479,8 +479,10 @@ template <class Request, class Stage, class Reply>
 Reply JobQueue<Request, Stage, Reply>::Execute(const std::shared_ptr<Job>& job) {
   Reply reply;
   try {
-    reply = work_(job->request,
-                  [&](std::string_view stage, double fraction) { Report(job, stage, fraction); });
+    reply =
+        work_(job->request, Computation(job->urgency, [&](std::string_view stage, double fraction) {
+                Report(job, stage, fraction);
+              }));
   } catch (const DatabaseUnavailable& error) {
     reply = Busy(job->request, error.what(), kUnavailableS);
   } catch (const NotServedError& error) {

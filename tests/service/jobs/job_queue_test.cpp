@@ -1,8 +1,12 @@
 #include "telltale/service/jobs/job_queue.hpp"
 
+#include <sys/resource.h>
+#include <unistd.h>
+
 #include <algorithm>
 #include <chrono>
 #include <condition_variable>
+#include <future>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -124,8 +128,8 @@ class Jobs : public ::testing::Test {
 
   std::unique_ptr<Queue> QueueOf(const Workers& workers, std::size_t limit,
                                  RequestJournal* journal = nullptr) {
-    const auto work = [this](const IdentifyRequest& request, const Progress& progress) {
-      work_.Do(request.vehicle_id, progress);
+    const auto work = [this](const IdentifyRequest& request, const Computation& computation) {
+      computation([&](const Progress& progress) { work_.Do(request.vehicle_id, progress); });
       return ReplyTo<IdentifyReply>(request, ReplyOutcome::kRefused, "done");
     };
     return std::make_unique<Queue>("identification", fleet_, replies_, workers, limit, work,
@@ -280,6 +284,18 @@ TEST_F(Jobs, LetNobodyWaitForACoverageCheck) {
   for (const auto& [id, vehicle] : {std::pair("check", "one"), {"plain", "one"}}) {
     EXPECT_EQ(ReplyMessageTo(*queue, RequestNamed(id, vehicle)), "done");
   }
+}
+
+// A worker that gave way itself would hold the queue while it gets no processor, and whoever
+// submits a request would wait for it.
+TEST_F(Jobs, FinishACoverageCheckWithoutGivingWay) {
+  const auto nice = [] { return getpriority(PRIO_PROCESS, static_cast<id_t>(gettid())); };
+  std::promise<int> finished_at;
+  const auto queue = QueueOf({.background = 1}, 10);
+  queue->Submit(RequestNamed("check", "one"), Urgency::kBackground,
+                [&](const IdentifyReply&) { finished_at.set_value(nice()); });
+  work_.LetGo();
+  EXPECT_EQ(finished_at.get_future().get(), nice());
 }
 
 TEST_F(Jobs, WorkOnceForAllWhoAskTheSame) {
