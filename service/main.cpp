@@ -9,7 +9,6 @@
 #include <semaphore.h>
 #include <unistd.h>
 
-#include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
 #include <CLI/CLI.hpp>
 
@@ -18,6 +17,7 @@
 #include "telltale/idl/codec/protobuf_log.hpp"
 #include "telltale/service/configuration.hpp"
 #include "telltale/service/daemon.hpp"
+#include "telltale/service/monitoring/daemon_log.hpp"
 #include "telltale/service/storage/backup.hpp"
 
 namespace telltale {
@@ -154,7 +154,7 @@ int Main(int argc, char** argv) {
     return app.exit(error) == 0 ? 0 : kUsageError;
   }
 
-  spdlog::set_default_logger(spdlog::stderr_color_mt("telltaled"));
+  const DaemonLog log;
   const auto config = LoadConfiguration(config_file);
   if (!config) {
     spdlog::critical("{}", config.error().Message());

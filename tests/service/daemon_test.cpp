@@ -15,6 +15,7 @@
 #include "telltale/client/bus/reader.hpp"
 #include "telltale/client/bus/wait_set.hpp"
 #include "telltale/client/bus/writer.hpp"
+#include "telltale/client/fleet/fleet_client.hpp"
 #include "telltale/client/fleet/identification_client.hpp"
 #include "telltale/client/fleet/subscriber.hpp"
 #include "telltale/client/fleet/telemetry_publisher.hpp"
@@ -400,6 +401,23 @@ TEST_F(Daemon, StopsCleanlyWhenTold) {
       EXPECT_EQ(daemon->Wait(), 0) << daemon->output();
     }
   }
+}
+
+// A line of the log is some hundred bytes, and the pipe has room for forty of them.
+TEST_F(Daemon, AnswersAndStopsWhereNobodyReadsItsLog) {
+  Process daemon({TELLTALED, "--config", config_file_}, Process::Output::kUnread);
+  const Participant participant(domain_.id());
+  FleetClient client(participant);
+  for (int reload = 0; reload < 200; ++reload) {
+    FleetRequest list;
+    list.correlation_id = NewCorrelationId();
+    list.command = FleetCommand::kList;
+    ASSERT_EQ(client.Ask(list, {.match = 60s, .reply = 60s, .retry = 1s}).outcome,
+              RequestOutcome::kAnswered);
+    daemon.Signal(SIGHUP);
+  }
+  daemon.Signal(SIGTERM);
+  EXPECT_EQ(daemon.Wait(60s), 0);
 }
 
 TEST_F(Daemon, RefusesAWrongConfigurationNamingTheField) {

@@ -34,9 +34,10 @@ bool Ends(pid_t pid, Clock::time_point deadline) {
 
 }  // namespace
 
-Process::Process(const std::vector<std::string>& command) {
+Process::Process(const std::vector<std::string>& command, Output output) {
   std::array<int, 2> ends;
   if (pipe2(ends.data(), O_CLOEXEC) != 0) throw std::system_error(errno, std::generic_category());
+  if (output == Output::kUnread) fcntl(ends[0], F_SETPIPE_SZ, 1);  // a page is the least
   std::vector<char*> arguments;
   for (const std::string& word : command) arguments.push_back(const_cast<char*>(word.c_str()));
   arguments.push_back(nullptr);
@@ -50,6 +51,10 @@ Process::Process(const std::vector<std::string>& command) {
   pipe_ = ends[0];
   if (error != 0) throw std::system_error(error, std::generic_category(), command.front());
   leave_ = eventfd(0, EFD_CLOEXEC);
+  if (output == Output::kUnread) {
+    ended_ = true;
+    return;
+  }
   gathering_ = std::thread([this] { Gather(); });
 }
 
@@ -59,7 +64,7 @@ Process::~Process() {
     waitpid(pid_, nullptr, 0);
   }
   eventfd_write(leave_, 1);
-  gathering_.join();
+  if (gathering_.joinable()) gathering_.join();
   close(leave_);
   close(pipe_);
 }

@@ -18,7 +18,10 @@ namespace telltale {
 /// reads the output as it comes, since a program stops at its next line where a pipe is full.
 class Process {
  public:
-  explicit Process(const std::vector<std::string>& command);
+  /// kUnread: into a pipe of a page that nobody reads.
+  enum class Output { kGathered, kUnread };
+
+  explicit Process(const std::vector<std::string>& command, Output output = Output::kGathered);
   Process(const Process&) = delete;
   Process& operator=(const Process&) = delete;
   ~Process();
