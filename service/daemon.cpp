@@ -72,17 +72,18 @@ Daemon::Daemon(const DaemonConfig& config, Endings endings)
       replies_(participant_, role_),
       journal_(storage_),
       diagnoses_(participant_, DiagnosisStore(storage_)),
+      vehicles_(config.vehicles),
       jobs_(fleet_, models_, baselines_, replies_, config.identification, journal_),
       diagnosis_jobs_(fleet_, models_, view_, baselines_, diagnoses_, replies_,
                       config.identification, journal_),
-      fleet_jobs_(fleet_, models_, diagnoses_, replies_, journal_,
-                  {.submit = [this](const IdentifyRequest& request,
-                                    auto answer) { jobs_.Refresh(request, std::move(answer)); },
-                   .cancel =
-                       [this](const std::string& correlation_id) {
-                         return jobs_.Cancel(correlation_id) ||
-                                diagnosis_jobs_.Cancel(correlation_id);
-                       }}),
+      fleet_jobs_(
+          fleet_, models_, diagnoses_, replies_, journal_, [this] { return ServedSlices(); },
+          {.submit = [this](const IdentifyRequest& request,
+                            auto answer) { jobs_.Refresh(request, std::move(answer)); },
+           .cancel =
+               [this](const std::string& correlation_id) {
+                 return jobs_.Cancel(correlation_id) || diagnosis_jobs_.Cancel(correlation_id);
+               }}),
       quality_(participant_, role_, fleet_, models_, view_, storage_.status(),
                config.quality_period_s),
       fail_over_(MakeFailOver()),
@@ -99,8 +100,7 @@ Daemon::Daemon(const DaemonConfig& config, Endings endings)
                .heartbeat = [this](bool has_received) { Heartbeat(has_received); },
                .heartbeat_period = HeartbeatPeriodOf(config),
                .received = [this](VehicleWindow& window) { quality_.PublishReceipt(window); },
-               .failed = endings_.failed}),
-      vehicles_(config.vehicles) {
+               .failed = endings_.failed}) {
   if (fail_over_) {
     fail_over_->Start();
   } else {
@@ -150,6 +150,13 @@ void Daemon::KeepSlices() {
   if (alone_) served_slices_ = storage_.held()->Get();
   slice_keeper_.emplace(*leases_, *storage_.held(), alone_ ? FleetShare::kAll : FleetShare::kPart,
                         [this] { ServeHeldSlices(); });
+}
+
+/// Where their boats are being read from the database it waits until that is done.
+SliceSet Daemon::ServedSlices() {
+  if (alone_) return kAllSlices;
+  const std::lock_guard lock(serving_mutex_);
+  return SetOf(served_slices_);
 }
 
 /// Those of the vehicles that are this daemon's. The caller holds serving_mutex_.

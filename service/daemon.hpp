@@ -62,6 +62,7 @@ class Daemon {
   void Serve(const std::vector<Vehicle>& vehicles);
   void KeepSlices();
   void ServeHeldSlices();
+  SliceSet ServedSlices();
   void Take(AnyRequest request, WriterHandle client);
   void Submit(AnyRequest request, WriterHandle client = kNoClient);
   bool IsForAnother(const AnyRequest& request) const;
@@ -92,6 +93,9 @@ class Daemon {
   RequestJournal journal_;
   BaselineRecordings baselines_;
   PublishedDiagnoses diagnoses_;
+  std::mutex serving_mutex_;       // of the two that follow
+  std::vector<Vehicle> vehicles_;  ///< of the whole fleet
+  Slices served_slices_;
   IdentificationJobs jobs_;
   DiagnosisJobs diagnosis_jobs_;
   FleetJobs fleet_jobs_;
@@ -101,10 +105,6 @@ class Daemon {
   const std::unique_ptr<FailOver> fail_over_;  ///< null: this daemon serves alone
   Ingest ingest_;
   std::optional<WebServer> web_;
-
-  std::mutex serving_mutex_;       // of what follows
-  std::vector<Vehicle> vehicles_;  ///< of the whole fleet
-  Slices served_slices_;
   std::optional<SliceKeeper> slice_keeper_;
 };
 

@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <ctime>
 #include <map>
+#include <stdexcept>
 #include <utility>
 
 #include "telltale/client/bus/participant.hpp"
@@ -45,6 +47,19 @@ FleetReply AskFleet(FleetRequest request, const LiveOptions& live,
   auto result = client.Ask(request, live.Timing(), progress);
   RequirePublished(result, "the fleet", live);
   return *std::move(result.reply);
+}
+
+void RequireWholeFleet(const FleetRequest& request, const FleetReply& reply) {
+  const SliceSet unanswered = UnansweredSlices(request, reply);
+  if (unanswered == 0) return;
+  std::string numbers;
+  for (int slice = 0; slice < kFleetSlices; ++slice) {
+    if ((unanswered & SetOf(slice)) == 0) continue;
+    numbers += (numbers.empty() ? "" : ", ") + std::to_string(slice);
+  }
+  throw std::runtime_error("no daemon answered for " + std::to_string(std::popcount(unanswered)) +
+                           " of " + std::to_string(kFleetSlices) + " slices of the fleet (" +
+                           numbers + "), so their boats are missing: is a daemon down?");
 }
 
 std::string VerdictText(PromotionVerdict verdict) {

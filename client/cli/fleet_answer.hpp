@@ -9,9 +9,13 @@
 
 namespace telltale {
 
-/// The daemon's answer. `progress` runs on the calling thread. Throws as RequirePublished().
+/// The answer of the daemon, or of all that share the fleet; of those of them that answered in
+/// time, where others did not. `progress` runs on the calling thread. Throws as RequirePublished().
 FleetReply AskFleet(FleetRequest request, const LiveOptions& live,
                     const std::function<void(const FleetProgress&)>& progress = {});
+
+/// Throws std::runtime_error where a daemon that shares the fleet did not answer `request`.
+void RequireWholeFleet(const FleetRequest& request, const FleetReply& reply);
 
 std::string VehicleListTable(const std::vector<VehicleSummary>& vehicles);
 std::string ModelHistoryTable(const std::vector<ModelSummary>& models);

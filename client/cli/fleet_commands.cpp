@@ -31,6 +31,7 @@ void List(const FleetArguments& arguments) {
   const FleetReply reply = AskFleet(request, arguments.live);
   arguments.output.Write(PrintVehicleListJson(reply.vehicles),
                          [&] { return VehicleListTable(reply.vehicles); });
+  RequireWholeFleet(request, reply);
 }
 
 void History(const FleetArguments& arguments) {

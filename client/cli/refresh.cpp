@@ -81,9 +81,10 @@ class RefreshView {
       if (state == RefreshState::kRunning)
         running += (running.empty() ? ", now " : ", ") + vehicle_id;
     }
-    line_.Update(
-        std::to_string(through) + " of " + std::to_string(progress.total) + " boats" + running,
-        progress.total == 0 ? 1.0 : static_cast<double>(through) / progress.total);
+    // Each daemon that shares the fleet tells of its own boats, of all of them first.
+    const std::size_t total = std::max<std::size_t>(progress.total, states_.size());
+    line_.Update(std::to_string(through) + " of " + std::to_string(total) + " boats" + running,
+                 total == 0 ? 1.0 : static_cast<double>(through) / static_cast<double>(total));
   }
 
   void Take(const RefreshedVehicle& vehicle) {
@@ -161,6 +162,7 @@ void Refresh(const RefreshArguments& arguments) {
     return std::to_string(reply.refreshed.size()) + " boats in " + DurationText(reply.elapsed_s) +
            ": " + RefreshSummaryText(reply.refreshed);
   });
+  RequireWholeFleet(request, reply);
   ThrowUnlessAllWell(reply.refreshed);
 }
 

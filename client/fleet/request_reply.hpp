@@ -80,10 +80,12 @@ class RequestReply {
         progress_(participant),
         replies_(participant) {}
 
-  /// Blocks until the answer is there. `progress` runs on the calling thread.
+  /// Blocks until the answer is there. `progress` runs on the calling thread, and so does
+  /// `completes`: it is given each answer, and false where another daemon is still to answer.
   template <class Reply, class Progress, class Request>
   ReplyResult<Reply> Ask(const Request& request, const RequestTiming& timing,
-                         const std::function<void(const Progress&)>& progress);
+                         const std::function<void(const Progress&)>& progress,
+                         const std::function<bool(const Reply&)>& completes = {});
 
  private:
   using Clock = std::chrono::steady_clock;
@@ -98,7 +100,8 @@ template <class RequestWire, class ProgressWire, class ReplyWire>
 template <class Reply, class Progress, class Request>
 ReplyResult<Reply> RequestReply<RequestWire, ProgressWire, ReplyWire>::Ask(
     const Request& request, const RequestTiming& timing,
-    const std::function<void(const Progress&)>& progress) {
+    const std::function<void(const Progress&)>& progress,
+    const std::function<bool(const Reply&)>& completes) {
   if (!WaitForMatch(participant_, {requests_, replies_, progress_}, timing.match)) {
     return {RequestOutcome::kNoDaemon, std::nullopt, std::nullopt};
   }
@@ -129,6 +132,7 @@ ReplyResult<Reply> RequestReply<RequestWire, ProgressWire, ReplyWire>::Ask(
         next_request = Clock::now() + BusyTime(*decoded);
         busy = {RequestOutcome::kFailed, std::move(*decoded), std::nullopt};
       } else if (decoded) {
+        if (completes && !completes(*decoded)) return;
         result = {OutcomeOf(decoded->outcome), std::move(*decoded), std::nullopt};
       } else {
         // The daemon answers an id once: to ask again would bring the same.

@@ -18,6 +18,7 @@ constexpr std::size_t kKeptAnswers = 64;  // of refreshes and of other requests
 constexpr std::size_t kAtATime = 4;       // identifications of one refresh in the queue
 constexpr auto kReportPeriod = std::chrono::milliseconds(200);
 constexpr double kUnchangedWithinS = 5.0;
+constexpr double kAskAgainS = 5.0;
 
 FleetReply ReplyWith(const FleetRequest& request, ReplyOutcome outcome,
                      const std::string& message = {}) {
@@ -65,12 +66,13 @@ RefreshedVehicle OutcomeOfVehicle(const std::string& vehicle_id, const IdentifyR
 
 FleetJobs::FleetJobs(Fleet& fleet, PublishedModels& models, const PublishedDiagnoses& diagnoses,
                      ReplyPublisher& replies, RequestJournal& journal,
-                     Identifications identifications)
+                     std::function<SliceSet()> served, Identifications identifications)
     : fleet_(fleet),
       models_(models),
       diagnoses_(diagnoses),
       replies_(replies),
       journal_(journal),
+      served_(std::move(served)),
       identifications_(std::move(identifications)),
       inbox_(std::make_shared<Inbox>()),
       thread_([this] { Run(); }) {}
@@ -91,6 +93,7 @@ FleetJobs::~FleetJobs() {
       reply.outcome = ReplyOutcome::kFailed;
       reply.message = "the daemon is stopping";
       reply.refreshed = run->vehicles();
+      reply.slices = run->slices();
       replies_.Send(reply);
     }
   }
@@ -98,15 +101,28 @@ FleetJobs::~FleetJobs() {
 
 void FleetJobs::Submit(FleetRequest request) {
   {
-    const std::lock_guard lock(inbox_->mutex);
+    std::unique_lock lock(inbox_->mutex);
     if (inbox_->requests.size() >= kRequestsThatWait) {
-      spdlog::warn("{} for {} is left out: {} requests wait; the client asks again",
-                   Name(request.command), request.correlation_id, kRequestsThatWait);
-      return;
+      const auto not_shown = inbox_->log_limit.Admit(std::chrono::steady_clock::now());
+      lock.unlock();
+      return TurnAway(request, not_shown);
     }
     inbox_->requests.push_back(std::move(request));
   }
   inbox_->wake.notify_all();
+}
+
+/// `not_shown`: how many before it were not logged; nothing where this one is not to be either.
+void FleetJobs::TurnAway(const FleetRequest& request, std::optional<std::uint64_t> not_shown) {
+  FleetReply busy = ReplyWith(request, ReplyOutcome::kFailed,
+                              fmt::format("{} requests wait already; ask again in {:.0f} s",
+                                          kRequestsThatWait, kAskAgainS));
+  busy.retry_after_s = kAskAgainS;
+  if (not_shown) {
+    spdlog::warn("{} for {} is turned away: {} ({} more not shown)", Name(request.command),
+                 request.correlation_id, busy.message, *not_shown);
+  }
+  replies_.Send(busy);
 }
 
 void FleetJobs::Run() {
@@ -143,8 +159,11 @@ void FleetJobs::Take(const std::string& run_id, const RefreshedVehicle& vehicle)
   if (run != runs_.end()) run->second->Update(vehicle);
 }
 
-/// Every fault of a request ends in its reply.
+/// Every fault of a request ends in its reply. Whoever takes the slices of this daemon meanwhile
+/// answers for them too.
 void FleetJobs::Answer(const FleetRequest& request) {
+  const SliceSet slices = served_();
+  if (slices == 0) return;
   if (const auto known = answered_.find(request.correlation_id); known != answered_.end()) {
     return replies_.Send(known->second);
   }
@@ -153,8 +172,8 @@ void FleetJobs::Answer(const FleetRequest& request) {
                ? ReplyTo(*run->second, request.correlation_id)
                : Report(*run->second, run->second->vehicles(), request.correlation_id);
   }
-  if (request.command == FleetCommand::kRefresh) return KeepRefresh(request);
-  if (request.command == FleetCommand::kFollow) return Follow(request);
+  if (request.command == FleetCommand::kRefresh) return KeepRefresh(request, slices);
+  if (request.command == FleetCommand::kFollow) return Follow(request, slices);
   FleetReply reply;
   try {
     reply = AnswerTo(request);
@@ -162,7 +181,10 @@ void FleetJobs::Answer(const FleetRequest& request) {
     reply = ReplyWith(request, ReplyOutcome::kFailed, error.what());
     spdlog::error("{} for {}: {}", Name(request.command), request.correlation_id, error.what());
   }
-  IsForStandby(request.command) ? replies_.Send(reply) : Reply(reply);
+  // What a standby copies is too large to be kept for who asks again.
+  if (!IsForStandby(request.command)) return Reply(std::move(reply), slices);
+  reply.slices = slices;
+  replies_.Send(reply);
 }
 
 FleetReply FleetJobs::AnswerTo(const FleetRequest& request) {
@@ -251,10 +273,12 @@ FleetReply FleetJobs::CancelOf(const FleetRequest& request) {
 }
 
 /// It begins, and its client hears of it, once it is on disk.
-void FleetJobs::KeepRefresh(const FleetRequest& request) {
+void FleetJobs::KeepRefresh(const FleetRequest& request, SliceSet slices) {
   if (const auto unavailable = journal_.Unavailable()) {
-    return replies_.Send(
-        ReplyWith(request, ReplyOutcome::kFailed, *unavailable + "; ask again later"));
+    FleetReply reply =
+        ReplyWith(request, ReplyOutcome::kFailed, *unavailable + "; ask again later");
+    reply.slices = slices;
+    return replies_.Send(reply);
   }
   journal_.Keep(request, [inbox = inbox_, request] {
     {
@@ -267,21 +291,24 @@ void FleetJobs::KeepRefresh(const FleetRequest& request) {
 
 void FleetJobs::BeginRefresh(const FleetRequest& request) {
   if (runs_.contains(request.correlation_id)) return;  // it was asked for again in the meantime
+  const SliceSet slices = served_();
   const auto vehicle_ids = VehiclesToRefresh(request, fleet_, models_);
   spdlog::info("the refresh {} of {} vehicles begins", request.correlation_id, vehicle_ids.size());
-  const auto run = runs_
-                       .emplace(request.correlation_id,
-                                std::make_unique<RefreshRun>(request.correlation_id, vehicle_ids))
-                       .first;
+  const auto run =
+      runs_
+          .emplace(request.correlation_id,
+                   std::make_unique<RefreshRun>(request.correlation_id, vehicle_ids, slices))
+          .first;
   if (run->second->finished()) return End(*run->second);
   Advance();
 }
 
-void FleetJobs::Follow(const FleetRequest& request) {
+void FleetJobs::Follow(const FleetRequest& request, SliceSet slices) {
   const auto found = runs_.find(request.target);
   if (found == runs_.end()) {
     return Reply(ReplyWith(request, ReplyOutcome::kFailed,
-                           "no refresh '" + request.target + "' is known here"));
+                           "no refresh '" + request.target + "' is known here"),
+                 slices);
   }
   RefreshRun& run = *found->second;
   if (run.finished()) return ReplyTo(run, request.correlation_id);
@@ -289,14 +316,15 @@ void FleetJobs::Follow(const FleetRequest& request) {
   Report(run, run.vehicles(), request.correlation_id);
 }
 
-void FleetJobs::Reply(const FleetReply& reply) {
-  answered_.insert_or_assign(reply.correlation_id, reply);
-  answered_order_.push_back(reply.correlation_id);
-  if (answered_order_.size() > kKeptAnswers) {
-    answered_.erase(answered_order_.front());
-    answered_order_.pop_front();
-  }
+/// Keeps the reply for who asks again.
+void FleetJobs::Reply(FleetReply reply, SliceSet slices) {
+  reply.slices = slices;
   replies_.Send(reply);
+  answered_order_.push_back(reply.correlation_id);
+  answered_.insert_or_assign(reply.correlation_id, std::move(reply));
+  if (answered_order_.size() <= kKeptAnswers) return;
+  answered_.erase(answered_order_.front());
+  answered_order_.pop_front();
 }
 
 void FleetJobs::ReplyTo(const RefreshRun& run, const std::string& correlation_id) {
@@ -305,6 +333,7 @@ void FleetJobs::ReplyTo(const RefreshRun& run, const std::string& correlation_id
   reply.outcome = ReplyOutcome::kAnswered;
   reply.refreshed = run.vehicles();
   reply.elapsed_s = run.ElapsedS();
+  reply.slices = run.slices();
   replies_.Send(reply);
 }
 

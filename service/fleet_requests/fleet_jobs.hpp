@@ -1,17 +1,22 @@
 #pragma once
 
+#include <chrono>
 #include <condition_variable>
 #include <cstddef>
+#include <cstdint>
 #include <deque>
 #include <functional>
 #include <map>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <thread>
 #include <utility>
 #include <vector>
 
+#include "telltale/client/bus/bus_log.hpp"
+#include "telltale/idl/codec/fleet_slices.hpp"
 #include "telltale/idl/codec/messages/fleet_exchange.hpp"
 #include "telltale/service/diagnosis/published_diagnoses.hpp"
 #include "telltale/service/ingest/fleet.hpp"
@@ -27,7 +32,8 @@ namespace telltale {
 /// submits a few identifications at a time, so that the queue of identifications stays short, and
 /// publishes what becomes of each vehicle. It goes on where its client leaves, and after a restart
 /// of the daemon; vehicles that were through by then are unchanged. The latest 64 refreshes can be
-/// followed.
+/// followed. Each answer says for which slices of the fleet it is; a daemon that has none is
+/// silent.
 class FleetJobs {
  public:
   struct Identifications {
@@ -36,15 +42,18 @@ class FleetJobs {
     std::function<bool(const std::string& correlation_id)> cancel;  ///< of any kind of request
   };
 
+  /// `served` says which slices the daemon serves; it runs on the thread.
   FleetJobs(Fleet& fleet, PublishedModels& models, const PublishedDiagnoses& diagnoses,
-            ReplyPublisher& replies, RequestJournal& journal, Identifications identifications);
+            ReplyPublisher& replies, RequestJournal& journal, std::function<SliceSet()> served,
+            Identifications identifications);
   FleetJobs(const FleetJobs&) = delete;
   FleetJobs& operator=(const FleetJobs&) = delete;
 
   /// Ends the thread. Refreshes under way get a failed reply.
   ~FleetJobs();
 
-  /// Returns at once. Answers go out by ReplyPublisher.
+  /// Returns at once. Answers go out by ReplyPublisher. More than 1000 requests do not wait: who
+  /// asks then is told to ask again later.
   void Submit(FleetRequest request);
 
  private:
@@ -54,7 +63,8 @@ class FleetJobs {
     std::condition_variable wake;
     bool stopping = false;
     std::deque<FleetRequest> requests;
-    std::deque<FleetRequest> kept;  ///< refreshes that are on disk
+    RateLimit log_limit{200, std::chrono::seconds(10)};  ///< of requests turned away
+    std::deque<FleetRequest> kept;                       ///< refreshes that are on disk
     /// What became of identifications: the refresh, and its vehicle.
     std::deque<std::pair<std::string, RefreshedVehicle>> outcomes;
   };
@@ -70,10 +80,11 @@ class FleetJobs {
   FleetReply DiagnosesOf(const FleetRequest& request) const;
   FleetReply RollbackOf(const FleetRequest& request);
   FleetReply CancelOf(const FleetRequest& request);
-  void KeepRefresh(const FleetRequest& request);
+  void KeepRefresh(const FleetRequest& request, SliceSet slices);
   void BeginRefresh(const FleetRequest& request);
-  void Follow(const FleetRequest& request);
-  void Reply(const FleetReply& reply);
+  void Follow(const FleetRequest& request, SliceSet slices);
+  void Reply(FleetReply reply, SliceSet slices);
+  void TurnAway(const FleetRequest& request, std::optional<std::uint64_t> not_shown);
   void ReplyTo(const RefreshRun& run, const std::string& correlation_id);
   void Report(const RefreshRun& run, const std::vector<RefreshedVehicle>& vehicles,
               const std::string& correlation_id);
@@ -87,6 +98,7 @@ class FleetJobs {
   const PublishedDiagnoses& diagnoses_;
   ReplyPublisher& replies_;
   RequestJournal& journal_;  ///< keeps refreshes
+  const std::function<SliceSet()> served_;
   const Identifications identifications_;
 
   std::map<std::string, FleetReply> answered_;  ///< by correlation id; of the thread alone

@@ -64,7 +64,7 @@ std::vector<std::string> VehiclesToRefresh(const FleetRequest& request, const Fl
   std::vector<std::string> chosen;
   std::set<std::string_view> seen;
   for (const std::string& vehicle_id : named) {
-    if (!seen.insert(vehicle_id).second) continue;
+    if (!seen.insert(vehicle_id).second || fleet.IsServedElsewhere(vehicle_id)) continue;
     if (MeetsConditions(request, models.Latest(vehicle_id))) chosen.push_back(vehicle_id);
   }
   return chosen;

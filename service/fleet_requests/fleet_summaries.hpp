@@ -15,7 +15,8 @@ std::vector<VehicleSummary> SummariesOf(const Fleet& fleet, const PublishedModel
 ModelSummary SummaryOf(const PublishedModel& model);
 
 /// The vehicles that a request to refresh names, in order, without those that its conditions leave
-/// out. Vehicles that are not served stay: their identification fails and says so.
+/// out or another daemon serves. Vehicles that nobody serves stay: their identification fails and
+/// says so.
 std::vector<std::string> VehiclesToRefresh(const FleetRequest& request, const Fleet& fleet,
                                            const PublishedModels& models);
 

@@ -5,8 +5,9 @@
 
 namespace telltale {
 
-RefreshRun::RefreshRun(std::string correlation_id, const std::vector<std::string>& vehicle_ids)
-    : correlation_id_(std::move(correlation_id)), unfinished_(vehicle_ids.size()) {
+RefreshRun::RefreshRun(std::string correlation_id, const std::vector<std::string>& vehicle_ids,
+                       SliceSet slices)
+    : correlation_id_(std::move(correlation_id)), slices_(slices), unfinished_(vehicle_ids.size()) {
   for (const std::string& vehicle_id : vehicle_ids) {
     places_.emplace(vehicle_id, vehicles_.size());
     vehicles_.push_back({vehicle_id, RefreshState::kWaiting, 0, PromotionVerdict::kUnknown, ""});

@@ -17,10 +17,12 @@ class RefreshRun {
  public:
   using Clock = std::chrono::steady_clock;
 
-  /// All of these vehicles wait.
-  RefreshRun(std::string correlation_id, const std::vector<std::string>& vehicle_ids);
+  /// All of these vehicles wait. `slices`: whose boats it is about, where others share the fleet.
+  RefreshRun(std::string correlation_id, const std::vector<std::string>& vehicle_ids,
+             SliceSet slices = kAllSlices);
 
   const std::string& correlation_id() const { return correlation_id_; }
+  SliceSet slices() const { return slices_; }
   const std::vector<RefreshedVehicle>& vehicles() const { return vehicles_; }
   bool finished() const { return unfinished_ == 0; }
   std::size_t running() const { return running_; }
@@ -45,6 +47,7 @@ class RefreshRun {
 
  private:
   std::string correlation_id_;
+  SliceSet slices_;
   std::vector<RefreshedVehicle> vehicles_;
   std::map<std::string, std::size_t, std::less<>> places_;  ///< by vehicle id
   std::size_t next_waiting_ = 0;                            ///< no vehicle before this place waits

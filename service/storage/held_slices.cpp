@@ -2,12 +2,12 @@
 
 #include <utility>
 
-#include "telltale/service/storage/checksum.hpp"
-
 namespace telltale {
 
-int SliceOf(std::string_view vehicle_id) {
-  return static_cast<int>(ChecksumOf(vehicle_id) % kFleetSlices);
+SliceSet SetOf(const Slices& slices) {
+  SliceSet set = 0;
+  for (const auto& [slice, fence] : slices) set |= SetOf(slice);
+  return set;
 }
 
 void HeldSlices::Set(Slices slices) {

@@ -6,13 +6,9 @@
 #include <optional>
 #include <string_view>
 
+#include "telltale/idl/codec/fleet_slices.hpp"
+
 namespace telltale {
-
-/// A fleet is divided into so many slices, which daemons share among themselves.
-inline constexpr int kFleetSlices = 64;
-
-/// The slice of a vehicle, [0, 63]: CRC-32 of its id, so the same in every daemon.
-int SliceOf(std::string_view vehicle_id);
 
 /// The number of a lease. It grows with each lease of a slice, so that a write under an earlier
 /// lease shows.
@@ -20,6 +16,9 @@ using Fence = std::int64_t;
 
 /// Slices with the leases under which they are held.
 using Slices = std::map<int, Fence>;
+
+/// The slices alone.
+SliceSet SetOf(const Slices& slices);
 
 /// The slices that this daemon holds. Thread safe.
 class HeldSlices {

@@ -2,7 +2,7 @@
 
 #include <google/protobuf/message_lite.h>
 
-#include "telltale/service/storage/checksum.hpp"
+#include "telltale/idl/codec/checksum.hpp"
 #include "telltale/service/storage/database.hpp"
 
 namespace telltale {

@@ -6,8 +6,8 @@
 
 #include <zstd.h>
 
+#include "telltale/idl/codec/checksum.hpp"
 #include "telltale/idl/proto/window_chunk.pb.h"
-#include "telltale/service/storage/checksum.hpp"
 
 namespace telltale {
 namespace {

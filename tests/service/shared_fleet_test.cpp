@@ -1,5 +1,6 @@
 #include <signal.h>
 
+#include <bit>
 #include <chrono>
 #include <cstdint>
 #include <map>
@@ -11,6 +12,7 @@
 
 #include "service/shared_fleet_fixture.hpp"
 #include "support/stable_boat.hpp"
+#include "telltale/client/fleet/fleet_client.hpp"
 #include "telltale/client/fleet/identification_client.hpp"
 #include "telltale/client/recording/telemetry_log/telemetry_log.hpp"
 #include "telltale/service/models/model_store.hpp"
@@ -97,6 +99,42 @@ TEST_F(SharedFleet, GetsTheAnswerThatADeadDaemonOwed) {
   EXPECT_EQ(result.outcome, RequestOutcome::kPublished);
   EXPECT_TRUE(one_->WaitForOutput("requests of the daemons before"));
   EXPECT_TRUE(one_->WaitForOutput("for owed: PUBLISHED"));
+}
+
+// None of the boats has sent anything, so none can be identified.
+TEST_F(SharedFleet, IsListedAndRefreshedAsAWhole) {
+  ASSERT_NO_FATAL_FAILURE(StartBoth());
+  const auto list = Start({"list"});
+  EXPECT_EQ(list->Wait(), 0) << list->output();
+  for (const std::string& boat : boats_) EXPECT_THAT(list->output(), HasSubstr(boat));
+  const auto refresh = Start({"refresh", "--all"});
+  EXPECT_EQ(refresh->Wait(), 3) << refresh->output();
+  EXPECT_THAT(refresh->output(), HasSubstr("4 of 4 boats have no sound new model"));
+  const auto some = Start({"refresh", "--vehicle-id", "boat-1", "boat-2", "nobody"});
+  EXPECT_EQ(some->Wait(), 1) << some->output();
+  EXPECT_THAT(some->output(), HasSubstr("refused 2, failed 1"));
+}
+
+// The other takes the slices over once their leases have run out, three seconds later at least.
+TEST_F(SharedFleet, IsListedInPartWhereADaemonIsSilent) {
+  ASSERT_NO_FATAL_FAILURE(StartBoth());
+  const Participant participant(domain_.id());
+  FleetClient client(participant);
+  FleetRequest list;
+  list.command = FleetCommand::kList;
+  list.correlation_id = "whole";
+  const auto whole = client.Ask(list, {.match = 60s, .reply = 60s, .retry = 1s});
+  ASSERT_EQ(whole.outcome, RequestOutcome::kAnswered);
+  EXPECT_EQ(UnansweredSlices(list, *whole.reply), 0u);
+  EXPECT_EQ(whole.reply->vehicles.size(), 4u);
+
+  two_->Suspend();
+  list.correlation_id = "part";
+  const auto part = client.Ask(list, {.match = 60s, .reply = 1s, .retry = 1s});
+  ASSERT_EQ(part.outcome, RequestOutcome::kAnswered);
+  EXPECT_EQ(std::popcount(UnansweredSlices(list, *part.reply)), 32);
+  EXPECT_EQ(part.reply->vehicles.size(), 2u);
+  two_->Resume();
 }
 
 TEST_F(SharedFleet, IsLeftAloneByADaemonThatWasSuspendedForLongerThanItsLeases) {

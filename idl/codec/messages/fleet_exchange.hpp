@@ -8,6 +8,7 @@
 
 #include "telltale/core/validation/promotion.hpp"
 #include "telltale/core/vessel/model_structure.hpp"
+#include "telltale/idl/codec/fleet_slices.hpp"
 #include "telltale/idl/codec/messages/diagnosis.hpp"
 #include "telltale/idl/codec/messages/exchange.hpp"
 #include "telltale/idl/codec/messages/model.hpp"
@@ -121,6 +122,7 @@ struct FleetReply : ExchangeReply {         // of no vehicle: its vehicle_id is 
   std::vector<PublishedModel> later_models;  ///< of kModels, oldest first, kModelsAtATime at most
   /// Of kDiagnoses, newest first, kDiagnosesAtATime at most.
   std::vector<PublishedDiagnosis> earlier_diagnoses;
+  SliceSet slices = 0;  ///< whose boats the daemon answers for; 0: all, of an older daemon
 };
 
 inline constexpr std::size_t kModelsAtATime = 16;    ///< some 30 kB each

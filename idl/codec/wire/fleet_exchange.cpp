@@ -116,7 +116,8 @@ FleetReply ReadFleetReply(const telltale_wire_FleetReply& wire) {
           ReadSequence("models", wire.models, ReadModelSummary),
           ReadSequence("refreshed", wire.refreshed, ReadRefreshed),
           ReadSequence("later_models", wire.later_models, ReadLaterModel),
-          ReadSequence("earlier_diagnoses", wire.earlier_diagnoses, ReadEarlierDiagnosis)};
+          ReadSequence("earlier_diagnoses", wire.earlier_diagnoses, ReadEarlierDiagnosis),
+          wire.slices};
 }
 
 }  // namespace
@@ -159,6 +160,7 @@ WireSample<telltale_wire_FleetReply> Encode(const FleetReply& reply) {
   sample->retry_after_s = reply.retry_after_s;
   wire::PutSequence(sample->later_models, reply.later_models, wire::FillModel);
   wire::PutSequence(sample->earlier_diagnoses, reply.earlier_diagnoses, wire::FillDiagnosis);
+  sample->slices = reply.slices;
   return sample;
 }
 

@@ -1,5 +1,7 @@
 #include "telltale/client/cli/fleet_answer.hpp"
 
+#include <stdexcept>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -34,6 +36,23 @@ TEST(FleetAnswer, SumsUpARefresh) {
               AllOf(HasSubstr("published 2 (1 ERROR), unchanged 1, refused 1, failed 0\n"),
                     HasSubstr("b: ERROR, it diverges"), HasSubstr("d: refused, no gnss samples"),
                     Not(HasSubstr("cancelled")), Not(HasSubstr("no telemetry"))));
+}
+
+TEST(FleetAnswer, NamesTheSlicesThatNoDaemonAnsweredFor) {
+  FleetRequest list;
+  list.command = FleetCommand::kList;
+  FleetReply reply;
+  reply.slices = kAllSlices;
+  EXPECT_NO_THROW(RequireWholeFleet(list, reply));
+  reply.slices = 0;  // of an older daemon
+  EXPECT_NO_THROW(RequireWholeFleet(list, reply));
+  reply.slices = ~(SetOf(3) | SetOf(63));
+  try {
+    RequireWholeFleet(list, reply);
+    ADD_FAILURE() << "it is whole";
+  } catch (const std::runtime_error& error) {
+    EXPECT_THAT(error.what(), HasSubstr("2 of 64 slices of the fleet (3, 63)"));
+  }
 }
 
 TEST(FleetAnswer, TablesFitATerminal) {

@@ -72,6 +72,7 @@ TEST(WireFleetExchange, ProgressAndReplyArriveAsTheyWereSent) {
   sent.refreshed = {vehicle};
   sent.later_models = {{MadeUpIdentification(), 4, 1.5}};
   sent.earlier_diagnoses = {{MadeUpDiagnosis(), 3, 2.5}};
+  sent.slices = SetOf(0) | SetOf(63);
   const auto reply = Decode(*Encode(sent));
   ASSERT_TRUE(reply) << reply.error().Message();
   EXPECT_EQ(reply->outcome, ReplyOutcome::kAnswered);
@@ -85,6 +86,7 @@ TEST(WireFleetExchange, ProgressAndReplyArriveAsTheyWereSent) {
   EXPECT_EQ(reply->earlier_diagnoses[0].model_revision, 3u);
   EXPECT_EQ(reply->earlier_diagnoses[0].published_unix_s, 2.5);
   EXPECT_EQ(reply->earlier_diagnoses[0].diagnosis.sentence, MadeUpDiagnosis().sentence);
+  EXPECT_EQ(reply->slices, sent.slices);
   auto wire = Encode(sent);
   wire->vehicles._buffer[0].window_fill = 1.5;
   EXPECT_EQ(Decode(*wire).error().field, "vehicles[0].window_fill");
