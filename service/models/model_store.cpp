@@ -110,6 +110,15 @@ std::vector<std::uint64_t> ModelStore::Revisions(std::string_view vehicle_id) co
   return revisions;
 }
 
+std::optional<double> ModelStore::PublishedUnixS(std::string_view vehicle_id,
+                                                 std::uint64_t revision) const {
+  std::optional<double> published_unix_s;
+  database_->Query("SELECT published_unix_s FROM models WHERE vehicle_id = $1 AND revision = $2",
+                   {vehicle_id, static_cast<std::int64_t>(revision)},
+                   [&](const Row& row) { published_unix_s = row.Real("published_unix_s"); });
+  return published_unix_s;
+}
+
 std::optional<StoredModel> ModelStore::Latest(std::string_view vehicle_id) const {
   return Newest(vehicle_id, [](const StoredModel&) { return true; });
 }

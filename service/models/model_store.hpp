@@ -48,6 +48,9 @@ class ModelStore {
   /// The vehicle's models that can be read, newest first.
   std::vector<StoredModel> History(std::string_view vehicle_id) const;
 
+  /// When the revision of the vehicle was published; nothing where it is not kept.
+  std::optional<double> PublishedUnixS(std::string_view vehicle_id, std::uint64_t revision) const;
+
   /// The vehicle's newest model that can be read.
   std::optional<StoredModel> Latest(std::string_view vehicle_id) const;
 

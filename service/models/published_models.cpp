@@ -111,8 +111,13 @@ void PublishedModels::Learn(const StoredModel& model) {
 
 void PublishedModels::LearnEarlier(const PublishedModel& model) {
   const std::lock_guard lock(mutex_);
-  const auto revisions = store_.Revisions(model.identification.vehicle_id);
-  if (!std::ranges::binary_search(revisions, model.revision)) store_.Keep({model, {}});
+  const auto own = store_.PublishedUnixS(model.identification.vehicle_id, model.revision);
+  if (own == model.published_unix_s) return;
+  if (own) {
+    spdlog::warn("revision {} of {} gives way to that which another daemon has published",
+                 model.revision, model.identification.vehicle_id);
+  }
+  store_.Keep({model, {}});
 }
 
 std::optional<std::uint64_t> PublishedModels::HoleAfter(std::string_view vehicle_id) const {

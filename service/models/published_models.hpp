@@ -45,8 +45,8 @@ class PublishedModels {
   /// publishes its own again as the next revision. Throws as ModelStore::Keep.
   void Learn(const StoredModel& model);
 
-  /// Saves an earlier model that another daemon has published, unless there is one of the revision.
-  /// Throws as ModelStore::Keep.
+  /// Saves an earlier model that another daemon has published, in the place of another of the same
+  /// revision. Throws as ModelStore::Keep.
   void LearnEarlier(const PublishedModel& model);
 
   /// The revision after which those of the vehicle that are kept have a hole; nothing where they

@@ -1,5 +1,6 @@
 #include "telltale/service/standby/mirror.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <exception>
 #include <utility>
@@ -17,6 +18,9 @@ namespace {
 
 // Between the end of a window and the end of the identification that it goes into.
 constexpr double kJustMadeWithinS = 30.0;
+
+// More than a daemon publishes in the instant of its death, and less than kModelsAtATime.
+constexpr std::uint64_t kUnheardAtMost = 8;
 
 template <class Message, class Keep>
 void KeepOrLog(const Decoded<Message>& message, const char* what, Keep keep) {
@@ -45,6 +49,9 @@ Mirror::Mirror(const Participant& participant, WaitSet& wait_set, const Role& ro
   for (const auto& [vehicle_id, window] : into.fleet.windows()) {
     incomplete_.insert(vehicle_id);
     diagnoses_before_.emplace(vehicle_id, 0.0);
+    if (const auto latest = into.models.Latest(vehicle_id)) {
+      unconfirmed_.emplace(vehicle_id, latest->model.revision);
+    }
   }
   wait_set_.Attach(model_reader_, [this] {
     model_reader_.Take([this](const telltale_wire_Model& wire) { Take(wire); });
@@ -55,7 +62,7 @@ Mirror::Mirror(const Participant& participant, WaitSet& wait_set, const Role& ro
   wait_set_.Attach(reply_reader_, [this] {
     reply_reader_.Take([this](const telltale_wire_FleetReply& wire) {
       const auto reply = Decode(wire);
-      if (reply && reply->correlation_id == asked_.correlation_id) Take(*reply);
+      if (reply && reply->correlation_id == asked_.correlation_id && !role_.Serves()) Take(*reply);
     });
   });
 }
@@ -83,10 +90,10 @@ void Mirror::FillHoles(Clock::time_point now) {
   asked_ = {};
   while (!incomplete_.empty()) {
     const std::string vehicle_id = *incomplete_.begin();
-    if (const auto hole_after = into_.models.HoleAfter(vehicle_id)) {
+    if (const auto after = MissingAfter(vehicle_id)) {
       FleetRequest request;
       request.command = FleetCommand::kModels;
-      request.revision = *hole_after;
+      request.revision = *after;
       return Ask(std::move(request), vehicle_id, now);
     }
     incomplete_.erase(vehicle_id);
@@ -99,6 +106,13 @@ void Mirror::FillHoles(Clock::time_point now) {
     return Ask(std::move(request), vehicle_id, now);
   }
   request_writer_.reset();
+}
+
+/// The revision after which models are to be asked for; nothing where all of the vehicle are kept.
+std::optional<std::uint64_t> Mirror::MissingAfter(const std::string& vehicle_id) const {
+  const auto own = unconfirmed_.find(vehicle_id);
+  if (own == unconfirmed_.end()) return into_.models.HoleAfter(vehicle_id);
+  return own->second - std::min(own->second, kUnheardAtMost);
 }
 
 /// Not yet where the writer is not connected.
@@ -124,13 +138,14 @@ void Mirror::Take(const FleetReply& reply) {
 /// What the other daemon does not have either is not asked for again.
 void Mirror::TakeModels(const FleetReply& reply) {
   const std::string& vehicle_id = asked_.vehicle_ids.front();
+  const bool confirms = unconfirmed_.erase(vehicle_id) > 0;
   const auto before = into_.models.HoleAfter(vehicle_id);
   for (const PublishedModel& model : reply.later_models) {
     KeepOrLog(Decoded<PublishedModel>(model), "model",
               [this](const PublishedModel& earlier) { into_.models.LearnEarlier(earlier); });
   }
   const auto after = into_.models.HoleAfter(vehicle_id);
-  if (after && after != before) return;
+  if (after && (confirms || after != before)) return;
   incomplete_.erase(vehicle_id);
   spdlog::info("the models of {} are as complete as those of the daemon that serves", vehicle_id);
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <chrono>
+#include <cstdint>
 #include <map>
 #include <optional>
 #include <set>
@@ -22,10 +23,10 @@ namespace telltale {
 /// Takes over what another daemon publishes into this daemon's store: models at all times, since
 /// two daemons that could not hear each other may both have published, and diagnoses while this
 /// daemon does not serve. A model that was just made gets its baseline recording and its reference
-/// error from this daemon's own window, which holds the same telemetry. Models and
-/// diagnoses that were published while this daemon was down are asked for, some of one vehicle at a
-/// time. Belongs to the thread
-/// of the wait set; a fault of the store is logged.
+/// error from this daemon's own window, which holds the same telemetry. Models and diagnoses that
+/// were published while this daemon was down are asked for, some of one vehicle at a time, and so
+/// are the models that this daemon kept last before: of what it kept in the instant of its death
+/// nobody may have heard. Belongs to the thread of the wait set; a fault of the store is logged.
 class Mirror {
  public:
   using Clock = std::chrono::steady_clock;
@@ -46,6 +47,7 @@ class Mirror {
   void FillHoles(Clock::time_point now);
 
  private:
+  std::optional<std::uint64_t> MissingAfter(const std::string& vehicle_id) const;
   void Ask(FleetRequest request, const std::string& vehicle_id, Clock::time_point now);
   void Take(const FleetReply& reply);
   void TakeModels(const FleetReply& reply);
@@ -65,6 +67,8 @@ class Mirror {
   std::optional<Writer<telltale_wire_FleetRequest>> request_writer_;
 
   std::set<std::string> incomplete_;  ///< vehicles whose models may have a hole
+  /// The newest revision of each vehicle at the start, until the other daemon has told its own.
+  std::map<std::string, std::uint64_t> unconfirmed_;
   /// Vehicles of which earlier diagnoses may be missing: before which time. 0: any.
   std::map<std::string, double> diagnoses_before_;
   FleetRequest asked_;  ///< the request under way, of one vehicle; unknown: none

@@ -16,6 +16,7 @@
 #include "telltale/client/fleet/identification_client.hpp"
 #include "telltale/client/fleet/subscriber.hpp"
 #include "telltale/service/diagnosis/diagnosis_store.hpp"
+#include "telltale/service/models/model_store.hpp"
 
 namespace telltale {
 namespace {
@@ -146,6 +147,29 @@ TEST_F(StandbyDaemon, DoesNotAnswerWhileTheOtherServes) {
   }
   EXPECT_THAT(one_->output(), HasSubstr("for c: PUBLISHED"));
   EXPECT_THAT(two_->output(), Not(HasSubstr("PUBLISHED")));
+}
+
+// The first has kept a revision 2 on disk, and was killed before the topic had it.
+TEST_F(StandbyDaemon, GivesUpAModelThatNobodyHasHeardOf) {
+  ASSERT_NO_FATAL_FAILURE(KillTheFirstOnceBothHaveAModel());
+  {
+    ModelStore store(telltale::Storage(folder_.Path() / "state-one"));
+    StoredModel unheard = *store.Latest(kVehicleId);
+    unheard.model.revision = 2;
+    unheard.model.published_unix_s += 0.5;
+    store.Keep(unheard);
+  }
+  ASSERT_EQ(Identify("second"), 2u);
+  ASSERT_EQ(Identify("third"), 3u);
+  one_ = pair_.Start("one", 2);
+  ASSERT_TRUE(DaemonPair::Keeps(*one_, 3)) << one_->output();
+  ASSERT_TRUE(DaemonPair::IsComplete(*one_)) << one_->output();
+  const auto published = [this](const std::string& name) {
+    return ModelStore(telltale::Storage(folder_.Path() / ("state-" + name)))
+        .PublishedUnixS(kVehicleId, 2);
+  };
+  EXPECT_TRUE(published("two"));
+  EXPECT_EQ(published("one"), published("two"));
 }
 
 TEST_F(StandbyDaemon, LearnsWhatWasPublishedBeforeItServesAgain) {
