@@ -15,15 +15,23 @@ TICKS = os.sysconf("SC_CLK_TCK")
 PAGE_BYTES = os.sysconf("SC_PAGE_SIZE")
 
 
+def loopback_environment():
+    return dict(os.environ, TELLTALE_DDS_TAG=f"cost-{os.getpid()}",
+                CYCLONEDDS_URI=f"file://{ROOT}/deploy/cyclonedds/loopback.xml")
+
+
+def load_command(boats):
+    return [BUILT / "client/telltale", "load", "--domain", DOMAIN, "--boats", str(boats)]
+
+
 class Fleet:
     """A daemon and the load of its boats, until the block ends."""
 
     def __init__(self, boats, connections=128, settings=""):
         self._stack = contextlib.ExitStack()
         self.folder = pathlib.Path(self._stack.enter_context(tempfile.TemporaryDirectory()))
-        self.environment = dict(os.environ, TELLTALE_DDS_TAG=f"cost-{os.getpid()}",
-                                CYCLONEDDS_URI=f"file://{ROOT}/deploy/cyclonedds/loopback.xml")
-        load = [BUILT / "client/telltale", "load", "--domain", DOMAIN, "--boats", str(boats)]
+        self.environment = loopback_environment()
+        load = load_command(boats)
         subprocess.run([*load, "--write-vehicles", self.folder / "boats"], check=True, stdout=subprocess.DEVNULL)
         config = self.folder / "telltaled.textproto"
         config.write_text(f'domain: {DOMAIN}\nvehicle_folder: "{self.folder}/boats"\n'
@@ -60,6 +68,13 @@ class Fleet:
 
     def resident_bytes(self):
         return int(pathlib.Path(f"/proc/{self.daemon.pid}/statm").read_text().split()[1]) * PAGE_BYTES
+
+    def dropped_packets(self):
+        """Those that found the receive buffers of the daemon full."""
+        links = (os.readlink(link) for link in pathlib.Path(f"/proc/{self.daemon.pid}/fd").iterdir())
+        sockets = {found.group(1) for link in links if (found := re.match(r"socket:\[(\d+)\]", link))}
+        rows = [row.split() for row in pathlib.Path("/proc/net/udp").read_text().splitlines()[1:]]
+        return sum(int(row[12]) for row in rows if row[9] in sockets)
 
     def get(self, route):
         connection = http.client.HTTPConnection("127.0.0.1", self.port, timeout=60)
