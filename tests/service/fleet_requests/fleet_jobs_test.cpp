@@ -54,11 +54,11 @@ class FleetJobsTest : public ::testing::Test {
   FleetJobs Jobs(std::function<SliceSet()> served) {
     return {fleet_,
             models_,
+            diagnoses_,
             replies_,
             journal_,
             std::move(served),
-            {.submit = [](auto, auto) {}, .cancel = [](auto&) {
-                                            return false; }}};
+            {.submit = [](auto, auto) {}, .cancel = [](auto&) { return false; }}};
   }
 
   LoopbackDomain domain_;
@@ -70,6 +70,7 @@ class FleetJobsTest : public ::testing::Test {
   Fleet fleet_{{}, WindowLimits()};
   Role role_{std::nullopt};
   PublishedModels models_{participant_, ModelStore(storage_), fleet_, role_};
+  PublishedDiagnoses diagnoses_{participant_, DiagnosisStore(storage_)};
   ReplyPublisher replies_{participant_, role_};
   RequestJournal journal_{storage_};
   std::map<std::string, FleetReply> replies_seen_;  ///< by correlation id
