@@ -124,7 +124,7 @@ int Serve(DaemonConfig config, const std::string& config_file, const Signals& si
 /// processor could then hold the heap of one that must not wait.
 void GiveEachThreadAHeap() {
   constexpr int kMoreThanThreads = 1024;
-  mallopt(M_ARENA_MAX, kMoreThanThreads);
+  mallopt(M_ARENA_MAX, kMoreThanThreads);  // NOLINT(concurrency-mt-unsafe): no thread runs yet
 }
 
 int Main(int argc, char** argv) {

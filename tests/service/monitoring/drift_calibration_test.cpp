@@ -1,6 +1,7 @@
 // What the monitor makes of boats of which everything is known. bench/drift_rates measures how
 // often, for docs/validation/monitoring.md.
 #include <cstdint>
+#include <ostream>
 #include <string>
 
 #include <gtest/gtest.h>
@@ -57,9 +58,14 @@ TEST(NominalDriftCalibration, FindsNothingInChangingWeatherNorOnTransits) {
 }
 
 struct Expected {
+  const char* name;
   Fault fault;
   const char* pattern;  ///< that is named; empty: any. No watched change is more drag on every side
 };
+
+void PrintTo(const Expected& expected, std::ostream* out) {
+  *out << expected.name;
+}
 
 class DriftCalibration : public ::testing::TestWithParam<Expected> {};
 
@@ -73,11 +79,13 @@ TEST_P(DriftCalibration, IsFoundWithinTenMinutes) {
   EXPECT_GT(monitor.onset()->vehicle_s, kIdentifiedS + kHourS / 3.0);
 }
 
-INSTANTIATE_TEST_SUITE_P(Faults, DriftCalibration,
-                         ::testing::Values(Expected{{.port_thrust = 0.6}, "port thruster"},
-                                           Expected{{.drag = 1.3}, ""},
-                                           Expected{{.compass_deg = 4.0}, "heading reads"},
-                                           Expected{{.compass_deg = -4.0}, "heading reads"}));
+INSTANTIATE_TEST_SUITE_P(
+    Faults, DriftCalibration,
+    ::testing::Values(Expected{"WeakPortThruster", {.port_thrust = 0.6}, "port thruster"},
+                      Expected{"Fouling", {.drag = 1.3}, ""},
+                      Expected{"CompassTooHigh", {.compass_deg = 4.0}, "heading reads"},
+                      Expected{"CompassTooLow", {.compass_deg = -4.0}, "heading reads"}),
+    [](const auto& expected) { return std::string(expected.param.name); });
 
 }  // namespace
 }  // namespace telltale::drift
