@@ -26,12 +26,14 @@ pack() {
   mkdir -p "$tree/root/release-$1"
   cp "$sandbox/packages-$1"/*.deb "$tree/root/release-$1"
 }
+# packed RELEASE NAME...: the files of these packages, as the tree sees them.
+packed() { (cd "$tree" && for name in "${@:2}"; do printf '/%s\n' "root/release-$1/${name}"_*.deb; done); }
 # start: telltaled, as its unit starts it.
 start() {
   chroot "$tree" env CYCLONEDDS_URI=file:///etc/telltale/cyclonedds.xml \
     telltaled --config /etc/telltale/telltaled.textproto &> "$sandbox/daemon" &
   daemon=$!
-  timeout 60 tail -n +1 -f "$sandbox/daemon" --pid "$daemon" | grep -q -m 1 "serving 2 vehicles" ||
+  grep -q -m 1 "serving 2 vehicles" < <(timeout 60 tail -n +1 -f "$sandbox/daemon" --pid "$daemon") ||
     { cp "$sandbox/daemon" "$sandbox/output"; fail "telltaled does not serve"; }
 }
 finish() {
@@ -47,9 +49,9 @@ mount -t proc proc "$tree/proc"
 pack 1
 
 echo "== The packages install and run"
-run "installing" inside apt-get install -y --no-install-recommends /root/release-1/telltale_*.deb \
-  /root/release-1/telltaled_*.deb /root/release-1/python3-telltale_*.deb
-run "resolving what libtelltale-dev needs" inside apt-get install --simulate /root/release-1/libtelltale-dev_*.deb
+mapfile -t first < <(packed 1 telltale telltaled python3-telltale)
+run "installing" inside apt-get install -y --no-install-recommends "${first[@]}"
+run "resolving what libtelltale-dev needs" inside apt-get install --simulate "$(packed 1 libtelltale-dev)"
 run "import telltale" inside python3 -c 'import telltale; print(telltale.__version__)'
 cp -r "$root/deploy/sample" "$tree/root/sample"
 echo 'vehicle_files: "/root/sample/yellowfish.textproto"' >> "$tree/etc/telltale/telltaled.textproto"
@@ -61,7 +63,8 @@ finish
 
 echo "== An upgrade keeps configuration and data"
 pack 2
-run upgrading inside dpkg -i /root/release-2/telltale_*.deb /root/release-2/telltaled_*.deb /root/release-2/python3-telltale_*.deb
+mapfile -t second < <(packed 2 telltale telltaled python3-telltale)
+run upgrading inside dpkg -i "${second[@]}"
 [[ $(inside dpkg-query --show telltaled) == *-2 ]] || fail "telltaled is not upgraded"
 start
 run history telltale history --vehicle-id yellowfish --json
@@ -72,7 +75,7 @@ echo "== Removal takes all but configuration and data, purge the configuration"
 run removing inside apt-get remove -y telltale telltaled python3-telltale
 [[ ! -e $tree/usr/bin/telltaled && ! -e $tree/usr/lib/systemd/system/telltaled.service ]] || fail "removal leaves files"
 [[ -e $tree/etc/telltale/telltaled.textproto && -e $tree/var/lib/telltale/models.sqlite ]] || fail "removal takes data"
-run purging inside apt-get purge -y telltale telltaled python3-telltale
+run purging inside dpkg --purge telltale telltaled python3-telltale
 left=$(find "$tree/etc" "$tree/usr" -iname '*telltale*')
 [[ -z $left ]] || fail "purge leaves $left"
 echo "the packages install, run, upgrade and go"
