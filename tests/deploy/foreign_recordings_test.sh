@@ -1,20 +1,10 @@
 #!/usr/bin/env bash
 # Recordings that other programs' writers make of one telemetry log (@mcap/core, node-mavlink,
-# @foxglove/rosmsg2-serialization, from npm) come back sample by sample. TELLTALE_BUILT names the build
-# folder, where the writers are kept. Skipped where they cannot be installed; in CI that is a failure.
+# @foxglove/rosmsg2-serialization, from npm) come back sample by sample.
 set -euo pipefail
-root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
-telltale=$TELLTALE_BUILT/client/telltale
-writers=$TELLTALE_BUILT/foreign_writers
-"$root/tests/deploy/from_npm" "$writers" write_fixtures.mjs lz4
-
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
-mkdir "$work/log"
-for channel in gnss heading thrusters; do
-  awk -F, 'NR == 1 || $1 <= 120' "$root/deploy/sample/$channel.csv" > "$work/log/$channel.csv"
-done
-node "$writers/write_fixtures.mjs" "$work/log" "$work/made"
+# shellcheck source=tests/deploy/foreign_fixtures.bash
+source "$(dirname "${BASH_SOURCE[0]}")/foreign_fixtures.bash"
+make_fixtures 120
 
 for file in log.tlog blueos.mcap ros2-none.mcap ros2-unchunked.mcap ros2-zstd.mcap ros2-lz4.mcap; do
   "$telltale" import --log "$work/made/$file" --out "$work/read/$file" > /dev/null 2> "$work/said" ||

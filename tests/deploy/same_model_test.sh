@@ -1,22 +1,12 @@
 #!/usr/bin/env bash
 # One recording gives the same model through every format, to the last digit that the format resolves.
-# TELLTALE_BUILT names the build folder. Skipped where the writers from npm cannot be installed; in CI that is a
-# failure.
 set -euo pipefail
-root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
-telltale=$TELLTALE_BUILT/client/telltale
-writers=$TELLTALE_BUILT/foreign_writers
-"$root/tests/deploy/from_npm" "$writers" write_fixtures.mjs lz4
-
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
-mkdir "$work/log" "$work/models"
-for channel in gnss heading thrusters; do
-  awk -F, 'NR == 1 || $1 <= 300' "$root/deploy/sample/$channel.csv" > "$work/log/$channel.csv"
-done
-node "$writers/write_fixtures.mjs" "$work/log" "$work/made"
+# shellcheck source=tests/deploy/foreign_fixtures.bash
+source "$(dirname "${BASH_SOURCE[0]}")/foreign_fixtures.bash"
+make_fixtures 300
 "$root/tests/client/recording/foreign/other_formats.py" "$work/log" "$work/made"
 cp -r "$work/log" "$work/made/log"
+mkdir "$work/models"
 
 cat > "$work/one-csv.textproto" <<'MAPPING'
 time { field: "stamp" }
