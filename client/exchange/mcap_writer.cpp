@@ -17,19 +17,6 @@ constexpr std::size_t kChunkBytes = std::size_t{1} << 20;
 constexpr std::string_view kCompression = "zstd";
 constexpr std::uint32_t kNoChecksum = 0;  // the format's word for "not computed"
 
-enum class Record : std::uint8_t {
-  kHeader = 1,
-  kFooter = 2,
-  kSchema = 3,
-  kChannel = 4,
-  kMessage = 5,
-  kChunk = 6,
-  kMessageIndex = 7,
-  kChunkIndex = 8,
-  kStatistics = 11,
-  kDataEnd = 15
-};
-
 /// The content of a record, field by field.
 class Content {
  public:
@@ -47,9 +34,9 @@ class Content {
     bytes_.append(bytes);
     return *this;
   }
-  std::string As(Record record) const {
+  std::string As(std::uint8_t opcode) const {
     Content whole;
-    whole.Put(static_cast<std::uint8_t>(record)).Put(std::uint64_t{bytes_.size()}).Raw(bytes_);
+    whole.Put(opcode).Put(std::uint64_t{bytes_.size()}).Raw(bytes_);
     return whole.bytes_;
   }
   const std::string& Bytes() const { return bytes_; }
@@ -92,12 +79,12 @@ struct Chunk {
                 .Text(kCompression)
                 .Put(std::uint64_t{compressed.size()})
                 .Raw(compressed)
-                .As(Record::kChunk);
+                .As(McapOpcode::kChunk);
     const std::uint64_t chunk_bytes = file.size() - chunk_at;
     std::map<std::uint16_t, std::uint64_t> index_at;
     for (const auto& [channel, entries] : index) {
       index_at[channel] = file.size();
-      file += Content().Put(channel).Text(entries.Bytes()).As(Record::kMessageIndex);
+      file += Content().Put(channel).Text(entries.Bytes()).As(McapOpcode::kMessageIndex);
     }
     summary += Content()
                    .Put(start_ns)
@@ -109,7 +96,7 @@ struct Chunk {
                    .Text(kCompression)
                    .Put(std::uint64_t{compressed.size()})
                    .Put(std::uint64_t{records.size()})
-                   .As(Record::kChunkIndex);
+                   .As(McapOpcode::kChunkIndex);
   }
 };
 
@@ -137,14 +124,14 @@ std::string McapWriter::Definitions() const {
                    .Text(channel.schema_name)
                    .Text("jsonschema")
                    .Text(channel.json_schema)
-                   .As(Record::kSchema);
+                   .As(McapOpcode::kSchema);
     records += Content()
                    .Put(number)
                    .Put(number)
                    .Text(channel.topic)
                    .Text("json")
                    .Text("")
-                   .As(Record::kChannel);
+                   .As(McapOpcode::kChannel);
   }
   return records;
 }
@@ -156,7 +143,7 @@ std::string McapWriter::Finish() const {
                    [](const Message* a, const Message* b) { return a->time_ns < b->time_ns; });
 
   std::string file(kMcapMagic);
-  file += Content().Text("").Text("telltale").As(Record::kHeader);
+  file += Content().Text("").Text("telltale").As(McapOpcode::kHeader);
   std::string chunk_indexes;
   std::uint32_t chunks = 0;
   std::map<std::uint16_t, std::uint64_t> counts;
@@ -178,11 +165,11 @@ std::string McapWriter::Finish() const {
                          .Put(message->time_ns)
                          .Put(message->time_ns)
                          .Raw(message->json)
-                         .As(Record::kMessage);
+                         .As(McapOpcode::kMessage);
     if (chunk.records.size() >= kChunkBytes) close_chunk();
   }
   if (!chunk.records.empty()) close_chunk();
-  file += Content().Put(kNoChecksum).As(Record::kDataEnd);
+  file += Content().Put(kNoChecksum).As(McapOpcode::kDataEnd);
 
   const std::uint64_t summary_at = file.size();
   file += Definitions();
@@ -196,9 +183,9 @@ std::string McapWriter::Finish() const {
               .Put(in_order.empty() ? std::uint64_t{0} : in_order.front()->time_ns)
               .Put(in_order.empty() ? std::uint64_t{0} : in_order.back()->time_ns)
               .Text(ChannelMap(counts).Bytes())
-              .As(Record::kStatistics);
+              .As(McapOpcode::kStatistics);
   file += chunk_indexes;
-  file += Content().Put(summary_at).Put(std::uint64_t{0}).Put(kNoChecksum).As(Record::kFooter);
+  file += Content().Put(summary_at).Put(std::uint64_t{0}).Put(kNoChecksum).As(McapOpcode::kFooter);
   return file.append(kMcapMagic);
 }
 

@@ -21,15 +21,17 @@ inline bool BeginsLikeMcap(std::span<const std::uint8_t> bytes) {
 /// What stands before the content of each record: its opcode and its length, 8 bytes.
 inline constexpr std::size_t kMcapRecordHeader = 9;
 
-/// The records that are read; others are passed over.
+/// The records that are read or written; others are passed over.
 struct McapOpcode {
   enum : std::uint8_t {
+    kHeader = 1,
     kFooter = 2,
     kSchema = 3,
     kChannel = 4,
     kMessage = 5,
     kChunk = 6,
     kMessageIndex = 7,
+    kChunkIndex = 8,
     kStatistics = 11,
     kDataEnd = 15
   };
