@@ -21,8 +21,6 @@ namespace {
 using enum FossenParameter;
 
 constexpr std::size_t kDraws = 2000;
-// A posterior this share of its prior or wider is the prior's.
-constexpr double kPriorShare = 0.8;
 // Of a recording that differs, over all of them.
 constexpr double kDifferenceLevel = 0.05;
 constexpr double kLeastCommandDeviation = 0.05;
@@ -112,9 +110,8 @@ PhysicalModel ModelWithBounds(const PredictionErrorFit& fit, const FossenPrior& 
         std::min(parameter.interval.lower, std::max(parameter.estimate - half, prior.least[at]));
     parameter.interval.upper =
         std::max(parameter.interval.upper, std::min(parameter.estimate + half, prior.greatest[at]));
-    const bool prior_decides =
-        parameter.standard_error > kPriorShare * prior.standard_deviation[at];
-    parameter.status = prior_decides ? CoefficientStatus::kPrior : CoefficientStatus::kEstimated;
+    parameter.status = prior.Decides(at, parameter.standard_error) ? CoefficientStatus::kPrior
+                                                                   : CoefficientStatus::kEstimated;
     model.parameters.push_back(parameter);
   }
   return model;

@@ -17,6 +17,13 @@ struct FossenPrior {
   double reverse_over_forward_sigma = 0.25;
   double current_sigma_m_s = 0.3;
   double misalignment_sigma_rad = 0.087;  ///< 5 degrees
+
+  /// Whether a standard error is so near that of the prior that the prior decides the parameter,
+  /// not the data.
+  bool Decides(Eigen::Index parameter, double standard_error) const {
+    constexpr double kShare = 0.8;
+    return standard_error > kShare * standard_deviation[parameter];
+  }
 };
 
 FossenPrior PriorOf(const Vehicle& vehicle);

@@ -16,8 +16,6 @@ namespace {
 // The least share of the information on a direction that a recording, and all others, need to have
 // to be compared along it.
 constexpr double kLeastShare = 0.1;
-// A standard error of this share of its prior's or more is the prior's.
-constexpr double kPriorShare = 0.8;
 
 struct Deviations {
   double squares = 0.0;  ///< of standard deviations
@@ -62,7 +60,7 @@ RecordingDifference DifferenceOf(const ScoreBlock& recording, const PredictionEr
   double compared = 0.0;
   RecordingDifference difference;
   for (Eigen::Index i = 0; i < move.size(); ++i) {
-    if (std::sqrt(without(i, i)) > kPriorShare * prior.standard_deviation[i]) continue;
+    if (prior.Decides(i, std::sqrt(without(i, i)))) continue;
     if (move_variance[i] <= kLeastShare * kLeastShare * without(i, i)) continue;
     compared += 1.0;
     const double deviations = std::abs(move[i]) / std::sqrt(move_variance[i]);

@@ -41,16 +41,23 @@ FossenSquare CovarianceOfScores(const std::vector<ScoreBlock>& blocks,
   return covariance;
 }
 
+// Of the scores over what the information expects of them.
+double DispersionOf(const FossenSquare& scores, const PredictionErrorFit& fit,
+                    const Eigen::LLT<FossenSquare>& information) {
+  return information.solve(scores).trace() /
+         information.solve(FossenSquare(fit.data_information)).trace();
+}
+
 // Scatter between the recordings in place of that between blocks of time; 0 of one recording.
-double DispersionByRecordings(const PredictionErrorFit& fit, const FossenSquare& inverse) {
+double DispersionByRecordings(const PredictionErrorFit& fit,
+                              const Eigen::LLT<FossenSquare>& information) {
   const auto recordings = static_cast<double>(fit.recordings.size());
   if (fit.recordings.size() < 2) return 0.0;
   FossenSquare squares = FossenSquare::Zero();
   for (const ScoreBlock& recording : fit.recordings) {
     squares += recording.score * recording.score.transpose();
   }
-  return recordings / (recordings - 1.0) * (inverse * squares).trace() /
-         (inverse * fit.data_information).trace();
+  return recordings / (recordings - 1.0) * DispersionOf(squares, fit, information);
 }
 
 // Satterthwaite's, of a variance that is the sum over the blocks.
@@ -88,18 +95,16 @@ std::size_t EquivalentBlocks(std::size_t blocks) {
 
 double DispersionOf(const PredictionErrorFit& fit) {
   const Eigen::LLT<FossenSquare> root{FossenSquare(fit.information)};
-  const FossenSquare of_blocks = CovarianceOfScores(fit.blocks, root);
-  return root.solve(of_blocks).trace() / root.solve(FossenSquare(fit.data_information)).trace();
+  return DispersionOf(CovarianceOfScores(fit.blocks, root), fit, root);
 }
 
 RobustCovariance CovarianceOf(const PredictionErrorFit& fit, double level) {
   const FossenSquare information = fit.information;
   const Eigen::LLT<FossenSquare> root(information);
-  const FossenSquare inverse = root.solve(FossenSquare(FossenSquare::Identity()));
   const FossenSquare by_score = FossenSquare(fit.slope).inverse();
   const FossenSquare of_blocks = CovarianceOfScores(fit.blocks, root);
-  const double by_blocks = DispersionOf(fit);
-  const double inflation = std::max(by_blocks, DispersionByRecordings(fit, inverse));
+  const double by_blocks = DispersionOf(of_blocks, fit, root);
+  const double inflation = std::max(by_blocks, DispersionByRecordings(fit, root));
   const double weight = WeightOf(fit.blocks.size());
   const FossenSquare scores = weight * (inflation / by_blocks) * of_blocks +
                               (1.0 - weight) * inflation * fit.data_information;
