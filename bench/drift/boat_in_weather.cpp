@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "support/catamaran.hpp"
 #include "telltale/core/base/degrees.hpp"
 #include "telltale/core/simulation/manoeuvres.hpp"
 #include "telltale/core/simulation/sensors.hpp"
@@ -25,15 +26,10 @@ constexpr double kHullSpread = 0.1;
 constexpr double kCurrentMps = 0.1;
 constexpr std::size_t kKindsOfWork = 6;
 
-/// In SI units; stable on every course.
-VesselModel Catamaran(std::uint64_t seed, double thruster_lag_s) {
-  VesselModel model = VesselModel::OfZeros(
-      Structure::kFirstOrderDynamic, Parameterization::kPropeller, Discretisation::kContinuous);
+/// One of a series of boats that differ in every coefficient.
+VesselModel CatamaranOf(std::uint64_t seed, double thruster_lag_s) {
   constexpr double kAtOnceS = 1e-6;
-  model.thruster_time_constant_s = std::max(thruster_lag_s, kAtOnceS);
-  model.theta[0] << -0.35, 0.9, 0.05, -0.25, 0.01, 0.45, 0.25, -0.3, 0.2;
-  model.theta[1] << -0.8, -0.2, 0.1, 0.05, -0.2, -0.6, -0.6, 0.05, 0.005, 0.02, 0.03, -0.02, 0.02;
-  model.theta[2] << 0.05, 0.02, -0.1, -0.9, -0.15, -0.35, -0.1, -0.8, 0.005, 0.9, 0.5, -0.6, 0.4;
+  VesselModel model = testing::Catamaran(std::max(thruster_lag_s, kAtOnceS));
   WhiteSource white(seed, 8);
   for (Eigen::VectorXd& theta : model.theta) {
     for (double& coefficient : theta) coefficient *= std::exp(kHullSpread * white());
@@ -71,7 +67,7 @@ GaussMarkov Gusts(std::uint64_t seed, std::uint64_t stream) {
 }  // namespace
 
 BoatInWeather::BoatInWeather(std::uint64_t seed, double thruster_lag_s)
-    : model_(Catamaran(seed, thruster_lag_s)),
+    : model_(CatamaranOf(seed, thruster_lag_s)),
       random_(seed),
       seed_(seed),
       strength_(Slow(kStrengthSpread, seed, 1)),
@@ -154,11 +150,7 @@ void BoatInWeather::Advance(const VesselModel& model, const PropellerCommand& de
 }
 
 Vehicle VehicleInWeather() {
-  Vehicle vehicle;
-  vehicle.vehicle_id = "catamaran";
-  vehicle.propeller_separation_m = 0.7;
-  vehicle.gnss_antenna = {-0.2, 0.1};
-  return vehicle;
+  return testing::CatamaranVehicle();
 }
 
 }  // namespace telltale::drift
