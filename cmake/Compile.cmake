@@ -125,31 +125,26 @@ function(telltale_check target)
   target_precompile_headers(${target} REUSE_FROM telltale_check_headers)
 endfunction()
 
-# Each folder of the target becomes one compilation, so that what its files all include is read and
-# instantiated once. Not for core and idl: there touching one file should cost seconds.
-function(telltale_compile_folders_whole target)
+# telltale_compile_in_groups(TARGET folder|target FILES): up to so many files of a folder, or of the target, become
+# one compilation. What they all include is read and instantiated once, which takes half of the time. By folder
+# where touching or adding one file should cost seconds. Names do not matter: files that would meet come into
+# different groups, anew whenever a source changes.
+function(telltale_compile_in_groups target within files)
+  if(NOT TELLTALE_COMPILE_TOGETHER)
+    return()
+  endif()
   get_target_property(sources ${target} SOURCES)
   list(FILTER sources INCLUDE REGEX "[.]cpp$")
-  foreach(source IN LISTS sources)
-    cmake_path(ABSOLUTE_PATH source)
-    cmake_path(GET source PARENT_PATH folder)
-    cmake_path(RELATIVE_PATH folder BASE_DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR})
-    string(REPLACE "/" "_" folder "${folder}")
-    telltale_compile_together(${target} ${folder} ${source})
-  endforeach()
-endfunction()
-
-# telltale_compile_whole(TARGET [PATTERN]): all its files become one compilation, or those that match.
-function(telltale_compile_whole target)
-  get_target_property(sources ${target} SOURCES)
-  list(FILTER sources INCLUDE REGEX "${ARGN}[^/]*[.]cpp$")
-  telltale_compile_together(${target} whole ${sources})
-endfunction()
-
-# telltale_compile_together(TARGET NAME SOURCES...): these become one compilation.
-function(telltale_compile_together target name)
-  if(TELLTALE_COMPILE_TOGETHER)
-    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
-    set_source_files_properties(${ARGN} PROPERTIES UNITY_GROUP ${name})
-  endif()
+  list(SORT sources)
+  set(script ${PROJECT_SOURCE_DIR}/cmake/compile-groups)
+  execute_process(COMMAND ${Python_EXECUTABLE} ${script} ${within} ${files} ${sources}
+                  WORKING_DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR}
+                  OUTPUT_VARIABLE placed COMMAND_ERROR_IS_FATAL ANY)
+  string(REGEX MATCHALL "[^ \n]+" placed "${placed}")
+  while(placed)
+    list(POP_FRONT placed group source)
+    set_source_files_properties(${source} PROPERTIES UNITY_GROUP ${group})
+  endwhile()
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
+  set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${sources} ${script})
 endfunction()

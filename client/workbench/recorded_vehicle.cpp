@@ -4,6 +4,7 @@
 #include <string>
 #include <utility>
 
+#include "telltale/client/recording/telemetry_log/telemetry_log.hpp"
 #include "telltale/client/report/number_text.hpp"
 #include "telltale/client/workbench/errors.hpp"
 #include "telltale/core/data/input_check.hpp"
