@@ -30,17 +30,30 @@ std::optional<double> SquaredRadius(const Identification& identification) {
   return SquaredRadius(*identification.joint, bounded, level);
 }
 
-Result<VesselModel> ModelOf(const Identification& identification) {
+VesselModel ThrustersOf(const Identification& identification) {
   VesselModel model;
   model.structure = identification.structure == Structure::kFossen ? Structure::kFirstOrderDynamic
                                                                    : identification.structure;
   model.parameterization = identification.parameterization;
+  model.sampling_period_s = identification.sampling_period_s;
+  model.dead_zone = identification.dead_zone;
+  if (identification.thruster_time_constant) {
+    model.thruster_time_constant_s = identification.thruster_time_constant->estimate;
+  }
+  if (identification.physical) {
+    const FossenVector parameters = identification.physical->Estimates();
+    model.reverse_loss = ReverseLossOf(parameters);
+    model.thrust_imbalance = parameters[At(FossenParameter::kImbalance)];
+  }
+  return model;
+}
+
+Result<VesselModel> ModelOf(const Identification& identification) {
+  VesselModel model = ThrustersOf(identification);
   // One-step least squares fits the discrete model itself; only that model reproduces its data.
   model.discretisation = identification.estimator == Estimator::kOneStep
                              ? Discretisation::kForwardEuler
                              : Discretisation::kContinuous;
-  model.sampling_period_s = identification.sampling_period_s;
-  model.dead_zone = identification.dead_zone;
   for (const Equation equation : kEquations) {
     if (!identification.Has(equation)) {
       return Refuse("free run", "the model has no " + std::string(Name(equation)) + " equation",
@@ -54,14 +67,6 @@ Result<VesselModel> ModelOf(const Identification& identification) {
       if (identification.coefficients[i].equation != equation) continue;
       theta[next++] = identification.SimulationParameter(i);
     }
-  }
-  if (identification.thruster_time_constant) {
-    model.thruster_time_constant_s = identification.thruster_time_constant->estimate;
-  }
-  if (identification.physical) {
-    const FossenVector parameters = identification.physical->Estimates();
-    model.reverse_loss = ReverseLossOf(parameters);
-    model.thrust_imbalance = parameters[At(FossenParameter::kImbalance)];
   }
   return model;
 }

@@ -89,6 +89,9 @@ struct Identification {
 /// over those of finite variance. Nothing where no joint statement can be made.
 std::optional<double> SquaredRadius(const Identification& identification);
 
+/// What the model says of the thrusters; its theta are empty.
+VesselModel ThrustersOf(const Identification& identification);
+
 /// The model without bounds, ready to simulate: with the simulation parameters.
 /// Refuses when: an equation was refused, since a free run needs all three.
 Result<VesselModel> ModelOf(const Identification& identification);

@@ -58,21 +58,6 @@ ThrustRegressors Combined(const ThrustRegressors& a, const ThrustRegressors& b, 
   return result;
 }
 
-VesselModel ThrustersOf(const Identification& identification) {
-  VesselModel model;
-  model.structure = identification.structure;
-  model.parameterization = identification.parameterization;
-  model.sampling_period_s = identification.sampling_period_s;
-  model.dead_zone = identification.dead_zone;
-  if (identification.thruster_time_constant) {
-    model.thruster_time_constant_s = identification.thruster_time_constant->estimate;
-  }
-  if (identification.physical) {
-    model.thrust_imbalance = identification.physical->Estimates()[At(FossenParameter::kImbalance)];
-  }
-  return model;
-}
-
 /// nu_dot of the propellers alone.
 NuDot PropellerPart(const VesselModel& model, const ThrustRegressors& thrust) {
   const auto part = [&](Equation equation) {
