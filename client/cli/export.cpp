@@ -62,6 +62,30 @@ void PrintExported(const ExportArguments& arguments) {
   for (const fs::path& file : Exported(arguments)) std::cout << file.string() << '\n';
 }
 
+/// Of the formats over a recording, then of those of the model alone.
+void AddFormatOptions(CLI::App& command, ExportChoices& choices) {
+  command
+      .add_option("--horizon", choices.horizon_s,
+                  "of csv and mcap: length of the free runs, seconds, at least two sampling "
+                  "periods, at most 600")
+      ->type_name("S")
+      ->check(NumberWithin(0.0, 600.0).description(""))
+      ->capture_default_str();
+  auto* const draws =
+      command
+          .add_option(
+              "--draws", choices.draws,
+              "also this many joint draws of the coefficients, [1, 100000], as draws.json and "
+              "draws.csv; --out is then a folder")
+          ->type_name("N")
+          ->check(CLI::Range(1, 100000).description(""));
+  command.add_option("--seed", choices.seed, "of the draws; the same seed gives the same bits")
+      ->type_name("N")
+      ->check(WholeNumber())
+      ->capture_default_str()
+      ->needs(draws);
+}
+
 }  // namespace
 
 void AddExport(CLI::App& telltale) {
@@ -82,28 +106,7 @@ void AddExport(CLI::App& telltale) {
       ->required()
       ->check(CLI::IsMember({"mss", "vrx", "csv", "mcap"}).description(""));
   AddLog(command, arguments->log, arguments->options)->required(false);
-  command
-      .add_option("--horizon", arguments->choices.horizon_s,
-                  "of csv and mcap: length of the free runs, seconds, at least two sampling "
-                  "periods, at most 600")
-      ->type_name("S")
-      ->check(NumberWithin(0.0, 600.0).description(""))
-      ->capture_default_str();
-  auto* const draws =
-      command
-          .add_option(
-              "--draws", arguments->choices.draws,
-              "also this many joint draws of the coefficients, [1, 100000], as draws.json and "
-              "draws.csv; --out is then a folder")
-          ->type_name("N")
-          ->check(CLI::Range(1, 100000).description(""));
-  command
-      .add_option("--seed", arguments->choices.seed,
-                  "of the draws; the same seed gives the same bits")
-      ->type_name("N")
-      ->check(WholeNumber())
-      ->capture_default_str()
-      ->needs(draws);
+  AddFormatOptions(command, arguments->choices);
   command
       .add_option(
           "--out", arguments->choices.out,

@@ -17,9 +17,7 @@ void ChooseDeadZone(const std::string& text, IdentifyChoices& choices) {
   choices.dead_zone = {forward, reverse};
 }
 
-}  // namespace
-
-void IdentifyArguments::AddOptionsTo(CLI::App& command) {
+void AddStructureOptions(CLI::App& command, IdentifyChoices& choices) {
   command
       .add_option(
           "--structure", choices.structure,
@@ -31,7 +29,7 @@ void IdentifyArguments::AddOptionsTo(CLI::App& command) {
       ->check(CLI::IsMember(StructureNames()).description(""));
   command
       .add_option_function<std::string>(
-          "--dead-zone", [this](const std::string& text) { ChooseDeadZone(text, choices); },
+          "--dead-zone", [&choices](const std::string& text) { ChooseDeadZone(text, choices); },
           "commands that give no thrust: two limits in shares of full command, the forward "
           "one in [0, 0.3] and the reverse one in [-0.3, 0], or identify (default 0,0)")
       ->type_name("FORWARD,REVERSE");
@@ -42,6 +40,9 @@ void IdentifyArguments::AddOptionsTo(CLI::App& command) {
       ->type_name("NAME")
       ->check(CLI::IsMember(ParameterizationNames()).description(""));
   AddIncludeRr(command, choices.include_rr);
+}
+
+void AddEstimatorOptions(CLI::App& command, IdentifyChoices& choices) {
   command
       .add_option(
           "--estimator", choices.estimator,
@@ -58,6 +59,9 @@ void IdentifyArguments::AddOptionsTo(CLI::App& command) {
       .add_option("--sampling-period", choices.sampling_period_s,
                   "of the model, seconds, [0.02, 2] (default: the median GNSS period)")
       ->type_name("S");
+}
+
+void AddBoundsOptions(CLI::App& command, IdentifyChoices& choices) {
   command
       .add_option(
           "--replicates", choices.parametric_replicates,
@@ -100,6 +104,9 @@ void IdentifyArguments::AddOptionsTo(CLI::App& command) {
   command
       .add_option("--level", choices.interval_level, "of the bounds, [0.5, 0.999] (default 0.95)")
       ->type_name("P");
+}
+
+void AddRepeatabilityOptions(CLI::App& command, IdentifyChoices& choices) {
   command
       .add_option("--seed", choices.seed, "of everything random; the same seed gives the same bits")
       ->type_name("N")
@@ -110,6 +117,15 @@ void IdentifyArguments::AddOptionsTo(CLI::App& command) {
                   "[1, 256] (default: all of the machine); never changes the result")
       ->type_name("N")
       ->check(WholeNumber());
+}
+
+}  // namespace
+
+void IdentifyArguments::AddOptionsTo(CLI::App& command) {
+  AddStructureOptions(command, choices);
+  AddEstimatorOptions(command, choices);
+  AddBoundsOptions(command, choices);
+  AddRepeatabilityOptions(command, choices);
   command.add_flag("--discrete", discrete,
                    "also print the coefficients times the sampling period, as in the paper");
   output.AddTo(command, "model.json");

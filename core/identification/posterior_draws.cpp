@@ -81,30 +81,49 @@ PosteriorDraws DrawPhysicalForm(const PhysicalModel& physical, std::size_t count
   return draws;
 }
 
-}  // namespace
+/// The coefficients of finite variance, by their places; the others are named in the draws.
+std::vector<Eigen::Index> DrawnCoefficients(const Identification& identification,
+                                            PosteriorDraws& draws) {
+  std::vector<Eigen::Index> drawn;
+  for (std::size_t i = 0; i < identification.coefficients.size(); ++i) {
+    const auto place = static_cast<Eigen::Index>(i);
+    if (std::isfinite(identification.covariance(place, place))) {
+      drawn.push_back(place);
+    } else {
+      const Coefficient& coefficient = identification.coefficients[i];
+      draws.not_drawn.push_back(std::string(Name(coefficient.equation)) + ' ' +
+                                coefficient.regressor);
+    }
+  }
+  return drawn;
+}
 
-Result<PosteriorDraws> DrawFromPosterior(const Identification& identification, std::size_t count,
-                                         std::uint64_t seed) {
-  Require(count >= 1, "at least one draw");
-  if (identification.physical) return DrawPhysicalForm(*identification.physical, count, seed);
+Eigen::VectorXd StandardNormal(Eigen::Index size, std::uint64_t seed, std::size_t stream) {
+  RandomEngine engine = RandomEngine::Stream(seed, stream);
+  boost::random::normal_distribution<double> normal(0.0, 1.0);
+  Eigen::VectorXd values(size);
+  for (double& value : values) value = normal(engine);
+  return values;
+}
+
+void RequireCovariances(const Identification& identification) {
   const auto size = static_cast<Eigen::Index>(identification.coefficients.size());
   Require(identification.covariance.rows() == size && identification.covariance.cols() == size,
           "a covariance over all coefficients");
   Require(identification.time_constant_covariance.size() ==
               (identification.thruster_time_constant ? size : 0),
           "a covariance of the time constant, where there is one, with every coefficient");
+}
+
+}  // namespace
+
+Result<PosteriorDraws> DrawFromPosterior(const Identification& identification, std::size_t count,
+                                         std::uint64_t seed) {
+  Require(count >= 1, "at least one draw");
+  if (identification.physical) return DrawPhysicalForm(*identification.physical, count, seed);
+  RequireCovariances(identification);
   PosteriorDraws draws;
-  const Eigen::VectorXd estimates = identification.Estimates();
-  std::vector<Eigen::Index> drawn;
-  for (Eigen::Index i = 0; i < size; ++i) {
-    const Coefficient& coefficient = identification.coefficients[static_cast<std::size_t>(i)];
-    if (std::isfinite(identification.covariance(i, i))) {
-      drawn.push_back(i);
-    } else {
-      draws.not_drawn.push_back(std::string(Name(coefficient.equation)) + ' ' +
-                                coefficient.regressor);
-    }
-  }
+  const std::vector<Eigen::Index> drawn = DrawnCoefficients(identification, draws);
   if (drawn.empty()) {
     return Refuse("draws", "not one coefficient of the model has a finite variance",
                   "identify from data that excite the boat, with bounds");
@@ -121,13 +140,9 @@ Result<PosteriorDraws> DrawFromPosterior(const Identification& identification, s
   const SquareRoot square_root = SymmetricRoot(covariance);
   draws.clipped = square_root.clipped;
 
-  draws.theta = estimates.replicate(1, static_cast<Eigen::Index>(count));
+  draws.theta = identification.Estimates().replicate(1, static_cast<Eigen::Index>(count));
   for (std::size_t i = 0; i < count; ++i) {
-    RandomEngine engine = RandomEngine::Stream(seed, i);
-    boost::random::normal_distribution<double> normal(0.0, 1.0);
-    Eigen::VectorXd whitened(covariance.rows());
-    for (double& value : whitened) value = normal(engine);
-    const Eigen::VectorXd shift = square_root.root * whitened;
+    const Eigen::VectorXd shift = square_root.root * StandardNormal(covariance.rows(), seed, i);
     draws.theta(drawn, static_cast<Eigen::Index>(i)) +=
         shift.head(static_cast<Eigen::Index>(drawn.size()));
     if (!time_constant) continue;

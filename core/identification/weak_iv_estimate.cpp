@@ -133,6 +133,56 @@ std::string InWords(const BootstrapCorrection& corrected, Eigen::Index clusters)
   return words.str();
 }
 
+/// What is estimated once what cannot be separated is cut, and how.
+struct Estimable {
+  SeparableColumns separable;
+  std::array<std::vector<std::size_t>, 3> columns;  ///< steady terms of each recording among them
+};
+
+Estimable EstimableColumns(const PreparedDataset& dataset, const RegressionOptions& regression,
+                           const WeakFormOptions& form, EquationEstimates& equation_estimates) {
+  Estimable estimable{Separate(dataset, regression, ExcitedColumns(equation_estimates), form), {}};
+  ReportCollinearGroups(estimable.separable, regression.parameterization, equation_estimates);
+  estimable.columns = WithRecordingBiases(dataset, regression, estimable.separable.kept, form,
+                                          equation_estimates.refusals);
+  return estimable;
+}
+
+/// Estimates with their covariance, and how far beyond a standard error each bound lies.
+struct Bounding {
+  Eigen::VectorXd theta;
+  Eigen::MatrixXd covariance;
+  Eigen::VectorXd interval_factors;
+  double degrees_of_freedom = 0.0;
+};
+
+/// Without replicates: clusters of residuals alone.
+Bounding ByClusters(const WeakFit& fit) {
+  return {fit.theta, ClusterCovariance(fit), Eigen::VectorXd::Ones(fit.theta.size()),
+          static_cast<double>(fit.scores.cols() - 1)};
+}
+
+void WriteBounds(const Bounding& bounding, const WeakFit& fit, const PreparedDataset& dataset,
+                 const SeparableColumns& separable, double level, BoundedEstimates& bounded) {
+  const ReportedParameters parameters = ReportedParametersOf(fit);
+  const Eigen::VectorXd reported = parameters.map * bounding.theta;
+  Unstack(fit, parameters, reported, bounded.equation_estimates);
+  bounded.bounds = StudentBounds(reported, Mapped(parameters.map, bounding.covariance),
+                                 ReportedIntervalFactors(parameters, bounding.interval_factors),
+                                 bounding.degrees_of_freedom, level);
+  RemoveBounds(separable, bounded.equation_estimates, bounded.bounds);
+  bounded.recording_bias = RecordingBiasesOf(parameters, reported, bounded.bounds, dataset);
+}
+
+void WriteProvenance(const BootstrapCorrection& corrected, Eigen::Index clusters,
+                     BoundedEstimates& bounded) {
+  bounded.bounds.joint = corrected.joint;
+  bounded.disturbance = corrected.disturbance;
+  bounded.provenance.parametric_replicates = corrected.solved;
+  bounded.provenance.parametric_replicate_failures = corrected.failures;
+  bounded.provenance.bounds_basis = InWords(corrected, clusters);
+}
+
 }  // namespace
 
 Result<PreparedDataset> PrepareForWeakIv(const Recording& recording, const Vehicle& vehicle,
@@ -168,11 +218,8 @@ Result<BoundedEstimates> BoundWeakIv(const PreparedDataset& dataset,
                                    : AssessExcitation(dataset, regression, options.excitation);
   if (!equation_estimates.Any())
     return tl::unexpected(RefuseAllEquations(equation_estimates.refusals));
-  const SeparableColumns separable =
-      Separate(dataset, regression, ExcitedColumns(equation_estimates), options.weak_iv.form);
-  ReportCollinearGroups(separable, regression.parameterization, equation_estimates);
-  const auto columns = WithRecordingBiases(dataset, regression, separable.kept,
-                                           options.weak_iv.form, equation_estimates.refusals);
+  const auto [separable, columns] =
+      EstimableColumns(dataset, regression, options.weak_iv.form, equation_estimates);
   const auto fit = preliminary && preliminary->columns == columns
                        ? preliminary->fit
                        : EstimateWeakIv(dataset, regression, columns, options.weak_iv);
@@ -185,40 +232,22 @@ Result<BoundedEstimates> BoundWeakIv(const PreparedDataset& dataset,
   if (auto warning = WarnOfFewClusters(clusters))
     equation_estimates.refusals.push_back(*std::move(warning));
 
-  std::optional<BootstrapCorrection> corrected;
   if (options.parametric_replicates > 0) {
-    corrected = CorrectByParametricBootstrap(
+    const auto corrected = CorrectByParametricBootstrap(
         dataset, regression, *fit, columns, options.weak_iv,
         {options.parametric_replicates, options.seed, options.threads}, [&](double fraction) {
           if (progress) progress("simulating replicates", 0.4 + 0.55 * fraction);
         });
-    if (!corrected) equation_estimates.refusals.push_back(WarnOfUncorrectedBias());
+    if (corrected) {
+      WriteBounds({corrected->theta, corrected->covariance, corrected->interval_factors,
+                   corrected->degrees_of_freedom},
+                  *fit, dataset, separable, options.interval_level, bounded);
+      WriteProvenance(*corrected, clusters, bounded);
+      return bounded;
+    }
+    equation_estimates.refusals.push_back(WarnOfUncorrectedBias());
   }
-  const ReportedParameters reported_parameters = ReportedParametersOf(*fit);
-  const auto write_bounds = [&](const Eigen::VectorXd& theta, const Eigen::MatrixXd& covariance,
-                                const Eigen::VectorXd& interval_factors,
-                                double degrees_of_freedom) {
-    const Eigen::VectorXd reported = reported_parameters.map * theta;
-    Unstack(*fit, reported_parameters, reported, equation_estimates);
-    bounded.bounds = StudentBounds(reported, Mapped(reported_parameters.map, covariance),
-                                   ReportedIntervalFactors(reported_parameters, interval_factors),
-                                   degrees_of_freedom, options.interval_level);
-    RemoveBounds(separable, equation_estimates, bounded.bounds);
-    bounded.recording_bias =
-        RecordingBiasesOf(reported_parameters, reported, bounded.bounds, dataset);
-  };
-  if (corrected) {
-    write_bounds(corrected->theta, corrected->covariance, corrected->interval_factors,
-                 corrected->degrees_of_freedom);
-    bounded.bounds.joint = corrected->joint;
-    bounded.disturbance = corrected->disturbance;
-    bounded.provenance.parametric_replicates = corrected->solved;
-    bounded.provenance.parametric_replicate_failures = corrected->failures;
-    bounded.provenance.bounds_basis = InWords(*corrected, clusters);
-    return bounded;
-  }
-  write_bounds(fit->theta, ClusterCovariance(*fit), Eigen::VectorXd::Ones(fit->theta.size()),
-               static_cast<double>(clusters - 1));
+  WriteBounds(ByClusters(*fit), *fit, dataset, separable, options.interval_level, bounded);
   bounded.provenance.bounds_basis =
       "clusters of residuals (" + std::to_string(clusters) + "), Student t; not corrected for bias";
   return bounded;
