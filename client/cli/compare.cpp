@@ -5,6 +5,7 @@
 #include "telltale/client/cli/commands.hpp"
 #include "telltale/client/cli/input_options.hpp"
 #include "telltale/client/cli/output_options.hpp"
+#include "telltale/client/cli/regressor_words.hpp"
 #include "telltale/client/cli/table.hpp"
 #include "telltale/client/workbench/compare_models.hpp"
 #include "telltale/client/workbench/errors.hpp"
@@ -20,18 +21,22 @@ struct CompareArguments {
   OutputOptions output;
 };
 
+std::string ChangedCell(const CoefficientChange& change) {
+  if (change.symbol == "tau") return ParameterCell("tau");
+  return change.equation == Equation::kUnknown ? ParameterCell(change.symbol)
+                                               : RegressorCell(change.equation, change.regressor);
+}
+
 std::string ChangeTable(const ModelChange& change) {
   Table table({{"equation"},
-               {"regressor"},
-               {"symbol"},
+               {"coefficient"},
                {"difference", Align::kRight},
                {"std. error", Align::kRight},
                {"sigma", Align::kRight},
-               {"p alone", Align::kRight}});
+               {"p", Align::kRight}});
   for (const CoefficientChange& c : change.coefficients) {
     const bool of_boat = c.equation == Equation::kUnknown;
-    table.AddRow({of_boat ? "" : std::string(Name(c.equation)),
-                  c.symbol == "tau" ? "time constant" : c.regressor, c.symbol,
+    table.AddRow({of_boat ? "" : std::string(Name(c.equation)), ChangedCell(c),
                   Significant(c.difference), Significant(c.standard_error, 3), Fixed(c.Sigmas(), 1),
                   Significant(c.p_value, 2)});
   }
@@ -44,7 +49,8 @@ std::string AnswerText(const ModelChange& change) {
          Wrapped("The second " + InWords(change) + ". Together: Wald statistic " +
                  Significant(change.statistic) + " over " +
                  Counted(change.degrees_of_freedom, "combination", "combinations") +
-                 "; models differ where p is below " + Plain(kSignificantChange) + '.');
+                 "; models differ where p is below " + Plain(kSignificantChange) +
+                 ". In the table, p is that of one coefficient alone.");
 }
 
 /// What each model simulates with, where that is not its estimates. The test compares estimates:
