@@ -29,7 +29,7 @@ WindowLimits ReadWindow(FieldReader reader) {
 }
 
 std::optional<Structure> ReadStructure(FieldReader& reader) {
-  const std::string name = reader.Text("structure", "static");
+  const std::string name = reader.Text("structure", "auto");
   if (name == "static") return Structure::kStaticQuadratic;
   if (name == "dynamic") return Structure::kFirstOrderDynamic;
   if (name == "fossen") return Structure::kFossen;

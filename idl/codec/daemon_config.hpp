@@ -25,7 +25,7 @@ struct IdentificationSettings {
   double interval_level = 0.95;               ///< [0.5, 0.999]
   std::uint32_t queue_limit = 1024;           ///< [1, 10000]
   /// Of requests that name none; nothing: by the data.
-  std::optional<Structure> structure = Structure::kStaticQuadratic;
+  std::optional<Structure> structure;
 };
 
 /// The web server of the daemon. Paths are as written; who opens them resolves them.

@@ -24,7 +24,7 @@ using ::testing::Not;
 /// A daemon that serves the yellowfish and two boats that never speak.
 class FleetCommands : public ServiceTest {
  protected:
-  FleetCommands() { Configure("bootstrap_replicates: 100"); }
+  FleetCommands() { Configure("bootstrap_replicates: 100 structure: \"static\""); }
 
   void Configure(const std::string& identification) {
     Vehicle vehicle = YellowfishVehicle();

@@ -70,7 +70,8 @@ class CampaignTest : public ServiceTest {
     config_file_ = folder_.Write(
         "campaign.textproto",
         fmt::format("domain: {}\nvehicle_files: \"vehicle.textproto\"\n{}"
-                    "identification {{ bootstrap_replicates: 0 }}\nquality_period_s: 0.1\n"
+                    "identification {{ bootstrap_replicates: 0 structure: \"static\" "
+                    "}}\nquality_period_s: 0.1\n"
                     "window {{ duration_s: {} save_period_s: {} }}\n",
                     domain_.id(), StorageLines(), kCampaignWindowS, kCampaignSavePeriodS));
   }

@@ -36,7 +36,8 @@ class SharedFleetTest : public ServiceTest {
         name + ".textproto",
         "domain: " + std::to_string(domain_.id()) + "\nvehicle_folder: \"boats\"\n" +
             "state_directory: \"" + (folder_.Path() / name).string() + "\"\ndatabase: \"" +
-            engine_.Address() + "\"\nidentification { bootstrap_replicates: 0 }\n" +
+            engine_.Address() +
+            "\"\nidentification { bootstrap_replicates: 0 structure: \"static\" }\n" +
             "quality_period_s: 0.1\nwindow { save_period_s: 0.2 }\n" + slices);
   }
 

@@ -26,7 +26,7 @@ class Upkeep : public ServiceTest {
         folder_.Write("upkeep.textproto",
                       "domain: " + std::to_string(domain_.id()) +
                           "\nvehicle_folder: \"boats\"\nstate_directory: \"" + State().string() +
-                          "\"\nidentification { bootstrap_replicates: 100 }\n"
+                          "\"\nidentification { bootstrap_replicates: 100 structure: \"static\" }\n"
                           "quality_period_s: 0.1\nwindow { save_period_s: 0.2 }\n");
   }
 

@@ -48,7 +48,7 @@ class Daemon:
         self.config.write_text(
             f'domain: 78\nvehicle_files: "{SAMPLE / BOAT}.textproto"\n{"".join(names)}'
             f'state_directory: "{self.folder}/models"\n'
-            "identification { bootstrap_replicates: 100 }\n"
+            "identification { bootstrap_replicates: 100 structure: \"static\" }\n"
             f'http {{ port: {port} connections: {connections}'
             f'{" token_file: " + chr(34) + "token" + chr(34) if token else ""} {http} }}\n')
         self.process = None

@@ -44,10 +44,11 @@ TEST(IdentificationOptions, AreTheRequestsWishesOverTheDaemonsDefaults) {
 TEST(IdentificationOptions, LeaveTheStructureToTheDataWhereNothingNamesOne) {
   IdentificationSettings settings;
   IdentifyRequest request;
-  EXPECT_FALSE(LeavesStructureToData(request, settings));  // static is the default
+  EXPECT_TRUE(LeavesStructureToData(request, settings));
+  settings.structure = Structure::kStaticQuadratic;
+  EXPECT_FALSE(LeavesStructureToData(request, settings));
   EXPECT_EQ(OptionsOf(request, settings).regression.structure, Structure::kStaticQuadratic);
   settings.structure = std::nullopt;
-  EXPECT_TRUE(LeavesStructureToData(request, settings));
   request.estimator = Estimator::kOneStep;  // of free coefficients
   EXPECT_FALSE(LeavesStructureToData(request, settings));
   settings.structure = Structure::kFossen;

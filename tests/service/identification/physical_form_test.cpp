@@ -34,8 +34,8 @@ TEST_F(LivePhysicalForm, IsIdentifiedPublishedAndKept) {
   EXPECT_THAT(watch->output(), AllOf(HasSubstr("\"FOSSEN\""), HasSubstr("\"Xuu\"")));
 }
 
-TEST_F(LivePhysicalForm, IsChosenByTheDataWhereTheConfigurationLeavesItToThem) {
-  ConfigureIdentification("structure: \"auto\"");
+TEST_F(LivePhysicalForm, IsChosenByTheDataUnlessTheConfigurationNamesAStructure) {
+  ConfigureIdentification("");
   const auto daemon = StartDaemon();
   Replay(SimulatedRecording(testing::StableBoat(), 0.0, 90.0, 4));
   const auto identify = Start({"identify", "--vehicle-id", kVehicleId, "--timeout", "500"});

@@ -122,10 +122,11 @@ class FailOverCampaign : public CampaignTest {
     return ids;
   }
 
-  DaemonPair pair_{domain_.id(), folder_, kLeaseS,
-                   fmt::format("identification {{ bootstrap_replicates: 0 }}\n"
-                               "window {{ duration_s: {} save_period_s: {} }}\n",
-                               kCampaignWindowS, kCampaignSavePeriodS)};
+  DaemonPair pair_{
+      domain_.id(), folder_, kLeaseS,
+      fmt::format("identification {{ bootstrap_replicates: 0 structure: \"static\" }}\n"
+                  "window {{ duration_s: {} save_period_s: {} }}\n",
+                  kCampaignWindowS, kCampaignSavePeriodS)};
   std::unique_ptr<Process> serving_;
   std::unique_ptr<Process> standby_;
   std::pair<std::string, int> serving_name_{"one", 2};

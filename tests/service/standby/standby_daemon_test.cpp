@@ -93,7 +93,8 @@ class StandbyDaemon : public ServiceTest {
   static constexpr RequestTiming kTiming{.match = 60s, .reply = 120s, .retry = 1s};
 
   DaemonPair pair_{domain_.id(), folder_, 5.0,
-                   "identification { bootstrap_replicates: 0 }\nwindow { save_period_s: 0.2 }\n"};
+                   "identification { bootstrap_replicates: 0 structure: \"static\" }\nwindow { "
+                   "save_period_s: 0.2 }\n"};
   std::unique_ptr<Process> one_;
   std::unique_ptr<Process> two_;
   Participant participant_{domain_.id()};

@@ -15,14 +15,14 @@ using ::testing::HasSubstr;
 class UpkeepOfDaemon : public ServiceTest {
  protected:
   void Configure(const std::string& upkeep) {
-    config_file_ = folder_.Write(
-        "upkeep.textproto",
-        "domain: " + std::to_string(domain_.id()) +
-            "\nvehicle_files: \"vehicle.textproto\"\nstate_directory: \"" +
-            (folder_.Path() / "state").string() +
-            "\"\nidentification { bootstrap_replicates: 100 }\nquality_period_s: 0.1\n"
-            "window { save_period_s: 0.2 }\nupkeep { retry_s: 1 " +
-            upkeep + " }\n");
+    config_file_ = folder_.Write("upkeep.textproto",
+                                 "domain: " + std::to_string(domain_.id()) +
+                                     "\nvehicle_files: \"vehicle.textproto\"\nstate_directory: \"" +
+                                     (folder_.Path() / "state").string() +
+                                     "\"\nidentification { bootstrap_replicates: 100 structure: "
+                                     "\"static\" }\nquality_period_s: 0.1\n"
+                                     "window { save_period_s: 0.2 }\nupkeep { retry_s: 1 " +
+                                     upkeep + " }\n");
   }
 };
 
