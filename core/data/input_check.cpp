@@ -96,6 +96,8 @@ std::optional<Refusal> FaultOfCommandUnit(const std::vector<ThrusterSample>& thr
 std::optional<Refusal> FaultOfCommandRange(const std::vector<ThrusterSample>& thrusters,
                                            const Vehicle& vehicle) {
   if (thrusters.empty()) return std::nullopt;
+  // No pulse at all is an output that is off, which admission rejects.
+  const auto is_off = [](double us) { return us == 0.0; };
   const auto is_outside = [](const PwmChannel& channel, double us) {
     const double low = std::min({channel.full_forward_us, channel.full_reverse_us});
     const double high = std::max({channel.full_forward_us, channel.full_reverse_us});
@@ -105,6 +107,7 @@ std::optional<Refusal> FaultOfCommandRange(const std::vector<ThrusterSample>& th
   const auto samples = static_cast<double>(thrusters.size());
   const auto outside =
       std::count_if(thrusters.begin(), thrusters.end(), [&](const ThrusterSample& sample) {
+        if (is_off(sample.port_us) || is_off(sample.starboard_us)) return false;
         return is_outside(vehicle.port, sample.port_us) ||
                is_outside(vehicle.starboard, sample.starboard_us);
       });

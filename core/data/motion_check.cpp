@@ -21,7 +21,7 @@ constexpr double kYawLagS = 1.0;          // of a small boat's yaw rate behind i
 constexpr double kSpeedLagS = 3.0;        // and of its speed
 constexpr double kYawStepS = 0.5;         // between yaw rates
 constexpr double kChordS = 1.0;           // over which a velocity is taken
-constexpr double kWidestChordS = 3.0;     // across a gap there is no velocity
+constexpr double kWidestChordS = 3.0;     // across a gap there is no velocity and no yaw rate
 constexpr double kSureGain = 8.0;         // of log-likelihood, over the recording as it is
 constexpr double kYawShare = 0.1;         // of the square that a true relation explains at least
 constexpr double kVelocityShare = 0.3;    // the same of velocity
@@ -220,6 +220,10 @@ class Motion {
         at_yaw_(thrusters, vehicle, kYawLagS),
         at_speed_(thrusters, vehicle, kSpeedLagS) {
     for (const Velocity& velocity : velocities_) moving_s_ += velocity.span_s;
+    for (std::size_t i = 1; i < heading.size(); ++i) {
+      const double span_s = heading[i].time_s - heading[i - 1].time_s;
+      if (span_s <= kWidestChordS) turning_s_ += span_s;
+    }
   }
 
   TimeSeries Psi(HeadingRule rule) const {
@@ -236,6 +240,11 @@ class Motion {
     const TimeSeries psi = Psi(supposition.heading);
     PositiveLine yaw;
     for (double t = psi.times_s.front(); t + kYawStepS <= psi.times_s.back(); t += kYawStepS) {
+      const double next_s = psi.times_s[psi.CountUntil(t)];
+      if (next_s - t > kWidestChordS) {
+        t = next_s - kYawStepS;
+        continue;
+      }
       const PropellerCommand command =
           Undone(supposition.thrusters, at_yaw_.At(t + 0.5 * kYawStepS));
       yaw.Add(command.Difference(), (psi.Linear(t + kYawStepS) - psi.Linear(t)) / kYawStepS);
@@ -256,9 +265,7 @@ class Motion {
     return {yaw.Rest(), velocity.Rest(), velocity.RestBeside(across)};
   }
 
-  double EffectiveYawRates() const {
-    return (heading_.back().time_s - heading_.front().time_s) / (2.0 * kYawLagS);
-  }
+  double EffectiveYawRates() const { return turning_s_ / (2.0 * kYawLagS); }
   double EffectiveVelocities() const { return moving_s_ / (2.0 * kSpeedLagS); }
 
   const std::vector<Velocity>& Velocities() const { return velocities_; }
@@ -270,6 +277,7 @@ class Motion {
   LaggedCommands at_yaw_;
   LaggedCommands at_speed_;
   double moving_s_ = 0.0;
+  double turning_s_ = 0.0;
 };
 
 /// Headings that could be radians: none beyond a turn, and more than one value.

@@ -187,6 +187,25 @@ TEST(InputCheck, AFewDegreesOfDeviationAreNoFault) {
             std::nullopt);
 }
 
+TEST(InputCheck, AClockThatIsSetInBetweenIsNoFault) {
+  constexpr double kSetAtS = 30.0;
+  constexpr double kSince1970S = 1.7e9;
+  const auto set = [](auto& samples) {
+    for (auto& sample : samples) sample.time_s += sample.time_s < kSetAtS ? 0.0 : kSince1970S;
+  };
+  EXPECT_EQ(FaultAfter([&](Input& i) { set(i.gnss), set(i.heading), set(i.thrusters); }),
+            std::nullopt);
+}
+
+TEST(InputCheck, OutputsThatAreOffWhileDisarmedAreNoFaultOfRange) {
+  EXPECT_EQ(FaultAfter([](Input& i) {
+              for (auto& sample : i.thrusters) {
+                if (sample.time_s < 20.0) sample.port_us = sample.starboard_us = 0.0;
+              }
+            }),
+            std::nullopt);
+}
+
 TEST(InputCheck, ABoatThatOnlyDrivesStraightShowsNoFaultOfHeading) {
   Input input = SimulatedInput();
   for (auto& sample : input.heading) sample.heading_deg = 20.0;
