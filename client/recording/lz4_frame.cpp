@@ -30,10 +30,12 @@ Lz4Inflater::Lz4Inflater() : context_(std::make_unique<Context>()) {}
 Lz4Inflater::~Lz4Inflater() = default;
 
 Lz4Inflater::Reached Lz4Inflater::InflateUntilFull(std::span<const std::uint8_t> compressed,
-                                                   std::span<std::uint8_t> out) {
+                                                   std::span<std::uint8_t> out,
+                                                   Lz4Checksums checksums) {
   LZ4F_resetDecompressionContext(context_->lz4);
   LZ4F_decompressOptions_t options{};
   options.stableDst = 1;
+  options.skipChecksums = checksums == Lz4Checksums::kSkip ? 1 : 0;
   std::size_t from = 0;
   std::size_t to = 0;
   Reached reached;
@@ -51,14 +53,15 @@ Lz4Inflater::Reached Lz4Inflater::InflateUntilFull(std::span<const std::uint8_t>
   return reached;
 }
 
-bool Lz4Inflater::Inflate(std::span<const std::uint8_t> compressed, std::span<std::uint8_t> out) {
-  const Reached reached = InflateUntilFull(compressed, out);
+bool Lz4Inflater::Inflate(std::span<const std::uint8_t> compressed, std::span<std::uint8_t> out,
+                          Lz4Checksums checksums) {
+  const Reached reached = InflateUntilFull(compressed, out, checksums);
   return reached.is_full && reached.is_done;
 }
 
 bool Lz4Inflater::InflateStart(std::span<const std::uint8_t> compressed,
                                std::span<std::uint8_t> out) {
-  return InflateUntilFull(compressed, out).is_full;
+  return InflateUntilFull(compressed, out, Lz4Checksums::kCompare).is_full;
 }
 
 }  // namespace telltale
