@@ -193,4 +193,10 @@ bool BeginsLikeMavlinkTelemetryLog(std::span<const std::uint8_t> bytes) {
   return IsMagic(bytes[kTimeBytes]);
 }
 
+bool BeginsLikeMavlinkStream(std::span<const std::uint8_t> bytes) {
+  if (bytes.empty() || !IsMagic(bytes[0])) return false;
+  const MavlinkParse parsed = ParseMavlinkFrame(bytes);
+  return parsed.outcome == Outcome::kFrame && parsed.checksum == MavlinkParse::Checksum::kRight;
+}
+
 }  // namespace telltale

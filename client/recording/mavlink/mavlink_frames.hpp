@@ -83,4 +83,7 @@ class MavlinkTelemetryLog {
 /// Whether bytes begin like a telemetry log: a time between 2000 and 2100 and a frame.
 bool BeginsLikeMavlinkTelemetryLog(std::span<const std::uint8_t> bytes);
 
+/// Whether bytes begin with a frame of a known message and a right checksum, without a time.
+bool BeginsLikeMavlinkStream(std::span<const std::uint8_t> bytes);
+
 }  // namespace telltale

@@ -237,20 +237,28 @@ Result<SourceLog> ReadMavlinkTelemetryLog(const std::filesystem::path& file,
                                           const SourceOptions& options) {
   if (auto refusal = options.Validate()) return tl::unexpected(*std::move(refusal));
   MavlinkRecording recording;
-  MavlinkTelemetryLog frames;
+  MavlinkTelemetryLog timed;
+  MavlinkStream bare;
+  std::optional<bool> is_bare;  // by how the file begins
   const auto read = ReadInBlocks(
       file,
       [&](std::span<const std::uint8_t> bytes, bool at_end) {
-        return frames.Consume(bytes, at_end,
-                              [&](auto, const MavlinkFrame& frame) { recording.Take(frame); });
+        if (!is_bare) is_bare = BeginsLikeMavlinkStream(bytes);
+        if (*is_bare) {
+          return bare.Consume(bytes, at_end,
+                              [&](const MavlinkFrame& frame) { recording.Take(frame); });
+        }
+        return timed.Consume(bytes, at_end,
+                             [&](auto, const MavlinkFrame& frame) { recording.Take(frame); });
       },
       options.progress);
   if (!read) return tl::unexpected(read.error());
 
   SourceLog log = std::move(recording).Finish(options);
-  log.summary += AndCount(frames.Damage().corrupt_frames, "messages with a wrong checksum") +
-                 AndCount(frames.Damage().skipped_bytes, "bytes skipped") +
-                 AndCount(frames.Damage().truncated_bytes, "bytes of a message cut off at the end");
+  const MavlinkDamage& damage = *is_bare ? bare.Damage() : timed.Damage();
+  log.summary += AndCount(damage.corrupt_frames, "messages with a wrong checksum") +
+                 AndCount(damage.skipped_bytes, "bytes skipped") +
+                 AndCount(damage.truncated_bytes, "bytes of a message cut off at the end");
   return Complete(std::move(log), file);
 }
 

@@ -91,7 +91,8 @@ class MavlinkRecording {
   std::uint64_t messages_ = 0;
 };
 
-/// A telemetry log of a ground station (tlog).
+/// A telemetry log of a ground station (tlog), or the same frames without their times of arrival,
+/// as they come out of a serial line.
 /// Refuses when: the file cannot be read, holds no frame, or lacks a channel.
 Result<SourceLog> ReadMavlinkTelemetryLog(const std::filesystem::path& file,
                                           const SourceOptions& options = {});
