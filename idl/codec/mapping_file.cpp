@@ -64,9 +64,15 @@ MappedPositions ReadPositions(FieldReader reader, const MappedTime& time) {
   MappedPositions positions;
   positions.topic = reader.Text("topic", "");
   positions.time = ReadTime(reader, time);
-  positions.latitude = NameOf(reader, "latitude");
-  positions.longitude = NameOf(reader, "longitude");
-  positions.unit_deg = UnitOf(reader, "unit", kPositionUnits);
+  positions.is_metres = reader.Has("north") || reader.Has("east");
+  if (positions.is_metres) {
+    for (const char* field : {"latitude", "longitude", "unit"}) {
+      if (reader.Has(field)) reader.Fail(field, "given", "absent beside north and east, in metres");
+    }
+  }
+  positions.latitude = NameOf(reader, positions.is_metres ? "north" : "latitude");
+  positions.longitude = NameOf(reader, positions.is_metres ? "east" : "longitude");
+  if (!positions.is_metres) positions.unit_deg = UnitOf(reader, "unit", kPositionUnits);
   return positions;
 }
 

@@ -15,13 +15,15 @@ struct MappedTime {
   bool is_stamp = false;  ///< the field holds seconds and nanoseconds, as a time of ROS does
 };
 
-/// Positions in radians, degrees or parts of them. `topic` is empty of a CSV file.
+/// Positions in radians, degrees or parts of them, or in metres north and east of some origin, in
+/// the place of latitude and longitude. `topic` is empty of a CSV file.
 struct MappedPositions {
   std::string topic;
   MappedTime time;
   std::string latitude;
   std::string longitude;
   double unit_deg = 1.0;
+  bool is_metres = false;
   bool held = false;  ///< a value equal to the one before is the same fix
 };
 
