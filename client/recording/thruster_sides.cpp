@@ -1,8 +1,24 @@
 #include "telltale/client/recording/thruster_sides.hpp"
 
+#include <algorithm>
 #include <cstddef>
 
 namespace telltale {
+namespace {
+
+constexpr double kClockSetBackS = 60.0;
+
+/// The first command from `begin` on before which the clock was set back.
+std::size_t EndOfClock(const std::vector<SideCommand>& commands, std::size_t begin) {
+  std::size_t end = std::min(begin + 1, commands.size());
+  while (end < commands.size() &&
+         commands[end].time_s >= commands[end - 1].time_s - kClockSetBackS) {
+    ++end;
+  }
+  return end;
+}
+
+}  // namespace
 
 void SideJoiner::Take(Side side, const SideCommand& command, const Emit& emit) {
   if (waiting_s_ != command.time_s) Finish(emit);
@@ -27,10 +43,14 @@ std::vector<ThrusterSample> JoinSides(const std::vector<SideCommand>& port,
   std::size_t i = 0;
   std::size_t j = 0;
   while (i < port.size() || j < starboard.size()) {
-    if (j == starboard.size() || (i < port.size() && port[i].time_s <= starboard[j].time_s)) {
-      joiner.Take(Side::kPort, port[i++], keep);
-    } else {
-      joiner.Take(Side::kStarboard, starboard[j++], keep);
+    const std::size_t port_end = EndOfClock(port, i);
+    const std::size_t starboard_end = EndOfClock(starboard, j);
+    while (i < port_end || j < starboard_end) {
+      if (j == starboard_end || (i < port_end && port[i].time_s <= starboard[j].time_s)) {
+        joiner.Take(Side::kPort, port[i++], keep);
+      } else {
+        joiner.Take(Side::kStarboard, starboard[j++], keep);
+      }
     }
   }
   joiner.Finish(keep);

@@ -39,6 +39,7 @@ class SideJoiner {
 
 /// Two channels of commands as one: each command of either side makes a sample with what the other
 /// side was told last, and commands of one time make one sample. Nothing before both have begun.
+/// Where the clock of both was set back, by more than a minute, each side begins anew.
 std::vector<ThrusterSample> JoinSides(const std::vector<SideCommand>& port,
                                       const std::vector<SideCommand>& starboard);
 
