@@ -2,12 +2,15 @@
 
 #include <cstdint>
 #include <optional>
+#include <set>
 #include <span>
+#include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
 
 #include "telltale/client/recording/mapping/mapped_messages.hpp"
+#include "telltale/client/recording/message_taker.hpp"
 #include "telltale/client/recording/ros/ros_recording.hpp"
 #include "telltale/client/recording/zstd_frame.hpp"
 
@@ -20,26 +23,26 @@ class RosIntake {
  public:
   explicit RosIntake(const SourceOptions& options);
 
-  void Take(std::string_view topic, std::string_view type, std::string_view definition,
-            std::int64_t received_ns, std::span<const std::uint8_t> bytes,
-            CdrReader::Encoding encoding = CdrReader::Encoding::kCdr);
+  /// Who takes the messages of a topic, for as long as this stays where it is.
+  MessageTaker Open(const RosChannel& channel,
+                    CdrReader::Encoding encoding = CdrReader::Encoding::kCdr);
 
   /// Null: no mapping is given.
   MappedMessages* Mapped() { return mapped_ ? &*mapped_ : nullptr; }
 
-  /// Whether messages of such a topic are of use.
-  bool Wants(std::string_view topic, std::string_view type) {
-    return mapped_ ? mapped_->Names(topic) : RosRecording::Wants(topic, type);
-  }
+  /// Remembers a topic that is of no use, to name it where a channel is missing. `what`: its type
+  /// or encoding.
+  void Leave(std::string_view topic, std::string_view what);
 
   /// Gives the samples away.
-  SourceLog Finish() && {
-    return mapped_ ? std::move(*mapped_).Finish() : std::move(by_rules_).Finish();
-  }
+  SourceLog Finish() &&;
 
  private:
+  std::span<const std::uint8_t> Inflated(std::span<const std::uint8_t> message);
+
   std::optional<MappedMessages> mapped_;
   RosRecording by_rules_;
+  std::set<std::string> left_;  ///< topics of no use
   ZstdInflater zstd_;
   std::vector<std::uint8_t> inflated_;
 };

@@ -35,7 +35,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   for (std::size_t at = 0; at + 2 <= size; ++messages) {
     const auto [topic, type] = kTopics[data[at] % kTopics.size()];
     const std::size_t length = std::min<std::size_t>(data[at + 1], size - at - 2);
-    recording.Take(topic, type, static_cast<std::int64_t>(at) * 1'000'000, {data + at + 2, length});
+    if (const auto take = recording.Open({topic, type, {}})) {
+      take(static_cast<std::int64_t>(at) * 1'000'000, {data + at + 2, length});
+    }
     at += 2 + length;
   }
   const telltale::SourceLog log = std::move(recording).Finish();

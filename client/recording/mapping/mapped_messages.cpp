@@ -62,24 +62,27 @@ bool MappedMessages::Names(std::string_view topic) {
   return false;
 }
 
-void MappedMessages::TakeRos(std::string_view topic, std::string_view type,
-                             std::string_view definition, std::int64_t received_ns,
-                             std::span<const std::uint8_t> bytes, CdrReader::Encoding encoding) {
-  if (!Names(topic)) return;
-  const RosMessageType* const known = types_.Find(type, definition, encoding);
-  if (known == nullptr) return;
-  recording_.Take(topic, Seconds(received_ns), RosFields(*known, bytes, encoding));
+MessageTaker MappedMessages::OpenRos(const RosChannel& channel, CdrReader::Encoding encoding) {
+  if (!Names(channel.topic)) return nullptr;
+  const RosMessageType* const known = types_.Find(channel.type, channel.definition, encoding);
+  if (known == nullptr) return nullptr;
+  return [this, topic = std::string(channel.topic), known, encoding](
+             std::int64_t received_ns, std::span<const std::uint8_t> message) {
+    recording_.Take(topic, Seconds(received_ns), RosFields(*known, message, encoding));
+  };
 }
 
-void MappedMessages::TakeJson(std::string_view topic, std::int64_t received_ns,
-                              std::span<const std::uint8_t> bytes) {
-  if (!Names(topic)) return;
-  const JsonValue root = JsonValue::parse(bytes.begin(), bytes.end(), nullptr, false);
-  if (root.is_discarded()) {
-    ++unreadable_;
-  } else {
-    recording_.Take(topic, Seconds(received_ns), JsonFields(root));
-  }
+MessageTaker MappedMessages::OpenJson(std::string_view topic) {
+  if (!Names(topic)) return nullptr;
+  return [this, topic = std::string(topic)](std::int64_t received_ns,
+                                            std::span<const std::uint8_t> message) {
+    const JsonValue root = JsonValue::parse(message.begin(), message.end(), nullptr, false);
+    if (root.is_discarded()) {
+      ++unreadable_;
+    } else {
+      recording_.Take(topic, Seconds(received_ns), JsonFields(root));
+    }
+  };
 }
 
 SourceLog MappedMessages::Finish() && {

@@ -8,7 +8,9 @@
 #include <string_view>
 
 #include "telltale/client/recording/mapping/mapped_recording.hpp"
+#include "telltale/client/recording/message_taker.hpp"
 #include "telltale/client/recording/ros/message_definition.hpp"
+#include "telltale/client/recording/ros/ros_channel.hpp"
 
 namespace telltale {
 
@@ -17,21 +19,18 @@ class MappedMessages {
  public:
   explicit MappedMessages(std::shared_ptr<const Mapping> mapping);
 
-  /// `type` as package/msg/Type, `definition` as in RosMessageType::Of, empty where there is none.
-  void TakeRos(std::string_view topic, std::string_view type, std::string_view definition,
-               std::int64_t received_ns, std::span<const std::uint8_t> bytes,
-               CdrReader::Encoding encoding);
-
-  void TakeJson(std::string_view topic, std::int64_t received_ns,
-                std::span<const std::uint8_t> bytes);
-
-  /// Whether the mapping names this topic; the report lists some of the others.
-  bool Names(std::string_view topic);
+  /// Who takes the messages of a topic, for as long as this stays where it is; null where the
+  /// mapping does not name it, or its type is not known.
+  MessageTaker OpenRos(const RosChannel& channel, CdrReader::Encoding encoding);
+  MessageTaker OpenJson(std::string_view topic);
 
   /// Gives the samples away.
   SourceLog Finish() &&;
 
  private:
+  /// Whether the mapping names this topic; the report lists some of the others.
+  bool Names(std::string_view topic);
+
   std::shared_ptr<const Mapping> mapping_;
   MappedRecording recording_;
   RosMessageTypes types_;

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <utility>
 
+#include "telltale/client/recording/odometry_origin.hpp"
 #include "telltale/core/base/degrees.hpp"
 
 namespace telltale {
@@ -36,6 +37,23 @@ std::string OthersText(const std::set<std::string, std::less<>>& others) {
   std::string text;
   for (const std::string& topic : others) text += (text.empty() ? "" : ", ") + topic;
   return text.empty() ? "" : "; left out, though the mapping matches: " + text;
+}
+
+/// What the first star of a pattern stands for in a topic that it matches.
+std::string_view FirstStarIn(std::string_view pattern, std::string_view topic) {
+  const std::size_t star = pattern.find('*');
+  const std::string_view behind = pattern.substr(star + 1);
+  const std::string_view next = behind.substr(0, behind.find('*'));
+  const bool is_last = next.size() == behind.size();
+  const std::size_t end = is_last ? topic.size() - next.size() : topic.find(next, star);
+  return topic.substr(star, end - star);
+}
+
+/// Whether one is the other or goes on below it.
+bool AreOneNamespace(std::string_view a, std::string_view b) {
+  if (a.size() > b.size()) std::swap(a, b);
+  return b.starts_with(a) &&
+         (a.size() == b.size() || a.empty() || a.ends_with('/') || b[a.size()] == '/');
 }
 
 }  // namespace
@@ -73,13 +91,21 @@ bool MappedSamples::Names(std::string_view topic) const {
 
 bool MappedSamples::IsFrom(Source& source, std::string_view pattern, std::string_view topic) {
   if (!TopicMatches(pattern, topic)) return false;
-  if (!source.is_taken) {
+  if (!source.is_taken && IsOfTheBoat(pattern, topic)) {
     source.is_taken = true;
     source.topic = std::string(topic);
   }
-  if (source.topic == topic) return true;
+  if (source.is_taken && source.topic == topic) return true;
   if (!source.also.contains(topic)) source.also.emplace(topic);
   return false;
+}
+
+bool MappedSamples::IsOfTheBoat(std::string_view pattern, std::string_view topic) {
+  const std::size_t star = pattern.find('*');
+  if (star == std::string_view::npos) return true;
+  const std::string_view stands_for = FirstStarIn(pattern, topic);
+  const auto [boat, is_first] = boat_.try_emplace(std::string(pattern.substr(0, star)), stands_for);
+  return is_first || AreOneNamespace(boat->second, stands_for);
 }
 
 std::optional<double> MappedSamples::TimeOf(const MappedTime& time, double received_s,
@@ -118,11 +144,16 @@ void MappedSamples::TakePosition(double received_s, const MessageFields& fields)
     ++positions_.absent;
     return;
   }
-  if (*latitude == 0.0 && *longitude == 0.0) {  // what receivers report until they have a fix
+  // What receivers report until they have a fix.
+  if (!positions.is_metres && *latitude == 0.0 && *longitude == 0.0) {
     ++positions_.without_fix;
     return;
   }
-  const GnssFix fix{*time_s, *latitude * positions.unit_deg, *longitude * positions.unit_deg};
+  const GeographicPosition place =
+      positions.is_metres
+          ? PlaceOfOdometry({*latitude, *longitude})
+          : GeographicPosition{*latitude * positions.unit_deg, *longitude * positions.unit_deg};
+  const GnssFix fix{*time_s, place.latitude_deg, place.longitude_deg};
   const bool repeats = positions.held && last_fix_ && last_fix_->latitude_deg == fix.latitude_deg &&
                        last_fix_->longitude_deg == fix.longitude_deg;
   if (repeats) {
@@ -186,7 +217,8 @@ std::string MappedSamples::Summary(const char* what) const {
     text += "; positions from " +
             Place(positions_.topic,
                   mapping_.positions.latitude + " and " + mapping_.positions.longitude) +
-            ", " + TimeText(mapping_.positions.time) + OthersText(positions_.also);
+            (mapping_.positions.is_metres ? ", metres from " + OdometryOriginText() : "") + ", " +
+            TimeText(mapping_.positions.time) + OthersText(positions_.also);
   }
   if (headings_.is_taken) {
     text += "; heading from " + Place(headings_.topic, mapping_.headings.field) +

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <optional>
 #include <set>
 #include <string>
@@ -25,7 +26,9 @@ struct SampleSink {
 };
 
 /// The samples of what a mapping names, message by message. Of several topics that one pattern
-/// matches the first counts. Assumes: the mapping outlives it.
+/// matches the first counts. What the first stars of patterns that begin alike stand for is one
+/// namespace, so that no channel is of another boat than the others.
+/// Assumes: the mapping outlives it.
 class MappedSamples {
  public:
   MappedSamples(const Mapping& mapping, SampleSink sink);
@@ -49,7 +52,8 @@ class MappedSamples {
     std::uint64_t without_fix = 0;
   };
 
-  static bool IsFrom(Source& source, std::string_view pattern, std::string_view topic);
+  bool IsFrom(Source& source, std::string_view pattern, std::string_view topic);
+  bool IsOfTheBoat(std::string_view pattern, std::string_view topic);
   static std::optional<double> TimeOf(const MappedTime& time, double received_s,
                                       const MessageFields& fields);
   void TakePosition(double received_s, const MessageFields& fields);
@@ -60,6 +64,7 @@ class MappedSamples {
 
   const Mapping& mapping_;
   SampleSink sink_;
+  std::map<std::string, std::string, std::less<>> boat_;  ///< by what stands before a first star
   Source positions_;
   Source headings_;
   Source port_;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <memory>
 #include <optional>
 #include <sstream>
 #include <vector>
@@ -109,8 +110,9 @@ class McapFile {
     const Schema* schema = nullptr;  ///< in schemas_; null: none
     std::string topic;
     std::string encoding;
-    bool is_of_use = false;
+    MessageTaker take;
 
+    bool IsOfUse() const { return take != nullptr; }
     McapChannel Described() const {
       if (schema == nullptr) return {topic, {}, encoding, {}};
       return {topic, schema->name, encoding, schema->definition};
@@ -159,7 +161,7 @@ class McapFile {
     channel.topic = std::string(fields.Text());
     channel.encoding = std::string(fields.Text());
     if (!fields.Ok()) return;
-    channel.is_of_use = visitor_.is_of_use(channel.Described());
+    channel.take = visitor_.open(channel.Described());
     channels_[id] = std::move(channel);
   }
 
@@ -174,9 +176,9 @@ class McapFile {
       ++damage_.unknown_channels;
       return;
     }
-    if (!channel->second.is_of_use) return;
+    if (!channel->second.IsOfUse()) return;
     ++damage_.messages;
-    visitor_.visit({channel->second.Described(), log_time_ns, fields.Rest()});
+    channel->second.take(log_time_ns, fields.Rest());
   }
 
   /// Reads the index of a chunk, where it lets the chunk be passed over; true: its end is still to
@@ -195,7 +197,7 @@ class McapFile {
     return index_.BytesOfUse(size, [this](std::uint16_t id) -> std::optional<bool> {
       const auto channel = channels_.find(id);
       if (channel == channels_.end()) return std::nullopt;
-      return channel->second.is_of_use;
+      return channel->second.IsOfUse();
     });
   }
 
@@ -213,8 +215,9 @@ class McapFile {
     }
     const auto of_use = static_cast<std::size_t>(BytesOfUse(size));
     if (of_use == 0) return;
-    const auto records = Inflated(compression, stored, static_cast<std::size_t>(size), of_use);
     const bool is_checked = checksum != 0 && of_use == size;
+    const auto records = Inflated(compression, stored, static_cast<std::size_t>(size), of_use,
+                                  is_checked ? Lz4Checksums::kSkip : Lz4Checksums::kCompare);
     if (!records ||
         (is_checked && libdeflate_crc32(0, records->data(), records->size()) != checksum)) {
       ++damage_.unreadable_chunks;
@@ -225,17 +228,27 @@ class McapFile {
 
   /// The first `of_use` bytes of a chunk of `size`; nothing where they cannot be had.
   std::optional<Bytes> Inflated(std::string_view compression, Bytes stored, std::size_t size,
-                                std::size_t of_use) {
+                                std::size_t of_use, Lz4Checksums of_lz4) {
     if (compression.empty()) return stored.first(std::min(of_use, stored.size()));
-    if (chunk_.size() < of_use) chunk_.resize(of_use);
-    const std::span<std::uint8_t> out(chunk_.data(), of_use);
-    const auto inflate = [&](auto& inflater) {
-      return of_use == size ? inflater.Inflate(stored, out) : inflater.InflateStart(stored, out);
-    };
-    const bool is_there = compression == "zstd"  ? inflate(zstd_)
-                          : compression == "lz4" ? inflate(lz4_)
-                                                 : false;
+    const std::span<std::uint8_t> out = RoomForChunk(of_use);
+    const bool is_all = of_use == size;
+    bool is_there = false;
+    if (compression == "zstd") {
+      is_there = is_all ? zstd_.Inflate(stored, out) : zstd_.InflateStart(stored, out);
+    } else if (compression == "lz4") {
+      is_there = is_all ? lz4_.Inflate(stored, out, of_lz4) : lz4_.InflateStart(stored, out);
+    }
     return is_there ? std::optional<Bytes>(out) : std::nullopt;
+  }
+
+  /// Not filled with zeros, nor with the chunk before.
+  std::span<std::uint8_t> RoomForChunk(std::size_t bytes) {
+    if (room_ < bytes) {
+      chunk_.reset();
+      chunk_ = std::make_unique_for_overwrite<std::uint8_t[]>(bytes);
+      room_ = bytes;
+    }
+    return {chunk_.get(), bytes};
   }
 
   /// A chunk that the end of the file cuts off still gives its whole records where it is not
@@ -258,7 +271,8 @@ class McapFile {
   std::map<std::uint16_t, Schema> schemas_;
   std::map<std::uint16_t, Channel> channels_;
   McapChunkIndex index_;  ///< of the chunk at hand
-  std::vector<std::uint8_t> chunk_;
+  std::unique_ptr<std::uint8_t[]> chunk_;
+  std::size_t room_ = 0;  ///< of it
   ZstdInflater zstd_;
   Lz4Inflater lz4_;
   McapDamage damage_;

@@ -10,6 +10,7 @@
 
 #include "telltale/client/recording/block_reader.hpp"
 #include "telltale/client/recording/mcap/mcap_records.hpp"
+#include "telltale/client/recording/message_taker.hpp"
 #include "telltale/core/base/result.hpp"
 
 namespace telltale {
@@ -22,16 +23,10 @@ struct McapChannel {
   std::string_view definition;  ///< of the type as .msg, where the schema has it or IDL
 };
 
-struct McapMessage {
-  McapChannel channel;
-  std::int64_t log_time_ns = 0;
-  std::span<const std::uint8_t> data;
-};
-
-/// Who reads a file: which channels are of use, and what happens to their messages.
+/// Who reads a file.
 struct McapVisitor {
-  std::function<bool(const McapChannel&)> is_of_use;
-  std::function<void(const McapMessage&)> visit;
+  /// Who takes a channel's messages; asked once, so that no message is looked up by its names.
+  std::function<MessageTaker(const McapChannel&)> open;
   ReadProgress progress;  ///< null: nobody is told
 };
 

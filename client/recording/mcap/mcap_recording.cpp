@@ -25,50 +25,42 @@ class McapRecording {
   explicit McapRecording(const SourceOptions& options) : options_(options), ros_(options) {}
 
   McapVisitor Visitor() {
-    return {[this](const McapChannel& channel) { return IsOfUse(channel); },
-            [this](const McapMessage& message) { Take(message); }, options_.progress};
+    return {[this](const McapChannel& channel) { return Open(channel); }, options_.progress};
   }
 
   SourceLog Finish(const McapDamage& damage) && {
-    SourceLog log =
-        of_mavlink_ > of_ros_ ? std::move(mavlink_).Finish(options_) : std::move(ros_).Finish();
+    const bool is_of_mavlink = of_mavlink_ > damage.messages - of_mavlink_;
+    SourceLog log = is_of_mavlink ? std::move(mavlink_).Finish(options_) : std::move(ros_).Finish();
     if (unreadable_ > 0) log.summary += "; " + std::to_string(unreadable_) + " unreadable messages";
     log.summary += damage.Summary();
     return log;
   }
 
  private:
-  bool IsOfUse(const McapChannel& channel) {
-    if (channel.encoding == "cdr") return ros_.Wants(channel.topic, channel.schema);
-    if (channel.encoding == "ros1") return ros_.Wants(channel.topic, TypeOfRos2(channel.schema));
-    if (channel.encoding != "json") return false;
-    return ros_.Mapped() != nullptr ? ros_.Mapped()->Names(channel.topic)
-                                    : IsMavlinkMessageOfUse(MavlinkTypeOf(channel.topic));
-  }
-
-  void Take(const McapMessage& message) {
-    const McapChannel& channel = message.channel;
+  MessageTaker Open(const McapChannel& channel) {
     if (channel.encoding == "cdr") {
-      ++of_ros_;
-      ros_.Take(channel.topic, channel.schema, channel.definition, message.log_time_ns,
-                message.data);
-    } else if (channel.encoding == "ros1") {
-      ++of_ros_;
-      ros_.Take(channel.topic, TypeOfRos2(channel.schema), channel.definition, message.log_time_ns,
-                message.data, CdrReader::Encoding::kRos1);
-    } else if (ros_.Mapped() != nullptr) {
-      ros_.Mapped()->TakeJson(channel.topic, message.log_time_ns, message.data);
-    } else {
-      ++of_mavlink_;
-      if (!json_.Take(message.data, mavlink_)) ++unreadable_;
+      return ros_.Open({channel.topic, channel.schema, channel.definition});
     }
+    if (channel.encoding == "ros1") {
+      return ros_.Open({channel.topic, TypeOfRos2(channel.schema), channel.definition},
+                       CdrReader::Encoding::kRos1);
+    }
+    const bool is_json = channel.encoding == "json";
+    if (is_json && ros_.Mapped() != nullptr) return ros_.Mapped()->OpenJson(channel.topic);
+    if (!is_json || !IsMavlinkMessageOfUse(MavlinkTypeOf(channel.topic))) {
+      ros_.Leave(channel.topic, channel.encoding);
+      return nullptr;
+    }
+    return [this](std::int64_t, std::span<const std::uint8_t> message) {
+      ++of_mavlink_;
+      if (!json_.Take(message, mavlink_)) ++unreadable_;
+    };
   }
 
   const SourceOptions& options_;
   RosIntake ros_;
   MavlinkRecording mavlink_;
   MavlinkJson json_;
-  std::uint64_t of_ros_ = 0;
   std::uint64_t of_mavlink_ = 0;
   std::uint64_t unreadable_ = 0;
 };

@@ -32,18 +32,14 @@ class CdrReader {
   }
 
   template <class Number>
-  Number Read() {
+  [[gnu::always_inline]] Number Read() {
     static_assert(std::is_arithmetic_v<Number>);
     if (!is_ros1_) at_ = (at_ + sizeof(Number) - 1) / sizeof(Number) * sizeof(Number);
     Number value{};
     if (!Holds(sizeof(Number))) return value;
     std::memcpy(&value, bytes_.data() + at_, sizeof(Number));
     at_ += sizeof(Number);
-    if (is_little_ != kHostIsLittle) {
-      auto* const raw = reinterpret_cast<std::uint8_t*>(&value);
-      std::reverse(raw, raw + sizeof(Number));
-    }
-    return value;
+    return is_little_ == kHostIsLittle ? value : Swapped(value);
   }
 
   /// Valid as long as the bytes are.
@@ -72,6 +68,14 @@ class CdrReader {
  private:
   static constexpr std::size_t kEncapsulation = 4;
   static constexpr bool kHostIsLittle = std::endian::native == std::endian::little;
+
+  /// Out of line: messages of the other byte order are rare.
+  template <class Number>
+  [[gnu::noinline, gnu::cold]] static Number Swapped(Number value) {
+    auto* const raw = reinterpret_cast<std::uint8_t*>(&value);
+    std::reverse(raw, raw + sizeof(Number));
+    return value;
+  }
 
   bool Holds(std::size_t more) {
     ok_ = ok_ && more <= bytes_.size() && at_ <= bytes_.size() - more;

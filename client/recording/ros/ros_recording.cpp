@@ -89,21 +89,17 @@ void RosRecording::Topic::TimeByRecording() {
 
 // ---- the choice among topics --------------------------------------------------------------------
 
-void RosRecording::Take(std::string_view topic, std::string_view type, std::int64_t received_ns,
-                        std::span<const std::uint8_t> bytes, CdrReader::Encoding encoding) {
-  if (last_ == nullptr || last_->first != topic) {  // often one topic has many messages in a row
-    auto found = topics_.find(topic);
-    if (found == topics_.end()) {
-      found = topics_.emplace(std::string(topic), Topic(RosTopic(topic, type))).first;
+MessageTaker RosRecording::Open(const RosChannel& channel, CdrReader::Encoding encoding) {
+  RosTopic source(channel.topic, channel.type);
+  if (source.Kind() == RosKind::kUnknown) return nullptr;
+  Topic& topic =
+      topics_.try_emplace(std::string(channel.topic), Topic(std::move(source))).first->second;
+  return [this, &topic, encoding](std::int64_t received_ns, std::span<const std::uint8_t> message) {
+    ++topic.messages;
+    if (const auto reading = topic.source.Read(message, encoding)) {
+      topic.Take(1e-9 * static_cast<double>(received_ns), *reading, channels_);
     }
-    last_ = &*found;
-  }
-  Topic& known = last_->second;
-  if (known.source.Kind() == RosKind::kUnknown) return;
-  ++messages_;
-  if (const auto reading = known.source.Read(bytes, encoding)) {
-    known.Take(1e-9 * static_cast<double>(received_ns), *reading, channels_);
-  }
+  };
 }
 
 RosRecording::RankOf RosRecording::OfKind(RosKind kind) {
@@ -152,8 +148,7 @@ std::string RosRecording::TakePositions(Named& from, SourceLog& log) const {
   std::ostringstream said;
   said << "; positions from " << from.first << Why(&RosTopic::PositionRank, "the best type");
   if (from.second.source.IsOdometry()) {
-    said << " (metres from an origin that is not stated, taken as " << kOdometryOrigin.latitude_deg
-         << " N " << kOdometryOrigin.longitude_deg << " E)";
+    said << " (metres from " << OdometryOriginText() << ')';
   }
   log.gnss = std::move(from.second.fixes);
   return said.str();
@@ -180,7 +175,9 @@ std::string RosRecording::TakeSides(Named& port, Named& starboard, SourceLog& lo
     const double largest = std::max(LargestOf(of_port), LargestOf(of_starboard));
     if (largest > 1.0) {
       said << ", which hold values up to " << largest
-           << ": neither shares of full thrust in [-1, 1] nor pulse widths";
+           << ": neither shares of full thrust in [-1, 1] nor pulse widths. If they are newtons, a "
+              "mapping such as deploy/mappings/vrx.textproto says with unit: \"N\" which are full "
+              "thrust";
       return said.str();
     }
     said << ", shares of full thrust taken as 1500 + 400 share us";
@@ -209,11 +206,15 @@ std::string RosRecording::Faults() const {
 }
 
 SourceLog RosRecording::Finish() && {
-  const auto of_use = std::ranges::count_if(
-      topics_, [](const Named& named) { return named.second.source.Kind() != RosKind::kUnknown; });
+  std::uint64_t messages = 0;
+  std::uint64_t spoken = 0;
+  for (const auto& [name, topic] : topics_) {
+    messages += topic.messages;
+    spoken += topic.messages > 0 ? 1 : 0;
+  }
   std::ostringstream summary;
-  summary << messages_ << (messages_ == 1 ? " message" : " messages") << " of use in " << of_use
-          << (of_use == 1 ? " topic" : " topics");
+  summary << messages << (messages == 1 ? " message" : " messages") << " of use in " << spoken
+          << (spoken == 1 ? " topic" : " topics");
   Named* position = Best(&RosTopic::PositionRank);
   const std::string_view beside = position != nullptr ? position->first : std::string_view();
   Named* heading = Best(OfKind(RosKind::kCompass), beside);
@@ -260,7 +261,9 @@ SourceLog RosRecording::Finish() && {
     summary << RateWarning(heading->first, log.heading, kLowHeadingHz,
                            "publish it at 10 Hz or more");
   }
-  summary << "; times " << (use_stamps ? "of the messages' headers" : "of recording") << Faults();
+  summary << "; times "
+          << (use_stamps ? "of the messages' headers where they have one" : "of recording")
+          << Faults();
   log.summary = summary.str();
   return log;
 }

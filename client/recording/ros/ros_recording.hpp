@@ -10,7 +10,9 @@
 #include <utility>
 #include <vector>
 
+#include "telltale/client/recording/message_taker.hpp"
 #include "telltale/client/recording/ros/cdr_reader.hpp"
+#include "telltale/client/recording/ros/ros_channel.hpp"
 #include "telltale/client/recording/ros/ros_topic.hpp"
 #include "telltale/client/recording/source_log.hpp"
 #include "telltale/client/recording/thruster_sides.hpp"
@@ -32,15 +34,10 @@ class RosRecording {
   /// Requires: options.Validate() is empty.
   explicit RosRecording(const SourceOptions& options) : channels_(options) {}
 
-  /// Whether messages of such a topic are of use.
-  static bool Wants(std::string_view topic, std::string_view type) {
-    return RosTopic(topic, type).Kind() != RosKind::kUnknown;
-  }
-
-  /// A message of a topic, `type` as "sensor_msgs/msg/NavSatFix". Types of no use are passed over.
-  void Take(std::string_view topic, std::string_view type, std::int64_t received_ns,
-            std::span<const std::uint8_t> bytes,
-            CdrReader::Encoding encoding = CdrReader::Encoding::kCdr);
+  /// Who takes the messages of a topic, for as long as this stays where it is. Definitions are not
+  /// looked at: types are known by their names.
+  MessageTaker Open(const RosChannel& channel,
+                    CdrReader::Encoding encoding = CdrReader::Encoding::kCdr);
 
   /// Gives the samples away, so that they stand in memory once.
   SourceLog Finish() &&;
@@ -60,6 +57,7 @@ class RosRecording {
     void TimeByRecording();
 
     RosTopic source;
+    std::uint64_t messages = 0;
     std::vector<double> received_s;  ///< of each sample below
     std::vector<GnssFix> fixes;
     std::vector<HeadingSample> headings;
@@ -86,8 +84,6 @@ class RosRecording {
 
   RosOutputChannels channels_;
   std::map<std::string, Topic, std::less<>> topics_;
-  Named* last_ = nullptr;  ///< to which the last message came
-  std::uint64_t messages_ = 0;
 };
 
 }  // namespace telltale

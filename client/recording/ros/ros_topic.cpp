@@ -101,10 +101,12 @@ std::optional<int> OrientationRank(std::string_view type) {
                     type);
 }
 
-std::optional<int> PositionRankOf(std::string_view type) {
-  return PlaceAmong(
-      {"sensor_msgs/msg/NavSatFix", "geographic_msgs/msg/GeoPoseStamped", "nav_msgs/msg/Odometry"},
-      type);
+/// MAVROS has fixes of the receiver below raw/, and filtered ones beside them.
+std::optional<int> PositionRankOf(std::string_view name, std::string_view type) {
+  if (type == "sensor_msgs/msg/NavSatFix") return name.ends_with("raw/fix") ? 0 : 1;
+  if (type == "geographic_msgs/msg/GeoPoseStamped") return 2;
+  if (type == "nav_msgs/msg/Odometry") return 3;
+  return std::nullopt;
 }
 
 /// Nothing of 0, 0, which is what stands there without a fix.
@@ -118,13 +120,12 @@ std::optional<GeographicPosition> ReadGeoPoint(CdrReader& cdr) {
 
 /// Nothing of what is not finite.
 std::optional<GeographicPosition> ReadOdometryPoint(CdrReader& cdr, bool is_ned) {
-  static const NorthEastFrame frame(kOdometryOrigin);
   cdr.ReadString();  // the frame that is placed
   const auto x_m = cdr.Read<double>();
   const auto y_m = cdr.Read<double>();
   cdr.Read<double>();
   if (!std::isfinite(x_m) || !std::isfinite(y_m)) return std::nullopt;
-  return frame.Inverse(is_ned ? NorthEastPosition{x_m, y_m} : NorthEastPosition{y_m, x_m});
+  return PlaceOfOdometry(is_ned ? NorthEastPosition{x_m, y_m} : NorthEastPosition{y_m, x_m});
 }
 
 RosKind KindOf(std::string_view name, std::string_view type) {
@@ -144,16 +145,19 @@ RosTopic::RosTopic(std::string_view name, std::string_view type)
     : kind_(KindOf(name, type)),
       type_(type),
       rank_(OrientationRank(type).value_or(0)),
-      position_rank_(PositionRankOf(type)) {
+      position_rank_(PositionRankOf(name, type)) {
   is_port_ = kind_ == RosKind::kSide && SideOf(name) < 0;
   is_pulse_ = kind_ == RosKind::kSide && type == "std_msgs/msg/UInt16";
+  is_single_ = type == "std_msgs/msg/Float32";
+  is_imu_ = type == "sensor_msgs/msg/Imu";
 }
 
 std::optional<RosReading> RosTopic::Read(std::span<const std::uint8_t> bytes,
                                          CdrReader::Encoding encoding) {
   if (kind_ == RosKind::kUnknown) return std::nullopt;
   CdrReader cdr(bytes, encoding);
-  RosReading reading;
+  std::optional<RosReading> read(std::in_place);  // in the place of the result
+  RosReading& reading = *read;
   bool is_usable = true;
   const auto stamp = [&](const RosHeader& header) {
     if (header.stamp_s != 0.0) reading.stamp_s = header.stamp_s;
@@ -184,7 +188,7 @@ std::optional<RosReading> RosTopic::Read(std::span<const std::uint8_t> bytes,
       const double yaw_deg = YawRad(q) * kDegreesPerRadian;
       reading.values[0] = is_ned_ ? yaw_deg : 90.0 - yaw_deg;
       is_usable = !IsNull(q) && reading.position.has_value() == position_rank_.has_value();
-      if (type_ == "sensor_msgs/msg/Imu" && cdr.Read<double>() == -1.0) is_usable = false;
+      if (is_imu_ && cdr.Read<double>() == -1.0) is_usable = false;
       break;
     }
     case RosKind::kOutputs:
@@ -196,17 +200,15 @@ std::optional<RosReading> RosTopic::Read(std::span<const std::uint8_t> bytes,
       reading.values[1] = static_cast<double>(cdr.Read<float>());
       break;
     case RosKind::kSide:
-      reading.values[0] = is_pulse_                         ? cdr.Read<std::uint16_t>()
-                          : type_ == "std_msgs/msg/Float32" ? static_cast<double>(cdr.Read<float>())
-                                                            : cdr.Read<double>();
+      reading.values[0] = is_pulse_    ? cdr.Read<std::uint16_t>()
+                          : is_single_ ? static_cast<double>(cdr.Read<float>())
+                                       : cdr.Read<double>();
       break;
     case RosKind::kUnknown: break;
   }
-  if (!cdr.Ok()) {
-    ++unreadable_;
-    return std::nullopt;
-  }
-  return is_usable ? std::optional(std::move(reading)) : std::nullopt;
+  if (!cdr.Ok()) ++unreadable_;
+  if (!cdr.Ok() || !is_usable) read.reset();
+  return read;
 }
 
 RosOutputChannels::RosOutputChannels(const SourceOptions& options)

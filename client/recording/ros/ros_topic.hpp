@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "telltale/client/recording/odometry_origin.hpp"
 #include "telltale/client/recording/ros/cdr_reader.hpp"
 #include "telltale/client/recording/source_log.hpp"
 #include "telltale/core/data/north_east_frame.hpp"
@@ -24,9 +25,6 @@ struct RosReading {
   std::array<double, 2> values{};  ///< heading | port, starboard | share or pulse
   std::vector<std::uint16_t> outputs;
 };
-
-/// Where odometry is taken to begin. Models do not depend on the place.
-inline constexpr FrameOrigin kOdometryOrigin{45.0, 0.0};
 
 /// A topic of ROS and what its messages say, by its name and type alone.
 ///
@@ -67,6 +65,8 @@ class RosTopic {
   std::optional<int> position_rank_;
   bool is_port_ = false;
   bool is_pulse_ = false;
+  bool is_single_ = false;  ///< Float32
+  bool is_imu_ = false;
   bool is_ned_ = false;
   std::string frame_;  ///< that the last header named
   std::uint64_t unreadable_ = 0;

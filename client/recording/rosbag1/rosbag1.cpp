@@ -110,12 +110,6 @@ class Rosbag1File {
   }
 
  private:
-  struct Connection {
-    std::string topic;
-    std::string type;
-    std::string definition;
-  };
-
   std::size_t TakeRecords(BagBytes bytes) {
     std::size_t at = 0;
     while (bytes.size() - at >= kLengthBytes) {
@@ -147,8 +141,9 @@ class Rosbag1File {
     const auto id = header.Number("conn");
     if (!id) return;
     const BagFields said(data);
-    connections_[*id] = {header.Text("topic"), TypeOfRos2(said.Text("type")),
-                         said.Text("message_definition")};
+    connections_[*id] = recording_.Open(
+        {header.Text("topic"), TypeOfRos2(said.Text("type")), said.Text("message_definition")},
+        CdrReader::Encoding::kRos1);
   }
 
   void TakeMessage(const BagFields& header, BagBytes data) {
@@ -161,9 +156,7 @@ class Rosbag1File {
     }
     const std::int64_t received_ns = std::int64_t{LittleEndian32(time)} * 1'000'000'000 +
                                      LittleEndian32(time.subspan(kLengthBytes));
-    const Connection& from = connection->second;
-    recording_.Take(from.topic, from.type, from.definition, received_ns, data,
-                    CdrReader::Encoding::kRos1);
+    if (connection->second) connection->second(received_ns, data);
   }
 
   void TakeChunk(const BagFields& header, BagBytes data) {
@@ -190,7 +183,7 @@ class Rosbag1File {
   }
 
   RosIntake& recording_;
-  std::map<std::uint32_t, Connection> connections_;
+  std::map<std::uint32_t, MessageTaker> connections_;
   std::vector<std::uint8_t> chunk_;
   Lz4Inflater lz4_;
   std::uint64_t unreadable_chunks_ = 0;

@@ -1,9 +1,6 @@
 #include "telltale/client/recording/rosbag2/rosbag2.hpp"
 
-#include <unistd.h>
-
 #include <algorithm>
-#include <cstdlib>
 #include <cstring>
 #include <fstream>
 #include <map>
@@ -17,6 +14,7 @@
 #include "telltale/client/recording/mcap/mcap_records.hpp"
 #include "telltale/client/recording/ros/idl_definition.hpp"
 #include "telltale/client/recording/ros_intake.hpp"
+#include "telltale/client/recording/temporary_file.hpp"
 #include "telltale/client/recording/zstd_frame.hpp"
 
 namespace telltale {
@@ -58,19 +56,17 @@ std::map<std::string, std::string> DefinitionsIn(const SQLite::Database& databas
   return definitions;
 }
 
-struct Topic {
-  std::string name;
-  std::string type;
-};
-
-/// The topics of use, by their numbers.
-std::map<std::int64_t, Topic> TopicsIn(const SQLite::Database& database, RosIntake& recording) {
-  std::map<std::int64_t, Topic> topics;
+/// Who takes the messages of the topics of use, by their numbers.
+std::map<std::int64_t, MessageTaker> TopicsIn(const SQLite::Database& database,
+                                              RosIntake& recording) {
+  std::map<std::string, std::string> definitions = DefinitionsIn(database);
+  std::map<std::int64_t, MessageTaker> topics;
   SQLite::Statement rows(database, "SELECT id, name, type FROM topics");
   while (rows.executeStep()) {
-    Topic topic{rows.getColumn(1).getString(), rows.getColumn(2).getString()};
-    if (recording.Wants(topic.name, topic.type)) {
-      topics.emplace(rows.getColumn(0).getInt64(), std::move(topic));
+    const std::string name = rows.getColumn(1).getString();
+    const std::string type = rows.getColumn(2).getString();
+    if (auto take = recording.Open({name, type, definitions[type]})) {
+      topics.emplace(rows.getColumn(0).getInt64(), std::move(take));
     }
   }
   return topics;
@@ -86,8 +82,7 @@ std::optional<Refusal> TakeDatabase(const fs::path& file, RosIntake& recording,
                                     const ReadProgress& progress) {
   try {
     const SQLite::Database database(file.string(), SQLite::OPEN_READONLY);
-    std::map<std::string, std::string> definitions = DefinitionsIn(database);
-    const std::map<std::int64_t, Topic> topics = TopicsIn(database, recording);
+    const std::map<std::int64_t, MessageTaker> topics = TopicsIn(database, recording);
     SQLite::Statement rows(database,
                            "SELECT topic_id, timestamp, data FROM messages ORDER BY timestamp");
     const double messages = MessagesIn(database);
@@ -96,10 +91,8 @@ std::optional<Refusal> TakeDatabase(const fs::path& file, RosIntake& recording,
       const auto topic = topics.find(rows.getColumn(0).getInt64());
       if (topic == topics.end()) continue;
       const SQLite::Column data = rows.getColumn(2);
-      recording.Take(topic->second.name, topic->second.type, definitions[topic->second.type],
-                     rows.getColumn(1).getInt64(),
-                     {static_cast<const std::uint8_t*>(data.getBlob()),
-                      static_cast<std::size_t>(data.getBytes())});
+      topic->second(rows.getColumn(1).getInt64(), {static_cast<const std::uint8_t*>(data.getBlob()),
+                                                   static_cast<std::size_t>(data.getBytes())});
     }
   } catch (const SQLite::Exception& error) {
     return Refusal{file.string(),
@@ -117,26 +110,6 @@ std::vector<std::uint8_t> FirstBytes(const fs::path& file) {
   return bytes;
 }
 
-/// A file of its own among the temporary ones, for as long as it lives.
-class TemporaryFile {
- public:
-  TemporaryFile() : name_((fs::temp_directory_path() / "telltale-XXXXXX").string()) {
-    const int file = mkstemp(name_.data());
-    if (file >= 0) close(file);
-  }
-  TemporaryFile(const TemporaryFile&) = delete;
-  TemporaryFile& operator=(const TemporaryFile&) = delete;
-  ~TemporaryFile() {
-    std::error_code ignored;
-    fs::remove(name_, ignored);
-  }
-
-  fs::path Path() const { return name_; }
-
- private:
-  std::string name_;
-};
-
 /// The messages of one file, which is not compressed as a whole; returns its damage.
 Result<std::string> TakeFile(const fs::path& file, RosIntake& recording,
                              const ReadProgress& progress) {
@@ -145,16 +118,14 @@ Result<std::string> TakeFile(const fs::path& file, RosIntake& recording,
       return tl::unexpected(*std::move(refusal));
     return std::string();
   }
-  const McapVisitor visitor{[&](const McapChannel& channel) {
-                              return channel.encoding == "cdr" &&
-                                     recording.Wants(channel.topic, channel.schema);
-                            },
-                            [&](const McapMessage& message) {
-                              const McapChannel& channel = message.channel;
-                              recording.Take(channel.topic, channel.schema, channel.definition,
-                                             message.log_time_ns, message.data);
-                            },
-                            progress};
+  const auto open = [&](const McapChannel& channel) -> MessageTaker {
+    if (channel.encoding == "cdr") {
+      return recording.Open({channel.topic, channel.schema, channel.definition});
+    }
+    recording.Leave(channel.topic, channel.encoding);
+    return nullptr;
+  };
+  const McapVisitor visitor{open, progress};
   return ForEachMcapMessage(file, visitor).map([](const McapDamage& damage) {
     return damage.Summary();
   });

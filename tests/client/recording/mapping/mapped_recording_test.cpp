@@ -153,6 +153,49 @@ TEST(MappedRecording, CountsHeldValuesOnceAndLeavesOutWhatIsNoFix) {
   EXPECT_THAT(log.summary, HasSubstr("1 positions without a fix"));
 }
 
+TEST(MappedRecording, TakesAllChannelsFromTheBoatThatSpeaksFirst) {
+  const Mapping mapping = Shipped("mavros");
+  MappedRecording recording(mapping);
+  const auto take = [&](const std::string& topic, double time_s,
+                        std::map<std::string, double, std::less<>> values) {
+    recording.Take(topic, time_s, MappedNumbers(std::move(values)));
+  };
+  take("/boat1/mavros/global_position/raw/fix", 1.0, {{"latitude", 63.4}, {"longitude", 10.4}});
+  for (const char* boat : {"/boat2", "/boat1"}) {
+    const std::string mavros = std::string(boat) + "/mavros";
+    const double own = mavros.starts_with("/boat1") ? 1.0 : 2.0;
+    take(mavros + "/global_position/compass_hdg", 1.0, {{"data", own}});
+    take(mavros + "/rc/out", 1.0, {{"channels[0]", 1500 + own}, {"channels[2]", 1600 + own}});
+  }
+  const SourceLog log = std::move(recording).Finish("messages");
+  ASSERT_EQ(log.heading.size(), 1u);
+  EXPECT_EQ(log.heading[0].heading_deg, 1.0);
+  ASSERT_EQ(log.thrusters.size(), 1u);
+  EXPECT_EQ(log.thrusters[0].port_us, 1501.0);
+  EXPECT_EQ(log.thrusters[0].starboard_us, 1601.0);
+  EXPECT_THAT(log.summary, HasSubstr("left out, though the mapping matches: /boat2/mavros/rc/out"));
+}
+
+TEST(MappedRecording, TakesTopicsThatStandBelowTheNamespaceOfOthers) {
+  const Mapping mapping = MappingOf(
+      "positions { topic: \"*/fix\" latitude: \"latitude\" longitude: \"longitude\" }"
+      "headings { topic: \"*/heading\" field: \"data\" }"
+      "port { topic: \"*/out\" field: \"left\" } starboard { topic: \"*/out\" field: \"right\" }");
+  MappedRecording recording(mapping);
+  const auto take = [&](const std::string& topic,
+                        std::map<std::string, double, std::less<>> values) {
+    recording.Take(topic, 1.0, MappedNumbers(std::move(values)));
+  };
+  take("/boat1/sensors/gps/fix", {{"latitude", 63.4}, {"longitude", 10.4}});
+  take("/boat10/sensors/heading", {{"data", 2.0}});
+  take("/boat1/sensors/heading", {{"data", 1.0}});
+  take("/boat1/out", {{"left", 1501.0}, {"right", 1601.0}});
+  const SourceLog log = std::move(recording).Finish("messages");
+  ASSERT_FALSE(log.Lacks()) << log.summary;
+  ASSERT_EQ(log.heading.size(), 1u);
+  EXPECT_EQ(log.heading[0].heading_deg, 1.0);
+}
+
 TEST(MappingFile, SaysWhatIsWrongAndWhatIsAllowed) {
   const auto said = [](const std::string& text) {
     const auto mapping = ParseMapping(text, "map.textproto");
@@ -173,6 +216,9 @@ TEST(MappingFile, SaysWhatIsWrongAndWhatIsAllowed) {
                    "port { field: \"l\" unit: \"share\" full_forward: 1 full_reverse: 1 } "
                    "starboard { field: \"r\" }"),
               HasSubstr("of the other sign"));
+  EXPECT_THAT(said("positions { north: \"n\" }\n" + headings + sides), HasSubstr("positions.east"));
+  EXPECT_THAT(said("positions { north: \"n\" east: \"e\" unit: \"rad\" }\n" + headings + sides),
+              AllOf(HasSubstr("positions.unit"), HasSubstr("in metres")));
   EXPECT_THAT(said("nonsense { }"), HasSubstr("nonsense"));
 }
 
@@ -185,8 +231,8 @@ TEST(ShippedMappings, FindTheChannelsOfTheirRecordings) {
                            CdrReader::Encoding encoding) {
     Serialised fix(encoding);
     fix.Header(100, 0).Whole(0, 1).Whole(1, 2).Real(63.4).Real(10.4).Real(0.0);
-    messages.TakeRos(topic, "sensor_msgs/msg/NavSatFix", "", 100 * kSecondNs, fix.Bytes(),
-                     encoding);
+    messages.OpenRos({topic, "sensor_msgs/msg/NavSatFix", ""}, encoding)(100 * kSecondNs,
+                                                                         fix.Bytes());
   };
   const auto take_orientation = [](MappedMessages& messages, const char* topic, const char* type,
                                    CdrReader::Encoding encoding) {
@@ -197,18 +243,18 @@ TEST(ShippedMappings, FindTheChannelsOfTheirRecordings) {
     }
     const double yaw = M_PI / 6;  // from east, anticlockwise
     message.Real(0.0).Real(0.0).Real(std::sin(yaw / 2)).Real(std::cos(yaw / 2));
-    messages.TakeRos(topic, type, "", 100 * kSecondNs, message.Bytes(), encoding);
+    messages.OpenRos({topic, type, ""}, encoding)(100 * kSecondNs, message.Bytes());
   };
   const auto take_outputs = [](MappedMessages& messages) {
     Serialised outputs(kRos2);
     outputs.Header(100, 0).Whole(4, 4);
     for (const std::uint64_t us : {1700, 1500, 1300, 1500}) outputs.Whole(us, 2);
-    messages.TakeRos("/mavros/rc/out", "mavros_msgs/msg/RCOut", "", 100 * kSecondNs,
-                     outputs.Bytes(), kRos2);
+    messages.OpenRos({"/mavros/rc/out", "mavros_msgs/msg/RCOut", ""}, kRos2)(100 * kSecondNs,
+                                                                             outputs.Bytes());
   };
   const auto take_number = [](MappedMessages& messages, const char* topic, double value) {
-    messages.TakeRos(topic, "std_msgs/msg/Float64", "", 100 * kSecondNs,
-                     Serialised(kRos2).Real(value).Bytes(), kRos2);
+    messages.OpenRos({topic, "std_msgs/msg/Float64", ""}, kRos2)(
+        100 * kSecondNs, Serialised(kRos2).Real(value).Bytes());
   };
   const auto expect_boat = [](const SourceLog& log) {
     EXPECT_FALSE(log.Lacks()) << log.summary;
@@ -246,13 +292,13 @@ TEST(ShippedMappings, FindTheChannelsOfTheirRecordings) {
     take_orientation(messages, "/imu/data", "sensor_msgs/msg/Imu", kRos1);
     Serialised drive(kRos1);
     drive.Single(0.5F).Single(-0.5F);
-    messages.TakeRos("/cmd_drive", "heron_msgs/msg/Drive", "", 100 * kSecondNs, drive.Bytes(),
-                     kRos1);
+    messages.OpenRos({"/cmd_drive", "heron_msgs/msg/Drive", ""}, kRos1)(100 * kSecondNs,
+                                                                        drive.Bytes());
   }));
   expect_boat(gather("blueos", [&](MappedMessages& messages) {
     const auto take = [&](const char* topic, const std::string& json) {
-      messages.TakeJson(topic, 0,
-                        {reinterpret_cast<const std::uint8_t*>(json.data()), json.size()});
+      messages.OpenJson(topic)(0,
+                               {reinterpret_cast<const std::uint8_t*>(json.data()), json.size()});
     };
     take("mavlink/1/1/GPS_RAW_INT",
          R"({"message":{"time_usec":100000000,"lat":634000000,"lon":104000000}})");

@@ -98,14 +98,17 @@ class McapTest : public testing::Test {
   Result<McapDamage> Read(const Bytes& bytes) {
     const auto file = folder_.Path() / "recording.mcap";
     std::ofstream(file, std::ios::binary) << bytes;
-    const auto keep = [&](const McapMessage& message) {
-      topics_.emplace_back(message.channel.topic);
-      schemas_.emplace_back(message.channel.schema);
-      times_ns_.push_back(message.log_time_ns);
-      data_.emplace_back(message.data.begin(), message.data.end());
+    const auto open = [&](const McapChannel& channel) -> MessageTaker {
+      if (channel.topic == unwanted_) return nullptr;
+      return [this, topic = std::string(channel.topic), schema = std::string(channel.schema)](
+                 std::int64_t time_ns, std::span<const std::uint8_t> message) {
+        topics_.push_back(topic);
+        schemas_.push_back(schema);
+        times_ns_.push_back(time_ns);
+        data_.emplace_back(message.begin(), message.end());
+      };
     };
-    const auto is_of_use = [&](const McapChannel& channel) { return channel.topic != unwanted_; };
-    return ForEachMcapMessage(file, {is_of_use, keep, nullptr});
+    return ForEachMcapMessage(file, {open, nullptr});
   }
 
   TemporaryFolder folder_;

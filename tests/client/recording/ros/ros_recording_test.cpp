@@ -17,14 +17,19 @@ namespace {
 
 constexpr std::int64_t kSecondNs = 1000000000;
 
+void Take(RosRecording& recording, std::string_view topic, std::string_view type,
+          std::int64_t received_ns, const std::vector<std::uint8_t>& message) {
+  recording.Open({topic, type, {}})(received_ns, message);
+}
+
 TEST(RosRecording, TakesPositionsHeadingsAndOutputs) {
   RosRecording recording{SourceOptions{}};
-  recording.Take("/fix", "sensor_msgs/msg/NavSatFix", 100 * kSecondNs, NavSatFix(100, 0));
-  recording.Take("/fix", "sensor_msgs/msg/NavSatFix", 101 * kSecondNs, NavSatFix(101, -1));
+  Take(recording, "/fix", "sensor_msgs/msg/NavSatFix", 100 * kSecondNs, NavSatFix(100, 0));
+  Take(recording, "/fix", "sensor_msgs/msg/NavSatFix", 101 * kSecondNs, NavSatFix(101, -1));
   // East-north-up: yaw 30 degrees from east is heading 60 degrees.
-  recording.Take("/imu", "sensor_msgs/msg/Imu", 100 * kSecondNs, Imu(100, M_PI / 6, "base_link"));
-  recording.Take("/rc/out", "mavros_msgs/msg/RCOut", 100 * kSecondNs,
-                 RcOut(100, {1600, 1500, 1400}));
+  Take(recording, "/imu", "sensor_msgs/msg/Imu", 100 * kSecondNs, Imu(100, M_PI / 6, "base_link"));
+  Take(recording, "/rc/out", "mavros_msgs/msg/RCOut", 100 * kSecondNs,
+       RcOut(100, {1600, 1500, 1400}));
   const SourceLog log = std::move(recording).Finish();
   ASSERT_FALSE(log.Lacks()) << log.summary;
   ASSERT_EQ(log.gnss.size(), 1u);
@@ -41,7 +46,7 @@ TEST(RosRecording, TakesTheChannelsOfOneBoatFromARecordingOfTwo) {
   for (int i = 0; i < 3; ++i) {
     const auto take = [&](const std::string& topic, const char* type,
                           const std::vector<std::uint8_t>& bytes) {
-      recording.Take(topic, type, (100 + i) * kSecondNs, bytes);
+      Take(recording, topic, type, (100 + i) * kSecondNs, bytes);
     };
     // The second boat has most fixes, the first most of all else.
     if (i < 2) take("/boat1/mavros/fix", "sensor_msgs/msg/NavSatFix", NavSatFix(100 + i, 0));
@@ -58,16 +63,29 @@ TEST(RosRecording, TakesTheChannelsOfOneBoatFromARecordingOfTwo) {
   EXPECT_EQ(log.thrusters.size(), 2u);
 }
 
+TEST(RosRecording, PrefersFixesOfTheReceiverToFilteredOnes) {
+  RosRecording recording{SourceOptions{}};
+  for (int i = 0; i < 3; ++i) {
+    Take(recording, "/mavros/global_position/global", "sensor_msgs/msg/NavSatFix",
+         (100 + i) * kSecondNs, NavSatFix(100 + i, 0));
+  }
+  Take(recording, "/mavros/global_position/raw/fix", "sensor_msgs/msg/NavSatFix", 100 * kSecondNs,
+       NavSatFix(100, 0));
+  const SourceLog log = std::move(recording).Finish();
+  EXPECT_EQ(log.gnss.size(), 1u);
+  EXPECT_THAT(log.summary, testing::HasSubstr("positions from /mavros/global_position/raw/fix"));
+}
+
 TEST(RosRecording, CountsOutputsWithTooFewChannels) {
   RosRecording recording{SourceOptions{}};
-  recording.Take("/rc/out", "mavros_msgs/msg/RCOut", 100 * kSecondNs, RcOut(100, {1600, 1500}));
+  Take(recording, "/rc/out", "mavros_msgs/msg/RCOut", 100 * kSecondNs, RcOut(100, {1600, 1500}));
   EXPECT_THAT(std::move(recording).Finish().summary,
               testing::HasSubstr("1 messages of /rc/out with fewer than 3 channels"));
 }
 
 TEST(RosRecording, TakesANorthEastDownFrameByItsName) {
   RosRecording recording{SourceOptions{}};
-  recording.Take("/imu", "sensor_msgs/msg/Imu", 0, Imu(1, M_PI / 6, "base_link_ned"));
+  Take(recording, "/imu", "sensor_msgs/msg/Imu", 0, Imu(1, M_PI / 6, "base_link_ned"));
   EXPECT_NEAR(std::move(recording).Finish().heading.at(0).heading_deg, 30.0, 1e-9);
 }
 
@@ -75,8 +93,8 @@ TEST(RosRecording, TakesOdometryAsMetresFromAnOriginThatItNames) {
   const NorthEastFrame frame(kOdometryOrigin);
   const auto place = [&](const std::string& frame_id) {
     RosRecording recording{SourceOptions{}};
-    recording.Take("/odom", "nav_msgs/msg/Odometry", 100 * kSecondNs,
-                   Odometry(100, 30.0, -40.0, M_PI / 6, frame_id));
+    Take(recording, "/odom", "nav_msgs/msg/Odometry", 100 * kSecondNs,
+         Odometry(100, 30.0, -40.0, M_PI / 6, frame_id));
     const SourceLog log = std::move(recording).Finish();
     EXPECT_THAT(log.summary, testing::HasSubstr("positions from /odom (metres from an origin that "
                                                 "is not stated, taken as 45 N 0 E)"));
@@ -94,9 +112,10 @@ TEST(RosRecording, TakesOdometryAsMetresFromAnOriginThatItNames) {
 TEST(RosRecording, PrefersPositionsOnTheEarthToOdometryHoweverFew) {
   RosRecording recording{SourceOptions{}};
   for (int i = 0; i < 5; ++i) {
-    recording.Take("/odom", "nav_msgs/msg/Odometry", i * kSecondNs, Odometry(i + 1, 1.0, 2.0, 0.0));
+    Take(recording, "/odom", "nav_msgs/msg/Odometry", i * kSecondNs,
+         Odometry(i + 1, 1.0, 2.0, 0.0));
   }
-  recording.Take("/fix", "sensor_msgs/msg/NavSatFix", kSecondNs, NavSatFix(1, 0));
+  Take(recording, "/fix", "sensor_msgs/msg/NavSatFix", kSecondNs, NavSatFix(1, 0));
   const SourceLog log = std::move(recording).Finish();
   ASSERT_EQ(log.gnss.size(), 1u);
   EXPECT_EQ(log.gnss[0].latitude_deg, 63.4);
@@ -107,8 +126,8 @@ TEST(RosRecording, PrefersPositionsOnTheEarthToOdometryHoweverFew) {
 TEST(RosRecording, TakesPositionAndHeadingOfAGeoPose) {
   RosRecording recording{SourceOptions{}};
   const auto take = [&](double latitude_deg, double longitude_deg) {
-    recording.Take("/ap/geopose/filtered", "geographic_msgs/msg/GeoPoseStamped", kSecondNs,
-                   GeoPose(1, latitude_deg, longitude_deg, M_PI / 6));
+    Take(recording, "/ap/geopose/filtered", "geographic_msgs/msg/GeoPoseStamped", kSecondNs,
+         GeoPose(1, latitude_deg, longitude_deg, M_PI / 6));
   };
   take(0.0, 0.0);  // no fix
   take(-35.36, 149.16);
@@ -135,8 +154,8 @@ TEST(RosTopic, IsOfAThrusterWhereItsLastNameCommandsIt) {
 
 TEST(RosRecording, PrefersACompassToAnOrientation) {
   RosRecording recording{SourceOptions{}};
-  recording.Take("/imu", "sensor_msgs/msg/Imu", 0, Imu(1, 0.0, "map"));
-  recording.Take("/compass_hdg", "std_msgs/msg/Float64", kSecondNs, Cdr().Add(123.0).Bytes());
+  Take(recording, "/imu", "sensor_msgs/msg/Imu", 0, Imu(1, 0.0, "map"));
+  Take(recording, "/compass_hdg", "std_msgs/msg/Float64", kSecondNs, Cdr().Add(123.0).Bytes());
   const SourceLog log = std::move(recording).Finish();
   ASSERT_EQ(log.heading.size(), 1u);
   EXPECT_EQ(log.heading[0].heading_deg, 123.0);
@@ -145,8 +164,8 @@ TEST(RosRecording, PrefersACompassToAnOrientation) {
 TEST(RosRecording, MakesPulsesOfSharesOfThrust) {
   RosRecording recording{SourceOptions{}};
   const auto share = [](double value) { return Cdr().Add(value).Bytes(); };
-  recording.Take("/thrusters/left/thrust", "std_msgs/msg/Float64", kSecondNs, share(0.5));
-  recording.Take("/thrusters/right/thrust", "std_msgs/msg/Float64", 2 * kSecondNs, share(-0.25));
+  Take(recording, "/thrusters/left/thrust", "std_msgs/msg/Float64", kSecondNs, share(0.5));
+  Take(recording, "/thrusters/right/thrust", "std_msgs/msg/Float64", 2 * kSecondNs, share(-0.25));
   const SourceLog log = std::move(recording).Finish();
   ASSERT_EQ(log.thrusters.size(), 1u);
   EXPECT_EQ(log.thrusters[0].time_s, 2.0);
@@ -157,7 +176,7 @@ TEST(RosRecording, MakesPulsesOfSharesOfThrust) {
 TEST(RosRecording, LeavesThrustInNewtonsToAMapping) {
   RosRecording recording{SourceOptions{}};
   for (const char* side : {"/left/thrust", "/right/thrust"}) {
-    recording.Take(side, "std_msgs/msg/Float64", kSecondNs, Cdr().Add(40.0).Bytes());
+    Take(recording, side, "std_msgs/msg/Float64", kSecondNs, Cdr().Add(40.0).Bytes());
   }
   const SourceLog log = std::move(recording).Finish();
   EXPECT_TRUE(log.thrusters.empty());
@@ -166,7 +185,7 @@ TEST(RosRecording, LeavesThrustInNewtonsToAMapping) {
 
 TEST(RosRecording, UsesTimesOfRecordingWhereStampsAreOfAnotherClock) {
   RosRecording recording{SourceOptions{}};
-  recording.Take("/fix", "sensor_msgs/msg/NavSatFix", 5000 * kSecondNs, NavSatFix(100, 0));
+  Take(recording, "/fix", "sensor_msgs/msg/NavSatFix", 5000 * kSecondNs, NavSatFix(100, 0));
   const SourceLog log = std::move(recording).Finish();
   EXPECT_EQ(log.gnss.at(0).time_s, 5000.0);
   EXPECT_THAT(log.summary, testing::HasSubstr("times of recording"));
@@ -176,8 +195,8 @@ TEST(RosRecording, CountsMessagesThatAreCutShort) {
   RosRecording recording{SourceOptions{}};
   auto bytes = NavSatFix(100, 0);
   bytes.resize(bytes.size() - 4);
-  recording.Take("/fix", "sensor_msgs/msg/NavSatFix", 0, bytes);
-  recording.Take("/fix", "sensor_msgs/msg/NavSatFix", 0, {});
+  Take(recording, "/fix", "sensor_msgs/msg/NavSatFix", 0, bytes);
+  Take(recording, "/fix", "sensor_msgs/msg/NavSatFix", 0, {});
   const SourceLog log = std::move(recording).Finish();
   EXPECT_TRUE(log.gnss.empty());
   EXPECT_THAT(log.summary, testing::HasSubstr("2 unreadable messages of /fix"));
