@@ -37,7 +37,7 @@ telltale_debian_package(telltale SECTION science SUMMARY "identifies how autonom
 telltale_debian_package(telltaled SECTION science SUMMARY "identification service for fleets of autonomous surface vehicles")
 telltale_debian_package(libtelltale-dev SECTION libdevel SUMMARY "identifies autonomous surface vehicles - C++ libraries"
                         DEPENDS "cyclonedds-dev, libboost-dev, libceres-dev, libeigen3-dev, libexpected-dev, \
-libdeflate-dev, libgeographiclib-dev, liblz4-dev, libbz2-dev, libprotobuf-dev, libsimdjson-dev, libspdlog-dev, libsqlite3-dev, libsqlitecpp-dev, libzstd-dev")
+libdeflate-dev, libgeographiclib-dev, liblz4-dev, libbz2-dev, libprotobuf-dev, libsimdjson-dev, libspdlog-dev, libsqlite3-dev, libsqlitecpp-dev, libzstd-dev, zlib1g-dev")
 telltale_debian_package(python3-telltale SECTION python SUMMARY "identifies autonomous surface vehicles - Python package"
                         DEPENDS "python3 (>= 3.11), python3 (<< 3.12), python3-numpy")
 

@@ -1,18 +1,24 @@
 #include "telltale/client/recording/load_recording.hpp"
 
 #include <algorithm>
+#include <array>
 #include <fstream>
+#include <span>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include "telltale/client/recording/csv/mapped_csv.hpp"
 #include "telltale/client/recording/dataflash/dataflash_log.hpp"
+#include "telltale/client/recording/gzip_file.hpp"
 #include "telltale/client/recording/mavlink/mavlink_recording.hpp"
 #include "telltale/client/recording/mcap/mcap_recording.hpp"
 #include "telltale/client/recording/mcap/mcap_records.hpp"
 #include "telltale/client/recording/rosbag1/rosbag1.hpp"
 #include "telltale/client/recording/rosbag2/rosbag2.hpp"
 #include "telltale/client/recording/telemetry_log/telemetry_log.hpp"
+#include "telltale/client/recording/temporary_file.hpp"
+#include "telltale/client/recording/trimmed.hpp"
 #include "telltale/client/recording/zstd_frame.hpp"
 #include "telltale/core/data/input_check.hpp"
 
@@ -20,6 +26,8 @@ namespace telltale {
 namespace {
 
 constexpr std::size_t kBytesToTellFormat = std::size_t{64} << 10;
+constexpr std::size_t kMostNamed = 5;  // of the recordings of a folder
+constexpr std::size_t kMostOfALine = 200;
 constexpr const char* kReadableFormats =
     "give a folder of CSV files, an ArduPilot .BIN, a .tlog, an .mcap, a rosbag2 folder or "
     ".db3, a ROS 1 .bag, or one CSV file with --map";
@@ -32,7 +40,41 @@ std::string FirstBytes(const std::filesystem::path& file) {
   return bytes;
 }
 
-Result<RawLog> FromFolder(const std::filesystem::path& folder) {
+bool IsTelemetryLog(const std::filesystem::path& folder) {
+  return std::ranges::any_of(std::array{"gnss.csv", "heading.csv", "thrusters.csv"},
+                             [&](const char* file) { return exists(folder / file); });
+}
+
+/// The recordings that stand in a folder, by name.
+std::vector<std::filesystem::path> RecordingsIn(const std::filesystem::path& folder) {
+  std::vector<std::filesystem::path> recordings;
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+    if (!entry.is_regular_file() || FormatOf(entry.path()) == LogFormat::kUnknown) continue;
+    recordings.push_back(entry.path());
+  }
+  std::ranges::sort(recordings);
+  return recordings;
+}
+
+/// A folder with one recording is that recording. Several may have a clock each, and so are several
+/// logs.
+Result<RawLog> FromOtherFolder(const std::filesystem::path& folder, const SourceOptions& options) {
+  const std::vector<std::filesystem::path> recordings = RecordingsIn(folder);
+  if (recordings.size() == 1) return ReadLog(recordings.front(), options);
+  if (recordings.empty()) return Refuse(folder.string(), "holds no recording", kReadableFormats);
+  std::string names;
+  for (const auto& recording :
+       std::span(recordings).first(std::min(recordings.size(), kMostNamed))) {
+    names += (names.empty() ? "" : ", ") + recording.filename().string();
+  }
+  return Refuse(folder.string(),
+                "holds " + std::to_string(recordings.size()) + " recordings: " + names +
+                    (recordings.size() > kMostNamed ? ", ..." : ""),
+                "give each of them by a --log of its own");
+}
+
+Result<RawLog> FromFolder(const std::filesystem::path& folder, const SourceOptions& options) {
+  if (!IsTelemetryLog(folder)) return FromOtherFolder(folder, options);
   return ReadTelemetryLog(folder).map([](TelemetryLog log) {
     return RawLog{std::move(log.channels), log.malformed, std::nullopt};
   });
@@ -90,12 +132,74 @@ tl::unexpected<Refusal> Naming(const std::filesystem::path& path, Refusal refusa
   return tl::unexpected(std::move(refusal));
 }
 
+/// Formats that are known and not read, by how they begin.
+struct OtherFormat {
+  std::string_view beginning;
+  const char* reason;
+  const char* advice;
+};
+constexpr std::array kOtherFormats = {
+    OtherFormat{"ULog\x01\x12\x35", "is a ULog of PX4, which is not read",
+                "record the boat by MAVLink or ROS 2, or make one CSV file of it and give --map"},
+    OtherFormat{"FMT, ", "is a DataFlash log turned into text", "give the .BIN that it is made of"},
+    OtherFormat{"PK\x03\x04", "is a zip archive", "unpack it, and give what it holds"},
+    OtherFormat{"BZh", "is compressed with bzip2", "decompress it"},
+    OtherFormat{"\xFD"
+                "7zXZ",
+                "is compressed with xz", "decompress it"}};
+
+/// The first line of what seems to be a table of text; empty of anything else.
+std::string_view FirstRow(std::string_view begin) {
+  if (begin.starts_with(kByteOrderMark)) begin.remove_prefix(kByteOrderMark.size());
+  const std::string_view line = Trimmed(begin.substr(0, begin.find('\n')));
+  const auto is_of_text = [](char c) { return static_cast<unsigned char>(c) >= ' ' || c == '\t'; };
+  const auto separates = [](char c) { return c == ',' || c == ';' || c == '\t'; };
+  const bool is_row =
+      std::ranges::all_of(line, is_of_text) && std::ranges::count_if(line, separates) >= 2;
+  return is_row ? line : std::string_view();
+}
+
 Refusal UnknownFormat(const std::filesystem::path& path) {
   std::error_code error;
   const auto bytes = std::filesystem::file_size(path, error);
   if (error) return {path.string(), "cannot be read: " + error.message(), kReadableFormats};
   if (bytes == 0) return {path.string(), "is empty", "copy or download the recording again"};
+  const std::string begin = FirstBytes(path);
+  for (const OtherFormat& other : kOtherFormats) {
+    if (begin.starts_with(other.beginning)) return {path.string(), other.reason, other.advice};
+  }
+  if (const std::string_view row = FirstRow(begin); !row.empty()) {
+    return {path.string(),
+            "seems to be a CSV file, which begins with " + std::string(row.substr(0, kMostOfALine)),
+            "say by --map FILE which columns hold times, positions, headings and commands"};
+  }
   return {path.string(), "is of no format that can be read, by its content", kReadableFormats};
+}
+
+Result<bool> Inflate(const std::filesystem::path& file, const std::filesystem::path& into) {
+  const std::string begin = FirstBytes(file);
+  const bool is_gzip =
+      BeginsLikeGzipFile({reinterpret_cast<const std::uint8_t*>(begin.data()), begin.size()});
+  return is_gzip ? InflateGzipFile(file, into) : InflateZstdFile(file, into);
+}
+
+/// What is compressed once more inside is of no known format.
+Result<RawLog> FromCompressed(const std::filesystem::path& path, const SourceOptions& options) {
+  const TemporaryFile inflated;
+  const auto is_whole = Inflate(path, inflated.Path());
+  if (!is_whole) return tl::unexpected(is_whole.error());
+  const std::string inside = inflated.Path().string();
+  auto log = FormatOf(inside) == LogFormat::kCompressed ? tl::unexpected(UnknownFormat(inside))
+                                                        : ReadLog(inside, options);
+  if (!log) {
+    std::string& subject = log.error().subject;
+    const bool names_inside = subject.starts_with(inside);
+    subject = path.string() + (*is_whole ? "" : ", which is cut off,") +
+              (names_inside ? subject.substr(inside.size()) : ' ' + subject);
+  } else if (!*is_whole && log->description) {
+    log->description->summary += "; the compressed file is cut off";
+  }
+  return log;
 }
 
 Result<PwmChannel> RangeOf(const std::optional<ThrusterOutput>& output, const char* thruster) {
@@ -117,9 +221,11 @@ LogFormat FormatOf(const std::filesystem::path& path) {
                                             begin.size());
   if (BeginsLikeMcap(bytes)) return LogFormat::kMcap;
   if (begin.starts_with("SQLite format 3")) return LogFormat::kRosbag2;
-  if (BeginsLikeZstdFrame(bytes)) return LogFormat::kRosbag2;  // a file of it, compressed
+  if (BeginsLikeZstdFrame(bytes) || BeginsLikeGzipFile(bytes)) return LogFormat::kCompressed;
   if (BeginsLikeRosbag1(bytes)) return LogFormat::kRosbag1;
-  if (BeginsLikeMavlinkTelemetryLog(bytes)) return LogFormat::kMavlink;
+  if (BeginsLikeMavlinkTelemetryLog(bytes) || BeginsLikeMavlinkStream(bytes)) {
+    return LogFormat::kMavlink;
+  }
   // A damaged log may begin with anything; the definition of a message stands near its start.
   const bool defines_messages = begin.find("\xA3\x95\x80") != std::string::npos;
   return defines_messages ? LogFormat::kDataFlash : LogFormat::kUnknown;
@@ -127,14 +233,16 @@ LogFormat FormatOf(const std::filesystem::path& path) {
 
 Result<RawLog> ReadLog(const std::filesystem::path& path, const SourceOptions& options) {
   const LogFormat format = FormatOf(path);
+  if (format == LogFormat::kCompressed) return FromCompressed(path, options);
   if (options.mapping) return FromSource(ReadMapped(path, format, options));
   switch (format) {
-    case LogFormat::kTelemetryLog: return FromFolder(path);
+    case LogFormat::kTelemetryLog: return FromFolder(path, options);
     case LogFormat::kMavlink: return FromSource(ReadMavlinkTelemetryLog(path, options));
     case LogFormat::kMcap: return FromSource(ReadMcap(path, options));
     case LogFormat::kRosbag1: return FromSource(ReadRosbag1(path, options));
     case LogFormat::kRosbag2: return FromSource(ReadRosbag2(path, options));
     case LogFormat::kDataFlash: return FromDataFlash(path, options);
+    case LogFormat::kCompressed:
     case LogFormat::kUnknown: break;
   }
   return tl::unexpected(UnknownFormat(path));

@@ -37,16 +37,25 @@ struct LoadedRecording {
   std::optional<LogDescription> description;
 };
 
-enum class LogFormat { kUnknown, kTelemetryLog, kDataFlash, kMavlink, kMcap, kRosbag1, kRosbag2 };
+enum class LogFormat {
+  kUnknown,
+  kTelemetryLog,
+  kDataFlash,
+  kMavlink,
+  kMcap,
+  kRosbag1,
+  kRosbag2,
+  kCompressed  ///< with gzip or zstd, as a whole
+};
 
 /// By what the path holds, not by its name: a folder of .db3 or .mcap files, compressed or not, is
-/// a rosbag2 recording, any other folder a telemetry log; a file is told by its first 64 KiB. What
-/// zstd has compressed is a file of rosbag2.
+/// a rosbag2 recording, any other folder a telemetry log; a file is told by its first 64 KiB.
 LogFormat FormatOf(const std::filesystem::path& path);
 
 /// A telemetry log (gnss.csv, heading.csv and thrusters.csv of one folder), an ArduPilot DataFlash
-/// file, a MAVLink telemetry log, an MCAP file, a rosbag2 recording or a ROS 1 .bag.
-/// Refuses when: the path is none of them, cannot be read, or holds nothing of a channel.
+/// file, a MAVLink telemetry log, an MCAP file, a rosbag2 recording or a ROS 1 .bag; a file of
+/// these that gzip or zstd has compressed, or a folder that holds one such file alone. Refuses
+/// when: the path is none of them, cannot be read, or holds nothing of a channel.
 Result<RawLog> ReadLog(const std::filesystem::path& path, const SourceOptions& options = {});
 
 /// What Admit keeps of a log. Refuses when: it does, or times, positions or commands are plainly in

@@ -3,12 +3,14 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <cmath>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "telltale/client/recording/block_reader.hpp"
+#include "telltale/client/recording/csv/iso_time.hpp"
 #include "telltale/client/recording/mapping/mapped_recording.hpp"
 #include "telltale/client/recording/trimmed.hpp"
 
@@ -37,12 +39,14 @@ char SeparatorOf(std::string_view header) {
   });
 }
 
+/// A time of ISO 8601 counts as its seconds since 1970; what is not finite as no number.
 std::optional<double> NumberOf(std::string_view cell) {
   if (cell.starts_with('+')) cell.remove_prefix(1);
   double value = 0.0;
   const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
-  if (cell.empty() || error != std::errc() || end != cell.data() + cell.size()) return std::nullopt;
-  return value;
+  const bool is_number = !cell.empty() && error == std::errc() && end == cell.data() + cell.size();
+  if (!is_number) return SecondsOfIsoTime(cell);
+  return std::isfinite(value) ? std::optional(value) : std::nullopt;
 }
 
 std::vector<std::string> ColumnsOf(const Mapping& mapping) {

@@ -2,10 +2,14 @@
 
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <string>
+#include <vector>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <zlib.h>
+#include <zstd.h>
 
 #include "support/dataflash_writer.hpp"
 
@@ -13,6 +17,27 @@ namespace telltale {
 namespace {
 
 using ::testing::HasSubstr;
+
+std::string Gzip(const std::string& content) {
+  std::vector<Bytef> compressed(compressBound(content.size()) + 32);
+  z_stream stream{};
+  constexpr int kWithGzipHeader = 15 + 16;
+  deflateInit2(&stream, Z_BEST_SPEED, Z_DEFLATED, kWithGzipHeader, 8, Z_DEFAULT_STRATEGY);
+  stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(content.data()));
+  stream.avail_in = static_cast<uInt>(content.size());
+  stream.next_out = compressed.data();
+  stream.avail_out = static_cast<uInt>(compressed.size());
+  deflate(&stream, Z_FINISH);
+  deflateEnd(&stream);
+  return {compressed.begin(), compressed.begin() + static_cast<std::ptrdiff_t>(stream.total_out)};
+}
+
+std::string Zstd(const std::string& content) {
+  std::string compressed(ZSTD_compressBound(content.size()), '\0');
+  compressed.resize(
+      ZSTD_compress(compressed.data(), compressed.size(), content.data(), content.size(), 1));
+  return compressed;
+}
 
 class Loading : public testing::Test {
  protected:
@@ -116,6 +141,65 @@ TEST_F(Loading, RefusalsNameThePath) {
   ASSERT_FALSE(unusable);
   EXPECT_THAT(unusable.error().subject, HasSubstr("log.BIN thrusters"));
   EXPECT_THAT(unusable.error().reason, HasSubstr("OUT_OF_RANGE"));
+}
+
+TEST_F(Loading, TakesWhatGzipOrZstdHasCompressed) {
+  const DataFlashWriter writer = Rover4Writer().WholeLog(50);
+  const auto plain = LoadRecording(Save(writer));
+  ASSERT_TRUE(plain) << plain.error().reason;
+  for (const char* name : {"log.BIN.gz", "log.BIN.zst"}) {
+    const std::string content(writer.Bytes().begin(), writer.Bytes().end());
+    Write(name, std::string(name).ends_with(".gz") ? Gzip(content) : Zstd(content));
+    const auto loaded = LoadRecording(folder_ / name);
+    ASSERT_TRUE(loaded) << loaded.error().reason;
+    EXPECT_EQ(loaded->recording.gnss.size(), 50u) << name;
+    EXPECT_EQ(loaded->description->summary, plain->description->summary) << name;
+  }
+}
+
+TEST_F(Loading, SaysThatACompressedFileIsCutOff) {
+  const DataFlashWriter writer = Rover4Writer().WholeLog(50);
+  const std::string whole = Gzip(std::string(writer.Bytes().begin(), writer.Bytes().end()));
+  Write("log.BIN.gz", whole.substr(0, whole.size() - 20));
+  const auto loaded = LoadRecording(folder_ / "log.BIN.gz");
+  ASSERT_TRUE(loaded) << loaded.error().reason;
+  EXPECT_THAT(loaded->description->summary, HasSubstr("the compressed file is cut off"));
+  Write("empty.gz", Gzip(""));
+  const auto empty = LoadRecording(folder_ / "empty.gz");
+  ASSERT_FALSE(empty);
+  EXPECT_EQ(empty.error().subject, (folder_ / "empty.gz").string());
+  EXPECT_EQ(empty.error().reason, "is empty");
+}
+
+TEST_F(Loading, TakesTheOneRecordingOfAFolderAndNamesSeveral) {
+  Write("notes.txt", "calm");
+  Save(Rover4Writer().WholeLog(50));
+  const auto one = LoadRecording(folder_);
+  ASSERT_TRUE(one) << one.error().reason;
+  EXPECT_EQ(one->recording.gnss.size(), 50u);
+  std::filesystem::copy(folder_ / "log.BIN", folder_ / "more.BIN");
+  const auto two = LoadRecording(folder_);
+  ASSERT_FALSE(two);
+  EXPECT_EQ(two.error().reason, "holds 2 recordings: log.BIN, more.BIN");
+  EXPECT_THAT(two.error().advice, HasSubstr("--log of its own"));
+}
+
+TEST_F(Loading, NamesAFormatThatItKnowsAndDoesNotRead) {
+  using namespace std::string_literals;
+  const std::map<std::string, const char*> reasons = {
+      {"ULog\x01\x12\x35 and so on", "ULog of PX4"},
+      {"FMT, 128, 89, FMT, BBnNZ, Type,Length,Name,Format,Columns\n", "turned into text"},
+      {"PK\x03\x04", "zip archive"},
+      {"BZh91AY", "bzip2"},
+      {"stamp;lat;lon;hdg\n1;2;3;4\n", "begins with stamp;lat;lon;hdg"},
+      {"one, two\n", "is of no format"},
+      {"a,b,c\0d"s, "is of no format"}};
+  for (const auto& [content, reason] : reasons) {
+    Write("file", content);
+    const auto refused = LoadRecording(folder_ / "file");
+    ASSERT_FALSE(refused);
+    EXPECT_THAT(refused.error().reason, HasSubstr(reason));
+  }
 }
 
 TEST_F(Loading, TheLogsServoParametersMakeAVehicle) {

@@ -61,6 +61,47 @@ TEST_F(MappedCsvTest, UnderstandsSemicolonsWithDecimalCommas) {
   EXPECT_EQ(log->thrusters.at(0).time_s, 0.5);
 }
 
+TEST_F(MappedCsvTest, UnderstandsIsoTimesAndNaNForNothing) {
+  const auto log = Read(
+      "t,Lat (deg),Lon (deg),yaw,l,r\n"
+      "2023-11-14 22:13:20.250+00:00,63.4,10.4,NaN,0,0\n"
+      "2023-11-14 22:13:20.500+00:00,nan,nan,1.5,nan,\n");
+  ASSERT_TRUE(log) << log.error().reason;
+  ASSERT_EQ(log->gnss.size(), 1u);
+  EXPECT_EQ(log->gnss[0].time_s, 1700000000.25);
+  ASSERT_EQ(log->heading.size(), 1u);
+  EXPECT_EQ(log->heading[0].time_s, 1700000000.5);
+  EXPECT_EQ(log->thrusters.size(), 1u);
+}
+
+TEST_F(MappedCsvTest, TakesMetresFromAnyOrigin) {
+  const auto log = Read("t,x,y,yaw,l,r\n0,0,0,0,0,0\n1,30,40,0,0,0\n",
+                        "time { field: \"t\" } positions { north: \"y\" east: \"x\" }"
+                        "headings { field: \"yaw\" }"
+                        "port { field: \"l\" unit: \"share\" }"
+                        "starboard { field: \"r\" unit: \"share\" }");
+  ASSERT_TRUE(log) << log.error().reason;
+  ASSERT_EQ(log->gnss.size(), 2u);
+  // A degree of a meridian at 45 degrees north is 111 132 m long, one of the parallel 78 847 m.
+  EXPECT_NEAR((log->gnss[1].latitude_deg - log->gnss[0].latitude_deg) * 111132.0, 40.0, 0.01);
+  EXPECT_NEAR((log->gnss[1].longitude_deg - log->gnss[0].longitude_deg) * 78847.0, 30.0, 0.01);
+  EXPECT_THAT(log->summary, HasSubstr("metres from an origin that is not stated"));
+}
+
+TEST_F(MappedCsvTest, KeepsSidesTogetherWhereTheClockIsSetBack) {
+  std::string text = "t,Lat (deg),Lon (deg),yaw,l,r\n";
+  for (const double t : {1000.0, 1001.0, 5.0, 6.0}) {
+    text += std::to_string(t) + ",63.4,10.4,0,0.25," + (t > 500.0 ? "0.5\n" : "-0.5\n");
+  }
+  const auto log = Read(text);
+  ASSERT_TRUE(log) << log.error().reason;
+  ASSERT_EQ(log->thrusters.size(), 4u);
+  for (const ThrusterSample& sample : log->thrusters) {
+    EXPECT_EQ(sample.port_us, 1600.0) << sample.time_s;
+    EXPECT_EQ(sample.starboard_us, sample.time_s > 500.0 ? 1700.0 : 1300.0) << sample.time_s;
+  }
+}
+
 TEST_F(MappedCsvTest, SaysWhatIsMissing) {
   const auto column = Read("t,lat,Lon (deg),yaw,l,r\n0,1,2,3,0,0\n");
   ASSERT_FALSE(column);

@@ -128,7 +128,7 @@ TEST_F(Rosbag2, MayCompressFilesAsAWhole) {
   CompressFile("bag_0.db3");
   WriteStorage("bag_1.db3", 101);
   EXPECT_EQ(FormatOf(bag_), LogFormat::kRosbag2);
-  EXPECT_EQ(FormatOf(bag_ / "bag_0.db3.zstd"), LogFormat::kRosbag2);
+  EXPECT_EQ(FormatOf(bag_ / "bag_0.db3.zstd"), LogFormat::kCompressed);
   const auto log = ReadRosbag2(bag_);
   ASSERT_TRUE(log) << log.error().reason;
   EXPECT_THAT(FixTimes(*log), testing::ElementsAre(100.0, 101.0));
