@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <numeric>
+#include <utility>
 
 #include <Eigen/Cholesky>
 #include <boost/math/distributions/normal.hpp>
@@ -12,14 +15,19 @@
 namespace telltale {
 namespace {
 
-constexpr int kSweeps = 20;
+constexpr int kSweeps = 5;
 // Beyond so many standard deviations a tail is exponential to rounding.
 constexpr double kFarTail = 6.0;
+constexpr double kNone = std::numeric_limits<double>::infinity();
+
+// In double throughout: long double takes four times as long, for digits that no draw shows.
+using StandardNormal = boost::math::normal_distribution<
+    double, boost::math::policies::policy<boost::math::policies::promote_double<false>>>;
 
 // A standard normal between two limits from a uniform number in (0, 1).
 double Between(double low, double high, double uniform) {
   if (low > 0.0) return -Between(-high, -low, uniform);  // the lower tail keeps its digits
-  const boost::math::normal standard;
+  const StandardNormal standard;
   if (high < -kFarTail) {
     const double lowest = std::max(low, high - 40.0 / -high);
     const double shrink = std::exp(high * (high - lowest));
@@ -31,30 +39,69 @@ double Between(double low, double high, double uniform) {
   return std::clamp(boost::math::quantile(standard, p), low, high);
 }
 
+// The variables, those first whose limits cut off most.
+std::vector<Eigen::Index> ByTruncation(const Eigen::VectorXd& mean,
+                                       const Eigen::MatrixXd& covariance,
+                                       const Eigen::VectorXd& least,
+                                       const Eigen::VectorXd& greatest) {
+  const Eigen::VectorXd room =
+      (mean - least).cwiseMin(greatest - mean).cwiseQuotient(covariance.diagonal().cwiseSqrt());
+  std::vector<Eigen::Index> order(static_cast<std::size_t>(mean.size()));
+  std::iota(order.begin(), order.end(), 0);
+  std::ranges::stable_sort(order, {}, [&room](Eigen::Index i) { return room[i]; });
+  return order;
+}
+
+// How far `x` may move along `direction` within the limits, in its lengths.
+std::pair<double, double> RoomAlong(const Eigen::Ref<const Eigen::VectorXd>& direction,
+                                    const Eigen::Ref<const Eigen::VectorXd>& x,
+                                    const Eigen::Ref<const Eigen::VectorXd>& least,
+                                    const Eigen::Ref<const Eigen::VectorXd>& greatest) {
+  double back = -kNone;
+  double ahead = kNone;
+  for (Eigen::Index j = 0; j < x.size(); ++j) {
+    if (direction[j] == 0.0) continue;
+    const double to_least = (least[j] - x[j]) / direction[j];
+    const double to_greatest = (greatest[j] - x[j]) / direction[j];
+    back = std::max(back, std::min(to_least, to_greatest));
+    ahead = std::min(ahead, std::max(to_least, to_greatest));
+  }
+  return {back, ahead};
+}
+
 }  // namespace
 
 Eigen::MatrixXd DrawTruncatedNormal(const Eigen::VectorXd& mean, const Eigen::MatrixXd& covariance,
                                     const Eigen::VectorXd& least, const Eigen::VectorXd& greatest,
                                     const Eigen::VectorXd& start, std::size_t count,
                                     std::uint64_t seed) {
-  const Eigen::Index n = mean.size();
-  const Eigen::MatrixXd precision = covariance.llt().solve(Eigen::MatrixXd::Identity(n, n));
+  // A variable moves those after it along. One that lies close to a limit would keep those before
+  // it from moving, hence the order.
+  const std::vector<Eigen::Index> order = ByTruncation(mean, covariance, least, greatest);
+  const Eigen::VectorXd from = least(order);
+  const Eigen::VectorXd to = greatest(order);
+  const Eigen::MatrixXd root = Eigen::MatrixXd(covariance(order, order)).llt().matrixL();
+  Eigen::VectorXd x = start(order);
+  Eigen::VectorXd z = root.triangularView<Eigen::Lower>().solve((start - mean)(order));
   RandomEngine engine = RandomEngine::Stream(seed, 0);
   boost::random::uniform_01<double> uniform;
-  Eigen::VectorXd x = start;
-  Eigen::MatrixXd draws(n, static_cast<Eigen::Index>(count));
+  Eigen::MatrixXd draws(x.size(), static_cast<Eigen::Index>(count));
   for (Eigen::Index draw = 0; draw < draws.cols(); ++draw) {
     for (int sweep = 0; sweep < kSweeps; ++sweep) {
-      for (Eigen::Index i = 0; i < n; ++i) {
-        // The conditional law of one coordinate given the others.
-        const double pull = precision.row(i).dot(x - mean) - precision(i, i) * (x[i] - mean[i]);
-        const double centre = mean[i] - pull / precision(i, i);
-        const double sigma = 1.0 / std::sqrt(precision(i, i));
-        x[i] = centre + sigma * Between((least[i] - centre) / sigma, (greatest[i] - centre) / sigma,
-                                        uniform(engine));
+      for (Eigen::Index i = 0; i < x.size(); ++i) {
+        const Eigen::Index moved = x.size() - i;
+        const auto direction = root.col(i).tail(moved);
+        const auto [back, ahead] =
+            RoomAlong(direction, x.tail(moved), from.tail(moved), to.tail(moved));
+        const double step =
+            Between(z[i] + std::min(back, 0.0), z[i] + std::max(ahead, 0.0), uniform(engine)) -
+            z[i];
+        z[i] += step;
+        x.tail(moved) += step * direction;
       }
+      x = x.cwiseMax(from).cwiseMin(to);  // against rounding
     }
-    draws.col(draw) = x;
+    draws(order, draw) = x;
   }
   return draws;
 }

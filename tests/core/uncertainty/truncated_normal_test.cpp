@@ -30,6 +30,45 @@ TEST(TruncatedNormal, WithoutLimitsHasItsCovariance) {
   EXPECT_LT((sample - covariance).cwiseAbs().maxCoeff(), 0.08);
 }
 
+// x0 lies beyond its limit and takes x1 along, which it all but determines: the mean of x0 is that
+// of a tail, phi(3) / Q(3) - 3 = 0.28310 beyond the limit, and x1 follows by its regression.
+TEST(TruncatedNormal, TakesAlongWhatDependsOnATruncatedVariable) {
+  constexpr double kCorrelation = 0.99;
+  constexpr double kBeyond = 0.28310;
+  Eigen::Matrix2d covariance;
+  covariance << 1.0, kCorrelation, kCorrelation, 1.0;
+  for (const Eigen::Index tail : {0, 1}) {
+    const Eigen::Index other = 1 - tail;
+    Eigen::Vector2d mean = Eigen::Vector2d::Zero();
+    mean[tail] = -3.0;
+    Eigen::Vector2d least = Eigen::Vector2d::Constant(-kNone);
+    least[tail] = 0.0;
+    const auto draws =
+        DrawTruncatedNormal(mean, covariance, least, Eigen::Vector2d::Constant(kNone),
+                            Eigen::Vector2d::Zero(), 20000, 4);
+    // Its standard deviation is 0.266, that of x1 0.298: four standard errors of 20000 draws.
+    EXPECT_NEAR(draws.row(tail).mean(), kBeyond, 4.0 * 0.266 / std::sqrt(20000.0));
+    EXPECT_NEAR(draws.row(other).mean(), kCorrelation * (kBeyond + 3.0),
+                4.0 * 0.298 / std::sqrt(20000.0));
+  }
+}
+
+// Of two standard normals with correlation c the first quadrant has the probability
+// 1/4 + asin(c) / (2 pi), and there E x0 = (1 + c) / (2 sqrt(2 pi)) / that probability.
+TEST(TruncatedNormal, OfAQuadrantHasItsMean) {
+  constexpr double kCorrelation = -0.9;
+  Eigen::Matrix2d covariance;
+  covariance << 1.0, kCorrelation, kCorrelation, 1.0;
+  const auto draws =
+      DrawTruncatedNormal(Eigen::Vector2d::Zero(), covariance, Eigen::Vector2d::Zero(),
+                          Eigen::Vector2d::Constant(kNone), Eigen::Vector2d::Ones(), 20000, 5);
+  const double probability = 0.25 + std::asin(kCorrelation) / (2.0 * M_PI);
+  const double mean = (1.0 + kCorrelation) / (2.0 * std::sqrt(2.0 * M_PI)) / probability;
+  // Its standard deviation is below its mean: four standard errors of 5000 independent draws.
+  EXPECT_NEAR(draws.row(0).mean(), mean, 4.0 * mean / std::sqrt(5000.0));
+  EXPECT_NEAR(draws.row(1).mean(), mean, 4.0 * mean / std::sqrt(5000.0));
+}
+
 TEST(TruncatedNormal, FarInATailIsExponential) {
   const auto draws = DrawTruncatedNormal(
       Eigen::VectorXd::Zero(1), Eigen::MatrixXd::Identity(1, 1), Eigen::VectorXd::Constant(1, 20.0),
