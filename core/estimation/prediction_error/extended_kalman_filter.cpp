@@ -46,6 +46,15 @@ FossenDynamics::Thrusts Astern(const FossenDynamics::Thrusts& thrust) {
   return {0.0, 0.0, thrust[2], thrust[3]};
 }
 
+// What a scalar reading reads of each column: position, heading, drift and misalignment alone.
+template <int kColumns>
+Eigen::Matrix<double, 1, kColumns> ReadBy(const Eigen::Matrix<double, 1, kFilterStates>& row,
+                                          const Eigen::Matrix<double, kFilterStates, kColumns>& m) {
+  return row.head<3>().lazyProduct(m.template topRows<3>()) +
+         row.segment<2>(kDriftState).lazyProduct(m.template middleRows<2>(kDriftState)) +
+         row[kMisalignmentState] * m.row(kMisalignmentState);
+}
+
 double SpectralRadius(const Eigen::Matrix2d& a) {
   const double half_trace = 0.5 * a.trace();
   const double discriminant = half_trace * half_trace - a.determinant();
@@ -125,6 +134,12 @@ void ExtendedKalmanFilter::UseGains(const std::vector<FilterGain>* fixed,
   recorded_gains_ = record;
 }
 
+void ExtendedKalmanFilter::RecordSlopes(std::vector<InnovationSlope>* slopes,
+                                        bool with_instruments) {
+  recorded_slopes_ = slopes;
+  with_instruments_ = with_instruments;
+}
+
 void ExtendedKalmanFilter::PredictTo(double time_s) {
   double ahead_s = time_s - now_s_;
   while (ahead_s >= kShortestStepS) {
@@ -157,8 +172,7 @@ void ExtendedKalmanFilter::TakeHeading(double psi_rad, std::vector<Innovation>& 
   Row row = Row::Zero();
   row[kHeadingState] = 1.0;
   row[kMisalignmentState] = 1.0;
-  TakeScalar(row, psi_rad - HeadingOf(x_), {FossenVector::Zero(), FossenVector::Zero()},
-             sigma * sigma, innovations);
+  TakeScalar(row, psi_rad - HeadingOf(x_), {}, sigma * sigma, innovations);
 }
 
 // North and east of a fix turned into along and across the track, where the noise of the stamp
@@ -184,9 +198,8 @@ void ExtendedKalmanFilter::TakeFix(double north_m, double east_m,
     row.segment<2>(kDriftState) = axis.transpose();
     row[kHeadingState] = axis.dot(lever_by_psi);
     // A longer delay predicts where the boat was before.
-    Direct by{FossenVector::Zero(), FossenVector::Zero()};
-    by.slope[At(kFixDelay)] = axis.dot(velocity);
-    by.instrument[At(kFixDelay)] = axis.dot(VelocityOverGround(Undisturbed()));
+    ByFixDelay by{axis.dot(velocity)};
+    if (with_instruments_) by.instrument = axis.dot(VelocityOverGround(Undisturbed()));
     const double stamp = is_along ? speed * settings_.noise.stamp_sigma_s : 0.0;
     TakeScalar(row, axis.dot(Eigen::Vector2d(north_m, east_m) - predicted), by,
                settings_.noise.fix_sigma_m * settings_.noise.fix_sigma_m + stamp * stamp,
@@ -205,39 +218,46 @@ FilterState ExtendedKalmanFilter::Undisturbed() const {
 
 ExtendedKalmanFilter::Rate ExtendedKalmanFilter::RateAt(const FilterState& x,
                                                         const ThrustStep& thrust) const {
-  constexpr int kHeading = 0;  // of the movers
-  constexpr int kVelocity = kVelocityState - kHeadingState;
-  constexpr int kDisturbance = kDisturbanceState - kHeadingState;
   Rate rate;
-  rate.by_movers.setZero();
-  const double c = std::cos(x[kHeadingState]);
-  const double s = std::sin(x[kHeadingState]);
+  const double c = rate.cos_psi = std::cos(x[kHeadingState]);
+  const double s = rate.sin_psi = std::sin(x[kHeadingState]);
   const double u = x[kVelocityState];
   const double v = x[kVelocityState + 1];
   rate.value[kNorth] = c * u - s * v + x[kCurrentState];
   rate.value[kEast] = s * u + c * v + x[kCurrentState + 1];
   rate.value[kHeadingState] = x[kVelocityState + 2];
-  rate.by_movers(kNorth, kHeading) = -s * u - c * v;
-  rate.by_movers(kEast, kHeading) = c * u - s * v;
-  rate.by_movers.block<2, 2>(kNorth, kVelocity) << c, -s, s, c;
-  rate.by_movers(kHeadingState, kVelocity + 2) = 1.0;
-  const auto at = dynamics_.At(x.segment<3>(kVelocityState), thrust.mean[0], thrust.mean[1]);
-  rate.value.tail<3>() = at.nu_dot + x.segment<3>(kDisturbanceState);
-  rate.by_movers.block<3, 3>(kVelocityState, kVelocity) = at.by_nu;
-  rate.by_movers.block<3, 3>(kVelocityState, kDisturbance).setIdentity();
+  rate.dynamics = dynamics_.At(x.segment<3>(kVelocityState), thrust.mean[0], thrust.mean[1]);
+  rate.value.tail<3>() = rate.dynamics.nu_dot + x.segment<3>(kDisturbanceState);
   return rate;
 }
 
+// d rate / d state.
+MotionByMovers ExtendedKalmanFilter::ByMovers(const FilterState& x, const Rate& rate) {
+  constexpr int kHeading = 0;  // of the movers
+  constexpr int kVelocity = kVelocityState - kHeadingState;
+  constexpr int kDisturbance = kDisturbanceState - kHeadingState;
+  const double c = rate.cos_psi;
+  const double s = rate.sin_psi;
+  const double u = x[kVelocityState];
+  const double v = x[kVelocityState + 1];
+  MotionByMovers by = MotionByMovers::Zero();
+  by(kNorth, kHeading) = -s * u - c * v;
+  by(kEast, kHeading) = c * u - s * v;
+  by.block<2, 2>(kNorth, kVelocity) << c, -s, s, c;
+  by(kHeadingState, kVelocity + 2) = 1.0;
+  by.block<3, 3>(kVelocityState, kVelocity) = rate.dynamics.by_nu;
+  by.block<3, 3>(kVelocityState, kDisturbance).setIdentity();
+  return by;
+}
+
 // d rate / d parameter, the rows of the velocities alone.
-Eigen::Matrix<double, 3, kParameters> ExtendedKalmanFilter::ByParameter(
-    const FilterState& x, const ThrustStep& thrust) const {
+ExtendedKalmanFilter::ByParameters ExtendedKalmanFilter::ByParameter(
+    const FilterState& x, const Rate& rate, const ThrustStep& thrust) const {
   const Eigen::Vector3d nu = x.segment<3>(kVelocityState);
   const double u = nu[0];
-  const auto at = dynamics_.At(nu, thrust.mean[0], thrust.mean[1]);
-  Eigen::Matrix<double, 3, kParameters> by;
-  by.setZero();
+  ByParameters by;
   by.leftCols<kForceParameters>() =
-      dynamics_.ByParameter(nu, at.nu_dot, thrust.mean[0], thrust.mean[1]);
+      dynamics_.ByParameter(nu, rate.dynamics.nu_dot, thrust.mean[0], thrust.mean[1]);
   by.col(At(kForwardDeadBand)) =
       dynamics_.ByThrust(u, Ahead(thrust.by_dead_bands[0]), Ahead(thrust.by_dead_bands[1]));
   by.col(At(kReverseDeadBand)) =
@@ -245,75 +265,100 @@ Eigen::Matrix<double, 3, kParameters> ExtendedKalmanFilter::ByParameter(
   by.col(At(kTimeConstant)) =
       dynamics_.ByThrust(u, thrust.by_time_constant[0], thrust.by_time_constant[1]);
   by.col(At(kCommandDelay)) = dynamics_.ByThrust(u, thrust.by_delay[0], thrust.by_delay[1]);
+  by.col(At(kFixDelay)).setZero();
   return by;
 }
 
 // The way made in a step beyond that of the midpoint rule: thrust comes early or late in the
 // step, and the acceleration changes with the velocity.
-void ExtendedKalmanFilter::AddThirdOrder(const FilterState& middle, const Rate& rate,
-                                         const ThrustStep& thrust, double h,
+void ExtendedKalmanFilter::AddThirdOrder(const Midpoint& step, const ThrustStep& thrust, double h,
                                          FilterState& next) const {
-  const Eigen::Matrix3d by_nu =
-      rate.by_movers.block<3, 3>(kVelocityState, kVelocityState - kHeadingState);
-  const double u = middle[kVelocityState];
+  const Eigen::Matrix3d& by_nu = step.second.dynamics.by_nu;
+  const double u = step.middle[kVelocityState];
   const Eigen::Vector3d way = dynamics_.ByThrust(u, thrust.early[0], thrust.early[1]) +
-                              (h * h * h / 6.0) * (by_nu * rate.value.tail<3>());
-  const double c = std::cos(middle[kHeadingState]);
-  const double s = std::sin(middle[kHeadingState]);
+                              (h * h * h / 6.0) * (by_nu * step.second.value.tail<3>());
+  const double c = step.second.cos_psi;
+  const double s = step.second.sin_psi;
   next[kNorth] += c * way[0] - s * way[1];
   next[kEast] += s * way[0] + c * way[1];
   next[kHeadingState] += way[2];
   next.segment<3>(kVelocityState) += by_nu * way;
 }
 
-// The midpoint rule under the mean thrust; disturbance and drift decay exactly. Moves the state
-// and, where there are any, its slopes; returns the transition.
-FilterTransition ExtendedKalmanFilter::Advance(const ThrustStep& thrust, double h, FilterState& x,
-                                               Slopes* slopes) const {
+// Moves the states that move, by the midpoint rule under the mean thrust.
+ExtendedKalmanFilter::Midpoint ExtendedKalmanFilter::Advance(const ThrustStep& thrust, double h,
+                                                             FilterState& x) const {
+  Midpoint step;
+  step.first = RateAt(x, thrust);
+  step.middle = x;
+  step.middle.head<kMovingStates>() += 0.5 * h * step.first.value;
+  step.second = RateAt(step.middle, thrust);
+  x.head<kMovingStates>() += h * step.second.value;
+  AddThirdOrder(step, thrust, h, x);
+  return step;
+}
+
+// What is left of the states that decay after a step; exact.
+DecayOfStates ExtendedKalmanFilter::DecayOver(double h) const {
+  DecayOfStates decay = DecayOfStates::Ones();
+  decay.head<3>().setConstant(std::exp(-h / settings_.noise.acceleration_time_constant_s));
+  decay.segment<2>(kDriftState - kMovingStates)
+      .setConstant(std::exp(-h / NoiseModel::kFixDriftTimeConstantS));
+  return decay;
+}
+
+// Of the step from `x`.
+FilterTransition ExtendedKalmanFilter::TransitionOf(const FilterState& x, const Midpoint& step,
+                                                    double h, const DecayOfStates& decay) {
   constexpr int kBefore = kMovingStates - kHeadingState;  // of the movers, those that move
-  const Rate first = RateAt(x, thrust);
-  FilterState middle = x;
-  middle.head<kMovingStates>() += 0.5 * h * first.value;
-  const Rate second = RateAt(middle, thrust);
+  const MotionByMovers by_first = ByMovers(x, step.first);
+  const MotionByMovers by_second = ByMovers(step.middle, step.second);
   FilterTransition transition;
   transition.step_s = h;
-  transition.by_movers =
-      h * second.by_movers + (0.5 * h * h) * second.by_movers.leftCols<kBefore>().lazyProduct(
-                                                 first.by_movers.bottomRows<kBefore>());
+  transition.by_movers = h * by_second + (0.5 * h * h) * by_second.leftCols<kBefore>().lazyProduct(
+                                                             by_first.bottomRows<kBefore>());
   transition.by_movers.bottomLeftCorner<kBefore, kBefore>().diagonal().array() += 1.0;
-  transition.decay.setOnes();
-  transition.decay.head<3>().setConstant(
-      std::exp(-h / settings_.noise.acceleration_time_constant_s));
-  transition.decay.segment<2>(kDriftState - kMovingStates)
-      .setConstant(std::exp(-h / NoiseModel::kFixDriftTimeConstantS));
-  if (slopes != nullptr) {
-    const auto by_first = ByParameter(x, thrust);
-    const auto by_second = ByParameter(middle, thrust);
-    slopes->topRows<kMovingStates>() = transition.Moved(*slopes);
-    slopes->bottomRows<kDecayingStates>().array().colwise() *= transition.decay.array();
-    const auto by_velocity = second.by_movers.middleCols<3>(kVelocityState - kHeadingState);
-    slopes->middleRows<3>(kVelocityState) +=
-        h * by_second + (0.5 * h * h) * by_velocity.bottomRows<3>().lazyProduct(by_first);
-    slopes->topRows<3>() += (0.5 * h * h) * by_velocity.topRows<3>().lazyProduct(by_first);
-  }
-  x.head<kMovingStates>() += h * second.value;
-  AddThirdOrder(middle, second, thrust, h, x);
-  x.tail<kDecayingStates>().array() *= transition.decay.array();
+  transition.decay = decay;
   return transition;
+}
+
+// The slopes after the step from `x`.
+void ExtendedKalmanFilter::AdvanceSlopes(const FilterState& x, const Midpoint& step,
+                                         const FilterTransition& transition,
+                                         const ThrustStep& thrust, Slopes& slopes) const {
+  const double h = transition.step_s;
+  const ByParameters by_first = ByParameter(x, step.first, thrust);
+  const ByParameters by_second = ByParameter(step.middle, step.second, thrust);
+  const ByParameters halfway = (0.5 * h * h) * by_first;
+  slopes.topRows<kMovingStates>() = transition.Moved(slopes);
+  slopes.bottomRows<kDecayingStates>().array().colwise() *= transition.decay.array();
+  slopes.middleRows<3>(kVelocityState) +=
+      h * by_second + step.second.dynamics.by_nu.lazyProduct(halfway);
+  slopes.row(kNorth) += step.second.cos_psi * halfway.row(0) - step.second.sin_psi * halfway.row(1);
+  slopes.row(kEast) += step.second.sin_psi * halfway.row(0) + step.second.cos_psi * halfway.row(1);
+  slopes.row(kHeadingState) += halfway.row(2);
 }
 
 void ExtendedKalmanFilter::Step(double h) {
   const ThrustStep thrust = thrust_.Until(now_s_ + h);
   now_s_ += h;
-  if (settings_.with_instruments) {
-    FilterState undisturbed = Undisturbed();
-    Advance(thrust, h, undisturbed, &instruments_);
+  const DecayOfStates decay = DecayOver(h);
+  if (with_instruments_) {
+    const FilterState before = Undisturbed();
+    FilterState undisturbed = before;
+    const Midpoint step = Advance(thrust, h, undisturbed);
+    AdvanceSlopes(before, step, TransitionOf(before, step, h, decay), thrust, instruments_);
     undisturbed_nu_ = undisturbed.segment<3>(kVelocityState);
   }
-  const FilterTransition transition =
-      Advance(thrust, h, x_, settings_.with_slopes ? &slopes_ : nullptr);
+  const FilterState before = x_;
+  const Midpoint step = Advance(thrust, h, x_);
+  x_.tail<kDecayingStates>().array() *= decay.array();
+  const bool spreads = fixed_gains_ == nullptr;
+  if (!spreads && recorded_slopes_ == nullptr && !visit_) return;
+  const FilterTransition transition = TransitionOf(before, step, h, decay);
+  if (recorded_slopes_ != nullptr) AdvanceSlopes(before, step, transition, thrust, slopes_);
   if (visit_) visit_({transition.Whole()});
-  if (fixed_gains_ == nullptr) Spread(transition);
+  if (spreads) Spread(transition);
 }
 
 // The covariance after a step.
@@ -321,7 +366,10 @@ void ExtendedKalmanFilter::Spread(const FilterTransition& transition) {
   const auto& decay = transition.decay;
   const Eigen::Matrix<double, kFilterStates, kMovingStates> moved =
       transition.Moved(covariance_).transpose();
-  covariance_.topLeftCorner<kMovingStates, kMovingStates>() = transition.Moved(moved);
+  // Rounding that is not symmetric would grow.
+  const Eigen::Matrix<double, kMovingStates, kMovingStates> of_moving = transition.Moved(moved);
+  covariance_.topLeftCorner<kMovingStates, kMovingStates>() =
+      0.5 * (of_moving + of_moving.transpose());
   covariance_.bottomLeftCorner<kDecayingStates, kMovingStates>() =
       decay.asDiagonal() * moved.bottomRows<kDecayingStates>();
   covariance_.topRightCorner<kMovingStates, kDecayingStates>() =
@@ -339,38 +387,37 @@ void ExtendedKalmanFilter::Spread(const FilterTransition& transition) {
       transition.step_s * kCurrentWalk * kCurrentWalk;
 }
 
-void ExtendedKalmanFilter::TakeScalar(const Row& row, double value, const Direct& by,
+void ExtendedKalmanFilter::TakeScalar(const Row& row, double value, const ByFixDelay& by,
                                       double noise_variance, std::vector<Innovation>& innovations) {
-  FilterState projected;
   FilterGain gain;
   if (fixed_gains_ != nullptr) {
     gain = (*fixed_gains_)[next_gain_++];
   } else {
-    projected = covariance_ * row.transpose();
+    const FilterState projected = ReadBy(row, covariance_).transpose();
     gain.variance = row.dot(projected) + noise_variance;
     const double ratio = value * value / (kHuberLimit * kHuberLimit * gain.variance);
     if (ratio > 1.0) gain.variance *= ratio;
     gain.gain = projected / gain.variance;
+    // Symmetric to the last digit, as the product of gain and projection is not.
+    const FilterState taken = projected / std::sqrt(gain.variance);
+    covariance_ -= taken.lazyProduct(taken.transpose());
     if (recorded_gains_ != nullptr) recorded_gains_->push_back(gain);
   }
-  Innovation& innovation = innovations.emplace_back();
-  innovation.time_s = now_s_;
-  innovation.value = value;
-  innovation.variance = gain.variance;
-  if (settings_.with_slopes) {
-    innovation.slope = by.slope - (row * slopes_).transpose();
-    slopes_ += gain.gain * innovation.slope.transpose();
-    innovation.instrument = innovation.slope;
-  }
-  if (settings_.with_instruments) {
-    innovation.instrument = by.instrument - (row * instruments_).transpose();
-    instruments_ += gain.gain * innovation.instrument.transpose();
+  innovations.push_back({now_s_, value, gain.variance});
+  if (recorded_slopes_ != nullptr) {
+    InnovationSlope& of = recorded_slopes_->emplace_back();
+    of.slope = -ReadBy(row, slopes_).transpose();
+    of.slope[At(kFixDelay)] += by.slope;
+    slopes_ += gain.gain.lazyProduct(of.slope.transpose());
+    of.instrument = of.slope;
+    if (with_instruments_) {
+      of.instrument = -ReadBy(row, instruments_).transpose();
+      of.instrument[At(kFixDelay)] += by.instrument;
+      instruments_ += gain.gain.lazyProduct(of.instrument.transpose());
+    }
   }
   x_ += gain.gain * value;
   if (visit_) visit_({std::nullopt, row, gain.gain, value / gain.variance});
-  if (fixed_gains_ != nullptr) return;
-  covariance_ -= gain.gain * projected.transpose();
-  covariance_ = (0.5 * (covariance_ + covariance_.transpose())).eval();
 }
 
 }  // namespace telltale

@@ -34,7 +34,11 @@ struct Innovation {
   double time_s = 0.0;
   double value = 0.0;
   double variance = 0.0;
-  FossenVector slope;  ///< d value / d parameters at fixed gains; unset unless asked for
+};
+
+/// How an innovation changes with the parameters.
+struct InnovationSlope {
+  FossenVector slope;  ///< d value / d parameters at fixed gains
   /// The slope that the commands alone give: that of a boat without disturbance on the same
   /// headings. Equal to the slope unless asked for.
   FossenVector instrument;
@@ -47,8 +51,6 @@ struct FilterSettings {
   NoiseModel noise;
   double propeller_separation_m = 0.0;
   LeverArm antenna;
-  bool with_slopes = false;
-  bool with_instruments = false;  ///< beside the slopes
   /// The delay at which the fixes are put in order; the difference to that of the parameters moves
   /// what is predicted for them.
   double nominal_fix_delay_s = 0.0;
@@ -103,6 +105,9 @@ class ExtendedKalmanFilter {
   /// Takes the gains of another run from now on, or records its own.
   void UseGains(const std::vector<FilterGain>* fixed, std::vector<FilterGain>* record);
 
+  /// Appends the slope of each innovation from now on, with its instrument if so asked.
+  void RecordSlopes(std::vector<InnovationSlope>* slopes, bool with_instruments);
+
   /// Calls visit(move) for every step and every scalar reading from now on.
   void VisitMoves(std::function<void(const FilterMove&)> visit) { visit_ = std::move(visit); }
 
@@ -115,32 +120,48 @@ class ExtendedKalmanFilter {
   const FilterCovariance& Covariance() const { return covariance_; }
 
  private:
-  struct Rate {
-    Eigen::Matrix<double, kMovingStates, 1> value;
-    MotionByMovers by_movers;
-  };
-
-  // What a reading changes with the parameters at a given state.
-  struct Direct {
-    FossenVector slope;
-    FossenVector instrument;
-  };
-
+  using Moving = Eigen::Matrix<double, kMovingStates, 1>;
+  using ByParameters = Eigen::Matrix<double, 3, static_cast<int>(kFossenParameters)>;
   using Slopes = Eigen::Matrix<double, kFilterStates, static_cast<int>(kFossenParameters)>;
   using Row = Eigen::Matrix<double, 1, kFilterStates>;
 
+  // How the states that move do, without the current and the disturbance where they are constant.
+  struct Rate {
+    double cos_psi = 1.0;
+    double sin_psi = 0.0;
+    FossenDynamics::Evaluation dynamics;
+    Moving value;
+  };
+
+  // A step of the midpoint rule.
+  struct Midpoint {
+    Rate first;
+    FilterState middle;
+    Rate second;
+  };
+
+  // What a reading changes with the delay of the fixes, the rest being the same.
+  struct ByFixDelay {
+    double slope = 0.0;
+    double instrument = 0.0;
+  };
+
   void TakeHeading(double psi_rad, std::vector<Innovation>& innovations);
   void TakeFix(double north_m, double east_m, std::vector<Innovation>& innovations);
-  void TakeScalar(const Row& row, double value, const Direct& by, double noise_variance,
+  void TakeScalar(const Row& row, double value, const ByFixDelay& by, double noise_variance,
                   std::vector<Innovation>& innovations);
   FilterState Undisturbed() const;
   Rate RateAt(const FilterState& x, const ThrustStep& thrust) const;
-  Eigen::Matrix<double, 3, static_cast<int>(kFossenParameters)> ByParameter(
-      const FilterState& x, const ThrustStep& thrust) const;
-  void AddThirdOrder(const FilterState& middle, const Rate& rate, const ThrustStep& thrust,
-                     double h, FilterState& next) const;
-  FilterTransition Advance(const ThrustStep& thrust, double h, FilterState& x,
-                           Slopes* slopes) const;
+  static MotionByMovers ByMovers(const FilterState& x, const Rate& rate);
+  ByParameters ByParameter(const FilterState& x, const Rate& rate, const ThrustStep& thrust) const;
+  void AddThirdOrder(const Midpoint& step, const ThrustStep& thrust, double h,
+                     FilterState& next) const;
+  Midpoint Advance(const ThrustStep& thrust, double h, FilterState& x) const;
+  DecayOfStates DecayOver(double h) const;
+  static FilterTransition TransitionOf(const FilterState& x, const Midpoint& step, double h,
+                                       const DecayOfStates& decay);
+  void AdvanceSlopes(const FilterState& x, const Midpoint& step, const FilterTransition& transition,
+                     const ThrustStep& thrust, Slopes& slopes) const;
   double LongestStepS() const;
   void Step(double h);
   void Spread(const FilterTransition& transition);
@@ -148,6 +169,8 @@ class ExtendedKalmanFilter {
   std::function<void(const FilterMove&)> visit_;
   const std::vector<FilterGain>* fixed_gains_ = nullptr;
   std::vector<FilterGain>* recorded_gains_ = nullptr;
+  std::vector<InnovationSlope>* recorded_slopes_ = nullptr;
+  bool with_instruments_ = false;
   std::size_t next_gain_ = 0;
   const FilterSettings& settings_;
   FossenDynamics dynamics_;

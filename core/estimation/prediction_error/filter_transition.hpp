@@ -23,6 +23,7 @@ using FilterCovariance = Eigen::Matrix<double, kFilterStates, kFilterStates>;
 inline constexpr int kMovingStates = kDisturbanceState;
 inline constexpr int kDecayingStates = kFilterStates - kMovingStates;
 inline constexpr int kMovers = kDriftState - kHeadingState;
+using DecayOfStates = Eigen::Matrix<double, kDecayingStates, 1>;
 using MotionByMovers = Eigen::Matrix<double, kMovingStates, kMovers>;
 
 /// The transition matrix of one step by its blocks that are not zero: products with it take a fifth
@@ -30,7 +31,7 @@ using MotionByMovers = Eigen::Matrix<double, kMovingStates, kMovers>;
 struct FilterTransition {
   double step_s = 0.0;
   MotionByMovers by_movers;  ///< without the identity of the position
-  Eigen::Matrix<double, kDecayingStates, 1> decay;
+  DecayOfStates decay;
 
   /// The rows that move of the transition times `m`.
   template <int kColumns>

@@ -3,17 +3,17 @@
 namespace telltale {
 namespace {
 
+// `prepare` says what the filter uses and records beside its innovations.
+template <class Prepare>
 std::vector<Innovation> Innovate(const RawSignals& signals, const HeldCommands& commands,
-                                 const FilterSettings& settings,
-                                 const std::vector<FilterGain>* fixed,
-                                 std::vector<FilterGain>* record) {
+                                 const FilterSettings& settings, const Prepare& prepare) {
   const auto readings = ReadingsOf(signals, settings.nominal_fix_delay_s);
   const auto start = StartOf(readings);
   std::vector<Innovation> innovations;
   if (!start) return innovations;
   innovations.reserve(2 * readings.size());
   ExtendedKalmanFilter filter(settings, commands, readings.front().time_s, *start);
-  filter.UseGains(fixed, record);
+  prepare(filter);
   for (const Reading& reading : readings) filter.Take(reading, innovations);
   return innovations;
 }
@@ -21,15 +21,25 @@ std::vector<Innovation> Innovate(const RawSignals& signals, const HeldCommands& 
 }  // namespace
 
 std::vector<Innovation> InnovationsOf(const RawSignals& signals, const HeldCommands& commands,
-                                      const FilterSettings& settings,
-                                      std::vector<FilterGain>* gains) {
-  return Innovate(signals, commands, settings, nullptr, gains);
+                                      const FilterSettings& settings) {
+  return Innovate(signals, commands, settings, [](ExtendedKalmanFilter&) {});
+}
+
+SlopedInnovations SlopedInnovationsOf(const RawSignals& signals, const HeldCommands& commands,
+                                      const FilterSettings& settings, bool with_instruments) {
+  SlopedInnovations all;
+  all.innovations = Innovate(signals, commands, settings, [&](ExtendedKalmanFilter& filter) {
+    filter.UseGains(nullptr, &all.gains);
+    filter.RecordSlopes(&all.slopes, with_instruments);
+  });
+  return all;
 }
 
 std::vector<Innovation> InnovationsWith(const std::vector<FilterGain>& gains,
                                         const RawSignals& signals, const HeldCommands& commands,
                                         const FilterSettings& settings) {
-  return Innovate(signals, commands, settings, &gains, nullptr);
+  return Innovate(signals, commands, settings,
+                  [&](ExtendedKalmanFilter& filter) { filter.UseGains(&gains, nullptr); });
 }
 
 }  // namespace telltale

@@ -54,6 +54,7 @@ NoiseModel FirstNoise() {
 }
 
 using Runs = std::vector<std::vector<Innovation>>;  // by segment, or by excerpt
+using SlopedRuns = std::vector<SlopedInnovations>;  // by segment
 
 // Readings of one segment, from which the noise of its recording is found.
 struct Excerpt {
@@ -98,8 +99,6 @@ class Problem {
         options_(options),
         for_noise_(ExcerptsForNoise(dataset)) {}
 
-  using Gains = std::vector<std::vector<FilterGain>>;
-
   FilterSettings SettingsOf(const Eigen::VectorXd& z, const NoiseModel& noise,
                             double nominal_fix_delay_s) const {
     FilterSettings settings;
@@ -113,15 +112,14 @@ class Problem {
     return settings;
   }
 
-  Runs RunWithSlopes(const Eigen::VectorXd& z, const std::vector<NoiseModel>& noise,
-                     bool with_instruments, Gains& gains) const {
-    Runs all(dataset_.segments.size());
-    gains.assign(all.size(), {});
+  SlopedRuns RunWithSlopes(const Eigen::VectorXd& z, const std::vector<NoiseModel>& noise,
+                           bool with_instruments) const {
+    SlopedRuns all(dataset_.segments.size());
     ForEachIndex(all.size(), options_.threads, [&](std::size_t s) {
-      FilterSettings settings = SettingsOf(z, noise[dataset_.RecordingOf(s)], z[At(kFixDelay)]);
-      settings.with_slopes = true;
-      settings.with_instruments = with_instruments;
-      all[s] = InnovationsOf(dataset_.signals[s], dataset_.commands[s], settings, &gains[s]);
+      const FilterSettings settings =
+          SettingsOf(z, noise[dataset_.RecordingOf(s)], z[At(kFixDelay)]);
+      all[s] = SlopedInnovationsOf(dataset_.signals[s], dataset_.commands[s], settings,
+                                   with_instruments);
     });
     return all;
   }
@@ -145,14 +143,14 @@ class Problem {
   }
 
   // The sum of weighted squares at fixed gains, which the normal equations are those of.
-  double SquaresWith(const Gains& gains, const Eigen::VectorXd& z,
+  double SquaresWith(const SlopedRuns& runs, const Eigen::VectorXd& z,
                      const std::vector<NoiseModel>& noise, double nominal_fix_delay_s) const {
     std::vector<double> sums(dataset_.segments.size(), 0.0);
     ForEachIndex(sums.size(), options_.threads, [&](std::size_t s) {
       const FilterSettings settings =
           SettingsOf(z, noise[dataset_.RecordingOf(s)], nominal_fix_delay_s);
       for (const Innovation& i :
-           InnovationsWith(gains[s], dataset_.signals[s], dataset_.commands[s], settings)) {
+           InnovationsWith(runs[s].gains, dataset_.signals[s], dataset_.commands[s], settings)) {
         sums[s] += i.value * i.value / i.variance;
       }
     });
@@ -225,17 +223,19 @@ struct Normal {
 };
 
 // The normal equations of one segment by blocks of time.
-std::vector<ScoreBlock> BlocksOf(const std::vector<Innovation>& innovations, double block_s) {
+std::vector<ScoreBlock> BlocksOf(const SlopedInnovations& run, double block_s) {
   std::vector<ScoreBlock> blocks;
   double block_end_s = -std::numeric_limits<double>::infinity();
-  for (const Innovation& i : innovations) {
+  for (std::size_t k = 0; k < run.innovations.size(); ++k) {
+    const Innovation& i = run.innovations[k];
+    const FossenVector& instrument = run.slopes[k].instrument;
     if (i.time_s > block_end_s) {
       blocks.emplace_back();
       block_end_s = i.time_s + block_s;
     }
-    blocks.back().information.selfadjointView<Eigen::Lower>().rankUpdate(i.instrument,
+    blocks.back().information.selfadjointView<Eigen::Lower>().rankUpdate(instrument,
                                                                          1.0 / i.variance);
-    blocks.back().score += i.instrument * (i.value / i.variance);
+    blocks.back().score += instrument * (i.value / i.variance);
   }
   for (ScoreBlock& block : blocks) {
     block.information = block.information.selfadjointView<Eigen::Lower>();
@@ -243,7 +243,7 @@ std::vector<ScoreBlock> BlocksOf(const std::vector<Innovation>& innovations, dou
   return blocks;
 }
 
-Normal NormalEquations(const Problem& problem, const Runs& all) {
+Normal NormalEquations(const Problem& problem, const SlopedRuns& all) {
   Normal normal{FossenSquare::Zero(), FossenVector::Zero(), {}, {}};
   normal.recordings.resize(problem.dataset_.Recordings());
   for (std::size_t s = 0; s < all.size(); ++s) {
@@ -262,11 +262,12 @@ Normal NormalEquations(const Problem& problem, const Runs& all) {
 }
 
 // How the data's score changes with the parameters.
-FossenSquare ScoreSlope(const Runs& all) {
+FossenSquare ScoreSlope(const SlopedRuns& all) {
   FossenSquare slope = FossenSquare::Zero();
-  for (const auto& of_segment : all) {
-    for (const Innovation& i : of_segment) {
-      slope += i.instrument * (i.slope / i.variance).transpose();
+  for (const SlopedInnovations& run : all) {
+    for (std::size_t k = 0; k < run.slopes.size(); ++k) {
+      slope += run.slopes[k].instrument.lazyProduct(
+          (run.slopes[k].slope / run.innovations[k].variance).transpose());
     }
   }
   return slope;
@@ -363,10 +364,10 @@ Eigen::VectorXd BoundedStep(const Problem& problem, const Eigen::VectorXd& z,
   return step;
 }
 
-double Squares(const Runs& runs) {
+double Squares(const SlopedRuns& runs) {
   double squares = 0.0;
-  for (const auto& of_segment : runs) {
-    for (const Innovation& i : of_segment) squares += i.value * i.value / i.variance;
+  for (const SlopedInnovations& run : runs) {
+    for (const Innovation& i : run.innovations) squares += i.value * i.value / i.variance;
   }
   return squares;
 }
@@ -382,8 +383,7 @@ class Search {
 
   /// Whether there is more to do after this iteration.
   bool Iterate() {
-    Problem::Gains gains;
-    const Runs runs = problem_.RunWithSlopes(z_, noise_, false, gains);
+    const SlopedRuns runs = problem_.RunWithSlopes(z_, noise_, false);
     const auto [precision, mean, gradient] = Linearise(runs);
     slope_ = information_;
     newton_mean_ = z_ + information_.ldlt().solve(gradient);
@@ -400,7 +400,7 @@ class Search {
       const double expected = step.dot(2.0 * gradient - information_ * step);
       const Eigen::VectorXd candidate = z_ + step;
       if (problem_.Feasible(candidate) &&
-          cost(candidate, problem_.SquaresWith(gains, candidate, noise_, nominal_fix_delay_s)) <=
+          cost(candidate, problem_.SquaresWith(runs, candidate, noise_, nominal_fix_delay_s)) <=
               now * (1.0 + kRounding)) {
         moved = std::sqrt(std::max(expected, 0.0));
         z_ = candidate;
@@ -422,8 +422,7 @@ class Search {
   // A step of the equations with instruments: there is no sum of squares to watch. Whether there is
   // more to do.
   bool IterateWithInstruments() {
-    Problem::Gains gains;
-    const Runs runs = problem_.RunWithSlopes(z_, noise_, true, gains);
+    const SlopedRuns runs = problem_.RunWithSlopes(z_, noise_, true);
     const auto [precision, mean, gradient] = Linearise(runs);
     slope_ = ScoreSlope(runs) + precision;
     newton_mean_ = z_ + slope_.partialPivLu().solve(gradient);
@@ -473,10 +472,10 @@ class Search {
   };
 
   // The equations at z_; leaves their information behind.
-  Linearised Linearise(const Runs& runs) {
+  Linearised Linearise(const SlopedRuns& runs) {
     normal_ = NormalEquations(problem_, runs);
     innovations_ = 0;
-    for (const auto& of_segment : runs) innovations_ += of_segment.size();
+    for (const SlopedInnovations& run : runs) innovations_ += run.innovations.size();
     Linearised at;
     at.precision = problem_.PriorPrecision(z_);
     at.mean = problem_.PriorShift(at.precision);

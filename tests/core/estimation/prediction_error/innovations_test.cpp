@@ -57,26 +57,23 @@ class InnovationSlope : public testing::TestWithParam<std::size_t> {};
 
 TEST_P(InnovationSlope, IsThatOfCentralDifferencesAtFixedGains) {
   const Track track = Weaving();
-  FilterSettings settings = Settings();
-  settings.with_slopes = true;
-  std::vector<FilterGain> gains;
-  const auto with_slopes = InnovationsOf(track.signals, track.commands, settings, &gains);
-  settings.with_slopes = false;
+  const FilterSettings settings = Settings();
+  const auto own = SlopedInnovationsOf(track.signals, track.commands, settings, false);
   const auto at = static_cast<Eigen::Index>(GetParam());
   // Half way between truncation (step squared) and rounding (1e-16 over the step).
   constexpr double kStep = 1e-5;
   const auto moved = [&](double by) {
     FilterSettings shifted = settings;
     shifted.parameters[at] += by;
-    return InnovationsWith(gains, track.signals, track.commands, shifted);
+    return InnovationsWith(own.gains, track.signals, track.commands, shifted);
   };
   const auto above = moved(kStep);
   const auto below = moved(-kStep);
   double error = 0.0;
   double size = 0.0;
-  for (std::size_t k = 0; k < with_slopes.size(); ++k) {
+  for (std::size_t k = 0; k < own.slopes.size(); ++k) {
     const double difference = (above[k].value - below[k].value) / (2.0 * kStep);
-    error += std::pow(difference - with_slopes[k].slope[at], 2);
+    error += std::pow(difference - own.slopes[k].slope[at], 2);
     size += difference * difference;
   }
   EXPECT_GT(size, 0.0);
@@ -92,11 +89,12 @@ INSTANTIATE_TEST_SUITE_P(OfEveryParameter, InnovationSlope,
 
 TEST(Innovations, AreTheSameWithTheirOwnGains) {
   const Track track = Weaving();
-  std::vector<FilterGain> gains;
-  const auto own = InnovationsOf(track.signals, track.commands, Settings(), &gains);
-  const auto replayed = InnovationsWith(gains, track.signals, track.commands, Settings());
-  ASSERT_EQ(own.size(), replayed.size());
-  for (std::size_t k = 0; k < own.size(); ++k) EXPECT_EQ(own[k].value, replayed[k].value);
+  const auto own = SlopedInnovationsOf(track.signals, track.commands, Settings(), false);
+  const auto replayed = InnovationsWith(own.gains, track.signals, track.commands, Settings());
+  ASSERT_EQ(own.innovations.size(), replayed.size());
+  for (std::size_t k = 0; k < replayed.size(); ++k) {
+    EXPECT_EQ(own.innovations[k].value, replayed[k].value);
+  }
 }
 
 // A light boat with strong damping in yaw: 280 time constants a second, 14 in the longest step. The
