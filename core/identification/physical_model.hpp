@@ -4,7 +4,7 @@
 
 #include <Eigen/Core>
 
-#include "telltale/core/estimation/prediction_error/innovations.hpp"
+#include "telltale/core/estimation/prediction_error/noise_model.hpp"
 #include "telltale/core/identification/coefficient.hpp"
 #include "telltale/core/vessel/fossen_model.hpp"
 

@@ -11,14 +11,11 @@ using enum FossenParameter;
 constexpr int kParameters = static_cast<int>(kFossenParameters);
 constexpr int kNorth = kNorthState;
 constexpr int kEast = kNorthState + 1;
-// A current changes by this much in a second, one sigma of its random walk.
-constexpr double kCurrentWalk = 0.003;
 
 constexpr double kLongestStepS = 0.05;
 constexpr double kLongestDecay = 1.5;   // of a step, in time constants of the damping
 constexpr double kMostSubsteps = 20.0;  // of the longest step
 constexpr double kShortestStepS = 1e-6;
-constexpr double kHuberLimit = 4.0;
 // Headings closer than this to the one before bring nothing new and cost a step.
 constexpr double kHeadingPeriodS = 0.095;
 // Readings of one channel this long before and after those of the other count.
@@ -44,15 +41,6 @@ FossenDynamics::Thrusts Ahead(const FossenDynamics::Thrusts& thrust) {
 }
 FossenDynamics::Thrusts Astern(const FossenDynamics::Thrusts& thrust) {
   return {0.0, 0.0, thrust[2], thrust[3]};
-}
-
-// What a scalar reading reads of each column: position, heading, drift and misalignment alone.
-template <int kColumns>
-Eigen::Matrix<double, 1, kColumns> ReadBy(const Eigen::Matrix<double, 1, kFilterStates>& row,
-                                          const Eigen::Matrix<double, kFilterStates, kColumns>& m) {
-  return row.head<3>().lazyProduct(m.template topRows<3>()) +
-         row.segment<2>(kDriftState).lazyProduct(m.template middleRows<2>(kDriftState)) +
-         row[kMisalignmentState] * m.row(kMisalignmentState);
 }
 
 double SpectralRadius(const Eigen::Matrix2d& a) {
@@ -117,13 +105,8 @@ ExtendedKalmanFilter::ExtendedKalmanFilter(const FilterSettings& settings,
                settings.parameters[At(kCommandDelay)]},
               start_s),
       now_s_(start_s),
-      x_(start) {
-  covariance_.setZero();
-  const NoiseModel& noise = settings.noise;
-  covariance_.diagonal() << 4.0, 4.0, 0.1, 1.0, 0.25, 0.25, noise.acceleration_sigma.cwiseAbs2(),
-      Eigen::Vector2d::Constant(noise.fix_drift_sigma_m * noise.fix_drift_sigma_m),
-      Eigen::Vector2d::Constant(settings.current_sigma_m_s * settings.current_sigma_m_s),
-      settings.misalignment_sigma_rad * settings.misalignment_sigma_rad;
+      x_(start),
+      covariance_(settings.noise, settings.current_sigma_m_s, settings.misalignment_sigma_rad) {
   slopes_.setZero();
   instruments_.setZero();
 }
@@ -168,11 +151,11 @@ void ExtendedKalmanFilter::Take(const Reading& reading, std::vector<Innovation>&
 }
 
 void ExtendedKalmanFilter::TakeHeading(double psi_rad, std::vector<Innovation>& innovations) {
-  const double sigma = settings_.noise.heading_sigma_rad;
-  Row row = Row::Zero();
-  row[kHeadingState] = 1.0;
-  row[kMisalignmentState] = 1.0;
-  TakeScalar(row, psi_rad - HeadingOf(x_), {}, sigma * sigma, innovations);
+  ScalarReading reading;
+  reading.row[kHeadingState] = 1.0;
+  reading.row[kMisalignmentState] = 1.0;
+  reading.innovation = psi_rad - HeadingOf(x_);
+  TakeScalar(reading, {}, innovations);
 }
 
 // North and east of a fix turned into along and across the track, where the noise of the stamp
@@ -193,17 +176,17 @@ void ExtendedKalmanFilter::TakeFix(double north_m, double east_m,
     const Eigen::Vector2d predicted =
         FixOf(x_, settings_.antenna) -
         (settings_.parameters[At(kFixDelay)] - settings_.nominal_fix_delay_s) * velocity;
-    Row row = Row::Zero();
-    row.segment<2>(kNorth) = axis.transpose();
-    row.segment<2>(kDriftState) = axis.transpose();
-    row[kHeadingState] = axis.dot(lever_by_psi);
+    ScalarReading reading;
+    reading.is_fix = true;
+    reading.row.segment<2>(kNorth) = axis.transpose();
+    reading.row.segment<2>(kDriftState) = axis.transpose();
+    reading.row[kHeadingState] = axis.dot(lever_by_psi);
+    reading.innovation = axis.dot(Eigen::Vector2d(north_m, east_m) - predicted);
+    reading.speed_m_s = is_along ? speed : 0.0;
     // A longer delay predicts where the boat was before.
     ByFixDelay by{axis.dot(velocity)};
     if (with_instruments_) by.instrument = axis.dot(VelocityOverGround(Undisturbed()));
-    const double stamp = is_along ? speed * settings_.noise.stamp_sigma_s : 0.0;
-    TakeScalar(row, axis.dot(Eigen::Vector2d(north_m, east_m) - predicted), by,
-               settings_.noise.fix_sigma_m * settings_.noise.fix_sigma_m + stamp * stamp,
-               innovations);
+    TakeScalar(reading, by, innovations);
     if (recorded_gains_ != nullptr) recorded_gains_->back().axis = axis;
   }
 }
@@ -298,15 +281,6 @@ ExtendedKalmanFilter::Midpoint ExtendedKalmanFilter::Advance(const ThrustStep& t
   return step;
 }
 
-// What is left of the states that decay after a step; exact.
-DecayOfStates ExtendedKalmanFilter::DecayOver(double h) const {
-  DecayOfStates decay = DecayOfStates::Ones();
-  decay.head<3>().setConstant(std::exp(-h / settings_.noise.acceleration_time_constant_s));
-  decay.segment<2>(kDriftState - kMovingStates)
-      .setConstant(std::exp(-h / NoiseModel::kFixDriftTimeConstantS));
-  return decay;
-}
-
 // Of the step from `x`.
 FilterTransition ExtendedKalmanFilter::TransitionOf(const FilterState& x, const Midpoint& step,
                                                     double h, const DecayOfStates& decay) {
@@ -342,7 +316,7 @@ void ExtendedKalmanFilter::AdvanceSlopes(const FilterState& x, const Midpoint& s
 void ExtendedKalmanFilter::Step(double h) {
   const ThrustStep thrust = thrust_.Until(now_s_ + h);
   now_s_ += h;
-  const DecayOfStates decay = DecayOver(h);
+  const DecayOfStates decay = DecayOver(settings_.noise, h);
   if (with_instruments_) {
     const FilterState before = Undisturbed();
     FilterState undisturbed = before;
@@ -358,66 +332,38 @@ void ExtendedKalmanFilter::Step(double h) {
   const FilterTransition transition = TransitionOf(before, step, h, decay);
   if (recorded_slopes_ != nullptr) AdvanceSlopes(before, step, transition, thrust, slopes_);
   if (visit_) visit_({transition.Whole()});
-  if (spreads) Spread(transition);
+  if (spreads) covariance_.Spread(transition);
+  if (variations_ == nullptr) return;
+  for (NoiseVariation& variation : *variations_) variation.Step(transition, before);
 }
 
-// The covariance after a step.
-void ExtendedKalmanFilter::Spread(const FilterTransition& transition) {
-  const auto& decay = transition.decay;
-  const Eigen::Matrix<double, kFilterStates, kMovingStates> moved =
-      transition.Moved(covariance_).transpose();
-  // Rounding that is not symmetric would grow.
-  const Eigen::Matrix<double, kMovingStates, kMovingStates> of_moving = transition.Moved(moved);
-  covariance_.topLeftCorner<kMovingStates, kMovingStates>() =
-      0.5 * (of_moving + of_moving.transpose());
-  covariance_.bottomLeftCorner<kDecayingStates, kMovingStates>() =
-      decay.asDiagonal() * moved.bottomRows<kDecayingStates>();
-  covariance_.topRightCorner<kMovingStates, kDecayingStates>() =
-      covariance_.bottomLeftCorner<kDecayingStates, kMovingStates>().transpose();
-  covariance_.bottomRightCorner<kDecayingStates, kDecayingStates>().array() *=
-      (decay * decay.transpose()).array();
-  const NoiseModel& noise = settings_.noise;
-  const Eigen::Matrix<double, kDecayingStates, 1> lost = 1.0 - decay.array().square();
-  covariance_.diagonal().segment<3>(kDisturbanceState) +=
-      lost.head<3>().cwiseProduct(noise.acceleration_sigma.cwiseAbs2());
-  covariance_.diagonal().segment<2>(kDriftState) += noise.fix_drift_sigma_m *
-                                                    noise.fix_drift_sigma_m *
-                                                    lost.segment<2>(kDriftState - kMovingStates);
-  covariance_.diagonal().segment<2>(kCurrentState).array() +=
-      transition.step_s * kCurrentWalk * kCurrentWalk;
+FilterGain ExtendedKalmanFilter::GainOf(const ScalarReading& reading) {
+  if (fixed_gains_ != nullptr) return (*fixed_gains_)[next_gain_++];
+  const FilterGain gain = covariance_.Take(reading);
+  if (recorded_gains_ != nullptr) recorded_gains_->push_back(gain);
+  return gain;
 }
 
-void ExtendedKalmanFilter::TakeScalar(const Row& row, double value, const ByFixDelay& by,
-                                      double noise_variance, std::vector<Innovation>& innovations) {
-  FilterGain gain;
-  if (fixed_gains_ != nullptr) {
-    gain = (*fixed_gains_)[next_gain_++];
-  } else {
-    const FilterState projected = ReadBy(row, covariance_).transpose();
-    gain.variance = row.dot(projected) + noise_variance;
-    const double ratio = value * value / (kHuberLimit * kHuberLimit * gain.variance);
-    if (ratio > 1.0) gain.variance *= ratio;
-    gain.gain = projected / gain.variance;
-    // Symmetric to the last digit, as the product of gain and projection is not.
-    const FilterState taken = projected / std::sqrt(gain.variance);
-    covariance_ -= taken.lazyProduct(taken.transpose());
-    if (recorded_gains_ != nullptr) recorded_gains_->push_back(gain);
-  }
-  innovations.push_back({now_s_, value, gain.variance});
+void ExtendedKalmanFilter::TakeScalar(const ScalarReading& reading, const ByFixDelay& by,
+                                      std::vector<Innovation>& innovations) {
+  const FilterGain gain = GainOf(reading);
+  innovations.push_back({now_s_, reading.innovation, gain.variance});
   if (recorded_slopes_ != nullptr) {
     InnovationSlope& of = recorded_slopes_->emplace_back();
-    of.slope = -ReadBy(row, slopes_).transpose();
+    of.slope = -ReadBy(reading.row, slopes_).transpose();
     of.slope[At(kFixDelay)] += by.slope;
     slopes_ += gain.gain.lazyProduct(of.slope.transpose());
     of.instrument = of.slope;
     if (with_instruments_) {
-      of.instrument = -ReadBy(row, instruments_).transpose();
+      of.instrument = -ReadBy(reading.row, instruments_).transpose();
       of.instrument[At(kFixDelay)] += by.instrument;
       instruments_ += gain.gain.lazyProduct(of.instrument.transpose());
     }
   }
-  x_ += gain.gain * value;
-  if (visit_) visit_({std::nullopt, row, gain.gain, value / gain.variance});
+  x_ += gain.gain * reading.innovation;
+  if (visit_) visit_({std::nullopt, reading.row, gain.gain, reading.innovation / gain.variance});
+  if (variations_ == nullptr) return;
+  for (NoiseVariation& variation : *variations_) variation.Take(reading, gain, now_s_);
 }
 
 }  // namespace telltale

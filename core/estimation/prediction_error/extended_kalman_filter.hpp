@@ -9,40 +9,15 @@
 #include <Eigen/Core>
 
 #include "telltale/core/data/prepared_dataset.hpp"
+#include "telltale/core/estimation/prediction_error/covariance_filter.hpp"
 #include "telltale/core/estimation/prediction_error/filter_transition.hpp"
+#include "telltale/core/estimation/prediction_error/innovation.hpp"
+#include "telltale/core/estimation/prediction_error/noise_model.hpp"
+#include "telltale/core/estimation/prediction_error/noise_variation.hpp"
 #include "telltale/core/estimation/prediction_error/thrust_lag.hpp"
 #include "telltale/core/vessel/fossen_model.hpp"
 
 namespace telltale {
-
-/// Process and sensor noise. All > 0.
-/// Model: accelerations of the boat and the error of the fixes are first-order Gauss-Markov
-/// processes beside white sensor noise; the stamp of a fix is off by white noise.
-struct NoiseModel {
-  Eigen::Vector3d acceleration_sigma{0.1, 0.1, 0.1};  ///< m/s^2, m/s^2, rad/s^2, stationary
-  double acceleration_time_constant_s = 2.0;
-  double fix_drift_sigma_m = 0.1;
-  double fix_sigma_m = 0.05;
-  double heading_sigma_rad = 0.01;
-  double stamp_sigma_s = 0.02;
-
-  static constexpr double kFixDriftTimeConstantS = 20.0;
-};
-
-/// One innovation, a scalar: the reading less its prediction from all readings before it.
-struct Innovation {
-  double time_s = 0.0;
-  double value = 0.0;
-  double variance = 0.0;
-};
-
-/// How an innovation changes with the parameters.
-struct InnovationSlope {
-  FossenVector slope;  ///< d value / d parameters at fixed gains
-  /// The slope that the commands alone give: that of a boat without disturbance on the same
-  /// headings. Equal to the slope unless asked for.
-  FossenVector instrument;
-};
 
 struct FilterSettings {
   FossenVector parameters;
@@ -60,13 +35,6 @@ struct FilterSettings {
 /// Model: docs/concepts/physical-model.md (107), (108).
 double HeadingOf(const FilterState& state);
 Eigen::Vector2d FixOf(const FilterState& state, const LeverArm& antenna);
-
-/// How one scalar reading moves the state, and the variance of its innovation.
-struct FilterGain {
-  FilterState gain;
-  double variance = 0.0;
-  Eigen::Vector2d axis = Eigen::Vector2d::Zero();  ///< of a fix: the direction that is read
-};
 
 /// A fix or a heading, at the time at which the boat had what it reads.
 struct Reading {
@@ -87,15 +55,14 @@ std::optional<FilterState> StartOf(const std::vector<Reading>& readings);
 /// What moves the filter, as a smoother needs it on its way back: a step, or a scalar reading.
 struct FilterMove {
   std::optional<FilterCovariance> transition;  ///< of a step
-  Eigen::Matrix<double, 1, kFilterStates> row = Eigen::Matrix<double, 1, kFilterStates>::Zero();
+  FilterRow row = FilterRow::Zero();
   FilterState gain = FilterState::Zero();
   double weighted_innovation = 0.0;  ///< over its variance
 };
 
 /// An extended Kalman filter of a boat of the physical form, with the slopes of what it predicts.
 /// Model: docs/concepts/physical-model.md (101)..(109). Slopes leave out terms of third order in
-/// the step. A reading further than four standard deviations off counts with the variance at which
-/// it is four (Huber's weight).
+/// the step.
 class ExtendedKalmanFilter {
  public:
   /// Requires: `settings` outlives the filter.
@@ -108,6 +75,9 @@ class ExtendedKalmanFilter {
   /// Appends the slope of each innovation from now on, with its instrument if so asked.
   void RecordSlopes(std::vector<InnovationSlope>* slopes, bool with_instruments);
 
+  /// Takes filters of other noises along from now on. Requires: no gains of another run.
+  void RunBeside(std::vector<NoiseVariation>* variations) { variations_ = variations; }
+
   /// Calls visit(move) for every step and every scalar reading from now on.
   void VisitMoves(std::function<void(const FilterMove&)> visit) { visit_ = std::move(visit); }
 
@@ -117,13 +87,12 @@ class ExtendedKalmanFilter {
   void Take(const Reading& reading, std::vector<Innovation>& innovations);
 
   const FilterState& Mean() const { return x_; }
-  const FilterCovariance& Covariance() const { return covariance_; }
+  const FilterCovariance& Covariance() const { return covariance_.Covariance(); }
 
  private:
   using Moving = Eigen::Matrix<double, kMovingStates, 1>;
   using ByParameters = Eigen::Matrix<double, 3, static_cast<int>(kFossenParameters)>;
   using Slopes = Eigen::Matrix<double, kFilterStates, static_cast<int>(kFossenParameters)>;
-  using Row = Eigen::Matrix<double, 1, kFilterStates>;
 
   // How the states that move do, without the current and the disturbance where they are constant.
   struct Rate {
@@ -148,8 +117,9 @@ class ExtendedKalmanFilter {
 
   void TakeHeading(double psi_rad, std::vector<Innovation>& innovations);
   void TakeFix(double north_m, double east_m, std::vector<Innovation>& innovations);
-  void TakeScalar(const Row& row, double value, const ByFixDelay& by, double noise_variance,
+  void TakeScalar(const ScalarReading& reading, const ByFixDelay& by,
                   std::vector<Innovation>& innovations);
+  FilterGain GainOf(const ScalarReading& reading);
   FilterState Undisturbed() const;
   Rate RateAt(const FilterState& x, const ThrustStep& thrust) const;
   static MotionByMovers ByMovers(const FilterState& x, const Rate& rate);
@@ -157,27 +127,26 @@ class ExtendedKalmanFilter {
   void AddThirdOrder(const Midpoint& step, const ThrustStep& thrust, double h,
                      FilterState& next) const;
   Midpoint Advance(const ThrustStep& thrust, double h, FilterState& x) const;
-  DecayOfStates DecayOver(double h) const;
   static FilterTransition TransitionOf(const FilterState& x, const Midpoint& step, double h,
                                        const DecayOfStates& decay);
   void AdvanceSlopes(const FilterState& x, const Midpoint& step, const FilterTransition& transition,
                      const ThrustStep& thrust, Slopes& slopes) const;
   double LongestStepS() const;
   void Step(double h);
-  void Spread(const FilterTransition& transition);
 
   std::function<void(const FilterMove&)> visit_;
   const std::vector<FilterGain>* fixed_gains_ = nullptr;
   std::vector<FilterGain>* recorded_gains_ = nullptr;
   std::vector<InnovationSlope>* recorded_slopes_ = nullptr;
   bool with_instruments_ = false;
+  std::vector<NoiseVariation>* variations_ = nullptr;
   std::size_t next_gain_ = 0;
   const FilterSettings& settings_;
   FossenDynamics dynamics_;
   ThrustLag thrust_;
   double now_s_;
   FilterState x_;
-  FilterCovariance covariance_;
+  CovarianceFilter covariance_;
   Slopes slopes_;
   Slopes instruments_;
   Eigen::Vector3d undisturbed_nu_ = Eigen::Vector3d::Zero();

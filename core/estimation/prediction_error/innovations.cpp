@@ -25,6 +25,22 @@ std::vector<Innovation> InnovationsOf(const RawSignals& signals, const HeldComma
   return Innovate(signals, commands, settings, [](ExtendedKalmanFilter&) {});
 }
 
+std::vector<std::vector<Innovation>> InnovationsUnder(const std::vector<NoiseModel>& noises,
+                                                      const RawSignals& signals,
+                                                      const HeldCommands& commands,
+                                                      const FilterSettings& settings) {
+  std::vector<NoiseVariation> variations;
+  for (const NoiseModel& noise : noises) {
+    variations.emplace_back(
+        CovarianceFilter(noise, settings.current_sigma_m_s, settings.misalignment_sigma_rad));
+  }
+  Innovate(signals, commands, settings,
+           [&](ExtendedKalmanFilter& filter) { filter.RunBeside(&variations); });
+  std::vector<std::vector<Innovation>> all;
+  for (NoiseVariation& variation : variations) all.push_back(variation.TakeInnovations());
+  return all;
+}
+
 SlopedInnovations SlopedInnovationsOf(const RawSignals& signals, const HeldCommands& commands,
                                       const FilterSettings& settings, bool with_instruments) {
   SlopedInnovations all;

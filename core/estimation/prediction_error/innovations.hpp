@@ -10,6 +10,12 @@ namespace telltale {
 std::vector<Innovation> InnovationsOf(const RawSignals& signals, const HeldCommands& commands,
                                       const FilterSettings& settings);
 
+/// The same under each of several noises near that of `settings`, from one run; NoiseVariation.
+std::vector<std::vector<Innovation>> InnovationsUnder(const std::vector<NoiseModel>& noises,
+                                                      const RawSignals& signals,
+                                                      const HeldCommands& commands,
+                                                      const FilterSettings& settings);
+
 /// Innovations with what each changes by with the parameters, and the gains that they were taken
 /// with. Shapes: of each the same number.
 struct SlopedInnovations {

@@ -8,6 +8,7 @@
 #include <Eigen/LU>
 
 #include "telltale/core/base/parallel.hpp"
+#include "telltale/core/estimation/prediction_error/innovations.hpp"
 
 namespace telltale {
 namespace {
@@ -53,7 +54,7 @@ NoiseModel FirstNoise() {
   return noise;
 }
 
-using Runs = std::vector<std::vector<Innovation>>;  // by segment, or by excerpt
+using Runs = std::vector<std::vector<Innovation>>;  // by noise
 using SlopedRuns = std::vector<SlopedInnovations>;  // by segment
 
 // Readings of one segment, from which the noise of its recording is found.
@@ -124,16 +125,16 @@ class Problem {
     return all;
   }
 
-  // Of each noise, the innovations of the excerpts that serve to find it.
+  // By excerpt and noise: its innovations under those of its recording, the first of which is that
+  // of the filter.
   std::vector<Runs> RunForNoise(const Eigen::VectorXd& z,
-                                const std::vector<std::vector<NoiseModel>>& noises) const {
-    const std::size_t n = for_noise_.size();
-    std::vector<Runs> all(noises.size(), Runs(n));
-    ForEachIndex(noises.size() * n, options_.threads, [&](std::size_t i) {
-      const auto& [segment, signals] = for_noise_[i % n];
-      const NoiseModel& noise = noises[i / n][dataset_.RecordingOf(segment)];
-      all[i / n][i % n] = InnovationsOf(signals, dataset_.commands[segment],
-                                        SettingsOf(z, noise, z[At(kFixDelay)]));
+                                const std::vector<std::vector<NoiseModel>>& of_recordings) const {
+    std::vector<Runs> all(for_noise_.size());
+    ForEachIndex(all.size(), options_.threads, [&](std::size_t i) {
+      const auto& [segment, signals] = for_noise_[i];
+      const std::vector<NoiseModel>& noises = of_recordings[dataset_.RecordingOf(segment)];
+      all[i] = InnovationsUnder(noises, signals, dataset_.commands[segment],
+                                SettingsOf(z, noises.front(), z[At(kFixDelay)]));
     });
     return all;
   }
@@ -278,12 +279,13 @@ FossenSquare ScoreSlope(const SlopedRuns& all) {
 double ScoreNoise(const Problem& problem, const Eigen::VectorXd& z,
                   std::vector<NoiseModel>& noise) {
   constexpr double kStep = 0.05;
-  std::vector<std::vector<NoiseModel>> moved(kNoises + 1, noise);
-  for (Eigen::Index j = 0; j < kNoises; ++j) {
-    for (NoiseModel& of_recording : moved[static_cast<std::size_t>(j) + 1]) {
+  std::vector<std::vector<NoiseModel>> moved;
+  for (const NoiseModel& of_recording : noise) {
+    moved.emplace_back(kNoises + 1, of_recording);
+    for (Eigen::Index j = 0; j < kNoises; ++j) {
       NoiseVector log = LogOf(of_recording);
       log[j] += kStep;
-      of_recording = NoiseOf(log);
+      moved.back()[static_cast<std::size_t>(j) + 1] = NoiseOf(log);
     }
   }
   const std::vector<Runs> runs = problem.RunForNoise(z, moved);
@@ -293,14 +295,15 @@ double ScoreNoise(const Problem& problem, const Eigen::VectorXd& z,
     Eigen::Matrix<double, kNoises, kNoises> information =
         Eigen::Matrix<double, kNoises, kNoises>::Identity() / std::pow(kNoisePriorSigma, 2);
     NoiseVector gradient = (NoisePriorMean() - log) / std::pow(kNoisePriorSigma, 2);
-    for (std::size_t s = 0; s < runs[0].size(); ++s) {
-      if (problem.RecordingOfExcerpt(s) != recording) continue;
-      for (std::size_t k = 0; k < runs[0][s].size(); ++k) {
-        const Innovation& i = runs[0][s][k];
+    for (std::size_t excerpt = 0; excerpt < runs.size(); ++excerpt) {
+      if (problem.RecordingOfExcerpt(excerpt) != recording) continue;
+      const Runs& run = runs[excerpt];
+      for (std::size_t k = 0; k < run[0].size(); ++k) {
+        const Innovation& i = run[0][k];
         NoiseVector by_log_variance;
         NoiseVector by_value;
         for (int j = 0; j < kNoises; ++j) {
-          const Innovation& m = runs[static_cast<std::size_t>(j) + 1][s][k];
+          const Innovation& m = run[static_cast<std::size_t>(j) + 1][k];
           by_log_variance[j] = std::log(m.variance / i.variance) / kStep;
           by_value[j] = (m.value - i.value) / kStep;
         }

@@ -8,7 +8,8 @@
 
 #include "telltale/core/data/prepared_dataset.hpp"
 #include "telltale/core/estimation/prediction_error/fossen_prior.hpp"
-#include "telltale/core/estimation/prediction_error/innovations.hpp"
+#include "telltale/core/estimation/prediction_error/noise_model.hpp"
+#include "telltale/core/vessel/fossen_model.hpp"
 
 namespace telltale {
 

@@ -110,6 +110,59 @@ TEST(Innovations, StayFiniteWhereDampingIsFasterThanAStep) {
   }
 }
 
+// A boat at rest, whose readings stir by a hundredth of a millimetre or milliradian: its
+// equations are linear, and axes of fixes do not turn with its way.
+Track AtRest() {
+  Track track = Weaving();
+  std::vector<ThrusterSample> commands;
+  for (int i = 0; i <= 40; ++i) commands.push_back({1.0 * i, 1500.0, 1500.0});
+  track.commands = HeldCommands(commands, Vehicle{});
+  const auto stir = [](std::vector<double>& values, double frequency) {
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      values[i] = 1e-5 * std::sin(frequency * static_cast<double>(i));
+    }
+  };
+  stir(track.signals.north_m.values, 0.7);
+  stir(track.signals.east_m.values, 1.3);
+  stir(track.signals.psi_rad.values, 0.4);
+  return track;
+}
+
+TEST(InnovationsUnderNoises, AreThoseOfAFilterOfTheirOwnAtRest) {
+  const Track track = AtRest();
+  FilterSettings settings = Settings();
+  std::vector<NoiseModel> noises(4, settings.noise);
+  noises[0].acceleration_sigma *= 3.0;
+  noises[1].acceleration_time_constant_s *= 0.3;
+  noises[2].fix_drift_sigma_m *= 3.0;
+  noises[2].fix_sigma_m *= 0.3;
+  noises[3].heading_sigma_rad *= 0.3;
+  const auto beside = InnovationsUnder(noises, track.signals, track.commands, settings);
+  for (std::size_t i = 0; i < noises.size(); ++i) {
+    settings.noise = noises[i];
+    const auto own = InnovationsOf(track.signals, track.commands, settings);
+    ASSERT_EQ(beside[i].size(), own.size());
+    for (std::size_t k = 0; k < own.size(); ++k) {
+      // Transitions are those of the midpoint rule, as slopes are: 0.4 % of the motion.
+      EXPECT_NEAR(beside[i][k].value, own[k].value, 5e-3 * 1e-5);
+      // What is not linear is of the size of the motion.
+      EXPECT_NEAR(beside[i][k].variance, own[k].variance, 1e-4 * own[k].variance);
+    }
+  }
+}
+
+TEST(InnovationsUnderNoises, AreThoseOfTheFilterUnderItsOwn) {
+  const Track track = Weaving();
+  const FilterSettings settings = Settings();
+  const auto own = InnovationsOf(track.signals, track.commands, settings);
+  const auto beside = InnovationsUnder({settings.noise}, track.signals, track.commands, settings);
+  ASSERT_EQ(beside[0].size(), own.size());
+  for (std::size_t k = 0; k < own.size(); ++k) {
+    EXPECT_EQ(beside[0][k].value, own[k].value);
+    EXPECT_EQ(beside[0][k].variance, own[k].variance);
+  }
+}
+
 TEST(Innovations, AreNoneWithoutHeadings) {
   Track track = Weaving();
   track.signals.psi_rad = {};
