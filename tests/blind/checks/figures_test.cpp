@@ -91,6 +91,36 @@ TEST(Figures, CountFalseAlarms) {
   EXPECT_EQ(figures.forecasts.size(), 2u);
 }
 
+/// The same answer where this weather is there.
+Scored In(const EffectSet& weather, Scored scored) {
+  scored.label.weather = weather;
+  return scored;
+}
+
+TEST(Figures, LetTheWeatherThatIsThereBeNamed) {
+  const Figures figures = FiguresOf({
+      In({"wind"}, Answer("nominal", {}, "NO_MATERIAL_GAP", {})),
+      In({"wind"}, Answer("nominal", {}, "EXPLAINED", {Named({"wind"}, 0.9)})),
+      In({"wind"}, Answer("nominal", {}, "EXPLAINED", {Named({"waves"}, 0.9)})),
+      In({"wind"}, Answer("nominal", {}, "EXPLAINED", {Named({"wind", "payload"}, 0.9)})),
+      In({"wind"}, Answer("nominal", {}, "UNKNOWN_CAUSE", {Named({"unknown"}, 0.9)})),
+      In({"wind"}, Answer("single", {"payload"}, "EXPLAINED", {Named({"payload"}, 0.9)})),
+      In({"wind"}, Answer("single", {"payload"}, "EXPLAINED", {Named({"wind", "payload"}, 0.9)})),
+      In({"wind"}, Answer("single", {"payload"}, "EXPLAINED", {Named({"wind"}, 0.9)})),
+      In({"wind"}, Answer("single", {"payload"}, "EXPLAINED", {Named({"waves", "payload"}, 0.9)})),
+      In({"wind"}, Answer("outside", {"ship_wash"}, "PARTLY_EXPLAINED", {Named({"wind"}, 0.9)})),
+      In({"wind"}, Answer("outside", {"ship_wash"}, "PARTLY_EXPLAINED", {Named({"waves"}, 0.9)})),
+      In({"wind"}, Answer("outside", {"ship_wash"}, "EXPLAINED", {Named({"wind"}, 0.9)})),
+  });
+  EXPECT_EQ(figures.false_alarms.hits, 3u);
+  EXPECT_EQ(figures.weather_named.hits, 1u);
+  EXPECT_EQ(figures.weather_named.all, 5u);
+  EXPECT_EQ(figures.all.top_1.hits, 2u);
+  EXPECT_EQ(figures.all.class_hit.hits, 2u);
+  EXPECT_EQ(figures.wrongly_named.hits, 2u)
+      << "nothing but weather is a full explanation of no stranger";
+}
+
 TEST(Figures, CountUnknownsWronglyNamed) {
   const Figures figures = FiguresOf({
       Answer("outside", {"ship_wash"}, "UNKNOWN_CAUSE", {Named({"unknown"}, 0.8)}),

@@ -199,17 +199,25 @@ TEST(Plan, HoldsWhatItPromises) {
     std::map<std::string, std::size_t> kinds;
     std::map<std::string, std::set<std::pair<int, int>>> singles;
     std::set<std::uint64_t> days;
+    std::map<std::string, std::size_t> in_weather;
+    const std::set<std::string> weather{"wind", "current", "waves"};
     for (const Case& planned : PlannedCases(set, 1, 1)) {
       ++kinds[planned.kind];
+      std::vector<AppliedEffect> all = planned.effects;
+      all.insert(all.end(), planned.weather.begin(), planned.weather.end());
+      in_weather[planned.kind] += std::any_of(
+          all.begin(), all.end(),
+          [&](const AppliedEffect& applied) { return weather.contains(applied.effect); });
       days.insert(planned.day);
       if (planned.kind != "single") continue;
       const AppliedEffect& applied = planned.effects.front();
       singles[applied.effect].insert(
           {static_cast<int>(std::lround(std::log2(applied.size))), applied.sign > 0 ? 1 : -1});
     }
-    EXPECT_EQ(kinds["nominal"], 30u);
-    EXPECT_EQ(kinds["pair"], 12u);
-    EXPECT_EQ(kinds["outside"], 12u);
+    EXPECT_EQ(kinds["nominal"], 300u);
+    EXPECT_EQ(kinds["pair"], 60u);
+    EXPECT_EQ(kinds["outside"], 60u);
+    for (const auto& [kind, cases] : kinds) EXPECT_EQ(in_weather[kind], cases / 2) << kind;
     EXPECT_EQ(singles.size(), 26u);
     for (const auto& [name, seen] : singles) {
       EXPECT_EQ(seen.size(), EffectNamed(name).has_sign ? 6u : 3u) << name;
@@ -445,6 +453,38 @@ TEST(SingleCase, TurnsOnlyTheCompassByAHeadingBias) {
   }
   EXPECT_EQ(TextOfFile(folder.Path() / "nominal/log/gnss.csv"),
             TextOfFile(folder.Path() / "biased/log/gnss.csv"));
+}
+
+TEST(SingleCase, StampsEachChannelByAClockOfItsOwn) {
+  const TemporaryFolder folder;
+  WriteSingleCase(ShortCase({}), folder.Path());
+  std::set<double> starts;
+  for (const char* file : {"gnss.csv", "heading.csv", "thrusters.csv"}) {
+    std::istringstream text(TextOfFile(folder.Path() / "log" / file));
+    std::string header, row;
+    std::getline(text, header);
+    std::getline(text, row);
+    starts.insert(std::stod(row));
+  }
+  EXPECT_EQ(starts.size(), 3u);
+  EXPECT_LT(*starts.rbegin() - *starts.begin(), 0.25)
+      << "clocks differ by less than a tenth and some";
+}
+
+TEST(SimulatedRun, CommandsChangeBetweenTheSamplesOfTheLog) {
+  const TemporaryFolder folder;
+  WriteSingleCase(ShortCase({}), folder.Path());
+  const Scenario nominal = SymmetricScenario();
+  const Track track =
+      Simulate({nominal, nominal, 0.0, 60.0},
+               DrawnMission(Set::kDevelopment, 60.0, RandomStream(3)), RandomStream(3));
+  std::size_t between = 0;
+  for (std::size_t at = 1; at < track.commands.size(); ++at) {
+    between += at % 5 != 0 && track.commands[at].port_us != track.commands[at - 1].port_us;
+  }
+  EXPECT_GT(between, 5u);
+  const std::size_t samples = SecondColumn(folder.Path() / "log/thrusters.csv").size();
+  EXPECT_EQ(samples, (track.commands.size() - 1) / 5 + 1);
 }
 
 TEST(SingleCase, IsNominalUntilTheOnset) {

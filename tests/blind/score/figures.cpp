@@ -36,6 +36,18 @@ bool StandsFor(const Cause& cause, const EffectSet& truth) {
   return cause.effects.size() == truth.size() && Holds(covered, truth);
 }
 
+/// The true effects with the weather beside them.
+EffectSet WithWeather(const Label& label) {
+  EffectSet all = label.effects;
+  all.insert(label.weather.begin(), label.weather.end());
+  return all;
+}
+
+/// Nothing is named but the weather that is there.
+bool IsWeatherThatIsThere(const Cause* cause, const Label& label) {
+  return cause && Holds(label.weather, cause->effects);
+}
+
 std::string Joined(const EffectSet& effects) {
   std::string text;
   for (const std::string& effect : effects) text += (text.empty() ? "" : " + ") + effect;
@@ -52,23 +64,30 @@ double Detectability(const Scored& scored) {
   return least;
 }
 
-bool AmongFirst(const Report& report, std::size_t count, const EffectSet& truth) {
+bool AmongFirst(const Report& report, std::size_t count, const Label& label) {
   if (!FirstCause(report)) return false;
   const auto end =
       report.causes.begin() + static_cast<std::ptrdiff_t>(std::min(count, report.causes.size()));
-  return std::any_of(report.causes.begin(), end,
-                     [&](const Cause& cause) { return cause.effects == truth; });
+  return std::any_of(report.causes.begin(), end, [&](const Cause& cause) {
+    return cause.effects == label.effects || cause.effects == WithWeather(label);
+  });
 }
 
 void CountNaming(NamingRates& naming, const Scored& scored) {
-  naming.top_1.Count(AmongFirst(scored.report, 1, scored.label.effects));
-  naming.top_3.Count(AmongFirst(scored.report, 3, scored.label.effects));
+  naming.top_1.Count(AmongFirst(scored.report, 1, scored.label));
+  naming.top_3.Count(AmongFirst(scored.report, 3, scored.label));
   naming.class_hit.Count(ClassHit(scored));
   naming.named_hit.Count(ClassHit(scored) && IsSure(scored.report));
   const Cause* first = FirstCause(scored.report);
   if (first && !IsUnknown(*first)) {
     naming.class_sizes.push_back(static_cast<double>(ClassSize(*first)));
   }
+}
+
+void CountNominal(Figures& figures, const Scored& scored) {
+  const bool weather = IsWeatherThatIsThere(FirstCause(scored.report), scored.label);
+  figures.false_alarms.Count(ReportsGap(scored.report) && !weather);
+  if (!scored.label.weather.empty()) figures.weather_named.Count(weather);
 }
 
 void CountPair(Figures& figures, const Scored& scored) {
@@ -83,7 +102,8 @@ void CountPair(Figures& figures, const Scored& scored) {
 
 void CountOutside(Figures& figures, const Scored& scored) {
   const Cause* first = FirstCause(scored.report);
-  const bool named = first && !IsUnknown(*first) && first->probability > 0.5;
+  const bool named = first && !IsUnknown(*first) && !IsWeatherThatIsThere(first, scored.label) &&
+                     first->probability > 0.5;
   figures.wrongly_named.Count(named || scored.report.verdict == "EXPLAINED");
   figures.outside_seen.Count(ReportsGap(scored.report));
 }
@@ -117,7 +137,10 @@ void CountLeftOut(Figures& figures, const Scored& scored) {
 
 void CountByEffect(Figures& figures, const Scored& scored) {
   const bool nominal = scored.label.kind == "nominal";
-  EffectFigures& own = figures.effects[nominal ? "nominal" : Joined(scored.label.effects)];
+  const std::string name = nominal ? "nominal" : Joined(scored.label.effects);
+  EffectFigures& own =
+      figures.effects[scored.label.weather.empty() ? name
+                                                   : name + ", in " + Joined(scored.label.weather)];
   ++own.called[CalledBy(scored.report)];
   if (nominal) return;
   CountNaming(own.naming, scored);
@@ -170,9 +193,10 @@ std::string CalledBy(const Report& report) {
 bool ClassHit(const Scored& scored) {
   const Cause* first = FirstCause(scored.report);
   if (!first) return false;
-  if (scored.label.kind == "nominal") return false;
-  if (scored.label.kind == "outside") return IsUnknown(*first);
-  return StandsFor(*first, scored.label.effects);
+  const Label& label = scored.label;
+  if (label.kind == "nominal") return IsWeatherThatIsThere(first, label);
+  if (label.kind == "outside") return IsUnknown(*first) || IsWeatherThatIsThere(first, label);
+  return StandsFor(*first, label.effects) || StandsFor(*first, WithWeather(label));
 }
 
 std::size_t ClassSize(const Cause& cause) {
@@ -183,7 +207,7 @@ Figures FiguresOf(const std::vector<Scored>& cases) {
   Figures figures;
   for (const Scored& scored : cases) {
     const std::string& kind = scored.label.kind;
-    if (kind == "nominal") figures.false_alarms.Count(ReportsGap(scored.report));
+    if (kind == "nominal") CountNominal(figures, scored);
     if (kind == "single") CountNaming(figures.all, scored);
     if (kind == "single" && Detectability(scored) >= kDetectable) {
       CountNaming(figures.detectable, scored);

@@ -57,8 +57,10 @@ const Cause* FirstCause(const Report& report);
 /// What the report calls the gap in a table: the first cause's effects, or the verdict where none.
 std::string CalledBy(const Report& report);
 
-/// The true effects are the first cause's, or each is one of them or indistinguishable from one of
-/// them, as many as they are. For a case outside the library: the first cause is unknown.
+/// The true effects, with or without the weather beside them, are the first cause's, or each is one
+/// of them or indistinguishable from one of them, as many as they are. For a case outside the
+/// library: the first cause is unknown, or the weather that is there; for a nominal one: the
+/// latter.
 bool ClassHit(const Scored& scored);
 
 /// How many single effects the first cause stands for.
@@ -84,7 +86,8 @@ struct Figures {
   NamingRates all;  // single effects
   NamingRates
       detectable;      // of them those whose own report has the true effect at kDetectable or more
-  Rate false_alarms;   // nominal
+  Rate false_alarms;   // nominal: a gap put down to anything but the weather that is there
+  Rate weather_named;  // nominal, in weather: that is the first cause
   Rate wrongly_named;  // outside the library: called EXPLAINED, or by an effect at more than 0.5
   Rate outside_seen;   // outside the library: a gap was reported at all
   Rate exact_pairs;    // both of two effects and no other, each up to its class

@@ -87,9 +87,12 @@ Cause ParseCause(const Json& json) {
 
 Label ParseLabel(const std::string& text) {
   const Json json = Parsed(text);
-  Label label{.kind = TextAt(json, "kind"), .effects = {}};
-  for (const Json& effect : ListAt(json, "effects")) label.effects.insert(TextAt(effect, "effect"));
-  return label;
+  const auto named = [&](const char* list) {
+    EffectSet effects;
+    for (const Json& effect : ListAt(json, list)) effects.insert(TextAt(effect, "effect"));
+    return effects;
+  };
+  return {.kind = TextAt(json, "kind"), .effects = named("effects"), .weather = named("weather")};
 }
 
 Report ParseReport(const std::string& text) {

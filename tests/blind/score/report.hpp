@@ -18,6 +18,7 @@ inline constexpr std::string_view kUnknown = "unknown";
 struct Label {
   std::string kind;  // nominal, single, pair or outside (the library)
   EffectSet effects;
+  EffectSet weather = {};  // there besides: may be named, and need not
 };
 
 struct Cause {

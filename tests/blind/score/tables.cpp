@@ -70,6 +70,8 @@ std::vector<Row> Rows() {
       {"mean class size", [](const Figures& f) { return MeanOf(f.detectable.class_sizes); }},
       {"false alarms on nominal (95 % bound)",
        [](const Figures& f) { return WithBound(f.false_alarms); }},
+      {"weather of nominal days the first cause",
+       [](const Figures& f) { return InWords(f.weather_named); }},
       {"unknowns wrongly named (95 % bound)",
        [](const Figures& f) { return WithBound(f.wrongly_named); }},
       {"unknowns seen at all", [](const Figures& f) { return InWords(f.outside_seen); }},

@@ -16,9 +16,13 @@ namespace {
 constexpr std::size_t kTrainLogs = 3;
 constexpr std::size_t kReferenceLogs = 4;
 constexpr std::size_t kDaysBefore = 10;  // of the hulls' own logs; then a case a day
-constexpr int kNominalCases = 30;
+constexpr int kNominalCases = 300;
+constexpr int kOfEachPair = 5;
+constexpr int kOfEachOutside = 5;  // of each size
 constexpr std::array<double, 3> kSizes{0.5, 1.0, 2.0};
 constexpr std::array<double, 2> kOutsideSizes{1.0, 2.0};
+
+constexpr std::array<const char*, 3> kWeather{"wind", "current", "waves"};
 
 using Pair = std::pair<const char*, const char*>;
 
@@ -57,7 +61,7 @@ void AddSingles(std::vector<Case>& cases, RandomStream& rng) {
     if (!effect.in_library) continue;
     for (const double size : kSizes) {
       for (const double sign : effect.has_sign ? std::vector{-1.0, 1.0} : std::vector{1.0}) {
-        cases.push_back({"single", {{effect.name, size * rng.Uniform(0.9, 1.1), sign}}});
+        cases.push_back({"single", {{effect.name, size * rng.Uniform(0.9, 1.1), sign}}, {}});
       }
     }
   }
@@ -67,16 +71,48 @@ void AddOutside(std::vector<Case>& cases, RandomStream& rng) {
   for (const Effect& effect : Effects()) {
     if (effect.in_library) continue;
     for (const double size : kOutsideSizes) {
-      cases.push_back({"outside", {{effect.name, size * rng.Uniform(0.9, 1.1), 1.0}}});
+      for (int repeat = 0; repeat < kOfEachOutside; ++repeat) {
+        cases.push_back({"outside", {{effect.name, size * rng.Uniform(0.9, 1.1), 1.0}}, {}});
+      }
     }
   }
 }
 
 void AddPairs(std::vector<Case>& cases, Set set, RandomStream& rng) {
   for (const Pair& pair : set == Set::kDevelopment ? kDevelopmentPairs : kHeldOutPairs) {
-    cases.push_back({"pair",
-                     {{pair.first, rng.Uniform(0.9, 1.6), rng.Sign()},
-                      {pair.second, rng.Uniform(0.9, 1.6), rng.Sign()}}});
+    for (int repeat = 0; repeat < kOfEachPair; ++repeat) {
+      cases.push_back({"pair",
+                       {{pair.first, rng.Uniform(0.9, 1.6), rng.Sign()},
+                        {pair.second, rng.Uniform(0.9, 1.6), rng.Sign()}},
+                       {}});
+    }
+  }
+}
+
+/// Wind of 3.5 to 7 m/s, a current of 0.1 to 0.4 m/s or waves of 5 to 20 N.
+AppliedEffect DrawnWeather(RandomStream& rng) {
+  return {kWeather[rng.Below(kWeather.size())], rng.LogUniform(0.5, 2.0), 1.0};
+}
+
+bool IsInWeather(const Case& planned) {
+  return std::any_of(
+      planned.effects.begin(), planned.effects.end(), [](const AppliedEffect& applied) {
+        return std::find(kWeather.begin(), kWeather.end(), applied.effect) != kWeather.end();
+      });
+}
+
+/// To as many cases of a kind, drawn, as put half of it in weather.
+void AddWeather(std::vector<Case>& cases, const std::string& kind, RandomStream& rng) {
+  std::vector<Case*> calm;
+  std::size_t of_kind = 0;
+  for (Case& planned : cases) {
+    if (planned.kind != kind) continue;
+    ++of_kind;
+    if (!IsInWeather(planned)) calm.push_back(&planned);
+  }
+  rng.Shuffle(calm);
+  for (std::size_t left = calm.size(); left > of_kind / 2; --left) {
+    calm[left - 1]->weather = {DrawnWeather(rng)};
   }
 }
 
@@ -109,21 +145,30 @@ std::string EffectLabel(const AppliedEffect& applied, const std::vector<Paramete
   return label + "]}";
 }
 
+/// Turns the effects on and returns their labels, a list.
+std::string Applied(const std::vector<AppliedEffect>& effects, Scenario& scenario,
+                    const char* purpose, const RandomStream& rng) {
+  std::string labels;
+  for (std::size_t at = 0; at < effects.size(); ++at) {
+    const AppliedEffect& applied = effects[at];
+    RandomStream draws = rng.For(purpose, at);
+    const auto parameters =
+        EffectNamed(applied.effect).apply(scenario, applied.size, applied.sign, draws);
+    labels += (at == 0 ? "" : ",") + EffectLabel(applied, parameters);
+  }
+  return "[" + labels + "]";
+}
+
 /// The day's scenario with and without the case's effects, and its label.
 std::pair<SimulatedRun, std::string> Prepared(const Case& asked, const Hull& hull, double onset_s,
                                               double duration_s, const RandomStream& rng) {
   const Scenario nominal{.hull = hull, .weather = LightDay(rng.For("weather")), .faults = {}};
   SimulatedRun run{nominal, nominal, onset_s, duration_s};
   std::string label = "{\"kind\":" + InQuotes(asked.kind) + ",\"hull\":" + InQuotes(hull.name) +
-                      ",\"onset_s\":" + Number(onset_s) + ",\"effects\":[";
-  for (std::size_t at = 0; at < asked.effects.size(); ++at) {
-    const AppliedEffect& applied = asked.effects[at];
-    RandomStream draws = rng.For("effect", at);
-    const auto parameters =
-        EffectNamed(applied.effect).apply(run.after, applied.size, applied.sign, draws);
-    label += (at == 0 ? "" : ",") + EffectLabel(applied, parameters);
-  }
-  return {run, label + "]}"};
+                      ",\"onset_s\":" + Number(onset_s);
+  label += ",\"effects\":" + Applied(asked.effects, run.after, "effect", rng);
+  label += ",\"weather\":" + Applied(asked.weather, run.after, "weather beside", rng);
+  return {run, label + "}"};
 }
 
 void Record(const SimulatedRun& run, Set set, std::size_t day, const RandomStream& rng,
@@ -135,7 +180,7 @@ void Record(const SimulatedRun& run, Set set, std::size_t day, const RandomStrea
 
 void WriteNominal(const CampaignOptions& options, const Hull& hull, std::size_t day,
                   const RandomStream& rng, const std::filesystem::path& folder) {
-  const auto [run, label] = Prepared({"nominal", {}}, hull, 0.0, options.duration_s, rng);
+  const auto [run, label] = Prepared({"nominal", {}, {}}, hull, 0.0, options.duration_s, rng);
   Record(run, options.set, day, rng, folder);
 }
 
@@ -146,11 +191,12 @@ std::vector<Case> PlannedCases(Set set, std::uint64_t seed, std::size_t repeats)
   const std::size_t hulls = Fleet(set, seed).size();
   std::vector<Case> cases;
   for (std::size_t repeat = 0; repeat < repeats; ++repeat) {
-    for (int nominal = 0; nominal < kNominalCases; ++nominal) cases.push_back({"nominal", {}});
+    for (int nominal = 0; nominal < kNominalCases; ++nominal) cases.push_back({"nominal", {}, {}});
     AddSingles(cases, rng);
     AddPairs(cases, set, rng);
     AddOutside(cases, rng);
   }
+  for (const char* kind : {"nominal", "single", "pair", "outside"}) AddWeather(cases, kind, rng);
   // Hulls are dealt out within the kinds, so that each hull meets about as many of each.
   std::size_t hull = rng.Below(hulls);
   for (std::size_t at = 0; at < cases.size(); ++at) {
@@ -167,7 +213,7 @@ std::vector<Case> NominalDays(Set set, std::uint64_t seed, std::size_t days) {
   const std::size_t hulls = Fleet(set, seed).size();
   std::vector<Case> cases;
   for (std::size_t at = 0; at < days; ++at) {
-    cases.push_back({"nominal", {}, at % hulls, kAfterAllCases + at});
+    cases.push_back({"nominal", {}, {}, at % hulls, kAfterAllCases + at});
   }
   return cases;
 }
@@ -230,7 +276,7 @@ std::string WriteSingleCase(const SingleCaseOptions& options, const std::filesys
     throw std::invalid_argument("no hull " + options.hull + " in this set; there are" + known);
   }
   const RandomStream rng = Yard(options.set, options.seed).For("single case");
-  const Case asked{options.effects.empty() ? "nominal" : "single", options.effects};
+  const Case asked{options.effects.empty() ? "nominal" : "single", options.effects, {}};
   const auto [run, label] = Prepared(asked, *hull, options.onset_s, options.duration_s, rng);
   Record(run, options.set, kDaysBefore, rng, folder / "log");
   WriteFile(folder / "hull", hull->name + "\n");

@@ -21,14 +21,16 @@ struct AppliedEffect {
 struct Case {
   std::string kind;  // nominal, single, pair or outside (the library)
   std::vector<AppliedEffect> effects;
+  std::vector<AppliedEffect> weather;  // beside those: wind, current or waves on half of all days
   std::size_t hull = 0;
   std::uint64_t day = 0;  // of no two cases alike
 };
 
-/// All cases of a set in the order of their numbers, which is drawn.
+/// All cases of a set in the order of their numbers, which is drawn. Half of each kind is in
+/// weather, that of its effects or some beside them.
 std::vector<Case> PlannedCases(Set set, std::uint64_t seed, std::size_t repeats);
 
-/// Days with nothing wrong, none of them one of the set's cases, dealt out over its hulls.
+/// Calm days with nothing wrong, none of them one of the set's cases, dealt out over its hulls.
 std::vector<Case> NominalDays(Set set, std::uint64_t seed, std::size_t days);
 
 struct CampaignOptions {

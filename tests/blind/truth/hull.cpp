@@ -50,6 +50,9 @@ Hull Drawn(const std::string& name, RandomStream rng) {
   hull.windage_lever = rng.Uniform(0.05, 0.12);
   hull.antenna_forward_m = rng.Uniform(-0.25, 0.25);
   hull.antenna_starboard_m = rng.Uniform(-0.1, 0.1);
+  hull.clocks = {.commands_s = rng.Uniform(-0.05, 0.05),
+                 .fixes_s = rng.Uniform(0.0, 0.1),
+                 .headings_s = rng.Uniform(0.0, 0.04)};
   return hull;
 }
 

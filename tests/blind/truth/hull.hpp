@@ -9,6 +9,13 @@
 
 namespace blind::truth {
 
+/// How much later than it happened each channel is stamped, seconds.
+struct Clocks {
+  double commands_s = 0.0;
+  double fixes_s = 0.0;
+  double headings_s = 0.0;
+};
+
 /// A 1.3 m catamaran with two T200. Body axes: x forward, y to starboard, z down; SI throughout.
 struct Hull {
   std::string name;
@@ -47,6 +54,7 @@ struct Hull {
   double windage_lever = 0.1;  // C_N over C_Y at its largest
   double antenna_forward_m = 0.0;
   double antenna_starboard_m = 0.0;
+  Clocks clocks;  // of every day alike; a day has a little of its own besides
 };
 
 enum class Set { kDevelopment, kHeldOut };

@@ -13,8 +13,9 @@
 namespace blind::truth {
 namespace {
 
-constexpr int kStepsPerFix = 40;      // 5 Hz
-constexpr int kStepsPerHeading = 10;  // 20 Hz
+constexpr int kStepsPerFix = 40;       // 5 Hz
+constexpr int kStepsPerHeading = 10;   // 20 Hz
+constexpr int kCommandsPerSample = 5;  // 10 Hz
 
 /// North and east metres to degrees around a point of the Baltic, on WGS 84.
 class Chart {
@@ -57,6 +58,14 @@ double Shown(double heading_rad, const Faults& faults) {
   return heading_rad + std::remainder(shown - heading_rad, 360.0 * kDegree);
 }
 
+/// The hull's clocks, each a few milliseconds off on that day.
+Clocks ClocksOfDay(const Hull& hull, RandomStream rng) {
+  constexpr double kFromDayToDayS = 0.005;
+  return {.commands_s = hull.clocks.commands_s + rng.Normal(kFromDayToDayS),
+          .fixes_s = hull.clocks.fixes_s + rng.Normal(kFromDayToDayS),
+          .headings_s = hull.clocks.headings_s + rng.Normal(kFromDayToDayS)};
+}
+
 std::string Fixes(const Track& track, const SimulatedRun& simulated_run, double start_s,
                   RandomStream rng) {
   constexpr double kFixDriftTimeS = 20.0;
@@ -82,7 +91,7 @@ std::string Fixes(const Track& track, const SimulatedRun& simulated_run, double 
     const double east = boat.east_m + s * forward + c * starboard + rng.Normal(0.01) +
                         east_drift.Step(kStepsPerFix * kStepS) +
                         faults.fix_drift_m * east_fix_drift.Step(kStepsPerFix * kStepS);
-    AppendLine(text, "%.1f,%.10f,%.10f\n", start_s + time, chart.LatitudeDeg(north),
+    AppendLine(text, "%.6f,%.10f,%.10f\n", start_s + time, chart.LatitudeDeg(north),
                chart.LongitudeDeg(east));
   }
   return text;
@@ -103,15 +112,15 @@ std::string Headings(const Track& track, const SimulatedRun& simulated_run, doub
                          faults.heading_drift_rad * applied_drift.Step(kStepsPerHeading * kStepS);
     double degrees = std::fmod(shown / kDegree, 360.0);
     if (degrees < 0.0) degrees += 360.0;
-    AppendLine(text, "%.2f,%.4f\n", start_s + time, degrees);
+    AppendLine(text, "%.6f,%.4f\n", start_s + time, degrees);
   }
   return text;
 }
 
 std::string Commands(const Track& track, double start_s) {
   std::string text = "time_s,left_us,right_us\n";
-  for (std::size_t at = 0; at < track.commands.size(); ++at) {
-    AppendLine(text, "%.1f,%.0f,%.0f\n",
+  for (std::size_t at = 0; at < track.commands.size(); at += kCommandsPerSample) {
+    AppendLine(text, "%.6f,%.0f,%.0f\n",
                start_s + static_cast<double>(at) * kStepsPerCommand * kStepS,
                track.commands[at].port_us, track.commands[at].starboard_us);
   }
@@ -134,9 +143,12 @@ void WriteRecording(const Track& track, const SimulatedRun& simulated_run, std::
   constexpr double kFirstMorningS = 1717221600.0;
   constexpr double kDayS = 86400.0;
   const double start = kFirstMorningS + kDayS * static_cast<double>(day);
-  WriteFile(folder / "gnss.csv", Fixes(track, simulated_run, start, rng.For("fixes")));
-  WriteFile(folder / "heading.csv", Headings(track, simulated_run, start, rng.For("headings")));
-  WriteFile(folder / "thrusters.csv", Commands(track, start));
+  const Clocks clocks = ClocksOfDay(simulated_run.before.hull, rng.For("clocks"));
+  WriteFile(folder / "gnss.csv",
+            Fixes(track, simulated_run, start + clocks.fixes_s, rng.For("fixes")));
+  WriteFile(folder / "heading.csv",
+            Headings(track, simulated_run, start + clocks.headings_s, rng.For("headings")));
+  WriteFile(folder / "thrusters.csv", Commands(track, start + clocks.commands_s));
 }
 
 }  // namespace blind::truth

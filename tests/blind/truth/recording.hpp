@@ -7,9 +7,9 @@
 namespace blind::truth {
 
 /// What the sensors make of a track, as telemetry files: GNSS at 5 Hz with 1 cm white and 1.5 cm
-/// Gauss-Markov noise a horizontal axis, heading at 20 Hz with 0.2 and 0.15 degrees, commands at 10
-/// Hz.
-/// Stamped in seconds of the Unix epoch, on the day of that number.
+/// Gauss-Markov noise a horizontal axis, heading at 20 Hz with 0.2 and 0.15 degrees, commands
+/// sampled at 10 Hz. Stamped in seconds of the Unix epoch by the hull's clocks, which differ
+/// between channels, on the day of that number.
 void WriteRecording(const Track& track, const SimulatedRun& simulated_run, std::size_t day,
                     RandomStream rng, const std::filesystem::path& folder);
 

@@ -8,14 +8,14 @@
 namespace blind::truth {
 
 inline constexpr double kStepS = 0.005;
-inline constexpr int kStepsPerCommand = 20;  // 10 Hz
+inline constexpr int kStepsPerCommand = 4;  // an autopilot of 50 Hz
 
 struct Pulses {
   double port_us = 1500.0;
   double starboard_us = 1500.0;
 };
 
-/// The boat every kStepS from time zero on, and what its thrusters were commanded at 10 Hz.
+/// The boat every kStepS from time zero on, and what its thrusters were commanded.
 struct Track {
   std::vector<State> states;
   std::vector<Pulses> commands;
