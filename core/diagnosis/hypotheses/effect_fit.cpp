@@ -35,21 +35,17 @@ EffectFit FitOfMinimum(const PosteriorPoint& minimum, const EffectPosterior& pos
   const ResidualMetric& metric = posterior.Metric();
   const EffectParameters& parameters = posterior.Parameters();
   const Eigen::MatrixXd jacobian = posterior.Jacobian(minimum);
-  const Eigen::VectorXd prior = parameters.PriorInformation();
-  // The curvature of n ln(square), n the effective number of observations.
-  const Eigen::MatrixXd curvature = jacobian.transpose() * metric.Marginalise(jacobian);
-  Eigen::MatrixXd information = metric.EffectiveObservations() / minimum.square * curvature;
-  information.diagonal() += prior;
+  const Eigen::MatrixXd information =
+      posterior.Information(minimum, jacobian, metric.Marginalise(jacobian));
   const Eigen::LLT<Eigen::MatrixXd> factor(information);
-  const double log_determinant =
-      2.0 * factor.matrixLLT().diagonal().array().log().sum() - prior.array().log().sum();
+  const double log_determinant = 2.0 * factor.matrixLLT().diagonal().array().log().sum() -
+                                 parameters.PriorInformation().array().log().sum();
 
   EffectFit fit;
   fit.effects = parameters.Effects(minimum.scaled);
   fit.covariance = Scaled(Inverse(information), parameters.TypicalSizes());
   fit.square = minimum.square;
-  fit.score =
-      metric.Deviance(minimum.square, none) + minimum.cost - minimum.square + log_determinant;
+  fit.score = minimum.cost - metric.Deviance(none, metric.ExpectedSquare()) + log_determinant;
   fit.errors = minimum.errors;
   return fit;
 }

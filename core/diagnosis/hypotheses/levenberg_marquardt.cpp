@@ -21,12 +21,8 @@ struct NormalEquations {
 NormalEquations NormalEquationsAt(const EffectPosterior& posterior, const PosteriorPoint& point) {
   const Eigen::MatrixXd jacobian = posterior.Jacobian(point);
   const Eigen::MatrixXd marginalised = posterior.Metric().Marginalise(jacobian);
-  const Eigen::VectorXd prior = posterior.Parameters().PriorInformation();
-  NormalEquations equations;
-  equations.information = jacobian.transpose() * marginalised;
-  equations.information.diagonal() += prior;
-  equations.gradient = marginalised.transpose() * point.whitened + prior.cwiseProduct(point.scaled);
-  return equations;
+  return {posterior.Information(point, jacobian, marginalised),
+          posterior.Gradient(point, marginalised)};
 }
 
 PosteriorPoint DampedStep(const EffectPosterior& posterior, const PosteriorPoint& point,

@@ -8,11 +8,15 @@
 namespace telltale {
 namespace {
 
-/// The minimum of the cost that is linearised at no effect.
+// The square that is left decides the weight of the prior, and the sizes decide what is left: in
+// turn.
+constexpr int kRounds = 3;
+
+/// The minimum of the posterior's cost, (88), that is linearised at no effect.
 struct LinearEstimate {
   std::vector<Eigen::Index> columns;  ///< of the effect's parameters in the sensitivity
   Eigen::VectorXd sizes;              ///< in typical sizes, within the range
-  double decrease = 0.0;              ///< of the cost
+  double remaining_share = 1.0;       ///< of the square
 };
 
 std::vector<Eigen::Index> ColumnsOf(const Effect& effect,
@@ -24,28 +28,45 @@ std::vector<Eigen::Index> ColumnsOf(const Effect& effect,
   return columns;
 }
 
+/// Sizes within the ranges of the effect's parameters.
+Eigen::VectorXd Clamped(Eigen::VectorXd sizes, const Effect& effect,
+                        const std::vector<EffectParameterRef>& parameter_refs,
+                        const std::vector<Eigen::Index>& columns) {
+  for (std::size_t k = 0; k < columns.size(); ++k) {
+    const EffectParameterRef& ref = parameter_refs[static_cast<std::size_t>(columns[k])];
+    const EffectParameter& parameter = effect.Parameters()[ref.parameter];
+    double& size = sizes[static_cast<Eigen::Index>(k)];
+    size =
+        std::clamp(size, parameter.lower / parameter.typical, parameter.upper / parameter.typical);
+  }
+  return sizes;
+}
+
 LinearEstimate LinearEstimateOf(const Effect& effect, const ResidualMetric& metric,
                                 const Eigen::MatrixXd& errors, const Sensitivity& recording,
                                 const std::vector<EffectParameterRef>& parameter_refs) {
+  constexpr double kPriorVariance =
+      kDiagnosis.effect_fit.prior_width * kDiagnosis.effect_fit.prior_width;
   LinearEstimate estimate;
   estimate.columns = ColumnsOf(effect, parameter_refs);
   const Eigen::MatrixXd whitened =
       metric.WhitenColumns(recording.by_effect_parameter(Eigen::all, estimate.columns));
   const Eigen::MatrixXd marginalised = metric.Marginalise(whitened);
-  const Eigen::VectorXd gradient = marginalised.transpose() * metric.Whiten(errors);
-  Eigen::MatrixXd information = whitened.transpose() * marginalised;
-  information.diagonal().array() +=
-      1.0 / (kDiagnosis.effect_fit.prior_width * kDiagnosis.effect_fit.prior_width);
-  estimate.sizes = -information.ldlt().solve(gradient);
-  for (std::size_t k = 0; k < estimate.columns.size(); ++k) {
-    const EffectParameterRef& ref = parameter_refs[static_cast<std::size_t>(estimate.columns[k])];
-    const EffectParameter& parameter = effect.Parameters()[ref.parameter];
-    double& size = estimate.sizes[static_cast<Eigen::Index>(k)];
-    size =
-        std::clamp(size, parameter.lower / parameter.typical, parameter.upper / parameter.typical);
+  const Eigen::VectorXd left = metric.Whiten(errors);
+  const double none = metric.SquaredMahalanobis(left);
+  const Eigen::VectorXd gradient = marginalised.transpose() * left;
+  const Eigen::MatrixXd curvature = whitened.transpose() * marginalised;
+  for (int round = 0; round < kRounds; ++round) {
+    Eigen::MatrixXd information = curvature;
+    information.diagonal().array() +=
+        estimate.remaining_share * none / metric.EffectiveObservations() / kPriorVariance;
+    estimate.sizes =
+        Clamped(-information.ldlt().solve(gradient), effect, parameter_refs, estimate.columns);
+    const double decrease =
+        -2.0 * gradient.dot(estimate.sizes) - estimate.sizes.dot(curvature * estimate.sizes);
+    estimate.remaining_share =
+        std::clamp(1.0 - decrease / none, kDiagnosis.effect_fit.minimum_remaining_share, 1.0);
   }
-  estimate.decrease =
-      -2.0 * gradient.dot(estimate.sizes) - estimate.sizes.dot(information * estimate.sizes);
   return estimate;
 }
 
@@ -86,12 +107,8 @@ std::vector<Eigen::VectorXd> StartsOf(const Effect& effect, const ResidualMetric
 double ScoreTest(const Effect& effect, const ResidualMetric& metric, const Eigen::MatrixXd& errors,
                  const Sensitivity& recording,
                  const std::vector<EffectParameterRef>& parameter_refs) {
-  const double none = metric.SquaredMahalanobis(metric.Whiten(errors));
-  const double decrease =
-      LinearEstimateOf(effect, metric, errors, recording, parameter_refs).decrease;
   return metric.Deviance(
-      std::clamp(none - decrease, kDiagnosis.effect_fit.minimum_remaining_share * none, none),
-      none);
+      LinearEstimateOf(effect, metric, errors, recording, parameter_refs).remaining_share, 1.0);
 }
 
 }  // namespace telltale

@@ -38,49 +38,56 @@ class LinearProblem : public ::testing::Test {
   const ResidualMetric metric_ = UnitMetric();
   const EffectFit fit_ = FitEffects(error_model_, metric_, {&effect_}, {Eigen::Vector2d::Zero()});
 
-  // The posterior of scaled values x in closed form: errors e + J x, prior N(0, 4 I).
+  // The posterior of scaled values x: errors e + J x of unknown scale, prior N(0, 4 I), whose
+  // weight is the square that is left per observation. n is half an observation a window.
+  static constexpr double kObservations = 0.5 * static_cast<double>(kWindows);
   const Eigen::MatrixXd jacobian_ = [this] {
     Eigen::MatrixXd jacobian(kRows * kWindows, 2);
     jacobian << 2.0 * first_.reshaped(), 0.5 * second_.reshaped();
     return jacobian;
   }();
   const Eigen::Matrix2d prior_ = 0.25 * Eigen::Matrix2d::Identity();
-  const Eigen::Vector2d scaled_ =
-      -(jacobian_.transpose() * jacobian_ + prior_)
-           .ldlt()
-           .solve(Eigen::Vector2d(jacobian_.transpose() * errors_.reshaped()));
+  const Eigen::Vector2d scaled_ = [this] {
+    Eigen::Vector2d scaled = Eigen::Vector2d::Zero();
+    for (int round = 0; round < 50; ++round) {
+      const double square = (errors_.reshaped() + jacobian_ * scaled).squaredNorm();
+      scaled = -(jacobian_.transpose() * jacobian_ + square / kObservations * prior_)
+                    .ldlt()
+                    .solve(Eigen::Vector2d(jacobian_.transpose() * errors_.reshaped()));
+    }
+    return scaled;
+  }();
   const double square_ = (errors_.reshaped() + jacobian_ * scaled_).squaredNorm();
-  // n / Q times the curvature, n half an observation a window, and the prior.
+  // n / Q times the curvature, and the prior.
   const Eigen::Matrix2d information_ =
-      0.5 * static_cast<double>(kWindows) / square_ * jacobian_.transpose() * jacobian_ + prior_;
+      kObservations / square_ * jacobian_.transpose() * jacobian_ + prior_;
 };
 
-TEST_F(LinearProblem, HasThePosteriorMeanInClosedForm) {
+TEST_F(LinearProblem, HasTheModeOfThePosterior) {
   ASSERT_EQ(fit_.effects.size(), 1U);
-  EXPECT_NEAR(fit_.effects[0].values[0], 2.0 * scaled_[0], 1e-5);
-  EXPECT_NEAR(fit_.effects[0].values[1], 0.5 * scaled_[1], 1e-5);
-  EXPECT_NEAR(fit_.square, square_, 1e-6);
+  EXPECT_NEAR(fit_.effects[0].values[0], 2.0 * scaled_[0], 1e-3);
+  EXPECT_NEAR(fit_.effects[0].values[1], 0.5 * scaled_[1], 1e-3);
+  EXPECT_NEAR(fit_.square, square_, 1e-3);
 }
 
 TEST_F(LinearProblem, HasThePosteriorCovarianceInClosedForm) {
   const Eigen::Vector2d typical(2.0, 0.5);
   const Eigen::Matrix2d expected =
       typical.asDiagonal() * information_.inverse() * typical.asDiagonal();
-  EXPECT_TRUE(fit_.covariance.isApprox(expected, 1e-6)) << fit_.covariance << "\n" << expected;
+  EXPECT_TRUE(fit_.covariance.isApprox(expected, 1e-3)) << fit_.covariance << "\n" << expected;
 }
 
 // docs/concepts/diagnosis.md (89).
 TEST_F(LinearProblem, IsScoredByLaplacesEvidence) {
-  const double n = 0.5 * static_cast<double>(kWindows);
-  const double expected = n * std::log(square_ / errors_.squaredNorm()) +
+  const double expected = kObservations * std::log(square_ / errors_.squaredNorm()) +
                           scaled_.dot(prior_ * scaled_) +
                           std::log(information_.determinant() / prior_.determinant());
-  EXPECT_NEAR(fit_.score, expected, 1e-5);
+  EXPECT_NEAR(fit_.score, expected, 1e-3);
   EXPECT_LT(fit_.score, 0.0);
 }
 
 TEST_F(LinearProblem, ReturnsTheErrorsThatTheEffectLeaves) {
-  EXPECT_TRUE(fit_.errors.reshaped().isApprox(errors_.reshaped() + jacobian_ * scaled_, 1e-6));
+  EXPECT_TRUE(fit_.errors.reshaped().isApprox(errors_.reshaped() + jacobian_ * scaled_, 1e-3));
   EXPECT_EQ(fit_.gusts.size(), 0);
 }
 
