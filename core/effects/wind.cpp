@@ -12,6 +12,9 @@ namespace {
 constexpr double kSurge = 0.0028;
 constexpr double kSway = 0.0040;
 constexpr double kYaw = 0.0045;
+// Of areas that few vehicle files state, and of drag coefficients, from boat to boat. The force
+// says no more of the wind than the drag allows.
+constexpr double kDragSpread = 0.3;
 // Turbulence intensity: scatter of the speed over its mean, low over sheltered water.
 constexpr double kTurbulence = 0.2;
 // Gusts that move a boat last 3 to 20 s; this is their geometric mean.
@@ -24,8 +27,8 @@ class WindEffect final : public Effect {
   WindEffect()
       : Effect({.name = "wind",
                 .title = "wind",
-                .equation = "nu_dot += (kx |V_rw| V_rw,x, ky a |V_rw| V_rw,y, kn b V_rw,x V_rw,y + "
-                            "s L (m + A22) / (I + A66) ky a |V_rw| V_rw,y), "
+                .equation = "nu_dot += d (kx |V_rw| V_rw,x, ky a |V_rw| V_rw,y, kn b V_rw,x V_rw,y "
+                            "+ s L (m + A22) / (I + A66) ky a |V_rw| V_rw,y), "
                             "V_rw = R(psi)' V_w - nu, less the same in still air; kx ~ A_F / m, "
                             "ky ~ A_L / (m + A22), kn ~ A_L / ((1 + A66 / I) m L); s L is how far "
                             "the centre of the lateral area is ahead",
@@ -35,7 +38,8 @@ class WindEffect final : public Effect {
                                {"wind_east", "m/s", 4.0, -25.0, 25.0},
                                {"side_ratio", "1", 0.5, 0.3, 3.0, true, 1.0},
                                {"yaw_ratio", "1", 1.0, -3.0, 3.0, true, 0.0},
-                               {"area_centre", "1", 0.1, -0.4, 0.4, true, 0.0}},
+                               {"area_centre", "1", 0.1, -0.4, 0.4, true, 0.0},
+                               {"drag_ratio", "1", kDragSpread, 0.4, 2.5, true, 1.0}},
                 .settled_by = "an anemometer",
                 .hook = Hook::kAcceleration,
                 .nominal_variation = NominalVariation::kRecordingEffect,
@@ -57,11 +61,13 @@ class WindEffect final : public Effect {
     // The drag of still air is in the coefficients of the hull already.
     const double still = std::hypot(nu.u, nu.v);
     const HullScale& hull = instant.hull_scale;
-    const double surge = kSurge * (hull.frontal_area / hull.mass);
-    const double sway = kSway * (hull.lateral_area / (hull.mass * hull.SwayMassRatio()));
+    const double drag_ratio = values[5];
+    const double surge = kSurge * drag_ratio * (hull.frontal_area / hull.mass);
+    const double sway =
+        kSway * drag_ratio * (hull.lateral_area / (hull.mass * hull.SwayMassRatio()));
     const double from_side = sway * values[2] * (speed * relative_starboard + still * nu.v);
-    const double yaw =
-        kYaw * (hull.lateral_area / (hull.mass * hull.length * hull.YawInertiaRatio()));
+    const double yaw = kYaw * drag_ratio *
+                       (hull.lateral_area / (hull.mass * hull.length * hull.YawInertiaRatio()));
     return {surge * (speed * relative_forward + still * nu.u), from_side,
             yaw * values[3] * (relative_forward * relative_starboard - nu.u * nu.v) +
                 values[4] * hull.length_m * hull.SwayOverYawInertia() * from_side};

@@ -20,12 +20,13 @@ InstantState At(double time_s) {
 TEST(GustPattern, IsTheEffectWithTheValueOfTheInstant) {
   const Effect& wind = *FindEffect("wind");
   const GustPattern gust(wind, {1, 2.0, 2.0 * std::numbers::pi / kPeriodS, 0.0});
-  const std::vector<double> mean = {3.0, -4.0, 1.0, 0.5, 0.1};
+  const std::vector<double> mean = {3.0, -4.0, 1.0, 0.5, 0.1, 1.0};
   for (const auto& [time_s, east] :
        {std::pair{0.0, -2.0}, std::pair{0.25 * kPeriodS, -4.0}, std::pair{0.5 * kPeriodS, -6.0}}) {
     const InstantState instant = At(time_s);
     const NuDot gusting = gust.AddedAcceleration(mean, instant);
-    const NuDot steady = wind.AddedAcceleration(std::vector{3.0, east, 1.0, 0.5, 0.1}, instant);
+    const NuDot steady =
+        wind.AddedAcceleration(std::vector{3.0, east, 1.0, 0.5, 0.1, 1.0}, instant);
     EXPECT_NEAR(gusting.u, steady.u, 1e-12) << time_s;
     EXPECT_NEAR(gusting.v, steady.v, 1e-12) << time_s;
     EXPECT_NEAR(gusting.r, steady.r, 1e-12) << time_s;

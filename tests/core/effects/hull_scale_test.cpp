@@ -51,7 +51,7 @@ TEST(HullScale, AddedMassGoesWithDraughtSquaredAndLengthOverMass) {
 
 TEST(WindOfTheDefaultHull, HasTheCoefficientsOfTheLibrary) {
   // At rest heading north: V_rw = (3, 4), |V_rw| = 5.
-  const NuDot added = Added("wind", {3.0, 4.0, 0.9, 0.5, 0.0}, {});
+  const NuDot added = Added("wind", {3.0, 4.0, 0.9, 0.5, 0.0, 1.0}, {});
   EXPECT_DOUBLE_EQ(added.u, 0.0028 * 5.0 * 3.0);
   EXPECT_DOUBLE_EQ(added.v, 0.0040 * 0.9 * 5.0 * 4.0);
   EXPECT_DOUBLE_EQ(added.r, 0.0045 * 0.5 * 3.0 * 4.0);
@@ -61,12 +61,12 @@ TEST(WindOfTheDefaultHull, HasTheCoefficientsOfTheLibrary) {
 // (m + A22) / m = 1.5, (I + A66) / I = 1.3 and I = m (0.4 m)^2.
 TEST(WindOfTheDefaultHull, TurnsTheBoatAboutItsLateralAreasCentre) {
   constexpr double kCentre = 0.1;
-  const NuDot added = Added("wind", {0.0, 5.0, 1.0, 0.0, kCentre}, {});
+  const NuDot added = Added("wind", {0.0, 5.0, 1.0, 0.0, kCentre, 1.0}, {});
   EXPECT_NEAR(added.r, kCentre * 1.3 * 1.5 / (1.3 * 0.16) * added.v, 1e-12);
 }
 
 TEST(WindOfAStatedHull, GoesWithAreaOverMassAndInertia) {
-  const std::vector<double> values = {3.0, 4.0, 0.9, 0.5, 0.1};
+  const std::vector<double> values = {3.0, 4.0, 0.9, 0.5, 0.1, 1.0};
   const NuDot plain = Added("wind", values, {});
   const NuDot larger = Added("wind", values, {.frontal_area_m2 = 0.5, .lateral_area_m2 = 1.2});
   EXPECT_NEAR(larger.u, 2.0 * plain.u, 1e-12);
@@ -175,7 +175,7 @@ TEST(HullOfAVehicle, ReachesTheBoatThroughThePreparedDataset) {
   Vehicle vehicle = testing::StableBoatVehicle();
   vehicle.hull = HullParticulars{.frontal_area_m2 = 0.5};
   const AugmentedModel model{testing::StableBoat(),
-                             {{FindEffect("wind"), {4.0, 0.0, 1.0, 0.0, 0.0}}}};
+                             {{FindEffect("wind"), {4.0, 0.0, 1.0, 0.0, 0.0, 1.0}}}};
   const auto track = Simulate(model, testing::VariedCommands(60.0, 3), 60.0, 0.1);
   PrepareOptions options;
   options.sampling_period_s = 0.2;
