@@ -9,6 +9,7 @@
 #include "telltale/core/diagnosis/baseline/synthetic_references.hpp"
 #include "telltale/core/diagnosis/hypotheses/augmented_identification.hpp"
 #include "telltale/core/diagnosis/report/build_report.hpp"
+#include "telltale/core/diagnosis/report/reference_influence.hpp"
 #include "telltale/core/diagnosis/report/summary_sentence.hpp"
 #include "telltale/core/diagnosis/residuals/horizon_runs.hpp"
 #include "telltale/core/diagnosis/residuals/wiring_check.hpp"
@@ -67,31 +68,27 @@ std::optional<Improvement> ImprovementOf(const PreparedDataset& recording,
   return Improvement{scores_before->free_run, scores_after->free_run};
 }
 
-/// The gap of one more nominal recording, which took no part in the baseline; none without windows.
-std::optional<double> GapOf(const PreparedDataset& nominal_day, const HorizonErrors& main,
-                            const AugmentedModel& boat) {
-  const FreeRuns runs(nominal_day, boat.model, main.runs.HorizonS());
-  if (runs.Windows() == 0) return std::nullopt;
-  return std::sqrt(SquaredGaps(runs.Errors(boat), main.floor.scale, kAllChannels).mean());
+/// What the references do to the answer.
+void NoteInfluences(std::vector<ReferenceInfluence> influences, std::optional<double> squared_limit,
+                    Diagnosis& diagnosis) {
+  std::string note = DescribeInfluences(influences, diagnosis.verdict);
+  if (!note.empty()) diagnosis.notes.push_back(std::move(note));
+  if (squared_limit) {
+    diagnosis.notes.push_back(
+        "References that took no part in the baseline say that 95 % of nominal "
+        "days stay below a gap of " +
+        FormatNumber(std::sqrt(*squared_limit), 2) +
+        ". A smaller gap without a certain cause counts as undecided.");
+  }
+  diagnosis.reference_influence = std::move(influences);
 }
 
-/// What nominal days that took no part say, and which of them is to be scored.
-struct NominalDays {
-  const PreparedDataset* left_out = nullptr;
-  std::optional<double> squared_limit;
-};
-
-struct Answer {
-  DiagnosedModel diagnosed;
-  std::optional<double> gap_of_left_out;
-};
-
 /// Diagnose() with a model and references that are known to be usable.
-Result<Answer> DiagnoseAgainst(const std::vector<PreparedDataset>& references,
-                               const NominalDays& days, const PreparedDataset& recording,
-                               const Identification& identification, const UncertainModel& model,
-                               const DiagnoseOptions& options, const Progress& progress) {
-  Answer answer;
+Result<DiagnosedModel> DiagnoseAgainst(const std::vector<PreparedDataset>& references,
+                                       const PreparedDataset& recording,
+                                       const Identification& identification,
+                                       const UncertainModel& model, const DiagnoseOptions& options,
+                                       const Progress& progress) {
   const auto report_progress = [&](std::string_view stage, double share) {
     if (progress) progress(stage, share);
   };
@@ -108,8 +105,6 @@ Result<Answer> DiagnoseAgainst(const std::vector<PreparedDataset>& references,
   const std::vector<HorizonErrors> horizons = HorizonErrorsOf(*runs, nominal.boat);
   const HorizonErrors& main = horizons[runs->main];
 
-  if (days.left_out) answer.gap_of_left_out = GapOf(*days.left_out, main, nominal.boat);
-
   report_progress("sensitivities", 0.35);
   const Sensitivity sensitivity =
       SensitivityOf(main.runs, nominal.boat, model, parameter_refs, options.threads);
@@ -121,12 +116,19 @@ Result<Answer> DiagnoseAgainst(const std::vector<PreparedDataset>& references,
 
   const Hypotheses hypotheses =
       Search(problem, library, options.most_effects, options.threads,
-             [&](double share) { report_progress("effects", 0.4 + 0.4 * share); });
-  const Conclusion conclusion =
-      Conclude(hypotheses, problem, main, options.seed, days.squared_limit);
+             [&](double share) { report_progress("effects", 0.4 + 0.2 * share); });
+  std::vector<ReferenceInfluence> influences;
+  if (options.leave_out_references && references.size() > 1) {
+    influences =
+        InfluencesOf({references, options.reference_names, runs->Main(), problem, model, library,
+                      options.most_effects, options.seed, options.threads},
+                     [&](double share) { report_progress("references", 0.6 + 0.25 * share); });
+  }
+  const std::optional<double> squared_limit = SquaredLimitOf(influences);
+  const Conclusion conclusion = Conclude(hypotheses, problem, main, options.seed, squared_limit);
 
   report_progress("report", 0.85);
-  DiagnosedModel& diagnosed = answer.diagnosed;
+  DiagnosedModel diagnosed;
   diagnosed.diagnosis =
       BuildReport({recording, references, model, library, horizons, main, problem, hypotheses,
                    conclusion, options.advise, options.state_power, options.seed, options.threads});
@@ -135,89 +137,9 @@ Result<Answer> DiagnoseAgainst(const std::vector<PreparedDataset>& references,
     diagnosed.augmented = Augmented(identification, boat, conclusion.best, problem, model);
     diagnosed.diagnosis.improvement = ImprovementOf(recording, model.model, boat);
   }
+  NoteInfluences(std::move(influences), squared_limit, diagnosed.diagnosis);
   report_progress("done", 1.0);
-  return answer;
-}
-
-std::string ReferenceName(const DiagnoseOptions& options, std::size_t reference) {
-  return reference < options.reference_names.size() ? options.reference_names[reference]
-                                                    : "reference " + std::to_string(reference + 1);
-}
-
-ReferenceInfluence InfluenceOf(std::string reference, const Result<Answer>& without) {
-  ReferenceInfluence influence;
-  influence.reference = std::move(reference);
-  if (!without) return influence;
-  influence.own_gap = without->gap_of_left_out;
-  const Diagnosis& diagnosis = without->diagnosed.diagnosis;
-  influence.verdict = diagnosis.verdict;
-  influence.gap = diagnosis.Main().all;
-  if (diagnosis.causes.empty()) return influence;
-  const Cause& first = diagnosis.causes.front();
-  for (const CausalEffect& effect : first.effects) influence.effects.push_back(effect.effect);
-  influence.probability = first.probability;
-  return influence;
-}
-
-/// The answer without each reference in turn. Requires: two references or more.
-std::vector<ReferenceInfluence> InfluencesOf(const std::vector<PreparedDataset>& references,
-                                             const PreparedDataset& recording,
-                                             const Identification& identification,
-                                             const UncertainModel& model, DiagnoseOptions options,
-                                             const Progress& progress) {
-  // What is asked of them is the verdict.
-  options.advise = options.state_power = false;
-  std::vector<ReferenceInfluence> influences;
-  std::vector<PreparedDataset> others(references.begin() + 1, references.end());
-  for (std::size_t left_out = 0; left_out < references.size(); ++left_out) {
-    if (progress) {
-      progress("references",
-               static_cast<double>(left_out) / static_cast<double>(references.size()));
-    }
-    influences.push_back(
-        InfluenceOf(ReferenceName(options, left_out),
-                    DiagnoseAgainst(others, {&references[left_out], std::nullopt}, recording,
-                                    identification, model, options, {})));
-    // It takes the place of the next one, which is left out in turn.
-    if (left_out < others.size()) others[left_out] = references[left_out];
-  }
-  return influences;
-}
-
-/// Names the references without which the verdict is another.
-void NoteInfluences(Diagnosis& diagnosis) {
-  std::string deciding;
-  for (const ReferenceInfluence& influence : diagnosis.reference_influence) {
-    if (influence.verdict == diagnosis.verdict) continue;
-    deciding.append(deciding.empty() ? "" : ", ")
-        .append(influence.reference)
-        .append(" (")
-        .append(Name(influence.verdict))
-        .append(")");
-  }
-  if (deciding.empty()) return;
-  diagnosis.notes.push_back("Without one of these references the verdict is another: " + deciding +
-                            ". More references would settle it.");
-}
-
-/// What references that took no part in the baseline leave of a gap in doubt; none of fewer than
-/// two.
-std::optional<double> SquaredLimitOf(const std::vector<ReferenceInfluence>& influences) {
-  std::vector<double> squared_gaps;
-  for (const ReferenceInfluence& influence : influences) {
-    if (influence.own_gap) squared_gaps.push_back(*influence.own_gap * *influence.own_gap);
-  }
-  if (squared_gaps.size() < 2) return std::nullopt;
-  return SquaredLimitOfDays(squared_gaps);
-}
-
-void NoteDays(std::optional<double> squared_limit, Diagnosis& diagnosis) {
-  if (!squared_limit) return;
-  diagnosis.notes.push_back(
-      "References that took no part in the baseline say that 95 % of nominal "
-      "days stay below a gap of " +
-      FormatNumber(std::sqrt(*squared_limit), 2) +
-      ". A smaller gap without a certain cause counts as undecided.");
+  return diagnosed;
 }
 
 void DescribeReferences(std::size_t reference_logs, Diagnosis& diagnosis) {
@@ -266,23 +188,14 @@ Result<DiagnosedModel> Diagnose(const PreparedDataset& recording,
     return Refuse("model", "its simulation of this recording diverges",
                   "identify the boat again, or name reference logs");
   }
-  std::vector<ReferenceInfluence> influences;
-  if (options.leave_out_references && references.size() > 1) {
-    influences = InfluencesOf(references, recording, model, *uncertain, options, progress);
-  }
-  const std::optional<double> squared_limit = SquaredLimitOf(influences);
-  auto answer =
-      DiagnoseAgainst(references.empty() ? synthetic : references, {nullptr, squared_limit},
-                      recording, model, *uncertain, options, progress);
+  auto answer = DiagnoseAgainst(references.empty() ? synthetic : references, recording, model,
+                                *uncertain, options, progress);
   if (!answer) return tl::unexpected<Refusal>(std::move(answer).error());
-  Diagnosis& diagnosis = answer->diagnosed.diagnosis;
-  diagnosis.reference_influence = std::move(influences);
-  NoteInfluences(diagnosis);
-  NoteDays(squared_limit, diagnosis);
+  Diagnosis& diagnosis = answer->diagnosis;
   diagnosis.vehicle_id = vehicle_id;
   DescribeReferences(references.size(), diagnosis);
   diagnosis.sentence = SummarySentence(diagnosis);
-  return std::move(answer->diagnosed);
+  return answer;
 }
 
 }  // namespace telltale

@@ -22,8 +22,8 @@ struct DiagnoseOptions {
   std::vector<std::string> without;  ///< names of effects to leave out of the library
   bool advise = true;                ///< manoeuvres that separate equivalent hypotheses
   bool state_power = true;           ///< the sizes from which on effects show
-  /// Diagnose once more without each reference, where there are two or more: takes that many times
-  /// as long.
+  /// Say what a diagnosis without each reference would answer, where there are two or more: takes
+  /// about a third as long as the rest, each.
   bool leave_out_references = false;
   /// Names of the references in their order; those without a name are numbered from 1.
   std::vector<std::string> reference_names;

@@ -44,8 +44,12 @@ class MagneticDeviationEffect final : public Effect {
   }
 
   double HeadingErrorRad(EffectValues values, double psi_rad) const override {
-    return values[0] * std::sin(psi_rad) + values[1] * std::cos(psi_rad) +
-           values[2] * std::sin(2.0 * psi_rad) + values[3] * std::cos(2.0 * psi_rad);
+    const double sine = std::sin(psi_rad);
+    const double cosine = std::cos(psi_rad);
+    const double sine_of_twice = 2.0 * sine * cosine;
+    const double cosine_of_twice = cosine * cosine - sine * sine;
+    return values[0] * sine + values[1] * cosine + values[2] * sine_of_twice +
+           values[3] * cosine_of_twice;
   }
 };
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "telltale/core/base/contract.hpp"
 #include "telltale/core/base/linear_algebra/covariance.hpp"
@@ -126,6 +127,12 @@ class NominalBaselineFit {
     }
   }
 
+  /// Changes of the boat that are made already.
+  void StartFrom(const NominalBaseline& baseline) {
+    coefficients_ = baseline.coefficients;
+    fixed_ = baseline.fixed_effects;
+  }
+
   /// Makes the change that was found; the next one is sought from there.
   void Accept(double share) {
     coefficients_ += share * unknowns_.head(coefficient_count_);
@@ -242,36 +249,60 @@ double OptimismOf(const std::vector<Sensitivity>& days) {
   return windows / std::max(windows - rows - 1.0, windows / kMaximumOptimism);
 }
 
-std::vector<Sensitivity> SensitivitiesOf(const std::vector<FreeRuns>& recordings,
-                                         const AugmentedModel& boat, const UncertainModel& model,
+using Recordings = std::vector<const FreeRuns*>;
+
+std::vector<Sensitivity> SensitivitiesOf(const Recordings& recordings, const AugmentedModel& boat,
+                                         const UncertainModel& model,
                                          const std::vector<EffectParameterRef>& parameter_refs,
                                          std::size_t threads, double step) {
   std::vector<Sensitivity> sensitivities;
-  for (const FreeRuns& runs : recordings) {
-    sensitivities.push_back(SensitivityOf(runs, boat, model, parameter_refs, threads, step));
+  for (const FreeRuns* runs : recordings) {
+    sensitivities.push_back(SensitivityOf(*runs, boat, model, parameter_refs, threads, step));
   }
   return sensitivities;
 }
 
-/// Gauss-Newton estimation of the nominal boat, with new slopes at each step.
+/// Gauss-Newton estimation of the nominal boat.
 class BaselineEstimation {
  public:
-  BaselineEstimation(const std::vector<FreeRuns>& recordings, const UncertainModel& model,
+  /// From the model on.
+  BaselineEstimation(Recordings recordings, const UncertainModel& model,
                      const std::vector<EffectParameterRef>& parameter_refs, std::size_t threads)
-      : recordings_(recordings),
+      : recordings_(std::move(recordings)),
         model_(model),
         parameter_refs_(parameter_refs),
         threads_(threads),
-        fit_(model, parameter_refs, recordings.size()),
+        fit_(model, parameter_refs, recordings_.size()),
         boat_{model.model, {}} {
-    for (const FreeRuns& runs : recordings) errors_.push_back(runs.Errors(boat_));
+    for (const FreeRuns* runs : recordings_) errors_.push_back(runs->Errors(boat_));
     covariance_ = SecondMoment(errors_);
   }
 
-  /// Whether the boat changed for the better by enough to go on.
+  /// From the baseline of more recordings on, with its slopes of these.
+  BaselineEstimation(Recordings recordings, const UncertainModel& model,
+                     const std::vector<EffectParameterRef>& parameter_refs,
+                     const NominalBaseline& baseline, std::vector<Sensitivity> slopes)
+      : recordings_(std::move(recordings)),
+        model_(model),
+        parameter_refs_(parameter_refs),
+        threads_(1),
+        fit_(model, parameter_refs, recordings_.size()),
+        boat_(baseline.boat),
+        sensitivities_(std::move(slopes)),
+        covariance_(baseline.covariance) {
+    fit_.StartFrom(baseline);
+    for (const Sensitivity& day : sensitivities_) errors_.push_back(day.errors);
+  }
+
+  /// A step with new slopes. Whether the boat changed for the better by enough to go on.
   bool Improve() {
     sensitivities_ =
         SensitivitiesOf(recordings_, boat_, model_, parameter_refs_, threads_, kSlopeStep);
+    return Step() < kConvergedRatio;
+  }
+
+  /// A step with the slopes there are; the square after it over that before.
+  double Step() {
     // Whitened by the scatter that the slopes predict to be left. The present scatter would count
     // what the boat still does wrong as noise.
     for (int round = 0; round < kRounds; ++round) {
@@ -284,20 +315,36 @@ class BaselineEstimation {
     factor_.compute(covariance_);
     errors_ = LessRecordingEffects(boat_);
     const double before = SquaredNorm(errors_);
-    return LineSearch(before) < kConvergedRatio * before;
+    return LineSearch(before) / before;
   }
 
+  /// With new slopes over the whole typical size.
   NominalBaseline Baseline() {
+    return Baseline(SensitivitiesOf(recordings_, boat_, model_, parameter_refs_, threads_, 1.0));
+  }
+
+  /// With the slopes there are.
+  NominalBaseline BaselineWithOldSlopes() {
+    std::vector<Sensitivity> days = sensitivities_;
+    for (std::size_t day = 0; day < days.size(); ++day) {
+      days[day].errors = recordings_[day]->Errors(boat_);
+    }
+    return Baseline(std::move(days));
+  }
+
+ private:
+  NominalBaseline Baseline(std::vector<Sensitivity> days) {
     covariance_ = SecondMoment(errors_);
     Reestimate();
-    NominalBaseline nominal{
-        .boat = boat_,
-        .covariance = covariance_,
-        .kappa = kappa_,
-        .boat_covariance = fit_.BoatCovariance(),
-        .recording_effect_sd = fit_.RecordingEffectSd(),
-        .days = SensitivitiesOf(recordings_, boat_, model_, parameter_refs_, threads_, 1.0),
-        .log_reduced_chi_squares = {}};
+    NominalBaseline nominal{.boat = boat_,
+                            .coefficients = fit_.Coefficients(),
+                            .fixed_effects = fit_.FixedEffects(),
+                            .covariance = covariance_,
+                            .kappa = kappa_,
+                            .boat_covariance = fit_.BoatCovariance(),
+                            .recording_effect_sd = fit_.RecordingEffectSd(),
+                            .days = std::move(days),
+                            .log_reduced_chi_squares = {}};
     const double optimism = std::log(OptimismOf(nominal.days));
     for (const Sensitivity& day : nominal.days) {
       const ResidualMetric metric(nominal, day, EveryWindow(day), false);
@@ -307,7 +354,6 @@ class BaselineEstimation {
     return nominal;
   }
 
- private:
   void Reestimate() {
     factor_.compute(covariance_);
     kappa_ = Kappa(factor_, errors_);
@@ -327,7 +373,10 @@ class BaselineEstimation {
                           EffectsOf(parameter_refs_, tried.FixedEffects())};
       auto left = LessRecordingEffects(boat);
       const double square = SquaredNorm(left);
-      if (square >= least) continue;
+      if (square >= least) {
+        if (least < before) break;
+        continue;
+      }
       least = square;
       fit_ = std::move(tried);
       boat_ = std::move(boat);
@@ -339,7 +388,7 @@ class BaselineEstimation {
   std::vector<Eigen::MatrixXd> LessRecordingEffects(const AugmentedModel& boat) const {
     std::vector<Eigen::MatrixXd> left;
     for (std::size_t day = 0; day < recordings_.size(); ++day) {
-      left.emplace_back(recordings_[day].Errors(boat) +
+      left.emplace_back(recordings_[day]->Errors(boat) +
                         fit_.RecordingEffects(sensitivities_[day], day));
     }
     return left;
@@ -351,7 +400,7 @@ class BaselineEstimation {
     return sum;
   }
 
-  const std::vector<FreeRuns>& recordings_;
+  Recordings recordings_;
   const UncertainModel& model_;
   const std::vector<EffectParameterRef>& parameter_refs_;
   std::size_t threads_;
@@ -371,9 +420,29 @@ NominalBaseline LearnNominalBaseline(const std::vector<FreeRuns>& recordings,
                                      const std::vector<EffectParameterRef>& parameter_refs,
                                      std::size_t threads) {
   Require(!recordings.empty(), "at least one nominal recording");
-  BaselineEstimation estimation(recordings, model, parameter_refs, threads);
+  Recordings all;
+  for (const FreeRuns& runs : recordings) all.push_back(&runs);
+  BaselineEstimation estimation(std::move(all), model, parameter_refs, threads);
   for (int round = 0; round < kMaximumRecalibrations && estimation.Improve(); ++round) continue;
   return estimation.Baseline();
+}
+
+NominalBaseline NominalBaselineOf(const std::vector<std::size_t>& kept,
+                                  const NominalBaseline& of_all,
+                                  const std::vector<FreeRuns>& recordings,
+                                  const UncertainModel& model,
+                                  const std::vector<EffectParameterRef>& parameter_refs) {
+  Require(!kept.empty(), "at least one nominal recording");
+  Recordings kept_recordings;
+  std::vector<Sensitivity> slopes;
+  for (const std::size_t day : kept) {
+    kept_recordings.push_back(&recordings[day]);
+    slopes.push_back(of_all.days[day]);
+  }
+  BaselineEstimation estimation(std::move(kept_recordings), model, parameter_refs, of_all,
+                                std::move(slopes));
+  estimation.Step();
+  return estimation.BaselineWithOldSlopes();
 }
 
 }  // namespace telltale

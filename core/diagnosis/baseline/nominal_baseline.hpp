@@ -18,6 +18,8 @@ namespace telltale {
 /// FreeRuns::Errors; base in standard errors of the model; effect parameters in typical sizes.
 struct NominalBaseline {
   AugmentedModel boat;
+  Eigen::VectorXd coefficients;   ///< by which the boat's differ from the model's
+  Eigen::VectorXd fixed_effects;  ///< sizes that the boat has, those too small to simulate included
   Eigen::MatrixXd covariance;
   double kappa = 1.0;                   ///< independent windows per window
   Eigen::MatrixXd boat_covariance;      ///< base, then effect parameters
@@ -33,5 +35,14 @@ NominalBaseline LearnNominalBaseline(const std::vector<FreeRuns>& recordings,
                                      const UncertainModel& model,
                                      const std::vector<EffectParameterRef>& parameter_refs,
                                      std::size_t threads);
+
+/// The baseline that the kept ones of those recordings alone would give, to first order: one
+/// Gauss-Newton step from the baseline of all, with the slopes of that. Requires: at least one
+/// kept, places within `recordings`.
+NominalBaseline NominalBaselineOf(const std::vector<std::size_t>& kept,
+                                  const NominalBaseline& of_all,
+                                  const std::vector<FreeRuns>& recordings,
+                                  const UncertainModel& model,
+                                  const std::vector<EffectParameterRef>& parameter_refs);
 
 }  // namespace telltale

@@ -37,6 +37,7 @@ class FreeRuns {
   std::size_t Windows() const { return windows_.size(); }
   Eigen::Index Rows() const { return 3 * bins_; }
   double HorizonS() const { return horizon_s_; }
+  const PreparedDataset& Dataset() const { return *dataset_; }
 
   /// Errors of a model, the start of each window estimated.
   Eigen::MatrixXd Errors(const AugmentedModel& model) const;

@@ -61,28 +61,37 @@ double NoiseFloor::SquaredLimit(int channel) const {
 }
 
 NoiseFloor NoiseFloorOf(const std::vector<FreeRuns>& recordings, const AugmentedModel& boat) {
-  Require(!recordings.empty(), "at least one nominal recording");
   std::vector<Eigen::MatrixXd> errors;
-  Eigen::VectorXd square = Eigen::VectorXd::Zero(recordings.front().Rows());
-  double windows = 0.0;
+  std::vector<std::vector<std::size_t>> blocks;
   for (const FreeRuns& runs : recordings) {
     errors.push_back(runs.Errors(boat));
-    square += errors.back().rowwise().squaredNorm();
-    windows += static_cast<double>(runs.Windows());
+    blocks.push_back(BlocksOf(runs));
+  }
+  return NoiseFloorOf(errors, blocks);
+}
+
+NoiseFloor NoiseFloorOf(const std::vector<Eigen::MatrixXd>& errors,
+                        const std::vector<std::vector<std::size_t>>& blocks) {
+  Require(!errors.empty(), "at least one nominal recording");
+  Eigen::VectorXd square = Eigen::VectorXd::Zero(errors.front().rows());
+  double windows = 0.0;
+  for (const Eigen::MatrixXd& day : errors) {
+    square += day.rowwise().squaredNorm();
+    windows += static_cast<double>(day.cols());
   }
   NoiseFloor floor;
   floor.scale = (square / windows).cwiseSqrt().cwiseMax(1e-9);
   std::array<double, 4> within{};
-  for (std::size_t day = 0; day < recordings.size(); ++day) {
+  for (std::size_t day = 0; day < errors.size(); ++day) {
     auto& log_gap = floor.log_gaps.emplace_back();
     for (int channel = 0; channel <= kAllChannels; ++channel) {
       const auto c = static_cast<std::size_t>(channel);
       const Eigen::VectorXd gaps = SquaredGaps(errors[day], floor.scale, channel);
       log_gap[c] = std::log(gaps.mean());
-      within[c] += SpreadWithin(gaps, BlocksOf(recordings[day]));
+      within[c] += SpreadWithin(gaps, blocks[day]);
     }
   }
-  const double days = static_cast<double>(recordings.size());
+  const double days = static_cast<double>(errors.size());
   for (int channel = 0; channel <= kAllChannels; ++channel) {
     const auto c = static_cast<std::size_t>(channel);
     const double mean = MeanOf(floor.log_gaps, channel);

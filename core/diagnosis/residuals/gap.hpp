@@ -28,7 +28,12 @@ struct NoiseFloor {
   double SquaredLimit(int channel) const;
 };
 
-/// Requires: at least one recording with windows.
+/// Of the errors of each recording, rows x windows, and the blocks of their windows. Requires: at
+/// least one recording with windows.
+NoiseFloor NoiseFloorOf(const std::vector<Eigen::MatrixXd>& errors,
+                        const std::vector<std::vector<std::size_t>>& blocks);
+
+/// The same, simulated. Requires: at least one recording with windows.
 NoiseFloor NoiseFloorOf(const std::vector<FreeRuns>& recordings, const AugmentedModel& boat);
 
 /// Mean squared errors in nominal scales by window, of one channel or of all: G^2 is their mean,

@@ -176,6 +176,34 @@ TEST(Diagnose, NamesWindInGusts) {
   const auto& parameters = cause.effects[0].parameters;
   EXPECT_NEAR(parameters[0].estimate, 0.0, 4.0 * parameters[0].standard_error);
   EXPECT_NEAR(parameters[1].estimate, Gusts::kSpeed, 4.0 * parameters[1].standard_error);
+  // A drag that is known to 30 % leaves the speed uncertain by half of that.
+  EXPECT_GT(parameters[1].standard_error, 0.1 * Gusts::kSpeed);
+}
+
+TEST(Diagnose, SaysWhatADiagnosisWithoutEachReferenceWouldSay) {
+  const PreparedDataset recording =
+      testing::SimulateWithEffects({{FindEffect("thruster_imbalance"), {-0.2}}}, 120.0, 7000);
+  DiagnoseOptions options = TwoThreads();
+  options.advise = options.state_power = false;
+  options.leave_out_references = true;
+  const auto model = testing::KnownStableBoat();
+  const auto all = Diagnose(recording, NominalRecordings(), model, "stable", options);
+  ASSERT_TRUE(all.has_value());
+  const auto& influences = all->diagnosis.reference_influence;
+  ASSERT_EQ(influences.size(), NominalRecordings().size());
+  options.leave_out_references = false;
+  for (std::size_t left_out = 0; left_out < influences.size(); ++left_out) {
+    std::vector<PreparedDataset> others = NominalRecordings();
+    others.erase(others.begin() + static_cast<std::ptrdiff_t>(left_out));
+    const auto without = Diagnose(recording, others, model, "stable", options);
+    ASSERT_TRUE(without.has_value());
+    EXPECT_EQ(influences[left_out].verdict, without->diagnosis.verdict);
+    EXPECT_EQ(influences[left_out].effects, std::vector<std::string>{"thruster_imbalance"});
+    EXPECT_NEAR(influences[left_out].probability, FirstCause(without).probability, 0.05);
+    const double gap = without->diagnosis.Main().all.before;
+    EXPECT_NEAR(influences[left_out].gap.before, gap, 0.1 * gap);
+    EXPECT_TRUE(influences[left_out].own_gap.has_value());
+  }
 }
 
 TEST(Diagnose, NamesNoWrongEffectWithoutTheRightOne) {

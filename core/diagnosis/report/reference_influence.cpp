@@ -1,0 +1,128 @@
+#include "telltale/core/diagnosis/report/reference_influence.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "telltale/core/diagnosis/report/conclusion.hpp"
+#include "telltale/core/diagnosis/report/horizon_gap.hpp"
+#include "telltale/core/diagnosis/residuals/gap.hpp"
+
+namespace telltale {
+namespace {
+
+std::string NameOf(std::size_t reference, const std::vector<std::string>& names) {
+  return reference < names.size() ? names[reference] : "reference " + std::to_string(reference + 1);
+}
+
+/// The places of all recordings but the one that is left out.
+std::vector<std::size_t> Kept(const std::vector<FreeRuns>& recordings,
+                              const PreparedDataset& left_out) {
+  std::vector<std::size_t> kept;
+  for (std::size_t i = 0; i < recordings.size(); ++i) {
+    if (&recordings[i].Dataset() != &left_out) kept.push_back(i);
+  }
+  return kept;
+}
+
+NoiseFloor FloorOf(const std::vector<std::size_t>& kept, const std::vector<FreeRuns>& recordings,
+                   const NominalBaseline& nominal) {
+  std::vector<Eigen::MatrixXd> errors;
+  std::vector<std::vector<std::size_t>> blocks;
+  for (std::size_t i = 0; i < kept.size(); ++i) {
+    errors.push_back(nominal.days[i].errors);
+    blocks.push_back(BlocksOf(recordings[kept[i]]));
+  }
+  return NoiseFloorOf(errors, blocks);
+}
+
+/// The gap of the reference that took no part; none where it has no windows.
+std::optional<double> OwnGap(const PreparedDataset& left_out,
+                             const std::vector<FreeRuns>& recordings, const AugmentedModel& boat,
+                             const NoiseFloor& floor) {
+  const auto own = std::find_if(recordings.begin(), recordings.end(),
+                                [&](const FreeRuns& runs) { return &runs.Dataset() == &left_out; });
+  if (own == recordings.end()) return std::nullopt;
+  return std::sqrt(SquaredGaps(own->Errors(boat), floor.scale, kAllChannels).mean());
+}
+
+/// The likeliest cause where the gap is material, an unknown one among them.
+void DescribeCause(const Conclusion& conclusion, ReferenceInfluence& influence) {
+  if (conclusion.assessment != GapAssessment::kMaterial) return;
+  const Ranking& ranking = conclusion.ranking;
+  const auto first =
+      std::max_element(ranking.fits.begin(), ranking.fits.end(),
+                       [](const auto& a, const auto& b) { return a.probability < b.probability; });
+  influence.probability = ranking.unknown + ranking.no_effect;
+  if (first == ranking.fits.end() || first->probability < influence.probability) return;
+  influence.effects = first->fit.Names();
+  influence.probability = first->probability;
+}
+
+ReferenceInfluence InfluenceOf(std::size_t reference, const InfluenceInputs& inputs) {
+  const PreparedDataset& left_out = inputs.references[reference];
+  const std::vector<FreeRuns>& recordings = inputs.main.references;
+  ReferenceInfluence influence;
+  influence.reference = NameOf(reference, inputs.names);
+  const std::vector<std::size_t> kept = Kept(recordings, left_out);
+  if (kept.empty()) return influence;
+
+  const DiagnosisProblem& all = inputs.problem;
+  const NominalBaseline nominal =
+      NominalBaselineOf(kept, all.nominal, recordings, inputs.model, all.parameter_refs);
+  Sensitivity recording = all.recording;
+  recording.errors = all.runs.Errors(nominal.boat);
+  const ResidualMetric metric(nominal, recording, EveryWindow(recording),
+                              all.metric.FreesCoefficients());
+  const DiagnosisProblem problem{
+      all.runs, nominal, recording, metric, all.parameter_refs, all.frequency_response};
+  const HorizonErrors main{all.runs, FloorOf(kept, recordings, nominal), recording.errors};
+  const Hypotheses hypotheses =
+      Search(problem, inputs.library, inputs.most_effects, inputs.threads, [](double) {});
+  const Conclusion conclusion = Conclude(hypotheses, problem, main, inputs.seed);
+
+  influence.verdict = conclusion.verdict;
+  influence.own_gap = OwnGap(left_out, recordings, nominal.boat, main.floor);
+  std::optional<CrossValidatedErrors> after;
+  if (conclusion.is_likely) after = conclusion.cross_validated;
+  influence.gap = GapAt(main, after, inputs.seed).all;
+  DescribeCause(conclusion, influence);
+  return influence;
+}
+
+}  // namespace
+
+std::vector<ReferenceInfluence> InfluencesOf(const InfluenceInputs& inputs,
+                                             const std::function<void(double)>& report_progress) {
+  std::vector<ReferenceInfluence> influences;
+  for (std::size_t reference = 0; reference < inputs.references.size(); ++reference) {
+    report_progress(static_cast<double>(reference) / static_cast<double>(inputs.references.size()));
+    influences.push_back(InfluenceOf(reference, inputs));
+  }
+  return influences;
+}
+
+std::optional<double> SquaredLimitOf(const std::vector<ReferenceInfluence>& influences) {
+  std::vector<double> squared_gaps;
+  for (const ReferenceInfluence& influence : influences) {
+    if (influence.own_gap) squared_gaps.push_back(*influence.own_gap * *influence.own_gap);
+  }
+  if (squared_gaps.size() < 2) return std::nullopt;
+  return SquaredLimitOfDays(squared_gaps);
+}
+
+std::string DescribeInfluences(const std::vector<ReferenceInfluence>& influences, Verdict verdict) {
+  std::string deciding;
+  for (const ReferenceInfluence& influence : influences) {
+    if (influence.verdict == verdict) continue;
+    deciding.append(deciding.empty() ? "" : ", ")
+        .append(influence.reference)
+        .append(" (")
+        .append(Name(influence.verdict))
+        .append(")");
+  }
+  if (deciding.empty()) return deciding;
+  return "Without one of these references the verdict is another: " + deciding +
+         ". More references would settle it.";
+}
+
+}  // namespace telltale

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "telltale/core/diagnosis/diagnosis.hpp"
+#include "telltale/core/diagnosis/hypotheses/diagnosis_problem.hpp"
+#include "telltale/core/diagnosis/residuals/horizon_runs.hpp"
+#include "telltale/core/identification/uncertain_model.hpp"
+
+namespace telltale {
+
+/// What the diagnoses without each reference are made from.
+struct InfluenceInputs {
+  const std::vector<PreparedDataset>& references;
+  const std::vector<std::string>& names;  ///< of the references; those without are numbered from 1
+  const HorizonRuns& main;                ///< at the main horizon
+  const DiagnosisProblem& problem;        ///< with all references
+  const UncertainModel& model;
+  std::span<const Effect* const> library;
+  std::size_t most_effects;  ///< that may act together
+  std::uint64_t seed;        ///< of every random draw
+  std::size_t threads;
+};
+
+/// The answer without each reference in turn, docs/concepts/diagnosis.md, "The nominal baseline".
+/// To first order: the nominal boat without a reference is one Gauss-Newton step from that of all,
+/// with the same slopes; hypotheses are fitted anew. Requires: two references or more.
+std::vector<ReferenceInfluence> InfluencesOf(const InfluenceInputs& inputs,
+                                             const std::function<void(double)>& report_progress);
+
+/// What references that took no part in the baseline leave of a gap in doubt, G^2; none of fewer
+/// than two.
+std::optional<double> SquaredLimitOf(const std::vector<ReferenceInfluence>& influences);
+
+/// Names the references without which the verdict is another; empty where there are none.
+std::string DescribeInfluences(const std::vector<ReferenceInfluence>& influences, Verdict verdict);
+
+}  // namespace telltale
