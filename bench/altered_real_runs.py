@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """Alters each BlueBoat run in one known way at a time and prints, in Markdown, what telltale diagnose makes of it, by
-the physical model of the boat's other runs, with all of those as references and with every choice of three of them.
+the physical model of the boat's other runs, with all of those as references and without each of them in turn.
 
 Usage: bench/altered_real_runs.py [--built DIR] [--data DIR] [--held RUN]... [--threads N]
 
@@ -13,7 +13,6 @@ thus a floor of recordings that the model knows.
 """
 import argparse
 import collections
-import itertools
 import json
 import math
 import pathlib
@@ -45,7 +44,7 @@ ALTERATIONS = [
     Alteration("antenna 0.4 m to starboard", "antenna_lever_arm", {"starboard": 0.4}, ["--move-antenna-m", "0", "0.4"]),
 ]
 
-Answer = collections.namedtuple("Answer", "run alteration references report")
+Answer = collections.namedtuple("Answer", "run alteration report")
 
 
 def run(*command):
@@ -101,9 +100,10 @@ class Boat:
         return None if said is None else json.loads(out.read_text())
 
 
-def choices(others):
-    """Every choice of references: all, and all but one."""
-    return [others, *itertools.combinations(others, len(others) - 1)]
+def without_each(answer):
+    """The answers without each reference in turn, as telltale diagnose gives them, in the form of reports."""
+    return [answer._replace(report={"verdict": i["verdict"], "causes": [{"effects": i.get("effects", [])}]})
+            for i in answer.report.get("referenceInfluence", [])]
 
 
 def is_named(report):
@@ -133,13 +133,22 @@ def size_text(answer):
     return ", ".join(texts) or "–"
 
 
+def power_text(answer):
+    """The sizes from which on the altered log would show the true effect in 90 % of cases."""
+    effects = {e["effect"]: e for e in answer.report.get("effects", [])}
+    sizes = effects.get(answer.alteration.effect, {}).get("detectableSizes", [])
+    texts = [f"{p['size']:.2f} {p['unit']}" if "size" in p else "beyond range" for p in sizes
+             if p["name"] in answer.alteration.sizes]
+    return ", ".join(texts) or "–"
+
+
 def row(answer):
     report = answer.report
     gap, cause = report["gap"], first_cause(report)
     effects = " + ".join(cause["effects"]) or "–"
     probability = f"{cause['probability']:.2f}" if "probability" in cause else "–"
     return (f"| {answer.run} | {answer.alteration.name} | {report['verdict']} | {gap['before']:.2f} "
-            f"({gap['floorLimit']:.2f}) | {effects} | {probability} | {size_text(answer)} |")
+            f"({gap['floorLimit']:.2f}) | {effects} | {probability} | {size_text(answer)} | {power_text(answer)} |")
 
 
 def counts(answers):
@@ -152,32 +161,30 @@ def counts(answers):
 
 def print_by_run(answers):
     print("### Against all other runs\n")
-    print("| run | alteration | verdict | gap (nominal limit) | first cause | probability | size (true size) |")
-    print("|---|---|---|---|---|---|---|")
-    most = max(len(a.references) for a in answers)
+    print("| run | alteration | verdict | gap (nominal limit) | first cause | probability | size (true size) | shows from |")
+    print("|---|---|---|---|---|---|---|---|")
     for answer in answers:
-        if len(answer.references) == most:
-            print(row(answer))
+        print(row(answer))
 
 
 def print_by_alteration(answers):
-    print("\n### Over every choice of references\n")
+    print("\n### Without each reference in turn\n")
     print("| alteration | gap seen | named rightly | named wrongly | true effect likeliest | diagnoses |")
     print("|---|---|---|---|---|---|")
     for alteration in ALTERATIONS:
-        print(f"| {alteration.name} | {counts([a for a in answers if a.alteration is alteration])} |")
+        chosen = [other for a in answers if a.alteration is alteration for other in without_each(a)]
+        print(f"| {alteration.name} | {counts(chosen)} |")
 
 
 def print_steadiness(answers):
-    print("\n### Verdicts by choice of references\n")
-    print("| run | alterations of which every choice has one verdict | unaltered |")
+    print("\n### Verdicts without each reference\n")
+    print("| run | alterations with one verdict whichever is left out | unaltered |")
     print("|---|---|---|")
     for name in sorted({a.run for a in answers}):
-        own = [a for a in answers if a.run == name]
-        verdicts = [[a.report["verdict"] for a in own if a.alteration is alteration] for alteration in ALTERATIONS]
+        verdicts = [[other.report["verdict"] for other in without_each(a)] for a in answers if a.run == name]
         steady = sum(len(set(v)) == 1 for v in verdicts)
         unaltered = ", ".join(f"{n} {v}" for v, n in collections.Counter(verdicts[0]).items())
-        print(f"| {name} | {steady} of {len(ALTERATIONS)} | {unaltered} |")
+        print(f"| {name} | {steady} of {len(verdicts)} | {unaltered} |")
 
 
 def print_cuts(cuts):
@@ -187,7 +194,7 @@ def print_cuts(cuts):
 
 
 def diagnosed(boat, held):
-    """The answers of one run, by alteration and choice of references, and what was cut of its commands."""
+    """The answers of one run, by alteration, and what was cut of its commands."""
     answers, cuts = [], []
     others = tuple(r for r in boat.runs if r != held)
     model = boat.model(others)
@@ -195,10 +202,9 @@ def diagnosed(boat, held):
         log, said = boat.altered(held, alteration, model)
         if "cut" in said:
             cuts.append(f"{held}, {alteration.name}: {said.strip().removeprefix('blind_alter: ')}")
-        for references in choices(others):
-            report = boat.diagnosis(log, model, references)
-            if report is not None:
-                answers.append(Answer(held, alteration, references, report))
+        report = boat.diagnosis(log, model, others)
+        if report is not None:
+            answers.append(Answer(held, alteration, report))
     return answers, cuts
 
 
