@@ -13,7 +13,7 @@ struct WatchedChange {
   std::size_t parameter = 0;
   double step = 0.0;  ///< of the secant; its sign says on which side
   bool both_signs = false;
-  double tolerance = 0.0;               ///< a change up to which the model holds
+  double tolerance = 0.0;               ///< a change up to which the model holds: see below
   double largest_standard_error = 0.0;  ///< beyond it, blocks tell too little of the change
   double alarm_sigmas = 0.0;            ///< standard errors beyond the tolerance
 };
@@ -28,6 +28,11 @@ struct WatchedNuisance {
 
 /// Calibrated on boats of bench/drift with seeds from 2001 to 2099; docs/validation/monitoring.md
 /// is of other seeds.
+/// A model fits the recording that made it better than any later one. Of a boat to which nothing
+/// has happened, estimates after that recording differ from those on it by 0.015 of the thrust of
+/// a side, 0.07 of drag and 0.4 degrees (root mean square): a tolerance is four of these or more.
+/// Estimates scatter besides by up to thrice their standard errors, since a model errs otherwise in
+/// each manoeuvre: alarm_sigmas and a block left out stand for that.
 struct DriftConstants {
   double window_s = 5.0;                      ///< s, of a free run
   std::size_t block_windows = 12;             ///< between evaluations: a minute
@@ -41,11 +46,13 @@ struct DriftConstants {
   double largest_sigmas = 4.0;           ///< root mean square beyond which a window counts less
   double largest_error = 10.0;  ///< m or rad, beyond which a run has diverged and does not count
   std::array<WatchedChange, 4> changes = {{
-      {"thruster_imbalance", 0, 0.1, false, 0.075, 0.015, 4.0},
-      {"thruster_imbalance", 0, -0.1, false, 0.075, 0.015, 4.0},
-      {"hull_fouling", 0, 0.2, false, 0.2, 0.04, 4.0},
+      {"thruster_imbalance", 0, 0.1, false, 0.06, 0.015, 4.0},
+      {"thruster_imbalance", 0, -0.1, false, 0.06, 0.015, 4.0},
+      {"hull_fouling", 0, 0.2, false, 0.3, 0.04, 4.0},
       {"heading_bias", 0, 0.05, true, 0.035, 0.0117, 2.0},
   }};
+  /// Of what a change explains; another that explains as much of it is not separable.
+  double rival_share = 0.8;
   std::array<WatchedNuisance, 7> nuisances = {{
       {"wind", 0, 4.0, 4.0},
       {"wind", 1, 4.0, 4.0},

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <functional>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "telltale/core/diagnosis/residuals/sensitivity.hpp"
@@ -40,35 +42,88 @@ ChangeInformation Together(const ChangeInformation& of_free_runs,
           kDrift.free_runs_weight * of_free_runs.projection + of_sideslip.projection};
 }
 
-/// Zero on a side that is not watched.
-double Watched(const WatchedChange& change, double value) {
-  return change.both_signs || value * change.step > 0.0 ? value : 0.0;
-}
+using InformationByChange = std::array<ChangeInformation, kDrift.changes.size()>;
+using Changes = std::array<double, kDrift.changes.size()>;
 
 /// What a sum of windows says of each change, and the variance of unit weight.
 struct Estimates {
-  std::array<ChangeInformation, kDrift.changes.size()> of_change;
-  std::array<double, kDrift.changes.size()> explained;  ///< squares of the free runs' errors
+  InformationByChange of_change;
   double residual_variance = 0.0;
 };
 
 Estimates EstimatesOf(const DriftEvidence& evidence) {
   const MarginalChanges forces(evidence.free_runs, PrecisionOfNuisances());
   const MarginalChanges sideslip(evidence.sideslip, PrecisionOfSideslip());
-  Estimates estimates{{}, {}, forces.ResidualVariance()};
+  Estimates estimates{{}, forces.ResidualVariance()};
   for (std::size_t j = 0; j < kDrift.changes.size(); ++j) {
     const ChangeInformation of_forces = forces.Of(static_cast<Eigen::Index>(j));
-    estimates.explained[j] = of_forces.projection * of_forces.Value();
     estimates.of_change[j] =
         kDrift.changes[j].effect == kCompass ? Together(of_forces, sideslip.Of(0)) : of_forces;
   }
   return estimates;
 }
 
+/// By how much a change is beyond that of the reference; zero on a side that is not watched, and
+/// where one of the two tells nothing.
+double Beyond(const ChangeInformation& reference, const ChangeInformation& now,
+              const WatchedChange& change) {
+  if (reference.precision <= 0.0 || now.precision <= 0.0) return 0.0;
+  const double value = now.Value() - reference.Value();
+  return change.both_signs || value * change.step > 0.0 ? value : 0.0;
+}
+
+Changes AllBeyond(const InformationByChange& reference, const InformationByChange& now) {
+  Changes beyond;
+  for (std::size_t j = 0; j < beyond.size(); ++j) {
+    beyond[j] = Beyond(reference[j], now[j], kDrift.changes[j]);
+  }
+  return beyond;
+}
+
+/// The nearer of two to zero; zero where they are on different sides of it.
+double Lesser(double a, double b) {
+  if (a * b <= 0.0) return 0.0;
+  return std::abs(a) < std::abs(b) ? a : b;
+}
+
+/// What is left of each change whichever block is left out.
+Changes LeastBeyond(const InformationByChange& reference, std::span<const DriftEvidence> blocks,
+                    Changes least) {
+  for (std::size_t left_out = 0; left_out < blocks.size(); ++left_out) {
+    DriftEvidence others = SumOf(blocks.first(left_out));
+    others.Add(SumOf(blocks.subspan(left_out + 1)));
+    const Changes beyond = AllBeyond(reference, EstimatesOf(others).of_change);
+    std::ranges::transform(least, beyond, least.begin(), Lesser);
+  }
+  return least;
+}
+
+double Margin(const DriftFinding& finding) {
+  return finding.Excess() / finding.change->alarm_sigmas;
+}
+
+/// Of the findings the one that is beyond doubt and explains most, then those beyond their
+/// tolerance that explain nearly as much; none where none is beyond doubt.
+std::vector<DriftFinding> Inseparable(std::vector<DriftFinding> findings) {
+  std::ranges::sort(findings, std::ranges::greater(), &DriftFinding::explained);
+  const auto best = std::ranges::find_if(findings, &DriftFinding::IsBeyondDoubt);
+  if (best == findings.end()) return {};
+  std::vector<DriftFinding> likely = {*best};
+  for (const DriftFinding& other : findings) {
+    const bool rivals = other.explained >= kDrift.rival_share * best->explained;
+    if (other.change != best->change && other.Excess() > 0.0 && rivals) likely.push_back(other);
+  }
+  return likely;
+}
+
 }  // namespace
 
 double DriftFinding::Excess() const {
   return (std::abs(value) - change->tolerance) / standard_error;
+}
+
+bool DriftFinding::IsBeyondDoubt() const {
+  return std::abs(least) >= change->tolerance + change->alarm_sigmas * standard_error;
 }
 
 std::string DriftFinding::Describe() const {
@@ -88,45 +143,45 @@ DriftTest::DriftTest(std::span<const DriftEvidence> reference) : reference_{} {
   }
 }
 
-/// The changes that evidence tells enough of.
-std::vector<DriftFinding> DriftTest::FindingsOf(const DriftEvidence& latest) const {
-  const Estimates now = EstimatesOf(latest);
+/// The changes that the blocks tell enough of.
+std::vector<DriftFinding> DriftTest::FindingsOf(std::span<const DriftEvidence> blocks) const {
+  const Estimates now = EstimatesOf(SumOf(blocks));
   std::vector<DriftFinding> findings;
   if (now.residual_variance > kDrift.largest_residual_variance) return findings;
   const double variance = std::max(1.0, now.residual_variance);
+  const Changes beyond = AllBeyond(reference_, now.of_change);
+  const Changes least = LeastBeyond(reference_, blocks, beyond);
   for (std::size_t j = 0; j < reference_.size(); ++j) {
     const WatchedChange& change = kDrift.changes[j];
-    const double squared_error = variance / now.of_change[j].precision;
+    const double precision = now.of_change[j].precision;
+    const double squared_error = variance / precision;
     const bool tells = std::sqrt(squared_error) <= change.largest_standard_error;
     if (!tells || reference_[j].precision <= 0.0) continue;
-    findings.push_back({&change, Watched(change, now.of_change[j].Value() - reference_[j].Value()),
+    findings.push_back({&change, beyond[j], least[j],
                         std::sqrt(squared_error + 1.0 / reference_[j].precision),
-                        now.explained[j]});
+                        beyond[j] * beyond[j] * precision});
   }
   return findings;
 }
 
 void DriftTest::Add(std::span<const DriftEvidence> block) {
   blocks_.push_back(SumOf(block));
-  if (blocks_.size() > std::ranges::max(kDrift.spans)) blocks_.pop_front();
-  const auto margin = [](const DriftFinding& finding) {
-    return finding.Excess() / finding.change->alarm_sigmas;
-  };
+  if (blocks_.size() > std::ranges::max(kDrift.spans)) blocks_.erase(blocks_.begin());
   strongest_.reset();
-  std::optional<DriftFinding> best;
-  DriftEvidence latest = DriftEvidence::None();
-  std::size_t blocks = 0;
-  for (auto before = blocks_.rbegin(); before != blocks_.rend(); ++before) {
-    latest.Add(*before);
-    if (std::ranges::find(kDrift.spans, ++blocks) == kDrift.spans.end()) continue;
-    for (const DriftFinding& finding : FindingsOf(latest)) {
-      if (!strongest_ || margin(finding) > margin(*strongest_)) strongest_ = finding;
-      if (!finding.IsBeyondDoubt()) continue;
-      if (!best || finding.explained > best->explained) best = finding;
+  std::vector<DriftFinding> likeliest;
+  for (const std::size_t span : kDrift.spans) {
+    if (blocks_.size() < span) continue;
+    const std::vector<DriftFinding> findings = FindingsOf(std::span(blocks_).last(span));
+    for (const DriftFinding& finding : findings) {
+      if (!strongest_ || Margin(finding) > Margin(*strongest_)) strongest_ = finding;
     }
+    std::vector<DriftFinding> likely = Inseparable(findings);
+    if (likely.empty()) continue;
+    const bool better = likeliest.empty() || likely[0].explained > likeliest[0].explained;
+    if (better) likeliest = std::move(likely);
   }
-  if (best) alarm_ = best;
-  if (strongest_ && strongest_->Excess() < 0.0) alarm_.reset();
+  if (!likeliest.empty()) alarm_ = std::move(likeliest);
+  if (strongest_ && strongest_->Excess() < 0.0) alarm_.clear();
 }
 
 }  // namespace telltale

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <array>
-#include <deque>
 #include <optional>
 #include <span>
 #include <string>
@@ -13,29 +12,32 @@
 
 namespace telltale {
 
-/// A change that a boat's errors show.
+/// A change that a boat's errors show, beyond what the reference shows of it.
 struct DriftFinding {
   const WatchedChange* change = nullptr;
-  double value = 0.0;  ///< of the parameter that is watched, beyond that of the reference
+  double value = 0.0;  ///< of the parameter that is watched
+  double least = 0.0;  ///< the same without the block on which most of it rests
   double standard_error = 0.0;
-  double explained = 0.0;  ///< weighted squares of the free runs' errors
+  double explained = 0.0;  ///< weighted squares of the errors
 
   /// Standard errors by which the change is beyond its tolerance; negative within it.
   double Excess() const;
-  bool IsBeyondDoubt() const { return Excess() >= change->alarm_sigmas; }
+  /// Whether it is so by its alarm_sigmas whichever block is left out: no minute decides alone.
+  bool IsBeyondDoubt() const;
   /// "port thruster 14 % weaker".
   std::string Describe() const;
 };
 
 /// Whether a boat has changed since its model was made: the thrust of one side, the drag of the
 /// hull, or the compass. Wind and current of any strength are no change, and neither are errors
-/// that grow without a pattern.
+/// that grow without a pattern, nor what a single block shows.
 /// Model: a test of each change against its tolerance, over the latest blocks, by estimates beside
 /// which wind, current and a constant force are estimated anew; less the same of the reference,
 /// which is what the model errs itself. docs/concepts/diagnosis.md (103) to (105). Its false
 /// alarms: docs/validation/monitoring.md. Assumes: the boat steers and changes its speed. Where it
-/// does not, nothing is said. Source: Lai, "Sequential changepoint detection in quality control and
-/// dynamical systems", J. R. Statist. Soc. B 57 (1995), window-limited tests.
+/// does not, nothing is said. Sources: Lai, "Sequential changepoint detection in quality control
+/// and dynamical systems", J. R. Statist. Soc. B 57 (1995), window-limited tests; Efron, "The
+/// jackknife, the bootstrap and other resampling plans", SIAM (1982), blocks left out.
 class DriftTest {
  public:
   /// By the windows of the reference, while nothing had changed.
@@ -44,24 +46,24 @@ class DriftTest {
   /// The windows of one more block.
   void Add(std::span<const DriftEvidence> block);
 
-  /// True from the time that a change is its alarm_sigmas standard errors beyond its tolerance
-  /// until every change is within its own.
-  bool Fires() const { return alarm_.has_value(); }
+  /// True from the time that a change is beyond doubt until every change is within its tolerance.
+  bool Fires() const { return !alarm_.empty(); }
 
   /// Whether any change is beyond its tolerance. The time at which this began estimates the onset.
   bool Rises() const { return strongest_ && strongest_->Excess() > 0.0; }
 
-  /// Of the changes that were last beyond doubt the one that explains the errors best; nothing
-  /// while it does not fire. A large change makes others seem to be there.
-  const std::optional<DriftFinding>& Alarm() const { return alarm_; }
+  /// Of the changes that were last beyond doubt the one that explains the errors best, then those
+  /// beyond their tolerance that explain them nearly as well; nothing while it does not fire. A
+  /// large change makes others seem to be there.
+  const std::vector<DriftFinding>& Alarm() const { return alarm_; }
 
  private:
-  std::vector<DriftFinding> FindingsOf(const DriftEvidence& latest) const;
+  std::vector<DriftFinding> FindingsOf(std::span<const DriftEvidence> blocks) const;
 
   std::array<ChangeInformation, kDrift.changes.size()> reference_;
-  std::deque<DriftEvidence> blocks_;  ///< oldest first, no more than the longest of kDrift.spans
+  std::vector<DriftEvidence> blocks_;  ///< oldest first, no more than the longest of kDrift.spans
   std::optional<DriftFinding> strongest_;  ///< now; nothing where blocks tell too little of all
-  std::optional<DriftFinding> alarm_;
+  std::vector<DriftFinding> alarm_;
 };
 
 }  // namespace telltale

@@ -1,6 +1,8 @@
 #include "telltale/service/monitoring/drift_monitor.hpp"
 
 #include <algorithm>
+#include <span>
+#include <vector>
 
 #include "telltale/core/data/preparation.hpp"
 #include "telltale/core/data/recording_parts.hpp"
@@ -58,7 +60,12 @@ void DriftMonitor::Follow(const Recording& recording, const Vehicle& vehicle,
 }
 
 std::string DriftMonitor::Pattern() const {
-  return Fires() ? test_->Alarm()->Describe() : "";
+  if (!Fires()) return "";
+  const std::vector<DriftFinding>& alarm = test_->Alarm();
+  std::string pattern = alarm.front().Describe();
+  for (const DriftFinding& rival : std::span(alarm).subspan(1))
+    pattern += " or " + rival.Describe();
+  return pattern + (alarm.size() > 1 ? ", not yet separable" : "");
 }
 
 }  // namespace telltale

@@ -27,7 +27,8 @@ class DriftMonitor {
   /// Since when there is evidence.
   const std::optional<OnsetTime>& onset() const { return onset_.onset(); }
 
-  /// What has changed while it fires: "port thruster 14 % weaker".
+  /// What has changed while it fires: "port thruster 14 % weaker", the likeliest first where
+  /// several changes explain the errors nearly as well.
   std::string Pattern() const;
 
  private:
