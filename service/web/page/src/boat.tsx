@@ -17,6 +17,11 @@ function sentence(quality: Quality): string {
   return asSentence(quality.reasons[0]?.text ?? "");
 }
 
+/** What to do, without the evidence that the reason of a drift tells already. */
+function advice({ proposal, reasons }: Quality): string {
+  return reasons.some(({ code }) => code === "DRIFT") ? proposal.replace(/^[^;]*; /, "") : proposal;
+}
+
 function Telemetry({ quality }: { quality: Quality }) {
   const rates = quality.ratesHz;
   return (
@@ -243,7 +248,7 @@ function KeptDiagnoses({ kept, shown, choose }: {
       <h3>All diagnoses, newest first</h3>
       <div class="scroll">
         <table class="kept">
-          <thead><tr><th scope="col">of</th><th scope="col" class="number">revision</th><th scope="col">diagnosis</th>
+          <thead><tr><th scope="col">published</th><th scope="col" class="number">revision</th><th scope="col">diagnosis</th>
             <th scope="col"><span class="unseen">open</span></th></tr></thead>
           <tbody>
             {kept.map(({ publishedUnixS, modelRevision, verdict, sentence }) => (
@@ -407,7 +412,7 @@ export function BoatView({ vehicleId, round, info, jobs, track }: {
         <ul class="reasons">{quality.reasons.slice(1).map((reason) =>
           <li key={reason.code}><Badge verdict={reason.verdict} /> {reason.text}</li>)}</ul>
       )}
-      {quality.proposal && <p class="note">{quality.proposal}</p>}
+      {quality.proposal && <p class="note">{advice(quality)}</p>}
       <Orders vehicleId={vehicleId} info={info} jobs={jobs} token={token} setToken={setToken} />
       <div class="cards">
         <Card title="Free-run error over the last hour" wide>
