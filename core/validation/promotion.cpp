@@ -23,14 +23,6 @@ struct VelocityUnit {
 constexpr std::array<VelocityUnit, 3> kVelocities = {
     {{"surge", "m/s", 0.1}, {"sway", "m/s", 0.1}, {"yaw", "rad/s", 0.05}}};
 
-bool DivergesWithin(const FreeRunScores& scores, const Nu& limits) {
-  const std::array<double, 3> limit = {limits.u, limits.v, limits.r};
-  for (std::size_t i = 0; i < limit.size(); ++i) {
-    if (!(scores.velocity[i].rmse < limit[i])) return true;  // NaN and infinity too
-  }
-  return false;
-}
-
 std::string Seconds(double duration_s) {
   return FormatNumber(duration_s, 0) + " s";
 }
@@ -95,13 +87,13 @@ bool CountsInFreeRuns(std::size_t velocity, const FreeRunScore& score) {
 
 Promotion PromotionByScores(const FreeRunScores& own, const Nu& limits,
                             const std::optional<HeldOutScore>& held_out) {
-  if (own.windows > 0 && DivergesWithin(own, limits)) {
+  if (own.windows > 0 && Diverges(own, limits)) {
     return {PromotionVerdict::kError,
             "it diverges in free runs of " + Seconds(own.horizon_s) + " over its own data"};
   }
   if (!held_out) return {PromotionVerdict::kOk, ""};
   const FreeRunScores& scores = held_out->metrics.free_run.front();
-  if (DivergesWithin(scores, limits)) {
+  if (Diverges(scores, limits)) {
     return {PromotionVerdict::kError, "it diverges in free runs of " + Seconds(scores.horizon_s) +
                                           " over " + HeldOutPart(*held_out)};
   }

@@ -296,6 +296,14 @@ Metrics ScoresOfRuns(const PreparedDataset& dataset, const FreeRuns& free_runs,
 
 }  // namespace
 
+bool Diverges(const FreeRunScores& scores, const Nu& limits) {
+  const std::array<double, 3> limit = {limits.u, limits.v, limits.r};
+  for (std::size_t i = 0; i < limit.size(); ++i) {
+    if (!(scores.velocity[i].rmse < limit[i])) return true;  // NaN and infinity too
+  }
+  return false;
+}
+
 Result<Metrics> Validate(const PreparedDataset& dataset, const VesselModel& model,
                          const ValidationOptions& options) {
   if (auto refusal = RefuseUnanswerable(dataset, model, options)) {

@@ -9,6 +9,7 @@
 #include "telltale/core/effects/augmented_model.hpp"
 #include "telltale/core/identification/identification.hpp"
 #include "telltale/core/identification/physical_model.hpp"
+#include "telltale/core/vessel/motion.hpp"
 #include "telltale/core/vessel/vessel_model.hpp"
 
 namespace telltale {
@@ -40,6 +41,10 @@ struct FreeRunScores {
   double position_rmse_m = 0.0;          ///< at the end of the horizon
   std::size_t windows = 0;
 };
+
+/// Whether a model diverges in these free runs: an error reaches `limits`, m/s and rad/s, or is
+/// no number.
+bool Diverges(const FreeRunScores& scores, const Nu& limits);
 
 struct ValidationOptions {
   std::vector<double> horizons_s = {1.0, 5.0, 10.0};  ///< each [2 h, 600]

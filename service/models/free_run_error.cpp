@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "telltale/core/data/preparation.hpp"
+#include "telltale/core/simulation/divergence.hpp"
 #include "telltale/core/validation/validation.hpp"
 
 namespace telltale {
@@ -23,10 +24,11 @@ std::optional<FreeRunError> MeasureFreeRunError(const Recording& recording, cons
   if (!metrics || metrics->free_run.empty() || metrics->free_run.front().windows == 0) {
     return std::nullopt;
   }
+  const FreeRunScores& scores = metrics->free_run.front();
+  if (Diverges(scores, kFreeRunDivergence.LimitsFor(FastestOf(*dataset)))) return std::nullopt;
   FreeRunError error;
-  std::ranges::transform(metrics->free_run.front().velocity, error.begin(), &FreeRunScore::rmse);
-  const bool finite = std::ranges::all_of(error, [](double e) { return std::isfinite(e); });
-  return finite ? std::optional(error) : std::nullopt;
+  std::ranges::transform(scores.velocity, error.begin(), &FreeRunScore::rmse);
+  return error;
 }
 
 double RelativeError(const FreeRunError& now, const FreeRunError& reference) {
