@@ -201,7 +201,7 @@ function Diagnosis({ route }: { route: string }) {
       <p class="lead">{!report.sentence.startsWith(diagnosisVerdict(report.verdict)) &&
         <strong>{diagnosisVerdict(report.verdict)}. </strong>}{report.sentence}</p>
       <p class="muted">Of {clock(report.publishedUnixS)}, against revision {report.modelRevision}.
-        {gap && ` Error ${significant(gap.before)} times the normal sigma before, ${significant(gap.after)} with the causes; floor ${significant(gap.noiseFloor)}.`}
+        {gap && ` Error ${significant(gap.before)} times the normal error before, ${significant(gap.after)} with the causes; floor ${significant(gap.noiseFloor)}.`}
         {gap?.closure !== undefined && ` Excess error explained: ${percent(gap.closure)}.`}</p>
       {likely.length > 0 && <><h3>Causes, by probability</h3>
         <ul class="causes">{likely.map((cause) => <Cause key={cause.effects.join()} cause={cause} />)}</ul></>}

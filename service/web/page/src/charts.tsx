@@ -174,8 +174,9 @@ export function Intervals({ models, equation }: { models: Model[]; equation: str
         <thead>
           <tr>
             <th scope="col">coefficient</th>
-            <th scope="col">revisions {inTime[0]?.provenance.revision}
-              {inTime.length > 1 && ` to ${newest.provenance.revision}`}</th>
+            <th scope="col">{inTime.length > 1
+              ? `revisions ${inTime[0]?.provenance.revision} to ${newest.provenance.revision}`
+              : `revision ${newest.provenance.revision}`}</th>
             <th scope="col" class="number">estimate</th>
             <th scope="col" class="number">{`${100 * (rows[0]?.interval?.level ?? 0.95)} % bounds`}</th>
           </tr>
