@@ -87,6 +87,7 @@ class RefreshView {
                  total == 0 ? 1.0 : static_cast<double>(through) / static_cast<double>(total));
   }
 
+ private:
   void Take(const RefreshedVehicle& vehicle) {
     RefreshState& state = states_[vehicle.vehicle_id];
     const bool through = IsFinal(vehicle.state) && !IsFinal(state);
@@ -94,7 +95,6 @@ class RefreshView {
     if (through && lines_) Show(vehicle);
   }
 
- private:
   static void Show(const RefreshedVehicle& vehicle) {
     if (isatty(STDERR_FILENO)) std::cerr << kClearLine << std::flush;
     std::string text(Name(vehicle.state));
@@ -155,7 +155,6 @@ void Refresh(const RefreshArguments& arguments) {
     if (!std::exchange(confirmed, true)) note.Change(GoesOnNote(refresh_id));
     view->Take(progress);
   });
-  for (const RefreshedVehicle& vehicle : reply.refreshed) view->Take(vehicle);
   view.reset();
   arguments.output.Write(PrintRefreshJson(refresh_id, reply), [&] {
     if (reply.refreshed.empty()) return std::string("no boat meets the conditions\n");
