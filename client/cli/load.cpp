@@ -27,13 +27,14 @@ namespace {
 using LoadClock = std::chrono::steady_clock;
 
 // A boat sends what the bundled recording holds: 5 fixes, 50 headings and 10 commands a second.
-constexpr int kTicksPerSecond = 50;
+constexpr int kTicksPerSecond = 50;  // times LoadArguments::times
 constexpr int kTicksPerFix = 10;
 constexpr int kTicksPerCommand = 5;
 
 struct LoadArguments {
   int boats = 100;
   double duration_s = 60.0;
+  int times = 1;
   std::filesystem::path write_vehicles;
   LiveOptions live;
 };
@@ -54,18 +55,21 @@ Vehicle VehicleOfLoad(const std::string& vehicle_id) {
 /// A boat that winds its way north-east, each in a rhythm of its own.
 class LoadBoat {
  public:
-  explicit LoadBoat(int number)
-      : vehicle_id_(BoatName(number)), phase_(0.1 * number), latitude_deg_(37.0 + 1e-3 * number) {}
+  LoadBoat(int number, int ticks_per_s)
+      : vehicle_id_(BoatName(number)),
+        ticks_per_s_(ticks_per_s),
+        phase_(0.1 * number),
+        latitude_deg_(37.0 + 1e-3 * number) {}
 
   /// The samples of the tick that is due; returns how many there were.
   int Send(int tick, Writer<telltale_wire_GnssFix>& gnss, Writer<telltale_wire_Heading>& heading,
            Writer<telltale_wire_Thrusters>& thrusters) {
     constexpr double kSpeedMps = 1.0;
     constexpr double kMetresPerDegree = 111'000.0;
-    const double time_s = static_cast<double>(tick) / kTicksPerSecond;
+    const double time_s = static_cast<double>(tick) / ticks_per_s_;
     const double turn = std::sin(0.2 * time_s + phase_);
     const double psi = std::numbers::pi / 4.0 + turn;
-    const double step_m = kSpeedMps / kTicksPerSecond;
+    const double step_m = kSpeedMps / ticks_per_s_;
     latitude_deg_ += step_m * std::cos(psi) / kMetresPerDegree;
     longitude_deg_ += step_m * std::sin(psi) / (kMetresPerDegree * std::cos(0.646));
     int sent = 1;
@@ -86,6 +90,7 @@ class LoadBoat {
 
  private:
   std::string vehicle_id_;
+  int ticks_per_s_;
   double phase_;
   double latitude_deg_;
   double longitude_deg_ = -6.0;
@@ -114,16 +119,18 @@ void Load(const LoadArguments& arguments) {
   if (!WaitForMatch(participant, {gnss, heading, thrusters}, arguments.live.Timeout())) {
     throw std::runtime_error("nobody takes telemetry: " + NobodyThereAdvice(arguments.live.domain));
   }
+  const int ticks_per_s = kTicksPerSecond * arguments.times;
   std::vector<LoadBoat> boats;
-  for (int i = 1; i <= arguments.boats; ++i) boats.emplace_back(i);
+  for (int i = 1; i <= arguments.boats; ++i) boats.emplace_back(i, ticks_per_s);
   ProgressLine line;
   const auto begun = LoadClock::now();
-  const int ticks = static_cast<int>(std::lround(arguments.duration_s * kTicksPerSecond));
+  const int ticks = static_cast<int>(std::lround(arguments.duration_s * ticks_per_s));
   std::uint64_t sent = 0;
   double latest_s = 0.0;
   for (int tick = 0; tick < ticks; ++tick) {
-    const auto due = begun + std::chrono::duration_cast<LoadClock::duration>(
-                                 std::chrono::duration<double>(tick / double{kTicksPerSecond}));
+    const auto due =
+        begun + std::chrono::duration_cast<LoadClock::duration>(
+                    std::chrono::duration<double>(static_cast<double>(tick) / ticks_per_s));
     std::this_thread::sleep_until(due);
     for (LoadBoat& boat : boats) {
       sent += static_cast<std::uint64_t>(boat.Send(tick, gnss, heading, thrusters));
@@ -155,6 +162,11 @@ void AddLoad(CLI::App& telltale) {
   command.add_option("--duration", arguments->duration_s, "how long, in real time")
       ->type_name("S")
       ->check(NumberWithin(0.1, 86400.0))
+      ->capture_default_str();
+  command
+      .add_option("--times", arguments->times, "times as many samples of each boat, as an overload")
+      ->type_name("N")
+      ->check(CLI::Range(1, 20))
       ->capture_default_str();
   command
       .add_option("--write-vehicles", arguments->write_vehicles,

@@ -131,11 +131,16 @@ std::string TelemetryLines(const Quality& quality) {
                              " % of what it may hold; " + std::to_string(quality.accepted) +
                              " samples kept");
   text += Line("last minute", Percent(quality.loss_share) + " % lost, " +
-                                  Percent(quality.reject_share) + " % rejected");
+                                  Percent(quality.reject_share) + " % rejected, " +
+                                  Percent(quality.shed_share) + " % shed");
   text += Line("since start", std::to_string(quality.lost) + " lost; " +
                                   (quality.rejected.empty() ? "none rejected" : "rejected:"));
   for (const RejectEntry& entry : quality.rejected) {
     text += Line("", entry.channel + ' ' + entry.reason + ' ' + std::to_string(entry.count));
+  }
+  for (const Channel channel : kChannels) {
+    const std::uint64_t shed = quality.shed[static_cast<std::size_t>(channel)];
+    if (shed > 0) text += Line("", std::string(Name(channel)) + " shed " + std::to_string(shed));
   }
   return text;
 }

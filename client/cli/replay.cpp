@@ -67,6 +67,7 @@ class Pacing {
   void Finish(std::uint64_t published) { WaitUntilTaken(published, published); }
 
   std::uint64_t Lost() const { return receipts_.Lost(); }
+  std::uint64_t Shed() const { return receipts_.Shed(); }
 
  private:
   void WaitUntilTaken(std::uint64_t count, std::uint64_t published) {
@@ -113,8 +114,15 @@ double Publish(const std::vector<RawSample>& samples, double speed, TelemetryPub
 
 std::string OutcomeText(const Pacing& pacing) {
   if (!pacing.Reported()) return "; no daemon reports on this vehicle";
-  if (pacing.Lost() == 0) return ", all received";
-  return ", " + Counted(pacing.Lost(), "sample", "samples") + " lost on the way";
+  std::string text = ", all received";
+  if (pacing.Lost() > 0) {
+    text = ", " + Counted(pacing.Lost(), "sample", "samples") + " lost on the way";
+  }
+  if (pacing.Shed() > 0) {
+    text += ", " + Counted(pacing.Shed(), "sample", "samples") +
+            " shed by the daemon, which was sent more than it takes in";
+  }
+  return text;
 }
 
 void Replay(const ReplayArguments& arguments) {

@@ -34,15 +34,19 @@ void Receipts::Take(const Quality& quality) {
   if (quality.vehicle_id == kUnattributed) ++rounds_without_;
   if (quality.vehicle_id != vehicle_id_) return;
   rounds_without_ = 0;
-  const std::uint64_t total = quality.accepted + RejectedTotal(quality) + quality.lost;
+  const std::uint64_t shed =
+      std::accumulate(quality.shed.begin(), quality.shed.end(), std::uint64_t{0});
+  const std::uint64_t total = quality.accepted + RejectedTotal(quality) + quality.lost + shed;
   if (!begun_at_) {
     begun_at_ = total;
     lost_before_ = lost_ = quality.lost;
+    shed_before_ = shed;
   }
   if (total < total_) return;  // a second daemon, whose counts began later
   // What was written off and then seen to be missing is lost once.
   written_off_ -= std::min(written_off_, quality.lost - std::min(lost_, quality.lost));
   lost_ = std::max(lost_, quality.lost);
+  shed_ = shed;
   total_ = total;
 }
 

@@ -22,7 +22,8 @@ class Receipts {
   /// publishes quality, whole rounds of reports lack the vehicle, or `timeout` passes.
   bool Begin(std::chrono::nanoseconds timeout);
 
-  /// Waits until at least `count` samples are accounted for: kept, rejected or known to be lost.
+  /// Waits until at least `count` samples are accounted for: kept, rejected, shed or known to be
+  /// lost.
   /// False when the count has not moved for `patience`.
   bool WaitFor(std::uint64_t count, std::chrono::nanoseconds patience);
 
@@ -34,6 +35,9 @@ class Receipts {
   /// Samples that were sent and did not arrive.
   std::uint64_t Lost() const { return lost_ - lost_before_ + written_off_; }
 
+  /// Samples that arrived and that the daemon did not take in, since too many came.
+  std::uint64_t Shed() const { return shed_ - shed_before_; }
+
  private:
   void Take(const Quality& quality);
 
@@ -42,6 +46,8 @@ class Receipts {
   std::uint64_t total_ = 0;
   std::uint64_t lost_ = 0;
   std::uint64_t lost_before_ = 0;
+  std::uint64_t shed_ = 0;
+  std::uint64_t shed_before_ = 0;
   std::uint64_t written_off_ = 0;
   int rounds_without_ = 0;  ///< rounds of reports without this vehicle
   QualitySubscriber qualities_;

@@ -68,11 +68,10 @@ std::vector<Sample> Drained(std::deque<Sample>& from) {
 
 std::optional<Refusal> WindowLimits::Validate() const {
   constexpr double kUnbounded = std::numeric_limits<double>::infinity();
-  constexpr double kSmallestMemory = 64.0 * 1024.0;
   const std::string_view window = "window";
   if (auto r = OutOfRange(window, "duration_s", duration_s, 10.0, 86400.0)) return r;
   if (auto r = OutOfRange(window, "memory_bytes", static_cast<double>(memory_bytes),
-                          kSmallestMemory, kUnbounded)) {
+                          static_cast<double>(kLeastMemory), kUnbounded)) {
     return r;
   }
   if (auto r = OutOfRange(window, "reorder_tolerance_s", reorder_tolerance_s, 0.0, 10.0)) return r;
@@ -198,6 +197,10 @@ struct Window::Impl {
     ForEachChannel(held.samples, [this](auto& samples) {
       while (!samples.empty() && Expired(samples.front())) samples.pop_front();
     });
+    DropBeyondMemory();
+  }
+
+  void DropBeyondMemory() {
     while (StoredBytes() > limits.memory_bytes) DropOldest();
   }
 
@@ -265,6 +268,16 @@ Recording Window::Snapshot() const {
 Recording Window::Release() && {
   auto& [gnss, heading, thrusters] = impl_->held.samples;
   return {Drained(gnss), Drained(heading), Drained(thrusters), impl_->rejected};
+}
+
+void Window::LimitMemory(std::size_t memory_bytes) {
+  Require(memory_bytes >= WindowLimits::kLeastMemory, "a memory limit of kLeastMemory and more");
+  impl_->limits.memory_bytes = memory_bytes;
+  impl_->DropBeyondMemory();
+}
+
+std::size_t Window::StoredBytes() const {
+  return impl_->StoredBytes();
 }
 
 std::size_t Window::Size(Channel channel) const {

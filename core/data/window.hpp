@@ -12,11 +12,13 @@ namespace telltale {
 /// Limits of one boat's sliding window. Every field is checked by Validate().
 struct WindowLimits {
   double duration_s = 1200.0;            ///< time span kept behind the newest sample, [10, 86400]
-  std::size_t memory_bytes = 64u << 20;  ///< upper bound on stored samples, at least 64 KiB
+  std::size_t memory_bytes = 64u << 20;  ///< upper bound on stored samples, kLeastMemory and more
   double reorder_tolerance_s = 0.5;      ///< a late sample this old is put in place, [0, 10]
   double clock_jump_s = 60.0;            ///< a larger step in time is a jump, [1, 86400]
   std::size_t clock_jump_confirmations = 5;  ///< samples that confirm a new clock, [1, 1000]
   double stuck_after_s = 5.0;  ///< commanded time an unchanged reading may last, [1, 600]
+
+  static constexpr std::size_t kLeastMemory = 64u << 10;
 
   /// The first field out of its range, as a refusal naming field, value and range.
   std::optional<Refusal> Validate() const;
@@ -63,6 +65,13 @@ class Window {
 
   /// The same, given away, so that the samples stand in memory once. The window is empty then.
   Recording Release() &&;
+
+  /// Another bound instead of WindowLimits::memory_bytes, kLeastMemory and more; the oldest samples
+  /// beyond it go at once.
+  void LimitMemory(std::size_t memory_bytes);
+
+  /// Memory of the samples that Snapshot() gives.
+  std::size_t StoredBytes() const;
 
   std::size_t Size(Channel channel) const;
   double StartTime() const;  ///< oldest kept sample of any channel; 0 when empty

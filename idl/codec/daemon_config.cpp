@@ -15,16 +15,30 @@ namespace {
 constexpr std::array<std::string_view, 5> kLogLevels = {"trace", "debug", "info", "warn", "error"};
 constexpr std::uint32_t kFewestReplicates = 100;  // fewer cannot place a 95 % bound
 
+constexpr std::size_t kMiB = std::size_t{1} << 20;
+
 WindowLimits ReadWindow(FieldReader reader) {
-  constexpr std::uint32_t kMiB = 1u << 20;
   WindowLimits limits;
   limits.duration_s = reader.Number("duration_s", {10.0, 86400.0}, limits.duration_s);
   const auto default_mib = static_cast<std::uint32_t>(limits.memory_bytes / kMiB);
-  limits.memory_bytes = std::size_t{reader.Count("memory_mib", {1.0, 65536.0}, default_mib)} * kMiB;
+  limits.memory_bytes = reader.Count("memory_mib", {1.0, 65536.0}, default_mib) * kMiB;
   limits.reorder_tolerance_s =
       reader.Number("reorder_tolerance_s", {0.0, 10.0}, limits.reorder_tolerance_s);
   limits.clock_jump_s = reader.Number("clock_jump_s", {1.0, 86400.0}, limits.clock_jump_s);
   limits.stuck_after_s = reader.Number("stuck_after_s", {1.0, 600.0}, limits.stuck_after_s);
+  return limits;
+}
+
+std::size_t ReadTotalWindowBytes(FieldReader reader, std::size_t fallback) {
+  const auto fallback_mib = static_cast<std::uint32_t>(fallback / kMiB);
+  return reader.Count("total_memory_mib", {1.0, 16777216.0}, fallback_mib) * kMiB;
+}
+
+IntakeLimits ReadIntake(FieldReader reader) {
+  IntakeLimits limits;
+  limits.samples_per_s = reader.Number("samples_per_s", {10.0, 1e7}, limits.samples_per_s);
+  limits.vehicle_samples_per_s =
+      reader.Number("vehicle_samples_per_s", {10.0, 1e6}, limits.vehicle_samples_per_s);
   return limits;
 }
 
@@ -241,6 +255,9 @@ DaemonConfig ReadConfig(FieldReader reader, const proto::DaemonConfig& message) 
     reader.Fail("slices", "{}", "this with database, which the daemons share");
   }
   config.window = ReadWindow(reader.Optional("window"));
+  config.total_window_bytes =
+      ReadTotalWindowBytes(reader.Optional("window"), config.total_window_bytes);
+  config.intake = ReadIntake(reader.Optional("intake"));
   config.window_save_period_s =
       reader.Optional("window").Number("save_period_s", {0.1, 600.0}, config.window_save_period_s);
   config.identification = ReadIdentification(reader.Optional("identification"));

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -85,6 +86,12 @@ struct SourceSettings {
   std::optional<Ros2SourceSettings> ros2;
 };
 
+/// What the daemon takes in at most; it sheds the samples that come beyond.
+struct IntakeLimits {
+  double samples_per_s = 100'000.0;         ///< [10, 1e7] of all vehicles
+  double vehicle_samples_per_s = 20'000.0;  ///< [10, 1e6] of each
+};
+
 /// How daemons share the fleet.
 struct SliceSettings {
   double lease_s = 10.0;  ///< [1, 600] after which others take over
@@ -100,6 +107,8 @@ struct DaemonConfig {
   std::string database;                 ///< postgresql://...; empty: SQLite in state_directory
   std::optional<SliceSettings> slices;  ///< unset: it has the fleet alone
   WindowLimits window;
+  std::size_t total_window_bytes = std::size_t{4096} << 20;  ///< [1 MiB, 16 TiB] of all vehicles
+  IntakeLimits intake;
   bool require_partition = false;     ///< telemetry only from the DDS partition of the vehicle's id
   double window_save_period_s = 5.0;  ///< [0.1, 600]
   IdentificationSettings identification;

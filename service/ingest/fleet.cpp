@@ -18,13 +18,31 @@ std::string_view Name(UnattributedReason reason) {
   return "";
 }
 
-Fleet::Fleet(const std::vector<Vehicle>& vehicles, const WindowLimits& limits) : limits_(limits) {
+Fleet::Fleet(const std::vector<Vehicle>& vehicles, const WindowLimits& limits,
+             std::size_t total_bytes)
+    : limits_(limits), total_bytes_(total_bytes) {
   for (const Vehicle& vehicle : vehicles) Open(vehicle);
+  ShareMemory();
 }
 
 void Fleet::Open(const Vehicle& vehicle) {
   opened_.push_back(std::make_unique<VehicleWindow>(vehicle, limits_));
   windows_.insert_or_assign(vehicle.vehicle_id, opened_.back().get());
+}
+
+/// A window that is no longer served stays valid for who still reads it, and holds next to nothing.
+void Fleet::ShareMemory() {
+  const std::size_t share = total_bytes_ / std::max<std::size_t>(windows_.size(), 1);
+  const std::size_t of_each =
+      std::max(std::min(share, limits_.memory_bytes), WindowLimits::kLeastMemory);
+  std::set<const VehicleWindow*> served;
+  for (const auto& [vehicle_id, window] : windows_) {
+    window->LimitMemory(of_each);
+    served.insert(window);
+  }
+  for (const auto& window : opened_) {
+    if (!served.contains(window.get())) window->LimitMemory(WindowLimits::kLeastMemory);
+  }
 }
 
 VehicleWindow* Fleet::Find(std::string_view vehicle_id) const {
@@ -72,6 +90,7 @@ Fleet::Changes Fleet::Reload(const std::vector<Vehicle>& vehicles,
     if (!named.contains(vehicle_id)) changes.removed.push_back(vehicle_id);
   }
   for (const std::string& vehicle_id : changes.removed) windows_.erase(vehicle_id);
+  ShareMemory();
   return changes;
 }
 

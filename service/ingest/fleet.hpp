@@ -1,7 +1,9 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -43,7 +45,10 @@ class Fleet {
     std::vector<std::string> removed;
   };
 
-  Fleet(const std::vector<Vehicle>& vehicles, const WindowLimits& limits);
+  /// The windows share `total_bytes` of memory evenly; none has more than its own limit, and none
+  /// less than WindowLimits::kLeastMemory.
+  Fleet(const std::vector<Vehicle>& vehicles, const WindowLimits& limits,
+        std::size_t total_bytes = std::numeric_limits<std::size_t>::max());
 
   /// The vehicle's window, or null when it is not served here.
   VehicleWindow* Find(std::string_view vehicle_id) const;
@@ -69,8 +74,10 @@ class Fleet {
 
  private:
   void Open(const Vehicle& vehicle);
+  void ShareMemory();
 
   const WindowLimits limits_;
+  const std::size_t total_bytes_;
   mutable std::shared_mutex windows_mutex_;  // of what follows
   Windows windows_;
   std::set<std::string, std::less<>> elsewhere_;

@@ -44,10 +44,11 @@ std::optional<Reply> ReplyToUnreadable(const Wire& wire, const CodecError& fault
 }  // namespace
 
 Ingest::Ingest(const Participant& participant, Fleet& fleet, bool require_partition,
-               Handlers handlers)
+               const IntakeLimits& limits, Handlers handlers)
     : fleet_(fleet),
       handlers_(std::move(handlers)),
       senders_(require_partition),
+      intake_(limits),
       warning_limit_(5, std::chrono::seconds(10)),
       wait_set_(participant),
       gnss_(
@@ -165,8 +166,17 @@ void Ingest::Route(Channel channel, const WatchedReader<Wire>& reader, const Wir
   } else if (!senders_.MaySend(writer, telemetry->vehicle_id, partitions_of)) {
     RejectUnattributed(channel, UnattributedReason::kForeignWriter, telemetry->vehicle_id);
   } else {
-    window->Add(telemetry->sequence_number, telemetry->sample);
+    TakeIn(*window, channel, *telemetry);
     CountReceived(*window);
+  }
+}
+
+template <class Sample>
+void Ingest::TakeIn(VehicleWindow& window, Channel channel, const Telemetry<Sample>& telemetry) {
+  if (intake_.Admits(window, channel, Clock::now())) {
+    window.Add(telemetry.sequence_number, telemetry.sample);
+  } else {
+    window.Shed(channel, telemetry.sequence_number, telemetry.sample.time_s);
   }
 }
 

@@ -18,7 +18,9 @@
 #include "telltale/client/bus/watched_reader.hpp"
 #include "telltale/idl/codec/messages/exchange.hpp"
 #include "telltale/idl/codec/messages/fleet_exchange.hpp"
+#include "telltale/idl/codec/messages/telemetry.hpp"
 #include "telltale/service/ingest/fleet.hpp"
+#include "telltale/service/ingest/intake.hpp"
 #include "telltale/service/ingest/senders.hpp"
 #include "telltale/service/ingest/topic_connections.hpp"
 
@@ -49,7 +51,8 @@ class Ingest {
   };
 
   /// `require_partition`: as Senders.
-  Ingest(const Participant& participant, Fleet& fleet, bool require_partition, Handlers handlers);
+  Ingest(const Participant& participant, Fleet& fleet, bool require_partition,
+         const IntakeLimits& limits, Handlers handlers);
   Ingest(const Ingest&) = delete;
   Ingest& operator=(const Ingest&) = delete;
   ~Ingest();  ///< ends the thread
@@ -68,6 +71,8 @@ class Ingest {
   template <class Wire>
   void Route(Channel channel, const WatchedReader<Wire>& reader, const Wire& wire,
              WriterHandle writer);
+  template <class Sample>
+  void TakeIn(VehicleWindow& window, Channel channel, const Telemetry<Sample>& telemetry);
   void CountReceived(VehicleWindow& window);
   void RejectUnattributed(Channel channel, UnattributedReason reason, std::string_view detail);
   template <class Reply, class Wire, class Handler, class Answer>
@@ -76,6 +81,7 @@ class Ingest {
   Fleet& fleet_;
   Handlers handlers_;
   Senders senders_;
+  Intake intake_;
   RateLimit warning_limit_;
   std::map<const VehicleWindow*, std::size_t> since_receipt_;
   std::array<std::atomic<std::uint64_t>, kChannels.size()> received_{};  ///< by channel

@@ -8,6 +8,7 @@ namespace telltale {
 VehicleWindow::VehicleWindow(Vehicle vehicle, const WindowLimits& limits)
     : vehicle_(std::move(vehicle)),
       limits_(limits),
+      most_waiting_(limits.memory_bytes / sizeof(Arrival)),
       window_(limits),
       clock_jumps_(limits.clock_jump_s) {}
 
@@ -26,12 +27,34 @@ void VehicleWindow::Add(std::uint64_t sequence_number, const ThrusterSample& thr
 void VehicleWindow::Add(Channel channel, std::uint64_t sequence_number, const Sample& sample) {
   {
     const std::lock_guard lock(inbox_mutex_);
-    inbox_.push_back({sample, ClockJumps::Clock::now()});
-    gaps_[static_cast<std::size_t>(channel)].Note(
-        sequence_number, std::visit([](const auto& s) { return s.time_s; }, sample));
-    ++arrived_[static_cast<std::size_t>(channel)];
+    NoteArrival(channel, sequence_number,
+                std::visit([](const auto& s) { return s.time_s; }, sample));
+    if (inbox_.size() < most_waiting_) {
+      inbox_.push_back({sample, ClockJumps::Clock::now()});
+    } else {
+      ++shed_[static_cast<std::size_t>(channel)];
+    }
   }
   if (const std::unique_lock lock(window_mutex_, std::try_to_lock); lock) EmptyInbox();
+}
+
+void VehicleWindow::Shed(Channel channel, std::uint64_t sequence_number, double time_s) {
+  const std::lock_guard lock(inbox_mutex_);
+  NoteArrival(channel, sequence_number, time_s);
+  ++shed_[static_cast<std::size_t>(channel)];
+}
+
+/// The caller holds inbox_mutex_.
+void VehicleWindow::NoteArrival(Channel channel, std::uint64_t sequence_number, double time_s) {
+  gaps_[static_cast<std::size_t>(channel)].Note(sequence_number, time_s);
+  ++arrived_[static_cast<std::size_t>(channel)];
+}
+
+void VehicleWindow::LimitMemory(std::size_t memory_bytes) {
+  const std::lock_guard window_lock(window_mutex_);
+  window_.LimitMemory(memory_bytes);
+  const std::lock_guard inbox_lock(inbox_mutex_);
+  most_waiting_ = memory_bytes / sizeof(Arrival);
 }
 
 Recording VehicleWindow::Snapshot() {
@@ -49,11 +72,13 @@ WindowState VehicleWindow::State() {
   state.fill = std::clamp((state.end_s - state.start_s) / limits_.duration_s, 0.0, 1.0);
   state.accepted = accepted_;
   state.rejected = window_.Rejected();
+  state.bytes = window_.StoredBytes();
   state.clock_jumps = clock_jumps_.count();
   state.newest_fix = newest_fix_;
   state.newest_heading = newest_heading_;
   const std::lock_guard inbox_lock(inbox_mutex_);
   state.arrived = arrived_;
+  state.shed = shed_;
   for (const SequenceGaps& gaps : gaps_) state.lost += gaps.lost();
   return state;
 }
@@ -118,6 +143,7 @@ void VehicleWindow::TakeOver(VehicleWindow& former) {
   const std::scoped_lock inboxes(inbox_mutex_, former.inbox_mutex_);
   gaps_ = former.gaps_;
   arrived_ = former.arrived_;
+  shed_ = former.shed_;
 }
 
 void VehicleWindow::Restore(const Recording& samples) {

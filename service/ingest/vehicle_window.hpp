@@ -23,7 +23,9 @@ struct WindowState {
   std::array<std::uint64_t, kChannels.size()> arrived{};  ///< gnss, heading, thrusters
   std::uint64_t accepted = 0;
   std::uint64_t lost = 0;
+  std::array<std::uint64_t, kChannels.size()> shed{};  ///< of those that arrived
   RejectCounts rejected;
+  std::size_t bytes = 0;              ///< memory of the samples held
   std::uint64_t clock_jumps = 0;      ///< of the vehicle's clock
   std::optional<GnssFix> newest_fix;  ///< of those kept
   std::optional<HeadingSample> newest_heading;
@@ -40,6 +42,13 @@ class VehicleWindow {
   void Add(std::uint64_t sequence_number, const GnssFix& fix);
   void Add(std::uint64_t sequence_number, const HeadingSample& heading);
   void Add(std::uint64_t sequence_number, const ThrusterSample& thrusters);
+
+  /// Counts a sample that has arrived and is not taken in.
+  void Shed(Channel channel, std::uint64_t sequence_number, double time_s);
+
+  /// As Window::LimitMemory(). As many bytes of samples may wait while the window is read; it sheds
+  /// those that come beyond.
+  void LimitMemory(std::size_t memory_bytes);
 
   /// The samples and counts of the same vehicle's former window, which is empty afterwards.
   void TakeOver(VehicleWindow& former);
@@ -65,6 +74,7 @@ class VehicleWindow {
   };
 
   void Add(Channel channel, std::uint64_t sequence_number, const Sample& sample);
+  void NoteArrival(Channel channel, std::uint64_t sequence_number, double time_s);
   void EmptyInbox();  ///< into the window; the caller holds window_mutex_
   bool Keep(const Sample& sample);
   void NoteNewest(const Sample& sample);
@@ -77,6 +87,8 @@ class VehicleWindow {
   std::vector<Arrival> inbox_;
   std::array<SequenceGaps, kChannels.size()> gaps_;
   std::array<std::uint64_t, kChannels.size()> arrived_{};
+  std::array<std::uint64_t, kChannels.size()> shed_{};
+  std::size_t most_waiting_;  ///< samples in the inbox
 
   std::mutex window_mutex_;
   std::vector<Arrival> emptied_;

@@ -104,6 +104,14 @@ void AddLoss(const LastMinute& last, const VerdictLimits& limits, Reasons& reaso
                           100.0 * last.LossShare()));
 }
 
+void AddShedding(const LastMinute& last, const VerdictLimits& limits, Reasons& reasons) {
+  if (last.ShedShare() <= limits.shed_share) return;
+  reasons.Add("SHED", kWarn,
+              fmt::format("{:.0f} % of the samples of the last minute are left aside: more come "
+                          "than the daemon takes in",
+                          100.0 * last.ShedShare()));
+}
+
 void AddModel(const Quality& quality, const VerdictLimits& limits, Reasons& reasons) {
   if (quality.last_refusal) {
     reasons.Add("REFUSED", kWarn,
@@ -136,6 +144,7 @@ std::vector<QualityReason> ReasonsOf(const Quality& quality, const LastMinute& l
   AddRejects(last, limits, reasons);
   AddClock(last, limits, reasons);
   AddLoss(last, limits, reasons);
+  AddShedding(last, limits, reasons);
   AddModel(quality, limits, reasons);
   if (store_fault) reasons.Add("NOT_SAVED", kWarn, "what comes is not saved: " + *store_fault);
   return std::move(reasons).MostSeriousFirst();

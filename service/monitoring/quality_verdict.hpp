@@ -13,6 +13,7 @@ namespace telltale {
 struct VerdictLimits {
   double silent_s = 10.0;      ///< a silence that is longer is a fault
   double loss_share = 0.05;    ///< of the samples sent in the last minute
+  double shed_share = 0.05;    ///< of the samples of the last minute
   double reject_share = 0.05;  ///< of the samples of the last minute: WARN
   double useless_share = 0.5;  ///< of the samples of the last minute: ERROR
   std::uint64_t faults = 5;    ///< stamps off the clock, or readings of a stuck sensor, in a minute

@@ -9,8 +9,8 @@ namespace {
 constexpr std::chrono::seconds kMinute{60};
 constexpr std::chrono::seconds kBetweenCounts{5};
 
-std::uint64_t Arrived(const WindowState& state) {
-  return std::accumulate(state.arrived.begin(), state.arrived.end(), std::uint64_t{0});
+std::uint64_t OfAllChannels(const std::array<std::uint64_t, kChannels.size()>& counts) {
+  return std::accumulate(counts.begin(), counts.end(), std::uint64_t{0});
 }
 
 double Share(std::uint64_t part, std::uint64_t whole) {
@@ -43,6 +43,10 @@ double LastMinute::RejectShare() const {
   return Share(rejected.Total(), arrived);
 }
 
+double LastMinute::ShedShare() const {
+  return Share(shed, arrived);
+}
+
 void RecentTelemetry::Note(const WindowState& state, Clock::time_point now) {
   for (std::size_t i = 0; i < kChannels.size(); ++i) {
     const bool first = !newest_;
@@ -61,8 +65,9 @@ LastMinute RecentTelemetry::Summary() const {
   for (std::size_t i = 0; i < kChannels.size(); ++i) {
     last.silent_s[i] = std::chrono::duration<double>(newest_->at - arrived_at_[i]).count();
   }
-  last.ever_arrived = Arrived(now) > 0;
-  last.arrived = Arrived(now) - Arrived(then);
+  last.ever_arrived = OfAllChannels(now.arrived) > 0;
+  last.arrived = OfAllChannels(now.arrived) - OfAllChannels(then.arrived);
+  last.shed = OfAllChannels(now.shed) - OfAllChannels(then.shed);
   last.lost = std::max(now.lost, then.lost) - then.lost;
   last.clock_jumps = std::max(now.clock_jumps, then.clock_jumps) - then.clock_jumps;
   last.rejected = RejectedBetween(then.rejected, now.rejected);

@@ -17,6 +17,7 @@ struct LastMinute {
   std::array<double, kChannels.size()> silent_s{};  ///< gnss, heading, thrusters
   std::uint64_t arrived = 0;
   std::uint64_t lost = 0;
+  std::uint64_t shed = 0;         ///< of those that arrived
   std::uint64_t clock_jumps = 0;  ///< of the vehicle's clock
   RejectCounts rejected;
 
@@ -26,6 +27,8 @@ struct LastMinute {
   double LossShare() const;
   /// Of the samples that arrived; 0 where none did.
   double RejectShare() const;
+  /// Likewise.
+  double ShedShare() const;
 };
 
 /// Remembers the counts of one vehicle for a minute. Not thread safe.

@@ -22,6 +22,8 @@ void WriteCounts(const WindowState& now, Quality& quality) {
   quality.lost = now.lost;
   quality.accepted = now.accepted;
   quality.rejected = RejectEntries(now.rejected);
+  quality.shed = now.shed;
+  quality.window_bytes = now.bytes;
 }
 
 /// What the window says of the telemetry alone.
@@ -135,6 +137,7 @@ void VehicleMonitor::Decide(const WindowState& state, const FleetView& view,
   quality.silent_s = last.SilentS();
   quality.loss_share = last.LossShare();
   quality.reject_share = last.RejectShare();
+  quality.shed_share = last.ShedShare();
   quality.reasons = ReasonsOf(quality, last, store_fault);
   AddSourceFaults(view.SourceFaults(), quality.reasons);
   quality.verdict = VerdictOf(quality.reasons);

@@ -70,6 +70,11 @@ std::vector<VehicleNumber> TelemetryNumbers() {
       {"telltale_vehicle_reject_ratio",
        "Share of the samples of the last minute that are rejected.", Gauge,
        [](const Quality& q) { return q.reject_share; }},
+      {"telltale_vehicle_shed_ratio",
+       "Share of the samples of the last minute that the daemon did not take in.", Gauge,
+       [](const Quality& q) { return q.shed_share; }},
+      {"telltale_vehicle_window_bytes", "Memory of the samples that the window holds.", Gauge,
+       [](const Quality& q) { return static_cast<double>(q.window_bytes); }},
       {"telltale_vehicle_samples_accepted_total", "Samples that reached the window.", Counter,
        [](const Quality& q) { return static_cast<double>(q.accepted); }},
       {"telltale_vehicle_samples_lost_total", "Samples missing by their sequence numbers.", Counter,
@@ -194,6 +199,18 @@ MetricFamily RejectedSamples(const std::vector<Quality>& fleet) {
                   {"channel", entry.channel},
                   {"reason", entry.reason}},
                  static_cast<double>(entry.count));
+    }
+  }
+  return std::move(values).Take();
+}
+
+MetricFamily ShedSamples(const std::vector<Quality>& fleet) {
+  MetricValues values(MetricType::Counter, "telltale_vehicle_samples_shed_total",
+                      "Samples that arrived and were not taken in, since too many came.");
+  for (const Quality& quality : fleet) {
+    for (const Channel channel : kChannels) {
+      values.Add({{"vehicle_id", quality.vehicle_id}, {"channel", std::string(Name(channel))}},
+                 static_cast<double>(quality.shed[static_cast<std::size_t>(channel)]));
     }
   }
   return std::move(values).Take();
@@ -336,9 +353,9 @@ void AddDaemon(FleetView& view, std::size_t vehicles, std::vector<MetricFamily>&
 
 std::vector<prometheus::MetricFamily> FleetMetrics::Collect() const {
   const std::vector<Quality> fleet = view_.Qualities();
-  std::vector<MetricFamily> families = {VerdictStates(fleet), ActiveReasons(fleet),
-                                        SampleRates(fleet),   RejectedSamples(fleet),
-                                        ModelVerdicts(fleet), Delays(fleet)};
+  std::vector<MetricFamily> families = {
+      VerdictStates(fleet), ActiveReasons(fleet), SampleRates(fleet), RejectedSamples(fleet),
+      ShedSamples(fleet),   ModelVerdicts(fleet), Delays(fleet)};
   AddNumbers(fleet, TelemetryNumbers(), families);
   AddNumbers(fleet, ModelNumbers(), families);
   AddDaemon(view_, fleet.size(), families);

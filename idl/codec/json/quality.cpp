@@ -27,6 +27,12 @@ void WriteTelemetry(const Quality& quality, proto::Quality& message) {
   message.set_lost(Saturated(quality.lost));
   message.set_loss_share(quality.loss_share);
   message.set_reject_share(quality.reject_share);
+  const auto& [gnss, heading, thrusters] = quality.shed;
+  message.mutable_shed()->set_gnss(Saturated(gnss));
+  message.mutable_shed()->set_heading(Saturated(heading));
+  message.mutable_shed()->set_thrusters(Saturated(thrusters));
+  message.set_shed_share(quality.shed_share);
+  message.set_window_bytes(static_cast<double>(quality.window_bytes));
   for (const RejectEntry& entry : quality.rejected) {
     proto::Quality::Rejected& to = *message.add_rejected();
     to.set_channel(entry.channel);

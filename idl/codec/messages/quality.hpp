@@ -124,6 +124,10 @@ struct Quality {
   std::optional<QualityPosition> position;
   Promotion model_verdict;           ///< of the model when it was made
   std::vector<ChannelDelay> delays;  ///< of a model of the physical form; none: of the others
+  /// Samples that arrived and were left aside, since more came than the daemon takes in.
+  std::array<std::uint64_t, kChannels.size()> shed{};
+  double shed_share = 0.0;         ///< of the samples that arrived in the last minute, [0, 1]
+  std::uint64_t window_bytes = 0;  ///< memory of the samples held
 };
 
 }  // namespace telltale

@@ -95,6 +95,9 @@ void ReadAssessment(const telltale_wire_Quality& wire, Quality& quality) {
       ReadOptionalName("model_verdict", View(wire.model_verdict), kPromotionVerdicts),
       TextOf(wire.model_verdict_reason)};
   quality.delays = ReadSequence("delays", wire.delays, ReadDelay);
+  quality.shed = {wire.gnss_shed, wire.heading_shed, wire.thrusters_shed};
+  quality.shed_share = ReadWithin("shed_share", wire.shed_share, kShare);
+  quality.window_bytes = wire.window_bytes;
 }
 
 void FillAssessment(telltale_wire_Quality& wire, const Quality& quality) {
@@ -116,6 +119,11 @@ void FillAssessment(telltale_wire_Quality& wire, const Quality& quality) {
   PutVerdict(wire.model_verdict, quality.model_verdict.verdict);
   Put(wire.model_verdict_reason, quality.model_verdict.reason);
   PutSequence(wire.delays, quality.delays, FillDelay);
+  wire.gnss_shed = quality.shed[static_cast<std::size_t>(Channel::kGnss)];
+  wire.heading_shed = quality.shed[static_cast<std::size_t>(Channel::kHeading)];
+  wire.thrusters_shed = quality.shed[static_cast<std::size_t>(Channel::kThrusters)];
+  wire.shed_share = quality.shed_share;
+  wire.window_bytes = quality.window_bytes;
 }
 
 Quality ReadQuality(const telltale_wire_Quality& wire) {

@@ -120,12 +120,16 @@ TEST(DaemonConfig, ReadsEveryField) {
       "vehicle_files: \"c.textproto\" vehicle_files: \"d.textproto\"\n"
       "state_directory: \"/tmp/state\"\n"
       "window { duration_s: 600 memory_mib: 2 reorder_tolerance_s: 0 clock_jump_s: 5 "
-      "stuck_after_s: 9 }\n"
+      "stuck_after_s: 9 total_memory_mib: 3 }\n"
+      "intake { samples_per_s: 5000 vehicle_samples_per_s: 70 }\n"
       "identification { workers: 3 bootstrap_replicates: 0 interval_level: 0.9 queue_limit: 7 "
       "structure: \"auto\" }\n"
       "quality_period_s: 0.5 log_level: \"debug\"\n");
   ASSERT_TRUE(config) << config.error().Message();
   EXPECT_EQ(config->domain, 42u);
+  EXPECT_EQ(config->total_window_bytes, 3u << 20);
+  EXPECT_EQ(config->intake.samples_per_s, 5000.0);
+  EXPECT_EQ(config->intake.vehicle_samples_per_s, 70.0);
   ASSERT_EQ(config->vehicles.size(), 2u);
   EXPECT_EQ(config->vehicles[1].vehicle_id, "b");
   EXPECT_THAT(config->vehicle_files, ElementsAre("c.textproto", "d.textproto"));
@@ -175,6 +179,11 @@ INSTANTIATE_TEST_SUITE_P(
         ConfigFault{"window { duration_s: 9 }", "window.duration_s", "9", "[10, 86400]"},
         ConfigFault{"window { duration_s: nan }", "window.duration_s", "nan", "[10, 86400]"},
         ConfigFault{"window { memory_mib: 0 }", "window.memory_mib", "0", "[1, 65536]"},
+        ConfigFault{"window { total_memory_mib: 0 }", "window.total_memory_mib", "0",
+                    "[1, 16777216]"},
+        ConfigFault{"intake { samples_per_s: 9 }", "intake.samples_per_s", "9", "[10, 10000000]"},
+        ConfigFault{"intake { vehicle_samples_per_s: inf }", "intake.vehicle_samples_per_s", "inf",
+                    "[10, 1000000]"},
         ConfigFault{"window { reorder_tolerance_s: -0.1 }", "window.reorder_tolerance_s", "-0.1",
                     "[0, 10]"},
         ConfigFault{"window { clock_jump_s: 0 }", "window.clock_jump_s", "0", "[1, 86400]"},

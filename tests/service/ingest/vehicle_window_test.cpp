@@ -25,6 +25,20 @@ TEST(VehicleWindow, CountsArrivalsAdmissionsAndLoss) {
   EXPECT_EQ(window.Snapshot().gnss.size(), 2u);
 }
 
+TEST(VehicleWindow, CountsWhatIsShedAsArrivedAndNotAsLost) {
+  VehicleWindow window(YellowfishVehicle(), WindowLimits());
+  window.Add(1, HeadingSample{0.0, 10.0});
+  window.Shed(Channel::kHeading, 2, 0.1);
+  window.Shed(Channel::kHeading, 3, 0.2);
+  window.Add(4, HeadingSample{0.3, 11.0});
+  const WindowState state = window.State();
+  EXPECT_EQ(state.arrived[1], 4u);
+  EXPECT_EQ(state.shed[1], 2u);
+  EXPECT_EQ(state.accepted, 2u);
+  EXPECT_EQ(state.lost, 0u);
+  EXPECT_EQ(window.Snapshot().heading.size(), 2u);
+}
+
 TEST(VehicleWindow, LosesNothingBetweenThreads) {
   VehicleWindow window(YellowfishVehicle(), WindowLimits());
   constexpr std::uint64_t kSamples = 20000;

@@ -95,6 +95,14 @@ TEST(QualityVerdict, KeepsToItsLimits) {
   }
 }
 
+TEST(QualityVerdict, WarnsWhereMoreThanOneInTwentyIsShed) {
+  LastMinute last = GoodMinute();
+  last.shed = last.arrived / 20;
+  EXPECT_EQ(VerdictOf(ReasonsOf(GoodQuality(), last)), QualityVerdict::kOk);
+  ++last.shed;
+  EXPECT_THAT(Codes(ReasonsOf(GoodQuality(), last)), ElementsAre("SHED"));
+}
+
 TEST(QualityVerdict, OneJumpOfTheClockWarns) {
   LastMinute last = GoodMinute();
   last.clock_jumps = 1;

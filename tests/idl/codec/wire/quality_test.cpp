@@ -18,6 +18,9 @@ TEST(WireQuality, ArrivesAsItWasSent) {
   sent.vehicle_id = "boat-1";
   sent.window_fill = 0.5;
   sent.lost = 3;
+  sent.shed = {5, 6, 7};
+  sent.shed_share = 0.75;
+  sent.window_bytes = 4096;
   sent.rejected = {{"gnss", "NOT_FINITE", 4}};
   sent.model_revision = 2;
   sent.drift = -0.25;
@@ -29,6 +32,9 @@ TEST(WireQuality, ArrivesAsItWasSent) {
   EXPECT_EQ(received->vehicle_id, "boat-1");
   EXPECT_EQ(received->window_fill, 0.5);
   EXPECT_EQ(received->lost, 3u);
+  EXPECT_EQ(received->shed, sent.shed);
+  EXPECT_EQ(received->shed_share, 0.75);
+  EXPECT_EQ(received->window_bytes, 4096u);
   EXPECT_EQ(received->rejected, sent.rejected);
   EXPECT_EQ(received->model_revision, 2u);
   EXPECT_EQ(received->drift, -0.25);
