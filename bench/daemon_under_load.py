@@ -25,9 +25,9 @@ def load_command(boats):
 
 
 class Fleet:
-    """A daemon and the load of its boats, until the block ends."""
+    """A daemon and the load of its boats, until the block ends. `load_options`: more of `telltale load`."""
 
-    def __init__(self, boats, connections=128, settings=""):
+    def __init__(self, boats, connections=128, settings="", load_options=()):
         self._stack = contextlib.ExitStack()
         self.folder = pathlib.Path(self._stack.enter_context(tempfile.TemporaryDirectory()))
         self.environment = loopback_environment()
@@ -40,7 +40,7 @@ class Fleet:
         with open(self.folder / "log", "w") as log:
             self.daemon = self._start([BUILT / "service/telltaled", "--config", config], stderr=log)
         self.port = self._await_port()
-        self.load = self._start([*load, "--duration", "86400"], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        self.load = self._start([*load, *load_options, "--duration", "86400"], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
 
     def _start(self, command, **streams):
         process = self._stack.enter_context(subprocess.Popen(command, env=self.environment, **streams))
@@ -66,13 +66,27 @@ class Fleet:
         fields = pathlib.Path(f"/proc/{self.daemon.pid}/stat").read_text().rsplit(")", 1)[1].split()
         return (int(fields[11]) + int(fields[12])) / TICKS
 
+    def telltale(self, *arguments, **options):
+        """The command on the daemon's domain, to its end."""
+        return subprocess.run([BUILT / "client/telltale", *arguments, "--domain", DOMAIN], env=self.environment,
+                              stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, **options)
+
+    def open_descriptors(self):
+        return len(list(pathlib.Path(f"/proc/{self.daemon.pid}/fd").iterdir()))
+
+    def stored_bytes(self):
+        """What the state directory takes on disk."""
+        return sum(file.stat().st_blocks * 512 for file in (self.folder / "state").rglob("*") if file.is_file())
+
     def resident_bytes(self):
         return int(pathlib.Path(f"/proc/{self.daemon.pid}/statm").read_text().split()[1]) * PAGE_BYTES
 
     def dropped_packets(self):
         """Those that found the receive buffers of the daemon full."""
-        links = (os.readlink(link) for link in pathlib.Path(f"/proc/{self.daemon.pid}/fd").iterdir())
-        sockets = {found.group(1) for link in links if (found := re.match(r"socket:\[(\d+)\]", link))}
+        sockets = set()
+        for descriptor in pathlib.Path(f"/proc/{self.daemon.pid}/fd").iterdir():
+            with contextlib.suppress(FileNotFoundError):  # it has been closed in the meantime
+                sockets.update(re.findall(r"^socket:\[(\d+)\]", os.readlink(descriptor)))
         rows = [row.split() for row in pathlib.Path("/proc/net/udp").read_text().splitlines()[1:]]
         return sum(int(row[12]) for row in rows if row[9] in sockets)
 

@@ -3,37 +3,28 @@
 
   ingest_beside_raw.py [--boats N] [--seconds S]
 
-`telltale load` sends to telltaled, then to raw_reader, which does nothing with what it takes. Prints the processor time
-a sample of each, and the ratio. TELLTALE_BUILT names the build folder.
+`telltale load` sends to telltaled and to raw_reader at once. The raw reader does nothing with what it takes. Prints the
+processor time a sample of each, and the ratio. TELLTALE_BUILT names the build folder.
 """
 import argparse
 import subprocess
 
-from daemon_under_load import BUILT, DOMAIN, Fleet, load_command, loopback_environment
+from daemon_under_load import BUILT, DOMAIN, Fleet
 
 
-def of_daemon(boats, seconds):
+def beside_each_other(boats, seconds):
+    """Processor seconds a sample of telltaled and of the raw reader."""
+    name = "telltale_received_samples_total"
     with Fleet(boats) as fleet:
         fleet.await_telemetry()
-        name = "telltale_received_samples_total"
-        before = fleet.total(name)
-        cores = fleet.cores(seconds)
-        return cores * seconds / (fleet.total(name) - before)
-
-
-def of_raw_reader(boats, seconds):
-    environment = loopback_environment()
-    load = subprocess.Popen([*load_command(boats), "--duration", "86400"], env=environment, stdout=subprocess.DEVNULL,
-                            stderr=subprocess.DEVNULL)
-    try:
-        said = subprocess.run([BUILT / "bench/raw_reader", DOMAIN, str(seconds)], env=environment, check=True,
+        received, cpu_s = fleet.total(name), fleet.cpu_s()
+        said = subprocess.run([BUILT / "bench/raw_reader", DOMAIN, str(seconds)], env=fleet.environment, check=True,
                               stdout=subprocess.PIPE, text=True).stdout
-    finally:
-        load.terminate()
-        load.wait()
-    taken, lost, cpu_s = map(float, said.split())
+        received, cpu_s = fleet.total(name) - received, fleet.cpu_s() - cpu_s
+        print(f"packets that the kernel dropped before telltaled: {fleet.dropped_packets()}")
+    taken, lost, raw_cpu_s = map(float, said.split())
     print(f"raw reader: {taken / seconds:.0f} samples/s, lost {lost:.0f}")
-    return cpu_s / taken
+    return cpu_s / received, raw_cpu_s / taken
 
 
 def main():
@@ -41,8 +32,7 @@ def main():
     arguments.add_argument("--boats", type=int, default=1000)
     arguments.add_argument("--seconds", type=float, default=60)
     given = arguments.parse_args()
-    daemon = of_daemon(given.boats, given.seconds)
-    raw = of_raw_reader(given.boats, given.seconds)
+    daemon, raw = beside_each_other(given.boats, given.seconds)
     print(f"{given.boats} boats: telltaled {1e6 * daemon:.2f} us a sample, raw reader {1e6 * raw:.2f} us: ratio "
           f"{raw / daemon:.0%}")
 

@@ -14,6 +14,9 @@ namespace telltale {
 /// Names a writer in the samples that a reader takes.
 using WriterHandle = dds_instance_handle_t;
 
+/// Names the key of a sample, such as the vehicle it is of. No other key ever gets the same.
+using InstanceHandle = dds_instance_handle_t;
+
 /// One end of a topic, reader or writer. Throws BusError when it cannot be made.
 class Endpoint {
  public:

@@ -29,7 +29,8 @@ class Reader : public Endpoint {
   }
 
   /// Hands all samples that have arrived to `receive(const Wire&)`, or to `receive(const Wire&,
-  /// WriterHandle writer)`, and forgets them; returns how many there were. Notices without
+  /// WriterHandle writer)` or `receive(const Wire&, WriterHandle, InstanceHandle)`, and forgets
+  /// them; returns how many there were. Notices without
   /// data (a writer gone, an instance disposed) are passed over. A sample is only lent: what
   /// `receive` wants to keep it copies.
   template <class Receive>
@@ -49,7 +50,7 @@ class Reader : public Endpoint {
           gone(loan[i]);
           continue;
         }
-        Hand(receive, loan[i], loan.writer(i));
+        Hand(receive, loan, i);
         ++received;
       }
       if (loan.size() < kBatch) return received;
@@ -57,15 +58,6 @@ class Reader : public Endpoint {
   }
 
  private:
-  template <class Receive>
-  static void Hand(Receive& receive, const Wire& sample, WriterHandle writer) {
-    if constexpr (std::is_invocable_v<Receive&, const Wire&, WriterHandle>) {
-      receive(sample, writer);
-    } else {
-      receive(sample);
-    }
-  }
-
   static constexpr std::size_t kBatch = 256;  // one at a time falls behind a fast writer
 
   /// A batch of samples borrowed from the reader, given back however this ends.
@@ -85,6 +77,7 @@ class Reader : public Endpoint {
     std::size_t size() const { return size_; }
     bool valid(std::size_t i) const { return infos_[i].valid_data; }
     WriterHandle writer(std::size_t i) const { return infos_[i].publication_handle; }
+    InstanceHandle instance(std::size_t i) const { return infos_[i].instance_handle; }
     const Wire& operator[](std::size_t i) const { return *static_cast<const Wire*>(samples_[i]); }
 
    private:
@@ -93,6 +86,17 @@ class Reader : public Endpoint {
     std::array<dds_sample_info_t, kBatch> infos_{};
     std::size_t size_;
   };
+
+  template <class Receive>
+  static void Hand(Receive& receive, const Loan& loan, std::size_t i) {
+    if constexpr (std::is_invocable_v<Receive&, const Wire&, WriterHandle, InstanceHandle>) {
+      receive(loan[i], loan.writer(i), loan.instance(i));
+    } else if constexpr (std::is_invocable_v<Receive&, const Wire&, WriterHandle>) {
+      receive(loan[i], loan.writer(i));
+    } else {
+      receive(loan[i]);
+    }
+  }
 };
 
 }  // namespace telltale

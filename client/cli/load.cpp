@@ -35,6 +35,7 @@ struct LoadArguments {
   int boats = 100;
   double duration_s = 60.0;
   int times = 1;
+  double speed = 1.0;
   std::filesystem::path write_vehicles;
   LiveOptions live;
 };
@@ -62,8 +63,8 @@ class LoadBoat {
         latitude_deg_(37.0 + 1e-3 * number) {}
 
   /// The samples of the tick that is due; returns how many there were.
-  int Send(int tick, Writer<telltale_wire_GnssFix>& gnss, Writer<telltale_wire_Heading>& heading,
-           Writer<telltale_wire_Thrusters>& thrusters) {
+  int Send(std::int64_t tick, Writer<telltale_wire_GnssFix>& gnss,
+           Writer<telltale_wire_Heading>& heading, Writer<telltale_wire_Thrusters>& thrusters) {
     constexpr double kSpeedMps = 1.0;
     constexpr double kMetresPerDegree = 111'000.0;
     const double time_s = static_cast<double>(tick) / ticks_per_s_;
@@ -124,13 +125,13 @@ void Load(const LoadArguments& arguments) {
   for (int i = 1; i <= arguments.boats; ++i) boats.emplace_back(i, ticks_per_s);
   ProgressLine line;
   const auto begun = LoadClock::now();
-  const int ticks = static_cast<int>(std::lround(arguments.duration_s * ticks_per_s));
+  const std::int64_t ticks = std::llround(arguments.duration_s * arguments.speed * ticks_per_s);
   std::uint64_t sent = 0;
   double latest_s = 0.0;
-  for (int tick = 0; tick < ticks; ++tick) {
+  for (std::int64_t tick = 0; tick < ticks; ++tick) {
     const auto due =
-        begun + std::chrono::duration_cast<LoadClock::duration>(
-                    std::chrono::duration<double>(static_cast<double>(tick) / ticks_per_s));
+        begun + std::chrono::duration_cast<LoadClock::duration>(std::chrono::duration<double>(
+                    static_cast<double>(tick) / (ticks_per_s * arguments.speed)));
     std::this_thread::sleep_until(due);
     for (LoadBoat& boat : boats) {
       sent += static_cast<std::uint64_t>(boat.Send(tick, gnss, heading, thrusters));
@@ -140,7 +141,7 @@ void Load(const LoadArguments& arguments) {
     thrusters.Flush();
     latest_s = std::max(latest_s, std::chrono::duration<double>(LoadClock::now() - due).count());
     line.Update("sending " + std::to_string(arguments.boats) + " boats",
-                static_cast<double>(tick + 1) / ticks);
+                static_cast<double>(tick + 1) / static_cast<double>(ticks));
   }
   const double took_s = std::chrono::duration<double>(LoadClock::now() - begun).count();
   std::cout << arguments.boats << " boats sent " << sent << " samples in " << Fixed(took_s, 1)
@@ -167,6 +168,12 @@ void AddLoad(CLI::App& telltale) {
       .add_option("--times", arguments->times, "times as many samples of each boat, as an overload")
       ->type_name("N")
       ->check(CLI::Range(1, 20))
+      ->capture_default_str();
+  command
+      .add_option("--speed", arguments->speed,
+                  "how fast the boats' clocks run, for a long time in a short one")
+      ->type_name("X")
+      ->check(NumberWithin(1.0, 1000.0))
       ->capture_default_str();
   command
       .add_option("--write-vehicles", arguments->write_vehicles,

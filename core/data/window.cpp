@@ -55,6 +55,12 @@ void ForEachChannel(Channels& channels, Visit visit) {
   std::apply([&visit](auto&... samples) { (visit(samples), ...); }, channels);
 }
 
+template <class Sample>
+std::vector<Sample> Since(const std::deque<Sample>& samples, double from_s) {
+  const auto first = std::ranges::lower_bound(samples, from_s, {}, &Sample::time_s);
+  return {first, samples.end()};
+}
+
 /// A deque frees its blocks as it is taken from.
 template <class Sample>
 std::vector<Sample> Drained(std::deque<Sample>& from) {
@@ -263,6 +269,12 @@ Recording Window::Snapshot() const {
           {heading.begin(), heading.end()},
           {thrusters.begin(), thrusters.end()},
           impl_->rejected};
+}
+
+Recording Window::Snapshot(double duration_s) const {
+  const auto& [gnss, heading, thrusters] = impl_->held.samples;
+  const double from_s = EndTime() - duration_s;
+  return {Since(gnss, from_s), Since(heading, from_s), Since(thrusters, from_s), impl_->rejected};
 }
 
 Recording Window::Release() && {

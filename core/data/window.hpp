@@ -63,6 +63,9 @@ class Window {
 
   Recording Snapshot() const;
 
+  /// Of each channel the samples of the last `duration_s` before EndTime().
+  Recording Snapshot(double duration_s) const;
+
   /// The same, given away, so that the samples stand in memory once. The window is empty then.
   Recording Release() &&;
 

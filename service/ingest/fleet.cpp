@@ -91,6 +91,7 @@ Fleet::Changes Fleet::Reload(const std::vector<Vehicle>& vehicles,
   }
   for (const std::string& vehicle_id : changes.removed) windows_.erase(vehicle_id);
   ShareMemory();
+  ++generation_;
   return changes;
 }
 

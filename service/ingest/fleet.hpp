@@ -1,5 +1,6 @@
 #pragma once
 
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -64,6 +65,9 @@ class Fleet {
   Changes Reload(const std::vector<Vehicle>& vehicles,
                  std::set<std::string, std::less<>> elsewhere = {});
 
+  /// Another number once vehicles have been served anew: what Find() said before may be past.
+  std::uint64_t Generation() const { return generation_; }
+
   /// What a client is told of a vehicle that is not served here: which ones are.
   std::string NotServed(const std::string& vehicle_id) const;
 
@@ -82,6 +86,7 @@ class Fleet {
   Windows windows_;
   std::set<std::string, std::less<>> elsewhere_;
   std::vector<std::unique_ptr<VehicleWindow>> opened_;  ///< those of windows_, and former ones
+  std::atomic<std::uint64_t> generation_ = 0;
   mutable std::mutex unattributed_mutex_;
   std::vector<RejectEntry> unattributed_;
 };

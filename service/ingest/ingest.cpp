@@ -25,6 +25,13 @@ using Clock = std::chrono::steady_clock;
 // connected reader that receives nothing for this long is broken.
 constexpr auto kLongestSilence = std::chrono::seconds(30);
 
+// To wake up costs as much as to take in several samples: what comes meanwhile is taken together. A
+// reader holds 64 samples of a vehicle, which may send 32000 a second so.
+constexpr auto kGatherTime = std::chrono::milliseconds(2);
+
+// Instances of vehicles that have left the bus stay known until then.
+constexpr std::size_t kMostKnown = 100'000;
+
 /// A failed reply that names the fault. Nothing where the request has no id to answer to.
 template <class Reply, class Wire>
 std::optional<Reply> ReplyToUnreadable(const Wire& wire, const CodecError& fault) {
@@ -53,18 +60,20 @@ Ingest::Ingest(const Participant& participant, Fleet& fleet, bool require_partit
       wait_set_(participant),
       gnss_(
           participant, wait_set_,
-          [this](const auto& wire, auto writer) { Route(Channel::kGnss, gnss_, wire, writer); },
+          [this](const auto& wire, auto writer, auto instance) {
+            Route(Channel::kGnss, gnss_, wire, writer, instance);
+          },
           kLongestSilence),
       heading_(
           participant, wait_set_,
-          [this](const auto& wire, auto writer) {
-            Route(Channel::kHeading, heading_, wire, writer);
+          [this](const auto& wire, auto writer, auto instance) {
+            Route(Channel::kHeading, heading_, wire, writer, instance);
           },
           kLongestSilence),
       thrusters_(
           participant, wait_set_,
-          [this](const auto& wire, auto writer) {
-            Route(Channel::kThrusters, thrusters_, wire, writer);
+          [this](const auto& wire, auto writer, auto instance) {
+            Route(Channel::kThrusters, thrusters_, wire, writer, instance);
           },
           kLongestSilence),
       requests_(
@@ -102,7 +111,9 @@ void Ingest::Run() {
         next_heartbeat = Clock::now() + handlers_.heartbeat_period;
         Heartbeat(std::exchange(has_received, false));
       }
-      has_received |= wait_set_.Wait(next_heartbeat - Clock::now());
+      if (!wait_set_.Wait(next_heartbeat - Clock::now())) continue;
+      has_received = true;
+      std::this_thread::sleep_for(kGatherTime);
     }
   } catch (const std::exception& error) {
     handlers_.failed(error);
@@ -152,38 +163,51 @@ std::vector<TopicConnections> Ingest::Matches() const {
 
 template <class Wire>
 void Ingest::Route(Channel channel, const WatchedReader<Wire>& reader, const Wire& wire,
-                   WriterHandle writer) {
+                   WriterHandle writer, InstanceHandle instance) {
   ++received_[static_cast<std::size_t>(channel)];
   const auto telemetry = Decode(wire);
   if (!telemetry) {
     return RejectUnattributed(channel, UnattributedReason::kMalformedId, telemetry.error().value);
   }
-  VehicleWindow* const window = fleet_.Find(telemetry->vehicle_id);
+  Boat* const boat = BoatOf(instance, telemetry->vehicle_id, channel);
+  if (boat == nullptr) return;
   const auto partitions_of = [&reader](auto one) { return reader.PartitionsOf(one); };
-  if (window == nullptr && fleet_.IsServedElsewhere(telemetry->vehicle_id)) return;
-  if (window == nullptr) {
-    RejectUnattributed(channel, UnattributedReason::kUnknownVehicle, telemetry->vehicle_id);
-  } else if (!senders_.MaySend(writer, telemetry->vehicle_id, partitions_of)) {
-    RejectUnattributed(channel, UnattributedReason::kForeignWriter, telemetry->vehicle_id);
-  } else {
-    TakeIn(*window, channel, *telemetry);
-    CountReceived(*window);
+  if (!senders_.MaySend(writer, telemetry->vehicle_id, partitions_of)) {
+    return RejectUnattributed(channel, UnattributedReason::kForeignWriter, telemetry->vehicle_id);
   }
+  TakeIn(*boat, channel, *telemetry);
+}
+
+/// Null where the vehicle is not served here. An instance is looked up by its name once.
+Ingest::Boat* Ingest::BoatOf(InstanceHandle instance, std::string_view vehicle_id,
+                             Channel channel) {
+  const std::uint64_t generation = fleet_.Generation();
+  if (generation != std::exchange(known_generation_, generation) || known_.size() >= kMostKnown) {
+    known_.clear();
+  }
+  if (const auto known = known_.find(instance); known != known_.end()) return known->second;
+  VehicleWindow* const window = fleet_.Find(vehicle_id);
+  if (window != nullptr) {
+    Boat& boat = boats_.try_emplace(window, Boat{window, intake_.NewStream()}).first->second;
+    return known_[instance] = &boat;
+  }
+  if (!fleet_.IsServedElsewhere(vehicle_id)) {
+    RejectUnattributed(channel, UnattributedReason::kUnknownVehicle, vehicle_id);
+  }
+  return nullptr;
 }
 
 template <class Sample>
-void Ingest::TakeIn(VehicleWindow& window, Channel channel, const Telemetry<Sample>& telemetry) {
-  if (intake_.Admits(window, channel, Clock::now())) {
-    window.Add(telemetry.sequence_number, telemetry.sample);
+void Ingest::TakeIn(Boat& boat, Channel channel, const Telemetry<Sample>& telemetry) {
+  VehicleWindow& window = *boat.window;
+  const auto now = Clock::now();
+  if (intake_.Admits(boat.stream, window.vehicle().vehicle_id, channel, now)) {
+    window.Add(telemetry.sequence_number, telemetry.sample, now);
   } else {
     window.Shed(channel, telemetry.sequence_number, telemetry.sample.time_s);
   }
-}
-
-void Ingest::CountReceived(VehicleWindow& window) {
-  std::size_t& since_receipt = since_receipt_[&window];
-  if (++since_receipt < kSamplesPerReceipt) return;
-  since_receipt = 0;
+  if (++boat.since_receipt < kSamplesPerReceipt) return;
+  boat.since_receipt = 0;
   handlers_.received(window);
 }
 

@@ -10,6 +10,7 @@
 #include <mutex>
 #include <string_view>
 #include <thread>
+#include <unordered_map>
 #include <vector>
 
 #include "telltale/client/bus/bus_log.hpp"
@@ -65,15 +66,22 @@ class Ingest {
   std::vector<TopicConnections> Matches() const;
 
  private:
+  /// What the loop knows of one window's telemetry.
+  struct Boat {
+    VehicleWindow* window;
+    Intake::Stream stream;
+    std::size_t since_receipt = 0;  ///< samples
+  };
+
   void Run();
   void Heartbeat(bool has_received);
   void NoteMatches();
   template <class Wire>
   void Route(Channel channel, const WatchedReader<Wire>& reader, const Wire& wire,
-             WriterHandle writer);
+             WriterHandle writer, InstanceHandle instance);
+  Boat* BoatOf(InstanceHandle instance, std::string_view vehicle_id, Channel channel);
   template <class Sample>
-  void TakeIn(VehicleWindow& window, Channel channel, const Telemetry<Sample>& telemetry);
-  void CountReceived(VehicleWindow& window);
+  void TakeIn(Boat& boat, Channel channel, const Telemetry<Sample>& telemetry);
   void RejectUnattributed(Channel channel, UnattributedReason reason, std::string_view detail);
   template <class Reply, class Wire, class Handler, class Answer>
   void Submit(const Wire& wire, WriterHandle client, const Handler& handler, const Answer& answer);
@@ -83,7 +91,9 @@ class Ingest {
   Senders senders_;
   Intake intake_;
   RateLimit warning_limit_;
-  std::map<const VehicleWindow*, std::size_t> since_receipt_;
+  std::map<const VehicleWindow*, Boat> boats_;
+  std::unordered_map<InstanceHandle, Boat*> known_;  ///< those of boats_, as of known_generation_
+  std::uint64_t known_generation_ = 0;
   std::array<std::atomic<std::uint64_t>, kChannels.size()> received_{};  ///< by channel
   mutable std::mutex matches_mutex_;
   std::vector<TopicConnections> matches_;

@@ -12,15 +12,14 @@ const std::string kFleet = "the fleet";
 Intake::Intake(const IntakeLimits& limits)
     : limits_(limits), total_(limits.samples_per_s), log_limit_(5, std::chrono::seconds(10)) {}
 
-bool Intake::Admits(const VehicleWindow& window, Channel channel, Clock::time_point now) {
-  Stream& stream =
-      streams_.try_emplace(&window, Stream{RateBound(limits_.vehicle_samples_per_s)}).first->second;
-  return Passes(stream.bound, stream.by_own_bound, channel, now, window.vehicle().vehicle_id) &&
+bool Intake::Admits(Stream& stream, const std::string& vehicle_id, Channel channel,
+                    Clock::time_point now) {
+  return Passes(stream.bound, stream.by_own_bound, channel, now, vehicle_id) &&
          Passes(total_, stream.by_total, channel, now, kFleet);
 }
 
-bool Intake::Passes(RateBound& bound, Thinners& thinners, Channel channel, Clock::time_point now,
-                    const std::string& sender) {
+bool Intake::Passes(RateBound& bound, ChannelThinners& thinners, Channel channel,
+                    Clock::time_point now, const std::string& sender) {
   Tell(bound.Count(channel, now), bound, sender, now);
   return thinners[static_cast<std::size_t>(channel)].Keep(bound.ShareOf(channel));
 }

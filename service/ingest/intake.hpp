@@ -1,13 +1,10 @@
 #pragma once
 
-#include <array>
-#include <map>
 #include <string>
 
 #include "telltale/client/bus/bus_log.hpp"
 #include "telltale/idl/codec/daemon_config.hpp"
 #include "telltale/service/ingest/rate_bound.hpp"
-#include "telltale/service/ingest/vehicle_window.hpp"
 
 namespace telltale {
 
@@ -18,28 +15,29 @@ class Intake {
  public:
   using Clock = RateBound::Clock;
 
-  explicit Intake(const IntakeLimits& limits);
-
-  /// Whether the window takes in its next sample, which arrives at `now`.
-  bool Admits(const VehicleWindow& window, Channel channel, Clock::time_point now);
-
- private:
-  using Thinners = std::array<Thinner, kChannels.size()>;
-
+  /// What is known of one vehicle's samples.
   struct Stream {
     RateBound bound;
-    Thinners by_own_bound{};
-    Thinners by_total{};
+    ChannelThinners by_own_bound{};
+    ChannelThinners by_total{};
   };
 
-  bool Passes(RateBound& bound, Thinners& thinners, Channel channel, Clock::time_point now,
+  explicit Intake(const IntakeLimits& limits);
+
+  Stream NewStream() const { return {RateBound(limits_.vehicle_samples_per_s)}; }
+
+  /// Whether the next sample of the vehicle's stream, which arrives at `now`, is taken in.
+  bool Admits(Stream& stream, const std::string& vehicle_id, Channel channel,
+              Clock::time_point now);
+
+ private:
+  bool Passes(RateBound& bound, ChannelThinners& thinners, Channel channel, Clock::time_point now,
               const std::string& sender);
   void Tell(RateBound::Change change, const RateBound& bound, const std::string& sender,
             Clock::time_point now);
 
   IntakeLimits limits_;
   RateBound total_;
-  std::map<const VehicleWindow*, Stream> streams_;
   RateLimit log_limit_;
 };
 

@@ -34,6 +34,8 @@ class Thinner {
   double due_ = 0.0;
 };
 
+using ChannelThinners = std::array<Thinner, kChannels.size()>;
+
 /// How many samples a second are taken in. The shares follow the rates of the last second, or of
 /// the time in which as many samples came as a second may bring. Not thread safe.
 class RateBound {

@@ -1,9 +1,20 @@
 #include "telltale/service/ingest/vehicle_window.hpp"
 
 #include <algorithm>
+#include <tuple>
 #include <utility>
 
 namespace telltale {
+namespace {
+
+/// Those of the channel that the type is of.
+template <class One>
+std::vector<One>& SamplesOf(Recording& recording) {
+  return std::get<std::vector<One>&>(
+      std::tie(recording.gnss, recording.heading, recording.thrusters));
+}
+
+}  // namespace
 
 VehicleWindow::VehicleWindow(Vehicle vehicle, const WindowLimits& limits)
     : vehicle_(std::move(vehicle)),
@@ -12,30 +23,36 @@ VehicleWindow::VehicleWindow(Vehicle vehicle, const WindowLimits& limits)
       window_(limits),
       clock_jumps_(limits.clock_jump_s) {}
 
-void VehicleWindow::Add(std::uint64_t sequence_number, const GnssFix& fix) {
-  Add(Channel::kGnss, sequence_number, fix);
+void VehicleWindow::Add(std::uint64_t sequence_number, const GnssFix& fix, Clock::time_point at) {
+  Add(Channel::kGnss, sequence_number, fix, at);
 }
 
-void VehicleWindow::Add(std::uint64_t sequence_number, const HeadingSample& heading) {
-  Add(Channel::kHeading, sequence_number, heading);
+void VehicleWindow::Add(std::uint64_t sequence_number, const HeadingSample& heading,
+                        Clock::time_point at) {
+  Add(Channel::kHeading, sequence_number, heading, at);
 }
 
-void VehicleWindow::Add(std::uint64_t sequence_number, const ThrusterSample& thrusters) {
-  Add(Channel::kThrusters, sequence_number, thrusters);
+void VehicleWindow::Add(std::uint64_t sequence_number, const ThrusterSample& thrusters,
+                        Clock::time_point at) {
+  Add(Channel::kThrusters, sequence_number, thrusters, at);
 }
 
-void VehicleWindow::Add(Channel channel, std::uint64_t sequence_number, const Sample& sample) {
+template <class One>
+void VehicleWindow::Add(Channel channel, std::uint64_t sequence_number, const One& sample,
+                        Clock::time_point at) {
+  const std::unique_lock window_lock(window_mutex_, std::try_to_lock);
   {
     const std::lock_guard lock(inbox_mutex_);
-    NoteArrival(channel, sequence_number,
-                std::visit([](const auto& s) { return s.time_s; }, sample));
-    if (inbox_.size() < most_waiting_) {
-      inbox_.push_back({sample, ClockJumps::Clock::now()});
-    } else {
+    NoteArrival(channel, sequence_number, sample.time_s);
+    if (!window_lock && inbox_.size() >= most_waiting_) {
       ++shed_[static_cast<std::size_t>(channel)];
+      return;
     }
+    if (!window_lock) return inbox_.push_back({sample, at});
+    std::swap(inbox_, emptied_);
   }
-  if (const std::unique_lock lock(window_mutex_, std::try_to_lock); lock) EmptyInbox();
+  InsertEmptied();
+  Insert(sample, at);
 }
 
 void VehicleWindow::Shed(Channel channel, std::uint64_t sequence_number, double time_s) {
@@ -63,6 +80,12 @@ Recording VehicleWindow::Snapshot() {
   return window_.Snapshot();
 }
 
+Recording VehicleWindow::Snapshot(double duration_s) {
+  const std::lock_guard lock(window_mutex_);
+  EmptyInbox();
+  return window_.Snapshot(duration_s);
+}
+
 WindowState VehicleWindow::State() {
   const std::lock_guard window_lock(window_mutex_);
   EmptyInbox();
@@ -83,40 +106,29 @@ WindowState VehicleWindow::State() {
   return state;
 }
 
-void VehicleWindow::NoteNewest(const Sample& sample) {
-  if (const auto* fix = std::get_if<GnssFix>(&sample)) newest_fix_ = *fix;
-  if (const auto* heading = std::get_if<HeadingSample>(&sample)) newest_heading_ = *heading;
-}
-
 void VehicleWindow::EmptyInbox() {
   {
     const std::lock_guard lock(inbox_mutex_);
     std::swap(inbox_, emptied_);
   }
+  InsertEmptied();
+}
+
+void VehicleWindow::InsertEmptied() {
   for (const auto& [sample, at] : emptied_) {
-    const double former_end_s = window_.EndTime();
-    if (!Keep(sample)) continue;
-    clock_jumps_.Note(window_.EndTime() - former_end_s, at);
-    ++accepted_;
-    NoteNewest(sample);
-    NoteUnsaved(sample);
+    std::visit([this, at = at](const auto& one) { Insert(one, at); }, sample);
   }
   emptied_.clear();
 }
 
-bool VehicleWindow::Keep(const Sample& sample) {
-  return !std::visit([this](const auto& s) { return window_.Add(s); }, sample);
-}
-
-void VehicleWindow::NoteUnsaved(const Sample& sample) {
-  if (!unsaved_) return;
-  if (const auto* fix = std::get_if<GnssFix>(&sample)) unsaved_->gnss.push_back(*fix);
-  if (const auto* heading = std::get_if<HeadingSample>(&sample)) {
-    unsaved_->heading.push_back(*heading);
-  }
-  if (const auto* command = std::get_if<ThrusterSample>(&sample)) {
-    unsaved_->thrusters.push_back(*command);
-  }
+template <class One>
+void VehicleWindow::Insert(const One& sample, Clock::time_point at) {
+  const double former_end_s = window_.EndTime();
+  if (window_.Add(sample)) return;
+  clock_jumps_.Note(window_.EndTime() - former_end_s, at);
+  ++accepted_;
+  NoteNewest(sample);
+  if (unsaved_) SamplesOf<One>(*unsaved_).push_back(sample);
 }
 
 void VehicleWindow::BeginSaving() {

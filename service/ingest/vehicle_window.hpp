@@ -35,13 +35,18 @@ struct WindowState {
 /// Filling does not wait for a reader: samples that arrive during a copy wait in an inbox.
 class VehicleWindow {
  public:
+  using Clock = ClockJumps::Clock;
+
   VehicleWindow(Vehicle vehicle, const WindowLimits& limits);
 
   const Vehicle& vehicle() const { return vehicle_; }
 
-  void Add(std::uint64_t sequence_number, const GnssFix& fix);
-  void Add(std::uint64_t sequence_number, const HeadingSample& heading);
-  void Add(std::uint64_t sequence_number, const ThrusterSample& thrusters);
+  /// A sample that has arrived at `at`.
+  void Add(std::uint64_t sequence_number, const GnssFix& fix, Clock::time_point at = Clock::now());
+  void Add(std::uint64_t sequence_number, const HeadingSample& heading,
+           Clock::time_point at = Clock::now());
+  void Add(std::uint64_t sequence_number, const ThrusterSample& thrusters,
+           Clock::time_point at = Clock::now());
 
   /// Counts a sample that has arrived and is not taken in.
   void Shed(Channel channel, std::uint64_t sequence_number, double time_s);
@@ -63,6 +68,8 @@ class VehicleWindow {
   Recording TakeUnsaved();
 
   Recording Snapshot();
+  /// As that of the window.
+  Recording Snapshot(double duration_s);
   WindowState State();
 
  private:
@@ -70,15 +77,19 @@ class VehicleWindow {
 
   struct Arrival {
     Sample sample;
-    ClockJumps::Clock::time_point at;
+    Clock::time_point at;
   };
 
-  void Add(Channel channel, std::uint64_t sequence_number, const Sample& sample);
+  template <class One>
+  void Add(Channel channel, std::uint64_t sequence_number, const One& sample, Clock::time_point at);
+  template <class One>
+  void Insert(const One& sample, Clock::time_point at);
   void NoteArrival(Channel channel, std::uint64_t sequence_number, double time_s);
   void EmptyInbox();  ///< into the window; the caller holds window_mutex_
-  bool Keep(const Sample& sample);
-  void NoteNewest(const Sample& sample);
-  void NoteUnsaved(const Sample& sample);
+  void InsertEmptied();
+  void NoteNewest(const GnssFix& fix) { newest_fix_ = fix; }
+  void NoteNewest(const HeadingSample& heading) { newest_heading_ = heading; }
+  void NoteNewest(const ThrusterSample&) {}
 
   const Vehicle vehicle_;
   const WindowLimits limits_;

@@ -26,15 +26,19 @@ bool LiveEstimator::IsDue(double end_s) const {
   return end_s >= seen_to_s_ + kUpdatePeriodS || end_s < seen_to_s_;
 }
 
+double LiveEstimator::NeedsS(double end_s) const {
+  const bool begins = !bounds_ || end_s < seen_to_s_;
+  return begins ? kLongestUpdateS : std::min(end_s - fed_to_s_ + kLeadS, kLongestUpdateS);
+}
+
 void LiveEstimator::Update(const Recording& recording, const Vehicle& vehicle) {
   const double end_s = EndTime(recording);
   if (end_s < seen_to_s_) *this = LiveEstimator();
+  const double needed_s = NeedsS(end_s);
   seen_to_s_ = end_s;
-  const double behind_s = bounds_ ? end_s - fed_to_s_ + kLeadS : kLongestUpdateS;
   PrepareOptions options;
   options.sampling_period_s = sampling_period_s_;
-  const auto dataset =
-      Prepare(Latest(recording, std::min(behind_s, kLongestUpdateS)), vehicle, options);
+  const auto dataset = Prepare(Latest(recording, needed_s), vehicle, options);
   if (!dataset) return;
   if (!bounds_) {
     sampling_period_s_ = dataset->sampling_period_s;

@@ -19,6 +19,9 @@ class LiveEstimator {
   /// clock that went back.
   bool IsDue(double end_s) const;
 
+  /// How much of the end of a window that ends at `end_s` an update needs, seconds.
+  double NeedsS(double end_s) const;
+
   /// Adds the final rows of a window's recording that are newer than those added before.
   void Update(const Recording& recording, const Vehicle& vehicle);
 

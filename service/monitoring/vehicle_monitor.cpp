@@ -149,7 +149,7 @@ void VehicleMonitor::Decide(const WindowState& state, const FleetView& view,
 
 void VehicleMonitor::UpdateEstimates(VehicleWindow& window, const WindowState& state) {
   if (state.accepted == 0 || !live_.IsDue(state.end_s)) return;
-  live_.Update(window.Snapshot(), window.vehicle());
+  live_.Update(window.Snapshot(live_.NeedsS(state.end_s)), window.vehicle());
   indicative_ = live_.Estimates();
 }
 

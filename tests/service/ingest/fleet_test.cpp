@@ -35,7 +35,9 @@ TEST(Fleet, SharesItsMemoryEvenlyAmongTheVehiclesThatItServes) {
   SendHeadings(first, 400);
   EXPECT_EQ(first.State().bytes, 256u << 10);
   EXPECT_EQ(first.Snapshot().heading.size(), 16384u);
+  const auto generation = fleet.Generation();
   fleet.Reload(vehicles);
+  EXPECT_NE(fleet.Generation(), generation);
   EXPECT_EQ(first.State().bytes, (512u << 10) / 3 / 16 * 16);
   fleet.Reload({vehicles[2]});
   EXPECT_EQ(first.State().bytes, WindowLimits::kLeastMemory);

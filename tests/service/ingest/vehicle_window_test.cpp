@@ -39,6 +39,22 @@ TEST(VehicleWindow, CountsWhatIsShedAsArrivedAndNotAsLost) {
   EXPECT_EQ(window.Snapshot().heading.size(), 2u);
 }
 
+TEST(VehicleWindow, GivesTheEndOfWhatItHolds) {
+  VehicleWindow window(YellowfishVehicle(), WindowLimits());
+  for (std::uint64_t i = 1; i <= 100; ++i) {
+    const auto time_s = static_cast<double>(i);
+    window.Add(i, HeadingSample{time_s, time_s});
+    if (i % 10 == 0) window.Add(i / 10, GnssFix{time_s, 37.0 + 1e-4 * time_s, -6.0});
+    if (i == 50) window.Add(1, ThrusterSample{time_s, 1600.0, 1600.0});
+  }
+  const Recording end = window.Snapshot(20.0);  // from 80 s
+  EXPECT_EQ(end.heading.size(), 21u);
+  EXPECT_EQ(end.heading.front().time_s, 80.0);
+  EXPECT_EQ(end.gnss.size(), 3u);
+  EXPECT_TRUE(end.thrusters.empty());
+  EXPECT_EQ(window.Snapshot(1e6).heading.size(), 100u);
+}
+
 TEST(VehicleWindow, LosesNothingBetweenThreads) {
   VehicleWindow window(YellowfishVehicle(), WindowLimits());
   constexpr std::uint64_t kSamples = 20000;
