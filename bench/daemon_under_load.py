@@ -66,6 +66,11 @@ class Fleet:
         fields = pathlib.Path(f"/proc/{self.daemon.pid}/stat").read_text().rsplit(")", 1)[1].split()
         return (int(fields[11]) + int(fields[12])) / TICKS
 
+    def begin(self, *arguments):
+        """The command on the daemon's domain. It ends with the block at the latest."""
+        return self._start([BUILT / "client/telltale", *arguments, "--domain", DOMAIN], stdout=subprocess.DEVNULL,
+                           stderr=subprocess.DEVNULL)
+
     def telltale(self, *arguments, **options):
         """The command on the daemon's domain, to its end."""
         return subprocess.run([BUILT / "client/telltale", *arguments, "--domain", DOMAIN], env=self.environment,

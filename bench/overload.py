@@ -1,0 +1,63 @@
+#!/usr/bin/env python3
+"""What a daemon does that is sent more than it takes in: docs/validation/reliability.md.
+
+  overload.py [--boats N] [--times N] [--seconds S]
+
+`telltale load` sends each boat's telemetry so many times, and telltaled takes in what the boats send usually. Meanwhile
+boats are identified one after another, beside a refresh of the fleet. Prints what became of the samples, the memory
+at the beginning and at the end, and how long an identification took, from the start of the command to its end.
+TELLTALE_BUILT names the build folder.
+"""
+import argparse
+import math
+import time
+
+from daemon_under_load import Fleet
+
+USUAL_PER_S = 65
+
+
+def identify_until(end, fleet, boats):
+    """Seconds that each identification took, and how many were not answered with a model or a refusal."""
+    took_s, unanswered = [], 0
+    while time.monotonic() < end:
+        begun = time.monotonic()
+        boat = 1 + len(took_s) % boats
+        answer = fleet.telltale("identify", "--vehicle-id", f"load-{boat:05}")
+        unanswered += answer.returncode not in (0, 3)
+        took_s.append(time.monotonic() - begun)
+    return sorted(took_s), unanswered
+
+
+def main():
+    arguments = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    arguments.add_argument("--boats", type=int, default=100)
+    arguments.add_argument("--times", type=int, default=5)
+    arguments.add_argument("--seconds", type=float, default=120)
+    given = arguments.parse_args()
+    bound = f"intake {{ samples_per_s: {USUAL_PER_S * given.boats} }}"
+    with Fleet(given.boats, settings=bound, load_options=("--times", str(given.times))) as fleet:
+        fleet.await_telemetry()
+        time.sleep(60)  # what an identification needs
+        begun, resident, cpu_s = time.monotonic(), fleet.resident_bytes(), fleet.cpu_s()
+        refresh = fleet.begin("refresh", "--all")
+        took_s, unanswered = identify_until(begun + given.seconds, fleet, given.boats)
+        cores = (fleet.cpu_s() - cpu_s) / (time.monotonic() - begun)
+        resident = (resident, fleet.resident_bytes())
+        names = ("accepted", "rejected", "shed", "lost")
+        counts = {name: fleet.total(f"telltale_vehicle_samples_{name}_total") for name in names}
+        received, dropped = fleet.total("telltale_received_samples_total"), fleet.dropped_packets()
+        by_channel = {channel: fleet.total(f'telltale_vehicle_samples_shed_total.*channel="{channel}"')
+                      for channel in ("heading", "gnss", "thrusters")}
+        refreshed = refresh.poll() is not None
+    print(f"{given.boats} boats, {given.times} times as much: {cores:.2f} cores; received {received:.0f}; packets that the "
+          f"kernel dropped {dropped}")
+    print(", ".join(f"{name} {count:.0f}" for name, count in counts.items()))
+    print("shed by channel: " + ", ".join(f"{channel} {count:.0f}" for channel, count in by_channel.items()))
+    print(f"resident {resident[0] / 1e6:.0f} MB, {given.seconds:.0f} s later {resident[1] / 1e6:.0f} MB")
+    print(f"the refresh has ended: {refreshed}")
+    print(f"{len(took_s)} identifications, {unanswered} unanswered: median "
+          f"{took_s[len(took_s) // 2]:.2f} s, 99th percentile {took_s[math.ceil(0.99 * len(took_s)) - 1]:.2f} s")
+
+
+main()
