@@ -7,10 +7,10 @@
 
 namespace telltale {
 
-inline constexpr int kSuccess = 0;
-inline constexpr int kFailure = 1;
-inline constexpr int kUsage = 2;
-inline constexpr int kRefused = 3;
+inline constexpr int kExitSuccess = 0;
+inline constexpr int kExitFailure = 1;
+inline constexpr int kExitUsage = 2;
+inline constexpr int kExitRefused = 3;
 
 /// Runs `telltale` with these arguments. For tests that are built with TELLTALE_COMMAND.
 inline CommandOutcome Telltale(std::vector<std::string> arguments) {

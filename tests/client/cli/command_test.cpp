@@ -78,7 +78,9 @@ class CommandTest : public testing::Test {
     return Telltale(arguments);
   }
 
-  void MakeModel() const { ASSERT_EQ(Identify({"--out", Path("model.json")}).exit_code, kSuccess); }
+  void MakeModel() const {
+    ASSERT_EQ(Identify({"--out", Path("model.json")}).exit_code, kExitSuccess);
+  }
 
   TemporaryFolder folder;
 };
@@ -88,7 +90,7 @@ class CommandTest : public testing::Test {
 TEST(LiveCommand, TakesNoTimeoutThatIsNoNumber) {
   for (const char* wrong : {"nan", "-1", "inf"}) {
     const auto run = Telltale({"watch", "--all", "--count", "1", "--timeout", wrong});
-    EXPECT_EQ(run.exit_code, kUsage) << wrong;
+    EXPECT_EQ(run.exit_code, kExitUsage) << wrong;
     EXPECT_THAT(run.err, HasSubstr("--timeout"));
   }
 }
@@ -96,7 +98,7 @@ TEST(LiveCommand, TakesNoTimeoutThatIsNoNumber) {
 TEST_F(CommandTest, HelpIsNoError) {
   for (const char* subcommand : {"identify", "validate", "simulate", "export"}) {
     const CommandOutcome outcome = Telltale({subcommand, "--help"});
-    EXPECT_EQ(outcome.exit_code, kSuccess);
+    EXPECT_EQ(outcome.exit_code, kExitSuccess);
     EXPECT_THAT(outcome.out, AllOf(HasSubstr("--vehicle FILE"), HasSubstr("Example: telltale")));
     EXPECT_THAT(outcome.err, IsEmpty());
   }
@@ -119,7 +121,7 @@ TEST_F(CommandTest, WrongCommandLinesAreUsageErrors) {
            {"validate", "--log", log, "--vehicle", boat, "--model", Path("nowhere")},
            {"simulate", "--out", Path("s")}}) {
     const CommandOutcome outcome = Telltale(arguments);
-    EXPECT_EQ(outcome.exit_code, kUsage) << testing::PrintToString(arguments);
+    EXPECT_EQ(outcome.exit_code, kExitUsage) << testing::PrintToString(arguments);
     EXPECT_THAT(outcome.err, Not(IsEmpty()));
     EXPECT_THAT(outcome.out, IsEmpty());
   }
@@ -129,7 +131,7 @@ TEST_F(CommandTest, WrongCommandLinesAreUsageErrors) {
 TEST_F(CommandTest, OptionsOutOfRangeAreUsageErrorsThatNameTheRange) {
   const auto expect = [this](const std::vector<std::string>& more, const char* named) {
     const CommandOutcome outcome = Identify(more);
-    EXPECT_EQ(outcome.exit_code, kUsage) << testing::PrintToString(more);
+    EXPECT_EQ(outcome.exit_code, kExitUsage) << testing::PrintToString(more);
     EXPECT_THAT(outcome.err, HasSubstr(named));
   };
   expect({"--bootstrap", "50"}, "100000");
@@ -182,7 +184,7 @@ TEST_F(CommandTest, OptionsOfThePaperDoNotGoWithThePhysicalForm) {
         "--structure", "fossen"};
     arguments.insert(arguments.end(), other.begin(), other.end());
     const CommandOutcome outcome = Telltale(arguments);
-    EXPECT_EQ(outcome.exit_code, kUsage) << other.front();
+    EXPECT_EQ(outcome.exit_code, kExitUsage) << other.front();
     EXPECT_THAT(outcome.err, AllOf(HasSubstr(other.front()), HasSubstr("static and dynamic")));
   }
 }
@@ -193,7 +195,7 @@ TEST_F(CommandTest, OptionsOfThePaperDoNotGoWithThePhysicalForm) {
 TEST_F(CommandTest, IdentifySaysWhichEstimatorTheDataChoseAndWhy) {
   const CommandOutcome outcome = Telltale({"identify", "--log", Path("log"), "--vehicle",
                                            Path("boat.textproto"), "--out", Path("model.json")});
-  EXPECT_EQ(outcome.exit_code, kSuccess) << outcome.err;
+  EXPECT_EQ(outcome.exit_code, kExitSuccess) << outcome.err;
   EXPECT_THAT(outcome.out, AllOf(HasSubstr(", estimated by output error, h ="),
                                  HasSubstr("Estimator chosen: output error, since")));
   const auto model = ParseModelJson(TextOfFile(Path("model.json")));
@@ -208,7 +210,7 @@ TEST_F(CommandTest, IdentifySaysWhichStructureTheDataChoseAndWhy) {
   const CommandOutcome outcome =
       Telltale({"identify", "--log", Path("log"), "--vehicle", Path("boat.textproto"),
                 "--structure", "auto", "--out", Path("model.json")});
-  EXPECT_EQ(outcome.exit_code, kSuccess) << outcome.err;
+  EXPECT_EQ(outcome.exit_code, kExitSuccess) << outcome.err;
   EXPECT_THAT(outcome.out, HasSubstr("Structure chosen: free coefficients, since"));
   const auto model = ParseModelJson(TextOfFile(Path("model.json")));
   ASSERT_TRUE(model) << model.error().Message();
@@ -222,14 +224,14 @@ TEST_F(CommandTest, IdentifyUsesTheEstimatorThatIsNamed) {
   const CommandOutcome outcome =
       Telltale({"identify", "--log", Path("log"), "--vehicle", Path("boat.textproto"),
                 "--estimator", "output-error", "--json"});
-  EXPECT_EQ(outcome.exit_code, kSuccess) << outcome.err;
+  EXPECT_EQ(outcome.exit_code, kExitSuccess) << outcome.err;
   EXPECT_THAT(outcome.out, HasSubstr("\"OUTPUT_ERROR\""));
   EXPECT_THAT(outcome.out, Not(HasSubstr("since no disturbance")));
 }
 
 TEST_F(CommandTest, IdentifyPrintsATableAndWritesTheModel) {
   const CommandOutcome outcome = Identify({"--out", Path("model.json")});
-  EXPECT_EQ(outcome.exit_code, kSuccess) << outcome.err;
+  EXPECT_EQ(outcome.exit_code, kExitSuccess) << outcome.err;
   EXPECT_THAT(outcome.err, IsEmpty());
   EXPECT_THAT(outcome.out, AllOf(HasSubstr("yellowfish"), HasSubstr("SURGE"), HasSubstr("W11af"),
                                  HasSubstr("95 % bounds"), HasSubstr("Bounds rest on")));
@@ -241,7 +243,7 @@ TEST_F(CommandTest, IdentifyPrintsATableAndWritesTheModel) {
 
 TEST_F(CommandTest, IdentifyPrintsTheSameJsonItWrites) {
   const CommandOutcome outcome = Identify({"--json", "--out", Path("model.json")});
-  EXPECT_EQ(outcome.exit_code, kSuccess) << outcome.err;
+  EXPECT_EQ(outcome.exit_code, kExitSuccess) << outcome.err;
   EXPECT_EQ(outcome.out, TextOfFile(Path("model.json")));
 }
 
@@ -254,7 +256,7 @@ TEST_F(CommandTest, ThreadsDoNotChangeTheModelAndTheSeedDoes) {
 TEST_F(CommandTest, IdentifyTakesThePapersOptions) {
   const CommandOutcome outcome = Identify(
       {"--preset", "paper", "--parameterization", "paper", "--level", "0.9", "--discrete"});
-  EXPECT_EQ(outcome.exit_code, kSuccess) << outcome.err;
+  EXPECT_EQ(outcome.exit_code, kExitSuccess) << outcome.err;
   EXPECT_THAT(outcome.out, AllOf(HasSubstr("mean^2+diff^2/4"), HasSubstr("90 % bounds"),
                                  HasSubstr("Coefficients times h = 0.2 s")));
 }
@@ -262,7 +264,7 @@ TEST_F(CommandTest, IdentifyTakesThePapersOptions) {
 TEST_F(CommandTest, ADynamicModelIsIdentifiedValidatedAndSimulated) {
   const CommandOutcome outcome = Identify({"--structure", "dynamic", "--dead-zone", "0.05,-0.06",
                                            "--discrete", "--out", Path("model.json")});
-  EXPECT_EQ(outcome.exit_code, kSuccess) << outcome.err;
+  EXPECT_EQ(outcome.exit_code, kExitSuccess) << outcome.err;
   EXPECT_THAT(outcome.out,
               AllOf(HasSubstr("thruster time constant"), HasSubstr("dead zone: no thrust from"),
                     HasSubstr("alpha = exp(-h / tau)")));
@@ -270,9 +272,9 @@ TEST_F(CommandTest, ADynamicModelIsIdentifiedValidatedAndSimulated) {
   ASSERT_TRUE(model) << model.error().Message();
   EXPECT_EQ(model->structure, Structure::kFirstOrderDynamic);
   EXPECT_EQ(model->dead_zone, (DeadZone{0.05, -0.06}));
-  EXPECT_EQ(Validate({}).exit_code, kSuccess);
-  EXPECT_EQ(Simulated({"--out", Path("simulated")}).exit_code, kSuccess);
-  EXPECT_EQ(Simulated({"--out", Path("finer"), "--step", "0.02"}).exit_code, kSuccess);
+  EXPECT_EQ(Validate({}).exit_code, kExitSuccess);
+  EXPECT_EQ(Simulated({"--out", Path("simulated")}).exit_code, kExitSuccess);
+  EXPECT_EQ(Simulated({"--out", Path("finer"), "--step", "0.02"}).exit_code, kExitSuccess);
 }
 
 /// A boat whose propellers always turn alike shows reverse thrust in RR alone.
@@ -280,7 +282,7 @@ TEST_F(CommandTest, AModelOfThePhysicalFormIsIdentifiedValidatedAndCompared) {
   const CommandOutcome outcome =
       Telltale({"identify", "--log", Path("log"), "--vehicle", Path("boat.textproto"),
                 "--structure", "fossen", "--out", Path("model.json")});
-  EXPECT_EQ(outcome.exit_code, kSuccess) << outcome.err;
+  EXPECT_EQ(outcome.exit_code, kExitSuccess) << outcome.err;
   EXPECT_THAT(outcome.out, AllOf(HasSubstr("Parameters of the physical form"),
                                  HasSubstr("delay_commands"), HasSubstr("prediction-error")));
   const auto model = ParseModelJson(TextOfFile(Path("model.json")));
@@ -290,7 +292,7 @@ TEST_F(CommandTest, AModelOfThePhysicalFormIsIdentifiedValidatedAndCompared) {
   const CommandOutcome score =
       Telltale({"validate", "--log", Path("log"), "--vehicle", Path("boat.textproto"), "--model",
                 Path("model.json"), "--json"});
-  EXPECT_EQ(score.exit_code, kSuccess) << score.err;
+  EXPECT_EQ(score.exit_code, kExitSuccess) << score.err;
   const auto metrics = ParseMetricsJson(score.out);
   ASSERT_TRUE(metrics) << metrics.error().Message();
   // The twin's free coefficients lie outside the form, which still has to say more than that
@@ -300,7 +302,7 @@ TEST_F(CommandTest, AModelOfThePhysicalFormIsIdentifiedValidatedAndCompared) {
   }
   const CommandOutcome change =
       Telltale({"compare", "--model", Path("model.json"), "--model", Path("model.json"), "--json"});
-  EXPECT_EQ(change.exit_code, kSuccess) << change.err;
+  EXPECT_EQ(change.exit_code, kExitSuccess) << change.err;
   EXPECT_THAT(change.out,
               AllOf(HasSubstr("\"ALIKE\""), HasSubstr("\"Xuu\""), Not(HasSubstr("delay"))));
 }
@@ -343,7 +345,7 @@ TEST_F(CommandTest, StudyTakesReverseRowsOnRequestButNeverInThePapersSurge) {
 // refused.
 TEST_F(CommandTest, IdentifySeeksTheDeadZone) {
   const CommandOutcome outcome = Identify({"--dead-zone", "identify", "--json"});
-  EXPECT_EQ(outcome.exit_code, kSuccess) << outcome.err;
+  EXPECT_EQ(outcome.exit_code, kExitSuccess) << outcome.err;
   const auto model = ParseModelJson(outcome.out);
   ASSERT_TRUE(model) << model.error().Message();
   EXPECT_THAT(model->provenance.bounds_basis, HasSubstr("limits of the dead zone"));
@@ -352,7 +354,7 @@ TEST_F(CommandTest, IdentifySeeksTheDeadZone) {
 TEST_F(CommandTest, SeveralLogsAreOneAfterTheOther) {
   WriteTelemetryLog(Path("second"), Measured(7.0));
   const CommandOutcome outcome = Identify({"--log", Path("second"), "--json"});
-  EXPECT_EQ(outcome.exit_code, kSuccess) << outcome.err;
+  EXPECT_EQ(outcome.exit_code, kExitSuccess) << outcome.err;
   const auto model = ParseModelJson(outcome.out);
   ASSERT_TRUE(model) << model.error().Message();
   EXPECT_GT(model->window.end_s - model->window.start_s, 2.0 * kSampleMissionDurationS);
@@ -363,7 +365,7 @@ TEST_F(CommandTest, MalformedRowsAreNotedWithTheirLines) {
   const std::string gnss = TextOfFile(Path("log/gnss.csv"));
   folder.Write("log/gnss.csv", gnss + "600.5,oops,1\n");
   const CommandOutcome outcome = Identify({});
-  EXPECT_EQ(outcome.exit_code, kSuccess);
+  EXPECT_EQ(outcome.exit_code, kExitSuccess);
   const auto line = std::count(gnss.begin(), gnss.end(), '\n') + 1;
   EXPECT_THAT(outcome.err, AllOf(HasSubstr("gnss.csv: 1 malformed rows skipped"),
                                  HasSubstr("line " + std::to_string(line))));
@@ -372,31 +374,31 @@ TEST_F(CommandTest, MalformedRowsAreNotedWithTheirLines) {
 TEST_F(CommandTest, ALogWithoutAFileIsRefusedWithReasonAndAdvice) {
   std::filesystem::remove(Path("log/heading.csv"));
   const CommandOutcome outcome = Identify({"--out", Path("model.json")});
-  EXPECT_EQ(outcome.exit_code, kRefused);
+  EXPECT_EQ(outcome.exit_code, kExitRefused);
   EXPECT_THAT(outcome.err, AllOf(HasSubstr("heading.csv: is missing"), HasSubstr("-> ")));
   EXPECT_FALSE(std::filesystem::exists(Path("model.json")));
 }
 
 TEST_F(CommandTest, AnEmptyOrShortLogIsRefused) {
   folder.Write("log/gnss.csv", "");
-  EXPECT_EQ(Identify({}).exit_code, kRefused);
+  EXPECT_EQ(Identify({}).exit_code, kExitRefused);
   folder.Write("log/gnss.csv", "time_s,latitude_deg,longitude_deg\n0,1,1\n0.2,1,1\n");
   const CommandOutcome outcome = Identify({});
-  EXPECT_EQ(outcome.exit_code, kRefused);
+  EXPECT_EQ(outcome.exit_code, kExitRefused);
   EXPECT_THAT(outcome.err, HasSubstr("-> "));
 }
 
 TEST_F(CommandTest, AWrongVehicleFileFailsNamingFieldAndLine) {
   folder.Write("boat.textproto", "vehicle_id: \"b\"\npropeller_separation_m: 900\n");
   const CommandOutcome outcome = Identify({});
-  EXPECT_EQ(outcome.exit_code, kFailure);
+  EXPECT_EQ(outcome.exit_code, kExitFailure);
   EXPECT_THAT(outcome.err,
               HasSubstr("boat.textproto:2: propeller_separation_m = 900: a number in [0.05, 50]"));
 }
 
 TEST_F(CommandTest, AModelThatCannotBeWrittenFails) {
   const CommandOutcome outcome = Identify({"--out", Path("nowhere/model.json")});
-  EXPECT_EQ(outcome.exit_code, kFailure);
+  EXPECT_EQ(outcome.exit_code, kExitFailure);
   EXPECT_THAT(outcome.err, HasSubstr("nowhere/model.json"));
 }
 
@@ -405,7 +407,7 @@ TEST_F(CommandTest, AModelThatCannotBeWrittenFails) {
 TEST_F(CommandTest, ValidateScoresTheModelBesideConstantVelocity) {
   MakeModel();
   const CommandOutcome outcome = Validate({"--out", Path("metrics.json")});
-  EXPECT_EQ(outcome.exit_code, kSuccess) << outcome.err;
+  EXPECT_EQ(outcome.exit_code, kExitSuccess) << outcome.err;
   EXPECT_THAT(outcome.out, AllOf(HasSubstr("constant velocity"), HasSubstr("noise floor"),
                                  HasSubstr("1 s:"), HasSubstr("5 s:"), HasSubstr("10 s:")));
   const auto metrics = ParseMetricsJson(TextOfFile(Path("metrics.json")));
@@ -420,14 +422,14 @@ TEST_F(CommandTest, ValidateTakesHorizons) {
   ASSERT_TRUE(metrics) << metrics.error().Message();
   ASSERT_EQ(metrics->free_run.size(), 2u);
   EXPECT_EQ(metrics->free_run[1].horizon_s, 3.0);
-  EXPECT_EQ(Validate({"--horizon", "-1"}).exit_code, kUsage);
-  EXPECT_EQ(Validate({"--horizon", "601"}).exit_code, kUsage);
+  EXPECT_EQ(Validate({"--horizon", "-1"}).exit_code, kExitUsage);
+  EXPECT_EQ(Validate({"--horizon", "601"}).exit_code, kExitUsage);
 }
 
 TEST_F(CommandTest, ValidateWritesTheDisturbanceOverTheLog) {
   MakeModel();
   const CommandOutcome outcome = Validate({"--disturbance", Path("sigma.csv")});
-  ASSERT_EQ(outcome.exit_code, kSuccess) << outcome.err;
+  ASSERT_EQ(outcome.exit_code, kExitSuccess) << outcome.err;
   std::vector<std::array<double, 4>> rows;
   const std::array<std::string_view, 4> columns = {"time_s", "sigma_u", "sigma_v", "sigma_r"};
   ASSERT_TRUE(ReadCsv(Path("sigma.csv"), columns, [&](std::span<const double> row) {
@@ -446,7 +448,7 @@ TEST_F(CommandTest, ValidateWritesTheDisturbanceOverTheLog) {
     EXPECT_EQ(rows[k][2], expected[k].sigma.v);
     EXPECT_EQ(rows[k][3], expected[k].sigma.r);
   }
-  EXPECT_EQ(Validate({"--disturbance", Path("nowhere/sigma.csv")}).exit_code, kFailure);
+  EXPECT_EQ(Validate({"--disturbance", Path("nowhere/sigma.csv")}).exit_code, kExitFailure);
 }
 
 TEST_F(CommandTest, ValidateSaysWhetherTheLogMadeTheModel) {
@@ -463,14 +465,14 @@ TEST_F(CommandTest, ValidateRefusesAModelThatLacksAnEquation) {
   partial.covariance = Eigen::MatrixXd::Identity(n, n);
   folder.Write("model.json", PrintModelJson(partial));
   const CommandOutcome outcome = Validate({});
-  EXPECT_EQ(outcome.exit_code, kRefused);
+  EXPECT_EQ(outcome.exit_code, kExitRefused);
   EXPECT_THAT(outcome.err, HasSubstr("-> "));
 }
 
 TEST_F(CommandTest, AWrongModelFileFailsNamingTheField) {
   folder.Write("model.json", "{\"structure\": \"CUBIC\"}");
   const CommandOutcome outcome = Validate({});
-  EXPECT_EQ(outcome.exit_code, kFailure);
+  EXPECT_EQ(outcome.exit_code, kExitFailure);
   EXPECT_THAT(outcome.err, AllOf(HasSubstr("structure"), HasSubstr("CUBIC")));
 }
 
@@ -484,7 +486,7 @@ TEST_F(CommandTest, AModelOfAnotherVehicleIsNoted) {
 TEST_F(CommandTest, SimulateWritesALogOfTheSameCommands) {
   MakeModel();
   const CommandOutcome outcome = Simulated({"--out", Path("simulated")});
-  EXPECT_EQ(outcome.exit_code, kSuccess) << outcome.err;
+  EXPECT_EQ(outcome.exit_code, kExitSuccess) << outcome.err;
   const auto given = ReadTelemetryLog(Path("log"));
   const auto made = ReadTelemetryLog(Path("simulated"));
   ASSERT_TRUE(made) << made.error().reason;
@@ -495,7 +497,7 @@ TEST_F(CommandTest, SimulateWritesALogOfTheSameCommands) {
 TEST_F(CommandTest, TheSameSeedSimulatesTheSameLog) {
   MakeModel();
   const auto gnss = [this](const char* seed, const char* out) {
-    EXPECT_EQ(Simulated({"--seed", seed, "--out", Path(out)}).exit_code, kSuccess);
+    EXPECT_EQ(Simulated({"--seed", seed, "--out", Path(out)}).exit_code, kExitSuccess);
     return TextOfFile(folder.Path() / out / "gnss.csv");
   };
   const std::string first = gnss("7", "a");
@@ -509,20 +511,20 @@ TEST_F(CommandTest, SimulateRefusesAModelThatDiverges) {
   unstable.coefficients[4].estimate = 1.0;   // and a push to begin with
   folder.Write("model.json", PrintModelJson(unstable));
   const CommandOutcome outcome = Simulated({"--out", Path("simulated")});
-  EXPECT_EQ(outcome.exit_code, kRefused);
+  EXPECT_EQ(outcome.exit_code, kExitRefused);
   EXPECT_THAT(outcome.err, AllOf(HasSubstr("grows without bound"), HasSubstr("-> ")));
   EXPECT_FALSE(std::filesystem::exists(Path("simulated")));
 }
 
 TEST_F(CommandTest, SimulateChecksItsInputs) {
   MakeModel();
-  EXPECT_EQ(Simulated({"--out", Path("s"), "--step", "0"}).exit_code, kUsage);
-  EXPECT_EQ(Simulated({"--out", Path("s"), "--noise-position", "-1"}).exit_code, kUsage);
-  EXPECT_EQ(Simulated({"--out", Path("s"), "--noise-heading", "91"}).exit_code, kUsage);
-  EXPECT_EQ(Simulated({"--out", Path("s"), "--seed", "-1"}).exit_code, kUsage);
-  EXPECT_EQ(Simulated({"--out", Path("boat.textproto")}).exit_code, kFailure);
+  EXPECT_EQ(Simulated({"--out", Path("s"), "--step", "0"}).exit_code, kExitUsage);
+  EXPECT_EQ(Simulated({"--out", Path("s"), "--noise-position", "-1"}).exit_code, kExitUsage);
+  EXPECT_EQ(Simulated({"--out", Path("s"), "--noise-heading", "91"}).exit_code, kExitUsage);
+  EXPECT_EQ(Simulated({"--out", Path("s"), "--seed", "-1"}).exit_code, kExitUsage);
+  EXPECT_EQ(Simulated({"--out", Path("boat.textproto")}).exit_code, kExitFailure);
   folder.Write("log/thrusters.csv", "time_s,left_us,right_us\n0,9999,1500\n");
-  EXPECT_EQ(Simulated({"--out", Path("s")}).exit_code, kRefused);
+  EXPECT_EQ(Simulated({"--out", Path("s")}).exit_code, kExitRefused);
 }
 
 // ---- export ----------------------------------------------------------------------------------
@@ -548,9 +550,10 @@ class ExportTest : public CommandTest {
 
 TEST_F(ExportTest, WritesAFileOrIntoAFolder) {
   const std::string boat = "massless.textproto";
-  EXPECT_EQ(Export(boat, {"--format", "mss", "--out", Path("boat.json")}).exit_code, kSuccess);
+  EXPECT_EQ(Export(boat, {"--format", "mss", "--out", Path("boat.json")}).exit_code, kExitSuccess);
   EXPECT_THAT(TextOfFile(Path("boat.json")), HasSubstr("notIdentifiable"));
-  EXPECT_EQ(Export(boat, {"--format", "mss", "--out", folder.Path().string()}).exit_code, kSuccess);
+  EXPECT_EQ(Export(boat, {"--format", "mss", "--out", folder.Path().string()}).exit_code,
+            kExitSuccess);
   EXPECT_EQ(TextOfFile(Path("mss.json")), TextOfFile(Path("boat.json")));
 }
 
@@ -561,7 +564,7 @@ TEST_F(ExportTest, WritesTheSimulationParametersAndNotesIt) {
   folder.Write("model.json", PrintModelJson(model));
   const CommandOutcome outcome =
       Export("massless.textproto", {"--format", "mss", "--out", Path("boat.json")});
-  EXPECT_EQ(outcome.exit_code, kSuccess);
+  EXPECT_EQ(outcome.exit_code, kExitSuccess);
   EXPECT_THAT(outcome.err, HasSubstr("as estimated the model diverges"));
   EXPECT_THAT(TextOfFile(Path("boat.json")), HasSubstr("\"estimate\": -0.0625"));
 }
@@ -571,7 +574,7 @@ TEST_F(ExportTest, TheSameSeedDrawsTheSameBits) {
     const CommandOutcome outcome =
         Export("massless.textproto",
                {"--format", "mss", "--draws", "20", "--seed", seed, "--out", Path(out)});
-    EXPECT_EQ(outcome.exit_code, kSuccess) << outcome.err;
+    EXPECT_EQ(outcome.exit_code, kExitSuccess) << outcome.err;
     EXPECT_THAT(outcome.err, HasSubstr("SURGE vr is not drawn"));
     EXPECT_THAT(TextOfFile(folder.Path() / out / "draws.json"), HasSubstr("notDrawn"));
     return TextOfFile(folder.Path() / out / "draws.csv");
@@ -585,7 +588,7 @@ TEST_F(ExportTest, TheSameSeedDrawsTheSameBits) {
 TEST_F(ExportTest, VrxWithoutAMassIsRefusedAndLeavesNothing) {
   const CommandOutcome outcome =
       Export("massless.textproto", {"--format", "vrx", "--draws", "5", "--out", Path("exported")});
-  EXPECT_EQ(outcome.exit_code, kRefused);
+  EXPECT_EQ(outcome.exit_code, kExitRefused);
   EXPECT_THAT(outcome.err,
               AllOf(HasSubstr("mass_kg"), HasSubstr("-> measure the mass of the boat")));
   EXPECT_FALSE(std::filesystem::exists(Path("exported")));
@@ -601,9 +604,9 @@ TEST_F(ExportTest, ChecksItsInputs) {
                                              {"--format", "mss", "--draws", "0", "--out", out},
                                              {"--format", "mss", "--draws", "many", "--out", out},
                                              {"--format", "mss", "--seed", "1", "--out", out}}) {
-    EXPECT_EQ(Export(boat, more).exit_code, kUsage) << testing::PrintToString(more);
+    EXPECT_EQ(Export(boat, more).exit_code, kExitUsage) << testing::PrintToString(more);
   }
-  EXPECT_EQ(Export(boat, {"--format", "mss", "--out", Path("nowhere/x")}).exit_code, kFailure);
+  EXPECT_EQ(Export(boat, {"--format", "mss", "--out", Path("nowhere/x")}).exit_code, kExitFailure);
   EXPECT_FALSE(std::filesystem::exists(out));
 }
 

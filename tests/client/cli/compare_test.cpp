@@ -43,7 +43,7 @@ class CompareTest : public testing::Test {
 
 TEST_F(CompareTest, FindsNoDifferenceWhereThereIsNone) {
   const CommandOutcome outcome = Compare();
-  EXPECT_EQ(outcome.exit_code, kSuccess) << outcome.err;
+  EXPECT_EQ(outcome.exit_code, kExitSuccess) << outcome.err;
   EXPECT_THAT(outcome.out, StartsWith("The models do not differ significantly, p = 1.\n"));
   EXPECT_THAT(outcome.out, HasSubstr("no different from the other model: p = 1"));
   EXPECT_THAT(outcome.err, IsEmpty());
@@ -53,7 +53,7 @@ TEST_F(CompareTest, FindsNoDifferenceWhereThereIsNone) {
 TEST_F(CompareTest, NamesTheCoefficientThatDiffers) {
   later.coefficients[6].estimate += 10.0 * std::sqrt(2.0);
   const CommandOutcome outcome = Compare({"--json"});
-  ASSERT_EQ(outcome.exit_code, kSuccess) << outcome.err;
+  ASSERT_EQ(outcome.exit_code, kExitSuccess) << outcome.err;
   proto::ModelChange change;
   ASSERT_FALSE(ParseJsonMessage(outcome.out, "change", change));
   EXPECT_EQ(change.verdict(), proto::DIFFERS);
@@ -79,21 +79,21 @@ TEST_F(CompareTest, ShowsWhatEachModelSimulatesWith) {
 TEST_F(CompareTest, RefusesModelsMadeWithOtherOptions) {
   later.sampling_period_s = 0.5;
   const CommandOutcome outcome = Compare();
-  EXPECT_EQ(outcome.exit_code, kRefused);
+  EXPECT_EQ(outcome.exit_code, kExitRefused);
   EXPECT_THAT(outcome.err, HasSubstr("the models differ in sampling period"));
 }
 
 TEST_F(CompareTest, WarnsOfWindowsThatOverlap) {
   later.window = earlier.window;
   const CommandOutcome outcome = Compare();
-  EXPECT_EQ(outcome.exit_code, kSuccess);
+  EXPECT_EQ(outcome.exit_code, kExitSuccess);
   EXPECT_THAT(outcome.err, HasSubstr("overlap"));
 }
 
 TEST_F(CompareTest, WantsTwoModels) {
   const std::string file = folder.Write("a.json", PrintModelJson(earlier)).string();
-  EXPECT_EQ(Telltale({"compare", "--model", file}).exit_code, kUsage);
-  EXPECT_EQ(Telltale({"compare"}).exit_code, kUsage);
+  EXPECT_EQ(Telltale({"compare", "--model", file}).exit_code, kExitUsage);
+  EXPECT_EQ(Telltale({"compare"}).exit_code, kExitUsage);
 }
 
 }  // namespace

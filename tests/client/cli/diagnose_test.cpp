@@ -93,7 +93,7 @@ class DiagnoseTest : public testing::Test {
     const CommandOutcome made =
         Telltale({"identify", "--log", Path("log"), "--vehicle", Path("boat.textproto"),
                   "--estimator", "one-step", "--bootstrap", "0", "--out", Path("model.json")});
-    EXPECT_EQ(made.exit_code, kSuccess) << made.err;
+    EXPECT_EQ(made.exit_code, kExitSuccess) << made.err;
   }
 
   std::string Path(const std::string& name) const { return (folder.Path() / name).string(); }
@@ -120,7 +120,7 @@ TEST_F(DiagnoseTest, WritesTheReportAndThePageAndPrintsTheSentenceFirst) {
   const CommandOutcome outcome =
       Diagnose("log", "boat.textproto",
                {"--out", Path("report.json"), "--html", Path("report.html"), "--seed", "7"});
-  ASSERT_EQ(outcome.exit_code, kSuccess) << outcome.err;
+  ASSERT_EQ(outcome.exit_code, kExitSuccess) << outcome.err;
   const auto report = ParseReportJson(TextOfFile(Path("report.json")));
   ASSERT_TRUE(report) << report.error().Message();
   EXPECT_EQ(report->vehicle_id, YellowfishVehicle().vehicle_id);
@@ -146,7 +146,7 @@ TEST_F(DiagnoseTest, WrongCommandLinesAreUsageErrors) {
            {"diagnose", "--log", log, "--vehicle", boat, "--model", model, "--without",
             "kraken"}}) {
     const CommandOutcome outcome = Telltale(arguments);
-    EXPECT_EQ(outcome.exit_code, kUsage) << testing::PrintToString(arguments) << outcome.err;
+    EXPECT_EQ(outcome.exit_code, kExitUsage) << testing::PrintToString(arguments) << outcome.err;
   }
   EXPECT_THAT(Diagnose("log", "boat.textproto", {"--without", "kraken"}).err, HasSubstr("wind"));
 }
@@ -156,16 +156,16 @@ TEST_F(DiagnoseTest, AModelOfAnotherBoatIsRefused) {
   other.vehicle_id = "bluefish";
   folder.Write("other.textproto", PrintVehicle(other));
   const CommandOutcome outcome = Diagnose("log", "other.textproto");
-  EXPECT_EQ(outcome.exit_code, kRefused);
+  EXPECT_EQ(outcome.exit_code, kExitRefused);
   EXPECT_THAT(outcome.err, HasSubstr("bluefish"));
 }
 
 TEST_F(DiagnoseTest, EmptyAndShortLogsAreRefused) {
   WriteLog("short", 45.0);
   WriteTelemetryLog(Path("empty"), {});
-  EXPECT_EQ(Diagnose("short", "boat.textproto").exit_code, kRefused);
+  EXPECT_EQ(Diagnose("short", "boat.textproto").exit_code, kExitRefused);
   const CommandOutcome empty = Diagnose("empty", "boat.textproto");
-  EXPECT_EQ(empty.exit_code, kRefused);
+  EXPECT_EQ(empty.exit_code, kExitRefused);
   EXPECT_THAT(empty.err, HasSubstr("empty"));
 }
 
@@ -173,14 +173,14 @@ TEST_F(DiagnoseTest, AReferenceThatCannotBeUsedIsNamed) {
   WriteTelemetryLog(Path("blank"), {});
   const CommandOutcome outcome =
       Diagnose("log", "boat.textproto", {"--reference-log", Path("blank")});
-  EXPECT_EQ(outcome.exit_code, kRefused);
+  EXPECT_EQ(outcome.exit_code, kExitRefused);
   EXPECT_THAT(outcome.err, HasSubstr("blank"));
 }
 
 TEST_F(DiagnoseTest, ARecordingIsNotItsOwnReference) {
   const CommandOutcome outcome =
       Diagnose("log", "boat.textproto", {"--reference-log", Path("log")});
-  EXPECT_EQ(outcome.exit_code, kRefused);
+  EXPECT_EQ(outcome.exit_code, kExitRefused);
   EXPECT_THAT(outcome.err, HasSubstr("both the recording to diagnose and a reference"));
 }
 
@@ -188,7 +188,7 @@ TEST_F(DiagnoseTest, AReferenceThatMadeTheModelIsRefused) {
   WriteLog("today", 200.0, 2);  // another mission: the same one would be the same recording
   const CommandOutcome outcome =
       Diagnose("today", "boat.textproto", {"--reference-log", Path("log")});
-  EXPECT_EQ(outcome.exit_code, kRefused);
+  EXPECT_EQ(outcome.exit_code, kExitRefused);
   EXPECT_THAT(outcome.err, HasSubstr("made the model (as log)"));
 }
 
@@ -197,7 +197,7 @@ TEST_F(DiagnoseTest, AReferenceCountsOnce) {
   const CommandOutcome outcome =
       Diagnose("log", "boat.textproto",
                {"--reference-log", Path("monday"), "--reference-log", Path("monday") + "/"});
-  EXPECT_EQ(outcome.exit_code, kRefused);
+  EXPECT_EQ(outcome.exit_code, kExitRefused);
   EXPECT_THAT(outcome.err, HasSubstr("holds the same recording as"));
 }
 
@@ -207,7 +207,7 @@ TEST_F(DiagnoseTest, SaysWhatEachReferenceDoesAndThatTheModelKnowsTheRecording) 
   const CommandOutcome outcome = Diagnose("log", "boat.textproto",
                                           {"--reference-log", Path("monday"), "--reference-log",
                                            Path("tuesday"), "--out", Path("report.json")});
-  ASSERT_EQ(outcome.exit_code, kSuccess) << outcome.err;
+  ASSERT_EQ(outcome.exit_code, kExitSuccess) << outcome.err;
   const auto report = ParseReportJson(TextOfFile(Path("report.json")));
   ASSERT_TRUE(report) << report.error().Message();
   ASSERT_EQ(report->reference_influence.size(), 2u);
@@ -220,7 +220,7 @@ TEST_F(DiagnoseTest, SaysWhatEachReferenceDoesAndThatTheModelKnowsTheRecording) 
 TEST_F(DiagnoseTest, AModelFileThatIsNoneFailsNamingTheFault) {
   folder.Write("model.json", "{\"vehicleId\": 3}");
   const CommandOutcome outcome = Diagnose("log", "boat.textproto");
-  EXPECT_EQ(outcome.exit_code, kFailure);
+  EXPECT_EQ(outcome.exit_code, kExitFailure);
   EXPECT_THAT(outcome.err, HasSubstr("vehicleId"));
 }
 

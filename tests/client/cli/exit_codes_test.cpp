@@ -68,23 +68,23 @@ class ExitCodesTest : public testing::Test {
 TEST_F(ExitCodesTest, HelpAndVersionSucceed) {
   for (const std::string& subcommand : subcommands) {
     const CommandOutcome outcome = Telltale({subcommand, "--help"});
-    EXPECT_EQ(outcome.exit_code, kSuccess) << subcommand;
+    EXPECT_EQ(outcome.exit_code, kExitSuccess) << subcommand;
     EXPECT_THAT(outcome.out, HasSubstr("Example")) << subcommand;
     EXPECT_THAT(outcome.err, IsEmpty()) << subcommand;
   }
   const CommandOutcome version = Telltale({"--version"});
-  EXPECT_EQ(version.exit_code, kSuccess);
+  EXPECT_EQ(version.exit_code, kExitSuccess);
   EXPECT_EQ(version.out, "telltale " + std::string(Version()) + "\n");
 }
 
 TEST_F(ExitCodesTest, AnUnknownOptionIsAUsageError) {
   for (const std::string& subcommand : subcommands) {
-    EXPECT_EQ(Telltale({subcommand, "--colour", "red"}).exit_code, kUsage) << subcommand;
+    EXPECT_EQ(Telltale({subcommand, "--colour", "red"}).exit_code, kExitUsage) << subcommand;
   }
 }
 
 TEST_F(ExitCodesTest, WhatTheDataCannotAnswerIsARefusal) {
-  Expect(kRefused,
+  Expect(kExitRefused,
          {{"identify", "--log", empty_log, "--vehicle", boat},
           {"validate", "--log", empty_log, "--vehicle", boat, "--model", partial_model},
           {"diagnose", "--log", empty_log, "--vehicle", boat, "--model", model},
@@ -97,7 +97,7 @@ TEST_F(ExitCodesTest, WhatTheDataCannotAnswerIsARefusal) {
 }
 
 TEST_F(ExitCodesTest, EverythingElseIsAFailure) {
-  Expect(kFailure,
+  Expect(kExitFailure,
          {{"identify", "--log", empty_log, "--vehicle", not_a_boat},
           {"validate", "--log", empty_log, "--vehicle", boat, "--model", not_a_model},
           {"diagnose", "--log", empty_log, "--vehicle", boat, "--model", not_a_model},
@@ -111,16 +111,16 @@ TEST_F(ExitCodesTest, EverythingElseIsAFailure) {
 
 TEST_F(ExitCodesTest, WithoutADaemonTheLiveSubcommandsFail) {
   const std::string id = std::to_string(domain.id());
-  Expect(kFailure, {{"watch", "--all", "--domain", id, "--timeout", "0.2"},
-                    {"monitor", "--domain", id, "--timeout", "0.2"},
-                    {"identify", "--vehicle-id", "boat", "--domain", id, "--timeout", "0.2"},
-                    {"diagnose", "--vehicle-id", "boat", "--domain", id, "--timeout", "0.2"}});
+  Expect(kExitFailure, {{"watch", "--all", "--domain", id, "--timeout", "0.2"},
+                        {"monitor", "--domain", id, "--timeout", "0.2"},
+                        {"identify", "--vehicle-id", "boat", "--domain", id, "--timeout", "0.2"},
+                        {"diagnose", "--vehicle-id", "boat", "--domain", id, "--timeout", "0.2"}});
 }
 
 TEST_F(ExitCodesTest, StandardOutputThatCannotBeWrittenIsAFailure) {
   const CommandOutcome outcome = RunCommand(
       {"sh", "-c", std::string(TELLTALE_COMMAND) + " gain --model " + model + " > /dev/full"});
-  EXPECT_EQ(outcome.exit_code, kFailure);
+  EXPECT_EQ(outcome.exit_code, kExitFailure);
   EXPECT_THAT(outcome.err, HasSubstr("standard output"));
 }
 
@@ -131,7 +131,7 @@ TEST_F(ExitCodesTest, StandardErrorHoldsOurLinesAlone) {
                   std::string(TELLTALE_SOURCE_DIR) + "/deploy/sample", "--vehicle",
                   std::string(TELLTALE_SOURCE_DIR) + "/deploy/sample/yellowfish.textproto",
                   "--structure", "dynamic", "--estimator", "output-error"});
-  EXPECT_EQ(outcome.exit_code, kSuccess);
+  EXPECT_EQ(outcome.exit_code, kExitSuccess);
   EXPECT_THAT(outcome.err, IsEmpty());
 }
 

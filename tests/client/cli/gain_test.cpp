@@ -41,7 +41,7 @@ class GainTest : public testing::Test {
 // lie within 1.959964 deviations.
 TEST_F(GainTest, IsTheHandWorkedGainInBothUnits) {
   const CommandOutcome outcome = Gain(IdentificationByHand(), {"--delta", "0.5,-0.2", "--json"});
-  ASSERT_EQ(outcome.exit_code, kSuccess) << outcome.err;
+  ASSERT_EQ(outcome.exit_code, kExitSuccess) << outcome.err;
   const proto::InputGains gains = Read(outcome.out);
   ASSERT_EQ(gains.gains_size(), 1);
   const proto::CommandGain& gain = gains.gains(0);
@@ -69,7 +69,7 @@ TEST_F(GainTest, TakesTheValuesForSimulation) {
 
 TEST_F(GainTest, PrintsACatalogueInAllRegionsButAstern) {
   const CommandOutcome outcome = Gain(IdentificationByHand(), {});
-  ASSERT_EQ(outcome.exit_code, kSuccess) << outcome.err;
+  ASSERT_EQ(outcome.exit_code, kExitSuccess) << outcome.err;
   EXPECT_THAT(outcome.out, AllOf(HasSubstr("port 1, starboard 1 (FF)"),
                                  HasSubstr("port 0.5, starboard -0.5 (FR)"), HasSubstr("(RF)"),
                                  HasSubstr("m/s^2"), HasSubstr("rad/s^2"), HasSubstr("95 % bounds"),
@@ -106,14 +106,14 @@ TEST_F(GainTest, ChecksItsInputs) {
   const Identification model = IdentificationByHand();
   for (const char* wrong : {"0.5", "0.5,wide", "1.01,0", "0,-1.5", "nan,0", "0.1,0.2,0.3"}) {
     const CommandOutcome outcome = Gain(model, {"--delta", wrong});
-    EXPECT_EQ(outcome.exit_code, kUsage) << wrong;
+    EXPECT_EQ(outcome.exit_code, kExitUsage) << wrong;
     EXPECT_THAT(outcome.err, AllOf(HasSubstr("--delta"), HasSubstr(wrong)));
   }
   const CommandOutcome astern = Gain(model, {"--delta", "-0.5,-0.5", "--delta", "-1,1"});
-  EXPECT_EQ(astern.exit_code, kSuccess) << astern.err;
+  EXPECT_EQ(astern.exit_code, kExitSuccess) << astern.err;
   EXPECT_THAT(astern.out, AllOf(HasSubstr("(RR)"), HasSubstr("(RF)")));
-  EXPECT_EQ(Telltale({"gain"}).exit_code, kUsage);
-  EXPECT_EQ(Gain(model, {"--out", "/nowhere/gain.json"}).exit_code, kFailure);
+  EXPECT_EQ(Telltale({"gain"}).exit_code, kExitUsage);
+  EXPECT_EQ(Gain(model, {"--out", "/nowhere/gain.json"}).exit_code, kExitFailure);
 }
 
 }  // namespace

@@ -152,7 +152,7 @@ TEST_P(IdentifyInputFault, OfTheSampleIsNamedAndGivesNoModel) {
   const CommandOutcome outcome =
       Telltale({"identify", "--log", log, "--vehicle",
                 (kTree / "deploy/sample/yellowfish.textproto").string(), "--out", model});
-  EXPECT_EQ(outcome.exit_code, kRefused);
+  EXPECT_EQ(outcome.exit_code, kExitRefused);
   EXPECT_TRUE(SaysOneOf(outcome.err, GetParam().said)) << outcome.err;
   EXPECT_THAT(outcome.err, HasSubstr("->"));
   EXPECT_FALSE(std::filesystem::exists(model));
@@ -239,12 +239,12 @@ TEST(InputFaults, AUserWhoKnowsBetterGetsAModel) {
       "--replicates",
       "0"};
   const CommandOutcome refused = Telltale(identify);
-  EXPECT_EQ(refused.exit_code, kRefused);
+  EXPECT_EQ(refused.exit_code, kExitRefused);
   EXPECT_THAT(refused.err,
               AllOf(HasSubstr("exchange port and starboard"), HasSubstr("--skip-input-check")));
   std::vector<std::string> insisting = identify;
   insisting.emplace_back("--skip-input-check");
-  EXPECT_EQ(Telltale(insisting).exit_code, kSuccess);
+  EXPECT_EQ(Telltale(insisting).exit_code, kExitSuccess);
 }
 
 TEST(InputFaults, CommandsBeyondTheRangeOfTheVehicleFileAreNamed) {
@@ -264,7 +264,7 @@ TEST(InputFaults, ARecordingGivenTwiceIsRefused) {
   const std::string vehicle = (kTree / "deploy/sample/yellowfish.textproto").string();
   const CommandOutcome twice =
       Telltale({"identify", "--log", sample, "--log", sample, "--vehicle", vehicle});
-  EXPECT_EQ(twice.exit_code, kRefused);
+  EXPECT_EQ(twice.exit_code, kExitRefused);
   EXPECT_THAT(twice.err, HasSubstr("the same recording"));
 }
 

@@ -84,7 +84,7 @@ TEST_F(LogInputsTest, ADataFlashLogNeedsNoVehicleFile) {
   Save("run 1.BIN", Logged(Measured(100.0)));
   folder.Write("boat.textproto", PrintVehicle(Boat()));
   const CommandOutcome without = Identify({"--log", Path("run 1.BIN"), "--json"});
-  ASSERT_EQ(without.exit_code, kSuccess) << without.err;
+  ASSERT_EQ(without.exit_code, kExitSuccess) << without.err;
   EXPECT_THAT(without.err,
               AllOf(HasSubstr("vehicle run_1 is taken from"),
                     HasSubstr("port on channel 3, 1100 us (full reverse), 1500 us (neutral), 1900 "
@@ -93,7 +93,7 @@ TEST_F(LogInputsTest, ADataFlashLogNeedsNoVehicleFile) {
                     HasSubstr("unknown, taken as zero")));
   const CommandOutcome with =
       Identify({"--log", Path("run 1.BIN"), "--vehicle", Path("boat.textproto"), "--json"});
-  ASSERT_EQ(with.exit_code, kSuccess) << with.err;
+  ASSERT_EQ(with.exit_code, kExitSuccess) << with.err;
   EXPECT_THAT(with.err, Not(HasSubstr("is taken from")));
 
   auto described = ParseModelJson(without.out);
@@ -107,15 +107,16 @@ TEST_F(LogInputsTest, ADataFlashLogNeedsNoVehicleFile) {
 TEST_F(LogInputsTest, ADataFlashLogIsValidatedAndStudied) {
   Save("a.BIN", Logged(Measured(100.0)));
   Save("b.BIN", Logged(Measured(5000.0)));
-  ASSERT_EQ(Identify({"--log", Path("a.BIN"), "--out", Path("model.json")}).exit_code, kSuccess);
+  ASSERT_EQ(Identify({"--log", Path("a.BIN"), "--out", Path("model.json")}).exit_code,
+            kExitSuccess);
   const CommandOutcome scored =
       Telltale({"validate", "--log", Path("b.BIN"), "--model", Path("model.json")});
-  EXPECT_EQ(scored.exit_code, kSuccess) << scored.err;
+  EXPECT_EQ(scored.exit_code, kExitSuccess) << scored.err;
   // Names of files are not names of boats: their difference is nothing to be told.
   EXPECT_THAT(scored.err, Not(HasSubstr("the model is of")));
   const CommandOutcome studied =
       Telltale({"study", "--log", Path("a.BIN"), "--log", Path("b.BIN"), "--partitions", "1"});
-  EXPECT_EQ(studied.exit_code, kSuccess) << studied.err;
+  EXPECT_EQ(studied.exit_code, kExitSuccess) << studied.err;
   EXPECT_THAT(studied.err, HasSubstr("vehicle a is taken from"));
 }
 
@@ -126,7 +127,7 @@ TEST_F(LogInputsTest, AFolderDoesNeedAVehicleFile) {
   for (const std::vector<std::string>& logs : std::vector<std::vector<std::string>>{
            {"--log", Path("log")}, {"--log", Path("run.BIN"), "--log", Path("log")}}) {
     const CommandOutcome outcome = Identify(logs);
-    EXPECT_EQ(outcome.exit_code, kUsage);
+    EXPECT_EQ(outcome.exit_code, kExitUsage);
     EXPECT_THAT(outcome.err, AllOf(HasSubstr("--vehicle is required"), HasSubstr(Path("log"))));
   }
 }
@@ -135,14 +136,14 @@ TEST_F(LogInputsTest, LogsWithOtherServoRangesAreRefusedNamingBoth) {
   Save("a.BIN", Logged(Measured(100.0)));
   Save("b.BIN", Logged(Measured(5000.0), 1050.0f));
   const CommandOutcome outcome = Identify({"--log", Path("a.BIN"), "--log", Path("b.BIN")});
-  EXPECT_EQ(outcome.exit_code, kRefused);
+  EXPECT_EQ(outcome.exit_code, kExitRefused);
   EXPECT_THAT(outcome.err, AllOf(HasSubstr("a.BIN"), HasSubstr("b.BIN"), HasSubstr("starboard"),
                                  HasSubstr("1050 us"), HasSubstr("-> give a vehicle file")));
   folder.Write("boat.textproto", PrintVehicle(Boat()));
   EXPECT_EQ(Identify({"--log", Path("a.BIN"), "--log", Path("b.BIN"), "--vehicle",
                       Path("boat.textproto")})
                 .exit_code,
-            kSuccess);
+            kExitSuccess);
 }
 
 TEST_F(LogInputsTest, ALogWithoutServoRangesIsRefusedNamingIt) {
@@ -150,7 +151,7 @@ TEST_F(LogInputsTest, ALogWithoutServoRangesIsRefusedNamingIt) {
   log.Definitions().Parm("SERVO3_FUNCTION", 73).Parm("SERVO1_FUNCTION", 74).Run(100);
   Save("unsaid.BIN", log);
   const CommandOutcome outcome = Identify({"--log", Path("unsaid.BIN")});
-  EXPECT_EQ(outcome.exit_code, kRefused);
+  EXPECT_EQ(outcome.exit_code, kExitRefused);
   EXPECT_THAT(outcome.err, AllOf(HasSubstr("unsaid.BIN port thruster"), HasSubstr("SERVO3_MIN"),
                                  HasSubstr("-> give a vehicle file")));
 }
@@ -162,17 +163,17 @@ TEST_F(LogInputsTest, ReceiverAndChannelsCanBeChosen) {
   Save("run.BIN", log);
   EXPECT_THAT(Identify({"--log", Path("run.BIN")}).err, HasSubstr("GPS instance 0"));
   const CommandOutcome second = Identify({"--log", Path("run.BIN"), "--gps-instance", "1"});
-  EXPECT_EQ(second.exit_code, kRefused);  // one fix is no track
+  EXPECT_EQ(second.exit_code, kExitRefused);  // one fix is no track
   EXPECT_THAT(second.err, HasSubstr("GPS instance 1"));
   const CommandOutcome absent = Identify({"--log", Path("run.BIN"), "--gps-instance", "2"});
-  EXPECT_EQ(absent.exit_code, kRefused);
+  EXPECT_EQ(absent.exit_code, kExitRefused);
   EXPECT_THAT(absent.err, HasSubstr("ask for one of: 0 1"));
 
   // Thrusters taken for each other: port is then the reversed channel.
   const CommandOutcome swapped =
       Identify({"--log", Path("run.BIN"), "--port-channel", "1", "--starboard-channel", "3",
                 "--skip-input-check", "--json"});
-  EXPECT_EQ(swapped.exit_code, kSuccess) << swapped.err;
+  EXPECT_EQ(swapped.exit_code, kExitSuccess) << swapped.err;
   EXPECT_THAT(swapped.err, AllOf(HasSubstr("port on channel 1, 1900 us (full reverse)"),
                                  HasSubstr("starboard on channel 3, 1100 us (full reverse)")));
 }
@@ -185,15 +186,16 @@ TEST_F(LogInputsTest, OptionsOfDataFlashLogsAreChecked) {
     for (const char* subcommand : {"identify", "study"}) {
       const CommandOutcome outcome =
           Telltale({subcommand, "--log", Path("run.BIN"), option, value});
-      EXPECT_EQ(outcome.exit_code, kUsage) << option;
+      EXPECT_EQ(outcome.exit_code, kExitUsage) << option;
       EXPECT_THAT(outcome.err, HasSubstr(option));
     }
     EXPECT_EQ(Telltale({"replay", "--log", Path("run.BIN"), "--vehicle-id", "b", option, value})
                   .exit_code,
-              kUsage);
+              kExitUsage);
     EXPECT_THAT(Telltale({"replay", "--help"}).out, AllOf(HasSubstr(option), HasSubstr(range)));
   }
-  EXPECT_EQ(Telltale({"identify", "--vehicle-id", "b", "--gps-instance", "1"}).exit_code, kUsage);
+  EXPECT_EQ(Telltale({"identify", "--vehicle-id", "b", "--gps-instance", "1"}).exit_code,
+            kExitUsage);
 }
 
 TEST_F(LogInputsTest, AChannelThatALogDoesNotRecordIsAUsageError) {
@@ -201,7 +203,7 @@ TEST_F(LogInputsTest, AChannelThatALogDoesNotRecordIsAUsageError) {
   for (const char* subcommand : {"identify", "check", "import", "init"}) {
     const CommandOutcome outcome = Telltale(
         {subcommand, "--log", Path("run.BIN"), "--port-channel", "15", "--out", Path("written")});
-    EXPECT_EQ(outcome.exit_code, kUsage) << subcommand;
+    EXPECT_EQ(outcome.exit_code, kExitUsage) << subcommand;
     EXPECT_THAT(outcome.err, AllOf(HasSubstr("--port-channel"), HasSubstr("channels 1 to 14")));
   }
 }
@@ -209,7 +211,7 @@ TEST_F(LogInputsTest, AChannelThatALogDoesNotRecordIsAUsageError) {
 TEST_F(LogInputsTest, AFileOfNoKnownFormatIsRefusedWithTheFormatsThereAre) {
   folder.Write("notes.txt", "Rain since noon.\n");
   const CommandOutcome outcome = Telltale({"check", "--log", Path("notes.txt")});
-  EXPECT_EQ(outcome.exit_code, kRefused);
+  EXPECT_EQ(outcome.exit_code, kExitRefused);
   for (const char* format : {"notes.txt", ".BIN", ".tlog", ".mcap", "rosbag2", "CSV"}) {
     EXPECT_THAT(outcome.err, HasSubstr(format));
   }
@@ -228,7 +230,7 @@ TEST_F(LogInputsTest, SeveralLogsHaveARecordingBiasEachByDefault) {
     return Telltale(arguments);
   };
   const CommandOutcome own = identify({"--replicates", "0", "--json"});
-  ASSERT_EQ(own.exit_code, kSuccess) << own.err;
+  ASSERT_EQ(own.exit_code, kExitSuccess) << own.err;
   EXPECT_EQ(ParseModelJson(own.out)->recording_bias.size(), 2u);
   const CommandOutcome shared =
       identify({"--replicates", "0", "--json", "--recording-bias", "shared"});
@@ -238,7 +240,7 @@ TEST_F(LogInputsTest, SeveralLogsHaveARecordingBiasEachByDefault) {
   EXPECT_THAT(table.out, AllOf(HasSubstr("bias of recording 2"), HasSubstr("cos(psi)")));
   const CommandOutcome one_step =
       identify({"--bootstrap", "0", "--recording-bias", "per-recording"});
-  EXPECT_EQ(one_step.exit_code, kUsage);
+  EXPECT_EQ(one_step.exit_code, kExitUsage);
   EXPECT_THAT(one_step.err, HasSubstr("not estimated by ONE_STEP"));
 }
 

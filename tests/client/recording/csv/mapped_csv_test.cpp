@@ -150,7 +150,7 @@ TEST_F(MappedCsvTest, GivesEveryCommandWhatTheFolderGives) {
   const std::string imported = (folder_.Path() / "imported").string();
   const CommandOutcome import =
       Telltale({"import", "--log", Csv().string(), "--map", map, "--out", imported});
-  ASSERT_EQ(import.exit_code, kSuccess) << import.err;
+  ASSERT_EQ(import.exit_code, kExitSuccess) << import.err;
   EXPECT_THAT(import.err, HasSubstr("heading from enu, east-north-up"));
   const auto read = LoadRecording(imported);
   ASSERT_TRUE(read);
@@ -163,9 +163,9 @@ TEST_F(MappedCsvTest, GivesEveryCommandWhatTheFolderGives) {
   }
   const CommandOutcome check =
       Telltale({"check", "--log", Csv().string(), "--map", map, "--vehicle", vehicle});
-  EXPECT_EQ(check.exit_code, kSuccess) << check.out << check.err;
+  EXPECT_EQ(check.exit_code, kExitSuccess) << check.out << check.err;
   const CommandOutcome folder = Telltale({"check", "--log", imported, "--map", map});
-  EXPECT_EQ(folder.exit_code, kRefused);
+  EXPECT_EQ(folder.exit_code, kExitRefused);
   EXPECT_THAT(folder.err, HasSubstr("leave out --map"));
 }
 
