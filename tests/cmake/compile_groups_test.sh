@@ -44,6 +44,10 @@ unit a/two.cpp '' 'int Count() {\n  constexpr int kRows = 2;\n  return kRows;\n}
 expect '1 2 2' target 9
 unit a/two.cpp 'enum Change : int { kRows = 0, kPort = 1 };\n'
 expect '1 2 2' target 9
+unit a/two.cpp ''
+sed -i '1i #include "telltale/b/change.hpp"' a/two.cpp
+unit b/change.hpp '' 'enum class Change { kRows, kPort };\n'
+expect '1 2 2' target 9
 unit a/one.cpp 'int First();\ndouble Mean(double x);\n'
 
 # A name that one file has and another declares for others, or finds in a header.
