@@ -34,7 +34,7 @@ TEST(DaemonConfig, AnEmptyFileMeansTheDefaultsOfTheSchema) {
   EXPECT_EQ(config->identification.bootstrap_replicates, 1000u);
   EXPECT_EQ(config->identification.interval_level, 0.95);
   EXPECT_EQ(config->identification.queue_limit, 1024u);
-  EXPECT_EQ(config->identification.structure, Structure::kStaticQuadratic);
+  EXPECT_EQ(config->identification.structure, std::nullopt);
   EXPECT_EQ(config->quality_period_s, 1.0);
   EXPECT_EQ(config->log_level, "info");
   EXPECT_FALSE(config->http);
