@@ -68,7 +68,7 @@ class Ingest {
  private:
   /// What the loop knows of one window's telemetry.
   struct Boat {
-    VehicleWindow* window;
+    VehicleWindow* window = nullptr;
     Intake::Stream stream;
     std::size_t since_receipt = 0;  ///< samples
   };

@@ -8,7 +8,6 @@ namespace {
 
 using enum FossenParameter;
 
-constexpr int kParameters = static_cast<int>(kFossenParameters);
 constexpr int kNorth = kNorthState;
 constexpr int kEast = kNorthState + 1;
 
@@ -339,7 +338,7 @@ void ExtendedKalmanFilter::Step(double h) {
 
 FilterGain ExtendedKalmanFilter::GainOf(const ScalarReading& reading) {
   if (fixed_gains_ != nullptr) return (*fixed_gains_)[next_gain_++];
-  const FilterGain gain = covariance_.Take(reading);
+  FilterGain gain = covariance_.Take(reading);
   if (recorded_gains_ != nullptr) recorded_gains_->push_back(gain);
   return gain;
 }
