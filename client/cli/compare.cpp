@@ -21,14 +21,8 @@ struct CompareArguments {
   OutputOptions output;
 };
 
-std::string ChangedCell(const CoefficientChange& change) {
-  if (change.symbol == "tau") return ParameterCell("tau");
-  return change.equation == Equation::kUnknown ? ParameterCell(change.symbol)
-                                               : RegressorCell(change.equation, change.regressor);
-}
-
 std::string ChangeTable(const ModelChange& change) {
-  Table table({{"equation"},
+  Table table({{"in"},
                {"coefficient"},
                {"difference", Align::kRight},
                {"std. error", Align::kRight},
@@ -36,7 +30,8 @@ std::string ChangeTable(const ModelChange& change) {
                {"p", Align::kRight}});
   for (const CoefficientChange& c : change.coefficients) {
     const bool of_boat = c.equation == Equation::kUnknown;
-    table.AddRow({of_boat ? "" : std::string(Name(c.equation)), ChangedCell(c),
+    table.AddRow({of_boat ? "" : std::string(Name(c.equation)),
+                  of_boat ? ParameterCell(c.symbol) : RegressorCell(c.equation, c.regressor),
                   Significant(c.difference), Significant(c.standard_error, 3), Fixed(c.Sigmas(), 1),
                   Significant(c.p_value, 2)});
   }
@@ -45,9 +40,10 @@ std::string ChangeTable(const ModelChange& change) {
 
 /// The answer in one line, then how it was found.
 std::string AnswerText(const ModelChange& change) {
+  const std::string told = InWords(change);
   return AnswerOf(change) + '\n' +
-         Wrapped("The second " + InWords(change) + ". Together: Wald statistic " +
-                 Significant(change.statistic) + " over " +
+         Wrapped("The second " + told + (told.ends_with('?') ? " " : ". ") +
+                 "Together: Wald statistic " + Significant(change.statistic) + " over " +
                  Counted(change.degrees_of_freedom, "combination", "combinations") +
                  "; models differ where p is below " + Plain(kSignificantChange) +
                  ". In the table, p is that of one coefficient alone.");

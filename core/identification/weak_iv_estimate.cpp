@@ -133,7 +133,7 @@ std::string InWords(const BootstrapCorrection& corrected, Eigen::Index clusters)
   return words.str();
 }
 
-/// What is estimated once what cannot be separated is cut, and how.
+/// The columns that are estimated once collinear ones are cut.
 struct Estimable {
   SeparableColumns separable;
   std::array<std::vector<std::size_t>, 3> columns;  ///< steady terms of each recording among them

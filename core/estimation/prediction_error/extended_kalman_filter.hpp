@@ -94,7 +94,7 @@ class ExtendedKalmanFilter {
   using ByParameters = Eigen::Matrix<double, 3, static_cast<int>(kFossenParameters)>;
   using Slopes = Eigen::Matrix<double, kFilterStates, static_cast<int>(kFossenParameters)>;
 
-  // How the states that move do, without the current and the disturbance where they are constant.
+  // The rate of the states that move, with what its slopes are made of.
   struct Rate {
     double cos_psi = 1.0;
     double sin_psi = 0.0;
