@@ -128,6 +128,9 @@ std::optional<FossenVector> PseudoTruth(const HullScenario& scenario, std::size_
   return pooled->physical->Estimates();
 }
 
+constexpr int kRankBins = 10;
+using Ranks = Eigen::Matrix<double, kRankBins, 1>;
+
 struct Outcome {
   FossenVector error;
   FossenVector standard_error;
@@ -135,28 +138,47 @@ struct Outcome {
   std::vector<bool> prior;
   bool joint = false;    ///< whether the comparison of models takes the truth for the model
   double in_band = 0.0;  ///< share
+  Ranks ranks = Ranks::Zero();
   bool converged = false;
   double seconds = 0.0;
 };
 
-double ShareInBand(const HullScenario& scenario, const Identification& model, std::uint64_t seed) {
-  constexpr std::size_t kDraws = 400;
-  constexpr double kHorizonS = 10.0;
-  constexpr double kStepS = 0.1;
-  const auto draws = DrawFromPosterior(model, kDraws, seed);
-  if (!draws) return 0.0;
+std::vector<VesselModel> ModelsOf(const PosteriorDraws& draws, const VesselModel& estimate) {
   std::vector<VesselModel> models;
-  for (Eigen::Index i = 0; i < draws->theta.cols(); ++i) {
-    VesselModel one =
-        VesselModelOf(model.physical->Estimates(), scenario.hull.propeller_separation_m);
+  for (Eigen::Index i = 0; i < draws.theta.cols(); ++i) {
+    VesselModel one = estimate;
     Eigen::Index next = 0;
     for (Eigen::VectorXd& theta : one.theta) {
-      theta = draws->theta.col(i).segment(next, theta.size());
+      theta = draws.theta.col(i).segment(next, theta.size());
       next += theta.size();
     }
-    one.thruster_time_constant_s = draws->time_constant_s[static_cast<std::size_t>(i)];
+    one.thruster_time_constant_s = draws.time_constant_s[static_cast<std::size_t>(i)];
     models.push_back(one);
   }
+  return models;
+}
+
+// Ranks of the true coefficients of simulation among their draws, in shares. One that is the same
+// in every draw has none.
+Ranks RanksOf(const VesselModel& truth, const PosteriorDraws& draws) {
+  Ranks ranks = Ranks::Zero();
+  Eigen::Index row = 0;
+  for (const Eigen::VectorXd& theta : truth.theta) {
+    for (const double true_value : theta) {
+      const auto drawn = draws.theta.row(row++).array();
+      if (drawn.maxCoeff() - drawn.minCoeff() < 1e-12) continue;
+      const auto below = static_cast<double>((drawn < true_value).count());
+      const double share = below / static_cast<double>(draws.theta.cols() + 1);
+      ranks[static_cast<Eigen::Index>(share * kRankBins)] += 1.0;
+    }
+  }
+  return ranks / ranks.sum();
+}
+
+double ShareInBand(const HullScenario& scenario, const Identification& model,
+                   const std::vector<VesselModel>& models, std::uint64_t seed) {
+  constexpr double kHorizonS = 10.0;
+  constexpr double kStepS = 0.1;
   const HullRun run = RunHull(scenario.hull, scenario.sea, kHorizonS, kStepS, seed);
   VesselState start;
   start.nu = run.start;
@@ -206,7 +228,13 @@ std::optional<Outcome> RunReplicate(const HullScenario& scenario, const FossenVe
     outcome.prior.push_back(parameter.status == CoefficientStatus::kPrior);
   }
   outcome.joint = HoldsJointly(*model, truth);
-  outcome.in_band = ShareInBand(scenario, *model, seed + 1);
+  constexpr std::size_t kDraws = 400;
+  if (const auto draws = DrawFromPosterior(*model, kDraws, seed + 1)) {
+    const double separation_m = scenario.hull.propeller_separation_m;
+    const auto models = ModelsOf(*draws, VesselModelOf(model->physical->Estimates(), separation_m));
+    outcome.in_band = ShareInBand(scenario, *model, models, seed + 1);
+    outcome.ranks = RanksOf(VesselModelOf(truth, separation_m), *draws);
+  }
   outcome.converged =
       std::ranges::none_of(model->refusals, [](const Refusal& r) { return r.subject == "model"; });
   return outcome;
@@ -221,6 +249,7 @@ struct Tally {
   FossenVector predicted = FossenVector::Zero();  ///< standard error, root mean square
   double joint = 0.0;
   double band = 0.0;
+  Ranks ranks = Ranks::Zero();
   double converged = 0.0;  ///< number
   double seconds = 0.0;
 };
@@ -240,6 +269,7 @@ Tally Count(const std::vector<Outcome>& outcomes) {
     tally.predicted += outcome.standard_error.cwiseAbs2() / n;
     tally.joint += outcome.joint ? 100.0 / n : 0.0;
     tally.band += 100.0 * outcome.in_band / n;
+    tally.ranks += 100.0 * outcome.ranks / n;
     tally.converged += outcome.converged ? 1.0 : 0.0;
     tally.seconds += outcome.seconds / n;
   }
@@ -284,16 +314,28 @@ void PrintParameters(const std::string& name, const FossenVector& truth, const T
   std::fflush(stdout);
 }
 
+// Even tenths where the draws are calibrated.
+void PrintRanks(const std::string& name, const Ranks& ranks) {
+  std::printf("\n| %s, ranks, tenth |", name.c_str());
+  for (int i = 1; i <= kRankBins; ++i) std::printf(" %d |", i);
+  std::printf("\n|---|---|---|---|---|---|---|---|---|---|---|\n| %% |");
+  for (const double share : ranks) std::printf(" %.1f |", share);
+  std::printf("\n");
+  std::fflush(stdout);
+}
+
 int Main(int argc, char** argv) {
   Campaign campaign;
   campaign.replicates = 400;
   std::size_t pooled = 30;
   bool parameters = false;
+  bool ranks = false;
   CLI::App app("How often 95 % bounds of the physical form hold, by scenario");
   campaign.AddOptionsTo(app, Scenarios());
   app.add_option("--pooled", pooled, "recordings behind the pseudo-true values")
       ->capture_default_str();
   app.add_flag("--parameters", parameters, "also one table of parameters a scenario");
+  app.add_flag("--ranks", ranks, "also the ranks of the true values among draws of the posterior");
   CLI11_PARSE(app, argc, argv);
   std::printf(
       "| scenario | converged/identified/all | mean %% | lowest %% | below 92 | bias/spread | "
@@ -311,6 +353,7 @@ int Main(int argc, char** argv) {
     if (outcomes.empty()) continue;
     const Tally tally = Count(outcomes);
     PrintRow(scenario.name, tally, outcomes.size(), campaign.replicates);
+    if (ranks) PrintRanks(scenario.name, tally.ranks);
     if (parameters) PrintParameters(scenario.name, *truth, tally);
   }
   return 0;

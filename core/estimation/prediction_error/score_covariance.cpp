@@ -80,6 +80,19 @@ FossenVector StudentWidening(const FossenVector& degrees_of_freedom, double leve
   });
 }
 
+// Of each parameter's score over what the information expects of it, standard deviations.
+FossenVector OwnScatter(const FossenSquare& scores, const FossenSquare& information) {
+  return scores.diagonal()
+      .cwiseQuotient(information.diagonal().cwiseMax(1e-300))
+      .cwiseMax(0.0)
+      .cwiseSqrt();
+}
+
+// What brings the standard errors of `covariance` to those of `other` where these are larger.
+FossenVector WideningTo(const FossenSquare& other, const FossenSquare& covariance) {
+  return other.diagonal().cwiseQuotient(covariance.diagonal()).cwiseMax(1.0).cwiseSqrt();
+}
+
 // Of the blocks' own covariance beside the shape of the information.
 double WeightOf(std::size_t blocks) {
   return static_cast<double>(blocks) / static_cast<double>(blocks + kFossenParameters);
@@ -103,15 +116,20 @@ RobustCovariance CovarianceOf(const PredictionErrorFit& fit, double level) {
   const Eigen::LLT<FossenSquare> root(information);
   const FossenSquare by_score = FossenSquare(fit.slope).inverse();
   const FossenSquare of_blocks = CovarianceOfScores(fit.blocks, root);
-  const double by_blocks = DispersionOf(of_blocks, fit, root);
-  const double inflation = std::max(by_blocks, DispersionByRecordings(fit, root));
+  const double dispersion = DispersionOf(of_blocks, fit, root);
+  const double inflation = std::max(1.0, DispersionByRecordings(fit, root) / dispersion);
   const double weight = WeightOf(fit.blocks.size());
-  const FossenSquare scores = weight * (inflation / by_blocks) * of_blocks +
-                              (1.0 - weight) * inflation * fit.data_information;
   const FossenSquare prior = information - fit.data_information;
+  const auto shrunk_to = [&](const FossenSquare& target) {
+    const FossenSquare scores = weight * of_blocks + (1.0 - weight) * target;
+    return FossenSquare(Mapped(by_score, inflation * scores + prior));
+  };
+  const FossenSquare alike = shrunk_to(dispersion * fit.data_information);
+  const FossenSquare apart =
+      shrunk_to(Scaled(fit.data_information, OwnScatter(of_blocks, fit.data_information)));
   const FossenVector degrees = DegreesOfFreedom(fit, by_score) / (weight * weight);
-  const FossenSquare covariance = Mapped(by_score, scores + prior);
-  return {Scaled(covariance, StudentWidening(degrees, level)), degrees};
+  const FossenVector student = StudentWidening(degrees, level);
+  return {Scaled(alike, student.cwiseProduct(WideningTo(apart, alike))), degrees};
 }
 
 }  // namespace telltale

@@ -22,11 +22,13 @@ std::size_t EquivalentBlocks(std::size_t blocks);
 double DispersionOf(const PredictionErrorFit& fit);
 
 /// P (B + Lambda) P of docs/concepts/physical-model.md (112), (113).
-/// A fit takes part of each block's score for itself, most where a parameter's information stands
-/// in few blocks: scores are scaled by (I - H)^(-1/2), H the block's leverage, and a parameter's
-/// degrees of freedom are those of the blocks that inform it.
-/// Source: Bell and McCaffrey, "Bias reduction in standard errors for linear regression with
-/// multi-stage samples", Survey Methodology 28 (2002).
+/// Where blocks are few the shape of the information helps: once with all scores scattered alike
+/// beyond it, once with each parameter's score by its own scatter; the larger standard error
+/// counts. A fit takes part of each block's score for itself, most where a parameter's information
+/// stands in few blocks: scores are scaled by (I - H)^(-1/2), H the block's leverage, and a
+/// parameter's degrees of freedom are those of the blocks that inform it. Source: Bell and
+/// McCaffrey, "Bias reduction in standard errors for linear regression with multi-stage samples",
+/// Survey Methodology 28 (2002).
 RobustCovariance CovarianceOf(const PredictionErrorFit& fit, double level);
 
 }  // namespace telltale
