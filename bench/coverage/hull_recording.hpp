@@ -5,6 +5,7 @@
 
 #include <Eigen/Core>
 
+#include "coverage/clocks.hpp"
 #include "coverage/hulls.hpp"
 #include "telltale/core/data/samples.hpp"
 #include "telltale/core/simulation/simulator.hpp"
@@ -23,17 +24,6 @@ struct Sea {
   double fix_drift_m = 0.1;  ///< a Gauss-Markov process of 20 s
   double heading_noise_deg = 0.5;
   double misalignment_deg = 2.0;  ///< one sigma, of each recording
-};
-
-/// When samples are taken and what their stamps say.
-struct Clocks {
-  double command_period_s = 0.1;   ///< of the recorded commands
-  bool sampled = false;            ///< commands change between their stamps as well
-  bool steered = false;            ///< an autopilot changes them at 50 Hz
-  double command_delay_s = 0.0;    ///< a command acts this long after its stamp
-  double least_fix_delay_s = 0.0;  ///< a fix is stamped this late, uniform in a range
-  double greatest_fix_delay_s = 0.0;
-  double jitter_s = 0.0;  ///< of every stamp, one sigma
 };
 
 /// Random steps of both propellers held for 1.5 to 6 s, recorded for `duration_s`: fixes at 5 Hz,

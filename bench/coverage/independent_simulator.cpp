@@ -14,6 +14,7 @@ namespace {
 
 constexpr double kStepS = 0.01;
 constexpr double kGapS = 10.0;
+constexpr double kCommandPeriodS = 0.1;
 constexpr double kBurnInS = 5.0;  // before the recorder starts
 
 struct State {
@@ -111,8 +112,8 @@ class FirstOrderNoise {
 
 class Commands {
  public:
-  Commands(std::uint64_t seed, double share)
-      : engine_(RandomEngine::Stream(seed, 100)), share_(share) {}
+  Commands(std::uint64_t seed, double share, double step_s = kCommandPeriodS)
+      : engine_(RandomEngine::Stream(seed, 100)), share_(share), step_s_(step_s) {}
 
   /// New commands and how long they are held.
   double Draw(double& port, double& starboard) {
@@ -124,12 +125,13 @@ class Commands {
     starboard = kind < 0.6 || kind >= 0.8 ? ahead() : astern();
     port = std::round(400.0 * port) / 400.0;
     starboard = std::round(400.0 * starboard) / 400.0;
-    return 0.1 * std::round(10.0 * (1.5 + 4.5 * unit(engine_)));
+    return step_s_ * std::round((1.5 + 4.5 * unit(engine_)) / step_s_);
   }
 
  private:
   RandomEngine engine_;
   double share_;
+  double step_s_;  ///< they change at multiples of it
 };
 
 }  // namespace
@@ -229,10 +231,12 @@ class Sensors {
         north_(seed, 1),
         east_(seed, 2),
         heading_(seed, 3),
+        stamp_(seed, 10),
+        delay_(RandomEngine::Stream(seed, 11)),
         slow_north_(environment.position_drift_m, environment.position_drift_time_s, 0.2, seed, 5),
         slow_east_(environment.position_drift_m, environment.position_drift_time_s, 0.2, seed, 6) {}
 
-  GnssFix Fix(double stamp, const State& state) {
+  GnssFix Fix(double time_s, const State& state) {
     const double c = std::cos(state.psi);
     const double s = std::sin(state.psi);
     const LeverArm arm = VehicleOf().gnss_antenna;
@@ -241,20 +245,29 @@ class Sensors {
     const double east = state.y + s * arm.forward_m + c * arm.starboard_m +
                         environment_.position_noise_m * east_() + slow_east_.Next();
     const GeographicPosition fix = frame_.Inverse({north, east});
-    return {stamp, fix.latitude_deg, fix.longitude_deg};
+    const Clocks& clocks = environment_.clocks;
+    std::uniform_real_distribution<double> delay_s(
+        clocks.least_fix_delay_s, std::nextafter(clocks.greatest_fix_delay_s, 1.0));
+    return {Stamp(time_s + delay_s(delay_)), fix.latitude_deg, fix.longitude_deg};
   }
 
-  HeadingSample Heading(double stamp, const State& state) {
+  HeadingSample Heading(double time_s, const State& state) {
     const double deg = state.psi * kDegreesPerRadian + environment_.heading_noise_deg * heading_();
-    return {stamp, Wrap360(deg)};
+    return {Stamp(time_s), Wrap360(deg)};
   }
+
+  double CommandStamp(double time_s) { return Stamp(time_s - environment_.clocks.command_delay_s); }
 
  private:
+  double Stamp(double time_s) { return time_s + environment_.clocks.jitter_s * stamp_(); }
+
   SimulatedEnvironment environment_;
   NorthEastFrame frame_;
   Gaussian north_;
   Gaussian east_;
   Gaussian heading_;
+  Gaussian stamp_;
+  RandomEngine delay_;
   FirstOrderNoise slow_north_;
   FirstOrderNoise slow_east_;
 };
@@ -265,7 +278,9 @@ Recording Simulate(const Boat& boat, const SimulatedEnvironment& environment,
                    const Mission& mission, std::uint64_t seed) {
   const Vehicle vehicle = VehicleOf();
   Recording recording;
-  Commands commands(seed, mission.command_share);
+  const Clocks& clocks = environment.clocks;
+  Commands commands(seed, mission.command_share, clocks.sampled ? kStepS : kCommandPeriodS);
+  const long command_steps = std::lround(clocks.command_period_s / kStepS);
   Gaussian course(seed, 4);
   BoatState boat_state(boat, environment, seed);
   Sensors sensors(environment, seed);
@@ -284,14 +299,19 @@ Recording Simulate(const Boat& boat, const SimulatedEnvironment& environment,
       if (k >= 0 && k % 2 == 0) {
         recording.heading.push_back(sensors.Heading(origin_s + t, boat_state.Now()));
       }
-      if (k % 10 == 0) {
-        recording.thrusters.push_back({origin_s + t, std::round(vehicle.port.PulseWidth(port)),
+      if (k % command_steps == 0) {
+        recording.thrusters.push_back({sensors.CommandStamp(origin_s + t),
+                                       std::round(vehicle.port.PulseWidth(port)),
                                        std::round(vehicle.starboard.PulseWidth(starboard))});
       }
       boat_state.Step(port, starboard);
     }
     origin_s += mission.segment_s + kGapS;
   }
+  // Jitter may swap neighbours, which no log keeps in that order.
+  std::ranges::stable_sort(recording.gnss, {}, &GnssFix::time_s);
+  std::ranges::stable_sort(recording.heading, {}, &HeadingSample::time_s);
+  std::ranges::stable_sort(recording.thrusters, {}, &ThrusterSample::time_s);
   return recording;
 }
 

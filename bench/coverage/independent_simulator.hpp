@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "coverage/clocks.hpp"
 #include "telltale/core/data/samples.hpp"
 #include "telltale/core/vessel/vehicle.hpp"
 
@@ -35,6 +36,7 @@ struct SimulatedEnvironment {
   double position_drift_time_s = 20.0;
   /// Steady accelerations of surge, sway and yaw: coefficients of 1, cos psi and sin psi.
   std::array<std::array<double, 3>, 3> constant_disturbance{};
+  Clocks clocks;  ///< nobody steers here
 };
 
 struct Mission {

@@ -34,7 +34,7 @@ struct CoverageScenario : Scenario {
 };
 
 std::vector<CoverageScenario> Scenarios() {
-  std::vector<CoverageScenario> all(12);
+  std::vector<CoverageScenario> all(17);
   all[0].name = "rtk";
   all[1].name = "plain-gnss";
   all[1].environment.position_noise_m = 0.10;
@@ -60,6 +60,20 @@ std::vector<CoverageScenario> Scenarios() {
   all[10].environment = Disturbed(0.1);
   all[11].name = "still";
   all[11].environment = Disturbed(0.0);
+  all[12].name = "commands-sampled";
+  all[12].environment.clocks.sampled = true;
+  all[13].name = "offsets";
+  all[13].environment.clocks.command_delay_s = -0.1;
+  all[13].environment.clocks.least_fix_delay_s = 0.1;
+  all[13].environment.clocks.greatest_fix_delay_s = 0.1;
+  all[14].name = "jitter";
+  all[14].environment.clocks.jitter_s = 0.02;
+  all[15].name = "fixes-on-arrival";
+  all[15].environment.clocks.least_fix_delay_s = 0.05;
+  all[15].environment.clocks.greatest_fix_delay_s = 0.25;
+  all[16].name = "commands-at-2-hz";
+  all[16].environment.clocks.command_period_s = 0.5;
+  all[16].environment.clocks.sampled = true;
   return all;
 }
 
