@@ -121,16 +121,10 @@ void AddDraws(py::module_& module) {
           "What is the same in every draw, since the data do not determine it.");
 }
 
-}  // namespace
+using ModelClass = py::class_<Bounded, std::shared_ptr<Bounded>>;
 
-void AddModel(py::module_& module) {
-  AddCoefficient(module);
-  AddDraws(module);
-  py::class_<Bounded, std::shared_ptr<Bounded>>(
-      module, "Model",
-      "A boat's model with bounds: accelerations as linear combinations of regressors. "
-      "Coefficients "
-      "stand in the order of names. Every array is a copy.")
+void AddText(ModelClass& model) {
+  model
       .def_static(
           "from_json",
           [](const std::string& text) { return Bounded{OrThrow(ParseModelJson(text, "text"))}; },
@@ -146,7 +140,11 @@ void AddModel(py::module_& module) {
           [](const Bounded& bounded, const std::filesystem::path& path) {
             WriteFile(path, PrintModelJson(bounded.model));
           },
-          py::arg("path"), "Writes a model.json. Raises OSError where it cannot.")
+          py::arg("path"), "Writes a model.json. Raises OSError where it cannot.");
+}
+
+void AddOrigin(ModelClass& model) {
+  model
       .def_property_readonly(
           "vehicle_id", [](const Bounded& bounded) { return bounded.model.vehicle_id; },
           "The boat that it is of.")
@@ -161,7 +159,11 @@ void AddModel(py::module_& module) {
       .def_property_readonly(
           "sampling_period_s",
           [](const Bounded& bounded) { return bounded.model.sampling_period_s; },
-          "Of the discrete model.")
+          "Of the discrete model.");
+}
+
+void AddValues(ModelClass& model) {
+  model
       .def_property_readonly(
           "coefficients", [](const Bounded& bounded) { return bounded.model.coefficients; },
           "Those of every equation that was answered.")
@@ -183,7 +185,11 @@ void AddModel(py::module_& module) {
           "Square; infinite variance and zero covariances where NOT_EXCITED.")
       .def_property_readonly(
           "simulation_values", &SimulationValuesOf,
-          "What simulations use: the values, regularised where a simulation with them diverges.")
+          "What simulations use: the values, regularised where a simulation with them diverges.");
+}
+
+void AddUse(ModelClass& model) {
+  model
       .def_property_readonly(
           "refusals", [](const Bounded& bounded) { return bounded.model.refusals; },
           "What the data do not determine, and what to record.")
@@ -198,6 +204,21 @@ void AddModel(py::module_& module) {
       .def("__getitem__", &CoefficientNamed, py::arg("name"),
            "A coefficient by its name, 'SURGE u|u|', or its symbol.")
       .def("__repr__", &ModelText);
+}
+
+}  // namespace
+
+void AddModel(py::module_& module) {
+  AddCoefficient(module);
+  AddDraws(module);
+  ModelClass model(module, "Model",
+                   "A boat's model with bounds: accelerations as linear combinations of "
+                   "regressors. Coefficients "
+                   "stand in the order of names. Every array is a copy.");
+  AddText(model);
+  AddOrigin(model);
+  AddValues(model);
+  AddUse(model);
 
   module.def(
       "load_model",

@@ -200,6 +200,60 @@ double CommandDeviation(const PreparedDataset& dataset) {
   return count == 0.0 ? 0.0 : std::sqrt(std::max(square / count - sum * sum / count / count, 0.0));
 }
 
+// What the model's reader should know of it beside its bounds.
+std::vector<Refusal> WarningsOf(const PredictionErrorFit& fit, const PhysicalModel& model,
+                                const Heterogeneity& heterogeneity) {
+  std::vector<Refusal> warnings;
+  if (Refusal warning = PriorWarning(model); !warning.subject.empty()) {
+    warnings.push_back(std::move(warning));
+  }
+  if (!fit.converged) {
+    warnings.push_back({"model",
+                        "the fit stopped after " + std::to_string(fit.iterations) +
+                            " iterations before it converged",
+                        "record more varied manoeuvres"});
+  }
+  for (Refusal& warning : DifferingRecordings(heterogeneity, fit.parameters)) {
+    warnings.push_back(std::move(warning));
+  }
+  return warnings;
+}
+
+std::string BoundsBasis(const PredictionErrorFit& fit, const Heterogeneity& heterogeneity) {
+  std::string basis = "scores of " + std::to_string(fit.blocks.size()) +
+                      " blocks of 10 s, Student t, truncated to the physical range";
+  if (heterogeneity.birge_ratio > 0.0) {
+    basis += "; recordings scatter by " + FormatNumber(heterogeneity.birge_ratio, 2) +
+             " of what their bounds expect";
+  }
+  return basis;
+}
+
+// The model that the fit makes, with bounds; what the vehicle and the dataset say of it is unset.
+Identification ModelOf(const PredictionErrorFit& fit, const FossenPrior& prior, double separation_m,
+                       const IdentifyOptions& options) {
+  const RobustCovariance bounds = CovarianceOf(fit, options.interval_level);
+  const std::vector<Eigen::Index> kept = KeptAtEnds(fit, prior);
+  const Eigen::MatrixXd draws = DrawTruncatedNormal(
+      MeanBeforeTruncation(fit.parameters, fit.newton_mean, bounds.covariance, kept),
+      bounds.covariance, prior.least, prior.greatest, fit.parameters, kDraws, options.seed);
+  const Heterogeneity heterogeneity = HeterogeneityOf(fit, prior);
+
+  Identification model;
+  model.structure = Structure::kFossen;
+  model.parameterization = Parameterization::kPropeller;
+  model.estimator = Estimator::kPredictionError;
+  model.dead_zone = DeadZoneOf(fit.parameters);
+  model.physical = ModelWithBounds(
+      fit, prior, draws, StandardDeviationsGiven(bounds.covariance, kept), options.interval_level);
+  model.physical->propeller_separation_m = separation_m;
+  WriteImpliedCoefficients(fit.parameters, draws, separation_m, options.interval_level, model);
+  model.refusals = WarningsOf(fit, *model.physical, heterogeneity);
+  model.provenance.bounds_basis = BoundsBasis(fit, heterogeneity);
+  model.provenance.clusters = fit.blocks.size();
+  return model;
+}
+
 }  // namespace
 
 Result<Identification> IdentifyPhysicalModel(const PreparedDataset& dataset, const Vehicle& vehicle,
@@ -223,47 +277,10 @@ Result<Identification> IdentifyPhysicalModel(const PreparedDataset& dataset, con
                   "check the vehicle file and the recording with `telltale validate`");
   }
   if (progress) progress("bounding", 0.9);
-  const RobustCovariance bounds = CovarianceOf(fit, options.interval_level);
-  const std::vector<Eigen::Index> kept = KeptAtEnds(fit, prior);
-  const Eigen::MatrixXd draws = DrawTruncatedNormal(
-      MeanBeforeTruncation(fit.parameters, fit.newton_mean, bounds.covariance, kept),
-      bounds.covariance, prior.least, prior.greatest, fit.parameters, kDraws, options.seed);
-
-  Identification identification;
-  identification.vehicle_id = vehicle.vehicle_id;
-  identification.structure = Structure::kFossen;
-  identification.parameterization = Parameterization::kPropeller;
-  identification.estimator = Estimator::kPredictionError;
-  identification.sampling_period_s = dataset.sampling_period_s;
-  identification.dead_zone = DeadZoneOf(fit.parameters);
-  identification.physical = ModelWithBounds(
-      fit, prior, draws, StandardDeviationsGiven(bounds.covariance, kept), options.interval_level);
-  identification.physical->propeller_separation_m = vehicle.propeller_separation_m;
-  WriteImpliedCoefficients(fit.parameters, draws, vehicle.propeller_separation_m,
-                           options.interval_level, identification);
-  if (Refusal warning = PriorWarning(*identification.physical); !warning.subject.empty()) {
-    identification.refusals.push_back(std::move(warning));
-  }
-  if (!fit.converged) {
-    identification.refusals.push_back({"model",
-                                       "the fit stopped after " + std::to_string(fit.iterations) +
-                                           " iterations before it converged",
-                                       "record more varied manoeuvres"});
-  }
-  const Heterogeneity heterogeneity = HeterogeneityOf(fit, prior);
-  for (Refusal& warning : DifferingRecordings(heterogeneity, fit.parameters)) {
-    identification.refusals.push_back(std::move(warning));
-  }
-  identification.provenance.bounds_basis = "scores of " + std::to_string(fit.blocks.size()) +
-                                           " blocks of 10 s, Student t, truncated to the "
-                                           "physical range";
-  if (heterogeneity.birge_ratio > 0.0) {
-    identification.provenance.bounds_basis += "; recordings scatter by " +
-                                              FormatNumber(heterogeneity.birge_ratio, 2) +
-                                              " of what their bounds expect";
-  }
-  identification.provenance.clusters = fit.blocks.size();
-  return identification;
+  Identification model = ModelOf(fit, prior, vehicle.propeller_separation_m, options);
+  model.vehicle_id = vehicle.vehicle_id;
+  model.sampling_period_s = dataset.sampling_period_s;
+  return model;
 }
 
 }  // namespace telltale
