@@ -1,6 +1,7 @@
 #include "telltale/client/recording/ros/ros_recording.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <sstream>
 #include <tuple>
@@ -205,66 +206,88 @@ std::string RosRecording::Faults() const {
   return said.str();
 }
 
-SourceLog RosRecording::Finish() && {
+std::string RosRecording::Contents() const {
   std::uint64_t messages = 0;
   std::uint64_t spoken = 0;
   for (const auto& [name, topic] : topics_) {
     messages += topic.messages;
     spoken += topic.messages > 0 ? 1 : 0;
   }
-  std::ostringstream summary;
-  summary << messages << (messages == 1 ? " message" : " messages") << " of use in " << spoken
-          << (spoken == 1 ? " topic" : " topics");
-  Named* position = Best(&RosTopic::PositionRank);
-  const std::string_view beside = position != nullptr ? position->first : std::string_view();
-  Named* heading = Best(OfKind(RosKind::kCompass), beside);
-  if (heading == nullptr) heading = Best(OfKind(RosKind::kOrientation), beside);
-  Named* outputs = Best(OfKind(RosKind::kOutputs), beside);
-  Named* drive = Best(OfKind(RosKind::kDrive), beside);
-  Named* port = Best(OfSide(true), beside);
-  Named* starboard = Best(OfSide(false), beside);
+  std::ostringstream said;
+  said << messages << (messages == 1 ? " message" : " messages") << " of use in " << spoken
+       << (spoken == 1 ? " topic" : " topics");
+  return said.str();
+}
 
-  const auto stamps_agree = [](const Named* named) {
-    return named == nullptr || named->second.StampsAgree();
-  };
-  const bool use_stamps = stamps_agree(position) && stamps_agree(heading) && stamps_agree(outputs);
-  if (!use_stamps) {
-    for (Named* named : {position, heading, outputs}) {
-      if (named != nullptr) named->second.TimeByRecording();
-    }
+RosRecording::Sources RosRecording::BestSources() {
+  Sources best;
+  best.position = Best(&RosTopic::PositionRank);
+  const std::string_view beside =
+      best.position != nullptr ? best.position->first : std::string_view();
+  best.heading = Best(OfKind(RosKind::kCompass), beside);
+  if (best.heading == nullptr) best.heading = Best(OfKind(RosKind::kOrientation), beside);
+  best.outputs = Best(OfKind(RosKind::kOutputs), beside);
+  best.drive = Best(OfKind(RosKind::kDrive), beside);
+  best.port = Best(OfSide(true), beside);
+  best.starboard = Best(OfSide(false), beside);
+  return best;
+}
+
+// One clock for all channels: that of the headers where every channel has it.
+std::string RosRecording::AgreeOnClock(const Sources& best) {
+  const std::array channels{best.position, best.heading, best.outputs};
+  const bool use_stamps = std::ranges::all_of(
+      channels, [](const Named* named) { return named == nullptr || named->second.StampsAgree(); });
+  if (use_stamps) return "; times of the messages' headers where they have one";
+  for (Named* named : channels) {
+    if (named != nullptr) named->second.TimeByRecording();
   }
+  return "; times of recording";
+}
 
+std::string RosRecording::TakeCommands(const Sources& best, SourceLog& log) const {
+  std::ostringstream said;
+  if (best.outputs != nullptr) {
+    said << "; outputs " << channels_.port << " (port) and " << channels_.starboard
+         << " (starboard) of " << best.outputs->first;
+    log.thrusters = std::move(best.outputs->second.commands);
+  } else if (best.drive != nullptr) {
+    said << "; outputs from " << best.drive->first
+         << ", shares of full thrust taken as 1500 + 400 share us";
+    log.thrusters = std::move(best.drive->second.commands);
+  } else if (best.port != nullptr && best.starboard != nullptr) {
+    said << TakeSides(*best.port, *best.starboard, log);
+  }
+  return said.str();
+}
+
+std::string RosRecording::RateWarnings(const Sources& best, const SourceLog& log) {
+  std::string said;
+  if (best.outputs != nullptr) {
+    said += RateWarning(best.outputs->first, log.thrusters, kLowOutputHz,
+                        "set SR0_RC_CHAN of the autopilot to 10, or ask for message 36 by the "
+                        "service set_message_interval of MAVROS");
+  }
+  if (best.position != nullptr) {
+    said += RateWarning(best.position->first, log.gnss, kLowPositionHz,
+                        "set the receiver to 5 Hz or more");
+  }
+  if (best.heading != nullptr) {
+    said +=
+        RateWarning(best.heading->first, log.heading, kLowHeadingHz, "publish it at 10 Hz or more");
+  }
+  return said;
+}
+
+SourceLog RosRecording::Finish() && {
+  const Sources best = BestSources();
+  const std::string clock = AgreeOnClock(best);
   SourceLog log;
-  if (position != nullptr) summary << TakePositions(*position, log);
-  if (heading != nullptr) summary << TakeHeadings(*heading, log);
-  if (outputs != nullptr) {
-    summary << "; outputs " << channels_.port << " (port) and " << channels_.starboard
-            << " (starboard) of " << outputs->first;
-    log.thrusters = std::move(outputs->second.commands);
-  } else if (drive != nullptr) {
-    summary << "; outputs from " << drive->first
-            << ", shares of full thrust taken as 1500 + 400 share us";
-    log.thrusters = std::move(drive->second.commands);
-  } else if (port != nullptr && starboard != nullptr) {
-    summary << TakeSides(*port, *starboard, log);
-  }
-  if (outputs != nullptr) {
-    summary << RateWarning(outputs->first, log.thrusters, kLowOutputHz,
-                           "set SR0_RC_CHAN of the autopilot to 10, or ask for message 36 by the "
-                           "service set_message_interval of MAVROS");
-  }
-  if (position != nullptr) {
-    summary << RateWarning(position->first, log.gnss, kLowPositionHz,
-                           "set the receiver to 5 Hz or more");
-  }
-  if (heading != nullptr) {
-    summary << RateWarning(heading->first, log.heading, kLowHeadingHz,
-                           "publish it at 10 Hz or more");
-  }
-  summary << "; times "
-          << (use_stamps ? "of the messages' headers where they have one" : "of recording")
-          << Faults();
-  log.summary = summary.str();
+  log.summary = Contents();
+  if (best.position != nullptr) log.summary += TakePositions(*best.position, log);
+  if (best.heading != nullptr) log.summary += TakeHeadings(*best.heading, log);
+  log.summary += TakeCommands(best, log);
+  log.summary += RateWarnings(best, log) + clock + Faults();
   return log;
 }
 

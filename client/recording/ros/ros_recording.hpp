@@ -75,11 +75,25 @@ class RosRecording {
   /// Of topics of one rank, the one whose name shares most of its beginning with `beside`: a
   /// recording of several boats has a namespace for each. Of these the one with most samples.
   Named* Best(const RankOf& rank_of, std::string_view beside = {});
+  /// The topics that the channels are read from; a channel that no topic has is null.
+  struct Sources {
+    Named* position = nullptr;
+    Named* heading = nullptr;
+    Named* outputs = nullptr;
+    Named* drive = nullptr;
+    Named* port = nullptr;
+    Named* starboard = nullptr;
+  };
+  Sources BestSources();
   /// Why the best topic was taken, where there are others.
   std::string Why(const RankOf& rank_of, const char* reason) const;
   std::string TakePositions(Named& from, SourceLog& log) const;
   std::string TakeHeadings(Named& from, SourceLog& log) const;
   std::string TakeSides(Named& port, Named& starboard, SourceLog& log) const;
+  std::string TakeCommands(const Sources& best, SourceLog& log) const;
+  std::string Contents() const;
+  static std::string AgreeOnClock(const Sources& best);
+  static std::string RateWarnings(const Sources& best, const SourceLog& log);
   std::string Faults() const;
 
   RosOutputChannels channels_;
