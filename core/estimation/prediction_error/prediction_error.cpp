@@ -46,10 +46,32 @@ NoiseVector GreatestNoise() {
   return LogOf({{3.0, 3.0, 3.0}, 10.0, 3.0, 3.0, 0.2, 0.2});
 }
 
-// Wide process noise: the filter follows the readings whatever the parameters are.
-NoiseModel FirstNoise() {
+// Root mean square of the surge accelerations between rows half a second apart or more.
+double TypicalAcceleration(const PreparedDataset& dataset) {
+  constexpr double kApartS = 0.5;
+  double squares = 0.0;
+  double count = 0.0;
+  for (const RowRange& segment : dataset.segments) {
+    std::size_t from = segment.begin;
+    for (std::size_t to = segment.begin; to < segment.end; ++to) {
+      const double span_s = dataset.rows[to].time_s - dataset.rows[from].time_s;
+      if (span_s < kApartS) continue;
+      squares += std::pow((dataset.rows[to].nu.u - dataset.rows[from].nu.u) / span_s, 2);
+      count += 1.0;
+      from = to;
+    }
+  }
+  return count > 0.0 ? std::sqrt(squares / count) : 0.0;
+}
+
+// Process noise wide enough that the filter follows the readings whatever the parameters are. Far
+// above the accelerations of a slow boat it would leave nothing for the parameters to explain.
+NoiseModel FirstNoise(const PreparedDataset& dataset) {
+  constexpr double kOfTypical = 3.0;
+  constexpr double kWidest = 0.5;  // m/s^2, rad/s^2
   NoiseModel noise = NoiseOf(NoisePriorMean().cwiseMax(LeastNoise()));
-  noise.acceleration_sigma.setConstant(0.5);
+  const double sigma = kOfTypical * TypicalAcceleration(dataset);
+  noise.acceleration_sigma.setConstant(sigma > 0.0 ? std::min(sigma, kWidest) : kWidest);
   noise.acceleration_time_constant_s = 1.0;
   return noise;
 }
@@ -382,7 +404,7 @@ class Search {
   explicit Search(const Problem& problem)
       : problem_(problem),
         z_(problem.FirstParameters()),
-        noise_(problem.dataset_.Recordings(), FirstNoise()) {}
+        noise_(problem.dataset_.Recordings(), FirstNoise(problem.dataset_)) {}
 
   /// Whether there is more to do after this iteration.
   bool Iterate() {
