@@ -78,7 +78,6 @@ class MonitoredBoat {
   /// Whether the daemon publishes its model with verdict OK.
   bool IsSound() const { return model_.model.promotion.verdict == PromotionVerdict::kOk; }
   bool Drifts() const { return monitor_.DriftOnset().has_value(); }
-  std::string Proposal() { return monitor_.Proposal("boat"); }
 
   /// How many drifts begin within so much time of a boat as it is.
   std::size_t Alarms(double duration_s, Work work) {
@@ -88,7 +87,7 @@ class MonitoredBoat {
       const bool drifts = Drifts();
       if (drifts && !drifted) {
         ++alarms;
-        std::fprintf(stderr, "  false: %s\n", Proposal().c_str());
+        std::fprintf(stderr, "  false: %s\n", monitor_.DriftEvidence().c_str());
       }
       drifted = drifts;
       return true;

@@ -98,20 +98,12 @@ std::string ReasonsText(const Quality& quality) {
   return text;
 }
 
-/// What to do, without the evidence that the reason of a drift tells already.
-std::string AdviceText(const Quality& quality) {
-  const bool told =
-      std::ranges::find(quality.reasons, "DRIFT", &QualityReason::code) != quality.reasons.end();
-  const std::size_t end = told ? quality.proposal.find("; ") : std::string::npos;
-  return end == std::string::npos ? quality.proposal : quality.proposal.substr(end + 2);
-}
-
 std::string Notes(const std::vector<Quality>& shown) {
   std::string notes;
   for (const Quality& quality : shown) {
     if (quality.reasons.empty()) continue;
     notes += '\n' + quality.vehicle_id + '\n' + ReasonsText(quality);
-    if (!quality.proposal.empty()) notes += Wrapped(AdviceText(quality), "  ");
+    if (!quality.proposal.empty()) notes += Wrapped(quality.proposal, "  ");
   }
   return notes;
 }
@@ -189,7 +181,7 @@ std::string AnswerLines(const Quality& quality, double now_unix_s) {
                                   DurationText(now_unix_s - quality.diagnosed_unix_s) +
                                   " ago: " + quality.diagnosis_sentence);
   }
-  if (!quality.proposal.empty()) text += Line("advice", AdviceText(quality));
+  if (!quality.proposal.empty()) text += Line("advice", quality.proposal);
   return text;
 }
 

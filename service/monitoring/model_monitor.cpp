@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include <spdlog/spdlog.h>
+#include <spdlog/fmt/fmt.h>
 
 #include "telltale/client/fleet/unix_now.hpp"
 #include "telltale/core/data/recording_parts.hpp"
@@ -26,6 +26,7 @@ void ModelMonitor::Evaluate(VehicleWindow& window, double end_s, const StoredMod
     pattern_ = DriftMonitor();
     size_ = DriftDetector();
     size_onset_ = OnsetClock();
+    onset_ = EarliestOnset();
   } else if (end_s >= evaluated_to_s_ && end_s < evaluated_to_s_ + kNewDataS) {
     return;
   }
@@ -35,6 +36,7 @@ void ModelMonitor::Evaluate(VehicleWindow& window, double end_s, const StoredMod
   const auto error = MeasureFreeRunError(Latest(recording, kEvaluatedSpanS), window.vehicle(),
                                          model.model.identification);
   if (error) Add(RelativeError(*error, *model.reference_error));
+  NoteOnset();
 }
 
 void ModelMonitor::Add(double relative_error) {
@@ -46,24 +48,18 @@ void ModelMonitor::Add(double relative_error) {
   size_onset_.Note(size_.Rises(), evaluated_to_s_);
 }
 
-std::optional<OnsetTime> ModelMonitor::DriftOnset() const {
-  if (pattern_.Fires()) return pattern_.onset();
-  if (size_.Fires()) return size_onset_.onset();
-  return std::nullopt;
+void ModelMonitor::NoteOnset() {
+  onset_.Note({pattern_.Fires() ? pattern_.onset() : std::nullopt,
+               size_.Fires() ? size_onset_.onset() : std::nullopt});
 }
 
-std::string ModelMonitor::Proposal(std::string_view vehicle_id) {
-  const bool had_proposed = std::exchange(proposed_, DriftOnset().has_value());
-  if (!proposed_) return "";
+std::string ModelMonitor::DriftEvidence() const {
+  if (!DriftOnset()) return "";
   const std::string pattern = pattern_.Pattern();
-  std::string proposal = fmt::format(
-      "{}; telltale diagnose --vehicle-id {} asks why",
-      pattern.empty() ? fmt::format("revision {} predicts {:.1f} times worse than when it was made",
-                                    revision_, prediction_error())
-                      : fmt::format("the errors of revision {} show: {}", revision_, pattern),
-      vehicle_id);
-  if (!had_proposed) spdlog::warn("{}: {}", vehicle_id, proposal);
-  return proposal;
+  if (!pattern.empty())
+    return fmt::format("the errors of revision {} show: {}", revision_, pattern);
+  return fmt::format("revision {} predicts {:.1f} times worse than when it was made", revision_,
+                     prediction_error());
 }
 
 }  // namespace telltale

@@ -3,7 +3,6 @@
 #include <cstdint>
 #include <optional>
 #include <string>
-#include <string_view>
 
 #include "telltale/service/ingest/vehicle_window.hpp"
 #include "telltale/service/models/model_store.hpp"
@@ -30,13 +29,14 @@ class ModelMonitor {
   double drift() const { return drift_; }
 
   /// The onset of the drift, while there is one.
-  std::optional<OnsetTime> DriftOnset() const;
+  const std::optional<OnsetTime>& DriftOnset() const { return onset_.onset(); }
 
-  /// What to do where the model no longer fits; empty where it does. Logs each onset once.
-  std::string Proposal(std::string_view vehicle_id);
+  /// What shows the drift, for people; empty where there is none.
+  std::string DriftEvidence() const;
 
  private:
   void Add(double relative_error);
+  void NoteOnset();
 
   std::uint64_t revision_ = 0;   ///< of the model evaluated
   double evaluated_to_s_ = 0.0;  ///< the vehicle's time of the newest sample evaluated
@@ -45,7 +45,7 @@ class ModelMonitor {
   DriftMonitor pattern_;
   DriftDetector size_;
   OnsetClock size_onset_;
-  bool proposed_ = false;
+  EarliestOnset onset_;
 };
 
 }  // namespace telltale

@@ -129,8 +129,7 @@ void AddModel(const Quality& quality, const VerdictLimits& limits, Reasons& reas
   }
   if (quality.drift_since_unix_s > 0.0) {
     reasons.Add("DRIFT", quality.prediction_error >= limits.error_ratio ? kError : kWarn,
-                "the model no longer matches the boat: " +
-                    quality.proposal.substr(0, quality.proposal.find(';')));
+                "the model no longer matches the boat: " + quality.drift_evidence);
   }
 }
 

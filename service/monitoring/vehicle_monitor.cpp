@@ -4,8 +4,11 @@
 #include <cmath>
 #include <utility>
 
+#include <spdlog/spdlog.h>
+
 #include "telltale/client/fleet/unix_now.hpp"
 #include "telltale/core/base/median.hpp"
+#include "telltale/service/monitoring/drift_advice.hpp"
 #include "telltale/service/monitoring/quality_verdict.hpp"
 
 namespace telltale {
@@ -77,10 +80,10 @@ std::vector<ChannelDelay> DelaysOf(const Identification& identification) {
 
 void WriteLastAnswers(const FleetView& view, Quality& quality) {
   quality.last_refusal = view.LastRefusalOf(quality.vehicle_id);
-  if (quality.proposal.empty()) {
-    quality.proposal = view.AdviceOf(quality.vehicle_id, quality.model_revision.value_or(0));
-  }
   const auto diagnosis = view.LastDiagnosisOf(quality.vehicle_id);
+  quality.proposal = quality.drift_evidence.empty()
+                         ? view.AdviceOf(quality.vehicle_id, quality.model_revision.value_or(0))
+                         : DriftAdvice(quality, diagnosis.get());
   if (!diagnosis) return;
   quality.diagnosis_verdict = std::string(Name(diagnosis->diagnosis.verdict));
   quality.diagnosis_sentence = diagnosis->diagnosis.sentence;
@@ -103,6 +106,7 @@ Quality VehicleMonitor::Assess(VehicleWindow& window, const std::optional<Stored
   quality.indicative_rows = live_.rows();
   if (latest) AddModel(window, state.end_s, *latest, quality);
   WriteLastAnswers(view, quality);
+  LogDrift(quality);
   Decide(state, view, store_fault, quality);
   assessed_ = std::move(quality);
   return assessed_;
@@ -124,10 +128,16 @@ void VehicleMonitor::AddModel(VehicleWindow& window, double end_s, const StoredM
   quality.drift = model_.drift();
   const auto onset = model_.DriftOnset();
   quality.drift_since_unix_s = onset ? onset->unix_s : 0.0;
-  quality.proposal = model_.Proposal(quality.vehicle_id);
+  quality.drift_evidence = model_.DriftEvidence();
   quality.model_verdict = latest.model.promotion;
   quality.delays = DelaysOf(latest.model.identification);
   WriteIdentifiability(latest.model.identification.coefficients, quality);
+}
+
+void VehicleMonitor::LogDrift(const Quality& quality) {
+  const bool drifted = std::exchange(drifts_, !quality.drift_evidence.empty());
+  if (!drifts_ || drifted) return;
+  spdlog::warn("{}: {}; {}", quality.vehicle_id, quality.drift_evidence, quality.proposal);
 }
 
 void VehicleMonitor::Decide(const WindowState& state, const FleetView& view,

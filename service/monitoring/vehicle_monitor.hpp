@@ -37,6 +37,8 @@ class VehicleMonitor {
 
  private:
   void AddModel(VehicleWindow& window, double end_s, const StoredModel& latest, Quality& quality);
+  /// Each onset once.
+  void LogDrift(const Quality& quality);
   void Decide(const WindowState& state, const FleetView& view,
               const std::optional<std::string>& store_fault, Quality& quality);
   void UpdateEstimates(VehicleWindow& window, const WindowState& state);
@@ -47,6 +49,7 @@ class VehicleMonitor {
   LiveEstimator live_;
   std::vector<IndicativeCoefficient> indicative_;
   ModelMonitor model_;
+  bool drifts_ = false;  ///< at the end of the last period
   RecentTelemetry recent_;
   QualityVerdict verdict_ = QualityVerdict::kUnknown;  ///< of the last period
   double verdict_since_unix_s_ = 0.0;

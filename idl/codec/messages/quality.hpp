@@ -105,7 +105,7 @@ struct Quality {
   double drift = 0.0;             ///< running change of prediction_error per evaluation
   std::vector<IndicativeCoefficient> indicative;  ///< static structure; the estimable ones
   std::uint64_t indicative_rows = 0;              ///< prepared rows behind the live estimates
-  std::string proposal;  ///< what to do where the model no longer fits; empty: nothing
+  std::string proposal;  ///< what to do where something is to be done; empty: nothing
   QualityVerdict verdict = QualityVerdict::kUnknown;
   double verdict_since_unix_s = 0.0;   ///< when the verdict became this one
   std::vector<QualityReason> reasons;  ///< most serious first; none: OK
@@ -113,6 +113,7 @@ struct Quality {
   double loss_share = 0.0;             ///< of the samples sent in the last minute, [0, 1]
   double reject_share = 0.0;           ///< of those that arrived in the last minute, [0, 1]
   double drift_since_unix_s = 0.0;     ///< onset of the drift, by the daemon's clock; 0: none
+  std::string drift_evidence;          ///< what shows the drift, for people; empty: no drift
   std::uint32_t coefficients = 0;      ///< of the model
   std::uint32_t identified = 0;        ///< of them, those with status ESTIMATED
   /// Median over those of half the width of the bounds, in units of the estimate; 0: none.

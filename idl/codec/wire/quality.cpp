@@ -98,6 +98,7 @@ void ReadAssessment(const telltale_wire_Quality& wire, Quality& quality) {
   quality.shed = {wire.gnss_shed, wire.heading_shed, wire.thrusters_shed};
   quality.shed_share = ReadWithin("shed_share", wire.shed_share, kShare);
   quality.window_bytes = wire.window_bytes;
+  quality.drift_evidence = View(wire.drift_evidence);
 }
 
 void FillAssessment(telltale_wire_Quality& wire, const Quality& quality) {
@@ -124,6 +125,7 @@ void FillAssessment(telltale_wire_Quality& wire, const Quality& quality) {
   wire.thrusters_shed = quality.shed[static_cast<std::size_t>(Channel::kThrusters)];
   wire.shed_share = quality.shed_share;
   wire.window_bytes = quality.window_bytes;
+  Put(wire.drift_evidence, quality.drift_evidence);
 }
 
 Quality ReadQuality(const telltale_wire_Quality& wire) {

@@ -91,8 +91,17 @@ TEST(QualityTable, CountsVerdictsAndNamesReasons) {
   EXPECT_THAT(text, Not(HasSubstr("the model of a")));
 }
 
+TEST(QualityTable, GivesTheAdviceInFull) {
+  std::map<std::string, Quality> fleet = FleetOfFour();
+  fleet["b"].proposal = "it is late; refresh it";
+  EXPECT_THAT(QualityTable(fleet, {}), HasSubstr("\n  it is late; refresh it\n"));
+  EXPECT_THAT(QualityDetail(fleet["b"], 1000.0),
+              HasSubstr("advice        it is late; refresh it\n"));
+}
+
 TEST(QualityJson, IsOneLineThatReadsBack) {
   Quality quality = Boat("boat", QualityVerdict::kWarn, 2.0);
+  quality.drift_evidence = "drag 40 % more";
   quality.position = QualityPosition{59.5, 10.25, 90.0};
   const std::string line = PrintQualityLine(quality, 1234.5);
   EXPECT_THAT(line, Not(HasSubstr("\n")));
@@ -103,6 +112,7 @@ TEST(QualityJson, IsOneLineThatReadsBack) {
   EXPECT_EQ(read.time_unix_s(), 1234.5);
   EXPECT_EQ(read.reasons(0).code(), "DRIFT");
   EXPECT_EQ(read.model().revision(), 12u);
+  EXPECT_EQ(read.model().drift_evidence(), "drag 40 % more");
   EXPECT_EQ(read.position().heading_deg(), 90.0);
   EXPECT_FALSE(read.has_last_refusal());
 }

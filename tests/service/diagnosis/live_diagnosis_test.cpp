@@ -214,14 +214,19 @@ TEST_F(LiveDiagnosis, IsProposedWhereTheModelNoLongerFits) {
   const auto daemon = StartDaemon();
   SimulateAndWearOut(0.1);
   const auto quality =
-      AwaitQuality(kVehicleId, [](const Quality& q) { return !q.proposal.empty(); });
+      AwaitQuality(kVehicleId, [](const Quality& q) { return !q.drift_evidence.empty(); });
   ASSERT_TRUE(quality) << daemon->output();
-  EXPECT_THAT(quality->proposal, HasSubstr("telltale diagnose --vehicle-id yellowfish"));
+  EXPECT_EQ(quality->proposal, "telltale diagnose --vehicle-id yellowfish asks why");
   EXPECT_TRUE(daemon->WaitForOutput("telltale diagnose --vehicle-id yellowfish asks why"));
   const auto monitor = Start({"monitor", "--once"});
   EXPECT_EQ(monitor->Wait(), 0);
   // The monitor wraps its lines.
   EXPECT_THAT(monitor->output(), ContainsRegex("diagnose[[:space:]]+--vehicle-id yellowfish"));
+  Run({"diagnose", "--vehicle-id", kVehicleId});
+  const auto answered = AwaitQuality(
+      kVehicleId, [](const Quality& q) { return q.proposal.starts_with("the diagnosis finds "); });
+  ASSERT_TRUE(answered) << daemon->output();
+  EXPECT_EQ(answered->drift_evidence.find("telltale"), std::string::npos);
 }
 
 }  // namespace

@@ -17,11 +17,6 @@ function sentence(quality: Quality): string {
   return asSentence(quality.reasons[0]?.text ?? "");
 }
 
-/** What to do, without the evidence that the reason of a drift tells already. */
-function advice({ proposal, reasons }: Quality): string {
-  return reasons.some(({ code }) => code === "DRIFT") ? proposal.replace(/^[^;]*; /, "") : proposal;
-}
-
 function Telemetry({ quality }: { quality: Quality }) {
   const rates = quality.ratesHz;
   return (
@@ -412,7 +407,7 @@ export function BoatView({ vehicleId, round, info, jobs, track }: {
         <ul class="reasons">{quality.reasons.slice(1).map((reason) =>
           <li key={reason.code}><Badge verdict={reason.verdict} /> {reason.text}</li>)}</ul>
       )}
-      {quality.proposal && <p class="note">{advice(quality)}</p>}
+      {quality.proposal && <p class="note">{quality.proposal}</p>}
       <Orders vehicleId={vehicleId} info={info} jobs={jobs} token={token} setToken={setToken} />
       <div class="cards">
         <Card title="Free-run error over the last hour" wide>

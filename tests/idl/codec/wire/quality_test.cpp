@@ -5,12 +5,15 @@
 namespace telltale {
 namespace {
 
-TEST(WireQuality, CarriesAProposal) {
+TEST(WireQuality, CarriesAProposalAndTheEvidenceOfADrift) {
   Quality quality;
   quality.vehicle_id = "boat-1";
   EXPECT_EQ(Decode(*Encode(quality))->proposal, "");
+  EXPECT_EQ(Decode(*Encode(quality))->drift_evidence, "");
   quality.proposal = "ask why";
+  quality.drift_evidence = "port thruster 14 % weaker";
   EXPECT_EQ(Decode(*Encode(quality))->proposal, "ask why");
+  EXPECT_EQ(Decode(*Encode(quality))->drift_evidence, "port thruster 14 % weaker");
 }
 
 TEST(WireQuality, ArrivesAsItWasSent) {
