@@ -1,4 +1,6 @@
+#include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -21,6 +23,17 @@ std::string VehicleIdFor(const DiagnoseArguments& arguments, const Vehicle& vehi
   return arguments.inputs.NamesVehicle() ? vehicle.vehicle_id : model.vehicle_id;
 }
 
+std::vector<std::string> NamesOf(const std::vector<std::filesystem::path>& logs) {
+  std::vector<std::string> names;
+  for (const auto& log : logs) names.push_back(NameOf(log));
+  return names;
+}
+
+ReportSources SourcesOf(const DiagnoseArguments& arguments) {
+  return {NamesOf(arguments.inputs.logs), NamesOf(arguments.reference_logs),
+          arguments.model_file.filename().string(), std::nullopt};
+}
+
 DiagnosedModel DiagnoseFromFiles(const DiagnoseArguments& arguments) {
   arguments.choices.Options();  // a usage error need not wait for logs
   const Identification model = LoadModel(arguments.model_file);
@@ -39,7 +52,7 @@ DiagnosedModel DiagnoseFromFiles(const DiagnoseArguments& arguments) {
 
 void DiagnoseLogs(const DiagnoseArguments& arguments) {
   const DiagnosedModel diagnosed = DiagnoseFromFiles(arguments);
-  arguments.Write(diagnosed.diagnosis, diagnosed.augmented);
+  arguments.Write(diagnosed.diagnosis, diagnosed.augmented, SourcesOf(arguments));
 }
 
 }  // namespace

@@ -6,7 +6,6 @@
 #include "telltale/client/cli/table.hpp"
 #include "telltale/client/cli/whole_number.hpp"
 #include "telltale/client/recording/file_contents.hpp"
-#include "telltale/client/report/report_page.hpp"
 #include "telltale/idl/codec/json/model.hpp"
 #include "telltale/idl/codec/json/report.hpp"
 
@@ -68,9 +67,9 @@ void DiagnoseArguments::AddOptionsTo(CLI::App& command, CLI::Option* log) {
 
 void DiagnoseArguments::Write(const Diagnosis& diagnosis,
                               const std::optional<Identification>& augmented,
-                              const std::string& against) const {
+                              const ReportSources& sources, const std::string& against) const {
   if (!out_model.empty()) WriteModel(augmented, out_model);
-  if (!html.empty()) WriteFile(html, ReportPage(diagnosis));
+  if (!html.empty()) WriteFile(html, ReportPage(diagnosis, sources));
   output.Write(PrintReportJson(diagnosis), [&] {
     return DiagnosisTable(diagnosis) + (against.empty() ? "" : '\n' + Wrapped(against));
   });

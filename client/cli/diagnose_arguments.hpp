@@ -9,6 +9,7 @@
 
 #include "telltale/client/cli/input_options.hpp"
 #include "telltale/client/cli/output_options.hpp"
+#include "telltale/client/report/report_page.hpp"
 #include "telltale/client/workbench/diagnose_recorded.hpp"
 #include "telltale/core/diagnosis/diagnose.hpp"
 
@@ -29,10 +30,10 @@ struct DiagnoseArguments {
   void AddOptionsTo(CLI::App& command, CLI::Option* log);
 
   /// The model, the page, the JSON and the table, as far as they were asked for; `against` says in
-  /// the table what the recording was held against. Where no effect is likely there is no model to
-  /// write, which a note says.
+  /// the table what the recording was held against, `sources` in the page where it comes from.
+  /// Where no effect is likely there is no model to write, which a note says.
   void Write(const Diagnosis& diagnosis, const std::optional<Identification>& augmented,
-             const std::string& against = "") const;
+             const ReportSources& sources, const std::string& against = "") const;
 };
 
 }  // namespace telltale

@@ -38,7 +38,7 @@ void DiagnoseLive(const std::string& vehicle_id, const DiagnoseArguments& argume
   const DiagnoseResult result = AskForDiagnosis(DiagnoseRequestOf(vehicle_id, arguments), live);
   RequirePublished(result, vehicle_id, live);
   const PublishedDiagnosis& published = *result.reply->diagnosis;
-  arguments.Write(published.diagnosis, result.reply->augmented,
+  arguments.Write(published.diagnosis, result.reply->augmented, SourcesOf(published),
                   "Held against revision " + std::to_string(published.model_revision) + " of " +
                       vehicle_id + ".");
 }

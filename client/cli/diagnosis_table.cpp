@@ -77,12 +77,6 @@ std::string EffectText(const CausalEffect& effect, bool several) {
   return text;
 }
 
-std::string JoinedWith(const std::vector<std::string>& names, const std::string& separator) {
-  std::string text;
-  for (const std::string& name : names) text.append(text.empty() ? "" : separator).append(name);
-  return text;
-}
-
 /// "thruster_lag: probability 81 %, excess explained 74 % [60, 88]", then its effects.
 std::string CauseParagraph(const Cause& cause) {
   std::string headline = CauseText(cause) + ": probability " + ShareText(cause.probability);
@@ -95,8 +89,7 @@ std::string CauseParagraph(const Cause& cause) {
   }
   if (!cause.indistinguishable.empty()) {
     text += Wrapped(
-        "this recording cannot separate it from " + JoinedWith(cause.indistinguishable, ", "),
-        "  ");
+        "this recording cannot separate it from " + Joined(cause.indistinguishable, ", "), "  ");
   }
   return text;
 }

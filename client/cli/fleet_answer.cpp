@@ -1,10 +1,8 @@
 #include "telltale/client/cli/fleet_answer.hpp"
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <cmath>
-#include <ctime>
 #include <map>
 #include <stdexcept>
 #include <utility>
@@ -19,16 +17,6 @@ namespace {
 
 std::string ReasonLine(const std::string& subject, const std::string& reason) {
   return reason.empty() ? "" : Wrapped(subject + ": " + reason);
-}
-
-/// By the clock of the system, UTC.
-std::string TimeText(double unix_s) {
-  const auto seconds = static_cast<std::time_t>(unix_s);
-  std::tm time{};
-  std::array<char, 32> text{};
-  gmtime_r(&seconds, &time);
-  std::strftime(text.data(), text.size(), "%Y-%m-%d %H:%M:%S", &time);
-  return text.data();
 }
 
 std::string Lower(std::string_view name) {
@@ -95,7 +83,7 @@ std::string ModelHistoryTable(const std::vector<ModelSummary>& models) {
                {"verdict"}});
   std::string reasons;
   for (const ModelSummary& model : models) {
-    table.AddRow({std::to_string(model.revision), TimeText(model.published_unix_s), model.estimator,
+    table.AddRow({std::to_string(model.revision), UtcText(model.published_unix_s), model.estimator,
                   Fixed(model.window_end_s - model.window_start_s, 0),
                   std::to_string(model.window_samples), VerdictText(model.promotion.verdict)});
     reasons += ReasonLine("revision " + std::to_string(model.revision), model.promotion.reason);

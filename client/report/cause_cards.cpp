@@ -8,6 +8,8 @@
 namespace telltale {
 namespace {
 
+constexpr double kLikely = 0.05;  ///< a cause below is named without a card of its own
+
 Markup ProbabilityBar(double probability) {
   const Axis x{0.0, 1.0, 0.0, 100.0};
   return Element("svg",
@@ -56,11 +58,9 @@ Markup EffectPart(const CausalEffect& effect, bool several) {
 
 Markup IndistinguishableText(const Cause& cause) {
   if (cause.indistinguishable.empty()) return {};
-  std::string names;
-  for (const std::string& name : cause.indistinguishable) {
-    names.append(names.empty() ? "" : ", ").append(name);
-  }
-  return Styled("p", "tied", Words("This recording cannot separate it from " + names + "."));
+  return Styled("p", "tied",
+                Words("This recording cannot separate it from " +
+                      Joined(cause.indistinguishable, ", ") + "."));
 }
 
 Markup CauseCard(const Cause& cause) {
@@ -93,8 +93,17 @@ Markup CauseCards(const Diagnosis& diagnosis) {
                        : "There is no gap that would ask for a cause.");
   }
   Markup cards;
-  for (const Cause& cause : diagnosis.causes) cards += CauseCard(cause);
-  return Styled("div", "cards", cards);
+  std::vector<std::string> unlikely;
+  for (const Cause& cause : diagnosis.causes) {
+    if (cause.probability >= kLikely) {
+      cards += CauseCard(cause);
+    } else {
+      unlikely.push_back(CauseText(cause) + ' ' + ShareText(cause.probability));
+    }
+  }
+  const Markup all = Styled("div", "cards", cards);
+  if (unlikely.empty()) return all;
+  return all + Styled("p", "soft unlikely", Words("Unlikely: " + Joined(unlikely, ", ") + '.'));
 }
 
 }  // namespace telltale

@@ -86,6 +86,22 @@ Markup CurveOf(const TimeFrame& frame, const Diagnosis& diagnosis, double Window
   return PathShape(points, name + "-trace") + dots;
 }
 
+/// A column a window, over which a pointer shows its time and errors.
+Markup ColumnsOf(const TimeFrame& frame, const Diagnosis& diagnosis) {
+  const double width = (frame.x.to - frame.x.from) / static_cast<double>(diagnosis.pictures.size());
+  const bool after = HasAfter(diagnosis);
+  Markup columns;
+  for (const WindowPicture& window : diagnosis.pictures) {
+    const double time_s = window.time_s - diagnosis.start_s;
+    const std::string text = Fixed(time_s, 0) + " s: " + Fixed(window.before, 1) +
+                             (after ? " before, " + Fixed(window.after, 1) + " after" : "") +
+                             ", times the normal error";
+    columns += Titled(text, RectangleShape({frame.x(time_s) - 0.5 * width, frame.y.to},
+                                           {width, frame.y.from - frame.y.to}, "pointed"));
+  }
+  return columns;
+}
+
 Markup TimePicture(const Diagnosis& diagnosis, const Eigen::Vector2d& size,
                    std::string_view style) {
   const TimeFrame frame = FrameOf(diagnosis, size);
@@ -95,6 +111,7 @@ Markup TimePicture(const Diagnosis& diagnosis, const Eigen::Vector2d& size,
   if (HasAfter(diagnosis)) {
     shapes += CurveOf(frame, diagnosis, &WindowPicture::after, "after");
   }
+  shapes += ColumnsOf(frame, diagnosis);
   const std::string description =
       "Error of each of " + Counted(diagnosis.pictures.size(), "window", "windows") +
       " over time against the floor of " + Fixed(diagnosis.Main().all.noise_floor, 2) +

@@ -36,13 +36,14 @@ Markup Bars(std::string_view name, const GapSize& size, double highest, bool aft
       RectangleShape({0.0, after ? 3.0 : 5.0}, {x(size.before), thickness}, "before-bar");
   if (after) shapes += RectangleShape({0.0, 12.0}, {x(size.after), thickness}, "after-bar");
   shapes += LineShape({x(size.noise_floor), 0.0}, {x(size.noise_floor), kBarHeight}, "floor-line");
+  const std::string description = BarDescription(name, size, after);
   return Element("svg",
                  {{"class", "bars"},
                   {"viewBox", "0 0 " + Pixels(kBarLength) + ' ' + Pixels(kBarHeight)},
                   {"preserveAspectRatio", "none"},
                   {"role", "img"},
-                  {"aria-label", BarDescription(name, size, after)}},
-                 shapes);
+                  {"aria-label", description}},
+                 Titled(description, shapes));
 }
 
 Markup BarNumbers(const GapSize& size, const std::optional<ExcessExplained>& excess_explained,
@@ -89,7 +90,7 @@ Markup GapBars(const Diagnosis& diagnosis) {
   }
   Markup horizons;
   for (const Gap& gap : diagnosis.gaps) horizons += HorizonBars(gap, highest, HasAfter(diagnosis));
-  return Legend(diagnosis, false) + Styled("div", "columns", horizons);
+  return Styled("div", "of-bars", Legend(diagnosis, false)) + Styled("div", "columns", horizons);
 }
 
 }  // namespace telltale

@@ -94,8 +94,9 @@ Markup HeadingRose(const Diagnosis& diagnosis) {
   Markup wedges;
   for (std::size_t i = 0; i < rose.size(); ++i) {
     if (rose[i].Windows() == 0) continue;
-    wedges += Wedge(i, radius(rose[i].Before()), 0.46 * kOctantRad, "before-wedge");
-    if (after) wedges += Wedge(i, radius(rose[i].After()), 0.28 * kOctantRad, "after-wedge");
+    Markup octant = Wedge(i, radius(rose[i].Before()), 0.46 * kOctantRad, "before-wedge");
+    if (after) octant += Wedge(i, radius(rose[i].After()), 0.28 * kOctantRad, "after-wedge");
+    wedges += Titled(OctantText(i, rose[i], after) + ", times the normal error", octant);
   }
   return Picture({kRoseSize, kRoseSize}, "rose", RoseDescription(rose, after),
                  Rings(radius, ticks) + wedges + RoseLabels(radius, ticks, rose));

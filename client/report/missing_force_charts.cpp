@@ -30,14 +30,17 @@ double LargestOf(const MissingForce& missing, std::size_t component) {
   return LargestFinite(ends);
 }
 
+std::string BinText(const ForceBin& bin, std::size_t component) {
+  return BinEndText(bin, bin.low) + " to " + BinEndText(bin, bin.high) + ": " +
+         Fixed(bin.force[component].mean, 2) + " ± " + Fixed(bin.force[component].half_width, 2);
+}
+
 std::string ChartDescription(const ForceProfile& profile, std::size_t component) {
   std::string text = std::string(ForceText(component)) + " over " +
                      std::string(VariableText(profile.variable)) + ": ";
   for (std::size_t i = 0; i < profile.bins.size(); ++i) {
     const ForceBin& bin = profile.bins[i];
-    text += (i > 0 ? "; " : "") + BinEndText(bin, bin.low) + " to " + BinEndText(bin, bin.high) +
-            ": " + Fixed(bin.force[component].mean, 2) + " ± " +
-            Fixed(bin.force[component].half_width, 2);
+    text += (i > 0 ? "; " : "") + BinText(bin, component);
   }
   return text + ".";
 }
@@ -55,9 +58,10 @@ Markup ForceChart(const ForceProfile& profile, std::size_t component, double lar
   for (const ForceBin& bin : profile.bins) {
     const ForceMean& force = bin.force[component];
     const double middle = x(0.5 * (bin.low + bin.high));
-    shapes += LineShape({middle, y(force.mean - force.half_width)},
-                        {middle, y(force.mean + force.half_width)}, "whisker");
-    shapes += CircleShape({middle, y(force.mean)}, 4.0, "whisker-dot");
+    shapes += Titled(BinText(bin, component),
+                     LineShape({middle, y(force.mean - force.half_width)},
+                               {middle, y(force.mean + force.half_width)}, "whisker") +
+                         CircleShape({middle, y(force.mean)}, 4.0, "whisker-dot"));
   }
   shapes += LabelShape({4.0, 14.0}, std::string(ForceText(component)), Anchor::kStart, "strong");
   shapes +=

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <cstdio>
+#include <ctime>
 
 namespace telltale {
 namespace {
@@ -32,6 +33,21 @@ std::string Plain(double value) {
 
 std::string Counted(std::size_t count, const std::string& one, const std::string& many) {
   return std::to_string(count) + ' ' + (count == 1 ? one : many);
+}
+
+std::string UtcText(double unix_s) {
+  const auto seconds = static_cast<std::time_t>(unix_s);
+  std::tm time{};
+  char text[32];
+  gmtime_r(&seconds, &time);
+  std::strftime(text, sizeof text, "%Y-%m-%d %H:%M:%S", &time);
+  return text;
+}
+
+std::string Joined(const std::vector<std::string>& parts, std::string_view separator) {
+  std::string text;
+  for (const std::string& part : parts) text.append(text.empty() ? "" : separator).append(part);
+  return text;
 }
 
 std::string ShareText(double share) {

@@ -2,6 +2,8 @@
 
 #include <cstddef>
 #include <string>
+#include <string_view>
+#include <vector>
 
 namespace telltale {
 
@@ -16,6 +18,12 @@ std::string Plain(double value);
 
 /// "1 segment", "3 segments".
 std::string Counted(std::size_t count, const std::string& one, const std::string& many);
+
+/// "2026-05-01 10:00:00", UTC.
+std::string UtcText(double unix_s);
+
+/// "wind, current" with the separator ", ".
+std::string Joined(const std::vector<std::string>& parts, std::string_view separator);
 
 /// A share as "81 %".
 std::string ShareText(double share);

@@ -68,6 +68,10 @@ Markup PathShape(const std::vector<Eigen::Vector2d>& points, std::string_view st
   return Element("polyline", {{"class", std::string(style)}, {"points", list}});
 }
 
+Markup Titled(std::string_view text, const Markup& shape) {
+  return Element("g", {}, Element("title", {}, Words(text)) + shape);
+}
+
 Markup LabelShape(const Eigen::Vector2d& at, std::string_view text, Anchor anchor,
                   std::string_view style) {
   const char* where = anchor == Anchor::kStart ? "start"

@@ -40,6 +40,9 @@ Markup RectangleShape(const Eigen::Vector2d& corner, const Eigen::Vector2d& size
 Markup CircleShape(const Eigen::Vector2d& centre, double radius, std::string_view style);
 Markup PathShape(const std::vector<Eigen::Vector2d>& points, std::string_view style);
 
+/// A shape, or several, over which a pointer shows `text`.
+Markup Titled(std::string_view text, const Markup& shape);
+
 enum class Anchor { kStart, kMiddle, kEnd };
 
 Markup LabelShape(const Eigen::Vector2d& at, std::string_view text, Anchor anchor,

@@ -262,23 +262,53 @@ Markup NotesSection(const Diagnosis& diagnosis) {
                                          : Element("ul", {}, items));
 }
 
-Markup Colophon(const Diagnosis& diagnosis) {
-  return Element("footer", {},
-                 Styled("p", "soft",
-                        Words("Telltale " + diagnosis.software_version + ", seed " +
-                              std::to_string(diagnosis.seed) + ".")));
+/// "2026-05-01 10:00:00 to 2026-05-01 10:07:00 UTC" of a clock that shows the date, else seconds.
+std::string SpanText(double start_s, double end_s) {
+  constexpr double kYear2001S = 978307200.0;
+  if (start_s < kYear2001S) {
+    return "from " + Fixed(start_s, 0) + " s to " + Fixed(end_s, 0) + " s of its own clock";
+  }
+  return UtcText(start_s) + " to " + UtcText(end_s) + " UTC, by its own clock";
+}
+
+Markup SourceRow(std::string_view name, const std::string& text) {
+  if (text.empty()) return {};
+  return Element("tr", {}, Element("th", {{"scope", "row"}}, Words(name)) + Cell(text));
+}
+
+Markup ProvenanceSection(const Diagnosis& diagnosis, const ReportSources& sources) {
+  const std::string published =
+      sources.published_unix_s ? UtcText(*sources.published_unix_s) + " UTC" : "";
+  return Section(
+      "Where it comes from", "",
+      Element("table", {},
+              Element("tbody", {},
+                      SourceRow("Recording", Joined(sources.recordings, ", ")) +
+                          SourceRow("Time", SpanText(diagnosis.start_s, diagnosis.end_s)) +
+                          SourceRow("Model", sources.model) +
+                          SourceRow("References", Joined(sources.references, ", ")) +
+                          SourceRow("Published", published) +
+                          SourceRow("Made by", "Telltale " + diagnosis.software_version +
+                                                   ", seed " + std::to_string(diagnosis.seed)))));
 }
 
 }  // namespace
 
-std::string ReportPage(const Diagnosis& diagnosis) {
+ReportSources SourcesOf(const PublishedDiagnosis& diagnosis) {
+  return {{"the daemon's window of " + diagnosis.diagnosis.vehicle_id},
+          {},
+          "revision " + std::to_string(diagnosis.model_revision),
+          diagnosis.published_unix_s};
+}
+
+std::string ReportPage(const Diagnosis& diagnosis, const ReportSources& sources) {
   const Markup body = Element(
       "main", {},
       Headline(diagnosis) + GapSection(diagnosis) + OnsetSection(diagnosis) +
           LocationSection(diagnosis) + CausesSection(diagnosis) + MissingForceSection(diagnosis) +
           PathsSection(diagnosis) + ImprovementSection(diagnosis) + TestabilitySection(diagnosis) +
           ReferencesSection(diagnosis) + AdviceSection(diagnosis) + NotesSection(diagnosis) +
-          Colophon(diagnosis));
+          ProvenanceSection(diagnosis, sources));
   const Markup head = Markup::Own(
                           "<meta charset=\"utf-8\">"
                           "<meta name=\"viewport\" "

@@ -52,6 +52,9 @@ small, .soft, figcaption, caption, .legend, dt, .kicker { font-size: .875rem; }
 .key { display: inline-flex; align-items: center; gap: .5rem; }
 .swatch { width: 1.6rem; height: 0; border-top: 3px solid; flex: none; }
 .swatch.before { border-color: var(--before); border-top-style: dashed; }
+.of-bars .swatch { border-top-width: 7px; }
+.of-bars .swatch.before { border-top-style: solid; }
+.of-bars .swatch.floor { border-top-width: 2px; }
 .swatch.after { border-color: var(--after); }
 .swatch.measured { border-color: var(--ink); }
 .swatch.floor { height: .9rem; border-top: 2px solid var(--floor); background: var(--band); }
@@ -79,6 +82,8 @@ small, .soft, figcaption, caption, .legend, dt, .kicker { font-size: .875rem; }
 .picture.whiskers { max-width: 22rem; }
 .grid { stroke: var(--line); }
 .ring { fill: none; stroke: var(--line); }
+.pointed { fill: transparent; }
+.pointed:hover { fill: var(--band); }
 .floor-band { fill: var(--band); }
 .floor-line { stroke: var(--floor); stroke-width: 2; vector-effect: non-scaling-stroke; }
 .onset-band { fill: var(--onset); }
@@ -141,6 +146,7 @@ tbody small { display: block; color: var(--soft); }
 .share { font-size: 1.3rem; white-space: nowrap; }
 .probability { display: block; width: 100%; height: 6px; margin: .1rem 0 .8rem; }
 .says { font-size: 1.06rem; margin-bottom: .3rem; }
+.unlikely { margin-top: 1rem; }
 .tied { border-left: 3px solid var(--before); padding-left: .7rem; }
 dl { display: grid; grid-template-columns: auto 1fr; gap: .1rem .9rem; margin: 0 0 .8rem; }
 dd { margin: 0; text-align: right; }

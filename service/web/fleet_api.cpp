@@ -75,12 +75,13 @@ void AnswerNotServed(const std::string& vehicle_id, httplib::Response& response)
 }
 
 /// The page that `telltale diagnose --html` writes. Its styles stand inside it.
-void AnswerReport(const Diagnosis& diagnosis, httplib::Response& response) {
+void AnswerReport(const PublishedDiagnosis& diagnosis, httplib::Response& response) {
   response.headers.erase("Content-Security-Policy");
   response.set_header("Content-Security-Policy",
                       "default-src 'none'; style-src 'unsafe-inline'; base-uri 'none'; "
                       "form-action 'none'; frame-ancestors 'none'");
-  response.set_content(ReportPage(diagnosis), "text/html; charset=utf-8");
+  response.set_content(ReportPage(diagnosis.diagnosis, SourcesOf(diagnosis)),
+                       "text/html; charset=utf-8");
 }
 
 proto::Model Shortened(proto::Model model) {
@@ -361,7 +362,7 @@ void FleetApi::GetDiagnosis(const Request& request, Response& response) const {
 
 void FleetApi::GetReport(const Request& request, Response& response) const {
   const auto last = FindDiagnosis(request.matches[1], response);
-  if (last) AnswerReport(last->diagnosis, response);
+  if (last) AnswerReport(*last, response);
 }
 
 void FleetApi::GetDiagnoses(const Request& request, Response& response) const {
@@ -393,7 +394,7 @@ void FleetApi::GetKeptDiagnosis(const Request& request, Response& response) cons
 
 void FleetApi::GetKeptReport(const Request& request, Response& response) const {
   const auto diagnosis = FindKept(request, response);
-  if (diagnosis) AnswerReport(diagnosis->diagnosis, response);
+  if (diagnosis) AnswerReport(*diagnosis, response);
 }
 
 void FleetApi::GetJobs(const Request& request, Response& response) const {

@@ -90,6 +90,41 @@ TEST(Page, DrawsAnAfterOnlyWhereThereIsOne) {
   EXPECT_THAT(body, HasSubstr("before-dot"));
 }
 
+TEST(Page, SaysWhereItComesFrom) {
+  const std::string text = std::regex_replace(
+      TextOfPage(ReportPage(MadeUpDiagnosis(),
+                            {{"today", "tonight"}, {"monday"}, "boat.json", 1700001000.0})),
+      std::regex("\\s+"), " ");
+  // date -u -d @1700000000: Tue Nov 14 22:13:20 UTC 2023
+  EXPECT_THAT(text, HasSubstr("Recording today, tonight Time 2023-11-14 22:13:20 to 2023-11-14 "
+                              "22:20:00 UTC, by its own clock Model boat.json References monday "
+                              "Published 2023-11-14 22:30:00 UTC Made by Telltale"));
+  Diagnosis made = MadeUpDiagnosis();
+  made.start_s = 300.0;
+  made.end_s = 900.0;
+  const std::string other = TextOfPage(ReportPage(made, SourcesOf({made, 7, 1700001000.0})));
+  EXPECT_THAT(other, HasSubstr("from 300 s to 900 s of its own clock"));
+  EXPECT_THAT(other, HasSubstr("revision 7"));
+  EXPECT_THAT(other, Not(HasSubstr("References")));
+}
+
+TEST(Page, GivesNoCardToACauseThatIsUnlikely) {
+  Diagnosis made = MadeUpDiagnosis();
+  made.causes.back().probability = 0.0;
+  const std::string page = ReportPage(made);
+  EXPECT_THAT(page, HasSubstr("Unlikely: unknown 0 %."));
+  EXPECT_THAT(page, Not(HasSubstr("Something that the library of effects lacks.")));
+}
+
+TEST(Page, ShowsTheValuesOfAWindowUnderThePointer) {
+  Diagnosis made = MadeUpDiagnosis();
+  made.pictures[1].time_s = made.start_s + 125.0;
+  made.pictures[1].before = 3.25;
+  made.pictures[1].after = 1.125;
+  EXPECT_THAT(ReportPage(made), HasSubstr("<title>125 s: 3.2 before, 1.1 after, times the normal "
+                                          "error</title><rect class=\"pointed\""));
+}
+
 TEST(Page, TheMapHoldsRootMeanSquaresByRegionAndSpeed) {
   Diagnosis made = MadeUpNominalDiagnosis();
   made.gaps[0].all.after = 0.5;
