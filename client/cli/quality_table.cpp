@@ -116,9 +116,10 @@ std::string Line(const std::string& subject, const std::string& text) {
 }
 
 std::string TelemetryLines(const Quality& quality) {
+  const bool has_sent = quality.accepted > 0 || !quality.rejected.empty();
   std::string text =
       Line("telemetry", RateText(quality) + " fixes/headings/commands a second; newest sample " +
-                            DurationText(quality.silent_s) + " ago");
+                            (has_sent ? DurationText(quality.silent_s) + " ago" : "none"));
   text += Line("window", Fixed(quality.window_s, 0) + " s, " + Percent(quality.window_fill) +
                              " % of what it may hold; " + std::to_string(quality.accepted) +
                              " samples kept");

@@ -3,7 +3,7 @@
 // Exits 0 when all is well. It restarts nothing itself: page_test.py writes "restarted" to its standard input.
 import assert from "node:assert/strict";
 import { createInterface } from "node:readline";
-import { accessible, address, answerOf, count, expectFaults, fits, names, open, walk } from "./page_walk.mjs";
+import { accessible, address, answerOf, count, expectFaults, fits, names, newPage, open, walk } from "./page_walk.mjs";
 
 const [boat, token, pictures] = process.argv.slice(4);
 
@@ -155,6 +155,17 @@ await walk({
         await page.context().close();
       }
     }
+  },
+  async "a boat without telemetry says so in each card, and shows no empty chart"() {
+    const page = await newPage(390);
+    await page.goto(`${address}/#/boat/boat-0002`);
+    for (const text of ["No error yet", "No model has been published", "No position has arrived yet", "No prediction yet",
+                        "has not been diagnosed"]) {
+      await page.getByText(text).first().waitFor();
+    }
+    await page.locator(".fact", { hasText: "Newest sample" }).getByText("none").waitFor();
+    assert.equal(await page.locator("canvas:visible").count(), 0);
+    await page.context().close();
   },
   async "a boat that is not there is named"() {
     const page = await open(1280);

@@ -99,6 +99,14 @@ TEST(QualityTable, GivesTheAdviceInFull) {
               HasSubstr("advice        it is late; refresh it\n"));
 }
 
+TEST(QualityTable, NamesNoTimeOfASampleThatNeverCame) {
+  Quality quality = Boat("boat", QualityVerdict::kStale, 0.0);
+  quality.silent_s = 4.0;
+  EXPECT_THAT(QualityDetail(quality, 1000.0), HasSubstr("newest sample 4 s ago"));
+  quality.rejected.clear();
+  EXPECT_THAT(QualityDetail(quality, 1000.0), HasSubstr("newest sample none"));
+}
+
 TEST(QualityJson, IsOneLineThatReadsBack) {
   Quality quality = Boat("boat", QualityVerdict::kWarn, 2.0);
   quality.drift_evidence = "drag 40 % more";

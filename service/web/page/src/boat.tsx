@@ -5,7 +5,7 @@ import { ErrorChart, Intervals } from "./charts";
 import { CompareModels } from "./compare";
 import { asSentence, clock, diagnosisVerdict, duration, number, percent, significant, unit, words } from "./format";
 import { TrackMap, type Track } from "./map";
-import { Badge, Bar, Card, Fact, JobLine } from "./parts";
+import { Badge, Bar, Card, Fact, JobLine, Text } from "./parts";
 import { PathPlot } from "./paths";
 import { useAnswer } from "./use_answer";
 
@@ -19,13 +19,14 @@ function sentence(quality: Quality): string {
 
 function Telemetry({ quality }: { quality: Quality }) {
   const rates = quality.ratesHz;
+  const hasSent = quality.accepted > 0 || quality.rejected.length > 0;
   return (
     <Card title="Telemetry">
       <dl>
         <Fact name="Fixes">{significant(rates.gnss)} Hz</Fact>
         <Fact name="Headings">{significant(rates.heading)} Hz</Fact>
         <Fact name="Thruster commands">{significant(rates.thrusters)} Hz</Fact>
-        <Fact name="Newest sample">{duration(quality.silentS)} ago</Fact>
+        <Fact name="Newest sample">{hasSent ? `${duration(quality.silentS)} ago` : "none"}</Fact>
         <Fact name="Window">{significant(quality.windowS)} s <Bar share={quality.windowFill} label="window filled" /></Fact>
         <Fact name="Lost, last minute">{percent(quality.lossShare)}</Fact>
         <Fact name="Rejected, last minute">{percent(quality.rejectShare)}</Fact>
@@ -292,7 +293,7 @@ function Models({ vehicleId, models, takesOrders, token }: {
       {outcome && <p role="status">{outcome}</p>}
       {fault && <p class="fault" role="alert">{fault}</p>}
       <div class="scroll">
-        <table>
+        <table class="models">
           <thead>
             <tr>
               <th scope="col">revision</th><th scope="col">published</th><th scope="col">structure</th>
@@ -309,11 +310,11 @@ function Models({ vehicleId, models, takesOrders, token }: {
               return (
                 <tr key={revision}>
                   <th scope="row">{revision}</th>
-                  <td>{clock(model.provenance.publishedUnixS)}</td>
-                  <td>{words(model.structure)}</td>
-                  <td>{words(model.estimator)}</td>
-                  <td class="number">{identified} of {model.coefficients.length}</td>
-                  <td>{change ? `${words(change.verdict)}${Number.isFinite(change.pValue) && change.verdict !== "CANNOT_TELL" ? `, p ${significant(change.pValue, 2)}` : ""}` : "–"}</td>
+                  <td class="published">{clock(model.provenance.publishedUnixS)}</td>
+                  <td data-name="structure">{words(model.structure)}</td>
+                  <td data-name="estimator">{words(model.estimator)}</td>
+                  <td class="number" data-name="identified">{identified} of {model.coefficients.length}</td>
+                  <td data-name="against the one before">{change ? `${words(change.verdict)}${Number.isFinite(change.pValue) && change.verdict !== "CANNOT_TELL" ? `, p ${significant(change.pValue, 2)}` : ""}` : "–"}</td>
                   <td><a href={`api/v1${file(revision)}`}
                     download={`${vehicleId}-r${revision}.json`} aria-label={`Download revision ${revision}`}>model.json</a></td>
                   <td class="exports">{["mss", "vrx"].map((format) => (
@@ -401,13 +402,13 @@ export function BoatView({ vehicleId, round, info, jobs, track }: {
         <h1>{vehicleId}</h1>
         <Badge verdict={quality.verdict} />
       </header>
-      <p class="lead">{sentence(quality)}</p>
+      <p class="lead"><Text>{sentence(quality)}</Text></p>
       {quality.verdict !== "OK" && <p class="muted">{quality.verdict} since {clock(quality.verdictSinceUnixS)}.</p>}
       {quality.reasons.length > 1 && (
         <ul class="reasons">{quality.reasons.slice(1).map((reason) =>
-          <li key={reason.code}><Badge verdict={reason.verdict} /> {reason.text}</li>)}</ul>
+          <li key={reason.code}><Badge verdict={reason.verdict} /> <Text>{reason.text}</Text></li>)}</ul>
       )}
-      {quality.proposal && <p class="note">{quality.proposal}</p>}
+      {quality.proposal && <p class="note"><Text>{quality.proposal}</Text></p>}
       <Orders vehicleId={vehicleId} info={info} jobs={jobs} token={token} setToken={setToken} />
       <div class="cards">
         <Card title="Free-run error over the last hour" wide>

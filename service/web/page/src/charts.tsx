@@ -2,7 +2,7 @@ import { useEffect, useRef } from "preact/hooks";
 import uPlot from "uplot";
 import "uplot/dist/uPlot.min.css";
 import type { Coefficient, History, Model } from "./api";
-import { clock, number, regressor, significant, unit } from "./format";
+import { clock, clockMinute, number, regressor, significant, unit } from "./format";
 
 /** Where the drift monitor calls a model's error an error; docs/reference/quality.md. */
 const kErrorRatio = 3;
@@ -39,19 +39,35 @@ function drawLimits(chart: uPlot, colour: (name: string) => string) {
   context.restore();
 }
 
+const kTickStepsS = [1, 5, 10, 15, 30, 60, 120, 300, 600, 900, 1800];  // of an hour at most
+
+/** Room for "12:34", or for "12:34:56" where ticks are less than a minute apart. */
+function tickSpace(_chart: uPlot, _axis: number, fromS: number, toS: number, widthPx: number): number {
+  const secondsAtLeast = (45 * (toS - fromS)) / widthPx;
+  return secondsAtLeast > 30 ? 45 : 75;
+}
+
+function tickTexts(_chart: uPlot, times: number[], _axis: number, _space: number, stepS: number): string[] {
+  return times.map((time) => (stepS < 60 ? clock(time) : clockMinute(time)));
+}
+
 function errorOptions(element: HTMLElement, colour: (name: string) => string): uPlot.Options {
   const axis = { stroke: colour("--muted"), grid: { stroke: colour("--line"), width: 1 },
                  ticks: { stroke: colour("--line"), width: 1 } };
   return {
     width: element.clientWidth,
     height: 230,
+    padding: [12, 24, 0, 0],  // half a tick's text beyond the last tick
     legend: { live: true },
     cursor: { drag: { x: false, y: false } },
     scales: {
       x: { time: true },
       y: { range: (_chart, _low, high) => [0, Math.max(1.5, 1.15 * (high ?? 0))] },
     },
-    axes: [{ ...axis, space: 80, values: (_chart, times) => times.map((time) => clock(time)) }, { ...axis, label: "times the normal error", size: 46, labelSize: 20 }],
+    axes: [
+      { ...axis, incrs: kTickStepsS, space: tickSpace, values: tickTexts },
+      { ...axis, label: "times the normal error", size: 46, labelSize: 20 },
+    ],
     series: [
       { label: "time", value: (_chart, time) => (time == null ? "–" : clock(time)) },
       {
@@ -68,6 +84,13 @@ function errorOptions(element: HTMLElement, colour: (name: string) => string): u
 
 /** The free-run error of the last hour. */
 export function ErrorChart({ history }: { history: History }) {
+  const known = history.predictionError.filter((error) => error > 0);
+  return known.length === 0
+    ? <p class="empty">No error yet: it needs a model and a minute of telemetry.</p>
+    : <ErrorLine history={history} now={known.at(-1) ?? NaN} />;
+}
+
+function ErrorLine({ history, now }: { history: History; now: number }) {
   const element = useRef<HTMLDivElement>(null);
   const chart = useRef<uPlot>();
   const data: uPlot.AlignedData = [
@@ -99,14 +122,8 @@ export function ErrorChart({ history }: { history: History }) {
     };
   }, []);
   useEffect(() => chart.current?.setData(data));
-  const known = history.predictionError.filter((error) => error > 0);
-  return (
-    <div>
-      <div ref={element} class="chart" role="img"
-        aria-label={`Free-run error over time; now ${significant(known.at(-1) ?? NaN)} times the normal error`} />
-      {known.length === 0 && <p class="empty">No error yet: it needs a model and a minute of telemetry.</p>}
-    </div>
-  );
+  return <div ref={element} class="chart" role="img"
+    aria-label={`Free-run error over time; now ${significant(now)} times the normal error`} />;
 }
 
 interface Revision {

@@ -2,7 +2,7 @@ import { useEffect, useRef, useState } from "preact/hooks";
 import type { Summary, Verdict } from "./api";
 import { duration, percent, significant, urgency } from "./format";
 import { TrackMap, type Track } from "./map";
-import { Badge } from "./parts";
+import { Badge, Text } from "./parts";
 
 type Column = "vehicleId" | "verdict" | "predictionError" | "windowFill" | "lossShare" | "rejectShare" | "modelAgeS";
 
@@ -44,7 +44,7 @@ function Row({ vehicle, now }: { vehicle: Summary; now: number }) {
       <td class="verdict">
         <Badge verdict={vehicle.verdict} />
         <span class="muted since">for {duration(now - vehicle.verdictSinceUnixS)}</span>
-        {vehicle.reason && <span class="reason">{vehicle.reason}</span>}
+        {vehicle.reason && <span class="reason"><Text>{vehicle.reason}</Text></span>}
       </td>
       <td class="number" data-name="error">{vehicle.predictionError > 0 ? `${significant(vehicle.predictionError)} ×` : "–"}</td>
       <td class="number" data-name="window">{percent(vehicle.windowFill)}</td>
@@ -79,7 +79,14 @@ function useKeys(table: { current: HTMLTableElement | null }, search: { current:
   }, []);
 }
 
-export function FleetView({ vehicles, tracks, now }: { vehicles: Summary[]; tracks: Track[]; now: number }) {
+const kServesNone = "This daemon serves no boat: its configuration names none, and none has been admitted.";
+
+export function FleetView({ vehicles, tracks, now, heard }: {
+  vehicles: Summary[];
+  tracks: Track[];
+  now: number;
+  heard: boolean;  // whether the daemon has reported yet
+}) {
   const [text, setText] = useState("");
   const [shown, setShown] = useState<Set<Verdict>>(new Set());
   const [order, setOrder] = useState<Order>({ column: "verdict", descends: false });
@@ -136,7 +143,7 @@ export function FleetView({ vehicles, tracks, now }: { vehicles: Summary[]; trac
               {matching.slice(0, rows).map((vehicle) => <Row key={vehicle.vehicleId} vehicle={vehicle} now={now} />)}
             </tbody>
           </table>
-          {matching.length === 0 && <p class="empty">{vehicles.length === 0 ? "Waiting for the first report." : "No boat matches."}</p>}
+          {matching.length === 0 && <p class="empty">{vehicles.length > 0 ? "No boat matches." : heard ? kServesNone : "Waiting for the first report."}</p>}
           {matching.length > rows &&
             <button type="button" class="more" onClick={() => setRows(rows + kRowsAtOnce)}>
               Show {Math.min(kRowsAtOnce, matching.length - rows)} more of {matching.length}

@@ -137,7 +137,7 @@ function Page() {
         ? <BoatView key={boat} vehicleId={boat} round={round} info={info}
             jobs={jobs.filter((job) => job.vehicleId === boat)}
             track={tracks.find((track) => track.id === boat)} />
-        : <FleetView vehicles={vehicles} tracks={tracks} now={timeUnixS} />}
+        : <FleetView vehicles={vehicles} tracks={tracks} now={timeUnixS} heard={round > 0} />}
       <footer class="muted">{info && `Telltale ${info.version}`} · <a href="metrics">metrics</a> · <a href="api/v1/openapi.json">API</a></footer>
     </>
   );

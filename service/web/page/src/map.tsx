@@ -308,9 +308,9 @@ export function TrackMap({ tracks, selected, select, label }: {
   };
   const positioned = tracks.some((track) => track.latitudeDeg.length > 0);
   return (
-    <div class="map">
+    <div class={positioned ? "map" : "map blank"}>
       <canvas ref={canvas} role="img" aria-label={label} onClick={click} />
-      {!positioned && <p class="empty">No boat has sent a position yet.</p>}
+      {!positioned && <p class="empty">No position has arrived yet.</p>}
     </div>
   );
 }

@@ -13,6 +13,15 @@ export function Badge({ verdict }: { verdict: Verdict }) {
   );
 }
 
+/** Text that breaks at blanks alone, so that the options and ids of its commands stay whole. */
+export function Text({ children }: { children: string }) {
+  return (
+    <>{children.split(" ").map((word, place) => (
+      <>{place > 0 && " "}{word.includes("-") ? <span class="whole">{word}</span> : word}</>
+    ))}</>
+  );
+}
+
 export function Card({ title, wide, children }: {
   title: string;
   wide?: boolean;
