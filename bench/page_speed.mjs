@@ -10,23 +10,32 @@ await page.addInitScript(() => {
   new PerformanceObserver((list) => window.tasks.push(...list.getEntries().map(({ duration }) => duration)))
     .observe({ type: "longtask", buffered: true });
 });
+
+/** Milliseconds of the processor that the tasks of the page's main thread take, by the trace. */
+function taskTimes(trace) {
+  const { traceEvents } = JSON.parse(trace);
+  const frames = traceEvents.flatMap(({ name, args }) =>
+    name === "TracingStartedInBrowser" ? args.data.frames : name === "FrameCommittedInBrowser" ? [args.data] : []);
+  const pid = frames.find(({ url }) => url.startsWith(address)).processId;
+  const { tid } = traceEvents.find((event) => event.pid === pid && event.args?.name === "CrRendererMain");
+  return traceEvents.filter((event) => event.pid === pid && event.tid === tid && event.name === "RunTask")
+    .map(({ tdur }) => (tdur ?? 0) / 1000);
+}
+const trace = () =>
+  browser.startTracing(page, { categories: ["devtools.timeline", "disabled-by-default-devtools.timeline"] });
+const traced = async () => taskTimes((await browser.stopTracing()).toString());
+
+await trace();
 await page.goto(`${address}/`);
 await page.waitForSelector("tbody a");
 const boatsAt = await page.evaluate(() => performance.now());
 const paint = await page.evaluate(() => performance.getEntriesByName("first-contentful-paint")[0]?.startTime);
-const loading = await page.evaluate(() => window.tasks.splice(0));
+const loading = await traced();
+const longLoading = await page.evaluate(() => window.tasks.splice(0));
+const sum = loading.reduce((total, time) => total + time, 0);
 console.log(`first paint ${paint.toFixed(0)} ms, boats in the table ${boatsAt.toFixed(0)} ms after the start; ` +
-  `longest task until then ${Math.max(0, ...loading).toFixed(0)} ms`);
-
-/** Milliseconds of the processor that the longest task of the page's main thread takes, by the trace. */
-function longestTask(trace) {
-  const { traceEvents } = JSON.parse(trace);
-  const started = traceEvents.find(({ name }) => name === "TracingStartedInBrowser");
-  const pid = started.args.data.frames.find(({ url }) => url.startsWith(address)).processId;
-  const { tid } = traceEvents.find((event) => event.pid === pid && event.args?.name === "CrRendererMain");
-  const tasks = traceEvents.filter((event) => event.pid === pid && event.tid === tid && event.name === "RunTask");
-  return Math.max(...tasks.map(({ tdur }) => tdur ?? 0)) / 1000;
-}
+  `longest task until then ${Math.max(0, ...longLoading).toFixed(0)} ms, of which it takes ` +
+  `${Math.max(...loading).toFixed(0)} ms of the processor, and all ${sum.toFixed(0)} ms`);
 
 // The time that the main thread works for a frame, not how long the frame waits for a processor.
 const session = await page.context().newCDPSession(page);
@@ -35,7 +44,7 @@ const work = async () => {
   const { metrics } = await session.send("Performance.getMetrics");
   return Object.fromEntries(metrics.map(({ name, value }) => [name, value]));
 };
-await browser.startTracing(page, { categories: ["devtools.timeline", "disabled-by-default-devtools.timeline"] });
+await trace();
 const before = await work();
 const gaps = await page.evaluate((ms) => new Promise((resolve) => {
   const found = [];
@@ -50,7 +59,7 @@ const gaps = await page.evaluate((ms) => new Promise((resolve) => {
   requestAnimationFrame(frame);
 }), 1000 * Number(seconds));
 const after = await work();
-const longest = longestTask((await browser.stopTracing()).toString());
+const longest = Math.max(...await traced());
 const tasks = await page.evaluate(() => window.tasks);
 gaps.sort((a, b) => a - b);
 console.log(`live for ${seconds} s: main thread busy ${(1000 * (after.TaskDuration - before.TaskDuration) / seconds).toFixed(0)} ms a second ` +
