@@ -20,6 +20,17 @@ void RequireEffects(const std::vector<std::string>& names) {
   }
 }
 
+/// A diagnosis that remembers its recordings.
+struct SourcedDiagnosis : DiagnosedModel {
+  ReportSources sources;
+};
+
+std::vector<std::string> NamesOf(const Recordings& recordings) {
+  std::vector<std::string> names;
+  for (const auto& recording : recordings) names.push_back(NameOf(recording->log.path));
+  return names;
+}
+
 /// The boat that a recording is said to be of. What a log alone suggests is nobody's choice.
 std::string VehicleIdFor(const Recordings& recordings, bool stated, const Vehicle& vehicle,
                          const Identification& model) {
@@ -27,10 +38,11 @@ std::string VehicleIdFor(const Recordings& recordings, bool stated, const Vehicl
   return stated ? vehicle.vehicle_id : model.vehicle_id;
 }
 
-DiagnosedModel Diagnosed(const ScoredIdentification& model, const OneOrMore& recordings,
-                         const Recordings& references, const std::optional<VehicleOrFile>& vehicle,
-                         bool refit, const std::vector<std::string>& without, std::uint64_t seed,
-                         std::optional<std::size_t> threads, const py::object& progress) {
+SourcedDiagnosis Diagnosed(const ScoredIdentification& model, const OneOrMore& recordings,
+                           const Recordings& references,
+                           const std::optional<VehicleOrFile>& vehicle, bool refit,
+                           const std::vector<std::string>& without, std::uint64_t seed,
+                           std::optional<std::size_t> threads, const py::object& progress) {
   RequireEffects(without);
   const DiagnoseChoices choices{refit, without, seed, threads};
   const Recordings logs = ListOf(recordings);
@@ -39,9 +51,11 @@ DiagnosedModel Diagnosed(const ScoredIdentification& model, const OneOrMore& rec
   for (const auto& reference : references) nominal.push_back(reference->log);
   const auto vehicle_id = VehicleIdFor(logs, vehicle.has_value(), recorded.vehicle, model.model);
   const Progress interruptible = Interruptible(progress);
+  ReportSources sources{NamesOf(logs), NamesOf(references), "", std::nullopt};
   const py::gil_scoped_release unlocked;
-  return DiagnoseRecorded(model.model, recorded, std::move(nominal), vehicle_id, choices,
-                          interruptible);
+  return {DiagnoseRecorded(model.model, recorded, std::move(nominal), vehicle_id, choices,
+                           interruptible),
+          std::move(sources)};
 }
 
 std::vector<std::string> EffectsOf(const Cause& cause) {
@@ -56,7 +70,7 @@ std::vector<std::string> SentencesOf(const Cause& cause) {
   return sentences;
 }
 
-std::optional<ScoredIdentification> AugmentedOf(const DiagnosedModel& diagnosed) {
+std::optional<ScoredIdentification> AugmentedOf(const SourcedDiagnosis& diagnosed) {
   if (!diagnosed.augmented) return std::nullopt;
   return ScoredIdentification{*diagnosed.augmented};
 }
@@ -86,47 +100,51 @@ void AddDiagnose(py::module_& module) {
                std::to_string(cause.probability) + '>';
       });
 
-  py::class_<DiagnosedModel>(module, "Diagnosis",
-                             "Where a model and a recording differ, which effect explains it, and "
-                             "how much of the excess error it explains.")
+  py::class_<SourcedDiagnosis>(
+      module, "Diagnosis",
+      "Where a model and a recording differ, which effect explains it, and "
+      "how much of the excess error it explains.")
       .def_property_readonly(
           "verdict",
-          [](const DiagnosedModel& diagnosed) {
+          [](const SourcedDiagnosis& diagnosed) {
             return std::string(Name(diagnosed.diagnosis.verdict));
           },
           "'NO_MATERIAL_GAP', 'EXPLAINED', 'PARTLY_EXPLAINED', 'UNKNOWN_CAUSE' or "
           "'INSUFFICIENT_DATA'.")
       .def_property_readonly(
-          "sentence", [](const DiagnosedModel& diagnosed) { return diagnosed.diagnosis.sentence; },
+          "sentence",
+          [](const SourcedDiagnosis& diagnosed) { return diagnosed.diagnosis.sentence; },
           "The answer in one sentence.")
       .def_property_readonly(
-          "causes", [](const DiagnosedModel& diagnosed) { return diagnosed.diagnosis.causes; },
+          "causes", [](const SourcedDiagnosis& diagnosed) { return diagnosed.diagnosis.causes; },
           "Most probable first.")
       .def_property_readonly(
-          "notes", [](const DiagnosedModel& diagnosed) { return diagnosed.diagnosis.notes; },
+          "notes", [](const SourcedDiagnosis& diagnosed) { return diagnosed.diagnosis.notes; },
           "Limitations, as sentences.")
       .def_property_readonly(
           "gap",
-          [](const DiagnosedModel& diagnosed) { return diagnosed.diagnosis.Main().all.before; },
+          [](const SourcedDiagnosis& diagnosed) { return diagnosed.diagnosis.Main().all.before; },
           "The error at five seconds, times the normal error.")
       .def_property_readonly("model", &AugmentedOf,
                              "The model identified again with the likely effects; None where no "
                              "effect is likely.")
       .def(
           "to_json",
-          [](const DiagnosedModel& diagnosed) { return PrintReportJson(diagnosed.diagnosis); },
+          [](const SourcedDiagnosis& diagnosed) { return PrintReportJson(diagnosed.diagnosis); },
           "The text of a report.json.")
       .def(
           "to_dict",
-          [](const DiagnosedModel& diagnosed) {
+          [](const SourcedDiagnosis& diagnosed) {
             return FromJson(PrintReportJson(diagnosed.diagnosis));
           },
           "All that report.json holds.")
       .def(
           "to_html",
-          [](const DiagnosedModel& diagnosed) { return ReportPage(diagnosed.diagnosis); },
+          [](const SourcedDiagnosis& diagnosed) {
+            return ReportPage(diagnosed.diagnosis, diagnosed.sources);
+          },
           "A page with pictures, which needs no network.")
-      .def("__repr__", [](const DiagnosedModel& diagnosed) {
+      .def("__repr__", [](const SourcedDiagnosis& diagnosed) {
         return "<telltale.Diagnosis " + std::string(Name(diagnosed.diagnosis.verdict)) + ": " +
                diagnosed.diagnosis.sentence + '>';
       });

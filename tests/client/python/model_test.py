@@ -362,7 +362,9 @@ class DiagnoseTest(unittest.TestCase):
         self.assertEqual(diagnosis.verdict, said["verdict"])
         self.assertEqual(diagnosis.causes[0].effects, ["thruster_imbalance"])
         self.assertIn("ort thruster", diagnosis.sentence)
-        self.assertTrue(diagnosis.to_html().lower().startswith("<!doctype html>"))
+        page = diagnosis.to_html()
+        self.assertTrue(page.lower().startswith("<!doctype html>"))
+        self.assertRegex(page, r"Recording</th><td>today</td>.*References</th><td>monday</td>")
         self.assertGreater(diagnosis.gap, 1.0)
         better = telltale.validate(diagnosis.model, self.today, horizons=[5]).free_run[0]
         worse = telltale.validate(self.model, self.today, horizons=[5]).free_run[0]
