@@ -79,7 +79,8 @@ export function PathPlot({ paths }: { paths: PredictedPaths }) {
   const errorM = number(paths.positionRmseM);
   const horizon = duration(paths.horizonS);
   const outcome = Number.isFinite(errorM)
-    ? `After ${horizon} the model is ${significant(errorM, 2)} m off (root mean square of ${paths.predicted.length} runs).`
+    ? `After ${horizon} the model is ${significant(errorM, 2)} m off${paths.predicted.length > 1
+        ? ` (root mean square of ${paths.predicted.length} runs)` : ""}.`
     : `The model diverges within ${horizon}.`;
   return (
     <>
