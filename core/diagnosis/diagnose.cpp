@@ -8,6 +8,7 @@
 #include "telltale/core/base/range.hpp"
 #include "telltale/core/diagnosis/baseline/synthetic_references.hpp"
 #include "telltale/core/diagnosis/hypotheses/augmented_identification.hpp"
+#include "telltale/core/diagnosis/hypotheses/power.hpp"
 #include "telltale/core/diagnosis/report/build_report.hpp"
 #include "telltale/core/diagnosis/report/reference_influence.hpp"
 #include "telltale/core/diagnosis/report/summary_sentence.hpp"
@@ -117,27 +118,28 @@ Result<DiagnosedModel> DiagnoseAgainst(const std::vector<PreparedDataset>& refer
   const Hypotheses hypotheses =
       Search(problem, library, options.most_effects, options.threads,
              [&](double share) { report_progress("effects", 0.4 + 0.2 * share); });
-  std::vector<ReferenceInfluence> influences;
+  Influences influences;
   if (options.leave_out_references && references.size() > 1) {
     influences =
         InfluencesOf({references, options.reference_names, runs->Main(), problem, model, library,
                       options.most_effects, options.seed, options.threads},
                      [&](double share) { report_progress("references", 0.6 + 0.25 * share); });
   }
-  const std::optional<double> squared_limit = SquaredLimitOf(influences);
-  const Conclusion conclusion = Conclude(hypotheses, problem, main, options.seed, squared_limit);
+  const DayToDay days = DayToDayOf(nominal, influences.days);
+  const Conclusion conclusion =
+      Conclude(hypotheses, problem, main, options.seed, days.squared_limit);
 
   report_progress("report", 0.85);
   DiagnosedModel diagnosed;
-  diagnosed.diagnosis =
-      BuildReport({recording, references, model, library, horizons, main, problem, hypotheses,
-                   conclusion, options.advise, options.state_power, options.seed, options.threads});
+  diagnosed.diagnosis = BuildReport({recording, references, model, library, horizons, main, problem,
+                                     hypotheses, conclusion, days, options.advise,
+                                     options.state_power, options.seed, options.threads});
   if (conclusion.is_likely) {
     const AugmentedModel boat = Reidentified(conclusion.best, problem, model);
     diagnosed.augmented = Augmented(identification, boat, conclusion.best, problem, model);
     diagnosed.diagnosis.improvement = ImprovementOf(recording, model.model, boat);
   }
-  NoteInfluences(std::move(influences), squared_limit, diagnosed.diagnosis);
+  NoteInfluences(std::move(influences.answers), days.squared_limit, diagnosed.diagnosis);
   report_progress("done", 1.0);
   return diagnosed;
 }

@@ -30,6 +30,12 @@ struct NominalBaseline {
   std::vector<double> log_reduced_chi_squares;
 };
 
+/// What a nominal recording leaves by a baseline that it took no part in.
+struct LeftOutDay {
+  double squared_gap = 0.0;         ///< G^2, docs/concepts/diagnosis.md (80)
+  double reduced_chi_square = 0.0;  ///< by the ResidualMetric of that baseline
+};
+
 /// Requires: at least one recording with windows.
 NominalBaseline LearnNominalBaseline(const std::vector<FreeRuns>& recordings,
                                      const UncertainModel& model,

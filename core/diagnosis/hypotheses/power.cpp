@@ -7,19 +7,22 @@
 #include "telltale/core/diagnosis/diagnosis_constants.hpp"
 #include "telltale/core/diagnosis/hypotheses/effect_fit.hpp"
 #include "telltale/core/diagnosis/hypotheses/effect_parameters.hpp"
+#include "telltale/core/diagnosis/hypotheses/ranking.hpp"
+#include "telltale/core/diagnosis/residuals/gap.hpp"
 #include "telltale/core/uncertainty/distributions.hpp"
 
 namespace telltale {
 namespace {
 
 constexpr double kPower = kDiagnosis.testability.power;
-// Nodes of equal probability over the noise of a day.
-constexpr int kNoiseNodes = 15;
+// Days of equal probability.
+constexpr int kNodes = 15;
 // The distance that an effect moves errors grows with the square of its size as long as it acts
 // linearly, so that few steps do.
 constexpr int kSizeSteps = 5;
 constexpr double kSizeTolerance = 0.01;
-constexpr int kBisections = 40;
+constexpr double kTolerance = 1e-3;        // of a square
+constexpr double kBeyondAnyEffect = 1e12;  // of a square, over what a nominal boat leaves
 
 /// Tail of a noncentral chi-squared variable of one degree of freedom, the square of a normal one.
 double NoncentralTail(double noncentrality, double x) {
@@ -27,14 +30,105 @@ double NoncentralTail(double noncentrality, double x) {
   return NormalTail(std::sqrt(x) - mean) + NormalTail(std::sqrt(x) + mean);
 }
 
-/// The noncentrality at which PowerOf reaches kPower.
-double NoncentralityFor(double cost, const ResidualMetric& metric, const NoiseLevels& noise) {
+/// What a verdict goes by, once an effect explains a part of the errors.
+struct Evidence {
+  double score = 0.0;
+  LackOfFit lack_of_fit;
+};
+
+/// The days that may follow, of equal probability, and what each asks of an effect.
+class DaysAhead {
+ public:
+  DaysAhead(double cost, const ResidualMetric& metric, const DayToDay& days)
+      : cost_(cost), metric_(metric), squared_limit_(days.squared_limit) {
+    for (int node = 0; node < kNodes; ++node) {
+      const double probability = (node + 0.5) / kNodes;
+      const double noise = days.noise.Quantile(probability);
+      // A day that errs more does so by either measure.
+      const double squared_gap = squared_limit_ ? days.squared_gap.Quantile(probability) : 0.0;
+      days_.push_back({noise, squared_gap,
+                       LeastExplained(noise, std::exp(days.log_nominal), IsMaterial),
+                       LeastExplained(noise, std::exp(days.log_nominal), IsNamed)});
+    }
+  }
+
+  /// The probability that an effect is called which moves the errors so far.
+  double PowerOf(const ErrorShift& shift) const {
+    double power = 0.0;
+    for (const Day& day : days_) {
+      const bool is_beyond =
+          !squared_limit_ || day.squared_gap + shift.squared_gap > *squared_limit_;
+      const double least = is_beyond ? day.material : day.named;
+      power += least <= 0.0 ? 1.0 : NoncentralTail(shift.noncentrality / day.noise, least);
+    }
+    return power / kNodes;
+  }
+
+ private:
+  struct Day {
+    double noise = 1.0;        ///< reduced chi-square without the effect
+    double squared_gap = 0.0;  ///< G^2 without the effect
+    double material = 0.0;  ///< square that an effect explains, over the noise, of a material gap
+    double named = 0.0;     ///< the same, where the gap's cause is named besides
+  };
+
+  static bool IsMaterial(const Evidence& evidence) {
+    return AssessGap(0.0, 0.0, 1.0, evidence.score, evidence.lack_of_fit) ==
+           GapAssessment::kMaterial;
+  }
+
+  /// Of a single effect, whose shape is as expected.
+  static bool IsNamed(const Evidence& evidence) {
+    const double unknown = UnknownProbability(evidence.lack_of_fit, evidence.score, 1, 0.0);
+    const double against_none = 1.0 / (1.0 + std::exp(0.5 * evidence.score));
+    return IsMaterial(evidence) && IsCertain((1.0 - unknown) * against_none);
+  }
+
+  /// The least square over the noise that an effect has to explain for the verdict to be so; the
+  /// more it explains, the surer is the verdict.
+  double LeastExplained(double noise, double nominal, bool (*is_so)(const Evidence&)) const {
+    const auto is_so_at = [&](double square) {
+      const double share = square / metric_.ExpectedSquare();
+      return is_so({cost_ - metric_.EffectiveObservations() * std::log1p(share),
+                    {noise * (1.0 + share), noise, nominal, 0.0}});
+    };
+    if (is_so_at(0.0)) return 0.0;
+    double low = 0.0;
+    double high = metric_.ExpectedSquare();
+    while (!is_so_at(high)) {
+      low = high;
+      high *= 2.0;
+      if (high > kBeyondAnyEffect * metric_.ExpectedSquare()) return high;
+    }
+    while (high - low > kTolerance * high) {
+      const double middle = 0.5 * (low + high);
+      (is_so_at(middle) ? high : low) = middle;
+    }
+    return high;
+  }
+
+  double cost_;
+  const ResidualMetric& metric_;
+  std::optional<double> squared_limit_;
+  std::vector<Day> days_;
+};
+
+/// By how much an effect has to move the errors further, in square, for PowerOf to reach kPower.
+double FactorFor(const ErrorShift& shift, double cost, const ResidualMetric& metric,
+                 const DayToDay& days) {
+  const DaysAhead ahead(cost, metric, days);
+  const auto power = [&](double factor) {
+    return ahead.PowerOf({factor * shift.noncentrality, factor * shift.squared_gap});
+  };
   double low = 0.0;
-  double high = metric.ExpectedSquare();
-  while (PowerOf(high, cost, metric, noise) < kPower) high *= 2.0;
-  for (int i = 0; i < kBisections && high - low > 1e-3 * high; ++i) {
+  double high = 1.0;
+  while (power(high) < kPower && high < kBeyondAnyEffect) {
+    low = high;
+    high *= 2.0;
+  }
+  while (high - low > kTolerance * high) {
     const double middle = 0.5 * (low + high);
-    (PowerOf(middle, cost, metric, noise) < kPower ? low : high) = middle;
+    (power(middle) < kPower ? low : high) = middle;
   }
   return high;
 }
@@ -42,35 +136,40 @@ double NoncentralityFor(double cost, const ResidualMetric& metric, const NoiseLe
 /// How one parameter of an effect moves the errors of the nominal boat.
 class ParameterShift {
  public:
-  ParameterShift(const Effect& effect, std::size_t parameter, const DiagnosisProblem& problem)
+  ParameterShift(const Effect& effect, std::size_t parameter, const DiagnosisProblem& problem,
+                 const Eigen::VectorXd& scale)
       : effect_(effect),
         parameter_(parameter),
         metric_(problem.metric),
+        scale_(scale),
         error_model_(ErrorModelOf(problem.runs, problem.nominal.boat)),
-        nominal_(metric_.Whiten(error_model_({}))) {}
+        nominal_(error_model_({})) {}
 
-  /// By how large a squared Mahalanobis distance the parameter at `value` moves the errors.
-  double NoncentralityAt(double value) const {
+  /// How far the parameter at `value` moves the errors.
+  ErrorShift At(double value) const {
     ModelledEffect modelled{&effect_, {}};
     for (const EffectParameter& other : effect_.Parameters()) {
       modelled.values.push_back(other.prior_mean);
     }
     modelled.values[parameter_] = value;
-    return metric_.SquaredMahalanobis(metric_.Whiten(error_model_({modelled})) - nominal_);
+    const Eigen::MatrixXd errors = error_model_({modelled});
+    return {metric_.SquaredMahalanobis(metric_.Whiten(errors) - metric_.Whiten(nominal_)),
+            SquaredGaps(errors - nominal_, scale_, kAllChannels).mean()};
   }
 
  private:
   const Effect& effect_;
   std::size_t parameter_;
   const ResidualMetric& metric_;
+  const Eigen::VectorXd& scale_;
   ErrorModel error_model_;
-  Eigen::VectorXd nominal_;
+  Eigen::MatrixXd nominal_;
 };
 
 /// What decides whether an effect shows, besides what it does to the errors.
 struct Gate {
   const ResidualMetric& metric;
-  NoiseLevels noise;
+  const DayToDay& days;
   double nominal_gain = 0.0;
   double parameters = 1.0;  ///< that are fitted
 };
@@ -81,7 +180,7 @@ struct Gate {
 double CostOf(double sizes, double noncentrality, const Gate& gate) {
   const double prior_variance =
       kDiagnosis.effect_fit.prior_width * kDiagnosis.effect_fit.prior_width;
-  const double left = gate.metric.ExpectedSquare() * std::exp(gate.noise.log_mean);
+  const double left = gate.metric.ExpectedSquare() * std::exp(gate.days.noise.log_mean);
   const double information =
       gate.metric.EffectiveObservations() / left * noncentrality / (sizes * sizes);
   return gate.nominal_gain + sizes * sizes / prior_variance +
@@ -93,10 +192,10 @@ std::optional<double> DetectableTowards(double end, const ParameterShift& shift,
                                         const EffectParameter& parameter, const Gate& gate) {
   double size = std::min(parameter.typical, std::abs(end));
   for (int step = 0; step < kSizeSteps; ++step) {
-    const double noncentrality = shift.NoncentralityAt(std::copysign(size, end));
-    if (noncentrality <= 0.0) return std::nullopt;
-    const double cost = CostOf(size / parameter.typical, noncentrality, gate);
-    const double ratio = std::sqrt(NoncentralityFor(cost, gate.metric, gate.noise) / noncentrality);
+    const ErrorShift moved = shift.At(std::copysign(size, end));
+    if (moved.noncentrality <= 0.0) return std::nullopt;
+    const double cost = CostOf(size / parameter.typical, moved.noncentrality, gate);
+    const double ratio = std::sqrt(FactorFor(moved, cost, gate.metric, gate.days));
     if (std::abs(ratio - 1.0) < kSizeTolerance) return size;
     if (size >= std::abs(end) && ratio > 1.0) return std::nullopt;
     size = std::min(size * ratio, std::abs(end));
@@ -105,9 +204,10 @@ std::optional<double> DetectableTowards(double end, const ParameterShift& shift,
 }
 
 DetectableSize DetectableSizeOf(const Effect& effect, std::size_t place,
-                                const DiagnosisProblem& problem, const Gate& gate) {
+                                const DiagnosisProblem& problem, const Eigen::VectorXd& scale,
+                                const Gate& gate) {
   const EffectParameter& parameter = effect.Parameters()[place];
-  const ParameterShift shift(effect, place, problem);
+  const ParameterShift shift(effect, place, problem, scale);
   DetectableSize detectable{std::string(parameter.name), std::nullopt, std::string(parameter.unit)};
   std::optional<double> largest = 0.0;
   for (const double end : {parameter.lower, parameter.upper}) {
@@ -119,51 +219,64 @@ DetectableSize DetectableSizeOf(const Effect& effect, std::size_t place,
   return detectable;
 }
 
-}  // namespace
-
-NoiseLevels NoiseLevelsOf(const NominalBaseline& nominal) {
-  const std::vector<double>& logs = nominal.log_reduced_chi_squares;
-  const auto days = static_cast<double>(logs.size());
-  NoiseLevels noise;
-  for (const double log : logs) noise.log_mean += log / days;
+/// The law of one more day from ln of those there are; `least_sd` where they agree better, an
+/// assumed scatter where there is one alone.
+OneMoreDay OneMoreDayOf(const std::vector<double>& logs, double least_sd) {
+  const auto count = static_cast<double>(logs.size());
+  OneMoreDay day;
+  for (const double log : logs) day.log_mean += log / count;
   double variance = kDiagnosis.gap.single_recording_sd * kDiagnosis.gap.single_recording_sd;
   if (logs.size() > 1) {
     variance = 0.0;
     for (const double log : logs) {
-      variance += (log - noise.log_mean) * (log - noise.log_mean) / (days - 1.0);
+      variance += (log - day.log_mean) * (log - day.log_mean) / (count - 1.0);
     }
   }
-  noise.log_sd = std::sqrt(variance * (1.0 + 1.0 / days));
-  noise.degrees_of_freedom = std::max(days - 1.0, 1.0);
-  return noise;
+  day.log_sd = std::max(std::sqrt(variance), least_sd) * std::sqrt(1.0 + 1.0 / count);
+  day.degrees_of_freedom = std::max(count - 1.0, 1.0);
+  return day;
 }
 
-double PowerOf(double noncentrality, double cost, const ResidualMetric& metric,
-               const NoiseLevels& noise) {
-  const RankingConstants& ranking = kDiagnosis.ranking;
-  const double by_score =
-      std::expm1((ranking.material_score + cost) / metric.EffectiveObservations());
-  double power = 0.0;
-  for (int node = 0; node < kNoiseNodes; ++node) {
-    const double probability = (node + 0.5) / kNoiseNodes;
-    const double log_excess = noise.log_sd * StudentQuantile(noise.degrees_of_freedom, probability);
-    const double by_lack_of_fit = std::expm1(ranking.material_log_lack_of_fit - log_excess);
-    const double threshold = metric.ExpectedSquare() * std::min(by_score, by_lack_of_fit);
-    const double in_its_noise = noncentrality / std::exp(noise.log_mean + log_excess);
-    power += threshold <= 0.0 ? 1.0 : NoncentralTail(in_its_noise, threshold);
+}  // namespace
+
+double OneMoreDay::Quantile(double probability) const {
+  return std::exp(log_mean + log_sd * StudentQuantile(degrees_of_freedom, probability));
+}
+
+DayToDay DayToDayOf(const NominalBaseline& nominal, const std::vector<LeftOutDay>& left_out) {
+  DayToDay days;
+  days.noise = OneMoreDayOf(nominal.log_reduced_chi_squares, 0.0);
+  days.log_nominal = days.noise.log_mean;
+  if (left_out.size() < 2) return days;
+  std::vector<double> log_noises;
+  std::vector<double> log_gaps;
+  std::vector<double> squared_gaps;
+  for (const LeftOutDay& day : left_out) {
+    log_noises.push_back(std::log(day.reduced_chi_square));
+    log_gaps.push_back(std::log(day.squared_gap));
+    squared_gaps.push_back(day.squared_gap);
   }
-  return power / kNoiseNodes;
+  days.noise = OneMoreDayOf(log_noises, 0.0);
+  days.squared_gap = OneMoreDayOf(log_gaps, kDiagnosis.gap.minimum_sd);
+  days.squared_limit = SquaredLimitOfDays(squared_gaps);
+  return days;
+}
+
+double PowerOf(const ErrorShift& shift, double cost, const ResidualMetric& metric,
+               const DayToDay& days) {
+  return DaysAhead(cost, metric, days).PowerOf(shift);
 }
 
 std::vector<DetectableSize> DetectableSizesOf(const Effect& effect, const DiagnosisProblem& problem,
+                                              const Eigen::VectorXd& scale, const DayToDay& days,
                                               double nominal_gain) {
   std::vector<DetectableSize> sizes;
   if (effect.IsStochastic()) return sizes;
-  const Gate gate{problem.metric, NoiseLevelsOf(problem.nominal), nominal_gain,
+  const Gate gate{problem.metric, days, nominal_gain,
                   static_cast<double>(effect.Parameters().size())};
   for (std::size_t place = 0; place < effect.Parameters().size(); ++place) {
     if (effect.Parameters()[place].is_shape) continue;
-    sizes.push_back(DetectableSizeOf(effect, place, problem, gate));
+    sizes.push_back(DetectableSizeOf(effect, place, problem, scale, gate));
   }
   return sizes;
 }

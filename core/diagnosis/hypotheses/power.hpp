@@ -1,6 +1,9 @@
 #pragma once
 
+#include <optional>
 #include <vector>
+
+#include <Eigen/Core>
 
 #include "telltale/core/diagnosis/diagnosis.hpp"
 #include "telltale/core/diagnosis/hypotheses/diagnosis_problem.hpp"
@@ -8,28 +11,49 @@
 
 namespace telltale {
 
-/// The day-to-day distribution of the noise of nominal recordings: ln of their reduced chi-square.
-struct NoiseLevels {
+/// ln of what one more nominal day leaves: Student's t, what the days there are leave uncertain
+/// included.
+struct OneMoreDay {
   double log_mean = 0.0;
-  double log_sd = 0.0;  ///< of one more recording, what the references leave uncertain included
+  double log_sd = 0.0;
   double degrees_of_freedom = 1.0;
+
+  /// Of the quantity itself.
+  double Quantile(double probability) const;
 };
 
-/// Student's t over the references that the baseline is of, at least one; of a single one an
-/// assumed scatter.
-NoiseLevels NoiseLevelsOf(const NominalBaseline& nominal);
+/// How nominal days differ, as verdict and power see it, docs/concepts/diagnosis.md (100), (102).
+struct DayToDay {
+  double log_nominal = 0.0;  ///< mean ln of the reduced chi-squares of the baseline's own days
+  OneMoreDay noise;          ///< the reduced chi-square of a day
+  OneMoreDay squared_gap;    ///< G^2 of a day; of use only beside `squared_limit`
+  /// What 95 % of days stay below in G^2; none where fewer than two were left out.
+  std::optional<double> squared_limit;
+};
 
-/// The probability that one parameter of an effect shows as a material gap,
-/// docs/concepts/diagnosis.md (99), (100). `noncentrality`: squared Mahalanobis distance by which
-/// it moves the errors; `cost`: what the score has to overcome besides the gate, in -2 ln.
-double PowerOf(double noncentrality, double cost, const ResidualMetric& metric,
-               const NoiseLevels& noise);
+/// From days that took no part in the baseline. Where fewer than two did so, the noise is that of
+/// the references of the baseline itself, at least one; of a single one an assumed scatter.
+DayToDay DayToDayOf(const NominalBaseline& nominal, const std::vector<LeftOutDay>& left_out);
+
+/// How far an effect moves the errors.
+struct ErrorShift {
+  double noncentrality = 0.0;  ///< squared Mahalanobis distance, by the metric
+  double squared_gap = 0.0;    ///< added to G^2
+};
+
+/// The probability that the verdict calls one parameter of an effect, docs/concepts/diagnosis.md
+/// (99): it names the effect, or a gap beyond `days.squared_limit`. `cost`: what the score has to
+/// overcome besides the gate, in -2 ln.
+double PowerOf(const ErrorShift& shift, double cost, const ResidualMetric& metric,
+               const DayToDay& days);
 
 /// The smallest size of each parameter that does not shape, with the others at their prior means,
 /// that this recording, model and references show with kDiagnosis.testability.power; of either sign
-/// where the range has both. None for a stochastic effect. `nominal_gain`: of NominalGains.
-/// Assumes: errors are normal, and what the effect does to them is not masked by another gap.
+/// where the range has both. None for a stochastic effect. `scale`: of NoiseFloor; `nominal_gain`:
+/// of NominalGains. Assumes: errors are normal, what the effect does to them is not masked by
+/// another gap, and no other effect does the same.
 std::vector<DetectableSize> DetectableSizesOf(const Effect& effect, const DiagnosisProblem& problem,
+                                              const Eigen::VectorXd& scale, const DayToDay& days,
                                               double nominal_gain);
 
 }  // namespace telltale

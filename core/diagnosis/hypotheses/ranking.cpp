@@ -16,25 +16,9 @@ double Logistic(double x) {
 
 /// Share of the excess that a hypothesis may leave without notice: the nats that do not separate
 /// two hypotheses over those and the hypothesis' own.
-double UnresolvedShare(const EffectFit& best) {
+double UnresolvedShare(double score) {
   constexpr double kSeparable = kDiagnosis.search.separable_nats;
-  return kSeparable / (kSeparable + 0.5 * std::max(-best.score, 0.0));
-}
-
-/// Probability that the cause is another than the likeliest hypothesis. It grows with what that
-/// leaves, with its number of effects, with what is predictable in its errors, and with the
-/// negative log prior of its shape parameters.
-double UnknownProbability(const LackOfFit& lack_of_fit, const EffectFit& best) {
-  const double excess = lack_of_fit.after - lack_of_fit.nominal;
-  const double before = std::max(lack_of_fit.before - lack_of_fit.nominal, excess);
-  const double unresolved = UnresolvedShare(best);
-  const double share = before > 0.0 ? std::max(excess / before, unresolved) : unresolved;
-  const double unexplained = std::log(share) + std::log(lack_of_fit.after / lack_of_fit.nominal);
-  const double penalty =
-      kRanking.doubt_per_extra_effect * static_cast<double>(best.effects.size() - 1) +
-      kRanking.doubt_per_predictable * std::max(lack_of_fit.predictable, 0.0);
-  return Logistic(kRanking.doubt_slope * (unexplained - kRanking.doubt_midpoint + penalty) +
-                  best.NegativeLogPrior());
+  return kSeparable / (kSeparable + 0.5 * std::max(-score, 0.0));
 }
 
 std::vector<EffectFit> ByScore(const Hypotheses& hypotheses) {
@@ -68,6 +52,23 @@ std::vector<std::string> RankedHypothesis::Indistinguishable() const {
   return others;
 }
 
+double UnknownProbability(const LackOfFit& lack_of_fit, double score, std::size_t effects,
+                          double negative_log_prior) {
+  const double excess = lack_of_fit.after - lack_of_fit.nominal;
+  const double before = std::max(lack_of_fit.before - lack_of_fit.nominal, excess);
+  const double unresolved = UnresolvedShare(score);
+  const double share = before > 0.0 ? std::max(excess / before, unresolved) : unresolved;
+  const double unexplained = std::log(share) + std::log(lack_of_fit.after / lack_of_fit.nominal);
+  const double penalty = kRanking.doubt_per_extra_effect * static_cast<double>(effects - 1) +
+                         kRanking.doubt_per_predictable * std::max(lack_of_fit.predictable, 0.0);
+  return Logistic(kRanking.doubt_slope * (unexplained - kRanking.doubt_midpoint + penalty) +
+                  negative_log_prior);
+}
+
+bool IsCertain(double probability) {
+  return probability >= kRanking.naming_probability;
+}
+
 Ranking Rank(const Hypotheses& hypotheses, const ResidualMetric& metric,
              const LackOfFit& lack_of_fit) {
   const std::vector<EffectFit> all = ByScore(hypotheses);
@@ -89,7 +90,9 @@ Ranking Rank(const Hypotheses& hypotheses, const ResidualMetric& metric,
     equivalent->probability += own;
     equivalent->equivalent.push_back(fit);
   }
-  ranking.unknown = UnknownProbability(lack_of_fit, all.front());
+  const EffectFit& first = all.front();
+  ranking.unknown =
+      UnknownProbability(lack_of_fit, first.score, first.effects.size(), first.NegativeLogPrior());
   const double known = (1.0 - ranking.unknown) / total;
   ranking.no_effect *= known;
   for (RankedHypothesis& ranked : ranking.fits) ranked.probability *= known;
@@ -119,8 +122,7 @@ Verdict VerdictOf(GapAssessment assessment, const Ranking& ranking,
                   const std::optional<ExcessExplained>& excess_explained) {
   if (assessment == GapAssessment::kWithinNominal) return Verdict::kNoMaterialGap;
   if (assessment == GapAssessment::kUndecided) return Verdict::kInsufficientData;
-  const bool is_named =
-      !ranking.fits.empty() && ranking.fits.front().probability >= kRanking.naming_probability;
+  const bool is_named = !ranking.fits.empty() && IsCertain(ranking.fits.front().probability);
   if (!is_named) return Verdict::kUnknownCause;
   if (!excess_explained || excess_explained->share >= kRanking.explained_share)
     return Verdict::kExplained;

@@ -8,7 +8,6 @@
 #include "telltale/core/base/parallel.hpp"
 #include "telltale/core/base/version.hpp"
 #include "telltale/core/diagnosis/hypotheses/onset.hpp"
-#include "telltale/core/diagnosis/hypotheses/power.hpp"
 #include "telltale/core/diagnosis/hypotheses/testability.hpp"
 #include "telltale/core/diagnosis/report/causes.hpp"
 #include "telltale/core/diagnosis/report/missing_force_text.hpp"
@@ -104,7 +103,8 @@ void StatePower(const ReportInputs& inputs, std::vector<EffectTestability>& effe
   ForEachIndex(effects.size(), inputs.threads, [&](std::size_t i) {
     const Effect* const effect = inputs.library[i];
     effects[i].detectable_sizes =
-        DetectableSizesOf(*effect, inputs.problem, inputs.hypotheses.nominal_gains.at(effect));
+        DetectableSizesOf(*effect, inputs.problem, inputs.main.floor.scale, inputs.days,
+                          inputs.hypotheses.nominal_gains.at(effect));
   });
 }
 

@@ -9,6 +9,7 @@
 #include "telltale/core/diagnosis/diagnosis.hpp"
 #include "telltale/core/diagnosis/hypotheses/diagnosis_problem.hpp"
 #include "telltale/core/diagnosis/hypotheses/hypothesis_search.hpp"
+#include "telltale/core/diagnosis/hypotheses/power.hpp"
 #include "telltale/core/diagnosis/report/conclusion.hpp"
 #include "telltale/core/diagnosis/report/horizon_gap.hpp"
 #include "telltale/core/identification/uncertain_model.hpp"
@@ -26,6 +27,7 @@ struct ReportInputs {
   const DiagnosisProblem& problem;
   const Hypotheses& hypotheses;
   const Conclusion& conclusion;
+  const DayToDay& days;     ///< what nominal days leave
   bool advise = true;       ///< manoeuvres that separate equivalent hypotheses
   bool state_power = true;  ///< the sizes from which on effects show
   std::uint64_t seed = 1;

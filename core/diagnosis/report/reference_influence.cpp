@@ -35,14 +35,19 @@ NoiseFloor FloorOf(const std::vector<std::size_t>& kept, const std::vector<FreeR
   return NoiseFloorOf(errors, blocks);
 }
 
-/// The gap of the reference that took no part; none where it has no windows.
-std::optional<double> OwnGap(const PreparedDataset& left_out,
-                             const std::vector<FreeRuns>& recordings, const AugmentedModel& boat,
-                             const NoiseFloor& floor) {
+/// What the reference leaves that took no part; none where it has no windows. `all` is the baseline
+/// of all references, with the slopes of each.
+std::optional<LeftOutDay> DayOf(const PreparedDataset& left_out,
+                                const std::vector<FreeRuns>& recordings, const NominalBaseline& all,
+                                const NominalBaseline& without, const NoiseFloor& floor) {
   const auto own = std::find_if(recordings.begin(), recordings.end(),
                                 [&](const FreeRuns& runs) { return &runs.Dataset() == &left_out; });
   if (own == recordings.end()) return std::nullopt;
-  return std::sqrt(SquaredGaps(own->Errors(boat), floor.scale, kAllChannels).mean());
+  Sensitivity day = all.days[static_cast<std::size_t>(own - recordings.begin())];
+  day.errors = own->Errors(without.boat);
+  const ResidualMetric metric(without, day, EveryWindow(day), false);
+  return LeftOutDay{SquaredGaps(day.errors, floor.scale, kAllChannels).mean(),
+                    metric.ReducedChiSquare(metric.Whiten(day.errors))};
 }
 
 /// The likeliest cause where the gap is material, an unknown one among them.
@@ -58,13 +63,19 @@ void DescribeCause(const Conclusion& conclusion, ReferenceInfluence& influence) 
   influence.probability = first->probability;
 }
 
-ReferenceInfluence InfluenceOf(std::size_t reference, const InfluenceInputs& inputs) {
+/// The answer without one reference, and what that leaves by the baseline of the others.
+struct Influence {
+  ReferenceInfluence answer;
+  std::optional<LeftOutDay> day;
+};
+
+Influence InfluenceOf(std::size_t reference, const InfluenceInputs& inputs) {
   const PreparedDataset& left_out = inputs.references[reference];
   const std::vector<FreeRuns>& recordings = inputs.main.references;
   ReferenceInfluence influence;
   influence.reference = NameOf(reference, inputs.names);
   const std::vector<std::size_t> kept = Kept(recordings, left_out);
-  if (kept.empty()) return influence;
+  if (kept.empty()) return {influence, std::nullopt};
 
   const DiagnosisProblem& all = inputs.problem;
   const NominalBaseline nominal =
@@ -81,33 +92,27 @@ ReferenceInfluence InfluenceOf(std::size_t reference, const InfluenceInputs& inp
   const Conclusion conclusion = Conclude(hypotheses, problem, main, inputs.seed);
 
   influence.verdict = conclusion.verdict;
-  influence.own_gap = OwnGap(left_out, recordings, nominal.boat, main.floor);
+  const auto day = DayOf(left_out, recordings, all.nominal, nominal, main.floor);
+  if (day) influence.own_gap = std::sqrt(day->squared_gap);
   std::optional<CrossValidatedErrors> after;
   if (conclusion.is_likely) after = conclusion.cross_validated;
   influence.gap = GapAt(main, after, inputs.seed).all;
   DescribeCause(conclusion, influence);
-  return influence;
+  return {influence, day};
 }
 
 }  // namespace
 
-std::vector<ReferenceInfluence> InfluencesOf(const InfluenceInputs& inputs,
-                                             const std::function<void(double)>& report_progress) {
-  std::vector<ReferenceInfluence> influences;
+Influences InfluencesOf(const InfluenceInputs& inputs,
+                        const std::function<void(double)>& report_progress) {
+  Influences influences;
   for (std::size_t reference = 0; reference < inputs.references.size(); ++reference) {
     report_progress(static_cast<double>(reference) / static_cast<double>(inputs.references.size()));
-    influences.push_back(InfluenceOf(reference, inputs));
+    const auto [answer, day] = InfluenceOf(reference, inputs);
+    influences.answers.push_back(answer);
+    if (day) influences.days.push_back(*day);
   }
   return influences;
-}
-
-std::optional<double> SquaredLimitOf(const std::vector<ReferenceInfluence>& influences) {
-  std::vector<double> squared_gaps;
-  for (const ReferenceInfluence& influence : influences) {
-    if (influence.own_gap) squared_gaps.push_back(*influence.own_gap * *influence.own_gap);
-  }
-  if (squared_gaps.size() < 2) return std::nullopt;
-  return SquaredLimitOfDays(squared_gaps);
 }
 
 std::string DescribeInfluences(const std::vector<ReferenceInfluence>& influences, Verdict verdict) {

@@ -28,15 +28,17 @@ struct InfluenceInputs {
   std::size_t threads;
 };
 
+/// What the references do to the answer.
+struct Influences {
+  std::vector<ReferenceInfluence> answers;  ///< without each reference in turn
+  std::vector<LeftOutDay> days;             ///< of the references that have windows, when left out
+};
+
 /// The answer without each reference in turn, docs/concepts/diagnosis.md, "The nominal baseline".
 /// To first order: the nominal boat without a reference is one Gauss-Newton step from that of all,
 /// with the same slopes; hypotheses are fitted anew. Requires: two references or more.
-std::vector<ReferenceInfluence> InfluencesOf(const InfluenceInputs& inputs,
-                                             const std::function<void(double)>& report_progress);
-
-/// What references that took no part in the baseline leave of a gap in doubt, G^2; none of fewer
-/// than two.
-std::optional<double> SquaredLimitOf(const std::vector<ReferenceInfluence>& influences);
+Influences InfluencesOf(const InfluenceInputs& inputs,
+                        const std::function<void(double)>& report_progress);
 
 /// Names the references without which the verdict is another; empty where there are none.
 std::string DescribeInfluences(const std::vector<ReferenceInfluence>& influences, Verdict verdict);

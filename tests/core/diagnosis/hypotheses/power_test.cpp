@@ -42,31 +42,68 @@ class PowerTest : public ::testing::Test {
  protected:
   PowerTest() { nominal_.log_reduced_chi_squares = {-0.2, 0.1, 0.1}; }
 
-  /// How many of `trials` recordings show as a gap that an effect of this noncentrality moves along
-  /// one direction, by the criteria of AssessGap.
-  int Shown(double noncentrality, double cost, int trials) const {
-    const NoiseLevels noise = NoiseLevelsOf(nominal_);
-    RandomEngine engine(20);
-    boost::random::normal_distribution<double> normal;
-    boost::random::student_t_distribution<double> student(noise.degrees_of_freedom);
-    int shown = 0;
-    for (int trial = 0; trial < trials; ++trial) {
-      const double scale = std::exp(noise.log_mean + noise.log_sd * student(engine));
-      Eigen::VectorXd errors(static_cast<Eigen::Index>(metric_.ExpectedSquare()));
-      for (double& error : errors) error = std::sqrt(scale) * normal(engine);
-      errors[0] += std::sqrt(noncentrality);
-      const double before = errors.squaredNorm();
-      const double after = before - errors[0] * errors[0];
-      const double score = metric_.Deviance(after, before) + cost;
-      const LackOfFit lack_of_fit{before / metric_.ExpectedSquare(), 1.0, std::exp(noise.log_mean),
-                                  0.0};
-      shown += AssessGap(0.0, 0.0, 1.0, score, lack_of_fit) == GapAssessment::kMaterial ? 1 : 0;
-    }
-    return shown;
+  DayToDay Days() const { return DayToDayOf(nominal_, left_out_); }
+
+  /// Whether the verdict calls a recording that errs so much, of whose errors the likeliest effect
+  /// explains so much.
+  bool IsCalled(double before, double explained, double squared_gap, double cost,
+                const DayToDay& days) const {
+    const LackOfFit lack_of_fit{before / metric_.ExpectedSquare(),
+                                (before - explained) / metric_.ExpectedSquare(),
+                                std::exp(days.log_nominal), 0.0};
+    EffectFit fit;
+    fit.effects = {{&effect_, {1.0}}};
+    fit.score = metric_.Deviance(before - explained, before) + cost;
+    const GapAssessment assessment = AssessGap(0.0, 0.0, 1.0, fit.score, lack_of_fit);
+    const Ranking ranking = Rank({{fit}, {}, {}}, metric_, lack_of_fit);
+    const Verdict verdict = VerdictOf(assessment, ranking, std::nullopt);
+    if (verdict == Verdict::kUnknownCause) return squared_gap > days.squared_limit.value_or(0.0);
+    return verdict == Verdict::kExplained;
   }
 
+  /// How often recordings are called that an effect moves along one direction, of days drawn from
+  /// Student's law.
+  double ShareCalled(const ErrorShift& shift, double cost) const {
+    constexpr int kTrials = 2000;
+    const DayToDay days = Days();
+    RandomEngine engine(20);
+    boost::random::normal_distribution<double> normal;
+    boost::random::student_t_distribution<double> student(days.noise.degrees_of_freedom);
+    int called = 0;
+    for (int trial = 0; trial < kTrials; ++trial) {
+      const double t = student(engine);
+      const double noise = std::exp(days.noise.log_mean + days.noise.log_sd * t);
+      const double squared_gap =
+          std::exp(days.squared_gap.log_mean + days.squared_gap.log_sd * t) + shift.squared_gap;
+      Eigen::VectorXd errors(static_cast<Eigen::Index>(metric_.ExpectedSquare()));
+      for (double& error : errors) error = std::sqrt(noise) * normal(engine);
+      errors[0] += std::sqrt(shift.noncentrality);
+      called += IsCalled(errors.squaredNorm(), errors[0] * errors[0], squared_gap, cost, days);
+    }
+    return static_cast<double>(called) / kTrials;
+  }
+
+  /// A shift along `direction` that PowerOf gives kPower.
+  ErrorShift Detectable(const ErrorShift& direction, double cost) const {
+    double low = 0.0;
+    double high = 1e6;
+    const auto at = [&](double factor) {
+      return ErrorShift{factor * direction.noncentrality, factor * direction.squared_gap};
+    };
+    for (int i = 0; i < 60; ++i) {
+      const double middle = 0.5 * (low + high);
+      (PowerOf(at(middle), cost, metric_, Days()) < kPower ? low : high) = middle;
+    }
+    return at(high);
+  }
+
+  // The nodes over the days leave half a node of a fifteenth, besides the draws' own scatter.
+  static constexpr double kTolerance = 0.5 / 15.0 + 0.02;
+
+  const testing::InertEffect effect_{"inert", {{"size", "1", 1.0, -100.0, 100.0}}};
   const testing::ShortRecording short_;
   NominalBaseline nominal_ = testing::UnitBaseline(short_.runs.Rows(), 0, 0);
+  std::vector<LeftOutDay> left_out_;
   const ResidualMetric metric_{
       nominal_,
       testing::SensitivityOfErrors(
@@ -80,34 +117,67 @@ class PowerTest : public ::testing::Test {
       false};
 };
 
-TEST_F(PowerTest, IsTheShareOfRecordingsThatShow) {
-  constexpr int kTrials = 2000;
+TEST_F(PowerTest, IsTheShareOfRecordingsThatAreCalled) {
   for (const double cost : {1.0, 6.0, 60.0}) {
     for (const double share : {0.3, 0.8, 1.2}) {
-      const double noncentrality = share * metric_.ExpectedSquare();
-      const double power = PowerOf(noncentrality, cost, metric_, NoiseLevelsOf(nominal_));
-      // The nodes over the noise of a day leave half a node of a fifteenth.
-      const auto shown = static_cast<double>(Shown(noncentrality, cost, kTrials)) / kTrials;
-      EXPECT_NEAR(shown, power, 0.5 / 15.0 + 0.02) << "cost " << cost << ", share " << share;
+      const ErrorShift shift{share * metric_.ExpectedSquare(), share};
+      EXPECT_NEAR(ShareCalled(shift, cost), PowerOf(shift, cost, metric_, Days()), kTolerance)
+          << "cost " << cost << ", share " << share;
     }
   }
 }
 
-TEST_F(PowerTest, GrowsWithTheEffectAndFallsWithTheCost) {
-  const NoiseLevels noise = NoiseLevelsOf(nominal_);
+// References that err more where they take no part than where they do, as on real boats.
+TEST_F(PowerTest, AnEffectOfTheDetectableSizeIsCalledInNineOfTenAmongDifferentDays) {
+  left_out_ = {{1.7, 1.5}, {0.7, 0.9}, {0.8, 1.1}, {1.4, 1.9}};
   const double expected = metric_.ExpectedSquare();
-  EXPECT_LT(PowerOf(0.5 * expected, 5.0, metric_, noise),
-            PowerOf(0.9 * expected, 5.0, metric_, noise));
-  EXPECT_LE(PowerOf(0.5 * expected, 9.0, metric_, noise),
-            PowerOf(0.5 * expected, 5.0, metric_, noise));
+  // Effects that move the weighted errors, the size of the gap, and both.
+  for (const ErrorShift& direction :
+       {ErrorShift{expected, 0.01}, ErrorShift{0.1 * expected, 1.0}, ErrorShift{expected, 1.0}}) {
+    const ErrorShift shift = Detectable(direction, 6.0);
+    EXPECT_NEAR(ShareCalled(shift, 6.0), kPower, kTolerance)
+        << "noncentrality " << shift.noncentrality << ", gap " << shift.squared_gap;
+  }
+}
+
+TEST_F(PowerTest, DaysThatErrMoreWhereTheyTakeNoPartAskForLargerEffects) {
+  const ErrorShift direction{metric_.ExpectedSquare(), 1.0};
+  const double within = Detectable(direction, 6.0).noncentrality;
+  left_out_ = {{1.7, 1.5}, {0.7, 0.9}, {0.8, 1.1}, {1.4, 1.9}};
+  EXPECT_GT(Detectable(direction, 6.0).noncentrality, within);
+}
+
+TEST_F(PowerTest, NothingIsCalledAsOftenAsTheLimitLeaves) {
+  left_out_ = {{1.7, 1.0}, {0.7, 1.0}, {0.8, 1.0}, {1.4, 1.0}};
+  EXPECT_LE(PowerOf({0.0, 0.0}, 6.0, metric_, Days()), 0.05 + kTolerance);
+}
+
+TEST_F(PowerTest, GrowsWithTheEffectAndFallsWithTheCost) {
+  const double expected = metric_.ExpectedSquare();
+  const ErrorShift smaller{0.5 * expected, 0.5};
+  const ErrorShift larger{0.9 * expected, 0.9};
+  EXPECT_LT(PowerOf(smaller, 5.0, metric_, Days()), PowerOf(larger, 5.0, metric_, Days()));
+  EXPECT_LE(PowerOf(smaller, 9.0, metric_, Days()), PowerOf(smaller, 5.0, metric_, Days()));
+}
+
+TEST_F(PowerTest, TheDaysAreThoseLeftOut) {
+  left_out_ = {{std::exp(0.5), std::exp(0.2)}, {std::exp(-0.5), std::exp(0.6)}};
+  const DayToDay days = Days();
+  EXPECT_NEAR(days.log_nominal, 0.0, 1e-12);
+  EXPECT_NEAR(days.noise.log_mean, 0.4, 1e-12);
+  EXPECT_NEAR(days.noise.log_sd, std::sqrt(0.08 * 1.5), 1e-12);
+  EXPECT_NEAR(days.squared_gap.log_mean, 0.0, 1e-12);
+  EXPECT_NEAR(days.squared_gap.log_sd, std::sqrt(0.5 * 1.5), 1e-12);
+  EXPECT_TRUE(days.squared_limit.has_value());
 }
 
 TEST_F(PowerTest, ASingleReferenceIsGivenAnAssumedScatter) {
   nominal_.log_reduced_chi_squares = {0.3};
-  const NoiseLevels noise = NoiseLevelsOf(nominal_);
-  EXPECT_EQ(noise.log_mean, 0.3);
-  EXPECT_NEAR(noise.log_sd, kDiagnosis.gap.single_recording_sd * std::sqrt(2.0), 1e-12);
-  EXPECT_EQ(noise.degrees_of_freedom, 1.0);
+  const DayToDay days = Days();
+  EXPECT_EQ(days.noise.log_mean, 0.3);
+  EXPECT_NEAR(days.noise.log_sd, kDiagnosis.gap.single_recording_sd * std::sqrt(2.0), 1e-12);
+  EXPECT_EQ(days.noise.degrees_of_freedom, 1.0);
+  EXPECT_FALSE(days.squared_limit.has_value());
 }
 
 // ---- simulated recordings -----------------------------------------------------------------------
@@ -158,7 +228,7 @@ class GateTest : public ::testing::Test {
           ErrorModelOf(problem.runs, nominal_->boat), metric, {effect_},
           StartsOf(*effect_, metric, problem.recording.errors, problem.recording, parameter_refs_));
       const LackOfFit lack_of_fit{metric.ReducedChiSquare(metric.Whiten(problem.recording.errors)),
-                                  1.0, std::exp(NoiseLevelsOf(*nominal_).log_mean), 0.0};
+                                  1.0, std::exp(DayToDayOf(*nominal_, {}).log_nominal), 0.0};
       return AssessGap(0.0, 0.0, 1.0, fit.score + kNominalGain, lack_of_fit) ==
              GapAssessment::kMaterial;
     });
@@ -176,7 +246,8 @@ class GateTest : public ::testing::Test {
 
 TEST_F(GateTest, AnEffectOfTheDetectableSizeShowsAsOftenAsStated) {
   const auto sizes = Of(SameManoeuvres({}, 100), [&](const DiagnosisProblem& problem) {
-    return DetectableSizesOf(*effect_, problem, kNominalGain);
+    return DetectableSizesOf(*effect_, problem, NoiseFloorOf(reference_runs_, nominal_->boat).scale,
+                             DayToDayOf(*nominal_, {}), kNominalGain);
   });
   ASSERT_EQ(sizes.size(), 1U);
   ASSERT_TRUE(sizes[0].size.has_value());
