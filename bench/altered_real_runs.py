@@ -137,7 +137,7 @@ def power_text(answer):
     """The sizes from which on the altered log would show the true effect in 90 % of cases."""
     effects = {e["effect"]: e for e in answer.report.get("effects", [])}
     sizes = effects.get(answer.alteration.effect, {}).get("detectableSizes", [])
-    texts = [f"{p['size']:.2f} {p['unit']}" if "size" in p else "beyond range" for p in sizes
+    texts = [f"{p['size']:.2f} {p['unit']}".removesuffix(" 1") if "size" in p else "beyond range" for p in sizes
              if p["name"] in answer.alteration.sizes]
     return ", ".join(texts) or "–"
 
