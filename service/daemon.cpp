@@ -14,6 +14,7 @@
 
 #include "telltale/client/bus/topics.hpp"
 #include "telltale/client/fleet/request_reply.hpp"
+#include "telltale/service/supervision/service_manager.hpp"
 
 namespace telltale {
 namespace {
@@ -108,9 +109,13 @@ Daemon::Daemon(const DaemonConfig& config, Endings endings)
     TakeOver(ModelQos(), false);
   }
   KeepSlices();
-  if (!config.http) return;
+  if (config.http) Open(*config.http);
+  if (ServiceManager::Listens()) supervision_.emplace([this] { return Activity(); });
+}
+
+void Daemon::Open(const HttpSettings& http) {
   web_.emplace(
-      *config.http, fleet_, models_, diagnoses_, view_, [this] { return Activity(); },
+      http, fleet_, models_, diagnoses_, view_, [this] { return Activity(); },
       OrderHandlers{.serves = [this] { return role_.Serves(); },
                     .identify = [this](IdentifyRequest request) { Submit(std::move(request)); },
                     .diagnose = [this](DiagnoseRequest request) { Submit(std::move(request)); },
@@ -207,6 +212,7 @@ void Daemon::TakeOver(const Qos& model_contract, bool succeeds) {
   }
   BeginUpkeep();
   sources_.emplace(participant_, config_.sources, view_);
+  has_taken_over_ = true;
 }
 
 /// The role is given up already. What was published while the other daemon could not hear it goes
@@ -275,6 +281,10 @@ void Daemon::BeginUpkeep() {
 
 DaemonActivity Daemon::Activity() const {
   DaemonActivity activity;
+  activity.serves = role_.Serves();
+  activity.is_ready = has_taken_over_ || (fail_over_ && fail_over_->HasFollowed());
+  activity.vehicles = fleet_.windows().size();
+  activity.heartbeats = ingest_.Heartbeats();
   activity.queues = {jobs_.Activity(), diagnosis_jobs_.Activity()};
   activity.stores = {{"models", models_.Written()},
                      {"windows", windows_.Written()},

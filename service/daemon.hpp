@@ -1,5 +1,6 @@
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -32,6 +33,7 @@
 #include "telltale/service/standby/heard_requests.hpp"
 #include "telltale/service/storage/directory_lock.hpp"
 #include "telltale/service/storage/storage.hpp"
+#include "telltale/service/supervision/supervision.hpp"
 #include "telltale/service/upkeep/upkeep.hpp"
 #include "telltale/service/web/web_server.hpp"
 #include "telltale/service/windows/window_archive.hpp"
@@ -69,6 +71,7 @@ class Daemon {
   void ResumeUnanswered(bool succeeds);
   void Resume(std::vector<AnyRequest> requests, const char* whose);
   void BeginUpkeep();
+  void Open(const HttpSettings& http);
   void Heartbeat(bool has_received);
   DaemonActivity Activity() const;
 
@@ -102,10 +105,12 @@ class Daemon {
   QualityPublisher quality_;
   std::optional<Upkeep> upkeep_;               ///< while it serves
   std::optional<LiveSources> sources_;         ///< likewise: a standby would publish all twice
+  std::atomic<bool> has_taken_over_ = false;   ///< the role to serve, with all that goes with it
   const std::unique_ptr<FailOver> fail_over_;  ///< null: this daemon serves alone
   Ingest ingest_;
   std::optional<WebServer> web_;
   std::optional<SliceKeeper> slice_keeper_;
+  std::optional<Supervision> supervision_;  ///< while a service manager listens
 };
 
 }  // namespace telltale

@@ -19,6 +19,7 @@
 #include "telltale/service/daemon.hpp"
 #include "telltale/service/monitoring/daemon_log.hpp"
 #include "telltale/service/storage/backup.hpp"
+#include "telltale/service/supervision/service_manager.hpp"
 
 namespace telltale {
 namespace {
@@ -59,7 +60,7 @@ class Signals {
 };
 
 /// A wrong configuration changes nothing.
-void Reload(Daemon& daemon, const std::string& config_file) {
+void ReloadVehicles(Daemon& daemon, const std::string& config_file) {
   const auto config = LoadConfiguration(config_file);
   if (!config) {
     return spdlog::error("the vehicles are not reloaded: {}", config.error().Message());
@@ -69,6 +70,12 @@ void Reload(Daemon& daemon, const std::string& config_file) {
   } catch (const DatabaseError& error) {
     spdlog::error("the vehicles are reloaded, and not all of their models: {}", error.what());
   }
+}
+
+void Reload(Daemon& daemon, const std::string& config_file) {
+  ServiceManager::TellReloading();
+  ReloadVehicles(daemon, config_file);
+  ServiceManager::TellReady();
 }
 
 /// Of SQLite: PostgreSQL has programs of its own for this.
@@ -105,6 +112,7 @@ Event ServeOnce(const DaemonConfig& config, const std::string& config_file, cons
                config.domain, config.database.empty() ? config.state_directory : "PostgreSQL");
   for (;;) {
     const Event event = signals.Wait();
+    if (event == Event::kStop) ServiceManager::TellStopping();
     if (event != Event::kReload) return event;
     Reload(daemon, config_file);
   }

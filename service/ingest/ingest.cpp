@@ -8,6 +8,8 @@
 #include <type_traits>
 #include <utility>
 
+#include <pthread.h>
+
 #include <spdlog/spdlog.h>
 
 #include "telltale/client/bus/topics.hpp"
@@ -103,6 +105,7 @@ Ingest::~Ingest() {
 }
 
 void Ingest::Run() {
+  pthread_setname_np(pthread_self(), "ingest");  // as `top -H` and debuggers show it
   try {
     auto next_heartbeat = Clock::now();
     bool has_received = false;
@@ -122,6 +125,7 @@ void Ingest::Run() {
 
 void Ingest::Heartbeat(bool has_received) {
   handlers_.heartbeat(has_received);
+  ++heartbeats_;
   const auto now = Clock::now();
   const auto reopen = [now](auto& reader, const char* what) {
     if (reader.ReopenIfSilent(now))

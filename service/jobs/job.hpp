@@ -46,6 +46,7 @@ struct Job {
   Urgency urgency = Urgency::kInteractive;
   std::uint64_t number = 0;                  ///< counts up by one per job
   std::optional<Clock::time_point> started;  ///< unset: it waits
+  Clock::time_point advanced;                ///< its latest report of progress
 
   bool Waits() const { return !started; }
 

@@ -116,6 +116,7 @@ class JobQueue {
   std::size_t UnansweredOf(WriterHandle client) const;
   double RetryAfterS(Urgency urgency) const;
   std::size_t Waiting() const;
+  Clock::duration LongestSilence() const;
   std::shared_ptr<Job> JobLike(const Request& request) const;
   void Queue(Request request, Urgency urgency, Asker asker);
   void Run(Urgency urgency);
@@ -282,10 +283,20 @@ std::size_t JobQueue<Request, Stage, Reply>::Waiting() const {
 }
 
 template <class Request, class Stage, class Reply>
+auto JobQueue<Request, Stage, Reply>::LongestSilence() const -> Clock::duration {
+  Clock::duration longest{0};
+  const auto now = Clock::now();
+  for (const auto& job : jobs_) {
+    if (!job->Waits()) longest = std::max(longest, now - job->advanced);
+  }
+  return longest;
+}
+
+template <class Request, class Stage, class Reply>
 QueueActivity JobQueue<Request, Stage, Reply>::Activity() const {
   const std::lock_guard lock(mutex_);
   const std::size_t waiting = Waiting();
-  return {what_, waiting, jobs_.size() - waiting, workers_.size(), shed_};
+  return {what_, waiting, jobs_.size() - waiting, workers_.size(), LongestSilence(), shed_};
 }
 
 /// Why the queue cannot take a request.
@@ -441,7 +452,7 @@ auto JobQueue<Request, Stage, Reply>::AwaitNext(Urgency urgency) -> std::shared_
       continue;
     }
     if (auto next = NextRunnable(urgency)) {
-      next->started = Clock::now();
+      next->started = next->advanced = Clock::now();
       running_vehicles_.emplace(urgency, next->request.vehicle_id);
       last_begun_[next->request.vehicle_id] = ++begun_;
       return next;
@@ -530,6 +541,7 @@ void JobQueue<Request, Stage, Reply>::Report(const std::shared_ptr<Job>& job,
   bool abandoned = false;
   {
     const std::lock_guard lock(mutex_);
+    job->advanced = Clock::now();
     expired = Expire();
     abandoned = job->askers.empty();
     for (const Asker& asker : job->askers) {

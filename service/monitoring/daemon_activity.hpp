@@ -21,6 +21,11 @@ struct StoreActivity {
 
 /// What the parts of the daemon are at, and what they have done since it started.
 struct DaemonActivity {
+  bool serves = false;    ///< answers requests and publishes
+  bool is_ready = false;  ///< it serves, or stands by for a daemon that does
+  std::size_t vehicles = 0;
+  std::uint64_t heartbeats =
+      0;  ///< rounds of the ingest loop that were counted, one a second or more
   std::vector<QueueActivity> queues;
   std::vector<StoreActivity> stores;
   std::array<std::uint64_t, kChannels.size()> received{};  ///< samples taken from the bus

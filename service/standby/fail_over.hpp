@@ -50,6 +50,9 @@ class FailOver {
   /// has received anything from boats or clients since the last time.
   void Heartbeat(bool has_heard_fleet);
 
+  /// Whether another daemon has served since this one started. Any thread may call it.
+  bool HasFollowed() const;
+
  private:
   using Clock = Election::Clock;
 
@@ -62,7 +65,6 @@ class FailOver {
   void StepDown(const std::string& why);
   void Publish(const DaemonStatus& status);
   DaemonStatus Self() const;
-  bool HasFollowed() const;
 
   const Clock::duration patience_;  ///< between two decisions
   Role& role_;

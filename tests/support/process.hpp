@@ -35,6 +35,7 @@ class Process {
   std::optional<int> Wait(std::chrono::seconds timeout = std::chrono::seconds(180));
 
   void Signal(int signal) const;
+  pid_t id() const { return pid_; }
 
   /// Stops the program where it is; it does nothing more once this returns.
   void Suspend() const;

@@ -286,6 +286,32 @@ TEST_F(Jobs, LetNobodyWaitForACoverageCheck) {
   }
 }
 
+TEST_F(Jobs, SayHowLongTheirWorkHasReportedNothing) {
+  using Clock = std::chrono::steady_clock;
+  std::promise<void> may_report;
+  std::promise<void> reported;
+  std::promise<void> may_end;
+  Queue queue("identification", fleet_, replies_, {.interactive = 1}, 10,
+              [&](const IdentifyRequest& request, const Computation& computation) {
+                may_report.get_future().wait();
+                computation.Report("fitting", 0.5);
+                reported.set_value();
+                may_end.get_future().wait();
+                return ReplyTo<IdentifyReply>(request, ReplyOutcome::kRefused, "done");
+              });
+  EXPECT_EQ(queue.Activity().silence, 0s);
+  queue.Submit(RequestNamed("a", "one"));
+  while (queue.Activity().silence < 50ms) std::this_thread::yield();
+  const auto before_report = Clock::now();
+  may_report.set_value();
+  reported.get_future().wait();
+  const auto silence = queue.Activity().silence;
+  EXPECT_LE(silence, Clock::now() - before_report);
+  may_end.set_value();
+  while (queue.Activity().running > 0) std::this_thread::yield();
+  EXPECT_EQ(queue.Activity().silence, 0s);
+}
+
 // A worker that gave way itself would hold the queue while it gets no processor, and whoever
 // submits a request would wait for it.
 TEST_F(Jobs, FinishACoverageCheckWithoutGivingWay) {

@@ -1,0 +1,61 @@
+#include "telltale/service/supervision/supervision.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cstddef>
+#include <utility>
+
+#include <spdlog/fmt/fmt.h>
+
+#include "telltale/service/supervision/service_manager.hpp"
+
+namespace telltale {
+namespace {
+
+std::chrono::microseconds LookPeriod() {
+  constexpr std::chrono::microseconds kOfStatus = std::chrono::seconds(1);
+  const auto longest_silence = ServiceManager::LongestSilence();
+  return longest_silence ? std::min(kOfStatus, *longest_silence / 4) : kOfStatus;
+}
+
+const char* RoleOf(const DaemonActivity& activity) {
+  if (activity.serves) return "serving";
+  return activity.is_ready ? "standing by for" : "starting with";
+}
+
+}  // namespace
+
+std::string StatusLine(const DaemonActivity& activity) {
+  std::size_t waiting = 0;
+  std::size_t running = 0;
+  for (const QueueActivity& queue : activity.queues) {
+    waiting += queue.waiting;
+    running += queue.running;
+  }
+  return fmt::format("{} {} vehicles; {} requests wait, {} are worked on", RoleOf(activity),
+                     activity.vehicles, waiting, running);
+}
+
+Supervision::Supervision(std::function<DaemonActivity()> look)
+    : look_(std::move(look)), thread_([this](const std::stop_token& stop) { Run(stop); }) {}
+
+void Supervision::Run(const std::stop_token& stop) {
+  const auto period = LookPeriod();
+  std::unique_lock lock(mutex_);
+  while (!stop.stop_requested()) {
+    Look();
+    wake_.wait_for(lock, stop, period, [] { return false; });
+  }
+}
+
+void Supervision::Look() {
+  const DaemonActivity activity = look_();
+  if (activity.is_ready && !std::exchange(told_ready_, true)) ServiceManager::TellReady();
+  if (const std::string status = StatusLine(activity); status != told_status_) {
+    ServiceManager::TellStatus(status);
+    told_status_ = status;
+  }
+  if (liveness_.Advances(activity)) ServiceManager::TellAlive();
+}
+
+}  // namespace telltale
