@@ -73,7 +73,7 @@ finish
 
 echo "== Removal takes all but configuration and data, purge the configuration"
 run removing inside apt-get remove -y telltale telltaled python3-telltale
-[[ ! -e $tree/usr/bin/telltaled && ! -e $tree/usr/lib/systemd/system/telltaled.service ]] || fail "removal leaves files"
+[[ ! -e $tree/usr/bin/telltaled && -z $(find "$tree/usr/lib/systemd" -name 'telltaled*') ]] || fail "removal leaves files"
 [[ -e $tree/etc/telltale/telltaled.textproto && -e $tree/var/lib/telltale/models.sqlite ]] || fail "removal takes data"
 run purging inside dpkg --purge telltale telltaled python3-telltale
 left=$(find "$tree/etc" "$tree/usr" -iname '*telltale*')

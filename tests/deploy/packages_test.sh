@@ -20,6 +20,7 @@ holds() { [[ $'\n'$(contents "$1")$'\n' == *$'\n'"$2"$'\n'* ]] || fail "$1 does 
 holds telltale /usr/bin/telltale
 holds telltaled /usr/bin/telltaled
 holds telltaled /usr/lib/systemd/system/telltaled.service
+holds telltaled /usr/lib/systemd/system/telltaled@.service
 holds telltaled /etc/telltale/telltaled.textproto
 holds libtelltale-dev /usr/include/telltale/core/identification/identify.hpp
 holds libtelltale-dev /usr/lib/cmake/telltale/telltaleConfig.cmake
