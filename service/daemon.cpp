@@ -284,7 +284,7 @@ DaemonActivity Daemon::Activity() const {
   activity.serves = role_.Serves();
   activity.is_ready = has_taken_over_ || (fail_over_ && fail_over_->HasFollowed());
   activity.vehicles = fleet_.windows().size();
-  activity.heartbeats = ingest_.Heartbeats();
+  activity.ingest_silence = ingest_.Silence();
   activity.queues = {jobs_.Activity(), diagnosis_jobs_.Activity()};
   activity.stores = {{"models", models_.Written()},
                      {"windows", windows_.Written()},

@@ -59,6 +59,7 @@ Ingest::Ingest(const Participant& participant, Fleet& fleet, bool require_partit
       senders_(require_partition),
       intake_(limits),
       warning_limit_(5, std::chrono::seconds(10)),
+      last_heartbeat_(Clock::now()),
       wait_set_(participant),
       gnss_(
           participant, wait_set_,
@@ -125,7 +126,7 @@ void Ingest::Run() {
 
 void Ingest::Heartbeat(bool has_received) {
   handlers_.heartbeat(has_received);
-  ++heartbeats_;
+  last_heartbeat_ = Clock::now();
   const auto now = Clock::now();
   const auto reopen = [now](auto& reader, const char* what) {
     if (reader.ReopenIfSilent(now))
@@ -138,6 +139,10 @@ void Ingest::Heartbeat(bool has_received) {
   reopen(diagnose_requests_, "diagnose requests");
   reopen(fleet_requests_, "fleet requests");
   NoteMatches();
+}
+
+std::chrono::steady_clock::duration Ingest::Silence() const {
+  return Clock::now() - last_heartbeat_.load();
 }
 
 void Ingest::NoteMatches() {

@@ -62,8 +62,8 @@ class Ingest {
   /// next one.
   std::array<std::uint64_t, kChannels.size()> Received() const;
 
-  /// How often the loop has come round by now, as `heartbeat` of the handlers counts.
-  std::uint64_t Heartbeats() const { return heartbeats_; }
+  /// Since the latest heartbeat, or since the start.
+  std::chrono::steady_clock::duration Silence() const;
 
   /// The connections of the last second.
   std::vector<TopicConnections> Matches() const;
@@ -98,7 +98,7 @@ class Ingest {
   std::unordered_map<InstanceHandle, Boat*> known_;  ///< those of boats_, as of known_generation_
   std::uint64_t known_generation_ = 0;
   std::array<std::atomic<std::uint64_t>, kChannels.size()> received_{};  ///< by channel
-  std::atomic<std::uint64_t> heartbeats_ = 0;
+  std::atomic<std::chrono::steady_clock::time_point> last_heartbeat_;
   mutable std::mutex matches_mutex_;
   std::vector<TopicConnections> matches_;
   WaitSet wait_set_;  // before the readers attached to it, so that it goes last

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <string>
@@ -24,8 +25,7 @@ struct DaemonActivity {
   bool serves = false;    ///< answers requests and publishes
   bool is_ready = false;  ///< it serves, or stands by for a daemon that does
   std::size_t vehicles = 0;
-  std::uint64_t heartbeats =
-      0;  ///< rounds of the ingest loop that were counted, one a second or more
+  std::chrono::steady_clock::duration ingest_silence{0};  ///< since the ingest loop came round
   std::vector<QueueActivity> queues;
   std::vector<StoreActivity> stores;
   std::array<std::uint64_t, kChannels.size()> received{};  ///< samples taken from the bus

@@ -1,25 +1,24 @@
 #pragma once
 
 #include <chrono>
-#include <cstdint>
+#include <string>
 
 #include "telltale/service/monitoring/daemon_activity.hpp"
 
 namespace telltale {
 
-/// Whether the threads of a daemon advance, by what it says of itself at one look after another.
-/// The ingest thread advances where its loop has come round since the last look at which all
-/// advanced. A worker advances while it has no request, and while its computation reports progress.
-class Liveness {
- public:
-  /// The longest step of a computation between two reports of progress, with the processors full of
-  /// more urgent work: of a coverage check at nice 19 some minutes.
-  static constexpr std::chrono::minutes kLongestStep{30};
+/// The longest time between two rounds of the ingest loop, which comes round every second or two.
+inline constexpr std::chrono::seconds kLongestRound{5};
 
-  bool Advances(const DaemonActivity& activity);
+/// The longest step of a computation between two reports of progress, with the processors full of
+/// more urgent work: of a coverage check at nice 19 some minutes.
+inline constexpr std::chrono::minutes kLongestStep{30};
 
- private:
-  std::uint64_t heartbeats_ = 0;  ///< at the last look at which all advanced
-};
+/// Whether the threads of a daemon advance: its ingest loop comes round, and each request that is
+/// worked on reports progress.
+bool IsAlive(const DaemonActivity& activity);
+
+/// A line for people: "serving 12 vehicles; 3 requests wait, 1 are worked on".
+std::string StatusLine(const DaemonActivity& activity);
 
 }  // namespace telltale

@@ -2,11 +2,9 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cstddef>
 #include <utility>
 
-#include <spdlog/fmt/fmt.h>
-
+#include "telltale/service/supervision/liveness.hpp"
 #include "telltale/service/supervision/service_manager.hpp"
 
 namespace telltale {
@@ -18,23 +16,7 @@ std::chrono::microseconds LookPeriod() {
   return longest_silence ? std::min(kOfStatus, *longest_silence / 4) : kOfStatus;
 }
 
-const char* RoleOf(const DaemonActivity& activity) {
-  if (activity.serves) return "serving";
-  return activity.is_ready ? "standing by for" : "starting with";
-}
-
 }  // namespace
-
-std::string StatusLine(const DaemonActivity& activity) {
-  std::size_t waiting = 0;
-  std::size_t running = 0;
-  for (const QueueActivity& queue : activity.queues) {
-    waiting += queue.waiting;
-    running += queue.running;
-  }
-  return fmt::format("{} {} vehicles; {} requests wait, {} are worked on", RoleOf(activity),
-                     activity.vehicles, waiting, running);
-}
 
 Supervision::Supervision(std::function<DaemonActivity()> look)
     : look_(std::move(look)), thread_([this](const std::stop_token& stop) { Run(stop); }) {}
@@ -55,7 +37,7 @@ void Supervision::Look() {
     ServiceManager::TellStatus(status);
     told_status_ = status;
   }
-  if (liveness_.Advances(activity)) ServiceManager::TellAlive();
+  if (IsAlive(activity)) ServiceManager::TellAlive();
 }
 
 }  // namespace telltale

@@ -8,12 +8,8 @@
 #include <thread>
 
 #include "telltale/service/monitoring/daemon_activity.hpp"
-#include "telltale/service/supervision/liveness.hpp"
 
 namespace telltale {
-
-/// A line for `systemctl status`: "serving 12 vehicles; 3 requests wait, 1 is worked on".
-std::string StatusLine(const DaemonActivity& activity);
 
 /// Tells the service manager that the daemon is ready, how it stands, and, while its threads
 /// advance, that it is alive. On a thread of its own, which asks the daemon several times a
@@ -31,8 +27,7 @@ class Supervision {
   void Look();
 
   const std::function<DaemonActivity()> look_;
-  Liveness liveness_;  // of the thread, as the next two
-  bool told_ready_ = false;
+  bool told_ready_ = false;  // of the thread, as the next
   std::string told_status_;
   std::mutex mutex_;  // of wake_
   std::condition_variable_any wake_;

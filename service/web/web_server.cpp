@@ -3,6 +3,7 @@
 #include <chrono>
 #include <sstream>
 #include <stdexcept>
+#include <string>
 #include <utility>
 
 #include <prometheus/text_serializer.h>
@@ -12,6 +13,7 @@
 #include "telltale/idl/codec/json/json_message.hpp"
 #include "telltale/idl/proto/fleet.pb.h"
 #include "telltale/service/monitoring/fleet_json.hpp"
+#include "telltale/service/supervision/liveness.hpp"
 #include "telltale/service/web/bounded_connections.hpp"
 #include "telltale/service/web/json_answer.hpp"
 #include "telltale/service/web/page_assets.hpp"
@@ -114,8 +116,9 @@ WebServer::WebServer(const HttpSettings& settings, const Fleet& fleet,
                      FleetView& view, std::function<DaemonActivity()> activity,
                      OrderHandlers handlers)
     : view_(view),
+      activity_(std::move(activity)),
       rates_(settings.requests_per_minute),
-      metrics_(view, std::move(activity), handlers.serves),
+      metrics_(view, activity_, handlers.serves),
       api_(fleet, models, diagnoses, view, std::move(handlers), ReadToken(settings.token_file)),
       server_(MakeServer(settings)) {
   Limit(settings.connections);
@@ -123,6 +126,7 @@ WebServer::WebServer(const HttpSettings& settings, const Fleet& fleet,
   AnswerFaults();
   AddPage();
   AddMetrics();
+  AddConditions();
   AddEvents(settings.connections - settings.connections / 4);
   api_.AddRoutes(*server_);
   const std::string address = Bind(*server_, settings);
@@ -216,6 +220,25 @@ void WebServer::AddMetrics() {
     prometheus::TextSerializer().Serialize(text, metrics_.Collect());
     response.set_content(text.str(), "text/plain; version=0.0.4; charset=utf-8");
   });
+}
+
+/// What orchestrators ask for: whether to send clients here, and whether to start the daemon again.
+void WebServer::AddConditions() {
+  const auto add = [this](const char* route, const char* otherwise, auto holds) {
+    server_->Get(route, [=, this](const httplib::Request& request, httplib::Response& response) {
+      const DaemonActivity activity = activity_();
+      if (!holds(activity)) {
+        return AnswerFailure(503, otherwise + StatusLine(activity), "ask again", response);
+      }
+      proto::Condition condition;
+      condition.set_status(StatusLine(activity));
+      AnswerJson(condition, request, response);
+    });
+  };
+  add("/api/v1/ready", "the daemon does not serve yet: ", [](const DaemonActivity& activity) {
+    return activity.is_ready;
+  });
+  add("/api/v1/alive", "a thread of the daemon does not advance: ", IsAlive);
 }
 
 /// A quarter of the connections is left for all else.

@@ -29,11 +29,13 @@ class WebServer {
   void PrepareRequests();
   void AddPage();
   void AddMetrics();
+  void AddConditions();
   void AddEvents(std::size_t streams);
   void Follow(httplib::Response& response);
   void AnswerFaults();
 
   FleetView& view_;
+  const std::function<DaemonActivity()> activity_;
   RequestRates rates_;
   FleetMetrics metrics_;
   FleetApi api_;

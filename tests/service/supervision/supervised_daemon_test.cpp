@@ -1,6 +1,7 @@
 #include <signal.h>
 
 #include <chrono>
+#include <cstddef>
 #include <string>
 
 #include <gmock/gmock.h>
@@ -9,6 +10,7 @@
 #include "service/service_fixture.hpp"
 #include "support/frozen_thread.hpp"
 #include "support/notify_socket.hpp"
+#include "telltale/service/web/httplib.hpp"
 
 namespace telltale {
 namespace {
@@ -16,6 +18,12 @@ namespace {
 using namespace std::chrono_literals;
 using ::testing::HasSubstr;
 using ::testing::Not;
+
+/// Where the log of a daemon says that its page is: "http://127.0.0.1:8480".
+std::string PageOf(const std::string& log) {
+  const std::size_t begin = log.find("http://127.0.0.1:");
+  return log.substr(begin, log.find('/', begin + std::string("http://").size()) - begin);
+}
 
 /// telltaled, and what it tells the service manager that has started it.
 class SupervisedDaemon : public ServiceTest {
@@ -67,16 +75,28 @@ TEST_F(SupervisedDaemon, SaysThatItReloadsAndThatItStops) {
 }
 
 TEST_F(SupervisedDaemon, GivesNoSignOfLifeWhileItTakesInNothing) {
+  Configure("http { port: 0 }\n");
   Process daemon = Start();
   for (int sign = 0; sign < 3; ++sign) ASSERT_TRUE(manager_.Await("WATCHDOG=1")) << daemon.output();
+  ASSERT_TRUE(daemon.WaitForOutput("page is at http://"));
+  httplib::Client web(PageOf(daemon.output()));
+  const auto status_of = [&](const char* route) { return web.Get(route)->status; };
+  EXPECT_EQ(status_of("/api/v1/ready"), 200);
+  EXPECT_EQ(status_of("/api/v1/alive"), 200);
   {
     const FrozenThread ingest(daemon.id(), "ingest");
-    // One may have been due when the thread stopped. Status lines may still come.
+    // Until the thread counts as silent there is a sign at each look, one a second.
+    constexpr int kMostStillDue = 20;
     int signs = 0;
-    while (const auto message = manager_.Next(kWatchdog)) signs += message->starts_with("WATCHDOG");
-    EXPECT_LE(signs, 1);
+    for (auto message = manager_.Next(kWatchdog); message && signs <= kMostStillDue;
+         message = manager_.Next(kWatchdog)) {
+      signs += message->starts_with("WATCHDOG");
+    }
+    EXPECT_LE(signs, kMostStillDue);
+    EXPECT_EQ(status_of("/api/v1/alive"), 503);
   }
   EXPECT_TRUE(manager_.Await("WATCHDOG=1"));
+  EXPECT_EQ(status_of("/api/v1/alive"), 200);
 }
 
 }  // namespace
