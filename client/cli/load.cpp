@@ -27,14 +27,14 @@ namespace {
 using LoadClock = std::chrono::steady_clock;
 
 // A boat sends what the bundled recording holds: 5 fixes, 50 headings and 10 commands a second.
-constexpr int kTicksPerSecond = 50;  // times LoadArguments::times
+constexpr double kTicksPerSecond = 50.0;  // times LoadArguments::times
 constexpr int kTicksPerFix = 10;
 constexpr int kTicksPerCommand = 5;
 
 struct LoadArguments {
   int boats = 100;
   double duration_s = 60.0;
-  int times = 1;
+  double times = 1.0;
   double speed = 1.0;
   std::filesystem::path write_vehicles;
   LiveOptions live;
@@ -120,7 +120,7 @@ void Load(const LoadArguments& arguments) {
   if (!WaitForMatch(participant, {gnss, heading, thrusters}, arguments.live.Timeout())) {
     throw std::runtime_error("nobody takes telemetry: " + NobodyThereAdvice(arguments.live.domain));
   }
-  const int ticks_per_s = kTicksPerSecond * arguments.times;
+  const auto ticks_per_s = static_cast<int>(std::lround(kTicksPerSecond * arguments.times));
   std::vector<LoadBoat> boats;
   for (int i = 1; i <= arguments.boats; ++i) boats.emplace_back(i, ticks_per_s);
   ProgressLine line;
@@ -165,9 +165,10 @@ void AddLoad(CLI::App& telltale) {
       ->check(NumberWithin(0.1, 86400.0))
       ->capture_default_str();
   command
-      .add_option("--times", arguments->times, "times as many samples of each boat, as an overload")
-      ->type_name("N")
-      ->check(CLI::Range(1, 20))
+      .add_option("--times", arguments->times,
+                  "times as many samples of each boat, more as an overload, or less")
+      ->type_name("X")
+      ->check(NumberWithin(1.0 / kTicksPerSecond, 20.0))
       ->capture_default_str();
   command
       .add_option("--speed", arguments->speed,

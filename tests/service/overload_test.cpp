@@ -114,6 +114,14 @@ TEST_F(OverloadedDaemon, ThinsTheBoatThatSendsTooMuch) {
   EXPECT_GE(ShedOf(*quality, Channel::kHeading), 9 * Sum(quality->shed) / 10);
 }
 
+// 5 headings, half a fix and one command a second instead of 50, 5 and 10.
+TEST_F(OverloadedDaemon, IsSentLessWhereTheLoadIsSetSo) {
+  const auto daemon = StartWith("");
+  const auto load =
+      Start({"load", "--boats", std::to_string(kBoats), "--times", "0.1", "--duration", "4"});
+  EXPECT_EQ(SentByEach(*load), 4u * 5 + 2 + 4);
+}
+
 // A replay ends once the daemon has accounted for every sample.
 TEST_F(OverloadedDaemon, CountsAsShedWhatIsMissing) {
   const auto daemon = StartWith("intake { vehicle_samples_per_s: 500 }\n");
