@@ -50,6 +50,27 @@ TEST(SequenceGaps, CountsWhatIsMissingAmongTheSamplesThatConfirmASilence) {
   EXPECT_EQ(gaps.lost(), 601u);
 }
 
+// 1000 samples a second, of which those of a second are lost.
+TEST(SequenceGaps, CountsTheLossOfAChannelThatIsFasterThanUsual) {
+  SequenceGaps gaps;
+  for (std::uint64_t number = 1; number <= 3000; ++number) {
+    if (number <= 1000 || number > 2000) gaps.Note(number, 1e-3 * static_cast<double>(number));
+  }
+  EXPECT_EQ(gaps.lost(), 1000u);
+}
+
+// 2099 samples are missing, in a second in which 2000 could be sent at twice the rate.
+TEST(SequenceGaps, CountsNoMoreThanTwiceTheRateOfAChannel) {
+  SequenceGaps gaps;
+  for (std::uint64_t number = 1; number <= 1000; ++number) {
+    gaps.Note(number, 1e-3 * static_cast<double>(number));
+  }
+  for (std::uint64_t number = 3100; number < 3200; ++number) {  // a second later
+    gaps.Note(number, 1e-3 * static_cast<double>(number - 1100));
+  }
+  EXPECT_EQ(gaps.lost(), 0u);
+}
+
 TEST(SequenceGaps, TakesABoatThatStartsAnewForThat) {
   SequenceGaps gaps;
   double time_s = 0.0;
