@@ -6,16 +6,12 @@
 Starts telltaled and `telltale load` on this machine. Prints the processor time of telltaled, its memory, and the samples
 that it took in and lost by their sequence numbers, with the packets that found its receive buffers full. TELLTALE_BUILT names the build folder.
 """
-import argparse
 
-from daemon_under_load import Fleet
+from daemon_under_load import Fleet, given_arguments
 
 
 def main():
-    arguments = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    arguments.add_argument("--boats", type=int, default=1000)
-    arguments.add_argument("--seconds", type=float, default=300)
-    given = arguments.parse_args()
+    given = given_arguments(__doc__, boats=1000, seconds=300.0)
     with Fleet(given.boats) as fleet:
         idle = fleet.resident_bytes()
         fleet.await_telemetry()

@@ -7,20 +7,16 @@
 the time of the refresh, and its ratio to the computing alone: the times in which the daemon worked on a boat, as its log
 has them. TELLTALE_BUILT names the build folder.
 """
-import argparse
 import re
 import time
 
-from daemon_under_load import Fleet
+from daemon_under_load import Fleet, given_arguments
 
 WORKED_ON = re.compile(r"identification of (load-\d+) for \S+: (\w+) in ([0-9.]+) s")
 
 
 def main():
-    arguments = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    arguments.add_argument("--boats", type=int, default=1000)
-    arguments.add_argument("--recorded", type=float, default=600)
-    given = arguments.parse_args()
+    given = given_arguments(__doc__, boats=1000, recorded=600.0)
     with Fleet(given.boats) as fleet:
         fleet.await_telemetry()
         time.sleep(given.recorded)
@@ -29,7 +25,7 @@ def main():
         begun, cpu_s = time.monotonic(), fleet.cpu_s()
         fleet.telltale("refresh", "--all")
         took_s, cpu_s = time.monotonic() - begun, fleet.cpu_s() - cpu_s
-        worked = WORKED_ON.findall((fleet.folder / "log").read_text())
+        worked = WORKED_ON.findall(fleet.log())
     computing_s = sum(float(seconds) for _, _, seconds in worked)
     outcomes = {outcome: sum(one == outcome for _, one, _ in worked) for outcome in sorted({one for _, one, _ in worked})}
     print(f"{given.boats} boats of {given.recorded:.0f} s: refreshed in {took_s:.1f} s, {cpu_s:.1f} s of processor time; "

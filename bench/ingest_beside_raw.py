@@ -6,10 +6,9 @@
 `telltale load` sends to telltaled and to raw_reader at once. The raw reader does nothing with what it takes. Prints the
 processor time a sample of each, and the ratio. TELLTALE_BUILT names the build folder.
 """
-import argparse
 import subprocess
 
-from daemon_under_load import BUILT, DOMAIN, Fleet
+from daemon_under_load import BUILT, DOMAIN, Fleet, given_arguments, loopback_environment
 
 
 def beside_each_other(boats, seconds):
@@ -18,7 +17,7 @@ def beside_each_other(boats, seconds):
     with Fleet(boats) as fleet:
         fleet.await_telemetry()
         received, cpu_s = fleet.total(name), fleet.cpu_s()
-        said = subprocess.run([BUILT / "bench/raw_reader", DOMAIN, str(seconds)], env=fleet.environment, check=True,
+        said = subprocess.run([BUILT / "bench/raw_reader", DOMAIN, str(seconds)], env=loopback_environment(), check=True,
                               stdout=subprocess.PIPE, text=True).stdout
         received, cpu_s = fleet.total(name) - received, fleet.cpu_s() - cpu_s
         print(f"packets that the kernel dropped before telltaled: {fleet.dropped_packets()}")
@@ -28,10 +27,7 @@ def beside_each_other(boats, seconds):
 
 
 def main():
-    arguments = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    arguments.add_argument("--boats", type=int, default=1000)
-    arguments.add_argument("--seconds", type=float, default=60)
-    given = arguments.parse_args()
+    given = given_arguments(__doc__, boats=1000, seconds=60.0)
     daemon, raw = beside_each_other(given.boats, given.seconds)
     print(f"{given.boats} boats: telltaled {1e6 * daemon:.2f} us a sample, raw reader {1e6 * raw:.2f} us: ratio "
           f"{raw / daemon:.0%}")

@@ -8,40 +8,23 @@ boats are identified one after another, beside a refresh of the fleet. Prints wh
 at the beginning and at the end, and how long an identification took, from the start of the command to its end.
 TELLTALE_BUILT names the build folder.
 """
-import argparse
 import math
 import time
 
-from daemon_under_load import Fleet
+from daemon_under_load import Fleet, given_arguments
 
 USUAL_PER_S = 65
 
 
-def identify_until(end, fleet, boats):
-    """Seconds that each identification took, and how many were not answered with a model or a refusal."""
-    took_s, unanswered = [], 0
-    while time.monotonic() < end:
-        begun = time.monotonic()
-        boat = 1 + len(took_s) % boats
-        answer = fleet.telltale("identify", "--vehicle-id", f"load-{boat:05}")
-        unanswered += answer.returncode not in (0, 3)
-        took_s.append(time.monotonic() - begun)
-    return sorted(took_s), unanswered
-
-
 def main():
-    arguments = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    arguments.add_argument("--boats", type=int, default=100)
-    arguments.add_argument("--times", type=int, default=5)
-    arguments.add_argument("--seconds", type=float, default=120)
-    given = arguments.parse_args()
+    given = given_arguments(__doc__, boats=100, times=5, seconds=120.0)
     bound = f"intake {{ samples_per_s: {USUAL_PER_S * given.boats} }}"
     with Fleet(given.boats, settings=bound, load_options=("--times", str(given.times))) as fleet:
         fleet.await_telemetry()
         time.sleep(60)  # what an identification needs
         begun, resident, cpu_s = time.monotonic(), fleet.resident_bytes(), fleet.cpu_s()
         refresh = fleet.begin("refresh", "--all")
-        took_s, unanswered = identify_until(begun + given.seconds, fleet, given.boats)
+        answers = fleet.identify_in_turn(given.boats, begun + given.seconds)
         cores = (fleet.cpu_s() - cpu_s) / (time.monotonic() - begun)
         resident = (resident, fleet.resident_bytes())
         names = ("accepted", "rejected", "shed", "lost")
@@ -56,6 +39,8 @@ def main():
     print("shed by channel: " + ", ".join(f"{channel} {count:.0f}" for channel, count in by_channel.items()))
     print(f"resident {resident[0] / 1e6:.0f} MB, {given.seconds:.0f} s later {resident[1] / 1e6:.0f} MB")
     print(f"the refresh has ended: {refreshed}")
+    took_s = sorted(seconds for _, seconds in answers)
+    unanswered = sum(code not in (0, 3) for code, _ in answers)  # neither a model nor a refusal
     print(f"{len(took_s)} identifications, {unanswered} unanswered: median "
           f"{took_s[len(took_s) // 2]:.2f} s, 99th percentile {took_s[math.ceil(0.99 * len(took_s)) - 1]:.2f} s")
 

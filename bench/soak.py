@@ -7,34 +7,23 @@
 Prints the daemon's memory, descriptors and store as time goes on, and how far each grew in the second half.
 TELLTALE_BUILT names the build folder.
 """
-import argparse
 import time
 
-from daemon_under_load import Fleet
+from daemon_under_load import Fleet, given_arguments
 
 LINES = 20
 
 
-def identify_until(end, fleet):
-    done = 0
-    while time.monotonic() < end:
-        done += fleet.telltale("identify", "--vehicle-id", "load-00001").returncode == 0
-    return done
-
-
 def main():
-    arguments = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    arguments.add_argument("--boats", type=int, default=10)
-    arguments.add_argument("--speed", type=int, default=50)
-    arguments.add_argument("--minutes", type=float, default=10)
-    given = arguments.parse_args()
+    given = given_arguments(__doc__, boats=10, speed=50, minutes=10.0)
     seconds = 60 * given.minutes
     with Fleet(given.boats, load_options=("--speed", str(given.speed))) as fleet:
         fleet.await_telemetry()
         begun, identified, seen = time.monotonic(), 0, []
         print("hours of data | resident MB | descriptors | store MB | identifications")
         for line in range(1, LINES + 1):
-            identified += identify_until(begun + seconds * line / LINES, fleet)
+            answers = fleet.identify_in_turn(1, begun + seconds * line / LINES)
+            identified += sum(code == 0 for code, _ in answers)
             seen.append((fleet.resident_bytes() / 1e6, fleet.open_descriptors(), fleet.stored_bytes() / 1e6))
             hours = (time.monotonic() - begun) * given.speed / 3600
             print(f"{hours:.1f} | {seen[-1][0]:.0f} | {seen[-1][1]} | {seen[-1][2]:.1f} | {identified}", flush=True)
