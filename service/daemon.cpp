@@ -148,6 +148,7 @@ void Daemon::ServeHeldSlices() {
   } catch (const DatabaseError& error) {
     spdlog::error("not all is taken over: {}", error.what());
   }
+  is_ready_ = true;
 }
 
 /// The leases that the writes of this daemon need; one without a part of the fleet takes all.
@@ -212,7 +213,7 @@ void Daemon::TakeOver(const Qos& model_contract, bool succeeds) {
   }
   BeginUpkeep();
   sources_.emplace(participant_, config_.sources, view_);
-  has_taken_over_ = true;
+  is_ready_ = alone_;
 }
 
 /// The role is given up already. What was published while the other daemon could not hear it goes
@@ -282,7 +283,7 @@ void Daemon::BeginUpkeep() {
 DaemonActivity Daemon::Activity() const {
   DaemonActivity activity;
   activity.serves = role_.Serves();
-  activity.is_ready = has_taken_over_ || (fail_over_ && fail_over_->HasFollowed());
+  activity.is_ready = is_ready_ || (fail_over_ && fail_over_->HasFollowed());
   activity.vehicles = fleet_.windows().size();
   activity.ingest_silence = ingest_.Silence();
   activity.queues = {jobs_.Activity(), diagnosis_jobs_.Activity()};

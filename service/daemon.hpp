@@ -105,7 +105,7 @@ class Daemon {
   QualityPublisher quality_;
   std::optional<Upkeep> upkeep_;               ///< while it serves
   std::optional<LiveSources> sources_;         ///< likewise: a standby would publish all twice
-  std::atomic<bool> has_taken_over_ = false;   ///< the role to serve, with all that goes with it
+  std::atomic<bool> is_ready_ = false;         ///< it serves, with the boats of its first slices
   const std::unique_ptr<FailOver> fail_over_;  ///< null: this daemon serves alone
   Ingest ingest_;
   std::optional<WebServer> web_;

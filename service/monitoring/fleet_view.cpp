@@ -173,8 +173,14 @@ std::vector<Quality> FleetView::Qualities() const {
   return all;
 }
 
-void FleetView::EndRound(double time_unix_s, std::vector<RejectEntry> unattributed) {
+void FleetView::EndRound(double began_unix_s, double time_unix_s,
+                         std::vector<RejectEntry> unattributed) {
   const std::lock_guard lock(mutex_);
+  for (auto& [id, vehicle] : vehicles_) {
+    if (!vehicle.quality || vehicle.quality->time_unix_s >= began_unix_s) continue;
+    vehicle.quality.reset();
+    vehicle.past.clear();
+  }
   last_round_unix_s_ = time_unix_s;
   unattributed_ = std::move(unattributed);
 }

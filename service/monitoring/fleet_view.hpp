@@ -56,8 +56,9 @@ using JobCounts = std::map<std::pair<JobView::Kind, JobView::State>, std::uint64
 class FleetView {
  public:
   void Take(const Quality& quality, double time_unix_s);
-  /// Ends a round of qualities: all of them are taken.
-  void EndRound(double time_unix_s, std::vector<RejectEntry> unattributed);
+  /// Ends a round of qualities: all of them are taken. A vehicle whose quality is older than the
+  /// round is no longer served here, and has none any more.
+  void EndRound(double began_unix_s, double time_unix_s, std::vector<RejectEntry> unattributed);
   void Take(const PublishedDiagnosis& diagnosis);
   void Take(const IdentifyProgress& progress);
   void Take(const DiagnoseProgress& progress);

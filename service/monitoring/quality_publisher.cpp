@@ -92,7 +92,10 @@ void QualityPublisher::PublishReceipts() {
 
 void QualityPublisher::PublishAll(double elapsed_s) {
   const auto store_fault = status_.Fault();
-  for (const auto& [vehicle_id, window] : fleet_.windows()) {
+  const double began_unix_s = UnixNow();
+  const Fleet::Windows windows = fleet_.windows();
+  std::erase_if(monitors_, [&](const auto& kept) { return !windows.contains(kept.first); });
+  for (const auto& [vehicle_id, window] : windows) {
     const auto latest = models_.Latest(vehicle_id);
     const Quality quality =
         monitors_[vehicle_id].Assess(*window, latest, view_, store_fault, elapsed_s);
@@ -102,7 +105,7 @@ void QualityPublisher::PublishAll(double elapsed_s) {
   }
   const Quality unattributed = Unattributed();
   Publish(unattributed);
-  view_.EndRound(UnixNow(), unattributed.rejected);
+  view_.EndRound(began_unix_s, UnixNow(), unattributed.rejected);
   AnnounceRound();
 }
 

@@ -9,8 +9,8 @@ namespace telltale {
 namespace {
 
 const char* RoleOf(const DaemonActivity& activity) {
-  if (activity.serves) return "serving";
-  return activity.is_ready ? "standing by for" : "starting with";
+  if (!activity.is_ready) return "starting with";
+  return activity.serves ? "serving" : "standing by for";
 }
 
 }  // namespace

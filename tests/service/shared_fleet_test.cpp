@@ -6,16 +6,23 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <thread>
+#include <vector>
 
 #include <gmock/gmock.h>
+#include <google/protobuf/util/json_util.h>
 #include <gtest/gtest.h>
 
 #include "service/shared_fleet_fixture.hpp"
+#include "support/notify_socket.hpp"
+#include "support/page_of.hpp"
 #include "support/stable_boat.hpp"
 #include "telltale/client/fleet/fleet_client.hpp"
 #include "telltale/client/fleet/identification_client.hpp"
 #include "telltale/client/recording/telemetry_log/telemetry_log.hpp"
+#include "telltale/idl/proto/fleet.pb.h"
 #include "telltale/service/models/model_store.hpp"
+#include "telltale/service/web/httplib.hpp"
 
 namespace telltale {
 namespace {
@@ -84,6 +91,16 @@ TEST_F(SharedFleet, IsServedByTheOtherWhenADaemonIsKilled) {
   ExpectModelsInTheOrderOfTheirLeases();
 }
 
+TEST_F(SharedFleet, IsServedByADaemonThatSaysThatItIsReady) {
+  NotifySocket manager(folder_.Path() / "notify", 10s);
+  one_ = StartNamed("one");
+  std::string before;
+  ASSERT_TRUE(manager.Await("READY=1", &before)) << one_->output();
+  EXPECT_THAT(before, HasSubstr("STATUS=starting with"));
+  EXPECT_THAT(before, Not(HasSubstr("STATUS=serving")));
+  EXPECT_TRUE(manager.Await("STATUS=serving 4 vehicles"));
+}
+
 // The client is told that the request is queued, and the daemon that told it is gone.
 TEST_F(SharedFleet, GetsTheAnswerThatADeadDaemonOwed) {
   ASSERT_NO_FATAL_FAILURE(StartBoth());
@@ -116,6 +133,25 @@ TEST_F(SharedFleet, IsListedAndRefreshedAsAWhole) {
 }
 
 // The other takes the slices over once their leases have run out, three seconds later at least.
+TEST_F(SharedFleet, IsOnThePageOfTheDaemonThatServesIt) {
+  const auto start = [this](const char* name) {
+    const std::string config = ConfigOf(name, "slices { lease_s: 4 }\nhttp { port: 0 }\n");
+    return std::make_unique<Process>(std::vector<std::string>{TELLTALED, "--config", config});
+  };
+  const auto boats_of = [](const Process& daemon) {
+    const auto answer = httplib::Client(PageOf(daemon.output())).Get("/api/v1/vehicles");
+    proto::VehicleList list;
+    EXPECT_TRUE(google::protobuf::util::JsonStringToMessage(answer->body, &list).ok());
+    return list.total();
+  };
+  one_ = start("one");
+  ASSERT_TRUE(one_->WaitForOutput("serving 4 vehicles:")) << one_->output();
+  while (boats_of(*one_) != 4) std::this_thread::yield();
+  two_ = start("two");
+  ASSERT_TRUE(two_->WaitForOutput("serving 2 vehicles:")) << two_->output();
+  while (boats_of(*one_) != 2 || boats_of(*two_) != 2) std::this_thread::yield();
+}
+
 TEST_F(SharedFleet, IsListedInPartWhereADaemonIsSilent) {
   ASSERT_NO_FATAL_FAILURE(StartBoth());
   const Participant participant(domain_.id());

@@ -33,11 +33,12 @@ TEST(Liveness, SaysTheRoleAndWhatWaits) {
   activity.vehicles = 12;
   activity.queues = {{.queue = "identification", .waiting = 2, .running = 1},
                      {.queue = "diagnosis", .waiting = 1}};
+  activity.serves = true;
   EXPECT_EQ(StatusLine(activity), "starting with 12 vehicles; 3 requests wait, 1 are worked on");
   activity.is_ready = true;
-  EXPECT_EQ(StatusLine(activity), "standing by for 12 vehicles; 3 requests wait, 1 are worked on");
-  activity.serves = true;
   EXPECT_EQ(StatusLine(activity), "serving 12 vehicles; 3 requests wait, 1 are worked on");
+  activity.serves = false;
+  EXPECT_EQ(StatusLine(activity), "standing by for 12 vehicles; 3 requests wait, 1 are worked on");
 }
 
 }  // namespace

@@ -1,7 +1,6 @@
 #include <signal.h>
 
 #include <chrono>
-#include <cstddef>
 #include <string>
 
 #include <gmock/gmock.h>
@@ -10,6 +9,7 @@
 #include "service/service_fixture.hpp"
 #include "support/frozen_thread.hpp"
 #include "support/notify_socket.hpp"
+#include "support/page_of.hpp"
 #include "telltale/service/web/httplib.hpp"
 
 namespace telltale {
@@ -18,12 +18,6 @@ namespace {
 using namespace std::chrono_literals;
 using ::testing::HasSubstr;
 using ::testing::Not;
-
-/// Where the log of a daemon says that its page is: "http://127.0.0.1:8480".
-std::string PageOf(const std::string& log) {
-  const std::size_t begin = log.find("http://127.0.0.1:");
-  return log.substr(begin, log.find('/', begin + std::string("http://").size()) - begin);
-}
 
 /// telltaled, and what it tells the service manager that has started it.
 class SupervisedDaemon : public ServiceTest {
