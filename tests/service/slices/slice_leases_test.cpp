@@ -70,6 +70,18 @@ TEST_F(SliceLeasesTest, PassOnWithAGreaterFenceOnceTheyRunOut) {
   EXPECT_TRUE(dead.Claim(kFleetSlices).empty());
 }
 
+TEST_F(SliceLeasesTest, CountADaemonThatRenewsLateAsLive) {
+  SliceLeases late(storage_, "late", kShort);
+  late.Claim(kFleetSlices);
+  late.Renew();
+  SliceLeases other(storage_, "other", kLong);
+  ClaimAll(other);  // so the lease of the late one has run out
+  EXPECT_EQ(late.LiveDaemons(), 1);
+  other.Renew();
+  EXPECT_EQ(late.LiveDaemons(), 2);
+  EXPECT_EQ(other.LiveDaemons(), 1);
+}
+
 TEST_F(SliceLeasesTest, PassOnAtOnceWhereTheyAreReleased) {
   Slices held;
   {
