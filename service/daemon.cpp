@@ -1,5 +1,6 @@
 #include "telltale/service/daemon.hpp"
 
+#include <algorithm>
 #include <filesystem>
 #include <memory>
 #include <set>
@@ -75,6 +76,9 @@ Daemon::Daemon(const DaemonConfig& config, Endings endings)
       journal_(storage_),
       diagnoses_(participant_, DiagnosisStore(storage_)),
       vehicles_(config.vehicles),
+      retention_(
+          StoreRetention(storage_, config.retention,
+                         [this](const std::string& vehicle_id) { return IsInFleet(vehicle_id); })),
       jobs_(fleet_, models_, baselines_, replies_, config.identification, journal_),
       diagnosis_jobs_(fleet_, models_, view_, baselines_, diagnoses_, replies_,
                       config.identification, journal_),
@@ -129,6 +133,11 @@ void Daemon::Reload(const std::vector<Vehicle>& vehicles) {
   const std::lock_guard lock(serving_mutex_);
   vehicles_ = vehicles;
   Serve(vehicles_);
+}
+
+bool Daemon::IsInFleet(const std::string& vehicle_id) {
+  const std::lock_guard lock(serving_mutex_);
+  return std::ranges::find(vehicles_, vehicle_id, &Vehicle::vehicle_id) != vehicles_.end();
 }
 
 void Daemon::ServeHeldSlices() {
@@ -290,6 +299,7 @@ DaemonActivity Daemon::Activity() const {
   activity.stores = {{"models", models_.Written()},
                      {"windows", windows_.Written()},
                      {"requests", journal_.Written()}};
+  activity.retention = retention_.Activity();
   activity.received = ingest_.Received();
   activity.matches = ingest_.Matches();
   activity.matches.push_back({kContract<telltale_wire_Model>.topic, models_.Matched()});

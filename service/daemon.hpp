@@ -25,6 +25,7 @@
 #include "telltale/service/monitoring/fleet_view.hpp"
 #include "telltale/service/monitoring/fleet_watcher.hpp"
 #include "telltale/service/monitoring/quality_publisher.hpp"
+#include "telltale/service/retention/retention.hpp"
 #include "telltale/service/role.hpp"
 #include "telltale/service/slices/slice_keeper.hpp"
 #include "telltale/service/slices/slice_leases.hpp"
@@ -67,6 +68,7 @@ class Daemon {
   SliceSet ServedSlices();
   void Take(AnyRequest request, WriterHandle client);
   void Submit(AnyRequest request, WriterHandle client = kNoClient);
+  bool IsInFleet(const std::string& vehicle_id);
   bool IsForAnother(const AnyRequest& request) const;
   void ResumeUnanswered(bool succeeds);
   void Resume(std::vector<AnyRequest> requests, const char* whose);
@@ -99,6 +101,7 @@ class Daemon {
   std::mutex serving_mutex_;       // of the two that follow
   std::vector<Vehicle> vehicles_;  ///< of the whole fleet
   Slices served_slices_;
+  Retention retention_;
   IdentificationJobs jobs_;
   DiagnosisJobs diagnosis_jobs_;
   FleetJobs fleet_jobs_;

@@ -25,6 +25,16 @@ std::string Lower(std::string_view name) {
   return lower;
 }
 
+/// Revisions count from 1, so that the newest says how many there have been. Empty where all are
+/// there.
+std::string MissingRevisions(const std::vector<ModelSummary>& newest_first) {
+  if (newest_first.empty()) return "";
+  const std::uint64_t made = newest_first.front().revision;
+  if (made <= newest_first.size()) return "";
+  return std::to_string(made - newest_first.size()) + " of " + std::to_string(made) +
+         " revisions are no longer kept.\n";
+}
+
 }  // namespace
 
 FleetReply AskFleet(FleetRequest request, const LiveOptions& live,
@@ -88,7 +98,7 @@ std::string ModelHistoryTable(const std::vector<ModelSummary>& models) {
                   std::to_string(model.window_samples), VerdictText(model.promotion.verdict)});
     reasons += ReasonLine("revision " + std::to_string(model.revision), model.promotion.reason);
   }
-  return table.Render() + reasons;
+  return table.Render() + reasons + MissingRevisions(models);
 }
 
 std::string RefreshSummaryText(const std::vector<RefreshedVehicle>& vehicles) {

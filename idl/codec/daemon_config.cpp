@@ -94,13 +94,16 @@ RefreshMode ReadRefreshMode(FieldReader& reader) {
   return RefreshMode::kOff;
 }
 
+constexpr double kYearS = 31536000.0;
+constexpr double kCenturyS = 3.2e9;
+
 /// A time that is 0 where it is not to be.
-double ReadTimeOrNone(FieldReader& reader, std::string_view field) {
+double ReadTimeOrNone(FieldReader& reader, std::string_view field, double longest_s,
+                      double fallback_s = 0.0) {
   constexpr double kShortestS = 10.0;
-  constexpr double kLongestS = 31536000.0;  // a year
-  const double time_s = reader.Number(field, {0.0, kLongestS}, 0.0);
+  const double time_s = reader.Number(field, {0.0, longest_s}, fallback_s);
   if (time_s > 0.0 && time_s < kShortestS) {
-    reader.Fail(field, NumberText(time_s), "0 or a number in [10, 31536000]");
+    reader.Fail(field, NumberText(time_s), "0 or " + FieldRange{kShortestS, longest_s}.Text());
   }
   return time_s;
 }
@@ -108,8 +111,8 @@ double ReadTimeOrNone(FieldReader& reader, std::string_view field) {
 UpkeepSettings ReadUpkeep(FieldReader reader, const proto::DaemonConfig::Upkeep& message) {
   UpkeepSettings settings;
   settings.refresh = ReadRefreshMode(reader);
-  settings.refresh_every_s = ReadTimeOrNone(reader, "refresh_every_s");
-  settings.refresh_older_than_s = ReadTimeOrNone(reader, "refresh_older_than_s");
+  settings.refresh_every_s = ReadTimeOrNone(reader, "refresh_every_s", kYearS);
+  settings.refresh_older_than_s = ReadTimeOrNone(reader, "refresh_older_than_s", kYearS);
   settings.refresh_on_drift = message.refresh_on_drift();
   settings.diagnose_on_drift = message.diagnose_on_drift();
   settings.retry_s = reader.Number("retry_s", {1.0, 86400.0}, settings.retry_s);
@@ -240,6 +243,20 @@ SliceSettings ReadSlices(FieldReader reader) {
   return settings;
 }
 
+RetentionSettings ReadRetention(FieldReader reader) {
+  RetentionSettings settings;
+  settings.models_per_vehicle =
+      reader.Count("models_per_vehicle", {2.0, 200.0}, settings.models_per_vehicle);
+  settings.model_age_s = ReadTimeOrNone(reader, "model_age_s", kCenturyS, settings.model_age_s);
+  settings.diagnosis_age_s =
+      ReadTimeOrNone(reader, "diagnosis_age_s", kCenturyS, settings.diagnosis_age_s);
+  settings.window_age_s = ReadTimeOrNone(reader, "window_age_s", kCenturyS, settings.window_age_s);
+  const auto default_mib = static_cast<std::uint32_t>(settings.store_bytes / kMiB);
+  settings.store_bytes = reader.Count("store_mib", {0.0, 16777216.0}, default_mib) * kMiB;
+  settings.period_s = reader.Number("period_s", {1.0, 86400.0}, settings.period_s);
+  return settings;
+}
+
 DaemonConfig ReadConfig(FieldReader reader, const proto::DaemonConfig& message) {
   DaemonConfig config;
   config.domain = reader.Count("domain", {0.0, 101.0}, config.domain);
@@ -258,6 +275,7 @@ DaemonConfig ReadConfig(FieldReader reader, const proto::DaemonConfig& message) 
   config.total_window_bytes =
       ReadTotalWindowBytes(reader.Optional("window"), config.total_window_bytes);
   config.intake = ReadIntake(reader.Optional("intake"));
+  config.retention = ReadRetention(reader.Optional("retention"));
   config.window_save_period_s =
       reader.Optional("window").Number("save_period_s", {0.1, 600.0}, config.window_save_period_s);
   config.identification = ReadIdentification(reader.Optional("identification"));

@@ -97,6 +97,16 @@ struct SliceSettings {
   double lease_s = 10.0;  ///< [1, 600] after which others take over
 };
 
+/// What the store keeps at most.
+struct RetentionSettings {
+  std::uint32_t models_per_vehicle = 200;              ///< [2, 200] the newest
+  double model_age_s = 0.0;                            ///< 0: of any age, or [10, 3.2e9]
+  double diagnosis_age_s = 0.0;                        ///< likewise, of those before the last
+  double window_age_s = 7'776'000.0;                   ///< likewise, since it was saved
+  std::size_t store_bytes = std::size_t{20480} << 20;  ///< 0: of any size, or [1 MiB, 16 TiB]
+  double period_s = 600.0;                             ///< [1, 86400] from check to check
+};
+
 /// Configuration of telltaled; defaults and ranges are those of proto/daemon.proto.
 struct DaemonConfig {
   std::uint32_t domain = 0;  ///< [0, 101]
@@ -109,6 +119,7 @@ struct DaemonConfig {
   WindowLimits window;
   std::size_t total_window_bytes = std::size_t{4096} << 20;  ///< [1 MiB, 16 TiB] of all vehicles
   IntakeLimits intake;
+  RetentionSettings retention;
   bool require_partition = false;     ///< telemetry only from the DDS partition of the vehicle's id
   double window_save_period_s = 5.0;  ///< [0.1, 600]
   IdentificationSettings identification;

@@ -44,11 +44,18 @@ std::optional<StoredModel> ReadModel(const Row& row, const std::string& database
     stored.reference_error = {row.Real("reference_error_u"), row.Real("reference_error_v"),
                               row.Real("reference_error_r")};
   }
+  if (!row.IsNull("rollback_of")) {
+    stored.rollback_of = static_cast<std::uint64_t>(row.Integer("rollback_of"));
+  }
   return stored;
 }
 
 Parameter ErrorOf(const std::optional<FreeRunError>& error, std::size_t channel) {
   return error ? Parameter((*error)[channel]) : std::monostate();
+}
+
+Parameter RevisionOrNull(const std::optional<std::uint64_t>& revision) {
+  return revision ? Parameter(static_cast<std::int64_t>(*revision)) : std::monostate();
 }
 
 }  // namespace
@@ -58,8 +65,9 @@ ModelStore::ModelStore(const Storage& storage)
 
 StoredModel ModelStore::Save(const Identification& identification, double published_unix_s,
                              const std::optional<FreeRunError>& reference_error,
-                             const Promotion& promotion) {
-  StoredModel stored{{identification, 0, published_unix_s, promotion}, reference_error};
+                             const Promotion& promotion, std::optional<std::uint64_t> rollback_of) {
+  StoredModel stored{
+      {identification, 0, published_unix_s, promotion}, reference_error, rollback_of};
   const std::string& vehicle_id = identification.vehicle_id;
   database_->InTransaction([&] {
     const Parameter fence = storage_.RequireLease(*database_, vehicle_id);
@@ -92,11 +100,11 @@ void ModelStore::Insert(const StoredModel& stored, const Parameter& fence) {
   const auto& reference_error = stored.reference_error;
   database_->Execute(
       "INSERT INTO models (vehicle_id, revision, published_unix_s, model, checksum,"
-      " reference_error_u, reference_error_v, reference_error_r, verdict, verdict_reason, fence)"
-      " VALUES ($1, $2, $3, $4, $5, $6, $7, $8, $9, $10, $11)",
+      " reference_error_u, reference_error_v, reference_error_r, verdict, verdict_reason, fence,"
+      " rollback_of) VALUES ($1, $2, $3, $4, $5, $6, $7, $8, $9, $10, $11, $12)",
       {vehicle_id, revision, published_unix_s, Blob(blob), std::int64_t{ChecksumOf(blob)},
        ErrorOf(reference_error, 0), ErrorOf(reference_error, 1), ErrorOf(reference_error, 2),
-       Name(promotion.verdict), promotion.reason, fence});
+       Name(promotion.verdict), promotion.reason, fence, RevisionOrNull(stored.rollback_of)});
   database_->Execute("DELETE FROM models WHERE vehicle_id = $1 AND revision <= $2",
                      {vehicle_id, revision - static_cast<std::int64_t>(kModelsPerVehicle)});
 }

@@ -19,6 +19,7 @@ namespace telltale {
 struct StoredModel {
   PublishedModel model;
   std::optional<FreeRunError> reference_error;  ///< on the window that made the model
+  std::optional<std::uint64_t> rollback_of{};   ///< the revision that it publishes again
 };
 
 /// What the newest model is compared with goes back no further: ChangeSincePredecessor().
@@ -36,7 +37,7 @@ class ModelStore {
   /// models of a vehicle are kept.
   StoredModel Save(const Identification& identification, double published_unix_s,
                    const std::optional<FreeRunError>& reference_error,
-                   const Promotion& promotion = {});
+                   const Promotion& promotion = {}, std::optional<std::uint64_t> rollback_of = {});
 
   /// Stores a model that another daemon has published, in place of one of the same revision. It is
   /// on disk on return.

@@ -159,7 +159,7 @@ std::optional<PublishedModel> PublishedModels::PublishAgain(const std::string& v
                      (promotion.reason.empty() ? "" : "; " + promotion.reason);
   const StoredModel stored = written_.Count([&] {
     return store_.Save(earlier->model.identification, UnixNow(), earlier->reference_error,
-                       promotion);
+                       promotion, revision);
   });
   latest_.insert_or_assign(vehicle_id, stored);
   spdlog::info("{}: revision {} is published again as revision {}", vehicle_id, revision,

@@ -10,6 +10,7 @@
 #include "telltale/core/data/samples.hpp"
 #include "telltale/service/ingest/topic_connections.hpp"
 #include "telltale/service/jobs/queue_activity.hpp"
+#include "telltale/service/retention/retention.hpp"
 #include "telltale/service/storage/write_durations.hpp"
 
 namespace telltale {
@@ -28,6 +29,7 @@ struct DaemonActivity {
   std::chrono::steady_clock::duration ingest_silence{0};  ///< since the ingest loop came round
   std::vector<QueueActivity> queues;
   std::vector<StoreActivity> stores;
+  RetentionActivity retention;
   std::array<std::uint64_t, kChannels.size()> received{};  ///< samples taken from the bus
   std::vector<TopicConnections> matches;
 };

@@ -68,6 +68,13 @@ class Database {
 
   /// Runs `work` as one transaction, which is on disk on return. What `work` throws undoes it.
   virtual void InTransaction(const std::function<void()>& work) = 0;
+
+  /// Bytes that the rows of the store take, without what is free again.
+  virtual std::int64_t UsedBytes() = 0;
+
+  /// Gives at most a mebibyte of free space back to the disk, as a transaction of its own. False
+  /// where there is none to give, or where the engine sees to that itself.
+  virtual bool GiveBackSpace() = 0;
 };
 
 /// The whole number that a statement answers with, in its column `value`.

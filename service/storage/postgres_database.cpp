@@ -100,7 +100,7 @@ std::string FirstLine(std::string_view text) {
 
 PostgresDatabase::PostgresDatabase(const std::string& address, const Schema& schema,
                                    std::shared_ptr<StoreStatus> status)
-    : address_(WithDefaults(address)), status_(std::move(status)) {
+    : address_(WithDefaults(address)), tables_(schema.tables), status_(std::move(status)) {
   InTransaction([&] { Prepare(schema); });
 }
 
@@ -133,6 +133,21 @@ void PostgresDatabase::Query(const std::string& statement, const Parameters& par
   InOwnTransaction([&] {
     for (const pqxx::row& row : Run(statement, parameters)) take(PostgresRow(row));
   });
+}
+
+/// As stored, compressed and out of line, with what a row and its key take besides: a table does
+/// not become smaller when rows go, so that its own size would not do.
+std::int64_t PostgresDatabase::UsedBytes() {
+  constexpr std::string_view kOfEachRow = "64";
+  std::int64_t bytes = 0;
+  for (const Table& table : tables_) {
+    std::string row(kOfEachRow);
+    for (const Column& column : table.columns) {
+      row += " + COALESCE(pg_column_size(" + column.name + "), 0)";
+    }
+    bytes += IntegerOf(*this, "SELECT COALESCE(SUM(" + row + "), 0) AS value FROM " + table.name);
+  }
+  return bytes;
 }
 
 /// In the transaction that is under way, where there is one.

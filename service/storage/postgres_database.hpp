@@ -4,6 +4,7 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include <pqxx/pqxx>
 
@@ -33,6 +34,8 @@ class PostgresDatabase : public Database {
   void Query(const std::string& statement, const Parameters& parameters,
              const std::function<void(const Row&)>& take) override;
   void InTransaction(const std::function<void()>& work) override;
+  std::int64_t UsedBytes() override;
+  bool GiveBackSpace() override { return false; }  ///< autovacuum does
 
  private:
   using Clock = std::chrono::steady_clock;
@@ -46,6 +49,7 @@ class PostgresDatabase : public Database {
 
   const std::string name_ = "PostgreSQL";
   const std::string address_;
+  const std::vector<Table> tables_;  ///< of its schema
   const std::shared_ptr<StoreStatus> status_;
   std::unique_ptr<pqxx::connection> connection_;
   std::unique_ptr<pqxx::work> transaction_;  ///< under way

@@ -115,7 +115,9 @@ SqliteDatabase::SqliteDatabase(const std::filesystem::path& directory, const Sch
     if (std::filesystem::exists(file_) && std::filesystem::file_size(file_) == 0) {
       spdlog::error("{} is empty: what earlier runs have kept in it is lost", file_.string());
     }
-    if (const auto damage = DamageOf(file_)) return StartAgain(schema, *damage);
+    if (status_->NoteOpening(name_)) {
+      if (const auto damage = DamageOf(file_)) return StartAgain(schema, *damage);
+    }
     Open();
     Prepare(schema);
   });
@@ -146,11 +148,45 @@ void SqliteDatabase::Prepare(const Schema& schema) {
   const int version = database_->execAndGet("PRAGMA user_version").getInt();
   RefuseOtherVersions(schema, version, file_.string(),
                       "move the file away and start again, then identify the vehicles again");
+  LetFreeSpaceGo();
   UseWriteAheadLog(*database_, schema.durability);
   InTransaction([&] {
     CompleteTables(*this, schema, SqliteDialect());
     database_->exec("PRAGMA user_version = " + std::to_string(schema.version));
   });
+}
+
+/// A new file is made so; an older one is rewritten. Where that fails, its free space is used again
+/// and stays in the file.
+void SqliteDatabase::LetFreeSpaceGo() {
+  constexpr int kIncremental = 2;
+  if (database_->execAndGet("PRAGMA auto_vacuum").getInt() == kIncremental) return;
+  const bool is_new = std::filesystem::file_size(file_) == 0;
+  database_->exec("PRAGMA auto_vacuum = INCREMENTAL");
+  if (is_new) return;
+  spdlog::info("{} is rewritten once, so that it can give space back", file_.string());
+  try {
+    database_->exec("VACUUM");
+  } catch (const SQLite::Exception& error) {
+    spdlog::warn("{} is not rewritten and does not become smaller: {}", file_.string(),
+                 error.what());
+  }
+}
+
+std::int64_t SqliteDatabase::UsedBytes() {
+  return IntegerOf(*this,
+                   "SELECT (page_count - freelist_count) * page_size AS value FROM"
+                   " pragma_page_count, pragma_freelist_count, pragma_page_size");
+}
+
+bool SqliteDatabase::GiveBackSpace() {
+  const auto free_pages = [this] {
+    return IntegerOf(*this, "SELECT freelist_count AS value FROM pragma_freelist_count");
+  };
+  const std::int64_t before = free_pages();
+  if (before == 0) return false;
+  Noting([&] { database_->exec("PRAGMA incremental_vacuum(256)"); });  // pages, so a mebibyte
+  return free_pages() < before;
 }
 
 std::size_t SqliteDatabase::Execute(const std::string& statement, const Parameters& parameters) {

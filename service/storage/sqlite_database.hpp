@@ -21,8 +21,10 @@ class SqliteDatabase : public Database {
  public:
   /// Opens SCHEMA.sqlite in `directory`, and creates both where they are missing. A file that
   /// SQLite finds damaged is set aside as SCHEMA.sqlite.damaged-TIME, and the rows that can be read
-  /// are copied into a new one; the log says so. Throws DatabaseError where the disk refuses, and,
-  /// leaving the file as it is, where another version of this software wrote it.
+  /// are copied into a new one; the log says so. It is checked at the first opening that the status
+  /// knows of. A file that could not give space back is rewritten so that it can. Throws
+  /// DatabaseError where the disk refuses, and, leaving the file as it is, where another version of
+  /// this software wrote it.
   SqliteDatabase(const std::filesystem::path& directory, const Schema& schema,
                  std::shared_ptr<StoreStatus> status);
   ~SqliteDatabase() override;
@@ -32,9 +34,12 @@ class SqliteDatabase : public Database {
   void Query(const std::string& statement, const Parameters& parameters,
              const std::function<void(const Row&)>& take) override;
   void InTransaction(const std::function<void()>& work) override;
+  std::int64_t UsedBytes() override;
+  bool GiveBackSpace() override;
 
  private:
   void Open();
+  void LetFreeSpaceGo();
   void StartAgain(const Schema& schema, const std::string& damage);
   void Prepare(const Schema& schema);
   void Noting(const std::function<void()>& work);

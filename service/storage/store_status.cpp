@@ -2,6 +2,11 @@
 
 namespace telltale {
 
+bool StoreStatus::NoteOpening(const std::string& database) {
+  const std::lock_guard lock(mutex_);
+  return opened_.insert(database).second;
+}
+
 void StoreStatus::NoteSuccess(const std::string& database) {
   const std::lock_guard lock(mutex_);
   faults_.erase(database);

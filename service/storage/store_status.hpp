@@ -3,6 +3,7 @@
 #include <map>
 #include <mutex>
 #include <optional>
+#include <set>
 #include <string>
 
 namespace telltale {
@@ -10,6 +11,9 @@ namespace telltale {
 /// Whether what comes can be saved now. Thread safe.
 class StoreStatus {
  public:
+  /// Whether it is the first opening of this database.
+  bool NoteOpening(const std::string& database);
+
   void NoteSuccess(const std::string& database);
   void NoteFault(const std::string& database, const std::string& reason);
   void NoteUnavailable(const std::string& reason);
@@ -22,6 +26,7 @@ class StoreStatus {
 
  private:
   mutable std::mutex mutex_;                   // of what follows
+  std::set<std::string> opened_;               ///< databases
   std::map<std::string, std::string> faults_;  ///< by database
   std::optional<std::string> unavailable_;
 };

@@ -36,7 +36,8 @@ const Schema& ModelsSchema() {
                    {"verdict", kText, "NOT NULL DEFAULT 'UNKNOWN'"},
                    {"verdict_reason", kText, "NOT NULL DEFAULT ''"},
                    kChecksum,
-                   kFence},
+                   kFence,
+                   {"rollback_of", kInteger, ""}},  // the revision that it publishes again
                   {"vehicle_id", "revision"}},
                  {"diagnoses", DiagnosisColumns(), {"vehicle_id"}},
                  {"earlier_diagnoses", DiagnosisColumns(), {"vehicle_id", "published_unix_s"}}},
@@ -53,7 +54,8 @@ const Schema& WindowsSchema() {
                   {{"vehicle_id", kText, "NOT NULL"},
                    {"number", kInteger, "NOT NULL"},
                    {"last_s", kReal, "NOT NULL"},
-                   {"samples", kBlob, "NOT NULL"}},  // PackChunk(), with its checksum
+                   {"samples", kBlob, "NOT NULL"},  // PackChunk(), with its checksum
+                   {"saved_unix_s", kReal, ""}},    // none from programs that knew no retention
                   {"vehicle_id", "number"}}},
       .durability = Durability::kNewestMayBeLost,  // a few seconds of telemetry
   };

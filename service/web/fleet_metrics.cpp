@@ -285,6 +285,30 @@ MetricFamily StoreWrites(const std::vector<StoreActivity>& stores) {
   return std::move(values).Take();
 }
 
+MetricFamily RemovedRows(const RetentionActivity& retention) {
+  using enum RemovedKind;
+  using enum RemovalReason;
+  MetricValues values(MetricType::Counter, "telltale_store_rows_removed_total",
+                      "Rows that retention has removed from the store.");
+  for (const auto kind : {kEarlierModel, kEarlierDiagnosis, kWindowChunk}) {
+    for (const auto reason : {kCount, kAge, kSize}) {
+      const auto rows = retention.removed.find({kind, reason});
+      values.Add({{"kind", std::string(Name(kind))}, {"reason", std::string(Name(reason))}},
+                 rows == retention.removed.end() ? 0.0 : static_cast<double>(rows->second));
+    }
+  }
+  return std::move(values).Take();
+}
+
+MetricFamily StoreBytes(const RetentionPass& pass) {
+  MetricValues values(MetricType::Gauge, "telltale_store_bytes",
+                      "What the rows of a database took at the last check.");
+  for (const auto& [store, bytes] : pass.used_bytes) {
+    values.Add({{"store", store}}, static_cast<double>(bytes));
+  }
+  return std::move(values).Take();
+}
+
 MetricFamily ReceivedSamples(const DaemonActivity& activity) {
   MetricValues values(MetricType::Counter, "telltale_received_samples_total",
                       "Samples of telemetry taken from the bus.");
@@ -303,6 +327,25 @@ MetricFamily Matches(const std::vector<TopicConnections>& matches) {
   return std::move(values).Take();
 }
 
+MetricFamily Single(MetricType type, const char* name, const char* help, double value,
+                    const Labels& labels = {}) {
+  MetricValues values(type, name, help);
+  values.Add(labels, value);
+  return std::move(values).Take();
+}
+
+void AddRetention(const RetentionActivity& retention, std::vector<MetricFamily>& families) {
+  families.push_back(RemovedRows(retention));
+  families.push_back(StoreBytes(retention.last));
+  if (retention.limit_bytes == 0) return;
+  families.push_back(Single(MetricType::Gauge, "telltale_store_limit_bytes",
+                            "What all databases may take.",
+                            static_cast<double>(retention.limit_bytes)));
+  families.push_back(Single(MetricType::Gauge, "telltale_store_over_limit",
+                            "1: they take more, and nothing more may be removed; 0: they do not.",
+                            retention.last.over_limit ? 1.0 : 0.0));
+}
+
 void AddActivity(const DaemonActivity& activity, std::vector<MetricFamily>& families) {
   using enum MetricType;
   const auto add = [&](auto... description) {
@@ -318,15 +361,9 @@ void AddActivity(const DaemonActivity& activity, std::vector<MetricFamily>& fami
       "Requests that found the queue, or the part that one client may use, full.",
       &QueueActivity::shed);
   families.push_back(StoreWrites(activity.stores));
+  AddRetention(activity.retention, families);
   families.push_back(ReceivedSamples(activity));
   families.push_back(Matches(activity.matches));
-}
-
-MetricFamily Single(MetricType type, const char* name, const char* help, double value,
-                    const Labels& labels = {}) {
-  MetricValues values(type, name, help);
-  values.Add(labels, value);
-  return std::move(values).Take();
 }
 
 void AddDaemon(FleetView& view, std::size_t vehicles, std::vector<MetricFamily>& families) {

@@ -2,6 +2,7 @@
 
 #include <set>
 
+#include "telltale/client/fleet/unix_now.hpp"
 #include "telltale/core/data/recording_parts.hpp"
 #include "telltale/service/storage/stores.hpp"
 #include "telltale/service/windows/window_chunk.hpp"
@@ -29,8 +30,9 @@ void WindowStore::Insert(const Chunk& chunk, const Limits& limits) {
       *database_, "SELECT COALESCE(MAX(number), 0) + 1 AS value FROM chunks WHERE vehicle_id = $1",
       {chunk.vehicle_id});
   database_->Execute(
-      "INSERT INTO chunks (vehicle_id, number, last_s, samples) VALUES ($1, $2, $3, $4)",
-      {chunk.vehicle_id, number, last_s, Blob(blob)});
+      "INSERT INTO chunks (vehicle_id, number, last_s, samples, saved_unix_s)"
+      " VALUES ($1, $2, $3, $4, $5)",
+      {chunk.vehicle_id, number, last_s, Blob(blob), UnixNow()});
   database_->Execute("DELETE FROM chunks WHERE vehicle_id = $1 AND (last_s < $2 OR number <= $3)",
                      {chunk.vehicle_id, last_s - limits.duration_s, number - limits.most_chunks});
 }

@@ -2,7 +2,9 @@
 
 #include <chrono>
 #include <fstream>
+#include <regex>
 #include <stdexcept>
+#include <thread>
 
 #include "telltale/client/fleet/subscriber.hpp"
 #include "telltale/client/recording/telemetry_log/telemetry_log.hpp"
@@ -12,6 +14,7 @@
 #include "telltale/core/simulation/simulator.hpp"
 #include "telltale/idl/codec/vehicle_file.hpp"
 #include "telltale/service/storage/stores.hpp"
+#include "telltale/service/web/httplib.hpp"
 
 namespace telltale {
 namespace {
@@ -90,6 +93,29 @@ std::unique_ptr<Process> ServiceTest::StartDaemon(int vehicles) const {
   EXPECT_TRUE(daemon->WaitForOutput("serving " + std::to_string(vehicles) + " vehicles"))
       << daemon->output();
   return daemon;
+}
+
+std::optional<double> ServiceTest::Metric(const Process& daemon, const std::string& name) {
+  std::smatch page;
+  const std::string log = daemon.output();
+  if (!std::regex_search(log, page, std::regex("the page is at (http://127[.0-9]*:[0-9]+)/"))) {
+    throw std::runtime_error("the daemon has no page: " + log);
+  }
+  const auto answer = httplib::Client(page[1]).Get("/metrics");
+  if (!answer) throw std::runtime_error("no answer: " + httplib::to_string(answer.error()));
+  const std::size_t line = ('\n' + answer->body).find('\n' + name + ' ');
+  if (line == std::string::npos) return std::nullopt;
+  return std::stod(answer->body.substr(line + name.size() + 1));
+}
+
+bool ServiceTest::AwaitMetric(const Process& daemon, const std::string& name, double value) {
+  constexpr auto kLookAgain = std::chrono::milliseconds(100);
+  const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(60);
+  while (Metric(daemon, name) != value) {
+    if (std::chrono::steady_clock::now() > deadline) return false;
+    std::this_thread::sleep_for(kLookAgain);
+  }
+  return true;
 }
 
 bool ServiceTest::AwaitSavedWindow(const std::string& vehicle_id) const {

@@ -52,6 +52,13 @@ class ServiceTest : public ::testing::Test {
   /// telltaled, serving so many vehicles.
   std::unique_ptr<Process> StartDaemon(int vehicles = 1) const;
 
+  /// The value of a metric of a daemon with a web server, as `name{labels}`; nothing where there is
+  /// none.
+  static std::optional<double> Metric(const Process& daemon, const std::string& name);
+
+  /// Waits until a metric has this value. False where that takes a minute.
+  static bool AwaitMetric(const Process& daemon, const std::string& name, double value);
+
   /// Waits until the newest sample of the window is on disk. False where that takes a minute.
   /// Assumes a recording whose clock starts at 0.
   bool AwaitSavedWindow(const std::string& vehicle_id = kVehicleId) const;

@@ -55,6 +55,16 @@ TEST(FleetAnswer, NamesTheSlicesThatNoDaemonAnsweredFor) {
   }
 }
 
+TEST(FleetAnswer, AHistorySaysHowManyRevisionsAreNoLongerKept) {
+  std::vector<ModelSummary> models(2);
+  models[0].revision = 2;
+  models[1].revision = 1;
+  EXPECT_THAT(ModelHistoryTable(models), Not(HasSubstr("no longer kept")));
+  models[0].revision = 9;
+  models[1].revision = 4;
+  EXPECT_THAT(ModelHistoryTable(models), HasSubstr("7 of 9 revisions are no longer kept."));
+}
+
 TEST(FleetAnswer, TablesFitATerminal) {
   const std::string list = VehicleListTable(
       {{"a-boat-of-a-rather-long-name-1",

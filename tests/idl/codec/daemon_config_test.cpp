@@ -114,6 +114,30 @@ TEST(DaemonConfig, ReadsTheUpkeepBlock) {
       RefreshMode::kAdvise);
 }
 
+TEST(DaemonConfig, KeepsModelsOfAnyAgeAndWindowsOfNinetyDaysUnlessItIsTold) {
+  const RetentionSettings retention = ParseDaemonConfig("retention {}")->retention;
+  EXPECT_EQ(retention.models_per_vehicle, 200u);
+  EXPECT_EQ(retention.model_age_s, 0.0);
+  EXPECT_EQ(retention.diagnosis_age_s, 0.0);
+  EXPECT_EQ(retention.window_age_s, 90.0 * 86400.0);
+  EXPECT_EQ(retention.store_bytes, std::size_t{20} << 30);
+  EXPECT_EQ(retention.period_s, 600.0);
+}
+
+TEST(DaemonConfig, ReadsTheRetentionBlock) {
+  const auto config = ParseDaemonConfig(
+      "retention { models_per_vehicle: 2 model_age_s: 3.2e9 diagnosis_age_s: 10 window_age_s: 0 "
+      "store_mib: 3 period_s: 1 }");
+  ASSERT_TRUE(config) << config.error().Message();
+  EXPECT_EQ(config->retention.models_per_vehicle, 2u);
+  EXPECT_EQ(config->retention.model_age_s, 3.2e9);
+  EXPECT_EQ(config->retention.diagnosis_age_s, 10.0);
+  EXPECT_EQ(config->retention.window_age_s, 0.0);
+  EXPECT_EQ(config->retention.store_bytes, std::size_t{3} << 20);
+  EXPECT_EQ(config->retention.period_s, 1.0);
+  EXPECT_EQ(ParseDaemonConfig("retention { store_mib: 0 }")->retention.store_bytes, 0u);
+}
+
 TEST(DaemonConfig, ReadsEveryField) {
   const auto config = ParseDaemonConfig(
       "domain: 42\n" + VehicleNamed("a") + VehicleNamed("b") +
@@ -212,6 +236,14 @@ INSTANTIATE_TEST_SUITE_P(
         ConfigFault{"upkeep { refresh_older_than_s: -1 }", "upkeep.refresh_older_than_s", "-1",
                     "[0, 31536000]"},
         ConfigFault{"upkeep { retry_s: 0 }", "upkeep.retry_s", "0", "[1, 86400]"},
+        ConfigFault{"retention { models_per_vehicle: 1 }", "retention.models_per_vehicle", "1",
+                    "[2, 200]"},
+        ConfigFault{"retention { model_age_s: 9 }", "retention.model_age_s", "9",
+                    "0 or a number in [10, 3200000000]"},
+        ConfigFault{"retention { window_age_s: nan }", "retention.window_age_s", "nan", "[0, "},
+        ConfigFault{"retention { store_mib: 16777217 }", "retention.store_mib", "16777217",
+                    "[0, 16777216]"},
+        ConfigFault{"retention { period_s: 0 }", "retention.period_s", "0", "[1, 86400]"},
         ConfigFault{"database: \"mysql://boat:sesame@db\"", "database", "\"...\"", "postgresql://"},
         ConfigFault{"slices {}", "slices", "{}", "with database"},
         ConfigFault{"database: \"postgresql:///t\" standby { ownership_strength: 1 }", "standby",
