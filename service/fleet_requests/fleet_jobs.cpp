@@ -280,6 +280,7 @@ void FleetJobs::KeepRefresh(const FleetRequest& request, SliceSet slices) {
     reply.slices = slices;
     return replies_.Send(reply);
   }
+  if (journal_.Waiting() >= kRequestsThatWait) return TurnAway(request, std::nullopt);
   journal_.Keep(request, [inbox = inbox_, request] {
     {
       const std::lock_guard lock(inbox->mutex);

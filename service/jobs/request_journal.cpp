@@ -1,5 +1,6 @@
 #include "telltale/service/jobs/request_journal.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <cstdint>
 #include <exception>
@@ -80,19 +81,45 @@ std::vector<AnyRequest> RequestJournal::TakeUnanswered(const std::optional<std::
 
 void RequestJournal::Keep(const AnyRequest& request, std::function<void()> kept) {
   const std::string& id = CorrelationIdOf(request);
-  const int slice = SliceOfRequest(request);
+  Entry entry{id, SliceOfRequest(request), SerialiseRequest(request, UnixNow()), std::move(kept)};
   {
     const std::lock_guard lock(mutex_);
-    kept_.insert_or_assign(id, slice);
+    entry.may_be_stored = !kept_.insert_or_assign(id, entry.slice).second;
+    if (const auto earlier = FindUnwritten(id); earlier != entries_.end()) {
+      entry.may_be_stored = earlier->may_be_stored;
+      *earlier = std::move(entry);
+      return;
+    }
   }
-  Push({id, slice, SerialiseRequest(request, UnixNow()), std::move(kept)});
+  Push(std::move(entry));
 }
 
 void RequestJournal::Drop(const std::string& correlation_id) {
   std::unique_lock lock(mutex_);
   const auto kept = kept_.extract(correlation_id);
+  if (kept.empty()) return;
+  const auto unwritten = FindUnwritten(correlation_id);
+  if (unwritten != entries_.end() && !unwritten->may_be_stored) {
+    entries_.erase(unwritten);
+    return;
+  }
   lock.unlock();
-  if (!kept.empty()) Push({correlation_id, kept.mapped(), "", {}});
+  Push({correlation_id, kept.mapped(), "", {}});
+}
+
+std::size_t RequestJournal::Waiting() const {
+  const std::lock_guard lock(mutex_);
+  return entries_.size();
+}
+
+/// The request that waits to be written, unless its answer waits too. The caller holds mutex_.
+std::deque<RequestJournal::Entry>::iterator RequestJournal::FindUnwritten(
+    const std::string& correlation_id) {
+  const auto last = std::find_if(entries_.rbegin(), entries_.rend(), [&](const Entry& entry) {
+    return entry.correlation_id == correlation_id;
+  });
+  const bool is_request = last != entries_.rend() && !last->bytes.empty();
+  return is_request ? std::prev(last.base()) : entries_.end();
 }
 
 /// A refresh is of no boat in particular: it goes with any slice that this daemon holds.
@@ -130,6 +157,7 @@ void RequestJournal::Run() {
     }
     lock.lock();
     if (reachable) continue;
+    for (Entry& entry : entries) entry.may_be_stored = true;  // what was being committed may be
     entries_.insert(entries_.begin(), std::make_move_iterator(entries.begin()),
                     std::make_move_iterator(entries.end()));
   }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <condition_variable>
+#include <cstddef>
 #include <deque>
 #include <functional>
 #include <map>
@@ -22,6 +23,8 @@ namespace telltale {
 /// finishes them after its restart. A thread of its own writes what has come together in one
 /// transaction. A fault of the disk is logged: requests are then worked on without being kept. A
 /// database that cannot be reached is tried again once a second, and gets everything in its order.
+/// While it hangs, no more waits than the requests without an answer and the answers to those that
+/// it has: a request that is answered before it is written is not written at all.
 /// Safe to use from several threads.
 class RequestJournal {
  public:
@@ -46,6 +49,9 @@ class RequestJournal {
   /// The request needs no answer any more, where this daemon still serves its boat.
   void Drop(const std::string& correlation_id);
 
+  /// How many requests, and answers to requests that are kept, wait to be written.
+  std::size_t Waiting() const;
+
   WriteDurations::Sum Written() const { return written_.Total(); }
 
  private:
@@ -54,6 +60,7 @@ class RequestJournal {
     int slice = 0;      ///< of its boat
     std::string bytes;  ///< empty: it is dropped
     std::function<void()> kept;
+    bool may_be_stored = false;  ///< so that dropping it has to be written
   };
 
   void Run();
@@ -62,12 +69,13 @@ class RequestJournal {
   void WriteHeld(std::deque<Entry>& entries);
   void Write(const Entry& entry);
   void Push(Entry entry);
+  std::deque<Entry>::iterator FindUnwritten(const std::string& correlation_id);
 
   const Storage storage_;
   std::unique_ptr<Database> database_;  // of the thread, once that runs
   bool wrote_last_time_ = true;
   WriteDurations written_;
-  std::mutex mutex_;  // of what follows
+  mutable std::mutex mutex_;  // of what follows
   std::condition_variable wake_;
   bool stopping_ = false;
   std::deque<Entry> entries_;
