@@ -64,8 +64,10 @@ Daemon::Daemon(const DaemonConfig& config, Endings endings)
       leases_(LeasesOf(config, storage_)),
       fleet_(config.slices ? std::vector<Vehicle>() : config.vehicles, config.window,
              config.total_window_bytes),
-      windows_(WindowStore(storage_), fleet_, config.window.duration_s,
-               config.window_save_period_s),
+      windows_(WindowStore(storage_), fleet_,
+               {.window_s = config.window.duration_s,
+                .save_s = config.window_save_period_s,
+                .unload_after_s = config.window_unload_after_s}),
       bus_log_(spdlog::default_logger(),
                [this](std::string_view topic) { fleet_.CountUnreadable(topic); }),
       participant_(config.domain),
@@ -299,6 +301,8 @@ DaemonActivity Daemon::Activity() const {
   activity.stores = {{"models", models_.Written()},
                      {"windows", windows_.Written()},
                      {"requests", journal_.Written()}};
+  activity.windows = windows_.Activity();
+  activity.unwritten_requests = journal_.Waiting();
   activity.retention = retention_.Activity();
   activity.received = ingest_.Received();
   activity.matches = ingest_.Matches();

@@ -34,6 +34,24 @@ std::size_t ReadTotalWindowBytes(FieldReader reader, std::size_t fallback) {
   return reader.Count("total_memory_mib", {1.0, 16777216.0}, fallback_mib) * kMiB;
 }
 
+constexpr double kYearS = 31536000.0;
+constexpr double kCenturyS = 3.2e9;
+
+/// A time that is 0 where it is not to be.
+double ReadTimeOrNone(FieldReader& reader, std::string_view field, double longest_s,
+                      double fallback_s = 0.0) {
+  constexpr double kShortestS = 10.0;
+  const double time_s = reader.Number(field, {0.0, longest_s}, fallback_s);
+  if (time_s > 0.0 && time_s < kShortestS) {
+    reader.Fail(field, NumberText(time_s), "0 or " + FieldRange{kShortestS, longest_s}.Text());
+  }
+  return time_s;
+}
+
+double ReadUnloadAfter(FieldReader reader, double fallback_s) {
+  return ReadTimeOrNone(reader, "unload_after_s", kYearS, fallback_s);
+}
+
 IntakeLimits ReadIntake(FieldReader reader) {
   IntakeLimits limits;
   limits.samples_per_s = reader.Number("samples_per_s", {10.0, 1e7}, limits.samples_per_s);
@@ -92,20 +110,6 @@ RefreshMode ReadRefreshMode(FieldReader& reader) {
   if (mode == "advise") return RefreshMode::kAdvise;
   if (mode != "off") reader.Fail("refresh", '"' + mode + '"', "one of off, advise, act");
   return RefreshMode::kOff;
-}
-
-constexpr double kYearS = 31536000.0;
-constexpr double kCenturyS = 3.2e9;
-
-/// A time that is 0 where it is not to be.
-double ReadTimeOrNone(FieldReader& reader, std::string_view field, double longest_s,
-                      double fallback_s = 0.0) {
-  constexpr double kShortestS = 10.0;
-  const double time_s = reader.Number(field, {0.0, longest_s}, fallback_s);
-  if (time_s > 0.0 && time_s < kShortestS) {
-    reader.Fail(field, NumberText(time_s), "0 or " + FieldRange{kShortestS, longest_s}.Text());
-  }
-  return time_s;
 }
 
 UpkeepSettings ReadUpkeep(FieldReader reader, const proto::DaemonConfig::Upkeep& message) {
@@ -278,6 +282,8 @@ DaemonConfig ReadConfig(FieldReader reader, const proto::DaemonConfig& message) 
   config.retention = ReadRetention(reader.Optional("retention"));
   config.window_save_period_s =
       reader.Optional("window").Number("save_period_s", {0.1, 600.0}, config.window_save_period_s);
+  config.window_unload_after_s =
+      ReadUnloadAfter(reader.Optional("window"), config.window_unload_after_s);
   config.identification = ReadIdentification(reader.Optional("identification"));
   if (message.has_http()) config.http = ReadHttp(reader.Optional("http"));
   config.upkeep = ReadUpkeep(reader.Optional("upkeep"), message.upkeep());

@@ -122,6 +122,7 @@ struct DaemonConfig {
   RetentionSettings retention;
   bool require_partition = false;     ///< telemetry only from the DDS partition of the vehicle's id
   double window_save_period_s = 5.0;  ///< [0.1, 600]
+  double window_unload_after_s = 3600.0;  ///< 0: never, or [10, 31536000] of silence
   IdentificationSettings identification;
   std::optional<HttpSettings> http;
   UpkeepSettings upkeep;

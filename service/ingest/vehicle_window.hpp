@@ -1,9 +1,14 @@
 #pragma once
 
 #include <array>
+#include <chrono>
+#include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <mutex>
 #include <optional>
+#include <string>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -12,6 +17,7 @@
 #include "telltale/core/vessel/vehicle.hpp"
 #include "telltale/service/ingest/clock_jumps.hpp"
 #include "telltale/service/ingest/sequence_gaps.hpp"
+#include "telltale/service/ingest/unsaved_samples.hpp"
 
 namespace telltale {
 
@@ -31,8 +37,19 @@ struct WindowState {
   std::optional<HeadingSample> newest_heading;
 };
 
+/// How the samples of a window stand to the store.
+struct SavingState {
+  std::size_t unsaved = 0;    ///< samples that wait to be saved
+  std::uint64_t dropped = 0;  ///< that went before they were
+  bool unloaded = false;      ///< the store alone has the samples
+};
+
 /// The sliding window of one vehicle, for one thread that fills it and several that read it.
 /// Filling does not wait for a reader: samples that arrive during a copy wait in an inbox.
+///
+/// A window that nobody uses may be unloaded: a store has its samples then, and State() tells what
+/// it would with them. Who asks for the samples brings them back. Those that arrive meanwhile wait
+/// in the inbox.
 class VehicleWindow {
  public:
   using Clock = ClockJumps::Clock;
@@ -51,8 +68,8 @@ class VehicleWindow {
   /// Counts a sample that has arrived and is not taken in.
   void Shed(Channel channel, std::uint64_t sequence_number, double time_s);
 
-  /// As Window::LimitMemory(). As many bytes of samples may wait while the window is read; it sheds
-  /// those that come beyond.
+  /// As Window::LimitMemory(). As many bytes of samples may wait while the window is read or
+  /// unloaded, and it sheds those that come beyond; as many may wait to be saved.
   void LimitMemory(std::size_t memory_bytes);
 
   /// The samples and counts of the same vehicle's former window, which is empty afterwards.
@@ -61,16 +78,39 @@ class VehicleWindow {
   /// Samples of an earlier run, which count neither as arrived nor as accepted.
   void Restore(const Recording& samples);
 
+  /// Where the samples of an unloaded window are.
+  struct Store {
+    /// Hands over the samples that are saved, oldest first. May throw.
+    std::function<void(const std::string& vehicle_id,
+                       const std::function<void(const Recording&)>& take)>
+        load;
+    /// A sample waits for them. Must return at once.
+    std::function<void()> wanted;
+  };
+
   /// From now on the samples that are kept are noted for TakeUnsaved() too.
-  void BeginSaving();
+  void BeginSaving(Store store);
 
   /// The samples kept since the last call.
   Recording TakeUnsaved();
+
+  /// Leaves the samples to the store where no sample has arrived, and nobody has asked for any, in
+  /// the time `unused` before `now`. False where the window is in use, is empty, or holds samples
+  /// that TakeUnsaved() has not given. Assumes that the store has all that it gave.
+  bool UnloadIfUnused(std::chrono::duration<double> unused, Clock::time_point now);
+
+  /// Brings the samples back, where the window is unloaded. Throws as Store::load, and then stays
+  /// unloaded; so do those that follow.
+  void Load();
 
   Recording Snapshot();
   /// As that of the window.
   Recording Snapshot(double duration_s);
   WindowState State();
+
+  /// Whether samples have arrived for an unloaded window.
+  bool WaitsForLoad();
+  SavingState Saving();
 
  private:
   using Sample = std::variant<GnssFix, HeadingSample, ThrusterSample>;
@@ -84,9 +124,13 @@ class VehicleWindow {
   void Add(Channel channel, std::uint64_t sequence_number, const One& sample, Clock::time_point at);
   template <class One>
   void Insert(const One& sample, Clock::time_point at);
-  void NoteArrival(Channel channel, std::uint64_t sequence_number, double time_s);
-  void EmptyInbox();  ///< into the window; the caller holds window_mutex_
+  void NoteArrival(Channel channel, std::uint64_t sequence_number, double time_s,
+                   Clock::time_point at);
+  void Wait(const Arrival& arrival, Channel channel);
+  void EmptyInbox();  ///< into the window, unless it is unloaded; the caller holds window_mutex_
   void InsertEmptied();
+  void Refill(const Recording& samples);
+  std::pair<double, double> Span() const;
   void NoteNewest(const GnssFix& fix) { newest_fix_ = fix; }
   void NoteNewest(const HeadingSample& heading) { newest_heading_ = heading; }
   void NoteNewest(const ThrusterSample&) {}
@@ -94,21 +138,28 @@ class VehicleWindow {
   const Vehicle vehicle_;
   const WindowLimits limits_;
 
+  std::mutex loading_mutex_;  // before the others
+
   std::mutex inbox_mutex_;
   std::vector<Arrival> inbox_;
   std::array<SequenceGaps, kChannels.size()> gaps_;
   std::array<std::uint64_t, kChannels.size()> arrived_{};
   std::array<std::uint64_t, kChannels.size()> shed_{};
-  std::size_t most_waiting_;  ///< samples in the inbox
+  std::size_t memory_bytes_;  ///< of samples in the inbox, and of those that wait to be saved
+  Clock::time_point last_used_ = Clock::now();
+  bool unloaded_ = false;  ///< who writes it holds window_mutex_ too
 
-  std::mutex window_mutex_;
+  std::mutex window_mutex_;  // before inbox_mutex_
   std::vector<Arrival> emptied_;
   Window window_;
+  std::pair<double, double> unloaded_span_;  ///< times of its oldest and newest sample
+  RejectCounts rejected_before_;             ///< before it was last unloaded
   std::uint64_t accepted_ = 0;
   ClockJumps clock_jumps_;
   std::optional<GnssFix> newest_fix_;
   std::optional<HeadingSample> newest_heading_;
-  std::optional<Recording> unsaved_;
+  std::optional<UnsavedSamples> unsaved_;
+  Store store_;
 };
 
 }  // namespace telltale

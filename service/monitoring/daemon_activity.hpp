@@ -12,6 +12,7 @@
 #include "telltale/service/jobs/queue_activity.hpp"
 #include "telltale/service/retention/retention.hpp"
 #include "telltale/service/storage/write_durations.hpp"
+#include "telltale/service/windows/window_archive.hpp"
 
 namespace telltale {
 
@@ -29,6 +30,8 @@ struct DaemonActivity {
   std::chrono::steady_clock::duration ingest_silence{0};  ///< since the ingest loop came round
   std::vector<QueueActivity> queues;
   std::vector<StoreActivity> stores;
+  WindowActivity windows;
+  std::size_t unwritten_requests = 0;
   RetentionActivity retention;
   std::array<std::uint64_t, kChannels.size()> received{};  ///< samples taken from the bus
   std::vector<TopicConnections> matches;

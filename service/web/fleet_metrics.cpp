@@ -346,6 +346,18 @@ void AddRetention(const RetentionActivity& retention, std::vector<MetricFamily>&
                             retention.last.over_limit ? 1.0 : 0.0));
 }
 
+void AddWindows(const WindowActivity& windows, std::vector<MetricFamily>& families) {
+  families.push_back(Single(MetricType::Gauge, "telltale_windows_unloaded",
+                            "Windows of silent vehicles that the store alone holds.",
+                            static_cast<double>(windows.unloaded)));
+  families.push_back(Single(MetricType::Gauge, "telltale_window_samples_unsaved",
+                            "Samples in windows that wait to be saved.",
+                            static_cast<double>(windows.samples.unsaved)));
+  families.push_back(Single(MetricType::Counter, "telltale_window_samples_dropped_total",
+                            "Samples that went before they were saved.",
+                            static_cast<double>(windows.samples.dropped)));
+}
+
 void AddActivity(const DaemonActivity& activity, std::vector<MetricFamily>& families) {
   using enum MetricType;
   const auto add = [&](auto... description) {
@@ -362,6 +374,10 @@ void AddActivity(const DaemonActivity& activity, std::vector<MetricFamily>& fami
       &QueueActivity::shed);
   families.push_back(StoreWrites(activity.stores));
   AddRetention(activity.retention, families);
+  AddWindows(activity.windows, families);
+  families.push_back(Single(Gauge, "telltale_requests_unwritten",
+                            "Requests, and answers to kept requests, that wait to be written.",
+                            static_cast<double>(activity.unwritten_requests)));
   families.push_back(ReceivedSamples(activity));
   families.push_back(Matches(activity.matches));
 }

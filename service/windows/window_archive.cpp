@@ -5,6 +5,8 @@
 #include <utility>
 #include <vector>
 
+#include <malloc.h>
+
 #include <spdlog/spdlog.h>
 
 namespace telltale {
@@ -14,13 +16,12 @@ constexpr std::int64_t kSpareChunks = 100;
 
 }  // namespace
 
-WindowArchive::WindowArchive(WindowStore store, Fleet& fleet, double window_s, double period_s)
+WindowArchive::WindowArchive(WindowStore store, Fleet& fleet, const Periods& periods)
     : store_(std::move(store)),
       fleet_(fleet),
-      window_s_(window_s),
-      most_chunks_(static_cast<std::int64_t>(2.0 * window_s / period_s) + kSpareChunks),
-      period_(period_s),
-      most_rounds_(static_cast<std::size_t>(window_s / period_s) + 1) {
+      periods_(periods),
+      most_chunks_(static_cast<std::int64_t>(2.0 * periods.window_s / periods.save_s) +
+                   kSpareChunks) {
   Restore();
   thread_ = std::thread([this] { Run(); });
 }
@@ -35,31 +36,43 @@ WindowArchive::~WindowArchive() {
   Save();
 }
 
+WindowActivity WindowArchive::Activity() const {
+  WindowActivity activity;
+  for (const auto& [vehicle_id, window] : fleet_.windows()) {
+    const SavingState state = window->Saving();
+    activity.unloaded += state.unloaded ? 1 : 0;
+    activity.samples.unsaved += state.unsaved;
+    activity.samples.dropped += state.dropped;
+  }
+  return activity;
+}
+
 void WindowArchive::Restore() {
-  const auto begun = std::chrono::steady_clock::now();
+  const auto begun = Clock::now();
   std::size_t restored = 0;
   for (const auto& [vehicle_id, window] : fleet_.windows()) {
     Admit(vehicle_id, *window);
     if (!window->Snapshot().gnss.empty()) ++restored;
   }
   if (restored == 0) return;
-  const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begun;
+  const std::chrono::duration<double> took = Clock::now() - begun;
   spdlog::info("the windows of {} vehicles are read back in {:.1f} s", restored, took.count());
 }
 
 void WindowArchive::Admit(const std::string& vehicle_id, VehicleWindow& window) {
   try {
-    Restore(vehicle_id, window);
+    Read(vehicle_id, [&window](const Recording& samples) { window.Restore(samples); });
   } catch (const std::exception& error) {
     spdlog::error("{}; the window of {} begins anew", error.what(), vehicle_id);
   }
-  window.BeginSaving();
+  window.BeginSaving({.load = [this](const auto& of, const auto& take) { Read(of, take); },
+                      .wanted = [this] { Want(); }});
 }
 
-void WindowArchive::Restore(const std::string& vehicle_id, VehicleWindow& window) {
+void WindowArchive::Read(const std::string& vehicle_id,
+                         const std::function<void(const Recording&)>& take) {
   const std::lock_guard lock(store_mutex_);
-  const std::size_t unreadable =
-      store_.Load(vehicle_id, [&window](const Recording& samples) { window.Restore(samples); });
+  const std::size_t unreadable = store_.Load(vehicle_id, take);
   if (unreadable > 0) {
     spdlog::error("{}: {} chunks of {} are damaged and passed over", store_.name(), unreadable,
                   vehicle_id);
@@ -67,20 +80,40 @@ void WindowArchive::Restore(const std::string& vehicle_id, VehicleWindow& window
 }
 
 void WindowArchive::Run() {
+  const auto period =
+      std::chrono::ceil<Clock::duration>(std::chrono::duration<double>(periods_.save_s));
+  auto next_save = Clock::now() + period;
+  bool may_load = true;  // where it fails it is tried again after the next save
   std::unique_lock lock(mutex_);
   while (!stopping_) {
-    wake_.wait_for(lock, period_, [this] { return stopping_; });
+    wake_.wait_until(lock, next_save, [&] { return stopping_ || (may_load && load_wanted_); });
+    load_wanted_ = false;
     lock.unlock();
-    Save();
+    const bool is_due = Clock::now() >= next_save;
+    if (is_due) Save();
+    may_load = LoadWanted();
+    if (is_due) {
+      UnloadUnused();
+      next_save = Clock::now() + period;
+    }
     lock.lock();
   }
 }
 
+/// Called by who fills the windows, which must not wait.
+void WindowArchive::Want() {
+  {
+    const std::lock_guard lock(mutex_);
+    load_wanted_ = true;
+  }
+  wake_.notify_all();
+}
+
 void WindowArchive::Save() {
-  TakeRound();
-  if (rounds_.empty()) return;
   try {
-    SaveRounds();
+    Write();
+    TakeUnsaved();
+    Write();
     if (!saved_last_time_) spdlog::info("windows are saved again");
     saved_last_time_ = true;
   } catch (const std::exception& error) {
@@ -89,24 +122,62 @@ void WindowArchive::Save() {
     }
     saved_last_time_ = false;
   }
+  LogDropped();
 }
 
-void WindowArchive::TakeRound() {
-  std::vector<WindowStore::Chunk> chunks;
+void WindowArchive::TakeUnsaved() {
   for (const auto& [vehicle_id, window] : fleet_.windows()) {
     Recording unsaved = window->TakeUnsaved();
     if (unsaved.gnss.empty() && unsaved.heading.empty() && unsaved.thrusters.empty()) continue;
-    chunks.push_back({vehicle_id, std::move(unsaved)});
+    chunks_.push_back({vehicle_id, std::move(unsaved)});
   }
-  if (!chunks.empty()) rounds_.push_back(std::move(chunks));
-  if (rounds_.size() > most_rounds_) rounds_.pop_front();
 }
 
-void WindowArchive::SaveRounds() {
+void WindowArchive::Write() {
+  if (chunks_.empty()) return;
   const std::lock_guard lock(store_mutex_);
-  for (; !rounds_.empty(); rounds_.pop_front()) {
-    written_.Count([this] { store_.Save(rounds_.front(), {window_s_, most_chunks_}); });
+  written_.Count([this] { store_.Save(chunks_, {periods_.window_s, most_chunks_}); });
+  chunks_.clear();
+}
+
+void WindowArchive::LogDropped() {
+  const std::uint64_t dropped = Activity().samples.dropped;
+  const std::uint64_t before = std::exchange(dropped_, dropped);
+  if (dropped <= before) return;
+  spdlog::error(
+      "{} samples, the oldest, have gone before they were saved: they had waited for too "
+      "long",
+      dropped - before);
+}
+
+void WindowArchive::UnloadUnused() {
+  if (periods_.unload_after_s <= 0.0 || !chunks_.empty()) return;
+  const std::chrono::duration<double> unused(periods_.unload_after_s);
+  std::size_t unloaded = 0;
+  for (const auto& [vehicle_id, window] : fleet_.windows()) {
+    unloaded += window->UnloadIfUnused(unused, Clock::now()) ? 1 : 0;
   }
+  if (unloaded == 0) return;
+  malloc_trim(0);  // else the process keeps the memory for itself
+  spdlog::info("the windows of {} silent vehicles are unloaded; the store has them", unloaded);
+}
+
+/// False where the database refuses one.
+bool WindowArchive::LoadWanted() {
+  for (const auto& [vehicle_id, window] : fleet_.windows()) {
+    if (!window->WaitsForLoad()) continue;
+    try {
+      window->Load();
+      loaded_last_time_ = true;
+      spdlog::info("{} sends again; its window is read back", vehicle_id);
+    } catch (const std::exception& error) {
+      if (std::exchange(loaded_last_time_, false)) {
+        spdlog::error("{}; the window of {} is not read back yet", error.what(), vehicle_id);
+      }
+      return false;
+    }
+  }
+  return true;
 }
 
 }  // namespace telltale

@@ -127,7 +127,7 @@ class ScrapeTest(unittest.TestCase):
         self.assertEqual(documented - sometimes, scraped - sometimes)
         self.assertLessEqual(sometimes, documented)
         for file in (RULES, DASHBOARD):
-            named = set(re.findall(r"(?:telltale_(?:vehicle|jobs|queue|store|dds)|process)_\w+", file.read_text()))
+            named = set(re.findall(r"(?:telltale_(?:vehicle|jobs|queue|store|window|dds)|process)_\w+", file.read_text()))
             named = {re.sub("_(?:sum|count)$", "", name) for name in named}  # of a summary
             self.assertTrue(named)
             self.assertLessEqual(named, documented, file)

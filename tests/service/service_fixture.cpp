@@ -68,14 +68,16 @@ ServiceTest::ServiceTest(Engine engine, bool is_tagged) : domain_(is_tagged), en
 }
 
 void ServiceTest::ConfigureIdentification(const std::string& settings,
-                                          const std::vector<std::string>& vehicle_files) {
+                                          const std::vector<std::string>& vehicle_files,
+                                          const std::string& window_settings) {
   std::string files;
   for (const std::string& file : vehicle_files) files += "vehicle_files: \"" + file + "\"\n";
-  config_file_ = folder_.Write("daemon.textproto",
-                               "domain: " + std::to_string(domain_.id()) + "\n" + files +
-                                   StorageLines() + "identification { " + settings +
-                                   " }\n"
-                                   "quality_period_s: 0.1\nwindow { save_period_s: 0.2 }\n");
+  config_file_ =
+      folder_.Write("daemon.textproto", "domain: " + std::to_string(domain_.id()) + "\n" + files +
+                                            StorageLines() + "identification { " + settings +
+                                            " }\n"
+                                            "quality_period_s: 0.1\nwindow { save_period_s: 0.2 " +
+                                            window_settings + " }\n");
 }
 
 void ServiceTest::Configure(const std::string& more) const {

@@ -41,10 +41,12 @@ class ServiceTest : public ::testing::Test {
   /// `is_tagged`: as LoopbackDomain has it.
   explicit ServiceTest(Engine engine = Engine::kSqlite, bool is_tagged = true);
 
-  /// Writes the daemon's configuration, with these settings of its identification.
-  void ConfigureIdentification(const std::string& settings,
-                               const std::vector<std::string>& vehicle_files = {
-                                   "vehicle.textproto"});
+  /// Writes the daemon's configuration, with these settings of its identification, and more of its
+  /// windows.
+  void ConfigureIdentification(
+      const std::string& settings,
+      const std::vector<std::string>& vehicle_files = {"vehicle.textproto"},
+      const std::string& window_settings = "");
 
   /// Lets the daemon's configuration have this too.
   void Configure(const std::string& more) const;

@@ -30,6 +30,7 @@ TEST(DaemonConfig, AnEmptyFileMeansTheDefaultsOfTheSchema) {
   EXPECT_EQ(config->window.reorder_tolerance_s, 0.5);
   EXPECT_EQ(config->window.clock_jump_s, 60.0);
   EXPECT_EQ(config->window.stuck_after_s, 5.0);
+  EXPECT_EQ(config->window_unload_after_s, 3600.0);
   EXPECT_EQ(config->identification.workers, 1u);
   EXPECT_EQ(config->identification.bootstrap_replicates, 1000u);
   EXPECT_EQ(config->identification.interval_level, 0.95);
@@ -144,7 +145,7 @@ TEST(DaemonConfig, ReadsEveryField) {
       "vehicle_files: \"c.textproto\" vehicle_files: \"d.textproto\"\n"
       "state_directory: \"/tmp/state\"\n"
       "window { duration_s: 600 memory_mib: 2 reorder_tolerance_s: 0 clock_jump_s: 5 "
-      "stuck_after_s: 9 total_memory_mib: 3 }\n"
+      "stuck_after_s: 9 total_memory_mib: 3 unload_after_s: 10 }\n"
       "intake { samples_per_s: 5000 vehicle_samples_per_s: 70 }\n"
       "identification { workers: 3 bootstrap_replicates: 0 interval_level: 0.9 queue_limit: 7 "
       "structure: \"auto\" }\n"
@@ -152,6 +153,7 @@ TEST(DaemonConfig, ReadsEveryField) {
   ASSERT_TRUE(config) << config.error().Message();
   EXPECT_EQ(config->domain, 42u);
   EXPECT_EQ(config->total_window_bytes, 3u << 20);
+  EXPECT_EQ(config->window_unload_after_s, 10.0);
   EXPECT_EQ(config->intake.samples_per_s, 5000.0);
   EXPECT_EQ(config->intake.vehicle_samples_per_s, 70.0);
   ASSERT_EQ(config->vehicles.size(), 2u);
@@ -205,6 +207,7 @@ INSTANTIATE_TEST_SUITE_P(
         ConfigFault{"window { memory_mib: 0 }", "window.memory_mib", "0", "[1, 65536]"},
         ConfigFault{"window { total_memory_mib: 0 }", "window.total_memory_mib", "0",
                     "[1, 16777216]"},
+        ConfigFault{"window { unload_after_s: 9 }", "window.unload_after_s", "9", "[10, 31536000]"},
         ConfigFault{"intake { samples_per_s: 9 }", "intake.samples_per_s", "9", "[10, 10000000]"},
         ConfigFault{"intake { vehicle_samples_per_s: inf }", "intake.vehicle_samples_per_s", "inf",
                     "[10, 1000000]"},

@@ -1,7 +1,11 @@
 #include "telltale/service/ingest/vehicle_window.hpp"
 
+#include <chrono>
 #include <cmath>
+#include <stdexcept>
+#include <string>
 #include <thread>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -96,6 +100,119 @@ TEST(VehicleWindow, CountsNoJumpAfterARestoredWindow) {
   window.Restore(saved);
   AddHeadings(window, 1000.0, 20);
   EXPECT_EQ(window.State().clock_jumps, 0u);
+}
+
+/// A window whose store is the list `saved`.
+class UnloadedWindow : public ::testing::Test {
+ protected:
+  using Clock = VehicleWindow::Clock;
+  static constexpr std::chrono::seconds kUnused{10};
+
+  UnloadedWindow() {
+    window_.BeginSaving({.load =
+                             [this](const std::string&, const auto& take) {
+                               if (is_gone_) throw std::runtime_error("the store is gone");
+                               for (const Recording& samples : saved_) take(samples);
+                             },
+                         .wanted = [this] { ++wanted_; }});
+  }
+
+  void Save() { saved_.push_back(window_.TakeUnsaved()); }
+  bool Unload() { return window_.UnloadIfUnused(kUnused, Clock::now() + kUnused); }
+
+  std::vector<Recording> saved_;
+  bool is_gone_ = false;
+  int wanted_ = 0;
+  VehicleWindow window_{YellowfishVehicle(), WindowLimits()};
+};
+
+TEST_F(UnloadedWindow, IsOneThatNobodyUsesAndThatIsSaved) {
+  EXPECT_FALSE(Unload());  // it is empty
+  AddHeadings(window_, 0.0, 20);
+  EXPECT_FALSE(Unload());  // it is not saved
+  Save();
+  EXPECT_FALSE(window_.UnloadIfUnused(kUnused, Clock::now()));
+  EXPECT_TRUE(Unload());
+  EXPECT_TRUE(window_.Saving().unloaded);
+  EXPECT_FALSE(Unload());
+  window_.Snapshot();
+  EXPECT_FALSE(window_.Saving().unloaded);
+  EXPECT_FALSE(window_.UnloadIfUnused(kUnused, Clock::now()));  // it is in use again
+  EXPECT_EQ(window_.Saving().unsaved, 0u);
+}
+
+TEST_F(UnloadedWindow, TellsWhatItDidBefore) {
+  AddHeadings(window_, 0.0, 20);
+  window_.Add(1, HeadingSample{5.5, std::nan("")});
+  Save();
+  const WindowState before = window_.State();
+  ASSERT_TRUE(Unload());
+  const WindowState after = window_.State();
+  EXPECT_EQ(after.start_s, before.start_s);
+  EXPECT_EQ(after.end_s, before.end_s);
+  EXPECT_EQ(after.fill, before.fill);
+  EXPECT_EQ(after.accepted, before.accepted);
+  EXPECT_EQ(after.rejected.Total(), 1u);
+  EXPECT_EQ(after.newest_heading->time_s, before.newest_heading->time_s);
+  EXPECT_EQ(after.bytes, 0u);
+  EXPECT_EQ(wanted_, 0);
+}
+
+TEST_F(UnloadedWindow, ComesBackAsItWasWhenItIsAskedFor) {
+  AddHeadings(window_, 0.0, 20);
+  Save();
+  AddHeadings(window_, 20.0, 20);
+  Save();
+  const Recording before = window_.Snapshot();
+  ASSERT_TRUE(Unload());
+  const Recording after = window_.Snapshot();
+  ASSERT_EQ(after.heading.size(), before.heading.size());
+  for (std::size_t i = 0; i < after.heading.size(); ++i) {
+    EXPECT_EQ(after.heading[i].time_s, before.heading[i].time_s);
+    EXPECT_EQ(after.heading[i].heading_deg, before.heading[i].heading_deg);
+  }
+  EXPECT_EQ(window_.State().rejected.Total(), 0u);
+}
+
+TEST_F(UnloadedWindow, LosesNothingThatArrivesMeanwhile) {
+  AddHeadings(window_, 0.0, 20);
+  Save();
+  ASSERT_TRUE(Unload());
+  AddHeadings(window_, 20.0, 3);
+  EXPECT_EQ(wanted_, 3);
+  EXPECT_TRUE(window_.WaitsForLoad());
+  EXPECT_EQ(window_.State().end_s, 19.0);
+  window_.Load();
+  EXPECT_FALSE(window_.WaitsForLoad());
+  EXPECT_EQ(window_.State().end_s, 22.0);
+  EXPECT_EQ(window_.Snapshot().heading.size(), 23u);
+  EXPECT_EQ(window_.TakeUnsaved().heading.size(), 3u);
+}
+
+TEST_F(UnloadedWindow, StaysUnloadedWhereTheStoreRefuses) {
+  AddHeadings(window_, 0.0, 20);
+  Save();
+  ASSERT_TRUE(Unload());
+  is_gone_ = true;
+  AddHeadings(window_, 20.0, 3);
+  EXPECT_THROW(window_.Snapshot(), std::runtime_error);
+  EXPECT_TRUE(window_.TakeUnsaved().heading.empty());
+  EXPECT_TRUE(window_.WaitsForLoad());
+  is_gone_ = false;
+  EXPECT_EQ(window_.Snapshot().heading.size(), 23u);
+}
+
+TEST_F(UnloadedWindow, IsTakenOverByThatOfTheChangedVehicle) {
+  AddHeadings(window_, 0.0, 20);
+  Save();
+  ASSERT_TRUE(Unload());
+  AddHeadings(window_, 20.0, 3);
+  VehicleWindow changed(YellowfishVehicle(), WindowLimits());
+  changed.TakeOver(window_);
+  EXPECT_TRUE(changed.WaitsForLoad());
+  EXPECT_EQ(changed.State().end_s, 19.0);
+  EXPECT_EQ(changed.Snapshot().heading.size(), 23u);
+  EXPECT_TRUE(window_.Snapshot().heading.empty());
 }
 
 }  // namespace

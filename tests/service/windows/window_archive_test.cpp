@@ -78,7 +78,7 @@ TEST(WindowArchive, SavesLaterWhatTheDiskRefused) {
   Fleet fleet({Boat()}, WindowLimits());
   VehicleWindow& window = *fleet.Find("boat");
   {
-    WindowArchive archive(WindowStore(Storage(folder.Path())), fleet, 600.0, 0.01);
+    WindowArchive archive(WindowStore(Storage(folder.Path())), fleet, {600.0, 0.01, 0.0});
     SQLite::Database disk(folder.Path() / "windows.sqlite", SQLite::OPEN_READWRITE);
     disk.setBusyTimeout(5000);
     disk.exec(
@@ -90,6 +90,36 @@ TEST(WindowArchive, SavesLaterWhatTheDiskRefused) {
     ASSERT_TRUE(log.Await("windows are saved again"));
   }
   EXPECT_EQ(SavedFixes(folder), 2u);
+}
+
+/// More than a window of the least memory holds, in the ten minutes that it spans.
+TEST(WindowArchive, BoundsWhatWaitsForADatabaseThatHangsAndSavesTheNewest) {
+  HeardLog log;
+  const TemporaryFolder folder;
+  Fleet fleet({Boat()}, WindowLimits(), WindowLimits::kLeastMemory);
+  VehicleWindow& window = *fleet.Find("boat");
+  constexpr std::size_t kMost = WindowLimits::kLeastMemory / sizeof(GnssFix);
+  constexpr int kFixes = 10'000;
+  static_assert(kFixes > 2 * kMost);
+  {
+    WindowArchive archive(WindowStore(Storage(folder.Path())), fleet, {600.0, 0.01, 0.0});
+    SQLite::Database disk(folder.Path() / "windows.sqlite", SQLite::OPEN_READWRITE);
+    disk.setBusyTimeout(5000);
+    disk.exec("BEGIN EXCLUSIVE");  // who writes waits
+    for (int i = 0; i < kFixes; ++i) {
+      window.Add(0, GnssFix{0.05 * i, 37.0 + 1e-7 * i, -6.0});
+      ASSERT_LE(archive.Activity().samples.unsaved, kMost);
+    }
+    EXPECT_GT(archive.Activity().samples.dropped, 0u);
+    disk.exec("ROLLBACK");
+    ASSERT_TRUE(log.Await("have gone before they were saved"));
+  }
+  EXPECT_GE(SavedFixes(folder), kMost * 3 / 4);
+  double newest_s = 0.0;
+  WindowStore(Storage(folder.Path())).Load("boat", [&](const Recording& samples) {
+    newest_s = samples.gnss.back().time_s;
+  });
+  EXPECT_EQ(newest_s, 0.05 * (kFixes - 1));
 }
 
 }  // namespace
