@@ -52,6 +52,13 @@ std::unique_ptr<SliceLeases> LeasesOf(const DaemonConfig& config, const Storage&
   return leases;
 }
 
+/// Null where everything is computed here.
+std::unique_ptr<OfferedJobs> OfferedTo(const std::optional<WorkerSettings>& workers,
+                                       const Storage& storage) {
+  if (!workers) return nullptr;
+  return std::make_unique<OfferedJobs>(storage, workers->lease_s);
+}
+
 }  // namespace
 
 Daemon::Daemon(const DaemonConfig& config, Endings endings)
@@ -81,9 +88,14 @@ Daemon::Daemon(const DaemonConfig& config, Endings endings)
       retention_(
           StoreRetention(storage_, config.retention,
                          [this](const std::string& vehicle_id) { return IsInFleet(vehicle_id); })),
-      jobs_(fleet_, models_, baselines_, replies_, config.identification, journal_),
+      offered_jobs_(OfferedTo(config.workers, storage_)),
+      coverage_checks_("identification", offered_jobs_.get(),
+                       config.workers.value_or(WorkerSettings())),
+      heavy_diagnoses_("diagnosis", offered_jobs_.get(), config.workers.value_or(WorkerSettings())),
+      jobs_(fleet_, models_, baselines_, replies_, config.identification, journal_,
+            coverage_checks_),
       diagnosis_jobs_(fleet_, models_, view_, baselines_, diagnoses_, replies_,
-                      config.identification, journal_),
+                      config.identification, journal_, heavy_diagnoses_),
       fleet_jobs_(
           fleet_, models_, diagnoses_, replies_, journal_, [this] { return ServedSlices(); },
           {.submit = [this](const IdentifyRequest& request,
@@ -298,6 +310,9 @@ DaemonActivity Daemon::Activity() const {
   activity.vehicles = fleet_.windows().size();
   activity.ingest_silence = ingest_.Silence();
   activity.queues = {jobs_.Activity(), diagnosis_jobs_.Activity()};
+  if (offered_jobs_) {
+    activity.heavy_jobs = {coverage_checks_.Activity(), heavy_diagnoses_.Activity()};
+  }
   activity.stores = {{"models", models_.Written()},
                      {"windows", windows_.Written()},
                      {"requests", journal_.Written()}};

@@ -38,6 +38,8 @@
 #include "telltale/service/upkeep/upkeep.hpp"
 #include "telltale/service/web/web_server.hpp"
 #include "telltale/service/windows/window_archive.hpp"
+#include "telltale/service/workers/heavy_jobs.hpp"
+#include "telltale/service/workers/offered_jobs.hpp"
 
 namespace telltale {
 
@@ -102,6 +104,9 @@ class Daemon {
   std::vector<Vehicle> vehicles_;  ///< of the whole fleet
   Slices served_slices_;
   Retention retention_;
+  const std::unique_ptr<OfferedJobs> offered_jobs_;  ///< null: it has no workers
+  HeavyJobs coverage_checks_;
+  HeavyJobs heavy_diagnoses_;
   IdentificationJobs jobs_;
   DiagnosisJobs diagnosis_jobs_;
   FleetJobs fleet_jobs_;

@@ -20,6 +20,7 @@
 #include "telltale/service/monitoring/daemon_log.hpp"
 #include "telltale/service/storage/backup.hpp"
 #include "telltale/service/supervision/service_manager.hpp"
+#include "telltale/service/workers/worker.hpp"
 
 namespace telltale {
 namespace {
@@ -128,6 +129,22 @@ int Serve(DaemonConfig config, const std::string& config_file, const Signals& si
   return receiving ? 0 : kFailure;
 }
 
+int ServeAsWorker(const DaemonConfig& config, const std::string& config_file,
+                  const Signals& signals) {
+  if (!config.workers) {
+    spdlog::critical("{}", CodecError{"workers", "not given",
+                                      "this with database, which the daemons name too", config_file}
+                               .Message());
+    return kUsageError;
+  }
+  const Worker worker(config);
+  spdlog::info("waiting for jobs");
+  while (signals.Wait() != Event::kStop) {
+  }
+  spdlog::info("stopping");
+  return 0;
+}
+
 /// glibc lets threads beyond eight a processor share their heaps. One that computes and gets no
 /// processor could then hold the heap of one that must not wait.
 void GiveEachThreadAHeap() {
@@ -154,6 +171,12 @@ int Main(int argc, char** argv) {
                  "which are set aside, and end")
       ->type_name("DIR")
       ->excludes(back_up);
+  bool works = false;
+  app.add_flag("--worker", works,
+               "compute coverage checks and diagnoses for the daemons that name the same database "
+               "and have workers {}, and serve no vehicle")
+      ->excludes("--backup")
+      ->excludes("--restore");
   app.footer("SIGHUP reloads the vehicles; SIGTERM and SIGINT stop the daemon.");
   app.set_version_flag("--version", "telltaled " + std::string(Version()));
   try {
@@ -178,6 +201,7 @@ int Main(int argc, char** argv) {
     if (!restore.empty()) {
       return Report("restored from " + restore, RestoreBackup(restore, config->state_directory));
     }
+    if (works) return ServeAsWorker(*config, config_file, signals);
     return Serve(*config, config_file, signals);
   } catch (const std::exception& error) {
     spdlog::critical("{}", error.what());

@@ -81,6 +81,14 @@ std::string_view Name(PromotionVerdict verdict) {
   return "";
 }
 
+PromotionVerdict PromotionVerdictNamed(std::string_view name) {
+  for (const auto verdict :
+       {PromotionVerdict::kOk, PromotionVerdict::kWarn, PromotionVerdict::kError}) {
+    if (Name(verdict) == name) return verdict;
+  }
+  return PromotionVerdict::kUnknown;
+}
+
 bool CountsInFreeRuns(std::size_t velocity, const FreeRunScore& score) {
   return score.constant_velocity_rmse > kVelocities[velocity].counts_from;
 }

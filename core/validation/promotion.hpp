@@ -22,6 +22,9 @@ enum class PromotionVerdict { kUnknown, kOk, kWarn, kError };
 
 std::string_view Name(PromotionVerdict verdict);
 
+/// The verdict of this name; kUnknown where there is none.
+PromotionVerdict PromotionVerdictNamed(std::string_view name);
+
 struct Promotion {
   PromotionVerdict verdict = PromotionVerdict::kUnknown;
   std::string reason;  ///< for people, without the subject; empty where the verdict is kOk

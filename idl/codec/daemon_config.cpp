@@ -261,6 +261,14 @@ RetentionSettings ReadRetention(FieldReader reader) {
   return settings;
 }
 
+WorkerSettings ReadWorkers(FieldReader reader) {
+  WorkerSettings settings;
+  settings.lease_s = reader.Number("lease_s", {1.0, 600.0}, settings.lease_s);
+  settings.attempts = reader.Count("attempts", {1.0, 100.0}, settings.attempts);
+  settings.most_jobs = reader.Count("most_jobs", {1.0, 256.0}, settings.most_jobs);
+  return settings;
+}
+
 DaemonConfig ReadConfig(FieldReader reader, const proto::DaemonConfig& message) {
   DaemonConfig config;
   config.domain = reader.Count("domain", {0.0, 101.0}, config.domain);
@@ -274,6 +282,10 @@ DaemonConfig ReadConfig(FieldReader reader, const proto::DaemonConfig& message) 
   if (message.has_slices()) config.slices = ReadSlices(reader.Optional("slices"));
   if (config.slices && config.database.empty()) {
     reader.Fail("slices", "{}", "this with database, which the daemons share");
+  }
+  if (message.has_workers()) config.workers = ReadWorkers(reader.Optional("workers"));
+  if (config.workers && config.database.empty()) {
+    reader.Fail("workers", "{}", "this with database, where the workers find their jobs");
   }
   config.window = ReadWindow(reader.Optional("window"));
   config.total_window_bytes =

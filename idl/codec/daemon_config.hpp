@@ -107,6 +107,13 @@ struct RetentionSettings {
   double period_s = 600.0;                             ///< [1, 86400] from check to check
 };
 
+/// How a daemon shares heavy jobs with workers: coverage checks and diagnoses.
+struct WorkerSettings {
+  double lease_s = 10.0;        ///< [1, 600] after which a silent worker counts as dead
+  std::uint32_t attempts = 3;   ///< [1, 100] of workers at a job that none finishes
+  std::uint32_t most_jobs = 8;  ///< [1, 256] of the daemon and of each kind at a time
+};
+
 /// Configuration of telltaled; defaults and ranges are those of proto/daemon.proto.
 struct DaemonConfig {
   std::uint32_t domain = 0;  ///< [0, 101]
@@ -114,8 +121,9 @@ struct DaemonConfig {
   std::vector<std::string> vehicle_files;  ///< as written; who opens them resolves them
   std::string vehicle_folder;              ///< likewise; empty: none
   std::string state_directory = "/var/lib/telltale";
-  std::string database;                 ///< postgresql://...; empty: SQLite in state_directory
-  std::optional<SliceSettings> slices;  ///< unset: it has the fleet alone
+  std::string database;                   ///< postgresql://...; empty: SQLite in state_directory
+  std::optional<SliceSettings> slices;    ///< unset: it has the fleet alone
+  std::optional<WorkerSettings> workers;  ///< unset: it computes everything itself
   WindowLimits window;
   std::size_t total_window_bytes = std::size_t{4096} << 20;  ///< [1 MiB, 16 TiB] of all vehicles
   IntakeLimits intake;

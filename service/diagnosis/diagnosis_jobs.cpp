@@ -1,28 +1,12 @@
 #include "telltale/service/diagnosis/diagnosis_jobs.hpp"
 
-#include <algorithm>
-#include <thread>
 #include <utility>
 
 #include "telltale/client/fleet/unix_now.hpp"
-#include "telltale/core/data/preparation.hpp"
-#include "telltale/core/diagnosis/diagnose.hpp"
 #include "telltale/service/diagnosis/diagnosis_recordings.hpp"
 
 namespace telltale {
 namespace {
-
-constexpr Workers kWorkers{.interactive = 1};  // one diagnosis uses all processors that it is given
-
-DiagnoseOptions DiagnoseOptionsOf(const DiagnoseRequest& request,
-                                  const IdentificationSettings& settings) {
-  DiagnoseOptions options;
-  options.refit = request.refit;
-  options.without = request.without;
-  options.seed = request.seed;
-  options.threads = std::max(1u, std::thread::hardware_concurrency() / settings.workers);
-  return options;
-}
 
 Refusal Unmodelled(const std::string& vehicle_id) {
   return {vehicle_id, "has no model to compare its window with",
@@ -40,15 +24,17 @@ DiagnoseReply RefusedWith(const DiagnoseRequest& request, Refusal refusal) {
 DiagnosisJobs::DiagnosisJobs(const Fleet& fleet, const PublishedModels& models,
                              const FleetView& view, const BaselineRecordings& baselines,
                              PublishedDiagnoses& diagnoses, ReplyPublisher& replies,
-                             const IdentificationSettings& settings, RequestJournal& journal)
+                             const IdentificationSettings& settings, RequestJournal& journal,
+                             HeavyJobs& heavy_jobs)
     : fleet_(fleet),
       models_(models),
       view_(view),
       baselines_(baselines),
       diagnoses_(diagnoses),
       settings_(settings),
+      heavy_jobs_(heavy_jobs),
       jobs_(
-          "diagnosis", fleet, replies, kWorkers, settings.queue_limit,
+          "diagnosis", fleet, replies, {.interactive = heavy_jobs.AtATime()}, settings.queue_limit,
           [this](const DiagnoseRequest& request, const Computation& computation) {
             return DiagnoseAndPublish(request, computation);
           },
@@ -56,14 +42,13 @@ DiagnosisJobs::DiagnosisJobs(const Fleet& fleet, const PublishedModels& models,
 
 DiagnoseReply DiagnosisJobs::DiagnoseAndPublish(const DiagnoseRequest& request,
                                                 const Computation& computation) {
-  const DiagnoseOptions options = DiagnoseOptionsOf(request, settings_);
-  if (const auto fault = options.Validate()) {
+  if (const auto fault = OptionsOf(request, settings_).Validate()) {
     return ReplyTo<DiagnoseReply>(request, ReplyOutcome::kFailed,
                                   fault->subject + ": " + fault->reason + "; " + fault->advice);
   }
   const auto stored = models_.Latest(request.vehicle_id);
   if (!stored) return RefusedWith(request, Unmodelled(request.vehicle_id));
-  auto diagnosed = DiagnoseWindow(stored->model, options, computation);
+  auto diagnosed = DiagnoseWindow(stored->model, request, computation);
   if (!diagnosed) return RefusedWith(request, std::move(diagnosed).error());
   computation.Report("publish", 1.0);
   auto reply = ReplyTo<DiagnoseReply>(request, ReplyOutcome::kPublished);
@@ -74,28 +59,18 @@ DiagnoseReply DiagnosisJobs::DiagnoseAndPublish(const DiagnoseRequest& request,
 }
 
 Result<DiagnosedModel> DiagnosisJobs::DiagnoseWindow(const PublishedModel& model,
-                                                     const DiagnoseOptions& options,
-                                                     const Computation& computation) const {
+                                                     const DiagnoseRequest& request,
+                                                     const Computation& computation) {
   const std::string& vehicle_id = model.identification.vehicle_id;
   VehicleWindow& window = fleet_.WindowOf(vehicle_id);
-  computation.Report("preparing data", 0.0);
-  const auto live = SelectDiagnosisRecordings(window.Snapshot(), model,
-                                              baselines_.Behind(vehicle_id, model.revision),
-                                              view_.DriftOnsetOf(vehicle_id));
+  auto live = SelectDiagnosisRecordings(window.Snapshot(), model,
+                                        baselines_.Behind(vehicle_id, model.revision),
+                                        view_.DriftOnsetOf(vehicle_id));
   if (!live) return tl::unexpected(live.error());
-  PrepareOptions preparation;
-  preparation.sampling_period_s = model.identification.sampling_period_s;
-  const auto since = Prepare(live->since, window.vehicle(), preparation);
-  if (!since) return tl::unexpected(since.error());
-  std::vector<PreparedDataset> references;
-  if (live->baseline) {
-    auto baseline = Prepare(*live->baseline, window.vehicle(), preparation);
-    if (!baseline) return tl::unexpected(std::move(baseline).error());
-    references.push_back(*std::move(baseline));
-  }
-  auto diagnosed = computation([&](const Progress& progress) {
-    return Diagnose(*since, references, model.identification, vehicle_id, options, progress);
-  });
+  auto diagnosed =
+      heavy_jobs_(DiagnosisTask{request, settings_, window.vehicle(), model.identification,
+                                std::move(live->since), std::move(live->baseline)},
+                  computation);
   if (!diagnosed) return diagnosed;
   diagnosed->diagnosis.notes.push_back(live->basis);
   if (!live->left_out.empty()) diagnosed->diagnosis.notes.push_back(live->left_out);

@@ -13,17 +13,18 @@
 #include "telltale/service/models/baseline_recordings.hpp"
 #include "telltale/service/models/published_models.hpp"
 #include "telltale/service/monitoring/fleet_view.hpp"
+#include "telltale/service/workers/heavy_jobs.hpp"
 
 namespace telltale {
 
 /// Compares what a vehicle has done since its newest model was made, or since that began to drift,
-/// with that model, on request and one vehicle at a time, and publishes the diagnoses.
+/// with that model, on request, and publishes the diagnoses.
 class DiagnosisJobs {
  public:
   DiagnosisJobs(const Fleet& fleet, const PublishedModels& models, const FleetView& view,
                 const BaselineRecordings& baselines, PublishedDiagnoses& diagnoses,
                 ReplyPublisher& replies, const IdentificationSettings& settings,
-                RequestJournal& journal);
+                RequestJournal& journal, HeavyJobs& heavy_jobs);
 
   /// Queues a request and returns at once. The answer goes out by ReplyPublisher.
   void Submit(DiagnoseRequest request, WriterHandle client) {
@@ -37,8 +38,8 @@ class DiagnosisJobs {
 
  private:
   DiagnoseReply DiagnoseAndPublish(const DiagnoseRequest& request, const Computation& computation);
-  Result<DiagnosedModel> DiagnoseWindow(const PublishedModel& model, const DiagnoseOptions& options,
-                                        const Computation& computation) const;
+  Result<DiagnosedModel> DiagnoseWindow(const PublishedModel& model, const DiagnoseRequest& request,
+                                        const Computation& computation);
 
   const Fleet& fleet_;
   const PublishedModels& models_;
@@ -46,6 +47,7 @@ class DiagnosisJobs {
   const BaselineRecordings& baselines_;
   PublishedDiagnoses& diagnoses_;
   const IdentificationSettings settings_;
+  HeavyJobs& heavy_jobs_;
   JobQueue<DiagnoseRequest, DiagnoseProgress, DiagnoseReply> jobs_;  // last: its thread uses these
 };
 

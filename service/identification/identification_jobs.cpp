@@ -1,44 +1,17 @@
 #include "telltale/service/identification/identification_jobs.hpp"
 
-#include <optional>
 #include <utility>
 
 #include "telltale/core/data/recording_starts.hpp"
-#include "telltale/core/identification/identify.hpp"
-#include "telltale/core/validation/promotion.hpp"
-#include "telltale/core/validation/structure_choice.hpp"
-#include "telltale/service/identification/identification_options.hpp"
-#include "telltale/service/models/free_run_error.hpp"
 #include "telltale/service/models/thin_model.hpp"
+#include "telltale/service/tasks/identification_options.hpp"
 
 namespace telltale {
 namespace {
 
-/// What is computed of a model before it is published.
-struct AssessedModel {
-  Identification identification;
-  Promotion promotion;
-  std::optional<FreeRunError> reference_error;
-};
-
-Result<Identification> InChosenStructure(const Recording& recording, const Vehicle& vehicle,
-                                         const IdentifyOptions& options, const Progress& progress) {
-  auto made = IdentifyInChosenStructure(recording, vehicle, options, progress);
-  if (!made) return tl::unexpected(made.error());
-  return std::move(made->model);
-}
-
-Result<AssessedModel> IdentifyAndAssess(const Recording& recording, const Vehicle& vehicle,
-                                        const IdentifyOptions& options, bool structure_is_left,
-                                        const Progress& progress) {
-  auto identification = structure_is_left ? InChosenStructure(recording, vehicle, options, progress)
-                                          : Identify(recording, vehicle, options, progress);
-  if (!identification) return tl::unexpected(std::move(identification).error());
-  progress("comparing with constant velocity", 0.0);
-  AssessedModel model{*std::move(identification), {}, {}};
-  model.promotion = AssessPromotion(recording, vehicle, model.identification, options);
-  model.reference_error = MeasureFreeRunError(recording, vehicle, model.identification);
-  return model;
+/// It takes minutes.
+bool HasCoverageCheck(const IdentifyRequest& request) {
+  return request.coverage_check_replicates > 0;
 }
 
 }  // namespace
@@ -46,39 +19,36 @@ Result<AssessedModel> IdentifyAndAssess(const Recording& recording, const Vehicl
 IdentificationJobs::IdentificationJobs(const Fleet& fleet, PublishedModels& models,
                                        BaselineRecordings& baselines, ReplyPublisher& replies,
                                        const IdentificationSettings& settings,
-                                       RequestJournal& journal)
+                                       RequestJournal& journal, HeavyJobs& coverage_checks)
     : fleet_(fleet),
       models_(models),
       baselines_(baselines),
       settings_(settings),
+      coverage_checks_(coverage_checks),
       jobs_(
           "identification", fleet, replies,
-          {.interactive = settings.workers, .refresh = 1, .background = 1}, settings.queue_limit,
+          {.interactive = settings.workers, .refresh = 1, .background = coverage_checks.AtATime()},
+          settings.queue_limit,
           [this](const IdentifyRequest& request, const Computation& computation) {
             return IdentifyAndPublish(request, computation);
           },
           &journal) {}
 
 void IdentificationJobs::Submit(IdentifyRequest request, WriterHandle client) {
-  const bool takes_minutes = request.coverage_check_replicates > 0;
-  jobs_.Submit(std::move(request), takes_minutes ? Urgency::kBackground : Urgency::kInteractive, {},
-               client);
+  const Urgency urgency = HasCoverageCheck(request) ? Urgency::kBackground : Urgency::kInteractive;
+  jobs_.Submit(std::move(request), urgency, {}, client);
 }
 
 IdentifyReply IdentificationJobs::IdentifyAndPublish(const IdentifyRequest& request,
                                                      const Computation& computation) {
-  const IdentifyOptions options = OptionsOf(request, settings_);
-  if (const auto fault = options.Validate()) {
+  if (const auto fault = OptionsOf(request, settings_).Validate()) {
     return ReplyTo<IdentifyReply>(request, ReplyOutcome::kFailed,
                                   fault->subject + ": " + fault->reason + "; " + fault->advice);
   }
   VehicleWindow& window = fleet_.WindowOf(request.vehicle_id);
-  Recording recording = window.Snapshot();
-  recording.starts_s = StartsAfterSilence(recording, kSilenceBetweenRecordingsS);
-  const bool structure_is_left = LeavesStructureToData(request, settings_);
-  auto model = computation([&](const Progress& progress) {
-    return IdentifyAndAssess(recording, window.vehicle(), options, structure_is_left, progress);
-  });
+  IdentificationTask task{request, settings_, window.vehicle(), window.Snapshot()};
+  task.recording.starts_s = StartsAfterSilence(task.recording, kSilenceBetweenRecordingsS);
+  auto model = Compute(task, computation);
   if (!model) {
     auto reply = ReplyTo<IdentifyReply>(request, ReplyOutcome::kRefused);
     reply.refusals.push_back(model.error());
@@ -92,8 +62,15 @@ IdentifyReply IdentificationJobs::IdentifyAndPublish(const IdentifyRequest& requ
   auto reply = ReplyTo<IdentifyReply>(request, ReplyOutcome::kPublished);
   reply.model =
       models_.Publish(std::move(model->identification), model->reference_error, model->promotion);
-  baselines_.Keep(request.vehicle_id, reply.model->revision, std::move(recording));
+  baselines_.Keep(request.vehicle_id, reply.model->revision, std::move(task.recording));
   return reply;
+}
+
+Result<AssessedModel> IdentificationJobs::Compute(const IdentificationTask& task,
+                                                  const Computation& computation) {
+  if (HasCoverageCheck(task.request)) return coverage_checks_(task, computation);
+  return computation(
+      [&task](const Progress& progress) { return telltale::Compute(task, progress); });
 }
 
 }  // namespace telltale

@@ -11,6 +11,8 @@
 #include "telltale/service/jobs/reply_publisher.hpp"
 #include "telltale/service/models/baseline_recordings.hpp"
 #include "telltale/service/models/published_models.hpp"
+#include "telltale/service/tasks/identification_task.hpp"
+#include "telltale/service/workers/heavy_jobs.hpp"
 
 namespace telltale {
 
@@ -20,7 +22,7 @@ class IdentificationJobs {
  public:
   IdentificationJobs(const Fleet& fleet, PublishedModels& models, BaselineRecordings& baselines,
                      ReplyPublisher& replies, const IdentificationSettings& settings,
-                     RequestJournal& journal);
+                     RequestJournal& journal, HeavyJobs& coverage_checks);
 
   /// Queues a request and returns at once. The answer goes out by ReplyPublisher.
   /// A coverage check runs in the background.
@@ -39,10 +41,13 @@ class IdentificationJobs {
  private:
   IdentifyReply IdentifyAndPublish(const IdentifyRequest& request, const Computation& computation);
 
+  Result<AssessedModel> Compute(const IdentificationTask& task, const Computation& computation);
+
   const Fleet& fleet_;
   PublishedModels& models_;
   BaselineRecordings& baselines_;
   const IdentificationSettings settings_;
+  HeavyJobs& coverage_checks_;
   JobQueue<IdentifyRequest, IdentifyProgress, IdentifyReply> jobs_;  // last: its threads use these
 };
 

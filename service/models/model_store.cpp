@@ -15,14 +15,6 @@ namespace {
 
 constexpr std::int64_t kReadAtATime = 8;  // of some thirty kilobytes each
 
-PromotionVerdict VerdictNamed(std::string_view name) {
-  for (const auto verdict :
-       {PromotionVerdict::kOk, PromotionVerdict::kWarn, PromotionVerdict::kError}) {
-    if (Name(verdict) == name) return verdict;
-  }
-  return PromotionVerdict::kUnknown;
-}
-
 std::optional<StoredModel> ReadModel(const Row& row, const std::string& database) {
   proto::Model message;
   if (!ReadBlob(row, "model", message)) {
@@ -39,7 +31,7 @@ std::optional<StoredModel> ReadModel(const Row& row, const std::string& database
   stored.model = {std::move(*identification),
                   static_cast<std::uint64_t>(row.Integer("revision")),
                   row.Real("published_unix_s"),
-                  {VerdictNamed(row.Text("verdict")), row.Text("verdict_reason")}};
+                  {PromotionVerdictNamed(row.Text("verdict")), row.Text("verdict_reason")}};
   if (!row.IsNull("reference_error_u")) {
     stored.reference_error = {row.Real("reference_error_u"), row.Real("reference_error_v"),
                               row.Real("reference_error_r")};

@@ -13,6 +13,7 @@
 #include "telltale/service/retention/retention.hpp"
 #include "telltale/service/storage/write_durations.hpp"
 #include "telltale/service/windows/window_archive.hpp"
+#include "telltale/service/workers/heavy_activity.hpp"
 
 namespace telltale {
 
@@ -29,6 +30,7 @@ struct DaemonActivity {
   std::size_t vehicles = 0;
   std::chrono::steady_clock::duration ingest_silence{0};  ///< since the ingest loop came round
   std::vector<QueueActivity> queues;
+  std::vector<HeavyActivity> heavy_jobs;  ///< none where it has no workers
   std::vector<StoreActivity> stores;
   WindowActivity windows;
   std::size_t unwritten_requests = 0;

@@ -1,20 +1,16 @@
 #include "telltale/service/slices/slice_leases.hpp"
 
 #include <exception>
-#include <string_view>
 #include <utility>
 
 #include <spdlog/fmt/fmt.h>
 #include <spdlog/spdlog.h>
 
+#include "telltale/service/storage/server_clock.hpp"
 #include "telltale/service/storage/stores.hpp"
 
 namespace telltale {
 namespace {
-
-// The clock of the database, Unix seconds: those of the daemons may differ.
-constexpr std::string_view kServerNow =
-    "CAST(EXTRACT(EPOCH FROM clock_timestamp()) AS DOUBLE PRECISION)";
 
 Slices SlicesOf(Database& database, const std::string& statement, const Parameters& parameters) {
   Slices slices;

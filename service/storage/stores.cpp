@@ -107,4 +107,31 @@ const Schema& SlicesSchema() {
   return schema;
 }
 
+const Schema& JobsSchema() {
+  static const Schema schema{
+      .name = "jobs",
+      .tables = {{"jobs",
+                  {{"number", kCounter, ""},
+                   {"correlation_id", kText, "NOT NULL UNIQUE"},
+                   {"vehicle_id", kText, "NOT NULL"},
+                   {"version", kText, "NOT NULL"},              // of the daemon
+                   {"wanted_until_unix_s", kReal, "NOT NULL"},  // by the daemon
+                   {"task", kBlob, "NOT NULL"},                 // PackTask(), with its checksum
+                   {"attempts", kInteger, "NOT NULL DEFAULT 0"},
+                   {"worker", kText, "NOT NULL DEFAULT ''"},
+                   {"taken_until_unix_s", kReal, "NOT NULL DEFAULT 0"},  // by the worker
+                   {"stage", kText, "NOT NULL DEFAULT ''"},
+                   {"fraction", kReal, "NOT NULL DEFAULT 0"},
+                   {"outcome", kBlob, ""}},  // PackOutcome(), with its checksum
+                  {}},
+                 {"workers",
+                  {{"worker", kText, "NOT NULL"},
+                   {"version", kText, "NOT NULL"},
+                   {"until_unix_s", kReal, "NOT NULL"}},
+                  {"worker"}}},
+      .durability = Durability::kNewestMayBeLost,  // the journal of requests keeps what is owed
+  };
+  return schema;
+}
+
 }  // namespace telltale

@@ -19,4 +19,7 @@ const Schema& TermsSchema();
 /// Which daemon serves which part of the fleet: SliceLeases.
 const Schema& SlicesSchema();
 
+/// The heavy jobs that wait for a worker, and the workers: OfferedJobs, TakenJobs.
+const Schema& JobsSchema();
+
 }  // namespace telltale

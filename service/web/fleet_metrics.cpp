@@ -276,6 +276,32 @@ MetricFamily QueueNumbers(const std::vector<QueueActivity>& queues, MetricType t
   return std::move(values).Take();
 }
 
+/// Of what is offered to workers.
+MetricFamily OfferedJobs(const std::vector<HeavyActivity>& heavy_jobs) {
+  MetricValues values(MetricType::Gauge, "telltale_worker_jobs",
+                      "Jobs that are offered to workers.");
+  for (const HeavyActivity& jobs : heavy_jobs) {
+    values.Add({{"queue", jobs.queue}, {"state", "waiting"}}, static_cast<double>(jobs.waiting));
+    values.Add({{"queue", jobs.queue}, {"state", "taken"}}, static_cast<double>(jobs.taken));
+  }
+  return std::move(values).Take();
+}
+
+MetricFamily EndedHeavyJobs(const std::vector<HeavyActivity>& heavy_jobs) {
+  MetricValues values(MetricType::Counter, "telltale_worker_jobs_total",
+                      "Jobs for workers that ended since the daemon started.");
+  for (const HeavyActivity& jobs : heavy_jobs) {
+    const std::array<std::pair<const char*, std::uint64_t>, 3> counts = {
+        {{"answered", jobs.answered},
+         {"given_up", jobs.given_up},
+         {"computed_here", jobs.computed_here}}};
+    for (const auto& [outcome, count] : counts) {
+      values.Add({{"queue", jobs.queue}, {"outcome", outcome}}, static_cast<double>(count));
+    }
+  }
+  return std::move(values).Take();
+}
+
 MetricFamily StoreWrites(const std::vector<StoreActivity>& stores) {
   MetricValues values(MetricType::Summary, "telltale_store_write_seconds",
                       "Writes to a database, and the time that they took.");
@@ -372,6 +398,8 @@ void AddActivity(const DaemonActivity& activity, std::vector<MetricFamily>& fami
   add(Counter, "telltale_queue_requests_shed_total",
       "Requests that found the queue, or the part that one client may use, full.",
       &QueueActivity::shed);
+  families.push_back(OfferedJobs(activity.heavy_jobs));
+  families.push_back(EndedHeavyJobs(activity.heavy_jobs));
   families.push_back(StoreWrites(activity.stores));
   AddRetention(activity.retention, families);
   AddWindows(activity.windows, families);

@@ -1,29 +1,10 @@
 #include "telltale/service/windows/window_chunk.hpp"
 
-#include <array>
-#include <cstdint>
-#include <cstring>
-
-#include <zstd.h>
-
-#include "telltale/idl/codec/checksum.hpp"
-#include "telltale/idl/proto/window_chunk.pb.h"
+#include "telltale/service/storage/packed_blob.hpp"
 
 namespace telltale {
-namespace {
 
-constexpr int kCompressionLevel = 3;
-constexpr std::size_t kChecksumBytes = sizeof(std::uint32_t);
-constexpr unsigned long long kLargestChunk = 1ULL << 30;
-
-std::array<char, kChecksumBytes> ChecksumBytes(std::string_view bytes) {
-  const std::uint32_t sum = ChecksumOf(bytes);
-  std::array<char, kChecksumBytes> text{};
-  for (std::size_t i = 0; i < text.size(); ++i) text[i] = static_cast<char>(sum >> (8 * i));
-  return text;
-}
-
-proto::WindowChunk ToChunk(const Recording& recording) {
+proto::WindowChunk ToProto(const Recording& recording) {
   proto::WindowChunk chunk;
   for (const GnssFix& fix : recording.gnss) {
     chunk.mutable_gnss()->add_time_s(fix.time_s);
@@ -42,8 +23,7 @@ proto::WindowChunk ToChunk(const Recording& recording) {
   return chunk;
 }
 
-/// Nothing where the lists of a channel differ in length.
-std::optional<Recording> ToRecording(const proto::WindowChunk& chunk) {
+std::optional<Recording> RecordingOf(const proto::WindowChunk& chunk) {
   const auto& gnss = chunk.gnss();
   const auto& heading = chunk.heading();
   const auto& thrusters = chunk.thrusters();
@@ -67,32 +47,15 @@ std::optional<Recording> ToRecording(const proto::WindowChunk& chunk) {
   return recording;
 }
 
-}  // namespace
-
 std::string PackChunk(const Recording& recording) {
-  const std::string bytes = ToChunk(recording).SerializeAsString();
-  std::string blob(kChecksumBytes + ZSTD_compressBound(bytes.size()), '\0');
-  const std::size_t size = ZSTD_compress(blob.data() + kChecksumBytes, blob.size() - kChecksumBytes,
-                                         bytes.data(), bytes.size(), kCompressionLevel);
-  blob.resize(kChecksumBytes + size);
-  const auto checksum = ChecksumBytes(std::string_view(blob).substr(kChecksumBytes));
-  std::memcpy(blob.data(), checksum.data(), checksum.size());
-  return blob;
+  return PackBlob(ToProto(recording).SerializeAsString());
 }
 
 std::optional<Recording> UnpackChunk(std::string_view blob) {
-  if (blob.size() < kChecksumBytes) return std::nullopt;
-  const std::string_view packed = blob.substr(kChecksumBytes);
-  const auto checksum = ChecksumBytes(packed);
-  if (std::memcmp(checksum.data(), blob.data(), checksum.size()) != 0) return std::nullopt;
-  const unsigned long long size = ZSTD_getFrameContentSize(packed.data(), packed.size());
-  if (size > kLargestChunk) return std::nullopt;  // what zstd does not know is larger
-  std::string bytes(size, '\0');
-  const std::size_t unpacked =
-      ZSTD_decompress(bytes.data(), bytes.size(), packed.data(), packed.size());
+  const auto bytes = UnpackBlob(blob);
   proto::WindowChunk chunk;
-  if (ZSTD_isError(unpacked) || !chunk.ParseFromString(bytes)) return std::nullopt;
-  return ToRecording(chunk);
+  if (!bytes || !chunk.ParseFromString(*bytes)) return std::nullopt;
+  return RecordingOf(chunk);
 }
 
 }  // namespace telltale

@@ -1,4 +1,4 @@
-#include "telltale/service/identification/identification_options.hpp"
+#include "telltale/service/tasks/identification_options.hpp"
 
 #include <gtest/gtest.h>
 
