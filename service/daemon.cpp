@@ -118,6 +118,11 @@ Daemon::Daemon(const DaemonConfig& config, Endings endings)
                .answer_diagnose = [this](const DiagnoseReply& reply) { replies_.Send(reply); },
                .answer_fleet = [this](const FleetReply& reply) { replies_.Send(reply); },
                .heartbeat = [this](bool has_received) { Heartbeat(has_received); },
+               .clients =
+                   [this](const std::set<WriterHandle>& connected) {
+                     jobs_.NoteClients(connected);
+                     diagnosis_jobs_.NoteClients(connected);
+                   },
                .heartbeat_period = HeartbeatPeriodOf(config),
                .received = [this](VehicleWindow& window) { quality_.PublishReceipt(window); },
                .failed = endings_.failed}) {

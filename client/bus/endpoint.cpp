@@ -74,6 +74,16 @@ std::vector<std::string> Endpoint::PartitionsOf(WriterHandle writer) const {
   return partitions;
 }
 
+std::set<WriterHandle> Endpoint::Writers() const {
+  constexpr std::size_t kThatCameMeanwhile = 16;
+  std::vector<dds_instance_handle_t> writers(Matched() + kThatCameMeanwhile);
+  const auto count = static_cast<std::size_t>(
+      Checked(dds_get_matched_publications(handle(), writers.data(), writers.size()),
+              "asking for the writers of a reader"));
+  writers.resize(std::min(count, writers.size()));
+  return {writers.begin(), writers.end()};
+}
+
 bool WaitForMatch(const Participant& participant,
                   const std::vector<std::reference_wrapper<const Endpoint>>& endpoints,
                   std::chrono::nanoseconds timeout) {

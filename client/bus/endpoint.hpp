@@ -3,6 +3,7 @@
 #include <chrono>
 #include <cstdint>
 #include <functional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -28,6 +29,9 @@ class Endpoint {
   /// The partitions of a writer that this reader is connected to; none where it is gone, or has
   /// named none.
   std::vector<std::string> PartitionsOf(WriterHandle writer) const;
+
+  /// The writers that this reader is connected to.
+  std::set<WriterHandle> Writers() const;
 
   /// The status that changes when a connection comes or goes.
   std::uint32_t match_status() const {

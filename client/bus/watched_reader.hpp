@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -38,7 +39,8 @@ class WatchedReader {
   /// How many writers it is connected to.
   std::uint32_t Matched() const { return reader_->Matched(); }
 
-  /// As that of the reader.
+  /// As those of the reader.
+  std::set<WriterHandle> Writers() const { return reader_->Writers(); }
   std::vector<std::string> PartitionsOf(WriterHandle writer) const {
     return reader_->PartitionsOf(writer);
   }

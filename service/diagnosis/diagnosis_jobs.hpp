@@ -1,5 +1,6 @@
 #pragma once
 
+#include <set>
 #include <string>
 #include <utility>
 
@@ -33,6 +34,9 @@ class DiagnosisJobs {
 
   /// False where no such request waits or runs.
   bool Cancel(const std::string& correlation_id) { return jobs_.Cancel(correlation_id); }
+
+  /// As that of JobQueue.
+  void NoteClients(const std::set<WriterHandle>& connected) { jobs_.NoteClients(connected); }
 
   QueueActivity Activity() const { return jobs_.Activity(); }
 

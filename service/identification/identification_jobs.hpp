@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <set>
 #include <string>
 #include <utility>
 
@@ -35,6 +36,9 @@ class IdentificationJobs {
 
   /// False where no such request waits or runs.
   bool Cancel(const std::string& correlation_id) { return jobs_.Cancel(correlation_id); }
+
+  /// As that of JobQueue.
+  void NoteClients(const std::set<WriterHandle>& connected) { jobs_.NoteClients(connected); }
 
   QueueActivity Activity() const { return jobs_.Activity(); }
 

@@ -139,6 +139,13 @@ void Ingest::Heartbeat(bool has_received) {
   reopen(diagnose_requests_, "diagnose requests");
   reopen(fleet_requests_, "fleet requests");
   NoteMatches();
+  handlers_.clients(Clients());
+}
+
+std::set<WriterHandle> Ingest::Clients() const {
+  std::set<WriterHandle> clients = requests_.Writers();
+  clients.merge(diagnose_requests_.Writers());
+  return clients;
 }
 
 std::chrono::steady_clock::duration Ingest::Silence() const {

@@ -8,6 +8,7 @@
 #include <functional>
 #include <map>
 #include <mutex>
+#include <set>
 #include <string_view>
 #include <thread>
 #include <unordered_map>
@@ -45,6 +46,8 @@ class Ingest {
     std::function<void(const FleetReply&)> answer_fleet;
     /// Every heartbeat period while the loop runs; it says whether anything was received since.
     std::function<void(bool has_received)> heartbeat;
+    /// Likewise: the clients whose requests reach this daemon now; must return at once.
+    std::function<void(const std::set<WriterHandle>&)> clients;
     std::chrono::nanoseconds heartbeat_period = std::chrono::seconds(1);
     /// After every kSamplesPerReceipt samples of a vehicle; must return at once.
     std::function<void(VehicleWindow&)> received;
@@ -79,6 +82,7 @@ class Ingest {
   void Run();
   void Heartbeat(bool has_received);
   void NoteMatches();
+  std::set<WriterHandle> Clients() const;
   template <class Wire>
   void Route(Channel channel, const WatchedReader<Wire>& reader, const Wire& wire,
              WriterHandle writer, InstanceHandle instance);

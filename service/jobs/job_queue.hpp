@@ -44,6 +44,8 @@ namespace telltale {
 ///   on for less than 5 s, joins it, and both get its reply.
 /// - A request that was cancelled, or whose deadline has passed, is dropped unless others have
 ///   joined it. Work under way ends at its next report of progress.
+/// - A request is dropped likewise once its client has been gone from the bus for kClientPatience.
+///   A client that asks again, by whatever writer, is there.
 /// - A full queue answers at once, and says when to ask again. So it answers a client that has a
 ///   quarter of the queue's limit of requests without an answer. So does a queue whose journal
 ///   cannot be reached, also where that shows in the midst of the work.
@@ -77,6 +79,9 @@ class JobQueue {
   /// Answers the unfinished request with this correlation id as failed. False where there is none.
   bool Cancel(const std::string& correlation_id);
 
+  /// `connected`: the clients whose writers the bus knows now; to be told once a second or so.
+  void NoteClients(const std::set<WriterHandle>& connected);
+
   QueueActivity Activity() const;
 
  private:
@@ -109,7 +114,7 @@ class JobQueue {
     return reply;
   }
   static std::optional<Clock::time_point> DeadlineOf(const Request& request);
-  bool Prolong(const Request& request);
+  bool Prolong(const Request& request, WriterHandle client);
   std::optional<Reply> RejectionOf(const Request& request, Urgency urgency);
   std::optional<Reply> RejectionByShare(const Request& request, Urgency urgency,
                                         WriterHandle client);
@@ -194,12 +199,12 @@ void JobQueue<Request, Stage, Reply>::Submit(Request request, Urgency urgency, A
                                              WriterHandle client) {
   std::unique_lock lock(mutex_);
   if (const auto known = history_.Find(request.correlation_id)) {
-    const bool may_hear = Prolong(request);
+    const bool may_hear = Prolong(request, client);
     lock.unlock();
     if (!may_hear) return;
     return std::visit([this](const auto& message) { replies_.Send(message); }, *known);
   }
-  Asker asker{request.correlation_id, DeadlineOf(request), std::move(answer), client, {}};
+  Asker asker{request.correlation_id, DeadlineOf(request), std::move(answer), client, {}, {}};
   const auto same = JobLike(request);
   auto rejection = RejectionByShare(request, urgency, client);
   if (!rejection && !same) rejection = RejectionOf(request, urgency);
@@ -242,12 +247,14 @@ auto JobQueue<Request, Stage, Reply>::DeadlineOf(const Request& request)
 /// Somebody asks again, and so waits on. Returns whether the asker may hear how the request stands.
 /// The caller holds mutex_, as for all that follow up to Run().
 template <class Request, class Stage, class Reply>
-bool JobQueue<Request, Stage, Reply>::Prolong(const Request& request) {
+bool JobQueue<Request, Stage, Reply>::Prolong(const Request& request, WriterHandle client) {
   bool may_hear = true;
   for (const auto& job : jobs_) {
     for (Asker& asker : job->askers) {
       if (asker.correlation_id != request.correlation_id) continue;
       asker.deadline = DeadlineOf(request);
+      asker.client = client;
+      asker.gone_since.reset();
       may_hear = asker.MayHear();
     }
   }
@@ -369,13 +376,29 @@ auto JobQueue<Request, Stage, Reply>::EarliestDeadline() const -> std::optional<
   std::optional<Clock::time_point> earliest;
   for (const auto& job : jobs_) {
     for (const Asker& asker : job->askers) {
-      if (asker.deadline) earliest = std::min(earliest.value_or(*asker.deadline), *asker.deadline);
+      if (const auto until = asker.WaitsUntil())
+        earliest = std::min(earliest.value_or(*until), *until);
     }
   }
   return earliest;
 }
 
-/// Dismisses the askers whose deadline has passed, and drops the jobs that nobody waits for.
+template <class Request, class Stage, class Reply>
+void JobQueue<Request, Stage, Reply>::NoteClients(const std::set<WriterHandle>& connected) {
+  {
+    const std::lock_guard lock(mutex_);
+    for (const auto& job : jobs_) {
+      for (Asker& asker : job->askers) {
+        const bool is_there = asker.client == kNoClient || connected.contains(asker.client);
+        asker.gone_since =
+            is_there ? std::nullopt : std::optional(asker.gone_since.value_or(Clock::now()));
+      }
+    }
+  }
+  changed_.notify_all();
+}
+
+/// Dismisses the askers who wait no longer, and drops the jobs that nobody waits for.
 template <class Request, class Stage, class Reply>
 auto JobQueue<Request, Stage, Reply>::Expire() -> Outbox {
   Outbox outbox;
@@ -383,6 +406,12 @@ auto JobQueue<Request, Stage, Reply>::Expire() -> Outbox {
   for (const auto& job : jobs_) {
     Dismiss(*job, job->TakeAskers([now](const Asker& asker) { return asker.GivesUpBy(now); }),
             "its deadline has passed", outbox);
+    for (Asker& gone : job->TakeAskers([now](const Asker& asker) { return asker.IsGoneBy(now); })) {
+      const std::string why = "its client is gone";
+      spdlog::info("{} of {} for {} is dropped: {}", what_, job->request.vehicle_id,
+                   gone.correlation_id, why);
+      Dismiss(*job, {std::move(gone)}, why, outbox);
+    }
   }
   // Who waits after all asks again, and that starts anew.
   for (auto& [asker, reply] : outbox) {
