@@ -1,5 +1,6 @@
 #include "telltale/idl/codec/wire/exchange.hpp"
 
+#include "telltale/idl/codec/vehicle_file.hpp"
 #include "telltale/idl/codec/wire/choices.hpp"
 #include "telltale/idl/codec/wire/nested.hpp"
 #include "telltale/idl/codec/wire/put.hpp"
@@ -90,10 +91,11 @@ IdentifyRequest ReadRequest(const telltale_wire_IdentifyRequest& wire) {
   return request;
 }
 
+/// Effects are named of the characters of identifiers. Other text could not be kept with the
+/// request, since Protobuf reads no strings but UTF-8.
 std::string ReadEffectName(const std::string& field, const char* effect) {
-  constexpr std::size_t kLongestName = 64;
   std::string name = TextOf(effect);
-  if (name.size() > kLongestName) Reject(field, std::move(name), "an effect of the library");
+  if (!IsVehicleId(name)) Reject(field, std::move(name), "an effect of the library");
   return name;
 }
 

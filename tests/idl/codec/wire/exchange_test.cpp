@@ -171,6 +171,17 @@ TEST(WireExchange, RequestAndProgressArriveAsTheyWereSent) {
   EXPECT_EQ(progress->fraction, 0.25);
 }
 
+// Of bytes that are no UTF-8, a request that is kept on disk could not be read back.
+TEST(WireExchange, RequestRefusesEffectsThatAreNoNames) {
+  for (const std::string& effect :
+       {std::string("c\xb3rrent"), std::string("two words"), std::string(), std::string(65, 'x')}) {
+    const auto request = Decode(*Encode(DiagnoseRequest{{"id-1", "boat-1"}, false, {effect}, 1}));
+    ASSERT_FALSE(request) << effect;
+    EXPECT_EQ(request.error().field, "without[0]");
+    EXPECT_EQ(request.error().allowed, "an effect of the library");
+  }
+}
+
 TEST(WireExchange, ReplyHoldsADiagnosisWhenPublishedAndOnlyThen) {
   DiagnoseReply sent{
       {"id-1", "boat-1", ReplyOutcome::kRefused, "", {{"a", "b", "c"}}, 1.5}, {}, {}};
