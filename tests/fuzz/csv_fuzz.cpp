@@ -1,36 +1,18 @@
-#include <sys/mman.h>
-#include <unistd.h>
-
 #include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
-#include <string>
 #include <string_view>
 
 #include "insist.hpp"
+#include "memory_file.hpp"
 #include "telltale/client/recording/csv/mapped_csv.hpp"
 #include "telltale/client/recording/csv/numeric_csv.hpp"
 
 namespace {
 
 using telltale::Insist;
-
-/// A file in memory, by its path.
-class MemoryFile {
- public:
-  MemoryFile(const std::uint8_t* data, std::size_t size) : file_(memfd_create("csv", 0)) {
-    Insist(write(file_, data, size) == static_cast<ssize_t>(size));
-  }
-  MemoryFile(const MemoryFile&) = delete;
-  MemoryFile& operator=(const MemoryFile&) = delete;
-  ~MemoryFile() { close(file_); }
-
-  std::string Path() const { return "/proc/self/fd/" + std::to_string(file_); }
-
- private:
-  int file_;
-};
+using telltale::MemoryFile;
 
 const telltale::Mapping& ColumnsOfTheSeeds() {
   static const telltale::Mapping mapping = [] {
@@ -60,7 +42,7 @@ std::size_t LinesIn(const std::uint8_t* data, std::size_t size) {
 
 /// No line makes more than a sample of each channel, and what is refused says why.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  const MemoryFile file(data, size);
+  const MemoryFile file({data, size});
   const std::size_t lines = LinesIn(data, size);
   std::size_t rows = 0;
   constexpr std::array<std::string_view, 2> kColumns = {"t", "yaw"};

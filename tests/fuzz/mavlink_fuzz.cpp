@@ -5,6 +5,7 @@
 #include <type_traits>
 
 #include "insist.hpp"
+#include "memory_file.hpp"
 #include "telltale/client/recording/block_reader.hpp"
 #include "telltale/client/recording/mavlink/mavlink_frames.hpp"
 #include "telltale/client/recording/mavlink/mavlink_recording.hpp"
@@ -80,6 +81,13 @@ void TakeMessages(std::span<const std::uint8_t> bytes) {
   Insist(log.gnss.size() + log.heading.size() + log.thrusters.size() <= 2 * messages);
 }
 
+/// A file of either kind, which its beginning tells.
+void ReadFile(std::span<const std::uint8_t> bytes) {
+  const telltale::MemoryFile file(bytes);
+  const auto log = telltale::ReadMavlinkTelemetryLog(file.Path(), {});
+  Insist(log ? !log->summary.empty() : !log.error().reason.empty());
+}
+
 }  // namespace
 
 /// Blocks change nothing, no byte counts twice, and nothing of a log is more than its frames.
@@ -87,5 +95,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   Read<telltale::MavlinkTelemetryLog>({data, size});
   Read<telltale::MavlinkStream>({data, size});
   TakeMessages({data, size});
+  if (size % 16 == 0) ReadFile({data, size});  // a file takes as long as a hundred inputs else
   return 0;
 }

@@ -1,8 +1,8 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "any_blocks.hpp"
 #include "any_mapping.hpp"
-#include "insist.hpp"
 #include "telltale/client/recording/mcap/mcap_recording.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

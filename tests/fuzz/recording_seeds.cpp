@@ -7,6 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include <zlib.h>
+
 #include "support/little_endian.hpp"
 
 namespace {
@@ -153,6 +155,30 @@ Bytes Csv(char separator) {
   return rows;
 }
 
+/// The same with times of ISO 8601 of every form.
+Bytes IsoCsv() {
+  return "t,lat,lon,yaw,left,right\n2023-11-14 22:13:20.5,63.4,10.4,12.5,1500,1600\n"
+         "2023-11-14T22:13:21Z,63.4,10.4,13,1510,1600\n2023-11-14T23:13:22+01:00,,,14,1510,\n";
+}
+
+/// A gzip file of these bytes.
+Bytes Gzip(const Bytes& bytes) {
+  constexpr int kLargestWindow = 15;
+  constexpr int kAsGzip = 16;
+  z_stream stream{};
+  deflateInit2(&stream, Z_DEFAULT_COMPRESSION, Z_DEFLATED, kLargestWindow + kAsGzip, 8,
+               Z_DEFAULT_STRATEGY);
+  Bytes packed(deflateBound(&stream, bytes.size()), '\0');
+  stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(bytes.data()));
+  stream.avail_in = static_cast<uInt>(bytes.size());
+  stream.next_out = reinterpret_cast<Bytef*>(packed.data());
+  stream.avail_out = static_cast<uInt>(packed.size());
+  deflate(&stream, Z_FINISH);
+  packed.resize(stream.total_out);
+  deflateEnd(&stream);
+  return packed;
+}
+
 /// As ros_fuzz takes messages: topic, length, CDR.
 Bytes RosMessages() {
   Bytes bytes;
@@ -175,8 +201,14 @@ int main(int argc, char** argv) {
   const std::filesystem::path folder = argv[1];
   Save(folder / "csv/comma", Csv(','));
   Save(folder / "csv/semicolon", Csv(';'));
+  Save(folder / "csv/iso", IsoCsv());
+  const Bytes gzip = Gzip(Csv(','));
+  Save(folder / "gzip/whole.gz", gzip);
+  Save(folder / "gzip/two.gz", gzip + Gzip(IsoCsv()));
+  Save(folder / "gzip/cut.gz", gzip.substr(0, gzip.size() / 2));
   Save(folder / "mavlink/log.tlog", TelemetryLog(Frames()));
   Save(folder / "mavlink/stream", Frames()[0] + Frames()[1] + Frames()[2]);
+  Save(folder / "mavlink/bare", Frames()[2] + "noise" + Frames()[0] + Frames()[1]);
   Save(folder / "mavlink/messages", Messages());
   Save(folder / "mcap/ros.mcap", Mcap(RosRecords()));
   Save(folder / "mcap/chunk.mcap", Mcap(Chunk(RosRecords(), "")));
