@@ -121,9 +121,11 @@ class ScrapeTest(unittest.TestCase):
         _, _, text = self.daemon.ask("GET", "/metrics")
         scraped = set(re.findall(r"^# TYPE (\S+)", text, re.M))
         documented = set(re.findall(r"`((?:telltale|process)_\w+)", page))
-        # Those that come only with a fault of the telemetry, with a minute of it, or with a model of the physical form.
+        # Those that come only with a fault of the telemetry, with a minute of it, with a model of the physical form, or
+        # with workers.
         sometimes = {"telltale_vehicle_samples_rejected_total", "telltale_unattributed_samples_total",
-                     "telltale_vehicle_prediction_error_ratio", "telltale_vehicle_delay_seconds"}
+                     "telltale_vehicle_prediction_error_ratio", "telltale_vehicle_delay_seconds",
+                     "telltale_worker_jobs", "telltale_worker_jobs_total"}
         self.assertEqual(documented - sometimes, scraped - sometimes)
         self.assertLessEqual(sometimes, documented)
         for file in (RULES, DASHBOARD):
