@@ -101,7 +101,7 @@ Markup CauseCards(const Diagnosis& diagnosis) {
       unlikely.push_back(CauseText(cause) + ' ' + ShareText(cause.probability));
     }
   }
-  const Markup all = Styled("div", "cards", cards);
+  Markup all = Styled("div", "cards", cards);
   if (unlikely.empty()) return all;
   return all + Styled("p", "soft unlikely", Words("Unlikely: " + Joined(unlikely, ", ") + '.'));
 }
