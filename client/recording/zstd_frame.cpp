@@ -20,6 +20,14 @@ ZstdContext MakeContext() {
   return {ZSTD_createDCtx(), &ZSTD_freeDCtx};
 }
 
+// A block takes four bytes or more and holds at most 128 KiB, RFC 8878, 3.1.1.2: a frame of a few
+// bytes that states a gigabyte lies.
+std::size_t MostInflated(std::size_t compressed) {
+  constexpr std::size_t kLeastBlock = 4;
+  constexpr std::size_t kMostOfBlock = 128 * 1024;
+  return (compressed / kLeastBlock) * kMostOfBlock;
+}
+
 }  // namespace
 
 bool BeginsLikeZstdFrame(std::span<const std::uint8_t> bytes) {
@@ -57,7 +65,7 @@ bool ZstdInflater::InflateOfItsLength(std::span<const std::uint8_t> compressed, 
                                       std::vector<std::uint8_t>& out) {
   // What is no frame, or states no length, seems longer than any.
   const unsigned long long size = ZSTD_getFrameContentSize(compressed.data(), compressed.size());
-  if (size > most) return false;
+  if (size > std::min(most, MostInflated(compressed.size()))) return false;
   out.resize(static_cast<std::size_t>(size));
   return Inflate(compressed, out);
 }

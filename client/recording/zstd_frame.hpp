@@ -26,7 +26,8 @@ class ZstdInflater {
   /// not looked at.
   bool InflateStart(std::span<const std::uint8_t> compressed, std::span<std::uint8_t> out);
 
-  /// A frame that states its length, at most `most` bytes; false where it is no such frame.
+  /// A frame that states its length, at most `most` bytes; false where it is no such frame, or
+  /// states more than its bytes can hold.
   bool InflateOfItsLength(std::span<const std::uint8_t> compressed, std::size_t most,
                           std::vector<std::uint8_t>& out);
 

@@ -3,9 +3,11 @@
 #include <array>
 #include <cstdint>
 #include <cstring>
+#include <vector>
 
 #include <zstd.h>
 
+#include "telltale/client/recording/zstd_frame.hpp"
 #include "telltale/idl/codec/checksum.hpp"
 
 namespace telltale {
@@ -13,7 +15,7 @@ namespace {
 
 constexpr int kCompressionLevel = 3;
 constexpr std::size_t kChecksumBytes = sizeof(std::uint32_t);
-constexpr unsigned long long kMostBytes = 1ULL << 30;
+constexpr std::size_t kMostBytes = std::size_t{1} << 30;
 
 std::array<char, kChecksumBytes> ChecksumBytes(std::string_view bytes) {
   const std::uint32_t sum = ChecksumOf(bytes);
@@ -39,13 +41,12 @@ std::optional<std::string> UnpackBlob(std::string_view blob) {
   const std::string_view packed = blob.substr(kChecksumBytes);
   const auto checksum = ChecksumBytes(packed);
   if (std::memcmp(checksum.data(), blob.data(), checksum.size()) != 0) return std::nullopt;
-  const unsigned long long size = ZSTD_getFrameContentSize(packed.data(), packed.size());
-  if (size > kMostBytes) return std::nullopt;  // what zstd does not know is larger
-  std::string bytes(size, '\0');
-  const std::size_t unpacked =
-      ZSTD_decompress(bytes.data(), bytes.size(), packed.data(), packed.size());
-  if (ZSTD_isError(unpacked)) return std::nullopt;
-  return bytes;
+  const auto* const frame = reinterpret_cast<const std::uint8_t*>(packed.data());
+  std::vector<std::uint8_t> bytes;
+  if (!ZstdInflater().InflateOfItsLength({frame, packed.size()}, kMostBytes, bytes)) {
+    return std::nullopt;
+  }
+  return std::string(bytes.begin(), bytes.end());
 }
 
 }  // namespace telltale
