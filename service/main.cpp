@@ -138,9 +138,11 @@ int ServeAsWorker(const DaemonConfig& config, const std::string& config_file,
     return kUsageError;
   }
   const Worker worker(config);
+  ServiceManager::TellReady();
   spdlog::info("waiting for jobs");
   while (signals.Wait() != Event::kStop) {
   }
+  ServiceManager::TellStopping();
   spdlog::info("stopping");
   return 0;
 }

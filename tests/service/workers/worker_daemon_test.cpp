@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "service/service_fixture.hpp"
+#include "support/notify_socket.hpp"
 #include "support/stable_boat.hpp"
 #include "telltale/client/fleet/identification_client.hpp"
 #include "telltale/idl/codec/json/model.hpp"
@@ -64,6 +65,15 @@ std::string NumbersOf(const IdentifyReply& reply) {
   Identification identification = reply.model->identification;
   identification.provenance = {};
   return PrintModelJson(identification);
+}
+
+TEST_F(WorkerDaemon, TellsTheServiceManagerThatAWorkerIsReadyAndThatItStops) {
+  NotifySocket manager(folder_.Path() / "notify", 0s);
+  const auto worker = StartWorker();
+  EXPECT_TRUE(manager.Await("READY=1")) << worker->output();
+  worker->Signal(SIGTERM);
+  EXPECT_TRUE(manager.Await("STOPPING=1")) << worker->output();
+  EXPECT_EQ(worker->Wait(), 0) << worker->output();
 }
 
 TEST_F(WorkerDaemon, HasTheNumbersThatItComputesItself) {
