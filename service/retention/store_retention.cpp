@@ -172,26 +172,27 @@ void StoreRetention::RemoveOlder(const Target& target, double age_s, double now_
 void StoreRetention::RemoveBeyondSize(RetentionPass& pass) {
   Measure(pass);
   if (Fits(pass)) return;
-  if (FitsAfterRemoving(Windows(), FindOfFormerVehicles(Windows()), pass)) return;
+  RemoveUntilItFits(Windows(), FindOfFormerVehicles(Windows()), pass);
   for (const Target& target : {Diagnoses(), Models()}) {
-    for (Candidates found = Find(target, "TRUE", {}); !found.empty();
-         found = Find(target, "TRUE", {})) {
-      if (FitsAfterRemoving(target, found, pass)) return;
+    while (!Fits(pass) && RemoveUntilItFits(target, Find(target, "TRUE", {}), pass) > 0) {
     }
   }
-  pass.over_limit = true;
+  pass.over_limit = !Fits(pass);
 }
 
-/// Removes the candidates until what is left fits.
-bool StoreRetention::FitsAfterRemoving(const Target& target, const Candidates& candidates,
-                                       RetentionPass& pass) {
+/// Returns how many of the candidates have gone: fewer than there were where what is left fits, or
+/// where another daemon holds their leases by now.
+std::size_t StoreRetention::RemoveUntilItFits(const Target& target, const Candidates& candidates,
+                                              RetentionPass& pass) {
+  std::size_t removed = 0;
   for (std::span rest(candidates); !rest.empty() && !Fits(pass);) {
     const std::size_t together = std::min(rest.size(), kRowsTogether);
-    pass.removed[{target.kind, RemovalReason::kSize}] += Remove(target, rest.first(together));
+    removed += Remove(target, rest.first(together));
     rest = rest.subspan(together);
     Measure(pass);
   }
-  return Fits(pass);
+  if (removed > 0) pass.removed[{target.kind, RemovalReason::kSize}] += removed;
+  return removed;
 }
 
 bool StoreRetention::Fits(const RetentionPass& pass) const {

@@ -87,7 +87,8 @@ class StoreRetention {
                  const Parameters& parameters, RetentionPass& pass);
   void RemoveOlder(const Target& target, double age_s, double now_unix_s, RetentionPass& pass);
   void RemoveBeyondSize(RetentionPass& pass);
-  bool FitsAfterRemoving(const Target& target, const Candidates& candidates, RetentionPass& pass);
+  std::size_t RemoveUntilItFits(const Target& target, const Candidates& candidates,
+                                RetentionPass& pass);
   bool Fits(const RetentionPass& pass) const;
   void GiveBackSpace();
   void Measure(RetentionPass& pass) const;
