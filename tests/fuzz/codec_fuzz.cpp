@@ -1,15 +1,14 @@
 #include <cstddef>
 #include <cstdint>
-#include <span>
 #include <string>
 #include <string_view>
 
 #include "bus_type.hpp"
+#include "by_kind.hpp"
 #include "insist.hpp"
 #include "telltale/idl/codec/json/metrics.hpp"
 #include "telltale/idl/codec/json/model.hpp"
 #include "telltale/idl/codec/json/report.hpp"
-#include "telltale/idl/codec/protobuf_log.hpp"
 #include "telltale/idl/codec/wire/daemon_status.hpp"
 #include "telltale/idl/codec/wire/diagnosis.hpp"
 #include "telltale/idl/codec/wire/exchange.hpp"
@@ -20,8 +19,6 @@
 
 namespace telltale {
 namespace {
-
-using Bytes = std::span<const std::uint8_t>;
 
 /// What is refused says why, and what is taken is printed as text that reads back to the same.
 template <class Parse, class Print>
@@ -70,7 +67,7 @@ void InsistOnTelemetry(Bytes bytes) {
 }
 
 void Run(std::uint8_t kind, Bytes bytes) {
-  const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  const std::string_view text = TextOf(bytes);
   switch (kind % 18) {
     case 0:
       return InsistOnText(
@@ -107,7 +104,5 @@ void Run(std::uint8_t kind, Bytes bytes) {
 
 /// The first byte says as what the others arrive: as JSON, as a message, or as a sample on the bus.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  static const bool silenced = (telltale::SilenceProtobufLog(), true);
-  if (silenced && size > 0) telltale::Run(data[0], {data + 1, size - 1});
-  return 0;
+  return telltale::InsistByKind(data, size, telltale::Run);
 }

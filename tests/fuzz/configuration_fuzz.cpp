@@ -3,10 +3,10 @@
 #include <string>
 #include <string_view>
 
+#include "by_kind.hpp"
 #include "insist.hpp"
 #include "telltale/idl/codec/daemon_config.hpp"
 #include "telltale/idl/codec/mapping_file.hpp"
-#include "telltale/idl/codec/protobuf_log.hpp"
 #include "telltale/idl/codec/vehicle_file.hpp"
 
 namespace telltale {
@@ -44,19 +44,20 @@ void InsistOnMapping(std::string_view text) {
   Insist(mapping || !mapping.error().Message().empty());
 }
 
+void Run(std::uint8_t kind, Bytes bytes) {
+  const std::string_view text = TextOf(bytes);
+  switch (kind % 3) {
+    case 0: return InsistOnVehicle(text);
+    case 1: return InsistOnConfiguration(text);
+    default: return InsistOnMapping(text);
+  }
+}
+
 }  // namespace
 }  // namespace telltale
 
 /// What is refused says why, and what is taken keeps to its ranges. The first byte says which file
 /// the others are.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  static const bool silenced = (telltale::SilenceProtobufLog(), true);
-  if (!silenced || size == 0) return 0;
-  const std::string_view text(reinterpret_cast<const char*>(data + 1), size - 1);
-  switch (data[0] % 3) {
-    case 0: telltale::InsistOnVehicle(text); break;
-    case 1: telltale::InsistOnConfiguration(text); break;
-    default: telltale::InsistOnMapping(text);
-  }
-  return 0;
+  return telltale::InsistByKind(data, size, telltale::Run);
 }

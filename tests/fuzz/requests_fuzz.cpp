@@ -1,13 +1,12 @@
 #include <cstddef>
 #include <cstdint>
-#include <span>
 #include <string>
 #include <string_view>
 
 #include "bus_type.hpp"
+#include "by_kind.hpp"
 #include "insist.hpp"
 #include "telltale/idl/codec/json/json_message.hpp"
-#include "telltale/idl/codec/protobuf_log.hpp"
 #include "telltale/idl/codec/stored_request.hpp"
 #include "telltale/idl/codec/vehicle_file.hpp"
 #include "telltale/idl/codec/wire/exchange.hpp"
@@ -17,8 +16,6 @@
 
 namespace telltale {
 namespace {
-
-using Bytes = std::span<const std::uint8_t>;
 
 /// A request that the daemon can keep on disk.
 template <class Request>
@@ -56,7 +53,7 @@ void InsistOnSample(Bytes bytes) {
 template <class Order>
 void InsistOnBody(Bytes bytes) {
   Order order;
-  const std::string_view body(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  const std::string_view body = TextOf(bytes);
   const auto fault = ParseJsonMessage(body, "body", order);
   Insist(!fault || !fault->Message().empty());
 }
@@ -76,7 +73,5 @@ void Run(std::uint8_t kind, Bytes bytes) {
 
 /// The first byte says as what the others arrive: as a request on the bus, or as one over HTTP.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  static const bool silenced = (telltale::SilenceProtobufLog(), true);
-  if (silenced && size > 0) telltale::Run(data[0], {data + 1, size - 1});
-  return 0;
+  return telltale::InsistByKind(data, size, telltale::Run);
 }

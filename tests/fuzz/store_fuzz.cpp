@@ -5,9 +5,9 @@
 #include <string>
 #include <string_view>
 
+#include "by_kind.hpp"
 #include "insist.hpp"
 #include "telltale/idl/codec/checksum.hpp"
-#include "telltale/idl/codec/protobuf_log.hpp"
 #include "telltale/idl/codec/stored_request.hpp"
 #include "telltale/service/storage/packed_blob.hpp"
 #include "telltale/service/windows/window_chunk.hpp"
@@ -60,7 +60,8 @@ void InsistOnRequest(std::string_view bytes) {
   Insist(ParseStoredRequest(written, kNow).has_value());
 }
 
-void Run(std::uint8_t kind, std::string_view bytes) {
+void Run(std::uint8_t kind, Bytes input) {
+  const std::string_view bytes = TextOf(input);
   switch (kind % 6) {
     case 0: return InsistOnChunk(PackBlob(bytes));
     case 1: return InsistOnChunk(WithChecksum(bytes));  // what zstd does not unpack
@@ -77,9 +78,5 @@ void Run(std::uint8_t kind, std::string_view bytes) {
 /// Whatever a database holds is read to something that is written and read back, or refused. The
 /// first byte says as what the others are stored. Models and reports are codec_fuzz's.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  static const bool silenced = (telltale::SilenceProtobufLog(), true);
-  if (silenced && size > 0) {
-    telltale::Run(data[0], {reinterpret_cast<const char*>(data + 1), size - 1});
-  }
-  return 0;
+  return telltale::InsistByKind(data, size, telltale::Run);
 }
