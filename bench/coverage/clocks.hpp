@@ -1,5 +1,9 @@
 #pragma once
 
+#include <algorithm>
+
+#include "telltale/core/data/samples.hpp"
+
 namespace telltale::coverage {
 
 /// When samples are taken and what their stamps say.
@@ -12,5 +16,12 @@ struct Clocks {
   double greatest_fix_delay_s = 0.0;
   double jitter_s = 0.0;  ///< of every stamp, one sigma
 };
+
+/// Jitter may swap the stamps of neighbours, which no log keeps in that order.
+inline void PutInOrder(Recording& recording) {
+  std::ranges::stable_sort(recording.gnss, {}, &GnssFix::time_s);
+  std::ranges::stable_sort(recording.heading, {}, &HeadingSample::time_s);
+  std::ranges::stable_sort(recording.thrusters, {}, &ThrusterSample::time_s);
+}
 
 }  // namespace telltale::coverage

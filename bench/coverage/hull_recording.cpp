@@ -202,11 +202,8 @@ class Recorder {
                                     std::round(vehicle_.starboard.PulseWidth(command.starboard))});
   }
 
-  // Jitter may swap neighbours, which no log keeps in that order.
   Recording InOrder() {
-    std::ranges::stable_sort(recording_.gnss, {}, &GnssFix::time_s);
-    std::ranges::stable_sort(recording_.heading, {}, &HeadingSample::time_s);
-    std::ranges::stable_sort(recording_.thrusters, {}, &ThrusterSample::time_s);
+    PutInOrder(recording_);
     return std::move(recording_);
   }
 

@@ -308,10 +308,7 @@ Recording Simulate(const Boat& boat, const SimulatedEnvironment& environment,
     }
     origin_s += mission.segment_s + kGapS;
   }
-  // Jitter may swap neighbours, which no log keeps in that order.
-  std::ranges::stable_sort(recording.gnss, {}, &GnssFix::time_s);
-  std::ranges::stable_sort(recording.heading, {}, &HeadingSample::time_s);
-  std::ranges::stable_sort(recording.thrusters, {}, &ThrusterSample::time_s);
+  PutInOrder(recording);
   return recording;
 }
 
