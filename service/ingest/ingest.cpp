@@ -126,8 +126,8 @@ void Ingest::Run() {
 
 void Ingest::Heartbeat(bool has_received) {
   handlers_.heartbeat(has_received);
-  last_heartbeat_ = Clock::now();
   const auto now = Clock::now();
+  last_heartbeat_ = now;
   const auto reopen = [now](auto& reader, const char* what) {
     if (reader.ReopenIfSilent(now))
       spdlog::warn("the reader of {} is connected but receives nothing; it is opened again", what);

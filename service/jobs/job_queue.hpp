@@ -385,17 +385,22 @@ auto JobQueue<Request, Stage, Reply>::EarliestDeadline() const -> std::optional<
 
 template <class Request, class Stage, class Reply>
 void JobQueue<Request, Stage, Reply>::NoteClients(const std::set<WriterHandle>& connected) {
+  bool has_lost = false;  // a client, so that a job may have to be dropped sooner
   {
     const std::lock_guard lock(mutex_);
     for (const auto& job : jobs_) {
       for (Asker& asker : job->askers) {
         const bool is_there = asker.client == kNoClient || connected.contains(asker.client);
-        asker.gone_since =
-            is_there ? std::nullopt : std::optional(asker.gone_since.value_or(Clock::now()));
+        if (is_there) {
+          asker.gone_since.reset();
+        } else if (!asker.gone_since) {
+          asker.gone_since = Clock::now();
+          has_lost = true;
+        }
       }
     }
   }
-  changed_.notify_all();
+  if (has_lost) changed_.notify_all();
 }
 
 /// Dismisses the askers who wait no longer, and drops the jobs that nobody waits for.

@@ -115,13 +115,12 @@ void SliceLeases::ReleaseAll() {
 
 /// A database that is slow to renew lets even the lease of this daemon run out, which lives.
 int SliceLeases::LiveDaemons() {
-  int others = 0;
-  database_->Query(fmt::format("SELECT COUNT(*) AS value FROM daemons"
-                               " WHERE owner <> $1 AND until_unix_s > {}",
-                               kServerNow),
-                   {owner_},
-                   [&](const Row& row) { others = static_cast<int>(row.Integer("value")); });
-  return 1 + others;
+  const std::int64_t others = IntegerOf(*database_,
+                                        fmt::format("SELECT COUNT(*) AS value FROM daemons"
+                                                    " WHERE owner <> $1 AND until_unix_s > {}",
+                                                    kServerNow),
+                                        {owner_});
+  return 1 + static_cast<int>(others);
 }
 
 std::string SliceLeases::OtherOwner() {

@@ -143,7 +143,8 @@ class ParameterShift {
         metric_(problem.metric),
         scale_(scale),
         error_model_(ErrorModelOf(problem.runs, problem.nominal.boat)),
-        nominal_(error_model_({})) {}
+        nominal_(error_model_({})),
+        white_nominal_(metric_.Whiten(nominal_)) {}
 
   /// How far the parameter at `value` moves the errors.
   ErrorShift At(double value) const {
@@ -153,7 +154,7 @@ class ParameterShift {
     }
     modelled.values[parameter_] = value;
     const Eigen::MatrixXd errors = error_model_({modelled});
-    return {metric_.SquaredMahalanobis(metric_.Whiten(errors) - metric_.Whiten(nominal_)),
+    return {metric_.SquaredMahalanobis(metric_.Whiten(errors) - white_nominal_),
             SquaredGaps(errors - nominal_, scale_, kAllChannels).mean()};
   }
 
@@ -164,6 +165,7 @@ class ParameterShift {
   const Eigen::VectorXd& scale_;
   ErrorModel error_model_;
   Eigen::MatrixXd nominal_;
+  Eigen::VectorXd white_nominal_;
 };
 
 /// What decides whether an effect shows, besides what it does to the errors.

@@ -82,10 +82,7 @@ FossenVector StudentWidening(const FossenVector& degrees_of_freedom, double leve
 
 // Of each parameter's score over what the information expects of it, standard deviations.
 FossenVector OwnScatter(const FossenSquare& scores, const FossenSquare& information) {
-  return scores.diagonal()
-      .cwiseQuotient(information.diagonal().cwiseMax(1e-300))
-      .cwiseMax(0.0)
-      .cwiseSqrt();
+  return scores.diagonal().cwiseQuotient(information.diagonal().cwiseMax(1e-300)).cwiseSqrt();
 }
 
 // What brings the standard errors of `covariance` to those of `other` where these are larger.
