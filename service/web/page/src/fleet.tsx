@@ -79,7 +79,7 @@ function useKeys(table: { current: HTMLTableElement | null }, search: { current:
   }, []);
 }
 
-const kServesNone = "This daemon serves no boat: its configuration names none, and none has been admitted.";
+const kServesNone = "This daemon serves no boat: its configuration names none, or other daemons hold them.";
 
 export function FleetView({ vehicles, tracks, now, heard }: {
   vehicles: Summary[];
