@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "support/catamaran.hpp"
+#include "support/stable_boat.hpp"
 #include "telltale/core/base/degrees.hpp"
 #include "telltale/core/simulation/manoeuvres.hpp"
 #include "telltale/core/simulation/sensors.hpp"
@@ -29,7 +29,7 @@ constexpr std::size_t kKindsOfWork = 6;
 /// One of a series of boats that differ in every coefficient.
 VesselModel CatamaranOf(std::uint64_t seed, double thruster_lag_s) {
   constexpr double kAtOnceS = 1e-6;
-  VesselModel model = testing::Catamaran(std::max(thruster_lag_s, kAtOnceS));
+  VesselModel model = testing::StableBoat(std::max(thruster_lag_s, kAtOnceS));
   WhiteSource white(seed, 8);
   for (Eigen::VectorXd& theta : model.theta) {
     for (double& coefficient : theta) coefficient *= std::exp(kHullSpread * white());
@@ -150,7 +150,7 @@ void BoatInWeather::Advance(const VesselModel& model, const PropellerCommand& de
 }
 
 Vehicle VehicleInWeather() {
-  return testing::CatamaranVehicle();
+  return testing::StableBoatVehicle();
 }
 
 }  // namespace telltale::drift

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "telltale/core/data/samples.hpp"
@@ -11,10 +13,12 @@
 
 namespace telltale::testing {
 
-/// A made-up catamaran of 1.2 m, stable on every course, in SI units.
-inline VesselModel StableBoat() {
+/// A made-up catamaran of 1.2 m, stable on every course, in SI units, every coefficient of the
+/// propeller parameterization at work. Its thrusters lag if a time constant is given.
+inline VesselModel StableBoat(std::optional<double> time_constant_s = std::nullopt) {
   VesselModel model;
-  model.structure = Structure::kStaticQuadratic;
+  model.structure = time_constant_s ? Structure::kFirstOrderDynamic : Structure::kStaticQuadratic;
+  model.thruster_time_constant_s = time_constant_s;
   model.parameterization = Parameterization::kPropeller;
   model.discretisation = Discretisation::kContinuous;
   model.sampling_period_s = 0.2;
@@ -33,21 +37,30 @@ inline Vehicle StableBoatVehicle() {
   return vehicle;
 }
 
-/// Random steps ahead, and one side astern now and then.
-inline std::vector<TimedCommand> VariedCommands(double duration_s, std::uint64_t seed) {
+/// Random steps ahead, and one side astern now and then, in pieces of `piece_s`.
+inline std::vector<TimedCommand> VariedCommands(double duration_s, std::uint64_t seed,
+                                                double piece_s = 20.0) {
   const CommandRange ahead{{0.1, 0.1}, {1.0, 1.0}};
   const CommandRange port_astern{{-0.7, 0.1}, {-0.1, 1.0}};
   const CommandRange starboard_astern{{0.1, -0.7}, {1.0, -0.1}};
   std::vector<Manoeuvre> manoeuvres;
-  constexpr double kPieceS = 20.0;
-  for (double t = 0.0; t < duration_s; t += kPieceS) {
-    const auto piece = static_cast<std::uint64_t>(t / kPieceS);
+  for (std::uint64_t piece = 0; static_cast<double>(piece) * piece_s < duration_s; ++piece) {
     const CommandRange& range = piece % 4 == 1   ? port_astern
                                 : piece % 4 == 3 ? starboard_astern
                                                  : ahead;
-    manoeuvres.push_back(RandomSteps(range, 1.4, 5.0, kPieceS, seed + piece));
+    manoeuvres.push_back(RandomSteps(range, 1.4, 5.0, piece_s, seed + piece));
   }
   return Schedule(manoeuvres, 0.0);
+}
+
+/// Where the boat goes under commands in pieces of 10 s, at steps of 0.02 s.
+inline std::vector<TimedState> StableBoatTrack(const VesselModel& model, double duration_s,
+                                               std::uint64_t seed) {
+  const auto commands = VariedCommands(duration_s, seed, 10.0);
+  VesselState start;
+  start.nu.u = 0.5;
+  start.thrust = model.SteadyThrust(commands.front().delta);
+  return Simulate(model, start, commands, duration_s, 0.02);
 }
 
 /// The boat simulated for `duration_s` at steps of 0.02 s and measured.
@@ -57,6 +70,15 @@ inline Recording SimulateStableBoat(const VesselModel& model, double duration_s,
   start.nu.u = 0.5;
   return Measure(Simulate(model, start, VariedCommands(duration_s, seed), duration_s, 0.02),
                  StableBoatVehicle(), sensors);
+}
+
+/// `noise_scale` times 0.02 m and 0.3 degrees.
+inline SensorOptions NoisySensors(double noise_scale, std::uint64_t seed) {
+  SensorOptions sensors;
+  sensors.position_noise_m = 0.02 * noise_scale;
+  sensors.heading_noise_deg = 0.3 * noise_scale;
+  sensors.seed = seed;
+  return sensors;
 }
 
 inline SensorOptions NoNoise() {

@@ -10,7 +10,7 @@
 
 #include <gtest/gtest.h>
 
-#include "support/catamaran.hpp"
+#include "support/stable_boat.hpp"
 #include "telltale/core/base/linear_algebra/eigen_decompositions.hpp"
 #include "telltale/core/data/preparation.hpp"
 #include "telltale/core/simulation/sensors.hpp"
@@ -44,8 +44,8 @@ PreparedDataset StraightRun(double position_noise_m, std::uint64_t seed) {
     const double share = i % 2 == 0 ? 0.9 : 0.2;
     commands.push_back({5.0 * i, {share, share}});
   }
-  const Vehicle vehicle = testing::CatamaranVehicle();
-  SensorOptions sensors = testing::CatamaranSensors(1.0, seed);
+  const Vehicle vehicle = testing::StableBoatVehicle();
+  SensorOptions sensors = testing::NoisySensors(1.0, seed);
   sensors.position_noise_m = position_noise_m;
   return Prepare(Measure(Simulate(StraightBoat(), {}, commands, 60.0, 0.02), vehicle, sensors),
                  vehicle, {})

@@ -5,7 +5,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "support/catamaran.hpp"
+#include "support/stable_boat.hpp"
+#include "telltale/core/data/preparation.hpp"
 #include "telltale/core/estimation/output_error/output_error_covariance.hpp"
 #include "telltale/core/estimation/weak_form/weak_iv.hpp"
 
@@ -16,8 +17,8 @@ using ::testing::HasSubstr;
 
 PreparedDataset Observe(const std::vector<TimedState>& track, double noise_scale,
                         std::uint64_t seed) {
-  const Vehicle vehicle = testing::CatamaranVehicle();
-  return Prepare(Measure(track, vehicle, testing::CatamaranSensors(noise_scale, seed)), vehicle, {})
+  const Vehicle vehicle = testing::StableBoatVehicle();
+  return Prepare(Measure(track, vehicle, testing::NoisySensors(noise_scale, seed)), vehicle, {})
       .value();
 }
 
@@ -40,8 +41,8 @@ class NoNoise : public ::testing::TestWithParam<std::optional<double>> {};
 /// the simulator's pose and of up to 0.2 s of the shooting segments: under a hundredth of every
 /// coefficient that is not itself tiny.
 TEST_P(NoNoise, GivesTheTruthToDiscretisation) {
-  const VesselModel truth = testing::Catamaran(GetParam());
-  const auto fit = Estimate(Observe(testing::CatamaranTrack(truth, 400.0, 11), 0.0, 1),
+  const VesselModel truth = testing::StableBoat(GetParam());
+  const auto fit = Estimate(Observe(testing::StableBoatTrack(truth, 400.0, 11), 0.0, 1),
                             Lagging(GetParam().has_value()));
   ASSERT_TRUE(fit.has_value());
   EXPECT_TRUE(fit->converged);
@@ -58,9 +59,9 @@ INSTANTIATE_TEST_SUITE_P(Lags, NoNoise,
 
 /// A start from a boat that nothing pushes ends where the one from weak-form IV does.
 TEST(EstimateOutputError, DoesNotDependOnWhereItStarts) {
-  const auto dataset = Observe(testing::CatamaranTrack(testing::Catamaran(), 200.0, 12), 1.0, 3);
+  const auto dataset = Observe(testing::StableBoatTrack(testing::StableBoat(), 200.0, 12), 1.0, 3);
   const auto columns = AllColumns(Parameterization::kPropeller);
-  VesselModel nothing = testing::Catamaran();
+  VesselModel nothing = testing::StableBoat();
   for (Eigen::VectorXd& theta : nothing.theta) theta.setZero();
   const auto from_nothing = EstimateOutputError(dataset, {}, columns, nothing, {});
   const auto from_weak = Estimate(dataset, {});
@@ -77,8 +78,8 @@ TEST(EstimateOutputError, DoesNotDependOnWhereItStarts) {
 /// and measurement apart is the sensors' noise.
 TEST(EstimateOutputError, StandardErrorsMatchTheScatterOfReplicates) {
   constexpr int kRepeats = 40;
-  const VesselModel truth = testing::Catamaran();
-  const auto track = testing::CatamaranTrack(truth, 400.0, 13);
+  const VesselModel truth = testing::StableBoat();
+  const auto track = testing::StableBoatTrack(truth, 400.0, 13);
   Eigen::MatrixXd errors(35, kRepeats);
   Eigen::VectorXd clustered = Eigen::VectorXd::Zero(35);
   Eigen::VectorXd naive = Eigen::VectorXd::Zero(35);
@@ -114,7 +115,7 @@ TEST(EstimateOutputError, StandardErrorsMatchTheScatterOfReplicates) {
 
 /// Coloured position errors are not what white noise explains: the alarm rises.
 TEST(Misspecification, RisesWithErrorsThatAreNotWhite) {
-  auto dataset = Observe(testing::CatamaranTrack(testing::Catamaran(), 400.0, 13), 1.0, 4);
+  auto dataset = Observe(testing::StableBoatTrack(testing::StableBoat(), 400.0, 13), 1.0, 4);
   for (RawSignals& signals : dataset.signals) {
     for (std::size_t i = 0; i < signals.north_m.values.size(); ++i) {
       const double t = signals.north_m.times_s[i];
@@ -131,7 +132,7 @@ TEST(Misspecification, RisesWithErrorsThatAreNotWhite) {
 /// One straight run under one command: the constant and the thrust of that command are one number.
 TEST(EstimateOutputError, NamesWhatOneStraightRunCannotSeparate) {
   constexpr double kCommand = 0.6;
-  const VesselModel truth = testing::Catamaran();
+  const VesselModel truth = testing::StableBoat();
   const auto track = Simulate(truth, {}, {{0.0, {kCommand, kCommand}}}, 60.0, 0.02);
   const auto fit = Estimate(Observe(track, 1.0, 7), {});
   ASSERT_TRUE(fit.has_value());
@@ -171,7 +172,7 @@ TEST(EstimateOutputError, NamesWhatOneStraightRunCannotSeparate) {
 
 /// Ten fixes of a thousand, metres to tens of metres off.
 TEST(EstimateOutputError, IsRobustToOutlyingFixes) {
-  const auto track = testing::CatamaranTrack(testing::Catamaran(), 200.0, 14);
+  const auto track = testing::StableBoatTrack(testing::StableBoat(), 200.0, 14);
   const PreparedDataset clean = Observe(track, 1.0, 8);
   PreparedDataset outlying = clean;
   for (RawSignals& signals : outlying.signals) {
@@ -196,7 +197,7 @@ TEST(EstimateOutputError, IsRobustToOutlyingFixes) {
 }
 
 TEST(EstimateOutputError, RefusesARecordingTooShortForItsCoefficients) {
-  const auto track = testing::CatamaranTrack(testing::Catamaran(), 8.0, 15);
+  const auto track = testing::StableBoatTrack(testing::StableBoat(), 8.0, 15);
   const auto fit = Estimate(Observe(track, 1.0, 9), {});
   ASSERT_FALSE(fit.has_value());
   EXPECT_THAT(fit.error().reason, HasSubstr("too few"));

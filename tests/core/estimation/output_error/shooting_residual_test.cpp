@@ -4,7 +4,8 @@
 
 #include <gtest/gtest.h>
 
-#include "support/catamaran.hpp"
+#include "support/stable_boat.hpp"
+#include "telltale/core/data/preparation.hpp"
 #include "telltale/core/estimation/weak_form/weak_iv.hpp"
 
 namespace telltale {
@@ -19,10 +20,10 @@ struct Aim {
 
 Aim TakeAim(std::optional<double> time_constant_s, const SensorOptions& sensors,
             double duration_s = 60.0) {
-  const VesselModel model = testing::Catamaran(time_constant_s);
-  const Vehicle vehicle = testing::CatamaranVehicle();
+  const VesselModel model = testing::StableBoat(time_constant_s);
+  const Vehicle vehicle = testing::StableBoatVehicle();
   const Recording recording =
-      Measure(testing::CatamaranTrack(model, duration_s, 5), vehicle, sensors);
+      Measure(testing::StableBoatTrack(model, duration_s, 5), vehicle, sensors);
   Aim aim;
   aim.dataset = Prepare(recording, vehicle, {}).value();
   aim.regression.structure = model.structure;
@@ -36,7 +37,7 @@ Aim TakeAim(std::optional<double> time_constant_s, const SensorOptions& sensors,
 
 /// Every fix and every heading of the rows' time is in exactly one shooting segment.
 TEST(CutShootingSegments, TakesEveryMeasurementOnce) {
-  const Aim aim = TakeAim(std::nullopt, testing::CatamaranSensors(1.0, 1));
+  const Aim aim = TakeAim(std::nullopt, testing::NoisySensors(1.0, 1));
   std::size_t fixes = 0;
   double seconds = 0.0;
   for (const ShootingSegment& shooting_segment : aim.plan.shooting_segments) {
@@ -48,7 +49,7 @@ TEST(CutShootingSegments, TakesEveryMeasurementOnce) {
 }
 
 TEST(CutShootingSegments, KeepsToAboutTheLengthAskedFor) {
-  const Aim aim = TakeAim(std::nullopt, testing::CatamaranSensors(1.0, 1));
+  const Aim aim = TakeAim(std::nullopt, testing::NoisySensors(1.0, 1));
   for (const ShootingSegment& shooting_segment : aim.plan.shooting_segments) {
     double seconds = 0.0;
     for (const ShootingNode& node : shooting_segment.nodes) seconds += node.leg_s;
@@ -62,9 +63,9 @@ TEST(CutShootingSegments, KeepsToAboutTheLengthAskedFor) {
 /// commands step between headings, the cubic's, both far inside any sensor's noise.
 TEST(ComputeShootingResidual, IsZeroFromTheTrueStart) {
   for (const std::optional<double> lag : {std::optional<double>(), std::optional(0.3)}) {
-    const VesselModel model = testing::Catamaran(lag);
-    const auto track = testing::CatamaranTrack(model, 60.0, 5);
-    const Aim aim = TakeAim(lag, testing::CatamaranSensors(0.0, 1));
+    const VesselModel model = testing::StableBoat(lag);
+    const auto track = testing::StableBoatTrack(model, 60.0, 5);
+    const Aim aim = TakeAim(lag, testing::NoisySensors(0.0, 1));
     const ShootingSegment& shooting_segment = aim.plan.shooting_segments.front();
     const Eta& eta = track.front().state.eta;
     const Nu& nu = track.front().state.nu;
@@ -72,7 +73,7 @@ TEST(ComputeShootingResidual, IsZeroFromTheTrueStart) {
     start << eta.x_m - aim.dataset.rows.front().eta.x_m, eta.y_m - aim.dataset.rows.front().eta.y_m,
         eta.psi_rad, nu.u, nu.v, nu.r;
     // The frame's origin is the first fix; the track's is the body at time zero.
-    const LeverArm arm = testing::CatamaranVehicle().gnss_antenna;
+    const LeverArm arm = testing::StableBoatVehicle().gnss_antenna;
     start[0] -= arm.forward_m;
     start[1] -= arm.starboard_m;
     const auto shooting_residual = ComputeShootingResidual(
@@ -88,8 +89,8 @@ class Derivatives : public ::testing::TestWithParam<std::optional<double>> {};
 /// All derivatives against central differences of the residuals themselves, some beyond the knees.
 TEST_P(Derivatives, AreThoseOfTheResiduals) {
   constexpr double kApart = 1e-6;
-  const Aim aim = TakeAim(GetParam(), testing::CatamaranSensors(1.0, 2));
-  const Eigen::VectorXd theta = aim.unknowns.In(testing::Catamaran(GetParam()));
+  const Aim aim = TakeAim(GetParam(), testing::NoisySensors(1.0, 2));
+  const Eigen::VectorXd theta = aim.unknowns.In(testing::StableBoat(GetParam()));
   const NoiseScale noise_scale{1.2, 0.8, 1.5};
   for (const std::size_t i : {0U, 1U, 3U}) {
     const ShootingSegment& shooting_segment = aim.plan.shooting_segments[i];
@@ -126,8 +127,8 @@ INSTANTIATE_TEST_SUITE_P(Lags, Derivatives,
 
 /// Huber's loss as a sum of squares, with threshold k: s^2 up to k, 2 k s - k^2 beyond.
 TEST(ComputeShootingResidual, IsHubersBeyondTheThreshold) {
-  const Aim aim = TakeAim(std::nullopt, testing::CatamaranSensors(1.0, 2));
-  const Eigen::VectorXd theta = aim.unknowns.In(testing::Catamaran());
+  const Aim aim = TakeAim(std::nullopt, testing::NoisySensors(1.0, 2));
+  const Eigen::VectorXd theta = aim.unknowns.In(testing::StableBoat());
   const ShootingSegment& shooting_segment = aim.plan.shooting_segments.front();
   const auto whole = ComputeShootingResidual(aim.plan, shooting_segment, aim.unknowns, theta,
                                              shooting_segment.guess, {}, false)
@@ -151,8 +152,8 @@ TEST(ComputeShootingResidual, IsHubersBeyondTheThreshold) {
 }
 
 TEST(ComputeShootingResidual, ReportsDivergence) {
-  const Aim aim = TakeAim(std::nullopt, testing::CatamaranSensors(1.0, 2));
-  Eigen::VectorXd theta = aim.unknowns.In(testing::Catamaran());
+  const Aim aim = TakeAim(std::nullopt, testing::NoisySensors(1.0, 2));
+  Eigen::VectorXd theta = aim.unknowns.In(testing::StableBoat());
   theta[0] = 20.0;  // speed feeds on its own square
   const ShootingSegment& shooting_segment = aim.plan.shooting_segments.front();
   EXPECT_FALSE(ComputeShootingResidual(aim.plan, shooting_segment, aim.unknowns, theta,
