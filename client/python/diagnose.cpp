@@ -1,5 +1,8 @@
 #include "telltale/client/workbench/diagnose_recorded.hpp"
 
+#include <spdlog/fmt/fmt.h>
+#include <spdlog/fmt/ranges.h>
+
 #include "telltale/client/python/bindings.hpp"
 #include "telltale/client/python/model.hpp"
 #include "telltale/client/python/recording.hpp"
@@ -75,9 +78,19 @@ std::optional<ScoredIdentification> AugmentedOf(const SourcedDiagnosis& diagnose
   return ScoredIdentification{*diagnosed.augmented};
 }
 
-}  // namespace
+std::string CauseText(const Cause& cause) {
+  const std::vector<std::string> names = EffectsOf(cause);
+  return fmt::format("<telltale.Cause {}: {}>",
+                     names.empty() ? "unknown" : fmt::to_string(fmt::join(names, ", ")),
+                     cause.probability);
+}
 
-void AddDiagnose(py::module_& module) {
+std::string DiagnosisText(const SourcedDiagnosis& diagnosed) {
+  return fmt::format("<telltale.Diagnosis {}: {}>", Name(diagnosed.diagnosis.verdict),
+                     diagnosed.diagnosis.sentence);
+}
+
+void AddCause(py::module_& module) {
   py::class_<Cause>(module, "Cause", "Effects that act together, and how probable that is.")
       .def_property_readonly("effects", &EffectsOf, "Names; none for the unknown cause.")
       .def_property_readonly("sentences", &SentencesOf,
@@ -92,14 +105,10 @@ void AddDiagnose(py::module_& module) {
             return cause.excess_explained->share;
           },
           "The share of the excess error that it explains at five seconds, or None.")
-      .def("__repr__", [](const Cause& cause) {
-        std::string names;
-        for (const std::string& name : EffectsOf(cause))
-          names += (names.empty() ? "" : ", ") + name;
-        return "<telltale.Cause " + (names.empty() ? "unknown" : names) + ": " +
-               std::to_string(cause.probability) + '>';
-      });
+      .def("__repr__", &CauseText);
+}
 
+void AddDiagnosis(py::module_& module) {
   py::class_<SourcedDiagnosis>(
       module, "Diagnosis",
       "Where a model and a recording differ, which effect explains it, and "
@@ -144,11 +153,14 @@ void AddDiagnose(py::module_& module) {
             return ReportPage(diagnosed.diagnosis, diagnosed.sources);
           },
           "A page with pictures, which needs no network.")
-      .def("__repr__", [](const SourcedDiagnosis& diagnosed) {
-        return "<telltale.Diagnosis " + std::string(Name(diagnosed.diagnosis.verdict)) + ": " +
-               diagnosed.diagnosis.sentence + '>';
-      });
+      .def("__repr__", &DiagnosisText);
+}
 
+}  // namespace
+
+void AddDiagnose(py::module_& module) {
+  AddCause(module);
+  AddDiagnosis(module);
   module.def(
       "diagnose", &Diagnosed, py::arg("model"), py::arg("recordings"),
       py::arg("references") = Recordings(), py::arg("vehicle") = py::none(), py::kw_only(),
@@ -167,8 +179,7 @@ void AddDiagnose(py::module_& module) {
       "    threads: [1, 256], by default all of the machine; never changes the result.\n"
       "    progress: called with the stage and the share done, from any thread.\n\n"
       "Raises InputError for arguments out of their range, DataCannotTell where a reference made "
-      "the "
-      "model or is given twice, or the recording allows no diagnosis. Ctrl-C ends it.");
+      "the model or is given twice, or the recording allows no diagnosis. Ctrl-C ends it.");
 }
 
 }  // namespace telltale::python

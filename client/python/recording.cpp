@@ -143,6 +143,67 @@ auto Field(double NorthEastPosition::*field) {
   return [field](const StatedLog& log) { return ArrayOf(PositionsOf(log), field); };
 }
 
+using RecordingClass = py::class_<StatedLog, std::shared_ptr<StatedLog>>;
+
+void AddConstruction(RecordingClass& recording) {
+  recording.def_static(
+      "from_arrays", &FromArrays, py::kw_only(), py::arg("vehicle"), py::arg("fix_time_s"),
+      py::arg("latitude_deg"), py::arg("longitude_deg"), py::arg("heading_time_s"),
+      py::arg("heading_deg"), py::arg("command_time_s"), py::arg("port_us"),
+      py::arg("starboard_us"), py::arg("name") = "recording",
+      "A recording of arrays, checked like one of a file.\n\n"
+      "Args:\n"
+      "    vehicle: a Vehicle, or the path of a vehicle file.\n"
+      "    fix_time_s, latitude_deg, longitude_deg: positions of the antenna, WGS84.\n"
+      "    heading_time_s, heading_deg: true headings, clockwise from north.\n"
+      "    command_time_s, port_us, starboard_us: pulse widths sent to the thrusters.\n"
+      "    name: by which errors and models name the recording.\n\n"
+      "Raises InputError where arrays do not fit together, DataCannotTell where nothing "
+      "of a channel can be trusted.");
+}
+
+void AddOrigin(RecordingClass& recording) {
+  recording
+      .def_property_readonly(
+          "name", [](const StatedLog& log) { return NameOf(log.log.path); },
+          "The last part of the path, or the name that from_arrays was given.")
+      .def_property_readonly("vehicle", &StatedLog::KnownVehicle,
+                             "As stated, or as the log describes it; else None.")
+      .def_readonly("notes", &StatedLog::notes,
+                    "What was read, and what was left out, as sentences.")
+      .def_property_readonly("rejected", &RejectedOf,
+                             "Samples that cannot be trusted, counted by channel and reason.");
+}
+
+void AddChannels(RecordingClass& recording) {
+  recording
+      .def_property_readonly("fix_time_s", Field(&Recording::gnss, &GnssFix::time_s),
+                             "Times of the positions.")
+      .def_property_readonly("latitude_deg", Field(&Recording::gnss, &GnssFix::latitude_deg),
+                             "WGS84.")
+      .def_property_readonly("longitude_deg", Field(&Recording::gnss, &GnssFix::longitude_deg),
+                             "WGS84.")
+      .def_property_readonly("north_m", Field(&NorthEastPosition::north_m),
+                             "Positions from the first fix.")
+      .def_property_readonly("east_m", Field(&NorthEastPosition::east_m),
+                             "Positions from the first fix.")
+      .def_property_readonly("heading_time_s", Field(&Recording::heading, &HeadingSample::time_s),
+                             "Times of the headings.")
+      .def_property_readonly("heading_deg", Field(&Recording::heading, &HeadingSample::heading_deg),
+                             "True headings, clockwise from north, as recorded.")
+      .def_property_readonly("command_time_s",
+                             Field(&Recording::thrusters, &ThrusterSample::time_s),
+                             "Times of the commands.")
+      .def_property_readonly("port_us", Field(&Recording::thrusters, &ThrusterSample::port_us),
+                             "Pulse widths of the port thruster.")
+      .def_property_readonly("starboard_us",
+                             Field(&Recording::thrusters, &ThrusterSample::starboard_us),
+                             "Pulse widths of the starboard thruster.")
+      .def_property_readonly("commands", &RecordedCommands,
+                             "Commands in shares of full command, [-1, 1], a row each, port first. "
+                             "Raises InputError where the vehicle is not known.");
+}
+
 }  // namespace
 
 std::optional<Vehicle> StatedLog::KnownVehicle() const {
@@ -179,58 +240,14 @@ RecordedVehicle Joined(const Recordings& recordings, const std::optional<Vehicle
 }
 
 void AddRecording(py::module_& module) {
-  py::class_<StatedLog, std::shared_ptr<StatedLog>>(
+  RecordingClass recording(
       module, "Recording",
       "What a boat recorded: three channels of samples, each with its own times, without samples "
-      "that cannot be trusted. Every array is a copy.")
-      .def_static(
-          "from_arrays", &FromArrays, py::kw_only(), py::arg("vehicle"), py::arg("fix_time_s"),
-          py::arg("latitude_deg"), py::arg("longitude_deg"), py::arg("heading_time_s"),
-          py::arg("heading_deg"), py::arg("command_time_s"), py::arg("port_us"),
-          py::arg("starboard_us"), py::arg("name") = "recording",
-          "A recording of arrays, checked like one of a file.\n\n"
-          "Args:\n"
-          "    vehicle: a Vehicle, or the path of a vehicle file.\n"
-          "    fix_time_s, latitude_deg, longitude_deg: positions of the antenna, WGS84.\n"
-          "    heading_time_s, heading_deg: true headings, clockwise from north.\n"
-          "    command_time_s, port_us, starboard_us: pulse widths sent to the thrusters.\n"
-          "    name: by which errors and models name the recording.\n\n"
-          "Raises InputError where arrays do not fit together, DataCannotTell where nothing "
-          "of a channel can be trusted.")
-      .def_property_readonly(
-          "name", [](const StatedLog& log) { return NameOf(log.log.path); },
-          "The last part of the path, or the name that from_arrays was given.")
-      .def_property_readonly("vehicle", &StatedLog::KnownVehicle,
-                             "As stated, or as the log describes it; else None.")
-      .def_readonly("notes", &StatedLog::notes,
-                    "What was read, and what was left out, as sentences.")
-      .def_property_readonly("rejected", &RejectedOf,
-                             "Samples that cannot be trusted, counted by channel and reason.")
-      .def_property_readonly("fix_time_s", Field(&Recording::gnss, &GnssFix::time_s),
-                             "Times of the positions.")
-      .def_property_readonly("latitude_deg", Field(&Recording::gnss, &GnssFix::latitude_deg),
-                             "WGS84.")
-      .def_property_readonly("longitude_deg", Field(&Recording::gnss, &GnssFix::longitude_deg),
-                             "WGS84.")
-      .def_property_readonly("north_m", Field(&NorthEastPosition::north_m),
-                             "Positions from the first fix.")
-      .def_property_readonly("east_m", Field(&NorthEastPosition::east_m),
-                             "Positions from the first fix.")
-      .def_property_readonly("heading_time_s", Field(&Recording::heading, &HeadingSample::time_s),
-                             "Times of the headings.")
-      .def_property_readonly("heading_deg", Field(&Recording::heading, &HeadingSample::heading_deg),
-                             "True headings, clockwise from north, as recorded.")
-      .def_property_readonly("command_time_s",
-                             Field(&Recording::thrusters, &ThrusterSample::time_s),
-                             "Times of the commands.")
-      .def_property_readonly("port_us", Field(&Recording::thrusters, &ThrusterSample::port_us),
-                             "Pulse widths of the port thruster.")
-      .def_property_readonly("starboard_us",
-                             Field(&Recording::thrusters, &ThrusterSample::starboard_us),
-                             "Pulse widths of the starboard thruster.")
-      .def_property_readonly("commands", &RecordedCommands,
-                             "Commands in shares of full command, [-1, 1], a row each, port first. "
-                             "Raises InputError where the vehicle is not known.")
+      "that cannot be trusted. Every array is a copy.");
+  AddConstruction(recording);
+  AddOrigin(recording);
+  AddChannels(recording);
+  recording
       .def(
           "save",
           [](const StatedLog& log, const fs::path& folder) {
