@@ -52,7 +52,7 @@ class DiagnosisJobs {
   PublishedDiagnoses& diagnoses_;
   const IdentificationSettings settings_;
   HeavyJobs& heavy_jobs_;
-  JobQueue<DiagnoseRequest, DiagnoseProgress, DiagnoseReply> jobs_;  // last: its thread uses these
+  DiagnosisQueue jobs_;  // last: its thread uses these
 };
 
 }  // namespace telltale

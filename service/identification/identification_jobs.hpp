@@ -52,7 +52,7 @@ class IdentificationJobs {
   BaselineRecordings& baselines_;
   const IdentificationSettings settings_;
   HeavyJobs& coverage_checks_;
-  JobQueue<IdentifyRequest, IdentifyProgress, IdentifyReply> jobs_;  // last: its threads use these
+  IdentificationQueue jobs_;  // last: its threads use these
 };
 
 }  // namespace telltale

@@ -118,22 +118,20 @@ class HeldWork {
 /// Queues of a fleet of two, and what they answer on the bus.
 class Jobs : public ::testing::Test {
  protected:
-  using Queue = JobQueue<IdentifyRequest, IdentifyProgress, IdentifyReply>;
-
   Jobs() {
     // Who first asks makes the logger, where no sanitizer sees: ask before workers do.
     spdlog::default_logger();
     wait_set_.Attach(reader_, [this] { TakeReplies(); });
   }
 
-  std::unique_ptr<Queue> QueueOf(const Workers& workers, std::size_t limit,
-                                 RequestJournal* journal = nullptr) {
+  std::unique_ptr<IdentificationQueue> QueueOf(const Workers& workers, std::size_t limit,
+                                               RequestJournal* journal = nullptr) {
     const auto work = [this](const IdentifyRequest& request, const Computation& computation) {
       computation([&](const Progress& progress) { work_.Do(request.vehicle_id, progress); });
       return ReplyTo<IdentifyReply>(request, ReplyOutcome::kRefused, "done");
     };
-    return std::make_unique<Queue>("identification", fleet_, replies_, workers, limit, work,
-                                   journal);
+    return std::make_unique<IdentificationQueue>("identification", fleet_, replies_, workers, limit,
+                                                 work, journal);
   }
 
   /// Asks for something of its own, unless the seeds are alike.
@@ -148,7 +146,7 @@ class Jobs : public ::testing::Test {
   }
 
   /// What it answers to this request; asked again, as clients do that have missed an answer.
-  std::string ReplyMessageTo(Queue& queue, const IdentifyRequest& request) {
+  std::string ReplyMessageTo(IdentificationQueue& queue, const IdentifyRequest& request) {
     for (int patience = 0; patience < 200; ++patience) {
       queue.Submit(request);
       if (HasReply(request.correlation_id)) break;
@@ -291,14 +289,15 @@ TEST_F(Jobs, SayHowLongTheirWorkHasReportedNothing) {
   std::promise<void> may_report;
   std::promise<void> reported;
   std::promise<void> may_end;
-  Queue queue("identification", fleet_, replies_, {.interactive = 1}, 10,
-              [&](const IdentifyRequest& request, const Computation& computation) {
-                may_report.get_future().wait();
-                computation.Report("fitting", 0.5);
-                reported.set_value();
-                may_end.get_future().wait();
-                return ReplyTo<IdentifyReply>(request, ReplyOutcome::kRefused, "done");
-              });
+  IdentificationQueue queue("identification", fleet_, replies_, {.interactive = 1}, 10,
+                            [&](const IdentifyRequest& request, const Computation& computation) {
+                              may_report.get_future().wait();
+                              computation.Report("fitting", 0.5);
+                              reported.set_value();
+                              may_end.get_future().wait();
+                              return ReplyTo<IdentifyReply>(request, ReplyOutcome::kRefused,
+                                                            "done");
+                            });
   EXPECT_EQ(queue.Activity().silence, 0s);
   queue.Submit(RequestNamed("a", "one"));
   while (queue.Activity().silence < 50ms) std::this_thread::yield();
