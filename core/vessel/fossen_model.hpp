@@ -53,8 +53,6 @@ enum class FossenParameter : std::size_t {
 
 inline constexpr std::size_t kFossenParameters = 26;
 using FossenVector = Eigen::Matrix<double, static_cast<int>(kFossenParameters), 1>;
-using FossenSquare =
-    Eigen::Matrix<double, static_cast<int>(kFossenParameters), static_cast<int>(kFossenParameters)>;
 
 constexpr Eigen::Index At(FossenParameter parameter) {
   return static_cast<Eigen::Index>(parameter);

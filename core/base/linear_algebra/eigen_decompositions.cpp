@@ -14,6 +14,8 @@ template void CompleteOrthogonalDecomposition<MatrixXd>::_solve_impl(const Vecto
 template void CompleteOrthogonalDecomposition<MatrixXd>::_solve_impl(
     const MatrixXd::IdentityReturnType&, MatrixXd&) const;
 
+template void PartialPivLU<MatrixXd>::compute();
+
 template void ColPivHouseholderQR<MatrixXd>::computeInPlace();
 template void ColPivHouseholderQR<MatrixXd>::_solve_impl(const VectorXd&, VectorXd&) const;
 

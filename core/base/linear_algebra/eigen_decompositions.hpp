@@ -23,6 +23,8 @@ extern template void CompleteOrthogonalDecomposition<MatrixXd>::_solve_impl(cons
 extern template void CompleteOrthogonalDecomposition<MatrixXd>::_solve_impl(
     const MatrixXd::IdentityReturnType&, MatrixXd&) const;
 
+extern template void PartialPivLU<MatrixXd>::compute();
+
 extern template void ColPivHouseholderQR<MatrixXd>::computeInPlace();
 extern template void ColPivHouseholderQR<MatrixXd>::_solve_impl(const VectorXd&, VectorXd&) const;
 

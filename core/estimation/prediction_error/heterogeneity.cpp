@@ -3,10 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
-#include <Eigen/LU>
-
+#include "telltale/core/base/linear_algebra/eigen_decompositions.hpp"
 #include "telltale/core/estimation/prediction_error/score_covariance.hpp"
 #include "telltale/core/uncertainty/distributions.hpp"
 
@@ -26,18 +23,18 @@ struct Deviations {
 // part.
 Deviations DeviationsOf(const ScoreBlock& recording, const PredictionErrorFit& fit,
                         double dispersion) {
-  const Eigen::LLT<FossenSquare> root{FossenSquare(fit.information)};
+  const Eigen::LLT<Eigen::MatrixXd> root{fit.information};
   const auto lower = root.matrixL();
-  const auto whitened = [&](const FossenSquare& information) {
-    const FossenSquare half = lower.solve(information);
-    return FossenSquare(lower.solve(FossenSquare(half.transpose())));
+  const auto whitened = [&](const Eigen::MatrixXd& information) {
+    const Eigen::MatrixXd half = lower.solve(information);
+    return Eigen::MatrixXd(lower.solve(Eigen::MatrixXd(half.transpose())));
   };
-  const Eigen::SelfAdjointEigenSolver<FossenSquare> eigen(whitened(recording.information));
-  const FossenSquare others = whitened(FossenSquare(fit.data_information) - recording.information);
-  const FossenVector score = eigen.eigenvectors().transpose() * lower.solve(recording.score);
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(whitened(recording.information));
+  const Eigen::MatrixXd others = whitened(fit.data_information - recording.information);
+  const Eigen::VectorXd score = eigen.eigenvectors().transpose() * lower.solve(recording.score);
   Deviations deviations;
   for (Eigen::Index i = 0; i < score.size(); ++i) {
-    const FossenVector direction = eigen.eigenvectors().col(i);
+    const Eigen::VectorXd direction = eigen.eigenvectors().col(i);
     const double share = eigen.eigenvalues()[i];
     if (share < kLeastShare || direction.dot(others * direction) < kLeastShare) continue;
     deviations.squares += score[i] * score[i] / (dispersion * share * (1.0 - share));
@@ -50,12 +47,12 @@ Deviations DeviationsOf(const ScoreBlock& recording, const PredictionErrorFit& f
 // whose value the prior would decide without it are not compared.
 RecordingDifference DifferenceOf(const ScoreBlock& recording, const PredictionErrorFit& fit,
                                  const FossenPrior& prior, double dispersion) {
-  const FossenSquare information = fit.information;
-  const FossenSquare without = FossenSquare(information - recording.information).inverse();
-  const FossenSquare variance =
+  const Eigen::MatrixXd information = fit.information;
+  const Eigen::MatrixXd without = Eigen::MatrixXd(information - recording.information).inverse();
+  const Eigen::MatrixXd variance =
       recording.information - recording.information * information.inverse() * recording.information;
-  const FossenVector move = without * recording.score;
-  const FossenVector move_variance = dispersion * (without * variance * without).diagonal();
+  const Eigen::VectorXd move = without * recording.score;
+  const Eigen::VectorXd move_variance = dispersion * (without * variance * without).diagonal();
   double largest = 0.0;
   double compared = 0.0;
   RecordingDifference difference;

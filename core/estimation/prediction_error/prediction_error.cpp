@@ -4,9 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include <Eigen/Cholesky>
-#include <Eigen/LU>
-
+#include "telltale/core/base/linear_algebra/eigen_decompositions.hpp"
 #include "telltale/core/base/parallel.hpp"
 #include "telltale/core/estimation/prediction_error/innovations.hpp"
 
@@ -267,7 +265,8 @@ std::vector<ScoreBlock> BlocksOf(const SlopedInnovations& run, double block_s) {
 }
 
 Normal NormalEquations(const Problem& problem, const SlopedRuns& all) {
-  Normal normal{FossenSquare::Zero(), FossenVector::Zero(), {}, {}};
+  Normal normal{
+      Eigen::MatrixXd::Zero(kParameters, kParameters), Eigen::VectorXd::Zero(kParameters), {}, {}};
   normal.recordings.resize(problem.dataset_.Recordings());
   for (std::size_t s = 0; s < all.size(); ++s) {
     ScoreBlock& recording = normal.recordings[problem.dataset_.RecordingOf(s)];
@@ -285,8 +284,8 @@ Normal NormalEquations(const Problem& problem, const SlopedRuns& all) {
 }
 
 // How the data's score changes with the parameters.
-FossenSquare ScoreSlope(const SlopedRuns& all) {
-  FossenSquare slope = FossenSquare::Zero();
+Eigen::MatrixXd ScoreSlope(const SlopedRuns& all) {
+  Eigen::MatrixXd slope = Eigen::MatrixXd::Zero(kParameters, kParameters);
   for (const SlopedInnovations& run : all) {
     for (std::size_t k = 0; k < run.slopes.size(); ++k) {
       slope += run.slopes[k].instrument.lazyProduct(
@@ -314,9 +313,9 @@ double ScoreNoise(const Problem& problem, const Eigen::VectorXd& z,
   double largest_move = 0.0;
   for (std::size_t recording = 0; recording < noise.size(); ++recording) {
     const NoiseVector log = LogOf(noise[recording]);
-    Eigen::Matrix<double, kNoises, kNoises> information =
-        Eigen::Matrix<double, kNoises, kNoises>::Identity() / std::pow(kNoisePriorSigma, 2);
-    NoiseVector gradient = (NoisePriorMean() - log) / std::pow(kNoisePriorSigma, 2);
+    Eigen::MatrixXd information =
+        Eigen::MatrixXd::Identity(kNoises, kNoises) / std::pow(kNoisePriorSigma, 2);
+    Eigen::VectorXd gradient = (NoisePriorMean() - log) / std::pow(kNoisePriorSigma, 2);
     for (std::size_t excerpt = 0; excerpt < runs.size(); ++excerpt) {
       if (problem.RecordingOfExcerpt(excerpt) != recording) continue;
       const Runs& run = runs[excerpt];
@@ -335,7 +334,7 @@ double ScoreNoise(const Problem& problem, const Eigen::VectorXd& z,
         gradient += 0.5 * (square - 1.0) * by_log_variance - by_value * (i.value / i.variance);
       }
     }
-    NoiseVector step = information.ldlt().solve(gradient);
+    Eigen::VectorXd step = information.ldlt().solve(gradient);
     const double largest = step.cwiseAbs().maxCoeff();
     if (largest > 1.0) step /= largest;
     const NoiseVector next = (log + step).cwiseMax(LeastNoise()).cwiseMin(GreatestNoise());

@@ -21,8 +21,8 @@ struct PredictionErrorOptions {
 
 /// What the innovations of one block of time, or of one recording, say.
 struct ScoreBlock {
-  FossenSquare information = FossenSquare::Zero();
-  FossenVector score = FossenVector::Zero();
+  Eigen::MatrixXd information = Eigen::MatrixXd::Zero(kFossenParameters, kFossenParameters);
+  Eigen::VectorXd score = Eigen::VectorXd::Zero(kFossenParameters);
 };
 
 /// The fit of the physical form. Vectors and matrices in the order of FossenParameter.

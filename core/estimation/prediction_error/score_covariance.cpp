@@ -3,11 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
-#include <Eigen/LU>
-
 #include "telltale/core/base/linear_algebra/covariance.hpp"
+#include "telltale/core/base/linear_algebra/eigen_decompositions.hpp"
 #include "telltale/core/uncertainty/distributions.hpp"
 
 namespace telltale {
@@ -18,42 +15,42 @@ constexpr double kFewestDegreesOfFreedom = 4.0;
 constexpr double kMostLeverage = 0.9;
 
 // The block's score as it would be with the parameters known.
-FossenVector UnbiasedScore(const ScoreBlock& block, const Eigen::LLT<FossenSquare>& information) {
+Eigen::VectorXd UnbiasedScore(const ScoreBlock& block,
+                              const Eigen::LLT<Eigen::MatrixXd>& information) {
   const auto lower = information.matrixL();
-  const FossenSquare half = lower.solve(block.information);
-  const FossenSquare leverage = lower.solve(FossenSquare(half.transpose()));
-  const Eigen::SelfAdjointEigenSolver<FossenSquare> eigen(leverage);
-  const FossenVector scale =
+  const Eigen::MatrixXd half = lower.solve(block.information);
+  const Eigen::MatrixXd leverage = lower.solve(Eigen::MatrixXd(half.transpose()));
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(leverage);
+  const Eigen::VectorXd scale =
       (1.0 - eigen.eigenvalues().array().min(kMostLeverage)).rsqrt().matrix();
-  const FossenVector white = lower.solve(block.score);
-  const FossenVector scaled =
+  const Eigen::VectorXd white = lower.solve(block.score);
+  const Eigen::VectorXd scaled =
       eigen.eigenvectors() * scale.cwiseProduct(eigen.eigenvectors().transpose() * white);
   return lower * scaled;
 }
 
-FossenSquare CovarianceOfScores(const std::vector<ScoreBlock>& blocks,
-                                const Eigen::LLT<FossenSquare>& information) {
-  FossenSquare covariance = FossenSquare::Zero();
+Eigen::MatrixXd CovarianceOfScores(const std::vector<ScoreBlock>& blocks,
+                                   const Eigen::LLT<Eigen::MatrixXd>& information) {
+  Eigen::MatrixXd covariance = Eigen::MatrixXd::Zero(kFossenParameters, kFossenParameters);
   for (const ScoreBlock& block : blocks) {
-    const FossenVector score = UnbiasedScore(block, information);
+    const Eigen::VectorXd score = UnbiasedScore(block, information);
     covariance += score * score.transpose();
   }
   return covariance;
 }
 
 // Of the scores over what the information expects of them.
-double DispersionOf(const FossenSquare& scores, const PredictionErrorFit& fit,
-                    const Eigen::LLT<FossenSquare>& information) {
-  return information.solve(scores).trace() /
-         information.solve(FossenSquare(fit.data_information)).trace();
+double DispersionOf(const Eigen::MatrixXd& scores, const PredictionErrorFit& fit,
+                    const Eigen::LLT<Eigen::MatrixXd>& information) {
+  return information.solve(scores).trace() / information.solve(fit.data_information).trace();
 }
 
 // Scatter between the recordings in place of that between blocks of time; 0 of one recording.
 double DispersionByRecordings(const PredictionErrorFit& fit,
-                              const Eigen::LLT<FossenSquare>& information) {
+                              const Eigen::LLT<Eigen::MatrixXd>& information) {
   const auto recordings = static_cast<double>(fit.recordings.size());
   if (fit.recordings.size() < 2) return 0.0;
-  FossenSquare squares = FossenSquare::Zero();
+  Eigen::MatrixXd squares = Eigen::MatrixXd::Zero(kFossenParameters, kFossenParameters);
   for (const ScoreBlock& recording : fit.recordings) {
     squares += recording.score * recording.score.transpose();
   }
@@ -61,18 +58,18 @@ double DispersionByRecordings(const PredictionErrorFit& fit,
 }
 
 // Satterthwaite's, of a variance that is the sum over the blocks.
-FossenVector DegreesOfFreedom(const PredictionErrorFit& fit, const FossenSquare& by_score) {
-  FossenVector sum = FossenVector::Zero();
-  FossenVector squares = FossenVector::Zero();
+Eigen::VectorXd DegreesOfFreedom(const PredictionErrorFit& fit, const Eigen::MatrixXd& by_score) {
+  Eigen::VectorXd sum = Eigen::VectorXd::Zero(kFossenParameters);
+  Eigen::VectorXd squares = Eigen::VectorXd::Zero(kFossenParameters);
   for (const ScoreBlock& block : fit.blocks) {
-    const FossenVector share = (by_score * block.information * by_score.transpose()).diagonal();
+    const Eigen::VectorXd share = (by_score * block.information * by_score.transpose()).diagonal();
     sum += share;
     squares += share.cwiseAbs2();
   }
   return sum.cwiseAbs2().cwiseQuotient(squares.cwiseMax(1e-300)).array() - 1.0;
 }
 
-FossenVector StudentWidening(const FossenVector& degrees_of_freedom, double level) {
+Eigen::VectorXd StudentWidening(const Eigen::VectorXd& degrees_of_freedom, double level) {
   const double upper = 0.5 * (1.0 + level);
   return degrees_of_freedom.unaryExpr([upper](double degrees) {
     return StudentQuantile(std::max(degrees, kFewestDegreesOfFreedom), upper) /
@@ -81,12 +78,12 @@ FossenVector StudentWidening(const FossenVector& degrees_of_freedom, double leve
 }
 
 // Of each parameter's score over what the information expects of it, standard deviations.
-FossenVector OwnScatter(const FossenSquare& scores, const FossenSquare& information) {
+Eigen::VectorXd OwnScatter(const Eigen::MatrixXd& scores, const Eigen::MatrixXd& information) {
   return scores.diagonal().cwiseQuotient(information.diagonal().cwiseMax(1e-300)).cwiseSqrt();
 }
 
 // What brings the standard errors of `covariance` to those of `other` where these are larger.
-FossenVector WideningTo(const FossenSquare& other, const FossenSquare& covariance) {
+Eigen::VectorXd WideningTo(const Eigen::MatrixXd& other, const Eigen::MatrixXd& covariance) {
   return other.diagonal().cwiseQuotient(covariance.diagonal()).cwiseMax(1.0).cwiseSqrt();
 }
 
@@ -104,28 +101,28 @@ std::size_t EquivalentBlocks(std::size_t blocks) {
 }
 
 double DispersionOf(const PredictionErrorFit& fit) {
-  const Eigen::LLT<FossenSquare> root{FossenSquare(fit.information)};
+  const Eigen::LLT<Eigen::MatrixXd> root{fit.information};
   return DispersionOf(CovarianceOfScores(fit.blocks, root), fit, root);
 }
 
 RobustCovariance CovarianceOf(const PredictionErrorFit& fit, double level) {
-  const FossenSquare information = fit.information;
-  const Eigen::LLT<FossenSquare> root(information);
-  const FossenSquare by_score = FossenSquare(fit.slope).inverse();
-  const FossenSquare of_blocks = CovarianceOfScores(fit.blocks, root);
+  const Eigen::MatrixXd information = fit.information;
+  const Eigen::LLT<Eigen::MatrixXd> root(information);
+  const Eigen::MatrixXd by_score = fit.slope.inverse();
+  const Eigen::MatrixXd of_blocks = CovarianceOfScores(fit.blocks, root);
   const double dispersion = DispersionOf(of_blocks, fit, root);
   const double inflation = std::max(1.0, DispersionByRecordings(fit, root) / dispersion);
   const double weight = WeightOf(fit.blocks.size());
-  const FossenSquare prior = information - fit.data_information;
-  const auto shrunk_to = [&](const FossenSquare& target) {
-    const FossenSquare scores = weight * of_blocks + (1.0 - weight) * target;
-    return FossenSquare(Mapped(by_score, inflation * scores + prior));
+  const Eigen::MatrixXd prior = information - fit.data_information;
+  const auto shrunk_to = [&](const Eigen::MatrixXd& target) {
+    const Eigen::MatrixXd scores = weight * of_blocks + (1.0 - weight) * target;
+    return Eigen::MatrixXd(Mapped(by_score, inflation * scores + prior));
   };
-  const FossenSquare alike = shrunk_to(dispersion * fit.data_information);
-  const FossenSquare apart =
+  const Eigen::MatrixXd alike = shrunk_to(dispersion * fit.data_information);
+  const Eigen::MatrixXd apart =
       shrunk_to(Scaled(fit.data_information, OwnScatter(of_blocks, fit.data_information)));
-  const FossenVector degrees = DegreesOfFreedom(fit, by_score) / (weight * weight);
-  const FossenVector student = StudentWidening(degrees, level);
+  const Eigen::VectorXd degrees = DegreesOfFreedom(fit, by_score) / (weight * weight);
+  const Eigen::VectorXd student = StudentWidening(degrees, level);
   return {Scaled(alike, student.cwiseProduct(WideningTo(apart, alike))), degrees};
 }
 

@@ -37,7 +37,7 @@ PooledFit DrawPooledFit(double odd, std::uint64_t seed) {
   FossenVector truth = FossenVector::Zero();
   PooledFit drawn;
   drawn.fit.recordings.resize(kRecordings);
-  FossenSquare sum = FossenSquare::Zero();
+  Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(kFossenParameters, kFossenParameters);
   FossenVector score = FossenVector::Zero();
   for (std::size_t r = 0; r < kRecordings; ++r) {
     if (r + 1 == kRecordings) {
@@ -45,7 +45,7 @@ PooledFit DrawPooledFit(double odd, std::uint64_t seed) {
       truth[kOdd] = odd;
     }
     for (std::size_t b = 0; b < kBlocksEach; ++b) {
-      FossenSquare information = FossenSquare::Zero();
+      Eigen::MatrixXd information = Eigen::MatrixXd::Zero(kFossenParameters, kFossenParameters);
       for (int i = 0; i < 40; ++i) {
         const FossenVector slope = DrawnVector(white);
         information += slope * slope.transpose();

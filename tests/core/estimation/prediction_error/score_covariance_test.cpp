@@ -19,8 +19,8 @@ constexpr Eigen::Index kRare = 4;
 constexpr int kBlocksOfRare = 6;
 
 // Information of a block: a sum of random squares, larger in some blocks than in others.
-FossenSquare InformationOf(int block, WhiteSource& white) {
-  FossenSquare information = FossenSquare::Zero();
+Eigen::MatrixXd InformationOf(int block, WhiteSource& white) {
+  Eigen::MatrixXd information = Eigen::MatrixXd::Zero(kFossenParameters, kFossenParameters);
   const double scale = block % 3 == 0 ? 3.0 : 1.0;
   for (int i = 0; i < 40; ++i) {
     FossenVector slope = DrawnVector(white);
@@ -37,13 +37,13 @@ struct LinearFit {
   FossenVector estimate;
 };
 
-LinearFit DrawFit(const std::vector<FossenSquare>& informations, std::uint64_t seed,
+LinearFit DrawFit(const std::vector<Eigen::MatrixXd>& informations, std::uint64_t seed,
                   const FossenVector& scatter = FossenVector::Ones()) {
   WhiteSource white(seed, 1);
   LinearFit drawn;
-  FossenSquare sum = FossenSquare::Zero();
+  Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(kFossenParameters, kFossenParameters);
   FossenVector score = FossenVector::Zero();
-  for (const FossenSquare& information : informations) {
+  for (const Eigen::MatrixXd& information : informations) {
     const FossenVector expected = information.llt().matrixL() * DrawnVector(white);
     const FossenVector of_block = scatter.cwiseProduct(expected);
     drawn.fit.blocks.push_back({information, of_block});
@@ -65,7 +65,7 @@ class ScoreCovariance : public ::testing::Test {
     for (int b = 0; b < kBlocks; ++b) informations_.push_back(InformationOf(b, white));
   }
 
-  std::vector<FossenSquare> informations_;
+  std::vector<Eigen::MatrixXd> informations_;
 };
 
 TEST_F(ScoreCovariance, HoldsEveryParameterAsOftenAsItSays) {
@@ -85,7 +85,8 @@ TEST_F(ScoreCovariance, HoldsEveryParameterAsOftenAsItSays) {
 
 // With one scatter for all scores the bounds of these four hold 88 % of the time.
 TEST_F(ScoreCovariance, HoldsWhereTheScoresOfFewParametersScatterMore) {
-  const std::vector<FossenSquare> half(informations_.begin(), informations_.begin() + kBlocks / 2);
+  const std::vector<Eigen::MatrixXd> half(informations_.begin(),
+                                          informations_.begin() + kBlocks / 2);
   FossenVector scatter = FossenVector::Ones();
   scatter.tail<4>().setConstant(3.0);
   double held = 0.0;
