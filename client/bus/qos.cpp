@@ -22,6 +22,12 @@ Qos TelemetryQos() {
   return qos;
 }
 
+Qos VehicleQos() {
+  Qos qos = DiagnosisQos();
+  dds_qset_writer_data_lifecycle(qos.get(), false);
+  return qos;
+}
+
 Qos RequestReplyQos() {
   return MakeQos(DDS_RELIABILITY_RELIABLE, kHistoryDepth);
 }

@@ -24,6 +24,10 @@ Qos TelemetryQos();
 
 inline constexpr std::int32_t kMostBoats = 5000;
 
+/// Reliable, transient local, keep last 1 per vehicle: a daemon that starts later hears of a boat
+/// that announces itself. A boat that leaves is not retired by that.
+Qos VehicleQos();
+
 /// Reliable, volatile, keep last 64 per vehicle. A write gives up after 100 ms: one stalled client
 /// must not keep the daemon from the others, and a client that missed something asks again.
 Qos RequestReplyQos();

@@ -43,18 +43,27 @@ class Reader : public Endpoint {
   template <class Receive, class Gone>
   std::size_t Take(Receive receive, Gone gone) {
     std::size_t received = 0;
-    for (;;) {
-      Loan loan(handle());
-      for (std::size_t i = 0; i < loan.size(); ++i) {
-        if (!loan.valid(i)) {
-          gone(loan[i]);
-          continue;
-        }
-        Hand(receive, loan, i);
-        ++received;
-      }
-      if (loan.size() < kBatch) return received;
-    }
+    TakeAll([&](const Loan& loan, std::size_t i) {
+      if (!loan.valid(i)) return gone(loan[i]);
+      Hand(receive, loan, i);
+      ++received;
+    });
+    return received;
+  }
+
+  /// The same, and `disposed(const Wire&, WriterHandle)` is told of each instance that a writer
+  /// disposes of, whatever else has arrived of it before; of that sample only the key counts. A
+  /// writer that leaves without a word disposes of nothing.
+  template <class Receive, class Disposed>
+  std::size_t TakeOrDispose(Receive receive, Disposed disposed) {
+    std::size_t received = 0;
+    TakeAll([&](const Loan& loan, std::size_t i) {
+      if (loan.disposed(i)) return disposed(loan[i], loan.writer(i));
+      if (!loan.valid(i)) return;
+      Hand(receive, loan, i);
+      ++received;
+    });
+    return received;
   }
 
  private:
@@ -76,6 +85,9 @@ class Reader : public Endpoint {
 
     std::size_t size() const { return size_; }
     bool valid(std::size_t i) const { return infos_[i].valid_data; }
+    bool disposed(std::size_t i) const {
+      return infos_[i].instance_state == DDS_IST_NOT_ALIVE_DISPOSED;
+    }
     WriterHandle writer(std::size_t i) const { return infos_[i].publication_handle; }
     InstanceHandle instance(std::size_t i) const { return infos_[i].instance_handle; }
     const Wire& operator[](std::size_t i) const { return *static_cast<const Wire*>(samples_[i]); }
@@ -86,6 +98,15 @@ class Reader : public Endpoint {
     std::array<dds_sample_info_t, kBatch> infos_{};
     std::size_t size_;
   };
+
+  template <class One>
+  void TakeAll(One one) {
+    for (;;) {
+      const Loan loan(handle());
+      for (std::size_t i = 0; i < loan.size(); ++i) one(loan, i);
+      if (loan.size() < kBatch) return;
+    }
+  }
 
   template <class Receive>
   static void Hand(Receive& receive, const Loan& loan, std::size_t i) {

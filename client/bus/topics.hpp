@@ -24,6 +24,9 @@ template <>
 inline constexpr Contract kContract<telltale_wire_Thrusters>{"telltale/telemetry/thrusters",
                                                              TelemetryQos};
 template <>
+inline constexpr Contract kContract<telltale_wire_VehicleAnnouncement>{"telltale/vehicle",
+                                                                       VehicleQos};
+template <>
 inline constexpr Contract kContract<telltale_wire_IdentifyRequest>{"telltale/identify/request",
                                                                    RequestReplyQos};
 template <>

@@ -27,6 +27,12 @@ class Writer : public Endpoint {
   }
   bool Write(const WireSample<Wire>& sample) { return Write(*sample); }
 
+  /// Disposes of the sample's key, also with readers that do not know it.
+  void Dispose(const WireSample<Wire>& sample) {
+    Checked(dds_writedispose(handle(), &*sample),
+            std::string("disposing on ") + kContract<Wire>.topic);
+  }
+
   /// Gives up the ownership of the sample's key; what was written of it stays with its readers.
   void Unregister(const Wire& sample) {
     Checked(dds_unregister_instance(handle(), &sample),

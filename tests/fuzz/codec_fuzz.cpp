@@ -16,6 +16,7 @@
 #include "telltale/idl/codec/wire/model.hpp"
 #include "telltale/idl/codec/wire/quality.hpp"
 #include "telltale/idl/codec/wire/telemetry.hpp"
+#include "telltale/idl/codec/wire/vehicle_announcement.hpp"
 
 namespace telltale {
 namespace {
@@ -68,7 +69,7 @@ void InsistOnTelemetry(Bytes bytes) {
 
 void Run(std::uint8_t kind, Bytes bytes) {
   const std::string_view text = TextOf(bytes);
-  switch (kind % 18) {
+  switch (kind % 19) {
     case 0:
       return InsistOnText(
           text, [](auto t) { return ParseModelJson(t); }, PrintModelJson);
@@ -95,6 +96,7 @@ void Run(std::uint8_t kind, Bytes bytes) {
     case 14: return InsistOnSample<telltale_wire_DaemonStatus>(bytes);
     case 15: return InsistOnTelemetry<telltale_wire_GnssFix>(bytes);
     case 16: return InsistOnTelemetry<telltale_wire_Heading>(bytes);
+    case 17: return InsistOnSample<telltale_wire_VehicleAnnouncement>(bytes);
     default: return InsistOnTelemetry<telltale_wire_Thrusters>(bytes);
   }
 }

@@ -22,6 +22,7 @@
 #include "telltale/idl/codec/wire/model.hpp"
 #include "telltale/idl/codec/wire/quality.hpp"
 #include "telltale/idl/codec/wire/telemetry.hpp"
+#include "telltale/idl/codec/wire/vehicle_announcement.hpp"
 #include "telltale/service/storage/packed_blob.hpp"
 #include "telltale/service/windows/window_chunk.hpp"
 #include "telltale/service/workers/heavy_job_codec.hpp"
@@ -157,7 +158,8 @@ void SaveCodec(Seeds seeds) {
   seeds.SaveStruct(14, Encode(status));
   seeds.SaveStruct(15, Encode(Telemetry<GnssFix>{"made-up.1", 1, {100.0, 54.1, 10.2}}));
   seeds.SaveStruct(16, Encode(Telemetry<HeadingSample>{"made-up.1", 1, {100.0, 359.5}}));
-  seeds.SaveStruct(17, Encode(Telemetry<ThrusterSample>{"made-up.1", 1, {100.0, 1500.0, 1600.0}}));
+  seeds.SaveSample(17, Encode(SomeVehicle()));
+  seeds.SaveStruct(18, Encode(Telemetry<ThrusterSample>{"made-up.1", 1, {100.0, 1500.0, 1600.0}}));
 }
 
 void SaveConfiguration(Seeds seeds) {

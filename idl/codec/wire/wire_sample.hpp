@@ -26,6 +26,10 @@ inline const dds_topic_descriptor_t& Descriptor<telltale_wire_Thrusters>() {
   return telltale_wire_Thrusters_desc;
 }
 template <>
+inline const dds_topic_descriptor_t& Descriptor<telltale_wire_VehicleAnnouncement>() {
+  return telltale_wire_VehicleAnnouncement_desc;
+}
+template <>
 inline const dds_topic_descriptor_t& Descriptor<telltale_wire_Model>() {
   return telltale_wire_Model_desc;
 }

@@ -22,6 +22,7 @@
 #include "telltale/idl/codec/wire/daemon_status.hpp"
 #include "telltale/idl/codec/wire/model.hpp"
 #include "telltale/idl/codec/wire/telemetry.hpp"
+#include "telltale/idl/codec/wire/vehicle_announcement.hpp"
 
 namespace telltale {
 namespace {
@@ -148,6 +149,58 @@ TEST_F(Bus, TellsWhoseWriterIsGone) {
   two.reset();
   ASSERT_TRUE(WaitUntil(heard.wait_set, [&] { return heard.alive.size() == 1; }));
   EXPECT_TRUE(heard.alive.contains("one"));
+}
+
+/// Which boats a reader of announcements has heard of, and which are disposed of since.
+struct HeardBoats {
+  explicit HeardBoats(const Participant& participant) : reader(participant), wait_set(participant) {
+    wait_set.Attach(reader, [this] { Take(); });
+  }
+
+  void Take() {
+    reader.TakeOrDispose([this](const auto& wire) { announced.insert(wire.vehicle_id); },
+                         [this](const auto& wire, WriterHandle writer) {
+                           announced.erase(wire.vehicle_id);
+                           disposed[wire.vehicle_id] = writer;
+                         });
+  }
+
+  Reader<telltale_wire_VehicleAnnouncement> reader;
+  WaitSet wait_set;
+  std::set<std::string> announced;
+  std::map<std::string, WriterHandle> disposed;
+};
+
+TEST_F(Bus, TellsDisposalFromLeaving) {
+  HeardBoats heard(here_);
+  std::optional<Writer<telltale_wire_VehicleAnnouncement>> leaving(here_);
+  Writer<telltale_wire_VehicleAnnouncement> writer(here_);
+  leaving->Write(EncodeRetired("leaves"));
+  leaving->Write(EncodeRetired("by-another"));
+  writer.Write(EncodeRetired("disposed"));
+  ASSERT_TRUE(WaitUntil(heard.wait_set, [&] { return heard.announced.size() == 3; }));
+  leaving.reset();
+  writer.Dispose(EncodeRetired("disposed"));
+  writer.Dispose(EncodeRetired("by-another"));  // whose writer is gone
+  ASSERT_TRUE(WaitUntil(heard.wait_set, [&] { return heard.disposed.size() == 2; }));
+  EXPECT_THAT(heard.announced, testing::ElementsAre("leaves"));
+  EXPECT_THAT(heard.reader.Writers(), testing::Contains(heard.disposed["by-another"]));
+}
+
+// The reader keeps one sample of a boat, which may hold data as well.
+TEST_F(Bus, TellsDisposalOfWhatItHasNotTakenYet) {
+  HeardBoats heard(here_);
+  Writer<telltale_wire_VehicleAnnouncement> writer(here_);
+  ASSERT_TRUE(WaitForMatch(here_, {heard.reader, writer}, 10s));
+  writer.Write(EncodeRetired("gone"));
+  writer.Dispose(EncodeRetired("gone"));
+  writer.Write(EncodeRetired("back"));
+  writer.Dispose(EncodeRetired("back"));
+  writer.Write(EncodeRetired("back"));
+  ASSERT_TRUE(writer.AwaitReceipt(10s));
+  heard.Take();
+  EXPECT_THAT(heard.announced, testing::ElementsAre("back"));
+  EXPECT_TRUE(heard.disposed.contains("gone"));
 }
 
 TEST_F(Bus, BelievesTheStrongestWriterThatIsAlive) {
