@@ -69,7 +69,8 @@ Daemon::Daemon(const DaemonConfig& config, Endings endings)
       storage_(config.state_directory, config.database,
                config.database.empty() ? Storage::Writes::kFree : Storage::Writes::kNeedLeases),
       leases_(LeasesOf(config, storage_)),
-      fleet_(config.slices ? std::vector<Vehicle>() : config.vehicles, config.window,
+      registry_(storage_, config.vehicles, config.announced),
+      fleet_(config.slices ? std::vector<Vehicle>() : registry_.Vehicles(), config.window,
              config.total_window_bytes),
       windows_(WindowStore(storage_), fleet_,
                {.window_s = config.window.duration_s,
@@ -84,7 +85,6 @@ Daemon::Daemon(const DaemonConfig& config, Endings endings)
       replies_(participant_, role_),
       journal_(storage_),
       diagnoses_(participant_, DiagnosisStore(storage_)),
-      vehicles_(config.vehicles),
       retention_(
           StoreRetention(storage_, config.retention,
                          [this](const std::string& vehicle_id) { return IsInFleet(vehicle_id); })),
@@ -132,6 +132,7 @@ Daemon::Daemon(const DaemonConfig& config, Endings endings)
     TakeOver(ModelQos(), false);
   }
   KeepSlices();
+  HearAnnouncements();
   if (config.http) Open(*config.http);
   if (ServiceManager::Listens()) supervision_.emplace([this] { return Activity(); });
 }
@@ -148,15 +149,46 @@ void Daemon::Open(const HttpSettings& http) {
                         }});
 }
 
-void Daemon::Reload(const std::vector<Vehicle>& vehicles) {
+/// A boat that was refused or is no longer configured may be admitted now.
+void Daemon::Reload(const DaemonConfig& config) {
   const std::lock_guard lock(serving_mutex_);
-  vehicles_ = vehicles;
-  Serve(vehicles_);
+  registry_.Configure(config.vehicles, config.announced);
+  announcements_->HearAgain();
+  Serve(registry_.Vehicles());
+}
+
+std::size_t Daemon::FleetSize() {
+  const std::lock_guard lock(serving_mutex_);
+  return registry_.Vehicles().size();
 }
 
 bool Daemon::IsInFleet(const std::string& vehicle_id) {
   const std::lock_guard lock(serving_mutex_);
-  return std::ranges::find(vehicles_, vehicle_id, &Vehicle::vehicle_id) != vehicles_.end();
+  return registry_.Contains(vehicle_id);
+}
+
+void Daemon::HearAnnouncements() {
+  announcements_.emplace(
+      participant_, fleet_, config_.require_partition,
+      Announcements::Handlers{.announced =
+                                  [this](const Vehicle& vehicle) {
+                                    const std::lock_guard lock(serving_mutex_);
+                                    return registry_.Announce(vehicle,
+                                                              VehicleRegistry::Clock::now());
+                                  },
+                              .retired =
+                                  [this](const std::string& vehicle_id) {
+                                    const std::lock_guard lock(serving_mutex_);
+                                    return registry_.Retire(vehicle_id);
+                                  },
+                              .settle = [this](bool changed) { SettleAnnounced(changed); }});
+}
+
+/// Boats whose announcements cannot be stored now are served and are stored later.
+void Daemon::SettleAnnounced(bool changed) {
+  const std::lock_guard lock(serving_mutex_);
+  if (changed) Serve(registry_.Vehicles());
+  if (registry_.HasUnstored()) registry_.Store();
 }
 
 void Daemon::ServeHeldSlices() {
@@ -171,7 +203,8 @@ void Daemon::ServeHeldSlices() {
   spdlog::info("this daemon holds {} of {} slices, {} of them newly", held.size(), kFleetSlices,
                gained.size());
   try {
-    Serve(vehicles_);
+    registry_.ReadStored();
+    Serve(registry_.Vehicles());
     Resume(journal_.TakeUnanswered(gained), "of the daemons before");
   } catch (const DatabaseError& error) {
     spdlog::error("not all is taken over: {}", error.what());

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <atomic>
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -25,6 +26,8 @@
 #include "telltale/service/monitoring/fleet_view.hpp"
 #include "telltale/service/monitoring/fleet_watcher.hpp"
 #include "telltale/service/monitoring/quality_publisher.hpp"
+#include "telltale/service/registry/announcements.hpp"
+#include "telltale/service/registry/vehicle_registry.hpp"
 #include "telltale/service/retention/retention.hpp"
 #include "telltale/service/role.hpp"
 #include "telltale/service/slices/slice_keeper.hpp"
@@ -56,15 +59,21 @@ class Daemon {
 
   Daemon(const DaemonConfig& config, Endings endings);
 
-  /// Serves these vehicles from now on, or those of them whose slices it holds. A boat whose
-  /// parameters have changed keeps its samples.
-  void Reload(const std::vector<Vehicle>& vehicles);
+  /// Serves the vehicles of this configuration from now on, and those that announce themselves to
+  /// it, or those of them whose slices it holds. A boat whose parameters have changed keeps its
+  /// samples. Of the configuration nothing else counts.
+  void Reload(const DaemonConfig& config);
+
+  /// How many vehicles the whole fleet has.
+  std::size_t FleetSize();
 
  private:
   std::unique_ptr<FailOver> MakeFailOver();
   void TakeOver(const Qos& model_contract, bool succeeds);
   void StepDown();
   void Serve(const std::vector<Vehicle>& vehicles);
+  void HearAnnouncements();
+  void SettleAnnounced(bool changed);
   void KeepSlices();
   void ServeHeldSlices();
   SliceSet ServedSlices();
@@ -87,6 +96,9 @@ class Daemon {
   const bool alone_;  ///< it has the whole fleet
   const Storage storage_;
   const std::unique_ptr<SliceLeases> leases_;  ///< null: its writes need none
+  std::mutex serving_mutex_;  // of the two that follow
+  VehicleRegistry registry_;  ///< of the whole fleet
+  Slices served_slices_;
   Fleet fleet_;
   WindowArchive windows_;
   BusLog bus_log_;
@@ -100,9 +112,6 @@ class Daemon {
   RequestJournal journal_;
   BaselineRecordings baselines_;
   PublishedDiagnoses diagnoses_;
-  std::mutex serving_mutex_;       // of the two that follow
-  std::vector<Vehicle> vehicles_;  ///< of the whole fleet
-  Slices served_slices_;
   Retention retention_;
   const std::unique_ptr<OfferedJobs> offered_jobs_;  ///< null: it has no workers
   HeavyJobs coverage_checks_;
@@ -116,6 +125,7 @@ class Daemon {
   std::atomic<bool> is_ready_ = false;         ///< it serves, with the boats of its first slices
   const std::unique_ptr<FailOver> fail_over_;  ///< null: this daemon serves alone
   Ingest ingest_;
+  std::optional<Announcements> announcements_;
   std::optional<WebServer> web_;
   std::optional<SliceKeeper> slice_keeper_;
   std::optional<Supervision> supervision_;  ///< while a service manager listens

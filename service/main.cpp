@@ -67,7 +67,7 @@ void ReloadVehicles(Daemon& daemon, const std::string& config_file) {
     return spdlog::error("the vehicles are not reloaded: {}", config.error().Message());
   }
   try {
-    daemon.Reload(config->vehicles);
+    daemon.Reload(*config);
   } catch (const DatabaseError& error) {
     spdlog::error("the vehicles are reloaded, and not all of their models: {}", error.what());
   }
@@ -109,7 +109,7 @@ Event ServeOnce(const DaemonConfig& config, const std::string& config_file, cons
                                replaced = true;
                                sem_post(&signalled);
                              }});
-  spdlog::info("serving {} vehicles on domain {}, models are stored in {}", config.vehicles.size(),
+  spdlog::info("serving {} vehicles on domain {}, models are stored in {}", daemon.FleetSize(),
                config.domain, config.database.empty() ? config.state_directory : "PostgreSQL");
   for (;;) {
     const Event event = signals.Wait();
@@ -123,7 +123,10 @@ int Serve(DaemonConfig config, const std::string& config_file, const Signals& si
   std::atomic<bool> receiving = true;
   while (ServeOnce(config, config_file, signals, receiving) == Event::kReplaced) {
     spdlog::warn("another daemon serves; this one starts again as its standby");
-    if (const auto reloaded = LoadConfiguration(config_file)) config.vehicles = reloaded->vehicles;
+    if (const auto reloaded = LoadConfiguration(config_file)) {
+      config.vehicles = reloaded->vehicles;
+      config.announced = reloaded->announced;
+    }
   }
   spdlog::info("stopping");
   return receiving ? 0 : kFailure;

@@ -224,6 +224,26 @@ std::vector<std::string> ReadVehicleFiles(FieldReader& reader, const proto::Daem
   return {message.vehicle_files().begin(), message.vehicle_files().end()};
 }
 
+/// Ids with the wildcards of file names, and no more than an id may have.
+bool IsIdPattern(std::string pattern) {
+  std::ranges::replace(pattern, '*', '_');
+  std::ranges::replace(pattern, '?', '_');
+  return IsVehicleId(pattern);
+}
+
+AnnouncedSettings ReadAnnounced(FieldReader reader,
+                                const proto::DaemonConfig::Announced& message) {
+  AnnouncedSettings settings;
+  settings.admit = {message.admit().begin(), message.admit().end()};
+  for (std::size_t i = 0; i < settings.admit.size(); ++i) {
+    if (IsIdPattern(settings.admit[i])) continue;
+    reader.FailItem("admit", static_cast<int>(i), Quoted(settings.admit[i]),
+                    std::string(kVehicleIdAllowed) + ", '*' and '?'");
+  }
+  settings.most = reader.Count("most", {1.0, 5000.0}, settings.most);
+  return settings;
+}
+
 std::string ReadLogLevel(FieldReader& reader, const std::string& fallback) {
   std::string level = reader.Text("log_level", fallback);
   if (std::find(kLogLevels.begin(), kLogLevels.end(), level) == kLogLevels.end()) {
@@ -275,6 +295,9 @@ DaemonConfig ReadConfig(FieldReader reader, const proto::DaemonConfig& message) 
   config.vehicles = ReadVehicles(reader);
   config.vehicle_files = ReadVehicleFiles(reader, message);
   config.vehicle_folder = reader.Text("vehicle_folder", config.vehicle_folder);
+  if (message.has_announced()) {
+    config.announced = ReadAnnounced(reader.Optional("announced"), message.announced());
+  }
   config.state_directory = reader.Text("state_directory", config.state_directory);
   if (config.state_directory.empty()) reader.Fail("state_directory", "\"\"", "a folder");
   config.require_partition = message.require_partition();

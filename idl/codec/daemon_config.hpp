@@ -114,12 +114,19 @@ struct WorkerSettings {
   std::uint32_t most_jobs = 8;  ///< [1, 256] of the daemon and of each kind at a time
 };
 
+/// Which boats may join the fleet by announcing themselves.
+struct AnnouncedSettings {
+  std::vector<std::string> admit;  ///< ids, with * and ? as in file names; none: no boat
+  std::uint32_t most = 1000;       ///< [1, 5000] boats
+};
+
 /// Configuration of telltaled; defaults and ranges are those of proto/daemon.proto.
 struct DaemonConfig {
   std::uint32_t domain = 0;  ///< [0, 101]
   std::vector<Vehicle> vehicles;
   std::vector<std::string> vehicle_files;  ///< as written; who opens them resolves them
   std::string vehicle_folder;              ///< likewise; empty: none
+  AnnouncedSettings announced;
   std::string state_directory = "/var/lib/telltale";
   std::string database;                   ///< postgresql://...; empty: SQLite in state_directory
   std::optional<SliceSettings> slices;    ///< unset: it has the fleet alone

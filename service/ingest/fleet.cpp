@@ -105,13 +105,13 @@ std::string Fleet::NotServed(const std::string& vehicle_id) const {
          "' is not served here; served: " + (names.empty() ? "none" : names);
 }
 
-void Fleet::CountUnattributed(std::string_view channel, UnattributedReason reason) {
+void Fleet::CountUnattributed(std::string_view channel, std::string_view reason) {
   const std::lock_guard lock(unattributed_mutex_);
   const auto found = std::ranges::find_if(unattributed_, [&](const RejectEntry& entry) {
-    return entry.channel == channel && entry.reason == Name(reason);
+    return entry.channel == channel && entry.reason == reason;
   });
   if (found == unattributed_.end()) {
-    unattributed_.push_back({std::string(channel), std::string(Name(reason)), 1});
+    unattributed_.push_back({std::string(channel), std::string(reason), 1});
   } else {
     ++found->count;
   }
@@ -119,8 +119,11 @@ void Fleet::CountUnattributed(std::string_view channel, UnattributedReason reaso
 
 void Fleet::CountUnreadable(std::string_view topic) {
   constexpr std::string_view kTelemetry = "telltale/telemetry/";
-  if (!topic.starts_with(kTelemetry)) return;
-  CountUnattributed(topic.substr(kTelemetry.size()), UnattributedReason::kUnreadable);
+  const std::string_view unreadable = Name(UnattributedReason::kUnreadable);
+  if (topic == "telltale/vehicle") return CountUnattributed("vehicle", unreadable);
+  if (topic.starts_with(kTelemetry)) {
+    CountUnattributed(topic.substr(kTelemetry.size()), unreadable);
+  }
 }
 
 std::vector<RejectEntry> Fleet::Unattributed() const {

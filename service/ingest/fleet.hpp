@@ -71,8 +71,8 @@ class Fleet {
   /// What a client is told of a vehicle that is not served here: which ones are.
   std::string NotServed(const std::string& vehicle_id) const;
 
-  void CountUnattributed(std::string_view channel, UnattributedReason reason);
-  /// Counts a sample that the bus cannot deserialise, where the topic carries telemetry.
+  void CountUnattributed(std::string_view channel, std::string_view reason);
+  /// Counts a sample that the bus cannot deserialise, where the topic is one of the vehicles'.
   void CountUnreadable(std::string_view topic);
   std::vector<RejectEntry> Unattributed() const;
 

@@ -229,7 +229,7 @@ void Ingest::TakeIn(Boat& boat, Channel channel, const Telemetry<Sample>& teleme
 
 void Ingest::RejectUnattributed(Channel channel, UnattributedReason reason,
                                 std::string_view detail) {
-  fleet_.CountUnattributed(Name(channel), reason);
+  fleet_.CountUnattributed(Name(channel), Name(reason));
   if (const auto not_shown = warning_limit_.Admit(Clock::now())) {
     spdlog::warn("{} sample rejected: {} '{}' ({} more not shown)", Name(channel), Name(reason),
                  detail, *not_shown);

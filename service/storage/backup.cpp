@@ -13,7 +13,7 @@ namespace telltale {
 namespace {
 
 constexpr std::array kStateDatabases = {"models.sqlite", "windows.sqlite", "requests.sqlite",
-                                        "terms.sqlite"};
+                                        "vehicles.sqlite", "terms.sqlite"};
 constexpr int kBusyMs = 10000;
 
 /// The databases of this folder. Throws where there is none.

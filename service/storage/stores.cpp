@@ -76,6 +76,18 @@ const Schema& RequestsSchema() {
   return schema;
 }
 
+const Schema& VehiclesSchema() {
+  static const Schema schema{
+      .name = "vehicles",
+      .tables = {{"announced_vehicles",
+                  {{"vehicle_id", kText, "NOT NULL"},
+                   {"vehicle", kBlob, "NOT NULL"},  // proto/vehicle.proto, serialised
+                   kChecksum},
+                  {"vehicle_id"}}},
+  };
+  return schema;
+}
+
 const Schema& TermsSchema() {
   static const Schema schema{
       .name = "terms",

@@ -13,6 +13,9 @@ const Schema& WindowsSchema();
 /// The requests that wait for their answers.
 const Schema& RequestsSchema();
 
+/// The boats that have announced themselves: VehicleStore.
+const Schema& VehiclesSchema();
+
 /// The latest term of a daemon that stands in for another: TermStore.
 const Schema& TermsSchema();
 

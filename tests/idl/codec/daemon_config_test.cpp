@@ -139,6 +139,29 @@ TEST(DaemonConfig, ReadsTheRetentionBlock) {
   EXPECT_EQ(ParseDaemonConfig("retention { store_mib: 0 }")->retention.store_bytes, 0u);
 }
 
+TEST(DaemonConfig, AdmitsNoBoatThatAnnouncesItselfUnlessItIsTold) {
+  EXPECT_THAT(ParseDaemonConfig("")->announced.admit, ElementsAre());
+  EXPECT_THAT(ParseDaemonConfig("announced {}")->announced.admit, ElementsAre());
+  EXPECT_EQ(ParseDaemonConfig("announced {}")->announced.most, 1000u);
+}
+
+TEST(DaemonConfig, ReadsWhichBoatsMayAnnounceThemselves) {
+  const auto config =
+      ParseDaemonConfig("announced { admit: \"boat-*\" admit: \"buoy.?\" most: 7 }");
+  ASSERT_TRUE(config) << config.error().Message();
+  EXPECT_THAT(config->announced.admit, ElementsAre("boat-*", "buoy.?"));
+  EXPECT_EQ(config->announced.most, 7u);
+  const auto field_at_fault = [](const std::string& fields) {
+    const auto wrong = ParseDaemonConfig("announced { " + fields + " }");
+    return wrong ? std::string() : wrong.error().field;
+  };
+  EXPECT_EQ(field_at_fault("admit: \"*\" admit: \"two words\""), "announced.admit[1]");
+  EXPECT_EQ(field_at_fault("admit: \"[ab]\""), "announced.admit[0]");
+  EXPECT_EQ(field_at_fault("admit: \"\""), "announced.admit[0]");
+  EXPECT_EQ(field_at_fault("admit: \"*\" most: 0"), "announced.most");
+  EXPECT_EQ(field_at_fault("admit: \"*\" most: 5001"), "announced.most");
+}
+
 TEST(DaemonConfig, ReadsEveryField) {
   const auto config = ParseDaemonConfig(
       "domain: 42\n" + VehicleNamed("a") + VehicleNamed("b") +

@@ -14,9 +14,14 @@ TEST(Fleet, FindsItsVehiclesAndCountsTheRest) {
   ASSERT_NE(fleet.Find("one"), nullptr);
   EXPECT_EQ(fleet.Find("one")->vehicle().vehicle_id, "one");
   EXPECT_EQ(fleet.Find("two"), nullptr);
-  fleet.CountUnattributed("gnss", UnattributedReason::kUnknownVehicle);
-  fleet.CountUnattributed("gnss", UnattributedReason::kUnknownVehicle);
-  EXPECT_EQ(fleet.Unattributed(), (std::vector<RejectEntry>{{"gnss", "UNKNOWN_VEHICLE", 2}}));
+  fleet.CountUnattributed("gnss", Name(UnattributedReason::kUnknownVehicle));
+  fleet.CountUnattributed("gnss", Name(UnattributedReason::kUnknownVehicle));
+  fleet.CountUnreadable("telltale/telemetry/heading");
+  fleet.CountUnreadable("telltale/vehicle");
+  fleet.CountUnreadable("telltale/model");
+  EXPECT_EQ(fleet.Unattributed(), (std::vector<RejectEntry>{{"gnss", "UNKNOWN_VEHICLE", 2},
+                                                            {"heading", "UNREADABLE", 1},
+                                                            {"vehicle", "UNREADABLE", 1}}));
 }
 
 /// As many headings as come in `duration_s`, 50 in each.
