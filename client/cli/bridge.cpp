@@ -24,8 +24,15 @@ struct BridgeArguments {
   std::vector<std::string> channels;
   MavlinkBridgeOptions mavlink;
   Ros2SourceOptions ros2;
+  std::vector<std::string> announced_files;
   std::uint32_t domain = 0;
 };
+
+std::vector<Vehicle> AnnouncedBy(const BridgeArguments& arguments) {
+  std::vector<Vehicle> vehicles;
+  for (const std::string& file : arguments.announced_files) vehicles.push_back(LoadVehicle(file));
+  return vehicles;
+}
 
 ChannelChoice ChannelsOf(const BridgeArguments& arguments) {
   ChannelChoice channels;
@@ -41,7 +48,7 @@ void FromMavlink(const BridgeArguments& arguments) {
   options.starboard_channel = arguments.source.starboard_channel;
   options.channels = ChannelsOf(arguments);
   if (const auto fault = options.Fault()) throw UsageError("--vehicle-id: " + *fault);
-  BridgeMavlink(*arguments.address, options, arguments.domain);
+  BridgeMavlink(*arguments.address, options, AnnouncedBy(arguments), arguments.domain);
 }
 
 void FromRos2(const BridgeArguments& arguments) {
@@ -50,7 +57,7 @@ void FromRos2(const BridgeArguments& arguments) {
   options.bridge.source = arguments.source;
   options.bridge.channels = ChannelsOf(arguments);
   if (const auto fault = options.bridge.Fault()) throw UsageError(*fault);
-  BridgeRos2(options, arguments.domain);
+  BridgeRos2(options, AnnouncedBy(arguments), arguments.domain);
 }
 
 CLI::Option* AddMavlink(CLI::App& sources, BridgeArguments& arguments) {
@@ -126,6 +133,12 @@ void AddSharedOptions(CLI::App& command, BridgeArguments& arguments) {
                   "the vehicles' ids: {system} stands for the system id of MAVLink, {vehicle} for "
                   "what --namespace finds (default: mavlink-{system}; {vehicle})")
       ->type_name("PATTERN");
+  command
+      .add_option("--announce", arguments.announced_files,
+                  "vehicle files of boats that announce themselves to the daemons, under the ids "
+                  "that their telemetry has")
+      ->type_name("FILE")
+      ->check(CLI::ExistingFile.description(""));
   command
       .add_option("--channel", arguments.channels,
                   "take these channels alone, gnss, heading or thrusters (default: all)")

@@ -3,6 +3,7 @@
 
 #include "telltale/client/bridge/mavlink_source.hpp"
 #include "telltale/client/bus/participant.hpp"
+#include "telltale/client/cli/announce.hpp"
 #include "telltale/client/cli/bridge_commands.hpp"
 #include "telltale/client/cli/bridge_rates.hpp"
 #include "telltale/client/cli/table.hpp"
@@ -49,10 +50,11 @@ void PrintSummary(const MavlinkBridge& bridge) {
 }  // namespace
 
 void BridgeMavlink(const MavlinkAddress& address, const MavlinkBridgeOptions& options,
-                   std::uint32_t domain) {
+                   const std::vector<Vehicle>& announced, std::uint32_t domain) {
   BridgeRates rates;
   const auto report = [&](const std::string& what) { rates.Report(what); };
   const Participant participant(domain);
+  const auto announcers = Announce(participant, announced);
   MavlinkSource source(participant, address, options, report);
   report("waiting for MAVLink");
   RunUntilSignal(source, rates, [&] { return VehiclesOf(source.Bridge()); });

@@ -2,6 +2,7 @@
 #include <string>
 
 #include "telltale/client/bus/participant.hpp"
+#include "telltale/client/cli/announce.hpp"
 #include "telltale/client/cli/bridge_commands.hpp"
 #include "telltale/client/cli/bridge_rates.hpp"
 #include "telltale/client/cli/table.hpp"
@@ -39,10 +40,12 @@ void PrintSummary(const Ros2Bridge& bridge) {
 
 }  // namespace
 
-void BridgeRos2(const Ros2SourceOptions& options, std::uint32_t domain) {
+void BridgeRos2(const Ros2SourceOptions& options, const std::vector<Vehicle>& announced,
+                std::uint32_t domain) {
   BridgeRates rates;
   const auto report = [&](const std::string& what) { rates.Report(what); };
   const Participant participant(domain);
+  const auto announcers = Announce(participant, announced);
   Ros2Source source(participant, options, report);
   report("waiting for topics of ROS 2");
   RunUntilSignal(source, rates, [&] { return VehiclesOf(source.Bridge()); });

@@ -20,6 +20,7 @@ void AddMonitor(CLI::App& telltale);
 void AddList(CLI::App& telltale);
 void AddHistory(CLI::App& telltale);
 void AddRollback(CLI::App& telltale);
+void AddRetire(CLI::App& telltale);
 void AddRefresh(CLI::App& telltale);
 void AddLoad(CLI::App& telltale);
 void AddStudy(CLI::App& telltale);

@@ -5,6 +5,7 @@
 #include <iostream>
 #include <memory>
 #include <numbers>
+#include <set>
 #include <stdexcept>
 #include <string>
 #include <thread>
@@ -12,6 +13,7 @@
 
 #include "telltale/client/bus/participant.hpp"
 #include "telltale/client/bus/writer.hpp"
+#include "telltale/client/cli/announce.hpp"
 #include "telltale/client/cli/commands.hpp"
 #include "telltale/client/cli/live_options.hpp"
 #include "telltale/client/cli/number_range.hpp"
@@ -20,6 +22,7 @@
 #include "telltale/client/recording/file_contents.hpp"
 #include "telltale/idl/codec/vehicle_file.hpp"
 #include "telltale/idl/codec/wire/telemetry.hpp"
+#include "telltale/idl/codec/wire/vehicle_announcement.hpp"
 
 namespace telltale {
 namespace {
@@ -37,6 +40,7 @@ struct LoadArguments {
   double times = 1.0;
   double speed = 1.0;
   std::filesystem::path write_vehicles;
+  bool announce = false;
   LiveOptions live;
 };
 
@@ -110,6 +114,25 @@ void WriteVehicles(const LoadArguments& arguments) {
             << "; name it as vehicle_folder of the daemon\n";
 }
 
+/// Announces the boats in the partition of all, as their telemetry goes out, and waits until
+/// daemons serve them.
+void AnnounceBoats(const LoadArguments& arguments, const Participant& participant,
+                   Writer<telltale_wire_VehicleAnnouncement>& announcements) {
+  constexpr auto kBusy = std::chrono::milliseconds(10);
+  ProgressLine line;
+  std::set<std::string> boats;
+  for (int i = 1; i <= arguments.boats; ++i) {
+    const Vehicle boat = VehicleOfLoad(BoatName(i));
+    while (!announcements.Write(Encode(boat))) std::this_thread::sleep_for(kBusy);
+    boats.insert(boat.vehicle_id);
+  }
+  announcements.Flush();
+  RequireServed(participant, boats, arguments.live, [&](std::size_t unserved) {
+    line.Update("announcing " + std::to_string(arguments.boats) + " boats",
+                1.0 - static_cast<double>(unserved) / arguments.boats);
+  });
+}
+
 void Load(const LoadArguments& arguments) {
   if (!arguments.write_vehicles.empty()) return WriteVehicles(arguments);
   BatchWrites();
@@ -120,6 +143,8 @@ void Load(const LoadArguments& arguments) {
   if (!WaitForMatch(participant, {gnss, heading, thrusters}, arguments.live.Timeout())) {
     throw std::runtime_error("nobody takes telemetry: " + NobodyThereAdvice(arguments.live.domain));
   }
+  Writer<telltale_wire_VehicleAnnouncement> announcements(participant);
+  if (arguments.announce) AnnounceBoats(arguments, participant, announcements);
   const auto ticks_per_s = static_cast<int>(std::lround(kTicksPerSecond * arguments.times));
   std::vector<LoadBoat> boats;
   for (int i = 1; i <= arguments.boats; ++i) boats.emplace_back(i, ticks_per_s);
@@ -176,15 +201,19 @@ void AddLoad(CLI::App& telltale) {
       ->type_name("X")
       ->check(NumberWithin(1.0, 1000.0))
       ->capture_default_str();
+  command.add_flag("--announce", arguments->announce,
+                   "the boats announce themselves, and the load begins once a daemon serves all");
   command
       .add_option("--write-vehicles", arguments->write_vehicles,
                   "only write the boats' vehicle files into this folder, for the daemon's "
                   "vehicle_folder")
-      ->type_name("DIR");
+      ->type_name("DIR")
+      ->excludes("--announce");
   arguments->live.AddTo(command, 12.0, "give up when nobody takes telemetry for this long");
   command.footer(
-      "Example: telltale load --boats 1000 --write-vehicles boats\n"
-      "         telltale load --boats 1000 --duration 300");
+      "Boats that no daemon knows count as UNKNOWN_VEHICLE alone: let a daemon have\n"
+      "announced { admit: \"load-*\" }, or the files of --write-vehicles.\n"
+      "Example: telltale load --boats 1000 --announce --duration 300");
   command.callback([arguments] { Load(*arguments); });
 }
 

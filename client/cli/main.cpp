@@ -74,6 +74,7 @@ int main(int argc, char** argv) {
   telltale::AddHistory(app);
   telltale::AddRollback(app);
   telltale::AddRefresh(app);
+  telltale::AddRetire(app);
   telltale::AddLoad(app);
   telltale::AddStudy(app);
   return static_cast<int>(telltale::Run(app, argc, argv));

@@ -5,12 +5,14 @@
 #include <filesystem>
 #include <iostream>
 #include <memory>
+#include <optional>
 #include <string>
 #include <thread>
 #include <vector>
 
 #include "telltale/client/bus/participant.hpp"
 #include "telltale/client/bus/writer.hpp"
+#include "telltale/client/cli/announce.hpp"
 #include "telltale/client/cli/commands.hpp"
 #include "telltale/client/cli/input_options.hpp"
 #include "telltale/client/cli/live_options.hpp"
@@ -21,6 +23,8 @@
 #include "telltale/client/fleet/telemetry_publisher.hpp"
 #include "telltale/client/recording/due_times.hpp"
 #include "telltale/client/recording/load_recording.hpp"
+#include "telltale/client/workbench/errors.hpp"
+#include "telltale/client/workbench/files.hpp"
 
 namespace telltale {
 namespace {
@@ -43,7 +47,8 @@ constexpr auto kReceiptPatience = std::chrono::seconds(10);
 struct ReplayArguments {
   std::filesystem::path log;
   SourceOptions options;
-  std::string vehicle_id;
+  std::string vehicle_id;                ///< empty: that of the vehicle to announce
+  std::filesystem::path announced_file;  ///< empty: it does not announce itself
   double speed = 1.0;
   LiveOptions live;
 };
@@ -125,21 +130,37 @@ std::string OutcomeText(const Pacing& pacing) {
   return text;
 }
 
+std::vector<Vehicle> AnnouncedBy(const ReplayArguments& arguments) {
+  if (arguments.announced_file.empty()) return {};
+  Vehicle vehicle = LoadVehicle(arguments.announced_file);
+  if (arguments.vehicle_id.empty() || arguments.vehicle_id == vehicle.vehicle_id) {
+    return {std::move(vehicle)};
+  }
+  throw UsageError("--announce: " + arguments.announced_file.string() + " is of " +
+                   vehicle.vehicle_id + ", and --vehicle-id is " + arguments.vehicle_id +
+                   ": they must be the same");
+}
+
 void Replay(const ReplayArguments& arguments) {
+  const std::vector<Vehicle> announced = AnnouncedBy(arguments);
+  const std::string vehicle_id =
+      announced.empty() ? arguments.vehicle_id : announced.front().vehicle_id;
   const RawLog log = ReadShown(arguments.log, arguments.options);
   const Participant participant(arguments.live.domain);
   BatchWrites();
-  TelemetryPublisher publisher(participant, arguments.vehicle_id);
+  const auto announcers = Announce(participant, announced);
+  TelemetryPublisher publisher(participant, vehicle_id);
   if (!publisher.WaitForReaders(arguments.live.Timeout())) {
     throw std::runtime_error("nobody takes telemetry on domain " +
                              std::to_string(arguments.live.domain) + ": " +
                              NobodyThereAdvice(arguments.live.domain));
   }
-  Pacing pacing(participant, arguments.vehicle_id);
+  if (!announced.empty()) RequireServed(participant, {vehicle_id}, arguments.live);
+  Pacing pacing(participant, vehicle_id);
   const double recorded_s =
       Publish(InOrderOfTime(log.channels), arguments.speed, publisher, pacing);
-  std::cout << "replayed " << publisher.Published() << " samples as " << arguments.vehicle_id
-            << ", " << Fixed(recorded_s, 1) << " s of recording" << OutcomeText(pacing) << '\n';
+  std::cout << "replayed " << publisher.Published() << " samples as " << vehicle_id << ", "
+            << Fixed(recorded_s, 1) << " s of recording" << OutcomeText(pacing) << '\n';
 }
 
 }  // namespace
@@ -149,7 +170,15 @@ void AddReplay(CLI::App& telltale) {
   CLI::App& command =
       *telltale.add_subcommand("replay", "Publishes a recording as a vehicle's live telemetry");
   AddLog(command, arguments->log, arguments->options);
-  AddVehicleId(command, arguments->vehicle_id)->required();
+  CLI::App& whose = *command.add_option_group("whose", "the boat");
+  AddVehicleId(whose, arguments->vehicle_id);
+  whose
+      .add_option("--announce", arguments->announced_file,
+                  "the boat announces itself with this vehicle file, and the replay begins once a "
+                  "daemon serves it")
+      ->type_name("FILE")
+      ->check(CLI::ExistingFile.description(""));
+  whose.require_option(1, 2);
   command.add_option("--speed", arguments->speed, "times as fast as it was recorded")
       ->type_name("X")
       ->check(NumberWithin(1e-3, 1e6))
@@ -158,7 +187,8 @@ void AddReplay(CLI::App& telltale) {
   command.footer(
       "Samples go out as recorded, wrong ones too: the receiver checks them. Silences longer than\n"
       "a minute are cut to a minute.\n"
-      "Example: telltale replay --log run1 --vehicle-id boat-1 --speed 50");
+      "Examples: telltale replay --log run1 --vehicle-id boat-1 --speed 50\n"
+      "          telltale replay --log run1 --announce boat-1.textproto");
   command.callback([arguments] { Replay(*arguments); });
 }
 

@@ -3,16 +3,11 @@
 #include <thread>
 #include <utility>
 
+#include "telltale/client/fleet/vehicle_partitions.hpp"
 #include "telltale/idl/codec/wire/telemetry.hpp"
 
 namespace telltale {
 namespace {
-
-/// In the partition of its id, by which DDS Security holds a boat to its own telemetry, and in that
-/// of all, so that every daemon hears it.
-Qos TelemetryQosOf(const std::string& vehicle_id) {
-  return InPartitions(TelemetryQos(), {"", vehicle_id});
-}
 
 // Both sides of a match learn of its coming and going within milliseconds; a busy machine takes
 // longer.
@@ -25,9 +20,9 @@ TelemetryPublisher::TelemetryPublisher(const Participant& participant, std::stri
     : participant_(participant),
       vehicle_id_(std::move(vehicle_id)),
       leave_(leave),
-      gnss_writer_(participant, TelemetryQosOf(vehicle_id_)),
-      heading_writer_(participant, TelemetryQosOf(vehicle_id_)),
-      thruster_writer_(participant, TelemetryQosOf(vehicle_id_)) {}
+      gnss_writer_(participant, InPartitionsOf(vehicle_id_, TelemetryQos())),
+      heading_writer_(participant, InPartitionsOf(vehicle_id_, TelemetryQos())),
+      thruster_writer_(participant, InPartitionsOf(vehicle_id_, TelemetryQos())) {}
 
 TelemetryPublisher::~TelemetryPublisher() {
   if (leave_ == Leave::kAtOnce || Published() == 0) return;
