@@ -70,7 +70,11 @@ state_directory: "x"
 require_partition: true
 vehicle_files: "$source/deploy/sample/yellowfish.textproto"
 vehicle_folder: "$folder/boats"
+announced { admit: "other" admit: "third" admit: "load-*" }
 TEXT
+for boat in other third; do
+  sed "s/vehicle_id:.*/vehicle_id: \"$boat\"/" "$source/deploy/sample/yellowfish.textproto" > "$folder/$boat.textproto"
+done
 
 # Wrong use.
 expect_code 2 "$make" --daemon d
@@ -127,6 +131,23 @@ foreign=$(tr -s '\n ' ' ' < "$folder/out" | { grep -oE '[0-9]+ FOREIGN_WRITER' |
 ((foreign > 0)) || { cat "$folder/out" >&2; fail "samples of another boat are not counted"; }
 [[ $(accepted load-00001) == 0 ]] || fail "a boat sends telemetry of another, by its own partition"
 survived "a boat that sends telemetry of another" "cannot write in its partition; by its own, $foreign samples are counted as FOREIGN_WRITER"
+
+# A boat announces itself and no other, neither in the other's partition nor in that of all.
+announce() {  # BOAT
+  echo "$telltale replay --log $source/deploy/sample --speed 1000 --timeout 6 --announce $folder/$1.textproto"
+}
+read -ra itself <<< "$(announce other)"
+read -ra another <<< "$(announce third)"
+expect_code 0 as fleet/other "${itself[@]}"
+expect_code 1 as fleet/other "${another[@]}"
+expect_code 1 as fleet/other "$telltale" load --boats 2 --announce --duration 1 --timeout 6
+grep -q "announcement refused: FOREIGN_WRITER 'load-00002'" "$folder/secured.log" ||
+  fail "the announcement of another boat is not counted"
+as fleet/client "$telltale" list > "$folder/out"
+grep -q "^other " "$folder/out" || fail "a boat that announces itself is not served"
+if grep -qE "^(third|load-00002) " "$folder/out"; then fail "a boat announces another"; fi
+survived "a boat that announces another" "cannot write in its partition; in that of all it is a FOREIGN_WRITER"
+expect_code 0 as fleet/client "$telltale" retire --vehicle-id other
 
 if [[ -n $recording ]]; then
   wait "$recorder"
