@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <functional>
 #include <span>
+#include <string_view>
 
 #include "telltale/core/base/result.hpp"
 
@@ -34,6 +35,22 @@ std::size_t TakeInBlocks(std::span<const std::uint8_t> bytes, std::size_t block,
     done += consume(bytes.subspan(done, end - done), end == bytes.size());
   }
   return done;
+}
+
+/// Hands over the whole lines of a text, without their ends; the last one may lack its end. Returns
+/// the bytes of the lines, as a BlockConsumer does.
+template <class TakeLine>
+std::size_t TakeLines(std::span<const std::uint8_t> bytes, bool at_end, TakeLine take) {
+  const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  std::size_t at = 0;
+  while (at < text.size()) {
+    const std::size_t end = text.find('\n', at);
+    if (end == std::string_view::npos && !at_end) return at;
+    const std::size_t stop = std::min(end, text.size());
+    take(text.substr(at, stop - at));
+    at = stop + 1;
+  }
+  return text.size();
 }
 
 }  // namespace telltale

@@ -6,14 +6,19 @@
 
 namespace telltale {
 
-Result<std::string> ReadFile(const std::filesystem::path& file) {
+std::optional<Refusal> NoFile(const std::filesystem::path& path) {
   std::error_code ignored;
-  if (!std::filesystem::exists(file, ignored)) {
-    return Refuse(file.string(), "is missing", "check the path");
+  if (!std::filesystem::exists(path, ignored)) {
+    return Refusal{path.string(), "is missing", "check the path"};
   }
-  if (std::filesystem::is_directory(file, ignored)) {
-    return Refuse(file.string(), "is a folder", "give a file");
+  if (std::filesystem::is_directory(path, ignored)) {
+    return Refusal{path.string(), "is a folder", "give a file"};
   }
+  return std::nullopt;
+}
+
+Result<std::string> ReadFile(const std::filesystem::path& file) {
+  if (auto refusal = NoFile(file)) return tl::unexpected(*std::move(refusal));
   std::ifstream stream(file, std::ios::binary | std::ios::ate);
   const auto size = stream.tellg();
   std::string content(size > 0 ? static_cast<std::size_t>(size) : 0, '\0');

@@ -1,12 +1,16 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 
 #include "telltale/core/base/result.hpp"
 
 namespace telltale {
+
+/// Why a path is no file that can be read: it is missing, or a folder.
+std::optional<Refusal> NoFile(const std::filesystem::path& path);
 
 /// The bytes of a file. Refuses when: it is missing, a folder, or cannot be read.
 Result<std::string> ReadFile(const std::filesystem::path& file);

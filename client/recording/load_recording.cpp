@@ -73,10 +73,17 @@ Result<RawLog> FromOtherFolder(const std::filesystem::path& folder, const Source
                 "give each of them by a --log of its own");
 }
 
+/// A folder says nothing of itself; what was left out of it is said.
+std::optional<LogDescription> DescriptionOf(const TelemetryLog& log) {
+  constexpr std::string_view kSemicolon = "; ";
+  if (log.left_out.empty()) return std::nullopt;
+  return LogDescription{log.left_out.substr(kSemicolon.size()), std::nullopt, std::nullopt};
+}
+
 Result<RawLog> FromFolder(const std::filesystem::path& folder, const SourceOptions& options) {
   if (!IsTelemetryLog(folder)) return FromOtherFolder(folder, options);
-  return ReadTelemetryLog(folder).map([](TelemetryLog log) {
-    return RawLog{std::move(log.channels), log.malformed, std::nullopt};
+  return ReadTelemetryLog(folder, options.memory_bytes).map([](TelemetryLog log) {
+    return RawLog{std::move(log.channels), log.malformed, DescriptionOf(log)};
   });
 }
 
@@ -88,7 +95,7 @@ std::string OutputsText(const DataFlashLog& log) {
 
 Result<RawLog> FromDataFlash(const std::filesystem::path& file, const SourceOptions& options) {
   const DataFlashOptions choice{options.gps_instance, options.port_channel,
-                                options.starboard_channel};
+                                options.starboard_channel, options.memory_bytes};
   return ReadDataFlash(file, choice, options.progress).map([](DataFlashLog log) {
     LogDescription description{log.report.Summary() + OutputsText(log), log.port, log.starboard};
     return RawLog{std::move(log), {}, std::move(description)};
@@ -116,7 +123,7 @@ Result<SourceLog> ReadMapped(const std::filesystem::path& path, LogFormat format
     case LogFormat::kMcap: return ReadMcap(path, options);
     case LogFormat::kRosbag1: return ReadRosbag1(path, options);
     case LogFormat::kRosbag2: return ReadRosbag2(path, options);
-    default: return ReadMappedCsv(path, *options.mapping, options.progress);
+    default: return ReadMappedCsv(path, *options.mapping, options);
   }
 }
 

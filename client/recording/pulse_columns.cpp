@@ -15,6 +15,8 @@ bool AreSame(float a_us, float b_us) {
 }  // namespace
 
 void PulseColumns::Add(double time_s, std::span<const float> pulse_us) {
+  if (!HasPlaceFor(time_s)) return;
+  std::size_t added = sizeof(double);
   if (columns_.empty()) {
     for (const float first_us : pulse_us) columns_.push_back({first_us, {}});
   }
@@ -24,10 +26,27 @@ void PulseColumns::Add(double time_s, std::span<const float> pulse_us) {
     if (column.pulse_us.empty()) {
       if (AreSame(pulse_us[i], column.first_us)) continue;
       column.pulse_us.assign(times_s_.size(), column.first_us);
+      added += times_s_.size() * sizeof(float);
     }
     column.pulse_us.push_back(pulse_us[i]);
+    added += sizeof(float);
   }
   times_s_.push_back(time_s);
+  Added(added);
+}
+
+std::size_t PulseColumns::Bytes() const {
+  std::size_t bytes = times_s_.size() * sizeof(double);
+  for (const Column& column : columns_) bytes += column.pulse_us.size() * sizeof(float);
+  return bytes;
+}
+
+void PulseColumns::KeepOnly(const std::vector<bool>& is_kept) {
+  KeepRows(times_s_, is_kept);
+  for (Column& column : columns_) {
+    if (column.pulse_us.empty()) continue;
+    KeepRows(column.pulse_us, is_kept);
+  }
 }
 
 std::vector<ThrusterSample> PulseColumns::Of(int port, int starboard) const {

@@ -9,7 +9,7 @@ constexpr std::size_t kMostLeft = 12;  // that are named
 }  // namespace
 
 RosIntake::RosIntake(const SourceOptions& options) : by_rules_(options) {
-  if (options.mapping) mapped_.emplace(options.mapping);
+  if (options.mapping) mapped_.emplace(options.mapping, options.memory_bytes);
 }
 
 MessageTaker RosIntake::Open(const RosChannel& channel, CdrReader::Encoding encoding) {

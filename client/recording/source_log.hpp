@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <memory>
@@ -7,6 +8,7 @@
 #include <string>
 
 #include "telltale/client/recording/block_reader.hpp"
+#include "telltale/client/recording/sample_memory.hpp"
 #include "telltale/client/recording/servo_outputs.hpp"
 #include "telltale/client/recording/time_order.hpp"
 #include "telltale/core/base/result.hpp"
@@ -20,8 +22,9 @@ struct SourceOptions {
   std::optional<int> system_id;          ///< of MAVLink, [1, 255]; unset: the one that says most
   std::optional<int> port_channel;       ///< [1, 16]; unset: by SERVOn_FUNCTION 73
   std::optional<int> starboard_channel;  ///< [1, 16]; unset: by SERVOn_FUNCTION 74
-  std::shared_ptr<const Mapping> mapping;  ///< null: what is known of each format counts
-  ReadProgress progress;                   ///< null: nobody is told
+  std::size_t memory_bytes = kReadingBytes;  ///< that samples may take while they are read
+  std::shared_ptr<const Mapping> mapping;    ///< null: what is known of each format counts
+  ReadProgress progress;                     ///< null: nobody is told
 
   /// The first field out of its range, as a refusal naming field, value and range.
   std::optional<Refusal> Validate() const;

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <fstream>
 #include <memory>
 
 #include <zstd.h>
@@ -70,21 +69,23 @@ bool ZstdInflater::InflateOfItsLength(std::span<const std::uint8_t> compressed, 
   return Inflate(compressed, out);
 }
 
-Result<bool> InflateZstdFile(const std::filesystem::path& file, const std::filesystem::path& into) {
-  std::ofstream out(into, std::ios::binary | std::ios::trunc);
+Result<bool> InflateZstdFile(const std::filesystem::path& file, const std::filesystem::path& into,
+                             std::uint64_t most_bytes) {
+  InflatedFile out(file, into, most_bytes);
   const ZstdContext inflater = MakeContext();
   std::vector<std::uint8_t> inflated(ZSTD_DStreamOutSize());
   std::size_t wanted = 1;  // more of the frame
   bool is_zstd = true;
+  bool is_written = true;
   const auto read = ReadInBlocks(file, [&](std::span<const std::uint8_t> bytes, bool) {
     ZSTD_inBuffer from{bytes.data(), bytes.size(), 0};
     bool holds_back = false;  // what the buffer has no room for
-    while (is_zstd && out && (from.pos < from.size || holds_back)) {
+    while (is_zstd && is_written && (from.pos < from.size || holds_back)) {
       ZSTD_outBuffer to{inflated.data(), inflated.size(), 0};
       wanted = ZSTD_decompressStream(inflater.get(), &to, &from);
       is_zstd = ZSTD_isError(wanted) == 0;
       holds_back = wanted != 0 && to.pos == to.size;
-      out.write(static_cast<const char*>(to.dst), static_cast<std::streamsize>(to.pos));
+      is_written = out.Write(to.dst, to.pos);
     }
     return bytes.size();
   });
@@ -92,11 +93,7 @@ Result<bool> InflateZstdFile(const std::filesystem::path& file, const std::files
   if (!is_zstd) {
     return Refuse(file.string(), "cannot be decompressed as zstd", "copy the file again");
   }
-  out.close();
-  if (!out) {
-    return Refuse(into.string(), "cannot be written while " + file.string() + " is decompressed",
-                  "make room there, or name another folder by TMPDIR");
-  }
+  if (auto refusal = out.Close()) return tl::unexpected(*std::move(refusal));
   return wanted == 0;
 }
 

@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "telltale/client/recording/inflated_file.hpp"
 #include "telltale/core/base/result.hpp"
 
 namespace telltale {
@@ -38,7 +39,9 @@ class ZstdInflater {
 
 /// Inflates a file of zstd frames into another. Returns whether the frames are whole: of a file
 /// that is cut off, `into` holds what there is. Memory: the window of a frame, at most 128 MB.
-/// Refuses when: a file cannot be read or written, or what it holds is no zstd.
-Result<bool> InflateZstdFile(const std::filesystem::path& file, const std::filesystem::path& into);
+/// Refuses when: a file cannot be read or written, what it holds is no zstd, or
+/// more than an InflatedFile takes.
+Result<bool> InflateZstdFile(const std::filesystem::path& file, const std::filesystem::path& into,
+                             std::uint64_t most_bytes = kMostInflatedBytes);
 
 }  // namespace telltale

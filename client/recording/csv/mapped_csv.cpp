@@ -66,18 +66,11 @@ std::vector<std::string> ColumnsOf(const Mapping& mapping) {
 
 class MappedCsv : public MessageFields {
  public:
-  explicit MappedCsv(const Mapping& mapping) : mapping_(mapping), recording_(mapping) {}
+  MappedCsv(const Mapping& mapping, std::size_t most_bytes)
+      : mapping_(mapping), recording_(mapping, most_bytes) {}
 
-  std::size_t Consume(std::string_view bytes, bool at_end) {
-    std::size_t at = 0;
-    while (at < bytes.size()) {
-      const std::size_t end = bytes.find('\n', at);
-      if (end == std::string_view::npos && !at_end) return at;
-      const std::size_t stop = std::min(end, bytes.size());
-      TakeLine(bytes.substr(at, stop - at));
-      at = stop + 1;
-    }
-    return bytes.size();
+  std::size_t Consume(std::span<const std::uint8_t> bytes, bool at_end) {
+    return TakeLines(bytes, at_end, [this](std::string_view line) { TakeLine(line); });
   }
 
   std::optional<double> Number(std::string_view path) const override {
@@ -147,15 +140,13 @@ std::optional<Refusal> NotForCsv(const Mapping& mapping) {
 }  // namespace
 
 Result<SourceLog> ReadMappedCsv(const std::filesystem::path& file, const Mapping& mapping,
-                                const ReadProgress& progress) {
+                                const SourceOptions& options) {
   if (auto refusal = NotForCsv(mapping)) return tl::unexpected(*std::move(refusal));
-  MappedCsv csv(mapping);
+  MappedCsv csv(mapping, options.memory_bytes);
   const auto read = ReadInBlocks(
       file,
-      [&](std::span<const std::uint8_t> bytes, bool at_end) {
-        return csv.Consume({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, at_end);
-      },
-      progress);
+      [&](std::span<const std::uint8_t> bytes, bool at_end) { return csv.Consume(bytes, at_end); },
+      options.progress);
   if (!read) return tl::unexpected(read.error());
   if (!csv.HasHeader()) {
     return Refuse(file.string(), "is empty", "give a file with a header row and a row per sample");

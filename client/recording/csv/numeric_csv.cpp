@@ -3,12 +3,17 @@
 #include <algorithm>
 #include <charconv>
 #include <optional>
+#include <string>
+#include <vector>
 
+#include "telltale/client/recording/block_reader.hpp"
 #include "telltale/client/recording/file_contents.hpp"
 #include "telltale/client/recording/trimmed.hpp"
 
 namespace telltale {
 namespace {
+
+constexpr std::size_t kMostOfHeader = 80;  // that a refusal repeats
 
 // Takes what stands before `separator` off the front of `text`.
 std::string_view TakeUntil(char separator, std::string_view& text) {
@@ -72,32 +77,39 @@ void MalformedRows::Add(std::size_t line) {
 Result<MalformedRows> ReadCsv(const std::filesystem::path& file,
                               std::span<const std::string_view> columns,
                               const std::function<void(std::span<const double>)>& take) {
-  const auto content = ReadFile(file);
-  if (!content) return tl::unexpected(content.error());
-  std::string_view rest = *content;
-  if (rest.starts_with(kByteOrderMark)) rest.remove_prefix(kByteOrderMark.size());
-
+  if (auto refusal = NoFile(file)) return tl::unexpected(*std::move(refusal));
   std::optional<Header> header;
+  std::string first_row;
   std::vector<double> values(columns.size());
   MalformedRows malformed;
-  for (std::size_t line_number = 1; !rest.empty(); ++line_number) {
-    const std::string_view line = TakeUntil('\n', rest);
-    if (Trimmed(line).empty()) continue;
+  std::size_t line_number = 0;
+  const auto take_line = [&](std::string_view line) {
+    ++line_number;
+    if (line_number == 1 && line.starts_with(kByteOrderMark)) {
+      line.remove_prefix(kByteOrderMark.size());
+    }
+    if (Trimmed(line).empty()) return;
     if (!header) {
       header = ReadHeader(line, columns);
-      if (header->found == columns.size()) continue;
-      return Refuse(file.string(),
-                    "its header row is \"" + std::string(Trimmed(line).substr(0, 80)) + '"',
-                    "begin the file with a row that names the columns " + Joined(columns));
-    }
-    if (ReadRow(line, *header, values)) {
+      first_row = Trimmed(line).substr(0, kMostOfHeader);
+    } else if (header->found != columns.size()) {
+      return;  // refused below
+    } else if (ReadRow(line, *header, values)) {
       take(values);
     } else {
       malformed.Add(line_number);
     }
+  };
+  const auto read = ReadInBlocks(file, [&](std::span<const std::uint8_t> bytes, bool at_end) {
+    return TakeLines(bytes, at_end, take_line);
+  });
+  if (!read) return tl::unexpected(read.error());
+  if (!header) {
+    return Refuse(file.string(), "is empty", "give a file with a header row and a row per sample");
   }
-  if (header) return malformed;
-  return Refuse(file.string(), "is empty", "give a file with a header row and a row per sample");
+  if (header->found == columns.size()) return malformed;
+  return Refuse(file.string(), "its header row is \"" + first_row + '"',
+                "begin the file with a row that names the columns " + Joined(columns));
 }
 
 }  // namespace telltale

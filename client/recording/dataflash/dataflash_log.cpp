@@ -107,6 +107,8 @@ MessageColumns Bind(const DataFlashFormat& format) {
 /// Gathers what the messages say; choices between sources wait until the log has ended.
 class DataFlashLogBuilder : public DataFlashConsumer {
  public:
+  explicit DataFlashLogBuilder(std::size_t most_bytes) : memory_(most_bytes) {}
+
   void Define(const DataFlashFormat& format) override { readings_[format.type] = Bind(format); }
 
   void Take(const DataFlashFormat& format, DataFlashBytes record) override {
@@ -129,6 +131,7 @@ class DataFlashLogBuilder : public DataFlashConsumer {
   DataFlashLog Finish(const DataFlashOptions& options) {
     DataFlashLog log;
     log.report = std::move(report_);
+    log.report.left_out = memory_.Summary();
     ChooseReceiver(options, log);
     ChooseHeading(log);
     ChooseThrusters(options, log);
@@ -155,8 +158,9 @@ class DataFlashLogBuilder : public DataFlashConsumer {
       return;
     }
     ++report_.gps_fixes[instance];
-    fixes_[instance].push_back({time_s, DataFlashNumber(record, reading.values[1]),
-                                DataFlashNumber(record, reading.values[2])});
+    fixes_.try_emplace(instance, memory_)
+        .first->second.Add({time_s, DataFlashNumber(record, reading.values[1]),
+                            DataFlashNumber(record, reading.values[2])});
   }
 
   static int InstanceOf(double number) {
@@ -164,8 +168,8 @@ class DataFlashLogBuilder : public DataFlashConsumer {
   }
 
   void TakeYaw(const MessageColumns& reading, DataFlashBytes record,
-               std::vector<HeadingSample>& series) {
-    series.push_back({TimeOf(reading, record), DataFlashNumber(record, reading.values[0])});
+               SampleSeries<HeadingSample>& series) {
+    series.Add({TimeOf(reading, record), DataFlashNumber(record, reading.values[0])});
   }
 
   void TakePulses(const MessageColumns& reading, DataFlashBytes record) {
@@ -194,21 +198,21 @@ class DataFlashLogBuilder : public DataFlashConsumer {
       chosen = fixes_.find(*options.gps_instance);
     } else {
       chosen = std::max_element(fixes_.begin(), fixes_.end(), [](const auto& a, const auto& b) {
-        return a.second.size() < b.second.size();
+        return a.second.Samples().size() < b.second.Samples().size();
       });
     }
     if (chosen == fixes_.end()) return;
     log.report.gps_instance = chosen->first;
-    log.gnss = std::move(chosen->second);
+    log.gnss = std::move(chosen->second).Release();
   }
 
   void ChooseHeading(DataFlashLog& log) {
-    if (!attitude_.empty()) {
+    if (!attitude_.Samples().empty()) {
       log.report.heading_source = HeadingSource::kAtt;
-      log.heading = std::move(attitude_);
-    } else if (!backup_attitude_.empty()) {
+      log.heading = std::move(attitude_).Release();
+    } else if (!backup_attitude_.Samples().empty()) {
       log.report.heading_source = HeadingSource::kAhr2;
-      log.heading = std::move(backup_attitude_);
+      log.heading = std::move(backup_attitude_).Release();
     }
   }
 
@@ -226,10 +230,11 @@ class DataFlashLogBuilder : public DataFlashConsumer {
 
   std::array<MessageColumns, 256> readings_;
   std::map<std::pair<Message, int>, double> newest_s_;
-  std::map<int, std::vector<GnssFix>> fixes_;
-  std::vector<HeadingSample> attitude_;
-  std::vector<HeadingSample> backup_attitude_;
-  PulseColumns pulses_;
+  SampleMemory memory_;
+  std::map<int, SampleSeries<GnssFix>> fixes_;
+  SampleSeries<HeadingSample> attitude_{memory_};
+  SampleSeries<HeadingSample> backup_attitude_{memory_};
+  PulseColumns pulses_{memory_};
   AutopilotParameters parameters_;
   DataFlashReport report_;
 };
@@ -335,6 +340,7 @@ std::string DataFlashReport::Summary() const {
   AppendCounts(out, damage.redefinitions, "redefinitions");
   AppendCounts(out, damage.skipped_bytes, "bytes skipped");
   AppendCounts(out, damage.truncated_bytes, "bytes of a record cut off at the end");
+  out << left_out;
   return out.str();
 }
 
@@ -357,7 +363,7 @@ std::optional<Refusal> DataFlashLog::Lacks() const {
 }
 
 DataFlashLog ParseDataFlash(DataFlashBytes bytes, const DataFlashOptions& options) {
-  DataFlashLogBuilder builder;
+  DataFlashLogBuilder builder(options.memory_bytes);
   DataFlashFraming framing(builder);
   framing.Consume(bytes, true);
   return FinishLog(builder, framing, bytes.size(), options);
@@ -366,7 +372,7 @@ DataFlashLog ParseDataFlash(DataFlashBytes bytes, const DataFlashOptions& option
 Result<DataFlashLog> ReadDataFlash(const std::filesystem::path& file,
                                    const DataFlashOptions& options, const ReadProgress& progress) {
   if (auto refusal = options.Validate()) return tl::unexpected(*std::move(refusal));
-  DataFlashLogBuilder builder;
+  DataFlashLogBuilder builder(options.memory_bytes);
   DataFlashFraming framing(builder);
   const auto total = ReadInBlocks(
       file, [&](DataFlashBytes bytes, bool at_end) { return framing.Consume(bytes, at_end); },

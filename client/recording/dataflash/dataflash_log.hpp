@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <map>
@@ -8,6 +9,7 @@
 
 #include "telltale/client/recording/block_reader.hpp"
 #include "telltale/client/recording/dataflash/dataflash_records.hpp"
+#include "telltale/client/recording/sample_memory.hpp"
 #include "telltale/client/recording/servo_outputs.hpp"
 #include "telltale/client/recording/time_order.hpp"
 #include "telltale/core/base/result.hpp"
@@ -25,6 +27,8 @@ struct DataFlashOptions {
       gps_instance;  ///< [0, 255]; unset: the one with most fixes, the first of equals
   std::optional<int> port_channel;       ///< [1, 14]; unset: SERVOn_FUNCTION 73 (ThrottleLeft)
   std::optional<int> starboard_channel;  ///< [1, 14]; unset: SERVOn_FUNCTION 74 (ThrottleRight)
+
+  std::size_t memory_bytes = kReadingBytes;  ///< of SampleMemory
 
   /// The first field out of its range, as a refusal naming field, value and range.
   std::optional<Refusal> Validate() const;
@@ -46,6 +50,7 @@ struct DataFlashReport {
   std::uint64_t gps_without_fix = 0;                        ///< Status below 3, every instance
   std::optional<int> gps_instance;                          ///< the one taken
   HeadingSource heading_source = HeadingSource::kUnknown;
+  std::string left_out;  ///< SampleMemory::Summary()
 
   /// A sentence or two for a person: what was read and each kind of damage that occurred.
   std::string Summary() const;
@@ -69,7 +74,7 @@ struct DataFlashLog : RawChannels {
 /// Everything that can be had from these bytes; never fails, a log of nothing included.
 /// Reads: GPS, GPS2, GPSB (Status, Lat, Lng at Status 3 and above), ATT or else AHR2 (Yaw), RCOU
 /// (C1..C14), PARM (SERVOn_*, or RCn_* of firmware that has no SERVOn_FUNCTION).
-/// Memory: a small multiple of the bytes in records of those messages.
+/// Memory: as far as SampleMemory goes.
 /// Requires: options.Validate() is empty.
 DataFlashLog ParseDataFlash(DataFlashBytes bytes, const DataFlashOptions& options);
 

@@ -52,8 +52,8 @@ class JsonFields : public MessageFields {
 
 }  // namespace
 
-MappedMessages::MappedMessages(std::shared_ptr<const Mapping> mapping)
-    : mapping_(std::move(mapping)), recording_(*mapping_) {}
+MappedMessages::MappedMessages(std::shared_ptr<const Mapping> mapping, std::size_t most_bytes)
+    : mapping_(std::move(mapping)), recording_(*mapping_, most_bytes) {}
 
 bool MappedMessages::Names(std::string_view topic) {
   if (recording_.Names(topic)) return true;

@@ -17,7 +17,8 @@ namespace telltale {
 /// Gathers what a mapping names from messages of ROS, by their definitions, and of JSON.
 class MappedMessages {
  public:
-  explicit MappedMessages(std::shared_ptr<const Mapping> mapping);
+  explicit MappedMessages(std::shared_ptr<const Mapping> mapping,
+                          std::size_t most_bytes = kReadingBytes);
 
   /// Who takes the messages of a topic, for as long as this stays where it is; null where the
   /// mapping does not name it, or its type is not known.

@@ -1,9 +1,10 @@
 #pragma once
 
+#include <cstddef>
 #include <string_view>
-#include <vector>
 
 #include "telltale/client/recording/mapping/mapped_samples.hpp"
+#include "telltale/client/recording/sample_memory.hpp"
 #include "telltale/client/recording/source_log.hpp"
 
 namespace telltale {
@@ -11,7 +12,7 @@ namespace telltale {
 /// Gathers the three channels of what a mapping names. Assumes: the mapping outlives it.
 class MappedRecording {
  public:
-  explicit MappedRecording(const Mapping& mapping);
+  explicit MappedRecording(const Mapping& mapping, std::size_t most_bytes = kReadingBytes);
   MappedRecording(const MappedRecording&) = delete;
   MappedRecording& operator=(const MappedRecording&) = delete;
 
@@ -26,10 +27,11 @@ class MappedRecording {
   SourceLog Finish(const char* what) &&;
 
  private:
-  std::vector<GnssFix> fixes_;
-  std::vector<HeadingSample> headings_;
-  std::vector<SideCommand> port_commands_;
-  std::vector<SideCommand> starboard_commands_;
+  SampleMemory memory_;
+  SampleSeries<GnssFix> fixes_{memory_};
+  SampleSeries<HeadingSample> headings_{memory_};
+  SampleSeries<SideCommand> port_commands_{memory_};
+  SampleSeries<SideCommand> starboard_commands_{memory_};
   MappedSamples samples_;  // after what it writes to
 };
 

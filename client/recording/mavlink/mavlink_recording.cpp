@@ -21,12 +21,6 @@ std::string AskFor(const char* parameter, const char* message) {
          " by MAV_CMD_SET_MESSAGE_INTERVAL";
 }
 
-/// Frees what samples of a source take that gives way to a better one.
-template <class Sample>
-void GiveBack(std::vector<Sample>& samples) {
-  if (!samples.empty()) std::vector<Sample>().swap(samples);
-}
-
 std::string AndCount(std::uint64_t count, const char* what) {
   return count > 0 ? "; " + std::to_string(count) + ' ' + what : std::string();
 }
@@ -44,8 +38,9 @@ double PulseOn(const MavlinkPulses& pulse_us, int channel) {
 }
 
 std::size_t MavlinkRecording::Vehicle::Samples() const {
-  return std::max(raw_fixes.size(), filtered_fixes.size()) +
-         std::max(attitude.size(), filtered_heading.size()) + outputs.TimesS().size();
+  return std::max(raw_fixes.Samples().size(), filtered_fixes.Samples().size()) +
+         std::max(attitude.Samples().size(), filtered_heading.Samples().size()) +
+         outputs.TimesS().size();
 }
 
 void MavlinkRecording::Take(const MavlinkFrame& frame) {
@@ -63,42 +58,42 @@ void MavlinkRecording::Take(const MavlinkFrame& frame) {
 
 void MavlinkRecording::Take(const MavlinkSender& sender, const MavlinkGpsRawInt& message) {
   ++messages_;
-  Vehicle& vehicle = vehicles_[sender];
+  Vehicle& vehicle = VehicleOf(sender);
   if (!message.HasFix()) {
     ++vehicle.without_fix;
     return;
   }
   const double time_s = static_cast<double>(message.time_us) * 1e-6;
-  if (!vehicle.raw_fixes.empty() && vehicle.raw_fixes.back().time_s == time_s) {
+  const std::vector<GnssFix>& before = vehicle.raw_fixes.Samples();
+  if (!before.empty() && before.back().time_s == time_s) {
     ++vehicle.repeated_fixes;
     return;
   }
-  GiveBack(vehicle.filtered_fixes);
-  vehicle.raw_fixes.push_back({time_s, message.latitude_deg, message.longitude_deg});
+  vehicle.filtered_fixes.Clear();
+  vehicle.raw_fixes.Add({time_s, message.latitude_deg, message.longitude_deg});
 }
 
 void MavlinkRecording::Take(const MavlinkSender& sender, const MavlinkGlobalPositionInt& message) {
   ++messages_;
-  Vehicle& vehicle = vehicles_[sender];
+  Vehicle& vehicle = VehicleOf(sender);
   const double time_s = message.time_boot_ms * 1e-3;
   vehicle.boot_s = time_s;
   const bool has_position = message.latitude_deg != 0.0 || message.longitude_deg != 0.0;
   if (!has_position) ++vehicle.without_fix;
-  if (has_position && vehicle.raw_fixes.empty()) {
-    vehicle.filtered_fixes.push_back({time_s, message.latitude_deg, message.longitude_deg});
+  if (has_position && vehicle.raw_fixes.Samples().empty()) {
+    vehicle.filtered_fixes.Add({time_s, message.latitude_deg, message.longitude_deg});
   }
-  if (message.heading_deg && vehicle.attitude.empty()) {
-    vehicle.filtered_heading.push_back({time_s, *message.heading_deg});
+  if (message.heading_deg && vehicle.attitude.Samples().empty()) {
+    vehicle.filtered_heading.Add({time_s, *message.heading_deg});
   }
 }
 
 void MavlinkRecording::Take(const MavlinkSender& sender, const MavlinkAttitude& message) {
   ++messages_;
-  Vehicle& vehicle = vehicles_[sender];
+  Vehicle& vehicle = VehicleOf(sender);
   vehicle.boot_s = message.time_boot_ms * 1e-3;
-  GiveBack(vehicle.filtered_heading);
-  vehicle.attitude.push_back(
-      {*vehicle.boot_s, static_cast<double>(message.yaw_rad) * kDegreesPerRadian});
+  vehicle.filtered_heading.Clear();
+  vehicle.attitude.Add({*vehicle.boot_s, static_cast<double>(message.yaw_rad) * kDegreesPerRadian});
 }
 
 /// A counter of 32 bits begins anew every 71.6 minutes. The other messages' time since boot says
@@ -118,7 +113,7 @@ double MavlinkRecording::OutputTime(Vehicle& vehicle, std::uint32_t time_us) {
 void MavlinkRecording::Take(const MavlinkSender& sender, const MavlinkServoOutputRaw& message) {
   ++messages_;
   if (message.bank != 0) return;
-  Vehicle& vehicle = vehicles_[sender];
+  Vehicle& vehicle = VehicleOf(sender);
   const double time_s = OutputTime(vehicle, message.time_us);
   std::array<float, kMavlinkOutputs> pulse_us{};
   std::copy(message.pulse_us.begin(), message.pulse_us.end(), pulse_us.begin());
@@ -128,13 +123,13 @@ void MavlinkRecording::Take(const MavlinkSender& sender, const MavlinkServoOutpu
 void MavlinkRecording::Take(const MavlinkSender& sender, const MavlinkParamValue& message) {
   ++messages_;
   if (!IsOutputParameter(message.name) || !std::isfinite(message.value)) return;
-  vehicles_[sender].parameters[message.name] = static_cast<double>(message.value);
+  VehicleOf(sender).parameters[message.name] = static_cast<double>(message.value);
 }
 
 void MavlinkRecording::Take(const MavlinkSender& sender, const MavlinkSystemTime& message) {
   ++messages_;
   if (message.unix_us == 0) return;
-  Vehicle& vehicle = vehicles_[sender];
+  Vehicle& vehicle = VehicleOf(sender);
   if (vehicle.unix_less_boot_s) return;  // the first holds: a clock that is set later would jump
   vehicle.unix_less_boot_s = static_cast<double>(message.unix_us) * 1e-6 - message.boot_ms * 1e-3;
 }
@@ -161,8 +156,8 @@ std::size_t MavlinkRecording::SystemsWithSamples() const {
 }
 
 std::string MavlinkRecording::ChoosePositions(Vehicle& vehicle, SourceLog& log) {
-  const bool are_raw = !vehicle.raw_fixes.empty();
-  log.gnss = std::move(are_raw ? vehicle.raw_fixes : vehicle.filtered_fixes);
+  const bool are_raw = !vehicle.raw_fixes.Samples().empty();
+  log.gnss = std::move(are_raw ? vehicle.raw_fixes : vehicle.filtered_fixes).Release();
   if (log.gnss.empty()) return {};
   const char* source = are_raw ? "GPS_RAW_INT" : "GLOBAL_POSITION_INT";
   log.summary += std::string("; positions from ") + source;
@@ -176,8 +171,8 @@ std::string MavlinkRecording::ChoosePositions(Vehicle& vehicle, SourceLog& log) 
 }
 
 std::string MavlinkRecording::ChooseHeadings(Vehicle& vehicle, SourceLog& log) {
-  const bool are_attitudes = !vehicle.attitude.empty();
-  log.heading = std::move(are_attitudes ? vehicle.attitude : vehicle.filtered_heading);
+  const bool are_attitudes = !vehicle.attitude.Samples().empty();
+  log.heading = std::move(are_attitudes ? vehicle.attitude : vehicle.filtered_heading).Release();
   if (log.heading.empty()) return {};
   const char* source = are_attitudes ? "ATTITUDE" : "GLOBAL_POSITION_INT";
   log.summary += std::string("; heading from ") + source;
@@ -229,14 +224,14 @@ SourceLog MavlinkRecording::Finish(const SourceOptions& options) && {
   const std::string of_outputs = ChooseOutputs(vehicle, options, log);
   log.summary += of_outputs + of_headings + of_positions +
                  AndCount(vehicle.without_fix, "positions without a fix") +
-                 AndCount(vehicle.repeated_fixes, "positions sent again");
+                 AndCount(vehicle.repeated_fixes, "positions sent again") + memory_.Summary();
   return log;
 }
 
 Result<SourceLog> ReadMavlinkTelemetryLog(const std::filesystem::path& file,
                                           const SourceOptions& options) {
   if (auto refusal = options.Validate()) return tl::unexpected(*std::move(refusal));
-  MavlinkRecording recording;
+  MavlinkRecording recording(options.memory_bytes);
   MavlinkTelemetryLog timed;
   MavlinkStream bare;
   std::optional<bool> is_bare;  // by how the file begins

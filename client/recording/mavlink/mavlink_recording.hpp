@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <map>
@@ -9,6 +10,7 @@
 
 #include "telltale/client/recording/mavlink/mavlink_messages.hpp"
 #include "telltale/client/recording/pulse_columns.hpp"
+#include "telltale/client/recording/sample_memory.hpp"
 #include "telltale/client/recording/source_log.hpp"
 
 namespace telltale {
@@ -45,6 +47,9 @@ struct MavlinkSender {
 /// thrusters.
 class MavlinkRecording {
  public:
+  /// `most_bytes`: of SampleMemory.
+  explicit MavlinkRecording(std::size_t most_bytes = kReadingBytes) : memory_(most_bytes) {}
+
   /// A frame of any message; those of no use are passed over.
   void Take(const MavlinkFrame& frame);
 
@@ -61,10 +66,17 @@ class MavlinkRecording {
 
  private:
   struct Vehicle {
-    std::vector<GnssFix> raw_fixes;
-    std::vector<GnssFix> filtered_fixes;  ///< none once there is a raw one
-    std::vector<HeadingSample> attitude;
-    std::vector<HeadingSample> filtered_heading;  ///< none once there is an attitude
+    explicit Vehicle(SampleMemory& memory)
+        : raw_fixes(memory),
+          filtered_fixes(memory),
+          attitude(memory),
+          filtered_heading(memory),
+          outputs(memory) {}
+
+    SampleSeries<GnssFix> raw_fixes;
+    SampleSeries<GnssFix> filtered_fixes;  ///< none once there is a raw one
+    SampleSeries<HeadingSample> attitude;
+    SampleSeries<HeadingSample> filtered_heading;  ///< none once there is an attitude
     PulseColumns outputs;
     AutopilotParameters parameters;
     std::uint64_t without_fix = 0;
@@ -77,6 +89,9 @@ class MavlinkRecording {
     std::size_t Samples() const;
   };
 
+  Vehicle& VehicleOf(const MavlinkSender& sender) {
+    return vehicles_.try_emplace(sender, memory_).first->second;
+  }
   std::pair<const MavlinkSender, Vehicle>* Chosen(const SourceOptions& options);
   static double OutputTime(Vehicle& vehicle, std::uint32_t time_us);
   // Each fills a channel, and returns the warning of a rate that is too low, if it is.
@@ -87,6 +102,7 @@ class MavlinkRecording {
 
   std::size_t SystemsWithSamples() const;
 
+  SampleMemory memory_;
   std::map<MavlinkSender, Vehicle> vehicles_;
   std::uint64_t messages_ = 0;
 };

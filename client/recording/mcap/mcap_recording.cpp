@@ -22,7 +22,8 @@ std::string_view MavlinkTypeOf(std::string_view topic) {
 /// say.
 class McapRecording {
  public:
-  explicit McapRecording(const SourceOptions& options) : options_(options), ros_(options) {}
+  explicit McapRecording(const SourceOptions& options)
+      : options_(options), ros_(options), mavlink_(options.memory_bytes) {}
 
   McapVisitor Visitor() {
     return {[this](const McapChannel& channel) { return Open(channel); }, options_.progress};

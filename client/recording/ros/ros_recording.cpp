@@ -41,6 +41,7 @@ void MakePulses(std::vector<SideCommand>& shares) {
 
 void RosRecording::Topic::Take(double at_s, const RosReading& reading,
                                const RosOutputChannels& channels) {
+  if (!HasPlaceFor(at_s)) return;
   const double time_s = reading.stamp_s.value_or(at_s);
   if (reading.position) {
     fixes.push_back({time_s, reading.position->latitude_deg, reading.position->longitude_deg});
@@ -63,6 +64,21 @@ void RosRecording::Topic::Take(double at_s, const RosReading& reading,
     case RosKind::kUnknown: break;
   }
   received_s.push_back(at_s);
+  Added(BytesOfRow());
+}
+
+std::size_t RosRecording::Topic::BytesOfRow() const {
+  return sizeof(double) + (fixes.empty() ? 0 : sizeof(GnssFix)) +
+         (headings.empty() ? 0 : sizeof(HeadingSample)) +
+         (commands.empty() ? 0 : sizeof(ThrusterSample)) + (told.empty() ? 0 : sizeof(SideCommand));
+}
+
+void RosRecording::Topic::KeepOnly(const std::vector<bool>& is_kept) {
+  KeepRows(received_s, is_kept);
+  KeepRows(fixes, is_kept);
+  KeepRows(headings, is_kept);
+  KeepRows(commands, is_kept);
+  KeepRows(told, is_kept);
 }
 
 double RosRecording::Topic::StampOf(std::size_t i) const {
@@ -94,7 +110,7 @@ MessageTaker RosRecording::Open(const RosChannel& channel, CdrReader::Encoding e
   RosTopic source(channel.topic, channel.type);
   if (source.Kind() == RosKind::kUnknown) return nullptr;
   Topic& topic =
-      topics_.try_emplace(std::string(channel.topic), Topic(std::move(source))).first->second;
+      topics_.try_emplace(std::string(channel.topic), memory_, std::move(source)).first->second;
   return [this, &topic, encoding](std::int64_t received_ns, std::span<const std::uint8_t> message) {
     ++topic.messages;
     if (const auto reading = topic.source.Read(message, encoding)) {
@@ -287,7 +303,7 @@ SourceLog RosRecording::Finish() && {
   if (best.position != nullptr) log.summary += TakePositions(*best.position, log);
   if (best.heading != nullptr) log.summary += TakeHeadings(*best.heading, log);
   log.summary += TakeCommands(best, log);
-  log.summary += RateWarnings(best, log) + clock + Faults();
+  log.summary += RateWarnings(best, log) + clock + Faults() + memory_.Summary();
   return log;
 }
 

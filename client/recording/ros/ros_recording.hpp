@@ -20,7 +20,7 @@
 namespace telltale {
 
 /// Gathers messages of ROS 2 topics; which topics count is chosen once all are read. Memory: 24 to
-/// 32 bytes a sample.
+/// 32 bytes a sample, as far as SampleMemory goes.
 ///
 /// Position: the topic of positions of the best type (NavSatFix, GeoPoseStamped, Odometry), of
 /// several the one with most fixes. Heading: a compass, else the topic of
@@ -32,7 +32,8 @@ namespace telltale {
 class RosRecording {
  public:
   /// Requires: options.Validate() is empty.
-  explicit RosRecording(const SourceOptions& options) : channels_(options) {}
+  explicit RosRecording(const SourceOptions& options)
+      : channels_(options), memory_(options.memory_bytes) {}
 
   /// Who takes the messages of a topic, for as long as this stays where it is. Definitions are not
   /// looked at: types are known by their names.
@@ -44,8 +45,8 @@ class RosRecording {
 
  private:
   /// What the messages of a topic say, at the times of their headers where they have them.
-  struct Topic {
-    explicit Topic(RosTopic topic) : source(std::move(topic)) {}
+  struct Topic : SampleRows {
+    Topic(SampleMemory& memory, RosTopic topic) : SampleRows(memory), source(std::move(topic)) {}
 
     bool IsEmpty() const { return received_s.empty(); }
     void Take(double at_s, const RosReading& reading, const RosOutputChannels& channels);
@@ -64,6 +65,13 @@ class RosRecording {
     std::vector<ThrusterSample> commands;  ///< of kOutputs and kDrive
     std::vector<SideCommand> told;         ///< of kSide: what the thruster was told, in its unit
     std::uint64_t without_channels = 0;    ///< messages of kOutputs with too few of them
+
+   private:
+    std::size_t BytesOfRow() const;
+    std::size_t Rows() const override { return received_s.size(); }
+    std::size_t Bytes() const override { return Rows() * BytesOfRow(); }
+    double TimeOf(std::size_t row) const override { return received_s[row]; }
+    void KeepOnly(const std::vector<bool>& is_kept) override;
   };
   using Named = std::pair<const std::string, Topic>;
 
@@ -97,6 +105,7 @@ class RosRecording {
   std::string Faults() const;
 
   RosOutputChannels channels_;
+  SampleMemory memory_;
   std::map<std::string, Topic, std::less<>> topics_;
 };
 

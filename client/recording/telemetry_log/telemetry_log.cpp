@@ -14,7 +14,7 @@
 namespace telltale {
 namespace {
 
-constexpr double kDayS = 86400.0;
+constexpr double kLongestPauseS = 86400.0;  // that a clock runs through
 
 constexpr int kTimeDecimals = 9;
 constexpr int kPositionDecimals = 9;
@@ -37,31 +37,23 @@ ThrusterSample SampleFrom(std::span<const double> row, const ThrusterSample*) {
 }
 
 template <class Sample>
-struct ChannelFile {
-  std::vector<Sample> samples;
-  MalformedRows malformed;
-};
-
-template <class Sample>
-Result<ChannelFile<Sample>> ReadChannel(const std::filesystem::path& file,
-                                        std::span<const std::string_view> columns) {
-  ChannelFile<Sample> channel;
+Result<MalformedRows> ReadChannel(const std::filesystem::path& file,
+                                  std::span<const std::string_view> columns,
+                                  SampleSeries<Sample>& samples) {
   const auto malformed = ReadCsv(file, columns, [&](std::span<const double> row) {
-    channel.samples.push_back(SampleFrom(row, static_cast<const Sample*>(nullptr)));
+    samples.Add(SampleFrom(row, static_cast<const Sample*>(nullptr)));
   });
-  if (!malformed) return tl::unexpected(malformed.error());
-  channel.malformed = *malformed;
-  if (!channel.samples.empty()) return channel;
-  const std::string rows = channel.malformed.count == 0
-                               ? "has a header and no row"
-                               : "has no usable row, only " +
-                                     std::to_string(channel.malformed.count) + " malformed rows";
+  if (!malformed || !samples.Samples().empty()) return malformed;
+  const std::string rows =
+      malformed->count == 0
+          ? "has a header and no row"
+          : "has no usable row, only " + std::to_string(malformed->count) + " malformed rows";
   return Refuse(file.string(), rows, "write one row of numbers per sample");
 }
 
 WindowLimits OneDayWindow() {
   WindowLimits limits;
-  limits.duration_s = kDayS;
+  limits.duration_s = kLongestRecordingS;
   limits.memory_bytes = std::numeric_limits<std::size_t>::max() / 2;
   return limits;
 }
@@ -103,7 +95,7 @@ bool IsEmpty(const Recording& r) {
 
 double ShiftAfter(double end_s, double start_s) {
   const double pause_s = start_s - end_s;
-  const bool may_stay = pause_s >= kGapBetweenLogsS && pause_s <= kDayS;
+  const bool may_stay = pause_s >= kGapBetweenLogsS && pause_s <= kLongestPauseS;
   return may_stay ? 0.0 : end_s + kGapBetweenLogsS - start_s;
 }
 
@@ -138,20 +130,25 @@ void AppendNumber(std::string& text, double value, int decimals, char after) {
 
 }  // namespace
 
-Result<TelemetryLog> ReadTelemetryLog(const std::filesystem::path& folder) {
+Result<TelemetryLog> ReadTelemetryLog(const std::filesystem::path& folder, std::size_t most_bytes) {
   if (!std::filesystem::is_directory(folder)) {
     return Refuse(folder.string(), "is not a folder",
                   "give a folder with gnss.csv, heading.csv and thrusters.csv");
   }
-  auto gnss = ReadChannel<GnssFix>(folder / "gnss.csv", kGnssColumns);
-  if (!gnss) return tl::unexpected(gnss.error());
-  auto heading = ReadChannel<HeadingSample>(folder / "heading.csv", kHeadingColumns);
-  if (!heading) return tl::unexpected(heading.error());
-  auto thrusters = ReadChannel<ThrusterSample>(folder / "thrusters.csv", kThrusterColumns);
-  if (!thrusters) return tl::unexpected(thrusters.error());
+  SampleMemory memory(most_bytes);
+  SampleSeries<GnssFix> gnss(memory);
+  SampleSeries<HeadingSample> heading(memory);
+  SampleSeries<ThrusterSample> thrusters(memory);
+  auto of_gnss = ReadChannel(folder / "gnss.csv", kGnssColumns, gnss);
+  if (!of_gnss) return tl::unexpected(of_gnss.error());
+  auto of_heading = ReadChannel(folder / "heading.csv", kHeadingColumns, heading);
+  if (!of_heading) return tl::unexpected(of_heading.error());
+  auto of_thrusters = ReadChannel(folder / "thrusters.csv", kThrusterColumns, thrusters);
+  if (!of_thrusters) return tl::unexpected(of_thrusters.error());
   return TelemetryLog{
-      {std::move(gnss->samples), std::move(heading->samples), std::move(thrusters->samples)},
-      {gnss->malformed, heading->malformed, thrusters->malformed}};
+      {std::move(gnss).Release(), std::move(heading).Release(), std::move(thrusters).Release()},
+      {*std::move(of_gnss), *std::move(of_heading), *std::move(of_thrusters)},
+      memory.Summary()};
 }
 
 Result<AdmittedLog> Admit(const RawChannels& channels) {
@@ -204,16 +201,18 @@ void WriteTelemetryLog(const std::filesystem::path& folder, const Recording& rec
 }
 
 Result<CommandLog> ReadCommands(const std::filesystem::path& file) {
-  const auto channel = ReadChannel<ThrusterSample>(file, kThrusterColumns);
-  if (!channel) return tl::unexpected(channel.error());
+  SampleMemory memory(std::numeric_limits<std::size_t>::max());  // a simulation takes all
+  SampleSeries<ThrusterSample> commands(memory);
+  const auto malformed = ReadChannel(file, kThrusterColumns, commands);
+  if (!malformed) return tl::unexpected(malformed.error());
   Window window(OneDayWindow());
-  for (const ThrusterSample& sample : channel->samples) window.Add(sample);
+  for (const ThrusterSample& sample : commands.Samples()) window.Add(sample);
   if (window.Empty()) {
     return Refuse(file.string(),
                   "has no usable row: " + Reasons(window.Rejected(), Channel::kThrusters),
                   "give pulse widths in [500, 2500] us");
   }
-  return CommandLog{window.Snapshot().thrusters, channel->malformed, window.Rejected()};
+  return CommandLog{window.Snapshot().thrusters, *malformed, window.Rejected()};
 }
 
 }  // namespace telltale

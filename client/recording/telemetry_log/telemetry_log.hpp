@@ -4,9 +4,11 @@
 #include <cstddef>
 #include <filesystem>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "telltale/client/recording/csv/numeric_csv.hpp"
+#include "telltale/client/recording/sample_memory.hpp"
 #include "telltale/client/recording/time_order.hpp"
 #include "telltale/core/base/result.hpp"
 #include "telltale/core/data/samples.hpp"
@@ -17,10 +19,12 @@ namespace telltale {
 struct TelemetryLog {
   RawChannels channels;                    ///< before any admission
   std::array<MalformedRows, 3> malformed;  ///< by channel
+  std::string left_out;                    ///< SampleMemory::Summary() of reading it
 };
 
 /// Refuses when: a file is missing, empty, without its columns, or without one readable row.
-Result<TelemetryLog> ReadTelemetryLog(const std::filesystem::path& folder);
+Result<TelemetryLog> ReadTelemetryLog(const std::filesystem::path& folder,
+                                      std::size_t most_bytes = kReadingBytes);
 
 /// What of a log can be trusted, by the rules of a live Window with room for a day.
 struct AdmittedLog {

@@ -1,5 +1,6 @@
 #include "telltale/client/recording/load_recording.hpp"
 
+#include <cstdint>
 #include <filesystem>
 #include <fstream>
 #include <map>
@@ -12,6 +13,8 @@
 #include <zstd.h>
 
 #include "support/dataflash_writer.hpp"
+#include "telltale/client/recording/gzip_file.hpp"
+#include "telltale/client/recording/zstd_frame.hpp"
 
 namespace telltale {
 namespace {
@@ -169,6 +172,19 @@ TEST_F(Loading, SaysThatACompressedFileIsCutOff) {
   ASSERT_FALSE(empty);
   EXPECT_EQ(empty.error().subject, (folder_ / "empty.gz").string());
   EXPECT_EQ(empty.error().reason, "is empty");
+}
+
+TEST_F(Loading, InflatesNoMoreThanItMay) {
+  const std::string zeros(1'000'000, '\0');
+  Write("zeros.gz", Gzip(zeros));
+  Write("zeros.zst", Zstd(zeros));
+  constexpr std::uint64_t kMost = 500'000;
+  for (const auto& inflated : {InflateGzipFile(folder_ / "zeros.gz", folder_ / "zeros", kMost),
+                               InflateZstdFile(folder_ / "zeros.zst", folder_ / "zeros", kMost)}) {
+    ASSERT_FALSE(inflated);
+    EXPECT_EQ(inflated.error().reason, "inflates to more than 0.0005 GB");
+    EXPECT_LE(std::filesystem::file_size(folder_ / "zeros"), kMost);
+  }
 }
 
 TEST_F(Loading, TakesTheOneRecordingOfAFolderAndNamesSeveral) {

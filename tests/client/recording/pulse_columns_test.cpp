@@ -11,7 +11,8 @@ namespace {
 
 TEST(PulseColumns, GivesEveryOutputBackAsItWas) {
   constexpr float kNone = std::numeric_limits<float>::quiet_NaN();
-  PulseColumns columns;
+  SampleMemory memory;
+  PulseColumns columns(memory);
   columns.Add(1.0, std::array{1500.0F, 1500.0F, 0.0F, kNone});
   columns.Add(2.0, std::array{1500.0F, 1600.0F, 0.0F, kNone});
   columns.Add(3.0, std::array{1500.0F, 1600.0F, 0.0F, 1100.0F});
@@ -29,7 +30,8 @@ TEST(PulseColumns, GivesEveryOutputBackAsItWas) {
 }
 
 TEST(PulseColumns, GivesNothingOfNothing) {
-  EXPECT_TRUE(PulseColumns().Of(1, 3).empty());
+  SampleMemory memory;
+  EXPECT_TRUE(PulseColumns(memory).Of(1, 3).empty());
 }
 
 }  // namespace

@@ -59,6 +59,20 @@ class TemporaryFile {
   std::filesystem::path path_;
 };
 
+TEST(DataFlash, ThinsWhatOutgrowsItsMemoryAndSaysSo) {
+  Rover4Writer writer = Ready();
+  for (std::uint64_t ms = 0; ms < 60'000; ++ms) {  // a minute of attitudes at 1 kHz
+    writer.Att(1000 * ms, 9000);
+    if (ms % 100 == 0) writer.Rcou(1000 * ms, 1500, 1500, 1600);
+  }
+  DataFlashOptions options;
+  options.memory_bytes = 100'000;
+  const DataFlashLog log = Parse(writer, options);
+  EXPECT_EQ(log.heading.size(), 60u * 50u);
+  EXPECT_EQ(log.thrusters.size(), 600u);
+  EXPECT_THAT(log.report.Summary(), HasSubstr("thinned by whole samples to 50 Hz"));
+}
+
 TEST(DataFlash, ReadsAFileCheckedByHand) {
   DataFlashWriter file;
   // FMT: type 130, length 3+8+1+4+4 = 20 = 0x14, "GPS", "QBLL", "TimeUS,Status,Lat,Lng" and 43 NULs

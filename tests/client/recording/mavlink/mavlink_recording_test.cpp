@@ -35,6 +35,22 @@ TEST(MavlinkRecording, TakesThreeChannelsOnTheAutopilotsClock) {
   EXPECT_DOUBLE_EQ(log.thrusters.at(0).starboard_us, 1400.0);
 }
 
+TEST(MavlinkRecording, ThinsWhatOutgrowsItsMemoryAndSaysSo) {
+  constexpr std::size_t kMost = 100'000;
+  MavlinkRecording recording(kMost);
+  NameOutputs(recording, 1);
+  for (std::uint32_t ms = 0; ms < 60'000; ++ms) {  // a minute of attitudes at 1 kHz
+    recording.Take(1, MavlinkAttitude{ms, 0.5F});
+    if (ms % 100 == 0) recording.Take(1, OutputAt(1000 * ms, 1600, 1400));
+    if (ms % 200 == 0) recording.Take(1, MavlinkGpsRawInt{1000 * ms, 63.4, 10.4, 3});
+  }
+  const SourceLog log = std::move(recording).Finish({});
+  EXPECT_EQ(log.gnss.size(), 300u);
+  EXPECT_EQ(log.thrusters.size(), 600u);
+  EXPECT_EQ(log.heading.size(), 60u * 50u);
+  EXPECT_THAT(log.summary, testing::HasSubstr("thinned by whole samples to 50 Hz"));
+}
+
 TEST(MavlinkRecording, CountsOneFixThatIsSentTwiceOnce) {
   MavlinkRecording recording;
   recording.Take(1, MavlinkGpsRawInt{2000000, 63.4, 10.4, 3});

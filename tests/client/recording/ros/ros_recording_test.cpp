@@ -41,6 +41,25 @@ TEST(RosRecording, TakesPositionsHeadingsAndOutputs) {
   EXPECT_THAT(log.summary, testing::HasSubstr("1 positions without a fix in /fix"));
 }
 
+TEST(RosRecording, ThinsWhatOutgrowsItsMemoryAndSaysSo) {
+  SourceOptions options;
+  options.memory_bytes = 50'000;
+  RosRecording recording(options);
+  constexpr int kSeconds = 60;
+  constexpr std::int64_t kRateHz = 200;
+  for (std::int64_t i = 0; i < kSeconds * kRateHz; ++i) {
+    const std::int64_t at_ns = i * kSecondNs / kRateHz;
+    Take(recording, "/boat/heading", "std_msgs/msg/Float64", at_ns, Cdr().Add(10.0).Bytes());
+    if (i % kRateHz != 0) continue;
+    const auto second = static_cast<std::int32_t>(i / kRateHz);
+    Take(recording, "/fix", "sensor_msgs/msg/NavSatFix", at_ns, NavSatFix(second, 0));
+  }
+  const SourceLog log = std::move(recording).Finish();
+  EXPECT_EQ(log.gnss.size(), 60u);
+  EXPECT_EQ(log.heading.size(), 60u * 25u);
+  EXPECT_THAT(log.summary, testing::HasSubstr("thinned by whole samples to 25 Hz"));
+}
+
 TEST(RosRecording, TakesTheChannelsOfOneBoatFromARecordingOfTwo) {
   RosRecording recording{SourceOptions{}};
   for (int i = 0; i < 3; ++i) {

@@ -62,6 +62,17 @@ TEST_F(TelemetryLogTest, ReadsTheThreeChannels) {
   EXPECT_EQ(recording.rejected.Total(), 0u);
 }
 
+TEST_F(TelemetryLogTest, ThinsWhatOutgrowsItsMemoryAndSaysSo) {
+  std::string rows = "time_s,heading_deg\n";
+  for (int ms = 0; ms < 60'000; ++ms) rows += std::to_string(ms) + "e-3,188.5\n";
+  folder.Write("heading.csv", rows);
+  const auto log = ReadTelemetryLog(folder.Path(), 80'000);
+  ASSERT_TRUE(log);
+  EXPECT_EQ(log->channels.heading.size(), 60u * 50u);
+  EXPECT_EQ(log->channels.gnss.size(), 2u);
+  EXPECT_THAT(log->left_out, testing::HasSubstr("thinned by whole samples to 50 Hz"));
+}
+
 TEST_F(TelemetryLogTest, GivesTheRawSamples) {
   const auto log = ReadTelemetryLog(folder.Path());
   ASSERT_TRUE(log);
