@@ -39,8 +39,24 @@ std::string OthersText(const std::set<std::string, std::less<>>& others) {
   return text.empty() ? "" : "; left out, though the mapping matches: " + text;
 }
 
+/// A pattern and a topic in a form to compare: some recorders begin topics with a slash, others do
+/// not.
+struct ComparedTopic {
+  ComparedTopic(std::string_view of_pattern, std::string_view of_topic)
+      : pattern(of_pattern), topic(of_topic) {
+    // A star stands for the slash too.
+    if (pattern.empty() || pattern.starts_with('*')) return;
+    if (pattern.starts_with('/')) pattern.remove_prefix(1);
+    if (topic.starts_with('/')) topic.remove_prefix(1);
+  }
+
+  std::string_view pattern;
+  std::string_view topic;
+};
+
 /// What the first star of a pattern stands for in a topic that it matches.
-std::string_view FirstStarIn(std::string_view pattern, std::string_view topic) {
+std::string_view FirstStarIn(const ComparedTopic& compared) {
+  const auto [pattern, topic] = compared;
   const std::size_t star = pattern.find('*');
   const std::string_view behind = pattern.substr(star + 1);
   const std::string_view next = behind.substr(0, behind.find('*'));
@@ -58,7 +74,8 @@ bool AreOneNamespace(std::string_view a, std::string_view b) {
 
 }  // namespace
 
-bool TopicMatches(std::string_view pattern, std::string_view topic) {
+bool TopicMatches(std::string_view of_pattern, std::string_view of_topic) {
+  const auto [pattern, topic] = ComparedTopic(of_pattern, of_topic);
   std::size_t p = 0;
   std::size_t t = 0;
   std::size_t star = std::string_view::npos;
@@ -101,10 +118,12 @@ bool MappedSamples::IsFrom(Source& source, std::string_view pattern, std::string
 }
 
 bool MappedSamples::IsOfTheBoat(std::string_view pattern, std::string_view topic) {
-  const std::size_t star = pattern.find('*');
+  const ComparedTopic compared(pattern, topic);
+  const std::size_t star = compared.pattern.find('*');
   if (star == std::string_view::npos) return true;
-  const std::string_view stands_for = FirstStarIn(pattern, topic);
-  const auto [boat, is_first] = boat_.try_emplace(std::string(pattern.substr(0, star)), stands_for);
+  const std::string_view stands_for = FirstStarIn(compared);
+  const auto [boat, is_first] =
+      boat_.try_emplace(std::string(compared.pattern.substr(0, star)), stands_for);
   return is_first || AreOneNamespace(boat->second, stands_for);
 }
 

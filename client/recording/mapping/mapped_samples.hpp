@@ -15,8 +15,9 @@
 
 namespace telltale {
 
-/// Whether a topic has this name, in which * stands for any characters.
-bool TopicMatches(std::string_view pattern, std::string_view topic);
+/// Whether a topic has this name, in which * stands for any characters. A slash at the beginning of
+/// either is left out of account.
+bool TopicMatches(std::string_view of_pattern, std::string_view of_topic);
 
 /// Where samples go, one by one, in the order in which they come.
 struct SampleSink {

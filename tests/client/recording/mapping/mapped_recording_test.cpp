@@ -92,6 +92,10 @@ TEST(TopicMatches, StarsStandForAnyCharacters) {
   EXPECT_TRUE(TopicMatches("a*b*c", "aXbXbXc"));
   EXPECT_TRUE(TopicMatches("", ""));
   EXPECT_FALSE(TopicMatches("", "/x"));
+  EXPECT_FALSE(TopicMatches("", "/"));
+  EXPECT_TRUE(TopicMatches("mavlink/*/ATTITUDE", "/mavlink/1/1/ATTITUDE"));
+  EXPECT_TRUE(TopicMatches("/gps/fix", "gps/fix"));
+  EXPECT_FALSE(TopicMatches("/gps/fix", "//gps/fix"));
 }
 
 TEST(MappedRecording, ConvertsUnitsAndFrames) {
@@ -124,6 +128,23 @@ TEST(MappedRecording, ConvertsUnitsAndFrames) {
   EXPECT_DOUBLE_EQ(log.thrusters[1].port_us, 1100.0);       // full astern
   EXPECT_DOUBLE_EQ(log.thrusters[1].starboard_us, 1900.0);
   EXPECT_THAT(log.summary, HasSubstr("1 rows without a position"));
+}
+
+TEST(MappedRecording, ThinsWhatOutgrowsItsMemoryAndSaysSo) {
+  const Mapping mapping = MappingOf(R"(
+    time { field: "t" unit: "ms" }
+    positions { latitude: "lat" longitude: "lon" unit: "deg" }
+    headings { field: "yaw" unit: "deg" }
+    port { field: "l" unit: "us" }
+    starboard { field: "r" unit: "us" }
+  )");
+  MappedRecording recording(mapping, 60'000);
+  for (int ms = 0; ms < 60'000; ms += 2) {
+    recording.Take("", 9.0, MappedNumbers({{"t", ms}, {"yaw", 30.0}}));
+  }
+  const SourceLog log = std::move(recording).Finish("rows");
+  EXPECT_EQ(log.heading.size(), 60u * 50u);
+  EXPECT_THAT(log.summary, HasSubstr("thinned by whole samples to 50 Hz"));
 }
 
 TEST(MappedRecording, CountsHeldValuesOnceAndLeavesOutWhatIsNoFix) {
@@ -174,6 +195,28 @@ TEST(MappedRecording, TakesAllChannelsFromTheBoatThatSpeaksFirst) {
   EXPECT_EQ(log.thrusters[0].port_us, 1501.0);
   EXPECT_EQ(log.thrusters[0].starboard_us, 1601.0);
   EXPECT_THAT(log.summary, HasSubstr("left out, though the mapping matches: /boat2/mavros/rc/out"));
+}
+
+TEST(MappedRecording, TakesOneOfTwoBoatsWhoseTopicsBeginWithASlash) {
+  const Mapping mapping = MappingOf(R"(
+    positions { topic: "boats/*/fix" latitude: "lat" longitude: "lon" }
+    headings { topic: "/boats/*/heading" field: "deg" }
+    port { topic: "boats/*/left" field: "us" unit: "us" }
+    starboard { topic: "boats/*/right" field: "us" unit: "us" }
+  )");
+  MappedRecording recording(mapping);
+  const auto speak = [&](const std::string& boat, double latitude_deg) {
+    recording.Take(boat + "/fix", 9.0, MappedNumbers({{"lat", latitude_deg}, {"lon", 10.4}}));
+    recording.Take(boat + "/heading", 9.0, MappedNumbers({{"deg", latitude_deg}}));
+  };
+  speak("/boats/a", 63.0);
+  speak("/boats/b", 64.0);
+  speak("boats/a/", 65.0);  // another name
+  const SourceLog log = std::move(recording).Finish("messages");
+  ASSERT_EQ(log.gnss.size(), 1u);
+  ASSERT_EQ(log.heading.size(), 1u);
+  EXPECT_EQ(log.gnss[0].latitude_deg, 63.0);
+  EXPECT_EQ(log.heading[0].heading_deg, 63.0);
 }
 
 TEST(MappedRecording, TakesTopicsThatStandBelowTheNamespaceOfOthers) {
@@ -295,17 +338,20 @@ TEST(ShippedMappings, FindTheChannelsOfTheirRecordings) {
     messages.OpenRos({"/cmd_drive", "heron_msgs/msg/Drive", ""}, kRos1)(100 * kSecondNs,
                                                                         drive.Bytes());
   }));
-  expect_boat(gather("blueos", [&](MappedMessages& messages) {
-    const auto take = [&](const char* topic, const std::string& json) {
-      messages.OpenJson(topic)(0,
-                               {reinterpret_cast<const std::uint8_t*>(json.data()), json.size()});
-    };
-    take("mavlink/1/1/GPS_RAW_INT",
-         R"({"message":{"time_usec":100000000,"lat":634000000,"lon":104000000}})");
-    take("mavlink/1/1/ATTITUDE", R"({"message":{"time_boot_ms":100000,"yaw":1.0471975511965976}})");
-    take("mavlink/1/1/SERVO_OUTPUT_RAW",
-         R"({"message":{"time_usec":100000000,"servo1_raw":1700,"servo3_raw":1300}})");
-  }));
+  for (const std::string slash : {"", "/"}) {  // its recorders differ in this
+    expect_boat(gather("blueos", [&](MappedMessages& messages) {
+      const auto take = [&](const char* topic, const std::string& json) {
+        messages.OpenJson(slash + topic)(
+            0, {reinterpret_cast<const std::uint8_t*>(json.data()), json.size()});
+      };
+      take("mavlink/1/1/GPS_RAW_INT",
+           R"({"message":{"time_usec":100000000,"lat":634000000,"lon":104000000}})");
+      take("mavlink/1/1/ATTITUDE",
+           R"({"message":{"time_boot_ms":100000,"yaw":1.0471975511965976}})");
+      take("mavlink/1/1/SERVO_OUTPUT_RAW",
+           R"({"message":{"time_usec":100000000,"servo1_raw":1700,"servo3_raw":1300}})");
+    }));
+  }
 }
 
 TEST(RosMessageType, ReadsFieldsOfADefinitionOfItsOwn) {
