@@ -13,7 +13,7 @@ namespace {
 constexpr const char* kLogFormats =
     "a recording: a telemetry log (a folder with gnss.csv, heading.csv and thrusters.csv), an "
     "ArduPilot .BIN, a .tlog, an .mcap of ROS 2 or BlueOS, a rosbag2 folder or .db3, a ROS 1 "
-    ".bag, or one CSV file with --map";
+    ".bag, or one CSV file with --map; a file may be compressed as a whole (.gz, .zst)";
 
 template <class Target>
 CLI::Option* AddLogOption(CLI::App& command, Target& target, const std::string& description) {
