@@ -43,7 +43,7 @@ class McapFile {
         stated_channels = fields.Read<std::uint32_t>();
       }
     }
-    defines_all_channels_ = stated_channels == channels_.size();
+    defines_all_channels_ = stated_channels == defined_channels_;
   }
 
   /// Returns how many bytes of whole records there are.
@@ -162,7 +162,14 @@ class McapFile {
     channel.encoding = std::string(fields.Text());
     if (!fields.Ok()) return;
     channel.take = visitor_.open(channel.Described());
+    if (channels_.size() <= id) channels_.resize(id + std::size_t{1});
+    defined_channels_ += channels_[id] ? 0 : 1;
     channels_[id] = std::move(channel);
+  }
+
+  /// Null: it is not defined.
+  const Channel* ChannelOf(std::uint16_t id) const {
+    return id < channels_.size() && channels_[id] ? &*channels_[id] : nullptr;
   }
 
   void TakeMessage(McapFields fields) {
@@ -171,14 +178,14 @@ class McapFile {
     const auto log_time_ns = static_cast<std::int64_t>(fields.Read<std::uint64_t>());
     fields.Read<std::uint64_t>();  // time of publication
     if (!fields.Ok()) return;
-    const auto channel = channels_.find(id);
-    if (channel == channels_.end()) {
+    const Channel* const channel = ChannelOf(id);
+    if (channel == nullptr) {
       ++damage_.unknown_channels;
       return;
     }
-    if (!channel->second.IsOfUse()) return;
+    if (!channel->IsOfUse()) return;
     ++damage_.messages;
-    channel->second.take(log_time_ns, fields.Rest());
+    channel->take(log_time_ns, fields.Rest());
   }
 
   /// Reads the index of a chunk, where it lets the chunk be passed over; true: its end is still to
@@ -195,9 +202,9 @@ class McapFile {
   std::uint64_t BytesOfUse(std::uint64_t size) const {
     if (!has_index_) return size;
     return index_.BytesOfUse(size, [this](std::uint16_t id) -> std::optional<bool> {
-      const auto channel = channels_.find(id);
-      if (channel == channels_.end()) return std::nullopt;
-      return channel->second.IsOfUse();
+      const Channel* const channel = ChannelOf(id);
+      if (channel == nullptr) return std::nullopt;
+      return channel->IsOfUse();
     });
   }
 
@@ -269,7 +276,8 @@ class McapFile {
 
   const McapVisitor& visitor_;
   std::map<std::uint16_t, Schema> schemas_;
-  std::map<std::uint16_t, Channel> channels_;
+  std::vector<std::optional<Channel>> channels_;  ///< by id: each message looks one up
+  std::uint32_t defined_channels_ = 0;
   McapChunkIndex index_;  ///< of the chunk at hand
   std::unique_ptr<std::uint8_t[]> chunk_;
   std::size_t room_ = 0;  ///< of it

@@ -45,7 +45,7 @@ class McapFields {
   explicit McapFields(Bytes bytes) : bytes_(bytes) {}
 
   template <class Number>
-  Number Read() {
+  [[gnu::always_inline]] Number Read() {
     static_assert(std::endian::native == std::endian::little);
     Number value{};
     const Bytes raw = Take(sizeof(Number));
@@ -56,7 +56,7 @@ class McapFields {
     const Bytes raw = Take(Read<std::uint32_t>());
     return {reinterpret_cast<const char*>(raw.data()), raw.size()};
   }
-  Bytes Take(std::uint64_t length) {
+  [[gnu::always_inline]] Bytes Take(std::uint64_t length) {
     ok_ = ok_ && length <= bytes_.size();
     if (!ok_) return {};
     const Bytes taken = bytes_.first(static_cast<std::size_t>(length));
