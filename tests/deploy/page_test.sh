@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Walks the page of real daemons in Chromium: tests/web/{page,large_fleet}_test.mjs.
+# Walks the page of real daemons in Chromium: tests/web/{page,large_fleet,fleet_map}_test.mjs.
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
 built=${TELLTALE_BUILT:-$root/build/release}
@@ -18,7 +18,7 @@ if grep -qx 'TELLTALE_PAGE:BOOL=OFF' "$built/CMakeCache.txt"; then
 fi
 modules=$built/tests/page
 mkdir -p "$modules/pictures"
-cp -p "$root"/tests/web/{package.json,package-lock.json,page_walk.mjs,page_test.mjs,large_fleet_test.mjs} "$modules"
+cp -p "$root"/tests/web/{package.json,package-lock.json,page_walk.mjs,page_test.mjs,large_fleet_test.mjs,fleet_map_test.mjs} "$modules"
 if [[ ! -f $modules/node_modules/.package-lock.json || $modules/package-lock.json -nt $modules/node_modules/.package-lock.json ]]; then
   (cd "$modules" && npm ci --no-audit --no-fund --loglevel=error)
 fi

@@ -3,7 +3,7 @@
 // Exits 0 when all is well. It restarts nothing itself: page_test.py writes "restarted" to its standard input.
 import assert from "node:assert/strict";
 import { createInterface } from "node:readline";
-import { accessible, address, answerOf, count, expectFaults, fits, names, newPage, open, walk } from "./page_walk.mjs";
+import { accessible, address, answerOf, count, expectFaults, fits, names, namesOnMap, newPage, open, walk } from "./page_walk.mjs";
 
 const [boat, token, pictures] = process.argv.slice(4);
 
@@ -40,6 +40,25 @@ await walk({
     assert.deepEqual(shown.verdicts, Array(shown.counted).fill("stale"));
     await stale.click();
     await count(page, ".boats tbody tr", all);
+    await page.context().close();
+  },
+  async "the map names the boat that the focus is on, and the one that the pointer is on"() {
+    const page = await open(1280);
+    await page.locator(".map-names span").first().waitFor();
+    const named = page.locator(".map-names .pointed-at");
+    await page.getByRole("searchbox").fill(boat);
+    await page.keyboard.press("ArrowDown");
+    await named.getByText(boat, { exact: true }).waitFor();
+    // The boat stands beside its name: one of the places around it is the boat's.
+    const [{ left, right, top, bottom }] = (await namesOnMap(page)).filter(({ id }) => id === boat);
+    await page.getByRole("searchbox").focus();
+    await named.waitFor({ state: "detached" });
+    const [x, y] = [(left + right) / 2, (top + bottom) / 2];
+    for (const [atX, atY] of [[left - 11, y], [right + 11, y], [x, bottom + 11], [x, top - 11]]) {
+      await page.mouse.move(atX, atY);
+      if (await named.count() > 0) break;
+    }
+    assert.deepEqual(await named.allTextContents(), [boat]);
     await page.context().close();
   },
   async "the keyboard alone reaches a boat and comes back"() {

@@ -19,12 +19,25 @@ def ended(job):
     return job if job["state"] != "RUNNING" else None
 
 
+def on_the_map(daemon):
+    """The verdicts of the boats that have a position."""
+    fleet = daemon.get("/api/v1/vehicles?limit=1000")["vehicles"]
+    return [vehicle["verdict"] for vehicle in fleet if "position" in vehicle]
+
+
 MANY_BOATS = 1000
 
 
 def main(modules, pictures, browser):
-    with Daemon(more=MANY_BOATS - 1) as daemon:
+    with Daemon(more=MANY_BOATS - 1, named="load-{:05}") as daemon:
         code = walk(daemon, modules, "large_fleet_test.mjs", browser, MANY_BOATS)
+        if code != 0:
+            sys.exit(code)
+        with daemon.loading(MANY_BOATS - 2):
+            until(lambda: len(on_the_map(daemon)) == MANY_BOATS - 2, "a position of every boat that sends")
+        with daemon.loading(MANY_BOATS // 2):
+            until(lambda: len(set(on_the_map(daemon))) > 1, "another verdict of boats that fell silent")
+            code = walk(daemon, modules, "fleet_map_test.mjs", browser, MANY_BOATS, pictures)
         if code != 0:
             sys.exit(code)
     with Daemon(more=5) as daemon:

@@ -65,6 +65,24 @@ export const count = (page, selector, wanted) =>
 
 export const names = (page) => page.locator(".boats tbody th").allTextContents();
 
+/** The boats that have a name on the map, and the box of each name. None covers another or leaves the map. */
+export async function namesOnMap(page) {
+  const found = await page.evaluate(() => {
+    const boxOf = (element) => element.getBoundingClientRect().toJSON();
+    return {
+      map: boxOf(document.querySelector(".map")),
+      names: [...document.querySelectorAll(".map-names span")].map((span) => ({ id: span.textContent, ...boxOf(span) })),
+    };
+  });
+  const apart = (a, b) => a.right <= b.left || b.right <= a.left || a.bottom <= b.top || b.bottom <= a.top;
+  found.names.forEach((name, i) => {
+    const { map } = found;
+    assert.ok(name.left >= map.left && name.right <= map.right && name.top >= map.top && name.bottom <= map.bottom, name.id);
+    for (const other of found.names.slice(i + 1)) assert.ok(apart(name, other), `${name.id} covers ${other.id}`);
+  });
+  return found.names;
+}
+
 export async function accessible(page, where) {
   // By the debugger, since the page's own policy lets no foreign script in.
   await page.evaluate(axe);

@@ -29,9 +29,10 @@ def until(condition, what, seconds=240):
 
 
 class Daemon:
-    """Serves deploy/sample's boat and `more` others, on a free port and a domain of its own."""
+    """Serves deploy/sample's boat and `more` others `named` so, on a free port and a domain of its own."""
 
-    def __init__(self, token=True, more=0, connections=32, port=0, folder=None, http=""):
+    def __init__(self, token=True, more=0, connections=32, port=0, folder=None, http="",
+                 named="boat-{:04}"):
         self._temporary = None if folder else tempfile.TemporaryDirectory()
         self.folder = pathlib.Path(folder or self._temporary.name)
         self.environment = dict(os.environ, TELLTALE_DDS_TAG=f"web-{os.getpid()}",
@@ -41,7 +42,7 @@ class Daemon:
         vehicle = (SAMPLE / f"{BOAT}.textproto").read_text()
         names = []
         for number in range(more):
-            name = self.folder / f"boat-{number:04}.textproto"
+            name = self.folder / f"{named.format(number)}.textproto"
             name.write_text(vehicle.replace(f'"{BOAT}"', f'"{name.stem}"'))
             names.append(f'vehicle_files: "{name}"\n')
         self.config = self.folder / "telltaled.textproto"
@@ -127,6 +128,18 @@ class Daemon:
             finally:
                 replay.terminate()
                 replay.wait(timeout=60)
+
+    @contextlib.contextmanager
+    def loading(self, boats):
+        """Sparse telemetry of load-00001 and so many more, until the block ends."""
+        load = subprocess.Popen([BUILT / "client/telltale", "load", "--boats", str(boats), "--times", "0.1",
+                                 "--duration", "3600", "--domain", "78"],
+                                env=self.environment, stdout=subprocess.DEVNULL)
+        try:
+            yield load
+        finally:
+            load.terminate()
+            load.wait(timeout=60)
 
     def ask(self, method, route, body=None, headers=None):
         """Status, headers and text of one request."""

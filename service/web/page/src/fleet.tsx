@@ -1,4 +1,4 @@
-import { useEffect, useRef, useState } from "preact/hooks";
+import { useEffect, useMemo, useRef, useState } from "preact/hooks";
 import type { Summary, Verdict } from "./api";
 import { duration, percent, significant, urgency } from "./format";
 import { TrackMap, type Track } from "./map";
@@ -36,11 +36,14 @@ function compare(a: Summary, b: Summary, { column, descends }: Order): number {
   return sign * difference || byName(a.vehicleId, b.vehicleId);
 }
 
-function Row({ vehicle, now }: { vehicle: Summary; now: number }) {
+function Row({ vehicle, now, pointAt }: { vehicle: Summary; now: number; pointAt: (id?: string) => void }) {
   const modelled = vehicle.modelRevision > 0;
   return (
     <tr class={vehicle.verdict.toLowerCase()}>
-      <th scope="row"><a href={`#/boat/${encodeURIComponent(vehicle.vehicleId)}`}>{vehicle.vehicleId}</a></th>
+      <th scope="row">
+        <a href={`#/boat/${encodeURIComponent(vehicle.vehicleId)}`} onFocus={() => pointAt(vehicle.vehicleId)}
+          onBlur={() => pointAt()}>{vehicle.vehicleId}</a>
+      </th>
       <td class="verdict">
         <Badge verdict={vehicle.verdict} />
         <span class="muted since">for {duration(now - vehicle.verdictSinceUnixS)}</span>
@@ -91,14 +94,15 @@ export function FleetView({ vehicles, tracks, now, heard }: {
   const [shown, setShown] = useState<Set<Verdict>>(new Set());
   const [order, setOrder] = useState<Order>({ column: "verdict", descends: false });
   const [rows, setRows] = useState(kRowsAtOnce);
+  const [pointedAt, pointAt] = useState<string>();  // the boat of the row that has the focus
   const table = useRef<HTMLTableElement>(null);
   const search = useRef<HTMLInputElement>(null);
   useKeys(table, search);
 
-  const matching = vehicles
+  const matching = useMemo(() => vehicles
     .filter((vehicle) => shown.size === 0 || shown.has(vehicle.verdict))
     .filter((vehicle) => vehicle.vehicleId.toLowerCase().includes(text.toLowerCase()))
-    .sort((a, b) => compare(a, b, order));
+    .sort((a, b) => compare(a, b, order)), [vehicles, shown, text, order]);
   const toggle = (verdict: Verdict) => {
     const next = new Set(shown);
     if (!next.delete(verdict)) next.add(verdict);
@@ -108,7 +112,10 @@ export function FleetView({ vehicles, tracks, now, heard }: {
     setOrder(order.column === column
       ? { column, descends: !order.descends }
       : { column, descends: column !== "vehicleId" && column !== "verdict" });
-  const ids = new Set(matching.map((vehicle) => vehicle.vehicleId));
+  const onMap = useMemo(() => {
+    const ids = new Set(matching.map((vehicle) => vehicle.vehicleId));
+    return tracks.filter((track) => ids.has(track.id));
+  }, [matching, tracks]);
 
   return (
     <main>
@@ -140,7 +147,7 @@ export function FleetView({ vehicles, tracks, now, heard }: {
               </tr>
             </thead>
             <tbody>
-              {matching.slice(0, rows).map((vehicle) => <Row key={vehicle.vehicleId} vehicle={vehicle} now={now} />)}
+              {matching.slice(0, rows).map((vehicle) => <Row key={vehicle.vehicleId} vehicle={vehicle} now={now} pointAt={pointAt} />)}
             </tbody>
           </table>
           {matching.length === 0 && <p class="empty">{vehicles.length > 0 ? "No boat matches." : heard ? kServesNone : "Waiting for the first report."}</p>}
@@ -150,8 +157,8 @@ export function FleetView({ vehicles, tracks, now, heard }: {
             </button>}
         </section>
         <section aria-label="Map" class="card map-card">
-          <TrackMap tracks={tracks.filter((track) => ids.has(track.id))}
-            label={`Tracks of ${ids.size} boats over the last ten minutes, north up`}
+          <TrackMap tracks={onMap} pointedAt={pointedAt}
+            label={`Tracks of ${onMap.length} boats over the last ten minutes, north up`}
             select={(id) => { location.hash = `#/boat/${encodeURIComponent(id)}`; }} />
         </section>
       </div>

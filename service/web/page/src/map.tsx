@@ -1,5 +1,6 @@
-import { useEffect, useRef, useState } from "preact/hooks";
+import { useEffect, useMemo, useRef, useState } from "preact/hooks";
 import type { Verdict } from "./api";
+import { MapNames, placeNames, type Box, type Place } from "./map_names";
 
 export interface Track {
   id: string;
@@ -12,7 +13,9 @@ export interface Track {
 const kLeastUrgentFirst: Verdict[] = ["UNKNOWN", "OK", "WARN", "STALE", "ERROR"];
 const kMetresPerDegree = 111_320;
 const kMarginPx = 36;
-const kNamedAtMost = 30;
+const kReachPx = 24;  // of the pointer, to the nearest boat
+const kScalePx = { width: 140, height: 36 };
+const kNorthPx = { width: 34, height: 48 };
 const kLeastStepPx = 1.5;  // a shorter one is not seen, and a large fleet has many
 const kPositionsAtOnce = 4000;  // of tracks, for one frame
 const kOutline = [[0, -10], [6, 7], [0, 4], [-6, 7]] as const;  // of a boat, its bow up
@@ -114,33 +117,32 @@ function addBoat(path: Path2D, { x, y, headingDeg }: Place) {
   path.closePath();
 }
 
-interface Place {
-  id: string;
-  x: number;
-  y: number;
-  headingDeg?: number;
-}
-
 /** Where the boats are on the canvas. */
 function placesOf(tracks: Track[], to: Projection): Place[] {
-  return tracks.flatMap(({ id, latitudeDeg, longitudeDeg, headingDeg }) => {
+  return tracks.flatMap(({ id, verdict, latitudeDeg, longitudeDeg, headingDeg }) => {
     const latitude = latitudeDeg.at(-1);
     const longitude = longitudeDeg.at(-1);
     return latitude === undefined || longitude === undefined ? []
-      : [{ id, x: to.x(longitude), y: to.y(latitude), headingDeg }];
+      : [{ id, verdict, x: to.x(longitude), y: to.y(latitude), headingDeg }];
   });
 }
 
-function drawNames(context: CanvasRenderingContext2D, places: Place[], width: number, surface: string, ink: string) {
-  context.lineWidth = 3;
-  context.strokeStyle = surface;
-  context.fillStyle = ink;
+/** Where the scale and the arrow to north stand. */
+function cornersOf({ width, height }: Box): Box[] {
+  return [
+    { left: 0, top: height - kScalePx.height, ...kScalePx },
+    { left: width - kNorthPx.width, top: height - kNorthPx.height, ...kNorthPx },
+  ];
+}
+
+/** The boat nearest to the pointer, within its reach. */
+function boatAt(places: Place[], event: MouseEvent): string | undefined {
+  let [nearest, least]: [string | undefined, number] = [undefined, kReachPx];
   for (const { id, x, y } of places) {
-    const length = context.measureText(id).width;
-    const left = x + 11 + length <= width - 4 ? x + 11 : Math.max(4, x - 11 - length);
-    context.strokeText(id, left, y + 4);
-    context.fillText(id, left, y + 4);
+    const distance = Math.hypot(event.offsetX - x, event.offsetY - y);
+    if (distance < least) [nearest, least] = [id, distance];
   }
+  return nearest;
 }
 
 /** Boats of one look. */
@@ -191,11 +193,12 @@ function drawTracks(context: CanvasRenderingContext2D, { tracks, lineWidth }: Gr
 function drawBoats(context: CanvasRenderingContext2D, { tracks }: Group, to: Projection, ink: string, surface: string) {
   const boats = new Path2D();
   for (const place of placesOf(tracks, to)) addBoat(boats, place);
+  // The rims below: above, those of a crowd would cover the crowd.
+  context.strokeStyle = surface;
+  context.lineWidth = 2;
+  context.stroke(boats);
   context.fillStyle = ink;
   context.fill(boats);
-  context.strokeStyle = surface;
-  context.lineWidth = 1.5;
-  context.stroke(boats);
 }
 
 /** A drawing of the map, which takes a frame for each part of the tracks; what stands before is seen until it is done. */
@@ -248,7 +251,6 @@ class Drawing {
     context.font = "12px system-ui, sans-serif";
     for (const group of this.groups) drawBoats(context, group, to, this.colourOf(group.verdict), surface);
     const places = placesOf(this.tracks, to);
-    if (this.tracks.length <= kNamedAtMost) drawNames(context, places, width, surface, this.colour("--ink"));
     drawScale(context, to, height, muted);
     drawNorth(context, width, height, muted);
     this.show(places);
@@ -262,22 +264,31 @@ class Drawing {
   }
 }
 
-/** The tracks of the last minutes, drawn without tiles. A click on a boat selects it. */
-export function TrackMap({ tracks, selected, select, label }: {
+/**
+ * The tracks of the last minutes, drawn without tiles. A click on a boat selects it; a boat that the pointer is on, or
+ * that is `pointedAt` elsewhere, has its name.
+ */
+export function TrackMap({ tracks, selected, pointedAt, select, label }: {
   tracks: Track[];
   selected?: string;
+  pointedAt?: string;
   select?: (id: string) => void;
   label: string;
 }) {
   const canvas = useRef<HTMLCanvasElement>(null);
-  const places = useRef<Place[]>([]);
-  const [, setSize] = useState(0);
+  const [map, setMap] = useState<Box>({ left: 0, top: 0, width: 0, height: 0 });
+  const [places, setPlaces] = useState<Place[]>([]);
+  const [hovered, setHovered] = useState<string>();
+  const [looks, setLooks] = useState(0);  // counts light and dark
   useEffect(() => {
     if (!canvas.current) return;
-    const observer = new ResizeObserver(() => setSize((count) => count + 1));
+    const observer = new ResizeObserver(([entry]) => {
+      const { width, height } = entry!.contentRect;
+      setMap({ left: 0, top: 0, width, height });
+    });
     observer.observe(canvas.current);
     const scheme = matchMedia("(prefers-color-scheme: dark)");
-    const redraw = () => setSize((count) => count + 1);
+    const redraw = () => setLooks((count) => count + 1);
     scheme.addEventListener("change", redraw);
     return () => {
       observer.disconnect();
@@ -294,22 +305,24 @@ export function TrackMap({ tracks, selected, select, label }: {
   };
   useEffect(() => {
     next.current = () => new Drawing(canvas.current!, tracks, selected, (found) => {
-      places.current = found;
+      setPlaces(found);
       drawNext();
     });
     if (!drawing.current) drawNext();
-  });
+  }, [tracks, selected, map, looks]);
   useEffect(() => () => drawing.current?.stop(), []);
+  const first = hovered ?? pointedAt;
+  const names = useMemo(() => placeNames(places, map, cornersOf(map), [first, selected]), [places, map, first, selected]);
   const click = (event: MouseEvent) => {
-    const near = places.current
-      .map(({ id, x, y }) => ({ id, distance: Math.hypot(event.offsetX - x, event.offsetY - y) }))
-      .sort((a, b) => a.distance - b.distance)[0];
-    if (near && near.distance < 24) select?.(near.id);
+    const boat = boatAt(places, event);
+    if (boat) select?.(boat);
   };
   const positioned = tracks.some((track) => track.latitudeDeg.length > 0);
   return (
     <div class={positioned ? "map" : "map blank"}>
-      <canvas ref={canvas} role="img" aria-label={label} onClick={click} />
+      <canvas ref={canvas} role="img" aria-label={label} class={hovered && select ? "over-boat" : ""} onClick={click}
+        onPointerMove={(event) => setHovered(boatAt(places, event))} onPointerLeave={() => setHovered(undefined)} />
+      <MapNames names={names} pointedAt={first} />
       {!positioned && <p class="empty">No position has arrived yet.</p>}
     </div>
   );
