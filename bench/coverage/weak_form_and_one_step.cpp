@@ -18,6 +18,7 @@
 #include "telltale/core/estimation/regression/lagged_regression.hpp"
 #include "telltale/core/estimation/regression/one_step.hpp"
 #include "telltale/core/estimation/weak_form/weak_iv.hpp"
+#include "telltale/core/identification/clock_alignment.hpp"
 #include "telltale/core/uncertainty/bootstrap.hpp"
 #include "telltale/core/uncertainty/bootstrap_correction.hpp"
 #include "telltale/core/uncertainty/clustered_fit.hpp"
@@ -102,15 +103,10 @@ struct ReplicateResult {
   std::optional<CoverageOutcome> one_step;
 };
 
-PreparedDataset Prepared(const Recording& recording, std::optional<std::size_t> half_width) {
-  PrepareOptions options;
-  if (half_width) {
-    options.smoothing_half_width = *half_width;
-    options.longest_segment_s = 60.0;
-  }
-  auto dataset = Prepare(recording, VehicleOf(), options);
-  if (!dataset) throw std::runtime_error(dataset.error().reason);
-  return *std::move(dataset);
+template <class Value>
+Value Answered(Result<Value> answer) {
+  if (!answer) throw std::runtime_error(answer.error().reason);
+  return *std::move(answer);
 }
 
 CoverageOutcome CompareWithTruth(const Eigen::VectorXd& theta, const Eigen::VectorXd& half_width,
@@ -159,11 +155,12 @@ void CheckPredictionBand(const Scenario& scenario, const WeakFit& fit,
 std::optional<CoverageOutcome> RunWeakIv(const CoverageScenario& scenario,
                                          const Recording& recording,
                                          std::size_t parametric_replicates, std::uint64_t seed) {
-  const PreparedDataset dataset =
-      Prepared(recording, SmoothingFor(Prepared(recording, std::nullopt)));
-  RegressionOptions regression;
+  IdentifyOptions identify;
+  RegressionOptions& regression = identify.regression;
   if (scenario.Lags()) regression.structure = Structure::kFirstOrderDynamic;
-  const WeakIvOptions options;
+  const WeakIvOptions& options = identify.weak_iv;
+  const PreparedDataset dataset =
+      Answered(PrepareWithClocksAligned(recording, VehicleOf(), identify)).dataset;
   const auto columns = AllColumns(Parameterization::kPropeller);
   const auto fit = EstimateWeakIv(dataset, regression, columns, options);
   if (!fit) return std::nullopt;
@@ -206,7 +203,7 @@ std::optional<std::vector<ClusteredFit>> FitOneStep(const Scenario& scenario,
 /// The paper's recipe, with a bootstrap over segments.
 std::optional<CoverageOutcome> RunOneStep(const Scenario& scenario, const Recording& recording,
                                           std::uint64_t seed) {
-  const auto fits = FitOneStep(scenario, Prepared(recording, std::nullopt));
+  const auto fits = FitOneStep(scenario, Answered(Prepare(recording, VehicleOf(), {})));
   if (!fits) return std::nullopt;
   const BootstrapReplicates replicates = Bootstrap(*fits, {400, seed, 1});
   Eigen::VectorXd theta(TruthOf(scenario).size());

@@ -46,6 +46,18 @@ class HeldCommands {
     for (PropellerCommand& command : commands_) command = change(command);
   }
 
+  /// Replaces each time by change(the time before as it was, time) and keeps their order. The first
+  /// one stays.
+  template <class Change>
+  void ForEachTime(Change change) {
+    double before_s = times_s_.front();
+    for (std::size_t i = 1; i < times_s_.size(); ++i) {
+      const double time_s = times_s_[i];
+      times_s_[i] = std::max(times_s_[i - 1], change(before_s, time_s));
+      before_s = time_s;
+    }
+  }
+
   const std::vector<double>& Times() const { return times_s_; }
   const std::vector<PropellerCommand>& Commands() const { return commands_; }
 

@@ -44,6 +44,9 @@ struct SensorProperties {
   double position_noise_m = 0.0;  ///< one sigma of white noise per axis, by WhiteNoise
   double heading_noise_rad = 0.0;
   LeverArm antenna;
+  /// Commands change uniformly within so long about their stamps, and never by more than half the
+  /// time to the stamp before. Zero: at their stamps.
+  double command_spread_s = 0.0;
 };
 
 /// The sensor readings along one segment and a little beyond its ends, unfiltered.

@@ -3,6 +3,7 @@
 #include "telltale/core/base/version.hpp"
 #include "telltale/core/data/preparation.hpp"
 #include "telltale/core/estimation/regression/dead_zone_estimate.hpp"
+#include "telltale/core/identification/clock_alignment.hpp"
 #include "telltale/core/identification/coverage_check.hpp"
 #include "telltale/core/identification/equation_estimates.hpp"
 #include "telltale/core/identification/estimator_selection.hpp"
@@ -87,6 +88,35 @@ Result<Identification> IdentifyPhysically(const Recording& recording, const Vehi
   return identification;
 }
 
+/// One-step least squares takes the clocks for one.
+Result<AlignedDataset> PrepareFor(const IdentifyOptions& options, const Recording& recording,
+                                  const Vehicle& vehicle) {
+  if (options.estimator != Estimator::kOneStep)
+    return PrepareWithClocksAligned(recording, vehicle, options);
+  auto dataset = Prepare(recording, vehicle, options.prepare);
+  if (!dataset) return tl::unexpected(dataset.error());
+  return AlignedDataset{*std::move(dataset), {}, {}};
+}
+
+/// Only the weak form's bounds carry what is not known of the delays.
+IdentifyOptions WithEstimatorFor(const AlignedDataset& aligned, IdentifyOptions options) {
+  if (!options.estimator && aligned.removed.Any()) options.estimator = Estimator::kWeakIv;
+  return options;
+}
+
+void ReportDelays(const AlignedDataset& aligned, const IdentifyOptions& options,
+                  Identification& identification) {
+  if (!aligned.removed.Any()) return;
+  identification.refusals.push_back(
+      WarnOfDelays(aligned, identification.estimator == Estimator::kWeakIv));
+  if (!options.estimator) {
+    identification.provenance.estimator_choice =
+        "weak-form instrumental variables, since the clocks disagree and only its bounds carry "
+        "what "
+        "is not known of the delays";
+  }
+}
+
 }  // namespace
 
 Result<Identification> Identify(const Recording& recording, const Vehicle& vehicle,
@@ -98,15 +128,17 @@ Result<Identification> Identify(const Recording& recording, const Vehicle& vehic
   // The identification takes as long as one replicate of the coverage check.
   const double share = 1.0 / (1.0 + static_cast<double>(options.coverage_check_replicates));
   if (progress) progress("preparing data", 0.0);
-  const auto dataset = options.estimator == Estimator::kOneStep
-                           ? Prepare(recording, vehicle, options.prepare)
-                           : PrepareForWeakIv(recording, vehicle, options.prepare);
-  if (!dataset) return tl::unexpected(dataset.error());
+  const auto aligned = PrepareFor(options, recording, vehicle);
+  if (!aligned) return tl::unexpected(aligned.error());
   auto identification =
-      Identify(*dataset, vehicle.vehicle_id, options, ProgressWithin(progress, 0.0, share));
-  if (!identification || options.coverage_check_replicates == 0) return identification;
-  auto coverage_check = CheckCoverage(recording, vehicle, *identification, options,
-                                      ProgressWithin(progress, share, 1.0));
+      Identify(aligned->dataset, vehicle.vehicle_id, WithEstimatorFor(*aligned, options),
+               ProgressWithin(progress, 0.0, share));
+  if (!identification) return identification;
+  ReportDelays(*aligned, options, *identification);
+  if (options.coverage_check_replicates == 0) return identification;
+  auto coverage_check =
+      CheckCoverage(WithoutDelays(recording, aligned->removed), vehicle, *identification, options,
+                    ProgressWithin(progress, share, 1.0));
   if (coverage_check) {
     identification->coverage_check = *std::move(coverage_check);
   } else {

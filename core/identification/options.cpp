@@ -66,6 +66,7 @@ std::string_view Name(DeadZoneSource source) {
 IdentifyOptions IdentifyOptions::OneStep() {
   IdentifyOptions options;
   options.estimator = Estimator::kOneStep;
+  options.weak_iv.delays = false;  // the paper takes the clocks for one
   return options;
 }
 

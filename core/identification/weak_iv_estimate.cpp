@@ -99,6 +99,14 @@ void CountTestFunctions(const WeakFit& fit, EquationEstimates& equation_estimate
   }
 }
 
+/// Unknown delays take up part of what filtering does to a fit. Replicates correct for that; where
+/// there are none the clocks are taken for one.
+WeakIvOptions FitOptionsOf(const IdentifyOptions& options) {
+  WeakIvOptions of_fit = options.weak_iv;
+  of_fit.delays = of_fit.delays && options.parametric_replicates > 0;
+  return of_fit;
+}
+
 Refusal WarnOfUncorrectedBias() {
   return {"bounds",
           "fewer than half of the parametric bootstrap replicates could be identified, so "
@@ -125,11 +133,13 @@ Eigen::VectorXd ReportedIntervalFactors(const ReportedParameters& reported_param
   return factors;
 }
 
-std::string InWords(const BootstrapCorrection& corrected, Eigen::Index clusters) {
+std::string InWords(const BootstrapCorrection& corrected, const WeakFit& fit) {
   std::ostringstream words;
   words.precision(3);
-  words << "clusters of residuals (" << clusters << "), bias corrected and bounds calibrated by "
-        << corrected.solved << " parametric bootstrap replicates, Student t";
+  words << "clusters of residuals (" << fit.scores.cols()
+        << "), bias corrected and bounds calibrated by " << corrected.solved
+        << " parametric bootstrap replicates, Student t";
+  if (fit.delays) words << "; delays between the channels are among the unknowns";
   return words.str();
 }
 
@@ -174,13 +184,13 @@ void WriteBounds(const Bounding& bounding, const WeakFit& fit, const PreparedDat
   bounded.recording_bias = RecordingBiasesOf(parameters, reported, bounded.bounds, dataset);
 }
 
-void WriteProvenance(const BootstrapCorrection& corrected, Eigen::Index clusters,
+void WriteProvenance(const BootstrapCorrection& corrected, const WeakFit& fit,
                      BoundedEstimates& bounded) {
   bounded.bounds.joint = corrected.joint;
   bounded.disturbance = corrected.disturbance;
   bounded.provenance.parametric_replicates = corrected.solved;
   bounded.provenance.parametric_replicate_failures = corrected.failures;
-  bounded.provenance.bounds_basis = InWords(corrected, clusters);
+  bounded.provenance.bounds_basis = InWords(corrected, fit);
 }
 
 }  // namespace
@@ -202,7 +212,8 @@ PreliminaryWeakFit FitPreliminaryWeakForm(const PreparedDataset& dataset,
       AssessExcitation(dataset, regression, options.excitation), {}, std::nullopt};
   preliminary.columns = ExcitedColumns(preliminary.equation_estimates);
   if (preliminary.equation_estimates.Any()) {
-    preliminary.fit = EstimateWeakIv(dataset, regression, preliminary.columns, options.weak_iv);
+    preliminary.fit =
+        EstimateWeakIv(dataset, regression, preliminary.columns, FitOptionsOf(options));
   }
   return preliminary;
 }
@@ -222,7 +233,7 @@ Result<BoundedEstimates> BoundWeakIv(const PreparedDataset& dataset,
       EstimableColumns(dataset, regression, options.weak_iv.form, equation_estimates);
   const auto fit = preliminary && preliminary->columns == columns
                        ? preliminary->fit
-                       : EstimateWeakIv(dataset, regression, columns, options.weak_iv);
+                       : EstimateWeakIv(dataset, regression, columns, FitOptionsOf(options));
   if (!fit || fit->scores.cols() < 2 || !ClusterCovariance(*fit).allFinite()) {
     return tl::unexpected(RefuseWeakInstruments());
   }
@@ -242,14 +253,15 @@ Result<BoundedEstimates> BoundWeakIv(const PreparedDataset& dataset,
       WriteBounds({corrected->theta, corrected->covariance, corrected->interval_factors,
                    corrected->degrees_of_freedom},
                   *fit, dataset, separable, options.interval_level, bounded);
-      WriteProvenance(*corrected, clusters, bounded);
+      WriteProvenance(*corrected, *fit, bounded);
       return bounded;
     }
     equation_estimates.refusals.push_back(WarnOfUncorrectedBias());
   }
   WriteBounds(ByClusters(*fit), *fit, dataset, separable, options.interval_level, bounded);
   bounded.provenance.bounds_basis =
-      "clusters of residuals (" + std::to_string(clusters) + "), Student t; not corrected for bias";
+      "clusters of residuals (" + std::to_string(clusters) +
+      "), Student t; not corrected for bias, and the clocks taken for one";
   return bounded;
 }
 

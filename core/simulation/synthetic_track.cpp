@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
+
+#include <boost/random/uniform_real_distribution.hpp>
 
 #include "telltale/core/simulation/divergence.hpp"
 
@@ -11,6 +14,7 @@ namespace {
 constexpr double kLongestStepS = 0.1;
 // The sensors draw from the streams before it.
 constexpr std::uint64_t kFirstDisturbanceStream = 10;
+constexpr std::uint64_t kCommandTimesStream = 15;
 constexpr std::array kVelocities = {&Nu::u, &Nu::v, &Nu::r};
 
 /// The cubic through two values and their slopes, at `share` of the step.
@@ -93,18 +97,21 @@ SegmentSimulator::SegmentSimulator(const PreparedDataset& dataset, const VesselM
               std::ceil(dataset.sampling_period_s / kLongestStepS - 1e-9)),
       as_measured_(options.as_measured),
       disturbance_(
-          DrawDisturbances(options.disturbance, step_s_, options.seed, kFirstDisturbanceStream)) {}
+          DrawDisturbances(options.disturbance, step_s_, options.seed, kFirstDisturbanceStream)),
+      command_spread_s_(dataset.sensors.command_spread_s),
+      command_times_(RandomEngine::Stream(options.seed, kCommandTimesStream)) {}
 
 Result<SyntheticTrack> SegmentSimulator::Simulate(const SimulatedSegment& segment,
                                                   const ConstantDisturbance& constant_disturbance) {
   const auto steps = static_cast<std::size_t>(std::lround(segment.Duration() / step_s_));
   SyntheticTrack track(segment.start_s, step_s_, steps);
   TrackInstant now{segment.First().eta, segment.First().nu};
-  ThrustRegressors thrust = ThrustAtStart(segment);
+  const HeldCommands commands = AsTheyAct(segment.Commands());
+  ThrustRegressors thrust = ThrustAtStart(commands, segment.First().time_s);
   track.Add(now);
   for (std::size_t k = 0; k < steps; ++k) {
     const double from_s = segment.First().time_s + static_cast<double>(k) * step_s_;
-    NuDot applied = PropelledOver(segment, from_s, thrust);
+    NuDot applied = PropelledOver(commands, from_s, thrust);
     const NuDot constant = constant_disturbance.At(now.eta.psi_rad);
     applied = {applied.u + constant.u + disturbance_[0].Next(),
                applied.v + constant.v + disturbance_[1].Next(),
@@ -119,11 +126,20 @@ Result<SyntheticTrack> SegmentSimulator::Simulate(const SimulatedSegment& segmen
   return track;
 }
 
+/// The commands as they act when they were sampled out of something that changes in between.
+HeldCommands SegmentSimulator::AsTheyAct(HeldCommands recorded) {
+  if (command_spread_s_ <= 0.0) return recorded;
+  boost::random::uniform_real_distribution<double> share(-0.5, 0.5);
+  recorded.ForEachTime([&](double before_s, double time_s) {
+    return time_s + std::min(command_spread_s_, time_s - before_s) * share(command_times_);
+  });
+  return recorded;
+}
+
 /// The thrust as the segment begins, after the commands that precede it.
-ThrustRegressors SegmentSimulator::ThrustAtStart(const SimulatedSegment& segment) const {
-  const HeldCommands& commands = segment.Commands();
+ThrustRegressors SegmentSimulator::ThrustAtStart(const HeldCommands& commands,
+                                                 double start_s) const {
   ThrustRegressors thrust = model_.SteadyThrust(commands.Commands().front());
-  const double start_s = segment.First().time_s;
   if (commands.Times().front() >= start_s) return thrust;
   commands.ForEachPiece(commands.Times().front(), start_s,
                         [&](const PropellerCommand& delta, double from, double to) {
@@ -133,10 +149,10 @@ ThrustRegressors SegmentSimulator::ThrustAtStart(const SimulatedSegment& segment
 }
 
 /// The propellers' mean acceleration over a step; advances `thrust` to the step's end.
-NuDot SegmentSimulator::PropelledOver(const SimulatedSegment& segment, double from_s,
+NuDot SegmentSimulator::PropelledOver(const HeldCommands& commands, double from_s,
                                       ThrustRegressors& thrust) const {
   NuDot propelled;
-  segment.Commands().ForEachPiece(
+  commands.ForEachPiece(
       from_s, from_s + step_s_, [&](const PropellerCommand& delta, double from, double to) {
         if (to <= from) return;
         const double share = (to - from) / step_s_;

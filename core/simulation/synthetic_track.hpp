@@ -7,6 +7,7 @@
 #include <Eigen/Core>
 
 #include "telltale/core/base/gauss_markov.hpp"
+#include "telltale/core/base/random.hpp"
 #include "telltale/core/base/result.hpp"
 #include "telltale/core/data/prepared_dataset.hpp"
 #include "telltale/core/simulation/synthetic_dataset.hpp"
@@ -70,7 +71,8 @@ struct SimulatedSegment {
 
 /// Simulates the segments of a dataset in their order, with one disturbance process throughout.
 /// Model: nu_dot = Phi(nu, T) theta + constant disturbance + d; velocities by a Runge-Kutta step of
-/// order four at a tenth of a second or less, poses by Simpson's rule.
+/// order four at a tenth of a second or less, poses by Simpson's rule. Commands change about their
+/// stamps as SensorProperties::command_spread_s says.
 class SegmentSimulator {
  public:
   SegmentSimulator(const PreparedDataset& dataset, const VesselModel& model,
@@ -81,9 +83,9 @@ class SegmentSimulator {
                                   const ConstantDisturbance& constant_disturbance);
 
  private:
-  ThrustRegressors ThrustAtStart(const SimulatedSegment& segment) const;
-  NuDot PropelledOver(const SimulatedSegment& segment, double from_s,
-                      ThrustRegressors& thrust) const;
+  HeldCommands AsTheyAct(HeldCommands recorded);
+  ThrustRegressors ThrustAtStart(const HeldCommands& commands, double start_s) const;
+  NuDot PropelledOver(const HeldCommands& commands, double from_s, ThrustRegressors& thrust) const;
   TrackInstant Advance(const TrackInstant& now, const NuDot& applied, const Nu& measured) const;
 
   const VesselModel& model_;
@@ -92,6 +94,8 @@ class SegmentSimulator {
   double step_s_;
   std::array<bool, 3> as_measured_;
   std::array<GaussMarkov, 3> disturbance_;
+  double command_spread_s_;
+  RandomEngine command_times_;
 };
 
 }  // namespace telltale

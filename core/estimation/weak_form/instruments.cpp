@@ -62,8 +62,12 @@ std::array<PredictedSupports, 3> Instruments::Predict(
     const std::span<const PredictedInstant> rows(predicted.data() + part.rows.begin,
                                                  part.rows.size());
     const FilteringLoss loss(rows, kernel_);
+    const DelayDerivatives derivatives(
+        dynamics, rows, std::span(thrust.filtered).subspan(part.rows.begin, part.rows.size()),
+        dataset_.sampling_period_s);
     for (std::size_t j = 0; j < whole.size(); ++j) {
       if (whole[j].Z.size() > 0) ProjectPart(j, thrust, predicted, part, loss, whole[j]);
+      if (simulated[j]) AddDelayDerivatives(j, part, derivatives, whole[j].by_delay);
     }
   }
   std::array<PredictedSupports, 3> sought;
@@ -71,18 +75,21 @@ std::array<PredictedSupports, 3> Instruments::Predict(
     if (!simulated[j]) continue;
     const PredictedSupports& supports = whole[projected_as[j]];
     sought[j] = {supports.Z(Eigen::all, columns[j]),
-                 supports.filtering_loss(Eigen::all, columns[j])};
+                 supports.filtering_loss(Eigen::all, columns[j]), std::move(whole[j].by_delay)};
   }
   return sought;
 }
 
-/// Of every column, sought or not, for the equations that are projected themselves.
+/// Of every column, sought or not, for the equations that are projected themselves; of the delays,
+/// for all that are simulated.
 std::array<PredictedSupports, 3> Instruments::ZeroSupports(
     const std::array<bool, 3>& simulated, const std::array<std::size_t, 3>& projected_as) const {
   std::array<PredictedSupports, 3> whole;
   for (std::size_t j = 0; j < whole.size(); ++j) {
-    if (!simulated[j] || projected_as[j] != j) continue;
+    if (!simulated[j]) continue;
     const auto supports = std::ssize(problem_.supports[j].first_rows);
+    whole[j].by_delay.resize(supports, DelayDerivatives::kDelays);
+    if (projected_as[j] != j) continue;
     whole[j].Z.resize(supports, ColumnsOf(problem_, kEquations[j]));
     whole[j].filtering_loss = Eigen::MatrixXd::Zero(supports, whole[j].Z.cols());
   }
@@ -145,27 +152,41 @@ RegressorRows Instruments::PredictedRows(Equation equation, const FilteredThrust
   return rows;
 }
 
-void Instruments::ProjectPart(std::size_t equation, const FilteredThrust& thrust,
-                              const std::vector<PredictedInstant>& predicted, const Part& part,
-                              const FilteringLoss& loss, PredictedSupports& supports) const {
+/// Calls visit(support, its first row in the part) for each support centred in the part.
+template <class Visit>
+void Instruments::ForEachSupport(std::size_t equation, const Part& part, Visit visit) const {
   const auto& first_rows = problem_.supports[equation].first_rows;
   const std::size_t half = problem_.phi.Rows() / 2;
-  const Equation name = kEquations[equation];
-  const RegressorRows rows = PredictedRows(name, thrust, predicted, part);
-  const Eigen::VectorXd& weights = problem_.phi.value;
   const std::size_t first_centred = part.centres.begin - std::min(part.centres.begin, half);
-  Eigen::RowVectorXd sum(rows.cols());
   for (auto at = std::ranges::lower_bound(first_rows, first_centred);
        at != first_rows.end() && *at + half < part.centres.end; ++at) {
     if (*at + half < part.centres.begin) continue;
-    const auto first = static_cast<Eigen::Index>(*at - part.rows.begin);
+    visit(at - first_rows.begin(), static_cast<Eigen::Index>(*at - part.rows.begin));
+  }
+}
+
+void Instruments::ProjectPart(std::size_t equation, const FilteredThrust& thrust,
+                              const std::vector<PredictedInstant>& predicted, const Part& part,
+                              const FilteringLoss& loss, PredictedSupports& supports) const {
+  const Equation name = kEquations[equation];
+  const RegressorRows rows = PredictedRows(name, thrust, predicted, part);
+  const Eigen::VectorXd& weights = problem_.phi.value;
+  Eigen::RowVectorXd sum(rows.cols());
+  ForEachSupport(equation, part, [&](Eigen::Index support, Eigen::Index first) {
     sum.noalias() = weights.transpose() * rows.middleRows(first, weights.size());
     const Eigen::RowVectorXd filtering_loss =
         loss.Over(first, name == Equation::kSurge, smoothed_phi_, weights);
-    const auto support = static_cast<Eigen::Index>(at - first_rows.begin());
     supports.Z.row(support) = sum;
     supports.filtering_loss.row(support).head(filtering_loss.size()) = filtering_loss;
-  }
+  });
+}
+
+void Instruments::AddDelayDerivatives(std::size_t equation, const Part& part,
+                                      const DelayDerivatives& derivatives,
+                                      Eigen::MatrixXd& by_delay) const {
+  ForEachSupport(equation, part, [&](Eigen::Index support, Eigen::Index first) {
+    by_delay.row(support) = derivatives.Over(first, equation, problem_.phi);
+  });
 }
 
 }  // namespace telltale

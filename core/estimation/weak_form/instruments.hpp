@@ -6,6 +6,7 @@
 #include <Eigen/Core>
 
 #include "telltale/core/data/prepared_dataset.hpp"
+#include "telltale/core/estimation/weak_form/delay_derivatives.hpp"
 #include "telltale/core/estimation/weak_form/filtering_loss.hpp"
 #include "telltale/core/estimation/weak_form/projection.hpp"
 #include "telltale/core/vessel/body_dynamics.hpp"
@@ -18,6 +19,7 @@ namespace telltale {
 struct PredictedSupports {
   Eigen::MatrixXd Z;               ///< int phi_k Phi(nu, T) dt
   Eigen::MatrixXd filtering_loss;  ///< int phi_k (F Phi(nu) - Phi(F nu)) dt, FilteringLoss
+  Eigen::MatrixXd by_delay;        ///< supports x kDelays, DelayDerivatives
 };
 
 /// Velocities that a model predicts from the commands, docs/concepts/model.md (31). They share the
@@ -56,6 +58,10 @@ class Instruments {
   void ProjectPart(std::size_t equation, const FilteredThrust& thrust,
                    const std::vector<PredictedInstant>& predicted, const Part& part,
                    const FilteringLoss& loss, PredictedSupports& supports) const;
+  void AddDelayDerivatives(std::size_t equation, const Part& part,
+                           const DelayDerivatives& derivatives, Eigen::MatrixXd& by_delay) const;
+  template <class Visit>
+  void ForEachSupport(std::size_t equation, const Part& part, Visit visit) const;
 
   const PreparedDataset& dataset_;
   const WeakProblem& problem_;

@@ -6,31 +6,43 @@
 namespace telltale {
 namespace {
 
-Eigen::MatrixXd Prepend(const Eigen::VectorXd& first, const Eigen::MatrixXd& others) {
-  Eigen::MatrixXd all(others.rows(), 1 + others.cols());
-  all << first, others;
+Eigen::Index ColumnsOf(const std::vector<Eigen::MatrixXd>& derivatives) {
+  return derivatives.empty() ? 0 : derivatives.front().cols();
+}
+
+/// The columns of one equation: by the time constant, of its coefficients, by the delays; those of
+/// shared unknowns multiplied by `weight`.
+Eigen::MatrixXd Beside(const SharedDerivatives& shared, std::size_t i, const Eigen::MatrixXd& own,
+                       double weight) {
+  const Eigen::Index lags = ColumnsOf(shared.by_lag);
+  const Eigen::Index delays = ColumnsOf(shared.by_delay);
+  Eigen::MatrixXd all(own.rows(), lags + own.cols() + delays);
+  if (lags > 0) all.leftCols(lags) = weight * shared.by_lag[i];
+  all.middleCols(lags, own.cols()) = own;
+  if (delays > 0) all.rightCols(delays) = weight * shared.by_delay[i];
   return all;
 }
 
 }  // namespace
 
 StackedSystem StackEquations(const ProjectedEquations& equations,
-                             const std::vector<Eigen::MatrixXd>& Z,
-                             const std::vector<Eigen::MatrixXd>& by_lag,
+                             const std::vector<Eigen::MatrixXd>& Z, const SharedDerivatives& shared,
                              const std::vector<double>& weights) {
-  const bool lagging = !by_lag.empty();
-  Eigen::Index P = lagging ? 1 : 0;
+  const Eigen::Index lags = ColumnsOf(shared.by_lag);
+  const Eigen::Index delays = ColumnsOf(shared.by_delay);
+  Eigen::Index P = lags + delays;
   for (const ProjectedEquation& equation : equations) P += equation.G.cols();
   StackedSystem system{Eigen::MatrixXd::Zero(P, P), Eigen::VectorXd::Zero(P), {}};
-  Eigen::Index next = lagging ? 1 : 0;
+  Eigen::Index next = lags;
   for (std::size_t i = 0; i < equations.size(); ++i) {
     const ProjectedEquation& equation = equations[i];
     StackedEquation stacked;
-    if (lagging) stacked.places.push_back(0);
+    for (Eigen::Index j = 0; j < lags; ++j) stacked.places.push_back(j);
     for (Eigen::Index j = 0; j < equation.G.cols(); ++j) stacked.places.push_back(next++);
-    stacked.Z = lagging ? Prepend(weights[i] * by_lag[i], Z[i]) : Z[i];
+    for (Eigen::Index j = P - delays; j < P; ++j) stacked.places.push_back(j);
+    stacked.Z = Beside(shared, i, Z[i], weights[i]);
     system.A(stacked.places, stacked.places) +=
-        stacked.Z.transpose() * (lagging ? Prepend(by_lag[i], equation.G) : equation.G);
+        stacked.Z.transpose() * Beside(shared, i, equation.G, 1.0);
     system.c(stacked.places) += stacked.Z.transpose() * equation.b;
     system.equations.push_back(std::move(stacked));
   }

@@ -24,14 +24,23 @@ struct WeakEstimate {
   Eigen::VectorXd residual;
 };
 
+/// Delays between the channels, docs/concepts/model.md (36), in seconds: of the commands, of the
+/// fixes, both against the headings.
+struct DelayEstimates {
+  Eigen::Vector2d delays_s = Eigen::Vector2d::Zero();
+  Eigen::Matrix2d covariance = Eigen::Matrix2d::Zero();
+};
+
 /// Shapes, with P the stacked unknowns (the time constant first if it is sought, then the
-/// coefficients of each answered equation): bread P x P = (Z'G)^-1; scores P x clusters, which sum
-/// to Z'e. Each column holds the contribution of the whitened residuals of one cluster's supports.
+/// coefficients of each answered equation) and Q those and the delays, if they are sought: bread
+/// P x Q, the rows of (Z'G)^-1 that belong to theta; scores Q x clusters, which sum to Z'e. Each
+/// column holds the contribution of the whitened residuals of one cluster's supports.
 /// theta - truth = bread Z'e, so Cov(theta) = bread Cov(sum of scores) bread'.
 struct WeakFit {
   WeakProblem problem;
   std::array<std::optional<WeakEstimate>, 3> equations;
   std::optional<double> time_constant_s;
+  std::optional<DelayEstimates> delays;  ///< where they are sought
   Eigen::VectorXd theta;
   Eigen::MatrixXd bread;
   Eigen::MatrixXd scores;

@@ -17,6 +17,7 @@ namespace telltale {
 namespace {
 
 constexpr double kLeastSquares = 1e-300;  // of residuals, so that logarithms and weights are finite
+constexpr double kDelayPriorS = 0.15;     // one sigma, as that of the physical form
 
 Eigen::VectorXd ResidualOf(const ProjectedEquation& equation, const Eigen::VectorXd& theta) {
   return equation.b - equation.G * theta;
@@ -145,19 +146,25 @@ class WeakIvIteration {
         ModelWith(problem_, equations_, regularised_),
         ConstantDisturbancesWith(problem_, equations_, regularised_), columns_, thrust_);
     completed_ = WithFilteringLoss(equations_, predicted);
+    by_delay_ = options_.delays ? ByDelay(equations_, predicted) : std::vector<Eigen::MatrixXd>();
     std::vector<Eigen::MatrixXd> by_lag;
     if (time_constant_s_)
       by_lag = LagDerivatives(dataset_, problem_, equations_, thetas_, *time_constant_s_);
     whitenings_ = WhiteningsOf(problem_, completed_, thetas_);
     const ProjectedEquations white = Whitened(whitenings_, completed_);
     const auto white_Z = Whitened(whitenings_, InstrumentsOf(equations_, predicted));
-    system_ = StackEquations(white, white_Z, Whitened(whitenings_, by_lag),
+    system_ = StackEquations(white, white_Z,
+                             {Whitened(whitenings_, by_lag), Whitened(whitenings_, by_delay_)},
                              ResidualWeights(white, thetas_));
-    auto bread = InvertScaled(system_.A);
-    if (!bread) return false;
-    bread_ = *std::move(bread);
-    const Eigen::VectorXd solution = bread_ * system_.c;
+    if (options_.delays) {
+      system_.A.diagonal().tail<kDelays>().array() += 1.0 / (kDelayPriorS * kDelayPriorS);
+    }
+    auto inverse = InvertScaled(system_.A);
+    if (!inverse) return false;
+    inverse_ = *std::move(inverse);
+    const Eigen::VectorXd solution = inverse_ * system_.c;
     UnstackThetas(solution, time_constant_s_ ? 1 : 0, thetas_);
+    if (options_.delays) delays_s_ = solution.tail<kDelays>();
     regularised_ = SolveRegularised(white, white_Z, options_.ridge);
     if (time_constant_s_) {
       ChangeTimeConstant(solution[0]);
@@ -171,10 +178,11 @@ class WeakIvIteration {
     WeakFit fit;
     fit.problem = problem_;
     fit.time_constant_s = time_constant_s_;
-    fit.bread = bread_;
-    fit.theta.resize(bread_.rows());
-    fit.scores = Eigen::MatrixXd::Zero(bread_.rows(), static_cast<Eigen::Index>(problem_.clusters));
-    Eigen::MatrixXd meat = Eigen::MatrixXd::Zero(bread_.rows(), bread_.rows());
+    const Eigen::Index unknowns = inverse_.rows();
+    fit.bread = inverse_.topRows(options_.delays ? unknowns - kDelays : unknowns);
+    fit.theta.resize(fit.bread.rows());
+    fit.scores = Eigen::MatrixXd::Zero(unknowns, static_cast<Eigen::Index>(problem_.clusters));
+    Eigen::MatrixXd meat = Eigen::MatrixXd::Zero(unknowns, unknowns);
     Eigen::Index next = 0;
     if (time_constant_s_) fit.theta[next++] = *time_constant_s_;
     for (std::size_t i = 0; i < completed_.size(); ++i) {
@@ -188,11 +196,28 @@ class WeakIvIteration {
       meat(places, places) += StationaryMeat(problem_, index, innovations, Z);
       fit.equations[index] = std::move(estimate);
     }
-    fit.stationary_covariance = Mapped(bread_, meat);
+    fit.stationary_covariance = Mapped(fit.bread, meat);
+    if (options_.delays) fit.delays = {delays_s_, OfDelays(fit.scores)};
     return fit;
   }
 
  private:
+  static constexpr Eigen::Index kDelays = DelayDerivatives::kDelays;
+
+  static std::vector<Eigen::MatrixXd> ByDelay(const ProjectedEquations& equations,
+                                              const std::array<PredictedSupports, 3>& predicted) {
+    std::vector<Eigen::MatrixXd> by_delay;
+    for (const ProjectedEquation& equation : equations)
+      by_delay.push_back(predicted[equation.index].by_delay);
+    return by_delay;
+  }
+
+  /// The covariance of the delays from the scores of the clusters.
+  Eigen::Matrix2d OfDelays(const Eigen::MatrixXd& scores) const {
+    const auto g = static_cast<double>(scores.cols());
+    return g / std::max(g - 1.0, 1.0) * OfRoot(inverse_.bottomRows(kDelays) * scores);
+  }
+
   /// A Gauss-Newton step, bounded so that one step at most halves or doubles the time constant.
   void ChangeTimeConstant(double step) {
     const double change = std::clamp(step, -0.5 * *time_constant_s_, *time_constant_s_);
@@ -204,12 +229,14 @@ class WeakIvIteration {
 
   WeakEstimate EstimateOf(std::size_t i) const {
     const Eigen::MatrixXd& Z = system_.equations[i].Z;
+    Eigen::VectorXd residual = ResidualOf(completed_[i], thetas_[i]);
+    if (options_.delays) residual -= by_delay_[i] * delays_s_;
     return {completed_[i].columns,
             thetas_[i],
             regularised_[i],
             completed_[i].G,
-            whitenings_[i].WhitenBack(Z.rightCols(thetas_[i].size())),
-            ResidualOf(completed_[i], thetas_[i])};
+            whitenings_[i].WhitenBack(Z.middleCols(time_constant_s_ ? 1 : 0, thetas_[i].size())),
+            residual};
   }
 
   static void AddScores(const std::vector<RowRange>& clusters,
@@ -235,9 +262,11 @@ class WeakIvIteration {
   Thetas thetas_;
   // Of the last iteration.
   ProjectedEquations completed_;
+  std::vector<Eigen::MatrixXd> by_delay_;
   std::vector<ResidualWhitening> whitenings_;
   StackedSystem system_;
-  Eigen::MatrixXd bread_;
+  Eigen::MatrixXd inverse_;  ///< of the system's A
+  Eigen::Vector2d delays_s_ = Eigen::Vector2d::Zero();
 };
 
 }  // namespace

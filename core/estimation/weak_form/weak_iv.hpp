@@ -18,6 +18,7 @@ struct WeakIvOptions {
   WeakFormOptions form;
   double ridge = 0.02;  ///< of the model that simulates the instruments, relative to unit columns
   int iterations = 4;   ///< simulations of the instruments; twice as many with a time constant
+  bool delays = true;   ///< whether delays between the channels are unknowns too
 };
 
 /// Weak-form instrumental variables, docs/concepts/model.md (31):
@@ -27,7 +28,9 @@ struct WeakIvOptions {
 /// commands with the boat and no noise with its sensors. The first model comes from regularised
 /// least squares; each further iteration simulates with the newest theta. To first order the
 /// estimate is corrected for what noise adds to G and for what filtering before multiplying removes
-/// from it.
+/// from it. Delays of the commands and of the fixes are unknowns to first order, (36), so that the
+/// covariance holds for clocks that agree as well as the data can tell; longer delays are to be
+/// taken out of the data first, AlignClocks().
 /// Nothing when an equation has no more supports than columns, or when the instruments are not
 /// finite or do not determine every unknown.
 /// Requires: data prepared with the robust preset. `columns`: those sought, by equation, empty to

@@ -35,6 +35,17 @@ TEST(HeldCommands, TriangularMeanWeightsTheMiddleMost) {
   EXPECT_NEAR(commands.TriangularMean(1.5, 1.0).starboard, 0.5, 1e-15);
 }
 
+TEST(HeldCommands, ChangesOfTheirTimesKeepTheirOrder) {
+  HeldCommands commands(kSamples, Vehicle{});
+  const std::vector<double> before = {0.0, 1.0};  // as recorded, whatever the change made of them
+  std::size_t next = 0;
+  commands.ForEachTime([&](double before_s, double time_s) {
+    EXPECT_EQ(before_s, before[next++]);
+    return time_s - 1.5;
+  });
+  EXPECT_EQ(commands.Times(), (std::vector<double>{0.0, 0.0, 1.5}));
+}
+
 TEST(HeldCommands, RegionIsThatInForceForMostOfTheTime) {
   const HeldCommands commands(kSamples, Vehicle{});
   EXPECT_EQ(commands.MajorityRegion(0.0, 1.4), PropellerRegion::kFF);
