@@ -30,7 +30,7 @@ struct WeakIvOptions {
 /// estimate is corrected for what noise adds to G and for what filtering before multiplying removes
 /// from it. Delays of the commands and of the fixes are unknowns to first order, (36), so that the
 /// covariance holds for clocks that agree as well as the data can tell; longer delays are to be
-/// taken out of the data first, AlignClocks().
+/// taken out of the data first, PrepareWithClocksAligned().
 /// Nothing when an equation has no more supports than columns, or when the instruments are not
 /// finite or do not determine every unknown.
 /// Requires: data prepared with the robust preset. `columns`: those sought, by equation, empty to
