@@ -96,8 +96,8 @@ class Daemon {
   const bool alone_;  ///< it has the whole fleet
   const Storage storage_;
   const std::unique_ptr<SliceLeases> leases_;  ///< null: its writes need none
-  std::mutex serving_mutex_;  // of the two that follow
-  VehicleRegistry registry_;  ///< of the whole fleet
+  std::mutex serving_mutex_;                   // of the two that follow
+  VehicleRegistry registry_;                   ///< of the whole fleet
   Slices served_slices_;
   Fleet fleet_;
   WindowArchive windows_;

@@ -29,7 +29,11 @@ std::shared_ptr<StatedLog> Load(const fs::path& path, const std::optional<Vehicl
                                 std::optional<int> port_channel,
                                 std::optional<int> starboard_channel) {
   RequireThere(path);
-  SourceOptions options{gps_instance, system_id, port_channel, starboard_channel, nullptr, nullptr};
+  SourceOptions options;
+  options.gps_instance = gps_instance;
+  options.system_id = system_id;
+  options.port_channel = port_channel;
+  options.starboard_channel = starboard_channel;
   RequireValid(options);
   if (mapping) {
     RequireThere(*mapping);

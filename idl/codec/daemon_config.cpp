@@ -231,8 +231,7 @@ bool IsIdPattern(std::string pattern) {
   return IsVehicleId(pattern);
 }
 
-AnnouncedSettings ReadAnnounced(FieldReader reader,
-                                const proto::DaemonConfig::Announced& message) {
+AnnouncedSettings ReadAnnounced(FieldReader reader, const proto::DaemonConfig::Announced& message) {
   AnnouncedSettings settings;
   settings.admit = {message.admit().begin(), message.admit().end()};
   for (std::size_t i = 0; i < settings.admit.size(); ++i) {

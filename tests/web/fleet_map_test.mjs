@@ -1,4 +1,4 @@
-// Looks at the map of a real daemon's page while many boats send:
+// Tests the map of a real daemon's page while many boats send:
 //   node fleet_map_test.mjs ADDRESS BROWSER BOATS PICTURES
 // Exits 0 when all is well.
 import assert from "node:assert/strict";

@@ -276,7 +276,7 @@ class McapFile {
 
   const McapVisitor& visitor_;
   std::map<std::uint16_t, Schema> schemas_;
-  std::vector<std::optional<Channel>> channels_;  ///< by id: each message looks one up
+  std::vector<std::optional<Channel>> channels_;  ///< by id: each message seeks one
   std::uint32_t defined_channels_ = 0;
   McapChunkIndex index_;  ///< of the chunk at hand
   std::unique_ptr<std::uint8_t[]> chunk_;

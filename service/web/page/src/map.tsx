@@ -279,7 +279,7 @@ export function TrackMap({ tracks, selected, pointedAt, select, label }: {
   const [map, setMap] = useState<Box>({ left: 0, top: 0, width: 0, height: 0 });
   const [places, setPlaces] = useState<Place[]>([]);
   const [hovered, setHovered] = useState<string>();
-  const [looks, setLooks] = useState(0);  // counts light and dark
+  const [schemes, setSchemes] = useState(0);  // counts light and dark
   useEffect(() => {
     if (!canvas.current) return;
     const observer = new ResizeObserver(([entry]) => {
@@ -288,7 +288,7 @@ export function TrackMap({ tracks, selected, pointedAt, select, label }: {
     });
     observer.observe(canvas.current);
     const scheme = matchMedia("(prefers-color-scheme: dark)");
-    const redraw = () => setLooks((count) => count + 1);
+    const redraw = () => setSchemes((count) => count + 1);
     scheme.addEventListener("change", redraw);
     return () => {
       observer.disconnect();
@@ -309,7 +309,7 @@ export function TrackMap({ tracks, selected, pointedAt, select, label }: {
       drawNext();
     });
     if (!drawing.current) drawNext();
-  }, [tracks, selected, map, looks]);
+  }, [tracks, selected, map, schemes]);
   useEffect(() => () => drawing.current?.stop(), []);
   const first = hovered ?? pointedAt;
   const names = useMemo(() => placeNames(places, map, cornersOf(map), [first, selected]), [places, map, first, selected]);
