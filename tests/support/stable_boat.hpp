@@ -37,17 +37,18 @@ inline Vehicle StableBoatVehicle() {
   return vehicle;
 }
 
-/// Random steps ahead, and one side astern now and then, in pieces of `piece_s`.
+/// Random steps ahead, and one side astern now and then, in pieces of `piece_s`: ahead, port
+/// astern, ahead, starboard astern, and so on, or from the piece `first` of these on.
 inline std::vector<TimedCommand> VariedCommands(double duration_s, std::uint64_t seed,
-                                                double piece_s = 20.0) {
+                                                double piece_s = 20.0, std::uint64_t first = 0) {
   const CommandRange ahead{{0.1, 0.1}, {1.0, 1.0}};
   const CommandRange port_astern{{-0.7, 0.1}, {-0.1, 1.0}};
   const CommandRange starboard_astern{{0.1, -0.7}, {1.0, -0.1}};
   std::vector<Manoeuvre> manoeuvres;
   for (std::uint64_t piece = 0; static_cast<double>(piece) * piece_s < duration_s; ++piece) {
-    const CommandRange& range = piece % 4 == 1   ? port_astern
-                                : piece % 4 == 3 ? starboard_astern
-                                                 : ahead;
+    const CommandRange& range = (first + piece) % 4 == 1   ? port_astern
+                                : (first + piece) % 4 == 3 ? starboard_astern
+                                                           : ahead;
     manoeuvres.push_back(RandomSteps(range, 1.4, 5.0, piece_s, seed + piece));
   }
   return Schedule(manoeuvres, 0.0);
@@ -56,7 +57,8 @@ inline std::vector<TimedCommand> VariedCommands(double duration_s, std::uint64_t
 /// Where the boat goes under commands in pieces of 10 s, at steps of 0.02 s.
 inline std::vector<TimedState> StableBoatTrack(const VesselModel& model, double duration_s,
                                                std::uint64_t seed) {
-  const auto commands = VariedCommands(duration_s, seed, 10.0);
+  constexpr std::uint64_t kAheadThenStarboardAstern = 2;
+  const auto commands = VariedCommands(duration_s, seed, 10.0, kAheadThenStarboardAstern);
   VesselState start;
   start.nu.u = 0.5;
   start.thrust = model.SteadyThrust(commands.front().delta);
