@@ -27,7 +27,7 @@ constexpr double kCurrentMps = 0.1;
 constexpr std::size_t kKindsOfWork = 6;
 
 /// One of a series of boats that differ in every coefficient.
-VesselModel CatamaranOf(std::uint64_t seed, double thruster_lag_s) {
+VesselModel StableBoatOf(std::uint64_t seed, double thruster_lag_s) {
   constexpr double kAtOnceS = 1e-6;
   VesselModel model = testing::StableBoat(std::max(thruster_lag_s, kAtOnceS));
   WhiteSource white(seed, 8);
@@ -67,7 +67,7 @@ GaussMarkov Gusts(std::uint64_t seed, std::uint64_t stream) {
 }  // namespace
 
 BoatInWeather::BoatInWeather(std::uint64_t seed, double thruster_lag_s)
-    : model_(CatamaranOf(seed, thruster_lag_s)),
+    : model_(StableBoatOf(seed, thruster_lag_s)),
       random_(seed),
       seed_(seed),
       strength_(Slow(kStrengthSpread, seed, 1)),

@@ -5,6 +5,7 @@
 #include <iostream>
 #include <memory>
 #include <numbers>
+#include <optional>
 #include <set>
 #include <stdexcept>
 #include <string>
@@ -143,8 +144,10 @@ void Load(const LoadArguments& arguments) {
   if (!WaitForMatch(participant, {gnss, heading, thrusters}, arguments.live.Timeout())) {
     throw std::runtime_error("nobody takes telemetry: " + NobodyThereAdvice(arguments.live.domain));
   }
-  Writer<telltale_wire_VehicleAnnouncement> announcements(participant);
-  if (arguments.announce) AnnounceBoats(arguments, participant, announcements);
+  std::optional<Writer<telltale_wire_VehicleAnnouncement>> announcements;
+  if (arguments.announce) {
+    AnnounceBoats(arguments, participant, announcements.emplace(participant));
+  }
   const auto ticks_per_s = static_cast<int>(std::lround(kTicksPerSecond * arguments.times));
   std::vector<LoadBoat> boats;
   for (int i = 1; i <= arguments.boats; ++i) boats.emplace_back(i, ticks_per_s);

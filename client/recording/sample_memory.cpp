@@ -67,9 +67,13 @@ std::string SampleMemory::Summary() const {
   return text;
 }
 
-bool SampleMemory::HasRoom() {
+void SampleMemory::CountHeld() {
   held_bytes_ = 0;
   for (const SampleRows* rows : sources_) held_bytes_ += rows->Bytes();
+}
+
+bool SampleMemory::HasRoom() {
+  CountHeld();
   return held_bytes_ <= most_bytes_ - most_bytes_ / 4;
 }
 
@@ -82,7 +86,7 @@ void SampleMemory::MakeRoom() {
     if (rate_hz_ == 0.0 || rate_hz < rate_hz_) ThinTo(rate_hz);
   }
   if (!HasRoom()) LetGoOfOlderHalf();
-  HasRoom();
+  CountHeld();
   malloc_trim(0);  // else the process keeps what they leave behind
 }
 

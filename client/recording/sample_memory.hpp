@@ -42,6 +42,7 @@ class SampleMemory {
     if (held_bytes_ > most_bytes_) MakeRoom();
   }
   void MakeRoom();
+  void CountHeld();
   bool HasRoom();
   void LetGoOfOld();
   void ThinTo(double rate_hz);

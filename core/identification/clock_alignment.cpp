@@ -98,12 +98,12 @@ Refusal WarnOfDelays(const AlignedDataset& aligned, bool bounds_carry_them) {
     if (removed.commands_s != 0.0) reason += " and ";
     reason += InWords(removed.fixes_s, errors.fixes_s, "fixes are stamped", "late", "early");
   }
-  reason += bounds_carry_them ? "; the model is of the data without these delays"
-                              : "; the model is of the data without these delays, and its bounds "
-                                "take them for known: they hold too seldom";
-  return {"clocks", std::move(reason),
-          bounds_carry_them ? "stamp all channels by one clock where they are measured"
-                            : "ask for the estimator weak-iv, whose bounds carry them"};
+  reason += "; the model is of the data without these delays";
+  if (bounds_carry_them) {
+    return {"clocks", std::move(reason), "stamp all channels by one clock where they are measured"};
+  }
+  return {"clocks", reason + ", and its bounds take them for known: they hold too seldom",
+          "ask for the estimator weak-iv, whose bounds carry them"};
 }
 
 }  // namespace telltale

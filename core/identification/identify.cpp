@@ -112,8 +112,7 @@ void ReportDelays(const AlignedDataset& aligned, const IdentifyOptions& options,
   if (!options.estimator) {
     identification.provenance.estimator_choice =
         "weak-form instrumental variables, since the clocks disagree and only its bounds carry "
-        "what "
-        "is not known of the delays";
+        "what is not known of the delays";
   }
 }
 

@@ -4,6 +4,7 @@
 #include <set>
 #include <utility>
 
+#include "telltale/client/bus/topics.hpp"
 #include "telltale/idl/codec/vehicle_file.hpp"
 
 namespace telltale {
@@ -120,7 +121,9 @@ void Fleet::CountUnattributed(std::string_view channel, std::string_view reason)
 void Fleet::CountUnreadable(std::string_view topic) {
   constexpr std::string_view kTelemetry = "telltale/telemetry/";
   const std::string_view unreadable = Name(UnattributedReason::kUnreadable);
-  if (topic == "telltale/vehicle") return CountUnattributed("vehicle", unreadable);
+  if (topic == kContract<telltale_wire_VehicleAnnouncement>.topic) {
+    return CountUnattributed(kAnnouncements, unreadable);
+  }
   if (topic.starts_with(kTelemetry)) {
     CountUnattributed(topic.substr(kTelemetry.size()), unreadable);
   }

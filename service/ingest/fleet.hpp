@@ -27,6 +27,10 @@ enum class UnattributedReason { kMalformedId, kUnknownVehicle, kUnreadable, kFor
 
 std::string_view Name(UnattributedReason reason);
 
+/// As reports name the announcements of vehicles, which they count beside the channels of
+/// telemetry.
+inline constexpr std::string_view kAnnouncements = "vehicle";
+
 /// A vehicle is no longer served here.
 struct NotServedError : std::runtime_error {
   using std::runtime_error::runtime_error;
@@ -71,6 +75,7 @@ class Fleet {
   /// What a client is told of a vehicle that is not served here: which ones are.
   std::string NotServed(const std::string& vehicle_id) const;
 
+  /// `channel`: as reports name it, a channel of telemetry or kAnnouncements.
   void CountUnattributed(std::string_view channel, std::string_view reason);
   /// Counts a sample that the bus cannot deserialise, where the topic is one of the vehicles'.
   void CountUnreadable(std::string_view topic);

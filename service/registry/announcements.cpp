@@ -133,7 +133,7 @@ void Announcements::Note(Admission admission, const std::string& vehicle_id) {
 }
 
 void Announcements::Refuse(std::string_view reason, const std::string& detail) {
-  fleet_.CountUnattributed("vehicle", reason);
+  fleet_.CountUnattributed(kAnnouncements, reason);
   if (const auto not_shown = warning_limit_.Admit(std::chrono::steady_clock::now())) {
     spdlog::warn("announcement refused: {} '{}' ({} more not shown)", reason, detail, *not_shown);
   }

@@ -47,7 +47,7 @@ Deviations DeviationsOf(const ScoreBlock& recording, const PredictionErrorFit& f
 // whose value the prior would decide without it are not compared.
 RecordingDifference DifferenceOf(const ScoreBlock& recording, const PredictionErrorFit& fit,
                                  const FossenPrior& prior, double dispersion) {
-  const Eigen::MatrixXd information = fit.information;
+  const Eigen::MatrixXd& information = fit.information;
   const Eigen::MatrixXd without = Eigen::MatrixXd(information - recording.information).inverse();
   const Eigen::MatrixXd variance =
       recording.information - recording.information * information.inverse() * recording.information;

@@ -106,7 +106,7 @@ double DispersionOf(const PredictionErrorFit& fit) {
 }
 
 RobustCovariance CovarianceOf(const PredictionErrorFit& fit, double level) {
-  const Eigen::MatrixXd information = fit.information;
+  const Eigen::MatrixXd& information = fit.information;
   const Eigen::LLT<Eigen::MatrixXd> root(information);
   const Eigen::MatrixXd by_score = fit.slope.inverse();
   const Eigen::MatrixXd of_blocks = CovarianceOfScores(fit.blocks, root);

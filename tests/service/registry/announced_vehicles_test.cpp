@@ -9,6 +9,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "service/registry/made_up_boat.hpp"
 #include "service/service_fixture.hpp"
 #include "service/shared_fleet_fixture.hpp"
 #include "support/mavlink_boats.hpp"
@@ -16,7 +17,6 @@
 #include "telltale/client/fleet/served_vehicles.hpp"
 #include "telltale/client/fleet/vehicle_announcer.hpp"
 #include "telltale/client/recording/telemetry_log/telemetry_log.hpp"
-#include "telltale/core/paper/yellowfish.hpp"
 #include "telltale/idl/codec/vehicle_file.hpp"
 #include "telltale/idl/codec/wire/vehicle_announcement.hpp"
 #include "telltale/service/registry/vehicle_store.hpp"
@@ -25,15 +25,9 @@ namespace telltale {
 namespace {
 
 using namespace std::chrono_literals;
+using testing::Boat;
 using ::testing::HasSubstr;
 using ::testing::Not;
-
-Vehicle Boat(const std::string& vehicle_id, double mass_kg = 20.0) {
-  Vehicle vehicle = YellowfishVehicle();
-  vehicle.vehicle_id = vehicle_id;
-  vehicle.mass_kg = mass_kg;
-  return vehicle;
-}
 
 /// A daemon whose configuration names no boat, unless a test adds some.
 class AnnouncedVehicles : public ServiceTest, public ::testing::WithParamInterface<Engine> {

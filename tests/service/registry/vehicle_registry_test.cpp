@@ -7,22 +7,16 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "service/registry/made_up_boat.hpp"
 #include "service/storage_fixture.hpp"
-#include "telltale/core/paper/yellowfish.hpp"
 
 namespace telltale {
 namespace {
 
 using namespace std::chrono_literals;
+using testing::Boat;
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
-
-Vehicle Boat(const std::string& vehicle_id, double mass_kg = 20.0) {
-  Vehicle vehicle = YellowfishVehicle();
-  vehicle.vehicle_id = vehicle_id;
-  vehicle.mass_kg = mass_kg;
-  return vehicle;
-}
 
 class VehicleRegistryTest : public StorageTest {
  protected:

@@ -6,8 +6,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "service/registry/made_up_boat.hpp"
 #include "service/storage_fixture.hpp"
-#include "telltale/core/paper/yellowfish.hpp"
 #include "telltale/idl/codec/vehicle_file.hpp"
 #include "telltale/service/storage/backup.hpp"
 #include "telltale/service/storage/stores.hpp"
@@ -15,15 +15,9 @@
 namespace telltale {
 namespace {
 
+using testing::Boat;
 using ::testing::ElementsAre;
 using ::testing::UnorderedElementsAre;
-
-Vehicle Boat(const std::string& vehicle_id, double mass_kg = 20.0) {
-  Vehicle vehicle = YellowfishVehicle();
-  vehicle.vehicle_id = vehicle_id;
-  vehicle.mass_kg = mass_kg;
-  return vehicle;
-}
 
 VehicleStore::Change Kept(const Vehicle& vehicle) {
   return {vehicle.vehicle_id, vehicle};
