@@ -40,7 +40,7 @@ template <class Sample>
 Result<MalformedRows> ReadChannel(const std::filesystem::path& file,
                                   std::span<const std::string_view> columns,
                                   SampleSeries<Sample>& samples) {
-  const auto malformed = ReadCsv(file, columns, [&](std::span<const double> row) {
+  auto malformed = ReadCsv(file, columns, [&](std::span<const double> row) {
     samples.Add(SampleFrom(row, static_cast<const Sample*>(nullptr)));
   });
   if (!malformed || !samples.Samples().empty()) return malformed;
