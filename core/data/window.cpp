@@ -36,18 +36,18 @@ bool IsFinite(const ThrusterSample& s) {
   return std::isfinite(s.time_s) && std::isfinite(s.port_us) && std::isfinite(s.starboard_us);
 }
 
-bool Within(double value, double low, double high) {
+bool Allowed(double value, double low, double high) {
   return value >= low && value <= high;
 }
 
 bool InRange(const GnssFix& s) {
-  return Within(s.latitude_deg, -90.0, 90.0) && Within(s.longitude_deg, -180.0, 180.0);
+  return Allowed(s.latitude_deg, -90.0, 90.0) && Allowed(s.longitude_deg, -180.0, 180.0);
 }
 bool InRange(const HeadingSample& s) {
-  return Within(s.heading_deg, -360.0, 720.0);
+  return Allowed(s.heading_deg, -360.0, 720.0);
 }
 bool InRange(const ThrusterSample& s) {
-  return Within(s.port_us, 500.0, 2500.0) && Within(s.starboard_us, 500.0, 2500.0);
+  return Allowed(s.port_us, 500.0, 2500.0) && Allowed(s.starboard_us, 500.0, 2500.0);
 }
 
 template <class Channels, class Visit>

@@ -9,9 +9,9 @@ namespace {
 // Half the density of air times drag coefficient, area and, in yaw, length, over mass or inertia
 // with added mass: of the default hull, with drag coefficients of 0.69, 0.88 and 0.105. Units: 1/m,
 // 1/m, 1/m^2.
-constexpr double kSurge = 0.0028;
-constexpr double kSway = 0.0040;
-constexpr double kYaw = 0.0045;
+constexpr double kSurgeDrag = 0.0028;
+constexpr double kSwayDrag = 0.0040;
+constexpr double kYawDrag = 0.0045;
 // Of areas that few vehicle files state, and of drag coefficients, from boat to boat. The force
 // says no more of the wind than the drag allows.
 constexpr double kDragSpread = 0.3;
@@ -62,11 +62,11 @@ class WindEffect final : public Effect {
     const double still = std::hypot(nu.u, nu.v);
     const HullScale& hull = instant.hull_scale;
     const double drag_ratio = values[5];
-    const double surge = kSurge * drag_ratio * (hull.frontal_area / hull.mass);
+    const double surge = kSurgeDrag * drag_ratio * (hull.frontal_area / hull.mass);
     const double sway =
-        kSway * drag_ratio * (hull.lateral_area / (hull.mass * hull.SwayMassRatio()));
+        kSwayDrag * drag_ratio * (hull.lateral_area / (hull.mass * hull.SwayMassRatio()));
     const double from_side = sway * values[2] * (speed * relative_starboard + still * nu.v);
-    const double yaw = kYaw * drag_ratio *
+    const double yaw = kYawDrag * drag_ratio *
                        (hull.lateral_area / (hull.mass * hull.length * hull.YawInertiaRatio()));
     return {surge * (speed * relative_forward + still * nu.u), from_side,
             yaw * values[3] * (relative_forward * relative_starboard - nu.u * nu.v) +

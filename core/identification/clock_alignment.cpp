@@ -49,8 +49,8 @@ std::string Milliseconds(double seconds) {
   return std::to_string(std::lround(std::abs(seconds) * 1e3));
 }
 
-std::string InWords(double delay_s, double standard_error_s, const char* what, const char* late,
-                    const char* early) {
+std::string DelayInWords(double delay_s, double standard_error_s, const char* what,
+                         const char* late, const char* early) {
   return std::string(what) + ' ' + Milliseconds(delay_s) + " +- " +
          Milliseconds(kTwoSided95 * standard_error_s) + " ms " + (delay_s > 0.0 ? late : early);
 }
@@ -91,12 +91,12 @@ Refusal WarnOfDelays(const AlignedDataset& aligned, bool bounds_carry_them) {
   const auto& [dataset, removed, errors] = aligned;
   std::string reason = "by the clock of the headings ";
   if (removed.commands_s != 0.0) {
-    reason += InWords(removed.commands_s, errors.commands_s, "commands act", "after their stamps",
-                      "before their stamps");
+    reason += DelayInWords(removed.commands_s, errors.commands_s, "commands act",
+                           "after their stamps", "before their stamps");
   }
   if (removed.fixes_s != 0.0) {
     if (removed.commands_s != 0.0) reason += " and ";
-    reason += InWords(removed.fixes_s, errors.fixes_s, "fixes are stamped", "late", "early");
+    reason += DelayInWords(removed.fixes_s, errors.fixes_s, "fixes are stamped", "late", "early");
   }
   reason += "; the model is of the data without these delays";
   if (bounds_carry_them) {

@@ -15,7 +15,7 @@
 namespace telltale {
 namespace {
 
-constexpr std::array kSurge = {
+constexpr std::array kSurgeRegressors = {
     RedundantRegressor{"u(k)", "alpha + h Ru1"},
     RedundantRegressor{"u|u|(k-1)", "-alpha h Pu11"},
     RedundantRegressor{"vr(k-1)", "-alpha h 2Qu23"},
@@ -29,7 +29,7 @@ constexpr std::array kSurge = {
     RedundantRegressor{"mean(k-1)", "h beta 2W11bf"},
 };
 
-constexpr std::array kSway = {
+constexpr std::array kSwayRegressors = {
     RedundantRegressor{"v(k)", "alpha + h Rv2"},
     RedundantRegressor{"v|v|(k-1)", "-alpha h Pv22"},
     RedundantRegressor{"v|r|(k-1)", "-alpha h Pv23"},
@@ -53,7 +53,7 @@ constexpr std::array kSway = {
     RedundantRegressor{"diff/2(k-1)", "h beta W23(bL+bR)"},
 };
 
-constexpr std::array kYaw = {
+constexpr std::array kYawRegressors = {
     RedundantRegressor{"r(k)", "alpha + h Rr3"},
     RedundantRegressor{"v|v|(k-1)", "-alpha h Pr22"},
     RedundantRegressor{"v|r|(k-1)", "-alpha h Pr23"},
@@ -119,9 +119,9 @@ std::array<std::complex<double>, 2> Roots(double first, double second) {
 
 std::span<const RedundantRegressor> RedundantRegressors(Equation equation) {
   switch (equation) {
-    case Equation::kSurge: return kSurge;
-    case Equation::kSway: return kSway;
-    case Equation::kYaw: return kYaw;
+    case Equation::kSurge: return kSurgeRegressors;
+    case Equation::kSway: return kSwayRegressors;
+    case Equation::kYaw: return kYawRegressors;
     case Equation::kUnknown: break;
   }
   throw ContractViolation("RedundantRegressors: requires a named equation");

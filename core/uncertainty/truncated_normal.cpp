@@ -18,7 +18,7 @@ namespace {
 constexpr int kSweeps = 5;
 // Beyond so many standard deviations a tail is exponential to rounding.
 constexpr double kFarTail = 6.0;
-constexpr double kNone = std::numeric_limits<double>::infinity();
+constexpr double kUnlimited = std::numeric_limits<double>::infinity();
 
 // In double throughout: long double takes four times as long, for digits that no draw shows.
 using StandardNormal = boost::math::normal_distribution<
@@ -57,8 +57,8 @@ std::pair<double, double> RoomAlong(const Eigen::Ref<const Eigen::VectorXd>& dir
                                     const Eigen::Ref<const Eigen::VectorXd>& x,
                                     const Eigen::Ref<const Eigen::VectorXd>& least,
                                     const Eigen::Ref<const Eigen::VectorXd>& greatest) {
-  double back = -kNone;
-  double ahead = kNone;
+  double back = -kUnlimited;
+  double ahead = kUnlimited;
   for (Eigen::Index j = 0; j < x.size(); ++j) {
     if (direction[j] == 0.0) continue;
     const double to_least = (least[j] - x[j]) / direction[j];

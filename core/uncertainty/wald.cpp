@@ -57,29 +57,30 @@ double WelchDegrees(double first_share, const Estimates& first, const Estimates&
   return reciprocal > 0.0 ? 1.0 / reciprocal : kInfinity;
 }
 
-/// Directions that V spans: whitening' (d / errors) has unit covariance.
-struct Whitening {
+/// Directions that V spans: matrix' (d / errors) has unit covariance.
+struct SpannedDirections {
   Eigen::VectorXd errors;  // standard errors of d
   Eigen::MatrixXd matrix;  // coefficients x rank, for d in units of its errors
 };
 
-Whitening Whiten(const Eigen::MatrixXd& V) {
-  Whitening whitening;
-  whitening.errors = V.diagonal().cwiseSqrt();
-  const Eigen::MatrixXd correlation = Scaled(V, whitening.errors.cwiseInverse());
+SpannedDirections DirectionsOf(const Eigen::MatrixXd& V) {
+  SpannedDirections directions;
+  directions.errors = V.diagonal().cwiseSqrt();
+  const Eigen::MatrixXd correlation = Scaled(V, directions.errors.cwiseInverse());
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(correlation);
   const Eigen::VectorXd& values = solver.eigenvalues();  // ascending
   const Eigen::Index rank =
       (values.array() > kSmallestEigenvalue * values[values.size() - 1]).count();
-  whitening.matrix = solver.eigenvectors().rightCols(rank) *
-                     values.tail(rank).cwiseSqrt().cwiseInverse().asDiagonal();
-  return whitening;
+  directions.matrix = solver.eigenvectors().rightCols(rank) *
+                      values.tail(rank).cwiseSqrt().cwiseInverse().asDiagonal();
+  return directions;
 }
 
 /// Krishnamoorthy and Yu's degrees of freedom of Sigma1 + Sigma2.
-double JointDegrees(const Estimates& first, const Estimates& second, const Whitening& whitening) {
+double JointDegrees(const Estimates& first, const Estimates& second,
+                    const SpannedDirections& directions) {
   const Eigen::MatrixXd whiten =
-      whitening.matrix.transpose() * whitening.errors.cwiseInverse().asDiagonal();
+      directions.matrix.transpose() * directions.errors.cwiseInverse().asDiagonal();
   const double q = static_cast<double>(whiten.rows());
   const double shares = Share(Mapped(whiten, first.covariance), first.clusters) +
                         Share(Mapped(whiten, second.covariance), second.clusters);
@@ -123,14 +124,14 @@ Result<WaldTest> TestEquality(const Estimates& first, const Estimates& second) {
                   "compare models that were identified with bounds");
   }
 
-  const Whitening whitening = Whiten(V);
-  const Eigen::VectorXd scaled = d.cwiseQuotient(whitening.errors);
-  const Eigen::VectorXd whitened = whitening.matrix.transpose() * scaled;
+  const SpannedDirections directions = DirectionsOf(V);
+  const Eigen::VectorXd scaled = d.cwiseQuotient(directions.errors);
+  const Eigen::VectorXd whitened = directions.matrix.transpose() * scaled;
   const double q = static_cast<double>(whitened.size());
   WaldTest test;
   test.statistic = whitened.squaredNorm();
   test.degrees_of_freedom = static_cast<std::size_t>(whitened.size());
-  test.covariance_degrees_of_freedom = JointDegrees(one, other, whitening);
+  test.covariance_degrees_of_freedom = JointDegrees(one, other, directions);
   if (test.covariance_degrees_of_freedom < q + 1.0) {
     return Refuse("comparison",
                   "segments count for " +
@@ -146,9 +147,9 @@ Result<WaldTest> TestEquality(const Estimates& first, const Estimates& second) {
   for (const Eigen::Index i : order) {
     const double nu = WelchDegrees(one.covariance(i, i) / V(i, i), first, second);
     test.differences.push_back({static_cast<std::size_t>(shared[static_cast<std::size_t>(i)]), d[i],
-                                whitening.errors[i], SinglePValue(scaled[i], nu)});
+                                directions.errors[i], SinglePValue(scaled[i], nu)});
   }
-  test.combination = Eigen::VectorXd(whitening.matrix * whitened)(order);
+  test.combination = Eigen::VectorXd(directions.matrix * whitened)(order);
   if (test.combination.norm() > 0.0) test.combination.normalize();
   return test;
 }

@@ -17,7 +17,7 @@ constexpr std::uint32_t kFewestReplicates = 100;  // fewer cannot place a 95 % b
 
 constexpr std::size_t kMiB = std::size_t{1} << 20;
 
-WindowLimits ReadWindow(FieldReader reader) {
+WindowLimits ReadWindowLimits(FieldReader reader) {
   WindowLimits limits;
   limits.duration_s = reader.Number("duration_s", {10.0, 86400.0}, limits.duration_s);
   const auto default_mib = static_cast<std::uint32_t>(limits.memory_bytes / kMiB);
@@ -309,7 +309,7 @@ DaemonConfig ReadConfig(FieldReader reader, const proto::DaemonConfig& message) 
   if (config.workers && config.database.empty()) {
     reader.Fail("workers", "{}", "this with database, where the workers find their jobs");
   }
-  config.window = ReadWindow(reader.Optional("window"));
+  config.window = ReadWindowLimits(reader.Optional("window"));
   config.total_window_bytes =
       ReadTotalWindowBytes(reader.Optional("window"), config.total_window_bytes);
   config.intake = ReadIntake(reader.Optional("intake"));

@@ -10,7 +10,6 @@
 namespace telltale {
 namespace {
 
-using google::protobuf::Descriptor;
 using google::protobuf::DescriptorPool;
 using google::protobuf::TextFormat;
 
@@ -61,7 +60,7 @@ std::string QuotedAfter(const std::string& message, const std::string& lead) {
   return message.substr(first, message.find('"', first) - first);
 }
 
-std::string FieldNames(const Descriptor& type) {
+std::string FieldNames(const google::protobuf::Descriptor& type) {
   std::string names;
   for (int i = 0; i < type.field_count(); ++i) {
     names += (i == 0 ? "" : ", ") + type.field(i)->name();
@@ -73,7 +72,8 @@ std::string FieldNames(const Descriptor& type) {
 std::string Allowed(const std::string& message, const std::string& unknown_field) {
   if (unknown_field.empty()) return message;
   const std::string type_name = QuotedAfter(message, "Message type ");
-  const Descriptor* type = DescriptorPool::generated_pool()->FindMessageTypeByName(type_name);
+  const google::protobuf::Descriptor* type =
+      DescriptorPool::generated_pool()->FindMessageTypeByName(type_name);
   return type ? "no such field; there are " + FieldNames(*type) : "no such field";
 }
 

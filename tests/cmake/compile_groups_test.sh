@@ -38,6 +38,22 @@ for shared in 'int Mean(int n);\n' 'std::vector<std::pair<int, int>> Mean(const 
   expect '1 2 2' target 9
 done
 
+# Functions of one name that take objects of different classes first are overloads, also of one in a header. They are
+# none where one takes a number, or what a template leaves open, or another thing of that name.
+unit a/one.cpp 'void Write(const Spread& spread, proto::Spread& message) {\n}\n'
+unit a/two.cpp 'void Write(const proto::Onset& onset) {\n}\n'
+expect '1 1 1' target 9
+unit a/two.cpp '' '#include "telltale/b/mean.hpp"\n'
+echo '#include "telltale/b/inner.hpp"' > b/mean.hpp
+unit b/inner.hpp '' 'void Write(const Onset& onset);\nstd::string Spread::Write(double indent) const;\n'
+expect '1 1 1' target 9
+for shared in 'void Write(const Spread& spread);\n' 'void Write(double number);\n' 'void Write(const Eigen::VectorXd& x);\n' \
+  'template <class Message>\nvoid Write(const Message& message);\n' 'struct Write {};\n'; do
+  unit a/two.cpp "$shared"
+  expect '1 2 2' target 9
+done
+unit a/one.cpp 'int First() {\n  return 1;\n}\n\ndouble Mean(double x) {\n  const double local = x;\n  return local;\n}\n'
+
 # A constant of one file, and a local one or an enumerator of another.
 unit a/one.cpp 'constexpr int kRows = 1;\n'
 unit a/two.cpp '' 'int Count() {\n  constexpr int kRows = 2;\n  return kRows;\n}\n'

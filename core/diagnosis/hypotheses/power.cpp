@@ -14,7 +14,7 @@
 namespace telltale {
 namespace {
 
-constexpr double kPower = kDiagnosis.testability.power;
+constexpr double kWantedPower = kDiagnosis.testability.power;
 // Days of equal probability.
 constexpr int kNodes = 15;
 // The distance that an effect moves errors grows with the square of its size as long as it acts
@@ -113,7 +113,8 @@ class DaysAhead {
   std::vector<Day> days_;
 };
 
-/// By how much an effect has to move the errors further, in square, for PowerOf to reach kPower.
+/// By how much an effect has to move the errors further, in square, for PowerOf to reach
+/// kWantedPower.
 double FactorFor(const ErrorShift& shift, double cost, const ResidualMetric& metric,
                  const DayToDay& days) {
   const DaysAhead ahead(cost, metric, days);
@@ -122,13 +123,13 @@ double FactorFor(const ErrorShift& shift, double cost, const ResidualMetric& met
   };
   double low = 0.0;
   double high = 1.0;
-  while (power(high) < kPower && high < kBeyondAnyEffect) {
+  while (power(high) < kWantedPower && high < kBeyondAnyEffect) {
     low = high;
     high *= 2.0;
   }
   while (high - low > kTolerance * high) {
     const double middle = 0.5 * (low + high);
-    (power(middle) < kPower ? low : high) = middle;
+    (power(middle) < kWantedPower ? low : high) = middle;
   }
   return high;
 }

@@ -94,11 +94,11 @@ GapKind KindOf(const OperatingCondition& condition,
 }
 
 /// Residuals of one channel: of the recording, and of the references as what is nominal.
-class Channel {
+class ChannelResiduals {
  public:
-  Channel(const std::vector<AccelerationResidual>& residuals,
-          const std::vector<AccelerationResidual>& nominal, const OperatingCondition& everywhere,
-          std::size_t channel, std::size_t clusters)
+  ChannelResiduals(const std::vector<AccelerationResidual>& residuals,
+                   const std::vector<AccelerationResidual>& nominal,
+                   const OperatingCondition& everywhere, std::size_t channel, std::size_t clusters)
       : residuals_(residuals), nominal_(nominal), channel_(channel), clusters_(clusters) {
     overall_ = StatisticsIn(everywhere, nominal, channel);
     const CellStatistics now = StatisticsIn(everywhere, residuals, channel);
@@ -153,7 +153,7 @@ std::vector<Cell> CellsOf(const std::vector<AccelerationResidual>& residuals,
     clusters = std::max(clusters, residual.cluster + 1);
   std::vector<Cell> cells;
   for (std::size_t channel = 0; channel < 3; ++channel) {
-    const Channel of_channel(residuals, nominal, conditions.front(), channel, clusters);
+    const ChannelResiduals of_channel(residuals, nominal, conditions.front(), channel, clusters);
     for (const OperatingCondition& condition : conditions) {
       if (auto cell = of_channel.CellIn(condition)) cells.push_back(*std::move(cell));
     }

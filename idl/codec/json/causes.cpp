@@ -53,7 +53,7 @@ proto::Cause ToProto(const Cause& cause) {
   if (cause.effects.empty()) message.add_effects(kUnknownEffect);
   message.set_probability(cause.probability);
   for (const std::string& other : cause.indistinguishable) message.add_indistinguishable(other);
-  Write(cause.excess_explained, message);
+  WriteClosure(cause.excess_explained, message);
   return message;
 }
 

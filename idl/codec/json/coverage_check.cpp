@@ -16,7 +16,7 @@ void Write(const CoefficientCoverage& coverage, proto::CoefficientCoverage& mess
   message.set_bias_standard_errors(coverage.bias);
 }
 
-Tally ReadTally(FieldReader& reader, const char* field, std::uint32_t held, std::uint32_t total) {
+Tally ReadHeld(FieldReader& reader, const char* field, std::uint32_t held, std::uint32_t total) {
   if (held > total) {
     reader.Fail(field, std::to_string(held), "not above the total of " + std::to_string(total));
     return {};
@@ -25,7 +25,7 @@ Tally ReadTally(FieldReader& reader, const char* field, std::uint32_t held, std:
 }
 
 CoefficientCoverage ReadCoverage(FieldReader reader, const proto::CoefficientCoverage& message) {
-  return {ReadTally(reader, "held", message.held(), message.total()),
+  return {ReadHeld(reader, "held", message.held(), message.total()),
           reader.Number("bias_standard_errors", kFinite)};
 }
 
@@ -60,8 +60,8 @@ CoverageCheck ReadCoverageCheck(FieldReader reader, const proto::CoverageCheck& 
                                 std::size_t coefficients) {
   CoverageCheck coverage_check;
   const Tally identified =
-      ReadTally(reader, "replicates_identified", message.replicates_identified(),
-                message.replicates_requested());
+      ReadHeld(reader, "replicates_identified", message.replicates_identified(),
+               message.replicates_requested());
   coverage_check.replicates_requested = identified.of;
   coverage_check.replicates_identified = identified.held;
   coverage_check.seed = message.seed();
@@ -77,7 +77,7 @@ CoverageCheck ReadCoverageCheck(FieldReader reader, const proto::CoverageCheck& 
         ReadCoverage(reader.Optional("thruster_time_constant"), message.thruster_time_constant());
   }
   coverage_check.joint =
-      ReadTally(reader, "joint_held", message.joint_held(), message.joint_total());
+      ReadHeld(reader, "joint_held", message.joint_held(), message.joint_total());
   coverage_check.mean_coverage = reader.Number("mean_coverage", kShare);
   coverage_check.mean_coverage_error = reader.Number("mean_coverage_error", kFiniteNotNegative);
   coverage_check.truth_is_reported_model = message.truth_is_reported_model();

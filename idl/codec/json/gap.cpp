@@ -40,12 +40,12 @@ proto::Gap ToProto(const Gap& gap) {
   message.set_horizon_s(gap.horizon_s);
   message.set_windows(Saturated(gap.windows));
   Write(gap.all, message);
-  Write(gap.excess_explained, message);
+  WriteClosure(gap.excess_explained, message);
   for (const Equation equation : kEquations) {
     proto::ChannelGap& channel = *message.add_channels();
     channel.set_channel(EnumCast<proto::Equation>(equation));
     Write(gap.channels[IndexOf(equation)], channel);
-    Write(gap.channel_excess_explained[IndexOf(equation)], channel);
+    WriteClosure(gap.channel_excess_explained[IndexOf(equation)], channel);
   }
   return message;
 }

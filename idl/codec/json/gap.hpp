@@ -24,7 +24,7 @@ std::optional<PropellerRegion> ReadRegion(FieldReader& reader,
 
 /// The closure of a gap, a channel or a cause: absent where there is no gap to close.
 template <class Message>
-void Write(const std::optional<ExcessExplained>& closure, Message& message) {
+void WriteClosure(const std::optional<ExcessExplained>& closure, Message& message) {
   if (!closure) return;
   message.set_closure(closure->share);
   Write(closure->interval, *message.mutable_closure_interval());

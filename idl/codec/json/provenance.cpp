@@ -40,8 +40,8 @@ RecordingIdentity ReadRecordingIdentity(FieldReader reader,
 }
 
 template <class Value, std::size_t N>
-Value ReadName(FieldReader& reader, const char* field, const std::string& name,
-               const std::array<Value, N>& values) {
+Value ReadNamed(FieldReader& reader, const char* field, const std::string& name,
+                const std::array<Value, N>& values) {
   std::string allowed;
   for (const Value value : values) {
     if (Name(value) == name) return value;
@@ -107,8 +107,8 @@ WindowSummary ReadWindow(FieldReader reader, const proto::WindowSummary& message
   for (int i = 0; i < message.rejected_size(); ++i) {
     FieldReader item = reader.Item("rejected", i);
     const proto::RejectCount& entry = message.rejected(i);
-    const Channel channel = ReadName(item, "channel", entry.channel(), kChannels);
-    const RejectReason reason = ReadName(item, "reason", entry.reason(), kRejectReasons);
+    const Channel channel = ReadNamed(item, "channel", entry.channel(), kChannels);
+    const RejectReason reason = ReadNamed(item, "reason", entry.reason(), kRejectReasons);
     window.rejected.Count(channel, reason, entry.count());
   }
   return window;

@@ -36,8 +36,8 @@ void Write(const StudyEntry& entry, proto::StudyEntry& message) {
   Write(entry.scores[2], *message.mutable_yaw());
 }
 
-void Write(const std::array<std::optional<Eigen::VectorXd>, 3>& table,
-           proto::CoefficientTable& message) {
+void WriteTable(const std::array<std::optional<Eigen::VectorXd>, 3>& table,
+                proto::CoefficientTable& message) {
   const std::array columns = {message.mutable_surge(), message.mutable_sway(),
                               message.mutable_yaw()};
   for (std::size_t j = 0; j < columns.size(); ++j) {
@@ -51,8 +51,8 @@ proto::Study ToProto(const Study& study) {
   proto::Study message;
   for (const StudyEntry& entry : study.partitions) Write(entry, *message.add_partitions());
   for (const StudyEntry& entry : study.shares) Write(entry, *message.add_shares());
-  Write(study.static_table, *message.mutable_static_table());
-  Write(study.dynamic_table, *message.mutable_dynamic_table());
+  WriteTable(study.static_table, *message.mutable_static_table());
+  WriteTable(study.dynamic_table, *message.mutable_dynamic_table());
   if (study.redundant_alpha) {
     message.set_redundant_alpha(study.redundant_alpha->alpha);
     message.set_redundant_alpha_residual(study.redundant_alpha->residual);

@@ -11,8 +11,6 @@
 namespace telltale {
 namespace {
 
-using wire::Put;
-using wire::PutSequence;
 using Values = std::vector<std::pair<std::string, std::string>>;
 
 std::uint8_t LevelOf(QualityVerdict verdict) {
@@ -51,12 +49,12 @@ Values ValuesOf(const Quality& boat) {
 
 void PutStatus(diagnostic_msgs_msg_dds__DiagnosticStatus_& status, const Quality& boat) {
   status.level = LevelOf(boat.verdict);
-  Put(status.name, "telltale: " + boat.vehicle_id);
-  Put(status.message, boat.reasons.empty() ? Name(boat.verdict) : boat.reasons.front().text);
-  Put(status.hardware_id, boat.vehicle_id);
-  PutSequence(status.values, ValuesOf(boat), [](auto& value, const auto& pair) {
-    Put(value.key, pair.first);
-    Put(value.value, pair.second);
+  wire::Put(status.name, "telltale: " + boat.vehicle_id);
+  wire::Put(status.message, boat.reasons.empty() ? Name(boat.verdict) : boat.reasons.front().text);
+  wire::Put(status.hardware_id, boat.vehicle_id);
+  wire::PutSequence(status.values, ValuesOf(boat), [](auto& value, const auto& pair) {
+    wire::Put(value.key, pair.first);
+    wire::Put(value.value, pair.second);
   });
 }
 
@@ -64,7 +62,7 @@ void PutStatus(diagnostic_msgs_msg_dds__DiagnosticStatus_& status, const Quality
 
 WireSample<std_msgs_msg_dds__String_> EncodeRosString(std::string_view text) {
   WireSample<std_msgs_msg_dds__String_> message;
-  Put(message->data, text);
+  wire::Put(message->data, text);
   return message;
 }
 
@@ -74,8 +72,8 @@ WireSample<diagnostic_msgs_msg_dds__DiagnosticArray_> EncodeRosDiagnostics(
   const double seconds = std::floor(time_unix_s);
   message->header.stamp.sec = static_cast<std::int32_t>(seconds);
   message->header.stamp.nanosec = static_cast<std::uint32_t>((time_unix_s - seconds) * 1e9);
-  Put(message->header.frame_id, "");
-  PutSequence(message->status, boats, PutStatus);
+  wire::Put(message->header.frame_id, "");
+  wire::PutSequence(message->status, boats, PutStatus);
   return message;
 }
 
