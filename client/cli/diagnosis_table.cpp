@@ -88,8 +88,8 @@ std::string CauseParagraph(const Cause& cause) {
     text += EffectText(effect, cause.effects.size() > 1);
   }
   if (!cause.indistinguishable.empty()) {
-    text += Wrapped(
-        "this recording cannot separate it from " + Joined(cause.indistinguishable, ", "), "  ");
+    text +=
+        Wrapped("this recording cannot separate it from " + Listed(cause.indistinguishable), "  ");
   }
   return text;
 }

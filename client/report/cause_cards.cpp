@@ -58,9 +58,9 @@ Markup EffectPart(const CausalEffect& effect, bool several) {
 
 Markup IndistinguishableText(const Cause& cause) {
   if (cause.indistinguishable.empty()) return {};
-  return Styled("p", "tied",
-                Words("This recording cannot separate it from " +
-                      Joined(cause.indistinguishable, ", ") + "."));
+  return Styled(
+      "p", "tied",
+      Words("This recording cannot separate it from " + Listed(cause.indistinguishable) + "."));
 }
 
 Markup CauseCard(const Cause& cause) {
@@ -103,7 +103,7 @@ Markup CauseCards(const Diagnosis& diagnosis) {
   }
   Markup all = Styled("div", "cards", cards);
   if (unlikely.empty()) return all;
-  return all + Styled("p", "soft unlikely", Words("Unlikely: " + Joined(unlikely, ", ") + '.'));
+  return all + Styled("p", "soft unlikely", Words("Unlikely: " + Listed(unlikely) + '.'));
 }
 
 }  // namespace telltale

@@ -18,6 +18,12 @@ int DecimalsFor(double standard_error) {
 
 }  // namespace
 
+std::string Listed(const std::vector<std::string>& names) {
+  std::string text;
+  for (const std::string& name : names) text.append(text.empty() ? "" : ", ").append(name);
+  return text;
+}
+
 std::string_view VerdictText(Verdict verdict) {
   switch (verdict) {
     case Verdict::kUnknown: return "Not diagnosed";

@@ -4,12 +4,16 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "telltale/core/diagnosis/diagnosis.hpp"
 
 namespace telltale {
 
 /// How a diagnosis is put for people, alike on a terminal and on a page.
+
+/// "wind, current".
+std::string Listed(const std::vector<std::string>& names);
 
 std::string_view VerdictText(Verdict verdict);  ///< "Explained"
 

@@ -44,12 +44,6 @@ std::string UtcText(double unix_s) {
   return text;
 }
 
-std::string Joined(const std::vector<std::string>& parts, std::string_view separator) {
-  std::string text;
-  for (const std::string& part : parts) text.append(text.empty() ? "" : separator).append(part);
-  return text;
-}
-
 std::string ShareText(double share) {
   return Fixed(100.0 * share, 0) + " %";
 }

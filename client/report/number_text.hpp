@@ -2,8 +2,6 @@
 
 #include <cstddef>
 #include <string>
-#include <string_view>
-#include <vector>
 
 namespace telltale {
 
@@ -21,9 +19,6 @@ std::string Counted(std::size_t count, const std::string& one, const std::string
 
 /// "2026-05-01 10:00:00", UTC.
 std::string UtcText(double unix_s);
-
-/// "wind, current" with the separator ", ".
-std::string Joined(const std::vector<std::string>& parts, std::string_view separator);
 
 /// A share as "81 %".
 std::string ShareText(double share);

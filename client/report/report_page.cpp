@@ -283,10 +283,10 @@ Markup ProvenanceSection(const Diagnosis& diagnosis, const ReportSources& source
       "Where it comes from", "",
       Element("table", {},
               Element("tbody", {},
-                      SourceRow("Recording", Joined(sources.recordings, ", ")) +
+                      SourceRow("Recording", Listed(sources.recordings)) +
                           SourceRow("Time", SpanText(diagnosis.start_s, diagnosis.end_s)) +
                           SourceRow("Model", sources.model) +
-                          SourceRow("References", Joined(sources.references, ", ")) +
+                          SourceRow("References", Listed(sources.references)) +
                           SourceRow("Published", published) +
                           SourceRow("Made by", "Telltale " + diagnosis.software_version +
                                                    ", seed " + std::to_string(diagnosis.seed)))));
