@@ -75,9 +75,8 @@ Result<RawLog> FromOtherFolder(const std::filesystem::path& folder, const Source
 
 /// A folder says nothing of itself; what was left out of it is said.
 std::optional<LogDescription> DescriptionOf(const TelemetryLog& log) {
-  constexpr std::string_view kSemicolon = "; ";
   if (log.left_out.empty()) return std::nullopt;
-  return LogDescription{log.left_out.substr(kSemicolon.size()), std::nullopt, std::nullopt};
+  return LogDescription{log.left_out, std::nullopt, std::nullopt};
 }
 
 Result<RawLog> FromFolder(const std::filesystem::path& folder, const SourceOptions& options) {

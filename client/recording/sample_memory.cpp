@@ -54,11 +54,12 @@ std::size_t SampleRows::KeepWhere(Stays stays) {
 std::string SampleMemory::Summary() const {
   std::string text;
   if (old_ > 0) {
-    text += "; " + std::to_string(old_) + " samples more than a day older than the newest left out";
+    text = std::to_string(old_) + " samples more than a day older than the newest left out";
   }
   if (rate_hz_ == 0.0) return text;
+  if (!text.empty()) text += "; ";
   const std::string most = FormatSignificant(static_cast<double>(most_bytes_) * 1e-6, 2) + " MB";
-  text += "; thinned by whole samples to " + FormatNumber(rate_hz_, 0) +
+  text += "thinned by whole samples to " + FormatNumber(rate_hz_, 0) +
           " Hz, since all would take more than " + most;
   if (of_older_halves_ > 0) {
     text += "; the oldest " + std::to_string(of_older_halves_) +

@@ -30,7 +30,7 @@ class SampleMemory {
  public:
   explicit SampleMemory(std::size_t most_bytes = kReadingBytes) : most_bytes_(most_bytes) {}
 
-  /// "; thinned to 50 Hz by whole samples ..." for people; empty where all samples stay.
+  /// "thinned by whole samples to 50 Hz ..." for people; empty where all samples stay.
   std::string Summary() const;
 
  private:

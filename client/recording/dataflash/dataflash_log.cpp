@@ -7,6 +7,7 @@
 #include <sstream>
 #include <utility>
 
+#include "telltale/client/recording/further_part.hpp"
 #include "telltale/client/recording/pulse_columns.hpp"
 
 namespace telltale {
@@ -340,7 +341,7 @@ std::string DataFlashReport::Summary() const {
   AppendCounts(out, damage.redefinitions, "redefinitions");
   AppendCounts(out, damage.skipped_bytes, "bytes skipped");
   AppendCounts(out, damage.truncated_bytes, "bytes of a record cut off at the end");
-  out << left_out;
+  out << FurtherPart(left_out);
   return out.str();
 }
 

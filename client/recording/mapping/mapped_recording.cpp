@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "telltale/client/recording/further_part.hpp"
+
 namespace telltale {
 
 MappedRecording::MappedRecording(const Mapping& mapping, std::size_t most_bytes)
@@ -19,7 +21,7 @@ SourceLog MappedRecording::Finish(const char* what) && {
   log.gnss = std::move(fixes_).Release();
   log.heading = std::move(headings_).Release();
   log.thrusters = JoinSides(port_commands_.Samples(), starboard_commands_.Samples());
-  log.summary = samples_.Summary(what) + memory_.Summary();
+  log.summary = samples_.Summary(what) + FurtherPart(memory_.Summary());
   return log;
 }
 

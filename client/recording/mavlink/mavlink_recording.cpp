@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "telltale/client/recording/block_reader.hpp"
+#include "telltale/client/recording/further_part.hpp"
 #include "telltale/client/recording/rate_warning.hpp"
 #include "telltale/core/base/degrees.hpp"
 
@@ -224,7 +225,8 @@ SourceLog MavlinkRecording::Finish(const SourceOptions& options) && {
   const std::string of_outputs = ChooseOutputs(vehicle, options, log);
   log.summary += of_outputs + of_headings + of_positions +
                  AndCount(vehicle.without_fix, "positions without a fix") +
-                 AndCount(vehicle.repeated_fixes, "positions sent again") + memory_.Summary();
+                 AndCount(vehicle.repeated_fixes, "positions sent again") +
+                 FurtherPart(memory_.Summary());
   return log;
 }
 

@@ -6,6 +6,7 @@
 #include <sstream>
 #include <tuple>
 
+#include "telltale/client/recording/further_part.hpp"
 #include "telltale/client/recording/rate_warning.hpp"
 #include "telltale/core/base/median.hpp"
 
@@ -303,7 +304,7 @@ SourceLog RosRecording::Finish() && {
   if (best.position != nullptr) log.summary += TakePositions(*best.position, log);
   if (best.heading != nullptr) log.summary += TakeHeadings(*best.heading, log);
   log.summary += TakeCommands(best, log);
-  log.summary += RateWarnings(best, log) + clock + Faults() + memory_.Summary();
+  log.summary += RateWarnings(best, log) + clock + Faults() + FurtherPart(memory_.Summary());
   return log;
 }
 
