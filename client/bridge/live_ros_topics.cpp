@@ -49,7 +49,7 @@ void LiveRosTopics::Take(std::string_view topic, std::string_view type,
   }
   RosTopic& source = found->second.source;
   const std::uint64_t unreadable = source.Unreadable();
-  const auto reading = source.Read(bytes);
+  const RosReading* const reading = source.Read(bytes);
   if (!reading) {
     return reject_(source.Unreadable() > unreadable ? RosReject::kUnreadable
                                                     : RosReject::kWithoutFix);

@@ -7,7 +7,6 @@
 #include <span>
 #include <string_view>
 #include <type_traits>
-#include <vector>
 
 namespace telltale {
 
@@ -52,14 +51,16 @@ class CdrReader {
     return text;
   }
 
+  /// The first values of a sequence, as many as `first` has room for. Returns how many the sequence
+  /// has; 0 where it is cut off.
   template <class Number>
-  std::vector<Number> ReadSequence() {
-    const auto length = Read<std::uint32_t>();
-    std::vector<Number> values;
-    if (!Holds(std::size_t{length} * sizeof(Number))) return values;
-    values.reserve(length);
-    for (std::uint32_t i = 0; i < length; ++i) values.push_back(Read<Number>());
-    return values;
+  std::size_t ReadSequence(std::span<Number> first) {
+    const std::size_t length = Read<std::uint32_t>();
+    if (!Holds(length * sizeof(Number))) return 0;
+    const std::size_t wanted = std::min(length, first.size());
+    for (Number& value : first.first(wanted)) value = Read<Number>();
+    at_ += (length - wanted) * sizeof(Number);
+    return length;
   }
 
   bool IsRos1() const { return is_ros1_; }

@@ -114,7 +114,7 @@ MessageTaker RosRecording::Open(const RosChannel& channel, CdrReader::Encoding e
       topics_.try_emplace(std::string(channel.topic), memory_, std::move(source)).first->second;
   return [this, &topic, encoding](std::int64_t received_ns, std::span<const std::uint8_t> message) {
     ++topic.messages;
-    if (const auto reading = topic.source.Read(message, encoding)) {
+    if (const RosReading* const reading = topic.source.Read(message, encoding)) {
       topic.Take(1e-9 * static_cast<double>(received_ns), *reading, channels_);
     }
   };

@@ -152,12 +152,13 @@ RosTopic::RosTopic(std::string_view name, std::string_view type)
   is_imu_ = type == "sensor_msgs/msg/Imu";
 }
 
-std::optional<RosReading> RosTopic::Read(std::span<const std::uint8_t> bytes,
-                                         CdrReader::Encoding encoding) {
-  if (kind_ == RosKind::kUnknown) return std::nullopt;
+const RosReading* RosTopic::Read(std::span<const std::uint8_t> bytes,
+                                 CdrReader::Encoding encoding) {
+  if (kind_ == RosKind::kUnknown) return nullptr;
   CdrReader cdr(bytes, encoding);
-  std::optional<RosReading> read(std::in_place);  // in the place of the result
-  RosReading& reading = *read;
+  RosReading& reading = reading_;
+  reading.stamp_s.reset();
+  reading.position.reset();
   bool is_usable = true;
   const auto stamp = [&](const RosHeader& header) {
     if (header.stamp_s != 0.0) reading.stamp_s = header.stamp_s;
@@ -193,7 +194,7 @@ std::optional<RosReading> RosTopic::Read(std::span<const std::uint8_t> bytes,
     }
     case RosKind::kOutputs:
       stamp(ReadHeader(cdr));
-      reading.outputs = cdr.ReadSequence<std::uint16_t>();
+      reading.output_count = cdr.ReadSequence(std::span<std::uint16_t>(reading.outputs));
       break;
     case RosKind::kDrive:
       reading.values[0] = static_cast<double>(cdr.Read<float>());
@@ -207,8 +208,7 @@ std::optional<RosReading> RosTopic::Read(std::span<const std::uint8_t> bytes,
     case RosKind::kUnknown: break;
   }
   if (!cdr.Ok()) ++unreadable_;
-  if (!cdr.Ok() || !is_usable) read.reset();
-  return read;
+  return cdr.Ok() && is_usable ? &reading : nullptr;
 }
 
 RosOutputChannels::RosOutputChannels(const SourceOptions& options)
@@ -221,7 +221,7 @@ std::optional<ThrusterSample> CommandsOf(RosKind kind, const RosReading& reading
     return ThrusterSample{time_s, PulseOfShare(reading.values[0]), PulseOfShare(reading.values[1])};
   }
   const auto most = static_cast<std::size_t>(std::max(channels.port, channels.starboard));
-  if (reading.outputs.size() < most) return std::nullopt;
+  if (reading.output_count < most) return std::nullopt;
   const auto pulse_us = [&](int channel) {
     return static_cast<double>(reading.outputs[static_cast<std::size_t>(channel - 1)]);
   };

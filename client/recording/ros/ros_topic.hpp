@@ -1,12 +1,12 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <span>
 #include <string>
 #include <string_view>
-#include <vector>
 
 #include "telltale/client/recording/odometry_origin.hpp"
 #include "telltale/client/recording/ros/cdr_reader.hpp"
@@ -18,12 +18,16 @@ namespace telltale {
 /// What the messages of a topic say of a vehicle.
 enum class RosKind { kUnknown, kPosition, kCompass, kOrientation, kOutputs, kDrive, kSide };
 
+/// The last output that a vehicle may drive a thruster by: SourceOptions::port_channel.
+inline constexpr std::size_t kLastOutput = 16;
+
 /// What one message says.
 struct RosReading {
   std::optional<double> stamp_s;  ///< of its header, seconds since 1970
   std::optional<GeographicPosition> position;
   std::array<double, 2> values{};  ///< heading | port, starboard | share or pulse
-  std::vector<std::uint16_t> outputs;
+  std::array<std::uint16_t, kLastOutput> outputs{};
+  std::size_t output_count = 0;  ///< that the message has; those beyond kLastOutput are left out
 };
 
 /// A topic of ROS and what its messages say, by its name and type alone.
@@ -42,9 +46,10 @@ class RosTopic {
   /// `type` as "sensor_msgs/msg/NavSatFix".
   RosTopic(std::string_view name, std::string_view type);
 
-  /// Nothing of a message that is cut off, has no fix or no orientation.
-  std::optional<RosReading> Read(std::span<const std::uint8_t> bytes,
-                                 CdrReader::Encoding encoding = CdrReader::Encoding::kCdr);
+  /// What a message says, until the next one is read. Null where it is cut off, has no fix or no
+  /// orientation.
+  const RosReading* Read(std::span<const std::uint8_t> bytes,
+                         CdrReader::Encoding encoding = CdrReader::Encoding::kCdr);
 
   RosKind Kind() const { return kind_; }
   const std::string& Type() const { return type_; }
@@ -68,7 +73,8 @@ class RosTopic {
   bool is_single_ = false;  ///< Float32
   bool is_imu_ = false;
   bool is_ned_ = false;
-  std::string frame_;  ///< that the last header named
+  std::string frame_;   ///< that the last header named
+  RosReading reading_;  ///< of the last message: none is made, filled and copied for each
   std::uint64_t unreadable_ = 0;
   std::uint64_t without_fix_ = 0;
 };

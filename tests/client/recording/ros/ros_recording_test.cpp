@@ -95,6 +95,20 @@ TEST(RosRecording, PrefersFixesOfTheReceiverToFilteredOnes) {
   EXPECT_THAT(log.summary, testing::HasSubstr("positions from /mavros/global_position/raw/fix"));
 }
 
+TEST(RosRecording, TakesTheLastChannelOfMoreThanDriveThrusters) {
+  SourceOptions options;
+  options.starboard_channel = 16;
+  RosRecording recording(options);
+  std::vector<std::uint16_t> pulses(18, 1500);
+  pulses[15] = 1616;
+  pulses[17] = 1818;
+  Take(recording, "/rc/out", "mavros_msgs/msg/RCOut", 100 * kSecondNs, RcOut(100, pulses));
+  const SourceLog log = std::move(recording).Finish();
+  ASSERT_EQ(log.thrusters.size(), 1u);
+  EXPECT_EQ(log.thrusters[0].port_us, 1500.0);
+  EXPECT_EQ(log.thrusters[0].starboard_us, 1616.0);
+}
+
 TEST(RosRecording, CountsOutputsWithTooFewChannels) {
   RosRecording recording{SourceOptions{}};
   Take(recording, "/rc/out", "mavros_msgs/msg/RCOut", 100 * kSecondNs, RcOut(100, {1600, 1500}));
