@@ -28,10 +28,10 @@ void PulseColumns::Add(double time_s, std::span<const float> pulse_us) {
       column.pulse_us.assign(times_s_.size(), column.first_us);
       added += times_s_.size() * sizeof(float);
     }
-    column.pulse_us.push_back(pulse_us[i]);
+    AddRow(column.pulse_us, pulse_us[i]);
     added += sizeof(float);
   }
-  times_s_.push_back(time_s);
+  AddRow(times_s_, time_s);
   Added(added);
 }
 

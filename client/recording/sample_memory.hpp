@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <string>
@@ -93,6 +94,15 @@ class SampleRows {
   SampleMemory* memory_;
 };
 
+/// Adds a value to a column. It grows by four: what has not been written to takes no memory, and
+/// fewer copies are made.
+template <class Value>
+void AddRow(std::vector<Value>& column, const Value& value) {
+  constexpr std::size_t kFirst = 64;
+  if (column.size() == column.capacity()) column.reserve(std::max(kFirst, 4 * column.size()));
+  column.push_back(value);
+}
+
 /// Leaves of a column what is kept, in no more memory than that takes.
 template <class Value>
 void KeepRows(std::vector<Value>& column, const std::vector<bool>& is_kept) {
@@ -112,7 +122,7 @@ class SampleSeries : public SampleRows {
 
   void Add(const Sample& sample) {
     if (!HasPlaceFor(sample.time_s)) return;
-    samples_.push_back(sample);
+    AddRow(samples_, sample);
     Added(sizeof(Sample));
   }
 

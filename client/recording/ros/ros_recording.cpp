@@ -45,11 +45,11 @@ void RosRecording::Topic::Take(double at_s, const RosReading& reading,
   if (!HasPlaceFor(at_s)) return;
   const double time_s = reading.stamp_s.value_or(at_s);
   if (reading.position) {
-    fixes.push_back({time_s, reading.position->latitude_deg, reading.position->longitude_deg});
+    AddRow(fixes, {time_s, reading.position->latitude_deg, reading.position->longitude_deg});
   }
   switch (source.Kind()) {
     case RosKind::kCompass:
-    case RosKind::kOrientation: headings.push_back({time_s, reading.values[0]}); break;
+    case RosKind::kOrientation: AddRow(headings, {time_s, reading.values[0]}); break;
     case RosKind::kOutputs:
     case RosKind::kDrive: {
       const auto command = CommandsOf(source.Kind(), reading, channels, time_s);
@@ -57,14 +57,14 @@ void RosRecording::Topic::Take(double at_s, const RosReading& reading,
         ++without_channels;
         return;
       }
-      commands.push_back(*command);
+      AddRow(commands, *command);
       break;
     }
-    case RosKind::kSide: told.push_back({time_s, reading.values[0]}); break;
+    case RosKind::kSide: AddRow(told, {time_s, reading.values[0]}); break;
     case RosKind::kPosition:
     case RosKind::kUnknown: break;
   }
-  received_s.push_back(at_s);
+  AddRow(received_s, at_s);
   Added(BytesOfRow());
 }
 
