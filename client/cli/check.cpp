@@ -1,6 +1,7 @@
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <nlohmann/json.hpp>
@@ -87,10 +88,10 @@ nlohmann::ordered_json JsonOf(const CheckedLog& log) {
 }
 
 CheckedLog CheckOne(const std::filesystem::path& path, const LogInputs& inputs) {
-  const RawLog log = ReadShown(path, inputs.options);
+  RawLog log = ReadShown(path, inputs.options);
   const Vehicle vehicle = inputs.NamesVehicle() ? LoadVehicle(inputs.vehicle_file)
                                                 : DescribedOrUsualVehicle(log.description);
-  return CheckLog(path, log.channels, log.description, vehicle);
+  return CheckLog(path, std::move(log.channels), log.description, vehicle);
 }
 
 void CheckLogs(const CheckArguments& arguments) {

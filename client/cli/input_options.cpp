@@ -88,7 +88,11 @@ RecordedVehicle LogInputs::Load() const {
   }
   std::vector<RecordedLog> loaded;
   for (const std::filesystem::path& log : logs) {
-    loaded.push_back(Admitted(log, ReadShown(log, options), PrintNote));
+    RawLog raw = ReadShown(log, options);
+    auto fault =
+        skip_input_check ? std::nullopt : FaultAsRecorded(raw.channels, raw.description, vehicle);
+    loaded.push_back(Admitted(log, std::move(raw), PrintNote));
+    loaded.back().fault = std::move(fault);
   }
   return Join(std::move(loaded), std::move(vehicle),
               skip_input_check ? InputFaults::kIgnored : InputFaults::kSought, PrintNote);

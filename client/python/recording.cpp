@@ -23,6 +23,12 @@ void RequireValid(const SourceOptions& options) {
   }
 }
 
+void Take(RawLog raw, const fs::path& path, StatedLog& log) {
+  log.recorded = raw.channels;
+  log.log =
+      Admitted(path, std::move(raw), [&](const std::string& note) { log.notes.push_back(note); });
+}
+
 std::shared_ptr<StatedLog> Load(const fs::path& path, const std::optional<VehicleOrFile>& vehicle,
                                 const std::optional<fs::path>& mapping,
                                 std::optional<int> gps_instance, std::optional<int> system_id,
@@ -42,8 +48,7 @@ std::shared_ptr<StatedLog> Load(const fs::path& path, const std::optional<Vehicl
   auto loaded = std::make_shared<StatedLog>();
   loaded->stated = VehicleOf(vehicle);
   const py::gil_scoped_release unlocked;
-  loaded->log =
-      LoadLog(path, options, [&](const std::string& note) { loaded->notes.push_back(note); });
+  Take(LoadAsRecorded(path, options), path, *loaded);
   return loaded;
 }
 
@@ -87,8 +92,7 @@ std::shared_ptr<StatedLog> FromArrays(const VehicleOrFile& vehicle, const Number
                   PulsesAt(ColumnOf("command_time_s", command_time_s), port_us, starboard_us)};
   auto made = std::make_shared<StatedLog>();
   made->stated = VehicleOf(vehicle);
-  made->log =
-      Admitted(name, std::move(raw), [&](const std::string& note) { made->notes.push_back(note); });
+  Take(std::move(raw), name, *made);
   return made;
 }
 
@@ -239,6 +243,9 @@ RecordedVehicle Joined(const Recordings& recordings, const std::optional<Vehicle
     throw UsageError("vehicle: " + recordings.front()->log.path.string() + " and " +
                      recording->log.path.string() +
                      " state different ones; give the one that holds for all");
+  }
+  for (std::size_t i = 0; faults == InputFaults::kSought && i < logs.size(); ++i) {
+    logs[i].fault = FaultAsRecorded(recordings[i]->recorded, logs[i].loaded.description, stated);
   }
   return Join(std::move(logs), std::move(stated), faults, [](const std::string&) {});
 }

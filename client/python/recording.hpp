@@ -15,6 +15,7 @@ namespace telltale::python {
 /// A log as the package has loaded it, with the vehicle that its user stated.
 struct StatedLog {
   RecordedLog log;
+  RawChannels recorded;  ///< before admission; checks need these, for whatever vehicle
   std::optional<Vehicle> stated;
   std::vector<std::string> notes;
 

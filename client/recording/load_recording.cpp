@@ -254,20 +254,20 @@ Result<RawLog> ReadLog(const std::filesystem::path& path, const SourceOptions& o
   return tl::unexpected(UnknownFormat(path));
 }
 
-Result<LoadedRecording> AdmitLog(const std::filesystem::path& path, const RawLog& log) {
+Result<LoadedRecording> AdmitLog(const std::filesystem::path& path, RawLog log) {
   auto fault = UnitFault(log.channels.gnss, log.channels.thrusters);
   if (fault) return Naming(path, *std::move(fault));
-  auto admitted = Admit(log.channels);
+  auto admitted = Admit(std::move(log.channels));
   if (!admitted) return Naming(path, std::move(admitted).error());
   return LoadedRecording{std::move(admitted->recording), admitted->evicted, log.malformed,
-                         log.description};
+                         std::move(log.description)};
 }
 
 Result<LoadedRecording> LoadRecording(const std::filesystem::path& path,
                                       const SourceOptions& options) {
-  const auto log = ReadLog(path, options);
-  if (!log) return tl::unexpected(log.error());
-  return AdmitLog(path, *log);
+  auto log = ReadLog(path, options);
+  if (!log) return tl::unexpected(std::move(log).error());
+  return AdmitLog(path, *std::move(log));
 }
 
 Result<Vehicle> VehicleFrom(const LogDescription& description, const std::string& vehicle_id) {

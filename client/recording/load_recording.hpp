@@ -60,7 +60,7 @@ Result<RawLog> ReadLog(const std::filesystem::path& path, const SourceOptions& o
 
 /// What Admit keeps of a log. Refuses when: it does, or times, positions or commands are plainly in
 /// other units than those of a telemetry log (UnitFault); the subject names the path.
-Result<LoadedRecording> AdmitLog(const std::filesystem::path& path, const RawLog& log);
+Result<LoadedRecording> AdmitLog(const std::filesystem::path& path, RawLog log);
 
 /// ReadLog, then AdmitLog. Refuses when: either does.
 Result<LoadedRecording> LoadRecording(const std::filesystem::path& path,

@@ -12,20 +12,19 @@ std::optional<Refusal> CheckedLog::FirstProblem() const {
   return unusable;
 }
 
-CheckedLog CheckLog(const std::filesystem::path& path, const RawChannels& recorded,
+CheckedLog CheckLog(const std::filesystem::path& path, RawChannels recorded,
                     const std::optional<LogDescription>& description, const Vehicle& vehicle) {
   CheckedLog checked;
   checked.path = path;
   if (description) checked.summary = description->summary;
   checked.check = CheckInput(recorded.gnss, recorded.heading, recorded.thrusters, vehicle);
-  const auto admitted = Admit(recorded);
+  const auto admitted = Admit(std::move(recorded));
   if (!admitted) {
     checked.unusable = admitted.error();
     return checked;
   }
   checked.rejected = admitted->recording.rejected;
-  const auto dataset = Prepare(admitted->recording, vehicle, PrepareOptions::Robust());
-  if (!dataset) checked.unusable = dataset.error();
+  checked.unusable = WhyNotPrepared(admitted->recording, PrepareOptions::Robust());
   return checked;
 }
 

@@ -23,8 +23,8 @@ struct CheckedLog {
   std::optional<Refusal> FirstProblem() const;
 };
 
-/// Seeks faults of input in a log (CheckInput) and tries whether it can be prepared.
-CheckedLog CheckLog(const std::filesystem::path& path, const RawChannels& recorded,
+/// Seeks faults of input in a log (CheckInput) and whether it can be prepared (WhyNotPrepared).
+CheckedLog CheckLog(const std::filesystem::path& path, RawChannels recorded,
                     const std::optional<LogDescription>& description, const Vehicle& vehicle);
 
 /// The vehicle that a log describes, else one whose thrusters take 1100, 1500 and 1900 us for full

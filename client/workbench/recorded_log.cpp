@@ -48,7 +48,7 @@ RawLog LoadAsRecorded(const std::filesystem::path& log, const SourceOptions& opt
 }
 
 RecordedLog Admitted(const std::filesystem::path& path, RawLog log, const NoteSink& note) {
-  LoadedRecording loaded = OrThrow(AdmitLog(path, log));
+  LoadedRecording loaded = OrThrow(AdmitLog(path, std::move(log)));
   if (loaded.description) note(path.string() + ": " + loaded.description->summary);
   for (const Channel channel : kChannels) {
     NoteMalformed(path / (std::string(Name(channel)) + ".csv"),
@@ -58,7 +58,7 @@ RecordedLog Admitted(const std::filesystem::path& path, RawLog log, const NoteSi
     note(path.string() + ": " + std::to_string(loaded.evicted) +
          " samples left out, older than a day or before the clock was set back");
   }
-  return {path, std::move(loaded), std::move(log.channels)};
+  return {path, std::move(loaded), std::nullopt};
 }
 
 RecordedLog LoadLog(const std::filesystem::path& path, const SourceOptions& options,

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 
 #include "telltale/client/recording/load_recording.hpp"
@@ -10,11 +11,11 @@
 
 namespace telltale {
 
-/// One log: what of it can be trusted, and its samples as they were recorded.
+/// One log: what of it can be trusted.
 struct RecordedLog {
   std::filesystem::path path;  ///< by which errors name it
   LoadedRecording loaded;
-  RawChannels recorded;  ///< admission drops what shows some faults; checks need these
+  std::optional<Refusal> fault;  ///< of input, where it was sought and found
 };
 
 /// "run225" of /data/run225 and of /data/run225/.

@@ -84,6 +84,7 @@ std::vector<RecordingIdentity> IdentitiesOf(const std::vector<RecordedLog>& logs
 /// Data that count twice make bounds too narrow.
 void RequireNotRepeated(const std::vector<RecordedLog>& logs,
                         const std::vector<RecordingIdentity>& identities) {
+  if (logs.size() < 2) return;
   std::vector<FixMarks> marks;
   for (const RecordedLog& log : logs) marks.push_back(MarksOf(log.loaded.recording));
   for (std::size_t i = 1; i < logs.size(); ++i) {
@@ -96,20 +97,27 @@ void RequireNotRepeated(const std::vector<RecordedLog>& logs,
   }
 }
 
-/// As it was recorded: admission drops what is repeated, and with it the sign of a stuck channel.
-void RequireSoundInput(const std::vector<RecordedLog>& logs, const Vehicle& vehicle) {
+void RequireSoundInput(const std::vector<RecordedLog>& logs) {
   for (const RecordedLog& log : logs) {
-    const RawChannels& recorded = log.recorded;
-    auto fault =
-        FirstFault(CheckInput(recorded.gnss, recorded.heading, recorded.thrusters, vehicle));
-    if (!fault) continue;
-    fault->subject = log.path.string() + ' ' + fault->subject;
-    fault->advice += "; --skip-input-check, if you know that the input is right";
-    throw RefusedError(*std::move(fault));
+    if (!log.fault) continue;
+    throw RefusedError(
+        {log.path.string() + ' ' + log.fault->subject, log.fault->reason,
+         log.fault->advice + "; --skip-input-check, if you know that the input is right"});
   }
 }
 
 }  // namespace
+
+std::optional<Refusal> FaultAsRecorded(const RawChannels& recorded,
+                                       const std::optional<LogDescription>& description,
+                                       const std::optional<Vehicle>& stated) {
+  std::optional<Vehicle> vehicle = stated;
+  if (!vehicle && description) {
+    if (auto described = VehicleFrom(*description, "log")) vehicle = *std::move(described);
+  }
+  if (!vehicle) return std::nullopt;
+  return FirstFault(CheckInput(recorded.gnss, recorded.heading, recorded.thrusters, *vehicle));
+}
 
 void RequireSelfDescribing(const std::vector<std::filesystem::path>& logs) {
   for (const std::filesystem::path& log : logs) {
@@ -123,14 +131,11 @@ RecordedVehicle Join(std::vector<RecordedLog> logs, std::optional<Vehicle> state
   std::vector<RecordingIdentity> identities = IdentitiesOf(logs);
   if (faults == InputFaults::kSought) {
     RequireNotRepeated(logs, identities);
-    RequireSoundInput(logs, vehicle);
+    RequireSoundInput(logs);
   }
   std::vector<Recording> recordings;
-  for (RecordedLog& log : logs) {
-    recordings.push_back(std::move(log.loaded.recording));
-    log.recorded = {};
-  }
-  return {Concatenate(recordings), std::move(vehicle), std::move(identities)};
+  for (RecordedLog& log : logs) recordings.push_back(std::move(log.loaded.recording));
+  return {Concatenate(std::move(recordings)), std::move(vehicle), std::move(identities)};
 }
 
 void NoteOtherVehicle(const Identification& model, const Vehicle& vehicle, const NoteSink& note) {

@@ -5,12 +5,16 @@
 
 namespace telltale {
 
+double UnwrappedBehind(const std::vector<double>& psi_rad, double heading_deg) {
+  const double heading = heading_deg * kRadiansPerDegree;
+  return psi_rad.empty() ? heading : psi_rad.back() + WrapAngle(heading - psi_rad.back());
+}
+
 std::vector<double> Unwrap(std::span<const HeadingSample> samples) {
   std::vector<double> psi;
   psi.reserve(samples.size());
   for (const HeadingSample& sample : samples) {
-    const double heading = sample.heading_deg * kRadiansPerDegree;
-    psi.push_back(psi.empty() ? heading : psi.back() + WrapAngle(heading - psi.back()));
+    psi.push_back(UnwrappedBehind(psi, sample.heading_deg));
   }
   return psi;
 }

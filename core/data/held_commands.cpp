@@ -23,6 +23,8 @@ void Accumulate(PropellerCommand& sum, const PropellerCommand& command, double w
 
 HeldCommands::HeldCommands(std::span<const ThrusterSample> samples, const Vehicle& vehicle) {
   Require(!samples.empty(), "at least one thruster sample");
+  times_s_.reserve(samples.size());
+  commands_.reserve(samples.size());
   for (const ThrusterSample& sample : samples) {
     times_s_.push_back(sample.time_s);
     commands_.push_back(vehicle.Normalise(sample.port_us, sample.starboard_us));

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 #include <utility>
 
@@ -18,6 +19,24 @@ constexpr double kShareOutside = 0.5;             // of a channel, before its un
 constexpr double kCommandShareOutside = 0.05;
 constexpr double kOutsideBy = 1.05;
 
+/// Calls visit(period_s) for each step ahead in time from one sample to the next.
+template <class Sample, class Visit>
+void ForEachPeriod(const std::vector<Sample>& samples, Visit visit) {
+  for (std::size_t i = 1; i < samples.size(); ++i) {
+    const double period_s = samples[i].time_s - samples[i - 1].time_s;
+    if (std::isfinite(period_s) && period_s > 0.0) visit(period_s);
+  }
+}
+
+/// 0 where no time follows another.
+template <class Sample>
+double MedianPeriod(const std::vector<Sample>& samples) {
+  std::vector<double> periods;
+  periods.reserve(samples.size());
+  ForEachPeriod(samples, [&](double period_s) { periods.push_back(period_s); });
+  return periods.empty() ? 0.0 : Median(std::move(periods));
+}
+
 template <class Sample>
 ChannelCheck CheckChannel(const std::vector<Sample>& samples) {
   ChannelCheck check;
@@ -25,31 +44,47 @@ ChannelCheck CheckChannel(const std::vector<Sample>& samples) {
   if (samples.empty()) return check;
   check.start_s = samples.front().time_s;
   check.end_s = samples.back().time_s;
-  std::vector<double> periods;
-  for (std::size_t i = 1; i < samples.size(); ++i) {
-    const double period_s = samples[i].time_s - samples[i - 1].time_s;
-    if (std::isfinite(period_s) && period_s > 0.0) periods.push_back(period_s);
-  }
-  if (periods.empty()) return check;
-  check.median_period_s = Median(periods);
+  check.median_period_s = MedianPeriod(samples);
   const double gap_s = std::max(1.0, 5.0 * check.median_period_s);
-  for (const double period_s : periods) {
+  ForEachPeriod(samples, [&](double period_s) {
     check.gaps += period_s > gap_s ? 1 : 0;
     check.longest_gap_s = std::max(check.longest_gap_s, period_s);
-  }
+  });
   return check;
 }
 
-/// The samples of a channel whose times ascend, so that one wrong stamp spoils nothing.
-template <class Sample>
-std::vector<Sample> Ascending(const std::vector<Sample>& samples) {
-  std::vector<Sample> ascending;
+/// Calls visit(sample) for each sample that is later than those before it.
+template <class Sample, class Visit>
+void ForEachAscending(const std::vector<Sample>& samples, Visit visit) {
+  double newest_s = -std::numeric_limits<double>::infinity();
   for (const Sample& sample : samples) {
-    if (!std::isfinite(sample.time_s)) continue;
-    if (ascending.empty() || sample.time_s > ascending.back().time_s) ascending.push_back(sample);
+    if (!std::isfinite(sample.time_s) || sample.time_s <= newest_s) continue;
+    newest_s = sample.time_s;
+    visit(sample);
   }
-  return ascending;
 }
+
+/// The samples of a channel whose times ascend, so that one wrong stamp spoils nothing. Where all
+/// do, they are not copied: a recording may be as large as memory allows.
+template <class Sample>
+class Ascending {
+ public:
+  explicit Ascending(const std::vector<Sample>& samples) : samples_(samples) {
+    std::size_t count = 0;
+    ForEachAscending(samples, [&](const Sample&) { ++count; });
+    is_all_ = count == samples.size();
+    if (is_all_) return;
+    some_.reserve(count);
+    ForEachAscending(samples, [&](const Sample& sample) { some_.push_back(sample); });
+  }
+
+  const std::vector<Sample>& Samples() const { return is_all_ ? samples_ : some_; }
+
+ private:
+  const std::vector<Sample>& samples_;
+  bool is_all_ = false;
+  std::vector<Sample> some_;
+};
 
 std::optional<Refusal> FaultOfTimes(const ChannelCheck& gnss) {
   const double period_s = gnss.median_period_s;
@@ -128,13 +163,14 @@ InputCheck CheckInput(const std::vector<GnssFix>& gnss, const std::vector<Headin
     check.faults.push_back(*std::move(fault));
     return check;
   }
-  const auto fixes = Ascending(gnss);
-  const auto headings = Ascending(heading);
-  const auto commands = Ascending(thrusters);
-  for (Refusal& fault : MotionFaults(fixes, headings, commands, vehicle)) {
+  const Ascending fixes(gnss);
+  const Ascending headings(heading);
+  const Ascending commands(thrusters);
+  for (Refusal& fault :
+       MotionFaults(fixes.Samples(), headings.Samples(), commands.Samples(), vehicle)) {
     check.faults.push_back(std::move(fault));
   }
-  if (auto fault = FaultOfCommandRange(commands, vehicle)) check.faults.push_back(*fault);
+  if (auto fault = FaultOfCommandRange(commands.Samples(), vehicle)) check.faults.push_back(*fault);
   return check;
 }
 

@@ -38,45 +38,47 @@ constexpr std::size_t kFewestMoves = 3;  // of the other thruster, for one that 
 
 // ---- signals ------------------------------------------------------------------------------------
 
-bool Covers(const TimeSeries& series, double t) {
-  return series.times_s.front() <= t && t <= series.times_s.back();
+PropellerCommand Between(const PropellerCommand& from, const PropellerCommand& to, double share) {
+  return {from.port + share * (to.port - from.port),
+          from.starboard + share * (to.starboard - from.starboard)};
 }
 
-/// The commands behind a first-order lag.
+/// The commands behind a first-order lag, linear between their stamps and held beyond the ends.
+/// They are gone through once, so that no copy of them stands in memory. Requires: a command.
 class LaggedCommands {
  public:
   LaggedCommands(const std::vector<ThrusterSample>& thrusters, const Vehicle& vehicle, double lag_s)
-      : port_(Lagged(thrusters, lag_s,
-                     [&](const ThrusterSample& s) { return vehicle.port.Normalise(s.port_us); })),
-        starboard_(Lagged(thrusters, lag_s, [&](const ThrusterSample& s) {
-          return vehicle.starboard.Normalise(s.starboard_us);
-        })) {}
+      : thrusters_(thrusters), vehicle_(vehicle), lag_s_(lag_s), told_(Told(0)), next_(told_) {}
 
-  PropellerCommand At(double t) const { return {port_.Linear(t), starboard_.Linear(t)}; }
-
- private:
-  template <class Command>
-  static TimeSeries Lagged(const std::vector<ThrusterSample>& thrusters, double lag_s,
-                           Command command) {
-    std::vector<double> times_s;
-    std::vector<double> values;
-    double held = 0.0;
-    for (const ThrusterSample& sample : thrusters) {
-      double value = command(sample);
-      const double next = value;
-      if (!times_s.empty()) {
-        const double kept = std::exp(-(sample.time_s - times_s.back()) / lag_s);
-        value = held + kept * (values.back() - held);
-      }
-      held = next;
-      times_s.push_back(sample.time_s);
-      values.push_back(value);
-    }
-    return {std::move(times_s), std::move(values)};
+  /// Requires: a time not before the one asked for last.
+  PropellerCommand At(double t) {
+    while (at_ < thrusters_.size() && thrusters_[at_].time_s <= t) Advance();
+    if (at_ == 0) return next_;
+    if (at_ == thrusters_.size()) return last_;
+    const double since_s = thrusters_[at_ - 1].time_s;
+    return Between(last_, next_, (t - since_s) / (thrusters_[at_].time_s - since_s));
   }
 
-  TimeSeries port_;
-  TimeSeries starboard_;
+ private:
+  PropellerCommand Told(std::size_t i) const {
+    return vehicle_.Normalise(thrusters_[i].port_us, thrusters_[i].starboard_us);
+  }
+
+  void Advance() {
+    last_ = next_;
+    if (++at_ == thrusters_.size()) return;
+    const double held_s = thrusters_[at_].time_s - thrusters_[at_ - 1].time_s;
+    next_ = Between(told_, last_, std::exp(-held_s / lag_s_));
+    told_ = Told(at_);
+  }
+
+  const std::vector<ThrusterSample>& thrusters_;
+  const Vehicle& vehicle_;
+  double lag_s_;
+  std::size_t at_ = 0;     ///< the command that comes next
+  PropellerCommand told_;  ///< at its stamp, without the lag
+  PropellerCommand next_;  ///< at its stamp
+  PropellerCommand last_;  ///< at the stamp before
 };
 
 /// The boat's velocity over one chord between fixes.
@@ -174,6 +176,44 @@ PropellerCommand Undone(ThrusterRule rule, const PropellerCommand& command) {
   return command;
 }
 
+/// Headings less a supposed fault, unwrapped, at the times of the samples, which it borrows.
+/// Requires: a heading.
+class HeadingSeries {
+ public:
+  HeadingSeries(const std::vector<HeadingSample>& heading, HeadingRule rule) : heading_(heading) {
+    psi_rad_.reserve(heading.size());
+    for (const HeadingSample& sample : heading) {
+      psi_rad_.push_back(UnwrappedBehind(psi_rad_, Undone(rule, sample.heading_deg)));
+    }
+  }
+
+  double StartTime() const { return heading_.front().time_s; }
+  double EndTime() const { return heading_.back().time_s; }
+  bool Covers(double t) const { return StartTime() <= t && t <= EndTime(); }
+
+  /// The time of the first sample that is later than `t`. Requires: there is one.
+  double TimeAfter(double t) const { return heading_[LaterThan(t + kSameInstantS)].time_s; }
+
+  /// Linear between the neighbours of `t`, held beyond the ends.
+  double At(double t) const {
+    if (t <= StartTime()) return psi_rad_.front();
+    if (t >= EndTime()) return psi_rad_.back();
+    const std::size_t right = LaterThan(t);
+    const double since_s = heading_[right - 1].time_s;
+    const double share = (t - since_s) / (heading_[right].time_s - since_s);
+    return psi_rad_[right - 1] + share * (psi_rad_[right] - psi_rad_[right - 1]);
+  }
+
+ private:
+  std::size_t LaterThan(double t) const {
+    const auto later = std::ranges::upper_bound(heading_, t, {}, &HeadingSample::time_s);
+    return static_cast<std::size_t>(later - heading_.begin());
+  }
+
+  const std::vector<HeadingSample>& heading_;
+  std::vector<double> psi_rad_;
+};
+
 // ---- how well the motion follows the commands ---------------------------------------------------
 
 /// Sums of a line through the origin whose slope is not negative.
@@ -216,9 +256,9 @@ class Motion {
   Motion(const std::vector<GnssFix>& gnss, const std::vector<HeadingSample>& heading,
          const std::vector<ThrusterSample>& thrusters, const Vehicle& vehicle)
       : heading_(heading),
-        velocities_(VelocitiesOf(gnss)),
-        at_yaw_(thrusters, vehicle, kYawLagS),
-        at_speed_(thrusters, vehicle, kSpeedLagS) {
+        thrusters_(thrusters),
+        vehicle_(vehicle),
+        velocities_(VelocitiesOf(gnss)) {
     for (const Velocity& velocity : velocities_) moving_s_ += velocity.span_s;
     for (std::size_t i = 1; i < heading.size(); ++i) {
       const double span_s = heading[i].time_s - heading[i - 1].time_s;
@@ -226,36 +266,30 @@ class Motion {
     }
   }
 
-  TimeSeries Psi(HeadingRule rule) const {
-    std::vector<double> times_s;
-    std::vector<HeadingSample> undone = heading_;
-    for (HeadingSample& sample : undone) {
-      sample.heading_deg = Undone(rule, sample.heading_deg);
-      times_s.push_back(sample.time_s);
-    }
-    return {std::move(times_s), Unwrap(undone)};
-  }
+  HeadingSeries Psi(HeadingRule rule) const { return {heading_, rule}; }
 
   Rests After(const Supposition& supposition) const {
-    const TimeSeries psi = Psi(supposition.heading);
+    const HeadingSeries psi = Psi(supposition.heading);
+    LaggedCommands at_yaw(thrusters_, vehicle_, kYawLagS);
     PositiveLine yaw;
-    for (double t = psi.times_s.front(); t + kYawStepS <= psi.times_s.back(); t += kYawStepS) {
-      const double next_s = psi.times_s[psi.CountUntil(t)];
+    for (double t = psi.StartTime(); t + kYawStepS <= psi.EndTime(); t += kYawStepS) {
+      const double next_s = psi.TimeAfter(t);
       if (next_s - t > kWidestChordS) {
         t = next_s - kYawStepS;
         continue;
       }
       const PropellerCommand command =
-          Undone(supposition.thrusters, at_yaw_.At(t + 0.5 * kYawStepS));
-      yaw.Add(command.Difference(), (psi.Linear(t + kYawStepS) - psi.Linear(t)) / kYawStepS);
+          Undone(supposition.thrusters, at_yaw.At(t + 0.5 * kYawStepS));
+      yaw.Add(command.Difference(), (psi.At(t + kYawStepS) - psi.At(t)) / kYawStepS);
     }
+    LaggedCommands at_speed = CommandsAtSpeed();
     PositiveLine velocity;
     PositiveLine across;
     for (Velocity v : velocities_) {
-      if (!Covers(psi, v.time_s)) continue;
+      if (!psi.Covers(v.time_s)) continue;
       if (supposition.positions_exchanged) std::swap(v.north_mps, v.east_mps);
-      const double angle = psi.Linear(v.time_s);
-      const PropellerCommand command = Undone(supposition.thrusters, at_speed_.At(v.time_s));
+      const double angle = psi.At(v.time_s);
+      const PropellerCommand command = Undone(supposition.thrusters, at_speed.At(v.time_s));
       const double ahead_mps = v.north_mps * std::cos(angle) + v.east_mps * std::sin(angle);
       const double across_mps = v.east_mps * std::cos(angle) - v.north_mps * std::sin(angle);
       velocity.Add(command.Mean(), ahead_mps);
@@ -269,13 +303,13 @@ class Motion {
   double EffectiveVelocities() const { return moving_s_ / (2.0 * kSpeedLagS); }
 
   const std::vector<Velocity>& Velocities() const { return velocities_; }
-  PropellerCommand CommandAt(double t) const { return at_speed_.At(t); }
+  LaggedCommands CommandsAtSpeed() const { return {thrusters_, vehicle_, kSpeedLagS}; }
 
  private:
   const std::vector<HeadingSample>& heading_;
+  const std::vector<ThrusterSample>& thrusters_;
+  const Vehicle& vehicle_;
   std::vector<Velocity> velocities_;
-  LaggedCommands at_yaw_;
-  LaggedCommands at_speed_;
   double moving_s_ = 0.0;
   double turning_s_ = 0.0;
 };
@@ -348,16 +382,17 @@ struct Course {
 };
 
 std::vector<Course> CoursesAhead(const Motion& motion) {
-  const TimeSeries psi = motion.Psi(HeadingRule::kAsIs);
+  const HeadingSeries psi = motion.Psi(HeadingRule::kAsIs);
+  LaggedCommands commands = motion.CommandsAtSpeed();
   std::vector<Course> courses;
   for (const Velocity& v : motion.Velocities()) {
     const bool is_ahead = std::hypot(v.north_mps, v.east_mps) > kSlowestMps &&
-                          motion.CommandAt(v.time_s).Mean() > kAhead && Covers(psi, v.time_s);
+                          commands.At(v.time_s).Mean() > kAhead && psi.Covers(v.time_s);
     if (!is_ahead) continue;
-    const double angle = psi.Linear(v.time_s);
+    const double angle = psi.At(v.time_s);
     const double drift =
         std::remainder(std::atan2(v.east_mps, v.north_mps) - angle, 2.0 * std::numbers::pi);
-    const double rate = psi.Linear(v.time_s + 0.5 * kChordS) - psi.Linear(v.time_s - 0.5 * kChordS);
+    const double rate = psi.At(v.time_s + 0.5 * kChordS) - psi.At(v.time_s - 0.5 * kChordS);
     courses.push_back({angle, drift, rate / kChordS});
   }
   return courses;
@@ -458,9 +493,10 @@ bool CourseChanges(const Motion& motion, const Run& run) {
 
 /// How long the thrusters turn the boat one way or the other.
 double TurningS(const Motion& motion, const Run& run) {
+  LaggedCommands commands = motion.CommandsAtSpeed();
   double turning_s = 0.0;
   for (double t = run.start_s; t < run.end_s; t += kYawStepS) {
-    if (std::abs(motion.CommandAt(t).Difference()) > kTurning) turning_s += kYawStepS;
+    if (std::abs(commands.At(t).Difference()) > kTurning) turning_s += kYawStepS;
   }
   return turning_s;
 }
@@ -480,9 +516,10 @@ std::optional<Refusal> StuckPosition(const std::vector<GnssFix>& gnss, const Mot
     return a.latitude_deg == b.latitude_deg && a.longitude_deg == b.longitude_deg;
   });
   if (run.end_s - run.start_s < kStuckS) return std::nullopt;
+  LaggedCommands commands = motion.CommandsAtSpeed();
   double pushed_s = 0.0;
   for (double t = run.start_s; t < run.end_s; t += kChordS) {
-    if (std::abs(motion.CommandAt(t).Mean()) > kAhead) pushed_s += kChordS;
+    if (std::abs(commands.At(t).Mean()) > kAhead) pushed_s += kChordS;
   }
   if (pushed_s < kStuckS) return std::nullopt;
   return Stuck("gnss", run, "while both thrusters push");

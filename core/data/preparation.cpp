@@ -59,6 +59,38 @@ Refusal NoSegment(const PrepareOptions& options, double period_s, double longest
           "record longer without interruptions, or allow a longer longest_gap_s"};
 }
 
+/// A segment that is long enough, and its grid.
+struct LaidSegment {
+  Segment segment;
+  SamplingGrid grid;
+};
+
+/// At least one. Refuses when: Prepare() does.
+Result<std::vector<LaidSegment>> LaySegments(const Recording& recording,
+                                             const PrepareOptions& options) {
+  if (auto refusal = options.Validate()) return tl::unexpected(*std::move(refusal));
+  if (auto refusal = MissingChannel(recording)) return tl::unexpected(*std::move(refusal));
+  RequireAscending(recording.gnss);
+  RequireAscending(recording.heading);
+  RequireAscending(recording.thrusters);
+  const double period_s = SamplingPeriod(recording.gnss, options);
+  double longest_found_s = 0.0;
+  std::vector<LaidSegment> laid;
+  for (const Segment& segment : SegmentsOf(recording, options)) {
+    longest_found_s = std::max(longest_found_s, segment.end_s - segment.start_s);
+    const SamplingGrid grid = LayGrid(recording, segment, period_s);
+    if (LongEnough(grid, options)) laid.push_back({segment, grid});
+  }
+  if (laid.empty()) return tl::unexpected(NoSegment(options, period_s, longest_found_s));
+  return laid;
+}
+
+std::size_t RowsOf(const std::vector<LaidSegment>& laid) {
+  std::size_t rows = 0;
+  for (const LaidSegment& segment : laid) rows += segment.grid.rows;
+  return rows;
+}
+
 void Append(PreparedDataset& dataset, const std::vector<PreparedRow>& rows,
             const PrepareOptions& options) {
   const RowRange segment{dataset.rows.size(), dataset.rows.size() + rows.size()};
@@ -95,28 +127,26 @@ std::vector<PreparedRow> PrepareRows(const SegmentSignals& signals, const Sampli
                                           : PrepareRobustly(signals, grid, antenna, filter);
 }
 
+std::optional<Refusal> WhyNotPrepared(const Recording& recording, const PrepareOptions& options) {
+  const auto laid = LaySegments(recording, options);
+  return laid ? std::nullopt : std::optional(laid.error());
+}
+
 Result<PreparedDataset> Prepare(const Recording& recording, const Vehicle& vehicle,
                                 const PrepareOptions& options) {
-  if (auto refusal = options.Validate()) return tl::unexpected(*std::move(refusal));
-  if (auto refusal = MissingChannel(recording)) return tl::unexpected(*std::move(refusal));
-  RequireAscending(recording.gnss);
-  RequireAscending(recording.heading);
-  RequireAscending(recording.thrusters);
-
+  const auto laid = LaySegments(recording, options);
+  if (!laid) return tl::unexpected(laid.error());
   PreparedDataset dataset;
-  dataset.sampling_period_s = SamplingPeriod(recording.gnss, options);
+  dataset.sampling_period_s = laid->front().grid.period_s;
   dataset.origin = {recording.gnss.front().latitude_deg, recording.gnss.front().longitude_deg};
   dataset.rejected = recording.rejected;
   dataset.options = options;
   dataset.sensors.antenna = vehicle.gnss_antenna;
   dataset.hull = vehicle.HullOrDefault();
+  dataset.rows.reserve(RowsOf(*laid));
   const NorthEastFrame frame(dataset.origin);
-  double longest_found_s = 0.0;
   std::vector<std::size_t> places;  // of each segment among the recordings
-  for (const Segment& segment : SegmentsOf(recording, options)) {
-    longest_found_s = std::max(longest_found_s, segment.end_s - segment.start_s);
-    const SamplingGrid grid = LayGrid(recording, segment, dataset.sampling_period_s);
-    if (!LongEnough(grid, options)) continue;
+  for (const auto& [segment, grid] : *laid) {
     SegmentSignals signals = ReadSignals(recording, segment, vehicle, frame);
     Append(dataset, PrepareRows(signals, grid, vehicle.gnss_antenna, options), options);
     places.push_back(PlaceAmong(recording.starts_s, segment.start_s));
@@ -125,9 +155,6 @@ Result<PreparedDataset> Prepare(const Recording& recording, const Vehicle& vehic
     PoolNoise(dataset, NoiseInVelocity(noise, signals, grid, options));
     dataset.commands.push_back(std::move(signals.commands));
     dataset.signals.push_back(static_cast<RawSignals&&>(signals));
-  }
-  if (dataset.segments.empty()) {
-    return tl::unexpected(NoSegment(options, dataset.sampling_period_s, longest_found_s));
   }
   dataset.recordings = NumberedWithoutGaps(places);
   return dataset;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "telltale/core/base/result.hpp"
@@ -20,6 +21,10 @@ namespace telltale {
 /// Source: the paper, Data Preparation.
 Result<PreparedDataset> Prepare(const Recording& recording, const Vehicle& vehicle,
                                 const PrepareOptions& options);
+
+/// Why Prepare() refuses a recording; nothing: it does not. It takes neither the time nor the
+/// memory of the rows.
+std::optional<Refusal> WhyNotPrepared(const Recording& recording, const PrepareOptions& options);
 
 /// The rows of one segment as Prepare() makes them. Readings that are predicted become rows that
 /// compare with recorded ones: both pass the same filter.

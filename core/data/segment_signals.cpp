@@ -18,7 +18,11 @@ SegmentSignals ReadSignals(const Recording& recording, const Segment& segment,
                            const Vehicle& vehicle, const NorthEastFrame& frame) {
   SegmentSignals signals{
       {}, HeldCommands(SamplesIn(recording.thrusters, segment.Of(Channel::kThrusters)), vehicle)};
-  for (const GnssFix& fix : SamplesIn(recording.gnss, segment.Of(Channel::kGnss))) {
+  const auto fixes = SamplesIn(recording.gnss, segment.Of(Channel::kGnss));
+  for (auto* column : {&signals.north_m.times_s, &signals.north_m.values, &signals.east_m.values}) {
+    column->reserve(fixes.size());
+  }
+  for (const GnssFix& fix : fixes) {
     const NorthEastPosition antenna = frame.Forward({fix.latitude_deg, fix.longitude_deg});
     signals.north_m.times_s.push_back(fix.time_s);
     signals.north_m.values.push_back(antenna.north_m);
@@ -26,6 +30,7 @@ SegmentSignals ReadSignals(const Recording& recording, const Segment& segment,
   }
   signals.east_m.times_s = signals.north_m.times_s;
   const auto headings = SamplesIn(recording.heading, segment.Of(Channel::kHeading));
+  signals.psi_rad.times_s.reserve(headings.size());
   for (const HeadingSample& sample : headings) signals.psi_rad.times_s.push_back(sample.time_s);
   signals.psi_rad.values = Unwrap(headings);
   return signals;

@@ -1,14 +1,16 @@
 #include "telltale/client/recording/telemetry_log/telemetry_log.hpp"
 
 #include <algorithm>
+#include <cerrno>
 #include <charconv>
+#include <fstream>
 #include <iterator>
 #include <limits>
 #include <optional>
 #include <string>
+#include <system_error>
 #include <utility>
 
-#include "telltale/client/recording/file_contents.hpp"
 #include "telltale/core/data/window.hpp"
 
 namespace telltale {
@@ -16,6 +18,7 @@ namespace {
 
 constexpr double kLongestPauseS = 86400.0;  // that a clock runs through
 
+constexpr std::size_t kBytesAtOnce = std::size_t{1} << 16;
 constexpr int kTimeDecimals = 9;
 constexpr int kPositionDecimals = 9;
 constexpr int kHeadingDecimals = 6;
@@ -99,8 +102,13 @@ double ShiftAfter(double end_s, double start_s) {
   return may_stay ? 0.0 : end_s + kGapBetweenLogsS - start_s;
 }
 
+/// The first that is appended, which nothing shifts, is moved.
 template <class Sample>
-void AppendShifted(const std::vector<Sample>& from, double shift_s, std::vector<Sample>& to) {
+void AppendShifted(std::vector<Sample> from, double shift_s, std::vector<Sample>& to) {
+  if (to.empty() && shift_s == 0.0) {
+    to = std::move(from);
+    return;
+  }
   for (Sample sample : from) {
     sample.time_s += shift_s;
     to.push_back(sample);
@@ -128,6 +136,25 @@ void AppendNumber(std::string& text, double value, int decimals, char after) {
   text.append(digits).push_back(after);
 }
 
+/// `append` puts a sample behind a text, as a row. The rows are never in memory all at once.
+template <class Sample, class Append>
+void WriteRows(const std::filesystem::path& file, std::span<const std::string_view> columns,
+               const std::vector<Sample>& samples, Append append) {
+  std::ofstream stream(file, std::ios::binary | std::ios::trunc);
+  std::string rows = HeaderOf(columns);
+  for (const Sample& sample : samples) {
+    append(rows, sample);
+    if (rows.size() < kBytesAtOnce) continue;
+    stream << rows;
+    rows.clear();
+  }
+  stream << rows;
+  stream.close();
+  if (!stream) {
+    throw std::system_error(errno, std::generic_category(), "cannot write " + file.string());
+  }
+}
+
 }  // namespace
 
 Result<TelemetryLog> ReadTelemetryLog(const std::filesystem::path& folder, std::size_t most_bytes) {
@@ -151,53 +178,52 @@ Result<TelemetryLog> ReadTelemetryLog(const std::filesystem::path& folder, std::
       memory.Summary()};
 }
 
-Result<AdmittedLog> Admit(const RawChannels& channels) {
+Result<AdmittedLog> Admit(RawChannels channels) {
   Window window(OneDayWindow());
   ForEachInOrderOfTime(channels, [&](const RawSample& raw) {
     std::visit([&window](const auto& sample) { window.Add(sample); }, raw);
   });
+  const std::size_t taken = channels.Size();
+  channels = {};
   if (auto refusal = RefuseEmpty(window)) return tl::unexpected(*refusal);
   std::size_t accounted_for = window.Rejected().Total();
   for (const Channel channel : kChannels) accounted_for += window.Size(channel);
-  return AdmittedLog{std::move(window).Release(), channels.Size() - accounted_for};
+  return AdmittedLog{std::move(window).Release(), taken - accounted_for};
 }
 
-Recording Concatenate(std::span<const Recording> recordings) {
+Recording Concatenate(std::vector<Recording> recordings) {
   Recording all;
-  for (const Recording& recording : recordings) {
+  for (Recording& recording : recordings) {
     all.rejected.Add(recording.rejected);
     if (IsEmpty(recording)) continue;
     const double shift_s = IsEmpty(all) ? 0.0 : ShiftAfter(EndOf(all), StartOf(recording));
     all.starts_s.push_back(StartOf(recording) + shift_s);
-    AppendShifted(recording.gnss, shift_s, all.gnss);
-    AppendShifted(recording.heading, shift_s, all.heading);
-    AppendShifted(recording.thrusters, shift_s, all.thrusters);
+    AppendShifted(std::move(recording.gnss), shift_s, all.gnss);
+    AppendShifted(std::move(recording.heading), shift_s, all.heading);
+    AppendShifted(std::move(recording.thrusters), shift_s, all.thrusters);
   }
   return all;
 }
 
 void WriteTelemetryLog(const std::filesystem::path& folder, const Recording& recording) {
   std::filesystem::create_directories(folder);
-  std::string text = HeaderOf(kGnssColumns);
-  for (const GnssFix& fix : recording.gnss) {
-    AppendNumber(text, fix.time_s, kTimeDecimals, ',');
-    AppendNumber(text, fix.latitude_deg, kPositionDecimals, ',');
-    AppendNumber(text, fix.longitude_deg, kPositionDecimals, '\n');
-  }
-  WriteFile(folder / "gnss.csv", text);
-  text = HeaderOf(kHeadingColumns);
-  for (const HeadingSample& sample : recording.heading) {
-    AppendNumber(text, sample.time_s, kTimeDecimals, ',');
-    AppendNumber(text, sample.heading_deg, kHeadingDecimals, '\n');
-  }
-  WriteFile(folder / "heading.csv", text);
-  text = HeaderOf(kThrusterColumns);
-  for (const ThrusterSample& sample : recording.thrusters) {
-    AppendNumber(text, sample.time_s, kTimeDecimals, ',');
-    AppendNumber(text, sample.port_us, kPulseDecimals, ',');
-    AppendNumber(text, sample.starboard_us, kPulseDecimals, '\n');
-  }
-  WriteFile(folder / "thrusters.csv", text);
+  WriteRows(folder / "gnss.csv", kGnssColumns, recording.gnss,
+            [](std::string& row, const GnssFix& fix) {
+              AppendNumber(row, fix.time_s, kTimeDecimals, ',');
+              AppendNumber(row, fix.latitude_deg, kPositionDecimals, ',');
+              AppendNumber(row, fix.longitude_deg, kPositionDecimals, '\n');
+            });
+  WriteRows(folder / "heading.csv", kHeadingColumns, recording.heading,
+            [](std::string& row, const HeadingSample& sample) {
+              AppendNumber(row, sample.time_s, kTimeDecimals, ',');
+              AppendNumber(row, sample.heading_deg, kHeadingDecimals, '\n');
+            });
+  WriteRows(folder / "thrusters.csv", kThrusterColumns, recording.thrusters,
+            [](std::string& row, const ThrusterSample& sample) {
+              AppendNumber(row, sample.time_s, kTimeDecimals, ',');
+              AppendNumber(row, sample.port_us, kPulseDecimals, ',');
+              AppendNumber(row, sample.starboard_us, kPulseDecimals, '\n');
+            });
 }
 
 Result<CommandLog> ReadCommands(const std::filesystem::path& file) {

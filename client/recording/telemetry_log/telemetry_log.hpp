@@ -33,14 +33,15 @@ struct AdmittedLog {
   std::size_t evicted = 0;
 };
 
-/// Takes the samples in order of time. Refuses when: a channel has nothing left.
-Result<AdmittedLog> Admit(const RawChannels& channels);
+/// Takes the samples in order of time. Refuses when: a channel has nothing left. Memory: the
+/// channels and the window, never three copies, of channels that are given away.
+Result<AdmittedLog> Admit(RawChannels channels);
 
 /// Recordings one after the other in one clock. A recording that starts within a day after the end
 /// of the one before, and far enough to leave a gap no preparation bridges, keeps its times; any
 /// other is shifted to start kGapBetweenLogsS after that end. Where each begins is kept.
 inline constexpr double kGapBetweenLogsS = 120.0;
-Recording Concatenate(std::span<const Recording> recordings);
+Recording Concatenate(std::vector<Recording> recordings);
 
 /// Writes the folder's three files so that reading them gives the same samples back: times to the
 /// nanosecond, degrees to 1e-9 (0.1 mm) and 1e-6 (heading), pulse widths to 1e-3 us.

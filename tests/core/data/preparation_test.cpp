@@ -388,6 +388,27 @@ TEST(Prepare, RefusesOneSampleAChannel) {
   EXPECT_FALSE(Prepare(recording, Vehicle{}, PrepareOptions::Robust()));
 }
 
+TEST(WhyNotPrepared, SaysWhatPrepareDoes) {
+  const auto circle = [](double duration_s) {
+    return Record({.pose = Circle(1, 0, 0.1), .duration_s = duration_s});
+  };
+  Recording silent = circle(30.0);
+  silent.heading.clear();
+  PrepareOptions out_of_range = PrepareOptions::Robust();
+  out_of_range.longest_gap_s = -1.0;
+  for (const Recording& recording : {circle(3.0), circle(30.0), silent}) {
+    for (const PrepareOptions& options :
+         {PrepareOptions::Robust(), PrepareOptions::Paper(), out_of_range}) {
+      const auto dataset = Prepare(recording, Vehicle{}, options);
+      const auto why_not = WhyNotPrepared(recording, options);
+      ASSERT_EQ(why_not.has_value(), !dataset.has_value());
+      if (why_not) {
+        EXPECT_EQ(why_not->reason, dataset.error().reason);
+      }
+    }
+  }
+}
+
 TEST(Prepare, AcceptsRepeatedPositions) {
   const auto pose = [](double) { return Pose{3.0, 4.0, 1.0}; };
   const auto dataset = Prepare(Record({.pose = pose}), Vehicle{}, PrepareOptions::Robust());
