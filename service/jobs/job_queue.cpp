@@ -52,7 +52,7 @@ void JobQueue<Request, Stage, Reply>::Submit(Request request, Urgency urgency, A
     return std::visit([this](const auto& message) { replies_.Send(message); }, *known);
   }
   Asker asker{request.correlation_id, DeadlineOf(request), std::move(answer), client, {}, {}};
-  const auto same = JobLike(request);
+  const auto same = JobLike(request, urgency);
   auto rejection = RejectionByShare(request, urgency, client);
   if (!rejection && !same) rejection = RejectionOf(request, urgency);
   if (rejection) {
@@ -118,14 +118,16 @@ void JobQueue<Request, Stage, Reply>::Queue(Request request, Urgency urgency, As
   jobs_.push_back(std::move(job));
 }
 
-/// An unfinished job that the request may join.
+/// An unfinished job that the request may join: one that waits, since it can still become as urgent
+/// as the request, or one that was begun just now and is as urgent.
 template <class Request, class Stage, class Reply>
-auto JobQueue<Request, Stage, Reply>::JobLike(const Request& request) const
+auto JobQueue<Request, Stage, Reply>::JobLike(const Request& request, Urgency urgency) const
     -> std::shared_ptr<Job> {
   const auto now = Clock::now();
   const auto found = std::ranges::find_if(jobs_, [&](const auto& job) {
-    const bool fresh = job->Waits() || now - *job->started < kJoinedWithin;
-    return fresh && !job->askers.empty() && AskTheSame(job->request, request);
+    const bool is_fresh = job->Waits() || now - *job->started < kJoinedWithin;
+    const bool is_soon_enough = job->Waits() || job->urgency <= urgency;
+    return is_fresh && is_soon_enough && !job->askers.empty() && AskTheSame(job->request, request);
   });
   return found == jobs_.end() ? nullptr : *found;
 }

@@ -37,7 +37,7 @@ namespace telltale {
 ///   time, and the vehicle that has waited longest for a worker comes first.
 /// - A request with a known correlation id is not worked on again: the queue sends its progress or
 ///   its reply again. A request that asks for the same as one that waits, or that has been worked
-///   on for less than 5 s, joins it, and both get its reply.
+///   on for less than 5 s and is as urgent, joins it, and both get its reply.
 /// - A request that was cancelled, or whose deadline has passed, is dropped unless others have
 ///   joined it. Work under way ends at its next report of progress.
 /// - A request is dropped likewise once its client has been gone from the bus for kClientPatience.
@@ -118,7 +118,7 @@ class JobQueue {
   double RetryAfterS(Urgency urgency) const;
   std::size_t Waiting() const;
   Clock::duration LongestSilence() const;
-  std::shared_ptr<Job> JobLike(const Request& request) const;
+  std::shared_ptr<Job> JobLike(const Request& request, Urgency urgency) const;
   void Queue(Request request, Urgency urgency, Asker asker);
   void Run(Urgency urgency);
   std::shared_ptr<Job> AwaitNext(Urgency urgency);

@@ -284,6 +284,18 @@ TEST_F(Jobs, LetNobodyWaitForACoverageCheck) {
   }
 }
 
+// It would have to wait for as long as that takes, which leaves the processors to all others.
+TEST_F(Jobs, DoNotLetARequestJoinWorkThatIsLessUrgent) {
+  const auto queue = QueueOf({.interactive = 1, .refresh = 1}, 10);
+  queue->Submit(RequestNamed("refresh", "one", 7), Urgency::kRefresh);
+  ASSERT_TRUE(work_.AwaitInside(1));
+  queue->Submit(RequestNamed("plain", "one", 7));
+  EXPECT_TRUE(work_.AwaitInside(2));
+  work_.LetGo();
+  EXPECT_EQ(ReplyMessageTo(*queue, RequestNamed("plain", "one", 7)), "done");
+  EXPECT_EQ(ReplyMessageTo(*queue, RequestNamed("refresh", "one", 7)), "done");
+}
+
 TEST_F(Jobs, SayHowLongTheirWorkHasReportedNothing) {
   using Clock = std::chrono::steady_clock;
   std::promise<void> may_report;
