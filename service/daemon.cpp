@@ -369,13 +369,30 @@ DaemonActivity Daemon::Activity() const {
 void Daemon::ResumeUnanswered(bool succeeds) {
   auto requests = journal_.TakeUnanswered();
   if (!succeeds) return Resume(std::move(requests), "of the run before");
-  for (const AnyRequest& request : requests) journal_.Drop(CorrelationIdOf(request));
+  for (const auto& [request, attempts] : requests) journal_.Drop(CorrelationIdOf(request));
 }
 
-void Daemon::Resume(std::vector<AnyRequest> requests, const char* whose) {
+/// What has ended the daemon again and again would end it for ever.
+void Daemon::Resume(std::vector<UnansweredRequest> requests, const char* whose) {
+  constexpr int kMostAttempts = 3;
   if (requests.empty()) return;
   spdlog::info("{} requests {} are worked on again", requests.size(), whose);
-  for (AnyRequest& request : requests) Submit(std::move(request));
+  for (auto& [request, attempts] : requests) {
+    attempts < kMostAttempts ? Submit(std::move(request)) : GiveUp(request, attempts);
+  }
+}
+
+void Daemon::GiveUp(const AnyRequest& request, int attempts) {
+  const std::string reason =
+      "the daemon has ended each of the " + std::to_string(attempts) +
+      " times that it took it up again; its log and its service manager say how";
+  if (const auto* identify = std::get_if<IdentifyRequest>(&request)) {
+    jobs_.GiveUp(*identify, reason);
+  } else if (const auto* diagnose = std::get_if<DiagnoseRequest>(&request)) {
+    diagnosis_jobs_.GiveUp(*diagnose, reason);
+  } else {
+    fleet_jobs_.GiveUp(std::get<FleetRequest>(request), reason);
+  }
 }
 
 }  // namespace telltale

@@ -82,7 +82,8 @@ class Daemon {
   bool IsInFleet(const std::string& vehicle_id);
   bool IsForAnother(const AnyRequest& request) const;
   void ResumeUnanswered(bool succeeds);
-  void Resume(std::vector<AnyRequest> requests, const char* whose);
+  void Resume(std::vector<UnansweredRequest> requests, const char* whose);
+  void GiveUp(const AnyRequest& request, int attempts);
   void BeginUpkeep();
   void Open(const HttpSettings& http);
   void Heartbeat(bool has_received);

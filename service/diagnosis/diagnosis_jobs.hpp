@@ -32,6 +32,11 @@ class DiagnosisJobs {
     jobs_.Submit(std::move(request), Urgency::kInteractive, {}, client);
   }
 
+  /// As that of JobQueue.
+  void GiveUp(const DiagnoseRequest& request, const std::string& reason) {
+    jobs_.GiveUp(request, reason);
+  }
+
   /// False where no such request waits or runs.
   bool Cancel(const std::string& correlation_id) { return jobs_.Cancel(correlation_id); }
 

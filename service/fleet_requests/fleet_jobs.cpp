@@ -112,6 +112,14 @@ void FleetJobs::Submit(FleetRequest request) {
   inbox_->wake.notify_all();
 }
 
+void FleetJobs::GiveUp(FleetRequest refresh, std::string reason) {
+  {
+    const std::lock_guard lock(inbox_->mutex);
+    inbox_->given_up.emplace_back(std::move(refresh), std::move(reason));
+  }
+  inbox_->wake.notify_all();
+}
+
 /// `not_shown`: how many before it were not logged; nothing where this one is not to be either.
 void FleetJobs::TurnAway(const FleetRequest& request, std::optional<std::uint64_t> not_shown) {
   FleetReply busy = ReplyWith(request, ReplyOutcome::kFailed,
@@ -134,15 +142,17 @@ void FleetJobs::Run() {
         std::ranges::any_of(runs_, [](const auto& entry) { return !entry.second->finished(); });
     const auto something = [&inbox] {
       return inbox.stopping || !inbox.requests.empty() || !inbox.kept.empty() ||
-             !inbox.outcomes.empty();
+             !inbox.given_up.empty() || !inbox.outcomes.empty();
     };
     under_way ? void(inbox.wake.wait_until(lock, next_report, something))
               : inbox.wake.wait(lock, something);
     const auto requests = std::exchange(inbox.requests, {});
     const auto kept = std::exchange(inbox.kept, {});
+    const auto given_up = std::exchange(inbox.given_up, {});
     const auto outcomes = std::exchange(inbox.outcomes, {});
     lock.unlock();
     for (const auto& [run_id, vehicle] : outcomes) Take(run_id, vehicle);
+    for (const auto& [request, reason] : given_up) AnswerGivenUp(request, reason);
     for (const FleetRequest& request : requests) Answer(request);
     for (const FleetRequest& request : kept) BeginRefresh(request);
     if (std::chrono::steady_clock::now() >= next_report || !outcomes.empty()) {
@@ -292,6 +302,7 @@ void FleetJobs::KeepRefresh(const FleetRequest& request, SliceSet slices) {
 
 void FleetJobs::BeginRefresh(const FleetRequest& request) {
   if (runs_.contains(request.correlation_id)) return;  // it was asked for again in the meantime
+  journal_.CountAttempt(request.correlation_id);
   const SliceSet slices = served_();
   const auto vehicle_ids = VehiclesToRefresh(request, fleet_, models_);
   spdlog::info("the refresh {} of {} vehicles begins", request.correlation_id, vehicle_ids.size());
@@ -302,6 +313,12 @@ void FleetJobs::BeginRefresh(const FleetRequest& request) {
           .first;
   if (run->second->finished()) return End(*run->second);
   Advance();
+}
+
+void FleetJobs::AnswerGivenUp(const FleetRequest& request, const std::string& reason) {
+  spdlog::error("the refresh {}: {}", request.correlation_id, reason);
+  journal_.Drop(request.correlation_id);
+  Reply(ReplyWith(request, ReplyOutcome::kFailed, reason), served_());
 }
 
 void FleetJobs::Follow(const FleetRequest& request, SliceSet slices) {

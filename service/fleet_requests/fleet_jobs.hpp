@@ -56,6 +56,9 @@ class FleetJobs {
   /// asks then is told to ask again later.
   void Submit(FleetRequest request);
 
+  /// Answers a refresh of a run before as failed, for this reason. Returns at once.
+  void GiveUp(FleetRequest refresh, std::string reason);
+
  private:
   /// What arrives for the thread. Identifications that end after this object hold it too.
   struct Inbox {
@@ -63,8 +66,9 @@ class FleetJobs {
     std::condition_variable wake;
     bool stopping = false;
     std::deque<FleetRequest> requests;
-    RateLimit log_limit{200, std::chrono::seconds(10)};  ///< of requests turned away
-    std::deque<FleetRequest> kept;                       ///< refreshes that are on disk
+    RateLimit log_limit{200, std::chrono::seconds(10)};         ///< of requests turned away
+    std::deque<FleetRequest> kept;                              ///< refreshes that are on disk
+    std::deque<std::pair<FleetRequest, std::string>> given_up;  ///< and why
     /// What became of identifications: the refresh, and its vehicle.
     std::deque<std::pair<std::string, RefreshedVehicle>> outcomes;
   };
@@ -82,6 +86,7 @@ class FleetJobs {
   FleetReply CancelOf(const FleetRequest& request);
   void KeepRefresh(const FleetRequest& request, SliceSet slices);
   void BeginRefresh(const FleetRequest& request);
+  void AnswerGivenUp(const FleetRequest& request, const std::string& reason);
   void Follow(const FleetRequest& request, SliceSet slices);
   void Reply(FleetReply reply, SliceSet slices);
   void TurnAway(const FleetRequest& request, std::optional<std::uint64_t> not_shown);

@@ -34,6 +34,11 @@ class IdentificationJobs {
     jobs_.Submit(std::move(request), Urgency::kRefresh, std::move(answer));
   }
 
+  /// As that of JobQueue.
+  void GiveUp(const IdentifyRequest& request, const std::string& reason) {
+    jobs_.GiveUp(request, reason);
+  }
+
   /// False where no such request waits or runs.
   bool Cancel(const std::string& correlation_id) { return jobs_.Cancel(correlation_id); }
 

@@ -287,6 +287,17 @@ void JobQueue<Request, Stage, Reply>::Dismiss(const Job& job, std::vector<Asker>
 }
 
 template <class Request, class Stage, class Reply>
+void JobQueue<Request, Stage, Reply>::GiveUp(const Request& request, const std::string& reason) {
+  const Reply reply = Failed(request, reason);
+  {
+    const std::lock_guard lock(mutex_);
+    history_.Finish(reply);
+  }
+  Log(request, reply, 1);
+  Send({{Asker{request.correlation_id, {}, {}, kNoClient, {}, {}}, reply}});
+}
+
+template <class Request, class Stage, class Reply>
 bool JobQueue<Request, Stage, Reply>::Cancel(const std::string& correlation_id) {
   Outbox outbox;
   {
@@ -320,7 +331,21 @@ void JobQueue<Request, Stage, Reply>::Send(const Outbox& outbox) {
 
 template <class Request, class Stage, class Reply>
 void JobQueue<Request, Stage, Reply>::Run(Urgency urgency) {
-  while (const auto job = AwaitNext(urgency)) Finish(job, Execute(job));
+  while (const auto job = AwaitNext(urgency)) {
+    CountAttempts(job);
+    Finish(job, Execute(job));
+  }
+}
+
+template <class Request, class Stage, class Reply>
+void JobQueue<Request, Stage, Reply>::CountAttempts(const std::shared_ptr<Job>& job) {
+  if (journal_ == nullptr) return;
+  std::vector<std::string> correlation_ids;
+  {
+    const std::lock_guard lock(mutex_);
+    for (const Asker& asker : job->askers) correlation_ids.push_back(asker.correlation_id);
+  }
+  for (const std::string& id : correlation_ids) journal_->CountAttempt(id);
 }
 
 /// The next job of this urgency, begun; null when the daemon stops.

@@ -72,6 +72,9 @@ class JobQueue {
   void Submit(Request request, Urgency urgency = Urgency::kInteractive, Answer answer = {},
               WriterHandle client = kNoClient);
 
+  /// Answers a request as failed, for this reason, without working on it.
+  void GiveUp(const Request& request, const std::string& reason);
+
   /// Answers the unfinished request with this correlation id as failed. False where there is none.
   bool Cancel(const std::string& correlation_id);
 
@@ -121,6 +124,7 @@ class JobQueue {
   std::shared_ptr<Job> JobLike(const Request& request, Urgency urgency) const;
   void Queue(Request request, Urgency urgency, Asker asker);
   void Run(Urgency urgency);
+  void CountAttempts(const std::shared_ptr<Job>& job);
   std::shared_ptr<Job> AwaitNext(Urgency urgency);
   std::shared_ptr<Job> NextRunnable(Urgency urgency) const;
   std::optional<Clock::time_point> EarliestDeadline() const;

@@ -58,9 +58,10 @@ RequestJournal::~RequestJournal() {
 }
 
 /// By a connection of its own, since the other is the thread's.
-std::vector<AnyRequest> RequestJournal::TakeUnanswered(const std::optional<std::set<int>>& slices) {
+std::vector<UnansweredRequest> RequestJournal::TakeUnanswered(
+    const std::optional<std::set<int>>& slices) {
   const auto database = storage_.Open(RequestsSchema());
-  std::vector<AnyRequest> requests;
+  std::vector<UnansweredRequest> requests;
   std::vector<std::int64_t> dropped;
   database->Query("SELECT * FROM requests ORDER BY number", {}, [&](const Row& row) {
     if (slices && !slices->contains(SliceOfRow(row))) return;
@@ -68,7 +69,8 @@ std::vector<AnyRequest> RequestJournal::TakeUnanswered(const std::optional<std::
     if (request && !HasPassed(*request)) {
       const std::lock_guard lock(mutex_);
       kept_.insert_or_assign(row.Text("correlation_id"), SliceOfRow(row));
-      requests.push_back(*std::move(request));
+      taken_up_.insert(row.Text("correlation_id"));
+      requests.push_back({*std::move(request), static_cast<int>(row.Integer("attempts"))});
     } else {
       dropped.push_back(row.Integer("number"));
     }
@@ -77,6 +79,21 @@ std::vector<AnyRequest> RequestJournal::TakeUnanswered(const std::optional<std::
     database->Execute("DELETE FROM requests WHERE number = $1", {number});
   }
   return requests;
+}
+
+/// By a connection of its own, since the thread may be waiting with the other.
+void RequestJournal::CountAttempt(const std::string& correlation_id) {
+  {
+    const std::lock_guard lock(mutex_);
+    if (!taken_up_.contains(correlation_id)) return;
+  }
+  try {
+    storage_.Open(RequestsSchema())
+        ->Execute("UPDATE requests SET attempts = attempts + 1 WHERE correlation_id = $1",
+                  {correlation_id});
+  } catch (const DatabaseError& error) {
+    spdlog::error("{}; the attempt to answer {} is not counted", error.what(), correlation_id);
+  }
 }
 
 void RequestJournal::Keep(const AnyRequest& request, std::function<void()> kept) {
@@ -98,6 +115,7 @@ void RequestJournal::Drop(const std::string& correlation_id) {
   std::unique_lock lock(mutex_);
   const auto kept = kept_.extract(correlation_id);
   if (kept.empty()) return;
+  taken_up_.erase(correlation_id);
   const auto unwritten = FindUnwritten(correlation_id);
   if (unwritten != entries_.end() && !unwritten->may_be_stored) {
     entries_.erase(unwritten);

@@ -19,6 +19,12 @@
 
 namespace telltale {
 
+/// A request of a run before that has no answer.
+struct UnansweredRequest {
+  AnyRequest request;
+  int attempts = 0;  ///< how often a daemon has taken it up again, begun it, and ended before it
+};
+
 /// The requests that wait for their answers, in the storage, so that a daemon that was killed
 /// finishes them after its restart. A thread of its own writes what has come together in one
 /// transaction. A fault of the disk is logged: requests are then worked on without being kept. A
@@ -37,7 +43,11 @@ class RequestJournal {
   /// The requests of a run before, oldest first, that somebody may still wait for: all, or those
   /// about the boats of these slices. Those whose deadline has passed are dropped. The others stay
   /// on disk until Drop().
-  std::vector<AnyRequest> TakeUnanswered(const std::optional<std::set<int>>& slices = {});
+  std::vector<UnansweredRequest> TakeUnanswered(const std::optional<std::set<int>>& slices = {});
+
+  /// The work on a request begins. One of a run before has its attempt counted on disk first, since
+  /// it may be what has ended that run. Where the disk refuses, that is logged.
+  void CountAttempt(const std::string& correlation_id);
 
   /// Why the database cannot be reached now, so that no request can be kept; nothing where it can.
   std::optional<std::string> Unavailable() const { return storage_.status().Unavailable(); }
@@ -80,6 +90,7 @@ class RequestJournal {
   bool stopping_ = false;
   std::deque<Entry> entries_;
   std::map<std::string, int> kept_;  ///< the slice of each request until it is dropped
+  std::set<std::string> taken_up_;   ///< those of kept_ that are of a run before
   std::thread thread_;
 };
 

@@ -70,7 +70,8 @@ const Schema& RequestsSchema() {
                    {"correlation_id", kText, "NOT NULL UNIQUE"},
                    {"request", kBlob, "NOT NULL"},  // proto/stored_request.proto, serialised
                    kChecksum,
-                   {"slice", kInteger, ""}},  // of its boat
+                   {"slice", kInteger, ""},                        // of its boat
+                   {"attempts", kInteger, "NOT NULL DEFAULT 0"}},  // to answer it after a restart
                   {}}},
   };
   return schema;

@@ -79,7 +79,7 @@ struct StoreContents {
     for (const StoredModel& stored : ModelStore(storage).History("yellowfish")) {
       models.emplace(stored.model.revision, stored.model.published_unix_s);
     }
-    for (const AnyRequest& request : RequestJournal(storage).TakeUnanswered()) {
+    for (const auto& [request, attempts] : RequestJournal(storage).TakeUnanswered()) {
       requests.insert(CorrelationIdOf(request));
     }
     unreadable_chunks = WindowStore(storage).Load("yellowfish", [](const Recording&) {});

@@ -67,6 +67,30 @@ TEST_P(KilledDaemon, FinishesAcknowledgedRequestsAfterItsRestart) {
   EXPECT_TRUE(daemon->WaitForOutput("for acknowledged: PUBLISHED"));
 }
 
+// A service manager starts it again each time, for ever where the request is what ends it.
+TEST_P(KilledDaemon, GivesUpARequestThatItHasTakenUpThreeTimes) {
+  auto daemon = StartDaemon();
+  Replay(SimulatedRecording(testing::StableBoat(), 0.0, 90.0, 4));
+  ASSERT_TRUE(AwaitSavedWindow());
+  const Participant participant(domain_.id());
+  IdentificationClient client(participant);
+  IdentifyRequest request = Request("deadly");
+  request.coverage_check_replicates = 1000;  // minutes of work
+  int killed = 0;
+  const auto result = client.Identify(
+      request, {.match = 60s, .reply = 120s, .retry = 1s}, [&](const IdentifyProgress& progress) {
+        if (progress.stage == "queued") return;
+        ++killed;  // also by a report of the daemon before, as it comes late
+        daemon->Signal(SIGKILL);
+        daemon->Wait();
+        daemon = StartDaemon();
+      });
+  EXPECT_GE(killed, 4);
+  EXPECT_EQ(result.outcome, RequestOutcome::kFailed);
+  EXPECT_THAT(result.reply->message, HasSubstr("each of the 3 times that it took it up again"));
+  EXPECT_THAT(daemon->output(), HasSubstr("for deadly: FAILED"));
+}
+
 TEST_P(KilledDaemon, ForgetsRequestsThatItHasAnswered) {
   auto daemon = StartDaemon();
   EXPECT_EQ(Start({"identify", "--vehicle-id", kVehicleId})->Wait(), 3);

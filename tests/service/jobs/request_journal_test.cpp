@@ -36,7 +36,7 @@ class RequestJournalTest : public StorageTest {
   /// The requests that a daemon finds after its restart.
   std::vector<std::string> Unanswered() const {
     std::vector<std::string> ids;
-    for (const AnyRequest& request : RequestJournal(Storage()).TakeUnanswered()) {
+    for (const auto& [request, attempts] : RequestJournal(Storage()).TakeUnanswered()) {
       ids.push_back(CorrelationIdOf(request));
     }
     return ids;
@@ -66,6 +66,25 @@ TEST_P(RequestJournalTest, ForgetsARequestOfTheRunBeforeOnceItIsAnswered) {
     });
   }
   EXPECT_EQ(Unanswered(), std::vector<std::string>());
+}
+
+// Not those that wait behind it, and not one that is new.
+TEST_P(RequestJournalTest, CountsTheAttemptsToAnswerARequestOfARunBefore) {
+  RequestJournal(Storage()).Keep(RequestCalled("ends-the-daemon"), {});
+  RequestJournal(Storage()).Keep(RequestCalled("waits"), {});
+  for (int attempt = 0; attempt < 2; ++attempt) {
+    RequestJournal journal(Storage());
+    journal.TakeUnanswered();
+    journal.Keep(RequestCalled("ends-the-daemon"), {});
+    journal.CountAttempt("ends-the-daemon");
+    journal.Keep(RequestCalled("new"), {});
+    journal.CountAttempt("new");
+    journal.Drop("new");
+  }
+  const auto unanswered = RequestJournal(Storage()).TakeUnanswered();
+  ASSERT_EQ(unanswered.size(), 2u);
+  EXPECT_EQ(unanswered[0].attempts, 2);
+  EXPECT_EQ(unanswered[1].attempts, 0);
 }
 
 TEST_P(RequestJournalTest, HoldsNoMoreThanHasNoAnswerWhileTheDatabaseHangs) {
