@@ -83,8 +83,19 @@ Slices SliceLeases::Claim(int most) {
                       kServerNow),
           {std::int64_t{slice}});
     }
+    if (!claimed.empty()) ForgetWhatIsLongGone();
   });
   return claimed;
+}
+
+/// A daemon that ends without a word, or gets another name, leaves its rows behind.
+void SliceLeases::ForgetWhatIsLongGone() {
+  constexpr double kRecordKeptS = 7 * 86400.0;
+  for (const char* table : {"leases", "daemons"}) {
+    database_->Execute(
+        fmt::format("DELETE FROM {} WHERE until_unix_s < {} - $1", table, kServerNow),
+        {kRecordKeptS});
+  }
 }
 
 void SliceLeases::Release(const std::set<int>& slices) {

@@ -11,7 +11,8 @@ namespace telltale {
 
 /// The leases of this daemon in the database. A slice is held by whoever has its newest lease until
 /// that runs out, by the clock of the database. Each new lease has a greater fence, and a row of
-/// its own in the table `leases` stays as a record. Throws DatabaseError. Not thread safe.
+/// its own in the table `leases`, which stays as a record for a week after it has run out. So long
+/// a daemon is remembered that is gone. Throws DatabaseError. Not thread safe.
 class SliceLeases {
  public:
   /// `owner` names this daemon and no other that runs. What it held before it began is released.
@@ -40,6 +41,7 @@ class SliceLeases {
  private:
   void ReleaseAll();
   void Record();
+  void ForgetWhatIsLongGone();
 
   std::unique_ptr<Database> database_;
   const std::string owner_;

@@ -1,14 +1,18 @@
 #include "telltale/service/slices/slice_leases.hpp"
 
+#include <cstdint>
 #include <memory>
 #include <set>
 #include <string>
 
 #include <gtest/gtest.h>
+#include <spdlog/fmt/fmt.h>
 
 #include "service/storage_fixture.hpp"
 #include "support/made_up_identifications.hpp"
 #include "telltale/service/models/model_store.hpp"
+#include "telltale/service/storage/server_clock.hpp"
+#include "telltale/service/storage/stores.hpp"
 #include "telltale/service/windows/window_store.hpp"
 
 namespace telltale {
@@ -80,6 +84,33 @@ TEST_F(SliceLeasesTest, CountADaemonThatRenewsLateAsLive) {
   other.Renew();
   EXPECT_EQ(late.LiveDaemons(), 2);
   EXPECT_EQ(other.LiveDaemons(), 1);
+}
+
+TEST_F(SliceLeasesTest, AreForgottenAWeekAfterTheyHaveRunOut) {
+  const auto database = storage_.Open(SlicesSchema());
+  const auto insert = [&](const std::string& owner, std::int64_t fence, double days_ago) {
+    const std::string then = fmt::format("{} - {}", kServerNow, days_ago * 86400.0);
+    database->Execute("INSERT INTO daemons (owner, until_unix_s) VALUES ($1, " + then + ")",
+                      {owner});
+    database->Execute(
+        "INSERT INTO leases (slice, fence, owner, since_unix_s, until_unix_s)"
+        " VALUES (3, $1, $2, 0, " +
+            then + ")",
+        {fence, owner});
+  };
+  insert("last month", -2, 30.0);
+  insert("yesterday", -1, 1.0);
+  const auto owners = [&](const char* table) {
+    std::set<std::string> found;
+    database->Query(std::string("SELECT owner FROM ") + table, {},
+                    [&](const Row& row) { found.insert(row.Text("owner")); });
+    return found;
+  };
+  SliceLeases leases(storage_, "live", kLong);
+  leases.Renew();
+  leases.Claim(kFleetSlices);
+  EXPECT_EQ(owners("leases"), (std::set<std::string>{"yesterday", "live"}));
+  EXPECT_EQ(owners("daemons"), (std::set<std::string>{"yesterday", "live"}));
 }
 
 TEST_F(SliceLeasesTest, PassOnAtOnceWhereTheyAreReleased) {
