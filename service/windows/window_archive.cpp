@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <exception>
+#include <map>
 #include <utility>
 #include <vector>
 
@@ -126,18 +127,20 @@ void WindowArchive::Save() {
 }
 
 void WindowArchive::TakeUnsaved() {
+  std::map<int, std::vector<WindowStore::Chunk>> by_group;
   for (const auto& [vehicle_id, window] : fleet_.windows()) {
     Recording unsaved = window->TakeUnsaved();
     if (unsaved.gnss.empty() && unsaved.heading.empty() && unsaved.thrusters.empty()) continue;
-    chunks_.push_back({vehicle_id, std::move(unsaved)});
+    by_group[store_.GroupOf(vehicle_id)].push_back({vehicle_id, std::move(unsaved)});
   }
+  for (auto& [group, chunks] : by_group) chunks_.push_back(std::move(chunks));
 }
 
 void WindowArchive::Write() {
-  if (chunks_.empty()) return;
-  const std::lock_guard lock(store_mutex_);
-  written_.Count([this] { store_.Save(chunks_, {periods_.window_s, most_chunks_}); });
-  chunks_.clear();
+  for (; !chunks_.empty(); chunks_.pop_front()) {
+    const std::lock_guard lock(store_mutex_);
+    written_.Count([this] { store_.Save(chunks_.front(), {periods_.window_s, most_chunks_}); });
+  }
 }
 
 void WindowArchive::LogDropped() {

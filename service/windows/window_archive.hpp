@@ -4,6 +4,7 @@
 #include <condition_variable>
 #include <cstddef>
 #include <cstdint>
+#include <deque>
 #include <functional>
 #include <mutex>
 #include <string>
@@ -68,7 +69,8 @@ class WindowArchive {
   Fleet& fleet_;
   const Periods periods_;
   const std::int64_t most_chunks_;
-  std::vector<WindowStore::Chunk> chunks_;  ///< taken from the windows, and not saved yet
+  /// Taken from the windows, and not saved yet: those of a group together.
+  std::deque<std::vector<WindowStore::Chunk>> chunks_;
   bool saved_last_time_ = true;
   bool loaded_last_time_ = true;
   std::uint64_t dropped_ = 0;  ///< samples, as last logged
