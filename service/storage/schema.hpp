@@ -23,16 +23,12 @@ struct Table {
   std::vector<std::string> key;  ///< none where a column is a counter
 };
 
-/// What a loss of power may take with it. The loss of the process takes nothing.
-enum class Durability { kEverythingStays, kNewestMayBeLost };
-
 /// The tables of one store.
 struct Schema {
   std::string name;  ///< "models": models.sqlite
   std::vector<Table> tables;
   int version = 1;         ///< what a program must know to write here
   int oldest_version = 1;  ///< that lacks nothing but tables and columns of this one
-  Durability durability = Durability::kEverythingStays;
 };
 
 /// What the engines call differently.

@@ -47,10 +47,9 @@ std::filesystem::path SetAside(const std::filesystem::path& file) {
   return file.string() + suffix;
 }
 
-void UseWriteAheadLog(SQLite::Database& database, Durability durability) {
-  const bool all_stays = durability == Durability::kEverythingStays;
+void UseWriteAheadLog(SQLite::Database& database) {
   database.exec("PRAGMA journal_mode = WAL");
-  database.exec(all_stays ? "PRAGMA synchronous = FULL" : "PRAGMA synchronous = NORMAL");
+  database.exec("PRAGMA synchronous = FULL");
   database.exec("PRAGMA journal_size_limit = 4194304");
   database.exec("PRAGMA wal_autocheckpoint = 256");  // pages, so a megabyte
 }
@@ -149,7 +148,7 @@ void SqliteDatabase::Prepare(const Schema& schema) {
   RefuseOtherVersions(schema, version, file_.string(),
                       "move the file away and start again, then identify the vehicles again");
   LetFreeSpaceGo();
-  UseWriteAheadLog(*database_, schema.durability);
+  UseWriteAheadLog(*database_);
   InTransaction([&] {
     CompleteTables(*this, schema, SqliteDialect());
     database_->exec("PRAGMA user_version = " + std::to_string(schema.version));

@@ -57,7 +57,6 @@ const Schema& WindowsSchema() {
                    {"samples", kBlob, "NOT NULL"},  // PackChunk(), with its checksum
                    {"saved_unix_s", kReal, ""}},    // none from programs that knew no retention
                   {"vehicle_id", "number"}}},
-      .durability = Durability::kNewestMayBeLost,  // a few seconds of telemetry
   };
   return schema;
 }
@@ -142,7 +141,6 @@ const Schema& JobsSchema() {
                    {"version", kText, "NOT NULL"},
                    {"until_unix_s", kReal, "NOT NULL"}},
                   {"worker"}}},
-      .durability = Durability::kNewestMayBeLost,  // the journal of requests keeps what is owed
   };
   return schema;
 }

@@ -13,9 +13,8 @@
 
 namespace telltale {
 
-/// The windows of the fleet in the storage, in compressed chunks with checksums. What was saved
-/// outlives the process; a loss of power may take the newest chunks with it. Throws DatabaseError
-/// where the database refuses. Not thread safe.
+/// The windows of the fleet in the storage, in compressed chunks with checksums. Throws
+/// DatabaseError where the database refuses. Not thread safe.
 class WindowStore {
  public:
   struct Chunk {
@@ -32,12 +31,12 @@ class WindowStore {
     double duration_s = 0.0;       ///< before the newest sample, by the vehicle's clock
     std::int64_t most_chunks = 0;  ///< of a vehicle; where its clock goes back, this bounds them
   };
+
   /// Chunks of vehicles of one group are best saved together. Where writes need leases, a group is
   /// a slice: who renews its lease waits for the chunks of few boats.
   int GroupOf(std::string_view vehicle_id) const {
     return storage_.held() == nullptr ? 0 : SliceOf(vehicle_id);
   }
-
 
   /// Saves the chunks in one transaction, and drops of these vehicles what is beyond the limits.
   /// Passes over vehicles that another daemon serves now.
