@@ -37,6 +37,7 @@
 #include "telltale/service/standby/heard_requests.hpp"
 #include "telltale/service/storage/directory_lock.hpp"
 #include "telltale/service/storage/storage.hpp"
+#include "telltale/service/supervision/memory_return.hpp"
 #include "telltale/service/supervision/supervision.hpp"
 #include "telltale/service/upkeep/upkeep.hpp"
 #include "telltale/service/web/web_server.hpp"
@@ -129,6 +130,7 @@ class Daemon {
   std::optional<Announcements> announcements_;
   std::optional<WebServer> web_;
   std::optional<SliceKeeper> slice_keeper_;
+  MemoryReturn memory_return_;
   std::optional<Supervision> supervision_;  ///< while a service manager listens
 };
 
