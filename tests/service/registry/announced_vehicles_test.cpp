@@ -12,6 +12,7 @@
 #include "service/registry/made_up_boat.hpp"
 #include "service/service_fixture.hpp"
 #include "service/shared_fleet_fixture.hpp"
+#include "service/standby/daemon_pair.hpp"
 #include "support/mavlink_boats.hpp"
 #include "telltale/client/bus/writer.hpp"
 #include "telltale/client/fleet/served_vehicles.hpp"
@@ -276,6 +277,31 @@ TEST_F(AnnouncingCommands, RefuseAFileOfAnotherBoat) {
                              "--announce", folder_.Path() / "vehicle.textproto"});
   EXPECT_EQ(replay->Wait(), 2);
   EXPECT_THAT(replay->output(), HasSubstr("is of yellowfish, and --vehicle-id is another"));
+}
+
+class AnnouncedToAPair : public ServiceTest {
+ protected:
+  DaemonPair pair_{domain_.id(), folder_, 5.0, "announced { admit: \"boat-*\" }\n"};
+};
+
+// Each hears them and stores them for itself; by then they are silent.
+TEST_F(AnnouncedToAPair, AreServedByTheStandbyOnceItTakesOver) {
+  const auto one = pair_.Start("one", 2);
+  ASSERT_TRUE(DaemonPair::TakesOver(*one, 1)) << one->output();
+  const auto two = pair_.Start("two", 1);
+  ASSERT_TRUE(DaemonPair::StandsBy(*two, 1)) << two->output();
+  {
+    const Participant participant(domain_.id());
+    VehicleAnnouncer announcer(participant, "boat-7");
+    announcer.Announce(Boat("boat-7"));
+    EXPECT_TRUE(AwaitServed(participant, {"boat-7"}, 60s).empty());
+    ASSERT_TRUE(two->WaitForOutput("admitted: boat-7")) << two->output();
+  }
+  one->Signal(SIGKILL);
+  one->Wait();
+  ASSERT_TRUE(DaemonPair::TakesOver(*two, 2)) << two->output();
+  EXPECT_TRUE(AwaitServed(Participant(domain_.id()), {"boat-7", "yellowfish"}, 60s).empty());
+  EXPECT_EQ(VehicleStore(telltale::Storage(folder_.Path() / "state-two")).All().size(), 1u);
 }
 
 class SharedAnnouncedVehicles : public SharedFleetTest {

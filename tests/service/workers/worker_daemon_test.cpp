@@ -13,6 +13,7 @@
 #include "support/notify_socket.hpp"
 #include "support/stable_boat.hpp"
 #include "telltale/client/fleet/identification_client.hpp"
+#include "telltale/client/recording/telemetry_log/telemetry_log.hpp"
 #include "telltale/idl/codec/json/model.hpp"
 
 namespace telltale {
@@ -159,6 +160,22 @@ TEST_F(WorkerDaemon, HasItsDiagnosesFromAWorker) {
   EXPECT_TRUE(daemon->WaitForOutput("diagnosis of yellowfish for"));
   EXPECT_THAT(daemon->output(), Not(HasSubstr("no worker is alive")));
   EXPECT_TRUE(worker->WaitForOutput("is ended in"));
+}
+
+// No configuration of the worker names the boat: its particulars come with the job.
+TEST_F(WorkerDaemon, ComputesForABoatThatHasAnnouncedItself) {
+  ConfigureIdentification("bootstrap_replicates: 0", {});
+  Configure("workers {}\n");
+  const auto worker = StartWorker();
+  Configure("announced { admit: \"yellow*\" }\n");
+  const auto daemon = StartDaemon(0);
+  WriteTelemetryLog(folder_.Path() / "log", SimulatedRecording());
+  Run({"replay", "--log", folder_.Path() / "log", "--announce",
+       folder_.Path() / "vehicle.textproto", "--speed", "60"});
+  const auto result = Identify(QuickCheck("announced"));
+  ASSERT_EQ(result.outcome, RequestOutcome::kPublished) << daemon->output();
+  EXPECT_TRUE(worker->WaitForOutput("of yellowfish for announced is begun, attempt 1"));
+  EXPECT_THAT(daemon->output(), Not(HasSubstr("no worker is alive")));
 }
 
 TEST_F(WorkerDaemon, IsNotMadeWithoutADatabaseToMeetIn) {
