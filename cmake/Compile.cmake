@@ -82,12 +82,6 @@ function(telltale_optimise_lightly target)
   target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-Og>)
 endfunction()
 
-# telltale_optimise_fully(SOURCES...): of a target that is lightly optimised, those in which every sample of a
-# fleet costs time. They differ too much from the rest to share its precompiled headers.
-function(telltale_optimise_fully)
-  set_source_files_properties(${ARGN} PROPERTIES COMPILE_OPTIONS $<$<CONFIG:Release>:-O3> SKIP_PRECOMPILE_HEADERS ON)
-endfunction()
-
 # telltale_precompiled(NAME HEADERS ... LINKS ...): headers of the libraries linked, read once for all
 # targets that are lightly optimised and reuse them from NAME.
 function(telltale_precompiled name)
