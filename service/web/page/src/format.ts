@@ -44,9 +44,11 @@ export function clockMinute(unixS: number): string {
   return new Date(unixS * 1000).toLocaleTimeString([], { hour: "2-digit", minute: "2-digit", hourCycle: "h23" });
 }
 
+const kUrgency: Record<Verdict, number> = { ERROR: 0, STALE: 1, WARN: 2, OK: 3, UNKNOWN: 4 };
+
 /** ERROR first, as an operator works through them. */
 export function urgency(verdict: Verdict): number {
-  return { ERROR: 0, STALE: 1, WARN: 2, OK: 3, UNKNOWN: 4 }[verdict];
+  return kUrgency[verdict];
 }
 
 /** "FIRST_ORDER_DYNAMIC" -> "first order dynamic". */

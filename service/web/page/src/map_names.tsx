@@ -55,30 +55,67 @@ function boxesBeside({ id, x, y }: Place): NamedBox[] {
   return corners.map(([left = 0, top = 0]) => ({ id, left, top, width, height: kHeightPx }));
 }
 
-/** Which cells of the map boats take, so that a name need not be held against each of a thousand. */
+/** The cells of the map that boats take, so that a name need not be held against each of a thousand. */
 class Marks {
-  private readonly cells = new Set<number>();
+  private readonly columns: number;
+  private readonly rows: number;
+  private readonly counts: Uint32Array;  // of each cell's upper left corner: marks in all cells above and left of it
 
-  constructor(places: Place[]) {
-    for (const { x, y } of places) this.forEachCell(markOf(x, y), (cell) => void this.cells.add(cell));
+  constructor(places: Place[], { width, height }: Box) {
+    this.columns = Math.ceil(width / kCellPx) + 1;
+    this.rows = Math.ceil(height / kCellPx) + 1;
+    this.counts = new Uint32Array(this.columns * this.rows);
+    for (const place of places) this.mark(this.cellsOf(markOf(place)));
+    this.sum();
   }
 
   areBelow(box: Box): boolean {
-    let found = false;
-    this.forEachCell(box, (cell) => { found ||= this.cells.has(cell); });
-    return found;
+    const { left, top, right, bottom } = this.cellsOf(box);
+    return this.at(right, bottom) - this.at(left, bottom) - this.at(right, top) + this.at(left, top) > 0;
   }
 
-  private forEachCell({ left, top, width, height }: Box, visit: (cell: number) => void) {
-    for (let row = Math.floor(top / kCellPx); row * kCellPx < top + height; row++) {
-      for (let column = Math.floor(left / kCellPx); column * kCellPx < left + width; column++) visit(row * 10_000 + column);
+  /** Columns from left to before right and rows from top to before bottom, as far as they are on the map. */
+  private cellsOf({ left, top, width, height }: Box) {
+    const column = (x: number) => Math.min(Math.max(x, 0), this.columns - 1);
+    const row = (y: number) => Math.min(Math.max(y, 0), this.rows - 1);
+    return {
+      left: column(Math.floor(left / kCellPx)), right: column(Math.ceil((left + width) / kCellPx)),
+      top: row(Math.floor(top / kCellPx)), bottom: row(Math.ceil((top + height) / kCellPx)),
+    };
+  }
+
+  private mark({ left, top, right, bottom }: { left: number; top: number; right: number; bottom: number }) {
+    for (let row = top + 1; row <= bottom; row++) {
+      for (let column = left + 1; column <= right; column++) this.counts[row * this.columns + column] = this.at(column, row) + 1;
     }
+  }
+
+  private sum() {
+    for (let row = 1; row < this.rows; row++) {
+      let ofRow = 0;
+      for (let column = 1; column < this.columns; column++) {
+        ofRow += this.at(column, row);
+        this.counts[row * this.columns + column] = this.at(column, row - 1) + ofRow;
+      }
+    }
+  }
+
+  private at(column: number, row: number): number {
+    return this.counts[row * this.columns + column] ?? 0;
   }
 }
 
-function markOf(x: number, y: number): Box {
+function markOf({ x, y }: Place): Box {
   const half = kMarkPx / 2;  // cells are wider than what they hold
   return { left: x - half, top: y - half, width: 2 * half, height: 2 * half };
+}
+
+/** `first` before all, then the most urgent. */
+function inOrder(places: Place[], first: Set<string | undefined>): Place[] {
+  const sought = [...first].flatMap((id) => places.filter((place) => place.id === id));
+  const others: Place[][] = [];
+  for (const place of places) if (!first.has(place.id)) (others[urgency(place.verdict)] ??= []).push(place);
+  return [...sought, ...others.flat()];
 }
 
 /**
@@ -86,15 +123,16 @@ function markOf(x: number, y: number): Box {
  * what is `taken`, nor a boat; those of `first` may cover boats. None leaves the map. A boat without room for its name gets none.
  */
 export function placeNames(places: Place[], map: Box, taken: Box[], first: (string | undefined)[]): NamedBox[] {
-  const rank = ({ id, verdict }: Place) => (first.includes(id) ? first.indexOf(id) - first.length : urgency(verdict));
+  const sought = new Set(first);
+  const marks = new Marks(places, map);
   const inside = ({ left, top, width, height }: Box) =>
     left >= map.left && top >= map.top && left + width <= map.left + map.width && top + height <= map.top + map.height;
-  const marks = new Marks(places);
   const names: NamedBox[] = [];
-  for (const place of [...places].sort((a, b) => rank(a) - rank(b))) {
+  const isFree = (box: Box) => inside(box) && !taken.some((other) => overlap(box, other)) && !names.some((other) => overlap(box, other));
+  for (const place of inOrder(places, sought)) {
     if (names.length === kMostNames) break;
-    const free = boxesBeside(place).filter((box) => inside(box) && ![...taken, ...names].some((other) => overlap(box, other)));
-    const name = free.find((box) => !marks.areBelow(box)) ?? (first.includes(place.id) ? free[0] : undefined);
+    const boxes = boxesBeside(place);
+    const name = boxes.find((box) => !marks.areBelow(box) && isFree(box)) ?? (sought.has(place.id) ? boxes.find(isFree) : undefined);
     if (name) names.push(name);
   }
   return names;
