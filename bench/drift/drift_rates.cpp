@@ -46,7 +46,10 @@ const std::vector<NamedFault>& Faults() {
       {"drag 30 % more", {.drag = 1.3}},
       {"compass 4 degrees high", {.compass_deg = 4.0}},
       {"compass 4 degrees low", {.compass_deg = -4.0}},
-      {"port thruster 40 % weaker", {.port_thrust = 0.6}}};
+      {"port thruster 40 % weaker", {.port_thrust = 0.6}},
+      {"port thruster lost", {.port_thrust = 0.0}},
+      {"every drag three times", {.drag = 3.0}},
+      {"compass 30 degrees high", {.compass_deg = 30.0}}};
   return faults;
 }
 

@@ -33,6 +33,9 @@ struct WatchedNuisance {
 /// a side, 0.07 of drag and 0.4 degrees (root mean square): a tolerance is four of these or more.
 /// Estimates scatter besides by up to thrice their standard errors, since a model errs otherwise in
 /// each manoeuvre: alarm_sigmas and a block left out stand for that.
+/// In three days of these boats, 4302 spans of five minutes, the errors that follow the commands
+/// are 0.2 normal errors (root mean square) and 1.1 at most, where errors of all kinds are 1.3 and
+/// up to 3.7: weather makes those.
 struct DriftConstants {
   double window_s = 5.0;                      ///< s, of a free run
   std::size_t block_windows = 12;             ///< between evaluations: a minute
@@ -51,6 +54,10 @@ struct DriftConstants {
       {"hull_fouling", 0, 0.2, false, 0.3, 0.04, 4.0},
       {"heading_bias", 0, 0.05, true, 0.035, 0.0117, 2.0},
   }};
+  double tolerated_error = 2.0;  ///< that follows the commands, in normal errors: see above
+  /// The probability that errors seem to follow the commands by chance: in 8640 spans of five
+  /// minutes a month, once. Such an error has to be large besides.
+  double chance = 1e-4;
   /// Of what a change explains; another that explains as much of it is not separable.
   double rival_share = 0.8;
   std::array<WatchedNuisance, 7> nuisances = {{

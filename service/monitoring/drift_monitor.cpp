@@ -1,6 +1,7 @@
 #include "telltale/service/monitoring/drift_monitor.hpp"
 
 #include <algorithm>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -36,7 +37,7 @@ void Restrict(PreparedDataset& dataset, double from_s, double to_s) {
 }  // namespace
 
 void DriftMonitor::Follow(const Recording& recording, const Vehicle& vehicle,
-                          const Identification& identification) {
+                          const Identification& identification, const FreeRunError& normal) {
   const double settled_s = EndTime(recording) - kFilterTailS;
   const double new_s = settled_s - followed_to_s_;
   if (new_s >= 0.0 && new_s < kBlockS) return;
@@ -45,23 +46,35 @@ void DriftMonitor::Follow(const Recording& recording, const Vehicle& vehicle,
   PrepareOptions options;
   options.sampling_period_s = identification.sampling_period_s;
   // A clock that went back begins anew with the newest block.
-  const double span_s = test_ ? std::clamp(new_s, kBlockS, kLongestBlockS) : kReferenceS;
+  const double block_s = std::clamp(new_s, kBlockS, kLongestBlockS);
+  const double span_s = changes_ ? block_s : kReferenceS;
   auto dataset = Prepare(Latest(recording, span_s + kFilterTailS + kFilterLeadS), vehicle, options);
   followed_to_s_ = settled_s;
   if (!dataset) return;
-  if (!test_) {
+  if (!commanded_error_) commanded_error_.emplace(normal);
+  commanded_error_->Add(RunErrorsOf(*dataset, identification, settled_s - block_s));
+  if (changes_) {
+    Restrict(*dataset, settled_s - block_s, settled_s);
+    changes_->Add(DriftEvidenceOf(*dataset, *model, *reference_));
+  } else {
     reference_ = DriftReferenceOf(*dataset, *model);
-    if (reference_) test_.emplace(DriftEvidenceOf(*dataset, *model, *reference_));
-    return;
+    if (reference_) changes_.emplace(DriftEvidenceOf(*dataset, *model, *reference_));
   }
-  Restrict(*dataset, settled_s - span_s, settled_s);
-  test_->Add(DriftEvidenceOf(*dataset, *model, *reference_));
-  onset_.Note(test_->Rises() || test_->Fires(), settled_s);
+  NoteOnset(settled_s);
+}
+
+void DriftMonitor::NoteOnset(double settled_s) {
+  const bool changed = changes_ && changes_->Fires();
+  const bool errs = commanded_error_->Fires();
+  change_onset_.Note(changed || (changes_ && changes_->Rises()), settled_s);
+  error_onset_.Note(errs || commanded_error_->Rises(), settled_s);
+  onset_.Note(
+      {changed ? change_onset_.onset() : std::nullopt, errs ? error_onset_.onset() : std::nullopt});
 }
 
 std::string DriftMonitor::Pattern() const {
-  if (!Fires()) return "";
-  const std::vector<DriftFinding>& alarm = test_->Alarm();
+  if (!changes_ || !changes_->Fires()) return "";
+  const std::vector<DriftFinding>& alarm = changes_->Alarm();
   std::string pattern = alarm.front().Describe();
   for (const DriftFinding& rival : std::span(alarm).subspan(1))
     pattern += " or " + rival.Describe();

@@ -23,20 +23,17 @@ void ModelMonitor::Evaluate(VehicleWindow& window, double end_s, const StoredMod
   if (std::exchange(revision_, revision) != revision) {
     prediction_error_.reset();
     drift_ = 0.0;
-    pattern_ = DriftMonitor();
-    size_ = DriftDetector();
-    size_onset_ = OnsetClock();
-    onset_ = EarliestOnset();
+    drift_monitor_ = DriftMonitor();
   } else if (end_s >= evaluated_to_s_ && end_s < evaluated_to_s_ + kNewDataS) {
     return;
   }
   evaluated_to_s_ = end_s;
   const Recording recording = window.Snapshot();
-  pattern_.Follow(recording, window.vehicle(), model.model.identification);
+  drift_monitor_.Follow(recording, window.vehicle(), model.model.identification,
+                        *model.reference_error);
   const auto error = MeasureFreeRunError(Latest(recording, kEvaluatedSpanS), window.vehicle(),
                                          model.model.identification);
   if (error) Add(RelativeError(*error, *model.reference_error));
-  NoteOnset();
 }
 
 void ModelMonitor::Add(double relative_error) {
@@ -44,22 +41,16 @@ void ModelMonitor::Add(double relative_error) {
     drift_ += kDriftWeight * (relative_error - *prediction_error_ - drift_);
   }
   prediction_error_ = relative_error;
-  size_.Add(relative_error);
-  size_onset_.Note(size_.Rises(), evaluated_to_s_);
-}
-
-void ModelMonitor::NoteOnset() {
-  onset_.Note({pattern_.Fires() ? pattern_.onset() : std::nullopt,
-               size_.Fires() ? size_onset_.onset() : std::nullopt});
 }
 
 std::string ModelMonitor::DriftEvidence() const {
   if (!DriftOnset()) return "";
-  const std::string pattern = pattern_.Pattern();
+  const std::string pattern = drift_monitor_.Pattern();
   if (!pattern.empty())
     return fmt::format("the errors of revision {} show: {}", revision_, pattern);
-  return fmt::format("revision {} predicts {:.1f} times worse than when it was made", revision_,
-                     prediction_error());
+  return fmt::format(
+      "revision {} errs {:.1f} times as much as when it was made, as the commands change",
+      revision_, drift_monitor_.CommandedError());
 }
 
 }  // namespace telltale

@@ -6,15 +6,13 @@
 
 #include "telltale/service/ingest/vehicle_window.hpp"
 #include "telltale/service/models/model_store.hpp"
-#include "telltale/service/monitoring/drift_detector.hpp"
 #include "telltale/service/monitoring/drift_monitor.hpp"
 #include "telltale/service/monitoring/onset_clock.hpp"
 
 namespace telltale {
 
 /// How well the latest model of a vehicle predicts the newest minute, and whether the vehicle has
-/// drifted from it: by the pattern of its errors, or by their mere size. A new revision starts
-/// anew. Not thread safe.
+/// drifted from it. A new revision starts anew. Not thread safe.
 class ModelMonitor {
  public:
   /// Evaluates the model on the last minute of the window, which ends at `end_s` of the vehicle's
@@ -29,23 +27,19 @@ class ModelMonitor {
   double drift() const { return drift_; }
 
   /// The onset of the drift, while there is one.
-  const std::optional<OnsetTime>& DriftOnset() const { return onset_.onset(); }
+  const std::optional<OnsetTime>& DriftOnset() const { return drift_monitor_.onset(); }
 
   /// What shows the drift, for people; empty where there is none.
   std::string DriftEvidence() const;
 
  private:
   void Add(double relative_error);
-  void NoteOnset();
 
   std::uint64_t revision_ = 0;   ///< of the model evaluated
   double evaluated_to_s_ = 0.0;  ///< the vehicle's time of the newest sample evaluated
   std::optional<double> prediction_error_;
   double drift_ = 0.0;
-  DriftMonitor pattern_;
-  DriftDetector size_;
-  OnsetClock size_onset_;
-  EarliestOnset onset_;
+  DriftMonitor drift_monitor_;
 };
 
 }  // namespace telltale

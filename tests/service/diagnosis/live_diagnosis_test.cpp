@@ -29,11 +29,11 @@ using ::testing::HasSubstr;
 
 class LiveDiagnosis : public ServiceTest {
  protected:
-  /// A model of the first five minutes; then two minutes in which the propellers give less.
-  void SimulateAndWearOut(double thrust_left) const {
+  /// A model of the first five minutes; then minutes in which the propellers give less.
+  void SimulateAndWearOut(double thrust_left, double worn_s = 120.0) const {
     Replay(SimulatedRecording(testing::StableBoat(), 0.0, 300.0, 1));
     Run({"identify", "--vehicle-id", kVehicleId, "--out", ModelFile()});
-    Replay(SimulatedRecording(Worn(thrust_left), 301.0, 120.0, 2));
+    Replay(SimulatedRecording(Worn(thrust_left), 301.0, worn_s, 2));
   }
 
   static VesselModel Worn(double thrust_left) {
@@ -212,7 +212,7 @@ TEST_F(LiveDiagnosis, IsMissedWhereThereIsNoDaemon) {
 // The propellers give almost nothing any more: the model keeps predicting that they do.
 TEST_F(LiveDiagnosis, IsProposedWhereTheModelNoLongerFits) {
   const auto daemon = StartDaemon();
-  SimulateAndWearOut(0.1);
+  SimulateAndWearOut(0.1, 600.0);  // five minutes have to be of the worn boat
   const auto quality =
       AwaitQuality(kVehicleId, [](const Quality& q) { return !q.drift_evidence.empty(); });
   ASSERT_TRUE(quality) << daemon->output();
