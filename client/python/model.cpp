@@ -18,7 +18,7 @@ namespace py = pybind11;
 
 using Bounded = ScoredIdentification;
 
-std::vector<std::string> NamesOf(const Bounded& bounded) {
+std::vector<std::string> CoefficientNames(const Bounded& bounded) {
   std::vector<std::string> names;
   for (const Coefficient& c : bounded.model.coefficients) names.push_back(ColumnName(c));
   return names;
@@ -30,7 +30,7 @@ auto OfEachCoefficient(Number number) {
   return [number](const Bounded& bounded) { return ArrayOf(bounded.model.coefficients, number); };
 }
 
-py::array_t<double> BoundsOf(const Bounded& bounded) {
+py::array_t<double> CoefficientBounds(const Bounded& bounded) {
   const auto& coefficients = bounded.model.coefficients;
   py::array_t<double> bounds({static_cast<py::ssize_t>(coefficients.size()), py::ssize_t{2}});
   auto cells = bounds.mutable_unchecked<2>();
@@ -62,7 +62,7 @@ NamedDraws Draw(const Bounded& bounded, std::size_t count, std::uint64_t seed) {
   RequireDraws("count", count);
   const py::gil_scoped_release unlocked;
   const Identification model = WithSimulationParameters(bounded.model);
-  return {OrThrow(DrawFromPosterior(model, count, seed)), NamesOf(bounded)};
+  return {OrThrow(DrawFromPosterior(model, count, seed)), CoefficientNames(bounded)};
 }
 
 std::string ModelText(const Bounded& bounded) {
@@ -174,11 +174,12 @@ void AddValues(ModelClass& model) {
                                           : std::vector<Coefficient>();
           },
           "Physical parameters, of the structure FOSSEN alone; else empty.")
-      .def_property_readonly("names", &NamesOf, "'SURGE u|u|' and the like.")
+      .def_property_readonly("names", &CoefficientNames, "'SURGE u|u|' and the like.")
       .def_property_readonly("values", OfEachCoefficient(&Coefficient::estimate), "Estimates.")
       .def_property_readonly("standard_errors", OfEachCoefficient(&Coefficient::standard_error),
                              "Infinite where NOT_EXCITED.")
-      .def_property_readonly("bounds", &BoundsOf, "Lower and upper bound, a row a coefficient.")
+      .def_property_readonly("bounds", &CoefficientBounds,
+                             "Lower and upper bound, a row a coefficient.")
       .def_property_readonly(
           "covariance",
           [](const Bounded& bounded) -> Eigen::MatrixXd { return bounded.model.covariance; },

@@ -18,9 +18,9 @@ namespace {
 constexpr std::array kNormal = {0.1, 0.1, 0.1};
 
 /// Runs of a boat that steers and changes its thrust at random, and errs as it is told.
-class Boat {
+class SteeredBoat {
  public:
-  explicit Boat(std::uint64_t seed) : white_(seed, 1) {}
+  explicit SteeredBoat(std::uint64_t seed) : white_(seed, 1) {}
 
   /// Of a run by what it was told to do: the error of each velocity, in normal errors.
   using Error = std::function<double(const RunError&)>;
@@ -58,7 +58,7 @@ class Boat {
 };
 
 /// Whether it fires within half an hour.
-bool Fires(CommandedErrorTest& test, Boat& boat, const Boat::Error& error) {
+bool Fires(CommandedErrorTest& test, SteeredBoat& boat, const SteeredBoat::Error& error) {
   for (int minute = 0; minute < 30; ++minute) {
     test.Add(boat.Block(error));
     if (test.Fires()) return true;
@@ -68,7 +68,7 @@ bool Fires(CommandedErrorTest& test, Boat& boat, const Boat::Error& error) {
 
 TEST(CommandedErrorTest, FindsALargeErrorThatFollowsTheCommandsInAnyWeather) {
   for (const double strength : {0.1, 1.0, 3.0}) {
-    Boat boat(1);
+    SteeredBoat boat(1);
     CommandedErrorTest test(kNormal);
     const auto error = [&](const RunError& run) {
       return 8.0 * run.commanded[0] + strength * boat.Gust();
@@ -78,7 +78,7 @@ TEST(CommandedErrorTest, FindsALargeErrorThatFollowsTheCommandsInAnyWeather) {
 }
 
 TEST(CommandedErrorTest, FiresOnceTheSpanIsFull) {
-  Boat boat(2);
+  SteeredBoat boat(2);
   CommandedErrorTest test(kNormal);
   for (int minute = 1; minute <= 5; ++minute) {
     EXPECT_FALSE(test.Fires()) << minute;
@@ -89,7 +89,7 @@ TEST(CommandedErrorTest, FiresOnceTheSpanIsFull) {
 
 TEST(CommandedErrorTest, IsSilentInWeatherHoweverStrong) {
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
-    Boat boat(seed);
+    SteeredBoat boat(seed);
     CommandedErrorTest gusts(kNormal);
     EXPECT_FALSE(Fires(gusts, boat, [&](const RunError&) { return 20.0 * boat.Gust(); })) << seed;
     CommandedErrorTest wind(kNormal);
@@ -99,14 +99,14 @@ TEST(CommandedErrorTest, IsSilentInWeatherHoweverStrong) {
 }
 
 TEST(CommandedErrorTest, IsSilentWithinToleranceHoweverSureTheErrorIs) {
-  Boat boat(3);
+  SteeredBoat boat(3);
   CommandedErrorTest test(kNormal);
   EXPECT_FALSE(Fires(test, boat, [](const RunError& run) { return 1.5 * run.commanded[0]; }));
 }
 
 // The commands of one minute are so strong that it alone explains the errors of all.
 TEST(CommandedErrorTest, NoSingleMinuteDecides) {
-  Boat boat(4);
+  SteeredBoat boat(4);
   CommandedErrorTest test(kNormal);
   const auto nominal = [&](const RunError&) { return boat.Gust(); };
   for (int minute = 0; minute < 5; ++minute) test.Add(boat.Block(nominal));
@@ -116,7 +116,7 @@ TEST(CommandedErrorTest, NoSingleMinuteDecides) {
 }
 
 TEST(CommandedErrorTest, EndsOnceErrorsFollowTheCommandsNoMore) {
-  Boat boat(5);
+  SteeredBoat boat(5);
   CommandedErrorTest test(kNormal);
   ASSERT_TRUE(Fires(test, boat, [](const RunError& run) { return 8.0 * run.commanded[0]; }));
   for (int minute = 0; minute < 10; ++minute) test.Add({});
@@ -128,7 +128,7 @@ TEST(CommandedErrorTest, EndsOnceErrorsFollowTheCommandsNoMore) {
 }
 
 TEST(CommandedErrorTest, SaysNothingNewInTransit) {
-  Boat boat(6);
+  SteeredBoat boat(6);
   CommandedErrorTest test(kNormal);
   const auto worn = [&](const RunError& run) { return 8.0 * run.commanded[0] + boat.Gust(); };
   for (int minute = 0; minute < 30; ++minute) test.Add(boat.Transit(worn));

@@ -20,7 +20,7 @@ constexpr auto kFF = PropellerRegion::kFF;
 constexpr auto kFR = PropellerRegion::kFR;
 constexpr auto kRF = PropellerRegion::kRF;
 
-PreparedDataset Boat(const std::vector<PropellerRegion>& regions, double noise_mps = 0.0) {
+PreparedDataset DatasetOf(const std::vector<PropellerRegion>& regions, double noise_mps = 0.0) {
   PreparedDataset dataset =
       testing::DriveDiscrete(YellowfishTwin(), testing::RandomCommands(3000, regions, 7), 50);
   RandomEngine engine(1);
@@ -45,7 +45,7 @@ bool Refuses(const Identification& identification, const std::string& subject) {
 }
 
 TEST(Identify, WritesEveryCoefficientInOrderWithBounds) {
-  const auto result = Identify(Boat({kFF, kFR, kRF}, 1e-4), "boat", Quick());
+  const auto result = Identify(DatasetOf({kFF, kFR, kRF}, 1e-4), "boat", Quick());
   ASSERT_TRUE(result.has_value());
   const std::size_t expected = 9 + 13 + 13;
   ASSERT_EQ(result->coefficients.size(), expected);
@@ -71,7 +71,7 @@ TEST(Identify, WritesEveryCoefficientInOrderWithBounds) {
 /// Known truth: noise of 1e-4 m/s on velocities 0.2 s apart leaves the thrust coefficients right.
 TEST(Identify, RecoversTheSimulatedBoat) {
   const VesselModel truth = YellowfishTwin();
-  const auto result = Identify(Boat({kFF, kFR, kRF}, 1e-4), "boat", Quick());
+  const auto result = Identify(DatasetOf({kFF, kFR, kRF}, 1e-4), "boat", Quick());
   ASSERT_TRUE(result.has_value());
   for (const Coefficient& c : result->coefficients) {
     if (c.regressor != "f:d") continue;
@@ -82,7 +82,7 @@ TEST(Identify, RecoversTheSimulatedBoat) {
 }
 
 TEST(Identify, RefusesSwayAndYawOfAStraightRunAndAnswersSurge) {
-  PreparedDataset dataset = Boat({kFF});
+  PreparedDataset dataset = DatasetOf({kFF});
   for (PreparedRow& row : dataset.rows) {
     row.delta.starboard = row.delta.port;
     row.nu.v = 0.0;
@@ -108,7 +108,7 @@ TEST(Identify, RefusesSwayAndYawOfAStraightRunAndAnswersSurge) {
 
 /// A propeller that never reversed: its reverse coefficients are unknown and say so.
 TEST(Identify, MarksUnmovedPropellersAsNotExcited) {
-  const auto result = Identify(Boat({kFF}, 1e-3), "boat", Quick());
+  const auto result = Identify(DatasetOf({kFF}, 1e-3), "boat", Quick());
   ASSERT_TRUE(result.has_value());
   for (const Coefficient& c : result->coefficients) {
     const bool reverse = c.regressor.starts_with("r:");
@@ -121,7 +121,7 @@ TEST(Identify, MarksUnmovedPropellersAsNotExcited) {
 }
 
 TEST(Identify, RefusesABoatThatNeverMoved) {
-  PreparedDataset dataset = Boat({kFF});
+  PreparedDataset dataset = DatasetOf({kFF});
   for (PreparedRow& row : dataset.rows) {
     row.nu = {};
     row.delta = {};
@@ -133,7 +133,7 @@ TEST(Identify, RefusesABoatThatNeverMoved) {
 }
 
 TEST(Identify, RefusesTooShortARecording) {
-  PreparedDataset dataset = Boat({kFF, kFR, kRF});
+  PreparedDataset dataset = DatasetOf({kFF, kFR, kRF});
   dataset.rows.resize(60);
   dataset.segments = {{0, 60}};
   dataset.slices = {{0, 60}};
@@ -145,7 +145,7 @@ TEST(Identify, RefusesTooShortARecording) {
 TEST(Identify, WithoutBootstrapBoundsRestOnResiduals) {
   IdentifyOptions options = IdentifyOptions::OneStep();
   options.bootstrap_replicates = 0;
-  const auto result = Identify(Boat({kFF, kFR, kRF}, 1e-3), "boat", options);
+  const auto result = Identify(DatasetOf({kFF, kFR, kRF}, 1e-3), "boat", options);
   ASSERT_TRUE(result.has_value());
   EXPECT_NE(result->provenance.bounds_basis.find("residual"), std::string::npos);
   for (const Coefficient& c : result->coefficients) EXPECT_GT(c.standard_error, 0.0);
@@ -154,7 +154,7 @@ TEST(Identify, WithoutBootstrapBoundsRestOnResiduals) {
 /// Errors are white here, so every way of drawing and bounding answers the same question; among 35
 /// coefficients and 200 replicates the mean ratio of two standard errors is good to 10 %.
 TEST(Identify, BoundsByBlocksAndEachMethodAgreeOnWhiteErrors) {
-  const PreparedDataset boat = Boat({kFF, kFR, kRF}, 1e-4);
+  const PreparedDataset boat = DatasetOf({kFF, kFR, kRF}, 1e-4);
   const auto slices = Identify(boat, "boat", Quick());
   for (const IntervalMethod method :
        {IntervalMethod::kPercentile, IntervalMethod::kStudentized, IntervalMethod::kBca}) {
@@ -184,9 +184,9 @@ TEST(Identify, BoundsByBlocksAndEachMethodAgreeOnWhiteErrors) {
 TEST(Identify, BoundsTheDynamicStructureByBlocks) {
   IdentifyOptions options = Quick();
   options.regression.structure = Structure::kFirstOrderDynamic;
-  const auto slices = Identify(Boat({kFF, kFR, kRF}, 1e-4), "boat", options);
+  const auto slices = Identify(DatasetOf({kFF, kFR, kRF}, 1e-4), "boat", options);
   options.resampling = Resampling::kMovingBlocks;
-  const auto blocks = Identify(Boat({kFF, kFR, kRF}, 1e-4), "boat", options);
+  const auto blocks = Identify(DatasetOf({kFF, kFR, kRF}, 1e-4), "boat", options);
   ASSERT_TRUE(slices.has_value() && blocks.has_value());
   double errors = 0.0;
   for (std::size_t i = 0; i < 35; ++i) {
@@ -198,7 +198,7 @@ TEST(Identify, BoundsTheDynamicStructureByBlocks) {
 }
 
 TEST(Identify, WarnsWhenBoundsRestOnFewSegments) {
-  PreparedDataset dataset = Boat({kFF, kFR, kRF}, 1e-3);
+  PreparedDataset dataset = DatasetOf({kFF, kFR, kRF}, 1e-3);
   dataset.slices = {{0, 1000}, {1000, 2000}, {2000, 3000}};
   const auto result = Identify(dataset, "boat", Quick());
   ASSERT_TRUE(result.has_value());
@@ -212,7 +212,7 @@ TEST(Identify, AnswersTheDynamicStructure) {
   truth.structure = Structure::kFirstOrderDynamic;
   truth.discretisation = Discretisation::kForwardEuler;
   truth.thruster_time_constant_s = 0.5;
-  PreparedDataset dataset = Boat({kFF, kFR, kRF});
+  PreparedDataset dataset = DatasetOf({kFF, kFR, kRF});
   VesselState state;
   RandomEngine engine(1);
   boost::random::normal_distribution<double> noise(0.0, 1e-5);
@@ -286,7 +286,7 @@ TEST(Identify, KnowsHowLagAndCoefficientsErrTogether) {
 TEST(Identify, LeavesNoCovarianceWithWhatTheDataNeverMoved) {
   IdentifyOptions options = Quick();
   options.regression.structure = Structure::kFirstOrderDynamic;
-  const auto result = Identify(Boat({kFF}, 1e-3), "boat", options);
+  const auto result = Identify(DatasetOf({kFF}, 1e-3), "boat", options);
   ASSERT_TRUE(result.has_value());
   ASSERT_EQ(result->time_constant_covariance.size(), 35);
   for (std::size_t i = 0; i < 35; ++i) {
@@ -294,7 +294,7 @@ TEST(Identify, LeavesNoCovarianceWithWhatTheDataNeverMoved) {
     EXPECT_EQ(result->time_constant_covariance[static_cast<Eigen::Index>(i)] == 0.0, unmoved) << i;
   }
   options.regression.structure = Structure::kStaticQuadratic;
-  EXPECT_EQ(Identify(Boat({kFF}, 1e-3), "boat", options)->time_constant_covariance.size(), 0);
+  EXPECT_EQ(Identify(DatasetOf({kFF}, 1e-3), "boat", options)->time_constant_covariance.size(), 0);
 }
 
 /// A boat without lag: the bound from above is what its standard error says, not the end of the
@@ -302,7 +302,7 @@ TEST(Identify, LeavesNoCovarianceWithWhatTheDataNeverMoved) {
 TEST(Identify, BoundsALagThatIsNotThereFromAbove) {
   IdentifyOptions options = Quick();
   options.regression.structure = Structure::kFirstOrderDynamic;
-  const auto result = Identify(Boat({kFF, kFR, kRF}, 1e-3), "boat", options);
+  const auto result = Identify(DatasetOf({kFF, kFR, kRF}, 1e-3), "boat", options);
   ASSERT_TRUE(result.has_value());
   const Coefficient& tau = *result->thruster_time_constant;
   EXPECT_EQ(tau.interval.lower, 0.0);
@@ -310,7 +310,7 @@ TEST(Identify, BoundsALagThatIsNotThereFromAbove) {
 }
 
 TEST(EstimateModel, IsTheIdentifiedModelWithoutItsBounds) {
-  const PreparedDataset dataset = Boat({kFF}, 1e-3);  // reverse is not excited
+  const PreparedDataset dataset = DatasetOf({kFF}, 1e-3);  // reverse is not excited
   for (const auto structure : {Structure::kStaticQuadratic, Structure::kFirstOrderDynamic}) {
     IdentifyOptions options = IdentifyOptions::OneStep();
     options.bootstrap_replicates = 0;
@@ -330,7 +330,7 @@ TEST(EstimateModel, IsTheIdentifiedModelWithoutItsBounds) {
 }
 
 TEST(EstimateModel, RefusesWhatCannotRunFreely) {
-  PreparedDataset dataset = Boat({kFF}, 1e-3);
+  PreparedDataset dataset = DatasetOf({kFF}, 1e-3);
   for (PreparedRow& row : dataset.rows) row.delta.starboard = row.delta.port;
   const auto model = EstimateModel(dataset, {});
   ASSERT_FALSE(model.has_value());

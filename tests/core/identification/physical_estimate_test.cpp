@@ -27,7 +27,7 @@ FossenVector Truth() {
   return p;
 }
 
-Vehicle Boat() {
+Vehicle SurveyVehicle() {
   Vehicle vehicle;
   vehicle.vehicle_id = "boat";
   vehicle.propeller_separation_m = 0.62;
@@ -36,11 +36,11 @@ Vehicle Boat() {
 
 // Ten minutes of the boat, its clocks apart: commands stamped early, fixes stamped late.
 Recording TenMinutes() {
-  const VesselModel model = VesselModelOf(Truth(), Boat().propeller_separation_m);
+  const VesselModel model = VesselModelOf(Truth(), SurveyVehicle().propeller_separation_m);
   const auto track = Simulate(model, {}, SampleMission(1), 600.0, 0.02);
   SensorOptions sensors;
   sensors.thruster_period_s = 0.02;  // as often as the commands can change
-  Recording recording = Measure(track, Boat(), sensors);
+  Recording recording = Measure(track, SurveyVehicle(), sensors);
   for (ThrusterSample& sample : recording.thrusters) sample.time_s -= kCommandDelayS;
   for (GnssFix& fix : recording.gnss) fix.time_s += kFixDelayS;
   return recording;
@@ -52,7 +52,7 @@ class PhysicalModelOfASimulatedBoat : public ::testing::Test {
     IdentifyOptions options;
     options.regression.structure = Structure::kFossen;
     options.threads = 2;
-    auto identified = Identify(TenMinutes(), Boat(), options);
+    auto identified = Identify(TenMinutes(), SurveyVehicle(), options);
     ASSERT_TRUE(identified) << identified.error().reason;
     model_ = new Identification(*identified);
   }
@@ -148,7 +148,7 @@ TEST(PhysicalModel, IsRefusedWhereCommandsNeverChange) {
   }
   IdentifyOptions options;
   options.regression.structure = Structure::kFossen;
-  const auto refused = Identify(still, Boat(), options);
+  const auto refused = Identify(still, SurveyVehicle(), options);
   ASSERT_FALSE(refused);
   EXPECT_EQ(refused.error().subject, "commands");
 }

@@ -12,7 +12,7 @@
 namespace telltale {
 namespace {
 
-PreparedDataset Boat(const VesselModel& model, double noise) {
+PreparedDataset Simulated(const VesselModel& model, double noise) {
   const auto commands = testing::RandomCommands(
       3000, {PropellerRegion::kFF, PropellerRegion::kFR, PropellerRegion::kRF}, 5);
   PreparedDataset dataset = testing::DriveDiscrete(model, commands, 60);
@@ -41,7 +41,7 @@ PartitionOptions Options(PartitionMethod method) {
 
 TEST(StudyPartitions, ScoresPerfectDataPerfectly) {
   for (const auto method : {PartitionMethod::kBySlices, PartitionMethod::kByPoints}) {
-    const auto scores = StudyPartitions(Boat(DiscreteModel(), 0.0), Options(method));
+    const auto scores = StudyPartitions(Simulated(DiscreteModel(), 0.0), Options(method));
     ASSERT_TRUE(scores.has_value());
     for (const PartitionScores& s : *scores) {
       EXPECT_NEAR(s.r2.mean, 1.0, 1e-12);
@@ -53,7 +53,7 @@ TEST(StudyPartitions, ScoresPerfectDataPerfectly) {
 
 /// Free runs need what lies between, so partitions by points have none.
 TEST(StudyPartitions, RunsFreelyBySlicesAlone) {
-  const auto dataset = Boat(DiscreteModel(), 1e-5);
+  const auto dataset = Simulated(DiscreteModel(), 1e-5);
   const auto slices = StudyPartitions(dataset, Options(PartitionMethod::kBySlices));
   const auto points = StudyPartitions(dataset, Options(PartitionMethod::kByPoints));
   ASSERT_TRUE(slices.has_value() && points.has_value());
@@ -72,7 +72,7 @@ TEST(StudyPartitions, RunsFreelyBySlicesAlone) {
 TEST(StudyPartitions, ReportsTheErrorThatNoiseLeaves) {
   const double noise = 0.01;
   const auto scores =
-      StudyPartitions(Boat(DiscreteModel(), noise), Options(PartitionMethod::kBySlices));
+      StudyPartitions(Simulated(DiscreteModel(), noise), Options(PartitionMethod::kBySlices));
   ASSERT_TRUE(scores.has_value());
   for (const PartitionScores& s : *scores) {
     // 3 % for the scatter of 900 validation rows.
@@ -86,7 +86,7 @@ TEST(StudyPartitions, TakesTheDynamicStructureToo) {
   VesselModel lagging = DiscreteModel();
   lagging.structure = Structure::kFirstOrderDynamic;
   lagging.thruster_time_constant_s = 0.5;
-  PreparedDataset dataset = Boat(lagging, 0.0);
+  PreparedDataset dataset = Simulated(lagging, 0.0);
   VesselState state;
   for (PreparedRow& row : dataset.rows) {
     row.nu = state.nu;
@@ -103,7 +103,7 @@ TEST(StudyPartitions, TakesTheDynamicStructureToo) {
 }
 
 TEST(StudyPartitions, GivesTheSameBitsForAnyThreadCount) {
-  const auto dataset = Boat(DiscreteModel(), 0.01);
+  const auto dataset = Simulated(DiscreteModel(), 0.01);
   PartitionOptions options = Options(PartitionMethod::kBySlices);
   const auto one = StudyPartitions(dataset, options);
   options.threads = 2;
@@ -115,7 +115,7 @@ TEST(StudyPartitions, GivesTheSameBitsForAnyThreadCount) {
 }
 
 TEST(StudyPartitions, RefusesTooFewSegmentsAndWrongShares) {
-  PreparedDataset dataset = Boat(DiscreteModel(), 0.01);
+  PreparedDataset dataset = Simulated(DiscreteModel(), 0.01);
   dataset.slices = {{0, 1500}, {1500, 3000}};
   EXPECT_FALSE(StudyPartitions(dataset, Options(PartitionMethod::kBySlices)).has_value());
   PartitionOptions options = Options(PartitionMethod::kBySlices);

@@ -36,7 +36,7 @@ PhysicalModel TrueModel() {
   return model;
 }
 
-Vehicle Boat() {
+Vehicle FreeRunVehicle() {
   Vehicle vehicle;
   vehicle.propeller_separation_m = kSeparationM;
   vehicle.gnss_antenna = {0.3, 0.1};
@@ -50,9 +50,9 @@ PreparedDataset FiveMinutes() {
   sensors.position_noise_m = 0.001;
   sensors.heading_noise_deg = 0.01;
   Recording recording =
-      Measure(Simulate(model, {}, SampleMission(1), 300.0, 0.02), Boat(), sensors);
+      Measure(Simulate(model, {}, SampleMission(1), 300.0, 0.02), FreeRunVehicle(), sensors);
   for (GnssFix& fix : recording.gnss) fix.time_s += kFixDelayS;
-  return *Prepare(recording, Boat(), PrepareOptions::Robust());
+  return *Prepare(recording, FreeRunVehicle(), PrepareOptions::Robust());
 }
 
 // Where a command steps, the filter of the dataset changes the surge velocity by 0.1 m/s and more:

@@ -13,7 +13,7 @@ namespace {
 
 using enum FossenParameter;
 
-FossenVector Boat() {
+FossenVector BoatParameters() {
   FossenVector p;
   p << 1.5, 0.03, 0.18, 0.15, 0.45, 1.2, 0.05, -0.05, 0.25, 1.5, 0.2, 0.3, 0.1, -0.1, 0.1, 0.5, 1.6,
       0.4, 1.2, 0.5, 0.04, 0.06, 0.08, 0.25, 0.05, 0.1;
@@ -46,7 +46,7 @@ Track Weaving() {
 
 FilterSettings Settings() {
   FilterSettings settings;
-  settings.parameters = Boat();
+  settings.parameters = BoatParameters();
   settings.propeller_separation_m = 0.6;
   settings.antenna = {0.2, -0.1};
   settings.nominal_fix_delay_s = settings.parameters[At(kFixDelay)];
