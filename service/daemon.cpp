@@ -377,8 +377,9 @@ void Daemon::Resume(std::vector<UnansweredRequest> requests, const char* whose) 
   constexpr int kMostAttempts = 3;
   if (requests.empty()) return;
   spdlog::info("{} requests {} are worked on again", requests.size(), whose);
-  for (auto& [request, attempts] : requests) {
-    attempts < kMostAttempts ? Submit(std::move(request)) : GiveUp(request, attempts);
+  for (UnansweredRequest& taken : requests) {
+    taken.attempts < kMostAttempts ? Submit(std::move(taken.request))
+                                   : GiveUp(taken.request, taken.attempts);
   }
 }
 
