@@ -70,6 +70,12 @@ unit b/change.hpp '' 'enum class Change { kRows, kPort };\n'
 expect '1 others_1 1' target 9
 unit a/one.cpp 'int First();\ndouble Mean(double x);\n'
 
+# A type of one file, and a local one.
+unit a/one.cpp 'using Clock = std::chrono::steady_clock;\n'
+unit a/two.cpp '' 'void Wait() {\n  using Clock = std::chrono::system_clock;\n}\n'
+expect '1 others_1 1' target 9
+unit a/one.cpp 'int First();\ndouble Mean(double x);\n'
+
 # A name that one file has and another declares for others, or finds in a header.
 unit a/two.cpp '' 'double Mean(double x) { return x; }\n'
 expect '1 others_1 1' target 9
