@@ -82,6 +82,19 @@ function(telltale_optimise_lightly target)
   target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-Og>)
 endfunction()
 
+# telltale_fully_optimised(LAYER FOLDER LINKS ...): what lies below this folder, in a layer that is lightly optimised
+# else: where every sample of a fleet, or of gigabytes, costs time. A library of objects, telltale_FOLDER.
+function(telltale_fully_optimised layer folder)
+  cmake_parse_arguments(ARG "" "" "LINKS" ${ARGN})
+  file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${folder}/*.cpp ${folder}/*.hpp)
+  add_library(telltale_${folder} OBJECT ${sources})
+  target_include_directories(telltale_${folder} PRIVATE ${PROJECT_BINARY_DIR}/include/${layer})
+  target_link_libraries(telltale_${folder} PRIVATE ${ARG_LINKS} telltale_compile)
+  telltale_precompile(telltale_${folder})
+  telltale_compile_in_groups(telltale_${folder} target 25)
+  target_sources(telltale_${layer} PRIVATE $<TARGET_OBJECTS:telltale_${folder}>)
+endfunction()
+
 # telltale_precompiled(NAME HEADERS ... LINKS ...): headers of the libraries linked, read once for all
 # targets that are lightly optimised and reuse them from NAME.
 function(telltale_precompiled name)

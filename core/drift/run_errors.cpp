@@ -88,8 +88,11 @@ std::vector<RunError> RunErrorsOf(const PreparedDataset& dataset,
                                   const Identification& identification, double from_s) {
   std::vector<RunError> errors;
   const auto model = ModelOf(identification);
-  const auto runs = FreeRunsOf(dataset, identification, kDrift.window_s);
-  if (!model || !runs) return errors;
+  if (!model) return errors;
+  const auto& physical = identification.physical;
+  const auto runs = physical ? FreeRunsOf(dataset, *physical, kDrift.window_s)
+                             : FreeRunsOf(dataset, AugmentedModel{*model, {}}, kDrift.window_s);
+  if (!runs) return errors;
   const std::vector<Nu> followed = FollowCommands(dataset, *model);
   const Nu limits = kFreeRunDivergence.LimitsFor(FastestOf(dataset));
   for (const FreeRun& run : *runs) {

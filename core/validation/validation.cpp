@@ -348,14 +348,6 @@ Result<std::vector<FreeRun>> FreeRunsOf(const PreparedDataset& dataset, const Ph
   return Gathered(dataset, PhysicalFreeRuns(dataset, model), horizon_s);
 }
 
-Result<std::vector<FreeRun>> FreeRunsOf(const PreparedDataset& dataset,
-                                        const Identification& identification, double horizon_s) {
-  if (identification.physical) return FreeRunsOf(dataset, *identification.physical, horizon_s);
-  const auto model = ModelOf(identification);
-  if (!model) return tl::unexpected(model.error());
-  return FreeRunsOf(dataset, AugmentedModel{*model, {}}, horizon_s);
-}
-
 Result<Metrics> Validate(const PreparedDataset& dataset, const PhysicalModel& model,
                          const ValidationOptions& options) {
   const VesselModel vessel = VesselModelOf(model.Estimates(), model.propeller_separation_m);

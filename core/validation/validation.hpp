@@ -97,7 +97,5 @@ Result<std::vector<FreeRun>> FreeRunsOf(const PreparedDataset& dataset, const Au
                                         double horizon_s);
 Result<std::vector<FreeRun>> FreeRunsOf(const PreparedDataset& dataset, const PhysicalModel& model,
                                         double horizon_s);
-Result<std::vector<FreeRun>> FreeRunsOf(const PreparedDataset& dataset,
-                                        const Identification& identification, double horizon_s);
 
 }  // namespace telltale

@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include "service/jobs/request_called.hpp"
 #include "service/storage_fixture.hpp"
 #include "telltale/service/storage/stores.hpp"
 
@@ -15,13 +16,6 @@ namespace {
 
 class RequestJournalTest : public StorageTest {
  protected:
-  static AnyRequest RequestCalled(const std::string& correlation_id) {
-    IdentifyRequest request;
-    request.correlation_id = correlation_id;
-    request.vehicle_id = "boat";
-    return request;
-  }
-
   /// Runs `work` while nobody else writes requests: who tries waits.
   void WhileTheDatabaseHangs(const std::function<void()>& work) const {
     const auto other = Storage().Open(RequestsSchema());

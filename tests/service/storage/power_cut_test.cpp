@@ -16,6 +16,7 @@
 #include <gtest/gtest.h>
 #include <spdlog/fmt/fmt.h>
 
+#include "service/jobs/request_called.hpp"
 #include "service/storage/recorded_disk.hpp"
 #include "support/made_up_identifications.hpp"
 #include "support/temporary_folder.hpp"
@@ -99,13 +100,6 @@ struct Contents {
 /// A store as a daemon uses it, on a disk that is recorded.
 class PowerCut : public ::testing::Test {
  protected:
-  static AnyRequest RequestCalled(const std::string& correlation_id) {
-    IdentifyRequest request;
-    request.correlation_id = correlation_id;
-    request.vehicle_id = "boat";
-    return request;
-  }
-
   /// Models, windows and requests, of which every second is answered.
   Acknowledged UseStore(const RecordedDisk& disk) const {
     Acknowledged acknowledged;
