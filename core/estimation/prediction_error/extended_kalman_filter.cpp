@@ -190,7 +190,7 @@ void ExtendedKalmanFilter::TakeFix(double north_m, double east_m,
   }
 }
 
-// The boat that the commands alone drive, on the headings of the filter.
+// The boat of the instruments, on the headings of the filter.
 FilterState ExtendedKalmanFilter::Undisturbed() const {
   FilterState x = x_;
   x.segment<3>(kVelocityState) = undisturbed_nu_;
@@ -312,17 +312,23 @@ void ExtendedKalmanFilter::AdvanceSlopes(const FilterState& x, const Midpoint& s
   slopes.row(kHeadingState) += halfway.row(2);
 }
 
+void ExtendedKalmanFilter::StepInstruments(const ThrustStep& thrust, const DecayOfStates& decay,
+                                           double h) {
+  const FilterState before = Undisturbed();
+  FilterState undisturbed = before;
+  const Midpoint step = Advance(thrust, h, undisturbed);
+  AdvanceSlopes(before, step, TransitionOf(before, step, h, decay), thrust, instruments_);
+  const double kept = std::exp(-h / settings_.instrument_time_constant_s);
+  undisturbed_nu_ =
+      kept * undisturbed.segment<3>(kVelocityState) + (1.0 - kept) * x_.segment<3>(kVelocityState);
+  instruments_.middleRows<3>(kVelocityState) *= kept;
+}
+
 void ExtendedKalmanFilter::Step(double h) {
   const ThrustStep thrust = thrust_.Until(now_s_ + h);
   now_s_ += h;
   const DecayOfStates decay = DecayOver(settings_.noise, h);
-  if (with_instruments_) {
-    const FilterState before = Undisturbed();
-    FilterState undisturbed = before;
-    const Midpoint step = Advance(thrust, h, undisturbed);
-    AdvanceSlopes(before, step, TransitionOf(before, step, h, decay), thrust, instruments_);
-    undisturbed_nu_ = undisturbed.segment<3>(kVelocityState);
-  }
+  if (with_instruments_) StepInstruments(thrust, decay, h);
   const FilterState before = x_;
   const Midpoint step = Advance(thrust, h, x_);
   x_.tail<kDecayingStates>().array() *= decay.array();

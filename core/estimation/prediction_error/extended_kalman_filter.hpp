@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <limits>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -29,6 +30,9 @@ struct FilterSettings {
   /// The delay at which the fixes are put in order; the difference to that of the parameters moves
   /// what is predicted for them.
   double nominal_fix_delay_s = 0.0;
+  /// The time constant with which the boat of the instruments follows the velocities of the filter.
+  /// Infinite: the commands alone drive it.
+  double instrument_time_constant_s = std::numeric_limits<double>::infinity();
 };
 
 /// What a heading, and a fix north and east, read of a state where nothing is late.
@@ -132,6 +136,7 @@ class ExtendedKalmanFilter {
   void AdvanceSlopes(const FilterState& x, const Midpoint& step, const FilterTransition& transition,
                      const ThrustStep& thrust, Slopes& slopes) const;
   double LongestStepS() const;
+  void StepInstruments(const ThrustStep& thrust, const DecayOfStates& decay, double h);
   void Step(double h);
 
   std::function<void(const FilterMove&)> visit_;

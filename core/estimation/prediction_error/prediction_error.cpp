@@ -1,8 +1,10 @@
 #include "telltale/core/estimation/prediction_error/prediction_error.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "telltale/core/base/linear_algebra/eigen_decompositions.hpp"
 #include "telltale/core/base/parallel.hpp"
@@ -74,6 +76,12 @@ NoiseModel FirstNoise(const PreparedDataset& dataset) {
   return noise;
 }
 
+// A boat that keeps no course by itself soon leaves the one that the commands alone drive, which
+// then tells nothing of it. One that follows it slowly stays near, and is less free of what
+// disturbs the boat; in s.
+constexpr double kDrivenByCommandsAlone = std::numeric_limits<double>::infinity();
+constexpr std::array kFollowingSlowly = {5.0, 10.0, 20.0};
+
 using Runs = std::vector<std::vector<Innovation>>;  // by noise
 using SlopedRuns = std::vector<SlopedInnovations>;  // by segment
 
@@ -133,14 +141,16 @@ class Problem {
     return settings;
   }
 
+  // `instrument_time_constant_s`: nothing where the slopes are the instruments.
   SlopedRuns RunWithSlopes(const Eigen::VectorXd& z, const std::vector<NoiseModel>& noise,
-                           bool with_instruments) const {
+                           std::optional<double> instrument_time_constant_s) const {
     SlopedRuns all(dataset_.segments.size());
     ForEachIndex(all.size(), options_.threads, [&](std::size_t s) {
-      const FilterSettings settings =
-          SettingsOf(z, noise[dataset_.RecordingOf(s)], z[At(kFixDelay)]);
+      FilterSettings settings = SettingsOf(z, noise[dataset_.RecordingOf(s)], z[At(kFixDelay)]);
+      settings.instrument_time_constant_s =
+          instrument_time_constant_s.value_or(kDrivenByCommandsAlone);
       all[s] = SlopedInnovationsOf(dataset_.signals[s], dataset_.commands[s], settings,
-                                   with_instruments);
+                                   instrument_time_constant_s.has_value());
     });
     return all;
   }
@@ -401,13 +411,13 @@ double Squares(const SlopedRuns& runs) {
 class Search {
  public:
   explicit Search(const Problem& problem)
-      : problem_(problem),
+      : problem_(&problem),
         z_(problem.FirstParameters()),
         noise_(problem.dataset_.Recordings(), FirstNoise(problem.dataset_)) {}
 
   /// Whether there is more to do after this iteration.
   bool Iterate() {
-    const SlopedRuns runs = problem_.RunWithSlopes(z_, noise_, false);
+    const SlopedRuns runs = problem_->RunWithSlopes(z_, noise_, std::nullopt);
     const auto [precision, mean, gradient] = Linearise(runs);
     slope_ = information_;
     newton_mean_ = z_ + information_.ldlt().solve(gradient);
@@ -420,11 +430,11 @@ class Search {
     const double nominal_fix_delay_s = z_[At(kFixDelay)];
     double moved = 0.0;
     for (int attempt = 0; attempt < kMostAttempts; ++attempt) {
-      const Eigen::VectorXd step = BoundedStep(problem_, z_, information_, gradient, damping_);
+      const Eigen::VectorXd step = BoundedStep(*problem_, z_, information_, gradient, damping_);
       const double expected = step.dot(2.0 * gradient - information_ * step);
       const Eigen::VectorXd candidate = z_ + step;
-      if (problem_.Feasible(candidate) &&
-          cost(candidate, problem_.SquaresWith(runs, candidate, noise_, nominal_fix_delay_s)) <=
+      if (problem_->Feasible(candidate) &&
+          cost(candidate, problem_->SquaresWith(runs, candidate, noise_, nominal_fix_delay_s)) <=
               now * (1.0 + kRounding)) {
         moved = std::sqrt(std::max(expected, 0.0));
         z_ = candidate;
@@ -437,39 +447,52 @@ class Search {
     ++iterations_;
     if (!noise_settled_) {
       noise_settled_ =
-          ScoreNoise(problem_, z_, noise_) < kSettledNoise || iterations_ >= kNoiseIterations;
+          ScoreNoise(*problem_, z_, noise_) < kSettledNoise || iterations_ >= kNoiseIterations;
     }
     converged_ = moved < kConvergedMove && noise_settled_;
-    return !converged_ && iterations_ < problem_.options_.max_iterations;
+    return !converged_ && iterations_ < problem_->options_.max_iterations;
   }
 
   // A step of the equations with instruments: there is no sum of squares to watch. Whether there is
   // more to do.
   bool IterateWithInstruments() {
-    const SlopedRuns runs = problem_.RunWithSlopes(z_, noise_, true);
+    const SlopedRuns runs = problem_->RunWithSlopes(z_, noise_, time_constant_s_);
     const auto [precision, mean, gradient] = Linearise(runs);
     slope_ = ScoreSlope(runs) + precision;
     newton_mean_ = z_ + slope_.partialPivLu().solve(gradient);
-    const Eigen::VectorXd whole = BoundedStep(problem_, z_, slope_, gradient, 0.0);
+    const Eigen::VectorXd whole = BoundedStep(*problem_, z_, slope_, gradient, 0.0);
     const Eigen::VectorXd score = slope_ * whole;
     const double left = std::sqrt(score.dot(information_.ldlt().solve(score)));
-    if (!std::isfinite(left)) return false;
+    if (solution_iterations_ == 0) first_left_ = left;
+    if (!std::isfinite(left) || IsAstray(left)) return false;
     instrumented_ = left < kConvergedScore;
     // Weights and order of the readings change with the parameters: a whole step may go to and fro.
     if (left > kSlow * left_) caution_ = std::min(2.0 * caution_ + 0.25, kMostCaution);
+    if (left < kQuick * left_) caution_ *= 0.5;
     left_ = left;
     Eigen::VectorXd step =
-        BoundedStep(problem_, z_, slope_ + caution_ * information_, gradient, 0.0);
-    while (!problem_.Feasible(z_ + step) && step.squaredNorm() > 0.0) step *= 0.5;
+        BoundedStep(*problem_, z_, slope_ + caution_ * information_, gradient, 0.0);
+    while (!problem_->Feasible(z_ + step) && step.squaredNorm() > 0.0) step *= 0.5;
     z_ += step;
-    return !instrumented_ && ++instrument_iterations_ < kInstrumentIterations;
+    ++instrument_iterations_;
+    return !instrumented_ && ++solution_iterations_ < kInstrumentIterations;
+  }
+
+  // From now on the boat of the instruments follows with this time constant.
+  void UseInstruments(double time_constant_s) {
+    time_constant_s_ = time_constant_s;
+    left_ = std::numeric_limits<double>::infinity();
+    caution_ = 0.0;
+    solution_iterations_ = 0;
+    instrumented_ = false;
   }
 
   bool IsInstrumented() const { return instrumented_; }
 
   double ShareDone() const {
     return static_cast<double>(iterations_ + instrument_iterations_) /
-           static_cast<double>(problem_.options_.max_iterations + kInstrumentIterations);
+           static_cast<double>(problem_->options_.max_iterations +
+                               kInstrumentIterations * (1 + kFollowingSlowly.size()));
   }
 
   PredictionErrorFit Fit() const {
@@ -495,14 +518,21 @@ class Search {
     Eigen::VectorXd gradient;   // data and prior, downwards
   };
 
+  // Whether there is more left of the score than steps that lead to a solution leave.
+  bool IsAstray(double left) const {
+    return left > kAstray * first_left_ ||
+           (solution_iterations_ >= kIterationsToHalve && left > 0.5 * first_left_ &&
+            left > 2.0 * kConvergedScore);
+  }
+
   // The equations at z_; leaves their information behind.
   Linearised Linearise(const SlopedRuns& runs) {
-    normal_ = NormalEquations(problem_, runs);
+    normal_ = NormalEquations(*problem_, runs);
     innovations_ = 0;
     for (const SlopedInnovations& run : runs) innovations_ += run.innovations.size();
     Linearised at;
-    at.precision = problem_.PriorPrecision(z_);
-    at.mean = problem_.PriorShift(at.precision);
+    at.precision = problem_->PriorPrecision(z_);
+    at.mean = problem_->PriorShift(at.precision);
     information_ = normal_.information + at.precision;
     // Innovations are readings less predictions: a step against their slope reduces them.
     at.gradient = -normal_.gradient - at.precision * (z_ - at.mean);
@@ -520,12 +550,15 @@ class Search {
   static constexpr double kSettledNoise = 0.05;  // of its logarithm
   static constexpr int kNoiseIterations = 8;
   static constexpr int kInstrumentIterations = 20;
+  static constexpr double kAstray = 10.0;
+  static constexpr int kIterationsToHalve = 5;
   static constexpr double kSlow = 0.7;
+  static constexpr double kQuick = 0.5;
   static constexpr double kMostCaution = 1.0;
   // A tenth of a standard error of each parameter, all together.
   static constexpr double kConvergedScore = 0.48;
 
-  const Problem& problem_;
+  const Problem* problem_;
   Eigen::VectorXd z_;
   std::vector<NoiseModel> noise_;
   double damping_ = kFirstDamping;
@@ -536,8 +569,11 @@ class Search {
   std::size_t innovations_ = 0;
   int iterations_ = 0;
   int instrument_iterations_ = 0;
+  int solution_iterations_ = 0;                            // with these instruments
   double left_ = std::numeric_limits<double>::infinity();  // of the score, in standard errors
+  double first_left_ = 0.0;                                // with these instruments
   double caution_ = 0.0;
+  double time_constant_s_ = kDrivenByCommandsAlone;
   bool instrumented_ = false;
   bool noise_settled_ = false;
   bool converged_ = false;
@@ -555,10 +591,19 @@ PredictionErrorFit FitPredictionError(const PreparedDataset& dataset, double pro
     if (progress) progress(search.ShareDone());
   };
   while (search.Iterate()) report_progress();
-  const Search by_slopes = search;
-  while (search.IterateWithInstruments()) report_progress();
+  Search solved = search;
+  const auto solve = [&](double time_constant_s) {
+    search.UseInstruments(time_constant_s);
+    while (search.IterateWithInstruments()) report_progress();
+    if (search.IsInstrumented()) solved = search;
+    return search.IsInstrumented();
+  };
+  if (!solve(kDrivenByCommandsAlone)) {
+    search = solved;
+    std::ranges::all_of(kFollowingSlowly, solve);
+  }
   // Where the instruments are too weak, the slopes' answer stands and counts as not converged.
-  return search.IsInstrumented() ? search.Fit() : by_slopes.Fit();
+  return solved.Fit();
 }
 
 }  // namespace telltale

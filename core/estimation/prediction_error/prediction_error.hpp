@@ -47,6 +47,7 @@ struct PredictionErrorFit {
 /// A prediction-error method comes first: slopes at fixed gains. They follow what has disturbed the
 /// boat before, and where the filter's noise is not the boat's, innovations do so too, which biases
 /// it. Then the instruments, the slopes of a boat that the commands alone drive, take their place.
+/// Where that boat tells nothing of the one that was recorded, it follows it slowly.
 /// Source: Ljung, System Identification, 2nd ed., 7.2, 7.4 and 7.6; Harvey, Forecasting, Structural
 /// Time Series Models and the Kalman Filter, 3.4.
 PredictionErrorFit FitPredictionError(const PreparedDataset& dataset, double propeller_separation_m,

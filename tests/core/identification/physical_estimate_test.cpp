@@ -1,9 +1,13 @@
 #include "telltale/core/identification/physical_estimate.hpp"
 
+#include <array>
 #include <cmath>
+#include <vector>
 
 #include <gtest/gtest.h>
 
+#include "telltale/core/base/gauss_markov.hpp"
+#include "telltale/core/base/random.hpp"
 #include "telltale/core/data/preparation.hpp"
 #include "telltale/core/identification/identify.hpp"
 #include "telltale/core/identification/model_comparison.hpp"
@@ -136,6 +140,54 @@ TEST_F(PhysicalModelOfASimulatedBoat, IsComparedByItsParametersWithoutTheClocks)
   const auto same = ChangeBetween(*model_, late);
   ASSERT_TRUE(same) << same.error().reason;
   EXPECT_EQ(same->verdict, ChangeVerdict::kNoSignificantChange);
+}
+
+// A slender hull with little damping that turns to one side by itself, as the model ship CyberShip
+// II does, in gusts.
+FossenVector KeepsNoCourse() {
+  FossenVector p;
+  p << 1.35, 0.04, 0.11, 0.03, 0.10, 0.03, 0.20, 0.0, 0.08, 1.1, 0.05, 0.1, 0.1, -0.05, 0.02, 0.02,
+      0.08, 0.02, 0.06, 0.3, 0.0, 0.04, 0.04, 0.1, 0.0, 0.0;
+  return p;
+}
+
+Recording TenMinutesInGusts(const FossenVector& parameters) {
+  constexpr double kStepS = 0.02;
+  constexpr double kSigma = 0.01;  // m/s^2, rad/s^2
+  constexpr double kTimeConstantS = 4.0;
+  const VesselModel model = VesselModelOf(parameters, SurveyVehicle().propeller_separation_m);
+  std::array gusts{GaussMarkov(kSigma, kTimeConstantS, kStepS, WhiteSource(1, 0)),
+                   GaussMarkov(kSigma, kTimeConstantS, kStepS, WhiteSource(1, 1)),
+                   GaussMarkov(kSigma, kTimeConstantS, kStepS, WhiteSource(1, 2))};
+  std::vector<TimedState> track;
+  VesselState state;
+  for (const TimedState& planned : Simulate(model, {}, SampleMission(1), 600.0, kStepS)) {
+    track.push_back({planned.time_s, state, planned.delta});
+    state = Advance(model, state, planned.delta, kStepS);
+    state.nu.u += kStepS * gusts[0].Next();
+    state.nu.v += kStepS * gusts[1].Next();
+    state.nu.r += kStepS * gusts[2].Next();
+  }
+  return Measure(track, SurveyVehicle(), {});
+}
+
+// The boat that the commands alone drive turns elsewhere than this one did, and its slopes tell
+// nothing of it.
+TEST(PhysicalModel, IsFoundOfABoatThatKeepsNoCourse) {
+  IdentifyOptions options;
+  options.regression.structure = Structure::kFossen;
+  options.threads = 2;
+  const auto identified = Identify(TenMinutesInGusts(KeepsNoCourse()), SurveyVehicle(), options);
+  ASSERT_TRUE(identified) << identified.error().reason;
+  for (const Refusal& warning : identified->refusals) {
+    EXPECT_NE(warning.subject, "model") << warning.reason;
+  }
+  for (std::size_t i = 0; i < kFossenParameters; ++i) {
+    const Coefficient& parameter = identified->physical->parameters[i];
+    EXPECT_NEAR(parameter.estimate, KeepsNoCourse()[static_cast<Eigen::Index>(i)],
+                4.0 * parameter.standard_error)
+        << parameter.symbol;
+  }
 }
 
 TEST(PhysicalModel, IsRefusedWhereCommandsNeverChange) {
