@@ -259,6 +259,12 @@ Identification ModelOf(const PredictionErrorFit& fit, const FossenPrior& prior, 
 Result<Identification> IdentifyPhysicalModel(const PreparedDataset& dataset, const Vehicle& vehicle,
                                              const IdentifyOptions& options,
                                              const Progress& progress) {
+  if (vehicle.propeller_separation_m <= 0.0) {
+    return Refuse("propeller_separation_m",
+                  "the distance between the propellers is not known, which turns their difference "
+                  "into a moment",
+                  "measure it and give a vehicle file; `telltale init` writes one");
+  }
   const double deviation = CommandDeviation(dataset);
   if (deviation < kLeastCommandDeviation) {
     return Refuse("commands",

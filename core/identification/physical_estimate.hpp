@@ -12,8 +12,8 @@ namespace telltale {
 /// The physical form of a boat from prepared data: its parameters with bounds, and the coefficients
 /// that they imply. Bounds are those of the posterior, a normal law truncated to the physical
 /// range, whose covariance comes from scores by blocks of time; docs/concepts/physical-model.md
-/// (112), (113). Refuses when: the commands hardly change, or the fit does not converge to finite
-/// numbers.
+/// (112), (113). Refuses when: the distance between the propellers is not known, the commands
+/// hardly change, or the fit does not converge to finite numbers.
 Result<Identification> IdentifyPhysicalModel(const PreparedDataset& dataset, const Vehicle& vehicle,
                                              const IdentifyOptions& options,
                                              const Progress& progress);

@@ -1,5 +1,7 @@
 #include "telltale/core/data/recording_parts.hpp"
 
+#include <vector>
+
 #include <gtest/gtest.h>
 
 namespace telltale {
@@ -37,6 +39,31 @@ TEST(Between, HoldsTheRecordingsThatBeginThere) {
   Recording recording = EverySecond();
   recording.starts_s = {0.0, 10.0, 15.0, 20.0, 60.0};
   EXPECT_EQ(Between(recording, 10.0, 20.0).starts_s, (std::vector<double>{15.0, 20.0}));
+}
+
+Recording Commanded(const std::vector<double>& port_us) {
+  Recording recording;
+  for (std::size_t i = 0; i < port_us.size(); ++i) {
+    recording.thrusters.push_back({1.0 * static_cast<double>(i), port_us[i], 1500.0});
+  }
+  return recording;
+}
+
+TEST(Liveliest, IsWhereTheCommandsChangeTheMost) {
+  const Recording part =
+      Liveliest(Commanded({1500, 1600, 1600, 1600, 1500, 1700, 1500, 1500, 1500, 1700}), 3.0);
+  ASSERT_EQ(part.thrusters.size(), 3u);
+  EXPECT_EQ(part.thrusters.back().time_s, 6.0);
+}
+
+TEST(Liveliest, IsTheStartWhereNothingChanges) {
+  EXPECT_EQ(Liveliest(Commanded(std::vector<double>(10, 1500.0)), 3.0).thrusters.back().time_s,
+            3.0);
+}
+
+TEST(Liveliest, IsTheWholeWhereItIsNoLonger) {
+  EXPECT_EQ(Liveliest(Commanded({1500, 1600, 1700}), 2.0).thrusters.size(), 3u);
+  EXPECT_EQ(Liveliest(EverySecond(), 10.0).gnss.size(), 101u);  // no commands
 }
 
 TEST(Latest, HoldsTheLastMinute) {

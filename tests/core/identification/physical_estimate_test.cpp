@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -9,6 +10,7 @@
 #include "telltale/core/base/gauss_markov.hpp"
 #include "telltale/core/base/random.hpp"
 #include "telltale/core/data/preparation.hpp"
+#include "telltale/core/identification/channel_delays.hpp"
 #include "telltale/core/identification/identify.hpp"
 #include "telltale/core/identification/model_comparison.hpp"
 #include "telltale/core/identification/posterior_draws.hpp"
@@ -92,6 +94,25 @@ TEST_F(PhysicalModelOfASimulatedBoat, BoundsDragAndThrustWithinATenth) {
 TEST_F(PhysicalModelOfASimulatedBoat, FindsTheDelaysToHundredths) {
   EXPECT_NEAR(Parameter(kCommandDelay).estimate, kCommandDelayS, 0.01);
   EXPECT_NEAR(Parameter(kFixDelay).estimate, kFixDelayS, 0.01);
+}
+
+TEST_F(PhysicalModelOfASimulatedBoat, HasTheDelaysThatAreEstimatedAlone) {
+  const auto delays = EstimateChannelDelays(TenMinutes(), SurveyVehicle(), 2);
+  ASSERT_TRUE(delays) << delays.error().reason;
+  for (const auto& [alone, at] :
+       {std::pair(delays->commands, kCommandDelay), std::pair(delays->fixes, kFixDelay)}) {
+    EXPECT_EQ(alone.estimate, Parameter(at).estimate);
+    EXPECT_EQ(alone.interval.lower, Parameter(at).interval.lower);
+    EXPECT_EQ(alone.interval.upper, Parameter(at).interval.upper);
+  }
+  EXPECT_EQ(delays->start_s, model_->window.start_s);
+  EXPECT_EQ(delays->end_s, model_->window.end_s);
+}
+
+TEST(PhysicalModel, NeedsTheDistanceBetweenThePropellers) {
+  const auto delays = EstimateChannelDelays(TenMinutes(), Vehicle(), 1);
+  ASSERT_FALSE(delays);
+  EXPECT_EQ(delays.error().subject, "propeller_separation_m");
 }
 
 TEST_F(PhysicalModelOfASimulatedBoat, ImpliesTheCoefficientsOfItsParameters) {
