@@ -9,6 +9,7 @@
 #include "telltale/client/cli/commands.hpp"
 #include "telltale/client/cli/input_options.hpp"
 #include "telltale/client/cli/output_options.hpp"
+#include "telltale/client/cli/progress_line.hpp"
 #include "telltale/client/cli/table.hpp"
 #include "telltale/client/workbench/check_log.hpp"
 #include "telltale/client/workbench/errors.hpp"
@@ -26,7 +27,7 @@ std::string RateText(const ChannelCheck& channel) {
   return channel.median_period_s > 0.0 ? Fixed(1.0 / channel.median_period_s, 1) : "-";
 }
 
-std::string TableOf(const CheckedLog& log) {
+std::string ChannelTable(const InputCheck& check) {
   Table table({{"channel", Align::kLeft},
                {"samples", Align::kRight},
                {"Hz", Align::kRight},
@@ -35,22 +36,69 @@ std::string TableOf(const CheckedLog& log) {
                {"gaps", Align::kRight},
                {"longest s", Align::kRight}});
   for (const Channel channel : kChannels) {
-    const ChannelCheck& of = log.check.channels[static_cast<std::size_t>(channel)];
+    const ChannelCheck& of = check.channels[static_cast<std::size_t>(channel)];
+    if (of.samples == 0) continue;
     table.AddRow({std::string(Name(channel)), std::to_string(of.samples), RateText(of),
                   Fixed(of.start_s, 1), Fixed(of.end_s, 1), std::to_string(of.gaps),
                   Fixed(of.longest_gap_s, 1)});
   }
+  return table.Render();
+}
+
+std::string Paragraph(const std::string& what, const Refusal& refusal) {
+  return Wrapped(what + ", " + refusal.subject + ": " + refusal.reason + ".") +
+         Wrapped("To do: " + refusal.advice + ".", "  ");
+}
+
+bool IsUnknown(const Coefficient& delay) {
+  return delay.status == CoefficientStatus::kPrior;
+}
+
+std::string DelayTable(const ChannelDelays& delays) {
+  Table table({{"delay by the clock of the headings", Align::kLeft},
+               {"s", Align::kRight},
+               {"95 % from", Align::kRight},
+               {"to", Align::kRight}});
+  const auto add = [&](const char* what, const Coefficient& delay) {
+    table.AddRow({what, IsUnknown(delay) ? "unknown" : Fixed(delay.estimate, 3),
+                  Fixed(delay.interval.lower, 3), Fixed(delay.interval.upper, 3)});
+  };
+  add("commands act after their stamps", delays.commands);
+  add("fixes are stamped late", delays.fixes);
+  return table.Render();
+}
+
+std::string DelayText(const CheckedLog& log) {
+  if (!log.delays) return {};
+  if (!*log.delays) {
+    const Refusal& unknown = log.delays->error();
+    return Wrapped("Delays between the channels are unknown: " + unknown.reason + ".") +
+           Wrapped("To do: " + unknown.advice + ".", "  ");
+  }
+  const ChannelDelays& delays = **log.delays;
+  std::string text = DelayTable(delays);
+  if (IsUnknown(delays.commands) || IsUnknown(delays.fixes)) {
+    text += Wrapped(
+        "Of an unknown delay the recording tells little: these bounds are what is "
+        "expected of any boat. Steps and turns tell more.");
+  }
+  return text + Wrapped("Delays are of " + Fixed(delays.start_s, 1) + " s to " +
+                        Fixed(delays.end_s, 1) + " s.");
+}
+
+std::string TableOf(const CheckedLog& log) {
   std::string text = log.path.string() + '\n';
   if (!log.summary.empty()) text += Wrapped(log.summary + ".", "  ");
-  text += table.Render();
-  text += Wrapped(Counted(log.rejected.Total(), "sample", "samples") + " rejected.");
-  for (const Refusal& fault : log.check.faults) {
-    text += Wrapped("Suspected fault, " + fault.subject + ": " + fault.reason + ".");
-    text += Wrapped("To do: " + fault.advice + ".", "  ");
+  text += ChannelTable(log.check);
+  for (const Refusal& channel : log.lacks) text += Paragraph("Missing", channel);
+  if (log.rejected) {
+    text += Wrapped(Counted(log.rejected->Total(), "sample", "samples") + " rejected.");
   }
-  if (log.check.faults.empty() && log.unusable) {
-    text += Wrapped("Not usable, " + log.unusable->subject + ": " + log.unusable->reason + ".");
+  for (const Refusal& fault : log.check.faults) text += Paragraph("Suspected fault", fault);
+  if (log.check.faults.empty() && log.lacks.empty() && log.unusable) {
+    text += Paragraph("Not usable", *log.unusable);
   }
+  text += DelayText(log);
   if (log.check.faults.empty() && !log.unusable) {
     text += "No fault of input is seen.\n";
   }
@@ -59,6 +107,26 @@ std::string TableOf(const CheckedLog& log) {
 
 nlohmann::ordered_json JsonOf(const Refusal& refusal) {
   return {{"subject", refusal.subject}, {"reason", refusal.reason}, {"advice", refusal.advice}};
+}
+
+nlohmann::ordered_json JsonOf(const Coefficient& delay) {
+  return {{"estimate", delay.estimate},
+          {"standardError", delay.standard_error},
+          {"interval",
+           {{"level", delay.interval.level},
+            {"lower", delay.interval.lower},
+            {"upper", delay.interval.upper}}},
+          {"unit", delay.unit},
+          {"status", std::string(Name(delay.status))}};
+}
+
+nlohmann::ordered_json JsonOf(const Result<ChannelDelays>& delays) {
+  if (!delays) return {{"unknown", JsonOf(delays.error())}};
+  return {{"clock", std::string(Name(Channel::kHeading))},
+          {"commands", JsonOf(delays->commands)},
+          {"fixes", JsonOf(delays->fixes)},
+          {"startS", delays->start_s},
+          {"endS", delays->end_s}};
 }
 
 nlohmann::ordered_json JsonOf(const CheckedLog& log) {
@@ -75,15 +143,19 @@ nlohmann::ordered_json JsonOf(const CheckedLog& log) {
                                 {"gaps", of.gaps},
                                 {"longestGapS", of.longest_gap_s}});
   }
+  json["missing"] = nlohmann::ordered_json::array();
+  for (const Refusal& channel : log.lacks) json["missing"].push_back(JsonOf(channel));
   json["rejected"] = nlohmann::ordered_json::array();
+  const RejectCounts rejected = log.rejected.value_or(RejectCounts{});
   for (const RejectReason reason : kRejectReasons) {
-    if (log.rejected.Of(reason) == 0) continue;
+    if (rejected.Of(reason) == 0) continue;
     json["rejected"].push_back(
-        {{"reason", std::string(Name(reason))}, {"count", log.rejected.Of(reason)}});
+        {{"reason", std::string(Name(reason))}, {"count", rejected.Of(reason)}});
   }
   json["faults"] = nlohmann::ordered_json::array();
   for (const Refusal& fault : log.check.faults) json["faults"].push_back(JsonOf(fault));
   if (log.unusable) json["unusable"] = JsonOf(*log.unusable);
+  if (log.delays) json["delays"] = JsonOf(*log.delays);
   return json;
 }
 
@@ -91,7 +163,10 @@ CheckedLog CheckOne(const std::filesystem::path& path, const LogInputs& inputs) 
   RawLog log = ReadShown(path, inputs.options);
   const Vehicle vehicle = inputs.NamesVehicle() ? LoadVehicle(inputs.vehicle_file)
                                                 : DescribedOrUsualVehicle(log.description);
-  return CheckLog(path, std::move(log.channels), log.description, vehicle);
+  ProgressLine line;
+  return CheckLogWithDelays(
+      path, std::move(log), vehicle,
+      [&](std::string_view stage, double fraction) { line.Update(stage, fraction); });
 }
 
 void CheckLogs(const CheckArguments& arguments) {
@@ -118,12 +193,18 @@ void CheckLogs(const CheckArguments& arguments) {
 
 void AddCheck(CLI::App& telltale) {
   const auto arguments = std::make_shared<CheckArguments>();
-  CLI::App& command = *telltale.add_subcommand(
-      "check", "Says what logs hold, which faults of input they show, and whether they can answer");
+  CLI::App& command = *telltale.add_subcommand("check",
+                                               "Says what logs hold, the delays between their "
+                                               "channels, which faults of input they show, and "
+                                               "whether they can answer");
   arguments->inputs.AddTo(command, command)->required();
   arguments->output.AddTo(command, "check.json");
   command.footer(
-      "Exits 3 with the first fault. Without a vehicle file, and where the log does not describe "
+      "Exits 3 with the first fault or missing channel. Delays are those of the model that "
+      "identify "
+      "--structure fossen makes, of the ten minutes in which the commands change the most; they "
+      "need "
+      "a vehicle file. Without a vehicle file, and where the log does not describe "
       "its thrusters, 1100, 1500 and 1900 us are taken for full reverse, neutral and full "
       "forward.\n"
       "Example: telltale check --log run1 --vehicle boat.textproto");

@@ -1,6 +1,7 @@
 #include <filesystem>
 #include <iostream>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "telltale/client/cli/commands.hpp"
@@ -21,46 +22,73 @@ struct InitArguments {
   std::filesystem::path out;
 };
 
+/// A vehicle as far as a log says it, the rest as by default.
+struct FilledIn {
+  Vehicle vehicle;
+  std::string port_origin = "left, seen forward";
+  std::string starboard_origin = "right";
+};
+
+/// Takes over what a log says of a thruster, or notes why it cannot.
+void FillIn(const std::string& log, const std::string& thruster,
+            const std::optional<ThrusterOutput>& output, PwmChannel& channel, std::string& origin) {
+  if (output && output->range) {
+    channel = *output->range;
+    origin += ", channel " + std::to_string(output->channel) + " of " + log;
+    return;
+  }
+  origin += ", not in " + log;
+  PrintNote(log + " does not say how the " + thruster + " thruster is driven: " +
+            (output ? output->range_fault : "no parameter names its channel") +
+            "; set its pulse widths in the file");
+}
+
+FilledIn FilledFrom(const std::filesystem::path& path, const RawLog& log) {
+  const LogDescription description = log.description.value_or(LogDescription{});
+  const std::string name = path.filename().string();
+  FilledIn filled;
+  FillIn(name, "port", description.port, filled.vehicle.port, filled.port_origin);
+  FillIn(name, "starboard", description.starboard, filled.vehicle.starboard,
+         filled.starboard_origin);
+  for (const Refusal& channel : log.lacks) {
+    PrintNote(name + " lacks a channel that a model needs, " + channel.subject + ": " +
+              channel.reason);
+  }
+  return filled;
+}
+
 std::string ChannelText(const char* name, const PwmChannel& channel, const std::string& comment) {
   return std::string(name) + " { neutral_us: " + Plain(channel.neutral_us) +
          " full_forward_us: " + Plain(channel.full_forward_us) +
          " full_reverse_us: " + Plain(channel.full_reverse_us) + " }  # " + comment + '\n';
 }
 
-std::string FileText(const std::string& vehicle_id, const Vehicle& vehicle,
-                     const std::string& origin) {
+std::string FileText(const std::string& vehicle_id, const FilledIn& filled) {
   return "# A vehicle file: what Telltale is told of one boat. Lengths are in metres, masses in\n"
          "# kilograms, pulse widths in microseconds.\n"
          "vehicle_id: \"" +
          vehicle_id +
          "\"\n\n"
-         "# Distance between the two propellers. Measure it.\n"
+         "# Distance between the two propellers. No log tells it: measure it.\n"
          "propeller_separation_m: 0.57\n\n"
          "# Pulse widths of each thruster. A reversed channel has full_forward_us below\n"
-         "# neutral_us. " +
-         origin + "\n" + ChannelText("port     ", vehicle.port, "left, seen forward") +
-         ChannelText("starboard", vehicle.starboard, "right") +
-         "\n# Where the GNSS antenna sits, from the middle of the boat.\n"
+         "# neutral_us. What no log says stands in the speed controllers' data sheet.\n" +
+         ChannelText("port     ", filled.vehicle.port, filled.port_origin) +
+         ChannelText("starboard", filled.vehicle.starboard, filled.starboard_origin) +
+         "\n# Where the GNSS antenna sits, from the middle of the boat. No log tells it.\n"
          "gnss_antenna { forward_m: 0 starboard_m: 0 }\n\n"
          "# mass_kg: 15  # optional; exports in newtons need it\n";
 }
 
 void WriteVehicleFile(const InitArguments& arguments) {
-  Vehicle vehicle;
-  std::string origin = "Set them from the speed controllers' data sheet.";
-  if (!arguments.log.empty()) {
-    const RawLog log = ReadShown(arguments.log, arguments.options);
-    if (!log.description || !log.description->port || !log.description->starboard) {
-      PrintNote(arguments.log.string() + " says nothing of its thrusters");
-    } else {
-      vehicle = OrThrow(VehicleFrom(*log.description, "boat"));
-      origin = "Taken from SERVOn_* of " + arguments.log.filename().string() + '.';
-    }
-  }
   if (std::filesystem::exists(arguments.out)) {
     throw std::runtime_error(arguments.out.string() + " exists already; name another file");
   }
-  const std::string text = FileText(VehicleIdLike(arguments.out.stem().string()), vehicle, origin);
+  const FilledIn filled =
+      arguments.log.empty()
+          ? FilledIn()
+          : FilledFrom(arguments.log, ReadShown(arguments.log, arguments.options));
+  const std::string text = FileText(VehicleIdLike(arguments.out.stem().string()), filled);
   OrThrow(ParseVehicle(text, arguments.out.string()));
   WriteFile(arguments.out, text);
   std::cout << "Wrote " << arguments.out.string() << "; read it once and set what you know.\n";

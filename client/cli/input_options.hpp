@@ -38,8 +38,8 @@ struct LogInputs {
 /// file that offers a choice.
 CLI::Option* AddLog(CLI::App& command, std::filesystem::path& log, SourceOptions& options);
 
-/// A log before any admission (LoadAsRecorded); where reading takes long, a line on a terminal
-/// shows how far it is.
+/// A log before any admission (LoadAsRecorded), of which channels may be missing; where reading
+/// takes long, a line on a terminal shows how far it is.
 RawLog ReadShown(const std::filesystem::path& log, SourceOptions options);
 
 /// `--model` and `--vehicle`, required.

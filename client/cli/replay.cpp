@@ -146,6 +146,7 @@ void Replay(const ReplayArguments& arguments) {
   const std::string vehicle_id =
       announced.empty() ? arguments.vehicle_id : announced.front().vehicle_id;
   const RawLog log = ReadShown(arguments.log, arguments.options);
+  if (auto refusal = LacksChannel(arguments.log, log)) throw RefusedError(*std::move(refusal));
   const Participant participant(arguments.live.domain);
   BatchWrites();
   const auto announcers = Announce(participant, announced);

@@ -15,8 +15,9 @@ std::vector<Refusal> Check(const StatedLog& recording,
   const py::gil_scoped_release unlocked;
   const RecordedLog& log = recording.log;
   const auto& description = log.loaded.description;
-  const CheckedLog checked = CheckLog(log.path, recording.recorded, description,
-                                      stated ? *stated : DescribedOrUsualVehicle(description));
+  const CheckedLog checked =
+      CheckLog(log.path, {recording.recorded, log.loaded.malformed, description, {}},
+               stated ? *stated : DescribedOrUsualVehicle(description));
   std::vector<Refusal> findings = checked.check.faults;
   if (findings.empty() && checked.unusable) findings.push_back(*checked.unusable);
   return findings;

@@ -82,7 +82,9 @@ std::optional<LogDescription> DescriptionOf(const TelemetryLog& log) {
 Result<RawLog> FromFolder(const std::filesystem::path& folder, const SourceOptions& options) {
   if (!IsTelemetryLog(folder)) return FromOtherFolder(folder, options);
   return ReadTelemetryLog(folder, options.memory_bytes).map([](TelemetryLog log) {
-    return RawLog{std::move(log.channels), log.malformed, DescriptionOf(log)};
+    auto description = DescriptionOf(log);
+    return RawLog{std::move(log.channels), log.malformed, std::move(description),
+                  std::move(log.lacks)};
   });
 }
 
@@ -97,7 +99,8 @@ Result<RawLog> FromDataFlash(const std::filesystem::path& file, const SourceOpti
                                 options.starboard_channel, options.memory_bytes};
   return ReadDataFlash(file, choice, options.progress).map([](DataFlashLog log) {
     LogDescription description{log.report.Summary() + OutputsText(log), log.port, log.starboard};
-    return RawLog{std::move(log), {}, std::move(description)};
+    auto lacks = log.Lacks();
+    return RawLog{std::move(log), {}, std::move(description), std::move(lacks)};
   });
 }
 
@@ -129,13 +132,14 @@ Result<SourceLog> ReadMapped(const std::filesystem::path& path, LogFormat format
 Result<RawLog> FromSource(Result<SourceLog> source) {
   return std::move(source).map([](SourceLog log) {
     LogDescription description{std::move(log.summary), log.port, log.starboard};
-    return RawLog{std::move(log), {}, std::move(description)};
+    auto lacks = log.Lacks();
+    return RawLog{std::move(log), {}, std::move(description), std::move(lacks)};
   });
 }
 
-tl::unexpected<Refusal> Naming(const std::filesystem::path& path, Refusal refusal) {
+Refusal Naming(const std::filesystem::path& path, Refusal refusal) {
   refusal.subject = path.string() + " " + refusal.subject;
-  return tl::unexpected(std::move(refusal));
+  return refusal;
 }
 
 /// Formats that are known and not read, by how they begin.
@@ -254,11 +258,19 @@ Result<RawLog> ReadLog(const std::filesystem::path& path, const SourceOptions& o
   return tl::unexpected(UnknownFormat(path));
 }
 
+std::optional<Refusal> LacksChannel(const std::filesystem::path& path, const RawLog& log) {
+  if (log.lacks.empty()) return std::nullopt;
+  Refusal refusal = log.lacks.front();
+  if (log.description) refusal.reason += " (" + log.description->summary + ')';
+  return Naming(path, std::move(refusal));
+}
+
 Result<LoadedRecording> AdmitLog(const std::filesystem::path& path, RawLog log) {
+  if (auto refusal = LacksChannel(path, log)) return tl::unexpected(*std::move(refusal));
   auto fault = UnitFault(log.channels.gnss, log.channels.thrusters);
-  if (fault) return Naming(path, *std::move(fault));
+  if (fault) return tl::unexpected(Naming(path, *std::move(fault)));
   auto admitted = Admit(std::move(log.channels));
-  if (!admitted) return Naming(path, std::move(admitted).error());
+  if (!admitted) return tl::unexpected(Naming(path, std::move(admitted).error()));
   return LoadedRecording{std::move(admitted->recording), admitted->evicted, log.malformed,
                          std::move(log.description)};
 }

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "telltale/client/recording/csv/numeric_csv.hpp"
 #include "telltale/client/recording/source_log.hpp"
@@ -27,6 +28,7 @@ struct RawLog {
   RawChannels channels;
   std::array<MalformedRows, 3> malformed;  ///< by channel, of a folder
   std::optional<LogDescription> description;
+  std::vector<Refusal> lacks;  ///< each channel that is missing, with the reason and what to do
 };
 
 /// A log of any format as far as it can be trusted: what identifications and validations take.
@@ -54,12 +56,16 @@ LogFormat FormatOf(const std::filesystem::path& path);
 
 /// A telemetry log (gnss.csv, heading.csv and thrusters.csv of one folder), an ArduPilot DataFlash
 /// file, a MAVLink telemetry log, an MCAP file, a rosbag2 recording or a ROS 1 .bag; a file of
-/// these that gzip or zstd has compressed, or a folder that holds one such file alone. Refuses
-/// when: the path is none of them, cannot be read, or holds nothing of a channel.
+/// these that gzip or zstd has compressed, or a folder that holds one such file alone. Channels may
+/// be missing. Refuses when: the path is none of them, or cannot be read.
 Result<RawLog> ReadLog(const std::filesystem::path& path, const SourceOptions& options = {});
 
-/// What Admit keeps of a log. Refuses when: it does, or times, positions or commands are plainly in
-/// other units than those of a telemetry log (UnitFault); the subject names the path.
+/// The refusal of the first channel that is missing. It names the path and what was read of it.
+std::optional<Refusal> LacksChannel(const std::filesystem::path& path, const RawLog& log);
+
+/// What Admit keeps of a log. Refuses when: a channel is missing, it does, or times, positions or
+/// commands are plainly in other units than those of a telemetry log (UnitFault); the subject names
+/// the path.
 Result<LoadedRecording> AdmitLog(const std::filesystem::path& path, RawLog log);
 
 /// ReadLog, then AdmitLog. Refuses when: either does.

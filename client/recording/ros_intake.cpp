@@ -31,7 +31,7 @@ void RosIntake::Leave(std::string_view topic, std::string_view what) {
 SourceLog RosIntake::Finish() && {
   if (mapped_) return std::move(*mapped_).Finish();
   SourceLog log = std::move(by_rules_).Finish();
-  if (!log.Lacks() || left_.empty()) return log;
+  if (log.Lacks().empty() || left_.empty()) return log;
   log.summary += "; topics of no use, which a mapping may name:";
   for (const std::string& topic : left_) log.summary += ' ' + topic;
   return log;

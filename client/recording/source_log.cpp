@@ -1,7 +1,5 @@
 #include "telltale/client/recording/source_log.hpp"
 
-#include <utility>
-
 namespace telltale {
 namespace {
 
@@ -22,28 +20,21 @@ std::optional<Refusal> SourceOptions::Validate() const {
   return OptionOutOfRange("starboard_channel", starboard_channel, 1, 16);
 }
 
-std::optional<Refusal> SourceLog::Lacks() const {
-  const std::string read = " (" + summary + ")";
+std::vector<Refusal> SourceLog::Lacks() const {
+  std::vector<Refusal> lacks;
   if (gnss.empty()) {
-    return Refusal{"gnss", "no position with a fix" + read, "record GNSS positions with a 3D fix"};
+    lacks.push_back({"gnss", "no position with a fix", "record GNSS positions with a 3D fix"});
   }
   if (heading.empty()) {
-    return Refusal{"heading", "no heading" + read, "record the attitude or compass heading"};
+    lacks.push_back({"heading", "no heading", "record the attitude or compass heading"});
   }
   if (thrusters.empty()) {
-    return Refusal{"thrusters", "no outputs of two known thrusters" + read,
-                   "record the servo outputs; where the file does not name the channels of the "
-                   "thrusters, give --port-channel and --starboard-channel, or say by --map what "
-                   "holds their commands"};
+    lacks.push_back({"thrusters", "no outputs of two known thrusters",
+                     "record the servo outputs; where the file does not name the channels of the "
+                     "thrusters, give --port-channel and --starboard-channel, or say by --map what "
+                     "holds their commands"});
   }
-  return std::nullopt;
-}
-
-Result<SourceLog> Complete(SourceLog log, const std::filesystem::path& file) {
-  auto refusal = log.Lacks();
-  if (!refusal) return log;
-  refusal->subject = file.string() + " " + refusal->subject;
-  return tl::unexpected(*std::move(refusal));
+  return lacks;
 }
 
 }  // namespace telltale

@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "telltale/client/recording/block_reader.hpp"
 #include "telltale/client/recording/sample_memory.hpp"
@@ -36,11 +37,8 @@ struct SourceLog : RawChannels {
   std::optional<ThrusterOutput> starboard;
   std::string summary;  ///< for people: what was read, from where, and each kind of damage
 
-  /// The first channel that is missing, with the reason and what to do.
-  std::optional<Refusal> Lacks() const;
+  /// Each channel that is missing, in the order of kChannels, with the reason and what to do.
+  std::vector<Refusal> Lacks() const;
 };
-
-/// The log of a file, or, where it lacks a channel, the refusal with the file in its subject.
-Result<SourceLog> Complete(SourceLog log, const std::filesystem::path& file);
 
 }  // namespace telltale

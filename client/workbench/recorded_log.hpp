@@ -21,8 +21,8 @@ struct RecordedLog {
 /// "run225" of /data/run225 and of /data/run225/.
 std::string NameOf(const std::filesystem::path& log);
 
-/// One log before any admission. Throws: RefusedError naming the log, UsageError where its format
-/// does not record a channel that is asked for.
+/// One log before any admission; channels may be missing. Throws: RefusedError naming the log,
+/// UsageError where its format does not record an output that is asked for.
 RawLog LoadAsRecorded(const std::filesystem::path& log, const SourceOptions& options);
 
 /// What is admitted of a log, with notes on what is not. Throws: RefusedError naming the log.

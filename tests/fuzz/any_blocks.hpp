@@ -23,8 +23,7 @@ void InsistOnAnyBlocks(std::span<const std::uint8_t> bytes, Parse parse) {
   Insist(whole.summary == parts.summary);
   Insist(whole.gnss.size() == parts.gnss.size() && whole.heading.size() == parts.heading.size() &&
          whole.thrusters.size() == parts.thrusters.size());
-  const auto lacks = whole.Lacks();
-  Insist(!lacks || !lacks->reason.empty());
+  for (const Refusal& lack : whole.Lacks()) Insist(!lack.reason.empty());
 }
 
 }  // namespace telltale

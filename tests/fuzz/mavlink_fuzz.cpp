@@ -64,8 +64,7 @@ void Read(std::span<const std::uint8_t> bytes) {
   if (bytes.size() % 5 == 0) options.starboard_channel = 1;
   const telltale::SourceLog log = std::move(recording).Finish(options);
   Insist(log.gnss.size() + log.heading.size() + log.thrusters.size() <= 2 * whole.frames);
-  const auto lacks = log.Lacks();
-  Insist(!lacks || !lacks->reason.empty());
+  for (const telltale::Refusal& lack : log.Lacks()) Insist(!lack.reason.empty());
 }
 
 /// Messages out of the bytes, each after its id and its length: no checksum stands in the way.

@@ -157,7 +157,7 @@ Result<SourceLog> ReadMappedCsv(const std::filesystem::path& file, const Mapping
         "has no column " + csv.Missing().front() + ", only " + csv.Header().substr(0, 300),
         "name the columns of this file in the mapping");
   }
-  return Complete(std::move(csv).Finish(), file);
+  return std::move(csv).Finish();
 }
 
 }  // namespace telltale

@@ -12,8 +12,8 @@ namespace telltale {
 /// with semicolons a decimal comma is understood. An empty cell is no value, so channels may have
 /// rates of their own. Of `options` the memory and the
 /// progress count.
-/// Refuses when: the file cannot be read, lacks a column that the mapping names, the mapping names
-/// a topic or no column of times, or a channel is missing.
+/// Channels may be without a value. Refuses when: the file cannot be read, lacks a column that the
+/// mapping names, or the mapping names a topic or no column of times.
 Result<SourceLog> ReadMappedCsv(const std::filesystem::path& file, const Mapping& mapping,
                                 const SourceOptions& options = {});
 

@@ -261,41 +261,39 @@ std::optional<Refusal> OutOfRange(const char* field, std::optional<int> value, i
                  std::string("give ") + field + " a value in " + range};
 }
 
-Refusal LacksFix(const DataFlashReport& report, const std::string& read) {
+Refusal LacksFix(const DataFlashReport& report) {
   if (!report.gps_fixes.empty()) {
     std::string have;
     for (const auto& [instance, fixes] : report.gps_fixes)
       have.append(" ").append(std::to_string(instance));
-    return {"gnss", "the GPS instance asked for has no fix" + read, "ask for one of:" + have};
+    return {"gnss", "the GPS instance asked for has no fix", "ask for one of:" + have};
   }
   if (report.gps_without_fix > 0) {
     return {"gnss",
             "no fix: Status is below 3 in all " + std::to_string(report.gps_without_fix) +
-                " GPS records" + read,
+                " GPS records",
             "wait for a 3D fix before the run"};
   }
-  return {"gnss", "no GPS message that can be read" + read, "enable GPS (bit 2) in LOG_BITMASK"};
+  return {"gnss", "no GPS message that can be read", "enable GPS (bit 2) in LOG_BITMASK"};
 }
 
-Refusal LacksThrusters(const DataFlashLog& log, const std::string& read) {
+Refusal LacksThrusters(const DataFlashLog& log) {
   if (CountOf(log.report, "RCOU") == 0) {
-    return {"thrusters", "no RCOU message" + read,
+    return {"thrusters", "no RCOU message",
             "enable RC output (Rover: RC Input-Output, bit 14) in LOG_BITMASK"};
   }
   for (const auto& [output, function] : {std::pair(&log.port, "73 (ThrottleLeft)"),
                                          std::pair(&log.starboard, "74 (ThrottleRight)")}) {
     if (!*output) {
-      return {"thrusters", std::string("no PARM record gives a SERVOn_FUNCTION ") + function + read,
+      return {"thrusters", std::string("no PARM record gives a SERVOn_FUNCTION ") + function,
               "name the channel that drives this thruster"};
     }
     if ((*output)->channel > kLoggedChannels) {
-      return {"thrusters",
-              "channel " + std::to_string((*output)->channel) + " drives a thruster" + read,
+      return {"thrusters", "channel " + std::to_string((*output)->channel) + " drives a thruster",
               "use channels 1 to 14, which RCOU records"};
     }
   }
-  return {"thrusters", "no RCOU message that can be read" + read,
-          "log RCOU with TimeUS and C1..C14"};
+  return {"thrusters", "no RCOU message that can be read", "log RCOU with TimeUS and C1..C14"};
 }
 
 void AppendCounts(std::ostream& out, std::uint64_t count, const char* what) {
@@ -345,7 +343,7 @@ std::string DataFlashReport::Summary() const {
   return out.str();
 }
 
-std::optional<Refusal> DataFlashLog::Lacks() const {
+std::optional<Refusal> DataFlashLog::Unreadable() const {
   if (report.bytes == 0) return Refusal{"log", "the file is empty", "download the log again"};
   if (CountOf(report, "FMT") == 0) {
     return Refusal{
@@ -353,14 +351,18 @@ std::optional<Refusal> DataFlashLog::Lacks() const {
         "not a DataFlash log: no FMT record in its " + std::to_string(report.bytes) + " bytes",
         "give an ArduPilot .BIN log or a folder of CSV files"};
   }
-  const std::string read = " (" + report.Summary() + ")";
-  if (gnss.empty()) return LacksFix(report, read);
-  if (heading.empty()) {
-    return Refusal{"heading", "no ATT or AHR2 message that can be read" + read,
-                   "enable attitude (bit 0 or 1) in LOG_BITMASK"};
-  }
-  if (thrusters.empty()) return LacksThrusters(*this, read);
   return std::nullopt;
+}
+
+std::vector<Refusal> DataFlashLog::Lacks() const {
+  std::vector<Refusal> lacks;
+  if (gnss.empty()) lacks.push_back(LacksFix(report));
+  if (heading.empty()) {
+    lacks.push_back({"heading", "no ATT or AHR2 message that can be read",
+                     "enable attitude (bit 0 or 1) in LOG_BITMASK"});
+  }
+  if (thrusters.empty()) lacks.push_back(LacksThrusters(*this));
+  return lacks;
 }
 
 DataFlashLog ParseDataFlash(DataFlashBytes bytes, const DataFlashOptions& options) {
@@ -381,7 +383,7 @@ Result<DataFlashLog> ReadDataFlash(const std::filesystem::path& file,
   if (!total) return tl::unexpected(total.error());
 
   DataFlashLog log = FinishLog(builder, framing, *total, options);
-  if (auto refusal = log.Lacks()) {
+  if (auto refusal = log.Unreadable()) {
     refusal->subject = file.string() + " " + refusal->subject;
     return tl::unexpected(*std::move(refusal));
   }

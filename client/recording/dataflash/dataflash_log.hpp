@@ -67,8 +67,12 @@ struct DataFlashLog : RawChannels {
   std::optional<ThrusterOutput> starboard;
   DataFlashReport report;
 
-  /// What is missing for a recording of use: names the message or parameter and how to log it.
-  std::optional<Refusal> Lacks() const;
+  /// Why the bytes are no DataFlash log.
+  std::optional<Refusal> Unreadable() const;
+
+  /// Each channel that is missing, in the order of kChannels: names the message or parameter and
+  /// how to log it.
+  std::vector<Refusal> Lacks() const;
 };
 
 /// Everything that can be had from these bytes; never fails, a log of nothing included.
@@ -79,7 +83,7 @@ struct DataFlashLog : RawChannels {
 DataFlashLog ParseDataFlash(DataFlashBytes bytes, const DataFlashOptions& options);
 
 /// The same from a file, read once in blocks.
-/// Refuses when: the file cannot be read, is not a DataFlash log, or the log Lacks() something.
+/// Refuses when: the file cannot be read or the log is Unreadable().
 Result<DataFlashLog> ReadDataFlash(const std::filesystem::path& file,
                                    const DataFlashOptions& options = {},
                                    const ReadProgress& progress = nullptr);

@@ -90,7 +90,7 @@ SourceLog MappedMessages::Finish() && {
   for (const std::string& name : types_.Unknown()) {
     log.summary += "; the recording does not define " + name;
   }
-  if (log.Lacks() && !other_topics_.empty()) {
+  if (!log.Lacks().empty() && !other_topics_.empty()) {
     log.summary += "; topics that it does not name:";
     for (const std::string& topic : other_topics_) log.summary += ' ' + topic;
   }

@@ -190,9 +190,9 @@ std::string MavlinkRecording::ChooseOutputs(const Vehicle& vehicle, const Source
   };
   std::string warning = RateWarning("SERVO_OUTPUT_RAW", vehicle.outputs.TimesS(), kLowOutputHz,
                                     AskFor("SR0_RC_CHAN", "36"));
-  if (vehicle.outputs.TimesS().empty()) return warning;
   log.port = output(options.port_channel, kThrottleLeft);
   log.starboard = output(options.starboard_channel, kThrottleRight);
+  if (vehicle.outputs.TimesS().empty()) return warning;
   if (!log.port || !log.starboard) {
     log.summary +=
         "; no PARAM_VALUE gives a SERVOn_FUNCTION 73 (ThrottleLeft) and 74 (ThrottleRight)";
@@ -256,7 +256,7 @@ Result<SourceLog> ReadMavlinkTelemetryLog(const std::filesystem::path& file,
   log.summary += AndCount(damage.corrupt_frames, "messages with a wrong checksum") +
                  AndCount(damage.skipped_bytes, "bytes skipped") +
                  AndCount(damage.truncated_bytes, "bytes of a message cut off at the end");
-  return Complete(std::move(log), file);
+  return log;
 }
 
 }  // namespace telltale

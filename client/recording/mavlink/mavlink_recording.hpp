@@ -109,7 +109,7 @@ class MavlinkRecording {
 
 /// A telemetry log of a ground station (tlog), or the same frames without their times of arrival,
 /// as they come out of a serial line.
-/// Refuses when: the file cannot be read, holds no frame, or lacks a channel.
+/// Channels may be missing. Refuses when: the file cannot be read.
 Result<SourceLog> ReadMavlinkTelemetryLog(const std::filesystem::path& file,
                                           const SourceOptions& options = {});
 

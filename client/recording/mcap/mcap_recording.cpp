@@ -80,8 +80,7 @@ Result<SourceLog> ReadMcap(const std::filesystem::path& file, const SourceOption
   McapRecording recording(options);
   const auto damage = ForEachMcapMessage(file, recording.Visitor());
   if (!damage) return tl::unexpected(damage.error());
-  SourceLog log = std::move(recording).Finish(*damage);
-  return Complete(std::move(log), file);
+  return std::move(recording).Finish(*damage);
 }
 
 }  // namespace telltale

@@ -15,8 +15,8 @@ SourceLog ParseMcap(std::span<const std::uint8_t> bytes, std::size_t block,
                     const SourceOptions& options);
 
 /// An MCAP file of ROS 2 (CDR), of ROS 1, or of the BlueOS recorder (MAVLink messages as JSON);
-/// with a mapping, of any messages of ROS or JSON. Refuses when: ForEachMcapMessage() does, or a
-/// channel is missing.
+/// with a mapping, of any messages of ROS or JSON. Channels may be missing. Refuses when:
+/// ForEachMcapMessage() does.
 Result<SourceLog> ReadMcap(const std::filesystem::path& file, const SourceOptions& options = {});
 
 }  // namespace telltale

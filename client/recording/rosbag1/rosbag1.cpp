@@ -224,7 +224,7 @@ Result<SourceLog> ReadRosbag1(const std::filesystem::path& file, const SourceOpt
   }
   SourceLog log = std::move(recording).Finish();
   log.summary += bag.Summary();
-  return Complete(std::move(log), file);
+  return log;
 }
 
 }  // namespace telltale

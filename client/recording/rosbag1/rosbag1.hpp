@@ -13,7 +13,7 @@ namespace telltale {
 /// not, whole or cut off. The messages are those that RosRecording takes, under their names of
 /// ROS 1.
 /// Memory: one chunk, compressed and not. Chunks that inflate to more than 64 MB are counted.
-/// Refuses when: the file cannot be read, is not a bag of version 2.0, or lacks a channel.
+/// Channels may be missing. Refuses when: the file cannot be read, or is not a bag of version 2.0.
 /// Source: ROS wiki, "Bags/Format/2.0".
 Result<SourceLog> ReadRosbag1(const std::filesystem::path& file, const SourceOptions& options = {});
 

@@ -171,7 +171,7 @@ Result<SourceLog> ReadRosbag2(const fs::path& path, const SourceOptions& options
   }
   SourceLog log = std::move(recording).Finish();
   log.summary += damage;
-  return Complete(std::move(log), path);
+  return log;
 }
 
 }  // namespace telltale

@@ -162,20 +162,27 @@ Result<TelemetryLog> ReadTelemetryLog(const std::filesystem::path& folder, std::
     return Refuse(folder.string(), "is not a folder",
                   "give a folder with gnss.csv, heading.csv and thrusters.csv");
   }
+  TelemetryLog log;
   SampleMemory memory(most_bytes);
   SampleSeries<GnssFix> gnss(memory);
   SampleSeries<HeadingSample> heading(memory);
   SampleSeries<ThrusterSample> thrusters(memory);
-  auto of_gnss = ReadChannel(folder / "gnss.csv", kGnssColumns, gnss);
-  if (!of_gnss) return tl::unexpected(of_gnss.error());
-  auto of_heading = ReadChannel(folder / "heading.csv", kHeadingColumns, heading);
-  if (!of_heading) return tl::unexpected(of_heading.error());
-  auto of_thrusters = ReadChannel(folder / "thrusters.csv", kThrusterColumns, thrusters);
-  if (!of_thrusters) return tl::unexpected(of_thrusters.error());
-  return TelemetryLog{
-      {std::move(gnss).Release(), std::move(heading).Release(), std::move(thrusters).Release()},
-      {*std::move(of_gnss), *std::move(of_heading), *std::move(of_thrusters)},
-      memory.Summary()};
+  const auto read = [&](Channel channel, std::span<const std::string_view> columns, auto& samples) {
+    const std::string file = std::string(Name(channel)) + ".csv";
+    auto malformed = ReadChannel(folder / file, columns, samples);
+    if (malformed) {
+      log.malformed[static_cast<std::size_t>(channel)] = *std::move(malformed);
+    } else {
+      log.lacks.push_back({file, malformed.error().reason, malformed.error().advice});
+    }
+  };
+  read(Channel::kGnss, kGnssColumns, gnss);
+  read(Channel::kHeading, kHeadingColumns, heading);
+  read(Channel::kThrusters, kThrusterColumns, thrusters);
+  log.channels = {std::move(gnss).Release(), std::move(heading).Release(),
+                  std::move(thrusters).Release()};
+  log.left_out = memory.Summary();
+  return log;
 }
 
 Result<AdmittedLog> Admit(RawChannels channels) {

@@ -20,9 +20,11 @@ struct TelemetryLog {
   RawChannels channels;                    ///< before any admission
   std::array<MalformedRows, 3> malformed;  ///< by channel
   std::string left_out;                    ///< SampleMemory::Summary() of reading it
+  /// Each channel whose file is missing, empty, without its columns, or without one readable row.
+  std::vector<Refusal> lacks;
 };
 
-/// Refuses when: a file is missing, empty, without its columns, or without one readable row.
+/// Refuses when: the path is no folder.
 Result<TelemetryLog> ReadTelemetryLog(const std::filesystem::path& folder,
                                       std::size_t most_bytes = kReadingBytes);
 

@@ -1,7 +1,11 @@
 #include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include "support/dataflash_writer.hpp"
 #include "support/telltale_command.hpp"
@@ -206,6 +210,76 @@ TEST_F(LogInputsTest, AChannelThatALogDoesNotRecordIsAUsageError) {
     EXPECT_EQ(outcome.exit_code, kExitUsage) << subcommand;
     EXPECT_THAT(outcome.err, AllOf(HasSubstr("--port-channel"), HasSubstr("channels 1 to 14")));
   }
+}
+
+TEST_F(LogInputsTest, CheckShowsTheChannelsThatAreThereAndNamesTheOthers) {
+  Rover4Writer log;
+  log.Definitions().Att(1'000'000, 9000).Att(1'100'000, 9000);
+  Save("run.BIN", log);
+  const CommandOutcome outcome = Telltale({"check", "--log", Path("run.BIN")});
+  EXPECT_EQ(outcome.exit_code, kExitRefused);
+  EXPECT_THAT(outcome.out,
+              AllOf(HasSubstr("heading        2  10.0"), HasSubstr("Missing, gnss: no GPS message"),
+                    HasSubstr("To do: enable GPS"), HasSubstr("Missing, thrusters"),
+                    HasSubstr("Delays between the channels are unknown")));
+  EXPECT_THAT(outcome.err, HasSubstr("run.BIN gnss: no GPS message"));
+  const auto json =
+      nlohmann::json::parse(Telltale({"check", "--log", Path("run.BIN"), "--json"}).out);
+  EXPECT_EQ(json["logs"][0]["missing"].size(), 2u);
+  EXPECT_EQ(json["logs"][0]["delays"]["unknown"]["subject"], "delays");
+}
+
+TEST_F(LogInputsTest, CheckShowsTheChannelsOfAFolderThatLacksAFile) {
+  WriteTelemetryLog(Path("log"), Measured(0.0));
+  std::filesystem::remove(Path("log/thrusters.csv"));
+  const CommandOutcome outcome = Telltale({"check", "--log", Path("log")});
+  EXPECT_EQ(outcome.exit_code, kExitRefused);
+  EXPECT_THAT(outcome.out, AllOf(HasSubstr("gnss"), HasSubstr("Missing, thrusters.csv")));
+}
+
+TEST_F(LogInputsTest, CheckSaysTheDelaysOfTheModelThatIdentifyMakes) {
+  folder.Write("boat.textproto", PrintVehicle(Boat()));
+  WriteTelemetryLog(Path("log"), Measured(0.0));
+  const std::vector<std::string> what = {"--log", Path("log"), "--vehicle", Path("boat.textproto"),
+                                         "--json"};
+  const auto run = [&](std::vector<std::string> arguments) {
+    arguments.insert(arguments.end(), what.begin(), what.end());
+    const CommandOutcome outcome = Telltale(arguments);
+    EXPECT_EQ(outcome.exit_code, kExitSuccess) << outcome.err;
+    return nlohmann::json::parse(outcome.out);
+  };
+  const auto checked = run({"check"})["logs"][0]["delays"];
+  const auto model = run({"identify", "--structure", "fossen"})["delays"];
+  for (const char* channel : {"commands", "fixes"}) {
+    EXPECT_EQ(checked[channel]["estimate"], model[channel]["estimate"]) << channel;
+    EXPECT_EQ(checked[channel]["interval"], model[channel]["interval"]) << channel;
+  }
+}
+
+TEST_F(LogInputsTest, DelaysNeedTheDistanceBetweenThePropellers) {
+  Save("run.BIN", Logged(Measured(100.0)));
+  const CommandOutcome outcome = Telltale({"check", "--log", Path("run.BIN")});
+  EXPECT_EQ(outcome.exit_code, kExitSuccess) << outcome.err;
+  EXPECT_THAT(outcome.out, HasSubstr("the distance between the propellers is\nnot known"));
+  const CommandOutcome refused =
+      Telltale({"identify", "--log", Path("run.BIN"), "--structure", "fossen"});
+  EXPECT_EQ(refused.exit_code, kExitRefused);
+  EXPECT_THAT(refused.err, HasSubstr("propeller_separation_m"));
+}
+
+TEST_F(LogInputsTest, InitTakesTheParametersOfALogWithoutPositions) {
+  Rover4Writer log;
+  log.Definitions().Output(3, 73, 1100, 1490, 1900, false).Parm("SERVO1_FUNCTION", 74);
+  Save("run.BIN", log);
+  const CommandOutcome outcome =
+      Telltale({"init", "--log", Path("run.BIN"), "--out", Path("boat.textproto")});
+  EXPECT_EQ(outcome.exit_code, kExitSuccess) << outcome.err;
+  EXPECT_THAT(outcome.err, AllOf(HasSubstr("how the starboard thruster is driven: no SERVO1_MIN"),
+                                 Not(HasSubstr("port thruster")), HasSubstr("lacks a channel")));
+  std::ifstream file(Path("boat.textproto"));
+  const std::string text{std::istreambuf_iterator<char>(file), {}};
+  EXPECT_THAT(text, HasSubstr("neutral_us: 1490"));
+  EXPECT_THAT(text, HasSubstr("channel 3 of run.BIN"));
 }
 
 TEST_F(LogInputsTest, AFileOfNoKnownFormatIsRefusedWithTheFormatsThereAre) {

@@ -100,7 +100,7 @@ TEST(DataFlash, ReadsAFileCheckedByHand) {
   ASSERT_EQ(file.size(), 4u * 89 + 2 * 23 + 20 + 13 + 15);
 
   const DataFlashLog log = Parse(file);
-  EXPECT_EQ(log.Lacks(), std::nullopt);
+  EXPECT_TRUE(log.Lacks().empty());
   ASSERT_EQ(log.gnss.size(), 1u);
   EXPECT_DOUBLE_EQ(log.gnss[0].time_s, 1.5);
   EXPECT_EQ(log.gnss[0].latitude_deg, 63.4014986);
@@ -119,7 +119,7 @@ TEST(DataFlash, ReadsAFileCheckedByHand) {
 
 TEST(DataFlash, ReadsRover4) {
   const DataFlashLog log = Parse(Rover4Writer().WholeLog(50));
-  EXPECT_EQ(log.Lacks(), std::nullopt);
+  EXPECT_TRUE(log.Lacks().empty());
   ASSERT_EQ(log.gnss.size(), 50u);
   ASSERT_EQ(log.heading.size(), 100u);
   ASSERT_EQ(log.thrusters.size(), 100u);
@@ -152,8 +152,8 @@ TEST(DataFlash, UnsoundServoParametersGiveNoRangeAndSayWhy) {
   Rover4Writer writer;
   writer.Definitions().Output(1, 74, 1900, 1511, 1100, false).Parm("SERVO3_FUNCTION", 73).Run(1);
   const DataFlashLog log = Parse(writer);
-  EXPECT_EQ(log.Lacks(),
-            std::nullopt);  // the recording is of use, a vehicle file must give the range
+  // The recording is of use; a vehicle file must give the range.
+  EXPECT_TRUE(log.Lacks().empty());
   ASSERT_TRUE(log.port && log.starboard);
   EXPECT_FALSE(log.port->range);
   EXPECT_THAT(log.port->range_fault, HasSubstr("SERVO3_MIN"));
@@ -212,7 +212,7 @@ TEST(DataFlash, ReadsTimeMsFirmware) {
   for (int channel = 4; channel <= 8; ++channel) writer.I16(0);
 
   const DataFlashLog log = Parse(writer);
-  EXPECT_EQ(log.Lacks(), std::nullopt);
+  EXPECT_TRUE(log.Lacks().empty());
   ASSERT_EQ(log.gnss.size(), 1u);
   EXPECT_DOUBLE_EQ(log.gnss[0].time_s, 127.615);
   EXPECT_EQ(log.gnss[0].latitude_deg, -35.3547178);
@@ -266,9 +266,9 @@ TEST(DataFlash, ReceiversAreNeverMixed) {
   for (const GnssFix& fix : asked.gnss) EXPECT_EQ(fix.latitude_deg, 1e-5);
 
   options.gps_instance = 7;
-  const auto refusal = Parse(writer, options).Lacks();
-  ASSERT_TRUE(refusal);
-  EXPECT_THAT(refusal->advice, HasSubstr("0 1"));
+  const auto lacks = Parse(writer, options).Lacks();
+  ASSERT_EQ(lacks.size(), 1u);
+  EXPECT_THAT(lacks[0].advice, HasSubstr("0 1"));
 }
 
 TEST(DataFlash, TheFirstOfEquallyCompleteReceiversIsTaken) {
@@ -302,12 +302,12 @@ TEST(DataFlash, HeadingComesFromAttAndOnlyWithoutItFromAhr2) {
 
 TEST(DataFlash, NamesWhatIsMissing) {
   const auto lacks = [](const DataFlashWriter& writer) {
-    const auto refusal = Parse(writer).Lacks();
-    EXPECT_TRUE(refusal);
-    return refusal.value_or(Refusal{});
+    const auto channels = Parse(writer).Lacks();
+    EXPECT_FALSE(channels.empty());
+    return channels.empty() ? Refusal{} : channels.front();
   };
-  EXPECT_THAT(lacks(DataFlashWriter()).reason, HasSubstr("empty"));
-  EXPECT_THAT(lacks(DataFlashWriter().Text("time_s,latitude_deg\n1,2\n", 24)).reason,
+  EXPECT_THAT(Parse(DataFlashWriter()).Unreadable()->reason, HasSubstr("empty"));
+  EXPECT_THAT(Parse(DataFlashWriter().Text("time_s,latitude_deg\n1,2\n", 24)).Unreadable()->reason,
               HasSubstr("not a DataFlash log"));
 
   Rover4Writer writer = Ready();
@@ -322,15 +322,15 @@ TEST(DataFlash, NamesWhatIsMissing) {
   EXPECT_THAT(lacks(writer).reason, HasSubstr("no RCOU"));
   EXPECT_THAT(lacks(writer).advice, AllOf(HasSubstr("LOG_BITMASK"), HasSubstr("RC")));
   writer.Rcou(1'400'000, 1500, 1500, 1500);
-  EXPECT_EQ(Parse(writer).Lacks(), std::nullopt);
+  EXPECT_TRUE(Parse(writer).Lacks().empty());
 }
 
 TEST(DataFlash, NamesTheThrusterParameterThatIsMissing) {
   Rover4Writer writer;
   writer.Definitions().Parm("SERVO1_FUNCTION", 73).Run(1);
-  EXPECT_THAT(Parse(writer).Lacks()->reason, HasSubstr("74 (ThrottleRight)"));
+  EXPECT_THAT(Parse(writer).Lacks().front().reason, HasSubstr("74 (ThrottleRight)"));
   writer.Parm("SERVO17_FUNCTION", 74);
-  EXPECT_THAT(Parse(writer).Lacks()->reason, HasSubstr("channel 17"));
+  EXPECT_THAT(Parse(writer).Lacks().front().reason, HasSubstr("channel 17"));
 }
 
 TEST(DataFlash, AMessageWithoutItsColumnsIsReportedByWhatItLacks) {

@@ -234,7 +234,7 @@ TEST(MappedRecording, TakesTopicsThatStandBelowTheNamespaceOfOthers) {
   take("/boat1/sensors/heading", {{"data", 1.0}});
   take("/boat1/out", {{"left", 1501.0}, {"right", 1601.0}});
   const SourceLog log = std::move(recording).Finish("messages");
-  ASSERT_FALSE(log.Lacks()) << log.summary;
+  ASSERT_TRUE(log.Lacks().empty()) << log.summary;
   ASSERT_EQ(log.heading.size(), 1u);
   EXPECT_EQ(log.heading[0].heading_deg, 1.0);
 }
@@ -300,7 +300,7 @@ TEST(ShippedMappings, FindTheChannelsOfTheirRecordings) {
         100 * kSecondNs, Serialised(kRos2).Real(value).Bytes());
   };
   const auto expect_boat = [](const SourceLog& log) {
-    EXPECT_FALSE(log.Lacks()) << log.summary;
+    EXPECT_TRUE(log.Lacks().empty()) << log.summary;
     ASSERT_EQ(log.gnss.size(), 1u);
     EXPECT_NEAR(log.gnss[0].latitude_deg, 63.4, 1e-9);
     EXPECT_NEAR(log.heading.at(0).heading_deg, 60.0, 1e-9);

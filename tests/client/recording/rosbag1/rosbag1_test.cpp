@@ -157,7 +157,7 @@ TEST(Rosbag1, IsToldByItsContent) {
   EXPECT_EQ(log->channels.Size(), 3u);
 
   std::ofstream(file, std::ios::binary) << Bag(BagConnection(0, "/chat", "std_msgs/String"));
-  const auto lacking = ReadLog(file);
+  const auto lacking = LoadRecording(file);
   ASSERT_FALSE(lacking);
   EXPECT_THAT(lacking.error().reason, HasSubstr("no position"));
 }

@@ -29,7 +29,8 @@ class TelemetryLogTest : public testing::Test {
 
   Refusal ReadRefusal() const {
     const auto log = ReadTelemetryLog(folder.Path());
-    return log ? Refusal{} : log.error();
+    if (!log) return log.error();
+    return log->lacks.empty() ? Refusal{} : log->lacks.front();
   }
 
   Recording ReadRecording() const {
