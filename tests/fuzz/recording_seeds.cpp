@@ -7,7 +7,11 @@
 #include <utility>
 #include <vector>
 
+#include <SQLiteCpp/SQLiteCpp.h>
+#include <bzlib.h>
+#include <lz4frame.h>
 #include <zlib.h>
+#include <zstd.h>
 
 #include "support/little_endian.hpp"
 
@@ -20,6 +24,58 @@ using Bytes = std::string;
 void Save(const std::filesystem::path& file, const Bytes& bytes) {
   std::filesystem::create_directories(file.parent_path());
   std::ofstream(file, std::ios::binary) << bytes;
+}
+
+// ---- compression --------------------------------------------------------------------------------
+
+Bytes Zstd(const Bytes& bytes) {
+  Bytes packed(ZSTD_compressBound(bytes.size()), '\0');
+  packed.resize(ZSTD_compress(packed.data(), packed.size(), bytes.data(), bytes.size(), 3));
+  return packed;
+}
+
+Bytes Lz4(const Bytes& bytes) {
+  Bytes packed(LZ4F_compressFrameBound(bytes.size(), nullptr), '\0');
+  packed.resize(
+      LZ4F_compressFrame(packed.data(), packed.size(), bytes.data(), bytes.size(), nullptr));
+  return packed;
+}
+
+Bytes Bz2(const Bytes& bytes) {
+  constexpr int kLargestBlock = 9;
+  constexpr std::size_t kMoreAtMost = 1024;
+  Bytes packed(bytes.size() + kMoreAtMost, '\0');
+  auto size = static_cast<unsigned int>(packed.size());
+  BZ2_bzBuffToBuffCompress(packed.data(), &size, const_cast<char*>(bytes.data()),
+                           static_cast<unsigned int>(bytes.size()), kLargestBlock, 0, 0);
+  packed.resize(size);
+  return packed;
+}
+
+/// A gzip file of these bytes.
+Bytes Gzip(const Bytes& bytes) {
+  constexpr int kLargestWindow = 15;
+  constexpr int kAsGzip = 16;
+  z_stream stream{};
+  deflateInit2(&stream, Z_DEFAULT_COMPRESSION, Z_DEFLATED, kLargestWindow + kAsGzip, 8,
+               Z_DEFAULT_STRATEGY);
+  Bytes packed(deflateBound(&stream, bytes.size()), '\0');
+  stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(bytes.data()));
+  stream.avail_in = static_cast<uInt>(bytes.size());
+  stream.next_out = reinterpret_cast<Bytef*>(packed.data());
+  stream.avail_out = static_cast<uInt>(packed.size());
+  deflate(&stream, Z_FINISH);
+  packed.resize(stream.total_out);
+  deflateEnd(&stream);
+  return packed;
+}
+
+/// As recordings name compressions.
+Bytes Compressed(const Bytes& bytes, const Bytes& compression) {
+  if (compression == "zstd") return Zstd(bytes);
+  if (compression == "lz4") return Lz4(bytes);
+  if (compression == "bz2") return Bz2(bytes);
+  return bytes;
 }
 
 // ---- MAVLink ------------------------------------------------------------------------------------
@@ -76,9 +132,10 @@ Bytes Message(std::uint16_t channel, const Bytes& data) {
 }
 
 Bytes Chunk(const Bytes& records, const Bytes& compression) {
+  const Bytes packed = Compressed(records, compression);
   return Record(6, Bytes(16, '\0') + LittleEndian(static_cast<std::uint64_t>(records.size())) +
                        Bytes(4, '\0') + WithLength(compression) +
-                       LittleEndian(static_cast<std::uint64_t>(records.size())) + records);
+                       LittleEndian(static_cast<std::uint64_t>(packed.size())) + packed);
 }
 
 Bytes Mcap(const Bytes& records) {
@@ -143,7 +200,7 @@ Bytes Bag(const Bytes& compression) {
   return "#ROSBAG V2.0\n" +
          BagRecord(WithLength("op=\x05") + WithLength("compression=" + compression) +
                        WithLength("size=" + size),
-                   records);
+                   Compressed(records, compression));
 }
 
 // ---- ROS 2 --------------------------------------------------------------------------------------
@@ -161,22 +218,36 @@ Bytes IsoCsv() {
          "2023-11-14T22:13:21Z,63.4,10.4,13,1510,1600\n2023-11-14T23:13:22+01:00,,,14,1510,\n";
 }
 
-/// A gzip file of these bytes.
-Bytes Gzip(const Bytes& bytes) {
-  constexpr int kLargestWindow = 15;
-  constexpr int kAsGzip = 16;
-  z_stream stream{};
-  deflateInit2(&stream, Z_DEFAULT_COMPRESSION, Z_DEFLATED, kLargestWindow + kAsGzip, 8,
-               Z_DEFAULT_STRATEGY);
-  Bytes packed(deflateBound(&stream, bytes.size()), '\0');
-  stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(bytes.data()));
-  stream.avail_in = static_cast<uInt>(bytes.size());
-  stream.next_out = reinterpret_cast<Bytef*>(packed.data());
-  stream.avail_out = static_cast<uInt>(packed.size());
-  deflate(&stream, Z_FINISH);
-  packed.resize(stream.total_out);
-  deflateEnd(&stream);
-  return packed;
+/// Storage of rosbag2 in pages so small that a mutation meets every part of it.
+void SaveStorage(const std::filesystem::path& file, const std::vector<Bytes>& messages) {
+  std::filesystem::create_directories(file.parent_path());
+  std::filesystem::remove(file);
+  SQLite::Database database(file.string(), SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE);
+  database.exec(
+      "PRAGMA page_size = 512;"
+      "CREATE TABLE topics(id INTEGER PRIMARY KEY, name TEXT, type TEXT);"
+      "CREATE TABLE messages(topic_id INTEGER, timestamp INTEGER, data BLOB);"
+      "CREATE TABLE message_definitions(topic_type TEXT, encoded_message_definition TEXT, "
+      "encoding TEXT);"
+      "INSERT INTO message_definitions VALUES('a/msg/B', 'float64 data', 'ros2msg');"
+      "INSERT INTO topics VALUES(1, '/fix', 'sensor_msgs/msg/NavSatFix'),"
+      "(2, '/hdg', 'std_msgs/msg/Float64'), (3, '/rc/out', 'mavros_msgs/msg/RCOut'),"
+      "(4, '/b', 'a/msg/B')");
+  for (std::size_t i = 0; i < messages.size(); ++i) {
+    SQLite::Statement insert(database, "INSERT INTO messages VALUES(?, ?, ?)");
+    insert.bind(1, static_cast<int>(i % 4 + 1));
+    insert.bind(2, static_cast<std::int64_t>(i) * 1'000'000'000);
+    insert.bind(3, messages[i].data(), static_cast<int>(messages[i].size()));
+    insert.exec();
+  }
+}
+
+/// A fix, a heading, outputs, and what the storage defines itself.
+std::vector<Bytes> StoredMessages() {
+  const Bytes cdr("\x00\x01\x00\x00", 4);
+  return {cdr + Bytes(116, '\0'), cdr + Bytes(8, '\x40'),
+          cdr + Bytes(12, '\0') + LittleEndian<std::uint32_t>(4) + Bytes(8, '\x05'),
+          cdr + Bytes(8, '\x41')};
 }
 
 /// As ros_fuzz takes messages: topic, length, CDR.
@@ -218,6 +289,15 @@ int main(int argc, char** argv) {
   Save(folder / "mcap/indexed.mcap",
        IndexedMcap(unwanted, Chunk(Message(9, "picture"), "") + MessageIndex(9, 0), 1));
   Save(folder / "mcap/blueos.mcap", Mcap(BlueOsRecords()));
+  Save(folder / "zstd/whole.zst", Zstd(Csv(',')));
+  Save(folder / "zstd/two.zst", Zstd(Csv(',')) + Zstd(IsoCsv()));
+  Save(folder / "zstd/cut.zst", Zstd(IsoCsv()).substr(0, 40));
+  Save(folder / "zstd/run.zst", Zstd(Bytes(100'000, ' ')));
+  std::vector<Bytes> messages = StoredMessages();
+  SaveStorage(folder / "rosbag2/plain.db3", messages);
+  for (Bytes& message : messages) message = Zstd(message);
+  SaveStorage(folder / "rosbag2/by-message.db3", messages);
+  Save(folder / "rosbag2/chunk.mcap", Mcap(Chunk(RosRecords(), "zstd")));
   Save(folder / "ros/messages", RosMessages());
   for (const char* compression : {"none", "bz2", "lz4"}) {
     Save(folder / "rosbag1" / compression, Bag(compression));

@@ -72,6 +72,17 @@ std::map<std::int64_t, MessageTaker> TopicsIn(const SQLite::Database& database,
   return topics;
 }
 
+/// Views that take the place of tables may give rows without end.
+std::optional<Refusal> LacksTable(const SQLite::Database& database, const fs::path& file) {
+  for (const char* table : {"topics", "messages"}) {
+    if (database.tableExists(table)) continue;
+    return Refusal{file.string(),
+                   std::string("cannot be read as a rosbag2 database: it has no table ") + table,
+                   "give a .db3 file that ros2 bag wrote"};
+  }
+  return std::nullopt;
+}
+
 double MessagesIn(const SQLite::Database& database) {
   SQLite::Statement count(database, "SELECT COUNT(*) FROM messages");
   count.executeStep();
@@ -82,6 +93,7 @@ std::optional<Refusal> TakeDatabase(const fs::path& file, RosIntake& recording,
                                     const ReadProgress& progress) {
   try {
     const SQLite::Database database(file.string(), SQLite::OPEN_READONLY);
+    if (auto refusal = LacksTable(database, file)) return refusal;
     const std::map<std::int64_t, MessageTaker> topics = TopicsIn(database, recording);
     SQLite::Statement rows(database,
                            "SELECT topic_id, timestamp, data FROM messages ORDER BY timestamp");

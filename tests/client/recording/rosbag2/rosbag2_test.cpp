@@ -137,6 +137,18 @@ TEST_F(Rosbag2, MayCompressFilesAsAWhole) {
   EXPECT_THAT(FixTimes(*one), testing::ElementsAre(100.0));
 }
 
+TEST_F(Rosbag2, TakesNoViewForATable) {
+  SQLite::Database database((bag_ / "bag_0.db3").string(),
+                            SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE);
+  database.exec(
+      "CREATE TABLE topics(id INTEGER, name TEXT, type TEXT);"
+      "CREATE VIEW messages AS WITH RECURSIVE endless(timestamp) AS (SELECT 0 UNION ALL SELECT "
+      "timestamp + 1 FROM endless) SELECT 1 AS topic_id, timestamp, x'00' AS data FROM endless");
+  const auto log = ReadRosbag2(bag_);
+  ASSERT_FALSE(log);
+  EXPECT_THAT(log.error().reason, HasSubstr("it has no table messages"));
+}
+
 TEST_F(Rosbag2, NamesTheCompressedFileThatIsCutOff) {
   WriteStorage("bag_0.db3", 100);
   CompressFile("bag_0.db3");
