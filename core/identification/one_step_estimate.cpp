@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <sstream>
+#include <utility>
 
 #include "telltale/core/estimation/regression/lagged_regression.hpp"
 #include "telltale/core/estimation/regression/one_step.hpp"
@@ -73,13 +74,15 @@ Fitted Fit(const PreparedDataset& dataset, const RegressionOptions& regression,
              : FitStatic(dataset, regression, limits);
 }
 
-/// What bounds are made from.
-std::vector<ClusteredFit> FitsOf(const Fitted& fitted, Replicates replicates) {
+/// What bounds are made from. Takes the equations out of `fitted`: rows of them and of their fits
+/// would fill as much memory as all else.
+std::vector<ClusteredFit> FitsOf(Fitted& fitted, Replicates replicates) {
   if (fitted.lagged) return {FitOf(*fitted.lagged)};
   std::vector<ClusteredFit> fits;
   for (std::size_t j = 0; j < fitted.equations.size(); ++j) {
     const auto& estimate = fitted.equation_estimates.estimates[j];
-    if (estimate) fits.push_back(FitOf(fitted.equations[j], *estimate, replicates));
+    EquationProblem equation = std::exchange(fitted.equations[j], {});
+    if (estimate) fits.push_back(FitOf(std::move(equation), *estimate, replicates));
   }
   return fits;
 }
@@ -166,7 +169,7 @@ BootstrapReplicates SimulatedReplicates(const Fitted& fitted, const std::vector<
                                    Discretisation::kContinuous, dataset.sampling_period_s);
   bounded.disturbance = DisturbanceOf(fitted, dataset, regression, options);
   const auto refit = [&](const PreparedDataset& replicate) -> std::optional<Refit> {
-    const Fitted refitted = Fit(replicate, regression, options.excitation);
+    Fitted refitted = Fit(replicate, regression, options.excitation);
     if (!SameColumns(fitted.equation_estimates, refitted.equation_estimates)) return std::nullopt;
     return RefitOf(FitsOf(refitted, Replicates::kNone));
   };

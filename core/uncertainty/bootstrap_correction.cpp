@@ -14,7 +14,7 @@
 #include "telltale/core/base/random.hpp"
 #include "telltale/core/uncertainty/fit_simulation.hpp"
 #include "telltale/core/uncertainty/interval_calibration.hpp"
-#include "telltale/core/uncertainty/residual_disturbance.hpp"
+#include "telltale/core/uncertainty/sensor_residuals.hpp"
 #include "telltale/core/uncertainty/shrinkage_search.hpp"
 #include "telltale/core/uncertainty/whitening.hpp"
 #include "telltale/core/vessel/thruster_response.hpp"
@@ -34,8 +34,8 @@ std::uint64_t SeedOf(const BootstrapCorrectionOptions& bootstrap, std::size_t re
 }
 
 /// Undisturbed replicates draw from the streams that follow those of the replicates.
-SyntheticSensors SensorsOf(const BootstrapCorrectionOptions& bootstrap) {
-  SyntheticSensors sensors{bootstrap.noise_scale, {}, bootstrap.threads};
+ReplicateSensors SensorsOf(const BootstrapCorrectionOptions& bootstrap) {
+  ReplicateSensors sensors{bootstrap.noise_scale, {}, bootstrap.threads};
   for (std::size_t i = 0; i < sensors.seeds.size(); ++i) {
     sensors.seeds[i] = SeedOf(bootstrap, bootstrap.parametric_replicates + i);
   }
@@ -103,7 +103,7 @@ class BootstrapCorrector {
     const RidgePosterior& posterior = simulable.posterior;
     BootstrapCorrection correction;
     correction.disturbance =
-        DisturbanceFromResiduals(fitted_, posterior.posterior_mean, simulable.undisturbed);
+        EstimateDisturbance(fitted_.dataset, fit, simulable.sensor_autocovariances);
     Disturbance disturbance = correction.disturbance;
     disturbance.time_constant_s *= bootstrap_.time_scale;
     const auto replicate_errors = EstimateReplicates(posterior, disturbance);
@@ -205,8 +205,8 @@ std::optional<Disturbance> DisturbanceFromResiduals(const PreparedDataset& datas
   BootstrapCorrectionOptions bootstrap;
   bootstrap.seed = seed;
   return FirstSimulable(fitted, SensorsOf(bootstrap), [&](const SimulablePosterior& simulable) {
-    return std::optional<Disturbance>(DisturbanceFromResiduals(
-        fitted, simulable.posterior.posterior_mean, simulable.undisturbed));
+    return std::optional<Disturbance>(
+        EstimateDisturbance(dataset, fit, simulable.sensor_autocovariances));
   });
 }
 

@@ -1,6 +1,8 @@
 #include "telltale/core/uncertainty/clustered_fit.hpp"
 
+#include <algorithm>
 #include <limits>
+#include <utility>
 
 #include "telltale/core/base/linear_algebra/covariance.hpp"
 #include "telltale/core/base/linear_algebra/eigen_decompositions.hpp"
@@ -22,24 +24,37 @@ Eigen::VectorXd Stack(const LaggedEstimate& estimate) {
   return theta;
 }
 
+/// Phi's columns times the basis, row for row in the place of Phi.
+Eigen::MatrixXd InPlace(Eigen::MatrixXd phi, const std::vector<std::size_t>& columns,
+                        const Eigen::MatrixXd& basis) {
+  constexpr Eigen::Index kRowsAtOnce = 1024;
+  for (Eigen::Index first = 0; first < phi.rows(); first += kRowsAtOnce) {
+    auto rows = phi.middleRows(first, std::min(kRowsAtOnce, phi.rows() - first));
+    const Eigen::MatrixXd product = rows(Eigen::all, columns) * basis;
+    rows.leftCols(basis.cols()) = product;
+  }
+  phi.conservativeResize(Eigen::NoChange, basis.cols());
+  return phi;
+}
+
 }  // namespace
 
-ClusteredFit FitOf(const EquationProblem& problem, const EquationEstimate& estimate,
+ClusteredFit FitOf(EquationProblem problem, const EquationEstimate& estimate,
                    Replicates replicates) {
   ClusteredFit fit;
-  if (replicates == Replicates::kDrawn) {
-    fit.W = problem.phi(Eigen::all, estimate.columns) * estimate.basis;
-  }
   Eigen::VectorXd theta = Eigen::VectorXd::Zero(problem.phi.cols());
   theta(estimate.columns) = estimate.theta;
   fit.residual = problem.y - problem.phi * theta;
+  if (replicates == Replicates::kDrawn) {
+    fit.W = InPlace(std::move(problem.phi), estimate.columns, estimate.basis);
+  }
   fit.theta = estimate.theta;
   fit.basis = estimate.basis;
   fit.estimable = estimate.estimable;
   fit.residual_variance = estimate.residual_variance;
   fit.degrees_of_freedom = estimate.degrees_of_freedom;
-  fit.clusters = problem.clusters;
-  fit.instants = problem.instants;
+  fit.clusters = std::move(problem.clusters);
+  fit.instants = std::move(problem.instants);
   return fit;
 }
 

@@ -34,8 +34,9 @@ struct ClusteredFit {
 enum class Replicates { kNone, kDrawn };
 
 /// The fit of one equation of the static structure; theta are its excited coefficients. W is left
-/// empty where no replicates are drawn.
-ClusteredFit FitOf(const EquationProblem& problem, const EquationEstimate& estimate,
+/// empty where no replicates are drawn. Memory: W takes the place of Phi in a problem that is given
+/// away.
+ClusteredFit FitOf(EquationProblem problem, const EquationEstimate& estimate,
                    Replicates replicates = Replicates::kDrawn);
 
 /// The joint fit of the dynamic structure, linearised: theta are the time constant and then the

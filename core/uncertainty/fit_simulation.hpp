@@ -23,6 +23,7 @@ struct FittedData {
 /// The dataset simulated anew, SimulateDataset(), by the model of the stacked unknowns `theta`:
 /// same commands, fresh disturbance and sensor noise. `noise_scale`: standard deviation of the
 /// sensor noise, in units of what the data show. Equations that were not fitted move as measured.
+/// The readings behind the rows are left out.
 /// Refuses when: the simulation diverges.
 Result<PreparedDataset> SimulateFit(const FittedData& fitted, const Eigen::VectorXd& theta,
                                     const Disturbance& disturbance, double noise_scale,
