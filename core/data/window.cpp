@@ -5,6 +5,7 @@
 #include <deque>
 #include <limits>
 #include <tuple>
+#include <utility>
 
 #include "telltale/core/base/contract.hpp"
 #include "telltale/core/base/range.hpp"
@@ -140,8 +141,9 @@ struct Window::Impl {
       former.reset();
       return true;
     }
-    if (!former) former = held;
-    if (time_s < held.newest_s) held = {};
+    const bool is_back = time_s < held.newest_s;
+    if (!former) former = is_back ? std::move(held) : held;
+    if (is_back) held = {};
     confirmed_s = time_s;
     return true;
   }
