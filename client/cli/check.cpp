@@ -72,8 +72,9 @@ std::string DelayText(const CheckedLog& log) {
   if (!log.delays) return {};
   if (!*log.delays) {
     const Refusal& unknown = log.delays->error();
-    return Wrapped("Delays between the channels are unknown: " + unknown.reason + ".") +
-           Wrapped("To do: " + unknown.advice + ".", "  ");
+    const std::string said =
+        Wrapped("Delays between the channels are unknown: " + unknown.reason + ".");
+    return log.unusable ? said : said + Wrapped("To do: " + unknown.advice + ".", "  ");
   }
   const ChannelDelays& delays = **log.delays;
   std::string text = DelayTable(delays);
@@ -89,7 +90,7 @@ std::string DelayText(const CheckedLog& log) {
 std::string TableOf(const CheckedLog& log) {
   std::string text = log.path.string() + '\n';
   if (!log.summary.empty()) text += Wrapped(log.summary + ".", "  ");
-  text += ChannelTable(log.check);
+  if (log.lacks.size() < kChannels.size()) text += ChannelTable(log.check);
   for (const Refusal& channel : log.lacks) text += Paragraph("Missing", channel);
   if (log.rejected) {
     text += Wrapped(Counted(log.rejected->Total(), "sample", "samples") + " rejected.");
