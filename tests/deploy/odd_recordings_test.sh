@@ -70,7 +70,7 @@ cp "$work/made/clock-set.tlog" "$work/made/two-gps.tlog" "$work/made/several"
 printf '\x89MCAP0\r\n' > "$work/made/magic.mcap"
 is_refused several "holds 2 recordings: clock-set.tlog, two-gps.tlog -> give each of them by a --log of its own"
 is_refused nothing.tlog "is empty"
-is_refused magic.mcap "no position with a fix (0 messages of use"
+is_refused magic.mcap "Missing, gnss: no position with a fix"
 is_refused iso.csv "seems to be a CSV file, which begins with time,lat,lon,heading,left,right"
 is_refused odometry.mcap 'If they are newtons, a mapping such as deploy/mappings/vrx.textproto says with unit: "N"'
 echo "14 odd recordings open, 5 are refused for their reason"
