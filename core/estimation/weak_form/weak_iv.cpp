@@ -142,6 +142,7 @@ class WeakIvIteration {
 
   /// One iteration; false when the instruments do not determine every unknown.
   bool Iterate() {
+    LeaveLastRound();
     const auto predicted = instruments_.Predict(
         ModelWith(problem_, equations_, regularised_),
         ConstantDisturbancesWith(problem_, equations_, regularised_), columns_, thrust_);
@@ -203,6 +204,13 @@ class WeakIvIteration {
 
  private:
   static constexpr Eigen::Index kDelays = DelayDerivatives::kDelays;
+
+  /// What is as large as the data would stand in memory beside its successors.
+  void LeaveLastRound() {
+    completed_.clear();
+    by_delay_.clear();
+    system_ = {};
+  }
 
   static std::vector<Eigen::MatrixXd> ByDelay(const ProjectedEquations& equations,
                                               const std::array<PredictedSupports, 3>& predicted) {
