@@ -26,7 +26,7 @@ inline constexpr double kLongestDelayPartS = 600.0;
 /// The delays of the physical form as Identify() has them, from the part of the recording in which
 /// the commands change the most, all of it where it is no longer than kLongestDelayPartS. A part
 /// bounds time and memory; delays do not change with the length of a recording.
-/// Refuses when: Identify() of Structure::kFossen does.
+/// Refuses when: Identify() of Structure::kFossen does, or its fit stops before it converges.
 /// Source: docs/concepts/physical-model.md (108), (109).
 Result<ChannelDelays> EstimateChannelDelays(const Recording& recording, const Vehicle& vehicle,
                                             std::size_t threads, const Progress& progress = {});
