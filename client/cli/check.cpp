@@ -83,6 +83,10 @@ std::string DelayText(const CheckedLog& log) {
         "Of an unknown delay the recording tells little: these bounds are what is "
         "expected of any boat. Steps and turns tell more.");
   }
+  if (delays.warning) {
+    text += Wrapped("These bounds may not hold: " + delays.warning->reason + ".") +
+            Wrapped("To do: " + delays.warning->advice + ".", "  ");
+  }
   return text + Wrapped("Delays are of " + Fixed(delays.start_s, 1) + " s to " +
                         Fixed(delays.end_s, 1) + " s.");
 }
@@ -123,11 +127,13 @@ nlohmann::ordered_json JsonOf(const Coefficient& delay) {
 
 nlohmann::ordered_json JsonOf(const Result<ChannelDelays>& delays) {
   if (!delays) return {{"unknown", JsonOf(delays.error())}};
-  return {{"clock", std::string(Name(Channel::kHeading))},
-          {"commands", JsonOf(delays->commands)},
-          {"fixes", JsonOf(delays->fixes)},
-          {"startS", delays->start_s},
-          {"endS", delays->end_s}};
+  nlohmann::ordered_json json = {{"clock", std::string(Name(Channel::kHeading))},
+                                 {"commands", JsonOf(delays->commands)},
+                                 {"fixes", JsonOf(delays->fixes)},
+                                 {"startS", delays->start_s},
+                                 {"endS", delays->end_s}};
+  if (delays->warning) json["warning"] = JsonOf(*delays->warning);
+  return json;
 }
 
 nlohmann::ordered_json JsonOf(const CheckedLog& log) {

@@ -1,6 +1,7 @@
 #include "telltale/core/identification/channel_delays.hpp"
 
 #include <algorithm>
+#include <optional>
 
 #include "telltale/core/data/recording_parts.hpp"
 #include "telltale/core/identification/identify.hpp"
@@ -15,13 +16,14 @@ Result<ChannelDelays> EstimateChannelDelays(const Recording& recording, const Ve
   options.threads = threads;
   const auto model = Identify(Liveliest(recording, kLongestDelayPartS), vehicle, options, progress);
   if (!model) return tl::unexpected(model.error());
-  const auto unsettled = std::ranges::find(model->refusals, "model", &Refusal::subject);
-  if (unsettled != model->refusals.end()) return tl::unexpected(*unsettled);
   const auto delay = [&](FossenParameter parameter) {
     return model->physical->parameters[static_cast<std::size_t>(parameter)];
   };
-  return ChannelDelays{delay(FossenParameter::kCommandDelay), delay(FossenParameter::kFixDelay),
-                       model->window.start_s, model->window.end_s};
+  const auto unsettled = std::ranges::find(model->refusals, "model", &Refusal::subject);
+  return ChannelDelays{
+      delay(FossenParameter::kCommandDelay), delay(FossenParameter::kFixDelay),
+      model->window.start_s, model->window.end_s,
+      unsettled != model->refusals.end() ? std::optional(*unsettled) : std::nullopt};
 }
 
 }  // namespace telltale

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 
 #include "telltale/core/base/result.hpp"
 #include "telltale/core/data/samples.hpp"
@@ -18,6 +19,7 @@ struct ChannelDelays {
   Coefficient fixes;     ///< how long before their stamps the boat was there
   double start_s = 0.0;
   double end_s = 0.0;
+  std::optional<Refusal> warning;  ///< why the bounds may not hold: the fit did not converge
 };
 
 /// The longest part of a recording that delays are estimated from.
@@ -26,7 +28,7 @@ inline constexpr double kLongestDelayPartS = 600.0;
 /// The delays of the physical form as Identify() has them, from the part of the recording in which
 /// the commands change the most, all of it where it is no longer than kLongestDelayPartS. A part
 /// bounds time and memory; delays do not change with the length of a recording.
-/// Refuses when: Identify() of Structure::kFossen does, or its fit stops before it converges.
+/// Refuses when: Identify() of Structure::kFossen does.
 /// Source: docs/concepts/physical-model.md (108), (109).
 Result<ChannelDelays> EstimateChannelDelays(const Recording& recording, const Vehicle& vehicle,
                                             std::size_t threads, const Progress& progress = {});
