@@ -208,10 +208,8 @@ void AddCheck(CLI::App& telltale) {
   arguments->output.AddTo(command, "check.json");
   command.footer(
       "Exits 3 with the first fault or missing channel. Delays are those of the model that "
-      "identify "
-      "--structure fossen makes, of the ten minutes in which the commands change the most; they "
-      "need "
-      "a vehicle file. Without a vehicle file, and where the log does not describe "
+      "identify --structure fossen makes, of the ten minutes in which the commands change the "
+      "most; they need a vehicle file. Without a vehicle file, and where the log does not describe "
       "its thrusters, 1100, 1500 and 1900 us are taken for full reverse, neutral and full "
       "forward.\n"
       "Example: telltale check --log run1 --vehicle boat.textproto");
