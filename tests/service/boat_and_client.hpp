@@ -159,9 +159,14 @@ class BoatAndClient {
   /// The span of the window that the newest report names.
   double ReportedWindowS() const { return newest_quality_ ? newest_quality_->window_s : 0.0; }
 
+  /// What was sent until now is not counted by SentBefore(): a daemon that was killed has lost it,
+  /// and its kill counts it.
+  void ForgetWhatWasSent() { counted_from_s_ = sent_to_s_; }
+
   /// How long before `until` the first fix after `time_s` was sent; 0 where there is none.
   double SentBefore(double time_s, CampaignClock::time_point until) const {
-    const auto next = std::ranges::upper_bound(recording_.gnss, time_s, {}, &GnssFix::time_s);
+    const auto next = std::ranges::upper_bound(recording_.gnss, std::max(time_s, counted_from_s_),
+                                               {}, &GnssFix::time_s);
     if (next == recording_.gnss.end() || next->time_s > sent_to_s_) return 0.0;
     const auto sent = sent_at_.lower_bound(next->time_s);
     return std::chrono::duration<double>(until - sent->second).count();
@@ -195,6 +200,7 @@ class BoatAndClient {
   TelemetryPublisher publisher_;
   Recording recording_;
   double sent_to_s_ = -1e-9;
+  double counted_from_s_ = -1e-9;
   std::map<double, CampaignClock::time_point> sent_at_;  ///< by the end of the step
   std::optional<Quality> newest_quality_;
   CampaignClock::time_point reported_at_;  ///< the first since there was none

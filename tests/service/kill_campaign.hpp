@@ -45,7 +45,9 @@ struct KillTally {
   int requests_lost = 0;
   int chunks_lost = 0;  ///< restarts without telemetry that had been on disk
   std::vector<double> missing_s;
-  std::vector<double> recovery_s;
+  std::vector<double> serving_s;    ///< from the kill until the next daemon says that it serves
+  std::vector<double> connected_s;  ///< until it is connected to the client
+  std::vector<double> recovery_s;   ///< until it has answered the first identification
 
   static std::string Spread(std::vector<double> values) {
     std::ranges::sort(values);
@@ -57,9 +59,11 @@ struct KillTally {
         "{} kills\nmodels published {}, lost {}\nrequests acknowledged {}, without an answer at "
         "the kill {} (of them {} under way to the client), lost {}\nwindow missing, s before the "
         "kill: {} (saved every {} s); saved and "
-        "lost {} times\nfirst identification after the kill, s: {}\n",
+        "lost {} times\nafter the kill, s: the next daemon serves {}; is connected {}; has "
+        "answered the first identification {}\n",
         recovery_s.size(), published, models_lost, acknowledged, unanswered, answer_under_way,
-        requests_lost, Spread(missing_s), kCampaignSavePeriodS, chunks_lost, Spread(recovery_s));
+        requests_lost, Spread(missing_s), kCampaignSavePeriodS, chunks_lost, Spread(serving_s),
+        Spread(connected_s), Spread(recovery_s));
   }
 };
 
@@ -144,7 +148,9 @@ class CampaignTest : public ServiceTest {
   void Recover(BoatAndClient& client, int round, double saved_to_s,
                CampaignClock::time_point killed, KillTally& tally) {
     constexpr double kFixPeriodS = 0.2;
+    tally.serving_s.push_back(SecondsSince(killed));
     ASSERT_TRUE(client.AwaitDaemon());
+    tally.connected_s.push_back(SecondsSince(killed));
     const auto restored_to_s = client.ReportedFixS();
     const double window_s = client.ReportedWindowS();
     const auto check = client.Ask(Plain("check-" + std::to_string(round)));
@@ -152,6 +158,7 @@ class CampaignTest : public ServiceTest {
     ASSERT_TRUE(restored_to_s);
     if (*restored_to_s < saved_to_s - kFixPeriodS) ++tally.chunks_lost;
     tally.missing_s.push_back(client.SentBefore(*restored_to_s, killed));
+    client.ForgetWhatWasSent();
     ASSERT_TRUE(check);
     ASSERT_TRUE(check->model) << check->message
                               << (check->refusals.empty() ? "" : check->refusals[0].reason);
