@@ -64,6 +64,7 @@ Result<HeldOutScore> ScoreOnHeldOutPart(const Recording& recording, const Vehicl
                                         const IdentifyOptions& options,
                                         const HeldOutOptions& held_out) {
   IdentifyOptions alike = options;
+  alike.regression.structure = identification.structure;
   alike.estimator = identification.estimator;
   alike.prepare.sampling_period_s = identification.sampling_period_s;
   return ScoreOnHeldOutPart(recording, vehicle, alike, held_out);

@@ -28,8 +28,9 @@ Result<HeldOutScore> ScoreOnHeldOutPart(const Recording& recording, const Vehicl
                                         const IdentifyOptions& options,
                                         const HeldOutOptions& held_out = {});
 
-/// The same with the estimator and the sampling period of `identification`, which these options
-/// made from this recording. The scored model has seen fewer data than `identification`.
+/// The same with the structure, the estimator and the sampling period of `identification`, which
+/// these options made from this recording. The scored model has seen fewer data than
+/// `identification`.
 Result<HeldOutScore> ScoreOnHeldOutPart(const Recording& recording, const Vehicle& vehicle,
                                         const Identification& identification,
                                         const IdentifyOptions& options,

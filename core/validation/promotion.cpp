@@ -109,7 +109,8 @@ Promotion PromotionByScores(const FreeRunScores& own, const Nu& limits,
 }
 
 Promotion AssessPromotion(const Recording& recording, const Vehicle& vehicle,
-                          const Identification& identification, const IdentifyOptions& options) {
+                          const Identification& identification, const IdentifyOptions& options,
+                          const std::optional<HeldOutScore>& held_out) {
   const auto model = ModelOf(identification);
   if (!model) return {PromotionVerdict::kWarn, model.error().reason};
   PrepareOptions prepare = options.prepare;
@@ -118,17 +119,22 @@ Promotion AssessPromotion(const Recording& recording, const Vehicle& vehicle,
   if (!dataset) return {PromotionVerdict::kOk, ""};
   const auto own = Validate(*dataset, identification, {{kHorizonS}});
   if (!own) return {PromotionVerdict::kOk, ""};
-  const auto held_out = ScoreOnHeldOutPart(recording, vehicle, identification, options,
-                                           {.horizon_s = kHorizonS, .most_fixes = kMostFixes});
-  Promotion promotion =
-      PromotionByScores(own->free_run.front(), kFreeRunDivergence.LimitsFor(FastestOf(*dataset)),
-                        held_out ? std::optional(*held_out) : std::nullopt);
+  Promotion promotion = PromotionByScores(
+      own->free_run.front(), kFreeRunDivergence.LimitsFor(FastestOf(*dataset)), held_out);
   if (CannotBeSimulatedForLong(identification)) {
     promotion.verdict = Worse(promotion.verdict, PromotionVerdict::kWarn);
     promotion.reason += std::string(promotion.reason.empty() ? "" : "; ") +
                         "simulated over its whole data it diverges";
   }
   return promotion;
+}
+
+Promotion AssessPromotion(const Recording& recording, const Vehicle& vehicle,
+                          const Identification& identification, const IdentifyOptions& options) {
+  const auto held_out = ScoreOnHeldOutPart(recording, vehicle, identification, options,
+                                           {.horizon_s = kHorizonS, .most_fixes = kMostFixes});
+  return AssessPromotion(recording, vehicle, identification, options,
+                         held_out ? std::optional(*held_out) : std::nullopt);
 }
 
 }  // namespace telltale

@@ -43,9 +43,15 @@ bool CountsInFreeRuns(std::size_t velocity, const FreeRunScore& score);
 Promotion PromotionByScores(const FreeRunScores& own, const Nu& limits,
                             const std::optional<HeldOutScore>& held_out);
 
-/// The verdict on a model that was made from this recording with these options. It costs a second
-/// identification without bounds. Where no score can be measured, the data speak neither for nor
-/// against the model, and the verdict is kOk.
+/// The verdict on a model that was made from this recording with these options. `held_out`: the
+/// score over 5 s of a model that was made alike from the first part of the recording, such as
+/// IdentifyInChosenStructure() gives. Where no score can be measured, the data speak neither for
+/// nor against the model, and the verdict is kOk.
+Promotion AssessPromotion(const Recording& recording, const Vehicle& vehicle,
+                          const Identification& identification, const IdentifyOptions& options,
+                          const std::optional<HeldOutScore>& held_out);
+
+/// The same, and measures the score, which costs a second identification without bounds.
 Promotion AssessPromotion(const Recording& recording, const Vehicle& vehicle,
                           const Identification& identification, const IdentifyOptions& options);
 

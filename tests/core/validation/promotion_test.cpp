@@ -6,7 +6,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "telltale/core/paper/sample_mission.hpp"
 #include "telltale/core/paper/yellowfish.hpp"
+#include "telltale/core/simulation/sensors.hpp"
+#include "telltale/core/simulation/simulator.hpp"
 
 namespace telltale {
 namespace {
@@ -90,6 +93,26 @@ TEST(Promotion, WarnsOfAModelThatLacksAnEquation) {
   const auto promotion = AssessPromotion({}, YellowfishVehicle(), without_equations, {});
   EXPECT_EQ(promotion.verdict, PromotionVerdict::kWarn);
   EXPECT_THAT(promotion.reason, HasSubstr("equation"));
+}
+
+// Three minutes of a boat that free coefficients describe: the two forms err by different amounts.
+TEST(Promotion, IsByTheScoreOfAModelOfTheSameStructure) {
+  const auto track = Simulate(YellowfishTwin(), {}, SampleMission(1), 180.0, 0.02);
+  const Recording recording = Measure(track, YellowfishVehicle(), {});
+  IdentifyOptions free;
+  free.threads = 2;
+  IdentifyOptions physically = free;
+  physically.regression.structure = Structure::kFossen;
+  const auto model = Identify(recording, YellowfishVehicle(), physically);
+  ASSERT_TRUE(model);
+  const auto expected = ScoreOnHeldOutPart(recording, YellowfishVehicle(), physically);
+  const auto score = ScoreOnHeldOutPart(recording, YellowfishVehicle(), *model, free);
+  ASSERT_TRUE(expected);
+  ASSERT_TRUE(score);
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_EQ(score->metrics.free_run.front().velocity[i].rmse,
+              expected->metrics.free_run.front().velocity[i].rmse);
+  }
 }
 
 }  // namespace
