@@ -34,11 +34,7 @@ class MatchStatusEnabled {
 
 Endpoint::Endpoint(const Participant& participant, Kind kind, const dds_topic_descriptor_t& type,
                    const char* topic, const dds_qos_t* qos)
-    : Endpoint(
-          participant, kind,
-          Entity(Checked(dds_create_topic(participant.handle(), &type, topic, nullptr, nullptr),
-                         std::string("creating topic ") + topic)),
-          topic, qos) {}
+    : Endpoint(participant, kind, MakeTopic(participant, type, topic), topic, qos) {}
 
 Endpoint::Endpoint(const Participant& participant, Kind kind, Entity topic, const std::string& name,
                    const dds_qos_t* qos)
@@ -49,6 +45,12 @@ Endpoint::Endpoint(const Participant& participant, Kind kind, Entity topic, cons
                          "creating a reader of " + name)
                : Checked(dds_create_writer(participant.handle(), topic_.handle(), qos, nullptr),
                          "creating a writer of " + name)) {}
+
+Entity Endpoint::MakeTopic(const Participant& participant, const dds_topic_descriptor_t& type,
+                           const char* topic) {
+  return Entity(Checked(dds_create_topic(participant.handle(), &type, topic, nullptr, nullptr),
+                        std::string("creating topic ") + topic));
+}
 
 std::uint32_t Endpoint::Matched() const {
   if (kind_ == Kind::kReader) {

@@ -47,6 +47,9 @@ class Endpoint {
   /// `name`: what errors call the topic.
   Endpoint(const Participant& participant, Kind kind, Entity topic, const std::string& name,
            const dds_qos_t* qos);
+  /// Throws BusError.
+  static Entity MakeTopic(const Participant& participant, const dds_topic_descriptor_t& type,
+                          const char* topic);
   Endpoint(Endpoint&&) noexcept = default;
   Endpoint& operator=(Endpoint&&) noexcept = default;
   ~Endpoint() = default;

@@ -6,6 +6,7 @@
 
 #include "telltale/client/bus/bus_error.hpp"
 #include "telltale/client/bus/endpoint.hpp"
+#include "telltale/client/bus/instance_limit.hpp"
 #include "telltale/client/bus/topics.hpp"
 
 namespace telltale {
@@ -18,6 +19,13 @@ class Reader : public Endpoint {
   /// `qos`: the contract of the topic, or one that is made from it.
   explicit Reader(const Participant& participant, const Qos& qos = kContract<Wire>.qos())
       : Endpoint(participant, Kind::kReader, Descriptor<Wire>(), kContract<Wire>.topic, qos.get()) {
+    Checked(dds_set_status_mask(handle(), DDS_DATA_AVAILABLE_STATUS), "setting a status mask");
+  }
+
+  /// The same, of so many keys. The limit outlives the reader.
+  Reader(const Participant& participant, InstanceLimit& limit)
+      : Endpoint(participant, Kind::kReader, LimitedTopic(participant, limit),
+                 kContract<Wire>.topic, kContract<Wire>.qos().get()) {
     Checked(dds_set_status_mask(handle(), DDS_DATA_AVAILABLE_STATUS), "setting a status mask");
   }
 
@@ -67,6 +75,12 @@ class Reader : public Endpoint {
   }
 
  private:
+  static Entity LimitedTopic(const Participant& participant, InstanceLimit& limit) {
+    Entity topic = MakeTopic(participant, Descriptor<Wire>(), kContract<Wire>.topic);
+    limit.ApplyTo(topic);
+    return topic;
+  }
+
   static constexpr std::size_t kBatch = 256;  // one at a time falls behind a fast writer
 
   /// A batch of samples borrowed from the reader, given back however this ends.

@@ -106,15 +106,16 @@ std::string Fleet::NotServed(const std::string& vehicle_id) const {
          "' is not served here; served: " + (names.empty() ? "none" : names);
 }
 
-void Fleet::CountUnattributed(std::string_view channel, std::string_view reason) {
+void Fleet::CountUnattributed(std::string_view channel, std::string_view reason,
+                              std::uint64_t count) {
   const std::lock_guard lock(unattributed_mutex_);
   const auto found = std::ranges::find_if(unattributed_, [&](const RejectEntry& entry) {
     return entry.channel == channel && entry.reason == reason;
   });
   if (found == unattributed_.end()) {
-    unattributed_.push_back({std::string(channel), std::string(reason), 1});
+    unattributed_.push_back({std::string(channel), std::string(reason), count});
   } else {
-    ++found->count;
+    found->count += count;
   }
 }
 

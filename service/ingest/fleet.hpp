@@ -76,7 +76,8 @@ class Fleet {
   std::string NotServed(const std::string& vehicle_id) const;
 
   /// `channel`: as reports name it, a channel of telemetry or kAnnouncements.
-  void CountUnattributed(std::string_view channel, std::string_view reason);
+  void CountUnattributed(std::string_view channel, std::string_view reason,
+                         std::uint64_t count = 1);
   /// Counts a sample that the bus cannot deserialise, where the topic is one of the vehicles'.
   void CountUnreadable(std::string_view topic);
   std::vector<RejectEntry> Unattributed() const;

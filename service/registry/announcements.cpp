@@ -23,7 +23,12 @@ constexpr auto kPeriod = std::chrono::seconds(1);
 // together.
 constexpr auto kGatherTime = std::chrono::milliseconds(100);
 
+constexpr std::string_view kTooManyIds = "TOO_MANY_IDS";
+
 constexpr std::size_t kMostNamed = 8;
+
+// Boats that are gone make place for others by then, and to hear all anew takes a second.
+constexpr auto kHearAnewAfter = std::chrono::minutes(10);
 
 void Tell(const char* what, const std::vector<std::string>& vehicle_ids) {
   if (vehicle_ids.empty()) return;
@@ -35,6 +40,9 @@ void Tell(const char* what, const std::vector<std::string>& vehicle_ids) {
 }
 
 }  // namespace
+
+Announcements::LimitedReader::LimitedReader(const Participant& participant)
+    : limit(kMostBoats), reader(participant, limit) {}
 
 Announcements::Announcements(const Participant& participant, Fleet& fleet, bool require_partition,
                              Handlers handlers)
@@ -63,6 +71,7 @@ void Announcements::Run() {
     try {
       if (hear_again_.exchange(false)) Listen();
       const bool heard = wait_set_.Wait(kPeriod);
+      CountUnheard();
       Settle();
       if (heard) std::this_thread::sleep_for(kGatherTime);
     } catch (const std::exception& error) {
@@ -84,17 +93,31 @@ void Announcements::Settle() {
 /// A new reader is given all that is on the bus. DDS Security may deny it: then the daemon does its
 /// work without.
 void Announcements::Listen() {
-  if (reader_) {
+  if (heard_) {
     TakeAll();
-    wait_set_.Detach(*reader_);
+    wait_set_.Detach(heard_->reader);
   }
-  reader_.emplace(participant_);
-  wait_set_.Attach(*reader_, [this] { TakeAll(); });
+  heard_.emplace(participant_);
+  heard_since_ = std::chrono::steady_clock::now();
+  unknown_retired_ = 0;
+  is_full_ = false;
+  wait_set_.Attach(heard_->reader, [this] { TakeAll(); });
+}
+
+/// Ids that were announced or retired once take memory for as long as the reader lives.
+void Announcements::CountUnheard() {
+  if (!heard_) return;
+  if (const std::uint64_t refused = heard_->limit.TakeRefused(); refused > 0) {
+    Refuse(kTooManyIds, std::to_string(kMostBoats) + " ids have been heard", refused);
+    is_full_ = true;
+  }
+  const bool waited = std::chrono::steady_clock::now() - heard_since_ >= kHearAnewAfter;
+  if ((is_full_ && waited) || unknown_retired_ > kMostBoats) hear_again_ = true;
 }
 
 void Announcements::TakeAll() {
-  reader_->TakeOrDispose([this](const auto& wire, auto writer) { Take(wire, writer); },
-                         [this](const auto& wire, auto writer) { Retire(wire, writer); });
+  heard_->reader.TakeOrDispose([this](const auto& wire, auto writer) { Take(wire, writer); },
+                               [this](const auto& wire, auto writer) { Retire(wire, writer); });
 }
 
 void Announcements::Take(const telltale_wire_VehicleAnnouncement& wire, WriterHandle writer) {
@@ -108,12 +131,12 @@ void Announcements::Take(const telltale_wire_VehicleAnnouncement& wire, WriterHa
 void Announcements::Retire(const telltale_wire_VehicleAnnouncement& wire, WriterHandle writer) {
   const auto id = AnnouncedId(wire);
   if (!id) return Refuse(Name(AnnouncementFaultReason::kMalformedId), id.error().Message());
-  if (!MaySend(writer, *id) || !handlers_.retired(*id)) return;
-  retired_.push_back(*id);
+  if (!MaySend(writer, *id)) return;
+  handlers_.retired(*id) ? retired_.push_back(*id) : void(++unknown_retired_);
 }
 
 bool Announcements::MaySend(WriterHandle writer, const std::string& vehicle_id) {
-  const auto partitions_of = [this](auto one) { return reader_->PartitionsOf(one); };
+  const auto partitions_of = [this](auto one) { return heard_->reader.PartitionsOf(one); };
   if (senders_.MaySend(writer, vehicle_id, partitions_of)) return true;
   Refuse(Name(UnattributedReason::kForeignWriter), vehicle_id);
   return false;
@@ -132,8 +155,9 @@ void Announcements::Note(Admission admission, const std::string& vehicle_id) {
   }
 }
 
-void Announcements::Refuse(std::string_view reason, const std::string& detail) {
-  fleet_.CountUnattributed(kAnnouncements, reason);
+void Announcements::Refuse(std::string_view reason, const std::string& detail,
+                           std::uint64_t count) {
+  fleet_.CountUnattributed(kAnnouncements, reason, count);
   if (const auto not_shown = warning_limit_.Admit(std::chrono::steady_clock::now())) {
     spdlog::warn("announcement refused: {} '{}' ({} more not shown)", reason, detail, *not_shown);
   }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <atomic>
+#include <chrono>
 #include <functional>
 #include <optional>
 #include <set>
@@ -21,7 +22,9 @@ namespace telltale {
 
 /// Hears the boats that announce themselves, on a thread of its own. What is refused is counted
 /// among the samples that name no vehicle, as those of the channel "vehicle", and logged with a
-/// limit. Where the bus denies the topic, the log says so and no boat is heard.
+/// limit. Of more than kMostBoats ids it hears no further ones until it hears all anew, which it
+/// then does every ten minutes, and counts what it does not hear. Where the bus denies the topic,
+/// the log says so and no boat is heard.
 class Announcements {
  public:
   /// All are called on the thread.
@@ -46,13 +49,14 @@ class Announcements {
  private:
   void Run();
   void Listen();
+  void CountUnheard();
   void TakeAll();
   void Take(const telltale_wire_VehicleAnnouncement& wire, WriterHandle writer);
   void Retire(const telltale_wire_VehicleAnnouncement& wire, WriterHandle writer);
   bool MaySend(WriterHandle writer, const std::string& vehicle_id);
   void Settle();
   void Note(Admission admission, const std::string& vehicle_id);
-  void Refuse(std::string_view reason, const std::string& detail);
+  void Refuse(std::string_view reason, const std::string& detail, std::uint64_t count = 1);
 
   Fleet& fleet_;
   const Participant& participant_;
@@ -64,7 +68,17 @@ class Announcements {
   std::vector<std::string> altered_;
   std::vector<std::string> retired_;
   WaitSet wait_set_;  // before the reader attached to it, so that it goes last
-  std::optional<Reader<telltale_wire_VehicleAnnouncement>> reader_;
+  /// A reader with the limit of its ids, which it needs for as long as it lives.
+  struct LimitedReader {
+    explicit LimitedReader(const Participant& participant);
+
+    InstanceLimit limit;
+    Reader<telltale_wire_VehicleAnnouncement> reader;
+  };
+  std::optional<LimitedReader> heard_;
+  std::chrono::steady_clock::time_point heard_since_;
+  bool is_full_ = false;              ///< since heard_since_
+  std::int32_t unknown_retired_ = 0;  ///< of the reader: ids that its limit does not count
   std::atomic<bool> hear_again_ = true;
   std::atomic<bool> stopping_ = false;
   std::thread thread_;

@@ -14,12 +14,15 @@
 #include "support/made_up_identifications.hpp"
 #include "telltale/client/bus/bus_error.hpp"
 #include "telltale/client/bus/bus_log.hpp"
+#include "telltale/client/bus/instance_limit.hpp"
 #include "telltale/client/bus/participant.hpp"
 #include "telltale/client/bus/reader.hpp"
 #include "telltale/client/bus/wait_set.hpp"
 #include "telltale/client/bus/watched_reader.hpp"
 #include "telltale/client/bus/writer.hpp"
+#include "telltale/core/paper/yellowfish.hpp"
 #include "telltale/idl/codec/wire/daemon_status.hpp"
+#include "telltale/idl/codec/wire/exchange.hpp"
 #include "telltale/idl/codec/wire/model.hpp"
 #include "telltale/idl/codec/wire/telemetry.hpp"
 #include "telltale/idl/codec/wire/vehicle_announcement.hpp"
@@ -68,6 +71,41 @@ TEST_F(Bus, HoldsNoMoreBoatsThanItMay) {
   }
   received += reader.Take([](const auto&) {});
   EXPECT_EQ(received, static_cast<std::size_t>(kMostBoats));
+}
+
+// The same where the contract is reliable, and other topics are received as before.
+TEST_F(Bus, HoldsNoMoreKeysOfAReliableTopicThanItsLimit) {
+  InstanceLimit limit(3);
+  Reader<telltale_wire_IdentifyReply> others(here_);
+  Reader<telltale_wire_VehicleAnnouncement> reader(here_, limit);
+  const Participant there(domain_.id());
+  Writer<telltale_wire_IdentifyReply> other(there);
+  Writer<telltale_wire_VehicleAnnouncement> writer(there);
+  ASSERT_TRUE(WaitForMatch(here_, {reader, others}, 10s));
+  ASSERT_TRUE(WaitForMatch(there, {writer, other}, 10s));
+  Vehicle boat = YellowfishVehicle();
+  for (int round = 0; round < 2; ++round) {
+    for (int i = 0; i < 5; ++i) {
+      boat.vehicle_id = "boat-" + std::to_string(i);
+      ASSERT_TRUE(writer.Write(Encode(boat)));
+    }
+  }
+  IdentifyReply reply;
+  reply.correlation_id = "after";
+  reply.vehicle_id = "boat-1";
+  reply.outcome = ReplyOutcome::kFailed;
+  ASSERT_TRUE(other.Write(Encode(reply)));
+  WaitSet wait_set(here_);
+  bool has_passed = false;
+  wait_set.Attach(others, [&] { has_passed = others.Take([](const auto&) {}) > 0; });
+  std::uint64_t refused = 0;
+  EXPECT_TRUE(WaitUntil(wait_set, [&] {
+    refused += limit.TakeRefused();
+    return has_passed && refused >= 2;  // a writer keeps the last sample of each boat alone
+  }));
+  std::set<std::string> heard;
+  reader.Take([&](const auto& wire) { heard.insert(Decode(wire)->vehicle_id); });
+  EXPECT_THAT(heard, testing::ElementsAre("boat-0", "boat-1", "boat-2"));
 }
 
 TEST_F(Bus, HandsOverEverySampleOfABurstInOrder) {

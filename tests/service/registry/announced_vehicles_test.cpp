@@ -203,6 +203,23 @@ TEST_P(AnnouncedVehicles, AreCountedByReasonWhereTheyAreNone) {
   EXPECT_THAT(log, Not(HasSubstr("serving 2 vehicles")));
 }
 
+// Each id takes memory of the daemon, and anybody can invent some.
+TEST_P(AnnouncedVehicles, AreNotHeardBeyondAsManyIdsAsADaemonHolds) {
+  Admit("boat-*");
+  const auto daemon = StartDaemon(0);
+  const Participant participant(domain_.id());
+  VehicleAnnouncer known(participant, "boat-1");
+  known.Announce(Boat("boat-1"));
+  ASSERT_TRUE(IsServed("boat-1"));
+  Writer<telltale_wire_VehicleAnnouncement> flood(participant);
+  ASSERT_TRUE(WaitForMatch(participant, {flood}, 60s));
+  for (int i = 0; i < kMostBoats + 4; ++i)
+    flood.Write(Encode(Boat("invented-" + std::to_string(i))));
+  EXPECT_TRUE(AwaitRefused("TOO_MANY_IDS", 5));
+  known.Announce(Boat("boat-1", 31.0));
+  EXPECT_TRUE(daemon->WaitForOutput("0 added, 1 changed")) << daemon->output();
+}
+
 TEST_P(AnnouncedVehicles, ComeFromTheirOwnPartitionWhereThatIsRequired) {
   Configure("require_partition: true\n");
   Admit("boat-*");
