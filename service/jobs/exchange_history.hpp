@@ -9,18 +9,22 @@
 #include <string_view>
 #include <variant>
 
+#include "telltale/service/jobs/reply_size.hpp"
+
 namespace telltale {
 
 /// What became of each request, by its correlation id: its progress while it is queued or running,
-/// its reply afterwards. A request whose id is here is not worked on again. Only the latest replies
-/// are kept. Not thread safe.
+/// its reply afterwards. A request whose id is here is not worked on again. The latest replies are
+/// kept, within bounds of their number and of their bytes; the newest is kept whatever its size.
+/// Not thread safe.
 template <class Stage, class Reply>
 class ExchangeHistory {
  public:
   using Answer = std::variant<Stage, Reply>;
 
-  /// Replies are some ten kilobytes each, and a client that misses one asks again within seconds.
+  /// A client that misses a reply asks again within seconds.
   static constexpr std::size_t kKeptReplies = 256;
+  static constexpr std::size_t kKeptBytes = 8 << 20;  ///< by SizeOf() of the replies
 
   /// What to answer to a request with this id; nothing where the id is new.
   std::optional<Answer> Find(const std::string& correlation_id) const {
@@ -52,17 +56,33 @@ class ExchangeHistory {
 
   void Finish(const Reply& reply) {
     unfinished_.erase(reply.correlation_id);
-    replies_.insert_or_assign(reply.correlation_id, reply);
-    finished_.push_back(reply.correlation_id);
-    if (finished_.size() <= kKeptReplies) return;
-    replies_.erase(finished_.front());
-    finished_.pop_front();
+    DropReply(reply.correlation_id);
+    const std::size_t bytes = SizeOf(reply);
+    finished_.push_back({reply.correlation_id, bytes});
+    kept_bytes_ += bytes;
+    replies_.emplace(reply.correlation_id, reply);
+    while (finished_.size() > kKeptReplies || (kept_bytes_ > kKeptBytes && finished_.size() > 1)) {
+      DropReply(std::string(finished_.front().correlation_id));
+    }
   }
 
  private:
+  struct Finished {
+    std::string correlation_id;
+    std::size_t bytes = 0;
+  };
+
+  void DropReply(const std::string& correlation_id) {
+    if (replies_.erase(correlation_id) == 0) return;
+    const auto dropped = std::ranges::find(finished_, correlation_id, &Finished::correlation_id);
+    kept_bytes_ -= dropped->bytes;
+    finished_.erase(dropped);
+  }
+
   std::map<std::string, Stage> unfinished_;
   std::map<std::string, Reply> replies_;
-  std::deque<std::string> finished_;  ///< correlation ids of replies_, oldest first
+  std::deque<Finished> finished_;  ///< of replies_, oldest first
+  std::size_t kept_bytes_ = 0;     ///< of replies_
 };
 
 }  // namespace telltale

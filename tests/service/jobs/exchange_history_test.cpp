@@ -56,5 +56,38 @@ TEST(ExchangeHistory, KeepsTheLatestReplies) {
   EXPECT_TRUE(history.Find(std::to_string(History::kKeptReplies)));
 }
 
+// A model with many coefficients or a diagnosis with pictures may take megabytes.
+TEST(ExchangeHistory, KeepsSoManyBytesOfRepliesAndTheNewestInAnyCase) {
+  const auto long_reply = [](const std::string& correlation_id, std::size_t bytes) {
+    IdentifyReply reply = Refused(correlation_id);
+    reply.message = std::string(bytes, 'x');
+    return reply;
+  };
+  constexpr std::size_t kMoreThanAThird = History::kKeptBytes / 3 + 1;
+  History history;
+  for (const char* id : {"a", "b", "c"}) history.Finish(long_reply(id, kMoreThanAThird));
+  EXPECT_FALSE(history.Find("a"));
+  EXPECT_TRUE(history.Find("b"));
+  EXPECT_TRUE(history.Find("c"));
+  history.Finish(long_reply("huge", 2 * History::kKeptBytes));
+  EXPECT_FALSE(history.Find("c"));
+  EXPECT_TRUE(history.Find("huge"));
+  history.Finish(Refused("d"));
+  EXPECT_FALSE(history.Find("huge"));
+  EXPECT_TRUE(history.Find("d"));
+}
+
+TEST(ExchangeHistory, KeepsTheLastReplyToAnIdOnce) {
+  History history;
+  history.Finish(Refused("a"));
+  IdentifyReply second = Refused("a");
+  second.message = "second";
+  history.Finish(second);
+  for (std::size_t i = 1; i < History::kKeptReplies; ++i)
+    history.Finish(Refused(std::to_string(i)));
+  ASSERT_TRUE(history.Find("a"));
+  EXPECT_EQ(std::get<IdentifyReply>(*history.Find("a")).message, "second");
+}
+
 }  // namespace
 }  // namespace telltale
