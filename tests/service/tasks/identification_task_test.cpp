@@ -13,7 +13,7 @@ namespace telltale {
 namespace {
 
 // The structure is chosen by a model of the first part of the data and its errors over the rest.
-TEST(IdentificationTask, JudgesAModelByTheScoreThatChoseItsStructure) {
+TEST(IdentificationTask, TakesTheVerdictFromTheScoreThatChoseTheStructure) {
   IdentificationTask task;
   task.vehicle = YellowfishVehicle();
   task.recording = SimulatedRecording(YellowfishTwin(), 0.0, 45.0, 2);
