@@ -16,7 +16,7 @@ namespace {
 TEST(IdentificationTask, TakesTheVerdictFromTheScoreThatChoseTheStructure) {
   IdentificationTask task;
   task.vehicle = YellowfishVehicle();
-  task.recording = SimulatedRecording(YellowfishTwin(), 0.0, 45.0, 2);
+  task.recording = SimulatedRecording(YellowfishTwin(), 0.0, 50.0, 3);
   task.settings.bootstrap_replicates = 0;
   const Progress ignored = [](std::string_view, double) {};
   const IdentifyOptions options = OptionsOf(task.request, task.settings);
