@@ -305,6 +305,20 @@ Eigen::MatrixXd ScoreSlope(const SlopedRuns& all) {
   return slope;
 }
 
+// How much more the instruments say of the parameters than the slopes do, on average over them.
+double StrengthOfInstruments(const SlopedRuns& all, const Normal& normal,
+                             const Eigen::MatrixXd& precision_of_prior) {
+  Eigen::MatrixXd of_slopes = precision_of_prior;
+  for (const SlopedInnovations& run : all) {
+    for (std::size_t k = 0; k < run.slopes.size(); ++k) {
+      of_slopes.selfadjointView<Eigen::Lower>().rankUpdate(run.slopes[k].slope,
+                                                           1.0 / run.innovations[k].variance);
+    }
+  }
+  of_slopes = of_slopes.selfadjointView<Eigen::Lower>();
+  return of_slopes.ldlt().solve(normal.information).trace() / static_cast<double>(kParameters);
+}
+
 // One step of Fisher scoring of each recording's noise, at most a factor e; slopes by finite
 // differences of log.
 double ScoreNoise(const Problem& problem, const Eigen::VectorXd& z,
@@ -465,6 +479,8 @@ class Search {
     const double left = std::sqrt(score.dot(information_.ldlt().solve(score)));
     if (solution_iterations_ == 0) first_left_ = left;
     if (!std::isfinite(left) || IsAstray(left)) return false;
+    // A boat of the instruments that does not stay near moves far, and all rests on where it does.
+    if (!(StrengthOfInstruments(runs, normal_, precision) < kGreatestStrength)) return false;
     instrumented_ = left < kConvergedScore;
     // Weights and order of the readings change with the parameters: a whole step may go to and fro.
     if (left > kSlow * left_) caution_ = std::min(2.0 * caution_ + 0.25, kMostCaution);
@@ -551,6 +567,7 @@ class Search {
   static constexpr int kNoiseIterations = 8;
   static constexpr int kInstrumentIterations = 20;
   static constexpr double kAstray = 10.0;
+  static constexpr double kGreatestStrength = 10.0;
   static constexpr int kIterationsToHalve = 5;
   static constexpr double kSlow = 0.7;
   static constexpr double kQuick = 0.5;
