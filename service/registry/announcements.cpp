@@ -132,7 +132,11 @@ void Announcements::Retire(const telltale_wire_VehicleAnnouncement& wire, Writer
   const auto id = AnnouncedId(wire);
   if (!id) return Refuse(Name(AnnouncementFaultReason::kMalformedId), id.error().Message());
   if (!MaySend(writer, *id)) return;
-  handlers_.retired(*id) ? retired_.push_back(*id) : void(++unknown_retired_);
+  if (handlers_.retired(*id)) {
+    retired_.push_back(*id);
+  } else {
+    ++unknown_retired_;
+  }
 }
 
 bool Announcements::MaySend(WriterHandle writer, const std::string& vehicle_id) {
