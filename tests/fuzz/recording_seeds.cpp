@@ -8,17 +8,18 @@
 #include <vector>
 
 #include <SQLiteCpp/SQLiteCpp.h>
-#include <bzlib.h>
-#include <lz4frame.h>
-#include <zlib.h>
-#include <zstd.h>
 
+#include "support/compression.hpp"
 #include "support/little_endian.hpp"
 
 namespace {
 
+using telltale::Bz2;
+using telltale::Gzip;
 using telltale::LittleEndian;
+using telltale::Lz4;
 using telltale::WithLength;
+using telltale::Zstd;
 using Bytes = std::string;
 
 void Save(const std::filesystem::path& file, const Bytes& bytes) {
@@ -27,48 +28,6 @@ void Save(const std::filesystem::path& file, const Bytes& bytes) {
 }
 
 // ---- compression --------------------------------------------------------------------------------
-
-Bytes Zstd(const Bytes& bytes) {
-  Bytes packed(ZSTD_compressBound(bytes.size()), '\0');
-  packed.resize(ZSTD_compress(packed.data(), packed.size(), bytes.data(), bytes.size(), 3));
-  return packed;
-}
-
-Bytes Lz4(const Bytes& bytes) {
-  Bytes packed(LZ4F_compressFrameBound(bytes.size(), nullptr), '\0');
-  packed.resize(
-      LZ4F_compressFrame(packed.data(), packed.size(), bytes.data(), bytes.size(), nullptr));
-  return packed;
-}
-
-Bytes Bz2(const Bytes& bytes) {
-  constexpr int kLargestBlock = 9;
-  constexpr std::size_t kMoreAtMost = 1024;
-  Bytes packed(bytes.size() + kMoreAtMost, '\0');
-  auto size = static_cast<unsigned int>(packed.size());
-  BZ2_bzBuffToBuffCompress(packed.data(), &size, const_cast<char*>(bytes.data()),
-                           static_cast<unsigned int>(bytes.size()), kLargestBlock, 0, 0);
-  packed.resize(size);
-  return packed;
-}
-
-/// A gzip file of these bytes.
-Bytes Gzip(const Bytes& bytes) {
-  constexpr int kLargestWindow = 15;
-  constexpr int kAsGzip = 16;
-  z_stream stream{};
-  deflateInit2(&stream, Z_DEFAULT_COMPRESSION, Z_DEFLATED, kLargestWindow + kAsGzip, 8,
-               Z_DEFAULT_STRATEGY);
-  Bytes packed(deflateBound(&stream, bytes.size()), '\0');
-  stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(bytes.data()));
-  stream.avail_in = static_cast<uInt>(bytes.size());
-  stream.next_out = reinterpret_cast<Bytef*>(packed.data());
-  stream.avail_out = static_cast<uInt>(packed.size());
-  deflate(&stream, Z_FINISH);
-  packed.resize(stream.total_out);
-  deflateEnd(&stream);
-  return packed;
-}
 
 /// As recordings name compressions.
 Bytes Compressed(const Bytes& bytes, const Bytes& compression) {

@@ -9,9 +9,8 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <zlib.h>
-#include <zstd.h>
 
+#include "support/compression.hpp"
 #include "support/dataflash_writer.hpp"
 #include "telltale/client/recording/gzip_file.hpp"
 #include "telltale/client/recording/zstd_frame.hpp"
@@ -20,27 +19,6 @@ namespace telltale {
 namespace {
 
 using ::testing::HasSubstr;
-
-std::string Gzip(const std::string& content) {
-  std::vector<Bytef> compressed(compressBound(content.size()) + 32);
-  z_stream stream{};
-  constexpr int kWithGzipHeader = 15 + 16;
-  deflateInit2(&stream, Z_BEST_SPEED, Z_DEFLATED, kWithGzipHeader, 8, Z_DEFAULT_STRATEGY);
-  stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(content.data()));
-  stream.avail_in = static_cast<uInt>(content.size());
-  stream.next_out = compressed.data();
-  stream.avail_out = static_cast<uInt>(compressed.size());
-  deflate(&stream, Z_FINISH);
-  deflateEnd(&stream);
-  return {compressed.begin(), compressed.begin() + static_cast<std::ptrdiff_t>(stream.total_out)};
-}
-
-std::string Zstd(const std::string& content) {
-  std::string compressed(ZSTD_compressBound(content.size()), '\0');
-  compressed.resize(
-      ZSTD_compress(compressed.data(), compressed.size(), content.data(), content.size(), 1));
-  return compressed;
-}
 
 class Loading : public testing::Test {
  protected:

@@ -7,9 +7,8 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <lz4frame.h>
-#include <zstd.h>
 
+#include "support/compression.hpp"
 #include "support/little_endian.hpp"
 #include "support/temporary_folder.hpp"
 
@@ -43,18 +42,6 @@ Bytes Chunk(const Bytes& records, const std::string& compression, const Bytes& c
                        LittleEndian(static_cast<std::uint64_t>(records.size())) +
                        LittleEndian<std::uint32_t>(0) + WithLength(compression) +
                        LittleEndian(static_cast<std::uint64_t>(compressed.size())) + compressed);
-}
-
-Bytes Zstd(const Bytes& records) {
-  Bytes out(ZSTD_compressBound(records.size()), '\0');
-  out.resize(ZSTD_compress(out.data(), out.size(), records.data(), records.size(), 3));
-  return out;
-}
-
-Bytes Lz4(const Bytes& records) {
-  Bytes out(LZ4F_compressFrameBound(records.size(), nullptr), '\0');
-  out.resize(LZ4F_compressFrame(out.data(), out.size(), records.data(), records.size(), nullptr));
-  return out;
 }
 
 std::uint32_t Crc32(const Bytes& bytes) {  // bit by bit, of the polynomial of IEEE 802.3

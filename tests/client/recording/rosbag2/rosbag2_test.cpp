@@ -9,8 +9,8 @@
 #include <SQLiteCpp/SQLiteCpp.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <zstd.h>
 
+#include "support/compression.hpp"
 #include "support/ros_messages.hpp"
 #include "support/temporary_folder.hpp"
 #include "telltale/client/recording/file_contents.hpp"
@@ -22,18 +22,13 @@ namespace {
 using testing::HasSubstr;
 using Bytes = std::vector<std::uint8_t>;
 
-Bytes Zstd(const void* bytes, std::size_t size) {
-  Bytes out(ZSTD_compressBound(size));
-  out.resize(ZSTD_compress(out.data(), out.size(), bytes, size, 3));
-  return out;
-}
-
 Bytes AsItIs(const Bytes& bytes) {
   return bytes;
 }
 
 Bytes ByMessage(const Bytes& bytes) {
-  return Zstd(bytes.data(), bytes.size());
+  const std::string packed = Zstd({bytes.begin(), bytes.end()});
+  return {packed.begin(), packed.end()};
 }
 
 /// Storage as rosbag2 makes it: its tables are those of rosbag2_storage_sqlite3, version 4.
@@ -67,10 +62,7 @@ class Rosbag2 : public testing::Test {
 
   /// Compresses a file of the bag as a whole, as ros2 bag names it.
   void CompressFile(const std::string& name) {
-    const std::string content = *ReadFile(bag_ / name);
-    const Bytes compressed = Zstd(content.data(), content.size());
-    WriteFile(bag_ / (name + ".zstd"),
-              {reinterpret_cast<const char*>(compressed.data()), compressed.size()});
+    WriteFile(bag_ / (name + ".zstd"), Zstd(*ReadFile(bag_ / name)));
     std::filesystem::remove(bag_ / name);
   }
 
