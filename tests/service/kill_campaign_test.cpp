@@ -86,7 +86,8 @@ struct StoreContents {
   }
 };
 
-/// Copies of a store as a loss of power would leave it.
+/// Copies of a daemon's store between two writes. What a disk loses of writes that were not flushed
+/// is storage/power_cut_test.cpp's.
 class PowerCutCampaign : public CampaignTest {
  protected:
   PowerCutCampaign() : CampaignTest(Engine::kSqlite) {}
@@ -104,24 +105,10 @@ class PowerCutCampaign : public CampaignTest {
     }
   }
 
-  /// Cuts the newest of what was written off, at any byte: as if it had not reached the disk.
-  void TearLogs(const std::filesystem::path& folder) {
-    for (const auto& entry : std::filesystem::directory_iterator(folder)) {
-      const auto size = static_cast<int>(std::filesystem::file_size(entry.path()));
-      if (!entry.path().string().ends_with("-wal") || size == 0) continue;
-      std::filesystem::resize_file(entry.path(), static_cast<unsigned>(Draw(size)) - 1);
-    }
-  }
-
   static bool WasDamaged(const std::filesystem::path& folder) {
     return std::ranges::any_of(std::filesystem::directory_iterator(folder), [](const auto& entry) {
       return entry.path().string().find("damaged") != std::string::npos;
     });
-  }
-
-  /// Whether the revisions follow each other from the first on that is kept.
-  static bool HasNoHole(const Published& models) {
-    return models.empty() || models.rbegin()->first - models.begin()->first + 1 == models.size();
   }
 };
 
@@ -137,10 +124,8 @@ TEST_F(PowerCutCampaign, LeavesAWholeStoreAtAnyWrite) {
     client.Send(Plain("under-way-" + std::to_string(cut)));
     client.Handle(std::chrono::milliseconds(Draw(200)));
     const auto folder = folder_.Path() / ("cut-" + std::to_string(cut));
-    const auto torn = folder_.Path() / ("torn-" + std::to_string(cut));
     daemon->Suspend();
     CopyStore(State(), folder);
-    CopyStore(State(), torn);
     client.Handle(50ms);  // what it had sent
     const Published published = client.published();
     const std::set<std::string> unanswered = client.Unanswered(asked);
@@ -150,12 +135,6 @@ TEST_F(PowerCutCampaign, LeavesAWholeStoreAtAnyWrite) {
     EXPECT_TRUE(std::ranges::includes(contents.requests, unanswered));
     EXPECT_EQ(contents.unreadable_chunks, 0u);
     EXPECT_FALSE(WasDamaged(folder));
-    TearLogs(torn);
-    const StoreContents rest{telltale::Storage(torn)};
-    EXPECT_TRUE(HasNoHole(rest.models));
-    EXPECT_TRUE(std::ranges::includes(contents.models, rest.models));
-    EXPECT_EQ(rest.unreadable_chunks, 0u);
-    EXPECT_FALSE(WasDamaged(torn));
   }
   std::cout << Kills() << " cuts of the power, " << client.published().size()
             << " models published\n";
