@@ -42,6 +42,11 @@ ChangeInformation Together(const ChangeInformation& of_free_runs,
           kDrift.free_runs_weight * of_free_runs.projection + of_sideslip.projection};
 }
 
+/// What is known of an unknown times a number.
+ChangeInformation Scaled(const ChangeInformation& unknown, double by) {
+  return {unknown.precision / (by * by), unknown.projection / by};
+}
+
 using InformationByChange = std::array<ChangeInformation, kDrift.changes.size()>;
 using Changes = std::array<double, kDrift.changes.size()>;
 
@@ -131,7 +136,8 @@ std::string DriftFinding::Describe() const {
   return effect->Describe(At({effect, change->parameter}, value).values);
 }
 
-/// Weather stays for as long as it does in the shortest span.
+/// Weather stays for as long as it does in the shortest span. The regression of later estimates on
+/// those of the reference predicts what the model errs itself.
 DriftTest::DriftTest(std::span<const DriftEvidence> reference) : reference_{} {
   const std::size_t span = std::ranges::min(kDrift.spans) * kDrift.block_windows;
   for (; reference.size() >= span; reference = reference.subspan(span)) {
@@ -140,6 +146,9 @@ DriftTest::DriftTest(std::span<const DriftEvidence> reference) : reference_{} {
       reference_[j].precision += estimates.of_change[j].precision;
       reference_[j].projection += estimates.of_change[j].projection;
     }
+  }
+  for (std::size_t j = 0; j < reference_.size(); ++j) {
+    reference_[j] = Scaled(reference_[j], kDrift.changes[j].reference_slope);
   }
 }
 
@@ -180,7 +189,9 @@ void DriftTest::Add(std::span<const DriftEvidence> block) {
     const bool better = likeliest.empty() || likely[0].explained > likeliest[0].explained;
     if (better) likeliest = std::move(likely);
   }
-  if (!likeliest.empty()) alarm_ = std::move(likeliest);
+  const bool is_beyond_doubt = !likeliest.empty();
+  if (is_beyond_doubt && was_beyond_doubt_) alarm_ = std::move(likeliest);
+  was_beyond_doubt_ = is_beyond_doubt;
   if (strongest_ && strongest_->Excess() < 0.0) alarm_.clear();
 }
 

@@ -32,8 +32,8 @@ struct DriftFinding {
 /// hull, or the compass. Wind and current of any strength are no change, and neither are errors
 /// that grow without a pattern, nor what a single block shows.
 /// Model: a test of each change against its tolerance, over the latest blocks, by estimates beside
-/// which wind, current and a constant force are estimated anew; less the same of the reference,
-/// which is what the model errs itself. docs/concepts/diagnosis.md (103) to (105). Its false
+/// which wind, current and a constant force are estimated anew; less what the model errs itself,
+/// as the same of the reference predicts it. docs/concepts/diagnosis.md (103) to (105). Its false
 /// alarms: docs/validation/monitoring.md. Assumes: the boat steers and changes its speed. Where it
 /// does not, nothing is said. Sources: Lai, "Sequential changepoint detection in quality control
 /// and dynamical systems", J. R. Statist. Soc. B 57 (1995), window-limited tests; Efron, "The
@@ -46,7 +46,8 @@ class DriftTest {
   /// The windows of one more block.
   void Add(std::span<const DriftEvidence> block);
 
-  /// True from the time that a change is beyond doubt until every change is within its tolerance.
+  /// True from the second block in succession with which a change is beyond doubt until every
+  /// change is within its tolerance.
   bool Fires() const { return !alarm_.empty(); }
 
   /// Whether any change is beyond its tolerance. The time at which this began estimates the onset.
@@ -60,9 +61,10 @@ class DriftTest {
  private:
   std::vector<DriftFinding> FindingsOf(std::span<const DriftEvidence> blocks) const;
 
-  std::array<ChangeInformation, kDrift.changes.size()> reference_;
+  std::array<ChangeInformation, kDrift.changes.size()> reference_;  ///< what the model errs itself
   std::vector<DriftEvidence> blocks_;  ///< oldest first, no more than the longest of kDrift.spans
   std::optional<DriftFinding> strongest_;  ///< now; nothing where blocks tell too little of all
+  bool was_beyond_doubt_ = false;          ///< with the block before
   std::vector<DriftFinding> alarm_;
 };
 
