@@ -17,7 +17,7 @@ const kReachPx = 24;  // of the pointer, to the nearest boat
 const kScalePx = { width: 140, height: 36 };
 const kNorthPx = { width: 34, height: 48 };
 const kLeastStepPx = 1.5;  // a shorter one is not seen, and a large fleet has many
-const kPositionsAtOnce = 4000;  // of tracks, for one frame
+const kPositionsAtOnce = 2000;  // of tracks, for one frame
 const kOutline = [[0, -10], [6, 7], [0, 4], [-6, 7]] as const;  // of a boat, its bow up
 
 interface Projection {
@@ -201,7 +201,7 @@ function drawBoats(context: CanvasRenderingContext2D, { tracks }: Group, to: Pro
   context.fill(boats);
 }
 
-/** A drawing of the map, which takes a frame for each part of the tracks; what stands before is seen until it is done. */
+/** A drawing of the map, a step a frame; what stands before is seen until it is done. */
 class Drawing {
   private readonly layer = document.createElement("canvas");
   private readonly groups: Group[];
@@ -223,7 +223,7 @@ class Drawing {
       this.show([]);
     } else {
       context.scale(ratio, ratio);
-      this.drawNext(partsOf(this.groups), context, to);
+      this.frameByFrame(this.steps(context, to));
     }
   }
 
@@ -239,21 +239,27 @@ class Drawing {
     return this.colour(`--${verdict.toLowerCase()}`);
   }
 
-  private drawNext([part, ...rest]: Group[], context: CanvasRenderingContext2D, to: Projection) {
-    if (part) drawTracks(context, part, to, this.colourOf(part.verdict));
-    if (rest.length > 0) this.frame = requestAnimationFrame(() => this.drawNext(rest, context, to));
-    else this.finish(context, to);
+  /** Tracks, over them the boats, and last what says where. */
+  private steps(context: CanvasRenderingContext2D, to: Projection): (() => void)[] {
+    return [
+      ...partsOf(this.groups).map((part) => () => drawTracks(context, part, to, this.colourOf(part.verdict))),
+      ...this.groups.map((group) => () => drawBoats(context, group, to, this.colourOf(group.verdict), this.colour("--surface"))),
+      () => this.finish(context, to),
+    ];
+  }
+
+  private frameByFrame([step, ...rest]: (() => void)[]) {
+    step?.();
+    if (rest.length > 0) this.frame = requestAnimationFrame(() => this.frameByFrame(rest));
   }
 
   private finish(context: CanvasRenderingContext2D, to: Projection) {
     const { clientWidth: width, clientHeight: height } = this.canvas;
-    const [surface, muted] = [this.colour("--surface"), this.colour("--muted")];
+    const muted = this.colour("--muted");
     context.font = "12px system-ui, sans-serif";
-    for (const group of this.groups) drawBoats(context, group, to, this.colourOf(group.verdict), surface);
-    const places = placesOf(this.tracks, to);
     drawScale(context, to, height, muted);
     drawNorth(context, width, height, muted);
-    this.show(places);
+    this.show(placesOf(this.tracks, to));
   }
 
   private show(places: Place[]) {
