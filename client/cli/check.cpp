@@ -4,13 +4,12 @@
 #include <utility>
 #include <vector>
 
-#include <nlohmann/json.hpp>
-
 #include "telltale/client/cli/commands.hpp"
 #include "telltale/client/cli/input_options.hpp"
 #include "telltale/client/cli/output_options.hpp"
 #include "telltale/client/cli/progress_line.hpp"
 #include "telltale/client/cli/table.hpp"
+#include "telltale/client/workbench/check_json.hpp"
 #include "telltale/client/workbench/check_log.hpp"
 #include "telltale/client/workbench/errors.hpp"
 #include "telltale/client/workbench/files.hpp"
@@ -69,14 +68,13 @@ std::string DelayTable(const ChannelDelays& delays) {
 }
 
 std::string DelayText(const CheckedLog& log) {
-  if (!log.delays) return {};
-  if (!*log.delays) {
-    const Refusal& unknown = log.delays->error();
+  if (!log.delays) {
+    const Refusal& unknown = log.delays.error();
     const std::string said =
         Wrapped("Delays between the channels are unknown: " + unknown.reason + ".");
     return log.unusable ? said : said + Wrapped("To do: " + unknown.advice + ".", "  ");
   }
-  const ChannelDelays& delays = **log.delays;
+  const ChannelDelays& delays = *log.delays;
   std::string text = DelayTable(delays);
   if (IsUnknown(delays.commands) || IsUnknown(delays.fixes)) {
     text += Wrapped(
@@ -110,70 +108,13 @@ std::string TableOf(const CheckedLog& log) {
   return text;
 }
 
-nlohmann::ordered_json JsonOf(const Refusal& refusal) {
-  return {{"subject", refusal.subject}, {"reason", refusal.reason}, {"advice", refusal.advice}};
-}
-
-nlohmann::ordered_json JsonOf(const Coefficient& delay) {
-  return {{"estimate", delay.estimate},
-          {"standardError", delay.standard_error},
-          {"interval",
-           {{"level", delay.interval.level},
-            {"lower", delay.interval.lower},
-            {"upper", delay.interval.upper}}},
-          {"unit", delay.unit},
-          {"status", std::string(Name(delay.status))}};
-}
-
-nlohmann::ordered_json JsonOf(const Result<ChannelDelays>& delays) {
-  if (!delays) return {{"unknown", JsonOf(delays.error())}};
-  nlohmann::ordered_json json = {{"clock", std::string(Name(Channel::kHeading))},
-                                 {"commands", JsonOf(delays->commands)},
-                                 {"fixes", JsonOf(delays->fixes)},
-                                 {"startS", delays->start_s},
-                                 {"endS", delays->end_s}};
-  if (delays->warning) json["warning"] = JsonOf(*delays->warning);
-  return json;
-}
-
-nlohmann::ordered_json JsonOf(const CheckedLog& log) {
-  nlohmann::ordered_json json = {{"log", log.path.string()}};
-  if (!log.summary.empty()) json["summary"] = log.summary;
-  json["channels"] = nlohmann::ordered_json::array();
-  for (const Channel channel : kChannels) {
-    const ChannelCheck& of = log.check.channels[static_cast<std::size_t>(channel)];
-    json["channels"].push_back({{"channel", std::string(Name(channel))},
-                                {"samples", of.samples},
-                                {"startS", of.start_s},
-                                {"endS", of.end_s},
-                                {"medianPeriodS", of.median_period_s},
-                                {"gaps", of.gaps},
-                                {"longestGapS", of.longest_gap_s}});
-  }
-  json["missing"] = nlohmann::ordered_json::array();
-  for (const Refusal& channel : log.lacks) json["missing"].push_back(JsonOf(channel));
-  json["rejected"] = nlohmann::ordered_json::array();
-  const RejectCounts rejected = log.rejected.value_or(RejectCounts{});
-  for (const RejectReason reason : kRejectReasons) {
-    if (rejected.Of(reason) == 0) continue;
-    json["rejected"].push_back(
-        {{"reason", std::string(Name(reason))}, {"count", rejected.Of(reason)}});
-  }
-  json["faults"] = nlohmann::ordered_json::array();
-  for (const Refusal& fault : log.check.faults) json["faults"].push_back(JsonOf(fault));
-  if (log.unusable) json["unusable"] = JsonOf(*log.unusable);
-  if (log.delays) json["delays"] = JsonOf(*log.delays);
-  return json;
-}
-
 CheckedLog CheckOne(const std::filesystem::path& path, const LogInputs& inputs) {
   RawLog log = ReadShown(path, inputs.options);
   const Vehicle vehicle = inputs.NamesVehicle() ? LoadVehicle(inputs.vehicle_file)
                                                 : DescribedOrUsualVehicle(log.description);
   ProgressLine line;
-  return CheckLogWithDelays(
-      path, std::move(log), vehicle,
-      [&](std::string_view stage, double fraction) { line.Update(stage, fraction); });
+  return CheckLog(path, std::move(log), vehicle,
+                  [&](std::string_view stage, double fraction) { line.Update(stage, fraction); });
 }
 
 void CheckLogs(const CheckArguments& arguments) {
@@ -181,9 +122,7 @@ void CheckLogs(const CheckArguments& arguments) {
   for (const std::filesystem::path& path : arguments.inputs.logs) {
     checked.push_back(CheckOne(path, arguments.inputs));
   }
-  nlohmann::ordered_json json = {{"logs", nlohmann::ordered_json::array()}};
-  for (const CheckedLog& log : checked) json["logs"].push_back(JsonOf(log));
-  arguments.output.Write(json.dump(2) + '\n', [&] {
+  arguments.output.Write(PrintCheckJson(checked), [&] {
     std::string text;
     for (const CheckedLog& log : checked) text += (text.empty() ? "" : "\n") + TableOf(log);
     return text;

@@ -32,6 +32,7 @@ void AddNotes(const PosteriorDraws& draws, proto::Draws& message) {
 }  // namespace
 
 std::string ColumnName(const Coefficient& coefficient) {
+  if (coefficient.equation == Equation::kUnknown) return coefficient.symbol;
   return std::string(Name(coefficient.equation)) + ' ' + coefficient.regressor;
 }
 

@@ -8,8 +8,9 @@ namespace telltale::python {
 void AddErrors(pybind11::module_& module);
 void AddVehicle(pybind11::module_& module);
 void AddRecording(pybind11::module_& module);
-void AddCheck(pybind11::module_& module);
+void AddFinding(pybind11::module_& module);
 void AddModel(pybind11::module_& module);
+void AddCheck(pybind11::module_& module);
 void AddIdentify(pybind11::module_& module);
 void AddValidate(pybind11::module_& module);
 void AddDiagnose(pybind11::module_& module);

@@ -75,10 +75,15 @@ std::string ModelText(const Bounded& bounded) {
 void AddCoefficient(py::module_& module) {
   py::class_<Coefficient>(module, "Coefficient",
                           "One coefficient with its bounds, continuous-time, SI.")
-      .def_property_readonly("name", &ColumnName, "Equation and regressor, 'SURGE u|u|'.")
+      .def_property_readonly("name", &ColumnName,
+                             "Equation and regressor, 'SURGE u|u|'; the symbol of a parameter that "
+                             "belongs to no equation.")
       .def_property_readonly(
-          "equation", [](const Coefficient& c) { return std::string(Name(c.equation)); },
-          "'SURGE', 'SWAY' or 'YAW'.")
+          "equation",
+          [](const Coefficient& c) {
+            return c.equation == Equation::kUnknown ? "" : std::string(Name(c.equation));
+          },
+          "'SURGE', 'SWAY' or 'YAW'; empty of a parameter that belongs to no equation.")
       .def_readonly("regressor", &Coefficient::regressor, "As in the notation: 'u|u|', 'f:d'.")
       .def_readonly("symbol", &Coefficient::symbol, "As in the notation: 'Pu11'.")
       .def_readonly("estimate", &Coefficient::estimate, "0 where NOT_EXCITED.")

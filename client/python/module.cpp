@@ -10,8 +10,9 @@ PYBIND11_MODULE(_telltale, module) {
   telltale::python::AddErrors(module);
   telltale::python::AddVehicle(module);
   telltale::python::AddRecording(module);
-  telltale::python::AddCheck(module);
+  telltale::python::AddFinding(module);
   telltale::python::AddModel(module);
+  telltale::python::AddCheck(module);
   telltale::python::AddValidate(module);
   telltale::python::AddIdentify(module);
   telltale::python::AddDiagnose(module);

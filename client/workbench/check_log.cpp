@@ -56,12 +56,8 @@ std::optional<Refusal> CheckedLog::FirstProblem() const {
   return unusable;
 }
 
-CheckedLog CheckLog(const std::filesystem::path& path, RawLog log, const Vehicle& vehicle) {
-  return Check(path, std::move(log), vehicle).log;
-}
-
-CheckedLog CheckLogWithDelays(const std::filesystem::path& path, RawLog log, const Vehicle& vehicle,
-                              const Progress& progress) {
+CheckedLog CheckLog(const std::filesystem::path& path, RawLog log, const Vehicle& vehicle,
+                    const Progress& progress) {
   CheckedRecording checked = Check(path, std::move(log), vehicle);
   checked.log.delays = DelaysOf(checked, vehicle, progress);
   return std::move(checked.log);

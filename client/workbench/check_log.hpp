@@ -20,22 +20,19 @@ struct CheckedLog {
   std::filesystem::path path;
   std::string summary;  ///< what the file says of itself; empty for a folder
   InputCheck check;
-  std::optional<RejectCounts> rejected;         ///< unset: a channel is missing or rejected whole
-  std::vector<Refusal> lacks;                   ///< each channel that is missing
-  std::optional<Refusal> unusable;              ///< why nothing can be identified from it
-  std::optional<Result<ChannelDelays>> delays;  ///< unset: not asked for
+  std::optional<RejectCounts> rejected;  ///< unset: a channel is missing or rejected whole
+  std::vector<Refusal> lacks;            ///< each channel that is missing
+  std::optional<Refusal> unusable;       ///< why nothing can be identified from it
+  Result<ChannelDelays> delays;
 
   std::optional<Refusal> FirstProblem() const;
 };
 
-/// Seeks faults of input in the channels of a log (CheckInput) and whether it can be prepared
-/// (WhyNotPrepared).
-CheckedLog CheckLog(const std::filesystem::path& path, RawLog log, const Vehicle& vehicle);
-
-/// The same with the delays between the channels (EstimateChannelDelays). Those of a log with a
-/// fault of input are not estimated.
-CheckedLog CheckLogWithDelays(const std::filesystem::path& path, RawLog log, const Vehicle& vehicle,
-                              const Progress& progress);
+/// Seeks faults of input in the channels of a log (CheckInput), says whether it can be prepared
+/// (WhyNotPrepared), and estimates the delays between its channels (EstimateChannelDelays). Those
+/// of a log with a fault of input are not estimated.
+CheckedLog CheckLog(const std::filesystem::path& path, RawLog log, const Vehicle& vehicle,
+                    const Progress& progress);
 
 /// The vehicle that a log describes, else one whose thrusters take 1100, 1500 and 1900 us for full
 /// reverse, neutral and full forward.

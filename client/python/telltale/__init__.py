@@ -1,7 +1,7 @@
 """Identifies how autonomous surface vehicles respond to their thrusters, with bounds.
 
     recording = telltale.load("my-recording", vehicle="boat.textproto")
-    for finding in telltale.check(recording):
+    for finding in telltale.check(recording).findings:
         print(finding)
     model = telltale.identify(recording)
     model.save("model.json")
@@ -13,8 +13,10 @@ axes of the boat, commands in shares of full command, port first. All else says 
 from telltale._telltale import (
     Cause,
     Change,
+    Check,
     Coefficient,
     CoefficientChange,
+    Delays,
     Diagnosis,
     Draws,
     Finding,
@@ -46,9 +48,11 @@ from telltale.errors import DataCannotTell, InputError
 __all__ = [
     "Cause",
     "Change",
+    "Check",
     "Coefficient",
     "CoefficientChange",
     "DataCannotTell",
+    "Delays",
     "Diagnosis",
     "Draws",
     "Finding",

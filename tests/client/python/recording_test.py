@@ -1,5 +1,6 @@
 """Recordings go in and out as arrays, and what cannot be trusted is said."""
 
+import json
 import pathlib
 import tempfile
 import unittest
@@ -134,14 +135,53 @@ class CheckTest(unittest.TestCase):
         cls.sample = telltale.load(twin.SAMPLE, vehicle=twin.BOAT)
 
     def test_the_sample_shows_no_fault(self):
-        self.assertEqual(telltale.check(self.sample), [])
+        checked = telltale.check(self.sample)
+        self.assertEqual(checked.findings, [])
+        self.assertIsNone(checked.delays_unknown)
+
+    def test_a_check_is_the_one_of_the_command(self):
+        checked = telltale.check(self.sample)
+        said = twin.answer("check", "--log", twin.SAMPLE, "--vehicle", twin.BOAT)
+        self.assertEqual(json.loads(checked.to_json()), said)
+        self.assertEqual(checked.to_dict(), said["logs"][0])
+        delays = checked.to_dict()["delays"]
+        self.assertEqual((checked.delays.start_s, checked.delays.end_s), (delays["startS"], delays["endS"]))
+        for name in ("commands", "fixes"):
+            delay = getattr(checked.delays, name)
+            with self.subTest(name):
+                self.assertEqual((delay.name, delay.equation), (f"delay_{name}", ""))
+                self.assertEqual(delay.estimate, delays[name]["estimate"])
+                self.assertEqual((delay.lower, delay.upper), (delays[name]["interval"]["lower"], delays[name]["interval"]["upper"]))
+
+    def test_late_fixes_are_within_the_bounds_of_their_delay(self):
+        arrays = arrays_of(self.sample)
+        arrays["fix_time_s"] += 0.4
+        late = telltale.check(telltale.Recording.from_arrays(vehicle=twin.BOAT, **arrays)).delays.fixes
+        as_recorded = telltale.check(self.sample).delays.fixes
+        self.assertLess(as_recorded.upper, 0.4)
+        self.assertTrue(late.lower < 0.4 < late.upper, late)
+
+    def test_a_check_without_a_vehicle_says_why_delays_are_unknown(self):
+        checked = telltale.check(telltale.load(twin.SAMPLE))
+        self.assertIsNone(checked.delays)
+        self.assertIn("vehicle", checked.delays_unknown.advice)
+        self.assertEqual(checked.to_dict()["delays"]["unknown"]["reason"], checked.delays_unknown.reason)
+
+    def test_what_progress_raises_ends_a_check(self):
+        def stop(stage, done):
+            raise StopIteration(stage)
+
+        with self.assertRaises(StopIteration):
+            telltale.check(self.sample, progress=stop)
 
     def test_swapped_thrusters_are_found_in_the_words_of_the_command(self):
         arrays = arrays_of(self.sample)
         arrays["port_us"], arrays["starboard_us"] = arrays["starboard_us"], arrays["port_us"]
         swapped = telltale.Recording.from_arrays(vehicle=twin.BOAT, name="swapped", **arrays)
-        findings = telltale.check(swapped)
+        checked = telltale.check(swapped)
+        findings = checked.findings
         self.assertTrue(findings)
+        self.assertIn("fault of input", checked.delays_unknown.reason)
         with tempfile.TemporaryDirectory() as folder:
             swapped.save(folder)
             said = twin.telltale("check", "--log", folder, "--vehicle", twin.BOAT)
