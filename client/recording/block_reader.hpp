@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <span>
 #include <string_view>
 
@@ -12,12 +13,39 @@
 
 namespace telltale {
 
+/// With what is made of it a block stays in the second cache of a processor.
+inline constexpr std::size_t kBlockBytes = std::size_t{256} << 10;
+
 /// Takes bytes and returns how many it is done with; the rest comes again in front of what follows.
 /// `at_end`: nothing follows.
 using BlockConsumer = std::function<std::size_t(std::span<const std::uint8_t> bytes, bool at_end)>;
 
 /// Told how much of a file has been read, as a share of it.
 using ReadProgress = std::function<void(double share)>;
+
+/// Bytes on their way to a consumer. What it is not done with stays in front of what comes.
+class BlockBuffer {
+ public:
+  /// Where more bytes may be put.
+  std::span<std::uint8_t> Room() { return {bytes_.get() + filled_, size_ - filled_}; }
+  bool IsFull() const { return filled_ == size_; }
+
+  /// Makes room for an item that is longer than the block. False: it is longer than any is.
+  bool Grow();
+
+  /// Hands over what is there with `more` bytes that have been put in Room().
+  void HandOver(std::size_t more, const BlockConsumer& consume, bool at_end);
+
+ private:
+  static constexpr std::size_t kLongestItem = std::size_t{256} << 20;
+
+  std::size_t size_ = kBlockBytes;
+  std::unique_ptr<std::uint8_t[]> bytes_ = std::make_unique_for_overwrite<std::uint8_t[]>(size_);
+  std::size_t filled_ = 0;
+};
+
+/// Why a file is not read whose item a BlockBuffer has no room for.
+Refusal TooLongItem(const std::filesystem::path& file);
 
 /// Hands a file over in blocks, so that memory does not grow with it; a consumer that needs more
 /// bytes than a block gets a longer one. Returns the file's length in bytes. `progress` may be

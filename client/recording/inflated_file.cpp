@@ -18,7 +18,15 @@ std::string Gigabytes(std::uint64_t bytes) {
   return FormatSignificant(static_cast<double>(bytes) * 1e-9, 3) + " GB";
 }
 
+std::string MoreThan(std::uint64_t bytes) {
+  return "inflates to more than " + Gigabytes(bytes);
+}
+
 }  // namespace
+
+Refusal TooMuchInflated(const std::filesystem::path& compressed, std::uint64_t most_bytes) {
+  return {compressed.string(), MoreThan(most_bytes), "check what it is, or decompress it"};
+}
 
 InflatedFile::InflatedFile(const std::filesystem::path& compressed,
                            const std::filesystem::path& into, std::uint64_t most_bytes)
@@ -38,11 +46,11 @@ bool InflatedFile::Write(const void* bytes, std::size_t count) {
 std::optional<Refusal> InflatedFile::Close() {
   out_.close();
   if (written_ > most_bytes_) {
-    const std::string most = "inflates to more than " + Gigabytes(most_bytes_);
-    if (!is_bound_by_disk_) return Refusal{compressed_, most, "check what it is, or decompress it"};
-    return Refusal{compressed_,
-                   most + ", nine tenths of what is free in " + path_.parent_path().string(),
-                   "make room there, or name another folder by TMPDIR"};
+    if (!is_bound_by_disk_) return TooMuchInflated(compressed_, most_bytes_);
+    return Refusal{
+        compressed_,
+        MoreThan(most_bytes_) + ", nine tenths of what is free in " + path_.parent_path().string(),
+        "make room there, or name another folder by TMPDIR"};
   }
   if (out_) return std::nullopt;
   return Refusal{path_.string(), "cannot be written while " + compressed_ + " is decompressed",

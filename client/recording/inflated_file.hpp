@@ -14,6 +14,9 @@ namespace telltale {
 /// How large a compressed recording may become: more is a mistake or malice.
 inline constexpr std::uint64_t kMostInflatedBytes = 64'000'000'000;
 
+/// Why a compressed recording is not read that becomes larger.
+Refusal TooMuchInflated(const std::filesystem::path& compressed, std::uint64_t most_bytes);
+
 /// The file that a compressed one is inflated into. It never takes the last tenth of the free space
 /// of its disk, which others need.
 class InflatedFile {

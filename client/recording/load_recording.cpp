@@ -12,8 +12,8 @@
 #include "telltale/client/recording/dataflash/dataflash_log.hpp"
 #include "telltale/client/recording/gzip_file.hpp"
 #include "telltale/client/recording/mavlink/mavlink_recording.hpp"
+#include "telltale/client/recording/mcap/mcap_file.hpp"
 #include "telltale/client/recording/mcap/mcap_recording.hpp"
-#include "telltale/client/recording/mcap/mcap_records.hpp"
 #include "telltale/client/recording/rosbag1/rosbag1.hpp"
 #include "telltale/client/recording/rosbag2/rosbag2.hpp"
 #include "telltale/client/recording/telemetry_log/telemetry_log.hpp"
@@ -229,7 +229,7 @@ LogFormat FormatOf(const std::filesystem::path& path) {
   const std::string begin = FirstBytes(path);
   const std::span<const std::uint8_t> bytes(reinterpret_cast<const std::uint8_t*>(begin.data()),
                                             begin.size());
-  if (BeginsLikeMcap(bytes)) return LogFormat::kMcap;
+  if (HoldsMcap(bytes)) return LogFormat::kMcap;
   if (begin.starts_with("SQLite format 3")) return LogFormat::kRosbag2;
   if (BeginsLikeZstdFrame(bytes) || BeginsLikeGzipFile(bytes)) return LogFormat::kCompressed;
   if (BeginsLikeRosbag1(bytes)) return LogFormat::kRosbag1;

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cstring>
+#include <functional>
 #include <memory>
 
 #include <zstd.h>
@@ -27,10 +29,48 @@ std::size_t MostInflated(std::size_t compressed) {
   return (compressed / kLeastBlock) * kMostOfBlock;
 }
 
+/// Where the next piece of what a file holds is to be put.
+using RoomForPiece = std::function<std::span<std::uint8_t>()>;
+
+/// Told how long the piece is; false: no more is wanted.
+using PieceTaker = std::function<bool(std::size_t inflated)>;
+
+/// Whether the frames of the file are whole.
+Result<bool> InflateFrames(const std::filesystem::path& file, const RoomForPiece& room,
+                           const PieceTaker& take, const ReadProgress& progress) {
+  const ZstdContext inflater = MakeContext();
+  std::size_t wanted = 1;  // more of the frame
+  bool is_zstd = true;
+  bool is_taken = true;
+  const auto read = ReadInBlocks(
+      file,
+      [&](std::span<const std::uint8_t> bytes, bool) {
+        ZSTD_inBuffer from{bytes.data(), bytes.size(), 0};
+        bool holds_back = false;  // what the room is too small for
+        while (is_zstd && is_taken && (from.pos < from.size || holds_back)) {
+          const std::span<std::uint8_t> out = room();
+          ZSTD_outBuffer to{out.data(), out.size(), 0};
+          wanted = ZSTD_decompressStream(inflater.get(), &to, &from);
+          is_zstd = ZSTD_isError(wanted) == 0;
+          holds_back = wanted != 0 && to.pos == to.size;
+          is_taken = take(to.pos);
+        }
+        return bytes.size();
+      },
+      progress);
+  if (!read) return tl::unexpected(read.error());
+  if (!is_zstd) {
+    return Refuse(file.string(), "cannot be decompressed as zstd", "copy the file again");
+  }
+  return wanted == 0;
+}
+
 }  // namespace
 
 bool BeginsLikeZstdFrame(std::span<const std::uint8_t> bytes) {
-  return bytes.size() >= kMagic.size() && std::equal(kMagic.begin(), kMagic.end(), bytes.begin());
+  // Asked of every message: of a length that is known here, memcmp is one comparison.
+  return bytes.size() >= kMagic.size() &&
+         std::memcmp(bytes.data(), kMagic.data(), kMagic.size()) == 0;
 }
 
 struct ZstdInflater::Context {
@@ -72,29 +112,38 @@ bool ZstdInflater::InflateOfItsLength(std::span<const std::uint8_t> compressed, 
 Result<bool> InflateZstdFile(const std::filesystem::path& file, const std::filesystem::path& into,
                              std::uint64_t most_bytes) {
   InflatedFile out(file, into, most_bytes);
-  const ZstdContext inflater = MakeContext();
-  std::vector<std::uint8_t> inflated(ZSTD_DStreamOutSize());
-  std::size_t wanted = 1;  // more of the frame
-  bool is_zstd = true;
-  bool is_written = true;
-  const auto read = ReadInBlocks(file, [&](std::span<const std::uint8_t> bytes, bool) {
-    ZSTD_inBuffer from{bytes.data(), bytes.size(), 0};
-    bool holds_back = false;  // what the buffer has no room for
-    while (is_zstd && is_written && (from.pos < from.size || holds_back)) {
-      ZSTD_outBuffer to{inflated.data(), inflated.size(), 0};
-      wanted = ZSTD_decompressStream(inflater.get(), &to, &from);
-      is_zstd = ZSTD_isError(wanted) == 0;
-      holds_back = wanted != 0 && to.pos == to.size;
-      is_written = out.Write(to.dst, to.pos);
-    }
-    return bytes.size();
-  });
-  if (!read) return tl::unexpected(read.error());
-  if (!is_zstd) {
-    return Refuse(file.string(), "cannot be decompressed as zstd", "copy the file again");
-  }
+  std::vector<std::uint8_t> piece(ZSTD_DStreamOutSize());
+  const auto is_whole = InflateFrames(
+      file, [&] { return std::span(piece); },
+      [&](std::size_t inflated) { return out.Write(piece.data(), inflated); }, nullptr);
+  if (!is_whole) return is_whole;
   if (auto refusal = out.Close()) return tl::unexpected(*std::move(refusal));
-  return wanted == 0;
+  return is_whole;
+}
+
+Result<bool> ReadZstdInBlocks(const std::filesystem::path& file, const BlockConsumer& consume,
+                              const ReadProgress& progress, std::uint64_t most_bytes) {
+  BlockBuffer block;
+  std::uint64_t total = 0;
+  bool has_room = true;
+  const auto is_whole = InflateFrames(
+      file,
+      [&] {
+        has_room = !block.IsFull() || block.Grow();
+        return has_room ? block.Room() : std::span<std::uint8_t>();
+      },
+      [&](std::size_t inflated) {
+        total += inflated;
+        if (!has_room || total > most_bytes) return false;
+        block.HandOver(inflated, consume, false);
+        return true;
+      },
+      progress);
+  if (!is_whole) return is_whole;
+  if (!has_room) return tl::unexpected(TooLongItem(file));
+  if (total > most_bytes) return tl::unexpected(TooMuchInflated(file, most_bytes));
+  block.HandOver(0, consume, true);
+  return is_whole;
 }
 
 }  // namespace telltale

@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "telltale/client/recording/block_reader.hpp"
 #include "telltale/client/recording/inflated_file.hpp"
 #include "telltale/core/base/result.hpp"
 
@@ -36,6 +37,15 @@ class ZstdInflater {
   struct Context;
   std::unique_ptr<Context> context_;
 };
+
+/// Hands over in blocks what a file of zstd frames holds, as ReadInBlocks does of a file. Returns
+/// whether the frames are whole: of a file that is cut off there is what comes before. Memory: the
+/// window of a frame, at most 128 MB, and a block. Refuses when: the file cannot be read, what it
+/// holds is no zstd, inflates to more than `most_bytes`, or has an item longer than 256 MB; a part
+/// of it may have been handed over then.
+Result<bool> ReadZstdInBlocks(const std::filesystem::path& file, const BlockConsumer& consume,
+                              const ReadProgress& progress = nullptr,
+                              std::uint64_t most_bytes = kMostInflatedBytes);
 
 /// Inflates a file of zstd frames into another. Returns whether the frames are whole: of a file
 /// that is cut off, `into` holds what there is. Memory: the window of a frame, at most 128 MB.

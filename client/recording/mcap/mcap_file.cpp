@@ -1,6 +1,8 @@
 #include "telltale/client/recording/mcap/mcap_file.hpp"
 
 #include <algorithm>
+#include <array>
+#include <fstream>
 #include <map>
 #include <memory>
 #include <optional>
@@ -299,7 +301,29 @@ Bytes SummaryIn(Bytes file) {
   return start ? file.subspan(static_cast<std::size_t>(*start)) : Bytes{};
 }
 
+bool IsZstdFile(const std::filesystem::path& file) {
+  std::array<std::uint8_t, 4> beginning{};
+  std::ifstream in(file, std::ios::binary);
+  in.read(reinterpret_cast<char*>(beginning.data()), beginning.size());
+  return in && BeginsLikeZstdFrame(beginning);
+}
+
+/// Whether the file is whole: one that zstd has compressed may be cut off.
+Result<bool> ReadThrough(const std::filesystem::path& file, McapFile& mcap,
+                         const ReadProgress& progress) {
+  const auto consume = [&](Bytes bytes, bool at_end) { return mcap.Consume(bytes, at_end); };
+  if (IsZstdFile(file)) return ReadZstdInBlocks(file, consume, progress);
+  mcap.TakeSummary(ReadMcapSummary(file));
+  return ReadInBlocks(file, consume, progress).map([](std::uint64_t) { return true; });
+}
+
 }  // namespace
+
+bool HoldsMcap(Bytes beginning) {
+  if (!BeginsLikeZstdFrame(beginning)) return BeginsLikeMcap(beginning);
+  std::array<std::uint8_t, kMcapMagic.size()> inside{};
+  return ZstdInflater().InflateStart(beginning, inside) && BeginsLikeMcap(inside);
+}
 
 std::string McapDamage::Summary() const {
   std::ostringstream out;
@@ -310,22 +334,22 @@ std::string McapDamage::Summary() const {
   add(overlong_records, "records of more than 128 MB");
   add(unknown_channels, "messages of undefined channels");
   add(truncated_bytes, "bytes of a record cut off at the end");
+  if (is_compressed_file_cut) out << "; the compressed file is cut off";
   return out.str();
 }
 
 Result<McapDamage> ForEachMcapMessage(const std::filesystem::path& file,
                                       const McapVisitor& visitor) {
   McapFile mcap(visitor);
-  mcap.TakeSummary(ReadMcapSummary(file));
-  const auto read = ReadInBlocks(
-      file, [&](Bytes bytes, bool at_end) { return mcap.Consume(bytes, at_end); },
-      visitor.progress);
-  if (!read) return tl::unexpected(read.error());
+  const auto is_whole = ReadThrough(file, mcap, visitor.progress);
+  if (!is_whole) return tl::unexpected(is_whole.error());
   if (mcap.IsForeign()) {
     return Refuse(file.string(), "is not an MCAP file",
                   "give a file that begins with MCAP's magic");
   }
-  return mcap.Damage();
+  McapDamage damage = mcap.Damage();
+  damage.is_compressed_file_cut = !*is_whole;
+  return damage;
 }
 
 McapDamage ForEachMcapMessage(std::span<const std::uint8_t> bytes, std::size_t block,

@@ -15,6 +15,10 @@
 
 namespace telltale {
 
+/// Whether a file that begins with these bytes is MCAP, or MCAP that zstd has compressed as a
+/// whole. A file of which zstd keeps the first block longer than the bytes seems to be none.
+bool HoldsMcap(std::span<const std::uint8_t> beginning);
+
 /// What a channel of an MCAP file says of its messages.
 struct McapChannel {
   std::string_view topic;
@@ -37,6 +41,7 @@ struct McapDamage {
   std::uint64_t overlong_records = 0;   ///< too long to be held in memory
   std::uint64_t unknown_channels = 0;   ///< messages of a channel that is nowhere defined
   std::uint64_t truncated_bytes = 0;    ///< of a record that the end cuts off
+  bool is_compressed_file_cut = false;  ///< what follows was not compressed whole
 
   /// "; 1 unreadable chunk" and so on; empty where nothing is wrong.
   std::string Summary() const;
@@ -49,6 +54,7 @@ struct McapDamage {
 /// is of use, else up to the last one that is. This needs the summary at the end of the file,
 /// because a chunk that is passed over may define channels; without one all chunks are inflated.
 /// Checksums of chunks that are inflated whole are compared.
+/// A file that zstd has compressed as a whole is inflated while it is read, all of it.
 /// Memory: one chunk, compressed and not. Records longer than 128 MB and chunks that inflate to
 /// more than 64 MB are passed over and counted. Refuses when: the file cannot be read or does not
 /// begin with MCAP's magic. Source: MCAP file format specification, version 0.

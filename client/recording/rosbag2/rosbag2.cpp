@@ -11,7 +11,6 @@
 #include <SQLiteCpp/SQLiteCpp.h>
 
 #include "telltale/client/recording/mcap/mcap_file.hpp"
-#include "telltale/client/recording/mcap/mcap_records.hpp"
 #include "telltale/client/recording/ros/idl_definition.hpp"
 #include "telltale/client/recording/ros_intake.hpp"
 #include "telltale/client/recording/temporary_file.hpp"
@@ -21,6 +20,8 @@ namespace telltale {
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr std::size_t kBytesToTellFormat = std::size_t{64} << 10;
 
 bool IsOfRosbag2(fs::path file) {
   if (file.extension() == ".zstd") file = file.stem();
@@ -115,17 +116,17 @@ std::optional<Refusal> TakeDatabase(const fs::path& file, RosIntake& recording,
 }
 
 std::vector<std::uint8_t> FirstBytes(const fs::path& file) {
-  std::vector<std::uint8_t> bytes(8);
+  std::vector<std::uint8_t> bytes(kBytesToTellFormat);
   std::ifstream in(file, std::ios::binary);
   in.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
   bytes.resize(static_cast<std::size_t>(in.gcount()));
   return bytes;
 }
 
-/// The messages of one file, which is not compressed as a whole; returns its damage.
+/// The messages of one file, which is no compressed database; returns its damage.
 Result<std::string> TakeFile(const fs::path& file, RosIntake& recording,
                              const ReadProgress& progress) {
-  if (!BeginsLikeMcap(FirstBytes(file))) {
+  if (!HoldsMcap(FirstBytes(file))) {
     if (auto refusal = TakeDatabase(file, recording, progress))
       return tl::unexpected(*std::move(refusal));
     return std::string();
@@ -146,7 +147,10 @@ Result<std::string> TakeFile(const fs::path& file, RosIntake& recording,
 /// The same of a file that may be compressed.
 Result<std::string> TakeAnyFile(const fs::path& file, RosIntake& recording,
                                 const ReadProgress& progress) {
-  if (!BeginsLikeZstdFrame(FirstBytes(file))) return TakeFile(file, recording, progress);
+  const std::vector<std::uint8_t> beginning = FirstBytes(file);
+  if (!BeginsLikeZstdFrame(beginning) || HoldsMcap(beginning)) {
+    return TakeFile(file, recording, progress);
+  }
   const TemporaryFile inflated;
   const auto is_whole = InflateZstdFile(file, inflated.Path());
   if (!is_whole) return tl::unexpected(is_whole.error());

@@ -163,6 +163,15 @@ TEST_F(Loading, InflatesNoMoreThanItMay) {
     EXPECT_EQ(inflated.error().reason, "inflates to more than 0.0005 GB");
     EXPECT_LE(std::filesystem::file_size(folder_ / "zeros"), kMost);
   }
+  std::uint64_t handed_over = 0;
+  const auto take = [&](std::span<const std::uint8_t> bytes, bool) {
+    handed_over += bytes.size();
+    return bytes.size();
+  };
+  const auto in_blocks = ReadZstdInBlocks(folder_ / "zeros.zst", take, nullptr, kMost);
+  ASSERT_FALSE(in_blocks);
+  EXPECT_EQ(in_blocks.error().reason, "inflates to more than 0.0005 GB");
+  EXPECT_LE(handed_over, kMost);
 }
 
 TEST_F(Loading, TakesTheOneRecordingOfAFolderAndNamesSeveral) {

@@ -2,6 +2,8 @@
 
 #include <cstdint>
 #include <fstream>
+#include <random>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -116,6 +118,42 @@ TEST_F(McapTest, ReadsMessagesWithoutChunks) {
   EXPECT_THAT(schemas_, testing::Each("std_msgs/msg/Float64"));
   EXPECT_THAT(times_ns_, testing::ElementsAre(7, 9));
   EXPECT_THAT(data_, testing::ElementsAre("abc", "de"));
+}
+
+TEST_F(McapTest, ReadsAFileThatZstdHasCompressed) {
+  Bytes file = kMagic + Schema() + Channel();
+  const Bytes message(100'000, 'm');  // of which several blocks do not hold a whole number
+  for (std::uint64_t i = 0; i < 30; ++i) file += Message(i, message);
+  const Bytes compressed = Zstd(file + Record(15, LittleEndian<std::uint32_t>(0)) + kMagic);
+  EXPECT_TRUE(HoldsMcap(
+      std::span(reinterpret_cast<const std::uint8_t*>(compressed.data()), compressed.size())));
+  const auto damage = Read(compressed);
+  ASSERT_TRUE(damage) << damage.error().reason;
+  EXPECT_EQ(damage->Summary(), "");
+  EXPECT_EQ(times_ns_.size(), 30u);
+  EXPECT_THAT(data_, testing::Each(message));
+}
+
+TEST_F(McapTest, SaysThatACompressedFileIsCutOff) {
+  Bytes file = kMagic + Schema() + Channel();
+  std::mt19937 random(1);  // what cannot be compressed, so that half of it is half of the messages
+  for (std::uint64_t i = 0; i < 30; ++i) {
+    Bytes message(100'000, '\0');
+    for (char& byte : message) byte = static_cast<char>(random());
+    file += Message(i, message);
+  }
+  const Bytes compressed = Zstd(file);
+  const auto damage = Read(compressed.substr(0, compressed.size() / 2));
+  ASSERT_TRUE(damage) << damage.error().reason;
+  EXPECT_THAT(damage->Summary(), testing::EndsWith("; the compressed file is cut off"));
+  EXPECT_GT(times_ns_.size(), 10u);
+  EXPECT_LT(times_ns_.size(), 16u);
+}
+
+TEST_F(McapTest, RefusesAFileThatOnlyBeginsCompressed) {
+  const auto damage = Read(Bytes("\x28\xB5\x2F\xFD") + " and no frame");
+  ASSERT_FALSE(damage);
+  EXPECT_THAT(damage.error().reason, testing::HasSubstr("cannot be decompressed as zstd"));
 }
 
 TEST_F(McapTest, ReadsChunksOfEachCompression) {
