@@ -55,7 +55,11 @@ void AddDelays(py::module_& module) {
       .def_readonly("start_s", &ChannelDelays::start_s, "Of the part that shows them.")
       .def_readonly("end_s", &ChannelDelays::end_s, "Of the part that shows them.")
       .def_readonly("warning", &ChannelDelays::warning,
-                    "Why the bounds may not hold, a Finding, or None.");
+                    "Why the bounds may not hold, a Finding, or None.")
+      .def("__repr__", [](const ChannelDelays& delays) {
+        return "<telltale.Delays: commands " + Fixed(delays.commands.estimate, 3) + " s, fixes " +
+               Fixed(delays.fixes.estimate, 3) + " s>";
+      });
 }
 
 void AddCheckResult(py::module_& module) {

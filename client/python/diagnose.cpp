@@ -47,6 +47,7 @@ SourcedDiagnosis Diagnosed(const ScoredIdentification& model, const OneOrMore& r
                            const std::vector<std::string>& without, std::uint64_t seed,
                            std::optional<std::size_t> threads, const py::object& progress) {
   RequireEffects(without);
+  RequireEach("references", references);
   const DiagnoseChoices choices{refit, without, seed, threads};
   const Recordings logs = ListOf(recordings);
   const RecordedVehicle recorded = Joined(logs, vehicle, InputFaults::kIgnored);

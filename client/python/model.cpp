@@ -6,6 +6,7 @@
 #include "telltale/client/python/arguments.hpp"
 #include "telltale/client/python/bindings.hpp"
 #include "telltale/client/recording/file_contents.hpp"
+#include "telltale/client/report/number_text.hpp"
 #include "telltale/client/workbench/errors.hpp"
 #include "telltale/client/workbench/files.hpp"
 #include "telltale/core/identification/posterior_draws.hpp"
@@ -123,7 +124,12 @@ void AddDraws(py::module_& module) {
           "Thruster time constants, of the dynamic structure alone; else None.")
       .def_property_readonly(
           "not_drawn", [](const NamedDraws& draws) { return draws.draws.not_drawn; },
-          "What is the same in every draw, since the data do not determine it.");
+          "What is the same in every draw, since the data do not determine it.")
+      .def("__repr__", [](const NamedDraws& draws) {
+        return "<telltale.Draws: " +
+               Counted(static_cast<std::size_t>(draws.draws.theta.cols()), "draw", "draws") +
+               " of " + Counted(draws.names.size(), "coefficient", "coefficients") + '>';
+      });
 }
 
 using ModelClass = py::class_<Bounded, std::shared_ptr<Bounded>>;

@@ -1,5 +1,6 @@
 #include "telltale/client/python/recording.hpp"
 
+#include <algorithm>
 #include <utility>
 
 #include "telltale/client/python/bindings.hpp"
@@ -228,7 +229,13 @@ Recordings ListOf(const OneOrMore& recordings) {
     list = {std::get<std::shared_ptr<StatedLog>>(recordings)};
   }
   if (list.empty()) throw UsageError("recordings: give one at least");
+  RequireEach("recordings", list);
   return list;
+}
+
+void RequireEach(const char* argument, const Recordings& recordings) {
+  if (std::ranges::count(recordings, nullptr) == 0) return;
+  throw UsageError(std::string(argument) + ": None is no recording; give what load returns");
 }
 
 RecordedVehicle Joined(const Recordings& recordings, const std::optional<VehicleOrFile>& vehicle,

@@ -31,6 +31,9 @@ using OneOrMore = std::variant<std::shared_ptr<StatedLog>, Recordings>;
 /// Throws: UsageError where there is none, or one is None.
 Recordings ListOf(const OneOrMore& recordings);
 
+/// Throws: UsageError naming the argument, where one is None.
+void RequireEach(const char* argument, const Recordings& recordings);
+
 /// The recordings joined (Join), with `vehicle`, or else what they state themselves. Throws:
 /// UsageError where they state different vehicles, and as Join.
 RecordedVehicle Joined(const Recordings& recordings, const std::optional<VehicleOrFile>& vehicle,

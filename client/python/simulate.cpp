@@ -6,7 +6,9 @@
 #include "telltale/client/python/arguments.hpp"
 #include "telltale/client/python/bindings.hpp"
 #include "telltale/client/python/model.hpp"
+#include "telltale/client/report/number_text.hpp"
 #include "telltale/client/workbench/errors.hpp"
+#include "telltale/core/base/format_number.hpp"
 
 namespace telltale::python {
 namespace {
@@ -15,6 +17,7 @@ namespace py = pybind11;
 
 constexpr double kShortestStepS = 0.001;
 constexpr double kLongestStepS = 1.0;
+constexpr double kLongestRunS = 86400.0;  // as of a recording
 
 std::vector<TimedCommand> TimedCommandsOf(const Numbers& time_s, const Numbers& commands) {
   const auto times = ColumnOf("time_s", time_s);
@@ -23,17 +26,22 @@ std::vector<TimedCommand> TimedCommandsOf(const Numbers& time_s, const Numbers& 
   std::vector<TimedCommand> timed;
   for (std::size_t i = 0; i < times.size(); ++i) {
     if (!std::isfinite(times[i]) || (i > 0 && times[i] <= times[i - 1])) {
-      throw UsageError("time_s: " + std::to_string(times[i]) + " of row " + std::to_string(i) +
-                       " does not come after the one before");
+      throw UsageError("time_s: " + FormatSignificant(times[i], 9) + " of row " +
+                       std::to_string(i) + " does not come after the one before");
     }
     timed.push_back({times[i], rows[i]});
+  }
+  if (const double run_s = times.back() - times.front(); run_s > kLongestRunS) {
+    throw UsageError("time_s: the commands last " + FormatSignificant(run_s, 9) +
+                     " s, more than the " + FormatSignificant(kLongestRunS, 9) +
+                     " s of the longest run");
   }
   return timed;
 }
 
 void RequireStep(const std::optional<double>& step_s) {
   if (!step_s || (*step_s >= kShortestStepS && *step_s <= kLongestStepS)) return;
-  throw UsageError("--step: " + std::to_string(*step_s) + " is outside [0.001, 1]");
+  throw UsageError("--step: " + FormatSignificant(*step_s, 9) + " is outside [0.001, 1]");
 }
 
 std::vector<TimedState> Simulated(const ScoredIdentification& model, const Numbers& time_s,
@@ -61,6 +69,11 @@ py::array_t<double> TrackCommands(const Track& track) {
   return CommandArrayOf(track.states, &TimedState::delta);
 }
 
+std::string TrackText(const Track& track) {
+  return "<telltale.Track of " + Counted(track.states.size(), "instant", "instants") + ", " +
+         Plain(track.states.front().time_s) + " s to " + Plain(track.states.back().time_s) + " s>";
+}
+
 }  // namespace
 
 void AddSimulate(py::module_& module) {
@@ -83,7 +96,8 @@ void AddSimulate(py::module_& module) {
       .def_property_readonly("yaw_rate", nu(&Nu::r), "To starboard, rad/s.")
       .def_property_readonly("commands", &TrackCommands,
                              "The commands that act, a row each, port first.")
-      .def("__len__", [](const Track& track) { return track.states.size(); });
+      .def("__len__", [](const Track& track) { return track.states.size(); })
+      .def("__repr__", &TrackText);
 
   module.def(
       "simulate",
@@ -96,7 +110,8 @@ void AddSimulate(py::module_& module) {
       "Drives a model open loop, from rest and heading north.\n\n"
       "Args:\n"
       "    model: a Model.\n"
-      "    time_s: when each command begins, ascending; the run ends with the last.\n"
+      "    time_s: when each command begins, ascending; the run ends with the last,\n"
+      "        a day after the first at most.\n"
       "    commands: shares of full command, [-1, 1], a row each, port first.\n"
       "    vehicle: a Vehicle or the path of a vehicle file, whose hull scales the effects that a\n"
       "        diagnosis added to a model.\n"

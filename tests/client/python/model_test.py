@@ -184,6 +184,21 @@ except KeyboardInterrupt:
         with self.assertRaisesRegex(telltale.InputError, "recordings: give one at least"):
             telltale.identify([])
 
+    def test_none_is_no_recording(self):
+        for recordings in (None, [None], [self.other, None]):
+            with self.subTest(recordings):
+                for call in (telltale.diagnose, telltale.validate):
+                    with self.assertRaisesRegex(telltale.InputError, "recordings: None is no recording"):
+                        call(self.model, recordings)
+                with self.assertRaisesRegex(telltale.InputError, "recordings: None is no recording"):
+                    telltale.identify(recordings, **FAST)
+        with self.assertRaisesRegex(telltale.InputError, "references: None is no recording"):
+            telltale.diagnose(self.model, self.other, [None])
+
+    def test_results_say_what_they_are(self):
+        self.assertEqual(repr(self.model.draws(3)), f"<telltale.Draws: 3 draws of {len(self.model.names)} coefficients>")
+        self.assertEqual(repr(telltale.simulate(self.model, [0, 1], np.zeros((2, 2)), step=0.5)), "<telltale.Track of 3 instants, 0 s to 1 s>")
+
     def test_what_the_data_cannot_tell_is_refused_in_the_words_of_the_command(self):
         short = twin.record(self.folder / "short", duration=10)
         with self.assertRaises(telltale.DataCannotTell) as raised:
@@ -263,15 +278,15 @@ except KeyboardInterrupt:
         for time_s, commands, says in (
             ([], np.zeros((0, 2)), "time_s: give one command at least"),
             ([0, 1], np.zeros((3, 2)), "commands: give an array of 2 rows"),
-            ([0, 0], np.zeros((2, 2)), "time_s: 0.0* of row 1 does not come after"),
+            ([0, 0], np.zeros((2, 2)), "time_s: 0 of row 1 does not come after"),
+            ([0, 1e9], np.zeros((2, 2)), r"time_s: the commands last 1e\+09 s, more than the 86400 s"),
             ([0, 1], [[0, 0], [0, 1.5]], r"commands: those of row 1 .*\[-1, 1\]"),
             ([0, 1], [[0, 0], [0, np.nan]], r"commands: those of row 1 .*\[-1, 1\]"),
         ):
             with self.subTest(says), self.assertRaisesRegex(telltale.InputError, says):
                 telltale.simulate(self.model, time_s, commands)
-        with self.assertRaisesRegex(telltale.InputError, r"step: 5.0* is outside \[0.001, 1\]"):
+        with self.assertRaisesRegex(telltale.InputError, r"step: 5 is outside \[0.001, 1\]"):
             telltale.simulate(self.model, [0, 1], np.zeros((2, 2)), step=5)
-
 
     # ---- gain, compare, export -------------------------------------------------------------------
 
