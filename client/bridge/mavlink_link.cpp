@@ -1,6 +1,7 @@
 #include "telltale/client/bridge/mavlink_link.hpp"
 
 #include <array>
+#include <cerrno>
 #include <chrono>
 #include <map>
 #include <stdexcept>
@@ -196,7 +197,7 @@ class MavlinkLink::SerialLine : public Transport {
   explicit SerialLine(const MavlinkAddress& address)
       : Transport(address), address_(address), port_(context()) {
     const Error error = Open();
-    if (error) throw std::runtime_error(name() + " cannot be opened: " + error.message());
+    if (error) throw std::runtime_error(name() + " cannot be opened: " + WhyNot(error));
   }
 
   void Send(const std::string&, std::span<const std::uint8_t> bytes) override {
@@ -235,6 +236,13 @@ class MavlinkLink::SerialLine : public Transport {
       port_.close(ignored);
     }
     return error;
+  }
+
+  std::string WhyNot(const Error& error) const {
+    if (error.value() == ENOTTY || error.value() == EISDIR) return "it is no serial device";
+    if (error.value() != EINVAL) return error.message();
+    return "it has no rate of " + std::to_string(address_.number) +
+           " baud; 57600 and 115200 are usual";
   }
 
   MavlinkAddress address_;

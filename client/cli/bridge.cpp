@@ -40,6 +40,11 @@ ChannelChoice ChannelsOf(const BridgeArguments& arguments) {
   return channels;
 }
 
+void RequireTwoOutputs(const SourceOptions& source) {
+  const auto fault = SameChannel(source.port_channel, source.starboard_channel);
+  if (fault) throw UsageError("--starboard-channel: " + fault->reason + "; " + fault->advice);
+}
+
 void FromMavlink(const BridgeArguments& arguments) {
   MavlinkBridgeOptions options = arguments.mavlink;
   if (!arguments.vehicle_id.empty()) options.vehicle_id = arguments.vehicle_id;
@@ -84,17 +89,19 @@ void AddMavlinkOptions(CLI::App& command, BridgeArguments& arguments, CLI::Optio
       ->type_name("N")
       ->check(CLI::Range(1, 255).description(""))
       ->needs(mavlink);
-  command
-      .add_option("--rate", options.rate_hz,
-                  "of MAVLink: how often to ask for each message, in Hz, [0.1, 100]")
-      ->type_name("HZ")
-      ->check(NumberWithin(0.1, 100.0))
-      ->capture_default_str()
-      ->needs(mavlink);
+  CLI::Option* const rate =
+      command
+          .add_option("--rate", options.rate_hz,
+                      "of MAVLink: how often to ask for each message, in Hz, [0.1, 100]")
+          ->type_name("HZ")
+          ->check(NumberWithin(0.1, 100.0))
+          ->capture_default_str()
+          ->needs(mavlink);
   command
       .add_flag("--listen-only", options.listen_only,
                 "of MAVLink: send nothing, no heartbeat and no requests")
-      ->needs(mavlink);
+      ->needs(mavlink)
+      ->excludes(rate);
 }
 
 void AddRos2Options(CLI::App& command, BridgeArguments& arguments, CLI::Option* ros2) {
@@ -180,8 +187,10 @@ void AddBridge(CLI::App& telltale) {
       "Models and quality of the boats go back to ROS 2: /telltale/NAME/model, /diagnostics.\n"
       "Examples: telltale bridge --mavlink udp:0.0.0.0:14550 --vehicle-id boat-{system}\n"
       "          telltale bridge --ros2 --namespace /fleet/{vehicle}");
-  command.callback(
-      [arguments] { arguments->from_ros2 ? FromRos2(*arguments) : FromMavlink(*arguments); });
+  command.callback([arguments] {
+    RequireTwoOutputs(arguments->source);
+    arguments->from_ros2 ? FromRos2(*arguments) : FromMavlink(*arguments);
+  });
 }
 
 }  // namespace telltale

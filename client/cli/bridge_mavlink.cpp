@@ -44,7 +44,7 @@ void PrintSummary(const MavlinkBridge& bridge) {
   notes += CountNote("", bridge.Damage().corrupt_frames, "messages with a wrong checksum");
   notes += CountNote("", bridge.Damage().skipped_bytes + bridge.Damage().truncated_bytes,
                      "bytes that are no MAVLink");
-  std::cout << table.Render() << notes;
+  std::cout << (bridge.Counts().empty() ? "No vehicle was heard.\n" : table.Render()) << notes;
 }
 
 }  // namespace

@@ -35,7 +35,7 @@ void PrintSummary(const Ros2Bridge& bridge) {
                          Name(reason));
     }
   }
-  std::cout << table.Render() << notes;
+  std::cout << (bridge.Counts().empty() ? "No vehicle was heard.\n" : table.Render()) << notes;
 }
 
 }  // namespace

@@ -75,8 +75,8 @@ void AddFormatOptions(CLI::App& command, ExportChoices& choices) {
       command
           .add_option(
               "--draws", choices.draws,
-              "also this many joint draws of the coefficients, [1, 100000], as draws.json and "
-              "draws.csv; --out is then a folder")
+              "of mss and vrx: also this many joint draws of the coefficients, [1, 100000], as "
+              "draws.json and draws.csv; --out is then a folder")
           ->type_name("N")
           ->check(CLI::Range(1, 100000).description(""));
   command.add_option("--seed", choices.seed, "of the draws; the same seed gives the same bits")

@@ -37,6 +37,13 @@ bool IsReversed(const AutopilotParameters& parameters, std::string_view prefix, 
 
 }  // namespace
 
+std::optional<Refusal> SameChannel(std::optional<int> port, std::optional<int> starboard) {
+  if (!port || port != starboard) return std::nullopt;
+  return Refusal{"starboard_channel",
+                 "output " + std::to_string(*port) + " is given for both thrusters",
+                 "give the output of each thruster"};
+}
+
 bool IsOutputParameter(std::string_view name) {
   std::size_t at = name.starts_with("SERVO") ? 5 : name.starts_with("RC") ? 2 : 0;
   const std::size_t digits = at;

@@ -5,6 +5,7 @@
 #include <string>
 #include <string_view>
 
+#include "telltale/core/base/result.hpp"
 #include "telltale/core/vessel/propellers.hpp"
 
 namespace telltale {
@@ -22,6 +23,9 @@ using AutopilotParameters = std::map<std::string, double, std::less<>>;
 
 inline constexpr int kThrottleLeft = 73;   ///< SERVOn_FUNCTION of the port thruster
 inline constexpr int kThrottleRight = 74;  ///< of the starboard thruster
+
+/// Why two channels that a user names cannot be those of two thrusters: they are one.
+std::optional<Refusal> SameChannel(std::optional<int> port, std::optional<int> starboard);
 
 /// Whether a parameter is about an output: "SERVO12_TRIM", or "RC1_REV" of older firmware.
 bool IsOutputParameter(std::string_view name);

@@ -17,7 +17,10 @@ std::optional<Refusal> SourceOptions::Validate() const {
   if (auto refusal = OptionOutOfRange("gps_instance", gps_instance, 0, 255)) return refusal;
   if (auto refusal = OptionOutOfRange("system_id", system_id, 1, 255)) return refusal;
   if (auto refusal = OptionOutOfRange("port_channel", port_channel, 1, 16)) return refusal;
-  return OptionOutOfRange("starboard_channel", starboard_channel, 1, 16);
+  if (auto refusal = OptionOutOfRange("starboard_channel", starboard_channel, 1, 16)) {
+    return refusal;
+  }
+  return SameChannel(port_channel, starboard_channel);
 }
 
 std::vector<Refusal> SourceLog::Lacks() const {

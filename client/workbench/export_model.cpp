@@ -32,7 +32,16 @@ class Written {
   std::vector<fs::path> files_;
 };
 
+void MakeFolder(const fs::path& folder) {
+  if (fs::exists(folder) && !fs::is_directory(folder)) {
+    throw UsageError("--out: " + folder.string() + " is a file; give a folder");
+  }
+  fs::create_directories(folder);
+}
+
+/// What ends in a slash is to be a folder, there or not.
 fs::path InFolder(const fs::path& out, const char* name) {
+  if (!out.has_filename()) MakeFolder(out);
   return fs::is_directory(out) ? out / name : out;
 }
 
@@ -62,7 +71,7 @@ std::vector<fs::path> ExportModel(const Identification& estimated, const Vehicle
   const std::string text = is_mss ? PrintMss(model, vehicle) : OrThrow(PrintVrx(model, vehicle));
   std::optional<PosteriorDraws> draws;
   if (choices.draws) draws = OrThrow(DrawFromPosterior(model, *choices.draws, choices.seed));
-  if (draws) fs::create_directories(choices.out);
+  if (draws) MakeFolder(choices.out);
   Written written;
   written.Write(InFolder(choices.out, is_mss ? "mss.json" : "vrx.sdf"), text);
   if (draws) {
@@ -96,7 +105,7 @@ std::vector<fs::path> ExportSeries(const Identification& model, const Recording&
   if (choices.format == "mcap") {
     written.Write(InFolder(choices.out, "model.mcap"), PrintSeriesMcap(series));
   } else {
-    fs::create_directories(choices.out);
+    MakeFolder(choices.out);
     written.Write(choices.out / "series.csv", PrintSeriesCsv(series));
     written.Write(choices.out / "coefficients.csv", PrintCoefficientsCsv(model));
   }

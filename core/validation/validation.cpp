@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "telltale/core/base/format_number.hpp"
 #include "telltale/core/effects/augmented_boat.hpp"
 #include "telltale/core/effects/sensor_chain.hpp"
 #include "telltale/core/simulation/free_run.hpp"
@@ -208,15 +209,15 @@ std::optional<Refusal> RefuseUnanswerable(const PreparedDataset& dataset, const 
   if (model.discretisation == Discretisation::kForwardEuler &&
       std::abs(model.sampling_period_s - h) > kSamePeriodS) {
     return Refusal{"sampling_period_s",
-                   "the model is discrete with " + std::to_string(model.sampling_period_s) +
-                       " s, the data are sampled every " + std::to_string(h) + " s",
+                   "the model is discrete with " + FormatSignificant(model.sampling_period_s, 6) +
+                       " s, the data are sampled every " + FormatSignificant(h, 6) + " s",
                    "prepare the data at the model's sampling period"};
   }
   for (const double horizon_s : options.horizons_s) {
     if (horizon_s >= 2.0 * h - kSamePeriodS && horizon_s <= kLongestHorizonS) continue;
-    return Refusal{"horizons_s", std::to_string(horizon_s) + " s is out of range",
-                   "choose horizons from two sampling periods (" + std::to_string(2.0 * h) +
-                       " s) to " + std::to_string(kLongestHorizonS) + " s"};
+    return Refusal{"horizons_s", FormatSignificant(horizon_s, 6) + " s is out of range",
+                   "choose horizons from two sampling periods (" + FormatSignificant(2.0 * h, 6) +
+                       " s) to " + FormatSignificant(kLongestHorizonS, 6) + " s"};
   }
   return std::nullopt;
 }

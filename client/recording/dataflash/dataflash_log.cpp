@@ -319,7 +319,10 @@ std::string_view Name(HeadingSource source) {
 std::optional<Refusal> DataFlashOptions::Validate() const {
   if (auto refusal = OutOfRange("gps_instance", gps_instance, 0, 255)) return refusal;
   if (auto refusal = OutOfRange("port_channel", port_channel, 1, kLoggedChannels)) return refusal;
-  return OutOfRange("starboard_channel", starboard_channel, 1, kLoggedChannels);
+  if (auto refusal = OutOfRange("starboard_channel", starboard_channel, 1, kLoggedChannels)) {
+    return refusal;
+  }
+  return SameChannel(port_channel, starboard_channel);
 }
 
 std::string DataFlashReport::Summary() const {

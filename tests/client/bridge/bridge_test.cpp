@@ -269,6 +269,10 @@ TEST_F(BridgeTest, RefusesAddressesAndIdsThatAreWrong) {
   run({"--ros2", "--namespace", "/{vehicle}", "--vehicle-id", "boat"}, 2, "or neither");
   run({"--ros2", "--rate", "5"}, 2, "--mavlink");
   run({"--mavlink", "serial:/dev/no-such-line:57600"}, 1, "cannot be opened");
+  run({"--mavlink", "serial:/dev/null:57600"}, 1, "it is no serial device");
+  run({"--mavlink", "udp:127.0.0.1:14550", "--listen-only", "--rate", "5"}, 2, "--rate");
+  run({"--ros2", "--port-channel", "1", "--starboard-channel", "1"}, 2,
+      "output 1 is given for both thrusters");
 }
 
 }  // namespace

@@ -555,6 +555,12 @@ TEST_F(ExportTest, WritesAFileOrIntoAFolder) {
   EXPECT_EQ(Export(boat, {"--format", "mss", "--out", folder.Path().string()}).exit_code,
             kExitSuccess);
   EXPECT_EQ(TextOfFile(Path("mss.json")), TextOfFile(Path("boat.json")));
+  EXPECT_EQ(Export(boat, {"--format", "mss", "--out", Path("new/")}).exit_code, kExitSuccess);
+  EXPECT_EQ(TextOfFile(Path("new/mss.json")), TextOfFile(Path("boat.json")));
+  const CommandOutcome outcome =
+      Export(boat, {"--format", "mss", "--draws", "5", "--out", Path("boat.json")});
+  EXPECT_EQ(outcome.exit_code, kExitUsage);
+  EXPECT_THAT(outcome.err, HasSubstr("boat.json is a file; give a folder"));
 }
 
 TEST_F(ExportTest, WritesTheSimulationParametersAndNotesIt) {
