@@ -32,10 +32,42 @@ const telltale::Mapping& ColumnsOfTheSeeds() {
   return mapping;
 }
 
+/// Metres of any origin, a quaternion and times in seconds and nanoseconds, over the same columns.
+const telltale::Mapping& OtherFormsOfTheSeeds() {
+  static const telltale::Mapping mapping = [] {
+    telltale::Mapping columns;
+    columns.name = "other forms";
+    columns.positions.latitude = "north";
+    columns.positions.longitude = "east";
+    columns.positions.is_metres = true;
+    columns.positions.held = true;
+    columns.positions.time = {"stamp", 1.0, true};
+    columns.headings.field = "q";
+    columns.headings.is_quaternion = true;
+    columns.headings.is_east_north_up = true;
+    columns.headings.held = true;
+    columns.headings.time = columns.positions.time;
+    columns.port = {"", columns.positions.time, "left", false, 250.0, -180.0};
+    columns.starboard = {"", columns.positions.time, "right", false, 250.0, -180.0};
+    return columns;
+  }();
+  return mapping;
+}
+
 std::size_t LinesIn(const std::uint8_t* data, std::size_t size) {
   std::size_t lines = 1;
   for (std::size_t i = 0; i < size; ++i) lines += data[i] == '\n' ? 1 : 0;
   return lines;
+}
+
+void InsistOnMapped(const MemoryFile& file, const telltale::Mapping& mapping, std::size_t lines) {
+  const auto log = telltale::ReadMappedCsv(file.Path(), mapping);
+  if (!log) {
+    Insist(!log.error().reason.empty());
+    return;
+  }
+  Insist(!log->summary.empty());
+  Insist(log->gnss.size() + log->heading.size() + log->thrusters.size() <= 4 * lines);
 }
 
 }  // namespace
@@ -52,11 +84,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   });
   Insist(read ? rows + read->count <= lines : !read.error().reason.empty());
 
-  const auto log = telltale::ReadMappedCsv(file.Path(), ColumnsOfTheSeeds());
-  if (!log) {
-    Insist(!log.error().reason.empty());
-  } else {
-    Insist(log->gnss.size() + log->heading.size() + log->thrusters.size() <= 4 * lines);
-  }
+  InsistOnMapped(file, ColumnsOfTheSeeds(), lines);
+  InsistOnMapped(file, OtherFormsOfTheSeeds(), lines);
   return 0;
 }

@@ -24,12 +24,6 @@ class MemoryFile {
 
   std::string Path() const { return "/proc/self/fd/" + std::to_string(file_); }
 
-  std::size_t Size() const {
-    const off_t end = lseek(file_, 0, SEEK_END);
-    Insist(end >= 0);
-    return static_cast<std::size_t>(end);
-  }
-
  private:
   int file_;
 };

@@ -1,8 +1,11 @@
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
+#include <iomanip>
 #include <iostream>
+#include <sstream>
 #include <string>
 #include <utility>
 #include <vector>
@@ -162,7 +165,7 @@ Bytes Bag(const Bytes& compression) {
                    Compressed(records, compression));
 }
 
-// ---- ROS 2 --------------------------------------------------------------------------------------
+// ---- CSV ----------------------------------------------------------------------------------------
 
 /// As csv_fuzz names columns.
 Bytes Csv(char separator) {
@@ -176,6 +179,36 @@ Bytes IsoCsv() {
   return "t,lat,lon,yaw,left,right\n2023-11-14 22:13:20.5,63.4,10.4,12.5,1500,1600\n"
          "2023-11-14T22:13:21Z,63.4,10.4,13,1510,1600\n2023-11-14T23:13:22+01:00,,,14,1510,\n";
 }
+
+/// As csv_fuzz names columns of the other forms: stamps, metres, a quaternion and newtons.
+Bytes OtherFormsCsv() {
+  return "stamp.sec,stamp.nanosec,north,east,q.x,q.y,q.z,q.w,left,right\n"
+         "1700000000,500000000,0,0,0,0,0,1,0,0\n1700000000,600000000,0,0,0,0,0.1,0.99,120,-90\n"
+         "1700000001,0,0.5,0.25,0,0,0.1,0.99,250,-180\n";
+}
+
+/// As telemetry_fuzz takes a folder: twenty seconds on a circle, a file after the other.
+Bytes TelemetryFolder(const Bytes& end_of_line) {
+  constexpr double kRadiusDeg = 1e-4;  // of latitude
+  constexpr double kStepRad = 0.05;
+  std::ostringstream gnss;
+  std::ostringstream heading;
+  std::ostringstream thrusters;
+  gnss << std::setprecision(11) << "time_s,latitude_deg,longitude_deg" << end_of_line;
+  heading << "time_s,heading_deg" << end_of_line;
+  thrusters << "time_s,left_us,right_us" << end_of_line;
+  for (int i = 0; i < 40; ++i) {
+    const double turned = i * kStepRad;
+    const double time_s = 0.5 * i;
+    gnss << time_s << ',' << 63.4 + kRadiusDeg * std::sin(turned) << ','
+         << 10.4 - 2.0 * kRadiusDeg * std::cos(turned) << end_of_line;
+    heading << time_s << ',' << turned * 57.3 << end_of_line;
+    thrusters << time_s << ',' << 1600 + i % 5 * 20 << ',' << 1550 << end_of_line;
+  }
+  return gnss.str() + '\f' + heading.str() + '\f' + thrusters.str();
+}
+
+// ---- ROS 2 --------------------------------------------------------------------------------------
 
 /// Storage of rosbag2 in pages so small that a mutation meets every part of it.
 void SaveStorage(const std::filesystem::path& file, const std::vector<Bytes>& messages) {
@@ -232,6 +265,7 @@ int main(int argc, char** argv) {
   Save(folder / "csv/comma", Csv(','));
   Save(folder / "csv/semicolon", Csv(';'));
   Save(folder / "csv/iso", IsoCsv());
+  Save(folder / "csv/other-forms", OtherFormsCsv());
   const Bytes gzip = Gzip(Csv(','));
   Save(folder / "gzip/whole.gz", gzip);
   Save(folder / "gzip/two.gz", gzip + Gzip(IsoCsv()));
@@ -248,6 +282,8 @@ int main(int argc, char** argv) {
   Save(folder / "mcap/indexed.mcap",
        IndexedMcap(unwanted, Chunk(Message(9, "picture"), "") + MessageIndex(9, 0), 1));
   Save(folder / "mcap/blueos.mcap", Mcap(BlueOsRecords()));
+  Save(folder / "telemetry/log", TelemetryFolder("\n"));
+  Save(folder / "telemetry/of-windows", TelemetryFolder("\r\n"));
   Save(folder / "zstd/whole.zst", Zstd(Csv(',')));
   Save(folder / "zstd/two.zst", Zstd(Csv(',')) + Zstd(IsoCsv()));
   Save(folder / "zstd/cut.zst", Zstd(IsoCsv()).substr(0, 40));
@@ -257,6 +293,7 @@ int main(int argc, char** argv) {
   for (Bytes& message : messages) message = Zstd(message);
   SaveStorage(folder / "rosbag2/by-message.db3", messages);
   Save(folder / "rosbag2/chunk.mcap", Mcap(Chunk(RosRecords(), "zstd")));
+  Save(folder / "rosbag2/whole.mcap.zst", Zstd(Mcap(RosRecords())));
   Save(folder / "ros/messages", RosMessages());
   for (const char* compression : {"none", "bz2", "lz4"}) {
     Save(folder / "rosbag1" / compression, Bag(compression));
