@@ -113,7 +113,7 @@ Result<bool> InflateZstdFile(const std::filesystem::path& file, const std::files
                              std::uint64_t most_bytes) {
   InflatedFile out(file, into, most_bytes);
   std::vector<std::uint8_t> piece(ZSTD_DStreamOutSize());
-  const auto is_whole = InflateFrames(
+  auto is_whole = InflateFrames(
       file, [&] { return std::span(piece); },
       [&](std::size_t inflated) { return out.Write(piece.data(), inflated); }, nullptr);
   if (!is_whole) return is_whole;
@@ -126,7 +126,7 @@ Result<bool> ReadZstdInBlocks(const std::filesystem::path& file, const BlockCons
   BlockBuffer block;
   std::uint64_t total = 0;
   bool has_room = true;
-  const auto is_whole = InflateFrames(
+  auto is_whole = InflateFrames(
       file,
       [&] {
         has_room = !block.IsFull() || block.Grow();
