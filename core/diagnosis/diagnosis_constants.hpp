@@ -119,6 +119,7 @@ struct SearchConstants {
   std::size_t seed_hypotheses = 2;          ///< single effects to which a second one is added
   std::size_t candidates_per_seed = 5;      ///< second and third effects fitted for each
   double score_to_add_effect = 12.0;        ///< -2 ln evidence, decrease that one more effect needs
+  double score_to_add_weather = 6.0;        ///< the same of weather, which is there on most days
   double separable_nats = 3.0;       ///< nats, below which two hypotheses are indistinguishable
   double nominal_gain_factor = 1.5;  ///< 1, times the evidence that an effect has on references
   std::size_t most_effects = 3;      ///< that may act together, limit of the option
@@ -147,7 +148,7 @@ struct RankingConstants {
   double equivalence_factor = 2.0;        ///< 1, upper bound of G^2 over the floor's limit
   double doubt_slope = 2.8;               ///< log odds per unit of doubt
   double doubt_midpoint = -0.2;           ///< doubt at even odds
-  double doubt_per_extra_effect = 0.7;    ///< doubt per effect beyond the first
+  double doubt_per_extra_effect = 0.7;    ///< doubt per effect beyond the first, weather apart
   double doubt_per_predictable = 4.0;     ///< doubt per unit of LackOfFit::predictable
   double explained_share = 0.7;           ///< 1, of the excess, from which on a gap is explained
   double naming_probability = 0.9;        ///< of a named cause at least, development sets 2 and 3

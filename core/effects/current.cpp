@@ -5,6 +5,14 @@
 
 namespace telltale {
 
+namespace {
+
+// Tide and eddies change a current over minutes: it stays as it is throughout a free run, and
+// differs by a fifth from one to the next (one sigma).
+constexpr double kVariation = 0.2;
+
+}  // namespace
+
 class CurrentEffect final : public Effect {
  public:
   CurrentEffect()
@@ -18,7 +26,9 @@ class CurrentEffect final : public Effect {
              .parameters = {{"current_north", "m/s", 0.2, -2.0, 2.0},
                             {"current_east", "m/s", 0.2, -2.0, 2.0}},
              .settled_by = "a current meter or a log of speed through the water",
-             .nominal_variation = NominalVariation::kRecordingEffect}) {}
+             .nominal_variation = NominalVariation::kRecordingEffect,
+             .turbulence_intensity = kVariation,
+             .is_weather = true}) {}
 
   std::string Describe(EffectValues values) const override {
     return FormatNumber(std::hypot(values[0], values[1]), 2) + " m/s of current " +

@@ -91,6 +91,8 @@ struct EffectFacts {
   double turbulence_time_s = 0.0;
   /// Whether that scatter is the effect: without it, it is another one.
   bool is_intermittent = false;
+  /// Whether it is there on most days, beside whatever else acts.
+  bool is_weather = false;
 };
 
 /// Something that moves a boat, or what its sensors say, and that the model leaves out. An effect

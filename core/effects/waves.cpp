@@ -20,7 +20,8 @@ class WavesEffect final : public Effect {
                             {"yaw_amplitude", "rad/s^2", 0.2, 0.0, 3.0},
                             {"encounter_frequency", "rad/s", 1.0, 0.8, 6.0, true, 2.5}},
              .settled_by = "an inertial sensor",
-             .nominal_variation = NominalVariation::kRecordingEffect}) {}
+             .nominal_variation = NominalVariation::kRecordingEffect,
+             .is_weather = true}) {}
 
   std::string Describe(EffectValues values) const override {
     return "waves met every " + FormatNumber(2.0 * std::numbers::pi / values[3], 1) + " s";

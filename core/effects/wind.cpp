@@ -44,7 +44,8 @@ class WindEffect final : public Effect {
                 .hook = Hook::kAcceleration,
                 .nominal_variation = NominalVariation::kRecordingEffect,
                 .turbulence_intensity = kTurbulence,
-                .turbulence_time_s = kGustTimeS}) {}
+                .turbulence_time_s = kGustTimeS,
+                .is_weather = true}) {}
 
   std::string Describe(EffectValues values) const override {
     return FormatNumber(std::hypot(values[0], values[1]), 1) + " m/s of wind " +

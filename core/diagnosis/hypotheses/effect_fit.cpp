@@ -168,6 +168,12 @@ Eigen::VectorXd EffectFit::Values() const {
   return Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
 }
 
+std::size_t EffectFit::Faults() const {
+  return static_cast<std::size_t>(std::ranges::count_if(
+      effects,
+      [](const ModelledEffect& modelled) { return !modelled.effect->Facts().is_weather; }));
+}
+
 double EffectFit::NegativeLogPrior() const {
   double squares = 0.0;
   for (const ModelledEffect& modelled : effects) {
@@ -228,7 +234,10 @@ EffectFit FitEffects(const ErrorModel& error_model, const ResidualMetric& metric
   const bool is_intermittent =
       std::any_of(effects.begin(), effects.end(),
                   [](const Effect* effect) { return effect->Facts().is_intermittent; });
-  return is_intermittent || gusty.score < steady.score ? gusty : steady;
+  if (!is_intermittent) return gusty.score < steady.score ? gusty : steady;
+  // Its scatter is a parameter more, which costs ln n of evidence (BIC).
+  gusty.score += std::log(std::max(metric.EffectiveObservations(), 2.0));
+  return gusty;
 }
 
 }  // namespace telltale

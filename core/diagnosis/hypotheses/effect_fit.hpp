@@ -29,6 +29,7 @@ struct EffectFit {
 
   std::vector<const Effect*> Effects() const;
   std::vector<std::string> Names() const;
+  std::size_t Faults() const;      ///< effects other than weather
   Eigen::VectorXd Values() const;  ///< stacked
   /// Half the squared distance, in standard deviations, of shape parameters from their prior means.
   /// It is large where an effect imitates another.

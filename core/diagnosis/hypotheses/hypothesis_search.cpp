@@ -30,6 +30,17 @@ std::vector<const Effect*> StochasticEffectsIn(const EffectFit& fit) {
   return stochastic_effects;
 }
 
+/// Whether the fit has a stochastic effect. It stands last, after all whose errors it scatters
+/// about, and none is added to it.
+bool EndsInStochastic(const EffectFit& fit) {
+  return fit.effects.back().effect->IsStochastic();
+}
+
+/// By how much the score has to fall where this effect is added.
+double ScoreToAdd(const Effect& effect) {
+  return effect.Facts().is_weather ? kSearch.score_to_add_weather : kSearch.score_to_add_effect;
+}
+
 bool HasLowerScore(const EffectFit& a, const EffectFit& b) {
   return a.score < b.score;
 }
@@ -95,9 +106,9 @@ class HypothesisSearch {
   EffectFit WithStochastic(const EffectFit& fit) const {
     EffectFit best = fit;
     for (const Effect* effect : library_) {
-      if (!effect->IsStochastic() || fit.effects.back().effect->IsStochastic()) continue;
+      if (!effect->IsStochastic() || EndsInStochastic(fit)) continue;
       const EffectFit both = WithStochasticEffect(fit, FitStochastic(*effect, fit.errors));
-      if (both.score < best.score - kSearch.score_to_add_effect) best = both;
+      if (both.score < best.score - ScoreToAdd(*effect)) best = both;
     }
     return best;
   }
@@ -110,10 +121,11 @@ class HypothesisSearch {
     while (pruned && fit.effects.size() > 1) {
       pruned = false;
       for (std::size_t drop = 0; drop < fit.effects.size(); ++drop) {
+        const Effect* dropped = fit.effects[drop].effect;
         EffectFit fewer = fit;
         fewer.effects.erase(fewer.effects.begin() + static_cast<std::ptrdiff_t>(drop));
         fewer = Refitted(fewer);
-        if (fit.score < fewer.score - kSearch.score_to_add_effect) continue;
+        if (fit.score < fewer.score - ScoreToAdd(*dropped)) continue;
         fit = fewer;
         pruned = true;
         break;
@@ -186,9 +198,10 @@ std::vector<EffectFit> NextLevel(const HypothesisSearch& search,
                                  const std::vector<EffectFit>& singles) {
   std::vector<EffectFit> next;
   for (const EffectFit& first : level) {
-    if (first.effects.back().effect->IsStochastic()) continue;
+    if (EndsInStochastic(first)) continue;
     for (EffectFit& more : search.WithOneMore(first, singles)) {
-      if (more.score < first.score - kSearch.score_to_add_effect) next.push_back(std::move(more));
+      const double needed = ScoreToAdd(*more.effects.back().effect);
+      if (more.score < first.score - needed) next.push_back(std::move(more));
     }
     EffectFit with_stochastic = search.WithStochastic(first);
     if (with_stochastic.effects.size() > first.effects.size())
@@ -217,6 +230,14 @@ double Distance(const EffectFit& one, const EffectFit& other, const ResidualMetr
   return only_one_varies ? std::max(by_mean, 0.5 * std::abs(one.score - other.score)) : by_mean;
 }
 
+std::vector<EffectFit> SeedsOf(const std::vector<EffectFit>& singles) {
+  std::vector<EffectFit> seeds;
+  for (const EffectFit& fit : singles) {
+    if (seeds.size() < kSearch.seed_hypotheses && !EndsInStochastic(fit)) seeds.push_back(fit);
+  }
+  return seeds;
+}
+
 Hypotheses Search(const DiagnosisProblem& problem, std::span<const Effect* const> library,
                   std::size_t most_effects, std::size_t threads,
                   const std::function<void(double)>& report_progress) {
@@ -226,10 +247,7 @@ Hypotheses Search(const DiagnosisProblem& problem, std::span<const Effect* const
   hypotheses.nominal_gains = search.Gains();
   hypotheses.singles =
       search.Singles([&](double share) { report_progress(kShareOfSingles * share); });
-  std::vector<EffectFit> level(
-      hypotheses.singles.begin(),
-      hypotheses.singles.begin() + static_cast<std::ptrdiff_t>(std::min(
-                                       kSearch.seed_hypotheses, hypotheses.singles.size())));
+  std::vector<EffectFit> level = SeedsOf(hypotheses.singles);
   for (std::size_t count = 2; count <= most_effects; ++count) {
     const std::vector<EffectFit> next = NextLevel(search, level, hypotheses.singles);
     if (next.empty()) break;

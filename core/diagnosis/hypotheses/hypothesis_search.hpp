@@ -21,8 +21,13 @@ struct Hypotheses {
 /// The hypothesis with the lowest score. Requires: at least one single hypothesis.
 const EffectFit& BestHypothesis(const Hypotheses& hypotheses);
 
+/// The kDiagnosis.search.seed_hypotheses best of `singles`, best first, that another effect can be
+/// added to: those that are not stochastic.
+std::vector<EffectFit> SeedsOf(const std::vector<EffectFit>& singles);
+
 /// Screens every effect by the score test, fits the most promising in full, then adds a second and
-/// a third effect where the score falls by kDiagnosis.search.score_to_add_effect and the effects
+/// a third effect where the score falls by kDiagnosis.search.score_to_add_effect, or
+/// score_to_add_weather, and the effects
 /// are separable. An effect that a combination does not need is removed again. Every score is
 /// raised by the NominalGains of its effects. `report_progress` gets the share done; it is called
 /// by one thread at a time.

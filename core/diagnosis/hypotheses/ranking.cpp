@@ -52,14 +52,15 @@ std::vector<std::string> RankedHypothesis::Indistinguishable() const {
   return others;
 }
 
-double UnknownProbability(const LackOfFit& lack_of_fit, double score, std::size_t effects,
+double UnknownProbability(const LackOfFit& lack_of_fit, double score, std::size_t faults,
                           double negative_log_prior) {
   const double excess = lack_of_fit.after - lack_of_fit.nominal;
   const double before = std::max(lack_of_fit.before - lack_of_fit.nominal, excess);
   const double unresolved = UnresolvedShare(score);
   const double share = before > 0.0 ? std::max(excess / before, unresolved) : unresolved;
   const double unexplained = std::log(share) + std::log(lack_of_fit.after / lack_of_fit.nominal);
-  const double penalty = kRanking.doubt_per_extra_effect * static_cast<double>(effects - 1) +
+  const double extra = faults > 1 ? static_cast<double>(faults - 1) : 0.0;
+  const double penalty = kRanking.doubt_per_extra_effect * extra +
                          kRanking.doubt_per_predictable * std::max(lack_of_fit.predictable, 0.0);
   return Logistic(kRanking.doubt_slope * (unexplained - kRanking.doubt_midpoint + penalty) +
                   negative_log_prior);
@@ -92,7 +93,7 @@ Ranking Rank(const Hypotheses& hypotheses, const ResidualMetric& metric,
   }
   const EffectFit& first = all.front();
   ranking.unknown =
-      UnknownProbability(lack_of_fit, first.score, first.effects.size(), first.NegativeLogPrior());
+      UnknownProbability(lack_of_fit, first.score, first.Faults(), first.NegativeLogPrior());
   const double known = (1.0 - ranking.unknown) / total;
   ranking.no_effect *= known;
   for (RankedHypothesis& ranked : ranking.fits) ranked.probability *= known;

@@ -34,10 +34,10 @@ struct Ranking {
 Ranking Rank(const Hypotheses& hypotheses, const ResidualMetric& metric,
              const LackOfFit& lack_of_fit);
 
-/// Probability that the cause is another than a hypothesis of `effects` effects with this score. It
-/// grows with what the hypothesis leaves, with its number of effects, with what is predictable in
-/// its errors, and with the negative log prior of its shape parameters.
-double UnknownProbability(const LackOfFit& lack_of_fit, double score, std::size_t effects,
+/// Probability that the cause is another than a hypothesis of `faults` effects, weather apart, with
+/// this score. It grows with what the hypothesis leaves, with the number of faults, with what is
+/// predictable in its errors, and with the negative log prior of its shape parameters.
+double UnknownProbability(const LackOfFit& lack_of_fit, double score, std::size_t faults,
                           double negative_log_prior);
 
 /// Whether a cause of this probability is named.

@@ -157,6 +157,16 @@ TEST(FitEffects, AnIntermittentEffectKeepsItsScatter) {
   EXPECT_LT(FitWithScatter(1.5, intermittent).score, FitWithScatter(1.5, steady).score);
 }
 
+// Where both keep the same scatter, and there is as much of it as they stand for. n is half an
+// observation a window.
+TEST(FitEffects, TheScatterOfAnIntermittentEffectCostsAParameter) {
+  const std::vector<EffectParameter> size = {{"size", "1", 1.0, -10.0, 10.0}};
+  const testing::InertEffect gusty("gusty", size, 1.0);
+  const testing::InertEffect intermittent("intermittent", size, 1.0, true);
+  EXPECT_NEAR(FitWithScatter(3.0, intermittent).score - FitWithScatter(3.0, gusty).score,
+              std::log(0.5 * static_cast<double>(kWindows)), 1e-9);
+}
+
 /// An acceleration ahead of its own value, with gusts of a fifth that last 4 s.
 class GustyPush final : public Effect {
  public:

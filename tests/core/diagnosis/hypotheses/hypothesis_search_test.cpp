@@ -57,6 +57,20 @@ TEST(BestHypothesis, HasTheLowestScoreOfSinglesAndCombinations) {
   EXPECT_EQ(&BestHypothesis(hypotheses), &hypotheses.combined[0]);
 }
 
+// Waves stand before both here, and nothing is ever added to them.
+TEST(SeedsOf, AreTheBestSinglesThatAnotherCanBeAddedTo) {
+  const Eigen::MatrixXd errors = testing::Pattern(3, 20, 0.7);
+  std::vector<EffectFit> singles;
+  for (const char* effect : {"waves", "wind", "current", "heading_bias"}) {
+    singles.push_back(FitOf(effect, errors));
+    singles.back().score = static_cast<double>(singles.size()) - 40.0;
+  }
+  const std::vector<EffectFit> seeds = SeedsOf(singles);
+  ASSERT_EQ(seeds.size(), 2U);
+  EXPECT_EQ(seeds[0].Names(), std::vector<std::string>{"wind"});
+  EXPECT_EQ(seeds[1].Names(), std::vector<std::string>{"current"});
+}
+
 /// A search among three effects, by a baseline whose errors are independent with the mean squares
 /// of a nominal recording.
 class SearchTest : public ::testing::Test {

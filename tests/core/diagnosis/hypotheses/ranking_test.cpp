@@ -124,16 +124,20 @@ TEST(Rank, UnknownProbabilityGrowsWithWeakEvidence) {
 }
 
 // Two effects may imitate a third between them.
-TEST(Rank, UnknownProbabilityGrowsWithTheNumberOfEffects) {
+TEST(Rank, UnknownProbabilityGrowsWithTheNumberOfFaults) {
   const RankedBoat boat;
-  Hypotheses alone;
-  alone.singles = {boat.Scored("thruster_lag", -40.0)};
-  Hypotheses combined = alone;
-  combined.combined = {boat.Scored("wind", -60.0)};
-  combined.combined.front().effects.push_back(AtPriorMean("thruster_lag"));
-  const LackOfFit lack_of_fit{.before = 20.0, .after = 2.0, .nominal = 1.0};
-  EXPECT_GT(Rank(combined, boat.metric, lack_of_fit).unknown,
-            Rank(alone, boat.metric, lack_of_fit).unknown);
+  const auto doubt = [&](std::vector<const char*> beside) {
+    Hypotheses hypotheses;
+    hypotheses.singles = {boat.Scored("thruster_lag", -40.0)};
+    hypotheses.combined = {boat.Scored("thruster_lag", -60.0)};
+    for (const char* effect : beside)
+      hypotheses.combined.front().effects.push_back(AtPriorMean(effect));
+    const LackOfFit lack_of_fit{.before = 20.0, .after = 2.0, .nominal = 1.0};
+    return Rank(hypotheses, boat.metric, lack_of_fit).unknown;
+  };
+  EXPECT_GT(doubt({"heading_bias"}), doubt({}));
+  EXPECT_EQ(doubt({"current"}), doubt({})) << "there is weather on most days";
+  EXPECT_EQ(doubt({"heading_bias", "waves"}), doubt({"heading_bias"}));
 }
 
 // What is predictable in the errors is something that the hypothesis lacks. Negative values do not
