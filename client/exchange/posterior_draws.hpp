@@ -7,8 +7,8 @@
 
 namespace telltale {
 
-/// "SURGE u|u|" and the like: what a column of coefficients is called. A parameter of no equation is
-/// called by its symbol.
+/// "SURGE u|u|" and the like: what a column of coefficients is called. A parameter of no equation
+/// is called by its symbol.
 std::string ColumnName(const Coefficient& coefficient);
 
 /// Draws for domain randomisation as JSON, with what was not drawn and why it may be trusted.
