@@ -31,7 +31,7 @@ struct WatchedNuisance {
 /// is of other seeds.
 /// A model fits the recording that made it better than any later one. Of 86 boats to which nothing
 /// has happened, the mean of a day's estimates is by least squares 0.55 of the estimate on that
-/// recording for thrust, 1.56 for drag and 0.6 for the compass: reference_slope. It differs from
+/// recording for thrust, 1.5 for drag and 0.6 for the compass: reference_slope. It differs from
 /// that estimate by 0.01 of the thrust of a side, 0.08 of drag and 0.4 degrees (root mean square):
 /// a tolerance is four of these or more. Estimates scatter besides by up to thrice their standard
 /// errors, since a model errs otherwise in each manoeuvre: alarm_sigmas, a block left out and two

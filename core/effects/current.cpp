@@ -4,7 +4,6 @@
 #include "telltale/core/effects/wording.hpp"
 
 namespace telltale {
-
 namespace {
 
 // Tide and eddies change a current over minutes: it stays as it is throughout a free run, and

@@ -84,7 +84,7 @@ struct EffectFacts {
   Hook hook = Hook::kNone;
   NominalVariation nominal_variation = NominalVariation::kFixedEffect;
   /// Scatter of those parameters that do not shape, from one free run to the next, as a share of
-  /// their length: what blows in gusts.
+  /// their length: what blows in gusts or runs with the tide.
   double turbulence_intensity = 0.0;
   /// How long a gust lasts: the time constant of its correlation, of first order. 0 where a gust
   /// stays as it is throughout a free run. Of Hook::kThrustShare and kAcceleration alone.

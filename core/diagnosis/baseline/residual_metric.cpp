@@ -113,6 +113,10 @@ double ResidualMetric::EffectiveObservations() const {
   return kDiagnosis.metric.observations_per_window * kappa_ * static_cast<double>(windows_.size());
 }
 
+double ResidualMetric::ParameterPenalty() const {
+  return std::log(std::max(EffectiveObservations(), 2.0));
+}
+
 double ResidualMetric::Deviance(double square, double than) const {
   return EffectiveObservations() * std::log(square / than);
 }

@@ -62,6 +62,10 @@ class ResidualMetric {
   /// and so is what a model leaves wrong everywhere.
   double EffectiveObservations() const;
 
+  /// -2 ln of the evidence that a parameter costs by the Bayesian information criterion: ln n, n
+  /// effective observations, two at least.
+  double ParameterPenalty() const;
+
   /// -2 ln of how much likelier what leaves one square is than what leaves the other, if the scale
   /// of errors is not known: n ln(square / than), n effective observations;
   /// docs/concepts/diagnosis.md (89).

@@ -235,8 +235,8 @@ EffectFit FitEffects(const ErrorModel& error_model, const ResidualMetric& metric
       std::any_of(effects.begin(), effects.end(),
                   [](const Effect* effect) { return effect->Facts().is_intermittent; });
   if (!is_intermittent) return gusty.score < steady.score ? gusty : steady;
-  // Its scatter is a parameter more, which costs ln n of evidence (BIC).
-  gusty.score += std::log(std::max(metric.EffectiveObservations(), 2.0));
+  // Its scatter is a parameter more.
+  gusty.score += metric.ParameterPenalty();
   return gusty;
 }
 

@@ -26,11 +26,10 @@ const EffectFit& BestHypothesis(const Hypotheses& hypotheses);
 std::vector<EffectFit> SeedsOf(const std::vector<EffectFit>& singles);
 
 /// Screens every effect by the score test, fits the most promising in full, then adds a second and
-/// a third effect where the score falls by kDiagnosis.search.score_to_add_effect, or
-/// score_to_add_weather, and the effects
-/// are separable. An effect that a combination does not need is removed again. Every score is
-/// raised by the NominalGains of its effects. `report_progress` gets the share done; it is called
-/// by one thread at a time.
+/// a third effect where the score falls by kDiagnosis.search.score_to_add_effect, of weather by
+/// score_to_add_weather, and the effects are separable. An effect that a combination does not need
+/// is removed again. Every score is raised by the NominalGains of its effects. `report_progress`
+/// gets the share done; it is called by one thread at a time.
 Hypotheses Search(const DiagnosisProblem& problem, std::span<const Effect* const> library,
                   std::size_t most_effects, std::size_t threads,
                   const std::function<void(double)>& report_progress);

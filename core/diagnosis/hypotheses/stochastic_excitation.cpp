@@ -92,9 +92,8 @@ EffectFit FitStochasticExcitation(const Effect& effect, const DiagnosisProblem& 
   }
   const double none = metric.SquaredMahalanobis(whitened);
   const double least = kDiagnosis.stochastic_excitation.minimum_remaining_share * none;
-  // Each of the four parameters costs ln n of evidence (BIC), n the effective observations.
   fit.score = metric.Deviance(std::max(none - metric.Kappa() * gain, least), none) +
-              4.0 * std::log(std::max(metric.EffectiveObservations(), 2.0));
+              static_cast<double>(effect.Parameters().size()) * metric.ParameterPenalty();
   fit.square = gain > 0.0 ? metric.Kappa() * best->square : none;
   fit.errors = errors;
   return fit;
