@@ -6,6 +6,19 @@
 #include <system_error>
 
 namespace telltale {
+namespace {
+
+constexpr std::size_t kBytesToTellFormat = std::size_t{64} << 10;
+
+}  // namespace
+
+std::vector<std::uint8_t> BeginningOf(const std::filesystem::path& file) {
+  std::vector<std::uint8_t> bytes(kBytesToTellFormat);
+  std::ifstream in(file, std::ios::binary);
+  in.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+  bytes.resize(static_cast<std::size_t>(in.gcount()));
+  return bytes;
+}
 
 bool BlockBuffer::Grow() {
   if (size_ >= kLongestItem) return false;
@@ -26,6 +39,7 @@ void BlockBuffer::HandOver(std::size_t more, const BlockConsumer& consume, bool 
 Refusal TooLongItem(const std::filesystem::path& file) {
   return {file.string(), "holds an item of more than 256 MB", "check the file"};
 }
+
 Result<std::uint64_t> ReadInBlocks(const std::filesystem::path& file, const BlockConsumer& consume,
                                    const ReadProgress& progress) {
   std::ifstream in(file, std::ios::binary);

@@ -8,6 +8,7 @@
 #include <memory>
 #include <span>
 #include <string_view>
+#include <vector>
 
 #include "telltale/core/base/result.hpp"
 
@@ -15,6 +16,10 @@ namespace telltale {
 
 /// With what is made of it a block stays in the second cache of a processor.
 inline constexpr std::size_t kBlockBytes = std::size_t{256} << 10;
+
+/// As many bytes of a file's beginning as tell its format, or all of a shorter one; none of a file
+/// that cannot be read.
+std::vector<std::uint8_t> BeginningOf(const std::filesystem::path& file);
 
 /// Takes bytes and returns how many it is done with; the rest comes again in front of what follows.
 /// `at_end`: nothing follows.

@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <array>
-#include <fstream>
 #include <span>
 #include <string_view>
 #include <utility>
 #include <vector>
 
+#include "telltale/client/recording/block_reader.hpp"
 #include "telltale/client/recording/csv/mapped_csv.hpp"
 #include "telltale/client/recording/dataflash/dataflash_log.hpp"
 #include "telltale/client/recording/gzip_file.hpp"
@@ -25,19 +25,14 @@
 namespace telltale {
 namespace {
 
-constexpr std::size_t kBytesToTellFormat = std::size_t{64} << 10;
 constexpr std::size_t kMostNamed = 5;  // of the recordings of a folder
 constexpr std::size_t kMostOfALine = 200;
 constexpr const char* kReadableFormats =
     "give a folder of CSV files, an ArduPilot .BIN, a .tlog, an .mcap, a rosbag2 folder or "
     ".db3, a ROS 1 .bag, or one CSV file with --map";
 
-std::string FirstBytes(const std::filesystem::path& file) {
-  std::string bytes(kBytesToTellFormat, '\0');
-  std::ifstream in(file, std::ios::binary);
-  in.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-  bytes.resize(static_cast<std::size_t>(in.gcount()));
-  return bytes;
+std::string_view TextOf(const std::vector<std::uint8_t>& bytes) {
+  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 
 bool IsTelemetryLog(const std::filesystem::path& folder) {
@@ -174,7 +169,8 @@ Refusal UnknownFormat(const std::filesystem::path& path) {
   const auto bytes = std::filesystem::file_size(path, error);
   if (error) return {path.string(), "cannot be read: " + error.message(), kReadableFormats};
   if (bytes == 0) return {path.string(), "is empty", "copy or download the recording again"};
-  const std::string begin = FirstBytes(path);
+  const std::vector<std::uint8_t> beginning = BeginningOf(path);
+  const std::string_view begin = TextOf(beginning);
   for (const OtherFormat& other : kOtherFormats) {
     if (begin.starts_with(other.beginning)) return {path.string(), other.reason, other.advice};
   }
@@ -187,10 +183,8 @@ Refusal UnknownFormat(const std::filesystem::path& path) {
 }
 
 Result<bool> Inflate(const std::filesystem::path& file, const std::filesystem::path& into) {
-  const std::string begin = FirstBytes(file);
-  const bool is_gzip =
-      BeginsLikeGzipFile({reinterpret_cast<const std::uint8_t*>(begin.data()), begin.size()});
-  return is_gzip ? InflateGzipFile(file, into) : InflateZstdFile(file, into);
+  return BeginsLikeGzipFile(BeginningOf(file)) ? InflateGzipFile(file, into)
+                                               : InflateZstdFile(file, into);
 }
 
 /// What is compressed once more inside is of no known format.
@@ -226,9 +220,8 @@ LogFormat FormatOf(const std::filesystem::path& path) {
   if (std::filesystem::is_directory(path, ignored)) {
     return IsRosbag2Folder(path) ? LogFormat::kRosbag2 : LogFormat::kTelemetryLog;
   }
-  const std::string begin = FirstBytes(path);
-  const std::span<const std::uint8_t> bytes(reinterpret_cast<const std::uint8_t*>(begin.data()),
-                                            begin.size());
+  const std::vector<std::uint8_t> bytes = BeginningOf(path);
+  const std::string_view begin = TextOf(bytes);
   if (HoldsMcap(bytes)) return LogFormat::kMcap;
   if (begin.starts_with("SQLite format 3")) return LogFormat::kRosbag2;
   if (BeginsLikeZstdFrame(bytes) || BeginsLikeGzipFile(bytes)) return LogFormat::kCompressed;
@@ -237,7 +230,7 @@ LogFormat FormatOf(const std::filesystem::path& path) {
     return LogFormat::kMavlink;
   }
   // A damaged log may begin with anything; the definition of a message stands near its start.
-  const bool defines_messages = begin.find("\xA3\x95\x80") != std::string::npos;
+  const bool defines_messages = begin.find("\xA3\x95\x80") != std::string_view::npos;
   return defines_messages ? LogFormat::kDataFlash : LogFormat::kUnknown;
 }
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <fstream>
 #include <map>
 #include <memory>
 #include <optional>
@@ -301,18 +300,11 @@ Bytes SummaryIn(Bytes file) {
   return start ? file.subspan(static_cast<std::size_t>(*start)) : Bytes{};
 }
 
-bool IsZstdFile(const std::filesystem::path& file) {
-  std::array<std::uint8_t, 4> beginning{};
-  std::ifstream in(file, std::ios::binary);
-  in.read(reinterpret_cast<char*>(beginning.data()), beginning.size());
-  return in && BeginsLikeZstdFrame(beginning);
-}
-
 /// Whether the file is whole: one that zstd has compressed may be cut off.
 Result<bool> ReadThrough(const std::filesystem::path& file, McapFile& mcap,
                          const ReadProgress& progress) {
   const auto consume = [&](Bytes bytes, bool at_end) { return mcap.Consume(bytes, at_end); };
-  if (IsZstdFile(file)) return ReadZstdInBlocks(file, consume, progress);
+  if (BeginsLikeZstdFrame(BeginningOf(file))) return ReadZstdInBlocks(file, consume, progress);
   mcap.TakeSummary(ReadMcapSummary(file));
   return ReadInBlocks(file, consume, progress).map([](std::uint64_t) { return true; });
 }

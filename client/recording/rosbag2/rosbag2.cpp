@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cstring>
-#include <fstream>
 #include <map>
 #include <span>
 #include <string>
@@ -10,6 +9,7 @@
 
 #include <SQLiteCpp/SQLiteCpp.h>
 
+#include "telltale/client/recording/block_reader.hpp"
 #include "telltale/client/recording/mcap/mcap_file.hpp"
 #include "telltale/client/recording/ros/idl_definition.hpp"
 #include "telltale/client/recording/ros_intake.hpp"
@@ -20,8 +20,6 @@ namespace telltale {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr std::size_t kBytesToTellFormat = std::size_t{64} << 10;
 
 bool IsOfRosbag2(fs::path file) {
   if (file.extension() == ".zstd") file = file.stem();
@@ -115,18 +113,10 @@ std::optional<Refusal> TakeDatabase(const fs::path& file, RosIntake& recording,
   return std::nullopt;
 }
 
-std::vector<std::uint8_t> FirstBytes(const fs::path& file) {
-  std::vector<std::uint8_t> bytes(kBytesToTellFormat);
-  std::ifstream in(file, std::ios::binary);
-  in.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
-  bytes.resize(static_cast<std::size_t>(in.gcount()));
-  return bytes;
-}
-
 /// The messages of one file, which is no compressed database; returns its damage.
 Result<std::string> TakeFile(const fs::path& file, RosIntake& recording,
                              const ReadProgress& progress) {
-  if (!HoldsMcap(FirstBytes(file))) {
+  if (!HoldsMcap(BeginningOf(file))) {
     if (auto refusal = TakeDatabase(file, recording, progress))
       return tl::unexpected(*std::move(refusal));
     return std::string();
@@ -147,7 +137,7 @@ Result<std::string> TakeFile(const fs::path& file, RosIntake& recording,
 /// The same of a file that may be compressed.
 Result<std::string> TakeAnyFile(const fs::path& file, RosIntake& recording,
                                 const ReadProgress& progress) {
-  const std::vector<std::uint8_t> beginning = FirstBytes(file);
+  const std::vector<std::uint8_t> beginning = BeginningOf(file);
   if (!BeginsLikeZstdFrame(beginning) || HoldsMcap(beginning)) {
     return TakeFile(file, recording, progress);
   }
