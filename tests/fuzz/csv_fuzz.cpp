@@ -14,44 +14,38 @@ namespace {
 using telltale::Insist;
 using telltale::MemoryFile;
 
-const telltale::Mapping& ColumnsOfTheSeeds() {
-  static const telltale::Mapping mapping = [] {
-    telltale::Mapping columns;
-    columns.name = "columns";
-    columns.positions.latitude = "lat";
-    columns.positions.longitude = "lon";
-    columns.positions.time = {"t", 1e-3, false};
-    columns.headings.field = "yaw";
-    columns.headings.time = columns.positions.time;
-    columns.port.field = "left";
-    columns.port.time = columns.positions.time;
-    columns.starboard.field = "right";
-    columns.starboard.time = columns.positions.time;
-    return columns;
-  }();
-  return mapping;
+telltale::Mapping ColumnsOfTheSeeds() {
+  telltale::Mapping columns;
+  columns.name = "columns";
+  columns.positions.latitude = "lat";
+  columns.positions.longitude = "lon";
+  columns.positions.time = {"t", 1e-3, false};
+  columns.headings.field = "yaw";
+  columns.headings.time = columns.positions.time;
+  columns.port.field = "left";
+  columns.port.time = columns.positions.time;
+  columns.starboard.field = "right";
+  columns.starboard.time = columns.positions.time;
+  return columns;
 }
 
 /// Metres of any origin, a quaternion and times in seconds and nanoseconds, over the same columns.
-const telltale::Mapping& OtherFormsOfTheSeeds() {
-  static const telltale::Mapping mapping = [] {
-    telltale::Mapping columns;
-    columns.name = "other forms";
-    columns.positions.latitude = "north";
-    columns.positions.longitude = "east";
-    columns.positions.is_metres = true;
-    columns.positions.held = true;
-    columns.positions.time = {"stamp", 1.0, true};
-    columns.headings.field = "q";
-    columns.headings.is_quaternion = true;
-    columns.headings.is_east_north_up = true;
-    columns.headings.held = true;
-    columns.headings.time = columns.positions.time;
-    columns.port = {"", columns.positions.time, "left", false, 250.0, -180.0};
-    columns.starboard = {"", columns.positions.time, "right", false, 250.0, -180.0};
-    return columns;
-  }();
-  return mapping;
+telltale::Mapping OtherFormsOfTheSeeds() {
+  telltale::Mapping columns;
+  columns.name = "other forms";
+  columns.positions.latitude = "north";
+  columns.positions.longitude = "east";
+  columns.positions.is_metres = true;
+  columns.positions.held = true;
+  columns.positions.time = {"stamp", 1.0, true};
+  columns.headings.field = "q";
+  columns.headings.is_quaternion = true;
+  columns.headings.is_east_north_up = true;
+  columns.headings.held = true;
+  columns.headings.time = columns.positions.time;
+  columns.port = {"", columns.positions.time, "left", false, 250.0, -180.0};
+  columns.starboard = {"", columns.positions.time, "right", false, 250.0, -180.0};
+  return columns;
 }
 
 std::size_t LinesIn(const std::uint8_t* data, std::size_t size) {
@@ -84,7 +78,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   });
   Insist(read ? rows + read->count <= lines : !read.error().reason.empty());
 
-  InsistOnMapped(file, ColumnsOfTheSeeds(), lines);
-  InsistOnMapped(file, OtherFormsOfTheSeeds(), lines);
+  static const std::array mappings = {ColumnsOfTheSeeds(), OtherFormsOfTheSeeds()};
+  for (const telltale::Mapping& mapping : mappings) InsistOnMapped(file, mapping, lines);
   return 0;
 }
