@@ -1,10 +1,13 @@
 #include "telltale/core/validation/structure_choice.hpp"
 
 #include <cmath>
+#include <cstddef>
 #include <limits>
+#include <optional>
 #include <utility>
 
 #include "telltale/core/base/format_number.hpp"
+#include "telltale/core/base/parallel.hpp"
 #include "telltale/core/data/recording_parts.hpp"
 #include "telltale/core/identification/identify.hpp"
 #include "telltale/core/validation/promotion.hpp"
@@ -53,6 +56,29 @@ bool ShowsEnough(const Result<HeldOutScore>& score) {
   return score && score->metrics.free_run.front().windows >= kFewestWindows;
 }
 
+/// The physical form on trial: its score, and its model of all data where that was made beside.
+struct PhysicalTrial {
+  std::optional<Result<HeldOutScore>> score;
+  std::optional<Result<Identification>> model;
+};
+
+PhysicalTrial TryPhysicalForm(const Recording& recording, const Recording& part,
+                              const Vehicle& vehicle, IdentifyOptions options,
+                              const Progress& progress) {
+  options.regression.structure = Structure::kFossen;
+  // Several recordings share the threads among them.
+  const bool has_idle_thread = options.threads > 1 && recording.starts_s.size() < 2;
+  PhysicalTrial trial;
+  ForEachIndex(has_idle_thread ? 2 : 1, options.threads, [&](std::size_t i) {
+    if (i == 0) {
+      trial.score = ScoreOnHeldOutPart(part, vehicle, options);
+    } else {
+      trial.model = Identify(recording, vehicle, options, progress);
+    }
+  });
+  return trial;
+}
+
 }  // namespace
 
 StructureChoice ChooseStructure(const Recording& recording, const Vehicle& vehicle,
@@ -63,31 +89,32 @@ StructureChoice ChooseStructure(const Recording& recording, const Vehicle& vehic
   const double error = ErrorOverConstantVelocity(free);
   const std::string errors = "since over data set aside they err by " + ErrorText(error);
   if (ShowsEnough(free) && error < kLittleToGain) {
-    return {options.regression.structure, "free coefficients, " + errors, *free};
+    return {options.regression.structure, "free coefficients, " + errors, *free, {}};
   }
-  IdentifyOptions physically = options;
-  physically.regression.structure = Structure::kFossen;
   if (progress) progress("scoring the physical form", 0.3);
-  const auto physical = ScoreOnHeldOutPart(part, vehicle, physically);
-  const double physical_error = ErrorOverConstantVelocity(physical);
+  PhysicalTrial physical = TryPhysicalForm(recording, part, vehicle, options, progress);
+  const double physical_error = ErrorOverConstantVelocity(*physical.score);
   if (ShowsEnough(free) && error < kPredicts && error < kClearlyBetter * physical_error) {
     return {options.regression.structure,
             "free coefficients, " + errors + ", the physical form by " + ErrorText(physical_error),
-            *free};
+            *free,
+            {}};
   }
   const std::string reason =
       ShowsEnough(free) ? "since over data set aside it errs by " + ErrorText(physical_error) +
                               ", free coefficients by " + ErrorText(error)
                         : "since the recording is too short to show that it lacks "
                           "something";
-  return {Structure::kFossen, "physical form, " + reason, Measured(physical)};
+  return {Structure::kFossen, "physical form, " + reason, Measured(*physical.score),
+          std::move(physical.model)};
 }
 
 Result<ScoredModel> IdentifyInChosenStructure(const Recording& recording, const Vehicle& vehicle,
                                               IdentifyOptions options, const Progress& progress) {
   StructureChoice choice = ChooseStructure(recording, vehicle, options, progress);
   const Structure free_structure = std::exchange(options.regression.structure, choice.structure);
-  auto identification = Identify(recording, vehicle, options, progress);
+  auto identification = choice.physical ? *std::move(choice.physical)
+                                        : Identify(recording, vehicle, options, progress);
   if (!identification && choice.structure == Structure::kFossen) {
     choice.reason =
         "free coefficients, since of the physical form " + identification.error().reason;

@@ -18,6 +18,8 @@ struct StructureChoice {
   Structure structure = Structure::kUnknown;
   std::string reason;                 ///< a sentence without its stop, "physical form, since ..."
   std::optional<HeldOutScore> score;  ///< of this structure, where it could be measured
+  /// The physical model of all data, where it was identified beside its score.
+  std::optional<Result<Identification>> physical;
 };
 
 /// Chooses between the physical form and the free coefficients of `options.regression` by what they
@@ -28,6 +30,8 @@ struct StructureChoice {
 /// half of constant velocity's: two models that hardly predict say nothing of each other.
 /// The physical form is not tried where the other's error is below a tenth of constant velocity's.
 /// Of a recording longer than `HeldOutOptions::most_fixes` the last part decides.
+/// Where a second thread may be used, it identifies the physical form from all data meanwhile,
+/// which most recordings end up with.
 ///
 /// Assumes: `options.regression.structure` is one of free coefficients.
 StructureChoice ChooseStructure(const Recording& recording, const Vehicle& vehicle,

@@ -67,5 +67,17 @@ TEST(ChooseStructure, SparesThePhysicalFormWhereLittleIsToBeGained) {
   EXPECT_THAT(stages, testing::ElementsAre("scoring free coefficients"));
 }
 
+TEST(IdentifyInChosenStructure, GivesTheSameModelWithAnyNumberOfThreads) {
+  const Recording recording = OfFreeCoefficients();
+  const double start_s = recording.gnss.front().time_s;
+  const Recording part = Between(recording, start_s, start_s + 90.0);
+  const auto of_one = IdentifyInChosenStructure(part, YellowfishVehicle(), {});
+  const auto of_two = IdentifyInChosenStructure(part, YellowfishVehicle(), TwoThreads());
+  ASSERT_TRUE(of_one && of_two);
+  ASSERT_TRUE(of_one->model.physical && of_two->model.physical);
+  EXPECT_EQ(of_one->model.physical->covariance, of_two->model.physical->covariance);
+  EXPECT_EQ(of_one->model.provenance.structure_choice, of_two->model.provenance.structure_choice);
+}
+
 }  // namespace
 }  // namespace telltale
