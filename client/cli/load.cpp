@@ -4,7 +4,6 @@
 #include <filesystem>
 #include <iostream>
 #include <memory>
-#include <numbers>
 #include <optional>
 #include <set>
 #include <stdexcept>
@@ -17,6 +16,7 @@
 #include "telltale/client/cli/announce.hpp"
 #include "telltale/client/cli/commands.hpp"
 #include "telltale/client/cli/live_options.hpp"
+#include "telltale/client/cli/load_boat.hpp"
 #include "telltale/client/cli/number_range.hpp"
 #include "telltale/client/cli/progress_line.hpp"
 #include "telltale/client/cli/table.hpp"
@@ -58,37 +58,30 @@ Vehicle VehicleOfLoad(const std::string& vehicle_id) {
   return vehicle;
 }
 
-/// A boat that winds its way north-east, each in a rhythm of its own.
-class LoadBoat {
+/// A boat, and the samples that it has sent.
+class SendingBoat {
  public:
-  LoadBoat(int number, int ticks_per_s)
+  SendingBoat(int number, int ticks_per_s)
       : vehicle_id_(BoatName(number)),
         ticks_per_s_(ticks_per_s),
-        phase_(0.1 * number),
-        latitude_deg_(37.0 + 1e-3 * number) {}
+        boat_(VehicleOfLoad(vehicle_id_), {37.0 + 1e-3 * number, -6.0},
+              static_cast<std::uint64_t>(number), 1.0 / ticks_per_s) {}
 
   /// The samples of the tick that is due; returns how many there were.
   int Send(std::int64_t tick, Writer<telltale_wire_GnssFix>& gnss,
            Writer<telltale_wire_Heading>& heading, Writer<telltale_wire_Thrusters>& thrusters) {
-    constexpr double kSpeedMps = 1.0;
-    constexpr double kMetresPerDegree = 111'000.0;
     const double time_s = static_cast<double>(tick) / ticks_per_s_;
-    const double turn = std::sin(0.2 * time_s + phase_);
-    const double psi = std::numbers::pi / 4.0 + turn;
-    const double step_m = kSpeedMps / ticks_per_s_;
-    latitude_deg_ += step_m * std::cos(psi) / kMetresPerDegree;
-    longitude_deg_ += step_m * std::sin(psi) / (kMetresPerDegree * std::cos(0.646));
+    boat_.Step();
     int sent = 1;
-    heading.Write(Encode(Telemetry<HeadingSample>{
-        vehicle_id_, ++headings_, {time_s, psi * 180.0 / std::numbers::pi}}));
+    heading.Write(
+        Encode(Telemetry<HeadingSample>{vehicle_id_, ++headings_, boat_.Heading(time_s)}));
     if (tick % kTicksPerFix == 0) {
-      gnss.Write(Encode(
-          Telemetry<GnssFix>{vehicle_id_, ++fixes_, {time_s, latitude_deg_, longitude_deg_}}));
+      gnss.Write(Encode(Telemetry<GnssFix>{vehicle_id_, ++fixes_, boat_.Fix(time_s)}));
       ++sent;
     }
     if (tick % kTicksPerCommand == 0) {
-      thrusters.Write(Encode(Telemetry<ThrusterSample>{
-          vehicle_id_, ++commands_, {time_s, 1650.0 + 50.0 * turn, 1650.0 - 50.0 * turn}}));
+      thrusters.Write(
+          Encode(Telemetry<ThrusterSample>{vehicle_id_, ++commands_, boat_.Commands(time_s)}));
       ++sent;
     }
     return sent;
@@ -97,9 +90,7 @@ class LoadBoat {
  private:
   std::string vehicle_id_;
   int ticks_per_s_;
-  double phase_;
-  double latitude_deg_;
-  double longitude_deg_ = -6.0;
+  LoadBoat boat_;
   std::uint64_t fixes_ = 0;
   std::uint64_t headings_ = 0;
   std::uint64_t commands_ = 0;
@@ -149,7 +140,7 @@ void Load(const LoadArguments& arguments) {
     AnnounceBoats(arguments, participant, announcements.emplace(participant));
   }
   const auto ticks_per_s = static_cast<int>(std::lround(kTicksPerSecond * arguments.times));
-  std::vector<LoadBoat> boats;
+  std::vector<SendingBoat> boats;
   for (int i = 1; i <= arguments.boats; ++i) boats.emplace_back(i, ticks_per_s);
   ProgressLine line;
   const auto begun = LoadClock::now();
@@ -161,7 +152,7 @@ void Load(const LoadArguments& arguments) {
         begun + std::chrono::duration_cast<LoadClock::duration>(std::chrono::duration<double>(
                     static_cast<double>(tick) / (ticks_per_s * arguments.speed)));
     std::this_thread::sleep_until(due);
-    for (LoadBoat& boat : boats) {
+    for (SendingBoat& boat : boats) {
       sent += static_cast<std::uint64_t>(boat.Send(tick, gnss, heading, thrusters));
     }
     gnss.Flush();

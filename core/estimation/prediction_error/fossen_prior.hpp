@@ -21,8 +21,8 @@ struct FossenPrior {
   /// Whether a standard error is so near that of the prior that the prior decides the parameter,
   /// not the data.
   bool Decides(Eigen::Index parameter, double standard_error) const {
-    constexpr double kShare = 0.8;
-    return standard_error > kShare * standard_deviation[parameter];
+    constexpr double kOfPrior = 0.8;
+    return standard_error > kOfPrior * standard_deviation[parameter];
   }
 };
 
