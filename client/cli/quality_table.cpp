@@ -167,6 +167,7 @@ std::string ModelLines(const Quality& quality, double now_unix_s) {
   if (quality.drift_since_unix_s > 0.0) {
     text += Line("drift since", DurationText(now_unix_s - quality.drift_since_unix_s) + " ago");
   }
+  if (!quality.drift_untested.empty()) text += Line("no drift test", quality.drift_untested);
   return text;
 }
 

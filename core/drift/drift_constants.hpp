@@ -11,7 +11,8 @@ namespace telltale {
 struct WatchedChange {
   std::string_view effect;
   std::size_t parameter = 0;
-  double step = 0.0;  ///< of the secant; its sign says on which side
+  std::string_view of_what;  ///< it is a change, for people
+  double step = 0.0;         ///< of the secant; its sign says on which side
   bool both_signs = false;
   double tolerance = 0.0;               ///< a change up to which the model holds: see below
   double largest_standard_error = 0.0;  ///< beyond it, blocks tell too little of the change
@@ -52,10 +53,10 @@ struct DriftConstants {
   double largest_sigmas = 4.0;           ///< root mean square beyond which a window counts less
   double largest_error = 10.0;  ///< m or rad, beyond which a run has diverged and does not count
   std::array<WatchedChange, 4> changes = {{
-      {"thruster_imbalance", 0, 0.1, false, 0.06, 0.015, 3.0, 0.55},
-      {"thruster_imbalance", 0, -0.1, false, 0.06, 0.015, 3.0, 0.55},
-      {"hull_fouling", 0, 0.2, false, 0.3, 0.04, 3.0, 1.5},
-      {"heading_bias", 0, 0.05, true, 0.035, 0.0117, 1.0, 0.6},
+      {"thruster_imbalance", 0, "port thruster", 0.1, false, 0.06, 0.015, 3.0, 0.55},
+      {"thruster_imbalance", 0, "starboard thruster", -0.1, false, 0.06, 0.015, 3.0, 0.55},
+      {"hull_fouling", 0, "drag", 0.2, false, 0.3, 0.04, 3.0, 1.5},
+      {"heading_bias", 0, "compass", 0.05, true, 0.035, 0.0117, 1.0, 0.6},
   }};
   double tolerated_error = 2.0;  ///< that follows the commands, in normal errors: see above
   /// The probability that errors seem to follow the commands by chance: in 8640 spans of five

@@ -153,10 +153,11 @@ DriftTest::DriftTest(std::span<const DriftEvidence> reference) : reference_{} {
 }
 
 /// The changes that the blocks tell enough of.
-std::vector<DriftFinding> DriftTest::FindingsOf(std::span<const DriftEvidence> blocks) const {
+DriftTest::Findings DriftTest::FindingsOf(std::span<const DriftEvidence> blocks) const {
   const Estimates now = EstimatesOf(SumOf(blocks));
-  std::vector<DriftFinding> findings;
-  if (now.residual_variance > kDrift.largest_residual_variance) return findings;
+  Findings findings;
+  findings.follow_no_pattern = now.residual_variance > kDrift.largest_residual_variance;
+  if (findings.follow_no_pattern) return findings;
   const double variance = std::max(1.0, now.residual_variance);
   const Changes beyond = AllBeyond(reference_, now.of_change);
   const Changes least = LeastBeyond(reference_, blocks, beyond);
@@ -166,9 +167,9 @@ std::vector<DriftFinding> DriftTest::FindingsOf(std::span<const DriftEvidence> b
     const double squared_error = variance / precision;
     const bool tells = std::sqrt(squared_error) <= change.largest_standard_error;
     if (!tells || reference_[j].precision <= 0.0) continue;
-    findings.push_back({&change, beyond[j], least[j],
-                        std::sqrt(squared_error + 1.0 / reference_[j].precision),
-                        beyond[j] * beyond[j] * precision});
+    findings.of_changes.push_back({&change, beyond[j], least[j],
+                                   std::sqrt(squared_error + 1.0 / reference_[j].precision),
+                                   beyond[j] * beyond[j] * precision});
   }
   return findings;
 }
@@ -177,14 +178,17 @@ void DriftTest::Add(std::span<const DriftEvidence> block) {
   blocks_.push_back(SumOf(block));
   if (blocks_.size() > std::ranges::max(kDrift.spans)) blocks_.erase(blocks_.begin());
   strongest_.reset();
+  is_tested_ = {};
+  follow_no_pattern_ = true;
   std::vector<DriftFinding> likeliest;
   for (const std::size_t span : kDrift.spans) {
     if (blocks_.size() < span) continue;
-    const std::vector<DriftFinding> findings = FindingsOf(std::span(blocks_).last(span));
-    for (const DriftFinding& finding : findings) {
+    const Findings findings = FindingsOf(std::span(blocks_).last(span));
+    NoteTested(findings);
+    for (const DriftFinding& finding : findings.of_changes) {
       if (!strongest_ || Margin(finding) > Margin(*strongest_)) strongest_ = finding;
     }
-    std::vector<DriftFinding> likely = Inseparable(findings);
+    std::vector<DriftFinding> likely = Inseparable(findings.of_changes);
     if (likely.empty()) continue;
     const bool better = likeliest.empty() || likely[0].explained > likeliest[0].explained;
     if (better) likeliest = std::move(likely);
@@ -193,6 +197,25 @@ void DriftTest::Add(std::span<const DriftEvidence> block) {
   if (is_beyond_doubt && was_beyond_doubt_) alarm_ = std::move(likeliest);
   was_beyond_doubt_ = is_beyond_doubt;
   if (strongest_ && strongest_->Excess() < 0.0) alarm_.clear();
+}
+
+void DriftTest::NoteTested(const Findings& findings) {
+  follow_no_pattern_ = follow_no_pattern_ && findings.follow_no_pattern;
+  for (const DriftFinding& finding : findings.of_changes) {
+    is_tested_[static_cast<std::size_t>(finding.change - kDrift.changes.data())] = true;
+  }
+}
+
+std::string DriftTest::Untested() const {
+  std::string changes;
+  for (std::size_t j = 0; j < is_tested_.size(); ++j) {
+    if (is_tested_[j]) continue;
+    changes.append(changes.empty() ? "" : ", ").append(kDrift.changes[j].of_what);
+  }
+  if (changes.empty()) return "";
+  if (blocks_.size() < std::ranges::min(kDrift.spans)) return changes + ": too little has come yet";
+  if (follow_no_pattern_) return changes + ": the errors are large and follow no known pattern";
+  return changes + ": commands and heading vary too little";
 }
 
 }  // namespace telltale

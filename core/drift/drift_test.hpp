@@ -58,14 +58,27 @@ class DriftTest {
   /// large change makes others seem to be there.
   const std::vector<DriftFinding>& Alarm() const { return alarm_; }
 
+  /// What the latest blocks do not tell, and why, for people: "drag, compass: commands and heading
+  /// have varied too little"; empty where every change is tested.
+  std::string Untested() const;
+
  private:
-  std::vector<DriftFinding> FindingsOf(std::span<const DriftEvidence> blocks) const;
+  /// What a span shows of each change that it tells enough of.
+  struct Findings {
+    std::vector<DriftFinding> of_changes;
+    bool follow_no_pattern = false;  ///< errors are too large for any to count
+  };
+
+  Findings FindingsOf(std::span<const DriftEvidence> blocks) const;
+  void NoteTested(const Findings& findings);
 
   std::array<ChangeInformation, kDrift.changes.size()> reference_;  ///< what the model errs itself
   std::vector<DriftEvidence> blocks_;  ///< oldest first, no more than the longest of kDrift.spans
   std::optional<DriftFinding> strongest_;  ///< now; nothing where blocks tell too little of all
   bool was_beyond_doubt_ = false;          ///< with the block before
   std::vector<DriftFinding> alarm_;
+  std::array<bool, kDrift.changes.size()> is_tested_{};  ///< now, over any span
+  bool follow_no_pattern_ = false;                       ///< the errors now, over every span
 };
 
 }  // namespace telltale

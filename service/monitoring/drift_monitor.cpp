@@ -81,4 +81,9 @@ std::string DriftMonitor::Pattern() const {
   return pattern + (alarm.size() > 1 ? ", not yet separable" : "");
 }
 
+std::string DriftMonitor::Untested() const {
+  if (changes_) return changes_->Untested();
+  return "every change: no recording shows yet how the model errs while nothing has changed";
+}
+
 }  // namespace telltale

@@ -34,6 +34,10 @@ class DriftMonitor {
   /// explain the errors nearly as well; empty where the errors show no known change.
   std::string Pattern() const;
 
+  /// Of which changes it cannot tell now, and why: "drag: commands and heading vary too little";
+  /// empty where it tests all.
+  std::string Untested() const;
+
   /// The error that follows the commands, in units of `normal`; 0 where it is not known yet.
   double CommandedError() const { return commanded_error_ ? commanded_error_->Explained() : 0.0; }
 

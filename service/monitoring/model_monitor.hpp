@@ -32,6 +32,9 @@ class ModelMonitor {
   /// What shows the drift, for people; empty where there is none.
   std::string DriftEvidence() const;
 
+  /// Of which changes it cannot tell now, and why, for people; empty where it tests all.
+  std::string DriftUntested() const { return drift_monitor_.Untested(); }
+
  private:
   void Add(double relative_error);
 

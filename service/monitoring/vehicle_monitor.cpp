@@ -129,6 +129,7 @@ void VehicleMonitor::AddModel(VehicleWindow& window, double end_s, const StoredM
   const auto onset = model_.DriftOnset();
   quality.drift_since_unix_s = onset ? onset->unix_s : 0.0;
   quality.drift_evidence = model_.DriftEvidence();
+  quality.drift_untested = model_.DriftUntested();
   quality.model_verdict = latest.model.promotion;
   quality.delays = DelaysOf(latest.model.identification);
   WriteIdentifiability(latest.model.identification.coefficients, quality);

@@ -48,6 +48,7 @@ void WriteModelState(const Quality& quality, proto::Quality::ModelState& model) 
   model.set_drift(quality.drift);
   model.set_drift_since_unix_s(quality.drift_since_unix_s);
   model.set_drift_evidence(quality.drift_evidence);
+  model.set_drift_untested(quality.drift_untested);
   model.set_coefficients(quality.coefficients);
   model.set_identified(quality.identified);
   model.set_relative_half_width(quality.relative_half_width);

@@ -114,8 +114,9 @@ struct Quality {
   double reject_share = 0.0;           ///< of those that arrived in the last minute, [0, 1]
   double drift_since_unix_s = 0.0;     ///< onset of the drift, by the daemon's clock; 0: none
   std::string drift_evidence;          ///< what shows the drift, for people; empty: no drift
-  std::uint32_t coefficients = 0;      ///< of the model
-  std::uint32_t identified = 0;        ///< of them, those with status ESTIMATED
+  std::string drift_untested;  ///< of which changes the monitor cannot tell, and why; empty: none
+  std::uint32_t coefficients = 0;  ///< of the model
+  std::uint32_t identified = 0;    ///< of them, those with status ESTIMATED
   /// Median over those of half the width of the bounds, in units of the estimate; 0: none.
   double relative_half_width = 0.0;
   std::optional<Refusal> last_refusal;  ///< of the newest identification, where it was refused

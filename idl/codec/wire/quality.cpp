@@ -99,6 +99,7 @@ void ReadAssessment(const telltale_wire_Quality& wire, Quality& quality) {
   quality.shed_share = ReadWithin("shed_share", wire.shed_share, kShare);
   quality.window_bytes = wire.window_bytes;
   quality.drift_evidence = View(wire.drift_evidence);
+  quality.drift_untested = View(wire.drift_untested);
 }
 
 void FillAssessment(telltale_wire_Quality& wire, const Quality& quality) {
@@ -126,6 +127,7 @@ void FillAssessment(telltale_wire_Quality& wire, const Quality& quality) {
   wire.shed_share = quality.shed_share;
   wire.window_bytes = quality.window_bytes;
   Put(wire.drift_evidence, quality.drift_evidence);
+  Put(wire.drift_untested, quality.drift_untested);
 }
 
 Quality ReadQuality(const telltale_wire_Quality& wire) {

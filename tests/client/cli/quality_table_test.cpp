@@ -81,6 +81,9 @@ TEST(QualityTable, FitsATerminal) {
               HasSubstr("model verdict WARN: simulated over its whole data it diverges"));
   EXPECT_THAT(QualityDetail(quality, 1000.0),
               HasSubstr("thrusters -0.25 [-0.50, 0.25] s behind the headings"));
+  quality.drift_untested =
+      "port thruster, starboard thruster, drag, compass: commands and heading vary too little";
+  EXPECT_THAT(QualityDetail(quality, 1000.0), HasSubstr("no drift test port thruster, starboard"));
   EXPECT_THAT(LineWidths(QualityDetail(quality, 1000.0)), Each(Le(kTerminalColumns)));
 }
 

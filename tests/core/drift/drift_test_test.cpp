@@ -1,6 +1,8 @@
 #include "telltale/core/drift/drift_test.hpp"
 
 #include <cstddef>
+#include <span>
+#include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -12,6 +14,7 @@ enum Change : Eigen::Index { kPort = 0, kStarboard = 1, kDrag = 2, kCompass = 3 
 
 constexpr double kPrecision = 200.0;  // of a window: in five minutes, a standard error of 0.009
 constexpr std::size_t kBlock = kDrift.block_windows;
+const std::string kEveryChange = "port thruster, starboard thruster, drag, compass";
 
 /// Windows in whose errors a change shows, and nothing else.
 std::vector<DriftEvidence> Windows(std::size_t count, Change change, double size,
@@ -142,6 +145,34 @@ TEST(DriftTest, EndsOnceTheBoatIsAsItWas) {
     test.Add(Windows(kBlock, kPort, 0.0));
   }
   EXPECT_FALSE(test.Fires());
+}
+
+TEST(DriftTest, SaysWhatItCannotTestAndWhy) {
+  DriftTest test(Reference(kPort));
+  EXPECT_EQ(test.Untested(), kEveryChange + ": too little has come yet");
+  for (std::size_t minute = 0; minute < kDrift.spans.front(); ++minute) {
+    test.Add(Windows(kBlock, kPort, 0.0));
+  }
+  EXPECT_EQ(test.Untested(),
+            "starboard thruster, drag, compass: commands and heading vary too little");
+  std::vector<DriftEvidence> strange = Windows(kBlock, kPort, 0.0);
+  for (DriftEvidence& window : strange) window.free_runs.squares += 9.0 * 10.0;
+  for (std::size_t minute = 0; minute < kDrift.spans.back(); ++minute) test.Add(strange);
+  EXPECT_EQ(test.Untested(), kEveryChange + ": the errors are large and follow no known pattern");
+}
+
+TEST(DriftTest, TestsEveryChangeThatTheWindowsTell) {
+  std::vector<DriftEvidence> windows = Windows(20 * kBlock, kPort, 0.0);
+  for (DriftEvidence& window : windows) {
+    for (const Change change : {kStarboard, kDrag, kCompass}) {
+      window.free_runs.information(change, change) = 10.0 * kPrecision;
+    }
+  }
+  DriftTest test(windows);
+  for (std::size_t minute = 0; minute < kDrift.spans.front(); ++minute) {
+    test.Add(std::span(windows).first(kBlock));
+  }
+  EXPECT_EQ(test.Untested(), "");
 }
 
 }  // namespace

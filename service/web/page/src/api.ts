@@ -49,6 +49,7 @@ export interface Quality {
     ageS: number;
     predictionError: number;
     driftSinceUnixS: number;
+    driftUntested: string;  // of which changes the monitor cannot tell now, and why
     coefficients: number;
     identified: number;
     relativeHalfWidth: number;

@@ -102,7 +102,8 @@ function ModelFacts({ quality, newest }: { quality: Quality; newest?: Model }) {
         {model.verdict && <Fact name="Verdict when made">
           <Badge verdict={model.verdict} /> {asSentence(model.verdictReason)}</Fact>}
         <Fact name="Free-run error now">{model.predictionError > 0 ? `${significant(model.predictionError)} × normal` : "–"}</Fact>
-        <Fact name="Drift">{model.driftSinceUnixS > 0 ? `since ${clock(model.driftSinceUnixS)}` : "none"}</Fact>
+        <Fact name="Drift">{model.driftSinceUnixS > 0 ? `since ${clock(model.driftSinceUnixS)}` : model.driftUntested ? "none seen" : "none"}</Fact>
+        {model.driftUntested && <Fact name="Drift not tested">{asSentence(model.driftUntested)}</Fact>}
         <Fact name="Identified">{model.identified} of {model.coefficients} coefficients</Fact>
         <Fact name="Median half width">{model.relativeHalfWidth > 0 ? percent(model.relativeHalfWidth) : "–"} of the estimate</Fact>
       </dl>

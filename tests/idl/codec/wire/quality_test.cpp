@@ -5,15 +5,18 @@
 namespace telltale {
 namespace {
 
-TEST(WireQuality, CarriesAProposalAndTheEvidenceOfADrift) {
+TEST(WireQuality, CarriesAProposalAndWhatIsKnownOfADrift) {
   Quality quality;
   quality.vehicle_id = "boat-1";
   EXPECT_EQ(Decode(*Encode(quality))->proposal, "");
   EXPECT_EQ(Decode(*Encode(quality))->drift_evidence, "");
   quality.proposal = "ask why";
+  EXPECT_EQ(Decode(*Encode(quality))->drift_untested, "");
   quality.drift_evidence = "port thruster 14 % weaker";
+  quality.drift_untested = "drag: too little has come yet";
   EXPECT_EQ(Decode(*Encode(quality))->proposal, "ask why");
   EXPECT_EQ(Decode(*Encode(quality))->drift_evidence, "port thruster 14 % weaker");
+  EXPECT_EQ(Decode(*Encode(quality))->drift_untested, "drag: too little has come yet");
 }
 
 TEST(WireQuality, ArrivesAsItWasSent) {
