@@ -158,10 +158,10 @@ std::array<Eigen::VectorXd, 3> ResidualsOf(const WeakFit& fit, const Eigen::Vect
   for (std::size_t j = 0; j < columns.size(); ++j) {
     if (columns[j].empty()) continue;
     const TestFunctionSupports& supports = problem.supports[j];
-    const RegressorRows rows = RowsOf(dataset, problem, thrust, kEquations[j]);
     const auto [begin, size] = fit.BlockOf(j);
     const Eigen::MatrixXd G =
-        Project(problem, supports, rows)(Eigen::all, columns[j]) + predicted[j].filtering_loss;
+        ProjectRegressors(dataset, problem, thrust, kEquations[j])(Eigen::all, columns[j]) +
+        predicted[j].filtering_loss;
     residuals[j] = ProjectAcceleration(problem, supports, dataset, kEquations[j]) -
                    G * theta.segment(begin, size);
   }

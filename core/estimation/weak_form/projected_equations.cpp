@@ -7,10 +7,12 @@
 namespace telltale {
 namespace {
 
-Eigen::MatrixXd ProjectRegressors(const PreparedDataset& dataset, const WeakProblem& problem,
-                                  const FilteredThrust& thrust, const ProjectedEquation& equation) {
-  const RegressorRows rows = RowsOf(dataset, problem, thrust, kEquations[equation.index]);
-  return Project(problem, problem.supports[equation.index], rows)(Eigen::all, equation.columns);
+/// Sway and yaw have the same regressors, so what is projected of sway serves both where their
+/// supports are the same.
+bool ServesYaw(const WeakProblem& problem, const ProjectedEquations& before) {
+  const std::size_t sway = IndexOf(Equation::kSway);
+  return !before.empty() && before.back().index == sway &&
+         problem.supports[sway].first_rows == problem.supports[IndexOf(Equation::kYaw)].first_rows;
 }
 
 /// A x = c by ridge regression, with rows and columns of A scaled by these norms.
@@ -31,22 +33,17 @@ ProjectedEquations ProjectEquations(const PreparedDataset& dataset, const WeakPr
                                     const FilteredThrust& thrust,
                                     const std::array<std::vector<std::size_t>, 3>& columns) {
   ProjectedEquations equations;
+  Eigen::MatrixXd projected;
   for (std::size_t j = 0; j < columns.size(); ++j) {
     if (columns[j].empty()) continue;
-    ProjectedEquation equation{j, columns[j], {}, {}};
-    equation.G = ProjectRegressors(dataset, problem, thrust, equation);
-    equation.b = ProjectAcceleration(problem, problem.supports[j], dataset, kEquations[j]);
-    equations.push_back(std::move(equation));
+    if (kEquations[j] != Equation::kYaw || !ServesYaw(problem, equations)) {
+      projected = ProjectRegressors(dataset, problem, thrust, kEquations[j]);
+    }
+    equations.push_back(
+        {j, columns[j], projected(Eigen::all, columns[j]),
+         ProjectAcceleration(problem, problem.supports[j], dataset, kEquations[j])});
   }
   return equations;
-}
-
-ProjectedEquations WithFilteringLoss(const ProjectedEquations& equations,
-                                     const std::array<PredictedSupports, 3>& predicted) {
-  ProjectedEquations completed = equations;
-  for (ProjectedEquation& equation : completed)
-    equation.G += predicted[equation.index].filtering_loss;
-  return completed;
 }
 
 std::vector<Eigen::MatrixXd> LagDerivatives(const PreparedDataset& dataset,
@@ -58,8 +55,10 @@ std::vector<Eigen::MatrixXd> LagDerivatives(const PreparedDataset& dataset,
   const FilteredThrust longer = FilterThrust(dataset, problem, time_constant_s + apart_s);
   std::vector<Eigen::MatrixXd> slopes;
   for (std::size_t i = 0; i < equations.size(); ++i) {
-    const Eigen::MatrixXd change = ProjectRegressors(dataset, problem, longer, equations[i]) -
-                                   ProjectRegressors(dataset, problem, shorter, equations[i]);
+    const Equation name = kEquations[equations[i].index];
+    const Eigen::MatrixXd change =
+        (ProjectRegressors(dataset, problem, longer, name) -
+         ProjectRegressors(dataset, problem, shorter, name))(Eigen::all, equations[i].columns);
     slopes.emplace_back(change * thetas[i] / (2.0 * apart_s));
   }
   return slopes;
@@ -73,15 +72,10 @@ Thetas SolveLeastSquares(const ProjectedEquations& equations) {
   return thetas;
 }
 
-Thetas SolveRegularised(const ProjectedEquations& equations, const std::vector<Eigen::MatrixXd>& Z,
-                        double ridge) {
-  Thetas thetas;
-  for (std::size_t i = 0; i < equations.size(); ++i) {
-    thetas.push_back(SolveRidge(Z[i].transpose() * equations[i].G,
-                                Z[i].transpose() * equations[i].b, ColumnNorms(Z[i]),
-                                ColumnNorms(equations[i].G), ridge));
-  }
-  return thetas;
+Eigen::VectorXd SolveRegularised(const ProjectedEquation& equation, const Eigen::MatrixXd& Z,
+                                 double ridge) {
+  return SolveRidge(Z.transpose() * equation.G, Z.transpose() * equation.b, ColumnNorms(Z),
+                    ColumnNorms(equation.G), ridge);
 }
 
 Eigen::VectorXd ColumnNorms(const Eigen::MatrixXd& columns) {

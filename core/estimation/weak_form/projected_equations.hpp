@@ -30,10 +30,6 @@ ProjectedEquations ProjectEquations(const PreparedDataset& dataset, const WeakPr
                                     const FilteredThrust& thrust,
                                     const std::array<std::vector<std::size_t>, 3>& columns);
 
-/// The same with the filtering loss that a model predicts added to G.
-ProjectedEquations WithFilteringLoss(const ProjectedEquations& equations,
-                                     const std::array<PredictedSupports, 3>& predicted);
-
 /// The derivative of G theta by the time constant, one column per equation, by central differences.
 std::vector<Eigen::MatrixXd> LagDerivatives(const PreparedDataset& dataset,
                                             const WeakProblem& problem,
@@ -43,11 +39,11 @@ std::vector<Eigen::MatrixXd> LagDerivatives(const PreparedDataset& dataset,
 /// Each equation by itself, by least squares.
 Thetas SolveLeastSquares(const ProjectedEquations& equations);
 
-/// Each equation's instrumental-variable solution, shrunk along directions that Z'G hardly
+/// An equation's instrumental-variable solution, shrunk along directions that Z'G hardly
 /// determines. It predicts similar motion without the large coefficients that noise causes there.
 /// `ridge` is relative to columns of unit norm.
-Thetas SolveRegularised(const ProjectedEquations& equations, const std::vector<Eigen::MatrixXd>& Z,
-                        double ridge);
+Eigen::VectorXd SolveRegularised(const ProjectedEquation& equation, const Eigen::MatrixXd& Z,
+                                 double ridge);
 
 /// The norm of each column, never zero.
 Eigen::VectorXd ColumnNorms(const Eigen::MatrixXd& columns);

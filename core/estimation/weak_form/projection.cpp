@@ -1,33 +1,52 @@
 #include "telltale/core/estimation/weak_form/projection.hpp"
 
+#include <iterator>
+#include <vector>
+
+#include "telltale/core/vessel/body_regressors.hpp"
+
 namespace telltale {
 
-RegressorRows RowsOf(const PreparedDataset& dataset, const WeakProblem& problem,
-                     const FilteredThrust& thrust, Equation equation) {
-  const std::size_t columns = Regressors(equation, problem.parameterization).size();
+namespace {
+
+Eigen::Index ColumnsOf(const WeakProblem& problem, Equation equation) {
+  return std::ssize(Regressors(equation, problem.parameterization)) +
+         static_cast<Eigen::Index>(problem.recording_bias_terms.Count());
+}
+
+RegressorRows RowsOfSegment(const PreparedDataset& dataset, const WeakProblem& problem,
+                            const FilteredThrust& thrust, Equation equation, std::size_t segment) {
+  const RowRange& range = dataset.segments[segment];
   const std::size_t bias_terms = problem.recording_bias_terms.Count();
-  RegressorRows rows(static_cast<Eigen::Index>(dataset.rows.size()),
-                     static_cast<Eigen::Index>(columns + bias_terms));
-  for (std::size_t s = 0; s < dataset.segments.size(); ++s) {
-    for (std::size_t k = dataset.segments[s].begin; k < dataset.segments[s].end; ++k) {
-      double* const row = rows.row(static_cast<Eigen::Index>(k)).data();
-      FillRow(equation, problem.bodies[k], thrust.filtered[k], {row, columns});
-      problem.recording_bias_terms.Fill(dataset.RecordingOf(s), dataset.rows[k].eta.psi_rad,
-                                        {row + columns, bias_terms});
-    }
+  RegressorRows rows(static_cast<Eigen::Index>(range.size()), ColumnsOf(problem, equation));
+  const std::size_t columns = static_cast<std::size_t>(rows.cols()) - bias_terms;
+  for (std::size_t k = range.begin; k < range.end; ++k) {
+    double* const row = rows.row(static_cast<Eigen::Index>(k - range.begin)).data();
+    FillRow(equation, NoiseCorrectedBodyRow(dataset.rows[k].nu, dataset.nu_noise),
+            thrust.filtered[k], {row, columns});
+    problem.recording_bias_terms.Fill(dataset.RecordingOf(segment), dataset.rows[k].eta.psi_rad,
+                                      {row + columns, bias_terms});
   }
   return rows;
 }
 
-Eigen::MatrixXd Project(const WeakProblem& problem, const TestFunctionSupports& supports,
-                        const RegressorRows& rows) {
-  const Eigen::Index length = problem.phi.value.size();
-  Eigen::MatrixXd projected(static_cast<Eigen::Index>(supports.first_rows.size()), rows.cols());
-  Eigen::RowVectorXd sum(rows.cols());
-  for (std::size_t k = 0; k < supports.first_rows.size(); ++k) {
-    const auto first = static_cast<Eigen::Index>(supports.first_rows[k]);
-    sum.noalias() = problem.phi.value.transpose() * rows.middleRows(first, length);
-    projected.row(static_cast<Eigen::Index>(k)) = sum;
+}  // namespace
+
+Eigen::MatrixXd ProjectRegressors(const PreparedDataset& dataset, const WeakProblem& problem,
+                                  const FilteredThrust& thrust, Equation equation) {
+  const std::vector<std::size_t>& first_rows = problem.supports[IndexOf(equation)].first_rows;
+  const Eigen::VectorXd& weights = problem.phi.value;
+  Eigen::MatrixXd projected(std::ssize(first_rows), ColumnsOf(problem, equation));
+  Eigen::RowVectorXd sum(projected.cols());
+  std::size_t k = 0;
+  for (std::size_t s = 0; s < dataset.segments.size(); ++s) {
+    const RowRange& segment = dataset.segments[s];
+    const RegressorRows rows = RowsOfSegment(dataset, problem, thrust, equation, s);
+    for (; k < first_rows.size() && first_rows[k] < segment.end; ++k) {
+      const auto first = static_cast<Eigen::Index>(first_rows[k] - segment.begin);
+      sum.noalias() = weights.transpose() * rows.middleRows(first, weights.size());
+      projected.row(static_cast<Eigen::Index>(k)) = sum;
+    }
   }
   return projected;
 }

@@ -8,18 +8,15 @@
 
 namespace telltale {
 
-/// A row per dataset row and a column per regressor. It is row-major because it is filled and
-/// projected by rows.
+/// A row per instant and a column per regressor. It is row-major because it is filled and projected
+/// by rows.
 using RegressorRows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-/// Rows Phi_j(nu_k, T_k) of one equation, of the problem's bodies, then its RecordingBiasTerms.
-RegressorRows RowsOf(const PreparedDataset& dataset, const WeakProblem& problem,
-                     const FilteredThrust& thrust, Equation equation);
-
-/// int phi_k x dt of every column of x. Shapes: rows as many as the dataset; the result supports x
-/// columns.
-Eigen::MatrixXd Project(const WeakProblem& problem, const TestFunctionSupports& supports,
-                        const RegressorRows& rows);
+/// int phi_k Phi_j(nu, T) dt of every regressor of one equation, then of its RecordingBiasTerms;
+/// nu less the mean that its noise adds to Phi.
+/// Shapes: supports x columns. Memory beside the result: the rows of one segment.
+Eigen::MatrixXd ProjectRegressors(const PreparedDataset& dataset, const WeakProblem& problem,
+                                  const FilteredThrust& thrust, Equation equation);
 
 /// -int phi'_k nu_j dt, one value per support.
 Eigen::VectorXd ProjectAcceleration(const WeakProblem& problem,

@@ -52,8 +52,7 @@ SeparableColumns Separate(const PreparedDataset& dataset, const RegressionOption
   for (const Equation equation : kEquations) {
     const std::size_t j = IndexOf(equation);
     std::vector<std::size_t>& kept = separable.kept[j];
-    const Eigen::MatrixXd projected =
-        Project(problem, problem.supports[j], RowsOf(dataset, problem, thrust, equation));
+    const Eigen::MatrixXd projected = ProjectRegressors(dataset, problem, thrust, equation);
     if (projected.rows() <= static_cast<Eigen::Index>(kept.size())) continue;
     while (kept.size() > 1) {
       const Dependency dependency = ClosestDependency(projected, kept);

@@ -1,52 +1,43 @@
 #include "telltale/core/estimation/weak_form/stacked_system.hpp"
 
+#include <utility>
+
 #include "telltale/core/base/linear_algebra/covariance.hpp"
 #include "telltale/core/base/linear_algebra/eigen_decompositions.hpp"
 
 namespace telltale {
 namespace {
 
-Eigen::Index ColumnsOf(const std::vector<Eigen::MatrixXd>& derivatives) {
-  return derivatives.empty() ? 0 : derivatives.front().cols();
-}
-
 /// The columns of one equation: by the time constant, of its coefficients, by the delays; those of
 /// shared unknowns multiplied by `weight`.
-Eigen::MatrixXd Beside(const SharedDerivatives& shared, std::size_t i, const Eigen::MatrixXd& own,
-                       double weight) {
-  const Eigen::Index lags = ColumnsOf(shared.by_lag);
-  const Eigen::Index delays = ColumnsOf(shared.by_delay);
+Eigen::MatrixXd Beside(const SharedDerivatives& shared, const Eigen::MatrixXd& own, double weight) {
+  const Eigen::Index lags = shared.by_lag.cols();
+  const Eigen::Index delays = shared.by_delay.cols();
   Eigen::MatrixXd all(own.rows(), lags + own.cols() + delays);
-  if (lags > 0) all.leftCols(lags) = weight * shared.by_lag[i];
+  if (lags > 0) all.leftCols(lags) = weight * shared.by_lag;
   all.middleCols(lags, own.cols()) = own;
-  if (delays > 0) all.rightCols(delays) = weight * shared.by_delay[i];
+  if (delays > 0) all.rightCols(delays) = weight * shared.by_delay;
   return all;
 }
 
 }  // namespace
 
-StackedSystem StackEquations(const ProjectedEquations& equations,
-                             const std::vector<Eigen::MatrixXd>& Z, const SharedDerivatives& shared,
-                             const std::vector<double>& weights) {
-  const Eigen::Index lags = ColumnsOf(shared.by_lag);
-  const Eigen::Index delays = ColumnsOf(shared.by_delay);
-  Eigen::Index P = lags + delays;
-  for (const ProjectedEquation& equation : equations) P += equation.G.cols();
-  StackedSystem system{Eigen::MatrixXd::Zero(P, P), Eigen::VectorXd::Zero(P), {}};
-  Eigen::Index next = lags;
-  for (std::size_t i = 0; i < equations.size(); ++i) {
-    const ProjectedEquation& equation = equations[i];
-    StackedEquation stacked;
-    for (Eigen::Index j = 0; j < lags; ++j) stacked.places.push_back(j);
-    for (Eigen::Index j = 0; j < equation.G.cols(); ++j) stacked.places.push_back(next++);
-    for (Eigen::Index j = P - delays; j < P; ++j) stacked.places.push_back(j);
-    stacked.Z = Beside(shared, i, Z[i], weights[i]);
-    system.A(stacked.places, stacked.places) +=
-        stacked.Z.transpose() * Beside(shared, i, equation.G, 1.0);
-    system.c(stacked.places) += stacked.Z.transpose() * equation.b;
-    system.equations.push_back(std::move(stacked));
-  }
-  return system;
+StackedSystem::StackedSystem(const StackedUnknowns& unknowns)
+    : A(Eigen::MatrixXd::Zero(unknowns.Count(), unknowns.Count())),
+      c(Eigen::VectorXd::Zero(unknowns.Count())),
+      unknowns_(unknowns),
+      next_(unknowns.lags) {}
+
+void StackedSystem::Add(const ProjectedEquation& equation, const Eigen::MatrixXd& Z,
+                        const SharedDerivatives& shared, double weight) {
+  StackedEquation stacked;
+  for (Eigen::Index j = 0; j < unknowns_.lags; ++j) stacked.places.push_back(j);
+  for (Eigen::Index j = 0; j < equation.G.cols(); ++j) stacked.places.push_back(next_++);
+  for (Eigen::Index j = c.size() - unknowns_.delays; j < c.size(); ++j) stacked.places.push_back(j);
+  stacked.Z = Beside(shared, Z, weight);
+  A(stacked.places, stacked.places) += stacked.Z.transpose() * Beside(shared, equation.G, 1.0);
+  c(stacked.places) += stacked.Z.transpose() * equation.b;
+  equations.push_back(std::move(stacked));
 }
 
 std::optional<Eigen::MatrixXd> InvertScaled(const Eigen::MatrixXd& A) {

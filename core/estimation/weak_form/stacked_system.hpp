@@ -15,24 +15,42 @@ struct StackedEquation {
   Eigen::MatrixXd Z;                 ///< its instruments, in the order of the places
 };
 
-/// Derivatives of the right sides by unknowns that all equations share, one matrix an equation.
-/// They serve as instruments, multiplied by each equation's weight. Empty: not sought.
+/// Derivatives of one equation's right side by unknowns that all equations share. They serve as
+/// instruments, multiplied by the equation's weight. No columns: not sought.
 struct SharedDerivatives {
-  std::vector<Eigen::MatrixXd> by_lag;    ///< one column, by the time constant
-  std::vector<Eigen::MatrixXd> by_delay;  ///< a column a delay, DelayDerivatives
+  Eigen::MatrixXd by_lag;    ///< one column, by the time constant
+  Eigen::MatrixXd by_delay;  ///< a column a delay, DelayDerivatives
 };
 
-/// The linear system A x = c of all equations about the present estimate. Its unknowns are the
-/// change of the time constant, if that is sought, the coefficients, and the delays, if sought.
-struct StackedSystem {
+/// How many unknowns there are of each kind, in the order in which they are stacked: the change of
+/// the time constant, if that is sought, the coefficients, and the delays, if sought.
+struct StackedUnknowns {
+  Eigen::Index lags = 0;
+  Eigen::Index coefficients = 0;  ///< of all equations
+  Eigen::Index delays = 0;
+
+  Eigen::Index Count() const { return lags + coefficients + delays; }
+};
+
+/// The linear system A x = c of all equations about the present estimate. The equations are added
+/// one by one, so that their whitened sides need not stand in memory together.
+class StackedSystem {
+ public:
+  StackedSystem() = default;
+  explicit StackedSystem(const StackedUnknowns& unknowns);
+
+  /// Adds the next equation, which has as many derivatives as there are shared unknowns.
+  void Add(const ProjectedEquation& equation, const Eigen::MatrixXd& Z,
+           const SharedDerivatives& shared, double weight);
+
   Eigen::MatrixXd A;                       ///< Z'G
   Eigen::VectorXd c;                       ///< Z'b
-  std::vector<StackedEquation> equations;  ///< in the order of the ProjectedEquations
-};
+  std::vector<StackedEquation> equations;  ///< in the order in which they are added
 
-StackedSystem StackEquations(const ProjectedEquations& equations,
-                             const std::vector<Eigen::MatrixXd>& Z, const SharedDerivatives& shared,
-                             const std::vector<double>& weights);
+ private:
+  StackedUnknowns unknowns_;
+  Eigen::Index next_ = 0;  ///< where the next equation's coefficients begin
+};
 
 /// A^-1, computed with rows and columns scaled; nothing when A is singular or not finite.
 std::optional<Eigen::MatrixXd> InvertScaled(const Eigen::MatrixXd& A);

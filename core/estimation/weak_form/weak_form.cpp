@@ -60,10 +60,6 @@ WeakProblem BuildWeakForm(const PreparedDataset& dataset, const RegressionOption
         SupportsOf(dataset, equation, regression, problem.phi, cluster_s);
   }
   problem.clusters = problem.supports[0].clusters.size();
-  problem.bodies.reserve(dataset.rows.size());
-  for (const PreparedRow& row : dataset.rows) {
-    problem.bodies.push_back(NoiseCorrectedBodyRow(row.nu, dataset.nu_noise));
-  }
   return problem;
 }
 

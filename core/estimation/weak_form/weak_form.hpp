@@ -9,7 +9,6 @@
 #include "telltale/core/estimation/regression/regression_problem.hpp"
 #include "telltale/core/estimation/weak_form/test_function.hpp"
 #include "telltale/core/estimation/weak_form/weak_form_options.hpp"
-#include "telltale/core/vessel/body_regressors.hpp"
 #include "telltale/core/vessel/regressors.hpp"
 
 namespace telltale {
@@ -34,7 +33,6 @@ struct WeakProblem {
   TestFunction phi;
   std::array<TestFunctionSupports, 3> supports;  ///< by equation
   std::size_t clusters = 0;
-  std::vector<BodyRow> bodies;  ///< by dataset row, less the mean that noise in nu adds
 };
 
 /// PreparedDataset -> WeakProblem. A cluster is the same range of time in every equation.

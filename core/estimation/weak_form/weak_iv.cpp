@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "telltale/core/base/contract.hpp"
 #include "telltale/core/base/linear_algebra/covariance.hpp"
@@ -23,66 +24,32 @@ Eigen::VectorXd ResidualOf(const ProjectedEquation& equation, const Eigen::Vecto
   return equation.b - equation.G * theta;
 }
 
-std::vector<Eigen::MatrixXd> InstrumentsOf(const ProjectedEquations& equations,
-                                           const std::array<PredictedSupports, 3>& predicted) {
-  std::vector<Eigen::MatrixXd> Z;
-  for (const ProjectedEquation& equation : equations) Z.push_back(predicted[equation.index].Z);
-  return Z;
-}
-
-/// The regressors as their own instruments: least squares.
-std::vector<Eigen::MatrixXd> OwnInstruments(const ProjectedEquations& equations) {
-  std::vector<Eigen::MatrixXd> own;
-  for (const ProjectedEquation& equation : equations) own.push_back(equation.G);
-  return own;
-}
-
-/// A whitening of each equation's residuals. It takes half of their variance for white, since their
+/// The whitening of an equation's residuals. It takes half of their variance for white, since their
 /// whole autocorrelation suits only a boat that moves exactly as the model says. The fewer supports
 /// there are for each coefficient, the less their autocorrelation counts.
-std::vector<ResidualWhitening> WhiteningsOf(const WeakProblem& problem,
-                                            const ProjectedEquations& equations,
-                                            const Thetas& thetas) {
+ResidualWhitening WhiteningOf(const WeakProblem& problem, const ProjectedEquation& equation,
+                              const Eigen::VectorXd& theta) {
   constexpr Eigen::Index kOrder = 10;
   constexpr double kSupportsPerCoefficient = 10.0;
-  std::vector<ResidualWhitening> whitenings;
-  for (std::size_t i = 0; i < equations.size(); ++i) {
-    const auto& [index, columns, G, b] = equations[i];
-    const auto runs = RunsOf(problem.supports[index].first_rows, problem.phi.stride);
-    Eigen::VectorXd shown = DefiniteAutocovariance(runs, b - G * thetas[i], kSupportResidualLags);
-    const double few =
-        kSupportsPerCoefficient * static_cast<double>(G.cols()) / static_cast<double>(G.rows());
-    shown.tail(shown.size() - 1) /= 2.0 + few;
-    whitenings.emplace_back(runs, shown.head(kOrder + 1));
-  }
-  return whitenings;
+  const auto& [index, columns, G, b] = equation;
+  const auto runs = RunsOf(problem.supports[index].first_rows, problem.phi.stride);
+  Eigen::VectorXd shown =
+      DefiniteAutocovariance(runs, ResidualOf(equation, theta), kSupportResidualLags);
+  const double few =
+      kSupportsPerCoefficient * static_cast<double>(G.cols()) / static_cast<double>(G.rows());
+  shown.tail(shown.size() - 1) /= 2.0 + few;
+  return {runs, shown.head(kOrder + 1)};
 }
 
-ProjectedEquations Whitened(const std::vector<ResidualWhitening>& whitenings,
-                            const ProjectedEquations& equations) {
-  ProjectedEquations white;
-  for (std::size_t i = 0; i < equations.size(); ++i) {
-    const auto& [index, columns, G, b] = equations[i];
-    white.push_back({index, columns, whitenings[i].Whiten(G), whitenings[i].Whiten(b)});
-  }
-  return white;
+ProjectedEquation Whitened(const ResidualWhitening& whitening, const ProjectedEquation& equation) {
+  return {equation.index, equation.columns, whitening.Whiten(equation.G),
+          whitening.Whiten(equation.b)};
 }
 
-std::vector<Eigen::MatrixXd> Whitened(const std::vector<ResidualWhitening>& whitenings,
-                                      const std::vector<Eigen::MatrixXd>& sides) {
-  std::vector<Eigen::MatrixXd> white;
-  for (std::size_t i = 0; i < sides.size(); ++i) white.push_back(whitenings[i].Whiten(sides[i]));
-  return white;
-}
-
-/// One over each equation's residual variance.
-std::vector<double> ResidualWeights(const ProjectedEquations& equations, const Thetas& thetas) {
-  std::vector<double> weights;
-  for (std::size_t i = 0; i < equations.size(); ++i) {
-    const Eigen::VectorXd e = ResidualOf(equations[i], thetas[i]);
-    weights.push_back(static_cast<double>(e.size()) / std::max(e.squaredNorm(), kLeastSquares));
-  }
-  return weights;
+/// One over the equation's residual variance.
+double ResidualWeight(const ProjectedEquation& equation, const Eigen::VectorXd& theta) {
+  const Eigen::VectorXd e = ResidualOf(equation, theta);
+  return static_cast<double>(e.size()) / std::max(e.squaredNorm(), kLeastSquares);
 }
 
 double LeastSquaresMisfit(const ProjectedEquations& equations) {
@@ -136,27 +103,23 @@ class WeakIvIteration {
 
   /// Least squares, from which the first instruments are simulated.
   void Start() {
-    regularised_ = SolveRegularised(equations_, OwnInstruments(equations_), options_.ridge);
+    for (const ProjectedEquation& equation : equations_) {
+      regularised_.push_back(SolveRegularised(equation, equation.G, options_.ridge));
+    }
     thetas_ = regularised_;
   }
 
   /// One iteration; false when the instruments do not determine every unknown.
   bool Iterate() {
     LeaveLastRound();
-    const auto predicted = instruments_.Predict(
+    auto predicted = instruments_.Predict(
         ModelWith(problem_, equations_, regularised_),
         ConstantDisturbancesWith(problem_, equations_, regularised_), columns_, thrust_);
-    completed_ = WithFilteringLoss(equations_, predicted);
-    by_delay_ = options_.delays ? ByDelay(equations_, predicted) : std::vector<Eigen::MatrixXd>();
-    std::vector<Eigen::MatrixXd> by_lag;
-    if (time_constant_s_)
-      by_lag = LagDerivatives(dataset_, problem_, equations_, thetas_, *time_constant_s_);
-    whitenings_ = WhiteningsOf(problem_, completed_, thetas_);
-    const ProjectedEquations white = Whitened(whitenings_, completed_);
-    const auto white_Z = Whitened(whitenings_, InstrumentsOf(equations_, predicted));
-    system_ = StackEquations(white, white_Z,
-                             {Whitened(whitenings_, by_lag), Whitened(whitenings_, by_delay_)},
-                             ResidualWeights(white, thetas_));
+    const std::vector<Eigen::MatrixXd> by_lag = ByLag();
+    system_ = StackedSystem(Unknowns());
+    for (std::size_t i = 0; i < equations_.size(); ++i) {
+      AddEquation(std::move(predicted[equations_[i].index]), by_lag[i]);
+    }
     if (options_.delays) {
       system_.A.diagonal().tail<kDelays>().array() += 1.0 / (kDelayPriorS * kDelayPriorS);
     }
@@ -166,16 +129,13 @@ class WeakIvIteration {
     const Eigen::VectorXd solution = inverse_ * system_.c;
     UnstackThetas(solution, time_constant_s_ ? 1 : 0, thetas_);
     if (options_.delays) delays_s_ = solution.tail<kDelays>();
-    regularised_ = SolveRegularised(white, white_Z, options_.ridge);
-    if (time_constant_s_) {
-      ChangeTimeConstant(solution[0]);
-      completed_ = WithFilteringLoss(equations_, predicted);
-    }
+    if (time_constant_s_) ChangeTimeConstant(solution[0]);
     return true;
   }
 
-  /// The fit after the last iteration.
-  WeakFit Fit() const {
+  /// The fit after the last iteration, which is over: what only another one would need makes room.
+  WeakFit Fit() && {
+    thrust_ = {};
     WeakFit fit;
     fit.problem = problem_;
     fit.time_constant_s = time_constant_s_;
@@ -186,8 +146,8 @@ class WeakIvIteration {
     Eigen::MatrixXd meat = Eigen::MatrixXd::Zero(unknowns, unknowns);
     Eigen::Index next = 0;
     if (time_constant_s_) fit.theta[next++] = *time_constant_s_;
-    for (std::size_t i = 0; i < completed_.size(); ++i) {
-      const std::size_t index = completed_[i].index;
+    for (std::size_t i = 0; i < equations_.size(); ++i) {
+      const std::size_t index = equations_[i].index;
       const auto& [places, Z] = system_.equations[i];
       fit.theta.segment(next, thetas_[i].size()) = thetas_[i];
       next += thetas_[i].size();
@@ -207,17 +167,46 @@ class WeakIvIteration {
 
   /// What is as large as the data would stand in memory beside its successors.
   void LeaveLastRound() {
-    completed_.clear();
+    filtering_losses_.clear();
     by_delay_.clear();
+    whitenings_.clear();
     system_ = {};
   }
 
-  static std::vector<Eigen::MatrixXd> ByDelay(const ProjectedEquations& equations,
-                                              const std::array<PredictedSupports, 3>& predicted) {
-    std::vector<Eigen::MatrixXd> by_delay;
-    for (const ProjectedEquation& equation : equations)
-      by_delay.push_back(predicted[equation.index].by_delay);
-    return by_delay;
+  StackedUnknowns Unknowns() const {
+    StackedUnknowns unknowns{time_constant_s_ ? 1 : 0, 0, options_.delays ? kDelays : 0};
+    for (const ProjectedEquation& equation : equations_) unknowns.coefficients += equation.G.cols();
+    return unknowns;
+  }
+
+  /// The derivative of each equation by the time constant; without columns where it is not sought.
+  std::vector<Eigen::MatrixXd> ByLag() const {
+    if (!time_constant_s_) return std::vector<Eigen::MatrixXd>(equations_.size());
+    return LagDerivatives(dataset_, problem_, equations_, thetas_, *time_constant_s_);
+  }
+
+  /// The next equation with its filtering loss, whitened, becomes a part of the system.
+  void AddEquation(PredictedSupports predicted, const Eigen::MatrixXd& by_lag) {
+    const std::size_t i = system_.equations.size();
+    filtering_losses_.push_back(std::move(predicted.filtering_loss));
+    by_delay_.push_back(std::move(predicted.by_delay));
+    const ProjectedEquation completed = Completed(i);
+    const ResidualWhitening& whitening =
+        whitenings_.emplace_back(WhiteningOf(problem_, completed, thetas_[i]));
+    const ProjectedEquation white = Whitened(whitening, completed);
+    const Eigen::MatrixXd Z = whitening.Whiten(predicted.Z);
+    SharedDerivatives shared;
+    if (time_constant_s_) shared.by_lag = whitening.Whiten(by_lag);
+    if (options_.delays) shared.by_delay = whitening.Whiten(by_delay_[i]);
+    system_.Add(white, Z, shared, ResidualWeight(white, thetas_[i]));
+    regularised_[i] = SolveRegularised(white, Z, options_.ridge);
+  }
+
+  /// An equation with the filtering loss that the model predicts added to G.
+  ProjectedEquation Completed(std::size_t i) const {
+    ProjectedEquation completed = equations_[i];
+    completed.G += filtering_losses_[i];
+    return completed;
   }
 
   /// The covariance of the delays from the scores of the clusters.
@@ -237,14 +226,15 @@ class WeakIvIteration {
 
   WeakEstimate EstimateOf(std::size_t i) const {
     const Eigen::MatrixXd& Z = system_.equations[i].Z;
-    Eigen::VectorXd residual = ResidualOf(completed_[i], thetas_[i]);
+    ProjectedEquation completed = Completed(i);
+    Eigen::VectorXd residual = ResidualOf(completed, thetas_[i]);
     if (options_.delays) residual -= by_delay_[i] * delays_s_;
-    return {completed_[i].columns,
+    return {std::move(completed.columns),
             thetas_[i],
             regularised_[i],
-            completed_[i].G,
+            std::move(completed.G),
             whitenings_[i].WhitenBack(Z.middleCols(time_constant_s_ ? 1 : 0, thetas_[i].size())),
-            residual};
+            std::move(residual)};
   }
 
   static void AddScores(const std::vector<RowRange>& clusters,
@@ -269,7 +259,7 @@ class WeakIvIteration {
   Thetas regularised_;
   Thetas thetas_;
   // Of the last iteration.
-  ProjectedEquations completed_;
+  std::vector<Eigen::MatrixXd> filtering_losses_;
   std::vector<Eigen::MatrixXd> by_delay_;
   std::vector<ResidualWhitening> whitenings_;
   StackedSystem system_;
@@ -293,7 +283,7 @@ std::optional<WeakFit> EstimateWeakIv(const PreparedDataset& dataset,
   for (int round = 0; round < rounds; ++round) {
     if (!iteration.Iterate()) return std::nullopt;
   }
-  return iteration.Fit();
+  return std::move(iteration).Fit();
 }
 
 }  // namespace telltale

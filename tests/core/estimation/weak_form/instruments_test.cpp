@@ -33,8 +33,7 @@ Failures FailuresOf(const PreparedDataset& dataset, const VesselModel& model) {
                              .Predict(model, std::vector<ConstantDisturbance>(1), columns, thrust);
   Failures failures;
   for (std::size_t j = 0; j < columns.size(); ++j) {
-    const Eigen::MatrixXd G =
-        Project(problem, problem.supports[j], RowsOf(dataset, problem, thrust, kEquations[j]));
+    const Eigen::MatrixXd G = ProjectRegressors(dataset, problem, thrust, kEquations[j]);
     const Eigen::VectorXd b =
         ProjectAcceleration(problem, problem.supports[j], dataset, kEquations[j]);
     const auto rms = [](const Eigen::VectorXd& e) {

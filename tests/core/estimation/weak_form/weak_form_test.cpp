@@ -53,8 +53,7 @@ TEST(WeakForm, HoldsForALinearBoatOnAStraightCourse) {
   const TestFunctionSupports& supports = problem.supports[0];
   ASSERT_GT(supports.first_rows.size(), 30U);
   const Eigen::VectorXd b = ProjectAcceleration(problem, supports, *dataset, Equation::kSurge);
-  const Eigen::MatrixXd G =
-      Project(problem, supports, RowsOf(*dataset, problem, thrust, Equation::kSurge));
+  const Eigen::MatrixXd G = ProjectRegressors(*dataset, problem, thrust, Equation::kSurge);
   // The sum over rows of 0.2 s stands for an integral whose velocities have a kink at each of the
   // commands' steps: (h / T)^2 = 1 % of what a step does to a window.
   EXPECT_LT((b - G * model.theta[0]).norm(), 0.01 * b.norm());
