@@ -133,7 +133,7 @@ std::optional<Refusal> WhyNotPrepared(const Recording& recording, const PrepareO
 }
 
 Result<PreparedDataset> Prepare(const Recording& recording, const Vehicle& vehicle,
-                                const PrepareOptions& options) {
+                                const PrepareOptions& options, Readings readings) {
   const auto laid = LaySegments(recording, options);
   if (!laid) return tl::unexpected(laid.error());
   PreparedDataset dataset;
@@ -154,7 +154,7 @@ Result<PreparedDataset> Prepare(const Recording& recording, const Vehicle& vehic
     PoolSensors(dataset, signals, noise);
     PoolNoise(dataset, NoiseInVelocity(noise, signals, grid, options));
     dataset.commands.push_back(std::move(signals.commands));
-    dataset.signals.push_back(static_cast<RawSignals&&>(signals));
+    if (readings == Readings::kKept) dataset.signals.push_back(static_cast<RawSignals&&>(signals));
   }
   dataset.recordings = NumberedWithoutGaps(places);
   return dataset;

@@ -13,6 +13,10 @@
 
 namespace telltale {
 
+/// Whether a dataset keeps the readings behind its rows, which take as much memory as these.
+/// One-step least squares and the weak form read rows and commands alone.
+enum class Readings { kKept, kLeftOut };
+
 /// Brings the channels of a recording onto one grid, with velocities and the commands behind them;
 /// docs/concepts/data-preparation.md.
 /// Assumes: the recording's channels are in order of time and share one clock.
@@ -20,7 +24,7 @@ namespace telltale {
 /// enough.
 /// Source: the paper, Data Preparation.
 Result<PreparedDataset> Prepare(const Recording& recording, const Vehicle& vehicle,
-                                const PrepareOptions& options);
+                                const PrepareOptions& options, Readings readings = Readings::kKept);
 
 /// Why Prepare() refuses a recording; nothing: it does not. It takes neither the time nor the
 /// memory of the rows.

@@ -70,7 +70,7 @@ struct PreparedDataset {
   std::vector<RowRange> slices;
   /// By segment, the commands before and along it, as they were sent.
   std::vector<HeldCommands> commands;
-  std::vector<RawSignals> signals;  ///< by segment
+  std::vector<RawSignals> signals;  ///< by segment; empty where they are left out
   /// By segment, the number of the recording it was cut from, from 0 without a gap. Empty: one
   /// recording.
   std::vector<std::size_t> recordings;

@@ -55,6 +55,12 @@ std::string DelayInWords(double delay_s, double standard_error_s, const char* wh
          Milliseconds(kTwoSided95 * standard_error_s) + " ms " + (delay_s > 0.0 ? late : early);
 }
 
+/// Output error reads what lies behind the rows, and so does the choice between it and the weak
+/// form.
+Readings ReadingsFor(const std::optional<Estimator>& estimator) {
+  return !estimator || *estimator == Estimator::kOutputError ? Readings::kKept : Readings::kLeftOut;
+}
+
 }  // namespace
 
 Recording WithoutDelays(Recording recording, const ClockDelays& delays) {
@@ -67,7 +73,8 @@ Recording WithoutDelays(Recording recording, const ClockDelays& delays) {
 
 Result<AlignedDataset> PrepareWithClocksAligned(const Recording& recording, const Vehicle& vehicle,
                                                 const IdentifyOptions& options) {
-  auto dataset = PrepareForWeakIv(recording, vehicle, options.prepare);
+  const Readings readings = ReadingsFor(options.estimator);
+  auto dataset = PrepareForWeakIv(recording, vehicle, options.prepare, readings);
   if (!dataset) return tl::unexpected(dataset.error());
   AlignedDataset aligned{*std::move(dataset), {}, {}};
   if (!options.weak_iv.delays) return aligned;
@@ -79,7 +86,8 @@ Result<AlignedDataset> PrepareWithClocksAligned(const Recording& recording, cons
                              Removed(aligned.removed.fixes_s, left->delays_s[1], errors[1])};
     aligned.standard_errors = {errors[0], errors[1]};
     if (!Differ(all, aligned.removed)) break;
-    auto again = PrepareForWeakIv(WithoutDelays(recording, all), vehicle, options.prepare);
+    auto again =
+        PrepareForWeakIv(WithoutDelays(recording, all), vehicle, options.prepare, readings);
     if (!again) break;
     aligned = {*std::move(again), all, aligned.standard_errors};
   }

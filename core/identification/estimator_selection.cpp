@@ -76,7 +76,7 @@ Result<BoundedEstimates> BoundWithSelectedEstimator(const PreparedDataset& datas
     preliminary = FitPreliminaryWeakForm(dataset, regression, options);
   auto accepted = TryOutputError(dataset, regression, options, progress, preliminary);
   if (accepted) return *std::move(accepted);
-  auto bounded = BoundWeakIv(dataset, regression, options, progress, preliminary);
+  auto bounded = BoundWeakIv(dataset, regression, options, progress, std::move(preliminary));
   if (!bounded) return bounded;
   bounded->provenance.estimator_choice =
       "weak-form instrumental variables, since " + accepted.error();

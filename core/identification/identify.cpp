@@ -93,7 +93,7 @@ Result<AlignedDataset> PrepareFor(const IdentifyOptions& options, const Recordin
                                   const Vehicle& vehicle) {
   if (options.estimator != Estimator::kOneStep)
     return PrepareWithClocksAligned(recording, vehicle, options);
-  auto dataset = Prepare(recording, vehicle, options.prepare);
+  auto dataset = Prepare(recording, vehicle, options.prepare, Readings::kLeftOut);
   if (!dataset) return tl::unexpected(dataset.error());
   return AlignedDataset{*std::move(dataset), {}, {}};
 }

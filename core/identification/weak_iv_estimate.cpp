@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <sstream>
+#include <utility>
 
 #include "telltale/core/base/linear_algebra/covariance.hpp"
 #include "telltale/core/data/preparation.hpp"
@@ -158,6 +159,16 @@ Estimable EstimableColumns(const PreparedDataset& dataset, const RegressionOptio
   return estimable;
 }
 
+/// The preliminary fit where it is of the same columns, else another in its place.
+std::optional<WeakFit> FitOf(const std::array<std::vector<std::size_t>, 3>& columns,
+                             std::optional<PreliminaryWeakFit> preliminary,
+                             const PreparedDataset& dataset, const RegressionOptions& regression,
+                             const IdentifyOptions& options) {
+  if (preliminary && preliminary->columns == columns) return std::move(preliminary->fit);
+  preliminary.reset();  // either fills as much memory as the data
+  return EstimateWeakIv(dataset, regression, columns, FitOptionsOf(options));
+}
+
 /// Estimates with their covariance, and how far beyond a standard error each bound lies.
 struct Bounding {
   Eigen::VectorXd theta;
@@ -196,13 +207,15 @@ void WriteProvenance(const BootstrapCorrection& corrected, const WeakFit& fit,
 }  // namespace
 
 Result<PreparedDataset> PrepareForWeakIv(const Recording& recording, const Vehicle& vehicle,
-                                         const PrepareOptions& options) {
+                                         const PrepareOptions& options, Readings readings) {
   PrepareOptions chosen = options;
-  const auto preview = Prepare(recording, vehicle, chosen);
-  if (!preview) return tl::unexpected(preview.error());
-  chosen.smoothing_half_width = SmoothingFor(*preview);
+  {
+    const auto preview = Prepare(recording, vehicle, chosen, Readings::kLeftOut);
+    if (!preview) return tl::unexpected(preview.error());
+    chosen.smoothing_half_width = SmoothingFor(*preview);
+  }  // it would stand in memory beside what follows
   chosen.longest_segment_s = kLongestPartS;
-  return Prepare(recording, vehicle, chosen);
+  return Prepare(recording, vehicle, chosen, readings);
 }
 
 PreliminaryWeakFit FitPreliminaryWeakForm(const PreparedDataset& dataset,
@@ -221,7 +234,7 @@ PreliminaryWeakFit FitPreliminaryWeakForm(const PreparedDataset& dataset,
 Result<BoundedEstimates> BoundWeakIv(const PreparedDataset& dataset,
                                      const RegressionOptions& regression,
                                      const IdentifyOptions& options, const Progress& progress,
-                                     const std::optional<PreliminaryWeakFit>& preliminary) {
+                                     std::optional<PreliminaryWeakFit> preliminary) {
   BoundedEstimates bounded;
   bounded.estimator = Estimator::kWeakIv;
   EquationEstimates& equation_estimates = bounded.equation_estimates;
@@ -231,9 +244,7 @@ Result<BoundedEstimates> BoundWeakIv(const PreparedDataset& dataset,
     return tl::unexpected(RefuseAllEquations(equation_estimates.refusals));
   const auto [separable, columns] =
       EstimableColumns(dataset, regression, options.weak_iv.form, equation_estimates);
-  const auto fit = preliminary && preliminary->columns == columns
-                       ? preliminary->fit
-                       : EstimateWeakIv(dataset, regression, columns, FitOptionsOf(options));
+  const auto fit = FitOf(columns, std::move(preliminary), dataset, regression, options);
   if (!fit || fit->scores.cols() < 2 || !ClusterCovariance(*fit).allFinite()) {
     return tl::unexpected(RefuseWeakInstruments());
   }

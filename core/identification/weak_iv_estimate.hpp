@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "telltale/core/base/result.hpp"
+#include "telltale/core/data/preparation.hpp"
 #include "telltale/core/data/prepared_dataset.hpp"
 #include "telltale/core/estimation/regression/regression_problem.hpp"
 #include "telltale/core/estimation/weak_form/weak_iv.hpp"
@@ -18,7 +19,8 @@ namespace telltale {
 /// the data, and the narrowest filter that the noise of the positions allows.
 /// Refuses when: Prepare does.
 Result<PreparedDataset> PrepareForWeakIv(const Recording& recording, const Vehicle& vehicle,
-                                         const PrepareOptions& options);
+                                         const PrepareOptions& options,
+                                         Readings readings = Readings::kKept);
 
 /// A weak-form fit before separation of columns, correction and bounds.
 struct PreliminaryWeakFit {
@@ -35,9 +37,9 @@ PreliminaryWeakFit FitPreliminaryWeakForm(const PreparedDataset& dataset,
 /// same rows excite, corrected and calibrated by parametric bootstrap. `preliminary`: a fit of the
 /// same data, if there is one already.
 /// Refuses when: no equation can be answered, or simulated instruments say nothing of the data.
-Result<BoundedEstimates> BoundWeakIv(
-    const PreparedDataset& dataset, const RegressionOptions& regression,
-    const IdentifyOptions& options, const Progress& progress,
-    const std::optional<PreliminaryWeakFit>& preliminary = std::nullopt);
+Result<BoundedEstimates> BoundWeakIv(const PreparedDataset& dataset,
+                                     const RegressionOptions& regression,
+                                     const IdentifyOptions& options, const Progress& progress,
+                                     std::optional<PreliminaryWeakFit> preliminary = std::nullopt);
 
 }  // namespace telltale

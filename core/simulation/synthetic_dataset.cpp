@@ -49,7 +49,7 @@ Result<PreparedDataset> SimulateDataset(const PreparedDataset& dataset, const Ve
   PrepareOptions prepare = dataset.options;
   prepare.sampling_period_s = dataset.sampling_period_s;
   prepare.longest_segment_s.reset();
-  return Prepare(synthetic->recording, synthetic->vehicle, prepare);
+  return Prepare(synthetic->recording, synthetic->vehicle, prepare, options.readings);
 }
 
 }  // namespace telltale

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "telltale/core/base/result.hpp"
+#include "telltale/core/data/preparation.hpp"
 #include "telltale/core/data/prepared_dataset.hpp"
 #include "telltale/core/data/samples.hpp"
 #include "telltale/core/vessel/disturbance.hpp"
@@ -21,7 +22,8 @@ struct SyntheticDatasetOptions {
   /// Velocities (u, v, r) that the model has no equation for: they take the measured values.
   std::array<bool, 3> as_measured{};
   std::vector<ConstantDisturbance> constant_disturbances =
-      {};  ///< by recording of the dataset; empty: none
+      {};                               ///< by recording of the dataset; empty: none
+  Readings readings = Readings::kKept;  ///< of the dataset
 };
 
 /// A synthetic dataset, one replicate of the parametric bootstrap. `model` simulates every segment

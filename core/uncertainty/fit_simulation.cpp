@@ -1,7 +1,6 @@
 #include "telltale/core/uncertainty/fit_simulation.hpp"
 
 #include <array>
-#include <vector>
 
 #include "telltale/core/simulation/synthetic_dataset.hpp"
 
@@ -12,12 +11,9 @@ Result<PreparedDataset> SimulateFit(const FittedData& fitted, const Eigen::Vecto
                                     std::uint64_t seed) {
   const WeakFit& fit = fitted.fit;
   const std::array<bool, 3> as_measured = {!fit.equations[0], !fit.equations[1], !fit.equations[2]};
-  auto simulated = SimulateDataset(
-      fitted.dataset, ModelOf(fit, theta, fitted.dataset.sampling_period_s),
-      {disturbance, noise_scale, seed, as_measured, ConstantDisturbancesOf(fit, theta)});
-  // The weak form reads rows and commands alone, and readings take as much memory as rows.
-  if (simulated) std::vector<RawSignals>().swap(simulated->signals);
-  return simulated;
+  return SimulateDataset(fitted.dataset, ModelOf(fit, theta, fitted.dataset.sampling_period_s),
+                         {disturbance, noise_scale, seed, as_measured,
+                          ConstantDisturbancesOf(fit, theta), Readings::kLeftOut});
 }
 
 }  // namespace telltale

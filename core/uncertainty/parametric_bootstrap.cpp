@@ -18,6 +18,7 @@ BootstrapReplicates SimulateReplicates(
   ForEachIndex(all.size(), options.threads, [&](std::size_t i) {
     SyntheticDatasetOptions simulation_options;
     simulation_options.disturbance = disturbance;
+    simulation_options.readings = Readings::kLeftOut;
     simulation_options.seed = RandomEngine::Stream(options.seed, i)();
     const auto replicate = SimulateDataset(dataset, model, simulation_options);
     if (!replicate) return;

@@ -19,7 +19,8 @@ struct Refit {
 };
 
 /// Parametric bootstrap: each replicate is the estimate of a synthetic dataset, simulated with the
-/// original estimate, fresh disturbance and sensor noise (SimulateDataset). Unlike redrawn rows,
+/// original estimate, fresh disturbance and sensor noise (SimulateDataset), without the readings
+/// behind the rows. Unlike redrawn rows,
 /// replicates show the bias of the estimator. Studentized intervals correct it to first order and
 /// leave the difference of the bias between estimate and truth. Percentiles count it twice. BCa
 /// corrects about two standard errors at most, because its bounds are replicates; its acceleration

@@ -20,6 +20,7 @@ std::optional<double> ResidualVarianceRatio(const PreparedDataset& dataset,
   const Eigen::VectorXd theta = fit.Regularised();
   SyntheticDatasetOptions undisturbed;
   undisturbed.seed = seed;
+  undisturbed.readings = Readings::kLeftOut;
   undisturbed.as_measured = {!fit.equations[0], !fit.equations[1], !fit.equations[2]};
   const auto replicate =
       SimulateDataset(dataset, ModelOf(fit, theta, dataset.sampling_period_s), undisturbed);

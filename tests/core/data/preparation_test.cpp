@@ -112,6 +112,18 @@ TEST(PrepareRobust, RecoversTheVelocitiesOfACircle) {
   ExpectVelocities(*dataset, {1.2, 0.15, 0.2}, kChord);
 }
 
+TEST(Prepare, LeavesReadingsOutOfADatasetThatIsTheSameOtherwise) {
+  const Recording recording = Record({.pose = Circle(1.2, 0.15, 0.2)});
+  const auto with = Prepare(recording, Vehicle{}, PrepareOptions::Robust());
+  const auto without = Prepare(recording, Vehicle{}, PrepareOptions::Robust(), Readings::kLeftOut);
+  ASSERT_TRUE(with && without);
+  EXPECT_EQ(with->signals.size(), with->segments.size());
+  EXPECT_TRUE(without->signals.empty());
+  ASSERT_EQ(without->rows.size(), with->rows.size());
+  EXPECT_EQ(without->rows.back().nu.u, with->rows.back().nu.u);
+  EXPECT_EQ(without->sensors.position_noise_m, with->sensors.position_noise_m);
+}
+
 TEST(PrepareRobust, RecoversAFastSpin) {
   const Recording recording = Record({.pose = Circle(0.3, 0.0, 1.5)});
   const auto dataset = Prepare(recording, Vehicle{}, PrepareOptions::Robust());
