@@ -62,6 +62,12 @@ std::string UncertainCause(const Diagnosis& diagnosis, const std::string& times)
          MissingForceIn(diagnosis);
 }
 
+/// What the normal error comes from.
+std::string NormalIn(const Diagnosis& diagnosis) {
+  return diagnosis.floor_basis == FloorBasis::kReferenceLogs ? "on the references"
+                                                             : "the sensors' noise allows";
+}
+
 }  // namespace
 
 std::string SummarySentence(const Diagnosis& diagnosis) {
@@ -70,8 +76,8 @@ std::string SummarySentence(const Diagnosis& diagnosis) {
   const Cause* cause = FirstNamed(diagnosis);
   switch (diagnosis.verdict) {
     case Verdict::kNoMaterialGap:
-      return "No material gap: the model matches the boat as well as on the references (" + times +
-             " times the normal error).";
+      return "No material gap: the model matches the boat as well as " + NormalIn(diagnosis) +
+             " (" + times + " times the normal error).";
     case Verdict::kInsufficientData:
       return "The data cannot answer whether the model still matches the boat.";
     case Verdict::kExplained:

@@ -39,6 +39,18 @@ TEST(SummarySentence, GivesTheProbabilityOfAnUncertainCause) {
             "Most likely (66 %), but not certain, thrust 0.15 s late: 81 % [74, 87] of the gap.");
 }
 
+TEST(SummarySentence, ComparesWithReferencesWhereThereAreSome) {
+  Diagnosis diagnosis = LateThrust(Verdict::kNoMaterialGap, 0.3);
+  diagnosis.floor_basis = FloorBasis::kReferenceLogs;
+  EXPECT_EQ(SummarySentence(diagnosis),
+            "No material gap: the model matches the boat as well as on the references (2.0 times "
+            "the normal error).");
+  diagnosis.floor_basis = FloorBasis::kSensorNoise;
+  EXPECT_EQ(SummarySentence(diagnosis),
+            "No material gap: the model matches the boat as well as the sensors' noise allows (2.0 "
+            "times the normal error).");
+}
+
 TEST(SummarySentence, NamesNoUnlikelyCause) {
   EXPECT_EQ(
       SummarySentence(LateThrust(Verdict::kUnknownCause, 0.3)),
