@@ -9,6 +9,7 @@
 #include "telltale/client/cli/exit_codes.hpp"
 #include "telltale/client/cli/input_options.hpp"
 #include "telltale/client/cli/number_range.hpp"
+#include "telltale/client/recording/ros/ros_topic.hpp"
 #include "telltale/client/workbench/errors.hpp"
 #include "telltale/client/workbench/files.hpp"
 
@@ -40,12 +41,13 @@ ChannelChoice ChannelsOf(const BridgeArguments& arguments) {
   return channels;
 }
 
-void RequireTwoOutputs(const SourceOptions& source) {
-  const auto fault = SameChannel(source.port_channel, source.starboard_channel);
+void RequireTwoOutputs(std::optional<int> port, std::optional<int> starboard) {
+  const auto fault = SameChannel(port, starboard);
   if (fault) throw UsageError("--starboard-channel: " + fault->reason + "; " + fault->advice);
 }
 
 void FromMavlink(const BridgeArguments& arguments) {
+  RequireTwoOutputs(arguments.source.port_channel, arguments.source.starboard_channel);
   MavlinkBridgeOptions options = arguments.mavlink;
   if (!arguments.vehicle_id.empty()) options.vehicle_id = arguments.vehicle_id;
   options.systems = {arguments.systems.begin(), arguments.systems.end()};
@@ -57,6 +59,8 @@ void FromMavlink(const BridgeArguments& arguments) {
 }
 
 void FromRos2(const BridgeArguments& arguments) {
+  const RosOutputChannels outputs(arguments.source);
+  RequireTwoOutputs(outputs.port, outputs.starboard);
   Ros2SourceOptions options = arguments.ros2;
   if (!arguments.vehicle_id.empty()) options.bridge.vehicle_id = arguments.vehicle_id;
   options.bridge.source = arguments.source;
@@ -187,10 +191,8 @@ void AddBridge(CLI::App& telltale) {
       "Models and quality of the boats go back to ROS 2: /telltale/NAME/model, /diagnostics.\n"
       "Examples: telltale bridge --mavlink udp:0.0.0.0:14550 --vehicle-id boat-{system}\n"
       "          telltale bridge --ros2 --namespace /fleet/{vehicle}");
-  command.callback([arguments] {
-    RequireTwoOutputs(arguments->source);
-    arguments->from_ros2 ? FromRos2(*arguments) : FromMavlink(*arguments);
-  });
+  command.callback(
+      [arguments] { arguments->from_ros2 ? FromRos2(*arguments) : FromMavlink(*arguments); });
 }
 
 }  // namespace telltale

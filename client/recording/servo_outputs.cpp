@@ -40,7 +40,7 @@ bool IsReversed(const AutopilotParameters& parameters, std::string_view prefix, 
 std::optional<Refusal> SameChannel(std::optional<int> port, std::optional<int> starboard) {
   if (!port || port != starboard) return std::nullopt;
   return Refusal{"starboard_channel",
-                 "output " + std::to_string(*port) + " is given for both thrusters",
+                 "output " + std::to_string(*port) + " stands for both thrusters",
                  "give the output of each thruster"};
 }
 

@@ -24,7 +24,8 @@ using AutopilotParameters = std::map<std::string, double, std::less<>>;
 inline constexpr int kThrottleLeft = 73;   ///< SERVOn_FUNCTION of the port thruster
 inline constexpr int kThrottleRight = 74;  ///< of the starboard thruster
 
-/// Why two channels that a user names cannot be those of two thrusters: they are one.
+/// Why two channels, named by a user or else by the file, cannot be those of two thrusters: they
+/// are one.
 std::optional<Refusal> SameChannel(std::optional<int> port, std::optional<int> starboard);
 
 /// Whether a parameter is about an output: "SERVO12_TRIM", or "RC1_REV" of older firmware.

@@ -32,10 +32,11 @@ std::vector<Refusal> SourceLog::Lacks() const {
     lacks.push_back({"heading", "no heading", "record the attitude or compass heading"});
   }
   if (thrusters.empty()) {
-    lacks.push_back({"thrusters", "no outputs of two known thrusters",
-                     "record the servo outputs; where the file does not name the channels of the "
-                     "thrusters, give --port-channel and --starboard-channel, or say by --map what "
-                     "holds their commands"});
+    lacks.push_back(shared_output.value_or(
+        Refusal{"thrusters", "no outputs of two known thrusters",
+                "record the servo outputs; where the file does not name the channels of the "
+                "thrusters, give --port-channel and --starboard-channel, or say by --map what "
+                "holds their commands"}));
   }
   return lacks;
 }

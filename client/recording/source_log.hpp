@@ -35,6 +35,7 @@ struct SourceOptions {
 struct SourceLog : RawChannels {
   std::optional<ThrusterOutput> port;  ///< where the file describes its outputs
   std::optional<ThrusterOutput> starboard;
+  std::optional<Refusal> shared_output;  ///< where one output stands for both thrusters
   std::string summary;  ///< for people: what was read, from where, and each kind of damage
 
   /// Each channel that is missing, in the order of kChannels, with the reason and what to do.

@@ -226,6 +226,7 @@ class DataFlashLogBuilder : public DataFlashConsumer {
     log.starboard = choose(options.starboard_channel, kThrottleRight);
     if (!log.port || !log.starboard) return;
     if (std::max(log.port->channel, log.starboard->channel) > kLoggedChannels) return;
+    if (SameChannel(log.port->channel, log.starboard->channel)) return;
     log.thrusters = pulses_.Of(log.port->channel, log.starboard->channel);
   }
 
@@ -293,6 +294,7 @@ Refusal LacksThrusters(const DataFlashLog& log) {
               "use channels 1 to 14, which RCOU records"};
     }
   }
+  if (auto shared = SameChannel(log.port->channel, log.starboard->channel)) return *shared;
   return {"thrusters", "no RCOU message that can be read", "log RCOU with TimeUS and C1..C14"};
 }
 

@@ -198,6 +198,8 @@ std::string MavlinkRecording::ChooseOutputs(const Vehicle& vehicle, const Source
         "; no PARAM_VALUE gives a SERVOn_FUNCTION 73 (ThrottleLeft) and 74 (ThrottleRight)";
     return warning;
   }
+  log.shared_output = SameChannel(log.port->channel, log.starboard->channel);
+  if (log.shared_output) return warning;
   log.summary += "; outputs " + std::to_string(log.port->channel) + " (port) and " +
                  std::to_string(log.starboard->channel) + " (starboard) of SERVO_OUTPUT_RAW";
   log.thrusters = vehicle.outputs.Of(log.port->channel, log.starboard->channel);

@@ -265,6 +265,8 @@ std::string RosRecording::AgreeOnClock(const Sources& best) {
 std::string RosRecording::TakeCommands(const Sources& best, SourceLog& log) const {
   std::ostringstream said;
   if (best.outputs != nullptr) {
+    log.shared_output = SameChannel(channels_.port, channels_.starboard);
+    if (log.shared_output) return {};
     said << "; outputs " << channels_.port << " (port) and " << channels_.starboard
          << " (starboard) of " << best.outputs->first;
     log.thrusters = std::move(best.outputs->second.commands);

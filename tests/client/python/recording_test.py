@@ -108,7 +108,7 @@ class RecordingTest(unittest.TestCase):
     def test_arguments_out_of_range_are_named_with_their_range(self):
         with self.assertRaisesRegex(telltale.InputError, r"gps_instance.*255"):
             telltale.load(self.log, vehicle=twin.BOAT, gps_instance=300)
-        with self.assertRaisesRegex(telltale.InputError, "output 3 is given for both thrusters"):
+        with self.assertRaisesRegex(telltale.InputError, "output 3 stands for both thrusters"):
             telltale.load(self.log, vehicle=twin.BOAT, port_channel=3, starboard_channel=3)
         with self.assertRaisesRegex(telltale.InputError, r"propeller_separation_m"):
             telltale.Vehicle("boat", propeller_separation_m=-1.0)

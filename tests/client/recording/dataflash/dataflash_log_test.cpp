@@ -181,6 +181,16 @@ TEST(DataFlash, ChannelsCanBeGiven) {
   EXPECT_EQ(log.thrusters[0].starboard_us, 1500.0);
 }
 
+TEST(DataFlash, RefusesTheOutputOfPortForStarboard) {
+  Rover4Writer writer = Ready();
+  writer.Run(2);
+  DataFlashOptions options;
+  options.starboard_channel = Parse(writer).port->channel;
+  const DataFlashLog log = Parse(writer, options);
+  EXPECT_TRUE(log.thrusters.empty());
+  EXPECT_EQ(log.Lacks().back().subject, "starboard_channel");
+}
+
 // Rover 2.x and Copter 3.2: no TimeUS; TimeMS of a GPS message is the GPS week's, T the
 // autopilot's.
 TEST(DataFlash, ReadsTimeMsFirmware) {

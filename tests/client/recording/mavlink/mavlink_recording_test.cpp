@@ -35,6 +35,18 @@ TEST(MavlinkRecording, TakesThreeChannelsOnTheAutopilotsClock) {
   EXPECT_DOUBLE_EQ(log.thrusters.at(0).starboard_us, 1400.0);
 }
 
+TEST(MavlinkRecording, RefusesTheOutputOfPortForStarboard) {
+  MavlinkRecording recording;
+  NameOutputs(recording, 1);
+  recording.Take(1, OutputAt(3000000, 1600, 1400));
+  SourceOptions options;
+  options.starboard_channel = 1;
+  const SourceLog log = std::move(recording).Finish(options);
+  EXPECT_TRUE(log.thrusters.empty());
+  EXPECT_EQ(log.Lacks().back().subject, "starboard_channel");
+  EXPECT_EQ(log.Lacks().back().reason, "output 1 stands for both thrusters");
+}
+
 TEST(MavlinkRecording, ThinsWhatOutgrowsItsMemoryAndSaysSo) {
   constexpr std::size_t kMost = 100'000;
   MavlinkRecording recording(kMost);

@@ -109,6 +109,17 @@ TEST(RosRecording, TakesTheLastChannelOfMoreThanDriveThrusters) {
   EXPECT_EQ(log.thrusters[0].starboard_us, 1616.0);
 }
 
+TEST(RosRecording, RefusesTheOutputThatIsPortByDefaultForStarboard) {
+  SourceOptions options;
+  options.starboard_channel = 1;
+  RosRecording recording(options);
+  Take(recording, "/rc/out", "mavros_msgs/msg/RCOut", 100 * kSecondNs, RcOut(100, {1600, 0, 1400}));
+  const SourceLog log = std::move(recording).Finish();
+  EXPECT_TRUE(log.thrusters.empty());
+  EXPECT_EQ(log.Lacks().back().subject, "starboard_channel");
+  EXPECT_EQ(log.Lacks().back().reason, "output 1 stands for both thrusters");
+}
+
 TEST(RosRecording, CountsOutputsWithTooFewChannels) {
   RosRecording recording{SourceOptions{}};
   Take(recording, "/rc/out", "mavros_msgs/msg/RCOut", 100 * kSecondNs, RcOut(100, {1600, 1500}));
