@@ -1,4 +1,7 @@
+#include <fcntl.h>
 #include <signal.h>
+#include <stdlib.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
@@ -26,6 +29,23 @@ using namespace std::chrono_literals;
 
 constexpr double kSenderBootS = 1.7e9;  // of send_live.mjs
 constexpr double kDataBeginS = kSenderBootS + 9.9995;
+
+/// A serial line with nothing at its other end.
+class PseudoTerminal {
+ public:
+  PseudoTerminal() : end_(posix_openpt(O_RDWR | O_NOCTTY)) {
+    EXPECT_EQ(grantpt(end_), 0);
+    EXPECT_EQ(unlockpt(end_), 0);
+  }
+  PseudoTerminal(const PseudoTerminal&) = delete;
+  PseudoTerminal& operator=(const PseudoTerminal&) = delete;
+  ~PseudoTerminal() { close(end_); }
+
+  std::string Device() const { return ptsname(end_); }
+
+ private:
+  int end_;
+};
 
 /// A real bridge process, autopilots by node-mavlink, and a subscriber on the bus.
 class BridgeTest : public testing::Test {
@@ -272,7 +292,11 @@ TEST_F(BridgeTest, RefusesAddressesAndIdsThatAreWrong) {
   run({"--mavlink", "serial:/dev/null:57600"}, 1, "it is no serial device");
   run({"--mavlink", "udp:127.0.0.1:14550", "--listen-only", "--rate", "5"}, 2, "--rate");
   run({"--ros2", "--port-channel", "1", "--starboard-channel", "1"}, 2,
-      "output 1 is given for both thrusters");
+      "output 1 stands for both thrusters");
+  run({"--ros2", "--starboard-channel", "1"}, 2, "output 1 stands for both thrusters");
+  const PseudoTerminal line;
+  run({"--mavlink", "serial:" + line.Device() + ":1201"}, 1,
+      "it has no rate of 1201 baud; 57600 and 115200 are usual");
 }
 
 }  // namespace

@@ -188,5 +188,12 @@ TEST(Validate, RefusesHorizonsOutOfRange) {
   }
 }
 
+TEST(Validate, NamesTheHorizonAndItsRange) {
+  const auto metrics = Validate(PaperRows(10.0), YellowfishPaperModel(), {{601.5}});
+  ASSERT_FALSE(metrics.has_value());
+  EXPECT_EQ(metrics.error().reason, "601.5 s is out of range");
+  EXPECT_EQ(metrics.error().advice, "choose horizons from two sampling periods (0.4 s) to 600 s");
+}
+
 }  // namespace
 }  // namespace telltale
