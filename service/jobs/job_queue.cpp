@@ -5,6 +5,8 @@
 
 #include <spdlog/spdlog.h>
 
+#include "telltale/service/jobs/freed_memory.hpp"
+
 namespace telltale {
 
 template <class Request, class Stage, class Reply>
@@ -334,7 +336,14 @@ void JobQueue<Request, Stage, Reply>::Run(Urgency urgency) {
   while (const auto job = AwaitNext(urgency)) {
     CountAttempts(job);
     Finish(job, Execute(job));
+    if (!HasWorkFor(urgency)) ReturnFreedMemory();
   }
+}
+
+template <class Request, class Stage, class Reply>
+bool JobQueue<Request, Stage, Reply>::HasWorkFor(Urgency urgency) const {
+  const std::lock_guard lock(mutex_);
+  return NextRunnable(urgency) != nullptr;
 }
 
 template <class Request, class Stage, class Reply>

@@ -124,6 +124,7 @@ class JobQueue {
   std::shared_ptr<Job> JobLike(const Request& request, Urgency urgency) const;
   void Queue(Request request, Urgency urgency, Asker asker);
   void Run(Urgency urgency);
+  bool HasWorkFor(Urgency urgency) const;
   void CountAttempts(const std::shared_ptr<Job>& job);
   std::shared_ptr<Job> AwaitNext(Urgency urgency);
   std::shared_ptr<Job> NextRunnable(Urgency urgency) const;

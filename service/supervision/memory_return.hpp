@@ -7,10 +7,8 @@
 
 namespace telltale {
 
-/// Gives the memory back to the system, once a minute and on a thread of its own, that has been
-/// freed and that the heaps of glibc keep. Each thread has a heap, and one that computes leaves
-/// holes of tens of megabytes in its own; they would add up with the hours to several times what is
-/// in use.
+/// Gives freed memory back to the system once a minute, on a thread of its own: what is freed
+/// outside of jobs, as by windows and by the pages. Jobs do it themselves.
 class MemoryReturn {
  public:
   MemoryReturn() : thread_([this](const std::stop_token& stop) { Run(stop); }) {}

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <chrono>
 #include <condition_variable>
+#include <cstddef>
+#include <fstream>
 #include <future>
 #include <map>
 #include <memory>
@@ -40,6 +42,12 @@ Vehicle Named(const std::string& vehicle_id) {
   Vehicle vehicle = YellowfishVehicle();
   vehicle.vehicle_id = vehicle_id;
   return vehicle;
+}
+
+std::size_t ResidentBytes() {
+  std::size_t pages = 0;
+  std::ifstream("/proc/self/statm") >> pages >> pages;  // the second field
+  return pages * static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
 }
 
 /// Work that goes on until it is let go, and that knows what was done, and how much at once.
@@ -415,6 +423,42 @@ TEST_F(Jobs, KeepOneClientFromFillingTheQueue) {
   EXPECT_EQ(ReplyMessageTo(*queue, RequestNamed("alike", "one", 1)), "done");
   queue->Submit(RequestNamed("later", "one"), Urgency::kInteractive, {}, kFlooding);
   EXPECT_EQ(ReplyMessageTo(*queue, RequestNamed("later", "one")), "done");
+}
+
+// Blocks that stay, as a model does, lie between those that are freed, so that free() returns none.
+// The daemon's other return of memory comes once a minute and is not at work here.
+TEST_F(Jobs, GiveBackTheMemoryThatTheirWorkHasFreed) {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+  GTEST_SKIP() << "a sanitizer has a heap of its own, which keeps what is freed";
+#endif
+  constexpr std::size_t kBlockBytes = 4096;
+  constexpr std::size_t kBlocks = 16384;
+  constexpr std::size_t kStays = 64;  // one of so many
+  std::vector<std::vector<char>> stay;
+  std::size_t most_bytes = 0;
+  IdentificationQueue queue("identification", fleet_, replies_, {.interactive = 1}, 10,
+                            [&](const IdentifyRequest& request, const Computation&) {
+                              std::vector<std::vector<char>> blocks;
+                              for (std::size_t i = 0; i < kBlocks; ++i) {
+                                blocks.emplace_back(kBlockBytes, 'x');
+                              }
+                              most_bytes = ResidentBytes();
+                              for (std::size_t i = 0; i < kBlocks; i += kStays) {
+                                stay.push_back(std::move(blocks[i]));
+                              }
+                              return ReplyTo<IdentifyReply>(request, ReplyOutcome::kRefused,
+                                                            "done");
+                            });
+  std::promise<void> done;
+  queue.Submit(RequestNamed("a", "one"), Urgency::kInteractive,
+               [&](const IdentifyReply&) { done.set_value(); });
+  done.get_future().wait();
+  const auto until = std::chrono::steady_clock::now() + 60s;
+  const auto has_given_back = [&] {
+    return ResidentBytes() + kBlocks * kBlockBytes / 2 < most_bytes;
+  };
+  while (!has_given_back() && std::chrono::steady_clock::now() < until) std::this_thread::yield();
+  EXPECT_TRUE(has_given_back()) << ResidentBytes() << " of " << most_bytes;
 }
 
 TEST_F(Jobs, WriteABoundedLogUnderAFlood) {
