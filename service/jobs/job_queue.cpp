@@ -213,7 +213,7 @@ auto JobQueue<Request, Stage, Reply>::NextRunnable(Urgency urgency) const -> std
     const std::string& vehicle_id = job->request.vehicle_id;
     if (!job->Waits() || job->urgency != urgency) continue;
     if (running_vehicles_.contains({urgency, vehicle_id})) continue;
-    const auto found = last_begun_.find(vehicle_id);
+    const auto found = last_begun_.find({urgency, vehicle_id});
     const std::uint64_t served = found == last_begun_.end() ? 0 : found->second;
     if (next && served >= next_served) continue;
     next = job;
@@ -371,7 +371,7 @@ auto JobQueue<Request, Stage, Reply>::AwaitNext(Urgency urgency) -> std::shared_
     if (auto next = NextRunnable(urgency)) {
       next->started = next->advanced = Clock::now();
       running_vehicles_.emplace(urgency, next->request.vehicle_id);
-      last_begun_[next->request.vehicle_id] = ++begun_;
+      last_begun_[{urgency, next->request.vehicle_id}] = ++begun_;
       return next;
     }
     if (const auto deadline = EarliestDeadline()) {

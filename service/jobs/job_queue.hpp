@@ -33,8 +33,10 @@
 namespace telltale {
 
 /// A bounded queue of requests and the threads that work on them.
-/// - Each urgency has workers of its own. Of each urgency a vehicle has one request worked on at a
-///   time, and the vehicle that has waited longest for a worker comes first.
+/// - Each urgency has workers of its own, so none waits until no more urgent request is left. Of
+///   each urgency a vehicle has one request worked on at a time, and the vehicle whose last one
+///   began longest ago comes first: it waits for one of each other vehicle at most.
+/// - A worker that runs out of requests gives back the memory that its work has freed.
 /// - A request with a known correlation id is not worked on again: the queue sends its progress or
 ///   its reply again. A request that asks for the same as one that waits, or that has been worked
 ///   on for less than 5 s and is as urgent, joins it, and both get its reply.
@@ -155,8 +157,9 @@ class JobQueue {
   ExchangeHistory<Stage, Reply> history_;
   RateLimit log_limit_{200, std::chrono::seconds(10)};
   std::set<std::pair<Urgency, std::string>> running_vehicles_;
-  std::map<std::string, std::uint64_t> last_begun_;  ///< by vehicle: `begun_` at its last job
-  double mean_duration_s_ = 1.0;                     ///< of the latest jobs
+  /// `begun_` at the last job of this urgency and vehicle.
+  std::map<std::pair<Urgency, std::string>, std::uint64_t> last_begun_;
+  double mean_duration_s_ = 1.0;  ///< of the latest jobs
   std::atomic<bool> stopping_ = false;
   std::vector<std::thread> workers_;
 };

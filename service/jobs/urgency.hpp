@@ -33,7 +33,9 @@ struct Workers {
 };
 
 /// Lets the calling thread, and those that it starts from now on, leave the processors to threads
-/// of a greater urgency.
+/// of a greater urgency. Where those take all there is, a refresh still gets a tenth of the time
+/// that one of them gets, and a coverage check a seventieth. Called once a thread, which had the
+/// nice value of the daemon.
 void YieldToMoreUrgentThan(Urgency urgency);
 
 }  // namespace telltale

@@ -3,6 +3,7 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <stdexcept>
 #include <string>
@@ -35,11 +36,18 @@ struct NiceValues {
   }
 };
 
-// Values of setpriority(2): 19 gives way to all others.
+// The share of the processors that is left to it follows from the difference to the daemon's own
+// value. Of setpriority(2): 19 is the largest.
 TEST(Computation, GivesWayWhereSomethingElseIsMoreUrgent) {
-  EXPECT_EQ(NiceValues(Urgency::kInteractive).computes, NiceOfThisThread());
-  EXPECT_EQ(NiceValues(Urgency::kRefresh).computes, 10);
-  EXPECT_EQ(NiceValues(Urgency::kBackground).computes, 19);
+  for (const int own : {0, 3}) {
+    std::jthread([own] {
+      setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), own);
+      const int now = NiceOfThisThread();  // a test that runs at a greater one stays there
+      EXPECT_EQ(NiceValues(Urgency::kInteractive).computes, now);
+      EXPECT_EQ(NiceValues(Urgency::kRefresh).computes, std::min(now + 10, 19));
+      EXPECT_EQ(NiceValues(Urgency::kBackground).computes, 19);
+    });
+  }
 }
 
 // A thread that gets no processor would hold whatever it locks to report.

@@ -368,6 +368,22 @@ TEST_F(Jobs, TakeVehiclesInTurn) {
   EXPECT_THAT(work_.Begun(), ::testing::ElementsAre("one", "two", "one", "one", "one"));
 }
 
+// However often somebody identifies it meanwhile.
+TEST_F(Jobs, RefreshVehiclesInTurn) {
+  const auto queue = QueueOf({.interactive = 1, .refresh = 1}, 10);
+  queue->Submit(RequestNamed("a", "two"), Urgency::kRefresh);
+  ASSERT_TRUE(work_.AwaitInside(1));
+  queue->Submit(RequestNamed("plain", "one"));
+  ASSERT_TRUE(work_.AwaitInside(2));
+  queue->Submit(RequestNamed("b", "two"), Urgency::kRefresh);
+  queue->Submit(RequestNamed("c", "one"), Urgency::kRefresh);
+  work_.LetGo();
+  for (const auto& [id, vehicle] : {std::pair("b", "two"), {"c", "one"}}) {
+    EXPECT_EQ(ReplyMessageTo(*queue, RequestNamed(id, vehicle)), "done");
+  }
+  EXPECT_THAT(work_.Begun(), ::testing::ElementsAre("two", "one", "one", "two"));
+}
+
 TEST_F(Jobs, DropWhatNobodyWaitsForAnyMore) {
   const auto queue = QueueOf({.interactive = 1}, 10);
   IdentifyRequest patient = RequestNamed("patient", "one", 1);
