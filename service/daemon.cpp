@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <set>
 #include <stdexcept>
@@ -29,6 +30,12 @@ std::optional<Role::Clock::duration> LeaseIfAny(const DaemonConfig& config) {
 std::chrono::nanoseconds HeartbeatPeriodOf(const DaemonConfig& config) {
   constexpr std::chrono::seconds kOfOneAlone{1};
   return config.standby ? LeaseOf(*config.standby) / 4 : kOfOneAlone;
+}
+
+/// Of fleet requests refreshes alone take time.
+bool IsKept(const AnyRequest& request) {
+  const auto* fleet = std::get_if<FleetRequest>(&request);
+  return fleet == nullptr || fleet->command == FleetCommand::kRefresh;
 }
 
 /// A name that no other daemon has that runs at the same time.
@@ -268,10 +275,7 @@ std::unique_ptr<FailOver> Daemon::MakeFailOver() {
 void Daemon::TakeOver(const Qos& model_contract, bool succeeds) {
   models_.BeginPublishing(model_contract);
   diagnoses_.BeginPublishing(fleet_);
-  if (alone_) ResumeUnanswered(succeeds);
-  for (AnyRequest& request : heard_.TakeUnanswered(HeardRequests::Clock::now())) {
-    Submit(std::move(request));
-  }
+  TakeUpRequests(succeeds);
   BeginUpkeep();
   sources_.emplace(participant_, config_.sources, view_);
   is_ready_ = alone_;
@@ -365,11 +369,24 @@ DaemonActivity Daemon::Activity() const {
 }
 
 /// A daemon that was killed has left requests without an answer. Where another has served in the
-/// meantime, that one has answered them.
-void Daemon::ResumeUnanswered(bool succeeds) {
-  auto requests = journal_.TakeUnanswered();
-  if (!succeeds) return Resume(std::move(requests), "of the run before");
-  for (const auto& [request, attempts] : requests) journal_.Drop(CorrelationIdOf(request));
+/// meantime, that one has answered them, but for those that somebody still asks for.
+void Daemon::TakeUpRequests(bool succeeds) {
+  auto own = alone_ ? journal_.TakeUnanswered() : std::vector<UnansweredRequest>();
+  std::map<std::string, int> own_attempts;
+  for (const auto& [request, attempts] : own) own_attempts[CorrelationIdOf(request)] = attempts;
+  if (!succeeds) Resume(std::move(own), "of the run before");
+  std::vector<UnansweredRequest> heard;
+  for (auto& [request, begun] : heard_.TakeUnanswered(HeardRequests::Clock::now())) {
+    const auto known = own_attempts.extract(CorrelationIdOf(request));
+    const int attempts = begun && IsKept(request) ? journal_.CountAttemptOfAnother(request)
+                         : known.empty()          ? 0
+                                                  : known.mapped();
+    heard.push_back({std::move(request), attempts});
+  }
+  if (succeeds) {
+    for (const auto& [correlation_id, attempts] : own_attempts) journal_.Drop(correlation_id);
+  }
+  Resume(std::move(heard), "that were heard");
 }
 
 /// What has ended the daemon again and again would end it for ever.

@@ -82,7 +82,7 @@ class Daemon {
   void Submit(AnyRequest request, WriterHandle client = kNoClient);
   bool IsInFleet(const std::string& vehicle_id);
   bool IsForAnother(const AnyRequest& request) const;
-  void ResumeUnanswered(bool succeeds);
+  void TakeUpRequests(bool succeeds);
   void Resume(std::vector<UnansweredRequest> requests, const char* whose);
   void GiveUp(const AnyRequest& request, int attempts);
   void BeginUpkeep();

@@ -8,6 +8,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -18,6 +19,9 @@ namespace telltale {
 
 /// The client of what this daemon asks itself.
 inline constexpr WriterHandle kNoClient = 0;
+
+/// The stage of a request that no worker has begun.
+inline constexpr std::string_view kQueuedStage = "queued";
 
 /// How long a client is waited for that the bus has lost: one that is only cut off asks again, by
 /// the writer that it has then, within seconds.

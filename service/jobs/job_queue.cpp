@@ -63,7 +63,7 @@ void JobQueue<Request, Stage, Reply>::Submit(Request request, Urgency urgency, A
     return Send({{std::move(asker), *rejection}});
   }
   const bool on_the_bus = !asker.answer;
-  const Stage stage{{request.correlation_id, request.vehicle_id, "queued", 0.0}};
+  const Stage stage{{request.correlation_id, request.vehicle_id, std::string(kQueuedStage), 0.0}};
   history_.Begin(stage);
   const bool kept = on_the_bus && journal_ != nullptr;
   if (kept) {

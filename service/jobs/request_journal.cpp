@@ -96,6 +96,31 @@ void RequestJournal::CountAttempt(const std::string& correlation_id) {
   }
 }
 
+int RequestJournal::CountAttemptOfAnother(const AnyRequest& request) {
+  const std::string& id = CorrelationIdOf(request);
+  const int slice = SliceOfRequest(request);
+  const std::string bytes = SerialiseRequest(request, UnixNow());
+  {
+    const std::lock_guard lock(mutex_);
+    kept_.insert_or_assign(id, slice);
+    taken_up_.insert(id);
+  }
+  int attempts = 1;
+  try {
+    storage_.Open(RequestsSchema())
+        ->Query(
+            "INSERT INTO requests (correlation_id, request, checksum, slice, attempts)"
+            " VALUES ($1, $2, $3, $4, 1) ON CONFLICT (correlation_id)"
+            " DO UPDATE SET attempts = requests.attempts + 1 RETURNING attempts",
+            {id, Blob(bytes), std::int64_t{ChecksumOf(bytes)}, std::int64_t{slice}},
+            [&](const Row& row) { attempts = static_cast<int>(row.Integer("attempts")); });
+  } catch (const DatabaseError& error) {
+    spdlog::error("{}; the attempt of another daemon to answer {} is not counted", error.what(),
+                  id);
+  }
+  return attempts;
+}
+
 void RequestJournal::Keep(const AnyRequest& request, std::function<void()> kept) {
   const std::string& id = CorrelationIdOf(request);
   Entry entry{id, SliceOfRequest(request), SerialiseRequest(request, UnixNow()), std::move(kept)};

@@ -22,7 +22,10 @@ namespace telltale {
 /// A request of a run before that has no answer.
 struct UnansweredRequest {
   AnyRequest request;
-  int attempts = 0;  ///< how often a daemon has taken it up again, begun it, and ended before it
+  /// How often a daemon that took it up again, or that another has replaced, has begun it and ended
+  /// before it. Two daemons that stand in for each other count into one sum, each in its own
+  /// journal: each counts its own attempts and, when it takes over, that of the other.
+  int attempts = 0;
 };
 
 /// The requests that wait for their answers, in the storage, so that a daemon that was killed
@@ -48,6 +51,11 @@ class RequestJournal {
   /// The work on a request begins. One of a run before has its attempt counted on disk first, since
   /// it may be what has ended that run. Where the disk refuses, that is logged.
   void CountAttempt(const std::string& correlation_id);
+
+  /// Another daemon that stood in for this one had begun the request and ended before it: it is
+  /// kept as one of a run before, with that attempt. Returns its attempts so far; 1 where the disk
+  /// refuses, which is logged.
+  int CountAttemptOfAnother(const AnyRequest& request);
 
   /// Why the database cannot be reached now, so that no request can be kept; nothing where it can.
   std::optional<std::string> Unavailable() const { return storage_.status().Unavailable(); }

@@ -8,6 +8,7 @@
 
 #include "telltale/client/fleet/request_reply.hpp"
 #include "telltale/idl/codec/wire/daemon_status.hpp"
+#include "telltale/service/jobs/job.hpp"
 
 namespace telltale {
 namespace {
@@ -40,6 +41,9 @@ FailOver::FailOver(const Participant& participant, const StandbySettings& settin
       identify_replies_(participant, FromOthers(RequestReplyQos())),
       diagnose_replies_(participant, FromOthers(RequestReplyQos())),
       fleet_replies_(participant, FromOthers(RequestReplyQos())),
+      identify_progress_(participant, FromOthers(RequestReplyQos())),
+      diagnose_progress_(participant, FromOthers(RequestReplyQos())),
+      refresh_progress_(participant, FromOthers(RequestReplyQos())),
       mirror_(participant, wait_set_, role, mirrored),
       election_(NewDaemon(settings, terms.Latest()), LeaseOf(settings), Clock::now()),
       terms_(std::move(terms)) {}
@@ -55,7 +59,7 @@ void FailOver::Start() {
   thread_ = std::thread([this] { Run(); });
 }
 
-/// Hears of the other daemons, and of the answers that they give.
+/// Hears of the other daemons, of the answers that they give and of what they work on.
 void FailOver::Follow() {
   wait_set_.Attach(statuses_, [this] {
     statuses_.Take(
@@ -69,6 +73,11 @@ void FailOver::Follow() {
           election_.Lose({gone.daemon_id, strnlen(gone.daemon_id, sizeof gone.daemon_id)});
         });
   });
+  FollowAnswers();
+  FollowProgress();
+}
+
+void FailOver::FollowAnswers() {
   const auto forget_answered = [this](auto& replies) {
     wait_set_.Attach(replies, [this, &replies] {
       replies.Take([this](const auto& wire) {
@@ -80,6 +89,25 @@ void FailOver::Follow() {
   forget_answered(identify_replies_);
   forget_answered(diagnose_replies_);
   forget_answered(fleet_replies_);
+}
+
+/// A refresh that has any progress has begun.
+void FailOver::FollowProgress() {
+  const auto note_begun = [this](auto& reports) {
+    wait_set_.Attach(reports, [this, &reports] {
+      reports.Take([this](const auto& wire) {
+        if (wire.correlation_id == nullptr || wire.stage == nullptr) return;
+        if (wire.stage != kQueuedStage) requests_.Begun(wire.correlation_id);
+      });
+    });
+  };
+  note_begun(identify_progress_);
+  note_begun(diagnose_progress_);
+  wait_set_.Attach(refresh_progress_, [this] {
+    refresh_progress_.Take([this](const telltale_wire_FleetProgress& wire) {
+      if (wire.correlation_id != nullptr) requests_.Begun(wire.correlation_id);
+    });
+  });
 }
 
 void FailOver::Heartbeat(bool has_heard_fleet) {

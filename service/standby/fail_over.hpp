@@ -58,6 +58,8 @@ class FailOver {
 
   void Run();
   void Follow();
+  void FollowAnswers();
+  void FollowProgress();
   void Decide();
   void NoteTerm(std::uint32_t term);
   void Keep(std::uint32_t term);
@@ -76,6 +78,9 @@ class FailOver {
   Reader<telltale_wire_IdentifyReply> identify_replies_;
   Reader<telltale_wire_DiagnoseReply> diagnose_replies_;
   Reader<telltale_wire_FleetReply> fleet_replies_;
+  Reader<telltale_wire_IdentifyProgress> identify_progress_;
+  Reader<telltale_wire_DiagnoseProgress> diagnose_progress_;
+  Reader<telltale_wire_FleetProgress> refresh_progress_;
   Mirror mirror_;
 
   mutable std::mutex mutex_;  // of election_

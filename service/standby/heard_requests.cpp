@@ -26,7 +26,10 @@ bool HeardRequests::Note(const AnyRequest& request, Clock::time_point now) {
   if (taken_) return false;
   const std::string& id = CorrelationIdOf(request);
   if (answered_.contains(id)) return true;
-  if (unanswered_.insert_or_assign(id, Heard{request, now}).second) order_.push_back(id);
+  const auto [heard, is_new] = unanswered_.try_emplace(id);
+  heard->second.request = request;
+  heard->second.since = now;
+  if (is_new) order_.push_back(id);
   if (order_.size() > kMost) {
     unanswered_.erase(order_.front());
     order_.pop_front();
@@ -45,16 +48,22 @@ void HeardRequests::Answered(const std::string& correlation_id) {
   }
 }
 
-std::vector<AnyRequest> HeardRequests::TakeUnanswered(Clock::time_point now) {
+void HeardRequests::Begun(const std::string& correlation_id) {
+  const std::lock_guard lock(mutex_);
+  const auto heard = unanswered_.find(correlation_id);
+  if (heard != unanswered_.end()) heard->second.begun = true;
+}
+
+std::vector<HeardRequest> HeardRequests::TakeUnanswered(Clock::time_point now) {
   const std::lock_guard lock(mutex_);
   taken_ = true;
-  std::vector<AnyRequest> requests;
+  std::vector<HeardRequest> requests;
   for (const std::string& id : std::exchange(order_, {})) {
     const auto heard = unanswered_.find(id);
     if (heard == unanswered_.end()) continue;
     const std::chrono::duration<double> waited = now - heard->second.since;
     if (auto left = LeftAfter(std::move(heard->second.request), waited.count())) {
-      requests.push_back(*std::move(left));
+      requests.push_back({*std::move(left), heard->second.begun});
     }
     unanswered_.erase(heard);
   }

@@ -13,6 +13,12 @@
 
 namespace telltale {
 
+/// A request without an answer.
+struct HeardRequest {
+  AnyRequest request;
+  bool begun = false;  ///< the daemon that served was at work on it
+};
+
 /// The requests that a standby has heard and nobody has answered: it works on them when it takes
 /// over. Of requests and of answers the latest 1024 are known. Thread safe.
 class HeardRequests {
@@ -26,14 +32,18 @@ class HeardRequests {
   /// The request has its reply, or will not get one.
   void Answered(const std::string& correlation_id);
 
+  /// The daemon that serves is at work on the request.
+  void Begun(const std::string& correlation_id);
+
   /// Those without an answer, oldest first, each with what is left of its deadline. Those whose
   /// deadline has passed are not among them. From now on none is noted.
-  std::vector<AnyRequest> TakeUnanswered(Clock::time_point now);
+  std::vector<HeardRequest> TakeUnanswered(Clock::time_point now);
 
  private:
   struct Heard {
     AnyRequest request;
     Clock::time_point since;
+    bool begun = false;
   };
 
   std::mutex mutex_;  // of what follows

@@ -81,6 +81,26 @@ TEST_P(RequestJournalTest, CountsTheAttemptsToAnswerARequestOfARunBefore) {
   EXPECT_EQ(unanswered[1].attempts, 0);
 }
 
+// One sum of two daemons that stand in for each other, whichever of them ended.
+TEST_P(RequestJournalTest, CountsTheAttemptsOfAnotherDaemonToo) {
+  const AnyRequest request = RequestCalled("ends-both");
+  {
+    RequestJournal journal(Storage());
+    EXPECT_EQ(journal.CountAttemptOfAnother(request), 1);
+    journal.Keep(request, {});
+    journal.CountAttempt("ends-both");
+  }
+  {
+    RequestJournal journal(Storage());
+    const auto unanswered = journal.TakeUnanswered();
+    ASSERT_EQ(unanswered.size(), 1u);
+    EXPECT_EQ(unanswered[0].attempts, 2);
+    EXPECT_EQ(journal.CountAttemptOfAnother(request), 3);
+    journal.Drop("ends-both");
+  }
+  EXPECT_EQ(Unanswered(), std::vector<std::string>());
+}
+
 TEST_P(RequestJournalTest, HoldsNoMoreThanHasNoAnswerWhileTheDatabaseHangs) {
   std::atomic<int> kept = 0;
   {

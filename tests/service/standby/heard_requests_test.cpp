@@ -20,9 +20,9 @@ IdentifyRequest Asked(const std::string& id, double deadline_s = 0.0) {
   return request;
 }
 
-std::vector<std::string> IdsOf(const std::vector<AnyRequest>& requests) {
+std::vector<std::string> IdsOf(const std::vector<HeardRequest>& requests) {
   std::vector<std::string> ids;
-  for (const AnyRequest& request : requests) ids.push_back(CorrelationIdOf(request));
+  for (const HeardRequest& heard : requests) ids.push_back(CorrelationIdOf(heard.request));
   return ids;
 }
 
@@ -51,8 +51,20 @@ TEST(HeardRequests, KeepWhatIsLeftOfTheirDeadlines) {
   heard.Note(Asked("without"), kFirstHeard);
   const auto left = heard.TakeUnanswered(kFirstHeard + 4s);
   ASSERT_THAT(IdsOf(left), ElementsAre("in-time", "without"));
-  EXPECT_DOUBLE_EQ(std::get<IdentifyRequest>(left[0]).deadline_s, 6.0);
-  EXPECT_EQ(std::get<IdentifyRequest>(left[1]).deadline_s, 0.0);
+  EXPECT_DOUBLE_EQ(std::get<IdentifyRequest>(left[0].request).deadline_s, 6.0);
+  EXPECT_EQ(std::get<IdentifyRequest>(left[1].request).deadline_s, 0.0);
+}
+
+TEST(HeardRequests, TellWhichOfThemWereBegun) {
+  HeardRequests heard;
+  heard.Begun("stranger");
+  for (const char* id : {"begun", "waits"}) heard.Note(Asked(id), kFirstHeard);
+  heard.Begun("begun");
+  heard.Note(Asked("begun"), kFirstHeard + 1s);  // a client asks again
+  const auto requests = heard.TakeUnanswered(kFirstHeard + 1s);
+  ASSERT_THAT(IdsOf(requests), ElementsAre("begun", "waits"));
+  EXPECT_TRUE(requests[0].begun);
+  EXPECT_FALSE(requests[1].begun);
 }
 
 TEST(HeardRequests, AreNotNotedOnceTheyAreTaken) {

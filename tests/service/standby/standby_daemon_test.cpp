@@ -137,6 +137,35 @@ TEST_F(StandbyDaemon, AnswersWhatTheOtherHadAcknowledged) {
   EXPECT_THAT(one_->output(), Not(HasSubstr("for acknowledged: PUBLISHED")));
 }
 
+// Service managers start both again each time, for ever where the request is what ends them.
+TEST_F(StandbyDaemon, GivesUpARequestThatHasEndedOneOrTheOtherThreeTimes) {
+  using Clock = std::chrono::steady_clock;
+  StartPair();
+  ReplayToBoth(90.0);
+  IdentificationClient client(participant_);
+  IdentifyRequest request = Request("deadly");
+  request.coverage_check_replicates = 1000;  // minutes of work
+  int killed = 0;
+  Clock::time_point replaced;
+  const auto result = client.Identify(request, kTiming, [&](const IdentifyProgress& progress) {
+    // Reports of the daemon that was killed come late; and the client has to ask again, once a
+    // second, so that the other hears of the request.
+    if (progress.stage == "queued" || Clock::now() < replaced + 3s) return;
+    const bool is_one = killed % 2 == 0;
+    auto& killed_daemon = is_one ? one_ : two_;
+    killed_daemon->Signal(SIGKILL);
+    killed_daemon->Wait();
+    const int term = ++killed + 1;
+    EXPECT_TRUE(DaemonPair::TakesOver(is_one ? *two_ : *one_, term));
+    killed_daemon = pair_.Start(is_one ? "one" : "two", is_one ? 2 : 1);
+    EXPECT_TRUE(DaemonPair::StandsBy(*killed_daemon, term)) << killed_daemon->output();
+    replaced = Clock::now();
+  });
+  EXPECT_EQ(killed, 3);
+  ASSERT_EQ(result.outcome, RequestOutcome::kFailed);
+  EXPECT_THAT(result.reply->message, HasSubstr("each of the 3 times that"));
+}
+
 TEST_F(StandbyDaemon, DoesNotAnswerWhileTheOtherServes) {
   StartPair();
   ReplayToBoth();
