@@ -147,7 +147,8 @@ TEST_F(StandbyDaemon, GivesUpARequestThatHasEndedOneOrTheOtherThreeTimes) {
   request.coverage_check_replicates = 1000;  // minutes of work
   int killed = 0;
   Clock::time_point replaced;
-  const auto result = client.Identify(request, kTiming, [&](const IdentifyProgress& progress) {
+  constexpr RequestTiming kPatient{.match = 60s, .reply = 300s, .retry = 1s};
+  const auto result = client.Identify(request, kPatient, [&](const IdentifyProgress& progress) {
     // Reports of the daemon that was killed come late; and the client has to ask again, once a
     // second, so that the other hears of the request.
     if (progress.stage == "queued" || Clock::now() < replaced + 3s) return;
@@ -161,7 +162,8 @@ TEST_F(StandbyDaemon, GivesUpARequestThatHasEndedOneOrTheOtherThreeTimes) {
     EXPECT_TRUE(DaemonPair::StandsBy(*killed_daemon, term)) << killed_daemon->output();
     replaced = Clock::now();
   });
-  EXPECT_EQ(killed, 3);
+  // One that ended before the other had heard of its work does not count.
+  EXPECT_GE(killed, 3);
   ASSERT_EQ(result.outcome, RequestOutcome::kFailed);
   EXPECT_THAT(result.reply->message, HasSubstr("each of the 3 times that"));
 }
