@@ -8,6 +8,7 @@
 #include "telltale/core/data/preparation.hpp"
 #include "telltale/core/data/recording_parts.hpp"
 #include "telltale/core/drift/drift_constants.hpp"
+#include "telltale/core/drift/known_thrust.hpp"
 
 namespace telltale {
 namespace {
@@ -53,10 +54,11 @@ void DriftMonitor::Follow(const Recording& recording, const Vehicle& vehicle,
   if (!dataset) return;
   if (!commanded_error_) commanded_error_.emplace(normal);
   commanded_error_->Add(RunErrorsOf(*dataset, identification, settled_s - block_s));
+  knows_thrust_ = KnowsThrust(identification);
   if (changes_) {
     Restrict(*dataset, settled_s - block_s, settled_s);
     changes_->Add(DriftEvidenceOf(*dataset, *model, *reference_));
-  } else {
+  } else if (knows_thrust_) {
     reference_ = DriftReferenceOf(*dataset, *model);
     if (reference_) changes_.emplace(DriftEvidenceOf(*dataset, *model, *reference_));
   }
@@ -83,6 +85,7 @@ std::string DriftMonitor::Pattern() const {
 
 std::string DriftMonitor::Untested() const {
   if (changes_) return changes_->Untested();
+  if (!knows_thrust_) return "every change: the bounds of the model's thrust hold zero";
   return "every change: no recording shows yet how the model errs while nothing has changed";
 }
 

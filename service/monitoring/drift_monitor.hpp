@@ -15,9 +15,10 @@ namespace telltale {
 
 /// Follows one model of one vehicle from minute to minute of new telemetry, and tests whether the
 /// vehicle has changed: by a known change that its errors show, or by large errors that follow the
-/// commands. The reference of the known changes is what the vehicle's recording holds at the first
-/// call at which that is enough: for a model that has just been made, what made it; after a restart
-/// of the daemon, what its window holds then. Not thread safe.
+/// commands. A model that does not know its thrust, KnowsThrust(), shows no known change. The
+/// reference of the known changes is what the vehicle's recording holds at the first call at which
+/// that is enough: for a model that has just been made, what made it; after a restart of the
+/// daemon, what its window holds then. Not thread safe.
 class DriftMonitor {
  public:
   /// Takes what came since the last call, where that is a minute or more. Nothing of a model that
@@ -44,6 +45,7 @@ class DriftMonitor {
  private:
   void NoteOnset(double settled_s);
 
+  bool knows_thrust_ = true;  ///< the model
   std::optional<DriftReference> reference_;
   double followed_to_s_ = 0.0;        ///< by the vehicle's clock
   std::optional<DriftTest> changes_;  ///< once there is a reference
