@@ -63,12 +63,12 @@ TEST(Promotion, IsAnErrorWhereTheModelDiverges) {
 }
 
 TEST(Promotion, ComparesWithConstantVelocityOnDataSetAside) {
-  struct Case {
+  struct Comparison {
     std::array<double, 3> model;
     std::array<double, 3> constant_velocity;
     PromotionVerdict verdict;
   };
-  const std::vector<Case> cases = {
+  const std::vector<Comparison> comparisons = {
       // Sway is no better: a warning. No velocity is better: an error.
       {{0.1, 0.3, 0.02}, {0.5, 0.2, 0.2}, PromotionVerdict::kWarn},
       {{0.5, 0.2, 0.2}, {0.5, 0.2, 0.2}, PromotionVerdict::kError},
@@ -77,7 +77,7 @@ TEST(Promotion, ComparesWithConstantVelocityOnDataSetAside) {
       {{0.6, 0.01, 0.01}, {0.5, 0.08, 0.03}, PromotionVerdict::kError},
       {{0.02, 0.02, 0.02}, {0.01, 0.01, 0.01}, PromotionVerdict::kOk},
   };
-  for (const Case& c : cases) {
+  for (const Comparison& c : comparisons) {
     const auto promotion = PromotionByScores(kSoundScores, kPromotionLimits,
                                              HeldOut(ScoresOf(c.model, c.constant_velocity)));
     EXPECT_EQ(promotion.verdict, c.verdict) << promotion.reason;
