@@ -52,22 +52,21 @@ int Main(int argc, char** argv) {
   app.add_option("--config", config_file, "configuration, Protobuf text format")->required();
   std::string backup;
   std::string restore;
-  auto* const back_up =
-      app.add_option("--backup", backup,
-                     "copy the databases of the state directory into this folder, also while "
-                     "another telltaled uses them, and end")
-          ->type_name("DIR");
-  app.add_option("--restore", restore,
-                 "put the databases of a backup in the place of those of the state directory, "
-                 "which are set aside, and end")
-      ->type_name("DIR")
-      ->excludes(back_up);
+  auto& instead = *app.add_option_group("instead", "of serving vehicles")->require_option(0, 1);
+  instead
+      .add_option("--backup", backup,
+                  "copy the databases of the state directory into this folder, also while another "
+                  "telltaled uses them, and end")
+      ->type_name("DIR");
+  instead
+      .add_option("--restore", restore,
+                  "put the databases of a backup in the place of those of the state directory, "
+                  "which are set aside, and end")
+      ->type_name("DIR");
   bool works = false;
-  app.add_flag("--worker", works,
-               "compute coverage checks and diagnoses for the daemons that name the same database "
-               "and have workers {}, and serve no vehicle")
-      ->excludes("--backup")
-      ->excludes("--restore");
+  instead.add_flag("--worker", works,
+                   "compute coverage checks and diagnoses for the daemons that name the same "
+                   "database and have workers {}");
   app.footer("SIGHUP reloads the vehicles; SIGTERM and SIGINT stop the daemon.");
   app.set_version_flag("--version", "telltaled " + std::string(Version()));
   try {
