@@ -85,7 +85,7 @@ std::string DriftMonitor::Pattern() const {
 
 std::string DriftMonitor::Untested() const {
   if (changes_) return changes_->Untested();
-  if (!knows_thrust_) return "every change: the bounds of the model's thrust hold zero";
+  if (!knows_thrust_) return "every change: the model's thrust is smaller than its standard error";
   return "every change: no recording shows yet how the model errs while nothing has changed";
 }
 
