@@ -54,12 +54,12 @@ void DriftMonitor::Follow(const Recording& recording, const Vehicle& vehicle,
   if (!dataset) return;
   if (!commanded_error_) commanded_error_.emplace(normal);
   commanded_error_->Add(RunErrorsOf(*dataset, identification, settled_s - block_s));
-  knows_thrust_ = KnowsThrust(identification);
   if (changes_) {
     Restrict(*dataset, settled_s - block_s, settled_s);
     changes_->Add(DriftEvidenceOf(*dataset, *model, *reference_));
-  } else if (knows_thrust_) {
-    reference_ = DriftReferenceOf(*dataset, *model);
+  } else {
+    knows_thrust_ = KnowsThrust(identification);
+    if (knows_thrust_) reference_ = DriftReferenceOf(*dataset, *model);
     if (reference_) changes_.emplace(DriftEvidenceOf(*dataset, *model, *reference_));
   }
   NoteOnset(settled_s);
