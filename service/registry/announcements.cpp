@@ -27,9 +27,6 @@ constexpr std::string_view kTooManyIds = "TOO_MANY_IDS";
 
 constexpr std::size_t kMostNamed = 8;
 
-// Boats that are gone make place for others by then, and to hear all anew takes a second.
-constexpr auto kHearAnewAfter = std::chrono::minutes(10);
-
 void Tell(const char* what, const std::vector<std::string>& vehicle_ids) {
   if (vehicle_ids.empty()) return;
   const std::size_t named = std::min(vehicle_ids.size(), kMostNamed);
@@ -42,7 +39,9 @@ void Tell(const char* what, const std::vector<std::string>& vehicle_ids) {
 }  // namespace
 
 Announcements::LimitedReader::LimitedReader(const Participant& participant)
-    : limit(kMostBoats), reader(participant, limit) {}
+    : lifetime(kMostBoats, std::chrono::steady_clock::now()),
+      limit(kMostBoats),
+      reader(participant, limit) {}
 
 Announcements::Announcements(const Participant& participant, Fleet& fleet, bool require_partition,
                              Handlers handlers)
@@ -98,21 +97,16 @@ void Announcements::Listen() {
     wait_set_.Detach(heard_->reader);
   }
   heard_.emplace(participant_);
-  heard_since_ = std::chrono::steady_clock::now();
-  unknown_retired_ = 0;
-  is_full_ = false;
   wait_set_.Attach(heard_->reader, [this] { TakeAll(); });
 }
 
-/// Ids that were announced or retired once take memory for as long as the reader lives.
 void Announcements::CountUnheard() {
   if (!heard_) return;
   if (const std::uint64_t refused = heard_->limit.TakeRefused(); refused > 0) {
     Refuse(kTooManyIds, std::to_string(kMostBoats) + " ids have been heard", refused);
-    is_full_ = true;
+    heard_->lifetime.NoteFull();
   }
-  const bool waited = std::chrono::steady_clock::now() - heard_since_ >= kHearAnewAfter;
-  if ((is_full_ && waited) || unknown_retired_ > kMostBoats) hear_again_ = true;
+  if (heard_->lifetime.IsOver(std::chrono::steady_clock::now())) hear_again_ = true;
 }
 
 void Announcements::TakeAll() {
@@ -135,7 +129,7 @@ void Announcements::Retire(const telltale_wire_VehicleAnnouncement& wire, Writer
   if (handlers_.retired(*id)) {
     retired_.push_back(*id);
   } else {
-    ++unknown_retired_;
+    heard_->lifetime.NoteUnknownRetired();
   }
 }
 

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <atomic>
-#include <chrono>
 #include <functional>
 #include <optional>
 #include <set>
@@ -16,15 +15,16 @@
 #include "telltale/client/bus/wait_set.hpp"
 #include "telltale/service/ingest/fleet.hpp"
 #include "telltale/service/ingest/senders.hpp"
+#include "telltale/service/registry/reader_lifetime.hpp"
 #include "telltale/service/registry/vehicle_registry.hpp"
 
 namespace telltale {
 
 /// Hears the boats that announce themselves, on a thread of its own. What is refused is counted
 /// among the samples that name no vehicle, as those of the channel "vehicle", and logged with a
-/// limit. Of more than kMostBoats ids it hears no further ones until it hears all anew, which it
-/// then does every ten minutes, and counts what it does not hear. Where the bus denies the topic,
-/// the log says so and no boat is heard.
+/// limit. Of more than kMostBoats ids it hears no further ones until it hears all anew, by
+/// ReaderLifetime, and counts what it does not hear. Where the bus denies the topic, the log says
+/// so and no boat is heard.
 class Announcements {
  public:
   /// All are called on the thread.
@@ -72,13 +72,11 @@ class Announcements {
   struct LimitedReader {
     explicit LimitedReader(const Participant& participant);
 
+    ReaderLifetime lifetime;
     InstanceLimit limit;
     Reader<telltale_wire_VehicleAnnouncement> reader;
   };
   std::optional<LimitedReader> heard_;
-  std::chrono::steady_clock::time_point heard_since_;
-  bool is_full_ = false;              ///< since heard_since_
-  std::int32_t unknown_retired_ = 0;  ///< of the reader: ids that its limit does not count
   std::atomic<bool> hear_again_ = true;
   std::atomic<bool> stopping_ = false;
   std::thread thread_;

@@ -220,6 +220,21 @@ TEST_P(AnnouncedVehicles, AreNotHeardBeyondAsManyIdsAsADaemonHolds) {
   EXPECT_TRUE(daemon->WaitForOutput("0 added, 1 changed")) << daemon->output();
 }
 
+TEST_P(AnnouncedVehicles, AreHeardWhileIdsThatNobodyKnowsAreRetired) {
+  Admit("boat-*");
+  const auto daemon = StartDaemon(0);
+  const Participant participant(domain_.id());
+  Writer<telltale_wire_VehicleAnnouncement> flood(participant);
+  ASSERT_TRUE(WaitForMatch(participant, {flood}, 60s));
+  for (int i = 0; i < 2 * kMostBoats; ++i) {
+    // The key alone, which the limit of ids does not count.
+    Checked(dds_dispose(flood.handle(), &*EncodeRetired("invented-" + std::to_string(i))), "");
+  }
+  VehicleAnnouncer honest(participant, "boat-1");
+  honest.Announce(Boat("boat-1"));
+  EXPECT_TRUE(IsServed("boat-1")) << daemon->output();
+}
+
 TEST_P(AnnouncedVehicles, ComeFromTheirOwnPartitionWhereThatIsRequired) {
   Configure("require_partition: true\n");
   Admit("boat-*");
