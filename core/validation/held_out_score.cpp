@@ -1,5 +1,7 @@
 #include "telltale/core/validation/held_out_score.hpp"
 
+#include <algorithm>
+#include <cstddef>
 #include <limits>
 #include <string>
 
@@ -23,7 +25,17 @@ double Span(const Recording& recording) {
   return recording.gnss.back().time_s - recording.gnss.front().time_s;
 }
 
+std::size_t TrainingFixes(const Recording& recording, const HeldOutOptions& held_out) {
+  return static_cast<std::size_t>((1.0 - held_out.share) *
+                                  static_cast<double>(recording.gnss.size()));
+}
+
 }  // namespace
+
+double HeldOutSpan(const Recording& recording, const HeldOutOptions& held_out) {
+  const std::size_t training_fixes = std::max<std::size_t>(TrainingFixes(recording, held_out), 1);
+  return recording.gnss.back().time_s - recording.gnss[training_fixes - 1].time_s;
+}
 
 Result<HeldOutScore> ScoreOnHeldOutPart(const Recording& recording, const Vehicle& vehicle,
                                         const IdentifyOptions& options,
@@ -35,8 +47,7 @@ Result<HeldOutScore> ScoreOnHeldOutPart(const Recording& recording, const Vehicl
     return Refuse(kSubject, "the recording is long, and the score costs a second identification",
                   kAdvice);
   }
-  const auto training_fixes =
-      static_cast<std::size_t>((1.0 - held_out.share) * static_cast<double>(fixes));
+  const std::size_t training_fixes = TrainingFixes(recording, held_out);
   if (training_fixes < 2 || training_fixes + 2 > fixes) {
     return Refuse(kSubject, "the recording is too short to hold out a part of it", kAdvice);
   }

@@ -21,6 +21,9 @@ struct HeldOutOptions {
   std::size_t most_fixes = 10000;  ///< a longer recording is refused, since it costs too much
 };
 
+/// How long the part lasts that is held out, s. Assumes: the recording has a fix.
+double HeldOutSpan(const Recording& recording, const HeldOutOptions& held_out = {});
+
 /// Identifies a model from the first part of a recording, without bounds, and scores it on the
 /// rest. Refuses when: the recording has more than `most_fixes` fixes, either part cannot be
 /// prepared or identified, an equation is missing, or no free run fits into the held-out part.

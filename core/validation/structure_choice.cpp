@@ -9,6 +9,7 @@
 #include "telltale/core/base/format_number.hpp"
 #include "telltale/core/base/parallel.hpp"
 #include "telltale/core/data/recording_parts.hpp"
+#include "telltale/core/data/sampling_grid.hpp"
 #include "telltale/core/identification/identify.hpp"
 #include "telltale/core/validation/promotion.hpp"
 
@@ -56,6 +57,24 @@ bool ShowsEnough(const Result<HeldOutScore>& score) {
   return score && score->metrics.free_run.front().windows >= kFewestWindows;
 }
 
+/// Whether so many free runs may fit into the part that is held out. A run is as long as its
+/// horizon to half a sampling period.
+bool CanShowEnough(const Recording& recording) {
+  constexpr double kShortestRunS = HeldOutOptions{}.horizon_s - 0.5 * kLongestPeriodS;
+  return HeldOutSpan(recording) >= kFewestWindows * kShortestRunS;
+}
+
+Result<HeldOutScore> ScoreOfFreeCoefficients(const Recording& part, const Vehicle& vehicle,
+                                             const IdentifyOptions& options,
+                                             const Progress& progress) {
+  if (!CanShowEnough(part)) {
+    return Refuse("held-out score", "too few free runs fit into the part held out",
+                  "record longer");
+  }
+  if (progress) progress("scoring free coefficients", 0.0);
+  return ScoreOnHeldOutPart(part, vehicle, options);
+}
+
 /// The physical form on trial: its score, and its model of all data where that was made beside.
 struct PhysicalTrial {
   std::optional<Result<HeldOutScore>> score;
@@ -84,8 +103,7 @@ PhysicalTrial TryPhysicalForm(const Recording& recording, const Recording& part,
 StructureChoice ChooseStructure(const Recording& recording, const Vehicle& vehicle,
                                 const IdentifyOptions& options, const Progress& progress) {
   const Recording part = LastPart(recording, HeldOutOptions{}.most_fixes);
-  if (progress) progress("scoring free coefficients", 0.0);
-  const auto free = ScoreOnHeldOutPart(part, vehicle, options);
+  const auto free = ScoreOfFreeCoefficients(part, vehicle, options, progress);
   const double error = ErrorOverConstantVelocity(free);
   const std::string errors = "since over data set aside they err by " + ErrorText(error);
   if (ShowsEnough(free) && error < kLittleToGain) {

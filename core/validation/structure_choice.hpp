@@ -28,6 +28,7 @@ struct StructureChoice {
 /// The physical form has the fewer unknowns. Free coefficients replace it where at least ten free
 /// runs show their error below 0.7 of its own, since fewer scatter by more than that, and below
 /// half of constant velocity's: two models that hardly predict say nothing of each other.
+/// Of a recording too short for ten runs, free coefficients are not tried.
 /// The physical form is not tried where the other's error is below a tenth of constant velocity's.
 /// Of a recording longer than `HeldOutOptions::most_fixes` the last part decides.
 /// Where a second thread may be used, it identifies the physical form from all data meanwhile,

@@ -1,5 +1,10 @@
 #include "telltale/core/validation/structure_choice.hpp"
 
+#include <mutex>
+#include <string>
+#include <string_view>
+#include <vector>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -12,7 +17,10 @@
 namespace telltale {
 namespace {
 
+using testing::Contains;
+using testing::ElementsAre;
 using testing::HasSubstr;
+using testing::Not;
 using testing::StartsWith;
 
 IdentifyOptions TwoThreads() {
@@ -28,11 +36,21 @@ Recording OfFreeCoefficients() {
   return Measure(track, YellowfishVehicle(), {});
 }
 
-StructureChoice ChoiceOfTheFirst(double duration_s) {
+StructureChoice ChoiceOfTheFirst(double duration_s, const Progress& progress = {}) {
   const Recording recording = OfFreeCoefficients();
   const double start_s = recording.gnss.front().time_s;
   return ChooseStructure(Between(recording, start_s, start_s + duration_s), YellowfishVehicle(),
-                         TwoThreads());
+                         TwoThreads(), progress);
+}
+
+std::vector<std::string> StagesOfTheFirst(double duration_s) {
+  std::vector<std::string> stages;
+  std::mutex mutex;
+  ChoiceOfTheFirst(duration_s, [&](std::string_view stage, double) {
+    const std::lock_guard lock(mutex);
+    stages.emplace_back(stage);
+  });
+  return stages;
 }
 
 TEST(ChooseStructure, KeepsFreeCoefficientsThatPredictWhatThePhysicalFormCannot) {
@@ -53,6 +71,12 @@ TEST(ChooseStructure, TakesThePhysicalFormOfARecordingThatIsShort) {
   EXPECT_LT(choice.score->metrics.free_run.front().windows, 10u);
 }
 
+/// Free coefficients, which take longer to score, cannot replace it there.
+TEST(ChooseStructure, ScoresFreeCoefficientsWhereTenRunsFitAlone) {
+  EXPECT_THAT(StagesOfTheFirst(190.0), Not(Contains("scoring free coefficients")));
+  EXPECT_THAT(StagesOfTheFirst(210.0), Contains("scoring free coefficients"));
+}
+
 TEST(ChooseStructure, TakesThePhysicalFormWhereNothingCanBeScored) {
   const StructureChoice choice = ChoiceOfTheFirst(10.0);
   EXPECT_EQ(choice.structure, Structure::kFossen);
@@ -61,10 +85,7 @@ TEST(ChooseStructure, TakesThePhysicalFormWhereNothingCanBeScored) {
 
 /// Free coefficients err by less than a tenth of constant velocity here: little is left to gain.
 TEST(ChooseStructure, SparesThePhysicalFormWhereLittleIsToBeGained) {
-  std::vector<std::string> stages;
-  ChooseStructure(OfFreeCoefficients(), YellowfishVehicle(), TwoThreads(),
-                  [&](std::string_view stage, double) { stages.emplace_back(stage); });
-  EXPECT_THAT(stages, testing::ElementsAre("scoring free coefficients"));
+  EXPECT_THAT(StagesOfTheFirst(kSampleMissionDurationS), ElementsAre("scoring free coefficients"));
 }
 
 TEST(IdentifyInChosenStructure, GivesTheSameModelWithAnyNumberOfThreads) {
