@@ -91,6 +91,10 @@ std::optional<Refusal> IdentifyOptions::Validate() const {
   if (auto refusal =
           ReplicatesRefusal("bootstrap_replicates", bootstrap_replicates, 100.0, 100000.0))
     return refusal;
+  if (auto refusal = OutOfRange(kOptionsSubject, "posterior_draws",
+                                static_cast<double>(posterior_draws), 100.0, 100000.0)) {
+    return refusal;
+  }
   if (auto refusal =
           ReplicatesRefusal("coverage_check_replicates", coverage_check_replicates, 10.0, 1000.0))
     return refusal;

@@ -33,9 +33,10 @@ struct IdentifyOptions {
   WeakIvOptions weak_iv;  ///< of kWeakIv, and of the fit from which output error starts
   /// Parametric bootstrap replicates behind the bounds of kWeakIv, 0 or [8, 1000].
   std::size_t parametric_replicates = 40;
-  double interval_level = 0.95;                                  ///< (0.5, 0.999]
-  std::size_t bootstrap_replicates = 1000;                       ///< 0 (off) or [100, 100000]
-  Resampling resampling = Resampling::kSlices;                   ///< what a replicate redraws
+  double interval_level = 0.95;                 ///< (0.5, 0.999]
+  std::size_t bootstrap_replicates = 1000;      ///< 0 (off) or [100, 100000]
+  std::size_t posterior_draws = 2000;           ///< behind the bounds of kFossen, [100, 100000]
+  Resampling resampling = Resampling::kSlices;  ///< what a replicate redraws
   IntervalMethod interval_method = IntervalMethod::kPercentile;  ///< from replicates to intervals
   std::uint64_t seed = 1;
   std::size_t threads = 1;  ///< [1, 256]; never changes the result

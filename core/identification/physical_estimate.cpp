@@ -20,7 +20,6 @@ namespace {
 
 using enum FossenParameter;
 
-constexpr std::size_t kDraws = 2000;
 // Of a recording that differs, over all of them.
 constexpr double kDifferenceLevel = 0.05;
 constexpr double kLeastCommandDeviation = 0.05;
@@ -236,7 +235,8 @@ Identification ModelOf(const PredictionErrorFit& fit, const FossenPrior& prior, 
   const std::vector<Eigen::Index> kept = KeptAtEnds(fit, prior);
   const Eigen::MatrixXd draws = DrawTruncatedNormal(
       MeanBeforeTruncation(fit.parameters, fit.newton_mean, bounds.covariance, kept),
-      bounds.covariance, prior.least, prior.greatest, fit.parameters, kDraws, options.seed);
+      bounds.covariance, prior.least, prior.greatest, fit.parameters, options.posterior_draws,
+      options.seed);
   const Heterogeneity heterogeneity = HeterogeneityOf(fit, prior);
 
   Identification model;

@@ -13,6 +13,7 @@ namespace {
 
 IdentifyOptions WithoutBounds(IdentifyOptions options, const Recording& training) {
   options.bootstrap_replicates = 0;
+  options.posterior_draws = 100;  // the least
   options.parametric_replicates = 0;
   options.coverage_check_replicates = 0;
   options.advise = false;

@@ -117,10 +117,10 @@ Promotion AssessPromotion(const Recording& recording, const Vehicle& vehicle,
   prepare.sampling_period_s = identification.sampling_period_s;
   const auto dataset = Prepare(recording, vehicle, prepare);
   if (!dataset) return {PromotionVerdict::kOk, ""};
-  const auto own = Validate(*dataset, identification, {{kHorizonS}});
+  const auto own = ScoreFreeRuns(*dataset, identification, kHorizonS);
   if (!own) return {PromotionVerdict::kOk, ""};
-  Promotion promotion = PromotionByScores(
-      own->free_run.front(), kFreeRunDivergence.LimitsFor(FastestOf(*dataset)), held_out);
+  Promotion promotion =
+      PromotionByScores(*own, kFreeRunDivergence.LimitsFor(FastestOf(*dataset)), held_out);
   if (CannotBeSimulatedForLong(identification)) {
     promotion.verdict = Worse(promotion.verdict, PromotionVerdict::kWarn);
     promotion.reason += std::string(promotion.reason.empty() ? "" : "; ") +

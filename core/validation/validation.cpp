@@ -270,27 +270,41 @@ ValidationOptions OptionsForRuns(const PreparedDataset& dataset, double horizon_
   return {is_one_step ? std::vector<double>{} : std::vector<double>{horizon_s}};
 }
 
-/// The scores of free runs that `free_runs` makes, one step ahead among them.
+/// Of what `free_runs` predicts one period ahead.
 template <class FreeRuns>
-Metrics ScoresOfRuns(const PreparedDataset& dataset, const FreeRuns& free_runs,
-                     const ValidationOptions& options) {
-  Metrics metrics;
+std::array<OneStepScore, 3> OneStepScores(const PreparedDataset& dataset,
+                                          const FreeRuns& free_runs) {
   SumsByVelocity of_model;
   SumsByVelocity of_constant_velocity;
   free_runs.RunAll(1, [&](std::size_t first, const std::vector<PreparedRow>& predicted) {
     Add(of_model, dataset.rows[first + 1].nu, predicted[1].nu);
     Add(of_constant_velocity, dataset.rows[first + 1].nu, dataset.rows[first].nu);
   });
-  for (std::size_t j = 0; j < metrics.one_step.size(); ++j) {
-    metrics.one_step[j] = {of_model[j].R2(), of_model[j].Mae(), of_constant_velocity[j].R2()};
+  std::array<OneStepScore, 3> scores;
+  for (std::size_t j = 0; j < scores.size(); ++j) {
+    scores[j] = {of_model[j].R2(), of_model[j].Mae(), of_constant_velocity[j].R2()};
   }
+  return scores;
+}
+
+template <class FreeRuns>
+FreeRunScores ScoresOfHorizon(const PreparedDataset& dataset, const FreeRuns& free_runs,
+                              double horizon_s) {
+  const auto steps = static_cast<std::size_t>(std::lround(horizon_s / dataset.sampling_period_s));
+  FreeRunSums sums;
+  free_runs.RunAll(steps, [&](std::size_t first, const std::vector<PreparedRow>& predicted) {
+    AddRun(dataset, predicted, first, sums);
+  });
+  return ScoresOf(sums, dataset, horizon_s);
+}
+
+template <class FreeRuns>
+Metrics ScoresOfRuns(const PreparedDataset& dataset, const FreeRuns& free_runs,
+                     const ValidationOptions& options) {
+  Metrics metrics;
+  metrics.one_step = OneStepScores(dataset, free_runs);
   for (const double horizon_s : options.horizons_s) {
-    const auto steps = static_cast<std::size_t>(std::lround(horizon_s / dataset.sampling_period_s));
-    FreeRunSums sums;
-    free_runs.RunAll(steps, [&](std::size_t first, const std::vector<PreparedRow>& predicted) {
-      AddRun(dataset, predicted, first, sums);
-    });
-    metrics.free_run.push_back(ScoresOf(sums, dataset, horizon_s));
+    metrics.free_run.push_back(ScoresOfHorizon(dataset, free_runs, horizon_s));
   }
   return metrics;
 }
@@ -364,6 +378,26 @@ Result<Metrics> Validate(const PreparedDataset& dataset, const Identification& i
   const auto model = ModelOf(identification);
   if (!model) return tl::unexpected(model.error());
   return Validate(dataset, *model, options);
+}
+
+Result<FreeRunScores> ScoreFreeRuns(const PreparedDataset& dataset, const PhysicalModel& model,
+                                    double horizon_s) {
+  const VesselModel vessel = VesselModelOf(model.Estimates(), model.propeller_separation_m);
+  if (auto refusal = RefuseUnanswerable(dataset, vessel, {{horizon_s}})) {
+    return tl::unexpected<Refusal>(*std::move(refusal));
+  }
+  return ScoresOfHorizon(dataset, PhysicalFreeRuns(dataset, model), horizon_s);
+}
+
+Result<FreeRunScores> ScoreFreeRuns(const PreparedDataset& dataset,
+                                    const Identification& identification, double horizon_s) {
+  if (identification.physical) return ScoreFreeRuns(dataset, *identification.physical, horizon_s);
+  const auto model = ModelOf(identification);
+  if (!model) return tl::unexpected(model.error());
+  if (auto refusal = RefuseUnanswerable(dataset, *model, {{horizon_s}})) {
+    return tl::unexpected<Refusal>(*std::move(refusal));
+  }
+  return ScoreFreeRuns(dataset, *model, FollowThrust(dataset, *model), horizon_s);
 }
 
 }  // namespace telltale

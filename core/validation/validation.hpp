@@ -83,6 +83,12 @@ Result<Metrics> Validate(const PreparedDataset& dataset, const Identification& i
 Result<Metrics> Validate(const PreparedDataset& dataset, const AugmentedModel& model,
                          const ValidationOptions& options);
 
+/// The free-run scores that Validate has of one horizon. It spares the score one step ahead, which
+/// takes most of the time with the physical form.
+/// Refuses when: as Validate.
+Result<FreeRunScores> ScoreFreeRuns(const PreparedDataset& dataset,
+                                    const Identification& identification, double horizon_s);
+
 /// One free run: predicted[k] stands for row first_row + k of the dataset; predicted[0] is where
 /// the run starts. Of a prediction only time_s, eta and nu are set.
 struct FreeRun {

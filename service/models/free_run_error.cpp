@@ -20,14 +20,11 @@ std::optional<FreeRunError> MeasureFreeRunError(const Recording& recording, cons
   options.sampling_period_s = identification.sampling_period_s;
   const auto dataset = Prepare(recording, vehicle, options);
   if (!dataset) return std::nullopt;
-  const auto metrics = Validate(*dataset, identification, {.horizons_s = {kHorizonS}});
-  if (!metrics || metrics->free_run.empty() || metrics->free_run.front().windows == 0) {
-    return std::nullopt;
-  }
-  const FreeRunScores& scores = metrics->free_run.front();
-  if (Diverges(scores, kFreeRunDivergence.LimitsFor(FastestOf(*dataset)))) return std::nullopt;
+  const auto scores = ScoreFreeRuns(*dataset, identification, kHorizonS);
+  if (!scores || scores->windows == 0) return std::nullopt;
+  if (Diverges(*scores, kFreeRunDivergence.LimitsFor(FastestOf(*dataset)))) return std::nullopt;
   FreeRunError error;
-  std::ranges::transform(scores.velocity, error.begin(), &FreeRunScore::rmse);
+  std::ranges::transform(scores->velocity, error.begin(), &FreeRunScore::rmse);
   return error;
 }
 

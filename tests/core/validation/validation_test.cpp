@@ -5,9 +5,12 @@
 #include <gtest/gtest.h>
 
 #include "support/special_values.hpp"
+#include "telltale/core/data/preparation.hpp"
+#include "telltale/core/identification/identify.hpp"
 #include "telltale/core/paper/sample_mission.hpp"
 #include "telltale/core/paper/yellowfish.hpp"
 #include "telltale/core/simulation/manoeuvres.hpp"
+#include "telltale/core/simulation/sensors.hpp"
 #include "telltale/core/simulation/simulator.hpp"
 
 namespace telltale {
@@ -193,6 +196,27 @@ TEST(Validate, NamesTheHorizonAndItsRange) {
   ASSERT_FALSE(metrics.has_value());
   EXPECT_EQ(metrics.error().reason, "601.5 s is out of range");
   EXPECT_EQ(metrics.error().advice, "choose horizons from two sampling periods (0.4 s) to 600 s");
+}
+
+TEST(ScoreFreeRuns, SaysWhatValidateSaysOfOneHorizon) {
+  const auto track = Simulate(YellowfishTwin(), {}, SampleMission(1), 180.0, 0.02);
+  const Recording recording = Measure(track, YellowfishVehicle(), {});
+  const auto dataset = Prepare(recording, YellowfishVehicle(), PrepareOptions::Robust());
+  ASSERT_TRUE(dataset);
+  for (const Structure structure : {Structure::kFossen, Structure::kStaticQuadratic}) {
+    IdentifyOptions options;
+    options.regression.structure = structure;
+    options.prepare.sampling_period_s = dataset->sampling_period_s;
+    const auto model = Identify(recording, YellowfishVehicle(), options);
+    ASSERT_TRUE(model);
+    const auto metrics = Validate(*dataset, *model, {{5.0}});
+    const auto scores = ScoreFreeRuns(*dataset, *model, 5.0);
+    ASSERT_TRUE(metrics && scores);
+    EXPECT_GT(scores->windows, 30u);
+    EXPECT_EQ(scores->windows, metrics->free_run.front().windows);
+    EXPECT_EQ(scores->position_rmse_m, metrics->free_run.front().position_rmse_m);
+    EXPECT_FALSE(ScoreFreeRuns(*dataset, *model, 700.0));
+  }
 }
 
 }  // namespace
