@@ -122,7 +122,7 @@ Result<DiagnosedModel> DiagnoseAgainst(const std::vector<PreparedDataset>& refer
   if (options.leave_out_references && references.size() > 1) {
     influences =
         InfluencesOf({references, options.reference_names, runs->Main(), problem, model, library,
-                      options.most_effects, options.seed, options.threads},
+                      hypotheses, options.most_effects, options.seed, options.threads},
                      [&](double share) { report_progress("references", 0.6 + 0.25 * share); });
   }
   const DayToDay days = DayToDayOf(nominal, influences.days);

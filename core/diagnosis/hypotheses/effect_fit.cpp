@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 #include <optional>
+#include <utility>
 
 #include "telltale/core/base/linear_algebra/covariance.hpp"
 #include "telltale/core/base/linear_algebra/eigen_decompositions.hpp"
@@ -18,35 +19,32 @@ namespace {
 constexpr double kInvisible = 1e-12;
 constexpr double kLeastScatter = 1e-4;  // of the variance that an intermittent effect stands for
 
-PosteriorPoint LowestFrom(const std::vector<Eigen::VectorXd>& starts,
-                          const EffectPosterior& posterior) {
-  std::optional<PosteriorPoint> best;
+Minimum LowestFrom(const std::vector<Eigen::VectorXd>& starts, const EffectPosterior& posterior) {
+  std::optional<Minimum> best;
   for (const Eigen::VectorXd& start : starts) {
-    const PosteriorPoint found =
-        MinimiseCost(posterior, posterior.At(posterior.Parameters().Scaled(start)));
-    if (!best || found.cost < best->cost) best = found;
+    Minimum found = MinimiseCost(posterior, posterior.At(posterior.Parameters().Scaled(start)));
+    if (!best || found.point.cost < best->point.cost) best = std::move(found);
   }
-  return *best;
+  return *std::move(best);
 }
 
 /// Laplace's evidence and the covariance at the minimum. `none` is the square without any effect.
-EffectFit FitOfMinimum(const PosteriorPoint& minimum, const EffectPosterior& posterior,
-                       double none) {
+EffectFit FitOfMinimum(const Minimum& minimum, const EffectPosterior& posterior, double none) {
   const ResidualMetric& metric = posterior.Metric();
   const EffectParameters& parameters = posterior.Parameters();
-  const Eigen::MatrixXd jacobian = posterior.Jacobian(minimum);
+  const PosteriorPoint& point = minimum.point;
   const Eigen::MatrixXd information =
-      posterior.Information(minimum, jacobian, metric.Marginalise(jacobian));
+      posterior.Information(point, minimum.jacobian, minimum.marginalised);
   const Eigen::LLT<Eigen::MatrixXd> factor(information);
   const double log_determinant = 2.0 * factor.matrixLLT().diagonal().array().log().sum() -
                                  parameters.PriorInformation().array().log().sum();
 
   EffectFit fit;
-  fit.effects = parameters.Effects(minimum.scaled);
+  fit.effects = parameters.Effects(point.scaled);
   fit.covariance = Scaled(Inverse(information), parameters.TypicalSizes());
-  fit.square = minimum.square;
-  fit.score = minimum.cost - metric.Deviance(none, metric.ExpectedSquare()) + log_determinant;
-  fit.errors = minimum.errors;
+  fit.square = point.square;
+  fit.score = point.cost - metric.Deviance(none, metric.ExpectedSquare()) + log_determinant;
+  fit.errors = point.errors;
   return fit;
 }
 

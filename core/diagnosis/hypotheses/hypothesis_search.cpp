@@ -48,9 +48,10 @@ bool HasLowerScore(const EffectFit& a, const EffectFit& b) {
 class HypothesisSearch {
  public:
   HypothesisSearch(const DiagnosisProblem& problem, std::span<const Effect* const> library,
-                   std::size_t threads)
+                   std::span<const EffectFit> known, std::size_t threads)
       : problem_(problem),
         library_(library),
+        known_(known),
         threads_(threads),
         error_model_(ErrorModelOf(problem.runs, problem.nominal.boat)),
         nominal_gains_(NominalGains(problem, library)) {}
@@ -71,9 +72,7 @@ class HypothesisSearch {
     std::mutex reporting;
     std::size_t done = 0;
     ForEachIndex(fitted.size(), threads_, [&](std::size_t i) {
-      const Effect* effect = ranked[i];
-      fitted[i] = Fit({effect}, StartsOf(*effect, problem_.metric, problem_.recording.errors,
-                                         problem_.recording, problem_.parameter_refs));
+      fitted[i] = Fit({ranked[i]}, StartsOfSingle(*ranked[i]));
       const std::lock_guard lock(reporting);
       report_progress(static_cast<double>(++done) / static_cast<double>(fitted.size()));
     });
@@ -140,6 +139,14 @@ class HypothesisSearch {
     return AboveNominalGain(FitEffects(error_model_, problem_.metric, effects, starts));
   }
 
+  std::vector<Eigen::VectorXd> StartsOfSingle(const Effect& effect) const {
+    const auto known = std::ranges::find_if(
+        known_, [&](const EffectFit& fit) { return fit.effects.front().effect == &effect; });
+    if (known != known_.end()) return {known->Values()};
+    return StartsOf(effect, problem_.metric, problem_.recording.errors, problem_.recording,
+                    problem_.parameter_refs);
+  }
+
   EffectFit Refitted(const EffectFit& old) const {
     return AboveNominalGain(Refit(old, problem_, problem_.metric, threads_));
   }
@@ -187,6 +194,7 @@ class HypothesisSearch {
 
   const DiagnosisProblem& problem_;
   std::span<const Effect* const> library_;
+  std::span<const EffectFit> known_;
   std::size_t threads_;
   ErrorModel error_model_;
   std::map<const Effect*, double> nominal_gains_;
@@ -240,9 +248,10 @@ std::vector<EffectFit> SeedsOf(const std::vector<EffectFit>& singles) {
 
 Hypotheses Search(const DiagnosisProblem& problem, std::span<const Effect* const> library,
                   std::size_t most_effects, std::size_t threads,
-                  const std::function<void(double)>& report_progress) {
+                  const std::function<void(double)>& report_progress,
+                  std::span<const EffectFit> known) {
   constexpr double kShareOfSingles = 0.6;
-  const HypothesisSearch search(problem, library, threads);
+  const HypothesisSearch search(problem, library, known, threads);
   Hypotheses hypotheses;
   hypotheses.nominal_gains = search.Gains();
   hypotheses.singles =

@@ -29,10 +29,13 @@ std::vector<EffectFit> SeedsOf(const std::vector<EffectFit>& singles);
 /// a third effect where the score falls by kDiagnosis.search.score_to_add_effect, of weather by
 /// score_to_add_weather, and the effects are separable. An effect that a combination does not need
 /// is removed again. Every score is raised by the NominalGains of its effects. `report_progress`
-/// gets the share done; it is called by one thread at a time.
+/// gets the share done; it is called by one thread at a time. `known`: single effects fitted to
+/// nearly the same problem; the fits of these effects start from their values and from nowhere
+/// else.
 Hypotheses Search(const DiagnosisProblem& problem, std::span<const Effect* const> library,
                   std::size_t most_effects, std::size_t threads,
-                  const std::function<void(double)>& report_progress);
+                  const std::function<void(double)>& report_progress,
+                  std::span<const EffectFit> known = {});
 
 /// Expected log evidence, in nats, of the better of two hypotheses over the other if it is true.
 /// Below kDiagnosis.search.separable_nats this recording does not separate them. Of two that

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <mutex>
 
+#include "telltale/core/base/parallel.hpp"
 #include "telltale/core/diagnosis/report/conclusion.hpp"
 #include "telltale/core/diagnosis/report/horizon_gap.hpp"
 #include "telltale/core/diagnosis/residuals/gap.hpp"
@@ -107,8 +109,10 @@ ReferenceInfluence AnswerWithout(const WithoutOne& without, std::optional<double
   const DiagnosisProblem problem{all.runs, without.nominal,    recording,
                                  metric,   all.parameter_refs, all.frequency_response};
   const HorizonErrors main{all.runs, without.floor, recording.errors};
-  const Hypotheses hypotheses =
-      Search(problem, inputs.library, inputs.most_effects, inputs.threads, [](double) {});
+  constexpr std::size_t kThreads = 1;  // references stand side by side
+  const Hypotheses hypotheses = Search(
+      problem, inputs.library, inputs.most_effects, kThreads, [](double) {},
+      inputs.hypotheses.singles);
   const Conclusion conclusion = Conclude(hypotheses, problem, main, inputs.seed, squared_limit);
 
   ReferenceInfluence influence;
@@ -125,20 +129,25 @@ ReferenceInfluence AnswerWithout(const WithoutOne& without, std::optional<double
 
 Influences InfluencesOf(const InfluenceInputs& inputs,
                         const std::function<void(double)>& report_progress) {
-  std::vector<std::optional<WithoutOne>> without_each;
-  for (const PreparedDataset& left_out : inputs.references) {
-    without_each.push_back(Without(left_out, inputs));
-  }
+  const std::size_t references = inputs.references.size();
+  std::vector<std::optional<WithoutOne>> without_each(references);
+  ForEachIndex(references, inputs.threads,
+               [&](std::size_t i) { without_each[i] = Without(inputs.references[i], inputs); });
   Influences influences;
-  for (std::size_t reference = 0; reference < without_each.size(); ++reference) {
-    report_progress(static_cast<double>(reference) / static_cast<double>(without_each.size()));
-    const std::optional<WithoutOne>& without = without_each[reference];
-    ReferenceInfluence& answer = influences.answers.emplace_back();
-    if (without) {
-      answer = AnswerWithout(*without, SquaredLimitOfOthers(reference, without_each), inputs);
-      if (without->day) influences.days.push_back(*without->day);
+  influences.answers.resize(references);
+  std::mutex reporting;
+  std::size_t done = 0;
+  ForEachIndex(references, inputs.threads, [&](std::size_t i) {
+    ReferenceInfluence& answer = influences.answers[i];
+    if (without_each[i]) {
+      answer = AnswerWithout(*without_each[i], SquaredLimitOfOthers(i, without_each), inputs);
     }
-    answer.reference = NameOf(reference, inputs.names);
+    answer.reference = NameOf(i, inputs.names);
+    const std::lock_guard lock(reporting);
+    report_progress(static_cast<double>(++done) / static_cast<double>(references));
+  });
+  for (const auto& without : without_each) {
+    if (without && without->day) influences.days.push_back(*without->day);
   }
   return influences;
 }

@@ -10,6 +10,7 @@
 
 #include "telltale/core/diagnosis/diagnosis.hpp"
 #include "telltale/core/diagnosis/hypotheses/diagnosis_problem.hpp"
+#include "telltale/core/diagnosis/hypotheses/hypothesis_search.hpp"
 #include "telltale/core/diagnosis/residuals/horizon_runs.hpp"
 #include "telltale/core/identification/uncertain_model.hpp"
 
@@ -23,8 +24,9 @@ struct InfluenceInputs {
   const DiagnosisProblem& problem;        ///< with all references
   const UncertainModel& model;
   std::span<const Effect* const> library;
-  std::size_t most_effects;  ///< that may act together
-  std::uint64_t seed;        ///< of every random draw
+  const Hypotheses& hypotheses;  ///< with all references
+  std::size_t most_effects;      ///< that may act together
+  std::uint64_t seed;            ///< of every random draw
   std::size_t threads;
 };
 
@@ -36,7 +38,8 @@ struct Influences {
 
 /// The answer without each reference in turn, docs/concepts/diagnosis.md, "The nominal baseline".
 /// To first order: the nominal boat without a reference is one Gauss-Newton step from that of all,
-/// with the same slopes; hypotheses are fitted anew. Requires: two references or more.
+/// with the same slopes; hypotheses are fitted anew, single effects from their values with all.
+/// `report_progress` is called by one thread at a time. Requires: two references or more.
 Influences InfluencesOf(const InfluenceInputs& inputs,
                         const std::function<void(double)>& report_progress);
 

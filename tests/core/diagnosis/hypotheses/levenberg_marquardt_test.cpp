@@ -22,7 +22,7 @@ class OneParameter {
   PosteriorPoint MinimumFrom(double start) const {
     const EffectParameters parameters({&effect_});
     const EffectPosterior posterior(error_model_, metric_, parameters);
-    return MinimiseCost(posterior, posterior.At(Eigen::VectorXd::Constant(1, start)));
+    return MinimiseCost(posterior, posterior.At(Eigen::VectorXd::Constant(1, start))).point;
   }
 
   double CostAt(double value) const {
@@ -78,9 +78,16 @@ TEST(LevenbergMarquardt, FindsTheMinimumOfANonlinearProblem) {
 }
 
 TEST(LevenbergMarquardt, StaysWithinTheBounds) {
+  int errors_made = 0;
   const OneParameter problem(
-      [](const auto& effects) { return ((3.0 - ValueOf(effects)) * kPattern).eval(); }, 2.0);
+      [&](const auto& effects) {
+        ++errors_made;
+        return ((3.0 - ValueOf(effects)) * kPattern).eval();
+      },
+      2.0);
   EXPECT_DOUBLE_EQ(problem.MinimumFrom(0.0).scaled[0], 2.0);
+  // At the bound no damping leads anywhere, so none is tried: start, slope, step, slope.
+  EXPECT_EQ(errors_made, 4);
 }
 
 TEST(LevenbergMarquardt, NeverRaisesTheCost) {
