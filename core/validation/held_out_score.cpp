@@ -34,6 +34,7 @@ std::size_t TrainingFixes(const Recording& recording, const HeldOutOptions& held
 }  // namespace
 
 double HeldOutSpan(const Recording& recording, const HeldOutOptions& held_out) {
+  if (recording.gnss.empty()) return 0.0;
   const std::size_t training_fixes = std::max<std::size_t>(TrainingFixes(recording, held_out), 1);
   return recording.gnss.back().time_s - recording.gnss[training_fixes - 1].time_s;
 }

@@ -21,7 +21,7 @@ struct HeldOutOptions {
   std::size_t most_fixes = 10000;  ///< a longer recording is refused, since it costs too much
 };
 
-/// How long the part lasts that is held out, s. Assumes: the recording has a fix.
+/// How long the part lasts that is held out, s.
 double HeldOutSpan(const Recording& recording, const HeldOutOptions& held_out = {});
 
 /// Identifies a model from the first part of a recording, without bounds, and scores it on the

@@ -380,22 +380,15 @@ Result<Metrics> Validate(const PreparedDataset& dataset, const Identification& i
   return Validate(dataset, *model, options);
 }
 
-Result<FreeRunScores> ScoreFreeRuns(const PreparedDataset& dataset, const PhysicalModel& model,
-                                    double horizon_s) {
-  const VesselModel vessel = VesselModelOf(model.Estimates(), model.propeller_separation_m);
-  if (auto refusal = RefuseUnanswerable(dataset, vessel, {{horizon_s}})) {
-    return tl::unexpected<Refusal>(*std::move(refusal));
-  }
-  return ScoresOfHorizon(dataset, PhysicalFreeRuns(dataset, model), horizon_s);
-}
-
 Result<FreeRunScores> ScoreFreeRuns(const PreparedDataset& dataset,
                                     const Identification& identification, double horizon_s) {
-  if (identification.physical) return ScoreFreeRuns(dataset, *identification.physical, horizon_s);
   const auto model = ModelOf(identification);
   if (!model) return tl::unexpected(model.error());
   if (auto refusal = RefuseUnanswerable(dataset, *model, {{horizon_s}})) {
     return tl::unexpected<Refusal>(*std::move(refusal));
+  }
+  if (identification.physical) {
+    return ScoresOfHorizon(dataset, PhysicalFreeRuns(dataset, *identification.physical), horizon_s);
   }
   return ScoreFreeRuns(dataset, *model, FollowThrust(dataset, *model), horizon_s);
 }

@@ -83,6 +83,12 @@ TEST(ChooseStructure, TakesThePhysicalFormWhereNothingCanBeScored) {
   EXPECT_FALSE(choice.score);
 }
 
+TEST(IdentifyInChosenStructure, RefusesARecordingWithoutFixes) {
+  Recording recording = OfFreeCoefficients();
+  recording.gnss.clear();
+  EXPECT_FALSE(IdentifyInChosenStructure(recording, YellowfishVehicle(), TwoThreads()));
+}
+
 /// Free coefficients err by less than a tenth of constant velocity here: little is left to gain.
 TEST(ChooseStructure, SparesThePhysicalFormWhereLittleIsToBeGained) {
   EXPECT_THAT(StagesOfTheFirst(kSampleMissionDurationS), ElementsAre("scoring free coefficients"));
