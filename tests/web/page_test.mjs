@@ -3,7 +3,7 @@
 // Exits 0 when all is well. It restarts nothing itself: page_test.py writes "restarted" to its standard input.
 import assert from "node:assert/strict";
 import { createInterface } from "node:readline";
-import { accessible, address, answerOf, count, expectFaults, fits, names, namesOnMap, newPage, open, walk } from "./page_walk.mjs";
+import { accessible, address, answerOf, appears, count, expectFaults, fits, names, namesOnMap, newPage, open, walk } from "./page_walk.mjs";
 
 const [boat, token, pictures] = process.argv.slice(4);
 
@@ -56,7 +56,7 @@ await walk({
     const [x, y] = [(left + right) / 2, (top + bottom) / 2];
     for (const [atX, atY] of [[left - 11, y], [right + 11, y], [x, bottom + 11], [x, top - 11]]) {
       await page.mouse.move(atX, atY);
-      if (await named.count() > 0) break;
+      if (await appears(named)) break;
     }
     assert.deepEqual(await named.allTextContents(), [boat]);
     await page.context().close();

@@ -63,6 +63,9 @@ export async function answerOf(route) {
 export const count = (page, selector, wanted) =>
   page.waitForFunction(([found, number]) => document.querySelectorAll(found).length === number, [selector, wanted]);
 
+/** Whether it is there within two seconds: what the pointer is on is named in a later frame. */
+export const appears = (locator) => locator.first().waitFor({ timeout: 2000 }).then(() => true, () => false);
+
 export const names = (page) => page.locator(".boats tbody th").allTextContents();
 
 /** The boats that have a name on the map, and the box of each name. None covers another or leaves the map. */
