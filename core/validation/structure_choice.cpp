@@ -29,7 +29,7 @@ Recording LastPart(const Recording& recording, std::size_t most_fixes) {
 }
 
 /// The geometric mean of errors over those of constant velocity; infinite where there is none.
-double ErrorOverConstantVelocity(const Result<HeldOutScore>& score) {
+double ErrorOverConstantVelocity(const std::optional<HeldOutScore>& score) {
   if (!score) return kInfinity;
   double sum = 0.0;
   int counted = 0;
@@ -49,11 +49,13 @@ std::string ErrorText(double error) {
                               : "more than can be scored";
 }
 
-std::optional<HeldOutScore> Measured(const Result<HeldOutScore>& score) {
-  return score ? std::optional(*score) : std::nullopt;
+std::optional<HeldOutScore> ScoreOf(const Recording& part, const Vehicle& vehicle,
+                                    const IdentifyOptions& options) {
+  auto score = ScoreOnHeldOutPart(part, vehicle, options);
+  return score ? std::optional(*std::move(score)) : std::nullopt;
 }
 
-bool ShowsEnough(const Result<HeldOutScore>& score) {
+bool ShowsEnough(const std::optional<HeldOutScore>& score) {
   return score && score->metrics.free_run.front().windows >= kFewestWindows;
 }
 
@@ -64,20 +66,17 @@ bool CanShowEnough(const Recording& recording) {
   return HeldOutSpan(recording) >= kFewestWindows * kShortestRunS;
 }
 
-Result<HeldOutScore> ScoreOfFreeCoefficients(const Recording& part, const Vehicle& vehicle,
-                                             const IdentifyOptions& options,
-                                             const Progress& progress) {
-  if (!CanShowEnough(part)) {
-    return Refuse("held-out score", "too few free runs fit into the part held out",
-                  "record longer");
-  }
+std::optional<HeldOutScore> ScoreOfFreeCoefficients(const Recording& part, const Vehicle& vehicle,
+                                                    const IdentifyOptions& options,
+                                                    const Progress& progress) {
+  if (!CanShowEnough(part)) return std::nullopt;
   if (progress) progress("scoring free coefficients", 0.0);
-  return ScoreOnHeldOutPart(part, vehicle, options);
+  return ScoreOf(part, vehicle, options);
 }
 
 /// The physical form on trial: its score, and its model of all data where that was made beside.
 struct PhysicalTrial {
-  std::optional<Result<HeldOutScore>> score;
+  std::optional<HeldOutScore> score;
   std::optional<Result<Identification>> model;
 };
 
@@ -90,7 +89,7 @@ PhysicalTrial TryPhysicalForm(const Recording& recording, const Recording& part,
   PhysicalTrial trial;
   ForEachIndex(has_idle_thread ? 2 : 1, options.threads, [&](std::size_t i) {
     if (i == 0) {
-      trial.score = ScoreOnHeldOutPart(part, vehicle, options);
+      trial.score = ScoreOf(part, vehicle, options);
     } else {
       trial.model = Identify(recording, vehicle, options, progress);
     }
@@ -111,7 +110,7 @@ StructureChoice ChooseStructure(const Recording& recording, const Vehicle& vehic
   }
   if (progress) progress("scoring the physical form", 0.3);
   PhysicalTrial physical = TryPhysicalForm(recording, part, vehicle, options, progress);
-  const double physical_error = ErrorOverConstantVelocity(*physical.score);
+  const double physical_error = ErrorOverConstantVelocity(physical.score);
   if (ShowsEnough(free) && error < kPredicts && error < kClearlyBetter * physical_error) {
     return {options.regression.structure,
             "free coefficients, " + errors + ", the physical form by " + ErrorText(physical_error),
@@ -123,7 +122,7 @@ StructureChoice ChooseStructure(const Recording& recording, const Vehicle& vehic
                               ", free coefficients by " + ErrorText(error)
                         : "since the recording is too short to show that it lacks "
                           "something";
-  return {Structure::kFossen, "physical form, " + reason, Measured(*physical.score),
+  return {Structure::kFossen, "physical form, " + reason, std::move(physical.score),
           std::move(physical.model)};
 }
 

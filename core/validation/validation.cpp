@@ -75,6 +75,15 @@ void Add(SumsByVelocity& sums, const Nu& truth, const Nu& predicted) {
   for (std::size_t j = 0; j < sums.size(); ++j) sums[j].Add(nu[j], nu_hat[j]);
 }
 
+std::array<OneStepScore, 3> OneStepScoresOf(const SumsByVelocity& of_model,
+                                            const SumsByVelocity& of_constant_velocity) {
+  std::array<OneStepScore, 3> scores;
+  for (std::size_t j = 0; j < scores.size(); ++j) {
+    scores[j] = {of_model[j].R2(), of_model[j].Mae(), of_constant_velocity[j].R2()};
+  }
+  return scores;
+}
+
 std::array<OneStepScore, 3> ScoreOneStep(const PreparedDataset& dataset, const VesselModel& model,
                                          const ThrustHistory& thrust) {
   SumsByVelocity of_model;
@@ -88,11 +97,7 @@ std::array<OneStepScore, 3> ScoreOneStep(const PreparedDataset& dataset, const V
       Add(of_constant_velocity, next, now.nu);
     }
   }
-  std::array<OneStepScore, 3> scores;
-  for (std::size_t j = 0; j < scores.size(); ++j) {
-    scores[j] = {of_model[j].R2(), of_model[j].Mae(), of_constant_velocity[j].R2()};
-  }
-  return scores;
+  return OneStepScoresOf(of_model, of_constant_velocity);
 }
 
 // Sums over the free runs of one horizon.
@@ -270,21 +275,16 @@ ValidationOptions OptionsForRuns(const PreparedDataset& dataset, double horizon_
   return {is_one_step ? std::vector<double>{} : std::vector<double>{horizon_s}};
 }
 
-/// Of what `free_runs` predicts one period ahead.
 template <class FreeRuns>
-std::array<OneStepScore, 3> OneStepScores(const PreparedDataset& dataset,
-                                          const FreeRuns& free_runs) {
+std::array<OneStepScore, 3> ScoreOneStep(const PreparedDataset& dataset,
+                                         const FreeRuns& free_runs) {
   SumsByVelocity of_model;
   SumsByVelocity of_constant_velocity;
   free_runs.RunAll(1, [&](std::size_t first, const std::vector<PreparedRow>& predicted) {
     Add(of_model, dataset.rows[first + 1].nu, predicted[1].nu);
     Add(of_constant_velocity, dataset.rows[first + 1].nu, dataset.rows[first].nu);
   });
-  std::array<OneStepScore, 3> scores;
-  for (std::size_t j = 0; j < scores.size(); ++j) {
-    scores[j] = {of_model[j].R2(), of_model[j].Mae(), of_constant_velocity[j].R2()};
-  }
-  return scores;
+  return OneStepScoresOf(of_model, of_constant_velocity);
 }
 
 template <class FreeRuns>
@@ -302,7 +302,7 @@ template <class FreeRuns>
 Metrics ScoresOfRuns(const PreparedDataset& dataset, const FreeRuns& free_runs,
                      const ValidationOptions& options) {
   Metrics metrics;
-  metrics.one_step = OneStepScores(dataset, free_runs);
+  metrics.one_step = ScoreOneStep(dataset, free_runs);
   for (const double horizon_s : options.horizons_s) {
     metrics.free_run.push_back(ScoresOfHorizon(dataset, free_runs, horizon_s));
   }
