@@ -167,74 +167,6 @@ TEST_P(AnnouncedVehicles, YieldToTheConfigurationWhichSaysSoOnce) {
   EXPECT_THAT(retired->output(), HasSubstr("still served: the configuration"));
 }
 
-TEST_P(AnnouncedVehicles, AreCountedByReasonWhereTheyAreNone) {
-  Admit("boat-*");
-  const auto daemon = StartDaemon(0);
-  const Participant participant(domain_.id());
-  Writer<telltale_wire_VehicleAnnouncement> forger(participant);
-  ASSERT_TRUE(WaitForMatch(participant, {forger}, 60s));
-  const auto write = [&](const std::string& key, const std::string& text) {
-    auto wire = EncodeRetired("x");
-    std::strcpy(wire->vehicle_id, key.c_str());
-    dds_string_free(wire->vehicle_file);
-    wire->vehicle_file = dds_string_dup(text.c_str());
-    EXPECT_TRUE(forger.Write(wire));
-  };
-  const std::string file = PrintVehicle(Boat("boat-1"));
-  write("two words", file);
-  write("boat-2", file);
-  write("boat-3", file + std::string(20'000'000, ' '));
-  write("boat-4", "\x1b[2J" + file);
-  write("boat-5", "vehicle_id: \"boat-5\" port {");
-  write("boat-6", PrintVehicle(Boat("boat-6", -3.0)));
-  EXPECT_TRUE(AwaitRefused("MALFORMED_VEHICLE_ID"));
-  EXPECT_TRUE(AwaitRefused("OTHER_VEHICLE_ID"));
-  EXPECT_TRUE(AwaitRefused("TOO_LARGE"));
-  EXPECT_TRUE(AwaitRefused("NOT_TEXT"));
-  EXPECT_TRUE(AwaitRefused("NOT_A_VEHICLE_FILE", 2));
-  for (int i = 0; i < 2000; ++i) write("boat-5", "broken " + std::to_string(i));
-  // Of one boat the last alone is kept until it is taken.
-  VehicleAnnouncer honest(participant, "boat-1");
-  honest.Announce(Boat("boat-1"));
-  EXPECT_TRUE(IsServed("boat-1"));
-  const std::string log = daemon->output();
-  EXPECT_THAT(log, Not(HasSubstr("\x1b[2J")));
-  EXPECT_LT(log.size(), 20'000u) << "its lines have a limit";
-  EXPECT_THAT(log, Not(HasSubstr("serving 2 vehicles")));
-}
-
-// Each id takes memory of the daemon, and anybody can invent some.
-TEST_P(AnnouncedVehicles, AreNotHeardBeyondAsManyIdsAsADaemonHolds) {
-  Admit("boat-*");
-  const auto daemon = StartDaemon(0);
-  const Participant participant(domain_.id());
-  VehicleAnnouncer known(participant, "boat-1");
-  known.Announce(Boat("boat-1"));
-  ASSERT_TRUE(IsServed("boat-1"));
-  Writer<telltale_wire_VehicleAnnouncement> flood(participant);
-  ASSERT_TRUE(WaitForMatch(participant, {flood}, 60s));
-  for (int i = 0; i < kMostBoats + 4; ++i)
-    flood.Write(Encode(Boat("invented-" + std::to_string(i))));
-  EXPECT_TRUE(AwaitRefused("TOO_MANY_IDS", 5));
-  known.Announce(Boat("boat-1", 31.0));
-  EXPECT_TRUE(daemon->WaitForOutput("0 added, 1 changed")) << daemon->output();
-}
-
-TEST_P(AnnouncedVehicles, AreHeardWhileIdsThatNobodyKnowsAreRetired) {
-  Admit("boat-*");
-  const auto daemon = StartDaemon(0);
-  const Participant participant(domain_.id());
-  Writer<telltale_wire_VehicleAnnouncement> flood(participant);
-  ASSERT_TRUE(WaitForMatch(participant, {flood}, 60s));
-  for (int i = 0; i < 2 * kMostBoats; ++i) {
-    // The key alone, which the limit of ids does not count.
-    Checked(dds_dispose(flood.handle(), &*EncodeRetired("invented-" + std::to_string(i))), "");
-  }
-  VehicleAnnouncer honest(participant, "boat-1");
-  honest.Announce(Boat("boat-1"));
-  EXPECT_TRUE(IsServed("boat-1")) << daemon->output();
-}
-
 TEST_P(AnnouncedVehicles, ComeFromTheirOwnPartitionWhereThatIsRequired) {
   Configure("require_partition: true\n");
   Admit("boat-*");
@@ -263,6 +195,75 @@ TEST_P(AnnouncedVehicles, AreHeardAgainWhenTheConfigurationIsReadAgain) {
   daemon->Signal(SIGHUP);
   EXPECT_TRUE(daemon->WaitForOutput("admitted: boat-7")) << daemon->output();
   EXPECT_TRUE(IsServed("boat-7"));
+}
+
+/// A daemon that admits boats, and a writer that it hears and that may write anything.
+class AnnouncementsByAnybody : public AnnouncedVehicles {
+ protected:
+  void SetUp() override {
+    Admit("boat-*");
+    daemon_ = StartDaemon(0);
+    ASSERT_TRUE(WaitForMatch(participant_, {writer_}, 60s));
+  }
+
+  std::unique_ptr<Process> daemon_;
+  Participant participant_{domain_.id()};
+  Writer<telltale_wire_VehicleAnnouncement> writer_{participant_};
+};
+
+INSTANTIATE_TEST_SUITE_P(Engines, AnnouncementsByAnybody, kEngines, EngineName);
+
+TEST_P(AnnouncementsByAnybody, AreCountedByReasonWhereTheyAreNone) {
+  const auto write = [&](const std::string& key, const std::string& text) {
+    auto wire = EncodeRetired("x");
+    std::strcpy(wire->vehicle_id, key.c_str());
+    dds_string_free(wire->vehicle_file);
+    wire->vehicle_file = dds_string_dup(text.c_str());
+    EXPECT_TRUE(writer_.Write(wire));
+  };
+  const std::string file = PrintVehicle(Boat("boat-1"));
+  write("two words", file);
+  write("boat-2", file);
+  write("boat-3", file + std::string(20'000'000, ' '));
+  write("boat-4", "\x1b[2J" + file);
+  write("boat-5", "vehicle_id: \"boat-5\" port {");
+  write("boat-6", PrintVehicle(Boat("boat-6", -3.0)));
+  EXPECT_TRUE(AwaitRefused("MALFORMED_VEHICLE_ID"));
+  EXPECT_TRUE(AwaitRefused("OTHER_VEHICLE_ID"));
+  EXPECT_TRUE(AwaitRefused("TOO_LARGE"));
+  EXPECT_TRUE(AwaitRefused("NOT_TEXT"));
+  EXPECT_TRUE(AwaitRefused("NOT_A_VEHICLE_FILE", 2));
+  for (int i = 0; i < 2000; ++i) write("boat-5", "broken " + std::to_string(i));
+  // Of one boat the last alone is kept until it is taken.
+  VehicleAnnouncer honest(participant_, "boat-1");
+  honest.Announce(Boat("boat-1"));
+  EXPECT_TRUE(IsServed("boat-1"));
+  const std::string log = daemon_->output();
+  EXPECT_THAT(log, Not(HasSubstr("\x1b[2J")));
+  EXPECT_LT(log.size(), 20'000u) << "its lines have a limit";
+  EXPECT_THAT(log, Not(HasSubstr("serving 2 vehicles")));
+}
+
+// Each id takes memory of the daemon, and anybody can invent some.
+TEST_P(AnnouncementsByAnybody, AreNotHeardBeyondAsManyIdsAsADaemonHolds) {
+  VehicleAnnouncer known(participant_, "boat-1");
+  known.Announce(Boat("boat-1"));
+  ASSERT_TRUE(IsServed("boat-1"));
+  for (int i = 0; i < kMostBoats + 4; ++i)
+    writer_.Write(Encode(Boat("invented-" + std::to_string(i))));
+  EXPECT_TRUE(AwaitRefused("TOO_MANY_IDS", 5));
+  known.Announce(Boat("boat-1", 31.0));
+  EXPECT_TRUE(daemon_->WaitForOutput("0 added, 1 changed")) << daemon_->output();
+}
+
+TEST_P(AnnouncementsByAnybody, AreHeardWhileIdsThatNobodyKnowsAreRetired) {
+  for (int i = 0; i < 2 * kMostBoats; ++i) {
+    // The key alone, which the limit of ids does not count.
+    Checked(dds_dispose(writer_.handle(), &*EncodeRetired("invented-" + std::to_string(i))), "");
+  }
+  VehicleAnnouncer honest(participant_, "boat-1");
+  honest.Announce(Boat("boat-1"));
+  EXPECT_TRUE(IsServed("boat-1")) << daemon_->output();
 }
 
 class AnnouncingCommands : public ServiceTest {};
