@@ -4,6 +4,7 @@
 
 #include <cerrno>
 #include <chrono>
+#include <csignal>
 #include <future>
 #include <system_error>
 #include <thread>
@@ -56,10 +57,18 @@ std::FILE* StreamTo(int descriptor) {
   return file;
 }
 
+/// A signal whose handler is to run on a thread that waits for its reader may never be handled.
+void TakeNoSignals() {
+  sigset_t all;
+  sigfillset(&all);
+  pthread_sigmask(SIG_BLOCK, &all, nullptr);
+}
+
 }  // namespace
 
 DaemonLog::DaemonLog(int descriptor, std::size_t most_waiting)
-    : file_(StreamTo(descriptor)), writing_(std::make_shared<Pool>(most_waiting, 1)) {
+    : file_(StreamTo(descriptor)),
+      writing_(std::make_shared<Pool>(most_waiting, 1, TakeNoSignals)) {
   spdlog::set_default_logger(std::make_shared<spdlog::async_logger>(
       kName, std::make_shared<CountingSink>(file_, *writing_), writing_,
       spdlog::async_overflow_policy::overrun_oldest));

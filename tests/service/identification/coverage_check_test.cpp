@@ -23,7 +23,7 @@ class LiveCoverageCheck : public ServiceTest {
     return request;
   }
 
-  static constexpr RequestTiming kTiming{.match = 60s, .reply = 60s, .retry = 1s};
+  static constexpr RequestTiming kTiming{.match = 60s, .reply = 120s, .retry = 1s};
 };
 
 TEST_F(LiveCoverageCheck, TravelWithThePublishedModel) {

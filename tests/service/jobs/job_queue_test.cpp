@@ -444,7 +444,7 @@ TEST_F(Jobs, KeepOneClientFromFillingTheQueue) {
 // Blocks that stay, as a model does, lie between those that are freed, so that free() returns none.
 // The daemon's other return of memory comes once a minute and is not at work here.
 TEST_F(Jobs, GiveBackTheMemoryThatTheirWorkHasFreed) {
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#ifdef TELLTALE_SANITIZED
   GTEST_SKIP() << "a sanitizer has a heap of its own, which keeps what is freed";
 #endif
   constexpr std::size_t kBlockBytes = 4096;
