@@ -13,12 +13,13 @@ namespace {
 
 using ::testing::HasSubstr;
 
-/// A daemon that unloads the window of a boat ten seconds after its last sample.
+/// A daemon that unloads the window of a boat ten seconds after its last sample or reader, which is
+/// more than an identification takes without replicates.
 class UnloadedWindows : public ServiceTest, public ::testing::WithParamInterface<Engine> {
  protected:
   UnloadedWindows() : ServiceTest(GetParam()) {
-    ConfigureIdentification("bootstrap_replicates: 100 structure: \"static\"",
-                            {"vehicle.textproto"}, "unload_after_s: 10");
+    ConfigureIdentification("bootstrap_replicates: 0 structure: \"static\"", {"vehicle.textproto"},
+                            "unload_after_s: 10");
     Configure("http { port: 0 }\n");
   }
 
