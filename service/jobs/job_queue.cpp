@@ -5,7 +5,7 @@
 
 #include <spdlog/spdlog.h>
 
-#include "telltale/service/jobs/freed_memory.hpp"
+#include "telltale/service/freed_memory.hpp"
 
 namespace telltale {
 

@@ -2,7 +2,7 @@
 
 #include <chrono>
 
-#include "telltale/service/jobs/freed_memory.hpp"
+#include "telltale/service/freed_memory.hpp"
 
 namespace telltale {
 

@@ -6,9 +6,9 @@
 #include <utility>
 #include <vector>
 
-#include <malloc.h>
-
 #include <spdlog/spdlog.h>
+
+#include "telltale/service/freed_memory.hpp"
 
 namespace telltale {
 namespace {
@@ -161,7 +161,7 @@ void WindowArchive::UnloadUnused() {
     unloaded += window->UnloadIfUnused(unused, Clock::now()) ? 1 : 0;
   }
   if (unloaded == 0) return;
-  malloc_trim(0);  // else the process keeps the memory for itself
+  ReturnFreedMemory();
   spdlog::info("the windows of {} silent vehicles are unloaded; the store has them", unloaded);
 }
 

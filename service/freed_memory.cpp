@@ -1,4 +1,4 @@
-#include "telltale/service/jobs/freed_memory.hpp"
+#include "telltale/service/freed_memory.hpp"
 
 #include <chrono>
 #include <mutex>
