@@ -44,8 +44,8 @@ TEST_P(UnloadedWindows, ComeBackWithARequestAndWithASample) {
   const Recording run = SimulatedRecording(testing::StableBoat(), 0.0, 360.0, 4);
   const auto daemon = StartDaemon();
   Replay(Between(run, 0.0, 300.0));
-  Output({"identify", "--vehicle-id", kVehicleId});
   EXPECT_GT(Bytes(*daemon), 0.0);
+  Output({"identify", "--vehicle-id", kVehicleId});
 
   ASSERT_TRUE(AwaitUnloaded(*daemon, 1.0));
   const auto silent = AwaitQuality(kVehicleId, [](const Quality& quality) {
