@@ -9,6 +9,7 @@
 #include "telltale/core/diagnosis/baseline/synthetic_references.hpp"
 #include "telltale/core/diagnosis/hypotheses/augmented_identification.hpp"
 #include "telltale/core/diagnosis/hypotheses/power.hpp"
+#include "telltale/core/diagnosis/hypotheses/stochastic_excitation.hpp"
 #include "telltale/core/diagnosis/report/build_report.hpp"
 #include "telltale/core/diagnosis/report/reference_influence.hpp"
 #include "telltale/core/diagnosis/report/summary_sentence.hpp"
@@ -110,10 +111,10 @@ Result<DiagnosedModel> DiagnoseAgainst(const std::vector<PreparedDataset>& refer
   const Sensitivity sensitivity =
       SensitivityOf(main.runs, nominal.boat, model, parameter_refs, options.threads);
   const ResidualMetric metric(nominal, sensitivity, EveryWindow(sensitivity), options.refit);
-  const FrequencyResponse frequency_response(library, main.runs, nominal.boat, sensitivity.errors,
-                                             options.threads);
+  const ObservedExcitation excitation =
+      ObservedExcitationOf(library, main.runs, references, nominal.boat, sensitivity.errors);
   const DiagnosisProblem problem{main.runs, nominal,        sensitivity,
-                                 metric,    parameter_refs, frequency_response};
+                                 metric,    parameter_refs, excitation};
 
   const Hypotheses hypotheses =
       Search(problem, library, options.most_effects, options.threads,

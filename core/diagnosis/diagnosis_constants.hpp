@@ -59,7 +59,6 @@ struct MissingForceConstants {
 /// The linearisation of free runs and their response to harmonic accelerations, (84), (90).
 struct LinearisationConstants {
   double negligible_size = 0.02;        ///< typical sizes, below which an effect is left out
-  std::size_t frequencies = 12;         ///< per stochastic effect, in even ratios
   double harmonic_acceleration = 0.05;  ///< m/s^2, m/s^2, rad/s^2: small enough to stay linear
 };
 
@@ -125,13 +124,25 @@ struct SearchConstants {
   std::size_t most_effects = 3;      ///< that may act together, limit of the option
 };
 
-/// The fit of stochastic excitation, docs/concepts/diagnosis.md (90).
+/// The peak in the spectrum of residual accelerations, docs/concepts/diagnosis.md (116), (117).
+struct SpectralPeakConstants {
+  double block_s = 30.0;           ///< s, of one periodogram, convention
+  double quantile = 0.4;           ///< 1, of the half minutes' powers, that counts
+  double highest_hz = 1.0;         ///< Hz, of a periodogram, convention
+  std::size_t first_harmonic = 2;  ///< of a block; below it Hann's taper sees the mean
+  double least_power_gain = 2e-3;  ///< 1, of the filter, at a frequency that counts
+  std::array<double, 3> log_widths = {0.1, 0.2, 0.3};  ///< 1, sd of the logarithm of frequency
+  std::size_t frequencies = 18;                        ///< of the peak, in even ratios
+  std::array<double, 4> corners_hz = {0.03, 0.1, 0.3, 1.0};  ///< Hz, of broad shapes
+  int iterations = 60;         ///< multiplicative updates of a mixture
+  double initial_share = 0.1;  ///< 1, of the power, where a peak starts
+  double shape_error = 0.01;   ///< 1, of the logarithm of what a spectrum differs from nominal
+};
+
+/// The scatter of windows in waves, docs/concepts/diagnosis.md (90).
 struct StochasticExcitationConstants {
-  int iterations = 40;  ///< Fisher scoring
-  double narrow_band_factor =
-      50.0;                    ///< 1, times the gain of a frequency over the ends of the range
-  double initial_share = 0.1;  ///< 1, of the scatter, where the scoring starts
-  double minimum_remaining_share = 0.01;  ///< 1, of the square, that the fit leaves at least
+  /// 1, by which windows may scatter more than the spectrum of the accelerations says.
+  std::array<double, 4> factors = {1.0, 1.4, 2.0, 2.8};
 };
 
 /// The lack of fit, docs/concepts/diagnosis.md (98).
@@ -195,6 +206,7 @@ struct DiagnosisConstants {
   RecordingConstants recording;
   EffectFitConstants effect_fit;
   SearchConstants search;
+  SpectralPeakConstants spectral_peak;
   StochasticExcitationConstants stochastic_excitation;
   LackOfFitConstants lack_of_fit;
   RankingConstants ranking;

@@ -26,13 +26,29 @@ Eigen::MatrixXd RootOf(const Eigen::MatrixXd& covariance) {
   return factor.transpositionsP().transpose() * root;
 }
 
+/// L applied to every window of every column.
+Eigen::MatrixXd Coloured(const Eigen::LLT<Eigen::MatrixXd>& factor, const Eigen::MatrixXd& white) {
+  const Eigen::MatrixXd root = factor.matrixL();
+  Eigen::MatrixXd stacked(white.rows(), white.cols());
+  for (Eigen::Index j = 0; j < white.cols(); ++j) {
+    const auto windows = white.col(j).reshaped(root.rows(), white.rows() / root.rows());
+    stacked.col(j) = (root * windows).reshaped();
+  }
+  return stacked;
+}
+
+double LogDeterminant(const Eigen::LLT<Eigen::MatrixXd>& factor) {
+  return 2.0 * factor.matrixLLT().diagonal().array().log().sum();
+}
+
 }  // namespace
 
 ResidualMetric::ResidualMetric(const NominalBaseline& nominal, const Sensitivity& recording,
                                std::vector<std::size_t> windows, bool free_coefficients)
     : windows_(std::move(windows)),
       frees_coefficients_(free_coefficients),
-      factor_(nominal.covariance),
+      covariance_(nominal.covariance),
+      factor_(covariance_),
       kappa_(nominal.kappa) {
   const Eigen::Index base = recording.by_coefficient.cols();
   const Eigen::Index parameter_count = recording.by_effect_parameter.cols();
@@ -83,6 +99,19 @@ ResidualMetric ResidualMetric::WithWindowVariation(const Eigen::MatrixXd& varyin
   }
   metric.DeflateWindowVariation(metric.nuisance_);
   metric.FactoriseNuisance();
+  return metric;
+}
+
+ResidualMetric ResidualMetric::WithWindowScatter(const Eigen::MatrixXd& covariance) const {
+  ResidualMetric metric = *this;
+  metric.covariance_ += covariance;
+  metric.factor_.compute(metric.covariance_);
+  metric.nuisance_ = Whitened(metric.factor_, Coloured(factor_, nuisance_));
+  metric.FactoriseNuisance();
+  const auto windows = static_cast<double>(windows_.size());
+  metric.variation_penalty_ += kappa_ * windows *
+                               (LogDeterminant(metric.factor_) - LogDeterminant(factor_)) /
+                               RowsPerObservation();
   return metric;
 }
 

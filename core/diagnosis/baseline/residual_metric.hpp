@@ -28,6 +28,10 @@ class ResidualMetric {
   /// them. Shapes: errors stacked window by window, one column a unit of what varies.
   ResidualMetric WithWindowVariation(const Eigen::MatrixXd& varying) const;
 
+  /// The same, where besides each window's errors scatter, on their own, with this covariance.
+  /// Shapes: rows x rows.
+  ResidualMetric WithWindowScatter(const Eigen::MatrixXd& covariance) const;
+
   const std::vector<std::size_t>& Windows() const { return windows_; }
   bool FreesCoefficients() const { return frees_coefficients_; }
 
@@ -105,6 +109,7 @@ class ResidualMetric {
 
   std::vector<std::size_t> windows_;
   bool frees_coefficients_;
+  Eigen::MatrixXd covariance_;  // of a window's errors
   Eigen::LLT<Eigen::MatrixXd> factor_;
   double kappa_;
   Eigen::MatrixXd nuisance_;  // whitened, one column a unit of what may vary

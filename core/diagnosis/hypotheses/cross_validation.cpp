@@ -32,7 +32,7 @@ ResidualMetric MetricOfFold(const DiagnosisProblem& problem, std::size_t fold) {
 FoldFits FitOnFolds(const EffectFit& fit, const DiagnosisProblem& problem) {
   FoldFits fits;
   for (std::size_t fold = 0; fold < kFolds; ++fold) {
-    fits[fold] = Refit(fit, problem, MetricOfFold(problem, fold), 1);
+    fits[fold] = Refit(fit, problem, MetricOfFold(problem, fold));
   }
   return fits;
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numbers>
 #include <optional>
 #include <utility>
@@ -166,6 +167,18 @@ Eigen::VectorXd EffectFit::Values() const {
   return Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
 }
 
+EffectFit EffectFit::Deterministic() const {
+  EffectFit fit;
+  std::ranges::copy_if(effects, std::back_inserter(fit.effects),
+                       [](const auto& modelled) { return !modelled.effect->IsStochastic(); });
+  return fit;
+}
+
+const Effect* EffectFit::Stochastic() const {
+  const Effect* last = effects.empty() ? nullptr : effects.back().effect;
+  return last != nullptr && last->IsStochastic() ? last : nullptr;
+}
+
 std::size_t EffectFit::Faults() const {
   return static_cast<std::size_t>(std::ranges::count_if(
       effects,
@@ -174,7 +187,7 @@ std::size_t EffectFit::Faults() const {
 
 double EffectFit::NegativeLogPrior() const {
   double squares = 0.0;
-  for (const ModelledEffect& modelled : effects) {
+  for (const ModelledEffect& modelled : Deterministic().effects) {
     const auto& parameters = modelled.effect->Parameters();
     for (std::size_t i = 0; i < parameters.size(); ++i) {
       if (!parameters[i].is_shape) continue;
@@ -185,8 +198,13 @@ double EffectFit::NegativeLogPrior() const {
   return 0.5 * squares;
 }
 
+ResidualMetric EffectFit::ScatteredMetric(const ResidualMetric& metric) const {
+  return scatter.size() > 0 ? metric.WithWindowScatter(scatter) : metric;
+}
+
 ResidualMetric EffectFit::WidenedMetric(const ResidualMetric& metric) const {
-  return gusts.size() == 0 ? metric : metric.WithWindowVariation(gusts);
+  const ResidualMetric scattered = ScatteredMetric(metric);
+  return gusts.size() == 0 ? scattered : scattered.WithWindowVariation(gusts);
 }
 
 ErrorModel ErrorModelOf(const FreeRuns& runs, const AugmentedModel& boat) {
@@ -228,7 +246,8 @@ EffectFit FitEffects(const ErrorModel& error_model, const ResidualMetric& metric
   const ResidualMetric widened = metric.WithWindowVariation(gusts);
   EffectFit gusty = FitWithoutGusts(error_model, widened, none, effects, {steady.Values()});
   gusty.gusts = gusts;
-  gusty.score += widened.VariationPenalty() + ScatterDeficit(steady, gusty, metric);
+  gusty.score += widened.VariationPenalty() - metric.VariationPenalty() +
+                 ScatterDeficit(steady, gusty, metric);
   const bool is_intermittent =
       std::any_of(effects.begin(), effects.end(),
                   [](const Effect* effect) { return effect->Facts().is_intermittent; });

@@ -26,16 +26,24 @@ struct EffectFit {
   /// for each course of a gust through a window, of one standard deviation. Empty where nothing
   /// gusts.
   Eigen::MatrixXd gusts;
+  /// The covariance that the stochastic effects add to a window's errors, rows x rows. Empty where
+  /// there are none.
+  Eigen::MatrixXd scatter;
 
   std::vector<const Effect*> Effects() const;
   std::vector<std::string> Names() const;
   std::size_t Faults() const;      ///< effects other than weather
   Eigen::VectorXd Values() const;  ///< stacked
+  /// The effects that are not stochastic, with their values alone.
+  EffectFit Deterministic() const;
   /// Half the squared distance, in standard deviations, of shape parameters from their prior means.
-  /// It is large where an effect imitates another.
+  /// It is large where an effect imitates another. Of stochastic effects any shape is as likely.
   double NegativeLogPrior() const;
 
-  /// `metric`, allowing for the gusts of these effects.
+  const Effect* Stochastic() const;  ///< the stochastic effect, which stands last; or null
+  /// `metric`, allowing for the scatter of the stochastic effects among these.
+  ResidualMetric ScatteredMetric(const ResidualMetric& metric) const;
+  /// The same, allowing for their gusts too.
   ResidualMetric WidenedMetric(const ResidualMetric& metric) const;
 };
 

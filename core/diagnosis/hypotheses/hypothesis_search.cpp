@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <map>
 #include <mutex>
@@ -24,18 +25,6 @@ bool Contains(const EffectFit& fit, const Effect* effect) {
   return std::find(effects.begin(), effects.end(), effect) != effects.end();
 }
 
-std::vector<const Effect*> StochasticEffectsIn(const EffectFit& fit) {
-  std::vector<const Effect*> stochastic_effects = fit.Effects();
-  std::erase_if(stochastic_effects, [](const Effect* effect) { return !effect->IsStochastic(); });
-  return stochastic_effects;
-}
-
-/// Whether the fit has a stochastic effect. It stands last, after all whose errors it scatters
-/// about, and none is added to it.
-bool EndsInStochastic(const EffectFit& fit) {
-  return fit.effects.back().effect->IsStochastic();
-}
-
 /// By how much the score has to fall where this effect is added.
 double ScoreToAdd(const Effect& effect) {
   return effect.Facts().is_weather ? kSearch.score_to_add_weather : kSearch.score_to_add_effect;
@@ -54,20 +43,21 @@ class HypothesisSearch {
         known_(known),
         threads_(threads),
         error_model_(ErrorModelOf(problem.runs, problem.nominal.boat)),
-        nominal_gains_(NominalGains(problem, library)) {}
+        nominal_gains_(NominalGains(problem, library)) {
+    std::ranges::copy_if(library, std::back_inserter(stochastic_), &Effect::IsStochastic);
+  }
 
   /// Fits of the effects that the score test ranks first, and of every stochastic effect.
   std::vector<EffectFit> Singles(const std::function<void(double)>& report_progress) const {
     std::vector<const Effect*> deterministic;
     std::vector<EffectFit> fits;
-    for (const Effect* effect : library_) {
-      if (effect->IsStochastic()) {
-        fits.push_back(FitStochastic(*effect, problem_.recording.errors));
-      } else {
-        deterministic.push_back(effect);
-      }
+    for (const Effect* effect : stochastic_) {
+      fits.push_back(
+          FitStochasticExcitation(*effect, problem_, problem_.metric, problem_.recording.errors));
     }
-    const auto ranked = ByScoreTest(deterministic, problem_.recording.errors);
+    std::ranges::copy_if(library_, std::back_inserter(deterministic),
+                         [](const Effect* effect) { return !effect->IsStochastic(); });
+    const auto ranked = ByScoreTest(deterministic, problem_.recording.errors, problem_.metric);
     std::vector<EffectFit> fitted(std::min(kSearch.effects_fitted_in_full, ranked.size()));
     std::mutex reporting;
     std::size_t done = 0;
@@ -84,19 +74,23 @@ class HypothesisSearch {
   /// Fits of one deterministic effect more than `first` has, separable from it.
   std::vector<EffectFit> WithOneMore(const EffectFit& first,
                                      const std::vector<EffectFit>& singles) const {
-    const auto ranked = ByScoreTest(SeparableFrom(first, singles), first.errors);
+    const ResidualMetric metric = first.ScatteredMetric(problem_.metric);
+    const auto ranked = ByScoreTest(SeparableFrom(first, singles), first.errors, metric);
     std::vector<EffectFit> fitted(std::min(kSearch.candidates_per_seed, ranked.size()));
+    const EffectFit deterministic = first.Deterministic();
+    const Effect* stochastic = first.Stochastic();
     ForEachIndex(fitted.size(), threads_, [&](std::size_t i) {
       // The linearised minimum alone: the other effects start from their fit.
-      const Eigen::VectorXd start = StartsOf(*ranked[i], problem_.metric, first.errors,
-                                             problem_.recording, problem_.parameter_refs)
-                                        .front();
-      const Eigen::VectorXd values = first.Values();
+      const Eigen::VectorXd start =
+          StartsOf(*ranked[i], metric, first.errors, problem_.recording, problem_.parameter_refs)
+              .front();
+      const Eigen::VectorXd values = deterministic.Values();
       Eigen::VectorXd stacked(values.size() + start.size());
       stacked << values, start;
-      auto effects = first.Effects();
+      auto effects = deterministic.Effects();
       effects.push_back(ranked[i]);
-      fitted[i] = Fit(effects, {stacked});
+      fitted[i] = stochastic != nullptr ? FitBeside(*stochastic, effects, stacked)
+                                        : Fit(effects, {stacked});
     });
     return fitted;
   }
@@ -104,10 +98,10 @@ class HypothesisSearch {
   /// `fit` with a stochastic effect where the evidence asks for one; else `fit` itself.
   EffectFit WithStochastic(const EffectFit& fit) const {
     EffectFit best = fit;
-    for (const Effect* effect : library_) {
-      if (!effect->IsStochastic() || EndsInStochastic(fit)) continue;
-      const EffectFit both = WithStochasticEffect(fit, FitStochastic(*effect, fit.errors));
-      if (both.score < best.score - ScoreToAdd(*effect)) best = both;
+    if (fit.Stochastic() != nullptr) return best;
+    for (const Effect* effect : stochastic_) {
+      EffectFit both = FitBeside(*effect, fit.Effects(), fit.Values());
+      if (both.score < best.score - ScoreToAdd(*effect)) best = std::move(both);
     }
     return best;
   }
@@ -148,7 +142,7 @@ class HypothesisSearch {
   }
 
   EffectFit Refitted(const EffectFit& old) const {
-    return AboveNominalGain(Refit(old, problem_, problem_.metric, threads_));
+    return AboveNominalGain(Refit(old, problem_, problem_.metric));
   }
 
   EffectFit AboveNominalGain(EffectFit fit) const {
@@ -156,8 +150,10 @@ class HypothesisSearch {
     return fit;
   }
 
-  EffectFit FitStochastic(const Effect& effect, const Eigen::MatrixXd& errors) const {
-    return FitStochasticExcitation(effect, problem_, problem_.metric, errors, threads_);
+  EffectFit FitBeside(const Effect& stochastic, const std::vector<const Effect*>& effects,
+                      const Eigen::VectorXd& start) const {
+    return AboveNominalGain(
+        telltale::FitBeside(stochastic, problem_, problem_.metric, effects, start));
   }
 
   /// The deterministic effects that `first` does not have, less those that this recording cannot
@@ -179,12 +175,12 @@ class HypothesisSearch {
 
   /// The effects by the evidence that their score test promises, the most first.
   std::vector<const Effect*> ByScoreTest(std::vector<const Effect*> effects,
-                                         const Eigen::MatrixXd& errors) const {
+                                         const Eigen::MatrixXd& errors,
+                                         const ResidualMetric& metric) const {
     std::vector<std::pair<double, const Effect*>> scored;
     for (const Effect* effect : effects) {
       scored.emplace_back(
-          ScoreTest(*effect, problem_.metric, errors, problem_.recording, problem_.parameter_refs),
-          effect);
+          ScoreTest(*effect, metric, errors, problem_.recording, problem_.parameter_refs), effect);
     }
     std::stable_sort(scored.begin(), scored.end(),
                      [](const auto& a, const auto& b) { return a.first < b.first; });
@@ -197,6 +193,7 @@ class HypothesisSearch {
   std::span<const EffectFit> known_;
   std::size_t threads_;
   ErrorModel error_model_;
+  std::vector<const Effect*> stochastic_;
   std::map<const Effect*, double> nominal_gains_;
 };
 
@@ -206,9 +203,8 @@ std::vector<EffectFit> NextLevel(const HypothesisSearch& search,
                                  const std::vector<EffectFit>& singles) {
   std::vector<EffectFit> next;
   for (const EffectFit& first : level) {
-    if (EndsInStochastic(first)) continue;
     for (EffectFit& more : search.WithOneMore(first, singles)) {
-      const double needed = ScoreToAdd(*more.effects.back().effect);
+      const double needed = ScoreToAdd(*more.Deterministic().effects.back().effect);
       if (more.score < first.score - needed) next.push_back(std::move(more));
     }
     EffectFit with_stochastic = search.WithStochastic(first);
@@ -228,10 +224,10 @@ const EffectFit& BestHypothesis(const Hypotheses& hypotheses) {
 }
 
 double Distance(const EffectFit& one, const EffectFit& other, const ResidualMetric& metric) {
-  if (StochasticEffectsIn(one) != StochasticEffectsIn(other))
-    return std::numeric_limits<double>::infinity();
+  if (one.Stochastic() != other.Stochastic()) return std::numeric_limits<double>::infinity();
+  const ResidualMetric scattered = one.ScatteredMetric(metric);
   const double square =
-      metric.SquaredMahalanobis(metric.Whiten(one.errors) - metric.Whiten(other.errors));
+      scattered.SquaredMahalanobis(scattered.Whiten(one.errors) - scattered.Whiten(other.errors));
   const double by_mean =
       LogEvidenceOf(metric.EffectiveObservations(), square / std::min(one.square, other.square));
   const bool only_one_varies = (one.gusts.size() == 0) != (other.gusts.size() == 0);
@@ -240,8 +236,11 @@ double Distance(const EffectFit& one, const EffectFit& other, const ResidualMetr
 
 std::vector<EffectFit> SeedsOf(const std::vector<EffectFit>& singles) {
   std::vector<EffectFit> seeds;
+  std::size_t deterministic = 0;
   for (const EffectFit& fit : singles) {
-    if (seeds.size() < kSearch.seed_hypotheses && !EndsInStochastic(fit)) seeds.push_back(fit);
+    const bool is_seed = fit.Stochastic() != nullptr ? fit.score < -kSearch.score_to_add_weather
+                                                     : deterministic++ < kSearch.seed_hypotheses;
+    if (is_seed) seeds.push_back(fit);
   }
   return seeds;
 }

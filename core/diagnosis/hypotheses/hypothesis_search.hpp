@@ -21,8 +21,8 @@ struct Hypotheses {
 /// The hypothesis with the lowest score. Requires: at least one single hypothesis.
 const EffectFit& BestHypothesis(const Hypotheses& hypotheses);
 
-/// The kDiagnosis.search.seed_hypotheses best of `singles`, best first, that another effect can be
-/// added to: those that are not stochastic.
+/// Those of `singles`, best first, that another effect is added to: the kDiagnosis.search
+/// .seed_hypotheses best that are not stochastic, and the stochastic ones with evidence.
 std::vector<EffectFit> SeedsOf(const std::vector<EffectFit>& singles);
 
 /// Screens every effect by the score test, fits the most promising in full, then adds a second and

@@ -54,11 +54,6 @@ LackOfFit AssessLackOfFit(const EffectFit& best, const CrossValidatedErrors& cro
       std::accumulate(logs.begin(), logs.end(), 0.0) / static_cast<double>(logs.size());
   LackOfFit lack_of_fit{.before = metric.ReducedChiSquare(metric.Whiten(problem.recording.errors)),
                         .nominal = std::exp(mean)};
-  // A stochastic effect leaves the errors as they are: no fold predicts the other.
-  if (best.effects.back().effect->IsStochastic()) {
-    lack_of_fit.after = best.square / metric.ExpectedSquare();
-    return lack_of_fit;
-  }
   const ResidualMetric widened = best.WidenedMetric(metric);
   lack_of_fit.after = widened.ReducedChiSquare(widened.Whiten(cross_validated.errors));
   lack_of_fit.predictable = PredictableIn(cross_validated.errors, best, problem);

@@ -4,21 +4,16 @@
 
 namespace telltale {
 
-EffectFit Refit(const EffectFit& fit, const DiagnosisProblem& problem, const ResidualMetric& metric,
-                std::size_t threads) {
-  EffectFit deterministic = fit;
-  std::erase_if(deterministic.effects,
-                [](const auto& modelled) { return modelled.effect->IsStochastic(); });
-  if (!deterministic.effects.empty()) {
-    deterministic = FitEffects(ErrorModelOf(problem.runs, problem.nominal.boat), metric,
-                               deterministic.Effects(), {deterministic.Values()});
-  }
-  if (deterministic.effects.size() == fit.effects.size()) return deterministic;
-  const bool alone = deterministic.effects.empty();
-  const EffectFit stochastic =
-      FitStochasticExcitation(*fit.effects.back().effect, problem, metric,
-                              alone ? problem.recording.errors : deterministic.errors, threads);
-  return alone ? stochastic : WithStochasticEffect(deterministic, stochastic);
+EffectFit Refit(const EffectFit& fit, const DiagnosisProblem& problem,
+                const ResidualMetric& metric) {
+  const EffectFit deterministic = fit.Deterministic();
+  const Effect* stochastic = fit.Stochastic();
+  if (deterministic.effects.empty())
+    return FitStochasticExcitation(*stochastic, problem, metric, problem.recording.errors);
+  const auto effects = deterministic.Effects();
+  const Eigen::VectorXd values = deterministic.Values();
+  if (stochastic != nullptr) return FitBeside(*stochastic, problem, metric, effects, values);
+  return FitEffects(ErrorModelOf(problem.runs, problem.nominal.boat), metric, effects, {values});
 }
 
 }  // namespace telltale

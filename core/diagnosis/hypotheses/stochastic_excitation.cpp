@@ -2,60 +2,84 @@
 
 #include <algorithm>
 #include <cmath>
-#include <vector>
+#include <limits>
 
-#include "telltale/core/base/parallel.hpp"
 #include "telltale/core/diagnosis/diagnosis_constants.hpp"
-#include "telltale/core/diagnosis/hypotheses/scatter_fit.hpp"
-#include "telltale/core/diagnosis/residuals/gap.hpp"
+#include "telltale/core/diagnosis/residuals/frequency_response.hpp"
 
 namespace telltale {
 namespace {
 
-std::vector<ScatterFit> FitBands(const std::vector<FrequencyResponse::Band>& bands,
-                                 const ResidualMetric& metric, const Eigen::MatrixXd& windows,
-                                 std::size_t threads) {
-  std::vector<ScatterFit> fits(bands.size());
-  ForEachIndex(bands.size(), threads, [&](std::size_t i) {
-    ResponseMoments moments;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      moments[axis] = metric.WhitenMoment(bands[i].patterns[axis]);
-    }
-    fits[i] = FitScatter(windows, moments);
-  });
-  return fits;
+constexpr double kNoAmplitude = 1e-9;
+
+/// The peak with so many times its power.
+SpectralPeak Scaled(SpectralPeak peak, double factor) {
+  peak.squared_amplitudes *= factor;
+  peak.standard_errors *= factor;
+  return peak;
 }
 
-bool IsLessLikely(const ScatterFit& a, const ScatterFit& b) {
-  return a.log_likelihood_ratios.sum() < b.log_likelihood_ratios.sum();
-}
-
-/// 2 ln of the likelihood ratio that counts as evidence. Scatter that grew for another reason is
-/// likelier at an end of the range than in between, so the gain over the likelier end counts, times
-/// the narrow-band factor.
-double NarrowBandGain(const std::vector<ScatterFit>& fits, const ScatterFit& best,
-                      const ResidualMetric& metric, const FreeRuns& runs) {
-  const ScatterFit& end = std::max(fits.front(), fits.back(), IsLessLikely);
-  std::vector<std::size_t> blocks;
-  const std::vector<std::size_t> all_blocks = BlocksOf(runs);
-  for (const std::size_t w : metric.Windows()) blocks.push_back(all_blocks[w]);
-  const double narrow =
-      PersistentSum(best.log_likelihood_ratios - end.log_likelihood_ratios, blocks);
-  const bool persists = PersistentSum(best.log_likelihood_ratios, blocks) > 0.0;
-  if (!persists) return 0.0;
-  return std::clamp(kDiagnosis.stochastic_excitation.narrow_band_factor * narrow, 0.0,
-                    best.log_likelihood_ratios.sum());
-}
-
-ModelledEffect EffectOf(const Effect& effect, const ScatterFit& fit, double frequency_rad_s) {
+ModelledEffect EffectOf(const Effect& effect, const SpectralPeak& peak) {
   ModelledEffect modelled{&effect, {}};
-  for (Eigen::Index j = 0; j < 3; ++j) {
-    const auto& parameter = effect.Parameters()[static_cast<std::size_t>(j)];
-    modelled.values.push_back(
-        std::clamp(std::sqrt(fit.squared_amplitudes[j]), parameter.lower, parameter.upper));
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const EffectParameter& parameter = effect.Parameters()[axis];
+    const double amplitude = std::sqrt(peak.squared_amplitudes[static_cast<Eigen::Index>(axis)]);
+    modelled.values.push_back(std::clamp(amplitude, parameter.lower, parameter.upper));
   }
-  modelled.values.push_back(frequency_rad_s);
+  modelled.values.push_back(peak.frequency_rad_s);
   return modelled;
+}
+
+Eigen::MatrixXd CovarianceOf(const SpectralPeak& peak) {
+  Eigen::Vector4d standard_errors;
+  standard_errors << peak.standard_errors.array() /
+                         (2.0 * peak.squared_amplitudes.array().sqrt()).max(kNoAmplitude),
+      peak.frequency_standard_error_rad_s;
+  return standard_errors.cwiseAbs2().asDiagonal();
+}
+
+/// The errors of a recording by a metric that allows for scatter.
+struct ScatteredSquare {
+  double square = 0.0;
+  double penalty = 0.0;  ///< of the allowance
+};
+
+ScatteredSquare SquareWith(const Eigen::MatrixXd& scatter, const ResidualMetric& metric,
+                           const Eigen::MatrixXd& errors) {
+  const ResidualMetric scattered = metric.WithWindowScatter(scatter);
+  return {scattered.SquaredMahalanobis(scattered.Whiten(errors)),
+          scattered.VariationPenalty() - metric.VariationPenalty()};
+}
+
+/// By how much the windows scatter more than the spectrum says: the likeliest of a few factors.
+double LikeliestFactor(const Eigen::MatrixXd& scatter, const ResidualMetric& metric,
+                       const Eigen::MatrixXd& errors) {
+  double likeliest = 1.0;
+  double least = std::numeric_limits<double>::infinity();
+  for (const double factor : kDiagnosis.stochastic_excitation.factors) {
+    const ScatteredSquare with = SquareWith(factor * scatter, metric, errors);
+    const double deviance =
+        metric.EffectiveObservations() * with.square / metric.ExpectedSquare() + with.penalty;
+    if (deviance < least) {
+      least = deviance;
+      likeliest = factor;
+    }
+  }
+  return likeliest;
+}
+
+/// Both together, the deterministic effects fitted by the metric that the stochastic one widens.
+EffectFit Together(const EffectFit& deterministic, const EffectFit& stochastic) {
+  EffectFit both = deterministic;
+  both.effects.insert(both.effects.end(), stochastic.effects.begin(), stochastic.effects.end());
+  const Eigen::Index first = deterministic.covariance.rows();
+  const Eigen::Index all = first + stochastic.covariance.rows();
+  both.covariance = Eigen::MatrixXd::Zero(all, all);
+  both.covariance.topLeftCorner(first, first) = deterministic.covariance;
+  both.covariance.bottomRightCorner(all - first, all - first) = stochastic.covariance;
+  both.scatter = stochastic.scatter;
+  both.score += stochastic.score;
+  return both;
 }
 
 /// What gusts add to the mean square of each row.
@@ -71,59 +95,62 @@ Eigen::VectorXd GustMeanSquares(const EffectFit& fit, const FreeRuns& runs,
 
 }  // namespace
 
-EffectFit FitStochasticExcitation(const Effect& effect, const DiagnosisProblem& problem,
-                                  const ResidualMetric& metric, const Eigen::MatrixXd& errors,
-                                  std::size_t threads) {
-  const Eigen::VectorXd whitened = metric.Whiten(errors);
-  const std::vector<FrequencyResponse::Band>& bands = problem.frequency_response.Of(effect);
-  const std::vector<ScatterFit> fits =
-      FitBands(bands, metric, metric.UnexplainedByWindow(whitened), threads);
-  const auto best = std::max_element(fits.begin(), fits.end(), IsLessLikely);
-  const double gain = NarrowBandGain(fits, *best, metric, problem.runs);
-  const auto& band = bands[static_cast<std::size_t>(best - fits.begin())];
-
-  EffectFit fit;
-  fit.effects = {EffectOf(effect, *best, band.frequency_rad_s)};
-  // The relative standard error of a size is one over the root of the effective observations.
-  fit.covariance = Eigen::MatrixXd::Zero(4, 4);
-  for (Eigen::Index j = 0; j < 4; ++j) {
-    const double value = fit.effects.front().values[static_cast<std::size_t>(j)];
-    fit.covariance(j, j) = value * value / metric.EffectiveObservations();
+ObservedExcitation ObservedExcitationOf(std::span<const Effect* const> library,
+                                        const FreeRuns& runs,
+                                        const std::vector<PreparedDataset>& references,
+                                        const AugmentedModel& boat, const Eigen::MatrixXd& errors) {
+  const auto effect = std::ranges::find_if(library, &Effect::IsStochastic);
+  if (effect == library.end()) return {};
+  std::vector<AccelerationSpectra> nominal;
+  for (const PreparedDataset& reference : references) {
+    nominal.push_back(AccelerationSpectraOf(reference, boat));
   }
-  const double none = metric.SquaredMahalanobis(whitened);
-  const double least = kDiagnosis.stochastic_excitation.minimum_remaining_share * none;
-  fit.score = metric.Deviance(std::max(none - metric.Kappa() * gain, least), none) +
-              static_cast<double>(effect.Parameters().size()) * metric.ParameterPenalty();
-  fit.square = gain > 0.0 ? metric.Kappa() * best->square : none;
-  fit.errors = errors;
+  const EffectParameter& frequency = (*effect)->Parameters()[3];
+  ObservedExcitation observed;
+  observed.peak = LikeliestPeak(AccelerationSpectraOf(runs.Dataset(), boat), nominal,
+                                frequency.lower, frequency.upper);
+  observed.scatter = observed.peak.gain > 0.0 ? ErrorCovarianceOf(observed.peak, runs, boat, errors)
+                                              : Eigen::MatrixXd::Zero(errors.rows(), errors.rows());
+  return observed;
+}
+
+EffectFit FitStochasticExcitation(const Effect& effect, const DiagnosisProblem& problem,
+                                  const ResidualMetric& metric, const Eigen::MatrixXd& left) {
+  const ObservedExcitation& observed = problem.excitation;
+  const double factor = LikeliestFactor(observed.scatter, metric, left);
+  const SpectralPeak peak = Scaled(observed.peak, factor);
+  EffectFit fit;
+  fit.effects = {EffectOf(effect, peak)};
+  fit.covariance = CovarianceOf(peak);
+  fit.errors = problem.recording.errors;
+  fit.scatter = factor * observed.scatter;
+  const ScatteredSquare with = SquareWith(fit.scatter, metric, fit.errors);
+  const double none = metric.SquaredMahalanobis(metric.Whiten(fit.errors));
+  fit.square = with.square;
+  // Of its parameters the factor alone is fitted to the windows.
+  const double evidence = metric.Deviance(with.square, none) + with.penalty;
+  fit.score = std::max(evidence + metric.ParameterPenalty(), -peak.gain);
   return fit;
 }
 
-EffectFit WithStochasticEffect(const EffectFit& deterministic, const EffectFit& stochastic) {
-  EffectFit both = stochastic;
-  both.effects.insert(both.effects.begin(), deterministic.effects.begin(),
-                      deterministic.effects.end());
-  const Eigen::Index first = deterministic.covariance.rows();
-  const Eigen::Index all = first + stochastic.covariance.rows();
-  both.covariance = Eigen::MatrixXd::Zero(all, all);
-  both.covariance.topLeftCorner(first, first) = deterministic.covariance;
-  both.covariance.bottomRightCorner(all - first, all - first) = stochastic.covariance;
-  both.score += deterministic.score;
-  return both;
+EffectFit FitBeside(const Effect& stochastic, const DiagnosisProblem& problem,
+                    const ResidualMetric& metric, const std::vector<const Effect*>& effects,
+                    const Eigen::VectorXd& start) {
+  const ErrorModel error_model = ErrorModelOf(problem.runs, problem.nominal.boat);
+  const auto fit_given = [&](const EffectFit& scatter, const Eigen::VectorXd& from) {
+    return FitEffects(error_model, scatter.ScatteredMetric(metric), effects, {from});
+  };
+  const EffectFit first = fit_given(
+      FitStochasticExcitation(stochastic, problem, metric, problem.recording.errors), start);
+  const EffectFit left = FitStochasticExcitation(stochastic, problem, metric, first.errors);
+  return Together(fit_given(left, first.Values()), left);
 }
 
 Eigen::VectorXd StochasticMeanSquares(const EffectFit& fit, const FreeRuns& runs,
                                       const AugmentedModel& boat) {
   Eigen::VectorXd squares = Eigen::VectorXd::Zero(runs.Rows());
   if (fit.gusts.size() > 0) squares += GustMeanSquares(fit, runs, boat);
-  for (const auto& [effect, values] : fit.effects) {
-    const auto stochastic = effect->StochasticExcitation(values);
-    if (!stochastic) continue;
-    const ResponseMoments moments =
-        ResponseMomentsAt(stochastic->frequency_rad_s, runs, boat, runs.Errors(boat));
-    const Eigen::Array3d amplitudes = stochastic->amplitude;
-    squares += ExcessCovariance(amplitudes.square(), moments).diagonal();
-  }
+  if (fit.Stochastic() != nullptr) squares += fit.scatter.diagonal();
   return squares;
 }
 

@@ -1,27 +1,38 @@
 #pragma once
 
-#include <cstddef>
+#include <span>
+#include <vector>
 
 #include <Eigen/Core>
 
+#include "telltale/core/data/prepared_dataset.hpp"
 #include "telltale/core/diagnosis/hypotheses/diagnosis_problem.hpp"
 #include "telltale/core/diagnosis/hypotheses/effect_fit.hpp"
 
 namespace telltale {
 
-/// Fits an effect whose accelerations are random: free runs cannot predict it, but their errors
-/// scatter more, in the pattern that accelerations of one frequency leave.
-/// Model: a window's errors are N(0, V + sum over axes of a_j^2 / 2 (c_j c_j' + s_j s_j')), with
-/// c_j and s_j the mean response to cos and sin of the frequency; docs/concepts/diagnosis.md (90).
-/// `errors` are those that other effects leave, rows x windows. Evidence is what a frequency within
-/// the range explains beyond the ends of the range, in three of four blocks of the recording.
+/// The peak in the spectrum of the accelerations that the nominal boat leaves unexplained, within
+/// the range of the library's stochastic effect, and what it does to the errors of free runs.
+/// `errors` are those of the boat itself. Nothing where the library has no stochastic effect.
+ObservedExcitation ObservedExcitationOf(std::span<const Effect* const> library,
+                                        const FreeRuns& runs,
+                                        const std::vector<PreparedDataset>& references,
+                                        const AugmentedModel& boat, const Eigen::MatrixXd& errors);
+
+/// An effect whose accelerations are random: free runs cannot predict it, but their errors scatter
+/// more, by the problem's excitation, docs/concepts/diagnosis.md (90). The errors stay as they are.
+/// What windows weigh most, the slow skirt of a peak, its spectrum shows least: the scatter is that
+/// of the spectrum times the likeliest factor for `left`, the errors that other effects leave. The
+/// score is the evidence for the scatter, and no more than what the peak itself gains.
 /// Requires: a stochastic effect.
 EffectFit FitStochasticExcitation(const Effect& effect, const DiagnosisProblem& problem,
-                                  const ResidualMetric& metric, const Eigen::MatrixXd& errors,
-                                  std::size_t threads);
+                                  const ResidualMetric& metric, const Eigen::MatrixXd& left);
 
-/// Deterministic effects together with the stochastic effect that was fitted to what they leave.
-EffectFit WithStochasticEffect(const EffectFit& deterministic, const EffectFit& stochastic);
+/// Deterministic effects together with a stochastic one: fitted to errors that scatter as it says,
+/// and once more with the scatter that they leave.
+EffectFit FitBeside(const Effect& stochastic, const DiagnosisProblem& problem,
+                    const ResidualMetric& metric, const std::vector<const Effect*>& effects,
+                    const Eigen::VectorXd& start);
 
 /// By how much the stochastic effects of a fit, and the gusts that it allows for, raise the mean
 /// square of each row's error.

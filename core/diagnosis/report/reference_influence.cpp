@@ -107,7 +107,7 @@ ReferenceInfluence AnswerWithout(const WithoutOne& without, std::optional<double
   const ResidualMetric metric(without.nominal, recording, EveryWindow(recording),
                               all.metric.FreesCoefficients());
   const DiagnosisProblem problem{all.runs, without.nominal,    recording,
-                                 metric,   all.parameter_refs, all.frequency_response};
+                                 metric,   all.parameter_refs, all.excitation};
   const HorizonErrors main{all.runs, without.floor, recording.errors};
   constexpr std::size_t kThreads = 1;  // references stand side by side
   const Hypotheses hypotheses = Search(

@@ -2,17 +2,23 @@
 
 #include <cmath>
 #include <numbers>
-#include <string>
 
-#include "telltale/core/base/contract.hpp"
 #include "telltale/core/base/linear_algebra/covariance.hpp"
-#include "telltale/core/base/parallel.hpp"
 #include "telltale/core/diagnosis/diagnosis_constants.hpp"
 
 namespace telltale {
 namespace {
 
-constexpr std::size_t kFrequencies = kDiagnosis.linearisation.frequencies;
+/// Gauss-Hermite quadrature of a normal law.
+struct Node {
+  double deviations = 0.0;  ///< in standard deviations from the mean
+  double weight = 0.0;
+};
+constexpr std::array<Node, 5> kNodes = {{{-2.856970, 0.01125741},
+                                         {-1.355626, 0.2220759},
+                                         {0.0, 0.5333333},
+                                         {1.355626, 0.2220759},
+                                         {2.856970, 0.01125741}}};
 
 /// An acceleration along one axis, of one frequency and phase.
 class HarmonicAcceleration final : public Effect {
@@ -63,22 +69,19 @@ ResponseMoments ResponseMomentsAt(double frequency_rad_s, const FreeRuns& runs,
   return patterns;
 }
 
-FrequencyResponse::FrequencyResponse(std::span<const Effect* const> library, const FreeRuns& runs,
-                                     const AugmentedModel& boat, const Eigen::MatrixXd& errors,
-                                     std::size_t threads) {
-  for (const Effect* effect : library) {
-    if (!effect->IsStochastic()) continue;
-    const auto parameters = effect->Parameters();
-    Require(parameters.size() == 4, "three amplitudes and a frequency");
-    const auto [lower, upper] = std::pair(parameters[3].lower, parameters[3].upper);
-    std::vector<Band>& bands = bands_[effect];
-    bands.resize(kFrequencies);
-    ForEachIndex(kFrequencies, threads, [&](std::size_t i) {
-      const double share = static_cast<double>(i) / static_cast<double>(kFrequencies - 1);
-      bands[i].frequency_rad_s = lower * std::pow(upper / lower, share);
-      bands[i].patterns = ResponseMomentsAt(bands[i].frequency_rad_s, runs, boat, errors);
-    });
+Eigen::MatrixXd ErrorCovarianceOf(const SpectralPeak& peak, const FreeRuns& runs,
+                                  const AugmentedModel& boat, const Eigen::MatrixXd& errors) {
+  Eigen::MatrixXd covariance = Eigen::MatrixXd::Zero(errors.rows(), errors.rows());
+  for (const Node& node : kNodes) {
+    const double frequency_rad_s =
+        peak.frequency_rad_s * std::exp(peak.log_width * node.deviations);
+    const ResponseMoments moments = ResponseMomentsAt(frequency_rad_s, runs, boat, errors);
+    for (std::size_t axis = 0; axis < moments.size(); ++axis) {
+      covariance +=
+          node.weight * peak.squared_amplitudes[static_cast<Eigen::Index>(axis)] * moments[axis];
+    }
   }
+  return covariance;
 }
 
 }  // namespace telltale

@@ -1,15 +1,11 @@
 #pragma once
 
 #include <array>
-#include <cstddef>
-#include <map>
-#include <span>
-#include <vector>
 
 #include <Eigen/Core>
 
 #include "telltale/core/diagnosis/residuals/free_runs.hpp"
-#include "telltale/core/effects/effect.hpp"
+#include "telltale/core/diagnosis/residuals/spectral_peak.hpp"
 
 namespace telltale {
 
@@ -22,24 +18,10 @@ using ResponseMoments = std::array<Eigen::MatrixXd, 3>;
 ResponseMoments ResponseMomentsAt(double frequency_rad_s, const FreeRuns& runs,
                                   const AugmentedModel& boat, const Eigen::MatrixXd& errors);
 
-/// The response moments of a recording over the frequency range of each stochastic effect, at
-/// frequencies in even ratios.
-class FrequencyResponse {
- public:
-  struct Band {
-    double frequency_rad_s = 0.0;
-    ResponseMoments patterns;
-  };
-
-  /// `errors` as above.
-  FrequencyResponse(std::span<const Effect* const> library, const FreeRuns& runs,
-                    const AugmentedModel& boat, const Eigen::MatrixXd& errors, std::size_t threads);
-
-  /// Lowest frequency first. Requires: a stochastic effect of the library.
-  const std::vector<Band>& Of(const Effect& effect) const { return bands_.at(&effect); }
-
- private:
-  std::map<const Effect*, std::vector<Band>> bands_;
-};
+/// The covariance that accelerations of a spectral peak add to a window's errors: the sum over axes
+/// of squared amplitudes times response moments, the mean over the peak's frequencies. Shapes: rows
+/// x rows.
+Eigen::MatrixXd ErrorCovarianceOf(const SpectralPeak& peak, const FreeRuns& runs,
+                                  const AugmentedModel& boat, const Eigen::MatrixXd& errors);
 
 }  // namespace telltale

@@ -67,6 +67,28 @@ TEST(ResidualMetric, WidensForVariationWithinAWindow) {
       1e-12);
 }
 
+// Scatter of every window is the same as a baseline that has it in its covariance.
+TEST(ResidualMetric, WidensForScatterOfEveryWindow) {
+  const testing::LearnedBaseline& boat = SharedFixture();
+  const Eigen::Index rows = boat.nominal.covariance.rows();
+  const Eigen::MatrixXd root = 0.02 * testing::Pattern(rows, 4, 0.7);
+  const Eigen::MatrixXd scatter = root * root.transpose();
+  NominalBaseline rough = boat.nominal;
+  rough.covariance += scatter;
+  const ResidualMetric metric = MetricOf(false);
+  const ResidualMetric widened = metric.WithWindowScatter(scatter);
+  const ResidualMetric expected(rough, boat.recording, EveryWindow(boat.recording), false);
+  const Eigen::VectorXd y = expected.Whiten(boat.recording.errors);
+  EXPECT_TRUE(widened.Whiten(boat.recording.errors).isApprox(y, 1e-9));
+  EXPECT_NEAR(widened.SquaredMahalanobis(y), expected.SquaredMahalanobis(y),
+              1e-9 * expected.SquaredMahalanobis(y));
+  const double determinants =
+      rough.covariance.determinant() / boat.nominal.covariance.determinant();
+  EXPECT_NEAR(widened.VariationPenalty(),
+              metric.EffectiveObservations() * std::log(determinants) / static_cast<double>(rows),
+              1e-6);
+}
+
 // A ratio of likelihoods: nothing to tell between equals, and what is gained step by step adds up.
 TEST(ResidualMetric, ComputesDevianceFromRatiosOfSquares) {
   const ResidualMetric metric = MetricOf(false);

@@ -40,9 +40,9 @@ class ReidentificationTest : public ::testing::Test {
   }();
   const ResidualMetric metric_{nominal_, recording_, EveryWindow(recording_), false};
   const std::vector<EffectParameterRef> no_parameters_;
-  const FrequencyResponse no_response_{{}, short_.runs, {short_.model.model, {}}, {}, 1};
+  const ObservedExcitation no_excitation_;
   const DiagnosisProblem problem_{short_.runs, nominal_,       recording_,
-                                  metric_,     no_parameters_, no_response_};
+                                  metric_,     no_parameters_, no_excitation_};
   const EffectFit fit_ = [this] {
     EffectFit fit;
     fit.effects = {{FindEffect("thruster_lag"), {0.15}}};

@@ -57,18 +57,32 @@ TEST(BestHypothesis, HasTheLowestScoreOfSinglesAndCombinations) {
   EXPECT_EQ(&BestHypothesis(hypotheses), &hypotheses.combined[0]);
 }
 
-// Waves stand before both here, and nothing is ever added to them.
-TEST(SeedsOf, AreTheBestSinglesThatAnotherCanBeAddedTo) {
+/// Waves of that score, and three effects that are likelier or less likely.
+std::vector<EffectFit> SinglesWithWaves(double score) {
   const Eigen::MatrixXd errors = testing::Pattern(3, 20, 0.7);
   std::vector<EffectFit> singles;
-  for (const char* effect : {"waves", "wind", "current", "heading_bias"}) {
+  for (const char* effect : {"wind", "current", "heading_bias", "waves"}) {
     singles.push_back(FitOf(effect, errors));
     singles.back().score = static_cast<double>(singles.size()) - 40.0;
   }
-  const std::vector<EffectFit> seeds = SeedsOf(singles);
-  ASSERT_EQ(seeds.size(), 2U);
-  EXPECT_EQ(seeds[0].Names(), std::vector<std::string>{"wind"});
-  EXPECT_EQ(seeds[1].Names(), std::vector<std::string>{"current"});
+  singles.back().score = score;
+  return singles;
+}
+
+std::vector<std::string> NamesOfSeeds(const std::vector<EffectFit>& singles) {
+  std::vector<std::string> names;
+  for (const EffectFit& seed : SeedsOf(singles)) names.push_back(seed.Names().front());
+  return names;
+}
+
+TEST(SeedsOf, AreTheBestSinglesAndWavesWithEvidence) {
+  EXPECT_THAT(NamesOfSeeds(SinglesWithWaves(-20.0)),
+              ::testing::UnorderedElementsAre("wind", "current", "waves"));
+}
+
+TEST(SeedsOf, LeaveOutWavesWithoutEvidence) {
+  EXPECT_THAT(NamesOfSeeds(SinglesWithWaves(3.0)),
+              ::testing::UnorderedElementsAre("wind", "current"));
 }
 
 /// A search among three effects, by a baseline whose errors are independent with the mean squares
@@ -92,8 +106,8 @@ class SearchTest : public ::testing::Test {
     nominal.days = {SensitivityOf(nominal_recording.runs, nominal.boat, model, parameter_refs, 2)};
     const Sensitivity recording = SensitivityOf(runs, nominal.boat, model, parameter_refs, 2);
     const ResidualMetric metric(nominal, recording, EveryWindow(recording), false);
-    const FrequencyResponse no_response({}, runs, nominal.boat, recording.errors, 1);
-    return Search({runs, nominal, recording, metric, parameter_refs, no_response}, library, 2, 2,
+    const ObservedExcitation no_excitation;
+    return Search({runs, nominal, recording, metric, parameter_refs, no_excitation}, library, 2, 2,
                   [](double) {});
   }
 };

@@ -26,10 +26,9 @@ class LackOfFitTest : public ::testing::Test {
       LearnNominalBaseline(testing::RunsOf(dataset_, model_.model), model_, parameter_refs_, 2);
   const Sensitivity recording_ = SensitivityOf(runs_, nominal_.boat, model_, parameter_refs_, 2);
   const ResidualMetric metric_{nominal_, recording_, EveryWindow(recording_), false};
-  const FrequencyResponse frequency_response_{EffectLibrary(), runs_, nominal_.boat,
-                                              recording_.errors, 2};
+  const ObservedExcitation no_excitation_;
   const DiagnosisProblem problem_{runs_,   nominal_,        recording_,
-                                  metric_, parameter_refs_, frequency_response_};
+                                  metric_, parameter_refs_, no_excitation_};
   const EffectFit hypothesis_ = [] {
     EffectFit fit;
     fit.effects = {{FindEffect("thruster_lag"), {0.0}}};

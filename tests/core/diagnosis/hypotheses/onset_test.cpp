@@ -23,14 +23,14 @@ class OnsetTest : public ::testing::Test {
     std::vector<std::size_t> some = EveryWindow(recording);
     some.resize(windows);
     const ResidualMetric metric(nominal, recording, some, false);
-    return OnsetOf(fit, {short_.runs, nominal, recording, metric, no_parameters_, no_response_});
+    return OnsetOf(fit, {short_.runs, nominal, recording, metric, no_parameters_, no_excitation_});
   }
 
   double TimeOf(std::size_t window) const { return short_.runs.Of(window).time_s; }
 
   const testing::ShortRecording short_;
   const std::vector<EffectParameterRef> no_parameters_;
-  const FrequencyResponse no_response_{{}, short_.runs, {short_.model.model, {}}, {}, 1};
+  const ObservedExcitation no_excitation_;
 };
 
 TEST_F(OnsetTest, IsTheWindowFromWhichTheHypothesisIsLikelier) {

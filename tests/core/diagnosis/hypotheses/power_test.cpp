@@ -216,9 +216,9 @@ class GateTest : public ::testing::Test {
     const FreeRuns runs(recording, model_.model, kDiagnosis.horizons.main_s);
     const Sensitivity sensitivity = SensitivityOf(runs, nominal_->boat, model_, parameter_refs_, 2);
     const ResidualMetric metric(*nominal_, sensitivity, EveryWindow(sensitivity), false);
-    const FrequencyResponse no_response({}, runs, nominal_->boat, sensitivity.errors, 1);
+    const ObservedExcitation no_excitation;
     return visit(
-        DiagnosisProblem{runs, *nominal_, sensitivity, metric, parameter_refs_, no_response});
+        DiagnosisProblem{runs, *nominal_, sensitivity, metric, parameter_refs_, no_excitation});
   }
 
   bool Shows(const PreparedDataset& recording) const {

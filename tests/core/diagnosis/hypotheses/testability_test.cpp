@@ -26,8 +26,9 @@ class TestabilityTest : public ::testing::Test {
     recording_.by_coefficient.col(0) = Column(0, 1.0);
     recording_.by_coefficient.col(1) = Column(1, 1.0);
     const ResidualMetric metric(nominal_, recording_, EveryWindow(recording_), false);
-    return TestabilityOf({short_.runs, nominal_, recording_, metric, parameter_refs_, no_response_},
-                         model_, library_);
+    return TestabilityOf(
+        {short_.runs, nominal_, recording_, metric, parameter_refs_, no_excitation_}, model_,
+        library_);
   }
 
   const testing::ShortRecording short_;
@@ -38,7 +39,7 @@ class TestabilityTest : public ::testing::Test {
       "pair", {{"first", "1", 1.0, -10.0, 10.0}, {"second", "1", 1.0, -10.0, 10.0}}};
   const std::vector<const Effect*> library_ = {&single_, &pair_};
   const std::vector<EffectParameterRef> parameter_refs_ = EffectParameterRefsOf(library_);
-  const FrequencyResponse no_response_{{}, short_.runs, {short_.model.model, {}}, {}, 1};
+  const ObservedExcitation no_excitation_;
   UncertainModel model_ = [this] {
     UncertainModel model = short_.model;
     model.free = {{Equation::kYaw, 3}, {Equation::kYaw, 4}};

@@ -1,6 +1,7 @@
 #include "telltale/core/diagnosis/residuals/frequency_response.hpp"
 
 #include <cmath>
+#include <numbers>
 
 #include <gtest/gtest.h>
 
@@ -56,21 +57,36 @@ TEST_P(RespondingBoat, RespondsInTheChannelOfTheAxisAlone) {
 
 INSTANTIATE_TEST_SUITE_P(RadiansPerSecond, RespondingBoat, ::testing::Values(0.8, 1.5, 3.0));
 
-TEST(FrequencyResponse, HoldsTheRangeOfEachStochasticEffectAtEvenRatios) {
+/// The mean of the response over a log-normal law of frequency, by the trapezoidal rule.
+ResponseMoments MeanOverPeak(double frequency_rad_s, double log_width,
+                             const testing::RestingBoat& boat) {
+  const AugmentedModel alone{boat.model, {}};
+  const Eigen::MatrixXd errors = boat.runs.Errors(alone);
+  ResponseMoments mean;
+  mean.fill(Eigen::MatrixXd::Zero(errors.rows(), errors.rows()));
+  constexpr double kStep = 0.25;
+  for (double x = -4.0; x <= 4.0; x += kStep) {
+    const double weight = kStep * std::exp(-0.5 * x * x) / std::sqrt(2.0 * std::numbers::pi);
+    const ResponseMoments at =
+        ResponseMomentsAt(frequency_rad_s * std::exp(log_width * x), boat.runs, alone, errors);
+    for (std::size_t axis = 0; axis < 3; ++axis) mean[axis] += weight * at[axis];
+  }
+  return mean;
+}
+
+// Five nodes of Gauss and Hermite integrate a response that falls with the fourth power of the
+// frequency to a few percent.
+TEST(ErrorCovarianceOf, IsTheMeanResponseOverThePeakTimesSquaredAmplitudes) {
   const testing::RestingBoat boat;
   const AugmentedModel alone{boat.model, {}};
-  const Effect* const waves = FindEffect("waves");
-  const std::vector<const Effect*> library = {FindEffect("current"), waves};
-  const FrequencyResponse response(library, boat.runs, alone, boat.runs.Errors(alone), 1);
-  const auto& bands = response.Of(*waves);
-  ASSERT_GT(bands.size(), 2U);
-  const EffectParameter frequency = waves->Parameters()[3];
-  EXPECT_DOUBLE_EQ(bands.front().frequency_rad_s, frequency.lower);
-  EXPECT_NEAR(bands.back().frequency_rad_s, frequency.upper, 1e-12 * frequency.upper);
-  const double ratio = bands[1].frequency_rad_s / bands[0].frequency_rad_s;
-  for (std::size_t i = 1; i < bands.size(); ++i) {
-    EXPECT_NEAR(bands[i].frequency_rad_s / bands[i - 1].frequency_rad_s, ratio, 1e-9);
-  }
+  SpectralPeak peak;
+  peak.frequency_rad_s = 2.5;
+  peak.squared_amplitudes << 0.04, 0.09, 0.01;
+  peak.log_width = 0.3;
+  const ResponseMoments mean = MeanOverPeak(peak.frequency_rad_s, peak.log_width, boat);
+  const Eigen::MatrixXd expected = 0.04 * mean[0] + 0.09 * mean[1] + 0.01 * mean[2];
+  const Eigen::MatrixXd found = ErrorCovarianceOf(peak, boat.runs, alone, boat.runs.Errors(alone));
+  EXPECT_LT((found - expected).norm(), 0.05 * expected.norm());
 }
 
 }  // namespace

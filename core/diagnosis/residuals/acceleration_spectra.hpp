@@ -1,0 +1,34 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "telltale/core/data/prepared_dataset.hpp"
+#include "telltale/core/effects/augmented_model.hpp"
+
+namespace telltale {
+
+/// Periodograms of a model's residual accelerations, one for each half minute and axis (surge,
+/// sway, yaw), with Hann's taper.
+/// Units: Hz; one-sided power in (m/s^2)^2/Hz and (rad/s^2)^2/Hz. Shapes: one value a frequency.
+/// docs/concepts/diagnosis.md (116).
+struct AccelerationSpectra {
+  Eigen::ArrayXd frequencies_hz;
+  /// What the filter of the rows leaves of the power of an acceleration.
+  Eigen::ArrayXd power_gains;
+  std::vector<std::array<Eigen::ArrayXd, 3>> half_minutes;
+};
+
+/// Of every axis the power that kDiagnosis.spectral_peak.quantile of the half minutes stay below,
+/// over what that quantile of so many exponential variables is to their mean: what comes in fewer
+/// half minutes than the others leaves no trace. Zero where there is no half minute.
+std::array<Eigen::ArrayXd, 3> QuantileSpectrum(
+    const std::vector<std::array<Eigen::ArrayXd, 3>>& half_minutes);
+
+/// Of every whole half minute of each segment, at the multiples of its inverse up to 1 Hz.
+AccelerationSpectra AccelerationSpectraOf(const PreparedDataset& dataset,
+                                          const AugmentedModel& boat);
+
+}  // namespace telltale
