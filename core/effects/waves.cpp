@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <numbers>
 
 #include "telltale/core/effects/effect_instance.hpp"
@@ -24,7 +25,9 @@ class WavesEffect final : public Effect {
              .is_weather = true}) {}
 
   std::string Describe(EffectValues values) const override {
-    return "waves met every " + FormatNumber(2.0 * std::numbers::pi / values[3], 1) + " s";
+    const double amplitude = std::max(values[0], values[1]);
+    return "waves of " + FormatNumber(amplitude, 2) + " m/s^2 met every " +
+           FormatNumber(2.0 * std::numbers::pi / values[3], 1) + " s";
   }
 
   std::optional<NarrowBandExcitation> StochasticExcitation(EffectValues values) const override {

@@ -146,6 +146,21 @@ EffectFit FitBeside(const Effect& stochastic, const DiagnosisProblem& problem,
   return Together(fit_given(left, first.Values()), left);
 }
 
+Eigen::MatrixXd ScatterOf(const std::vector<ModelledEffect>& effects, const FreeRuns& runs,
+                          const AugmentedModel& boat) {
+  Eigen::MatrixXd scatter = Eigen::MatrixXd::Zero(runs.Rows(), runs.Rows());
+  for (const auto& [effect, values] : effects) {
+    const auto excitation = effect->StochasticExcitation(values);
+    if (!excitation) continue;
+    SpectralPeak peak;
+    peak.frequency_rad_s = excitation->frequency_rad_s;
+    peak.log_width = kDiagnosis.spectral_peak.log_widths[1];
+    peak.squared_amplitudes = excitation->amplitude.cwiseAbs2();
+    scatter += ErrorCovarianceOf(peak, runs, boat, runs.Errors(boat));
+  }
+  return scatter;
+}
+
 Eigen::VectorXd StochasticMeanSquares(const EffectFit& fit, const FreeRuns& runs,
                                       const AugmentedModel& boat) {
   Eigen::VectorXd squares = Eigen::VectorXd::Zero(runs.Rows());

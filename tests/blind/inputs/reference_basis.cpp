@@ -60,6 +60,7 @@ double ReferenceBasis::SquaredGap(const telltale::AugmentedModel& model) const {
   fit.effects = model.effects;
   fit.gusts = telltale::GustsOf(model.effects, runs.Errors(model),
                                 telltale::ErrorModelOf(runs, nominal.boat), runs.HorizonS());
+  fit.scatter = telltale::ScatterOf(model.effects, runs, nominal.boat);
   const Eigen::VectorXd stochastic = telltale::StochasticMeanSquares(fit, runs, nominal.boat);
   const double gap = mean(runs.Errors(model));
   // Stochastic excitation explains no more than there is to explain, as in the report.

@@ -93,6 +93,17 @@ TEST_F(StochasticExcitationTest, RaisesMeanSquaresByItsScatter) {
   EXPECT_EQ(StochasticMeanSquares(fit, short_.runs, nominal_.boat).norm(), 0.0);
 }
 
+TEST_F(StochasticExcitationTest, ScattersWithTheSquareOfTheAmplitude) {
+  const auto scatter = [&](double amplitude) {
+    return ScatterOf(
+        {{FindEffect("thruster_lag"), {0.3}}, {waves_, {amplitude, amplitude, amplitude, 2.0}}},
+        short_.runs, nominal_.boat);
+  };
+  EXPECT_GT(scatter(0.1).diagonal().minCoeff(), 0.0);
+  EXPECT_TRUE(scatter(0.2).isApprox(4.0 * scatter(0.1), 1e-9));
+  EXPECT_EQ(scatter(0.0).norm(), 0.0);
+}
+
 /// A boat with a fault whose windows scatter besides as waves make them.
 class FaultInWaves : public StochasticExcitationTest {
  protected:
