@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 
 #include "telltale/core/effects/effect_instance.hpp"
 #include "telltale/core/effects/load.hpp"
@@ -29,13 +30,18 @@ class TrimSinkageEffect final : public Effect {
              .title = "a load that trims and sinks the hull",
              .equation = "a load p m at x forward, as payload, with sinkage s = 0.75 p and trim "
                          "t = 5.6 p x / L of the draught at the bow; X_|u|u and X_u grow with the "
-                         "wetted surface, the damping of sway and yaw with 1 + s, A22 and A66 with "
-                         "(1 + s)^2; r_dot += t L / 6 (m + A22) / (I + A66) (Y_|v|v |v| v + Y_v v)",
-             .source = "Fossen 2021, chapters 3, 4 and 6: point mass, hydrostatics, strip theory; "
-                       "Brix, Manoeuvring Technical Manual, 1993: draught and trim; Denny and "
-                       "Mumford, in Molland, Turnock and Hudson 2017, chapter 10: wetted surface",
+                         "wetted surface, the damping of sway and yaw with (1 + s)^q, A22 and A66 "
+                         "by c ((1 + s)^2 - 1); r_dot += t L / 6 (m + A22) / (I + A66) "
+                         "(Y_|v|v |v| v + Y_v v)",
+             .source = "docs/concepts/diagnosis.md (117): Fossen 2021, chapters 3, 4 and 6: point "
+                       "mass, hydrostatics, strip theory; Brix, Manoeuvring Technical Manual, "
+                       "1993: draught and trim; Denny and Mumford, in Molland, Turnock and Hudson "
+                       "2017, chapter 10: wetted surface; Faltinsen 1990, chapter 6, and Newman, "
+                       "Marine Hydrodynamics, 1977, chapter 7: cross-flow drag and lift",
              .parameters = {{"mass_gain", "1", 0.2, -0.6, 2.0},
-                            {"forward_m", "m", 0.2, -0.6, 0.6, true, 0.0}},
+                            {"forward_m", "m", 0.2, -0.6, 0.6, true, 0.0},
+                            {"damping_power", "1", 1.0, 0.0, 2.0, true, 1.0},
+                            {"added_mass_ratio", "1", 0.5, 0.0, 3.0, true, 1.0}},
              .settled_by = "a scale, or the draught at bow and stern",
              .hook = Hook::kAcceleration,
              .nominal_variation = NominalVariation::kInCoefficients}) {}
@@ -51,17 +57,18 @@ class TrimSinkageEffect final : public Effect {
     const double forward_m = values[1];
     const HullScale& hull = instant.hull_scale;
     const double sinkage = kSinkagePerGain * gain;
+    const double damping = std::pow(1.0 + sinkage, values[2]) - 1.0;
+    const double added_mass = values[3] * ((1.0 + sinkage) * (1.0 + sinkage) - 1.0);
     const double trim = std::clamp(kTrimPerArm * gain * forward_m / hull.length_m, -1.0, 1.0);
     const double inertia = hull.yaw_inertia * hull.gyration_radius_m * hull.gyration_radius_m;
     const double lever = trim * hull.length_m / 6.0 * hull.sway_mass / inertia;
     const auto& [surge, sway, yaw] = instant.hull;
     const NuDot deeper = {(WettedSurfaceRatio(gain, sinkage, hull) - 1.0) * (surge[0] + surge[3]),
-                          sinkage * Damping(sway),
-                          sinkage * Damping(yaw) + lever * (sway[0] + sway[6])};
+                          damping * Damping(sway),
+                          damping * Damping(yaw) + lever * (sway[0] + sway[6])};
     const NuDot own = instant.Acceleration();
-    const NuDot loaded =
-        LoadedLess({own.u + deeper.u, own.v + deeper.v, own.r + deeper.r},
-                   {gain, forward_m, (1.0 + sinkage) * (1.0 + sinkage) - 1.0}, instant);
+    const NuDot loaded = LoadedLess({own.u + deeper.u, own.v + deeper.v, own.r + deeper.r},
+                                    {gain, forward_m, added_mass}, instant);
     return {deeper.u + loaded.u, deeper.v + loaded.v, deeper.r + loaded.r};
   }
 

@@ -107,7 +107,7 @@ TEST(LoadThatSinksTheHull, GrowsDragDampingAndAddedMassWithTheDraught) {
   instant.hull[1] = {-0.3, 0.0, 0.0, 0.0, 0.0, 0.0, -0.2, -0.1};
   instant.hull[2] = {0.0, 0.0, 0.0, -0.4, 0.0, 0.0, 0.0, -0.6};
   instant.thrust[0].u = 0.5;
-  const NuDot added = Added("trim_sinkage", {0.4, 0.0}, {}, instant);
+  const NuDot added = Added("trim_sinkage", {0.4, 0.0, 1.0, 1.0}, {}, instant);
   const double wetted = (1.82 * 1.3 + 1.4 / 1.3) / 2.82;
   const double carried = 0.5 * 0.69;
   EXPECT_NEAR(1.4 * (0.5 - 0.3 + added.u),
@@ -118,14 +118,29 @@ TEST(LoadThatSinksTheHull, GrowsDragDampingAndAddedMassWithTheDraught) {
               -1.0 * 1.3 - carried / (1.3 * 0.16) * 0.8 * 0.1, 1e-12);
 }
 
+// Of a load that sinks the hull to 1.3 times its draught: what does not reach deeper damps as
+// before, lift of a slender hull goes with the square of the draught. A boat that carries along one
+// and a half times as much water as the default hull gains so much more of it.
+TEST(LoadThatSinksTheHull, DampsByAPowerOfTheDraughtAndCarriesTheBoatsOwnWater) {
+  InstantState instant;
+  instant.hull[2] = {0.0, 0.0, 0.0, -0.4, 0.0, 0.0, 0.0, -0.6};
+  for (const auto& [power, damping] :
+       {std::pair(0.0, 1.0), std::pair(1.0, 1.3), std::pair(2.0, 1.69)}) {
+    for (const double ratio : {1.0, 1.5}) {
+      const double slowed = Added("trim_sinkage", {0.4, 0.0, power, ratio}, {}, instant).r - 1.0;
+      EXPECT_NEAR((1.0 + ratio * 0.69 * 0.3 / 1.3) * slowed, -damping, 1e-12) << power;
+    }
+  }
+}
+
 // With its bow deeper a hull drags more ahead of its centre: to a side speed it answers with a
 // moment towards the bow, t L / 6 times the force.
 TEST(LoadThatTrimsTheHull, LeansTheDragAcrossToTheBow) {
   InstantState instant;
   instant.hull[1] = {-0.3};
   instant.nu = instant.nu_r = {0.0, 0.5, 0.0};
-  const double amidships = Added("trim_sinkage", {0.01, 0.0}, {}, instant).r;
-  const double at_the_bow = Added("trim_sinkage", {0.01, 0.3}, {}, instant).r;
+  const double amidships = Added("trim_sinkage", {0.01, 0.0, 1.0, 1.0}, {}, instant).r;
+  const double at_the_bow = Added("trim_sinkage", {0.01, 0.3, 1.0, 1.0}, {}, instant).r;
   const double trim = 5.6 * 0.01 * 0.3 / 1.3;
   const double lever = trim * 1.3 / 6.0 * 1.5 / (1.3 * 0.16);
   // The point mass itself turns the hull by p_r times its own acceleration to the side.
