@@ -207,10 +207,13 @@ std::vector<Refusal> WarningsOf(const PredictionErrorFit& fit, const PhysicalMod
     warnings.push_back(std::move(warning));
   }
   if (!fit.converged) {
-    warnings.push_back({"model",
-                        "the fit stopped after " + std::to_string(fit.iterations) +
-                            " iterations before it converged",
-                        "record more varied manoeuvres"});
+    warnings.push_back(
+        {"model",
+         "the fit did not converge: what the commands alone explain of the motion does not settle "
+         "the parameters. They are where predictions err least, which disturbances of the boat "
+         "bias, and their bounds may not hold",
+         "record longer, or in calmer weather, steps of both propellers that do not answer to the "
+         "motion, as those of an autopilot on a path do"});
   }
   for (Refusal& warning : DifferingRecordings(heterogeneity, fit.parameters)) {
     warnings.push_back(std::move(warning));

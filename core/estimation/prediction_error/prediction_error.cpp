@@ -463,8 +463,8 @@ class Search {
       noise_settled_ =
           ScoreNoise(*problem_, z_, noise_) < kSettledNoise || iterations_ >= kNoiseIterations;
     }
-    converged_ = moved < kConvergedMove && noise_settled_;
-    return !converged_ && iterations_ < problem_->options_.max_iterations;
+    const bool settled = moved < kConvergedMove && noise_settled_;
+    return !settled && iterations_ < problem_->options_.max_iterations;
   }
 
   // A step of the equations with instruments: there is no sum of squares to watch. Whether there is
@@ -476,12 +476,12 @@ class Search {
     newton_mean_ = z_ + slope_.partialPivLu().solve(gradient);
     const Eigen::VectorXd whole = BoundedStep(*problem_, z_, slope_, gradient, 0.0);
     const Eigen::VectorXd score = slope_ * whole;
-    const double left = std::sqrt(score.dot(information_.ldlt().solve(score)));
+    const double left = InStandardErrors(score);
     if (solution_iterations_ == 0) first_left_ = left;
     if (!std::isfinite(left) || IsAstray(left)) return false;
     // A boat of the instruments that does not stay near moves far, and all rests on where it does.
     if (!(StrengthOfInstruments(runs, normal_, precision) < kGreatestStrength)) return false;
-    instrumented_ = left < kConvergedScore;
+    instrumented_ = left < kConvergedScore || ChangesSignAlongStep(score);
     // Weights and order of the readings change with the parameters: a whole step may go to and fro.
     if (left > kSlow * left_) caution_ = std::min(2.0 * caution_ + 0.25, kMostCaution);
     if (left < kQuick * left_) caution_ *= 0.5;
@@ -490,6 +490,8 @@ class Search {
         BoundedStep(*problem_, z_, slope_ + caution_ * information_, gradient, 0.0);
     while (!problem_->Feasible(z_ + step) && step.squaredNorm() > 0.0) step *= 0.5;
     z_ += step;
+    step_ = step;
+    score_ = score;
     ++instrument_iterations_;
     return !instrumented_ && ++solution_iterations_ < kInstrumentIterations;
   }
@@ -501,6 +503,7 @@ class Search {
     caution_ = 0.0;
     solution_iterations_ = 0;
     instrumented_ = false;
+    step_.setZero();
   }
 
   bool IsInstrumented() const { return instrumented_; }
@@ -523,7 +526,7 @@ class Search {
     fit.recordings = normal_.recordings;
     fit.innovations = innovations_;
     fit.iterations = iterations_ + instrument_iterations_;
-    fit.converged = converged_ && instrumented_;
+    fit.converged = instrumented_;
     return fit;
   }
 
@@ -533,6 +536,21 @@ class Search {
     Eigen::VectorXd mean;       // of the prior
     Eigen::VectorXd gradient;   // data and prior, downwards
   };
+
+  double InStandardErrors(const Eigen::VectorXd& score) const {
+    return std::sqrt(score.dot(information_.ldlt().solve(score)));
+  }
+
+  // The score of a dead band jumps where the band passes a command that was held: the thrust beyond
+  // it changes with the band, that within it does not. Such equations are solved where they change
+  // sign; steps to and fro across a jump never leave less of them.
+  bool ChangesSignAlongStep(const Eigen::VectorXd& score) const {
+    const Eigen::VectorXd along = information_ * step_;
+    const double square = step_.dot(along);
+    if (!(square > 0.0 && square < kConvergedScore * kConvergedScore)) return false;
+    if (score_.dot(step_) <= 0.0 || score.dot(step_) >= 0.0) return false;
+    return InStandardErrors(score - along * (score.dot(step_) / square)) < kConvergedScore;
+  }
 
   // Whether there is more left of the score than steps that lead to a solution leave.
   bool IsAstray(double left) const {
@@ -583,6 +601,8 @@ class Search {
   Eigen::MatrixXd information_;
   Eigen::MatrixXd slope_;
   Eigen::VectorXd newton_mean_;
+  FossenVector step_ = FossenVector::Zero();   // the last one with these instruments
+  FossenVector score_ = FossenVector::Zero();  // before it
   std::size_t innovations_ = 0;
   int iterations_ = 0;
   int instrument_iterations_ = 0;
@@ -593,7 +613,6 @@ class Search {
   double time_constant_s_ = kDrivenByCommandsAlone;
   bool instrumented_ = false;
   bool noise_settled_ = false;
-  bool converged_ = false;
 };
 
 }  // namespace
@@ -619,7 +638,7 @@ PredictionErrorFit FitPredictionError(const PreparedDataset& dataset, double pro
     search = solved;
     std::ranges::all_of(kFollowingSlowly, solve);
   }
-  // Where the instruments are too weak, the slopes' answer stands and counts as not converged.
+  // Where the instruments are too weak, the slopes' solution stands and counts as not converged.
   return solved.Fit();
 }
 

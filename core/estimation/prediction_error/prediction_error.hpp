@@ -37,6 +37,8 @@ struct PredictionErrorFit {
   std::vector<ScoreBlock> recordings;  ///< the same by recordings
   std::size_t innovations = 0;
   int iterations = 0;
+  /// Whether (110) is solved. Without, the parameters are those of the slopes alone, which
+  /// disturbances of the boat bias.
   bool converged = false;
 };
 
