@@ -21,10 +21,10 @@ ObservedExcitation ObservedExcitationOf(std::span<const Effect* const> library,
 
 /// An effect whose accelerations are random: free runs cannot predict it, but their errors scatter
 /// more, by the problem's excitation, docs/concepts/diagnosis.md (90). The errors stay as they are.
-/// What windows weigh most, the slow skirt of a peak, its spectrum shows least: the scatter is that
-/// of the spectrum times the likeliest factor for `left`, the errors that other effects leave. The
-/// score is the evidence for the scatter, and no more than what the peak itself gains.
-/// Requires: a stochastic effect.
+/// Errors of windows grow most by the lowest frequencies of a peak, of which its spectrum shows
+/// least: the scatter is that of the spectrum times the likeliest factor for `left`, the errors
+/// that other effects leave. The score is the evidence for the scatter, and no more than what the
+/// peak itself gains. Requires: a stochastic effect.
 EffectFit FitStochasticExcitation(const Effect& effect, const DiagnosisProblem& problem,
                                   const ResidualMetric& metric, const Eigen::MatrixXd& left);
 

@@ -169,7 +169,7 @@ double GainOf(const SpectralPeak& peak, const SeenSpectra& spectra) {
   return gain;
 }
 
-/// Once there is a peak, what is as fast is of it: the skirts of a sea are broader than the shape.
+/// Once there is a peak, what is as fast is of it: the spectrum of a sea is broader than the shape.
 void EstimateAmplitudes(const SeenSpectra& spectra, SpectralPeak& peak) {
   const Eigen::ArrayXd shape = ShapeOf(peak, spectra);
   for (Eigen::Index axis = 0; axis < 3; ++axis) {

@@ -26,7 +26,7 @@ struct SpectralPeak {
 /// QuantileSpectrum: power is exponentially distributed about the spectrum, which is a mixture of
 /// broad shapes, with the peak or without it. Broad shapes are the spectrum of the references,
 /// accelerations of first order, and positions and headings that walk at random or are noisy.
-/// docs/concepts/diagnosis.md (116), (117). Whittle, Arkiv for Matematik 2 (1953).
+/// docs/concepts/diagnosis.md (116), (118). Whittle, Arkiv for Matematik 2 (1953).
 /// `nominal`: of the references, one at least.
 SpectralPeak LikeliestPeak(const AccelerationSpectra& recording,
                            const std::vector<AccelerationSpectra>& nominal, double lowest_rad_s,
