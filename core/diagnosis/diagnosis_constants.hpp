@@ -126,11 +126,13 @@ struct SearchConstants {
 
 /// The peak in the spectrum of residual accelerations, docs/concepts/diagnosis.md (116), (117).
 struct SpectralPeakConstants {
-  double block_s = 30.0;           ///< s, of one periodogram, convention
-  double quantile = 0.4;           ///< 1, of the half minutes' powers, that counts
-  double highest_hz = 1.0;         ///< Hz, of a periodogram, convention
-  std::size_t first_harmonic = 2;  ///< of a block; below it Hann's taper sees the mean
-  double least_power_gain = 2e-3;  ///< 1, of the filter, at a frequency that counts
+  double block_s = 30.0;             ///< s, of one periodogram, convention
+  double smoothing_s = 0.6;          ///< s, half width of the filter of the rows
+  std::size_t least_half_width = 2;  ///< rows, of a filter of third degree
+  double quantile = 0.4;             ///< 1, of the half minutes' powers, that counts
+  double highest_hz = 1.0;           ///< Hz, of a periodogram, convention
+  std::size_t first_harmonic = 2;    ///< of a block; below it Hann's taper sees the mean
+  double least_power_gain = 2e-3;    ///< 1, of the filter, at a frequency that counts
   std::array<double, 3> log_widths = {0.1, 0.2, 0.3};  ///< 1, sd of the logarithm of frequency
   std::size_t frequencies = 18;                        ///< of the peak, in even ratios
   std::array<double, 4> corners_hz = {0.03, 0.1, 0.3, 1.0};  ///< Hz, of broad shapes

@@ -41,14 +41,16 @@ Eigen::MatrixXd CovarianceOf(const SpectralPeak& peak) {
 /// The errors of a recording by a metric that allows for scatter.
 struct ScatteredSquare {
   double square = 0.0;
-  double penalty = 0.0;  ///< of the allowance
+  double penalty = 0.0;  ///< the growth of ln of the determinant, in squares
+  double Deviance() const { return square + penalty; }  ///< -2 ln likelihood
 };
 
 ScatteredSquare SquareWith(const Eigen::MatrixXd& scatter, const ResidualMetric& metric,
                            const Eigen::MatrixXd& errors) {
   const ResidualMetric scattered = metric.WithWindowScatter(scatter);
   return {scattered.SquaredMahalanobis(scattered.Whiten(errors)),
-          scattered.VariationPenalty() - metric.VariationPenalty()};
+          (scattered.VariationPenalty() - metric.VariationPenalty()) * metric.ExpectedSquare() /
+              metric.EffectiveObservations()};
 }
 
 /// By how much the windows scatter more than the spectrum says: the likeliest of a few factors.
@@ -57,9 +59,7 @@ double LikeliestFactor(const Eigen::MatrixXd& scatter, const ResidualMetric& met
   double likeliest = 1.0;
   double least = std::numeric_limits<double>::infinity();
   for (const double factor : kDiagnosis.stochastic_excitation.factors) {
-    const ScatteredSquare with = SquareWith(factor * scatter, metric, errors);
-    const double deviance =
-        metric.EffectiveObservations() * with.square / metric.ExpectedSquare() + with.penalty;
+    const double deviance = SquareWith(factor * scatter, metric, errors).Deviance();
     if (deviance < least) {
       least = deviance;
       likeliest = factor;
@@ -80,6 +80,14 @@ EffectFit Together(const EffectFit& deterministic, const EffectFit& stochastic) 
   both.scatter = stochastic.scatter;
   both.score += stochastic.score;
   return both;
+}
+
+/// What the accelerations of a peak add to the covariance of a window's errors. Errors grow most by
+/// the lowest frequencies, and those of encounter change with the heading: the widest shape counts.
+Eigen::MatrixXd ScatterOfPeak(SpectralPeak peak, const FreeRuns& runs, const AugmentedModel& boat,
+                              const Eigen::MatrixXd& errors) {
+  peak.log_width = kDiagnosis.spectral_peak.log_widths.back();
+  return ErrorCovarianceOf(peak, runs, boat, errors);
 }
 
 /// What gusts add to the mean square of each row.
@@ -109,7 +117,7 @@ ObservedExcitation ObservedExcitationOf(std::span<const Effect* const> library,
   ObservedExcitation observed;
   observed.peak = LikeliestPeak(AccelerationSpectraOf(runs.Dataset(), boat), nominal,
                                 frequency.lower, frequency.upper);
-  observed.scatter = observed.peak.gain > 0.0 ? ErrorCovarianceOf(observed.peak, runs, boat, errors)
+  observed.scatter = observed.peak.gain > 0.0 ? ScatterOfPeak(observed.peak, runs, boat, errors)
                                               : Eigen::MatrixXd::Zero(errors.rows(), errors.rows());
   return observed;
 }
@@ -128,7 +136,7 @@ EffectFit FitStochasticExcitation(const Effect& effect, const DiagnosisProblem& 
   const double none = metric.SquaredMahalanobis(metric.Whiten(fit.errors));
   fit.square = with.square;
   // Of its parameters the factor alone is fitted to the windows.
-  const double evidence = metric.Deviance(with.square, none) + with.penalty;
+  const double evidence = metric.Deviance(with.Deviance(), none);
   fit.score = std::max(evidence + metric.ParameterPenalty(), -peak.gain);
   return fit;
 }
@@ -154,9 +162,8 @@ Eigen::MatrixXd ScatterOf(const std::vector<ModelledEffect>& effects, const Free
     if (!excitation) continue;
     SpectralPeak peak;
     peak.frequency_rad_s = excitation->frequency_rad_s;
-    peak.log_width = kDiagnosis.spectral_peak.log_widths[1];
     peak.squared_amplitudes = excitation->amplitude.cwiseAbs2();
-    scatter += ErrorCovarianceOf(peak, runs, boat, runs.Errors(boat));
+    scatter += ScatterOfPeak(peak, runs, boat, runs.Errors(boat));
   }
   return scatter;
 }

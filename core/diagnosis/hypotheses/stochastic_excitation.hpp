@@ -34,9 +34,8 @@ EffectFit FitBeside(const Effect& stochastic, const DiagnosisProblem& problem,
                     const ResidualMetric& metric, const std::vector<const Effect*>& effects,
                     const Eigen::VectorXd& start);
 
-/// The covariance that a stochastic effect of these values adds to a window's errors, for a model
-/// whose spectrum is not at hand: with a peak of the middle width. Zero where no effect is
-/// stochastic. Shapes: rows x rows.
+/// The covariance that a stochastic effect of these values adds to a window's errors. Zero where no
+/// effect is stochastic. Shapes: rows x rows.
 Eigen::MatrixXd ScatterOf(const std::vector<ModelledEffect>& effects, const FreeRuns& runs,
                           const AugmentedModel& boat);
 

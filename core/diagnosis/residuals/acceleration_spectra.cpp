@@ -6,7 +6,10 @@
 #include <numbers>
 #include <span>
 
+#include "telltale/core/data/preparation.hpp"
+#include "telltale/core/data/sampling_grid.hpp"
 #include "telltale/core/data/savitzky_golay.hpp"
+#include "telltale/core/data/segment_signals.hpp"
 #include "telltale/core/diagnosis/diagnosis_constants.hpp"
 #include "telltale/core/diagnosis/residuals/acceleration_residuals.hpp"
 
@@ -101,6 +104,27 @@ double ExpectedAt(std::size_t place, std::size_t count) {
   return expected;
 }
 
+/// The recording with rows that are smoothed less: the filter of its own has a zero amid the
+/// frequencies of waves. As it is where it has no readings.
+PreparedDataset Sharpened(const PreparedDataset& dataset) {
+  if (dataset.signals.empty()) return dataset;
+  PreparedDataset sharp = dataset;
+  const auto half_width =
+      static_cast<std::size_t>(std::lround(kPeak.smoothing_s / dataset.sampling_period_s));
+  sharp.options = PrepareOptions::Robust();
+  sharp.options.smoothing_half_width = std::clamp<std::size_t>(
+      half_width, kPeak.least_half_width, dataset.options.smoothing_half_width);
+  for (std::size_t s = 0; s < dataset.segments.size(); ++s) {
+    const RowRange& segment = dataset.segments[s];
+    const SegmentSignals signals{dataset.signals[s], dataset.commands[s]};
+    const SamplingGrid grid{dataset.rows[segment.begin].time_s, dataset.sampling_period_s,
+                            segment.size()};
+    std::ranges::copy(PrepareRows(signals, grid, dataset.sensors.antenna, sharp.options),
+                      sharp.rows.begin() + static_cast<std::ptrdiff_t>(segment.begin));
+  }
+  return sharp;
+}
+
 /// Whether no row is missing among so many from the first one on.
 bool IsWhole(std::span<const AccelerationResidual> residuals, double period_s) {
   const double expected_s = static_cast<double>(residuals.size() - 1) * period_s;
@@ -129,8 +153,9 @@ std::array<Eigen::ArrayXd, 3> QuantileSpectrum(
   return spectrum;
 }
 
-AccelerationSpectra AccelerationSpectraOf(const PreparedDataset& dataset,
+AccelerationSpectra AccelerationSpectraOf(const PreparedDataset& recording,
                                           const AugmentedModel& boat) {
+  const PreparedDataset dataset = Sharpened(recording);
   AccelerationSpectra spectra;
   spectra.frequencies_hz = Frequencies();
   spectra.power_gains = PowerGains(dataset, spectra.frequencies_hz);

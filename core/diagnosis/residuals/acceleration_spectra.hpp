@@ -16,7 +16,7 @@ namespace telltale {
 /// docs/concepts/diagnosis.md (116).
 struct AccelerationSpectra {
   Eigen::ArrayXd frequencies_hz;
-  /// What the filter of the rows leaves of the power of an acceleration.
+  /// What the filter leaves of the power of an acceleration.
   Eigen::ArrayXd power_gains;
   std::vector<std::array<Eigen::ArrayXd, 3>> half_minutes;
 };
@@ -27,8 +27,9 @@ struct AccelerationSpectra {
 std::array<Eigen::ArrayXd, 3> QuantileSpectrum(
     const std::vector<std::array<Eigen::ArrayXd, 3>>& half_minutes);
 
-/// Of every whole half minute of each segment, at the multiples of its inverse up to 1 Hz.
-AccelerationSpectra AccelerationSpectraOf(const PreparedDataset& dataset,
+/// Of every whole half minute of each segment, at the multiples of its inverse up to 1 Hz. Rows are
+/// filtered anew, by kDiagnosis.spectral_peak.smoothing_s.
+AccelerationSpectra AccelerationSpectraOf(const PreparedDataset& recording,
                                           const AugmentedModel& boat);
 
 }  // namespace telltale
