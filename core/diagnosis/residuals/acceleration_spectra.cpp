@@ -54,6 +54,8 @@ Eigen::ArrayXd PowerGains(const PreparedDataset& dataset, const Eigen::ArrayXd& 
   const SavitzkyGolay filter(options.smoothing_half_width, options.smoothing_degree);
   return frequencies_hz.unaryExpr([&](double frequency_hz) {
     const double phase_rad = 2.0 * pi * frequency_hz * dataset.sampling_period_s;
+    // Beyond half the sampling rate lower frequencies show again.
+    if (phase_rad >= pi) return 0.0;
     // A residual is the mean acceleration from row to row.
     const double gain = VelocityGain(options, filter, phase_rad) * Sinc(0.5 * phase_rad);
     return gain * gain;
