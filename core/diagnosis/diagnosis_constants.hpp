@@ -124,7 +124,7 @@ struct SearchConstants {
   std::size_t most_effects = 3;      ///< that may act together, limit of the option
 };
 
-/// The peak in the spectrum of residual accelerations, docs/concepts/diagnosis.md (116), (117).
+/// The peak in the spectrum of residual accelerations, docs/concepts/diagnosis.md (116), (118).
 struct SpectralPeakConstants {
   double block_s = 30.0;             ///< s, of one periodogram, convention
   double smoothing_s = 0.6;          ///< s, half width of the filter of the rows

@@ -37,10 +37,6 @@ Eigen::MatrixXd Coloured(const Eigen::LLT<Eigen::MatrixXd>& factor, const Eigen:
   return stacked;
 }
 
-double LogDeterminant(const Eigen::LLT<Eigen::MatrixXd>& factor) {
-  return 2.0 * factor.matrixLLT().diagonal().array().log().sum();
-}
-
 }  // namespace
 
 ResidualMetric::ResidualMetric(const NominalBaseline& nominal, const Sensitivity& recording,
@@ -189,6 +185,10 @@ ResidualMetric::Recalibration ResidualMetric::Recalibrate(const Eigen::VectorXd&
   const Eigen::MatrixXd identity = Eigen::MatrixXd::Identity(nuisance_.cols(), nuisance_.cols());
   const Eigen::MatrixXd covariance = nuisance_factor_.solve(identity).topLeftCorner(boat, boat);
   return {-coefficient_root_ * nuisance.head(boat), Mapped(coefficient_root_, covariance)};
+}
+
+double LogDeterminant(const Eigen::LLT<Eigen::MatrixXd>& factor) {
+  return 2.0 * factor.matrixLLT().diagonal().array().log().sum();
 }
 
 Eigen::MatrixXd Whitened(const Eigen::LLT<Eigen::MatrixXd>& factor,

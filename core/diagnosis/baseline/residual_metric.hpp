@@ -127,6 +127,9 @@ inline double LogEvidenceOf(double effective_observations, double share) {
   return 0.5 * effective_observations * std::log1p(share);
 }
 
+/// Of L L'.
+double LogDeterminant(const Eigen::LLT<Eigen::MatrixXd>& factor);
+
 /// L^-1 applied to every window of every column, L L' the covariance of a window.
 Eigen::MatrixXd Whitened(const Eigen::LLT<Eigen::MatrixXd>& factor, const Eigen::MatrixXd& stacked);
 

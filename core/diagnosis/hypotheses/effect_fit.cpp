@@ -37,8 +37,8 @@ EffectFit FitOfMinimum(const Minimum& minimum, const EffectPosterior& posterior,
   const Eigen::MatrixXd information =
       posterior.Information(point, minimum.jacobian, minimum.marginalised);
   const Eigen::LLT<Eigen::MatrixXd> factor(information);
-  const double log_determinant = 2.0 * factor.matrixLLT().diagonal().array().log().sum() -
-                                 parameters.PriorInformation().array().log().sum();
+  const double log_determinant =
+      LogDeterminant(factor) - parameters.PriorInformation().array().log().sum();
 
   EffectFit fit;
   fit.effects = parameters.Effects(point.scaled);

@@ -98,7 +98,8 @@ class HypothesisSearch {
   /// `fit` with a stochastic effect where the evidence asks for one; else `fit` itself.
   EffectFit WithStochastic(const EffectFit& fit) const {
     EffectFit best = fit;
-    if (fit.Stochastic() != nullptr) return best;
+    // Without a peak there is no scatter to allow for.
+    if (fit.Stochastic() != nullptr || problem_.excitation.peak.gain == 0.0) return best;
     for (const Effect* effect : stochastic_) {
       EffectFit both = FitBeside(*effect, fit.Effects(), fit.Values());
       if (both.score < best.score - ScoreToAdd(*effect)) best = std::move(both);
