@@ -119,8 +119,7 @@ proto::PhysicalForm PhysicalFormOf(const FossenVector& parameters) {
   Append(matrices.mass, *form.mutable_mass());
   Append(matrices.linear_damping, *form.mutable_linear_damping());
   Append(matrices.lift_damping, *form.mutable_lift_damping());
-  form.mutable_quadratic_damping()->Add(matrices.quadratic_damping.begin(),
-                                        matrices.quadratic_damping.end());
+  Append(matrices.quadratic_damping, *form.mutable_quadratic_damping());
   for (const FossenParameter at : {kForwardLinear, kForwardQuadratic}) {
     form.add_forward_thrust(parameters[At(at)]);
   }

@@ -9,7 +9,7 @@ FossenMatrices MatricesOf(const FossenVector& parameters) {
   matrices.mass << 1.0, 0.0, 0.0, 0.0, p(kM22), p(kM23), 0.0, p(kM23), p(kM33);
   matrices.linear_damping << p(kXu), 0.0, 0.0, 0.0, p(kYv), p(kYr), 0.0, p(kNv), p(kNr);
   matrices.lift_damping << 0.0, 0.0, 0.0, 0.0, p(kYuv), p(kYur), 0.0, p(kNuv), p(kNur);
-  matrices.quadratic_damping << p(kXuu), p(kYvv), p(kNrr);
+  matrices.quadratic_damping << p(kXuu), 0.0, 0.0, 0.0, p(kYvv), 0.0, 0.0, p(kNvv), p(kNrr);
   return matrices;
 }
 

@@ -8,12 +8,12 @@ namespace telltale {
 
 /// The physical form as matrices over m11, rows and columns in the order surge, sway, yaw.
 /// Model: docs/concepts/physical-model.md (101)..(103), D(nu) = linear_damping + u lift_damping +
-/// diag(quadratic_damping |nu|).
+/// quadratic_damping diag(|nu|).
 struct FossenMatrices {
   Eigen::Matrix3d mass;
   Eigen::Matrix3d linear_damping;
   Eigen::Matrix3d lift_damping;
-  Eigen::Vector3d quadratic_damping;
+  Eigen::Matrix3d quadratic_damping;
 };
 
 FossenMatrices MatricesOf(const FossenVector& parameters);

@@ -16,7 +16,7 @@ namespace telltale {
 /// Model, docs/concepts/physical-model.md (101)..(105), with nu the velocity through the water:
 ///   M nu_dot + C(nu) nu + D(nu) nu = tau,   M = [1 0 0; 0 m22 m23; 0 m23 m33],
 /// C follows from M, D nu = [(Xu + Xuu |u|) u; (Yv + Yvv |v| + Yuv u) v + (Yr + Yur u) r;
-/// (Nv + Nuv u) v + (Nr + Nrr |r| + Nur u) r], tau = [Tp + Ts; 0; (b / 2) (Tp - Ts)] with
+/// (Nv + Nvv |v| + Nuv u) v + (Nr + Nrr |r| + Nur u) r], tau = [Tp + Ts; 0; (b / 2) (Tp - Ts)] with
 /// Tp = (1 - imbalance) T, Ts = (1 + imbalance) T. A propeller gives T = forward_linear e +
 /// forward_quadratic e^2 for e, the command beyond the dead band, and T = -(reverse_linear e +
 /// reverse_quadratic e^2) ReverseLoss::Share(u) in reverse, beyond a dead band of its own; thrust
@@ -33,6 +33,7 @@ enum class FossenParameter : std::size_t {
   kNv,
   kNr,
   kYvv,
+  kNvv,
   kNrr,
   kYuv,
   kYur,
@@ -51,7 +52,7 @@ enum class FossenParameter : std::size_t {
   kFixDelay,
 };
 
-inline constexpr std::size_t kFossenParameters = 26;
+inline constexpr std::size_t kFossenParameters = 27;
 using FossenVector = Eigen::Matrix<double, static_cast<int>(kFossenParameters), 1>;
 
 constexpr Eigen::Index At(FossenParameter parameter) {

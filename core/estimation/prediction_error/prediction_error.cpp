@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <utility>
 
 #include "telltale/core/base/linear_algebra/eigen_decompositions.hpp"
 #include "telltale/core/base/parallel.hpp"
@@ -41,6 +42,11 @@ constexpr double kNoisePriorSigma = 1.5;
 // headings. A noise below these would let the filter follow the readings instead of the model.
 NoiseVector LeastNoise() {
   return LogOf({{1e-3, 1e-3, 1e-3}, 1.0, 0.1, 0.05, 0.0175, 0.02});
+}
+// A boat of the instruments that follows the filter is free of what disturbs the boat only as far
+// as the noise of the filter is right.
+NoiseVector LeastNoiseWhereFollowing() {
+  return LogOf({{1e-3, 1e-3, 1e-3}, 1.0, 0.02, 0.005, 0.0044, 0.002});
 }
 NoiseVector GreatestNoise() {
   return LogOf({{3.0, 3.0, 3.0}, 10.0, 3.0, 3.0, 0.2, 0.2});
@@ -116,6 +122,15 @@ std::vector<Excerpt> ExcerptsForNoise(const PreparedDataset& dataset) {
     }
   }
   return excerpts;
+}
+
+double SpanS(const PreparedDataset& dataset) {
+  double span_s = 0.0;
+  for (const RawSignals& signals : dataset.signals) {
+    const std::vector<double>& times_s = signals.psi_rad.times_s;
+    if (!times_s.empty()) span_s += times_s.back() - times_s.front();
+  }
+  return span_s;
 }
 
 class Problem {
@@ -321,7 +336,7 @@ double StrengthOfInstruments(const SlopedRuns& all, const Normal& normal,
 
 // One step of Fisher scoring of each recording's noise, at most a factor e; slopes by finite
 // differences of log.
-double ScoreNoise(const Problem& problem, const Eigen::VectorXd& z,
+double ScoreNoise(const Problem& problem, const Eigen::VectorXd& z, const NoiseVector& least,
                   std::vector<NoiseModel>& noise) {
   constexpr double kStep = 0.05;
   std::vector<std::vector<NoiseModel>> moved;
@@ -361,7 +376,7 @@ double ScoreNoise(const Problem& problem, const Eigen::VectorXd& z,
     Eigen::VectorXd step = information.ldlt().solve(gradient);
     const double largest = step.cwiseAbs().maxCoeff();
     if (largest > 1.0) step /= largest;
-    const NoiseVector next = (log + step).cwiseMax(LeastNoise()).cwiseMin(GreatestNoise());
+    const NoiseVector next = (log + step).cwiseMax(least).cwiseMin(GreatestNoise());
     noise[recording] = NoiseOf(next);
     largest_move = std::max(largest_move, (next - log).cwiseAbs().maxCoeff());
   }
@@ -427,18 +442,19 @@ class Search {
   explicit Search(const Problem& problem)
       : problem_(&problem),
         z_(problem.FirstParameters()),
-        noise_(problem.dataset_.Recordings(), FirstNoise(problem.dataset_)) {}
+        noise_(problem.dataset_.Recordings(), FirstNoise(problem.dataset_)),
+        weight_(std::min(1.0, kFirstWeightS / SpanS(problem.dataset_))) {}
 
   /// Whether there is more to do after this iteration.
   bool Iterate() {
     const SlopedRuns runs = problem_->RunWithSlopes(z_, noise_, std::nullopt);
-    const auto [precision, mean, gradient] = Linearise(runs);
+    const auto [precision, mean, gradient] = Linearise(runs, weight_);
     slope_ = information_;
     newton_mean_ = z_ + information_.ldlt().solve(gradient);
 
-    const auto cost = [&, &precision = precision, &mean = mean](const Eigen::VectorXd& z,
-                                                                double squares) {
-      return squares + (z - mean).dot(precision * (z - mean));
+    const auto cost = [&, this, &precision = precision, &mean = mean](const Eigen::VectorXd& z,
+                                                                      double squares) {
+      return weight_ * squares + (z - mean).dot(precision * (z - mean));
     };
     const double now = cost(z_, Squares(runs));
     const double nominal_fix_delay_s = z_[At(kFixDelay)];
@@ -460,8 +476,8 @@ class Search {
     }
     ++iterations_;
     if (!noise_settled_) {
-      noise_settled_ =
-          ScoreNoise(*problem_, z_, noise_) < kSettledNoise || iterations_ >= kNoiseIterations;
+      noise_settled_ = ScoreNoise(*problem_, z_, LeastNoise(), noise_) < kSettledNoise ||
+                       iterations_ >= kNoiseIterations;
     }
     const bool settled = moved < kConvergedMove && noise_settled_;
     return !settled && iterations_ < problem_->options_.max_iterations;
@@ -471,7 +487,7 @@ class Search {
   // more to do.
   bool IterateWithInstruments() {
     const SlopedRuns runs = problem_->RunWithSlopes(z_, noise_, time_constant_s_);
-    const auto [precision, mean, gradient] = Linearise(runs);
+    const auto [precision, mean, gradient] = Linearise(runs, 1.0);
     slope_ = ScoreSlope(runs) + precision;
     newton_mean_ = z_ + slope_.partialPivLu().solve(gradient);
     const Eigen::VectorXd whole = BoundedStep(*problem_, z_, slope_, gradient, 0.0);
@@ -494,6 +510,22 @@ class Search {
     score_ = score;
     ++instrument_iterations_;
     return !instrumented_ && ++solution_iterations_ < kInstrumentIterations;
+  }
+
+  // From now on the noise is that of a boat of the instruments that follows.
+  void SettleNoiseWhereFollowing() {
+    for (int i = 0; i < kNoiseIterations; ++i) {
+      if (ScoreNoise(*problem_, z_, LeastNoiseWhereFollowing(), noise_) < kSettledNoise) break;
+    }
+  }
+
+  // From now on all of the data count. Whether they did not before.
+  bool WeighFully() {
+    if (weight_ == 1.0) return false;
+    weight_ = 1.0;
+    damping_ = kFirstDamping;
+    iterations_before_ += std::exchange(iterations_, 0);
+    return true;
   }
 
   // From now on the boat of the instruments follows with this time constant.
@@ -525,7 +557,7 @@ class Search {
     fit.blocks = normal_.blocks;
     fit.recordings = normal_.recordings;
     fit.innovations = innovations_;
-    fit.iterations = iterations_ + instrument_iterations_;
+    fit.iterations = iterations_before_ + iterations_ + instrument_iterations_;
     fit.converged = instrumented_;
     return fit;
   }
@@ -560,19 +592,22 @@ class Search {
   }
 
   // The equations at z_; leaves their information behind.
-  Linearised Linearise(const SlopedRuns& runs) {
+  Linearised Linearise(const SlopedRuns& runs, double weight) {
     normal_ = NormalEquations(*problem_, runs);
     innovations_ = 0;
     for (const SlopedInnovations& run : runs) innovations_ += run.innovations.size();
     Linearised at;
     at.precision = problem_->PriorPrecision(z_);
     at.mean = problem_->PriorShift(at.precision);
-    information_ = normal_.information + at.precision;
+    information_ = weight * normal_.information + at.precision;
     // Innovations are readings less predictions: a step against their slope reduces them.
-    at.gradient = -normal_.gradient - at.precision * (z_ - at.mean);
+    at.gradient = -weight * normal_.gradient - at.precision * (z_ - at.mean);
     return at;
   }
 
+  // With more data than this and a filter that follows the readings, the prior would be too weak to
+  // keep the first steps near the boat: all data weigh as much as these until the noise is right.
+  static constexpr double kFirstWeightS = 600.0;
   static constexpr int kMostAttempts = 8;
   static constexpr double kFirstDamping = 1e-3;
   static constexpr double kLeastDamping = 1e-9;
@@ -596,6 +631,7 @@ class Search {
   const Problem* problem_;
   Eigen::VectorXd z_;
   std::vector<NoiseModel> noise_;
+  double weight_;  // of the data, the prior's being one
   double damping_ = kFirstDamping;
   Normal normal_;
   Eigen::MatrixXd information_;
@@ -605,6 +641,7 @@ class Search {
   FossenVector score_ = FossenVector::Zero();  // before it
   std::size_t innovations_ = 0;
   int iterations_ = 0;
+  int iterations_before_ = 0;  // all data weighed fully
   int instrument_iterations_ = 0;
   int solution_iterations_ = 0;                            // with these instruments
   double left_ = std::numeric_limits<double>::infinity();  // of the score, in standard errors
@@ -626,20 +663,29 @@ PredictionErrorFit FitPredictionError(const PreparedDataset& dataset, double pro
   const auto report_progress = [&] {
     if (progress) progress(search.ShareDone());
   };
-  while (search.Iterate()) report_progress();
-  Search solved = search;
+  const auto fit_slopes = [&] {
+    while (search.Iterate()) report_progress();
+  };
+  std::optional<Search> solved;
   const auto solve = [&](double time_constant_s) {
     search.UseInstruments(time_constant_s);
     while (search.IterateWithInstruments()) report_progress();
     if (search.IsInstrumented()) solved = search;
     return search.IsInstrumented();
   };
+  fit_slopes();
+  const Search by_slopes = search;
   if (!solve(kDrivenByCommandsAlone)) {
-    search = solved;
+    search = by_slopes;
+    if (!solve(kFollowingSlowly.front())) search = by_slopes;
+    search.SettleNoiseWhereFollowing();
     std::ranges::all_of(kFollowingSlowly, solve);
   }
+  if (solved) return solved->Fit();
   // Where the instruments are too weak, the slopes' solution stands and counts as not converged.
-  return solved.Fit();
+  search = by_slopes;
+  if (search.WeighFully()) fit_slopes();
+  return search.Fit();
 }
 
 }  // namespace telltale

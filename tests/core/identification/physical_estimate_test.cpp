@@ -28,8 +28,8 @@ constexpr double kFixDelayS = 0.1;
 
 FossenVector Truth() {
   FossenVector p;
-  p << 1.5, 0.03, 0.18, 0.15, 0.45, 1.2, 0.05, -0.05, 0.25, 1.5, 0.2, 0.3, 0.0, 0.0, 0.1, 0.5, 1.6,
-      0.4, 1.2, 0.5, 0.04, 0.06, 0.08, 0.25, kCommandDelayS, kFixDelayS;
+  p << 1.5, 0.03, 0.18, 0.15, 0.45, 1.2, 0.05, -0.05, 0.25, 1.5, -0.1, 0.2, 0.3, 0.0, 0.0, 0.1, 0.5,
+      1.6, 0.4, 1.2, 0.5, 0.04, 0.06, 0.08, 0.25, kCommandDelayS, kFixDelayS;
   return p;
 }
 
@@ -167,8 +167,8 @@ TEST_F(PhysicalModelOfASimulatedBoat, IsComparedByItsParametersWithoutTheClocks)
 // II does, in gusts.
 FossenVector KeepsNoCourse() {
   FossenVector p;
-  p << 1.35, 0.04, 0.11, 0.03, 0.10, 0.03, 0.20, 0.0, 0.08, 1.1, 0.05, 0.1, 0.1, -0.05, 0.02, 0.02,
-      0.08, 0.02, 0.06, 0.3, 0.0, 0.04, 0.04, 0.1, 0.0, 0.0;
+  p << 1.35, 0.04, 0.11, 0.03, 0.10, 0.03, 0.20, 0.0, 0.08, 1.1, -0.1, 0.05, 0.1, 0.1, -0.05, 0.02,
+      0.02, 0.08, 0.02, 0.06, 0.3, 0.0, 0.04, 0.04, 0.1, 0.0, 0.0;
   return p;
 }
 

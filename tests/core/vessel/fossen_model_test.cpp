@@ -9,8 +9,8 @@ namespace {
 
 FossenVector Boat() {
   FossenVector p;
-  p << 1.5, 0.03, 0.18, 0.15, 0.45, 1.2, 0.05, -0.05, 0.25, 1.5, 0.2, 0.3, 0.1, -0.1, 0.1, 0.5, 1.6,
-      0.4, 1.2, 0.5, 0.04, 0.06, 0.08, 0.25, 0.0, 0.0;
+  p << 1.5, 0.03, 0.18, 0.15, 0.45, 1.2, 0.05, -0.05, 0.25, 1.5, -0.1, 0.2, 0.3, 0.1, -0.1, 0.1,
+      0.5, 1.6, 0.4, 1.2, 0.5, 0.04, 0.06, 0.08, 0.25, 0.0, 0.0;
   return p;
 }
 
@@ -24,10 +24,11 @@ FossenDynamics::Thrusts Steady(double e) {
 
 TEST(FossenModel, CoriolisForcesDoNoWork) {
   FossenVector p = Boat();
-  for (const auto drag : {FossenParameter::kXu, FossenParameter::kXuu, FossenParameter::kYv,
-                          FossenParameter::kYr, FossenParameter::kNv, FossenParameter::kNr,
-                          FossenParameter::kYvv, FossenParameter::kNrr, FossenParameter::kYuv,
-                          FossenParameter::kYur, FossenParameter::kNuv, FossenParameter::kNur}) {
+  for (const auto drag :
+       {FossenParameter::kXu, FossenParameter::kXuu, FossenParameter::kYv, FossenParameter::kYr,
+        FossenParameter::kNv, FossenParameter::kNr, FossenParameter::kYvv, FossenParameter::kNvv,
+        FossenParameter::kNrr, FossenParameter::kYuv, FossenParameter::kYur, FossenParameter::kNuv,
+        FossenParameter::kNur}) {
     p[At(drag)] = 0.0;
   }
   Eigen::Matrix3d mass = Eigen::Matrix3d::Identity();
