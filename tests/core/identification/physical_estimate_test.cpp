@@ -211,6 +211,10 @@ TEST(PhysicalModel, IsFoundOfABoatThatKeepsNoCourse) {
                 4.0 * parameter.standard_error)
         << parameter.symbol;
   }
+  // Instruments that follow the filter need the noise of the boat, not that of filtered readings,
+  // which is five times as large. Steps of less than 5 % end its search.
+  const double fix_noise_m = SensorOptions{}.position_noise_m;
+  EXPECT_NEAR(identified->physical->noise.fix_sigma_m, fix_noise_m, 0.1 * fix_noise_m);
 }
 
 // Gusts as strong as the thrust: the slopes' equations, which follow them, find no rest, and those
