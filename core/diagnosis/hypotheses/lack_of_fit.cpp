@@ -57,6 +57,7 @@ LackOfFit AssessLackOfFit(const EffectFit& best, const CrossValidatedErrors& cro
   const ResidualMetric widened = best.WidenedMetric(metric);
   lack_of_fit.after = widened.ReducedChiSquare(widened.Whiten(cross_validated.errors));
   lack_of_fit.predictable = PredictableIn(cross_validated.errors, best, problem);
+  lack_of_fit.allows_for_scatter = best.gusts.size() > 0 || best.scatter.size() > 0;
   return lack_of_fit;
 }
 

@@ -15,6 +15,9 @@ struct LackOfFit {
   /// error recurs in both folds, so that the hypothesis lacks something. It is zero or less where
   /// windows err independently, as in rough weather.
   double predictable = 0.0;
+  /// Whether `after` allows for how much the hypothesis varies from window to window, as gusts do.
+  /// Then it is about that of the references where the hypothesis is right, however strong it is.
+  bool allows_for_scatter = false;
 };
 
 /// The lack of fit of the likeliest hypothesis, docs/concepts/diagnosis.md (98). Errors of a

@@ -58,11 +58,16 @@ double UnknownProbability(const LackOfFit& lack_of_fit, double score, std::size_
   const double before = std::max(lack_of_fit.before - lack_of_fit.nominal, excess);
   const double unresolved = UnresolvedShare(score);
   const double share = before > 0.0 ? std::max(excess / before, unresolved) : unresolved;
-  const double unexplained = std::log(share) + std::log(lack_of_fit.after / lack_of_fit.nominal);
+  const double misfit = std::log(lack_of_fit.after / lack_of_fit.nominal);
+  const double beyond_scatter = lack_of_fit.allows_for_scatter
+                                    ? std::max(misfit - kRanking.scattered_log_lack_of_fit, 0.0)
+                                    : 0.0;
   const double extra = faults > 1 ? static_cast<double>(faults - 1) : 0.0;
   const double penalty = kRanking.doubt_per_extra_effect * extra +
-                         kRanking.doubt_per_predictable * std::max(lack_of_fit.predictable, 0.0);
-  return Logistic(kRanking.doubt_slope * (unexplained - kRanking.doubt_midpoint + penalty) +
+                         kRanking.doubt_per_predictable * std::max(lack_of_fit.predictable, 0.0) +
+                         kRanking.doubt_per_scattered * beyond_scatter;
+  return Logistic(kRanking.doubt_slope *
+                      (std::log(share) + misfit - kRanking.doubt_midpoint + penalty) +
                   negative_log_prior);
 }
 

@@ -155,6 +155,22 @@ TEST(Rank, UnknownProbabilityGrowsWithPredictableResiduals) {
   EXPECT_EQ(doubt(-0.3), doubt(0.0));
 }
 
+// Errors that vary more than the hypothesis allows for are another cause's. A model of an effect
+// that does not vary errs with its strength, and less is said of it.
+TEST(Rank, UnknownProbabilityGrowsWithScatterThatIsNotAllowedFor) {
+  const RankedBoat boat;
+  Hypotheses hypotheses;
+  hypotheses.singles = {boat.Scored("current", -40.0)};
+  const auto doubt = [&](double after, bool allows_for_scatter) {
+    const LackOfFit lack_of_fit{
+        .before = 20.0, .after = after, .nominal = 1.0, .allows_for_scatter = allows_for_scatter};
+    return Rank(hypotheses, boat.metric, lack_of_fit).unknown;
+  };
+  EXPECT_EQ(doubt(1.2, true), doubt(1.2, false)) << "within what days differ by";
+  EXPECT_GT(doubt(2.5, true), 0.5);
+  EXPECT_LT(doubt(2.5, false), 0.5);
+}
+
 // The place of a payload is a shape parameter and counts; its mass is a size and does not.
 TEST(Rank, UnknownProbabilityGrowsWithTheNegativeLogPrior) {
   const RankedBoat boat;
