@@ -8,6 +8,7 @@
 #include "telltale/core/base/contract.hpp"
 #include "telltale/core/data/north_east_frame.hpp"
 #include "telltale/core/data/paper_preset.hpp"
+#include "telltale/core/data/repeated_readings.hpp"
 #include "telltale/core/data/robust_preset.hpp"
 #include "telltale/core/data/sampling_grid.hpp"
 #include "telltale/core/data/savitzky_golay.hpp"
@@ -132,8 +133,10 @@ std::optional<Refusal> WhyNotPrepared(const Recording& recording, const PrepareO
   return laid ? std::nullopt : std::optional(laid.error());
 }
 
-Result<PreparedDataset> Prepare(const Recording& recording, const Vehicle& vehicle,
+Result<PreparedDataset> Prepare(const Recording& as_logged, const Vehicle& vehicle,
                                 const PrepareOptions& options, Readings readings) {
+  const auto slower_sensors = WithoutRepeatedReadings(as_logged);
+  const Recording& recording = slower_sensors ? *slower_sensors : as_logged;
   const auto laid = LaySegments(recording, options);
   if (!laid) return tl::unexpected(laid.error());
   PreparedDataset dataset;

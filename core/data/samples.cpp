@@ -28,6 +28,7 @@ std::string_view Name(RejectReason reason) {
     case RejectReason::kOutOfOrder: return "OUT_OF_ORDER";
     case RejectReason::kClockJump: return "CLOCK_JUMP";
     case RejectReason::kStuckSensor: return "STUCK_SENSOR";
+    case RejectReason::kRepeated: return "REPEATED";
   }
   return "";
 }

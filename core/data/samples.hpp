@@ -41,11 +41,13 @@ enum class RejectReason {
   kOutOfOrder,   ///< older than the newest by more than the tolerance
   kClockJump,    ///< time jumps ahead or back by more than the jump limit
   kStuckSensor,  ///< a reading that repeats bit for bit while the commands change
+  kRepeated,     ///< a log's copy of the last reading of a sensor that is slower than the log
 };
 
 inline constexpr std::array kRejectReasons = {RejectReason::kNotFinite, RejectReason::kOutOfRange,
                                               RejectReason::kDuplicate, RejectReason::kOutOfOrder,
-                                              RejectReason::kClockJump, RejectReason::kStuckSensor};
+                                              RejectReason::kClockJump, RejectReason::kStuckSensor,
+                                              RejectReason::kRepeated};
 
 std::string_view Name(Channel channel);
 std::string_view Name(RejectReason reason);
