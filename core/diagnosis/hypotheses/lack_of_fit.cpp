@@ -44,6 +44,12 @@ double PredictableIn(const Eigen::MatrixXd& errors, const EffectFit& best,
   return std::log(square / remaining);
 }
 
+bool VariesBetweenWindowsAlone(const EffectFit& fit) {
+  return fit.gusts.size() > 0 && std::ranges::all_of(fit.Effects(), [](const Effect* effect) {
+           return !effect->IsStochastic() && effect->Facts().turbulence_time_s == 0.0;
+         });
+}
+
 }  // namespace
 
 LackOfFit AssessLackOfFit(const EffectFit& best, const CrossValidatedErrors& cross_validated,
@@ -57,7 +63,7 @@ LackOfFit AssessLackOfFit(const EffectFit& best, const CrossValidatedErrors& cro
   const ResidualMetric widened = best.WidenedMetric(metric);
   lack_of_fit.after = widened.ReducedChiSquare(widened.Whiten(cross_validated.errors));
   lack_of_fit.predictable = PredictableIn(cross_validated.errors, best, problem);
-  lack_of_fit.allows_for_scatter = best.gusts.size() > 0 || best.scatter.size() > 0;
+  lack_of_fit.allows_for_scatter = VariesBetweenWindowsAlone(best);
   return lack_of_fit;
 }
 

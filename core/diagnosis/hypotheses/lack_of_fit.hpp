@@ -15,8 +15,9 @@ struct LackOfFit {
   /// error recurs in both folds, so that the hypothesis lacks something. It is zero or less where
   /// windows err independently, as in rough weather.
   double predictable = 0.0;
-  /// Whether `after` allows for how much the hypothesis varies from window to window, as gusts do.
-  /// Then it is about that of the references where the hypothesis is right, however strong it is.
+  /// Whether `after` allows for what varies between windows and never within one, as a current
+  /// does. Then it is about that of the references where the hypothesis is right, however strong
+  /// it is. Gusts, spells and waves take courses through a window that the library knows roughly.
   bool allows_for_scatter = false;
 };
 
