@@ -1,5 +1,3 @@
-#include <algorithm>
-
 #include "telltale/core/effects/effect_instance.hpp"
 #include "telltale/core/effects/wording.hpp"
 
@@ -10,24 +8,27 @@ class OutputStuckEffect final : public Effect {
   OutputStuckEffect()
       : Effect({.name = "output_stuck",
                 .title = "an output that is stuck",
-                .equation = "delta_port -> (1 - k) delta_port + k h for k > 0, delta_starboard "
-                            "likewise with -k for k < 0; k = 1 is stuck at h throughout",
+                .equation = "delta_port -> (1 - k_p) delta_port + k_p h, delta_starboard likewise "
+                            "with k_s; k = 1 is stuck at h throughout",
                 .source = "Blanke, Kinnaert, Lunze and Staroswiecki, Diagnosis and Fault-Tolerant "
                           "Control, 2016: an actuator locked in place",
-                .parameters = {{"port_share", "1", 0.4, -1.0, 1.0},
+                .parameters = {{"port_share", "1", 0.4, 0.0, 1.0},
+                               {"starboard_share", "1", 0.4, 0.0, 1.0},
                                {"held_at", "1", 0.5, -1.0, 1.0, true, 0.0}},
                 .settled_by = "the speed of the propellers",
                 .hook = Hook::kCommand,
                 .nominal_variation = NominalVariation::kNone}) {}
 
   std::string Describe(EffectValues values) const override {
-    return (values[0] < 0.0 ? "starboard output " : "port output ") + Percent(values[0]) +
-           " stuck at a command of " + FormatNumber(values[1], 2);
+    const bool is_starboard = values[1] > values[0];
+    return (is_starboard ? "starboard output " : "port output ") +
+           Percent(values[is_starboard ? 1 : 0]) + " stuck at a command of " +
+           FormatNumber(values[2], 2);
   }
 
   double Command(EffectValues values, Side side, double delta) const override {
-    const double share = std::max(side == Side::kPort ? values[0] : -values[0], 0.0);
-    return (1.0 - share) * delta + share * values[1];
+    const double share = values[side == Side::kPort ? 0 : 1];
+    return (1.0 - share) * delta + share * values[2];
   }
 };
 

@@ -149,9 +149,9 @@ TEST(AugmentedBoat, HoldsAStuckOutput) {
   const auto commanded = [](double port, double starboard) {
     return SteadyDrive(Plain(), {port, starboard});
   };
-  EXPECT_NEAR(stuck({1.0, 0.3}).thrust[0].u, commanded(0.3, 0.6).thrust[0].u, 1e-12);
-  EXPECT_NEAR(stuck({1.0, 0.3}).thrust[1].u, commanded(0.3, 0.6).thrust[1].u, 1e-12);
-  EXPECT_NEAR(stuck({-0.5, 0.2}).thrust[1].u, commanded(0.8, 0.4).thrust[1].u, 1e-12);
+  EXPECT_NEAR(stuck({1.0, 0.0, 0.3}).thrust[0].u, commanded(0.3, 0.6).thrust[0].u, 1e-12);
+  EXPECT_NEAR(stuck({1.0, 0.0, 0.3}).thrust[1].u, commanded(0.3, 0.6).thrust[1].u, 1e-12);
+  EXPECT_NEAR(stuck({0.0, 0.5, 0.2}).thrust[1].u, commanded(0.8, 0.4).thrust[1].u, 1e-12);
 }
 
 // From rest at 1 s an output that takes 2 s to full is at (t - 1 s) / 2 s until it is at 0.5.
