@@ -520,7 +520,7 @@ class Search {
   }
 
   // From now on all of the data count. Whether they did not before.
-  bool WeighFully() {
+  bool CountAllData() {
     if (weight_ == 1.0) return false;
     weight_ = 1.0;
     damping_ = kFirstDamping;
@@ -541,9 +541,11 @@ class Search {
   bool IsInstrumented() const { return instrumented_; }
 
   double ShareDone() const {
-    return static_cast<double>(iterations_ + instrument_iterations_) /
-           static_cast<double>(problem_->options_.max_iterations +
-                               kInstrumentIterations * (1 + kFollowingSlowly.size()));
+    const int done = iterations_before_ + iterations_ + instrument_iterations_;
+    return std::min(1.0,
+                    static_cast<double>(done) /
+                        static_cast<double>(problem_->options_.max_iterations +
+                                            kInstrumentIterations * (1 + kFollowingSlowly.size())));
   }
 
   PredictionErrorFit Fit() const {
@@ -606,7 +608,7 @@ class Search {
   }
 
   // With more data than this and a filter that follows the readings, the prior would be too weak to
-  // keep the first steps near the boat: all data weigh as much as these until the noise is right.
+  // keep the first steps near the boat: all data count as much as these until the noise is right.
   static constexpr double kFirstWeightS = 600.0;
   static constexpr int kMostAttempts = 8;
   static constexpr double kFirstDamping = 1e-3;
@@ -641,7 +643,7 @@ class Search {
   FossenVector score_ = FossenVector::Zero();  // before it
   std::size_t innovations_ = 0;
   int iterations_ = 0;
-  int iterations_before_ = 0;  // all data weighed fully
+  int iterations_before_ = 0;  // before all data counted
   int instrument_iterations_ = 0;
   int solution_iterations_ = 0;                            // with these instruments
   double left_ = std::numeric_limits<double>::infinity();  // of the score, in standard errors
@@ -684,7 +686,7 @@ PredictionErrorFit FitPredictionError(const PreparedDataset& dataset, double pro
   if (solved) return solved->Fit();
   // Where the instruments are too weak, the slopes' solution stands and counts as not converged.
   search = by_slopes;
-  if (search.WeighFully()) fit_slopes();
+  if (search.CountAllData()) fit_slopes();
   return search.Fit();
 }
 
