@@ -11,14 +11,6 @@ constexpr std::size_t kFewestRuns = 20;
 constexpr double kLeastShareRepeated = 0.1;
 constexpr double kLeastShareEven = 0.95;
 
-bool SameReading(const GnssFix& a, const GnssFix& b) {
-  return a.latitude_deg == b.latitude_deg && a.longitude_deg == b.longitude_deg;
-}
-
-bool SameReading(const HeadingSample& a, const HeadingSample& b) {
-  return a.heading_deg == b.heading_deg;
-}
-
 /// The lengths of the runs of equal readings, but for the last run, which the recording cuts off.
 template <class Sample>
 std::vector<std::size_t> RunsOf(const std::vector<Sample>& samples) {

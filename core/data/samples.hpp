@@ -29,6 +29,14 @@ struct ThrusterSample {
   double starboard_us = 0.0;  ///< [500, 2500]
 };
 
+/// Whether two readings are alike to the last bit, whatever their times.
+inline bool SameReading(const GnssFix& a, const GnssFix& b) {
+  return a.latitude_deg == b.latitude_deg && a.longitude_deg == b.longitude_deg;
+}
+inline bool SameReading(const HeadingSample& a, const HeadingSample& b) {
+  return a.heading_deg == b.heading_deg;
+}
+
 enum class Channel { kGnss, kHeading, kThrusters };
 
 inline constexpr std::array kChannels = {Channel::kGnss, Channel::kHeading, Channel::kThrusters};

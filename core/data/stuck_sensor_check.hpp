@@ -38,12 +38,6 @@ class StuckSensorCheck {
   // A command counts for no longer than this without a newer one.
   static constexpr double kLongestHoldS = 1.0;
 
-  static bool SameReading(const GnssFix& a, const GnssFix& b) {
-    return a.latitude_deg == b.latitude_deg && a.longitude_deg == b.longitude_deg;
-  }
-  static bool SameReading(const HeadingSample& a, const HeadingSample& b) {
-    return a.heading_deg == b.heading_deg;
-  }
   static bool SameCommand(const ThrusterSample& a, const ThrusterSample& b) {
     return std::abs(a.port_us - b.port_us) <= kSameCommandUs &&
            std::abs(a.starboard_us - b.starboard_us) <= kSameCommandUs;

@@ -163,7 +163,7 @@ struct RankingConstants {
   double doubt_midpoint = -0.2;            ///< doubt at even odds
   double doubt_per_extra_effect = 0.7;     ///< doubt per effect beyond the first, weather apart
   double doubt_per_predictable = 4.0;      ///< doubt per unit of LackOfFit::predictable
-  double scattered_log_lack_of_fit = 0.4;  ///< 1, the same where scatter is allowed for; seed 61
+  double scattered_log_lack_of_fit = 0.4;  ///< 1, that right currents leave at most; seed 61
   double doubt_per_scattered = 4.0;        ///< doubt per unit beyond it; seed 61
   double explained_share = 0.7;            ///< 1, of the excess, from which on a gap is explained
   double naming_probability = 0.9;         ///< of a named cause at least, development sets 2 and 3

@@ -124,6 +124,7 @@ std::vector<Excerpt> ExcerptsForNoise(const PreparedDataset& dataset) {
   return excerpts;
 }
 
+// Of all segments together.
 double SpanS(const PreparedDataset& dataset) {
   double span_s = 0.0;
   for (const RawSignals& signals : dataset.signals) {
