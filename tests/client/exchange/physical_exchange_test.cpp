@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <string>
@@ -179,9 +180,13 @@ TEST(PhysicalMss, MovesAForeignSimulatorAlongTheSameTrack) {
   const auto track =
       Simulate(VesselModelOf(KnownParameters(), kSeparationM), {}, SampleMission(1), 60.0, kStepS);
   ForeignBoat::State x = ForeignBoat::State::Zero();
-  for (std::size_t k = 0; k + 1 < track.size(); ++k) x = boat.Step(x, track[k].delta, kStepS);
+  double farthest_m = 0.0;
+  for (std::size_t k = 0; k + 1 < track.size(); ++k) {
+    x = boat.Step(x, track[k].delta, kStepS);
+    farthest_m = std::max(farthest_m, std::hypot(x[0], x[1]));
+  }
   const VesselState& end = track.back().state;
-  EXPECT_GT(std::hypot(end.eta.x_m, end.eta.y_m), 5.0);
+  EXPECT_GT(farthest_m, 5.0);
   EXPECT_NEAR(x[0], end.eta.x_m, 1e-3);
   EXPECT_NEAR(x[1], end.eta.y_m, 1e-3);
   EXPECT_NEAR(x[2], end.eta.psi_rad, 1e-3);
