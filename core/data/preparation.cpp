@@ -133,16 +133,16 @@ std::optional<Refusal> WhyNotPrepared(const Recording& recording, const PrepareO
   return laid ? std::nullopt : std::optional(laid.error());
 }
 
-Result<PreparedDataset> Prepare(const Recording& as_logged, const Vehicle& vehicle,
+Result<PreparedDataset> Prepare(const Recording& recording, const Vehicle& vehicle,
                                 const PrepareOptions& options, Readings readings) {
-  const auto slower_sensors = WithoutRepeatedReadings(as_logged);
-  const Recording& recording = slower_sensors ? *slower_sensors : as_logged;
-  const auto laid = LaySegments(recording, options);
+  const auto without_repeats = WithoutRepeatedReadings(recording);
+  const Recording& measured = without_repeats ? *without_repeats : recording;
+  const auto laid = LaySegments(measured, options);
   if (!laid) return tl::unexpected(laid.error());
   PreparedDataset dataset;
   dataset.sampling_period_s = laid->front().grid.period_s;
-  dataset.origin = {recording.gnss.front().latitude_deg, recording.gnss.front().longitude_deg};
-  dataset.rejected = recording.rejected;
+  dataset.origin = {measured.gnss.front().latitude_deg, measured.gnss.front().longitude_deg};
+  dataset.rejected = measured.rejected;
   dataset.options = options;
   dataset.sensors.antenna = vehicle.gnss_antenna;
   dataset.hull = vehicle.HullOrDefault();
@@ -150,9 +150,9 @@ Result<PreparedDataset> Prepare(const Recording& as_logged, const Vehicle& vehic
   const NorthEastFrame frame(dataset.origin);
   std::vector<std::size_t> places;  // of each segment among the recordings
   for (const auto& [segment, grid] : *laid) {
-    SegmentSignals signals = ReadSignals(recording, segment, vehicle, frame);
+    SegmentSignals signals = ReadSignals(measured, segment, vehicle, frame);
     Append(dataset, PrepareRows(signals, grid, vehicle.gnss_antenna, options), options);
-    places.push_back(PlaceAmong(recording.starts_s, segment.start_s));
+    places.push_back(PlaceAmong(measured.starts_s, segment.start_s));
     const SignalNoise noise(signals);
     PoolSensors(dataset, signals, noise);
     PoolNoise(dataset, NoiseInVelocity(noise, signals, grid, options));
