@@ -129,7 +129,8 @@ std::vector<PreparedRow> PrepareRows(const SegmentSignals& signals, const Sampli
 }
 
 std::optional<Refusal> WhyNotPrepared(const Recording& recording, const PrepareOptions& options) {
-  const auto laid = LaySegments(recording, options);
+  const auto without_repeats = WithoutRepeatedReadings(recording);
+  const auto laid = LaySegments(without_repeats ? *without_repeats : recording, options);
   return laid ? std::nullopt : std::optional(laid.error());
 }
 

@@ -11,6 +11,15 @@ constexpr std::size_t kFewestRuns = 20;
 constexpr double kLeastShareRepeated = 0.1;
 constexpr double kLeastShareEven = 0.95;
 
+template <class Sample>
+std::size_t RepeatsIn(const std::vector<Sample>& samples) {
+  std::size_t repeats = 0;
+  for (std::size_t i = 1; i < samples.size(); ++i) {
+    if (SameReading(samples[i - 1], samples[i])) ++repeats;
+  }
+  return repeats;
+}
+
 /// The lengths of the runs of equal readings, but for the last run, which the recording cuts off.
 template <class Sample>
 std::vector<std::size_t> RunsOf(const std::vector<Sample>& samples) {
@@ -26,11 +35,10 @@ std::vector<std::size_t> RunsOf(const std::vector<Sample>& samples) {
 
 template <class Sample>
 bool HoldsLastReading(const std::vector<Sample>& samples) {
+  const auto count = static_cast<double>(samples.size());
+  if (static_cast<double>(RepeatsIn(samples)) < kLeastShareRepeated * count) return false;
   std::vector<std::size_t> runs = RunsOf(samples);
   if (runs.size() < kFewestRuns) return false;
-  const double repeated =
-      1.0 - static_cast<double>(runs.size() + 1) / static_cast<double>(samples.size());
-  if (repeated < kLeastShareRepeated) return false;
   const auto middle = runs.begin() + static_cast<std::ptrdiff_t>(runs.size() / 2);
   std::ranges::nth_element(runs, middle);
   const std::size_t median = *middle;
@@ -38,7 +46,7 @@ bool HoldsLastReading(const std::vector<Sample>& samples) {
   for (const std::size_t run : runs) {
     if (run + 1 >= median && run <= median + 1) in_even_runs += run;
   }
-  return static_cast<double>(in_even_runs) >= kLeastShareEven * static_cast<double>(samples.size());
+  return static_cast<double>(in_even_runs) >= kLeastShareEven * count;
 }
 
 /// How many it leaves out.

@@ -63,7 +63,7 @@ LackOfFit AssessLackOfFit(const EffectFit& best, const CrossValidatedErrors& cro
   const ResidualMetric widened = best.WidenedMetric(metric);
   lack_of_fit.after = widened.ReducedChiSquare(widened.Whiten(cross_validated.errors));
   lack_of_fit.predictable = PredictableIn(cross_validated.errors, best, problem);
-  lack_of_fit.allows_for_scatter = VariesBetweenWindowsAlone(best);
+  lack_of_fit.varies_between_windows = VariesBetweenWindowsAlone(best);
   return lack_of_fit;
 }
 

@@ -15,10 +15,11 @@ struct LackOfFit {
   /// error recurs in both folds, so that the hypothesis lacks something. It is zero or less where
   /// windows err independently, as in rough weather.
   double predictable = 0.0;
-  /// Whether `after` allows for what varies between windows and never within one, as a current
-  /// does. Then it is about that of the references where the hypothesis is right, however strong
-  /// it is. Gusts, spells and waves take courses through a window that the library knows roughly.
-  bool allows_for_scatter = false;
+  /// Whether what the hypothesis lets vary, and `after` allows for, varies between windows and
+  /// never within one, as a current does. Then `after` is about that of the references where the
+  /// hypothesis is right, however strong it is. Gusts, spells and waves take courses through a
+  /// window that the library knows roughly.
+  bool varies_between_windows = false;
 };
 
 /// The lack of fit of the likeliest hypothesis, docs/concepts/diagnosis.md (98). Errors of a

@@ -59,7 +59,7 @@ double UnknownProbability(const LackOfFit& lack_of_fit, double score, std::size_
   const double unresolved = UnresolvedShare(score);
   const double share = before > 0.0 ? std::max(excess / before, unresolved) : unresolved;
   const double misfit = std::log(lack_of_fit.after / lack_of_fit.nominal);
-  const double beyond_scatter = lack_of_fit.allows_for_scatter
+  const double beyond_scatter = lack_of_fit.varies_between_windows
                                     ? std::max(misfit - kRanking.scattered_log_lack_of_fit, 0.0)
                                     : 0.0;
   const double extra = faults > 1 ? static_cast<double>(faults - 1) : 0.0;

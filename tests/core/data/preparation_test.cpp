@@ -406,9 +406,14 @@ TEST(WhyNotPrepared, SaysWhatPrepareDoes) {
   };
   Recording silent = circle(30.0);
   silent.heading.clear();
+  // A compass that measures every 2.5 s, whose log holds its last reading.
+  Recording slow = circle(60.0);
+  for (std::size_t i = 0; i < slow.heading.size(); ++i) {
+    slow.heading[i].heading_deg = slow.heading[i - i % 125].heading_deg;
+  }
   PrepareOptions out_of_range = PrepareOptions::Robust();
   out_of_range.longest_gap_s = -1.0;
-  for (const Recording& recording : {circle(3.0), circle(30.0), silent}) {
+  for (const Recording& recording : {circle(3.0), circle(30.0), silent, slow}) {
     for (const PrepareOptions& options :
          {PrepareOptions::Robust(), PrepareOptions::Paper(), out_of_range}) {
       const auto dataset = Prepare(recording, Vehicle{}, options);

@@ -161,9 +161,11 @@ TEST(Rank, UnknownProbabilityGrowsWithScatterThatIsNotAllowedFor) {
   const RankedBoat boat;
   Hypotheses hypotheses;
   hypotheses.singles = {boat.Scored("current", -40.0)};
-  const auto doubt = [&](double after, bool allows_for_scatter) {
-    const LackOfFit lack_of_fit{
-        .before = 20.0, .after = after, .nominal = 1.0, .allows_for_scatter = allows_for_scatter};
+  const auto doubt = [&](double after, bool varies_between_windows) {
+    const LackOfFit lack_of_fit{.before = 20.0,
+                                .after = after,
+                                .nominal = 1.0,
+                                .varies_between_windows = varies_between_windows};
     return Rank(hypotheses, boat.metric, lack_of_fit).unknown;
   };
   EXPECT_EQ(doubt(1.2, true), doubt(1.2, false)) << "within what days differ by";

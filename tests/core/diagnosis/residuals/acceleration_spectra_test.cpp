@@ -66,7 +66,6 @@ TEST(AccelerationSpectra, PassSlowAccelerationsWhole) {
   EXPECT_LT(spectra.power_gains.maxCoeff(), 1.0);
 }
 
-// Of 4000 draws the mean is known to 2 %.
 // Fixes once a second: 0.5 Hz is the highest frequency that they tell from a lower one.
 TEST(AccelerationSpectra, SeeNothingBeyondHalfTheSamplingRate) {
   const testing::RestingBoat boat;
@@ -81,6 +80,7 @@ TEST(AccelerationSpectra, SeeNothingBeyondHalfTheSamplingRate) {
   }
 }
 
+// Of 4000 draws the mean is known to 2 %.
 TEST(QuantileSpectrum, IsUnbiasedForExponentialVariables) {
   RandomEngine engine(3);
   boost::random::exponential_distribution<double> exponential;
