@@ -108,8 +108,8 @@ Result<DiagnosedModel> DiagnoseAgainst(const std::vector<PreparedDataset>& refer
   const HorizonErrors& main = horizons[runs->main];
 
   report_progress("sensitivities", 0.35);
-  const Sensitivity sensitivity =
-      SensitivityOf(main.runs, nominal.boat, model, parameter_refs, options.threads);
+  const Sensitivity sensitivity = SensitivityOf(main.runs, {nominal.boat, nominal.coefficients},
+                                                model, parameter_refs, options.threads);
   const ResidualMetric metric(nominal, sensitivity, EveryWindow(sensitivity), options.refit);
   const ObservedExcitation excitation =
       ObservedExcitationOf(library, main.runs, references, nominal.boat, sensitivity.errors);

@@ -167,6 +167,21 @@ FossenVector WithPositiveMass(FossenVector parameters) {
   return parameters;
 }
 
+FossenVector WithinPhysicalRange(FossenVector parameters, double propeller_separation_m) {
+  const auto least = [&](FossenParameter parameter, double value) {
+    parameters[At(parameter)] = std::max(parameters[At(parameter)], value);
+  };
+  for (const FossenParameter parameter :
+       {kXu, kXuu, kYv, kNr, kYvv, kNrr, kYuv, kNur, kForwardLinear, kForwardQuadratic,
+        kReverseLinear, kReverseQuadratic, kReverseLoss, kForwardDeadBand, kReverseDeadBand,
+        kTimeConstant}) {
+    least(parameter, 0.0);
+  }
+  least(kM22, kLeastSwayMass);
+  least(kM33, kLeastYawInertia * propeller_separation_m * propeller_separation_m);
+  return WithPositiveMass(parameters);
+}
+
 Eigen::VectorXd CoefficientsOf(const FossenVector& p, double propeller_separation_m) {
   Eigen::VectorXd c = Eigen::VectorXd::Zero(kCoefficients + 1);
   c[0] = -p[At(kXuu)];

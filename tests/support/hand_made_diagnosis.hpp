@@ -37,6 +37,7 @@ inline NominalBaseline UnitBaseline(Eigen::Index rows, Eigen::Index coefficients
                                     Eigen::Index parameters) {
   NominalBaseline nominal;
   nominal.boat = {StableBoat(), {}};
+  nominal.coefficients = Eigen::VectorXd::Zero(coefficients);
   nominal.covariance = Eigen::MatrixXd::Identity(rows, rows);
   nominal.boat_covariance =
       Eigen::MatrixXd::Zero(coefficients + parameters, coefficients + parameters);
@@ -82,7 +83,8 @@ struct LearnedBaseline : ShortRecording {
   std::vector<EffectParameterRef> parameter_refs = EffectParameterRefsOf(EffectLibrary());
   NominalBaseline nominal =
       LearnNominalBaseline(RunsOf(dataset, model.model), model, parameter_refs, 2);
-  Sensitivity recording = SensitivityOf(runs, nominal.boat, model, parameter_refs, 2);
+  Sensitivity recording =
+      SensitivityOf(runs, {nominal.boat, nominal.coefficients}, model, parameter_refs, 2);
 };
 
 }  // namespace telltale::testing

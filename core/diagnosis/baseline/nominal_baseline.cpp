@@ -251,7 +251,7 @@ double OptimismOf(const std::vector<Sensitivity>& days) {
 
 using Recordings = std::vector<const FreeRuns*>;
 
-std::vector<Sensitivity> SensitivitiesOf(const Recordings& recordings, const AugmentedModel& boat,
+std::vector<Sensitivity> SensitivitiesOf(const Recordings& recordings, const ChangedBoat& boat,
                                          const UncertainModel& model,
                                          const std::vector<EffectParameterRef>& parameter_refs,
                                          std::size_t threads, double step) {
@@ -296,8 +296,8 @@ class BaselineEstimation {
 
   /// A step with new slopes. Whether the boat changed for the better by enough to go on.
   bool Improve() {
-    sensitivities_ =
-        SensitivitiesOf(recordings_, boat_, model_, parameter_refs_, threads_, kSlopeStep);
+    sensitivities_ = SensitivitiesOf(recordings_, {boat_, fit_.Coefficients()}, model_,
+                                     parameter_refs_, threads_, kSlopeStep);
     return Step() < kConvergedRatio;
   }
 
@@ -320,7 +320,8 @@ class BaselineEstimation {
 
   /// With new slopes over the whole typical size.
   NominalBaseline Baseline() {
-    return Baseline(SensitivitiesOf(recordings_, boat_, model_, parameter_refs_, threads_, 1.0));
+    return Baseline(SensitivitiesOf(recordings_, {boat_, fit_.Coefficients()}, model_,
+                                    parameter_refs_, threads_, 1.0));
   }
 
   /// With the slopes there are.
@@ -369,8 +370,7 @@ class BaselineEstimation {
       NominalBaselineFit tried = start;
       tried.Accept(share);
       const Eigen::VectorXd change = tried.Coefficients().cwiseProduct(model_.StandardErrors());
-      AugmentedModel boat{model_.Changed(model_.model, change),
-                          EffectsOf(parameter_refs_, tried.FixedEffects())};
+      AugmentedModel boat{model_.Changed(change), EffectsOf(parameter_refs_, tried.FixedEffects())};
       auto left = LessRecordingEffects(boat);
       const double square = SquaredNorm(left);
       if (square >= least) {

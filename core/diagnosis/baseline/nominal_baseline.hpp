@@ -18,7 +18,7 @@ namespace telltale {
 /// FreeRuns::Errors; base in standard errors of the model; effect parameters in typical sizes.
 struct NominalBaseline {
   AugmentedModel boat;
-  Eigen::VectorXd coefficients;   ///< by which the boat's differ from the model's
+  Eigen::VectorXd coefficients;   ///< by which the boat's free parameters differ from the model's
   Eigen::VectorXd fixed_effects;  ///< sizes that the boat has, those too small to simulate included
   Eigen::MatrixXd covariance;
   double kappa = 1.0;                   ///< independent windows per window

@@ -10,10 +10,27 @@
 namespace telltale {
 namespace {
 
+constexpr double kSlopeStep = 1e-3;  // standard errors
+
 ResidualMetric::Recalibration RecalibrationOf(const EffectFit& fit,
                                               const DiagnosisProblem& problem) {
   const ResidualMetric metric = fit.WidenedMetric(problem.metric);
   return metric.Recalibrate(metric.Whiten(fit.errors));
+}
+
+/// By how much the boat's free parameters differ from the model's.
+Eigen::VectorXd ChangeOf(const EffectFit& fit, const DiagnosisProblem& problem,
+                         const UncertainModel& model) {
+  const Eigen::VectorXd change =
+      problem.nominal.coefficients + RecalibrationOf(fit, problem).change;
+  return change.cwiseProduct(model.StandardErrors());
+}
+
+void SetValue(double estimate, double variance, Coefficient& coefficient) {
+  coefficient.estimate = estimate;
+  coefficient.standard_error = std::sqrt(variance);
+  coefficient.interval =
+      NormalInterval(estimate, coefficient.standard_error, coefficient.interval.level);
 }
 
 /// Gives every coefficient its value in `by`, and the free ones of `model` their `covariance`.
@@ -32,31 +49,68 @@ void ReplaceCoefficients(const VesselModel& by, const UncertainModel& model,
                          model.free[free].column == own;
     if (!is_free) continue;
     const auto place = static_cast<Eigen::Index>(free);
-    coefficient.standard_error = std::sqrt(covariance(place, place));
-    coefficient.interval = NormalInterval(coefficient.estimate, coefficient.standard_error,
-                                          coefficient.interval.level);
+    SetValue(coefficient.estimate, covariance(place, place), coefficient);
     place_of_free.push_back(static_cast<Eigen::Index>(i));
   }
   identification.covariance(place_of_free, place_of_free) = covariance;
+}
+
+/// The covariance of the coefficients that these physical parameters imply, to first order.
+Eigen::MatrixXd ImpliedCovariance(const FossenVector& about, const UncertainModel& model,
+                                  const Eigen::MatrixXd& covariance) {
+  const double separation_m = model.physical->propeller_separation_m;
+  const Eigen::VectorXd nominal = CoefficientsOf(about, separation_m);
+  Eigen::MatrixXd slopes(nominal.size() - 1, covariance.cols());
+  for (Eigen::Index i = 0; i < covariance.cols(); ++i) {
+    FossenVector moved = about;
+    const double step = kSlopeStep * std::sqrt(covariance(i, i));
+    moved[model.free[static_cast<std::size_t>(i)].column] += step;
+    slopes.col(i) = (CoefficientsOf(moved, separation_m) - nominal).head(slopes.rows()) / step;
+  }
+  return slopes * covariance * slopes.transpose();
+}
+
+/// Gives the physical parameters their value in `by`, the free ones of `model` their `covariance`,
+/// and the coefficients what they imply.
+void ReplacePhysicalParameters(const FossenVector& by, const UncertainModel& model,
+                               const Eigen::MatrixXd& covariance, Identification& identification) {
+  PhysicalModel& physical = *identification.physical;
+  std::vector<Eigen::Index> places;
+  for (std::size_t i = 0; i < model.free.size(); ++i) {
+    const Eigen::Index place = model.free[i].column;
+    const auto own = static_cast<Eigen::Index>(i);
+    SetValue(by[place], covariance(own, own), physical.parameters[static_cast<std::size_t>(place)]);
+    places.push_back(place);
+  }
+  physical.covariance(places, places) = covariance;
+  identification.covariance = ImpliedCovariance(by, model, covariance);
+  const Eigen::VectorXd implied = CoefficientsOf(by, physical.propeller_separation_m);
+  for (Eigen::Index i = 0; i < identification.covariance.rows(); ++i) {
+    SetValue(implied[i], identification.covariance(i, i),
+             identification.coefficients[static_cast<std::size_t>(i)]);
+  }
 }
 
 }  // namespace
 
 AugmentedModel Reidentified(const EffectFit& fit, const DiagnosisProblem& problem,
                             const UncertainModel& model) {
-  const Eigen::VectorXd change =
-      RecalibrationOf(fit, problem).change.cwiseProduct(model.StandardErrors());
-  const AugmentedModel& nominal = problem.nominal.boat;
-  return AugmentedModel{model.Changed(nominal.model, change), nominal.effects}.With(fit.effects);
+  return AugmentedModel{model.Changed(ChangeOf(fit, problem, model)), problem.nominal.boat.effects}
+      .With(fit.effects);
 }
 
 Identification Augmented(const Identification& old, const AugmentedModel& boat,
                          const EffectFit& fit, const DiagnosisProblem& problem,
                          const UncertainModel& model) {
   Identification augmented = old;
-  ReplaceCoefficients(boat.model, model,
-                      Scaled(RecalibrationOf(fit, problem).covariance, model.StandardErrors()),
-                      augmented);
+  const Eigen::MatrixXd covariance =
+      Scaled(RecalibrationOf(fit, problem).covariance, model.StandardErrors());
+  if (model.physical) {
+    ReplacePhysicalParameters(model.ChangedParameters(ChangeOf(fit, problem, model)), model,
+                              covariance, augmented);
+  } else {
+    ReplaceCoefficients(boat.model, model, covariance, augmented);
+  }
   augmented.simulation.clear();
   augmented.effects.clear();
   for (const auto& [effect, values] : boat.effects) {

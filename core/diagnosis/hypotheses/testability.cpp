@@ -9,23 +9,16 @@
 namespace telltale {
 namespace {
 
-std::string NameOf(const UncertainModel& model, Eigen::Index i) {
-  const auto& [equation, column] = model.free[static_cast<std::size_t>(i)];
-  const auto regressors = Regressors(equation, model.model.parameterization);
-  return std::string(Name(equation)) + ' ' +
-         std::string(regressors[static_cast<std::size_t>(column)].name);
-}
-
-/// The coefficient whose whitened column has the largest cosine with `whitened`.
-std::string MostSimilarCoefficient(const DiagnosisProblem& problem, const UncertainModel& model,
-                                   const Eigen::VectorXd& whitened) {
+/// The free parameter whose whitened column has the largest cosine with `whitened`.
+std::string MostSimilarParameter(const DiagnosisProblem& problem, const UncertainModel& model,
+                                 const Eigen::VectorXd& whitened) {
   const Eigen::MatrixXd columns = problem.metric.WhitenColumns(problem.recording.by_coefficient);
   Eigen::Index most = 0;
   (columns.transpose() * whitened)
       .cwiseQuotient(columns.colwise().norm().transpose().cwiseMax(1e-12))
       .cwiseAbs()
       .maxCoeff(&most);
-  return NameOf(model, most);
+  return model.NameOf(static_cast<std::size_t>(most));
 }
 
 /// Root mean squares over an effect's parameters of the sigmas that their typical sizes show.
@@ -80,7 +73,7 @@ std::vector<EffectTestability> TestabilityOf(const DiagnosisProblem& problem,
                       : sigmas.unmarginalised >= kDetectable ? Testability::kMasked
                                                              : Testability::kNotExcited;
     if (one.testability == Testability::kMasked && !whitened.empty()) {
-      one.masked_by = MostSimilarCoefficient(problem, model, whitened.front());
+      one.masked_by = MostSimilarParameter(problem, model, whitened.front());
     }
   }
   return all;

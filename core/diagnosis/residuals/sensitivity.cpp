@@ -65,10 +65,11 @@ std::vector<ModelledEffect> EffectsOf(const std::vector<EffectParameterRef>& par
   return effects;
 }
 
-Sensitivity SensitivityOf(const FreeRuns& runs, const AugmentedModel& boat,
+Sensitivity SensitivityOf(const FreeRuns& runs, const ChangedBoat& about,
                           const UncertainModel& model,
                           const std::vector<EffectParameterRef>& parameter_refs,
                           std::size_t threads, double step) {
+  const AugmentedModel& boat = about.boat;
   Sensitivity sensitivity;
   sensitivity.errors = runs.Errors(boat);
   const auto base = static_cast<Eigen::Index>(model.free.size());
@@ -80,9 +81,9 @@ Sensitivity SensitivityOf(const FreeRuns& runs, const AugmentedModel& boat,
   ForEachIndex(model.free.size() + parameter_refs.size(), threads, [&](std::size_t i) {
     const auto column = static_cast<Eigen::Index>(i);
     if (column < base) {
-      const AugmentedModel changed{
-          model.Changed(boat.model, standard_errors[column] * Eigen::VectorXd::Unit(base, column)),
-          boat.effects};
+      const AugmentedModel changed{model.Changed(standard_errors.cwiseProduct(
+                                       about.change + Eigen::VectorXd::Unit(base, column))),
+                                   boat.effects};
       sensitivity.by_coefficient.col(column) = Stacked(runs.Errors(changed)) - nominal;
       return;
     }

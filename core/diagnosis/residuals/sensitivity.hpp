@@ -28,7 +28,7 @@ ModelledEffect At(const EffectParameterRef& parameter_ref, double value);
 std::vector<ModelledEffect> EffectsOf(const std::vector<EffectParameterRef>& parameter_refs,
                                       const Eigen::VectorXd& sizes);
 
-/// Errors of a recording and how they change with the model's coefficients, in their standard
+/// Errors of a recording and how they change with the model's free parameters, in their standard
 /// errors, and with each effect parameter, in typical sizes. Shapes: errors rows x windows; the
 /// others one column an unknown, errors stacked window by window.
 struct Sensitivity {
@@ -37,10 +37,17 @@ struct Sensitivity {
   Eigen::MatrixXd by_effect_parameter;
 };
 
-/// About `boat`, whose coefficients `model` says how to change. Secants over one standard error of
-/// a coefficient and `step` typical sizes of a parameter more than the boat has: effects with
-/// thresholds have no slope at zero.
-Sensitivity SensitivityOf(const FreeRuns& runs, const AugmentedModel& boat,
+/// A boat that a model is of, and by how many standard errors its free parameters differ from the
+/// model's.
+struct ChangedBoat {
+  AugmentedModel boat;
+  Eigen::VectorXd change;
+};
+
+/// About `about`, a boat of `model`. Secants over one standard error of a free parameter and `step`
+/// typical sizes of an effect's more than the boat has: effects with thresholds have no slope at
+/// zero.
+Sensitivity SensitivityOf(const FreeRuns& runs, const ChangedBoat& about,
                           const UncertainModel& model,
                           const std::vector<EffectParameterRef>& parameter_refs,
                           std::size_t threads, double step = 1.0);

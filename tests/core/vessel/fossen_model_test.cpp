@@ -2,17 +2,13 @@
 
 #include <gtest/gtest.h>
 
+#include "support/physical_boat.hpp"
 #include "telltale/core/vessel/body_dynamics.hpp"
 
 namespace telltale {
 namespace {
 
-FossenVector Boat() {
-  FossenVector p;
-  p << 1.5, 0.03, 0.18, 0.15, 0.45, 1.2, 0.05, -0.05, 0.25, 1.5, -0.1, 0.2, 0.3, 0.1, -0.1, 0.1,
-      0.5, 1.6, 0.4, 1.2, 0.5, 0.04, 0.06, 0.08, 0.25, 0.0, 0.0;
-  return p;
-}
+using testing::PhysicalBoat;
 
 constexpr double kSeparation = 0.6;
 
@@ -23,7 +19,7 @@ FossenDynamics::Thrusts Steady(double e) {
 }
 
 TEST(FossenModel, CoriolisForcesDoNoWork) {
-  FossenVector p = Boat();
+  FossenVector p = PhysicalBoat();
   for (const auto drag :
        {FossenParameter::kXu, FossenParameter::kXuu, FossenParameter::kYv, FossenParameter::kYr,
         FossenParameter::kNv, FossenParameter::kNr, FossenParameter::kYvv, FossenParameter::kNvv,
@@ -44,7 +40,7 @@ TEST(FossenModel, CoriolisForcesDoNoWork) {
 }
 
 TEST(FossenModel, LiesInTheRegressorsOfTheStructures) {
-  const FossenVector p = Boat();
+  const FossenVector p = PhysicalBoat();
   const FossenDynamics dynamics(p, kSeparation);
   const VesselModel model = VesselModelOf(p, kSeparation);
   for (const PropellerCommand command :
@@ -61,9 +57,27 @@ TEST(FossenModel, LiesInTheRegressorsOfTheStructures) {
 }
 
 TEST(FossenModel, AMassThatIsNotPositiveDefiniteIsNoBoat) {
-  FossenVector p = Boat();
+  FossenVector p = PhysicalBoat();
   p[At(FossenParameter::kM23)] = 1.0;
   EXPECT_ANY_THROW(FossenDynamics(p, kSeparation));
+}
+
+TEST(WithinPhysicalRange, LeavesABoatAsItIs) {
+  EXPECT_EQ(WithinPhysicalRange(PhysicalBoat(), kSeparation), PhysicalBoat());
+}
+
+// Parameters far beyond what a boat can have: free runs of what is made of them stay finite.
+TEST(WithinPhysicalRange, MakesABoatOfAnything) {
+  for (const double factor : {-10.0, -1.0, 0.0, 10.0}) {
+    const FossenVector p = WithinPhysicalRange(factor * PhysicalBoat(), kSeparation);
+    EXPECT_NO_THROW(FossenDynamics(p, kSeparation)) << factor;
+    for (const FossenParameter drag :
+         {FossenParameter::kXu, FossenParameter::kXuu, FossenParameter::kYv, FossenParameter::kYvv,
+          FossenParameter::kNr, FossenParameter::kNrr}) {
+      EXPECT_GE(p[At(drag)], 0.0) << factor;
+    }
+    EXPECT_GE(p[At(FossenParameter::kM22)], kLeastSwayMass) << factor;
+  }
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "support/hand_made_diagnosis.hpp"
+#include "support/physical_boat.hpp"
 
 namespace telltale {
 namespace {
@@ -103,7 +104,7 @@ TEST(NominalBaseline, RecalibratesABiasedModel) {
   UncertainModel off = UncertainModelOf(testing::KnownStableBoat()).value();
   Eigen::VectorXd change = 3.0 * off.StandardErrors();
   for (Eigen::Index i = 0; i < change.size(); i += 2) change[i] = -change[i];
-  off.model = off.Changed(off.model, change);
+  off.model = off.Changed(change);
   std::vector<PreparedDataset> days;
   for (const std::uint64_t seed : {21, 22, 23}) {
     days.push_back(testing::SimulateWithEffects({}, 240.0, 100 * seed));
@@ -120,6 +121,34 @@ TEST(NominalBaseline, RecalibratesABiasedModel) {
   EXPECT_GT(before, 10.0 * truth);  // or there would be nothing to mend
   // Thirty coefficients from three recordings as long as this one cost a share of its noise.
   EXPECT_LT(after, 1.5 * truth);
+}
+
+// Wide bounds and short references let a recalibration by free coefficients run into boats that
+// spin up by themselves; a boat of the physical form has drag whatever the references say.
+TEST(NominalBaseline, OfThePhysicalFormKeepsABoatThatDoesNotDiverge) {
+  FossenVector off = testing::PhysicalBoat();
+  for (const FossenParameter parameter :
+       {FossenParameter::kYv, FossenParameter::kNr, FossenParameter::kNuv, FossenParameter::kYvv}) {
+    off[At(parameter)] *= 0.3;
+  }
+  const UncertainModel model = UncertainModelOf(testing::KnownPhysicalBoat(off, 2.0)).value();
+  std::vector<PreparedDataset> days;
+  for (const std::uint64_t seed : {21, 22}) {
+    days.push_back(testing::SimulatePhysicalBoat(testing::PhysicalBoat(), 60.0, 100 * seed));
+  }
+  std::vector<FreeRuns> runs;
+  for (const PreparedDataset& day : days) runs.emplace_back(day, model.model, 5.0);
+  const NominalBaseline nominal =
+      LearnNominalBaseline(runs, model, EffectParameterRefsOf(EffectLibrary()), 2);
+  const PreparedDataset another =
+      testing::SimulatePhysicalBoat(testing::PhysicalBoat(), 240.0, 3100);
+  const FreeRuns runs_of_another(another, model.model, 5.0);
+  const double before = runs_of_another.Errors({model.model, {}}).squaredNorm();
+  const double after = runs_of_another.Errors(nominal.boat).squaredNorm();
+  EXPECT_LT(after, before);
+  const FossenVector found =
+      model.ChangedParameters(nominal.coefficients.cwiseProduct(model.StandardErrors()));
+  EXPECT_EQ(found, WithinPhysicalRange(found, testing::kPhysicalBoatSeparation));
 }
 
 }  // namespace

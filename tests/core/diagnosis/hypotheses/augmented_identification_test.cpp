@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "support/hand_made_diagnosis.hpp"
+#include "support/physical_boat.hpp"
 
 namespace telltale {
 namespace {
@@ -102,6 +103,48 @@ TEST_F(ReidentificationTest, NamesTheEffectsAndDropsTheOldSimulationParameters) 
   const auto model = AugmentedModelOf(augmented);
   ASSERT_TRUE(model.has_value());
   EXPECT_EQ(model->effects[0].effect, FindEffect("thruster_lag"));
+}
+
+/// The same with one free physical parameter.
+class PhysicalReidentificationTest : public ReidentificationTest {
+ protected:
+  static constexpr Eigen::Index kNr = At(FossenParameter::kNr);
+
+  const Identification physical_ = testing::KnownPhysicalBoat(testing::PhysicalBoat(), 0.1);
+  const UncertainModel uncertain_ = [this] {
+    UncertainModel model = UncertainModelOf(physical_).value();
+    model.free = {{Equation::kUnknown, kNr}};
+    model.covariance = physical_.physical->covariance(std::vector{kNr}, std::vector{kNr});
+    return model;
+  }();
+};
+
+TEST_F(PhysicalReidentificationTest, MovesTheParameterAndTheCoefficientsThatItImplies) {
+  const AugmentedModel boat = Reidentified(fit_, problem_, uncertain_);
+  const Identification augmented = Augmented(physical_, boat, fit_, problem_, uncertain_);
+  const Coefficient& before = physical_.physical->parameters[kNr];
+  const Coefficient& after = augmented.physical->parameters[kNr];
+  EXPECT_NEAR(after.estimate, before.estimate + change_ * before.standard_error, 1e-9);
+  EXPECT_NEAR(after.standard_error, sd_ * before.standard_error, 1e-12);
+  const Eigen::VectorXd implied =
+      CoefficientsOf(augmented.physical->Estimates(), testing::kPhysicalBoatSeparation);
+  EXPECT_LT((augmented.Estimates() - implied.head(implied.size() - 1)).norm(), 1e-12);
+  EXPECT_TRUE(boat.model.theta[2].isApprox(ModelOf(augmented)->theta[2], 1e-12));
+}
+
+// Nr alone is uncertain, and the damping in yaw of the coefficients is Nr times an element of the
+// inverse of M.
+TEST_F(PhysicalReidentificationTest, BoundsTheCoefficientsByWhatTheyDependOn) {
+  const AugmentedModel boat = Reidentified(fit_, problem_, uncertain_);
+  const Identification augmented = Augmented(physical_, boat, fit_, problem_, uncertain_);
+  for (const Coefficient& coefficient : augmented.coefficients) {
+    const bool depends = coefficient.regressor == "r" && coefficient.estimate != 0.0;
+    EXPECT_EQ(coefficient.standard_error > 0.0, depends) << coefficient.symbol;
+  }
+  const Eigen::Matrix2d mass{{1.5, 0.03}, {0.03, 0.18}};  // of the physical boat
+  const Coefficient& damping = augmented.coefficients[9 + 13 + 7];
+  EXPECT_NEAR(damping.standard_error,
+              mass.inverse()(1, 1) * augmented.physical->parameters[kNr].standard_error, 1e-9);
 }
 
 TEST(AugmentedModelOf, RefusesAnEffectThatTheLibraryLacks) {

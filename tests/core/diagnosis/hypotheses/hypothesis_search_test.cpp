@@ -103,8 +103,10 @@ class SearchTest : public ::testing::Test {
     const Eigen::MatrixXd errors = nominal_recording.runs.Errors(nominal.boat);
     nominal.covariance = errors.rowwise().squaredNorm().asDiagonal();
     nominal.covariance /= static_cast<double>(errors.cols());
-    nominal.days = {SensitivityOf(nominal_recording.runs, nominal.boat, model, parameter_refs, 2)};
-    const Sensitivity recording = SensitivityOf(runs, nominal.boat, model, parameter_refs, 2);
+    nominal.days = {SensitivityOf(nominal_recording.runs, {nominal.boat, nominal.coefficients},
+                                  model, parameter_refs, 2)};
+    const Sensitivity recording =
+        SensitivityOf(runs, {nominal.boat, nominal.coefficients}, model, parameter_refs, 2);
     const ResidualMetric metric(nominal, recording, EveryWindow(recording), false);
     const ObservedExcitation no_excitation;
     return Search({runs, nominal, recording, metric, parameter_refs, no_excitation}, library, 2, 2,

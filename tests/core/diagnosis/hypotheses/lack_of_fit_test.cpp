@@ -24,7 +24,8 @@ class LackOfFitTest : public ::testing::Test {
   const FreeRuns runs_{dataset_, model_.model, 5.0};
   const NominalBaseline nominal_ =
       LearnNominalBaseline(testing::RunsOf(dataset_, model_.model), model_, parameter_refs_, 2);
-  const Sensitivity recording_ = SensitivityOf(runs_, nominal_.boat, model_, parameter_refs_, 2);
+  const Sensitivity recording_ =
+      SensitivityOf(runs_, {nominal_.boat, nominal_.coefficients}, model_, parameter_refs_, 2);
   const ResidualMetric metric_{nominal_, recording_, EveryWindow(recording_), false};
   const ObservedExcitation no_excitation_;
   const DiagnosisProblem problem_{runs_,   nominal_,        recording_,

@@ -214,7 +214,8 @@ class GateTest : public ::testing::Test {
   template <class Visit>
   auto Of(const PreparedDataset& recording, Visit visit) const {
     const FreeRuns runs(recording, model_.model, kDiagnosis.horizons.main_s);
-    const Sensitivity sensitivity = SensitivityOf(runs, nominal_->boat, model_, parameter_refs_, 2);
+    const Sensitivity sensitivity =
+        SensitivityOf(runs, {nominal_->boat, nominal_->coefficients}, model_, parameter_refs_, 2);
     const ResidualMetric metric(*nominal_, sensitivity, EveryWindow(sensitivity), false);
     const ObservedExcitation no_excitation;
     return visit(

@@ -15,7 +15,8 @@ constexpr double kStandardError = 0.02;
 UncertainModel UncertainInSurge(const VesselModel& model) {
   return {model,
           {{Equation::kSurge, kConstantTerm}},
-          Eigen::MatrixXd::Constant(1, 1, kStandardError * kStandardError)};
+          Eigen::MatrixXd::Constant(1, 1, kStandardError * kStandardError),
+          std::nullopt};
 }
 
 class SensitivityOfTheRestingBoat : public ::testing::Test {
@@ -33,8 +34,8 @@ class SensitivityOfTheRestingBoat : public ::testing::Test {
   }
 
   Sensitivity About(const AugmentedModel& model, double step = 1.0) const {
-    return SensitivityOf(boat_.runs, model, UncertainInSurge(boat_.model), {{body_bias_, 0}}, 1,
-                         step);
+    return SensitivityOf(boat_.runs, {model, Eigen::VectorXd::Zero(1)},
+                         UncertainInSurge(boat_.model), {{body_bias_, 0}}, 1, step);
   }
 
   const Effect* body_bias_ = FindEffect("body_bias");
