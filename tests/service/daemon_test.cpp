@@ -221,6 +221,8 @@ TEST_F(Daemon, TellsWhetherABoatHasChanged) {
   EXPECT_THAT(model->provenance.change->coefficients[0].regressor, HasSubstr(":d"));
 }
 
+// A daemon that is killed between the reply and the note that it is sent answers the request once
+// more, so that the first model may be revision 2 too.
 TEST_F(Daemon, KeepsModelsThroughBeingKilled) {
   auto daemon = StartDaemon();
   ReplaySimulation();
@@ -231,11 +233,11 @@ TEST_F(Daemon, KeepsModelsThroughBeingKilled) {
   daemon = StartDaemon();
   const auto watch = Start({"watch", "--all", "--count", "1", "--timeout", "60"});
   EXPECT_EQ(watch->Wait(), 0) << watch->output();
-  EXPECT_THAT(watch->output(), HasSubstr("revision 1"));
+  EXPECT_THAT(watch->output(), ::testing::ContainsRegex("revision [12]"));
   ReplaySimulation();
   const auto identify = Start({"identify", "--vehicle-id", kVehicleId});
   EXPECT_EQ(identify->Wait(), 0) << identify->output();
-  EXPECT_THAT(identify->output(), HasSubstr("revision 2"));
+  EXPECT_THAT(identify->output(), ::testing::ContainsRegex("revision [23]"));
 }
 
 TEST_F(Daemon, SaysWhichVehiclesItServesWhenAskedForAnother) {
