@@ -11,6 +11,7 @@
 #include "coverage/hull_recording.hpp"
 #include "coverage/hulls.hpp"
 #include "coverage/replicates.hpp"
+#include "telltale/core/identification/drag_and_thrust.hpp"
 #include "telltale/core/identification/identify.hpp"
 #include "telltale/core/identification/model_comparison.hpp"
 #include "telltale/core/identification/posterior_draws.hpp"
@@ -136,8 +137,10 @@ struct Outcome {
   FossenVector standard_error;
   std::vector<bool> held;
   std::vector<bool> prior;
-  bool joint = false;    ///< whether the comparison of models takes the truth for the model
-  double in_band = 0.0;  ///< share
+  std::vector<ForceAtPoint> forces;
+  Eigen::VectorXd true_forces;  ///< at the points of `forces`
+  bool joint = false;           ///< whether the comparison of models takes the truth for the model
+  double in_band = 0.0;         ///< share
   Ranks ranks = Ranks::Zero();
   bool converged = false;
   double seconds = 0.0;
@@ -228,6 +231,8 @@ std::optional<Outcome> RunReplicate(const HullScenario& scenario, const FossenVe
     outcome.prior.push_back(parameter.status == CoefficientStatus::kPrior);
   }
   outcome.joint = HoldsJointly(*model, truth);
+  outcome.forces = DragAndThrustOf(*model->physical);
+  outcome.true_forces = ForcesAt(outcome.forces, truth, scenario.hull.propeller_separation_m);
   constexpr std::size_t kDraws = 400;
   if (const auto draws = DrawFromPosterior(*model, kDraws, seed + 1)) {
     const double separation_m = scenario.hull.propeller_separation_m;
@@ -314,6 +319,30 @@ void PrintParameters(const std::string& name, const FossenVector& truth, const T
   std::fflush(stdout);
 }
 
+// Drag and thrust that the parameters add up to: half-widths over the estimate, and how often they
+// hold.
+void PrintForces(const std::string& name, const std::vector<Outcome>& outcomes) {
+  std::printf("\n| %s | at | half-width %% | held %% |\n|---|---|---|---|\n", name.c_str());
+  const auto n = static_cast<double>(outcomes.size());
+  for (std::size_t i = 0; i < outcomes.front().forces.size(); ++i) {
+    double at = 0.0;
+    double held = 0.0;
+    double half_width = 0.0;
+    for (const Outcome& outcome : outcomes) {
+      const ForceAtPoint& force = outcome.forces[i];
+      const double true_force = outcome.true_forces[static_cast<Eigen::Index>(i)];
+      const auto& [level, lower, upper] = force.interval;
+      at += force.at / n;
+      held += lower <= true_force && true_force <= upper ? 100.0 / n : 0.0;
+      half_width += 50.0 * (upper - lower) / force.estimate / n;
+    }
+    const ForceAtPoint& first = outcomes.front().forces[i];
+    std::printf("| %s | %.2g %s | %.0f | %.1f |\n", first.name.c_str(), at,
+                first.at_unit == "1" ? "of full command" : first.at_unit.c_str(), half_width, held);
+  }
+  std::fflush(stdout);
+}
+
 // Even tenths where the draws are calibrated.
 void PrintRanks(const std::string& name, const Ranks& ranks) {
   std::printf("\n| %s, ranks, tenth |", name.c_str());
@@ -334,7 +363,8 @@ int Main(int argc, char** argv) {
   campaign.AddOptionsTo(app, Scenarios());
   app.add_option("--pooled", pooled, "recordings behind the pseudo-true values")
       ->capture_default_str();
-  app.add_flag("--parameters", parameters, "also one table of parameters a scenario");
+  app.add_flag("--parameters", parameters,
+               "also one table of parameters a scenario, and one of drag and thrust");
   app.add_flag("--ranks", ranks, "also the ranks of the true values among draws of the posterior");
   CLI11_PARSE(app, argc, argv);
   std::printf(
@@ -354,7 +384,9 @@ int Main(int argc, char** argv) {
     const Tally tally = Count(outcomes);
     PrintRow(scenario.name, tally, outcomes.size(), campaign.replicates);
     if (ranks) PrintRanks(scenario.name, tally.ranks);
-    if (parameters) PrintParameters(scenario.name, *truth, tally);
+    if (!parameters) continue;
+    PrintParameters(scenario.name, *truth, tally);
+    PrintForces(scenario.name, outcomes);
   }
   return 0;
 }

@@ -8,6 +8,7 @@
 #include "telltale/client/cli/model_verdict.hpp"
 #include "telltale/client/cli/regressor_words.hpp"
 #include "telltale/client/cli/table.hpp"
+#include "telltale/core/identification/drag_and_thrust.hpp"
 
 namespace telltale {
 namespace {
@@ -90,6 +91,25 @@ std::string ParameterTable(const PhysicalModel& physical, const std::string& bou
          table.Render();
 }
 
+std::string PointText(const ForceAtPoint& force) {
+  if (force.at_unit == "1") return Plain(100.0 * force.at) + " % command";
+  return Significant(force.at) + ' ' + force.at_unit;
+}
+
+/// What the parameters add up to, which a short recording tells better than each of them.
+std::string DragAndThrustTable(const PhysicalModel& physical, const std::string& bounds_title) {
+  Table table({{"drag and thrust", Align::kLeft},
+               {"at", Align::kLeft},
+               {"value", Align::kRight},
+               {bounds_title, Align::kRight},
+               {"unit", Align::kLeft}});
+  for (const ForceAtPoint& force : DragAndThrustOf(physical)) {
+    table.AddRow({force.name, PointText(force), Significant(force.estimate),
+                  BoundsText(force.interval), force.unit});
+  }
+  return table.Render();
+}
+
 // ---- the rest -----------------------------------------------------------------------------------
 
 std::string RefusalsText(const Identification& model) {
@@ -128,9 +148,11 @@ std::string EstimatesTable(const Identification& model) {
 
 std::string ModelTable(const Identification& identification,
                        const std::optional<HeldOutScore>& score) {
-  const std::string values = identification.physical ? ParameterTable(*identification.physical,
-                                                                      BoundsTitle(identification))
-                                                     : SimulationTable(identification);
+  const std::string bounds_title = BoundsTitle(identification);
+  const std::string values = identification.physical
+                                 ? ParameterTable(*identification.physical, bounds_title) + '\n' +
+                                       DragAndThrustTable(*identification.physical, bounds_title)
+                                 : SimulationTable(identification);
   return Title(identification) + '\n' + ModelVerdict(identification, score) + '\n' + values +
          AsParagraph(RefusalsText(identification)) + AsParagraph(ChangeText(identification)) +
          '\n' + EstimatesTable(identification) + AsParagraph(RecordingBiasTable(identification)) +

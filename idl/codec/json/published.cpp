@@ -26,7 +26,9 @@ proto::Report ToProto(const PublishedDiagnosis& diagnosis) {
 }
 
 std::string PrintModelJson(const PublishedModel& model) {
-  return PrintJsonMessage(ToProto(model));
+  proto::Model message = ToProto(model);
+  WriteDragAndThrust(model.identification, message);
+  return PrintJsonMessage(message);
 }
 
 std::string PrintReportJson(const PublishedDiagnosis& diagnosis) {

@@ -283,8 +283,9 @@ TEST_F(CommandTest, AModelOfThePhysicalFormIsIdentifiedValidatedAndCompared) {
       Telltale({"identify", "--log", Path("log"), "--vehicle", Path("boat.textproto"),
                 "--structure", "fossen", "--out", Path("model.json")});
   EXPECT_EQ(outcome.exit_code, kExitSuccess) << outcome.err;
-  EXPECT_THAT(outcome.out, AllOf(HasSubstr("Parameters of the physical form"),
-                                 HasSubstr("delay_commands"), HasSubstr("prediction-error")));
+  EXPECT_THAT(outcome.out,
+              AllOf(HasSubstr("Parameters of the physical form"), HasSubstr("delay_commands"),
+                    HasSubstr("prediction-error"), HasSubstr("forward thrust   50 % command")));
   const auto model = ParseModelJson(TextOfFile(Path("model.json")));
   ASSERT_TRUE(model) << model.error().Message();
   ASSERT_TRUE(model->physical);

@@ -1,6 +1,7 @@
 #include "telltale/idl/codec/json/model.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 
 #include <gmock/gmock.h>
@@ -9,6 +10,7 @@
 #include "support/made_up_identifications.hpp"
 #include "support/special_values.hpp"
 #include "support/test_name.hpp"
+#include "telltale/core/identification/drag_and_thrust.hpp"
 
 namespace telltale {
 namespace {
@@ -44,6 +46,24 @@ TEST(ModelJson, ThePhysicalFormGoesWithItsStructure) {
   proto::Model model = ToProto(MadeUpPhysicalIdentification());
   model.set_structure(proto::FIRST_ORDER_DYNAMIC);
   EXPECT_EQ(IdentificationOf(model).error().field, "parameters");
+}
+
+TEST(ModelJson, ThePhysicalFormSaysWhatItsDragAndThrustComeTo) {
+  const Identification sent = MadeUpPhysicalIdentification();
+  proto::Model model = ToProto(sent);
+  WriteDragAndThrust(sent, model);
+  const auto forces = DragAndThrustOf(*sent.physical);
+  ASSERT_EQ(model.drag_and_thrust_size(), std::ssize(forces));
+  for (std::size_t i = 0; i < forces.size(); ++i) {
+    const proto::ForceAtPoint& written = model.drag_and_thrust(static_cast<int>(i));
+    EXPECT_EQ(written.name(), forces[i].name);
+    EXPECT_EQ(written.at(), forces[i].at);
+    EXPECT_EQ(written.at_unit(), forces[i].at_unit);
+    EXPECT_EQ(written.estimate(), forces[i].estimate);
+    EXPECT_TRUE(std::isfinite(written.interval().lower())) << written.name();
+    EXPECT_TRUE(std::isfinite(written.interval().upper())) << written.name();
+    EXPECT_EQ(written.unit(), forces[i].unit);
+  }
 }
 
 TEST(ModelJson, ThePhysicalFormHasEveryParameterByItsName) {
