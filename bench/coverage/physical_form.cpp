@@ -107,8 +107,8 @@ std::optional<Identification> Identified(const HullScenario& scenario, const Rec
 FossenVector TruthOfTheForm(const HullScenario& scenario) {
   const Hull hull = OfTheForm();
   FossenVector p;
-  p << hull.m22, hull.m23, hull.m33, 6.0, 13.0, 25.0, 2.0, 1.5, 5.0, 40.0, 0.0, 4.0, 9.0, 3.0, 4.0,
-      2.0, 12.0, 30.0, 10.0, 22.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0;
+  p << hull.m22, hull.m23, hull.m33, 6.0, 13.0, 25.0, 2.0, 1.5, 5.0, 40.0, 0.0, 0.0, 0.0, 4.0, 9.0,
+      3.0, 4.0, 2.0, 12.0, 30.0, 10.0, 22.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0;
   p /= hull.m11;
   p[At(kImbalance)] = hull.imbalance;
   p[At(kForwardDeadBand)] = p[At(kReverseDeadBand)] = kDeadBandOfTheForm;

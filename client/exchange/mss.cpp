@@ -120,6 +120,7 @@ proto::PhysicalForm PhysicalFormOf(const FossenVector& parameters) {
   Append(matrices.linear_damping, *form.mutable_linear_damping());
   Append(matrices.lift_damping, *form.mutable_lift_damping());
   Append(matrices.quadratic_damping, *form.mutable_quadratic_damping());
+  Append(matrices.cross_flow_damping, *form.mutable_cross_flow_damping());
   for (const FossenParameter at : {kForwardLinear, kForwardQuadratic}) {
     form.add_forward_thrust(parameters[At(at)]);
   }

@@ -19,7 +19,7 @@ constexpr std::array kPhysicalDrags = {
     PhysicalDrag{"yVV", kYvv}, PhysicalDrag{"nR", kNr},   PhysicalDrag{"nRR", kNrr},
 };
 
-constexpr std::array kWithoutPlace = {kM23, kYr, kNv, kNvv, kYuv, kYur, kNuv, kNur};
+constexpr std::array kWithoutPlace = {kM23, kYr, kNv, kYrv, kNvv, kNvr, kYuv, kYur, kNuv, kNur};
 
 class PhysicalSdf {
  public:

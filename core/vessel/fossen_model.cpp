@@ -39,7 +39,9 @@ const std::array<FossenParameterName, kFossenParameters>& FossenParameterNames()
       {"Nv", "m/s", "yaw moment of sway"},
       {"Nr", "m^2/s", "damping in yaw, linear"},
       {"Yvv", "1/m", "drag in sway, quadratic"},
+      {"Yrv", "1", "drag in sway while turning"},
       {"Nvv", "1", "yaw moment of sway, quadratic"},
+      {"Nvr", "m", "damping in yaw while in sway"},
       {"Nrr", "m^2", "damping in yaw, quadratic"},
       {"Yuv", "1/m", "lift of sway"},
       {"Yur", "1", "lift of the yaw rate"},
@@ -77,20 +79,24 @@ FossenDynamics::Evaluation FossenDynamics::At(const Eigen::Vector3d& nu, const T
   const Eigen::Vector3d thrust = ByThrust(u, port, starboard);
   Evaluation at;
   at.nu_dot[0] = p(kM22) * v * r + p(kM23) * r * r - (p(kXu) + p(kXuu) * std::abs(u)) * u;
-  const double sway =
-      -u * r - (p(kYv) + p(kYvv) * std::abs(v) + p(kYuv) * u) * v - (p(kYr) + p(kYur) * u) * r;
+  const double sway = -u * r -
+                      (p(kYv) + p(kYvv) * std::abs(v) + p(kYrv) * std::abs(r) + p(kYuv) * u) * v -
+                      (p(kYr) + p(kYur) * u) * r;
   const double yaw = -(p(kM22) - 1.0 + p(kNuv)) * u * v - (p(kM23) + p(kNur)) * u * r -
-                     (p(kNv) + p(kNvv) * std::abs(v)) * v - (p(kNr) + p(kNrr) * std::abs(r)) * r;
+                     (p(kNv) + p(kNvv) * std::abs(v)) * v -
+                     (p(kNr) + p(kNvr) * std::abs(v) + p(kNrr) * std::abs(r)) * r;
   at.nu_dot.tail<2>() = inverse_mass_ * Eigen::Vector2d(sway, yaw);
   at.nu_dot += thrust;
   at.by_nu.row(0) << -p(kXu) - 2.0 * p(kXuu) * std::abs(u), p(kM22) * r,
       p(kM22) * v + 2.0 * p(kM23) * r;
   Eigen::Matrix<double, 2, 3> force;
   force.row(0) << -r - p(kYuv) * v - p(kYur) * r,
-      -p(kYv) - 2.0 * p(kYvv) * std::abs(v) - p(kYuv) * u, -u - p(kYr) - p(kYur) * u;
+      -p(kYv) - 2.0 * p(kYvv) * std::abs(v) - p(kYrv) * std::abs(r) - p(kYuv) * u,
+      -u - p(kYr) - p(kYur) * u - p(kYrv) * std::copysign(v, r * v);
   force.row(1) << -(p(kM22) - 1.0 + p(kNuv)) * v - (p(kM23) + p(kNur)) * r,
-      -(p(kM22) - 1.0 + p(kNuv)) * u - p(kNv) - 2.0 * p(kNvv) * std::abs(v),
-      -(p(kM23) + p(kNur)) * u - p(kNr) - 2.0 * p(kNrr) * std::abs(r);
+      -(p(kM22) - 1.0 + p(kNuv)) * u - p(kNv) - 2.0 * p(kNvv) * std::abs(v) -
+          p(kNvr) * std::copysign(r, r * v),
+      -(p(kM23) + p(kNur)) * u - p(kNr) - p(kNvr) * std::abs(v) - 2.0 * p(kNrr) * std::abs(r);
   at.by_nu.bottomRows<2>() = inverse_mass_ * force;
   const double share_by_u = reverse_loss_.ByU(u);
   at.by_nu.col(0) +=
@@ -136,7 +142,9 @@ Eigen::Matrix<double, 3, kForceParameters> FossenDynamics::ByParameter(
   set(kNv, 0.0, 0.0, -v);
   set(kNr, 0.0, 0.0, -r);
   set(kYvv, 0.0, -v * std::abs(v), 0.0);
+  set(kYrv, 0.0, -std::abs(r) * v, 0.0);
   set(kNvv, 0.0, 0.0, -v * std::abs(v));
+  set(kNvr, 0.0, 0.0, -std::abs(v) * r);
   set(kNrr, 0.0, 0.0, -r * std::abs(r));
   set(kYuv, 0.0, -u * v, 0.0);
   set(kYur, 0.0, -u * r, 0.0);
@@ -172,7 +180,7 @@ FossenVector WithinPhysicalRange(FossenVector parameters, double propeller_separ
     parameters[At(parameter)] = std::max(parameters[At(parameter)], value);
   };
   for (const FossenParameter parameter :
-       {kXu, kXuu, kYv, kNr, kYvv, kNrr, kYuv, kNur, kForwardLinear, kForwardQuadratic,
+       {kXu, kXuu, kYv, kNr, kYvv, kYrv, kNvr, kNrr, kYuv, kNur, kForwardLinear, kForwardQuadratic,
         kReverseLinear, kReverseQuadratic, kReverseLoss, kForwardDeadBand, kReverseDeadBand,
         kTimeConstant}) {
     least(parameter, 0.0);
@@ -200,6 +208,8 @@ Eigen::VectorXd CoefficientsOf(const FossenVector& p, double propeller_separatio
     c[kSurgeCoefficients + kTurningCoefficients + column] = acceleration[1];
   };
   set(0, -p[At(kYvv)], -p[At(kNvv)]);
+  set(1, -p[At(kYrv)], 0.0);
+  set(2, 0.0, -p[At(kNvr)]);
   set(3, 0.0, -p[At(kNrr)]);
   set(4, -p[At(kYuv)], 1.0 - p[At(kM22)] - p[At(kNuv)]);
   set(5, -1.0 - p[At(kYur)], -p[At(kM23)] - p[At(kNur)]);

@@ -15,10 +15,10 @@ namespace telltale {
 /// in surge: no recording of a boat without a force sensor shows more.
 /// Model, docs/concepts/physical-model.md (101)..(105), with nu the velocity through the water:
 ///   M nu_dot + C(nu) nu + D(nu) nu = tau,   M = [1 0 0; 0 m22 m23; 0 m23 m33],
-/// C follows from M, D nu = [(Xu + Xuu |u|) u; (Yv + Yvv |v| + Yuv u) v + (Yr + Yur u) r;
-/// (Nv + Nvv |v| + Nuv u) v + (Nr + Nrr |r| + Nur u) r], tau = [Tp + Ts; 0; (b / 2) (Tp - Ts)] with
-/// Tp = (1 - imbalance) T, Ts = (1 + imbalance) T. A propeller gives T = forward_linear e +
-/// forward_quadratic e^2 for e, the command beyond the dead band, and T = -(reverse_linear e +
+/// C follows from M, D nu = [(Xu + Xuu |u|) u; (Yv + Yvv |v| + Yrv |r| + Yuv u) v + (Yr + Yur u) r;
+/// (Nv + Nvv |v| + Nuv u) v + (Nr + Nvr |v| + Nrr |r| + Nur u) r], tau = [Tp + Ts; 0; (b / 2) (Tp -
+/// Ts)] with Tp = (1 - imbalance) T, Ts = (1 + imbalance) T. A propeller gives T = forward_linear e
+/// + forward_quadratic e^2 for e, the command beyond the dead band, and T = -(reverse_linear e +
 /// reverse_quadratic e^2) ReverseLoss::Share(u) in reverse, beyond a dead band of its own; thrust
 /// follows with a first-order lag. Drag is positive where it opposes the motion. Source: Fossen,
 /// Handbook of Marine Craft Hydrodynamics and Motion Control, 2nd ed., 6.5 and 7.1.
@@ -33,7 +33,9 @@ enum class FossenParameter : std::size_t {
   kNv,
   kNr,
   kYvv,
+  kYrv,
   kNvv,
+  kNvr,
   kNrr,
   kYuv,
   kYur,
@@ -52,7 +54,7 @@ enum class FossenParameter : std::size_t {
   kFixDelay,
 };
 
-inline constexpr std::size_t kFossenParameters = 27;
+inline constexpr std::size_t kFossenParameters = 29;
 using FossenVector = Eigen::Matrix<double, static_cast<int>(kFossenParameters), 1>;
 
 /// The least mass in sway, over that in surge, and the least inertia in yaw over that mass and the

@@ -17,8 +17,8 @@ inline constexpr double kPhysicalBoatSeparation = 0.7;
 /// A made-up catamaran in Fossen's form, every parameter but the delays at work.
 inline FossenVector PhysicalBoat() {
   FossenVector p;
-  p << 1.5, 0.03, 0.18, 0.15, 0.45, 1.2, 0.05, -0.05, 0.25, 1.5, -0.1, 0.2, 0.3, 0.1, -0.1, 0.1,
-      0.5, 1.6, 0.4, 1.2, 0.5, 0.04, 0.06, 0.08, 0.25, 0.0, 0.0;
+  p << 1.5, 0.03, 0.18, 0.15, 0.45, 1.2, 0.05, -0.05, 0.25, 1.5, 0.4, -0.1, 0.05, 0.2, 0.3, 0.1,
+      -0.1, 0.1, 0.5, 1.6, 0.4, 1.2, 0.5, 0.04, 0.06, 0.08, 0.25, 0.0, 0.0;
   return p;
 }
 

@@ -29,7 +29,9 @@ FossenPrior PriorOf(const Vehicle& vehicle) {
   set(kNv, 0.0, 0.6 * length, -kNone, kNone);
   set(kNr, 0.1 * square, 0.3 * square, 0.0, kNone);
   set(kYvv, 2.0 / length, 6.0 / length, 0.0, kNone);
+  set(kYrv, 0.5, 2.0, 0.0, kNone);
   set(kNvv, 0.0, 0.6, -kNone, kNone);
+  set(kNvr, 0.15 * length, 0.6 * length, 0.0, kNone);
   set(kNrr, 0.1 * square, square, 0.0, kNone);
   set(kYuv, 0.3 / length, 2.0 / length, 0.0, kNone);
   set(kYur, 0.0, 2.0, -kNone, kNone);

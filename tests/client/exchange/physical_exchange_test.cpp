@@ -27,8 +27,8 @@ constexpr double kMassKg = 20.0;
 
 FossenVector KnownParameters() {
   FossenVector p;
-  p << 1.5, 0.03, 0.18, 0.15, 0.45, 1.2, 0.05, -0.05, 0.25, 1.5, -0.1, 0.2, 0.3, 0.1, -0.1, 0.1,
-      0.5, 1.6, 0.4, 1.2, 0.7, 0.04, 0.06, 0.08, 0.25, 0.0, 0.1;
+  p << 1.5, 0.03, 0.18, 0.15, 0.45, 1.2, 0.05, -0.05, 0.25, 1.5, 0.4, -0.1, 0.05, 0.2, 0.3, 0.1,
+      -0.1, 0.1, 0.5, 1.6, 0.4, 1.2, 0.7, 0.04, 0.06, 0.08, 0.25, 0.0, 0.1;
   return p;
 }
 
@@ -72,7 +72,8 @@ TEST(PhysicalVrx, HoldsMassAndDampingOfTheBoat) {
     EXPECT_THAT(sdf, HasSubstr("  <" + element + ">" + value + "</" + element + ">  <!-- ± 0.2"));
   }
   EXPECT_THAT(sdf, HasSubstr("<mass>20</mass> and <izz>3.6</izz>"));
-  EXPECT_THAT(sdf, HasSubstr("m23 0.6, Yr 1, Nv -1, Nvv -2, Yuv 6, Yur 2, Nuv -2, Nur 2"));
+  EXPECT_THAT(sdf,
+              HasSubstr("m23 0.6, Yr 1, Nv -1, Yrv 8, Nvv -2, Nvr 1, Yuv 6, Yur 2, Nuv -2, Nur 2"));
   // 20 kg (0.5 * 0.94 + 1.6 * 0.94^2) m/s^2, and in reverse 20 (0.4 * 0.92 + 1.2 * 0.92^2).
   EXPECT_THAT(sdf, HasSubstr("full forward command: 37.6752 N"));
   EXPECT_THAT(sdf, HasSubstr("full reverse command: -27.6736 N"));
@@ -103,6 +104,7 @@ class ForeignBoat {
         linear_(Matrix(file.physical().linear_damping())),
         lift_(Matrix(file.physical().lift_damping())),
         quadratic_(Matrix(file.physical().quadratic_damping())),
+        cross_flow_(Matrix(file.physical().cross_flow_damping())),
         file_(file) {}
 
   /// x, y, psi, u, v, r, thrust ahead of port and of starboard, in reverse of both.
@@ -142,6 +144,7 @@ class ForeignBoat {
     coriolis(2, 1) = -coriolis(1, 2);
     Eigen::Matrix3d damping = linear_ + nu[0] * lift_;
     damping += quadratic_ * nu.cwiseAbs().asDiagonal();
+    damping += Eigen::Matrix3d((cross_flow_ * nu.cwiseAbs()).asDiagonal());
     const double half = 0.5 * file_.propeller_separation_m();
     const double speed = std::max(nu[0], 0.0) * file_.physical().reverse_loss_s_m();
     const double left = 1.0 / (1.0 + std::pow(speed, 8));
@@ -166,6 +169,7 @@ class ForeignBoat {
   Eigen::Matrix3d linear_;
   Eigen::Matrix3d lift_;
   Eigen::Matrix3d quadratic_;
+  Eigen::Matrix3d cross_flow_;
   const proto::MssModel& file_;
 };
 

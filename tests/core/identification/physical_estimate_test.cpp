@@ -1,5 +1,6 @@
 #include "telltale/core/identification/physical_estimate.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <utility>
@@ -28,8 +29,8 @@ constexpr double kFixDelayS = 0.1;
 
 FossenVector Truth() {
   FossenVector p;
-  p << 1.5, 0.03, 0.18, 0.15, 0.45, 1.2, 0.05, -0.05, 0.25, 1.5, -0.1, 0.2, 0.3, 0.0, 0.0, 0.1, 0.5,
-      1.6, 0.4, 1.2, 0.5, 0.04, 0.06, 0.08, 0.25, kCommandDelayS, kFixDelayS;
+  p << 1.5, 0.03, 0.18, 0.15, 0.45, 1.2, 0.05, -0.05, 0.25, 1.5, 0.4, -0.1, 0.05, 0.2, 0.3, 0.0,
+      0.0, 0.1, 0.5, 1.6, 0.4, 1.2, 0.5, 0.04, 0.06, 0.08, 0.25, kCommandDelayS, kFixDelayS;
   return p;
 }
 
@@ -167,8 +168,8 @@ TEST_F(PhysicalModelOfASimulatedBoat, IsComparedByItsParametersWithoutTheClocks)
 // II does, in gusts.
 FossenVector KeepsNoCourse() {
   FossenVector p;
-  p << 1.35, 0.04, 0.11, 0.03, 0.10, 0.03, 0.20, 0.0, 0.08, 1.1, -0.1, 0.05, 0.1, 0.1, -0.05, 0.02,
-      0.02, 0.08, 0.02, 0.06, 0.3, 0.0, 0.04, 0.04, 0.1, 0.0, 0.0;
+  p << 1.35, 0.04, 0.11, 0.03, 0.10, 0.03, 0.20, 0.0, 0.08, 1.1, 0.1, -0.1, 0.01, 0.05, 0.1, 0.1,
+      -0.05, 0.02, 0.02, 0.08, 0.02, 0.06, 0.3, 0.0, 0.04, 0.04, 0.1, 0.0, 0.0;
   return p;
 }
 
@@ -217,27 +218,35 @@ TEST(PhysicalModel, IsFoundOfABoatThatKeepsNoCourse) {
   EXPECT_NEAR(identified->physical->noise.fix_sigma_m, fix_noise_m, 0.1 * fix_noise_m);
 }
 
-// Gusts as strong as the thrust: the slopes' equations, which follow them, find no rest, and those
-// of the instruments are solved all the same.
+bool IsConverged(const Identification& model) {
+  return std::ranges::none_of(model.refusals,
+                              [](const Refusal& warning) { return warning.subject == "model"; });
+}
+
+// Gusts as strong as the thrust: the slopes' equations, which follow them, seldom find rest, and
+// those of the instruments are solved all the same in two of five such recordings of 50 s.
 TEST(PhysicalModel, ConvergesWhereTheEquationsOfItsInstrumentsAreSolved) {
   FossenVector truth = Truth();
   truth[At(kCommandDelay)] = truth[At(kFixDelay)] = 0.0;
   IdentifyOptions options;
   options.regression.structure = Structure::kFossen;
   options.threads = 2;
-  const auto identified = Identify(InGusts(truth, 50.0, 0.4, 49), SurveyVehicle(), options);
-  ASSERT_TRUE(identified) << identified.error().reason;
-  for (const Refusal& warning : identified->refusals) {
-    EXPECT_NE(warning.subject, "model") << warning.reason;
+  int converged = 0;
+  for (const std::uint64_t seed : {1, 2, 3, 4, 5, 6, 7, 8, 9, 10}) {
+    const auto identified = Identify(InGusts(truth, 50.0, 0.4, seed), SurveyVehicle(), options);
+    ASSERT_TRUE(identified) << identified.error().reason;
+    if (!IsConverged(*identified)) continue;
+    ++converged;
+    for (std::size_t i = 0; i < kFossenParameters; ++i) {
+      const Coefficient& parameter = identified->physical->parameters[i];
+      // Five blocks of time tell a standard error by four degrees of freedom: one in a thousand of
+      // Student's draws is further off than 8.6.
+      EXPECT_NEAR(parameter.estimate, truth[static_cast<Eigen::Index>(i)],
+                  8.6 * parameter.standard_error)
+          << parameter.symbol << ", seed " << seed;
+    }
   }
-  for (std::size_t i = 0; i < kFossenParameters; ++i) {
-    const Coefficient& parameter = identified->physical->parameters[i];
-    // Five blocks of time tell a standard error by four degrees of freedom: one in a thousand of
-    // Student's draws is further off than 8.6.
-    EXPECT_NEAR(parameter.estimate, truth[static_cast<Eigen::Index>(i)],
-                8.6 * parameter.standard_error)
-        << parameter.symbol;
-  }
+  EXPECT_GE(converged, 4);
 }
 
 TEST(PhysicalModel, IsRefusedWhereCommandsNeverChange) {

@@ -19,8 +19,8 @@ constexpr double kFixDelayS = 0.1;
 
 PhysicalModel TrueModel() {
   FossenVector p;
-  p << 1.5, 0.03, 0.18, 0.15, 0.45, 1.2, 0.05, -0.05, 0.25, 1.5, -0.1, 0.2, 0.3, 0.0, 0.0, 0.1, 0.5,
-      1.6, 0.4, 1.2, 0.5, 0.04, 0.06, 0.08, 0.1, 0.0, kFixDelayS;
+  p << 1.5, 0.03, 0.18, 0.15, 0.45, 1.2, 0.05, -0.05, 0.25, 1.5, 0.4, -0.1, 0.05, 0.2, 0.3, 0.0,
+      0.0, 0.1, 0.5, 1.6, 0.4, 1.2, 0.5, 0.04, 0.06, 0.08, 0.1, 0.0, kFixDelayS;
   PhysicalModel model;
   for (const double estimate : p) {
     Coefficient parameter;

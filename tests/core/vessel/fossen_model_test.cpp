@@ -22,9 +22,9 @@ TEST(FossenModel, CoriolisForcesDoNoWork) {
   FossenVector p = PhysicalBoat();
   for (const auto drag :
        {FossenParameter::kXu, FossenParameter::kXuu, FossenParameter::kYv, FossenParameter::kYr,
-        FossenParameter::kNv, FossenParameter::kNr, FossenParameter::kYvv, FossenParameter::kNvv,
-        FossenParameter::kNrr, FossenParameter::kYuv, FossenParameter::kYur, FossenParameter::kNuv,
-        FossenParameter::kNur}) {
+        FossenParameter::kNv, FossenParameter::kNr, FossenParameter::kYvv, FossenParameter::kYrv,
+        FossenParameter::kNvv, FossenParameter::kNvr, FossenParameter::kNrr, FossenParameter::kYuv,
+        FossenParameter::kYur, FossenParameter::kNuv, FossenParameter::kNur}) {
     p[At(drag)] = 0.0;
   }
   Eigen::Matrix3d mass = Eigen::Matrix3d::Identity();
@@ -73,7 +73,8 @@ TEST(WithinPhysicalRange, MakesABoatOfAnything) {
     EXPECT_NO_THROW(FossenDynamics(p, kSeparation)) << factor;
     for (const FossenParameter drag :
          {FossenParameter::kXu, FossenParameter::kXuu, FossenParameter::kYv, FossenParameter::kYvv,
-          FossenParameter::kNr, FossenParameter::kNrr}) {
+          FossenParameter::kYrv, FossenParameter::kNr, FossenParameter::kNvr,
+          FossenParameter::kNrr}) {
       EXPECT_GE(p[At(drag)], 0.0) << factor;
     }
     EXPECT_GE(p[At(FossenParameter::kM22)], kLeastSwayMass) << factor;

@@ -113,8 +113,8 @@ TEST_F(ScoreCovariance, HasFewDegreesOfFreedomWhereFewBlocksInform) {
 
 TEST(EquivalentBlocks, AreMoreThanTheBlocksAndNoneOfNone) {
   EXPECT_EQ(EquivalentBlocks(0), 0U);
-  // (60 + 27)^2 / 60
-  EXPECT_EQ(EquivalentBlocks(60), 126U);
+  // (60 + 29)^2 / 60
+  EXPECT_EQ(EquivalentBlocks(60), 132U);
 }
 
 }  // namespace

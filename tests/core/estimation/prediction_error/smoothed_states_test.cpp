@@ -24,8 +24,8 @@ struct SteeredTrack {
 
 FilterSettings SteeredSettings() {
   FilterSettings settings;
-  settings.parameters << 1.5, 0.03, 0.18, 0.15, 0.45, 1.2, 0.05, -0.05, 0.25, 1.5, -0.1, 0.2, 0.3,
-      0.1, -0.1, 0.1, 0.5, 1.6, 0.4, 1.2, 0.5, 0.04, 0.06, 0.08, 0.25, 0.0, 0.0;
+  settings.parameters << 1.5, 0.03, 0.18, 0.15, 0.45, 1.2, 0.05, -0.05, 0.25, 1.5, 0.4, -0.1, 0.05,
+      0.2, 0.3, 0.1, -0.1, 0.1, 0.5, 1.6, 0.4, 1.2, 0.5, 0.04, 0.06, 0.08, 0.25, 0.0, 0.0;
   settings.propeller_separation_m = 0.6;
   settings.noise.acceleration_sigma.setConstant(0.02);
   settings.noise.fix_drift_sigma_m = 0.01;
