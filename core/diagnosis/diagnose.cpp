@@ -77,7 +77,7 @@ void NoteInfluences(std::vector<ReferenceInfluence> influences, std::optional<do
   if (!note.empty()) diagnosis.notes.push_back(std::move(note));
   if (squared_limit) {
     diagnosis.notes.push_back(
-        "References that took no part in the baseline say that 95 % of nominal "
+        "References that took no part in the baseline say that 99 % of nominal "
         "days stay below a gap of " +
         FormatNumber(std::sqrt(*squared_limit), 2) +
         ". A smaller gap without a certain cause counts as undecided.");
@@ -102,8 +102,8 @@ Result<DiagnosedModel> DiagnoseAgainst(const std::vector<PreparedDataset>& refer
   if (!runs) return tl::unexpected<Refusal>(runs.error());
 
   report_progress("nominal boat", 0.1);
-  const NominalBaseline nominal =
-      LearnNominalBaseline(runs->Main().references, model, parameter_refs, options.threads);
+  const NominalBaseline nominal = LearnNominalBaseline(
+      runs->Main().references, model, parameter_refs, options.threads, {&runs->Main().recording});
   const std::vector<HorizonErrors> horizons = HorizonErrorsOf(*runs, nominal.boat);
   const HorizonErrors& main = horizons[runs->main];
 

@@ -29,6 +29,7 @@ struct GapConstants {
   double block_s = 30.0;              ///< s, within which errors may be correlated
   std::size_t resamples = 1000;       ///< block bootstrap, convention
   double level = 0.95;                ///< 1, of every bound, convention
+  double left_out_level = 0.99;       ///< 1, of days that took no part: false alarms on 1 % of days
   double single_recording_sd = 0.25;  ///< 1, sd of ln G^2 between days given one reference
   double minimum_sd = 0.2;            ///< 1, sd of ln G^2 between days at least
 };

@@ -27,7 +27,8 @@ struct ForceAtPoint {
 /// two propellers in balance, the rate of turn on the spot the damping of yaw and their moment with
 /// one full ahead and the other full astern. Drag across the hull is that of a tenth of the top
 /// speed. Units: forces over the mass with added mass in surge, m/s^2, moments m^2/s^2.
-/// Bounds: quantiles among draws of the posterior, at the level of the model's intervals.
+/// Bounds: normal, by the delta method from the covariance of the parameters, at the level of the
+/// model's intervals, at least nothing.
 std::vector<ForceAtPoint> DragAndThrustOf(const PhysicalModel& physical);
 
 /// The values of other parameters at the same points. Requires: points of DragAndThrustOf().

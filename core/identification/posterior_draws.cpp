@@ -14,8 +14,7 @@
 namespace telltale {
 namespace {
 
-// An eigenvalue this far below zero, as a share of the largest, is rounding and not reported. So
-// much more of each variance makes a covariance definite that is so but for rounding.
+// An eigenvalue this far below zero, as a share of the largest, is rounding and not reported.
 constexpr double kRounding = 1e-10;
 
 struct SquareRoot {
@@ -62,12 +61,20 @@ Eigen::MatrixXd WithLogTimeConstant(const Eigen::MatrixXd& covariance,
 
 PosteriorDraws DrawPhysicalForm(const PhysicalModel& physical, std::size_t count,
                                 std::uint64_t seed) {
-  const Eigen::MatrixXd parameters = DrawParameters(physical, count, seed);
+  Vehicle vehicle;
+  vehicle.propeller_separation_m = physical.propeller_separation_m;
+  const FossenPrior range = PriorOf(vehicle);
+  const FossenVector estimates = physical.Estimates();
+  const FossenVector least = range.least.cwiseMin(estimates);
+  const FossenVector greatest = range.greatest.cwiseMax(estimates);
+  const Eigen::MatrixXd parameters =
+      DrawTruncatedNormal(estimates, physical.covariance, least, greatest, estimates, count, seed);
   PosteriorDraws draws;
+  draws.theta.resize(CoefficientsOf(estimates, physical.propeller_separation_m).size() - 1,
+                     parameters.cols());
   for (Eigen::Index i = 0; i < parameters.cols(); ++i) {
     const Eigen::VectorXd coefficients =
-        CoefficientsOf(parameters.col(i), physical.propeller_separation_m);
-    if (i == 0) draws.theta.resize(coefficients.size() - 1, parameters.cols());
+        CoefficientsOf(WithPositiveMass(parameters.col(i)), physical.propeller_separation_m);
     draws.theta.col(i) = coefficients.head(draws.theta.rows());
     draws.time_constant_s.push_back(coefficients[draws.theta.rows()]);
   }
@@ -109,22 +116,6 @@ void RequireCovariances(const Identification& identification) {
 }
 
 }  // namespace
-
-Eigen::MatrixXd DrawParameters(const PhysicalModel& physical, std::size_t count,
-                               std::uint64_t seed) {
-  Vehicle vehicle;
-  vehicle.propeller_separation_m = physical.propeller_separation_m;
-  const FossenPrior range = PriorOf(vehicle);
-  const FossenVector estimates = physical.Estimates();
-  const FossenVector least = range.least.cwiseMin(estimates);
-  const FossenVector greatest = range.greatest.cwiseMax(estimates);
-  Eigen::MatrixXd covariance = physical.covariance;
-  covariance.diagonal().array() += kRounding * (covariance.diagonal().array() + kRounding);
-  Eigen::MatrixXd parameters =
-      DrawTruncatedNormal(estimates, covariance, least, greatest, estimates, count, seed);
-  for (auto draw : parameters.colwise()) draw = WithPositiveMass(draw);
-  return parameters;
-}
 
 Result<PosteriorDraws> DrawFromPosterior(const Identification& identification, std::size_t count,
                                          std::uint64_t seed) {

@@ -25,11 +25,6 @@ struct PosteriorDraws {
   double clipped = 0.0;
 };
 
-/// Draws of the physical parameters, one a column, from a normal law truncated to their physical
-/// range, M positive definite in each. Determinism: the same seed gives the same draws.
-Eigen::MatrixXd DrawParameters(const PhysicalModel& physical, std::size_t count,
-                               std::uint64_t seed);
-
 /// Of the physical form its parameters are drawn, from a normal law truncated to their physical
 /// range, and turned into coefficients: every draw has a positive definite mass matrix and drag
 /// that opposes the motion.

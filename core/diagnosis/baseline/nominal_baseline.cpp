@@ -266,9 +266,10 @@ std::vector<Sensitivity> SensitivitiesOf(const Recordings& recordings, const Cha
 class BaselineEstimation {
  public:
   /// From the model on.
-  BaselineEstimation(Recordings recordings, const UncertainModel& model,
+  BaselineEstimation(Recordings recordings, Recordings others, const UncertainModel& model,
                      const std::vector<EffectParameterRef>& parameter_refs, std::size_t threads)
       : recordings_(std::move(recordings)),
+        others_(std::move(others)),
         model_(model),
         parameter_refs_(parameter_refs),
         threads_(threads),
@@ -279,10 +280,11 @@ class BaselineEstimation {
   }
 
   /// From the baseline of more recordings on, with its slopes of these.
-  BaselineEstimation(Recordings recordings, const UncertainModel& model,
+  BaselineEstimation(Recordings recordings, Recordings others, const UncertainModel& model,
                      const std::vector<EffectParameterRef>& parameter_refs,
                      const NominalBaseline& baseline, std::vector<Sensitivity> slopes)
       : recordings_(std::move(recordings)),
+        others_(std::move(others)),
         model_(model),
         parameter_refs_(parameter_refs),
         threads_(1),
@@ -371,6 +373,7 @@ class BaselineEstimation {
       tried.Accept(share);
       const Eigen::VectorXd change = tried.Coefficients().cwiseProduct(model_.StandardErrors());
       AugmentedModel boat{model_.Changed(change), EffectsOf(parameter_refs_, tried.FixedEffects())};
+      if (Diverging(boat) > diverging_of_model_) continue;
       auto left = LessRecordingEffects(boat);
       const double square = SquaredNorm(left);
       if (square >= least) {
@@ -383,6 +386,14 @@ class BaselineEstimation {
       errors_ = std::move(left);
     }
     return least;
+  }
+
+  std::size_t Diverging(const AugmentedModel& boat) const {
+    std::size_t windows = 0;
+    for (const Recordings* all : {&recordings_, &others_}) {
+      for (const FreeRuns* runs : *all) windows += runs->Diverging(boat);
+    }
+    return windows;
   }
 
   std::vector<Eigen::MatrixXd> LessRecordingEffects(const AugmentedModel& boat) const {
@@ -401,7 +412,9 @@ class BaselineEstimation {
   }
 
   Recordings recordings_;
+  Recordings others_;
   const UncertainModel& model_;
+  std::size_t diverging_of_model_ = Diverging({model_.model, {}});  ///< windows
   const std::vector<EffectParameterRef>& parameter_refs_;
   std::size_t threads_;
   NominalBaselineFit fit_;
@@ -418,11 +431,11 @@ class BaselineEstimation {
 NominalBaseline LearnNominalBaseline(const std::vector<FreeRuns>& recordings,
                                      const UncertainModel& model,
                                      const std::vector<EffectParameterRef>& parameter_refs,
-                                     std::size_t threads) {
+                                     std::size_t threads, std::vector<const FreeRuns*> others) {
   Require(!recordings.empty(), "at least one nominal recording");
   Recordings all;
   for (const FreeRuns& runs : recordings) all.push_back(&runs);
-  BaselineEstimation estimation(std::move(all), model, parameter_refs, threads);
+  BaselineEstimation estimation(std::move(all), std::move(others), model, parameter_refs, threads);
   for (int round = 0; round < kMaximumRecalibrations && estimation.Improve(); ++round) continue;
   return estimation.Baseline();
 }
@@ -431,7 +444,8 @@ NominalBaseline NominalBaselineOf(const std::vector<std::size_t>& kept,
                                   const NominalBaseline& of_all,
                                   const std::vector<FreeRuns>& recordings,
                                   const UncertainModel& model,
-                                  const std::vector<EffectParameterRef>& parameter_refs) {
+                                  const std::vector<EffectParameterRef>& parameter_refs,
+                                  std::vector<const FreeRuns*> others) {
   Require(!kept.empty(), "at least one nominal recording");
   Recordings kept_recordings;
   std::vector<Sensitivity> slopes;
@@ -439,8 +453,8 @@ NominalBaseline NominalBaselineOf(const std::vector<std::size_t>& kept,
     kept_recordings.push_back(&recordings[day]);
     slopes.push_back(of_all.days[day]);
   }
-  BaselineEstimation estimation(std::move(kept_recordings), model, parameter_refs, of_all,
-                                std::move(slopes));
+  BaselineEstimation estimation(std::move(kept_recordings), std::move(others), model,
+                                parameter_refs, of_all, std::move(slopes));
   estimation.Step();
   return estimation.BaselineWithOldSlopes();
 }

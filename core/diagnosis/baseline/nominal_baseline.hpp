@@ -36,11 +36,12 @@ struct LeftOutDay {
   double reduced_chi_square = 0.0;  ///< by the ResidualMetric of that baseline
 };
 
-/// Requires: at least one recording with windows.
+/// `others` take no part but for this: the boat diverges on no more of their windows, and of the
+/// recordings', than the model does. Requires: at least one recording with windows.
 NominalBaseline LearnNominalBaseline(const std::vector<FreeRuns>& recordings,
                                      const UncertainModel& model,
                                      const std::vector<EffectParameterRef>& parameter_refs,
-                                     std::size_t threads);
+                                     std::size_t threads, std::vector<const FreeRuns*> others = {});
 
 /// The baseline that the kept ones of those recordings alone would give, to first order: one
 /// Gauss-Newton step from the baseline of all, with the slopes of that. Requires: at least one
@@ -49,6 +50,7 @@ NominalBaseline NominalBaselineOf(const std::vector<std::size_t>& kept,
                                   const NominalBaseline& of_all,
                                   const std::vector<FreeRuns>& recordings,
                                   const UncertainModel& model,
-                                  const std::vector<EffectParameterRef>& parameter_refs);
+                                  const std::vector<EffectParameterRef>& parameter_refs,
+                                  std::vector<const FreeRuns*> others = {});
 
 }  // namespace telltale

@@ -27,7 +27,7 @@ struct DayToDay {
   double log_nominal = 0.0;  ///< mean ln of the reduced chi-squares of the baseline's own days
   OneMoreDay noise;          ///< the reduced chi-square of a day
   OneMoreDay squared_gap;    ///< G^2 of a day; of use only beside `squared_limit`
-  /// What 95 % of days stay below in G^2; none where fewer than two were left out.
+  /// What 99 % of days stay below in G^2; none where fewer than two were left out.
   std::optional<double> squared_limit;
 };
 

@@ -65,6 +65,17 @@ void DescribeCause(const Conclusion& conclusion, ReferenceInfluence& influence) 
   influence.probability = first->probability;
 }
 
+/// The recording that is left out, where it has windows, and the one to diagnose.
+std::vector<const FreeRuns*> OthersOf(const PreparedDataset& left_out,
+                                      const std::vector<FreeRuns>& recordings,
+                                      const DiagnosisProblem& problem) {
+  std::vector<const FreeRuns*> others = {&problem.runs};
+  for (const FreeRuns& runs : recordings) {
+    if (&runs.Dataset() == &left_out) others.push_back(&runs);
+  }
+  return others;
+}
+
 /// The nominal boat without one reference, and what that one leaves by it.
 struct WithoutOne {
   NominalBaseline nominal;
@@ -79,14 +90,14 @@ std::optional<WithoutOne> Without(const PreparedDataset& left_out, const Influen
   if (kept.empty()) return std::nullopt;
   const DiagnosisProblem& all = inputs.problem;
   WithoutOne without;
-  without.nominal =
-      NominalBaselineOf(kept, all.nominal, recordings, inputs.model, all.parameter_refs);
+  without.nominal = NominalBaselineOf(kept, all.nominal, recordings, inputs.model,
+                                      all.parameter_refs, OthersOf(left_out, recordings, all));
   without.floor = FloorOf(kept, recordings, without.nominal);
   without.day = DayOf(left_out, recordings, all.nominal, without.nominal, without.floor);
   return without;
 }
 
-/// What 95 % of days stay below in G^2, by the other references when they were left out, (102);
+/// What 99 % of days stay below in G^2, by the other references when they were left out, (102);
 /// none of fewer than two.
 std::optional<double> SquaredLimitOfOthers(
     std::size_t reference, const std::vector<std::optional<WithoutOne>>& without_each) {

@@ -254,6 +254,19 @@ Eigen::MatrixXd FreeRuns::Errors(const AugmentedModel& model) const {
   return errors;
 }
 
+std::size_t FreeRuns::Diverging(const AugmentedModel& model) const {
+  const Nu limits = kFreeRunDivergence.LimitsFor(FastestOf(*dataset_));
+  std::size_t diverging = 0;
+  ForEachTrack(model, Offset::Zero(),
+               [&](std::size_t, const AugmentedBoat&, double, const std::vector<Pose>& track) {
+                 const bool stays = std::all_of(track.begin(), track.end(), [&](const Pose& pose) {
+                   return Within(pose.nu, limits);
+                 });
+                 if (!stays) ++diverging;
+               });
+  return diverging;
+}
+
 FreeRuns::Circumstances FreeRuns::Of(std::size_t window) const {
   const Window& it = windows_[window];
   return {dataset_->rows[it.first_row].time_s, it.first_row, rows_};

@@ -42,6 +42,9 @@ class FreeRuns {
   /// Errors of a model, the start of each window estimated.
   Eigen::MatrixXd Errors(const AugmentedModel& model) const;
 
+  /// In how many windows the model diverges: a velocity passes kFreeRunDivergence.
+  std::size_t Diverging(const AugmentedModel& model) const;
+
   /// What a window went through, for maps and pictures.
   struct Circumstances {
     double time_s = 0.0;

@@ -43,9 +43,9 @@ double MeanOf(const std::vector<std::array<double, 4>>& values, int channel) {
   return sum / static_cast<double>(values.size());
 }
 
-/// What 95 % of further days stay below in G^2, given ln G^2 of so many.
-double LimitOfOneMoreDay(double mean_log, double spread, double days) {
-  const double quantile = StudentQuantile(std::max(days - 1.0, 2.0), kLevel);
+/// What further days stay below in G^2 at this level, given ln G^2 of so many.
+double LimitOfOneMoreDay(double mean_log, double spread, double days, double level) {
+  const double quantile = StudentQuantile(std::max(days - 1.0, 2.0), level);
   return std::exp(mean_log + quantile * spread * std::sqrt(1.0 + 1.0 / days));
 }
 
@@ -57,7 +57,7 @@ double NoiseFloor::Squared(int channel) const {
 
 double NoiseFloor::SquaredLimit(int channel) const {
   return LimitOfOneMoreDay(MeanOf(log_gaps, channel), spread[static_cast<std::size_t>(channel)],
-                           static_cast<double>(log_gaps.size()));
+                           static_cast<double>(log_gaps.size()), kLevel);
 }
 
 NoiseFloor NoiseFloorOf(const std::vector<FreeRuns>& recordings, const AugmentedModel& boat) {
@@ -125,7 +125,8 @@ double SquaredLimitOfDays(const std::vector<double>& squared_gaps) {
   double variance = 0.0;
   for (const double gap : squared_gaps)
     variance += std::pow(std::log(gap) - mean, 2) / (days - 1.0);
-  return LimitOfOneMoreDay(mean, std::max(std::sqrt(variance), kMinimumSpread), days);
+  return LimitOfOneMoreDay(mean, std::max(std::sqrt(variance), kMinimumSpread), days,
+                           kDiagnosis.gap.left_out_level);
 }
 
 std::vector<std::size_t> BlocksOf(const FreeRuns& runs) {

@@ -42,7 +42,7 @@ NoiseFloor NoiseFloorOf(const std::vector<FreeRuns>& recordings, const Augmented
 Eigen::VectorXd SquaredGaps(const Eigen::MatrixXd& errors, const Eigen::VectorXd& scale,
                             int channel);
 
-/// What 95 % of nominal days stay below in G^2, by Student's t over days that took no part in the
+/// What 99 % of nominal days stay below in G^2, by Student's t over days that took no part in the
 /// baseline that each was scored by. Requires: at least two, each > 0.
 double SquaredLimitOfDays(const std::vector<double>& squared_gaps);
 

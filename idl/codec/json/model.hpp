@@ -14,7 +14,7 @@ namespace telltale {
 proto::Model ToProto(const Identification& identification);
 
 /// What drag and thrust of a physical form come to, DragAndThrustOf(); nothing of the other forms.
-/// It takes some milliseconds, so that it stands in model.json alone.
+/// They follow from the parameters, so that model.json alone has them, for its reader.
 void WriteDragAndThrust(const Identification& identification, proto::Model& model);
 
 /// The way back. Errors name the fields as model.json does; `file` is their name for the text.

@@ -138,14 +138,15 @@ TEST(NominalBaseline, OfThePhysicalFormKeepsABoatThatDoesNotDiverge) {
   }
   std::vector<FreeRuns> runs;
   for (const PreparedDataset& day : days) runs.emplace_back(day, model.model, 5.0);
-  const NominalBaseline nominal =
-      LearnNominalBaseline(runs, model, EffectParameterRefsOf(EffectLibrary()), 2);
   const PreparedDataset another =
       testing::SimulatePhysicalBoat(testing::PhysicalBoat(), 240.0, 3100);
   const FreeRuns runs_of_another(another, model.model, 5.0);
+  const NominalBaseline nominal = LearnNominalBaseline(
+      runs, model, EffectParameterRefsOf(EffectLibrary()), 2, {&runs_of_another});
   const double before = runs_of_another.Errors({model.model, {}}).squaredNorm();
   const double after = runs_of_another.Errors(nominal.boat).squaredNorm();
   EXPECT_LT(after, before);
+  EXPECT_LE(runs_of_another.Diverging(nominal.boat), runs_of_another.Diverging({model.model, {}}));
   const FossenVector found =
       model.ChangedParameters(nominal.coefficients.cwiseProduct(model.StandardErrors()));
   EXPECT_EQ(found, WithinPhysicalRange(found, testing::kPhysicalBoatSeparation));

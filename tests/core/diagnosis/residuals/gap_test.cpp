@@ -57,11 +57,11 @@ TEST(NoiseFloor, LimitFollowsStudentsT) {
 }
 
 // ln G^2 of 0, 0.4 and 0.8 have a mean and a standard deviation of 0.4; Student's t with two
-// degrees of freedom is 2.920 at 95 %. Days that hardly differ are taken to differ by 0.2.
+// degrees of freedom is 6.9646 at 99 %. Days that hardly differ are taken to differ by 0.2.
 TEST(SquaredLimitOfDays, FollowsStudentsT) {
   EXPECT_NEAR(SquaredLimitOfDays({1.0, std::exp(0.4), std::exp(0.8)}),
-              std::exp(0.4 + 2.9200 * 0.4 * std::sqrt(4.0 / 3.0)), 1e-3);
-  EXPECT_NEAR(SquaredLimitOfDays({1.0, 1.0, 1.0}), std::exp(2.9200 * 0.2 * std::sqrt(4.0 / 3.0)),
+              std::exp(0.4 + 6.96456 * 0.4 * std::sqrt(4.0 / 3.0)), 1e-3);
+  EXPECT_NEAR(SquaredLimitOfDays({1.0, 1.0, 1.0}), std::exp(6.96456 * 0.2 * std::sqrt(4.0 / 3.0)),
               1e-3);
 }
 

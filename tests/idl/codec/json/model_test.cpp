@@ -72,7 +72,7 @@ TEST(ModelJson, ThePhysicalFormHasEveryParameterByItsName) {
   EXPECT_EQ(IdentificationOf(model).error().value, "\"m44\"");
   EXPECT_EQ(IdentificationOf(model).error().allowed, "\"m33\"");
   model.mutable_parameters()->RemoveLast();
-  EXPECT_EQ(IdentificationOf(model).error().value, "26 items");
+  EXPECT_EQ(IdentificationOf(model).error().value, "28 items");
 }
 
 TEST(ModelJson, ThePhysicalFormHasACovarianceAndANoiseThatFilter) {

@@ -43,7 +43,7 @@ TEST(WireModel, ExpectsThePhysicalFormOfFossenAlone) {
   EXPECT_EQ(Decode(*wire).error().field, "physical[0].covariance");
   wire = Encode(sent);
   wire->physical._buffer[0].covariance._length -= 1;
-  EXPECT_EQ(Decode(*wire).error().value, "728 numbers");
+  EXPECT_EQ(Decode(*wire).error().value, "840 numbers");
   wire = Encode(sent);
   wire->physical._buffer[0].parameters._length -= 1;
   EXPECT_EQ(Decode(*wire).error().field, "physical[0].parameters");
