@@ -15,7 +15,7 @@ constexpr double kSlopeStep = 1e-3;
 constexpr double kHalf = 0.5;
 constexpr double kFull = 1.0;
 constexpr double kAcross = 0.1;  // of the top speed
-// A draw without any drag has no top speed.
+// A boat without any drag has no top speed.
 constexpr double kLeastDrag = 1e-6;
 
 double ForwardThrust(const FossenVector& p, double command) {
