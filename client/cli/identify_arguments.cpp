@@ -23,8 +23,8 @@ void AddStructureOptions(CLI::App& command, IdentifyChoices& choices) {
           "--structure", choices.structure,
           "of the model: fossen, the physical form, with delays between the channels; static, the "
           "paper's free coefficients, whose thrust follows the command at once; dynamic, the same "
-          "with a first-order lag; auto (default): fossen or static, whichever predicts data set "
-          "aside better, and static with options that only it has")
+          "with a first-order lag; auto (default): fossen, or static where it predicts data set "
+          "aside well, and with options that only it has")
       ->type_name("NAME")
       ->check(CLI::IsMember(StructureNames()).description(""));
   command
