@@ -15,7 +15,6 @@
 #include "telltale/client/report/report_page.hpp"
 #include "telltale/core/base/version.hpp"
 #include "telltale/idl/codec/json/json_message.hpp"
-#include "telltale/idl/codec/json/model.hpp"
 #include "telltale/idl/codec/json/proto_values.hpp"
 #include "telltale/idl/codec/json/published.hpp"
 #include "telltale/idl/codec/json/quality.hpp"
@@ -93,6 +92,7 @@ proto::Model Shortened(proto::Model model) {
   model.clear_joint();
   model.clear_excitation();
   model.clear_coverage_check();
+  model.clear_drag_and_thrust();
   return model;
 }
 
@@ -250,10 +250,7 @@ void FleetApi::GetModel(const Request& request, Response& response) const {
   const std::string vehicle_id = request.matches[1];
   if (!IsServed(vehicle_id, response)) return;
   const auto model = FindModel(vehicle_id, request.matches[2], response);
-  if (!model) return;
-  proto::Model message = ToProto(*model);
-  WriteDragAndThrust(model->identification, message);
-  AnswerJson(message, request, response);
+  if (model) AnswerJson(ToProto(*model), request, response);
 }
 
 /// The model of that revision; nothing after it has answered 404.

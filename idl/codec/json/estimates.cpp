@@ -2,6 +2,7 @@
 
 #include <string>
 
+#include "telltale/core/identification/drag_and_thrust.hpp"
 #include "telltale/idl/codec/json/coefficient.hpp"
 #include "telltale/idl/codec/json/effects.hpp"
 #include "telltale/idl/codec/json/proto_values.hpp"
@@ -155,6 +156,15 @@ void Write(const PhysicalModel& physical, proto::Model& message) {
   };
   *message.mutable_delays()->mutable_commands() = parameter(FossenParameter::kCommandDelay);
   *message.mutable_delays()->mutable_fixes() = parameter(FossenParameter::kFixDelay);
+  for (const ForceAtPoint& force : DragAndThrustOf(physical)) {
+    proto::ForceAtPoint& to = *message.add_drag_and_thrust();
+    to.set_name(force.name);
+    to.set_at(force.at);
+    to.set_at_unit(force.at_unit);
+    to.set_estimate(force.estimate);
+    Write(force.interval, *to.mutable_interval());
+    to.set_unit(force.unit);
+  }
   const NoiseModel& noise = physical.noise;
   proto::FilterNoise& filter = *message.mutable_filter_noise();
   filter.mutable_acceleration_sigma()->Add(noise.acceleration_sigma.begin(),

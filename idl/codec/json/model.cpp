@@ -1,8 +1,6 @@
 #include "telltale/idl/codec/json/model.hpp"
 
-#include "telltale/core/identification/drag_and_thrust.hpp"
 #include "telltale/idl/codec/field_reader.hpp"
-#include "telltale/idl/codec/json/coefficient.hpp"
 #include "telltale/idl/codec/json/coverage_check.hpp"
 #include "telltale/idl/codec/json/estimates.hpp"
 #include "telltale/idl/codec/json/excitation.hpp"
@@ -87,23 +85,8 @@ Decoded<Identification> IdentificationOf(const proto::Model& model, const std::s
   return identification;
 }
 
-void WriteDragAndThrust(const Identification& identification, proto::Model& model) {
-  if (!identification.physical) return;
-  for (const ForceAtPoint& force : DragAndThrustOf(*identification.physical)) {
-    proto::ForceAtPoint& to = *model.add_drag_and_thrust();
-    to.set_name(force.name);
-    to.set_at(force.at);
-    to.set_at_unit(force.at_unit);
-    to.set_estimate(force.estimate);
-    Write(force.interval, *to.mutable_interval());
-    to.set_unit(force.unit);
-  }
-}
-
 std::string PrintModelJson(const Identification& identification) {
-  proto::Model model = ToProto(identification);
-  WriteDragAndThrust(identification, model);
-  return PrintJsonMessage(model);
+  return PrintJsonMessage(ToProto(identification));
 }
 
 Decoded<Identification> ParseModelJson(std::string_view text, const std::string& file) {

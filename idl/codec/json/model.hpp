@@ -13,10 +13,6 @@ namespace telltale {
 /// publisher sets them. Counts beyond 32 bits saturate.
 proto::Model ToProto(const Identification& identification);
 
-/// What drag and thrust of a physical form come to, DragAndThrustOf(); nothing of the other forms.
-/// They follow from the parameters, so that model.json alone has them, for its reader.
-void WriteDragAndThrust(const Identification& identification, proto::Model& model);
-
 /// The way back. Errors name the fields as model.json does; `file` is their name for the text.
 /// Refuses: an unset structure, parameterization or estimator, a sampling period outside its range,
 /// an id that is none, and what ReadEstimates(), ReadWindow(), ReadProvenance(), ModelFault(),

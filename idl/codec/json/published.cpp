@@ -26,9 +26,7 @@ proto::Report ToProto(const PublishedDiagnosis& diagnosis) {
 }
 
 std::string PrintModelJson(const PublishedModel& model) {
-  proto::Model message = ToProto(model);
-  WriteDragAndThrust(model.identification, message);
-  return PrintJsonMessage(message);
+  return PrintJsonMessage(ToProto(model));
 }
 
 std::string PrintReportJson(const PublishedDiagnosis& diagnosis) {

@@ -50,8 +50,7 @@ TEST(ModelJson, ThePhysicalFormGoesWithItsStructure) {
 
 TEST(ModelJson, ThePhysicalFormSaysWhatItsDragAndThrustComeTo) {
   const Identification sent = MadeUpPhysicalIdentification();
-  proto::Model model = ToProto(sent);
-  WriteDragAndThrust(sent, model);
+  const proto::Model model = ToProto(sent);
   const auto forces = DragAndThrustOf(*sent.physical);
   ASSERT_EQ(model.drag_and_thrust_size(), std::ssize(forces));
   for (std::size_t i = 0; i < forces.size(); ++i) {
