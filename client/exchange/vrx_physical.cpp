@@ -38,9 +38,9 @@ class PhysicalSdf {
 
   std::string Thrust() const {
     return Comment("Thrust of one propeller at full forward command: " +
-                   Text(FullThrust(kForwardLinear, kForwardQuadratic, kForwardDeadBand)) + " N.") +
+                   Text(mass_kg_ * ForwardThrust(model_.Estimates(), 1.0)) + " N.") +
            Comment("At full reverse command: " +
-                   Text(-FullThrust(kReverseLinear, kReverseQuadratic, kReverseDeadBand)) + " N.") +
+                   Text(-mass_kg_ * ReverseThrust(model_.Estimates(), 1.0)) + " N.") +
            Comment("Thrust follows the command with a first-order lag of " +
                    Text(Of(kTimeConstant).estimate) + " s.") +
            Comment("No thrust between " + Text(-Of(kReverseDeadBand).estimate) + " and " +
@@ -72,13 +72,6 @@ class PhysicalSdf {
   }
 
   double Scaled(FossenParameter parameter) const { return mass_kg_ * Of(parameter).estimate; }
-
-  // The command counts beyond the dead band.
-  double FullThrust(FossenParameter linear, FossenParameter quadratic,
-                    FossenParameter dead_band) const {
-    const double e = 1.0 - Of(dead_band).estimate;
-    return Scaled(linear) * e + Scaled(quadratic) * e * e;
-  }
 
   std::string AddedMassInSway() const {
     const double beyond_surge = Scaled(kM22) - mass_kg_;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "telltale/core/identification/implied_covariance.hpp"
 #include "telltale/core/uncertainty/interval.hpp"
 
 namespace telltale {
@@ -11,22 +12,11 @@ namespace {
 
 using enum FossenParameter;
 
-constexpr double kSlopeStep = 1e-3;
 constexpr double kHalf = 0.5;
 constexpr double kFull = 1.0;
 constexpr double kAcross = 0.1;  // of the top speed
 // A boat without any drag has no top speed.
 constexpr double kLeastDrag = 1e-6;
-
-double ForwardThrust(const FossenVector& p, double command) {
-  const double beyond = std::max(command - p[At(kForwardDeadBand)], 0.0);
-  return (p[At(kForwardLinear)] + p[At(kForwardQuadratic)] * beyond) * beyond;
-}
-
-double ReverseThrust(const FossenVector& p, double command) {
-  const double beyond = std::max(command - p[At(kReverseDeadBand)], 0.0);
-  return (p[At(kReverseLinear)] + p[At(kReverseQuadratic)] * beyond) * beyond;
-}
 
 double DragAhead(const FossenVector& p, double u) {
   return (p[At(kXu)] + p[At(kXuu)] * u) * u;
@@ -73,22 +63,6 @@ std::vector<ForceAtPoint> PointsOf(const FossenVector& p, double separation_m) {
           point("reverse thrust", kFull, "1", "m/s^2")};
 }
 
-// By each parameter. Forward differences of a thousandth of a standard error, or of the unit where
-// that is nothing, stay within the physical range.
-Eigen::MatrixXd SlopesOf(const std::vector<ForceAtPoint>& points, const PhysicalModel& physical) {
-  const double separation_m = physical.propeller_separation_m;
-  const FossenVector estimates = physical.Estimates();
-  const Eigen::VectorXd nominal = ForcesAt(points, estimates, separation_m);
-  Eigen::MatrixXd slopes(nominal.size(), estimates.size());
-  for (Eigen::Index i = 0; i < estimates.size(); ++i) {
-    const double error = std::sqrt(std::max(physical.covariance(i, i), 0.0));
-    FossenVector moved = estimates;
-    moved[i] += kSlopeStep * (error > 0.0 ? error : 1.0);
-    slopes.col(i) = (ForcesAt(points, moved, separation_m) - nominal) / (moved[i] - estimates[i]);
-  }
-  return slopes;
-}
-
 }  // namespace
 
 Eigen::VectorXd ForcesAt(const std::vector<ForceAtPoint>& points, const FossenVector& parameters,
@@ -107,9 +81,13 @@ std::vector<ForceAtPoint> DragAndThrustOf(const PhysicalModel& physical) {
   const FossenVector estimates = physical.Estimates();
   std::vector<ForceAtPoint> points = PointsOf(estimates, separation_m);
   const Eigen::VectorXd values = ForcesAt(points, estimates, separation_m);
-  const Eigen::MatrixXd slopes = SlopesOf(points, physical);
   const Eigen::VectorXd variances =
-      (slopes * physical.covariance * slopes.transpose()).diagonal().cwiseMax(0.0);
+      ImpliedCovariance(estimates, physical.covariance,
+                        [&](const FossenVector& parameters) {
+                          return ForcesAt(points, parameters, separation_m);
+                        })
+          .diagonal()
+          .cwiseMax(0.0);
   const double level = physical.parameters.front().interval.level;
   for (Eigen::Index i = 0; i < values.size(); ++i) {
     ForceAtPoint& point = points[static_cast<std::size_t>(i)];

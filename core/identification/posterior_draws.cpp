@@ -8,7 +8,7 @@
 #include "telltale/core/base/linear_algebra/covariance.hpp"
 #include "telltale/core/base/linear_algebra/eigen_decompositions.hpp"
 #include "telltale/core/base/random.hpp"
-#include "telltale/core/estimation/prediction_error/fossen_prior.hpp"
+#include "telltale/core/identification/physical_range.hpp"
 #include "telltale/core/uncertainty/truncated_normal.hpp"
 
 namespace telltale {
@@ -61,14 +61,10 @@ Eigen::MatrixXd WithLogTimeConstant(const Eigen::MatrixXd& covariance,
 
 PosteriorDraws DrawPhysicalForm(const PhysicalModel& physical, std::size_t count,
                                 std::uint64_t seed) {
-  Vehicle vehicle;
-  vehicle.propeller_separation_m = physical.propeller_separation_m;
-  const FossenPrior range = PriorOf(vehicle);
   const FossenVector estimates = physical.Estimates();
-  const FossenVector least = range.least.cwiseMin(estimates);
-  const FossenVector greatest = range.greatest.cwiseMax(estimates);
-  const Eigen::MatrixXd parameters =
-      DrawTruncatedNormal(estimates, physical.covariance, least, greatest, estimates, count, seed);
+  const PhysicalRange range = RangeOf(physical);
+  const Eigen::MatrixXd parameters = DrawTruncatedNormal(
+      estimates, physical.covariance, range.least, range.greatest, estimates, count, seed);
   PosteriorDraws draws;
   draws.theta.resize(CoefficientsOf(estimates, physical.propeller_separation_m).size() - 1,
                      parameters.cols());

@@ -13,7 +13,7 @@ bool IsUncertain(double variance) {
 }
 
 void FreePhysicalParameters(const PhysicalModel& physical, UncertainModel& uncertain) {
-  uncertain.physical = {physical.Estimates(), physical.propeller_separation_m};
+  uncertain.physical = {physical.Estimates(), physical.propeller_separation_m, RangeOf(physical)};
   std::vector<Eigen::Index> kept;
   for (Eigen::Index i = 0; i < At(FossenParameter::kImbalance); ++i) {
     if (!IsUncertain(physical.covariance(i, i))) continue;
@@ -48,7 +48,7 @@ FossenVector UncertainModel::ChangedParameters(const Eigen::VectorXd& by) const 
   for (std::size_t i = 0; i < free.size(); ++i) {
     parameters[free[i].column] += by[static_cast<Eigen::Index>(i)];
   }
-  return WithinPhysicalRange(parameters, physical->propeller_separation_m);
+  return physical->range.Within(parameters);
 }
 
 VesselModel UncertainModel::Changed(const Eigen::VectorXd& by) const {

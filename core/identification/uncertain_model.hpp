@@ -8,6 +8,7 @@
 
 #include "telltale/core/base/result.hpp"
 #include "telltale/core/identification/identification.hpp"
+#include "telltale/core/identification/physical_range.hpp"
 #include "telltale/core/vessel/fossen_model.hpp"
 #include "telltale/core/vessel/model_structure.hpp"
 #include "telltale/core/vessel/vessel_model.hpp"
@@ -27,6 +28,7 @@ struct UncertainModel {
   struct Physical {
     FossenVector parameters;
     double propeller_separation_m = 0.0;
+    PhysicalRange range;
   };
 
   VesselModel model;

@@ -175,21 +175,6 @@ FossenVector WithPositiveMass(FossenVector parameters) {
   return parameters;
 }
 
-FossenVector WithinPhysicalRange(FossenVector parameters, double propeller_separation_m) {
-  const auto least = [&](FossenParameter parameter, double value) {
-    parameters[At(parameter)] = std::max(parameters[At(parameter)], value);
-  };
-  for (const FossenParameter parameter :
-       {kXu, kXuu, kYv, kNr, kYvv, kYrv, kNvr, kNrr, kYuv, kNur, kForwardLinear, kForwardQuadratic,
-        kReverseLinear, kReverseQuadratic, kReverseLoss, kForwardDeadBand, kReverseDeadBand,
-        kTimeConstant}) {
-    least(parameter, 0.0);
-  }
-  least(kM22, kLeastSwayMass);
-  least(kM33, kLeastYawInertia * propeller_separation_m * propeller_separation_m);
-  return WithPositiveMass(parameters);
-}
-
 Eigen::VectorXd CoefficientsOf(const FossenVector& p, double propeller_separation_m) {
   Eigen::VectorXd c = Eigen::VectorXd::Zero(kCoefficients + 1);
   c[0] = -p[At(kXuu)];
@@ -220,6 +205,16 @@ Eigen::VectorXd CoefficientsOf(const FossenVector& p, double propeller_separatio
   }
   c[kCoefficients] = p[At(kTimeConstant)];
   return c.array() + 0.0;  // no negative zeros
+}
+
+double ForwardThrust(const FossenVector& p, double command) {
+  const double beyond = std::max(command - p[At(kForwardDeadBand)], 0.0);
+  return (p[At(kForwardLinear)] + p[At(kForwardQuadratic)] * beyond) * beyond;
+}
+
+double ReverseThrust(const FossenVector& p, double command) {
+  const double beyond = std::max(command - p[At(kReverseDeadBand)], 0.0);
+  return (p[At(kReverseLinear)] + p[At(kReverseQuadratic)] * beyond) * beyond;
 }
 
 DeadZone DeadZoneOf(const FossenVector& parameters) {

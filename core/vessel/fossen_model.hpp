@@ -57,11 +57,6 @@ enum class FossenParameter : std::size_t {
 inline constexpr std::size_t kFossenParameters = 29;
 using FossenVector = Eigen::Matrix<double, static_cast<int>(kFossenParameters), 1>;
 
-/// The least mass in sway, over that in surge, and the least inertia in yaw over that mass and the
-/// square of the distance between the propellers.
-inline constexpr double kLeastSwayMass = 0.7;
-inline constexpr double kLeastYawInertia = 0.06;
-
 constexpr Eigen::Index At(FossenParameter parameter) {
   return static_cast<Eigen::Index>(parameter);
 }
@@ -115,6 +110,11 @@ class FossenDynamics {
   Eigen::Matrix2d inverse_mass_;  ///< of sway and yaw
 };
 
+/// The steady thrust of one propeller without imbalance, at rest, at a command in [0, 1] ahead or
+/// in reverse; positive for both.
+double ForwardThrust(const FossenVector& parameters, double command);
+double ReverseThrust(const FossenVector& parameters, double command);
+
 DeadZone DeadZoneOf(const FossenVector& parameters);
 ReverseLoss ReverseLossOf(const FossenVector& parameters);
 
@@ -129,10 +129,5 @@ Eigen::VectorXd CoefficientsOf(const FossenVector& parameters, double propeller_
 /// The parameters with m23 moved, where it must be, to within 95 % of where M ceases to be positive
 /// definite.
 FossenVector WithPositiveMass(FossenVector parameters);
-
-/// The parameters moved to where a boat can have them: drag of its own axis and thrust at least
-/// nothing, lag and dead bands too, M positive definite with masses no smaller than kLeastSwayMass
-/// and kLeastYawInertia.
-FossenVector WithinPhysicalRange(FossenVector parameters, double propeller_separation_m);
 
 }  // namespace telltale

@@ -5,12 +5,11 @@
 #include <string>
 
 #include "telltale/core/base/linear_algebra/covariance.hpp"
+#include "telltale/core/identification/implied_covariance.hpp"
 #include "telltale/core/uncertainty/interval.hpp"
 
 namespace telltale {
 namespace {
-
-constexpr double kSlopeStep = 1e-3;  // standard errors
 
 ResidualMetric::Recalibration RecalibrationOf(const EffectFit& fit,
                                               const DiagnosisProblem& problem) {
@@ -18,12 +17,10 @@ ResidualMetric::Recalibration RecalibrationOf(const EffectFit& fit,
   return metric.Recalibrate(metric.Whiten(fit.errors));
 }
 
-/// By how much the boat's free parameters differ from the model's.
-Eigen::VectorXd ChangeOf(const EffectFit& fit, const DiagnosisProblem& problem,
-                         const UncertainModel& model) {
-  const Eigen::VectorXd change =
-      problem.nominal.coefficients + RecalibrationOf(fit, problem).change;
-  return change.cwiseProduct(model.StandardErrors());
+/// By how much the free parameters of the boat recalibrated so differ from the model's.
+Eigen::VectorXd ChangeBy(const ResidualMetric::Recalibration& recalibration,
+                         const NominalBaseline& nominal, const UncertainModel& model) {
+  return (nominal.coefficients + recalibration.change).cwiseProduct(model.StandardErrors());
 }
 
 void SetValue(double estimate, double variance, Coefficient& coefficient) {
@@ -55,21 +52,6 @@ void ReplaceCoefficients(const VesselModel& by, const UncertainModel& model,
   identification.covariance(place_of_free, place_of_free) = covariance;
 }
 
-/// The covariance of the coefficients that these physical parameters imply, to first order.
-Eigen::MatrixXd ImpliedCovariance(const FossenVector& about, const UncertainModel& model,
-                                  const Eigen::MatrixXd& covariance) {
-  const double separation_m = model.physical->propeller_separation_m;
-  const Eigen::VectorXd nominal = CoefficientsOf(about, separation_m);
-  Eigen::MatrixXd slopes(nominal.size() - 1, covariance.cols());
-  for (Eigen::Index i = 0; i < covariance.cols(); ++i) {
-    FossenVector moved = about;
-    const double step = kSlopeStep * std::sqrt(covariance(i, i));
-    moved[model.free[static_cast<std::size_t>(i)].column] += step;
-    slopes.col(i) = (CoefficientsOf(moved, separation_m) - nominal).head(slopes.rows()) / step;
-  }
-  return slopes * covariance * slopes.transpose();
-}
-
 /// Gives the physical parameters their value in `by`, the free ones of `model` their `covariance`,
 /// and the coefficients what they imply.
 void ReplacePhysicalParameters(const FossenVector& by, const UncertainModel& model,
@@ -83,8 +65,14 @@ void ReplacePhysicalParameters(const FossenVector& by, const UncertainModel& mod
     places.push_back(place);
   }
   physical.covariance(places, places) = covariance;
-  identification.covariance = ImpliedCovariance(by, model, covariance);
-  const Eigen::VectorXd implied = CoefficientsOf(by, physical.propeller_separation_m);
+  Eigen::MatrixXd of_free = Eigen::MatrixXd::Zero(by.size(), by.size());
+  of_free(places, places) = covariance;
+  const auto coefficients_of = [&](const FossenVector& parameters) {
+    const Eigen::VectorXd all = CoefficientsOf(parameters, physical.propeller_separation_m);
+    return Eigen::VectorXd(all.head(all.size() - 1));  // without the time constant
+  };
+  identification.covariance = ImpliedCovariance(by, of_free, coefficients_of);
+  const Eigen::VectorXd implied = coefficients_of(by);
   for (Eigen::Index i = 0; i < identification.covariance.rows(); ++i) {
     SetValue(implied[i], identification.covariance(i, i),
              identification.coefficients[static_cast<std::size_t>(i)]);
@@ -95,19 +83,20 @@ void ReplacePhysicalParameters(const FossenVector& by, const UncertainModel& mod
 
 AugmentedModel Reidentified(const EffectFit& fit, const DiagnosisProblem& problem,
                             const UncertainModel& model) {
-  return AugmentedModel{model.Changed(ChangeOf(fit, problem, model)), problem.nominal.boat.effects}
-      .With(fit.effects);
+  const Eigen::VectorXd change = ChangeBy(RecalibrationOf(fit, problem), problem.nominal, model);
+  return AugmentedModel{model.Changed(change), problem.nominal.boat.effects}.With(fit.effects);
 }
 
 Identification Augmented(const Identification& old, const AugmentedModel& boat,
                          const EffectFit& fit, const DiagnosisProblem& problem,
                          const UncertainModel& model) {
   Identification augmented = old;
-  const Eigen::MatrixXd covariance =
-      Scaled(RecalibrationOf(fit, problem).covariance, model.StandardErrors());
+  const ResidualMetric::Recalibration recalibration = RecalibrationOf(fit, problem);
+  const Eigen::MatrixXd covariance = Scaled(recalibration.covariance, model.StandardErrors());
   if (model.physical) {
-    ReplacePhysicalParameters(model.ChangedParameters(ChangeOf(fit, problem, model)), model,
-                              covariance, augmented);
+    ReplacePhysicalParameters(
+        model.ChangedParameters(ChangeBy(recalibration, problem.nominal, model)), model, covariance,
+        augmented);
   } else {
     ReplaceCoefficients(boat.model, model, covariance, augmented);
   }

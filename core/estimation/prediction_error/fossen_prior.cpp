@@ -19,7 +19,7 @@ FossenPrior PriorOf(const Vehicle& vehicle) {
     prior.least[At(parameter)] = least;
     prior.greatest[At(parameter)] = greatest;
   };
-  set(kM22, 1.6, 0.8, kLeastSwayMass, 5.0);
+  set(kM22, 1.6, 0.8, 0.7, 5.0);
   set(kM23, 0.0, 0.1 * length, -0.5 * length, 0.5 * length);
   set(kM33, 0.1 * square, 0.1 * square, 0.015 * square, square);
   set(kXu, 0.2, 1.0, 0.0, kNone);

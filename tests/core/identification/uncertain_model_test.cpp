@@ -46,7 +46,7 @@ TEST_F(UncertainPhysicalModel, IsTheBoatOfTheChangedParameters) {
 TEST_F(UncertainPhysicalModel, StaysABoatHoweverItIsChanged) {
   const auto size = static_cast<Eigen::Index>(model_.free.size());
   const FossenVector found = model_.ChangedParameters(Eigen::VectorXd::Constant(size, -1000.0));
-  EXPECT_EQ(found, WithinPhysicalRange(found, testing::kPhysicalBoatSeparation));
+  EXPECT_EQ(found, model_.physical->range.Within(found));
   EXPECT_EQ(found[At(FossenParameter::kXu)], 0.0);
 }
 

@@ -62,24 +62,5 @@ TEST(FossenModel, AMassThatIsNotPositiveDefiniteIsNoBoat) {
   EXPECT_ANY_THROW(FossenDynamics(p, kSeparation));
 }
 
-TEST(WithinPhysicalRange, LeavesABoatAsItIs) {
-  EXPECT_EQ(WithinPhysicalRange(PhysicalBoat(), kSeparation), PhysicalBoat());
-}
-
-// Parameters far beyond what a boat can have: free runs of what is made of them stay finite.
-TEST(WithinPhysicalRange, MakesABoatOfAnything) {
-  for (const double factor : {-10.0, -1.0, 0.0, 10.0}) {
-    const FossenVector p = WithinPhysicalRange(factor * PhysicalBoat(), kSeparation);
-    EXPECT_NO_THROW(FossenDynamics(p, kSeparation)) << factor;
-    for (const FossenParameter drag :
-         {FossenParameter::kXu, FossenParameter::kXuu, FossenParameter::kYv, FossenParameter::kYvv,
-          FossenParameter::kYrv, FossenParameter::kNr, FossenParameter::kNvr,
-          FossenParameter::kNrr}) {
-      EXPECT_GE(p[At(drag)], 0.0) << factor;
-    }
-    EXPECT_GE(p[At(FossenParameter::kM22)], kLeastSwayMass) << factor;
-  }
-}
-
 }  // namespace
 }  // namespace telltale

@@ -149,7 +149,7 @@ TEST(NominalBaseline, OfThePhysicalFormKeepsABoatThatDoesNotDiverge) {
   EXPECT_LE(runs_of_another.Diverging(nominal.boat), runs_of_another.Diverging({model.model, {}}));
   const FossenVector found =
       model.ChangedParameters(nominal.coefficients.cwiseProduct(model.StandardErrors()));
-  EXPECT_EQ(found, WithinPhysicalRange(found, testing::kPhysicalBoatSeparation));
+  EXPECT_EQ(found, model.physical->range.Within(found));
 }
 
 }  // namespace
