@@ -91,6 +91,9 @@ struct EffectFacts {
   double turbulence_time_s = 0.0;
   /// Whether that scatter is the effect: without it, it is another one.
   bool is_intermittent = false;
+  /// Whether one of its parameters that do not shape is one where it acts: an output is stuck or
+  /// not.
+  bool is_all_or_nothing = false;
   /// Whether it is there on most days, beside whatever else acts.
   bool is_weather = false;
 };

@@ -17,7 +17,8 @@ class OutputStuckEffect final : public Effect {
                                {"held_at", "1", 0.5, -1.0, 1.0, true, 0.0}},
                 .settled_by = "the speed of the propellers",
                 .hook = Hook::kCommand,
-                .nominal_variation = NominalVariation::kNone}) {}
+                .nominal_variation = NominalVariation::kNone,
+                .is_all_or_nothing = true}) {}
 
   std::string Describe(EffectValues values) const override {
     const bool is_starboard = values[1] > values[0];

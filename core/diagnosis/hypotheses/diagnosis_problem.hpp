@@ -14,6 +14,7 @@ namespace telltale {
 struct ObservedExcitation {
   SpectralPeak peak;
   Eigen::MatrixXd scatter;  ///< what they add to the covariance of a window's errors, rows x rows
+  std::vector<AccelerationSpectra> nominal;  ///< those of the references, that the peak is beside
 };
 
 /// What the search for the cause of a recording's errors is given: its free runs at the main

@@ -18,6 +18,7 @@ namespace telltale {
 namespace {
 
 constexpr double kInvisible = 1e-12;
+constexpr int kRoundsOfScatter = 4;     // of an intermittent effect and its mean, in turn
 constexpr double kLeastScatter = 1e-4;  // of the variance that an intermittent effect stands for
 
 Minimum LowestFrom(const std::vector<Eigen::VectorXd>& starts, const EffectPosterior& posterior) {
@@ -65,6 +66,16 @@ double LengthOf(const ModelledEffect& modelled) {
     if (!modelled.effect->Parameters()[j].is_shape) squared += value * value;
   }
   return std::sqrt(squared);
+}
+
+/// The largest of those values.
+double LargestOf(const ModelledEffect& modelled) {
+  double largest = 0.0;
+  for (std::size_t j = 0; j < modelled.values.size(); ++j) {
+    if (!modelled.effect->Parameters()[j].is_shape)
+      largest = std::max(largest, std::abs(modelled.values[j]));
+  }
+  return largest;
 }
 
 /// One standard deviation of what gusts: the turbulence intensity times the length of the mean.
@@ -145,6 +156,21 @@ double ScatterDeficit(const EffectFit& steady, const EffectFit& gusty,
   return deficit;
 }
 
+/// The fit once more, allowing for the gusts that its values stand for. Nothing where nothing
+/// gusts.
+std::optional<EffectFit> WithGustsOf(const EffectFit& fit, const ErrorModel& error_model,
+                                     const ResidualMetric& metric, double none) {
+  const Eigen::MatrixXd gusts =
+      GustsOf(fit.effects, fit.errors, error_model, kDiagnosis.horizons.main_s);
+  if (gusts.size() == 0) return std::nullopt;
+  const ResidualMetric widened = metric.WithWindowVariation(gusts);
+  EffectFit gusty = FitWithoutGusts(error_model, widened, none, fit.Effects(), {fit.Values()});
+  gusty.gusts = gusts;
+  gusty.score +=
+      widened.VariationPenalty() - metric.VariationPenalty() + ScatterDeficit(fit, gusty, metric);
+  return gusty;
+}
+
 }  // namespace
 
 std::vector<const Effect*> EffectFit::Effects() const {
@@ -189,6 +215,10 @@ double EffectFit::NegativeLogPrior() const {
   double squares = 0.0;
   for (const ModelledEffect& modelled : Deterministic().effects) {
     const auto& parameters = modelled.effect->Parameters();
+    if (modelled.effect->Facts().is_all_or_nothing) {
+      const double off = (1.0 - LargestOf(modelled)) / kDiagnosis.effect_fit.whole_sd;
+      squares += off * off;
+    }
     for (std::size_t i = 0; i < parameters.size(); ++i) {
       if (!parameters[i].is_shape) continue;
       const double off = (modelled.values[i] - parameters[i].prior_mean) / parameters[i].typical;
@@ -240,21 +270,22 @@ EffectFit FitEffects(const ErrorModel& error_model, const ResidualMetric& metric
                      const std::vector<Eigen::VectorXd>& starts) {
   const double none = metric.SquaredMahalanobis(metric.Whiten(error_model({})));
   EffectFit steady = FitWithoutGusts(error_model, metric, none, effects, starts);
-  const Eigen::MatrixXd gusts =
-      GustsOf(steady.effects, steady.errors, error_model, kDiagnosis.horizons.main_s);
-  if (gusts.size() == 0) return steady;
-  const ResidualMetric widened = metric.WithWindowVariation(gusts);
-  EffectFit gusty = FitWithoutGusts(error_model, widened, none, effects, {steady.Values()});
-  gusty.gusts = gusts;
-  gusty.score += widened.VariationPenalty() - metric.VariationPenalty() +
-                 ScatterDeficit(steady, gusty, metric);
+  std::optional<EffectFit> gusty = WithGustsOf(steady, error_model, metric, none);
+  if (!gusty) return steady;
   const bool is_intermittent =
       std::any_of(effects.begin(), effects.end(),
                   [](const Effect* effect) { return effect->Facts().is_intermittent; });
-  if (!is_intermittent) return gusty.score < steady.score ? gusty : steady;
+  if (!is_intermittent) return gusty->score < steady.score ? *std::move(gusty) : steady;
+  // It scatters as its mean says, and its mean changes once its scatter is allowed for: in turn.
+  EffectFit fit = *std::move(gusty);
+  for (int round = 1; round < kRoundsOfScatter; ++round) {
+    std::optional<EffectFit> next = WithGustsOf(fit, error_model, metric, none);
+    if (!next) break;
+    fit = *std::move(next);
+  }
   // Its scatter is a parameter more.
-  gusty.score += metric.ParameterPenalty();
-  return gusty;
+  fit.score += metric.ParameterPenalty();
+  return fit;
 }
 
 }  // namespace telltale

@@ -52,13 +52,14 @@ class HypothesisSearch {
     std::vector<const Effect*> deterministic;
     std::vector<EffectFit> fits;
     for (const Effect* effect : stochastic_) {
-      fits.push_back(
-          FitStochasticExcitation(*effect, problem_, problem_.metric, problem_.recording.errors));
+      fits.push_back(FitStochasticExcitation(*effect, problem_.excitation, problem_,
+                                             problem_.metric, problem_.recording.errors));
     }
     std::ranges::copy_if(library_, std::back_inserter(deterministic),
                          [](const Effect* effect) { return !effect->IsStochastic(); });
-    const auto ranked = ByScoreTest(deterministic, problem_.recording.errors, problem_.metric);
-    std::vector<EffectFit> fitted(std::min(kSearch.effects_fitted_in_full, ranked.size()));
+    const auto ranked = Promising(kSearch.effects_fitted_in_full, deterministic,
+                                  problem_.recording.errors, problem_.metric);
+    std::vector<EffectFit> fitted(ranked.size());
     std::mutex reporting;
     std::size_t done = 0;
     ForEachIndex(fitted.size(), threads_, [&](std::size_t i) {
@@ -75,15 +76,17 @@ class HypothesisSearch {
   std::vector<EffectFit> WithOneMore(const EffectFit& first,
                                      const std::vector<EffectFit>& singles) const {
     const ResidualMetric metric = first.ScatteredMetric(problem_.metric);
-    const auto ranked = ByScoreTest(SeparableFrom(first, singles), first.errors, metric);
-    std::vector<EffectFit> fitted(std::min(kSearch.candidates_per_seed, ranked.size()));
+    const auto ranked =
+        Promising(kSearch.candidates_per_seed, SeparableFrom(first, singles), first.errors, metric);
+    std::vector<EffectFit> fitted(ranked.size());
     const EffectFit deterministic = first.Deterministic();
     const Effect* stochastic = first.Stochastic();
     ForEachIndex(fitted.size(), threads_, [&](std::size_t i) {
-      // The linearised minimum alone: the other effects start from their fit.
-      const Eigen::VectorXd start =
-          StartsOf(*ranked[i], metric, first.errors, problem_.recording, problem_.parameter_refs)
-              .front();
+      // The linearised minimum alone, or beyond the threshold: the other effects start from their
+      // fit.
+      const auto starts =
+          StartsOf(*ranked[i], metric, first.errors, problem_.recording, problem_.parameter_refs);
+      const Eigen::VectorXd& start = Hides(*ranked[i]) ? starts.back() : starts.front();
       const Eigen::VectorXd values = deterministic.Values();
       Eigen::VectorXd stacked(values.size() + start.size());
       stacked << values, start;
@@ -172,6 +175,25 @@ class HypothesisSearch {
       if (!collinear) others.push_back(effect);
     }
     return others;
+  }
+
+  /// As many effects as `count`, by the evidence that their score test promises, and those beyond
+  /// them that it can say nothing of.
+  std::vector<const Effect*> Promising(std::size_t count, const std::vector<const Effect*>& effects,
+                                       const Eigen::MatrixXd& errors,
+                                       const ResidualMetric& metric) const {
+    auto ranked = ByScoreTest(effects, errors, metric);
+    const auto beyond =
+        ranked.begin() + static_cast<std::ptrdiff_t>(std::min(count, ranked.size()));
+    ranked.erase(
+        std::remove_if(beyond, ranked.end(), [&](const Effect* effect) { return !Hides(*effect); }),
+        ranked.end());
+    return ranked;
+  }
+
+  bool Hides(const Effect& effect) const {
+    return HidesBelowThreshold(effect, problem_.metric, problem_.recording,
+                               problem_.parameter_refs);
   }
 
   /// The effects by the evidence that their score test promises, the most first.

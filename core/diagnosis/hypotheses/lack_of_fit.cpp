@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "telltale/core/base/linear_algebra/eigen_decompositions.hpp"
+#include "telltale/core/base/median.hpp"
 #include "telltale/core/diagnosis/diagnosis_constants.hpp"
 
 namespace telltale {
@@ -44,10 +45,10 @@ double PredictableIn(const Eigen::MatrixXd& errors, const EffectFit& best,
   return std::log(square / remaining);
 }
 
-bool VariesBetweenWindowsAlone(const EffectFit& fit) {
-  return fit.gusts.size() > 0 && std::ranges::all_of(fit.Effects(), [](const Effect* effect) {
-           return !effect->IsStochastic() && effect->Facts().turbulence_time_s == 0.0;
-         });
+/// The median over windows of the mean square of their errors, one a column.
+double MedianSquare(const Eigen::MatrixXd& by_window) {
+  const Eigen::VectorXd squares = by_window.colwise().squaredNorm().transpose();
+  return Median({squares.begin(), squares.end()}) / static_cast<double>(by_window.rows());
 }
 
 }  // namespace
@@ -61,9 +62,10 @@ LackOfFit AssessLackOfFit(const EffectFit& best, const CrossValidatedErrors& cro
   LackOfFit lack_of_fit{.before = metric.ReducedChiSquare(metric.Whiten(problem.recording.errors)),
                         .nominal = std::exp(mean)};
   const ResidualMetric widened = best.WidenedMetric(metric);
-  lack_of_fit.after = widened.ReducedChiSquare(widened.Whiten(cross_validated.errors));
+  const Eigen::VectorXd left = widened.Whiten(cross_validated.errors);
+  lack_of_fit.after = widened.ReducedChiSquare(left);
+  lack_of_fit.median = MedianSquare(widened.UnexplainedByWindow(left));
   lack_of_fit.predictable = PredictableIn(cross_validated.errors, best, problem);
-  lack_of_fit.varies_between_windows = VariesBetweenWindowsAlone(best);
   return lack_of_fit;
 }
 

@@ -10,16 +10,12 @@ struct LackOfFit {
   double before = 1.0;   ///< of the nominal baseline
   double after = 1.0;    ///< of the likeliest hypothesis, cross-validated
   double nominal = 1.0;  ///< of the references, their geometric mean
+  double median = 1.0;   ///< as `after`, of the window that half of the others exceed
   /// ln of the square that the hypothesis leaves over the square that remains once effect sizes
   /// that ridge regression finds on the other fold are subtracted. It is above zero where the same
   /// error recurs in both folds, so that the hypothesis lacks something. It is zero or less where
   /// windows err independently, as in rough weather.
   double predictable = 0.0;
-  /// Whether what the hypothesis lets vary, and `after` allows for, varies between windows and
-  /// never within one, as a current does. Then `after` is about that of the references where the
-  /// hypothesis is right, however strong it is. Gusts, spells and waves take courses through a
-  /// window that the library knows roughly.
-  bool varies_between_windows = false;
 };
 
 /// The lack of fit of the likeliest hypothesis, docs/concepts/diagnosis.md (98). Errors of a

@@ -7,7 +7,6 @@
 #include "telltale/core/diagnosis/diagnosis_constants.hpp"
 #include "telltale/core/diagnosis/hypotheses/effect_fit.hpp"
 #include "telltale/core/diagnosis/hypotheses/effect_parameters.hpp"
-#include "telltale/core/diagnosis/hypotheses/ranking.hpp"
 #include "telltale/core/diagnosis/residuals/gap.hpp"
 #include "telltale/core/uncertainty/distributions.hpp"
 
@@ -32,15 +31,15 @@ double NoncentralTail(double noncentrality, double x) {
 
 /// What a verdict goes by, once an effect explains a part of the errors.
 struct Evidence {
-  double score = 0.0;
+  HypothesisTraits hypothesis;
   LackOfFit lack_of_fit;
 };
 
 /// The days that may follow, of equal probability, and what each asks of an effect.
 class DaysAhead {
  public:
-  DaysAhead(double cost, const ResidualMetric& metric, const DayToDay& days)
-      : cost_(cost), metric_(metric), squared_limit_(days.squared_limit) {
+  DaysAhead(const HypothesisTraits& before, const ResidualMetric& metric, const DayToDay& days)
+      : before_(before), metric_(metric), squared_limit_(days.squared_limit) {
     for (int node = 0; node < kNodes; ++node) {
       const double probability = (node + 0.5) / kNodes;
       const double noise = days.noise.Quantile(probability);
@@ -73,14 +72,14 @@ class DaysAhead {
   };
 
   static bool IsMaterial(const Evidence& evidence) {
-    return AssessGap(0.0, 0.0, 1.0, evidence.score, evidence.lack_of_fit) ==
+    return AssessGap(0.0, 0.0, 1.0, evidence.hypothesis.score, evidence.lack_of_fit) ==
            GapAssessment::kMaterial;
   }
 
   /// Of a single effect, whose shape is as expected.
   static bool IsNamed(const Evidence& evidence) {
-    const double unknown = UnknownProbability(evidence.lack_of_fit, evidence.score, 1, 0.0);
-    const double against_none = 1.0 / (1.0 + std::exp(0.5 * evidence.score));
+    const double unknown = UnknownProbability(evidence.lack_of_fit, evidence.hypothesis);
+    const double against_none = 1.0 / (1.0 + std::exp(0.5 * evidence.hypothesis.score));
     return IsMaterial(evidence) && IsCertain((1.0 - unknown) * against_none);
   }
 
@@ -89,8 +88,13 @@ class DaysAhead {
   double LeastExplained(double noise, double nominal, bool (*is_so)(const Evidence&)) const {
     const auto is_so_at = [&](double square) {
       const double share = square / metric_.ExpectedSquare();
-      return is_so({cost_ - metric_.EffectiveObservations() * std::log1p(share),
-                    {noise * (1.0 + share), noise, nominal, 0.0}});
+      HypothesisTraits hypothesis = before_;
+      hypothesis.score -= metric_.EffectiveObservations() * std::log1p(share);
+      return is_so({hypothesis,
+                    {.before = noise * (1.0 + share),
+                     .after = noise,
+                     .nominal = nominal,
+                     .median = kDiagnosis.ranking.nominal_median * noise}});
     };
     if (is_so_at(0.0)) return 0.0;
     double low = 0.0;
@@ -107,7 +111,7 @@ class DaysAhead {
     return high;
   }
 
-  double cost_;
+  HypothesisTraits before_;  ///< it explains anything
   const ResidualMetric& metric_;
   std::optional<double> squared_limit_;
   std::vector<Day> days_;
@@ -115,9 +119,9 @@ class DaysAhead {
 
 /// By how much an effect has to move the errors further, in square, for PowerOf to reach
 /// kWantedPower.
-double FactorFor(const ErrorShift& shift, double cost, const ResidualMetric& metric,
-                 const DayToDay& days) {
-  const DaysAhead ahead(cost, metric, days);
+double FactorFor(const ErrorShift& shift, const HypothesisTraits& before,
+                 const ResidualMetric& metric, const DayToDay& days) {
+  const DaysAhead ahead(before, metric, days);
   const auto power = [&](double factor) {
     return ahead.PowerOf({factor * shift.noncentrality, factor * shift.squared_gap});
   };
@@ -175,6 +179,7 @@ struct Gate {
   const DayToDay& days;
   double nominal_gain = 0.0;
   double parameters = 1.0;  ///< that are fitted
+  HypothesisTraits traits;  ///< of the effect, its score aside
 };
 
 /// What the score of a parameter of `sizes` typical sizes pays, (89): its prior and the volume that
@@ -197,8 +202,9 @@ std::optional<double> DetectableTowards(double end, const ParameterShift& shift,
   for (int step = 0; step < kSizeSteps; ++step) {
     const ErrorShift moved = shift.At(std::copysign(size, end));
     if (moved.noncentrality <= 0.0) return std::nullopt;
-    const double cost = CostOf(size / parameter.typical, moved.noncentrality, gate);
-    const double ratio = std::sqrt(FactorFor(moved, cost, gate.metric, gate.days));
+    HypothesisTraits before = gate.traits;
+    before.score = CostOf(size / parameter.typical, moved.noncentrality, gate);
+    const double ratio = std::sqrt(FactorFor(moved, before, gate.metric, gate.days));
     if (std::abs(ratio - 1.0) < kSizeTolerance) return size;
     if (size >= std::abs(end) && ratio > 1.0) return std::nullopt;
     size = std::min(size * ratio, std::abs(end));
@@ -265,9 +271,9 @@ DayToDay DayToDayOf(const NominalBaseline& nominal, const std::vector<LeftOutDay
   return days;
 }
 
-double PowerOf(const ErrorShift& shift, double cost, const ResidualMetric& metric,
-               const DayToDay& days) {
-  return DaysAhead(cost, metric, days).PowerOf(shift);
+double PowerOf(const ErrorShift& shift, const HypothesisTraits& before,
+               const ResidualMetric& metric, const DayToDay& days) {
+  return DaysAhead(before, metric, days).PowerOf(shift);
 }
 
 std::vector<DetectableSize> DetectableSizesOf(const Effect& effect, const DiagnosisProblem& problem,
@@ -275,8 +281,12 @@ std::vector<DetectableSize> DetectableSizesOf(const Effect& effect, const Diagno
                                               double nominal_gain) {
   std::vector<DetectableSize> sizes;
   if (effect.IsStochastic()) return sizes;
+  EffectFit alone;
+  alone.effects = {At({&effect, 0}, 0.0)};
+  HypothesisTraits traits = TraitsOf(alone);
+  traits.negative_log_prior = 0.0;  // its shape is as expected
   const Gate gate{problem.metric, days, nominal_gain,
-                  static_cast<double>(effect.Parameters().size())};
+                  static_cast<double>(effect.Parameters().size()), traits};
   for (std::size_t place = 0; place < effect.Parameters().size(); ++place) {
     if (effect.Parameters()[place].is_shape) continue;
     sizes.push_back(DetectableSizeOf(effect, place, problem, scale, gate));

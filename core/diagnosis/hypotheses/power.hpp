@@ -7,6 +7,7 @@
 
 #include "telltale/core/diagnosis/diagnosis.hpp"
 #include "telltale/core/diagnosis/hypotheses/diagnosis_problem.hpp"
+#include "telltale/core/diagnosis/hypotheses/ranking.hpp"
 #include "telltale/core/effects/effect.hpp"
 
 namespace telltale {
@@ -42,10 +43,10 @@ struct ErrorShift {
 };
 
 /// The probability that the verdict calls one parameter of an effect, docs/concepts/diagnosis.md
-/// (99): it names the effect, or a gap beyond `days.squared_limit`. `cost`: what the score has to
-/// overcome besides the gate, in -2 ln.
-double PowerOf(const ErrorShift& shift, double cost, const ResidualMetric& metric,
-               const DayToDay& days);
+/// (99): it names the effect, or a gap beyond `days.squared_limit`. `before`: the effect as a
+/// hypothesis before it explains anything, whose score has to be overcome besides the gate.
+double PowerOf(const ErrorShift& shift, const HypothesisTraits& before,
+               const ResidualMetric& metric, const DayToDay& days);
 
 /// The smallest size of each parameter that does not shape, with the others at their prior means,
 /// that this recording, model and references show with kDiagnosis.testability.power; of either sign

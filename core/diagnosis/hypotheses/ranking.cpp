@@ -52,23 +52,34 @@ std::vector<std::string> RankedHypothesis::Indistinguishable() const {
   return others;
 }
 
-double UnknownProbability(const LackOfFit& lack_of_fit, double score, std::size_t faults,
-                          double negative_log_prior) {
+HypothesisTraits TraitsOf(const EffectFit& fit) {
+  HypothesisTraits traits{.score = fit.score,
+                          .negative_log_prior = fit.NegativeLogPrior(),
+                          .is_weather = fit.Faults() == 0,
+                          .is_stochastic = fit.Stochastic() != nullptr};
+  for (const Effect* effect : fit.Effects()) {
+    const EffectFacts& facts = effect->Facts();
+    traits.drifts |= facts.turbulence_intensity > 0.0 && facts.turbulence_time_s == 0.0;
+    traits.is_intermittent |= facts.is_intermittent;
+  }
+  return traits;
+}
+
+double UnknownProbability(const LackOfFit& lack_of_fit, const HypothesisTraits& hypothesis) {
   const double excess = lack_of_fit.after - lack_of_fit.nominal;
   const double before = std::max(lack_of_fit.before - lack_of_fit.nominal, excess);
-  const double unresolved = UnresolvedShare(score);
+  const double unresolved = UnresolvedShare(hypothesis.score);
   const double share = before > 0.0 ? std::max(excess / before, unresolved) : unresolved;
   const double misfit = std::log(lack_of_fit.after / lack_of_fit.nominal);
-  const double beyond_scatter = lack_of_fit.varies_between_windows
-                                    ? std::max(misfit - kRanking.scattered_log_lack_of_fit, 0.0)
-                                    : 0.0;
-  const double extra = faults > 1 ? static_cast<double>(faults - 1) : 0.0;
-  const double penalty = kRanking.doubt_per_extra_effect * extra +
-                         kRanking.doubt_per_predictable * std::max(lack_of_fit.predictable, 0.0) +
-                         kRanking.doubt_per_scattered * beyond_scatter;
-  return Logistic(kRanking.doubt_slope *
-                      (std::log(share) + misfit - kRanking.doubt_midpoint + penalty) +
-                  negative_log_prior);
+  const DoubtConstants& doubt =
+      hypothesis.is_weather ? kRanking.doubt_of_weather : kRanking.doubt_of_faults;
+  return Logistic(doubt.base + doubt.per_log_share * std::log(share) + doubt.per_misfit * misfit +
+                  doubt.per_median_misfit * std::log(lack_of_fit.median / lack_of_fit.nominal) +
+                  doubt.per_predictable * std::max(lack_of_fit.predictable, 0.0) +
+                  doubt.per_negative_log_prior * hypothesis.negative_log_prior +
+                  (hypothesis.drifts ? doubt.of_drift : 0.0) +
+                  (hypothesis.is_stochastic ? doubt.of_waves : 0.0) +
+                  (hypothesis.is_intermittent ? doubt.of_intermittence : 0.0));
 }
 
 bool IsCertain(double probability) {
@@ -96,9 +107,7 @@ Ranking Rank(const Hypotheses& hypotheses, const ResidualMetric& metric,
     equivalent->probability += own;
     equivalent->equivalent.push_back(fit);
   }
-  const EffectFit& first = all.front();
-  ranking.unknown =
-      UnknownProbability(lack_of_fit, first.score, first.Faults(), first.NegativeLogPrior());
+  ranking.unknown = UnknownProbability(lack_of_fit, TraitsOf(all.front()));
   const double known = (1.0 - ranking.unknown) / total;
   ranking.no_effect *= known;
   for (RankedHypothesis& ranked : ranking.fits) ranked.probability *= known;

@@ -34,11 +34,25 @@ struct Ranking {
 Ranking Rank(const Hypotheses& hypotheses, const ResidualMetric& metric,
              const LackOfFit& lack_of_fit);
 
-/// Probability that the cause is another than a hypothesis of `faults` effects, weather apart, with
-/// this score. It grows with what the hypothesis leaves, with the number of faults, with what is
-/// predictable in its errors, and with the negative log prior of its shape parameters.
-double UnknownProbability(const LackOfFit& lack_of_fit, double score, std::size_t faults,
-                          double negative_log_prior);
+/// What a hypothesis is, besides what it leaves.
+struct HypothesisTraits {
+  double score = 0.0;
+  double negative_log_prior = 0.0;  ///< of its shape parameters
+  bool is_weather = false;          ///< and no fault of the boat
+  /// Whether one of its effects varies between windows and never within one, as a current does;
+  /// whether one is stochastic; whether one is intermittent. What is allowed for hides what else
+  /// there is.
+  bool drifts = false;
+  bool is_stochastic = false;
+  bool is_intermittent = false;
+};
+
+HypothesisTraits TraitsOf(const EffectFit& fit);
+
+/// Probability that the cause is another than such a hypothesis. It grows with what the hypothesis
+/// leaves, with what is predictable in its errors, with its negative log prior, and where it allows
+/// for what varies.
+double UnknownProbability(const LackOfFit& lack_of_fit, const HypothesisTraits& hypothesis);
 
 /// Whether a cause of this probability is named.
 bool IsCertain(double probability);

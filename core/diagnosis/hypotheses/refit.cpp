@@ -9,7 +9,8 @@ EffectFit Refit(const EffectFit& fit, const DiagnosisProblem& problem,
   const EffectFit deterministic = fit.Deterministic();
   const Effect* stochastic = fit.Stochastic();
   if (deterministic.effects.empty())
-    return FitStochasticExcitation(*stochastic, problem, metric, problem.recording.errors);
+    return FitStochasticExcitation(*stochastic, problem.excitation, problem, metric,
+                                   problem.recording.errors);
   const auto effects = deterministic.Effects();
   const Eigen::VectorXd values = deterministic.Values();
   if (stochastic != nullptr) return FitBeside(*stochastic, problem, metric, effects, values);

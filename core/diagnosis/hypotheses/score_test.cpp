@@ -95,13 +95,27 @@ std::vector<Eigen::VectorXd> StartsOf(const Effect& effect, const ResidualMetric
   if (estimate.columns.size() != 1) return starts;
   const EffectParameterRef& ref = parameter_refs[static_cast<std::size_t>(estimate.columns[0])];
   const EffectParameter& parameter = effect.Parameters()[ref.parameter];
-  for (const double size : {parameter.typical, -parameter.typical}) {
+  std::vector<double> sizes = {parameter.typical, -parameter.typical};
+  if (HidesBelowThreshold(effect, metric, recording, parameter_refs)) {
+    sizes.push_back(kDiagnosis.effect_fit.beyond_threshold * parameter.typical);
+  }
+  for (const double size : sizes) {
     if (size < parameter.lower || size > parameter.upper) continue;
     Eigen::VectorXd start = prior_mean;
     start[static_cast<Eigen::Index>(ref.parameter)] = size;
     starts.push_back(start);
   }
   return starts;
+}
+
+bool HidesBelowThreshold(const Effect& effect, const ResidualMetric& metric,
+                         const Sensitivity& recording,
+                         const std::vector<EffectParameterRef>& parameter_refs) {
+  const auto parameters = effect.Parameters();
+  if (parameters.size() != 1 || parameters.front().lower < 0.0) return false;
+  const Eigen::MatrixXd whitened = metric.WhitenColumns(
+      recording.by_effect_parameter(Eigen::all, ColumnsOf(effect, parameter_refs)));
+  return metric.Sigmas(whitened.col(0)) < kDiagnosis.testability.detectable_sigmas;
 }
 
 double ScoreTest(const Effect& effect, const ResidualMetric& metric, const Eigen::MatrixXd& errors,

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "telltale/core/diagnosis/diagnosis_constants.hpp"
 #include "telltale/core/diagnosis/residuals/frequency_response.hpp"
@@ -90,6 +91,20 @@ Eigen::MatrixXd ScatterOfPeak(SpectralPeak peak, const FreeRuns& runs, const Aug
   return ErrorCovarianceOf(peak, runs, boat, errors);
 }
 
+/// The peak over the references' spectra, and the scatter by it.
+ObservedExcitation ExcitationOver(std::vector<AccelerationSpectra> nominal, const Effect& effect,
+                                  const FreeRuns& runs, const AugmentedModel& boat,
+                                  const Eigen::MatrixXd& errors) {
+  const EffectParameter& frequency = effect.Parameters()[3];
+  ObservedExcitation observed;
+  observed.peak = LikeliestPeak(AccelerationSpectraOf(runs.Dataset(), boat), nominal,
+                                frequency.lower, frequency.upper);
+  observed.scatter = observed.peak.gain > 0.0 ? ScatterOfPeak(observed.peak, runs, boat, errors)
+                                              : Eigen::MatrixXd::Zero(errors.rows(), errors.rows());
+  observed.nominal = std::move(nominal);
+  return observed;
+}
+
 /// What gusts add to the mean square of each row.
 Eigen::VectorXd GustMeanSquares(const EffectFit& fit, const FreeRuns& runs,
                                 const AugmentedModel& boat) {
@@ -113,18 +128,20 @@ ObservedExcitation ObservedExcitationOf(std::span<const Effect* const> library,
   for (const PreparedDataset& reference : references) {
     nominal.push_back(AccelerationSpectraOf(reference, boat));
   }
-  const EffectParameter& frequency = (*effect)->Parameters()[3];
-  ObservedExcitation observed;
-  observed.peak = LikeliestPeak(AccelerationSpectraOf(runs.Dataset(), boat), nominal,
-                                frequency.lower, frequency.upper);
-  observed.scatter = observed.peak.gain > 0.0 ? ScatterOfPeak(observed.peak, runs, boat, errors)
-                                              : Eigen::MatrixXd::Zero(errors.rows(), errors.rows());
-  return observed;
+  return ExcitationOver(std::move(nominal), **effect, runs, boat, errors);
 }
 
-EffectFit FitStochasticExcitation(const Effect& effect, const DiagnosisProblem& problem,
-                                  const ResidualMetric& metric, const Eigen::MatrixXd& left) {
-  const ObservedExcitation& observed = problem.excitation;
+ObservedExcitation ExcitationBeside(const Effect& stochastic,
+                                    const std::vector<ModelledEffect>& effects,
+                                    const DiagnosisProblem& problem) {
+  const AugmentedModel boat = problem.nominal.boat.With(effects);
+  return ExcitationOver(problem.excitation.nominal, stochastic, problem.runs, boat,
+                        problem.runs.Errors(boat));
+}
+
+EffectFit FitStochasticExcitation(const Effect& effect, const ObservedExcitation& observed,
+                                  const DiagnosisProblem& problem, const ResidualMetric& metric,
+                                  const Eigen::MatrixXd& left) {
   const double factor = LikeliestFactor(observed.scatter, metric, left);
   const SpectralPeak peak = Scaled(observed.peak, factor);
   EffectFit fit;
@@ -148,9 +165,12 @@ EffectFit FitBeside(const Effect& stochastic, const DiagnosisProblem& problem,
   const auto fit_given = [&](const EffectFit& scatter, const Eigen::VectorXd& from) {
     return FitEffects(error_model, scatter.ScatteredMetric(metric), effects, {from});
   };
-  const EffectFit first = fit_given(
-      FitStochasticExcitation(stochastic, problem, metric, problem.recording.errors), start);
-  const EffectFit left = FitStochasticExcitation(stochastic, problem, metric, first.errors);
+  const EffectFit first = fit_given(FitStochasticExcitation(stochastic, problem.excitation, problem,
+                                                            metric, problem.recording.errors),
+                                    start);
+  const EffectFit left =
+      FitStochasticExcitation(stochastic, ExcitationBeside(stochastic, first.effects, problem),
+                              problem, metric, first.errors);
   return Together(fit_given(left, first.Values()), left);
 }
 

@@ -19,17 +19,24 @@ ObservedExcitation ObservedExcitationOf(std::span<const Effect* const> library,
                                         const std::vector<PreparedDataset>& references,
                                         const AugmentedModel& boat, const Eigen::MatrixXd& errors);
 
-/// An effect whose accelerations are random: free runs cannot predict it, but their errors scatter
-/// more, by the problem's excitation, docs/concepts/diagnosis.md (90). The errors stay as they are.
-/// Errors of windows grow most by the lowest frequencies of a peak, of which its spectrum shows
-/// least: the scatter is that of the spectrum times the likeliest factor for `left`, the errors
-/// that other effects leave. The score is the evidence for the scatter, and no more than what the
-/// peak itself gains. Requires: a stochastic effect.
-EffectFit FitStochasticExcitation(const Effect& effect, const DiagnosisProblem& problem,
-                                  const ResidualMetric& metric, const Eigen::MatrixXd& left);
+/// The same of what `effects` leave. A current moves a boat at the frequency at which it turns, and
+/// at harmonics of it: to the boat that knows of no current that is a peak.
+ObservedExcitation ExcitationBeside(const Effect& stochastic,
+                                    const std::vector<ModelledEffect>& effects,
+                                    const DiagnosisProblem& problem);
 
-/// Deterministic effects together with a stochastic one: fitted to errors that scatter as it says,
-/// and once more with the scatter that they leave.
+/// An effect whose accelerations are random: free runs cannot predict it, but their errors scatter
+/// more, as observed, docs/concepts/diagnosis.md (90). The errors stay as they are. Errors of
+/// windows grow most by the lowest frequencies of a peak, of which its spectrum shows least: the
+/// scatter is that of the spectrum times the likeliest factor for `left`, the errors that other
+/// effects leave. The score is the evidence for the scatter, and no more than what the peak itself
+/// gains. Requires: a stochastic effect.
+EffectFit FitStochasticExcitation(const Effect& effect, const ObservedExcitation& observed,
+                                  const DiagnosisProblem& problem, const ResidualMetric& metric,
+                                  const Eigen::MatrixXd& left);
+
+/// Deterministic effects together with a stochastic one: fitted to errors that scatter as the
+/// problem's excitation says, and once more with the excitation and the scatter that they leave.
 EffectFit FitBeside(const Effect& stochastic, const DiagnosisProblem& problem,
                     const ResidualMetric& metric, const std::vector<const Effect*>& effects,
                     const Eigen::VectorXd& start);

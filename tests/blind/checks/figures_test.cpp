@@ -183,7 +183,10 @@ TEST(Figures, CountWrongNamesGivenWithoutTheTrueEffect) {
     scored.left_out = Answer("single", {}, verdict, {cause}).report;
     return scored;
   };
+  Scored in_waves = left_out({}, "EXPLAINED", Named({"waves"}, 0.9));
+  in_waves.label.weather = {"waves"};
   const Figures figures = FiguresOf({
+      in_waves,
       left_out({}, "EXPLAINED", Named({"current"}, 0.9)),
       left_out({}, "EXPLAINED", Named({"payload"}, 0.9)),
       left_out({}, "EXPLAINED", Named({"current", "payload"}, 0.9)),
@@ -194,10 +197,11 @@ TEST(Figures, CountWrongNamesGivenWithoutTheTrueEffect) {
       left_out({}, "NO_MATERIAL_GAP", Named({"current"}, 0.9)),
       Answer("single", {"wind"}, "EXPLAINED", {Named({"current"}, 0.9)}),
   });
-  EXPECT_EQ(figures.confidently_wrong.hits, 4u);
-  EXPECT_EQ(figures.confidently_wrong.all, 7u) << "a gap has to be seen";
-  EXPECT_EQ(figures.unrelated_named.hits, 1u) << "wind and current are known to look alike";
-  EXPECT_EQ(figures.unrelated_named.all, 7u);
+  EXPECT_EQ(figures.confidently_wrong.hits, 5u);
+  EXPECT_EQ(figures.confidently_wrong.all, 8u) << "a gap has to be seen";
+  EXPECT_EQ(figures.unrelated_named.hits, 2u) << "wind and current are known to look alike";
+  EXPECT_EQ(figures.unrelated_named.all, 8u);
+  EXPECT_EQ(figures.absent_named.hits, 1u) << "the waves are there";
   EXPECT_EQ(figures.indistinguishable_named.hits, 1u);
 }
 

@@ -130,8 +130,10 @@ void CountLeftOut(Figures& figures, const Scored& scored) {
   const bool sure =
       first && !IsUnknown(*first) && first->probability > 0.5 && IsSure(*scored.left_out);
   const bool neighbour = first && IsNeighbour(*first, scored);
+  const bool unrelated = sure && !neighbour && !IsConfusable(*first, scored.label.effects);
   figures.confidently_wrong.Count(sure && !neighbour);
-  figures.unrelated_named.Count(sure && !neighbour && !IsConfusable(*first, scored.label.effects));
+  figures.unrelated_named.Count(unrelated);
+  figures.absent_named.Count(unrelated && !IsWeatherThatIsThere(first, scored.label));
   figures.indistinguishable_named.Count(neighbour);
 }
 

@@ -94,6 +94,7 @@ struct Figures {
   Rate half_pairs;     // at least one of the two
   Rate confidently_wrong;        // true effect left out, gap seen: the verdict names one unlike it
   Rate unrelated_named;          // of all that too, by nothing that is known to look like it either
+  Rate absent_named;             // of these, by more than the weather that is there
   Rate indistinguishable_named;  // likewise, by one that the report with it cannot tell it from
   std::vector<Forecast> forecasts;               // of each first cause there was
   std::vector<double> closures;                  // predicted, where a class was hit

@@ -81,6 +81,8 @@ std::vector<Row> Rows() {
        [](const Figures& f) { return WithBound(f.confidently_wrong); }},
       {"of them by none that is known to look like it",
        [](const Figures& f) { return WithBound(f.unrelated_named); }},
+      {"of these by more than the weather that is there",
+       [](const Figures& f) { return WithBound(f.absent_named); }},
       {"true effect left out: one of its class named",
        [](const Figures& f) { return InWords(f.indistinguishable_named); }},
       {"Brier (forecasts)", [](const Figures& f) { return OfForecasts(Brier, f); }},

@@ -157,14 +157,52 @@ TEST(FitEffects, AnIntermittentEffectKeepsItsScatter) {
   EXPECT_LT(FitWithScatter(1.5, intermittent).score, FitWithScatter(1.5, steady).score);
 }
 
-// Where both keep the same scatter, and there is as much of it as they stand for. n is half an
+// Where both keep the same scatter, there is as much of it as they stand for, and the mean is the
+// same whether it is allowed for or not: all windows show the effect alike. n is half an
 // observation a window.
 TEST(FitEffects, TheScatterOfAnIntermittentEffectCostsAParameter) {
-  const std::vector<EffectParameter> size = {{"size", "1", 1.0, -10.0, 10.0}};
+  const std::vector<EffectParameter> size = {{"size", "1", 100.0, -10.0, 10.0}};
   const testing::InertEffect gusty("gusty", size, 1.0);
   const testing::InertEffect intermittent("intermittent", size, 1.0, true);
-  EXPECT_NEAR(FitWithScatter(3.0, intermittent).score - FitWithScatter(3.0, gusty).score,
-              std::log(0.5 * static_cast<double>(kWindows)), 1e-9);
+  const Eigen::VectorXd pattern = testing::Pattern(kRows, 1, 0.7);
+  const ErrorModel error_model = [&](const std::vector<ModelledEffect>& effects) {
+    const double v = effects.empty() ? 0.0 : effects.front().values.front();
+    Eigen::MatrixXd errors(kRows, kWindows);
+    for (Eigen::Index w = 0; w < kWindows; ++w) {
+      errors.col(w) = (v - (w % 2 == 0 ? 5.0 : -1.0)) * pattern;
+    }
+    return errors;
+  };
+  const auto score_of = [&](const Effect& effect) {
+    return FitEffects(error_model, UnitMetric(), {&effect}, {Eigen::VectorXd::Constant(1, 1.0)})
+        .score;
+  };
+  // The mean moves by a millionth of its standard error, by the prior.
+  EXPECT_NEAR(score_of(intermittent) - score_of(gusty),
+              std::log(0.5 * static_cast<double>(kWindows)), 1e-3);
+}
+
+// Windows where the effect is ten times as large show it ten times as well. Where the size may
+// differ all windows count, so that the mean is 2.2 rather than 4; and what is allowed for is that
+// of 2.2.
+TEST(FitEffects, AnIntermittentEffectScattersAsItsMeanSays) {
+  const testing::InertEffect intermittent("intermittent", {{"size", "1", 100.0, -10.0, 10.0}}, 1.0,
+                                          true);
+  Eigen::MatrixXd pattern = 100.0 * testing::Pattern(kRows, kWindows, 0.7);
+  for (Eigen::Index w = 1; w < kWindows; w += 2) pattern.col(w) /= 10.0;
+  const ErrorModel error_model = [&](const std::vector<ModelledEffect>& effects) {
+    const double v = effects.empty() ? 0.0 : effects.front().values.front();
+    Eigen::MatrixXd errors = testing::Pattern(kRows, kWindows, 2.3);
+    for (Eigen::Index w = 0; w < kWindows; ++w) {
+      errors.col(w) += (v - (w % 2 == 0 ? 4.0 : 0.4)) * pattern.col(w);
+    }
+    return errors;
+  };
+  const EffectFit fit =
+      FitEffects(error_model, UnitMetric(), {&intermittent}, {Eigen::VectorXd::Constant(1, 1.0)});
+  ASSERT_EQ(fit.gusts.cols(), 1);
+  EXPECT_NEAR(fit.effects[0].values[0], 2.2, 0.1);
+  EXPECT_NEAR(fit.gusts.norm() / pattern.norm(), fit.effects[0].values[0], 0.1);
 }
 
 /// An acceleration ahead of its own value, with gusts of a fifth that last 4 s.
@@ -235,6 +273,18 @@ TEST(EffectFit, NegativeLogPriorCountsShapesInStandardDeviations) {
   EXPECT_EQ(fit.NegativeLogPrior(), 0.0);
   fit.effects.front().values[1] = forward.prior_mean + 3.0 * forward.typical;
   EXPECT_NEAR(fit.NegativeLogPrior(), 4.5, 1e-12);
+}
+
+// An output is stuck or not: one that seems to be a third stuck is something else, whichever side.
+TEST(EffectFit, NegativeLogPriorDoubtsWhatIsThereInPart) {
+  constexpr double kSd = 0.1;
+  EffectFit fit;
+  fit.effects = {{FindEffect("output_stuck"), {0.01, 1.0, 0.0}}};
+  EXPECT_NEAR(fit.NegativeLogPrior(), 0.0, 1e-12);
+  for (const auto& [port, starboard] : {std::pair(0.7, 0.0), std::pair(0.0, 0.7)}) {
+    fit.effects.front().values = {port, starboard, 0.0};
+    EXPECT_NEAR(fit.NegativeLogPrior(), 0.5 * 0.3 * 0.3 / (kSd * kSd), 1e-12);
+  }
 }
 
 TEST(EffectFit, StacksTheValuesOfItsEffects) {

@@ -85,15 +85,14 @@ TEST(SeedsOf, LeaveOutWavesWithoutEvidence) {
               ::testing::UnorderedElementsAre("wind", "current"));
 }
 
-/// A search among three effects, by a baseline whose errors are independent with the mean squares
-/// of a nominal recording.
+/// A search by a baseline whose errors are independent with the mean squares of a nominal
+/// recording.
 class SearchTest : public ::testing::Test {
  protected:
-  static Hypotheses Found(const std::vector<ModelledEffect>& effects) {
+  static Hypotheses Found(const std::vector<ModelledEffect>& effects,
+                          std::span<const Effect* const> library) {
     const testing::ShortRecording nominal_recording;
     const testing::ShortRecording short_recording(120.0, effects);
-    const std::vector<const Effect*> library = {
-        FindEffect("thruster_lag"), FindEffect("heading_bias"), FindEffect("thrust_gain")};
     const auto parameter_refs = EffectParameterRefsOf(library);
     const FreeRuns& runs = short_recording.runs;
     const UncertainModel& model = short_recording.model;
@@ -112,10 +111,15 @@ class SearchTest : public ::testing::Test {
     return Search({runs, nominal, recording, metric, parameter_refs, no_excitation}, library, 2, 2,
                   [](double) {});
   }
+
+  static Hypotheses FoundAmongThree(const std::vector<ModelledEffect>& effects) {
+    return Found(effects, std::vector{FindEffect("thruster_lag"), FindEffect("heading_bias"),
+                                      FindEffect("thrust_gain")});
+  }
 };
 
 TEST_F(SearchTest, FindsTheOneEffectThatActs) {
-  const Hypotheses found = Found({{FindEffect("thrust_gain"), {0.3}}});
+  const Hypotheses found = FoundAmongThree({{FindEffect("thrust_gain"), {0.3}}});
   ASSERT_FALSE(found.singles.empty());
   EXPECT_EQ(found.singles.front().Names(), std::vector<std::string>{"thrust_gain"});
   EXPECT_NEAR(found.singles.front().effects[0].values[0], 0.3, 0.05);
@@ -124,10 +128,41 @@ TEST_F(SearchTest, FindsTheOneEffectThatActs) {
 
 TEST_F(SearchTest, FindsBothEffectsThatActTogether) {
   const Hypotheses found =
-      Found({{FindEffect("thrust_gain"), {0.3}}, {FindEffect("heading_bias"), {0.12}}});
+      FoundAmongThree({{FindEffect("thrust_gain"), {0.3}}, {FindEffect("heading_bias"), {0.12}}});
   ASSERT_FALSE(found.combined.empty());
   EXPECT_THAT(found.combined.front().Names(),
               ::testing::UnorderedElementsAre("thrust_gain", "heading_bias"));
+}
+
+/// Commands cut off at 1.2 less its size: at its typical size of 0.2 it does nothing.
+class DeepCut final : public Effect {
+ public:
+  DeepCut()
+      : Effect({.name = "deep_cut",
+                .title = "",
+                .equation = "",
+                .source = "",
+                .parameters = {{"cut", "1", 0.2, 0.0, 1.1}},
+                .settled_by = "",
+                .hook = Hook::kCommand}) {}
+  std::string Describe(EffectValues) const override { return "deep cut"; }
+  double Command(EffectValues values, Side, double delta) const override {
+    return std::clamp(delta, values[0] - 1.2, 1.2 - values[0]);
+  }
+};
+
+// The score test there ranks it behind everything that moves the boat at all, of which more is
+// known than is fitted in full.
+TEST_F(SearchTest, FindsWhatShowsAboveAThresholdAlone) {
+  const DeepCut deep_cut;
+  std::vector<const Effect*> library;
+  std::ranges::copy_if(EffectLibrary(), std::back_inserter(library), [](const Effect* effect) {
+    return !effect->IsStochastic() && effect->Name() != "thruster_saturation";
+  });
+  library.push_back(&deep_cut);
+  const Hypotheses found = Found({{&deep_cut, {0.5}}}, library);
+  EXPECT_EQ(found.singles.front().Names(), std::vector<std::string>{"deep_cut"});
+  EXPECT_NEAR(found.singles.front().effects[0].values[0], 0.5, 0.05);
 }
 
 }  // namespace

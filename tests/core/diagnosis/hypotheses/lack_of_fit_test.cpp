@@ -43,6 +43,16 @@ TEST_F(LackOfFitTest, OfANominalBoatIsThatOfTheReferences) {
   EXPECT_LT(left.predictable, 0.05);
 }
 
+/// One window of ten errs ten times as much.
+TEST_F(LackOfFitTest, FewBadWindowsLeaveTheMedian) {
+  Eigen::MatrixXd errors = recording_.errors;
+  for (Eigen::Index w = 0; w < errors.cols(); w += 10) errors.col(w) *= 10.0;
+  const LackOfFit nominal = Left(recording_.errors);
+  const LackOfFit left = Left(errors);
+  EXPECT_GT(left.after, 3.0 * nominal.after);
+  EXPECT_LT(left.median, 2.0 * nominal.median);
+}
+
 /// Half a typical size of one effect, left throughout the recording.
 TEST_F(LackOfFitTest, IsPredictableWhereTheErrorIsTheSameEverywhere) {
   for (const char* effect : {"heading_bias", "thrust_gain", "antenna_lever_arm"}) {

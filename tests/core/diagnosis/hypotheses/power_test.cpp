@@ -10,6 +10,7 @@
 
 #include "support/hand_made_diagnosis.hpp"
 #include "telltale/core/base/random.hpp"
+#include "telltale/core/diagnosis/diagnosis_constants.hpp"
 #include "telltale/core/diagnosis/hypotheses/effect_fit.hpp"
 #include "telltale/core/diagnosis/hypotheses/lack_of_fit.hpp"
 #include "telltale/core/diagnosis/hypotheses/ranking.hpp"
@@ -48,9 +49,11 @@ class PowerTest : public ::testing::Test {
   /// explains so much.
   bool IsCalled(double before, double explained, double squared_gap, double cost,
                 const DayToDay& days) const {
-    const LackOfFit lack_of_fit{before / metric_.ExpectedSquare(),
-                                (before - explained) / metric_.ExpectedSquare(),
-                                std::exp(days.log_nominal), 0.0};
+    const double after = (before - explained) / metric_.ExpectedSquare();
+    const LackOfFit lack_of_fit{.before = before / metric_.ExpectedSquare(),
+                                .after = after,
+                                .nominal = std::exp(days.log_nominal),
+                                .median = kDiagnosis.ranking.nominal_median * after};
     EffectFit fit;
     fit.effects = {{&effect_, {1.0}}};
     fit.score = metric_.Deviance(before - explained, before) + cost;
@@ -92,7 +95,7 @@ class PowerTest : public ::testing::Test {
     };
     for (int i = 0; i < 60; ++i) {
       const double middle = 0.5 * (low + high);
-      (PowerOf(at(middle), cost, metric_, Days()) < kPower ? low : high) = middle;
+      (PowerOf(at(middle), {.score = cost}, metric_, Days()) < kPower ? low : high) = middle;
     }
     return at(high);
   }
@@ -121,7 +124,8 @@ TEST_F(PowerTest, IsTheShareOfRecordingsThatAreCalled) {
   for (const double cost : {1.0, 6.0, 60.0}) {
     for (const double share : {0.3, 0.8, 1.2}) {
       const ErrorShift shift{share * metric_.ExpectedSquare(), share};
-      EXPECT_NEAR(ShareCalled(shift, cost), PowerOf(shift, cost, metric_, Days()), kTolerance)
+      EXPECT_NEAR(ShareCalled(shift, cost), PowerOf(shift, {.score = cost}, metric_, Days()),
+                  kTolerance)
           << "cost " << cost << ", share " << share;
     }
   }
@@ -149,15 +153,17 @@ TEST_F(PowerTest, DaysThatErrMoreWhereTheyTakeNoPartAskForLargerEffects) {
 
 TEST_F(PowerTest, NothingIsCalledAsOftenAsTheLimitLeaves) {
   left_out_ = {{1.7, 1.0}, {0.7, 1.0}, {0.8, 1.0}, {1.4, 1.0}};
-  EXPECT_LE(PowerOf({0.0, 0.0}, 6.0, metric_, Days()), 0.05 + kTolerance);
+  EXPECT_LE(PowerOf({0.0, 0.0}, {.score = 6.0}, metric_, Days()), 0.05 + kTolerance);
 }
 
 TEST_F(PowerTest, GrowsWithTheEffectAndFallsWithTheCost) {
   const double expected = metric_.ExpectedSquare();
   const ErrorShift smaller{0.5 * expected, 0.5};
   const ErrorShift larger{0.9 * expected, 0.9};
-  EXPECT_LT(PowerOf(smaller, 5.0, metric_, Days()), PowerOf(larger, 5.0, metric_, Days()));
-  EXPECT_LE(PowerOf(smaller, 9.0, metric_, Days()), PowerOf(smaller, 5.0, metric_, Days()));
+  EXPECT_LT(PowerOf(smaller, {.score = 5.0}, metric_, Days()),
+            PowerOf(larger, {.score = 5.0}, metric_, Days()));
+  EXPECT_LE(PowerOf(smaller, {.score = 9.0}, metric_, Days()),
+            PowerOf(smaller, {.score = 5.0}, metric_, Days()));
 }
 
 TEST_F(PowerTest, TheDaysAreThoseLeftOut) {

@@ -76,7 +76,7 @@ TEST(ScoreTest, IsZeroForAnEffectOrthogonalToTheErrors) {
 }
 
 TEST(StartsOf, HoldBothSignsOfTheTypicalSizeWhereTheRangeHasThem) {
-  const Eigen::MatrixXd column = testing::Pattern(kScoreRows, kScoreWindows, 0.7);
+  const Eigen::MatrixXd column = 10.0 * testing::Pattern(kScoreRows, kScoreWindows, 0.7);
   const Eigen::MatrixXd errors = -3.0 * column;
   const testing::InertEffect both("both", {{"size", "1", 0.5, -10.0, 10.0}});
   const Linearised of_both(both, {column}, errors);
@@ -93,6 +93,25 @@ TEST(StartsOf, HoldBothSignsOfTheTypicalSizeWhereTheRangeHasThem) {
                      of_positive.parameter_refs)
                 .size(),
             2U);
+}
+
+// Its typical size moves the errors by less than three sigmas: it may be larger.
+TEST(StartsOf, LieBeyondTheThresholdOfAnEffectThatHides) {
+  const Eigen::MatrixXd pattern = testing::Pattern(kScoreRows, kScoreWindows, 0.7);
+  const testing::InertEffect positive("positive", {{"size", "1", 0.5, 0.0, 10.0}});
+  const testing::InertEffect of_both_signs("both", {{"size", "1", 0.5, -10.0, 10.0}});
+  const Linearised hidden(positive, {0.1 * pattern}, pattern);
+  ASSERT_LT(hidden.metric.Sigmas(0.1 * pattern.reshaped()), 3.0);
+  EXPECT_EQ(
+      StartsOf(positive, hidden.metric, pattern, hidden.recording, hidden.parameter_refs).back()[0],
+      2.5 * 0.5);
+  EXPECT_TRUE(
+      HidesBelowThreshold(positive, hidden.metric, hidden.recording, hidden.parameter_refs));
+
+  const Linearised seen(positive, {10.0 * pattern}, pattern);
+  EXPECT_FALSE(HidesBelowThreshold(positive, seen.metric, seen.recording, seen.parameter_refs));
+  const Linearised two(of_both_signs, {0.1 * pattern}, pattern);
+  EXPECT_FALSE(HidesBelowThreshold(of_both_signs, two.metric, two.recording, two.parameter_refs));
 }
 
 TEST(StartsOf, KeepShapesAtTheirPriorMeans) {

@@ -44,8 +44,8 @@ class StochasticExcitationTest : public ::testing::Test {
     const Sensitivity recording = testing::SensitivityOfErrors(errors, 0, 0);
     const ResidualMetric metric(nominal_, recording, EveryWindow(recording), false);
     return FitStochasticExcitation(
-        *waves_, {short_.runs, nominal_, recording, metric, no_parameters_, observed}, metric,
-        errors);
+        *waves_, observed, {short_.runs, nominal_, recording, metric, no_parameters_, observed},
+        metric, errors);
   }
 
   const Effect* waves_ = FindEffect("waves");
@@ -133,6 +133,22 @@ TEST_F(FaultInWaves, StandsFirstWithBothCovariances) {
 // in them: it finds the fault exactly.
 TEST_F(FaultInWaves, KeepsItsSize) {
   EXPECT_NEAR(Fitted().effects[0].values[0], 0.3, 0.03);
+}
+
+// The boat turns at random, and a current moves it as it turns: to a boat in still water a peak.
+TEST_F(StochasticExcitationTest, OfAKnownCurrentIsNone) {
+  const std::vector<ModelledEffect> current = {{FindEffect("current"), {1.0, 0.5}}};
+  const testing::ShortRecording carried(300.0, current);
+  const Eigen::MatrixXd errors = carried.runs.Errors(nominal_.boat);
+  const ObservedExcitation observed = ObservedExcitationOf(std::vector{waves_}, carried.runs,
+                                                           {short_.dataset}, nominal_.boat, errors);
+  EXPECT_GT(observed.peak.gain, 0.0);
+
+  const Sensitivity recording = testing::SensitivityOfErrors(errors, 0, 0);
+  const ResidualMetric metric(nominal_, recording, EveryWindow(recording), false);
+  const DiagnosisProblem problem{carried.runs, nominal_,       recording,
+                                 metric,       no_parameters_, observed};
+  EXPECT_EQ(ExcitationBeside(*waves_, current, problem).peak.gain, 0.0);
 }
 
 }  // namespace
