@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <mutex>
+#include <utility>
 
 #include "telltale/core/base/parallel.hpp"
 #include "telltale/core/diagnosis/report/conclusion.hpp"
@@ -11,6 +12,9 @@
 
 namespace telltale {
 namespace {
+
+// Of squared gaps, by which a reference that is left out changes none that a step can follow.
+constexpr double kFarther = 4.0;
 
 std::string NameOf(std::size_t reference, const std::vector<std::string>& names) {
   return reference < names.size() ? names[reference] : "reference " + std::to_string(reference + 1);
@@ -83,6 +87,30 @@ struct WithoutOne {
   std::optional<LeftOutDay> day;
 };
 
+/// Whether the boat errs so much farther on the recording than that of all references that the step
+/// to it was too long to trust.
+bool IsAstray(const NominalBaseline& nominal, const NoiseFloor& floor,
+              const DiagnosisProblem& all) {
+  const auto squared_gap = [&](const Eigen::MatrixXd& errors) {
+    return SquaredGaps(errors, floor.scale, kAllChannels).mean();
+  };
+  return squared_gap(all.runs.Errors(nominal.boat)) >
+         kFarther * std::max(squared_gap(all.recording.errors), 1.0);
+}
+
+/// The nominal boat of these references alone, learned as that of all was.
+NominalBaseline LearnedFrom(const std::vector<std::size_t>& kept, const InfluenceInputs& inputs,
+                            std::vector<const FreeRuns*> others) {
+  std::vector<FreeRuns> references;
+  for (const std::size_t i : kept) {
+    references.emplace_back(inputs.main.references[i].Dataset(), inputs.model.model,
+                            inputs.problem.runs.HorizonS());
+  }
+  constexpr std::size_t kThreads = 1;  // references stand side by side
+  return LearnNominalBaseline(references, inputs.model, inputs.problem.parameter_refs, kThreads,
+                              std::move(others));
+}
+
 /// None where the others have no windows.
 std::optional<WithoutOne> Without(const PreparedDataset& left_out, const InfluenceInputs& inputs) {
   const std::vector<FreeRuns>& recordings = inputs.main.references;
@@ -93,6 +121,10 @@ std::optional<WithoutOne> Without(const PreparedDataset& left_out, const Influen
   without.nominal = NominalBaselineOf(kept, all.nominal, recordings, inputs.model,
                                       all.parameter_refs, OthersOf(left_out, recordings, all));
   without.floor = FloorOf(kept, recordings, without.nominal);
+  if (IsAstray(without.nominal, without.floor, all)) {
+    without.nominal = LearnedFrom(kept, inputs, OthersOf(left_out, recordings, all));
+    without.floor = FloorOf(kept, recordings, without.nominal);
+  }
   without.day = DayOf(left_out, recordings, all.nominal, without.nominal, without.floor);
   return without;
 }

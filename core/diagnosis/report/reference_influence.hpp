@@ -38,7 +38,8 @@ struct Influences {
 
 /// The answer without each reference in turn, docs/concepts/diagnosis.md, "The nominal baseline".
 /// To first order: the nominal boat without a reference is one Gauss-Newton step from that of all,
-/// with the same slopes; hypotheses are fitted anew, single effects from their values with all.
+/// with the same slopes, and learned anew where that boat errs twice as far on the recording;
+/// hypotheses are fitted anew, single effects from their values with all.
 /// `report_progress` is called by one thread at a time. Requires: two references or more.
 Influences InfluencesOf(const InfluenceInputs& inputs,
                         const std::function<void(double)>& report_progress);
