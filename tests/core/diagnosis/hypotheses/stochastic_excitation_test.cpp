@@ -135,7 +135,7 @@ TEST_F(FaultInWaves, KeepsItsSize) {
   EXPECT_NEAR(Fitted().effects[0].values[0], 0.3, 0.03);
 }
 
-// The boat turns at random, and a current moves it as it turns: to a boat in still water a peak.
+// The boat turns at random, and a current moves it as it turns: a peak, where no current is known.
 TEST_F(StochasticExcitationTest, OfAKnownCurrentIsNone) {
   const std::vector<ModelledEffect> current = {{FindEffect("current"), {1.0, 0.5}}};
   const testing::ShortRecording carried(300.0, current);
