@@ -82,6 +82,7 @@ struct BaselineConstants {
   int variance_iterations = 25;           ///< unknowns and their variances in turn, per round
   std::array<double, 8> step_lengths = {1.0,  0.7,  0.5,  0.35,
                                         0.25, 0.12, 0.06, 0.03};  ///< 1, of a Gauss-Newton step
+  double astray_ratio = 4.0;  ///< 1, of squared gaps, that a trusted step makes; convention
   double covariance_shrinkage = 0.15;  ///< 1, times rows per window: share of the diagonal in V
   double minimum_covariance_shrinkage = 0.01;  ///< 1
   double maximum_covariance_shrinkage = 0.3;   ///< 1
@@ -108,10 +109,10 @@ struct RecordingConstants {
 /// The fit of effects, docs/concepts/diagnosis.md (88), (89).
 struct EffectFitConstants {
   double prior_width = 2.0;  ///< typical sizes, prior sd of a parameter; of a shape parameter: 1
-  double beyond_threshold = 2.5;  ///< typical sizes, where a fit starts that a threshold hides
-  double whole_sd = 0.1;  ///< 1, by which an effect that is there or not may seem to be in part
-  int maximum_iterations = 12;   ///< Levenberg-Marquardt
-  double converged_gain = 0.01;  ///< of -2 ln of the posterior, below which a step is the last
+  double beyond_threshold = 2.5;  ///< typical sizes, a start beyond a threshold; convention
+  double whole_sd = 0.1;          ///< 1, of the share of an effect that is there or not; convention
+  int maximum_iterations = 12;    ///< Levenberg-Marquardt
+  double converged_gain = 0.01;   ///< of -2 ln of the posterior, below which a step is the last
   double minimum_remaining_share = 1e-3;  ///< 1, of the square that the score test leaves at least
 };
 
@@ -175,7 +176,7 @@ struct RankingConstants {
   double material_score = 8.0;            ///< -2 ln evidence, beyond which a gap is material
   double material_log_lack_of_fit = 0.9;  ///< 1, ln of the lack of fit over that of references
   double equivalence_factor = 2.0;        ///< 1, upper bound of G^2 over the floor's limit
-  double nominal_median = 0.78;           ///< 1, of the windows' squares, over their mean
+  double nominal_median = 0.75;           ///< 1, of the windows' squares, over their mean; seed 61
   DoubtConstants doubt_of_faults = {.base = 0.05,
                                     .per_log_share = 1.6,
                                     .per_misfit = 0.9,

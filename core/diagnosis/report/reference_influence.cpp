@@ -6,15 +6,13 @@
 #include <utility>
 
 #include "telltale/core/base/parallel.hpp"
+#include "telltale/core/diagnosis/diagnosis_constants.hpp"
 #include "telltale/core/diagnosis/report/conclusion.hpp"
 #include "telltale/core/diagnosis/report/horizon_gap.hpp"
 #include "telltale/core/diagnosis/residuals/gap.hpp"
 
 namespace telltale {
 namespace {
-
-// Of squared gaps, by which a reference that is left out changes none that a step can follow.
-constexpr double kFarther = 4.0;
 
 std::string NameOf(std::size_t reference, const std::vector<std::string>& names) {
   return reference < names.size() ? names[reference] : "reference " + std::to_string(reference + 1);
@@ -95,7 +93,7 @@ bool IsAstray(const NominalBaseline& nominal, const NoiseFloor& floor,
     return SquaredGaps(errors, floor.scale, kAllChannels).mean();
   };
   return squared_gap(all.runs.Errors(nominal.boat)) >
-         kFarther * std::max(squared_gap(all.recording.errors), 1.0);
+         kDiagnosis.baseline.astray_ratio * std::max(squared_gap(all.recording.errors), 1.0);
 }
 
 /// The nominal boat of these references alone, learned as that of all was.
