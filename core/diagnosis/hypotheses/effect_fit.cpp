@@ -19,6 +19,7 @@ namespace {
 
 constexpr double kInvisible = 1e-12;
 constexpr int kRoundsOfScatter = 4;     // of an intermittent effect and its mean, in turn
+constexpr double kSettled = 0.01;       // 1, change of all values in the last of them
 constexpr double kLeastScatter = 1e-4;  // of the variance that an intermittent effect stands for
 
 Minimum LowestFrom(const std::vector<Eigen::VectorXd>& starts, const EffectPosterior& posterior) {
@@ -281,7 +282,9 @@ EffectFit FitEffects(const ErrorModel& error_model, const ResidualMetric& metric
   for (int round = 1; round < kRoundsOfScatter; ++round) {
     std::optional<EffectFit> next = WithGustsOf(fit, error_model, metric, none);
     if (!next) break;
+    const Eigen::VectorXd before = fit.Values();
     fit = *std::move(next);
+    if (fit.Values().isApprox(before, kSettled)) break;
   }
   // Its scatter is a parameter more.
   fit.score += metric.ParameterPenalty();

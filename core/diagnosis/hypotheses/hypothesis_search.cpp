@@ -161,7 +161,8 @@ class HypothesisSearch {
   }
 
   /// The deterministic effects that `first` does not have, less those that this recording cannot
-  /// separate from it where it stands alone.
+  /// separate from it where it stands alone, and those that hide below a threshold and have
+  /// less evidence alone than a second effect needs at least.
   std::vector<const Effect*> SeparableFrom(const EffectFit& first,
                                            const std::vector<EffectFit>& singles) const {
     std::vector<const Effect*> others;
@@ -172,7 +173,9 @@ class HypothesisSearch {
       });
       const bool collinear = single != singles.end() && first.effects.size() == 1 &&
                              Distance(first, *single, problem_.metric) < kSearch.separable_nats;
-      if (!collinear) others.push_back(effect);
+      const bool stays_hidden = single != singles.end() &&
+                                single->score > -kSearch.score_to_add_weather && Hides(*effect);
+      if (!collinear && !stays_hidden) others.push_back(effect);
     }
     return others;
   }
