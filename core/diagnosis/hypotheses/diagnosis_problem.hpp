@@ -5,6 +5,7 @@
 #include "telltale/core/diagnosis/baseline/nominal_baseline.hpp"
 #include "telltale/core/diagnosis/baseline/residual_metric.hpp"
 #include "telltale/core/diagnosis/residuals/free_runs.hpp"
+#include "telltale/core/diagnosis/residuals/frequency_response.hpp"
 #include "telltale/core/diagnosis/residuals/sensitivity.hpp"
 #include "telltale/core/diagnosis/residuals/spectral_peak.hpp"
 
@@ -14,6 +15,7 @@ namespace telltale {
 struct ObservedExcitation {
   SpectralPeak peak;
   Eigen::MatrixXd scatter;  ///< what they add to the covariance of a window's errors, rows x rows
+  ResponseMoments moments;  ///< of the errors, over the frequencies of the peak
   std::vector<AccelerationSpectra> nominal;  ///< those of the references, that the peak is beside
 };
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <utility>
 
@@ -83,25 +84,30 @@ EffectFit Together(const EffectFit& deterministic, const EffectFit& stochastic) 
   return both;
 }
 
-/// What the accelerations of a peak add to the covariance of a window's errors. Errors grow most by
-/// the lowest frequencies, and those of encounter change with the heading: the widest shape counts.
-Eigen::MatrixXd ScatterOfPeak(SpectralPeak peak, const FreeRuns& runs, const AugmentedModel& boat,
-                              const Eigen::MatrixXd& errors) {
-  peak.log_width = kDiagnosis.spectral_peak.log_widths.back();
-  return ErrorCovarianceOf(peak, runs, boat, errors);
+/// Errors grow most by the lowest frequencies of a peak, and those of encounter change with the
+/// heading: the widest shape counts.
+ResponseMoments MomentsOf(const SpectralPeak& peak, const FreeRuns& runs,
+                          const AugmentedModel& boat, const Eigen::MatrixXd& errors) {
+  return MeanResponseMomentsOf(peak.frequency_rad_s, kDiagnosis.spectral_peak.log_widths.back(),
+                               runs, boat, errors);
 }
 
-/// The peak over the references' spectra, and the scatter by it.
-ObservedExcitation ExcitationOver(std::vector<AccelerationSpectra> nominal, const Effect& effect,
-                                  const FreeRuns& runs, const AugmentedModel& boat,
-                                  const Eigen::MatrixXd& errors) {
+SpectralPeak PeakOver(const std::vector<AccelerationSpectra>& nominal, const Effect& effect,
+                      const FreeRuns& runs, const AugmentedModel& boat) {
   const EffectParameter& frequency = effect.Parameters()[3];
+  return LikeliestPeak(AccelerationSpectraOf(runs.Dataset(), boat), nominal, frequency.lower,
+                       frequency.upper);
+}
+
+/// The excitation of a peak, whose moments are asked for where there is one.
+ObservedExcitation ExcitationOf(const SpectralPeak& peak, Eigen::Index rows,
+                                const std::function<ResponseMoments()>& moments) {
   ObservedExcitation observed;
-  observed.peak = LikeliestPeak(AccelerationSpectraOf(runs.Dataset(), boat), nominal,
-                                frequency.lower, frequency.upper);
-  observed.scatter = observed.peak.gain > 0.0 ? ScatterOfPeak(observed.peak, runs, boat, errors)
-                                              : Eigen::MatrixXd::Zero(errors.rows(), errors.rows());
-  observed.nominal = std::move(nominal);
+  observed.peak = peak;
+  observed.scatter = Eigen::MatrixXd::Zero(rows, rows);
+  if (peak.gain == 0.0) return observed;
+  observed.moments = moments();
+  observed.scatter = ErrorCovarianceBy(observed.moments, peak.squared_amplitudes);
   return observed;
 }
 
@@ -128,15 +134,26 @@ ObservedExcitation ObservedExcitationOf(std::span<const Effect* const> library,
   for (const PreparedDataset& reference : references) {
     nominal.push_back(AccelerationSpectraOf(reference, boat));
   }
-  return ExcitationOver(std::move(nominal), **effect, runs, boat, errors);
+  const SpectralPeak peak = PeakOver(nominal, **effect, runs, boat);
+  ObservedExcitation observed =
+      ExcitationOf(peak, errors.rows(), [&] { return MomentsOf(peak, runs, boat, errors); });
+  observed.nominal = std::move(nominal);
+  return observed;
 }
 
 ObservedExcitation ExcitationBeside(const Effect& stochastic,
                                     const std::vector<ModelledEffect>& effects,
                                     const DiagnosisProblem& problem) {
+  const ObservedExcitation& alone = problem.excitation;
   const AugmentedModel boat = problem.nominal.boat.With(effects);
-  return ExcitationOver(problem.excitation.nominal, stochastic, problem.runs, boat,
-                        problem.runs.Errors(boat));
+  const SpectralPeak peak = PeakOver(alone.nominal, stochastic, problem.runs, boat);
+  // Effects hardly change how the boat answers waves of the same frequency.
+  const bool is_known =
+      alone.moments[0].size() > 0 && alone.peak.frequency_rad_s == peak.frequency_rad_s;
+  return ExcitationOf(peak, problem.runs.Rows(), [&] {
+    return is_known ? alone.moments
+                    : MomentsOf(peak, problem.runs, boat, problem.runs.Errors(boat));
+  });
 }
 
 EffectFit FitStochasticExcitation(const Effect& effect, const ObservedExcitation& observed,
@@ -183,7 +200,8 @@ Eigen::MatrixXd ScatterOf(const std::vector<ModelledEffect>& effects, const Free
     SpectralPeak peak;
     peak.frequency_rad_s = excitation->frequency_rad_s;
     peak.squared_amplitudes = excitation->amplitude.cwiseAbs2();
-    scatter += ScatterOfPeak(peak, runs, boat, runs.Errors(boat));
+    scatter +=
+        ErrorCovarianceBy(MomentsOf(peak, runs, boat, runs.Errors(boat)), peak.squared_amplitudes);
   }
   return scatter;
 }

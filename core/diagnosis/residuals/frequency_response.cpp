@@ -69,19 +69,32 @@ ResponseMoments ResponseMomentsAt(double frequency_rad_s, const FreeRuns& runs,
   return patterns;
 }
 
-Eigen::MatrixXd ErrorCovarianceOf(const SpectralPeak& peak, const FreeRuns& runs,
-                                  const AugmentedModel& boat, const Eigen::MatrixXd& errors) {
-  Eigen::MatrixXd covariance = Eigen::MatrixXd::Zero(errors.rows(), errors.rows());
+ResponseMoments MeanResponseMomentsOf(double frequency_rad_s, double log_width,
+                                      const FreeRuns& runs, const AugmentedModel& boat,
+                                      const Eigen::MatrixXd& errors) {
+  ResponseMoments mean;
+  for (Eigen::MatrixXd& axis : mean) axis = Eigen::MatrixXd::Zero(errors.rows(), errors.rows());
   for (const Node& node : kNodes) {
-    const double frequency_rad_s =
-        peak.frequency_rad_s * std::exp(peak.log_width * node.deviations);
-    const ResponseMoments moments = ResponseMomentsAt(frequency_rad_s, runs, boat, errors);
-    for (std::size_t axis = 0; axis < moments.size(); ++axis) {
-      covariance +=
-          node.weight * peak.squared_amplitudes[static_cast<Eigen::Index>(axis)] * moments[axis];
+    const ResponseMoments moments = ResponseMomentsAt(
+        frequency_rad_s * std::exp(log_width * node.deviations), runs, boat, errors);
+    for (std::size_t axis = 0; axis < mean.size(); ++axis) {
+      mean[axis] += node.weight * moments[axis];
     }
   }
-  return covariance;
+  return mean;
+}
+
+Eigen::MatrixXd ErrorCovarianceBy(const ResponseMoments& moments,
+                                  const Eigen::Vector3d& squared_amplitudes) {
+  return squared_amplitudes[0] * moments[0] + squared_amplitudes[1] * moments[1] +
+         squared_amplitudes[2] * moments[2];
+}
+
+Eigen::MatrixXd ErrorCovarianceOf(const SpectralPeak& peak, const FreeRuns& runs,
+                                  const AugmentedModel& boat, const Eigen::MatrixXd& errors) {
+  return ErrorCovarianceBy(
+      MeanResponseMomentsOf(peak.frequency_rad_s, peak.log_width, runs, boat, errors),
+      peak.squared_amplitudes);
 }
 
 }  // namespace telltale

@@ -18,6 +18,16 @@ using ResponseMoments = std::array<Eigen::MatrixXd, 3>;
 ResponseMoments ResponseMomentsAt(double frequency_rad_s, const FreeRuns& runs,
                                   const AugmentedModel& boat, const Eigen::MatrixXd& errors);
 
+/// The mean of those moments over the frequencies of a log-normal peak about this one.
+ResponseMoments MeanResponseMomentsOf(double frequency_rad_s, double log_width,
+                                      const FreeRuns& runs, const AugmentedModel& boat,
+                                      const Eigen::MatrixXd& errors);
+
+/// The covariance that accelerations of these squared amplitudes, one an axis, add to a window's
+/// errors. Shapes: rows x rows.
+Eigen::MatrixXd ErrorCovarianceBy(const ResponseMoments& moments,
+                                  const Eigen::Vector3d& squared_amplitudes);
+
 /// The covariance that accelerations of a spectral peak add to a window's errors: the sum over axes
 /// of squared amplitudes times response moments, the mean over the peak's frequencies. Shapes: rows
 /// x rows.
