@@ -156,9 +156,10 @@ struct LackOfFitConstants {
   double prior_effect_sd = 0.3;  ///< typical sizes, of each effect in what a fit leaves
 };
 
-/// The log odds of an unknown cause, docs/concepts/diagnosis.md (91): a sum of what speaks for one.
-struct DoubtConstants {
-  double base = 0.0;
+/// Weights of a logistic regression: the log odds of an unknown cause, docs/concepts/diagnosis.md
+/// step 10.
+struct UnknownWeights {
+  double intercept = 0.0;
   double per_log_share = 0.0;           ///< per unit of ln of the share of the excess that is left
   double per_misfit = 0.0;              ///< per unit of ln of the lack of fit over the nominal one
   double per_median_misfit = 0.0;       ///< the same of the median window
@@ -169,7 +170,7 @@ struct DoubtConstants {
   double of_intermittence = 0.0;        ///< where something is intermittent
 };
 
-/// Gap assessment, ranking and verdict, docs/concepts/diagnosis.md (91). The doubt constants are of
+/// Gap assessment, ranking and verdict, docs/concepts/diagnosis.md (91). The weights are of
 /// least logarithmic score over the development sets of seeds 61 and 62, with the true effect in
 /// the library, and without it where a stranger is the likeliest.
 struct RankingConstants {
@@ -177,21 +178,21 @@ struct RankingConstants {
   double material_log_lack_of_fit = 0.9;  ///< 1, ln of the lack of fit over that of references
   double equivalence_factor = 2.0;        ///< 1, upper bound of G^2 over the floor's limit
   double nominal_median = 0.75;           ///< 1, of the windows' squares, over their mean; seed 61
-  DoubtConstants doubt_of_faults = {.base = 0.05,
-                                    .per_log_share = 1.6,
-                                    .per_misfit = 0.9,
-                                    .per_median_misfit = 2.7,
-                                    .per_predictable = 3.5,
-                                    .per_negative_log_prior = 3.5,
-                                    .of_drift = 1.8,
-                                    .of_waves = 2.3,
-                                    .of_intermittence = 3.2};
-  DoubtConstants doubt_of_weather = {.base = -4.9,
-                                     .per_misfit = 4.6,
-                                     .per_predictable = 6.1,
-                                     .per_negative_log_prior = 1.15,
-                                     .of_drift = 2.15,
-                                     .of_waves = 1.45};
+  UnknownWeights unknown_beside_faults = {.intercept = 0.05,
+                                          .per_log_share = 1.6,
+                                          .per_misfit = 0.9,
+                                          .per_median_misfit = 2.7,
+                                          .per_predictable = 3.5,
+                                          .per_negative_log_prior = 3.5,
+                                          .of_drift = 1.8,
+                                          .of_waves = 2.3,
+                                          .of_intermittence = 3.2};
+  UnknownWeights unknown_beside_weather = {.intercept = -4.9,
+                                           .per_misfit = 4.6,
+                                           .per_predictable = 6.1,
+                                           .per_negative_log_prior = 1.15,
+                                           .of_drift = 2.15,
+                                           .of_waves = 1.45};
   double explained_share = 0.7;     ///< 1, of the excess, from which on a gap is explained
   double naming_probability = 0.9;  ///< of a named cause at least, development sets 2 and 3
 };

@@ -15,7 +15,7 @@ namespace telltale {
 struct ObservedExcitation {
   SpectralPeak peak;
   Eigen::MatrixXd scatter;  ///< what they add to the covariance of a window's errors, rows x rows
-  ResponseMoments moments;  ///< of the errors, over the frequencies of the peak
+  ResponseMoments moments;  ///< of the errors, over the frequencies of a peak that there is
   std::vector<AccelerationSpectra> nominal;  ///< those of the references, that the peak is beside
 };
 

@@ -59,24 +59,20 @@ EffectFit FitWithoutGusts(const ErrorModel& error_model, const ResidualMetric& m
   return FitOfMinimum(LowestFrom(starts, posterior), posterior, none);
 }
 
-/// Length of the vector of those values that are not shape parameters.
-double LengthOf(const ModelledEffect& modelled) {
-  double squared = 0.0;
+/// Those values that are not shape parameters.
+std::vector<double> SizesOf(const ModelledEffect& modelled) {
+  std::vector<double> sizes;
   for (std::size_t j = 0; j < modelled.values.size(); ++j) {
-    const double value = modelled.values[j];
-    if (!modelled.effect->Parameters()[j].is_shape) squared += value * value;
+    if (!modelled.effect->Parameters()[j].is_shape) sizes.push_back(modelled.values[j]);
   }
-  return std::sqrt(squared);
+  return sizes;
 }
 
-/// The largest of those values.
-double LargestOf(const ModelledEffect& modelled) {
-  double largest = 0.0;
-  for (std::size_t j = 0; j < modelled.values.size(); ++j) {
-    if (!modelled.effect->Parameters()[j].is_shape)
-      largest = std::max(largest, std::abs(modelled.values[j]));
-  }
-  return largest;
+/// Length of the vector of sizes.
+double LengthOf(const ModelledEffect& modelled) {
+  double squared = 0.0;
+  for (const double size : SizesOf(modelled)) squared += size * size;
+  return std::sqrt(squared);
 }
 
 /// One standard deviation of what gusts: the turbulence intensity times the length of the mean.
@@ -217,7 +213,8 @@ double EffectFit::NegativeLogPrior() const {
   for (const ModelledEffect& modelled : Deterministic().effects) {
     const auto& parameters = modelled.effect->Parameters();
     if (modelled.effect->Facts().is_all_or_nothing) {
-      const double off = (1.0 - LargestOf(modelled)) / kDiagnosis.effect_fit.whole_sd;
+      const double off =
+          (1.0 - std::ranges::max(SizesOf(modelled))) / kDiagnosis.effect_fit.whole_sd;
       squares += off * off;
     }
     for (std::size_t i = 0; i < parameters.size(); ++i) {

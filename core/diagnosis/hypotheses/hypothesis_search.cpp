@@ -45,6 +45,10 @@ class HypothesisSearch {
         error_model_(ErrorModelOf(problem.runs, problem.nominal.boat)),
         nominal_gains_(NominalGains(problem, library)) {
     std::ranges::copy_if(library, std::back_inserter(stochastic_), &Effect::IsStochastic);
+    std::ranges::copy_if(library, std::back_inserter(hidden_), [&](const Effect* effect) {
+      return HidesBelowThreshold(*effect, problem.metric, problem.recording,
+                                 problem.parameter_refs);
+    });
   }
 
   /// Fits of the effects that the score test ranks first, and of every stochastic effect.
@@ -195,8 +199,7 @@ class HypothesisSearch {
   }
 
   bool Hides(const Effect& effect) const {
-    return HidesBelowThreshold(effect, problem_.metric, problem_.recording,
-                               problem_.parameter_refs);
+    return std::ranges::find(hidden_, &effect) != hidden_.end();
   }
 
   /// The effects by the evidence that their score test promises, the most first.
@@ -220,6 +223,7 @@ class HypothesisSearch {
   std::size_t threads_;
   ErrorModel error_model_;
   std::vector<const Effect*> stochastic_;
+  std::vector<const Effect*> hidden_;  ///< below a threshold
   std::map<const Effect*, double> nominal_gains_;
 };
 

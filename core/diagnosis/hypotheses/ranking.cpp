@@ -71,15 +71,16 @@ double UnknownProbability(const LackOfFit& lack_of_fit, const HypothesisTraits& 
   const double unresolved = UnresolvedShare(hypothesis.score);
   const double share = before > 0.0 ? std::max(excess / before, unresolved) : unresolved;
   const double misfit = std::log(lack_of_fit.after / lack_of_fit.nominal);
-  const DoubtConstants& doubt =
-      hypothesis.is_weather ? kRanking.doubt_of_weather : kRanking.doubt_of_faults;
-  return Logistic(doubt.base + doubt.per_log_share * std::log(share) + doubt.per_misfit * misfit +
-                  doubt.per_median_misfit * std::log(lack_of_fit.median / lack_of_fit.nominal) +
-                  doubt.per_predictable * std::max(lack_of_fit.predictable, 0.0) +
-                  doubt.per_negative_log_prior * hypothesis.negative_log_prior +
-                  (hypothesis.drifts ? doubt.of_drift : 0.0) +
-                  (hypothesis.is_stochastic ? doubt.of_waves : 0.0) +
-                  (hypothesis.is_intermittent ? doubt.of_intermittence : 0.0));
+  const UnknownWeights& weights =
+      hypothesis.is_weather ? kRanking.unknown_beside_weather : kRanking.unknown_beside_faults;
+  return Logistic(weights.intercept + weights.per_log_share * std::log(share) +
+                  weights.per_misfit * misfit +
+                  weights.per_median_misfit * std::log(lack_of_fit.median / lack_of_fit.nominal) +
+                  weights.per_predictable * std::max(lack_of_fit.predictable, 0.0) +
+                  weights.per_negative_log_prior * hypothesis.negative_log_prior +
+                  (hypothesis.drifts ? weights.of_drift : 0.0) +
+                  (hypothesis.is_stochastic ? weights.of_waves : 0.0) +
+                  (hypothesis.is_intermittent ? weights.of_intermittence : 0.0));
 }
 
 bool IsCertain(double probability) {

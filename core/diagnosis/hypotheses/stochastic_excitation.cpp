@@ -148,8 +148,7 @@ ObservedExcitation ExcitationBeside(const Effect& stochastic,
   const AugmentedModel boat = problem.nominal.boat.With(effects);
   const SpectralPeak peak = PeakOver(alone.nominal, stochastic, problem.runs, boat);
   // Effects hardly change how the boat answers waves of the same frequency.
-  const bool is_known =
-      alone.moments[0].size() > 0 && alone.peak.frequency_rad_s == peak.frequency_rad_s;
+  const bool is_known = alone.peak.gain > 0.0 && alone.peak.frequency_rad_s == peak.frequency_rad_s;
   return ExcitationOf(peak, problem.runs.Rows(), [&] {
     return is_known ? alone.moments
                     : MomentsOf(peak, problem.runs, boat, problem.runs.Errors(boat));

@@ -90,11 +90,4 @@ Eigen::MatrixXd ErrorCovarianceBy(const ResponseMoments& moments,
          squared_amplitudes[2] * moments[2];
 }
 
-Eigen::MatrixXd ErrorCovarianceOf(const SpectralPeak& peak, const FreeRuns& runs,
-                                  const AugmentedModel& boat, const Eigen::MatrixXd& errors) {
-  return ErrorCovarianceBy(
-      MeanResponseMomentsOf(peak.frequency_rad_s, peak.log_width, runs, boat, errors),
-      peak.squared_amplitudes);
-}
-
 }  // namespace telltale

@@ -28,10 +28,4 @@ ResponseMoments MeanResponseMomentsOf(double frequency_rad_s, double log_width,
 Eigen::MatrixXd ErrorCovarianceBy(const ResponseMoments& moments,
                                   const Eigen::Vector3d& squared_amplitudes);
 
-/// The covariance that accelerations of a spectral peak add to a window's errors: the sum over axes
-/// of squared amplitudes times response moments, the mean over the peak's frequencies. Shapes: rows
-/// x rows.
-Eigen::MatrixXd ErrorCovarianceOf(const SpectralPeak& peak, const FreeRuns& runs,
-                                  const AugmentedModel& boat, const Eigen::MatrixXd& errors);
-
 }  // namespace telltale

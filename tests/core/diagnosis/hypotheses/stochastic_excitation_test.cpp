@@ -34,8 +34,10 @@ class StochasticExcitationTest : public ::testing::Test {
     observed.peak.log_width = 0.3;
     observed.peak.squared_amplitudes.setConstant(0.25);
     observed.peak.gain = gain;
-    observed.scatter = ErrorCovarianceOf(observed.peak, short_.runs, nominal_.boat,
-                                         short_.runs.Errors(nominal_.boat));
+    observed.moments =
+        MeanResponseMomentsOf(observed.peak.frequency_rad_s, observed.peak.log_width, short_.runs,
+                              nominal_.boat, short_.runs.Errors(nominal_.boat));
+    observed.scatter = ErrorCovarianceBy(observed.moments, observed.peak.squared_amplitudes);
     return observed;
   }
 

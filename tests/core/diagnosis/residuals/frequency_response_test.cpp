@@ -76,7 +76,7 @@ ResponseMoments MeanOverPeak(double frequency_rad_s, double log_width,
 
 // Five nodes of Gauss and Hermite integrate a response that falls with the fourth power of the
 // frequency to a few percent.
-TEST(ErrorCovarianceOf, IsTheMeanResponseOverThePeakTimesSquaredAmplitudes) {
+TEST(ErrorCovarianceBy, IsTheMeanResponseOverThePeakTimesSquaredAmplitudes) {
   const testing::RestingBoat boat;
   const AugmentedModel alone{boat.model, {}};
   SpectralPeak peak;
@@ -85,7 +85,10 @@ TEST(ErrorCovarianceOf, IsTheMeanResponseOverThePeakTimesSquaredAmplitudes) {
   peak.log_width = 0.3;
   const ResponseMoments mean = MeanOverPeak(peak.frequency_rad_s, peak.log_width, boat);
   const Eigen::MatrixXd expected = 0.04 * mean[0] + 0.09 * mean[1] + 0.01 * mean[2];
-  const Eigen::MatrixXd found = ErrorCovarianceOf(peak, boat.runs, alone, boat.runs.Errors(alone));
+  const Eigen::MatrixXd found =
+      ErrorCovarianceBy(MeanResponseMomentsOf(peak.frequency_rad_s, peak.log_width, boat.runs,
+                                              alone, boat.runs.Errors(alone)),
+                        peak.squared_amplitudes);
   EXPECT_LT((found - expected).norm(), 0.05 * expected.norm());
 }
 
