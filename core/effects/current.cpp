@@ -6,9 +6,10 @@
 namespace telltale {
 namespace {
 
-// Tide and eddies change a current over minutes: it stays as it is throughout a free run, and
-// differs by a fifth from one to the next (one sigma).
+// Tide and eddies change a current by a fifth (one sigma), over minutes: it stays as it is
+// throughout a free run.
 constexpr double kVariation = 0.2;
+constexpr double kDriftTimeS = 120.0;
 
 }  // namespace
 
@@ -27,6 +28,7 @@ class CurrentEffect final : public Effect {
              .settled_by = "a current meter or a log of speed through the water",
              .nominal_variation = NominalVariation::kRecordingEffect,
              .turbulence_intensity = kVariation,
+             .drift_time_s = kDriftTimeS,
              .is_weather = true}) {}
 
   std::string Describe(EffectValues values) const override {

@@ -89,8 +89,13 @@ struct EffectFacts {
   /// How long a gust lasts: the time constant of its correlation, of first order. 0 where a gust
   /// stays as it is throughout a free run. Of Hook::kThrustShare and kAcceleration alone.
   double turbulence_time_s = 0.0;
-  /// Whether that scatter is the effect: without it, it is another one.
-  bool is_intermittent = false;
+  /// How long what scatters stays from one free run to the next: the time constant of its
+  /// correlation, of first order. 0 where each free run has its own.
+  double drift_time_s = 0.0;
+  /// Of what acts at times only, how far its sizes may scatter from one free run to the next, in
+  /// their unit, whatever the mean: the likeliest of these. That scatter is the effect; without it,
+  /// it is another one.
+  std::vector<double> intermittent_sds = {};
   /// Whether one of its parameters that do not shape is one where it acts: an output is stuck or
   /// not.
   bool is_all_or_nothing = false;

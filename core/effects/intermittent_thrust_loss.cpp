@@ -7,9 +7,6 @@
 namespace telltale {
 namespace {
 
-// Of a loss that is there for a fifth of the time, in spells of a free run's length or longer: the
-// scatter from run to run over the mean, sqrt((1 - p) / p).
-constexpr double kScatter = 2.0;
 // Weed is shed, and a propeller draws air, within seconds: about as long as a free run lasts.
 constexpr double kSpellS = 5.0;
 
@@ -30,9 +27,10 @@ class IntermittentThrustLossEffect final : public Effect {
              .settled_by = "the current drawn by each thruster",
              .hook = Hook::kThrustShare,
              .nominal_variation = NominalVariation::kNone,
-             .turbulence_intensity = kScatter,
              .turbulence_time_s = kSpellS,
-             .is_intermittent = true}) {}
+             // Of a loss e for a share p of the time, e sqrt(p (1 - p)): of a fifth for a fifth of
+             // it, of half for a fifth, and of four fifths for half of it.
+             .intermittent_sds = {0.1, 0.2, 0.4}}) {}
 
   std::string Describe(EffectValues values) const override {
     return (values[0] < 0.0 ? "starboard thruster " : "port thruster ") + Percent(values[0]) +

@@ -17,7 +17,7 @@ namespace telltale::testing {
 class InertEffect final : public Effect {
  public:
   InertEffect(std::string_view name, std::vector<EffectParameter> parameters,
-              double turbulence_intensity = 0.0, bool is_intermittent = false)
+              double turbulence_intensity = 0.0, std::vector<double> intermittent_sds = {})
       : Effect({.name = name,
                 .title = name,
                 .equation = "",
@@ -27,7 +27,7 @@ class InertEffect final : public Effect {
                 .hook = Hook::kNone,
                 .nominal_variation = NominalVariation::kFixedEffect,
                 .turbulence_intensity = turbulence_intensity,
-                .is_intermittent = is_intermittent}) {}
+                .intermittent_sds = std::move(intermittent_sds)}) {}
   std::string Describe(EffectValues) const override { return std::string(Name()); }
 };
 

@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <numeric>
 #include <utility>
 
 #include "telltale/core/base/linear_algebra/covariance.hpp"
 #include "telltale/core/base/linear_algebra/eigen_decompositions.hpp"
+#include "telltale/core/diagnosis/baseline/gauss_markov_series.hpp"
 #include "telltale/core/diagnosis/diagnosis_constants.hpp"
 
 namespace telltale {
@@ -18,12 +20,50 @@ constexpr double kUnboundedPrior = kDiagnosis.metric.free_coefficient_sd;
 // that has diverged says that it is wrong, not how much.
 constexpr double kMaximumSigmas = kDiagnosis.metric.largest_sigmas;
 constexpr double kNothing = 1e-12;
+// Radians that the slow part of a drift may run through within a time constant.
+constexpr double kSlowestRest = 5.0;
 
 Eigen::MatrixXd RootOf(const Eigen::MatrixXd& covariance) {
   const Eigen::LDLT<Eigen::MatrixXd> factor(covariance);
   const Eigen::MatrixXd root =
       Eigen::MatrixXd(factor.matrixL()) * factor.vectorD().cwiseMax(0.0).cwiseSqrt().asDiagonal();
   return factor.transpositionsP().transpose() * root;
+}
+
+/// What of a Gauss-Markov process runs through a recording: independent courses of one standard
+/// deviation, one a column, and the share of the variance that is faster.
+struct SlowCourses {
+  Eigen::MatrixXd by_window;
+  double rest = 1.0;
+};
+
+SlowCourses SlowCoursesOf(const Eigen::ArrayXd& times_s, double time_constant_s) {
+  const Eigen::ArrayXd since_s = times_s - times_s[0];
+  const double lasting = time_constant_s / since_s.tail(1)[0];
+  const int fastest = static_cast<int>(std::ceil(kSlowestRest / (std::numbers::pi * lasting)));
+  SlowCourses slow;
+  slow.by_window.resize(times_s.size(), 2 * fastest + 1);
+  for (int k = 0; k <= fastest; ++k) {
+    const double share = GaussMarkovShare(k, lasting);
+    const Eigen::ArrayXd phases = since_s * (k * std::numbers::pi / since_s.tail(1)[0]);
+    slow.by_window.col(2 * k) = std::sqrt(share) * phases.cos();
+    if (k > 0) slow.by_window.col(2 * k - 1) = std::sqrt(share) * phases.sin();
+    slow.rest -= share;
+  }
+  return slow;
+}
+
+/// Each column of stacked errors times each course, window by window.
+Eigen::MatrixXd ProductsByWindow(const Eigen::MatrixXd& stacked, const Eigen::MatrixXd& by_window) {
+  const Eigen::Index rows = stacked.rows() / by_window.rows();
+  Eigen::MatrixXd products(stacked.rows(), stacked.cols() * by_window.cols());
+  for (Eigen::Index j = 0; j < stacked.cols(); ++j) {
+    const auto windows = stacked.col(j).reshaped(rows, by_window.rows());
+    for (Eigen::Index k = 0; k < by_window.cols(); ++k) {
+      products.col(j * by_window.cols() + k) = (windows * by_window.col(k).asDiagonal()).reshaped();
+    }
+  }
+  return products;
 }
 
 /// L applied to every window of every column.
@@ -42,6 +82,8 @@ Eigen::MatrixXd Coloured(const Eigen::LLT<Eigen::MatrixXd>& factor, const Eigen:
 ResidualMetric::ResidualMetric(const NominalBaseline& nominal, const Sensitivity& recording,
                                std::vector<std::size_t> windows, bool free_coefficients)
     : windows_(std::move(windows)),
+      times_s_(Eigen::Map<const Eigen::ArrayXd>(recording.window_times_s.data(),
+                                                std::ssize(recording.window_times_s))),
       frees_coefficients_(free_coefficients),
       covariance_(nominal.covariance),
       factor_(covariance_),
@@ -95,6 +137,25 @@ ResidualMetric ResidualMetric::WithWindowVariation(const Eigen::MatrixXd& varyin
   }
   metric.DeflateWindowVariation(metric.nuisance_);
   metric.FactoriseNuisance();
+  return metric;
+}
+
+ResidualMetric ResidualMetric::WithVariation(const ErrorVariation& variation) const {
+  const Eigen::MatrixXd& drifting = variation.drifting;
+  if (drifting.size() == 0) return WithWindowVariation(variation.by_window);
+  const SlowCourses slow = SlowCoursesOf(times_s_, variation.drift_time_s);
+  Eigen::MatrixXd by_window(drifting.rows(), variation.by_window.cols() + drifting.cols());
+  by_window << variation.by_window, std::sqrt(slow.rest) * drifting;
+  ResidualMetric metric = WithWindowVariation(by_window);
+  const double without = LogDeterminant(metric.nuisance_factor_);
+  const Eigen::Index added = drifting.cols() * slow.by_window.cols();
+  metric.nuisance_.conservativeResize(Eigen::NoChange, nuisance_.cols() + added);
+  // A drift is one draw for all windows and counts in full, as a day's weather does.
+  metric.nuisance_.rightCols(added) =
+      metric.WhitenColumns(ProductsByWindow(drifting, slow.by_window)) /
+      std::sqrt(RowsPerObservation());
+  metric.FactoriseNuisance();
+  metric.variation_penalty_ += LogDeterminant(metric.nuisance_factor_) - without;
   return metric;
 }
 

@@ -13,6 +13,16 @@
 
 namespace telltale {
 
+/// What may vary besides, by what it does to the errors, stacked window by window: one column of
+/// one standard deviation each.
+struct ErrorVariation {
+  Eigen::MatrixXd by_window;  ///< in each window on its own
+  Eigen::MatrixXd drifting;   ///< as a Gauss-Markov process does
+  double drift_time_s = 0.0;  ///< its time constant
+
+  bool IsEmpty() const { return by_window.size() == 0 && drifting.size() == 0; }
+};
+
 /// Whitens the errors of one recording and marginalises what varies in a nominal boat: scatter from
 /// window to window, coefficients and fixed effects by their covariance, and a day's weather.
 /// Model: (y, z) = kappa y' V^-1 z with V the nominal covariance of all errors together, by the
@@ -27,6 +37,10 @@ class ResidualMetric {
   /// The same, where besides each window's errors may vary, on their own, by what the columns do to
   /// them. Shapes: errors stacked window by window, one column a unit of what varies.
   ResidualMetric WithWindowVariation(const Eigen::MatrixXd& varying) const;
+
+  /// The same, where what drifts does so too. Its slow part runs through the recording; what is
+  /// faster varies window by window. Requires: the times of the windows where anything drifts.
+  ResidualMetric WithVariation(const ErrorVariation& variation) const;
 
   /// The same, where besides each window's errors scatter, on their own, with this covariance.
   /// Shapes: rows x rows.
@@ -108,6 +122,7 @@ class ResidualMetric {
   void DeflateWindowVariation(Eigen::MatrixXd& whitened) const;
 
   std::vector<std::size_t> windows_;
+  Eigen::ArrayXd times_s_;  // of all windows
   bool frees_coefficients_;
   Eigen::MatrixXd covariance_;  // of a window's errors
   Eigen::LLT<Eigen::MatrixXd> factor_;

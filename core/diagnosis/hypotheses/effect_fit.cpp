@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <numbers>
 #include <optional>
 #include <utility>
 
@@ -12,15 +11,12 @@
 #include "telltale/core/diagnosis/diagnosis_constants.hpp"
 #include "telltale/core/diagnosis/hypotheses/effect_parameters.hpp"
 #include "telltale/core/diagnosis/hypotheses/levenberg_marquardt.hpp"
-#include "telltale/core/effects/gust_pattern.hpp"
+#include "telltale/core/diagnosis/hypotheses/variation.hpp"
 
 namespace telltale {
 namespace {
 
-constexpr double kInvisible = 1e-12;
-constexpr int kRoundsOfScatter = 4;     // of an intermittent effect and its mean, in turn
-constexpr double kSettled = 0.01;       // 1, change of all values in the last of them
-constexpr double kLeastScatter = 1e-4;  // of the variance that an intermittent effect stands for
+constexpr double kLeastMean = 0.15;  // 1, over the scatter of what acts for 2 % of the time
 
 Minimum LowestFrom(const std::vector<Eigen::VectorXd>& starts, const EffectPosterior& posterior) {
   std::optional<Minimum> best;
@@ -51,122 +47,93 @@ EffectFit FitOfMinimum(const Minimum& minimum, const EffectPosterior& posterior,
   return fit;
 }
 
-EffectFit FitWithoutGusts(const ErrorModel& error_model, const ResidualMetric& metric, double none,
-                          const std::vector<const Effect*>& effects,
-                          const std::vector<Eigen::VectorXd>& starts) {
-  const EffectParameters parameters(effects);
+EffectFit FitByMetric(const ErrorModel& error_model, const ResidualMetric& metric, double none,
+                      const EffectParameters& parameters,
+                      const std::vector<Eigen::VectorXd>& starts) {
   const EffectPosterior posterior(error_model, metric, parameters);
   return FitOfMinimum(LowestFrom(starts, posterior), posterior, none);
 }
 
-/// Those values that are not shape parameters.
-std::vector<double> SizesOf(const ModelledEffect& modelled) {
-  std::vector<double> sizes;
-  for (std::size_t j = 0; j < modelled.values.size(); ++j) {
-    if (!modelled.effect->Parameters()[j].is_shape) sizes.push_back(modelled.values[j]);
+/// What acts for a share p of the time and scatters by s acts by s sqrt(p / (1 - p)) on average: on
+/// its side, and by so much at least.
+void BoundMean(const ModelledEffect& intermittent, double sd, EffectParameters& parameters) {
+  const EffectParameter& mean = intermittent.effect->Parameters().front();
+  const double least = kLeastMean * sd;
+  if (intermittent.values.front() < 0.0) {
+    parameters.Bound(*intermittent.effect, mean.lower, -least);
+  } else {
+    parameters.Bound(*intermittent.effect, least, mean.upper);
   }
-  return sizes;
 }
 
-/// Length of the vector of sizes.
-double LengthOf(const ModelledEffect& modelled) {
-  double squared = 0.0;
-  for (const double size : SizesOf(modelled)) squared += size * size;
-  return std::sqrt(squared);
-}
-
-/// One standard deviation of what gusts: the turbulence intensity times the length of the mean.
-double DeviationOf(const ModelledEffect& modelled) {
-  return modelled.effect->Facts().turbulence_intensity * LengthOf(modelled);
-}
-
-/// One way in which a gust may run through a window, and its share of the gust's variance.
-struct GustCourse {
-  double frequency_rad_s = 0.0;  ///< 0: the same all along
-  double phase_rad = 0.0;
-  double share = 1.0;
-};
-
-/// The ways of an effect's gusts, the constant one first. The correlation exp(-t / T) of a
-/// first-order process is, within a window of H, the sum over k of c_k cos(k pi t / H), with c_k =
-/// 2 T/H (1 - (-1)^k exp(-H/T)) / (1 + (k pi T/H)^2) and half of that for k = 0: each term is a
-/// cosine and a sine of independent random sizes. What oscillates faster than k = 1 hardly moves a
-/// boat.
-std::vector<GustCourse> CoursesOf(const EffectFacts& facts, double window_s) {
-  if (facts.turbulence_time_s == 0.0) return {{}};
-  constexpr double kHalfTurn = std::numbers::pi;
-  const double lasting = facts.turbulence_time_s / window_s;
-  const double kept = std::exp(-1.0 / lasting);
-  const double oscillating =
-      2.0 * lasting * (1.0 + kept) / (1.0 + kHalfTurn * kHalfTurn * lasting * lasting);
-  const double frequency = kHalfTurn / window_s;
-  return {{0.0, 0.0, lasting * (1.0 - kept)},
-          {frequency, 0.0, oscillating},
-          {frequency, -0.5 * kHalfTurn, oscillating}};
-}
-
-/// What a deviation of one parameter of one effect, along a course, does to the errors.
-/// Oscillations are no larger than the effect itself, beyond which it may act on the other side,
-/// and scaled to the deviation.
-Eigen::MatrixXd EffectOfGust(const std::vector<ModelledEffect>& effects,
-                             const Eigen::MatrixXd& errors, std::size_t gusting,
-                             std::size_t parameter, double deviation, const GustCourse& course,
-                             const ErrorModel& error_model) {
-  auto changed = effects;
-  if (course.frequency_rad_s == 0.0) {
-    changed[gusting].values[parameter] += deviation;
-    return error_model(changed) - errors;
+/// The fit once more, allowing for the gusts, drifts and spells that the values of `about` stand
+/// for. Nothing where nothing varies.
+std::optional<EffectFit> WithVariationOf(const EffectFit& about, const EffectFit& fit,
+                                         double intermittent_sd, const ErrorModel& error_model,
+                                         const ResidualMetric& metric, double none) {
+  ErrorVariation variation = VariationOf(about.effects, intermittent_sd, about.errors, error_model,
+                                         kDiagnosis.horizons.main_s);
+  if (variation.IsEmpty()) return std::nullopt;
+  const ResidualMetric widened = metric.WithVariation(variation);
+  EffectParameters parameters(about.Effects());
+  for (const ModelledEffect& modelled : about.effects) {
+    if (IsIntermittent(*modelled.effect)) BoundMean(modelled, intermittent_sd, parameters);
   }
-  const double amplitude = std::min(deviation, LengthOf(effects[gusting]));
-  const GustPattern pattern(*effects[gusting].effect,
-                            {parameter, amplitude, course.frequency_rad_s, course.phase_rad});
-  changed[gusting].effect = &pattern;
-  return deviation / amplitude * (error_model(changed) - errors);
+  EffectFit varying = FitByMetric(error_model, widened, none, parameters, {fit.Values()});
+  varying.variation = std::move(variation);
+  varying.intermittent_sd = intermittent_sd;
+  varying.score += widened.VariationPenalty() - metric.VariationPenalty() +
+                   ScatterDeficit(about.effects, varying.variation, varying.errors, metric);
+  return varying;
 }
 
-/// By how much the scatter from window to window that the intermittent effects of a fit stand for
-/// falls short, in -2 ln of the likelihood of so little: n (s - 1 - ln s) where the realised
-/// variance s, over that of the gusts, which are those of `steady`, is below one.
-double ScatterDeficit(const EffectFit& steady, const EffectFit& gusty,
-                      const ResidualMetric& metric) {
-  const Eigen::MatrixXd left = metric.UnexplainedByWindow(metric.Whiten(gusty.errors));
-  const Eigen::MatrixXd whitened = metric.WhitenColumns(gusty.gusts) / std::sqrt(metric.Kappa());
-  double deficit = 0.0;
-  Eigen::Index column = 0;
-  for (const ModelledEffect& modelled : steady.effects) {
-    const EffectFacts& facts = modelled.effect->Facts();
-    if (DeviationOf(modelled) == 0.0) continue;
-    for (const EffectParameter& parameter : facts.parameters) {
-      if (parameter.is_shape) continue;
-      // What stays as it is throughout a window.
-      const auto by_window = whitened.col(column).reshaped(left.rows(), left.cols());
-      column += std::ssize(CoursesOf(facts, kDiagnosis.horizons.main_s));
-      if (!facts.is_intermittent) continue;
-      const Eigen::ArrayXd squares = by_window.colwise().squaredNorm().transpose().array();
-      const Eigen::ArrayXd along = left.cwiseProduct(by_window).colwise().sum().transpose().array();
-      // Each window's own noise adds one.
-      const double realised = (along.square() / squares.max(kInvisible) - 1.0).sum();
-      const double ratio = std::clamp(realised / squares.sum(), kLeastScatter, 1.0);
-      deficit += metric.EffectiveObservations() * (ratio - 1.0 - std::log(ratio));
+/// Fits of effects of which one acts at times only.
+class IntermittentFits {
+ public:
+  IntermittentFits(const Effect& intermittent, const ErrorModel& error_model,
+                   const ResidualMetric& metric, double none)
+      : intermittent_(intermittent), error_model_(error_model), metric_(metric), none_(none) {}
+
+  /// Of the likeliest side, and of the likeliest scatter there. The scatter is a parameter more.
+  EffectFit Likeliest(const EffectFit& steady) const {
+    const std::vector<double>& sds = intermittent_.Facts().intermittent_sds;
+    const double middle = sds[sds.size() / 2];
+    EffectFit fit = Likelier(Fit(steady, -1.0, middle), Fit(steady, 1.0, middle));
+    const double side = SideOf(fit);
+    for (const double sd : sds) {
+      if (sd != middle) fit = Likelier(std::move(fit), Fit(steady, side, sd));
     }
+    // Once more about the other effects as the spells leave them.
+    if (fit.effects.size() > 1) fit = Fit(fit, side, fit.intermittent_sd);
+    fit.score += metric_.ParameterPenalty();
+    return fit;
   }
-  return deficit;
-}
 
-/// The fit once more, allowing for the gusts that its values stand for. Nothing where nothing
-/// gusts.
-std::optional<EffectFit> WithGustsOf(const EffectFit& fit, const ErrorModel& error_model,
-                                     const ResidualMetric& metric, double none) {
-  const Eigen::MatrixXd gusts =
-      GustsOf(fit.effects, fit.errors, error_model, kDiagnosis.horizons.main_s);
-  if (gusts.size() == 0) return std::nullopt;
-  const ResidualMetric widened = metric.WithWindowVariation(gusts);
-  EffectFit gusty = FitWithoutGusts(error_model, widened, none, fit.Effects(), {fit.Values()});
-  gusty.gusts = gusts;
-  gusty.score +=
-      widened.VariationPenalty() - metric.VariationPenalty() + ScatterDeficit(fit, gusty, metric);
-  return gusty;
-}
+ private:
+  static EffectFit Likelier(EffectFit one, EffectFit other) {
+    return other.score < one.score ? other : one;
+  }
+
+  double SideOf(const EffectFit& fit) const {
+    const auto own = std::ranges::find(fit.effects, &intermittent_, &ModelledEffect::effect);
+    return std::copysign(1.0, own->values.front());
+  }
+
+  /// From `fit`, on one side of zero. Spells are those about halfway to the bound: there they
+  /// neither vanish nor pass it.
+  EffectFit Fit(const EffectFit& fit, double side, double sd) const {
+    EffectFit halfway = fit;
+    const auto own = std::ranges::find(halfway.effects, &intermittent_, &ModelledEffect::effect);
+    own->values.front() = side * 0.5 * intermittent_.Parameters().front().upper;
+    halfway.errors = error_model_(halfway.effects);
+    return WithVariationOf(halfway, fit, sd, error_model_, metric_, none_).value();
+  }
+
+  const Effect& intermittent_;
+  const ErrorModel& error_model_;
+  const ResidualMetric& metric_;
+  double none_;
+};
 
 }  // namespace
 
@@ -232,7 +199,7 @@ ResidualMetric EffectFit::ScatteredMetric(const ResidualMetric& metric) const {
 
 ResidualMetric EffectFit::WidenedMetric(const ResidualMetric& metric) const {
   const ResidualMetric scattered = ScatteredMetric(metric);
-  return gusts.size() == 0 ? scattered : scattered.WithWindowVariation(gusts);
+  return variation.IsEmpty() ? scattered : scattered.WithVariation(variation);
 }
 
 ErrorModel ErrorModelOf(const FreeRuns& runs, const AugmentedModel& boat) {
@@ -240,52 +207,18 @@ ErrorModel ErrorModelOf(const FreeRuns& runs, const AugmentedModel& boat) {
       [&](const std::vector<ModelledEffect>& effects) { return runs.Errors(boat.With(effects)); };
 }
 
-Eigen::MatrixXd GustsOf(const std::vector<ModelledEffect>& effects, const Eigen::MatrixXd& errors,
-                        const ErrorModel& error_model, double window_s) {
-  std::vector<Eigen::VectorXd> columns;
-  for (std::size_t i = 0; i < effects.size(); ++i) {
-    const Effect& effect = *effects[i].effect;
-    const double deviation = DeviationOf(effects[i]);
-    if (deviation == 0.0) continue;
-    for (std::size_t j = 0; j < effect.Parameters().size(); ++j) {
-      if (effect.Parameters()[j].is_shape) continue;
-      for (const GustCourse& course : CoursesOf(effect.Facts(), window_s)) {
-        const double size = deviation * std::sqrt(course.share);
-        columns.emplace_back(
-            EffectOfGust(effects, errors, i, j, size, course, error_model).reshaped());
-      }
-    }
-  }
-  Eigen::MatrixXd gusts(errors.size(), std::ssize(columns));
-  for (Eigen::Index j = 0; j < gusts.cols(); ++j) {
-    gusts.col(j) = columns[static_cast<std::size_t>(j)];
-  }
-  return gusts;
-}
-
 EffectFit FitEffects(const ErrorModel& error_model, const ResidualMetric& metric,
                      const std::vector<const Effect*>& effects,
                      const std::vector<Eigen::VectorXd>& starts) {
   const double none = metric.SquaredMahalanobis(metric.Whiten(error_model({})));
-  EffectFit steady = FitWithoutGusts(error_model, metric, none, effects, starts);
-  std::optional<EffectFit> gusty = WithGustsOf(steady, error_model, metric, none);
-  if (!gusty) return steady;
-  const bool is_intermittent =
-      std::any_of(effects.begin(), effects.end(),
-                  [](const Effect* effect) { return effect->Facts().is_intermittent; });
-  if (!is_intermittent) return gusty->score < steady.score ? *std::move(gusty) : steady;
-  // It scatters as its mean says, and its mean changes once its scatter is allowed for: in turn.
-  EffectFit fit = *std::move(gusty);
-  for (int round = 1; round < kRoundsOfScatter; ++round) {
-    std::optional<EffectFit> next = WithGustsOf(fit, error_model, metric, none);
-    if (!next) break;
-    const Eigen::VectorXd before = fit.Values();
-    fit = *std::move(next);
-    if (fit.Values().isApprox(before, kSettled)) break;
-  }
-  // Its scatter is a parameter more.
-  fit.score += metric.ParameterPenalty();
-  return fit;
+  EffectFit steady = FitByMetric(error_model, metric, none, EffectParameters(effects), starts);
+  const auto intermittent =
+      std::ranges::find_if(effects, [](const Effect* effect) { return IsIntermittent(*effect); });
+  if (intermittent != effects.end())
+    return IntermittentFits(**intermittent, error_model, metric, none).Likeliest(steady);
+  std::optional<EffectFit> varying =
+      WithVariationOf(steady, steady, 0.0, error_model, metric, none);
+  return varying && varying->score < steady.score ? *std::move(varying) : steady;
 }
 
 }  // namespace telltale

@@ -22,10 +22,11 @@ struct EffectFit {
   double score = 0.0;
   double square = 0.0;     ///< squared Mahalanobis distance of the errors that are left
   Eigen::MatrixXd errors;  ///< rows x windows, with the effects
-  /// What gusts do to the errors, stacked window by window: of each parameter that gusts one column
-  /// for each course of a gust through a window, of one standard deviation. Empty where nothing
-  /// gusts.
-  Eigen::MatrixXd gusts;
+  /// What gusts and drifts do to the errors: of each parameter that gusts one column for each
+  /// course of a gust through a window, of each that drifts one. Empty where nothing does.
+  ErrorVariation variation;
+  /// The scatter of the size of an intermittent effect, in its unit; 0 where there is none.
+  double intermittent_sd = 0.0;
   /// The covariance that the stochastic effects add to a window's errors, rows x rows. Empty where
   /// there are none.
   Eigen::MatrixXd scatter;
@@ -43,24 +44,20 @@ struct EffectFit {
   const Effect* Stochastic() const;  ///< the stochastic effect, which stands last; or null
   /// `metric`, allowing for the scatter of the stochastic effects among these.
   ResidualMetric ScatteredMetric(const ResidualMetric& metric) const;
-  /// The same, allowing for their gusts too.
+  /// The same, allowing for gusts and drifts too.
   ResidualMetric WidenedMetric(const ResidualMetric& metric) const;
 };
 
 /// The free-run errors of `boat` with effects. The free runs and the boat have to outlive it.
 ErrorModel ErrorModelOf(const FreeRuns& runs, const AugmentedModel& boat);
 
-/// What one standard deviation of gusts does to the errors, as EffectFit::gusts has it. `errors`
-/// are those with the effects, in windows of window_s.
-Eigen::MatrixXd GustsOf(const std::vector<ModelledEffect>& effects, const Eigen::MatrixXd& errors,
-                        const ErrorModel& error_model, double window_s);
-
 /// Most probable values of effects that act together, and their evidence by Laplace's method,
 /// docs/concepts/diagnosis.md (88), (89), (97). Priors are normal: of twice the typical size about
 /// zero, and for a shape parameter of its spread about its prior mean. Levenberg-Marquardt runs
-/// from each of `starts`, a stack of values each; the lowest cost is kept. An effect with
-/// turbulence is fitted again with gusts, which stay where they lower the score or are the effect.
-/// An intermittent effect that scatters less than it stands for is the less likely. Requires: at
+/// from each of `starts`, a stack of values each; the lowest cost is kept. What
+/// gusts or drifts is fitted again allowing for that, where it lowers the score. An intermittent
+/// effect is fitted with the likeliest scatter; where it scatters less than that it is the less
+/// likely. Requires: at
 /// least one effect and one start.
 EffectFit FitEffects(const ErrorModel& error_model, const ResidualMetric& metric,
                      const std::vector<const Effect*>& effects,

@@ -15,21 +15,29 @@ EffectParameters::EffectParameters(const std::vector<const Effect*>& effects) : 
   for (const Effect* effect : effects) {
     for (const EffectParameter& parameter : effect->Parameters()) parameters_.push_back(&parameter);
   }
+  lower_.resize(Size());
+  upper_.resize(Size());
+  for (Eigen::Index i = 0; i < Size(); ++i) {
+    lower_[i] = ScaledAt(i, At(i).lower);
+    upper_[i] = ScaledAt(i, At(i).upper);
+  }
+}
+
+void EffectParameters::Bound(const Effect& effect, double lower, double upper) {
+  const auto first = std::ranges::find(parameters_, &effect.Parameters().front());
+  const Eigen::Index i = first - parameters_.begin();
+  lower_[i] = ScaledAt(i, lower);
+  upper_[i] = ScaledAt(i, upper);
 }
 
 Eigen::VectorXd EffectParameters::Scaled(const Eigen::VectorXd& values) const {
   Eigen::VectorXd scaled(Size());
-  for (Eigen::Index i = 0; i < Size(); ++i)
-    scaled[i] = (values[i] - At(i).prior_mean) / At(i).typical;
+  for (Eigen::Index i = 0; i < Size(); ++i) scaled[i] = ScaledAt(i, values[i]);
   return Clamped(scaled);
 }
 
 Eigen::VectorXd EffectParameters::Clamped(Eigen::VectorXd scaled) const {
-  for (Eigen::Index i = 0; i < Size(); ++i) {
-    scaled[i] = std::clamp(scaled[i], (At(i).lower - At(i).prior_mean) / At(i).typical,
-                           (At(i).upper - At(i).prior_mean) / At(i).typical);
-  }
-  return scaled;
+  return scaled.cwiseMax(lower_).cwiseMin(upper_);
 }
 
 std::vector<ModelledEffect> EffectParameters::Effects(const Eigen::VectorXd& scaled) const {
@@ -54,8 +62,7 @@ Eigen::VectorXd EffectParameters::PriorInformation() const {
 }
 
 double EffectParameters::DerivativeStep(Eigen::Index i, double scaled) const {
-  const double upper = (At(i).upper - At(i).prior_mean) / At(i).typical;
-  return scaled + kDerivativeStep > upper ? -kDerivativeStep : kDerivativeStep;
+  return scaled + kDerivativeStep > upper_[i] ? -kDerivativeStep : kDerivativeStep;
 }
 
 Eigen::VectorXd EffectParameters::TypicalSizes() const {

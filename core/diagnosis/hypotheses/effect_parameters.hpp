@@ -15,6 +15,9 @@ class EffectParameters {
  public:
   explicit EffectParameters(const std::vector<const Effect*>& effects);
 
+  /// The first parameter of one effect within these bounds, in its unit, rather than in its own.
+  void Bound(const Effect& effect, double lower, double upper);
+
   Eigen::Index Size() const { return static_cast<Eigen::Index>(parameters_.size()); }
 
   /// Values in their own units to scaled ones, within the bounds of each parameter.
@@ -39,8 +42,14 @@ class EffectParameters {
     return *parameters_[static_cast<std::size_t>(i)];
   }
 
+  double ScaledAt(Eigen::Index i, double value) const {
+    return (value - At(i).prior_mean) / At(i).typical;
+  }
+
   std::vector<const Effect*> effects_;
   std::vector<const EffectParameter*> parameters_;
+  Eigen::VectorXd lower_;  ///< scaled
+  Eigen::VectorXd upper_;
 };
 
 }  // namespace telltale

@@ -260,7 +260,7 @@ double Distance(const EffectFit& one, const EffectFit& other, const ResidualMetr
       scattered.SquaredMahalanobis(scattered.Whiten(one.errors) - scattered.Whiten(other.errors));
   const double by_mean =
       LogEvidenceOf(metric.EffectiveObservations(), square / std::min(one.square, other.square));
-  const bool only_one_varies = (one.gusts.size() == 0) != (other.gusts.size() == 0);
+  const bool only_one_varies = one.variation.IsEmpty() != other.variation.IsEmpty();
   return only_one_varies ? std::max(by_mean, 0.5 * std::abs(one.score - other.score)) : by_mean;
 }
 

@@ -59,8 +59,8 @@ HypothesisTraits TraitsOf(const EffectFit& fit) {
                           .is_stochastic = fit.Stochastic() != nullptr};
   for (const Effect* effect : fit.Effects()) {
     const EffectFacts& facts = effect->Facts();
-    traits.drifts |= facts.turbulence_intensity > 0.0 && facts.turbulence_time_s == 0.0;
-    traits.is_intermittent |= facts.is_intermittent;
+    traits.drifts |= facts.drift_time_s > 0.0;
+    traits.is_intermittent |= !facts.intermittent_sds.empty();
   }
   return traits;
 }

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "telltale/core/diagnosis/diagnosis_constants.hpp"
+#include "telltale/core/diagnosis/hypotheses/variation.hpp"
 #include "telltale/core/diagnosis/residuals/frequency_response.hpp"
 
 namespace telltale {
@@ -111,14 +112,14 @@ ObservedExcitation ExcitationOf(const SpectralPeak& peak, Eigen::Index rows,
   return observed;
 }
 
-/// What gusts add to the mean square of each row.
-Eigen::VectorXd GustMeanSquares(const EffectFit& fit, const FreeRuns& runs,
-                                const AugmentedModel& boat) {
+/// What gusts and drifts add to the mean square of each row.
+Eigen::VectorXd VariationMeanSquares(const EffectFit& fit, const FreeRuns& runs,
+                                     const AugmentedModel& boat) {
   const Eigen::MatrixXd errors = runs.Errors(boat.With(fit.effects));
+  const ErrorVariation variation = VariationOf(fit.effects, fit.intermittent_sd, errors,
+                                               ErrorModelOf(runs, boat), runs.HorizonS());
   const Eigen::VectorXd squares =
-      GustsOf(fit.effects, errors, ErrorModelOf(runs, boat), runs.HorizonS())
-          .rowwise()
-          .squaredNorm();
+      variation.by_window.rowwise().squaredNorm() + variation.drifting.rowwise().squaredNorm();
   return squares.reshaped(errors.rows(), errors.cols()).rowwise().mean();
 }
 
@@ -208,7 +209,7 @@ Eigen::MatrixXd ScatterOf(const std::vector<ModelledEffect>& effects, const Free
 Eigen::VectorXd StochasticMeanSquares(const EffectFit& fit, const FreeRuns& runs,
                                       const AugmentedModel& boat) {
   Eigen::VectorXd squares = Eigen::VectorXd::Zero(runs.Rows());
-  if (fit.gusts.size() > 0) squares += GustMeanSquares(fit, runs, boat);
+  if (!fit.variation.IsEmpty()) squares += VariationMeanSquares(fit, runs, boat);
   if (fit.Stochastic() != nullptr) squares += fit.scatter.diagonal();
   return squares;
 }

@@ -76,6 +76,9 @@ Sensitivity SensitivityOf(const FreeRuns& runs, const ChangedBoat& about,
   const auto size = sensitivity.errors.size();
   sensitivity.by_coefficient.resize(size, base);
   sensitivity.by_effect_parameter.resize(size, static_cast<Eigen::Index>(parameter_refs.size()));
+  for (std::size_t w = 0; w < runs.Windows(); ++w) {
+    sensitivity.window_times_s.push_back(runs.Of(w).time_s);
+  }
   const Eigen::VectorXd nominal = Stacked(sensitivity.errors);
   const Eigen::VectorXd standard_errors = model.StandardErrors();
   ForEachIndex(model.free.size() + parameter_refs.size(), threads, [&](std::size_t i) {

@@ -30,11 +30,13 @@ std::vector<ModelledEffect> EffectsOf(const std::vector<EffectParameterRef>& par
 
 /// Errors of a recording and how they change with the model's free parameters, in their standard
 /// errors, and with each effect parameter, in typical sizes. Shapes: errors rows x windows; the
-/// others one column an unknown, errors stacked window by window.
+/// others one column an unknown, errors stacked window by window; window_times_s the start of each
+/// window, ascending.
 struct Sensitivity {
   Eigen::MatrixXd errors;
   Eigen::MatrixXd by_coefficient;
   Eigen::MatrixXd by_effect_parameter;
+  std::vector<double> window_times_s = {};
 };
 
 /// A boat that a model is of, and by how many standard errors its free parameters differ from the

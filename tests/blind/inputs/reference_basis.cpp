@@ -4,6 +4,7 @@
 #include <stdexcept>
 
 #include "telltale/core/diagnosis/hypotheses/stochastic_excitation.hpp"
+#include "telltale/core/diagnosis/hypotheses/variation.hpp"
 
 namespace blind {
 namespace {
@@ -15,8 +16,18 @@ constexpr double kHorizonS = 5.0;
 std::vector<const telltale::Effect*> EffectsOfTheMean() {
   const auto library = telltale::EffectLibrary();
   std::vector<const telltale::Effect*> effects(library.begin(), library.end());
-  std::erase_if(effects, [](const auto* effect) { return effect->Facts().is_intermittent; });
+  std::erase_if(effects, [](const auto* effect) { return telltale::IsIntermittent(*effect); });
   return effects;
+}
+
+/// The scatter of spells among these effects; 0 where there are none. A model does not say how
+/// large it is: the middle one of what their effect may have.
+double SpellScatterOf(const std::vector<telltale::ModelledEffect>& effects) {
+  for (const auto& [effect, values] : effects) {
+    const std::vector<double>& sds = effect->Facts().intermittent_sds;
+    if (!sds.empty()) return sds[sds.size() / 2];
+  }
+  return 0.0;
 }
 
 std::vector<FreeRuns> ReferenceRuns(const DiagnosisInputs& inputs) {
@@ -58,8 +69,10 @@ double ReferenceBasis::SquaredGap(const telltale::AugmentedModel& model) const {
   };
   telltale::EffectFit fit;
   fit.effects = model.effects;
-  fit.gusts = telltale::GustsOf(model.effects, runs.Errors(model),
-                                telltale::ErrorModelOf(runs, nominal.boat), runs.HorizonS());
+  fit.intermittent_sd = SpellScatterOf(model.effects);
+  fit.variation =
+      telltale::VariationOf(model.effects, fit.intermittent_sd, runs.Errors(model),
+                            telltale::ErrorModelOf(runs, nominal.boat), runs.HorizonS());
   fit.scatter = telltale::ScatterOf(model.effects, runs, nominal.boat);
   const Eigen::VectorXd stochastic = telltale::StochasticMeanSquares(fit, runs, nominal.boat);
   const double gap = mean(runs.Errors(model));

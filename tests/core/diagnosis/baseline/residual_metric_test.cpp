@@ -68,6 +68,45 @@ TEST(ResidualMetric, WidensForVariationWithinAWindow) {
       1e-12);
 }
 
+/// Windows of five seconds whose only error is a scalar of unit variance, and n of half a window.
+class DriftingError : public ::testing::Test {
+ protected:
+  static constexpr Eigen::Index kWindows = 120;
+  static constexpr double kDriftS = 120.0, kSd = 10.0;
+  static ResidualMetric Metric() {
+    Sensitivity recording = testing::SensitivityOfErrors(Eigen::MatrixXd::Zero(1, kWindows), 0, 0);
+    for (int w = 0; w < kWindows; ++w) recording.window_times_s.push_back(5.0 * w);
+    return {testing::UnitBaseline(1, 0, 0), recording, EveryWindow(recording), false};
+  }
+  /// What is left of errors that go as a sine of so many half turns over the recording.
+  static double LeftOf(double half_turns, const ResidualMetric& metric) {
+    Eigen::MatrixXd errors(1, kWindows);
+    for (Eigen::Index w = 0; w < kWindows; ++w) {
+      errors(0, w) = kSd * std::sin(half_turns * M_PI * static_cast<double>(w) / kWindows);
+    }
+    return metric.SquaredMahalanobis(metric.Whiten(errors)) / errors.squaredNorm();
+  }
+  const ResidualMetric metric_ = Metric();
+  const Eigen::MatrixXd constant_ = Eigen::MatrixXd::Constant(kWindows, 1, kSd);
+  const ResidualMetric drifting_ =
+      metric_.WithVariation({Eigen::MatrixXd(kWindows, 0), constant_, kDriftS});
+  const ResidualMetric varying_ = metric_.WithWindowVariation(constant_);
+};
+
+// What varies in every window on its own leaves next to nothing of any course. A drift over two
+// minutes leaves as little of a slow one, and more of a course that turns within seconds.
+TEST_F(DriftingError, IsTakenUpWhereItIsSlow) {
+  EXPECT_LT(LeftOf(1.0, drifting_), 0.02);
+  EXPECT_GT(LeftOf(100.0, drifting_), 4.0 * LeftOf(100.0, varying_));
+  EXPECT_GT(LeftOf(100.0, drifting_), 4.0 * LeftOf(1.0, drifting_));
+}
+
+// It costs less than so many independent draws.
+TEST_F(DriftingError, CostsLessThanWhatVariesInEveryWindow) {
+  EXPECT_GT(drifting_.VariationPenalty(), 0.0);
+  EXPECT_LT(drifting_.VariationPenalty(), varying_.VariationPenalty());
+}
+
 // Scatter of every window is the same as a baseline that has it in its covariance.
 TEST(ResidualMetric, WidensForScatterOfEveryWindow) {
   const testing::LearnedBaseline& boat = SharedFixture();

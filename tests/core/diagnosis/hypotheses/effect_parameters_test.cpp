@@ -25,6 +25,13 @@ TEST(EffectParameters, KeepValuesWithinTheirBounds) {
   EXPECT_EQ(parameters.Clamped(Eigen::Vector2d(-5.0, 3.0)), Eigen::Vector2d(-4.0, 2.0));
 }
 
+TEST(EffectParameters, KeepTheFirstOfAnEffectWithinNarrowerBounds) {
+  EffectParameters parameters({&SizeAndShape()});
+  parameters.Bound(SizeAndShape(), -8.0, -1.0);
+  EXPECT_EQ(parameters.Scaled(Eigen::Vector2d(9.0, 0.0)), Eigen::Vector2d(-0.5, -2.0));
+  EXPECT_LT(parameters.DerivativeStep(0, -0.5), 0.0);  // away from the bound
+}
+
 TEST(EffectParameters, StackEffectsInOrder) {
   const testing::InertEffect first("first", {{"size", "1", 1.0, -9.0, 9.0}});
   const EffectParameters parameters({&first, &SizeAndShape()});
