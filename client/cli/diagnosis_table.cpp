@@ -78,12 +78,13 @@ std::string EffectText(const CausalEffect& effect, bool several) {
 }
 
 /// "thruster_lag: probability 81 %, excess explained 74 % [60, 88]", then its effects.
-std::string CauseParagraph(const Cause& cause) {
+std::string CauseParagraph(const Cause& cause, const Diagnosis& diagnosis) {
   std::string headline = CauseText(cause) + ": probability " + ShareText(cause.probability);
   if (!cause.effects.empty()) {
     headline += ", excess explained [95 %] " + ExcessExplainedText(cause.excess_explained);
   }
   std::string text = Wrapped(headline);
+  if (cause.effects.empty()) text += Wrapped(UnknownOddsText(diagnosis), "  ");
   for (const CausalEffect& effect : cause.effects) {
     text += EffectText(effect, cause.effects.size() > 1);
   }
@@ -97,7 +98,7 @@ std::string CauseParagraph(const Cause& cause) {
 std::string CausesText(const Diagnosis& diagnosis) {
   if (diagnosis.causes.empty()) return Wrapped("Causes: nothing to explain.");
   std::string text = "Causes\n";
-  for (const Cause& cause : diagnosis.causes) text += CauseParagraph(cause);
+  for (const Cause& cause : diagnosis.causes) text += CauseParagraph(cause, diagnosis);
   return text;
 }
 

@@ -63,13 +63,14 @@ Markup IndistinguishableText(const Cause& cause) {
       Words("This recording cannot separate it from " + Listed(cause.indistinguishable) + "."));
 }
 
-Markup CauseCard(const Cause& cause) {
+Markup CauseCard(const Cause& cause, const Diagnosis& diagnosis) {
   Markup card = Styled("header", "",
                        Styled("h3", "", JoinedName(CauseText(cause))) +
                            Styled("b", "share", Words(ShareText(cause.probability)))) +
                 ProbabilityBar(cause.probability);
   if (cause.effects.empty()) {
-    card += Styled("p", "says", Words("Something that the library of effects lacks."));
+    card += Styled("p", "says", Words("Something that the library of effects lacks.")) +
+            Styled("p", "soft", Words(UnknownOddsText(diagnosis)));
   }
   for (const CausalEffect& effect : cause.effects) {
     card += EffectPart(effect, cause.effects.size() > 1);
@@ -96,7 +97,7 @@ Markup CauseCards(const Diagnosis& diagnosis) {
   std::vector<std::string> unlikely;
   for (const Cause& cause : diagnosis.causes) {
     if (cause.probability >= kLikely) {
-      cards += CauseCard(cause);
+      cards += CauseCard(cause, diagnosis);
     } else {
       unlikely.push_back(CauseText(cause) + ' ' + ShareText(cause.probability));
     }

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
+#include <iterator>
 
 #include "telltale/client/report/number_text.hpp"
 
@@ -14,6 +16,24 @@ int DecimalsFor(double standard_error) {
   constexpr int kMost = 6;
   if (!std::isfinite(standard_error) || standard_error <= 0.0) return 3;
   return std::clamp(1 - static_cast<int>(std::floor(std::log10(standard_error))), 0, kMost);
+}
+
+/// A term of the odds of an unknown cause in words; its name where it is of another version.
+std::string TermText(const OddsTerm& term) {
+  if (term.name == "constant") return "to begin with";
+  if (term.name == "unexplained_share") return "by the share of the excess that is left";
+  if (term.name == "misfit") return "by the errors that are left";
+  if (term.name == "median_misfit") return "by the errors of the median window";
+  if (term.name == "predictable") return "by what effects still predict of the errors that are left";
+  if (term.name == "improbable_shape") return "by the improbable shape of the likeliest cause";
+  if (term.name == "drift") return "by what a current that drifts may hide";
+  if (term.name == "waves") return "by what waves may hide";
+  if (term.name == "spells") return "by what spells may hide";
+  return "by " + term.name;
+}
+
+std::string SignedText(double log_odds) {
+  return (log_odds < 0.0 ? "" : "+") + Fixed(log_odds, 1);
 }
 
 }  // namespace
@@ -164,6 +184,19 @@ std::string CauseText(const Cause& cause) {
     text.append(text.empty() ? "" : " + ").append(effect.effect);
   }
   return text;
+}
+
+std::string UnknownOddsText(const Diagnosis& diagnosis) {
+  constexpr double kHardly = 0.05;  // nats, that a decimal does not show
+  std::vector<OddsTerm> terms;
+  std::ranges::copy_if(diagnosis.unknown_odds, std::back_inserter(terms),
+                       [](const OddsTerm& term) { return std::abs(term.log_odds) >= kHardly; });
+  std::ranges::sort(terms, std::ranges::greater{}, &OddsTerm::log_odds);
+  std::vector<std::string> parts;
+  for (const OddsTerm& term : terms) {
+    parts.push_back(SignedText(term.log_odds) + ' ' + TermText(term));
+  }
+  return parts.empty() ? "" : "Its odds, in nats: " + Listed(parts) + '.';
 }
 
 std::string InfluenceText(const ReferenceInfluence& influence) {

@@ -59,6 +59,10 @@ std::string PromiseText(const SeparationAdvice& advice);
 /// "thruster_lag + wind", or "unknown".
 std::string CauseText(const Cause& cause);
 
+/// Why an unknown cause is as likely as it is: "Its odds, in nats: +1.8 by what effects still
+/// predict of the errors that are left, -0.5 to begin with.". Terms that hardly count are left out.
+std::string UnknownOddsText(const Diagnosis& diagnosis);
+
 /// "Unknown cause, likeliest wind (60 %)", "No material gap".
 std::string InfluenceText(const ReferenceInfluence& influence);
 

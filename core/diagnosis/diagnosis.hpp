@@ -216,6 +216,14 @@ struct Improvement {
   std::vector<FreeRunScores> after;
 };
 
+/// A term of the log odds that the cause is one that the library lacks: its regressor and what it
+/// adds, in nats. A positive one speaks for such a cause.
+struct OddsTerm {
+  std::string name;  ///< "misfit"
+  double value = 0.0;
+  double log_odds = 0.0;
+};
+
 /// What the noise floor is measured on.
 enum class FloorBasis { kUnknown, kReferenceLogs, kSensorNoise };
 
@@ -231,6 +239,7 @@ struct Diagnosis {
   std::vector<Gap> gaps;                   ///< horizons of 1, 5 and 10 s, ascending
   std::vector<GapCell> where;              ///< most excess first
   std::vector<Cause> causes;               ///< most probable first
+  std::vector<OddsTerm> unknown_odds;      ///< of the unknown cause; none without causes
   std::vector<EffectTestability> effects;  ///< in the order of the library
   std::vector<SeparationAdvice> advice;    ///< best first
   /// What each reference does to the answer, in their order; none where it was not asked for.

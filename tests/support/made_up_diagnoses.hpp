@@ -102,6 +102,9 @@ inline Diagnosis MadeUpDiagnosis() {
   Cause unknown;
   unknown.probability = 0.0625;
   made.causes = {both, one, unknown};
+  made.unknown_odds = {{"constant", 1.0, 0.05},        {"unexplained_share", -1.5, -2.25},
+                       {"misfit", 0.0, 0.0},           {"median_misfit", -0.25, -0.5},
+                       {"predictable", 0.125, 0.4375}, {"drift", 0.0, 0.0}};
   made.effects = {{"wind", Testability::kTestable, 12.5, ""},
                   {"thruster_imbalance",
                    Testability::kTestable,
@@ -316,6 +319,15 @@ void ExpectSame(const std::vector<Item>& a, const std::vector<Item>& b) {
   for (std::size_t i = 0; i < a.size(); ++i) ExpectSame(a[i], b[i]);
 }
 
+inline void ExpectSame(const std::vector<OddsTerm>& a, const std::vector<OddsTerm>& b) {
+  ASSERT_EQ(a.size(), b.size());
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    EXPECT_EQ(a[i].name, b[i].name);
+    EXPECT_EQ(a[i].value, b[i].value);
+    EXPECT_EQ(a[i].log_odds, b[i].log_odds);
+  }
+}
+
 inline void ExpectSame(const Diagnosis& a, const Diagnosis& b) {
   EXPECT_EQ(a.vehicle_id, b.vehicle_id);
   EXPECT_EQ(a.verdict, b.verdict);
@@ -327,6 +339,7 @@ inline void ExpectSame(const Diagnosis& a, const Diagnosis& b) {
   ExpectSame(a.gaps, b.gaps);
   ExpectSame(a.where, b.where);
   ExpectSame(a.causes, b.causes);
+  ExpectSame(a.unknown_odds, b.unknown_odds);
   ExpectSame(a.effects, b.effects);
   ExpectSame(a.advice, b.advice);
   ExpectSame(a.reference_influence, b.reference_influence);

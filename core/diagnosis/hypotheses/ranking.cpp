@@ -1,6 +1,7 @@
 #include "telltale/core/diagnosis/hypotheses/ranking.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "telltale/core/diagnosis/diagnosis_constants.hpp"
@@ -27,6 +28,33 @@ std::vector<EffectFit> ByScore(const Hypotheses& hypotheses) {
   std::sort(all.begin(), all.end(),
             [](const EffectFit& a, const EffectFit& b) { return a.score < b.score; });
   return all;
+}
+
+/// A regressor of the odds of an unknown cause and its weight.
+struct Term {
+  const char* name;
+  double value;
+  double weight;
+  double LogOdds() const { return weight * value; }
+};
+
+std::array<Term, 9> UnknownTerms(const LackOfFit& lack_of_fit, const HypothesisTraits& hypothesis) {
+  const double excess = lack_of_fit.after - lack_of_fit.nominal;
+  const double before = std::max(lack_of_fit.before - lack_of_fit.nominal, excess);
+  const double unresolved = UnresolvedShare(hypothesis.score);
+  const double share = before > 0.0 ? std::max(excess / before, unresolved) : unresolved;
+  const UnknownWeights& weights =
+      hypothesis.is_weather ? kRanking.unknown_beside_weather : kRanking.unknown_beside_faults;
+  const auto over_nominal = [&](double square) { return std::log(square / lack_of_fit.nominal); };
+  return {{{"constant", 1.0, weights.intercept},
+           {"unexplained_share", std::log(share), weights.per_log_share},
+           {"misfit", over_nominal(lack_of_fit.after), weights.per_misfit},
+           {"median_misfit", over_nominal(lack_of_fit.median), weights.per_median_misfit},
+           {"predictable", std::max(lack_of_fit.predictable, 0.0), weights.per_predictable},
+           {"improbable_shape", hypothesis.negative_log_prior, weights.per_negative_log_prior},
+           {"drift", hypothesis.drifts ? 1.0 : 0.0, weights.of_drift},
+           {"waves", hypothesis.is_stochastic ? 1.0 : 0.0, weights.of_waves},
+           {"spells", hypothesis.is_intermittent ? 1.0 : 0.0, weights.of_intermittence}}};
 }
 
 /// Whether this recording separates neither hypothesis from the other.
@@ -66,21 +94,18 @@ HypothesisTraits TraitsOf(const EffectFit& fit) {
 }
 
 double UnknownProbability(const LackOfFit& lack_of_fit, const HypothesisTraits& hypothesis) {
-  const double excess = lack_of_fit.after - lack_of_fit.nominal;
-  const double before = std::max(lack_of_fit.before - lack_of_fit.nominal, excess);
-  const double unresolved = UnresolvedShare(hypothesis.score);
-  const double share = before > 0.0 ? std::max(excess / before, unresolved) : unresolved;
-  const double misfit = std::log(lack_of_fit.after / lack_of_fit.nominal);
-  const UnknownWeights& weights =
-      hypothesis.is_weather ? kRanking.unknown_beside_weather : kRanking.unknown_beside_faults;
-  return Logistic(weights.intercept + weights.per_log_share * std::log(share) +
-                  weights.per_misfit * misfit +
-                  weights.per_median_misfit * std::log(lack_of_fit.median / lack_of_fit.nominal) +
-                  weights.per_predictable * std::max(lack_of_fit.predictable, 0.0) +
-                  weights.per_negative_log_prior * hypothesis.negative_log_prior +
-                  (hypothesis.drifts ? weights.of_drift : 0.0) +
-                  (hypothesis.is_stochastic ? weights.of_waves : 0.0) +
-                  (hypothesis.is_intermittent ? weights.of_intermittence : 0.0));
+  double log_odds = 0.0;
+  for (const Term& term : UnknownTerms(lack_of_fit, hypothesis)) log_odds += term.LogOdds();
+  return Logistic(log_odds);
+}
+
+std::vector<OddsTerm> UnknownOdds(const LackOfFit& lack_of_fit,
+                                  const HypothesisTraits& hypothesis) {
+  std::vector<OddsTerm> odds;
+  for (const Term& term : UnknownTerms(lack_of_fit, hypothesis)) {
+    odds.push_back({term.name, term.value, term.LogOdds()});
+  }
+  return odds;
 }
 
 bool IsCertain(double probability) {
@@ -108,7 +133,9 @@ Ranking Rank(const Hypotheses& hypotheses, const ResidualMetric& metric,
     equivalent->probability += own;
     equivalent->equivalent.push_back(fit);
   }
-  ranking.unknown = UnknownProbability(lack_of_fit, TraitsOf(all.front()));
+  const HypothesisTraits likeliest = TraitsOf(all.front());
+  ranking.unknown = UnknownProbability(lack_of_fit, likeliest);
+  ranking.unknown_odds = UnknownOdds(lack_of_fit, likeliest);
   const double known = (1.0 - ranking.unknown) / total;
   ranking.no_effect *= known;
   for (RankedHypothesis& ranked : ranking.fits) ranked.probability *= known;

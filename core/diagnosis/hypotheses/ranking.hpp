@@ -25,6 +25,7 @@ struct Ranking {
   std::vector<RankedHypothesis> fits;  ///< most probable first
   double no_effect = 0.0;              ///< probability that no effect acts
   double unknown = 0.0;                ///< probability of an effect that the library lacks
+  std::vector<OddsTerm> unknown_odds;  ///< what makes it so
 };
 
 /// Probabilities proportional to exp(-score / 2) (91), less the probability of an unknown effect,
@@ -53,6 +54,9 @@ HypothesisTraits TraitsOf(const EffectFit& fit);
 /// leaves, with what is predictable in its errors, with its negative log prior, and where it allows
 /// for what varies.
 double UnknownProbability(const LackOfFit& lack_of_fit, const HypothesisTraits& hypothesis);
+
+/// Its log odds, term by term.
+std::vector<OddsTerm> UnknownOdds(const LackOfFit& lack_of_fit, const HypothesisTraits& hypothesis);
 
 /// Whether a cause of this probability is named.
 bool IsCertain(double probability);

@@ -113,6 +113,7 @@ void DescribeMaterialGap(const ReportInputs& inputs, Diagnosis& diagnosis) {
       Localise(inputs.recording, inputs.references, inputs.problem.nominal.boat, inputs.seed);
   DescribeTheUnexplained(inputs, diagnosis);
   diagnosis.causes = CausesOf(inputs.conclusion, inputs.problem, inputs.main, inputs.seed);
+  diagnosis.unknown_odds = inputs.conclusion.ranking.unknown_odds;
   Advise(inputs, diagnosis);
 }
 

@@ -28,6 +28,12 @@ void Write(const EffectTestability& effect, proto::EffectTestability& message) {
   }
 }
 
+void Write(const OddsTerm& term, proto::OddsTerm& message) {
+  message.set_name(term.name);
+  message.set_value(term.value);
+  message.set_log_odds(term.log_odds);
+}
+
 void Write(const SeparationAdvice& advice, proto::SeparationAdvice& message) {
   message.set_manoeuvre(advice.manoeuvre);
   message.set_how(advice.how);
@@ -70,6 +76,10 @@ EffectTestability ReadTestability(FieldReader reader, const proto::EffectTestabi
   return {message.effect(), ReadEnum<Testability>(reader, "testability", message.testability()),
           reader.Number("detectability", kNotNegative), message.masked_by(),
           ReadAll(reader, "detectable_sizes", message.detectable_sizes(), ReadDetectableSize)};
+}
+
+OddsTerm ReadOddsTerm(FieldReader reader, const proto::OddsTerm& message) {
+  return {message.name(), reader.Number("value", kNotNan), reader.Number("log_odds", kNotNan)};
 }
 
 SeparationAdvice ReadAdvice(FieldReader reader, const proto::SeparationAdvice& message) {
@@ -126,6 +136,7 @@ Diagnosis ReadReport(FieldReader reader, const proto::Report& report) {
   diagnosis.gaps = ReadAll(reader, "horizons", report.horizons(), ReadGap);
   diagnosis.where = ReadAll(reader, "where", report.where(), ReadGapCell);
   diagnosis.causes = ReadAll(reader, "causes", report.causes(), ReadCause);
+  diagnosis.unknown_odds = ReadAll(reader, "unknown_odds", report.unknown_odds(), ReadOddsTerm);
   diagnosis.effects = ReadAll(reader, "effects", report.effects(), ReadTestability);
   diagnosis.advice = ReadAll(reader, "advice", report.advice(), ReadAdvice);
   diagnosis.reference_influence =
@@ -160,6 +171,7 @@ proto::Report ToProto(const Diagnosis& diagnosis) {
   for (const Gap& gap : diagnosis.gaps) *report.add_horizons() = ToProto(gap);
   for (const GapCell& cell : diagnosis.where) *report.add_where() = ToProto(cell);
   for (const Cause& cause : diagnosis.causes) *report.add_causes() = ToProto(cause);
+  for (const OddsTerm& term : diagnosis.unknown_odds) Write(term, *report.add_unknown_odds());
   for (const EffectTestability& effect : diagnosis.effects) Write(effect, *report.add_effects());
   for (const SeparationAdvice& advice : diagnosis.advice) Write(advice, *report.add_advice());
   for (const ReferenceInfluence& influence : diagnosis.reference_influence) {

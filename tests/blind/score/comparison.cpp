@@ -122,11 +122,8 @@ Said ReadAll(const fs::path& set, const std::vector<fs::path>& folders, bool par
   return said;
 }
 
-}  // namespace
-
-Comparison Scores(const fs::path& set, const std::vector<fs::path>& folders, bool partial) {
-  Said said = ReadAll(set, folders, partial);
-  Comparison comparison{.methods = {}, .cases = said.names.size()};
+/// The labels of all cases, and what is said without the true effect.
+void Open(const fs::path& set, const std::vector<fs::path>& folders, Said& said) {
   for (std::size_t column = 0; column < folders.size(); ++column) {
     for (std::size_t row = 0; row < said.names.size(); ++row) {
       Scored& scored = said.columns[column][row];
@@ -134,9 +131,25 @@ Comparison Scores(const fs::path& set, const std::vector<fs::path>& folders, boo
       const fs::path left_out = ReportFile(folders[column] / "left-out", said.names[row]);
       if (fs::exists(left_out)) scored.left_out = ReadLeftOut(left_out, scored.label);
     }
+  }
+}
+
+}  // namespace
+
+Comparison Scores(const fs::path& set, const std::vector<fs::path>& folders, bool partial) {
+  Said said = ReadAll(set, folders, partial);
+  Open(set, folders, said);
+  Comparison comparison{.methods = {}, .cases = said.names.size()};
+  for (std::size_t column = 0; column < folders.size(); ++column) {
     comparison.methods.push_back({NameOf(folders[column]), FiguresOf(said.columns[column])});
   }
   return comparison;
+}
+
+std::vector<Scored> ScoredCases(const fs::path& set, const fs::path& folder, bool partial) {
+  Said said = ReadAll(set, {folder}, partial);
+  Open(set, {folder}, said);
+  return said.columns.front();
 }
 
 std::vector<std::pair<std::string, std::string>> SingleEffects(const fs::path& set,

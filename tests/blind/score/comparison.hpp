@@ -30,6 +30,10 @@ struct Comparison {
 Comparison Scores(const std::filesystem::path& set,
                   const std::vector<std::filesystem::path>& folders, bool partial);
 
+/// The same of one folder, case by case.
+std::vector<Scored> ScoredCases(const std::filesystem::path& set,
+                                const std::filesystem::path& folder, bool partial);
+
 /// Case and true effect of each single effect, to be diagnosed again without it. Opens labels under
 /// the conditions of Scores, and throws as it does.
 std::vector<std::pair<std::string, std::string>> SingleEffects(

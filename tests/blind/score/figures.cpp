@@ -21,10 +21,6 @@ bool ReportsGap(const Report& report) {
   return IsSure(report) || report.verdict == "UNKNOWN_CAUSE";
 }
 
-bool IsUnknown(const Cause& cause) {
-  return cause.effects.contains(std::string(kUnknown));
-}
-
 bool Holds(const EffectSet& set, const EffectSet& part) {
   return std::includes(set.begin(), set.end(), part.begin(), part.end());
 }
@@ -41,11 +37,6 @@ EffectSet WithWeather(const Label& label) {
   EffectSet all = label.effects;
   all.insert(label.weather.begin(), label.weather.end());
   return all;
-}
-
-/// Nothing is named but the weather that is there.
-bool IsWeatherThatIsThere(const Cause* cause, const Label& label) {
-  return cause && Holds(label.weather, cause->effects);
 }
 
 std::string Joined(const EffectSet& effects) {
@@ -114,14 +105,6 @@ bool IsNeighbour(const Cause& cause, const Scored& scored) {
                      [&](const Cause& own) {
                        return StandsFor(own, scored.label.effects) && StandsFor(own, cause.effects);
                      });
-}
-
-/// Whether any effect of the cause is known to look like any of the true ones.
-bool IsConfusable(const Cause& cause, const EffectSet& truth) {
-  return std::any_of(cause.effects.begin(), cause.effects.end(), [&](const std::string& named) {
-    return std::any_of(truth.begin(), truth.end(),
-                       [&](const std::string& effect) { return AreConfusable(named, effect); });
-  });
 }
 
 void CountLeftOut(Figures& figures, const Scored& scored) {
@@ -199,6 +182,21 @@ bool ClassHit(const Scored& scored) {
   if (label.kind == "nominal") return IsWeatherThatIsThere(first, label);
   if (label.kind == "outside") return IsUnknown(*first) || IsWeatherThatIsThere(first, label);
   return StandsFor(*first, label.effects) || StandsFor(*first, WithWeather(label));
+}
+
+bool IsWeatherThatIsThere(const Cause* cause, const Label& label) {
+  return cause && Holds(label.weather, cause->effects);
+}
+
+bool IsConfusable(const Cause& cause, const EffectSet& truth) {
+  return std::any_of(cause.effects.begin(), cause.effects.end(), [&](const std::string& named) {
+    return std::any_of(truth.begin(), truth.end(),
+                       [&](const std::string& effect) { return AreConfusable(named, effect); });
+  });
+}
+
+bool IsUnknown(const Cause& cause) {
+  return cause.effects.contains(std::string(kUnknown));
 }
 
 std::size_t ClassSize(const Cause& cause) {

@@ -63,6 +63,14 @@ std::string CalledBy(const Report& report);
 /// latter.
 bool ClassHit(const Scored& scored);
 
+/// Nothing is named but the weather that is there.
+bool IsWeatherThatIsThere(const Cause* cause, const Label& label);
+
+/// Whether any effect of the cause is known to look like any of the true ones.
+bool IsConfusable(const Cause& cause, const EffectSet& truth);
+
+bool IsUnknown(const Cause& cause);
+
 /// How many single effects the first cause stands for.
 std::size_t ClassSize(const Cause& cause);
 

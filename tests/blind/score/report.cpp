@@ -111,6 +111,9 @@ Report ParseReport(const std::string& text) {
     report.detectability[TextAt(effect, "effect")] =
         NumberAt(effect, "detectability").value_or(0.0);
   }
+  for (const Json& term : ListAt(json, "unknownOdds")) {
+    report.unknown_regressors[TextAt(term, "name")] = NumberAt(term, "value").value_or(0.0);
+  }
   report.closure = NumberAt(Member(json, "gap"), "closure");
   return report;
 }

@@ -33,8 +33,9 @@ struct Report {
   std::string verdict;
   std::vector<Cause> causes;  // the likeliest first
   std::map<std::string, double> detectability;
-  std::optional<double> closure;   // predicted
-  std::optional<double> realised;  // from NNN.realised.json
+  std::map<std::string, double> unknown_regressors;  // of the odds of the unknown cause, by name
+  std::optional<double> closure;                     // predicted
+  std::optional<double> realised;                    // from NNN.realised.json
 };
 
 /// Both throw std::invalid_argument naming what is wrong with the text.

@@ -116,6 +116,14 @@ TEST(Page, GivesNoCardToACauseThatIsUnlikely) {
   EXPECT_THAT(page, Not(HasSubstr("Something that the library of effects lacks.")));
 }
 
+TEST(Page, SaysWhyAnUnknownCauseIsLikely) {
+  Diagnosis made = MadeUpDiagnosis();
+  made.causes.back().probability = 0.5;
+  made.unknown_odds.push_back({"a_term_of_later_versions", 1.0, 7.0});
+  const std::string page = ReportPage(made);
+  EXPECT_THAT(page, HasSubstr("Its odds, in nats: +7.0 by a_term_of_later_versions, +0.4 by what"));
+}
+
 TEST(Page, ShowsTheValuesOfAWindowUnderThePointer) {
   Diagnosis made = MadeUpDiagnosis();
   made.pictures[1].time_s = made.start_s + 125.0;

@@ -1,5 +1,7 @@
 #include "telltale/core/diagnosis/hypotheses/ranking.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include <gtest/gtest.h>
@@ -124,6 +126,23 @@ TEST(Rank, UnknownProbabilityOfFaultsGoesByTheMedianWindow) {
   EXPECT_GT(doubt(4.0), 0.8);
 }
 
+// The report says why.
+TEST(Rank, UnknownProbabilityIsThatOfItsTerms) {
+  const RankedBoat boat;
+  Hypotheses hypotheses;
+  hypotheses.singles = {boat.Scored("current", -40.0)};
+  const Ranking ranking =
+      Rank(hypotheses, boat.metric,
+           {.before = 20.0, .after = 2.0, .nominal = 1.0, .median = 1.5, .predictable = 0.25});
+  double log_odds = 0.0;
+  for (const OddsTerm& term : ranking.unknown_odds) log_odds += term.log_odds;
+  EXPECT_NEAR(std::log(ranking.unknown / (1.0 - ranking.unknown)), log_odds, 1e-9);
+  const auto predictable = std::ranges::find(ranking.unknown_odds, "predictable", &OddsTerm::name);
+  ASSERT_NE(predictable, ranking.unknown_odds.end());
+  EXPECT_EQ(predictable->value, 0.25);
+  EXPECT_GT(predictable->log_odds, 0.0);
+}
+
 // With little evidence, what another cause would leave is not resolved.
 TEST(Rank, UnknownProbabilityGrowsWithWeakEvidence) {
   const RankedBoat boat;
@@ -138,20 +157,21 @@ TEST(Rank, UnknownProbabilityGrowsWithWeakEvidence) {
   EXPECT_LT(doubt(-100.0), 0.05);
 }
 
-// What a hypothesis allows for, a current that drifts, waves or spells, hides what else there is. A
-// lag allows for nothing.
+// What a hypothesis allows for beside a fault, a current that drifts, waves or spells, hides what
+// else there is. A thrust gain allows for nothing.
 TEST(Rank, UnknownProbabilityGrowsWithWhatIsAllowedFor) {
   const RankedBoat boat;
-  const auto doubt = [&](const char* effect) {
+  const auto doubt = [&](const char* beside) {
     Hypotheses hypotheses;
-    hypotheses.singles = {boat.Scored(effect, -40.0)};
+    hypotheses.singles = {boat.Scored("thruster_lag", -40.0)};
+    hypotheses.singles.front().effects.push_back(AtPriorMean(beside));
     const LackOfFit lack_of_fit{.before = 20.0, .after = 1.0, .nominal = 1.0, .median = 0.8};
     return Rank(hypotheses, boat.metric, lack_of_fit).unknown;
   };
-  for (const char* effect : {"current", "waves", "intermittent_thrust_loss"}) {
-    EXPECT_GT(doubt(effect), doubt("thruster_lag")) << effect;
+  for (const char* beside : {"current", "waves", "intermittent_thrust_loss"}) {
+    EXPECT_GT(doubt(beside), doubt("thrust_gain")) << beside;
   }
-  EXPECT_EQ(doubt("heading_bias"), doubt("thruster_lag"));
+  EXPECT_EQ(doubt("heading_bias"), doubt("thrust_gain"));
 }
 
 // What is predictable in the errors is something that the hypothesis lacks. Negative values do not
