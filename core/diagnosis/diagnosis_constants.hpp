@@ -178,21 +178,20 @@ struct RankingConstants {
   double material_log_lack_of_fit = 0.9;  ///< 1, ln of the lack of fit over that of references
   double equivalence_factor = 2.0;        ///< 1, upper bound of G^2 over the floor's limit
   double nominal_median = 0.75;           ///< 1, of the windows' squares, over their mean; seed 61
-  UnknownWeights unknown_beside_faults = {.intercept = 0.05,
-                                          .per_log_share = 1.6,
-                                          .per_misfit = 0.9,
-                                          .per_median_misfit = 2.7,
-                                          .per_predictable = 3.5,
-                                          .per_negative_log_prior = 3.5,
-                                          .of_drift = 1.8,
+  UnknownWeights unknown_beside_faults = {.intercept = -0.25,
+                                          .per_log_share = 1.45,
+                                          .per_misfit = 1.5,
+                                          .per_median_misfit = 1.9,
+                                          .per_predictable = 0.45,
+                                          .per_negative_log_prior = 3.35,
+                                          .of_drift = 1.9,
                                           .of_waves = 2.3,
-                                          .of_intermittence = 3.2};
-  UnknownWeights unknown_beside_weather = {.intercept = -4.9,
-                                           .per_misfit = 4.6,
-                                           .per_predictable = 6.1,
-                                           .per_negative_log_prior = 1.15,
-                                           .of_drift = 2.15,
-                                           .of_waves = 1.45};
+                                          .of_intermittence = 3.55};
+  UnknownWeights unknown_beside_weather = {.intercept = -4.6,
+                                           .per_misfit = 4.25,
+                                           .per_predictable = 7.1,
+                                           .of_drift = 0.35,
+                                           .of_waves = 1.2};
   double explained_share = 0.7;     ///< 1, of the excess, from which on a gap is explained
   double naming_probability = 0.9;  ///< of a named cause at least, development sets 2 and 3
 };
