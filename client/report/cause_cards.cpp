@@ -69,8 +69,9 @@ Markup CauseCard(const Cause& cause, const Diagnosis& diagnosis) {
                            Styled("b", "share", Words(ShareText(cause.probability)))) +
                 ProbabilityBar(cause.probability);
   if (cause.effects.empty()) {
-    card += Styled("p", "says", Words("Something that the library of effects lacks.")) +
-            Styled("p", "soft", Words(UnknownOddsText(diagnosis)));
+    card += Styled("p", "says", Words("Something that the library of effects lacks."));
+    const std::string odds = UnknownOddsText(diagnosis);
+    if (!odds.empty()) card += Styled("p", "soft", Words(odds));
   }
   for (const CausalEffect& effect : cause.effects) {
     card += EffectPart(effect, cause.effects.size() > 1);

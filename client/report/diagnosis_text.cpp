@@ -21,10 +21,11 @@ int DecimalsFor(double standard_error) {
 /// A term of the odds of an unknown cause in words; its name where it is of another version.
 std::string TermText(const OddsTerm& term) {
   if (term.name == "constant") return "to begin with";
-  if (term.name == "unexplained_share") return "by the share of the excess that is left";
-  if (term.name == "misfit") return "by the errors that are left";
-  if (term.name == "median_misfit") return "by the errors of the median window";
-  if (term.name == "predictable") return "by what effects still predict of the errors that are left";
+  if (term.name == "log_unexplained_share") return "by the share of the excess that is left";
+  if (term.name == "log_misfit") return "by the errors that are left";
+  if (term.name == "log_median_misfit") return "by the errors of the median window";
+  if (term.name == "predictable")
+    return "by what effects still predict of the errors that are left";
   if (term.name == "improbable_shape") return "by the improbable shape of the likeliest cause";
   if (term.name == "drift") return "by what a current that drifts may hide";
   if (term.name == "waves") return "by what waves may hide";

@@ -219,7 +219,7 @@ struct Improvement {
 /// A term of the log odds that the cause is one that the library lacks: its regressor and what it
 /// adds, in nats. A positive one speaks for such a cause.
 struct OddsTerm {
-  std::string name;  ///< "misfit"
+  std::string name;  ///< "log_misfit"
   double value = 0.0;
   double log_odds = 0.0;
 };

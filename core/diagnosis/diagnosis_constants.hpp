@@ -116,6 +116,15 @@ struct EffectFitConstants {
   double minimum_remaining_share = 1e-3;  ///< 1, of the square that the score test leaves at least
 };
 
+/// What varies within a recording, docs/concepts/diagnosis.md (97).
+struct VariationConstants {
+  double fastest_radians = 5.0;   ///< rad within a time constant, from which on a drift is fast
+  int most_half_turns = 24;       ///< of a drift over a recording; what is faster is fast
+  int half_turns_of_a_spell = 5;  ///< within a window, of the fastest course that counts
+  double least_mean = 0.15;       ///< 1, over the scatter of what acts for 2 % of the time
+  double least_scatter = 1e-4;    ///< 1, of the variance that an intermittent effect stands for
+};
+
 /// The search for hypotheses.
 struct SearchConstants {
   std::size_t effects_fitted_in_full = 14;  ///< of those that the score test ranks first
@@ -165,7 +174,7 @@ struct UnknownWeights {
   double per_median_misfit = 0.0;       ///< the same of the median window
   double per_predictable = 0.0;         ///< per unit of LackOfFit::predictable
   double per_negative_log_prior = 0.0;  ///< per nat
-  double of_drift = 0.0;                ///< where something varies between windows
+  double of_drift = 0.0;                ///< where something drifts
   double of_waves = 0.0;                ///< where something is stochastic
   double of_intermittence = 0.0;        ///< where something is intermittent
 };
@@ -236,6 +245,7 @@ struct DiagnosisConstants {
   ResidualMetricConstants metric;
   RecordingConstants recording;
   EffectFitConstants effect_fit;
+  VariationConstants variation;
   SearchConstants search;
   SpectralPeakConstants spectral_peak;
   StochasticExcitationConstants stochastic_excitation;

@@ -90,11 +90,12 @@ struct EffectFacts {
   /// stays as it is throughout a free run. Of Hook::kThrustShare and kAcceleration alone.
   double turbulence_time_s = 0.0;
   /// How long what scatters stays from one free run to the next: the time constant of its
-  /// correlation, of first order. 0 where each free run has its own.
+  /// correlation, of first order, the same for all effects that have one. 0 where each free run has
+  /// its own.
   double drift_time_s = 0.0;
-  /// Of what acts at times only, how far its sizes may scatter from one free run to the next, in
-  /// their unit, whatever the mean: the likeliest of these. That scatter is the effect; without it,
-  /// it is another one.
+  /// Of what acts at times only, how far its size may scatter, in its unit, whatever the mean: the
+  /// likeliest of these. That scatter is the effect; without it, it is another one. Such an effect
+  /// has one parameter and acts on either side of zero.
   std::vector<double> intermittent_sds = {};
   /// Whether one of its parameters that do not shape is one where it acts: an output is stuck or
   /// not.
@@ -122,6 +123,9 @@ class Effect {
   bool IsStochastic() const {
     return StochasticExcitation(std::vector<double>(facts_.parameters.size(), 1.0)).has_value();
   }
+
+  /// Whether it acts at times only.
+  bool IsIntermittent() const { return !facts_.intermittent_sds.empty(); }
 
   /// What an operator would call it with these values: "port thruster 22 % weaker".
   virtual std::string Describe(EffectValues values) const = 0;

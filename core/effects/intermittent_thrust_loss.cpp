@@ -19,7 +19,7 @@ class IntermittentThrustLossEffect final : public Effect {
             {.name = "intermittent_thrust_loss",
              .title = "a thruster that loses thrust at times",
              .equation = "T_port -> (1 - e) T_port for e > 0, T_starboard -> (1 + e) T_starboard "
-                         "for e < 0, e random from window to window",
+                         "for e < 0, e random, in spells",
              .source = "Ventilation and weed: Carlton, Marine Propellers and Propulsion, 2018, "
                        "chapter 9; Faltinsen, Hydrodynamics of High-Speed Marine Vehicles, 2005, "
                        "chapter 2",
@@ -28,8 +28,8 @@ class IntermittentThrustLossEffect final : public Effect {
              .hook = Hook::kThrustShare,
              .nominal_variation = NominalVariation::kNone,
              .turbulence_time_s = kSpellS,
-             // Of a loss e for a share p of the time, e sqrt(p (1 - p)): of a fifth for a fifth of
-             // it, of half for a fifth, and of four fifths for half of it.
+             // Of a loss e for a share p of the time, e sqrt(p (1 - p)): of a quarter for a fifth
+             // of it, of half for a fifth, and of four fifths for half of it.
              .intermittent_sds = {0.1, 0.2, 0.4}}) {}
 
   std::string Describe(EffectValues values) const override {

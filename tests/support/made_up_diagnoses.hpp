@@ -102,8 +102,8 @@ inline Diagnosis MadeUpDiagnosis() {
   Cause unknown;
   unknown.probability = 0.0625;
   made.causes = {both, one, unknown};
-  made.unknown_odds = {{"constant", 1.0, 0.05},        {"unexplained_share", -1.5, -2.25},
-                       {"misfit", 0.0, 0.0},           {"median_misfit", -0.25, -0.5},
+  made.unknown_odds = {{"constant", 1.0, 0.05},        {"log_unexplained_share", -1.5, -2.25},
+                       {"log_misfit", 0.0, 0.0},       {"log_median_misfit", -0.25, -0.5},
                        {"predictable", 0.125, 0.4375}, {"drift", 0.0, 0.0}};
   made.effects = {{"wind", Testability::kTestable, 12.5, ""},
                   {"thruster_imbalance",

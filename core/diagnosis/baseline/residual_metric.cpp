@@ -6,6 +6,7 @@
 #include <numeric>
 #include <utility>
 
+#include "telltale/core/base/contract.hpp"
 #include "telltale/core/base/linear_algebra/covariance.hpp"
 #include "telltale/core/base/linear_algebra/eigen_decompositions.hpp"
 #include "telltale/core/diagnosis/baseline/gauss_markov_series.hpp"
@@ -20,8 +21,7 @@ constexpr double kUnboundedPrior = kDiagnosis.metric.free_coefficient_sd;
 // that has diverged says that it is wrong, not how much.
 constexpr double kMaximumSigmas = kDiagnosis.metric.largest_sigmas;
 constexpr double kNothing = 1e-12;
-// Radians that the slow part of a drift may run through within a time constant.
-constexpr double kSlowestRest = 5.0;
+constexpr VariationConstants kVariation = kDiagnosis.variation;
 
 Eigen::MatrixXd RootOf(const Eigen::MatrixXd& covariance) {
   const Eigen::LDLT<Eigen::MatrixXd> factor(covariance);
@@ -38,14 +38,18 @@ struct SlowCourses {
 };
 
 SlowCourses SlowCoursesOf(const Eigen::ArrayXd& times_s, double time_constant_s) {
-  const Eigen::ArrayXd since_s = times_s - times_s[0];
-  const double lasting = time_constant_s / since_s.tail(1)[0];
-  const int fastest = static_cast<int>(std::ceil(kSlowestRest / (std::numbers::pi * lasting)));
+  const Eigen::ArrayXd since_s = times_s - times_s.minCoeff();
+  // The series holds over any span that holds the recording.
+  const double span_s = std::max(since_s.maxCoeff(), time_constant_s);
+  const double lasting = time_constant_s / span_s;
+  const int fastest = std::min(
+      static_cast<int>(std::ceil(kVariation.fastest_radians / (std::numbers::pi * lasting))),
+      kVariation.most_half_turns);
   SlowCourses slow;
   slow.by_window.resize(times_s.size(), 2 * fastest + 1);
   for (int k = 0; k <= fastest; ++k) {
     const double share = GaussMarkovShare(k, lasting);
-    const Eigen::ArrayXd phases = since_s * (k * std::numbers::pi / since_s.tail(1)[0]);
+    const Eigen::ArrayXd phases = since_s * (k * std::numbers::pi / span_s);
     slow.by_window.col(2 * k) = std::sqrt(share) * phases.cos();
     if (k > 0) slow.by_window.col(2 * k - 1) = std::sqrt(share) * phases.sin();
     slow.rest -= share;
@@ -143,6 +147,7 @@ ResidualMetric ResidualMetric::WithWindowVariation(const Eigen::MatrixXd& varyin
 ResidualMetric ResidualMetric::WithVariation(const ErrorVariation& variation) const {
   const Eigen::MatrixXd& drifting = variation.drifting;
   if (drifting.size() == 0) return WithWindowVariation(variation.by_window);
+  Require(drifting.rows() == factor_.rows() * times_s_.size(), "the time of every window");
   const SlowCourses slow = SlowCoursesOf(times_s_, variation.drift_time_s);
   Eigen::MatrixXd by_window(drifting.rows(), variation.by_window.cols() + drifting.cols());
   by_window << variation.by_window, std::sqrt(slow.rest) * drifting;

@@ -19,6 +19,8 @@ struct ErrorVariation {
   Eigen::MatrixXd by_window;  ///< in each window on its own
   Eigen::MatrixXd drifting;   ///< as a Gauss-Markov process does
   double drift_time_s = 0.0;  ///< its time constant
+  /// Which columns of by_window are those of spells that last a window.
+  std::vector<Eigen::Index> spells = {};
 
   bool IsEmpty() const { return by_window.size() == 0 && drifting.size() == 0; }
 };

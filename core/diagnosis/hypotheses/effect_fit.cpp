@@ -16,8 +16,6 @@
 namespace telltale {
 namespace {
 
-constexpr double kLeastMean = 0.15;  // 1, over the scatter of what acts for 2 % of the time
-
 Minimum LowestFrom(const std::vector<Eigen::VectorXd>& starts, const EffectPosterior& posterior) {
   std::optional<Minimum> best;
   for (const Eigen::VectorXd& start : starts) {
@@ -58,7 +56,7 @@ EffectFit FitByMetric(const ErrorModel& error_model, const ResidualMetric& metri
 /// its side, and by so much at least.
 void BoundMean(const ModelledEffect& intermittent, double sd, EffectParameters& parameters) {
   const EffectParameter& mean = intermittent.effect->Parameters().front();
-  const double least = kLeastMean * sd;
+  const double least = kDiagnosis.variation.least_mean * sd;
   if (intermittent.values.front() < 0.0) {
     parameters.Bound(*intermittent.effect, mean.lower, -least);
   } else {
@@ -77,13 +75,13 @@ std::optional<EffectFit> WithVariationOf(const EffectFit& about, const EffectFit
   const ResidualMetric widened = metric.WithVariation(variation);
   EffectParameters parameters(about.Effects());
   for (const ModelledEffect& modelled : about.effects) {
-    if (IsIntermittent(*modelled.effect)) BoundMean(modelled, intermittent_sd, parameters);
+    if (modelled.effect->IsIntermittent()) BoundMean(modelled, intermittent_sd, parameters);
   }
   EffectFit varying = FitByMetric(error_model, widened, none, parameters, {fit.Values()});
   varying.variation = std::move(variation);
   varying.intermittent_sd = intermittent_sd;
   varying.score += widened.VariationPenalty() - metric.VariationPenalty() +
-                   ScatterDeficit(about.effects, varying.variation, varying.errors, metric);
+                   ScatterDeficit(varying.variation, varying.errors, metric);
   return varying;
 }
 
@@ -97,7 +95,7 @@ class IntermittentFits {
   /// Of the likeliest side, and of the likeliest scatter there. The scatter is a parameter more.
   EffectFit Likeliest(const EffectFit& steady) const {
     const std::vector<double>& sds = intermittent_.Facts().intermittent_sds;
-    const double middle = sds[sds.size() / 2];
+    const double middle = MiddleScatterOf(intermittent_);
     EffectFit fit = Likelier(Fit(steady, -1.0, middle), Fit(steady, 1.0, middle));
     const double side = SideOf(fit);
     for (const double sd : sds) {
@@ -212,8 +210,7 @@ EffectFit FitEffects(const ErrorModel& error_model, const ResidualMetric& metric
                      const std::vector<Eigen::VectorXd>& starts) {
   const double none = metric.SquaredMahalanobis(metric.Whiten(error_model({})));
   EffectFit steady = FitByMetric(error_model, metric, none, EffectParameters(effects), starts);
-  const auto intermittent =
-      std::ranges::find_if(effects, [](const Effect* effect) { return IsIntermittent(*effect); });
+  const auto intermittent = std::ranges::find_if(effects, &Effect::IsIntermittent);
   if (intermittent != effects.end())
     return IntermittentFits(**intermittent, error_model, metric, none).Likeliest(steady);
   std::optional<EffectFit> varying =

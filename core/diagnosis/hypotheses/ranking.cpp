@@ -47,9 +47,9 @@ std::array<Term, 9> UnknownTerms(const LackOfFit& lack_of_fit, const HypothesisT
       hypothesis.is_weather ? kRanking.unknown_beside_weather : kRanking.unknown_beside_faults;
   const auto over_nominal = [&](double square) { return std::log(square / lack_of_fit.nominal); };
   return {{{"constant", 1.0, weights.intercept},
-           {"unexplained_share", std::log(share), weights.per_log_share},
-           {"misfit", over_nominal(lack_of_fit.after), weights.per_misfit},
-           {"median_misfit", over_nominal(lack_of_fit.median), weights.per_median_misfit},
+           {"log_unexplained_share", std::log(share), weights.per_log_share},
+           {"log_misfit", over_nominal(lack_of_fit.after), weights.per_misfit},
+           {"log_median_misfit", over_nominal(lack_of_fit.median), weights.per_median_misfit},
            {"predictable", std::max(lack_of_fit.predictable, 0.0), weights.per_predictable},
            {"improbable_shape", hypothesis.negative_log_prior, weights.per_negative_log_prior},
            {"drift", hypothesis.drifts ? 1.0 : 0.0, weights.of_drift},
@@ -88,7 +88,7 @@ HypothesisTraits TraitsOf(const EffectFit& fit) {
   for (const Effect* effect : fit.Effects()) {
     const EffectFacts& facts = effect->Facts();
     traits.drifts |= facts.drift_time_s > 0.0;
-    traits.is_intermittent |= !facts.intermittent_sds.empty();
+    traits.is_intermittent |= effect->IsIntermittent();
   }
   return traits;
 }

@@ -40,9 +40,8 @@ struct HypothesisTraits {
   double score = 0.0;
   double negative_log_prior = 0.0;  ///< of its shape parameters
   bool is_weather = false;          ///< and no fault of the boat
-  /// Whether one of its effects varies between windows and never within one, as a current does;
-  /// whether one is stochastic; whether one is intermittent. What is allowed for hides what else
-  /// there is.
+  /// Whether one of its effects drifts, as a current does; whether one is stochastic; whether one
+  /// is intermittent. What is allowed for hides what else there is.
   bool drifts = false;
   bool is_stochastic = false;
   bool is_intermittent = false;

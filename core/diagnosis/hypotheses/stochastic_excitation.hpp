@@ -46,8 +46,8 @@ EffectFit FitBeside(const Effect& stochastic, const DiagnosisProblem& problem,
 Eigen::MatrixXd ScatterOf(const std::vector<ModelledEffect>& effects, const FreeRuns& runs,
                           const AugmentedModel& boat);
 
-/// By how much the stochastic effects of a fit, and the gusts that it allows for, raise the mean
-/// square of each row's error.
+/// By how much the stochastic effects of a fit, and the gusts, drifts and spells that it allows
+/// for, raise the mean square of each row's error.
 Eigen::VectorXd StochasticMeanSquares(const EffectFit& fit, const FreeRuns& runs,
                                       const AugmentedModel& boat);
 

@@ -12,8 +12,7 @@ namespace telltale {
 namespace {
 
 constexpr double kInvisible = 1e-12;
-constexpr int kHalfTurnsOfASpell = 5;   // within a window, of the fastest course that counts
-constexpr double kLeastScatter = 1e-4;  // of the variance that an intermittent effect stands for
+constexpr VariationConstants kVariation = kDiagnosis.variation;
 
 /// Length of the vector of sizes.
 double LengthOf(const ModelledEffect& modelled) {
@@ -25,7 +24,7 @@ double LengthOf(const ModelledEffect& modelled) {
 /// One standard deviation of what varies: of an intermittent effect its own, of others the
 /// turbulence intensity times the length of the mean.
 double DeviationOf(const ModelledEffect& modelled, double intermittent_sd) {
-  if (IsIntermittent(*modelled.effect)) return intermittent_sd;
+  if (modelled.effect->IsIntermittent()) return intermittent_sd;
   return modelled.effect->Facts().turbulence_intensity * LengthOf(modelled);
 }
 
@@ -54,7 +53,7 @@ struct GustCourse {
 std::vector<GustCourse> CoursesOf(const EffectFacts& facts, double window_s) {
   if (facts.turbulence_time_s == 0.0) return {{}};
   const double lasting = facts.turbulence_time_s / window_s;
-  const int fastest = facts.intermittent_sds.empty() ? 1 : kHalfTurnsOfASpell;
+  const int fastest = facts.intermittent_sds.empty() ? 1 : kVariation.half_turns_of_a_spell;
   std::vector<GustCourse> courses = {{0.0, 0.0, GaussMarkovShare(0, lasting)}};
   for (int k = 1; k <= fastest; ++k) {
     const double share = GaussMarkovShare(k, lasting);
@@ -79,6 +78,7 @@ Eigen::MatrixXd EffectOfGust(const std::vector<ModelledEffect>& effects,
     return error_model(changed) - errors;
   }
   const double amplitude = std::min(deviation, LengthOf(effects[gusting]));
+  if (amplitude == 0.0) return Eigen::MatrixXd::Zero(errors.rows(), errors.cols());
   const GustPattern pattern(*effects[gusting].effect,
                             {parameter, amplitude, course.frequency_rad_s, course.phase_rad});
   changed[gusting].effect = &pattern;
@@ -95,8 +95,9 @@ std::vector<double> SizesOf(const ModelledEffect& modelled) {
   return sizes;
 }
 
-bool IsIntermittent(const Effect& effect) {
-  return !effect.Facts().intermittent_sds.empty();
+double MiddleScatterOf(const Effect& intermittent) {
+  const std::vector<double>& sds = intermittent.Facts().intermittent_sds;
+  return sds[sds.size() / 2];
 }
 
 ErrorVariation VariationOf(const std::vector<ModelledEffect>& effects, double intermittent_sd,
@@ -112,6 +113,7 @@ ErrorVariation VariationOf(const std::vector<ModelledEffect>& effects, double in
     if (Drifts(facts)) variation.drift_time_s = facts.drift_time_s;
     for (std::size_t j = 0; j < facts.parameters.size(); ++j) {
       if (facts.parameters[j].is_shape) continue;
+      if (effects[i].effect->IsIntermittent()) variation.spells.push_back(std::ssize(by_window));
       for (const GustCourse& course : CoursesOf(facts, window_s)) {
         const double size = deviation * std::sqrt(course.share);
         (Drifts(facts) ? drifting : by_window)
@@ -125,32 +127,23 @@ ErrorVariation VariationOf(const std::vector<ModelledEffect>& effects, double in
   return variation;
 }
 
-double ScatterDeficit(const std::vector<ModelledEffect>& effects, const ErrorVariation& variation,
-                      const Eigen::MatrixXd& errors, const ResidualMetric& metric) {
+double ScatterDeficit(const ErrorVariation& variation, const Eigen::MatrixXd& errors,
+                      const ResidualMetric& metric) {
   const Eigen::MatrixXd left = metric.UnexplainedByWindow(metric.Whiten(errors));
-  const Eigen::MatrixXd whitened =
-      metric.WhitenColumns(variation.by_window) / std::sqrt(metric.Kappa());
-  constexpr double kAny = 1.0;
   double deficit = 0.0;
-  Eigen::Index column = 0;
-  for (const ModelledEffect& modelled : effects) {
-    const EffectFacts& facts = modelled.effect->Facts();
-    if (Drifts(facts) || DeviationOf(modelled, kAny) == 0.0) continue;
-    for (const EffectParameter& parameter : facts.parameters) {
-      if (parameter.is_shape) continue;
-      // What stays as it is throughout a window.
-      const auto by_window = whitened.col(column).reshaped(left.rows(), left.cols());
-      column += std::ssize(CoursesOf(facts, kDiagnosis.horizons.main_s));
-      if (!IsIntermittent(*modelled.effect)) continue;
-      const Eigen::ArrayXd squares = by_window.colwise().squaredNorm().transpose().array();
-      const Eigen::ArrayXd sums = left.cwiseProduct(by_window).colwise().sum().transpose().array();
-      // What all windows have in common is no scatter.
-      const Eigen::ArrayXd along = sums - sums.sum() / squares.sum() * squares;
-      // Each window's own noise adds one.
-      const double realised = (along.square() / squares.max(kInvisible) - 1.0).sum();
-      const double ratio = std::clamp(realised / squares.sum(), kLeastScatter, 1.0);
-      deficit += metric.EffectiveObservations() * (ratio - 1.0 - std::log(ratio));
-    }
+  for (const Eigen::Index column : variation.spells) {
+    const Eigen::VectorXd spell = metric.WhitenColumns(variation.by_window.col(column)).col(0);
+    const Eigen::MatrixXd by_window =
+        spell.reshaped(left.rows(), left.cols()) / std::sqrt(metric.Kappa());
+    const Eigen::ArrayXd squares = by_window.colwise().squaredNorm().transpose().array();
+    const double visible = std::max(squares.sum(), kInvisible);
+    const Eigen::ArrayXd sums = left.cwiseProduct(by_window).colwise().sum().transpose().array();
+    // What all windows have in common is no scatter.
+    const Eigen::ArrayXd along = sums - sums.sum() / visible * squares;
+    // Each window's own noise adds one.
+    const double realised = (along.square() / squares.max(kInvisible) - 1.0).sum();
+    const double ratio = std::clamp(realised / visible, kVariation.least_scatter, 1.0);
+    deficit += metric.EffectiveObservations() * (ratio - 1.0 - std::log(ratio));
   }
   return deficit;
 }

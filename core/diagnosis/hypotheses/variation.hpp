@@ -13,8 +13,8 @@ namespace telltale {
 /// Those values that are not shape parameters.
 std::vector<double> SizesOf(const ModelledEffect& modelled);
 
-/// Whether it acts at times only.
-bool IsIntermittent(const Effect& effect);
+/// The middle one of the scatters that an intermittent effect may have.
+double MiddleScatterOf(const Effect& intermittent);
 
 /// What one standard deviation of gusts, drifts and spells does to the errors: of each size that
 /// gusts one column for each course of a gust through a window, of each that drifts one;
@@ -24,11 +24,10 @@ ErrorVariation VariationOf(const std::vector<ModelledEffect>& effects, double in
                            const Eigen::MatrixXd& errors, const ErrorModel& error_model,
                            double window_s);
 
-/// By how much the scatter from window to window that the intermittent effects among these stand
-/// for falls short, in -2 ln of the likelihood of so little: n (s - 1 - ln s) where the realised
-/// variance s, over that of `variation`, is below one. `errors` are those that a fit leaves, in
-/// windows of the main horizon.
-double ScatterDeficit(const std::vector<ModelledEffect>& effects, const ErrorVariation& variation,
-                      const Eigen::MatrixXd& errors, const ResidualMetric& metric);
+/// By how much the scatter from window to window that spells stand for falls short, in -2 ln of the
+/// likelihood of so little: n (s - 1 - ln s) where the realised variance s, over that of the
+/// spells, is below one. `errors` are those that a fit leaves.
+double ScatterDeficit(const ErrorVariation& variation, const Eigen::MatrixXd& errors,
+                      const ResidualMetric& metric);
 
 }  // namespace telltale

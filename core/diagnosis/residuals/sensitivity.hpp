@@ -31,7 +31,7 @@ std::vector<ModelledEffect> EffectsOf(const std::vector<EffectParameterRef>& par
 /// Errors of a recording and how they change with the model's free parameters, in their standard
 /// errors, and with each effect parameter, in typical sizes. Shapes: errors rows x windows; the
 /// others one column an unknown, errors stacked window by window; window_times_s the start of each
-/// window, ascending.
+/// window.
 struct Sensitivity {
   Eigen::MatrixXd errors;
   Eigen::MatrixXd by_coefficient;

@@ -23,7 +23,7 @@ CommandOutcome Truth(const std::vector<std::string>& options) {
 
 TEST(BlindCommands, HelpThemselves) {
   for (const char* command :
-       {BLIND_TRUTH, BLIND_SCORE, BLIND_ALTER, BLIND_BASELINES, BLIND_REALISED}) {
+       {BLIND_TRUTH, BLIND_SCORE, BLIND_FIT, BLIND_ALTER, BLIND_BASELINES, BLIND_REALISED}) {
     const CommandOutcome outcome = RunCommand({command, "--help"});
     EXPECT_EQ(outcome.exit_code, 0) << command;
     EXPECT_THAT(outcome.out, HasSubstr("Example: ")) << command;

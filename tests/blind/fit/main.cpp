@@ -18,11 +18,11 @@ constexpr int kUsageError = 2;
 constexpr int kReportsMissing = 3;
 
 const std::vector<std::string> kBesideFaults = {
-    "constant",    "unexplained_share", "misfit", "median_misfit",
-    "predictable", "improbable_shape",  "drift",  "waves",
+    "constant",    "log_unexplained_share", "log_misfit", "log_median_misfit",
+    "predictable", "improbable_shape",      "drift",      "waves",
     "spells"};
-const std::vector<std::string> kBesideWeather = {"constant",         "misfit", "predictable",
-                                                 "improbable_shape", "drift",  "waves"};
+const std::vector<std::string> kBesideWeather = {"constant", "log_misfit", "predictable", "drift",
+                                                 "waves"};
 
 struct Arguments {
   std::vector<std::string> sets;
@@ -93,7 +93,8 @@ void Run(const Arguments& arguments) {
 int main(int argc, char** argv) {
   CLI::App app("Fits the odds of an unknown cause to development sets");
   app.footer(
-      "A logistic regression of whether the likeliest cause is another than the true one, on the "
+      "It opens the labels, so give it development sets alone. A logistic regression of whether "
+      "the likeliest cause is another than the true one, on the "
       "terms that reports give of these odds. The weights belong into "
       "core/diagnosis/diagnosis_constants.hpp.\n"
       "Example: blind_fit --set-dir set-61 --reports reports-61 --set-dir set-62 --reports "

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <stdexcept>
 
 namespace blind::fit {
@@ -72,7 +73,7 @@ double RegressorOf(const Observation& observation, const std::string& name) {
   return found->second;
 }
 
-/// Half the curvature and half the gradient of the loss.
+/// Curvature and gradient of the loss.
 struct Quadratic {
   Eigen::MatrixXd curvature;
   Eigen::VectorXd gradient;
@@ -126,18 +127,19 @@ LogisticModel FitLogistic(const std::vector<Observation>& observations,
   for (Eigen::Index i = 0; i < rows; ++i) {
     outcomes[i] = observations[static_cast<std::size_t>(i)].is_another ? 1.0 : 0.0;
   }
-  // The loss is convex. Its second derivative is bounded by that of outcomes that are as likely as
-  // not, a quarter: steps of a damped curvature cannot pass the minimum by much.
+  // The loss is convex. Steps no longer than one do not pass its minimum by far.
   Eigen::VectorXd weights = Eigen::VectorXd::Zero(columns);
   constexpr int kMost = 200;
   constexpr double kSettled = 1e-9;
-  for (int iteration = 0; iteration < kMost; ++iteration) {
+  double moved = INFINITY;
+  for (int iteration = 0; iteration < kMost && moved > kSettled; ++iteration) {
     const Quadratic loss = QuadraticAt(weights, regressors, outcomes, ridges);
     Eigen::VectorXd step = loss.curvature.ldlt().solve(loss.gradient);
     step *= std::min(1.0, 1.0 / step.norm());
     weights -= step;
-    if (step.norm() < kSettled) break;
+    moved = step.norm();
   }
+  if (!(moved <= kSettled)) throw std::invalid_argument("the odds have no weights without a ridge");
   LogisticModel model;
   for (Eigen::Index j = 0; j < columns; ++j) {
     model.weights[names[static_cast<std::size_t>(j)]] = weights[j];

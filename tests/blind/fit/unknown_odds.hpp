@@ -33,7 +33,7 @@ struct LogisticModel {
 /// Maximum likelihood with a ridge: the least mean logarithmic loss, plus `ridge` times the squares
 /// of the weights but for that of "constant". By Newton's method; Bishop, Pattern Recognition and
 /// Machine Learning, 2006, section 4.3.3. Throws std::invalid_argument where there is no
-/// observation of either kind or one lacks a regressor.
+/// observation of either kind, one lacks a regressor, or no weights are the likeliest.
 LogisticModel FitLogistic(const std::vector<Observation>& observations,
                           const std::vector<std::string>& regressors, double ridge);
 

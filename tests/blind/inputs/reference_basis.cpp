@@ -16,7 +16,7 @@ constexpr double kHorizonS = 5.0;
 std::vector<const telltale::Effect*> EffectsOfTheMean() {
   const auto library = telltale::EffectLibrary();
   std::vector<const telltale::Effect*> effects(library.begin(), library.end());
-  std::erase_if(effects, [](const auto* effect) { return telltale::IsIntermittent(*effect); });
+  std::erase_if(effects, [](const auto* effect) { return effect->IsIntermittent(); });
   return effects;
 }
 
@@ -24,8 +24,7 @@ std::vector<const telltale::Effect*> EffectsOfTheMean() {
 /// large it is: the middle one of what their effect may have.
 double SpellScatterOf(const std::vector<telltale::ModelledEffect>& effects) {
   for (const auto& [effect, values] : effects) {
-    const std::vector<double>& sds = effect->Facts().intermittent_sds;
-    if (!sds.empty()) return sds[sds.size() / 2];
+    if (effect->IsIntermittent()) return telltale::MiddleScatterOf(*effect);
   }
   return 0.0;
 }

@@ -150,7 +150,7 @@ int main(int argc, char** argv) {
       "Simulates boats of its own making and records them, with or without something wrong");
   app.footer(
       "Without --effect or --nominal it writes a whole set: hulls/, cases/ and labels/ below DIR.\n"
-      "Labels are sealed; only blind_score opens them.\n"
+      "Labels are sealed; only blind_score and blind_fit open them.\n"
       "Example: blind_truth --set development --out build/blind/development\n"
       "         blind_truth --effect wind --size 2 --hull tern --unseal --out one");
   Arguments arguments;

@@ -13,6 +13,8 @@
 
 #include "support/browser.hpp"
 #include "support/made_up_diagnoses.hpp"
+#include "telltale/client/report/diagnosis_text.hpp"
+#include "telltale/core/diagnosis/hypotheses/ranking.hpp"
 #include "telltale/core/effects/effect.hpp"
 #include "telltale/idl/codec/json/report.hpp"
 
@@ -114,6 +116,18 @@ TEST(Page, GivesNoCardToACauseThatIsUnlikely) {
   const std::string page = ReportPage(made);
   EXPECT_THAT(page, HasSubstr("Unlikely: unknown 0 %."));
   EXPECT_THAT(page, Not(HasSubstr("Something that the library of effects lacks.")));
+}
+
+// Every term that core names has words.
+TEST(UnknownOddsText, NamesEveryTermInWords) {
+  Diagnosis made;
+  made.unknown_odds = UnknownOdds({.before = 3.0, .after = 2.0, .nominal = 1.0, .median = 1.5}, {});
+  ASSERT_FALSE(made.unknown_odds.empty());
+  for (OddsTerm& term : made.unknown_odds) term.log_odds = 1.0;
+  EXPECT_THAT(UnknownOddsText(made), Not(HasSubstr("_")));
+  for (const OddsTerm& term : made.unknown_odds) {
+    EXPECT_THAT(UnknownOddsText(made), Not(HasSubstr("by " + term.name + ","))) << term.name;
+  }
 }
 
 TEST(Page, SaysWhyAnUnknownCauseIsLikely) {

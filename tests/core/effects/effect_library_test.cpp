@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <set>
 #include <string>
 
@@ -105,6 +106,20 @@ TEST(EffectLibrary, SaysOfEveryEffectWhatItIs) {
       EXPECT_LE(parameter.typical, parameter.upper) << parameter.name;
     }
   }
+}
+
+// What the search takes for granted of effects that vary.
+TEST(EffectLibrary, VariesInWaysThatTheSearchKnows) {
+  std::set<double> drift_times_s;
+  for (const Effect* effect : EffectLibrary()) {
+    const EffectFacts& facts = effect->Facts();
+    if (facts.drift_time_s > 0.0) drift_times_s.insert(facts.drift_time_s);
+    if (!effect->IsIntermittent()) continue;
+    ASSERT_EQ(facts.parameters.size(), 1U) << effect->Name();
+    EXPECT_EQ(facts.parameters[0].lower, -facts.parameters[0].upper) << effect->Name();
+    EXPECT_TRUE(std::ranges::is_sorted(facts.intermittent_sds)) << effect->Name();
+  }
+  EXPECT_LE(drift_times_s.size(), 1U);
 }
 
 TEST(EffectLibrary, LeavesTheBoatAloneWhereAnEffectIsNotThere) {

@@ -73,9 +73,9 @@ class DriftingError : public ::testing::Test {
  protected:
   static constexpr Eigen::Index kWindows = 120;
   static constexpr double kDriftS = 120.0, kSd = 10.0;
-  static ResidualMetric Metric() {
-    Sensitivity recording = testing::SensitivityOfErrors(Eigen::MatrixXd::Zero(1, kWindows), 0, 0);
-    for (int w = 0; w < kWindows; ++w) recording.window_times_s.push_back(5.0 * w);
+  static ResidualMetric Metric(Eigen::Index windows) {
+    Sensitivity recording = testing::SensitivityOfErrors(Eigen::MatrixXd::Zero(1, windows), 0, 0);
+    for (int w = 0; w < windows; ++w) recording.window_times_s.push_back(5.0 * w);
     return {testing::UnitBaseline(1, 0, 0), recording, EveryWindow(recording), false};
   }
   /// What is left of errors that go as a sine of so many half turns over the recording.
@@ -86,7 +86,7 @@ class DriftingError : public ::testing::Test {
     }
     return metric.SquaredMahalanobis(metric.Whiten(errors)) / errors.squaredNorm();
   }
-  const ResidualMetric metric_ = Metric();
+  const ResidualMetric metric_ = Metric(kWindows);
   const Eigen::MatrixXd constant_ = Eigen::MatrixXd::Constant(kWindows, 1, kSd);
   const ResidualMetric drifting_ =
       metric_.WithVariation({Eigen::MatrixXd(kWindows, 0), constant_, kDriftS});
@@ -99,6 +99,21 @@ TEST_F(DriftingError, IsTakenUpWhereItIsSlow) {
   EXPECT_LT(LeftOf(1.0, drifting_), 0.02);
   EXPECT_GT(LeftOf(100.0, drifting_), 4.0 * LeftOf(100.0, varying_));
   EXPECT_GT(LeftOf(100.0, drifting_), 4.0 * LeftOf(1.0, drifting_));
+}
+
+// A recording shorter than the drift lasts, of one window too, sees one size of it. An error of
+// that size is likely: about m = 2 is left of it, since the slow part counts in full where errors
+// count by the observation of m rows.
+TEST_F(DriftingError, IsOneSizeInAShortRecording) {
+  for (const Eigen::Index windows : {1, 3}) {
+    const ResidualMetric metric = Metric(windows).WithVariation(
+        {Eigen::MatrixXd(windows, 0), Eigen::MatrixXd::Constant(windows, 1, kSd), kDriftS});
+    const Eigen::VectorXd errors = Eigen::VectorXd::Constant(windows, kSd);
+    const double left = metric.SquaredMahalanobis(metric.Whiten(errors.transpose()));
+    EXPECT_GT(left, 0.0) << windows;
+    EXPECT_LT(left, 3.0) << windows;
+    EXPECT_TRUE(std::isfinite(metric.VariationPenalty())) << windows;
+  }
 }
 
 // It costs less than so many independent draws.

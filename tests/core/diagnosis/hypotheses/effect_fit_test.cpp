@@ -207,21 +207,21 @@ TEST(FitEffects, AnIntermittentEffectTakesTheLikeliestScatterAndItsSide) {
   }
 }
 
-// What acts for a fiftieth of the time, by ten, scatters by 1.4 and acts by 0.2 on average. To the
-// windows in which it does not act its mean is zero; it stays at what its scatter stands for.
+// What acts in one of forty windows, by four, has a mean of 0.1. A scatter of 2 stands for 0.3 at
+// least, of what acts for a fiftieth of the time.
 TEST(FitEffects, AnIntermittentEffectActsByNoLessThanItsScatterStandsFor) {
   const testing::InertEffect intermittent("intermittent", {{"size", "1", 1.0, -10.0, 10.0}}, 0.0,
-                                          {1.4});
+                                          {2.0});
   const Eigen::MatrixXd pattern = 10.0 * testing::Pattern(kRows, kWindows, 0.7);
   const ErrorModel error_model = [&](const std::vector<ModelledEffect>& effects) {
     const double v = effects.empty() ? 0.0 : effects.front().values.front();
     Eigen::MatrixXd errors = testing::Pattern(kRows, kWindows, 2.3) + v * pattern;
-    errors.col(7) -= 10.0 * pattern.col(7);
+    errors.col(7) -= 4.0 * pattern.col(7);
     return errors;
   };
   const EffectFit fit =
       FitEffects(error_model, UnitMetric(), {&intermittent}, {Eigen::VectorXd::Constant(1, 1.0)});
-  EXPECT_GE(fit.effects[0].values[0], 0.15 * 1.4 - 1e-9);
+  EXPECT_NEAR(fit.effects[0].values[0], 0.15 * 2.0, 1e-6);
 }
 
 /// An acceleration ahead of its own value, with gusts of a fifth that last 4 s.
@@ -272,6 +272,49 @@ TEST(VariationOf, CovariesAsAFirstOrderProcessWithinAWindow) {
           << i << ", " << j;
     }
   }
+}
+
+// Where a thruster stands still its spells show nothing: that is no evidence, and no number is
+// lost.
+TEST(ScatterDeficit, IsFiniteWhereNothingShows) {
+  const Eigen::MatrixXd errors = testing::Pattern(kRows, kWindows, 2.3);
+  ErrorVariation variation;
+  variation.by_window = Eigen::MatrixXd::Zero(errors.size(), 1);
+  variation.spells = {0};
+  const double deficit = ScatterDeficit(variation, errors, UnitMetric());
+  EXPECT_TRUE(std::isfinite(deficit));
+  EXPECT_GT(deficit, 0.0);
+}
+
+/// What wind, a current and spells do to errors that they move in proportion.
+ErrorVariation VariationOfAll() {
+  std::vector<ModelledEffect> effects;
+  for (const char* name : {"wind", "intermittent_thrust_loss", "current"}) {
+    ModelledEffect& modelled = effects.emplace_back(ModelledEffect{FindEffect(name), {}});
+    for (const EffectParameter& parameter : modelled.effect->Parameters()) {
+      modelled.values.push_back(parameter.is_shape ? parameter.prior_mean : parameter.typical);
+    }
+  }
+  const ErrorModel error_model = [](const std::vector<ModelledEffect>& all) {
+    double sum = 0.0;
+    for (const ModelledEffect& one : all) {
+      for (const double value : one.values) sum += value;
+    }
+    return Eigen::MatrixXd::Constant(kRows, kWindows, sum).eval();
+  };
+  return VariationOf(effects, 0.2, error_model(effects), error_model, 5.0);
+}
+
+// Two components of wind by three courses, and eleven of spells, up to five half turns; of the
+// spells the first is the one that lasts the window. The two components of a current drift.
+TEST(VariationOf, TellsWhatDriftsFromWhatVariesByWindow) {
+  const ErrorVariation variation = VariationOfAll();
+  EXPECT_EQ(variation.by_window.cols(), 2 * 3 + 11);
+  EXPECT_EQ(variation.spells, std::vector<Eigen::Index>{6});
+  EXPECT_EQ(variation.drifting.cols(), 2);
+  EXPECT_EQ(variation.drift_time_s, 120.0);
+  // A fifth of the length of (0.2, 0.2) m/s.
+  EXPECT_NEAR(variation.drifting(0, 0), 0.2 * std::hypot(0.2, 0.2), 1e-12);
 }
 
 TEST(Distance, OfTwoThatPredictAlikeIsTheEvidenceOfTheScatterOfOne) {

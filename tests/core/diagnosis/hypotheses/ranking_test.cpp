@@ -122,8 +122,8 @@ TEST(Rank, UnknownProbabilityOfFaultsGoesByTheMedianWindow) {
                 {.before = 20.0, .after = 4.0, .nominal = 1.0, .median = median})
         .unknown;
   };
-  EXPECT_LT(doubt(0.8), 0.2);
-  EXPECT_GT(doubt(4.0), 0.8);
+  EXPECT_LT(doubt(0.8), 0.5);
+  EXPECT_GT(doubt(4.0), 0.5);
 }
 
 // The report says why.
@@ -172,6 +172,19 @@ TEST(Rank, UnknownProbabilityGrowsWithWhatIsAllowedFor) {
     EXPECT_GT(doubt(beside), doubt("thrust_gain")) << beside;
   }
   EXPECT_EQ(doubt("heading_bias"), doubt("thrust_gain"));
+}
+
+// A current or waves alone leave room for another cause that wind alone does not.
+TEST(Rank, UnknownProbabilityOfWeatherGrowsWithWhatIsAllowedFor) {
+  const RankedBoat boat;
+  const auto doubt = [&](const char* weather) {
+    Hypotheses hypotheses;
+    hypotheses.singles = {boat.Scored(weather, -40.0)};
+    const LackOfFit lack_of_fit{.before = 20.0, .after = 1.5, .nominal = 1.0, .median = 0.8};
+    return Rank(hypotheses, boat.metric, lack_of_fit).unknown;
+  };
+  EXPECT_GT(doubt("current"), doubt("wind"));
+  EXPECT_GT(doubt("waves"), doubt("wind"));
 }
 
 // What is predictable in the errors is something that the hypothesis lacks. Negative values do not
