@@ -44,7 +44,7 @@ TEST(ObservationsOf, AskWhetherTheLikeliestNamedCauseIsTheTrueOne) {
   EXPECT_EQ(seen[0].regressors.at("misfit"), 0.5);
 }
 
-// What looks like the true effect, and the weather that is there, cannot be known where it is left out.
+// A diagnosis without the true effect cannot know what resembles it, nor the weather that is there.
 TEST(ObservationsOf, CountStrangersThatCanBeToldAlone) {
   const auto without = [](const std::string& named) {
     Scored scored = Case("single", {"thruster_lag"}, {});
