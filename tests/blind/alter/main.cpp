@@ -1,5 +1,4 @@
 #include <CLI/CLI.hpp>
-#include <exception>
 #include <filesystem>
 #include <iostream>
 #include <stdexcept>
@@ -8,11 +7,9 @@
 #include <vector>
 
 #include "alter/alterations.hpp"
+#include "exit_code.hpp"
 
 namespace {
-
-constexpr int kUsageError = 2;
-constexpr int kUnusable = 3;
 
 struct Arguments {
   std::string log;
@@ -144,18 +141,8 @@ int main(int argc, char** argv) {
       "           --starboard-pulses-us 1511 1111 1911 --out weaker");
   Arguments arguments;
   AddOptions(app, arguments);
-  try {
-    app.parse(argc, argv);
+  return blind::ExitCodeOf<std::invalid_argument>(app, "blind_alter", argc, argv, [&] {
     RefuseOverwriting(arguments);
     Run(arguments);
-    return 0;
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : kUsageError;
-  } catch (const std::invalid_argument& error) {
-    std::cerr << "blind_alter: " << error.what() << '\n';
-    return kUnusable;
-  } catch (const std::exception& error) {
-    std::cerr << "blind_alter: " << error.what() << '\n';
-    return 1;
-  }
+  });
 }

@@ -1,15 +1,12 @@
 #include <CLI/CLI.hpp>
-#include <exception>
-#include <iostream>
 #include <string>
 
 #include "baselines/best_bic.hpp"
 #include "baselines/regressions.hpp"
+#include "exit_code.hpp"
 #include "telltale/client/recording/file_contents.hpp"
 
 namespace {
-
-constexpr int kUsageError = 2;
 
 struct Arguments {
   blind::DiagnosisInputFiles files;
@@ -48,14 +45,5 @@ int main(int argc, char** argv) {
       ->type_name("DIR")
       ->required();
   app.add_option("--name", arguments.name, "of the reports")->type_name("NAME")->required();
-  try {
-    app.parse(argc, argv);
-    Run(arguments);
-    return 0;
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : kUsageError;
-  } catch (const std::exception& error) {
-    std::cerr << "blind_baselines: " << error.what() << '\n';
-    return 1;
-  }
+  return blind::ExitCodeOf(app, "blind_baselines", argc, argv, [&] { Run(arguments); });
 }

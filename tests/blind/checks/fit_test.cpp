@@ -1,10 +1,14 @@
 #include "fit/unknown_odds.hpp"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <random>
 #include <stdexcept>
+
+#include "support/run_command.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace blind::fit {
 namespace {
@@ -108,6 +112,22 @@ TEST(FitLogistic, RefusesWhatItCannotFit) {
   const std::vector<Observation> alike = {{.regressors = {{"constant", 1.0}}}};
   EXPECT_THROW(FitLogistic(alike, {"constant"}, 0.0), std::invalid_argument);
   EXPECT_THROW(FitLogistic(Drawn(0.0, 1.0, 20), {"constant", "y"}, 0.0), std::invalid_argument);
+}
+
+TEST(BlindFit, RefusesBadOptionsByName) {
+  const telltale::TemporaryFolder folder;
+  const std::string path = folder.Path().string();
+  const std::vector<std::pair<std::vector<std::string>, std::string>> wrong{
+      {{"--set-dir", path}, "--reports"},
+      {{"--set-dir", path, "--set-dir", path, "--reports", path}, "--reports"},
+      {{"--set-dir", path, "--reports", path, "--ridge", "2"}, "--ridge"}};
+  for (const auto& [options, name] : wrong) {
+    std::vector<std::string> words{BLIND_FIT};
+    words.insert(words.end(), options.begin(), options.end());
+    const telltale::CommandOutcome outcome = telltale::RunCommand(words);
+    EXPECT_EQ(outcome.exit_code, 2) << name;
+    EXPECT_THAT(outcome.err, testing::HasSubstr(name));
+  }
 }
 
 }  // namespace

@@ -1,21 +1,17 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
-#include <exception>
-#include <iostream>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
+#include "exit_code.hpp"
 #include "fit/unknown_odds.hpp"
 #include "score/comparison.hpp"
 
 namespace {
 
 using blind::fit::Observation;
-
-constexpr int kUsageError = 2;
-constexpr int kReportsMissing = 3;
 
 const std::vector<std::string> kBesideFaults = {
     "constant",    "log_unexplained_share", "log_misfit", "log_median_misfit",
@@ -51,8 +47,9 @@ void AddOptions(CLI::App& app, Arguments& arguments) {
 
 std::vector<Observation> Read(const Arguments& arguments) {
   if (arguments.sets.size() != arguments.reports.size()) {
-    throw std::invalid_argument("--reports is given " + std::to_string(arguments.reports.size()) +
-                                " times, --set-dir " + std::to_string(arguments.sets.size()));
+    throw CLI::ValidationError(
+        "--reports", "given " + std::to_string(arguments.reports.size()) + " times, --set-dir " +
+                         std::to_string(arguments.sets.size()) + " times: once each");
   }
   std::vector<Observation> all;
   for (std::size_t i = 0; i < arguments.sets.size(); ++i) {
@@ -101,17 +98,6 @@ int main(int argc, char** argv) {
       "reports-62");
   Arguments arguments;
   AddOptions(app, arguments);
-  try {
-    app.parse(argc, argv);
-    Run(arguments);
-    return 0;
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : kUsageError;
-  } catch (const blind::score::ReportsMissing& error) {
-    std::cerr << "blind_fit: " << error.what() << '\n';
-    return kReportsMissing;
-  } catch (const std::exception& error) {
-    std::cerr << "blind_fit: " << error.what() << '\n';
-    return 1;
-  }
+  return blind::ExitCodeOf<blind::score::ReportsMissing>(app, "blind_fit", argc, argv,
+                                                         [&] { Run(arguments); });
 }

@@ -12,7 +12,6 @@ namespace blind::fit {
 namespace {
 
 using score::Cause;
-using score::Label;
 using score::Report;
 using score::Scored;
 
@@ -73,23 +72,59 @@ double RegressorOf(const Observation& observation, const std::string& name) {
   return found->second;
 }
 
-/// Curvature and gradient of the loss.
-struct Quadratic {
-  Eigen::MatrixXd curvature;
-  Eigen::VectorXd gradient;
+/// One row an observation, one column a regressor; outcomes of 1 where the cause is another.
+struct Regression {
+  Eigen::MatrixXd regressors;
+  Eigen::VectorXd outcomes;
+  Eigen::VectorXd ridge;  ///< times the square of each weight
 };
 
-Quadratic QuadraticAt(const Eigen::VectorXd& weights, const Eigen::MatrixXd& regressors,
-                      const Eigen::VectorXd& outcomes, const Eigen::VectorXd& ridge) {
-  const double count = static_cast<double>(outcomes.size());
-  const Eigen::VectorXd expected = (regressors * weights).unaryExpr(&Logistic);
+Regression RegressionOf(const std::vector<Observation>& observations,
+                        const std::vector<std::string>& names, double ridge) {
+  const auto columns = static_cast<Eigen::Index>(names.size());
+  Regression regression;
+  regression.regressors.resize(std::ssize(observations), columns);
+  regression.outcomes.resize(std::ssize(observations));
+  regression.ridge = Eigen::VectorXd::Constant(columns, ridge);
+  Eigen::Index i = 0;
+  for (const Observation& observation : observations) {
+    for (Eigen::Index j = 0; j < columns; ++j) {
+      regression.regressors(i, j) = RegressorOf(observation, names[static_cast<std::size_t>(j)]);
+    }
+    regression.outcomes[i++] = observation.is_another ? 1.0 : 0.0;
+  }
+  for (Eigen::Index j = 0; j < columns; ++j) {
+    if (names[static_cast<std::size_t>(j)] == kConstant) regression.ridge[j] = 0.0;
+  }
+  return regression;
+}
+
+/// Newton's step down the loss.
+Eigen::VectorXd StepFrom(const Eigen::VectorXd& weights, const Regression& given) {
+  const double count = static_cast<double>(given.outcomes.size());
+  const Eigen::VectorXd expected = (given.regressors * weights).unaryExpr(&Logistic);
   const Eigen::VectorXd variances = expected.array() * (1.0 - expected.array());
-  Quadratic loss;
-  loss.curvature = regressors.transpose() * variances.asDiagonal() * regressors / count;
-  loss.curvature.diagonal() += 2.0 * ridge;
-  loss.gradient =
-      regressors.transpose() * (expected - outcomes) / count + 2.0 * ridge.cwiseProduct(weights);
-  return loss;
+  Eigen::MatrixXd curvature =
+      given.regressors.transpose() * variances.asDiagonal() * given.regressors / count;
+  curvature.diagonal() += 2.0 * given.ridge;
+  const Eigen::VectorXd gradient =
+      given.regressors.transpose() * (expected - given.outcomes) / count +
+      2.0 * given.ridge.cwiseProduct(weights);
+  return -curvature.ldlt().solve(gradient);
+}
+
+/// The loss is convex. Steps no longer than one do not pass its minimum by far.
+Eigen::VectorXd LikeliestWeights(const Regression& given) {
+  constexpr int kMost = 200;
+  constexpr double kSettled = 1e-9;
+  Eigen::VectorXd weights = Eigen::VectorXd::Zero(given.regressors.cols());
+  for (int iteration = 0; iteration < kMost; ++iteration) {
+    Eigen::VectorXd step = StepFrom(weights, given);
+    step *= std::min(1.0, 1.0 / step.norm());
+    weights += step;
+    if (step.norm() <= kSettled) return weights;
+  }
+  throw std::invalid_argument("the odds have no weights without a ridge");
 }
 
 }  // namespace
@@ -112,37 +147,10 @@ LogisticModel FitLogistic(const std::vector<Observation>& observations,
   if (others == 0 || others == std::ssize(observations)) {
     throw std::invalid_argument("odds take causes that are the likeliest one, and others");
   }
-  const auto rows = static_cast<Eigen::Index>(observations.size());
-  const auto columns = static_cast<Eigen::Index>(names.size());
-  Eigen::MatrixXd regressors(rows, columns);
-  Eigen::VectorXd outcomes(rows);
-  Eigen::VectorXd ridges = Eigen::VectorXd::Constant(columns, ridge);
-  for (Eigen::Index j = 0; j < columns; ++j) {
-    const std::string& name = names[static_cast<std::size_t>(j)];
-    if (name == kConstant) ridges[j] = 0.0;
-    for (Eigen::Index i = 0; i < rows; ++i) {
-      regressors(i, j) = RegressorOf(observations[static_cast<std::size_t>(i)], name);
-    }
-  }
-  for (Eigen::Index i = 0; i < rows; ++i) {
-    outcomes[i] = observations[static_cast<std::size_t>(i)].is_another ? 1.0 : 0.0;
-  }
-  // The loss is convex. Steps no longer than one do not pass its minimum by far.
-  Eigen::VectorXd weights = Eigen::VectorXd::Zero(columns);
-  constexpr int kMost = 200;
-  constexpr double kSettled = 1e-9;
-  double moved = INFINITY;
-  for (int iteration = 0; iteration < kMost && moved > kSettled; ++iteration) {
-    const Quadratic loss = QuadraticAt(weights, regressors, outcomes, ridges);
-    Eigen::VectorXd step = loss.curvature.ldlt().solve(loss.gradient);
-    step *= std::min(1.0, 1.0 / step.norm());
-    weights -= step;
-    moved = step.norm();
-  }
-  if (!(moved <= kSettled)) throw std::invalid_argument("the odds have no weights without a ridge");
+  const Eigen::VectorXd weights = LikeliestWeights(RegressionOf(observations, names, ridge));
   LogisticModel model;
-  for (Eigen::Index j = 0; j < columns; ++j) {
-    model.weights[names[static_cast<std::size_t>(j)]] = weights[j];
+  for (std::size_t j = 0; j < names.size(); ++j) {
+    model.weights[names[j]] = weights[static_cast<Eigen::Index>(j)];
   }
   return model;
 }

@@ -1,10 +1,10 @@
 #include <CLI/CLI.hpp>
 #include <cmath>
-#include <exception>
-#include <iostream>
 #include <nlohmann/json.hpp>
+#include <stdexcept>
 #include <string>
 
+#include "exit_code.hpp"
 #include "inputs/reference_basis.hpp"
 #include "telltale/client/recording/file_contents.hpp"
 #include "telltale/client/workbench/errors.hpp"
@@ -13,8 +13,9 @@
 
 namespace {
 
-constexpr int kUsageError = 2;
-constexpr int kNoGap = 3;
+struct NoGap : std::runtime_error {
+  NoGap() : std::runtime_error("the recording has no gap to close") {}
+};
 
 struct Arguments {
   blind::DiagnosisInputFiles files;
@@ -22,21 +23,19 @@ struct Arguments {
   std::filesystem::path out;
 };
 
-/// Writes what there is to say and tells whether that is a closure.
-bool Run(const Arguments& arguments) {
+void Run(const Arguments& arguments) {
   const blind::DiagnosisInputs inputs = arguments.files.Load();
   const blind::ReferenceBasis basis(inputs);
   const telltale::AugmentedModel augmented =
       telltale::OrThrow(telltale::AugmentedModelOf(telltale::LoadModel(arguments.augmented)));
   const auto closure = basis.ClosureBy(augmented);
-  if (!closure) return false;
+  if (!closure) throw NoGap();
   const nlohmann::json json{{"closure", *closure},
                             {"published", std::sqrt(basis.SquaredGap({inputs.model.model, {}}))},
                             {"before", std::sqrt(basis.SquaredGap(basis.nominal.boat))},
                             {"after", std::sqrt(std::max(basis.SquaredGap(augmented), 0.0))},
                             {"noiseFloor", std::sqrt(basis.floor.Squared(telltale::kAllChannels))}};
   telltale::WriteFile(arguments.out, json.dump(1) + '\n');
-  return true;
 }
 
 }  // namespace
@@ -58,15 +57,5 @@ int main(int argc, char** argv) {
       ->type_name("FILE")
       ->required();
   app.add_option("--out", arguments.out, "where the closure goes")->type_name("FILE")->required();
-  try {
-    app.parse(argc, argv);
-    if (Run(arguments)) return 0;
-    std::cerr << "blind_realised: the recording has no gap to close\n";
-    return kNoGap;
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : kUsageError;
-  } catch (const std::exception& error) {
-    std::cerr << "blind_realised: " << error.what() << '\n';
-    return 1;
-  }
+  return blind::ExitCodeOf<NoGap>(app, "blind_realised", argc, argv, [&] { Run(arguments); });
 }

@@ -1,16 +1,13 @@
 #include <CLI/CLI.hpp>
-#include <exception>
 #include <fstream>
 #include <iostream>
 #include <stdexcept>
 #include <string>
 
+#include "exit_code.hpp"
 #include "score/comparison.hpp"
 
 namespace {
-
-constexpr int kUsageError = 2;
-constexpr int kReportsMissing = 3;
 
 struct Arguments {
   std::string set;
@@ -72,17 +69,6 @@ int main(int argc, char** argv) {
       "Example: blind_score --set-dir development --reports reports --reports best-bic");
   Arguments arguments;
   AddOptions(app, arguments);
-  try {
-    app.parse(argc, argv);
-    Run(arguments);
-    return 0;
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : kUsageError;
-  } catch (const blind::score::ReportsMissing& error) {
-    std::cerr << "blind_score: " << error.what() << '\n';
-    return kReportsMissing;
-  } catch (const std::exception& error) {
-    std::cerr << "blind_score: " << error.what() << '\n';
-    return 1;
-  }
+  return blind::ExitCodeOf<blind::score::ReportsMissing>(app, "blind_score", argc, argv,
+                                                         [&] { Run(arguments); });
 }
