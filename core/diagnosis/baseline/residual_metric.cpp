@@ -7,9 +7,9 @@
 #include <utility>
 
 #include "telltale/core/base/contract.hpp"
+#include "telltale/core/base/gauss_markov_series.hpp"
 #include "telltale/core/base/linear_algebra/covariance.hpp"
 #include "telltale/core/base/linear_algebra/eigen_decompositions.hpp"
-#include "telltale/core/diagnosis/baseline/gauss_markov_series.hpp"
 #include "telltale/core/diagnosis/diagnosis_constants.hpp"
 
 namespace telltale {

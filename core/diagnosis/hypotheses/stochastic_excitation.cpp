@@ -112,7 +112,7 @@ ObservedExcitation ExcitationOf(const SpectralPeak& peak, Eigen::Index rows,
   return observed;
 }
 
-/// What gusts and drifts add to the mean square of each row.
+/// What gusts, drifts and spells add to the mean square of each row.
 Eigen::VectorXd VariationMeanSquares(const EffectFit& fit, const FreeRuns& runs,
                                      const AugmentedModel& boat) {
   const Eigen::MatrixXd errors = runs.Errors(boat.With(fit.effects));

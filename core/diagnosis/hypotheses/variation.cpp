@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "telltale/core/diagnosis/baseline/gauss_markov_series.hpp"
+#include "telltale/core/base/gauss_markov_series.hpp"
 #include "telltale/core/diagnosis/diagnosis_constants.hpp"
 #include "telltale/core/effects/gust_pattern.hpp"
 
@@ -29,8 +29,8 @@ double DeviationOf(const ModelledEffect& modelled, double intermittent_sd) {
 }
 
 /// Whether it varies from free run to free run as a Gauss-Markov process does.
-bool Drifts(const EffectFacts& facts) {
-  return facts.drift_time_s > 0.0;
+bool Drifts(const Effect& effect) {
+  return effect.Facts().drift_time_s > 0.0;
 }
 
 Eigen::MatrixXd SideBySide(const std::vector<Eigen::VectorXd>& columns, Eigen::Index rows) {
@@ -50,10 +50,11 @@ struct GustCourse {
 
 /// The ways of an effect's gusts, the constant one first. What oscillates faster than by half a
 /// turn within a window hardly moves a boat, unless it begins and ends there.
-std::vector<GustCourse> CoursesOf(const EffectFacts& facts, double window_s) {
+std::vector<GustCourse> CoursesOf(const Effect& effect, double window_s) {
+  const EffectFacts& facts = effect.Facts();
   if (facts.turbulence_time_s == 0.0) return {{}};
   const double lasting = facts.turbulence_time_s / window_s;
-  const int fastest = facts.intermittent_sds.empty() ? 1 : kVariation.half_turns_of_a_spell;
+  const int fastest = effect.IsIntermittent() ? kVariation.half_turns_of_a_spell : 1;
   std::vector<GustCourse> courses = {{0.0, 0.0, GaussMarkovShare(0, lasting)}};
   for (int k = 1; k <= fastest; ++k) {
     const double share = GaussMarkovShare(k, lasting);
@@ -107,18 +108,18 @@ ErrorVariation VariationOf(const std::vector<ModelledEffect>& effects, double in
   std::vector<Eigen::VectorXd> drifting;
   ErrorVariation variation;
   for (std::size_t i = 0; i < effects.size(); ++i) {
-    const EffectFacts& facts = effects[i].effect->Facts();
+    const Effect& effect = *effects[i].effect;
     const double deviation = DeviationOf(effects[i], intermittent_sd);
     if (deviation == 0.0) continue;
-    if (Drifts(facts)) variation.drift_time_s = facts.drift_time_s;
-    for (std::size_t j = 0; j < facts.parameters.size(); ++j) {
-      if (facts.parameters[j].is_shape) continue;
-      if (effects[i].effect->IsIntermittent()) variation.spells.push_back(std::ssize(by_window));
-      for (const GustCourse& course : CoursesOf(facts, window_s)) {
+    if (Drifts(effect)) variation.drift_time_s = effect.Facts().drift_time_s;
+    std::vector<Eigen::VectorXd>& columns = Drifts(effect) ? drifting : by_window;
+    for (std::size_t j = 0; j < effect.Parameters().size(); ++j) {
+      if (effect.Parameters()[j].is_shape) continue;
+      if (effect.IsIntermittent()) variation.spells.push_back(std::ssize(columns));
+      for (const GustCourse& course : CoursesOf(effect, window_s)) {
         const double size = deviation * std::sqrt(course.share);
-        (Drifts(facts) ? drifting : by_window)
-            .emplace_back(
-                EffectOfGust(effects, errors, i, j, size, course, error_model).reshaped());
+        columns.emplace_back(
+            EffectOfGust(effects, errors, i, j, size, course, error_model).reshaped());
       }
     }
   }

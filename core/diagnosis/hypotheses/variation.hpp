@@ -10,7 +10,7 @@
 
 namespace telltale {
 
-/// Those values that are not shape parameters.
+/// The values of an effect that are not those of shape parameters.
 std::vector<double> SizesOf(const ModelledEffect& modelled);
 
 /// The middle one of the scatters that an intermittent effect may have.

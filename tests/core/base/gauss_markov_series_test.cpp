@@ -1,4 +1,4 @@
-#include "telltale/core/diagnosis/baseline/gauss_markov_series.hpp"
+#include "telltale/core/base/gauss_markov_series.hpp"
 
 #include <cmath>
 
