@@ -112,7 +112,8 @@ TEST(Rank, UnknownProbabilityGrowsWithLackOfFit) {
 }
 
 // A few windows that err far more leave a fault's probability as it is where the others err as on
-// nominal days: the library knows the course of a spell or of a step roughly.
+// nominal days, by three quarters of the mean square: the library knows the course of a spell or of
+// a step roughly.
 TEST(Rank, UnknownProbabilityOfFaultsGoesByTheMedianWindow) {
   const RankedBoat boat;
   Hypotheses hypotheses;
@@ -122,8 +123,8 @@ TEST(Rank, UnknownProbabilityOfFaultsGoesByTheMedianWindow) {
                 {.before = 20.0, .after = 4.0, .nominal = 1.0, .median = median})
         .unknown;
   };
-  EXPECT_LT(doubt(0.8), 0.5);
-  EXPECT_GT(doubt(4.0), 0.5);
+  EXPECT_LT(doubt(0.75), 0.2);
+  EXPECT_GT(doubt(4.0), 0.8);
 }
 
 // The report says why.
