@@ -313,19 +313,16 @@ inline void ExpectSame(const WindowPicture& a, const WindowPicture& b) {
   EXPECT_EQ(a.error_after, b.error_after);
 }
 
+inline void ExpectSame(const OddsTerm& a, const OddsTerm& b) {
+  EXPECT_EQ(a.name, b.name);
+  EXPECT_EQ(a.value, b.value);
+  EXPECT_EQ(a.log_odds, b.log_odds);
+}
+
 template <class Item>
 void ExpectSame(const std::vector<Item>& a, const std::vector<Item>& b) {
   ASSERT_EQ(a.size(), b.size());
   for (std::size_t i = 0; i < a.size(); ++i) ExpectSame(a[i], b[i]);
-}
-
-inline void ExpectSame(const std::vector<OddsTerm>& a, const std::vector<OddsTerm>& b) {
-  ASSERT_EQ(a.size(), b.size());
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    EXPECT_EQ(a[i].name, b[i].name);
-    EXPECT_EQ(a[i].value, b[i].value);
-    EXPECT_EQ(a[i].log_odds, b[i].log_odds);
-  }
 }
 
 inline void ExpectSame(const Diagnosis& a, const Diagnosis& b) {
