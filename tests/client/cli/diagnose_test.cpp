@@ -48,9 +48,9 @@ TEST(DiagnosisTable, SaysTheSentenceFirstAndThenEveryPart) {
         "0.150 ± 0.035 s",
         "cannot separate it from thruster_delay",
         "unknown: probability 6 %",
-        "Its odds, in nats: +0.4 by what effects still predict of the errors that are left, +0.1 to "
-        "begin with, -0.5 by the errors of the median window, -2.2 by the share of the excess that "
-        "is left.",
+        "Its odds, in nats: +0.4 by what effects still predict of the errors that are left, "
+        "+0.1 to begin with, -0.5 by the errors of the median window, "
+        "-2.2 by the share of the excess that is left.",
         "masked by YAW uv",
         "not excited",
         "loss_port 0.047, loss_starboard beyond range",
