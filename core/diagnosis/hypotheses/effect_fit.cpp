@@ -96,10 +96,11 @@ class IntermittentFits {
   EffectFit Likeliest(const EffectFit& steady) const {
     const std::vector<double>& sds = intermittent_.Facts().intermittent_sds;
     const double middle = MiddleScatterOf(intermittent_);
-    EffectFit fit = Likelier(Fit(steady, -1.0, middle), Fit(steady, 1.0, middle));
+    EffectFit fit = Fit(steady, -1.0, middle);
+    TakeLikelier(Fit(steady, 1.0, middle), fit);
     const double side = SideOf(fit);
     for (const double sd : sds) {
-      if (sd != middle) fit = Likelier(std::move(fit), Fit(steady, side, sd));
+      if (sd != middle) TakeLikelier(Fit(steady, side, sd), fit);
     }
     // Once more about the other effects as the spells leave them.
     if (fit.effects.size() > 1) fit = Fit(fit, side, fit.intermittent_sd);
@@ -108,8 +109,8 @@ class IntermittentFits {
   }
 
  private:
-  static EffectFit Likelier(EffectFit one, EffectFit other) {
-    return other.score < one.score ? other : one;
+  static void TakeLikelier(EffectFit&& other, EffectFit& fit) {
+    if (other.score < fit.score) fit = std::move(other);
   }
 
   double SideOf(const EffectFit& fit) const {

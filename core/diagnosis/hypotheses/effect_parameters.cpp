@@ -36,7 +36,7 @@ Eigen::VectorXd EffectParameters::Scaled(const Eigen::VectorXd& values) const {
   return Clamped(scaled);
 }
 
-Eigen::VectorXd EffectParameters::Clamped(Eigen::VectorXd scaled) const {
+Eigen::VectorXd EffectParameters::Clamped(const Eigen::VectorXd& scaled) const {
   return scaled.cwiseMax(lower_).cwiseMin(upper_);
 }
 

@@ -23,7 +23,7 @@ class EffectParameters {
   /// Values in their own units to scaled ones, within the bounds of each parameter.
   Eigen::VectorXd Scaled(const Eigen::VectorXd& values) const;
 
-  Eigen::VectorXd Clamped(Eigen::VectorXd scaled) const;
+  Eigen::VectorXd Clamped(const Eigen::VectorXd& scaled) const;
 
   /// The effects at scaled values.
   std::vector<ModelledEffect> Effects(const Eigen::VectorXd& scaled) const;
