@@ -130,6 +130,18 @@ std::string ReferencesTable(const Diagnosis& diagnosis) {
   return '\n' + table.Render();
 }
 
+std::string DelaysTable(const Diagnosis& diagnosis) {
+  if (diagnosis.delays.empty()) return "";
+  Table table({{"later than on the references", Align::kLeft},
+               {"by", Align::kRight},
+               {"shows in 90 % of cases from", Align::kRight}});
+  for (const DelayDifference& delay : diagnosis.delays) {
+    table.AddRow(
+        {std::string(DelayedChannelText(delay.channel)), DelayText(delay), DetectableText(delay)});
+  }
+  return '\n' + table.Render();
+}
+
 /// The profile of the missing force that holds the most of any of its components.
 const ForceProfile* TellingProfile(const MissingForce& missing) {
   const auto most = [](const ForceProfile& profile) {
@@ -210,8 +222,8 @@ std::string NotesText(const Diagnosis& diagnosis) {
 std::string DiagnosisTable(const Diagnosis& diagnosis) {
   return Headline(diagnosis) + '\n' + GapTable(diagnosis) + '\n' + WhereTable(diagnosis) + '\n' +
          CausesText(diagnosis) + MissingForceTable(diagnosis) + ImprovementTable(diagnosis) +
-         ReferencesTable(diagnosis) + TestabilityTable(diagnosis) + AdviceText(diagnosis) +
-         NotesText(diagnosis);
+         ReferencesTable(diagnosis) + DelaysTable(diagnosis) + TestabilityTable(diagnosis) +
+         AdviceText(diagnosis) + NotesText(diagnosis);
 }
 
 }  // namespace telltale

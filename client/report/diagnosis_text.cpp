@@ -145,6 +145,25 @@ std::string DetectableText(const EffectTestability& effect) {
   return text;
 }
 
+std::string_view DelayedChannelText(DelayedChannel channel) {
+  switch (channel) {
+    case DelayedChannel::kUnknown: return "";
+    case DelayedChannel::kCommands: return "commands";
+    case DelayedChannel::kFixes: return "positions";
+  }
+  return "";
+}
+
+std::string DelayText(const DelayDifference& delay) {
+  constexpr double kHalfWidth = 1.96;  // of 95 %, in standard deviations
+  return Fixed(delay.difference_s, 2) + " ± " + Fixed(kHalfWidth * delay.standard_deviation_s, 2) +
+         " s";
+}
+
+std::string DetectableText(const DelayDifference& delay) {
+  return delay.detectable_s ? Fixed(*delay.detectable_s, 2) + " s" : "beyond range";
+}
+
 std::string_view ForceText(std::size_t component) {
   constexpr std::array<std::string_view, 3> kForces = {"surge force, N", "sway force, N",
                                                        "yaw moment, N m"};

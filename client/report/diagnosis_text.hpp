@@ -43,6 +43,15 @@ std::string TestabilityText(const EffectTestability& effect);
 /// "port_loss 0.31", "forward 0.8 m, starboard beyond range"; empty where nothing is stated.
 std::string DetectableText(const EffectTestability& effect);
 
+/// "commands", "positions".
+std::string_view DelayedChannelText(DelayedChannel channel);
+
+/// "0.32 ± 0.16 s", with the half width of a 95 % interval.
+std::string DelayText(const DelayDifference& delay);
+
+/// "0.45 s", or "beyond range".
+std::string DetectableText(const DelayDifference& delay);
+
 /// "surge force, N" of component 0, 1 or 2.
 std::string_view ForceText(std::size_t component);
 

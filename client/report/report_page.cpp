@@ -235,6 +235,25 @@ Markup ReferencesSection(const Diagnosis& diagnosis) {
                  ReferencesTable(diagnosis));
 }
 
+Markup DelaysSection(const Diagnosis& diagnosis) {
+  if (diagnosis.delays.empty()) return {};
+  Markup rows;
+  for (const DelayDifference& delay : diagnosis.delays) {
+    rows += Element("tr", {},
+                    Cell(std::string(DelayedChannelText(delay.channel))) +
+                        Cell(DelayText(delay), "number") + Cell(DetectableText(delay), "number"));
+  }
+  return Section("Clocks",
+                 "By how much later commands act, and positions are stamped, than on the "
+                 "references: each recording shows its delays by itself. A free run on a straight "
+                 "course does not.",
+                 Element("table", {},
+                         HeaderRow({{"Channel", ""},
+                                    {"Later by [95 %]", "number"},
+                                    {"Shows in 90 % of cases from", "number"}}) +
+                             Element("tbody", {}, rows)));
+}
+
 Markup AdviceCard(const SeparationAdvice& advice) {
   Markup card = Styled("header", "",
                        Styled("h3", "", Words(advice.manoeuvre)) +
@@ -307,8 +326,8 @@ std::string ReportPage(const Diagnosis& diagnosis, const ReportSources& sources)
       Headline(diagnosis) + GapSection(diagnosis) + OnsetSection(diagnosis) +
           LocationSection(diagnosis) + CausesSection(diagnosis) + MissingForceSection(diagnosis) +
           PathsSection(diagnosis) + ImprovementSection(diagnosis) + TestabilitySection(diagnosis) +
-          ReferencesSection(diagnosis) + AdviceSection(diagnosis) + NotesSection(diagnosis) +
-          ProvenanceSection(diagnosis, sources));
+          ReferencesSection(diagnosis) + DelaysSection(diagnosis) + AdviceSection(diagnosis) +
+          NotesSection(diagnosis) + ProvenanceSection(diagnosis, sources));
   const Markup head = Markup::Own(
                           "<meta charset=\"utf-8\">"
                           "<meta name=\"viewport\" "

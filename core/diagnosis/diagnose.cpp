@@ -7,10 +7,12 @@
 #include "telltale/core/base/format_number.hpp"
 #include "telltale/core/base/range.hpp"
 #include "telltale/core/diagnosis/baseline/synthetic_references.hpp"
+#include "telltale/core/diagnosis/delays/delay_difference.hpp"
 #include "telltale/core/diagnosis/hypotheses/augmented_identification.hpp"
 #include "telltale/core/diagnosis/hypotheses/power.hpp"
 #include "telltale/core/diagnosis/hypotheses/stochastic_excitation.hpp"
 #include "telltale/core/diagnosis/report/build_report.hpp"
+#include "telltale/core/diagnosis/report/delay_conclusion.hpp"
 #include "telltale/core/diagnosis/report/reference_influence.hpp"
 #include "telltale/core/diagnosis/report/summary_sentence.hpp"
 #include "telltale/core/diagnosis/residuals/horizon_runs.hpp"
@@ -61,6 +63,23 @@ std::optional<Refusal> CheckRequest(const PreparedDataset& recording, const Vess
   return SuspectedWiringFault(recording, model);
 }
 
+/// How the late channels of a recording are known.
+std::string NoteOfDelays(const std::vector<DelayDifference>& differences) {
+  std::string late;
+  for (const DelayDifference& difference : differences) {
+    if (!IsLate(difference)) continue;
+    late.append(late.empty() ? "" : ", and ")
+        .append(difference.channel == DelayedChannel::kCommands ? "commands act "
+                                                                : "positions are ")
+        .append(FormatNumber(difference.difference_s, 2))
+        .append(" s (standard deviation ")
+        .append(FormatNumber(difference.standard_deviation_s, 2))
+        .append(" s) later than on the references");
+  }
+  if (late.empty()) return late;
+  return "By the delays that each recording shows by itself, " + late + ".";
+}
+
 /// Free-run scores of the old model and of the augmented one on the recording.
 std::optional<Improvement> ImprovementOf(const PreparedDataset& recording,
                                          const VesselModel& before, const AugmentedModel& after) {
@@ -89,15 +108,15 @@ void NoteInfluences(std::vector<ReferenceInfluence> influences, std::optional<do
 Result<DiagnosedModel> DiagnoseAgainst(const std::vector<PreparedDataset>& references,
                                        const PreparedDataset& recording,
                                        const Identification& identification,
-                                       const UncertainModel& model, const DiagnoseOptions& options,
-                                       const Progress& progress) {
+                                       const UncertainModel& model, const ComparedDelays& delays,
+                                       const DiagnoseOptions& options, const Progress& progress) {
   const auto report_progress = [&](std::string_view stage, double share) {
     if (progress) progress(stage, share);
   };
   const std::vector<const Effect*> library = LibraryWithout(options.without);
   const std::vector<EffectParameterRef> parameter_refs = EffectParameterRefsOf(library);
 
-  report_progress("free runs", 0.0);
+  report_progress("free runs", 0.05);
   const auto runs = BuildFreeRuns(recording, references, model.model);
   if (!runs) return tl::unexpected<Refusal>(runs.error());
 
@@ -123,22 +142,26 @@ Result<DiagnosedModel> DiagnoseAgainst(const std::vector<PreparedDataset>& refer
   if (options.leave_out_references && references.size() > 1) {
     influences =
         InfluencesOf({references, options.reference_names, runs->Main(), problem, model, library,
-                      hypotheses, options.most_effects, options.seed, options.threads},
+                      hypotheses, delays, options.most_effects, options.seed, options.threads},
                      [&](double share) { report_progress("references", 0.6 + 0.25 * share); });
   }
   const DayToDay days = DayToDayOf(nominal, influences.days);
-  const Conclusion conclusion =
-      Conclude(hypotheses, problem, main, options.seed, days.squared_limit);
+  const std::vector<DelayDifference> differences = DelayDifferencesOf(delays);
+  Conclusion conclusion = Conclude(hypotheses, problem, main, options.seed, days.squared_limit);
+  ConcludeFromDelays(differences, library, problem, main, options.seed, conclusion);
 
   report_progress("report", 0.85);
   DiagnosedModel diagnosed;
   diagnosed.diagnosis = BuildReport({recording, references, model, library, horizons, main, problem,
-                                     hypotheses, conclusion, days, options.advise,
+                                     hypotheses, conclusion, days, differences, options.advise,
                                      options.state_power, options.seed, options.threads});
   if (conclusion.is_likely) {
     const AugmentedModel boat = Reidentified(conclusion.best, problem, model);
     diagnosed.augmented = Augmented(identification, boat, conclusion.best, problem, model);
     diagnosed.diagnosis.improvement = ImprovementOf(recording, model.model, boat);
+  }
+  if (std::string note = NoteOfDelays(differences); !note.empty()) {
+    diagnosed.diagnosis.notes.push_back(std::move(note));
   }
   NoteInfluences(std::move(influences.answers), days.squared_limit, diagnosed.diagnosis);
   report_progress("done", 1.0);
@@ -191,8 +214,13 @@ Result<DiagnosedModel> Diagnose(const PreparedDataset& recording,
     return Refuse("model", "its simulation of this recording diverges",
                   "identify the boat again, or name reference logs");
   }
+  ComparedDelays delays;
+  if (model.physical && !references.empty()) {
+    if (progress) progress("delays", 0.0);
+    delays = ComparedDelaysOf(recording, references, *model.physical, options.threads);
+  }
   auto answer = DiagnoseAgainst(references.empty() ? synthetic : references, recording, model,
-                                *uncertain, options, progress);
+                                *uncertain, delays, options, progress);
   if (!answer) return tl::unexpected<Refusal>(std::move(answer).error());
   Diagnosis& diagnosis = answer->diagnosis;
   diagnosis.vehicle_id = vehicle_id;

@@ -42,6 +42,15 @@ std::string_view Name(ForceVariable variable) {
   return "UNKNOWN";
 }
 
+std::string_view Name(DelayedChannel channel) {
+  switch (channel) {
+    case DelayedChannel::kCommands: return "COMMANDS";
+    case DelayedChannel::kFixes: return "FIXES";
+    case DelayedChannel::kUnknown: break;
+  }
+  return "UNKNOWN";
+}
+
 std::string_view Name(Testability testability) {
   switch (testability) {
     case Testability::kTestable: return "TESTABLE";

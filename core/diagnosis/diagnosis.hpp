@@ -224,6 +224,26 @@ struct OddsTerm {
   double log_odds = 0.0;
 };
 
+/// A channel whose stamps may come late against the headings.
+enum class DelayedChannel { kUnknown, kCommands, kFixes };
+
+inline constexpr std::array kDelayedChannels = {DelayedChannel::kCommands, DelayedChannel::kFixes};
+
+/// The name in report.json: "COMMANDS".
+std::string_view Name(DelayedChannel channel);
+
+/// By how much longer a channel of the recording is delayed than on nominal days, by the delays
+/// that each recording alone shows; docs/concepts/diagnosis.md (120), (121).
+struct DelayDifference {
+  DelayedChannel channel = DelayedChannel::kUnknown;
+  double difference_s = 0.0;
+  double standard_deviation_s = 0.0;  ///< of one more nominal day
+  /// -2 ln of the evidence for another delay, less that of a nominal day; negative where the delay
+  /// is likelier another one.
+  double score = 0.0;
+  std::optional<double> detectable_s;  ///< that shows with kDiagnosis.testability.power
+};
+
 /// What the noise floor is measured on.
 enum class FloorBasis { kUnknown, kReferenceLogs, kSensorNoise };
 
@@ -240,6 +260,7 @@ struct Diagnosis {
   std::vector<GapCell> where;              ///< most excess first
   std::vector<Cause> causes;               ///< most probable first
   std::vector<OddsTerm> unknown_odds;      ///< of the unknown cause; none without causes
+  std::vector<DelayDifference> delays;     ///< none of a free form, which estimates none
   std::vector<EffectTestability> effects;  ///< in the order of the library
   std::vector<SeparationAdvice> advice;    ///< best first
   /// What each reference does to the answer, in their order; none where it was not asked for.

@@ -205,6 +205,13 @@ struct RankingConstants {
   double naming_probability = 0.9;  ///< of a named cause at least, development sets 2 and 3
 };
 
+/// The delays that recordings show by themselves, docs/concepts/diagnosis.md (120).
+struct DelayConstants {
+  double between_days_sd_s = 0.02;     ///< s, half-normal prior of the sd between nominal days
+  std::size_t least_references = 2;    ///< that show their delays, convention
+  std::size_t posterior_draws = 1000;  ///< behind each standard error
+};
+
 /// The onset, docs/concepts/diagnosis.md (95).
 struct OnsetConstants {
   double minimum_deviance = 20.0;   ///< -2 ln likelihood, besides 2 ln of the number of windows
@@ -251,6 +258,7 @@ struct DiagnosisConstants {
   StochasticExcitationConstants stochastic_excitation;
   LackOfFitConstants lack_of_fit;
   RankingConstants ranking;
+  DelayConstants delays;
   OnsetConstants onset;
   TestabilityConstants testability;
   SeparationConstants separation;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <string>
 #include <vector>
@@ -257,6 +258,18 @@ Identification ModelOf(const PredictionErrorFit& fit, const FossenPrior& prior, 
   return model;
 }
 
+Result<PredictionErrorFit> Fit(const PreparedDataset& dataset, const Vehicle& vehicle,
+                               const FossenPrior& prior, const PredictionErrorOptions& options,
+                               const std::function<void(double)>& progress) {
+  PredictionErrorFit fit =
+      FitPredictionError(dataset, vehicle.propeller_separation_m, prior, options, progress);
+  if (!fit.parameters.allFinite() || !fit.information.allFinite()) {
+    return Refuse("model", "the fit of the physical model diverged",
+                  "check the vehicle file and the recording with `telltale validate`");
+  }
+  return fit;
+}
+
 }  // namespace
 
 Result<Identification> IdentifyPhysicalModel(const PreparedDataset& dataset, const Vehicle& vehicle,
@@ -276,20 +289,30 @@ Result<Identification> IdentifyPhysicalModel(const PreparedDataset& dataset, con
                   "record starts, stops and turns");
   }
   const FossenPrior prior = PriorOf(vehicle);
-  const PredictionErrorFit fit =
-      FitPredictionError(dataset, vehicle.propeller_separation_m, prior,
-                         {.threads = options.threads}, [&](double share) {
-                           if (progress) progress("fitting the physical model", 0.1 + 0.8 * share);
-                         });
-  if (!fit.parameters.allFinite() || !fit.information.allFinite()) {
-    return Refuse("model", "the fit of the physical model diverged",
-                  "check the vehicle file and the recording with `telltale validate`");
-  }
+  const auto fit = Fit(dataset, vehicle, prior, {.threads = options.threads}, [&](double share) {
+    if (progress) progress("fitting the physical model", 0.1 + 0.8 * share);
+  });
+  if (!fit) return tl::unexpected<Refusal>(fit.error());
   if (progress) progress("bounding", 0.9);
-  Identification model = ModelOf(fit, prior, vehicle.propeller_separation_m, options);
+  Identification model = ModelOf(*fit, prior, vehicle.propeller_separation_m, options);
   model.vehicle_id = vehicle.vehicle_id;
   model.sampling_period_s = dataset.sampling_period_s;
   return model;
+}
+
+Result<PhysicalModel> PhysicalModelAbout(const PhysicalModel& model, const PreparedDataset& dataset,
+                                         const Vehicle& vehicle, const IdentifyOptions& options) {
+  FossenPrior prior = PriorOf(vehicle);
+  prior.mean = model.Estimates();
+  PredictionErrorOptions search{.threads = options.threads};
+  search.start = PredictionErrorStart{prior.mean, model.noise};
+  const auto fit = Fit(dataset, vehicle, prior, search, {});
+  if (!fit) return tl::unexpected<Refusal>(fit.error());
+  if (!fit->converged) {
+    return Refuse("recording", "what the commands explain of the motion does not settle the model",
+                  "record longer, or in calmer weather");
+  }
+  return *ModelOf(*fit, prior, vehicle.propeller_separation_m, options).physical;
 }
 
 }  // namespace telltale

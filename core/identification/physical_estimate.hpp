@@ -18,4 +18,11 @@ Result<Identification> IdentifyPhysicalModel(const PreparedDataset& dataset, con
                                              const IdentifyOptions& options,
                                              const Progress& progress);
 
+/// What one more recording of a boat says of it, beside a model of the boat: the search begins at
+/// that model and the prior stands about it, as wide as that of a boat that nothing is known of.
+/// The boat may have changed since. Several times as fast as a model from nothing.
+/// Refuses when: the fit does not converge.
+Result<PhysicalModel> PhysicalModelAbout(const PhysicalModel& model, const PreparedDataset& dataset,
+                                         const Vehicle& vehicle, const IdentifyOptions& options);
+
 }  // namespace telltale

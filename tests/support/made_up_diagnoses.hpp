@@ -105,6 +105,8 @@ inline Diagnosis MadeUpDiagnosis() {
   made.unknown_odds = {{"constant", 1.0, 0.05},        {"log_unexplained_share", -1.5, -2.25},
                        {"log_misfit", 0.0, 0.0},       {"log_median_misfit", -0.25, -0.5},
                        {"predictable", 0.125, 0.4375}, {"drift", 0.0, 0.0}};
+  made.delays = {{DelayedChannel::kCommands, -0.0625, 0.125, 2.5, 0.75},
+                 {DelayedChannel::kFixes, 0.375, 0.0625, -16.5, std::nullopt}};
   made.effects = {{"wind", Testability::kTestable, 12.5, ""},
                   {"thruster_imbalance",
                    Testability::kTestable,
@@ -313,6 +315,14 @@ inline void ExpectSame(const WindowPicture& a, const WindowPicture& b) {
   EXPECT_EQ(a.error_after, b.error_after);
 }
 
+inline void ExpectSame(const DelayDifference& a, const DelayDifference& b) {
+  EXPECT_EQ(a.channel, b.channel);
+  EXPECT_EQ(a.difference_s, b.difference_s);
+  EXPECT_EQ(a.standard_deviation_s, b.standard_deviation_s);
+  EXPECT_EQ(a.score, b.score);
+  EXPECT_EQ(a.detectable_s, b.detectable_s);
+}
+
 inline void ExpectSame(const OddsTerm& a, const OddsTerm& b) {
   EXPECT_EQ(a.name, b.name);
   EXPECT_EQ(a.value, b.value);
@@ -337,6 +347,7 @@ inline void ExpectSame(const Diagnosis& a, const Diagnosis& b) {
   ExpectSame(a.where, b.where);
   ExpectSame(a.causes, b.causes);
   ExpectSame(a.unknown_odds, b.unknown_odds);
+  ExpectSame(a.delays, b.delays);
   ExpectSame(a.effects, b.effects);
   ExpectSame(a.advice, b.advice);
   ExpectSame(a.reference_influence, b.reference_influence);

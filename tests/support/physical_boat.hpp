@@ -63,10 +63,11 @@ inline Identification KnownPhysicalBoat(const FossenVector& parameters, double r
 
 /// Simulated and measured by RTK-like sensors, prepared.
 inline PreparedDataset SimulatePhysicalBoat(const FossenVector& parameters, double duration_s,
-                                            std::uint64_t seed) {
+                                            std::uint64_t seed,
+                                            const std::vector<ModelledEffect>& effects = {}) {
   VesselModel model = VesselModelOf(parameters, kPhysicalBoatSeparation);
   model.sampling_period_s = 0.2;
-  const AugmentedModel boat{model, {}};
+  const AugmentedModel boat{model, effects};
   SensorOptions sensors;
   sensors.seed = seed;
   PrepareOptions options;

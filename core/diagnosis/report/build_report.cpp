@@ -7,6 +7,7 @@
 
 #include "telltale/core/base/parallel.hpp"
 #include "telltale/core/base/version.hpp"
+#include "telltale/core/diagnosis/delays/delay_difference.hpp"
 #include "telltale/core/diagnosis/hypotheses/onset.hpp"
 #include "telltale/core/diagnosis/hypotheses/testability.hpp"
 #include "telltale/core/diagnosis/report/causes.hpp"
@@ -99,6 +100,17 @@ void Advise(const ReportInputs& inputs, Diagnosis& diagnosis) {
       AdviseSensor(first));
 }
 
+/// The smaller one of the sizes that the free runs and the delays show.
+void StatePowerOfDelays(const ReportInputs& inputs, std::vector<EffectTestability>& effects) {
+  for (const DelayDifference& delay : inputs.delays) {
+    const auto effect =
+        std::ranges::find(effects, EffectOf(delay.channel).Name(), &EffectTestability::effect);
+    if (effect == effects.end() || !delay.detectable_s) continue;
+    std::optional<double>& size = effect->detectable_sizes.front().size;
+    size = std::min(size.value_or(*delay.detectable_s), *delay.detectable_s);
+  }
+}
+
 void StatePower(const ReportInputs& inputs, std::vector<EffectTestability>& effects) {
   ForEachIndex(effects.size(), inputs.threads, [&](std::size_t i) {
     const Effect* const effect = inputs.library[i];
@@ -106,6 +118,7 @@ void StatePower(const ReportInputs& inputs, std::vector<EffectTestability>& effe
         DetectableSizesOf(*effect, inputs.problem, inputs.main.floor.scale, inputs.days,
                           inputs.hypotheses.nominal_gains.at(effect));
   });
+  StatePowerOfDelays(inputs, effects);
 }
 
 void DescribeMaterialGap(const ReportInputs& inputs, Diagnosis& diagnosis) {
@@ -128,6 +141,7 @@ Diagnosis BuildReport(const ReportInputs& inputs) {
   diagnosis.seed = inputs.seed;
   diagnosis.software_version = Version();
   diagnosis.gaps = GapsOf(inputs);
+  diagnosis.delays = inputs.delays;
   diagnosis.effects = TestabilityOf(inputs.problem, inputs.model, inputs.library);
   if (inputs.state_power) StatePower(inputs, diagnosis.effects);
   if (conclusion.assessment == GapAssessment::kMaterial) DescribeMaterialGap(inputs, diagnosis);

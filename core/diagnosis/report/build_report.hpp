@@ -27,7 +27,8 @@ struct ReportInputs {
   const DiagnosisProblem& problem;
   const Hypotheses& hypotheses;
   const Conclusion& conclusion;
-  const DayToDay& days;     ///< what nominal days leave
+  const DayToDay& days;  ///< what nominal days leave
+  const std::vector<DelayDifference>& delays;
   bool advise = true;       ///< manoeuvres that separate equivalent hypotheses
   bool state_power = true;  ///< the sizes from which on effects show
   std::uint64_t seed = 1;

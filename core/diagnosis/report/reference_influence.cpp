@@ -6,8 +6,10 @@
 #include <utility>
 
 #include "telltale/core/base/parallel.hpp"
+#include "telltale/core/diagnosis/delays/delay_difference.hpp"
 #include "telltale/core/diagnosis/diagnosis_constants.hpp"
 #include "telltale/core/diagnosis/report/conclusion.hpp"
+#include "telltale/core/diagnosis/report/delay_conclusion.hpp"
 #include "telltale/core/diagnosis/report/horizon_gap.hpp"
 #include "telltale/core/diagnosis/residuals/gap.hpp"
 
@@ -140,7 +142,8 @@ std::optional<double> SquaredLimitOfOthers(
   return SquaredLimitOfDays(squared_gaps);
 }
 
-ReferenceInfluence AnswerWithout(const WithoutOne& without, std::optional<double> squared_limit,
+ReferenceInfluence AnswerWithout(std::size_t reference, const WithoutOne& without,
+                                 std::optional<double> squared_limit,
                                  const InfluenceInputs& inputs) {
   const DiagnosisProblem& all = inputs.problem;
   Sensitivity recording = all.recording;
@@ -154,7 +157,9 @@ ReferenceInfluence AnswerWithout(const WithoutOne& without, std::optional<double
   const Hypotheses hypotheses = Search(
       problem, inputs.library, inputs.most_effects, kThreads, [](double) {},
       inputs.hypotheses.singles);
-  const Conclusion conclusion = Conclude(hypotheses, problem, main, inputs.seed, squared_limit);
+  Conclusion conclusion = Conclude(hypotheses, problem, main, inputs.seed, squared_limit);
+  ConcludeFromDelays(DelayDifferencesOf(inputs.delays, reference), inputs.library, problem, main,
+                     inputs.seed, conclusion);
 
   ReferenceInfluence influence;
   influence.verdict = conclusion.verdict;
@@ -181,7 +186,7 @@ Influences InfluencesOf(const InfluenceInputs& inputs,
   ForEachIndex(references, inputs.threads, [&](std::size_t i) {
     ReferenceInfluence& answer = influences.answers[i];
     if (without_each[i]) {
-      answer = AnswerWithout(*without_each[i], SquaredLimitOfOthers(i, without_each), inputs);
+      answer = AnswerWithout(i, *without_each[i], SquaredLimitOfOthers(i, without_each), inputs);
     }
     answer.reference = NameOf(i, inputs.names);
     const std::lock_guard lock(reporting);

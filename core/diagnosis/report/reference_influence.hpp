@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "telltale/core/diagnosis/delays/recording_delays.hpp"
 #include "telltale/core/diagnosis/diagnosis.hpp"
 #include "telltale/core/diagnosis/hypotheses/diagnosis_problem.hpp"
 #include "telltale/core/diagnosis/hypotheses/hypothesis_search.hpp"
@@ -25,8 +26,9 @@ struct InfluenceInputs {
   const UncertainModel& model;
   std::span<const Effect* const> library;
   const Hypotheses& hypotheses;  ///< with all references
-  std::size_t most_effects;      ///< that may act together
-  std::uint64_t seed;            ///< of every random draw
+  const ComparedDelays& delays;
+  std::size_t most_effects;  ///< that may act together
+  std::uint64_t seed;        ///< of every random draw
   std::size_t threads;
 };
 

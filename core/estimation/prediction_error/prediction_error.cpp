@@ -444,7 +444,11 @@ class Search {
       : problem_(&problem),
         z_(problem.FirstParameters()),
         noise_(problem.dataset_.Recordings(), FirstNoise(problem.dataset_)),
-        weight_(std::min(1.0, kFirstWeightS / SpanS(problem.dataset_))) {}
+        weight_(std::min(1.0, kFirstWeightS / SpanS(problem.dataset_))) {
+    if (!problem.options_.start) return;
+    z_ = problem.options_.start->parameters;
+    noise_.assign(noise_.size(), problem.options_.start->noise);
+  }
 
   /// Whether there is more to do after this iteration.
   bool Iterate() {

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include <Eigen/Core>
@@ -13,10 +14,18 @@
 
 namespace telltale {
 
+/// A model that a search begins at.
+struct PredictionErrorStart {
+  FossenVector parameters;
+  NoiseModel noise;  ///< of every recording
+};
+
 struct PredictionErrorOptions {
   std::size_t threads = 1;
   int max_iterations = 25;
   double block_s = 10.0;  ///< length of the blocks behind the robust covariance
+  /// Near a solution few iterations are left. Without, the search begins at the prior.
+  std::optional<PredictionErrorStart> start = {};
 };
 
 /// What the innovations of one block of time, or of one recording, say.

@@ -28,6 +28,14 @@ void Write(const EffectTestability& effect, proto::EffectTestability& message) {
   }
 }
 
+void Write(const DelayDifference& delay, proto::DelayDifference& message) {
+  message.set_channel(EnumCast<proto::DelayDifference::Channel>(delay.channel));
+  message.set_difference_s(delay.difference_s);
+  message.set_standard_deviation_s(delay.standard_deviation_s);
+  message.set_score(delay.score);
+  if (delay.detectable_s) message.set_detectable_s(*delay.detectable_s);
+}
+
 void Write(const OddsTerm& term, proto::OddsTerm& message) {
   message.set_name(term.name);
   message.set_value(term.value);
@@ -76,6 +84,15 @@ EffectTestability ReadTestability(FieldReader reader, const proto::EffectTestabi
   return {message.effect(), ReadEnum<Testability>(reader, "testability", message.testability()),
           reader.Number("detectability", kNotNegative), message.masked_by(),
           ReadAll(reader, "detectable_sizes", message.detectable_sizes(), ReadDetectableSize)};
+}
+
+DelayDifference ReadDelay(FieldReader reader, const proto::DelayDifference& message) {
+  DelayDifference delay{ReadEnum<DelayedChannel>(reader, "channel", message.channel()),
+                        reader.Number("difference_s", kNotNan),
+                        reader.Number("standard_deviation_s", kNotNegative),
+                        reader.Number("score", kNotNan), std::nullopt};
+  if (message.has_detectable_s()) delay.detectable_s = reader.Number("detectable_s", kNotNegative);
+  return delay;
 }
 
 OddsTerm ReadOddsTerm(FieldReader reader, const proto::OddsTerm& message) {
@@ -137,6 +154,7 @@ Diagnosis ReadReport(FieldReader reader, const proto::Report& report) {
   diagnosis.where = ReadAll(reader, "where", report.where(), ReadGapCell);
   diagnosis.causes = ReadAll(reader, "causes", report.causes(), ReadCause);
   diagnosis.unknown_odds = ReadAll(reader, "unknown_odds", report.unknown_odds(), ReadOddsTerm);
+  diagnosis.delays = ReadAll(reader, "delays", report.delays(), ReadDelay);
   diagnosis.effects = ReadAll(reader, "effects", report.effects(), ReadTestability);
   diagnosis.advice = ReadAll(reader, "advice", report.advice(), ReadAdvice);
   diagnosis.reference_influence =
@@ -172,6 +190,7 @@ proto::Report ToProto(const Diagnosis& diagnosis) {
   for (const GapCell& cell : diagnosis.where) *report.add_where() = ToProto(cell);
   for (const Cause& cause : diagnosis.causes) *report.add_causes() = ToProto(cause);
   for (const OddsTerm& term : diagnosis.unknown_odds) Write(term, *report.add_unknown_odds());
+  for (const DelayDifference& delay : diagnosis.delays) Write(delay, *report.add_delays());
   for (const EffectTestability& effect : diagnosis.effects) Write(effect, *report.add_effects());
   for (const SeparationAdvice& advice : diagnosis.advice) Write(advice, *report.add_advice());
   for (const ReferenceInfluence& influence : diagnosis.reference_influence) {
