@@ -208,6 +208,7 @@ struct RankingConstants {
 /// The delays that recordings show by themselves, docs/concepts/diagnosis.md (120).
 struct DelayConstants {
   double between_days_sd_s = 0.02;     ///< s, half-normal prior of the sd between nominal days
+  double time_constant_sd_s = 0.02;    ///< s, of one recording's propellers about the model's
   std::size_t least_references = 2;    ///< that show their delays, convention
   std::size_t posterior_draws = 1000;  ///< behind each standard error
 };

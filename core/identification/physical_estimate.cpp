@@ -300,12 +300,15 @@ Result<Identification> IdentifyPhysicalModel(const PreparedDataset& dataset, con
   return model;
 }
 
-Result<PhysicalModel> PhysicalModelAbout(const PhysicalModel& model, const PreparedDataset& dataset,
-                                         const Vehicle& vehicle, const IdentifyOptions& options) {
+Result<PhysicalModel> PhysicalModelAbout(const PhysicalModel& model, double time_constant_sd_s,
+                                         const PreparedDataset& dataset, const Vehicle& vehicle,
+                                         const IdentifyOptions& options) {
   FossenPrior prior = PriorOf(vehicle);
   prior.mean = model.Estimates();
+  prior.standard_deviation[At(kTimeConstant)] = time_constant_sd_s;
   PredictionErrorOptions search{.threads = options.threads};
   search.start = PredictionErrorStart{prior.mean, model.noise};
+  search.may_follow = false;
   const auto fit = Fit(dataset, vehicle, prior, search, {});
   if (!fit) return tl::unexpected<Refusal>(fit.error());
   if (!fit->converged) {

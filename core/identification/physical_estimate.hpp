@@ -20,9 +20,11 @@ Result<Identification> IdentifyPhysicalModel(const PreparedDataset& dataset, con
 
 /// What one more recording of a boat says of it, beside a model of the boat: the search begins at
 /// that model and the prior stands about it, as wide as that of a boat that nothing is known of.
-/// The boat may have changed since. Several times as fast as a model from nothing.
-/// Refuses when: the fit does not converge.
-Result<PhysicalModel> PhysicalModelAbout(const PhysicalModel& model, const PreparedDataset& dataset,
-                                         const Vehicle& vehicle, const IdentifyOptions& options);
+/// The boat may have changed since. The time constant of its propellers alone is kept to so much of
+/// the model's: a thrust that comes later is then a delay. Several times as fast as a model from
+/// nothing. Refuses when: the fit does not converge.
+Result<PhysicalModel> PhysicalModelAbout(const PhysicalModel& model, double time_constant_sd_s,
+                                         const PreparedDataset& dataset, const Vehicle& vehicle,
+                                         const IdentifyOptions& options);
 
 }  // namespace telltale

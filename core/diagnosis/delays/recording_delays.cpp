@@ -21,7 +21,8 @@ std::optional<RecordingDelays> RecordingDelaysOf(const PreparedDataset& recordin
   vehicle.hull = recording.hull;
   IdentifyOptions options;
   options.posterior_draws = kDiagnosis.delays.posterior_draws;
-  const auto own = PhysicalModelAbout(model, recording, vehicle, options);
+  const auto own =
+      PhysicalModelAbout(model, kDiagnosis.delays.time_constant_sd_s, recording, vehicle, options);
   if (!own) return std::nullopt;
   RecordingDelays delays;
   for (std::size_t i = 0; i < delays.size(); ++i) {

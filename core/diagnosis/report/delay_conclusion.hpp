@@ -12,9 +12,11 @@
 namespace telltale {
 
 /// Names the delays of channels that are late, IsLate(), whose effects the library has: where free
-/// runs show no gap or leave one undecided, and where a gap has no certain cause and those delays
-/// explain it. A delay that is not fitted to the free runs explains them by no chance. A late fix
-/// on a straight course is a start farther back, which a free run does not show.
+/// runs show no gap or leave one undecided, where a gap has no certain cause and those delays
+/// explain it, and in place of a cause that is less likely and has no gap to explain. Late commands
+/// are indistinguishable from a thrust that follows slowly. A delay that is not fitted to the free
+/// runs explains them by no chance. A late fix on a straight course is a start farther back, which
+/// a free run does not show.
 void ConcludeFromDelays(const std::vector<DelayDifference>& delays,
                         std::span<const Effect* const> library, const DiagnosisProblem& problem,
                         const HorizonErrors& main, std::uint64_t seed, Conclusion& conclusion);

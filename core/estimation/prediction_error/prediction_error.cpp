@@ -682,7 +682,7 @@ PredictionErrorFit FitPredictionError(const PreparedDataset& dataset, double pro
   };
   fit_slopes();
   const Search by_slopes = search;
-  if (!solve(kDrivenByCommandsAlone)) {
+  if (!solve(kDrivenByCommandsAlone) && options.may_follow) {
     search = by_slopes;
     if (!solve(kFollowingSlowly.front())) search = by_slopes;
     search.SettleNoiseWhereFollowing();

@@ -86,13 +86,31 @@ TEST(DelayConclusion, LeavesAGapUnknownThatTheDelayDoesNotExplain) {
   EXPECT_TRUE(conclusion.ranking.fits.empty());
 }
 
-TEST(DelayConclusion, LeavesACauseThatIsCertain) {
-  for (const Verdict certain : {Verdict::kExplained, Verdict::kPartlyExplained}) {
-    const Conclusion conclusion =
-        Concluded({}, Concluded(certain, GapAssessment::kMaterial), {kLateFixes});
-    EXPECT_EQ(conclusion.verdict, certain);
-    EXPECT_TRUE(conclusion.ranking.fits.empty());
-  }
+TEST(DelayConclusion, LeavesACauseThatExplainsAGap) {
+  Conclusion by_free_runs = Concluded(Verdict::kPartlyExplained, GapAssessment::kMaterial);
+  by_free_runs.excess_explained = ExcessExplained{0.5, {0.95, 0.4, 0.6}};
+  const Conclusion conclusion = Concluded({}, by_free_runs, {kLateFixes});
+  EXPECT_EQ(conclusion.verdict, Verdict::kPartlyExplained);
+  EXPECT_TRUE(conclusion.ranking.fits.empty());
+}
+
+TEST(DelayConclusion, TakesTheLikelierCauseWhereThereIsNoGapToExplain) {
+  Conclusion by_free_runs = Concluded(Verdict::kExplained, GapAssessment::kMaterial);
+  by_free_runs.best.score = kLateFixes.score - 1.0;
+  EXPECT_TRUE(Concluded({}, by_free_runs, {kLateFixes}).ranking.fits.empty());
+  by_free_runs.best.score = kLateFixes.score + 1.0;
+  EXPECT_THAT(Concluded({}, by_free_runs, {kLateFixes}).best.Names(), ElementsAre("gnss_latency"));
+}
+
+TEST(DelayConclusion, DoesNotTellLateCommandsFromAThrustThatFollowsSlowly) {
+  constexpr DelayDifference kLateCommands{DelayedChannel::kCommands, kLateS, 0.05, -40.0, 0.3};
+  const RankedHypothesis late = Concluded({}, NoGap(), {kLateCommands}).ranking.fits.front();
+  EXPECT_THAT(late.fit.Names(), ElementsAre("thruster_delay"));
+  EXPECT_THAT(late.Indistinguishable(), ElementsAre("thruster_lag", "output_slew"));
+  const RankedHypothesis both =
+      Concluded({}, NoGap(), {kLateCommands, kLateFixes}).ranking.fits.front();
+  EXPECT_THAT(both.fit.Names(), ElementsAre("thruster_delay", "gnss_latency"));
+  EXPECT_THAT(both.Indistinguishable(), ElementsAre("thruster_lag", "output_slew"));
 }
 
 TEST(DelayConclusion, NamesNoEffectThatTheLibraryLacks) {
