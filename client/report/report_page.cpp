@@ -239,19 +239,17 @@ Markup DelaysSection(const Diagnosis& diagnosis) {
   if (diagnosis.delays.empty()) return {};
   Markup rows;
   for (const DelayDifference& delay : diagnosis.delays) {
-    rows += Element("tr", {},
-                    Cell(std::string(DelayedChannelText(delay.channel))) +
-                        Cell(DelayText(delay), "number") + Cell(DetectableText(delay), "number"));
+    const Markup name = Words(DelayedChannelText(delay.channel)) +
+                        Styled("small", "", Words(DetectableText(delay)));
+    rows += Element("tr", {}, Element("td", {}, name) + Cell(DelayText(delay), "number"));
   }
-  return Section("Clocks",
-                 "By how much later commands act, and positions are stamped, than on the "
-                 "references: each recording shows its delays by itself. A free run on a straight "
-                 "course does not.",
-                 Element("table", {},
-                         HeaderRow({{"Channel", ""},
-                                    {"Later by [95 %]", "number"},
-                                    {"Shows in 90 % of cases from", "number"}}) +
-                             Element("tbody", {}, rows)));
+  return Section(
+      "Clocks",
+      "By how much later commands act, and positions are stamped, than on the references, with "
+      "bounds of 95 %, and below its name from which delay on it would show in 90 % of cases. Each "
+      "recording shows its delays by itself; a free run on a straight course does not.",
+      Element("table", {},
+              HeaderRow({{"Channel", ""}, {"Later by", "number"}}) + Element("tbody", {}, rows)));
 }
 
 Markup AdviceCard(const SeparationAdvice& advice) {

@@ -1,6 +1,17 @@
 #include "telltale/core/diagnosis/report/conclusion.hpp"
 
 namespace telltale {
+namespace {
+
+/// The score that makes a gap material. What comes and goes makes errors larger: where they are no
+/// larger than nominal ones, their scatter is no evidence of it.
+double MaterialScoreOf(const Conclusion& conclusion) {
+  const bool scatters_nothing =
+      TraitsOf(conclusion.best).is_intermittent && !conclusion.excess_explained;
+  return scatters_nothing ? 0.0 : conclusion.best.score;
+}
+
+}  // namespace
 
 Conclusion Conclude(const Hypotheses& hypotheses, const DiagnosisProblem& problem,
                     const HorizonErrors& main, std::uint64_t seed,
@@ -17,7 +28,7 @@ Conclusion Conclude(const Hypotheses& hypotheses, const DiagnosisProblem& proble
   const Eigen::VectorXd gaps = main.SquaredGapsOf(kAllChannels);
   conclusion.assessment =
       AssessGap(gaps.mean(), UpperBound(gaps, BlocksOf(main.runs), seed),
-                main.floor.SquaredLimit(kAllChannels), conclusion.best.score, lack_of_fit);
+                main.floor.SquaredLimit(kAllChannels), MaterialScoreOf(conclusion), lack_of_fit);
   conclusion.ranking = Rank(hypotheses, problem.metric, lack_of_fit);
   conclusion.verdict =
       VerdictOf(conclusion.assessment, conclusion.ranking, conclusion.excess_explained);

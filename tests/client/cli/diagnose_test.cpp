@@ -51,6 +51,8 @@ TEST(DiagnosisTable, SaysTheSentenceFirstAndThenEveryPart) {
         "Its odds, in nats: +0.4 by what effects still predict of the errors that are left, "
         "+0.1 to begin with, -0.5 by the errors of the median window, "
         "-2.2 by the share of the excess that is left.",
+        "commands -0.06 ± 0.24 s 0.75 s",
+        "positions 0.38 ± 0.12 s beyond range",
         "masked by YAW uv",
         "not excited",
         "loss_port 0.047, loss_starboard beyond range",

@@ -138,6 +138,21 @@ TEST(Page, SaysWhyAnUnknownCauseIsLikely) {
   EXPECT_THAT(page, HasSubstr("Its odds, in nats: +7.0 by a_term_of_later_versions, +0.4 by what"));
 }
 
+TEST(Page, ShowsByHowMuchEachChannelIsLater) {
+  const std::string page = ReportPage(MadeUpDiagnosis());
+  EXPECT_THAT(page,
+              HasSubstr("commands<small>0.75 s</small></td><td class=\"number\">-0.06 ± 0.24 s"));
+  EXPECT_THAT(
+      page,
+      HasSubstr("positions<small>beyond range</small></td><td class=\"number\">0.38 ± 0.12 s"));
+}
+
+TEST(Page, LeavesClocksOutThatNoModelCompares) {
+  Diagnosis made = MadeUpDiagnosis();
+  made.delays.clear();
+  EXPECT_THAT(ReportPage(made), Not(HasSubstr("Clocks")));
+}
+
 TEST(Page, ShowsTheValuesOfAWindowUnderThePointer) {
   Diagnosis made = MadeUpDiagnosis();
   made.pictures[1].time_s = made.start_s + 125.0;
