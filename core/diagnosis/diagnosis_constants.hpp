@@ -208,7 +208,8 @@ struct RankingConstants {
 /// The delays that recordings show by themselves, docs/concepts/diagnosis.md (120).
 struct DelayConstants {
   double between_days_sd_s = 0.02;     ///< s, half-normal prior of the sd between nominal days
-  double time_constant_sd_s = 0.02;    ///< s, of one recording's propellers about the model's
+  double time_constant_sd_s = 0.02;    ///< s, prior sd of one recording's propellers
+  double delay_sd_s = 0.4;             ///< s, likewise of its delays: that of the effects
   std::size_t least_references = 2;    ///< that show their delays, convention
   std::size_t posterior_draws = 1000;  ///< behind each standard error
 };

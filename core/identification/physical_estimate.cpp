@@ -300,12 +300,14 @@ Result<Identification> IdentifyPhysicalModel(const PreparedDataset& dataset, con
   return model;
 }
 
-Result<PhysicalModel> PhysicalModelAbout(const PhysicalModel& model, double time_constant_sd_s,
+Result<PhysicalModel> PhysicalModelAbout(const PhysicalModel& model, const TimingPrior& timing,
                                          const PreparedDataset& dataset, const Vehicle& vehicle,
                                          const IdentifyOptions& options) {
   FossenPrior prior = PriorOf(vehicle);
   prior.mean = model.Estimates();
-  prior.standard_deviation[At(kTimeConstant)] = time_constant_sd_s;
+  prior.standard_deviation[At(kTimeConstant)] = timing.time_constant_sd_s;
+  prior.standard_deviation[At(kCommandDelay)] = timing.delay_sd_s;
+  prior.standard_deviation[At(kFixDelay)] = timing.delay_sd_s;
   PredictionErrorOptions search{.threads = options.threads};
   search.start = PredictionErrorStart{prior.mean, model.noise};
   search.may_follow = false;

@@ -18,12 +18,18 @@ Result<Identification> IdentifyPhysicalModel(const PreparedDataset& dataset, con
                                              const IdentifyOptions& options,
                                              const Progress& progress);
 
+/// By how much the timing of one recording may differ from the model's, in s: normal priors. Where
+/// the time constant hardly may, a thrust that comes later is a delay.
+struct TimingPrior {
+  double time_constant_sd_s = 0.0;
+  double delay_sd_s = 0.0;  ///< of commands and of fixes
+};
+
 /// What one more recording of a boat says of it, beside a model of the boat: the search begins at
-/// that model and the prior stands about it, as wide as that of a boat that nothing is known of.
-/// The boat may have changed since. The time constant of its propellers alone is kept to so much of
-/// the model's: a thrust that comes later is then a delay. Several times as fast as a model from
+/// that model and the prior stands about it, but for the timing as wide as that of a boat that
+/// nothing is known of. The boat may have changed since. Several times as fast as a model from
 /// nothing. Refuses when: the fit does not converge.
-Result<PhysicalModel> PhysicalModelAbout(const PhysicalModel& model, double time_constant_sd_s,
+Result<PhysicalModel> PhysicalModelAbout(const PhysicalModel& model, const TimingPrior& timing,
                                          const PreparedDataset& dataset, const Vehicle& vehicle,
                                          const IdentifyOptions& options);
 

@@ -7,6 +7,8 @@
 namespace telltale {
 namespace {
 
+constexpr TimingPrior kTiming{kDiagnosis.delays.time_constant_sd_s, kDiagnosis.delays.delay_sd_s};
+
 FossenParameter ParameterOf(DelayedChannel channel) {
   return channel == DelayedChannel::kCommands ? FossenParameter::kCommandDelay
                                               : FossenParameter::kFixDelay;
@@ -21,8 +23,7 @@ std::optional<RecordingDelays> RecordingDelaysOf(const PreparedDataset& recordin
   vehicle.hull = recording.hull;
   IdentifyOptions options;
   options.posterior_draws = kDiagnosis.delays.posterior_draws;
-  const auto own =
-      PhysicalModelAbout(model, kDiagnosis.delays.time_constant_sd_s, recording, vehicle, options);
+  const auto own = PhysicalModelAbout(model, kTiming, recording, vehicle, options);
   if (!own) return std::nullopt;
   RecordingDelays delays;
   for (std::size_t i = 0; i < delays.size(); ++i) {
