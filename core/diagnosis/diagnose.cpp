@@ -215,9 +215,11 @@ Result<DiagnosedModel> Diagnose(const PreparedDataset& recording,
                   "identify the boat again, or name reference logs");
   }
   ComparedDelays delays;
-  if (model.physical && !references.empty()) {
-    if (progress) progress("delays", 0.0);
-    delays = ComparedDelaysOf(recording, references, *model.physical, options.threads);
+  if (model.physical && references.size() >= kDiagnosis.delays.least_references) {
+    delays = ComparedDelaysOf(recording, references, *model.physical, options.threads,
+                              [&](double share) {
+                                if (progress) progress("delays", 0.05 * share);
+                              });
   }
   auto answer = DiagnoseAgainst(references.empty() ? synthetic : references, recording, model,
                                 *uncertain, delays, options, progress);

@@ -373,7 +373,7 @@ class BaselineEstimation {
       tried.Accept(share);
       const Eigen::VectorXd change = tried.Coefficients().cwiseProduct(model_.StandardErrors());
       AugmentedModel boat{model_.Changed(change), EffectsOf(parameter_refs_, tried.FixedEffects())};
-      if (Diverging(boat) > diverging_of_model_) continue;
+      if (DivergenceOf(boat).IsWorseThan(divergence_of_model_)) continue;
       auto left = LessRecordingEffects(boat);
       const double square = SquaredNorm(left);
       if (square >= least) {
@@ -388,12 +388,12 @@ class BaselineEstimation {
     return least;
   }
 
-  std::size_t Diverging(const AugmentedModel& boat) const {
-    std::size_t windows = 0;
+  Divergence DivergenceOf(const AugmentedModel& boat) const {
+    Divergence divergence;
     for (const Recordings* all : {&recordings_, &others_}) {
-      for (const FreeRuns* runs : *all) windows += runs->Diverging(boat);
+      for (const FreeRuns* runs : *all) divergence.Add(runs->DivergenceOf(boat));
     }
-    return windows;
+    return divergence;
   }
 
   std::vector<Eigen::MatrixXd> LessRecordingEffects(const AugmentedModel& boat) const {
@@ -414,7 +414,7 @@ class BaselineEstimation {
   Recordings recordings_;
   Recordings others_;
   const UncertainModel& model_;
-  std::size_t diverging_of_model_ = Diverging({model_.model, {}});  ///< windows
+  Divergence divergence_of_model_ = DivergenceOf({model_.model, {}});
   const std::vector<EffectParameterRef>& parameter_refs_;
   std::size_t threads_;
   NominalBaselineFit fit_;

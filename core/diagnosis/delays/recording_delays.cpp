@@ -1,5 +1,7 @@
 #include "telltale/core/diagnosis/delays/recording_delays.hpp"
 
+#include <mutex>
+
 #include "telltale/core/base/parallel.hpp"
 #include "telltale/core/diagnosis/diagnosis_constants.hpp"
 #include "telltale/core/identification/physical_estimate.hpp"
@@ -35,15 +37,21 @@ std::optional<RecordingDelays> RecordingDelaysOf(const PreparedDataset& recordin
 
 ComparedDelays ComparedDelaysOf(const PreparedDataset& recording,
                                 const std::vector<PreparedDataset>& references,
-                                const PhysicalModel& model, std::size_t threads) {
+                                const PhysicalModel& model, std::size_t threads,
+                                const std::function<void(double)>& report_progress) {
+  const std::size_t recordings = references.size() + 1;
   ComparedDelays delays;
   delays.references.resize(references.size());
-  ForEachIndex(references.size() + 1, threads, [&](std::size_t i) {
+  std::mutex reporting;
+  std::size_t done = 0;
+  ForEachIndex(recordings, threads, [&](std::size_t i) {
     if (i == references.size()) {
       delays.recording = RecordingDelaysOf(recording, model);
     } else {
       delays.references[i] = RecordingDelaysOf(references[i], model);
     }
+    const std::lock_guard lock(reporting);
+    report_progress(static_cast<double>(++done) / static_cast<double>(recordings));
   });
   return delays;
 }

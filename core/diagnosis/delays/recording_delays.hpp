@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstddef>
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -31,9 +32,11 @@ struct ComparedDelays {
   std::vector<std::optional<RecordingDelays>> references;
 };
 
-/// `threads` never changes the result.
+/// `threads` never changes the result. `report_progress` gets the share done; it is called by one
+/// thread at a time.
 ComparedDelays ComparedDelaysOf(const PreparedDataset& recording,
                                 const std::vector<PreparedDataset>& references,
-                                const PhysicalModel& model, std::size_t threads);
+                                const PhysicalModel& model, std::size_t threads,
+                                const std::function<void(double)>& report_progress);
 
 }  // namespace telltale

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <list>
 #include <mutex>
 #include <span>
@@ -66,7 +67,24 @@ double Limited(double error) {
                               : kLargestFreeRunResidual;
 }
 
+/// The largest velocity over its limit.
+double OverLimits(const Nu& nu, const Nu& limits) {
+  const double over =
+      std::max({std::abs(nu.u) / limits.u, std::abs(nu.v) / limits.v, std::abs(nu.r) / limits.r});
+  return std::isfinite(nu.u + nu.v + nu.r) ? over : std::numeric_limits<double>::infinity();
+}
+
 }  // namespace
+
+void Divergence::Add(const Divergence& other) {
+  windows += other.windows;
+  farthest = std::max(farthest, other.farthest);
+}
+
+bool Divergence::IsWorseThan(const Divergence& other) const {
+  constexpr double kMuch = 2.0;
+  return windows > other.windows || farthest > kMuch * std::max(1.0, other.farthest);
+}
 
 /// The drives of the boats that were asked for last, the latest first. Safe from several threads.
 class DriveCache {
@@ -254,17 +272,18 @@ Eigen::MatrixXd FreeRuns::Errors(const AugmentedModel& model) const {
   return errors;
 }
 
-std::size_t FreeRuns::Diverging(const AugmentedModel& model) const {
+Divergence FreeRuns::DivergenceOf(const AugmentedModel& model) const {
   const Nu limits = kFreeRunDivergence.LimitsFor(FastestOf(*dataset_));
-  std::size_t diverging = 0;
+  Divergence divergence;
   ForEachTrack(model, Offset::Zero(),
                [&](std::size_t, const AugmentedBoat&, double, const std::vector<Pose>& track) {
-                 const bool stays = std::all_of(track.begin(), track.end(), [&](const Pose& pose) {
-                   return Within(pose.nu, limits);
-                 });
-                 if (!stays) ++diverging;
+                 double farthest = 0.0;
+                 for (const Pose& pose : track) {
+                   farthest = std::max(farthest, OverLimits(pose.nu, limits));
+                 }
+                 divergence.Add({farthest >= 1.0 ? std::size_t{1} : std::size_t{0}, farthest});
                });
-  return diverging;
+  return divergence;
 }
 
 FreeRuns::Circumstances FreeRuns::Of(std::size_t window) const {

@@ -16,6 +16,18 @@ namespace telltale {
 using DrivesBySegment = std::vector<std::vector<Drive>>;
 class DriveCache;
 
+/// The windows in which a velocity of a model passes kFreeRunDivergence, and how far it does.
+struct Divergence {
+  std::size_t windows = 0;
+  double farthest = 0.0;  ///< the largest velocity over its limit; infinite where it is no number
+
+  void Add(const Divergence& other);
+
+  /// In more windows, or much farther: a velocity that is a little large where the other model's is
+  /// licenses none without bound.
+  bool IsWorseThan(const Divergence& other) const;
+};
+
 /// Free runs of models over non-overlapping windows of a recording, and their errors.
 ///
 /// A window is divided into equal bins. In each the mean error (measured less predicted) is taken
@@ -42,8 +54,7 @@ class FreeRuns {
   /// Errors of a model, the start of each window estimated.
   Eigen::MatrixXd Errors(const AugmentedModel& model) const;
 
-  /// In how many windows the model diverges: a velocity passes kFreeRunDivergence.
-  std::size_t Diverging(const AugmentedModel& model) const;
+  Divergence DivergenceOf(const AugmentedModel& model) const;
 
   /// What a window went through, for maps and pictures.
   struct Circumstances {

@@ -200,7 +200,8 @@ TEST(NominalBaseline, OfThePhysicalFormKeepsABoatThatDoesNotDiverge) {
   const double before = runs_of_another.Errors({model.model, {}}).squaredNorm();
   const double after = runs_of_another.Errors(nominal.boat).squaredNorm();
   EXPECT_LT(after, before);
-  EXPECT_LE(runs_of_another.Diverging(nominal.boat), runs_of_another.Diverging({model.model, {}}));
+  EXPECT_FALSE(runs_of_another.DivergenceOf(nominal.boat)
+                   .IsWorseThan(runs_of_another.DivergenceOf({model.model, {}})));
   const FossenVector found =
       model.ChangedParameters(nominal.coefficients.cwiseProduct(model.StandardErrors()));
   EXPECT_EQ(found, model.physical->range.Within(found));
