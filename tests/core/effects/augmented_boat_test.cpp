@@ -46,6 +46,25 @@ Drive SteadyDrive(const AugmentedBoat& boat, const PropellerCommand& delta) {
   return boat.DrivesAlong(Held(delta), 10.0, kStepS, 1).front();
 }
 
+// A Runge-Kutta step of order four multiplies by 1 - 6 + 18 - 36 + 54 = 31 where the damping times
+// the step is six.
+TEST(AugmentedBoat, SlowsDownWhereAStepIsLongerThanItsDampingAllows) {
+  constexpr double kDamping = 30.0;  // 1/s
+  constexpr double kLongStepS = 0.2;
+  VesselModel stiff = testing::StableBoat();
+  for (Eigen::VectorXd& theta : stiff.theta) theta.setZero();
+  constexpr Eigen::Index kLinearSurge = 3;  // the regressor u
+  stiff.theta[IndexOf(Equation::kSurge)][kLinearSurge] = -kDamping;
+  const AugmentedBoat boat({stiff, {}}, {0.0, 100.0});
+  const std::vector<Drive> still(5);
+  double before = 1.0;
+  for (const Pose& pose : boat.Simulate({{}, {before, 0.0, 0.0}}, still, 0.0, kLongStepS)) {
+    EXPECT_LE(std::abs(pose.nu.u), before);
+    before = std::abs(pose.nu.u);
+  }
+  EXPECT_LT(before, 1e-6);  // e^-30
+}
+
 TEST(AugmentedBoat, WithoutEffectsIsTheModel) {
   const VesselModel model = testing::StableBoat();
   const auto commands = testing::VariedCommands(40.0, 5);
