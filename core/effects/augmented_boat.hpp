@@ -39,8 +39,8 @@ std::size_t StepsPerRow(const VesselModel& model, double sampling_period_s);
 /// of shafts that follow the commands, delayed, slewed and altered, through the effects' lags, and
 /// lags itself by the model's own. kForwardEuler models step as they were made, kContinuous ones by
 /// a Runge-Kutta step of order four with the heading of the middle of the step and the current of
-/// the place where the step begins; a step is halved where the damping would make it grow. Requires:
-/// a model with all three equations.
+/// the place where the step begins; a step is halved where the damping would make it grow.
+/// Requires: a model with all three equations.
 class AugmentedBoat {
  public:
   AugmentedBoat(AugmentedModel model, const RecordingFrame& frame,
