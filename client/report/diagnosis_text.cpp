@@ -155,9 +155,9 @@ std::string_view DelayedChannelText(DelayedChannel channel) {
 }
 
 std::string DelayText(const DelayDifference& delay) {
-  constexpr double kHalfWidth = 1.96;  // of 95 %, in standard deviations
-  return Fixed(delay.difference_s, 2) + " ± " + Fixed(kHalfWidth * delay.standard_deviation_s, 2) +
-         " s";
+  constexpr double kLevel = 0.95;
+  const double half_width_s = NormalInterval(0.0, delay.standard_deviation_s, kLevel).upper;
+  return Fixed(delay.difference_s, 2) + " ± " + Fixed(half_width_s, 2) + " s";
 }
 
 std::string DetectableText(const DelayDifference& delay) {

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <utility>
 
+#include "telltale/core/base/square.hpp"
 #include "telltale/core/drift/drift_constants.hpp"
 #include "telltale/core/simulation/divergence.hpp"
 #include "telltale/core/simulation/free_run.hpp"
@@ -26,10 +27,6 @@ std::vector<Nu> FollowCommands(const PreparedDataset& dataset, const VesselModel
     for (std::size_t k = 0; k < states.size(); ++k) followed[segment.begin + k] = states[k].nu;
   }
   return followed;
-}
-
-double Square(double value) {
-  return value * value;
 }
 
 Eigen::VectorXd WeatherTerms(const PreparedRow& row) {

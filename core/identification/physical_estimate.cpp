@@ -5,6 +5,7 @@
 #include <functional>
 #include <limits>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "telltale/core/base/format_number.hpp"
@@ -232,15 +233,32 @@ std::string BoundsBasis(const PredictionErrorFit& fit, const Heterogeneity& hete
   return basis;
 }
 
-// The model that the fit makes, with bounds; what the vehicle and the dataset say of it is unset.
-Identification ModelOf(const PredictionErrorFit& fit, const FossenPrior& prior, double separation_m,
-                       const IdentifyOptions& options) {
+// The parameters of a fit with bounds, and the draws from the posterior behind them.
+struct BoundedFit {
+  PhysicalModel model;
+  Eigen::MatrixXd draws;
+};
+
+BoundedFit Bounded(const PredictionErrorFit& fit, const FossenPrior& prior, double separation_m,
+                   const IdentifyOptions& options) {
   const RobustCovariance bounds = CovarianceOf(fit, options.interval_level);
   const std::vector<Eigen::Index> kept = KeptAtEnds(fit, prior);
-  const Eigen::MatrixXd draws = DrawTruncatedNormal(
+  BoundedFit bounded;
+  bounded.draws = DrawTruncatedNormal(
       MeanBeforeTruncation(fit.parameters, fit.newton_mean, bounds.covariance, kept),
       bounds.covariance, prior.least, prior.greatest, fit.parameters, options.posterior_draws,
       options.seed);
+  bounded.model =
+      ModelWithBounds(fit, prior, bounded.draws, StandardDeviationsGiven(bounds.covariance, kept),
+                      options.interval_level);
+  bounded.model.propeller_separation_m = separation_m;
+  return bounded;
+}
+
+// The model that the fit makes, with bounds; what the vehicle and the dataset say of it is unset.
+Identification ModelOf(const PredictionErrorFit& fit, const FossenPrior& prior, double separation_m,
+                       const IdentifyOptions& options) {
+  BoundedFit bounded = Bounded(fit, prior, separation_m, options);
   const Heterogeneity heterogeneity = HeterogeneityOf(fit, prior);
 
   Identification model;
@@ -248,10 +266,9 @@ Identification ModelOf(const PredictionErrorFit& fit, const FossenPrior& prior, 
   model.parameterization = Parameterization::kPropeller;
   model.estimator = Estimator::kPredictionError;
   model.dead_zone = DeadZoneOf(fit.parameters);
-  model.physical = ModelWithBounds(
-      fit, prior, draws, StandardDeviationsGiven(bounds.covariance, kept), options.interval_level);
-  model.physical->propeller_separation_m = separation_m;
-  WriteImpliedCoefficients(fit.parameters, draws, separation_m, options.interval_level, model);
+  model.physical = std::move(bounded.model);
+  WriteImpliedCoefficients(fit.parameters, bounded.draws, separation_m, options.interval_level,
+                           model);
   model.refusals = WarningsOf(fit, *model.physical, heterogeneity);
   model.provenance.bounds_basis = BoundsBasis(fit, heterogeneity);
   model.provenance.clusters = fit.blocks.size();
@@ -317,7 +334,7 @@ Result<PhysicalModel> PhysicalModelAbout(const PhysicalModel& model, const Timin
     return Refuse("recording", "what the commands explain of the motion does not settle the model",
                   "record longer, or in calmer weather");
   }
-  return *ModelOf(*fit, prior, vehicle.propeller_separation_m, options).physical;
+  return Bounded(*fit, prior, vehicle.propeller_separation_m, options).model;
 }
 
 }  // namespace telltale

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "telltale/core/base/contract.hpp"
+#include "telltale/core/base/square.hpp"
 #include "telltale/core/diagnosis/diagnosis_constants.hpp"
 #include "telltale/core/uncertainty/distributions.hpp"
 
@@ -14,10 +15,6 @@ namespace {
 constexpr double kWidestInPriors = 10.0;
 constexpr int kNodes = 400;
 constexpr int kBisections = 40;
-
-double Square(double x) {
-  return x * x;
-}
 
 /// The delay of one more nominal day where days scatter by a given standard deviation.
 struct Component {

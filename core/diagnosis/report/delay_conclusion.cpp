@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "telltale/core/diagnosis/delays/delay_difference.hpp"
-#include "telltale/core/diagnosis/diagnosis_constants.hpp"
 
 namespace telltale {
 namespace {

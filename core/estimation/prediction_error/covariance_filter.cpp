@@ -2,16 +2,14 @@
 
 #include <cmath>
 
+#include "telltale/core/base/square.hpp"
+
 namespace telltale {
 namespace {
 
 // A current changes by this much in a second, one sigma of its random walk.
 constexpr double kCurrentWalk = 0.003;
 constexpr double kHuberLimit = 4.0;
-
-double Square(double x) {
-  return x * x;
-}
 
 double VarianceOf(const ScalarReading& reading, const NoiseModel& noise) {
   if (!reading.is_fix) return Square(noise.heading_sigma_rad);
