@@ -6,6 +6,7 @@
 
 #include "telltale/client/cli/commands.hpp"
 #include "telltale/client/cli/input_options.hpp"
+#include "telltale/client/cli/model_notes.hpp"
 #include "telltale/client/cli/output_options.hpp"
 #include "telltale/client/cli/progress_line.hpp"
 #include "telltale/client/cli/table.hpp"
@@ -95,7 +96,7 @@ std::string TableOf(const CheckedLog& log) {
   if (log.lacks.size() < kChannels.size()) text += ChannelTable(log.check);
   for (const Refusal& channel : log.lacks) text += Paragraph("Missing", channel);
   if (log.rejected) {
-    text += Wrapped(Counted(log.rejected->Total(), "sample", "samples") + " rejected.");
+    text += Wrapped(RejectedText(*log.rejected) + " rejected.");
   }
   for (const Refusal& fault : log.check.faults) text += Paragraph("Suspected fault", fault);
   if (log.check.faults.empty() && log.lacks.empty() && log.unusable) {

@@ -5,6 +5,7 @@
 #include "telltale/client/recording/telemetry_log/telemetry_log.hpp"
 #include "telltale/client/workbench/default_threads.hpp"
 #include "telltale/core/data/preparation.hpp"
+#include "telltale/core/data/repeated_readings.hpp"
 
 namespace telltale {
 namespace {
@@ -31,6 +32,9 @@ CheckedRecording Check(const std::filesystem::path& path, RawLog log, const Vehi
     return checked;
   }
   checked.recording = std::move(admitted->recording);
+  if (auto measured = WithoutRepeatedReadings(checked.recording)) {
+    checked.recording = *std::move(measured);
+  }
   said.rejected = checked.recording.rejected;
   said.unusable = WhyNotPrepared(checked.recording, PrepareOptions::Robust());
   return checked;

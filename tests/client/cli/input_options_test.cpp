@@ -237,6 +237,28 @@ TEST_F(LogInputsTest, CheckShowsTheChannelsOfAFolderThatLacksAFile) {
   EXPECT_THAT(outcome.out, AllOf(HasSubstr("gnss"), HasSubstr("Missing, thrusters.csv")));
 }
 
+TEST_F(LogInputsTest, CheckCountsTheReadingsThatALogRepeats) {
+  folder.Write("boat.textproto", PrintVehicle(Boat()));
+  Recording recording = Measured(0.0);
+  const std::vector<GnssFix> measured = std::move(recording.gnss);
+  recording.gnss.clear();
+  for (const GnssFix& fix : measured) {
+    for (const double later_s : {0.0, 0.02, 0.04}) {
+      recording.gnss.push_back(fix);
+      recording.gnss.back().time_s += later_s;
+    }
+  }
+  WriteTelemetryLog(Path("log"), recording);
+  const std::string counted = std::to_string(2 * measured.size());
+  const std::vector<std::string> check = {"check", "--log", Path("log"), "--vehicle",
+                                          Path("boat.textproto")};
+  EXPECT_THAT(Telltale(check).out, HasSubstr("gnss " + counted + " REPEATED rejected."));
+  std::vector<std::string> as_json = check;
+  as_json.push_back("--json");
+  const auto rejected = nlohmann::json::parse(Telltale(as_json).out)["logs"][0]["rejected"];
+  EXPECT_EQ(rejected.dump(), R"([{"count":)" + counted + R"(,"reason":"REPEATED"}])");
+}
+
 TEST_F(LogInputsTest, CheckSaysTheDelaysOfTheModelThatIdentifyMakes) {
   folder.Write("boat.textproto", PrintVehicle(Boat()));
   WriteTelemetryLog(Path("log"), Measured(0.0));
