@@ -63,23 +63,6 @@ std::optional<Refusal> CheckRequest(const PreparedDataset& recording, const Vess
   return SuspectedWiringFault(recording, model);
 }
 
-/// How the late channels of a recording are known.
-std::string NoteOfDelays(const std::vector<DelayDifference>& differences) {
-  std::string late;
-  for (const DelayDifference& difference : differences) {
-    if (!IsLate(difference)) continue;
-    late.append(late.empty() ? "" : ", and ")
-        .append(difference.channel == DelayedChannel::kCommands ? "commands act "
-                                                                : "positions are ")
-        .append(FormatNumber(difference.difference_s, 2))
-        .append(" s (standard deviation ")
-        .append(FormatNumber(difference.standard_deviation_s, 2))
-        .append(" s) later than on the references");
-  }
-  if (late.empty()) return late;
-  return "By the delays that each recording shows by itself, " + late + ".";
-}
-
 /// Free-run scores of the old model and of the augmented one on the recording.
 std::optional<Improvement> ImprovementOf(const PreparedDataset& recording,
                                          const VesselModel& before, const AugmentedModel& after) {
@@ -159,9 +142,6 @@ Result<DiagnosedModel> DiagnoseAgainst(const std::vector<PreparedDataset>& refer
     const AugmentedModel boat = Reidentified(conclusion.best, problem, model);
     diagnosed.augmented = Augmented(identification, boat, conclusion.best, problem, model);
     diagnosed.diagnosis.improvement = ImprovementOf(recording, model.model, boat);
-  }
-  if (std::string note = NoteOfDelays(differences); !note.empty()) {
-    diagnosed.diagnosis.notes.push_back(std::move(note));
   }
   NoteInfluences(std::move(influences.answers), days.squared_limit, diagnosed.diagnosis);
   report_progress("done", 1.0);

@@ -3,14 +3,17 @@
 #include <algorithm>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "telltale/core/base/parallel.hpp"
 #include "telltale/core/base/version.hpp"
 #include "telltale/core/diagnosis/delays/delay_difference.hpp"
+#include "telltale/core/diagnosis/diagnosis_constants.hpp"
 #include "telltale/core/diagnosis/hypotheses/onset.hpp"
 #include "telltale/core/diagnosis/hypotheses/testability.hpp"
 #include "telltale/core/diagnosis/report/causes.hpp"
+#include "telltale/core/diagnosis/report/delay_conclusion.hpp"
 #include "telltale/core/diagnosis/report/missing_force_text.hpp"
 #include "telltale/core/diagnosis/report/pictures.hpp"
 #include "telltale/core/diagnosis/report/separation_advice.hpp"
@@ -100,13 +103,20 @@ void Advise(const ReportInputs& inputs, Diagnosis& diagnosis) {
       AdviseSensor(first));
 }
 
-/// The smaller one of the sizes that the free runs and the delays show.
-void StatePowerOfDelays(const ReportInputs& inputs, std::vector<EffectTestability>& effects) {
+/// The effects that late channels are, as far as delays show more of them than free runs do.
+void StateWhatDelaysShow(const ReportInputs& inputs, std::vector<EffectTestability>& effects) {
   for (const DelayDifference& delay : inputs.delays) {
-    const auto effect =
-        std::ranges::find(effects, EffectOf(delay.channel).Name(), &EffectTestability::effect);
-    if (effect == effects.end() || !delay.detectable_s) continue;
-    std::optional<double>& size = effect->detectable_sizes.front().size;
+    const Effect& effect = EffectOf(delay.channel);
+    const auto stated = std::ranges::find(effects, effect.Name(), &EffectTestability::effect);
+    if (stated == effects.end()) continue;
+    const double sigmas = effect.Parameters().front().typical / delay.standard_deviation_s;
+    stated->detectability = std::max(stated->detectability, sigmas);
+    if (sigmas >= kDiagnosis.testability.detectable_sigmas) {
+      stated->testability = Testability::kTestable;
+      stated->masked_by.clear();
+    }
+    if (!inputs.state_power || !delay.detectable_s) continue;
+    std::optional<double>& size = stated->detectable_sizes.front().size;
     size = std::min(size.value_or(*delay.detectable_s), *delay.detectable_s);
   }
 }
@@ -118,7 +128,6 @@ void StatePower(const ReportInputs& inputs, std::vector<EffectTestability>& effe
         DetectableSizesOf(*effect, inputs.problem, inputs.main.floor.scale, inputs.days,
                           inputs.hypotheses.nominal_gains.at(effect));
   });
-  StatePowerOfDelays(inputs, effects);
 }
 
 void DescribeMaterialGap(const ReportInputs& inputs, Diagnosis& diagnosis) {
@@ -144,12 +153,16 @@ Diagnosis BuildReport(const ReportInputs& inputs) {
   diagnosis.delays = inputs.delays;
   diagnosis.effects = TestabilityOf(inputs.problem, inputs.model, inputs.library);
   if (inputs.state_power) StatePower(inputs, diagnosis.effects);
+  StateWhatDelaysShow(inputs, diagnosis.effects);
   if (conclusion.assessment == GapAssessment::kMaterial) DescribeMaterialGap(inputs, diagnosis);
   if (conclusion.assessment == GapAssessment::kUndecided) {
     diagnosis.notes.emplace_back(
         "No effect of the library explains enough of the gap. Weather, or what the references "
         "leave uncertain about the boat, may account for it: record longer, or name more "
         "references.");
+  }
+  if (std::string note = DescribeLateChannels(inputs.delays); !note.empty()) {
+    diagnosis.notes.push_back(std::move(note));
   }
   if (conclusion.is_likely) diagnosis.onset = OnsetOf(conclusion.best, inputs.problem);
   diagnosis.pictures =

@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <string>
 #include <utility>
 
+#include "telltale/core/base/format_number.hpp"
 #include "telltale/core/diagnosis/delays/delay_difference.hpp"
 
 namespace telltale {
@@ -95,6 +97,21 @@ void ConcludeFromDelays(const std::vector<DelayDifference>& delays,
   const bool leaves_a_material_gap =
       conclusion.assessment == GapAssessment::kMaterial && by_delays.verdict != Verdict::kExplained;
   if (!leaves_a_material_gap) conclusion = std::move(by_delays);
+}
+
+std::string DescribeLateChannels(const std::vector<DelayDifference>& delays) {
+  std::string late;
+  for (const DelayDifference& delay : delays) {
+    if (!IsLate(delay)) continue;
+    late.append(late.empty() ? "" : ", and ")
+        .append(delay.channel == DelayedChannel::kCommands ? "commands act " : "positions are ")
+        .append(FormatNumber(delay.difference_s, 2))
+        .append(" s (standard deviation ")
+        .append(FormatNumber(delay.standard_deviation_s, 2))
+        .append(" s) later than on the references");
+  }
+  if (late.empty()) return late;
+  return "By the delays that each recording shows by itself, " + late + ".";
 }
 
 }  // namespace telltale

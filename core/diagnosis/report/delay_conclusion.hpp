@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "telltale/core/diagnosis/diagnosis.hpp"
@@ -20,5 +21,8 @@ namespace telltale {
 void ConcludeFromDelays(const std::vector<DelayDifference>& delays,
                         std::span<const Effect* const> library, const DiagnosisProblem& problem,
                         const HorizonErrors& main, std::uint64_t seed, Conclusion& conclusion);
+
+/// How the late channels are known, in a sentence; empty where none is late.
+std::string DescribeLateChannels(const std::vector<DelayDifference>& delays);
 
 }  // namespace telltale
