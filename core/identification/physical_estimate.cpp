@@ -87,15 +87,28 @@ std::vector<Eigen::Index> KeptAtEnds(const PredictionErrorFit& fit, const Fossen
   return kept;
 }
 
-// Draws of a parameter that is kept at the end of its range lie to one side of it and take those
-// with them that depend on it, though the truth may be at the end: an interval holds both what the
-// draws say and what the others would be there, as one by the profile likelihood does.
-PhysicalModel ModelWithBounds(const PredictionErrorFit& fit, const FossenPrior& prior,
-                              const Eigen::MatrixXd& draws,
-                              const Eigen::VectorXd& errors_given_ends, double level) {
-  PhysicalModel model;
-  model.covariance = OfColumns(draws);
-  model.noise = MeanNoise(fit.noise);
+// Parameters within their range, a column a draw.
+Eigen::MatrixXd DrawsOf(const PredictionErrorFit& fit, const FossenPrior& prior,
+                        const Eigen::MatrixXd& covariance, const IdentifyOptions& options) {
+  const Eigen::VectorXd mean =
+      MeanBeforeTruncation(fit.parameters, fit.newton_mean, covariance, KeptAtEnds(fit, prior));
+  return DrawTruncatedNormal(mean, covariance, prior.least, prior.greatest, fit.parameters,
+                             options.posterior_draws, options.seed);
+}
+
+// Each parameter by itself. Draws of one that is kept at the end of its range lie to one side of it
+// and take those with them that depend on it, though the truth may be at the end: an interval holds
+// both what the draws say and what the others would be there, as one by the profile likelihood
+// does.
+std::vector<Coefficient> BoundedParameters(const PredictionErrorFit& fit, const FossenPrior& prior,
+                                           const Eigen::MatrixXd& covariance,
+                                           const IdentifyOptions& options) {
+  const Eigen::MatrixXd draws = DrawsOf(fit, prior, covariance, options);
+  const Eigen::VectorXd standard_errors = OfColumns(draws).diagonal().cwiseSqrt();
+  const Eigen::VectorXd errors_given_ends =
+      StandardDeviationsGiven(covariance, KeptAtEnds(fit, prior));
+  const double level = options.interval_level;
+  std::vector<Coefficient> parameters;
   for (std::size_t i = 0; i < kFossenParameters; ++i) {
     const auto at = static_cast<Eigen::Index>(i);
     const FossenParameterName& name = FossenParameterNames()[i];
@@ -103,7 +116,7 @@ PhysicalModel ModelWithBounds(const PredictionErrorFit& fit, const FossenPrior& 
     parameter.symbol = name.symbol;
     parameter.unit = name.unit;
     parameter.estimate = fit.parameters[at];
-    parameter.standard_error = std::sqrt(model.covariance(at, at));
+    parameter.standard_error = standard_errors[at];
     parameter.interval =
         IntervalOf(draws.row(at), parameter.estimate, level, prior.least[at], prior.greatest[at]);
     const double half = NormalQuantile(0.5 * (1.0 + level)) * errors_given_ends[at];
@@ -113,9 +126,9 @@ PhysicalModel ModelWithBounds(const PredictionErrorFit& fit, const FossenPrior& 
         std::max(parameter.interval.upper, std::min(parameter.estimate + half, prior.greatest[at]));
     parameter.status = prior.Decides(at, parameter.standard_error) ? CoefficientStatus::kPrior
                                                                    : CoefficientStatus::kEstimated;
-    model.parameters.push_back(parameter);
+    parameters.push_back(parameter);
   }
-  return model;
+  return parameters;
 }
 
 // The coefficients that the parameters imply, with bounds from the same draws.
@@ -233,7 +246,7 @@ std::string BoundsBasis(const PredictionErrorFit& fit, const Heterogeneity& hete
   return basis;
 }
 
-// The parameters of a fit with bounds, and the draws from the posterior behind them.
+// The parameters of a fit with bounds, and draws of all of them together.
 struct BoundedFit {
   PhysicalModel model;
   Eigen::MatrixXd draws;
@@ -242,15 +255,11 @@ struct BoundedFit {
 BoundedFit Bounded(const PredictionErrorFit& fit, const FossenPrior& prior, double separation_m,
                    const IdentifyOptions& options) {
   const RobustCovariance bounds = CovarianceOf(fit, options.interval_level);
-  const std::vector<Eigen::Index> kept = KeptAtEnds(fit, prior);
   BoundedFit bounded;
-  bounded.draws = DrawTruncatedNormal(
-      MeanBeforeTruncation(fit.parameters, fit.newton_mean, bounds.covariance, kept),
-      bounds.covariance, prior.least, prior.greatest, fit.parameters, options.posterior_draws,
-      options.seed);
-  bounded.model =
-      ModelWithBounds(fit, prior, bounded.draws, StandardDeviationsGiven(bounds.covariance, kept),
-                      options.interval_level);
+  bounded.draws = DrawsOf(fit, prior, bounds.covariance, options);
+  bounded.model.parameters = BoundedParameters(fit, prior, bounds.ForSingles(), options);
+  bounded.model.covariance = OfColumns(bounded.draws);
+  bounded.model.noise = MeanNoise(fit.noise);
   bounded.model.propeller_separation_m = separation_m;
   return bounded;
 }

@@ -12,7 +12,9 @@ namespace telltale {
 
 /// The physical form of a boat with bounds; docs/concepts/physical-model.md.
 /// Shapes: parameters and covariance in the order of FossenParameter. The equation of a parameter
-/// is unknown, its regressor is empty.
+/// is unknown, its regressor is empty. Standard errors and intervals are of each parameter by
+/// itself, widened by what is known of its own; the covariance is for what several of them say
+/// together, and widened by one factor.
 struct PhysicalModel {
   std::vector<Coefficient> parameters;
   Eigen::MatrixXd covariance;

@@ -94,6 +94,10 @@ double WeightOf(std::size_t blocks) {
 
 }  // namespace
 
+Eigen::MatrixXd RobustCovariance::ForSingles() const {
+  return Scaled(covariance, own_widening);
+}
+
 std::size_t EquivalentBlocks(std::size_t blocks) {
   if (blocks == 0) return 0;
   const double weight = WeightOf(blocks);
@@ -122,8 +126,10 @@ RobustCovariance CovarianceOf(const PredictionErrorFit& fit, double level) {
   const Eigen::MatrixXd apart =
       shrunk_to(Scaled(fit.data_information, OwnScatter(of_blocks, fit.data_information)));
   const Eigen::VectorXd degrees = DegreesOfFreedom(fit, by_score) / (weight * weight);
-  const Eigen::VectorXd student = StudentWidening(degrees, level);
-  return {Scaled(alike, student.cwiseProduct(WideningTo(apart, alike))), degrees};
+  const Eigen::VectorXd widening =
+      StudentWidening(degrees, level).cwiseProduct(WideningTo(apart, alike));
+  const double common = std::sqrt(widening.cwiseAbs2().mean());
+  return {common * common * alike, widening / common, degrees};
 }
 
 }  // namespace telltale
