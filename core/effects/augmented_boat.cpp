@@ -295,10 +295,10 @@ NuDot AugmentedBoat::Acceleration(const Nu& nu, const Eta& eta, const Drive& dri
   instant.hull_scale = hull_scale_;
   NuDot nu_dot;
   if (!current_.isZero(0.0) || !current_gradient_.isZero(0.0)) {
-    const Eigen::Rotation2Dd to_body(-psi_rad);
+    const Eigen::Matrix2d to_body = Eigen::Rotation2Dd(-psi_rad).toRotationMatrix();
     const Eigen::Vector2d from_middle = Eigen::Vector2d(eta.x_m, eta.y_m) - frame_.middle_m;
     const Eigen::Vector2d water = to_body * (current_ + current_gradient_ * from_middle);
-    const Eigen::Vector2d over_ground = to_body.inverse() * Eigen::Vector2d(nu.u, nu.v);
+    const Eigen::Vector2d over_ground = to_body.transpose() * Eigen::Vector2d(nu.u, nu.v);
     const Eigen::Vector2d changing = to_body * (current_gradient_ * over_ground);
     instant.nu_r = {nu.u - water[0], nu.v - water[1], nu.r};
     nu_dot = {nu.r * water[1] + changing[0], -nu.r * water[0] + changing[1], 0.0};
