@@ -336,7 +336,7 @@ Result<PhysicalModel> PhysicalModelAbout(const PhysicalModel& model, const Timin
   prior.standard_deviation[At(kFixDelay)] = timing.delay_sd_s;
   PredictionErrorOptions search{.threads = options.threads};
   search.start = PredictionErrorStart{prior.mean, model.noise};
-  search.may_follow = false;
+  search.free_instruments_only = true;
   const auto fit = Fit(dataset, vehicle, prior, search, {});
   if (!fit) return tl::unexpected<Refusal>(fit.error());
   if (!fit->converged) {

@@ -682,8 +682,9 @@ PredictionErrorFit FitPredictionError(const PreparedDataset& dataset, double pro
   };
   fit_slopes();
   const Search by_slopes = search;
-  if (!solve(kDrivenByCommandsAlone) && options.may_follow) {
+  if (!solve(kDrivenByCommandsAlone)) {
     search = by_slopes;
+    if (options.free_instruments_only) return search.Fit();
     if (!solve(kFollowingSlowly.front())) search = by_slopes;
     search.SettleNoiseWhereFollowing();
     std::ranges::all_of(kFollowingSlowly, solve);

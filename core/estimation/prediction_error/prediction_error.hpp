@@ -26,9 +26,10 @@ struct PredictionErrorOptions {
   double block_s = 10.0;  ///< length of the blocks behind the robust covariance
   /// Near a solution few iterations are left. Without, the search begins at the prior.
   std::optional<PredictionErrorStart> start = {};
-  /// Whether a boat of the instruments that follows the filter will do, where the one that commands
-  /// alone drive tells nothing. It is less free of what disturbs the boat: waves move delays.
-  bool may_follow = true;
+  /// Whether nothing but a solution will do whose instruments the commands alone drive. One whose
+  /// boat follows the filter is less free of what disturbs the boat: waves move delays. Where there
+  /// is none, the fit ends unconverged at once.
+  bool free_instruments_only = false;
 };
 
 /// What the innovations of one block of time, or of one recording, say.
