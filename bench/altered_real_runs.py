@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """Alters each BlueBoat run in one known way at a time and prints, in Markdown, what telltale diagnose makes of it, by
-the physical model of the boat's other runs, with all of those as references and without each of them in turn.
+the physical model of the boat's other runs, with all of those as references and without each of them in turn; which
+sizes the unaltered runs are said to show, and what is made of runs altered by those; and what three references say.
 
 Usage: bench/altered_real_runs.py [--built DIR] [--data DIR] [--held RUN]... [--threads N]
 
@@ -16,6 +17,7 @@ import collections
 import json
 import math
 import pathlib
+import re
 import subprocess
 import sys
 import tempfile
@@ -43,6 +45,20 @@ ALTERATIONS = [
     Alteration("antenna 0.4 m forward", "antenna_lever_arm", {"forward": 0.4}, ["--move-antenna-m", "0.4", "0"]),
     Alteration("antenna 0.4 m to starboard", "antenna_lever_arm", {"starboard": 0.4}, ["--move-antenna-m", "0", "0.4"]),
 ]
+
+# Whose smallest sizes are listed.
+LISTED = ["heading_bias", "gnss_latency", "thruster_delay", "thruster_imbalance", "antenna_lever_arm", "current", "wind",
+          "hull_fouling"]
+# How blind_alter makes an effect of a size, by its parameter and either sign. A side that is weaker by as much as shows
+# is cut at full command nearly throughout.
+BY_SIZE = {
+    ("heading_bias", "bias"): lambda size: {"+": ["--turn-heading-deg", str(size / DEGREE)],
+                                            "-": ["--turn-heading-deg", str(-size / DEGREE)]},
+    ("gnss_latency", "latency"): lambda size: {"": ["--delay-fixes-s", str(size)]},
+    ("thruster_delay", "delay"): lambda size: {"": ["--shift-commands-s", str(size)]},
+    ("antenna_lever_arm", "forward"): lambda size: {"": ["--move-antenna-m", str(size), "0"]},
+    ("antenna_lever_arm", "starboard"): lambda size: {"": ["--move-antenna-m", "0", str(size)]},
+}
 
 Answer = collections.namedtuple("Answer", "run alteration report")
 
@@ -193,6 +209,73 @@ def print_cuts(cuts):
         print(f"- {line}")
 
 
+def sizes_that_show(report, effect):
+    return next(e for e in report["effects"] if e["effect"] == effect).get("detectableSizes", [])
+
+
+def quantity(size):
+    return f"{size['size']:.2g} {size['unit']}".removesuffix(" 1") if "size" in size else "beyond range"
+
+
+def print_smallest_sizes(unaltered):
+    print("\n### Smallest sizes that show\n")
+    print("| effect | " + " | ".join(a.run for a in unaltered) + " |\n|---" + "|---" * len(unaltered) + "|")
+    for effect in LISTED:
+        cells = [", ".join(map(quantity, sizes_that_show(a.report, effect))) for a in unaltered]
+        print(f"| {effect} | " + " | ".join(cells) + " |")
+
+
+def limit_of_days(report):
+    """The gap that 99 % of nominal days stay below, (102), as a note has it."""
+    found = re.search(r"below a gap of ([\d.e+]+?)\.? A", " ".join(report.get("notes", [])))
+    return f"{float(found[1]):.2f}" if found else "none"
+
+
+def print_stated_sizes(answers):
+    print("\n### Altered by the sizes that show\n")
+    print("| run | alteration | verdict | gap (nominal days) | first cause |\n|---|---|---|---|---|")
+    for answer in answers:
+        effects = " + ".join(first_cause(answer.report)["effects"]) or "–"
+        print(f"| {answer.run} | {answer.alteration.name} | {answer.report['verdict']} | "
+              f"{answer.report['gap']['before']:.2f} ({limit_of_days(answer.report)}) | {effects} |")
+
+
+def print_three_references(runs, answers):
+    print("\n### Unaltered, with three references\n")
+    print("| run | " + " | ".join(f"without {name}" for name in runs) + " |\n|---" + "|---" * len(runs) + "|")
+    for held in sorted({run for run, _ in answers}):
+        cells = []
+        for left_out in runs:
+            report = answers.get((held, left_out))
+            cells.append("–" if report is None else f"{report['verdict']}, {report['gap']['before']:.2f} "
+                                                     f"({limit_of_days(report)})")
+        print(f"| {held} | " + " | ".join(cells) + " |")
+
+
+def of_stated_sizes(unaltered):
+    """Alterations by the sizes that an unaltered run is said to show."""
+    for (effect, name), options in BY_SIZE.items():
+        for size in sizes_that_show(unaltered.report, effect):
+            if size["name"] != name or "size" not in size:
+                continue
+            for sign, option in options(size["size"]).items():
+                yield Alteration(f"{effect} {name} {sign}{quantity(size)}", effect, {name: size["size"]}, option)
+
+
+def further_diagnoses(boat, unaltered):
+    """Of the same run altered by the sizes that it shows, and unaltered without each reference."""
+    others = tuple(r for r in boat.runs if r != unaltered.run)
+    model = boat.model(others)
+    stated = []
+    for alteration in of_stated_sizes(unaltered):
+        report = boat.diagnosis(boat.altered(unaltered.run, alteration, model)[0], model, others)
+        if report is not None:
+            stated.append(Answer(unaltered.run, alteration, report))
+    by_three = {(unaltered.run, left_out): boat.diagnosis(boat.home / unaltered.run, model,
+                                                          [r for r in others if r != left_out]) for left_out in others}
+    return stated, by_three
+
+
 def diagnosed(boat, held):
     """The answers of one run, by alteration, and what was cut of its commands."""
     answers, cuts = [], []
@@ -219,7 +302,7 @@ def main():
     if not (arguments.data / "blueboat").is_dir():
         print(f"altered_real_runs: skipped, no recordings at {arguments.data / 'blueboat'}", file=sys.stderr)
         sys.exit(SKIPPED)
-    answers, cuts = [], []
+    answers, cuts, stated, by_three = [], [], [], {}
     with tempfile.TemporaryDirectory() as folder:
         boat = Boat(arguments, root, pathlib.Path(folder))
         for held in arguments.held or boat.runs:
@@ -228,11 +311,18 @@ def main():
             of_run, cut_of_run = diagnosed(boat, held)
             answers += of_run
             cuts += cut_of_run
+            for unaltered in (a for a in of_run if a.alteration.effect is None):
+                stated_of_run, by_three_of_run = further_diagnoses(boat, unaltered)
+                stated += stated_of_run
+                by_three |= by_three_of_run
     if not answers:
         sys.exit("altered_real_runs: every run is refused; telltale diagnose says why")
     print_by_run(answers)
     print_by_alteration(answers)
     print_steadiness(answers)
+    print_smallest_sizes([a for a in answers if a.alteration.effect is None])
+    print_stated_sizes(stated)
+    print_three_references(boat.runs, by_three)
     print_cuts(cuts)
 
 
