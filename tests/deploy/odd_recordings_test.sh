@@ -40,7 +40,7 @@ opens two-gps.tlog "positions from GPS_RAW_INT; heading from ATTITUDE; outputs 1
 vehicle=usual
 opens filtered-only.tlog "positions from GLOBAL_POSITION_INT; heading from GLOBAL_POSITION_INT"
 opens slow-outputs.tlog "SERVO_OUTPUT_RAW comes at 2.0 Hz only: set SR0_RC_CHAN to 10"
-opens disarmed.tlog "200 samples rejected"
+opens disarmed.tlog "thrusters 200 OUT_OF_RANGE rejected"
 opens clock-set.tlog "positions from GPS_RAW_INT"
 comes_back clock-set.tlog "${mavlink[@]}"
 opens bare.rlog "positions from GPS_RAW_INT"
