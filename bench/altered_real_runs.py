@@ -210,7 +210,8 @@ def print_cuts(cuts):
 
 
 def sizes_that_show(report, effect):
-    return next(e for e in report["effects"] if e["effect"] == effect).get("detectableSizes", [])
+    """None of an effect that the report does not have."""
+    return next((e for e in report["effects"] if e["effect"] == effect), {}).get("detectableSizes", [])
 
 
 def quantity(size):

@@ -30,6 +30,7 @@ if [[ $command == identify ]]; then
 fi
 influence='{"verdict": "EXPLAINED", "effects": ["heading_bias"]}'
 echo '{"verdict": "EXPLAINED", "gap": {"before": 3.14159, "floorLimit": 2},
+  "notes": ["References say that 99 % of nominal days stay below a gap of 2.5. A smaller gap counts as undecided."],
   "referenceInfluence": ['"$influence, $influence, $influence, $influence"'],
   "effects": [{"effect": "heading_bias", "detectableSizes": [{"name": "bias", "size": 0.2, "unit": "rad"}]}], "causes": [{"effects": ["heading_bias"],
   "probability": 0.9, "parameters": [{"name": "bias", "estimate": 0.06, "unit": "rad", "effect": "heading_bias"}]}]}' > "$out"
@@ -63,7 +64,17 @@ grep -qF '| run220 | 17 of 17 | 4 EXPLAINED |' "$sandbox/said" || fail "verdicts
 grep '^identify' "$sandbox/calls" | grep -q -- '--log [^ ]*run220' && fail "the model knows the run held back"
 grep '^diagnose' "$sandbox/calls" | grep -q -- '--reference-log [^ ]*run220' &&
   fail "the run held back is its own reference"
-(($(grep -c '^diagnose' "$sandbox/calls") == 17)) || fail "it does not diagnose every alteration once"
+grep -qF '| heading_bias | 0.2 rad |' "$sandbox/said" || fail "it does not list the size that shows"
+for sign in + -; do
+  grep -qF "| run220 | heading_bias bias ${sign}0.2 rad | EXPLAINED | 3.14 (2.50) | heading_bias |" "$sandbox/said" ||
+    fail "it does not alter the run by the size that shows, to either side"
+done
+grep -qF '| run220 | – | EXPLAINED, 3.14 (2.50) | EXPLAINED, 3.14 (2.50) | EXPLAINED, 3.14 (2.50) | EXPLAINED, 3.14 (2.50) |' \
+  "$sandbox/said" || fail "it does not say what three references make of the unaltered run"
+# 17 alterations, the size that shows to either side, and four choices of three references.
+(($(grep -c '^diagnose' "$sandbox/calls") == 23)) || fail "it does not diagnose everything once"
+(($(grep '^diagnose' "$sandbox/calls" | grep -o -- '--reference-log' | wc -l) == 19 * 4 + 4 * 3)) ||
+  fail "it does not leave out one reference of four"
 grep -q '^0.000000,94' "$sandbox/headings" || fail "the heading is not turned"
 
 run --data "$sandbox/nowhere"
