@@ -3,8 +3,7 @@
 namespace telltale {
 namespace {
 
-// `prepare` says what the filter uses and records beside its innovations, of which there are so
-// many at most.
+// `prepare` says what the filter uses and records beside its innovations.
 template <class Prepare>
 std::vector<Innovation> Innovate(const RawSignals& signals, const HeldCommands& commands,
                                  const FilterSettings& settings, const Prepare& prepare) {
@@ -12,10 +11,9 @@ std::vector<Innovation> Innovate(const RawSignals& signals, const HeldCommands& 
   const auto start = StartOf(readings);
   std::vector<Innovation> innovations;
   if (!start) return innovations;
-  const std::size_t most = 2 * readings.size();
-  innovations.reserve(most);
+  innovations.reserve(2 * readings.size());
   ExtendedKalmanFilter filter(settings, commands, readings.front().time_s, *start);
-  prepare(filter, most);
+  prepare(filter);
   for (const Reading& reading : readings) filter.Take(reading, innovations);
   return innovations;
 }
@@ -24,7 +22,7 @@ std::vector<Innovation> Innovate(const RawSignals& signals, const HeldCommands& 
 
 std::vector<Innovation> InnovationsOf(const RawSignals& signals, const HeldCommands& commands,
                                       const FilterSettings& settings) {
-  return Innovate(signals, commands, settings, [](ExtendedKalmanFilter&, std::size_t) {});
+  return Innovate(signals, commands, settings, [](ExtendedKalmanFilter&) {});
 }
 
 std::vector<std::vector<Innovation>> InnovationsUnder(const std::vector<NoiseModel>& noises,
@@ -37,7 +35,7 @@ std::vector<std::vector<Innovation>> InnovationsUnder(const std::vector<NoiseMod
         CovarianceFilter(noise, settings.current_sigma_m_s, settings.misalignment_sigma_rad));
   }
   Innovate(signals, commands, settings,
-           [&](ExtendedKalmanFilter& filter, std::size_t) { filter.RunBeside(&variations); });
+           [&](ExtendedKalmanFilter& filter) { filter.RunBeside(&variations); });
   std::vector<std::vector<Innovation>> all;
   for (NoiseVariation& variation : variations) all.push_back(variation.TakeInnovations());
   return all;
@@ -46,22 +44,21 @@ std::vector<std::vector<Innovation>> InnovationsUnder(const std::vector<NoiseMod
 SlopedInnovations SlopedInnovationsOf(const RawSignals& signals, const HeldCommands& commands,
                                       const FilterSettings& settings, bool with_instruments) {
   SlopedInnovations all;
-  all.innovations =
-      Innovate(signals, commands, settings, [&](ExtendedKalmanFilter& filter, std::size_t most) {
-        all.gains.reserve(most);
-        all.slopes.reserve(most);
-        filter.UseGains(nullptr, &all.gains);
-        filter.RecordSlopes(&all.slopes, with_instruments);
-      });
+  const std::size_t most = 2 * signals.north_m.times_s.size() + signals.psi_rad.times_s.size();
+  all.slopes.reserve(most);
+  all.gains.reserve(most);
+  all.innovations = Innovate(signals, commands, settings, [&](ExtendedKalmanFilter& filter) {
+    filter.UseGains(nullptr, &all.gains);
+    filter.RecordSlopes(&all.slopes, with_instruments);
+  });
   return all;
 }
 
 std::vector<Innovation> InnovationsWith(const std::vector<FilterGain>& gains,
                                         const RawSignals& signals, const HeldCommands& commands,
                                         const FilterSettings& settings) {
-  return Innovate(signals, commands, settings, [&](ExtendedKalmanFilter& filter, std::size_t) {
-    filter.UseGains(&gains, nullptr);
-  });
+  return Innovate(signals, commands, settings,
+                  [&](ExtendedKalmanFilter& filter) { filter.UseGains(&gains, nullptr); });
 }
 
 }  // namespace telltale

@@ -118,9 +118,9 @@ TEST_F(ScoreCovariance, HoldsAllTogetherWhereDirectionsAreKnownBest) {
     const LinearFit drawn = DrawFit(informations_, static_cast<std::uint64_t>(i));
     const Estimates estimated{drawn.estimate, CovarianceOf(drawn.fit, 0.95).covariance,
                               EquivalentBlocks(kBlocks)};
-    const Estimates known{FossenVector::Zero(),
+    const Estimates truth{FossenVector::Zero(),
                           Eigen::MatrixXd::Zero(kFossenParameters, kFossenParameters), 0};
-    const auto test = TestEquality(estimated, known);
+    const auto test = TestEquality(estimated, truth);
     ASSERT_TRUE(test.has_value());
     if (test->p_value >= 0.05) ++held;
   }
