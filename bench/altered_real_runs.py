@@ -88,6 +88,8 @@ class Boat:
     def model(self, runs):
         """model.json of these runs, without the record of what made it."""
         out = self.folder / ("+".join(runs) + ".json")
+        if out.exists():
+            return out
         logs = [part for name in runs for part in ("--log", self.home / name)]
         run(self.telltale, "identify", *logs, "--vehicle", self.vehicle, "--structure", "fossen", "--threads",
             self.threads, "--out", out)
@@ -135,6 +137,10 @@ def first_cause(report):
     return causes[0]
 
 
+def cause_text(report):
+    return " + ".join(first_cause(report)["effects"]) or "–"
+
+
 def is_right(answer):
     cause = first_cause(answer.report)
     return answer.alteration.effect in cause["effects"] + cause.get("indistinguishable", [])
@@ -161,10 +167,9 @@ def power_text(answer):
 def row(answer):
     report = answer.report
     gap, cause = report["gap"], first_cause(report)
-    effects = " + ".join(cause["effects"]) or "–"
     probability = f"{cause['probability']:.2f}" if "probability" in cause else "–"
     return (f"| {answer.run} | {answer.alteration.name} | {report['verdict']} | {gap['before']:.2f} "
-            f"({gap['floorLimit']:.2f}) | {effects} | {probability} | {size_text(answer)} | {power_text(answer)} |")
+            f"({gap['floorLimit']:.2f}) | {cause_text(report)} | {probability} | {size_text(answer)} | {power_text(answer)} |")
 
 
 def counts(answers):
@@ -236,9 +241,9 @@ def print_stated_sizes(answers):
     print("\n### Altered by the sizes that show\n")
     print("| run | alteration | verdict | gap (nominal days) | first cause |\n|---|---|---|---|---|")
     for answer in answers:
-        effects = " + ".join(first_cause(answer.report)["effects"]) or "–"
-        print(f"| {answer.run} | {answer.alteration.name} | {answer.report['verdict']} | "
-              f"{answer.report['gap']['before']:.2f} ({limit_of_days(answer.report)}) | {effects} |")
+        report = answer.report
+        print(f"| {answer.run} | {answer.alteration.name} | {report['verdict']} | "
+              f"{report['gap']['before']:.2f} ({limit_of_days(report)}) | {cause_text(report)} |")
 
 
 def print_three_references(runs, answers):
