@@ -11,6 +11,7 @@
 #include "support/physical_boat.hpp"
 #include "telltale/core/diagnosis/delays/delay_difference.hpp"
 #include "telltale/core/diagnosis/diagnose.hpp"
+#include "telltale/core/diagnosis/diagnosis_constants.hpp"
 
 namespace telltale {
 namespace {
@@ -158,6 +159,11 @@ TEST(DiagnosedDelays, StateTheSizeThatWouldShow) {
     ASSERT_NE(effect, diagnosis.effects.end());
     ASSERT_TRUE(effect->detectable_sizes.front().size.has_value());
     EXPECT_LE(*effect->detectable_sizes.front().size, *delay.detectable_s);
+    const double sigmas =
+        EffectOf(delay.channel).Parameters().front().typical / delay.standard_deviation_s;
+    ASSERT_GE(sigmas, kDiagnosis.testability.detectable_sigmas);
+    EXPECT_GE(effect->detectability, sigmas);
+    EXPECT_EQ(effect->testability, Testability::kTestable);
   }
 }
 
