@@ -97,6 +97,16 @@ PhysicalTrial TryPhysicalForm(const Recording& recording, const Recording& part,
   return trial;
 }
 
+Result<ScoredModel> IdentifyPhysicalForm(const Recording& recording, const Vehicle& vehicle,
+                                         const IdentifyOptions& options, const Progress& progress) {
+  if (progress) progress("scoring the physical form", 0.0);
+  PhysicalTrial physical = TryPhysicalForm(recording, recording, vehicle, options, progress);
+  auto identification =
+      physical.model ? *std::move(physical.model) : Identify(recording, vehicle, options, progress);
+  if (!identification) return tl::unexpected(identification.error());
+  return ScoredModel{*std::move(identification), std::move(physical.score)};
+}
+
 }  // namespace
 
 StructureChoice ChooseStructure(const Recording& recording, const Vehicle& vehicle,
@@ -126,18 +136,33 @@ StructureChoice ChooseStructure(const Recording& recording, const Vehicle& vehic
           std::move(physical.model)};
 }
 
+Result<ScoredModel> IdentifyInGivenStructure(const Recording& recording, const Vehicle& vehicle,
+                                             const IdentifyOptions& options,
+                                             const Progress& progress) {
+  if (options.regression.structure == Structure::kFossen) {
+    return IdentifyPhysicalForm(recording, vehicle, options, progress);
+  }
+  auto identification = Identify(recording, vehicle, options, progress);
+  if (!identification) return tl::unexpected(identification.error());
+  if (progress) progress("scoring on the part that is held out", 0.0);
+  auto score = ScoreOnHeldOutPart(recording, vehicle, *identification, options);
+  return ScoredModel{*std::move(identification),
+                     score ? std::optional(*std::move(score)) : std::nullopt};
+}
+
 Result<ScoredModel> IdentifyInChosenStructure(const Recording& recording, const Vehicle& vehicle,
-                                              IdentifyOptions options, const Progress& progress) {
-  StructureChoice choice = ChooseStructure(recording, vehicle, options, progress);
-  const Structure free_structure = std::exchange(options.regression.structure, choice.structure);
+                                              const IdentifyOptions& free_options,
+                                              const Progress& progress) {
+  StructureChoice choice = ChooseStructure(recording, vehicle, free_options, progress);
+  IdentifyOptions options = free_options;
+  options.regression.structure = choice.structure;
   auto identification = choice.physical ? *std::move(choice.physical)
                                         : Identify(recording, vehicle, options, progress);
   if (!identification && choice.structure == Structure::kFossen) {
     choice.reason =
         "free coefficients, since of the physical form " + identification.error().reason;
     choice.score.reset();
-    options.regression.structure = free_structure;
-    identification = Identify(recording, vehicle, options, progress);
+    identification = Identify(recording, vehicle, free_options, progress);
   }
   if (!identification) return tl::unexpected(identification.error());
   identification->provenance.structure_choice = std::move(choice.reason);

@@ -44,11 +44,17 @@ struct ScoredModel {
   std::optional<HeldOutScore> score;
 };
 
+/// Identifies a model in the structure of `options`. Of the physical form, a second thread measures
+/// the score meanwhile. Refuses as Identify does.
+Result<ScoredModel> IdentifyInGivenStructure(const Recording& recording, const Vehicle& vehicle,
+                                             const IdentifyOptions& options,
+                                             const Progress& progress = {});
+
 /// Identifies a model in the structure that ChooseStructure chooses, in free coefficients where the
 /// physical form is refused; its provenance says why. Refuses as Identify does. Assumes: as
 /// ChooseStructure.
 Result<ScoredModel> IdentifyInChosenStructure(const Recording& recording, const Vehicle& vehicle,
-                                              IdentifyOptions options,
+                                              const IdentifyOptions& free_options,
                                               const Progress& progress = {});
 
 }  // namespace telltale

@@ -11,9 +11,9 @@ using enum FossenParameter;
 constexpr int kNorth = kNorthState;
 constexpr int kEast = kNorthState + 1;
 
-constexpr double kLongestStepS = 0.05;
+constexpr double kLongestStepS = 0.1;
 constexpr double kLongestDecay = 1.5;   // of a step, in time constants of the damping
-constexpr double kMostSubsteps = 20.0;  // of the longest step
+constexpr double kMostSubsteps = 40.0;  // of the longest step
 constexpr double kShortestStepS = 1e-6;
 // Headings closer than this to the one before bring nothing new and cost a step.
 constexpr double kHeadingPeriodS = 0.095;

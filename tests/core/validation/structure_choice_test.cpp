@@ -36,11 +36,15 @@ Recording OfFreeCoefficients() {
   return Measure(track, YellowfishVehicle(), {});
 }
 
-StructureChoice ChoiceOfTheFirst(double duration_s, const Progress& progress = {}) {
+Recording FirstOfFreeCoefficients(double duration_s) {
   const Recording recording = OfFreeCoefficients();
   const double start_s = recording.gnss.front().time_s;
-  return ChooseStructure(Between(recording, start_s, start_s + duration_s), YellowfishVehicle(),
-                         TwoThreads(), progress);
+  return Between(recording, start_s, start_s + duration_s);
+}
+
+StructureChoice ChoiceOfTheFirst(double duration_s, const Progress& progress = {}) {
+  return ChooseStructure(FirstOfFreeCoefficients(duration_s), YellowfishVehicle(), TwoThreads(),
+                         progress);
 }
 
 std::vector<std::string> StagesOfTheFirst(double duration_s) {
@@ -95,15 +99,28 @@ TEST(ChooseStructure, SparesThePhysicalFormWhereLittleIsToBeGained) {
 }
 
 TEST(IdentifyInChosenStructure, GivesTheSameModelWithAnyNumberOfThreads) {
-  const Recording recording = OfFreeCoefficients();
-  const double start_s = recording.gnss.front().time_s;
-  const Recording part = Between(recording, start_s, start_s + 90.0);
+  const Recording part = FirstOfFreeCoefficients(90.0);
   const auto of_one = IdentifyInChosenStructure(part, YellowfishVehicle(), {});
   const auto of_two = IdentifyInChosenStructure(part, YellowfishVehicle(), TwoThreads());
   ASSERT_TRUE(of_one && of_two);
   ASSERT_TRUE(of_one->model.physical && of_two->model.physical);
   EXPECT_EQ(of_one->model.physical->covariance, of_two->model.physical->covariance);
   EXPECT_EQ(of_one->model.provenance.structure_choice, of_two->model.provenance.structure_choice);
+}
+
+/// The score is that of a model of the first part alone, and costs the other model nothing.
+TEST(IdentifyInGivenStructure, ScoresThePhysicalFormBesideItWithAnyNumberOfThreads) {
+  const Recording part = FirstOfFreeCoefficients(90.0);
+  IdentifyOptions options = TwoThreads();
+  options.regression.structure = Structure::kFossen;
+  const auto of_two = IdentifyInGivenStructure(part, YellowfishVehicle(), options);
+  options.threads = 1;
+  const auto of_one = IdentifyInGivenStructure(part, YellowfishVehicle(), options);
+  ASSERT_TRUE(of_one && of_two && of_one->score && of_two->score);
+  EXPECT_EQ(of_one->model.physical->covariance, of_two->model.physical->covariance);
+  EXPECT_EQ(of_one->score->metrics.free_run.front().position_rmse_m,
+            of_two->score->metrics.free_run.front().position_rmse_m);
+  EXPECT_NEAR(of_two->score->held_out_s, 0.2 * 90.0, 1.0);
 }
 
 }  // namespace
