@@ -3,6 +3,7 @@
 
 #include <benchmark/benchmark.h>
 
+#include "telltale/core/data/recording_parts.hpp"
 #include "telltale/core/estimation/regression/one_step.hpp"
 #include "telltale/core/identification/identify.hpp"
 #include "telltale/core/paper/sample_mission.hpp"
@@ -10,6 +11,7 @@
 #include "telltale/core/simulation/manoeuvres.hpp"
 #include "telltale/core/simulation/sensors.hpp"
 #include "telltale/core/uncertainty/bootstrap.hpp"
+#include "telltale/core/validation/structure_choice.hpp"
 
 namespace telltale {
 namespace {
@@ -106,6 +108,25 @@ BENCHMARK(PrepareAndIdentify)
     ->ArgName("replicates")
     ->Arg(0)
     ->Arg(1000)
+    ->Unit(benchmark::kMillisecond);
+
+/// Wall clock of two threads. Of the longer recording there is no score.
+void IdentifyPhysicalForm(benchmark::State& state) {
+  const Vehicle vehicle = YellowfishVehicle();
+  const Recording recording =
+      Between(SyntheticRecording(), 0.0, static_cast<double>(state.range(0)));
+  IdentifyOptions options;
+  options.regression.structure = Structure::kFossen;
+  options.threads = 2;
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(IdentifyInGivenStructure(recording, vehicle, options));
+  }
+}
+BENCHMARK(IdentifyPhysicalForm)
+    ->ArgName("seconds")
+    ->Arg(600)
+    ->Arg(3200)
+    ->UseRealTime()
     ->Unit(benchmark::kMillisecond);
 
 }  // namespace

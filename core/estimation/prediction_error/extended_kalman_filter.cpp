@@ -213,25 +213,6 @@ ExtendedKalmanFilter::Rate ExtendedKalmanFilter::RateAt(const FilterState& x,
   return rate;
 }
 
-// d rate / d state.
-MotionByMovers ExtendedKalmanFilter::ByMovers(const FilterState& x, const Rate& rate) {
-  constexpr int kHeading = 0;  // of the movers
-  constexpr int kVelocity = kVelocityState - kHeadingState;
-  constexpr int kDisturbance = kDisturbanceState - kHeadingState;
-  const double c = rate.cos_psi;
-  const double s = rate.sin_psi;
-  const double u = x[kVelocityState];
-  const double v = x[kVelocityState + 1];
-  MotionByMovers by = MotionByMovers::Zero();
-  by(kNorth, kHeading) = -s * u - c * v;
-  by(kEast, kHeading) = c * u - s * v;
-  by.block<2, 2>(kNorth, kVelocity) << c, -s, s, c;
-  by(kHeadingState, kVelocity + 2) = 1.0;
-  by.block<3, 3>(kVelocityState, kVelocity) = rate.dynamics.by_nu;
-  by.block<3, 3>(kVelocityState, kDisturbance).setIdentity();
-  return by;
-}
-
 // d rate / d parameter, the rows of the velocities alone.
 ExtendedKalmanFilter::ByParameters ExtendedKalmanFilter::ByParameter(
     const FilterState& x, const Rate& rate, const ThrustStep& thrust) const {
@@ -280,36 +261,57 @@ ExtendedKalmanFilter::Midpoint ExtendedKalmanFilter::Advance(const ThrustStep& t
   return step;
 }
 
-// Of the step from `x`.
-FilterTransition ExtendedKalmanFilter::TransitionOf(const FilterState& x, const Midpoint& step,
-                                                    double h, const DecayOfStates& decay) {
-  constexpr int kBefore = kMovingStates - kHeadingState;  // of the movers, those that move
-  const MotionByMovers by_first = ByMovers(x, step.first);
-  const MotionByMovers by_second = ByMovers(step.middle, step.second);
+// How an acceleration that is held over the step moves the moving states, without what the turn of
+// the axes and the curvature of the damping add.
+ExtendedKalmanFilter::MovingByAcceleration ExtendedKalmanFilter::ByHeldAcceleration(
+    const Midpoint& step, double h) {
+  const Eigen::Matrix3d& by_nu = step.second.dynamics.by_nu;
+  const double c = step.second.cos_psi;
+  const double s = step.second.sin_psi;
+  Eigen::Matrix3d way = (h * h * h / 6.0) * by_nu;  // in body axes
+  way.diagonal().array() += 0.5 * h * h;
+  MovingByAcceleration by;
+  by.row(kNorth) = c * way.row(0) - s * way.row(1);
+  by.row(kEast) = s * way.row(0) + c * way.row(1);
+  by.row(kHeadingState) = way.row(2);
+  by.bottomRows<3>() = by_nu.lazyProduct(way);
+  by.bottomRows<3>().diagonal().array() += h;
+  return by;
+}
+
+FilterTransition ExtendedKalmanFilter::TransitionOf(const Midpoint& step, double h,
+                                                    const DecayOfStates& decay) {
+  constexpr int kHeading = 0;  // of the movers
+  constexpr int kVelocity = kVelocityState - kHeadingState;
+  const double c = step.second.cos_psi;
+  const double s = step.second.sin_psi;
+  const double u = step.middle[kVelocityState];
+  const double v = step.middle[kVelocityState + 1];
+  const Eigen::Vector2d by_heading(-s * u - c * v, c * u - s * v);  // of the velocity over ground
+  const MovingByAcceleration held = ByHeldAcceleration(step, h);
   FilterTransition transition;
   transition.step_s = h;
-  transition.by_movers = h * by_second + (0.5 * h * h) * by_second.leftCols<kBefore>().lazyProduct(
-                                                             by_first.bottomRows<kBefore>());
-  transition.by_movers.bottomLeftCorner<kBefore, kBefore>().diagonal().array() += 1.0;
   transition.decay = decay;
+  MotionByMovers& by = transition.by_movers;
+  by.col(kHeading) << h * by_heading, 1.0, Eigen::Vector3d::Zero();
+  auto by_velocity = by.middleCols<3>(kVelocity);
+  by_velocity = held.lazyProduct(step.second.dynamics.by_nu);
+  by_velocity.topLeftCorner<2, 2>() += h * (Eigen::Matrix2d() << c, -s, s, c).finished();
+  by_velocity.col(2).head<2>() += (0.5 * h * h) * by_heading;
+  by_velocity(kHeadingState, 2) += h;
+  by_velocity.bottomRows<3>().diagonal().array() += 1.0;
+  by.rightCols<3>() = held;
   return transition;
 }
 
-// The slopes after the step from `x`.
-void ExtendedKalmanFilter::AdvanceSlopes(const FilterState& x, const Midpoint& step,
-                                         const FilterTransition& transition,
+// A parameter changes the velocities as a disturbing acceleration does. As halfway through the step
+// it does so on average, and nearly so where it counts by how early it does.
+void ExtendedKalmanFilter::AdvanceSlopes(const Midpoint& step, const FilterTransition& transition,
                                          const ThrustStep& thrust, Slopes& slopes) const {
-  const double h = transition.step_s;
-  const ByParameters by_first = ByParameter(x, step.first, thrust);
-  const ByParameters by_second = ByParameter(step.middle, step.second, thrust);
-  const ByParameters halfway = (0.5 * h * h) * by_first;
   slopes.topRows<kMovingStates>() = transition.Moved(slopes);
+  slopes.topRows<kMovingStates>() += transition.by_movers.rightCols<3>().lazyProduct(
+      ByParameter(step.middle, step.second, thrust));
   slopes.bottomRows<kDecayingStates>().array().colwise() *= transition.decay.array();
-  slopes.middleRows<3>(kVelocityState) +=
-      h * by_second + step.second.dynamics.by_nu.lazyProduct(halfway);
-  slopes.row(kNorth) += step.second.cos_psi * halfway.row(0) - step.second.sin_psi * halfway.row(1);
-  slopes.row(kEast) += step.second.sin_psi * halfway.row(0) + step.second.cos_psi * halfway.row(1);
-  slopes.row(kHeadingState) += halfway.row(2);
 }
 
 void ExtendedKalmanFilter::StepInstruments(const ThrustStep& thrust, const DecayOfStates& decay,
@@ -317,7 +319,7 @@ void ExtendedKalmanFilter::StepInstruments(const ThrustStep& thrust, const Decay
   const FilterState before = Undisturbed();
   FilterState undisturbed = before;
   const Midpoint step = Advance(thrust, h, undisturbed);
-  AdvanceSlopes(before, step, TransitionOf(before, step, h, decay), thrust, instruments_);
+  AdvanceSlopes(step, TransitionOf(step, h, decay), thrust, instruments_);
   const double kept = std::exp(-h / settings_.instrument_time_constant_s);
   undisturbed_nu_ =
       kept * undisturbed.segment<3>(kVelocityState) + (1.0 - kept) * x_.segment<3>(kVelocityState);
@@ -334,8 +336,8 @@ void ExtendedKalmanFilter::Step(double h) {
   x_.tail<kDecayingStates>().array() *= decay.array();
   const bool spreads = fixed_gains_ == nullptr;
   if (!spreads && recorded_slopes_ == nullptr && !visit_) return;
-  const FilterTransition transition = TransitionOf(before, step, h, decay);
-  if (recorded_slopes_ != nullptr) AdvanceSlopes(before, step, transition, thrust, slopes_);
+  const FilterTransition transition = TransitionOf(step, h, decay);
+  if (recorded_slopes_ != nullptr) AdvanceSlopes(step, transition, thrust, slopes_);
   if (visit_) visit_({transition.Whole()});
   if (spreads) covariance_.Spread(transition);
   if (variations_ == nullptr) return;

@@ -65,8 +65,8 @@ struct FilterMove {
 };
 
 /// An extended Kalman filter of a boat of the physical form, with the slopes of what it predicts.
-/// Model: docs/concepts/physical-model.md (101)..(109). Slopes leave out terms of third order in
-/// the step.
+/// Model: docs/concepts/physical-model.md (101)..(109). Transitions leave out terms of fourth order
+/// in the step, slopes with the parameters part of the third.
 class ExtendedKalmanFilter {
  public:
   /// Requires: `settings` outlives the filter.
@@ -95,6 +95,7 @@ class ExtendedKalmanFilter {
 
  private:
   using Moving = Eigen::Matrix<double, kMovingStates, 1>;
+  using MovingByAcceleration = Eigen::Matrix<double, kMovingStates, 3>;
   using ByParameters = Eigen::Matrix<double, 3, static_cast<int>(kFossenParameters)>;
   using Slopes = Eigen::Matrix<double, kFilterStates, static_cast<int>(kFossenParameters)>;
 
@@ -126,14 +127,13 @@ class ExtendedKalmanFilter {
   FilterGain GainOf(const ScalarReading& reading);
   FilterState Undisturbed() const;
   Rate RateAt(const FilterState& x, const ThrustStep& thrust) const;
-  static MotionByMovers ByMovers(const FilterState& x, const Rate& rate);
   ByParameters ByParameter(const FilterState& x, const Rate& rate, const ThrustStep& thrust) const;
   void AddThirdOrder(const Midpoint& step, const ThrustStep& thrust, double h,
                      FilterState& next) const;
   Midpoint Advance(const ThrustStep& thrust, double h, FilterState& x) const;
-  static FilterTransition TransitionOf(const FilterState& x, const Midpoint& step, double h,
-                                       const DecayOfStates& decay);
-  void AdvanceSlopes(const FilterState& x, const Midpoint& step, const FilterTransition& transition,
+  static MovingByAcceleration ByHeldAcceleration(const Midpoint& step, double h);
+  static FilterTransition TransitionOf(const Midpoint& step, double h, const DecayOfStates& decay);
+  void AdvanceSlopes(const Midpoint& step, const FilterTransition& transition,
                      const ThrustStep& thrust, Slopes& slopes) const;
   double LongestStepS() const;
   void StepInstruments(const ThrustStep& thrust, const DecayOfStates& decay, double h);

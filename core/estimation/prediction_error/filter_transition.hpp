@@ -30,7 +30,7 @@ using MotionByMovers = Eigen::Matrix<double, kMovingStates, kMovers>;
 /// of the time of those with the whole.
 struct FilterTransition {
   double step_s = 0.0;
-  MotionByMovers by_movers;  ///< without the identity of the position
+  MotionByMovers by_movers;  ///< without the identity of the position; last the disturbance
   DecayOfStates decay;
 
   /// The rows that move of the transition times `m`.

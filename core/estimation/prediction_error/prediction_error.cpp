@@ -269,23 +269,53 @@ struct Normal {
   std::vector<ScoreBlock> recordings;  // the same by recordings
 };
 
+// The slopes, or the instruments, of so many innovations from `first` on, each over the standard
+// deviation of its innovation.
+Eigen::MatrixXd Standardised(const SlopedInnovations& run, FossenVector InnovationSlope::*member,
+                             std::size_t first, std::size_t count) {
+  Eigen::MatrixXd columns(kParameters, count);
+  for (std::size_t k = 0; k < count; ++k) {
+    columns.col(static_cast<Eigen::Index>(k)) =
+        run.slopes[first + k].*member / std::sqrt(run.innovations[first + k].variance);
+  }
+  return columns;
+}
+
+Eigen::MatrixXd Standardised(const SlopedInnovations& run, FossenVector InnovationSlope::*member) {
+  return Standardised(run, member, 0, run.slopes.size());
+}
+
+Eigen::VectorXd StandardisedValues(const SlopedInnovations& run, std::size_t first,
+                                   std::size_t count) {
+  Eigen::VectorXd values(count);
+  for (std::size_t k = 0; k < count; ++k) {
+    const Innovation& i = run.innovations[first + k];
+    values[static_cast<Eigen::Index>(k)] = i.value / std::sqrt(i.variance);
+  }
+  return values;
+}
+
+// Symmetric to the last digit.
+Eigen::MatrixXd OuterProductOf(const Eigen::MatrixXd& columns) {
+  Eigen::MatrixXd product = Eigen::MatrixXd::Zero(columns.rows(), columns.rows());
+  product.selfadjointView<Eigen::Lower>().rankUpdate(columns);
+  return product.selfadjointView<Eigen::Lower>();
+}
+
 // The normal equations of one segment by blocks of time.
 std::vector<ScoreBlock> BlocksOf(const SlopedInnovations& run, double block_s) {
+  const std::vector<Innovation>& innovations = run.innovations;
   std::vector<ScoreBlock> blocks;
-  double block_end_s = -std::numeric_limits<double>::infinity();
-  for (std::size_t k = 0; k < run.innovations.size(); ++k) {
-    const Innovation& i = run.innovations[k];
-    const FossenVector& instrument = run.slopes[k].instrument;
-    if (i.time_s > block_end_s) {
-      blocks.emplace_back();
-      block_end_s = i.time_s + block_s;
+  for (std::size_t first = 0, after; first < innovations.size(); first = after) {
+    const double end_s = innovations[first].time_s + block_s;
+    for (after = first + 1; after < innovations.size() && innovations[after].time_s <= end_s;) {
+      ++after;
     }
-    blocks.back().information.selfadjointView<Eigen::Lower>().rankUpdate(instrument,
-                                                                         1.0 / i.variance);
-    blocks.back().score += instrument * (i.value / i.variance);
-  }
-  for (ScoreBlock& block : blocks) {
-    block.information = block.information.selfadjointView<Eigen::Lower>();
+    const std::size_t count = after - first;
+    const Eigen::MatrixXd instruments =
+        Standardised(run, &InnovationSlope::instrument, first, count);
+    blocks.push_back(
+        {OuterProductOf(instruments), instruments * StandardisedValues(run, first, count)});
   }
   return blocks;
 }
@@ -313,10 +343,8 @@ Normal NormalEquations(const Problem& problem, const SlopedRuns& all) {
 Eigen::MatrixXd ScoreSlope(const SlopedRuns& all) {
   Eigen::MatrixXd slope = Eigen::MatrixXd::Zero(kParameters, kParameters);
   for (const SlopedInnovations& run : all) {
-    for (std::size_t k = 0; k < run.slopes.size(); ++k) {
-      slope += run.slopes[k].instrument.lazyProduct(
-          (run.slopes[k].slope / run.innovations[k].variance).transpose());
-    }
+    slope.noalias() += Standardised(run, &InnovationSlope::instrument) *
+                       Standardised(run, &InnovationSlope::slope).transpose();
   }
   return slope;
 }
@@ -326,12 +354,8 @@ double StrengthOfInstruments(const SlopedRuns& all, const Normal& normal,
                              const Eigen::MatrixXd& precision_of_prior) {
   Eigen::MatrixXd of_slopes = precision_of_prior;
   for (const SlopedInnovations& run : all) {
-    for (std::size_t k = 0; k < run.slopes.size(); ++k) {
-      of_slopes.selfadjointView<Eigen::Lower>().rankUpdate(run.slopes[k].slope,
-                                                           1.0 / run.innovations[k].variance);
-    }
+    of_slopes += OuterProductOf(Standardised(run, &InnovationSlope::slope));
   }
-  of_slopes = of_slopes.selfadjointView<Eigen::Lower>();
   return of_slopes.ldlt().solve(normal.information).trace() / static_cast<double>(kParameters);
 }
 
