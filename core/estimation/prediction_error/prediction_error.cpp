@@ -306,16 +306,16 @@ Eigen::MatrixXd OuterProductOf(const Eigen::MatrixXd& columns) {
 std::vector<ScoreBlock> BlocksOf(const SlopedInnovations& run, double block_s) {
   const std::vector<Innovation>& innovations = run.innovations;
   std::vector<ScoreBlock> blocks;
-  for (std::size_t first = 0, after; first < innovations.size(); first = after) {
-    const double end_s = innovations[first].time_s + block_s;
-    for (after = first + 1; after < innovations.size() && innovations[after].time_s <= end_s;) {
-      ++after;
-    }
-    const std::size_t count = after - first;
+  for (auto begin = innovations.begin(); begin != innovations.end();) {
+    const auto end = std::ranges::upper_bound(begin, innovations.end(), begin->time_s + block_s, {},
+                                              &Innovation::time_s);
+    const auto first = static_cast<std::size_t>(begin - innovations.begin());
+    const auto count = static_cast<std::size_t>(end - begin);
     const Eigen::MatrixXd instruments =
         Standardised(run, &InnovationSlope::instrument, first, count);
     blocks.push_back(
         {OuterProductOf(instruments), instruments * StandardisedValues(run, first, count)});
+    begin = end;
   }
   return blocks;
 }

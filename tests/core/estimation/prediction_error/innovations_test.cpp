@@ -144,7 +144,7 @@ TEST(InnovationsUnderNoises, AreThoseOfAFilterOfTheirOwnAtRest) {
     ASSERT_EQ(beside[i].size(), own.size());
     for (std::size_t k = 0; k < own.size(); ++k) {
       // Transitions leave out terms of fourth order in the step: (lambda h)^3 / 24 = 0.1 % at the
-      // fastest rate, 3 /s, and the longest step, 100 ms, of readings that swing by 2e-5.
+      // fastest rate, 3 /s, and the longest step, 100 ms, of readings that vary by 2e-5.
       EXPECT_NEAR(beside[i][k].value, own[k].value, 1.1e-3 * 2e-5);
       // What is not linear is of the size of the motion.
       EXPECT_NEAR(beside[i][k].variance, own[k].variance, 1e-4 * own[k].variance);
