@@ -29,7 +29,7 @@ std::vector<Refusal> FindingsOf(const CheckedLog& checked) {
 }
 
 std::optional<ChannelDelays> DelaysOf(const CheckedLog& checked) {
-  return checked.delays ? std::optional(*checked.delays) : std::nullopt;
+  return OptionalOf(checked.delays);
 }
 
 std::optional<Refusal> WhyDelaysAreUnknown(const CheckedLog& checked) {

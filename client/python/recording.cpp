@@ -217,8 +217,7 @@ void AddChannels(RecordingClass& recording) {
 
 std::optional<Vehicle> StatedLog::KnownVehicle() const {
   if (stated || !log.loaded.description) return stated;
-  auto described = VehicleFrom(*log.loaded.description, VehicleIdLike(log.path.stem().string()));
-  return described ? std::optional(*std::move(described)) : std::nullopt;
+  return OptionalOf(VehicleFrom(*log.loaded.description, VehicleIdLike(log.path.stem().string())));
 }
 
 Recordings ListOf(const OneOrMore& recordings) {

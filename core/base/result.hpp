@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -19,6 +20,12 @@ struct Refusal {
 
 template <class T>
 using Result = tl::expected<T, Refusal>;
+
+/// The value; nothing where it is refused.
+template <class T>
+std::optional<T> OptionalOf(Result<T> result) {
+  return result ? std::optional<T>(*std::move(result)) : std::nullopt;
+}
 
 inline tl::unexpected<Refusal> Refuse(std::string subject, std::string reason, std::string advice) {
   return tl::unexpected<Refusal>(Refusal{std::move(subject), std::move(reason), std::move(advice)});

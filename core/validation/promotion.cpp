@@ -133,8 +133,7 @@ Promotion AssessPromotion(const Recording& recording, const Vehicle& vehicle,
                           const Identification& identification, const IdentifyOptions& options) {
   const auto held_out = ScoreOnHeldOutPart(recording, vehicle, identification, options,
                                            {.horizon_s = kHorizonS, .most_fixes = kMostFixes});
-  return AssessPromotion(recording, vehicle, identification, options,
-                         held_out ? std::optional(*held_out) : std::nullopt);
+  return AssessPromotion(recording, vehicle, identification, options, OptionalOf(held_out));
 }
 
 }  // namespace telltale

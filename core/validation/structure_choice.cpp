@@ -49,12 +49,6 @@ std::string ErrorText(double error) {
                               : "more than can be scored";
 }
 
-std::optional<HeldOutScore> ScoreOf(const Recording& part, const Vehicle& vehicle,
-                                    const IdentifyOptions& options) {
-  auto score = ScoreOnHeldOutPart(part, vehicle, options);
-  return score ? std::optional(*std::move(score)) : std::nullopt;
-}
-
 bool ShowsEnough(const std::optional<HeldOutScore>& score) {
   return score && score->metrics.free_run.front().windows >= kFewestWindows;
 }
@@ -71,7 +65,7 @@ std::optional<HeldOutScore> ScoreOfFreeCoefficients(const Recording& part, const
                                                     const Progress& progress) {
   if (!CanShowEnough(part)) return std::nullopt;
   if (progress) progress("scoring free coefficients", 0.0);
-  return ScoreOf(part, vehicle, options);
+  return OptionalOf(ScoreOnHeldOutPart(part, vehicle, options));
 }
 
 /// The physical form on trial: its score, and its model of all data where that was made beside.
@@ -89,7 +83,7 @@ PhysicalTrial TryPhysicalForm(const Recording& recording, const Recording& part,
   PhysicalTrial trial;
   ForEachIndex(has_idle_thread ? 2 : 1, options.threads, [&](std::size_t i) {
     if (i == 0) {
-      trial.score = ScoreOf(part, vehicle, options);
+      trial.score = OptionalOf(ScoreOnHeldOutPart(part, vehicle, options));
     } else {
       trial.model = Identify(recording, vehicle, options, progress);
     }
@@ -97,12 +91,19 @@ PhysicalTrial TryPhysicalForm(const Recording& recording, const Recording& part,
   return trial;
 }
 
+/// The model of all data, where it was not made beside a score made now.
+Result<Identification> ModelOfAllData(std::optional<Result<Identification>> beside,
+                                      const Recording& recording, const Vehicle& vehicle,
+                                      const IdentifyOptions& options, const Progress& progress) {
+  return beside ? *std::move(beside) : Identify(recording, vehicle, options, progress);
+}
+
 Result<ScoredModel> IdentifyPhysicalForm(const Recording& recording, const Vehicle& vehicle,
                                          const IdentifyOptions& options, const Progress& progress) {
   if (progress) progress("scoring the physical form", 0.0);
   PhysicalTrial physical = TryPhysicalForm(recording, recording, vehicle, options, progress);
   auto identification =
-      physical.model ? *std::move(physical.model) : Identify(recording, vehicle, options, progress);
+      ModelOfAllData(std::move(physical.model), recording, vehicle, options, progress);
   if (!identification) return tl::unexpected(identification.error());
   return ScoredModel{*std::move(identification), std::move(physical.score)};
 }
@@ -145,9 +146,8 @@ Result<ScoredModel> IdentifyInGivenStructure(const Recording& recording, const V
   auto identification = Identify(recording, vehicle, options, progress);
   if (!identification) return tl::unexpected(identification.error());
   if (progress) progress("scoring on the part that is held out", 0.0);
-  auto score = ScoreOnHeldOutPart(recording, vehicle, *identification, options);
-  return ScoredModel{*std::move(identification),
-                     score ? std::optional(*std::move(score)) : std::nullopt};
+  auto score = OptionalOf(ScoreOnHeldOutPart(recording, vehicle, *identification, options));
+  return ScoredModel{*std::move(identification), std::move(score)};
 }
 
 Result<ScoredModel> IdentifyInChosenStructure(const Recording& recording, const Vehicle& vehicle,
@@ -156,8 +156,8 @@ Result<ScoredModel> IdentifyInChosenStructure(const Recording& recording, const 
   StructureChoice choice = ChooseStructure(recording, vehicle, free_options, progress);
   IdentifyOptions options = free_options;
   options.regression.structure = choice.structure;
-  auto identification = choice.physical ? *std::move(choice.physical)
-                                        : Identify(recording, vehicle, options, progress);
+  auto identification =
+      ModelOfAllData(std::move(choice.physical), recording, vehicle, options, progress);
   if (!identification && choice.structure == Structure::kFossen) {
     choice.reason =
         "free coefficients, since of the physical form " + identification.error().reason;

@@ -45,7 +45,7 @@ struct ScoredModel {
 };
 
 /// Identifies a model in the structure of `options`. Of the physical form, a second thread measures
-/// the score meanwhile. Refuses as Identify does.
+/// the score meanwhile, where one may be used. Refuses as Identify does.
 Result<ScoredModel> IdentifyInGivenStructure(const Recording& recording, const Vehicle& vehicle,
                                              const IdentifyOptions& options,
                                              const Progress& progress = {});

@@ -232,6 +232,21 @@ ExtendedKalmanFilter::ByParameters ExtendedKalmanFilter::ByParameter(
   return by;
 }
 
+// What ways made in body axes within a step, a column each, change of the moving states: the way
+// itself, and by damping the velocities.
+template <int kWays>
+Eigen::Matrix<double, kMovingStates, kWays> ExtendedKalmanFilter::ByWay(
+    const Midpoint& step, const Eigen::Matrix<double, 3, kWays>& way) {
+  const double c = step.second.cos_psi;
+  const double s = step.second.sin_psi;
+  Eigen::Matrix<double, kMovingStates, kWays> by;
+  by.row(kNorth) = c * way.row(0) - s * way.row(1);
+  by.row(kEast) = s * way.row(0) + c * way.row(1);
+  by.row(kHeadingState) = way.row(2);
+  by.template bottomRows<3>() = step.second.dynamics.by_nu.lazyProduct(way);
+  return by;
+}
+
 // The way made in a step beyond that of the midpoint rule: thrust comes early or late in the
 // step, and the acceleration changes with the velocity.
 void ExtendedKalmanFilter::AddThirdOrder(const Midpoint& step, const ThrustStep& thrust, double h,
@@ -240,12 +255,7 @@ void ExtendedKalmanFilter::AddThirdOrder(const Midpoint& step, const ThrustStep&
   const double u = step.middle[kVelocityState];
   const Eigen::Vector3d way = dynamics_.ByThrust(u, thrust.early[0], thrust.early[1]) +
                               (h * h * h / 6.0) * (by_nu * step.second.value.tail<3>());
-  const double c = step.second.cos_psi;
-  const double s = step.second.sin_psi;
-  next[kNorth] += c * way[0] - s * way[1];
-  next[kEast] += s * way[0] + c * way[1];
-  next[kHeadingState] += way[2];
-  next.segment<3>(kVelocityState) += by_nu * way;
+  next.head<kMovingStates>() += ByWay<1>(step, way);
 }
 
 // Moves the states that move, by the midpoint rule under the mean thrust.
@@ -265,16 +275,9 @@ ExtendedKalmanFilter::Midpoint ExtendedKalmanFilter::Advance(const ThrustStep& t
 // the axes and the curvature of the damping add.
 ExtendedKalmanFilter::MovingByAcceleration ExtendedKalmanFilter::ByHeldAcceleration(
     const Midpoint& step, double h) {
-  const Eigen::Matrix3d& by_nu = step.second.dynamics.by_nu;
-  const double c = step.second.cos_psi;
-  const double s = step.second.sin_psi;
-  Eigen::Matrix3d way = (h * h * h / 6.0) * by_nu;  // in body axes
+  Eigen::Matrix3d way = (h * h * h / 6.0) * step.second.dynamics.by_nu;
   way.diagonal().array() += 0.5 * h * h;
-  MovingByAcceleration by;
-  by.row(kNorth) = c * way.row(0) - s * way.row(1);
-  by.row(kEast) = s * way.row(0) + c * way.row(1);
-  by.row(kHeadingState) = way.row(2);
-  by.bottomRows<3>() = by_nu.lazyProduct(way);
+  MovingByAcceleration by = ByWay<3>(step, way);
   by.bottomRows<3>().diagonal().array() += h;
   return by;
 }

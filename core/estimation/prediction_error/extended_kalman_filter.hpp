@@ -128,6 +128,9 @@ class ExtendedKalmanFilter {
   FilterState Undisturbed() const;
   Rate RateAt(const FilterState& x, const ThrustStep& thrust) const;
   ByParameters ByParameter(const FilterState& x, const Rate& rate, const ThrustStep& thrust) const;
+  template <int kWays>
+  static Eigen::Matrix<double, kMovingStates, kWays> ByWay(
+      const Midpoint& step, const Eigen::Matrix<double, 3, kWays>& way);
   void AddThirdOrder(const Midpoint& step, const ThrustStep& thrust, double h,
                      FilterState& next) const;
   Midpoint Advance(const ThrustStep& thrust, double h, FilterState& x) const;

@@ -30,7 +30,9 @@ using MotionByMovers = Eigen::Matrix<double, kMovingStates, kMovers>;
 /// of the time of those with the whole.
 struct FilterTransition {
   double step_s = 0.0;
-  MotionByMovers by_movers;  ///< without the identity of the position; last the disturbance
+  /// Without the identity of the position. The last three columns are those of the disturbance, an
+  /// acceleration that is held over the step.
+  MotionByMovers by_movers;
   DecayOfStates decay;
 
   /// The rows that move of the transition times `m`.

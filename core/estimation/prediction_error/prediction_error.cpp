@@ -7,6 +7,7 @@
 #include <optional>
 #include <utility>
 
+#include "telltale/core/base/linear_algebra/covariance.hpp"
 #include "telltale/core/base/linear_algebra/eigen_decompositions.hpp"
 #include "telltale/core/base/parallel.hpp"
 #include "telltale/core/estimation/prediction_error/innovations.hpp"
@@ -295,13 +296,6 @@ Eigen::VectorXd StandardisedValues(const SlopedInnovations& run, std::size_t fir
   return values;
 }
 
-// Symmetric to the last digit.
-Eigen::MatrixXd OuterProductOf(const Eigen::MatrixXd& columns) {
-  Eigen::MatrixXd product = Eigen::MatrixXd::Zero(columns.rows(), columns.rows());
-  product.selfadjointView<Eigen::Lower>().rankUpdate(columns);
-  return product.selfadjointView<Eigen::Lower>();
-}
-
 // The normal equations of one segment by blocks of time.
 std::vector<ScoreBlock> BlocksOf(const SlopedInnovations& run, double block_s) {
   const std::vector<Innovation>& innovations = run.innovations;
@@ -313,8 +307,7 @@ std::vector<ScoreBlock> BlocksOf(const SlopedInnovations& run, double block_s) {
     const auto count = static_cast<std::size_t>(end - begin);
     const Eigen::MatrixXd instruments =
         Standardised(run, &InnovationSlope::instrument, first, count);
-    blocks.push_back(
-        {OuterProductOf(instruments), instruments * StandardisedValues(run, first, count)});
+    blocks.push_back({OfRoot(instruments), instruments * StandardisedValues(run, first, count)});
     begin = end;
   }
   return blocks;
@@ -354,7 +347,7 @@ double StrengthOfInstruments(const SlopedRuns& all, const Normal& normal,
                              const Eigen::MatrixXd& precision_of_prior) {
   Eigen::MatrixXd of_slopes = precision_of_prior;
   for (const SlopedInnovations& run : all) {
-    of_slopes += OuterProductOf(Standardised(run, &InnovationSlope::slope));
+    of_slopes += OfRoot(Standardised(run, &InnovationSlope::slope));
   }
   return of_slopes.ldlt().solve(normal.information).trace() / static_cast<double>(kParameters);
 }
