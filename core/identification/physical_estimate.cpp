@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <limits>
 #include <string>
 #include <utility>
 #include <vector>
@@ -14,8 +13,8 @@
 #include "telltale/core/estimation/prediction_error/heterogeneity.hpp"
 #include "telltale/core/estimation/prediction_error/prediction_error.hpp"
 #include "telltale/core/estimation/prediction_error/score_covariance.hpp"
-#include "telltale/core/uncertainty/distributions.hpp"
-#include "telltale/core/uncertainty/truncated_normal.hpp"
+#include "telltale/core/uncertainty/constrained_estimate.hpp"
+#include "telltale/core/uncertainty/interval.hpp"
 
 namespace telltale {
 namespace {
@@ -25,35 +24,6 @@ using enum FossenParameter;
 // Of a recording that differs, over all of them.
 constexpr double kDifferenceLevel = 0.05;
 constexpr double kLeastCommandDeviation = 0.05;
-constexpr double kUnlimited = std::numeric_limits<double>::infinity();
-
-double Width(const Interval& interval) {
-  return interval.upper - interval.lower;
-}
-
-double Quantile(std::vector<double>& values, double probability) {
-  const auto place = static_cast<std::ptrdiff_t>(
-      std::lround(probability * static_cast<double>(values.size() - 1)));
-  std::nth_element(values.begin(), values.begin() + place, values.end());
-  return values[static_cast<std::size_t>(place)];
-}
-
-// Equal tails, or from an end of the physical range where that is shorter: an interval of equal
-// tails never holds a value at the end of its range.
-Interval IntervalOf(const Eigen::VectorXd& draws, double estimate, double level,
-                    double least = -kUnlimited, double greatest = kUnlimited) {
-  std::vector<double> values(draws.begin(), draws.end());
-  const double tail = 0.5 * (1.0 - level);
-  Interval interval{level, Quantile(values, tail), Quantile(values, 1.0 - tail)};
-  const Interval from_least{level, least, Quantile(values, level)};
-  const Interval to_greatest{level, Quantile(values, 1.0 - level), greatest};
-  for (const Interval& one_sided : {from_least, to_greatest}) {
-    if (Width(one_sided) < Width(interval)) interval = one_sided;
-  }
-  interval.lower = std::min(interval.lower, estimate);
-  interval.upper = std::max(interval.upper, estimate);
-  return interval;
-}
 
 NoiseModel MeanNoise(const std::vector<NoiseModel>& noise) {
   NoiseModel mean = noise.front();
@@ -75,39 +45,17 @@ NoiseModel MeanNoise(const std::vector<NoiseModel>& noise) {
   return mean;
 }
 
-// The parameters that the data put beyond an end of their range, where the fit keeps them.
-std::vector<Eigen::Index> KeptAtEnds(const PredictionErrorFit& fit, const FossenPrior& prior) {
-  std::vector<Eigen::Index> kept;
-  for (Eigen::Index i = 0; i < fit.parameters.size(); ++i) {
-    const bool beyond =
-        fit.newton_mean[i] < prior.least[i] || fit.newton_mean[i] > prior.greatest[i];
-    const bool ends = fit.parameters[i] <= prior.least[i] || fit.parameters[i] >= prior.greatest[i];
-    if (beyond && ends) kept.push_back(i);
-  }
-  return kept;
+ConstrainedEstimate Constrained(const PredictionErrorFit& fit, const FossenPrior& prior,
+                                Eigen::MatrixXd covariance) {
+  return {fit.parameters, fit.newton_mean, std::move(covariance), prior.least, prior.greatest};
 }
 
-// Parameters within their range, a column a draw.
-Eigen::MatrixXd DrawsOf(const PredictionErrorFit& fit, const FossenPrior& prior,
-                        const Eigen::MatrixXd& covariance, const IdentifyOptions& options) {
-  const Eigen::VectorXd mean =
-      MeanBeforeTruncation(fit.parameters, fit.newton_mean, covariance, KeptAtEnds(fit, prior));
-  return DrawTruncatedNormal(mean, covariance, prior.least, prior.greatest, fit.parameters,
-                             options.posterior_draws, options.seed);
-}
-
-// Each parameter by itself. Draws of one that is kept at the end of its range lie to one side of it
-// and take those with them that depend on it, though the truth may be at the end: an interval holds
-// both what the draws say and what the others would be there, as one by the profile likelihood
-// does.
-std::vector<Coefficient> BoundedParameters(const PredictionErrorFit& fit, const FossenPrior& prior,
-                                           const Eigen::MatrixXd& covariance,
+// Each parameter by itself.
+std::vector<Coefficient> BoundedParameters(const ConstrainedEstimate& fit, const FossenPrior& prior,
                                            const IdentifyOptions& options) {
-  const Eigen::MatrixXd draws = DrawsOf(fit, prior, covariance, options);
+  const Eigen::MatrixXd draws = DrawsOf(fit, options.posterior_draws, options.seed);
   const Eigen::VectorXd standard_errors = OfColumns(draws).diagonal().cwiseSqrt();
-  const Eigen::VectorXd errors_given_ends =
-      StandardDeviationsGiven(covariance, KeptAtEnds(fit, prior));
-  const double level = options.interval_level;
+  const std::vector<Interval> intervals = IntervalsOf(fit, draws, options.interval_level);
   std::vector<Coefficient> parameters;
   for (std::size_t i = 0; i < kFossenParameters; ++i) {
     const auto at = static_cast<Eigen::Index>(i);
@@ -115,15 +63,9 @@ std::vector<Coefficient> BoundedParameters(const PredictionErrorFit& fit, const 
     Coefficient parameter;
     parameter.symbol = name.symbol;
     parameter.unit = name.unit;
-    parameter.estimate = fit.parameters[at];
+    parameter.estimate = fit.estimate[at];
     parameter.standard_error = standard_errors[at];
-    parameter.interval =
-        IntervalOf(draws.row(at), parameter.estimate, level, prior.least[at], prior.greatest[at]);
-    const double half = NormalQuantile(0.5 * (1.0 + level)) * errors_given_ends[at];
-    parameter.interval.lower =
-        std::min(parameter.interval.lower, std::max(parameter.estimate - half, prior.least[at]));
-    parameter.interval.upper =
-        std::max(parameter.interval.upper, std::min(parameter.estimate + half, prior.greatest[at]));
+    parameter.interval = intervals[i];
     parameter.status = prior.Decides(at, parameter.standard_error) ? CoefficientStatus::kPrior
                                                                    : CoefficientStatus::kEstimated;
     parameters.push_back(parameter);
@@ -143,7 +85,9 @@ void WriteImpliedCoefficients(const FossenVector& parameters, const Eigen::Matri
   const auto write = [&](Eigen::Index at, Coefficient coefficient) {
     coefficient.estimate = estimates[at];
     coefficient.standard_error = std::sqrt(covariance(at, at));
-    coefficient.interval = IntervalOf(implied.row(at), coefficient.estimate, level);
+    const auto drawn = implied.row(at);
+    coefficient.interval =
+        IntervalWithin({drawn.begin(), drawn.end()}, coefficient.estimate, level);
     coefficient.status = CoefficientStatus::kEstimated;
     return coefficient;
   };
@@ -256,8 +200,10 @@ BoundedFit Bounded(const PredictionErrorFit& fit, const FossenPrior& prior, doub
                    const IdentifyOptions& options) {
   const RobustCovariance bounds = CovarianceOf(fit, options.interval_level);
   BoundedFit bounded;
-  bounded.draws = DrawsOf(fit, prior, bounds.covariance, options);
-  bounded.model.parameters = BoundedParameters(fit, prior, bounds.ForSingles(), options);
+  bounded.draws =
+      DrawsOf(Constrained(fit, prior, bounds.covariance), options.posterior_draws, options.seed);
+  bounded.model.parameters =
+      BoundedParameters(Constrained(fit, prior, bounds.ForSingles()), prior, options);
   bounded.model.covariance = OfColumns(bounded.draws);
   bounded.model.noise = MeanNoise(fit.noise);
   bounded.model.propeller_separation_m = separation_m;

@@ -26,6 +26,17 @@ std::vector<double> Sorted(std::span<const double> values) {
   return sorted;
 }
 
+double NearestQuantile(std::vector<double>& values, double share) {
+  const auto place =
+      static_cast<std::ptrdiff_t>(std::lround(share * static_cast<double>(values.size() - 1)));
+  std::nth_element(values.begin(), values.begin() + place, values.end());
+  return values[static_cast<std::size_t>(place)];
+}
+
+double Width(const Interval& interval) {
+  return interval.upper - interval.lower;
+}
+
 /// The standard normal deviate of the share of replicates below the estimate, ties counted half.
 /// All on one side would be infinitely far; half a replicate is left on the other.
 double MedianBias(double estimate, const std::vector<double>& sorted) {
@@ -72,6 +83,21 @@ Interval PercentileInterval(std::span<const double> replicates, double level) {
   const std::vector<double> sorted = Sorted(replicates);
   const double tail = 0.5 * (1.0 - level);
   return {level, Quantile(sorted, tail), Quantile(sorted, 1.0 - tail)};
+}
+
+Interval IntervalWithin(std::vector<double> draws, double estimate, double level, double least,
+                        double greatest) {
+  Require(!draws.empty(), "a draw");
+  const double tail = 0.5 * (1.0 - level);
+  Interval interval{level, NearestQuantile(draws, tail), NearestQuantile(draws, 1.0 - tail)};
+  const Interval from_least{level, least, NearestQuantile(draws, level)};
+  const Interval to_greatest{level, NearestQuantile(draws, 1.0 - level), greatest};
+  for (const Interval& one_sided : {from_least, to_greatest}) {
+    if (Width(one_sided) < Width(interval)) interval = one_sided;
+  }
+  interval.lower = std::min(interval.lower, estimate);
+  interval.upper = std::max(interval.upper, estimate);
+  return interval;
 }
 
 Interval StudentizedInterval(double estimate, double standard_error,

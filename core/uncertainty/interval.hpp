@@ -1,7 +1,9 @@
 #pragma once
 
+#include <limits>
 #include <span>
 #include <string_view>
+#include <vector>
 
 namespace telltale {
 
@@ -27,6 +29,12 @@ Interval NormalInterval(double estimate, double standard_error, double level);
 /// The central `level` of the replicates, by linear interpolation between order statistics
 /// (Hyndman and Fan's type 7). Needs at least two replicates.
 Interval PercentileInterval(std::span<const double> replicates, double level);
+
+/// Equal tails of draws from a law within [least, greatest], or from an end of this range where
+/// that is shorter: equal tails never hold a value at the end. Holds the estimate. Needs a draw.
+Interval IntervalWithin(std::vector<double> draws, double estimate, double level,
+                        double least = -std::numeric_limits<double>::infinity(),
+                        double greatest = std::numeric_limits<double>::infinity());
 
 /// Bootstrap-t: [estimate - t_{upper} standard_error, estimate - t_{lower} standard_error] with the
 /// quantiles of t* = (replicate - estimate) / its own standard error. Asymmetric where the

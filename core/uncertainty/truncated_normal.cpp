@@ -115,13 +115,19 @@ Eigen::VectorXd MeanBeforeTruncation(const Eigen::VectorXd& estimate,
   return estimate + covariance(Eigen::all, kept) * covariance(kept, kept).ldlt().solve(beyond);
 }
 
-Eigen::VectorXd StandardDeviationsGiven(const Eigen::MatrixXd& covariance,
-                                        const std::vector<Eigen::Index>& kept) {
-  if (kept.empty()) return Eigen::VectorXd::Zero(covariance.rows());
-  const Eigen::MatrixXd explained =
-      covariance(Eigen::all, kept) *
-      covariance(kept, kept).ldlt().solve(covariance(kept, Eigen::all));
-  return (covariance - explained).diagonal().cwiseMax(0.0).cwiseSqrt();
+ConditionalNormal NormalGiven(const Eigen::VectorXd& mean, const Eigen::MatrixXd& covariance,
+                              const std::vector<Eigen::Index>& given,
+                              const Eigen::VectorXd& values) {
+  if (given.empty()) return {mean, covariance.diagonal().cwiseSqrt()};
+  const Eigen::MatrixXd across = covariance(Eigen::all, given);
+  const auto factor = Eigen::MatrixXd(covariance(given, given)).ldlt();
+  const Eigen::MatrixXd explained = across * factor.solve(across.transpose());
+  ConditionalNormal law;
+  law.mean = mean + across * factor.solve(values - mean(given));
+  law.standard_deviation = (covariance - explained).diagonal().cwiseMax(0.0).cwiseSqrt();
+  law.mean(given) = values;
+  law.standard_deviation(given).setZero();
+  return law;
 }
 
 }  // namespace telltale

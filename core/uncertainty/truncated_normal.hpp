@@ -30,8 +30,16 @@ Eigen::VectorXd MeanBeforeTruncation(const Eigen::VectorXd& estimate,
                                      const Eigen::MatrixXd& covariance,
                                      const std::vector<Eigen::Index>& kept);
 
-/// Standard deviations given the variables `kept`; zero for all where there are none.
-Eigen::VectorXd StandardDeviationsGiven(const Eigen::MatrixXd& covariance,
-                                        const std::vector<Eigen::Index>& kept);
+/// Means and standard deviations of the variables of a normal law, those of some of them given.
+struct ConditionalNormal {
+  Eigen::VectorXd mean;
+  Eigen::VectorXd standard_deviation;  ///< 0 of those that are given
+};
+
+/// The law of `mean` and `covariance` where the variables `given` have `values`, one each.
+/// Requires: a positive definite covariance of those given.
+ConditionalNormal NormalGiven(const Eigen::VectorXd& mean, const Eigen::MatrixXd& covariance,
+                              const std::vector<Eigen::Index>& given,
+                              const Eigen::VectorXd& values);
 
 }  // namespace telltale

@@ -96,12 +96,22 @@ TEST(MeanBeforeTruncation, IsThatWithoutConstraintsWhereNoneIsKept) {
             unconstrained);
 }
 
-TEST(StandardDeviationsGiven, AreThoseOfTheConditionalLaw) {
+TEST(NormalGiven, IsTheConditionalLaw) {
   Eigen::Matrix2d covariance;
   covariance << 1.0, 0.8, 0.8, 1.0;
-  const Eigen::VectorXd given = StandardDeviationsGiven(covariance, {1});
-  EXPECT_NEAR(given[0], 0.6, 1e-12);  // sqrt(1 - 0.8^2)
-  EXPECT_NEAR(given[1], 0.0, 1e-12);
+  const auto law =
+      NormalGiven(Eigen::Vector2d(3.0, 1.0), covariance, {1}, Eigen::VectorXd::Constant(1, 2.0));
+  EXPECT_NEAR(law.mean[0], 3.8, 1e-12);                // 3 + 0.8 (2 - 1)
+  EXPECT_NEAR(law.standard_deviation[0], 0.6, 1e-12);  // sqrt(1 - 0.8^2)
+  EXPECT_EQ(law.mean[1], 2.0);
+  EXPECT_EQ(law.standard_deviation[1], 0.0);
+}
+
+TEST(NormalGiven, IsTheLawItselfWhereNothingIsGiven) {
+  const auto law = NormalGiven(Eigen::Vector2d(3.0, 1.0), Eigen::Vector2d(4.0, 9.0).asDiagonal(),
+                               {}, Eigen::VectorXd());
+  EXPECT_EQ(law.mean, Eigen::Vector2d(3.0, 1.0));
+  EXPECT_EQ(law.standard_deviation, Eigen::Vector2d(2.0, 3.0));
 }
 
 }  // namespace
