@@ -78,10 +78,11 @@ void NoteInfluences(std::vector<ReferenceInfluence> influences, std::optional<do
   std::string note = DescribeInfluences(influences, diagnosis.verdict);
   if (!note.empty()) diagnosis.notes.push_back(std::move(note));
   if (squared_limit) {
+    diagnosis.nominal_days_limit = std::sqrt(*squared_limit);
     diagnosis.notes.push_back(
         "References that took no part in the baseline say that 99 % of nominal "
         "days stay below a gap of " +
-        FormatNumber(std::sqrt(*squared_limit), 2) +
+        FormatNumber(*diagnosis.nominal_days_limit, 2) +
         ". A smaller gap without a certain cause counts as undecided.");
   }
   diagnosis.reference_influence = std::move(influences);

@@ -131,6 +131,7 @@ inline Diagnosis MadeUpDiagnosis() {
       {"monday", Verdict::kUnknownCause, {"wind", "current"}, 0.625, {4.5, 4.5, 1.25, 1.75}, 1.5},
       {"tuesday", Verdict::kNoMaterialGap, {}, 0.0, {2.5, 2.5, 1.5, 3.25}},
       {"friday", Verdict::kUnknown, {}, 0.0, {}}};
+  made.nominal_days_limit = 2.75;
   MissingForce missing;
   missing.mass_kg = 15.0;
   missing.mean = {{{-2.5, 0.5}, {0.25, 0.125}, {0.0625, 0.03125}}};
@@ -351,6 +352,7 @@ inline void ExpectSame(const Diagnosis& a, const Diagnosis& b) {
   ExpectSame(a.effects, b.effects);
   ExpectSame(a.advice, b.advice);
   ExpectSame(a.reference_influence, b.reference_influence);
+  EXPECT_EQ(a.nominal_days_limit, b.nominal_days_limit);
   ASSERT_EQ(a.onset.has_value(), b.onset.has_value());
   if (a.onset) {
     EXPECT_EQ(a.onset->time_s, b.onset->time_s);

@@ -159,6 +159,9 @@ Diagnosis ReadReport(FieldReader reader, const proto::Report& report) {
   diagnosis.advice = ReadAll(reader, "advice", report.advice(), ReadAdvice);
   diagnosis.reference_influence =
       ReadAll(reader, "reference_influence", report.reference_influence(), ReadInfluence);
+  if (reader.Has("nominal_days_limit")) {
+    diagnosis.nominal_days_limit = reader.Number("nominal_days_limit", kNotNegative);
+  }
   if (report.has_onset()) diagnosis.onset = ReadOnset(reader.Optional("onset"));
   diagnosis.rest = report.rest();
   if (report.has_missing_force()) {
@@ -195,6 +198,9 @@ proto::Report ToProto(const Diagnosis& diagnosis) {
   for (const SeparationAdvice& advice : diagnosis.advice) Write(advice, *report.add_advice());
   for (const ReferenceInfluence& influence : diagnosis.reference_influence) {
     Write(influence, *report.add_reference_influence());
+  }
+  if (diagnosis.nominal_days_limit) {
+    report.set_nominal_days_limit(*diagnosis.nominal_days_limit);
   }
   if (diagnosis.onset) Write(*diagnosis.onset, *report.mutable_onset());
   report.set_rest(diagnosis.rest);
