@@ -5,7 +5,8 @@
 namespace telltale {
 
 /// Where the parameters of a physical model may lie: the range of their priors, for a hull twice as
-/// long as its propellers are apart, with the estimates in it. docs/concepts/physical-model.md.
+/// long as its propellers are apart, with the estimates in it and, where the range follows the
+/// length of the hull, the intervals. docs/concepts/physical-model.md.
 struct PhysicalRange {
   FossenVector least;
   FossenVector greatest;

@@ -63,8 +63,11 @@ PosteriorDraws DrawPhysicalForm(const PhysicalModel& physical, std::size_t count
                                 std::uint64_t seed) {
   const FossenVector estimates = physical.Estimates();
   const PhysicalRange range = RangeOf(physical);
-  const Eigen::MatrixXd parameters = DrawTruncatedNormal(
-      estimates, physical.covariance, range.least, range.greatest, estimates, count, seed);
+  // The model's covariance is that of parameters within their range.
+  const Eigen::MatrixXd untruncated =
+      CovarianceBeforeTruncation(estimates, physical.covariance, range.least, range.greatest);
+  const Eigen::MatrixXd parameters = DrawTruncatedNormal(estimates, untruncated, range.least,
+                                                         range.greatest, estimates, count, seed);
   PosteriorDraws draws;
   draws.theta.resize(CoefficientsOf(estimates, physical.propeller_separation_m).size() - 1,
                      parameters.cols());

@@ -10,12 +10,18 @@
 #include <boost/math/distributions/normal.hpp>
 #include <boost/random/uniform_01.hpp>
 
+#include "telltale/core/base/linear_algebra/covariance.hpp"
 #include "telltale/core/base/random.hpp"
 
 namespace telltale {
 namespace {
 
 constexpr int kSweeps = 5;
+// Of the search for the law before its truncation: a round takes most of what is missing.
+constexpr int kScalingRounds = 5;
+constexpr std::size_t kScalingDraws = 1000;
+// A law much wider than its box is even within it, whatever its width.
+constexpr double kWidestScale = 10.0;
 // Beyond so many standard deviations a tail is exponential to rounding.
 constexpr double kFarTail = 6.0;
 constexpr double kUnlimited = std::numeric_limits<double>::infinity();
@@ -104,6 +110,21 @@ Eigen::MatrixXd DrawTruncatedNormal(const Eigen::VectorXd& mean, const Eigen::Ma
     draws(order, draw) = x;
   }
   return draws;
+}
+
+Eigen::MatrixXd CovarianceBeforeTruncation(const Eigen::VectorXd& mean,
+                                           const Eigen::MatrixXd& truncated,
+                                           const Eigen::VectorXd& least,
+                                           const Eigen::VectorXd& greatest) {
+  const Eigen::VectorXd wanted = truncated.diagonal().cwiseSqrt();
+  Eigen::VectorXd scale = Eigen::VectorXd::Ones(mean.size());
+  for (int round = 0; round < kScalingRounds; ++round) {
+    const Eigen::MatrixXd draws = DrawTruncatedNormal(mean, Scaled(truncated, scale), least,
+                                                      greatest, mean, kScalingDraws, 0);
+    const Eigen::VectorXd drawn = OfColumns(draws).diagonal().cwiseSqrt();
+    scale = scale.cwiseProduct(wanted.cwiseQuotient(drawn)).cwiseMin(kWidestScale);
+  }
+  return Scaled(truncated, scale);
 }
 
 Eigen::VectorXd MeanBeforeTruncation(const Eigen::VectorXd& estimate,

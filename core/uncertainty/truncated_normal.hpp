@@ -20,6 +20,15 @@ Eigen::MatrixXd DrawTruncatedNormal(const Eigen::VectorXd& mean, const Eigen::Ma
                                     const Eigen::VectorXd& start, std::size_t count,
                                     std::uint64_t seed);
 
+/// The covariance of the normal law about `mean` whose truncation to a box has the standard
+/// deviations of `truncated`, to some percent: that covariance, its deviations scaled one by one by
+/// what draws of it fall short of. Its correlations are kept. Determinism: no chance is left.
+/// Requires: as DrawTruncatedNormal(), with `mean` in the box.
+Eigen::MatrixXd CovarianceBeforeTruncation(const Eigen::VectorXd& mean,
+                                           const Eigen::MatrixXd& truncated,
+                                           const Eigen::VectorXd& least,
+                                           const Eigen::VectorXd& greatest);
+
 /// The mean of a normal law whose variables `kept` lie beyond an end of their range at
 /// `unconstrained`, such that the others have the mean `estimate` given that those are at their
 /// ends, which `estimate` has them at. An estimate under constraints has them there by the shape of

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "support/made_up_identifications.hpp"
+#include "support/physical_boat.hpp"
 
 namespace telltale {
 namespace {
@@ -33,6 +34,23 @@ TEST(DrawFromPosterior, HasTheModelsMeanAndCovariance) {
       EXPECT_NEAR(sample(i, j), model.covariance(i, j), 0.035 * si * sj) << i << ' ' << j;
     }
   }
+}
+
+// A model's covariance is that of parameters within their range, here of a time constant that is
+// 1.25 of its standard errors from nothing: truncated once more, draws would scatter by 0.16.
+TEST(DrawFromPosterior, ScattersAsThePhysicalFormsStandardErrors) {
+  Identification model = testing::KnownPhysicalBoat(testing::PhysicalBoat(), 0.8);
+  constexpr double kDelayError = 0.01;
+  for (const FossenParameter delay : {FossenParameter::kCommandDelay, FossenParameter::kFixDelay}) {
+    model.physical->covariance(At(delay), At(delay)) = kDelayError * kDelayError;
+  }
+  constexpr std::size_t kDraws = 10000;
+  const auto draws = DrawFromPosterior(model, kDraws, 5);
+  ASSERT_TRUE(draws.has_value());
+  const Eigen::Map<const Eigen::VectorXd> tau(draws->time_constant_s.data(), kDraws);
+  const double deviation = std::sqrt((tau.array() - tau.mean()).square().mean());
+  // Four standard errors of a standard deviation of 1000 draws.
+  EXPECT_NEAR(deviation, 0.2, 4.0 * 0.2 / std::sqrt(2000.0));
 }
 
 TEST(DrawFromPosterior, LeavesWhatIsNotExcitedAtZeroAndNamesIt) {

@@ -96,6 +96,25 @@ TEST(MeanBeforeTruncation, IsThatWithoutConstraintsWhereNoneIsKept) {
             unconstrained);
 }
 
+// About an end of a half line the standard deviation is sqrt(1 - 2 / pi) of that of the whole line.
+TEST(CovarianceBeforeTruncation, HasTheDeviationsWithinTheBox) {
+  Eigen::Matrix2d truncated;
+  truncated << 1.0, 0.5, 0.5, 4.0;
+  const Eigen::MatrixXd before =
+      CovarianceBeforeTruncation(Eigen::Vector2d(3.0, 0.0), truncated, Eigen::Vector2d(-kNone, 0.0),
+                                 Eigen::Vector2d::Constant(kNone));
+  // Six standard errors of a standard deviation of 1000 draws, 1 / sqrt(2000), in its square.
+  EXPECT_NEAR(before(1, 1), 4.0 / (1.0 - 2.0 / M_PI), 0.27 * 4.0 / (1.0 - 2.0 / M_PI));
+  EXPECT_NEAR(before(0, 1) / std::sqrt(before(0, 0) * before(1, 1)), 0.25, 1e-12);
+}
+
+TEST(CovarianceBeforeTruncation, StaysFiniteInABoxThatIsTooNarrow) {
+  const Eigen::MatrixXd before = CovarianceBeforeTruncation(
+      Eigen::VectorXd::Zero(1), Eigen::MatrixXd::Identity(1, 1), Eigen::VectorXd::Constant(1, -0.1),
+      Eigen::VectorXd::Constant(1, 0.1));
+  EXPECT_TRUE(before.allFinite());
+}
+
 TEST(NormalGiven, IsTheConditionalLaw) {
   Eigen::Matrix2d covariance;
   covariance << 1.0, 0.8, 0.8, 1.0;
