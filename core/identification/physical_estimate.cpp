@@ -4,6 +4,7 @@
 #include <cmath>
 #include <functional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -110,16 +111,40 @@ void WriteImpliedCoefficients(const FossenVector& parameters, const Eigen::Matri
   identification.time_constant_covariance = covariance.topRightCorner(at, 1);
 }
 
+// What a boat has to do for the data to tell a parameter.
+std::string_view ManoeuvreThatShows(FossenParameter parameter) {
+  switch (parameter) {
+    case kXu:
+    case kXuu: return "straight runs at several speeds and coasting";
+    case kForwardLinear:
+    case kForwardQuadratic:
+    case kForwardDeadBand: return "small and large commands ahead";
+    case kReverseLinear:
+    case kReverseQuadratic:
+    case kReverseDeadBand: return "small and large commands in reverse";
+    case kReverseLoss: return "reverse thrust at speed and at rest";
+    case kTimeConstant:
+    case kCommandDelay:
+    case kFixDelay: return "steps of the commands";
+    default: return "turns to both sides at several speeds";
+  }
+}
+
 Refusal PriorWarning(const PhysicalModel& model) {
   std::string names;
-  for (const Coefficient& parameter : model.parameters) {
-    if (parameter.status != CoefficientStatus::kPrior) continue;
-    names += (names.empty() ? "" : ", ") + parameter.symbol;
+  std::string manoeuvres;
+  const auto add = [](std::string_view text, std::string& list) {
+    if (list.find(text) != std::string::npos) return;
+    list.append(list.empty() ? "" : ", ").append(text);
+  };
+  for (std::size_t i = 0; i < model.parameters.size(); ++i) {
+    if (model.parameters[i].status != CoefficientStatus::kPrior) continue;
+    names += (names.empty() ? "" : ", ") + model.parameters[i].symbol;
+    add(ManoeuvreThatShows(static_cast<FossenParameter>(i)), manoeuvres);
   }
   if (names.empty()) return {};
   return {"parameters", "the data hardly narrow the prior of " + names,
-          "record manoeuvres that excite them: turns to both sides at several speeds, reverse, and "
-          "coasting"};
+          "record " + manoeuvres + ", which show " + names};
 }
 
 // Recordings that are not of the same boat as the others, each with the move that shows it.
