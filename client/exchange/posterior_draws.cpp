@@ -7,6 +7,13 @@
 namespace telltale {
 namespace {
 
+void AddNotesOfPhysicalForm(proto::Draws& message) {
+  message.add_notes(
+      "The coefficients, continuous-time SI, of draws of the parameters within their physical "
+      "range, as wide as parameterCovariance; the thruster time constant is one of them. "
+      "They rest on the same basis as its bounds (provenance.boundsBasis).");
+}
+
 void AddNotes(const PosteriorDraws& draws, proto::Draws& message) {
   message.add_notes(
       "Joint normal draws of the coefficients, continuous-time SI, about the values for simulation "
@@ -52,7 +59,11 @@ std::string PrintDrawsJson(const Identification& identification, const Posterior
   }
   for (const std::string& name : draws.not_drawn) message.add_not_drawn(name);
   message.set_clipped(draws.clipped);
-  AddNotes(draws, message);
+  if (identification.physical) {
+    AddNotesOfPhysicalForm(message);
+  } else {
+    AddNotes(draws, message);
+  }
   return PrintJsonMessage(message);
 }
 

@@ -11,7 +11,7 @@
 
 namespace telltale {
 
-/// Models that the data allow: joint draws of the coefficients from N(theta, covariance). Shapes:
+/// Models that the data allow: joint draws of the coefficients. Shapes:
 /// theta (coefficients) x (draws), in the order of Identification::coefficients; time_constant_s
 /// one value a draw for the dynamic structure, otherwise empty.
 struct PosteriorDraws {
@@ -26,8 +26,8 @@ struct PosteriorDraws {
 };
 
 /// Of the physical form its parameters are drawn, from a normal law truncated to their physical
-/// range, and turned into coefficients: every draw has a positive definite mass matrix and drag
-/// that opposes the motion.
+/// range that has the variances of the model, and turned into coefficients: every draw has a
+/// positive definite mass matrix and drag that opposes the motion.
 /// Method of every other structure: the symmetric square root of the correlation matrix by
 /// eigenvalues, negative ones set to zero, so that a covariance of fewer replicates than
 /// coefficients does no harm and no unit matters. The time constant is drawn together with the
