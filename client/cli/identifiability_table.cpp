@@ -51,7 +51,7 @@ std::string ExcitationTable(const Identification& identification, bool counted) 
                                  {"condition", Align::kRight},
                                  {"variance inflation", Align::kRight}};
   if (counted) {
-    columns.push_back({weak ? "windows" : "rows", Align::kRight});
+    columns.push_back({weak ? "supports" : "rows", Align::kRight});
     columns.push_back({"effective sample size", Align::kRight});
   }
   Table table(columns);

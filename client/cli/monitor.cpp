@@ -1,9 +1,10 @@
 #include <chrono>
 #include <iostream>
-#include <map>
 #include <memory>
 #include <stdexcept>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include <unistd.h>
@@ -113,23 +114,39 @@ void Monitor(const MonitorArguments& arguments) {
   }
 }
 
+/// Takes a name, in any case, for the number of its value.
+template <class Enum>
+CLI::Validator NamedValue(std::vector<std::pair<std::string_view, Enum>> names) {
+  const auto take = [names = std::move(names)](std::string& text) -> std::string {
+    std::vector<std::string> known;
+    for (const auto& [name, value] : names) {
+      known.emplace_back(name);
+      if (CLI::detail::to_lower(text) != CLI::detail::to_lower(known.back())) continue;
+      text = std::to_string(static_cast<int>(value));
+      return "";
+    }
+    return text + " not in {" + CLI::detail::join(known, ",") + '}';
+  };
+  return {take, ""};
+}
+
 void AddViewOptions(CLI::App& command, MonitorArguments& arguments) {
-  const std::map<std::string, QualityOrder> orders = {{"urgency", QualityOrder::kUrgency},
-                                                      {"id", QualityOrder::kId},
-                                                      {"error", QualityOrder::kError},
-                                                      {"fill", QualityOrder::kFill},
-                                                      {"age", QualityOrder::kAge}};
-  std::map<std::string, QualityVerdict> verdicts;
-  for (const QualityVerdict verdict : kQualityVerdicts) verdicts.emplace(Name(verdict), verdict);
+  std::vector<std::pair<std::string_view, QualityVerdict>> verdicts;
+  for (const QualityVerdict verdict : kQualityVerdicts)
+    verdicts.emplace_back(Name(verdict), verdict);
   command.add_option("--sort", arguments.view.order, "urgency (the default), id, error, fill, age")
       ->type_name("ORDER")
-      ->transform(CLI::CheckedTransformer(orders).description(""));
+      ->transform(NamedValue<QualityOrder>({{"urgency", QualityOrder::kUrgency},
+                                            {"id", QualityOrder::kId},
+                                            {"error", QualityOrder::kError},
+                                            {"fill", QualityOrder::kFill},
+                                            {"age", QualityOrder::kAge}}));
   command
       .add_option("--verdict", arguments.view.verdicts,
                   "only boats with one of these: OK, WARN, ERROR, STALE")
       ->type_name("VERDICT,...")
       ->delimiter(',')
-      ->transform(CLI::CheckedTransformer(verdicts, CLI::ignore_case).description(""));
+      ->transform(NamedValue<QualityVerdict>(verdicts));
   command.add_option("--match", arguments.view.match, "only boats whose id holds this text")
       ->type_name("TEXT");
 }

@@ -7,6 +7,7 @@
 #include "telltale/client/cli/commands.hpp"
 #include "telltale/client/cli/exit_codes.hpp"
 #include "telltale/client/cli/input_options.hpp"
+#include "telltale/client/cli/number_range.hpp"
 #include "telltale/client/cli/output_options.hpp"
 #include "telltale/client/cli/progress_line.hpp"
 #include "telltale/client/cli/study_table.hpp"
@@ -63,7 +64,8 @@ void AddStudy(CLI::App& telltale) {
   command
       .add_option("--sampling-period", arguments->sampling_period_s,
                   "seconds, [0.02, 2] (default: the median GNSS period)")
-      ->type_name("S");
+      ->type_name("S")
+      ->check(NumberWithin(0.02, 2.0).description(""));
   command
       .add_option("--partitions", arguments->options.repeats,
                   "random partitions behind each mean, [1, 1000]")

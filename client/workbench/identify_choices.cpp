@@ -9,28 +9,52 @@
 namespace telltale {
 namespace {
 
-/// With the options that were typed in place of the fields that they set.
-std::string WithOptionNames(std::string text) {
-  constexpr std::pair<std::string_view, std::string_view> kOptionNames[] = {
-      {"coverage_check_replicates", "--check-coverage"},
-      {"parametric_replicates", "--replicates"},
-      {"bootstrap_replicates", "--bootstrap"},
-      {"sampling_period_s", "--sampling-period"},
-      {"interval_level", "--level"},
-      {"threads", "--threads"}};
-  for (const auto& [field, option] : kOptionNames) {
-    const auto sets = std::string(field) + " ";  // "FIELD = 3 must be", "set FIELD to a value"
-    if (!text.starts_with("identification: " + sets) &&
-        !text.starts_with("data preparation: " + sets)) {
+using Replacement = std::pair<std::string_view, std::string_view>;
+
+void ReplaceAll(const Replacement& replacement, std::string& text) {
+  const auto& [from, to] = replacement;
+  for (auto at = text.find(from); at != std::string::npos; at = text.find(from, at + to.size())) {
+    text.replace(at, from.size(), to);
+  }
+}
+
+/// A refusal of a number: "FIELD = 3 must be ...; set FIELD to a value".
+std::string WithOptionInPlaceOfField(std::string text) {
+  constexpr Replacement kOptionOfField[] = {{"coverage_check_replicates ", "--check-coverage "},
+                                            {"parametric_replicates ", "--replicates "},
+                                            {"bootstrap_replicates ", "--bootstrap "},
+                                            {"sampling_period_s ", "--sampling-period "},
+                                            {"interval_level ", "--level "},
+                                            {"threads ", "--threads "}};
+  for (const Replacement& option : kOptionOfField) {
+    const std::string field(option.first);
+    if (!text.starts_with("identification: " + field) &&
+        !text.starts_with("data preparation: " + field)) {
       continue;
     }
-    for (auto at = text.find(sets); at != std::string::npos;
-         at = text.find(sets, at + option.size())) {
-      text.replace(at, field.size(), option);
-    }
+    ReplaceAll(option, text);
     break;
   }
   return text;
+}
+
+/// With the options and values that were typed in place of the fields that they set.
+std::string WithOptionNames(const Refusal& refusal) {
+  constexpr Replacement kOptionOfSubject[] = {{"estimator", "--estimator"},
+                                              {"recording_bias", "--recording-bias"},
+                                              {"resampling", "--bootstrap-kind"},
+                                              {"dead_zone", "--dead-zone"}};
+  constexpr Replacement kTypedValues[] = {
+      {"OUTPUT_ERROR", "output-error"}, {"ONE_STEP", "one-step"},
+      {"WEAK_IV", "weak-iv"},           {"SHARED", "shared"},
+      {"SEGMENTS", "slices"},           {"PARAMETRIC", "parametric"}};
+  std::string said = refusal.reason + "; " + refusal.advice;
+  for (const auto& [subject, option] : kOptionOfSubject) {
+    if (refusal.subject != subject) continue;
+    for (const Replacement& value : kTypedValues) ReplaceAll(value, said);
+    return std::string(option) + ": " + said;
+  }
+  return WithOptionInPlaceOfField(refusal.subject + ": " + said);
 }
 
 }  // namespace
@@ -138,9 +162,10 @@ IdentifyOptions IdentifyChoices::Options(std::size_t recordings) const {
   if (parameterization == "paper") options.regression.parameterization = Parameterization::kPaper;
   if (structure == "fossen") {
     if (const auto option = OptionOfFreeCoefficients()) {
-      throw UsageError(std::string(*option) +
-                       " belongs to --structure static and dynamic; fossen estimates all of it "
-                       "from the readings");
+      throw UsageError(
+          std::string(*option) +
+          " belongs to --structure static and dynamic: fossen has one estimator, which "
+          "works on the readings as they are, and one set of parameters");
     }
     options.regression.structure = Structure::kFossen;
   }
@@ -164,8 +189,7 @@ IdentifyOptions IdentifyChoices::Options(std::size_t recordings) const {
   options.seed = seed;
   options.threads = threads.value_or(DefaultThreads());
   if (const auto refusal = options.Validate()) {
-    throw UsageError(
-        WithOptionNames(refusal->subject + ": " + refusal->reason + "; " + refusal->advice));
+    throw UsageError(WithOptionNames(*refusal));
   }
   return options;
 }

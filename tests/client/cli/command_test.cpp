@@ -425,6 +425,9 @@ TEST_F(CommandTest, ValidateTakesHorizons) {
   EXPECT_EQ(metrics->free_run[1].horizon_s, 3.0);
   EXPECT_EQ(Validate({"--horizon", "-1"}).exit_code, kExitUsage);
   EXPECT_EQ(Validate({"--horizon", "601"}).exit_code, kExitUsage);
+  const CommandOutcome too_short = Validate({"--horizon", "0.1"});
+  EXPECT_EQ(too_short.exit_code, kExitUsage);
+  EXPECT_THAT(too_short.err, HasSubstr("--horizon 0.1 must be within ["));
 }
 
 TEST_F(CommandTest, ValidateWritesTheDisturbanceOverTheLog) {

@@ -109,6 +109,15 @@ TEST_F(ExitCodesTest, EverythingElseIsAFailure) {
           {"study", "--log", empty_log, "--vehicle", not_a_boat}});
 }
 
+TEST_F(ExitCodesTest, ValuesOutsideTheirRangeAreUsageErrors) {
+  Expect(kExitUsage, {{"study", "--log", empty_log, "--sampling-period", "5"},
+                      {"monitor", "--verdict", "FOO"},
+                      {"monitor", "--sort", "2"}});
+  const CommandOutcome outcome =
+      RunCommand({"sh", "-c", std::string(TELLTALE_COMMAND) + " monitor --verdict FOO"});
+  EXPECT_THAT(outcome.err, HasSubstr("FOO not in {OK,WARN,ERROR,STALE}"));
+}
+
 TEST_F(ExitCodesTest, WithoutADaemonTheLiveSubcommandsFail) {
   const std::string id = std::to_string(domain.id());
   Expect(kExitFailure, {{"watch", "--all", "--domain", id, "--timeout", "0.2"},

@@ -337,7 +337,7 @@ TEST_F(LogInputsTest, SeveralLogsHaveARecordingBiasEachByDefault) {
   const CommandOutcome one_step =
       identify({"--bootstrap", "0", "--recording-bias", "per-recording"});
   EXPECT_EQ(one_step.exit_code, kExitUsage);
-  EXPECT_THAT(one_step.err, HasSubstr("not estimated by ONE_STEP"));
+  EXPECT_THAT(one_step.err, HasSubstr("not estimated by one-step; choose weak-iv"));
 }
 
 }  // namespace

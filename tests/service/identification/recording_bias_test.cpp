@@ -36,7 +36,7 @@ TEST_F(LiveRecordingBias, AreNotForAnEstimatorThatKnowsNone) {
   const auto identify = Start({"identify", "--vehicle-id", kVehicleId, "--recording-bias",
                                "per-recording", "--estimator", "one-step"});
   EXPECT_EQ(identify->Wait(), 2);
-  EXPECT_THAT(identify->output(), ::testing::HasSubstr("not estimated by ONE_STEP"));
+  EXPECT_THAT(identify->output(), ::testing::HasSubstr("not estimated by one-step"));
 }
 
 }  // namespace
