@@ -30,7 +30,7 @@ if [[ $command == identify ]]; then
 fi
 influence='{"verdict": "EXPLAINED", "effects": ["heading_bias"]}'
 echo '{"verdict": "EXPLAINED", "gap": {"before": 3.14159, "floorLimit": 2},
-  "notes": ["References say that 99 % of nominal days stay below a gap of 2.5. A smaller gap counts as undecided."],
+  "nominalDaysLimit": 2.5,
   "referenceInfluence": ['"$influence, $influence, $influence, $influence"'],
   "effects": [{"effect": "heading_bias", "detectableSizes": [{"name": "bias", "size": 0.2, "unit": "rad"}]}], "causes": [{"effects": ["heading_bias"],
   "probability": 0.9, "parameters": [{"name": "bias", "estimate": 0.06, "unit": "rad", "effect": "heading_bias"}]}]}' > "$out"
