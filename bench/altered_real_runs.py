@@ -231,7 +231,7 @@ def print_smallest_sizes(unaltered):
 
 
 def limit_of_days(report):
-    """The gap that 99 % of nominal days stay below, (102)."""
+    """The gap that 99 % of nominal days stay below, (123)."""
     return f"{report['nominalDaysLimit']:.2f}" if "nominalDaysLimit" in report else "none"
 
 

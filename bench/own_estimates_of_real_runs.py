@@ -55,7 +55,7 @@ def velocities(log):
 
 def heading_bias(log):
     """By how many degrees the heading is turned against the course, beside a steady current and the sideslip of turns:
-    v = -bias u + c_N (-sin psi) + c_E cos psi + a r + b u r by least squares, as (104) of docs/concepts/diagnosis.md has
+    v = -bias u + c_N (-sin psi) + c_E cos psi + a r + b u r by least squares, as (125) of docs/concepts/diagnosis.md has
     it, with a standard error by leaving out blocks (jackknife)."""
     time_s, north, east, psi, r = velocities(log)
     u = north * np.cos(psi) + east * np.sin(psi)

@@ -266,7 +266,7 @@ struct Diagnosis {
   /// What each reference does to the answer, in their order; none where it was not asked for.
   std::vector<ReferenceInfluence> reference_influence;
   /// The gap at five seconds that 99 % of nominal days stay below, docs/concepts/diagnosis.md
-  /// (102); none where fewer than two references were left out.
+  /// (123); none where fewer than two references were left out.
   std::optional<double> nominal_days_limit;
   std::optional<Onset> onset;
   std::string rest;  ///< where the unexplained error sits: "yaw, FR"; empty where none does

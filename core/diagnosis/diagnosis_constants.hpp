@@ -50,7 +50,7 @@ struct LocalisationConstants {
   double timing_share = 0.1;  ///< 1, of bias and slope together; below it the cell is noise
 };
 
-/// The missing force, docs/concepts/diagnosis.md (101).
+/// The missing force, docs/concepts/diagnosis.md (122).
 struct MissingForceConstants {
   std::size_t bins = 10;        ///< of each variable, convention
   double significance = 0.01;   ///< 1, of a variable, over all components and variables, convention

@@ -15,7 +15,7 @@ namespace telltale {
 /// what the commands do, RunError. Of the mean square of the errors the share counts that the
 /// commands alone explain, less what chance explains, where the F-test of the commands tells them
 /// from chance. The explained error is the root mean square of these over the three velocities, in
-/// normal errors; docs/concepts/diagnosis.md (106). It decides whichever one block is left out.
+/// normal errors; docs/concepts/diagnosis.md (127). It decides whichever one block is left out.
 /// Assumes: errors of neighbouring runs are independent, and no gust moves the commands. What it
 /// says stays where the commands hardly change, or most runs are missing. Source: Seber, Lee,
 /// "Linear regression analysis" (2003), chapter 4.

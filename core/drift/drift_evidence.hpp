@@ -41,8 +41,8 @@ DriftEvidence SumOf(std::span<const DriftEvidence> windows);
 
 /// The evidence of each window of a dataset, in order of time.
 /// Model: errors of free runs from an estimated start are to first order linear in the size of an
-/// effect, docs/concepts/diagnosis.md (103). A turned compass turns the measured velocity besides:
-/// v = v_nominal - bias u, (104).
+/// effect, docs/concepts/diagnosis.md (124). A turned compass turns the measured velocity besides:
+/// v = v_nominal - bias u, (125).
 /// A window at constant commands tells nothing of forces: the error that a model has at one
 /// operating point, and an autopilot that answers gusts, look like a change there. One on a
 /// constant heading tells nothing of sideslip: current and wind look like a turned compass.

@@ -33,7 +33,7 @@ struct DriftFinding {
 /// that grow without a pattern, nor what a single block shows.
 /// Model: a test of each change against its tolerance, over the latest blocks, by estimates beside
 /// which wind, current and a constant force are estimated anew; less what the model errs itself,
-/// as the same of the reference predicts it. docs/concepts/diagnosis.md (103) to (105). Its false
+/// as the same of the reference predicts it. docs/concepts/diagnosis.md (124) to (126). Its false
 /// alarms: docs/validation/monitoring.md. Assumes: the boat steers and changes its speed. Where it
 /// does not, nothing is said. Sources: Lai, "Sequential changepoint detection in quality control
 /// and dynamical systems", J. R. Statist. Soc. B 57 (1995), window-limited tests; Efron, "The

@@ -23,7 +23,7 @@ struct OneMoreDay {
   double Quantile(double probability) const;
 };
 
-/// How nominal days differ, as verdict and power see it, docs/concepts/diagnosis.md (100), (102).
+/// How nominal days differ, as verdict and power see it, docs/concepts/diagnosis.md (100), (123).
 struct DayToDay {
   double log_nominal = 0.0;  ///< mean ln of the reduced chi-squares of the baseline's own days
   OneMoreDay noise;          ///< the reduced chi-square of a day

@@ -129,7 +129,7 @@ std::optional<WithoutOne> Without(const PreparedDataset& left_out, const Influen
   return without;
 }
 
-/// What 99 % of days stay below in G^2, by the other references when they were left out, (102);
+/// What 99 % of days stay below in G^2, by the other references when they were left out, (123);
 /// none of fewer than two.
 std::optional<double> SquaredLimitOfOthers(
     std::size_t reference, const std::vector<std::optional<WithoutOne>>& without_each) {

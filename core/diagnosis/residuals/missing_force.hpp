@@ -11,7 +11,7 @@ namespace telltale {
 /// The force and moment that would have to be added to `boat` for it to accelerate as the recording
 /// does, and what they vary over.
 /// Model: X = m e_u, Y = (m + A22) e_v, N = (I + A66) e_r of the residual accelerations e from row
-/// to row, each over its response to a constant acceleration, docs/concepts/diagnosis.md (101),
+/// to row, each over its response to a constant acceleration, docs/concepts/diagnosis.md (122),
 /// with the masses of the dataset's hull; A11 is neglected. Means are by bin of each variable,
 /// their 95 % intervals from the scatter of sums over kDiagnosis.localisation.cluster_s. A variable
 /// counts where the bins differ by more than chance, corrected for all components and variables
