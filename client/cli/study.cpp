@@ -14,6 +14,7 @@
 #include "telltale/client/cli/whole_number.hpp"
 #include "telltale/client/workbench/errors.hpp"
 #include "telltale/client/workbench/presets.hpp"
+#include "telltale/core/data/sampling_grid.hpp"
 #include "telltale/core/paper/study.hpp"
 #include "telltale/idl/codec/json/study.hpp"
 
@@ -65,7 +66,7 @@ void AddStudy(CLI::App& telltale) {
       .add_option("--sampling-period", arguments->sampling_period_s,
                   "seconds, [0.02, 2] (default: the median GNSS period)")
       ->type_name("S")
-      ->check(NumberWithin(0.02, 2.0).description(""));
+      ->check(NumberWithin(kShortestPeriodS, kLongestPeriodS).description(""));
   command
       .add_option("--partitions", arguments->options.repeats,
                   "random partitions behind each mean, [1, 1000]")

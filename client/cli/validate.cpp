@@ -3,7 +3,6 @@
 #include <memory>
 #include <optional>
 #include <string>
-#include <vector>
 
 #include "telltale/client/cli/commands.hpp"
 #include "telltale/client/cli/input_options.hpp"
@@ -19,6 +18,7 @@
 #include "telltale/client/workbench/presets.hpp"
 #include "telltale/client/workbench/score_model.hpp"
 #include "telltale/core/base/format_number.hpp"
+#include "telltale/core/data/sampling_grid.hpp"
 #include "telltale/core/identification/input_gain.hpp"
 #include "telltale/idl/codec/json/metrics.hpp"
 
@@ -63,19 +63,18 @@ std::string ScoredText(const PreparedDataset& dataset) {
                  Counted(dataset.segments.size(), "segment", "segments") + " without gaps.");
 }
 
-void RequireTwoPeriods(const std::vector<double>& horizons_s, const Identification& model) {
-  const double least_s = 2.0 * model.sampling_period_s;
-  for (const double horizon_s : horizons_s) {
-    if (horizon_s >= least_s) continue;
-    throw UsageError("--horizon " + FormatSignificant(horizon_s, 6) + " must be within [" +
-                     FormatSignificant(least_s, 6) +
-                     ", 600] s, from two sampling periods of the model");
-  }
+void RequireHorizons(const ValidationOptions& options, const Identification& model) {
+  const auto horizon_s = options.HorizonOutOfRange(model.sampling_period_s);
+  if (!horizon_s) return;
+  throw UsageError("--horizon " + FormatSignificant(*horizon_s, 6) + " must be within [" +
+                   FormatSignificant(2.0 * model.sampling_period_s, 6) + ", " +
+                   FormatSignificant(kLongestHorizonS, 6) +
+                   "] s, from two sampling periods of the model");
 }
 
 void ValidateModel(const ValidateArguments& arguments) {
   const Identification model = LoadModel(arguments.model_file);
-  RequireTwoPeriods(arguments.options.horizons_s, model);
+  RequireHorizons(arguments.options, model);
   const VesselModel vessel = OrThrow(ModelOf(model));
   ProgressLine line;
   line.Update("reading logs", 0.0);
@@ -107,7 +106,7 @@ void AddValidate(CLI::App& telltale) {
                   "lengths of free runs, seconds, at least two sampling periods, at most 600 "
                   "(default 1 5 10)")
       ->type_name("S")
-      ->check(NumberWithin(0.04, 600.0).description(""));
+      ->check(NumberWithin(2.0 * kShortestPeriodS, kLongestHorizonS).description(""));
   command
       .add_option("--preset", arguments->preset,
                   "of the data preparation: robust or paper (default: the model's own)")

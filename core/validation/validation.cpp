@@ -18,7 +18,6 @@
 namespace telltale {
 namespace {
 
-constexpr double kLongestHorizonS = 600.0;
 // Sampling periods come from decimal logs: closer than this is equal.
 constexpr double kSamePeriodS = 1e-6;
 
@@ -218,9 +217,8 @@ std::optional<Refusal> RefuseUnanswerable(const PreparedDataset& dataset, const 
                        " s, the data are sampled every " + FormatSignificant(h, 6) + " s",
                    "prepare the data at the model's sampling period"};
   }
-  for (const double horizon_s : options.horizons_s) {
-    if (horizon_s >= 2.0 * h - kSamePeriodS && horizon_s <= kLongestHorizonS) continue;
-    return Refusal{"horizons_s", FormatSignificant(horizon_s, 6) + " s is out of range",
+  if (const auto horizon_s = options.HorizonOutOfRange(h)) {
+    return Refusal{"horizons_s", FormatSignificant(*horizon_s, 6) + " s is out of range",
                    "choose horizons from two sampling periods (" + FormatSignificant(2.0 * h, 6) +
                        " s) to " + FormatSignificant(kLongestHorizonS, 6) + " s"};
   }
@@ -310,6 +308,15 @@ Metrics ScoresOfRuns(const PreparedDataset& dataset, const FreeRuns& free_runs,
 }
 
 }  // namespace
+
+std::optional<double> ValidationOptions::HorizonOutOfRange(double sampling_period_s) const {
+  for (const double horizon_s : horizons_s) {
+    const bool allowed =
+        horizon_s >= 2.0 * sampling_period_s - kSamePeriodS && horizon_s <= kLongestHorizonS;
+    if (!allowed) return horizon_s;
+  }
+  return std::nullopt;
+}
 
 bool Diverges(const FreeRunScores& scores, const Nu& limits) {
   const std::array<double, 3> limit = {limits.u, limits.v, limits.r};

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 #include "telltale/core/base/result.hpp"
@@ -46,8 +47,13 @@ struct FreeRunScores {
 /// no number.
 bool Diverges(const FreeRunScores& scores, const Nu& limits);
 
+inline constexpr double kLongestHorizonS = 600.0;
+
 struct ValidationOptions {
-  std::vector<double> horizons_s = {1.0, 5.0, 10.0};  ///< each [2 h, 600]
+  std::vector<double> horizons_s = {1.0, 5.0, 10.0};  ///< each [2 h, kLongestHorizonS]
+
+  /// The first horizon that data of this sampling period do not allow; none where they allow all.
+  std::optional<double> HorizonOutOfRange(double sampling_period_s) const;
 };
 
 struct Metrics {
