@@ -3,8 +3,6 @@
 #include <memory>
 #include <stdexcept>
 #include <string>
-#include <string_view>
-#include <utility>
 #include <vector>
 
 #include <unistd.h>
@@ -114,39 +112,31 @@ void Monitor(const MonitorArguments& arguments) {
   }
 }
 
-/// Takes a name, in any case, for the number of its value.
+/// Takes a name, in any case, for its value. CLI::CheckedTransformer also takes the values' numbers
+/// and shows them in its error.
 template <class Enum>
-CLI::Validator NamedValue(std::vector<std::pair<std::string_view, Enum>> names) {
-  const auto take = [names = std::move(names)](std::string& text) -> std::string {
-    std::vector<std::string> known;
-    for (const auto& [name, value] : names) {
-      known.emplace_back(name);
-      if (CLI::detail::to_lower(text) != CLI::detail::to_lower(known.back())) continue;
-      text = std::to_string(static_cast<int>(value));
-      return "";
-    }
-    return text + " not in {" + CLI::detail::join(known, ",") + '}';
-  };
-  return {take, ""};
+void TakeNames(const CLI::TransformPairs<Enum>& values, CLI::Option& option) {
+  // What is added last comes first.
+  option.transform(CLI::Transformer(values, CLI::ignore_case).description(""));
+  option.transform(CLI::IsMember(values, CLI::ignore_case).description(""));
 }
 
 void AddViewOptions(CLI::App& command, MonitorArguments& arguments) {
-  std::vector<std::pair<std::string_view, QualityVerdict>> verdicts;
-  for (const QualityVerdict verdict : kQualityVerdicts)
+  CLI::Option& order = *command.add_option("--sort", arguments.view.order,
+                                           "urgency (the default), id, error, fill, age");
+  TakeNames<QualityOrder>({{"urgency", QualityOrder::kUrgency},
+                           {"id", QualityOrder::kId},
+                           {"error", QualityOrder::kError},
+                           {"fill", QualityOrder::kFill},
+                           {"age", QualityOrder::kAge}},
+                          *order.type_name("ORDER"));
+  CLI::TransformPairs<QualityVerdict> verdicts;
+  for (const QualityVerdict verdict : kQualityVerdicts) {
     verdicts.emplace_back(Name(verdict), verdict);
-  command.add_option("--sort", arguments.view.order, "urgency (the default), id, error, fill, age")
-      ->type_name("ORDER")
-      ->transform(NamedValue<QualityOrder>({{"urgency", QualityOrder::kUrgency},
-                                            {"id", QualityOrder::kId},
-                                            {"error", QualityOrder::kError},
-                                            {"fill", QualityOrder::kFill},
-                                            {"age", QualityOrder::kAge}}));
-  command
-      .add_option("--verdict", arguments.view.verdicts,
-                  "only boats with one of these: OK, WARN, ERROR, STALE")
-      ->type_name("VERDICT,...")
-      ->delimiter(',')
-      ->transform(NamedValue<QualityVerdict>(verdicts));
+  }
+  CLI::Option& verdict = *command.add_option(
+      "--verdict", arguments.view.verdicts, "only boats with one of these: OK, WARN, ERROR, STALE");
+  TakeNames(verdicts, *verdict.type_name("VERDICT,...")->delimiter(','));
   command.add_option("--match", arguments.view.match, "only boats whose id holds this text")
       ->type_name("TEXT");
 }
