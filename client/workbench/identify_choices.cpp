@@ -1,6 +1,9 @@
 #include "telltale/client/workbench/identify_choices.hpp"
 
+#include <string_view>
 #include <utility>
+
+#include <boost/algorithm/string/replace.hpp>
 
 #include "telltale/client/workbench/default_threads.hpp"
 #include "telltale/client/workbench/errors.hpp"
@@ -10,13 +13,6 @@ namespace telltale {
 namespace {
 
 using Replacement = std::pair<std::string_view, std::string_view>;
-
-void ReplaceAll(const Replacement& replacement, std::string& text) {
-  const auto& [from, to] = replacement;
-  for (auto at = text.find(from); at != std::string::npos; at = text.find(from, at + to.size())) {
-    text.replace(at, from.size(), to);
-  }
-}
 
 /// A refusal of a number: "FIELD = 3 must be ...; set FIELD to a value".
 std::string WithOptionInPlaceOfField(std::string text) {
@@ -32,7 +28,7 @@ std::string WithOptionInPlaceOfField(std::string text) {
         !text.starts_with("data preparation: " + field)) {
       continue;
     }
-    ReplaceAll(option, text);
+    boost::replace_all(text, option.first, option.second);
     break;
   }
   return text;
@@ -51,7 +47,7 @@ std::string WithOptionNames(const Refusal& refusal) {
   std::string said = refusal.reason + "; " + refusal.advice;
   for (const auto& [subject, option] : kOptionOfSubject) {
     if (refusal.subject != subject) continue;
-    for (const Replacement& value : kTypedValues) ReplaceAll(value, said);
+    for (const auto& [value, typed] : kTypedValues) boost::replace_all(said, value, typed);
     return std::string(option) + ": " + said;
   }
   return WithOptionInPlaceOfField(refusal.subject + ": " + said);
