@@ -16,8 +16,8 @@ struct ConditionalAtEnds {
 };
 
 // With the parameters kept at their ends there, and parameter `at` at `end`.
-ConditionalNormal ConditionalWithAlso(const ConstrainedEstimate& estimate,
-                                      std::vector<Eigen::Index> kept, Eigen::Index at, double end) {
+ConditionalNormal GivenOneMoreEnd(const ConstrainedEstimate& estimate,
+                                  std::vector<Eigen::Index> kept, Eigen::Index at, double end) {
   kept.push_back(at);
   Eigen::VectorXd values = estimate.estimate(kept);
   values[values.size() - 1] = end;
@@ -39,7 +39,7 @@ std::vector<ConditionalAtEnds> ConditionalsAtEnds(const ConstrainedEstimate& est
     const double reach = two_sided * with_kept.standard_deviation[i];
     for (const double end : {estimate.least[i], estimate.greatest[i]}) {
       if (std::abs(estimate.estimate[i] - end) >= reach) continue;
-      conditionals.push_back({ConditionalWithAlso(estimate, kept, i, end), one_sided});
+      conditionals.push_back({GivenOneMoreEnd(estimate, kept, i, end), one_sided});
     }
   }
   return conditionals;

@@ -22,8 +22,8 @@ Eigen::MatrixXd DrawTruncatedNormal(const Eigen::VectorXd& mean, const Eigen::Ma
 
 /// The covariance of the normal law about `mean` whose truncation to a box has the standard
 /// deviations of `truncated`, to some percent: that covariance, its deviations scaled one by one by
-/// what draws of it fall short of. Its correlations are kept. Determinism: no chance is left.
-/// Requires: as DrawTruncatedNormal(), with `mean` in the box.
+/// what draws of it fall short of. Its correlations are kept. Determinism: the draws are the same
+/// every time. Requires: as DrawTruncatedNormal(), with `mean` in the box.
 Eigen::MatrixXd CovarianceBeforeTruncation(const Eigen::VectorXd& mean,
                                            const Eigen::MatrixXd& truncated,
                                            const Eigen::VectorXd& least,
