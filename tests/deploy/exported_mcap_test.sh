@@ -5,7 +5,7 @@ set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
 telltale=$TELLTALE_BUILT/client/telltale
 reader=$TELLTALE_BUILT/mcap_reader
-"$root/tests/deploy/from_npm" "$reader" read_mcap.mjs
+"$root/tests/deploy/from_npm" "$root/tests/client/recording/foreign" "$reader"
 
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT

@@ -8,6 +8,13 @@ source "$(dirname "${BASH_SOURCE[0]}")/running_demo.bash"
 
 "$root/deploy/demo" --keep &> "$output" && fail "--keep without --fleet is taken"
 
+modules=$built/tests/page
+picture=true
+"$root/tests/deploy/from_npm" "$root/tests/web" "$modules" chromium || {
+  [[ ${CI-} != true ]] || exit 1
+  picture=false
+}
+
 begin_demo --fleet
 await_line 'boat-5: diagnosed'
 kill -s STOP "$demo"
@@ -31,11 +38,10 @@ assert reasons["boat-5"] == {"DRIFT"} and reasons["boat-6"] == {"CLOCK_JUMP"}, r
 assert not any(reasons[f"boat-{n}"] for n in (1, 2, 3, 4)), reasons
 CHECK
 
-# The picture of README.md is one of these, where the page's test has brought its modules.
-browser=$(command -v chromium || true)
-if [[ -n $browser && -d $built/tests/page/node_modules ]]; then
-  cp "$root/tests/web/picture.mjs" "$built/tests/page"
-  (cd "$built/tests/page" && timeout 180 node picture.mjs "$address" fleet.png "$browser") || fail "the page has no picture"
+# The picture of README.md is one of these.
+if $picture; then
+  (cd "$modules" && timeout 180 node picture.mjs "$address" fleet.png "$(command -v chromium)") ||
+    fail "the page has no picture"
 fi
 
 kill -s CONT "$demo"

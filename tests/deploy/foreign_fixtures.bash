@@ -6,9 +6,8 @@ root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
 # shellcheck disable=SC2034  # for who sources this
 telltale=$TELLTALE_BUILT/client/telltale
 writers=$TELLTALE_BUILT/foreign_writers
-# shellcheck disable=SC2034  # likewise
 foreign=$root/tests/client/recording/foreign
-"$root/tests/deploy/from_npm" "$writers" write_fixtures.mjs lz4
+"$root/tests/deploy/from_npm" "$foreign" "$writers" lz4
 
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT

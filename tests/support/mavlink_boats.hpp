@@ -32,7 +32,8 @@ class MavlinkBoats {
   /// Installs what they need; why they cannot run, where the registry of npm cannot be reached.
   /// Throws where it fails otherwise.
   static std::optional<std::string> Missing() {
-    Process install({TELLTALE_SOURCE_DIR "/tests/deploy/from_npm", kFolder, "send_live.mjs"});
+    Process install({TELLTALE_SOURCE_DIR "/tests/deploy/from_npm",
+                     TELLTALE_SOURCE_DIR "/tests/client/recording/foreign", kFolder});
     const auto code = install.Wait();
     if (code == 0) return std::nullopt;
     if (code == 77) return install.output();
