@@ -71,8 +71,8 @@ std::string EffectText(const CausalEffect& effect, bool several) {
   std::string sentence = effect.sentence;
   if (several) sentence += " (" + ShareText(effect.shapley_share) + " of what these explain)";
   std::string text = effect.sentence.empty() ? "" : Wrapped(sentence, "  ");
-  for (const ParameterEstimate& parameter : effect.parameters) {
-    text += "    " + parameter.name + "  " + EstimateText(parameter) + '\n';
+  for (const auto& [name, estimate] : EstimatesOf(effect)) {
+    text.append("    ").append(name).append("  ").append(estimate).append("\n");
   }
   return text;
 }

@@ -43,9 +43,9 @@ Markup ExcessExplainedPlot(const ExcessExplained& excess_explained) {
 
 Markup ParameterList(const CausalEffect& effect) {
   Markup items;
-  for (const ParameterEstimate& parameter : effect.parameters) {
-    items += Element("dt", {}, JoinedName(parameter.name));
-    items += Element("dd", {}, Words(EstimateText(parameter)));
+  for (const auto& [name, estimate] : EstimatesOf(effect)) {
+    items += Element("dt", {}, JoinedName(name));
+    items += Element("dd", {}, Words(estimate));
   }
   return items.Text().empty() ? items : Element("dl", {}, items);
 }

@@ -5,8 +5,10 @@
 #include <cmath>
 #include <functional>
 #include <iterator>
+#include <numbers>
 
 #include "telltale/client/report/number_text.hpp"
+#include "telltale/core/base/degrees.hpp"
 
 namespace telltale {
 namespace {
@@ -16,6 +18,22 @@ int DecimalsFor(double standard_error) {
   constexpr int kMost = 6;
   if (!std::isfinite(standard_error) || standard_error <= 0.0) return 3;
   return std::clamp(1 - static_cast<int>(std::floor(std::log10(standard_error))), 0, kMost);
+}
+
+std::string EstimateText(const ParameterEstimate& parameter) {
+  const std::string unit =
+      parameter.unit.empty() || parameter.unit == "1" ? "" : ' ' + parameter.unit;
+  const int decimals = DecimalsFor(parameter.standard_error);
+  return Fixed(parameter.estimate, decimals) + " ± " + Fixed(parameter.standard_error, decimals) +
+         unit;
+}
+
+/// "any" where the interval holds half of all directions.
+std::string DirectionText(const CircularInterval& towards) {
+  if (towards.half_width_rad >= std::numbers::pi / 2.0) return "any";
+  return Fixed(towards.centre_rad * kDegreesPerRadian, 0) + " ± " +
+         Fixed(towards.half_width_rad * kDegreesPerRadian, 0) + " deg (95 %)" +
+         (towards.or_opposite ? ", or the opposite way" : "");
 }
 
 /// A term of the odds of an unknown cause in words; its name where it is of another version.
@@ -233,12 +251,14 @@ std::string OwnGapText(const ReferenceInfluence& influence) {
   return influence.own_gap ? Fixed(*influence.own_gap, 2) : "–";
 }
 
-std::string EstimateText(const ParameterEstimate& parameter) {
-  const std::string unit =
-      parameter.unit.empty() || parameter.unit == "1" ? "" : ' ' + parameter.unit;
-  const int decimals = DecimalsFor(parameter.standard_error);
-  return Fixed(parameter.estimate, decimals) + " ± " + Fixed(parameter.standard_error, decimals) +
-         unit;
+std::vector<std::pair<std::string, std::string>> EstimatesOf(const CausalEffect& effect) {
+  std::vector<std::pair<std::string, std::string>> estimates;
+  if (effect.size) estimates.emplace_back(effect.size->name, EstimateText(*effect.size));
+  if (effect.towards) estimates.emplace_back("towards", DirectionText(*effect.towards));
+  for (const ParameterEstimate& parameter : effect.parameters) {
+    estimates.emplace_back(parameter.name, EstimateText(parameter));
+  }
+  return estimates;
 }
 
 std::string ExcessExplainedText(const std::optional<ExcessExplained>& excess_explained) {

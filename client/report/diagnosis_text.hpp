@@ -4,6 +4,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "telltale/core/diagnosis/diagnosis.hpp"
@@ -78,8 +79,9 @@ std::string InfluenceText(const ReferenceInfluence& influence);
 /// The gap of a reference itself against the floor of the others.
 std::string OwnGapText(const ReferenceInfluence& influence);
 
-/// "0.220 ± 0.030 m/s".
-std::string EstimateText(const ParameterEstimate& parameter);
+/// What is known of an effect, its size and where it runs to before its parameters, each with a
+/// name: "0.220 ± 0.030 m/s", one standard error, or "274 ± 25 deg (95 %)".
+std::vector<std::pair<std::string, std::string>> EstimatesOf(const CausalEffect& effect);
 
 /// "81 % [74, 87]", or "–" where there is no gap to close.
 std::string ExcessExplainedText(const std::optional<ExcessExplained>& excess_explained);

@@ -10,6 +10,7 @@
 
 #include "telltale/core/base/result.hpp"
 #include "telltale/core/effects/effect.hpp"
+#include "telltale/core/uncertainty/circular_interval.hpp"
 #include "telltale/core/uncertainty/interval.hpp"
 #include "telltale/core/validation/validation.hpp"
 #include "telltale/core/vessel/model_structure.hpp"
@@ -131,6 +132,9 @@ struct CausalEffect {
   std::vector<ParameterEstimate> parameters;
   std::string sentence;        ///< "port thruster 22 % weaker"
   double shapley_share = 1.0;  ///< of what the effects of the cause explain together
+  /// Of weather: the speed of wind or a current, the amplitude of the accelerations by waves.
+  std::optional<ParameterEstimate> size = {};
+  std::optional<CircularInterval> towards = {};  ///< of weather: where it runs to, 95 %
 };
 
 /// Effects that act together; without effects, the unknown cause, which the library lacks.

@@ -154,6 +154,17 @@ struct SpectralPeakConstants {
   double shape_error = 0.01;   ///< 1, of the logarithm of what a spectrum differs from nominal
 };
 
+/// The direction of waves, docs/concepts/diagnosis.md (128), (129). Development set of seed 72.
+struct WaveDirectionConstants {
+  std::size_t directions = 72;  ///< that are compared, convention
+  double window_s = 5.0;        ///< s, of one likelihood
+  double row_s = 0.4;           ///< s, from reading to reading
+  std::size_t frequencies = 4;  ///< of the sea, each with a phase of its own in every window
+  std::array<double, 3> force_ratios = {0.6, 1.0, 1.6};  ///< 1, of sway to surge, in m/s^2
+  double unlike_any = 100.0;    ///< 1, variance of a window's mean and trend, of the spectrum's own
+  std::size_t resamples = 200;  ///< of half minutes, convention
+};
+
 /// The scatter of windows in waves, docs/concepts/diagnosis.md (90).
 struct StochasticExcitationConstants {
   /// 1, by which windows may scatter more than the spectrum of the accelerations says.
@@ -257,6 +268,7 @@ struct DiagnosisConstants {
   VariationConstants variation;
   SearchConstants search;
   SpectralPeakConstants spectral_peak;
+  WaveDirectionConstants wave_direction;
   StochasticExcitationConstants stochastic_excitation;
   LackOfFitConstants lack_of_fit;
   RankingConstants ranking;

@@ -29,7 +29,9 @@ class CurrentEffect final : public Effect {
              .nominal_variation = NominalVariation::kRecordingEffect,
              .turbulence_intensity = kVariation,
              .drift_time_s = kDriftTimeS,
-             .is_weather = true}) {}
+             .is_weather = true,
+             .length_name = "speed",
+             .is_north_east = true}) {}
 
   std::string Describe(EffectValues values) const override {
     return FormatNumber(std::hypot(values[0], values[1]), 2) + " m/s of current " +

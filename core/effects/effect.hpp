@@ -102,6 +102,10 @@ struct EffectFacts {
   bool is_all_or_nothing = false;
   /// Whether it is there on most days, beside whatever else acts.
   bool is_weather = false;
+  /// What the length of its first two parameters is: "speed". Empty where it is nothing.
+  std::string_view length_name = {};
+  /// Whether these are components north and east.
+  bool is_north_east = false;
 };
 
 /// Something that moves a boat, or what its sensors say, and that the model leaves out. An effect

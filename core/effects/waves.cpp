@@ -22,7 +22,8 @@ class WavesEffect final : public Effect {
                             {"encounter_frequency", "rad/s", 1.0, 0.8, 6.0, true, 2.5}},
              .settled_by = "an inertial sensor",
              .nominal_variation = NominalVariation::kRecordingEffect,
-             .is_weather = true}) {}
+             .is_weather = true,
+             .length_name = "amplitude"}) {}
 
   std::string Describe(EffectValues values) const override {
     const double amplitude = std::max(values[0], values[1]);

@@ -45,7 +45,9 @@ class WindEffect final : public Effect {
                 .nominal_variation = NominalVariation::kRecordingEffect,
                 .turbulence_intensity = kTurbulence,
                 .turbulence_time_s = kGustTimeS,
-                .is_weather = true}) {}
+                .is_weather = true,
+                .length_name = "speed",
+                .is_north_east = true}) {}
 
   std::string Describe(EffectValues values) const override {
     return FormatNumber(std::hypot(values[0], values[1]), 1) + " m/s of wind " +

@@ -96,9 +96,15 @@ inline Diagnosis MadeUpDiagnosis() {
   both.excess_explained = ExcessExplained{0.81, {0.95, 0.74, 0.87}};
   Cause one;
   one.effects = {both.effects[0]};
-  one.effects[0].shapley_share = 1.0;
+  one.effects[0].shapley_share = 0.5;
   one.probability = 0.125;
   one.excess_explained = ExcessExplained{0.59375, {0.95, 0.46875, 0.6875}};
+  one.effects.push_back({"wind",
+                         {{"wind_north", 3.0, 0.5, "m/s"}, {"wind_east", -4.0, 0.25, "m/s"}},
+                         "5.0 m/s of wind towards NW",
+                         0.5,
+                         ParameterEstimate{"speed", 5.0, 0.375, "m/s"},
+                         CircularInterval{5.356, 0.125, true}});
   Cause unknown;
   unknown.probability = 0.0625;
   made.causes = {both, one, unknown};
@@ -215,17 +221,28 @@ inline void ExpectSame(const GapCell& a, const GapCell& b) {
   EXPECT_EQ(a.windows, b.windows);
 }
 
+inline void ExpectSame(const ParameterEstimate& a, const ParameterEstimate& b) {
+  EXPECT_EQ(a.name, b.name);
+  EXPECT_EQ(a.estimate, b.estimate);
+  EXPECT_EQ(a.standard_error, b.standard_error);
+  EXPECT_EQ(a.unit, b.unit);
+}
+
 inline void ExpectSame(const CausalEffect& a, const CausalEffect& b) {
   EXPECT_EQ(a.effect, b.effect);
   EXPECT_EQ(a.sentence, b.sentence);
   EXPECT_EQ(a.shapley_share, b.shapley_share);
   ASSERT_EQ(a.parameters.size(), b.parameters.size());
   for (std::size_t i = 0; i < a.parameters.size(); ++i) {
-    EXPECT_EQ(a.parameters[i].name, b.parameters[i].name);
-    EXPECT_EQ(a.parameters[i].estimate, b.parameters[i].estimate);
-    EXPECT_EQ(a.parameters[i].standard_error, b.parameters[i].standard_error);
-    EXPECT_EQ(a.parameters[i].unit, b.parameters[i].unit);
+    ExpectSame(a.parameters[i], b.parameters[i]);
   }
+  ASSERT_EQ(a.size.has_value(), b.size.has_value());
+  if (a.size) ExpectSame(*a.size, *b.size);
+  ASSERT_EQ(a.towards.has_value(), b.towards.has_value());
+  if (!a.towards) return;
+  EXPECT_DOUBLE_EQ(a.towards->centre_rad, b.towards->centre_rad);
+  EXPECT_DOUBLE_EQ(a.towards->half_width_rad, b.towards->half_width_rad);
+  EXPECT_EQ(a.towards->or_opposite, b.towards->or_opposite);
 }
 
 inline void ExpectSame(const Cause& a, const Cause& b) {

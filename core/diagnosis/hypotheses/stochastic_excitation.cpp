@@ -142,12 +142,18 @@ ObservedExcitation ObservedExcitationOf(std::span<const Effect* const> library,
   return observed;
 }
 
+SpectralPeak PeakBeside(const Effect& stochastic, const std::vector<ModelledEffect>& effects,
+                        const DiagnosisProblem& problem) {
+  return PeakOver(problem.excitation.nominal, stochastic, problem.runs,
+                  problem.nominal.boat.With(effects));
+}
+
 ObservedExcitation ExcitationBeside(const Effect& stochastic,
                                     const std::vector<ModelledEffect>& effects,
                                     const DiagnosisProblem& problem) {
   const ObservedExcitation& alone = problem.excitation;
   const AugmentedModel boat = problem.nominal.boat.With(effects);
-  const SpectralPeak peak = PeakOver(alone.nominal, stochastic, problem.runs, boat);
+  const SpectralPeak peak = PeakBeside(stochastic, effects, problem);
   // Effects hardly change how the boat answers waves of the same frequency.
   const bool is_known = alone.peak.gain > 0.0 && alone.peak.frequency_rad_s == peak.frequency_rad_s;
   return ExcitationOf(peak, problem.runs.Rows(), [&] {

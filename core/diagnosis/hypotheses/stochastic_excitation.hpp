@@ -25,6 +25,10 @@ ObservedExcitation ExcitationBeside(const Effect& stochastic,
                                     const std::vector<ModelledEffect>& effects,
                                     const DiagnosisProblem& problem);
 
+/// The peak alone.
+SpectralPeak PeakBeside(const Effect& stochastic, const std::vector<ModelledEffect>& effects,
+                        const DiagnosisProblem& problem);
+
 /// An effect whose accelerations are random: free runs cannot predict it, but their errors scatter
 /// more, as observed, docs/concepts/diagnosis.md (90). The errors stay as they are. Errors of
 /// windows grow most by the lowest frequencies of a peak, of which its spectrum shows least: the

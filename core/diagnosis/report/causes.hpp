@@ -9,9 +9,6 @@
 
 namespace telltale {
 
-/// The effects of a fit with their values, standard errors and descriptions.
-std::vector<CausalEffect> CausalEffectsOf(const EffectFit& fit);
-
 /// The causes that a report lists, most probable first: the ranked hypotheses, and the unknown
 /// cause, which has no effects. Effects of the first cause that act together get Shapley shares of
 /// what they explain at the main horizon.

@@ -19,6 +19,12 @@ bool JustStepped(const HeldCommands& commands, double time_s) {
   return std::abs(now.port - then.port) > step || std::abs(now.starboard - then.starboard) > step;
 }
 
+/// Whether no row is missing from the first one to the last.
+bool IsWhole(std::span<const AccelerationResidual> residuals, double sampling_period_s) {
+  const double expected_s = static_cast<double>(residuals.size() - 1) * sampling_period_s;
+  return residuals.back().time_s - residuals.front().time_s < expected_s + 0.5 * sampling_period_s;
+}
+
 }  // namespace
 
 std::vector<AccelerationResidual> AccelerationResidualsOf(const PreparedDataset& dataset,
@@ -47,7 +53,7 @@ std::vector<AccelerationResidual> AccelerationResidualsOf(const PreparedDataset&
                             (predicted.r - row.nu.r) / h};
       const double since_s = row.time_s - frame.start_s;
       residual.time_s = since_s;
-      residual.psi_rad = row.eta.psi_rad;
+      residual.eta = row.eta;
       residual.nu = row.nu;
       residual.delta = row.delta;
       residual.cluster = static_cast<std::size_t>(since_s / kDiagnosis.localisation.cluster_s);
@@ -61,6 +67,19 @@ std::vector<AccelerationResidual> AccelerationResidualsOf(const PreparedDataset&
     }
   }
   return residuals;
+}
+
+std::vector<std::span<const AccelerationResidual>> WholeBlocks(
+    std::span<const AccelerationResidual> residuals, std::size_t rows, double sampling_period_s) {
+  std::vector<std::span<const AccelerationResidual>> blocks;
+  std::size_t first = 0;
+  while (first + rows <= residuals.size()) {
+    const auto block = residuals.subspan(first, rows);
+    const bool is_whole = IsWhole(block, sampling_period_s);
+    if (is_whole) blocks.push_back(block);
+    first += is_whole ? rows : 1;
+  }
+  return blocks;
 }
 
 }  // namespace telltale

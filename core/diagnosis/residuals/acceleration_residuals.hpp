@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstddef>
+#include <span>
 #include <vector>
 
 #include "telltale/core/data/prepared_dataset.hpp"
@@ -14,7 +15,7 @@ struct AccelerationResidual {
   std::array<double, 3> error{};      ///< measured less predicted, m/s^2, m/s^2, rad/s^2
   std::array<double, 3> predicted{};  ///< the model's acceleration, likewise
   double time_s = 0.0;                ///< since the recording began
-  double psi_rad = 0.0;
+  Eta eta;
   Nu nu;
   PropellerCommand delta;
   std::size_t cluster = 0;  ///< residuals of one cluster may be correlated
@@ -29,5 +30,9 @@ struct AccelerationResidual {
 /// of the first. Units: those of AccelerationResidual. docs/concepts/diagnosis.md (93).
 std::vector<AccelerationResidual> AccelerationResidualsOf(const PreparedDataset& dataset,
                                                           const AugmentedModel& augmented);
+
+/// Blocks of so many residuals without a gap, one after the other.
+std::vector<std::span<const AccelerationResidual>> WholeBlocks(
+    std::span<const AccelerationResidual> residuals, std::size_t rows, double sampling_period_s);
 
 }  // namespace telltale

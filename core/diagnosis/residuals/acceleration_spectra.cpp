@@ -106,8 +106,8 @@ double ExpectedAt(std::size_t place, std::size_t count) {
   return expected;
 }
 
-/// The recording with rows that are smoothed less: the filter of its own has a zero amid the
-/// frequencies of waves. As it is where it has no readings.
+}  // namespace
+
 PreparedDataset Sharpened(const PreparedDataset& dataset) {
   if (dataset.signals.empty()) return dataset;
   PreparedDataset sharp = dataset;
@@ -126,14 +126,6 @@ PreparedDataset Sharpened(const PreparedDataset& dataset) {
   }
   return sharp;
 }
-
-/// Whether no row is missing among so many from the first one on.
-bool IsWhole(std::span<const AccelerationResidual> residuals, double period_s) {
-  const double expected_s = static_cast<double>(residuals.size() - 1) * period_s;
-  return residuals.back().time_s - residuals.front().time_s < expected_s + 0.5 * period_s;
-}
-
-}  // namespace
 
 std::array<Eigen::ArrayXd, 3> QuantileSpectrum(
     const std::vector<std::array<Eigen::ArrayXd, 3>>& half_minutes) {
@@ -157,21 +149,15 @@ std::array<Eigen::ArrayXd, 3> QuantileSpectrum(
 
 AccelerationSpectra AccelerationSpectraOf(const PreparedDataset& recording,
                                           const AugmentedModel& boat) {
-  const PreparedDataset dataset = Sharpened(recording);
-  AccelerationSpectra spectra;
-  spectra.frequencies_hz = Frequencies();
-  spectra.power_gains = PowerGains(dataset, spectra.frequencies_hz);
-  const double period_s = dataset.sampling_period_s;
+  const PreparedDataset sharp = Sharpened(recording);
+  AccelerationSpectra spectra{Frequencies(), PowerGains(sharp, Frequencies()), {}};
+  const double period_s = sharp.sampling_period_s;
   const auto rows = static_cast<std::size_t>(std::lround(kPeak.block_s / period_s));
   const Eigen::MatrixXcd harmonics =
       TaperedHarmonics(spectra.frequencies_hz, static_cast<Eigen::Index>(rows), period_s);
-  const std::vector<AccelerationResidual> residuals = AccelerationResidualsOf(dataset, boat);
-  std::size_t first = 0;
-  while (first + rows <= residuals.size()) {
-    const auto half_minute = std::span(residuals).subspan(first, rows);
-    const bool is_whole = IsWhole(half_minute, period_s);
-    if (is_whole) spectra.half_minutes.push_back(Periodograms(half_minute, harmonics));
-    first += is_whole ? rows : 1;
+  const std::vector<AccelerationResidual> residuals = AccelerationResidualsOf(sharp, boat);
+  for (const auto half_minute : WholeBlocks(residuals, rows, period_s)) {
+    spectra.half_minutes.push_back(Periodograms(half_minute, harmonics));
   }
   return spectra;
 }

@@ -21,14 +21,18 @@ struct AccelerationSpectra {
   std::vector<std::array<Eigen::ArrayXd, 3>> half_minutes;
 };
 
+/// The recording with rows that are filtered by kDiagnosis.spectral_peak.smoothing_s: its own
+/// filter has a zero amid the frequencies of waves. As it is where it has no readings.
+PreparedDataset Sharpened(const PreparedDataset& dataset);
+
 /// Of every axis the power that kDiagnosis.spectral_peak.quantile of the half minutes stay below,
 /// over what that quantile of so many exponential variables is to their mean: what comes in fewer
 /// half minutes than the others leaves no trace. Zero where there is no half minute.
 std::array<Eigen::ArrayXd, 3> QuantileSpectrum(
     const std::vector<std::array<Eigen::ArrayXd, 3>>& half_minutes);
 
-/// Of every whole half minute of each segment, at the multiples of its inverse up to 1 Hz. Rows are
-/// filtered anew, by kDiagnosis.spectral_peak.smoothing_s.
+/// Of every whole half minute of each segment of the sharpened recording, at the multiples of its
+/// inverse up to 1 Hz.
 AccelerationSpectra AccelerationSpectraOf(const PreparedDataset& recording,
                                           const AugmentedModel& boat);
 

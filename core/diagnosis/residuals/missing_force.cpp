@@ -52,7 +52,7 @@ double ValueOf(ForceVariable variable, const AccelerationResidual& residual) {
     case ForceVariable::kMeanCommand: return 0.5 * (residual.delta.port + residual.delta.starboard);
     case ForceVariable::kCommandDifference: return residual.delta.port - residual.delta.starboard;
     case ForceVariable::kHeading: {
-      const double degrees = std::fmod(residual.psi_rad / kDegree, 360.0);
+      const double degrees = std::fmod(residual.eta.psi_rad / kDegree, 360.0);
       return degrees < 0.0 ? degrees + 360.0 : degrees;
     }
     case ForceVariable::kTime: return residual.time_s;

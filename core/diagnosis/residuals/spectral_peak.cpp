@@ -179,6 +179,8 @@ void EstimateAmplitudes(const SeenSpectra& spectra, SpectralPeak& peak) {
     const double information = broad.observations * (shape / with.spectrum).square().sum();
     peak.squared_amplitudes[axis] = 2.0 * with.weights.tail(1)[0];
     peak.standard_errors[axis] = 2.0 / std::sqrt(information);
+    peak.power_beside[static_cast<std::size_t>(axis)] =
+        (slow * with.weights.head(kSlowShapes)).array();
   }
 }
 
@@ -204,6 +206,8 @@ SpectralPeak LikeliestPeak(const AccelerationSpectra& recording,
     }
   }
   if (likeliest.gain == 0.0) return likeliest;
+  likeliest.frequencies_hz = spectra.frequencies_hz;
+  likeliest.power_gains = spectra.power_gains;
   EstimateAmplitudes(spectra, likeliest);
   // The standard deviation of a uniform law over a step of the grid.
   likeliest.frequency_standard_error_rad_s = likeliest.frequency_rad_s * step / std::sqrt(12.0);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include <Eigen/Core>
@@ -20,6 +21,11 @@ struct SpectralPeak {
   /// 2 ln of how much likelier the spectra are with the peak than without one, less what chance
   /// makes of so many peaks; zero where there is none.
   double gain = 0.0;
+  /// Where the filter of the rows leaves enough of an acceleration, what it leaves of the power,
+  /// and what each axis has beside the peak. Empty where there is none.
+  Eigen::ArrayXd frequencies_hz;
+  Eigen::ArrayXd power_gains;
+  std::array<Eigen::ArrayXd, 3> power_beside;
 };
 
 /// The likeliest peak within [lowest_rad_s, highest_rad_s], by Whittle's likelihood of the

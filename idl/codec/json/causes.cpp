@@ -1,7 +1,9 @@
 #include "telltale/idl/codec/json/causes.hpp"
 
+#include <optional>
 #include <string>
 
+#include "telltale/core/base/degrees.hpp"
 #include "telltale/idl/codec/json/gap.hpp"
 
 namespace telltale {
@@ -23,6 +25,34 @@ void Write(const CausalEffect& effect, proto::Cause& message) {
   part.set_effect(effect.effect);
   part.set_sentence(effect.sentence);
   part.set_shapley_share(effect.shapley_share);
+  if (effect.size) {
+    proto::Cause::Part::Size& size = *part.mutable_size();
+    size.set_name(effect.size->name);
+    size.set_estimate(effect.size->estimate);
+    size.set_standard_error(effect.size->standard_error);
+    size.set_unit(effect.size->unit);
+  }
+  if (effect.towards) {
+    proto::Cause::Part::Direction& direction = *part.mutable_direction();
+    direction.set_towards_deg(effect.towards->centre_rad * kDegreesPerRadian);
+    direction.set_half_width_deg(effect.towards->half_width_rad * kDegreesPerRadian);
+    direction.set_or_opposite(effect.towards->or_opposite);
+  }
+}
+
+std::optional<ParameterEstimate> ReadSize(FieldReader part) {
+  if (!part.Has("size")) return std::nullopt;
+  FieldReader size = part.Required("size");
+  return ParameterEstimate{size.Text("name"), size.Number("estimate", kNotNan),
+                           size.Number("standard_error", kNotNegative), size.Text("unit")};
+}
+
+std::optional<CircularInterval> ReadDirection(FieldReader part, const proto::Cause::Part& message) {
+  if (!part.Has("direction")) return std::nullopt;
+  FieldReader direction = part.Required("direction");
+  return CircularInterval{direction.Number("towards_deg", {0.0, 360.0}) * kRadiansPerDegree,
+                          direction.Number("half_width_deg", {0.0, 180.0}) * kRadiansPerDegree,
+                          message.direction().or_opposite()};
 }
 
 void ReadPart(FieldReader reader, const proto::Cause::Part& message, Cause& cause) {
@@ -30,6 +60,8 @@ void ReadPart(FieldReader reader, const proto::Cause::Part& message, Cause& caus
     if (effect.effect != message.effect()) continue;
     effect.sentence = message.sentence();
     effect.shapley_share = reader.Number("shapley_share", kNotNan);
+    effect.size = ReadSize(reader);
+    effect.towards = ReadDirection(reader, message);
     return;
   }
   reader.Fail("effect", message.effect(), "an effect of this cause");

@@ -17,7 +17,8 @@ Cause Named(const EffectSet& effects, double probability, const EffectSet& like 
   return {.effects = effects,
           .probability = probability,
           .indistinguishable = like,
-          .indistinguishable_sets = {}};
+          .indistinguishable_sets = {},
+          .directions = {}};
 }
 
 Scored Answer(const std::string& kind, const EffectSet& truth, const std::string& verdict,
@@ -236,6 +237,53 @@ TEST(ParseReport, ReadsWhatTheInterfacesShow) {
   EXPECT_EQ(report.detectability.at("wind"), 0.0);
   EXPECT_TRUE(std::isinf(report.detectability.at("current")));
   EXPECT_EQ(report.closure, 0.81);
+}
+
+TEST(ParseReport, ReadsTheDirectionsOfWeather) {
+  const Report report = ParseReport(R"({"verdict": "EXPLAINED", "causes": [
+    {"effects": ["current", "waves", "payload"], "probability": 0.9, "parts": [
+      {"effect": "current", "direction": {"halfWidthDeg": 12}},
+      {"effect": "waves", "direction": {"towardsDeg": 300, "halfWidthDeg": 20, "orOpposite": true}},
+      {"effect": "payload"}]}]})");
+  const auto& directions = report.causes.front().directions;
+  ASSERT_EQ(directions.size(), 2U);
+  EXPECT_EQ(directions.at("current").towards_deg, 0.0);
+  EXPECT_EQ(directions.at("waves").half_width_deg, 20.0);
+  EXPECT_TRUE(directions.at("waves").or_opposite);
+}
+
+TEST(ParseLabel, ReadsWhereWeatherRunsTo) {
+  const Label label = ParseLabel(R"({"kind": "single",
+    "effects": [{"effect": "payload", "parameters": [{"name": "mass", "value": 7}]}],
+    "weather": [{"effect": "waves", "parameters": [{"name": "towards", "value": 123.5}]}]})");
+  EXPECT_THAT(label.towards_deg, ::testing::ElementsAre(::testing::Pair("waves", 123.5)));
+}
+
+TEST(Holds, GoesRoundNorthAndToTheOppositeSide) {
+  EXPECT_TRUE(Holds({355.0, 10.0, false}, 4.0));
+  EXPECT_FALSE(Holds({355.0, 10.0, false}, 6.0));
+  EXPECT_FALSE(Holds({355.0, 10.0, false}, 176.0));
+  EXPECT_TRUE(Holds({355.0, 10.0, true}, 176.0));
+}
+
+TEST(Figures, CountDirectionsThatAreToldAndThoseThatHold) {
+  const auto in_waves = [](const Direction& direction) {
+    Cause cause = Named({"waves"}, 0.95);
+    cause.directions = {{"waves", direction}, {"current", {0.0, 5.0, false}}};
+    Scored scored = Answer("nominal", {}, "EXPLAINED", {cause});
+    scored.label.weather = {"waves"};
+    scored.label.towards_deg = {{"waves", 90.0}};
+    return scored;
+  };
+  const Figures figures = FiguresOf({in_waves({85.0, 10.0, false}), in_waves({60.0, 20.0, false}),
+                                     in_waves({85.0, 90.0, false})});
+  ASSERT_EQ(figures.directions.size(), 1U);  // there is no current whose direction is known
+  const DirectionFigures& waves = figures.directions.at("waves");
+  EXPECT_EQ(waves.told.hits, 2U);
+  EXPECT_EQ(waves.told.all, 3U);
+  EXPECT_EQ(waves.held.hits, 1U);
+  EXPECT_EQ(waves.held.all, 2U);
+  EXPECT_THAT(waves.half_widths_deg, ::testing::ElementsAre(10.0, 20.0));
 }
 
 TEST(ParseReport, NamesWhatIsWrong) {

@@ -21,7 +21,8 @@ Cause Named(const EffectSet& effects, double probability) {
   return {.effects = effects,
           .probability = probability,
           .indistinguishable = {},
-          .indistinguishable_sets = {}};
+          .indistinguishable_sets = {},
+          .directions = {}};
 }
 
 Scored Case(const std::string& kind, const EffectSet& truth, const std::vector<Cause>& causes) {

@@ -120,6 +120,21 @@ void CountLeftOut(Figures& figures, const Scored& scored) {
   figures.indistinguishable_named.Count(neighbour);
 }
 
+void CountDirections(Figures& figures, const Scored& scored) {
+  const Cause* first = FirstCause(scored.report);
+  if (!first) return;
+  for (const auto& [weather, interval] : first->directions) {
+    const auto truth = scored.label.towards_deg.find(weather);
+    if (truth == scored.label.towards_deg.end()) continue;
+    DirectionFigures& own = figures.directions[weather];
+    const bool told = interval.half_width_deg < 90.0;
+    own.told.Count(told);
+    if (!told) continue;
+    own.held.Count(Holds(interval, truth->second));
+    own.half_widths_deg.push_back(interval.half_width_deg);
+  }
+}
+
 void CountByEffect(Figures& figures, const Scored& scored) {
   const bool nominal = scored.label.kind == "nominal";
   const std::string name = nominal ? "nominal" : Joined(scored.label.effects);
@@ -195,6 +210,13 @@ bool IsConfusable(const Cause& cause, const EffectSet& truth) {
   });
 }
 
+bool Holds(const Direction& interval, double direction_deg) {
+  const double distance = std::remainder(interval.towards_deg - direction_deg, 360.0);
+  const double opposite = std::remainder(distance + 180.0, 360.0);
+  return std::abs(distance) <= interval.half_width_deg ||
+         (interval.or_opposite && std::abs(opposite) <= interval.half_width_deg);
+}
+
 bool IsUnknown(const Cause& cause) {
   return cause.effects.contains(std::string(kUnknown));
 }
@@ -215,6 +237,7 @@ Figures FiguresOf(const std::vector<Scored>& cases) {
     CountLeftOut(figures, scored);
     if (kind == "pair") CountPair(figures, scored);
     if (kind == "outside") CountOutside(figures, scored);
+    CountDirections(figures, scored);
     CountByEffect(figures, scored);
 
     const Report& report = scored.report;

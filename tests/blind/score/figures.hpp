@@ -69,6 +69,9 @@ bool IsWeatherThatIsThere(const Cause* cause, const Label& label);
 /// Whether any effect of the cause is known to look like any of the true ones.
 bool IsConfusable(const Cause& cause, const EffectSet& truth);
 
+/// Whether the interval holds that direction.
+bool Holds(const Direction& interval, double direction_deg);
+
 bool IsUnknown(const Cause& cause);
 
 /// How many single effects the first cause stands for.
@@ -88,6 +91,13 @@ struct EffectFigures {
   std::map<std::string, std::size_t> called;  // the row of the confusion table
 };
 
+/// Of one kind of weather where the first cause names it.
+struct DirectionFigures {
+  Rate told;                            // its interval is no half circle
+  Rate held;                            // of these: it holds the true direction
+  std::vector<double> half_widths_deg;  // of these
+};
+
 inline constexpr double kDetectable = 10.0;
 
 struct Figures {
@@ -104,11 +114,12 @@ struct Figures {
   Rate unrelated_named;          // of all that too, by nothing that is known to look like it either
   Rate absent_named;             // of these, by more than the weather that is there
   Rate indistinguishable_named;  // likewise, by one that the report with it cannot tell it from
-  std::vector<Forecast> forecasts;               // of each first cause there was
-  std::vector<double> closures;                  // predicted, where a class was hit
-  std::vector<double> closure_errors;            // |predicted - realised|, where realised is known
-  std::vector<double> named_closure_errors;      // of them where the verdict names a cause outright
-  std::map<std::string, EffectFigures> effects;  // by true effects, "nominal" among them
+  std::vector<Forecast> forecasts;           // of each first cause there was
+  std::vector<double> closures;              // predicted, where a class was hit
+  std::vector<double> closure_errors;        // |predicted - realised|, where realised is known
+  std::vector<double> named_closure_errors;  // of them where the verdict names a cause outright
+  std::map<std::string, DirectionFigures> directions;  // by weather
+  std::map<std::string, EffectFigures> effects;        // by true effects, "nominal" among them
 };
 
 Figures FiguresOf(const std::vector<Scored>& cases);

@@ -63,12 +63,26 @@ EffectSet Names(const Json& list) {
   return names;
 }
 
+std::map<std::string, Direction> ParseDirections(const Json& cause) {
+  std::map<std::string, Direction> directions;
+  for (const Json& part : ListAt(cause, "parts")) {
+    const Json& direction = Member(part, "direction");
+    if (direction.is_null()) continue;
+    directions[TextAt(part, "effect")] = {
+        .towards_deg = NumberAt(direction, "towardsDeg").value_or(0.0),
+        .half_width_deg = NumberAt(direction, "halfWidthDeg").value_or(0.0),
+        .or_opposite = Member(direction, "orOpposite") == true};
+  }
+  return directions;
+}
+
 Cause ParseCause(const Json& json) {
   RequireObject(json);
   Cause cause{.effects = Names(ListAt(json, "effects")),
               .probability = NumberAt(json, "probability").value_or(0.0),
               .indistinguishable = {},
-              .indistinguishable_sets = {}};
+              .indistinguishable_sets = {},
+              .directions = ParseDirections(json)};
   if (cause.effects.empty()) throw std::invalid_argument("a cause names no effect");
   if (cause.probability < 0.0 || cause.probability > 1.0) {
     throw std::invalid_argument("a cause's probability is outside [0, 1]");
@@ -92,7 +106,19 @@ Label ParseLabel(const std::string& text) {
     for (const Json& effect : ListAt(json, list)) effects.insert(TextAt(effect, "effect"));
     return effects;
   };
-  return {.kind = TextAt(json, "kind"), .effects = named("effects"), .weather = named("weather")};
+  Label label{.kind = TextAt(json, "kind"),
+              .effects = named("effects"),
+              .weather = named("weather"),
+              .towards_deg = {}};
+  for (const char* list : {"effects", "weather"}) {
+    for (const Json& effect : ListAt(json, list)) {
+      for (const Json& parameter : ListAt(effect, "parameters")) {
+        if (TextAt(parameter, "name") != "towards") continue;
+        label.towards_deg[TextAt(effect, "effect")] = NumberAt(parameter, "value").value_or(0.0);
+      }
+    }
+  }
+  return label;
 }
 
 Report ParseReport(const std::string& text) {

@@ -18,14 +18,23 @@ inline constexpr std::string_view kUnknown = "unknown";
 struct Label {
   std::string kind;  // nominal, single, pair or outside (the library)
   EffectSet effects;
-  EffectSet weather = {};  // there besides: may be named, and need not
+  EffectSet weather = {};                          // there besides: may be named, and need not
+  std::map<std::string, double> towards_deg = {};  // where of these what has a direction runs to
+};
+
+/// A 95 % interval of directions, degrees clockwise from north.
+struct Direction {
+  double towards_deg = 0.0;
+  double half_width_deg = 180.0;
+  bool or_opposite = false;
 };
 
 struct Cause {
   EffectSet effects;
   double probability = 0.0;
-  EffectSet indistinguishable;                 // single effects
-  std::set<EffectSet> indistinguishable_sets;  // whole sets, where a report gives such
+  EffectSet indistinguishable;                       // single effects
+  std::set<EffectSet> indistinguishable_sets;        // whole sets, where a report gives such
+  std::map<std::string, Direction> directions = {};  // by effect
 };
 
 /// What a report.json says, as far as it is scored.

@@ -97,6 +97,19 @@ std::vector<Row> Rows() {
   };
 }
 
+std::string DirectionTable(const Method& method) {
+  if (method.figures.directions.empty()) return "";
+  std::string text = "\n### " + method.name +
+                     ", directions of weather that the first cause names\n"
+                     "| weather | told | held by its 95 % interval | median half-width, degrees |\n"
+                     "|---|---|---|---|\n";
+  for (const auto& [weather, direction] : method.figures.directions) {
+    text += "| " + weather + " | " + InWords(direction.told) + " | " + InWords(direction.held) +
+            " | " + Formatted("%.0f", Median(direction.half_widths_deg)) + " |\n";
+  }
+  return text;
+}
+
 std::string CalledAs(const EffectFigures& effect) {
   using Entry = std::pair<std::string, std::size_t>;
   std::vector<Entry> entries(effect.called.begin(), effect.called.end());
@@ -137,7 +150,7 @@ std::string Markdown(const std::vector<Method>& methods, std::size_t cases) {
     }
     text += '\n';
   }
-  for (const Method& method : methods) text += EffectTable(method);
+  for (const Method& method : methods) text += DirectionTable(method) + EffectTable(method);
   return text;
 }
 

@@ -1,6 +1,7 @@
 #include "telltale/core/diagnosis/diagnose.hpp"
 
 #include <cmath>
+#include <numbers>
 #include <string_view>
 
 #include <gmock/gmock.h>
@@ -127,6 +128,10 @@ TEST(Diagnose, NamesWavesByTheirFrequency) {
   EXPECT_EQ(cause.effects[0].effect, "waves");
   // The grid of frequencies is 20 % wide.
   EXPECT_NEAR(cause.effects[0].parameters[3].estimate, Swell::kFrequency, 0.5);
+  // Windows scatter by up to 2.8 times what the spectrum says.
+  ASSERT_TRUE(cause.effects[0].size.has_value());
+  EXPECT_NEAR(cause.effects[0].size->estimate, 0.2 * std::numbers::sqrt2, 0.25);
+  EXPECT_TRUE(cause.effects[0].towards.has_value());
 }
 
 /// The same in trains of 35 s, as ships pass every two minutes, and calm between.
@@ -178,6 +183,11 @@ TEST(Diagnose, NamesWindInGusts) {
   EXPECT_NEAR(parameters[1].estimate, Gusts::kSpeed, 4.0 * parameters[1].standard_error);
   // A drag that is known to 30 % leaves the speed uncertain by half of that.
   EXPECT_GT(parameters[1].standard_error, 0.1 * Gusts::kSpeed);
+  const CausalEffect& wind = cause.effects[0];
+  ASSERT_TRUE(wind.size.has_value() && wind.towards.has_value());
+  EXPECT_NEAR(wind.size->estimate, Gusts::kSpeed, 4.0 * wind.size->standard_error);
+  EXPECT_NEAR(wind.towards->centre_rad, std::numbers::pi / 2.0, 2.0 * wind.towards->half_width_rad);
+  EXPECT_LT(wind.towards->half_width_rad, std::numbers::pi / 4.0);
 }
 
 TEST(Diagnose, SaysWhatADiagnosisWithoutEachReferenceWouldSay) {
