@@ -1,4 +1,4 @@
-#include <algorithm>
+#include <cmath>
 #include <numbers>
 
 #include "telltale/core/effects/effect_instance.hpp"
@@ -26,7 +26,7 @@ class WavesEffect final : public Effect {
              .length_name = "amplitude"}) {}
 
   std::string Describe(EffectValues values) const override {
-    const double amplitude = std::max(values[0], values[1]);
+    const double amplitude = std::hypot(values[0], values[1]);
     return "waves of " + FormatNumber(amplitude, 2) + " m/s^2 met every " +
            FormatNumber(2.0 * std::numbers::pi / values[3], 1) + " s";
   }
