@@ -7,7 +7,8 @@ if grep -qx 'TELLTALE_PAGE:BOOL=OFF' "$built/CMakeCache.txt"; then
   echo "page_test: skipped, built without the page"
   exit 77
 fi
+browser=$(command -v chromium || command -v chromium-browser || command -v google-chrome || true)
 modules=$built/tests/page
-"$root/tests/deploy/from_npm" "$root/tests/web" "$modules" chromium
+"$root/tests/deploy/from_npm" "$root/tests/web" "$modules" "${browser:-chromium}"
 mkdir -p "$modules/pictures"
-exec python3 "$root/tests/web/page_test.py" "$modules" "$modules/pictures" "$(command -v chromium)"
+exec python3 "$root/tests/web/page_test.py" "$modules" "$modules/pictures" "$browser"
