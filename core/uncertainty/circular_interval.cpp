@@ -4,14 +4,16 @@
 #include <cmath>
 #include <numbers>
 
+#include "telltale/core/base/degrees.hpp"
+#include "telltale/core/uncertainty/distributions.hpp"
+
 namespace telltale {
 namespace {
 
 using std::numbers::pi;
 
 double Wrapped(double angle_rad) {
-  const double turns = std::floor(angle_rad / (2.0 * pi));
-  return angle_rad - 2.0 * pi * turns;
+  return Wrap360(angle_rad * kDegreesPerRadian) * kRadiansPerDegree;
 }
 
 /// So many neighbours in a ring, from the first of them on.
@@ -64,12 +66,13 @@ CircularInterval ShortestArc(const Eigen::ArrayXd& probabilities, double level) 
 }
 
 CircularInterval DirectionOf(const Eigen::Vector2d& vector, const Eigen::Matrix2d& covariance,
-                             double z) {
+                             double level) {
   const double size = vector.norm();
   if (size == 0.0) return {0.0, pi, false};
   const Eigen::Vector2d across = Eigen::Vector2d(-vector[1], vector[0]) / size;
   const double standard_error = std::sqrt(std::max(across.dot(covariance * across), 0.0)) / size;
-  return {Wrapped(std::atan2(vector[1], vector[0])), std::min(z * standard_error, pi), false};
+  const double half_width = NormalQuantile(0.5 * (1.0 + level)) * standard_error;
+  return {Wrapped(std::atan2(vector[1], vector[0])), std::min(half_width, pi), false};
 }
 
 }  // namespace telltale

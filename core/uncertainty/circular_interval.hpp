@@ -18,9 +18,9 @@ struct CircularInterval {
 /// number of them; none negative; their sum is 1; a level in (0, 1).
 CircularInterval ShortestArc(const Eigen::ArrayXd& probabilities, double level);
 
-/// The direction of a vector north and east that is known to `covariance`, by the delta method:
-/// z, the normal quantile of the level, standard errors on either side.
+/// The direction of a vector north and east that is known to `covariance`, by the delta method.
+/// Requires: a level in (0, 1).
 CircularInterval DirectionOf(const Eigen::Vector2d& vector, const Eigen::Matrix2d& covariance,
-                             double z);
+                             double level);
 
 }  // namespace telltale

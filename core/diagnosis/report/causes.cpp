@@ -10,7 +10,6 @@
 #include "telltale/core/diagnosis/hypotheses/stochastic_excitation.hpp"
 #include "telltale/core/diagnosis/residuals/wave_direction.hpp"
 #include "telltale/core/effects/wording.hpp"
-#include "telltale/core/uncertainty/distributions.hpp"
 
 namespace telltale {
 namespace {
@@ -78,9 +77,9 @@ CausalEffect CausalEffectOf(const ModelledEffect& modelled, const Eigen::MatrixX
   const Eigen::Vector2d first(values[0], values[1]);
   const Eigen::Matrix2d of_first = covariance.topLeftCorner<2, 2>();
   causal.size = LengthOf(effect->Facts(), first, of_first);
-  if (effect->Facts().is_north_east)
-    causal.towards =
-        DirectionOf(first, of_first, NormalQuantile(0.5 * (1.0 + kDiagnosis.gap.level)));
+  if (effect->Facts().is_north_east) {
+    causal.towards = DirectionOf(first, of_first, kDiagnosis.gap.level);
+  }
   return causal;
 }
 

@@ -8,10 +8,10 @@
 #include <vector>
 
 #include <Eigen/Cholesky>
-#include <boost/math/distributions/normal.hpp>
 
 #include "telltale/core/base/random.hpp"
 #include "telltale/core/diagnosis/diagnosis_constants.hpp"
+#include "telltale/core/uncertainty/distributions.hpp"
 
 namespace telltale {
 namespace {
@@ -72,11 +72,11 @@ Eigen::MatrixXd WhiteningBeside(const SpectralPeak& peak, std::size_t axis, Eige
 
 /// Frequencies that share the power of the widest peak about that of `peak` evenly, rad/s.
 std::array<double, kDirection.frequencies> FrequenciesOf(const SpectralPeak& peak) {
-  const boost::math::normal log_ratio(0.0, kDiagnosis.spectral_peak.log_widths.back());
+  const double log_width = kDiagnosis.spectral_peak.log_widths.back();
   std::array<double, kDirection.frequencies> frequencies{};
   for (std::size_t i = 0; i < frequencies.size(); ++i) {
     const double share = (static_cast<double>(i) + 0.5) / static_cast<double>(frequencies.size());
-    frequencies[i] = peak.frequency_rad_s * std::exp(boost::math::quantile(log_ratio, share));
+    frequencies[i] = peak.frequency_rad_s * std::exp(log_width * NormalQuantile(share));
   }
   return frequencies;
 }

@@ -73,7 +73,7 @@ TEST(DirectionOf, HoldsTheTruthAsOftenAsItSays) {
   constexpr int kDraws = 2000;
   for (int i = 0; i < kDraws; ++i) {
     const Eigen::Vector2d noise(normal(engine), normal(engine));
-    const CircularInterval towards = DirectionOf(truth + root * noise, covariance, 1.96);
+    const CircularInterval towards = DirectionOf(truth + root * noise, covariance, 0.95);
     if (Distance(towards.centre_rad, std::atan2(4.0, -3.0)) < towards.half_width_rad) ++held;
   }
   // Four standard errors of so many draws are 2 %.
@@ -81,7 +81,7 @@ TEST(DirectionOf, HoldsTheTruthAsOftenAsItSays) {
 }
 
 TEST(DirectionOf, IsAnyDirectionOfNoVector) {
-  EXPECT_EQ(DirectionOf(Eigen::Vector2d::Zero(), Eigen::Matrix2d::Identity(), 1.96).half_width_rad,
+  EXPECT_EQ(DirectionOf(Eigen::Vector2d::Zero(), Eigen::Matrix2d::Identity(), 0.95).half_width_rad,
             kPi);
 }
 
