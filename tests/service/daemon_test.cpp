@@ -9,6 +9,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "service/repeated_request.hpp"
 #include "service/service_fixture.hpp"
 #include "support/special_values.hpp"
 #include "support/stable_boat.hpp"
@@ -378,19 +379,17 @@ TEST_F(Daemon, AnswersARequestItCannotRead) {
   const Participant participant(domain_.id());
   Writer<telltale_wire_IdentifyRequest> requests(participant);
   Reader<telltale_wire_IdentifyReply> replies(participant);
-  ASSERT_TRUE(WaitForMatch(participant, {requests, replies}, 60s));
   IdentifyRequest wrong = Request("unreadable");
   wrong.dead_zone_source = DeadZoneSource::kGiven;
   auto wire = Encode(wrong);
   wire->dead_zone_forward = 7.0;
-  requests.Write(wire);
   std::string message;
   WaitSet wait_set(participant);
   wait_set.Attach(replies, [&] {
     replies.Take(
         [&](const telltale_wire_IdentifyReply& reply) { message = Decode(reply)->message; });
   });
-  for (int patience = 0; patience < 60 && message.empty(); ++patience) wait_set.Wait(1s);
+  WriteUntil(requests, wire, wait_set, [&] { return !message.empty(); });
   EXPECT_THAT(message, HasSubstr("dead_zone"));
 }
 

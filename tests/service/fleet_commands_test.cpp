@@ -6,8 +6,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "service/repeated_request.hpp"
 #include "service/service_fixture.hpp"
 #include "support/stable_boat.hpp"
+#include "telltale/client/bus/reader.hpp"
+#include "telltale/client/bus/wait_set.hpp"
+#include "telltale/client/bus/writer.hpp"
 #include "telltale/client/fleet/fleet_client.hpp"
 #include "telltale/client/recording/file_contents.hpp"
 #include "telltale/core/paper/yellowfish.hpp"
@@ -155,12 +159,11 @@ TEST_F(FleetCommands, CancelARequest) {
   const auto daemon = StartDaemon(3);
   Replay(SimulatedRecording(testing::StableBoat(), 0.0, 300.0, 4));
   const Participant participant(domain_.id());
-  Writer<telltale_wire_IdentifyRequest> requests(participant);
   Reader<telltale_wire_IdentifyReply> replies(participant);
-  ASSERT_TRUE(WaitForMatch(participant, {requests, replies}, 60s));
   IdentifyRequest long_one = Request("minutes");
   long_one.coverage_check_replicates = 1000;
-  requests.Write(Encode(long_one));
+  Writer<telltale_wire_IdentifyRequest> requests(participant);
+  AskUntilReported(participant, requests, long_one);
   // While it goes on, another is answered.
   IdentificationClient client(participant);
   EXPECT_EQ(client.Identify(Request("plain"), {.match = 60s, .reply = 60s, .retry = 1s}).outcome,

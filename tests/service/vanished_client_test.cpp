@@ -8,6 +8,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "service/repeated_request.hpp"
 #include "service/service_fixture.hpp"
 #include "support/stable_boat.hpp"
 #include "telltale/client/bus/reader.hpp"
@@ -62,14 +63,11 @@ class VanishedClient : public ServiceTest {
   void AskAndLeave(const std::string& correlation_id) {
     const Participant participant(domain_.id());
     Writer<telltale_wire_IdentifyRequest> requests(participant);
-    ASSERT_TRUE(WaitForMatch(participant, {requests}, 60s));
     IdentifyRequest request = Request(correlation_id);
     request.seed = 99;
     request.coverage_check_replicates = 1000;
     known_.insert(correlation_id);
-    requests.Write(Encode(request));
-    AwaitProgress(
-        [&](const IdentifyProgress& report) { return report.correlation_id == correlation_id; });
+    AskUntilReported(participant, requests, request);
   }
 
   void AwaitBegun(const std::string& correlation_id) {
@@ -114,11 +112,10 @@ TEST_F(VanishedClient, IsWorkedForNoMoreUnlessAnotherWaitsOrItComesBack) {
   const Client waits = AskForMinutes(2);
   const Client shares = AskForMinutes(3);
   const Client stays = AskForMinutes(3);
-  ASSERT_NO_FATAL_FAILURE(AskAndLeave("comes-back"));
+  AskAndLeave("comes-back");
   const Participant again(domain_.id());
   Writer<telltale_wire_IdentifyRequest> requests(again);
-  ASSERT_TRUE(WaitForMatch(again, {requests}, 60s));
-  requests.Write(Encode(Request("comes-back")));
+  AskUntilReported(again, requests, Request("comes-back"));
 
   for (const Client* client : {&runs, &waits, &shares}) client->process->Signal(SIGKILL);
   for (const Client* client : {&runs, &waits, &shares}) {
