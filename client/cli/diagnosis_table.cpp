@@ -112,7 +112,11 @@ std::string TestabilityTable(const Diagnosis& diagnosis) {
     table.AddRow({effect.effect, Fixed(effect.detectability, 1), TestabilityText(effect)});
     if (!effect.detectable_sizes.empty()) sizes.AddRow({effect.effect, DetectableText(effect)});
   }
-  return '\n' + table.Render() + '\n' + sizes.Render();
+  return Wrapped(
+             "By how many standard errors an effect would show beside the model's coefficients" +
+                 BesideWeatherText(diagnosis) + ":",
+             "") +
+         table.Render() + '\n' + sizes.Render();
 }
 
 std::string ReferencesTable(const Diagnosis& diagnosis) {

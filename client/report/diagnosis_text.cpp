@@ -163,6 +163,14 @@ std::string DetectableText(const EffectTestability& effect) {
   return text;
 }
 
+std::string BesideWeatherText(const Diagnosis& diagnosis) {
+  std::string names;
+  for (const std::string& name : diagnosis.present_weather) {
+    names.append(names.empty() ? " and the " : " and ").append(name);
+  }
+  return names.empty() ? "" : names + " of this recording";
+}
+
 std::string_view DelayedChannelText(DelayedChannel channel) {
   switch (channel) {
     case DelayedChannel::kUnknown: return "";

@@ -44,6 +44,10 @@ std::string TestabilityText(const EffectTestability& effect);
 /// "port_loss 0.31", "forward 0.8 m, starboard beyond range"; empty where nothing is stated.
 std::string DetectableText(const EffectTestability& effect);
 
+/// " and the wind and waves of this recording", beside which effects would have to show; empty in
+/// calm.
+std::string BesideWeatherText(const Diagnosis& diagnosis);
+
 /// "commands", "positions".
 std::string_view DelayedChannelText(DelayedChannel channel);
 

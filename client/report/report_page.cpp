@@ -202,8 +202,9 @@ Markup TestabilityTable(const Diagnosis& diagnosis) {
 Markup TestabilitySection(const Diagnosis& diagnosis) {
   return Section("What this recording could show",
                  "By how many standard errors an effect of typical size would stand out beside the "
-                 "model's own coefficients, and below its name from which size on it would show in "
-                 "90 % of cases.",
+                 "model's own coefficients" +
+                     BesideWeatherText(diagnosis) +
+                     ", and below its name from which size on it would show in 90 % of cases.",
                  TestabilityTable(diagnosis));
 }
 

@@ -162,7 +162,7 @@ struct EffectTestability {
   std::string effect;
   Testability testability = Testability::kUnknown;
   double detectability = 0.0;  ///< sigmas that its typical size would show
-  std::string masked_by;       ///< coefficient, "YAW uv"; empty unless masked
+  std::string masked_by;       ///< coefficient, "YAW uv", or weather; empty unless masked
   /// By parameter; none for a stochastic effect.
   std::vector<DetectableSize> detectable_sizes = {};
 };
@@ -266,7 +266,9 @@ struct Diagnosis {
   std::vector<OddsTerm> unknown_odds;      ///< of the unknown cause; none without causes
   std::vector<DelayDifference> delays;     ///< none of a free form, which estimates none
   std::vector<EffectTestability> effects;  ///< in the order of the library
-  std::vector<SeparationAdvice> advice;    ///< best first
+  /// The weather beside which they would have to show; none where the recording shows none.
+  std::vector<std::string> present_weather;
+  std::vector<SeparationAdvice> advice;  ///< best first
   /// What each reference does to the answer, in their order; none where it was not asked for.
   std::vector<ReferenceInfluence> reference_influence;
   /// The gap at five seconds that 99 % of nominal days stay below, docs/concepts/diagnosis.md

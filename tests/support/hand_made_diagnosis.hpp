@@ -17,7 +17,8 @@ namespace telltale::testing {
 class InertEffect final : public Effect {
  public:
   InertEffect(std::string_view name, std::vector<EffectParameter> parameters,
-              double turbulence_intensity = 0.0, std::vector<double> intermittent_sds = {})
+              double turbulence_intensity = 0.0, std::vector<double> intermittent_sds = {},
+              bool is_weather = false)
       : Effect({.name = name,
                 .title = name,
                 .equation = "",
@@ -27,7 +28,8 @@ class InertEffect final : public Effect {
                 .hook = Hook::kNone,
                 .nominal_variation = NominalVariation::kFixedEffect,
                 .turbulence_intensity = turbulence_intensity,
-                .intermittent_sds = std::move(intermittent_sds)}) {}
+                .intermittent_sds = std::move(intermittent_sds),
+                .is_weather = is_weather}) {}
   std::string Describe(EffectValues) const override { return std::string(Name()); }
 };
 

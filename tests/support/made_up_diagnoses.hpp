@@ -113,6 +113,7 @@ inline Diagnosis MadeUpDiagnosis() {
                        {"predictable", 0.125, 0.4375}, {"drift", 0.0, 0.0}};
   made.delays = {{DelayedChannel::kCommands, -0.0625, 0.125, 2.5, 0.75},
                  {DelayedChannel::kFixes, 0.375, 0.0625, -16.5, std::nullopt}};
+  made.present_weather = {"wind"};
   made.effects = {{"wind", Testability::kTestable, 12.5, ""},
                   {"thruster_imbalance",
                    Testability::kTestable,
@@ -370,6 +371,7 @@ inline void ExpectSame(const Diagnosis& a, const Diagnosis& b) {
   ExpectSame(a.advice, b.advice);
   ExpectSame(a.reference_influence, b.reference_influence);
   EXPECT_EQ(a.nominal_days_limit, b.nominal_days_limit);
+  EXPECT_EQ(a.present_weather, b.present_weather);
   ASSERT_EQ(a.onset.has_value(), b.onset.has_value());
   if (a.onset) {
     EXPECT_EQ(a.onset->time_s, b.onset->time_s);

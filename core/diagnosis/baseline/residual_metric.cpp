@@ -177,6 +177,15 @@ ResidualMetric ResidualMetric::WithWindowScatter(const Eigen::MatrixXd& covarian
   return metric;
 }
 
+ResidualMetric ResidualMetric::WithFree(const Eigen::MatrixXd& columns) const {
+  ResidualMetric metric = *this;
+  metric.nuisance_.conservativeResize(Eigen::NoChange, nuisance_.cols() + columns.cols());
+  metric.nuisance_.rightCols(columns.cols()) =
+      WhitenColumns(columns) / std::sqrt(RowsPerObservation());
+  metric.FactoriseNuisance();
+  return metric;
+}
+
 void ResidualMetric::DeflateWindowVariation(Eigen::MatrixXd& whitened) const {
   if (window_variation_.size() == 0) return;
   const Eigen::Index rows = factor_.rows();

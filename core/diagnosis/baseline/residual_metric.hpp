@@ -48,6 +48,10 @@ class ResidualMetric {
   /// Shapes: rows x rows.
   ResidualMetric WithWindowScatter(const Eigen::MatrixXd& covariance) const;
 
+  /// The same, where the whole recording may besides vary by what the columns do to it, stacked
+  /// window by window, one standard deviation each.
+  ResidualMetric WithFree(const Eigen::MatrixXd& columns) const;
+
   const std::vector<std::size_t>& Windows() const { return windows_; }
   bool FreesCoefficients() const { return frees_coefficients_; }
 

@@ -25,11 +25,6 @@ bool Contains(const EffectFit& fit, const Effect* effect) {
   return std::find(effects.begin(), effects.end(), effect) != effects.end();
 }
 
-/// By how much the score has to fall where this effect is added.
-double ScoreToAdd(const Effect& effect) {
-  return effect.Facts().is_weather ? kSearch.score_to_add_weather : kSearch.score_to_add_effect;
-}
-
 bool HasLowerScore(const EffectFit& a, const EffectFit& b) {
   return a.score < b.score;
 }
@@ -246,6 +241,10 @@ std::vector<EffectFit> NextLevel(const HypothesisSearch& search,
 }
 
 }  // namespace
+
+double ScoreToAdd(const Effect& effect) {
+  return effect.Facts().is_weather ? kSearch.score_to_add_weather : kSearch.score_to_add_effect;
+}
 
 const EffectFit& BestHypothesis(const Hypotheses& hypotheses) {
   const EffectFit& single = hypotheses.singles.front();

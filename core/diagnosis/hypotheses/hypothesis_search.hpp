@@ -18,6 +18,9 @@ struct Hypotheses {
   std::map<const Effect*, double> nominal_gains;  ///< of every effect, NominalGains
 };
 
+/// By how much the score has to fall where this effect is added.
+double ScoreToAdd(const Effect& effect);
+
 /// The hypothesis with the lowest score. Requires: at least one single hypothesis.
 const EffectFit& BestHypothesis(const Hypotheses& hypotheses);
 

@@ -7,6 +7,7 @@
 #include "telltale/core/diagnosis/diagnosis_constants.hpp"
 #include "telltale/core/diagnosis/hypotheses/effect_fit.hpp"
 #include "telltale/core/diagnosis/hypotheses/effect_parameters.hpp"
+#include "telltale/core/diagnosis/hypotheses/hypothesis_search.hpp"
 #include "telltale/core/diagnosis/residuals/gap.hpp"
 #include "telltale/core/uncertainty/distributions.hpp"
 
@@ -33,21 +34,25 @@ double NoncentralTail(double noncentrality, double x) {
 struct Evidence {
   HypothesisTraits hypothesis;
   LackOfFit lack_of_fit;
+  double score_of_weather = 0.0;  ///< without the effect
+  double score_to_add = 0.0;
 };
 
 /// The days that may follow, of equal probability, and what each asks of an effect.
 class DaysAhead {
  public:
-  DaysAhead(const HypothesisTraits& before, const ResidualMetric& metric, const DayToDay& days)
-      : before_(before), metric_(metric), squared_limit_(days.squared_limit) {
+  DaysAhead(const CandidateEffect& candidate, const PresentWeather& weather, const DayToDay& days)
+      : candidate_(candidate), weather_(weather), squared_limit_(days.squared_limit) {
+    const auto is_material = weather.IsCalm() ? IsMaterial : IsNamedBesideWeather;
+    const auto is_named = weather.IsCalm() ? IsNamed : IsNamedBesideWeather;
     for (int node = 0; node < kNodes; ++node) {
       const double probability = (node + 0.5) / kNodes;
       const double noise = days.noise.Quantile(probability);
       // A day that errs more does so by either measure.
       const double squared_gap = squared_limit_ ? days.squared_gap.Quantile(probability) : 0.0;
       days_.push_back({noise, squared_gap,
-                       LeastExplained(noise, std::exp(days.log_nominal), IsMaterial),
-                       LeastExplained(noise, std::exp(days.log_nominal), IsNamed)});
+                       LeastExplained(noise, std::exp(days.log_nominal), is_material),
+                       LeastExplained(noise, std::exp(days.log_nominal), is_named)});
     }
   }
 
@@ -76,33 +81,46 @@ class DaysAhead {
            GapAssessment::kMaterial;
   }
 
-  /// Of a single effect, whose shape is as expected.
-  static bool IsNamed(const Evidence& evidence) {
+  /// Of an effect whose shape is as expected.
+  static bool IsCertainOf(const Evidence& evidence) {
     const double unknown = UnknownProbability(evidence.lack_of_fit, evidence.hypothesis);
-    const double against_none = 1.0 / (1.0 + std::exp(0.5 * evidence.hypothesis.score));
-    return IsMaterial(evidence) && IsCertain((1.0 - unknown) * against_none);
+    const double gain = evidence.hypothesis.score - evidence.score_of_weather;
+    return IsCertain((1.0 - unknown) / (1.0 + std::exp(0.5 * gain)));
+  }
+
+  static bool IsNamed(const Evidence& evidence) {
+    return IsMaterial(evidence) && IsCertainOf(evidence);
+  }
+
+  /// The weather makes a gap by itself: a gap says nothing of the effect until it is named.
+  static bool IsNamedBesideWeather(const Evidence& evidence) {
+    return evidence.hypothesis.score < evidence.score_of_weather - evidence.score_to_add &&
+           IsCertainOf(evidence);
   }
 
   /// The least square over the noise that an effect has to explain for the verdict to be so; the
   /// more it explains, the surer is the verdict.
   double LeastExplained(double noise, double nominal, bool (*is_so)(const Evidence&)) const {
+    const ResidualMetric& metric = weather_.metric;
     const auto is_so_at = [&](double square) {
-      const double share = square / metric_.ExpectedSquare();
-      HypothesisTraits hypothesis = before_;
-      hypothesis.score -= metric_.EffectiveObservations() * std::log1p(share);
+      const double share = square / metric.ExpectedSquare();
+      HypothesisTraits hypothesis = candidate_.traits;
+      hypothesis.score -= metric.EffectiveObservations() * std::log1p(share);
       return is_so({hypothesis,
-                    {.before = noise * (1.0 + share),
+                    {.before = noise * (1.0 + share) + weather_.excess,
                      .after = noise,
                      .nominal = nominal,
-                     .median = kDiagnosis.ranking.nominal_median * noise}});
+                     .median = kDiagnosis.ranking.nominal_median * noise},
+                    weather_.fit.score,
+                    candidate_.score_to_add});
     };
     if (is_so_at(0.0)) return 0.0;
     double low = 0.0;
-    double high = metric_.ExpectedSquare();
+    double high = metric.ExpectedSquare();
     while (!is_so_at(high)) {
       low = high;
       high *= 2.0;
-      if (high > kBeyondAnyEffect * metric_.ExpectedSquare()) return high;
+      if (high > kBeyondAnyEffect * metric.ExpectedSquare()) return high;
     }
     while (high - low > kTolerance * high) {
       const double middle = 0.5 * (low + high);
@@ -111,17 +129,17 @@ class DaysAhead {
     return high;
   }
 
-  HypothesisTraits before_;  ///< it explains anything
-  const ResidualMetric& metric_;
+  const CandidateEffect& candidate_;
+  const PresentWeather& weather_;
   std::optional<double> squared_limit_;
   std::vector<Day> days_;
 };
 
 /// By how much an effect has to move the errors further, in square, for PowerOf to reach
 /// kWantedPower.
-double FactorFor(const ErrorShift& shift, const HypothesisTraits& before,
-                 const ResidualMetric& metric, const DayToDay& days) {
-  const DaysAhead ahead(before, metric, days);
+double FactorFor(const ErrorShift& shift, const CandidateEffect& candidate,
+                 const PresentWeather& weather, const DayToDay& days) {
+  const DaysAhead ahead(candidate, weather, days);
   const auto power = [&](double factor) {
     return ahead.PowerOf({factor * shift.noncentrality, factor * shift.squared_gap});
   };
@@ -175,11 +193,11 @@ class ParameterShift {
 
 /// What decides whether an effect shows, besides what it does to the errors.
 struct Gate {
-  const ResidualMetric& metric;
+  const PresentWeather& weather;
   const DayToDay& days;
   double nominal_gain = 0.0;
-  double parameters = 1.0;  ///< that are fitted
-  HypothesisTraits traits;  ///< of the effect, its score aside
+  double parameters = 1.0;    ///< that are fitted
+  CandidateEffect candidate;  ///< the cost of its parameters aside
 };
 
 /// What the score of a parameter of `sizes` typical sizes pays, (89): its prior and the volume that
@@ -188,11 +206,21 @@ struct Gate {
 double CostOf(double sizes, double noncentrality, const Gate& gate) {
   const double prior_variance =
       kDiagnosis.effect_fit.prior_width * kDiagnosis.effect_fit.prior_width;
-  const double left = gate.metric.ExpectedSquare() * std::exp(gate.days.noise.log_mean);
+  const ResidualMetric& metric = gate.weather.metric;
+  const double left = metric.ExpectedSquare() * std::exp(gate.days.noise.log_mean);
   const double information =
-      gate.metric.EffectiveObservations() / left * noncentrality / (sizes * sizes);
+      metric.EffectiveObservations() / left * noncentrality / (sizes * sizes);
   return gate.nominal_gain + sizes * sizes / prior_variance +
          gate.parameters * std::log1p(prior_variance * information);
+}
+
+/// The effect beside the weather, whose shapes are as expected.
+CandidateEffect CandidateOf(const Effect& effect, const PresentWeather& weather) {
+  EffectFit both = weather.fit;
+  both.effects.insert(both.effects.begin(), At({&effect, 0}, 0.0));
+  HypothesisTraits traits = TraitsOf(both);
+  traits.negative_log_prior = 0.0;
+  return {traits, ScoreToAdd(effect)};
 }
 
 /// The smallest size between zero and `end`; nothing where not even the end of the range shows.
@@ -202,9 +230,9 @@ std::optional<double> DetectableTowards(double end, const ParameterShift& shift,
   for (int step = 0; step < kSizeSteps; ++step) {
     const ErrorShift moved = shift.At(std::copysign(size, end));
     if (moved.noncentrality <= 0.0) return std::nullopt;
-    HypothesisTraits before = gate.traits;
-    before.score = CostOf(size / parameter.typical, moved.noncentrality, gate);
-    const double ratio = std::sqrt(FactorFor(moved, before, gate.metric, gate.days));
+    CandidateEffect candidate = gate.candidate;
+    candidate.traits.score += CostOf(size / parameter.typical, moved.noncentrality, gate);
+    const double ratio = std::sqrt(FactorFor(moved, candidate, gate.weather, gate.days));
     if (std::abs(ratio - 1.0) < kSizeTolerance) return size;
     if (size >= std::abs(end) && ratio > 1.0) return std::nullopt;
     size = std::min(size * ratio, std::abs(end));
@@ -271,25 +299,22 @@ DayToDay DayToDayOf(const NominalBaseline& nominal, const std::vector<LeftOutDay
   return days;
 }
 
-double PowerOf(const ErrorShift& shift, const HypothesisTraits& before,
-               const ResidualMetric& metric, const DayToDay& days) {
-  return DaysAhead(before, metric, days).PowerOf(shift);
+double PowerOf(const ErrorShift& shift, const CandidateEffect& candidate,
+               const PresentWeather& weather, const DayToDay& days) {
+  return DaysAhead(candidate, weather, days).PowerOf(shift);
 }
 
 std::vector<DetectableSize> DetectableSizesOf(const Effect& effect, const DiagnosisProblem& problem,
+                                              const PresentWeather& weather,
                                               const Eigen::VectorXd& scale, const DayToDay& days,
                                               double nominal_gain) {
   std::vector<DetectableSize> sizes;
   if (effect.IsStochastic()) return sizes;
-  EffectFit alone;
-  alone.effects = {At({&effect, 0}, 0.0)};
-  HypothesisTraits traits = TraitsOf(alone);
-  traits.negative_log_prior = 0.0;  // its shape is as expected
-  const Gate gate{problem.metric, days, nominal_gain,
-                  static_cast<double>(effect.Parameters().size()), traits};
+  const Gate gate{weather, days, nominal_gain, static_cast<double>(effect.Parameters().size()),
+                  CandidateOf(effect, weather)};
   for (std::size_t place = 0; place < effect.Parameters().size(); ++place) {
     if (effect.Parameters()[place].is_shape) continue;
-    sizes.push_back(DetectableSizeOf(effect, place, problem, scale, gate));
+    sizes.push_back(DetectableSizeOf(effect, place, InWeather(problem, weather), scale, gate));
   }
   return sizes;
 }

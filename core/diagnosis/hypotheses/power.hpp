@@ -7,6 +7,7 @@
 
 #include "telltale/core/diagnosis/diagnosis.hpp"
 #include "telltale/core/diagnosis/hypotheses/diagnosis_problem.hpp"
+#include "telltale/core/diagnosis/hypotheses/present_weather.hpp"
 #include "telltale/core/diagnosis/hypotheses/ranking.hpp"
 #include "telltale/core/effects/effect.hpp"
 
@@ -42,18 +43,24 @@ struct ErrorShift {
   double squared_gap = 0.0;    ///< added to G^2
 };
 
+/// An effect, beside the weather that is there, before it explains anything.
+struct CandidateEffect {
+  HypothesisTraits traits;    ///< of both together; its score is that of the weather and the cost
+  double score_to_add = 0.0;  ///< by which it has to fall below that of the weather
+};
+
 /// The probability that the verdict calls one parameter of an effect, docs/concepts/diagnosis.md
-/// (99): it names the effect, or a gap beyond `days.squared_limit`. `before`: the effect as a
-/// hypothesis before it explains anything, whose score has to be overcome besides the gate.
-double PowerOf(const ErrorShift& shift, const HypothesisTraits& before,
-               const ResidualMetric& metric, const DayToDay& days);
+/// (99): it names the effect, or in calm a gap beyond `days.squared_limit`.
+double PowerOf(const ErrorShift& shift, const CandidateEffect& candidate,
+               const PresentWeather& weather, const DayToDay& days);
 
 /// The smallest size of each parameter that does not shape, with the others at their prior means,
-/// that this recording, model and references show with kDiagnosis.testability.power; of either sign
-/// where the range has both. None for a stochastic effect. `scale`: of NoiseFloor; `nominal_gain`:
-/// of NominalGains. Assumes: errors are normal, what the effect does to them is not masked by
-/// another gap, and no other effect does the same.
+/// that this recording, model and references show with kDiagnosis.testability.power beside the
+/// weather; of either sign where the range has both. None for a stochastic effect. `scale`: of
+/// NoiseFloor; `nominal_gain`: of NominalGains. Assumes: errors are normal, no fault hides what the
+/// effect does to them, and no other effect does the same.
 std::vector<DetectableSize> DetectableSizesOf(const Effect& effect, const DiagnosisProblem& problem,
+                                              const PresentWeather& weather,
                                               const Eigen::VectorXd& scale, const DayToDay& days,
                                               double nominal_gain);
 

@@ -11,6 +11,7 @@
 #include "telltale/core/diagnosis/delays/delay_difference.hpp"
 #include "telltale/core/diagnosis/diagnosis_constants.hpp"
 #include "telltale/core/diagnosis/hypotheses/onset.hpp"
+#include "telltale/core/diagnosis/hypotheses/present_weather.hpp"
 #include "telltale/core/diagnosis/hypotheses/testability.hpp"
 #include "telltale/core/diagnosis/report/causes.hpp"
 #include "telltale/core/diagnosis/report/delay_conclusion.hpp"
@@ -121,12 +122,26 @@ void StateWhatDelaysShow(const ReportInputs& inputs, std::vector<EffectTestabili
   }
 }
 
-void StatePower(const ReportInputs& inputs, std::vector<EffectTestability>& effects) {
-  ForEachIndex(effects.size(), inputs.threads, [&](std::size_t i) {
-    const Effect* const effect = inputs.library[i];
-    effects[i].detectable_sizes =
-        DetectableSizesOf(*effect, inputs.problem, inputs.main.floor.scale, inputs.days,
-                          inputs.hypotheses.nominal_gains.at(effect));
+/// The weather that the likeliest hypothesis names; none where there is no evidence of any.
+EffectFit ShownWeather(const Conclusion& conclusion) {
+  EffectFit hypothesis;
+  if (conclusion.assessment == GapAssessment::kMaterial) hypothesis = conclusion.best;
+  return hypothesis;
+}
+
+/// What this recording would show of each effect, beside the weather that it does show.
+void StateWhatWouldShow(const ReportInputs& inputs, Diagnosis& diagnosis) {
+  const WeatherBeside weather(ShownWeather(inputs.conclusion), inputs.problem);
+  diagnosis.present_weather = weather.Names();
+  diagnosis.effects.resize(inputs.library.size());
+  ForEachIndex(inputs.library.size(), inputs.threads, [&](std::size_t i) {
+    const Effect& effect = *inputs.library[i];
+    EffectTestability& stated = diagnosis.effects[i];
+    stated = TestabilityOf(effect, inputs.problem, weather.Of(effect), inputs.model);
+    if (!inputs.state_power) return;
+    stated.detectable_sizes =
+        DetectableSizesOf(effect, inputs.problem, weather.Of(effect), inputs.main.floor.scale,
+                          inputs.days, inputs.hypotheses.nominal_gains.at(&effect));
   });
 }
 
@@ -151,8 +166,7 @@ Diagnosis BuildReport(const ReportInputs& inputs) {
   diagnosis.software_version = Version();
   diagnosis.gaps = GapsOf(inputs);
   diagnosis.delays = inputs.delays;
-  diagnosis.effects = TestabilityOf(inputs.problem, inputs.model, inputs.library);
-  if (inputs.state_power) StatePower(inputs, diagnosis.effects);
+  StateWhatWouldShow(inputs, diagnosis);
   StateWhatDelaysShow(inputs, diagnosis.effects);
   if (conclusion.assessment == GapAssessment::kMaterial) DescribeMaterialGap(inputs, diagnosis);
   if (conclusion.assessment == GapAssessment::kUndecided) {

@@ -156,6 +156,7 @@ Diagnosis ReadReport(FieldReader reader, const proto::Report& report) {
   diagnosis.unknown_odds = ReadAll(reader, "unknown_odds", report.unknown_odds(), ReadOddsTerm);
   diagnosis.delays = ReadAll(reader, "delays", report.delays(), ReadDelay);
   diagnosis.effects = ReadAll(reader, "effects", report.effects(), ReadTestability);
+  diagnosis.present_weather = {report.present_weather().begin(), report.present_weather().end()};
   diagnosis.advice = ReadAll(reader, "advice", report.advice(), ReadAdvice);
   diagnosis.reference_influence =
       ReadAll(reader, "reference_influence", report.reference_influence(), ReadInfluence);
@@ -195,6 +196,7 @@ proto::Report ToProto(const Diagnosis& diagnosis) {
   for (const OddsTerm& term : diagnosis.unknown_odds) Write(term, *report.add_unknown_odds());
   for (const DelayDifference& delay : diagnosis.delays) Write(delay, *report.add_delays());
   for (const EffectTestability& effect : diagnosis.effects) Write(effect, *report.add_effects());
+  for (const std::string& weather : diagnosis.present_weather) report.add_present_weather(weather);
   for (const SeparationAdvice& advice : diagnosis.advice) Write(advice, *report.add_advice());
   for (const ReferenceInfluence& influence : diagnosis.reference_influence) {
     Write(influence, *report.add_reference_influence());

@@ -79,6 +79,17 @@ TEST(Figures, CountTop1Top3AndClass) {
                                    std::pair{"payload", 1u}, std::pair{"wind", 1u}));
 }
 
+TEST(Figures, CountEffectsThatShowAsLargeAsTheyAre) {
+  const auto seen = [](double size, double detectability) {
+    Scored scored = Answer("single", {"wind"}, "EXPLAINED", {Named({"wind"}, 0.9)}, detectability);
+    scored.label.sizes = {{"wind", size}};
+    return scored;
+  };
+  const Figures figures = FiguresOf({seen(0.5, 19.0), seen(0.5, 21.0), seen(2.0, 6.0)});
+  EXPECT_EQ(figures.detectable.top_1.all, 2u);
+  EXPECT_EQ(figures.detectable_as_it_is.top_1.all, 2u);
+}
+
 TEST(Figures, CountFalseAlarms) {
   const Figures figures = FiguresOf({
       Answer("nominal", {}, "NO_MATERIAL_GAP", {}),
@@ -250,6 +261,13 @@ TEST(ParseReport, ReadsTheDirectionsOfWeather) {
   EXPECT_EQ(directions.at("current").towards_deg, 0.0);
   EXPECT_EQ(directions.at("waves").half_width_deg, 20.0);
   EXPECT_TRUE(directions.at("waves").or_opposite);
+}
+
+TEST(ParseLabel, ReadsHowLargeEffectsAre) {
+  const Label label = ParseLabel(R"({"kind": "single",
+    "effects": [{"effect": "payload", "size": 0.5}], "weather": [{"effect": "waves"}]})");
+  EXPECT_THAT(label.sizes, ::testing::ElementsAre(::testing::Pair("payload", 0.5),
+                                                  ::testing::Pair("waves", 1.0)));
 }
 
 TEST(ParseLabel, ReadsWhereWeatherRunsTo) {

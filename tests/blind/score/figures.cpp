@@ -45,12 +45,28 @@ std::string Joined(const EffectSet& effects) {
   return text;
 }
 
-/// The least detectability of the true effects in the case's own report.
+/// The detectability of an effect in the case's own report.
+double Detectability(const Scored& scored, const std::string& effect) {
+  const auto found = scored.report.detectability.find(effect);
+  return found == scored.report.detectability.end() ? 0.0 : found->second;
+}
+
+/// The least of the true effects'.
 double Detectability(const Scored& scored) {
   double least = std::numeric_limits<double>::infinity();
   for (const std::string& effect : scored.label.effects) {
-    const auto found = scored.report.detectability.find(effect);
-    least = std::min(least, found == scored.report.detectability.end() ? 0.0 : found->second);
+    least = std::min(least, Detectability(scored, effect));
+  }
+  return least;
+}
+
+/// The same at the sizes that they have.
+double DetectabilityAsItIs(const Scored& scored) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const std::string& effect : scored.label.effects) {
+    const auto size = scored.label.sizes.find(effect);
+    const double sizes = size == scored.label.sizes.end() ? 1.0 : size->second;
+    least = std::min(least, sizes * Detectability(scored, effect));
   }
   return least;
 }
@@ -233,6 +249,9 @@ Figures FiguresOf(const std::vector<Scored>& cases) {
     if (kind == "single") CountNaming(figures.all, scored);
     if (kind == "single" && Detectability(scored) >= kDetectable) {
       CountNaming(figures.detectable, scored);
+    }
+    if (kind == "single" && DetectabilityAsItIs(scored) >= kDetectable) {
+      CountNaming(figures.detectable_as_it_is, scored);
     }
     CountLeftOut(figures, scored);
     if (kind == "pair") CountPair(figures, scored);

@@ -102,8 +102,10 @@ inline constexpr double kDetectable = 10.0;
 
 struct Figures {
   NamingRates all;  // single effects
-  NamingRates
-      detectable;      // of them those whose own report has the true effect at kDetectable or more
+  // Of them those whose own report has the true effect at kDetectable or more: at its typical size,
+  // and at the size that it has.
+  NamingRates detectable;
+  NamingRates detectable_as_it_is;
   Rate false_alarms;   // nominal: a gap put down to anything but the weather that is there
   Rate weather_named;  // nominal, in weather: that is the first cause
   Rate wrongly_named;  // outside the library: called EXPLAINED, or by an effect at more than 0.5

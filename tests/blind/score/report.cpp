@@ -109,9 +109,11 @@ Label ParseLabel(const std::string& text) {
   Label label{.kind = TextAt(json, "kind"),
               .effects = named("effects"),
               .weather = named("weather"),
+              .sizes = {},
               .towards_deg = {}};
   for (const char* list : {"effects", "weather"}) {
     for (const Json& effect : ListAt(json, list)) {
+      label.sizes[TextAt(effect, "effect")] = NumberAt(effect, "size").value_or(1.0);
       for (const Json& parameter : ListAt(effect, "parameters")) {
         if (TextAt(parameter, "name") != "towards") continue;
         label.towards_deg[TextAt(effect, "effect")] = NumberAt(parameter, "value").value_or(0.0);

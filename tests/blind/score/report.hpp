@@ -19,6 +19,7 @@ struct Label {
   std::string kind;  // nominal, single, pair or outside (the library)
   EffectSet effects;
   EffectSet weather = {};                          // there besides: may be named, and need not
+  std::map<std::string, double> sizes = {};        // of all these, in typical sizes
   std::map<std::string, double> towards_deg = {};  // where of these what has a direction runs to
 };
 

@@ -47,5 +47,14 @@ TEST(EstimatesOf, AFaultHasItsParametersAlone) {
   EXPECT_THAT(EstimatesOf(lag), ElementsAre(Pair("tau", "0.150 ± 0.035 s")));
 }
 
+TEST(BesideWeatherText, NamesAllThatIsThere) {
+  Diagnosis diagnosis;
+  EXPECT_EQ(BesideWeatherText(diagnosis), "");
+  diagnosis.present_weather = {"waves"};
+  EXPECT_EQ(BesideWeatherText(diagnosis), " and the waves of this recording");
+  diagnosis.present_weather = {"wind", "waves"};
+  EXPECT_EQ(BesideWeatherText(diagnosis), " and the wind and waves of this recording");
+}
+
 }  // namespace
 }  // namespace telltale

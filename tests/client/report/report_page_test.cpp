@@ -59,6 +59,7 @@ TEST(Page, SaysTheSentenceTheVerdictAndEveryPart) {
                            "cannot separate it from thruster_delay",
                            "unknown",
                            "masked by YAW uv",
+                           "own coefficients and the wind of this recording, and",
                            "not excited",
                            "fast random steps",
                            "7.2 nats",
@@ -200,6 +201,7 @@ TEST(Page, EveryStringIsEscaped) {
     }
   }
   for (EffectTestability& effect : made.effects) effect.effect = effect.masked_by = hostile;
+  made.present_weather = {hostile};
   for (SeparationAdvice& advice : made.advice) {
     advice.manoeuvre = advice.how = hostile;
     advice.separates = {hostile};

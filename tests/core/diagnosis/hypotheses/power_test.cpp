@@ -64,9 +64,16 @@ class PowerTest : public ::testing::Test {
     return verdict == Verdict::kExplained;
   }
 
-  /// How often recordings are called that an effect moves along one direction, of days drawn from
-  /// Student's law.
   double ShareCalled(const ErrorShift& shift, double cost) const {
+    return ShareOfDays(shift, [&](double before, double explained, double squared_gap) {
+      return IsCalled(before, explained, squared_gap, cost, Days());
+    });
+  }
+
+  /// How often recordings are called that an effect moves along one direction, of days drawn from
+  /// Student's law. `is_called` gets the square before, what the effect explains of it, and G^2.
+  template <class IsCalled>
+  double ShareOfDays(const ErrorShift& shift, IsCalled is_called) const {
     constexpr int kTrials = 2000;
     const DayToDay days = Days();
     RandomEngine engine(20);
@@ -81,7 +88,7 @@ class PowerTest : public ::testing::Test {
       Eigen::VectorXd errors(static_cast<Eigen::Index>(metric_.ExpectedSquare()));
       for (double& error : errors) error = std::sqrt(noise) * normal(engine);
       errors[0] += std::sqrt(shift.noncentrality);
-      called += IsCalled(errors.squaredNorm(), errors[0] * errors[0], squared_gap, cost, days);
+      called += is_called(errors.squaredNorm(), errors[0] * errors[0], squared_gap) ? 1 : 0;
     }
     return static_cast<double>(called) / kTrials;
   }
@@ -95,7 +102,7 @@ class PowerTest : public ::testing::Test {
     };
     for (int i = 0; i < 60; ++i) {
       const double middle = 0.5 * (low + high);
-      (PowerOf(at(middle), {.score = cost}, metric_, Days()) < kPower ? low : high) = middle;
+      (PowerOf(at(middle), {{.score = cost}}, calm_, Days()) < kPower ? low : high) = middle;
     }
     return at(high);
   }
@@ -104,6 +111,7 @@ class PowerTest : public ::testing::Test {
   static constexpr double kTolerance = 0.5 / 15.0 + 0.02;
 
   const testing::InertEffect effect_{"inert", {{"size", "1", 1.0, -100.0, 100.0}}};
+  const testing::InertEffect breeze_{"breeze", {{"size", "1", 1.0, -10.0, 10.0}}, 0.0, {}, true};
   const testing::ShortRecording short_;
   NominalBaseline nominal_ = testing::UnitBaseline(short_.runs.Rows(), 0, 0);
   std::vector<LeftOutDay> left_out_;
@@ -118,13 +126,14 @@ class PowerTest : public ::testing::Test {
                                 static_cast<Eigen::Index>(short_.runs.Windows())),
           0, 0)),
       false};
+  const PresentWeather calm_{metric_};
 };
 
 TEST_F(PowerTest, IsTheShareOfRecordingsThatAreCalled) {
   for (const double cost : {1.0, 6.0, 60.0}) {
     for (const double share : {0.3, 0.8, 1.2}) {
       const ErrorShift shift{share * metric_.ExpectedSquare(), share};
-      EXPECT_NEAR(ShareCalled(shift, cost), PowerOf(shift, {.score = cost}, metric_, Days()),
+      EXPECT_NEAR(ShareCalled(shift, cost), PowerOf(shift, {{.score = cost}}, calm_, Days()),
                   kTolerance)
           << "cost " << cost << ", share " << share;
     }
@@ -153,17 +162,50 @@ TEST_F(PowerTest, DaysThatErrMoreWhereTheyTakeNoPartAskForLargerEffects) {
 
 TEST_F(PowerTest, NothingIsCalledAsOftenAsTheLimitLeaves) {
   left_out_ = {{1.7, 1.0}, {0.7, 1.0}, {0.8, 1.0}, {1.4, 1.0}};
-  EXPECT_LE(PowerOf({0.0, 0.0}, {.score = 6.0}, metric_, Days()), 0.05 + kTolerance);
+  EXPECT_LE(PowerOf({0.0, 0.0}, {{.score = 6.0}}, calm_, Days()), 0.05 + kTolerance);
 }
 
 TEST_F(PowerTest, GrowsWithTheEffectAndFallsWithTheCost) {
   const double expected = metric_.ExpectedSquare();
   const ErrorShift smaller{0.5 * expected, 0.5};
   const ErrorShift larger{0.9 * expected, 0.9};
-  EXPECT_LT(PowerOf(smaller, {.score = 5.0}, metric_, Days()),
-            PowerOf(larger, {.score = 5.0}, metric_, Days()));
-  EXPECT_LE(PowerOf(smaller, {.score = 9.0}, metric_, Days()),
-            PowerOf(smaller, {.score = 5.0}, metric_, Days()));
+  EXPECT_LT(PowerOf(smaller, {{.score = 5.0}}, calm_, Days()),
+            PowerOf(larger, {{.score = 5.0}}, calm_, Days()));
+  EXPECT_LE(PowerOf(smaller, {{.score = 9.0}}, calm_, Days()),
+            PowerOf(smaller, {{.score = 5.0}}, calm_, Days()));
+}
+
+// Beside weather an effect is called where it is added to the weather and named. Errors are drawn
+// that weather has left, of a day that weather made err four times as much.
+TEST_F(PowerTest, BesideWeatherIsTheShareOfRecordingsOfWhichTheEffectIsNamed) {
+  PresentWeather weather = calm_;
+  weather.fit.effects = {{&breeze_, {1.0}}};
+  weather.fit.score = -80.0;
+  weather.excess = 3.0;
+  constexpr double kCost = 6.0;
+  constexpr double kToAdd = kDiagnosis.search.score_to_add_effect;
+  const DayToDay days = Days();
+  for (const double share : {2.5, 4.0, 6.0}) {
+    const ErrorShift shift{share * metric_.ExpectedSquare(), 0.0};
+    const double called = ShareOfDays(shift, [&](double before, double explained, double) {
+      const double after = (before - explained) / metric_.ExpectedSquare();
+      const LackOfFit lack_of_fit{.before = before / metric_.ExpectedSquare() + weather.excess,
+                                  .after = after,
+                                  .nominal = std::exp(days.log_nominal),
+                                  .median = kDiagnosis.ranking.nominal_median * after};
+      EffectFit both = weather.fit;
+      both.effects.push_back({&effect_, {1.0}});
+      both.score += metric_.Deviance(before - explained, before) + kCost;
+      if (both.score >= weather.fit.score - kToAdd) return false;
+      return VerdictOf(GapAssessment::kMaterial,
+                       Rank({{weather.fit}, {both}, {}}, metric_, lack_of_fit),
+                       std::nullopt) == Verdict::kExplained;
+    });
+    const double stated =
+        PowerOf(shift, {{.score = weather.fit.score + kCost}, kToAdd}, weather, days);
+    EXPECT_NEAR(called, stated, kTolerance) << "share " << share;
+    EXPECT_LE(stated, PowerOf(shift, {{.score = kCost}}, calm_, days)) << "share " << share;
+  }
 }
 
 TEST_F(PowerTest, TheDaysAreThoseLeftOut) {
@@ -253,7 +295,8 @@ class GateTest : public ::testing::Test {
 
 TEST_F(GateTest, AnEffectOfTheDetectableSizeShowsAsOftenAsStated) {
   const auto sizes = Of(SameManoeuvres({}, 100), [&](const DiagnosisProblem& problem) {
-    return DetectableSizesOf(*effect_, problem, NoiseFloorOf(reference_runs_, nominal_->boat).scale,
+    return DetectableSizesOf(*effect_, problem, {problem.metric},
+                             NoiseFloorOf(reference_runs_, nominal_->boat).scale,
                              DayToDayOf(*nominal_, {}), kNominalGain);
   });
   ASSERT_EQ(sizes.size(), 1U);

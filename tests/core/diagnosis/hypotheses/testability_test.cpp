@@ -26,9 +26,14 @@ class TestabilityTest : public ::testing::Test {
     recording_.by_coefficient.col(0) = Column(0, 1.0);
     recording_.by_coefficient.col(1) = Column(1, 1.0);
     const ResidualMetric metric(nominal_, recording_, EveryWindow(recording_), false);
-    return TestabilityOf(
-        {short_.runs, nominal_, recording_, metric, parameter_refs_, no_excitation_}, model_,
-        library_);
+    const DiagnosisProblem problem{short_.runs, nominal_,        recording_,
+                                   metric,      parameter_refs_, no_excitation_};
+    const WeatherBeside weather(hypothesis_, problem);
+    std::vector<EffectTestability> all;
+    for (const Effect* effect : library_) {
+      all.push_back(TestabilityOf(*effect, problem, weather.Of(*effect), model_));
+    }
+    return all;
   }
 
   const testing::ShortRecording short_;
@@ -37,7 +42,8 @@ class TestabilityTest : public ::testing::Test {
   const testing::InertEffect single_{"single", {{"size", "1", 1.0, -10.0, 10.0}}};
   const testing::InertEffect pair_{
       "pair", {{"first", "1", 1.0, -10.0, 10.0}, {"second", "1", 1.0, -10.0, 10.0}}};
-  const std::vector<const Effect*> library_ = {&single_, &pair_};
+  const testing::InertEffect breeze_{"breeze", {{"size", "1", 1.0, -10.0, 10.0}}, 0.0, {}, true};
+  const std::vector<const Effect*> library_ = {&single_, &pair_, &breeze_};
   const std::vector<EffectParameterRef> parameter_refs_ = EffectParameterRefsOf(library_);
   const ObservedExcitation no_excitation_;
   UncertainModel model_ = [this] {
@@ -46,15 +52,20 @@ class TestabilityTest : public ::testing::Test {
     model.covariance = Eigen::MatrixXd::Identity(2, 2);
     return model;
   }();
-  NominalBaseline nominal_ = testing::UnitBaseline(rows_, 2, 3);
+  NominalBaseline nominal_ = testing::UnitBaseline(rows_, 2, 4);
   Sensitivity recording_ =
-      testing::SensitivityOfErrors(Eigen::MatrixXd::Zero(rows_, windows_), 2, 3);
+      testing::SensitivityOfErrors(Eigen::MatrixXd::Zero(rows_, windows_), 2, 4);
+  EffectFit hypothesis_ = [this] {
+    EffectFit calm;
+    calm.errors = recording_.errors;
+    return calm;
+  }();
 };
 
 TEST_F(TestabilityTest, IsTestableFromThreeSigmasOn) {
   recording_.by_effect_parameter.col(0) = Column(3, 3.1);
   auto testability = Assess();
-  ASSERT_EQ(testability.size(), 2U);
+  ASSERT_EQ(testability.size(), 3U);
   EXPECT_EQ(testability[0].effect, "single");
   EXPECT_EQ(testability[0].testability, Testability::kTestable);
   EXPECT_NEAR(testability[0].detectability, 3.1, 1e-9);
@@ -83,6 +94,30 @@ TEST_F(TestabilityTest, IsMaskedByTheCoefficientThatImitatesIt) {
   EXPECT_NEAR(testability.detectability, 10.0 / std::sqrt(1.0 + column_square), 1e-9);
   EXPECT_EQ(testability.masked_by,
             "YAW " + std::string(Regressors(Equation::kYaw, Parameterization::kPropeller)[4].name));
+}
+
+// Of the square s that the effect shows, s / (1 + 4 c) is left where the weather's typical size
+// shows the square c along the same row, with a prior as wide as twice that size.
+TEST_F(TestabilityTest, IsMaskedByTheWeatherThatImitatesIt) {
+  recording_.by_effect_parameter.col(0) = Column(3, 10.0);
+  recording_.by_effect_parameter.col(1) = Column(4, 5.0);
+  recording_.by_effect_parameter.col(3) = Column(3, 4.0);
+  hypothesis_.effects = {{&breeze_, {1.0}}};
+  const auto testability = Assess();
+  EXPECT_NEAR(testability[0].detectability, 10.0 / std::sqrt(1.0 + 4.0 * 16.0), 1e-9);
+  EXPECT_EQ(testability[0].testability, Testability::kMasked);
+  EXPECT_EQ(testability[0].masked_by, "breeze");
+  EXPECT_NEAR(testability[1].detectability, 5.0 / std::sqrt(2.0), 1e-9) << "of another row";
+  EXPECT_NEAR(testability[2].detectability, 4.0, 1e-9) << "the weather itself";
+}
+
+// Waves that scatter errors three times as much as a nominal boat's leave a half of each sigma.
+TEST_F(TestabilityTest, ShowsByLessInWaves) {
+  const Effect* waves = FindEffect("waves");
+  recording_.by_effect_parameter.col(0) = Column(3, 10.0);
+  hypothesis_.effects = {{waves, {1.0, 1.0, 1.0, 2.0}}};
+  hypothesis_.scatter = 3.0 * Eigen::MatrixXd::Identity(rows_, rows_);
+  EXPECT_NEAR(Assess()[0].detectability, 5.0, 1e-9);
 }
 
 }  // namespace

@@ -60,6 +60,7 @@ TEST(ReportJson, UsesTheNamesOfTheInterface) {
                            "\"effects\"",
                            "\"testability\": \"NOT_EXCITED\"",
                            "\"detectability\"",
+                           "\"presentWeather\"",
                            "\"advice\"",
                            "\"manoeuvre\"",
                            "\"separates\"",
