@@ -8,6 +8,7 @@
 #include "telltale/client/python/recording.hpp"
 #include "telltale/client/report/report_page.hpp"
 #include "telltale/client/workbench/errors.hpp"
+#include "telltale/core/base/degrees.hpp"
 #include "telltale/idl/codec/json/report.hpp"
 
 namespace telltale::python {
@@ -91,11 +92,65 @@ std::string DiagnosisText(const SourcedDiagnosis& diagnosed) {
                      diagnosed.diagnosis.sentence);
 }
 
+std::string EstimateText(const ParameterEstimate& estimate) {
+  return fmt::format("<telltale.ParameterEstimate {}: {:.4g} +- {:.2g} {}>", estimate.name,
+                     estimate.estimate, estimate.standard_error, estimate.unit);
+}
+
+std::string DirectionText(const CircularInterval& direction) {
+  return fmt::format("<telltale.Direction {:.0f} +- {:.0f} deg{}>",
+                     kDegreesPerRadian * direction.centre_rad,
+                     kDegreesPerRadian * direction.half_width_rad,
+                     direction.or_opposite ? ", or the opposite way" : "");
+}
+
+void AddEstimates(py::module_& module) {
+  py::class_<ParameterEstimate>(module, "ParameterEstimate", "A parameter of an effect.")
+      .def_readonly("name", &ParameterEstimate::name, "As in report.json.")
+      .def_readonly("estimate", &ParameterEstimate::estimate, "Its most probable value.")
+      .def_readonly("standard_error", &ParameterEstimate::standard_error, "In the same unit.")
+      .def_readonly("unit", &ParameterEstimate::unit, "'m/s'; '1' of shares.")
+      .def("__repr__", &EstimateText);
+  py::class_<CircularInterval>(module, "Direction",
+                               "Where weather runs to, with a 95 % interval, clockwise from north.")
+      .def_property_readonly(
+          "towards_deg",
+          [](const CircularInterval& direction) {
+            return kDegreesPerRadian * direction.centre_rad;
+          },
+          "In [0, 360).")
+      .def_property_readonly(
+          "half_width_deg",
+          [](const CircularInterval& direction) {
+            return kDegreesPerRadian * direction.half_width_rad;
+          },
+          "Of the interval; 180 where any direction is possible.")
+      .def_readonly("or_opposite", &CircularInterval::or_opposite,
+                    "Whether the opposite way is possible too.")
+      .def("__repr__", &DirectionText);
+}
+
+void AddCausalEffect(py::module_& module) {
+  py::class_<CausalEffect>(module, "CausalEffect", "One effect of a cause.")
+      .def_readonly("effect", &CausalEffect::effect, "Its name.")
+      .def_readonly("sentence", &CausalEffect::sentence, "'port thruster 22 % weaker'.")
+      .def_readonly("parameters", &CausalEffect::parameters, "Estimates of its parameters.")
+      .def_readonly("size", &CausalEffect::size,
+                    "Of weather: the speed of wind or a current, the amplitude of the "
+                    "accelerations by waves. None of a fault.")
+      .def_readonly("direction", &CausalEffect::towards,
+                    "Of weather: where it runs to. None of a fault.")
+      .def("__repr__", [](const CausalEffect& part) {
+        return fmt::format("<telltale.CausalEffect {}: {}>", part.effect, part.sentence);
+      });
+}
+
 void AddCause(py::module_& module) {
   py::class_<Cause>(module, "Cause", "Effects that act together, and how probable that is.")
       .def_property_readonly("effects", &EffectsOf, "Names; none for the unknown cause.")
       .def_property_readonly("sentences", &SentencesOf,
                              "'port thruster 22 % weaker', one an effect.")
+      .def_readonly("parts", &Cause::effects, "The effects with their sizes.")
       .def_readonly("probability", &Cause::probability, "Among all causes.")
       .def_readonly("indistinguishable", &Cause::indistinguishable,
                     "Effects that explain this recording alike.")
@@ -129,6 +184,10 @@ void AddDiagnosis(py::module_& module) {
           "causes", [](const SourcedDiagnosis& diagnosed) { return diagnosed.diagnosis.causes; },
           "Most probable first.")
       .def_property_readonly(
+          "present_weather",
+          [](const SourcedDiagnosis& diagnosed) { return diagnosed.diagnosis.present_weather; },
+          "The weather that the recording shows, beside which effects would have to show.")
+      .def_property_readonly(
           "notes", [](const SourcedDiagnosis& diagnosed) { return diagnosed.diagnosis.notes; },
           "Limitations, as sentences.")
       .def_property_readonly(
@@ -160,6 +219,8 @@ void AddDiagnosis(py::module_& module) {
 }  // namespace
 
 void AddDiagnose(py::module_& module) {
+  AddEstimates(module);
+  AddCausalEffect(module);
   AddCause(module);
   AddDiagnosis(module);
   module.def(

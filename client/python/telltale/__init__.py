@@ -11,6 +11,7 @@ axes of the boat, commands in shares of full command, port first. All else says 
 """
 
 from telltale._telltale import (
+    CausalEffect,
     Cause,
     Change,
     Check,
@@ -18,6 +19,7 @@ from telltale._telltale import (
     CoefficientChange,
     Delays,
     Diagnosis,
+    Direction,
     Draws,
     Finding,
     FreeRunScore,
@@ -25,6 +27,7 @@ from telltale._telltale import (
     Gains,
     Model,
     OneStepScore,
+    ParameterEstimate,
     PwmChannel,
     Recording,
     Scores,
@@ -46,6 +49,7 @@ from telltale._telltale import (
 from telltale.errors import DataCannotTell, InputError
 
 __all__ = [
+    "CausalEffect",
     "Cause",
     "Change",
     "Check",
@@ -54,6 +58,7 @@ __all__ = [
     "DataCannotTell",
     "Delays",
     "Diagnosis",
+    "Direction",
     "Draws",
     "Finding",
     "FreeRunScore",
@@ -62,6 +67,7 @@ __all__ = [
     "InputError",
     "Model",
     "OneStepScore",
+    "ParameterEstimate",
     "PwmChannel",
     "Recording",
     "Scores",

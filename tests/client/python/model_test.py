@@ -377,6 +377,13 @@ class DiagnoseTest(unittest.TestCase):
         self.assertEqual(diagnosis.verdict, said["verdict"])
         self.assertEqual(diagnosis.causes[0].effects, ["thruster_imbalance"])
         self.assertIn("ort thruster", diagnosis.sentence)
+        (part,) = diagnosis.causes[0].parts
+        self.assertEqual(part.effect, "thruster_imbalance")
+        self.assertEqual([part.sentence], diagnosis.causes[0].sentences)
+        estimates = [{"name": of.name, "estimate": of.estimate, "standardError": of.standard_error, "unit": of.unit, "effect": part.effect} for of in part.parameters]
+        self.assertEqual(estimates, said["causes"][0]["parameters"])
+        self.assertIsNone(part.direction)
+        self.assertEqual(diagnosis.present_weather, [])
         page = diagnosis.to_html()
         self.assertTrue(page.lower().startswith("<!doctype html>"))
         self.assertRegex(page, r"Recording</th><td>today</td>.*References</th><td>monday</td>")
@@ -384,6 +391,19 @@ class DiagnoseTest(unittest.TestCase):
         better = telltale.validate(diagnosis.model, self.today, horizons=[5]).free_run[0]
         worse = telltale.validate(self.model, self.today, horizons=[5]).free_run[0]
         self.assertLess(better.position_rmse_m, worse.position_rmse_m)
+
+    def test_weather_has_a_size_and_a_direction(self):
+        log = twin.record(self.folder / "adrift", duration=200, seed=6)
+        twin.set_adrift(log, north=0.3)
+        diagnosis = telltale.diagnose(self.model, telltale.load(log, vehicle=twin.BOAT), [self.monday])
+        self.assertEqual(diagnosis.present_weather, ["current"])
+        (current,) = diagnosis.causes[0].parts
+        self.assertEqual(current.size.name, "speed")
+        self.assertAlmostEqual(current.size.estimate, 0.3, delta=3 * current.size.standard_error)
+        off = (current.direction.towards_deg + 180) % 360 - 180
+        self.assertLess(abs(off), 1.6 * current.direction.half_width_deg)
+        self.assertLess(current.direction.half_width_deg, 90)
+        self.assertIn("deg", repr(current.direction))
 
     def test_references_that_are_no_evidence_of_their_own_are_refused(self):
         sample = telltale.load(twin.SAMPLE, vehicle=twin.BOAT)

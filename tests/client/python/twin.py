@@ -20,6 +20,18 @@ def record(folder, **options):
     return folder
 
 
+def set_adrift(folder, north):
+    """Lets a current run north through a recording: water moves all fixes, and nothing else."""
+    metre_deg = 1 / 111_000
+    file = folder / "gnss.csv"
+    header, *rows = file.read_text().splitlines()
+    drifted = [header]
+    for row in rows:
+        time_s, latitude_deg, longitude_deg = map(float, row.split(","))
+        drifted.append(f"{time_s},{latitude_deg + north * time_s * metre_deg:.10f},{longitude_deg}")
+    file.write_text("\n".join(drifted) + "\n")
+
+
 def telltale(*arguments):
     """What the command does: its exit code, and what it prints on standard output and error."""
     return subprocess.run([os.environ["TELLTALE_COMMAND"], *map(str, arguments)], capture_output=True, text=True, check=False)
