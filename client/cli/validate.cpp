@@ -3,6 +3,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "telltale/client/cli/commands.hpp"
 #include "telltale/client/cli/input_options.hpp"
@@ -29,7 +30,7 @@ struct ValidateArguments {
   LogInputs inputs;
   std::filesystem::path model_file;
   std::optional<std::string> preset;
-  ValidationOptions options;
+  std::vector<double> horizons_s;
   std::filesystem::path disturbance_file;  ///< empty: none is written
   OutputOptions output;
 };
@@ -63,9 +64,11 @@ std::string ScoredText(const PreparedDataset& dataset) {
                  Counted(dataset.segments.size(), "segment", "segments") + " without gaps.");
 }
 
-void RequireHorizons(const ValidationOptions& options, const Identification& model) {
+ValidationOptions OptionsOf(const ValidateArguments& arguments, const Identification& model) {
+  if (arguments.horizons_s.empty()) return UsualOptions(model.sampling_period_s);
+  const ValidationOptions options{arguments.horizons_s};
   const auto horizon_s = options.HorizonOutOfRange(model.sampling_period_s);
-  if (!horizon_s) return;
+  if (!horizon_s) return options;
   throw UsageError("--horizon " + FormatSignificant(*horizon_s, 6) + " must be within [" +
                    FormatSignificant(2.0 * model.sampling_period_s, 6) + ", " +
                    FormatSignificant(kLongestHorizonS, 6) +
@@ -74,14 +77,14 @@ void RequireHorizons(const ValidationOptions& options, const Identification& mod
 
 void ValidateModel(const ValidateArguments& arguments) {
   const Identification model = LoadModel(arguments.model_file);
-  RequireHorizons(arguments.options, model);
+  const ValidationOptions options = OptionsOf(arguments, model);
   const VesselModel vessel = OrThrow(ModelOf(model));
   ProgressLine line;
   line.Update("reading logs", 0.0);
   const RecordedVehicle recorded = arguments.inputs.Load();
   if (arguments.inputs.NamesVehicle()) NoteOtherVehicle(model, recorded.vehicle, PrintNote);
   const ModelScores scores = ScoreModel(
-      model, recorded, arguments.preset, arguments.options,
+      model, recorded, arguments.preset, options,
       [&line](std::string_view stage, double fraction) { line.Update(stage, fraction); });
   if (!arguments.disturbance_file.empty()) {
     WriteFile(arguments.disturbance_file,
@@ -102,9 +105,9 @@ void AddValidate(CLI::App& telltale) {
   arguments->inputs.AddTo(command, command)->required();
   AddModelFile(command, arguments->model_file);
   command
-      .add_option("--horizon", arguments->options.horizons_s,
+      .add_option("--horizon", arguments->horizons_s,
                   "lengths of free runs, seconds, at least two sampling periods, at most 600 "
-                  "(default 1 5 10)")
+                  "(default 1 5 10, as far as these are in the range)")
       ->type_name("S")
       ->check(NumberWithin(2.0 * kShortestPeriodS, kLongestHorizonS).description(""));
   command

@@ -21,12 +21,15 @@ std::map<std::string, Score> ByVelocity(const std::array<Score, 3>& scores) {
 }
 
 Metrics Scored(const ScoredIdentification& model, const OneOrMore& recordings,
-               const std::optional<VehicleOrFile>& vehicle, const std::vector<double>& horizons,
+               const std::optional<VehicleOrFile>& vehicle,
+               const std::optional<std::vector<double>>& horizons,
                const std::optional<std::string>& preset, const py::object& progress) {
   const RecordedVehicle recorded = Joined(ListOf(recordings), vehicle, InputFaults::kIgnored);
   const Progress interruptible = Interruptible(progress);
   const py::gil_scoped_release unlocked;
-  return ScoreModel(model.model, recorded, preset, {horizons}, interruptible).metrics;
+  const ValidationOptions options =
+      horizons ? ValidationOptions{*horizons} : UsualOptions(model.model.sampling_period_s);
+  return ScoreModel(model.model, recorded, preset, options, interruptible).metrics;
 }
 
 void AddScores(py::module_& module) {
@@ -69,15 +72,17 @@ void AddValidate(py::module_& module) {
   AddScores(module);
   module.def(
       "validate", &Scored, py::arg("model"), py::arg("recordings"), py::arg("vehicle") = py::none(),
-      py::kw_only(), py::arg("horizons") = ValidationOptions{}.horizons_s,
-      py::arg("preset") = py::none(), py::arg("progress") = py::none(),
+      py::kw_only(), py::arg("horizons") = py::none(), py::arg("preset") = py::none(),
+      py::arg("progress") = py::none(),
       "Scores a model on recordings: one step ahead and in free runs. Score on recordings that did "
       "not make the model.\n\n"
       "Args:\n"
       "    model: a Model.\n"
       "    recordings: a Recording, or several of one boat.\n"
       "    vehicle: a Vehicle or the path of a vehicle file, in place of the recordings' own.\n"
-      "    horizons: lengths of free runs, seconds, from two sampling periods to 600.\n"
+      "    horizons: lengths of free runs, seconds, from two sampling periods to 600; by default "
+      "1, 5\n"
+      "        and 10, as far as these are in the range.\n"
       "    preset: of the data preparation, 'robust' or 'paper'; by default the model's own.\n"
       "    progress: called with the stage and the share done.\n\n"
       "Raises InputError, DataCannotTell where the model lacks an equation or a horizon is out of "

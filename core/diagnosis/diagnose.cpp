@@ -66,8 +66,9 @@ std::optional<Refusal> CheckRequest(const PreparedDataset& recording, const Vess
 /// Free-run scores of the old model and of the augmented one on the recording.
 std::optional<Improvement> ImprovementOf(const PreparedDataset& recording,
                                          const VesselModel& before, const AugmentedModel& after) {
-  const auto scores_before = Validate(recording, before, {});
-  const auto scores_after = Validate(recording, after, {});
+  const ValidationOptions options = UsualOptions(recording.sampling_period_s);
+  const auto scores_before = Validate(recording, before, options);
+  const auto scores_after = Validate(recording, after, options);
   if (!scores_before || !scores_after) return std::nullopt;
   return Improvement{scores_before->free_run, scores_after->free_run};
 }

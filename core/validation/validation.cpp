@@ -318,6 +318,14 @@ std::optional<double> ValidationOptions::HorizonOutOfRange(double sampling_perio
   return std::nullopt;
 }
 
+ValidationOptions UsualOptions(double sampling_period_s) {
+  ValidationOptions options;
+  std::erase_if(options.horizons_s, [&](double horizon_s) {
+    return ValidationOptions{{horizon_s}}.HorizonOutOfRange(sampling_period_s).has_value();
+  });
+  return options;
+}
+
 bool Diverges(const FreeRunScores& scores, const Nu& limits) {
   const std::array<double, 3> limit = {limits.u, limits.v, limits.r};
   for (std::size_t i = 0; i < limit.size(); ++i) {

@@ -56,6 +56,9 @@ struct ValidationOptions {
   std::optional<double> HorizonOutOfRange(double sampling_period_s) const;
 };
 
+/// 1, 5 and 10 s, as far as data of this sampling period allow them.
+ValidationOptions UsualOptions(double sampling_period_s);
+
 struct Metrics {
   std::array<OneStepScore, 3> one_step;  ///< surge, sway, yaw
   std::vector<FreeRunScores> free_run;

@@ -409,7 +409,7 @@ def validate(
     recordings: Recording | Sequence[Recording],
     vehicle: Vehicle | _Path | None = None,
     *,
-    horizons: Sequence[float] = (1.0, 5.0, 10.0),
+    horizons: Sequence[float] | None = None,
     preset: _Preset | None = None,
     progress: _Progress = None,
 ) -> Scores: ...

@@ -277,6 +277,21 @@ TEST_F(CommandTest, ADynamicModelIsIdentifiedValidatedAndSimulated) {
   EXPECT_EQ(Simulated({"--out", Path("finer"), "--step", "0.02"}).exit_code, kExitSuccess);
 }
 
+TEST_F(CommandTest, AModelOfOneSecondIsScoredOverTheHorizonsThatItHas) {
+  ASSERT_EQ(Identify({"--sampling-period", "1", "--out", Path("model.json")}).exit_code,
+            kExitSuccess);
+  const CommandOutcome score = Validate({"--json"});
+  ASSERT_EQ(score.exit_code, kExitSuccess) << score.err;
+  const auto metrics = ParseMetricsJson(score.out);
+  ASSERT_TRUE(metrics) << metrics.error().Message();
+  std::vector<double> horizons_s;
+  for (const FreeRunScores& scores : metrics->free_run) horizons_s.push_back(scores.horizon_s);
+  EXPECT_THAT(horizons_s, ::testing::ElementsAre(5.0, 10.0));
+  const CommandOutcome asked = Validate({"--horizon", "1"});
+  EXPECT_EQ(asked.exit_code, kExitUsage);
+  EXPECT_THAT(asked.err, HasSubstr("[2, 600] s"));
+}
+
 /// A boat whose propellers always turn alike shows reverse thrust in RR alone.
 TEST_F(CommandTest, AModelOfThePhysicalFormIsIdentifiedValidatedAndCompared) {
   const CommandOutcome outcome =

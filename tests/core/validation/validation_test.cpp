@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "support/special_values.hpp"
@@ -189,6 +190,13 @@ TEST(Validate, RefusesHorizonsOutOfRange) {
     ASSERT_FALSE(metrics.has_value()) << horizon_s;
     EXPECT_EQ(metrics.error().subject, "horizons_s");
   }
+}
+
+TEST(UsualOptions, LeaveOutHorizonsBelowTwoPeriods) {
+  EXPECT_THAT(UsualOptions(0.2).horizons_s, ::testing::ElementsAre(1.0, 5.0, 10.0));
+  EXPECT_THAT(UsualOptions(0.5).horizons_s, ::testing::ElementsAre(1.0, 5.0, 10.0));
+  EXPECT_THAT(UsualOptions(1.0).horizons_s, ::testing::ElementsAre(5.0, 10.0));
+  EXPECT_THAT(UsualOptions(3.0).horizons_s, ::testing::ElementsAre(10.0));
 }
 
 TEST(Validate, NamesTheHorizonAndItsRange) {
