@@ -122,6 +122,7 @@ struct VariationConstants {
   int most_half_turns = 24;       ///< of a drift over a recording; what is faster is fast
   int half_turns_of_a_spell = 5;  ///< within a window, of the fastest course that counts
   double least_mean = 0.15;       ///< 1, over the scatter of what acts for 2 % of the time
+  double most_mean = 1.0;         ///< 1, likewise for half of the time; beyond it, it lasts
   double least_scatter = 1e-4;    ///< 1, of the variance that an intermittent effect stands for
 };
 

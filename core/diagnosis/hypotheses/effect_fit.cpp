@@ -52,15 +52,16 @@ EffectFit FitByMetric(const ErrorModel& error_model, const ResidualMetric& metri
   return FitOfMinimum(LowestFrom(starts, posterior), posterior, none);
 }
 
-/// What acts for a share p of the time and scatters by s acts by s sqrt(p / (1 - p)) on average: on
-/// its side, and by so much at least.
+/// What acts for a share p of the time and scatters by s acts by s sqrt(p / (1 - p)) on average, on
+/// its side: by so much at least, and no more than for half of the time.
 void BoundMean(const ModelledEffect& intermittent, double sd, EffectParameters& parameters) {
   const EffectParameter& mean = intermittent.effect->Parameters().front();
   const double least = kDiagnosis.variation.least_mean * sd;
+  const double most = kDiagnosis.variation.most_mean * sd;
   if (intermittent.values.front() < 0.0) {
-    parameters.Bound(*intermittent.effect, mean.lower, -least);
+    parameters.Bound(*intermittent.effect, std::max(mean.lower, -most), -least);
   } else {
-    parameters.Bound(*intermittent.effect, least, mean.upper);
+    parameters.Bound(*intermittent.effect, least, std::min(mean.upper, most));
   }
 }
 

@@ -188,22 +188,22 @@ TEST(FitEffects, TheScatterOfAnIntermittentEffectCostsAParameter) {
 // Whatever the mean: 2, on either side of zero, and wherever the fit starts.
 TEST(FitEffects, AnIntermittentEffectTakesTheLikeliestScatterAndItsSide) {
   const testing::InertEffect intermittent("intermittent", {{"size", "1", 1.0, -10.0, 10.0}}, 0.0,
-                                          {0.1, 1.0, 10.0});
+                                          {0.2, 2.0, 20.0});
   const Eigen::MatrixXd pattern = 10.0 * testing::Pattern(kRows, kWindows, 0.7);
   for (const double side : {-1.0, 1.0}) {
     const ErrorModel error_model = [&](const std::vector<ModelledEffect>& effects) {
       const double v = effects.empty() ? 0.0 : effects.front().values.front();
       Eigen::MatrixXd errors = testing::Pattern(kRows, kWindows, 2.3);
       for (Eigen::Index w = 0; w < kWindows; ++w) {
-        errors.col(w) += (v - side * (w % 2 == 0 ? 3.0 : 1.0)) * pattern.col(w);
+        errors.col(w) += (v - side * (w % 2 == 0 ? 4.0 : 0.0)) * pattern.col(w);
       }
       return errors;
     };
     const EffectFit fit =
         FitEffects(error_model, UnitMetric(), {&intermittent}, {Eigen::VectorXd::Constant(1, 1.0)});
-    EXPECT_EQ(fit.intermittent_sd, 1.0);
+    EXPECT_EQ(fit.intermittent_sd, 2.0);
     EXPECT_NEAR(fit.effects[0].values[0], 2.0 * side, 0.3);
-    EXPECT_NEAR(fit.variation.by_window.norm() / pattern.norm(), 1.0, 1e-9);
+    EXPECT_NEAR(fit.variation.by_window.norm() / pattern.norm(), 2.0, 1e-9);
   }
 }
 
@@ -222,6 +222,27 @@ TEST(FitEffects, AnIntermittentEffectActsByNoLessThanItsScatterStandsFor) {
   const EffectFit fit =
       FitEffects(error_model, UnitMetric(), {&intermittent}, {Eigen::VectorXd::Constant(1, 1.0)});
   EXPECT_NEAR(fit.effects[0].values[0], 0.15 * 2.0, 1e-6);
+}
+
+// What acts by 3 and by 1 in turn acts all the time. A scatter of 1 stands for a mean of 1 at most,
+// of what acts by 2 for half of the time.
+TEST(FitEffects, AnIntermittentEffectActsForHalfOfTheTimeAtMost) {
+  const testing::InertEffect intermittent("intermittent", {{"size", "1", 1.0, -10.0, 10.0}}, 0.0,
+                                          {1.0});
+  const Eigen::MatrixXd pattern = 10.0 * testing::Pattern(kRows, kWindows, 0.7);
+  for (const double side : {-1.0, 1.0}) {
+    const ErrorModel error_model = [&](const std::vector<ModelledEffect>& effects) {
+      const double v = effects.empty() ? 0.0 : effects.front().values.front();
+      Eigen::MatrixXd errors = testing::Pattern(kRows, kWindows, 2.3);
+      for (Eigen::Index w = 0; w < kWindows; ++w) {
+        errors.col(w) += (v - side * (w % 2 == 0 ? 3.0 : 1.0)) * pattern.col(w);
+      }
+      return errors;
+    };
+    const EffectFit fit =
+        FitEffects(error_model, UnitMetric(), {&intermittent}, {Eigen::VectorXd::Constant(1, 1.0)});
+    EXPECT_NEAR(fit.effects[0].values[0], side, 1e-6);
+  }
 }
 
 /// An acceleration ahead of its own value, with gusts of a fifth that last 4 s.
