@@ -66,7 +66,7 @@ std::string ScoredText(const PreparedDataset& dataset) {
 
 ValidationOptions OptionsOf(const ValidateArguments& arguments, const Identification& model) {
   if (arguments.horizons_s.empty()) return UsualOptions(model.sampling_period_s);
-  const ValidationOptions options{arguments.horizons_s};
+  ValidationOptions options{arguments.horizons_s};
   const auto horizon_s = options.HorizonOutOfRange(model.sampling_period_s);
   if (!horizon_s) return options;
   throw UsageError("--horizon " + FormatSignificant(*horizon_s, 6) + " must be within [" +
