@@ -9,6 +9,7 @@
 
 #include "telltale/client/report/number_text.hpp"
 #include "telltale/core/base/degrees.hpp"
+#include "telltale/core/effects/wording.hpp"
 
 namespace telltale {
 namespace {
@@ -164,11 +165,8 @@ std::string DetectableText(const EffectTestability& effect) {
 }
 
 std::string BesideWeatherText(const Diagnosis& diagnosis) {
-  std::string names;
-  for (const std::string& name : diagnosis.present_weather) {
-    names.append(names.empty() ? " and the " : " and ").append(name);
-  }
-  return names.empty() ? "" : names + " of this recording";
+  const std::vector<std::string>& names = diagnosis.present_weather;
+  return names.empty() ? "" : " and the " + Enumerated(names) + " of this recording";
 }
 
 std::string_view DelayedChannelText(DelayedChannel channel) {

@@ -1,6 +1,7 @@
 #include "telltale/core/diagnosis/hypotheses/present_weather.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <vector>
 
 #include "telltale/core/diagnosis/diagnosis_constants.hpp"
@@ -14,13 +15,11 @@ bool IsWeather(const ModelledEffect& modelled) {
 }
 
 /// What the sizes of effects do to the errors, one prior standard deviation a column.
-Eigen::MatrixXd ColumnsOf(const std::vector<const Effect*>& effects,
+Eigen::MatrixXd FreeSizes(const std::vector<const Effect*>& effects,
                           const DiagnosisProblem& problem) {
   std::vector<Eigen::Index> columns;
-  for (std::size_t j = 0; j < problem.parameter_refs.size(); ++j) {
-    const bool is_of_these =
-        std::ranges::find(effects, problem.parameter_refs[j].effect) != effects.end();
-    if (is_of_these) columns.push_back(static_cast<Eigen::Index>(j));
+  for (const Effect* effect : effects) {
+    std::ranges::copy(ColumnsOf(*effect, problem.parameter_refs), std::back_inserter(columns));
   }
   return kDiagnosis.effect_fit.prior_width *
          problem.recording.by_effect_parameter(Eigen::all, columns);
@@ -35,7 +34,7 @@ PresentWeather PresentWeatherOf(const EffectFit& fit, const DiagnosisProblem& pr
   const ResidualMetric widened = fit.WidenedMetric(problem.metric);
   const double explained = ReducedChiSquareOf(problem.recording.errors, problem.metric) -
                            ReducedChiSquareOf(fit.errors, widened);
-  return {widened.WithFree(ColumnsOf(fit.Effects(), problem)), fit, std::max(explained, 0.0)};
+  return {widened.WithFree(FreeSizes(fit.Effects(), problem)), fit, std::max(explained, 0.0)};
 }
 
 /// The weather of `hypothesis`, less one effect.

@@ -19,15 +19,6 @@ struct LinearEstimate {
   double remaining_share = 1.0;       ///< of the square
 };
 
-std::vector<Eigen::Index> ColumnsOf(const Effect& effect,
-                                    const std::vector<EffectParameterRef>& parameter_refs) {
-  std::vector<Eigen::Index> columns;
-  for (std::size_t j = 0; j < parameter_refs.size(); ++j) {
-    if (parameter_refs[j].effect == &effect) columns.push_back(static_cast<Eigen::Index>(j));
-  }
-  return columns;
-}
-
 /// Sizes within the ranges of the effect's parameters.
 Eigen::VectorXd Clamped(Eigen::VectorXd sizes, const Effect& effect,
                         const std::vector<EffectParameterRef>& parameter_refs,

@@ -5,33 +5,30 @@
 
 #include "telltale/core/diagnosis/diagnosis_constants.hpp"
 #include "telltale/core/diagnosis/hypotheses/stochastic_excitation.hpp"
+#include "telltale/core/effects/wording.hpp"
 
 namespace telltale {
 namespace {
 
-/// The free parameter whose whitened column has the largest cosine with `whitened`.
-std::string MostSimilarParameter(const DiagnosisProblem& problem, const UncertainModel& model,
-                                 const Eigen::VectorXd& whitened) {
+/// What an effect's parameters do to the errors, whitened; no column for a stochastic effect.
+Eigen::MatrixXd WhitenedColumns(const Effect& effect, const DiagnosisProblem& problem) {
+  const auto columns = ColumnsOf(effect, problem.parameter_refs);
+  return problem.metric.WhitenColumns(problem.recording.by_effect_parameter(Eigen::all, columns));
+}
+
+/// The free parameter whose whitened column has the largest cosine with that of the effect's first;
+/// none for a stochastic effect.
+std::string MostSimilarParameter(const Effect& effect, const DiagnosisProblem& problem,
+                                 const UncertainModel& model) {
+  const Eigen::MatrixXd whitened = WhitenedColumns(effect, problem);
+  if (whitened.cols() == 0) return "";
   const Eigen::MatrixXd columns = problem.metric.WhitenColumns(problem.recording.by_coefficient);
   Eigen::Index most = 0;
-  (columns.transpose() * whitened)
+  (columns.transpose() * whitened.col(0))
       .cwiseQuotient(columns.colwise().norm().transpose().cwiseMax(1e-12))
       .cwiseAbs()
       .maxCoeff(&most);
   return model.NameOf(static_cast<std::size_t>(most));
-}
-
-/// The whitened columns of an effect's parameters; none for a stochastic effect.
-std::vector<Eigen::VectorXd> WhitenedColumns(const Effect& effect,
-                                             const DiagnosisProblem& problem) {
-  std::vector<Eigen::VectorXd> columns;
-  for (std::size_t j = 0; j < problem.parameter_refs.size(); ++j) {
-    if (problem.parameter_refs[j].effect != &effect) continue;
-    const auto column = static_cast<Eigen::Index>(j);
-    columns.emplace_back(
-        problem.metric.WhitenColumns(problem.recording.by_effect_parameter.col(column)).col(0));
-  }
-  return columns;
 }
 
 /// Root mean squares over an effect's parameters of the sigmas that their typical sizes show.
@@ -41,35 +38,19 @@ struct Sigmas {
 };
 
 Sigmas SigmasOf(const Effect& effect, const DiagnosisProblem& problem) {
-  const std::vector<Eigen::VectorXd> whitened = WhitenedColumns(effect, problem);
-  if (whitened.empty()) {
+  const Eigen::MatrixXd whitened = WhitenedColumns(effect, problem);
+  if (whitened.cols() == 0) {
     const double sigmas = StochasticDetectability(effect, problem);
     return {sigmas, sigmas};
   }
   Sigmas squares;
-  for (const Eigen::VectorXd& column : whitened) {
-    const double sigmas = problem.metric.Sigmas(column);
+  for (Eigen::Index j = 0; j < whitened.cols(); ++j) {
+    const double sigmas = problem.metric.Sigmas(whitened.col(j));
     squares.marginalised += sigmas * sigmas;
-    squares.unmarginalised += column.squaredNorm() / problem.metric.RowsPerObservation();
+    squares.unmarginalised += whitened.col(j).squaredNorm() / problem.metric.RowsPerObservation();
   }
-  const auto count = static_cast<double>(whitened.size());
+  const auto count = static_cast<double>(whitened.cols());
   return {std::sqrt(squares.marginalised / count), std::sqrt(squares.unmarginalised / count)};
-}
-
-/// "wind and waves".
-std::string NamesOf(const PresentWeather& weather) {
-  std::string names;
-  for (const std::string& name : weather.fit.Names()) {
-    names.append(names.empty() ? "" : " and ").append(name);
-  }
-  return names;
-}
-
-/// The free parameter that is most like the effect's first one; none for a stochastic effect.
-std::string MostSimilarParameter(const Effect& effect, const DiagnosisProblem& problem,
-                                 const UncertainModel& model) {
-  const std::vector<Eigen::VectorXd> whitened = WhitenedColumns(effect, problem);
-  return whitened.empty() ? "" : MostSimilarParameter(problem, model, whitened.front());
 }
 
 }  // namespace
@@ -87,7 +68,7 @@ EffectTestability TestabilityOf(const Effect& effect, const DiagnosisProblem& pr
                                                             : Testability::kNotExcited;
   if (one.testability == Testability::kMasked) {
     one.masked_by = in_calm.marginalised >= kDetectable
-                        ? NamesOf(weather)
+                        ? Enumerated(weather.fit.Names())
                         : MostSimilarParameter(effect, problem, model);
   }
   return one;

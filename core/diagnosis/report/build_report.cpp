@@ -124,9 +124,7 @@ void StateWhatDelaysShow(const ReportInputs& inputs, std::vector<EffectTestabili
 
 /// The weather that the likeliest hypothesis names; none where there is no evidence of any.
 EffectFit ShownWeather(const Conclusion& conclusion) {
-  EffectFit hypothesis;
-  if (conclusion.assessment == GapAssessment::kMaterial) hypothesis = conclusion.best;
-  return hypothesis;
+  return conclusion.assessment == GapAssessment::kMaterial ? conclusion.best : EffectFit();
 }
 
 /// What this recording would show of each effect, beside the weather that it does show.

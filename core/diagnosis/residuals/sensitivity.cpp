@@ -39,6 +39,15 @@ std::vector<EffectParameterRef> EffectParameterRefsOf(std::span<const Effect* co
   return parameter_refs;
 }
 
+std::vector<Eigen::Index> ColumnsOf(const Effect& effect,
+                                    const std::vector<EffectParameterRef>& parameter_refs) {
+  std::vector<Eigen::Index> columns;
+  for (std::size_t j = 0; j < parameter_refs.size(); ++j) {
+    if (parameter_refs[j].effect == &effect) columns.push_back(static_cast<Eigen::Index>(j));
+  }
+  return columns;
+}
+
 ModelledEffect At(const EffectParameterRef& parameter_ref, double value) {
   ModelledEffect modelled{parameter_ref.effect, {}};
   for (const EffectParameter& parameter : parameter_ref.effect->Parameters()) {

@@ -21,6 +21,10 @@ struct EffectParameterRef {
 /// The parameters of effects that move free runs. Stochastic effects have none.
 std::vector<EffectParameterRef> EffectParameterRefsOf(std::span<const Effect* const> effects);
 
+/// The columns of an effect's parameters; none for a stochastic effect.
+std::vector<Eigen::Index> ColumnsOf(const Effect& effect,
+                                    const std::vector<EffectParameterRef>& parameter_refs);
+
 /// The effect with this parameter at `value`, the others at their prior means.
 ModelledEffect At(const EffectParameterRef& parameter_ref, double value);
 

@@ -45,28 +45,15 @@ std::string Joined(const EffectSet& effects) {
   return text;
 }
 
-/// The detectability of an effect in the case's own report.
-double Detectability(const Scored& scored, const std::string& effect) {
-  const auto found = scored.report.detectability.find(effect);
-  return found == scored.report.detectability.end() ? 0.0 : found->second;
-}
-
-/// The least of the true effects'.
-double Detectability(const Scored& scored) {
+/// The least detectability of the true effects in the case's own report, at these sizes, in typical
+/// ones; 1 where none is given.
+double Detectability(const Scored& scored, const std::map<std::string, double>& sizes = {}) {
   double least = std::numeric_limits<double>::infinity();
   for (const std::string& effect : scored.label.effects) {
-    least = std::min(least, Detectability(scored, effect));
-  }
-  return least;
-}
-
-/// The same at the sizes that they have.
-double DetectabilityAsItIs(const Scored& scored) {
-  double least = std::numeric_limits<double>::infinity();
-  for (const std::string& effect : scored.label.effects) {
-    const auto size = scored.label.sizes.find(effect);
-    const double sizes = size == scored.label.sizes.end() ? 1.0 : size->second;
-    least = std::min(least, sizes * Detectability(scored, effect));
+    const auto found = scored.report.detectability.find(effect);
+    const auto size = sizes.find(effect);
+    least = std::min(least, (found == scored.report.detectability.end() ? 0.0 : found->second) *
+                                (size == sizes.end() ? 1.0 : size->second));
   }
   return least;
 }
@@ -250,7 +237,7 @@ Figures FiguresOf(const std::vector<Scored>& cases) {
     if (kind == "single" && Detectability(scored) >= kDetectable) {
       CountNaming(figures.detectable, scored);
     }
-    if (kind == "single" && DetectabilityAsItIs(scored) >= kDetectable) {
+    if (kind == "single" && Detectability(scored, scored.label.sizes) >= kDetectable) {
       CountNaming(figures.detectable_as_it_is, scored);
     }
     CountLeftOut(figures, scored);

@@ -185,22 +185,26 @@ TEST(FitEffects, TheScatterOfAnIntermittentEffectCostsAParameter) {
               0.5 * static_cast<double>(kWindows) * 2e-3);
 }
 
+/// Fit of an effect that acts by two sizes in turn, window by window.
+EffectFit FitInTurn(const Effect& effect, double even, double odd, const Eigen::MatrixXd& pattern) {
+  const ErrorModel error_model = [&](const std::vector<ModelledEffect>& effects) {
+    const double v = effects.empty() ? 0.0 : effects.front().values.front();
+    Eigen::MatrixXd errors = testing::Pattern(kRows, kWindows, 2.3);
+    for (Eigen::Index w = 0; w < kWindows; ++w) {
+      errors.col(w) += (v - (w % 2 == 0 ? even : odd)) * pattern.col(w);
+    }
+    return errors;
+  };
+  return FitEffects(error_model, UnitMetric(), {&effect}, {Eigen::VectorXd::Constant(1, 1.0)});
+}
+
 // Whatever the mean: 2, on either side of zero, and wherever the fit starts.
 TEST(FitEffects, AnIntermittentEffectTakesTheLikeliestScatterAndItsSide) {
   const testing::InertEffect intermittent("intermittent", {{"size", "1", 1.0, -10.0, 10.0}}, 0.0,
                                           {0.2, 2.0, 20.0});
   const Eigen::MatrixXd pattern = 10.0 * testing::Pattern(kRows, kWindows, 0.7);
   for (const double side : {-1.0, 1.0}) {
-    const ErrorModel error_model = [&](const std::vector<ModelledEffect>& effects) {
-      const double v = effects.empty() ? 0.0 : effects.front().values.front();
-      Eigen::MatrixXd errors = testing::Pattern(kRows, kWindows, 2.3);
-      for (Eigen::Index w = 0; w < kWindows; ++w) {
-        errors.col(w) += (v - side * (w % 2 == 0 ? 4.0 : 0.0)) * pattern.col(w);
-      }
-      return errors;
-    };
-    const EffectFit fit =
-        FitEffects(error_model, UnitMetric(), {&intermittent}, {Eigen::VectorXd::Constant(1, 1.0)});
+    const EffectFit fit = FitInTurn(intermittent, side * 4.0, side * 0.0, pattern);
     EXPECT_EQ(fit.intermittent_sd, 2.0);
     EXPECT_NEAR(fit.effects[0].values[0], 2.0 * side, 0.3);
     EXPECT_NEAR(fit.variation.by_window.norm() / pattern.norm(), 2.0, 1e-9);
@@ -231,16 +235,7 @@ TEST(FitEffects, AnIntermittentEffectActsForHalfOfTheTimeAtMost) {
                                           {1.0});
   const Eigen::MatrixXd pattern = 10.0 * testing::Pattern(kRows, kWindows, 0.7);
   for (const double side : {-1.0, 1.0}) {
-    const ErrorModel error_model = [&](const std::vector<ModelledEffect>& effects) {
-      const double v = effects.empty() ? 0.0 : effects.front().values.front();
-      Eigen::MatrixXd errors = testing::Pattern(kRows, kWindows, 2.3);
-      for (Eigen::Index w = 0; w < kWindows; ++w) {
-        errors.col(w) += (v - side * (w % 2 == 0 ? 3.0 : 1.0)) * pattern.col(w);
-      }
-      return errors;
-    };
-    const EffectFit fit =
-        FitEffects(error_model, UnitMetric(), {&intermittent}, {Eigen::VectorXd::Constant(1, 1.0)});
+    const EffectFit fit = FitInTurn(intermittent, side * 3.0, side * 1.0, pattern);
     EXPECT_NEAR(fit.effects[0].values[0], side, 1e-6);
   }
 }
