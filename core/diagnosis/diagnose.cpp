@@ -102,7 +102,7 @@ Result<DiagnosedModel> DiagnoseAgainst(const std::vector<PreparedDataset>& refer
   const std::vector<EffectParameterRef> parameter_refs = EffectParameterRefsOf(library);
 
   report_progress("free runs", 0.05);
-  const auto runs = BuildFreeRuns(recording, references, model.model);
+  const auto runs = BuildFreeRuns(recording, references, model.model, options.threads);
   if (!runs) return tl::unexpected<Refusal>(runs.error());
 
   report_progress("nominal boat", 0.1);

@@ -8,6 +8,7 @@
 #include "telltale/core/base/contract.hpp"
 #include "telltale/core/base/linear_algebra/covariance.hpp"
 #include "telltale/core/base/linear_algebra/eigen_decompositions.hpp"
+#include "telltale/core/base/parallel.hpp"
 #include "telltale/core/diagnosis/baseline/residual_metric.hpp"
 #include "telltale/core/diagnosis/diagnosis_constants.hpp"
 
@@ -275,7 +276,7 @@ class BaselineEstimation {
         threads_(threads),
         fit_(model, parameter_refs, recordings_.size()),
         boat_{model.model, {}} {
-    for (const FreeRuns* runs : recordings_) errors_.push_back(runs->Errors(boat_));
+    errors_ = ErrorsOf(boat_);
     covariance_ = SecondMoment(errors_);
   }
 
@@ -329,9 +330,8 @@ class BaselineEstimation {
   /// With the slopes there are.
   NominalBaseline BaselineWithOldSlopes() {
     std::vector<Sensitivity> days = sensitivities_;
-    for (std::size_t day = 0; day < days.size(); ++day) {
-      days[day].errors = recordings_[day]->Errors(boat_);
-    }
+    std::vector<Eigen::MatrixXd> errors = ErrorsOf(boat_);
+    for (std::size_t day = 0; day < days.size(); ++day) days[day].errors = std::move(errors[day]);
     return Baseline(std::move(days));
   }
 
@@ -389,18 +389,28 @@ class BaselineEstimation {
   }
 
   Divergence DivergenceOf(const AugmentedModel& boat) const {
+    Recordings all = recordings_;
+    all.insert(all.end(), others_.begin(), others_.end());
+    std::vector<Divergence> each(all.size());
+    ForEachIndex(all.size(), threads_,
+                 [&](std::size_t i) { each[i] = all[i]->DivergenceOf(boat); });
     Divergence divergence;
-    for (const Recordings* all : {&recordings_, &others_}) {
-      for (const FreeRuns* runs : *all) divergence.Add(runs->DivergenceOf(boat));
-    }
+    for (const Divergence& one : each) divergence.Add(one);
     return divergence;
   }
 
+  /// Of each recording.
+  std::vector<Eigen::MatrixXd> ErrorsOf(const AugmentedModel& boat) const {
+    std::vector<Eigen::MatrixXd> errors(recordings_.size());
+    ForEachIndex(errors.size(), threads_,
+                 [&](std::size_t day) { errors[day] = recordings_[day]->Errors(boat); });
+    return errors;
+  }
+
   std::vector<Eigen::MatrixXd> LessRecordingEffects(const AugmentedModel& boat) const {
-    std::vector<Eigen::MatrixXd> left;
-    for (std::size_t day = 0; day < recordings_.size(); ++day) {
-      left.emplace_back(recordings_[day]->Errors(boat) +
-                        fit_.RecordingEffects(sensitivities_[day], day));
+    std::vector<Eigen::MatrixXd> left = ErrorsOf(boat);
+    for (std::size_t day = 0; day < left.size(); ++day) {
+      left[day] += fit_.RecordingEffects(sensitivities_[day], day);
     }
     return left;
   }
@@ -414,9 +424,9 @@ class BaselineEstimation {
   Recordings recordings_;
   Recordings others_;
   const UncertainModel& model_;
-  Divergence divergence_of_model_ = DivergenceOf({model_.model, {}});
   const std::vector<EffectParameterRef>& parameter_refs_;
   std::size_t threads_;
+  Divergence divergence_of_model_ = DivergenceOf({model_.model, {}});
   NominalBaselineFit fit_;
   AugmentedModel boat_;
   std::vector<Sensitivity> sensitivities_;

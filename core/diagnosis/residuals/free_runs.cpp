@@ -62,6 +62,11 @@ double HeadingAt(const std::vector<Pose>& track, double since_start_s, double st
          bow * (track[k + 1].nu.r - track[k].nu.r);
 }
 
+/// The first of ascending times from a time on.
+std::size_t FirstFrom(double time_s, const std::vector<double>& times_s) {
+  return static_cast<std::size_t>(std::ranges::lower_bound(times_s, time_s) - times_s.begin());
+}
+
 double Limited(double error) {
   return std::isfinite(error) ? std::clamp(error, -kLargestFreeRunResidual, kLargestFreeRunResidual)
                               : kLargestFreeRunResidual;
@@ -182,12 +187,13 @@ bool FreeRuns::Collect(std::size_t segment, std::size_t first_row, Window& windo
   window.per_bin = Eigen::VectorXd::Zero(Rows());
   const double from = dataset_->rows[first_row].time_s;
   const double bin_s = horizon_s_ / static_cast<double>(bins_);
+  const double beyond = from + horizon_s_ + bin_s;
   const auto bin_of = [&](double time_s) {
     return static_cast<Eigen::Index>(std::ceil((time_s - from) / bin_s - kSameBin)) - 1;
   };
   const RawSignals& raw = dataset_->signals[segment];
   const auto& fix_times = raw.north_m.times_s;
-  for (std::size_t i = 0; i < fix_times.size(); ++i) {
+  for (std::size_t i = FirstFrom(from, fix_times); i < FirstFrom(beyond, fix_times); ++i) {
     const Eigen::Index bin = bin_of(fix_times[i]);
     if (bin < 0 || bin >= bins_) continue;
     const double psi = MeasuredAt(*dataset_, dataset_->segments[segment], fix_times[i]).eta.psi_rad;
@@ -197,7 +203,7 @@ bool FreeRuns::Collect(std::size_t segment, std::size_t first_row, Window& windo
     window.per_bin[3 * bin + 1] += 1.0;
   }
   const auto& heading_times = raw.psi_rad.times_s;
-  for (std::size_t i = 0; i < heading_times.size(); ++i) {
+  for (std::size_t i = FirstFrom(from, heading_times); i < FirstFrom(beyond, heading_times); ++i) {
     const Eigen::Index bin = bin_of(heading_times[i]);
     if (bin < 0 || bin >= bins_) continue;
     window.headings.push_back({heading_times[i], raw.psi_rad.values[i], bin});

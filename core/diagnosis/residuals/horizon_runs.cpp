@@ -4,6 +4,7 @@
 #include <string>
 #include <utility>
 
+#include "telltale/core/base/parallel.hpp"
 #include "telltale/core/diagnosis/diagnosis_constants.hpp"
 
 namespace telltale {
@@ -22,19 +23,36 @@ std::optional<Refusal> CheckMainHorizon(const HorizonRuns& runs) {
   return std::nullopt;
 }
 
+/// Of the recording and its references at every horizon.
+std::vector<HorizonRuns> AllFreeRuns(const PreparedDataset& recording,
+                                     const std::vector<PreparedDataset>& references,
+                                     const VesselModel& model, std::size_t threads) {
+  constexpr auto& kHorizons = kDiagnosis.horizons.horizons_s;
+  std::vector<const PreparedDataset*> datasets = {&recording};
+  for (const PreparedDataset& reference : references) datasets.push_back(&reference);
+  std::vector<std::optional<FreeRuns>> built(kHorizons.size() * datasets.size());
+  ForEachIndex(built.size(), threads, [&](std::size_t i) {
+    built[i].emplace(*datasets[i % datasets.size()], model, kHorizons[i / datasets.size()]);
+  });
+  std::vector<HorizonRuns> all;
+  for (std::size_t i = 0; i < built.size(); ++i) {
+    if (i % datasets.size() == 0) {
+      all.push_back({*std::move(built[i]), {}});
+    } else if (built[i]->Windows() > 0) {
+      all.back().references.push_back(*std::move(built[i]));
+    }
+  }
+  return all;
+}
+
 }  // namespace
 
 Result<RunsByHorizon> BuildFreeRuns(const PreparedDataset& recording,
                                     const std::vector<PreparedDataset>& references,
-                                    const VesselModel& model) {
+                                    const VesselModel& model, std::size_t threads) {
   RunsByHorizon by_horizon;
-  for (const double horizon_s : kDiagnosis.horizons.horizons_s) {
-    HorizonRuns runs{FreeRuns(recording, model, horizon_s), {}};
-    for (const PreparedDataset& reference : references) {
-      FreeRuns of_reference(reference, model, horizon_s);
-      if (of_reference.Windows() > 0) runs.references.push_back(std::move(of_reference));
-    }
-    const bool is_main = horizon_s == kDiagnosis.horizons.main_s;
+  for (HorizonRuns& runs : AllFreeRuns(recording, references, model, threads)) {
+    const bool is_main = runs.recording.HorizonS() == kDiagnosis.horizons.main_s;
     if (is_main) {
       if (auto refusal = CheckMainHorizon(runs))
         return tl::unexpected<Refusal>(*std::move(refusal));

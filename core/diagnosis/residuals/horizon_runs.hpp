@@ -29,6 +29,6 @@ struct RunsByHorizon {
 /// recording has fewer windows than kDiagnosis.recording.minimum_windows, or no reference has any.
 Result<RunsByHorizon> BuildFreeRuns(const PreparedDataset& recording,
                                     const std::vector<PreparedDataset>& references,
-                                    const VesselModel& model);
+                                    const VesselModel& model, std::size_t threads);
 
 }  // namespace telltale

@@ -10,7 +10,7 @@ namespace {
 
 TEST(BuildFreeRuns, HasEachHorizonAndKnowsTheMainOne) {
   const testing::RestingBoat boat(90.0);
-  const auto runs = BuildFreeRuns(boat.dataset, {boat.dataset, boat.dataset}, boat.model);
+  const auto runs = BuildFreeRuns(boat.dataset, {boat.dataset, boat.dataset}, boat.model, 2);
   ASSERT_TRUE(runs);
   ASSERT_EQ(runs->horizons.size(), 3U);
   EXPECT_EQ(runs->horizons[0].recording.HorizonS(), 1.0);
@@ -27,7 +27,7 @@ TEST(BuildFreeRuns, LeavesOutAHorizonLongerThanEverySegment) {
   }
   cut.commands.assign(cut.segments.size(), boat.dataset.commands.front());
   cut.signals.assign(cut.segments.size(), boat.dataset.signals.front());
-  const auto runs = BuildFreeRuns(cut, {boat.dataset}, boat.model);
+  const auto runs = BuildFreeRuns(cut, {boat.dataset}, boat.model, 2);
   ASSERT_TRUE(runs);
   EXPECT_EQ(runs->horizons.size(), 2U);
   EXPECT_EQ(runs->Main().recording.HorizonS(), 5.0);
@@ -36,11 +36,11 @@ TEST(BuildFreeRuns, LeavesOutAHorizonLongerThanEverySegment) {
 TEST(BuildFreeRuns, RefusesWhatHasTooFewWindows) {
   const testing::RestingBoat boat(90.0);
   const testing::RestingBoat brief(30.0);
-  const auto of_brief = BuildFreeRuns(brief.dataset, {boat.dataset}, boat.model);
+  const auto of_brief = BuildFreeRuns(brief.dataset, {boat.dataset}, boat.model, 2);
   ASSERT_FALSE(of_brief);
   EXPECT_EQ(of_brief.error().subject, "recording");
   EXPECT_THAT(of_brief.error().reason, ::testing::HasSubstr("windows of five seconds"));
-  const auto without_reference = BuildFreeRuns(boat.dataset, {}, boat.model);
+  const auto without_reference = BuildFreeRuns(boat.dataset, {}, boat.model, 2);
   ASSERT_FALSE(without_reference);
   EXPECT_EQ(without_reference.error().subject, "reference");
 }
