@@ -132,7 +132,7 @@ struct SearchConstants {
   std::size_t seed_hypotheses = 2;          ///< single effects to which a second one is added
   std::size_t candidates_per_seed = 5;      ///< second and third effects fitted for each
   double score_to_add_effect = 12.0;        ///< -2 ln evidence, decrease that one more effect needs
-  double score_to_add_weather = 6.0;        ///< the same of weather, which is there on most days
+  double score_to_add_weather = 6.0;        ///< the same of the first weather, there on most days
   double separable_nats = 3.0;       ///< nats, below which two hypotheses are indistinguishable
   double nominal_gain_factor = 1.5;  ///< 1, times the evidence that an effect has on references
   std::size_t most_effects = 3;      ///< that may act together, limit of the option

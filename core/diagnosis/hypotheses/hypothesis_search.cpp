@@ -104,7 +104,7 @@ class HypothesisSearch {
     if (fit.Stochastic() != nullptr || problem_.excitation.peak.gain == 0.0) return best;
     for (const Effect* effect : stochastic_) {
       EffectFit both = FitBeside(*effect, fit.Effects(), fit.Values());
-      if (both.score < best.score - ScoreToAdd(*effect)) best = std::move(both);
+      if (both.score < best.score - ScoreToAdd(*effect, fit)) best = std::move(both);
     }
     return best;
   }
@@ -121,7 +121,7 @@ class HypothesisSearch {
         EffectFit fewer = fit;
         fewer.effects.erase(fewer.effects.begin() + static_cast<std::ptrdiff_t>(drop));
         fewer = Refitted(fewer);
-        if (fit.score < fewer.score - ScoreToAdd(*dropped)) continue;
+        if (fit.score < fewer.score - ScoreToAdd(*dropped, fewer)) continue;
         fit = fewer;
         pruned = true;
         break;
@@ -229,7 +229,7 @@ std::vector<EffectFit> NextLevel(const HypothesisSearch& search,
   std::vector<EffectFit> next;
   for (const EffectFit& first : level) {
     for (EffectFit& more : search.WithOneMore(first, singles)) {
-      const double needed = ScoreToAdd(*more.Deterministic().effects.back().effect);
+      const double needed = ScoreToAdd(*more.Deterministic().effects.back().effect, first);
       if (more.score < first.score - needed) next.push_back(std::move(more));
     }
     EffectFit with_stochastic = search.WithStochastic(first);
@@ -242,8 +242,9 @@ std::vector<EffectFit> NextLevel(const HypothesisSearch& search,
 
 }  // namespace
 
-double ScoreToAdd(const Effect& effect) {
-  return effect.Facts().is_weather ? kSearch.score_to_add_weather : kSearch.score_to_add_effect;
+double ScoreToAdd(const Effect& effect, const EffectFit& to) {
+  const bool is_first_weather = effect.Facts().is_weather && to.Faults() == to.effects.size();
+  return is_first_weather ? kSearch.score_to_add_weather : kSearch.score_to_add_effect;
 }
 
 const EffectFit& BestHypothesis(const Hypotheses& hypotheses) {

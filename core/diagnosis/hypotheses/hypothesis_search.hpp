@@ -18,8 +18,8 @@ struct Hypotheses {
   std::map<const Effect*, double> nominal_gains;  ///< of every effect, NominalGains
 };
 
-/// By how much the score has to fall where this effect is added.
-double ScoreToAdd(const Effect& effect);
+/// By how much the score of `to` has to fall where this effect is added.
+double ScoreToAdd(const Effect& effect, const EffectFit& to);
 
 /// The hypothesis with the lowest score. Requires: at least one single hypothesis.
 const EffectFit& BestHypothesis(const Hypotheses& hypotheses);
@@ -29,12 +29,11 @@ const EffectFit& BestHypothesis(const Hypotheses& hypotheses);
 std::vector<EffectFit> SeedsOf(const std::vector<EffectFit>& singles);
 
 /// Screens every effect by the score test, fits the most promising in full, then adds a second and
-/// a third effect where the score falls by kDiagnosis.search.score_to_add_effect, of weather by
-/// score_to_add_weather, and the effects are separable. An effect that a combination does not need
-/// is removed again. Every score is raised by the NominalGains of its effects. `report_progress`
-/// gets the share done; it is called by one thread at a time. `known`: single effects fitted to
-/// nearly the same problem; the fits of these effects start from their values and from nowhere
-/// else.
+/// a third effect where the score falls by ScoreToAdd, and the effects are separable. An effect
+/// that a combination does not need is removed again. Every score is raised by the NominalGains of
+/// its effects. `report_progress` gets the share done; it is called by one thread at a time.
+/// `known`: single effects fitted to nearly the same problem; the fits of these effects start from
+/// their values and from nowhere else.
 Hypotheses Search(const DiagnosisProblem& problem, std::span<const Effect* const> library,
                   std::size_t most_effects, std::size_t threads,
                   const std::function<void(double)>& report_progress,

@@ -220,7 +220,7 @@ CandidateEffect CandidateOf(const Effect& effect, const PresentWeather& weather)
   both.effects.insert(both.effects.begin(), At({&effect, 0}, 0.0));
   HypothesisTraits traits = TraitsOf(both);
   traits.negative_log_prior = 0.0;
-  return {traits, ScoreToAdd(effect)};
+  return {traits, ScoreToAdd(effect, weather.fit)};
 }
 
 /// The smallest size between zero and `end`; nothing where not even the end of the range shows.

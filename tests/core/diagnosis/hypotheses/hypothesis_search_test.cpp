@@ -57,6 +57,17 @@ TEST(BestHypothesis, HasTheLowestScoreOfSinglesAndCombinations) {
   EXPECT_EQ(&BestHypothesis(hypotheses), &hypotheses.combined[0]);
 }
 
+// Weather is there on most days, a second kind of it on few.
+TEST(ScoreToAdd, IsLessOfTheFirstWeatherAlone) {
+  const Eigen::MatrixXd errors = testing::Pattern(3, 20, 0.7);
+  const EffectFit fault = FitOf("heading_bias", errors);
+  const EffectFit weather = FitOf("current", errors);
+  const double of_second_fault = ScoreToAdd(*FindEffect("thrust_gain"), fault);
+  EXPECT_LT(ScoreToAdd(*FindEffect("current"), fault), of_second_fault);
+  EXPECT_EQ(ScoreToAdd(*FindEffect("waves"), weather), of_second_fault);
+  EXPECT_EQ(ScoreToAdd(*FindEffect("thrust_gain"), weather), of_second_fault);
+}
+
 /// Waves of that score, and three effects that are likelier or less likely.
 std::vector<EffectFit> SinglesWithWaves(double score) {
   const Eigen::MatrixXd errors = testing::Pattern(3, 20, 0.7);
