@@ -106,10 +106,24 @@ class IntermittentFits {
     // Once more about the other effects as the spells leave them.
     if (fit.effects.size() > 1) fit = Fit(fit, side, fit.intermittent_sd);
     fit.score += metric_.ParameterPenalty();
+    // A scatter without a mean is that of another effect.
+    if (!TellsMean(fit)) fit.score = std::max(fit.score, 0.0);
     return fit;
   }
 
  private:
+  /// Whether the errors tell more of the mean than its prior does, beside the other effects.
+  bool TellsMean(const EffectFit& fit) const {
+    Eigen::Index row = 0;
+    for (const ModelledEffect& modelled : fit.effects) {
+      if (modelled.effect == &intermittent_) break;
+      row += std::ssize(modelled.values);
+    }
+    const double prior_sd =
+        kDiagnosis.effect_fit.prior_width * intermittent_.Parameters().front().typical;
+    return fit.covariance(row, row) < 0.5 * prior_sd * prior_sd;
+  }
+
   static void TakeLikelier(EffectFit&& other, EffectFit& fit) {
     if (other.score < fit.score) fit = std::move(other);
   }

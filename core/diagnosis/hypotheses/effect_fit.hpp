@@ -57,8 +57,8 @@ ErrorModel ErrorModelOf(const FreeRuns& runs, const AugmentedModel& boat);
 /// from each of `starts`, a stack of values each; the lowest cost is kept. What
 /// gusts or drifts is fitted again allowing for that, where it lowers the score. An intermittent
 /// effect is fitted with the likeliest scatter; where it scatters less than that it is the less
-/// likely. Requires: at
-/// least one effect and one start.
+/// likely, and where the other effects leave its mean open it is no likelier than none. Requires:
+/// at least one effect and one start.
 EffectFit FitEffects(const ErrorModel& error_model, const ResidualMetric& metric,
                      const std::vector<const Effect*>& effects,
                      const std::vector<Eigen::VectorXd>& starts);

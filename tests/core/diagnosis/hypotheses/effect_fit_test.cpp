@@ -240,6 +240,30 @@ TEST(FitEffects, AnIntermittentEffectActsForHalfOfTheTimeAtMost) {
   }
 }
 
+// The errors act by 4 and by 0 in turn. Beside a steady effect that errs alike, any mean of what
+// comes and goes will do; beside one that errs otherwise, 2.
+TEST(FitEffects, AnIntermittentEffectHasAMeanThatOthersLeaveIt) {
+  const std::vector<EffectParameter> size = {{"size", "1", 1.0, -10.0, 10.0}};
+  const testing::InertEffect steady("steady", size);
+  const testing::InertEffect intermittent("intermittent", size, 0.0, {2.0});
+  const Eigen::MatrixXd pattern = 10.0 * testing::Pattern(kRows, kWindows, 0.7);
+  const auto score_beside = [&](const Eigen::MatrixXd& of_steady) {
+    const ErrorModel error_model = [&](const std::vector<ModelledEffect>& effects) {
+      Eigen::MatrixXd errors = testing::Pattern(kRows, kWindows, 2.3);
+      for (Eigen::Index w = 0; w < kWindows; w += 2) errors.col(w) -= 4.0 * pattern.col(w);
+      for (const ModelledEffect& modelled : effects) {
+        errors += modelled.values.front() * (modelled.effect == &steady ? of_steady : pattern);
+      }
+      return errors;
+    };
+    return FitEffects(error_model, UnitMetric(), {&steady, &intermittent},
+                      {Eigen::Vector2d(0.0, 1.0)})
+        .score;
+  };
+  EXPECT_GE(score_beside(pattern), 0.0);
+  EXPECT_LT(score_beside(testing::Pattern(kRows, kWindows, 1.9)), -20.0);
+}
+
 /// An acceleration ahead of its own value, with gusts of a fifth that last 4 s.
 class GustyPush final : public Effect {
  public:
