@@ -56,7 +56,8 @@ class Environment {
   BodyForce Wash(double force_n, const Place& place, double time_s) const;
 
   std::array<Component, 9> swell_{};
-  std::array<Component, 24> wind_sea_{};
+  // So many that their mean direction is within 3 degrees of the sea's.
+  std::array<Component, 96> wind_sea_{};
   std::vector<double> wash_starts_s_;
   std::vector<Spell> spells_;
   double wash_towards_;
