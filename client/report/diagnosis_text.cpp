@@ -46,6 +46,7 @@ std::string TermText(const OddsTerm& term) {
   if (term.name == "predictable")
     return "by what effects still predict of the errors that are left";
   if (term.name == "improbable_shape") return "by the improbable shape of the likeliest cause";
+  if (term.name == "further_faults") return "by the faults after the first";
   if (term.name == "drift") return "by what a current that drifts may hide";
   if (term.name == "waves") return "by what waves may hide";
   if (term.name == "spells") return "by what spells may hide";

@@ -38,13 +38,16 @@ struct Term {
   double LogOdds() const { return weight * value; }
 };
 
-std::array<Term, 9> UnknownTerms(const LackOfFit& lack_of_fit, const HypothesisTraits& hypothesis) {
+std::array<Term, 10> UnknownTerms(const LackOfFit& lack_of_fit,
+                                  const HypothesisTraits& hypothesis) {
   const double excess = lack_of_fit.after - lack_of_fit.nominal;
   const double before = std::max(lack_of_fit.before - lack_of_fit.nominal, excess);
   const double unresolved = UnresolvedShare(hypothesis.score);
   const double share = before > 0.0 ? std::max(excess / before, unresolved) : unresolved;
   const UnknownWeights& weights =
-      hypothesis.is_weather ? kRanking.unknown_beside_weather : kRanking.unknown_beside_faults;
+      hypothesis.faults == 0 ? kRanking.unknown_beside_weather : kRanking.unknown_beside_faults;
+  const std::size_t further_faults =
+      hypothesis.faults - std::min<std::size_t>(hypothesis.faults, 1);
   const auto over_nominal = [&](double square) { return std::log(square / lack_of_fit.nominal); };
   return {{{"constant", 1.0, weights.intercept},
            {"log_unexplained_share", std::log(share), weights.per_log_share},
@@ -52,6 +55,7 @@ std::array<Term, 9> UnknownTerms(const LackOfFit& lack_of_fit, const HypothesisT
            {"log_median_misfit", over_nominal(lack_of_fit.median), weights.per_median_misfit},
            {"predictable", std::max(lack_of_fit.predictable, 0.0), weights.per_predictable},
            {"improbable_shape", hypothesis.negative_log_prior, weights.per_negative_log_prior},
+           {"further_faults", static_cast<double>(further_faults), weights.per_further_fault},
            {"drift", hypothesis.drifts ? 1.0 : 0.0, weights.of_drift},
            {"waves", hypothesis.is_stochastic ? 1.0 : 0.0, weights.of_waves},
            {"spells", hypothesis.is_intermittent ? 1.0 : 0.0, weights.of_intermittence}}};
@@ -83,7 +87,7 @@ std::vector<std::string> RankedHypothesis::Indistinguishable() const {
 HypothesisTraits TraitsOf(const EffectFit& fit) {
   HypothesisTraits traits{.score = fit.score,
                           .negative_log_prior = fit.NegativeLogPrior(),
-                          .is_weather = fit.Faults() == 0,
+                          .faults = fit.Faults(),
                           .is_stochastic = fit.Stochastic() != nullptr};
   for (const Effect* effect : fit.Effects()) {
     const EffectFacts& facts = effect->Facts();

@@ -39,7 +39,7 @@ Ranking Rank(const Hypotheses& hypotheses, const ResidualMetric& metric,
 struct HypothesisTraits {
   double score = 0.0;
   double negative_log_prior = 0.0;  ///< of its shape parameters
-  bool is_weather = false;          ///< and no fault of the boat
+  std::size_t faults = 1;           ///< of the boat; without any it is weather alone
   /// Whether one of its effects drifts, as a current does; whether one is stochastic; whether one
   /// is intermittent. What is allowed for hides what else there is.
   bool drifts = false;
@@ -50,8 +50,8 @@ struct HypothesisTraits {
 HypothesisTraits TraitsOf(const EffectFit& fit);
 
 /// Probability that the cause is another than such a hypothesis. It grows with what the hypothesis
-/// leaves, with what is predictable in its errors, with its negative log prior, and where it allows
-/// for what varies.
+/// leaves, with what is predictable in its errors, with its negative log prior, with every fault
+/// after the first, and where it allows for what varies.
 double UnknownProbability(const LackOfFit& lack_of_fit, const HypothesisTraits& hypothesis);
 
 /// Its log odds, term by term.

@@ -13,10 +13,11 @@ namespace {
 
 using blind::fit::Observation;
 
-const std::vector<std::string> kBesideFaults = {
-    "constant",    "log_unexplained_share", "log_misfit", "log_median_misfit",
-    "predictable", "improbable_shape",      "drift",      "waves",
-    "spells"};
+const std::vector<std::string> kBesideFaults = {"constant",       "log_unexplained_share",
+                                                "log_misfit",     "log_median_misfit",
+                                                "predictable",    "improbable_shape",
+                                                "further_faults", "drift",
+                                                "waves",          "spells"};
 const std::vector<std::string> kBesideWeather = {"constant", "log_misfit", "predictable", "drift",
                                                  "waves"};
 
