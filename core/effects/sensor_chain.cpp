@@ -48,20 +48,24 @@ Pose TrueStart(const PreparedDataset& dataset, const RowRange& segment, double t
            -std::sin(psi) * velocity[0] + std::cos(psi) * velocity[1], r}};
 }
 
-Nu MeasuredNu(const Pose& now, const Pose& past, const LeverArm& stated,
-              const AugmentedBoat& boat) {
+Pose MeasuredPose(const Pose& now, const Pose& past, const LeverArm& stated,
+                  const AugmentedBoat& boat) {
   const LeverArm shift = boat.AntennaShift();
   const double ahead = stated.forward_m + shift.forward_m;
   const double aside = stated.starboard_m + shift.starboard_m;
   const Nu& nu = past.nu;
+  const Eigen::Vector2d antenna =
+      Eigen::Vector2d(past.eta.x_m, past.eta.y_m) + Turned(past.eta.psi_rad, ahead, aside);
   const Eigen::Vector2d antenna_velocity =
       Turned(past.eta.psi_rad, nu.u - nu.r * aside, nu.v + nu.r * ahead);
   const double psi = boat.MeasuredHeadingRad(now.eta.psi_rad);
   const double r = now.nu.r * boat.MeasuredHeadingSlope(now.eta.psi_rad);
+  const Eigen::Vector2d position = antenna - Turned(psi, stated.forward_m, stated.starboard_m);
   const Eigen::Vector2d velocity =
       antenna_velocity - r * Turned(psi, -stated.starboard_m, stated.forward_m);
-  return {std::cos(psi) * velocity[0] + std::sin(psi) * velocity[1],
-          -std::sin(psi) * velocity[0] + std::cos(psi) * velocity[1], r};
+  return {{position[0], position[1], psi},
+          {std::cos(psi) * velocity[0] + std::sin(psi) * velocity[1],
+           -std::sin(psi) * velocity[0] + std::cos(psi) * velocity[1], r}};
 }
 
 }  // namespace telltale

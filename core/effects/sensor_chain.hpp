@@ -18,8 +18,9 @@ Pose MeasuredAt(const PreparedDataset& dataset, const RowRange& segment, double 
 Pose TrueStart(const PreparedDataset& dataset, const RowRange& segment, double time_s,
                const AugmentedBoat& boat);
 
-/// What such sensors make of a boat's velocity: the inverse of TrueStart. `past` is where the boat
-/// was when the position now stamped was taken.
-Nu MeasuredNu(const Pose& now, const Pose& past, const LeverArm& stated, const AugmentedBoat& boat);
+/// What such sensors make of a boat: the inverse of TrueStart. `past` is where the boat was when
+/// the position now stamped was taken.
+Pose MeasuredPose(const Pose& now, const Pose& past, const LeverArm& stated,
+                  const AugmentedBoat& boat);
 
 }  // namespace telltale

@@ -187,9 +187,10 @@ class AugmentedFreeRuns {
       const auto late =
           static_cast<std::size_t>(std::lround(std::max(boat_.LatencyS(), 0.0) / step_s_));
       const Pose& past = track[k * steps_ - std::min(late, k * steps_)];
+      const Pose measured = MeasuredPose(now, past, dataset_.sensors.antenna, boat_);
       PreparedRow row;
-      row.eta = past.eta;
-      row.nu = MeasuredNu(now, past, dataset_.sensors.antenna, boat_);
+      row.eta = measured.eta;
+      row.nu = measured.nu;
       predicted.push_back(row);
     }
     return predicted;

@@ -99,8 +99,9 @@ Eigen::Matrix3Xd ResidualsOf(const PreparedDataset& dataset, AugmentedModel mode
   std::vector<Eigen::Vector3d> residuals;
   ForEachSpan(dataset, [&](std::size_t segment, std::size_t row) {
     const Nu& measured = dataset.rows[row + RowsOfSpan(dataset)].nu;
-    const Nu foretold = telltale::MeasuredNu(prompt.After(segment, row), late.After(segment, row),
-                                             dataset.sensors.antenna, prompt.Boat());
+    const Nu foretold = telltale::MeasuredPose(prompt.After(segment, row), late.After(segment, row),
+                                               dataset.sensors.antenna, prompt.Boat())
+                            .nu;
     residuals.emplace_back(measured.u - foretold.u, measured.v - foretold.v,
                            measured.r - foretold.r);
   });

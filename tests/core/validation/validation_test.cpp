@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "support/special_values.hpp"
+#include "support/stable_boat_with_effects.hpp"
 #include "telltale/core/data/preparation.hpp"
 #include "telltale/core/identification/identify.hpp"
 #include "telltale/core/paper/sample_mission.hpp"
@@ -204,6 +205,17 @@ TEST(Validate, NamesTheHorizonAndItsRange) {
   ASSERT_FALSE(metrics.has_value());
   EXPECT_EQ(metrics.error().reason, "601.5 s is out of range");
   EXPECT_EQ(metrics.error().advice, "choose horizons from two sampling periods (0.4 s) to 600 s");
+}
+
+// Positions are those that the sensors show, an antenna half a metre off among them.
+TEST(Validate, PredictsPositionsAsTheModelsSensorsShowThem) {
+  const std::vector<ModelledEffect> effects = {{FindEffect("antenna_lever_arm"), {0.5, 0.0}}};
+  const PreparedDataset dataset = testing::SimulateWithEffects(effects, 120.0, 1);
+  const auto scores = Validate(dataset, AugmentedModel{testing::StableBoat(), effects}, {{1.0}});
+  const auto without = Validate(dataset, testing::StableBoat(), {{1.0}});
+  ASSERT_TRUE(scores && without);
+  EXPECT_LT(scores->free_run.front().position_rmse_m, 0.05);
+  EXPECT_LT(scores->free_run.front().position_rmse_m, without->free_run.front().position_rmse_m);
 }
 
 TEST(ScoreFreeRuns, SaysWhatValidateSaysOfOneHorizon) {
