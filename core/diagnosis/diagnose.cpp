@@ -125,6 +125,7 @@ Result<DiagnosedModel> DiagnoseAgainst(const std::vector<PreparedDataset>& refer
              [&](double share) { report_progress("effects", 0.4 + 0.2 * share); });
   Influences influences;
   if (options.leave_out_references && references.size() > 1) {
+    report_progress("references", 0.6);
     influences =
         InfluencesOf({references, options.reference_names, runs->Main(), problem, model, library,
                       hypotheses, delays, options.most_effects, options.seed, options.threads},
