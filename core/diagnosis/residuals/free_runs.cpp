@@ -193,7 +193,8 @@ bool FreeRuns::Collect(std::size_t segment, std::size_t first_row, Window& windo
   };
   const RawSignals& raw = dataset_->signals[segment];
   const auto& fix_times = raw.north_m.times_s;
-  for (std::size_t i = FirstFrom(from, fix_times); i < FirstFrom(beyond, fix_times); ++i) {
+  for (std::size_t i = FirstFrom(from, fix_times); i < fix_times.size() && fix_times[i] < beyond;
+       ++i) {
     const Eigen::Index bin = bin_of(fix_times[i]);
     if (bin < 0 || bin >= bins_) continue;
     const double psi = MeasuredAt(*dataset_, dataset_->segments[segment], fix_times[i]).eta.psi_rad;
@@ -203,7 +204,8 @@ bool FreeRuns::Collect(std::size_t segment, std::size_t first_row, Window& windo
     window.per_bin[3 * bin + 1] += 1.0;
   }
   const auto& heading_times = raw.psi_rad.times_s;
-  for (std::size_t i = FirstFrom(from, heading_times); i < FirstFrom(beyond, heading_times); ++i) {
+  for (std::size_t i = FirstFrom(from, heading_times);
+       i < heading_times.size() && heading_times[i] < beyond; ++i) {
     const Eigen::Index bin = bin_of(heading_times[i]);
     if (bin < 0 || bin >= bins_) continue;
     window.headings.push_back({heading_times[i], raw.psi_rad.values[i], bin});
