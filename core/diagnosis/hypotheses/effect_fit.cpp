@@ -114,14 +114,11 @@ class IntermittentFits {
  private:
   /// Whether the errors tell more of the mean than its prior does, beside the other effects.
   bool TellsMean(const EffectFit& fit) const {
-    Eigen::Index row = 0;
-    for (const ModelledEffect& modelled : fit.effects) {
-      if (modelled.effect == &intermittent_) break;
-      row += std::ssize(modelled.values);
-    }
-    const double prior_sd =
-        kDiagnosis.effect_fit.prior_width * intermittent_.Parameters().front().typical;
-    return fit.covariance(row, row) < 0.5 * prior_sd * prior_sd;
+    const EffectParameters parameters(fit.Effects());
+    const Eigen::Index mean = parameters.FirstOf(intermittent_);
+    const double typical = parameters.TypicalSizes()[mean];
+    const double scaled_variance = fit.covariance(mean, mean) / (typical * typical);
+    return scaled_variance * parameters.PriorInformation()[mean] < 0.5;
   }
 
   static void TakeLikelier(EffectFit&& other, EffectFit& fit) {

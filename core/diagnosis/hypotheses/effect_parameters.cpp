@@ -23,9 +23,12 @@ EffectParameters::EffectParameters(const std::vector<const Effect*>& effects) : 
   }
 }
 
+Eigen::Index EffectParameters::FirstOf(const Effect& effect) const {
+  return std::ranges::find(parameters_, &effect.Parameters().front()) - parameters_.begin();
+}
+
 void EffectParameters::Bound(const Effect& effect, double lower, double upper) {
-  const auto first = std::ranges::find(parameters_, &effect.Parameters().front());
-  const Eigen::Index i = first - parameters_.begin();
+  const Eigen::Index i = FirstOf(effect);
   lower_[i] = ScaledAt(i, lower);
   upper_[i] = ScaledAt(i, upper);
 }

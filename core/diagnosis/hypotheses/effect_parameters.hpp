@@ -20,6 +20,9 @@ class EffectParameters {
 
   Eigen::Index Size() const { return static_cast<Eigen::Index>(parameters_.size()); }
 
+  /// The place of the first parameter of one of the effects.
+  Eigen::Index FirstOf(const Effect& effect) const;
+
   /// Values in their own units to scaled ones, within the bounds of each parameter.
   Eigen::VectorXd Scaled(const Eigen::VectorXd& values) const;
 

@@ -46,8 +46,7 @@ std::array<Term, 10> UnknownTerms(const LackOfFit& lack_of_fit,
   const double share = before > 0.0 ? std::max(excess / before, unresolved) : unresolved;
   const UnknownWeights& weights =
       hypothesis.faults == 0 ? kRanking.unknown_beside_weather : kRanking.unknown_beside_faults;
-  const std::size_t further_faults =
-      hypothesis.faults - std::min<std::size_t>(hypothesis.faults, 1);
+  const std::size_t further_faults = std::max<std::size_t>(hypothesis.faults, 1) - 1;
   const auto over_nominal = [&](double square) { return std::log(square / lack_of_fit.nominal); };
   return {{{"constant", 1.0, weights.intercept},
            {"log_unexplained_share", std::log(share), weights.per_log_share},
