@@ -34,6 +34,32 @@ NuDot Plus(const NuDot& a, const NuDot& b, double share = 1.0) {
   return {a.u + share * b.u, a.v + share * b.v, a.r + share * b.r};
 }
 
+std::span<double> TermsOf(telltale::Equation equation, HullTerms& terms) {
+  if (equation == telltale::Equation::kSurge) return terms.surge;
+  return equation == telltale::Equation::kSway ? std::span<double>(terms.sway) : terms.yaw;
+}
+
+template <std::size_t kCount>
+std::array<double, kCount> Times(const std::array<double, kCount>& a,
+                                 const std::array<double, kCount>& b) {
+  std::array<double, kCount> product;
+  for (std::size_t i = 0; i < kCount; ++i) product[i] = a[i] * b[i];
+  return product;
+}
+
+HullTerms Times(const HullTerms& coefficients, const BodyRow& row) {
+  return {Times(coefficients.surge, row.surge), Times(coefficients.sway, row.turning),
+          Times(coefficients.yaw, row.turning)};
+}
+
+/// An acceleration and all terms.
+NuDot Sum(const HullTerms& terms, const NuDot& first) {
+  const auto sum = [](const auto& from, double before) {
+    return std::accumulate(from.begin(), from.end(), before);
+  };
+  return {sum(terms.surge, first.u), sum(terms.sway, first.v), sum(terms.yaw, first.r)};
+}
+
 Drive AddScaled(const Drive& sum, const Drive& more, double weight) {
   return {
       {Plus(sum.thrust[0], more.thrust[0], weight), Plus(sum.thrust[1], more.thrust[1], weight)},
@@ -145,8 +171,9 @@ class SlewedOutputs {
   PropellerCommand now_;
 };
 
-double Distance(const NuDot& a, const NuDot& b) {
-  return std::hypot(a.u - b.u, a.v - b.v, a.r - b.r);
+double SquaredDistance(const NuDot& a, const NuDot& b) {
+  const NuDot between = Plus(a, b, -1.0);
+  return between.u * between.u + between.v * between.v + between.r * between.r;
 }
 
 /// Whether the largest eigenvalue of the damping, times the step, is beyond two; near 2.8 a
@@ -155,8 +182,8 @@ double Distance(const NuDot& a, const NuDot& b) {
 /// Ordinary Differential Equations II, IV.2, "Stiffness detection".
 bool IsStiff(const NuDot& k1, const NuDot& k2, const NuDot& k3) {
   constexpr double kSteady = 1e-9;  // m/s^2, rad/s^2
-  const double before = Distance(k2, k1);
-  return before > kSteady && !(Distance(k3, k2) <= before);
+  const double before = SquaredDistance(k2, k1);
+  return before > kSteady * kSteady && !(SquaredDistance(k3, k2) <= before);
 }
 
 }  // namespace
@@ -175,7 +202,8 @@ AugmentedBoat::AugmentedBoat(AugmentedModel model, const RecordingFrame& frame,
     const Eigen::VectorXd& theta = model_.model.theta[j];
     const std::size_t body = BodyRegressors(equation);
     for (std::size_t i = 0; i < static_cast<std::size_t>(theta.size()); ++i) {
-      (i < body ? hull_[j][i] : thrust_[j][i - body]) = theta[static_cast<Eigen::Index>(i)];
+      double& own = i < body ? TermsOf(equation, hull_)[i] : thrust_[j][i - body];
+      own = theta[static_cast<Eigen::Index>(i)];
     }
   }
   for (const auto& [effect, values] : model_.effects) {
@@ -282,39 +310,18 @@ double AugmentedBoat::TrueHeadingRad(double measured_rad) const {
   return psi;
 }
 
-NuDot AugmentedBoat::Acceleration(const Nu& nu, const Eta& eta, const Drive& drive,
-                                  double time_s) const {
-  const double psi_rad = eta.psi_rad;
-  InstantState instant;
-  instant.time_s = time_s - frame_.start_s;
-  instant.span_s = frame_.span_s;
-  instant.psi_rad = psi_rad;
-  instant.load = drive.load;
-  instant.nu = nu;
-  instant.nu_r = nu;
-  instant.hull_scale = hull_scale_;
-  NuDot nu_dot;
-  if (!current_.isZero(0.0) || !current_gradient_.isZero(0.0)) {
-    const Eigen::Matrix2d to_body = Eigen::Rotation2Dd(-psi_rad).toRotationMatrix();
-    const Eigen::Vector2d from_middle = Eigen::Vector2d(eta.x_m, eta.y_m) - frame_.middle_m;
-    const Eigen::Vector2d water = to_body * (current_ + current_gradient_ * from_middle);
-    const Eigen::Vector2d over_ground = to_body.transpose() * Eigen::Vector2d(nu.u, nu.v);
-    const Eigen::Vector2d changing = to_body * (current_gradient_ * over_ground);
-    instant.nu_r = {nu.u - water[0], nu.v - water[1], nu.r};
-    nu_dot = {nu.r * water[1] + changing[0], -nu.r * water[0] + changing[1], 0.0};
-  }
-  const BodyRow row = BodyRowAt(instant.nu_r);
-  for (std::size_t i = 0; i < row.surge.size(); ++i) {
-    instant.hull[0][i] = hull_[0][i] * row.surge[i];
-    nu_dot.u += instant.hull[0][i];
-  }
-  for (std::size_t i = 0; i < row.turning.size(); ++i) {
-    instant.hull[1][i] = hull_[1][i] * row.turning[i];
-    instant.hull[2][i] = hull_[2][i] * row.turning[i];
-    nu_dot.v += instant.hull[1][i];
-    nu_dot.r += instant.hull[2][i];
-  }
-  instant.thrust = drive.thrust;
+AugmentedBoat::Flow AugmentedBoat::FlowAt(const Nu& nu, const Eta& eta) const {
+  if (current_.isZero(0.0) && current_gradient_.isZero(0.0)) return {nu, {}};
+  const Eigen::Matrix2d to_body = Eigen::Rotation2Dd(-eta.psi_rad).toRotationMatrix();
+  const Eigen::Vector2d from_middle = Eigen::Vector2d(eta.x_m, eta.y_m) - frame_.middle_m;
+  const Eigen::Vector2d water = to_body * (current_ + current_gradient_ * from_middle);
+  const Eigen::Vector2d over_ground = to_body.transpose() * Eigen::Vector2d(nu.u, nu.v);
+  const Eigen::Vector2d changing = to_body * (current_gradient_ * over_ground);
+  return {{nu.u - water[0], nu.v - water[1], nu.r},
+          {nu.r * water[1] + changing[0], -nu.r * water[0] + changing[1], 0.0}};
+}
+
+void AugmentedBoat::ShareThrust(InstantState& instant) const {
   const double reverse_share = model_.model.reverse_loss.Share(instant.nu_r.u);
   for (NuDot& thrust : instant.thrust) {
     if (thrust.u < 0.0) thrust = Times(thrust, reverse_share);
@@ -325,7 +332,23 @@ NuDot AugmentedBoat::Acceleration(const Nu& nu, const Eta& eta, const Drive& dri
       thrust = Times(thrust, effect->ThrustShare(values, side, instant));
     }
   }
-  nu_dot = Plus(nu_dot, instant.Thrust());
+}
+
+NuDot AugmentedBoat::Acceleration(const Nu& nu, const Eta& eta, const Drive& drive,
+                                  double time_s) const {
+  const Flow flow = FlowAt(nu, eta);
+  // Every member, so that nothing is set to zero first: this is the innermost of loops.
+  InstantState instant{.time_s = time_s - frame_.start_s,
+                       .span_s = frame_.span_s,
+                       .psi_rad = eta.psi_rad,
+                       .load = drive.load,
+                       .nu = nu,
+                       .nu_r = flow.nu_r,
+                       .thrust = drive.thrust,
+                       .hull_scale = hull_scale_,
+                       .hull = Times(hull_, BodyRowAt(flow.nu_r))};
+  ShareThrust(instant);
+  NuDot nu_dot = Plus(Sum(instant.hull, flow.nu_c_dot), instant.Thrust());
   for (const auto& [effect, values] : Hooked(Hook::kAcceleration)) {
     nu_dot = Plus(nu_dot, effect->AddedAcceleration(values, instant));
   }

@@ -71,17 +71,26 @@ class AugmentedBoat {
   const VesselModel& Model() const { return model_.model; }
 
  private:
+  /// The velocity through the water, and what its change gives the boat.
+  struct Flow {
+    Nu nu_r;
+    NuDot nu_c_dot;
+  };
+
   const std::vector<ModelledEffect>& Hooked(Hook hook) const {
     return hooked_[static_cast<std::size_t>(hook)];
   }
   SideThrust SteadyThrust(const PropellerCommand& delta) const;
+  Flow FlowAt(const Nu& nu, const Eta& eta) const;
+  /// Leaves the propellers the share of their thrust that they give in reverse and by the effects.
+  void ShareThrust(InstantState& instant) const;
   NuDot Acceleration(const Nu& nu, const Eta& eta, const Drive& drive, double time_s) const;
 
   AugmentedModel model_;
   std::array<std::vector<ModelledEffect>, 5> hooked_;  ///< by the hook they override
   RecordingFrame frame_;
   HullScale hull_scale_;
-  std::array<std::array<double, 9>, 3> hull_{};
+  HullTerms hull_;  ///< coefficients
   std::array<std::array<double, 4>, 3> thrust_{};
   std::vector<double> shaft_lags_s_;
   double output_travel_s_ = 0.0;

@@ -22,7 +22,7 @@ class CrossflowDragEffect final : public Effect {
   }
 
   NuDot AddedAcceleration(EffectValues values, const InstantState& instant) const override {
-    return {0.0, values[0] * Cross(instant.hull[1]), values[0] * Cross(instant.hull[2])};
+    return {0.0, values[0] * Cross(instant.hull.sway), values[0] * Cross(instant.hull.yaw)};
   }
 
  private:

@@ -31,6 +31,13 @@ struct EffectParameter {
   double prior_mean = 0.0;  ///< where it is expected: zero but for a shaping parameter
 };
 
+/// A number for each body term of surge, sway and yaw, in the order of Regressors().
+struct HullTerms {
+  std::array<double, 5> surge{};
+  std::array<double, 9> sway{};
+  std::array<double, 9> yaw{};
+};
+
 /// What a boat goes through at one instant of a free run, as the model has it.
 struct InstantState {
   double time_s = 0.0;  ///< since the recording began
@@ -41,19 +48,18 @@ struct InstantState {
   Nu nu_r;                      ///< through the water
   std::array<NuDot, 2> thrust;  ///< what each side's propeller gives, port first
   HullScale hull_scale;         ///< of the vehicle file's hull
-  /// Each body term of surge, sway and yaw, in the order of Regressors().
-  std::array<std::array<double, 9>, 3> hull{};
+  HullTerms hull;               ///< accelerations
 
   NuDot Thrust() const {
     return {thrust[0].u + thrust[1].u, thrust[0].v + thrust[1].v, thrust[0].r + thrust[1].r};
   }
   /// Of thrust and hull.
   NuDot Acceleration() const {
-    const auto sum = [](const std::array<double, 9>& terms) {
+    const auto sum = [](const auto& terms) {
       return std::accumulate(terms.begin(), terms.end(), 0.0);
     };
     const NuDot driven = Thrust();
-    return {driven.u + sum(hull[0]), driven.v + sum(hull[1]), driven.r + sum(hull[2])};
+    return {driven.u + sum(hull.surge), driven.v + sum(hull.sway), driven.r + sum(hull.yaw)};
   }
 };
 

@@ -33,8 +33,8 @@ class HullFoulingEffect final : public Effect {
   }
 
   NuDot AddedAcceleration(EffectValues values, const InstantState& instant) const override {
-    const double quadratic = instant.hull[0][0];
-    const double linear = instant.hull[0][3];
+    const double quadratic = instant.hull.surge[0];
+    const double linear = instant.hull.surge[3];
     const double u = instant.nu_r.u;
     const double slope = std::abs(u) < kStill ? 0.0 : (2.0 * quadratic + linear) / u;
     // The arms of the two hulls over the radius of gyration, squared.

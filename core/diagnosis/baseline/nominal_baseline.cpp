@@ -8,6 +8,7 @@
 #include "telltale/core/base/contract.hpp"
 #include "telltale/core/base/linear_algebra/covariance.hpp"
 #include "telltale/core/base/linear_algebra/eigen_decompositions.hpp"
+#include "telltale/core/base/linear_algebra/gram.hpp"
 #include "telltale/core/base/parallel.hpp"
 #include "telltale/core/diagnosis/baseline/residual_metric.hpp"
 #include "telltale/core/diagnosis/diagnosis_constants.hpp"
@@ -107,7 +108,7 @@ class NominalBaselineFit {
       phi << recording.by_coefficient, recording.by_effect_parameter,
           recording.by_effect_parameter(Eigen::all, random_), recording.errors.reshaped();
       const Eigen::MatrixXd white = Whitened(factor, phi);
-      const Eigen::MatrixXd gram = kappa * white.transpose() * white;
+      const Eigen::MatrixXd gram = kappa * Gram(white);
       const Eigen::Index own = shared + day * RandomCount();
       const auto last = gram.col(shared + RandomCount());
       gram_.topLeftCorner(shared, shared) += gram.topLeftCorner(shared, shared);
@@ -276,8 +277,11 @@ class BaselineEstimation {
         threads_(threads),
         fit_(model, parameter_refs, recordings_.size()),
         boat_{model.model, {}} {
-    errors_ = ErrorsOf(boat_);
-    covariance_ = SecondMoment(errors_);
+    Outcome outcome = OutcomeOf(boat_);
+    divergence_of_model_ = outcome.divergence;
+    errors_ = std::move(outcome.errors);
+    residuals_ = errors_;
+    covariance_ = SecondMoment(residuals_);
   }
 
   /// From the baseline of more recordings on, with its slopes of these.
@@ -290,11 +294,13 @@ class BaselineEstimation {
         parameter_refs_(parameter_refs),
         threads_(1),
         fit_(model, parameter_refs, recordings_.size()),
+        divergence_of_model_(baseline.divergence_of_model),
         boat_(baseline.boat),
         sensitivities_(std::move(slopes)),
         covariance_(baseline.covariance) {
     fit_.StartFrom(baseline);
     for (const Sensitivity& day : sensitivities_) errors_.push_back(day.errors);
+    residuals_ = errors_;
   }
 
   /// A step with new slopes. Whether the boat changed for the better by enough to go on.
@@ -310,14 +316,14 @@ class BaselineEstimation {
     // what the boat still does wrong as noise.
     for (int round = 0; round < kRounds; ++round) {
       Reestimate();
-      for (std::size_t day = 0; day < errors_.size(); ++day) {
-        errors_[day] = fit_.PredictedResiduals(sensitivities_[day], day);
+      for (std::size_t day = 0; day < residuals_.size(); ++day) {
+        residuals_[day] = fit_.PredictedResiduals(sensitivities_[day], day);
       }
-      covariance_ = SecondMoment(errors_);
+      covariance_ = SecondMoment(residuals_);
     }
     factor_.compute(covariance_);
-    errors_ = LessRecordingEffects(boat_);
-    const double before = SquaredNorm(errors_);
+    residuals_ = LessRecordingEffects(errors_);
+    const double before = SquaredNorm(residuals_);
     return LineSearch(before) / before;
   }
 
@@ -330,14 +336,13 @@ class BaselineEstimation {
   /// With the slopes there are.
   NominalBaseline BaselineWithOldSlopes() {
     std::vector<Sensitivity> days = sensitivities_;
-    std::vector<Eigen::MatrixXd> errors = ErrorsOf(boat_);
-    for (std::size_t day = 0; day < days.size(); ++day) days[day].errors = std::move(errors[day]);
+    for (std::size_t day = 0; day < days.size(); ++day) days[day].errors = errors_[day];
     return Baseline(std::move(days));
   }
 
  private:
   NominalBaseline Baseline(std::vector<Sensitivity> days) {
-    covariance_ = SecondMoment(errors_);
+    covariance_ = SecondMoment(residuals_);
     Reestimate();
     NominalBaseline nominal{.boat = boat_,
                             .coefficients = fit_.Coefficients(),
@@ -347,6 +352,7 @@ class BaselineEstimation {
                             .boat_covariance = fit_.BoatCovariance(),
                             .recording_effect_sd = fit_.RecordingEffectSd(),
                             .days = std::move(days),
+                            .divergence_of_model = divergence_of_model_,
                             .log_reduced_chi_squares = {}};
     const double optimism = std::log(OptimismOf(nominal.days));
     for (const Sensitivity& day : nominal.days) {
@@ -359,7 +365,7 @@ class BaselineEstimation {
 
   void Reestimate() {
     factor_.compute(covariance_);
-    kappa_ = Kappa(factor_, errors_);
+    kappa_ = Kappa(factor_, residuals_);
     fit_.Accumulate(sensitivities_, factor_, kappa_);
     fit_.Solve();
   }
@@ -373,8 +379,9 @@ class BaselineEstimation {
       tried.Accept(share);
       const Eigen::VectorXd change = tried.Coefficients().cwiseProduct(model_.StandardErrors());
       AugmentedModel boat{model_.Changed(change), EffectsOf(parameter_refs_, tried.FixedEffects())};
-      if (DivergenceOf(boat).IsWorseThan(divergence_of_model_)) continue;
-      auto left = LessRecordingEffects(boat);
+      auto [errors, divergence] = OutcomeOf(boat);
+      if (divergence.IsWorseThan(divergence_of_model_)) continue;
+      auto left = LessRecordingEffects(errors);
       const double square = SquaredNorm(left);
       if (square >= least) {
         if (least < before) break;
@@ -383,32 +390,36 @@ class BaselineEstimation {
       least = square;
       fit_ = std::move(tried);
       boat_ = std::move(boat);
-      errors_ = std::move(left);
+      errors_ = std::move(errors);
+      residuals_ = std::move(left);
     }
     return least;
   }
 
-  Divergence DivergenceOf(const AugmentedModel& boat) const {
-    Recordings all = recordings_;
-    all.insert(all.end(), others_.begin(), others_.end());
-    std::vector<Divergence> each(all.size());
-    ForEachIndex(all.size(), threads_,
-                 [&](std::size_t i) { each[i] = all[i]->DivergenceOf(boat); });
+  /// The errors of each recording, and the divergence of these and of the others.
+  struct Outcome {
+    std::vector<Eigen::MatrixXd> errors;
     Divergence divergence;
-    for (const Divergence& one : each) divergence.Add(one);
-    return divergence;
+  };
+
+  Outcome OutcomeOf(const AugmentedModel& boat) const {
+    Outcome outcome;
+    outcome.errors.resize(recordings_.size());
+    std::vector<Divergence> each(recordings_.size() + others_.size());
+    ForEachIndex(each.size(), threads_, [&](std::size_t i) {
+      if (i >= recordings_.size()) {
+        each[i] = others_[i - recordings_.size()]->DivergenceOf(boat);
+        return;
+      }
+      FreeRuns::Outcome own = recordings_[i]->OutcomeOf(boat);
+      outcome.errors[i] = std::move(own.errors);
+      each[i] = own.divergence;
+    });
+    for (const Divergence& one : each) outcome.divergence.Add(one);
+    return outcome;
   }
 
-  /// Of each recording.
-  std::vector<Eigen::MatrixXd> ErrorsOf(const AugmentedModel& boat) const {
-    std::vector<Eigen::MatrixXd> errors(recordings_.size());
-    ForEachIndex(errors.size(), threads_,
-                 [&](std::size_t day) { errors[day] = recordings_[day]->Errors(boat); });
-    return errors;
-  }
-
-  std::vector<Eigen::MatrixXd> LessRecordingEffects(const AugmentedModel& boat) const {
-    std::vector<Eigen::MatrixXd> left = ErrorsOf(boat);
+  std::vector<Eigen::MatrixXd> LessRecordingEffects(std::vector<Eigen::MatrixXd> left) const {
     for (std::size_t day = 0; day < left.size(); ++day) {
       left[day] += fit_.RecordingEffects(sensitivities_[day], day);
     }
@@ -426,11 +437,12 @@ class BaselineEstimation {
   const UncertainModel& model_;
   const std::vector<EffectParameterRef>& parameter_refs_;
   std::size_t threads_;
-  Divergence divergence_of_model_ = DivergenceOf({model_.model, {}});
   NominalBaselineFit fit_;
+  Divergence divergence_of_model_;
   AugmentedModel boat_;
   std::vector<Sensitivity> sensitivities_;
-  std::vector<Eigen::MatrixXd> errors_;  ///< about the boat, less what weather did
+  std::vector<Eigen::MatrixXd> errors_;     ///< of the boat
+  std::vector<Eigen::MatrixXd> residuals_;  ///< the same less what weather did
   Eigen::MatrixXd covariance_;
   Eigen::LLT<Eigen::MatrixXd> factor_;  ///< of it
   double kappa_ = 1.0;

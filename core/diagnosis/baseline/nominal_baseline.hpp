@@ -25,6 +25,7 @@ struct NominalBaseline {
   Eigen::MatrixXd boat_covariance;      ///< base, then effect parameters
   Eigen::VectorXd recording_effect_sd;  ///< by effect parameter; zero for all but weather
   std::vector<Sensitivity> days;        ///< of the recordings, about `boat`
+  Divergence divergence_of_model;       ///< on the recordings and on those that took no part
   /// ln of what a ResidualMetric leaves of each recording, as a share of what the covariance
   /// expects, and would leave of one that had not taken part in learning.
   std::vector<double> log_reduced_chi_squares;

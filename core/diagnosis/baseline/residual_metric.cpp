@@ -10,6 +10,7 @@
 #include "telltale/core/base/gauss_markov_series.hpp"
 #include "telltale/core/base/linear_algebra/covariance.hpp"
 #include "telltale/core/base/linear_algebra/eigen_decompositions.hpp"
+#include "telltale/core/base/linear_algebra/gram.hpp"
 #include "telltale/core/diagnosis/diagnosis_constants.hpp"
 
 namespace telltale {
@@ -70,15 +71,13 @@ Eigen::MatrixXd ProductsByWindow(const Eigen::MatrixXd& stacked, const Eigen::Ma
   return products;
 }
 
-/// L applied to every window of every column.
-Eigen::MatrixXd Coloured(const Eigen::LLT<Eigen::MatrixXd>& factor, const Eigen::MatrixXd& white) {
-  const Eigen::MatrixXd root = factor.matrixL();
-  Eigen::MatrixXd stacked(white.rows(), white.cols());
-  for (Eigen::Index j = 0; j < white.cols(); ++j) {
-    const auto windows = white.col(j).reshaped(root.rows(), white.rows() / root.rows());
-    stacked.col(j) = (root * windows).reshaped();
-  }
-  return stacked;
+/// Columns whitened by one factor, as another one whitens them.
+Eigen::MatrixXd Rewhitened(const Eigen::MatrixXd& white, const Eigen::LLT<Eigen::MatrixXd>& by,
+                           const Eigen::LLT<Eigen::MatrixXd>& anew) {
+  const Eigen::MatrixXd change = anew.matrixL().solve(Eigen::MatrixXd(by.matrixL()));
+  const Eigen::MatrixXd windows =
+      change.triangularView<Eigen::Lower>() * white.reshaped(by.rows(), white.size() / by.rows());
+  return windows.reshaped(white.rows(), white.cols());
 }
 
 }  // namespace
@@ -118,7 +117,7 @@ ResidualMetric::ResidualMetric(const NominalBaseline& nominal, const Sensitivity
 }
 
 void ResidualMetric::FactoriseNuisance() {
-  Eigen::MatrixXd weights = nuisance_.transpose() * nuisance_;
+  Eigen::MatrixXd weights = Gram(nuisance_);
   weights.diagonal().array() += 1.0;
   nuisance_factor_.compute(weights);
 }
@@ -168,7 +167,7 @@ ResidualMetric ResidualMetric::WithWindowScatter(const Eigen::MatrixXd& covarian
   ResidualMetric metric = *this;
   metric.covariance_ += covariance;
   metric.factor_.compute(metric.covariance_);
-  metric.nuisance_ = Whitened(metric.factor_, Coloured(factor_, nuisance_));
+  metric.nuisance_ = Rewhitened(nuisance_, factor_, metric.factor_);
   metric.FactoriseNuisance();
   const auto windows = static_cast<double>(windows_.size());
   metric.variation_penalty_ += kappa_ * windows *
@@ -270,10 +269,8 @@ Eigen::MatrixXd Whitened(const Eigen::LLT<Eigen::MatrixXd>& factor,
                          const Eigen::MatrixXd& stacked) {
   const Eigen::Index rows = factor.rows();
   Eigen::MatrixXd white = stacked;
-  for (Eigen::Index j = 0; j < white.cols(); ++j) {
-    auto windows = white.col(j).reshaped(rows, stacked.rows() / rows);
-    factor.matrixL().solveInPlace(windows);
-  }
+  auto windows = white.reshaped(rows, white.size() / rows);
+  factor.matrixL().solveInPlace(windows);
   return white;
 }
 

@@ -60,6 +60,7 @@ ScatteredSquare SquareWith(const Eigen::MatrixXd& scatter, const ResidualMetric&
 double LikeliestFactor(const Eigen::MatrixXd& scatter, const ResidualMetric& metric,
                        const Eigen::MatrixXd& errors) {
   double likeliest = 1.0;
+  if (scatter.isZero(0.0)) return likeliest;
   double least = std::numeric_limits<double>::infinity();
   for (const double factor : kDiagnosis.stochastic_excitation.factors) {
     const double deviance = SquareWith(factor * scatter, metric, errors).Deviance();

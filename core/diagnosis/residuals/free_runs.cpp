@@ -35,32 +35,67 @@ Pose Moved(Pose pose, const Eigen::Matrix<double, 6, 1>& by) {
   return pose;
 }
 
-/// The pose at a time along poses that are step_s apart, by the parabola that fits the velocities
-/// at both ends; a straight line before the first.
-Eta PoseAt(const std::vector<Pose>& track, double since_start_s, double step_s) {
-  const double steps = since_start_s / step_s;
-  const auto last = static_cast<double>(track.size() - 2);
-  const auto k = static_cast<std::size_t>(std::clamp(std::floor(steps), 0.0, last));
-  const double share = steps - static_cast<double>(k);
-  const Pose& a = track[k];
-  const Pose& b = track[k + 1];
-  const double bow = share < 0.0 ? 0.0 : 0.5 * share * (1.0 - share) * step_s;
-  const Eigen::Vector3d faster = EtaDot(b.eta.psi_rad, b.nu) - EtaDot(a.eta.psi_rad, a.nu);
-  return {a.eta.x_m + share * (b.eta.x_m - a.eta.x_m) - bow * faster[0],
-          a.eta.y_m + share * (b.eta.y_m - a.eta.y_m) - bow * faster[1],
-          a.eta.psi_rad + share * (b.eta.psi_rad - a.eta.psi_rad) - bow * faster[2]};
-}
+/// Poses between those of a track, which are step_s apart: by the parabola that fits the velocities
+/// at both ends, a straight line before the first. Times that ascend cost least.
+class TrackInterpolation {
+ public:
+  TrackInterpolation(const std::vector<Pose>& track, double step_s)
+      : track_(track), step_s_(step_s), start_rate_(RateAt(0)), end_rate_(RateAt(1)) {}
 
-/// The heading alone.
-double HeadingAt(const std::vector<Pose>& track, double since_start_s, double step_s) {
-  const double steps = since_start_s / step_s;
-  const auto last = static_cast<double>(track.size() - 2);
-  const auto k = static_cast<std::size_t>(std::clamp(std::floor(steps), 0.0, last));
-  const double share = steps - static_cast<double>(k);
-  const double bow = share < 0.0 ? 0.0 : 0.5 * share * (1.0 - share) * step_s;
-  return track[k].eta.psi_rad + share * (track[k + 1].eta.psi_rad - track[k].eta.psi_rad) -
-         bow * (track[k + 1].nu.r - track[k].nu.r);
-}
+  Eta At(double since_start_s) {
+    const Place place = PlaceOf(since_start_s);
+    const Pose& a = track_[place.step];
+    const Pose& b = track_[place.step + 1];
+    MoveTo(place.step);
+    const Eigen::Vector3d faster = end_rate_ - start_rate_;
+    return {
+        a.eta.x_m + place.share * (b.eta.x_m - a.eta.x_m) - place.bow_s * faster[0],
+        a.eta.y_m + place.share * (b.eta.y_m - a.eta.y_m) - place.bow_s * faster[1],
+        a.eta.psi_rad + place.share * (b.eta.psi_rad - a.eta.psi_rad) - place.bow_s * faster[2]};
+  }
+
+  /// The heading alone.
+  double HeadingAt(double since_start_s) const {
+    const Place place = PlaceOf(since_start_s);
+    const Pose& a = track_[place.step];
+    const Pose& b = track_[place.step + 1];
+    return a.eta.psi_rad + place.share * (b.eta.psi_rad - a.eta.psi_rad) -
+           place.bow_s * (b.nu.r - a.nu.r);
+  }
+
+ private:
+  struct Place {
+    std::size_t step;
+    double share;  ///< of the step
+    double bow_s;
+  };
+
+  Place PlaceOf(double since_start_s) const {
+    const double steps = since_start_s / step_s_;
+    const auto last = static_cast<double>(track_.size() - 2);
+    const auto step = static_cast<std::size_t>(std::clamp(std::floor(steps), 0.0, last));
+    const double share = steps - static_cast<double>(step);
+    return {step, share, share < 0.0 ? 0.0 : 0.5 * share * (1.0 - share) * step_s_};
+  }
+
+  /// Keeps the rates of the pose at both ends of a step.
+  void MoveTo(std::size_t step) {
+    if (step == step_) return;
+    start_rate_ = step == step_ + 1 ? end_rate_ : RateAt(step);
+    end_rate_ = RateAt(step + 1);
+    step_ = step;
+  }
+
+  Eigen::Vector3d RateAt(std::size_t k) const {
+    return EtaDot(track_[k].eta.psi_rad, track_[k].nu);
+  }
+
+  const std::vector<Pose>& track_;
+  double step_s_;
+  std::size_t step_ = 0;
+  Eigen::Vector3d start_rate_;
+  Eigen::Vector3d end_rate_;
+};
 
 /// The first of ascending times from a time on.
 std::size_t FirstFrom(double time_s, const std::vector<double>& times_s) {
@@ -77,6 +112,12 @@ double OverLimits(const Nu& nu, const Nu& limits) {
   const double over =
       std::max({std::abs(nu.u) / limits.u, std::abs(nu.v) / limits.v, std::abs(nu.r) / limits.r});
   return std::isfinite(nu.u + nu.v + nu.r) ? over : std::numeric_limits<double>::infinity();
+}
+
+Divergence DivergenceAlong(const std::vector<Pose>& track, const Nu& limits) {
+  double farthest = 0.0;
+  for (const Pose& pose : track) farthest = std::max(farthest, OverLimits(pose.nu, limits));
+  return {farthest >= 1.0 ? std::size_t{1} : std::size_t{0}, farthest};
 }
 
 }  // namespace
@@ -241,43 +282,68 @@ void FreeRuns::ForEachTrack(const AugmentedModel& model, const Offset& offset, V
   }
 }
 
+Eigen::MatrixXd FreeRuns::NoErrors() const {
+  return Eigen::MatrixXd::Zero(Rows(), static_cast<Eigen::Index>(windows_.size()));
+}
+
+void FreeRuns::AddRawErrors(const Window& window, const AugmentedBoat& boat, double from_s,
+                            const std::vector<Pose>& track,
+                            Eigen::Ref<Eigen::VectorXd> error) const {
+  const double ahead = dataset_->sensors.antenna.forward_m + boat.AntennaShift().forward_m;
+  const double aside = dataset_->sensors.antenna.starboard_m + boat.AntennaShift().starboard_m;
+  TrackInterpolation predicted(track, step_s_);
+  for (const Fix& fix : window.fixes) {
+    const Eta eta = predicted.At(fix.time_s - boat.LatencyS() - from_s);
+    const Eigen::Vector2d antenna =
+        Eigen::Vector2d(eta.x_m, eta.y_m) + Turned(eta.psi_rad, ahead, aside);
+    const double north = Limited(fix.north_m - antenna[0]);
+    const double east = Limited(fix.east_m - antenna[1]);
+    error[3 * fix.bin] += fix.cos_psi * north + fix.sin_psi * east;
+    error[3 * fix.bin + 1] += -fix.sin_psi * north + fix.cos_psi * east;
+  }
+  for (const MeasuredHeading& heading : window.headings) {
+    const double psi = predicted.HeadingAt(heading.time_s - from_s);
+    error[3 * heading.bin + 2] += Limited(heading.psi_rad - boat.MeasuredHeadingRad(psi));
+  }
+  error.array() /= window.per_bin.array();
+}
+
+void FreeRuns::EstimateStarts(Eigen::MatrixXd& errors) const {
+  for (std::size_t w = 0; w < windows_.size(); ++w) {
+    auto error = errors.col(static_cast<Eigen::Index>(w));
+    const Eigen::Matrix<double, 6, 1> start = windows_[w].start_estimator * error;
+    error -= windows_[w].by_start * start;
+  }
+}
+
 Eigen::MatrixXd FreeRuns::RawErrors(const AugmentedModel& model, const Offset& offset) const {
-  Eigen::MatrixXd errors =
-      Eigen::MatrixXd::Zero(Rows(), static_cast<Eigen::Index>(windows_.size()));
+  Eigen::MatrixXd errors = NoErrors();
   ForEachTrack(
       model, offset,
       [&](std::size_t w, const AugmentedBoat& boat, double from_s, const std::vector<Pose>& track) {
-        const Window& window = windows_[w];
-        auto error = errors.col(static_cast<Eigen::Index>(w));
-        const double ahead = dataset_->sensors.antenna.forward_m + boat.AntennaShift().forward_m;
-        const double aside =
-            dataset_->sensors.antenna.starboard_m + boat.AntennaShift().starboard_m;
-        for (const Fix& fix : window.fixes) {
-          const Eta eta = PoseAt(track, fix.time_s - boat.LatencyS() - from_s, step_s_);
-          const Eigen::Vector2d antenna =
-              Eigen::Vector2d(eta.x_m, eta.y_m) + Turned(eta.psi_rad, ahead, aside);
-          const double north = Limited(fix.north_m - antenna[0]);
-          const double east = Limited(fix.east_m - antenna[1]);
-          error[3 * fix.bin] += fix.cos_psi * north + fix.sin_psi * east;
-          error[3 * fix.bin + 1] += -fix.sin_psi * north + fix.cos_psi * east;
-        }
-        for (const MeasuredHeading& heading : window.headings) {
-          const double psi = HeadingAt(track, heading.time_s - from_s, step_s_);
-          error[3 * heading.bin + 2] += Limited(heading.psi_rad - boat.MeasuredHeadingRad(psi));
-        }
-        error.array() /= window.per_bin.array();
+        AddRawErrors(windows_[w], boat, from_s, track, errors.col(static_cast<Eigen::Index>(w)));
       });
   return errors;
 }
 
 Eigen::MatrixXd FreeRuns::Errors(const AugmentedModel& model) const {
   Eigen::MatrixXd errors = RawErrors(model, Offset::Zero());
-  for (std::size_t w = 0; w < windows_.size(); ++w) {
-    auto error = errors.col(static_cast<Eigen::Index>(w));
-    const Eigen::Matrix<double, 6, 1> start = windows_[w].start_estimator * error;
-    error -= windows_[w].by_start * start;
-  }
+  EstimateStarts(errors);
   return errors;
+}
+
+FreeRuns::Outcome FreeRuns::OutcomeOf(const AugmentedModel& model) const {
+  const Nu limits = kFreeRunDivergence.LimitsFor(FastestOf(*dataset_));
+  Outcome outcome{NoErrors(), {}};
+  ForEachTrack(
+      model, Offset::Zero(),
+      [&](std::size_t w, const AugmentedBoat& boat, double from_s, const std::vector<Pose>& track) {
+        AddRawErrors(windows_[w], boat, from_s, track,
+                     outcome.errors.col(static_cast<Eigen::Index>(w)));
+        outcome.divergence.Add(DivergenceAlong(track, limits));
+      });
+  EstimateStarts(outcome.errors);
+  return outcome;
 }
 
 Divergence FreeRuns::DivergenceOf(const AugmentedModel& model) const {
@@ -285,11 +351,7 @@ Divergence FreeRuns::DivergenceOf(const AugmentedModel& model) const {
   Divergence divergence;
   ForEachTrack(model, Offset::Zero(),
                [&](std::size_t, const AugmentedBoat&, double, const std::vector<Pose>& track) {
-                 double farthest = 0.0;
-                 for (const Pose& pose : track) {
-                   farthest = std::max(farthest, OverLimits(pose.nu, limits));
-                 }
-                 divergence.Add({farthest >= 1.0 ? std::size_t{1} : std::size_t{0}, farthest});
+                 divergence.Add(DivergenceAlong(track, limits));
                });
   return divergence;
 }

@@ -56,6 +56,13 @@ class FreeRuns {
 
   Divergence DivergenceOf(const AugmentedModel& model) const;
 
+  /// Both, of the same free runs.
+  struct Outcome {
+    Eigen::MatrixXd errors;
+    Divergence divergence;
+  };
+  Outcome OutcomeOf(const AugmentedModel& model) const;
+
   /// What a window went through, for maps and pictures.
   struct Circumstances {
     double time_s = 0.0;
@@ -90,7 +97,11 @@ class FreeRuns {
   bool Collect(std::size_t segment, std::size_t first_row, Window& window) const;
   template <class Visit>
   void ForEachTrack(const AugmentedModel& model, const Offset& offset, Visit visit) const;
+  Eigen::MatrixXd NoErrors() const;
   Eigen::MatrixXd RawErrors(const AugmentedModel& model, const Offset& offset) const;
+  void AddRawErrors(const Window& window, const AugmentedBoat& boat, double from_s,
+                    const std::vector<Pose>& track, Eigen::Ref<Eigen::VectorXd> error) const;
+  void EstimateStarts(Eigen::MatrixXd& errors) const;
 
   /// The drives of each segment, from its first row on. Boats that are driven alike, as most of
   /// those that are compared are, share them.

@@ -26,7 +26,7 @@ InstantState Thrusting(double surge) {
 
 InstantState Turning(double yaw_acceleration) {
   InstantState instant;
-  instant.hull[2][0] = yaw_acceleration;
+  instant.hull.yaw[0] = yaw_acceleration;
   return instant;
 }
 
@@ -103,9 +103,9 @@ TEST(PayloadOfAStatedHull, GoesWithTheRadiusOfGyrationOfItsLength) {
 TEST(LoadThatSinksTheHull, GrowsDragDampingAndAddedMassWithTheDraught) {
   InstantState instant;
   instant.nu = instant.nu_r = {0.8, 0.1, 0.3};
-  instant.hull[0] = {-0.2, 0.0, 0.0, -0.1};
-  instant.hull[1] = {-0.3, 0.0, 0.0, 0.0, 0.0, 0.0, -0.2, -0.1};
-  instant.hull[2] = {0.0, 0.0, 0.0, -0.4, 0.0, 0.0, 0.0, -0.6};
+  instant.hull.surge = {-0.2, 0.0, 0.0, -0.1};
+  instant.hull.sway = {-0.3, 0.0, 0.0, 0.0, 0.0, 0.0, -0.2, -0.1};
+  instant.hull.yaw = {0.0, 0.0, 0.0, -0.4, 0.0, 0.0, 0.0, -0.6};
   instant.thrust[0].u = 0.5;
   const NuDot added = Added("trim_sinkage", {0.4, 0.0, 1.0, 1.0}, {}, instant);
   const double wetted = (1.82 * 1.3 + 1.4 / 1.3) / 2.82;
@@ -123,7 +123,7 @@ TEST(LoadThatSinksTheHull, GrowsDragDampingAndAddedMassWithTheDraught) {
 // and a half times as much water as the default hull gains so much more of it.
 TEST(LoadThatSinksTheHull, DampsByAPowerOfTheDraughtAndCarriesTheBoatsOwnWater) {
   InstantState instant;
-  instant.hull[2] = {0.0, 0.0, 0.0, -0.4, 0.0, 0.0, 0.0, -0.6};
+  instant.hull.yaw = {0.0, 0.0, 0.0, -0.4, 0.0, 0.0, 0.0, -0.6};
   for (const auto& [power, damping] :
        {std::pair(0.0, 1.0), std::pair(1.0, 1.3), std::pair(2.0, 1.69)}) {
     for (const double ratio : {1.0, 1.5}) {
@@ -137,7 +137,7 @@ TEST(LoadThatSinksTheHull, DampsByAPowerOfTheDraughtAndCarriesTheBoatsOwnWater) 
 // moment towards the bow, t L / 6 times the force.
 TEST(LoadThatTrimsTheHull, LeansTheDragAcrossToTheBow) {
   InstantState instant;
-  instant.hull[1] = {-0.3};
+  instant.hull.sway = {-0.3};
   instant.nu = instant.nu_r = {0.0, 0.5, 0.0};
   const double amidships = Added("trim_sinkage", {0.01, 0.0, 1.0, 1.0}, {}, instant).r;
   const double at_the_bow = Added("trim_sinkage", {0.01, 0.3, 1.0, 1.0}, {}, instant).r;
@@ -164,7 +164,7 @@ TEST(MisalignmentOfAStatedHull, TurnsALongerHullLess) {
 
 TEST(FoulingOfAStatedHull, BrakesATurnByTheSquareOfBeamOverLength) {
   InstantState instant;
-  instant.hull[0][0] = -0.2;
+  instant.hull.surge[0] = -0.2;
   instant.nu_r = {0.8, 0.0, 0.3};
   const std::vector<double> values = {0.4, 0.5};
   const NuDot plain = Added("hull_fouling", values, {}, instant);

@@ -44,5 +44,18 @@ TEST(Divergence, IsWithoutBoundOfABoatThatDragDrives) {
   EXPECT_EQ(divergence.farthest, kInfinity);
 }
 
+TEST(Divergence, IsThatOfTheFreeRunsWhoseErrorsComeWithIt) {
+  const testing::ShortRecording recording;
+  VesselModel driven = recording.model.model;
+  for (Eigen::VectorXd& theta : driven.theta) theta *= -20.0;
+  for (const VesselModel& model : {recording.model.model, driven}) {
+    const FreeRuns::Outcome outcome = recording.runs.OutcomeOf({model, {}});
+    const Divergence alone = recording.runs.DivergenceOf({model, {}});
+    EXPECT_EQ(outcome.errors, recording.runs.Errors({model, {}}));
+    EXPECT_EQ(outcome.divergence.windows, alone.windows);
+    EXPECT_EQ(outcome.divergence.farthest, alone.farthest);
+  }
+}
+
 }  // namespace
 }  // namespace telltale
