@@ -131,6 +131,7 @@ struct SearchConstants {
   std::size_t effects_fitted_in_full = 14;  ///< of those that the score test ranks first
   std::size_t seed_hypotheses = 2;          ///< single effects to which a second one is added
   std::size_t candidates_per_seed = 5;      ///< second and third effects fitted for each
+  double least_promise = 2.0;               ///< -2 ln likelihood, of a score test that is followed
   double score_to_add_effect = 12.0;        ///< -2 ln evidence, decrease that one more effect needs
   double score_to_add_weather = 6.0;        ///< the same of the first weather, there on most days
   double separable_nats = 3.0;       ///< nats, below which two hypotheses are indistinguishable

@@ -56,13 +56,16 @@ class HypothesisSearch {
     }
     std::ranges::copy_if(library_, std::back_inserter(deterministic),
                          [](const Effect* effect) { return !effect->IsStochastic(); });
-    const auto ranked = Promising(kSearch.effects_fitted_in_full, deterministic,
-                                  problem_.recording.errors, problem_.metric);
+    auto ranked =
+        MostPromising(kSearch.effects_fitted_in_full,
+                      ByScoreTest(deterministic, problem_.recording.errors, problem_.metric));
+    if (!known_.empty()) EraseUnpromisingBehindFirst(ranked);
     std::vector<EffectFit> fitted(ranked.size());
     std::mutex reporting;
     std::size_t done = 0;
     ForEachIndex(fitted.size(), threads_, [&](std::size_t i) {
-      fitted[i] = Fit({ranked[i]}, StartsOfSingle(*ranked[i]));
+      const Effect& effect = *ranked[i].effect;
+      fitted[i] = Fit({&effect}, StartsOfSingle(effect));
       const std::lock_guard lock(reporting);
       report_progress(static_cast<double>(++done) / static_cast<double>(fitted.size()));
     });
@@ -75,22 +78,24 @@ class HypothesisSearch {
   std::vector<EffectFit> WithOneMore(const EffectFit& first,
                                      const std::vector<EffectFit>& singles) const {
     const ResidualMetric metric = first.ScatteredMetric(problem_.metric);
-    const auto ranked =
-        Promising(kSearch.candidates_per_seed, SeparableFrom(first, singles), first.errors, metric);
+    auto ranked = MostPromising(kSearch.candidates_per_seed,
+                                ByScoreTest(SeparableFrom(first, singles), first.errors, metric));
+    std::erase_if(ranked, [&](const Scored& scored) { return IsUnpromising(scored); });
     std::vector<EffectFit> fitted(ranked.size());
     const EffectFit deterministic = first.Deterministic();
     const Effect* stochastic = first.Stochastic();
     ForEachIndex(fitted.size(), threads_, [&](std::size_t i) {
       // The linearised minimum alone, or beyond the threshold: the other effects start from their
       // fit.
+      const Effect& effect = *ranked[i].effect;
       const auto starts =
-          StartsOf(*ranked[i], metric, first.errors, problem_.recording, problem_.parameter_refs);
-      const Eigen::VectorXd& start = Hides(*ranked[i]) ? starts.back() : starts.front();
+          StartsOf(effect, metric, first.errors, problem_.recording, problem_.parameter_refs);
+      const Eigen::VectorXd& start = Hides(effect) ? starts.back() : starts.front();
       const Eigen::VectorXd values = deterministic.Values();
       Eigen::VectorXd stacked(values.size() + start.size());
       stacked << values, start;
       auto effects = deterministic.Effects();
-      effects.push_back(ranked[i]);
+      effects.push_back(&effect);
       fitted[i] = stochastic != nullptr ? FitBeside(*stochastic, effects, stacked)
                                         : Fit(effects, {stacked});
     });
@@ -137,11 +142,15 @@ class HypothesisSearch {
   }
 
   std::vector<Eigen::VectorXd> StartsOfSingle(const Effect& effect) const {
-    const auto known = std::ranges::find_if(
-        known_, [&](const EffectFit& fit) { return fit.effects.front().effect == &effect; });
+    const auto known = Known(effect);
     if (known != known_.end()) return {known->Values()};
     return StartsOf(effect, problem_.metric, problem_.recording.errors, problem_.recording,
                     problem_.parameter_refs);
+  }
+
+  std::span<const EffectFit>::iterator Known(const Effect& effect) const {
+    return std::ranges::find_if(
+        known_, [&](const EffectFit& fit) { return fit.effects.front().effect == &effect; });
   }
 
   EffectFit Refitted(const EffectFit& old) const {
@@ -179,18 +188,43 @@ class HypothesisSearch {
     return others;
   }
 
-  /// As many effects as `count`, by the evidence that their score test promises, and those beyond
-  /// them that it can say nothing of.
-  std::vector<const Effect*> Promising(std::size_t count, const std::vector<const Effect*>& effects,
-                                       const Eigen::MatrixXd& errors,
-                                       const ResidualMetric& metric) const {
-    auto ranked = ByScoreTest(effects, errors, metric);
+  /// An effect and what its score test promises.
+  struct Scored {
+    const Effect* effect;
+    double score;
+  };
+
+  /// The first `count`, and those beyond them that the score test can say nothing of.
+  std::vector<Scored> MostPromising(std::size_t count, std::vector<Scored> ranked) const {
     const auto beyond =
         ranked.begin() + static_cast<std::ptrdiff_t>(std::min(count, ranked.size()));
-    ranked.erase(
-        std::remove_if(beyond, ranked.end(), [&](const Effect* effect) { return !Hides(*effect); }),
-        ranked.end());
+    ranked.erase(std::remove_if(beyond, ranked.end(),
+                                [&](const Scored& scored) { return !Hides(*scored.effect); }),
+                 ranked.end());
     return ranked;
+  }
+
+  /// Whether a score test that can tell promises next to nothing. It is of steady sizes: scatter
+  /// by gusts or spells may show where a mean does not.
+  bool IsUnpromising(const Scored& scored) const {
+    const bool scatters =
+        scored.effect->IsIntermittent() || scored.effect->Facts().turbulence_intensity > 0.0;
+    return scored.score > -kSearch.least_promise && !scatters && !Hides(*scored.effect);
+  }
+
+  /// Leaves one at least, and those that are known to matter.
+  void EraseUnpromisingBehindFirst(std::vector<Scored>& ranked) const {
+    if (ranked.empty()) return;
+    const auto unneeded =
+        std::remove_if(ranked.begin() + 1, ranked.end(), [&](const Scored& scored) {
+          return IsUnpromising(scored) && !IsKnownToMatter(*scored.effect);
+        });
+    ranked.erase(unneeded, ranked.end());
+  }
+
+  bool IsKnownToMatter(const Effect& effect) const {
+    const auto known = Known(effect);
+    return known != known_.end() && known->score < -kSearch.least_promise;
   }
 
   bool Hides(const Effect& effect) const {
@@ -198,18 +232,16 @@ class HypothesisSearch {
   }
 
   /// The effects by the evidence that their score test promises, the most first.
-  std::vector<const Effect*> ByScoreTest(std::vector<const Effect*> effects,
-                                         const Eigen::MatrixXd& errors,
-                                         const ResidualMetric& metric) const {
-    std::vector<std::pair<double, const Effect*>> scored;
+  std::vector<Scored> ByScoreTest(const std::vector<const Effect*>& effects,
+                                  const Eigen::MatrixXd& errors,
+                                  const ResidualMetric& metric) const {
+    std::vector<Scored> ranked;
     for (const Effect* effect : effects) {
-      scored.emplace_back(
-          ScoreTest(*effect, metric, errors, problem_.recording, problem_.parameter_refs), effect);
+      ranked.push_back({effect, ScoreTest(*effect, metric, errors, problem_.recording,
+                                          problem_.parameter_refs)});
     }
-    std::stable_sort(scored.begin(), scored.end(),
-                     [](const auto& a, const auto& b) { return a.first < b.first; });
-    for (std::size_t i = 0; i < effects.size(); ++i) effects[i] = scored[i].second;
-    return effects;
+    std::ranges::stable_sort(ranked, {}, &Scored::score);
+    return ranked;
   }
 
   const DiagnosisProblem& problem_;

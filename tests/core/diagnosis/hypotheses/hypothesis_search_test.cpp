@@ -101,7 +101,8 @@ TEST(SeedsOf, LeaveOutWavesWithoutEvidence) {
 class SearchTest : public ::testing::Test {
  protected:
   static Hypotheses Found(const std::vector<ModelledEffect>& effects,
-                          std::span<const Effect* const> library) {
+                          std::span<const Effect* const> library,
+                          std::span<const EffectFit> known = {}) {
     const testing::ShortRecording nominal_recording;
     const testing::ShortRecording short_recording(120.0, effects);
     const auto parameter_refs = EffectParameterRefsOf(library);
@@ -119,13 +120,17 @@ class SearchTest : public ::testing::Test {
         SensitivityOf(runs, {nominal.boat, nominal.coefficients}, model, parameter_refs, 2);
     const ResidualMetric metric(nominal, recording, EveryWindow(recording), false);
     const ObservedExcitation no_excitation;
-    return Search({runs, nominal, recording, metric, parameter_refs, no_excitation}, library, 2, 2,
-                  [](double) {});
+    return Search(
+        {runs, nominal, recording, metric, parameter_refs, no_excitation}, library, 2, 2,
+        [](double) {}, known);
   }
 
-  static Hypotheses FoundAmongThree(const std::vector<ModelledEffect>& effects) {
-    return Found(effects, std::vector{FindEffect("thruster_lag"), FindEffect("heading_bias"),
-                                      FindEffect("thrust_gain")});
+  static Hypotheses FoundAmongThree(const std::vector<ModelledEffect>& effects,
+                                    std::span<const EffectFit> known = {}) {
+    return Found(effects,
+                 std::vector{FindEffect("thruster_lag"), FindEffect("heading_bias"),
+                             FindEffect("thrust_gain")},
+                 known);
   }
 };
 
@@ -143,6 +148,24 @@ TEST_F(SearchTest, FindsBothEffectsThatActTogether) {
   ASSERT_FALSE(found.combined.empty());
   EXPECT_THAT(found.combined.front().Names(),
               ::testing::UnorderedElementsAre("thrust_gain", "heading_bias"));
+}
+
+TEST_F(SearchTest, FindsTheSameAgainFromWhatIsKnown) {
+  const std::vector<ModelledEffect> acting = {{FindEffect("thrust_gain"), {0.3}}};
+  const Hypotheses found = FoundAmongThree(acting);
+  const Hypotheses again = FoundAmongThree(acting, found.singles);
+  EXPECT_EQ(again.singles.front().Names(), found.singles.front().Names());
+  EXPECT_NEAR(again.singles.front().score, found.singles.front().score,
+              1e-3 * std::abs(found.singles.front().score));
+}
+
+// Of a nominal recording no effect is known to matter, and one hypothesis is left to conclude from.
+TEST_F(SearchTest, FitsNoneAgainThatPromisesNothingButTheFirst) {
+  const Hypotheses found = FoundAmongThree({});
+  ASSERT_EQ(found.singles.size(), 3u);
+  const Hypotheses again = FoundAmongThree({}, found.singles);
+  EXPECT_EQ(again.singles.size(), 1u);
+  EXPECT_TRUE(again.combined.empty());
 }
 
 /// Commands cut off at 1.2 less its size: at its typical size of 0.2 it does nothing.
