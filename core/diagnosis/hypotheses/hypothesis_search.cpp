@@ -105,9 +105,10 @@ class HypothesisSearch {
   /// `fit` with a stochastic effect where the evidence asks for one; else `fit` itself.
   EffectFit WithStochastic(const EffectFit& fit) const {
     EffectFit best = fit;
-    // Without a peak there is no scatter to allow for.
-    if (fit.Stochastic() != nullptr || problem_.excitation.peak.gain == 0.0) return best;
+    if (fit.Stochastic() != nullptr) return best;
     for (const Effect* effect : stochastic_) {
+      // Without a peak there is no scatter to allow for. What the others do may hide one.
+      if (PeakBeside(*effect, fit.effects, problem_).gain == 0.0) continue;
       EffectFit both = FitBeside(*effect, fit.Effects(), fit.Values());
       if (both.score < best.score - ScoreToAdd(*effect, fit)) best = std::move(both);
     }

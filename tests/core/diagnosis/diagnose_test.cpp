@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "support/stable_boat_with_effects.hpp"
+#include "support/unlisted_effects.hpp"
 #include "telltale/core/diagnosis/hypotheses/augmented_identification.hpp"
 
 namespace telltale {
@@ -91,35 +92,8 @@ TEST(Diagnose, NamesTwoEffectsThatActTogether) {
   EXPECT_NEAR(shared, 1.0, 1e-9);  // Shapley shares add up to one
 }
 
-/// An acceleration that is no effect of the library.
-class Unlisted : public Effect {
- public:
-  explicit Unlisted(std::string_view name)
-      : Effect({.name = name,
-                .title = "",
-                .equation = "",
-                .source = "",
-                .parameters = {},
-                .settled_by = "",
-                .hook = Hook::kAcceleration}) {}
-  std::string Describe(EffectValues) const override { return ""; }
-};
-
-/// A swell of one frequency and known phase, which the simulator can follow. The library's waves
-/// describe only how it scatters the windows.
-class Swell : public Unlisted {
- public:
-  static constexpr double kFrequency = 2.5;
-
-  explicit Swell(std::string_view name = "swell") : Unlisted(name) {}
-  NuDot AddedAcceleration(EffectValues, const InstantState& instant) const override {
-    const double phase = kFrequency * instant.time_s;
-    return {0.2 * std::cos(phase), 0.2 * std::sin(phase), 0.1 * std::cos(phase + 1.0)};
-  }
-};
-
 TEST(Diagnose, NamesWavesByTheirFrequency) {
-  const Swell swell;
+  const testing::Swell swell;
   const auto diagnosed = DiagnosedWith({{&swell, {}}});
   ASSERT_TRUE(diagnosed.has_value());
   ASSERT_FALSE(diagnosed->diagnosis.causes.empty());
@@ -127,7 +101,7 @@ TEST(Diagnose, NamesWavesByTheirFrequency) {
   ASSERT_EQ(cause.effects.size(), 1U);
   EXPECT_EQ(cause.effects[0].effect, "waves");
   // The grid of frequencies is 20 % wide.
-  EXPECT_NEAR(cause.effects[0].parameters[3].estimate, Swell::kFrequency, 0.5);
+  EXPECT_NEAR(cause.effects[0].parameters[3].estimate, testing::Swell::kFrequency, 0.5);
   // Windows scatter by up to 2.8 times what the spectrum says.
   ASSERT_TRUE(cause.effects[0].size.has_value());
   EXPECT_NEAR(cause.effects[0].size->estimate, 0.2 * std::numbers::sqrt2, 0.25);
@@ -135,12 +109,13 @@ TEST(Diagnose, NamesWavesByTheirFrequency) {
 }
 
 /// The same in trains of 35 s, as ships pass every two minutes, and calm between.
-class Wash final : public Swell {
+class Wash final : public testing::Swell {
  public:
-  Wash() : Swell("wash") {}
+  Wash() : testing::Swell("wash") {}
   NuDot AddedAcceleration(EffectValues values, const InstantState& instant) const override {
-    return std::fmod(instant.time_s, 120.0) < 35.0 ? Swell::AddedAcceleration(values, instant)
-                                                   : NuDot{};
+    return std::fmod(instant.time_s, 120.0) < 35.0
+               ? testing::Swell::AddedAcceleration(values, instant)
+               : NuDot{};
   }
 };
 
@@ -154,11 +129,11 @@ TEST(Diagnose, DoesNotNameWavesForTheWashOfShips) {
 }
 
 /// Wind towards the east whose speed scatters by a fifth within half a minute.
-class Gusts final : public Unlisted {
+class Gusts final : public testing::Unlisted {
  public:
   static constexpr double kSpeed = 8.0;
 
-  Gusts() : Unlisted("gusts") {}
+  Gusts() : testing::Unlisted("gusts") {}
   NuDot AddedAcceleration(EffectValues, const InstantState& instant) const override {
     const double t = instant.time_s;
     const double speed = kSpeed * (1.0 + 0.2 * std::sin(0.21 * t) + 0.2 * std::sin(0.53 * t + 1.0));

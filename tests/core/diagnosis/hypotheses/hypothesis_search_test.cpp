@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "support/hand_made_diagnosis.hpp"
+#include "support/unlisted_effects.hpp"
 
 namespace telltale {
 namespace {
@@ -119,7 +120,9 @@ class SearchTest : public ::testing::Test {
     const Sensitivity recording =
         SensitivityOf(runs, {nominal.boat, nominal.coefficients}, model, parameter_refs, 2);
     const ResidualMetric metric(nominal, recording, EveryWindow(recording), false);
-    const ObservedExcitation no_excitation;
+    ObservedExcitation no_excitation;
+    no_excitation.scatter = Eigen::MatrixXd::Zero(runs.Rows(), runs.Rows());
+    no_excitation.nominal = {AccelerationSpectraOf(nominal_recording.dataset, nominal.boat)};
     return Search(
         {runs, nominal, recording, metric, parameter_refs, no_excitation}, library, 2, 2,
         [](double) {}, known);
@@ -166,6 +169,16 @@ TEST_F(SearchTest, FitsNoneAgainThatPromisesNothingButTheFirst) {
   const Hypotheses again = FoundAmongThree({}, found.singles);
   EXPECT_EQ(again.singles.size(), 1u);
   EXPECT_TRUE(again.combined.empty());
+}
+
+// The recording alone is said to have no peak, as where an effect covers it.
+TEST_F(SearchTest, FindsWavesWhosePeakShowsBesideAnEffectAlone) {
+  const testing::Swell swell;
+  const Hypotheses found = Found({{&swell, {}}, {FindEffect("thrust_gain"), {0.3}}},
+                                 std::vector{FindEffect("thrust_gain"), FindEffect("waves")});
+  ASSERT_FALSE(found.combined.empty());
+  EXPECT_THAT(found.combined.front().Names(),
+              ::testing::UnorderedElementsAre("thrust_gain", "waves"));
 }
 
 /// Commands cut off at 1.2 less its size: at its typical size of 0.2 it does nothing.
