@@ -6,6 +6,7 @@
 #include <limits>
 #include <map>
 #include <mutex>
+#include <optional>
 
 #include "telltale/core/base/linear_algebra/eigen_decompositions.hpp"
 #include "telltale/core/base/parallel.hpp"
@@ -74,12 +75,12 @@ class HypothesisSearch {
     return fits;
   }
 
-  /// Fits of one deterministic effect more than `first` has, separable from it.
+  /// Fits of one deterministic effect more than `first` has, of those to choose from.
   std::vector<EffectFit> WithOneMore(const EffectFit& first,
-                                     const std::vector<EffectFit>& singles) const {
+                                     const std::vector<const Effect*>& choice) const {
     const ResidualMetric metric = first.ScatteredMetric(problem_.metric);
-    auto ranked = MostPromising(kSearch.candidates_per_seed,
-                                ByScoreTest(SeparableFrom(first, singles), first.errors, metric));
+    auto ranked =
+        MostPromising(kSearch.candidates_per_seed, ByScoreTest(choice, first.errors, metric));
     std::erase_if(ranked, [&](const Scored& scored) { return IsUnpromising(scored); });
     std::vector<EffectFit> fitted(ranked.size());
     const EffectFit deterministic = first.Deterministic();
@@ -117,6 +118,43 @@ class HypothesisSearch {
 
   const std::map<const Effect*, double>& Gains() const { return nominal_gains_; }
 
+  /// The deterministic effects that `first` does not have, less those that this recording cannot
+  /// separate from it where it stands alone, and those that escape the score test and have less
+  /// evidence alone than a second effect needs at least.
+  std::vector<const Effect*> SeparableFrom(const EffectFit& first,
+                                           const std::vector<EffectFit>& singles) const {
+    const std::span<const EffectFit> all = singles;
+    std::vector<const Effect*> others;
+    for (const Effect* effect : library_) {
+      if (Contains(first, effect) || effect->IsStochastic()) continue;
+      const auto single = SingleOf(*effect, all);
+      const bool collinear = single != all.end() && first.effects.size() == 1 &&
+                             Distance(first, *single, problem_.metric) < kSearch.separable_nats;
+      const bool has_little =
+          Escapes(*effect) && (single != all.end() ? single->score : KnownScoreOf(*effect)) >
+                                  -kSearch.score_to_add_weather;
+      if (!collinear && !has_little) others.push_back(effect);
+    }
+    return others;
+  }
+
+  /// What is likeliest with another effect in place of one of `fit`; `fit` where nothing is
+  /// likelier.
+  EffectFit Exchanged(const EffectFit& fit, const std::vector<EffectFit>& singles) const {
+    EffectFit likeliest = fit;
+    for (std::size_t place = 0; place < fit.effects.size(); ++place) {
+      const Effect* effect = fit.effects[place].effect;
+      if (effect->IsStochastic()) continue;
+      const EffectFit fewer = Less(fit, place);
+      auto choice = SeparableFrom(fewer, singles);
+      std::erase(choice, effect);
+      for (EffectFit& other : WithOneMore(fewer, choice)) {
+        if (HasLowerScore(other, likeliest)) likeliest = std::move(other);
+      }
+    }
+    return likeliest;
+  }
+
   /// `fit` less the effects whose removal raises the score by too little.
   EffectFit Pruned(EffectFit fit) const {
     bool pruned = true;
@@ -124,9 +162,7 @@ class HypothesisSearch {
       pruned = false;
       for (std::size_t drop = 0; drop < fit.effects.size(); ++drop) {
         const Effect* dropped = fit.effects[drop].effect;
-        EffectFit fewer = fit;
-        fewer.effects.erase(fewer.effects.begin() + static_cast<std::ptrdiff_t>(drop));
-        fewer = Refitted(fewer);
+        const EffectFit fewer = Less(fit, drop);
         if (fit.score < fewer.score - ScoreToAdd(*dropped, fewer)) continue;
         fit = fewer;
         pruned = true;
@@ -143,19 +179,22 @@ class HypothesisSearch {
   }
 
   std::vector<Eigen::VectorXd> StartsOfSingle(const Effect& effect) const {
-    const auto known = Known(effect);
+    const auto known = SingleOf(effect, known_);
     if (known != known_.end()) return {known->Values()};
     return StartsOf(effect, problem_.metric, problem_.recording.errors, problem_.recording,
                     problem_.parameter_refs);
   }
 
-  std::span<const EffectFit>::iterator Known(const Effect& effect) const {
+  static std::span<const EffectFit>::iterator SingleOf(const Effect& effect,
+                                                       std::span<const EffectFit> singles) {
     return std::ranges::find_if(
-        known_, [&](const EffectFit& fit) { return fit.effects.front().effect == &effect; });
+        singles, [&](const EffectFit& fit) { return fit.effects.front().effect == &effect; });
   }
 
-  EffectFit Refitted(const EffectFit& old) const {
-    return AboveNominalGain(Refit(old, problem_, problem_.metric));
+  /// The fit without one of its effects.
+  EffectFit Less(EffectFit fit, std::size_t place) const {
+    fit.effects.erase(fit.effects.begin() + static_cast<std::ptrdiff_t>(place));
+    return AboveNominalGain(Refit(fit, problem_, problem_.metric));
   }
 
   EffectFit AboveNominalGain(EffectFit fit) const {
@@ -169,26 +208,6 @@ class HypothesisSearch {
         telltale::FitBeside(stochastic, problem_, problem_.metric, effects, start));
   }
 
-  /// The deterministic effects that `first` does not have, less those that this recording cannot
-  /// separate from it where it stands alone, and those that hide below a threshold and have
-  /// less evidence alone than a second effect needs at least.
-  std::vector<const Effect*> SeparableFrom(const EffectFit& first,
-                                           const std::vector<EffectFit>& singles) const {
-    std::vector<const Effect*> others;
-    for (const Effect* effect : library_) {
-      if (Contains(first, effect) || effect->IsStochastic()) continue;
-      const auto single = std::find_if(singles.begin(), singles.end(), [&](const EffectFit& fit) {
-        return fit.effects.front().effect == effect;
-      });
-      const bool collinear = single != singles.end() && first.effects.size() == 1 &&
-                             Distance(first, *single, problem_.metric) < kSearch.separable_nats;
-      const bool stays_hidden = single != singles.end() &&
-                                single->score > -kSearch.score_to_add_weather && Hides(*effect);
-      if (!collinear && !stays_hidden) others.push_back(effect);
-    }
-    return others;
-  }
-
   /// An effect and what its score test promises.
   struct Scored {
     const Effect* effect;
@@ -200,17 +219,23 @@ class HypothesisSearch {
     const auto beyond =
         ranked.begin() + static_cast<std::ptrdiff_t>(std::min(count, ranked.size()));
     ranked.erase(std::remove_if(beyond, ranked.end(),
-                                [&](const Scored& scored) { return !Hides(*scored.effect); }),
+                                [&](const Scored& scored) {
+                                  return !Escapes(*scored.effect) && !Gusts(*scored.effect);
+                                }),
                  ranked.end());
     return ranked;
   }
 
-  /// Whether a score test that can tell promises next to nothing. It is of steady sizes: scatter
-  /// by gusts or spells may show where a mean does not.
+  /// Whether the score test, which is of small and steady sizes, says nothing of an effect.
+  bool Escapes(const Effect& effect) const { return Hides(effect) || effect.IsIntermittent(); }
+
+  /// Gusts may show where their mean does not.
+  static bool Gusts(const Effect& effect) { return effect.Facts().turbulence_intensity > 0.0; }
+
+  /// Whether a score test that can tell promises next to nothing.
   bool IsUnpromising(const Scored& scored) const {
-    const bool scatters =
-        scored.effect->IsIntermittent() || scored.effect->Facts().turbulence_intensity > 0.0;
-    return scored.score > -kSearch.least_promise && !scatters && !Hides(*scored.effect);
+    return scored.score > -kSearch.least_promise && !Gusts(*scored.effect) &&
+           !Escapes(*scored.effect);
   }
 
   /// Leaves one at least, and those that are known to matter.
@@ -218,14 +243,15 @@ class HypothesisSearch {
     if (ranked.empty()) return;
     const auto unneeded =
         std::remove_if(ranked.begin() + 1, ranked.end(), [&](const Scored& scored) {
-          return IsUnpromising(scored) && !IsKnownToMatter(*scored.effect);
+          return std::min(scored.score, KnownScoreOf(*scored.effect)) > -kSearch.least_promise;
         });
     ranked.erase(unneeded, ranked.end());
   }
 
-  bool IsKnownToMatter(const Effect& effect) const {
-    const auto known = Known(effect);
-    return known != known_.end() && known->score < -kSearch.least_promise;
+  /// Of the single effect in the problem that is nearly the same; zero where none was fitted.
+  double KnownScoreOf(const Effect& effect) const {
+    const auto known = SingleOf(effect, known_);
+    return known != known_.end() ? known->score : 0.0;
   }
 
   bool Hides(const Effect& effect) const {
@@ -261,7 +287,7 @@ std::vector<EffectFit> NextLevel(const HypothesisSearch& search,
                                  const std::vector<EffectFit>& singles) {
   std::vector<EffectFit> next;
   for (const EffectFit& first : level) {
-    for (EffectFit& more : search.WithOneMore(first, singles)) {
+    for (EffectFit& more : search.WithOneMore(first, search.SeparableFrom(first, singles))) {
       const double needed = ScoreToAdd(*more.Deterministic().effects.back().effect, first);
       if (more.score < first.score - needed) next.push_back(std::move(more));
     }
@@ -271,6 +297,43 @@ std::vector<EffectFit> NextLevel(const HypothesisSearch& search,
   }
   std::sort(next.begin(), next.end(), HasLowerScore);
   return next;
+}
+
+bool HasSameEffects(const EffectFit& a, const EffectFit& b) {
+  return std::ranges::is_permutation(a.Effects(), b.Effects());
+}
+
+/// Adds a fit. Of two with the same effects the better one stays.
+void Keep(const EffectFit& fit, std::vector<EffectFit>& fits) {
+  const auto same =
+      std::ranges::find_if(fits, [&](const EffectFit& kept) { return HasSameEffects(kept, fit); });
+  if (same == fits.end()) {
+    fits.push_back(fit);
+  } else if (HasLowerScore(fit, *same)) {
+    *same = fit;
+  }
+}
+
+/// What grows from `level`, less what it does not need. Nothing where nothing grows that is larger
+/// than the level or likelier than all that is known, of as many effects as there may be.
+std::optional<EffectFit> Grown(const HypothesisSearch& search, const std::vector<EffectFit>& level,
+                               const Hypotheses& hypotheses, std::size_t most_effects) {
+  const std::vector<EffectFit> next = NextLevel(search, level, hypotheses.singles);
+  if (next.empty()) return std::nullopt;
+  EffectFit grown = search.Pruned(next.front());
+  if (grown.effects.size() > most_effects) return std::nullopt;
+  const bool is_larger = grown.effects.size() > level.front().effects.size();
+  if (!is_larger && !HasLowerScore(grown, BestHypothesis(hypotheses))) return std::nullopt;
+  return grown;
+}
+
+/// The likeliest combination with one effect exchanged for another. Nothing where none is likelier.
+std::optional<EffectFit> Exchanged(const HypothesisSearch& search, const Hypotheses& hypotheses) {
+  const EffectFit& best = BestHypothesis(hypotheses);
+  if (best.effects.size() < 2) return std::nullopt;
+  EffectFit exchanged = search.Exchanged(best, hypotheses.singles);
+  if (!HasLowerScore(exchanged, best)) return std::nullopt;
+  return search.Pruned(std::move(exchanged));
 }
 
 }  // namespace
@@ -318,18 +381,20 @@ Hypotheses Search(const DiagnosisProblem& problem, std::span<const Effect* const
   hypotheses.nominal_gains = search.Gains();
   hypotheses.singles =
       search.Singles([&](double share) { report_progress(kShareOfSingles * share); });
-  std::vector<EffectFit> level = SeedsOf(hypotheses.singles);
-  for (std::size_t count = 2; count <= most_effects; ++count) {
-    const std::vector<EffectFit> next = NextLevel(search, level, hypotheses.singles);
-    if (next.empty()) break;
-    const EffectFit best = search.Pruned(next.front());
-    const bool grew = best.effects.size() == count;
-    if (grew) hypotheses.combined.push_back(best);
-    report_progress(kShareOfSingles + (1.0 - kShareOfSingles) * static_cast<double>(count) /
-                                          static_cast<double>(most_effects));
-    if (!grew) break;
-    level = {best};
+  std::vector<EffectFit> level;
+  if (most_effects > 1) level = SeedsOf(hypotheses.singles);
+  // Each turn leads to a larger hypothesis or to a likelier one.
+  const std::size_t most_turns = 2 * most_effects;
+  for (std::size_t turn = 1; turn <= most_turns && !level.empty(); ++turn) {
+    std::optional<EffectFit> better = Grown(search, level, hypotheses, most_effects);
+    if (!better) better = Exchanged(search, hypotheses);
+    if (!better) break;
+    Keep(*better, better->effects.size() > 1 ? hypotheses.combined : hypotheses.singles);
+    level = {*std::move(better)};
+    report_progress(kShareOfSingles + (1.0 - kShareOfSingles) * static_cast<double>(turn) /
+                                          static_cast<double>(most_turns));
   }
+  std::sort(hypotheses.singles.begin(), hypotheses.singles.end(), HasLowerScore);
   std::sort(hypotheses.combined.begin(), hypotheses.combined.end(), HasLowerScore);
   report_progress(1.0);
   return hypotheses;

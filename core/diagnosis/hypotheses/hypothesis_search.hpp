@@ -30,10 +30,11 @@ std::vector<EffectFit> SeedsOf(const std::vector<EffectFit>& singles);
 
 /// Screens every effect by the score test, fits the most promising in full, then adds a second and
 /// a third effect where the score falls by ScoreToAdd, and the effects are separable. An effect
-/// that a combination does not need is removed again. Every score is raised by the NominalGains of
-/// its effects. `report_progress` gets the share done; it is called by one thread at a time.
-/// `known`: single effects fitted to nearly the same problem; the fits of these effects start from
-/// their values and from nowhere else.
+/// that a combination does not need is removed again, and each is exchanged for others where
+/// nothing can be added. Every score is raised by the NominalGains of its effects.
+/// `report_progress` gets the share done; it is called by one thread at a time. `known`: single
+/// effects fitted to nearly the same problem; the fits of these effects start from their values and
+/// from nowhere else.
 Hypotheses Search(const DiagnosisProblem& problem, std::span<const Effect* const> library,
                   std::size_t most_effects, std::size_t threads,
                   const std::function<void(double)>& report_progress,
