@@ -75,17 +75,23 @@ class HypothesisSearch {
     return fits;
   }
 
+  /// A hypothesis with one effect more, and by how much its score has to be lower for that.
+  struct Addition {
+    EffectFit fit;
+    double needed = 0.0;
+  };
+
   /// Fits of one deterministic effect more than `first` has, of those to choose from.
-  std::vector<EffectFit> WithOneMore(const EffectFit& first,
-                                     const std::vector<const Effect*>& choice) const {
+  std::vector<Addition> WithOneMore(const EffectFit& first,
+                                    const std::vector<const Effect*>& choice) const {
     const ResidualMetric metric = first.ScatteredMetric(problem_.metric);
     auto ranked =
         MostPromising(kSearch.candidates_per_seed, ByScoreTest(choice, first.errors, metric));
     std::erase_if(ranked, [&](const Scored& scored) { return IsUnpromising(scored); });
-    std::vector<EffectFit> fitted(ranked.size());
+    std::vector<Addition> additions(ranked.size());
     const EffectFit deterministic = first.Deterministic();
     const Effect* stochastic = first.Stochastic();
-    ForEachIndex(fitted.size(), threads_, [&](std::size_t i) {
+    ForEachIndex(additions.size(), threads_, [&](std::size_t i) {
       // The linearised minimum alone, or beyond the threshold: the other effects start from their
       // fit.
       const Effect& effect = *ranked[i].effect;
@@ -97,10 +103,11 @@ class HypothesisSearch {
       stacked << values, start;
       auto effects = deterministic.Effects();
       effects.push_back(&effect);
-      fitted[i] = stochastic != nullptr ? FitBeside(*stochastic, effects, stacked)
-                                        : Fit(effects, {stacked});
+      additions[i] = {stochastic != nullptr ? FitBeside(*stochastic, effects, stacked)
+                                            : Fit(effects, {stacked}),
+                      ScoreToAdd(ranked[i], first)};
     });
-    return fitted;
+    return additions;
   }
 
   /// `fit` with a stochastic effect where the evidence asks for one; else `fit` itself.
@@ -111,7 +118,7 @@ class HypothesisSearch {
       // Without a peak there is no scatter to allow for. What the others do may hide one.
       if (PeakBeside(*effect, fit.effects, problem_).gain == 0.0) continue;
       EffectFit both = FitBeside(*effect, fit.Effects(), fit.Values());
-      if (both.score < best.score - ScoreToAdd(*effect, fit)) best = std::move(both);
+      if (both.score < best.score - telltale::ScoreToAdd(*effect, fit)) best = std::move(both);
     }
     return best;
   }
@@ -148,8 +155,8 @@ class HypothesisSearch {
       const EffectFit fewer = Less(fit, place);
       auto choice = SeparableFrom(fewer, singles);
       std::erase(choice, effect);
-      for (EffectFit& other : WithOneMore(fewer, choice)) {
-        if (HasLowerScore(other, likeliest)) likeliest = std::move(other);
+      for (Addition& other : WithOneMore(fewer, choice)) {
+        if (HasLowerScore(other.fit, likeliest)) likeliest = std::move(other.fit);
       }
     }
     return likeliest;
@@ -163,7 +170,7 @@ class HypothesisSearch {
       for (std::size_t drop = 0; drop < fit.effects.size(); ++drop) {
         const Effect* dropped = fit.effects[drop].effect;
         const EffectFit fewer = Less(fit, drop);
-        if (fit.score < fewer.score - ScoreToAdd(*dropped, fewer)) continue;
+        if (fit.score < fewer.score - telltale::ScoreToAdd(*dropped, fewer)) continue;
         fit = fewer;
         pruned = true;
         break;
@@ -238,6 +245,12 @@ class HypothesisSearch {
            !Escapes(*scored.effect);
   }
 
+  /// Weather of whose mean the score test promises nothing needs as much as a fault does.
+  static double ScoreToAdd(const Scored& scored, const EffectFit& to) {
+    return scored.score > -kSearch.least_promise ? kSearch.score_to_add_effect
+                                                 : telltale::ScoreToAdd(*scored.effect, to);
+  }
+
   /// Leaves one at least, and those that are known to matter.
   void EraseUnpromisingBehindFirst(std::vector<Scored>& ranked) const {
     if (ranked.empty()) return;
@@ -287,8 +300,7 @@ std::vector<EffectFit> NextLevel(const HypothesisSearch& search,
                                  const std::vector<EffectFit>& singles) {
   std::vector<EffectFit> next;
   for (const EffectFit& first : level) {
-    for (EffectFit& more : search.WithOneMore(first, search.SeparableFrom(first, singles))) {
-      const double needed = ScoreToAdd(*more.Deterministic().effects.back().effect, first);
+    for (auto& [more, needed] : search.WithOneMore(first, search.SeparableFrom(first, singles))) {
       if (more.score < first.score - needed) next.push_back(std::move(more));
     }
     EffectFit with_stochastic = search.WithStochastic(first);
@@ -327,12 +339,13 @@ std::optional<EffectFit> Grown(const HypothesisSearch& search, const std::vector
   return grown;
 }
 
-/// The likeliest combination with one effect exchanged for another. Nothing where none is likelier.
+/// The likeliest combination with one effect exchanged for another. Nothing where none is likelier
+/// by as much as separates two hypotheses.
 std::optional<EffectFit> Exchanged(const HypothesisSearch& search, const Hypotheses& hypotheses) {
   const EffectFit& best = BestHypothesis(hypotheses);
   if (best.effects.size() < 2) return std::nullopt;
   EffectFit exchanged = search.Exchanged(best, hypotheses.singles);
-  if (!HasLowerScore(exchanged, best)) return std::nullopt;
+  if (!(exchanged.score < best.score - 2.0 * kSearch.separable_nats)) return std::nullopt;
   return search.Pruned(std::move(exchanged));
 }
 
