@@ -105,7 +105,7 @@ class HypothesisSearch {
       effects.push_back(&effect);
       additions[i] = {stochastic != nullptr ? FitBeside(*stochastic, effects, stacked)
                                             : Fit(effects, {stacked}),
-                      ScoreToAdd(ranked[i], first)};
+                      FallNeededBy(ranked[i], first)};
     });
     return additions;
   }
@@ -118,7 +118,7 @@ class HypothesisSearch {
       // Without a peak there is no scatter to allow for. What the others do may hide one.
       if (PeakBeside(*effect, fit.effects, problem_).gain == 0.0) continue;
       EffectFit both = FitBeside(*effect, fit.Effects(), fit.Values());
-      if (both.score < best.score - telltale::ScoreToAdd(*effect, fit)) best = std::move(both);
+      if (both.score < best.score - ScoreToAdd(*effect, fit)) best = std::move(both);
     }
     return best;
   }
@@ -170,7 +170,7 @@ class HypothesisSearch {
       for (std::size_t drop = 0; drop < fit.effects.size(); ++drop) {
         const Effect* dropped = fit.effects[drop].effect;
         const EffectFit fewer = Less(fit, drop);
-        if (fit.score < fewer.score - telltale::ScoreToAdd(*dropped, fewer)) continue;
+        if (fit.score < fewer.score - ScoreToAdd(*dropped, fewer)) continue;
         fit = fewer;
         pruned = true;
         break;
@@ -246,9 +246,9 @@ class HypothesisSearch {
   }
 
   /// Weather of whose mean the score test promises nothing needs as much as a fault does.
-  static double ScoreToAdd(const Scored& scored, const EffectFit& to) {
+  static double FallNeededBy(const Scored& scored, const EffectFit& to) {
     return scored.score > -kSearch.least_promise ? kSearch.score_to_add_effect
-                                                 : telltale::ScoreToAdd(*scored.effect, to);
+                                                 : ScoreToAdd(*scored.effect, to);
   }
 
   /// Leaves one at least, and those that are known to matter.
