@@ -42,7 +42,7 @@ std::span<double> TermsOf(telltale::Equation equation, HullTerms& terms) {
 template <std::size_t kCount>
 std::array<double, kCount> Times(const std::array<double, kCount>& a,
                                  const std::array<double, kCount>& b) {
-  std::array<double, kCount> product;
+  std::array<double, kCount> product{};
   for (std::size_t i = 0; i < kCount; ++i) product[i] = a[i] * b[i];
   return product;
 }
