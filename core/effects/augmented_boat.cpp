@@ -52,14 +52,6 @@ HullTerms Times(const HullTerms& coefficients, const BodyRow& row) {
           Times(coefficients.yaw, row.turning)};
 }
 
-/// An acceleration and all terms.
-NuDot Sum(const HullTerms& terms, const NuDot& first) {
-  const auto sum = [](const auto& from, double before) {
-    return std::accumulate(from.begin(), from.end(), before);
-  };
-  return {sum(terms.surge, first.u), sum(terms.sway, first.v), sum(terms.yaw, first.r)};
-}
-
 Drive AddScaled(const Drive& sum, const Drive& more, double weight) {
   return {
       {Plus(sum.thrust[0], more.thrust[0], weight), Plus(sum.thrust[1], more.thrust[1], weight)},
@@ -348,7 +340,7 @@ NuDot AugmentedBoat::Acceleration(const Nu& nu, const Eta& eta, const Drive& dri
                        .hull_scale = hull_scale_,
                        .hull = Times(hull_, BodyRowAt(flow.nu_r))};
   ShareThrust(instant);
-  NuDot nu_dot = Plus(Sum(instant.hull, flow.nu_c_dot), instant.Thrust());
+  NuDot nu_dot = Plus(flow.nu_c_dot, instant.Acceleration());
   for (const auto& [effect, values] : Hooked(Hook::kAcceleration)) {
     nu_dot = Plus(nu_dot, effect->AddedAcceleration(values, instant));
   }

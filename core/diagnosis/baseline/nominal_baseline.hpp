@@ -46,7 +46,7 @@ NominalBaseline LearnNominalBaseline(const std::vector<FreeRuns>& recordings,
 
 /// The baseline that the kept ones of those recordings alone would give, to first order: one
 /// Gauss-Newton step from the baseline of all, with the slopes of that. Requires: at least one
-/// kept, places within `recordings`.
+/// kept, places within `recordings`; with `others` the same recordings as of all.
 NominalBaseline NominalBaselineOf(const std::vector<std::size_t>& kept,
                                   const NominalBaseline& of_all,
                                   const std::vector<FreeRuns>& recordings,

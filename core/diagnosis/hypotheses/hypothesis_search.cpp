@@ -129,16 +129,15 @@ class HypothesisSearch {
   /// separate from it where it stands alone, and those that escape the score test and have less
   /// evidence alone than a second effect needs at least.
   std::vector<const Effect*> SeparableFrom(const EffectFit& first,
-                                           const std::vector<EffectFit>& singles) const {
-    const std::span<const EffectFit> all = singles;
+                                           std::span<const EffectFit> singles) const {
     std::vector<const Effect*> others;
     for (const Effect* effect : library_) {
       if (Contains(first, effect) || effect->IsStochastic()) continue;
-      const auto single = SingleOf(*effect, all);
-      const bool collinear = single != all.end() && first.effects.size() == 1 &&
+      const auto single = SingleOf(*effect, singles);
+      const bool collinear = single != singles.end() && first.effects.size() == 1 &&
                              Distance(first, *single, problem_.metric) < kSearch.separable_nats;
       const bool has_little =
-          Escapes(*effect) && (single != all.end() ? single->score : KnownScoreOf(*effect)) >
+          Escapes(*effect) && (single != singles.end() ? single->score : KnownScoreOf(*effect)) >
                                   -kSearch.score_to_add_weather;
       if (!collinear && !has_little) others.push_back(effect);
     }

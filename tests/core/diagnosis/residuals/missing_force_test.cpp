@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "support/stable_boat_with_effects.hpp"
+#include "support/unlisted_effects.hpp"
 #include "telltale/core/diagnosis/report/missing_force_text.hpp"
 
 namespace telltale {
@@ -20,19 +21,11 @@ constexpr double kSwayMass = 1.5 * kMass;
 constexpr double kInertia = 1.3 * kMass * 0.4 * 0.4;
 
 /// A force that turns once with the heading: k cos psi ahead, which no effect of a boat has.
-class ByHeading final : public Effect {
+class ByHeading final : public testing::Unlisted {
  public:
   static constexpr double kAcceleration = 0.1;
 
-  ByHeading()
-      : Effect({.name = "by_heading",
-                .title = "by heading",
-                .equation = "u_dot += k cos psi",
-                .source = "made up",
-                .parameters = {},
-                .settled_by = "nothing",
-                .hook = Hook::kAcceleration}) {}
-  std::string Describe(EffectValues) const override { return "by heading"; }
+  ByHeading() : testing::Unlisted("by_heading") {}
   NuDot AddedAcceleration(EffectValues, const InstantState& instant) const override {
     return {kAcceleration * std::cos(instant.psi_rad), 0.0, 0.0};
   }
