@@ -33,7 +33,7 @@ bool HasLowerScore(const EffectFit& a, const EffectFit& b) {
 class HypothesisSearch {
  public:
   HypothesisSearch(const DiagnosisProblem& problem, std::span<const Effect* const> library,
-                   std::span<const EffectFit> known, std::size_t threads)
+                   const Hypotheses& known, std::size_t threads)
       : problem_(problem),
         library_(library),
         known_(known),
@@ -60,7 +60,7 @@ class HypothesisSearch {
     auto ranked =
         MostPromising(kSearch.effects_fitted_in_full,
                       ByScoreTest(deterministic, problem_.recording.errors, problem_.metric));
-    if (!known_.empty()) EraseUnpromisingBehindFirst(ranked);
+    if (HasKnown()) EraseUnpromisingBehindFirst(ranked);
     std::vector<EffectFit> fitted(ranked.size());
     std::mutex reporting;
     std::size_t done = 0;
@@ -133,11 +133,11 @@ class HypothesisSearch {
     std::vector<const Effect*> others;
     for (const Effect* effect : library_) {
       if (Contains(first, effect) || effect->IsStochastic()) continue;
-      const auto single = SingleOf(*effect, singles);
-      const bool collinear = single != singles.end() && first.effects.size() == 1 &&
+      const EffectFit* single = SingleOf(*effect, singles);
+      const bool collinear = single != nullptr && first.effects.size() == 1 &&
                              Distance(first, *single, problem_.metric) < kSearch.separable_nats;
       const bool has_little =
-          Escapes(*effect) && (single != singles.end() ? single->score : KnownScoreOf(*effect)) >
+          Escapes(*effect) && (single != nullptr ? single->score : KnownScoreOf(*effect)) >
                                   -kSearch.score_to_add_weather;
       if (!collinear && !has_little) others.push_back(effect);
     }
@@ -185,16 +185,16 @@ class HypothesisSearch {
   }
 
   std::vector<Eigen::VectorXd> StartsOfSingle(const Effect& effect) const {
-    const auto known = SingleOf(effect, known_);
-    if (known != known_.end()) return {known->Values()};
+    if (const EffectFit* known = SingleOf(effect, known_.singles)) return {known->Values()};
     return StartsOf(effect, problem_.metric, problem_.recording.errors, problem_.recording,
                     problem_.parameter_refs);
   }
 
-  static std::span<const EffectFit>::iterator SingleOf(const Effect& effect,
-                                                       std::span<const EffectFit> singles) {
-    return std::ranges::find_if(
+  /// Null where there is none of it.
+  static const EffectFit* SingleOf(const Effect& effect, std::span<const EffectFit> singles) {
+    const auto single = std::ranges::find_if(
         singles, [&](const EffectFit& fit) { return fit.effects.front().effect == &effect; });
+    return single != singles.end() ? &*single : nullptr;
   }
 
   /// The fit without one of its effects.
@@ -238,10 +238,22 @@ class HypothesisSearch {
   /// Gusts may show where their mean does not.
   static bool Gusts(const Effect& effect) { return effect.Facts().turbulence_intensity > 0.0; }
 
-  /// Whether a score test that can tell promises next to nothing.
+  /// Whether the score test promises next to nothing. Where it cannot tell, whether the effect
+  /// mattered to the hypotheses that are known; without any it is worth a fit.
   bool IsUnpromising(const Scored& scored) const {
-    return scored.score > -kSearch.least_promise && !Gusts(*scored.effect) &&
-           !Escapes(*scored.effect);
+    if (scored.score <= -kSearch.least_promise) return false;
+    if (HasKnown()) return !Mattered(*scored.effect);
+    return !Gusts(*scored.effect) && !Escapes(*scored.effect);
+  }
+
+  bool HasKnown() const { return !known_.singles.empty(); }
+
+  /// Whether a known hypothesis gives evidence of the effect, alone or beside others.
+  bool Mattered(const Effect& effect) const {
+    return KnownScoreOf(effect) <= -kSearch.least_promise ||
+           std::ranges::any_of(known_.combined, [&](const EffectFit& combination) {
+             return Contains(combination, &effect);
+           });
   }
 
   /// Weather of whose mean the score test promises nothing needs as much as a fault does.
@@ -250,20 +262,19 @@ class HypothesisSearch {
                                                  : ScoreToAdd(*scored.effect, to);
   }
 
-  /// Leaves one at least, and those that are known to matter.
+  /// Leaves one at least.
   void EraseUnpromisingBehindFirst(std::vector<Scored>& ranked) const {
     if (ranked.empty()) return;
     const auto unneeded =
-        std::remove_if(ranked.begin() + 1, ranked.end(), [&](const Scored& scored) {
-          return std::min(scored.score, KnownScoreOf(*scored.effect)) > -kSearch.least_promise;
-        });
+        std::remove_if(ranked.begin() + 1, ranked.end(),
+                       [&](const Scored& scored) { return IsUnpromising(scored); });
     ranked.erase(unneeded, ranked.end());
   }
 
-  /// Of the single effect in the problem that is nearly the same; zero where none was fitted.
+  /// Of the known single effect; zero where none was fitted.
   double KnownScoreOf(const Effect& effect) const {
-    const auto known = SingleOf(effect, known_);
-    return known != known_.end() ? known->score : 0.0;
+    const EffectFit* known = SingleOf(effect, known_.singles);
+    return known != nullptr ? known->score : 0.0;
   }
 
   bool Hides(const Effect& effect) const {
@@ -285,7 +296,7 @@ class HypothesisSearch {
 
   const DiagnosisProblem& problem_;
   std::span<const Effect* const> library_;
-  std::span<const EffectFit> known_;
+  const Hypotheses& known_;  ///< of nearly the same problem
   std::size_t threads_;
   ErrorModel error_model_;
   std::vector<const Effect*> stochastic_;
@@ -385,8 +396,7 @@ std::vector<EffectFit> SeedsOf(const std::vector<EffectFit>& singles) {
 
 Hypotheses Search(const DiagnosisProblem& problem, std::span<const Effect* const> library,
                   std::size_t most_effects, std::size_t threads,
-                  const std::function<void(double)>& report_progress,
-                  std::span<const EffectFit> known) {
+                  const std::function<void(double)>& report_progress, const Hypotheses& known) {
   constexpr double kShareOfSingles = 0.6;
   const HypothesisSearch search(problem, library, known, threads);
   Hypotheses hypotheses;

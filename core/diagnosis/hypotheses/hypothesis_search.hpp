@@ -32,13 +32,12 @@ std::vector<EffectFit> SeedsOf(const std::vector<EffectFit>& singles);
 /// a third effect where the score falls by ScoreToAdd, and the effects are separable. An effect
 /// that a combination does not need is removed again, and each is exchanged for others where
 /// nothing can be added. Every score is raised by the NominalGains of its effects.
-/// `report_progress` gets the share done; it is called by one thread at a time. `known`: single
-/// effects fitted to nearly the same problem; the fits of these effects start from their values and
-/// from nowhere else.
+/// `report_progress` gets the share done; it is called by one thread at a time. `known`:
+/// hypotheses of nearly the same problem. Single effects start from their values and from nowhere
+/// else, and only what they give evidence of, or the score test promises, is fitted.
 Hypotheses Search(const DiagnosisProblem& problem, std::span<const Effect* const> library,
                   std::size_t most_effects, std::size_t threads,
-                  const std::function<void(double)>& report_progress,
-                  std::span<const EffectFit> known = {});
+                  const std::function<void(double)>& report_progress, const Hypotheses& known = {});
 
 /// Expected log evidence, in nats, of the better of two hypotheses over the other if it is true.
 /// Below kDiagnosis.search.separable_nats this recording does not separate them. Of two that

@@ -155,8 +155,7 @@ ReferenceInfluence AnswerWithout(std::size_t reference, const WithoutOne& withou
   const HorizonErrors main{all.runs, without.floor, recording.errors};
   constexpr std::size_t kThreads = 1;  // references stand side by side
   const Hypotheses hypotheses = Search(
-      problem, inputs.library, inputs.most_effects, kThreads, [](double) {},
-      inputs.hypotheses.singles);
+      problem, inputs.library, inputs.most_effects, kThreads, [](double) {}, inputs.hypotheses);
   Conclusion conclusion = Conclude(hypotheses, problem, main, inputs.seed, squared_limit);
   ConcludeFromDelays(DelayDifferencesOf(inputs.delays, reference), inputs.library, problem, main,
                      inputs.seed, conclusion);

@@ -1,6 +1,8 @@
 #include "telltale/core/diagnosis/hypotheses/hypothesis_search.hpp"
 
+#include <atomic>
 #include <cmath>
+#include <functional>
 #include <limits>
 
 #include <gmock/gmock.h>
@@ -102,8 +104,7 @@ TEST(SeedsOf, LeaveOutWavesWithoutEvidence) {
 class SearchTest : public ::testing::Test {
  protected:
   static Hypotheses Found(const std::vector<ModelledEffect>& effects,
-                          std::span<const Effect* const> library,
-                          std::span<const EffectFit> known = {}) {
+                          std::span<const Effect* const> library, const Hypotheses& known = {}) {
     const testing::ShortRecording nominal_recording;
     const testing::ShortRecording short_recording(120.0, effects);
     const auto parameter_refs = EffectParameterRefsOf(library);
@@ -129,7 +130,7 @@ class SearchTest : public ::testing::Test {
   }
 
   static Hypotheses FoundAmongThree(const std::vector<ModelledEffect>& effects,
-                                    std::span<const EffectFit> known = {}) {
+                                    const Hypotheses& known = {}) {
     return Found(effects,
                  std::vector{FindEffect("thruster_lag"), FindEffect("heading_bias"),
                              FindEffect("thrust_gain")},
@@ -156,7 +157,7 @@ TEST_F(SearchTest, FindsBothEffectsThatActTogether) {
 TEST_F(SearchTest, FindsTheSameAgainFromWhatIsKnown) {
   const std::vector<ModelledEffect> acting = {{FindEffect("thrust_gain"), {0.3}}};
   const Hypotheses found = FoundAmongThree(acting);
-  const Hypotheses again = FoundAmongThree(acting, found.singles);
+  const Hypotheses again = FoundAmongThree(acting, found);
   EXPECT_EQ(again.singles.front().Names(), found.singles.front().Names());
   EXPECT_NEAR(again.singles.front().score, found.singles.front().score,
               1e-3 * std::abs(found.singles.front().score));
@@ -166,9 +167,53 @@ TEST_F(SearchTest, FindsTheSameAgainFromWhatIsKnown) {
 TEST_F(SearchTest, FitsNoneAgainThatPromisesNothingButTheFirst) {
   const Hypotheses found = FoundAmongThree({});
   ASSERT_EQ(found.singles.size(), 3u);
-  const Hypotheses again = FoundAmongThree({}, found.singles);
+  const Hypotheses again = FoundAmongThree({}, found);
   EXPECT_EQ(again.singles.size(), 1u);
   EXPECT_TRUE(again.combined.empty());
+}
+
+/// Gusts that move nothing, and notice whether they are asked for more than a slope.
+class IdleGusts final : public Effect {
+ public:
+  IdleGusts()
+      : Effect({.name = "idle_gusts",
+                .title = "",
+                .equation = "",
+                .source = "",
+                .parameters = {{"speed", "m/s", kTypical, -25.0, 25.0}},
+                .settled_by = "",
+                .hook = Hook::kAcceleration,
+                .turbulence_intensity = 0.2,
+                .turbulence_time_s = 8.0}) {}
+  std::string Describe(EffectValues) const override { return "idle gusts"; }
+  NuDot AddedAcceleration(EffectValues values, const InstantState&) const override {
+    if (values[0] != kTypical) is_fitted_ = true;
+    return {};
+  }
+
+  bool IsFittedBy(const std::function<void()>& search) const {
+    is_fitted_ = false;
+    search();
+    return is_fitted_;
+  }
+
+ private:
+  static constexpr double kTypical = 4.0;
+  mutable std::atomic<bool> is_fitted_ = false;
+};
+
+// Gusts may show where their mean does not, so that the score test spares no fit.
+TEST_F(SearchTest, FitsGustsAgainOnlyWhereTheyAreKnownToMatter) {
+  const IdleGusts gusts;
+  const std::vector library = {FindEffect("thrust_gain"), static_cast<const Effect*>(&gusts)};
+  const std::vector<ModelledEffect> acting = {{FindEffect("thrust_gain"), {0.3}}};
+  Hypotheses found;
+  EXPECT_TRUE(gusts.IsFittedBy([&] { found = Found(acting, library); }));
+  EXPECT_FALSE(gusts.IsFittedBy([&] { Found(acting, library, found); }));
+  EffectFit both = found.singles.front();
+  both.effects.push_back({&gusts, {0.0}});
+  found.combined = {both};
+  EXPECT_TRUE(gusts.IsFittedBy([&] { Found(acting, library, found); }));
 }
 
 // The recording alone is said to have no peak, as where an effect covers it.
