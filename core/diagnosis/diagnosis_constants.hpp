@@ -77,7 +77,7 @@ struct BaselineConstants {
   double coefficient_prior_scale = 10.0;  ///< standard errors of the model, prior sd of its error
   double slope_step = 0.1;                ///< typical sizes, step of the secants
   int maximum_recalibrations = 8;         ///< Gauss-Newton steps with new slopes
-  double converged_ratio = 0.995;         ///< 1, of the whitened square after a step to that before
+  double converged_ratio = 0.97;          ///< 1, of the variance after a step to that before
   int covariance_rounds = 2;              ///< covariance and unknowns in turn, per step
   int variance_iterations = 25;           ///< unknowns and their variances in turn, per round
   std::array<double, 8> step_lengths = {1.0,  0.7,  0.5,  0.35,

@@ -3,30 +3,25 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
+#include <optional>
 #include <utility>
 
 #include "telltale/core/base/contract.hpp"
-#include "telltale/core/base/linear_algebra/covariance.hpp"
 #include "telltale/core/base/linear_algebra/eigen_decompositions.hpp"
-#include "telltale/core/base/linear_algebra/gram.hpp"
 #include "telltale/core/base/parallel.hpp"
+#include "telltale/core/diagnosis/baseline/mixed_effects_fit.hpp"
 #include "telltale/core/diagnosis/baseline/residual_metric.hpp"
 #include "telltale/core/diagnosis/diagnosis_constants.hpp"
 
 namespace telltale {
 namespace {
 
-constexpr double kPriorEffectSize = kDiagnosis.baseline.prior_effect_size;
-constexpr double kPriorRecordings = kDiagnosis.baseline.prior_recordings;
-constexpr double kInitialFixedEffectSd = kDiagnosis.baseline.initial_fixed_effect_sd;
-constexpr double kCoefficientPriorScale = kDiagnosis.baseline.coefficient_prior_scale;
-constexpr double kNegligibleSd = 1e-6;
 constexpr double kMaximumOptimism = kDiagnosis.baseline.maximum_optimism;
 constexpr int kMaximumRecalibrations = kDiagnosis.baseline.maximum_recalibrations;
 constexpr double kConvergedRatio = kDiagnosis.baseline.converged_ratio;
 constexpr double kSlopeStep = kDiagnosis.baseline.slope_step;
 constexpr int kRounds = kDiagnosis.baseline.covariance_rounds;
-constexpr int kIterations = kDiagnosis.baseline.variance_iterations;
 constexpr std::array kStepLengths = kDiagnosis.baseline.step_lengths;
 
 Eigen::MatrixXd SecondMoment(const std::vector<Eigen::MatrixXd>& residuals) {
@@ -64,183 +59,11 @@ double Kappa(const Eigen::LLT<Eigen::MatrixXd>& factor,
   return std::clamp((1.0 - rho) / (1.0 + rho), kDiagnosis.baseline.minimum_kappa, 1.0);
 }
 
-/// The mixed-effects fit to the nominal recordings. Unknowns, stacked: coefficients, fixed effects,
-/// then the per-recording random effects of each day. The first two are changes of the boat about
-/// which the sensitivities are; the random effects are estimated anew at each step.
-class NominalBaselineFit {
- public:
-  NominalBaselineFit(const UncertainModel& model,
-                     const std::vector<EffectParameterRef>& parameter_refs, std::size_t days)
-      : coefficient_count_(static_cast<Eigen::Index>(model.free.size())),
-        parameter_count_(static_cast<Eigen::Index>(parameter_refs.size())),
-        random_(RandomColumnsOf(parameter_refs)),
-        days_(static_cast<Eigen::Index>(days)),
-        coefficients_(Eigen::VectorXd::Zero(coefficient_count_)),
-        fixed_(Eigen::VectorXd::Zero(parameter_count_)),
-        fixed_effect_sd_(Eigen::VectorXd::Constant(parameter_count_, kInitialFixedEffectSd)),
-        recording_effect_sd_(Eigen::VectorXd::Constant(RandomCount(), kPriorEffectSize)) {
-    Eigen::MatrixXd correlation = model.Correlation();
-    correlation.diagonal().array() += 1e-6;
-    base_information_ = Inverse(correlation) / (kCoefficientPriorScale * kCoefficientPriorScale);
-    fixed_effect_limits_.resize(parameter_count_, 2);
-    for (Eigen::Index j = 0; j < parameter_count_; ++j) {
-      const EffectParameterRef& parameter_ref = parameter_refs[static_cast<std::size_t>(j)];
-      const EffectParameter& parameter =
-          parameter_ref.effect->Parameters()[parameter_ref.parameter];
-      fixed_effect_limits_.row(j) << parameter.lower / parameter.typical,
-          parameter.upper / parameter.typical;
-      if (parameter_ref.effect->Facts().nominal_variation == NominalVariation::kFixedEffect)
-        continue;
-      fixed_effect_limits_.row(j).setZero();
-      fixed_effect_sd_[j] = kNegligibleSd;
-    }
-  }
-
-  /// Sums up what whitened recordings say.
-  void Accumulate(const std::vector<Sensitivity>& recordings,
-                  const Eigen::LLT<Eigen::MatrixXd>& factor, double kappa) {
-    gram_ = Eigen::MatrixXd::Zero(Size(), Size());
-    right_ = Eigen::VectorXd::Zero(Size());
-    const Eigen::Index shared = coefficient_count_ + parameter_count_;
-    for (Eigen::Index day = 0; day < days_; ++day) {
-      const Sensitivity& recording = recordings[static_cast<std::size_t>(day)];
-      Eigen::MatrixXd phi(recording.errors.size(), shared + RandomCount() + 1);
-      phi << recording.by_coefficient, recording.by_effect_parameter,
-          recording.by_effect_parameter(Eigen::all, random_), recording.errors.reshaped();
-      const Eigen::MatrixXd white = Whitened(factor, phi);
-      const Eigen::MatrixXd gram = kappa * Gram(white);
-      const Eigen::Index own = shared + day * RandomCount();
-      const auto last = gram.col(shared + RandomCount());
-      gram_.topLeftCorner(shared, shared) += gram.topLeftCorner(shared, shared);
-      gram_.block(0, own, shared, RandomCount()) = gram.block(0, shared, shared, RandomCount());
-      gram_.block(own, 0, RandomCount(), shared) = gram.block(shared, 0, RandomCount(), shared);
-      gram_.block(own, own, RandomCount(), RandomCount()) =
-          gram.block(shared, shared, RandomCount(), RandomCount());
-      right_.head(shared) -= last.head(shared);
-      right_.segment(own, RandomCount()) = -last.segment(shared, RandomCount());
-    }
-  }
-
-  /// In turn unknowns given sizes, sizes given unknowns.
-  void Solve() {
-    for (int iteration = 0; iteration < kIterations; ++iteration) {
-      unknowns_ = Step();
-      UpdateStandardDeviations();
-    }
-  }
-
-  /// Changes of the boat that are made already.
-  void StartFrom(const NominalBaseline& baseline) {
-    coefficients_ = baseline.coefficients;
-    fixed_ = baseline.fixed_effects;
-  }
-
-  /// Makes the change that was found; the next one is sought from there.
-  void Accept(double share) {
-    coefficients_ += share * unknowns_.head(coefficient_count_);
-    fixed_ = (fixed_ + share * unknowns_.segment(coefficient_count_, parameter_count_))
-                 .cwiseMax(fixed_effect_limits_.col(0))
-                 .cwiseMin(fixed_effect_limits_.col(1));
-  }
-
-  /// What the weather of a day does to a recording's errors, to be taken away by adding this.
-  Eigen::MatrixXd RecordingEffects(const Sensitivity& recording, std::size_t day) const {
-    const Eigen::VectorXd sizes = unknowns_.segment(
-        coefficient_count_ + parameter_count_ + static_cast<Eigen::Index>(day) * RandomCount(),
-        RandomCount());
-    return (recording.by_effect_parameter(Eigen::all, random_) * sizes)
-        .reshaped(recording.errors.rows(), recording.errors.cols());
-  }
-
-  /// A recording's errors after the step, if they were linear.
-  Eigen::MatrixXd PredictedResiduals(const Sensitivity& recording, std::size_t day) const {
-    const Eigen::VectorXd left =
-        recording.errors.reshaped() +
-        recording.by_coefficient * unknowns_.head(coefficient_count_) +
-        recording.by_effect_parameter * unknowns_.segment(coefficient_count_, parameter_count_);
-    return left.reshaped(recording.errors.rows(), recording.errors.cols()) +
-           RecordingEffects(recording, day);
-  }
-
-  const Eigen::VectorXd& Coefficients() const { return coefficients_; }
-  const Eigen::VectorXd& FixedEffects() const { return fixed_; }
-  Eigen::VectorXd RecordingEffectSd() const {
-    Eigen::VectorXd sizes = Eigen::VectorXd::Zero(parameter_count_);
-    sizes(random_) = recording_effect_sd_;
-    return sizes;
-  }
-  Eigen::MatrixXd BoatCovariance() const {
-    return Inverse(Information())
-        .topLeftCorner(coefficient_count_ + parameter_count_,
-                       coefficient_count_ + parameter_count_);
-  }
-
- private:
-  static std::vector<Eigen::Index> RandomColumnsOf(
-      const std::vector<EffectParameterRef>& parameter_refs) {
-    std::vector<Eigen::Index> random_columns;
-    for (std::size_t j = 0; j < parameter_refs.size(); ++j) {
-      if (parameter_refs[j].effect->Facts().nominal_variation ==
-          NominalVariation::kRecordingEffect) {
-        random_columns.push_back(static_cast<Eigen::Index>(j));
-      }
-    }
-    return random_columns;
-  }
-
-  Eigen::Index RandomCount() const { return static_cast<Eigen::Index>(random_.size()); }
-  Eigen::Index Size() const {
-    return coefficient_count_ + parameter_count_ + days_ * RandomCount();
-  }
-
-  Eigen::MatrixXd Information() const {
-    Eigen::MatrixXd information = gram_;
-    information.topLeftCorner(coefficient_count_, coefficient_count_) += base_information_;
-    information.diagonal().segment(coefficient_count_, parameter_count_) +=
-        fixed_effect_sd_.cwiseAbs2().cwiseInverse();
-    information.diagonal().tail(days_ * RandomCount()) +=
-        recording_effect_sd_.cwiseAbs2().cwiseInverse().replicate(days_, 1);
-    return information;
-  }
-
-  Eigen::VectorXd Step() const {
-    Eigen::VectorXd right = right_;
-    right.head(coefficient_count_) -= base_information_ * coefficients_;
-    right.segment(coefficient_count_, parameter_count_) -=
-        fixed_.cwiseQuotient(fixed_effect_sd_.cwiseAbs2());
-    return Information().llt().solve(right);
-  }
-
-  // By the most probable unknowns, not by expectation: what weather shares with the coefficients,
-  // which are the same every day, would otherwise keep it large for ever.
-  void UpdateStandardDeviations() {
-    const double prior = kPriorRecordings * kPriorEffectSize * kPriorEffectSize;
-    const auto recording_effects =
-        unknowns_.tail(days_ * RandomCount()).reshaped(RandomCount(), days_);
-    recording_effect_sd_ = ((recording_effects.rowwise().squaredNorm().array() + prior) /
-                            (static_cast<double>(days_) + kPriorRecordings))
-                               .sqrt();
-    for (Eigen::Index j = 0; j < parameter_count_; ++j) {
-      if (fixed_effect_limits_(j, 0) == fixed_effect_limits_(j, 1)) continue;
-      const double now = fixed_[j] + unknowns_[coefficient_count_ + j];
-      fixed_effect_sd_[j] = std::sqrt((prior + now * now) / (1.0 + kPriorRecordings));
-    }
-  }
-
-  Eigen::Index coefficient_count_;
-  Eigen::Index parameter_count_;
-  std::vector<Eigen::Index> random_;  // columns of per-recording effects
-  Eigen::Index days_;
-  Eigen::VectorXd coefficients_;
-  Eigen::VectorXd fixed_;
-  Eigen::VectorXd fixed_effect_sd_;
-  Eigen::VectorXd recording_effect_sd_;
-  Eigen::MatrixXd base_information_;
-  Eigen::MatrixXd fixed_effect_limits_;
-  Eigen::MatrixXd gram_;
-  Eigen::VectorXd right_;
-  Eigen::VectorXd unknowns_;
-};
+/// The generalised variance of errors, the determinant of their second moment, per row.
+double GeneralisedVariance(const std::vector<Eigen::MatrixXd>& residuals) {
+  const Eigen::LLT<Eigen::MatrixXd> factor(SecondMoment(residuals));
+  return std::exp(LogDeterminant(factor) / static_cast<double>(factor.rows()));
+}
 
 /// By how much more a recording that took no part in estimating the covariance leaves by it: the
 /// mean of Hotelling's T^2 over its rows, n / (n - rows - 1) with n windows.
@@ -253,16 +76,35 @@ double OptimismOf(const std::vector<Sensitivity>& days) {
 
 using Recordings = std::vector<const FreeRuns*>;
 
-std::vector<Sensitivity> SensitivitiesOf(const Recordings& recordings, const ChangedBoat& boat,
-                                         const UncertainModel& model,
-                                         const std::vector<EffectParameterRef>& parameter_refs,
-                                         std::size_t threads, double step) {
-  std::vector<Sensitivity> sensitivities;
-  for (const FreeRuns* runs : recordings) {
-    sensitivities.push_back(SensitivityOf(*runs, boat, model, parameter_refs, threads, step));
-  }
-  return sensitivities;
+/// What a step needs: slopes by the effects that a nominal boat may have; those by the others are
+/// zero.
+Sensitivity NominalSlopesOf(const FreeRuns& runs, const ChangedBoat& boat,
+                            const UncertainModel& model,
+                            const std::vector<EffectParameterRef>& parameter_refs,
+                            std::size_t threads) {
+  const NominalVariations variations = NominalVariationsOf(parameter_refs);
+  std::vector<Eigen::Index> columns = variations.fixed;
+  columns.insert(columns.end(), variations.weather.begin(), variations.weather.end());
+  std::vector<EffectParameterRef> varying;
+  for (const Eigen::Index j : columns)
+    varying.push_back(parameter_refs[static_cast<std::size_t>(j)]);
+  Sensitivity slopes = SensitivityOf(runs, boat, model, varying, threads, kSlopeStep);
+  Eigen::MatrixXd by_effect_parameter =
+      Eigen::MatrixXd::Zero(slopes.errors.size(), std::ssize(parameter_refs));
+  by_effect_parameter(Eigen::all, columns) = slopes.by_effect_parameter;
+  slopes.by_effect_parameter = std::move(by_effect_parameter);
+  return slopes;
 }
+
+/// A boat, and what it leaves of the recordings.
+struct BoatEstimate {
+  MixedEffectsFit fit;  ///< that led to it
+  AugmentedModel boat;
+  std::vector<Eigen::MatrixXd> errors = {};
+  std::vector<Eigen::MatrixXd> residuals = {};  ///< the errors less what weather did
+  /// The generalised one of the residuals; infinite where no step led here.
+  double variance = std::numeric_limits<double>::infinity();
+};
 
 /// Gauss-Newton estimation of the nominal boat.
 class BaselineEstimation {
@@ -275,13 +117,12 @@ class BaselineEstimation {
         model_(model),
         parameter_refs_(parameter_refs),
         threads_(threads),
-        fit_(model, parameter_refs, recordings_.size()),
-        boat_{model.model, {}} {
-    Outcome outcome = OutcomeOf(boat_);
+        now_{.fit = {model, parameter_refs, recordings_.size()}, .boat = {model.model, {}}} {
+    Outcome outcome = OutcomeOf(now_.boat);
     divergence_of_model_ = outcome.divergence;
-    errors_ = std::move(outcome.errors);
-    residuals_ = errors_;
-    covariance_ = SecondMoment(residuals_);
+    now_.errors = std::move(outcome.errors);
+    now_.residuals = now_.errors;
+    covariance_ = SecondMoment(now_.residuals);
   }
 
   /// From the baseline of more recordings on, with its slopes of these.
@@ -293,64 +134,75 @@ class BaselineEstimation {
         model_(model),
         parameter_refs_(parameter_refs),
         threads_(1),
-        fit_(model, parameter_refs, recordings_.size()),
         divergence_of_model_(baseline.divergence_of_model),
-        boat_(baseline.boat),
+        now_{.fit = {model, parameter_refs, recordings_.size()}, .boat = baseline.boat},
         sensitivities_(std::move(slopes)),
         covariance_(baseline.covariance) {
-    fit_.StartFrom(baseline);
-    for (const Sensitivity& day : sensitivities_) errors_.push_back(day.errors);
-    residuals_ = errors_;
+    now_.fit.StartFrom(baseline.coefficients, baseline.fixed_effects);
+    for (const Sensitivity& day : sensitivities_) now_.errors.push_back(day.errors);
+    now_.residuals = now_.errors;
   }
 
-  /// A step with new slopes. Whether the boat changed for the better by enough to go on.
+  /// A step with new slopes, taken back where it leaves more. Whether it leaves less by enough to
+  /// go on.
   bool Improve() {
-    sensitivities_ = SensitivitiesOf(recordings_, {boat_, fit_.Coefficients()}, model_,
-                                     parameter_refs_, threads_, kSlopeStep);
-    return Step() < kConvergedRatio;
+    sensitivities_.clear();
+    for (const FreeRuns* runs : recordings_) {
+      sensitivities_.push_back(NominalSlopesOf(*runs, {now_.boat, now_.fit.Coefficients()}, model_,
+                                               parameter_refs_, threads_));
+    }
+    const BoatEstimate before = now_;
+    Step();
+    if (now_.variance >= before.variance) now_ = before;
+    return now_.variance < kConvergedRatio * before.variance;
   }
 
-  /// A step with the slopes there are; the square after it over that before.
-  double Step() {
+  /// A step with the slopes there are.
+  void Step() {
     // Whitened by the scatter that the slopes predict to be left. The present scatter would count
     // what the boat still does wrong as noise.
+    std::vector<Eigen::MatrixXd> predicted = now_.residuals;
     for (int round = 0; round < kRounds; ++round) {
-      Reestimate();
-      for (std::size_t day = 0; day < residuals_.size(); ++day) {
-        residuals_[day] = fit_.PredictedResiduals(sensitivities_[day], day);
+      Reestimate(predicted);
+      for (std::size_t day = 0; day < predicted.size(); ++day) {
+        predicted[day] = now_.fit.PredictedResiduals(sensitivities_[day], day);
       }
-      covariance_ = SecondMoment(residuals_);
+      covariance_ = SecondMoment(predicted);
     }
     factor_.compute(covariance_);
-    residuals_ = LessRecordingEffects(errors_);
-    const double before = SquaredNorm(residuals_);
-    return LineSearch(before) / before;
+    now_.residuals = LessWeather(now_.errors, now_.fit);
+    now_.variance = GeneralisedVariance(now_.residuals);
+    SearchAlongLine();
   }
 
   /// With new slopes over the whole typical size.
   NominalBaseline Baseline() {
-    return Baseline(SensitivitiesOf(recordings_, {boat_, fit_.Coefficients()}, model_,
-                                    parameter_refs_, threads_, 1.0));
+    std::vector<Sensitivity> days;
+    for (const FreeRuns* runs : recordings_) {
+      days.push_back(SensitivityOf(*runs, {now_.boat, now_.fit.Coefficients()}, model_,
+                                   parameter_refs_, threads_));
+    }
+    return Baseline(std::move(days));
   }
 
   /// With the slopes there are.
   NominalBaseline BaselineWithOldSlopes() {
     std::vector<Sensitivity> days = sensitivities_;
-    for (std::size_t day = 0; day < days.size(); ++day) days[day].errors = errors_[day];
+    for (std::size_t day = 0; day < days.size(); ++day) days[day].errors = now_.errors[day];
     return Baseline(std::move(days));
   }
 
  private:
   NominalBaseline Baseline(std::vector<Sensitivity> days) {
-    covariance_ = SecondMoment(residuals_);
-    Reestimate();
-    NominalBaseline nominal{.boat = boat_,
-                            .coefficients = fit_.Coefficients(),
-                            .fixed_effects = fit_.FixedEffects(),
+    covariance_ = SecondMoment(now_.residuals);
+    Reestimate(now_.residuals);
+    NominalBaseline nominal{.boat = now_.boat,
+                            .coefficients = now_.fit.Coefficients(),
+                            .fixed_effects = now_.fit.FixedEffects(),
                             .covariance = covariance_,
                             .kappa = kappa_,
-                            .boat_covariance = fit_.BoatCovariance(),
-                            .recording_effect_sd = fit_.RecordingEffectSd(),
+                            .boat_covariance = now_.fit.BoatCovariance(),
+                            .recording_effect_sd = now_.fit.WeatherSd(),
                             .days = std::move(days),
                             .divergence_of_model = divergence_of_model_,
                             .log_reduced_chi_squares = {}};
@@ -363,37 +215,39 @@ class BaselineEstimation {
     return nominal;
   }
 
-  void Reestimate() {
+  void Reestimate(const std::vector<Eigen::MatrixXd>& residuals) {
     factor_.compute(covariance_);
-    kappa_ = Kappa(factor_, residuals_);
-    fit_.Accumulate(sensitivities_, factor_, kappa_);
-    fit_.Solve();
+    kappa_ = Kappa(factor_, residuals);
+    now_.fit.Accumulate(sensitivities_, factor_, kappa_);
+    now_.fit.Solve();
   }
 
   // Steps are longer than linear: a delay or a dead zone that is found moves much besides.
-  double LineSearch(double before) {
-    const NominalBaselineFit start = fit_;
-    double least = before;
+  void SearchAlongLine() {
+    const BoatEstimate start = now_;
     for (const double share : kStepLengths) {
-      NominalBaselineFit tried = start;
-      tried.Accept(share);
-      const Eigen::VectorXd change = tried.Coefficients().cwiseProduct(model_.StandardErrors());
-      AugmentedModel boat{model_.Changed(change), EffectsOf(parameter_refs_, tried.FixedEffects())};
-      auto [errors, divergence] = OutcomeOf(boat);
-      if (divergence.IsWorseThan(divergence_of_model_)) continue;
-      auto left = LessRecordingEffects(errors);
-      const double square = SquaredNorm(left);
-      if (square >= least) {
-        if (least < before) break;
-        continue;
+      std::optional<BoatEstimate> tried = After(share, start);
+      if (tried && tried->variance < now_.variance) {
+        now_ = *std::move(tried);
+      } else if (now_.variance < start.variance) {
+        break;
       }
-      least = square;
-      fit_ = std::move(tried);
-      boat_ = std::move(boat);
-      errors_ = std::move(errors);
-      residuals_ = std::move(left);
     }
-    return least;
+  }
+
+  /// A share of a step from `start`. Nothing where it leads to a boat that diverges more than the
+  /// model does.
+  std::optional<BoatEstimate> After(double share, const BoatEstimate& start) const {
+    MixedEffectsFit fit = start.fit;
+    fit.Accept(share);
+    const Eigen::VectorXd change = fit.Coefficients().cwiseProduct(model_.StandardErrors());
+    AugmentedModel boat{model_.Changed(change), EffectsOf(parameter_refs_, fit.FixedEffects())};
+    auto [errors, divergence] = OutcomeOf(boat);
+    if (divergence.IsWorseThan(divergence_of_model_)) return std::nullopt;
+    std::vector<Eigen::MatrixXd> residuals = LessWeather(errors, fit);
+    const double variance = GeneralisedVariance(residuals);
+    return BoatEstimate{std::move(fit), std::move(boat), std::move(errors), std::move(residuals),
+                        variance};
   }
 
   /// The errors of each recording, and the divergence of these and of the others.
@@ -419,17 +273,13 @@ class BaselineEstimation {
     return outcome;
   }
 
-  std::vector<Eigen::MatrixXd> LessRecordingEffects(std::vector<Eigen::MatrixXd> left) const {
-    for (std::size_t day = 0; day < left.size(); ++day) {
-      left[day] += fit_.RecordingEffects(sensitivities_[day], day);
+  std::vector<Eigen::MatrixXd> LessWeather(const std::vector<Eigen::MatrixXd>& errors,
+                                           const MixedEffectsFit& fit) const {
+    std::vector<Eigen::MatrixXd> left;
+    for (std::size_t day = 0; day < errors.size(); ++day) {
+      left.push_back(fit.LessWeather(errors[day], sensitivities_[day], day, factor_, kappa_));
     }
     return left;
-  }
-
-  double SquaredNorm(const std::vector<Eigen::MatrixXd>& errors) const {
-    double sum = 0.0;
-    for (const Eigen::MatrixXd& day : errors) sum += factor_.matrixL().solve(day).squaredNorm();
-    return sum;
   }
 
   Recordings recordings_;
@@ -437,12 +287,9 @@ class BaselineEstimation {
   const UncertainModel& model_;
   const std::vector<EffectParameterRef>& parameter_refs_;
   std::size_t threads_;
-  NominalBaselineFit fit_;
   Divergence divergence_of_model_;
-  AugmentedModel boat_;
+  BoatEstimate now_;
   std::vector<Sensitivity> sensitivities_;
-  std::vector<Eigen::MatrixXd> errors_;     ///< of the boat
-  std::vector<Eigen::MatrixXd> residuals_;  ///< the same less what weather did
   Eigen::MatrixXd covariance_;
   Eigen::LLT<Eigen::MatrixXd> factor_;  ///< of it
   double kappa_ = 1.0;

@@ -24,10 +24,13 @@ constexpr double kMaximumSigmas = kDiagnosis.metric.largest_sigmas;
 constexpr double kNothing = 1e-12;
 constexpr VariationConstants kVariation = kDiagnosis.variation;
 
+/// One column for each direction that varies.
 Eigen::MatrixXd RootOf(const Eigen::MatrixXd& covariance) {
   const Eigen::LDLT<Eigen::MatrixXd> factor(covariance);
-  const Eigen::MatrixXd root =
-      Eigen::MatrixXd(factor.matrixL()) * factor.vectorD().cwiseMax(0.0).cwiseSqrt().asDiagonal();
+  // Pivots fall: what does not vary stands last.
+  const Eigen::Index rank = (factor.vectorD().array() > 0.0).count();
+  const Eigen::MatrixXd root = Eigen::MatrixXd(factor.matrixL()).leftCols(rank) *
+                               factor.vectorD().head(rank).cwiseSqrt().asDiagonal();
   return factor.transpositionsP().transpose() * root;
 }
 
@@ -104,8 +107,7 @@ ResidualMetric::ResidualMetric(const NominalBaseline& nominal, const Sensitivity
   for (Eigen::Index j = 0; j < parameter_count; ++j) {
     if (nominal.recording_effect_sd[j] > 0.0) random_effects.push_back(j);
   }
-  Eigen::MatrixXd nuisance(recording.errors.size(),
-                           base + parameter_count + std::ssize(random_effects));
+  Eigen::MatrixXd nuisance(recording.errors.size(), root.cols() + std::ssize(random_effects));
   // A day's weather is one draw of its own and counts in full, where errors count by effective
   // observations.
   nuisance << boat * root,
