@@ -238,8 +238,8 @@ class HypothesisSearch {
   /// Gusts may show where their mean does not.
   static bool Gusts(const Effect& effect) { return effect.Facts().turbulence_intensity > 0.0; }
 
-  /// Whether the score test promises next to nothing. Where it cannot tell, whether the effect
-  /// mattered to the hypotheses that are known; without any it is worth a fit.
+  /// Whether the score test promises next to nothing. An effect of which it cannot tell is
+  /// unpromising only where it mattered to none of the known hypotheses.
   bool IsUnpromising(const Scored& scored) const {
     if (scored.score <= -kSearch.least_promise) return false;
     if (HasKnown()) return !Mattered(*scored.effect);

@@ -7,10 +7,12 @@
 #include <optional>
 #include <utility>
 
-#include "telltale/core/base/linear_algebra/covariance.hpp"
 #include "telltale/core/base/linear_algebra/eigen_decompositions.hpp"
 #include "telltale/core/base/parallel.hpp"
+#include "telltale/core/estimation/prediction_error/bounded_step.hpp"
 #include "telltale/core/estimation/prediction_error/innovations.hpp"
+#include "telltale/core/estimation/prediction_error/noise_scoring.hpp"
+#include "telltale/core/estimation/prediction_error/normal_equations.hpp"
 
 namespace telltale {
 namespace {
@@ -18,112 +20,12 @@ namespace {
 using enum FossenParameter;
 
 constexpr Eigen::Index kParameters = static_cast<Eigen::Index>(kFossenParameters);
-constexpr int kNoises = 8;
-using NoiseVector = Eigen::Matrix<double, kNoises, 1>;
-
-NoiseVector LogOf(const NoiseModel& noise) {
-  NoiseVector log;
-  log << noise.acceleration_sigma, noise.acceleration_time_constant_s, noise.fix_drift_sigma_m,
-      noise.fix_sigma_m, noise.heading_sigma_rad, noise.stamp_sigma_s;
-  return log.array().log();
-}
-
-NoiseModel NoiseOf(const NoiseVector& log) {
-  const NoiseVector v = log.array().exp();
-  return {v.head<3>(), v[3], v[4], v[5], v[6], v[7]};
-}
-
-// A weak log-normal prior of the noise keeps a noise that the data do not show finite.
-NoiseVector NoisePriorMean() {
-  return LogOf({{0.1, 0.1, 0.1}, 2.0, 0.1, 0.05, 0.02, 0.02});
-}
-constexpr double kNoisePriorSigma = 1.5;
-
-// The readings of a boat are smoother than they are true: an autopilot filters its fixes and
-// headings. A noise below these would let the filter follow the readings instead of the model.
-NoiseVector LeastNoise() {
-  return LogOf({{1e-3, 1e-3, 1e-3}, 1.0, 0.1, 0.05, 0.0175, 0.02});
-}
-// A boat of the instruments that follows the filter is free of what disturbs the boat only as far
-// as the noise of the filter is right.
-NoiseVector LeastNoiseWhereFollowing() {
-  return LogOf({{1e-3, 1e-3, 1e-3}, 1.0, 0.02, 0.005, 0.0044, 0.002});
-}
-NoiseVector GreatestNoise() {
-  return LogOf({{3.0, 3.0, 3.0}, 10.0, 3.0, 3.0, 0.2, 0.2});
-}
-
-// Root mean square of the surge accelerations between rows half a second apart or more.
-double TypicalAcceleration(const PreparedDataset& dataset) {
-  constexpr double kApartS = 0.5;
-  double squares = 0.0;
-  double count = 0.0;
-  for (const RowRange& segment : dataset.segments) {
-    std::size_t from = segment.begin;
-    for (std::size_t to = segment.begin; to < segment.end; ++to) {
-      const double span_s = dataset.rows[to].time_s - dataset.rows[from].time_s;
-      if (span_s < kApartS) continue;
-      squares += std::pow((dataset.rows[to].nu.u - dataset.rows[from].nu.u) / span_s, 2);
-      count += 1.0;
-      from = to;
-    }
-  }
-  return count > 0.0 ? std::sqrt(squares / count) : 0.0;
-}
-
-// Process noise wide enough that the filter follows the readings whatever the parameters are. Far
-// above the accelerations of a slow boat it would leave nothing for the parameters to explain.
-NoiseModel FirstNoise(const PreparedDataset& dataset) {
-  constexpr double kOfTypical = 3.0;
-  constexpr double kWidest = 0.5;  // m/s^2, rad/s^2
-  NoiseModel noise = NoiseOf(NoisePriorMean().cwiseMax(LeastNoise()));
-  const double sigma = kOfTypical * TypicalAcceleration(dataset);
-  noise.acceleration_sigma.setConstant(sigma > 0.0 ? std::min(sigma, kWidest) : kWidest);
-  noise.acceleration_time_constant_s = 1.0;
-  return noise;
-}
 
 // A boat that keeps no course by itself soon leaves the one that the commands alone drive, which
 // then tells nothing of it. One that follows it slowly stays near, and is less free of what
 // disturbs the boat; in s.
 constexpr double kDrivenByCommandsAlone = std::numeric_limits<double>::infinity();
 constexpr std::array kFollowingSlowly = {5.0, 10.0, 20.0};
-
-using Runs = std::vector<std::vector<Innovation>>;  // by noise
-using SlopedRuns = std::vector<SlopedInnovations>;  // by segment
-
-// Readings of one segment, from which the noise of its recording is found.
-struct Excerpt {
-  std::size_t segment = 0;
-  RawSignals signals;
-};
-
-// Five minutes of a recording show its noise well enough: of a longer segment, five even excerpts
-// of a minute.
-std::vector<Excerpt> ExcerptsForNoise(const PreparedDataset& dataset) {
-  constexpr std::size_t kExcerpts = 5;
-  constexpr double kExcerptS = 60.0;
-  std::vector<Excerpt> excerpts;
-  for (std::size_t s = 0; s < dataset.segments.size(); ++s) {
-    const RawSignals& signals = dataset.signals[s];
-    const std::vector<double>& times_s = signals.psi_rad.times_s;
-    const double span_s = times_s.empty() ? 0.0 : times_s.back() - times_s.front();
-    if (span_s <= kExcerpts * kExcerptS) {
-      excerpts.push_back({s, signals});
-      continue;
-    }
-    for (std::size_t i = 0; i < kExcerpts; ++i) {
-      const double from_s =
-          times_s.front() + static_cast<double>(i) * (span_s - kExcerptS) / (kExcerpts - 1);
-      const double to_s = from_s + kExcerptS;
-      excerpts.push_back(
-          {s,
-           {signals.north_m.Within(from_s, to_s), signals.east_m.Within(from_s, to_s),
-            signals.psi_rad.Within(from_s, to_s)}});
-    }
-  }
-  return excerpts;
-}
 
 // Of all segments together.
 double SpanS(const PreparedDataset& dataset) {
@@ -143,7 +45,7 @@ class Problem {
         separation_m_(separation_m),
         prior_(prior),
         options_(options),
-        for_noise_(ExcerptsForNoise(dataset)) {}
+        noise_scoring_(dataset, options.threads) {}
 
   FilterSettings SettingsOf(const Eigen::VectorXd& z, const NoiseModel& noise,
                             double nominal_fix_delay_s) const {
@@ -172,22 +74,19 @@ class Problem {
     return all;
   }
 
-  // By excerpt and noise: its innovations under those of its recording, the first of which is that
-  // of the filter.
-  std::vector<Runs> RunForNoise(const Eigen::VectorXd& z,
-                                const std::vector<std::vector<NoiseModel>>& of_recordings) const {
-    std::vector<Runs> all(for_noise_.size());
-    ForEachIndex(all.size(), options_.threads, [&](std::size_t i) {
-      const auto& [segment, signals] = for_noise_[i];
-      const std::vector<NoiseModel>& noises = of_recordings[dataset_.RecordingOf(segment)];
-      all[i] = InnovationsUnder(noises, signals, dataset_.commands[segment],
-                                SettingsOf(z, noises.front(), z[At(kFixDelay)]));
-    });
-    return all;
+  // One step of the noise of each recording; the largest move of a logarithm.
+  double ScoreNoise(const Eigen::VectorXd& z, NoiseFloor floor,
+                    std::vector<NoiseModel>& noise) const {
+    const auto settings_under = [&](const NoiseModel& of_recording) {
+      return SettingsOf(z, of_recording, z[At(kFixDelay)]);
+    };
+    return noise_scoring_.Step(settings_under, floor, noise);
   }
 
-  std::size_t RecordingOfExcerpt(std::size_t i) const {
-    return dataset_.RecordingOf(for_noise_[i].segment);
+  // The step inside the ranges of the parameters.
+  Eigen::VectorXd StepFrom(const Eigen::VectorXd& z, const Eigen::MatrixXd& information,
+                           const Eigen::VectorXd& gradient, double damping) const {
+    return BoundedStep(z, prior_.least, prior_.greatest, information, gradient, damping);
   }
 
   // The sum of weighted squares at fixed gains, which the normal equations are those of.
@@ -260,198 +159,8 @@ class Problem {
   double separation_m_;
   const FossenPrior& prior_;
   const PredictionErrorOptions& options_;
-  std::vector<Excerpt> for_noise_;
+  NoiseScoring noise_scoring_;
 };
-
-struct Normal {
-  Eigen::MatrixXd information;
-  Eigen::VectorXd gradient;            // half of that of the objective
-  std::vector<ScoreBlock> blocks;      // of the data, by time
-  std::vector<ScoreBlock> recordings;  // the same by recordings
-};
-
-// The slopes, or the instruments, of so many innovations from `first` on, each over the standard
-// deviation of its innovation.
-Eigen::MatrixXd Standardised(const SlopedInnovations& run, FossenVector InnovationSlope::*member,
-                             std::size_t first, std::size_t count) {
-  Eigen::MatrixXd columns(kParameters, count);
-  for (std::size_t k = 0; k < count; ++k) {
-    columns.col(static_cast<Eigen::Index>(k)) =
-        run.slopes[first + k].*member / std::sqrt(run.innovations[first + k].variance);
-  }
-  return columns;
-}
-
-Eigen::MatrixXd Standardised(const SlopedInnovations& run, FossenVector InnovationSlope::*member) {
-  return Standardised(run, member, 0, run.slopes.size());
-}
-
-Eigen::VectorXd StandardisedValues(const SlopedInnovations& run, std::size_t first,
-                                   std::size_t count) {
-  Eigen::VectorXd values(count);
-  for (std::size_t k = 0; k < count; ++k) {
-    const Innovation& i = run.innovations[first + k];
-    values[static_cast<Eigen::Index>(k)] = i.value / std::sqrt(i.variance);
-  }
-  return values;
-}
-
-// The normal equations of one segment by blocks of time.
-std::vector<ScoreBlock> BlocksOf(const SlopedInnovations& run, double block_s) {
-  const std::vector<Innovation>& innovations = run.innovations;
-  std::vector<ScoreBlock> blocks;
-  for (auto begin = innovations.begin(); begin != innovations.end();) {
-    const auto end = std::ranges::upper_bound(begin, innovations.end(), begin->time_s + block_s, {},
-                                              &Innovation::time_s);
-    const auto first = static_cast<std::size_t>(begin - innovations.begin());
-    const auto count = static_cast<std::size_t>(end - begin);
-    const Eigen::MatrixXd instruments =
-        Standardised(run, &InnovationSlope::instrument, first, count);
-    blocks.push_back({OfRoot(instruments), instruments * StandardisedValues(run, first, count)});
-    begin = end;
-  }
-  return blocks;
-}
-
-Normal NormalEquations(const Problem& problem, const SlopedRuns& all) {
-  Normal normal{
-      Eigen::MatrixXd::Zero(kParameters, kParameters), Eigen::VectorXd::Zero(kParameters), {}, {}};
-  normal.recordings.resize(problem.dataset_.Recordings());
-  for (std::size_t s = 0; s < all.size(); ++s) {
-    ScoreBlock& recording = normal.recordings[problem.dataset_.RecordingOf(s)];
-    for (const ScoreBlock& block : BlocksOf(all[s], problem.options_.block_s)) {
-      recording.information += block.information;
-      recording.score += block.score;
-      normal.blocks.push_back(block);
-    }
-  }
-  for (const ScoreBlock& recording : normal.recordings) {
-    normal.information += recording.information;
-    normal.gradient += recording.score;
-  }
-  return normal;
-}
-
-// How the data's score changes with the parameters.
-Eigen::MatrixXd ScoreSlope(const SlopedRuns& all) {
-  Eigen::MatrixXd slope = Eigen::MatrixXd::Zero(kParameters, kParameters);
-  for (const SlopedInnovations& run : all) {
-    slope.noalias() += Standardised(run, &InnovationSlope::instrument) *
-                       Standardised(run, &InnovationSlope::slope).transpose();
-  }
-  return slope;
-}
-
-// How much more the instruments say of the parameters than the slopes do, on average over them.
-double StrengthOfInstruments(const SlopedRuns& all, const Normal& normal,
-                             const Eigen::MatrixXd& precision_of_prior) {
-  Eigen::MatrixXd of_slopes = precision_of_prior;
-  for (const SlopedInnovations& run : all) {
-    of_slopes += OfRoot(Standardised(run, &InnovationSlope::slope));
-  }
-  return of_slopes.ldlt().solve(normal.information).trace() / static_cast<double>(kParameters);
-}
-
-// One step of Fisher scoring of each recording's noise, at most a factor e; slopes by finite
-// differences of log.
-double ScoreNoise(const Problem& problem, const Eigen::VectorXd& z, const NoiseVector& least,
-                  std::vector<NoiseModel>& noise) {
-  constexpr double kStep = 0.05;
-  std::vector<std::vector<NoiseModel>> moved;
-  for (const NoiseModel& of_recording : noise) {
-    moved.emplace_back(kNoises + 1, of_recording);
-    for (Eigen::Index j = 0; j < kNoises; ++j) {
-      NoiseVector log = LogOf(of_recording);
-      log[j] += kStep;
-      moved.back()[static_cast<std::size_t>(j) + 1] = NoiseOf(log);
-    }
-  }
-  const std::vector<Runs> runs = problem.RunForNoise(z, moved);
-  double largest_move = 0.0;
-  for (std::size_t recording = 0; recording < noise.size(); ++recording) {
-    const NoiseVector log = LogOf(noise[recording]);
-    Eigen::MatrixXd information =
-        Eigen::MatrixXd::Identity(kNoises, kNoises) / std::pow(kNoisePriorSigma, 2);
-    Eigen::VectorXd gradient = (NoisePriorMean() - log) / std::pow(kNoisePriorSigma, 2);
-    for (std::size_t excerpt = 0; excerpt < runs.size(); ++excerpt) {
-      if (problem.RecordingOfExcerpt(excerpt) != recording) continue;
-      const Runs& run = runs[excerpt];
-      for (std::size_t k = 0; k < run[0].size(); ++k) {
-        const Innovation& i = run[0][k];
-        NoiseVector by_log_variance;
-        NoiseVector by_value;
-        for (int j = 0; j < kNoises; ++j) {
-          const Innovation& m = run[static_cast<std::size_t>(j) + 1][k];
-          by_log_variance[j] = std::log(m.variance / i.variance) / kStep;
-          by_value[j] = (m.value - i.value) / kStep;
-        }
-        const double square = i.value * i.value / i.variance;
-        information += 0.5 * by_log_variance * by_log_variance.transpose() +
-                       by_value * by_value.transpose() / i.variance;
-        gradient += 0.5 * (square - 1.0) * by_log_variance - by_value * (i.value / i.variance);
-      }
-    }
-    Eigen::VectorXd step = information.ldlt().solve(gradient);
-    const double largest = step.cwiseAbs().maxCoeff();
-    if (largest > 1.0) step /= largest;
-    const NoiseVector next = (log + step).cwiseMax(least).cwiseMin(GreatestNoise());
-    noise[recording] = NoiseOf(next);
-    largest_move = std::max(largest_move, (next - log).cwiseAbs().maxCoeff());
-  }
-  return largest_move;
-}
-
-// The step of damped normal equations inside the bounds: a parameter that would leave its range
-// stops at the end of it.
-Eigen::VectorXd BoundedStep(const Problem& problem, const Eigen::VectorXd& z,
-                            const Eigen::MatrixXd& information, const Eigen::VectorXd& gradient,
-                            double damping) {
-  const Eigen::Index n = z.size();
-  Eigen::VectorXd step = Eigen::VectorXd::Zero(n);
-  std::vector<bool> fixed(static_cast<std::size_t>(n), false);
-  for (int pass = 0; pass < 12; ++pass) {
-    std::vector<Eigen::Index> free;
-    for (Eigen::Index i = 0; i < n; ++i)
-      if (!fixed[static_cast<std::size_t>(i)]) free.push_back(i);
-    Eigen::MatrixXd a(free.size(), free.size());
-    Eigen::VectorXd b(free.size());
-    for (Eigen::Index i = 0; i < a.rows(); ++i) {
-      const Eigen::Index fi = free[static_cast<std::size_t>(i)];
-      b[i] = gradient[fi];
-      for (Eigen::Index j = 0; j < n; ++j) {
-        if (fixed[static_cast<std::size_t>(j)]) b[i] -= information(fi, j) * step[j];
-      }
-      for (Eigen::Index j = 0; j < a.cols(); ++j) {
-        a(i, j) = information(fi, free[static_cast<std::size_t>(j)]);
-      }
-      a(i, i) *= 1.0 + damping;
-    }
-    const Eigen::VectorXd solved = a.partialPivLu().solve(b);
-    bool again = false;
-    for (Eigen::Index i = 0; i < a.rows(); ++i) {
-      const Eigen::Index fi = free[static_cast<std::size_t>(i)];
-      const double to = z[fi] + solved[i];
-      step[fi] = solved[i];
-      if (to < problem.prior_.least[fi]) {
-        step[fi] = problem.prior_.least[fi] - z[fi];
-        fixed[static_cast<std::size_t>(fi)] = again = true;
-      } else if (to > problem.prior_.greatest[fi]) {
-        step[fi] = problem.prior_.greatest[fi] - z[fi];
-        fixed[static_cast<std::size_t>(fi)] = again = true;
-      }
-    }
-    if (!again) break;
-  }
-  return step;
-}
-
-double Squares(const SlopedRuns& runs) {
-  double squares = 0.0;
-  for (const SlopedInnovations& run : runs) {
-    for (const Innovation& i : run.innovations) squares += i.value * i.value / i.variance;
-  }
-  return squares;
-}
 
 // Gauss-Newton steps at fixed gains, each followed by a step of the noise, until neither moves;
 // then steps of the equations with instruments.
@@ -482,7 +191,7 @@ class Search {
     const double nominal_fix_delay_s = z_[At(kFixDelay)];
     double moved = 0.0;
     for (int attempt = 0; attempt < kMostAttempts; ++attempt) {
-      const Eigen::VectorXd step = BoundedStep(*problem_, z_, information_, gradient, damping_);
+      const Eigen::VectorXd step = problem_->StepFrom(z_, information_, gradient, damping_);
       const double expected = step.dot(2.0 * gradient - information_ * step);
       const Eigen::VectorXd candidate = z_ + step;
       if (problem_->Feasible(candidate) &&
@@ -498,7 +207,7 @@ class Search {
     }
     ++iterations_;
     if (!noise_settled_) {
-      noise_settled_ = ScoreNoise(*problem_, z_, LeastNoise(), noise_) < kSettledNoise ||
+      noise_settled_ = problem_->ScoreNoise(z_, NoiseFloor::kOfReadings, noise_) < kSettledNoise ||
                        iterations_ >= kNoiseIterations;
     }
     const bool settled = moved < kConvergedMove && noise_settled_;
@@ -512,7 +221,7 @@ class Search {
     const auto [precision, mean, gradient] = Linearise(runs, 1.0);
     slope_ = ScoreSlope(runs) + precision;
     newton_mean_ = z_ + slope_.partialPivLu().solve(gradient);
-    const Eigen::VectorXd whole = BoundedStep(*problem_, z_, slope_, gradient, 0.0);
+    const Eigen::VectorXd whole = problem_->StepFrom(z_, slope_, gradient, 0.0);
     const Eigen::VectorXd score = slope_ * whole;
     const double left = InStandardErrors(score);
     if (solution_iterations_ == 0) first_left_ = left;
@@ -524,8 +233,7 @@ class Search {
     if (left > kSlow * left_) caution_ = std::min(2.0 * caution_ + 0.25, kMostCaution);
     if (left < kQuick * left_) caution_ *= 0.5;
     left_ = left;
-    Eigen::VectorXd step =
-        BoundedStep(*problem_, z_, slope_ + caution_ * information_, gradient, 0.0);
+    Eigen::VectorXd step = problem_->StepFrom(z_, slope_ + caution_ * information_, gradient, 0.0);
     while (!problem_->Feasible(z_ + step) && step.squaredNorm() > 0.0) step *= 0.5;
     z_ += step;
     step_ = step;
@@ -537,7 +245,7 @@ class Search {
   // From now on the noise is that of a boat of the instruments that follows.
   void SettleNoiseWhereFollowing() {
     for (int i = 0; i < kNoiseIterations; ++i) {
-      if (ScoreNoise(*problem_, z_, LeastNoiseWhereFollowing(), noise_) < kSettledNoise) break;
+      if (problem_->ScoreNoise(z_, NoiseFloor::kWhereFollowing, noise_) < kSettledNoise) break;
     }
   }
 
@@ -617,7 +325,7 @@ class Search {
 
   // The equations at z_; leaves their information behind.
   Linearised Linearise(const SlopedRuns& runs, double weight) {
-    normal_ = NormalEquations(*problem_, runs);
+    normal_ = NormalEquationsOf(runs, problem_->dataset_, problem_->options_.block_s);
     innovations_ = 0;
     for (const SlopedInnovations& run : runs) innovations_ += run.innovations.size();
     Linearised at;
@@ -657,7 +365,7 @@ class Search {
   std::vector<NoiseModel> noise_;
   double weight_;  // of the data, the prior's being one
   double damping_ = kFirstDamping;
-  Normal normal_;
+  NormalEquations normal_;
   Eigen::MatrixXd information_;
   Eigen::MatrixXd slope_;
   Eigen::VectorXd newton_mean_;

@@ -10,6 +10,7 @@
 #include "telltale/core/data/prepared_dataset.hpp"
 #include "telltale/core/estimation/prediction_error/fossen_prior.hpp"
 #include "telltale/core/estimation/prediction_error/noise_model.hpp"
+#include "telltale/core/estimation/prediction_error/normal_equations.hpp"
 #include "telltale/core/vessel/fossen_model.hpp"
 
 namespace telltale {
@@ -30,12 +31,6 @@ struct PredictionErrorOptions {
   /// boat follows the filter is less free of what disturbs the boat: waves move delays. Where there
   /// is none, the fit ends unconverged at once.
   bool free_instruments_only = false;
-};
-
-/// What the innovations of one block of time, or of one recording, say.
-struct ScoreBlock {
-  Eigen::MatrixXd information = Eigen::MatrixXd::Zero(kFossenParameters, kFossenParameters);
-  Eigen::VectorXd score = Eigen::VectorXd::Zero(kFossenParameters);
 };
 
 /// The fit of the physical form. Vectors and matrices in the order of FossenParameter.
