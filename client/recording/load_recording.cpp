@@ -20,7 +20,7 @@
 #include "telltale/client/recording/temporary_file.hpp"
 #include "telltale/client/recording/trimmed.hpp"
 #include "telltale/client/recording/zstd_frame.hpp"
-#include "telltale/core/data/input_check.hpp"
+#include "telltale/core/data/check/input_check.hpp"
 
 namespace telltale {
 namespace {

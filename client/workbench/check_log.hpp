@@ -7,7 +7,7 @@
 
 #include "telltale/client/recording/load_recording.hpp"
 #include "telltale/core/base/result.hpp"
-#include "telltale/core/data/input_check.hpp"
+#include "telltale/core/data/check/input_check.hpp"
 #include "telltale/core/data/samples.hpp"
 #include "telltale/core/identification/channel_delays.hpp"
 #include "telltale/core/identification/progress.hpp"

@@ -7,7 +7,7 @@
 #include "telltale/client/recording/telemetry_log/telemetry_log.hpp"
 #include "telltale/client/report/number_text.hpp"
 #include "telltale/client/workbench/errors.hpp"
-#include "telltale/core/data/input_check.hpp"
+#include "telltale/core/data/check/input_check.hpp"
 #include "telltale/idl/codec/vehicle_file.hpp"
 
 namespace telltale {

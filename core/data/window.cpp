@@ -9,8 +9,8 @@
 
 #include "telltale/core/base/contract.hpp"
 #include "telltale/core/base/range.hpp"
-#include "telltale/core/data/clock_check.hpp"
-#include "telltale/core/data/stuck_sensor_check.hpp"
+#include "telltale/core/data/check/clock_check.hpp"
+#include "telltale/core/data/check/stuck_sensor_check.hpp"
 
 namespace telltale {
 namespace {

@@ -10,7 +10,7 @@
 #include "insist.hpp"
 #include "support/temporary_folder.hpp"
 #include "telltale/client/recording/telemetry_log/telemetry_log.hpp"
-#include "telltale/core/data/input_check.hpp"
+#include "telltale/core/data/check/input_check.hpp"
 
 namespace {
 

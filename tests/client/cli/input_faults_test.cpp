@@ -18,7 +18,7 @@
 #include "support/temporary_folder.hpp"
 #include "telltale/client/recording/load_recording.hpp"
 #include "telltale/client/recording/telemetry_log/telemetry_log.hpp"
-#include "telltale/core/data/input_check.hpp"
+#include "telltale/core/data/check/input_check.hpp"
 
 namespace telltale {
 namespace {

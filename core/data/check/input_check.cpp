@@ -1,4 +1,4 @@
-#include "telltale/core/data/input_check.hpp"
+#include "telltale/core/data/check/input_check.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +8,7 @@
 
 #include "telltale/core/base/format_number.hpp"
 #include "telltale/core/base/median.hpp"
-#include "telltale/core/data/motion_check.hpp"
+#include "telltale/core/data/check/motion_check.hpp"
 
 namespace telltale {
 namespace {

@@ -1,4 +1,4 @@
-#include "telltale/core/data/input_check.hpp"
+#include "telltale/core/data/check/input_check.hpp"
 
 #include <cmath>
 #include <functional>
