@@ -4,7 +4,6 @@
 #include <string>
 
 #include "telltale/core/base/range.hpp"
-#include "telltale/core/data/sampling_grid.hpp"
 
 namespace telltale {
 

@@ -8,6 +8,10 @@
 
 namespace telltale {
 
+/// The sampling periods that a grid may have, in seconds.
+inline constexpr double kShortestPeriodS = 0.02;
+inline constexpr double kLongestPeriodS = 2.0;
+
 /// The way in which the three channels come onto one grid; docs/concepts/data-preparation.md
 /// compares the two.
 /// kPaper: causal spline extrapolation from the newest past samples (cubic position, 8th-degree

@@ -11,10 +11,6 @@
 
 namespace telltale {
 
-/// The sampling periods that a grid may have, in seconds.
-inline constexpr double kShortestPeriodS = 0.02;
-inline constexpr double kLongestPeriodS = 2.0;
-
 /// Equally spaced instants of one segment.
 struct SamplingGrid {
   double start_s = 0.0;
