@@ -28,35 +28,41 @@ VEHICLE = "docs/vehicles/blueboat.textproto"
 PULSES = ["--port-pulses-us", "1511", "1911", "1111", "--starboard-pulses-us", "1511", "1111", "1911"]
 THRUST_CURVE = ["Tf1", "Tf2", "Tr1", "Tr2", "df", "dr"]
 
-# What is altered: the effect that it stands for, the sizes of its parameters (SI), and how blind_alter makes it.
-Alteration = collections.namedtuple("Alteration", "name effect sizes options")
 DEGREE = math.pi / 180.0
+# How blind_alter makes a parameter of an effect (SI).
+OPTIONS = {
+    ("heading_bias", "bias"): lambda value: ["--turn-heading-deg", str(value / DEGREE)],
+    ("gnss_latency", "latency"): lambda value: ["--delay-fixes-s", str(value)],
+    ("thruster_delay", "delay"): lambda value: ["--shift-commands-s", str(value)],
+    ("thruster_imbalance", "port_loss"): lambda value: ["--weaken", "port" if value > 0 else "starboard", str(abs(value))],
+    ("antenna_lever_arm", "forward"): lambda value: ["--move-antenna-m", str(value), "0"],
+    ("antenna_lever_arm", "starboard"): lambda value: ["--move-antenna-m", "0", str(value)],
+}
+
+# What is altered: an effect by one parameter; none without an effect.
+Alteration = collections.namedtuple("Alteration", "name effect parameter value")
 ALTERATIONS = [
-    Alteration("none", None, {}, []),
-    *(Alteration(f"heading {b:+d} degrees", "heading_bias", {"bias": b * DEGREE}, ["--turn-heading-deg", str(b)])
-      for b in (4, -4, 8, -8)),
-    *(Alteration(f"fixes {s} s late", "gnss_latency", {"latency": s}, ["--delay-fixes-s", str(s)]) for s in (0.2, 0.4)),
-    *(Alteration(f"commands {s} s late", "thruster_delay", {"delay": s}, ["--shift-commands-s", str(s)])
-      for s in (0.15, 0.3)),
-    *(Alteration(f"{side} {round(100 * e)} % weaker", "thruster_imbalance",
-                 {"port_loss": e if side == "port" else -e}, ["--weaken", side, str(e)])
+    Alteration("none", None, None, None),
+    *(Alteration(f"heading {b:+d} degrees", "heading_bias", "bias", b * DEGREE) for b in (4, -4, 8, -8)),
+    *(Alteration(f"fixes {s} s late", "gnss_latency", "latency", s) for s in (0.2, 0.4)),
+    *(Alteration(f"commands {s} s late", "thruster_delay", "delay", s) for s in (0.15, 0.3)),
+    *(Alteration(f"{side} {round(100 * e)} % weaker", "thruster_imbalance", "port_loss", e if side == "port" else -e)
       for side in ("port", "starboard") for e in (0.1, 0.2, 0.35)),
-    Alteration("antenna 0.4 m forward", "antenna_lever_arm", {"forward": 0.4}, ["--move-antenna-m", "0.4", "0"]),
-    Alteration("antenna 0.4 m to starboard", "antenna_lever_arm", {"starboard": 0.4}, ["--move-antenna-m", "0", "0.4"]),
+    *(Alteration(f"antenna 0.4 m {'' if way == 'forward' else 'to '}{way}", "antenna_lever_arm", way, 0.4)
+      for way in ("forward", "starboard")),
 ]
 
 # Whose smallest sizes are listed.
 LISTED = ["heading_bias", "gnss_latency", "thruster_delay", "thruster_imbalance", "antenna_lever_arm", "current", "wind",
           "hull_fouling"]
-# How blind_alter makes an effect of a size, by its parameter and either sign. A side that is weaker by as much as shows
-# is cut at full command nearly throughout.
+# Of which an altered recording is made by the size that shows, and with which signs. A side that is weaker by as much is
+# cut at full command nearly throughout.
 BY_SIZE = {
-    ("heading_bias", "bias"): lambda size: {"+": ["--turn-heading-deg", str(size / DEGREE)],
-                                            "-": ["--turn-heading-deg", str(-size / DEGREE)]},
-    ("gnss_latency", "latency"): lambda size: {"": ["--delay-fixes-s", str(size)]},
-    ("thruster_delay", "delay"): lambda size: {"": ["--shift-commands-s", str(size)]},
-    ("antenna_lever_arm", "forward"): lambda size: {"": ["--move-antenna-m", str(size), "0"]},
-    ("antenna_lever_arm", "starboard"): lambda size: {"": ["--move-antenna-m", "0", str(size)]},
+    ("heading_bias", "bias"): {"+": 1, "-": -1},
+    ("gnss_latency", "latency"): {"": 1},
+    ("thruster_delay", "delay"): {"": 1},
+    ("antenna_lever_arm", "forward"): {"": 1},
+    ("antenna_lever_arm", "starboard"): {"": 1},
 }
 
 Answer = collections.namedtuple("Answer", "run alteration report")
@@ -103,7 +109,8 @@ class Boat:
             return self.home / name, ""
         curve = {p["symbol"]: p["estimate"] for p in json.loads(model.read_text())["parameters"]}
         log = self.folder / "log"
-        said = run(self.alter, "--log", self.home / name, *alteration.options, *PULSES, "--thrust-curve",
+        options = OPTIONS[alteration.effect, alteration.parameter](alteration.value)
+        said = run(self.alter, "--log", self.home / name, *options, *PULSES, "--thrust-curve",
                    *(curve[symbol] for symbol in THRUST_CURVE), "--out", log)
         return log, said
 
@@ -146,12 +153,12 @@ def is_right(answer):
 
 
 def size_text(answer):
-    """Estimates of the true effect's parameters, the true size in brackets."""
-    found = {p["name"]: p for p in first_cause(answer.report).get("parameters", [])
-             if p.get("effect") == answer.alteration.effect}
-    sizes = answer.alteration.sizes
-    texts = [f"{found[n]['estimate']:.2f} ({sizes[n]:.2f}) {found[n].get('unit', '')}" for n in sizes if n in found]
-    return ", ".join(texts) or "–"
+    """The estimate of the parameter that is altered, the true value in brackets."""
+    _, effect, parameter, value = answer.alteration
+    for found in first_cause(answer.report).get("parameters", []):
+        if (found.get("effect"), found["name"]) == (effect, parameter):
+            return f"{found['estimate']:.2f} ({value:.2f}) {found.get('unit', '')}"
+    return "–"
 
 
 def power_text(answer):
@@ -159,7 +166,7 @@ def power_text(answer):
     effects = {e["effect"]: e for e in answer.report.get("effects", [])}
     sizes = effects.get(answer.alteration.effect, {}).get("detectableSizes", [])
     texts = [f"{p['size']:.2f} {p['unit']}".removesuffix(" 1") if "size" in p else "beyond range" for p in sizes
-             if p["name"] in answer.alteration.sizes]
+             if p["name"] == answer.alteration.parameter]
     return ", ".join(texts) or "–"
 
 
@@ -258,12 +265,12 @@ def print_three_references(runs, answers):
 
 def of_stated_sizes(unaltered):
     """Alterations by the sizes that an unaltered run is said to show."""
-    for (effect, name), options in BY_SIZE.items():
+    for (effect, name), signs in BY_SIZE.items():
         for size in sizes_that_show(unaltered.report, effect):
             if size["name"] != name or "size" not in size:
                 continue
-            for sign, option in options(size["size"]).items():
-                yield Alteration(f"{effect} {name} {sign}{quantity(size)}", effect, {name: size["size"]}, option)
+            for sign, factor in signs.items():
+                yield Alteration(f"{effect} {name} {sign}{quantity(size)}", effect, name, factor * size["size"])
 
 
 def further_diagnoses(boat, unaltered):

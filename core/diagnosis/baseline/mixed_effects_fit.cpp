@@ -55,7 +55,7 @@ MixedEffectsFit::MixedEffectsFit(const UncertainModel& model,
       fixed_limits_(LimitsOf(variations_.fixed, parameter_refs)),
       fixed_sd_(
           Eigen::VectorXd::Constant(fixed_.size(), kDiagnosis.baseline.initial_fixed_effect_sd)),
-      weather_sd_(Eigen::VectorXd::Constant(Weathers(), kPriorEffectSize)) {
+      weather_sd_(Eigen::VectorXd::Constant(WeatherCount(), kPriorEffectSize)) {
   Eigen::MatrixXd correlation = model.Correlation();
   correlation.diagonal().array() += 1e-6;
   prior_information_ = Inverse(correlation) / (kCoefficientPriorScale * kCoefficientPriorScale);
@@ -70,25 +70,25 @@ void MixedEffectsFit::StartFrom(const Eigen::VectorXd& coefficients,
 void MixedEffectsFit::Accumulate(const std::vector<Sensitivity>& recordings,
                                  const Eigen::LLT<Eigen::MatrixXd>& factor, double kappa) {
   const Eigen::Index shared = Shared();
-  const Eigen::Index size = shared + days_ * Weathers();
+  const Eigen::Index size = shared + days_ * WeatherCount();
   gram_ = Eigen::MatrixXd::Zero(size, size);
   right_ = Eigen::VectorXd::Zero(size);
   for (std::size_t day = 0; day < recordings.size(); ++day) {
     const Sensitivity& recording = recordings[day];
-    Eigen::MatrixXd phi(recording.errors.size(), shared + Weathers() + 1);
+    Eigen::MatrixXd phi(recording.errors.size(), shared + WeatherCount() + 1);
     phi << recording.by_coefficient, recording.by_effect_parameter(Eigen::all, variations_.fixed),
         recording.by_effect_parameter(Eigen::all, variations_.weather), recording.errors.reshaped();
     const Eigen::MatrixXd white = Whitened(factor, phi);
     const Eigen::MatrixXd gram = kappa * Gram(white);
     const Eigen::Index own = OwnOf(day);
-    const auto last = gram.col(shared + Weathers());
+    const auto last = gram.col(shared + WeatherCount());
     gram_.topLeftCorner(shared, shared) += gram.topLeftCorner(shared, shared);
-    gram_.block(0, own, shared, Weathers()) = gram.block(0, shared, shared, Weathers());
-    gram_.block(own, 0, Weathers(), shared) = gram.block(shared, 0, Weathers(), shared);
-    gram_.block(own, own, Weathers(), Weathers()) =
-        gram.block(shared, shared, Weathers(), Weathers());
+    gram_.block(0, own, shared, WeatherCount()) = gram.block(0, shared, shared, WeatherCount());
+    gram_.block(own, 0, WeatherCount(), shared) = gram.block(shared, 0, WeatherCount(), shared);
+    gram_.block(own, own, WeatherCount(), WeatherCount()) =
+        gram.block(shared, shared, WeatherCount(), WeatherCount());
     right_.head(shared) -= last.head(shared);
-    right_.segment(own, Weathers()) = -last.segment(shared, Weathers());
+    right_.segment(own, WeatherCount()) = -last.segment(shared, WeatherCount());
   }
 }
 
@@ -112,18 +112,18 @@ Eigen::MatrixXd MixedEffectsFit::PredictedResiduals(const Sensitivity& recording
                                   recording.by_effect_parameter(Eigen::all, variations_.fixed) *
                                       unknowns_.segment(coefficients_.size(), fixed_.size());
   return recording.errors + by_boat.reshaped(recording.errors.rows(), recording.errors.cols()) +
-         ErrorsBy(unknowns_.segment(OwnOf(day), Weathers()), recording);
+         ErrorsBy(unknowns_.segment(OwnOf(day), WeatherCount()), recording);
 }
 
 Eigen::MatrixXd MixedEffectsFit::LessWeather(const Eigen::MatrixXd& errors,
                                              const Sensitivity& recording, std::size_t day,
                                              const Eigen::LLT<Eigen::MatrixXd>& factor,
                                              double kappa) const {
-  if (Weathers() == 0) return errors;
+  if (WeatherCount() == 0) return errors;
   const Eigen::MatrixXd white =
       Whitened(factor, recording.by_effect_parameter(Eigen::all, variations_.weather));
   const Eigen::VectorXd right = -kappa * (white.transpose() * Whitened(factor, errors.reshaped()));
-  Eigen::MatrixXd information = gram_.block(OwnOf(day), OwnOf(day), Weathers(), Weathers());
+  Eigen::MatrixXd information = gram_.block(OwnOf(day), OwnOf(day), WeatherCount(), WeatherCount());
   information.diagonal() += weather_sd_.cwiseAbs2().cwiseInverse();
   return errors + ErrorsBy(information.llt().solve(right), recording);
 }
@@ -150,7 +150,7 @@ Eigen::MatrixXd MixedEffectsFit::BoatCovariance() const {
   return covariance;
 }
 
-/// The errors that weather adds to a recording, with the sign that takes them away.
+/// What weather in the model adds to the errors of a recording.
 Eigen::MatrixXd MixedEffectsFit::ErrorsBy(const Eigen::VectorXd& weather,
                                           const Sensitivity& recording) const {
   return (recording.by_effect_parameter(Eigen::all, variations_.weather) * weather)
@@ -162,7 +162,7 @@ Eigen::MatrixXd MixedEffectsFit::Information() const {
   information.topLeftCorner(coefficients_.size(), coefficients_.size()) += prior_information_;
   information.diagonal().segment(coefficients_.size(), fixed_.size()) +=
       fixed_sd_.cwiseAbs2().cwiseInverse();
-  information.diagonal().tail(days_ * Weathers()) +=
+  information.diagonal().tail(days_ * WeatherCount()) +=
       weather_sd_.cwiseAbs2().cwiseInverse().replicate(days_, 1);
   return information;
 }
@@ -178,7 +178,7 @@ Eigen::VectorXd MixedEffectsFit::Step() const {
 // which are the same every day, would otherwise keep it large for ever.
 void MixedEffectsFit::UpdateStandardDeviations() {
   const double prior = kPriorRecordings * kPriorEffectSize * kPriorEffectSize;
-  const auto weather = unknowns_.tail(days_ * Weathers()).reshaped(Weathers(), days_);
+  const auto weather = unknowns_.tail(days_ * WeatherCount()).reshaped(WeatherCount(), days_);
   weather_sd_ = ((weather.rowwise().squaredNorm().array() + prior) /
                  (static_cast<double>(days_) + kPriorRecordings))
                     .sqrt();

@@ -58,10 +58,10 @@ class MixedEffectsFit {
   Eigen::MatrixXd BoatCovariance() const;
 
  private:
-  Eigen::Index Weathers() const { return std::ssize(variations_.weather); }
+  Eigen::Index WeatherCount() const { return std::ssize(variations_.weather); }
   Eigen::Index Shared() const { return coefficients_.size() + fixed_.size(); }
   Eigen::Index OwnOf(std::size_t day) const {
-    return Shared() + static_cast<Eigen::Index>(day) * Weathers();
+    return Shared() + static_cast<Eigen::Index>(day) * WeatherCount();
   }
   Eigen::MatrixXd ErrorsBy(const Eigen::VectorXd& weather, const Sensitivity& recording) const;
   Eigen::MatrixXd Information() const;

@@ -94,11 +94,9 @@ double StrengthOfInstruments(const SlopedRuns& runs, const NormalEquations& norm
   return of_slopes.ldlt().solve(normal.information).trace() / static_cast<double>(kParameters);
 }
 
-double Squares(const SlopedRuns& runs) {
+double WeightedSquares(const std::vector<Innovation>& innovations) {
   double squares = 0.0;
-  for (const SlopedInnovations& run : runs) {
-    for (const Innovation& i : run.innovations) squares += i.value * i.value / i.variance;
-  }
+  for (const Innovation& i : innovations) squares += i.value * i.value / i.variance;
   return squares;
 }
 

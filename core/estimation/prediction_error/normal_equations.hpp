@@ -37,7 +37,7 @@ Eigen::MatrixXd ScoreSlope(const SlopedRuns& runs);
 double StrengthOfInstruments(const SlopedRuns& runs, const NormalEquations& normal,
                              const Eigen::MatrixXd& precision_of_prior);
 
-/// The sum of weighted squares.
-double Squares(const SlopedRuns& runs);
+/// The sum of their squares, each over its variance.
+double WeightedSquares(const std::vector<Innovation>& innovations);
 
 }  // namespace telltale

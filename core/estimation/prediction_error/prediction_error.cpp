@@ -37,6 +37,12 @@ double SpanS(const PreparedDataset& dataset) {
   return span_s;
 }
 
+double SquaresOf(const SlopedRuns& runs) {
+  double squares = 0.0;
+  for (const SlopedInnovations& run : runs) squares += WeightedSquares(run.innovations);
+  return squares;
+}
+
 class Problem {
  public:
   Problem(const PreparedDataset& dataset, double separation_m, const FossenPrior& prior,
@@ -96,10 +102,8 @@ class Problem {
     ForEachIndex(sums.size(), options_.threads, [&](std::size_t s) {
       const FilterSettings settings =
           SettingsOf(z, noise[dataset_.RecordingOf(s)], nominal_fix_delay_s);
-      for (const Innovation& i :
-           InnovationsWith(runs[s].gains, dataset_.signals[s], dataset_.commands[s], settings)) {
-        sums[s] += i.value * i.value / i.variance;
-      }
+      sums[s] = WeightedSquares(
+          InnovationsWith(runs[s].gains, dataset_.signals[s], dataset_.commands[s], settings));
     });
     double sum = 0.0;
     for (const double of_segment : sums) sum += of_segment;
@@ -187,7 +191,7 @@ class Search {
                                                                       double squares) {
       return weight_ * squares + (z - mean).dot(precision * (z - mean));
     };
-    const double now = cost(z_, Squares(runs));
+    const double now = cost(z_, SquaresOf(runs));
     const double nominal_fix_delay_s = z_[At(kFixDelay)];
     double moved = 0.0;
     for (int attempt = 0; attempt < kMostAttempts; ++attempt) {
