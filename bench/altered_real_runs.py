@@ -162,12 +162,13 @@ def size_text(answer):
 
 
 def power_text(answer):
-    """The sizes from which on the altered log would show the true effect in 90 % of cases."""
+    """The size from which on the altered log would show the true effect in 90 % of cases."""
     effects = {e["effect"]: e for e in answer.report.get("effects", [])}
     sizes = effects.get(answer.alteration.effect, {}).get("detectableSizes", [])
-    texts = [f"{p['size']:.2f} {p['unit']}".removesuffix(" 1") if "size" in p else "beyond range" for p in sizes
-             if p["name"] == answer.alteration.parameter]
-    return ", ".join(texts) or "–"
+    for p in sizes:
+        if p["name"] == answer.alteration.parameter:
+            return f"{p['size']:.2f} {p['unit']}".removesuffix(" 1") if "size" in p else "beyond range"
+    return "–"
 
 
 def row(answer):

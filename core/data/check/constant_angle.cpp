@@ -13,9 +13,8 @@
 namespace telltale {
 namespace {
 
-constexpr double kFewestEffective = 4.0;  // courses without which nothing is told
-constexpr double kSpreadHeadings = 0.8;   // resultant length below which headings lie all around
-constexpr double kConcentrated = 0.7;     // resultant length of courses that follow headings
+constexpr double kSpreadHeadings = 0.8;  // resultant length below which headings lie all around
+constexpr double kConcentrated = 0.7;    // resultant length of courses that follow headings
 constexpr double kConstantAngleDeg = 15.0;
 constexpr double kSureErrors = 4.0;
 
@@ -60,7 +59,7 @@ std::optional<Refusal> ConstantAngle(const RecordedMotion& motion) {
                            (2.0 * RecordedMotion::kSpeedLagS);
   const auto headings = MeanDirection(courses, [](const Course& c) { return c.psi_rad; });
   const auto drift = MeanDirection(courses, [](const Course& c) { return c.drift_rad; });
-  if (effective < kFewestEffective || std::abs(headings) > kSpreadHeadings ||
+  if (effective < RecordedMotion::kFewestEffective || std::abs(headings) > kSpreadHeadings ||
       std::abs(drift) < kConcentrated) {
     return std::nullopt;
   }

@@ -1,5 +1,6 @@
 #include "telltale/core/data/check/recorded_motion.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "telltale/core/data/north_east_frame.hpp"

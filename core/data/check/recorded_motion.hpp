@@ -1,6 +1,6 @@
 #pragma once
 
-#include <algorithm>
+#include <cstddef>
 #include <vector>
 
 #include "telltale/core/data/heading_unwrap.hpp"
@@ -80,6 +80,8 @@ class RecordedMotion {
   static constexpr double kWidestChordS = 3.0;  ///< no velocity and no yaw rate across a wider gap
   static constexpr double kSlowest = 0.3;       ///< m/s, below it a course is mostly noise
   static constexpr double kAhead = 0.1;         ///< mean command that counts as pushing ahead
+  /// Independent samples without which nothing is told.
+  static constexpr double kFewestEffective = 4.0;
 
   RecordedMotion(const std::vector<GnssFix>& gnss, const std::vector<HeadingSample>& heading,
                  const std::vector<ThrusterSample>& thrusters, const Vehicle& vehicle);

@@ -13,11 +13,10 @@
 namespace telltale {
 namespace {
 
-constexpr double kYawStepS = 0.5;         // between yaw rates
-constexpr double kSureGain = 8.0;         // of log-likelihood, over the recording as it is
-constexpr double kYawShare = 0.1;         // of the square that a true relation explains at least
-constexpr double kVelocityShare = 0.3;    // the same of velocity
-constexpr double kFewestEffective = 4.0;  // samples without which nothing is told
+constexpr double kYawStepS = 0.5;       // between yaw rates
+constexpr double kSureGain = 8.0;       // of log-likelihood, over the recording as it is
+constexpr double kYawShare = 0.1;       // of the square that a true relation explains at least
+constexpr double kVelocityShare = 0.3;  // the same of velocity
 
 enum class HeadingRule { kAsIs, kMirrored, kFromEast, kFromEastClockwise, kTurnedRound, kRadians };
 enum class ThrusterRule { kAsIs, kSwapped, kBothReversed, kPortReversed, kStarboardReversed };
@@ -184,7 +183,8 @@ Refusal Told(const SupposedFault& supposed, const Rests& as_is, const Rests& und
 }  // namespace
 
 std::optional<Refusal> LikeliestSupposedFault(const RecordedMotion& motion) {
-  if (std::min(motion.EffectiveYawRates(), motion.EffectiveVelocities()) < kFewestEffective) {
+  if (std::min(motion.EffectiveYawRates(), motion.EffectiveVelocities()) <
+      RecordedMotion::kFewestEffective) {
     return std::nullopt;
   }
   const Rests as_is = RestsWithout({}, motion);

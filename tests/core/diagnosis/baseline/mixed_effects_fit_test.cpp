@@ -88,7 +88,7 @@ TEST_F(MixedEffectsFitTest, PredictsTheNoiseAloneToBeLeft) {
   }
 }
 
-// The boat is as it was, so that its errors are those of the coefficient and the fixed effect.
+// The errors of a boat that is right, on days of weather.
 TEST_F(MixedEffectsFitTest, TakesTheWeatherOfABoatAway) {
   for (std::size_t day = 0; day < kDays; ++day) {
     const Sensitivity& recording = recordings_[day];
